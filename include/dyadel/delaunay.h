@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The partial Delaunay triangulation of a table of sites: which pairs are surely, possibly, never edges.
+ *
+ * For the rectangles as they are:
+ *   possible(i,j)  some choice of points makes ij a (weakly) Delaunay edge: exact [POS-1];
+ *   legal(i,j)     some disc holds R_i and R_j and meets no other rectangle: every choice makes ij a strictly
+ *                  Delaunay edge, and the centre of the disc is the witness [LEG-1].
+ * (mathematics: sections 3, 5, 6; KEL.) */
+#ifndef DYADEL_DELAUNAY_H
+#define DYADEL_DELAUNAY_H
+
+#include <dyadel/sites.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum dyd_pair_status {
+  DYD_ILLEGAL = 0,       /* an edge for no choice */
+  DYD_TIE = 1,           /* indeterminate, and no refinement can decide it: all sites concerned are exact */
+  DYD_INDETERMINATE = 2, /* possible, no witness */
+  DYD_LEGAL = 3          /* an edge for every choice */
+} dyd_pair_status;
+
+/* Invariant: i < j. */
+typedef struct dyd_pair {
+  uint32_t i, j;
+  dyd_pair_status status;
+} dyd_pair;
+
+/* Three sites, counter-clockwise for every choice, lowest number first. */
+typedef struct dyd_triangle {
+  uint32_t v[3];
+} dyd_triangle;
+
+/* Arrays owned by the caller: init with {0}, release with the _clear function. */
+typedef struct dyd_pair_list {
+  size_t count;
+  dyd_pair *item;
+} dyd_pair_list;
+typedef struct dyd_triangle_list {
+  size_t count;
+  dyd_triangle *item;
+} dyd_triangle_list;
+typedef struct dyd_index_list {
+  size_t count;
+  uint32_t *item;
+} dyd_index_list;
+DYD_API void dyd_pair_list_clear(dyd_pair_list *l);
+DYD_API void dyd_triangle_list_clear(dyd_triangle_list *l);
+DYD_API void dyd_index_list_clear(dyd_index_list *l);
+
+/* How many decisions each rung gave, since the object was made. */
+typedef struct dyd_delaunay_counters {
+  uint64_t filter;                        /* decided in doubles */
+  uint64_t integer;                       /* decided in fixed-size integers */
+  uint64_t exact;                         /* decided in GMP integers */
+  uint64_t witness_guess, witness_search; /* legal edges by the first guess / by search */
+  uint64_t cover_walks;
+  uint64_t faces; /* undecided faces worked on */
+} dyd_delaunay_counters;
+
+typedef struct dyd_delaunay_options {
+  size_t max_pairs;           /* cap on stored pairs beyond the skeleton; 0: the default, 4e6 + 16 N */
+  const volatile int *cancel; /* when it points to a non-zero value, work stops with DYD_CANCELLED; may be NULL */
+  unsigned threads;           /* 0 or 1: this thread only */
+  bool no_filter;             /* decide everything on the exact rung (for tests; statuses are the same) */
+} dyd_delaunay_options;
+
+typedef struct dyd_delaunay dyd_delaunay;
+
+/* Computes the partial triangulation of `sites`, which is borrowed until dyd_delaunay_free and must change only
+ * as dyd_delaunay_update says. options may be NULL. Deterministic; the statuses do not depend on the thread count.
+ * Returns DYD_OK; DYD_CAPPED with *out valid (pairs inside the faces that met the cap are all reported as
+ * indeterminate by dyd_delaunay_status, err names sites concerned, dyd_delaunay_is_capped is true, and such pairs
+ * are listed only as far as they are skeleton edges); DYD_CANCELLED or an error with *out = NULL.
+ * Cost: O(N log N) for separated thin rectangles, plus work proportional to the undecided faces. */
+DYD_API dyd_status dyd_delaunay_new(dyd_delaunay **out, const dyd_sites *sites, const dyd_delaunay_options *options,
+                                    dyd_error *err);
+DYD_API void dyd_delaunay_free(dyd_delaunay *pd);
+/* Brings *pd up to date after dyd_sites_narrow of the `count` sites listed (any order, repeats allowed): only the
+ * undecided faces that hold one of them are worked on again; legal pairs stay legal, illegal ones illegal.
+ * On DYD_CANCELLED and errors *pd keeps its former statements, still valid, and the update can be repeated
+ * (with the same or a larger list). */
+DYD_API dyd_status dyd_delaunay_update(dyd_delaunay *pd, const uint32_t *changed, size_t count,
+                                       const dyd_delaunay_options *options, dyd_error *err);
+
+DYD_API const dyd_sites *dyd_delaunay_sites(const dyd_delaunay *pd);
+DYD_API bool dyd_delaunay_is_capped(const dyd_delaunay *pd);
+/* Number of pairs by status; index with dyd_pair_status (entry DYD_ILLEGAL is 0: they are not stored). */
+DYD_API void dyd_delaunay_count(size_t count[4], const dyd_delaunay *pd);
+DYD_API size_t dyd_delaunay_undecided_faces(const dyd_delaunay *pd);
+DYD_API void dyd_delaunay_get_counters(dyd_delaunay_counters *out, const dyd_delaunay *pd);
+DYD_API size_t dyd_delaunay_memory(const dyd_delaunay *pd);
+
+/* The lowest site with the same exact coordinates: i itself unless i is an alias. Aliases take part in nothing. */
+DYD_API uint32_t dyd_delaunay_alias(const dyd_delaunay *pd, uint32_t i);
+/* Status of a pair. Aliases answer for the site they stand for; i = j (or aliases of one another) is ILLEGAL. */
+DYD_API dyd_pair_status dyd_delaunay_status(const dyd_delaunay *pd, uint32_t i, uint32_t j);
+/* All possible pairs, sorted by i, then j. O(N + pairs). *out is replaced, owned by the caller. */
+DYD_API dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd);
+/* The sites whose pair with i has at least the status `least` (TIE or INDETERMINATE: all possible ones). Ascending. */
+DYD_API dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaunay *pd, uint32_t i,
+                                           dyd_pair_status least);
+/* Triangles with three legal edges that hold no site for any choice: Delaunay triangles for every choice. Sorted. */
+DYD_API dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, const dyd_delaunay *pd);
+/* The sites of the undecided faces of the legal graph: face f (0 <= f < dyd_delaunay_undecided_faces). Ascending.
+ * *outer tells whether the face is unbounded. Every non-legal possible pair lies in exactly one of them, up to
+ * its end points on the boundary. */
+DYD_API dyd_status dyd_delaunay_face(dyd_index_list *out, bool *outer, const dyd_delaunay *pd, size_t f);
+/* The pairs of face f that are possible and not legal, sorted. */
+DYD_API dyd_status dyd_delaunay_face_pairs(dyd_pair_list *out, const dyd_delaunay *pd, size_t f);
+/* A witness of a legal pair: max(dl_i, dl_j)(c) < ds_k(c) for all other k, re-checked before it is given.
+ * DYD_E_ARG when the pair is not legal. */
+DYD_API dyd_status dyd_delaunay_witness(dyd_point *out, const dyd_delaunay *pd, uint32_t i, uint32_t j);
+/* The sites on the hull of the skeleton's representatives, counter-clockwise. */
+DYD_API dyd_status dyd_delaunay_hull(dyd_index_list *out, const dyd_delaunay *pd);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Everything dyadel offers. */
+#ifndef DYADEL_DYADEL_H
+#define DYADEL_DYADEL_H
+
+#include <dyadel/engine.h>
+#include <dyadel/io.h>
+#include <dyadel/metric.h>
+#include <dyadel/predicate.h>
+
+#endif

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The engine: owns the points, refines them, and runs the partial triangulation until a goal is reached
+ * (mathematics: section 7).
+ *
+ * Threads: one engine is used by one thread at a time, several engines in several threads work; only
+ * dyd_engine_cancel may be called from anywhere, a signal handler included. */
+#ifndef DYADEL_ENGINE_H
+#define DYADEL_ENGINE_H
+
+#include <dyadel/delaunay.h>
+#include <dyadel/stream.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum dyd_outcome {
+  DYD_OUTCOME_NONE = 0,  /* not run yet */
+  DYD_OUTCOME_DECIDED,   /* no indeterminate pair and no tie is left */
+  DYD_OUTCOME_CERTIFIED, /* the requested bound holds */
+  DYD_OUTCOME_FIXPOINT,  /* nothing undecided can be refined: exact ties, fixed rectangles */
+  DYD_OUTCOME_BUDGET,    /* bits, stages, calls, pairs or seconds spent */
+  DYD_OUTCOME_CANCELLED,
+  DYD_OUTCOME_ERROR /* a stream failed or memory ran out; what was stated before stays valid */
+} dyd_outcome;
+/* "decided", "certified", ... Static storage. */
+DYD_API const char *dyd_outcome_text(dyd_outcome outcome);
+
+typedef enum dyd_goal { DYD_GOAL_DECIDED = 0, DYD_GOAL_AREA, DYD_GOAL_HAUSDORFF } dyd_goal;
+typedef enum dyd_schedule {
+  DYD_SCHEDULE_ADAPTIVE = 0, /* refine what takes part in something undecided */
+  DYD_SCHEDULE_UNIFORM       /* refine every point at each stage, as KEL */
+} dyd_schedule;
+
+typedef enum dyd_budget {
+  DYD_BUDGET_NONE = 0,
+  DYD_BUDGET_BITS,
+  DYD_BUDGET_STAGES,
+  DYD_BUDGET_CALLS,
+  DYD_BUDGET_PAIRS,
+  DYD_BUDGET_SECONDS
+} dyd_budget;
+
+/* Totals since the engine was made. */
+typedef struct dyd_engine_counters {
+  uint64_t stages;    /* triangulations or updates done */
+  uint64_t calls;     /* stream calls */
+  int64_t bits_least; /* least / most precision asked of any refinable point so far; 0 when none was asked */
+  int64_t bits_most;
+  uint64_t bits_total; /* sum over points of the bits last asked */
+  uint64_t undecided_faces;
+  double seconds;   /* wall clock, all runs */
+  dyd_budget spent; /* which budget ended the last run */
+  dyd_delaunay_counters delaunay;
+} dyd_engine_counters;
+
+typedef struct dyd_progress {
+  uint64_t stage;
+  int64_t bits; /* precision asked for in this stage */
+  size_t sites;
+  size_t count[4]; /* pairs by status */
+  size_t undecided_faces;
+  double seconds;
+} dyd_progress;
+
+typedef struct dyd_engine_options {
+  dyd_goal goal;
+  int64_t goal_bits; /* M of "bound 2^-M" for the area and Hausdorff goals */
+  dyd_schedule schedule;
+  int64_t start_bits;  /* precision of the first stage; 0: default 64 */
+  int64_t max_bits;    /* 0: default 4096 */
+  uint64_t max_stages; /* 0: no limit */
+  uint64_t max_calls;  /* 0: no limit */
+  size_t max_pairs;    /* 0: default, see dyd_delaunay_options */
+  double seconds;      /* 0: no limit; wall clock */
+  unsigned threads;    /* 0: one */
+  bool no_filter;      /* exact rung only (tests) */
+  /* Called after each stage from the running thread; may be NULL. */
+  void (*progress)(const dyd_progress *p, void *user);
+  void *progress_user;
+} dyd_engine_options;
+/* Fills in the defaults (all zero but for what the comments say). */
+DYD_API void dyd_engine_options_init(dyd_engine_options *o);
+
+typedef struct dyd_engine dyd_engine;
+
+DYD_API dyd_status dyd_engine_new(dyd_engine **out);
+DYD_API void dyd_engine_free(dyd_engine *e);
+
+/* Adding points: numbered from 0 in the order added. Only before the first run (DYD_E_ARG afterwards).
+ * On failure nothing is added (and for streams and sources: the reference or context is released). */
+DYD_API dyd_status dyd_engine_add_points(dyd_engine *e, size_t n, const double *x, const double *y);
+DYD_API dyd_status dyd_engine_add_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1, const double *y0,
+                                        const double *y1);
+/* A fixed rectangle or exact point. Copied. */
+DYD_API dyd_status dyd_engine_add_rect(dyd_engine *e, const dyd_rect *r);
+/* Takes over one reference. */
+DYD_API dyd_status dyd_engine_add_stream(dyd_engine *e, dyd_stream *s);
+/* n points served by one callback: it is asked for points 0 .. n-1 of the source. Copied; release is called once,
+ * when the engine is freed. */
+DYD_API dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_source *source);
+DYD_API size_t dyd_engine_count(const dyd_engine *e);
+
+/* Runs until exactly one outcome holds; may be called again with other options to go on from there: what was
+ * stated stays stated. options may be NULL.
+ * Returns DYD_OK for the outcomes decided, certified, fixpoint, budget and cancelled; an error code for
+ * DYD_OUTCOME_ERROR, with *err filled. *outcome is always set; err may be NULL. After an error in a stream the last
+ * complete result stays available (dyd_engine_delaunay), if there was one. */
+DYD_API dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_options *options,
+                                  dyd_error *err);
+/* Asks a run to stop soon, with outcome cancelled. Async-signal-safe, from any thread. Sticky until the next
+ * run has ended with it. */
+DYD_API void dyd_engine_cancel(dyd_engine *e);
+
+DYD_API dyd_outcome dyd_engine_outcome(const dyd_engine *e);
+/* The current result; borrowed until the next call that changes e; NULL before the first complete stage. */
+DYD_API const dyd_delaunay *dyd_engine_delaunay(const dyd_engine *e);
+DYD_API void dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e);
+/* The bounds of the current result (metric.h), DYD_E_ARG before the first complete stage. */
+DYD_API dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, const dyd_engine *e);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,87 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Partial points: closed axis-parallel rectangles with exact ends (mathematics: section 1).
+ *
+ * ds(c,R) and dl(c,R) are the smallest and the largest Euclidean distance from a point c to R. */
+#ifndef DYADEL_RECT_H
+#define DYADEL_RECT_H
+
+#include <dyadel/dyadic.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A closed interval [lo/den, hi/den].
+ * Invariant: den is odd and positive; den = 1 unless lo = hi (an exact rational point such as 1/10: lo = 2^-1,
+ * den = 5); lo and den have no common factor; lo <= hi. */
+typedef struct dyd_interval {
+  dyd_dyadic lo, hi;
+  mpz_t den;
+} dyd_interval;
+
+/* x times y. Singletons (lo = hi in both) are exact points. */
+typedef struct dyd_rect {
+  dyd_interval x, y;
+} dyd_rect;
+
+/* A dyadic point, such as a witness centre. */
+typedef struct dyd_point {
+  dyd_dyadic x, y;
+} dyd_point;
+
+DYD_API void dyd_interval_init(dyd_interval *a);
+DYD_API void dyd_interval_clear(dyd_interval *a);
+DYD_API void dyd_interval_set(dyd_interval *out, const dyd_interval *a);
+DYD_API void dyd_interval_swap(dyd_interval *a, dyd_interval *b);
+/* DYD_E_ARG unless lo <= hi. */
+DYD_API dyd_status dyd_interval_set_ends(dyd_interval *out, const dyd_dyadic *lo, const dyd_dyadic *hi);
+DYD_API dyd_status dyd_interval_set_d(dyd_interval *out, double lo, double hi);
+/* The exact point q (canonical rational). DYD_E_RANGE when it leaves the exponent range. */
+DYD_API dyd_status dyd_interval_set_q(dyd_interval *out, const mpq_t q);
+/* [lo,hi] rounded outward to multiples of 2^exp; lo <= hi are canonical rationals. */
+DYD_API dyd_status dyd_interval_set_outward(dyd_interval *out, const mpq_t lo, const mpq_t hi, int64_t exp);
+DYD_API bool dyd_interval_is_point(const dyd_interval *a);
+/* Is inner a subset of outer? Exact. */
+DYD_API bool dyd_interval_contains(const dyd_interval *outer, const dyd_interval *inner);
+DYD_API bool dyd_interval_meets(const dyd_interval *a, const dyd_interval *b);
+/* The intersection; DYD_E_ARG (out unchanged) when it is empty. Of two sets with a rational point, that point. */
+DYD_API dyd_status dyd_interval_intersect(dyd_interval *out, const dyd_interval *a, const dyd_interval *b);
+/* Ends as canonical rationals; lo, hi initialised by the caller. */
+DYD_API void dyd_interval_get_q(mpq_t lo, mpq_t hi, const dyd_interval *a);
+/* The least b >= -DYD_EXP_LIMIT with hi - lo > 2^-b, minus 1: the width is at most 2^-(bits).
+ * INT64_MAX for a point. */
+DYD_API int64_t dyd_interval_bits(const dyd_interval *a);
+/* Enclosing doubles, rounded outward (infinite beyond the range of doubles). */
+DYD_API void dyd_interval_get_d(double *lo, double *hi, const dyd_interval *a);
+
+DYD_API void dyd_rect_init(dyd_rect *r);
+DYD_API void dyd_rect_clear(dyd_rect *r);
+DYD_API void dyd_rect_set(dyd_rect *out, const dyd_rect *r);
+DYD_API void dyd_rect_swap(dyd_rect *a, dyd_rect *b);
+DYD_API dyd_status dyd_rect_set_d(dyd_rect *out, double x0, double x1, double y0, double y1);
+DYD_API dyd_status dyd_rect_set_q(dyd_rect *out, const mpq_t x, const mpq_t y);
+DYD_API bool dyd_rect_is_point(const dyd_rect *r);
+DYD_API bool dyd_rect_contains(const dyd_rect *outer, const dyd_rect *inner);
+DYD_API bool dyd_rect_meets(const dyd_rect *a, const dyd_rect *b);
+DYD_API bool dyd_rect_equal(const dyd_rect *a, const dyd_rect *b);
+/* min over the two sides of dyd_interval_bits: both widths are at most 2^-(bits). */
+DYD_API int64_t dyd_rect_bits(const dyd_rect *r);
+
+DYD_API void dyd_point_init(dyd_point *p);
+DYD_API void dyd_point_clear(dyd_point *p);
+DYD_API void dyd_point_set(dyd_point *out, const dyd_point *p);
+
+/* ds(c,R)^2 and dl(c,R)^2, exact canonical rationals (attained at the clamped point and at the corner
+ * opposite c's quadrant [DIST-1]); out is initialised by the caller. */
+DYD_API void dyd_rect_ds2(mpq_t out, const dyd_point *c, const dyd_rect *r);
+DYD_API void dyd_rect_dl2(mpq_t out, const dyd_point *c, const dyd_rect *r);
+
+/* Twice the area of the partial edge Ed(a,b), the convex hull of two rectangles. Exact. */
+DYD_API void dyd_hull_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b);
+/* Are Ed(a,b) and Ed(c,d) disjoint as closed sets? Exact, touching counts as meeting [HULL-1]. */
+DYD_API bool dyd_hulls_disjoint(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c, const dyd_rect *d);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Computable points and reals: lazy streams of nested rectangles and intervals.
+ *
+ * Threads: a stream or real is used by one thread at a time; two threads may use two streams at once unless
+ * the streams share a part (an affine image and its preimage share the preimage). Callbacks are called from
+ * the thread that narrows, never concurrently for one source.
+ *
+ * Ownership: streams and reals are counted. A constructor that takes another stream or real takes over one
+ * reference (also when it fails); call dyd_stream_ref first to keep one. */
+#ifndef DYADEL_STREAM_H
+#define DYADEL_STREAM_H
+
+#include <dyadel/rect.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a callback is asked: narrow point `point` so that both widths are about 2^-bits or less.
+ * max_bits is the precision at which the caller would give up: working precision beyond about
+ * max_bits + 64 is wasted (a function undefined up to there should return DYD_E_DOMAIN). */
+typedef struct dyd_request {
+  size_t point;
+  int64_t bits;
+  int64_t max_bits;
+} dyd_request;
+
+/* The callback of the library.
+ * out    in: the rectangle known so far (the whole plane is shown as an empty init value at stage 0);
+ *        out: a rectangle inside it. Initialised and owned by the caller.
+ * Returns DYD_OK; DYD_FIXED when this rectangle is final; < 0 with *err filled (message at least).
+ * A wider rectangle than asked is allowed, a rectangle not inside the previous one is a nesting error. */
+typedef dyd_status (*dyd_narrow_fn)(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err);
+typedef dyd_status (*dyd_narrow_real_fn)(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err);
+typedef void (*dyd_release_fn)(void *user);
+
+/* A callback with its context. release may be NULL; it is called exactly once, when nothing uses user any more. */
+typedef struct dyd_source {
+  dyd_narrow_fn narrow;
+  dyd_release_fn release;
+  void *user;
+} dyd_source;
+
+/* ---- reals ---- */
+
+/* A computable real: a source of nested intervals and the narrowest one so far. */
+typedef struct dyd_real dyd_real;
+
+/* All constructors: *out is new, with one reference, released by dyd_real_free. err may be NULL everywhere. */
+DYD_API dyd_status dyd_real_new(dyd_real **out, dyd_narrow_real_fn narrow, dyd_release_fn release, void *user);
+DYD_API dyd_status dyd_real_from_dyadic(dyd_real **out, const dyd_dyadic *x);
+DYD_API dyd_status dyd_real_from_q(dyd_real **out, const mpq_t q);
+/* The fixed interval [lo,hi]. Ends that are not dyadic are rounded outward once, by less than 2^-64 of the
+ * width (or of the magnitude when smaller), so that the rectangle never changes. lo = hi is the exact point. */
+DYD_API dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const mpq_t hi);
+/* Every coordinate form of the points file: decimal, rational, hexadecimal float, dyadic, [lo,hi],
+ * value+-radius, expression, root(polynomial,lo,hi). On DYD_E_PARSE err has the column (from 1). */
+DYD_API dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_error *err);
+/* The interval [value - radius, value + radius] around any real, at every precision; takes over x. */
+DYD_API dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius);
+/* The root in [lo,hi] of the polynomial sum coeff[k] x^k, degree = count - 1, that has opposite signs at lo and hi. */
+DYD_API dyd_status dyd_real_root(dyd_real **out, const mpq_t *coeff, size_t count, const mpq_t lo, const mpq_t hi,
+                                 dyd_error *err);
+DYD_API dyd_real *dyd_real_ref(dyd_real *x);
+DYD_API void dyd_real_free(dyd_real *x);
+/* Narrows to about 2^-bits; nestedness is checked. DYD_OK, DYD_FIXED or an error. */
+DYD_API dyd_status dyd_real_narrow(dyd_real *x, int64_t bits, int64_t max_bits, dyd_error *err);
+/* The narrowest interval so far; borrowed until the next call on x; NULL before the first narrowing, except for
+ * exact and fixed reals, which know theirs from the start. */
+DYD_API const dyd_interval *dyd_real_interval(const dyd_real *x);
+DYD_API bool dyd_real_is_final(const dyd_real *x);
+
+/* ---- points ---- */
+
+typedef struct dyd_stream dyd_stream;
+
+/* Point number `point` of a source; the source is copied, release is called when the stream is freed. */
+DYD_API dyd_status dyd_stream_new(dyd_stream **out, const dyd_source *source, size_t point);
+/* The fixed rectangle r (an exact point if r is a singleton). Copied. */
+DYD_API dyd_status dyd_stream_from_rect(dyd_stream **out, const dyd_rect *r);
+/* The point (x, y); takes over both references, also on failure. x and y may be the same real (two references). */
+DYD_API dyd_status dyd_stream_from_reals(dyd_stream **out, dyd_real *x, dyd_real *y);
+/* The image (m[0] x + m[1] y + m[2], m[3] x + m[4] y + m[5]); takes over `of`; m is copied.
+ * An exact point has an exact image. */
+DYD_API dyd_status dyd_stream_affine(dyd_stream **out, dyd_stream *of, const mpq_t m[6]);
+DYD_API dyd_stream *dyd_stream_ref(dyd_stream *s);
+DYD_API void dyd_stream_free(dyd_stream *s);
+/* Narrows until both widths are about 2^-bits or less. Checks that the new rectangle is inside the old one
+ * [NEST-1]; otherwise DYD_E_NESTING, err names point and stage, and the stream keeps its old rectangle.
+ * A failed stream keeps its rectangle too. Does nothing when the rectangle is already narrow enough or final. */
+DYD_API dyd_status dyd_stream_narrow(dyd_stream *s, int64_t bits, int64_t max_bits, dyd_error *err);
+/* The narrowest rectangle so far; borrowed until the next call on s; NULL before the first narrowing, except for
+ * fixed streams. */
+DYD_API const dyd_rect *dyd_stream_rect(const dyd_stream *s);
+/* Can no call narrow it further? */
+DYD_API bool dyd_stream_is_final(const dyd_stream *s);
+/* How many times the source has been called. */
+DYD_API uint64_t dyd_stream_stage(const dyd_stream *s);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Checked allocation: sizes that overflow give NULL, as exhausted memory does. */
+#ifndef DYD_BASE_ALLOC_H
+#define DYD_BASE_ALLOC_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+/* count * size bytes, not cleared; never NULL for count = 0 unless memory is exhausted. Release with free(). */
+static inline void *dyd_alloc(size_t count, size_t size) {
+  if (size && count > SIZE_MAX / size) return NULL;
+  return malloc(count && size ? count * size : 1);
+}
+
+/* Makes room for at least `need` items in *array (capacity *cap), growing by half. false: memory exhausted,
+ * nothing changed. Call as dyd_reserve((void **)&array, &cap, need, sizeof *array). */
+static inline bool dyd_reserve(void **array, size_t *cap, size_t need, size_t size) {
+  if (need <= *cap) return true;
+  size_t want = *cap + *cap / 2 + 16;
+  if (want < need) want = need;
+  if (want > SIZE_MAX / size) return false;
+  void *p = realloc(*array, want * size);
+  if (!p) return false;
+  *array = p;
+  *cap = want;
+  return true;
+}
+
+#endif

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Filling in error records. */
+#ifndef DYD_BASE_ERROR_H
+#define DYD_BASE_ERROR_H
+
+#include <dyadel/status.h>
+
+/* Writes code and the formatted message to *err (NULL: nothing), leaves point, stage, line and column as they
+ * are, cuts over-long messages, and returns code: `return dyd_fail(err, DYD_E_ARG, "...")`. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+dyd_status
+dyd_fail(dyd_error *err, dyd_status code, const char *format, ...);
+
+/* DYD_E_NOMEM with its standard sentence. */
+dyd_status dyd_fail_nomem(dyd_error *err);
+
+#endif

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Circles through features of integer rectangles: critical circles of three rectangles, found exactly.
+ *
+ * F-points are corners; C-points are corners or lie on an axis-parallel side. A critical circle passes through at
+ * least one corner, so its centre and squared radius have the form A + B sqrt(C) (mathematics: section 4). */
+#ifndef DYD_PREDICATE_ICIRCLE_H
+#define DYD_PREDICATE_ICIRCLE_H
+
+#include "rect/irect.h"
+#include <dyadel/predicate.h>
+
+/* Centre ((ax + bx sqrt(c)) / d, (ay + by sqrt(c)) / d), d > 0, c >= 0, and one given corner (px, py) on the
+ * circle, in the scaled integer coordinates of the rectangles it came from. */
+typedef struct dyd_icircle {
+  mpz_t ax, bx, ay, by, c, d;
+  mpz_t px, py;
+} dyd_icircle;
+
+void dyd_icircle_init(dyd_icircle *k);
+void dyd_icircle_clear(dyd_icircle *k);
+void dyd_icircle_swap(dyd_icircle *k, dyd_icircle *l);
+
+/* Every circle that meets r[m] as touch[m] says (closest: ds = radius; farthest: dl = radius), m = 0, 1, 2;
+ * at least one farthest, at least one closest. Finite for disjoint C-rectangles; at most `room` are stored in
+ * out (initialised by the caller), without repeats. Returns how many; room = 4 always suffices [CRIT-1]. */
+size_t dyd_icircles(dyd_icircle *out, size_t room, const dyd_irect *const r[3], const dyd_touch touch[3]);
+
+/* Sign of (closest or farthest distance of the centre to r) - radius. Exact. */
+int dyd_icircle_side(const dyd_icircle *k, const dyd_irect *r, dyd_touch touch);
+
+/* Sign of (coordinate of the centre of k) - (that of l); axis 0: x, axis 1: y. Both in the same scaled
+ * coordinates. Exact. */
+int dyd_icircle_compare(const dyd_icircle *k, const dyd_icircle *l, int axis);
+
+/* An enclosure of the centre in scaled coordinates multiplied by 2^-shift: out = xlo, xhi, ylo, yhi, rounded
+ * outward, within a few ulp. */
+void dyd_icircle_centre_d(double out[4], const dyd_icircle *k, int64_t shift);
+
+/* Exact rungs of the predicates on integer rectangles. */
+dyd_sure dyd_irect_orientation(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c);
+/* r against the partial disc of a, b, c; UNSURE unless a, b, c are surely oriented. */
+dyd_sure dyd_irect_con(const dyd_irect *r, const dyd_irect *a, const dyd_irect *b, const dyd_irect *c);
+
+#endif
