@@ -25,9 +25,16 @@ void dyd_irects_scale(dyd_irect *out, const dyd_rect *const *in, size_t n, mpz_p
 void dyd_irects_scale_point(mpz_ptr cx, mpz_ptr cy, dyd_irect *out, const dyd_point *c, const dyd_rect *const *in,
                             size_t n);
 
+/* Both of these: c may be NULL (then cx, cy are not used), scale_man and scale_exp too. */
+void dyd_irects_scale_with(mpz_ptr cx, mpz_ptr cy, dyd_irect *out, const dyd_point *c, const dyd_rect *const *in,
+                           size_t n, mpz_ptr scale_man, int64_t *scale_exp);
+
 /* ds(c,r)^2 and dl(c,r)^2 [DIST-1]. out must not alias the inputs. */
 void dyd_irect_ds2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r);
 void dyd_irect_dl2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r);
+
+/* Twice the area of the convex hull of a u b. */
+void dyd_irect_hull_area2(mpz_ptr out, const dyd_irect *a, const dyd_irect *b);
 
 /* Are the convex hulls of a u b and of c u d disjoint? Touching counts as meeting [HULL-1]. */
 bool dyd_irect_hulls_disjoint(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c, const dyd_irect *d);
