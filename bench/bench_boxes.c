@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Rows over boxes: boxes (thin, every edge certified), thick (a few per cent of the spacing), overlap. */
+#include "cloud.h"
+#include "ours.h"
+#include "peer.h"
+
+#include <math.h>
+#include <string.h>
+
+static const bench_series no_peer;
+
+/* Thin boxes against the peer on their centres. Where all pairs are legal, the edges are those of every choice, the
+ * centres included. */
+static void compare(char *remark, size_t size, const ours_answer *a, const bench_edges *peer) {
+  size_t undecided = a->count[DYD_INDETERMINATE] + a->count[DYD_TIE];
+  if (peer->count == 0) {
+    snprintf(remark, size, "legal %zu; undecided %zu; no peer to compare with", a->count[DYD_LEGAL], undecided);
+    return;
+  }
+  if (bench_edges_missing(peer, &a->edges)) bench_die("boxes", "the peer has an edge that is not possible here");
+  if (undecided == 0 && a->edges.count != peer->count)
+    bench_die("boxes", "all legal, yet not the edges of the centres");
+  snprintf(remark, size, "legal %zu; undecided %zu; the peer's %zu edges of the centres are among them",
+           a->count[DYD_LEGAL], undecided, peer->count);
+}
+
+static void row_boxes(const bench_options *o) {
+  cloud boxes;
+  bench_series ours = {0}, peer = {0};
+  ours_answer first = {0}, again;
+  bench_edges edges = {0};
+  char remark[200];
+  cloud_uniform(&boxes, bench_size(o, 1000000));
+  cloud_widen(&boxes, 0x1p-30);
+  for (size_t r = 0; r < bench_runs(o, 5); r++) {
+    bench_cost cost;
+    bench_series_add(&ours, ours_run(r ? &again : &first, "boxes", &boxes, r ? OURS_STATUSES : OURS_AND_EDGES));
+    if (peer_points(&cost, r ? NULL : &edges, boxes.n, boxes.x, boxes.y)) bench_series_add(&peer, cost);
+  }
+  compare(remark, sizeof remark, &first, &edges);
+  bench_report(o, &(bench_row){.name = "boxes",
+                               .n = boxes.n,
+                               .ours = &ours,
+                               .peer = &peer,
+                               .peer_name = peer_points_name(),
+                               .input_bytes = first.input_bytes / (double)boxes.n,
+                               .ratio_bar = 2.0,
+                               .ratio_goal = 0.9,
+                               .total_bar = 400,
+                               .beyond_goal = 180,
+                               .remark = remark});
+  bench_edges_clear(&edges);
+  bench_edges_clear(&first.edges);
+  cloud_clear(&boxes);
+}
+
+/* Boxes of half-width share / sqrt(n): time per possible pair; nobody else computes these statuses. */
+static void row_wide(const bench_options *o, const char *name, size_t n, double share) {
+  cloud boxes;
+  bench_series ours = {0};
+  ours_answer a = {0};
+  char remark[200];
+  n = bench_size(o, n);
+  cloud_uniform(&boxes, n);
+  cloud_widen(&boxes, share / sqrt((double)n));
+  for (size_t r = 0; r < bench_runs(o, 3); r++) bench_series_add(&ours, ours_run(&a, name, &boxes, OURS_STATUSES));
+  size_t pairs = a.count[DYD_LEGAL] + a.count[DYD_INDETERMINATE] + a.count[DYD_TIE];
+  snprintf(remark, sizeof remark, "%.3f us a possible pair; %zu pairs; legal %zu; indeterminate %zu; tied %zu",
+           bench_series_median(&ours).seconds / (double)pairs * 1e6, pairs, a.count[DYD_LEGAL],
+           a.count[DYD_INDETERMINATE], a.count[DYD_TIE]);
+  bench_report(o, &(bench_row){.name = name,
+                               .n = n,
+                               .ours = &ours,
+                               .peer = &no_peer,
+                               .input_bytes = a.input_bytes / (double)n,
+                               .remark = remark});
+  cloud_clear(&boxes);
+}
+
+int main(int argc, char **argv) {
+  bench_options o;
+  bench_options_read(&o, argc, argv);
+  if (bench_wants(&o, "boxes")) row_boxes(&o);
+  if (bench_wants(&o, "thick")) row_wide(&o, "thick", 100000, 0.03);
+  if (bench_wants(&o, "overlap")) row_wide(&o, "overlap", 10000, 0.5);
+  bench_options_close(&o);
+  return 0;
+}

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Making the clouds. */
+#include "cloud.h"
+
+#include "harness.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static uint64_t next_random(uint64_t *state) {
+  uint64_t z = *state += UINT64_C(0x9E3779B97F4A7C15);
+  z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
+  z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
+  return z ^ (z >> 31);
+}
+
+static double unit(uint64_t *state) {
+  return (double)(next_random(state) >> 11) * 0x1p-53;
+}
+
+static double *doubles(size_t n) {
+  double *x = malloc((n ? n : 1) * sizeof *x);
+  if (!x) bench_die("input", "out of memory");
+  return x;
+}
+
+static void start(cloud *c, size_t n) {
+  memset(c, 0, sizeof *c);
+  c->n = n;
+  c->x = doubles(n);
+  c->y = doubles(n);
+}
+
+void cloud_uniform(cloud *c, size_t n) {
+  uint64_t state = 1;
+  start(c, n);
+  for (size_t i = 0; i < n; i++) {
+    c->x[i] = unit(&state);
+    c->y[i] = unit(&state);
+  }
+}
+
+static void swap_points(cloud *c, size_t i, size_t j) {
+  double x = c->x[i], y = c->y[i];
+  c->x[i] = c->x[j];
+  c->y[i] = c->y[j];
+  c->x[j] = x;
+  c->y[j] = y;
+}
+
+void cloud_grid(cloud *c, size_t n) {
+  uint64_t state = 2;
+  size_t side = (size_t)sqrt((double)n);
+  start(c, side * side);
+  for (size_t i = 0; i < c->n; i++) {
+    c->x[i] = (double)(i % side);
+    c->y[i] = (double)(i / side);
+  }
+  for (size_t i = c->n; i > 1; i--) swap_points(c, i - 1, next_random(&state) % i);
+}
+
+/* Angles grow strictly, by about 2 pi / n with a random part: neighbours are far more than an ulp apart. */
+void cloud_circle(cloud *c, size_t n) {
+  uint64_t state = 3;
+  start(c, n);
+  for (size_t i = 0; i < n; i++) {
+    double angle = ((double)i + 0.5 * unit(&state)) * (6.283185307179586 / (double)n);
+    c->x[i] = cos(angle);
+    c->y[i] = sin(angle);
+  }
+  for (size_t i = n; i > 1; i--) swap_points(c, i - 1, next_random(&state) % i);
+}
+
+/* The end p + w rounded away from p: the error of the rounded sum is known exactly (Knuth's two-sum). */
+static double outward(double p, double w) {
+  double s = p + w, b = s - p, error = (p - (s - b)) + (w - b);
+  return w < 0 ? (error < 0 ? nextafter(s, -INFINITY) : s) : (error > 0 ? nextafter(s, INFINITY) : s);
+}
+
+void cloud_widen(cloud *c, double half_width) {
+  c->x0 = doubles(c->n);
+  c->x1 = doubles(c->n);
+  c->y0 = doubles(c->n);
+  c->y1 = doubles(c->n);
+  for (size_t i = 0; i < c->n; i++) {
+    c->x0[i] = outward(c->x[i], -half_width);
+    c->x1[i] = outward(c->x[i], half_width);
+    c->y0[i] = outward(c->y[i], -half_width);
+    c->y1[i] = outward(c->y[i], half_width);
+  }
+}
+
+void cloud_clear(cloud *c) {
+  free(c->x);
+  free(c->y);
+  free(c->x0);
+  free(c->x1);
+  free(c->y0);
+  free(c->y1);
+  memset(c, 0, sizeof *c);
+}

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The inputs of the benchmarks: clouds of points and boxes around them, the same on every machine. */
+#ifndef DYD_BENCH_CLOUD_H
+#define DYD_BENCH_CLOUD_H
+
+#include <stddef.h>
+
+/* n points; boxes [x0,x1] x [y0,y1] around them when they are there (NULL otherwise).
+ * Owned: release with cloud_clear. */
+typedef struct cloud {
+  size_t n;
+  double *x, *y;
+  double *x0, *x1, *y0, *y1;
+} cloud;
+
+/* All end the program when memory runs out. */
+/* Coordinates uniform multiples of 2^-53 in [0,1). */
+void cloud_uniform(cloud *c, size_t n);
+/* The integer points of a square of side floor(sqrt(n)), in random order; c->n is the number there is. */
+void cloud_grid(cloud *c, size_t n);
+/* Distinct doubles next to the unit circle. */
+void cloud_circle(cloud *c, size_t n);
+/* Boxes of the given half-width, rounded outward by at most one unit in the last place. */
+void cloud_widen(cloud *c, double half_width);
+void cloud_clear(cloud *c);
+
+#endif

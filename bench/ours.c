@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Timing the library. */
+#include "ours.h"
+
+#include <stdlib.h>
+
+static void check(const char *row, dyd_status status) {
+  if (status != DYD_OK) bench_die(row, dyd_status_text(status));
+}
+
+static void take_edges(bench_edges *out, const char *row, const dyd_pair_list *pairs) {
+  out->count = pairs->count;
+  out->item = malloc((pairs->count ? pairs->count : 1) * sizeof *out->item);
+  if (!out->item) bench_die(row, "out of memory");
+  for (size_t k = 0; k < pairs->count; k++) out->item[k] = (bench_edge){pairs->item[k].i, pairs->item[k].j};
+}
+
+void ours_edges(bench_edges *out, const char *row, const dyd_delaunay *pd) {
+  dyd_pair_list pairs = {0};
+  check(row, dyd_delaunay_pairs(&pairs, pd));
+  take_edges(out, row, &pairs);
+  dyd_pair_list_clear(&pairs);
+}
+
+bench_cost ours_run(ours_answer *out, const char *row, const cloud *c, ours_what what) {
+  dyd_sites *sites = NULL;
+  dyd_delaunay *pd = NULL;
+  dyd_pair_list pairs = {0};
+  *out = (ours_answer){0};
+  bench_meter meter = bench_start();
+  check(row, dyd_sites_new(&sites));
+  if (c->x0)
+    check(row, dyd_sites_add_boxes(sites, c->n, c->x0, c->x1, c->y0, c->y1));
+  else
+    check(row, dyd_sites_add_points(sites, c->n, c->x, c->y));
+  check(row, dyd_delaunay_new(&pd, sites, NULL, NULL));
+  dyd_delaunay_count(out->count, pd);
+  if (what == OURS_LISTED) check(row, dyd_delaunay_pairs(&pairs, pd));
+  bench_cost cost = bench_stop(&meter);
+  out->input_bytes = (double)dyd_sites_memory(sites);
+  if (what == OURS_LISTED) take_edges(&out->edges, row, &pairs);
+  if (what == OURS_AND_EDGES) ours_edges(&out->edges, row, pd);
+  dyd_pair_list_clear(&pairs);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  return cost;
+}
