@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Result files: written beside their final place and renamed when complete, so that they appear whole or not at
+ * all. */
+#define _XOPEN_SOURCE 700 /* realpath */
+#include "cli.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+bool cli_guard_descriptors(void) {
+  /* Opened the wrong way round, so that using one of them is an error. */
+  static const int mode[3] = {O_WRONLY, O_RDONLY, O_WRONLY};
+  for (int fd = 0; fd < 3; fd++)
+    if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", mode[fd]) != fd) return false;
+  return true;
+}
+
+static bool fail(const char *name) {
+  cli_complain("%s: cannot write: %s; choose another place with -o", name, strerror(errno));
+  return false;
+}
+
+/* The file the name stands for: a symbolic link is followed, so that it stays. */
+static char *resolve(const char *name) {
+  char *path = realpath(name, NULL);
+  return path ? path : strdup(name);
+}
+
+static mode_t default_mode(void) {
+  mode_t mask = umask(0);
+  umask(mask);
+  return 0666 & ~mask;
+}
+
+static bool open_temporary(cli_output *out, const char *name, mode_t mode) {
+  size_t size = strlen(out->target) + sizeof ".XXXXXX";
+  out->temporary = malloc(size);
+  if (!out->temporary) return fail(name);
+  snprintf(out->temporary, size, "%s.XXXXXX", out->target);
+  int fd = mkstemp(out->temporary);
+  if (fd < 0) {
+    free(out->temporary);
+    out->temporary = NULL;
+    return fail(name);
+  }
+  cli_signals_remove(out->temporary);
+  out->stream = fchmod(fd, mode) == 0 ? fdopen(fd, "w") : NULL;
+  if (out->stream) return true;
+  fail(name);
+  close(fd);
+  return false;
+}
+
+bool cli_output_open(cli_output *out, const char *name) {
+  *out = (cli_output){.stream = stdout};
+  if (!name) return true;
+  struct stat info;
+  bool exists = stat(name, &info) == 0;
+  if (exists && !S_ISREG(info.st_mode)) { /* a device or a pipe cannot be replaced */
+    out->stream = fopen(name, "w");
+    return out->stream ? true : fail(name);
+  }
+  out->stream = NULL;
+  out->target = resolve(name);
+  bool done = out->target ? open_temporary(out, name, exists ? info.st_mode & 0777 : default_mode()) : fail(name);
+  if (!done) cli_output_drop(out);
+  return done;
+}
+
+bool cli_output_finish(cli_output *out) {
+  const char *name = out->target ? out->target : "standard output";
+  errno = 0;
+  bool done = fflush(out->stream) == 0 && !ferror(out->stream);
+  if (done && out->temporary) done = fsync(fileno(out->stream)) == 0;
+  FILE *stream = out->stream;
+  out->stream = NULL;
+  if (fclose(stream) != 0) done = false;
+  if (done && out->temporary) done = rename(out->temporary, out->target) == 0;
+  if (!done) {
+    if (!errno) errno = EIO;
+    fail(name);
+  }
+  cli_signals_remove(NULL);
+  if (done) {
+    free(out->temporary);
+    out->temporary = NULL;
+  }
+  cli_output_drop(out);
+  return done;
+}
+
+void cli_output_drop(cli_output *out) {
+  if (out->stream && out->stream != stdout) fclose(out->stream);
+  if (out->temporary) unlink(out->temporary);
+  cli_signals_remove(NULL);
+  free(out->temporary);
+  free(out->target);
+  *out = (cli_output){0};
+}

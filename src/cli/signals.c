@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Ctrl-C: the first one cancels the run, so that what is known is written; the next one ends the process.
+ *
+ * Handlers touch only lock-free objects, dyd_engine_cancel (async-signal-safe by contract) and unlink. */
+#include "cli.h"
+#include <signal.h>
+#include <stdatomic.h>
+#include <unistd.h>
+
+static _Atomic(dyd_engine *) to_cancel;
+static _Atomic(const char *) to_remove;
+
+static void handle(int number) {
+  dyd_engine *e = atomic_exchange(&to_cancel, NULL);
+  if (e) {
+    dyd_engine_cancel(e);
+    return;
+  }
+  const char *name = atomic_load(&to_remove);
+  if (name) unlink(name);
+  signal(number, SIG_DFL);
+  raise(number);
+}
+
+static void install(int number) {
+  struct sigaction old, action = {.sa_handler = handle, .sa_flags = SA_RESTART};
+  sigemptyset(&action.sa_mask);
+  /* A parent that has us ignore the signal (nohup) means it. */
+  if (sigaction(number, NULL, &old) == 0 && old.sa_handler == SIG_IGN) return;
+  sigaction(number, &action, NULL);
+}
+
+void cli_signals_cancel(dyd_engine *e) {
+  atomic_store(&to_cancel, e);
+  install(SIGINT);
+  install(SIGTERM);
+}
+
+void cli_signals_remove(const char *temporary) {
+  atomic_store(&to_remove, temporary);
+  atomic_store(&to_cancel, NULL);
+  install(SIGINT);
+  install(SIGTERM);
+}

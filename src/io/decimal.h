@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Numbers as text for output: decimals rounded in a known direction, exact ends of intervals. */
+#ifndef DYD_IO_DECIMAL_H
+#define DYD_IO_DECIMAL_H
+
+#include <dyadel/rect.h>
+#include <stdio.h>
+
+/* Sign, 17 digits, point, exponent or zeros, terminator. */
+#define DYD_DECIMAL_SIZE 32
+
+/* The decimal of at most `digits` (2..17) significant digits next to the finite double x in direction dir. A reader
+ * that takes it for a double, in any rounding that is monotone, stays on that side of x. */
+void dyd_decimal_directed(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd_round dir);
+/* A short decimal for some double r in [lo,hi] (finite): r is the nearest double to the decimal. *error is an upper
+ * bound of the distance from the decimal to any number in [lo,hi]. */
+void dyd_decimal_within(char out[DYD_DECIMAL_SIZE], double *error, double lo, double hi);
+/* A JSON value: the decimal next to x, or null for infinities and NaN. */
+void dyd_decimal_json(FILE *out, double x, dyd_round dir);
+/* The exact lower (upper) end: "m*2^e", an integer, or a rational "p/q"; a coordinate that the reader takes.
+ * Release with free(); NULL when memory is exhausted. */
+char *dyd_end_text(const dyd_interval *a, bool upper);
+
+#endif

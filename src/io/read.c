@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Reads points from a file into an engine, in one pass over the text. */
+#include "base/error.h"
+#include "io/source.h"
+#include "io/stage.h"
+#include "stream/number.h"
+#include <dyadel/io.h>
+#include <math.h>
+#include <string.h>
+
+static dyd_status read_radius(dyd_manner *m, const char *text, dyd_error *err) {
+  dyd_status status = dyd_parse_number(m->radius, text, strlen(text), NULL);
+  if (status == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (status < 0 || mpq_sgn(m->radius) < 0)
+    return dyd_fail(err, DYD_E_ARG, "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64",
+                    text);
+  m->widen = mpq_sgn(m->radius) > 0;
+  /* mpq_get_d rounds towards zero; beyond doubles the radius goes the general way. */
+  double down = mpq_get_d(m->radius);
+  mpq_t back;
+  mpq_init(back);
+  if (isfinite(down)) mpq_set_d(back, down);
+  m->radius_up = mpq_equal(back, m->radius) ? down : nextafter(down, INFINITY);
+  mpq_clear(back);
+  return DYD_OK;
+}
+
+/* Reads the two coordinates of a point and stages it. */
+static dyd_status stage_point(dyd_stage *stage, const dyd_span span[2], const dyd_manner *manner, dyd_error *err) {
+  dyd_coordinate x = {.kind = DYD_COORDINATE_DOUBLE}, y = x;
+  dyd_status status = dyd_coordinate_read(&x, &span[0], manner, err);
+  if (status >= 0) status = dyd_coordinate_read(&y, &span[1], manner, err);
+  if (status >= 0) return dyd_stage_add(stage, &x, &y, err);
+  dyd_coordinate_clear(&x);
+  return status;
+}
+
+static dyd_status read_points_file(dyd_stage *stage, dyd_text *text, const dyd_manner *manner, dyd_error *err) {
+  for (;;) {
+    dyd_line line;
+    dyd_span span[2];
+    size_t count;
+    dyd_status status = dyd_text_next(&line, text, err);
+    if (status < 0 || !line.text) return status;
+    status = dyd_points_split(span, &count, &line, err);
+    if (status >= 0 && count) status = stage_point(stage, span, manner, err);
+    if (status < 0) return status;
+  }
+}
+
+static dyd_status read_csv_file(dyd_stage *stage, dyd_text *text, const dyd_manner *manner, const char *columns,
+                                dyd_error *err) {
+  dyd_csv csv;
+  dyd_span span[2];
+  size_t count = 1;
+  dyd_status status = dyd_csv_open(&csv, text, columns, err);
+  while (status >= 0 && count) {
+    status = dyd_csv_next(span, &count, &csv, err);
+    if (status >= 0 && count) status = stage_point(stage, span, manner, err);
+  }
+  dyd_csv_clear(&csv);
+  return status;
+}
+
+dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *options, dyd_error *err) {
+  static const dyd_read_options defaults = {0};
+  if (!options) options = &defaults;
+  dyd_error local;
+  if (!err) err = &local;
+  dyd_error_clear(err);
+  dyd_manner manner = {.measured = options->measured};
+  dyd_text text;
+  dyd_stage stage;
+  mpq_init(manner.radius);
+  dyd_text_init(&text, in);
+  dyd_stage_init(&stage);
+  dyd_status status = options->radius ? read_radius(&manner, options->radius, err) : DYD_OK;
+  if (status >= 0)
+    status = options->columns ? read_csv_file(&stage, &text, &manner, options->columns, err)
+                              : read_points_file(&stage, &text, &manner, err);
+  if (status >= 0) status = dyd_stage_commit(e, &stage, err);
+  dyd_stage_clear(&stage);
+  dyd_text_clear(&text);
+  mpq_clear(manner.radius);
+  return status;
+}

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Formats for geographic and mesh programs: wkt, geojson, obj. One place per site stands for its rectangle; each
+ * format says how far at most the rectangle reaches from it. */
+#include "base/alloc.h"
+#include "io/result.h"
+#include <math.h>
+
+/* Two digits, rounded up. */
+static void error_text(char out[DYD_DECIMAL_SIZE], double error) {
+  dyd_decimal_directed(out, error, 2, DYD_UP);
+}
+
+dyd_status dyd_write_wkt(const dyd_result *r, dyd_error *err) {
+  dyd_place *place = NULL;
+  double error;
+  dyd_status status = dyd_result_places(&place, &error, r, err);
+  if (status < 0) return status;
+  fputs("WKT,i,j,status,max_coordinate_error\n", r->out);
+  for (size_t k = 0; k < r->pairs.count; k++) {
+    const dyd_pair *p = &r->pairs.item[k];
+    const dyd_place *a = &place[p->i], *b = &place[p->j];
+    char bound[DYD_DECIMAL_SIZE];
+    error_text(bound, fmax(a->error, b->error));
+    fprintf(r->out, "\"LINESTRING (%s %s, %s %s)\",%u,%u,%s,%s\n", a->x, a->y, b->x, b->y, (unsigned)p->i,
+            (unsigned)p->j, dyd_pair_status_text(p->status), bound);
+  }
+  free(place);
+  return DYD_OK;
+}
+
+dyd_status dyd_write_geojson(const dyd_result *r, dyd_error *err) {
+  dyd_place *place = NULL;
+  double error;
+  char bound[DYD_DECIMAL_SIZE];
+  dyd_status status = dyd_result_places(&place, &error, r, err);
+  if (status < 0) return status;
+  error_text(bound, error);
+  fprintf(r->out,
+          "{\"type\": \"FeatureCollection\",\n\"rounding\": \"a coordinate differs from every point of the "
+          "rectangle it stands for by at most max_coordinate_error\",\n\"max_coordinate_error\": %s,\n"
+          "\"outcome\": \"%s\",\n\"features\": [",
+          bound, dyd_outcome_text(dyd_engine_outcome(r->engine)));
+  for (size_t k = 0; k < r->pairs.count; k++) {
+    const dyd_pair *p = &r->pairs.item[k];
+    const dyd_place *a = &place[p->i], *b = &place[p->j];
+    fprintf(r->out,
+            "%s\n{\"type\": \"Feature\", \"geometry\": {\"type\": \"LineString\", \"coordinates\": [[%s, %s], "
+            "[%s, %s]]}, \"properties\": {\"i\": %u, \"j\": %u, \"status\": \"%s\"}}",
+            k ? "," : "", a->x, a->y, b->x, b->y, (unsigned)p->i, (unsigned)p->j, dyd_pair_status_text(p->status));
+  }
+  fputs("\n]}\n", r->out);
+  free(place);
+  return DYD_OK;
+}
+
+static void write_obj_elements(const dyd_result *r, const dyd_triangle_list *triangles) {
+  fputs("g legal_edges\n", r->out);
+  for (size_t k = 0; k < r->pairs.count; k++) {
+    const dyd_pair *p = &r->pairs.item[k];
+    if (p->status == DYD_LEGAL) fprintf(r->out, "l %u %u\n", (unsigned)p->i + 1, (unsigned)p->j + 1);
+  }
+  fputs("g sure_triangles\n", r->out);
+  for (size_t k = 0; k < triangles->count; k++) {
+    const uint32_t *v = triangles->item[k].v;
+    fprintf(r->out, "f %u %u %u\n", (unsigned)v[0] + 1, (unsigned)v[1] + 1, (unsigned)v[2] + 1);
+  }
+}
+
+dyd_status dyd_write_obj(const dyd_result *r, dyd_error *err) {
+  dyd_place *place = NULL;
+  dyd_triangle_list triangles = {0};
+  double error;
+  char bound[DYD_DECIMAL_SIZE];
+  size_t count[4];
+  dyd_status status = dyd_result_places(&place, &error, r, err);
+  if (status >= 0) status = dyd_delaunay_triangles(&triangles, r->pd);
+  if (status >= 0) {
+    error_text(bound, error);
+    dyd_delaunay_count(count, r->pd);
+    fprintf(r->out,
+            "# dyadel %s, outcome %s\n# a coordinate differs from every point of the rectangle it stands for by at "
+            "most %s\n# not shown: %zu indeterminate pairs, %zu ties\n",
+            dyd_version(), dyd_outcome_text(dyd_engine_outcome(r->engine)), bound, count[DYD_INDETERMINATE],
+            count[DYD_TIE]);
+    for (size_t i = 0; i < r->count; i++) fprintf(r->out, "v %s %s 0\n", place[i].x, place[i].y);
+    write_obj_elements(r, &triangles);
+  }
+  dyd_triangle_list_clear(&triangles);
+  free(place);
+  return status;
+}
