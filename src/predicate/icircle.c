@@ -7,6 +7,7 @@
 #include "predicate/icircle.h"
 
 #include "base/verify.h"
+#include "predicate/surd.h"
 
 void dyd_icircle_init(dyd_icircle *k) {
   mpz_inits(k->ax, k->bx, k->ay, k->by, k->c, k->px, k->py, NULL);
@@ -71,41 +72,14 @@ static int side_of_line(frame *f, const dyd_icircle *k, mpz_srcptr au, mpz_srcpt
   return dyd_sqrt_sign(f->s, f->t, k->c);
 }
 
-/* Sign of (a + b sqrt c) / d - z; t, z may not alias. */
-static int compare_to(mpz_ptr t, const dyd_icircle *k, mpz_srcptr a, mpz_srcptr b, mpz_srcptr z) {
-  mpz_set(t, a);
-  mpz_submul(t, z, k->d);
-  return dyd_sqrt_sign(t, b, k->c);
-}
-
-/* The end of [lo,hi] closest to the centre, or NULL when the centre is within. */
-static mpz_srcptr closest(mpz_ptr t, const dyd_icircle *k, mpz_srcptr a, mpz_srcptr b, mpz_srcptr lo, mpz_srcptr hi) {
-  if (compare_to(t, k, a, b, lo) <= 0) return lo;
-  return compare_to(t, k, a, b, hi) >= 0 ? hi : NULL;
-}
-
-/* The end of [lo,hi] farthest from the centre. */
-static mpz_srcptr farthest(mpz_ptr s, mpz_ptr t, const dyd_icircle *k, mpz_srcptr a, mpz_srcptr b, mpz_srcptr lo,
-                           mpz_srcptr hi) {
-  mpz_add(s, lo, hi);
-  mpz_mul_2exp(t, a, 1);
-  mpz_submul(t, s, k->d);
-  mpz_mul_2exp(s, b, 1);
-  return dyd_sqrt_sign(t, s, k->c) <= 0 ? hi : lo;
-}
-
 int dyd_icircle_side(const dyd_icircle *k, const dyd_irect *r, dyd_touch touch) {
   DYD_CHECK(mpz_sgn(k->d) > 0 && mpz_sgn(k->c) >= 0);
   frame f;
   frame_init(&f, k);
-  mpz_srcptr x, y;
-  if (touch == DYD_FARTHEST) {
-    x = farthest(f.s, f.t, k, k->ax, k->bx, r->x0, r->x1);
-    y = farthest(f.s, f.t, k, k->ay, k->by, r->y0, r->y1);
-  } else {
-    x = closest(f.t, k, k->ax, k->bx, r->x0, r->x1);
-    y = closest(f.t, k, k->ay, k->by, r->y0, r->y1);
-  }
+  dyd_surd ox = {k->ax, k->bx, k->c, k->d}, oy = {k->ay, k->by, k->c, k->d};
+  bool far = touch == DYD_FARTHEST;
+  mpz_srcptr x = far ? dyd_surd_farthest(f.s, f.t, &ox, r->x0, r->x1) : dyd_surd_closest(f.s, &ox, r->x0, r->x1);
+  mpz_srcptr y = far ? dyd_surd_farthest(f.s, f.t, &oy, r->y0, r->y1) : dyd_surd_closest(f.s, &oy, r->y0, r->y1);
   int side = -1; /* the centre is within: 0 minus the radius, which is positive */
   if (x) mpz_sub(f.l, x, k->px);
   if (y) mpz_sub(f.m, y, k->py);

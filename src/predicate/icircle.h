@@ -21,8 +21,11 @@ void dyd_icircle_clear(dyd_icircle *k);
 void dyd_icircle_swap(dyd_icircle *k, dyd_icircle *l);
 
 /* Every circle that meets r[m] as touch[m] says (closest: ds = radius; farthest: dl = radius), m = 0, 1, 2;
- * at least one farthest, at least one closest. Finite for disjoint C-rectangles; at most `room` are stored in
- * out (initialised by the caller), without repeats. Returns how many; room = 4 always suffices [CRIT-1]. */
+ * at least one farthest, at least one closest. Radius 0 is no circle. Where two features coincide there may be a
+ * continuum of circles, of which only isolated ones are found; there is none for disjoint C-rectangles that are
+ * disjoint from the F-rectangles. At most `room` are stored in out (initialised by the caller), without repeats;
+ * the search stops there. Returns how many are stored; room = 4 always suffices [CRIT-1], and room = 1 is fastest
+ * for a surely oriented triple, where the circle is unique. */
 size_t dyd_icircles(dyd_icircle *out, size_t room, const dyd_irect *const r[3], const dyd_touch touch[3]);
 
 /* Sign of (closest or farthest distance of the centre to r) - radius. Exact. */
@@ -40,5 +43,7 @@ void dyd_icircle_centre_d(double out[4], const dyd_icircle *k, int64_t shift);
 dyd_sure dyd_irect_orientation(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c);
 /* r against the partial disc of a, b, c; UNSURE unless a, b, c are surely oriented. */
 dyd_sure dyd_irect_con(const dyd_irect *r, const dyd_irect *a, const dyd_irect *b, const dyd_irect *c);
+/* The same for a triple already known to be surely oriented, PLUS or MINUS. */
+dyd_sure dyd_irect_con_oriented(const dyd_irect *r, const dyd_irect *const abc[3], dyd_sure orientation);
 
 #endif

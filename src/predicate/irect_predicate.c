@@ -8,7 +8,7 @@
  * the three F-twice circles keep away from r. One in-circle sign tells which of the two is left to test. */
 #include "predicate/icircle.h"
 
-/* The value of `sign` * det(p,q,r) least over p in a is positive. s, t, u: scratch. */
+/* The value of `sign` * det(p,q,r) least over p in a is positive.  */
 static bool all_turn(const dyd_irect *a, mpz_srcptr qx, mpz_srcptr qy, mpz_srcptr rx, mpz_srcptr ry, int sign,
                      mpz_ptr scratch[4]) {
   mpz_ptr nx = scratch[0], ny = scratch[1], s = scratch[2], det = scratch[3];
@@ -80,12 +80,15 @@ static bool beyond_all(const dyd_irect *r, const dyd_irect *const abc[3], dyd_to
   return beyond;
 }
 
-dyd_sure dyd_irect_con(const dyd_irect *r, const dyd_irect *a, const dyd_irect *b, const dyd_irect *c) {
-  dyd_sure orientation = dyd_irect_orientation(a, b, c);
-  if (orientation == DYD_UNSURE) return DYD_UNSURE;
-  const dyd_irect *const abc[3] = {a, b, c};
+dyd_sure dyd_irect_con_oriented(const dyd_irect *r, const dyd_irect *const abc[3], dyd_sure orientation) {
   int sign = corner_in_circle(r, abc, orientation);
   if (sign > 0 && beyond_all(r, abc, DYD_FARTHEST, -1)) return DYD_SURE_PLUS;
   if (sign < 0 && beyond_all(r, abc, DYD_CLOSEST, 1)) return DYD_SURE_MINUS;
   return DYD_UNSURE;
+}
+
+dyd_sure dyd_irect_con(const dyd_irect *r, const dyd_irect *a, const dyd_irect *b, const dyd_irect *c) {
+  dyd_sure orientation = dyd_irect_orientation(a, b, c);
+  const dyd_irect *const abc[3] = {a, b, c};
+  return orientation == DYD_UNSURE ? DYD_UNSURE : dyd_irect_con_oriented(r, abc, orientation);
 }
