@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-#define DYD_MAX_SITES ((size_t)1 << 30)
+#define DYD_MAX_SITES ((size_t)1 << 28)
 
 typedef struct dyd_sites dyd_sites;
 

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The middle rung: representatives as 64-bit integers on one common grid, products in 128 and 256 bits. */
+#ifndef DYD_DELAUNAY_MESH_FIXED_H
+#define DYD_DELAUNAY_MESH_FIXED_H
+
+#include "delaunay/mesh.h"
+
+/* Puts all representatives of m on a common grid with coordinates below 2^60, if there is one; sets m->fixed or
+ * m->no_fixed. Never fails: without memory or grid, m->no_fixed. O(n), once per mesh. */
+void dyd_fixed_prepare(dyd_mesh *m);
+/* Exact signs; m->fixed is set. */
+int dyd_fixed_orient(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);
+int dyd_fixed_incircle(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
+void dyd_fixed_free(dyd_fixed *f);
+
+#endif

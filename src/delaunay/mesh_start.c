@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The first triangle of a skeleton, and what happens when representatives coincide or are collinear. */
+#include "delaunay/mesh_start.h"
+
+#include "base/alloc.h"
+#include "delaunay/filter_mesh.h"
+#include "delaunay/mesh_exact.h"
+
+#include <math.h>
+#include <string.h>
+
+bool dyd_mesh_is_point(const dyd_mesh *m, uint32_t v) {
+  return dyd_sites_is_point(m->reps->sites, m->reps->site[dyd_mesh_rep(m, v)]);
+}
+
+dyd_status dyd_mesh_set_alias(dyd_mesh *m, uint32_t v, uint32_t of) {
+  if (!m->alias) {
+    m->alias = dyd_alloc(m->n, sizeof *m->alias);
+    if (!m->alias) return DYD_E_NOMEM;
+    memset(m->alias, 0xff, m->n * sizeof *m->alias);
+  }
+  m->alias[v] = of;
+  return DYD_OK;
+}
+
+static void set_filters(dyd_mesh *m) {
+  double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
+  for (uint32_t v = 0; v < m->n; v++) {
+    lo[0] = fmin(lo[0], m->xy[v].x);
+    hi[0] = fmax(hi[0], m->xy[v].x);
+    lo[1] = fmin(lo[1], m->xy[v].y);
+    hi[1] = fmax(hi[1], m->xy[v].y);
+  }
+  m->incircle_delta = m->reps->delta;
+  m->orient_bound = m->no_filter ? INFINITY : dyd_filter_orient_bound(hi[0] - lo[0], hi[1] - lo[1], m->reps->delta);
+  if (isnan(m->orient_bound)) m->orient_bound = INFINITY;
+}
+
+dyd_status dyd_mesh_coordinates(dyd_mesh *m) {
+  m->xy = m->reps->xy;
+  if (m->local) {
+    m->own_xy = dyd_alloc((size_t)m->n + 1, sizeof *m->own_xy);
+    if (!m->own_xy) return DYD_E_NOMEM;
+    for (uint32_t v = 0; v < m->n; v++) m->own_xy[v] = m->reps->xy[m->local[v]];
+    m->own_xy[m->n] = (dyd_xy){NAN, NAN};
+    m->xy = m->own_xy;
+  }
+  set_filters(m);
+  return DYD_OK;
+}
+
+/* A moved point may leave the box of doubles and be inexact: the constants follow, and the grid is made anew. */
+dyd_status dyd_mesh_move(dyd_mesh *m, uint32_t v, uint32_t k) {
+  uint32_t r = dyd_mesh_rep(m, v);
+  dyd_status st = dyd_reps_choose(m->reps, r, k);
+  if (st != DYD_OK) return st;
+  if (m->own_xy) m->own_xy[v] = m->reps->xy[r];
+  dyd_fixed_free(m->fixed);
+  m->fixed = NULL;
+  m->no_fixed = false;
+  m->exact_s = 0;
+  set_filters(m);
+  return DYD_OK;
+}
+
+/* Moves v, or makes it an alias, until it differs from w. *differs: v is a vertex of its own. */
+static dyd_status separate(bool *differs, dyd_mesh *m, uint32_t v, uint32_t w) {
+  dyd_status st = DYD_OK;
+  *differs = true;
+  for (uint32_t k = 1; st == DYD_OK && dyd_mesh_same(m, v, w); k++) {
+    if (dyd_mesh_is_point(m, v)) {
+      *differs = false;
+      return dyd_mesh_set_alias(m, v, w);
+    }
+    st = dyd_mesh_move(m, v, k);
+  }
+  return st;
+}
+
+/* The first two vertices that differ from each other and from `without`; false when there are none. */
+static bool two_others(uint32_t pair[2], dyd_mesh *m, uint32_t without) {
+  unsigned found = 0;
+  for (uint32_t v = 0; v < m->n && found < 2; v++) {
+    if (v == without || dyd_mesh_alias(m, v) != DYD_NONE) continue;
+    if (found == 0 || !dyd_mesh_same(m, pair[0], v)) pair[found++] = v;
+  }
+  return found == 2;
+}
+
+/* All representatives are collinear: a fat rectangle that reaches off their line gives the triangle. Three different
+ * fractions of a rectangle are never collinear, unless it is a segment, and a segment meets a line once or lies in it. */
+static dyd_status leave_line(uint32_t first[3], dyd_mesh *m) {
+  uint32_t pair[2];
+  for (uint32_t v = 0; v < m->n; v++) {
+    if (dyd_mesh_is_point(m, v) || !two_others(pair, m, v)) continue;
+    for (uint32_t k = 1; k <= 4; k++) {
+      dyd_status st = dyd_mesh_move(m, v, k);
+      if (st != DYD_OK) return st;
+      if (dyd_mesh_orient(m, pair[0], pair[1], v) != 0) {
+        first[0] = pair[0];
+        first[1] = pair[1];
+        first[2] = v;
+        return DYD_OK;
+      }
+    }
+  }
+  m->collinear = true;
+  return DYD_OK;
+}
+
+dyd_status dyd_mesh_first_triangle(uint32_t first[3], dyd_mesh *m) {
+  unsigned found = 0;
+  dyd_status st = DYD_OK;
+  for (uint32_t v = 0; v < m->n && found < 3 && st == DYD_OK; v++) {
+    bool differs = true;
+    if (found >= 1) st = separate(&differs, m, v, first[0]);
+    if (st == DYD_OK && differs && found >= 2) {
+      if (dyd_mesh_orient(m, first[0], first[1], v) == 0) continue;
+    }
+    if (st == DYD_OK && differs) first[found++] = v;
+  }
+  if (st == DYD_OK && found < 2) m->collinear = true;
+  else if (st == DYD_OK && found == 2) st = leave_line(first, m);
+  if (st == DYD_OK && !m->collinear && dyd_mesh_orient(m, first[0], first[1], first[2]) < 0) {
+    uint32_t t = first[0];
+    first[0] = first[1];
+    first[1] = t;
+  }
+  return st;
+}
+
+void dyd_mesh_put_first(dyd_mesh *m, const uint32_t first[3]) {
+  uint32_t a = first[0], b = first[1], c = first[2], g = m->n;
+  m->tri[0] = (dyd_tri){{a, b, c}, {4 * 2 + 2, 4 * 3 + 2, 4 * 1 + 2}};
+  m->tri[1] = (dyd_tri){{b, a, g}, {4 * 3 + 1, 4 * 2 + 0, 4 * 0 + 2}};
+  m->tri[2] = (dyd_tri){{c, b, g}, {4 * 1 + 1, 4 * 3 + 0, 4 * 0 + 0}};
+  m->tri[3] = (dyd_tri){{a, c, g}, {4 * 2 + 1, 4 * 1 + 0, 4 * 0 + 1}};
+  m->count = 4;
+  m->hint = 0;
+}

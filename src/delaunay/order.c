@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Biased randomised insertion order along a Hilbert curve, by table and radix sort.
+ *
+ * Nothing here is a statement: the doubles only choose an order, any order gives the same statuses. */
+#include "delaunay/order.h"
+
+#include "base/alloc.h"
+
+#include <float.h>
+#include <string.h>
+
+enum { RADIX_BITS = 11, RADIX = 1 << RADIX_BITS, PASSES = 3, SAMPLE = 16, LEVELS = 2 };
+
+/* step[state][x 4 bits, y 4 bits] = 8 bits of the curve | next state << 8. */
+typedef struct hilbert_table {
+  uint16_t step[4][256];
+} hilbert_table;
+
+static void fill_table(hilbert_table *h) {
+  static const uint8_t order[4][4] = {{0, 1, 3, 2}, {0, 3, 1, 2}, {2, 1, 3, 0}, {2, 3, 1, 0}};
+  static const uint8_t next[4][4] = {{1, 0, 3, 0}, {0, 2, 1, 1}, {2, 1, 2, 3}, {3, 3, 0, 2}};
+  for (unsigned state = 0; state < 4; state++)
+    for (unsigned cell = 0; cell < 256; cell++) {
+      unsigned s = state, key = 0;
+      for (int b = 3; b >= 0; b--) {
+        unsigned quadrant = (cell >> 4 >> b & 1) << 1 | (cell >> b & 1);
+        key = key << 2 | order[s][quadrant];
+        s = next[s][quadrant];
+      }
+      h->step[state][cell] = (uint16_t)(key | s << 8);
+    }
+}
+
+/* 28 bits of the curve from 16-bit coordinates. */
+static uint32_t hilbert_key(const hilbert_table *h, uint32_t x, uint32_t y) {
+  unsigned state = 0;
+  uint32_t key = 0;
+  for (int b = 12; b >= 0; b -= 4) {
+    unsigned e = h->step[state][(x >> b & 15) << 4 | (y >> b & 15)];
+    key = key << 8 | (e & 255);
+    state = e >> 8;
+  }
+  return key >> 4;
+}
+
+static double clamp(double x) { return x > DBL_MAX ? DBL_MAX : x < -DBL_MAX ? -DBL_MAX : x; }
+
+/* Half of the middle of the outward rectangle, so that nothing overflows. */
+static double half_middle(const dyd_sites *s, int axis, size_t i) {
+  return clamp(dyd_sites_lo(s, axis, i)) / 4 + clamp(dyd_sites_hi(s, axis, i)) / 4;
+}
+
+typedef struct frame {
+  double origin[2], scale;
+} frame;
+
+static frame frame_of(const dyd_sites *s) {
+  double lo[2] = {DBL_MAX, DBL_MAX}, hi[2] = {-DBL_MAX, -DBL_MAX}, extent = 0;
+  for (int a = 0; a < 2; a++) {
+    for (size_t i = 0; i < s->count; i++) {
+      double m = half_middle(s, a, i);
+      if (m < lo[a]) lo[a] = m;
+      if (m > hi[a]) hi[a] = m;
+    }
+    if (hi[a] - lo[a] > extent) extent = hi[a] - lo[a];
+  }
+  frame f = {{lo[0], lo[1]}, extent > 0 ? 65535.0 / extent : 0};
+  if (!(f.scale <= DBL_MAX)) f.scale = 0;
+  return f;
+}
+
+static unsigned level_of(uint32_t i) {
+  uint32_t hash = (i * UINT32_C(2654435761)) >> 8;
+  unsigned level = LEVELS;
+  for (; level && hash % SAMPLE == 0; hash /= SAMPLE) level--;
+  return level;
+}
+
+static uint32_t key_of(const dyd_sites *s, const frame *f, const hilbert_table *h, bool mixed, uint32_t i) {
+  uint32_t x = (uint32_t)((half_middle(s, 0, i) - f->origin[0]) * f->scale);
+  uint32_t y = (uint32_t)((half_middle(s, 1, i) - f->origin[1]) * f->scale);
+  uint32_t fat = mixed && !dyd_sites_is_point(s, i);
+  return fat << 30 | (uint32_t)level_of(i) << 28 | hilbert_key(h, x, y);
+}
+
+static void radix_sort(uint64_t *a, uint64_t *b, size_t n, size_t count[PASSES][RADIX]) {
+  for (int p = 0; p < PASSES; p++) {
+    size_t sum = 0;
+    for (int r = 0; r < RADIX; r++) {
+      size_t c = count[p][r];
+      count[p][r] = sum;
+      sum += c;
+    }
+    int shift = 32 + RADIX_BITS * p;
+    for (size_t i = 0; i < n; i++) b[count[p][a[i] >> shift & (RADIX - 1)]++] = a[i];
+    uint64_t *t = a;
+    a = b;
+    b = t;
+  }
+}
+
+dyd_status dyd_spatial_order(uint32_t *order, const dyd_sites *s) {
+  size_t n = s->count;
+  uint64_t *a = dyd_alloc(n, sizeof *a), *b = dyd_alloc(n, sizeof *b);
+  size_t(*count)[RADIX] = calloc(PASSES, sizeof *count);
+  hilbert_table h;
+  dyd_status st = a && b && count ? DYD_OK : DYD_E_NOMEM;
+  if (st == DYD_OK) {
+    frame f = frame_of(s);
+    bool mixed = s->upper[0] || s->upper[1] || s->exact;
+    fill_table(&h);
+    for (uint32_t i = 0; i < n; i++) {
+      uint32_t key = key_of(s, &f, &h, mixed, i);
+      a[i] = (uint64_t)key << 32 | i;
+      for (int p = 0; p < PASSES; p++) count[p][key >> (RADIX_BITS * p) & (RADIX - 1)]++;
+    }
+    radix_sort(a, b, n, count);
+    for (size_t i = 0; i < n; i++) order[i] = (uint32_t)b[i]; /* an odd number of passes ends in b */
+  }
+  free(count);
+  free(b);
+  free(a);
+  return st;
+}

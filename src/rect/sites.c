@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The table of sites: outward doubles in arrays, exact rectangles packed beside them where needed. */
+#include "rect/sites_table.h"
+
+#include "base/alloc.h"
+#include "base/verify.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SAME_AS_LOWER INT32_MIN
+
+dyd_status dyd_sites_new(dyd_sites **out) {
+  dyd_sites *s = calloc(1, sizeof *s);
+  if (!s) return DYD_E_NOMEM;
+  *out = s;
+  return DYD_OK;
+}
+
+void dyd_sites_free(dyd_sites *s) {
+  if (!s) return;
+  if (s->exact)
+    for (size_t i = 0; i < s->count; i++) free(s->exact[i]);
+  free(s->exact);
+  for (int a = 0; a < 2; a++) {
+    free(s->lower[a]);
+    free(s->upper[a]);
+  }
+  free(s);
+}
+
+size_t dyd_sites_count(const dyd_sites *s) { return s->count; }
+
+static bool resize(void *array, size_t cap, size_t size) {
+  void *p = realloc(*(void **)array, cap * size);
+  if (p) *(void **)array = p;
+  return p != NULL;
+}
+
+/* Room for `more` further sites in every array there is. */
+static dyd_status make_room(dyd_sites *s, size_t more) {
+  if (more > DYD_MAX_SITES - s->count) return DYD_E_RANGE;
+  if (s->count + more <= s->cap) return DYD_OK;
+  size_t cap = s->cap + s->cap / 2;
+  if (cap < s->count + more) cap = s->count + more;
+  for (int a = 0; a < 2; a++) {
+    if (!resize(&s->lower[a], cap, sizeof(double))) return DYD_E_NOMEM;
+    if (s->upper[a] && !resize(&s->upper[a], cap, sizeof(double))) return DYD_E_NOMEM;
+  }
+  if (s->exact && !resize(&s->exact, cap, sizeof *s->exact)) return DYD_E_NOMEM;
+  s->cap = cap;
+  return DYD_OK;
+}
+
+/* Gives upper ends arrays of their own. */
+static dyd_status split_ends(dyd_sites *s) {
+  for (int a = 0; a < 2; a++) {
+    if (s->upper[a]) continue;
+    double *p = dyd_alloc(s->cap ? s->cap : 1, sizeof *p);
+    if (!p) return DYD_E_NOMEM;
+    if (s->count) memcpy(p, s->lower[a], s->count * sizeof *p);
+    s->upper[a] = p;
+  }
+  return DYD_OK;
+}
+
+static dyd_status make_exact(dyd_sites *s) {
+  if (s->exact) return DYD_OK;
+  s->exact = calloc(s->cap ? s->cap : 1, sizeof *s->exact);
+  return s->exact ? DYD_OK : DYD_E_NOMEM;
+}
+
+static bool ends_are_good(size_t n, const double *lo, const double *hi) {
+  for (size_t i = 0; i < n; i++)
+    if (!isfinite(lo[i]) || !isfinite(hi[i]) || lo[i] > hi[i]) return false;
+  return true;
+}
+
+/* Adding +0.0 turns -0.0 into +0.0, so that equal numbers are equal bits. */
+static void copy_ends(double *to, const double *from, size_t n) {
+  for (size_t i = 0; i < n; i++) to[i] = from[i] + 0.0;
+}
+
+static dyd_status add_doubles(dyd_sites *s, size_t n, const double *const lo[2], const double *const hi[2]) {
+  bool points = lo[0] == hi[0] && lo[1] == hi[1];
+  for (int a = 0; a < 2; a++)
+    if (!ends_are_good(n, lo[a], hi[a])) return DYD_E_ARG;
+  dyd_status st = make_room(s, n);
+  if (st == DYD_OK && !points) st = split_ends(s);
+  if (st != DYD_OK) return st;
+  for (int a = 0; a < 2; a++) {
+    copy_ends(s->lower[a] + s->count, lo[a], n);
+    if (s->upper[a]) copy_ends(s->upper[a] + s->count, hi[a], n);
+  }
+  if (s->exact) memset(s->exact + s->count, 0, n * sizeof *s->exact);
+  s->count += n;
+  return DYD_OK;
+}
+
+dyd_status dyd_sites_add_points(dyd_sites *s, size_t n, const double *x, const double *y) {
+  const double *const lo[2] = {x, y};
+  return add_doubles(s, n, lo, lo);
+}
+
+dyd_status dyd_sites_add_boxes(dyd_sites *s, size_t n, const double *x0, const double *x1, const double *y0,
+                               const double *y1) {
+  const double *const lo[2] = {x0, y0}, *const hi[2] = {x1, y1};
+  return add_doubles(s, n, lo, hi);
+}
+
+/* ---- packing ---- */
+
+static size_t limbs_of(int32_t size) { return size == SAME_AS_LOWER ? 0 : (size_t)(size < 0 ? -size : size); }
+
+static size_t packed_size(const dyd_packed *p) {
+  size_t limbs = 0;
+  for (int k = 0; k < 6; k++) limbs += limbs_of(p->size[k]);
+  return sizeof *p + limbs * sizeof(mp_limb_t);
+}
+
+static void interval_sizes(int32_t size[3], int64_t exp[2], const dyd_interval *a) {
+  bool point = dyd_interval_is_point(a);
+  exp[0] = a->lo.exp;
+  exp[1] = a->hi.exp;
+  size[0] = a->lo.man->_mp_size;
+  size[1] = point ? SAME_AS_LOWER : a->hi.man->_mp_size;
+  size[2] = mpz_cmp_ui(a->den, 1) == 0 ? 0 : a->den->_mp_size;
+}
+
+static mp_limb_t *put_limbs(mp_limb_t *to, const mpz_t z, int32_t size) {
+  size_t n = limbs_of(size);
+  if (n) memcpy(to, mpz_limbs_read(z), n * sizeof *to);
+  return to + n;
+}
+
+static dyd_packed *pack(const dyd_rect *r) {
+  dyd_packed head;
+  interval_sizes(head.size, head.exp, &r->x);
+  interval_sizes(head.size + 3, head.exp + 2, &r->y);
+  dyd_packed *p = malloc(packed_size(&head));
+  if (!p) return NULL;
+  memcpy(p, &head, sizeof head);
+  const dyd_interval *side[2] = {&r->x, &r->y};
+  mp_limb_t *to = p->limb;
+  for (int a = 0; a < 2; a++) {
+    to = put_limbs(to, side[a]->lo.man, p->size[3 * a]);
+    to = put_limbs(to, side[a]->hi.man, p->size[3 * a + 1]);
+    to = put_limbs(to, side[a]->den, p->size[3 * a + 2]);
+  }
+  return p;
+}
+
+static const mp_limb_t *take_limbs(mpz_t z, const mp_limb_t *from, int32_t size) {
+  mpz_t view;
+  mpz_set(z, mpz_roinit_n(view, from, size));
+  return from + limbs_of(size);
+}
+
+static const mp_limb_t *unpack_interval(dyd_interval *out, const mp_limb_t *from, const int32_t size[3],
+                                        const int64_t exp[2]) {
+  from = take_limbs(out->lo.man, from, size[0]);
+  out->lo.exp = exp[0];
+  if (size[1] == SAME_AS_LOWER) {
+    dyd_dyadic_set(&out->hi, &out->lo);
+  } else {
+    from = take_limbs(out->hi.man, from, size[1]);
+    out->hi.exp = exp[1];
+  }
+  if (size[2] == 0) mpz_set_ui(out->den, 1);
+  else from = take_limbs(out->den, from, size[2]);
+  return from;
+}
+
+/* ---- single sites ---- */
+
+dyd_status dyd_sites_get(dyd_rect *out, const dyd_sites *s, size_t i) {
+  if (i >= s->count) return DYD_E_ARG;
+  if (dyd_sites_in_doubles(s, i))
+    return dyd_rect_set_d(out, dyd_sites_lo(s, 0, i), dyd_sites_hi(s, 0, i), dyd_sites_lo(s, 1, i),
+                          dyd_sites_hi(s, 1, i));
+  const dyd_packed *p = s->exact[i];
+  const mp_limb_t *from = unpack_interval(&out->x, p->limb, p->size, p->exp);
+  unpack_interval(&out->y, from, p->size + 3, p->exp + 2);
+  return DYD_OK;
+}
+
+void dyd_sites_get_d(double out[4], const dyd_sites *s, size_t i) {
+  for (int a = 0; a < 2; a++) {
+    out[2 * a] = dyd_sites_lo(s, a, i);
+    out[2 * a + 1] = dyd_sites_hi(s, a, i);
+  }
+}
+
+bool dyd_sites_is_point(const dyd_sites *s, size_t i) {
+  if (dyd_sites_in_doubles(s, i))
+    return dyd_sites_lo(s, 0, i) == dyd_sites_hi(s, 0, i) && dyd_sites_lo(s, 1, i) == dyd_sites_hi(s, 1, i);
+  return s->exact[i]->size[1] == SAME_AS_LOWER && s->exact[i]->size[4] == SAME_AS_LOWER;
+}
+
+static bool interval_in_doubles(const dyd_interval *a) {
+  return mpz_cmp_ui(a->den, 1) == 0 && dyd_dyadic_is_double(&a->lo) && dyd_dyadic_is_double(&a->hi);
+}
+
+/* Writes r over entry i, which has room in every array it needs. */
+static dyd_status put(dyd_sites *s, size_t i, const dyd_rect *r, dyd_packed *old) {
+  double lo[2], hi[2];
+  dyd_packed *p = NULL;
+  dyd_interval_get_d(&lo[0], &hi[0], &r->x);
+  dyd_interval_get_d(&lo[1], &hi[1], &r->y);
+  bool doubles = interval_in_doubles(&r->x) && interval_in_doubles(&r->y);
+  if (!doubles || lo[0] != hi[0] || lo[1] != hi[1]) {
+    dyd_status st = split_ends(s);
+    if (st == DYD_OK && !doubles) st = make_exact(s);
+    if (st != DYD_OK) return st;
+  }
+  if (!doubles) {
+    p = pack(r);
+    if (!p) return DYD_E_NOMEM;
+  }
+  for (int a = 0; a < 2; a++) {
+    s->lower[a][i] = lo[a] + 0.0;
+    if (s->upper[a]) s->upper[a][i] = hi[a] + 0.0;
+  }
+  if (old) s->packed_bytes -= packed_size(old);
+  free(old);
+  if (p) s->packed_bytes += packed_size(p);
+  if (s->exact) s->exact[i] = p;
+  return DYD_OK;
+}
+
+dyd_status dyd_sites_add_rect(dyd_sites *s, const dyd_rect *r) {
+  dyd_status st = make_room(s, 1);
+  if (st != DYD_OK) return st;
+  st = put(s, s->count, r, NULL);
+  if (st == DYD_OK) s->count++;
+  return st;
+}
+
+dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
+  if (i >= s->count) return DYD_E_ARG;
+  dyd_rect now;
+  dyd_rect_init(&now);
+  dyd_status st = dyd_sites_get(&now, s, i);
+  if (st == DYD_OK && !dyd_rect_contains(&now, r)) st = DYD_E_NESTING;
+  if (st == DYD_OK) st = put(s, i, r, s->exact ? s->exact[i] : NULL);
+  dyd_rect_clear(&now);
+  return st;
+}
+
+size_t dyd_sites_memory(const dyd_sites *s) {
+  size_t arrays = 2 + (s->upper[0] != NULL) + (s->upper[1] != NULL) + (s->exact != NULL);
+  return sizeof *s + s->cap * arrays * sizeof(double) + s->packed_bytes;
+}

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Inside the table of sites, for the layers that read it in hot loops. */
+#ifndef DYD_RECT_SITES_TABLE_H
+#define DYD_RECT_SITES_TABLE_H
+
+#include "rect/irect.h"
+#include <dyadel/sites.h>
+
+/* An exact rectangle packed into one block: the limbs of xlo, xhi, xden, ylo, yhi, yden one after the other.
+ * A size of INT32_MIN for an upper end says "the same as the lower end". */
+typedef struct dyd_packed {
+  int64_t exp[4];
+  int32_t size[6];
+  mp_limb_t limb[];
+} dyd_packed;
+
+/* Invariant: upper[a] = NULL means that every site is an exact double point (lower and upper ends are the same array);
+ * exact = NULL means that every rectangle is held by its doubles; exact[i] = NULL the same for site i alone. */
+struct dyd_sites {
+  size_t count, cap;
+  double *lower[2]; /* x, y; rounded down */
+  double *upper[2]; /* rounded up */
+  dyd_packed **exact;
+  size_t packed_bytes;
+};
+
+static inline double dyd_sites_lo(const dyd_sites *s, int axis, size_t i) { return s->lower[axis][i]; }
+static inline double dyd_sites_hi(const dyd_sites *s, int axis, size_t i) {
+  return s->upper[axis] ? s->upper[axis][i] : s->lower[axis][i];
+}
+/* Do the doubles hold the rectangle of site i exactly? */
+static inline bool dyd_sites_in_doubles(const dyd_sites *s, size_t i) { return !s->exact || !s->exact[i]; }
+
+#endif
