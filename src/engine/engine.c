@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Life, counters and results of an engine. */
+#include "engine/engine.h"
+
+#include "base/alloc.h"
+#include <dyadel/metric.h>
+
+const char *dyd_outcome_text(dyd_outcome outcome) {
+  switch (outcome) {
+  case DYD_OUTCOME_NONE:
+    return "none";
+  case DYD_OUTCOME_DECIDED:
+    return "decided";
+  case DYD_OUTCOME_CERTIFIED:
+    return "certified";
+  case DYD_OUTCOME_FIXPOINT:
+    return "fixpoint";
+  case DYD_OUTCOME_BUDGET:
+    return "budget";
+  case DYD_OUTCOME_CANCELLED:
+    return "cancelled";
+  case DYD_OUTCOME_ERROR:
+    return "error";
+  }
+  return "unknown outcome";
+}
+
+void dyd_engine_options_init(dyd_engine_options *o) {
+  *o = (dyd_engine_options){.start_bits = 64, .max_bits = 4096};
+}
+
+dyd_status dyd_engine_new(dyd_engine **out) {
+  dyd_engine *e = calloc(1, sizeof *e);
+  if (!e) return DYD_E_NOMEM;
+  dyd_status status = dyd_sites_new(&e->sites);
+  if (status < 0)
+    free(e);
+  else
+    *out = e;
+  return status;
+}
+
+void dyd_engine_free(dyd_engine *e) {
+  if (!e) return;
+  dyd_delaunay_free(e->pd);
+  dyd_engine_clear_points(e);
+  dyd_sites_free(e->sites);
+  free(e->changed);
+  free(e);
+}
+
+size_t dyd_engine_count(const dyd_engine *e) {
+  return dyd_sites_count(e->sites);
+}
+
+/* Two stores and nothing else: safe in a signal handler. */
+void dyd_engine_cancel(dyd_engine *e) {
+  dyd_flag_set(&e->cancelled, 1);
+  dyd_flag_set(&e->stop, 1);
+}
+
+dyd_outcome dyd_engine_outcome(const dyd_engine *e) {
+  return e->outcome;
+}
+
+const dyd_delaunay *dyd_engine_delaunay(const dyd_engine *e) {
+  return e->pd;
+}
+
+static void count_bits(dyd_engine_counters *out, const dyd_engine *e) {
+  bool any = false;
+  for (size_t k = 0; k < e->points; k++) {
+    const dyd_refinable *p = &e->point[k];
+    if (!p->asked) continue;
+    if (!any || p->bits < out->bits_least) out->bits_least = p->bits;
+    if (!any || p->bits > out->bits_most) out->bits_most = p->bits;
+    if (p->bits > 0) out->bits_total += (uint64_t)p->bits;
+    any = true;
+  }
+}
+
+void dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e) {
+  *out = (dyd_engine_counters){.stages = e->stages, .calls = e->calls, .seconds = e->seconds, .spent = e->spent};
+  count_bits(out, e);
+  if (!e->pd) return;
+  out->undecided_faces = dyd_delaunay_undecided_faces(e->pd);
+  dyd_delaunay_get_counters(&out->delaunay, e->pd);
+}
+
+dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, const dyd_engine *e) {
+  if (!e->pd) return DYD_E_ARG;
+  dyd_dyadic a;
+  dyd_dyadic_init(&a);
+  dyd_status status = dyd_metric_area(&a, e->pd);
+  if (status == DYD_OK) status = dyd_metric_hausdorff(hausdorff, e->pd);
+  if (status == DYD_OK) dyd_dyadic_swap(area, &a);
+  dyd_dyadic_clear(&a);
+  return status;
+}

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Inside the engine: what it holds, and how its files share the work.
+ *
+ *   points.c     adding points, asking one point to narrow
+ *   schedule.c   which points to narrow next, and how far
+ *   watch.c      the clock, and stopping work at a deadline
+ *   run.c        the one loop
+ *   engine.c     life, counters, results */
+#ifndef DYD_ENGINE_ENGINE_H
+#define DYD_ENGINE_ENGINE_H
+
+#include <dyadel/engine.h>
+
+/* A site that can be asked to narrow. Everything else about a site is in the table of sites.
+ * Invariant: stream is NULL exactly when the site belongs to a source; then `source` is the source's number.
+ * bits is the precision last asked, meaningless while calls = 0 and not final; want > bits or calls = 0 when marked. */
+typedef struct dyd_refinable {
+  uint32_t site, source;
+  dyd_stream *stream;
+  int64_t bits, want;
+  uint64_t calls; /* how often the engine has asked it */
+  bool final;     /* no call can narrow it further */
+  bool marked;    /* to be narrowed to `want` in this stage */
+  bool asked;     /* has been brought to `bits` once */
+} dyd_refinable;
+
+/* A source and the site that is its point 0. */
+typedef struct dyd_source_use {
+  dyd_source source;
+  uint32_t first;
+} dyd_source_use;
+
+/* Invariant: point is sorted by site; changed lists (with repeats) the sites narrowed since pd was last brought up
+ * to date; pd = NULL before the first complete stage. Sites of points never asked hold the whole plane. */
+struct dyd_engine {
+  dyd_sites *sites;
+  dyd_refinable *point;
+  size_t points, point_cap;
+  dyd_source_use *source;
+  size_t sources, source_cap;
+  dyd_delaunay *pd;
+  uint32_t *changed;
+  size_t changes, change_cap;
+  size_t max_pairs;    /* the cap pd was last worked on with */
+  dyd_error cap_error; /* what it said when the cap was met */
+  bool started;
+  dyd_outcome outcome;
+  dyd_budget spent;
+  uint64_t stages, calls;
+  double seconds;
+  volatile int cancelled; /* set by dyd_engine_cancel; atomic access only, as for stop */
+  volatile int stop;      /* set together with cancelled, and at a deadline; read by the triangulation */
+};
+
+static inline int dyd_flag_get(const volatile int *flag) {
+  return __atomic_load_n(flag, __ATOMIC_SEQ_CST);
+}
+static inline void dyd_flag_set(volatile int *flag, int value) {
+  __atomic_store_n(flag, value, __ATOMIC_SEQ_CST);
+}
+
+/* ---- points.c ---- */
+
+/* The refinable point of a site, NULL when the site is fixed. O(log points). */
+dyd_refinable *dyd_engine_find(const dyd_engine *e, uint32_t site);
+/* Brings one point to precision bits (2^-bits) and its site in the table with it; *calls counts calls made (0 when the
+ * point was that narrow before). On failure the site and p->bits are as before, and err names site and stage. */
+dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits, int64_t max_bits,
+                             dyd_error *err);
+/* Releases streams and sources. */
+void dyd_engine_clear_points(dyd_engine *e);
+
+/* ---- schedule.c ---- */
+
+/* Does the goal hold for the current result? */
+dyd_status dyd_engine_goal_holds(bool *out, const dyd_engine *e, const dyd_engine_options *o);
+
+typedef struct dyd_plan {
+  size_t marked;     /* points to narrow */
+  bool bits_blocked; /* some point would have been marked, but was asked for max_bits before */
+} dyd_plan;
+
+/* Marks the points to narrow next towards a goal that does not hold. Needs a result that is up to date. */
+dyd_status dyd_engine_plan(dyd_plan *out, dyd_engine *e, const dyd_engine_options *o);
+/* Marks the points never asked, for the first stage. */
+void dyd_engine_plan_first(dyd_plan *out, dyd_engine *e, const dyd_engine_options *o);
+
+#endif

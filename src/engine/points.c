@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Adding points to an engine, and asking one point to narrow.
+ *
+ * A fixed site is an entry of the table of sites and nothing else. A site that can be narrowed has a record besides,
+ * and holds the whole plane in the table until it is first asked: the square whose ends are the largest dyadics of 64
+ * bits. [NEST-1] is kept by dyd_sites_narrow, for sources and streams alike: the table is the one memory of what was
+ * given before. */
+#include "engine/engine.h"
+
+#include "base/alloc.h"
+#include "base/error.h"
+#include "rect/interval.h"
+#include "rect/sites_table.h"
+
+dyd_status dyd_engine_add_points(dyd_engine *e, size_t n, const double *x, const double *y) {
+  return e->started ? DYD_E_ARG : dyd_sites_add_points(e->sites, n, x, y);
+}
+
+dyd_status dyd_engine_add_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1, const double *y0,
+                                const double *y1) {
+  return e->started ? DYD_E_ARG : dyd_sites_add_boxes(e->sites, n, x0, x1, y0, y1);
+}
+
+dyd_status dyd_engine_add_rect(dyd_engine *e, const dyd_rect *r) {
+  return e->started ? DYD_E_ARG : dyd_sites_add_rect(e->sites, r);
+}
+
+/* The interval [-(2^64 - 1) 2^(L-64), (2^64 - 1) 2^(L-64)], L = DYD_EXP_LIMIT: every dyadic of at most 64 bits. */
+static dyd_status set_line(dyd_interval *out) {
+  mpz_t man;
+  dyd_dyadic lo, hi;
+  mpz_init(man);
+  dyd_dyadic_init(&lo);
+  dyd_dyadic_init(&hi);
+  mpz_ui_pow_ui(man, 2, 64);
+  mpz_sub_ui(man, man, 1);
+  dyd_status status = dyd_dyadic_set_z_2exp(&hi, man, DYD_EXP_LIMIT - 64);
+  if (status >= 0) {
+    dyd_dyadic_neg(&lo, &hi);
+    status = dyd_interval_set_ends(out, &lo, &hi);
+  }
+  dyd_dyadic_clear(&hi);
+  dyd_dyadic_clear(&lo);
+  mpz_clear(man);
+  return status;
+}
+
+/* Appends n sites that hold the whole plane; none on failure. */
+static dyd_status add_planes(dyd_sites *s, size_t n) {
+  size_t count = s->count, bytes = s->packed_bytes;
+  dyd_rect plane;
+  dyd_rect_init(&plane);
+  dyd_status status = set_line(&plane.x);
+  if (status >= 0) status = set_line(&plane.y);
+  for (size_t k = 0; status >= 0 && k < n; k++) status = dyd_sites_add_rect(s, &plane);
+  if (status < 0) {
+    while (s->count > count) {
+      s->count--;
+      free(s->exact[s->count]);
+      s->exact[s->count] = NULL;
+    }
+    s->packed_bytes = bytes;
+  }
+  dyd_rect_clear(&plane);
+  return status;
+}
+
+/* Appends n sites with records like p; the site number is filled in. Nothing on failure. */
+static dyd_status add_refinable(dyd_engine *e, size_t n, dyd_refinable p) {
+  size_t first = dyd_sites_count(e->sites);
+  if (n > DYD_MAX_SITES) return DYD_E_RANGE;
+  if (!dyd_reserve((void **)&e->point, &e->point_cap, e->points + n, sizeof *e->point)) return DYD_E_NOMEM;
+  dyd_status status = add_planes(e->sites, n);
+  if (status < 0) return status;
+  for (size_t k = 0; k < n; k++) {
+    p.site = (uint32_t)(first + k);
+    e->point[e->points++] = p;
+  }
+  return DYD_OK;
+}
+
+dyd_status dyd_engine_add_stream(dyd_engine *e, dyd_stream *s) {
+  dyd_status status;
+  const dyd_rect *fixed = dyd_stream_is_final(s) ? dyd_stream_rect(s) : NULL;
+  if (e->started)
+    status = DYD_E_ARG;
+  else if (fixed)
+    status = dyd_sites_add_rect(e->sites, fixed);
+  else
+    status = add_refinable(e, 1, (dyd_refinable){.stream = s});
+  if (fixed || status < 0) dyd_stream_free(s);
+  return status;
+}
+
+static dyd_status add_source(dyd_engine *e, size_t n, const dyd_source *source) {
+  if (e->started || !source->narrow) return DYD_E_ARG;
+  if (!dyd_reserve((void **)&e->source, &e->source_cap, e->sources + 1, sizeof *e->source)) return DYD_E_NOMEM;
+  size_t first = dyd_sites_count(e->sites);
+  dyd_status status = add_refinable(e, n, (dyd_refinable){.source = (uint32_t)e->sources});
+  if (status >= 0) e->source[e->sources++] = (dyd_source_use){*source, (uint32_t)first};
+  return status;
+}
+
+dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_source *source) {
+  dyd_status status = add_source(e, n, source);
+  if (status < 0 && source->release) source->release(source->user);
+  return status;
+}
+
+void dyd_engine_clear_points(dyd_engine *e) {
+  for (size_t k = 0; k < e->points; k++) dyd_stream_free(e->point[k].stream);
+  for (size_t k = 0; k < e->sources; k++) {
+    const dyd_source *s = &e->source[k].source;
+    if (s->release) s->release(s->user);
+  }
+  free(e->point);
+  free(e->source);
+}
+
+dyd_refinable *dyd_engine_find(const dyd_engine *e, uint32_t site) {
+  size_t lo = 0, hi = e->points;
+  while (lo < hi) {
+    size_t mid = lo + (hi - lo) / 2;
+    if (e->point[mid].site < site)
+      lo = mid + 1;
+    else
+      hi = mid;
+  }
+  return lo < e->points && e->point[lo].site == site ? &e->point[lo] : NULL;
+}
+
+/* ---- asking ---- */
+
+/* Asks the source of p. *r comes in as the rectangle so far and goes out as the answer, checked to be one. */
+static dyd_status ask_source(dyd_rect *r, const dyd_refinable *p, const dyd_engine *e, const dyd_request *request,
+                             dyd_error *err) {
+  const dyd_source *source = &e->source[p->source].source;
+  dyd_status status = source->narrow(r, source->user, request, err);
+  if (status < 0) return status;
+  if (status != DYD_OK && status != DYD_FIXED) {
+    return dyd_fail(err, DYD_E_STREAM, "the source gave the status %d, which is none of a source", (int)status);
+  }
+  if (!dyd_interval_is_valid(&r->x) || !dyd_interval_is_valid(&r->y)) {
+    return dyd_fail(err, DYD_E_STREAM,
+                    "the source gave a rectangle that is not one (an upper end below its lower end?)");
+  }
+  return status;
+}
+
+static dyd_status ask_stream(dyd_rect *r, const dyd_refinable *p, const dyd_request *request, dyd_error *err) {
+  dyd_status status = dyd_stream_narrow(p->stream, request->bits, request->max_bits, err);
+  if (status < 0) return status;
+  const dyd_rect *now = dyd_stream_rect(p->stream);
+  if (!now) return dyd_fail(err, DYD_E_STREAM, "the stream has no rectangle after it was narrowed");
+  dyd_rect_set(r, now);
+  return dyd_stream_is_final(p->stream) ? DYD_FIXED : DYD_OK;
+}
+
+/* Puts what was given for p into the table. */
+static dyd_status put(dyd_refinable *p, const dyd_engine *e, const dyd_rect *r, dyd_error *err) {
+  dyd_status status = dyd_sites_narrow(e->sites, p->site, r);
+  if (status == DYD_E_NESTING && !p->asked) {
+    return dyd_fail(err, DYD_E_RANGE, "the rectangle given leaves the exponent range");
+  }
+  if (status == DYD_E_NESTING) {
+    return dyd_fail(err, status, "the rectangle given is not inside the one given before");
+  }
+  return status < 0 ? dyd_fail(err, status, "%s", dyd_status_text(status)) : status;
+}
+
+/* Fills in what the engine knows about a failure at p. */
+static dyd_status blame(const dyd_refinable *p, dyd_status status, dyd_error *err) {
+  err->code = status;
+  err->point = p->site;
+  err->stage = p->calls;
+  if (!err->message[0]) dyd_fail(err, status, "%s", dyd_status_text(status));
+  return status;
+}
+
+dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits, int64_t max_bits,
+                             dyd_error *err) {
+  dyd_rect r;
+  dyd_error_clear(err);
+  dyd_rect_init(&r);
+  dyd_request request = {p->stream ? p->site : p->site - e->source[p->source].first, bits, max_bits};
+  dyd_status status = p->asked ? dyd_sites_get(&r, e->sites, p->site) : DYD_OK;
+  if (status >= 0 && !(p->asked && dyd_rect_bits(&r) >= bits)) {
+    ++*calls;
+    status = p->stream ? ask_stream(&r, p, &request, err) : ask_source(&r, p, e, &request, err);
+    if (status >= 0) p->final = status == DYD_FIXED || dyd_rect_is_point(&r);
+    if (status >= 0) status = put(p, e, &r, err);
+    if (status < 0)
+      p->final = false;
+    else
+      p->calls++;
+  }
+  if (status < 0)
+    blame(p, status, err);
+  else {
+    p->bits = bits;
+    p->asked = true;
+  }
+  dyd_rect_clear(&r);
+  return status < 0 ? status : DYD_OK;
+}

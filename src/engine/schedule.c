@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Which points to narrow next, and how far (mathematics: section 7).
+ *
+ * Towards "decided": in each undecided face, the ends of indeterminate pairs; where none of them can be narrowed
+ * further, all sites of the face, since a blocker may be what keeps a pair open. Sites of the face that are no ends
+ * follow one step behind, so that a wide blocker is not left alone while the ends are refined for nothing. In a result
+ * that met its cap pairs are missing: all sites of the undecided faces are refined.
+ *
+ * Towards "Hausdorff bound 2^-M": the bound is the largest of one number per pair (metric/bounds.c). For legal pairs it
+ * is the larger diameter, so every point with a diameter above 2^-M is narrowed; for the others, as above, but only in
+ * faces with an indeterminate pair whose number is above 2^-M.
+ *
+ * Towards "area bound 2^-M": of P possible pairs whose areas sum to more than 2^-M at least one is above the share 2^-M
+ * / P; the ends of all these are narrowed. Where none of them can be, the points in pairs of at least half the area of
+ * the largest pair with a point that can.
+ *
+ * Every rule marks a point whenever one that matters can be narrowed, and every mark asks for more than before, up to
+ * max_bits: the loop ends. Growth is geometric, so a run asks for at most about twice the bits it needs. */
+#include "engine/engine.h"
+
+#include "metric/bounds.h"
+
+/* The step from precision b to the next. */
+static int64_t grown(int64_t b) {
+  int64_t size = b < 0 ? -b : b;
+  return b + (size < 16 ? 16 : size);
+}
+
+/* The smaller step of those offered, without overflow: b + by where by >= 0, at most max. */
+static int64_t raised(int64_t b, int64_t by, int64_t max) {
+  return b > max - by ? max : b + by;
+}
+
+/* Can p still be asked, now or under a larger max_bits? In the second case the plan remembers that. */
+static bool can_narrow(dyd_plan *plan, const dyd_refinable *p, const dyd_engine_options *o) {
+  if (!p || p->final) return false;
+  if (p->bits < o->max_bits) return true;
+  plan->bits_blocked = true;
+  return false;
+}
+
+static void mark(dyd_plan *plan, dyd_refinable *p, int64_t want, const dyd_engine_options *o) {
+  if (want > o->max_bits) want = o->max_bits;
+  if (!p->marked) plan->marked++;
+  if (!p->marked || p->want < want) p->want = want;
+  p->marked = true;
+}
+
+void dyd_engine_plan_first(dyd_plan *out, dyd_engine *e, const dyd_engine_options *o) {
+  *out = (dyd_plan){0};
+  for (size_t k = 0; k < e->points; k++)
+    if (!e->point[k].asked) mark(out, &e->point[k], o->start_bits, o);
+}
+
+/* ---- undecided faces ---- */
+
+/* Marks the ends of a pair one step on; *lead becomes the least precision such an end has now, if lower. */
+static void mark_end(int64_t *lead, dyd_plan *plan, const dyd_engine *e, uint32_t site, const dyd_engine_options *o) {
+  dyd_refinable *p = dyd_engine_find(e, site);
+  if (!can_narrow(plan, p, o)) return;
+  if (p->bits < *lead) *lead = p->bits;
+  mark(plan, p, grown(p->bits), o);
+}
+
+/* Marks the sites of a face with a precision below `lead`. */
+static dyd_status mark_face(dyd_plan *plan, const dyd_engine *e, size_t f, int64_t lead, const dyd_engine_options *o) {
+  dyd_index_list sites = {0};
+  bool outer;
+  dyd_status status = dyd_delaunay_face(&sites, &outer, e->pd, f);
+  for (size_t k = 0; status >= 0 && k < sites.count; k++) {
+    dyd_refinable *p = dyd_engine_find(e, sites.item[k]);
+    if (can_narrow(plan, p, o) && p->bits < lead) mark(plan, p, grown(p->bits), o);
+  }
+  dyd_index_list_clear(&sites);
+  return status;
+}
+
+/* Must the pair be refined? m = NULL: always; otherwise when its Hausdorff number is above the goal. */
+static dyd_status pair_matters(bool *out, mpfr_ptr number, dyd_measure *m, const dyd_pair *pair,
+                               const dyd_engine_options *o) {
+  *out = pair->status == DYD_INDETERMINATE;
+  if (!*out || !m) return DYD_OK;
+  dyd_status status = dyd_bound_pair_hausdorff(number, m, pair);
+  *out = status < 0 || mpfr_cmp_ui_2exp(number, 1, (mpfr_exp_t)-o->goal_bits) > 0;
+  return status;
+}
+
+static dyd_status plan_face(dyd_plan *plan, mpfr_ptr number, const dyd_engine *e, size_t f, dyd_measure *m,
+                            const dyd_engine_options *o) {
+  bool matters = dyd_delaunay_is_capped(e->pd), any = matters;
+  int64_t lead = INT64_MAX;
+  dyd_pair_list pairs = {0};
+  dyd_status status = dyd_delaunay_face_pairs(&pairs, e->pd, f);
+  for (size_t k = 0; status >= 0 && k < pairs.count; k++) {
+    status = pair_matters(&matters, number, m, &pairs.item[k], o);
+    if (status < 0 || !matters) continue;
+    any = true;
+    mark_end(&lead, plan, e, pairs.item[k].i, o);
+    mark_end(&lead, plan, e, pairs.item[k].j, o);
+  }
+  dyd_pair_list_clear(&pairs);
+  if (status < 0 || !any) return status;
+  return mark_face(plan, e, f, dyd_delaunay_is_capped(e->pd) ? INT64_MAX : lead, o);
+}
+
+static dyd_status plan_faces(dyd_plan *plan, const dyd_engine *e, dyd_measure *m, const dyd_engine_options *o) {
+  dyd_status status = DYD_OK;
+  size_t faces = dyd_delaunay_undecided_faces(e->pd);
+  mpfr_t number;
+  mpfr_init2(number, DYD_MEASURE_PREC);
+  for (size_t f = 0; status >= 0 && f < faces; f++) status = plan_face(plan, number, e, f, m, o);
+  mpfr_clear(number);
+  return status;
+}
+
+/* ---- bounds ---- */
+
+static dyd_status plan_hausdorff(dyd_plan *plan, const dyd_engine *e, dyd_measure *m, const dyd_engine_options *o) {
+  dyd_status status = plan_faces(plan, e, m, o);
+  mpfr_t diameter;
+  mpfr_init2(diameter, DYD_MEASURE_PREC);
+  for (size_t k = 0; status >= 0 && k < e->points; k++) {
+    dyd_refinable *p = &e->point[k];
+    if (p->final) continue;
+    status = dyd_measure_diameter(diameter, m, p->site);
+    if (mpfr_cmp_ui_2exp(diameter, 1, (mpfr_exp_t)-o->goal_bits) <= 0 || !can_narrow(plan, p, o)) continue;
+    /* Widths of 2^-b give a diameter of at most sqrt(2) 2^-b. */
+    mark(plan, p, p->bits <= o->goal_bits ? o->goal_bits + 1 : grown(p->bits), o);
+  }
+  mpfr_clear(diameter);
+  return status;
+}
+
+/* Marks the ends of pairs with an area above `least`, so that the areas shrink below `share`;
+ * *largest becomes the largest area of a pair with an end that can be narrowed. */
+static dyd_status mark_areas(dyd_plan *plan, mpfr_ptr largest, const dyd_engine *e, dyd_measure *m,
+                             const dyd_pair_list *pairs, mpfr_srcptr least, mpfr_srcptr share,
+                             const dyd_engine_options *o) {
+  dyd_status status = DYD_OK;
+  mpfr_t area;
+  mpfr_init2(area, DYD_MEASURE_PREC);
+  mpfr_set_zero(largest, 1);
+  for (size_t k = 0; status >= 0 && k < pairs->count; k++) {
+    const uint32_t end[2] = {pairs->item[k].i, pairs->item[k].j};
+    status = dyd_measure_area(area, m, end[0], end[1]);
+    if (status < 0 || mpfr_zero_p(area)) continue;
+    int64_t excess = (int64_t)mpfr_get_exp(area) - (int64_t)mpfr_get_exp(share) + 2;
+    for (int a = 0; a < 2; a++) {
+      dyd_refinable *p = dyd_engine_find(e, end[a]);
+      if (!can_narrow(plan, p, o)) continue;
+      mpfr_max(largest, largest, area, MPFR_RNDU);
+      int64_t target = raised(p->bits, excess < 0 ? 0 : excess, o->max_bits), step = grown(p->bits);
+      if (mpfr_cmp(area, least) > 0) mark(plan, p, target > step ? target : step, o);
+    }
+  }
+  mpfr_clear(area);
+  return status;
+}
+
+static dyd_status plan_area(dyd_plan *plan, const dyd_engine *e, dyd_measure *m, const dyd_engine_options *o) {
+  dyd_pair_list pairs = {0};
+  mpfr_t share, largest, unused;
+  mpfr_inits2(DYD_MEASURE_PREC, share, largest, unused, (mpfr_ptr)0);
+  dyd_status status = dyd_delaunay_pairs(&pairs, e->pd);
+  if (status >= 0 && pairs.count) {
+    mpfr_set_ui_2exp(share, 1, (mpfr_exp_t)-o->goal_bits, MPFR_RNDD);
+    mpfr_div_ui(share, share, (unsigned long)pairs.count, MPFR_RNDD);
+    status = mark_areas(plan, largest, e, m, &pairs, share, share, o);
+    if (status >= 0 && plan->marked == 0 && !mpfr_zero_p(largest)) {
+      mpfr_div_2ui(largest, largest, 1, MPFR_RNDD);
+      status = mark_areas(plan, unused, e, m, &pairs, largest, share, o);
+    }
+  }
+  mpfr_clears(share, largest, unused, (mpfr_ptr)0);
+  dyd_pair_list_clear(&pairs);
+  return status;
+}
+
+/* Replaces the marks by: every point to one precision, a step above the least so far. */
+static void plan_uniform(dyd_plan *plan, dyd_engine *e, const dyd_engine_options *o) {
+  int64_t least = INT64_MAX;
+  for (size_t k = 0; k < e->points; k++) {
+    e->point[k].marked = false;
+    if (!e->point[k].final && e->point[k].bits < least) least = e->point[k].bits;
+  }
+  plan->marked = 0;
+  int64_t level = grown(least) < o->max_bits ? grown(least) : o->max_bits;
+  for (size_t k = 0; k < e->points; k++)
+    if (!e->point[k].final && e->point[k].bits < level) mark(plan, &e->point[k], level, o);
+}
+
+dyd_status dyd_engine_plan(dyd_plan *out, dyd_engine *e, const dyd_engine_options *o) {
+  dyd_measure m;
+  dyd_status status;
+  *out = (dyd_plan){0};
+  dyd_measure_init(&m, e->sites);
+  if (o->goal == DYD_GOAL_DECIDED || dyd_delaunay_is_capped(e->pd))
+    status = plan_faces(out, e, NULL, o);
+  else if (o->goal == DYD_GOAL_HAUSDORFF)
+    status = plan_hausdorff(out, e, &m, o);
+  else
+    status = plan_area(out, e, &m, o);
+  dyd_measure_clear(&m);
+  if (status >= 0 && out->marked && o->schedule == DYD_SCHEDULE_UNIFORM) plan_uniform(out, e, o);
+  return status;
+}
+
+/* ---- goals ---- */
+
+static dyd_status bound_holds(bool *out, const dyd_engine *e, const dyd_engine_options *o) {
+  dyd_pair_list pairs = {0};
+  dyd_measure m;
+  mpfr_t bound;
+  dyd_measure_init(&m, e->sites);
+  mpfr_init2(bound, DYD_MEASURE_PREC);
+  dyd_status status = dyd_delaunay_pairs(&pairs, e->pd);
+  if (status >= 0) {
+    status = o->goal == DYD_GOAL_AREA ? dyd_bound_area(bound, &m, &pairs) : dyd_bound_hausdorff(bound, &m, &pairs);
+    *out = status >= 0 && mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
+  }
+  mpfr_clear(bound);
+  dyd_measure_clear(&m);
+  dyd_pair_list_clear(&pairs);
+  return status;
+}
+
+dyd_status dyd_engine_goal_holds(bool *out, const dyd_engine *e, const dyd_engine_options *o) {
+  *out = false;
+  if (dyd_delaunay_is_capped(e->pd)) return DYD_OK;
+  if (o->goal != DYD_GOAL_DECIDED) return bound_holds(out, e, o);
+  size_t count[4];
+  dyd_delaunay_count(count, e->pd);
+  *out = count[DYD_INDETERMINATE] == 0 && count[DYD_TIE] == 0;
+  return DYD_OK;
+}

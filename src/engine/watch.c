@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The clock of a run, and a helper thread that raises a flag at the deadline. */
+#include "engine/watch.h"
+
+#include <signal.h>
+
+/* Longer limits than this, about thirty years, are none. */
+#define LONGEST 1e9
+
+static void *wait_for_deadline(void *arg) {
+  dyd_watch *w = arg;
+  int late = 0;
+  pthread_mutex_lock(&w->lock);
+  while (!w->over && !late) late = pthread_cond_timedwait(&w->bell, &w->lock, &w->deadline);
+  if (!w->over) __atomic_store_n(w->flag, 1, __ATOMIC_SEQ_CST);
+  pthread_mutex_unlock(&w->lock);
+  return NULL;
+}
+
+/* The helper runs with all signals blocked: handlers stay with the threads of the program. */
+static bool spawn(dyd_watch *w) {
+  sigset_t all, before;
+  sigfillset(&all);
+  if (pthread_sigmask(SIG_SETMASK, &all, &before)) return false;
+  bool done = pthread_create(&w->thread, NULL, wait_for_deadline, w) == 0;
+  pthread_sigmask(SIG_SETMASK, &before, NULL);
+  return done;
+}
+
+static bool init_bell(pthread_cond_t *bell) {
+  pthread_condattr_t attr;
+  if (pthread_condattr_init(&attr)) return false;
+  bool done = !pthread_condattr_setclock(&attr, CLOCK_MONOTONIC) && !pthread_cond_init(bell, &attr);
+  pthread_condattr_destroy(&attr);
+  return done;
+}
+
+static bool start_helper(dyd_watch *w) {
+  if (pthread_mutex_init(&w->lock, NULL)) return false;
+  if (init_bell(&w->bell)) {
+    if (spawn(w)) return true;
+    pthread_cond_destroy(&w->bell);
+  }
+  pthread_mutex_destroy(&w->lock);
+  return false;
+}
+
+void dyd_watch_start(dyd_watch *w, double seconds, volatile int *flag) {
+  clock_gettime(CLOCK_MONOTONIC, &w->start);
+  w->limited = seconds > 0 && seconds < LONGEST;
+  w->running = w->over = false;
+  w->flag = flag;
+  if (!w->limited) return;
+  time_t whole = (time_t)seconds;
+  w->deadline.tv_sec = w->start.tv_sec + whole;
+  w->deadline.tv_nsec = w->start.tv_nsec + (long)((seconds - (double)whole) * 1e9);
+  if (w->deadline.tv_nsec >= 1000000000L) {
+    w->deadline.tv_nsec -= 1000000000L;
+    w->deadline.tv_sec++;
+  }
+  w->running = start_helper(w);
+}
+
+void dyd_watch_stop(dyd_watch *w) {
+  if (!w->running) return;
+  pthread_mutex_lock(&w->lock);
+  w->over = true;
+  pthread_cond_signal(&w->bell);
+  pthread_mutex_unlock(&w->lock);
+  pthread_join(w->thread, NULL);
+  pthread_cond_destroy(&w->bell);
+  pthread_mutex_destroy(&w->lock);
+  w->running = false;
+}
+
+bool dyd_watch_is_late(const dyd_watch *w) {
+  if (!w->limited) return false;
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (now.tv_sec != w->deadline.tv_sec) return now.tv_sec > w->deadline.tv_sec;
+  return now.tv_nsec >= w->deadline.tv_nsec;
+}
+
+double dyd_watch_seconds(const dyd_watch *w) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)(now.tv_sec - w->start.tv_sec) + 1e-9 * (double)(now.tv_nsec - w->start.tv_nsec);
+}
