@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Steps of ball arithmetic.
+ *
+ * Functions with an edge in their domain are evaluated at the two ends of the ball, after the ends are cut to
+ * what is known of the value [RANGE-1]: all of them are monotone. Where the ball still sticks out of the domain,
+ * nothing is known yet; it is never assumed that the value is inside. */
+#include "stream/ball.h"
+
+typedef void (*ball_fn)(arb_t out, const arb_t x, slong prec);
+
+void dyd_ball_set_z_2exp(arb_ptr out, mpz_srcptr man, slong exp) {
+  arf_set_mpz(arb_midref(out), man);
+  mag_zero(arb_radref(out));
+  arb_mul_2exp_si(out, out, exp);
+}
+
+void dyd_ball_set_q(arb_ptr out, mpq_srcptr q, slong prec) {
+  fmpq_t f;
+  fmpq_init(f);
+  fmpq_set_mpq(f, q);
+  arb_set_fmpq(out, f, prec);
+  fmpq_clear(f);
+}
+
+/* x = [f(l), f(u)] for the ends l <= u of x, cut to the range known. f is monotone there. */
+static void monotone(arb_ptr x, ball_fn f, dyd_range cut, slong prec) {
+  arb_t l, u;
+  arb_init(l);
+  arb_init(u);
+  arb_get_lbound_arf(arb_midref(l), x, prec + 32);
+  arb_get_ubound_arf(arb_midref(u), x, prec + 32);
+  if (cut.lo != -DYD_NO_END && arf_cmp_si(arb_midref(l), cut.lo) < 0) arb_set_si(l, cut.lo);
+  if (cut.hi != DYD_NO_END && arf_cmp_si(arb_midref(u), cut.hi) > 0) arb_set_si(u, cut.hi);
+  bool point = arb_equal(l, u);
+  f(l, l, prec);
+  f(u, u, prec);
+  if (point) {
+    arb_swap(x, l);
+  } else {
+    arb_union(x, l, u, prec);
+  }
+  arb_clear(l);
+  arb_clear(u);
+}
+
+static void cube_root(arb_t out, const arb_t x, slong prec) {
+  if (arf_sgn(arb_midref(x)) < 0) {
+    arb_neg(out, x);
+    arb_root_ui(out, out, 3, prec);
+    arb_neg(out, out);
+  } else {
+    arb_root_ui(out, x, 3, prec);
+  }
+}
+
+/* -1: all of x is below the integer lo; 1: all is above hi; 0: neither. */
+static int beside(arb_srcptr x, slong lo, slong hi) {
+  arb_t t;
+  arb_init(t);
+  arb_set_si(t, lo);
+  int result = arb_lt(x, t) ? -1 : 0;
+  arb_set_si(t, hi);
+  if (arb_gt(x, t)) result = 1;
+  arb_clear(t);
+  return result;
+}
+
+/* arcsine and arccosine: every end beyond +-1 must be known to be harmless. */
+static dyd_defined arc(arb_ptr x, ball_fn f, dyd_range range, slong prec) {
+  if (beside(x, -1, 1)) return DYD_UNDEFINED;
+  arb_t one;
+  arb_init(one);
+  arb_set_si(one, -1);
+  bool low = range.lo >= -1 || arb_ge(x, one);
+  arb_set_si(one, 1);
+  bool high = range.hi <= 1 || arb_le(x, one);
+  arb_clear(one);
+  if (!low || !high) return DYD_UNDEFINED_YET;
+  monotone(x, f, (dyd_range){-1, 1}, prec);
+  return DYD_DEFINED;
+}
+
+static dyd_defined square_root(arb_ptr x, dyd_range range, slong prec) {
+  if (arb_is_negative(x)) return DYD_UNDEFINED;
+  if (!arb_is_nonnegative(x) && range.lo < 0) return DYD_UNDEFINED_YET;
+  monotone(x, arb_sqrt, (dyd_range){0, DYD_NO_END}, prec);
+  return DYD_DEFINED;
+}
+
+static dyd_defined logarithm(arb_ptr x, slong prec) {
+  if (arb_is_nonpositive(x)) return DYD_UNDEFINED;
+  if (!arb_is_positive(x)) return DYD_UNDEFINED_YET;
+  arb_log(x, x, prec);
+  return DYD_DEFINED;
+}
+
+/* -1: x is surely < -2^20; 1: surely > 2^20; 0: |x| <= 2^21 for all of the ball; 2: none of these. */
+static int against_exponent_limit(arb_srcptr x) {
+  int side = beside(x, -(slong)DYD_EXP_LIMIT, (slong)DYD_EXP_LIMIT);
+  if (side) return side;
+  mag_t m;
+  mag_init(m);
+  arb_get_mag(m, x);
+  int result = mag_cmp_2exp_si(m, 21) <= 0 ? 0 : 2;
+  mag_clear(m);
+  return result;
+}
+
+/* x = a ball about 0 that holds all values below 2^-DYD_BALL_LIMIT in magnitude. */
+static void set_tiny(arb_ptr x) {
+  arf_zero(arb_midref(x));
+  mag_set_ui_2exp_si(arb_radref(x), 1, -DYD_BALL_LIMIT);
+}
+
+/* exp and the hyperbolic functions grow too fast for arguments beyond 2^20: the result would leave the range. */
+static dyd_defined exponential(arb_ptr x, dyd_op op, slong prec) {
+  int side = against_exponent_limit(x);
+  if (side == 2) return DYD_TOO_BIG_YET;
+  if (side > 0 || (side < 0 && op != DYD_OP_EXP)) return DYD_TOO_BIG;
+  if (side < 0) {
+    arf_zero(arb_midref(x)); /* exp(x) < e^(-2^20) < 2^-(2^20) */
+    mag_set_ui_2exp_si(arb_radref(x), 1, -(slong)DYD_EXP_LIMIT);
+    return DYD_DEFINED;
+  }
+  if (op == DYD_OP_EXP) arb_exp(x, x, prec);
+  if (op == DYD_OP_SINH) arb_sinh(x, x, prec);
+  if (op == DYD_OP_COSH) arb_cosh(x, x, prec);
+  return DYD_DEFINED;
+}
+
+/* tanh is within 2^-(2^20) of +-1 beyond 2^20; a wide ball gives all of [-1,1]. */
+static void hyperbolic_tangent(arb_ptr x, slong prec) {
+  int side = against_exponent_limit(x);
+  if (!side) {
+    arb_tanh(x, x, prec);
+    return;
+  }
+  arb_set_si(x, side == 2 ? 0 : side);
+  mag_set_ui_2exp_si(arb_radref(x), 1, side == 2 ? 0 : -(slong)DYD_EXP_LIMIT);
+}
+
+static void absolute(arb_ptr x, slong prec) {
+  if (!arb_contains_zero(x)) {
+    arb_abs(x, x);
+    return;
+  }
+  arf_t zero, most;
+  arf_init(zero);
+  arf_init(most);
+  arb_get_abs_ubound_arf(most, x, prec);
+  arb_set_interval_arf(x, zero, most, prec);
+  arf_clear(zero);
+  arf_clear(most);
+}
+
+static dyd_defined power(arb_ptr x, long n, slong prec) {
+  if (n < 0 && arb_contains_zero(x)) return arb_is_zero(x) ? DYD_UNDEFINED : DYD_UNDEFINED_YET;
+  fmpz_t k;
+  fmpz_init_set_si(k, n);
+  arb_pow_fmpz(x, x, k, prec);
+  fmpz_clear(k);
+  return DYD_DEFINED;
+}
+
+static dyd_defined plain_function(arb_ptr x, dyd_op op, slong prec) {
+  switch (op) {
+  case DYD_OP_NEG:
+    arb_neg(x, x);
+    break;
+  case DYD_OP_SIN:
+    arb_sin(x, x, prec);
+    break;
+  case DYD_OP_COS:
+    arb_cos(x, x, prec);
+    break;
+  case DYD_OP_TAN:
+    arb_tan(x, x, prec);
+    break;
+  case DYD_OP_ATAN:
+    arb_atan(x, x, prec);
+    break;
+  case DYD_OP_TANH:
+    hyperbolic_tangent(x, prec);
+    break;
+  case DYD_OP_CBRT:
+    monotone(x, cube_root, (dyd_range){-DYD_NO_END, DYD_NO_END}, prec);
+    break;
+  default: /* DYD_OP_ABS */
+    absolute(x, prec);
+    break;
+  }
+  return DYD_DEFINED;
+}
+
+dyd_defined dyd_ball_unary(arb_ptr x, dyd_op op, dyd_range range, long exponent, slong prec) {
+  switch (op) {
+  case DYD_OP_SQRT:
+    return square_root(x, range, prec);
+  case DYD_OP_LOG:
+    return logarithm(x, prec);
+  case DYD_OP_ASIN:
+    return arc(x, arb_asin, range, prec);
+  case DYD_OP_ACOS:
+    return arc(x, arb_acos, range, prec);
+  case DYD_OP_EXP:
+  case DYD_OP_SINH:
+  case DYD_OP_COSH:
+    return exponential(x, op, prec);
+  case DYD_OP_POW:
+    return power(x, exponent, prec);
+  default:
+    return plain_function(x, op, prec);
+  }
+}
+
+dyd_defined dyd_ball_binary(arb_ptr x, dyd_op op, arb_srcptr y, slong prec) {
+  switch (op) {
+  case DYD_OP_ADD:
+    arb_add(x, x, y, prec);
+    break;
+  case DYD_OP_SUB:
+    arb_sub(x, x, y, prec);
+    break;
+  case DYD_OP_MUL:
+    arb_mul(x, x, y, prec);
+    break;
+  case DYD_OP_DIV:
+    if (arb_contains_zero(y)) return arb_is_zero(y) ? DYD_UNDEFINED : DYD_UNDEFINED_YET;
+    arb_div(x, x, y, prec);
+    break;
+  case DYD_OP_MIN:
+    arb_min(x, x, y, prec);
+    break;
+  default: /* DYD_OP_MAX */
+    arb_max(x, x, y, prec);
+    break;
+  }
+  return DYD_DEFINED;
+}
+
+dyd_defined dyd_ball_check(arb_ptr x, slong *exponent) {
+  if (!arb_is_finite(x)) return DYD_UNDEFINED_YET;
+  mag_t m;
+  mag_init(m);
+  arb_get_mag(m, x);
+  dyd_defined d = DYD_DEFINED;
+  if (mag_cmp_2exp_si(m, DYD_BALL_LIMIT) > 0) {
+    arb_get_mag_lower(m, x);
+    d = mag_cmp_2exp_si(m, DYD_BALL_LIMIT) > 0 ? DYD_TOO_BIG : DYD_TOO_BIG_YET;
+  } else if (!mag_is_zero(m) && mag_cmp_2exp_si(m, -DYD_BALL_LIMIT) < 0) {
+    set_tiny(x);
+  } else if (!mag_is_zero(m)) {
+    slong e = fmpz_get_si(MAG_EXPREF(m));
+    if (e > *exponent) *exponent = e;
+  }
+  mag_clear(m);
+  return d;
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Single steps of ball arithmetic with domains and size limits that keep Arb far from its own limits. */
+#ifndef DYD_STREAM_BALL_H
+#define DYD_STREAM_BALL_H
+
+#include "stream/expr.h"
+#include <arb.h>
+
+/* Is the value of a node defined? The _YET answers may change at a higher precision. */
+typedef enum dyd_defined {
+  DYD_DEFINED,
+  DYD_UNDEFINED_YET, /* the ball meets a point outside the domain */
+  DYD_UNDEFINED,     /* the whole ball lies outside the domain */
+  DYD_TOO_BIG_YET,
+  DYD_TOO_BIG
+} dyd_defined;
+
+/* Intermediate values are kept below 2^DYD_BALL_LIMIT; values below 2^-DYD_BALL_LIMIT are held as a ball about 0. */
+#define DYD_BALL_LIMIT ((slong)1 << 21)
+
+void dyd_ball_set_q(arb_ptr out, mpq_srcptr q, slong prec);
+/* x = op(x), where the value lies in `range` in any case. x is unspecified unless DYD_DEFINED is returned. */
+dyd_defined dyd_ball_unary(arb_ptr x, dyd_op op, dyd_range range, long exponent, slong prec);
+/* x = op(x, y). */
+dyd_defined dyd_ball_binary(arb_ptr x, dyd_op op, arb_srcptr y, slong prec);
+/* Finite and not too big? Raises *exponent to a bound of its binary exponent. */
+dyd_defined dyd_ball_check(arb_ptr x, slong *exponent);
+/* The least e with radius <= 2^e; for an exact ball a very small number. */
+slong dyd_ball_radius_exponent(arb_srcptr x);
+/* out = an interval containing the ball, with ends that are multiples of 2^exp, or the point when the ball is
+ * exact [ENC-2]. DYD_E_RANGE when it leaves the range. */
+dyd_status dyd_ball_interval(dyd_interval *out, arb_srcptr x, int64_t exp);
+/* out = man * 2^exp, exactly. */
+void dyd_ball_set_z_2exp(arb_ptr out, mpz_srcptr man, slong exp);
+
+#endif

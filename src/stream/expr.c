@@ -1,0 +1,314 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Building expressions: a recursive-descent parser that folds rational parts as it goes.
+ *
+ *   sum     = product { (+|-) product }          product = signed { (*|/) signed }
+ *   signed  = { + | - } power                    power   = primary [ ^ signed ]      (so -2^2 = -4, 2^3^2 = 2^9)
+ *   primary = literal | pi | e | x | function ( sum {, sum} ) | ( sum )
+ *
+ * "+-" outside parentheses ends an expression: it introduces a radius. */
+#include "stream/expr.h"
+
+#include "base/alloc.h"
+#include "base/error.h"
+#include "stream/number.h"
+#include <string.h>
+
+typedef struct parser {
+  dyd_expr *e;
+  const char *text;
+  size_t length, pos;
+  unsigned depth, parentheses;
+  size_t work; /* bits of rationals computed so far */
+  bool allow_x;
+  dyd_error *err;
+} parser;
+
+static const struct {
+  const char *name;
+  dyd_op op;
+} names[] = {{"pi", DYD_OP_PI},     {"e", DYD_OP_E},       {"min", DYD_OP_MIN},   {"max", DYD_OP_MAX},
+             {"sqrt", DYD_OP_SQRT}, {"cbrt", DYD_OP_CBRT}, {"exp", DYD_OP_EXP},   {"log", DYD_OP_LOG},
+             {"sin", DYD_OP_SIN},   {"cos", DYD_OP_COS},   {"tan", DYD_OP_TAN},   {"asin", DYD_OP_ASIN},
+             {"acos", DYD_OP_ACOS}, {"atan", DYD_OP_ATAN}, {"sinh", DYD_OP_SINH}, {"cosh", DYD_OP_COSH},
+             {"tanh", DYD_OP_TANH}, {"abs", DYD_OP_ABS},   {"x", DYD_OP_X}};
+#define NAME_COUNT (sizeof names / sizeof names[0])
+
+const char *dyd_op_name(dyd_op op) {
+  for (size_t i = 0; i < NAME_COUNT; i++) {
+    if (names[i].op == op) return names[i].name;
+  }
+  return op == DYD_OP_DIV ? "/" : op == DYD_OP_POW ? "^" : op == DYD_OP_MUL ? "*" : op == DYD_OP_ADD ? "+" : "-";
+}
+
+void dyd_expr_init(dyd_expr *e) {
+  memset(e, 0, sizeof *e);
+}
+
+void dyd_expr_clear(dyd_expr *e) {
+  for (size_t i = 0; i < e->constants; i++) mpq_clear(e->constant[i]);
+  free(e->constant);
+  free(e->node);
+  dyd_expr_init(e);
+}
+
+mpq_srcptr dyd_expr_rational(const dyd_expr *e) {
+  return e->count == 1 && e->node[0].op == DYD_OP_CONST ? e->constant[e->node[0].constant] : NULL;
+}
+
+static dyd_status parse_sum(parser *p);
+static dyd_status parse_signed(parser *p);
+
+#define FAIL(p, at, code, ...) dyd_text_fail((p)->err, (code), (p)->text, (at), __VA_ARGS__)
+
+static int peek(parser *p) {
+  while (p->pos < p->length && strchr(" \t\r\n", p->text[p->pos]) && p->text[p->pos]) p->pos++;
+  return p->pos < p->length ? (unsigned char)p->text[p->pos] : -1;
+}
+
+static dyd_node *last(parser *p) {
+  return &p->e->node[p->e->count - 1];
+}
+
+static dyd_status push(parser *p, dyd_op op, size_t at) {
+  if (p->e->count >= DYD_EXPR_NODES) {
+    return FAIL(p, at, DYD_E_RANGE, "the expression is too long: at most %zu operations; split it", DYD_EXPR_NODES);
+  }
+  if (!dyd_reserve((void **)&p->e->node, &p->e->cap, p->e->count + 1, sizeof *p->e->node)) {
+    return dyd_fail_nomem(p->err);
+  }
+  p->e->node[p->e->count++] = (dyd_node){.op = op, .column = dyd_text_column(p->text, at)};
+  return DYD_OK;
+}
+
+/* A failure of exact arithmetic, in words. */
+static dyd_status fold_fail(parser *p, dyd_status st, dyd_op op, size_t at) {
+  if (st == DYD_E_NOMEM) return dyd_fail_nomem(p->err);
+  if (st == DYD_E_RANGE) {
+    return FAIL(p, at, st,
+                "the number here is too large or too fine: numbers reach from 2^-%lld to 2^%lld; scale the input",
+                (long long)DYD_EXP_LIMIT, (long long)DYD_EXP_LIMIT);
+  }
+  if (op == DYD_OP_DIV || op == DYD_OP_POW) return FAIL(p, at, st, "division by zero; the divisor here is exactly 0");
+  return FAIL(p, at, st, "%s is undefined here: its argument is %s; correct the argument", dyd_op_name(op),
+              op == DYD_OP_SQRT  ? "negative"
+              : op == DYD_OP_LOG ? "not positive"
+                                 : "outside [-1,1]");
+}
+
+/* Charges the last constant to the budget of exact arithmetic. */
+static dyd_status charge(parser *p, size_t at) {
+  mpq_srcptr q = p->e->constant[last(p)->constant];
+  p->work += mpz_sizeinbase(mpq_numref(q), 2) + mpz_sizeinbase(mpq_denref(q), 2);
+  last(p)->range = dyd_range_of_constant(q);
+  if (p->work <= DYD_EXPR_WORK) return DYD_OK;
+  return FAIL(p, at, DYD_E_RANGE, "the exact numbers of this expression are too long; shorten it");
+}
+
+static dyd_status push_literal(parser *p, const dyd_literal *l, size_t at) {
+  dyd_expr *e = p->e;
+  dyd_status st = push(p, DYD_OP_CONST, at);
+  if (st) return st;
+  if (!dyd_reserve((void **)&e->constant, &e->constant_cap, e->constants + 1, sizeof *e->constant)) {
+    return dyd_fail_nomem(p->err);
+  }
+  last(p)->constant = e->constants;
+  mpq_init(e->constant[e->constants++]);
+  st = dyd_literal_value(e->constant[e->constants - 1], l);
+  if (st) return fold_fail(p, st, DYD_OP_CONST, at);
+  return charge(p, at);
+}
+
+/* Applies a unary operator to the last operand. */
+static dyd_status emit_unary(parser *p, dyd_op op, long exponent, size_t at) {
+  dyd_status st;
+  dyd_range a = last(p)->range;
+  if (last(p)->op == DYD_OP_CONST) {
+    bool done;
+    st = dyd_fold_unary(p->e->constant[last(p)->constant], &done, op, exponent);
+    if (st) return fold_fail(p, st, op, at);
+    if (done) return charge(p, at);
+  }
+  st = push(p, op, at);
+  if (st) return st;
+  last(p)->exponent = exponent;
+  last(p)->range = dyd_range_apply(op, a, a, exponent);
+  return DYD_OK;
+}
+
+/* Applies a binary operator to the operand whose last node is `left`, and the one behind it. */
+static dyd_status emit_binary(parser *p, dyd_op op, size_t left, size_t at) {
+  dyd_expr *e = p->e;
+  dyd_node *a = &e->node[left], *b = last(p);
+  bool both = a->op == DYD_OP_CONST && b->op == DYD_OP_CONST;
+  if (op == DYD_OP_DIV && b->op == DYD_OP_CONST && !mpq_sgn(e->constant[b->constant])) {
+    return fold_fail(p, DYD_E_DOMAIN, op, at);
+  }
+  if (both) {
+    dyd_status st = dyd_fold_binary(e->constant[a->constant], op, e->constant[b->constant]);
+    mpq_clear(e->constant[--e->constants]);
+    e->count--;
+    return st ? fold_fail(p, st, op, at) : charge(p, at);
+  }
+  dyd_range range = dyd_range_apply(op, a->range, b->range, 0);
+  dyd_status st = push(p, op, at);
+  if (!st) last(p)->range = range;
+  return st;
+}
+
+/* Takes the exponent, which must be an integer, off the end and applies it. */
+static dyd_status emit_power(parser *p, size_t left, size_t at) {
+  dyd_expr *e = p->e;
+  mpq_srcptr q = last(p)->op == DYD_OP_CONST ? e->constant[last(p)->constant] : NULL;
+  if (e->count != left + 2 || !q || mpz_cmp_ui(mpq_denref(q), 1)) {
+    return FAIL(p, at, DYD_E_PARSE, "only integer powers are known; write sqrt(a), cbrt(a) or exp(b*log(a))");
+  }
+  if (mpz_cmpabs_ui(mpq_numref(q), (unsigned long)DYD_EXP_LIMIT) > 0) return fold_fail(p, DYD_E_RANGE, DYD_OP_POW, at);
+  long exponent = mpz_get_si(mpq_numref(q));
+  mpq_clear(e->constant[--e->constants]);
+  e->count--;
+  return emit_unary(p, DYD_OP_POW, exponent, at);
+}
+
+/* The arguments of a function and its closing parenthesis; the opening one has been read. */
+static dyd_status parse_arguments(parser *p, dyd_op op, size_t at) {
+  bool many = dyd_op_is_binary(op);
+  dyd_status st = parse_sum(p);
+  size_t count = 1;
+  while (!st && many && peek(p) == ',') {
+    size_t left = p->e->count - 1;
+    p->pos++;
+    st = parse_sum(p);
+    if (!st) st = emit_binary(p, op, left, at);
+    count++;
+  }
+  if (st) return st;
+  if (peek(p) == ',') return FAIL(p, p->pos, DYD_E_PARSE, "%s takes one argument", dyd_op_name(op));
+  if (peek(p) != ')') return FAIL(p, p->pos, DYD_E_PARSE, "a ')' or an operator is missing here");
+  if (many && count < 2) return FAIL(p, p->pos, DYD_E_PARSE, "%s takes two or more arguments", dyd_op_name(op));
+  p->pos++;
+  return many ? DYD_OK : emit_unary(p, op, 0, at);
+}
+
+static dyd_status parse_group(parser *p, dyd_op op, size_t at) {
+  p->pos++;
+  p->parentheses++;
+  dyd_status st;
+  if (op == DYD_OP_CONST) {
+    st = parse_sum(p);
+    if (!st && peek(p) != ')') st = FAIL(p, p->pos, DYD_E_PARSE, "a ')' or an operator is missing here");
+    if (!st) p->pos++;
+  } else {
+    st = parse_arguments(p, op, at);
+  }
+  p->parentheses--;
+  return st;
+}
+
+static bool is_letter(int c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+static dyd_status name_fail(parser *p, size_t at, size_t n) {
+  int shown = n < 32 ? (int)n : 32;
+  if (n == 4 && !memcmp(p->text + at, "root", 4)) {
+    return FAIL(p, at, DYD_E_PARSE, "root(polynomial, lo, hi) must stand alone, outside other expressions");
+  }
+  return FAIL(p, at, DYD_E_PARSE,
+              "the name '%.*s' is unknown; known are pi e sqrt cbrt exp log sin cos tan asin acos atan "
+              "sinh cosh tanh abs min max",
+              shown, p->text + at);
+}
+
+static dyd_status parse_name(parser *p) {
+  size_t at = p->pos, n = 0, i = 0;
+  while (at + n < p->length && (is_letter(p->text[at + n]) || (p->text[at + n] >= '0' && p->text[at + n] <= '9'))) n++;
+  while (i < NAME_COUNT && (strlen(names[i].name) != n || memcmp(names[i].name, p->text + at, n))) i++;
+  if (i == NAME_COUNT) return name_fail(p, at, n);
+  dyd_op op = names[i].op;
+  p->pos += n;
+  if (op == DYD_OP_X && !p->allow_x) {
+    return FAIL(p, at, DYD_E_PARSE, "x has a meaning only in root(polynomial, lo, hi)");
+  }
+  if (dyd_op_is_leaf(op)) {
+    dyd_status st = push(p, op, at);
+    if (!st) last(p)->range = dyd_range_apply(op, (dyd_range){0, 0}, (dyd_range){0, 0}, 0);
+    return st;
+  }
+  if (peek(p) != '(') return FAIL(p, p->pos, DYD_E_PARSE, "a '(' is missing after %s", names[i].name);
+  return parse_group(p, op, at);
+}
+
+static dyd_status parse_primary(parser *p) {
+  int c = peek(p);
+  dyd_literal l;
+  if (dyd_literal_scan(&l, p->text, p->length, p->pos)) {
+    size_t at = p->pos;
+    p->pos = l.end;
+    return push_literal(p, &l, at);
+  }
+  if (c == '(') return parse_group(p, DYD_OP_CONST, p->pos);
+  if (is_letter(c)) return parse_name(p);
+  if (c < 0) return FAIL(p, p->pos, DYD_E_PARSE, "the expression ends too early; a number, a name or '(' is missing");
+  return FAIL(p, p->pos, DYD_E_PARSE, "a number, a name or '(' is missing here");
+}
+
+static dyd_status parse_power(parser *p) {
+  if (p->depth >= DYD_EXPR_DEPTH) {
+    return FAIL(p, p->pos, DYD_E_RANGE, "the expression is nested too deeply: at most %d levels; split it",
+                DYD_EXPR_DEPTH);
+  }
+  p->depth++;
+  dyd_status st = parse_primary(p);
+  if (!st && peek(p) == '^') {
+    size_t at = p->pos++, left = p->e->count - 1;
+    st = parse_signed(p);
+    if (!st) st = emit_power(p, left, at);
+  }
+  p->depth--;
+  return st;
+}
+
+static dyd_status parse_signed(parser *p) {
+  bool negative = false;
+  size_t at = 0;
+  for (int c = peek(p); c == '-' || c == '+'; c = peek(p)) {
+    at = p->pos++;
+    negative ^= c == '-';
+  }
+  dyd_status st = parse_power(p);
+  return st || !negative ? st : emit_unary(p, DYD_OP_NEG, 0, at);
+}
+
+static dyd_status parse_product(parser *p) {
+  dyd_status st = parse_signed(p);
+  for (int c; !st && ((c = peek(p)) == '*' || c == '/');) {
+    size_t at = p->pos++, left = p->e->count - 1;
+    st = parse_signed(p);
+    if (!st) st = emit_binary(p, c == '*' ? DYD_OP_MUL : DYD_OP_DIV, left, at);
+  }
+  return st;
+}
+
+static dyd_status parse_sum(parser *p) {
+  dyd_status st = parse_product(p);
+  for (int c; !st && ((c = peek(p)) == '+' || c == '-');) {
+    if (c == '+' && p->pos + 1 < p->length && p->text[p->pos + 1] == '-') {
+      if (!p->parentheses) break;
+      return FAIL(p, p->pos, DYD_E_PARSE,
+                  "'+-' introduces a radius and can't stand in parentheses; for a sum write 'a - b'");
+    }
+    size_t at = p->pos++, left = p->e->count - 1;
+    st = parse_product(p);
+    if (!st) st = emit_binary(p, c == '+' ? DYD_OP_ADD : DYD_OP_SUB, left, at);
+  }
+  return st;
+}
+
+dyd_status dyd_expr_parse(dyd_expr *e, size_t *pos, const char *text, size_t length, bool allow_x, dyd_error *err) {
+  parser p = {.e = e, .text = text, .length = length, .pos = *pos, .allow_x = allow_x, .err = err};
+  dyd_status st = parse_sum(&p);
+  if (st) return st;
+  peek(&p);
+  *pos = p.pos;
+  return DYD_OK;
+}

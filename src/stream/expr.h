@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Expressions over the computable reals: text -> a short array of nodes in postfix order -> enclosing intervals.
+ *
+ * Whatever is rational by its form is folded into one exact constant while parsing. No FLINT object outlives a
+ * call, so expressions may move between threads and flint_cleanup() may be called at any time. */
+#ifndef DYD_STREAM_EXPR_H
+#define DYD_STREAM_EXPR_H
+
+#include <dyadel/stream.h>
+
+/* Bounds that keep hostile text cheap: nesting, nodes, and bits of all rationals computed while folding. */
+#define DYD_EXPR_DEPTH 200
+#define DYD_EXPR_NODES ((size_t)4096)
+#define DYD_EXPR_WORK ((size_t)1 << 23)
+
+typedef enum dyd_op {
+  DYD_OP_CONST,
+  DYD_OP_X, /* the variable of root(...) */
+  DYD_OP_PI,
+  DYD_OP_E,
+  DYD_OP_ADD,
+  DYD_OP_SUB,
+  DYD_OP_MUL,
+  DYD_OP_DIV,
+  DYD_OP_MIN,
+  DYD_OP_MAX,
+  DYD_OP_NEG,
+  DYD_OP_POW, /* integer exponent, kept in the node */
+  DYD_OP_SQRT,
+  DYD_OP_CBRT,
+  DYD_OP_EXP,
+  DYD_OP_LOG,
+  DYD_OP_SIN,
+  DYD_OP_COS,
+  DYD_OP_TAN,
+  DYD_OP_ASIN,
+  DYD_OP_ACOS,
+  DYD_OP_ATAN,
+  DYD_OP_SINH,
+  DYD_OP_COSH,
+  DYD_OP_TANH,
+  DYD_OP_ABS
+} dyd_op;
+static inline bool dyd_op_is_binary(dyd_op op) {
+  return op >= DYD_OP_ADD && op <= DYD_OP_MAX;
+}
+static inline bool dyd_op_is_leaf(dyd_op op) {
+  return op <= DYD_OP_E;
+}
+/* The name users write, for messages. Static storage. */
+const char *dyd_op_name(dyd_op op);
+
+/* What is known of the value of a node whatever the precision: it lies in [lo,hi]; the ends are -1, 0, 1 or
+ * absent (lo = -DYD_NO_END, hi = DYD_NO_END). */
+#define DYD_NO_END 9
+typedef struct dyd_range {
+  signed char lo, hi;
+} dyd_range;
+
+typedef struct dyd_node {
+  dyd_op op;
+  dyd_range range;
+  size_t column;   /* of the operator or name in the text, from 1 */
+  long exponent;   /* DYD_OP_POW */
+  size_t constant; /* DYD_OP_CONST: index in the table of constants */
+} dyd_node;
+
+/* Invariant: node[0..count-1] is a complete expression in postfix order, constants are used in order, each once;
+ * a rational expression is the single node DYD_OP_CONST. */
+typedef struct dyd_expr {
+  dyd_node *node;
+  size_t count, cap;
+  mpq_t *constant;
+  size_t constants, constant_cap;
+} dyd_expr;
+
+void dyd_expr_init(dyd_expr *e);
+void dyd_expr_clear(dyd_expr *e);
+/* Parses the longest expression at text[*pos] and moves *pos behind it and the blanks that follow. e was just
+ * initialised; x is known only when allow_x. Errors have column and message; e can only be cleared then. */
+dyd_status dyd_expr_parse(dyd_expr *e, size_t *pos, const char *text, size_t length, bool allow_x, dyd_error *err);
+/* The value when the expression is rational, else NULL. Borrowed. */
+mpq_srcptr dyd_expr_rational(const dyd_expr *e);
+/* The range of op applied to known ranges (b: binary operators; exponent: DYD_OP_POW) [RANGE-1]. */
+dyd_range dyd_range_apply(dyd_op op, dyd_range a, dyd_range b, long exponent);
+dyd_range dyd_range_of_constant(mpq_srcptr q);
+
+/* Exact folding: x = op(x) or x = op(x, y). *done tells whether the result is rational and now in x.
+ * DYD_E_DOMAIN when op is undefined there, DYD_E_RANGE when the result is too large. */
+dyd_status dyd_fold_unary(mpq_ptr x, bool *done, dyd_op op, long exponent);
+dyd_status dyd_fold_binary(mpq_ptr x, dyd_op op, mpq_srcptr y);
+
+/* An interval that contains the value of e, of width at most 2^-bits if the precision needed stays below a cap
+ * that follows from max_bits and the size of the numbers; its ends are multiples of 2^-(bits + 2) unless it is a
+ * point. *extra is the precision beyond bits that sufficed last time (start: DYD_EXPR_EXTRA).
+ * DYD_E_DOMAIN when a function stays undefined, DYD_E_RANGE when a number leaves the range; with column. */
+#define DYD_EXPR_EXTRA 48
+dyd_status dyd_expr_enclose(dyd_interval *out, int64_t *extra, const dyd_expr *e, const dyd_request *request,
+                            dyd_error *err);
+/* Tells at low precision whether the expression is surely undefined or out of range. Errors as above. */
+dyd_status dyd_expr_probe(const dyd_expr *e, dyd_error *err);
+
+#endif

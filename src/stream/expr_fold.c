@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Exact values of rational expressions: what can be said in rationals is never enclosed.
+ *
+ * Sizes are bounded before a power is computed: |n| (bits(q) - 1) <= bits(q^n). */
+#include "stream/expr.h"
+#include "stream/number.h"
+
+static dyd_status fold_power(mpq_ptr x, long n) {
+  if (!mpq_sgn(x) && n < 0) return DYD_E_DOMAIN;
+  unsigned long k = n < 0 ? -(unsigned long)n : (unsigned long)n;
+  size_t bits = mpz_sizeinbase(mpq_numref(x), 2), den_bits = mpz_sizeinbase(mpq_denref(x), 2);
+  if (den_bits > bits) bits = den_bits;
+  if (bits > 1 && k > (size_t)DYD_EXP_LIMIT / (bits - 1)) return DYD_E_RANGE;
+  if (bits == 1) k = k ? 2 - k % 2 : 0; /* -1, 0, 1 */
+  mpz_pow_ui(mpq_numref(x), mpq_numref(x), k);
+  mpz_pow_ui(mpq_denref(x), mpq_denref(x), k);
+  if (n < 0) mpq_inv(x, x);
+  return dyd_rational_fits(x);
+}
+
+/* x = its square or cube root when numerator and denominator are perfect powers. */
+static bool fold_root(mpq_ptr x, unsigned long k) {
+  mpq_t r;
+  mpq_init(r);
+  bool done = mpz_root(mpq_numref(r), mpq_numref(x), k) && mpz_root(mpq_denref(r), mpq_denref(x), k);
+  if (done) mpq_swap(x, r);
+  mpq_clear(r);
+  return done;
+}
+
+/* The functions with a rational value at 0 or 1 that is not a limit: f(at) = value. */
+static bool fold_special(mpq_ptr x, dyd_op op) {
+  bool at_one = op == DYD_OP_LOG || op == DYD_OP_ACOS;
+  bool gives_one = op == DYD_OP_EXP || op == DYD_OP_COS || op == DYD_OP_COSH;
+  if (mpq_cmp_ui(x, at_one ? 1 : 0, 1)) return false;
+  mpq_set_ui(x, gives_one ? 1 : 0, 1);
+  return true;
+}
+
+dyd_status dyd_fold_unary(mpq_ptr x, bool *done, dyd_op op, long exponent) {
+  *done = true;
+  switch (op) {
+  case DYD_OP_NEG:
+    mpq_neg(x, x);
+    return DYD_OK;
+  case DYD_OP_ABS:
+    mpq_abs(x, x);
+    return DYD_OK;
+  case DYD_OP_POW:
+    return fold_power(x, exponent);
+  case DYD_OP_SQRT:
+    if (mpq_sgn(x) < 0) return DYD_E_DOMAIN;
+    *done = fold_root(x, 2);
+    return DYD_OK;
+  case DYD_OP_CBRT:
+    *done = fold_root(x, 3);
+    return DYD_OK;
+  case DYD_OP_LOG:
+    if (mpq_sgn(x) <= 0) return DYD_E_DOMAIN;
+    *done = fold_special(x, op);
+    return DYD_OK;
+  case DYD_OP_ASIN:
+  case DYD_OP_ACOS:
+    if (mpq_cmp_si(x, 1, 1) > 0 || mpq_cmp_si(x, -1, 1) < 0) return DYD_E_DOMAIN;
+    *done = fold_special(x, op);
+    return DYD_OK;
+  default:
+    *done = fold_special(x, op);
+    return DYD_OK;
+  }
+}
+
+dyd_status dyd_fold_binary(mpq_ptr x, dyd_op op, mpq_srcptr y) {
+  switch (op) {
+  case DYD_OP_ADD:
+    mpq_add(x, x, y);
+    break;
+  case DYD_OP_SUB:
+    mpq_sub(x, x, y);
+    break;
+  case DYD_OP_MUL:
+    mpq_mul(x, x, y);
+    break;
+  case DYD_OP_DIV:
+    if (!mpq_sgn(y)) return DYD_E_DOMAIN;
+    mpq_div(x, x, y);
+    break;
+  case DYD_OP_MIN:
+    if (mpq_cmp(y, x) < 0) mpq_set(x, y);
+    break;
+  default: /* DYD_OP_MAX */
+    if (mpq_cmp(y, x) > 0) mpq_set(x, y);
+    break;
+  }
+  return dyd_rational_fits(x);
+}

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Plain exact numbers as text: decimal, integer, rational, hexadecimal float, m*2^e.
+ *
+ * Every value is at once an exact rational; numerators and denominators of more than DYD_EXP_LIMIT bits are
+ * refused before they are computed, so no short text costs much memory. */
+#ifndef DYD_STREAM_NUMBER_H
+#define DYD_STREAM_NUMBER_H
+
+#include <dyadel/dyadic.h>
+
+/* An unsigned decimal or hexadecimal literal inside a text: digits with at most one point, and an exponent.
+ * Its value is (all digits as an integer) * base^-fraction * (10 or 2)^exponent.
+ * Invariant: mantissa_end - first = digits (+ 1 for the point); digits >= 1; the text is borrowed. */
+typedef struct dyd_literal {
+  const char *text;
+  size_t first, mantissa_end, end; /* offsets of the first digit, behind the mantissa, behind the literal */
+  size_t digits, fraction;         /* how many digits there are, and how many of them stand behind the point */
+  bool hex, integer;               /* integer: decimal digits only, without point or exponent */
+  int64_t exponent;                /* held within +- 2^40 */
+} dyd_literal;
+
+/* Reads the longest literal that starts at text[pos]; false when none does. */
+bool dyd_literal_scan(dyd_literal *out, const char *text, size_t length, size_t pos);
+/* The exact value, canonical. DYD_OK, DYD_E_RANGE or DYD_E_NOMEM (out is then unspecified but valid). */
+dyd_status dyd_literal_value(mpq_ptr out, const dyd_literal *in);
+/* out = m * 10^ten, canonical, by single words: m <= 10^18, -18 <= ten <= 18. false (out unchanged) where words
+ * are too short. */
+bool dyd_small_decimal(mpq_ptr out, uint64_t m, int ten);
+
+/* DYD_E_RANGE when the numerator or the denominator has more than DYD_EXP_LIMIT + 1 bits, else DYD_OK. */
+dyd_status dyd_rational_fits(mpq_srcptr q);
+
+/* Column (from 1, in characters) of the byte at `offset` of a UTF-8 text. */
+size_t dyd_text_column(const char *text, size_t offset);
+/* Fills *err (may be NULL) with code, column and message; returns code. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 5, 6)))
+#endif
+dyd_status
+dyd_text_fail(dyd_error *err, dyd_status code, const char *text, size_t offset, const char *format, ...);
+
+/* Is the text, blanks around it aside, one plain number by its form? No value is computed: O(length). */
+bool dyd_is_plain_number(const char *text, size_t length);
+/* The exact value of such a text; out, initialised by the caller, becomes canonical, and is unchanged on failure.
+ * DYD_E_PARSE, DYD_E_DOMAIN (denominator 0), DYD_E_RANGE or DYD_E_NOMEM with column and message in *err.
+ * Numbers of up to 18 digits and small exponents need no memory beyond that of out. */
+dyd_status dyd_parse_number(mpq_t out, const char *text, size_t length, dyd_error *err);
+/* Reads a decimal as a rounded measurement: the value minus and plus half a unit of its last digit, so that 47.61
+ * gives [47.605,47.615], 12 gives [11.5,12.5] and 1.2e3 gives [1150,1250]. The other plain forms are exact
+ * (lo = hi). Errors as dyd_parse_number. */
+dyd_status dyd_parse_measured(mpq_t lo, mpq_t hi, const char *text, size_t length, dyd_error *err);
+
+#endif

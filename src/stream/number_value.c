@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The exact values of plain numbers, and the measured half unit.
+ *
+ * A decimal m * 10^-k in lowest terms: only the primes 2 and 5 can cancel, so short numbers need no gcd. */
+#include "stream/number_form.h"
+
+#include "base/alloc.h"
+#include "base/error.h"
+#include <limits.h>
+
+/* 10^400000 and 16^400000 exceed 2^DYD_EXP_LIMIT. */
+#define MAX_DIGITS ((size_t)400000)
+#define SMALL_DIGITS 18
+
+dyd_status dyd_rational_fits(mpq_srcptr q) {
+  size_t limit = (size_t)DYD_EXP_LIMIT + 1;
+  bool fits = mpz_sizeinbase(mpq_numref(q), 2) <= limit && mpz_sizeinbase(mpq_denref(q), 2) <= limit;
+  return fits ? DYD_OK : DYD_E_RANGE;
+}
+
+static uint64_t ten_to(int k) {
+  uint64_t p = 1;
+  while (k-- > 0) p *= 10;
+  return p;
+}
+
+bool dyd_small_decimal(mpq_ptr out, uint64_t m, int ten) {
+  uint64_t den = 1;
+  if (ten > 0) {
+    if (m > UINT64_MAX / ten_to(ten)) return false;
+    m *= ten_to(ten);
+  } else if (ten < 0) {
+    int two = -ten, five = -ten;
+    if (!m) two = five = 0;
+    for (; two && !(m & 1); two--) m >>= 1;
+    for (; five && m % 5 == 0; five--) m /= 5;
+    for (; five; five--) den *= 5;
+    den <<= two;
+  }
+  if (m > ULONG_MAX || den > ULONG_MAX) return false;
+  mpz_set_ui(mpq_numref(out), (unsigned long)m);
+  mpz_set_ui(mpq_denref(out), (unsigned long)den);
+  return true;
+}
+
+/* All digits of a literal of at most 18 decimal digits, as an integer. */
+static uint64_t small_digits(const dyd_literal *in) {
+  uint64_t m = 0;
+  for (size_t i = in->first; i < in->mantissa_end; i++) {
+    if (in->text[i] != '.') m = 10 * m + (uint64_t)(in->text[i] - '0');
+  }
+  return m;
+}
+
+static bool is_small(const dyd_literal *in) {
+  int64_t ten = in->exponent - (int64_t)in->fraction;
+  return !in->hex && in->digits <= SMALL_DIGITS && ten >= -SMALL_DIGITS && ten <= SMALL_DIGITS;
+}
+
+/* All digits as an integer, whatever their number up to MAX_DIGITS (leading zeros aside). */
+static dyd_status all_digits(mpz_t out, const dyd_literal *in) {
+  size_t first = in->first, count = 0;
+  while (first < in->mantissa_end && (in->text[first] == '0' || in->text[first] == '.')) first++;
+  if (in->mantissa_end - first > MAX_DIGITS) return DYD_E_RANGE;
+  char *buffer = dyd_alloc(in->mantissa_end - first + 2, 1);
+  if (!buffer) return DYD_E_NOMEM;
+  for (size_t i = first; i < in->mantissa_end; i++) {
+    if (in->text[i] != '.') buffer[count++] = in->text[i];
+  }
+  if (!count) buffer[count++] = '0';
+  buffer[count] = 0;
+  mpz_set_str(out, buffer, in->hex ? 16 : 10);
+  free(buffer);
+  return DYD_OK;
+}
+
+/* x *= 2^two. */
+static dyd_status scale_two(mpq_ptr x, int64_t two) {
+  if (!mpq_sgn(x)) return DYD_OK;
+  if (two > 4 * DYD_EXP_LIMIT || two < -4 * DYD_EXP_LIMIT) return DYD_E_RANGE;
+  if (two >= 0) {
+    mpq_mul_2exp(x, x, (mp_bitcnt_t)two);
+  } else {
+    mpq_div_2exp(x, x, (mp_bitcnt_t)-two);
+  }
+  return dyd_rational_fits(x);
+}
+
+/* x *= 10^ten. */
+static dyd_status scale_ten(mpq_ptr x, int64_t ten) {
+  if (!mpq_sgn(x)) return DYD_OK;
+  if (ten > (int64_t)MAX_DIGITS || ten < -(int64_t)MAX_DIGITS) return DYD_E_RANGE;
+  mpq_t power;
+  mpq_init(power);
+  mpz_ui_pow_ui(mpq_numref(power), 10, (unsigned long)(ten < 0 ? -ten : ten));
+  if (ten < 0) {
+    mpq_div(x, x, power);
+  } else {
+    mpq_mul(x, x, power);
+  }
+  mpq_clear(power);
+  return dyd_rational_fits(x);
+}
+
+dyd_status dyd_literal_value(mpq_ptr out, const dyd_literal *in) {
+  int64_t fraction = (int64_t)in->fraction;
+  if (is_small(in) && dyd_small_decimal(out, small_digits(in), (int)(in->exponent - fraction))) return DYD_OK;
+  mpz_set_ui(mpq_denref(out), 1);
+  dyd_status st = all_digits(mpq_numref(out), in);
+  if (st) return st;
+  return in->hex ? scale_two(out, in->exponent - 4 * fraction) : scale_ten(out, in->exponent - fraction);
+}
+
+/* The value of a scanned form; *at is the offset to blame on failure. */
+static dyd_status form_value(mpq_ptr out, size_t *at, const dyd_number_form *f) {
+  *at = f->literal.first;
+  dyd_status st = dyd_literal_value(out, &f->literal);
+  if (!st && f->dyadic) st = scale_two(out, f->two);
+  if (!st && f->rational) {
+    mpq_t q;
+    mpq_init(q);
+    *at = f->denominator.first;
+    st = dyd_literal_value(q, &f->denominator);
+    if (!st && !mpq_sgn(q)) st = DYD_E_DOMAIN;
+    if (!st) mpq_div(out, out, q);
+    if (!st) st = dyd_rational_fits(out);
+    mpq_clear(q);
+  }
+  if (f->negative) mpq_neg(out, out);
+  return st;
+}
+
+static dyd_status value_fail(dyd_error *err, dyd_status st, const char *text, size_t at) {
+  if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (st == DYD_E_DOMAIN) return dyd_text_fail(err, st, text, at, "the denominator is 0; give a number other than 0");
+  return dyd_text_fail(err, st, text, at,
+                       "the number is too large or too fine: numbers reach from 2^-%lld to 2^%lld; scale the input",
+                       (long long)DYD_EXP_LIMIT, (long long)DYD_EXP_LIMIT);
+}
+
+static dyd_status scan_or_fail(dyd_number_form *f, const char *text, size_t length, dyd_error *err) {
+  size_t bad;
+  if (dyd_number_scan(f, &bad, text, length)) return DYD_OK;
+  return dyd_text_fail(err, DYD_E_PARSE, text, bad, "%s; write a number such as -3.25, 1e-3, 22/7, 0x1.8p-3 or 5*2^-20",
+                       bad < length ? "this is not part of a number" : "the number ends too early");
+}
+
+dyd_status dyd_parse_number(mpq_t out, const char *text, size_t length, dyd_error *err) {
+  dyd_number_form f;
+  dyd_status st = scan_or_fail(&f, text, length, err);
+  if (st) return st;
+  if (!f.rational && !f.dyadic && is_small(&f.literal)) {
+    int ten = (int)(f.literal.exponent - (int64_t)f.literal.fraction);
+    if (dyd_small_decimal(out, small_digits(&f.literal), ten)) {
+      if (f.negative) mpq_neg(out, out);
+      return DYD_OK;
+    }
+  }
+  mpq_t value;
+  size_t at = 0;
+  mpq_init(value);
+  st = form_value(value, &at, &f);
+  if (!st) mpq_swap(out, value);
+  mpq_clear(value);
+  return st ? value_fail(err, st, text, at) : DYD_OK;
+}
+
+/* lo = x - h, hi = x + h with h = 10^unit / 2. */
+static dyd_status half_unit_around(mpq_ptr lo, mpq_ptr hi, mpq_srcptr x, int64_t unit) {
+  mpq_t h;
+  mpq_init(h);
+  mpq_set_ui(h, 1, 2);
+  dyd_status st = scale_ten(h, unit);
+  if (!st) {
+    mpq_sub(lo, x, h);
+    mpq_add(hi, x, h);
+    st = dyd_rational_fits(lo);
+    if (!st) st = dyd_rational_fits(hi);
+  }
+  mpq_clear(h);
+  return st;
+}
+
+/* The short way: 10 m -+ 5 units of 10^(ten - 1). */
+static bool small_measured(mpq_ptr lo, mpq_ptr hi, const dyd_number_form *f) {
+  if (!is_small(&f->literal) || f->literal.digits >= SMALL_DIGITS) return false;
+  int ten = (int)(f->literal.exponent - (int64_t)f->literal.fraction) - 1;
+  if (ten < -SMALL_DIGITS) return false;
+  uint64_t m = 10 * small_digits(&f->literal);
+  if (!dyd_small_decimal(hi, m + 5, ten) || !dyd_small_decimal(lo, m ? m - 5 : 5, ten)) return false;
+  if (!m) mpq_neg(lo, lo);
+  if (f->negative) {
+    mpq_swap(lo, hi);
+    mpq_neg(lo, lo);
+    mpq_neg(hi, hi);
+  }
+  return true;
+}
+
+dyd_status dyd_parse_measured(mpq_t lo, mpq_t hi, const char *text, size_t length, dyd_error *err) {
+  dyd_number_form f;
+  dyd_status st = scan_or_fail(&f, text, length, err);
+  if (st) return st;
+  bool decimal = !f.rational && !f.dyadic && !f.literal.hex;
+  mpq_t value[3];
+  size_t at = f.literal.first;
+  for (int i = 0; i < 3; i++) mpq_init(value[i]);
+  if (!decimal || !small_measured(value[0], value[1], &f)) {
+    st = form_value(value[2], &at, &f);
+    if (!st && decimal) {
+      st = half_unit_around(value[0], value[1], value[2], f.literal.exponent - (int64_t)f.literal.fraction);
+    } else if (!st) {
+      mpq_set(value[0], value[2]);
+      mpq_set(value[1], value[2]);
+    }
+  }
+  if (!st) {
+    mpq_swap(lo, value[0]);
+    mpq_swap(hi, value[1]);
+  }
+  for (int i = 0; i < 3; i++) mpq_clear(value[i]);
+  return st ? value_fail(err, st, text, at) : DYD_OK;
+}

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Computable reals inside the library: built-in sources, places in a text, fixed intervals. */
+#ifndef DYD_STREAM_REAL_H
+#define DYD_STREAM_REAL_H
+
+#include <dyadel/stream.h>
+
+/* As dyd_real_new for a source that encloses one and the same value every time: its intervals are intersected with
+ * the former ones, so that they are nested by construction [NEST-2]. Takes over user, also on failure. */
+dyd_status dyd_real_new_enclosing(dyd_real **out, dyd_narrow_real_fn narrow, dyd_release_fn release, void *user);
+/* A real that is final from the start; swaps *value into it. */
+dyd_status dyd_real_new_fixed(dyd_real **out, dyd_interval *value);
+/* From now on errors of x have this line, and their columns count from `column` on: the place in a file of the
+ * text that x was parsed from. */
+void dyd_real_place(dyd_real *x, size_t line, size_t column);
+
+/* [lo,hi] with ends that are not dyadic rounded outward by less than 2^-64 of the width; the point when lo = hi. */
+dyd_status dyd_interval_fix(dyd_interval *out, const mpq_t lo, const mpq_t hi);
+
+/* DYD_E_NESTING with both intervals in short; side is "x side", "y side" or "interval". */
+dyd_status dyd_nesting_fail(dyd_error *err, const char *side, const dyd_interval *old, const dyd_interval *now);
+
+/* The number of bits of narrowing a callback asks for, made safe: bits beyond the exponent range are refused. */
+dyd_status dyd_request_make(dyd_request *out, size_t point, int64_t bits, int64_t max_bits, dyd_error *err);
+/* Makes the record of a failed callback complete: known code, a message, point and stage. Copies it to *err. */
+dyd_status dyd_callback_fail(dyd_error *err, const dyd_error *own, dyd_status st, size_t point, uint64_t stage);
+
+#endif

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Reals known from the start, and reals widened by a radius. */
+#include "stream/real.h"
+
+#include "base/alloc.h"
+#include "base/error.h"
+#include "stream/number.h"
+
+dyd_status dyd_real_from_dyadic(dyd_real **out, const dyd_dyadic *x) {
+  dyd_interval a;
+  dyd_interval_init(&a);
+  dyd_status st = dyd_interval_set_ends(&a, x, x);
+  if (!st) st = dyd_real_new_fixed(out, &a);
+  dyd_interval_clear(&a);
+  return st;
+}
+
+dyd_status dyd_real_from_q(dyd_real **out, const mpq_t q) {
+  dyd_interval a;
+  dyd_interval_init(&a);
+  dyd_status st = dyd_interval_set_q(&a, q);
+  if (!st) st = dyd_real_new_fixed(out, &a);
+  dyd_interval_clear(&a);
+  return st;
+}
+
+/* An end of a fixed interval: exact when dyadic, else rounded to a multiple of 2^exp. */
+static dyd_status fixed_end(dyd_dyadic *out, const mpq_t q, int64_t exp, dyd_round dir) {
+  size_t two = mpz_scan1(mpq_denref(q), 0);
+  if (mpz_sizeinbase(mpq_denref(q), 2) == two + 1) return dyd_dyadic_set_z_2exp(out, mpq_numref(q), -(int64_t)two);
+  return dyd_dyadic_round_q(out, q, exp, dir);
+}
+
+dyd_status dyd_interval_fix(dyd_interval *out, const mpq_t lo, const mpq_t hi) {
+  int order = mpq_cmp(lo, hi);
+  if (order > 0) return DYD_E_ARG;
+  if (order == 0) return dyd_interval_set_q(out, lo);
+  mpq_t width;
+  dyd_dyadic l, h;
+  mpq_init(width);
+  dyd_dyadic_init(&l);
+  dyd_dyadic_init(&h);
+  mpq_sub(width, hi, lo);
+  /* 2^(bits(num) - bits(den) - 1) <= width <= 2 max(|lo|,|hi|), hence 65 more places. */
+  int64_t exp = (int64_t)mpz_sizeinbase(mpq_numref(width), 2) - (int64_t)mpz_sizeinbase(mpq_denref(width), 2) - 1 - 66;
+  dyd_status st = fixed_end(&l, lo, exp, DYD_DOWN);
+  if (!st) st = fixed_end(&h, hi, exp, DYD_UP);
+  if (!st) st = dyd_interval_set_ends(out, &l, &h);
+  dyd_dyadic_clear(&h);
+  dyd_dyadic_clear(&l);
+  mpq_clear(width);
+  return st;
+}
+
+dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const mpq_t hi) {
+  dyd_interval a;
+  dyd_interval_init(&a);
+  dyd_status st = dyd_interval_fix(&a, lo, hi);
+  if (!st) st = dyd_real_new_fixed(out, &a);
+  dyd_interval_clear(&a);
+  return st;
+}
+
+/* The interval of radius `radius` around x. */
+typedef struct widened {
+  dyd_real *x;
+  mpq_t radius;
+} widened;
+
+static void widened_release(void *user) {
+  widened *w = user;
+  dyd_real_free(w->x);
+  mpq_clear(w->radius);
+  free(w);
+}
+
+/* out = the interval of w->x, widened; fixed once and for all when x is final, else on the grid of 2^exp. */
+static dyd_status widened_interval(dyd_interval *out, const widened *w, int64_t exp) {
+  mpq_t lo, hi;
+  mpq_init(lo);
+  mpq_init(hi);
+  dyd_interval_get_q(lo, hi, dyd_real_interval(w->x));
+  mpq_sub(lo, lo, w->radius);
+  mpq_add(hi, hi, w->radius);
+  dyd_status st = dyd_real_is_final(w->x) ? dyd_interval_fix(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
+  mpq_clear(hi);
+  mpq_clear(lo);
+  return st;
+}
+
+static dyd_status widened_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
+  widened *w = user;
+  dyd_status st = dyd_real_narrow(w->x, request->bits + 2, request->max_bits + 2, err);
+  if (st < 0) return st;
+  st = widened_interval(out, w, -request->bits - 2);
+  if (st) return dyd_fail(err, st, "the interval around a value: %s", dyd_status_text(st));
+  return dyd_real_is_final(w->x) ? DYD_FIXED : DYD_OK;
+}
+
+/* A widened real that is final already is one fixed interval. */
+static dyd_status widened_fixed(dyd_real **out, const widened *w) {
+  dyd_interval a;
+  dyd_interval_init(&a);
+  dyd_status st = widened_interval(&a, w, 0);
+  if (!st) st = dyd_real_new_fixed(out, &a);
+  dyd_interval_clear(&a);
+  return st;
+}
+
+dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius) {
+  if (!x) return DYD_E_ARG;
+  if (mpq_sgn(radius) == 0) {
+    *out = x;
+    return DYD_OK;
+  }
+  widened *w = mpq_sgn(radius) > 0 ? dyd_alloc(1, sizeof *w) : NULL;
+  if (!w) {
+    dyd_real_free(x);
+    return mpq_sgn(radius) > 0 ? DYD_E_NOMEM : DYD_E_ARG;
+  }
+  w->x = x;
+  mpq_init(w->radius);
+  mpq_set(w->radius, radius);
+  if (!dyd_real_is_final(x)) return dyd_real_new_enclosing(out, widened_narrow, widened_release, w);
+  dyd_status st = widened_fixed(out, w);
+  widened_release(w);
+  return st;
+}

@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Coordinates as text: which of the forms of the points file a text has, and the real it stands for.
+ *
+ *   coordinate = number | value | value (+-|±) radius | [ lo , hi ]       value = sum | root ( sum in x , lo , hi )
+ *
+ * lo, hi and radius are sums whose value is rational by form. */
+#include "stream/expr.h"
+#include "stream/number.h"
+#include "stream/poly.h"
+#include "stream/real.h"
+
+#include "base/alloc.h"
+#include "base/error.h"
+#include <string.h>
+
+typedef struct reader {
+  const char *text;
+  size_t length, pos;
+  dyd_error *err;
+} reader;
+
+#define FAIL(r, at, code, ...) dyd_text_fail((r)->err, (code), (r)->text, (at), __VA_ARGS__)
+
+/* A constructor without error record failed. */
+static dyd_status plain_fail(reader *r, size_t at, dyd_status st) {
+  return st ? FAIL(r, at, st, "%s", dyd_status_text(st)) : st;
+}
+
+static void skip_blanks(reader *r) {
+  while (r->pos < r->length && r->text[r->pos] && strchr(" \t\r\n", r->text[r->pos])) r->pos++;
+}
+
+/* Is the literal text `word` next? Moves behind it. */
+static bool take(reader *r, const char *word) {
+  size_t n = strlen(word);
+  skip_blanks(r);
+  if (r->length - r->pos < n || memcmp(r->text + r->pos, word, n)) return false;
+  r->pos += n;
+  return true;
+}
+
+/* ---- expressions as reals ---- */
+
+typedef struct computed {
+  dyd_expr expr;
+  int64_t extra;
+} computed;
+
+static void computed_release(void *user) {
+  computed *c = user;
+  dyd_expr_clear(&c->expr);
+  free(c);
+}
+
+static dyd_status computed_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
+  computed *c = user;
+  return dyd_expr_enclose(out, &c->extra, &c->expr, request, err);
+}
+
+/* Takes *e over when it succeeds. */
+static dyd_status real_from_expr(dyd_real **out, reader *r, size_t at, dyd_expr *e) {
+  mpq_srcptr q = dyd_expr_rational(e);
+  if (q) return plain_fail(r, at, dyd_real_from_q(out, q));
+  dyd_status st = dyd_expr_probe(e, r->err);
+  if (st) return st;
+  computed *c = dyd_alloc(1, sizeof *c);
+  if (!c) return dyd_fail_nomem(r->err);
+  *c = (computed){.expr = *e, .extra = DYD_EXPR_EXTRA};
+  dyd_expr_init(e);
+  return plain_fail(r, at, dyd_real_new_enclosing(out, computed_narrow, computed_release, c));
+}
+
+static dyd_status read_expr(dyd_real **out, reader *r) {
+  dyd_expr e;
+  size_t at = r->pos;
+  dyd_expr_init(&e);
+  dyd_status st = dyd_expr_parse(&e, &r->pos, r->text, r->length, false, r->err);
+  if (!st) st = real_from_expr(out, r, at, &e);
+  dyd_expr_clear(&e);
+  return st;
+}
+
+/* ---- rational parts ---- */
+
+/* An expression that must be rational; what names it in messages. */
+static dyd_status read_rational(mpq_t out, reader *r, const char *what) {
+  dyd_expr e;
+  skip_blanks(r);
+  size_t at = r->pos;
+  dyd_expr_init(&e);
+  dyd_status st = dyd_expr_parse(&e, &r->pos, r->text, r->length, false, r->err);
+  mpq_srcptr q = st ? NULL : dyd_expr_rational(&e);
+  if (!st && !q) st = FAIL(r, at, DYD_E_PARSE, "%s must be rational: numbers and + - * / ^ only", what);
+  if (!st) mpq_set(out, q);
+  dyd_expr_clear(&e);
+  return st;
+}
+
+/* "lo , hi" up to the closing bracket. */
+static dyd_status read_ends(mpq_t lo, mpq_t hi, reader *r, const char *close) {
+  dyd_status st = read_rational(lo, r, "the lower end");
+  if (!st && !take(r, ",")) st = FAIL(r, r->pos, DYD_E_PARSE, "a ',' is missing between the ends of the interval");
+  if (!st) st = read_rational(hi, r, "the upper end");
+  if (!st && !take(r, close)) st = FAIL(r, r->pos, DYD_E_PARSE, "a '%s' is missing here", close);
+  return st;
+}
+
+static dyd_status read_interval(dyd_real **out, reader *r) {
+  size_t at = r->pos;
+  mpq_t lo, hi;
+  mpq_init(lo);
+  mpq_init(hi);
+  dyd_status st = read_ends(lo, hi, r, "]");
+  if (!st && mpq_cmp(lo, hi) > 0) {
+    st = FAIL(r, at, DYD_E_PARSE, "the lower end of the interval is above the upper end; exchange them");
+  }
+  if (!st) st = plain_fail(r, at, dyd_real_from_interval(out, lo, hi));
+  mpq_clear(hi);
+  mpq_clear(lo);
+  return st;
+}
+
+/* ---- roots ---- */
+
+static dyd_status read_polynomial(dyd_poly *out, reader *r) {
+  dyd_expr e;
+  dyd_expr_init(&e);
+  dyd_status st = dyd_expr_parse(&e, &r->pos, r->text, r->length, true, r->err);
+  if (!st) st = dyd_poly_expand(out, &e, r->err);
+  if (!st && !take(r, ",")) st = FAIL(r, r->pos, DYD_E_PARSE, "a ',' is missing after the polynomial");
+  dyd_expr_clear(&e);
+  return st;
+}
+
+/* Behind "root(". */
+static dyd_status read_root(dyd_real **out, reader *r) {
+  dyd_poly p = {0};
+  mpq_t lo, hi;
+  size_t at = r->pos;
+  mpq_init(lo);
+  mpq_init(hi);
+  dyd_status st = read_polynomial(&p, r);
+  if (!st) {
+    skip_blanks(r);
+    if (p.count) at = r->pos;
+    st = read_ends(lo, hi, r, ")");
+  }
+  if (!st) {
+    st = dyd_real_root(out, (const mpq_t *)p.coeff, p.count, lo, hi, r->err);
+    if (st && r->err) r->err->column = dyd_text_column(r->text, at);
+    if (st == DYD_E_ARG) st = DYD_E_PARSE;
+    if (st && r->err) r->err->code = st;
+  }
+  dyd_poly_clear(&p);
+  mpq_clear(hi);
+  mpq_clear(lo);
+  return st;
+}
+
+static bool starts_root(reader *r) {
+  size_t start = r->pos;
+  if (take(r, "root") && take(r, "(")) return true;
+  r->pos = start;
+  return false;
+}
+
+/* ---- the whole coordinate ---- */
+
+/* Behind "+-". Widens *x, which is released on failure. */
+static dyd_status read_radius(dyd_real **x, reader *r) {
+  mpq_t radius;
+  size_t at = r->pos;
+  mpq_init(radius);
+  dyd_status st = read_rational(radius, r, "the radius");
+  if (!st && mpq_sgn(radius) < 0) st = FAIL(r, at, DYD_E_PARSE, "the radius is negative; give one that is 0 or more");
+  if (st) {
+    dyd_real_free(*x);
+  } else {
+    st = plain_fail(r, at, dyd_real_widen(x, *x, radius));
+  }
+  mpq_clear(radius);
+  return st;
+}
+
+static dyd_status trailing(reader *r) {
+  char c = r->text[r->pos];
+  bool operand = c == '(' || c == '.' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  return FAIL(r, r->pos, DYD_E_PARSE,
+              operand ? "an operator is missing here, such as *" : "this does not belong to a number");
+}
+
+/* *out is set on success only. */
+static dyd_status read_coordinate(dyd_real **out, reader *r) {
+  dyd_real *x = NULL;
+  dyd_status st;
+  if (take(r, "[")) {
+    st = read_interval(&x, r);
+  } else {
+    st = starts_root(r) ? read_root(&x, r) : read_expr(&x, r);
+    if (!st && (take(r, "+-") || take(r, "\xC2\xB1"))) st = read_radius(&x, r);
+  }
+  if (st) return st;
+  skip_blanks(r);
+  if (r->pos < r->length) {
+    dyd_real_free(x);
+    return trailing(r);
+  }
+  *out = x;
+  return DYD_OK;
+}
+
+static dyd_status read_plain(dyd_real **out, reader *r) {
+  mpq_t q;
+  mpq_init(q);
+  dyd_status st = dyd_parse_number(q, r->text, r->length, r->err);
+  if (!st) st = plain_fail(r, 0, dyd_real_from_q(out, q));
+  mpq_clear(q);
+  return st;
+}
+
+dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_error *err) {
+  reader r = {.text = text, .length = length, .err = err};
+  if (!text && length) return dyd_fail(err, DYD_E_ARG, "no text was given");
+  if (dyd_is_plain_number(text, length)) return read_plain(out, &r);
+  return read_coordinate(out, &r);
+}

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Computable points: a source of nested rectangles and the narrowest one so far.
+ *
+ * [NEST-1] A rectangle is taken over only if it is a subset of the one before, decided exactly; the stream keeps
+ * its old rectangle otherwise. Built-in combinations are intersected with the former rectangle [NEST-2]. */
+#include "stream/stream.h"
+
+#include "base/alloc.h"
+#include "base/error.h"
+#include "rect/interval.h"
+#include "stream/real.h"
+
+/* Invariant: as dyd_real, with rectangles. */
+struct dyd_stream {
+  size_t refs;
+  dyd_source source; /* source.narrow is NULL for rectangles fixed from the start */
+  size_t point;
+  bool encloses, known, final;
+  uint64_t stage;
+  dyd_rect now;
+};
+
+static dyd_status stream_new(dyd_stream **out, const dyd_source *source, size_t point) {
+  dyd_stream *s = dyd_alloc(1, sizeof *s);
+  if (!s) return DYD_E_NOMEM;
+  *s = (dyd_stream){.refs = 1, .source = *source, .point = point};
+  dyd_rect_init(&s->now);
+  *out = s;
+  return DYD_OK;
+}
+
+dyd_status dyd_stream_new(dyd_stream **out, const dyd_source *source, size_t point) {
+  if (!source) return DYD_E_ARG;
+  dyd_status st = out && source->narrow ? stream_new(out, source, point) : DYD_E_ARG;
+  if (st && source->release) source->release(source->user);
+  return st;
+}
+
+dyd_status dyd_stream_new_enclosing(dyd_stream **out, const dyd_source *source) {
+  dyd_status st = dyd_stream_new(out, source, DYD_NO_POINT);
+  if (!st) (*out)->encloses = true;
+  return st;
+}
+
+dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value) {
+  dyd_stream *s;
+  dyd_source none = {NULL, NULL, NULL};
+  dyd_status st = stream_new(&s, &none, DYD_NO_POINT);
+  if (st) return st;
+  dyd_rect_swap(&s->now, value);
+  s->known = s->final = true;
+  *out = s;
+  return DYD_OK;
+}
+
+void *dyd_stream_user(const dyd_stream *s, dyd_narrow_fn narrow) {
+  return s->source.narrow == narrow ? s->source.user : NULL;
+}
+
+dyd_stream *dyd_stream_ref(dyd_stream *s) {
+  if (s) s->refs++;
+  return s;
+}
+
+void dyd_stream_free(dyd_stream *s) {
+  if (!s || --s->refs) return;
+  if (s->source.release) s->source.release(s->source.user);
+  dyd_rect_clear(&s->now);
+  free(s);
+}
+
+const dyd_rect *dyd_stream_rect(const dyd_stream *s) {
+  return s->known ? &s->now : NULL;
+}
+
+bool dyd_stream_is_final(const dyd_stream *s) {
+  return s->final;
+}
+
+uint64_t dyd_stream_stage(const dyd_stream *s) {
+  return s->stage;
+}
+
+/* One side: next becomes the intersection, or must be a subset. */
+static dyd_status accept_side(dyd_interval *next, const dyd_stream *s, const dyd_interval *old, const char *side,
+                              dyd_error *err) {
+  if (!dyd_interval_is_valid(next)) {
+    return dyd_fail(err, DYD_E_STREAM, "the callback gave no valid %s; fill it with dyd_interval_set_ends", side);
+  }
+  if (!s->known) return DYD_OK;
+  if (!s->encloses) {
+    return dyd_interval_contains(old, next) ? DYD_OK : dyd_nesting_fail(err, side, old, next);
+  }
+  dyd_status st = dyd_interval_intersect(next, old, next);
+  if (st == DYD_E_ARG) return dyd_nesting_fail(err, side, old, next);
+  return st ? dyd_fail(err, st, "%s", dyd_status_text(st)) : st;
+}
+
+static dyd_status accept(dyd_stream *s, dyd_rect *next, dyd_error *err) {
+  dyd_status st = accept_side(&next->x, s, &s->now.x, "x side", err);
+  if (!st) st = accept_side(&next->y, s, &s->now.y, "y side", err);
+  if (st) return st;
+  dyd_rect_swap(&s->now, next);
+  s->known = true;
+  return DYD_OK;
+}
+
+static dyd_status call_source(dyd_stream *s, const dyd_request *request, dyd_error *err) {
+  dyd_rect next;
+  dyd_error own;
+  dyd_error_clear(&own);
+  dyd_rect_init(&next);
+  if (s->known) dyd_rect_set(&next, &s->now);
+  dyd_status st = s->source.narrow(&next, s->source.user, request, &own);
+  bool fixed = st == DYD_FIXED;
+  if (!st || fixed) st = accept(s, &next, &own);
+  dyd_rect_clear(&next);
+  if (!st) {
+    s->final = fixed || dyd_rect_is_point(&s->now);
+  } else {
+    st = dyd_callback_fail(err, &own, st, s->point, s->stage);
+  }
+  s->stage++;
+  return st;
+}
+
+dyd_status dyd_stream_narrow(dyd_stream *s, int64_t bits, int64_t max_bits, dyd_error *err) {
+  dyd_request request;
+  if (s->final) return DYD_FIXED;
+  if (s->known && dyd_rect_bits(&s->now) >= bits) return DYD_OK;
+  dyd_status st = dyd_request_make(&request, s->point == DYD_NO_POINT ? 0 : s->point, bits, max_bits, err);
+  if (!st) st = call_source(s, &request, err);
+  if (st) return st;
+  return s->final ? DYD_FIXED : DYD_OK;
+}
