@@ -191,9 +191,15 @@ static bool direction_free(orc_pool *p, const orc_case *c, size_t i, size_t j, m
   return good;
 }
 
+/* Is corner number v (bit 0: upper x, bit 1: upper y) also one of a lower number? */
+static bool same_corner(const orc_rect *r, size_t v) {
+  return ((v & 1) && mpq_equal(r->e[0], r->e[1])) || ((v & 2) && mpq_equal(r->e[2], r->e[3]));
+}
+
 /* Both normals of every line through a corner of r and a corner of t. */
 static bool normals_free(orc_pool *p, const orc_case *c, size_t i, size_t j, const orc_rect *r, const orc_rect *t) {
   for (size_t v = 0; v < 16; v++) {
+    if (same_corner(t, v & 3) || same_corner(r, v >> 2)) continue;
     size_t mark = orc_mark(p);
     mpq_srcptr dx = orc_sub(p, t->e[v & 1], r->e[v >> 2 & 1]);
     mpq_srcptr dy = orc_sub(p, t->e[2 + (v >> 1 & 1)], r->e[2 + (v >> 3 & 1)]);

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Runs the engine on cases, compares every query with the oracle, and cuts failing cases down to a minimum. */
+#ifndef DYD_TESTS_DELAUNAY_HARNESS_H
+#define DYD_TESTS_DELAUNAY_HARNESS_H
+
+#include "oracle/oracle.h"
+#include "oracle/oracle_gen.h"
+#include <dyadel/delaunay.h>
+
+#define MESSAGE_SIZE 400
+
+/* What the cases share. */
+typedef struct harness {
+  orc_pool pool;
+  test_random random;
+  size_t cases, pairs, legal, undecided; /* how much was compared */
+  size_t carried;                        /* legal statuses carried over where a fresh run says indeterminate */
+} harness;
+
+void harness_init(harness *h, const char *name);
+/* Prints the counts and clears. */
+void harness_clear(harness *h);
+
+/* true: the case is fine; false: message says what is wrong. */
+typedef bool (*case_check)(char *message, harness *h, const orc_case *c);
+/* Runs the check; on failure drops rectangles while it still fails, prints the case and fails the test. The
+ * check must be deterministic: the generator's state is the same at every call. */
+void harness_run(harness *h, const orc_case *c, case_check check);
+
+/* false, with the formatted message. */
+bool wrong(char *message, const char *format, ...);
+
+void harness_rect(dyd_rect *out, const orc_rect *r);
+dyd_sites *harness_sites(const orc_case *c);
+/* dyd_delaunay_new, NULL with a message when it does not return DYD_OK. */
+dyd_delaunay *harness_engine(char *message, const dyd_sites *s, const dyd_delaunay_options *options);
+
+/* All statuses of the engine against the oracle's. */
+bool same_as_oracle(char *message, const orc_case *c, const orc_table *t, const dyd_delaunay *pd);
+/* All statuses of two engines. */
+bool same_statuses(char *message, const dyd_delaunay *a, const dyd_delaunay *b, size_t n);
+/* Pairs, neighbours, counts, faces, aliases, hull against dyd_delaunay_status. */
+bool queries_agree(char *message, const orc_case *c, const dyd_delaunay *pd);
+/* The sure triangles against the definition. */
+bool triangles_right(char *message, orc_pool *p, const orc_case *c, const dyd_delaunay *pd);
+/* Every legal pair has a witness that holds in the oracle's arithmetic. */
+bool witnesses_hold(char *message, orc_pool *p, const orc_case *c, const dyd_delaunay *pd);
+
+#endif
