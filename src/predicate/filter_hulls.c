@@ -58,6 +58,7 @@ dyd_truth dyd_filter_hulls_disjoint(const dyd_box *a, const dyd_box *b, const dy
     const dyd_box *const *e = join < 4 ? box : box + 2;
     int x = join & 1, y = 2 + (join >> 1 & 1);
     dyd_iv dx = dyd_iv_point(e[1]->outer[x] - e[0]->outer[x]), dy = dyd_iv_point(e[0]->outer[y] - e[1]->outer[y]);
+    if (dx.lo == 0 && dy.lo == 0) continue;
     if (meet) {
       dx = (dyd_iv){dx.lo == 0 ? 0 : dyd_down(dx.lo), dx.hi == 0 ? 0 : dyd_up(dx.hi)};
       dy = (dyd_iv){dy.lo == 0 ? 0 : dyd_down(dy.lo), dy.hi == 0 ? 0 : dyd_up(dy.hi)};

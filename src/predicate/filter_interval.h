@@ -6,8 +6,8 @@
  * successor in rounding to nearest", BIT 2009). A sum, product, quotient or root that rounds to c lies between
  * pred(c) and succ(c). When c is infinite the inner end becomes NaN.
  *
- * An interval with a NaN end says nothing: every comparison with it is false, and every operation keeps it so.
- * Callers conclude from comparisons that are true only. */
+ * Each end is a bound of its own unless it is NaN, which bounds nothing: comparisons with NaN are false, callers
+ * conclude from comparisons that are true only, and operations that mix both ends give up unless all is finite. */
 #ifndef DYD_PREDICATE_FILTER_INTERVAL_H
 #define DYD_PREDICATE_FILTER_INTERVAL_H
 
