@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Running the built command and checking what it did."""
+import collections
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+COMMAND = os.path.abspath(sys.argv[1])
+DATA = os.path.abspath(sys.argv[2])  # tests/data
+
+Run = collections.namedtuple('Run', 'code out err')
+
+
+def run(*args, stdin=b'', **options):
+    """Runs the command in an empty folder (or options['cwd'])."""
+    if isinstance(stdin, str):
+        stdin = stdin.encode()
+    with tempfile.TemporaryDirectory() as folder:
+        options.setdefault('cwd', folder)
+        done = subprocess.run([COMMAND, *args], input=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              timeout=240, check=False, **options)
+    return Run(done.returncode, done.stdout.decode(), done.stderr.decode())
+
+
+def count(text):
+    """Statuses counted in csv output; checks its form: header, i < j, sorted."""
+    lines = [line for line in text.splitlines() if not line.startswith('#')]
+    assert lines[0] == 'i,j,status', lines[:1]
+    pairs = [tuple(line.split(',')) for line in lines[1:]]
+    keys = [(int(i), int(j)) for i, j, _ in pairs]
+    assert keys == sorted(set(keys)) and all(i < j for i, j in keys), 'pairs are not sorted'
+    assert {s for _, _, s in pairs} <= {'legal', 'indeterminate', 'tie'}
+    return dict(collections.Counter(s for _, _, s in pairs))
+
+
+def expect(result, code, out='', err=''):
+    """The exit status, and regular expressions that the two streams must contain."""
+    assert result.code == code, f'exit {result.code}, not {code}: {result.err[:600]}'
+    assert re.search(out, result.out, re.M), f'standard output lacks {out!r}: {result.out[:600]!r}'
+    assert re.search(err, result.err, re.M), f'standard error lacks {err!r}: {result.err[:600]!r}'
+
+
+def main(tests):
+    """Runs functions (named test_...) and ends the process."""
+    failed = 0
+    for name, test in sorted(tests.items()):
+        if not name.startswith('test_'):
+            continue
+        try:
+            test()
+            print('ok', name)
+        except (AssertionError, subprocess.TimeoutExpired) as problem:
+            failed += 1
+            print('FAILED', name, problem)
+    sys.exit(1 if failed else 0)

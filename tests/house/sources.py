@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""House rules on the source text: layers, licence lines, lengths of files and functions.
+
+Usage: sources.py ROOT   (prints every breach; exit status 1 when there is one)
+"""
+import pathlib
+import re
+import sys
+
+# What a layer may include besides itself: everything below it. stream and predicate are side by side.
+LAYERS = [['base'], ['dyadic'], ['rect'], ['stream', 'predicate'], ['delaunay'], ['voronoi'], ['metric'], ['engine'], ['io']]
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
+# Public headers in the order of the layers; a header may include only those before it.
+PUBLIC = ['status', 'dyadic', 'rect', 'stream sites', 'predicate delaunay', 'voronoi', 'metric', 'engine', 'io', 'dyadel']
+FILE_LINES, FUNCTION_LINES = 500, 60
+
+
+def level(layer):
+    return next((k for k, names in enumerate(LAYERS) if layer in names), None)
+
+
+def public_level(name):
+    return next((k for k, names in enumerate(PUBLIC) if name in names.split()), None)
+
+
+def check_source_includes(path, text, root):
+    layer = path.relative_to(root / 'src').parts[0]
+    for kind, name in INCLUDE.findall(text):
+        if kind == '<':
+            continue
+        parts = name.split('/')
+        if layer == 'cli':
+            if len(parts) > 1:
+                yield f'{path}: the command may use public headers only, not "{name}"'
+        elif len(parts) != 2 or level(parts[0]) is None:
+            yield f'{path}: "{name}" is not of the form "layer/file.h"'
+        elif parts[0] != layer and level(parts[0]) >= level(layer):
+            yield f'{path}: layer {layer} must not include "{name}"'
+
+
+def check_public_includes(path, text):
+    own = public_level(path.stem)
+    if own is None:
+        yield f'{path}: not in the list of public headers in tests/house/sources.py'
+        return
+    for kind, name in INCLUDE.findall(text):
+        match = re.fullmatch(r'dyadel/(\w+)\.h', name)
+        if kind == '"':
+            yield f'{path}: public headers include <...> only, not "{name}"'
+        elif match and (public_level(match[1]) is None or public_level(match[1]) > own):
+            yield f'{path}: <{name}> belongs to a higher layer'
+
+
+def check_lengths(path, text):
+    lines = text.splitlines()
+    if len(lines) > FILE_LINES:
+        yield f'{path}: {len(lines)} lines, {FILE_LINES} are allowed'
+    start = None
+    for number, line in enumerate(lines, 1):
+        if re.match(r'^[A-Za-z_].*\)\s*\{$|^\{$', line):
+            start = number
+        elif line == '}' and start:
+            if number - start - 1 > FUNCTION_LINES:
+                yield f'{path}:{start}: a function of {number - start - 1} lines, {FUNCTION_LINES} are allowed'
+            start = None
+
+
+def files(root):
+    for folder in ('src', 'include', 'tests', 'bench', 'proofs'):
+        for path in sorted((root / folder).rglob('*')):
+            if path.suffix in ('.c', '.h', '.py', '.sh', '.v', '.cpp') or path.name == 'meson.build':
+                yield path
+    yield from (root / name for name in ('meson.build', '.ci/run'))
+
+
+def breaches(root):
+    for path in files(root):
+        text = path.read_text(encoding='utf-8')
+        if not any('SPDX-License-Identifier: LGPL-3.0-or-later' in line for line in text.splitlines()[:3]):
+            yield f'{path}: no SPDX line'
+        if path.suffix not in ('.c', '.h'):
+            continue
+        yield from check_lengths(path, text)
+        if (root / 'src') in path.parents:
+            yield from check_source_includes(path, text, root)
+        if (root / 'include') in path.parents:
+            yield from check_public_includes(path, text)
+
+
+def main():
+    found = list(breaches(pathlib.Path(sys.argv[1]).resolve()))
+    print('\n'.join(found) or 'no breach')
+    return 1 if found else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
