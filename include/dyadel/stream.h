@@ -3,7 +3,11 @@
  *
  * Threads: a stream or real is used by one thread at a time; two threads may use two streams at once unless
  * the streams share a part (an affine image and its preimage share the preimage). Callbacks are called from
- * the thread that narrows, never concurrently for one source.
+ * the thread that narrows, never concurrently for one source. Reals and streams may move between threads.
+ *
+ * Memory: expressions and roots compute with FLINT and Arb, which keep caches (constants, free numbers) for each
+ * thread. No real needs them between calls; users of leak checkers, and threads that end, call flint_cleanup() of
+ * <flint/flint.h> in every thread that narrowed such reals.
  *
  * Ownership: streams and reals are counted. A constructor that takes another stream or real takes over one
  * reference (also when it fails); call dyd_stream_ref first to keep one. */

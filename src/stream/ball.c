@@ -238,6 +238,15 @@ dyd_defined dyd_ball_binary(arb_ptr x, dyd_op op, arb_srcptr y, slong prec) {
   return DYD_DEFINED;
 }
 
+bool dyd_ball_exceeds(arb_srcptr x, slong e) {
+  mag_t m;
+  mag_init(m);
+  arb_get_mag_lower(m, x);
+  bool result = mag_cmp_2exp_si(m, e) > 0;
+  mag_clear(m);
+  return result;
+}
+
 dyd_defined dyd_ball_check(arb_ptr x, slong *exponent) {
   if (!arb_is_finite(x)) return DYD_UNDEFINED_YET;
   mag_t m;
@@ -245,8 +254,7 @@ dyd_defined dyd_ball_check(arb_ptr x, slong *exponent) {
   arb_get_mag(m, x);
   dyd_defined d = DYD_DEFINED;
   if (mag_cmp_2exp_si(m, DYD_BALL_LIMIT) > 0) {
-    arb_get_mag_lower(m, x);
-    d = mag_cmp_2exp_si(m, DYD_BALL_LIMIT) > 0 ? DYD_TOO_BIG : DYD_TOO_BIG_YET;
+    d = dyd_ball_exceeds(x, DYD_BALL_LIMIT) ? DYD_TOO_BIG : DYD_TOO_BIG_YET;
   } else if (!mag_is_zero(m) && mag_cmp_2exp_si(m, -DYD_BALL_LIMIT) < 0) {
     set_tiny(x);
   } else if (!mag_is_zero(m)) {

@@ -23,6 +23,8 @@ void dyd_ball_set_q(arb_ptr out, mpq_srcptr q, slong prec);
 dyd_defined dyd_ball_unary(arb_ptr x, dyd_op op, dyd_range range, long exponent, slong prec);
 /* x = op(x, y). */
 dyd_defined dyd_ball_binary(arb_ptr x, dyd_op op, arb_srcptr y, slong prec);
+/* Is |x| surely beyond 2^e? */
+bool dyd_ball_exceeds(arb_srcptr x, slong e);
 /* Finite and not too big? Raises *exponent to a bound of its binary exponent. */
 dyd_defined dyd_ball_check(arb_ptr x, slong *exponent);
 /* The least e with radius <= 2^e; for an exact ball a very small number. */

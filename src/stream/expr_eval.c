@@ -61,7 +61,7 @@ static dyd_defined run(machine *m, size_t *culprit, const dyd_expr *e) {
     if (d == DYD_DEFINED) d = dyd_ball_check(m->ball + m->top - 1, &m->exponent);
     if (d != DYD_DEFINED) return d;
   }
-  return DYD_DEFINED;
+  return dyd_ball_exceeds(m->ball, (slong)DYD_EXP_LIMIT) ? DYD_TOO_BIG : DYD_DEFINED;
 }
 
 static dyd_status undefined_fail(dyd_error *err, const dyd_expr *e, size_t culprit, dyd_defined d, slong prec) {
