@@ -38,7 +38,8 @@ typedef dyd_status (*dyd_narrow_fn)(dyd_rect *out, void *user, const dyd_request
 typedef dyd_status (*dyd_narrow_real_fn)(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err);
 typedef void (*dyd_release_fn)(void *user);
 
-/* A callback with its context. release may be NULL; it is called exactly once, when nothing uses user any more. */
+/* A callback with its context. release may be NULL; it is called exactly once, when nothing uses user any more: also
+ * when the constructor that was given it fails. */
 typedef struct dyd_source {
   dyd_narrow_fn narrow;
   dyd_release_fn release;
@@ -50,7 +51,8 @@ typedef struct dyd_source {
 /* A computable real: a source of nested intervals and the narrowest one so far. */
 typedef struct dyd_real dyd_real;
 
-/* All constructors: *out is new, with one reference, released by dyd_real_free. err may be NULL everywhere. */
+/* All constructors: *out is new, with one reference, released by dyd_real_free. err may be NULL everywhere.
+ * dyd_real_new calls release when it fails; its requests name point 0. */
 DYD_API dyd_status dyd_real_new(dyd_real **out, dyd_narrow_real_fn narrow, dyd_release_fn release, void *user);
 DYD_API dyd_status dyd_real_from_dyadic(dyd_real **out, const dyd_dyadic *x);
 DYD_API dyd_status dyd_real_from_q(dyd_real **out, const mpq_t q);
