@@ -181,7 +181,7 @@ static void test_widened(void **state) {
                                        "1e-300",
                                        "-5e40",
                                        "3.14159265358979323846"};
-  static const char *const radius[] = {NULL, "0.01", "1/3", "1e-15", "2^-60", "1e30", "1e-400", "1e400"};
+  static const char *const radius[] = {NULL, "0.01", "1/3", "1e-15", "1*2^-60", "1e30", "1e-400", "1e400"};
   for (size_t n = 0; n < sizeof number / sizeof *number; n++)
     for (size_t k = 0; k < sizeof radius / sizeof *radius; k++) {
       if (k) check_widened(number[n], false, radius[k]);
