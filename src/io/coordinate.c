@@ -2,7 +2,7 @@
 /* One coordinate of the input: text to an exact number, a fixed interval or a computable real.
  *
  * A plain decimal v with half-width h > 0 becomes the interval [v-h, v+h], its ends rounded outward to doubles when
- * that adds less than 2^-20 of the width; else the exact ends go to dyd_real_from_interval, which adds less than
+ * that adds less than 2^-13 of the width; else the exact ends go to dyd_real_from_interval, which adds less than
  * 2^-64. Rounding outward is sound (every choice in the exact rectangle is one in the rounded rectangle).
  *
  * Sums rounded in one direction: for doubles a, b and s = a + b to nearest, Knuth's TwoSum gives the exact error
@@ -39,7 +39,7 @@ static bool box_from_plain(dyd_coordinate *out, dyd_plain v, const dyd_manner *m
   }
   /* Each end moved by less than 2^-51 of max(|lo|,|hi|) + radius in all. */
   double size = fmax(fabs(lo), fabs(hi));
-  if (!((size + manner->radius_up) * 0x1p-50 <= (hi - lo) * 0x1p-20)) return false;
+  if (!((size + manner->radius_up) * 0x1p-50 <= (hi - lo) * 0x1p-13)) return false;
   *out = (dyd_coordinate){.kind = DYD_COORDINATE_BOX, .lo = lo, .hi = hi};
   return true;
 }

@@ -5,6 +5,7 @@
  * For |man| < 2^53 and k <= 22, man and 10^k are doubles, so man / 10^k and man * 10^k are rounded once, to nearest;
  * fma gives the sign of the rounding error, and one step towards the wanted side makes the rounding directed. */
 #include "io/plain.h"
+#include "stream/number.h"
 #include <math.h>
 
 static const double power_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
@@ -94,6 +95,10 @@ bool dyd_plain_get_rounded(double *out, dyd_plain p, dyd_round dir) {
 }
 
 void dyd_plain_get_q(mpq_t q, dyd_plain p) {
+  if (p.exp >= -18 && p.exp <= 18 && dyd_small_decimal(q, (uint64_t)(p.man < 0 ? -p.man : p.man), p.exp)) {
+    if (p.man < 0) mpq_neg(q, q);
+    return;
+  }
   mpz_set_si(mpq_numref(q), p.man);
   mpz_ui_pow_ui(mpq_denref(q), 10, (unsigned long)(p.exp < 0 ? -p.exp : p.exp));
   if (p.exp > 0) {

@@ -97,15 +97,22 @@ static dyd_status commit_boxes(size_t *count, dyd_engine *e, const dyd_stage *s,
   return dyd_engine_add_boxes(e, n, end[0], end[1], end[2], end[3]);
 }
 
-static dyd_status commit_plain(dyd_engine *e, const dyd_staged *p) {
+/* All decimals from `first` on up to another kind of point. */
+static dyd_status commit_plain(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first) {
   dyd_rect r;
   mpq_t x, y;
+  dyd_status status = DYD_OK;
+  size_t k = first;
   dyd_rect_init(&r);
   mpq_inits(x, y, NULL);
-  dyd_plain_get_q(x, (dyd_plain){p->u.man[0], p->exp[0]});
-  dyd_plain_get_q(y, (dyd_plain){p->u.man[1], p->exp[1]});
-  dyd_status status = dyd_rect_set_q(&r, x, y);
-  if (status >= 0) status = dyd_engine_add_rect(e, &r);
+  for (; status >= 0 && k < s->count && s->item[k].kind == DYD_COORDINATE_PLAIN; k++) {
+    const dyd_staged *p = &s->item[k];
+    dyd_plain_get_q(x, (dyd_plain){p->u.man[0], p->exp[0]});
+    dyd_plain_get_q(y, (dyd_plain){p->u.man[1], p->exp[1]});
+    status = dyd_rect_set_q(&r, x, y);
+    if (status >= 0) status = dyd_engine_add_rect(e, &r);
+  }
+  *count = k - first;
   mpq_clears(x, y, NULL);
   dyd_rect_clear(&r);
   return status;
@@ -145,7 +152,7 @@ dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err) {
       status = commit_boxes(&count, e, s, k);
       break;
     case DYD_COORDINATE_PLAIN:
-      status = commit_plain(e, &s->item[k]);
+      status = commit_plain(&count, e, s, k);
       break;
     case DYD_COORDINATE_REAL:
       status = commit_reals(e, &s->item[k]);

@@ -161,7 +161,7 @@ static void check_widened(const char *coordinate, bool measured, const char *rad
   mpq_sub(lo, hi, lo);
   mpq_sub(got_lo, got_hi, got_lo);
   mpq_sub(got_lo, got_lo, lo);
-  mpq_mul_2exp(got_lo, got_lo, 19);
+  mpq_mul_2exp(got_lo, got_lo, 13);
   assert_true(mpq_cmp(got_lo, lo) <= 0);
   mpq_clears(lo, hi, got_lo, got_hi, r, NULL);
   dyd_rect_clear(&rect);
