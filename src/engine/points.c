@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "rect/interval.h"
 #include "rect/sites_table.h"
+#include "stream/real.h"
 
 dyd_status dyd_engine_add_points(dyd_engine *e, size_t n, const double *x, const double *y) {
   return e->started ? DYD_E_ARG : dyd_sites_add_points(e->sites, n, x, y);
@@ -132,23 +133,24 @@ dyd_refinable *dyd_engine_find(const dyd_engine *e, uint32_t site) {
 /* ---- asking ---- */
 
 /* Asks the source of p. *r comes in as the rectangle so far and goes out as the answer, checked to be one. */
-static dyd_status ask_source(dyd_rect *r, const dyd_refinable *p, const dyd_engine *e, const dyd_request *request,
+static dyd_status ask_source(dyd_rect *r, const dyd_refinable *p, const dyd_engine *e, int64_t bits, int64_t max_bits,
                              dyd_error *err) {
-  const dyd_source *source = &e->source[p->source].source;
-  dyd_status status = source->narrow(r, source->user, request, err);
+  const dyd_source_use *use = &e->source[p->source];
+  dyd_request request;
+  dyd_error own;
+  dyd_error_clear(&own);
+  dyd_status status = dyd_request_make(&request, p->site - use->first, bits, max_bits, err);
   if (status < 0) return status;
-  if (status != DYD_OK && status != DYD_FIXED) {
-    return dyd_fail(err, DYD_E_STREAM, "the source gave the status %d, which is none of a source", (int)status);
-  }
+  status = use->source.narrow(r, use->source.user, &request, &own);
+  if (status != DYD_OK && status != DYD_FIXED) return dyd_callback_fail(err, &own, status, p->site, p->calls);
   if (!dyd_interval_is_valid(&r->x) || !dyd_interval_is_valid(&r->y)) {
-    return dyd_fail(err, DYD_E_STREAM,
-                    "the source gave a rectangle that is not one (an upper end below its lower end?)");
+    return dyd_fail(err, DYD_E_STREAM, "the source gave no valid rectangle; fill it with dyd_interval_set_ends");
   }
   return status;
 }
 
-static dyd_status ask_stream(dyd_rect *r, const dyd_refinable *p, const dyd_request *request, dyd_error *err) {
-  dyd_status status = dyd_stream_narrow(p->stream, request->bits, request->max_bits, err);
+static dyd_status ask_stream(dyd_rect *r, const dyd_refinable *p, int64_t bits, int64_t max_bits, dyd_error *err) {
+  dyd_status status = dyd_stream_narrow(p->stream, bits, max_bits, err);
   if (status < 0) return status;
   const dyd_rect *now = dyd_stream_rect(p->stream);
   if (!now) return dyd_fail(err, DYD_E_STREAM, "the stream has no rectangle after it was narrowed");
@@ -156,15 +158,28 @@ static dyd_status ask_stream(dyd_rect *r, const dyd_refinable *p, const dyd_requ
   return dyd_stream_is_final(p->stream) ? DYD_FIXED : DYD_OK;
 }
 
-/* Puts what was given for p into the table. */
-static dyd_status put(dyd_refinable *p, const dyd_engine *e, const dyd_rect *r, dyd_error *err) {
+/* DYD_E_NESTING with the sides that are not nested. */
+static dyd_status nesting_fail(dyd_error *err, const dyd_engine *e, const dyd_refinable *p, const dyd_rect *r) {
+  dyd_rect old;
+  dyd_rect_init(&old);
+  dyd_status status = dyd_sites_get(&old, e->sites, p->site);
+  if (status < 0)
+    dyd_fail(err, status, "%s", dyd_status_text(status));
+  else if (!dyd_interval_contains(&old.x, &r->x))
+    status = dyd_nesting_fail(err, "x side", &old.x, &r->x);
+  else
+    status = dyd_nesting_fail(err, "y side", &old.y, &r->y);
+  dyd_rect_clear(&old);
+  return status;
+}
+
+/* Puts what was given for p into the table, which checks that it is nested. */
+static dyd_status put(const dyd_refinable *p, const dyd_engine *e, const dyd_rect *r, dyd_error *err) {
   dyd_status status = dyd_sites_narrow(e->sites, p->site, r);
   if (status == DYD_E_NESTING && !p->asked) {
     return dyd_fail(err, DYD_E_RANGE, "the rectangle given leaves the exponent range");
   }
-  if (status == DYD_E_NESTING) {
-    return dyd_fail(err, status, "the rectangle given is not inside the one given before");
-  }
+  if (status == DYD_E_NESTING) return nesting_fail(err, e, p, r);
   return status < 0 ? dyd_fail(err, status, "%s", dyd_status_text(status)) : status;
 }
 
@@ -180,26 +195,22 @@ static dyd_status blame(const dyd_refinable *p, dyd_status status, dyd_error *er
 dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits, int64_t max_bits,
                              dyd_error *err) {
   dyd_rect r;
+  bool final = p->final;
   dyd_error_clear(err);
   dyd_rect_init(&r);
-  dyd_request request = {p->stream ? p->site : p->site - e->source[p->source].first, bits, max_bits};
   dyd_status status = p->asked ? dyd_sites_get(&r, e->sites, p->site) : DYD_OK;
   if (status >= 0 && !(p->asked && dyd_rect_bits(&r) >= bits)) {
     ++*calls;
-    status = p->stream ? ask_stream(&r, p, &request, err) : ask_source(&r, p, e, &request, err);
-    if (status >= 0) p->final = status == DYD_FIXED || dyd_rect_is_point(&r);
+    status = p->stream ? ask_stream(&r, p, bits, max_bits, err) : ask_source(&r, p, e, bits, max_bits, err);
+    final = status == DYD_FIXED || dyd_rect_is_point(&r);
     if (status >= 0) status = put(p, e, &r, err);
-    if (status < 0)
-      p->final = false;
-    else
-      p->calls++;
+    if (status >= 0) p->calls++;
   }
-  if (status < 0)
-    blame(p, status, err);
-  else {
+  if (status >= 0) {
     p->bits = bits;
+    p->final = final;
     p->asked = true;
   }
   dyd_rect_clear(&r);
-  return status < 0 ? status : DYD_OK;
+  return status < 0 ? blame(p, status, err) : DYD_OK;
 }

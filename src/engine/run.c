@@ -31,6 +31,8 @@ typedef struct run {
   dyd_error err;
 } run;
 
+/* The finest request that streams take (stream/nest.c). */
+#define MOST_BITS (DYD_EXP_LIMIT - 64)
 #define MOST_GOAL_BITS ((int64_t)1 << 40)
 
 /* Fills in defaults. false: an option is out of its range. */
@@ -39,7 +41,7 @@ static bool set_options(dyd_engine_options *o, const dyd_engine_options *given) 
   if (given) *o = *given;
   if (o->start_bits == 0) o->start_bits = 64;
   if (o->max_bits == 0) o->max_bits = 4096;
-  if (o->max_bits > DYD_EXP_LIMIT) o->max_bits = DYD_EXP_LIMIT;
+  if (o->max_bits > MOST_BITS) o->max_bits = MOST_BITS;
   if (o->start_bits > o->max_bits) o->start_bits = o->max_bits;
   if (o->start_bits < -DYD_EXP_LIMIT || o->goal_bits > MOST_GOAL_BITS || o->goal_bits < -MOST_GOAL_BITS) return false;
   if (!(o->seconds >= 0)) return false;
