@@ -160,13 +160,26 @@ static void crossing(orc_case *c, test_random *r, size_t n) {
   }
 }
 
+/* Two rectangles whose bisector runs between a side of one and a side of the other, and small ones about. */
+static void diagonal(orc_case *c, test_random *r, size_t n) {
+  long w = (long)test_between(r, 2, 12), h = (long)test_between(r, 2, 12), gap = (long)test_between(r, 1, 8);
+  orc_case_add(c, w + gap, w + gap + (long)test_between(r, 0, 8), 0, h, 1);
+  orc_case_add(c, 0, w, h + (long)test_between(r, 1, 8), h + 20, 1);
+  while (c->n < n) {
+    bool near = test_chance(r, 2);
+    long x = (long)test_between(r, near ? 0 : -30, w + gap + 20), y = (long)test_between(r, near ? 0 : -30, h + 20);
+    orc_case_add(c, x, x + (long)test_below(r, 3), y, y + (long)test_below(r, 3), 1);
+  }
+}
+
 void orc_generate(orc_case *out, test_random *r, size_t kind, size_t most) {
   static void (*const make[ORC_KINDS])(orc_case *, test_random *, size_t) = {
-      general,   thin,       overlapping, nested,    touching,     lattice,   strips,    mixed_sizes,
-      rationals, duplicates, cocircular,  collinear, mixed_scales, near_ties, separated, crossing};
-  static const char *const name[ORC_KINDS] = {
-      "general",   "thin",       "overlapping", "nested",    "touching",     "lattice",   "strips",    "mixed_sizes",
-      "rationals", "duplicates", "cocircular",  "collinear", "mixed_scales", "near_ties", "separated", "crossing"};
+      general,    thin,       overlapping, nested,       touching,  lattice,   strips,   mixed_sizes, rationals,
+      duplicates, cocircular, collinear,   mixed_scales, near_ties, separated, crossing, diagonal};
+  static const char *const name[ORC_KINDS] = {"general",    "thin",      "overlapping",  "nested",    "touching",
+                                              "lattice",    "strips",    "mixed_sizes",  "rationals", "duplicates",
+                                              "cocircular", "collinear", "mixed_scales", "near_ties", "separated",
+                                              "crossing",   "diagonal"};
   out->n = 0;
   strcpy(out->kind, name[kind]);
   make[kind](out, r, how_many(r, most));

@@ -6,7 +6,7 @@
 #include "oracle/oracle_case.h"
 #include "support/random.h"
 
-#define ORC_KINDS 16
+#define ORC_KINDS 17
 
 /* A case of 3 .. most rectangles of the given kind (0 .. ORC_KINDS-1). Sides are dyadic, or single rationals. */
 void orc_generate(orc_case *out, test_random *r, size_t kind, size_t most);

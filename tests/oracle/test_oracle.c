@@ -146,6 +146,27 @@ static void test_tiny(void **state) {
   orc_pool_clear(&p);
 }
 
+/* Here the only free centres of the pair 0 3, such as (23,7), see a side of each: two parabolas meet. */
+static void test_two_sides(void **state) {
+  (void)state;
+  orc_pool p;
+  orc_case c;
+  orc_table t;
+  orc_pool_init(&p);
+  orc_case_init(&c);
+  orc_case_add(&c, 32, 40, 0, 10, 1);
+  orc_case_add(&c, 16, 16, 0, 1, 1);
+  orc_case_add(&c, 64, 65, 0, 4, 1);
+  orc_case_add(&c, 16, 24, 16, 25, 1);
+  orc_case_add(&c, 32, 34, 32, 37, 1);
+  orc_statuses(&t, &p, &c);
+  assert_int_equal(t.status[0][3], ORC_INDETERMINATE);
+  for (long x = -10; x < 60; x++)
+    for (long y = -10; y < 60; y++) check_centre(&p, &c, &t, x, y, 1);
+  orc_case_clear(&c);
+  orc_pool_clear(&p);
+}
+
 /* The field: a + b sqrt(c) against numbers known otherwise. */
 static void test_field(void **state) {
   (void)state;
@@ -172,6 +193,7 @@ static void test_field(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_field), cmocka_unit_test(test_points),
-                                     cmocka_unit_test(test_random_cases), cmocka_unit_test(test_tiny)};
+                                     cmocka_unit_test(test_two_sides), cmocka_unit_test(test_random_cases),
+                                     cmocka_unit_test(test_tiny)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
