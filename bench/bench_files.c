@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Rows read and write: a points file in, csv out, against the triangulation of the same points by the engine. */
+/* Rows read, write, readhex: a points file in, csv out, against the triangulation of the same points by the engine.
+ *
+ * Decimals of 17 digits are exact rationals that no double holds; hexadecimal floats are exact doubles. */
 #include "cloud.h"
 #include "harness.h"
 
@@ -13,10 +15,10 @@ static void check(dyd_status status, const dyd_error *err) {
   if (status != DYD_OK) bench_die("files", *err->message ? err->message : dyd_status_text(status));
 }
 
-static FILE *points_file(const cloud *c) {
+static FILE *points_file(const cloud *c, bool hex) {
   FILE *f = tmpfile();
   if (!f) bench_die("files", "no temporary file");
-  for (size_t i = 0; i < c->n; i++) fprintf(f, "%.17g %.17g\n", c->x[i], c->y[i]);
+  for (size_t i = 0; i < c->n; i++) fprintf(f, hex ? "%a %a\n" : "%.17g %.17g\n", c->x[i], c->y[i]);
   if (fflush(f)) bench_die("files", "writing failed");
   return f;
 }
@@ -45,21 +47,21 @@ static void round_trip(series *s, FILE *in, size_t n) {
   fclose(out);
 }
 
-static void row_files(const bench_options *o) {
+static void row_files(const bench_options *o, bool hex) {
   cloud points;
   series s = {0};
   cloud_uniform(&points, bench_size(o, 1000000));
-  FILE *in = points_file(&points);
+  FILE *in = points_file(&points, hex);
   for (size_t r = 0; r < bench_runs(o, 3); r++) round_trip(&s, in, points.n);
   bench_row row = {.n = points.n, .peer = &s.run, .peer_name = "own triangulation"};
-  row.name = "read";
+  row.name = hex ? "readhex" : "read";
   row.ours = &s.read;
-  row.remark = "points file of 17-digit decimals";
+  row.remark = hex ? "hexadecimal floats" : "decimals of 17 digits";
   bench_report(o, &row);
   row.name = "write";
   row.ours = &s.write;
   row.remark = "csv of all pairs";
-  bench_report(o, &row);
+  if (!hex) bench_report(o, &row);
   fclose(in);
   cloud_clear(&points);
 }
@@ -67,7 +69,8 @@ static void row_files(const bench_options *o) {
 int main(int argc, char **argv) {
   bench_options o;
   bench_options_read(&o, argc, argv);
-  if (bench_wants(&o, "files") || bench_wants(&o, "read") || bench_wants(&o, "write")) row_files(&o);
+  if (bench_wants(&o, "read") || bench_wants(&o, "write")) row_files(&o, false);
+  if (bench_wants(&o, "readhex")) row_files(&o, true);
   bench_options_close(&o);
   return 0;
 }
