@@ -9,7 +9,10 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 
 # The fenced block that follows the line "<!-- NAME -->".
-block() { sed -n "/^<!-- $1 -->\$/,/^\`\`\`\$/p" "$root/README.md" | sed '1,2d;$d'; }
+block() {
+  awk -v mark="<!-- $1 -->" '$0 == mark { on = 1; next } on && /^```/ { if (++fence == 2) exit; next } on { print }' \
+    "$root/README.md"
+}
 
 block readme_example.c >"$work/example.c"
 block readme_example.expected >"$work/expected"
