@@ -15,6 +15,7 @@ typedef struct harness {
   test_random random;
   size_t cases, pairs, legal, undecided; /* how much was compared */
   size_t carried;                        /* legal statuses carried over where a fresh run says indeterminate */
+  size_t hairlines;                      /* legal pairs called indeterminate, with room below the engine's floor */
 } harness;
 
 void harness_init(harness *h, const char *name);
@@ -35,8 +36,12 @@ dyd_sites *harness_sites(const orc_case *c);
 /* dyd_delaunay_new, NULL with a message when it does not return DYD_OK. */
 dyd_delaunay *harness_engine(char *message, const dyd_sites *s, const dyd_delaunay_options *options);
 
-/* All statuses of the engine against the oracle's. */
-bool same_as_oracle(char *message, const orc_case *c, const orc_table *t, const dyd_delaunay *pd);
+/* The floor documented in delaunay/witness.h: 2^-FLOOR_BITS of the distances concerned. */
+#define FLOOR_BITS 30
+
+/* All statuses of the engine against the oracle's. A legal pair may be called indeterminate only if its
+ * witnesses have no room above the floor and not all sites are points. */
+bool same_as_oracle(char *message, harness *h, const orc_case *c, const orc_table *t, const dyd_delaunay *pd);
 /* All statuses of two engines. */
 bool same_statuses(char *message, const dyd_delaunay *a, const dyd_delaunay *b, size_t n);
 /* Pairs, neighbours, counts, faces, aliases, hull against dyd_delaunay_status. */

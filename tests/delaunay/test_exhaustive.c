@@ -15,7 +15,7 @@ static bool check(char *message, harness *h, const orc_case *c) {
   dyd_sites *s = harness_sites(c);
   dyd_delaunay *pd = harness_engine(message, s, NULL);
   orc_statuses(&t, &h->pool, c);
-  bool good = pd && same_as_oracle(message, c, &t, pd) && queries_agree(message, c, pd) &&
+  bool good = pd && same_as_oracle(message, h, c, &t, pd) && queries_agree(message, c, pd) &&
               triangles_right(message, &h->pool, c, pd) && witnesses_hold(message, &h->pool, c, pd);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);

@@ -48,7 +48,7 @@ static bool right_now(char *message, harness *h, const orc_case *now, const dyd_
   if (!same_as_fresh(message, h, now, s, pd) || !queries_agree(message, now, pd)) return false;
   if (now->n > 7 && !orc_case_all_points(now)) return true;
   orc_statuses(&t, &h->pool, now);
-  return same_as_oracle(message, now, &t, pd) && witnesses_hold(message, &h->pool, now, pd) &&
+  return same_as_oracle(message, h, now, &t, pd) && witnesses_hold(message, &h->pool, now, pd) &&
          triangles_right(message, &h->pool, now, pd);
 }
 

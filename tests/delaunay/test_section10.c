@@ -29,7 +29,7 @@ static void expect(const orc_case *c, const char *table) {
     dyd_delaunay_options o = {.no_filter = exact};
     dyd_sites *s = harness_sites(c);
     dyd_delaunay *pd = harness_engine(message, s, &o);
-    bool good = pd && same_as_oracle(message, c, &want, pd) && queries_agree(message, c, pd) &&
+    bool good = pd && same_as_oracle(message, &shared, c, &want, pd) && queries_agree(message, c, pd) &&
                 triangles_right(message, &shared.pool, c, pd) && witnesses_hold(message, &shared.pool, c, pd);
     dyd_delaunay_free(pd);
     dyd_sites_free(s);

@@ -42,6 +42,10 @@ bool orc_possible(orc_pool *p, const orc_case *c, size_t i, size_t j);
 /* When legal and wx, wy are not NULL, they receive a witness (numbers of the pool). */
 bool orc_legal(mpq_srcptr *wx, mpq_srcptr *wy, orc_pool *p, const orc_case *c, size_t i, size_t j);
 
+/* Do the witnesses of ij around the witness (wx,wy) hold a disc of about 2^-bits times its distance from R_i? An
+ * estimate: false means that the search for it failed. */
+bool orc_is_roomy(orc_pool *p, const orc_case *c, size_t i, size_t j, mpq_srcptr wx, mpq_srcptr wy, long bits);
+
 /* The statuses of all pairs, aliases answering for the site they stand for; ORC_TIE is used exactly when all
  * sites are points. status[i][j] = status[j][i]; the diagonal is ORC_ILLEGAL. */
 typedef struct orc_table {
