@@ -1,0 +1,299 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Budgets, cancellation, and going on after either. */
+#include "engine/help.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <string.h>
+#include <time.h>
+
+static dyd_engine_options options(void) {
+  dyd_engine_options o;
+  dyd_engine_options_init(&o);
+  return o;
+}
+
+static void test_stages(void **state) {
+  (void)state;
+  dyd_engine *e = engine_new();
+  engine_add_polygon(e, 6, NULL, 0);
+  dyd_engine_options o = options();
+  o.max_stages = 2;
+  engine_run(e, &o, DYD_OUTCOME_BUDGET);
+  assert_int_equal(DYD_BUDGET_STAGES, engine_counters(e).spent);
+  assert_int_equal(2, engine_counters(e).stages);
+  assert_int_equal(128, engine_counters(e).bits_most);
+  engine_run(e, &o, DYD_OUTCOME_BUDGET); /* each run has stages of its own */
+  assert_int_equal(4, engine_counters(e).stages);
+  assert_int_equal(512, engine_counters(e).bits_most);
+  dyd_engine_free(e);
+}
+
+/* Calls: before the first stage is complete there is no result; within a later stage the result is brought up to
+ * date with what was narrowed. Counters are exact. */
+static void test_calls(void **state) {
+  (void)state;
+  faulty f = {0};
+  dyd_source source = faulty_source(&f);
+  dyd_engine *e = engine_new();
+  const double x[4] = {0, 1, 1, 0}, y[4] = {1000, 1000, 1001, 1001};
+  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 4, &source));
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 4, x, y));
+  engine_add_polygon(e, 5, NULL, 0);
+  dyd_engine_options o = options();
+  o.max_calls = 3;
+  engine_run(e, &o, DYD_OUTCOME_BUDGET);
+  assert_int_equal(DYD_BUDGET_CALLS, engine_counters(e).spent);
+  assert_null(dyd_engine_delaunay(e));
+  assert_int_equal(3, engine_counters(e).calls);
+  assert_int_equal(3, f.calls);
+  assert_int_equal(0, engine_counters(e).stages);
+  /* The 1 + 5 points left (the polygon's first is exact or not, as the expressions find it). */
+  o.max_calls = 0;
+  o.max_stages = 1;
+  engine_run(e, &o, DYD_OUTCOME_BUDGET);
+  assert_int_equal(DYD_BUDGET_STAGES, engine_counters(e).spent);
+  uint64_t calls = engine_counters(e).calls;
+  assert_int_equal(4, f.calls);
+  assert_in_range(calls, 8, 9);
+  monotone m;
+  monotone_init(&m, e);
+  monotone_look(&m);
+  o.max_stages = 0;
+  o.max_calls = 2;
+  o.progress = monotone_progress;
+  o.progress_user = &m;
+  engine_run(e, &o, DYD_OUTCOME_BUDGET);
+  assert_int_equal(DYD_BUDGET_CALLS, engine_counters(e).spent);
+  assert_int_equal(calls + 2, engine_counters(e).calls);
+  assert_int_equal(2, engine_counters(e).stages);
+  assert_int_equal(1, m.stages);
+  monotone_clear(&m);
+  dyd_engine_free(e);
+  assert_int_equal(1, f.released);
+}
+
+static void test_pairs(void **state) {
+  (void)state;
+  dyd_engine *e = engine_new();
+  dyd_dyadic area, hausdorff;
+  dyd_dyadic_init(&area);
+  dyd_dyadic_init(&hausdorff);
+  const int weight[12] = {3, 17, 5, 40, 1, 22, 9, 31, 12, 2, 27, 14};
+  engine_add_polygon(e, 12, weight, 500);
+  dyd_engine_options o = options();
+  o.max_pairs = 8;
+  o.max_bits = 200;
+  dyd_outcome outcome;
+  dyd_error err;
+  assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &o, &err));
+  assert_int_equal(DYD_OUTCOME_BUDGET, outcome);
+  assert_int_equal(DYD_BUDGET_PAIRS, engine_counters(e).spent);
+  assert_int_equal(DYD_CAPPED, err.code);
+  assert_true(strlen(err.message) > 0);
+  assert_true(dyd_delaunay_is_capped(dyd_engine_delaunay(e)));
+  assert_int_equal(DYD_CAPPED, dyd_engine_bounds(&area, &hausdorff, e));
+  /* A larger cap at the same precision lists all pairs; */
+  o.max_pairs = 1000;
+  engine_run(e, &o, DYD_OUTCOME_BUDGET);
+  assert_int_equal(DYD_BUDGET_BITS, engine_counters(e).spent);
+  size_t count[4];
+  engine_count(count, e);
+  assert_int_equal(54, count[DYD_INDETERMINATE]);
+  assert_int_equal(DYD_OK, dyd_engine_bounds(&area, &hausdorff, e));
+  /* and more precision dissolves the cluster. */
+  o.max_bits = 2000;
+  engine_run(e, &o, DYD_OUTCOME_DECIDED);
+  dyd_engine_free(e);
+  dyd_dyadic_clear(&hausdorff);
+  dyd_dyadic_clear(&area);
+}
+
+/* A cap that is met at first and dissolved by refinement within the same run. */
+static void test_pairs_dissolved(void **state) {
+  (void)state;
+  dyd_engine *e = engine_new();
+  const int weight[12] = {3, 17, 5, 40, 1, 22, 9, 31, 12, 2, 27, 14};
+  engine_add_polygon(e, 12, weight, 500);
+  dyd_engine_options o = options();
+  o.max_pairs = 8;
+  engine_run(e, &o, DYD_OUTCOME_DECIDED);
+  assert_false(dyd_delaunay_is_capped(dyd_engine_delaunay(e)));
+  dyd_engine_free(e);
+}
+
+/* Exact ties above the cap: nothing can be refined. */
+static void test_pairs_of_ties(void **state) {
+  (void)state;
+  dyd_engine *e = engine_new();
+  double x[40], y[40];
+  for (int k = 0; k < 40; k++) x[k] = k, y[k] = 0;
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 12, x, y));
+  dyd_engine_options o = options();
+  o.max_pairs = 5;
+  engine_run(e, &o, DYD_OUTCOME_BUDGET);
+  assert_int_equal(DYD_BUDGET_PAIRS, engine_counters(e).spent);
+  dyd_engine_free(e);
+}
+
+static void test_seconds(void **state) {
+  (void)state;
+  dyd_engine *e = engine_new();
+  engine_add_polygon(e, 12, NULL, 0);
+  dyd_engine_options o = options();
+  o.max_bits = 1000000;
+  o.seconds = 0.2;
+  struct timespec a, b;
+  clock_gettime(CLOCK_MONOTONIC, &a);
+  engine_run(e, &o, DYD_OUTCOME_BUDGET);
+  clock_gettime(CLOCK_MONOTONIC, &b);
+  assert_int_equal(DYD_BUDGET_SECONDS, engine_counters(e).spent);
+  double took = (double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec);
+  assert_true(took >= 0.15 && took < 10);
+  assert_true(engine_counters(e).seconds >= 0.15 && engine_counters(e).seconds <= took + 1e-3);
+  /* A limit that has passed before the first stage: no result, and no harm. */
+  dyd_engine *f = engine_new();
+  engine_add_polygon(f, 12, NULL, 0);
+  o.seconds = 1e-9;
+  engine_run(f, &o, DYD_OUTCOME_BUDGET);
+  assert_int_equal(DYD_BUDGET_SECONDS, engine_counters(f).spent);
+  assert_null(dyd_engine_delaunay(f));
+  o.seconds = 1e12;
+  o.max_bits = 128;
+  engine_run(f, &o, DYD_OUTCOME_BUDGET);
+  assert_int_equal(DYD_BUDGET_BITS, engine_counters(f).spent);
+  dyd_engine_free(f);
+  dyd_engine_free(e);
+}
+
+static void test_bad_options(void **state) {
+  (void)state;
+  dyd_engine *e = engine_new();
+  dyd_engine_options o = options();
+  o.seconds = -1;
+  engine_run(e, &o, DYD_OUTCOME_ERROR);
+  o = options();
+  o.goal = (dyd_goal)9;
+  engine_run(e, &o, DYD_OUTCOME_ERROR);
+  o = options();
+  o.schedule = (dyd_schedule)9;
+  engine_run(e, &o, DYD_OUTCOME_ERROR);
+  o = options();
+  o.goal_bits = INT64_MAX;
+  engine_run(e, &o, DYD_OUTCOME_ERROR);
+  /* The engine has not started by any of these. */
+  const double x = 1;
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &x));
+  engine_run(e, NULL, DYD_OUTCOME_DECIDED);
+  dyd_engine_free(e);
+}
+
+/* ---- cancellation ---- */
+
+static void test_cancel_before(void **state) {
+  (void)state;
+  dyd_engine *e = engine_new();
+  engine_add_polygon(e, 6, NULL, 0);
+  dyd_engine_cancel(e);
+  engine_run(e, NULL, DYD_OUTCOME_CANCELLED);
+  assert_null(dyd_engine_delaunay(e));
+  assert_int_equal(0, engine_counters(e).calls);
+  dyd_engine_options o = options();
+  o.max_bits = 128;
+  engine_run(e, &o, DYD_OUTCOME_BUDGET); /* it was sticky for one run only */
+  dyd_engine_cancel(e);
+  engine_run(e, &o, DYD_OUTCOME_CANCELLED); /* what was stated stays */
+  size_t count[4];
+  engine_count(count, e);
+  assert_int_equal(6, count[DYD_LEGAL]);
+  assert_int_equal(9, count[DYD_INDETERMINATE]);
+  dyd_engine_free(e);
+}
+
+/* From inside a callback, at every call in turn: the run stops after that call, later runs go on to the same end. */
+static void test_cancel_inside(void **state) {
+  (void)state;
+  for (uint64_t at = 1;; at++) {
+    faulty f = {.cancel_at = at};
+    dyd_source source = faulty_source(&f);
+    dyd_engine *e = engine_new();
+    f.cancel = e;
+    assert_int_equal(DYD_OK, dyd_engine_add_source(e, 6, &source));
+    dyd_engine_options o = options();
+    o.start_bits = 2;
+    dyd_outcome outcome;
+    assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &o, NULL));
+    if (outcome == DYD_OUTCOME_CANCELLED)
+      assert_int_equal(at, f.calls);
+    else
+      assert_true(f.calls < at);
+    bool done = outcome != DYD_OUTCOME_CANCELLED;
+    if (!done) {
+      if (at < 6) assert_null(dyd_engine_delaunay(e));
+      engine_run(e, &o, DYD_OUTCOME_DECIDED);
+    }
+    assert_int_equal(DYD_OUTCOME_DECIDED, dyd_engine_outcome(e));
+    dyd_engine_free(e);
+    assert_int_equal(1, f.released);
+    if (done) {
+      assert_true(at > 6);
+      break;
+    }
+  }
+}
+
+static void *cancel_soon(void *arg) {
+  nanosleep(&(struct timespec){0, 50000000}, NULL);
+  dyd_engine_cancel(arg);
+  return NULL;
+}
+
+static void test_cancel_thread(void **state) {
+  (void)state;
+  dyd_engine *e = engine_new();
+  engine_add_polygon(e, 12, NULL, 0);
+  dyd_engine_options o = options();
+  o.max_bits = 1000000;
+  o.seconds = 100;
+  pthread_t thread;
+  assert_int_equal(0, pthread_create(&thread, NULL, cancel_soon, e));
+  engine_run(e, &o, DYD_OUTCOME_CANCELLED);
+  pthread_join(thread, NULL);
+  dyd_engine_free(e);
+}
+
+static dyd_engine *signalled;
+static void on_alarm(int number) {
+  (void)number;
+  dyd_engine_cancel(signalled);
+}
+
+static void test_cancel_signal(void **state) {
+  (void)state;
+  struct sigaction action = {.sa_handler = on_alarm}, before;
+  timer_t timer;
+  signalled = engine_new();
+  engine_add_polygon(signalled, 12, NULL, 0);
+  dyd_engine_options o = options();
+  o.max_bits = 1000000;
+  sigaction(SIGALRM, &action, &before);
+  assert_int_equal(0, timer_create(CLOCK_MONOTONIC, NULL, &timer));
+  struct itimerspec soon = {.it_value = {0, 50000000}};
+  timer_settime(timer, 0, &soon, NULL);
+  engine_run(signalled, &o, DYD_OUTCOME_CANCELLED);
+  timer_delete(timer);
+  sigaction(SIGALRM, &before, NULL);
+  dyd_engine_free(signalled);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_stages),        cmocka_unit_test(test_calls),
+      cmocka_unit_test(test_pairs),         cmocka_unit_test(test_pairs_dissolved),
+      cmocka_unit_test(test_pairs_of_ties), cmocka_unit_test(test_seconds),
+      cmocka_unit_test(test_bad_options),   cmocka_unit_test(test_cancel_before),
+      cmocka_unit_test(test_cancel_inside), cmocka_unit_test(test_cancel_thread),
+      cmocka_unit_test(test_cancel_signal),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
