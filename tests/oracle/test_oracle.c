@@ -5,6 +5,7 @@
 
 #include "oracle/oracle.h"
 #include "oracle/oracle_gen.h"
+#include "oracle/oracle_lattice.h"
 #include <cmocka.h>
 
 static void fail_case(const orc_case *c, const orc_case *choice, size_t i, size_t j, const char *what) {
@@ -120,6 +121,32 @@ static void test_points(void **state) {
   orc_pool_clear(&p);
 }
 
+/* The classical statuses in 64 bits and in rationals. */
+static void test_lattice(void **state) {
+  (void)state;
+  test_random r = test_random_start("oracle lattice");
+  orc_pool p;
+  orc_case c;
+  orc_pool_init(&p);
+  orc_case_init(&c);
+  for (size_t k = 0; k < test_cases(300); k++) {
+    orc_lattice point[10];
+    size_t n = (size_t)test_between(&r, 2, 10);
+    int64_t grid = k % 2 ? 4 : LATTICE_MAX;
+    c.n = 0;
+    for (size_t i = 0; i < n; i++) {
+      point[i] = (orc_lattice){(int32_t)test_between(&r, -grid, grid), (int32_t)test_between(&r, -grid, grid)};
+      orc_case_add(&c, point[i].x, point[i].x, point[i].y, point[i].y, 1);
+    }
+    for (size_t i = 0; i < n; i++)
+      for (size_t j = i + 1; j < n; j++)
+        if (!orc_rect_equal(&c.rect[i], &c.rect[j]))
+          assert_int_equal(orc_lattice_status(point, n, i, j), orc_classical(&p, &c, i, j));
+  }
+  orc_case_clear(&c);
+  orc_pool_clear(&p);
+}
+
 /* Rectangle number v of the 36 with corners on {0,1,2}^2. */
 static void add_tiny(orc_case *c, size_t v) {
   static const long side[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
@@ -193,8 +220,8 @@ static void test_field(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_field), cmocka_unit_test(test_points),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_field),     cmocka_unit_test(test_points),
                                      cmocka_unit_test(test_two_sides), cmocka_unit_test(test_random_cases),
-                                     cmocka_unit_test(test_tiny)};
+                                     cmocka_unit_test(test_tiny),      cmocka_unit_test(test_lattice)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
