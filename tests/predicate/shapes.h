@@ -73,6 +73,22 @@ static inline void random_box(double out[4], test_random *r, double scale, bool 
   }
 }
 
+/* A rational point within 6 of (2^52, -2^52): its outward box in doubles is a unit square there, so filters see wide
+ * boxes where there are points. */
+static inline void random_far_point(dyd_rect *out, test_random *r) {
+  mpq_t q[2], t;
+  mpq_inits(q[0], q[1], t, NULL);
+  for (int axis = 0; axis < 2; axis++) {
+    mpq_set_si(q[axis], (long)test_between(r, 0, 42), 7);
+    mpq_canonicalize(q[axis]);
+    mpq_set_si(t, 1, 1);
+    mpq_mul_2exp(t, t, 52);
+    (axis ? mpq_sub : mpq_add)(q[axis], q[axis], t);
+  }
+  (void)dyd_rect_set_q(out, q[0], q[1]);
+  mpq_clears(q[0], q[1], t, NULL);
+}
+
 static inline void box_rect(dyd_rect *out, const double box[4]) {
   (void)dyd_rect_set_d(out, box[0], box[1], box[2], box[3]);
 }

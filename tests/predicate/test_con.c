@@ -237,7 +237,27 @@ static void test_exhaustive(void **state) {
   quad_clear(&q);
 }
 
-/* Cocircular and collinear doubles at every scale: filters against integers. */
+/* The public answer, the partial disc and both filters against the exact rung; is the filter for mixed quads right? */
+static bool check_scaled(quad *q) {
+  const dyd_rect *in[4] = {&q->rect[0], &q->rect[1], &q->rect[2], &q->rect[3]};
+  dyd_irects_scale(q->irect, in, 4, NULL, NULL);
+  dyd_sure answer = con(q, 3, 0, 1, 2);
+  assert_int_equal(disc_con(q), answer);
+  dyd_box box[4];
+  bool exact = true;
+  for (int k = 0; k < 4; k++) {
+    dyd_filter_box(&box[k], in[k]);
+    exact = exact && box[k].exact;
+  }
+  int turn = (int)dyd_irect_orientation(&q->irect[0], &q->irect[1], &q->irect[2]);
+  int sign = (int)dyd_filter_incircle(box[0].outer, box[1].outer, box[2].outer, box[3].outer);
+  bool mixed = dyd_filter_incircle_mixed(box[0].outer, box[1].outer, box[2].outer, box[3].outer);
+  if (sign && turn) assert_int_equal(sign * turn, answer);
+  if (turn && mixed && exact) assert_int_equal(answer, DYD_UNSURE);
+  return mixed;
+}
+
+/* Cocircular and collinear doubles at every scale. */
 static void test_scales(void **state) {
   (void)state;
   test_random r = test_random_start("Con at all scales");
@@ -257,19 +277,37 @@ static void test_scales(void **state) {
       }
       box_rect(&q.rect[k], box);
     }
-    const dyd_rect *in[4] = {&q.rect[0], &q.rect[1], &q.rect[2], &q.rect[3]};
-    dyd_irects_scale(q.irect, in, 4, NULL, NULL);
-    dyd_sure answer = con(&q, 3, 0, 1, 2);
-    assert_int_equal(disc_con(&q), answer);
-    dyd_box box[4];
-    for (int k = 0; k < 4; k++) dyd_filter_box(&box[k], in[k]);
-    int turn = (int)dyd_irect_orientation(&q.irect[0], &q.irect[1], &q.irect[2]);
-    int sign = (int)dyd_filter_incircle(box[0].outer, box[1].outer, box[2].outer, box[3].outer);
-    if (sign && turn) assert_int_equal(sign * turn, answer);
-    if (turn && dyd_filter_incircle_mixed(box[0].outer, box[1].outer, box[2].outer, box[3].outer)) {
-      assert_int_equal(answer, DYD_UNSURE);
-    }
+    check_scaled(&q);
   }
+  quad_clear(&q);
+}
+
+static void test_wide_boxes_of_points(void **state) {
+  (void)state;
+  test_random r = test_random_start("Con of points with wide boxes");
+  quad q;
+  quad_init(&q);
+  for (size_t n = test_cases(3000); n > 0; n--) {
+    for (int k = 0; k < 4; k++) random_far_point(&q.rect[k], &r);
+    check_scaled(&q);
+  }
+  quad_clear(&q);
+}
+
+/* Most unsure quads of wide boxes need no integers. */
+static void test_filter_answers(void **state) {
+  (void)state;
+  test_random r = test_random_start("filter of unsure Con");
+  quad q;
+  quad_init(&q);
+  size_t unsure = 0, filtered = 0;
+  for (size_t n = test_cases(3000); n > 0; n--) {
+    random_quad(&q, &r);
+    if (oracle_orientation(&q.s[0], &q.s[1], &q.s[2]) == DYD_UNSURE || con(&q, 3, 0, 1, 2) != DYD_UNSURE) continue;
+    unsure++;
+    filtered += check_scaled(&q);
+  }
+  assert_true(unsure > 0 && 3 * filtered > 2 * unsure);
   quad_clear(&q);
 }
 
@@ -301,9 +339,11 @@ static void test_rational_ties(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_oracle),     cmocka_unit_test(test_samples),  cmocka_unit_test(test_not_idle),
-      cmocka_unit_test(test_any_three),  cmocka_unit_test(test_symmetry), cmocka_unit_test(test_monotone),
-      cmocka_unit_test(test_exhaustive), cmocka_unit_test(test_scales),   cmocka_unit_test(test_rational_ties)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_oracle),        cmocka_unit_test(test_samples),
+                                     cmocka_unit_test(test_not_idle),      cmocka_unit_test(test_any_three),
+                                     cmocka_unit_test(test_symmetry),      cmocka_unit_test(test_monotone),
+                                     cmocka_unit_test(test_exhaustive),    cmocka_unit_test(test_scales),
+                                     cmocka_unit_test(test_rational_ties), cmocka_unit_test(test_wide_boxes_of_points),
+                                     cmocka_unit_test(test_filter_answers)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -81,6 +81,45 @@ static void test_oracle(void **state) {
   workspace_clear(&w);
 }
 
+static bool share_corner(const small_rect *a, const small_rect *b) {
+  bool x = false, y = false;
+  for (int k = 0; k < 4; k++) {
+    x = x || a->end[k & 1] == b->end[k >> 1];
+    y = y || a->end[2 + (k & 1)] == b->end[2 + (k >> 1)];
+  }
+  return x && y;
+}
+
+/* Can there be a continuum of circles?  Only when C-rectangles meet, or a corner of an F-rectangle is one of another.
+ */
+static bool may_be_infinite(const small_rect s[3], const dyd_touch touch[3]) {
+  for (int k = 0; k < 3; k++) {
+    const small_rect *a = &s[k], *b = &s[(k + 1) % 3];
+    bool far = touch[k] == DYD_FARTHEST || touch[(k + 1) % 3] == DYD_FARTHEST;
+    if (far ? share_corner(a, b) : small_meets(a, b)) return true;
+  }
+  return false;
+}
+
+/* An F-rectangle may lie across the others: still the same circles. */
+static void test_overlapping(void **state) {
+  (void)state;
+  test_random r = test_random_start("critical circles, F across C");
+  workspace w;
+  workspace_init(&w);
+  for (size_t n = test_cases(700); n > 0;) {
+    small_rect s[3];
+    dyd_touch touch[3];
+    for (int k = 0; k < 3; k++) s[k] = random_small(&r, 4);
+    random_labels(touch, &r);
+    if (may_be_infinite(s, touch)) continue;
+    size_t expected = oracle_circles(w.expected, ROOM, s, touch);
+    compare_sets(&w, find(&w, s, touch), expected);
+    n--;
+  }
+  workspace_clear(&w);
+}
+
 /* Any rectangles, nested and equal ones too: whatever is stated is a circle as asked for. */
 static void test_sides(void **state) {
   (void)state;
@@ -216,6 +255,13 @@ static void test_cancellation(void **state) {
   check_enclosure(&k, 0);
   mpz_mul_2exp(k.ax, k.ax, 400), mpz_mul_2exp(k.bx, k.bx, 400);
   check_enclosure(&k, 0);
+  mpz_set_ui(k.ax, 0), mpz_set_ui(k.bx, 1); /* sqrt(2^142 + 1), just above a double */
+  mpz_set_ui(k.c, 1);
+  mpz_mul_2exp(k.c, k.c, 142);
+  mpz_add_ui(k.c, k.c, 1);
+  check_enclosure(&k, 0);
+  mpz_set_si(k.bx, -1);
+  check_enclosure(&k, 0);
   mpz_set_ui(k.c, 4), mpz_set_si(k.ax, 6), mpz_set_si(k.bx, -3); /* exactly 0 */
   check_enclosure(&k, 7);
   dyd_icircle_clear(&k);
@@ -259,8 +305,9 @@ static void test_public(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_oracle),       cmocka_unit_test(test_sides),
-                                     cmocka_unit_test(test_moved),        cmocka_unit_test(test_enclosure),
-                                     cmocka_unit_test(test_cancellation), cmocka_unit_test(test_public)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_oracle),    cmocka_unit_test(test_overlapping),
+                                     cmocka_unit_test(test_sides),     cmocka_unit_test(test_moved),
+                                     cmocka_unit_test(test_enclosure), cmocka_unit_test(test_cancellation),
+                                     cmocka_unit_test(test_public)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

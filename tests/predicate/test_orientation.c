@@ -113,8 +113,21 @@ static void test_rational_points(void **state) {
   workspace_clear(&w);
 }
 
+static void test_wide_boxes_of_points(void **state) {
+  (void)state;
+  test_random r = test_random_start("points with wide boxes");
+  workspace w;
+  workspace_init(&w);
+  for (size_t n = test_cases(3000); n > 0; n--) {
+    for (int k = 0; k < 3; k++) random_far_point(&w.rect[k], &r);
+    check_scaled(&w);
+  }
+  workspace_clear(&w);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_exhaustive), cmocka_unit_test(test_scales),
-                                     cmocka_unit_test(test_rational_points)};
+                                     cmocka_unit_test(test_rational_points),
+                                     cmocka_unit_test(test_wide_boxes_of_points)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
