@@ -113,6 +113,8 @@ DYD_API dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd
 DYD_API void dyd_engine_cancel(dyd_engine *e);
 
 DYD_API dyd_outcome dyd_engine_outcome(const dyd_engine *e);
+/* The goal of the last run, and its goal_bits in *bits (may be NULL); DYD_GOAL_DECIDED and 0 before the first one. */
+DYD_API dyd_goal dyd_engine_goal(int64_t *bits, const dyd_engine *e);
 /* The current result; borrowed until the next call that changes e; NULL before the first complete stage. */
 DYD_API const dyd_delaunay *dyd_engine_delaunay(const dyd_engine *e);
 DYD_API void dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e);

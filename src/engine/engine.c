@@ -63,6 +63,11 @@ dyd_outcome dyd_engine_outcome(const dyd_engine *e) {
   return e->outcome;
 }
 
+dyd_goal dyd_engine_goal(int64_t *bits, const dyd_engine *e) {
+  if (bits) *bits = e->goal_bits;
+  return e->goal;
+}
+
 const dyd_delaunay *dyd_engine_delaunay(const dyd_engine *e) {
   return e->pd;
 }

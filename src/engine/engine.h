@@ -45,6 +45,8 @@ struct dyd_engine {
   dyd_error cap_error; /* what it said when the cap was met */
   bool started;
   dyd_outcome outcome;
+  dyd_goal goal; /* of the last run, with goal_bits */
+  int64_t goal_bits;
   dyd_budget spent;
   uint64_t stages, calls;
   double seconds;

@@ -262,6 +262,8 @@ dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_
   begin(&r, e);
   if (set_options(&r.o, options)) {
     e->started = true;
+    e->goal = r.o.goal;
+    e->goal_bits = r.o.goal_bits;
     dyd_watch_start(&r.watch, r.o.seconds, &e->stop);
     status = loop(&r);
     dyd_watch_stop(&r.watch);

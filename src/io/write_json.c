@@ -131,15 +131,23 @@ static void write_counters(const dyd_result *r) {
           d->integer, d->exact, d->witness_guess, d->witness_search, d->cover_walks, (uint64_t)(c.seconds * 1000) + 1);
 }
 
+static const char *goal_text(dyd_goal goal) {
+  if (goal == DYD_GOAL_AREA) return "area";
+  return goal == DYD_GOAL_HAUSDORFF ? "hausdorff" : "decided";
+}
+
 static void write_head(const dyd_result *r) {
   size_t count[4];
+  int64_t bits;
+  dyd_goal goal = dyd_engine_goal(&bits, r->engine);
   dyd_delaunay_count(count, r->pd);
   fprintf(r->out,
           "{\"format\": \"dyadel delaunay 1\",\n\"version\": \"%s\",\n"
           "\"rounding\": \"x, y and exact are exact; x_decimal and y_decimal are rounded outward: the first down, the "
           "second up; decimal is rounded up; null is beyond the largest double\",\n"
-          "\"outcome\": \"%s\",\n",
-          dyd_version(), dyd_outcome_text(dyd_engine_outcome(r->engine)));
+          "\"outcome\": \"%s\",\n\"goal\": \"%s\",\n",
+          dyd_version(), dyd_outcome_text(dyd_engine_outcome(r->engine)), goal_text(goal));
+  if (goal != DYD_GOAL_DECIDED) fprintf(r->out, "\"goal_bits\": %" PRId64 ",\n", bits);
   fprintf(r->out,
           "\"capped\": %s,\n\"count\": {\"sites\": %zu, \"legal\": %zu, \"indeterminate\": %zu, \"tie\": %zu},\n",
           dyd_delaunay_is_capped(r->pd) ? "true" : "false", r->count, count[DYD_LEGAL], count[DYD_INDETERMINATE],

@@ -10,7 +10,7 @@
 
 #define SIDE 1000.0 /* of the drawing */
 #define EDGE 30.0   /* free space around it */
-#define FOOT 88.0   /* room of the legend */
+#define FOOT 84.0   /* room of the legend */
 
 /* Invariant: scale > 0; the drawing fits width x height. */
 typedef struct frame {
@@ -72,7 +72,7 @@ static dyd_status find_frame(frame *f, const dyd_result *r, dyd_error *err) {
   if ((all[3] - all[2]) * f->scale < f->height) f->top += (f->height / f->scale - (all[3] - all[2])) / 2;
   double spacing = SIDE / sqrt((double)r->count + 1);
   f->line = fmin(fmax(spacing * 0.03, 0.35), 2.2);
-  f->dot = fmin(fmax(spacing * 0.06, 0.7), 4);
+  f->dot = fmin(fmax(spacing * 0.06, 0.8), 4);
   return DYD_OK;
 }
 
@@ -141,12 +141,14 @@ static void write_site(const dyd_result *r, const frame *f, size_t i) {
   put_attribute(r->out, dot ? "cy" : "y", dot ? y : pixel_y(f, box[3]));
   put_attribute(r->out, dot ? "r" : "width", dot ? f->dot : w);
   if (!dot) put_attribute(r->out, "height", h);
-  fputs(dot ? " fill=\"#222\" stroke=\"none\"/>\n" : "/>\n", r->out);
+  fputs(dot ? " fill=\"#222\" fill-opacity=\"1\" stroke=\"none\"/>\n" : "/>\n", r->out);
   if (r->count > 40) return;
   fputs("<text", r->out);
   put_attribute(r->out, "x", x + 6);
   put_attribute(r->out, "y", y - 6);
-  fprintf(r->out, " fill=\"#222\" stroke=\"none\">%zu</text>\n", i);
+  fprintf(r->out,
+          " fill=\"#222\" fill-opacity=\"1\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\">%zu</text>\n",
+          i);
 }
 
 static void write_sites(const dyd_result *r, const frame *f) {
@@ -181,28 +183,34 @@ static void write_scale(const dyd_result *r, const frame *f, double y) {
   fprintf(r->out, ">%s</text>\n", text);
 }
 
+/* One line sample with its name and number; returns where the next one begins. */
+static double write_sample(const dyd_result *r, int k, size_t count, double x, double y) {
+  char text[60];
+  int length = snprintf(text, sizeof text, "%s: %zu", style[k].name, count);
+  fputs("<path", r->out);
+  write_stroke(r->out, k, 2);
+  fputs(" d=\"M", r->out);
+  put(r->out, x);
+  fputs(" ", r->out);
+  put(r->out, y);
+  fputs("h30\"/>\n<text", r->out);
+  put_attribute(r->out, "x", x + 36);
+  put_attribute(r->out, "y", y + 5);
+  fprintf(r->out, ">%s</text>\n", text);
+  return x + 60 + 8.0 * length;
+}
+
 static void write_legend(const dyd_result *r, const frame *f) {
   size_t count[4];
   double x = EDGE, y = 2 * EDGE + f->height + 4;
   dyd_delaunay_count(count, r->pd);
-  for (int k = 2; k >= 0; k--, x += 150) {
-    fputs("<path", r->out);
-    write_stroke(r->out, k, 2);
-    fputs(" d=\"M", r->out);
-    put(r->out, x);
-    fputs(" ", r->out);
-    put(r->out, y);
-    fputs("h30\"/>\n<text", r->out);
-    put_attribute(r->out, "x", x + 36);
-    put_attribute(r->out, "y", y + 5);
-    fprintf(r->out, ">%s: %zu</text>\n", style[k].name, count[style[k].status]);
-  }
+  for (int k = 2; k >= 0; k--) x = write_sample(r, k, count[style[k].status], x, y);
   write_scale(r, f, y);
   fputs("<text", r->out);
   put_attribute(r->out, "x", EDGE);
   put_attribute(r->out, "y", y + 28);
   fprintf(r->out,
-          ">%zu points, outcome %s%s; pale blue: sure triangles; positions rounded by at most 0.01 pixel</text>\n",
+          ">%zu points, outcome %s%s; blue areas: sure triangles; positions rounded by at most 0.01 pixel</text>\n",
           r->count, dyd_outcome_text(dyd_engine_outcome(r->engine)),
           dyd_delaunay_is_capped(r->pd) ? ", not all possible pairs are shown" : "");
 }
