@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Building everything from the sites, at first or again. */
+#ifndef DYD_DELAUNAY_BUILD_H
+#define DYD_DELAUNAY_BUILD_H
+
+#include "delaunay/cover.h"
+
+/* Legal pairs known from before, as sites; they are in every skeleton and stay legal. */
+typedef struct dyd_known {
+  const dyd_pair *pair;
+  size_t count;
+} dyd_known;
+
+/* Fills an object that has only sites, options and counters. On failure it is cleared back to that. */
+dyd_status dyd_build(dyd_delaunay *pd, dyd_known known);
+void dyd_build_clear(dyd_delaunay *pd);
+/* The triangle corner of directed edge from v to w: triangle on its left, or DYD_NONE if there is no such edge.
+ * w may be the ghost. */
+uint32_t dyd_find_edge(const dyd_delaunay *pd, uint32_t v, uint32_t w);
+
+#endif

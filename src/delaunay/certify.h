@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Which edges of the skeleton are certain: real edges legal, ghost edges surely on the hull. */
+#ifndef DYD_DELAUNAY_CERTIFY_H
+#define DYD_DELAUNAY_CERTIFY_H
+
+#include "delaunay/cover.h"
+
+/* Marks every certain edge of a fresh mesh. */
+dyd_status dyd_certify_all(dyd_delaunay *pd, dyd_work *w);
+/* Decides edge k of triangle t, by witness or hull test, and marks it. */
+dyd_status dyd_certify_edge(dyd_delaunay *pd, dyd_work *w, uint32_t t, unsigned k);
+/* The middle of the skeleton's Voronoi edge of edge k of t, in doubles; NaN or far off is possible. */
+dyd_xy dyd_edge_centre(const dyd_delaunay *pd, uint32_t t, unsigned k);
+/* The quick pass in doubles over all vertices: marks edges whose first guess is proved a witness [FLT-STAR]. */
+dyd_status dyd_certify_stars(dyd_delaunay *pd);
+
+#endif

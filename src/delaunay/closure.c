@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Closure under flips.
+ *
+ * Any two choices are joined by a path along which the Delaunay triangulation changes by flips. So starting from the skeleton's
+ * edges, whenever an uncertain possible pair ij has two common possible neighbours k, l, the pair kl may come: it is decided
+ * by cover. The ghost takes part as a vertex: its pairs are the possible hull vertices. Every quad is seen when the last of its five pairs is
+ * taken from the queue (the links of the map in their order of addition). Certain pairs are never displaced, and every other possible pair lies inside one face, so a face
+ * is closed in itself [CLO-1]. A face of exact points whose uncertain edges are all exact ties is one cocircular polygon (or, beyond
+ * the hull, one collinear chain): all its pairs are possible [CLO-2]. */
+#include "delaunay/closure.h"
+
+#include "base/alloc.h"
+#include "base/verify.h"
+#include "delaunay/filter_quad.h"
+#include "delaunay/hull.h"
+#include "delaunay/pair_map.h"
+
+#include <string.h>
+
+/* Members 0 .. vertices-1 are the face's vertices, member `vertices` is the ghost (if outer). */
+typedef struct closing {
+  dyd_delaunay *pd;
+  dyd_work *w;
+  dyd_closure *out;
+  dyd_pair_map map;
+  const uint32_t *tri;
+  uint32_t tris;
+  size_t open, room;
+  bool full;
+} closing;
+
+static int compare_index(const void *a, const void *b) {
+  uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+  return (x > y) - (x < y);
+}
+
+static int compare_pair(const void *a, const void *b) {
+  const dyd_vertex_pair *x = a, *y = b;
+  if (x->i != y->i) return x->i < y->i ? -1 : 1;
+  return (x->j > y->j) - (x->j < y->j);
+}
+
+static dyd_status gather_vertices(closing *c) {
+  const dyd_mesh *m = &c->pd->mesh;
+  dyd_closure *out = c->out;
+  out->vertex = dyd_alloc(3 * (size_t)c->tris, sizeof *out->vertex);
+  if (!out->vertex) return DYD_E_NOMEM;
+  uint32_t count = 0;
+  for (uint32_t q = 0; q < c->tris; q++)
+    for (int k = 0; k < 3; k++) {
+      uint32_t v = m->tri[c->tri[q]].v[k];
+      if (v == m->n) out->outer = true;
+      else out->vertex[count++] = v;
+    }
+  qsort(out->vertex, count, sizeof *out->vertex, compare_index);
+  out->all_points = true;
+  for (uint32_t q = 0; q < count; q++) {
+    if (out->vertices && out->vertex[out->vertices - 1] == out->vertex[q]) continue;
+    out->vertex[out->vertices++] = out->vertex[q];
+    out->all_points = out->all_points && dyd_vertex_is_point(c->pd, out->vertex[q]);
+  }
+  return DYD_OK;
+}
+
+static uint32_t member_of(const closing *c, uint32_t v) {
+  if (v == c->pd->mesh.n) return c->out->vertices;
+  const uint32_t *p = bsearch(&v, c->out->vertex, c->out->vertices, sizeof v, compare_index);
+  return (uint32_t)(p - c->out->vertex);
+}
+
+static dyd_status keep_pair(dyd_closure *out, uint32_t a, uint32_t b) {
+  if (!dyd_reserve((void **)&out->pair, &out->pair_cap, out->pairs + 1, sizeof *out->pair)) return DYD_E_NOMEM;
+  out->pair[out->pairs++] = a < b ? (dyd_vertex_pair){a, b} : (dyd_vertex_pair){b, a};
+  return DYD_OK;
+}
+
+/* ---- exact ties ---- */
+
+static bool edge_is_tie(dyd_delaunay *pd, uint32_t t, unsigned k) {
+  dyd_mesh *m = &pd->mesh;
+  const uint32_t *v = m->tri[t].v;
+  uint32_t twin = m->tri[t].n[k];
+  return dyd_mesh_incircle(m, v[0], v[1], v[2], m->tri[twin >> 2].v[twin & 3]) == 0;
+}
+
+/* All sites exact, all uncertain edges exact ties, and either no ghost triangle or nothing else? */
+static bool is_polygon(const closing *c) {
+  uint32_t ghosts = 0;
+  if (!c->out->all_points) return false;
+  for (uint32_t q = 0; q < c->tris; q++) {
+    uint32_t t = c->tri[q];
+    ghosts += dyd_mesh_is_ghost(&c->pd->mesh, t);
+    for (unsigned k = 0; k < 3; k++)
+      if (!dyd_edge_is_certain(c->pd, t, k) && !edge_is_tie(c->pd, t, k)) return false;
+  }
+  return ghosts == 0 || ghosts == c->tris;
+}
+
+/* The pairs of the polygon's boundary (or of the chain's links) are certain. */
+static dyd_status add_certain_edges(closing *c) {
+  const dyd_mesh *m = &c->pd->mesh;
+  dyd_status st = DYD_OK;
+  for (uint32_t q = 0; q < c->tris && st == DYD_OK; q++)
+    for (unsigned k = 0; k < 3 && st == DYD_OK; k++) {
+      const dyd_tri *t = &m->tri[c->tri[q]];
+      uint32_t a = member_of(c, t->v[dyd_next(k)]), b = member_of(c, t->v[dyd_prev(k)]);
+      if (dyd_edge_is_certain(c->pd, c->tri[q], k) && dyd_pair_map_get(&c->map, a, b) == DYD_PAIR_UNKNOWN)
+        st = dyd_pair_map_add(&c->map, a, b, DYD_PAIR_CERTAIN);
+    }
+  return st;
+}
+
+static dyd_status all_pairs(closing *c) {
+  uint32_t m = c->out->vertices;
+  dyd_status st = add_certain_edges(c);
+  for (uint32_t a = 0; a < m && st == DYD_OK; a++)
+    for (uint32_t b = a + 1; b < m && st == DYD_OK; b++)
+      if (dyd_pair_map_get(&c->map, a, b) == DYD_PAIR_UNKNOWN)
+        st = keep_pair(c->out, c->out->vertex[a], c->out->vertex[b]);
+  return st;
+}
+
+/* ---- the general case ---- */
+
+static dyd_status add(closing *c, uint32_t a, uint32_t b, dyd_pair_state state) {
+  uint32_t ghost = c->out->vertices;
+  if (state == DYD_PAIR_OPEN && a != ghost && b != ghost && c->open++ >= c->room) c->full = true;
+  return dyd_pair_map_add(&c->map, a, b, state);
+}
+
+/* The ghost's pairs, all of them; the skeleton's edges. */
+static dyd_status start_ghost(closing *c) {
+  uint32_t ghost = c->out->vertices;
+  dyd_status st = DYD_OK;
+  for (uint32_t a = 0; a < ghost && c->out->outer && st == DYD_OK; a++) {
+    if (dyd_pair_map_get(&c->map, a, ghost) != DYD_PAIR_UNKNOWN) continue;
+    bool possible;
+    st = dyd_hull_possible(&possible, c->w, c->pd, c->out->vertex[a]);
+    if (st == DYD_OK) st = add(c, a, ghost, possible ? DYD_PAIR_OPEN : DYD_PAIR_IMPOSSIBLE);
+  }
+  return st;
+}
+
+static dyd_status start(closing *c) {
+  const dyd_mesh *m = &c->pd->mesh;
+  dyd_status st = add_certain_edges(c);
+  for (uint32_t q = 0; q < c->tris && st == DYD_OK; q++)
+    for (unsigned k = 0; k < 3 && st == DYD_OK; k++) {
+      const dyd_tri *t = &m->tri[c->tri[q]];
+      uint32_t a = member_of(c, t->v[dyd_next(k)]), b = member_of(c, t->v[dyd_prev(k)]);
+      if (dyd_pair_map_get(&c->map, a, b) == DYD_PAIR_UNKNOWN) st = add(c, a, b, DYD_PAIR_OPEN);
+    }
+  return st == DYD_OK ? start_ghost(c) : st;
+}
+
+/* The pair kl may take the place of ij: decide it, once. */
+static dyd_status flip(closing *c, uint32_t i, uint32_t j, uint32_t k, uint32_t l) {
+  uint32_t ghost = c->out->vertices;
+  const uint32_t *v = c->out->vertex;
+  bool possible = true;
+  if (k == ghost || l == ghost || dyd_pair_map_get(&c->map, k, l) != DYD_PAIR_UNKNOWN) return DYD_OK;
+  if (i != ghost && j != ghost && dyd_surely_not_displaced(c->pd, v[i], v[j], v[k], v[l])) return DYD_OK;
+  if (!dyd_surely_possible(c->pd, v[k], v[l], i == ghost ? DYD_NONE : v[i], j == ghost ? DYD_NONE : v[j])) {
+    dyd_status st = dyd_cover_possible(&possible, c->w, c->pd, v[k], v[l]);
+    if (st != DYD_OK) return st;
+  }
+  return add(c, k, l, possible ? DYD_PAIR_OPEN : DYD_PAIR_IMPOSSIBLE);
+}
+
+static bool possible(const closing *c, uint32_t a, uint32_t b) {
+  return dyd_pair_is_possible(dyd_pair_map_get(&c->map, a, b));
+}
+
+/* ij uncertain with the common neighbour k: every other common neighbour l. */
+static dyd_status flips_with(closing *c, uint32_t i, uint32_t j, uint32_t k) {
+  dyd_status st = DYD_OK;
+  if (dyd_pair_map_get(&c->map, i, j) != DYD_PAIR_OPEN) return st;
+  for (uint32_t q = c->map.head[i]; q != DYD_NONE && st == DYD_OK; q = c->map.link[q].next) {
+    uint32_t l = c->map.link[q].to;
+    if (l != j && l != k && possible(c, j, l)) st = flip(c, i, j, k, l);
+  }
+  return st;
+}
+
+/* All quads in which the pair ab is the last one: as the pair displaced, or as one of the four sides. */
+static dyd_status settle(closing *c, uint32_t a, uint32_t b) {
+  dyd_status st = DYD_OK;
+  for (uint32_t q = c->map.head[a]; q != DYD_NONE && st == DYD_OK; q = c->map.link[q].next) {
+    uint32_t k = c->map.link[q].to;
+    if (k == b || !possible(c, b, k)) continue;
+    st = flips_with(c, a, b, k);
+    if (st == DYD_OK) st = flips_with(c, a, k, b);
+    if (st == DYD_OK) st = flips_with(c, b, k, a);
+  }
+  return st;
+}
+
+static dyd_status close(closing *c) {
+  dyd_status st = start(c);
+  for (size_t q = 0; q < c->map.links && st == DYD_OK && !c->full; q += 2) {
+    if (dyd_cancelled(c->pd)) return DYD_CANCELLED;
+    st = settle(c, c->map.link[q + 1].to, c->map.link[q].to);
+  }
+  return st;
+}
+
+/* Every open pair of real members; when the cap was met only those of the skeleton, which come first. */
+static dyd_status collect(closing *c, size_t links) {
+  uint32_t ghost = c->out->vertices;
+  dyd_status st = DYD_OK;
+  for (size_t q = 0; q < links && st == DYD_OK; q += 2) {
+    uint32_t b = c->map.link[q].to, a = c->map.link[q + 1].to;
+    if (a != ghost && b != ghost && dyd_pair_map_get(&c->map, a, b) == DYD_PAIR_OPEN)
+      st = keep_pair(c->out, c->out->vertex[a], c->out->vertex[b]);
+  }
+  return st;
+}
+
+static dyd_status skeleton_pairs(closing *c) {
+  const dyd_mesh *m = &c->pd->mesh;
+  dyd_status st = DYD_OK;
+  c->out->capped = true;
+  c->out->pairs = 0;
+  for (uint32_t q = 0; q < c->tris && st == DYD_OK; q++)
+    for (unsigned k = 0; k < 3 && st == DYD_OK; k++) {
+      const dyd_tri *t = &m->tri[c->tri[q]];
+      uint32_t a = t->v[dyd_next(k)], b = t->v[dyd_prev(k)];
+      if (a < b && b != m->n && !dyd_edge_is_certain(c->pd, c->tri[q], k)) st = keep_pair(c->out, a, b);
+    }
+  return st;
+}
+
+dyd_status dyd_closure_run(dyd_closure *out, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris,
+                           size_t room) {
+  closing c = {.pd = pd, .w = w, .out = out, .tri = tri, .tris = tris, .room = room};
+  *out = (dyd_closure){0};
+  dyd_status st = gather_vertices(&c);
+  if (st == DYD_OK) st = dyd_pair_map_init(&c.map, out->vertices + 1);
+  if (st == DYD_OK && is_polygon(&c)) {
+    uint64_t m = out->vertices;
+    if (m * (m - 1) / 2 > room + 3 * (uint64_t)tris) c.full = true;
+    else st = all_pairs(&c);
+  } else if (st == DYD_OK) {
+    st = close(&c);
+    if (st == DYD_OK) st = collect(&c, c.map.links);
+  }
+  if (st == DYD_OK && (c.full || out->pairs > room)) st = skeleton_pairs(&c);
+  if (st == DYD_OK && out->pairs) qsort(out->pair, out->pairs, sizeof *out->pair, compare_pair);
+  dyd_pair_map_clear(&c.map);
+  if (st != DYD_OK) dyd_closure_clear(out);
+  return st;
+}
+
+void dyd_closure_clear(dyd_closure *c) {
+  free(c->vertex);
+  free(c->pair);
+  memset(c, 0, sizeof *c);
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Is a pair possible? Decided exactly, by covering the curve of its centres (mathematics: section 5). */
+#ifndef DYD_DELAUNAY_COVER_H
+#define DYD_DELAUNAY_COVER_H
+
+#include "delaunay/scale_set.h"
+#include "predicate/icircle.h"
+
+/* Scratch of one thread, reused from pair to pair. */
+typedef struct dyd_work {
+  dyd_scale_set set;
+  dyd_icircle here, next[4];
+  mpz_t u[2], h, s, t;
+} dyd_work;
+
+void dyd_work_init(dyd_work *w, const dyd_delaunay *pd);
+void dyd_work_clear(dyd_work *w);
+
+/* *possible: is the pair of vertices i, j possible [POS-1]? Exact. */
+dyd_status dyd_cover_possible(bool *possible, dyd_work *w, dyd_delaunay *pd, uint32_t i, uint32_t j);
+/* A quick certificate that ij is possible: a centre in doubles with nobody surely nearer. false: not known. */
+bool dyd_possible_at(const dyd_delaunay *pd, uint32_t i, uint32_t j, dyd_xy centre);
+
+#endif

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The undecided faces: triangles joined by uncertain edges, with their possible pairs. */
+#ifndef DYD_DELAUNAY_FACES_H
+#define DYD_DELAUNAY_FACES_H
+
+#include "delaunay/cover.h"
+
+/* Finds and closes all undecided faces among the triangles tri[0..count-1] (NULL: all), whose marks are DYD_NONE, and adds them to
+ * the table. On failure the faces added so far are taken back. */
+dyd_status dyd_faces_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count);
+void dyd_faces_clear(dyd_face_table *f);
+/* Vertices of a face, ascending; *vertex is owned by the caller. */
+dyd_status dyd_face_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, const dyd_face *f);
+/* The pair (i,j), i < j, in a face's list, or DYD_ILLEGAL. */
+dyd_pair_status dyd_face_status(const dyd_delaunay *pd, const dyd_face *f, uint32_t i, uint32_t j);
+/* How pairs of this face that are not legal are called. */
+static inline dyd_pair_status dyd_face_open_status(const dyd_face *f) {
+  return f->tie && !f->capped ? DYD_TIE : DYD_INDETERMINATE;
+}
+
+#endif

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Bounds for the walks: everything here is conservative, the walks decide what is left. */
+#include "delaunay/filter_possible.h"
+
+#include "delaunay/cover.h"
+
+#include <math.h>
+
+double dyd_box_slack(const dyd_delaunay *pd, uint32_t v) {
+  if (dyd_sites_in_doubles(pd->sites, pd->reps.site[v])) return 0;
+  const double *e = pd->box[v].e;
+  double m = dyd_max(dyd_max(fabs(e[0]), fabs(e[1])), dyd_max(fabs(e[2]), fabs(e[3])));
+  return m * 0x1p-52 + 0x1p-1074;
+}
+
+double dyd_pair_ds2_upper(const dyd_delaunay *pd, const dyd_bbox *c, uint32_t i, uint32_t j) {
+  double a = dyd_ds2_upper(c, &pd->box[i], dyd_box_slack(pd, i));
+  double b = dyd_ds2_upper(c, &pd->box[j], dyd_box_slack(pd, j));
+  return isnan(a) || isnan(b) ? INFINITY : dyd_max(a, b);
+}
+
+bool dyd_surely_not_nearer(const dyd_delaunay *pd, const dyd_bbox *c, uint32_t k, double bound) {
+  return dyd_dl2_lower(c, &pd->box[k], dyd_box_slack(pd, k)) >= bound;
+}
+
+typedef struct search {
+  const dyd_delaunay *pd;
+  uint32_t i, j;
+  dyd_bbox c;
+  double bound;
+  bool free;
+} search;
+
+static bool nobody_nearer(void *context, uint32_t k) {
+  search *s = context;
+  if (k == s->i || k == s->j || dyd_surely_not_nearer(s->pd, &s->c, k, s->bound)) return true;
+  s->free = false;
+  return false;
+}
+
+bool dyd_possible_at(const dyd_delaunay *pd, uint32_t i, uint32_t j, dyd_xy centre) {
+  if (!isfinite(centre.x) || !isfinite(centre.y)) return false;
+  search s = {pd, i, j, {{centre.x, centre.x, centre.y, centre.y}}, 0, true};
+  s.bound = dyd_pair_ds2_upper(pd, &s.c, i, j);
+  dyd_tree_near(&pd->tree, &s.c, &s.bound, nobody_nearer, &s);
+  return s.free;
+}
+
+void dyd_direction_d(double u[2], const mpz_t x, const mpz_t y) {
+  long e[2];
+  u[0] = mpz_get_d_2exp(&e[0], x);
+  u[1] = mpz_get_d_2exp(&e[1], y);
+  long top = u[0] == 0 ? e[1] : u[1] == 0 || e[0] > e[1] ? e[0] : e[1];
+  for (int a = 0; a < 2; a++) u[a] = e[a] - top < -900 ? 0 : ldexp(u[a], (int)(e[a] - top));
+}
+
+/* The outward box reaches at most `slack` farther than the rectangle; u is off by 2^-52 |u| + 2^-900, products and sums
+ * by 4 * 2^-53, on both sides of the comparison: 32 * 2^-53 |u| |x| + 2^-898 |x| covers it all [FLT-DIR]. */
+double dyd_height_lower(const dyd_delaunay *pd, double ux, double uy, const dyd_bbox *p) {
+  const dyd_bbox *all = &pd->tree.node[pd->tree.level[pd->tree.levels - 1]];
+  double mx = dyd_max(fabs(all->e[0]), fabs(all->e[1])), my = dyd_max(fabs(all->e[2]), fabs(all->e[3]));
+  double x = ux > 0 ? p->e[1] : p->e[0], y = uy > 0 ? p->e[3] : p->e[2];
+  double slack = 32 * 0x1p-53 * (fabs(ux) * mx + fabs(uy) * my) + 0x1p-898 * (mx + my) + DYD_TINY;
+  double h = ux * x + uy * y - slack;
+  return isnan(h) ? -INFINITY : h;
+}

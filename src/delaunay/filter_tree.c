@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The packed box tree; its pruning tests are the bounds of filter_distance.h and [FLT-DIR] below. */
+#include "delaunay/tree.h"
+
+#include "base/alloc.h"
+
+#include <math.h>
+#include <string.h>
+
+static void hull(dyd_bbox *h, const dyd_bbox *b) {
+  h->e[0] = dyd_min(h->e[0], b->e[0]);
+  h->e[1] = dyd_max(h->e[1], b->e[1]);
+  h->e[2] = dyd_min(h->e[2], b->e[2]);
+  h->e[3] = dyd_max(h->e[3], b->e[3]);
+}
+
+/* Children of node q on level k: entries [first, end) of the level below (items for k = 0). */
+static void children(size_t *first, size_t *end, const dyd_tree *t, int k, size_t q) {
+  size_t below = k == 0 ? t->count : t->level[k] - t->level[k - 1];
+  *first = q * DYD_TREE_FANOUT;
+  *end = *first + DYD_TREE_FANOUT < below ? *first + DYD_TREE_FANOUT : below;
+}
+
+static const dyd_bbox *child_box(const dyd_tree *t, int k, size_t entry) {
+  return k == 0 ? &t->box[t->item[entry]] : &t->node[t->level[k - 1] + entry];
+}
+
+static void fill_node(dyd_tree *t, int k, size_t q) {
+  size_t first, end;
+  children(&first, &end, t, k, q);
+  dyd_bbox h = *child_box(t, k, first);
+  for (size_t e = first + 1; e < end; e++) hull(&h, child_box(t, k, e));
+  t->node[t->level[k] + q] = h;
+}
+
+dyd_status dyd_tree_init(dyd_tree *t, uint32_t *item, uint32_t count, const dyd_bbox *box) {
+  *t = (dyd_tree){.count = count, .item = item, .box = box};
+  size_t width = count;
+  while (count && (t->levels == 0 || width > 1)) {
+    width = (width + DYD_TREE_FANOUT - 1) / DYD_TREE_FANOUT;
+    t->level[t->levels + 1] = t->level[t->levels] + width;
+    t->levels++;
+  }
+  t->node = dyd_alloc(t->level[t->levels], sizeof *t->node);
+  if (!t->node) return DYD_E_NOMEM;
+  for (int k = 0; k < t->levels; k++)
+    for (size_t q = 0; q < t->level[k + 1] - t->level[k]; q++) fill_node(t, k, q);
+  return DYD_OK;
+}
+
+void dyd_tree_clear(dyd_tree *t) {
+  free(t->item);
+  free(t->node);
+  memset(t, 0, sizeof *t);
+}
+
+void dyd_tree_refresh(dyd_tree *t, uint32_t q) {
+  size_t entry = q;
+  for (int k = 0; k < t->levels; k++) fill_node(t, k, entry /= DYD_TREE_FANOUT);
+}
+
+/* A depth-first search; at most 7 waiting siblings on each level. */
+typedef struct frame {
+  int level;
+  size_t node;
+} frame;
+enum { STACK = DYD_TREE_LEVELS * DYD_TREE_FANOUT };
+
+void dyd_tree_near(const dyd_tree *t, const dyd_bbox *c, const double *radius2, dyd_visit visit, void *context) {
+  frame stack[STACK];
+  int depth = 0;
+  if (t->levels) stack[depth++] = (frame){t->levels - 1, 0};
+  while (depth) {
+    frame f = stack[--depth];
+    size_t first, end;
+    children(&first, &end, t, f.level, f.node);
+    for (size_t e = first; e < end; e++) {
+      if (dyd_ds2_lower(c, child_box(t, f.level, e)) > *radius2) continue;
+      if (f.level > 0) stack[depth++] = (frame){f.level - 1, e};
+      else if (!visit(context, t->item[e])) return;
+    }
+  }
+}
+
+/* Upper bound of max u.x over a box [FLT-DIR]: two products and a sum of relative error u, bounded by 4u(|ux x| + |uy y|). */
+static double reach(const dyd_bbox *b, double ux, double uy) {
+  double px = ux * (ux > 0 ? b->e[1] : b->e[0]), py = uy * (uy > 0 ? b->e[3] : b->e[2]);
+  double r = px + py + 4 * 0x1p-53 * (fabs(px) + fabs(py)) + DYD_TINY;
+  return isnan(r) ? INFINITY : r;
+}
+
+void dyd_tree_beyond(const dyd_tree *t, double ux, double uy, const double *height, dyd_visit visit, void *context) {
+  frame stack[STACK];
+  int depth = 0;
+  if (t->levels) stack[depth++] = (frame){t->levels - 1, 0};
+  while (depth) {
+    frame f = stack[--depth];
+    size_t first, end;
+    children(&first, &end, t, f.level, f.node);
+    for (size_t e = first; e < end; e++) {
+      if (reach(child_box(t, f.level, e), ux, uy) < *height) continue;
+      if (f.level > 0) stack[depth++] = (frame){f.level - 1, e};
+      else if (!visit(context, t->item[e])) return;
+    }
+  }
+}

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The ghost's side: which vertices are possibly, which are surely on the convex hull (mathematics: sections 3, 6). */
+#ifndef DYD_DELAUNAY_HULL_H
+#define DYD_DELAUNAY_HULL_H
+
+#include "delaunay/cover.h"
+
+/* Does some direction u have max_{R_v} u.x >= min_{R_k} u.x for all k [HUL-1]? Exact. */
+dyd_status dyd_hull_possible(bool *possible, dyd_work *w, const dyd_delaunay *pd, uint32_t v);
+/* Does some direction u have min_{R_v} u.x > max_{R_k} u.x for all other k: is v a vertex of the hull for every choice
+ * [HUL-2]? Exact. */
+dyd_status dyd_hull_sure(bool *sure, dyd_work *w, const dyd_delaunay *pd, uint32_t v);
+
+#endif

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Sites on one line.
+ *
+ * Every pair is possible: the closed half-plane of the line has all points on its boundary and none in its open interior. A pair is legal iff a
+ * disc holds both rectangles and meets no other, that is iff the segment hull(R_i u R_j) of the line meets no other rectangle
+ * (the disc over that segment does it; any disc meets the line in a segment). With two sites the pair is legal [LINE-1]. */
+#include "delaunay/line.h"
+
+#include "base/alloc.h"
+#include "rect/irect.h"
+
+#include <string.h>
+
+/* A site's extent along the line, as scaled integers: the axis along which the sites differ orders them. */
+typedef struct entry {
+  uint32_t vertex;
+  dyd_irect r;
+  int axis;
+} entry;
+
+void dyd_line_clear(dyd_line *l) {
+  free(l->order);
+  free(l->rank);
+  free(l->legal);
+  memset(l, 0, sizeof *l);
+}
+
+static mpz_srcptr low(const entry *e) { return e->axis == 0 ? e->r.x0 : e->r.y0; }
+static mpz_srcptr high(const entry *e) { return e->axis == 0 ? e->r.x1 : e->r.y1; }
+
+static int compare(const void *a, const void *b) {
+  const entry *x = a, *y = b;
+  int c = mpz_cmp(low(x), low(y));
+  if (!c) c = mpz_cmp(high(x), high(y));
+  return c ? c : (x->vertex > y->vertex) - (x->vertex < y->vertex);
+}
+
+static dyd_status load(entry *e, const dyd_delaunay *pd, uint32_t count, const uint32_t *vertex) {
+  dyd_rect *r = dyd_alloc(count, sizeof *r);
+  const dyd_rect **in = dyd_alloc(count, sizeof *in);
+  dyd_irect *out = dyd_alloc(count, sizeof *out);
+  dyd_status st = r && in && out ? DYD_OK : DYD_E_NOMEM;
+  for (uint32_t q = 0; q < count && st == DYD_OK; q++) {
+    dyd_rect_init(&r[q]);
+    dyd_irect_init(&out[q]);
+    (void)dyd_sites_get(&r[q], pd->sites, pd->reps.site[vertex[q]]);
+    in[q] = &r[q];
+  }
+  if (st == DYD_OK) {
+    dyd_irects_scale(out, in, count, NULL, NULL);
+    for (uint32_t q = 0; q < count; q++) {
+      e[q] = (entry){.vertex = vertex[q], .r = out[q]};
+      dyd_rect_clear(&r[q]);
+    }
+  }
+  free(out);
+  free(in);
+  free(r);
+  return st;
+}
+
+/* x, unless the line is vertical. */
+static int axis_of(const entry *e, uint32_t count) {
+  for (uint32_t q = 0; q < count; q++)
+    if (mpz_cmp(e[q].r.x0, e[0].r.x0) != 0 || mpz_cmp(e[q].r.x1, e[q].r.x0) != 0) return 0;
+  return 1;
+}
+
+/* Sorted by lower end. hull(R_q u R_q+1) is free of others iff nobody before reaches R_q's lower end and nobody after
+ * starts at or before the larger upper end. */
+static void find_legal(dyd_line *l, const entry *e) {
+  uint32_t reach = 0; /* the entry with the largest upper end among 0 .. q-1 */
+  for (uint32_t q = 0; q + 1 < l->count; q++) {
+    mpz_srcptr top = mpz_cmp(high(&e[q]), high(&e[q + 1])) > 0 ? high(&e[q]) : high(&e[q + 1]);
+    bool before = q == 0 || mpz_cmp(high(&e[reach]), low(&e[q])) < 0;
+    bool after = q + 2 >= l->count || mpz_cmp(low(&e[q + 2]), top) > 0;
+    l->legal[q] = before && after;
+    if (q == 0 || mpz_cmp(high(&e[q]), high(&e[reach])) > 0) reach = q;
+  }
+}
+
+static dyd_status allocate(dyd_delaunay *pd) {
+  dyd_line *l = &pd->line;
+  l->order = dyd_alloc(pd->n, sizeof *l->order);
+  l->rank = dyd_alloc(pd->n, sizeof *l->rank);
+  l->legal = calloc(pd->n ? pd->n : 1, sizeof *l->legal);
+  return l->order && l->rank && l->legal ? DYD_OK : DYD_E_NOMEM;
+}
+
+dyd_status dyd_line_build(dyd_delaunay *pd) {
+  dyd_line *l = &pd->line;
+  *l = (dyd_line){.all_points = true};
+  dyd_status st = allocate(pd);
+  if (st != DYD_OK) return st;
+  for (uint32_t v = 0; v < pd->n; v++) {
+    l->rank[v] = DYD_NONE;
+    if (pd->mesh.alias && pd->mesh.alias[v] != DYD_NONE) continue;
+    l->order[l->count++] = v;
+    l->all_points = l->all_points && dyd_vertex_is_point(pd, v);
+  }
+  entry *e = dyd_alloc(l->count, sizeof *e);
+  if (!e) return DYD_E_NOMEM;
+  st = load(e, pd, l->count, l->order);
+  if (st == DYD_OK) {
+    int axis = axis_of(e, l->count);
+    for (uint32_t q = 0; q < l->count; q++) e[q].axis = axis;
+    qsort(e, l->count, sizeof *e, compare);
+    for (uint32_t q = 0; q < l->count; q++) {
+      l->order[q] = e[q].vertex;
+      l->rank[e[q].vertex] = q;
+    }
+    find_legal(l, e);
+    for (uint32_t q = 0; q < l->count; q++) dyd_irect_clear(&e[q].r);
+  }
+  free(e);
+  return st;
+}
+
+dyd_pair_status dyd_line_status(const dyd_line *l, uint32_t i, uint32_t j) {
+  uint32_t a = l->rank[i], b = l->rank[j];
+  if (a > b) {
+    uint32_t t = a;
+    a = b;
+    b = t;
+  }
+  if (b == a + 1 && l->legal[a]) return DYD_LEGAL;
+  return l->all_points && !l->capped ? DYD_TIE : DYD_INDETERMINATE;
+}
+
+size_t dyd_line_legal_pairs(const dyd_line *l) {
+  size_t count = 0;
+  for (uint32_t q = 0; q + 1 < l->count; q++) count += l->legal[q];
+  return count;
+}
+
+size_t dyd_line_open_pairs(const dyd_line *l) {
+  return l->count ? (size_t)l->count * (l->count - 1) / 2 - dyd_line_legal_pairs(l) : 0;
+}

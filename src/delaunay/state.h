@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What a partial Delaunay triangulation holds.
+ *
+ * Vertices are the sites in spatial order. The skeleton's edges carry one flag, "certain": a real edge is legal, an edge to
+ * the ghost says that its vertex is surely on the hull. Triangles joined by uncertain edges form the undecided faces;
+ * each keeps the list of its possible pairs that are not legal. If the true points are always collinear (or there
+ * are at most two sites) there are no triangles, and the line order says everything. */
+#ifndef DYD_DELAUNAY_STATE_H
+#define DYD_DELAUNAY_STATE_H
+
+#include "delaunay/mesh.h"
+#include "delaunay/tree.h"
+
+/* Two vertices, i < j. */
+typedef struct dyd_vertex_pair {
+  uint32_t i, j;
+} dyd_vertex_pair;
+
+/* Invariant: tri[first_tri .. first_tri + tris) and pair[first_pair .. + pairs) of the face table, pairs sorted;
+ * tie: all vertices are exact points; capped: pairs beyond the skeleton are missing. */
+typedef struct dyd_face {
+  size_t first_tri, first_pair;
+  uint32_t tris;
+  uint32_t pairs;
+  bool outer, tie, capped;
+} dyd_face;
+
+typedef struct dyd_face_table {
+  dyd_face *face;
+  size_t count, face_cap;
+  uint32_t *tri;
+  size_t tri_count, tri_cap;
+  dyd_vertex_pair *pair;
+  size_t pair_count, pair_cap;
+  uint32_t *of; /* triangle -> face, DYD_NONE: decided; NULL: no face at all */
+} dyd_face_table;
+
+/* The line order: alive vertices along the common line; legal[q]: order[q], order[q+1] is legal. */
+typedef struct dyd_line {
+  uint32_t count;
+  uint32_t *order, *rank;
+  bool *legal;
+  bool all_points, capped;
+} dyd_line;
+
+struct dyd_delaunay {
+  const dyd_sites *sites;
+  uint32_t n;
+  dyd_reps reps;
+  dyd_mesh mesh;
+  uint32_t *vertex; /* site -> its vertex, of the site it stands for if it is an alias */
+  uint32_t *corner; /* vertex -> 4 t + k with tri[t].v[k] = vertex; DYD_NONE: alias or line */
+  uint8_t *certain; /* triangle -> bit k: edge k is certain */
+  bool all_points;  /* every site is an exact point */
+  dyd_bbox *box;     /* vertex -> outward box; NULL when all_points */
+  dyd_tree tree;    /* over all vertices in the skeleton; empty when all_points */
+  dyd_line line;
+  dyd_face_table faces;
+  dyd_delaunay_counters counters;
+  dyd_delaunay_options options;
+  size_t max_pairs;
+  dyd_error *err; /* during a call */
+};
+
+static inline bool dyd_cancelled(const dyd_delaunay *pd) { return pd->options.cancel && *pd->options.cancel; }
+static inline bool dyd_edge_is_certain(const dyd_delaunay *pd, uint32_t t, unsigned k) { return pd->certain[t] >> k & 1; }
+static inline void dyd_set_certain(dyd_delaunay *pd, uint32_t t, unsigned k) {
+  uint32_t twin = pd->mesh.tri[t].n[k];
+  pd->certain[t] |= (uint8_t)(1u << k);
+  pd->certain[twin >> 2] |= (uint8_t)(1u << (twin & 3));
+}
+static inline bool dyd_vertex_is_point(const dyd_delaunay *pd, uint32_t v) {
+  return dyd_sites_is_point(pd->sites, pd->reps.site[v]);
+}
+/* Next triangle corner counter-clockwise around the vertex at corner h = 4 t + k. */
+static inline uint32_t dyd_turn(const dyd_mesh *m, uint32_t h) {
+  uint32_t beyond = m->tri[h >> 2].n[dyd_next(h & 3)];
+  return (beyond & ~3u) | dyd_next(beyond & 3);
+}
+
+#endif
