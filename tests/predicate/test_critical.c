@@ -120,6 +120,23 @@ static void test_overlapping(void **state) {
   workspace_clear(&w);
 }
 
+/* Two crossing lines, one of them through the corner itself: a circle on each side of a segment. */
+static void test_both_diagonals(void **state) {
+  (void)state;
+  workspace w;
+  workspace_init(&w);
+  const small_rect s[3] = {{{2, 2, 0, 3}}, {{-1, 5, 4, 4}}, {{2, 2, 2, 2}}};
+  const dyd_touch touch[3] = {DYD_CLOSEST, DYD_CLOSEST, DYD_FARTHEST};
+  size_t expected = oracle_circles(w.expected, ROOM, s, touch);
+  assert_int_equal(expected, 2);
+  compare_sets(&w, find(&w, s, touch), expected);
+  small_rect turned[3];
+  for (int k = 0; k < 3; k++) turned[k] = turn_small(&s[k]);
+  expected = oracle_circles(w.expected, ROOM, turned, touch);
+  compare_sets(&w, find(&w, turned, touch), expected);
+  workspace_clear(&w);
+}
+
 /* Any rectangles, nested and equal ones too: whatever is stated is a circle as asked for. */
 static void test_sides(void **state) {
   (void)state;
@@ -305,9 +322,9 @@ static void test_public(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_oracle),    cmocka_unit_test(test_overlapping),
-                                     cmocka_unit_test(test_sides),     cmocka_unit_test(test_moved),
-                                     cmocka_unit_test(test_enclosure), cmocka_unit_test(test_cancellation),
-                                     cmocka_unit_test(test_public)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_oracle),         cmocka_unit_test(test_overlapping),
+                                     cmocka_unit_test(test_both_diagonals), cmocka_unit_test(test_sides),
+                                     cmocka_unit_test(test_moved),          cmocka_unit_test(test_enclosure),
+                                     cmocka_unit_test(test_cancellation),   cmocka_unit_test(test_public)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
