@@ -32,7 +32,7 @@ DYD_API void dyd_dyadic_clear(dyd_dyadic *x);
 DYD_API void dyd_dyadic_set(dyd_dyadic *out, const dyd_dyadic *x);
 DYD_API void dyd_dyadic_swap(dyd_dyadic *x, dyd_dyadic *y);
 
-/* DYD_E_RANGE for infinities and NaN (DYD_E_ARG) or when the value leaves the exponent range. */
+/* DYD_E_ARG for infinities and NaN; DYD_E_RANGE when the value leaves the exponent range. */
 DYD_API dyd_status dyd_dyadic_set_d(dyd_dyadic *out, double x);
 DYD_API dyd_status dyd_dyadic_set_si_2exp(dyd_dyadic *out, long man, int64_t exp);
 DYD_API dyd_status dyd_dyadic_set_z_2exp(dyd_dyadic *out, const mpz_t man, int64_t exp);
