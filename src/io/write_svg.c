@@ -129,7 +129,7 @@ static void write_edges(const dyd_result *r, const frame *f, int k) {
   fputs("\"/>\n", r->out);
 }
 
-/* A rectangle where it can be seen, else a dot. */
+/* A rectangle where it can be seen, else a dot. Sides of length 0 are drawn as thick as lines. */
 static void write_site(const dyd_result *r, const frame *f, size_t i) {
   double box[4];
   dyd_sites_get_d(box, r->sites, i);
@@ -139,8 +139,8 @@ static void write_site(const dyd_result *r, const frame *f, size_t i) {
   fputs(dot ? "<circle" : "<rect", r->out);
   put_attribute(r->out, dot ? "cx" : "x", dot ? x : pixel_x(f, box[0]));
   put_attribute(r->out, dot ? "cy" : "y", dot ? y : pixel_y(f, box[3]));
-  put_attribute(r->out, dot ? "r" : "width", dot ? f->dot : w);
-  if (!dot) put_attribute(r->out, "height", h);
+  put_attribute(r->out, dot ? "r" : "width", dot ? f->dot : fmax(w, f->line));
+  if (!dot) put_attribute(r->out, "height", fmax(h, f->line));
   fputs(dot ? " fill=\"#222\" fill-opacity=\"1\" stroke=\"none\"/>\n" : "/>\n", r->out);
   if (r->count > 40) return;
   fputs("<text", r->out);

@@ -7,6 +7,7 @@ Usage: test_results.py COMMAND DATA
 import csv
 import json
 import os
+import random
 import re
 import tempfile
 import xml.etree.ElementTree
@@ -48,7 +49,7 @@ def test_perturbed_polygon_is_decided():
     # Nudging every corner by its own amount leaves no four on one circle.
     text = ''.join(f'(1+{k * k}*10^-40)*cos(2*pi*{k}/12) (1+{k * k}*10^-40)*sin(2*pi*{k}/12)\n' for k in range(12))
     for schedule in ('adaptive', 'uniform'):
-        result = run('delaunay', '-', '--schedule', schedule, stdin=text)
+        result = run('delaunay', '-', '--quiet', '--schedule', schedule, stdin=text)
         expect(result, 0, err=r'\A\Z')
         assert count(result.out) == {'legal': 21}
 
@@ -71,16 +72,33 @@ def test_goals():
 def test_airports():
     exact = run('delaunay', AIRPORTS, *LONLAT, '--stats')
     expect(exact, 0, err=r'outcome +decided')
-    assert list(count(exact.out)) == ['legal']
+    assert count(exact.out) == {'legal': 10112}
     edges = set(exact.out.split('\n')[1:])
     for mode in (('--measured',), ('--radius', '0.01')):
         result = run('delaunay', AIRPORTS, *LONLAT, *mode)
         expect(result, 3, err='fixpoint')
+        assert count(result.out) == ({'legal': 10109, 'indeterminate': 5} if mode[0] == '--measured' else
+                                     {'legal': 8924, 'indeterminate': 2503})
         # What holds for all choices holds for this one; what is true of this one is possible.
         pairs = {line.rsplit(',', 1)[0]: line.rsplit(',', 1)[1] for line in result.out.split() if line[0] != '#'}
         legal = {f'{p},legal' for p, s in pairs.items() if s == 'legal'}
         assert legal < edges | {'i,j,legal'}
         assert all(edge.rsplit(',', 1)[0] in pairs for edge in edges if edge and edge[0] != '#')
+
+
+def test_random_files():
+    for seed in range(60):
+        r = random.Random(seed)
+
+        def coordinate():
+            a, b = r.randint(0, 300), r.choice((0, 5, 30))
+            return f'{a / 10}' if r.random() < 0.5 else f'[{a / 100},{(a + b) / 100}]'
+
+        text = ''.join(f'{coordinate()} {coordinate()}\n' for _ in range(r.randint(2, 12)))
+        result = run('delaunay', '-', stdin=text)
+        assert result.code in (0, 3), (seed, result.err)
+        statuses_found = count(result.out)
+        assert set(statuses_found) == {'legal'} or result.code == 3, (seed, text)
 
 
 def test_threads_agree():
@@ -175,6 +193,13 @@ def test_svg():
         tree = xml.etree.ElementTree.fromstring(picture.out)
         assert tree.tag.endswith('svg') and 'nan' not in picture.out and 'inf' not in picture.out
         assert 'rounded by at most' in picture.out
+
+
+def test_picture_of_readme():
+    picture = run('delaunay', os.path.join(DATA, 'picture.txt'), '--format', 'svg')
+    expect(picture, 4)
+    with open(os.path.join(DATA, 'picture.svg'), encoding='utf-8') as f:
+        assert f.read() == picture.out, 'tests/data/picture.svg is out of date'
 
 
 def test_no_points_in_all_formats():
