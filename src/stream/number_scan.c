@@ -64,23 +64,21 @@ bool dyd_literal_scan(dyd_literal *out, const char *text, size_t length, size_t 
   return true;
 }
 
-/* Reads "*2^e" or "/q" behind the literal; *pos moves to the first character not understood. */
-static void scan_suffix(dyd_number_form *f, const char *text, size_t length, size_t *pos) {
+/* Reads "*2^e" or "/q" at *pos, if there, and moves *pos behind it; false: *pos is where it breaks off. */
+static bool scan_suffix(dyd_number_form *f, const char *text, size_t length, size_t *pos) {
   size_t i = *pos;
   if (i < length && text[i] == '/' && f->literal.integer) {
-    dyd_literal q;
-    if (!dyd_literal_scan(&q, text, length, i + 1)) {
-      *pos = i + 1;
-      return;
-    }
-    f->denominator = q;
-    f->rational = q.integer;
-    *pos = q.integer ? q.end : i + 1;
-  } else if (i + 3 < length && text[i] == '*' && text[i + 1] == '2' && text[i + 2] == '^') {
+    f->rational = dyd_literal_scan(&f->denominator, text, length, ++i) && f->denominator.integer;
+    *pos = f->rational ? f->denominator.end : i;
+    return f->rational;
+  }
+  if (i + 2 < length && text[i] == '*' && text[i + 1] == '2' && text[i + 2] == '^') {
     i += 3;
     f->dyadic = scan_exponent(&f->two, text, length, &i);
     *pos = i;
+    return f->dyadic;
   }
+  return true;
 }
 
 bool dyd_number_scan(dyd_number_form *out, size_t *bad, const char *text, size_t length) {
@@ -92,10 +90,10 @@ bool dyd_number_scan(dyd_number_form *out, size_t *bad, const char *text, size_t
   *bad = i;
   if (!dyd_literal_scan(&f.literal, text, length, i)) return false;
   i = f.literal.end;
-  scan_suffix(&f, text, length, &i);
+  bool whole = scan_suffix(&f, text, length, &i) && i == length;
   *bad = i;
   *out = f;
-  return i == length;
+  return whole;
 }
 
 bool dyd_is_plain_number(const char *text, size_t length) {

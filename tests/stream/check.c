@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Releases the caches that FLINT and MPFR keep for a thread. */
+#include "check.h"
+
+#include <flint/flint.h>
+
+int release_caches(void **state) {
+  (void)state;
+  flint_cleanup();
+  mpfr_free_cache();
+  return 0;
+}
