@@ -10,8 +10,9 @@
 #include "dyadic/raw.h"
 
 static dyd_iv end_enclosure(const dyd_dyadic *end, mpz_srcptr den) {
-  return (dyd_iv){dyd_raw_quotient_get_d(end->man, end->exp, den, DYD_DOWN),
-                  dyd_raw_quotient_get_d(end->man, end->exp, den, DYD_UP)};
+  double lo = dyd_raw_quotient_get_d(end->man, end->exp, den, DYD_DOWN);
+  if (!mpz_cmp_ui(den, 1) && dyd_dyadic_is_double(end)) return dyd_iv_point(lo);
+  return (dyd_iv){lo, dyd_raw_quotient_get_d(end->man, end->exp, den, DYD_UP)};
 }
 
 void dyd_filter_box(dyd_box *out, const dyd_rect *r) {
