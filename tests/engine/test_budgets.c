@@ -36,10 +36,15 @@ static void test_calls(void **state) {
   faulty f = {0};
   dyd_source source = faulty_source(&f);
   dyd_engine *e = engine_new();
-  const double x[4] = {0, 1, 1, 0}, y[4] = {1000, 1000, 1001, 1001};
+  const double x[4] = {0, 10, 9, -10}, y[4] = {1000, 1000, 1021, 1015};
   assert_int_equal(DYD_OK, dyd_engine_add_source(e, 4, &source));
   assert_int_equal(DYD_OK, dyd_engine_add_points(e, 4, x, y));
-  engine_add_polygon(e, 5, NULL, 0);
+  for (int k = 0; k < 5; k++) {
+    char cx[60], cy[60];
+    snprintf(cx, sizeof cx, "100+cos(2*pi*%d/5)", k);
+    snprintf(cy, sizeof cy, "sin(2*pi*%d/5)", k);
+    engine_add_text(e, cx, cy);
+  }
   dyd_engine_options o = options();
   o.max_calls = 3;
   engine_run(e, &o, DYD_OUTCOME_BUDGET);
@@ -133,6 +138,11 @@ static void test_pairs_of_ties(void **state) {
   o.max_pairs = 5;
   engine_run(e, &o, DYD_OUTCOME_BUDGET);
   assert_int_equal(DYD_BUDGET_PAIRS, engine_counters(e).spent);
+  /* The area of the pairs listed is 0, but pairs are missing: that certifies nothing. */
+  o.goal = DYD_GOAL_AREA;
+  o.goal_bits = 1;
+  engine_run(e, &o, DYD_OUTCOME_BUDGET);
+  assert_int_equal(DYD_BUDGET_PAIRS, engine_counters(e).spent);
   dyd_engine_free(e);
 }
 
@@ -163,6 +173,26 @@ static void test_seconds(void **state) {
   engine_run(f, &o, DYD_OUTCOME_BUDGET);
   assert_int_equal(DYD_BUDGET_BITS, engine_counters(f).spent);
   dyd_engine_free(f);
+  dyd_engine_free(e);
+}
+
+/* The deadline stops the triangulation in the middle of its work, where no stream is called. */
+static void test_seconds_within(void **state) {
+  (void)state;
+  enum { COUNT = 1 << 19 };
+  test_random r = test_random_start("deadline");
+  double *x = malloc(2 * COUNT * sizeof *x);
+  assert_non_null(x);
+  for (size_t k = 0; k < 2 * COUNT; k++) x[k] = test_unit(&r);
+  dyd_engine *e = engine_new();
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, COUNT, x, x + COUNT));
+  free(x);
+  dyd_engine_options o = options();
+  o.seconds = 0.05;
+  engine_run(e, &o, DYD_OUTCOME_BUDGET);
+  assert_int_equal(DYD_BUDGET_SECONDS, engine_counters(e).spent);
+  assert_null(dyd_engine_delaunay(e));
+  assert_int_equal(0, engine_counters(e).stages);
   dyd_engine_free(e);
 }
 
@@ -288,12 +318,12 @@ static void test_cancel_signal(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_stages),        cmocka_unit_test(test_calls),
-      cmocka_unit_test(test_pairs),         cmocka_unit_test(test_pairs_dissolved),
-      cmocka_unit_test(test_pairs_of_ties), cmocka_unit_test(test_seconds),
-      cmocka_unit_test(test_bad_options),   cmocka_unit_test(test_cancel_before),
-      cmocka_unit_test(test_cancel_inside), cmocka_unit_test(test_cancel_thread),
-      cmocka_unit_test(test_cancel_signal),
+      cmocka_unit_test(test_stages),         cmocka_unit_test(test_calls),
+      cmocka_unit_test(test_pairs),          cmocka_unit_test(test_pairs_dissolved),
+      cmocka_unit_test(test_pairs_of_ties),  cmocka_unit_test(test_seconds),
+      cmocka_unit_test(test_seconds_within), cmocka_unit_test(test_bad_options),
+      cmocka_unit_test(test_cancel_before),  cmocka_unit_test(test_cancel_inside),
+      cmocka_unit_test(test_cancel_thread),  cmocka_unit_test(test_cancel_signal),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
