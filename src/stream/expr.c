@@ -17,6 +17,7 @@ typedef struct parser {
   dyd_expr *e;
   const char *text;
   size_t length, pos;
+  size_t start, start_column; /* all that is part of an expression is ASCII: columns count on from here */
   unsigned depth, parentheses;
   size_t work; /* bits of rationals computed so far */
   bool allow_x;
@@ -76,7 +77,7 @@ static dyd_status push(parser *p, dyd_op op, size_t at) {
   if (!dyd_reserve((void **)&p->e->node, &p->e->cap, p->e->count + 1, sizeof *p->e->node)) {
     return dyd_fail_nomem(p->err);
   }
-  p->e->node[p->e->count++] = (dyd_node){.op = op, .column = dyd_text_column(p->text, at)};
+  p->e->node[p->e->count++] = (dyd_node){.op = op, .column = p->start_column + (at - p->start)};
   return DYD_OK;
 }
 
@@ -305,7 +306,8 @@ static dyd_status parse_sum(parser *p) {
 }
 
 dyd_status dyd_expr_parse(dyd_expr *e, size_t *pos, const char *text, size_t length, bool allow_x, dyd_error *err) {
-  parser p = {.e = e, .text = text, .length = length, .pos = *pos, .allow_x = allow_x, .err = err};
+  parser p = {.e = e, .text = text, .length = length, .pos = *pos, .start = *pos, .allow_x = allow_x, .err = err};
+  p.start_column = dyd_text_column(text, *pos);
   dyd_status st = parse_sum(&p);
   if (st) return st;
   peek(&p);

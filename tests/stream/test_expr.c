@@ -136,7 +136,7 @@ static void test_trees(void **state) {
   size_t used = 0, refused = 0;
   mpfr_t v;
   mpfr_init2(v, ORACLE_BITS);
-  for (size_t n = test_cases(3000); n > 0; n--) {
+  for (size_t n = test_cases(1500); n > 0; n--) {
     char text[20000];
     met_huge = false;
     random_tree(text, v, &r, (int)test_between(&r, 1, 4));
