@@ -131,10 +131,11 @@ static dyd_status build_line(dyd_delaunay *pd) {
 
 dyd_status dyd_build(dyd_delaunay *pd, dyd_known known) {
   dyd_status st = build_skeleton(pd);
+  if (st == DYD_OK && pd->mesh.collinear) st = build_line(pd);
   if (st == DYD_OK) st = build_maps(pd);
   if (st == DYD_OK) st = build_boxes(pd);
   if (st == DYD_OK) DYD_CHECK(dyd_mesh_check(&pd->mesh));
-  if (st == DYD_OK) st = pd->mesh.collinear ? build_line(pd) : build_statuses(pd, known);
+  if (st == DYD_OK) st = pd->mesh.collinear ? DYD_OK : build_statuses(pd, known);
   if (st != DYD_OK) dyd_build_clear(pd);
   else dyd_mesh_trim(&pd->mesh);
   return st;

@@ -26,14 +26,24 @@ static bool point_edge_is_certain(dyd_delaunay *pd, uint32_t t, unsigned k) {
   return beyond_sign(pd, t, k) < 0;
 }
 
-static void certify_points(dyd_delaunay *pd) {
-  if (pd->mesh.ties == 0) {
-    memset(pd->certain, 7, pd->mesh.count);
-    return;
+/* Certain edges that are real: their witness is the middle of the skeleton's Voronoi edge. */
+static uint64_t certain_real_edges(const dyd_delaunay *pd) {
+  uint64_t twice = 0;
+  for (uint32_t t = 0; t < pd->mesh.count; t++) {
+    const uint32_t *v = pd->mesh.tri[t].v;
+    for (unsigned k = 0; k < 3; k++)
+      twice += v[dyd_next(k)] != pd->mesh.n && v[dyd_prev(k)] != pd->mesh.n && dyd_edge_is_certain(pd, t, k);
   }
+  return twice / 2;
+}
+
+static void certify_points(dyd_delaunay *pd) {
+  if (pd->mesh.ties == 0) memset(pd->certain, 7, pd->mesh.count);
   for (uint32_t t = 0; t < pd->mesh.count; t++)
     for (unsigned k = 0; k < 3; k++)
-      if (pd->mesh.tri[t].n[k] > 4 * t + k && point_edge_is_certain(pd, t, k)) dyd_set_certain(pd, t, k);
+      if (pd->mesh.tri[t].n[k] > 4 * t + k && !dyd_edge_is_certain(pd, t, k) && point_edge_is_certain(pd, t, k))
+        dyd_set_certain(pd, t, k);
+  pd->counters.witness_guess += certain_real_edges(pd);
 }
 
 /* Four exact points on a circle: no witness, and no need to look for one. */

@@ -10,7 +10,7 @@
 #include "delaunay/closure.h"
 
 #include "base/alloc.h"
-#include "base/verify.h"
+#include "delaunay/build.h"
 #include "delaunay/filter_quad.h"
 #include "delaunay/hull.h"
 #include "delaunay/pair_map.h"
@@ -153,6 +153,12 @@ static dyd_status start(closing *c) {
   return st == DYD_OK ? start_ghost(c) : st;
 }
 
+/* Is the pair a legal edge of the skeleton, on the other side of this face's rim? */
+static bool is_legal(const closing *c, uint32_t k, uint32_t l) {
+  uint32_t h = dyd_find_edge(c->pd, c->out->vertex[k], c->out->vertex[l]);
+  return h != DYD_NONE && dyd_edge_is_certain(c->pd, h >> 2, dyd_prev(h & 3));
+}
+
 /* The pair kl may take the place of ij: decide it, once. */
 static dyd_status flip(closing *c, uint32_t i, uint32_t j, uint32_t k, uint32_t l) {
   uint32_t ghost = c->out->vertices;
@@ -164,7 +170,7 @@ static dyd_status flip(closing *c, uint32_t i, uint32_t j, uint32_t k, uint32_t 
     dyd_status st = dyd_cover_possible(&possible, c->w, c->pd, v[k], v[l]);
     if (st != DYD_OK) return st;
   }
-  return add(c, k, l, possible ? DYD_PAIR_OPEN : DYD_PAIR_IMPOSSIBLE);
+  return add(c, k, l, !possible ? DYD_PAIR_IMPOSSIBLE : is_legal(c, k, l) ? DYD_PAIR_CERTAIN : DYD_PAIR_OPEN);
 }
 
 static bool possible(const closing *c, uint32_t a, uint32_t b) {
@@ -236,7 +242,8 @@ dyd_status dyd_closure_run(dyd_closure *out, dyd_delaunay *pd, dyd_work *w, cons
   *out = (dyd_closure){0};
   dyd_status st = gather_vertices(&c);
   if (st == DYD_OK) st = dyd_pair_map_init(&c.map, out->vertices + 1);
-  if (st == DYD_OK && is_polygon(&c)) {
+  out->polygon = st == DYD_OK && is_polygon(&c);
+  if (out->polygon) {
     uint64_t m = out->vertices;
     if (m * (m - 1) / 2 > room + 3 * (uint64_t)tris) c.full = true;
     else st = all_pairs(&c);

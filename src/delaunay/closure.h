@@ -12,6 +12,7 @@ typedef struct dyd_closure {
   dyd_vertex_pair *pair; /* possible and not legal, sorted */
   size_t pairs, pair_cap;
   bool outer, all_points, capped;
+  bool polygon; /* one cocircular polygon or collinear chain of exact points */
 } dyd_closure;
 
 /* Finds the pairs of the face made of the triangles tri[0..tris-1], joined by uncertain edges. At most `room` pairs are

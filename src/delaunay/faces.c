@@ -4,7 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
-#include "base/verify.h"
+#include "delaunay/build.h"
 #include "delaunay/closure.h"
 
 #include <string.h>
@@ -65,7 +65,9 @@ static dyd_status store(dyd_delaunay *pd, const dyd_closure *c, size_t first_tri
                                    .pairs = (uint32_t)c->pairs,
                                    .outer = c->outer,
                                    .tie = c->all_points,
-                                   .capped = c->capped};
+                                   .capped = c->capped,
+                                   .polygon = c->polygon};
+  f->others += !c->polygon;
   f->pair_count += c->pairs;
   if (c->capped) report_cap(pd, c);
   return DYD_OK;
@@ -78,6 +80,62 @@ static void take_back(dyd_delaunay *pd, size_t first_tri) {
   f->tri_count = first_tri;
 }
 
+/* ---- one face for each pair ----
+ *
+ * Two sites on the rims of two faces may make a pair that both closures find. It is kept once: in the face where the skeleton has
+ * it, else in a polygon, else where it was found first. */
+
+static int compare_pair(const void *a, const void *b) {
+  const dyd_vertex_pair *x = a, *y = b;
+  if (x->i != y->i) return x->i < y->i ? -1 : 1;
+  return (x->j > y->j) - (x->j < y->j);
+}
+
+static dyd_vertex_pair *find_pair(const dyd_face_table *f, const dyd_face *face, dyd_vertex_pair p) {
+  return face->pairs ? bsearch(&p, f->pair + face->first_pair, face->pairs, sizeof p, compare_pair) : NULL;
+}
+
+/* The face inside which the skeleton has the pair as an uncertain edge, or DYD_NONE. */
+static uint32_t skeleton_face(const dyd_delaunay *pd, dyd_vertex_pair p) {
+  uint32_t h = dyd_find_edge(pd, p.i, p.j);
+  return h == DYD_NONE || dyd_edge_is_certain(pd, h >> 2, dyd_prev(h & 3)) ? DYD_NONE : pd->faces.of[h >> 2];
+}
+
+/* Another face, already stored, that lists p; NULL: none. */
+static dyd_face *other_owner(const dyd_delaunay *pd, uint32_t self, dyd_vertex_pair p) {
+  const dyd_face_table *f = &pd->faces;
+  uint32_t first = pd->corner[p.i], h = first;
+  do {
+    uint32_t g = f->of[h >> 2];
+    if (g != DYD_NONE && g != self && g < f->count && find_pair(f, &f->face[g], p)) return &f->face[g];
+    h = dyd_turn(&pd->mesh, h);
+  } while (h != first);
+  return NULL;
+}
+
+static void remove_pair(const dyd_face_table *f, dyd_face *face, dyd_vertex_pair p) {
+  dyd_vertex_pair *at = find_pair(f, face, p), *end = f->pair + face->first_pair + face->pairs;
+  memmove(at, at + 1, (size_t)(end - at - 1) * sizeof *at);
+  face->pairs--;
+}
+
+/* Drops from c the pairs that belong to faces found before, and from those the pairs that belong to c. */
+static void share_out(dyd_delaunay *pd, dyd_closure *c) {
+  dyd_face_table *f = &pd->faces;
+  uint32_t self = (uint32_t)f->count;
+  size_t kept = 0;
+  if (f->count == 0 || (c->polygon && f->others == 0)) return;
+  for (size_t q = 0; q < c->pairs; q++) {
+    dyd_vertex_pair p = c->pair[q];
+    dyd_face *other = other_owner(pd, self, p);
+    uint32_t home = other ? skeleton_face(pd, p) : self;
+    bool mine = home == self || (home == DYD_NONE && c->polygon && !other->polygon);
+    if (other && mine) remove_pair(f, other, p);
+    if (mine) c->pair[kept++] = p;
+  }
+  c->pairs = kept;
+}
+
 static dyd_status find_face(dyd_delaunay *pd, dyd_work *w, uint32_t t) {
   dyd_face_table *f = &pd->faces;
   size_t first = f->tri_count;
@@ -85,7 +143,10 @@ static dyd_status find_face(dyd_delaunay *pd, dyd_work *w, uint32_t t) {
   dyd_status st = flood(pd, t, (uint32_t)f->count);
   size_t room = pd->max_pairs > f->pair_count ? pd->max_pairs - f->pair_count : 0;
   if (st == DYD_OK) st = dyd_closure_run(&c, pd, w, f->tri + first, (uint32_t)(f->tri_count - first), room);
-  if (st == DYD_OK) st = store(pd, &c, first);
+  if (st == DYD_OK) {
+    share_out(pd, &c);
+    st = store(pd, &c, first);
+  }
   pd->counters.faces++;
   if (st != DYD_OK) take_back(pd, first);
   dyd_closure_clear(&c);
@@ -132,14 +193,6 @@ dyd_status dyd_face_vertices(uint32_t **vertex, size_t *count, const dyd_delauna
   return DYD_OK;
 }
 
-static int compare_pair(const void *a, const void *b) {
-  const dyd_vertex_pair *x = a, *y = b;
-  if (x->i != y->i) return x->i < y->i ? -1 : 1;
-  return (x->j > y->j) - (x->j < y->j);
-}
-
 dyd_pair_status dyd_face_status(const dyd_delaunay *pd, const dyd_face *f, uint32_t i, uint32_t j) {
-  dyd_vertex_pair key = {i, j};
-  const dyd_vertex_pair *list = pd->faces.pair + f->first_pair;
-  return f->pairs && bsearch(&key, list, f->pairs, sizeof key, compare_pair) ? dyd_face_open_status(f) : DYD_ILLEGAL;
+  return find_pair(&pd->faces, f, (dyd_vertex_pair){i, j}) ? dyd_face_open_status(f) : DYD_ILLEGAL;
 }

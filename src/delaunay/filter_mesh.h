@@ -19,7 +19,8 @@
  * delta = 48 delta t^3; 60 leaves room. Overflow makes the bound infinite or d NaN: not sure. The ghost is NaN: not sure. */
 /* Small integers [FLT-SMALL]: if all coordinates are multiples of a power of two q and the computed s <= 2^26 q^2, then
  * every difference is a multiple of q below 2^13 q, every lift and product of two a multiple of q^2 below 2^27 q^2, every later
- * partial sum a multiple of q^4 of size <= s^2 <= 2^52 q^4: all are doubles, nothing is rounded, d is exact. */
+ * partial sum a multiple of q^4 of size <= s^2 <= 2^52 q^4: all are doubles, nothing is rounded, d is exact,
+ * given 2^-240 <= q <= 2^220 so that q^4 2^53 neither underflows nor overflows. */
 #ifndef DYD_DELAUNAY_FILTER_MESH_H
 #define DYD_DELAUNAY_FILTER_MESH_H
 

@@ -2,7 +2,7 @@
 /* Walks around the circle of directions.
  *
  * Another site k and v compare by the rectangle D = R_k - R_v of differences. When 0 is not in D, the directions u with u.d > 0 for all d
- * in D (k surely farther out than v) form an open arc below a half turn, bounded by the normals of D's two extreme corners.
+ * in D (k surely farther out than v) form an open arc of at most a half turn, bounded by the normals of D's two extreme corners.
  * v is possible on the hull iff these arcs leave a direction free: walk from arc to arc until the start is passed.
  * v is sure iff the opposite arcs (v surely farther out than k) have a common direction: intersect arcs of violators. */
 #include "delaunay/hull.h"
@@ -118,7 +118,7 @@ static void ask(turn *t) {
   dyd_tree_beyond(&t->pd->tree, u[0], u[1], &height, examine, t);
 }
 
-/* Is `mark` in the half-open arc (u, to], which is below a half turn? */
+/* Is `mark` in the half-open arc (u, to]? It is below a half turn, since u is strictly inside the arc found. */
 static bool passes(turn *t, const vec *mark) {
   return cross_sign(t, &t->u, mark) > 0 && cross_sign(t, mark, &t->to) >= 0;
 }
@@ -141,22 +141,28 @@ dyd_status dyd_hull_possible(bool *possible, dyd_work *w, const dyd_delaunay *pd
   return t.status;
 }
 
-/* Is u in the closed arc [a, b], below a half turn? */
-static bool inside(turn *t, const vec *a, const vec *b, const vec *u) {
-  return cross_sign(t, a, u) >= 0 && cross_sign(t, u, b) >= 0;
+static bool same_direction(turn *t, const vec *a, const vec *b) {
+  return cross_sign(t, a, b) == 0 && dot_sign(t, a, b) > 0;
 }
 
-/* Intersects the open arc (lo, hi) with the arc found; false if nothing is left. */
+/* Is u strictly inside the arc from a to b, at most a half turn? */
+static bool inside(turn *t, const vec *a, const vec *b, const vec *u) {
+  return cross_sign(t, a, u) > 0 && cross_sign(t, u, b) > 0;
+}
+
+/* Intersects the open arc (lo, hi) with the arc found; false if nothing is left. The beginning of the one must lie in the other,
+ * its end left out, and so with the ends. */
 static bool narrow(turn *t, vec *lo, vec *hi) {
   bool from_in = inside(t, lo, hi, &t->from), to_in = inside(t, lo, hi, &t->to);
-  bool lo_in = inside(t, &t->from, &t->to, lo), hi_in = inside(t, &t->from, &t->to, hi);
+  bool lo_in = inside(t, &t->from, &t->to, lo) || same_direction(t, lo, &t->from);
+  bool hi_in = inside(t, &t->from, &t->to, hi) || same_direction(t, hi, &t->to);
   if (!(from_in || lo_in) || !(to_in || hi_in)) return false;
   if (from_in) vec_set(lo, &t->from);
   if (to_in) vec_set(hi, &t->to);
-  return cross_sign(t, lo, hi) > 0;
+  return true;
 }
 
-/* A short direction strictly between a and b. */
+/* A short direction strictly between a and b, less than a half turn apart. */
 static void between(vec *u, const vec *a, const vec *b) {
   size_t sa = mpz_sizeinbase(a->x, 2), sb = mpz_sizeinbase(b->x, 2), ta = mpz_sizeinbase(a->y, 2),
          tb = mpz_sizeinbase(b->y, 2);
@@ -192,7 +198,11 @@ dyd_status dyd_hull_sure(bool *sure, dyd_work *w, const dyd_delaunay *pd, uint32
       any = true;
     }
     if (!left) break;
-    between(&t.u, &lo, &hi);
+    if (cross_sign(&t, &lo, &hi) != 0) between(&t.u, &lo, &hi);
+    else { /* a half turn */
+      mpz_neg(t.u.x, lo.y);
+      mpz_set(t.u.y, lo.x);
+    }
     ask(&t);
   }
   *sure = left && t.found == DYD_NONE;

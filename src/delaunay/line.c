@@ -7,6 +7,7 @@
 #include "delaunay/line.h"
 
 #include "base/alloc.h"
+#include "delaunay/mesh_start.h"
 #include "rect/irect.h"
 
 #include <string.h>
@@ -87,6 +88,22 @@ static dyd_status allocate(dyd_delaunay *pd) {
   return l->order && l->rank && l->legal ? DYD_OK : DYD_E_NOMEM;
 }
 
+/* Equal exact points are neighbours in the order: the later ones become aliases and leave the list. */
+static dyd_status drop_aliases(dyd_delaunay *pd, entry *e) {
+  dyd_line *l = &pd->line;
+  uint32_t kept = 0;
+  dyd_status st = DYD_OK;
+  for (uint32_t q = 0; q < l->count; q++) {
+    bool same = kept && dyd_vertex_is_point(pd, e[q].vertex) && dyd_vertex_is_point(pd, e[kept - 1].vertex) &&
+                mpz_cmp(e[q].r.x0, e[kept - 1].r.x0) == 0 && mpz_cmp(e[q].r.y0, e[kept - 1].r.y0) == 0;
+    if (same && st == DYD_OK) st = dyd_mesh_set_alias(&pd->mesh, e[q].vertex, e[kept - 1].vertex);
+    if (same) dyd_irect_clear(&e[q].r);
+    else e[kept++] = e[q];
+  }
+  l->count = kept;
+  return st;
+}
+
 dyd_status dyd_line_build(dyd_delaunay *pd) {
   dyd_line *l = &pd->line;
   *l = (dyd_line){.all_points = true};
@@ -105,6 +122,7 @@ dyd_status dyd_line_build(dyd_delaunay *pd) {
     int axis = axis_of(e, l->count);
     for (uint32_t q = 0; q < l->count; q++) e[q].axis = axis;
     qsort(e, l->count, sizeof *e, compare);
+    st = drop_aliases(pd, e);
     for (uint32_t q = 0; q < l->count; q++) {
       l->order[q] = e[q].vertex;
       l->rank[e[q].vertex] = q;

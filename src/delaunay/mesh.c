@@ -17,7 +17,7 @@
 static int orient_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
   if (!m->no_filter) {
     int sign = dyd_filter_orient_near(m, m->xy[a], m->xy[b], m->xy[c]);
-    if (sign) return m->counters->filter++, sign;
+    if (sign) return sign;
     if (!m->fixed && !m->no_fixed) dyd_fixed_prepare(m);
     if (m->fixed) return m->counters->integer++, dyd_fixed_orient(m, a, b, c);
   }
@@ -26,6 +26,7 @@ static int orient_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
 }
 
 int dyd_mesh_orient(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
+  m->asked++;
   int sign = dyd_filter_orient(m, m->xy[a], m->xy[b], m->xy[c]);
   return sign ? sign : orient_slow(m, a, b, c);
 }
@@ -34,7 +35,7 @@ static int incircle_real(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32
   int sign;
   if (!m->no_filter) {
     if (!m->fixed && !m->no_fixed) dyd_fixed_prepare(m);
-    if (dyd_filter_incircle_small(&sign, m, m->xy[a], m->xy[b], m->xy[c], m->xy[p])) return m->counters->filter++, sign;
+    if (dyd_filter_incircle_small(&sign, m, m->xy[a], m->xy[b], m->xy[c], m->xy[p])) return sign;
     if (m->fixed) return m->counters->integer++, dyd_fixed_incircle(m, a, b, c, p);
   }
   m->counters->exact++;
@@ -43,6 +44,7 @@ static int incircle_real(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32
 
 static int incircle_ghost(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t p) {
   int side = dyd_mesh_orient(m, a, b, p);
+  m->asked--; /* counted with the in-circle test it answers */
   if (side) return side;
   m->ties++;
   return dyd_mesh_between(m, a, b, p) ? 1 : 0;
@@ -58,6 +60,7 @@ static int incircle_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32
 }
 
 static inline int incircle(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
+  m->asked++;
   int sign = m->no_filter ? 0 : dyd_filter_incircle_at(m, m->xy[a], m->xy[b], m->xy[c], m->xy[p]);
   return sign ? sign : incircle_slow(m, a, b, c, p);
 }
@@ -171,7 +174,8 @@ static dyd_status allocate(dyd_mesh *m) {
 dyd_status dyd_mesh_build(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, uint32_t n, bool no_filter,
                           dyd_delaunay_counters *counters, const volatile int *cancel) {
   uint32_t first[3];
-  *m = (dyd_mesh){.reps = reps, .local = local, .n = n, .no_filter = no_filter, .counters = counters};
+  *m = (dyd_mesh){.reps = reps, .local = local, .n = n, .no_filter = no_filter, .counters = counters,
+                  .beyond = counters->integer + counters->exact};
   dyd_status st = dyd_mesh_coordinates(m);
   if (st == DYD_OK) st = dyd_mesh_first_triangle(first, m);
   if (st == DYD_OK && !m->collinear) {
@@ -185,7 +189,16 @@ dyd_status dyd_mesh_build(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, ui
   return st;
 }
 
+/* Tests that were not passed on were answered by a filter. */
+static void count_filter(dyd_mesh *m) {
+  uint64_t beyond = m->counters->integer + m->counters->exact - m->beyond;
+  if (!m->no_filter && m->asked > beyond) m->counters->filter += m->asked - beyond;
+  m->beyond = m->counters->integer + m->counters->exact;
+  m->asked = 0;
+}
+
 void dyd_mesh_trim(dyd_mesh *m) {
+  if (m->counters) count_filter(m);
   dyd_fixed_free(m->fixed);
   free(m->stack);
   free(m->spare);

@@ -36,9 +36,11 @@ typedef struct dyd_mesh {
   uint32_t count;
   uint32_t *alias; /* alias[v]: the vertex with the same exact point, DYD_NONE if v is in the mesh; NULL: no aliases */
   bool collinear;  /* every choice of points is collinear: no triangles */
+  uint64_t asked;  /* in-circle tests and location steps so far */
+  uint64_t beyond; /* answers of the later rungs when counting began */
   uint64_t ties;   /* exact zeros met in in-circle and hull tests: 0 means no tie anywhere [TIE-1] */
   double orient_bound, incircle_delta; /* filter constants */
-  double exact_s; /* in-circle in doubles is exact up to this sum of lifts; 0 before it is known */
+  double exact_s; /* in-circle in doubles is exact up to this sum of lifts; -1: never; 0: not known yet */
   bool no_filter;
   dyd_fixed *fixed; /* scaled 64-bit coordinates, made at the first need; NULL before */
   bool no_fixed;    /* they do not exist */

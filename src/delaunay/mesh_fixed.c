@@ -107,7 +107,7 @@ void dyd_fixed_prepare(dyd_mesh *m) {
   dyd_fixed *f = calloc(1, sizeof *f);
   bool good = f && (m->reps->code ? prepare_rationals(f, m) : prepare_doubles(f, m));
   if (!good) dyd_fixed_free(f);
-  if (good && !f->z) m->exact_s = ldexp(1, 26 + 2 * f->unit);
+  m->exact_s = good && !f->z && f->unit >= -240 && f->unit <= 220 ? ldexp(1, 26 + 2 * f->unit) : -1;
   m->fixed = good ? f : NULL;
   m->no_fixed = !good;
 }

@@ -17,12 +17,12 @@ typedef struct dyd_vertex_pair {
 } dyd_vertex_pair;
 
 /* Invariant: tri[first_tri .. first_tri + tris) and pair[first_pair .. + pairs) of the face table, pairs sorted;
- * tie: all vertices are exact points; capped: pairs beyond the skeleton are missing. */
+ * polygon: a cocircular polygon or collinear chain of exact points; tie: all vertices are exact points; capped: pairs beyond the skeleton are missing. */
 typedef struct dyd_face {
   size_t first_tri, first_pair;
   uint32_t tris;
   uint32_t pairs;
-  bool outer, tie, capped;
+  bool outer, tie, capped, polygon;
 } dyd_face;
 
 typedef struct dyd_face_table {
@@ -32,7 +32,8 @@ typedef struct dyd_face_table {
   size_t tri_count, tri_cap;
   dyd_vertex_pair *pair;
   size_t pair_count, pair_cap;
-  uint32_t *of; /* triangle -> face, DYD_NONE: decided; NULL: no face at all */
+  size_t others; /* faces that are not polygons */
+  uint32_t *of;  /* triangle -> face, DYD_NONE: decided; NULL: no face at all */
 } dyd_face_table;
 
 /* The line order: alive vertices along the common line; legal[q]: order[q], order[q+1] is legal. */
