@@ -54,20 +54,20 @@ static void row_boxes(const bench_options *o) {
   cloud_clear(&boxes);
 }
 
-/* Boxes of half-width share / sqrt(n): time per possible pair; nobody else computes these statuses. */
-static void row_wide(const bench_options *o, const char *name, size_t n, double share) {
+/* Boxes of half-width share / sqrt(n): time per possible pair; nobody else computes these statuses. Returns the CPU
+ * seconds of one run. */
+static double wide(const bench_options *o, const char *name, size_t n, double share, size_t runs) {
   cloud boxes;
   bench_series ours = {0};
   ours_answer a = {0};
   char remark[200];
-  n = bench_size(o, n);
   cloud_uniform(&boxes, n);
   cloud_widen(&boxes, share / sqrt((double)n));
-  for (size_t r = 0; r < bench_runs(o, 3); r++) bench_series_add(&ours, ours_run(&a, name, &boxes, OURS_STATUSES));
+  for (size_t r = 0; r < runs; r++) bench_series_add(&ours, ours_run(&a, name, &boxes, OURS_STATUSES));
+  double seconds = bench_series_median(&ours).seconds;
   size_t pairs = a.count[DYD_LEGAL] + a.count[DYD_INDETERMINATE] + a.count[DYD_TIE];
   snprintf(remark, sizeof remark, "%.3f us a possible pair; %zu pairs; legal %zu; indeterminate %zu; tied %zu",
-           bench_series_median(&ours).seconds / (double)pairs * 1e6, pairs, a.count[DYD_LEGAL],
-           a.count[DYD_INDETERMINATE], a.count[DYD_TIE]);
+           seconds / (double)pairs * 1e6, pairs, a.count[DYD_LEGAL], a.count[DYD_INDETERMINATE], a.count[DYD_TIE]);
   bench_report(o, &(bench_row){.name = name,
                                .n = n,
                                .ours = &ours,
@@ -75,6 +75,22 @@ static void row_wide(const bench_options *o, const char *name, size_t n, double 
                                .input_bytes = a.input_bytes / (double)n,
                                .remark = remark});
   cloud_clear(&boxes);
+  return seconds;
+}
+
+/* The size asked for; or 10^3, 10^4, ... up to n, but no step that looks like taking more than a minute. */
+static void row_wide(const bench_options *o, const char *name, size_t n, double share) {
+  if (o->n) {
+    wide(o, name, o->n, share, bench_runs(o, 3));
+    return;
+  }
+  for (size_t step = 1000; step <= n; step *= 10) {
+    double seconds = wide(o, name, step, share, bench_runs(o, 1));
+    if (step < n && 15 * seconds > 60) {
+      printf("%-8s stops here: n=%zu would take more than a minute (ask with --n)\n", name, 10 * step);
+      return;
+    }
+  }
 }
 
 int main(int argc, char **argv) {
