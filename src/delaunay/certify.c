@@ -62,6 +62,8 @@ dyd_status dyd_certify_edge(dyd_delaunay *pd, dyd_work *w, uint32_t t, unsigned 
   if (i == g || j == g) st = dyd_hull_sure(&certain, w, pd, i == g ? j : i);
   else if (!is_exact_tie(pd, t, k)) {
     st = dyd_witness_search(&certain, NULL, pd, i, j, dyd_edge_centre(pd, t, k));
+    bool hull = dyd_mesh_is_ghost(&pd->mesh, t) || dyd_mesh_is_ghost(&pd->mesh, pd->mesh.tri[t].n[k] >> 2);
+    if (st == DYD_OK && !certain && hull) st = dyd_witness_far(&certain, NULL, w, pd, i, j);
     if (certain) pd->counters.witness_search++;
   }
   if (st == DYD_OK && certain) dyd_set_certain(pd, t, k);

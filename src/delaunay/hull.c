@@ -25,15 +25,15 @@ static void vec_set(vec *a, const vec *b) {
 typedef struct turn {
   dyd_work *w;
   const dyd_delaunay *pd;
-  uint32_t v, found;
+  uint32_t own[2], found; /* the vertices compared with all others; equal when it is one */
   vec u, from, to, d[4]; /* from, to: ends of the arc of the site found; d: scratch */
   bool outward;          /* arcs where the other site is farther out (possible), else where v is (sure) */
   bool empty;            /* the arc found is empty */
   dyd_status status;
 } turn;
 
-static void turn_init(turn *t, dyd_work *w, const dyd_delaunay *pd, uint32_t v, bool outward) {
-  *t = (turn){.w = w, .pd = pd, .v = v, .outward = outward, .status = DYD_OK};
+static void turn_init(turn *t, dyd_work *w, const dyd_delaunay *pd, uint32_t v, uint32_t v2, bool outward) {
+  *t = (turn){.w = w, .pd = pd, .own = {v, v2}, .outward = outward, .status = DYD_OK};
   vec_init(&t->u);
   vec_init(&t->from);
   vec_init(&t->to);
@@ -88,21 +88,36 @@ static void arc(turn *t) {
   mpz_set(t->to.y, t->d[first].x);
 }
 
-static bool examine(void *context, uint32_t k) {
-  turn *t = context;
-  size_t q, p;
+/* Compares site k with own vertex q; true if it is the one looked for. */
+static bool examine_one(turn *t, uint32_t k, int q) {
+  size_t a, b;
   bool grown;
-  if (k == t->v) return true;
-  t->status = dyd_scale_add(&q, &grown, &t->w->set, k);
-  if (t->status == DYD_OK) t->status = dyd_scale_add(&p, &grown, &t->w->set, t->v);
-  if (t->status != DYD_OK) return false;
-  const dyd_irect *other = &t->w->set.rect[q], *self = &t->w->set.rect[p];
+  t->status = dyd_scale_add(&a, &grown, &t->w->set, k);
+  if (t->status == DYD_OK) t->status = dyd_scale_add(&b, &grown, &t->w->set, t->own[q]);
+  if (t->status != DYD_OK) return true;
+  const dyd_irect *other = &t->w->set.rect[a], *self = &t->w->set.rect[b];
   if (t->outward) differences(t, other, self);
   else differences(t, self, other);
-  if (all_positive(t) != t->outward) return true;
+  if (all_positive(t) != t->outward) return false;
   t->found = k;
   arc(t);
-  return false;
+  return true;
+}
+
+static bool examine(void *context, uint32_t k) {
+  turn *t = context;
+  if (k == t->own[0] || k == t->own[1]) return true;
+  if (examine_one(t, k, 0)) return false;
+  return t->own[1] == t->own[0] || !examine_one(t, k, 1);
+}
+
+/* A height that whoever compares with own vertex q reaches. */
+static double own_height(const turn *t, int q, const double u[2]) {
+  dyd_bbox point = t->pd->box[t->own[q]];
+  if (!t->outward) { /* min over the rectangle instead of max: the opposite corner */
+    for (int a = 0; a < 2; a++) point.e[2 * a] = point.e[2 * a + 1] = u[a] > 0 ? point.e[2 * a] : point.e[2 * a + 1];
+  }
+  return dyd_height_lower(t->pd, u[0], u[1], &point);
 }
 
 /* Looks for a site that blocks v in the direction u (possible), or that reaches as far as v there (sure). */
@@ -110,11 +125,8 @@ static void ask(turn *t) {
   double u[2];
   t->found = DYD_NONE;
   dyd_direction_d(u, t->u.x, t->u.y);
-  dyd_bbox point = t->pd->box[t->v];
-  if (!t->outward) { /* min over R_v instead of max: the opposite corner */
-    for (int a = 0; a < 2; a++) point.e[2 * a] = point.e[2 * a + 1] = u[a] > 0 ? point.e[2 * a] : point.e[2 * a + 1];
-  }
-  double height = t->pd->options.no_filter ? -INFINITY : dyd_height_lower(t->pd, u[0], u[1], &point);
+  double height = dyd_min(own_height(t, 0, u), own_height(t, 1, u));
+  if (t->pd->options.no_filter) height = -INFINITY;
   dyd_tree_beyond(&t->pd->tree, u[0], u[1], &height, examine, t);
 }
 
@@ -126,7 +138,7 @@ static bool passes(turn *t, const vec *mark) {
 dyd_status dyd_hull_possible(bool *possible, dyd_work *w, const dyd_delaunay *pd, uint32_t v) {
   turn t;
   vec start;
-  turn_init(&t, w, pd, v, true);
+  turn_init(&t, w, pd, v, v, true);
   vec_init(&start);
   dyd_scale_set_empty(&w->set);
   mpz_set_si(start.x, 1);
@@ -180,34 +192,48 @@ static void between(vec *u, const vec *a, const vec *b) {
   vec_clear(&t);
 }
 
-dyd_status dyd_hull_sure(bool *sure, dyd_work *w, const dyd_delaunay *pd, uint32_t v) {
-  turn t;
+/* Intersects arcs of violators until none is left at t->u, or nothing of the arc. */
+static bool common_direction(turn *t) {
   vec lo, hi;
   bool any = false, left = true;
-  turn_init(&t, w, pd, v, false);
   vec_init(&lo);
   vec_init(&hi);
-  dyd_scale_set_empty(&w->set);
-  mpz_set_si(t.u.x, 1);
-  for (ask(&t); left && t.status == DYD_OK && t.found != DYD_NONE;) {
-    if (t.empty) left = false;
-    else if (any) left = narrow(&t, &lo, &hi);
-    else {
-      vec_set(&lo, &t.from);
-      vec_set(&hi, &t.to);
+  dyd_scale_set_empty(&t->w->set);
+  mpz_set_si(t->u.x, 1);
+  for (ask(t); t->status == DYD_OK && t->found != DYD_NONE; ask(t)) {
+    left = !t->empty && (!any || narrow(t, &lo, &hi));
+    if (!left) break;
+    if (!any) {
+      vec_set(&lo, &t->from);
+      vec_set(&hi, &t->to);
       any = true;
     }
-    if (!left) break;
-    if (cross_sign(&t, &lo, &hi) != 0) between(&t.u, &lo, &hi);
+    if (cross_sign(t, &lo, &hi) != 0) between(&t->u, &lo, &hi);
     else { /* a half turn */
-      mpz_neg(t.u.x, lo.y);
-      mpz_set(t.u.y, lo.x);
+      mpz_neg(t->u.x, lo.y);
+      mpz_set(t->u.y, lo.x);
     }
-    ask(&t);
   }
-  *sure = left && t.found == DYD_NONE;
   vec_clear(&hi);
   vec_clear(&lo);
+  return left && t->status == DYD_OK;
+}
+
+dyd_status dyd_hull_sure(bool *sure, dyd_work *w, const dyd_delaunay *pd, uint32_t v) {
+  turn t;
+  turn_init(&t, w, pd, v, v, false);
+  *sure = common_direction(&t);
+  turn_clear(&t);
+  return t.status;
+}
+
+dyd_status dyd_hull_direction(bool *found, mpz_t ux, mpz_t uy, dyd_work *w, const dyd_delaunay *pd, uint32_t i,
+                              uint32_t j) {
+  turn t;
+  turn_init(&t, w, pd, i, j, false);
+  *found = common_direction(&t);
+  mpz_set(ux, t.u.x);
+  mpz_set(uy, t.u.y);
   turn_clear(&t);
   return t.status;
 }

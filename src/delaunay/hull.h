@@ -11,4 +11,9 @@ dyd_status dyd_hull_possible(bool *possible, dyd_work *w, const dyd_delaunay *pd
  * [HUL-2]? Exact. */
 dyd_status dyd_hull_sure(bool *sure, dyd_work *w, const dyd_delaunay *pd, uint32_t v);
 
+/* A direction u with min_{R_i} u.x and min_{R_j} u.x > max_{R_k} u.x for all other k, if there is one: then all centres
+ * far enough out in the direction u are witnesses of ij [HUL-3]. Exact. */
+dyd_status dyd_hull_direction(bool *found, mpz_t ux, mpz_t uy, dyd_work *w, const dyd_delaunay *pd, uint32_t i,
+                              uint32_t j);
+
 #endif

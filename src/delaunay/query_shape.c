@@ -129,6 +129,18 @@ static dyd_status make_view(dyd_delaunay *view, const dyd_delaunay *pd, uint32_t
   return st;
 }
 
+static dyd_status find_witness(dyd_point *out, const dyd_delaunay *pd, uint32_t v, uint32_t w, dyd_xy guess) {
+  bool found;
+  dyd_status st = dyd_witness_search(&found, out, pd, v, w, guess);
+  if (st == DYD_OK && !found) {
+    dyd_work work;
+    dyd_work_init(&work, pd);
+    st = dyd_witness_far(&found, out, &work, pd, v, w);
+    dyd_work_clear(&work);
+  }
+  return st == DYD_OK && !found ? DYD_E_RANGE : st;
+}
+
 dyd_status dyd_delaunay_witness(dyd_point *out, const dyd_delaunay *pd, uint32_t i, uint32_t j) {
   if (dyd_delaunay_status(pd, i, j) != DYD_LEGAL) return DYD_E_ARG;
   uint32_t v = pd->vertex[i], w = pd->vertex[j];
@@ -137,16 +149,12 @@ dyd_status dyd_delaunay_witness(dyd_point *out, const dyd_delaunay *pd, uint32_t
     uint32_t h = dyd_find_edge(pd, v, w);
     guess = dyd_edge_centre(pd, h >> 2, dyd_prev(h & 3));
   }
-  bool found;
-  if (pd->box) {
-    dyd_status st = dyd_witness_search(&found, out, pd, v, w, guess);
-    return st == DYD_OK && !found ? DYD_E_RANGE : st;
-  }
+  if (pd->box) return find_witness(out, pd, v, w, guess);
   dyd_delaunay view;
   dyd_status st = make_view(&view, pd, v, w);
   if (st != DYD_OK) return st;
-  st = dyd_witness_search(&found, out, &view, v, w, guess);
+  st = find_witness(out, &view, v, w, guess);
   dyd_tree_clear(&view.tree);
   free(view.box);
-  return st == DYD_OK && !found ? DYD_E_RANGE : st;
+  return st;
 }

@@ -13,6 +13,7 @@
 
 #include "base/alloc.h"
 #include "delaunay/filter_cut.h"
+#include "delaunay/hull.h"
 #include <dyadel/predicate.h>
 
 #include <math.h>
@@ -147,6 +148,11 @@ dyd_status dyd_witness_search(bool *found, dyd_point *c, const dyd_delaunay *pd,
   search *s = malloc(sizeof *s);
   *found = false;
   if (!s) return DYD_E_NOMEM;
+  if (i > j) { /* one search for a pair, whoever is named first */
+    uint32_t t = i;
+    i = j;
+    j = t;
+  }
   dyd_status st = search_init(s, pd, i, j);
   if (st == DYD_OK) st = set_start(&s->c, pd, i, guess);
   if (st == DYD_OK) {
@@ -174,5 +180,38 @@ dyd_status dyd_witness_check(bool *good, const dyd_delaunay *pd, uint32_t i, uin
   }
   search_clear(s);
   free(s);
+  return st;
+}
+
+/* c = p + 2^m u for a vertex's double p. */
+static dyd_status far_centre(dyd_point *c, const dyd_delaunay *pd, uint32_t i, const mpz_t ux, const mpz_t uy,
+                             int64_t m) {
+  dyd_dyadic d;
+  dyd_dyadic_init(&d);
+  dyd_status st = set_start(c, pd, i, (dyd_xy){NAN, NAN});
+  if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&d, ux, m);
+  if (st == DYD_OK) st = dyd_dyadic_add(&c->x, &c->x, &d);
+  if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&d, uy, m);
+  if (st == DYD_OK) st = dyd_dyadic_add(&c->y, &c->y, &d);
+  dyd_dyadic_clear(&d);
+  return st;
+}
+
+dyd_status dyd_witness_far(bool *found, dyd_point *c, dyd_work *w, const dyd_delaunay *pd, uint32_t i, uint32_t j) {
+  mpz_t ux, uy;
+  dyd_point far;
+  mpz_inits(ux, uy, NULL);
+  dyd_point_init(&far);
+  dyd_status st = dyd_hull_direction(found, ux, uy, w, pd, i, j);
+  bool direction = *found;
+  *found = false;
+  for (int64_t step = 16, m = -64; direction && st == DYD_OK && !*found; m += step, step += step / 4) {
+    st = far_centre(&far, pd, i, ux, uy, m);
+    if (st == DYD_OK) st = dyd_witness_check(found, pd, i, j, &far);
+  }
+  if (st == DYD_E_RANGE) st = DYD_OK; /* farther than numbers go: the floor */
+  if (st == DYD_OK && *found && c) dyd_point_set(c, &far);
+  dyd_point_clear(&far);
+  mpz_clears(ux, uy, NULL);
   return st;
 }
