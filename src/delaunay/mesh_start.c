@@ -87,25 +87,57 @@ static bool two_others(uint32_t pair[2], dyd_mesh *m, uint32_t without) {
   return found == 2;
 }
 
-/* All representatives are collinear: a fat rectangle that reaches off their line gives the triangle. Three different
- * fractions of a rectangle are never collinear, unless it is a segment, and a segment meets a line once or lies in it. */
-static dyd_status leave_line(uint32_t first[3], dyd_mesh *m) {
-  uint32_t pair[2];
-  for (uint32_t v = 0; v < m->n; v++) {
-    if (dyd_mesh_is_point(m, v) || !two_others(pair, m, v)) continue;
-    for (uint32_t k = 1; k <= 4; k++) {
-      dyd_status st = dyd_mesh_move(m, v, k);
-      if (st != DYD_OK) return st;
-      if (dyd_mesh_orient(m, pair[0], pair[1], v) != 0) {
-        first[0] = pair[0];
-        first[1] = pair[1];
-        first[2] = v;
-        return DYD_OK;
-      }
-    }
+/* Is every choice of points collinear: all rectangles on one vertical or horizontal line, or all of them exact points whose
+ * representatives are collinear (as they are when this is asked), or at most two different sites? */
+static dyd_status always_collinear(bool *always, dyd_mesh *m) {
+  bool vertical = true, horizontal = true, points = true;
+  uint32_t alive = 0;
+  dyd_rect first, r;
+  dyd_rect_init(&first);
+  dyd_rect_init(&r);
+  dyd_status st = DYD_OK;
+  for (uint32_t v = 0; v < m->n && st == DYD_OK; v++) {
+    if (dyd_mesh_alias(m, v) != DYD_NONE) continue;
+    st = dyd_sites_get(alive ? &r : &first, m->reps->sites, m->reps->site[dyd_mesh_rep(m, v)]);
+    if (!alive++) dyd_rect_set(&r, &first);
+    points = points && dyd_rect_is_point(&r);
+    vertical = vertical && dyd_interval_is_point(&r.x) && dyd_interval_contains(&first.x, &r.x);
+    horizontal = horizontal && dyd_interval_is_point(&r.y) && dyd_interval_contains(&first.y, &r.y);
   }
-  m->collinear = true;
+  *always = vertical || horizontal || points || alive <= 2;
+  dyd_rect_clear(&r);
+  dyd_rect_clear(&first);
+  return st;
+}
+
+/* Moves v off the line of two others, if it can; *done: first is a triangle. */
+static dyd_status step_aside(bool *done, uint32_t first[3], dyd_mesh *m, uint32_t v, uint32_t k) {
+  uint32_t pair[2];
+  *done = false;
+  if (dyd_mesh_is_point(m, v) || !two_others(pair, m, v)) return DYD_OK;
+  for (uint32_t last = k + 4; k < last; k++) {
+    dyd_status st = dyd_mesh_move(m, v, k);
+    if (st != DYD_OK) return st;
+    if (dyd_mesh_orient(m, pair[0], pair[1], v) == 0) continue;
+    first[0] = pair[0];
+    first[1] = pair[1];
+    first[2] = v;
+    *done = true;
+    break;
+  }
   return DYD_OK;
+}
+
+/* All representatives are collinear: a fat rectangle that reaches off their line gives the triangle. Three different
+ * fractions of a rectangle are never collinear, unless it is a segment, and a segment meets a line once or lies in it. A vertex that has
+ * to wait until two others have moved apart is reached in a later round; fractions differ from vertex to vertex. */
+static dyd_status leave_line(uint32_t first[3], dyd_mesh *m) {
+  dyd_status st = always_collinear(&m->collinear, m);
+  bool done = m->collinear;
+  for (uint32_t round = 0; !done && st == DYD_OK; round++)
+    for (uint32_t v = 0; v < m->n && !done && st == DYD_OK; v++)
+      st = step_aside(&done, first, m, v, 1 + 4 * (v % 1024) + round % 1024);
+  return st;
 }
 
 dyd_status dyd_mesh_first_triangle(uint32_t first[3], dyd_mesh *m) {
@@ -119,8 +151,7 @@ dyd_status dyd_mesh_first_triangle(uint32_t first[3], dyd_mesh *m) {
     }
     if (st == DYD_OK && differs) first[found++] = v;
   }
-  if (st == DYD_OK && found < 2) m->collinear = true;
-  else if (st == DYD_OK && found == 2) st = leave_line(first, m);
+  if (st == DYD_OK && found < 3) st = leave_line(first, m);
   if (st == DYD_OK && !m->collinear && dyd_mesh_orient(m, first[0], first[1], first[2]) < 0) {
     uint32_t t = first[0];
     first[0] = first[1];
