@@ -69,10 +69,10 @@ typedef struct dyd_engine_options {
   dyd_schedule schedule;
   int64_t start_bits;  /* precision of the first stage; 0: default 64 */
   int64_t max_bits;    /* 0: default 4096 */
-  uint64_t max_stages; /* 0: no limit */
-  uint64_t max_calls;  /* 0: no limit */
+  uint64_t max_stages; /* of this run; 0: no limit */
+  uint64_t max_calls;  /* of this run; 0: no limit */
   size_t max_pairs;    /* 0: default, see dyd_delaunay_options */
-  double seconds;      /* 0: no limit; wall clock */
+  double seconds;      /* of this run; 0: no limit; wall clock */
   unsigned threads;    /* 0: one */
   bool no_filter;      /* exact rung only (tests) */
   /* Called after each stage from the running thread; may be NULL. */
@@ -105,7 +105,9 @@ DYD_API size_t dyd_engine_count(const dyd_engine *e);
  * stated stays stated. options may be NULL.
  * Returns DYD_OK for the outcomes decided, certified, fixpoint, budget and cancelled; an error code for
  * DYD_OUTCOME_ERROR, with *err filled. *outcome is always set; err may be NULL. After an error in a stream the last
- * complete result stays available (dyd_engine_delaunay), if there was one. */
+ * complete result stays available (dyd_engine_delaunay), if there was one. When the budget of pairs is spent, *err
+ * names the sites (code DYD_CAPPED). After a cancel or the end of time within a stage some sites may be narrower
+ * than when the result was made: it holds for them all the same, and the next run begins by bringing it up to date. */
 DYD_API dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_options *options,
                                   dyd_error *err);
 /* Asks a run to stop soon, with outcome cancelled. Async-signal-safe, from any thread. Sticky until the next

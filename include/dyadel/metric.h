@@ -10,7 +10,8 @@ extern "C" {
 #endif
 
 /* An upper bound of the Lebesgue measure of the union of the partial edges Ed(R_i,R_j) over all possible pairs:
- * the sum of the areas of these hulls, rounded up by at most 2^-53 of itself [AREA-T]. DYD_CAPPED (out unchanged) when
+ * the sum of the areas of these hulls, rounded up by at most 2^-53 of itself (or to a multiple of 2^-DYD_EXP_LIMIT)
+ * [AREA-T]. DYD_CAPPED (out unchanged) when
  * pd is capped, since pairs are missing then. O(pairs). */
 DYD_API dyd_status dyd_metric_area(dyd_dyadic *out, const dyd_delaunay *pd);
 
