@@ -20,6 +20,25 @@ static dyd_status write_faces(const dyd_result *r, dyd_error *err) {
   return status < 0 ? dyd_fail(err, status, "%s", dyd_status_text(status)) : DYD_OK;
 }
 
+/* The digits of v and the character behind; returns the place behind both. */
+static char *put_number(char *at, uint32_t v, char behind) {
+  char digits[10];
+  int count = 0;
+  do digits[count++] = (char)('0' + v % 10);
+  while (v /= 10);
+  while (count) *at++ = digits[--count];
+  *at++ = behind;
+  return at;
+}
+
+/* By hand, since there are millions of lines. */
+static void write_pair(FILE *out, const dyd_pair *p) {
+  char line[48], *end = put_number(put_number(line, p->i, ','), p->j, ',');
+  for (const char *status = dyd_pair_status_text(p->status); *status; status++) *end++ = *status;
+  *end++ = '\n';
+  fwrite(line, 1, (size_t)(end - line), out);
+}
+
 dyd_status dyd_write_csv(const dyd_result *r, dyd_error *err) {
   for (size_t i = 0; i < r->count; i++) {
     uint32_t of = dyd_delaunay_alias(r->pd, (uint32_t)i);
@@ -30,9 +49,6 @@ dyd_status dyd_write_csv(const dyd_result *r, dyd_error *err) {
     if (status < 0) return status;
   }
   fputs("i,j,status\n", r->out);
-  for (size_t k = 0; k < r->pairs.count; k++) {
-    const dyd_pair *p = &r->pairs.item[k];
-    fprintf(r->out, "%u,%u,%s\n", (unsigned)p->i, (unsigned)p->j, dyd_pair_status_text(p->status));
-  }
+  for (size_t k = 0; k < r->pairs.count; k++) write_pair(r->out, &r->pairs.item[k]);
   return DYD_OK;
 }

@@ -8,9 +8,10 @@
 #include <inttypes.h>
 
 static dyd_status write_interval(FILE *out, const char *name, const dyd_interval *a) {
-  char *lo = dyd_end_text(a, false), *hi = dyd_end_text(a, true);
-  dyd_status status = lo && hi ? DYD_OK : DYD_E_NOMEM;
-  if (status >= 0) fprintf(out, "\"%s\": [\"%s\", \"%s\"], ", name, lo, hi);
+  bool point = dyd_interval_is_point(a);
+  char *lo = dyd_end_text(a, false), *hi = point ? NULL : dyd_end_text(a, true);
+  dyd_status status = lo && (hi || point) ? DYD_OK : DYD_E_NOMEM;
+  if (status >= 0) fprintf(out, "\"%s\": [\"%s\", \"%s\"], ", name, lo, point ? lo : hi);
   free(lo);
   free(hi);
   return status;
