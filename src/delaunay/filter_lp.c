@@ -49,13 +49,12 @@ dyd_lp_result dyd_lp_centre(const dyd_cut *cut, size_t count, double bound) {
   const double h = 0.8660254037844386;
   dyd_cut frame[3] = {{0, 1, bound, 0}, {-h, -0.5, bound, 0}, {h, -0.5, bound, 0}};
   const dyd_cut *basis[3] = {&frame[0], &frame[1], &frame[2]};
-  dyd_lp_result best = {0};
-  best.z = bound;
+  dyd_lp_result best = {.z = bound};
   for (int step = 0; step < STEPS; step++) {
     size_t k = most_violated(cut, count, &best);
     if (k == count) break;
     int leaves = 3;
-    dyd_lp_result next = best, r;
+    dyd_lp_result next = best, r = {0};
     for (int out = 0; out < 3; out++) {
       if (!optimum(&r, &cut[k], basis[(out + 1) % 3], basis[(out + 2) % 3])) continue;
       if (leaves < 3 && r.z >= next.z) continue;

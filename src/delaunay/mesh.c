@@ -159,7 +159,7 @@ static dyd_status insert(dyd_mesh *m, uint32_t v) {
 static dyd_status insert_all(dyd_mesh *m, const uint32_t first[3], const volatile int *cancel) {
   for (uint32_t v = 0; v < m->n; v++) {
     if (v == first[0] || v == first[1] || v == first[2] || dyd_mesh_alias(m, v) != DYD_NONE) continue;
-    if ((v & 1023) == 0 && cancel && *cancel) return DYD_CANCELLED;
+    if ((v & 1023) == 0 && dyd_flag_is_set(cancel)) return DYD_CANCELLED;
     dyd_status st = insert(m, v);
     if (st != DYD_OK) return st;
   }

@@ -22,6 +22,9 @@ typedef struct dyd_tri {
 static inline unsigned dyd_next(unsigned k) { return (9u >> (2 * k)) & 3u; }
 static inline unsigned dyd_prev(unsigned k) { return (18u >> (2 * k)) & 3u; }
 
+/* Another thread or a signal handler may set the flag at any time. */
+static inline bool dyd_flag_is_set(const volatile int *flag) { return flag && __atomic_load_n(flag, __ATOMIC_RELAXED); }
+
 typedef struct dyd_fixed dyd_fixed;
 
 /* Invariant: every twin's twin is the edge itself, twins share their two vertices in opposite order, every real

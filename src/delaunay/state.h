@@ -63,7 +63,7 @@ struct dyd_delaunay {
   dyd_error *err; /* during a call */
 };
 
-static inline bool dyd_cancelled(const dyd_delaunay *pd) { return pd->options.cancel && *pd->options.cancel; }
+static inline bool dyd_cancelled(const dyd_delaunay *pd) { return dyd_flag_is_set(pd->options.cancel); }
 static inline bool dyd_edge_is_certain(const dyd_delaunay *pd, uint32_t t, unsigned k) { return pd->certain[t] >> k & 1; }
 static inline void dyd_set_certain(dyd_delaunay *pd, uint32_t t, unsigned k) {
   uint32_t twin = pd->mesh.tri[t].n[k];

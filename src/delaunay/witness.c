@@ -13,6 +13,7 @@
 
 #include "base/alloc.h"
 #include "delaunay/filter_cut.h"
+#include "delaunay/filter_witness.h"
 #include "delaunay/hull.h"
 #include <dyadel/predicate.h>
 
@@ -144,15 +145,11 @@ static dyd_status set_start(dyd_point *c, const dyd_delaunay *pd, uint32_t i, dy
   return st == DYD_OK ? dyd_dyadic_set_d(&c->y, guess.y) : st;
 }
 
-dyd_status dyd_witness_search(bool *found, dyd_point *c, const dyd_delaunay *pd, uint32_t i, uint32_t j, dyd_xy guess) {
+/* The search on the exact rung. */
+static dyd_status search_exactly(bool *found, dyd_point *c, const dyd_delaunay *pd, uint32_t i, uint32_t j,
+                                 dyd_xy guess) {
   search *s = malloc(sizeof *s);
-  *found = false;
   if (!s) return DYD_E_NOMEM;
-  if (i > j) { /* one search for a pair, whoever is named first */
-    uint32_t t = i;
-    i = j;
-    j = t;
-  }
   dyd_status st = search_init(s, pd, i, j);
   if (st == DYD_OK) st = set_start(&s->c, pd, i, guess);
   if (st == DYD_OK) {
@@ -166,6 +163,20 @@ dyd_status dyd_witness_search(bool *found, dyd_point *c, const dyd_delaunay *pd,
   search_clear(s);
   free(s);
   return st;
+}
+
+dyd_status dyd_witness_search(bool *found, dyd_point *c, const dyd_delaunay *pd, uint32_t i, uint32_t j, dyd_xy guess) {
+  *found = false;
+  if (i > j) { /* one search for a pair, whoever is named first */
+    uint32_t t = i;
+    i = j;
+    j = t;
+  }
+  dyd_truth quick = dyd_filter_witness(&guess, pd, i, j);
+  if (quick == DYD_UNKNOWN || (quick == DYD_TRUE && pd->options.no_filter))
+    return search_exactly(found, c, pd, i, j, guess);
+  *found = quick == DYD_TRUE;
+  return *found && c ? set_start(c, pd, i, guess) : DYD_OK;
 }
 
 dyd_status dyd_witness_check(bool *good, const dyd_delaunay *pd, uint32_t i, uint32_t j, const dyd_point *c) {
