@@ -195,6 +195,29 @@ static void test_many_bits(void **state) {
   assert_true(seconds() - start < 5);
 }
 
+/* Which of five roots is found does not depend on the widths asked for on the way. */
+static void test_same_root(void **state) {
+  (void)state;
+  static const int64_t schedules[][4] = {
+      {600, 600, 600, 600}, {1, 2, 3, 600}, {0, 9, 10, 600}, {4, 5, 77, 600}, {-5, 1, 30, 600}};
+  test_random r = test_random_start("same root");
+  for (size_t n = test_cases(200); n > 0; n--) {
+    char text[200] = "root(x";
+    for (int i = 0; i < 5; i++)
+      sprintf(text + strlen(text), "*(x^2-%d/64)", (int)test_between(&r, 64 + 40 * i, 103 + 40 * i));
+    sprintf(text + strlen(text), ",%d/10,%d/10)", (int)test_between(&r, 1, 9), (int)test_between(&r, 21, 60));
+    dyd_real *first = parsed(text);
+    narrowed(first, 600, 600);
+    for (size_t k = 1; k < sizeof schedules / sizeof *schedules; k++) {
+      dyd_real *x = parsed(text);
+      for (size_t i = 0; i < 4; i++) narrowed(x, schedules[k][i], 600);
+      if (!dyd_interval_meets(dyd_real_interval(first), dyd_real_interval(x))) fail_msg("%s: schedule %zu", text, k);
+      dyd_real_free(x);
+    }
+    dyd_real_free(first);
+  }
+}
+
 /* Very close roots (Mignotte): they are told apart, and the sign change is real. */
 static void test_close_roots(void **state) {
   (void)state;
@@ -216,6 +239,7 @@ static void test_close_roots(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_polynomials), cmocka_unit_test(test_exact),
-                                     cmocka_unit_test(test_many_bits), cmocka_unit_test(test_close_roots)};
+                                     cmocka_unit_test(test_many_bits), cmocka_unit_test(test_same_root),
+                                     cmocka_unit_test(test_close_roots)};
   return cmocka_run_group_tests(tests, NULL, release_caches);
 }
