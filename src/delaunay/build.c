@@ -121,10 +121,11 @@ static dyd_status build_line(dyd_delaunay *pd) {
   dyd_status st = dyd_line_build(pd);
   if (st == DYD_OK && dyd_line_open_pairs(&pd->line) > pd->max_pairs) {
     pd->line.capped = true;
-    dyd_fail(pd->err, DYD_CAPPED,
-             "%zu collinear sites (%u, %u, ...) have %zu possible pairs, more than the cap of %zu; raise the cap on pairs",
-             (size_t)pd->line.count, pd->reps.site[pd->line.order[0]], pd->reps.site[pd->line.order[1]],
-             dyd_line_open_pairs(&pd->line), pd->max_pairs);
+    dyd_fail(
+        pd->err, DYD_CAPPED,
+        "%zu collinear sites (%u, %u, ...) have %zu possible pairs, more than the cap of %zu; raise the cap on pairs",
+        (size_t)pd->line.count, pd->reps.site[pd->line.order[0]], pd->reps.site[pd->line.order[1]],
+        dyd_line_open_pairs(&pd->line), pd->max_pairs);
   }
   return st;
 }
@@ -136,7 +137,9 @@ dyd_status dyd_build(dyd_delaunay *pd, dyd_known known) {
   if (st == DYD_OK) st = build_boxes(pd);
   if (st == DYD_OK) DYD_CHECK(dyd_mesh_check(&pd->mesh));
   if (st == DYD_OK) st = pd->mesh.collinear ? DYD_OK : build_statuses(pd, known);
-  if (st != DYD_OK) dyd_build_clear(pd);
-  else dyd_mesh_trim(&pd->mesh);
+  if (st != DYD_OK)
+    dyd_build_clear(pd);
+  else
+    dyd_mesh_trim(&pd->mesh);
   return st;
 }

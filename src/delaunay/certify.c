@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Certain edges: exact points by exact in-circle tests, rectangles by witnesses.
  *
- * When all sites are exact points, an edge of the skeleton is legal iff the two triangles at it are not cocircular (then the
- * inside of its Voronoi edge consists of witnesses), hull edges are always legal, and a hull vertex is sure iff it is not
- * on the line of its two hull neighbours. No exact zero during the construction means: no tie at all [TIE-1]. */
+ * When all sites are exact points, an edge of the skeleton is legal iff the two triangles at it are not cocircular
+ * (then the inside of its Voronoi edge consists of witnesses), hull edges are always legal, and a hull vertex is sure
+ * iff it is not on the line of its two hull neighbours. No exact zero during the construction means: no tie at all
+ * [TIE-1]. */
 #include "delaunay/certify.h"
 
 #include "delaunay/hull.h"
@@ -59,7 +60,8 @@ dyd_status dyd_certify_edge(dyd_delaunay *pd, dyd_work *w, uint32_t t, unsigned 
   uint32_t g = pd->mesh.n, i = pd->mesh.tri[t].v[dyd_next(k)], j = pd->mesh.tri[t].v[dyd_prev(k)];
   bool certain = false;
   dyd_status st = DYD_OK;
-  if (i == g || j == g) st = dyd_hull_sure(&certain, w, pd, i == g ? j : i);
+  if (i == g || j == g)
+    st = dyd_hull_sure(&certain, w, pd, i == g ? j : i);
   else if (!is_exact_tie(pd, t, k)) {
     st = dyd_witness_search(&certain, NULL, pd, i, j, dyd_edge_centre(pd, t, k));
     bool hull = dyd_mesh_is_ghost(&pd->mesh, t) || dyd_mesh_is_ghost(&pd->mesh, pd->mesh.tri[t].n[k] >> 2);

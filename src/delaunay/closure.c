@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Closure under flips.
  *
- * Any two choices are joined by a path along which the Delaunay triangulation changes by flips. So starting from the skeleton's
- * edges, whenever an uncertain possible pair ij has two common possible neighbours k, l, the pair kl may come: it is decided
- * by cover. The ghost takes part as a vertex: its pairs are the possible hull vertices. Every quad is seen when the last of its five pairs is
- * taken from the queue (the links of the map in their order of addition). Certain pairs are never displaced, and every other possible pair lies inside one face, so a face
- * is closed in itself [CLO-1]. A face of exact points whose uncertain edges are all exact ties is one cocircular polygon (or, beyond
- * the hull, one collinear chain): all its pairs are possible [CLO-2]. */
+ * Any two choices are joined by a path along which the Delaunay triangulation changes by flips. So starting from the
+ * skeleton's edges, whenever an uncertain possible pair ij has two common possible neighbours k, l, the pair kl may
+ * come: it is decided by cover. The ghost takes part as a vertex: its pairs are the possible hull vertices. Every quad
+ * is seen when the last of its five pairs is taken from the queue (the links of the map in their order of addition).
+ * Certain pairs are never displaced, and every other possible pair lies inside one face, so a face is closed in itself
+ * [CLO-1]. A face of exact points whose uncertain edges are all exact ties is one cocircular polygon (or, beyond the
+ * hull, one collinear chain): all its pairs are possible [CLO-2]. */
 #include "delaunay/closure.h"
 
 #include "base/alloc.h"
@@ -49,8 +50,10 @@ static dyd_status gather_vertices(closing *c) {
   for (uint32_t q = 0; q < c->tris; q++)
     for (int k = 0; k < 3; k++) {
       uint32_t v = m->tri[c->tri[q]].v[k];
-      if (v == m->n) out->outer = true;
-      else out->vertex[count++] = v;
+      if (v == m->n)
+        out->outer = true;
+      else
+        out->vertex[count++] = v;
     }
   qsort(out->vertex, count, sizeof *out->vertex, compare_index);
   out->all_points = true;
@@ -70,7 +73,7 @@ static uint32_t member_of(const closing *c, uint32_t v) {
 
 static dyd_status keep_pair(dyd_closure *out, uint32_t a, uint32_t b) {
   if (!dyd_reserve((void **)&out->pair, &out->pair_cap, out->pairs + 1, sizeof *out->pair)) return DYD_E_NOMEM;
-  out->pair[out->pairs++] = a < b ? (dyd_vertex_pair){a, b} : (dyd_vertex_pair){b, a};
+  out->pair[out->pairs++] = a < b ? (dyd_vertex_pair){a, b, 0} : (dyd_vertex_pair){b, a, 0};
   return DYD_OK;
 }
 
@@ -245,8 +248,10 @@ dyd_status dyd_closure_run(dyd_closure *out, dyd_delaunay *pd, dyd_work *w, cons
   out->polygon = st == DYD_OK && is_polygon(&c);
   if (out->polygon) {
     uint64_t m = out->vertices;
-    if (m * (m - 1) / 2 > room + 3 * (uint64_t)tris) c.full = true;
-    else st = all_pairs(&c);
+    if (m * (m - 1) / 2 > room + 3 * (uint64_t)tris)
+      c.full = true;
+    else
+      st = all_pairs(&c);
   } else if (st == DYD_OK) {
     st = close(&c);
     if (st == DYD_OK) st = collect(&c, c.map.links);

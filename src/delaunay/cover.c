@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The cover walk.
  *
- * R_i and R_j disjoint are separated by a vertical or a horizontal line; say vertical, i on the left. Then ds_i^2 - ds_j^2 increases strictly
- * with x, from -inf to inf, so beta = {ds_i = ds_j} is a graph over the axis t = y [BETA-1], and only centres on beta (or at
- * its two ends at infinity, the directions of the outer common tangents) matter. Each other k blocks the open interval of beta
- * where dl_k < ds_i; its finite ends are critical circles closest-closest-farthest of (i, j, k). A k that meets R_i or R_j never blocks: a common
- * point is nearer than ds. The walk starts at t = -inf: nobody blocks there: possible. Else it goes to the far end of a blocker's
- * interval, asks who blocks there; nobody: possible; no far end: beta is covered, the pair is illegal [COV-1]. */
+ * R_i and R_j disjoint are separated by a vertical or a horizontal line; say vertical, i on the left. Then ds_i^2 -
+ * ds_j^2 increases strictly with x, from -inf to inf, so beta = {ds_i = ds_j} is a graph over the axis t = y [BETA-1],
+ * and only centres on beta (or at its two ends at infinity, the directions of the outer common tangents) matter. Each
+ * other k blocks the open interval of beta where dl_k < ds_i; its finite ends are critical circles
+ * closest-closest-farthest of (i, j, k). A k that meets R_i or R_j never blocks: a common point is nearer than ds. The
+ * walk starts at t = -inf: nobody blocks there: possible. Else it goes to the far end of a blocker's interval, asks who
+ * blocks there; nobody: possible; no far end: beta is covered, the pair is illegal [COV-1]. */
 #include "delaunay/cover.h"
 
 #include "delaunay/filter_possible.h"
@@ -33,10 +34,10 @@ typedef struct walk {
   dyd_delaunay *pd;
   uint32_t i, j;
   int axis;
-  int end;             /* -1, 1: at infinity; 0: at the circle w->here */
-  uint32_t blocker;    /* of the current place, DYD_NONE: nobody found */
-  uint32_t last;       /* whose interval ends at w->here: does not block there */
-  double bound;        /* squared radius from above, or height from below */
+  int end;          /* -1, 1: at infinity; 0: at the circle w->here */
+  uint32_t blocker; /* of the current place, DYD_NONE: nobody found */
+  uint32_t last;    /* whose interval ends at w->here: does not block there */
+  double bound;     /* squared radius from above, or height from below */
   dyd_bbox centre;
   dyd_status status;
 } walk;
@@ -64,8 +65,12 @@ static bool member(size_t *index, walk *k, uint32_t v) {
 }
 
 /* The ends of side `axis` of r. */
-static mpz_srcptr low_end(const dyd_irect *r, int axis) { return axis == 0 ? r->x0 : r->y0; }
-static mpz_srcptr high_end(const dyd_irect *r, int axis) { return axis == 0 ? r->x1 : r->y1; }
+static mpz_srcptr low_end(const dyd_irect *r, int axis) {
+  return axis == 0 ? r->x0 : r->y0;
+}
+static mpz_srcptr high_end(const dyd_irect *r, int axis) {
+  return axis == 0 ? r->x1 : r->y1;
+}
 
 /* ---- ends at infinity ---- */
 

@@ -34,8 +34,10 @@ dyd_status dyd_delaunay_new(dyd_delaunay **out, const dyd_sites *sites, const dy
   pd->err = err;
   set_options(pd, options);
   dyd_status st = finish(pd, dyd_build(pd, (dyd_known){NULL, 0}), err);
-  if (st < 0 || st == DYD_CANCELLED) free(pd);
-  else *out = pd;
+  if (st < 0 || st == DYD_CANCELLED)
+    free(pd);
+  else
+    *out = pd;
   return st;
 }
 

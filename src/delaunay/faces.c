@@ -17,7 +17,9 @@ void dyd_faces_clear(dyd_face_table *f) {
   memset(f, 0, sizeof *f);
 }
 
-static bool has_uncertain_edge(const dyd_delaunay *pd, uint32_t t) { return (pd->certain[t] & 7) != 7; }
+static bool has_uncertain_edge(const dyd_delaunay *pd, uint32_t t) {
+  return (pd->certain[t] & 7) != 7;
+}
 
 static dyd_status make_marks(dyd_delaunay *pd) {
   if (pd->faces.of) return DYD_OK;
@@ -69,6 +71,8 @@ static dyd_status store(dyd_delaunay *pd, const dyd_closure *c, size_t first_tri
                                    .polygon = c->polygon};
   f->others += !c->polygon;
   f->pair_count += c->pairs;
+  f->live_pairs += c->pairs;
+  f->live_tris += f->tri_count - first_tri;
   if (c->capped) report_cap(pd, c);
   return DYD_OK;
 }
@@ -80,10 +84,7 @@ static void take_back(dyd_delaunay *pd, size_t first_tri) {
   f->tri_count = first_tri;
 }
 
-/* ---- one face for each pair ----
- *
- * Two sites on the rims of two faces may make a pair that both closures find. It is kept once: in the face where the skeleton has
- * it, else in a polygon, else where it was found first. */
+/* ---- one face for each pair: where the skeleton has it, else in a polygon, else where it was found first ---- */
 
 static int compare_pair(const void *a, const void *b) {
   const dyd_vertex_pair *x = a, *y = b;
@@ -101,39 +102,64 @@ static uint32_t skeleton_face(const dyd_delaunay *pd, dyd_vertex_pair p) {
   return h == DYD_NONE || dyd_edge_is_certain(pd, h >> 2, dyd_prev(h & 3)) ? DYD_NONE : pd->faces.of[h >> 2];
 }
 
-/* Another face, already stored, that lists p; NULL: none. */
-static dyd_face *other_owner(const dyd_delaunay *pd, uint32_t self, dyd_vertex_pair p) {
+/* Another face that lists p, shown or hidden as asked, and where; NULL: none. */
+static dyd_vertex_pair *elsewhere(dyd_face **owner, const dyd_delaunay *pd, uint32_t self, dyd_vertex_pair p,
+                                  bool hidden) {
   const dyd_face_table *f = &pd->faces;
   uint32_t first = pd->corner[p.i], h = first;
   do {
     uint32_t g = f->of[h >> 2];
-    if (g != DYD_NONE && g != self && g < f->count && find_pair(f, &f->face[g], p)) return &f->face[g];
+    if (g != DYD_NONE && g != self) {
+      dyd_vertex_pair *at = find_pair(f, &f->face[g], p);
+      *owner = &f->face[g];
+      if (at && at->hidden == hidden) return at;
+    }
     h = dyd_turn(&pd->mesh, h);
   } while (h != first);
   return NULL;
 }
 
-static void remove_pair(const dyd_face_table *f, dyd_face *face, dyd_vertex_pair p) {
-  dyd_vertex_pair *at = find_pair(f, face, p), *end = f->pair + face->first_pair + face->pairs;
-  memmove(at, at + 1, (size_t)(end - at - 1) * sizeof *at);
-  face->pairs--;
+static void hide(dyd_face *face, dyd_vertex_pair *at, bool hidden) {
+  if (at->hidden == hidden) return;
+  at->hidden = hidden;
+  if (hidden)
+    face->hidden++;
+  else
+    face->hidden--;
 }
 
-/* Drops from c the pairs that belong to faces found before, and from those the pairs that belong to c. */
-static void share_out(dyd_delaunay *pd, dyd_closure *c) {
+/* No two faces share a pair when all are polygons. */
+static bool shares_nothing(const dyd_face_table *f, const dyd_face *face) {
+  return f->count == 1 || (face->polygon && f->others == 0);
+}
+
+/* Hides the pairs of face `self` that belong to other faces, and in those the pairs that belong to it. */
+static void share_out(dyd_delaunay *pd, uint32_t self) {
   dyd_face_table *f = &pd->faces;
-  uint32_t self = (uint32_t)f->count;
-  size_t kept = 0;
-  if (f->count == 0 || (c->polygon && f->others == 0)) return;
-  for (size_t q = 0; q < c->pairs; q++) {
-    dyd_vertex_pair p = c->pair[q];
-    dyd_face *other = other_owner(pd, self, p);
-    uint32_t home = other ? skeleton_face(pd, p) : self;
-    bool mine = home == self || (home == DYD_NONE && c->polygon && !other->polygon);
-    if (other && mine) remove_pair(f, other, p);
-    if (mine) c->pair[kept++] = p;
+  dyd_face *face = &f->face[self], *other = NULL;
+  if (shares_nothing(f, face)) return;
+  for (uint32_t q = 0; q < face->pairs; q++) {
+    dyd_vertex_pair *p = &f->pair[face->first_pair + q], *there = elsewhere(&other, pd, self, *p, false);
+    if (!there || p->hidden) continue;
+    uint32_t home = skeleton_face(pd, *p);
+    bool mine = home == self || (home == DYD_NONE && face->polygon && !other->polygon);
+    if (mine)
+      hide(other, there, true);
+    else
+      hide(face, p, true);
   }
-  c->pairs = kept;
+}
+
+/* The pairs that face `self` shows are shown by others that list them, for it goes. */
+static void bequeath(dyd_delaunay *pd, uint32_t self) {
+  dyd_face_table *f = &pd->faces;
+  dyd_face *face = &f->face[self], *other = NULL;
+  if (shares_nothing(f, face)) return;
+  for (uint32_t q = 0; q < face->pairs; q++) {
+    dyd_vertex_pair p = f->pair[face->first_pair + q], *there = NULL;
+    if (!p.hidden) there = elsewhere(&other, pd, self, p, true);
+    if (there) hide(other, there, false);
+  }
 }
 
 static dyd_status find_face(dyd_delaunay *pd, dyd_work *w, uint32_t t) {
@@ -141,12 +167,9 @@ static dyd_status find_face(dyd_delaunay *pd, dyd_work *w, uint32_t t) {
   size_t first = f->tri_count;
   dyd_closure c = {0};
   dyd_status st = flood(pd, t, (uint32_t)f->count);
-  size_t room = pd->max_pairs > f->pair_count ? pd->max_pairs - f->pair_count : 0;
+  size_t room = pd->max_pairs > f->live_pairs ? pd->max_pairs - f->live_pairs : 0;
   if (st == DYD_OK) st = dyd_closure_run(&c, pd, w, f->tri + first, (uint32_t)(f->tri_count - first), room);
-  if (st == DYD_OK) {
-    share_out(pd, &c);
-    st = store(pd, &c, first);
-  }
+  if (st == DYD_OK) st = store(pd, &c, first);
   pd->counters.faces++;
   if (st != DYD_OK) take_back(pd, first);
   dyd_closure_clear(&c);
@@ -167,7 +190,83 @@ dyd_status dyd_faces_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, si
     take_back(pd, before.tri_count);
     f->count = before.count;
     f->pair_count = before.pair_count;
+    f->others = before.others;
+    f->live_pairs = before.live_pairs;
+    f->live_tris = before.live_tris;
+    return st;
   }
+  for (size_t g = before.count; g < f->count; g++) share_out(pd, (uint32_t)g);
+  return DYD_OK;
+}
+
+/* ---- replacing one face ---- */
+
+static void mark(dyd_face_table *f, const dyd_face *face, uint32_t with) {
+  for (uint32_t q = 0; q < face->tris; q++) f->of[f->tri[face->first_tri + q]] = with;
+}
+
+/* Takes face g out of the table; the last one gets its number. */
+static void take_out(dyd_delaunay *pd, uint32_t g) {
+  dyd_face_table *f = &pd->faces;
+  bequeath(pd, g);
+  dyd_face gone = f->face[g];
+  mark(f, &gone, DYD_NONE);
+  f->face[g] = f->face[--f->count];
+  if (g < f->count) mark(f, &f->face[g], g);
+  f->others -= !gone.polygon;
+  f->live_pairs -= gone.pairs;
+  f->live_tris -= gone.tris;
+}
+
+/* There is room for it: it has just been taken out. */
+static void put_back(dyd_delaunay *pd, const dyd_face *face) {
+  dyd_face_table *f = &pd->faces;
+  mark(f, face, (uint32_t)f->count);
+  f->face[f->count++] = *face;
+  f->others += !face->polygon;
+  f->live_pairs += face->pairs;
+  f->live_tris += face->tris;
+  share_out(pd, (uint32_t)(f->count - 1));
+}
+
+/* Drops what replaced faces have left over, once it is more than what is in use. Without memory, later. */
+static void compact(dyd_face_table *f) {
+  if (f->tri_count + f->pair_count < 2 * (f->live_tris + f->live_pairs) + 4096) return;
+  uint32_t *tri = dyd_alloc(f->live_tris, sizeof *tri);
+  dyd_vertex_pair *pair = dyd_alloc(f->live_pairs, sizeof *pair);
+  if (!tri || !pair) {
+    free(tri);
+    free(pair);
+    return;
+  }
+  f->tri_count = f->pair_count = 0;
+  for (size_t g = 0; g < f->count; g++) {
+    dyd_face *face = &f->face[g];
+    memcpy(tri + f->tri_count, f->tri + face->first_tri, face->tris * sizeof *tri);
+    memcpy(pair + f->pair_count, f->pair + face->first_pair, face->pairs * sizeof *pair);
+    face->first_tri = f->tri_count;
+    face->first_pair = f->pair_count;
+    f->tri_count += face->tris;
+    f->pair_count += face->pairs;
+  }
+  free(f->tri);
+  free(f->pair);
+  f->tri = tri;
+  f->pair = pair;
+  f->tri_cap = f->live_tris;
+  f->pair_cap = f->live_pairs;
+}
+
+dyd_status dyd_faces_replace(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count) {
+  dyd_face_table *f = &pd->faces;
+  uint32_t g = f->of[tri[0]];
+  dyd_face old = f->face[g];
+  take_out(pd, g);
+  dyd_status st = dyd_faces_find(pd, w, tri, count);
+  if (st != DYD_OK)
+    put_back(pd, &old);
+  else
+    compact(f);
   return st;
 }
 
@@ -194,5 +293,6 @@ dyd_status dyd_face_vertices(uint32_t **vertex, size_t *count, const dyd_delauna
 }
 
 dyd_pair_status dyd_face_status(const dyd_delaunay *pd, const dyd_face *f, uint32_t i, uint32_t j) {
-  return find_pair(&pd->faces, f, (dyd_vertex_pair){i, j}) ? dyd_face_open_status(f) : DYD_ILLEGAL;
+  const dyd_vertex_pair *p = find_pair(&pd->faces, f, (dyd_vertex_pair){i, j, 0});
+  return p && !p->hidden ? dyd_face_open_status(f) : DYD_ILLEGAL;
 }

@@ -49,8 +49,10 @@ static void scaled_clear(scaled *z) {
   mpz_clears(z->factor, z->ax, z->ay, z->b, z->t, z->s, z->q, NULL);
 }
 
-/* a = s - q and b += (s - q)(2c - s - q) on one axis; s the end of own farther from c, q the point of other nearest to c. */
-static void axis_part(scaled *z, mpz_t a, mpz_srcptr c, mpz_srcptr own0, mpz_srcptr own1, mpz_srcptr o0, mpz_srcptr o1) {
+/* a = s - q and b += (s - q)(2c - s - q) on one axis; s the end of own farther from c, q the point of other nearest to
+ * c. */
+static void axis_part(scaled *z, mpz_t a, mpz_srcptr c, mpz_srcptr own0, mpz_srcptr own1, mpz_srcptr o0,
+                      mpz_srcptr o1) {
   mpz_add(z->t, own0, own1);
   mpz_submul_ui(z->t, c, 2);
   mpz_set(z->s, mpz_sgn(z->t) > 0 ? own1 : own0);
@@ -82,7 +84,8 @@ void dyd_cut_add(dyd_cut_list *l, const dyd_point *c, const dyd_rect *own, const
   scaled_init(&z, c, own, other);
   axis_part(&z, z.ax, z.c.x0, z.own.x0, z.own.x1, z.other.x0, z.other.x1);
   axis_part(&z, z.ay, z.c.y0, z.own.y0, z.own.y1, z.other.y0, z.other.y1);
-  if (mpz_sgn(z.ax) == 0 && mpz_sgn(z.ay) == 0) l->impossible = true;
+  if (mpz_sgn(z.ax) == 0 && mpz_sgn(z.ay) == 0)
+    l->impossible = true;
   else {
     dyd_cut *k = &l->cut[l->count];
     double length = unit_vector(k, &ea, &z), b = mpz_get_d_2exp(&eb, z.b), f = mpz_get_d_2exp(&ef, z.factor);

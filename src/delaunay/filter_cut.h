@@ -8,9 +8,9 @@
 #include "delaunay/filter_lp.h"
 #include "delaunay/state.h"
 
-/* Half-planes n.x + d > 0 for the moves x of the centre. The first `old` of them were carried along from earlier centres, d in units of
- * 2^unit; the others belong to the present centre, d * 2^exp[k] (k counts from the first of them).
- * impossible: two rectangles touch, nothing can separate them. */
+/* Half-planes n.x + d > 0 for the moves x of the centre. The first `old` of them were carried along from earlier
+ * centres, d in units of 2^unit; the others belong to the present centre, d * 2^exp[k] (k counts from the first of
+ * them). impossible: two rectangles touch, nothing can separate them. */
 typedef struct dyd_cut_list {
   dyd_cut cut[DYD_LP_CUTS];
   int64_t exp[DYD_LP_CUTS];

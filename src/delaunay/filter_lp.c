@@ -2,15 +2,17 @@
 /* Largest disc inside half-planes, by the dual simplex method.
  *
  * A triple of cuts whose normals hold 0 in their convex hull bounds z from above by its own optimum; the optimum of all
- * cuts is the least of these. Start with a large triangle; while a cut is violated at the triple's optimum, exchange: of the
- * triples with the new cut that are dual feasible take the one with the least optimum. */
+ * cuts is the least of these. Start with a large triangle; while a cut is violated at the triple's optimum, exchange:
+ * of the triples with the new cut that are dual feasible take the one with the least optimum. */
 #include "delaunay/filter_lp.h"
 
 #include <math.h>
 
 enum { STEPS = 200 };
 
-static double cross(const dyd_cut *a, const dyd_cut *b) { return a->nx * b->ny - a->ny * b->nx; }
+static double cross(const dyd_cut *a, const dyd_cut *b) {
+  return a->nx * b->ny - a->ny * b->nx;
+}
 
 /* The optimum of three cuts: n.x + d = z for all; false when 0 is not in the hull of their normals. */
 static bool optimum(dyd_lp_result *r, const dyd_cut *a, const dyd_cut *b, const dyd_cut *c) {
@@ -68,8 +70,10 @@ dyd_lp_result dyd_lp_centre(const dyd_cut *cut, size_t count, double bound) {
   best.bounded = true;
   best.active = 0;
   for (int q = 0; q < 3; q++) {
-    if (basis[q] >= frame && basis[q] < frame + 3) best.bounded = false;
-    else best.active = fmax(best.active, fabs(basis[q]->d));
+    if (basis[q] >= frame && basis[q] < frame + 3)
+      best.bounded = false;
+    else
+      best.active = fmax(best.active, fabs(basis[q]->d));
   }
   return best;
 }

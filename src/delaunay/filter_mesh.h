@@ -5,22 +5,23 @@
  * X, Y be the extents of all doubles, a, b, c, ... differences to the last point.
  *
  * Orientation [FLT-ORI]: d = ax by - ay bx. Each difference has relative error u, each product (1+u)^3 in all, the
- * subtraction one more u: |error| <= 4 u (1+u)^3 (|ax by| + |ay bx|) <= 8.01 u X Y < 1e-15 X Y. An error delta' <= 2 delta
- * of each of four differences, each bounded by E = max(X, Y): <= 8 delta (E + 2 delta). Underflow of the two products: below
- * 2^-1073; added as 2^-1000. The bound is one number for the whole mesh; infinite or NaN: never sure.
+ * subtraction one more u: |error| <= 4 u (1+u)^3 (|ax by| + |ay bx|) <= 8.01 u X Y < 1e-15 X Y. An error delta' <= 2
+ * delta of each of four differences, each bounded by E = max(X, Y): <= 8 delta (E + 2 delta). Underflow of the two
+ * products: below 2^-1073; added as 2^-1000. The bound is one number for the whole mesh; infinite or NaN: never sure.
  *
  * In-circle [FLT-INC]: d = sum of la (b x c) with la = ax^2 + ay^2 and so on. la carries (1+u)^4, b x c an error of
  * at most ((1+u)^4 - 1)(|bx cy| + |by cx|), and |bx cy| + |by cx| <= sqrt(lb lc) <= (lb + lc)/2; the product one u, two
- * sums two u: |error| <= 11 u (1 + 20 u) (la lb + lb lc + lc la), and la lb + lb lc + lc la <= s^2/3, s = la + lb + lc. The computed
- * s is at least s (1 - 6u). So |error| <= 4.08e-16 s^2; 4.5e-16 leaves room for the rounding of the bound. Underflow: an error of
- * at most 2^-1074 in each product gives <= 20 * 2^-1074 (s + 1), covered by the excess 4e-17 s^2 when s >= 2^-400, and when
- * s < 2^-400, |d| <= s^2 < 2^-800: so 2^-790 is added. delta: each partial derivative of d by one of the
- * six differences is at most 4 t^3 where t bounds the length of a, b, c along the way, t = sqrt(s) + 8 delta: 6 * 4 t^3 * 2
- * delta = 48 delta t^3; 60 leaves room. Overflow makes the bound infinite or d NaN: not sure. The ghost is NaN: not sure. */
+ * sums two u: |error| <= 11 u (1 + 20 u) (la lb + lb lc + lc la), and la lb + lb lc + lc la <= s^2/3, s = la + lb + lc.
+ * The computed s is at least s (1 - 6u). So |error| <= 4.08e-16 s^2; 4.5e-16 leaves room for the rounding of the bound.
+ * Underflow: an error of at most 2^-1074 in each product gives <= 20 * 2^-1074 (s + 1), covered by the excess 4e-17 s^2
+ * when s >= 2^-400, and when s < 2^-400, |d| <= s^2 < 2^-800: so 2^-790 is added. delta: each partial derivative of d
+ * by one of the six differences is at most 4 t^3 where t bounds the length of a, b, c along the way, t = sqrt(s) + 8
+ * delta: 6 * 4 t^3 * 2 delta = 48 delta t^3; 60 leaves room. Overflow makes the bound infinite or d NaN: not sure. The
+ * ghost is NaN: not sure. */
 /* Small integers [FLT-SMALL]: if all coordinates are multiples of a power of two q and the computed s <= 2^26 q^2, then
- * every difference is a multiple of q below 2^13 q, every lift and product of two a multiple of q^2 below 2^27 q^2, every later
- * partial sum a multiple of q^4 of size <= s^2 <= 2^52 q^4: all are doubles, nothing is rounded, d is exact,
- * given 2^-240 <= q <= 2^220 so that q^4 2^53 neither underflows nor overflows. */
+ * every difference is a multiple of q below 2^13 q, every lift and product of two a multiple of q^2 below 2^27 q^2,
+ * every later partial sum a multiple of q^4 of size <= s^2 <= 2^52 q^4: all are doubles, nothing is rounded, d is
+ * exact, given 2^-240 <= q <= 2^220 so that q^4 2^53 neither underflows nor overflows. */
 #ifndef DYD_DELAUNAY_FILTER_MESH_H
 #define DYD_DELAUNAY_FILTER_MESH_H
 

@@ -5,8 +5,8 @@
 
 #include "delaunay/state.h"
 
-/* By how much an end of v's outward box can lie outside its rectangle: 0 when doubles hold it, else one unit in the last
- * place of the largest end, at most 2^-52 of it (or 2^-1074). */
+/* By how much an end of v's outward box can lie outside its rectangle: 0 when doubles hold it, else one unit in the
+ * last place of the largest end, at most 2^-52 of it (or 2^-1074). */
 double dyd_box_slack(const dyd_delaunay *pd, uint32_t v);
 /* Upper bound of max(ds_i, ds_j)^2 over the centres in c. */
 double dyd_pair_ds2_upper(const dyd_delaunay *pd, const dyd_bbox *c, uint32_t i, uint32_t j);
@@ -18,8 +18,8 @@ static inline bool dyd_boxes_disjoint(const dyd_bbox *a, const dyd_bbox *b) {
 }
 /* The direction (x,y) != 0 in doubles, scaled to at most 1; each component off by at most 2^-52 of itself or 2^-900. */
 void dyd_direction_d(double u[2], const mpz_t x, const mpz_t y);
-/* A lower bound of max u.x over the rectangle in the box p, for u as dyd_direction_d gives it, minus what dyd_tree_beyond
- * may lose by the error of u: a height for it. */
+/* A lower bound of max u.x over the rectangle in the box p, for u as dyd_direction_d gives it, minus what
+ * dyd_tree_beyond may lose by the error of u: a height for it. */
 double dyd_height_lower(const dyd_delaunay *pd, double ux, double uy, const dyd_bbox *p);
 
 #endif

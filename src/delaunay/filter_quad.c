@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Quad filters: the predicate layer's interval filters on outward boxes, and guessed centres checked by distance bounds. */
+/* Quad filters: the predicate layer's interval filters on outward boxes, and guessed centres checked by distance
+ * bounds. */
 #include "delaunay/filter_quad.h"
 
 #include "delaunay/cover.h"
 #include "predicate/filter_predicate.h"
 
 static dyd_bbox hull_box(const dyd_bbox *a, const dyd_bbox *b) {
-  return (dyd_bbox){{dyd_min(a->e[0], b->e[0]), dyd_max(a->e[1], b->e[1]), dyd_min(a->e[2], b->e[2]),
-                     dyd_max(a->e[3], b->e[3])}};
+  return (dyd_bbox){
+      {dyd_min(a->e[0], b->e[0]), dyd_max(a->e[1], b->e[1]), dyd_min(a->e[2], b->e[2]), dyd_max(a->e[3], b->e[3])}};
 }
 
 static bool apart(const dyd_bbox *a, const dyd_bbox *b) {

@@ -100,10 +100,12 @@ dyd_status dyd_scale_add(size_t *index, bool *grown, dyd_scale_set *s, uint32_t 
   return DYD_OK;
 }
 
-int64_t dyd_scale_shift(const dyd_scale_set *s) { return s->low == INT64_MAX ? 0 : -s->low; }
+int64_t dyd_scale_shift(const dyd_scale_set *s) {
+  return s->low == INT64_MAX ? 0 : -s->low;
+}
 
-/* user = scaled / lcm, after the shift. The double nearest to lcm has a relative error of 2^-52, the division one of 2^-53
- * (or 2^-1074 absolute): widening by 4 ulp is outward [FLT-SCALE]. */
+/* user = scaled / lcm, after the shift. The double nearest to lcm has a relative error of 2^-52, the division one of
+ * 2^-53 (or 2^-1074 absolute): widening by 4 ulp is outward [FLT-SCALE]. */
 void dyd_scale_to_user(dyd_bbox *box, const dyd_scale_set *s) {
   double l = mpz_get_d(s->lcm);
   if (l == 1) return;

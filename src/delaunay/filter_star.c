@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Certifying most edges in doubles, by looking at stars only.
  *
- * [FLT-STAR] Let p_k be the representatives, R_k within E of p_k for all k but a few "fat" ones. Let c be any point, rho >=
- * |c-p_i|, |c-p_j|. The vertices of a Delaunay triangulation inside a disc about c span a connected subgraph, since from any of them a
- * neighbour strictly nearer to c exists until a nearest one is reached, and the nearest ones are the corners of one empty circle.
- * So if no Delaunay neighbour of i or of j other than i, j lies within rho + 2E of c, then no vertex does, hence for every k that is not
- * fat ds_k(c) >= |c-p_k| - E > rho + E >= dl_i(c), dl_j(c); the fat ones are asked through a tree of their own: c is a witness.
- * The hull in the same way: if v is farther than all its neighbours by 2E in the direction u, then it is farther than all vertices by 2E.
+ * [FLT-STAR] Let p_k be the representatives, R_k within E of p_k for all k but a few "fat" ones. Let c be any point,
+ * rho >= |c-p_i|, |c-p_j|. The vertices of a Delaunay triangulation inside a disc about c span a connected subgraph,
+ * since from any of them a neighbour strictly nearer to c exists until a nearest one is reached, and the nearest ones
+ * are the corners of one empty circle. So if no Delaunay neighbour of i or of j other than i, j lies within rho + 2E of
+ * c, then no vertex does, hence for every k that is not fat ds_k(c) >= |c-p_k| - E > rho + E >= dl_i(c), dl_j(c); the
+ * fat ones are asked through a tree of their own: c is a witness. The hull in the same way: if v is farther than all
+ * its neighbours by 2E in the direction u, then it is farther than all vertices by 2E.
  *
- * Bounds: distances as in filter_distance.h; representatives that are not doubles are off by delta, E grows by 3 delta. The
- * centres need no bound: any double will do. Both ends of an edge use the same bits for c and rho. */
+ * Bounds: distances as in filter_distance.h; representatives that are not doubles are off by delta, E grows by 3 delta.
+ * The centres need no bound: any double will do. Both ends of an edge use the same bits for c and rho. */
 #include "delaunay/certify.h"
 
 #include "base/alloc.h"
@@ -33,8 +34,8 @@ static dyd_xy circumcentre(dyd_xy a, dyd_xy b, dyd_xy c) {
   return (dyd_xy){a.x + (cy * lb - by * lc) / d, a.y + (bx * lc - cx * lb) / d};
 }
 
-/* Beyond the hull edge from a to b (the inside on the left) the middle of the Voronoi edge is taken one edge length outside the
- * inner centre o, or on the edge if o is far inside. */
+/* Beyond the hull edge from a to b (the inside on the left) the middle of the Voronoi edge is taken one edge length
+ * outside the inner centre o, or on the edge if o is far inside. */
 static dyd_xy ghost_centre(dyd_xy a, dyd_xy b, dyd_xy o) {
   double ex = b.x - a.x, ey = b.y - a.y, mx = a.x + ex / 2, my = a.y + ey / 2;
   double out = ((o.x - mx) * ey - (o.y - my) * ex) / (ex * ex + ey * ey); /* in edge lengths, outward */
@@ -87,9 +88,12 @@ static dyd_status gather_fat(pass *p) {
   p->limit = ordinary_radius(pd);
   for (uint32_t v = 0; v < pd->n; v++) {
     double r = radius(pd, v);
-    if (r <= p->limit) largest = dyd_max(largest, r);
-    else if (!dyd_reserve((void **)&fat, &cap, count + 1, sizeof *fat)) return free(fat), DYD_E_NOMEM;
-    else fat[count++] = v;
+    if (r <= p->limit)
+      largest = dyd_max(largest, r);
+    else if (!dyd_reserve((void **)&fat, &cap, count + 1, sizeof *fat))
+      return free(fat), DYD_E_NOMEM;
+    else
+      fat[count++] = v;
   }
   p->reach = 2 * (largest + 3 * pd->reps.delta);
   return dyd_tree_init(&p->fat, fat, (uint32_t)count, pd->box);
@@ -117,7 +121,9 @@ static bool fat_near(const pass *p, dyd_xy c, double radius_upper, uint32_t i, u
   return q.met;
 }
 
-static bool is_fat(const pass *p, uint32_t v) { return p->fat.count && !(radius(p->pd, v) <= p->limit); }
+static bool is_fat(const pass *p, uint32_t v) {
+  return p->fat.count && !(radius(p->pd, v) <= p->limit);
+}
 
 /* ---- one star ---- */
 
@@ -162,7 +168,9 @@ static bool others_farther(const star *s, int q, dyd_xy c, double limit) {
   return near == self + (s->ghost >= 0);
 }
 
-static void mark(dyd_delaunay *pd, uint32_t corner) { pd->certain[corner >> 2] |= (uint8_t)(1u << dyd_prev(corner & 3)); }
+static void mark(dyd_delaunay *pd, uint32_t corner) {
+  pd->certain[corner >> 2] |= (uint8_t)(1u << dyd_prev(corner & 3));
+}
 
 static void certify_edges(const pass *p, const star *s) {
   dyd_xy v = p->pd->reps.xy[s->v];
@@ -209,8 +217,8 @@ static void join_halves(dyd_delaunay *pd) {
         if (m->tri[t].v[dyd_next(k)] != m->n && m->tri[t].v[dyd_prev(k)] != m->n) pd->counters.witness_guess++;
         continue;
       }
-      pd->certain[t] &= (uint8_t)~(1u << k);
-      pd->certain[twin >> 2] &= (uint8_t)~(1u << (twin & 3));
+      pd->certain[t] &= (uint8_t) ~(1u << k);
+      pd->certain[twin >> 2] &= (uint8_t) ~(1u << (twin & 3));
     }
 }
 

@@ -54,6 +54,18 @@ void dyd_tree_clear(dyd_tree *t) {
   memset(t, 0, sizeof *t);
 }
 
+uint32_t dyd_tree_entry(const dyd_tree *t, uint32_t vertex) {
+  uint32_t lo = 0, hi = t->count;
+  while (hi - lo > 1) {
+    uint32_t mid = lo + (hi - lo) / 2;
+    if (t->item[mid] <= vertex)
+      lo = mid;
+    else
+      hi = mid;
+  }
+  return lo;
+}
+
 void dyd_tree_refresh(dyd_tree *t, uint32_t q) {
   size_t entry = q;
   for (int k = 0; k < t->levels; k++) fill_node(t, k, entry /= DYD_TREE_FANOUT);
@@ -76,13 +88,16 @@ void dyd_tree_near(const dyd_tree *t, const dyd_bbox *c, const double *radius2, 
     children(&first, &end, t, f.level, f.node);
     for (size_t e = first; e < end; e++) {
       if (dyd_ds2_lower(c, child_box(t, f.level, e)) > *radius2) continue;
-      if (f.level > 0) stack[depth++] = (frame){f.level - 1, e};
-      else if (!visit(context, t->item[e])) return;
+      if (f.level > 0)
+        stack[depth++] = (frame){f.level - 1, e};
+      else if (!visit(context, t->item[e]))
+        return;
     }
   }
 }
 
-/* Upper bound of max u.x over a box [FLT-DIR]: two products and a sum of relative error u, bounded by 4u(|ux x| + |uy y|). */
+/* Upper bound of max u.x over a box [FLT-DIR]: two products and a sum of relative error u, bounded by 4u(|ux x| + |uy
+ * y|). */
 static double reach(const dyd_bbox *b, double ux, double uy) {
   double px = ux * (ux > 0 ? b->e[1] : b->e[0]), py = uy * (uy > 0 ? b->e[3] : b->e[2]);
   double r = px + py + 4 * 0x1p-53 * (fabs(px) + fabs(py)) + DYD_TINY;
@@ -99,8 +114,10 @@ void dyd_tree_beyond(const dyd_tree *t, double ux, double uy, const double *heig
     children(&first, &end, t, f.level, f.node);
     for (size_t e = first; e < end; e++) {
       if (reach(child_box(t, f.level, e), ux, uy) < *height) continue;
-      if (f.level > 0) stack[depth++] = (frame){f.level - 1, e};
-      else if (!visit(context, t->item[e])) return;
+      if (f.level > 0)
+        stack[depth++] = (frame){f.level - 1, e};
+      else if (!visit(context, t->item[e]))
+        return;
     }
   }
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Cutting planes in doubles, as in witness.c, with distances bounded as in filter_distance.h.
  *
- * A witness is stated only when ds_k^2 from below exceeds dl_i^2, dl_j^2 from above for everybody the tree names. "None" is no
- * statement about points (the pair just stays undecided), so the half-planes need no proved bound; still they are
- * trusted only when their common disc is empty by far more than their rounding errors. */
+ * A witness is stated only when ds_k^2 from below exceeds dl_i^2, dl_j^2 from above for everybody the tree names.
+ * "None" is no statement about points (the pair just stays undecided), so the half-planes need no proved bound; still
+ * they are trusted only when their common disc is empty by far more than their rounding errors. */
 #include "delaunay/filter_witness.h"
 
 #include "delaunay/filter_lp.h"
@@ -50,10 +50,15 @@ static void evaluate(quick *q, dyd_xy c) {
   dyd_tree_near(&q->pd->tree, &q->c, &q->bound, keep_rival, q);
 }
 
-static double farther_end(double c, double lo, double hi) { return c - lo > hi - c ? lo : hi; }
-static double nearest(double c, double lo, double hi) { return c < lo ? lo : c > hi ? hi : c; }
+static double farther_end(double c, double lo, double hi) {
+  return c - lo > hi - c ? lo : hi;
+}
+static double nearest(double c, double lo, double hi) {
+  return c < lo ? lo : c > hi ? hi : c;
+}
 
-/* The half-plane nearer to the far corner of `own` than to the nearest point of `other`, relative to c; false: they touch. */
+/* The half-plane nearer to the far corner of `own` than to the nearest point of `other`, relative to c; false: they
+ * touch. */
 static bool add_cut(quick *q, dyd_xy c, const dyd_bbox *own, const dyd_bbox *other) {
   double sx = farther_end(c.x, own->e[0], own->e[1]), sy = farther_end(c.y, own->e[2], own->e[3]);
   double qx = nearest(c.x, other->e[0], other->e[1]), qy = nearest(c.y, other->e[2], other->e[3]);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Walks around the circle of directions.
  *
- * Another site k and v compare by the rectangle D = R_k - R_v of differences. When 0 is not in D, the directions u with u.d > 0 for all d
- * in D (k surely farther out than v) form an open arc of at most a half turn, bounded by the normals of D's two extreme corners.
- * v is possible on the hull iff these arcs leave a direction free: walk from arc to arc until the start is passed.
- * v is sure iff the opposite arcs (v surely farther out than k) have a common direction: intersect arcs of violators. */
+ * Another site k and v compare by the rectangle D = R_k - R_v of differences. When 0 is not in D, the directions u with
+ * u.d > 0 for all d in D (k surely farther out than v) form an open arc of at most a half turn, bounded by the normals
+ * of D's two extreme corners. v is possible on the hull iff these arcs leave a direction free: walk from arc to arc
+ * until the start is passed. v is sure iff the opposite arcs (v surely farther out than k) have a common direction:
+ * intersect arcs of violators. */
 #include "delaunay/hull.h"
 
 #include "delaunay/filter_possible.h"
@@ -15,8 +16,12 @@ typedef struct vec {
   mpz_t x, y;
 } vec;
 
-static void vec_init(vec *a) { mpz_inits(a->x, a->y, NULL); }
-static void vec_clear(vec *a) { mpz_clears(a->x, a->y, NULL); }
+static void vec_init(vec *a) {
+  mpz_inits(a->x, a->y, NULL);
+}
+static void vec_clear(vec *a) {
+  mpz_clears(a->x, a->y, NULL);
+}
 static void vec_set(vec *a, const vec *b) {
   mpz_set(a->x, b->x);
   mpz_set(a->y, b->y);
@@ -26,9 +31,9 @@ typedef struct turn {
   dyd_work *w;
   const dyd_delaunay *pd;
   uint32_t own[2], found; /* the vertices compared with all others; equal when it is one */
-  vec u, from, to, d[4]; /* from, to: ends of the arc of the site found; d: scratch */
-  bool outward;          /* arcs where the other site is farther out (possible), else where v is (sure) */
-  bool empty;            /* the arc found is empty */
+  vec u, from, to, d[4];  /* from, to: ends of the arc of the site found; d: scratch */
+  bool outward;           /* arcs where the other site is farther out (possible), else where v is (sure) */
+  bool empty;             /* the arc found is empty */
   dyd_status status;
 } turn;
 
@@ -96,8 +101,10 @@ static bool examine_one(turn *t, uint32_t k, int q) {
   if (t->status == DYD_OK) t->status = dyd_scale_add(&b, &grown, &t->w->set, t->own[q]);
   if (t->status != DYD_OK) return true;
   const dyd_irect *other = &t->w->set.rect[a], *self = &t->w->set.rect[b];
-  if (t->outward) differences(t, other, self);
-  else differences(t, self, other);
+  if (t->outward)
+    differences(t, other, self);
+  else
+    differences(t, self, other);
   if (all_positive(t) != t->outward) return false;
   t->found = k;
   arc(t);
@@ -162,8 +169,8 @@ static bool inside(turn *t, const vec *a, const vec *b, const vec *u) {
   return cross_sign(t, a, u) > 0 && cross_sign(t, u, b) > 0;
 }
 
-/* Intersects the open arc (lo, hi) with the arc found; false if nothing is left. The beginning of the one must lie in the other,
- * its end left out, and so with the ends. */
+/* Intersects the open arc (lo, hi) with the arc found; false if nothing is left. The beginning of the one must lie in
+ * the other, its end left out, and so with the ends. */
 static bool narrow(turn *t, vec *lo, vec *hi) {
   bool from_in = inside(t, lo, hi, &t->from), to_in = inside(t, lo, hi, &t->to);
   bool lo_in = inside(t, &t->from, &t->to, lo) || same_direction(t, lo, &t->from);
@@ -208,7 +215,8 @@ static bool common_direction(turn *t) {
       vec_set(&hi, &t->to);
       any = true;
     }
-    if (cross_sign(t, &lo, &hi) != 0) between(&t->u, &lo, &hi);
+    if (cross_sign(t, &lo, &hi) != 0)
+      between(&t->u, &lo, &hi);
     else { /* a half turn */
       mpz_neg(t->u.x, lo.y);
       mpz_set(t->u.y, lo.x);

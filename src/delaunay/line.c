@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Sites on one line.
  *
- * Every pair is possible: the closed half-plane of the line has all points on its boundary and none in its open interior. A pair is legal iff a
- * disc holds both rectangles and meets no other, that is iff the segment hull(R_i u R_j) of the line meets no other rectangle
- * (the disc over that segment does it; any disc meets the line in a segment). With two sites the pair is legal [LINE-1]. */
+ * Every pair is possible: the closed half-plane of the line has all points on its boundary and none in its open
+ * interior. A pair is legal iff a disc holds both rectangles and meets no other, that is iff the segment hull(R_i u
+ * R_j) of the line meets no other rectangle (the disc over that segment does it; any disc meets the line in a segment).
+ * With two sites the pair is legal [LINE-1]. */
 #include "delaunay/line.h"
 
 #include "base/alloc.h"
@@ -26,8 +27,12 @@ void dyd_line_clear(dyd_line *l) {
   memset(l, 0, sizeof *l);
 }
 
-static mpz_srcptr low(const entry *e) { return e->axis == 0 ? e->r.x0 : e->r.y0; }
-static mpz_srcptr high(const entry *e) { return e->axis == 0 ? e->r.x1 : e->r.y1; }
+static mpz_srcptr low(const entry *e) {
+  return e->axis == 0 ? e->r.x0 : e->r.y0;
+}
+static mpz_srcptr high(const entry *e) {
+  return e->axis == 0 ? e->r.x1 : e->r.y1;
+}
 
 static int compare(const void *a, const void *b) {
   const entry *x = a, *y = b;
@@ -97,8 +102,10 @@ static dyd_status drop_aliases(dyd_delaunay *pd, entry *e) {
     bool same = kept && dyd_vertex_is_point(pd, e[q].vertex) && dyd_vertex_is_point(pd, e[kept - 1].vertex) &&
                 mpz_cmp(e[q].r.x0, e[kept - 1].r.x0) == 0 && mpz_cmp(e[q].r.y0, e[kept - 1].r.y0) == 0;
     if (same && st == DYD_OK) st = dyd_mesh_set_alias(&pd->mesh, e[q].vertex, e[kept - 1].vertex);
-    if (same) dyd_irect_clear(&e[q].r);
-    else e[kept++] = e[q];
+    if (same)
+      dyd_irect_clear(&e[q].r);
+    else
+      e[kept++] = e[q];
   }
   l->count = kept;
   return st;

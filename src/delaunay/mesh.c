@@ -65,7 +65,9 @@ static inline int incircle(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint
   return sign ? sign : incircle_slow(m, a, b, c, p);
 }
 
-int dyd_mesh_incircle(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) { return incircle(m, a, b, c, p); }
+int dyd_mesh_incircle(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
+  return incircle(m, a, b, c, p);
+}
 
 /* ---- location and insertion ---- */
 
@@ -102,8 +104,8 @@ static bool room(dyd_mesh *m, size_t stacked, size_t spares) {
          dyd_reserve((void **)&m->spare, &m->spare_cap, spares + 1, sizeof *m->spare);
 }
 
-/* Joins v to the rim of the cavity that grows from t. Triangles come out counter-clockwise around v, so each is linked to
- * the one before it. */
+/* Joins v to the rim of the cavity that grows from t. Triangles come out counter-clockwise around v, so each is linked
+ * to the one before it. */
 static dyd_status insert_at(dyd_mesh *m, uint32_t v, uint32_t t) {
   size_t stacked = 0, spares = 0;
   uint32_t first = DYD_NONE, before = DYD_NONE;
@@ -124,8 +126,10 @@ static dyd_status insert_at(dyd_mesh *m, uint32_t v, uint32_t t) {
     uint32_t q = spares ? m->spare[--spares] : m->count++;
     m->tri[q] = (dyd_tri){{v, a, b}, {h, DYD_NONE, 4 * before + 1}};
     o->n[k] = 4 * q;
-    if (before == DYD_NONE) first = q;
-    else m->tri[before].n[1] = 4 * q + 2;
+    if (before == DYD_NONE)
+      first = q;
+    else
+      m->tri[before].n[1] = 4 * q + 2;
     before = q;
   }
   m->tri[first].n[2] = 4 * before + 1;
@@ -174,7 +178,11 @@ static dyd_status allocate(dyd_mesh *m) {
 dyd_status dyd_mesh_build(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, uint32_t n, bool no_filter,
                           dyd_delaunay_counters *counters, const volatile int *cancel) {
   uint32_t first[3];
-  *m = (dyd_mesh){.reps = reps, .local = local, .n = n, .no_filter = no_filter, .counters = counters,
+  *m = (dyd_mesh){.reps = reps,
+                  .local = local,
+                  .n = n,
+                  .no_filter = no_filter,
+                  .counters = counters,
                   .beyond = counters->integer + counters->exact};
   dyd_status st = dyd_mesh_coordinates(m);
   if (st == DYD_OK) st = dyd_mesh_first_triangle(first, m);
@@ -203,6 +211,7 @@ void dyd_mesh_trim(dyd_mesh *m) {
   free(m->stack);
   free(m->spare);
   m->fixed = NULL;
+  m->no_fixed = true; /* later questions are few, and the grid would cost O(n) */
   m->stack = m->spare = NULL;
   m->stack_cap = m->spare_cap = 0;
 }

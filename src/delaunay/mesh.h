@@ -2,8 +2,8 @@
 /* The skeleton: the Delaunay triangulation of the representatives, with a ghost vertex outside the hull.
  *
  * Triangle t has vertices v[0..2], counter-clockwise; edge k of t is opposite v[k] and runs from v[k+1] to v[k+2];
- * n[k] = 4 * t' + k' names the same edge in the triangle beyond it. Each hull edge has a ghost triangle beyond it, whose third
- * vertex is the ghost (number n). There are 2 n - 2 triangles for n inserted vertices.
+ * n[k] = 4 * t' + k' names the same edge in the triangle beyond it. Each hull edge has a ghost triangle beyond it,
+ * whose third vertex is the ghost (number n). There are 2 n - 2 triangles for n inserted vertices.
  *
  * Insertion removes the triangles whose circle holds the new point (a disc without inner vertices, so its dual is a
  * tree and each edge is tested once) and joins the point to the rim. All decisions are exact: doubles with a proved
@@ -19,11 +19,17 @@ typedef struct dyd_tri {
   uint32_t v[3], n[3];
 } dyd_tri;
 
-static inline unsigned dyd_next(unsigned k) { return (9u >> (2 * k)) & 3u; }
-static inline unsigned dyd_prev(unsigned k) { return (18u >> (2 * k)) & 3u; }
+static inline unsigned dyd_next(unsigned k) {
+  return (9u >> (2 * k)) & 3u;
+}
+static inline unsigned dyd_prev(unsigned k) {
+  return (18u >> (2 * k)) & 3u;
+}
 
 /* Another thread or a signal handler may set the flag at any time. */
-static inline bool dyd_flag_is_set(const volatile int *flag) { return flag && __atomic_load_n(flag, __ATOMIC_RELAXED); }
+static inline bool dyd_flag_is_set(const volatile int *flag) {
+  return flag && __atomic_load_n(flag, __ATOMIC_RELAXED);
+}
 
 typedef struct dyd_fixed dyd_fixed;
 
@@ -37,16 +43,17 @@ typedef struct dyd_mesh {
   dyd_xy *own_xy;
   dyd_tri *tri;
   uint32_t count;
-  uint32_t *alias; /* alias[v]: the vertex with the same exact point, DYD_NONE if v is in the mesh; NULL: no aliases */
-  bool collinear;  /* every choice of points is collinear: no triangles */
-  uint64_t asked;  /* in-circle tests and location steps so far */
-  uint64_t beyond; /* answers of the later rungs when counting began */
-  uint64_t ties;   /* exact zeros met in in-circle and hull tests: 0 means no tie anywhere [TIE-1] */
+  uint32_t *alias;  /* alias[v]: the vertex with the same exact point, DYD_NONE if v is in the mesh; NULL: no aliases */
+  bool collinear;   /* every choice of points is collinear: no triangles */
+  uint64_t asked;   /* in-circle tests and location steps so far */
+  uint64_t beyond;  /* answers of the later rungs when counting began */
+  uint64_t ties;    /* exact zeros met in in-circle and hull tests: 0 means no tie anywhere [TIE-1] */
+  double extent[2]; /* of all points any representative may be; x, y */
   double orient_bound, incircle_delta; /* filter constants */
   double exact_s; /* in-circle in doubles is exact up to this sum of lifts; -1: never; 0: not known yet */
   bool no_filter;
-  dyd_fixed *fixed; /* scaled 64-bit coordinates, made at the first need; NULL before */
-  bool no_fixed;    /* they do not exist */
+  dyd_fixed *fixed;                /* scaled 64-bit coordinates, made at the first need; NULL before */
+  bool no_fixed;                   /* they do not exist */
   dyd_delaunay_counters *counters; /* borrowed */
   uint32_t hint;
   uint32_t *stack, *spare;
@@ -59,6 +66,8 @@ typedef struct dyd_mesh {
 dyd_status dyd_mesh_build(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, uint32_t n, bool no_filter,
                           dyd_delaunay_counters *counters, const volatile int *cancel);
 void dyd_mesh_clear(dyd_mesh *m);
+/* Representatives have been chosen anew: the filter constants follow. */
+void dyd_mesh_follow(dyd_mesh *m);
 /* Gives back what only building needs. */
 void dyd_mesh_trim(dyd_mesh *m);
 

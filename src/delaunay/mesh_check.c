@@ -7,8 +7,8 @@
 static bool twins_agree(const dyd_mesh *m, uint32_t t, unsigned k) {
   uint32_t h = m->tri[t].n[k], s = h >> 2;
   unsigned q = h & 3;
-  return s < m->count && q < 3 && m->tri[s].n[q] == 4 * t + k &&
-         m->tri[s].v[dyd_next(q)] == m->tri[t].v[dyd_prev(k)] && m->tri[s].v[dyd_prev(q)] == m->tri[t].v[dyd_next(k)];
+  return s < m->count && q < 3 && m->tri[s].n[q] == 4 * t + k && m->tri[s].v[dyd_next(q)] == m->tri[t].v[dyd_prev(k)] &&
+         m->tri[s].v[dyd_prev(q)] == m->tri[t].v[dyd_next(k)];
 }
 
 static bool edge_is_delaunay(dyd_mesh *m, uint32_t t, unsigned k) {

@@ -98,7 +98,8 @@ bool dyd_mesh_same(dyd_mesh *m, uint32_t a, uint32_t b) {
   dyd_rect p, q;
   dyd_rect_init(&p);
   dyd_rect_init(&q);
-  bool same = dyd_reps_get(&p, m->reps, u) == DYD_OK && dyd_reps_get(&q, m->reps, v) == DYD_OK && dyd_rect_equal(&p, &q);
+  bool same =
+      dyd_reps_get(&p, m->reps, u) == DYD_OK && dyd_reps_get(&q, m->reps, v) == DYD_OK && dyd_rect_equal(&p, &q);
   dyd_rect_clear(&q);
   dyd_rect_clear(&p);
   return same;

@@ -6,7 +6,9 @@
 #include "delaunay/mesh.h"
 
 /* Vertex of reps behind mesh vertex v. */
-static inline uint32_t dyd_mesh_rep(const dyd_mesh *m, uint32_t v) { return m->local ? m->local[v] : v; }
+static inline uint32_t dyd_mesh_rep(const dyd_mesh *m, uint32_t v) {
+  return m->local ? m->local[v] : v;
+}
 
 /* Exact signs for real vertices, by integers. */
 int dyd_mesh_orient_exact(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);

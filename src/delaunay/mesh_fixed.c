@@ -129,8 +129,12 @@ static void difference(int64_t d[2], const dyd_mesh *m, uint32_t v, const int64_
   d[1] -= p[1];
 }
 
-static i128 cross(const int64_t a[2], const int64_t b[2]) { return (i128)a[0] * b[1] - (i128)a[1] * b[0]; }
-static i128 lift(const int64_t a[2]) { return (i128)a[0] * a[0] + (i128)a[1] * a[1]; }
+static i128 cross(const int64_t a[2], const int64_t b[2]) {
+  return (i128)a[0] * b[1] - (i128)a[1] * b[0];
+}
+static i128 lift(const int64_t a[2]) {
+  return (i128)a[0] * a[0] + (i128)a[1] * a[1];
+}
 
 int dyd_fixed_orient(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
   int64_t zc[2], da[2], db[2];

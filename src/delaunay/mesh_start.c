@@ -23,17 +23,23 @@ dyd_status dyd_mesh_set_alias(dyd_mesh *m, uint32_t v, uint32_t of) {
   return DYD_OK;
 }
 
-static void set_filters(dyd_mesh *m) {
-  double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
-  for (uint32_t v = 0; v < m->n; v++) {
-    lo[0] = fmin(lo[0], m->xy[v].x);
-    hi[0] = fmax(hi[0], m->xy[v].x);
-    lo[1] = fmin(lo[1], m->xy[v].y);
-    hi[1] = fmax(hi[1], m->xy[v].y);
+/* Representatives stay inside their rectangles, whose extent only shrinks. */
+static void set_extent(dyd_mesh *m) {
+  for (int a = 0; a < 2; a++) {
+    double lo = INFINITY, hi = -INFINITY;
+    for (uint32_t v = 0; v < m->n; v++) {
+      uint32_t i = m->reps->site[dyd_mesh_rep(m, v)];
+      lo = fmin(lo, dyd_sites_lo(m->reps->sites, a, i));
+      hi = fmax(hi, dyd_sites_hi(m->reps->sites, a, i));
+    }
+    m->extent[a] = m->n ? hi - lo : 0;
   }
+}
+
+void dyd_mesh_follow(dyd_mesh *m) {
   m->incircle_delta = m->reps->delta;
-  m->orient_bound = m->no_filter ? INFINITY : dyd_filter_orient_bound(hi[0] - lo[0], hi[1] - lo[1], m->reps->delta);
-  if (isnan(m->orient_bound)) m->orient_bound = INFINITY;
+  m->orient_bound = dyd_filter_orient_bound(m->extent[0], m->extent[1], m->reps->delta);
+  if (m->no_filter || isnan(m->orient_bound)) m->orient_bound = INFINITY;
 }
 
 dyd_status dyd_mesh_coordinates(dyd_mesh *m) {
@@ -45,11 +51,12 @@ dyd_status dyd_mesh_coordinates(dyd_mesh *m) {
     m->own_xy[m->n] = (dyd_xy){NAN, NAN};
     m->xy = m->own_xy;
   }
-  set_filters(m);
+  set_extent(m);
+  dyd_mesh_follow(m);
   return DYD_OK;
 }
 
-/* A moved point may leave the box of doubles and be inexact: the constants follow, and the grid is made anew. */
+/* A moved point may be inexact: the constants follow, and the grid is made anew. */
 dyd_status dyd_mesh_move(dyd_mesh *m, uint32_t v, uint32_t k) {
   uint32_t r = dyd_mesh_rep(m, v);
   dyd_status st = dyd_reps_choose(m->reps, r, k);
@@ -59,7 +66,7 @@ dyd_status dyd_mesh_move(dyd_mesh *m, uint32_t v, uint32_t k) {
   m->fixed = NULL;
   m->no_fixed = false;
   m->exact_s = 0;
-  set_filters(m);
+  dyd_mesh_follow(m);
   return DYD_OK;
 }
 
@@ -87,8 +94,8 @@ static bool two_others(uint32_t pair[2], dyd_mesh *m, uint32_t without) {
   return found == 2;
 }
 
-/* Is every choice of points collinear: all rectangles on one vertical or horizontal line, or all of them exact points whose
- * representatives are collinear (as they are when this is asked), or at most two different sites? */
+/* Is every choice of points collinear: all rectangles on one vertical or horizontal line, or all of them exact points
+ * whose representatives are collinear (as they are when this is asked), or at most two different sites? */
 static dyd_status always_collinear(bool *always, dyd_mesh *m) {
   bool vertical = true, horizontal = true, points = true;
   uint32_t alive = 0;
@@ -129,8 +136,9 @@ static dyd_status step_aside(bool *done, uint32_t first[3], dyd_mesh *m, uint32_
 }
 
 /* All representatives are collinear: a fat rectangle that reaches off their line gives the triangle. Three different
- * fractions of a rectangle are never collinear, unless it is a segment, and a segment meets a line once or lies in it. A vertex that has
- * to wait until two others have moved apart is reached in a later round; fractions differ from vertex to vertex. */
+ * fractions of a rectangle are never collinear, unless it is a segment, and a segment meets a line once or lies in it.
+ * A vertex that has to wait until two others have moved apart is reached in a later round; fractions differ from vertex
+ * to vertex. */
 static dyd_status leave_line(uint32_t first[3], dyd_mesh *m) {
   dyd_status st = always_collinear(&m->collinear, m);
   bool done = m->collinear;

@@ -17,6 +17,8 @@ dyd_status dyd_mesh_move(dyd_mesh *m, uint32_t v, uint32_t k);
 /* Is the site of v an exact point? */
 bool dyd_mesh_is_point(const dyd_mesh *m, uint32_t v);
 dyd_status dyd_mesh_set_alias(dyd_mesh *m, uint32_t v, uint32_t of);
-static inline uint32_t dyd_mesh_alias(const dyd_mesh *m, uint32_t v) { return m->alias ? m->alias[v] : DYD_NONE; }
+static inline uint32_t dyd_mesh_alias(const dyd_mesh *m, uint32_t v) {
+  return m->alias ? m->alias[v] : DYD_NONE;
+}
 
 #endif

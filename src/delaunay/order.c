@@ -43,7 +43,9 @@ static uint32_t hilbert_key(const hilbert_table *h, uint32_t x, uint32_t y) {
   return key >> 4;
 }
 
-static double clamp(double x) { return x > DBL_MAX ? DBL_MAX : x < -DBL_MAX ? -DBL_MAX : x; }
+static double clamp(double x) {
+  return x > DBL_MAX ? DBL_MAX : x < -DBL_MAX ? -DBL_MAX : x;
+}
 
 /* Half of the middle of the outward rectangle, so that nothing overflows. */
 static double half_middle(const dyd_sites *s, int axis, size_t i) {

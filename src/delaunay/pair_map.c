@@ -11,7 +11,8 @@ static uint64_t key_of(uint32_t a, uint32_t b) {
 }
 
 static size_t place(const dyd_pair_map *m, uint64_t key) {
-  size_t q = (size_t)((key * UINT64_C(0x9E3779B97F4A7C15)) >> 20) & m->mask;
+  uint64_t mixed = (key ^ key >> 32) * UINT64_C(0x9E3779B97F4A7C15);
+  size_t q = (size_t)(mixed >> 24 ^ mixed >> 44) & m->mask;
   while (m->key[q] && m->key[q] != key) q = (q + 1) & m->mask;
   return q;
 }
@@ -69,8 +70,8 @@ dyd_status dyd_pair_map_add(dyd_pair_map *m, uint32_t a, uint32_t b, dyd_pair_st
     dyd_status st = resize(m, 2 * (m->mask + 1));
     if (st != DYD_OK) return st;
   }
-  if (dyd_pair_is_possible(state) &&
-      !dyd_reserve((void **)&m->link, &m->link_cap, m->links + 2, sizeof *m->link)) return DYD_E_NOMEM;
+  if (dyd_pair_is_possible(state) && !dyd_reserve((void **)&m->link, &m->link_cap, m->links + 2, sizeof *m->link))
+    return DYD_E_NOMEM;
   uint64_t key = key_of(a, b);
   size_t q = place(m, key);
   if (!m->key[q]) m->used++;

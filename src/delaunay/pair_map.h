@@ -9,7 +9,7 @@
 typedef enum dyd_pair_state {
   DYD_PAIR_UNKNOWN = 0,
   DYD_PAIR_IMPOSSIBLE,
-  DYD_PAIR_OPEN,   /* possible, not certain */
+  DYD_PAIR_OPEN, /* possible, not certain */
   DYD_PAIR_CERTAIN
 } dyd_pair_state;
 
@@ -18,8 +18,8 @@ typedef struct dyd_pair_link {
   uint32_t to, next;
 } dyd_pair_link;
 
-/* Invariant: key[] is an open-addressing table of (a << 32 | b) + 1 with a < b, 0 = empty, at most half full; link 2p and
- * 2p+1 belong to the p-th possible pair, in order of addition; head[v] = DYD_NONE ends a list. */
+/* Invariant: key[] is an open-addressing table of (a << 32 | b) + 1 with a < b, 0 = empty, at most half full; link 2p
+ * and 2p+1 belong to the p-th possible pair, in order of addition; head[v] = DYD_NONE ends a list. */
 typedef struct dyd_pair_map {
   uint64_t *key;
   uint8_t *state;
@@ -35,6 +35,8 @@ void dyd_pair_map_clear(dyd_pair_map *m);
 dyd_pair_state dyd_pair_map_get(const dyd_pair_map *m, uint32_t a, uint32_t b);
 /* Sets the state of a pair that has none yet; possible pairs are linked. */
 dyd_status dyd_pair_map_add(dyd_pair_map *m, uint32_t a, uint32_t b, dyd_pair_state state);
-static inline bool dyd_pair_is_possible(dyd_pair_state s) { return s >= DYD_PAIR_OPEN; }
+static inline bool dyd_pair_is_possible(dyd_pair_state s) {
+  return s >= DYD_PAIR_OPEN;
+}
 
 #endif

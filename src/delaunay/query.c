@@ -25,9 +25,13 @@ void dyd_index_list_clear(dyd_index_list *l) {
   *l = (dyd_index_list){0};
 }
 
-const dyd_sites *dyd_delaunay_sites(const dyd_delaunay *pd) { return pd->sites; }
+const dyd_sites *dyd_delaunay_sites(const dyd_delaunay *pd) {
+  return pd->sites;
+}
 
-void dyd_delaunay_get_counters(dyd_delaunay_counters *out, const dyd_delaunay *pd) { *out = pd->counters; }
+void dyd_delaunay_get_counters(dyd_delaunay_counters *out, const dyd_delaunay *pd) {
+  *out = pd->counters;
+}
 
 size_t dyd_delaunay_undecided_faces(const dyd_delaunay *pd) {
   if (pd->mesh.collinear) return dyd_line_open_pairs(&pd->line) ? 1 : 0;
@@ -45,7 +49,9 @@ size_t dyd_delaunay_memory(const dyd_delaunay *pd) {
   return bytes;
 }
 
-uint32_t dyd_delaunay_alias(const dyd_delaunay *pd, uint32_t i) { return pd->reps.site[pd->vertex[i]]; }
+uint32_t dyd_delaunay_alias(const dyd_delaunay *pd, uint32_t i) {
+  return pd->reps.site[pd->vertex[i]];
+}
 
 /* ---- one pair ---- */
 
@@ -126,7 +132,7 @@ static void each_pair(const dyd_delaunay *pd, pair_visit visit, void *context) {
     const dyd_face *face = &pd->faces.face[f];
     for (uint32_t q = 0; q < face->pairs; q++) {
       dyd_vertex_pair p = pd->faces.pair[face->first_pair + q];
-      visit(context, p.i, p.j, dyd_face_open_status(face));
+      if (!p.hidden) visit(context, p.i, p.j, dyd_face_open_status(face));
     }
   }
 }
@@ -209,7 +215,7 @@ void dyd_delaunay_count(size_t count[4], const dyd_delaunay *pd) {
       count[DYD_LEGAL] += m->tri[t].n[k] > 4 * t + k && m->tri[t].v[dyd_next(k)] != m->n &&
                           m->tri[t].v[dyd_prev(k)] != m->n && dyd_edge_is_certain(pd, t, k);
   for (size_t f = 0; f < pd->faces.count; f++)
-    count[dyd_face_open_status(&pd->faces.face[f])] += pd->faces.face[f].pairs;
+    count[dyd_face_open_status(&pd->faces.face[f])] += pd->faces.face[f].pairs - pd->faces.face[f].hidden;
 }
 
 /* ---- index lists ---- */
@@ -222,8 +228,10 @@ typedef struct collector {
 
 static void collect(collector *c, uint32_t i) {
   if (c->status != DYD_OK) return;
-  if (!dyd_reserve((void **)&c->item, &c->cap, c->count + 1, sizeof *c->item)) c->status = DYD_E_NOMEM;
-  else c->item[c->count++] = i;
+  if (!dyd_reserve((void **)&c->item, &c->cap, c->count + 1, sizeof *c->item))
+    c->status = DYD_E_NOMEM;
+  else
+    c->item[c->count++] = i;
 }
 
 static int compare_index(const void *a, const void *b) {
@@ -251,6 +259,7 @@ static void face_neighbours(collector *c, const dyd_delaunay *pd, uint32_t v, ui
   if (dyd_face_open_status(face) < least) return;
   for (uint32_t q = 0; q < face->pairs; q++) {
     dyd_vertex_pair p = pd->faces.pair[face->first_pair + q];
+    if (p.hidden) continue;
     if (p.i == v) collect(c, pd->reps.site[p.j]);
     if (p.j == v) collect(c, pd->reps.site[p.i]);
   }
@@ -318,13 +327,14 @@ dyd_status dyd_delaunay_face_pairs(dyd_pair_list *out, const dyd_delaunay *pd, s
   const dyd_face *face = &pd->faces.face[f];
   dyd_pair *p = dyd_alloc(face->pairs, sizeof *p);
   if (!p) return DYD_E_NOMEM;
+  size_t count = 0;
   for (uint32_t q = 0; q < face->pairs; q++) {
     dyd_vertex_pair s = pd->faces.pair[face->first_pair + q];
     uint32_t i = pd->reps.site[s.i], j = pd->reps.site[s.j];
-    p[q] = (dyd_pair){i < j ? i : j, i < j ? j : i, dyd_face_open_status(face)};
+    if (!s.hidden) p[count++] = (dyd_pair){i < j ? i : j, i < j ? j : i, dyd_face_open_status(face)};
   }
-  qsort(p, face->pairs, sizeof *p, compare_pair);
+  qsort(p, count, sizeof *p, compare_pair);
   dyd_pair_list_clear(out);
-  *out = (dyd_pair_list){face->pairs, p};
+  *out = (dyd_pair_list){count, p};
   return DYD_OK;
 }

@@ -104,8 +104,8 @@ static uint32_t degree(const dyd_delaunay *pd, uint32_t v) {
   return count;
 }
 
-/* Exact points have no boxes of their own. For a centre nearer to i and j than to all their Delaunay neighbours nobody else is
- * nearer (see [FLT-STAR]), so a tree over these neighbours will do; on a line, one over all. */
+/* Exact points have no boxes of their own. For a centre nearer to i and j than to all their Delaunay neighbours nobody
+ * else is nearer (see [FLT-STAR]), so a tree over these neighbours will do; on a line, one over all. */
 static dyd_status make_view(dyd_delaunay *view, const dyd_delaunay *pd, uint32_t v, uint32_t w) {
   bool line = pd->mesh.collinear;
   size_t size = line ? pd->line.count : (size_t)degree(pd, v) + degree(pd, w) + 2;

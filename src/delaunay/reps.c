@@ -23,7 +23,9 @@ static fraction mirrored(uint64_t m) {
 }
 
 /* The fractions of x and y differ for k > 0, so that the points leave the diagonals and the centre lines. */
-static fraction fraction_of(uint32_t k, int axis) { return mirrored(axis == 0 ? (uint64_t)k + 1 : 2 * (uint64_t)k + 1); }
+static fraction fraction_of(uint32_t k, int axis) {
+  return mirrored(axis == 0 ? (uint64_t)k + 1 : 2 * (uint64_t)k + 1);
+}
 
 /* lo + f (hi - lo), exactly; a rational point stays itself. */
 static dyd_status at_fraction(dyd_interval *a, fraction f) {
@@ -61,10 +63,14 @@ static double middle(double lo, double hi) {
   return m < lo ? lo : m > hi ? hi : m;
 }
 
-static double to_finite(double x) { return x > DBL_MAX ? DBL_MAX : x < -DBL_MAX ? -DBL_MAX : x; }
+static double to_finite(double x) {
+  return x > DBL_MAX ? DBL_MAX : x < -DBL_MAX ? -DBL_MAX : x;
+}
 
 /* A bound of the error of the nearest (clamped) double to a point in [lo,hi], adjacent doubles or equal. */
-static double spread(double lo, double hi) { return hi > DBL_MAX || lo < -DBL_MAX ? INFINITY : hi - lo; }
+static double spread(double lo, double hi) {
+  return hi > DBL_MAX || lo < -DBL_MAX ? INFINITY : hi - lo;
+}
 
 static dyd_status keep_code(dyd_reps *r, uint32_t v, uint32_t code) {
   if (!r->code && code) {
@@ -132,8 +138,10 @@ dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, ui
   if (st == DYD_OK) r->xy[n] = (dyd_xy){NAN, NAN};
   bool plain = !sites->exact && !sites->upper[0] && !sites->upper[1];
   for (uint32_t v = 0; v < n && st == DYD_OK; v++) {
-    if (plain) r->xy[v] = (dyd_xy){sites->lower[0][site[v]], sites->lower[1][site[v]]};
-    else st = dyd_reps_choose(r, v, 0);
+    if (plain)
+      r->xy[v] = (dyd_xy){sites->lower[0][site[v]], sites->lower[1][site[v]]};
+    else
+      st = dyd_reps_choose(r, v, 0);
   }
   return st;
 }

@@ -35,6 +35,8 @@ void dyd_reps_clear(dyd_reps *r);
 dyd_status dyd_reps_choose(dyd_reps *r, uint32_t v, uint32_t k);
 /* The exact representative of v as a singleton rectangle. */
 dyd_status dyd_reps_get(dyd_rect *out, const dyd_reps *r, uint32_t v);
-static inline bool dyd_reps_is_double(const dyd_reps *r, uint32_t v) { return !r->code || !r->code[v]; }
+static inline bool dyd_reps_is_double(const dyd_reps *r, uint32_t v) {
+  return !r->code || !r->code[v];
+}
 
 #endif

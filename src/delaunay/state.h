@@ -1,27 +1,30 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What a partial Delaunay triangulation holds.
  *
- * Vertices are the sites in spatial order. The skeleton's edges carry one flag, "certain": a real edge is legal, an edge to
- * the ghost says that its vertex is surely on the hull. Triangles joined by uncertain edges form the undecided faces;
- * each keeps the list of its possible pairs that are not legal. If the true points are always collinear (or there
- * are at most two sites) there are no triangles, and the line order says everything. */
+ * Vertices are the sites in spatial order. The skeleton's edges carry one flag, "certain": a real edge is legal, an
+ * edge to the ghost says that its vertex is surely on the hull. Triangles joined by uncertain edges form the undecided
+ * faces; each keeps the list of its possible pairs that are not legal. If the true points are always collinear (or
+ * there are at most two sites) there are no triangles, and the line order says everything. */
 #ifndef DYD_DELAUNAY_STATE_H
 #define DYD_DELAUNAY_STATE_H
 
 #include "delaunay/mesh.h"
 #include "delaunay/tree.h"
 
-/* Two vertices, i < j. */
+/* Two vertices, i < j. Two sites on the rims of two faces may make a pair that both closures find; it stays in both
+ * lists, since either face may be worked on again alone, and is hidden in all but one. */
 typedef struct dyd_vertex_pair {
-  uint32_t i, j;
+  uint32_t i;
+  uint32_t j : 31, hidden : 1;
 } dyd_vertex_pair;
 
 /* Invariant: tri[first_tri .. first_tri + tris) and pair[first_pair .. + pairs) of the face table, pairs sorted;
- * polygon: a cocircular polygon or collinear chain of exact points; tie: all vertices are exact points; capped: pairs beyond the skeleton are missing. */
+ * polygon: a cocircular polygon or collinear chain of exact points; tie: all vertices are exact points; capped: pairs
+ * beyond the skeleton are missing. */
 typedef struct dyd_face {
   size_t first_tri, first_pair;
   uint32_t tris;
-  uint32_t pairs;
+  uint32_t pairs, hidden; /* how many, and how many of them are hidden */
   bool outer, tie, capped, polygon;
 } dyd_face;
 
@@ -32,8 +35,10 @@ typedef struct dyd_face_table {
   size_t tri_count, tri_cap;
   dyd_vertex_pair *pair;
   size_t pair_count, pair_cap;
-  size_t others; /* faces that are not polygons */
-  uint32_t *of;  /* triangle -> face, DYD_NONE: decided; NULL: no face at all */
+  size_t others;     /* faces that are not polygons */
+  size_t live_pairs; /* pairs of the faces there are; the rest of pair[] is left over from faces replaced */
+  size_t live_tris;
+  uint32_t *of; /* triangle -> face, DYD_NONE: decided; NULL: no face at all */
 } dyd_face_table;
 
 /* The line order: alive vertices along the common line; legal[q]: order[q], order[q+1] is legal. */
@@ -53,7 +58,7 @@ struct dyd_delaunay {
   uint32_t *corner; /* vertex -> 4 t + k with tri[t].v[k] = vertex; DYD_NONE: alias or line */
   uint8_t *certain; /* triangle -> bit k: edge k is certain */
   bool all_points;  /* every site is an exact point */
-  dyd_bbox *box;     /* vertex -> outward box; NULL when all_points */
+  dyd_bbox *box;    /* vertex -> outward box; NULL when all_points */
   dyd_tree tree;    /* over all vertices in the skeleton; empty when all_points */
   dyd_line line;
   dyd_face_table faces;
@@ -63,8 +68,12 @@ struct dyd_delaunay {
   dyd_error *err; /* during a call */
 };
 
-static inline bool dyd_cancelled(const dyd_delaunay *pd) { return dyd_flag_is_set(pd->options.cancel); }
-static inline bool dyd_edge_is_certain(const dyd_delaunay *pd, uint32_t t, unsigned k) { return pd->certain[t] >> k & 1; }
+static inline bool dyd_cancelled(const dyd_delaunay *pd) {
+  return dyd_flag_is_set(pd->options.cancel);
+}
+static inline bool dyd_edge_is_certain(const dyd_delaunay *pd, uint32_t t, unsigned k) {
+  return pd->certain[t] >> k & 1;
+}
 static inline void dyd_set_certain(dyd_delaunay *pd, uint32_t t, unsigned k) {
   uint32_t twin = pd->mesh.tri[t].n[k];
   pd->certain[t] |= (uint8_t)(1u << k);

@@ -26,14 +26,18 @@ typedef struct dyd_tree {
 /* Over the vertices item[0..count-1]; takes over the array. */
 dyd_status dyd_tree_init(dyd_tree *t, uint32_t *item, uint32_t count, const dyd_bbox *box);
 void dyd_tree_clear(dyd_tree *t);
+/* The entry of a vertex; the items are ascending. */
+uint32_t dyd_tree_entry(const dyd_tree *t, uint32_t vertex);
 /* Entry q's box has shrunk. */
 void dyd_tree_refresh(dyd_tree *t, uint32_t q);
 
 /* Returns false to end the search. */
 typedef bool (*dyd_visit)(void *context, uint32_t vertex);
-/* Visits every vertex whose box may come within sqrt(*radius2) of a centre in c (closed). The visitor may lower *radius2. */
+/* Visits every vertex whose box may come within sqrt(*radius2) of a centre in c (closed). The visitor may lower
+ * *radius2. */
 void dyd_tree_near(const dyd_tree *t, const dyd_bbox *c, const double *radius2, dyd_visit visit, void *context);
-/* Visits every vertex whose box may reach u.x >= *height for the direction u = (ux, uy). The visitor may raise *height. */
+/* Visits every vertex whose box may reach u.x >= *height for the direction u = (ux, uy). The visitor may raise *height.
+ */
 void dyd_tree_beyond(const dyd_tree *t, double ux, double uy, const double *height, dyd_visit visit, void *context);
 
 #endif

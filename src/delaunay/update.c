@@ -1,28 +1,144 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Building again on narrower rectangles: legal pairs are carried over. */
+/* After sites were narrowed: the undecided faces that hold one of them are worked on again, nothing else.
+ *
+ * Legal edges keep their witnesses and stay; the faces they bound are independent of each other. A face is handled as
+ * one step: its new statements replace the old ones only when they are complete. */
 #include "delaunay/update.h"
 
+#include "base/alloc.h"
+#include "base/verify.h"
 #include "delaunay/build.h"
+#include "delaunay/certify.h"
+#include "delaunay/faces.h"
+#include "delaunay/mesh_check.h"
+#include "delaunay/splice.h"
+
+#include <string.h>
+
+/* ---- everything again ---- */
+
+static dyd_status rebuild(dyd_delaunay *pd) {
+  dyd_pair_list all = {0};
+  dyd_status st = dyd_delaunay_pairs(&all, pd);
+  if (st != DYD_OK) return st;
+  size_t kept = 0;
+  for (size_t q = 0; q < all.count; q++)
+    if (all.item[q].status == DYD_LEGAL) all.item[kept++] = all.item[q];
+  dyd_delaunay next = {.sites = pd->sites,
+                       .n = pd->n,
+                       .counters = pd->counters,
+                       .options = pd->options,
+                       .max_pairs = pd->max_pairs,
+                       .err = pd->err};
+  st = dyd_build(&next, (dyd_known){all.item, kept});
+  if (st == DYD_OK) {
+    dyd_build_clear(pd);
+    *pd = next;
+    pd->mesh.reps = &pd->reps;
+    pd->mesh.counters = &pd->counters;
+    pd->tree.box = pd->box;
+  }
+  dyd_pair_list_clear(&all);
+  return st;
+}
+
+/* ---- what changed ---- */
+
+/* Box, tree and representative of a vertex follow its rectangle. */
+static dyd_status refresh(dyd_delaunay *pd, uint32_t v) {
+  dyd_sites_get_d(pd->box[v].e, pd->sites, pd->reps.site[v]);
+  dyd_tree_refresh(&pd->tree, dyd_tree_entry(&pd->tree, v));
+  uint32_t k = pd->reps.code && pd->reps.code[v] ? pd->reps.code[v] - 1 : 0;
+  return dyd_reps_choose(&pd->reps, v, k);
+}
+
+/* One triangle of each face around v that is not listed yet. */
+static dyd_status note_faces(uint32_t **seed, size_t *count, size_t *cap, bool *noted, const dyd_delaunay *pd,
+                             uint32_t v) {
+  uint32_t first = pd->corner[v], h = first;
+  do {
+    uint32_t f = pd->faces.of[h >> 2];
+    if (f != DYD_NONE && !noted[f]) {
+      noted[f] = true;
+      if (!dyd_reserve((void **)seed, cap, *count + 1, sizeof **seed)) return DYD_E_NOMEM;
+      (*seed)[(*count)++] = h >> 2;
+    }
+    h = dyd_turn(&pd->mesh, h);
+  } while (h != first);
+  return DYD_OK;
+}
+
+static dyd_status affected(uint32_t **seed, size_t *seeds, dyd_delaunay *pd, const uint32_t *changed, size_t count) {
+  size_t cap = 0;
+  bool *noted = calloc(pd->faces.count, sizeof *noted);
+  dyd_status st = noted ? DYD_OK : DYD_E_NOMEM;
+  for (size_t q = 0; q < count && st == DYD_OK; q++) {
+    uint32_t v = pd->vertex[changed[q]];
+    st = refresh(pd, v);
+    if (st == DYD_OK) st = note_faces(seed, seeds, &cap, noted, pd, v);
+  }
+  free(noted);
+  return st;
+}
+
+/* ---- one face ---- */
+
+static dyd_status certify_inside(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris) {
+  dyd_status st = DYD_OK;
+  for (uint32_t q = 0; q < tris && st == DYD_OK; q++) {
+    if (dyd_cancelled(pd)) return DYD_CANCELLED;
+    for (unsigned k = 0; k < 3 && st == DYD_OK; k++)
+      if (pd->mesh.tri[tri[q]].n[k] > 4 * tri[q] + k && !dyd_edge_is_certain(pd, tri[q], k))
+        st = dyd_certify_edge(pd, w, tri[q], k);
+  }
+  return st;
+}
+
+/* Which edges of the face are certain, to be put back after a failure. */
+static void restore(dyd_delaunay *pd, const uint8_t *certain, const uint32_t *tri, uint32_t tris) {
+  for (uint32_t q = 0; q < tris; q++) pd->certain[tri[q]] = certain[q];
+}
+
+static dyd_status decide(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris) {
+  uint8_t *before = dyd_alloc(tris, 1);
+  if (!before) return DYD_E_NOMEM;
+  for (uint32_t q = 0; q < tris; q++) before[q] = pd->certain[tri[q]];
+  dyd_status st = certify_inside(pd, w, tri, tris);
+  if (st == DYD_OK) st = dyd_faces_replace(pd, w, tri, tris);
+  if (st != DYD_OK) restore(pd, before, tri, tris);
+  free(before);
+  return st;
+}
+
+/* *fits as for dyd_splice_face. */
+static dyd_status work_on(bool *fits, dyd_delaunay *pd, dyd_work *w, uint32_t seed) {
+  const dyd_face *face = &pd->faces.face[pd->faces.of[seed]];
+  uint32_t tris = face->tris, *tri = dyd_alloc(tris, sizeof *tri);
+  if (!tri) return DYD_E_NOMEM;
+  memcpy(tri, pd->faces.tri + face->first_tri, tris * sizeof *tri);
+  dyd_status st = dyd_splice_face(fits, pd, tri, tris);
+  if (st == DYD_OK && *fits) {
+    dyd_mesh_follow(&pd->mesh);
+    st = decide(pd, w, tri, tris);
+  }
+  free(tri);
+  return st;
+}
 
 dyd_status dyd_update(dyd_delaunay *pd, const uint32_t *changed, size_t count) {
-  (void)changed;
-  if (count == 0) return DYD_OK;
-  dyd_pair_list legal = {0}, all = {0};
-  dyd_status st = dyd_delaunay_pairs(&all, pd);
-  if (st == DYD_OK) {
-    size_t kept = 0;
-    for (size_t q = 0; q < all.count; q++)
-      if (all.item[q].status == DYD_LEGAL) all.item[kept++] = all.item[q];
-    all.count = kept;
-    dyd_delaunay next = {.sites = pd->sites, .n = pd->n, .counters = pd->counters, .options = pd->options,
-                         .max_pairs = pd->max_pairs, .err = pd->err};
-    st = dyd_build(&next, (dyd_known){all.item, all.count});
-    if (st == DYD_OK) {
-      dyd_build_clear(pd);
-      *pd = next;
-    }
+  if (pd->mesh.collinear) return count ? rebuild(pd) : DYD_OK;
+  if (count == 0 || pd->faces.count == 0 || pd->all_points) return DYD_OK;
+  uint32_t *seed = NULL;
+  size_t seeds = 0;
+  bool fits = true;
+  dyd_work w;
+  dyd_work_init(&w, pd);
+  dyd_status st = affected(&seed, &seeds, pd, changed, count);
+  for (size_t q = 0; q < seeds && st == DYD_OK && fits; q++) {
+    st = dyd_cancelled(pd) ? DYD_CANCELLED : work_on(&fits, pd, &w, seed[q]);
   }
-  dyd_pair_list_clear(&legal);
-  dyd_pair_list_clear(&all);
+  dyd_work_clear(&w);
+  free(seed);
+  if (st == DYD_OK && !fits) return rebuild(pd);
   return st;
 }

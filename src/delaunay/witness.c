@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The search for a witness by cutting planes.
  *
- * c is a witness of ij iff ds_k(c)^2 - dl_s(c)^2 > 0 for s = i, j and all other k. This is the least, over q in R_k and corners p
- * of R_s, of |c-q|^2 - |c-p|^2, linear in c: a concave function, so at any c its active pair (q,p) gives a
- * half-plane that holds all witnesses: the points nearer to p than to q [WIT-1]. The search keeps such half-planes, moves c to the
- * centre of the largest disc inside them, and asks again who violates. An empty intersection ends it: no witness.
+ * c is a witness of ij iff ds_k(c)^2 - dl_s(c)^2 > 0 for s = i, j and all other k. This is the least, over q in R_k and
+ * corners p of R_s, of |c-q|^2 - |c-p|^2, linear in c: a concave function, so at any c its active pair (q,p) gives a
+ * half-plane that holds all witnesses: the points nearer to p than to q [WIT-1]. The search keeps such half-planes,
+ * moves c to the centre of the largest disc inside them, and asks again who violates. An empty intersection ends it: no
+ * witness.
  *
  * The half-planes are kept in doubles relative to the current c, in units of 2^unit; their offsets are computed
  * exactly from the rectangles and c, so each step gains about as many bits as a double has, and the search goes on at

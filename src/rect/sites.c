@@ -29,7 +29,9 @@ void dyd_sites_free(dyd_sites *s) {
   free(s);
 }
 
-size_t dyd_sites_count(const dyd_sites *s) { return s->count; }
+size_t dyd_sites_count(const dyd_sites *s) {
+  return s->count;
+}
 
 static bool resize(void *array, size_t cap, size_t size) {
   void *p = realloc(*(void **)array, cap * size);
@@ -110,7 +112,9 @@ dyd_status dyd_sites_add_boxes(dyd_sites *s, size_t n, const double *x0, const d
 
 /* ---- packing ---- */
 
-static size_t limbs_of(int32_t size) { return size == SAME_AS_LOWER ? 0 : (size_t)(size < 0 ? -size : size); }
+static size_t limbs_of(int32_t size) {
+  return size == SAME_AS_LOWER ? 0 : (size_t)(size < 0 ? -size : size);
+}
 
 static size_t packed_size(const dyd_packed *p) {
   size_t limbs = 0;
@@ -166,8 +170,10 @@ static const mp_limb_t *unpack_interval(dyd_interval *out, const mp_limb_t *from
     from = take_limbs(out->hi.man, from, size[1]);
     out->hi.exp = exp[1];
   }
-  if (size[2] == 0) mpz_set_ui(out->den, 1);
-  else from = take_limbs(out->den, from, size[2]);
+  if (size[2] == 0)
+    mpz_set_ui(out->den, 1);
+  else
+    from = take_limbs(out->den, from, size[2]);
   return from;
 }
 

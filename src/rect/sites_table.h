@@ -24,11 +24,15 @@ struct dyd_sites {
   size_t packed_bytes;
 };
 
-static inline double dyd_sites_lo(const dyd_sites *s, int axis, size_t i) { return s->lower[axis][i]; }
+static inline double dyd_sites_lo(const dyd_sites *s, int axis, size_t i) {
+  return s->lower[axis][i];
+}
 static inline double dyd_sites_hi(const dyd_sites *s, int axis, size_t i) {
   return s->upper[axis] ? s->upper[axis][i] : s->lower[axis][i];
 }
 /* Do the doubles hold the rectangle of site i exactly? */
-static inline bool dyd_sites_in_doubles(const dyd_sites *s, size_t i) { return !s->exact || !s->exact[i]; }
+static inline bool dyd_sites_in_doubles(const dyd_sites *s, size_t i) {
+  return !s->exact || !s->exact[i];
+}
 
 #endif
