@@ -131,10 +131,11 @@ static int64_t fresh_exponent(const dyd_cut_list *l) {
   return top;
 }
 
-/* Brings all offsets to one unit; old cuts that are too noisy or too far away to matter are dropped. */
-static void common_unit(dyd_cut_list *l) {
+/* Brings all offsets to one unit; old cuts that are too noisy or too far away to matter are dropped. Returns how many
+ * old ones are left, at the beginning. */
+static size_t common_unit(dyd_cut_list *l) {
   int64_t unit = fresh_exponent(l);
-  size_t kept = 0;
+  size_t kept = 0, old = 0;
   for (size_t k = 0; k < l->count; k++) {
     dyd_cut c = l->cut[k];
     if (k >= l->old) {
@@ -143,12 +144,14 @@ static void common_unit(dyd_cut_list *l) {
     } else {
       c.d = scale(c.d, l->unit - unit);
       c.noise = scale(c.noise, l->unit - unit);
-      if (c.noise > 0x1p-20 || fabs(c.d) > 0x1p30) continue;
+      if (c.noise > 0x1p-10 || fabs(c.d) > 0x1p30) continue;
+      old++;
     }
     l->cut[kept++] = c;
   }
-  l->count = l->old = kept;
+  l->count = kept;
   l->unit = unit;
+  return old;
 }
 
 static dyd_status shift(dyd_dyadic *x, double by, int64_t unit) {
@@ -171,15 +174,35 @@ static void carry(dyd_cut_list *l, double x, double y) {
   }
 }
 
-bool dyd_cut_move(dyd_point *c, dyd_cut_list *l, dyd_status *status) {
-  if (l->impossible || l->count == l->old) return false;
-  common_unit(l);
+static dyd_lp_result centre(const dyd_cut_list *l) {
   dyd_lp_result r = {0};
   for (double bound = 8; bound <= 0x1p24; bound *= 128) {
     r = dyd_lp_centre(l->cut, l->count, bound);
     if (r.z > 0 || r.bounded) break;
   }
-  if (r.z <= 0 && (!r.bounded || r.z < -1e-9 * r.active || r.active == 0)) return false;
+  return r;
+}
+
+/* Is there surely no room: by more than what rounding may have taken? */
+static bool is_empty(const dyd_lp_result *r) {
+  return r->bounded ? r->z < -1e-9 * r->active - 4 * r->noise || r->active == 0 : r->z <= 0;
+}
+
+/* Leaves only the cuts that belong to the present centre. */
+static void drop_old(dyd_cut_list *l, size_t old) {
+  for (size_t k = old; k < l->count; k++) l->cut[k - old] = l->cut[k];
+  l->count -= old;
+}
+
+bool dyd_cut_move(dyd_point *c, dyd_cut_list *l, dyd_status *status) {
+  if (l->impossible || l->count == l->old) return false;
+  size_t old = common_unit(l);
+  dyd_lp_result r = centre(l);
+  if (r.z <= 0 && !is_empty(&r) && old) { /* too noisy to tell */
+    drop_old(l, old);
+    r = centre(l);
+  }
+  if (r.z <= 0 && is_empty(&r)) return false;
   *status = shift(&c->x, r.x, l->unit);
   if (*status == DYD_OK) *status = shift(&c->y, r.y, l->unit);
   if (*status == DYD_E_RANGE) { /* deeper than numbers go: the floor */
@@ -187,5 +210,6 @@ bool dyd_cut_move(dyd_point *c, dyd_cut_list *l, dyd_status *status) {
     return false;
   }
   carry(l, r.x, r.y);
+  l->old = l->count;
   return true;
 }

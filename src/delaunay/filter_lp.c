@@ -68,12 +68,14 @@ dyd_lp_result dyd_lp_centre(const dyd_cut *cut, size_t count, double bound) {
     basis[leaves] = &cut[k];
   }
   best.bounded = true;
-  best.active = 0;
+  best.active = best.noise = 0;
   for (int q = 0; q < 3; q++) {
     if (basis[q] >= frame && basis[q] < frame + 3)
       best.bounded = false;
-    else
+    else {
       best.active = fmax(best.active, fabs(basis[q]->d));
+      best.noise = fmax(best.noise, basis[q]->noise);
+    }
   }
   return best;
 }

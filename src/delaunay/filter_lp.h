@@ -18,7 +18,8 @@ typedef struct dyd_cut {
 /* The centre x maximises z = min over the cuts of n.x + d, within about `bound` of the origin. */
 typedef struct dyd_lp_result {
   double x, y, z;
-  double active; /* largest |d| among the three cuts that hold z */
+  double active; /* largest |d| among the three cuts that hold z, */
+  double noise;  /* and their largest noise */
   bool bounded;  /* none of the three is the artificial bound */
 } dyd_lp_result;
 
