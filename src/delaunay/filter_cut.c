@@ -185,7 +185,7 @@ static dyd_lp_result centre(const dyd_cut_list *l) {
 
 /* Is there surely no room: by more than what rounding may have taken? */
 static bool is_empty(const dyd_lp_result *r) {
-  return r->bounded ? r->z < -1e-9 * r->active - 4 * r->noise || r->active == 0 : r->z <= 0;
+  return r->z < -1e-9 * r->active - 4 * r->noise || r->active == 0;
 }
 
 /* Leaves only the cuts that belong to the present centre. */
@@ -198,11 +198,19 @@ bool dyd_cut_move(dyd_point *c, dyd_cut_list *l, dyd_status *status) {
   if (l->impossible || l->count == l->old) return false;
   size_t old = common_unit(l);
   dyd_lp_result r = centre(l);
-  if (r.z <= 0 && !is_empty(&r) && old) { /* too noisy to tell */
-    drop_old(l, old);
-    r = centre(l);
+  if (r.z <= 0 && !is_empty(&r) && old) { /* too noisy to tell: look closer there, or trust fresh cuts only */
+    l->stalled = l->unit < l->finest - 8 ? 0 : l->stalled + 1;
+    if (l->stalled > 3) {
+      drop_old(l, old);
+      l->stalled = 0;
+      r = centre(l);
+    }
   }
-  if (r.z <= 0 && is_empty(&r)) return false;
+  if (l->unit < l->finest) l->finest = l->unit;
+  if (r.z <= 0 && is_empty(&r)) {
+    l->empty = true;
+    return false;
+  }
   *status = shift(&c->x, r.x, l->unit);
   if (*status == DYD_OK) *status = shift(&c->y, r.y, l->unit);
   if (*status == DYD_E_RANGE) { /* deeper than numbers go: the floor */

@@ -16,7 +16,9 @@ typedef struct dyd_cut_list {
   int64_t exp[DYD_LP_CUTS];
   size_t count, old;
   int64_t unit, size; /* size: exponent of the distances between the rectangles */
-  bool impossible;
+  bool impossible, empty;
+  int64_t finest; /* least unit so far; 0 at first */
+  int stalled;    /* noisy moves in turn that came no closer */
 } dyd_cut_list;
 
 /* An enclosure of c in doubles. */

@@ -146,21 +146,30 @@ static dyd_status set_start(dyd_point *c, const dyd_delaunay *pd, uint32_t i, dy
   return st == DYD_OK ? dyd_dyadic_set_d(&c->y, guess.y) : st;
 }
 
-/* The search on the exact rung. */
+/* Half way between the doubles of i and j: near the pair whatever the scale of all others. */
+static dyd_xy between(const dyd_delaunay *pd, uint32_t i, uint32_t j) {
+  dyd_xy a = pd->reps.xy[i], b = pd->reps.xy[j];
+  return (dyd_xy){a.x / 2 + b.x / 2, a.y / 2 + b.y / 2};
+}
+
+/* The search on the exact rung, from the guess; if it gets lost, once more from the pair itself. */
 static dyd_status search_exactly(bool *found, dyd_point *c, const dyd_delaunay *pd, uint32_t i, uint32_t j,
                                  dyd_xy guess) {
+  const dyd_xy starts[2] = {guess, between(pd, i, j)};
   search *s = malloc(sizeof *s);
   if (!s) return DYD_E_NOMEM;
   dyd_status st = search_init(s, pd, i, j);
-  if (st == DYD_OK) st = set_start(&s->c, pd, i, guess);
-  if (st == DYD_OK) {
+  for (int k = 0; k < 2 && st == DYD_OK && !*found; k++) {
+    s->cuts = (dyd_cut_list){0};
+    s->rivals = 0;
+    st = set_start(&s->c, pd, i, starts[k]);
+    if (st != DYD_OK) break;
     run(s);
     st = s->status;
+    *found = st == DYD_OK && !s->violated && !s->touching;
+    if (s->touching || s->cuts.impossible || s->cuts.empty) break;
   }
-  if (st == DYD_OK && !s->violated && !s->touching) {
-    *found = true;
-    if (c) dyd_point_set(c, &s->c);
-  }
+  if (*found && c) dyd_point_set(c, &s->c);
   search_clear(s);
   free(s);
   return st;
