@@ -183,9 +183,9 @@ static dyd_lp_result centre(const dyd_cut_list *l) {
   return r;
 }
 
-/* Is there surely no room: by more than what rounding may have taken? */
+/* Is there surely no room: by more than what rounding may have taken? Not if the answer lies farther than we looked. */
 static bool is_empty(const dyd_lp_result *r) {
-  return r->z < -1e-9 * r->active - 4 * r->noise || r->active == 0;
+  return r->bounded && (r->z < -1e-9 * r->active - 4 * r->noise || r->active == 0);
 }
 
 /* Leaves only the cuts that belong to the present centre. */
