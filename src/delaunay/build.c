@@ -77,12 +77,15 @@ static dyd_status build_maps(dyd_delaunay *pd) {
   return DYD_OK;
 }
 
+enum { FETCH_AHEAD = 24 };
+
 static dyd_status build_boxes(dyd_delaunay *pd) {
   if (pd->all_points || pd->mesh.collinear) return DYD_OK;
   pd->box = dyd_alloc(pd->n, sizeof *pd->box);
   uint32_t *item = dyd_alloc(pd->n, sizeof *item), count = 0;
   if (!pd->box || !item) return free(item), DYD_E_NOMEM;
   for (uint32_t v = 0; v < pd->n; v++) {
+    if (v + FETCH_AHEAD < pd->n) dyd_sites_fetch(pd->sites, pd->reps.site[v + FETCH_AHEAD]);
     dyd_sites_get_d(pd->box[v].e, pd->sites, pd->reps.site[v]);
     if (pd->corner[v] != DYD_NONE) item[count++] = v;
   }

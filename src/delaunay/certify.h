@@ -13,5 +13,8 @@ dyd_status dyd_certify_edge(dyd_delaunay *pd, dyd_work *w, uint32_t t, unsigned 
 dyd_xy dyd_edge_centre(const dyd_delaunay *pd, uint32_t t, unsigned k);
 /* The quick pass in doubles over all vertices: marks edges whose first guess is proved a witness [FLT-STAR]. */
 dyd_status dyd_certify_stars(dyd_delaunay *pd);
+/* Before it, for representatives that are doubles and sites all within `reach` of them: marks the edges that the two
+ * triangles beside them prove legal [WIT-NEAR]. */
+dyd_status dyd_certify_near(dyd_delaunay *pd, double reach);
 
 #endif

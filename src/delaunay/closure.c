@@ -60,7 +60,7 @@ static dyd_status gather_vertices(closing *c) {
   for (uint32_t q = 0; q < count; q++) {
     if (out->vertices && out->vertex[out->vertices - 1] == out->vertex[q]) continue;
     out->vertex[out->vertices++] = out->vertex[q];
-    out->all_points = out->all_points && dyd_vertex_is_point(c->pd, out->vertex[q]);
+    out->all_points = out->all_points && (c->pd->all_points || dyd_vertex_is_point(c->pd, out->vertex[q]));
   }
   return DYD_OK;
 }
@@ -257,7 +257,8 @@ dyd_status dyd_closure_run(dyd_closure *out, dyd_delaunay *pd, dyd_work *w, cons
     if (st == DYD_OK) st = collect(&c, c.map.links);
   }
   if (st == DYD_OK && (c.full || out->pairs > room)) st = skeleton_pairs(&c);
-  if (st == DYD_OK && out->pairs) qsort(out->pair, out->pairs, sizeof *out->pair, compare_pair);
+  bool sorted = out->polygon && !out->capped; /* all_pairs goes in order */
+  if (st == DYD_OK && out->pairs && !sorted) qsort(out->pair, out->pairs, sizeof *out->pair, compare_pair);
   dyd_pair_map_clear(&c.map);
   if (st != DYD_OK) dyd_closure_clear(out);
   return st;

@@ -162,17 +162,40 @@ static void bequeath(dyd_delaunay *pd, uint32_t self) {
   }
 }
 
+/* Two real triangles of exact points joined by one tied edge (a square of a grid): its two diagonals are the pairs.
+ * Fills in *c, whose pairs are borrowed from `pair`; false: another kind of face. */
+static bool tied_quad(dyd_closure *c, dyd_vertex_pair pair[2], const dyd_delaunay *pd, const uint32_t *tri,
+                      size_t tris) {
+  const dyd_mesh *m = &pd->mesh;
+  if (!pd->all_points || tris != 2 || dyd_mesh_is_ghost(m, tri[0]) || dyd_mesh_is_ghost(m, tri[1])) return false;
+  unsigned open = 7 & ~pd->certain[tri[0]], twins = 7 & ~pd->certain[tri[1]], k = open >> 1;
+  if ((open != 1 && open != 2 && open != 4) || (twins & (twins - 1))) return false;
+  const dyd_tri *t = &m->tri[tri[0]];
+  uint32_t a = t->v[dyd_next(k)], b = t->v[dyd_prev(k)], u = t->v[k], v = m->tri[t->n[k] >> 2].v[t->n[k] & 3];
+  pair[0] = a < b ? (dyd_vertex_pair){.i = a, .j = b} : (dyd_vertex_pair){.i = b, .j = a};
+  pair[1] = u < v ? (dyd_vertex_pair){.i = u, .j = v} : (dyd_vertex_pair){.i = v, .j = u};
+  if (compare_pair(&pair[0], &pair[1]) > 0) {
+    dyd_vertex_pair swap = pair[0];
+    pair[0] = pair[1];
+    pair[1] = swap;
+  }
+  *c = (dyd_closure){.pair = pair, .pairs = 2, .all_points = true, .polygon = true};
+  return true;
+}
+
 static dyd_status find_face(dyd_delaunay *pd, dyd_work *w, uint32_t t) {
   dyd_face_table *f = &pd->faces;
   size_t first = f->tri_count;
+  dyd_vertex_pair pair[2];
   dyd_closure c = {0};
   dyd_status st = flood(pd, t, (uint32_t)f->count);
   size_t room = pd->max_pairs > f->live_pairs ? pd->max_pairs - f->live_pairs : 0;
-  if (st == DYD_OK) st = dyd_closure_run(&c, pd, w, f->tri + first, (uint32_t)(f->tri_count - first), room);
+  bool quad = st == DYD_OK && room >= 2 && tied_quad(&c, pair, pd, f->tri + first, f->tri_count - first);
+  if (st == DYD_OK && !quad) st = dyd_closure_run(&c, pd, w, f->tri + first, (uint32_t)(f->tri_count - first), room);
   if (st == DYD_OK) st = store(pd, &c, first);
   pd->counters.faces++;
   if (st != DYD_OK) take_back(pd, first);
-  dyd_closure_clear(&c);
+  if (!quad) dyd_closure_clear(&c);
   return st;
 }
 

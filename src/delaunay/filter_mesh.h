@@ -77,4 +77,28 @@ static inline int dyd_filter_orient_near(const dyd_mesh *m, dyd_xy a, dyd_xy b, 
   return d < -e ? -1 : 0;
 }
 
+/* After the in-circle filter was unsure: the permanent instead of its estimate s^2/3 [FLT-INC], for triangles with one
+ * far vertex. la, bx cy, ... as before: |error| <= ((1+u)^11 - 1)(sum of la (|bx cy| + |by cx|)), computed with a
+ * relative error below 20 u: 11.05 u leaves room. Underflow: <= 20 * 2^-1074 (s + 1). */
+static inline int dyd_filter_incircle_near(const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy c, dyd_xy p) {
+  double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y, cx = c.x - p.x, cy = c.y - p.y;
+  double la = ax * ax + ay * ay, lb = bx * bx + by * by, lc = cx * cx + cy * cy;
+  double a1 = bx * cy, a2 = by * cx, b1 = cx * ay, b2 = cy * ax, c1 = ax * by, c2 = ay * bx;
+  double d = la * (a1 - a2) + lb * (b1 - b2) + lc * (c1 - c2);
+  double e = la * (fabs(a1) + fabs(a2)) + lb * (fabs(b1) + fabs(b2)) + lc * (fabs(c1) + fabs(c2));
+  e = 11.05 * 0x1p-53 * e + 0x1p-1060 * (la + lb + lc + 1);
+  if (m->incircle_delta > 0) return 0;
+  if (d > e) return 1;
+  return d < -e ? -1 : 0;
+}
+
+/* The same for orientation: then both products and their difference are exact [FLT-SMALL]. */
+static inline bool dyd_filter_orient_small(int *sign, const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy p) {
+  double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y;
+  if (!(ax * ax + ay * ay + bx * bx + by * by <= m->exact_s)) return false;
+  double d = ax * by - ay * bx;
+  *sign = (d > 0) - (d < 0);
+  return true;
+}
+
 #endif

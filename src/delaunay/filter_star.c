@@ -22,9 +22,9 @@ enum { MAX_DEGREE = 62 };
 
 typedef struct pass {
   dyd_delaunay *pd;
-  dyd_xy *centre; /* of each triangle; for ghost triangles so chosen that the mean with the inner one is a good guess */
-  double limit;   /* radius above which a rectangle is fat */
-  double reach;   /* 2 E */
+  uint8_t *open; /* bit per vertex: it has an edge, real or ghost, that is not certain yet */
+  double limit;  /* radius above which a rectangle is fat */
+  double reach;  /* 2 E */
   dyd_tree fat;
 } pass;
 
@@ -148,7 +148,7 @@ static bool read_star(star *s, const pass *p, uint32_t v) {
     s->corner[s->degree] = h;
     s->x[s->degree] = m->xy[w].x;
     s->y[s->degree] = m->xy[w].y;
-    s->centre[s->degree] = p->centre[h >> 2];
+    s->centre[s->degree] = centre_of(m, h >> 2);
     s->degree++;
     h = dyd_turn(m, h);
   } while (h != first);
@@ -225,23 +225,36 @@ static void join_halves(dyd_delaunay *pd) {
 static void all_stars(const pass *p) {
   star s;
   for (uint32_t v = 0; v < p->pd->n; v++) {
-    if (p->pd->corner[v] == DYD_NONE || is_fat(p, v) || !read_star(&s, p, v)) continue;
+    if (p->pd->corner[v] == DYD_NONE || !(p->open[v >> 3] >> (v & 7) & 1) || is_fat(p, v) || !read_star(&s, p, v))
+      continue;
     certify_edges(p, &s);
     if (s.ghost >= 0) certify_hull(p, &s);
   }
 }
 
+static void find_open(const pass *p) {
+  const dyd_mesh *m = &p->pd->mesh;
+  for (uint32_t t = 0; t < m->count; t++)
+    for (unsigned k = 0; k < 3 && p->pd->certain[t] != 7; k++) {
+      uint32_t v = m->tri[t].v[dyd_next(k)], w = m->tri[t].v[dyd_prev(k)];
+      if (dyd_edge_is_certain(p->pd, t, k)) continue;
+      if (v != m->n) p->open[v >> 3] |= (uint8_t)(1u << (v & 7));
+      if (w != m->n) p->open[w >> 3] |= (uint8_t)(1u << (w & 7));
+    }
+}
+
 dyd_status dyd_certify_stars(dyd_delaunay *pd) {
   pass p = {.pd = pd};
   dyd_status st = gather_fat(&p);
-  p.centre = dyd_alloc(pd->mesh.count, sizeof *p.centre);
-  if (st == DYD_OK && !p.centre) st = DYD_E_NOMEM;
+  p.open = calloc((size_t)pd->n / 8 + 1, 1);
+  if (st == DYD_OK && !p.open) st = DYD_E_NOMEM;
+  if (st == DYD_OK && p.fat.count == 0 && !pd->reps.code) st = dyd_certify_near(pd, p.reach / 2);
   if (st == DYD_OK) {
-    for (uint32_t t = 0; t < pd->mesh.count; t++) p.centre[t] = centre_of(&pd->mesh, t);
+    find_open(&p);
     all_stars(&p);
     join_halves(pd);
   }
-  free(p.centre);
+  free(p.open);
   dyd_tree_clear(&p.fat);
   return st;
 }

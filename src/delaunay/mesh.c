@@ -19,6 +19,7 @@ static int orient_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
     int sign = dyd_filter_orient_near(m, m->xy[a], m->xy[b], m->xy[c]);
     if (sign) return sign;
     if (!m->fixed && !m->no_fixed) dyd_fixed_prepare(m);
+    if (dyd_filter_orient_small(&sign, m, m->xy[a], m->xy[b], m->xy[c])) return sign;
     if (m->fixed) return m->counters->integer++, dyd_fixed_orient(m, a, b, c);
   }
   m->counters->exact++;
@@ -36,7 +37,8 @@ static int incircle_real(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32
   if (!m->no_filter) {
     if (!m->fixed && !m->no_fixed) dyd_fixed_prepare(m);
     if (dyd_filter_incircle_small(&sign, m, m->xy[a], m->xy[b], m->xy[c], m->xy[p])) return sign;
-    if (m->fixed) return m->counters->integer++, dyd_fixed_incircle(m, a, b, c, p);
+    if ((sign = dyd_filter_incircle_near(m, m->xy[a], m->xy[b], m->xy[c], m->xy[p]))) return sign;
+    if (dyd_fixed_incircle(&sign, m, a, b, c, p)) return m->counters->integer++, sign;
   }
   m->counters->exact++;
   return dyd_mesh_incircle_exact(m, a, b, c, p);

@@ -9,6 +9,7 @@
 #include "delaunay/mesh_exact.h"
 
 #include <math.h>
+#include <string.h>
 
 __extension__ typedef __int128 i128;
 __extension__ typedef unsigned __int128 u128;
@@ -171,15 +172,52 @@ static i256 sum(i256 a, i256 b) {
   return r;
 }
 
-int dyd_fixed_incircle(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
-  int64_t zp[2], da[2], db[2], dc[2];
-  coordinates(zp, m, p);
-  difference(da, m, a, zp);
-  difference(db, m, b, zp);
-  difference(dc, m, c, zp);
-  i256 d = product(lift(da), cross(db, dc));
-  d = sum(d, product(lift(db), cross(dc, da)));
-  d = sum(d, product(lift(dc), cross(da, db)));
-  if ((i128)d.high < 0) return -1;
-  return d.high != 0 || d.low != 0;
+/* x = man * 2^exp, man odd; x finite, not 0 and not subnormal (false otherwise). */
+static bool exponent_range(int *low, int *high, double x) {
+  uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  int e = (int)(bits >> 52 & 2047);
+  uint64_t man = (bits & ((UINT64_C(1) << 52) - 1)) | UINT64_C(1) << 52;
+  if (x == 0) return true;
+  if (e == 0) return false;
+  int l = e - 1075 + __builtin_ctzll(man), h = e - 1022;
+  if (l < *low) *low = l;
+  if (h > *high) *high = h;
+  return true;
+}
+
+/* The four points as integers on their own common scale; false when they span too many bits. */
+static bool near_coordinates(int64_t z[4][2], const dyd_mesh *m, const uint32_t v[4]) {
+  int low = INT32_MAX, high = INT32_MIN;
+  for (unsigned k = 0; k < 4; k++)
+    if (!exponent_range(&low, &high, m->xy[v[k]].x) || !exponent_range(&low, &high, m->xy[v[k]].y)) return false;
+  if (low == INT32_MAX) low = high = 0;
+  if (high - low > COORDINATE_BITS || low < -1000 || low > 900) return false;
+  uint64_t bits = (uint64_t)(1023 - low) << 52;
+  double scale;
+  memcpy(&scale, &bits, sizeof scale);
+  for (unsigned k = 0; k < 4; k++) {
+    z[k][0] = (int64_t)(m->xy[v[k]].x * scale);
+    z[k][1] = (int64_t)(m->xy[v[k]].y * scale);
+  }
+  return true;
+}
+
+bool dyd_fixed_incircle(int *sign, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
+  int64_t z[4][2];
+  if (m->fixed && m->fixed->z) {
+    const uint32_t v[4] = {a, b, c, p};
+    for (unsigned k = 0; k < 4; k++) coordinates(z[k], m, v[k]);
+  } else if (m->reps->code || !near_coordinates(z, m, (const uint32_t[]){a, b, c, p}))
+    return false;
+  for (unsigned k = 0; k < 3; k++)
+    for (unsigned i = 0; i < 2; i++) z[k][i] -= z[3][i];
+  i256 d = product(lift(z[0]), cross(z[1], z[2]));
+  d = sum(d, product(lift(z[1]), cross(z[2], z[0])));
+  d = sum(d, product(lift(z[2]), cross(z[0], z[1])));
+  if ((i128)d.high < 0)
+    *sign = -1;
+  else
+    *sign = d.high != 0 || d.low != 0;
+  return true;
 }

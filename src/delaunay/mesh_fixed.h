@@ -10,7 +10,8 @@
 void dyd_fixed_prepare(dyd_mesh *m);
 /* Exact signs; m->fixed is set. */
 int dyd_fixed_orient(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);
-int dyd_fixed_incircle(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
+/* Exact sign on a grid of the four points' own, or on the common one; false when neither exists. */
+bool dyd_fixed_incircle(int *sign, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
 void dyd_fixed_free(dyd_fixed *f);
 
 #endif

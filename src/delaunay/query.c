@@ -137,7 +137,7 @@ static void each_pair(const dyd_delaunay *pd, pair_visit visit, void *context) {
   }
 }
 
-/* Two passes of counting sort, by j and then by i. */
+/* Counting sort by i, then each short run by j. */
 typedef struct pair_sort {
   const dyd_delaunay *pd;
   size_t *start;
@@ -149,7 +149,7 @@ static void count_pair(void *context, uint32_t v, uint32_t w, dyd_pair_status st
   pair_sort *s = context;
   (void)status;
   uint32_t i = s->pd->reps.site[v], j = s->pd->reps.site[w];
-  s->start[i > j ? i : j]++;
+  s->start[i < j ? i : j]++;
   s->total++;
 }
 
@@ -161,7 +161,7 @@ static void place_pair(void *context, uint32_t v, uint32_t w, dyd_pair_status st
     i = j;
     j = t;
   }
-  s->to[s->start[j]++] = (dyd_pair){i, j, status};
+  s->to[s->start[i]++] = (dyd_pair){i, j, status};
 }
 
 static void starts_from_counts(size_t *start, uint32_t n) {
@@ -173,11 +173,22 @@ static void starts_from_counts(size_t *start, uint32_t n) {
   }
 }
 
-static void sort_by_first(dyd_pair *to, const dyd_pair *from, size_t count, size_t *start, uint32_t n) {
-  memset(start, 0, n * sizeof *start);
-  for (size_t q = 0; q < count; q++) start[from[q].i]++;
-  starts_from_counts(start, n);
-  for (size_t q = 0; q < count; q++) to[start[from[q].i]++] = from[q];
+static int compare_second(const void *a, const void *b) {
+  uint32_t x = ((const dyd_pair *)a)->j, y = ((const dyd_pair *)b)->j;
+  return (x > y) - (x < y);
+}
+
+static void sort_run(dyd_pair *run, size_t count) {
+  if (count > 16) {
+    qsort(run, count, sizeof *run, compare_second);
+    return;
+  }
+  for (size_t q = 1; q < count; q++) {
+    dyd_pair p = run[q];
+    size_t r = q;
+    for (; r && run[r - 1].j > p.j; r--) run[r] = run[r - 1];
+    run[r] = p;
+  }
 }
 
 dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd) {
@@ -186,20 +197,19 @@ dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd) {
   if (!s.start) return DYD_E_NOMEM;
   each_pair(pd, count_pair, &s);
   s.to = dyd_alloc(s.total, sizeof *s.to);
-  dyd_pair *sorted = dyd_alloc(s.total, sizeof *sorted);
-  dyd_status st = s.to && sorted ? DYD_OK : DYD_E_NOMEM;
-  if (st == DYD_OK) {
+  if (s.to) {
     starts_from_counts(s.start, pd->n);
     each_pair(pd, place_pair, &s);
-    sort_by_first(sorted, s.to, s.total, s.start, pd->n);
+    /* each start has moved on to the end of its run */
+    for (uint32_t i = 0; i < pd->n; i++) {
+      size_t first = i ? s.start[i - 1] : 0;
+      sort_run(s.to + first, s.start[i] - first);
+    }
     dyd_pair_list_clear(out);
-    *out = (dyd_pair_list){s.total, sorted};
-    sorted = NULL;
+    *out = (dyd_pair_list){s.total, s.to};
   }
-  free(sorted);
-  free(s.to);
   free(s.start);
-  return st;
+  return s.to ? DYD_OK : DYD_E_NOMEM;
 }
 
 void dyd_delaunay_count(size_t count[4], const dyd_delaunay *pd) {

@@ -131,6 +131,8 @@ dyd_status dyd_reps_choose(dyd_reps *r, uint32_t v, uint32_t k) {
   return choose_exact(r, v, k);
 }
 
+enum { FETCH_AHEAD = 24 };
+
 dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, uint32_t n) {
   *r = (dyd_reps){.sites = sites, .n = n, .site = site};
   r->xy = dyd_alloc((size_t)n + 1, sizeof *r->xy);
@@ -138,6 +140,7 @@ dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, ui
   if (st == DYD_OK) r->xy[n] = (dyd_xy){NAN, NAN};
   bool plain = !sites->exact && !sites->upper[0] && !sites->upper[1];
   for (uint32_t v = 0; v < n && st == DYD_OK; v++) {
+    if (v + FETCH_AHEAD < n) dyd_sites_fetch(sites, site[v + FETCH_AHEAD]);
     if (plain)
       r->xy[v] = (dyd_xy){sites->lower[0][site[v]], sites->lower[1][site[v]]};
     else

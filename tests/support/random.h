@@ -28,7 +28,9 @@ static inline test_random test_random_start(const char *name) {
 }
 
 /* How many random cases to run when `base` is the number for everyday runs. */
-static inline size_t test_cases(size_t base) { return base * (size_t)test_environment("DYADEL_TEST_SCALE", 1); }
+static inline size_t test_cases(size_t base) {
+  return base * (size_t)test_environment("DYADEL_TEST_SCALE", 1);
+}
 
 /* splitmix64 */
 static inline uint64_t test_u64(test_random *r) {
@@ -39,13 +41,19 @@ static inline uint64_t test_u64(test_random *r) {
 }
 
 /* Uniform in 0 .. n-1. */
-static inline uint64_t test_below(test_random *r, uint64_t n) { return test_u64(r) % n; }
+static inline uint64_t test_below(test_random *r, uint64_t n) {
+  return test_u64(r) % n;
+}
 /* Uniform in lo .. hi. */
 static inline int64_t test_between(test_random *r, int64_t lo, int64_t hi) {
   return lo + (int64_t)test_below(r, (uint64_t)(hi - lo) + 1);
 }
-static inline bool test_chance(test_random *r, unsigned one_in) { return test_below(r, one_in) == 0; }
+static inline bool test_chance(test_random *r, unsigned one_in) {
+  return test_below(r, one_in) == 0;
+}
 /* Uniform in [0,1), a multiple of 2^-53. */
-static inline double test_unit(test_random *r) { return (double)(test_u64(r) >> 11) * 0x1p-53; }
+static inline double test_unit(test_random *r) {
+  return (double)(test_u64(r) >> 11) * 0x1p-53;
+}
 
 #endif
