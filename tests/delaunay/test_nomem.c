@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Exhausted memory and late cancelling: the k-th allocation fails, for every k. A failed call returns its code, leaks
+ * nothing (run under a leak checker), leaves *out NULL or the old statements in force, and can be repeated.
+ *
+ * Linked with --wrap for malloc, calloc and realloc; GMP's own allocations are not touched. */
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include "delaunay/harness.h"
+#include <cmocka.h>
+#include <pthread.h>
+#include <time.h>
+
+void *__real_malloc(size_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__real_realloc(void *old, size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_realloc(void *old, size_t size);
+
+/* 0: never fails; k > 0: the k-th allocation from now fails, once. */
+static size_t countdown;
+
+static bool fails(void) {
+  return countdown && --countdown == 0;
+}
+
+void *__wrap_malloc(size_t size) {
+  return fails() ? NULL : __real_malloc(size);
+}
+void *__wrap_calloc(size_t count, size_t size) {
+  return fails() ? NULL : __real_calloc(count, size);
+}
+void *__wrap_realloc(void *old, size_t size) {
+  return fails() ? NULL : __real_realloc(old, size);
+}
+
+static harness shared;
+
+typedef unsigned char snapshot[ORC_MAX][ORC_MAX];
+
+static void take(snapshot out, const dyd_delaunay *pd, size_t n) {
+  for (uint32_t i = 0; i < n; i++)
+    for (uint32_t j = 0; j < n; j++) out[i][j] = (unsigned char)dyd_delaunay_status(pd, i, j);
+}
+
+/* A face is replaced as a whole or not at all, so after a failure only this is sure: nothing is retracted. */
+static bool not_retracted(char *message, snapshot was, const orc_case *now, const dyd_delaunay *pd) {
+  for (uint32_t i = 0; i < now->n; i++)
+    for (uint32_t j = 0; j < now->n; j++) {
+      if (orc_case_alias(now, i) == orc_case_alias(now, j)) continue;
+      unsigned char is = (unsigned char)dyd_delaunay_status(pd, i, j);
+      if (was[i][j] != DYD_INDETERMINATE && is != was[i][j])
+        return wrong(message, "pair %u %u retracted by an unfinished update", i, j);
+    }
+  return true;
+}
+
+/* dyd_delaunay_new with every allocation failing once. It may do without (a rung of a filter is left out). */
+static bool new_fails_well(char *message, const dyd_sites *s) {
+  for (size_t k = 1;; k++) {
+    dyd_delaunay *pd = NULL;
+    dyd_error err;
+    dyd_error_clear(&err);
+    countdown = k;
+    dyd_status status = dyd_delaunay_new(&pd, s, NULL, &err);
+    bool over = countdown > 0;
+    countdown = 0;
+    bool good = status == DYD_OK ? pd != NULL : !over && status == DYD_E_NOMEM && !pd && err.code == DYD_E_NOMEM;
+    dyd_delaunay_free(pd);
+    if (!good) return wrong(message, "allocation %zu fails: status %d, code %d, object %d", k, status, err.code, !!pd);
+    if (over) return true;
+  }
+}
+
+static bool queries_fail_well(char *message, const dyd_delaunay *pd) {
+  for (size_t which = 0; which < 5; which++) {
+    dyd_status status = DYD_E_NOMEM;
+    for (size_t k = 1; status == DYD_E_NOMEM; k++) {
+      dyd_pair_list pairs = {0};
+      dyd_triangle_list triangles = {0};
+      dyd_index_list list = {0};
+      countdown = k;
+      if (which == 0) status = dyd_delaunay_pairs(&pairs, pd);
+      if (which == 1) status = dyd_delaunay_triangles(&triangles, pd);
+      if (which == 2) status = dyd_delaunay_hull(&list, pd);
+      if (which == 3) status = dyd_delaunay_neighbours(&list, pd, 0, DYD_TIE);
+      bool outer = false;
+      if (which == 4) status = dyd_delaunay_undecided_faces(pd) ? dyd_delaunay_face(&list, &outer, pd, 0) : DYD_OK;
+      bool failed = countdown == 0, empty = !pairs.item && !triangles.item && !list.item;
+      countdown = 0;
+      dyd_pair_list_clear(&pairs);
+      dyd_triangle_list_clear(&triangles);
+      dyd_index_list_clear(&list);
+      if (failed ? status != DYD_E_NOMEM || !empty : status != DYD_OK)
+        return wrong(message, "query %zu, allocation %zu fails: status %d", which, k, status);
+    }
+  }
+  return true;
+}
+
+static bool narrow_some(char *message, harness *h, dyd_sites *s, orc_case *now, const orc_case *target,
+                        uint32_t *changed, size_t *count) {
+  dyd_rect r;
+  bool good = true;
+  dyd_rect_init(&r);
+  *count = 0;
+  for (uint32_t i = 0; i < now->n && good; i++) {
+    if (test_chance(&h->random, 2)) continue;
+    orc_narrow(&now->rect[i], &h->random, &target->rect[i], test_chance(&h->random, 3));
+    harness_rect(&r, &now->rect[i]);
+    good = dyd_sites_narrow(s, i, &r) == DYD_OK || wrong(message, "dyd_sites_narrow fails");
+    changed[(*count)++] = i;
+  }
+  dyd_rect_clear(&r);
+  return good;
+}
+
+/* The update with every allocation failing once, repeated until it succeeds; then it equals a fresh run. */
+static bool update_fails_well(char *message, const dyd_sites *s, dyd_delaunay *pd, const orc_case *now,
+                              const uint32_t *changed, size_t count) {
+  snapshot was;
+  take(was, pd, now->n);
+  dyd_status status = DYD_E_NOMEM;
+  for (size_t k = 1; status != DYD_OK; k++) {
+    dyd_error err;
+    dyd_error_clear(&err);
+    countdown = k;
+    status = dyd_delaunay_update(pd, changed, count, NULL, &err);
+    bool over = countdown > 0;
+    countdown = 0;
+    if (over ? status != DYD_OK : status != DYD_E_NOMEM && status != DYD_OK)
+      return wrong(message, "update, allocation %zu fails: status %d", k, status);
+    if (!not_retracted(message, was, now, pd)) return false;
+  }
+  dyd_delaunay *fresh = harness_engine(message, s, NULL);
+  bool good = fresh && same_statuses(message, pd, fresh, now->n) && queries_agree(message, now, pd);
+  dyd_delaunay_free(fresh);
+  return good;
+}
+
+static bool check(char *message, harness *h, const orc_case *c) {
+  orc_case now, target;
+  uint32_t changed[ORC_MAX];
+  size_t count = 0;
+  orc_case_init(&now);
+  orc_case_init(&target);
+  orc_case_set(&now, c);
+  orc_choose(&target, &h->random, c, 3);
+  dyd_sites *s = harness_sites(c);
+  bool good = new_fails_well(message, s);
+  dyd_delaunay *pd = good ? harness_engine(message, s, NULL) : NULL;
+  good = pd && queries_fail_well(message, pd);
+  for (size_t step = 0; step < 2 && good; step++)
+    good = narrow_some(message, h, s, &now, &target, changed, &count) &&
+           update_fails_well(message, s, pd, &now, changed, count);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(s);
+  orc_case_clear(&target);
+  orc_case_clear(&now);
+  return good;
+}
+
+static void run_kinds(size_t most, size_t cases, case_check one) {
+  orc_case c;
+  orc_case_init(&c);
+  for (size_t kind = 0; kind < ORC_KINDS; kind++)
+    for (size_t k = 0; k < cases; k++) {
+      orc_generate(&c, &shared.random, kind, most);
+      harness_run(&shared, &c, one);
+    }
+  orc_case_clear(&c);
+}
+
+static void test_memory(void **state) {
+  (void)state;
+  run_kinds(9, test_cases(3), check);
+}
+
+/* ---- cancelling in the middle ---- */
+
+typedef struct alarm_clock {
+  volatile int flag;
+  long nanoseconds;
+} alarm_clock;
+
+static void *ring(void *context) {
+  alarm_clock *a = context;
+  struct timespec wait = {0, a->nanoseconds};
+  nanosleep(&wait, NULL);
+  __atomic_store_n(&a->flag, 1, __ATOMIC_RELAXED);
+  return NULL;
+}
+
+/* One update that may be cancelled at any moment; statements stay as they were, or are the new ones. */
+static bool cancelled_update(char *message, harness *h, const dyd_sites *s, dyd_delaunay *pd, const orc_case *now,
+                             const uint32_t *changed, size_t count) {
+  snapshot was;
+  pthread_t thread;
+  alarm_clock a = {0, (long)test_below(&h->random, 2000000)};
+  dyd_delaunay_options o = {.cancel = &a.flag};
+  take(was, pd, now->n);
+  if (pthread_create(&thread, NULL, ring, &a)) return wrong(message, "no thread");
+  dyd_status status = dyd_delaunay_update(pd, changed, count, &o, NULL);
+  pthread_join(thread, NULL);
+  if (status != DYD_OK && status != DYD_CANCELLED) return wrong(message, "cancelled update gives %d", status);
+  if (!not_retracted(message, was, now, pd)) return false;
+  if (status == DYD_CANCELLED) {
+    h->carried++;
+    status = dyd_delaunay_update(pd, changed, count, NULL, NULL);
+    if (status != DYD_OK) return wrong(message, "update after cancelling gives %d", status);
+  }
+  dyd_delaunay *fresh = harness_engine(message, s, NULL);
+  bool good = fresh && same_statuses(message, pd, fresh, now->n);
+  dyd_delaunay_free(fresh);
+  return good;
+}
+
+static bool check_cancel(char *message, harness *h, const orc_case *c) {
+  orc_case now, target;
+  uint32_t changed[ORC_MAX];
+  size_t count = 0;
+  orc_case_init(&now);
+  orc_case_init(&target);
+  orc_case_set(&now, c);
+  orc_choose(&target, &h->random, c, 3);
+  dyd_sites *s = harness_sites(c);
+  dyd_delaunay *pd = harness_engine(message, s, NULL);
+  bool good = pd;
+  for (size_t step = 0; step < 3 && good; step++)
+    good = narrow_some(message, h, s, &now, &target, changed, &count) &&
+           cancelled_update(message, h, s, pd, &now, changed, count);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(s);
+  orc_case_clear(&target);
+  orc_case_clear(&now);
+  return good;
+}
+
+static void test_cancelling(void **state) {
+  (void)state;
+  run_kinds(25, test_cases(4), check_cancel);
+  fprintf(stderr, "# %zu updates cancelled in the middle\n", shared.carried);
+  shared.carried = 0;
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_memory), cmocka_unit_test(test_cancelling)};
+  harness_init(&shared, "nomem");
+  int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  harness_clear(&shared);
+  return failed;
+}
