@@ -16,8 +16,11 @@
  * Underflow: an error of at most 2^-1074 in each product gives <= 20 * 2^-1074 (s + 1), covered by the excess 4e-17 s^2
  * when s >= 2^-400, and when s < 2^-400, |d| <= s^2 < 2^-800: so 2^-790 is added. delta: each partial derivative of d
  * by one of the six differences is at most 4 t^3 where t bounds the length of a, b, c along the way, t = sqrt(s) + 8
- * delta: 6 * 4 t^3 * 2 delta = 48 delta t^3; 60 leaves room. Overflow makes the bound infinite or d NaN: not sure. The
- * ghost is NaN: not sure. */
+ * delta: 6 * 4 t^3 * 2 delta = 48 delta t^3; 60 leaves room. The ghost is NaN: not sure.
+ *
+ * Overflow: every term of d is at most s^2 (X Y for orientation), rounding is monotone, and the bound multiplies s s (X
+ * Y) first: so if the bound is finite, no term has overflowed; if it is infinite, nothing is sure. */
+
 /* Small integers [FLT-SMALL]: if all coordinates are multiples of a power of two q and the computed s <= 2^26 q^2, then
  * every difference is a multiple of q below 2^13 q, every lift and product of two a multiple of q^2 below 2^27 q^2,
  * every later partial sum a multiple of q^4 of size <= s^2 <= 2^52 q^4: all are doubles, nothing is rounded, d is
@@ -35,7 +38,7 @@
 /* The orientation bound from the extents of the doubles [FLT-ORI]. */
 static inline double dyd_filter_orient_bound(double extent_x, double extent_y, double delta) {
   double e = extent_x > extent_y ? extent_x : extent_y;
-  return 1.01e-15 * extent_x * extent_y + 10 * delta * (e + 4 * delta) + 0x1p-1000;
+  return extent_x * extent_y * 1.01e-15 + 10 * delta * (e + 4 * delta) + 0x1p-1000;
 }
 
 /* 1, -1: sure sign; 0: not sure. */
@@ -49,7 +52,7 @@ static inline int dyd_filter_incircle_at(const dyd_mesh *m, dyd_xy a, dyd_xy b, 
   double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y, cx = c.x - p.x, cy = c.y - p.y;
   double la = ax * ax + ay * ay, lb = bx * bx + by * by, lc = cx * cx + cy * cy;
   double d = la * (bx * cy - by * cx) + lb * (cx * ay - cy * ax) + lc * (ax * by - ay * bx);
-  double s = la + lb + lc, e = DYD_INCIRCLE_BOUND * s * s + DYD_INCIRCLE_TINY;
+  double s = la + lb + lc, e = s * s * DYD_INCIRCLE_BOUND + DYD_INCIRCLE_TINY;
   if (m->incircle_delta > 0) {
     double t = sqrt(s) + 8 * m->incircle_delta;
     e += 60 * m->incircle_delta * t * t * t;

@@ -105,13 +105,14 @@ int64_t dyd_scale_shift(const dyd_scale_set *s) {
 }
 
 /* user = scaled / lcm, after the shift. The double nearest to lcm has a relative error of 2^-52, the division one of
- * 2^-53 (or 2^-1074 absolute): widening by 4 ulp is outward [FLT-SCALE]. */
+ * 2^-53 (or 2^-1074 absolute): widening by 4 ulp is outward. Denominators too large for doubles leave the plane
+ * [FLT-SCALE]. */
 void dyd_scale_to_user(dyd_bbox *box, const dyd_scale_set *s) {
   double l = mpz_get_d(s->lcm);
   if (l == 1) return;
   for (int k = 0; k < 4; k++) {
     double x = box->e[k] / l, out = k & 1 ? INFINITY : -INFINITY;
     x += (k & 1 ? 1 : -1) * 4 * 0x1p-52 * fabs(x);
-    box->e[k] = isnan(x) ? out : nextafter(x, out);
+    box->e[k] = isnan(x) || !isfinite(l) ? out : nextafter(x, out);
   }
 }
