@@ -166,11 +166,12 @@ static bool is_legal(const closing *c, uint32_t k, uint32_t l) {
 static dyd_status flip(closing *c, uint32_t i, uint32_t j, uint32_t k, uint32_t l) {
   uint32_t ghost = c->out->vertices;
   const uint32_t *v = c->out->vertex;
+  const uint32_t hint[2] = {i == ghost ? DYD_NONE : v[i], j == ghost ? DYD_NONE : v[j]};
   bool possible = true;
   if (k == ghost || l == ghost || dyd_pair_map_get(&c->map, k, l) != DYD_PAIR_UNKNOWN) return DYD_OK;
   if (i != ghost && j != ghost && dyd_surely_not_displaced(c->pd, v[i], v[j], v[k], v[l])) return DYD_OK;
-  if (!dyd_surely_possible(c->pd, v[k], v[l], i == ghost ? DYD_NONE : v[i], j == ghost ? DYD_NONE : v[j])) {
-    dyd_status st = dyd_cover_possible(&possible, c->w, c->pd, v[k], v[l]);
+  if (!dyd_surely_possible(c->pd, v[k], v[l], hint[0], hint[1])) {
+    dyd_status st = dyd_cover_possible(&possible, c->w, c->pd, v[k], v[l], hint);
     if (st != DYD_OK) return st;
   }
   return add(c, k, l, !possible ? DYD_PAIR_IMPOSSIBLE : is_legal(c, k, l) ? DYD_PAIR_CERTAIN : DYD_PAIR_OPEN);

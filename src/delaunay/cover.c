@@ -33,6 +33,7 @@ typedef struct walk {
   dyd_work *w;
   dyd_delaunay *pd;
   uint32_t i, j;
+  const uint32_t *hint; /* two vertices asked before all others */
   int axis;
   int end;          /* -1, 1: at infinity; 0: at the circle w->here */
   uint32_t blocker; /* of the current place, DYD_NONE: nobody found */
@@ -114,10 +115,19 @@ static bool blocks_end(void *context, uint32_t v) {
   return false;
 }
 
+/* Asks the two hints first; true if one of them blocks. */
+static bool ask_hints(walk *k, dyd_visit blocks) {
+  for (int q = 0; q < 2; q++)
+    if (k->hint[q] != DYD_NONE && !blocks(k, k->hint[q])) return true;
+  return false;
+}
+
 static void ask_end(walk *k, int end) {
   double u[2];
   k->end = end;
   k->blocker = DYD_NONE;
+  tangent(k);
+  if (ask_hints(k, blocks_end)) return;
   tangent(k);
   dyd_direction_d(u, k->w->u[0], k->w->u[1]);
   double a = dyd_height_lower(k->pd, u[0], u[1], &k->pd->box[k->i]);
@@ -146,6 +156,7 @@ static void ask_circle(walk *k) {
   dyd_icircle_centre_d(k->centre.e, &k->w->here, dyd_scale_shift(&k->w->set));
   dyd_scale_to_user(&k->centre, &k->w->set);
   k->bound = k->pd->options.no_filter ? INFINITY : dyd_pair_ds2_upper(k->pd, &k->centre, k->i, k->j);
+  if (ask_hints(k, blocks_circle)) return;
   dyd_tree_near(&k->pd->tree, &k->centre, &k->bound, blocks_circle, k);
 }
 
@@ -174,8 +185,10 @@ static bool start(walk *k) {
   return member(&q, k, k->i) && member(&q, k, k->j);
 }
 
-dyd_status dyd_cover_possible(bool *possible, dyd_work *w, dyd_delaunay *pd, uint32_t i, uint32_t j) {
-  walk k = {.w = w, .pd = pd, .i = i, .j = j, .end = -1, .blocker = DYD_NONE, .last = DYD_NONE, .status = DYD_OK};
+dyd_status dyd_cover_possible(bool *possible, dyd_work *w, dyd_delaunay *pd, uint32_t i, uint32_t j,
+                              const uint32_t hint[2]) {
+  walk k = {.w = w, .pd = pd, .i = i, .j = j, .hint = hint, .end = -1, .status = DYD_OK};
+  k.blocker = k.last = DYD_NONE;
   *possible = true;
   if (!start(&k)) return k.status;
   const dyd_irect *a = &w->set.rect[0], *b = &w->set.rect[1];

@@ -16,8 +16,10 @@ typedef struct dyd_work {
 void dyd_work_init(dyd_work *w, const dyd_delaunay *pd);
 void dyd_work_clear(dyd_work *w);
 
-/* *possible: is the pair of vertices i, j possible [POS-1]? Exact. */
-dyd_status dyd_cover_possible(bool *possible, dyd_work *w, dyd_delaunay *pd, uint32_t i, uint32_t j);
+/* *possible: is the pair of vertices i, j possible [POS-1]? Exact. hint: two vertices that are likely to block it
+ * (DYD_NONE: no idea); they only save steps. */
+dyd_status dyd_cover_possible(bool *possible, dyd_work *w, dyd_delaunay *pd, uint32_t i, uint32_t j,
+                              const uint32_t hint[2]);
 /* A quick certificate that ij is possible: a centre in doubles with nobody surely nearer. false: not known. */
 bool dyd_possible_at(const dyd_delaunay *pd, uint32_t i, uint32_t j, dyd_xy centre);
 
