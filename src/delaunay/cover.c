@@ -3,11 +3,12 @@
  *
  * R_i and R_j disjoint are separated by a vertical or a horizontal line; say vertical, i on the left. Then ds_i^2 -
  * ds_j^2 increases strictly with x, from -inf to inf, so beta = {ds_i = ds_j} is a graph over the axis t = y [BETA-1],
- * and only centres on beta (or at its two ends at infinity, the directions of the outer common tangents) matter. Each
- * other k blocks the open interval of beta where dl_k < ds_i; its finite ends are critical circles
- * closest-closest-farthest of (i, j, k). A k that meets R_i or R_j never blocks: a common point is nearer than ds. The
- * walk starts at t = -inf: nobody blocks there: possible. Else it goes to the far end of a blocker's interval, asks who
- * blocks there; nobody: possible; no far end: beta is covered, the pair is illegal [COV-1]. */
+ * and only centres on beta (or at its two ends at infinity, the directions of the outer common tangents) matter: moving
+ * c towards the farther rectangle keeps the inequality. Each other k blocks the open part of beta where dl_k < ds_i,
+ * one interval or two rays; its finite ends are critical circles closest-closest-farthest of (i, j, k). A k that meets
+ * R_i or R_j never blocks: a common point is no nearer than ds. The walk starts at t = -inf: nobody blocks there:
+ * possible. Else it goes to the far end of a blocker's interval, asks who blocks there; nobody: possible; no far end:
+ * beta is covered, the pair is illegal [COV-1]. */
 #include "delaunay/cover.h"
 
 #include "delaunay/filter_possible.h"

@@ -11,9 +11,13 @@
 
 #include <string.h>
 
+/* Links between pairs are 32-bit numbers, two for each. */
+#define MOST_PAIRS ((size_t)1 << 30)
+
 static void set_options(dyd_delaunay *pd, const dyd_delaunay_options *options) {
   pd->options = options ? *options : (dyd_delaunay_options){0};
   pd->max_pairs = pd->options.max_pairs ? pd->options.max_pairs : 4000000 + 16 * (size_t)pd->n;
+  if (pd->max_pairs > MOST_PAIRS) pd->max_pairs = MOST_PAIRS;
 }
 
 static dyd_status finish(dyd_delaunay *pd, dyd_status st, dyd_error *err) {

@@ -9,6 +9,7 @@
 #define DYD_DELAUNAY_FILTER_DISTANCE_H
 
 #include <float.h>
+#include <math.h>
 
 /* xlo, xhi, ylo, yhi. */
 typedef struct dyd_bbox {
@@ -50,8 +51,11 @@ static inline double dyd_dl2_upper(const dyd_bbox *c, const dyd_bbox *b) {
 /* Upper bound of ds^2 for the rectangle: the outward box is at most as far as the rectangle, so this needs the inner
  * side: `slack` bounds by how much an end of the box may lie outside the rectangle. */
 static inline double dyd_ds2_upper(const dyd_bbox *c, const dyd_bbox *b, double slack) {
-  double dx = dyd_max(dyd_max(b->e[0] - c->e[0], c->e[1] - b->e[1]) + slack, 0);
-  double dy = dyd_max(dyd_max(b->e[2] - c->e[2], c->e[3] - b->e[3]) + slack, 0);
+  double dx = dyd_max(b->e[0] - c->e[0], c->e[1] - b->e[1]) + slack;
+  double dy = dyd_max(b->e[2] - c->e[2], c->e[3] - b->e[3]) + slack;
+  if (!(dx <= DBL_MAX && dy <= DBL_MAX)) return HUGE_VAL; /* infinite ends, or NaN of them */
+  dx = dyd_max(dx, 0);
+  dy = dyd_max(dy, 0);
   return dyd_upper(dx * dx + dy * dy);
 }
 

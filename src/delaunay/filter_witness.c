@@ -7,6 +7,7 @@
 #include "delaunay/filter_witness.h"
 
 #include "delaunay/filter_lp.h"
+#include "delaunay/filter_possible.h"
 
 #include <math.h>
 
@@ -22,7 +23,9 @@ typedef struct quick {
   int rivals;
   dyd_cut cut[DYD_LP_CUTS];
   size_t cuts;
-  double size; /* of the coordinates met */
+  double size;  /* of the coordinates met */
+  double slack; /* by how much boxes of the pair are wider than their rectangles */
+  bool coarse;  /* some half-plane depends on that */
 } quick;
 
 /* Keeps the nearest ones. */
@@ -59,11 +62,12 @@ static double nearest(double c, double lo, double hi) {
 
 /* The half-plane nearer to the far corner of `own` than to the nearest point of `other`, relative to c; false: they
  * touch. */
-static bool add_cut(quick *q, dyd_xy c, const dyd_bbox *own, const dyd_bbox *other) {
+static bool add_cut(quick *q, dyd_xy c, const dyd_bbox *own, const dyd_bbox *other, double slack) {
   double sx = farther_end(c.x, own->e[0], own->e[1]), sy = farther_end(c.y, own->e[2], own->e[3]);
   double qx = nearest(c.x, other->e[0], other->e[1]), qy = nearest(c.y, other->e[2], other->e[3]);
   double ax = sx - qx, ay = sy - qy, length = hypot(ax, ay);
   if (!(length > 0)) return false;
+  if (slack > length * 0x1p-44) q->coarse = true;
   if (q->cuts == DYD_LP_CUTS) return true;
   dyd_cut *k = &q->cut[q->cuts++];
   k->nx = ax / length;
@@ -76,7 +80,9 @@ static bool add_cut(quick *q, dyd_xy c, const dyd_bbox *own, const dyd_bbox *oth
 static bool add_cuts(quick *q, dyd_xy c) {
   for (int k = 0; k < q->rivals; k++) {
     const dyd_bbox *other = &q->pd->box[q->rival[k]];
-    if (!add_cut(q, c, &q->pd->box[q->i], other) || !add_cut(q, c, &q->pd->box[q->j], other)) return false;
+    double slack = dyd_max(q->slack, dyd_box_slack(q->pd, q->rival[k]));
+    if (!add_cut(q, c, &q->pd->box[q->i], other, slack) || !add_cut(q, c, &q->pd->box[q->j], other, slack))
+      return false;
   }
   return true;
 }
@@ -90,7 +96,7 @@ static dyd_truth move(quick *q, dyd_xy *c) {
     r = dyd_lp_centre(q->cut, q->cuts, bound * scale);
     if (r.z > 0 || r.bounded) break;
   }
-  if (r.bounded && r.z < -1e-9 * r.active - noise) return DYD_FALSE;
+  if (r.bounded && r.z < -1e-9 * r.active - noise) return q->coarse ? DYD_UNKNOWN : DYD_FALSE;
   if (!(r.z > noise) || !isfinite(r.x) || !isfinite(r.y)) return DYD_UNKNOWN;
   dyd_xy next = {c->x + r.x, c->y + r.y};
   double dx = next.x - c->x, dy = next.y - c->y;
@@ -102,6 +108,7 @@ static dyd_truth move(quick *q, dyd_xy *c) {
 dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_delaunay *pd, uint32_t i, uint32_t j) {
   quick q = {.pd = pd, .i = i, .j = j};
   if (!isfinite(c->x) || !isfinite(c->y)) return DYD_UNKNOWN;
+  q.slack = dyd_max(dyd_box_slack(pd, i), dyd_box_slack(pd, j));
   for (int step = 0; step < STEPS; step++) {
     evaluate(&q, *c);
     if (!isfinite(q.bound)) return DYD_UNKNOWN;

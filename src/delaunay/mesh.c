@@ -213,6 +213,7 @@ void dyd_mesh_trim(dyd_mesh *m) {
   free(m->stack);
   free(m->spare);
   m->fixed = NULL;
+  m->exact_s = -1;
   m->no_fixed = true; /* later questions are few, and the grid would cost O(n) */
   m->stack = m->spare = NULL;
   m->stack_cap = m->spare_cap = 0;
