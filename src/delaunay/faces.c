@@ -280,16 +280,61 @@ static void compact(dyd_face_table *f) {
   f->pair_cap = f->live_pairs;
 }
 
+/* A face numbered at least `from` and below `to` that lists p, shown or hidden, and where; NULL: none. */
+static dyd_vertex_pair *listed(dyd_face **owner, const dyd_delaunay *pd, dyd_vertex_pair p, size_t from, size_t to) {
+  const dyd_face_table *f = &pd->faces;
+  uint32_t first = pd->corner[p.i], h = first;
+  do {
+    uint32_t g = f->of[h >> 2];
+    dyd_vertex_pair *at = g != DYD_NONE && g >= from && g < to ? find_pair(f, &f->face[g], p) : NULL;
+    if (at) {
+      *owner = &f->face[g];
+      return at;
+    }
+    h = dyd_turn(&pd->mesh, h);
+  } while (h != first);
+  return NULL;
+}
+
+static void delete_pair(dyd_face_table *f, dyd_face *face, dyd_vertex_pair *at) {
+  dyd_vertex_pair *end = f->pair + face->first_pair + face->pairs;
+  hide(face, at, false);
+  memmove(at, at + 1, (size_t)(end - at - 1) * sizeof *at);
+  face->pairs--;
+  f->live_pairs--;
+}
+
+/* A pair of the face replaced that a face before `fresh` lists, but none of the new ones, may have become impossible by
+ * what changed here. */
+static dyd_status recheck_shared(dyd_delaunay *pd, dyd_work *w, const dyd_face *old, size_t fresh) {
+  static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
+  dyd_face_table *f = &pd->faces;
+  dyd_status st = DYD_OK;
+  if (f->count == 0 || (old->polygon && f->others == 0)) return st;
+  for (uint32_t q = 0; q < old->pairs && st == DYD_OK; q++) {
+    dyd_vertex_pair p = f->pair[old->first_pair + q], *at;
+    dyd_face *owner = NULL;
+    bool possible = true;
+    if (!listed(&owner, pd, p, 0, fresh) || listed(&owner, pd, p, fresh, f->count)) continue;
+    st = dyd_cover_possible(&possible, w, pd, p.i, p.j, no_hint);
+    while (!possible && (at = listed(&owner, pd, p, 0, fresh))) delete_pair(f, owner, at);
+  }
+  return st;
+}
+
 dyd_status dyd_faces_replace(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count) {
   dyd_face_table *f = &pd->faces;
   uint32_t g = f->of[tri[0]];
   dyd_face old = f->face[g];
   take_out(pd, g);
+  size_t fresh = f->count;
   dyd_status st = dyd_faces_find(pd, w, tri, count);
-  if (st != DYD_OK)
+  if (st != DYD_OK) {
     put_back(pd, &old);
-  else
-    compact(f);
+    return st;
+  }
+  st = recheck_shared(pd, w, &old, fresh);
+  compact(f);
   return st;
 }
 
