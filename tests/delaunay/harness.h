@@ -39,11 +39,15 @@ dyd_delaunay *harness_engine(char *message, const dyd_sites *s, const dyd_delaun
 /* The floor documented in delaunay/witness.h is about 2^-30 of the distances concerned; some slack for "about". */
 #define FLOOR_BITS 24
 
+/* Is the pair legal, with less room for witnesses than the floor asks for? Counts it as a hairline. */
+bool is_hairline(harness *h, const orc_case *c, uint32_t i, uint32_t j);
 /* All statuses of the engine against the oracle's. A legal pair may be called indeterminate only if its
  * witnesses have no room above the floor and not all sites are points. */
 bool same_as_oracle(char *message, harness *h, const orc_case *c, const orc_table *t, const dyd_delaunay *pd);
-/* All statuses of two engines. */
-bool same_statuses(char *message, const dyd_delaunay *a, const dyd_delaunay *b, size_t n);
+/* All statuses of two engines; hairlines may differ. */
+bool same_statuses(char *message, harness *h, const orc_case *c, const dyd_delaunay *a, const dyd_delaunay *b);
+/* Two statuses of one pair of the case: equal, or one is legal, one indeterminate and the pair a hairline. */
+bool same_status(harness *h, const orc_case *c, uint32_t i, uint32_t j, int s, int t);
 /* Pairs, neighbours, counts, faces, aliases, hull against dyd_delaunay_status. */
 bool queries_agree(char *message, const orc_case *c, const dyd_delaunay *pd);
 /* The sure triangles against the definition. */

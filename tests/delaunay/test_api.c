@@ -7,7 +7,7 @@
 #include <cmocka.h>
 #include <string.h>
 
-static orc_pool pool;
+static harness shared;
 
 static dyd_delaunay *engine(const dyd_sites *s) {
   char message[MESSAGE_SIZE] = "";
@@ -330,16 +330,15 @@ static void test_counters(void **state) {
 static void test_pure(void **state) {
   (void)state;
   char message[MESSAGE_SIZE] = "";
-  test_random r = test_random_start("api");
   orc_case c;
   orc_case_init(&c);
   for (size_t kind = 0; kind < ORC_KINDS; kind++) {
-    orc_generate(&c, &r, kind, 9);
+    orc_generate(&c, &shared.random, kind, 9);
     dyd_sites *s = harness_sites(&c);
     dyd_delaunay *a = engine(s), *b = engine(s);
-    must(same_statuses(message, a, b, c.n), message);
+    must(same_statuses(message, &shared, &c, a, b), message);
     must(queries_agree(message, &c, a), message);
-    must(witnesses_hold(message, &pool, &c, b), message);
+    must(witnesses_hold(message, &shared.pool, &c, b), message);
     dyd_delaunay_free(a);
     must(queries_agree(message, &c, b), message);
     dyd_delaunay_free(b);
@@ -355,8 +354,8 @@ int main(void) {
                                      cmocka_unit_test(test_aliases),       cmocka_unit_test(test_cap),
                                      cmocka_unit_test(test_cap_dissolves), cmocka_unit_test(test_cancel),
                                      cmocka_unit_test(test_counters),      cmocka_unit_test(test_pure)};
-  orc_pool_init(&pool);
+  harness_init(&shared, "api");
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
-  orc_pool_clear(&pool);
+  harness_clear(&shared);
   return failed;
 }

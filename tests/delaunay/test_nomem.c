@@ -117,7 +117,7 @@ static bool narrow_some(char *message, harness *h, dyd_sites *s, orc_case *now, 
 }
 
 /* The update with every allocation failing once, repeated until it succeeds; then it equals a fresh run. */
-static bool update_fails_well(char *message, const dyd_sites *s, dyd_delaunay *pd, const orc_case *now,
+static bool update_fails_well(char *message, harness *h, const dyd_sites *s, dyd_delaunay *pd, const orc_case *now,
                               const uint32_t *changed, size_t count) {
   snapshot was;
   take(was, pd, now->n);
@@ -134,7 +134,7 @@ static bool update_fails_well(char *message, const dyd_sites *s, dyd_delaunay *p
     if (!not_retracted(message, was, now, pd)) return false;
   }
   dyd_delaunay *fresh = harness_engine(message, s, NULL);
-  bool good = fresh && same_statuses(message, pd, fresh, now->n) && queries_agree(message, now, pd);
+  bool good = fresh && same_statuses(message, h, now, pd, fresh) && queries_agree(message, now, pd);
   dyd_delaunay_free(fresh);
   return good;
 }
@@ -153,7 +153,7 @@ static bool check(char *message, harness *h, const orc_case *c) {
   good = pd && queries_fail_well(message, pd);
   for (size_t step = 0; step < 2 && good; step++)
     good = narrow_some(message, h, s, &now, &target, changed, &count) &&
-           update_fails_well(message, s, pd, &now, changed, count);
+           update_fails_well(message, h, s, pd, &now, changed, count);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);
   orc_case_clear(&target);
@@ -211,7 +211,7 @@ static bool cancelled_update(char *message, harness *h, const dyd_sites *s, dyd_
     if (status != DYD_OK) return wrong(message, "update after cancelling gives %d", status);
   }
   dyd_delaunay *fresh = harness_engine(message, s, NULL);
-  bool good = fresh && same_statuses(message, pd, fresh, now->n);
+  bool good = fresh && same_statuses(message, h, now, pd, fresh);
   dyd_delaunay_free(fresh);
   return good;
 }
