@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Hundreds of sites with integer corners: exact points against the definition, rectangles against choices, and
- * refinement from the one to the other [POS-1] [LEG-1]. */
+ * refinement from the one to the other [POS-1] [LEG-1] [CLO-1] [TIE-1] [WIT-NEAR] [WIT-HULL] [FLT-STAR] [FLT-ORI]
+ * [FLT-INC] [FLT-SMALL] [FIX-1]. */
 #include <setjmp.h>
 #include <stdarg.h>
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* All configurations on a tiny grid, in a shuffled order of which a part is run: the n rectangles with corners on
- * {0,1,2}^2 (36 each), and the points of a 3 by 3 and a 4 by 4 grid, with repeats. */
+ * {0,1,2}^2 (36 each), and the points of a 3 by 3 and a 4 by 4 grid, with repeats [COV-1] [CLO-1] [CLO-2] [LINE-1]
+ * [TIE-1] [HUL-1] [HUL-2] [FLT-SMALL] [FIX-1]. */
 #include <setjmp.h>
 #include <stdarg.h>
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The cases that a naive reading gets wrong (mathematics: section 10), with their statuses as literal tables.
  *
- * A table has one word per site i, one letter per j > i: L legal, ? indeterminate, t tie, . illegal. */
+ * A table has one word per site i, one letter per j > i: L legal, ? indeterminate, t tie, . illegal. Cocircular sites
+ * [CLO-2], pairs whose witnesses are far out [HUL-3], exponents far apart [FLT-DST]. */
 #include <setjmp.h>
 #include <stdarg.h>
 
