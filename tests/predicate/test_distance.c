@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Comparison of distances, the quad rule [QUAD-1], its hulls [HULL-1] and the cases of mathematics.md, section 10, about them. */
+/* Comparison of distances, the quad rule [QUAD-1], its hulls [HULL-1] and the cases of mathematics.md, section 10,
+ * about them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
