@@ -102,6 +102,11 @@ uint32_t dyd_find_edge(const dyd_delaunay *pd, uint32_t v, uint32_t w) {
   return DYD_NONE;
 }
 
+bool dyd_is_legal(const dyd_delaunay *pd, uint32_t v, uint32_t w) {
+  uint32_t h = dyd_find_edge(pd, v, w);
+  return h != DYD_NONE && dyd_edge_is_certain(pd, h >> 2, dyd_prev(h & 3));
+}
+
 static void mark_known(dyd_delaunay *pd, dyd_known known) {
   for (size_t q = 0; q < known.count; q++) {
     uint32_t v = pd->vertex[known.pair[q].i], w = pd->vertex[known.pair[q].j];

@@ -18,4 +18,7 @@ void dyd_build_clear(dyd_delaunay *pd);
  * w may be the ghost. */
 uint32_t dyd_find_edge(const dyd_delaunay *pd, uint32_t v, uint32_t w);
 
+/* Are v and w (not the ghost) joined by a certain edge of the skeleton? */
+bool dyd_is_legal(const dyd_delaunay *pd, uint32_t v, uint32_t w);
+
 #endif

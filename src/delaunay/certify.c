@@ -20,7 +20,7 @@ static int beyond_sign(dyd_delaunay *pd, uint32_t t, unsigned k) {
   return dyd_mesh_incircle(m, v[0], v[1], v[2], m->tri[twin >> 2].v[twin & 3]);
 }
 
-static bool point_edge_is_certain(dyd_delaunay *pd, uint32_t t, unsigned k) {
+bool dyd_point_edge_is_certain(dyd_delaunay *pd, uint32_t t, unsigned k) {
   uint32_t twin = pd->mesh.tri[t].n[k];
   bool here = dyd_mesh_is_ghost(&pd->mesh, t), there = dyd_mesh_is_ghost(&pd->mesh, twin >> 2);
   if (here != there) return true; /* a hull edge */
@@ -42,7 +42,7 @@ static void certify_points(dyd_delaunay *pd) {
   if (pd->mesh.ties == 0) memset(pd->certain, 7, pd->mesh.count);
   for (uint32_t t = 0; t < pd->mesh.count; t++)
     for (unsigned k = 0; k < 3; k++)
-      if (pd->mesh.tri[t].n[k] > 4 * t + k && !dyd_edge_is_certain(pd, t, k) && point_edge_is_certain(pd, t, k))
+      if (pd->mesh.tri[t].n[k] > 4 * t + k && !dyd_edge_is_certain(pd, t, k) && dyd_point_edge_is_certain(pd, t, k))
         dyd_set_certain(pd, t, k);
   pd->counters.witness_guess += certain_real_edges(pd);
 }

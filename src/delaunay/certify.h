@@ -9,6 +9,9 @@
 dyd_status dyd_certify_all(dyd_delaunay *pd, dyd_work *w);
 /* Decides edge k of triangle t, by witness or hull test, and marks it. */
 dyd_status dyd_certify_edge(dyd_delaunay *pd, dyd_work *w, uint32_t t, unsigned k);
+/* Edge k of t, in a face (or a whole) of exact points bounded by certain edges: legal iff not cocircular, a hull edge
+ * always, a ghost edge iff its vertex is not on the line of its neighbours [TIE-2]. Exact. */
+bool dyd_point_edge_is_certain(dyd_delaunay *pd, uint32_t t, unsigned k);
 /* The middle of the skeleton's Voronoi edge of edge k of t, in doubles; NaN or far off is possible. */
 dyd_xy dyd_edge_centre(const dyd_delaunay *pd, uint32_t t, unsigned k);
 /* The quick pass in doubles over all vertices: marks edges whose first guess is proved a witness [FLT-STAR]. */

@@ -30,17 +30,6 @@ typedef struct closing {
   bool full;
 } closing;
 
-static int compare_index(const void *a, const void *b) {
-  uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-  return (x > y) - (x < y);
-}
-
-static int compare_pair(const void *a, const void *b) {
-  const dyd_vertex_pair *x = a, *y = b;
-  if (x->i != y->i) return x->i < y->i ? -1 : 1;
-  return (x->j > y->j) - (x->j < y->j);
-}
-
 static dyd_status gather_vertices(closing *c) {
   const dyd_mesh *m = &c->pd->mesh;
   dyd_closure *out = c->out;
@@ -55,7 +44,7 @@ static dyd_status gather_vertices(closing *c) {
       else
         out->vertex[count++] = v;
     }
-  qsort(out->vertex, count, sizeof *out->vertex, compare_index);
+  qsort(out->vertex, count, sizeof *out->vertex, dyd_compare_index);
   out->all_points = true;
   for (uint32_t q = 0; q < count; q++) {
     if (out->vertices && out->vertex[out->vertices - 1] == out->vertex[q]) continue;
@@ -67,7 +56,7 @@ static dyd_status gather_vertices(closing *c) {
 
 static uint32_t member_of(const closing *c, uint32_t v) {
   if (v == c->pd->mesh.n) return c->out->vertices;
-  const uint32_t *p = bsearch(&v, c->out->vertex, c->out->vertices, sizeof v, compare_index);
+  const uint32_t *p = bsearch(&v, c->out->vertex, c->out->vertices, sizeof v, dyd_compare_index);
   return (uint32_t)(p - c->out->vertex);
 }
 
@@ -156,12 +145,6 @@ static dyd_status start(closing *c) {
   return st == DYD_OK ? start_ghost(c) : st;
 }
 
-/* Is the pair a legal edge of the skeleton, on the other side of this face's rim? */
-static bool is_legal(const closing *c, uint32_t k, uint32_t l) {
-  uint32_t h = dyd_find_edge(c->pd, c->out->vertex[k], c->out->vertex[l]);
-  return h != DYD_NONE && dyd_edge_is_certain(c->pd, h >> 2, dyd_prev(h & 3));
-}
-
 /* The pair kl may take the place of ij: decide it, once. */
 static dyd_status flip(closing *c, uint32_t i, uint32_t j, uint32_t k, uint32_t l) {
   uint32_t ghost = c->out->vertices;
@@ -174,7 +157,10 @@ static dyd_status flip(closing *c, uint32_t i, uint32_t j, uint32_t k, uint32_t 
     dyd_status st = dyd_cover_possible(&possible, c->w, c->pd, v[k], v[l], hint);
     if (st != DYD_OK) return st;
   }
-  return add(c, k, l, !possible ? DYD_PAIR_IMPOSSIBLE : is_legal(c, k, l) ? DYD_PAIR_CERTAIN : DYD_PAIR_OPEN);
+  return add(c, k, l,
+             !possible                         ? DYD_PAIR_IMPOSSIBLE
+             : dyd_is_legal(c->pd, v[k], v[l]) ? DYD_PAIR_CERTAIN
+                                               : DYD_PAIR_OPEN);
 }
 
 static bool possible(const closing *c, uint32_t a, uint32_t b) {
@@ -259,7 +245,7 @@ dyd_status dyd_closure_run(dyd_closure *out, dyd_delaunay *pd, dyd_work *w, cons
   }
   if (st == DYD_OK && (c.full || out->pairs > room)) st = skeleton_pairs(&c);
   bool sorted = out->polygon && !out->capped; /* all_pairs goes in order */
-  if (st == DYD_OK && out->pairs && !sorted) qsort(out->pair, out->pairs, sizeof *out->pair, compare_pair);
+  if (st == DYD_OK && out->pairs && !sorted) qsort(out->pair, out->pairs, sizeof *out->pair, dyd_compare_vertex_pair);
   dyd_pair_map_clear(&c.map);
   if (st != DYD_OK) dyd_closure_clear(out);
   return st;

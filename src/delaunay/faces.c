@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "delaunay/build.h"
+#include "delaunay/certify.h"
 #include "delaunay/closure.h"
 
 #include <string.h>
@@ -86,14 +87,8 @@ static void take_back(dyd_delaunay *pd, size_t first_tri) {
 
 /* ---- one face for each pair: where the skeleton has it, else in a polygon, else where it was found first ---- */
 
-static int compare_pair(const void *a, const void *b) {
-  const dyd_vertex_pair *x = a, *y = b;
-  if (x->i != y->i) return x->i < y->i ? -1 : 1;
-  return (x->j > y->j) - (x->j < y->j);
-}
-
 static dyd_vertex_pair *find_pair(const dyd_face_table *f, const dyd_face *face, dyd_vertex_pair p) {
-  return face->pairs ? bsearch(&p, f->pair + face->first_pair, face->pairs, sizeof p, compare_pair) : NULL;
+  return face->pairs ? bsearch(&p, f->pair + face->first_pair, face->pairs, sizeof p, dyd_compare_vertex_pair) : NULL;
 }
 
 /* The face inside which the skeleton has the pair as an uncertain edge, or DYD_NONE. */
@@ -139,14 +134,15 @@ static void share_out(dyd_delaunay *pd, uint32_t self) {
   dyd_face *face = &f->face[self], *other = NULL;
   if (shares_nothing(f, face)) return;
   for (uint32_t q = 0; q < face->pairs; q++) {
-    dyd_vertex_pair *p = &f->pair[face->first_pair + q], *there = elsewhere(&other, pd, self, *p, false);
-    if (!there || p->hidden) continue;
-    uint32_t home = skeleton_face(pd, *p);
-    bool mine = home == self || (home == DYD_NONE && face->polygon && !other->polygon);
-    if (mine)
-      hide(other, there, true);
-    else
-      hide(face, p, true);
+    dyd_vertex_pair *p = &f->pair[face->first_pair + q], *there;
+    while (!p->hidden && (there = elsewhere(&other, pd, self, *p, false))) {
+      uint32_t home = skeleton_face(pd, *p);
+      bool mine = home == self || (home == DYD_NONE && face->polygon && !other->polygon);
+      if (mine)
+        hide(other, there, true);
+      else
+        hide(face, p, true);
+    }
   }
 }
 
@@ -174,7 +170,7 @@ static bool tied_quad(dyd_closure *c, dyd_vertex_pair pair[2], const dyd_delauna
   uint32_t a = t->v[dyd_next(k)], b = t->v[dyd_prev(k)], u = t->v[k], v = m->tri[t->n[k] >> 2].v[t->n[k] & 3];
   pair[0] = a < b ? (dyd_vertex_pair){.i = a, .j = b} : (dyd_vertex_pair){.i = b, .j = a};
   pair[1] = u < v ? (dyd_vertex_pair){.i = u, .j = v} : (dyd_vertex_pair){.i = v, .j = u};
-  if (compare_pair(&pair[0], &pair[1]) > 0) {
+  if (dyd_compare_vertex_pair(&pair[0], &pair[1]) > 0) {
     dyd_vertex_pair swap = pair[0];
     pair[0] = pair[1];
     pair[1] = swap;
@@ -183,19 +179,72 @@ static bool tied_quad(dyd_closure *c, dyd_vertex_pair pair[2], const dyd_delauna
   return true;
 }
 
+static bool is_all_points(const dyd_delaunay *pd, const uint32_t *tri, size_t tris) {
+  for (size_t q = 0; q < tris && !pd->all_points; q++)
+    for (int k = 0; k < 3; k++) {
+      uint32_t v = pd->mesh.tri[tri[q]].v[k];
+      if (v != pd->mesh.n && !dyd_vertex_is_point(pd, v)) return false;
+    }
+  return true;
+}
+
+/* A face of exact points: the triangles at an edge inside are Delaunay triangles for every choice of all points, so the
+ * inside of their Voronoi edge consists of witnesses unless it is one point [TIE-2]. The search for witnesses may have
+ * missed some. *any: an edge has become certain. */
+static void settle_points(bool *any, dyd_delaunay *pd, const uint32_t *tri, size_t tris) {
+  *any = false;
+  if (pd->all_points || !is_all_points(pd, tri, tris)) return;
+  for (size_t q = 0; q < tris; q++)
+    for (unsigned k = 0; k < 3; k++)
+      if (!dyd_edge_is_certain(pd, tri[q], k) && dyd_point_edge_is_certain(pd, tri[q], k)) {
+        dyd_set_certain(pd, tri[q], k);
+        *any = true;
+      }
+}
+
+static dyd_status close_face(dyd_delaunay *pd, dyd_work *w, size_t first) {
+  dyd_face_table *f = &pd->faces;
+  dyd_vertex_pair pair[2];
+  dyd_closure c = {0};
+  dyd_status st = DYD_OK;
+  size_t room = pd->max_pairs > f->live_pairs ? pd->max_pairs - f->live_pairs : 0, tris = f->tri_count - first;
+  bool quad = room >= 2 && tied_quad(&c, pair, pd, f->tri + first, tris);
+  if (!quad) st = dyd_closure_run(&c, pd, w, f->tri + first, (uint32_t)tris, room);
+  if (st == DYD_OK) st = store(pd, &c, first);
+  pd->counters.faces++;
+  if (!quad) dyd_closure_clear(&c);
+  return st;
+}
+
+/* The faces among the triangles of one that has fallen apart. */
+static dyd_status find_parts(dyd_delaunay *pd, dyd_work *w, size_t first) {
+  dyd_face_table *f = &pd->faces;
+  size_t tris = f->tri_count - first;
+  uint32_t *tri = dyd_alloc(tris, sizeof *tri);
+  if (!tri) return DYD_E_NOMEM;
+  memcpy(tri, f->tri + first, tris * sizeof *tri);
+  take_back(pd, first);
+  dyd_status st = DYD_OK;
+  for (size_t q = 0; q < tris && st == DYD_OK; q++) {
+    if (!has_uncertain_edge(pd, tri[q]) || f->of[tri[q]] != DYD_NONE) continue;
+    size_t start = f->tri_count;
+    st = flood(pd, tri[q], (uint32_t)f->count);
+    if (st == DYD_OK) st = close_face(pd, w, start);
+    if (st != DYD_OK) take_back(pd, start);
+  }
+  free(tri);
+  return st;
+}
+
 static dyd_status find_face(dyd_delaunay *pd, dyd_work *w, uint32_t t) {
   dyd_face_table *f = &pd->faces;
   size_t first = f->tri_count;
-  dyd_vertex_pair pair[2];
-  dyd_closure c = {0};
+  bool apart = false;
   dyd_status st = flood(pd, t, (uint32_t)f->count);
-  size_t room = pd->max_pairs > f->live_pairs ? pd->max_pairs - f->live_pairs : 0;
-  bool quad = st == DYD_OK && room >= 2 && tied_quad(&c, pair, pd, f->tri + first, f->tri_count - first);
-  if (st == DYD_OK && !quad) st = dyd_closure_run(&c, pd, w, f->tri + first, (uint32_t)(f->tri_count - first), room);
-  if (st == DYD_OK) st = store(pd, &c, first);
-  pd->counters.faces++;
+  if (st == DYD_OK) settle_points(&apart, pd, f->tri + first, f->tri_count - first);
+  if (st == DYD_OK && apart) return find_parts(pd, w, first);
+  if (st == DYD_OK) st = close_face(pd, w, first);
   if (st != DYD_OK) take_back(pd, first);
-  if (!quad) dyd_closure_clear(&c);
   return st;
 }
 
@@ -304,8 +353,8 @@ static void delete_pair(dyd_face_table *f, dyd_face *face, dyd_vertex_pair *at) 
   f->live_pairs--;
 }
 
-/* A pair of the face replaced that a face before `fresh` lists, but none of the new ones, may have become impossible by
- * what changed here. */
+/* A pair of the face replaced that a face before `fresh` lists, but none of the new ones, may have become legal or
+ * impossible by what changed here. */
 static dyd_status recheck_shared(dyd_delaunay *pd, dyd_work *w, const dyd_face *old, size_t fresh) {
   static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
   dyd_face_table *f = &pd->faces;
@@ -316,8 +365,9 @@ static dyd_status recheck_shared(dyd_delaunay *pd, dyd_work *w, const dyd_face *
     dyd_face *owner = NULL;
     bool possible = true;
     if (!listed(&owner, pd, p, 0, fresh) || listed(&owner, pd, p, fresh, f->count)) continue;
-    st = dyd_cover_possible(&possible, w, pd, p.i, p.j, no_hint);
-    while (!possible && (at = listed(&owner, pd, p, 0, fresh))) delete_pair(f, owner, at);
+    bool legal = dyd_is_legal(pd, p.i, p.j);
+    if (!legal) st = dyd_cover_possible(&possible, w, pd, p.i, p.j, no_hint);
+    while ((legal || !possible) && (at = listed(&owner, pd, p, 0, fresh))) delete_pair(f, owner, at);
   }
   return st;
 }
@@ -338,11 +388,6 @@ dyd_status dyd_faces_replace(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri,
   return st;
 }
 
-static int compare_index(const void *a, const void *b) {
-  uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-  return (x > y) - (x < y);
-}
-
 dyd_status dyd_face_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, const dyd_face *f) {
   uint32_t *v = dyd_alloc(3 * (size_t)f->tris, sizeof *v);
   size_t all = 0, kept = 0;
@@ -352,7 +397,7 @@ dyd_status dyd_face_vertices(uint32_t **vertex, size_t *count, const dyd_delauna
       uint32_t w = pd->mesh.tri[pd->faces.tri[f->first_tri + q]].v[k];
       if (w != pd->mesh.n) v[all++] = w;
     }
-  qsort(v, all, sizeof *v, compare_index);
+  qsort(v, all, sizeof *v, dyd_compare_index);
   for (size_t q = 0; q < all; q++)
     if (kept == 0 || v[kept - 1] != v[q]) v[kept++] = v[q];
   *vertex = v;

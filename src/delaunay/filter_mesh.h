@@ -104,4 +104,11 @@ static inline bool dyd_filter_orient_small(int *sign, const dyd_mesh *m, dyd_xy 
   return true;
 }
 
+/* Circumcentre in doubles, a guess without a bound; NaN or infinite for collinear points. */
+static inline dyd_xy dyd_circumcentre(dyd_xy a, dyd_xy b, dyd_xy c) {
+  double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
+  double lb = bx * bx + by * by, lc = cx * cx + cy * cy, d = 2 * (bx * cy - by * cx);
+  return (dyd_xy){a.x + (cy * lb - by * lc) / d, a.y + (bx * lc - cx * lb) / d};
+}
+
 #endif

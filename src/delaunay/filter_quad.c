@@ -4,6 +4,8 @@
 #include "delaunay/filter_quad.h"
 
 #include "delaunay/cover.h"
+#include "delaunay/filter_mesh.h"
+#include "delaunay/filter_possible.h"
 #include "predicate/filter_predicate.h"
 
 static dyd_bbox hull_box(const dyd_bbox *a, const dyd_bbox *b) {
@@ -11,30 +13,20 @@ static dyd_bbox hull_box(const dyd_bbox *a, const dyd_bbox *b) {
       {dyd_min(a->e[0], b->e[0]), dyd_max(a->e[1], b->e[1]), dyd_min(a->e[2], b->e[2]), dyd_max(a->e[3], b->e[3])}};
 }
 
-static bool apart(const dyd_bbox *a, const dyd_bbox *b) {
-  return a->e[1] < b->e[0] || b->e[1] < a->e[0] || a->e[3] < b->e[2] || b->e[3] < a->e[2];
-}
-
 bool dyd_surely_not_displaced(const dyd_delaunay *pd, uint32_t i, uint32_t j, uint32_t k, uint32_t l) {
   const dyd_bbox *box = pd->box;
   if (pd->options.no_filter) return false;
   dyd_bbox ij = hull_box(&box[i], &box[j]), kl = hull_box(&box[k], &box[l]);
-  if (apart(&ij, &kl)) return true;
+  if (dyd_boxes_disjoint(&ij, &kl)) return true;
   dyd_sure turn = dyd_filter_orientation(box[i].e, box[j].e, box[k].e);
   if (turn == DYD_UNSURE) return false;
   return (int)dyd_filter_incircle(box[i].e, box[j].e, box[k].e, box[l].e) == -(int)turn;
 }
 
-static dyd_xy circumcentre(dyd_xy a, dyd_xy b, dyd_xy c) {
-  double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
-  double lb = bx * bx + by * by, lc = cx * cx + cy * cy, d = 2 * (bx * cy - by * cx);
-  return (dyd_xy){a.x + (cy * lb - by * lc) / d, a.y + (bx * lc - cx * lb) / d};
-}
-
 bool dyd_surely_possible(const dyd_delaunay *pd, uint32_t k, uint32_t l, uint32_t i, uint32_t j) {
   const dyd_xy *xy = pd->reps.xy;
   if (pd->options.no_filter || i == DYD_NONE || j == DYD_NONE) return false;
-  dyd_xy a = circumcentre(xy[k], xy[l], xy[i]), b = circumcentre(xy[k], xy[l], xy[j]);
+  dyd_xy a = dyd_circumcentre(xy[k], xy[l], xy[i]), b = dyd_circumcentre(xy[k], xy[l], xy[j]);
   dyd_xy middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
   return dyd_possible_at(pd, k, l, middle) || dyd_possible_at(pd, k, l, a) || dyd_possible_at(pd, k, l, b);
 }

@@ -12,6 +12,7 @@
  * Bounds: distances as in filter_distance.h; representatives that are not doubles are off by delta, E grows by 3 delta.
  * The centres need no bound: any double will do. Both ends of an edge use the same bits for c and rho. */
 #include "delaunay/certify.h"
+#include "delaunay/filter_mesh.h"
 
 #include "base/alloc.h"
 
@@ -28,12 +29,6 @@ typedef struct pass {
   dyd_tree fat;
 } pass;
 
-static dyd_xy circumcentre(dyd_xy a, dyd_xy b, dyd_xy c) {
-  double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
-  double lb = bx * bx + by * by, lc = cx * cx + cy * cy, d = 2 * (bx * cy - by * cx);
-  return (dyd_xy){a.x + (cy * lb - by * lc) / d, a.y + (bx * lc - cx * lb) / d};
-}
-
 /* Beyond the hull edge from a to b (the inside on the left) the middle of the Voronoi edge is taken one edge length
  * outside the inner centre o, or on the edge if o is far inside. */
 static dyd_xy ghost_centre(dyd_xy a, dyd_xy b, dyd_xy o) {
@@ -46,10 +41,10 @@ static dyd_xy ghost_centre(dyd_xy a, dyd_xy b, dyd_xy o) {
 
 static dyd_xy centre_of(const dyd_mesh *m, uint32_t t) {
   const uint32_t *v = m->tri[t].v;
-  if (!dyd_mesh_is_ghost(m, t)) return circumcentre(m->xy[v[0]], m->xy[v[1]], m->xy[v[2]]);
+  if (!dyd_mesh_is_ghost(m, t)) return dyd_circumcentre(m->xy[v[0]], m->xy[v[1]], m->xy[v[2]]);
   unsigned g = v[0] == m->n ? 0 : v[1] == m->n ? 1 : 2;
   const uint32_t *w = m->tri[m->tri[t].n[g] >> 2].v;
-  dyd_xy o = circumcentre(m->xy[w[0]], m->xy[w[1]], m->xy[w[2]]);
+  dyd_xy o = dyd_circumcentre(m->xy[w[0]], m->xy[w[1]], m->xy[w[2]]);
   return ghost_centre(m->xy[v[dyd_prev(g)]], m->xy[v[dyd_next(g)]], o);
 }
 

@@ -244,11 +244,6 @@ static void collect(collector *c, uint32_t i) {
     c->item[c->count++] = i;
 }
 
-static int compare_index(const void *a, const void *b) {
-  uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-  return (x > y) - (x < y);
-}
-
 /* Sorts, drops repeats, and hands over. */
 static dyd_status deliver(dyd_index_list *out, collector *c, bool sort) {
   if (c->status != DYD_OK) {
@@ -256,7 +251,7 @@ static dyd_status deliver(dyd_index_list *out, collector *c, bool sort) {
     return c->status;
   }
   size_t kept = 0;
-  if (sort && c->count) qsort(c->item, c->count, sizeof *c->item, compare_index);
+  if (sort && c->count) qsort(c->item, c->count, sizeof *c->item, dyd_compare_index);
   for (size_t q = 0; q < c->count; q++)
     if (!sort || kept == 0 || c->item[kept - 1] != c->item[q]) c->item[kept++] = c->item[q];
   dyd_index_list_clear(out);

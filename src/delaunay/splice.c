@@ -36,11 +36,6 @@ static int compare_rim(const void *a, const void *b) {
   return (x->b > y->b) - (x->b < y->b);
 }
 
-static int compare_index(const void *a, const void *b) {
-  uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-  return (x > y) - (x < y);
-}
-
 static rim *find_rim(const part *p, uint32_t a, uint32_t b) {
   rim key = {.a = a, .b = b};
   return p->rim_count ? bsearch(&key, p->rims, p->rim_count, sizeof key, compare_rim) : NULL;
@@ -77,7 +72,7 @@ static dyd_status gather_vertices(part *p) {
     for (int k = 0; k < 3; k++) p->sorted[count++] = m->tri[p->tri[q]].v[k];
   for (size_t q = 0; q < p->rim_count; q++)
     if (p->rims[q].beyond != DYD_NONE) p->sorted[count++] = m->tri[p->rims[q].beyond >> 2].v[p->rims[q].beyond & 3];
-  qsort(p->sorted, count, sizeof *p->sorted, compare_index);
+  qsort(p->sorted, count, sizeof *p->sorted, dyd_compare_index);
   for (uint32_t q = 0; q < count; q++) {
     uint32_t v = p->sorted[q];
     if (v != m->n && (p->vertices == 0 || p->sorted[p->vertices - 1] != v)) p->sorted[p->vertices++] = v;
@@ -94,7 +89,7 @@ static dyd_status gather_vertices(part *p) {
 
 static uint32_t to_local(const part *p, uint32_t v) {
   if (v == p->pd->mesh.n) return p->mesh.n;
-  const uint32_t *at = bsearch(&v, p->sorted, p->vertices, sizeof v, compare_index);
+  const uint32_t *at = bsearch(&v, p->sorted, p->vertices, sizeof v, dyd_compare_index);
   return p->local[at - p->sorted];
 }
 

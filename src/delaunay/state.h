@@ -82,6 +82,16 @@ static inline void dyd_set_certain(dyd_delaunay *pd, uint32_t t, unsigned k) {
 static inline bool dyd_vertex_is_point(const dyd_delaunay *pd, uint32_t v) {
   return dyd_sites_is_point(pd->sites, pd->reps.site[v]);
 }
+/* For qsort and bsearch: vertex or site numbers; pairs. */
+static inline int dyd_compare_index(const void *a, const void *b) {
+  uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+  return (x > y) - (x < y);
+}
+static inline int dyd_compare_vertex_pair(const void *a, const void *b) {
+  const dyd_vertex_pair *x = a, *y = b;
+  if (x->i != y->i) return x->i < y->i ? -1 : 1;
+  return (x->j > y->j) - (x->j < y->j);
+}
 /* Next triangle corner counter-clockwise around the vertex at corner h = 4 t + k. */
 static inline uint32_t dyd_turn(const dyd_mesh *m, uint32_t h) {
   uint32_t beyond = m->tri[h >> 2].n[dyd_next(h & 3)];
