@@ -372,14 +372,15 @@ static dyd_status recheck_shared(dyd_delaunay *pd, dyd_work *w, const dyd_face *
   return st;
 }
 
-dyd_status dyd_faces_replace(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count) {
+dyd_status dyd_faces_replace(bool *replaced, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count) {
   dyd_face_table *f = &pd->faces;
   uint32_t g = f->of[tri[0]];
   dyd_face old = f->face[g];
   take_out(pd, g);
   size_t fresh = f->count;
   dyd_status st = dyd_faces_find(pd, w, tri, count);
-  if (st != DYD_OK) {
+  *replaced = st == DYD_OK;
+  if (!*replaced) {
     put_back(pd, &old);
     return st;
   }

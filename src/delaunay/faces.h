@@ -8,8 +8,9 @@
 /* Finds and closes all undecided faces among the triangles tri[0..count-1] (NULL: all), whose marks are DYD_NONE, and
  * adds them to the table. On failure the faces added so far are taken back. */
 dyd_status dyd_faces_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count);
-/* Puts the faces found among the triangles of one face of the table in its place; on failure it stays. */
-dyd_status dyd_faces_replace(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count);
+/* Puts the faces found among the triangles of one face of the table in its place. *replaced: done, even if a failure
+ * afterwards left pairs of other faces listed that are impossible by now; otherwise the old face stays. */
+dyd_status dyd_faces_replace(bool *replaced, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count);
 void dyd_faces_clear(dyd_face_table *f);
 /* Vertices of a face, ascending; *vertex is owned by the caller. */
 dyd_status dyd_face_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, const dyd_face *f);

@@ -104,8 +104,9 @@ static dyd_status decide(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uin
   if (!before) return DYD_E_NOMEM;
   for (uint32_t q = 0; q < tris; q++) before[q] = pd->certain[tri[q]];
   dyd_status st = certify_inside(pd, w, tri, tris);
-  if (st == DYD_OK) st = dyd_faces_replace(pd, w, tri, tris);
-  if (st != DYD_OK) restore(pd, before, tri, tris);
+  bool replaced = false;
+  if (st == DYD_OK) st = dyd_faces_replace(&replaced, pd, w, tri, tris);
+  if (!replaced) restore(pd, before, tri, tris);
   free(before);
   return st;
 }
