@@ -98,6 +98,49 @@ void dyd_cut_add(dyd_cut_list *l, const dyd_point *c, const dyd_rect *own, const
   scaled_clear(&z);
 }
 
+bool dyd_cut_exactly(dyd_half_plane *h, const dyd_point *c, const dyd_rect *own, const dyd_rect *other) {
+  scaled z;
+  scaled_init(&z, c, own, other);
+  axis_part(&z, z.ax, z.c.x0, z.own.x0, z.own.x1, z.other.x0, z.other.x1);
+  mpz_set(h->c, z.s);
+  mpz_mul(h->c, h->c, h->c);
+  mpz_submul(h->c, z.q, z.q);
+  axis_part(&z, z.ay, z.c.y0, z.own.y0, z.own.y1, z.other.y0, z.other.y1);
+  mpz_addmul(h->c, z.s, z.s);
+  mpz_submul(h->c, z.q, z.q);
+  mpz_neg(h->c, h->c); /* |q|^2 - |s|^2 + 2 F (s - q).x > 0, F = factor * 2^factor_exp */
+  mpz_mul(h->a, z.ax, z.factor);
+  mpz_mul(h->b, z.ay, z.factor);
+  int64_t e = z.factor_exp + 1;
+  mpz_mul_2exp(h->a, h->a, (mp_bitcnt_t)(e > 0 ? e : 0));
+  mpz_mul_2exp(h->b, h->b, (mp_bitcnt_t)(e > 0 ? e : 0));
+  mpz_mul_2exp(h->c, h->c, (mp_bitcnt_t)(e < 0 ? -e : 0));
+  mpz_abs(h->w, h->a);
+  mpz_abs(z.t, h->b);
+  mpz_add(h->w, h->w, z.t);
+  bool differ = mpz_sgn(h->w) != 0;
+  scaled_clear(&z);
+  return differ;
+}
+
+/* floor(n 2^-e / d) 2^e */
+static dyd_status rounded(dyd_dyadic *out, const mpz_t n, const mpz_t d, int64_t e) {
+  mpz_t t, u;
+  mpz_inits(t, u, NULL);
+  mpz_mul_2exp(t, n, (mp_bitcnt_t)(e < 0 ? -e : 0));
+  mpz_mul_2exp(u, d, (mp_bitcnt_t)(e > 0 ? e : 0));
+  mpz_fdiv_q(t, t, u);
+  dyd_status st = dyd_dyadic_set_z_2exp(out, t, e);
+  mpz_clears(t, u, NULL);
+  return st;
+}
+
+dyd_status dyd_cut_round(dyd_point *c, const dyd_exact_centre *p) {
+  int64_t e = (int64_t)mpz_sizeinbase(p->z, 2) - (int64_t)mpz_sizeinbase(p->d, 2) - 4; /* 2^e < (z / d) / 4 */
+  dyd_status st = rounded(&c->x, p->x, p->d, e);
+  return st == DYD_OK ? rounded(&c->y, p->y, p->d, e) : st;
+}
+
 /* ---- the move ---- */
 
 /* x * 2^e without surprises: 0 far below, huge far above. */

@@ -5,6 +5,7 @@
 #ifndef DYD_DELAUNAY_FILTER_CUT_H
 #define DYD_DELAUNAY_FILTER_CUT_H
 
+#include "delaunay/exact_lp.h"
 #include "delaunay/filter_lp.h"
 #include "delaunay/state.h"
 
@@ -31,5 +32,10 @@ void dyd_cut_age(dyd_cut_list *l);
 void dyd_cut_add(dyd_cut_list *l, const dyd_point *c, const dyd_rect *own, const dyd_rect *other);
 /* Moves c to the centre of the largest disc inside all cuts; false when there is no room for one, or at the floor. */
 bool dyd_cut_move(dyd_point *c, dyd_cut_list *l, dyd_status *status);
+
+/* The half-plane of dyd_cut_add in user coordinates, exactly; false: the two points coincide. */
+bool dyd_cut_exactly(dyd_half_plane *h, const dyd_point *c, const dyd_rect *own, const dyd_rect *other);
+/* c = p rounded so that it stays inside the disc (in the sum norm) of radius z / d > 0. */
+dyd_status dyd_cut_round(dyd_point *c, const dyd_exact_centre *p);
 
 #endif

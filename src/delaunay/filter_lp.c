@@ -34,14 +34,16 @@ static bool optimum(dyd_lp_result *r, const dyd_cut *a, const dyd_cut *b, const 
   return isfinite(r->x) && isfinite(r->y);
 }
 
-static size_t most_violated(const dyd_cut *cut, size_t count, const dyd_lp_result *r) {
-  size_t worst = count;
+/* The cut, or side of the frame, that is violated most; NULL: none. */
+static const dyd_cut *most_violated(const dyd_cut *cut, size_t count, const dyd_cut frame[3], const dyd_lp_result *r) {
+  const dyd_cut *worst = NULL;
   double least = r->z - 1e-13 * (fabs(r->z) + fabs(r->x) + fabs(r->y));
-  for (size_t k = 0; k < count; k++) {
-    double value = cut[k].nx * r->x + cut[k].ny * r->y + cut[k].d;
+  for (size_t k = 0; k < count + 3; k++) {
+    const dyd_cut *c = k < count ? &cut[k] : &frame[k - count];
+    double value = c->nx * r->x + c->ny * r->y + c->d;
     if (value < least) {
       least = value;
-      worst = k;
+      worst = c;
     }
   }
   return worst;
@@ -53,19 +55,19 @@ dyd_lp_result dyd_lp_centre(const dyd_cut *cut, size_t count, double bound) {
   const dyd_cut *basis[3] = {&frame[0], &frame[1], &frame[2]};
   dyd_lp_result best = {.z = bound};
   for (int step = 0; step < STEPS; step++) {
-    size_t k = most_violated(cut, count, &best);
-    if (k == count) break;
+    const dyd_cut *k = most_violated(cut, count, frame, &best);
+    if (!k) break;
     int leaves = 3;
     dyd_lp_result next = best, r = {0};
     for (int out = 0; out < 3; out++) {
-      if (!optimum(&r, &cut[k], basis[(out + 1) % 3], basis[(out + 2) % 3])) continue;
+      if (!optimum(&r, k, basis[(out + 1) % 3], basis[(out + 2) % 3])) continue;
       if (leaves < 3 && r.z >= next.z) continue;
       leaves = out;
       next = r;
     }
     if (leaves == 3) break;
     best = next;
-    basis[leaves] = &cut[k];
+    basis[leaves] = k;
   }
   best.bounded = true;
   best.active = best.noise = 0;

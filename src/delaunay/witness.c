@@ -13,6 +13,7 @@
 #include "delaunay/witness.h"
 
 #include "base/alloc.h"
+#include "delaunay/exact_lp.h"
 #include "delaunay/filter_cut.h"
 #include "delaunay/filter_witness.h"
 #include "delaunay/hull.h"
@@ -146,29 +147,115 @@ static dyd_status set_start(dyd_point *c, const dyd_delaunay *pd, uint32_t i, dy
   return st == DYD_OK ? dyd_dyadic_set_d(&c->y, guess.y) : st;
 }
 
-/* Half way between the doubles of i and j: near the pair whatever the scale of all others. */
-static dyd_xy between(const dyd_delaunay *pd, uint32_t i, uint32_t j) {
-  dyd_xy a = pd->reps.xy[i], b = pd->reps.xy[j];
-  return (dyd_xy){a.x / 2 + b.x / 2, a.y / 2 + b.y / 2};
+/* ---- the same in integers, for sites of very different scale ---- */
+
+enum { MAX_PLANES = 512, EXACT_STEPS = 200 };
+
+typedef struct plane_list {
+  dyd_half_plane h[MAX_PLANES];
+  size_t count, made;
+} plane_list;
+
+static dyd_half_plane *next_plane(plane_list *l) {
+  if (l->count == MAX_PLANES) return NULL;
+  if (l->made == l->count) dyd_half_plane_init(&l->h[l->made++]);
+  return &l->h[l->count++];
 }
 
-/* The search on the exact rung, from the guess; if it gets lost, once more from the pair itself. */
+/* The first four: the square |x|, |y| < 2^top. */
+static void set_square(plane_list *l, int64_t top) {
+  for (int k = 0; k < 4; k++) {
+    dyd_half_plane *h = &l->h[k];
+    mpz_ptr n = k < 2 ? h->a : h->b, zero = k < 2 ? h->b : h->a;
+    mpz_set_ui(zero, 0);
+    mpz_set_ui(h->w, 1);
+    mpz_set_ui(h->c, 1);
+    mpz_mul_2exp(h->w, h->w, (mp_bitcnt_t)(top < 0 ? -top : 0));
+    mpz_mul_2exp(h->c, h->c, (mp_bitcnt_t)(top > 0 ? top : 0));
+    mpz_set(n, h->w);
+    if (k & 1) mpz_neg(n, n);
+  }
+}
+
+/* Exponent above which no end of r reaches. */
+static int64_t top_of(const dyd_rect *r) {
+  const dyd_dyadic *end[4] = {&r->x.lo, &r->x.hi, &r->y.lo, &r->y.hi};
+  int64_t top = -DYD_EXP_LIMIT;
+  for (int k = 0; k < 4; k++) {
+    int64_t t = end[k]->exp + (int64_t)mpz_sizeinbase(end[k]->man, 2);
+    if (mpz_sgn(end[k]->man) && t > top) top = t;
+  }
+  return top;
+}
+
+/* Half-planes of all present rivals at c; false when there are too many, or two rectangles touch. */
+static bool add_planes(search *s, plane_list *l) {
+  for (size_t k = 0; k < s->rivals; k++)
+    for (int q = 0; q < 2; q++) {
+      dyd_half_plane *h = next_plane(l);
+      if (!h || !dyd_cut_exactly(h, &s->c, &s->own[q], &s->rect[k])) return false;
+    }
+  return true;
+}
+
+/* The largest exponent so far, with room for centres far outside. */
+static int64_t square_top(const search *s, int64_t top) {
+  for (size_t k = 0; k < s->rivals + 2; k++) {
+    int64_t t = top_of(k < s->rivals ? &s->rect[k] : &s->own[k - s->rivals]) + 64;
+    if (t > top) top = t;
+  }
+  return top;
+}
+
+/* Moves c into the middle of all half-planes; false: no room, not even in a far larger square, or no end. */
+static bool step_exactly(search *s, plane_list *l, int64_t top) {
+  dyd_exact_centre p;
+  dyd_exact_centre_init(&p);
+  bool good = true, room = false;
+  for (int wide = 0; wide < 2 && good && !room; wide++) {
+    set_square(l, top + (wide ? 4096 : 0));
+    good = dyd_exact_lp(&p, l->h, l->count);
+    room = good && mpz_sgn(p.z) > 0;
+  }
+  s->cuts.empty = good && !room;
+  if (room) s->status = dyd_cut_round(&s->c, &p);
+  dyd_exact_centre_clear(&p);
+  return room && s->status == DYD_OK;
+}
+
+static void run_exactly(search *s) {
+  int64_t top = square_top(s, -DYD_EXP_LIMIT);
+  plane_list *l = malloc(sizeof *l);
+  if (!l) {
+    s->status = DYD_E_NOMEM;
+    return;
+  }
+  for (l->made = l->count = 0; l->count < 4;) next_plane(l);
+  for (int step = 0; step < EXACT_STEPS; step++) {
+    s->rivals = 0;
+    evaluate(s);
+    if (s->status != DYD_OK || !s->violated || s->touching) break;
+    top = square_top(s, top);
+    if (!add_planes(s, l) || !step_exactly(s, l, top)) break;
+  }
+  if (s->status == DYD_E_RANGE) s->status = DYD_OK; /* beyond the numbers there are: not found */
+  for (size_t k = 0; k < l->made; k++) dyd_half_plane_clear(&l->h[k]);
+  free(l);
+}
+
+/* The search with doubles that only lead; where they get lost, with integers. */
 static dyd_status search_exactly(bool *found, dyd_point *c, const dyd_delaunay *pd, uint32_t i, uint32_t j,
                                  dyd_xy guess) {
-  const dyd_xy starts[2] = {guess, between(pd, i, j)};
   search *s = malloc(sizeof *s);
   if (!s) return DYD_E_NOMEM;
   dyd_status st = search_init(s, pd, i, j);
-  for (int k = 0; k < 2 && st == DYD_OK && !*found; k++) {
-    s->cuts = (dyd_cut_list){0};
-    s->rivals = 0;
-    st = set_start(&s->c, pd, i, starts[k]);
-    if (st != DYD_OK) break;
+  if (st == DYD_OK) st = set_start(&s->c, pd, i, guess);
+  if (st == DYD_OK) {
     run(s);
+    if (s->status == DYD_OK && s->violated && !s->touching && !s->cuts.impossible) run_exactly(s);
     st = s->status;
-    *found = st == DYD_OK && !s->violated && !s->touching;
-    if (s->touching || s->cuts.impossible || s->cuts.empty) break;
   }
+  *found = st == DYD_OK && !s->violated && !s->touching;
   if (*found && c) dyd_point_set(c, &s->c);
   search_clear(s);
   free(s);
