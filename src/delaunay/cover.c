@@ -18,13 +18,13 @@
 void dyd_work_init(dyd_work *w, const dyd_delaunay *pd) {
   dyd_scale_set_init(&w->set, pd);
   dyd_icircle_init(&w->here);
-  for (int k = 0; k < 4; k++) dyd_icircle_init(&w->next[k]);
+  for (int k = 0; k < DYD_CIRCLES; k++) dyd_icircle_init(&w->next[k]);
   mpz_inits(w->u[0], w->u[1], w->h, w->s, w->t, NULL);
 }
 
 void dyd_work_clear(dyd_work *w) {
   mpz_clears(w->u[0], w->u[1], w->h, w->s, w->t, NULL);
-  for (int k = 0; k < 4; k++) dyd_icircle_clear(&w->next[k]);
+  for (int k = 0; k < DYD_CIRCLES; k++) dyd_icircle_clear(&w->next[k]);
   dyd_icircle_clear(&w->here);
   dyd_scale_set_clear(&w->set);
 }
@@ -164,16 +164,16 @@ static void ask_circle(walk *k) {
 /* Moves to the far end of the blocker's interval; false if it has none. */
 static bool advance(walk *k) {
   dyd_work *w = k->w;
-  size_t q, best = 4;
+  size_t q, best = DYD_CIRCLES;
   if (!member(&q, k, k->blocker)) return false;
   const dyd_irect *const r[3] = {&w->set.rect[0], &w->set.rect[1], &w->set.rect[q]};
   static const dyd_touch touch[3] = {DYD_CLOSEST, DYD_CLOSEST, DYD_FARTHEST};
-  size_t count = dyd_icircles(w->next, 4, r, touch);
+  size_t count = dyd_icircles(w->next, DYD_CIRCLES, r, touch);
   for (size_t c = 0; c < count; c++) {
     if (k->end == 0 && dyd_icircle_compare(&w->next[c], &w->here, k->axis) <= 0) continue;
-    if (best == 4 || dyd_icircle_compare(&w->next[c], &w->next[best], k->axis) < 0) best = c;
+    if (best == DYD_CIRCLES || dyd_icircle_compare(&w->next[c], &w->next[best], k->axis) < 0) best = c;
   }
-  if (best == 4) return false;
+  if (best == DYD_CIRCLES) return false;
   dyd_icircle_swap(&w->here, &w->next[best]);
   k->end = 0;
   k->last = k->blocker;

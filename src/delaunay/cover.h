@@ -6,10 +6,13 @@
 #include "delaunay/scale_set.h"
 #include "predicate/icircle.h"
 
+/* A blocker has at most this many critical circles [CRIT-1]. */
+enum { DYD_CIRCLES = 8 };
+
 /* Scratch of one thread, reused from pair to pair. */
 typedef struct dyd_work {
   dyd_scale_set set;
-  dyd_icircle here, next[4];
+  dyd_icircle here, next[DYD_CIRCLES];
   mpz_t u[2], h, s, t;
 } dyd_work;
 

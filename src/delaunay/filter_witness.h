@@ -6,8 +6,8 @@
 #include "delaunay/state.h"
 
 /* TRUE: *c is a witness of i, j, proved by distance bounds; FALSE: there is none, or the largest disc of witnesses has
- * a radius below the floor of dyd_witness_search; UNKNOWN: doubles are too coarse, *c is the last centre tried. *c is
- * the first guess before. */
+ * a radius below 1e-9 of the distances that bound it; UNKNOWN: doubles are too coarse, *c is the last centre tried. *c
+ * is the first guess before. */
 dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_delaunay *pd, uint32_t i, uint32_t j);
 
 #endif

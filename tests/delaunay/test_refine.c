@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Shrinking never retracts: legal stays legal, illegal stays illegal, and after every update the statuses are those
  * of a fresh run on the same rectangles. At the end all are points and the classical triangulation is reached
- * [LOC-1]. */
+ * [LOC-1] [TIE-2]. */
 #include <setjmp.h>
 #include <stdarg.h>
 
