@@ -28,7 +28,7 @@ static void set_extent(dyd_mesh *m) {
   for (int a = 0; a < 2; a++) {
     double lo = INFINITY, hi = -INFINITY;
     for (uint32_t v = 0; v < m->n; v++) {
-      uint32_t i = m->reps->site[dyd_mesh_rep(m, v)];
+      uint32_t i = m->local ? m->reps->site[m->local[v]] : v; /* all sites: in their own order */
       lo = fmin(lo, dyd_sites_lo(m->reps->sites, a, i));
       hi = fmax(hi, dyd_sites_hi(m->reps->sites, a, i));
     }
