@@ -157,7 +157,8 @@ static void ask_circle(walk *k) {
   dyd_icircle_centre_d(k->centre.e, &k->w->here, dyd_scale_shift(&k->w->set));
   dyd_scale_to_user(&k->centre, &k->w->set);
   k->bound = k->pd->options.no_filter ? INFINITY : dyd_pair_ds2_upper(k->pd, &k->centre, k->i, k->j);
-  if (ask_hints(k, blocks_circle)) return;
+  k->blocker = k->pd->options.no_filter ? DYD_NONE : dyd_surely_nearest(k->pd, &k->centre, k->i, k->j);
+  if (k->blocker != DYD_NONE || ask_hints(k, blocks_circle)) return;
   dyd_tree_near(&k->pd->tree, &k->centre, &k->bound, blocks_circle, k);
 }
 

@@ -46,6 +46,32 @@ bool dyd_possible_at(const dyd_delaunay *pd, uint32_t i, uint32_t j, dyd_xy cent
   return s.free;
 }
 
+typedef struct nearest {
+  const dyd_delaunay *pd;
+  uint32_t i, j, best;
+  dyd_bbox c;
+  double least;
+} nearest;
+
+/* Who is farther than `least` altogether cannot have a smaller dl, so the radius follows. */
+static bool keep_nearest(void *context, uint32_t k) {
+  nearest *s = context;
+  if (k == s->i || k == s->j) return true;
+  double d = dyd_dl2_upper(&s->c, &s->pd->box[k]);
+  if (d < s->least) {
+    s->least = d;
+    s->best = k;
+  }
+  return true;
+}
+
+uint32_t dyd_surely_nearest(const dyd_delaunay *pd, const dyd_bbox *c, uint32_t i, uint32_t j) {
+  nearest s = {pd, i, j, DYD_NONE, *c, 0};
+  s.least = dyd_min(dyd_ds2_lower(c, &pd->box[i]), dyd_ds2_lower(c, &pd->box[j]));
+  if (s.least > 0) dyd_tree_near(&pd->tree, c, &s.least, keep_nearest, &s);
+  return s.best;
+}
+
 void dyd_direction_d(double u[2], const mpz_t x, const mpz_t y) {
   long e[2];
   u[0] = mpz_get_d_2exp(&e[0], x);
