@@ -49,9 +49,9 @@ static void filter_against_exact(const char *name, const dyd_sites *s) {
 /* Points about 2^e: terms of the determinants overflow, or their bounds do, or both. Short mantissas make ties. */
 static void test_overflow_search(void **state) {
   (void)state;
-  static const int range[3][2] = {{250, 272}, {505, 515}, {-272, -240}};
-  for (size_t k = test_cases(150); k; k--) {
-    const int *e = range[k % 3];
+  static const int range[4][2] = {{250, 272}, {505, 515}, {-272, -240}, {254, 260}};
+  for (size_t k = test_cases(600); k; k--) {
+    const int *e = range[k % 2 ? 3 : k / 2 % 4];
     dyd_sites *s = NULL;
     assert_int_equal(dyd_sites_new(&s), DYD_OK);
     int bits = test_chance(&shared.random, 3) ? 3 : 30, span = test_chance(&shared.random, 2) ? e[1] - e[0] : 2;

@@ -224,10 +224,10 @@ static void run_scales(int lo, int hi, int spread, size_t cases) {
 
 static void test_scales(void **state) {
   (void)state;
-  static const int range[][3] = {{0, 0, 0},       {250, 272, 0},     {250, 262, 12},     {505, 515, 0},
-                                 {500, 510, 9},   {-272, -240, 0},   {-272, -240, 20},   {-400, -250, 0},
-                                 {-520, -500, 5}, {-1022, -1000, 0}, {-1074, -1020, 30}, {1000, 1023, 0},
-                                 {-200, 200, 60}};
+  static const int range[][3] = {{0, 0, 0},          {254, 262, 0},   {255, 257, 1},   {250, 272, 0},
+                                 {250, 262, 12},     {505, 515, 0},   {500, 510, 9},   {-272, -240, 0},
+                                 {-272, -240, 20},   {-400, -250, 0}, {-520, -500, 5}, {-1022, -1000, 0},
+                                 {-1074, -1020, 30}, {1000, 1023, 0}, {-200, 200, 60}};
   for (size_t k = 0; k < sizeof range / sizeof *range; k++) {
     tally = (struct tally){0};
     run_scales(range[k][0], range[k][1], range[k][2], test_cases(120));
@@ -296,11 +296,18 @@ static void test_inexact(void **state) {
       unsigned bits = (unsigned)test_between(&shared, 4, 54), more = (unsigned)test_between(&shared, 0, 61 - bits);
       long e = (long)test_between(&shared, range[r][0], range[r][1]);
       bool thirds = test_chance(&shared, 3);
+      int64_t far[2] = {0,
+                        0}; /* all about a point far from the origin, so that rounding moves them against each other */
+      if (test_chance(&shared, 2)) {
+        bits = (unsigned)test_between(&shared, 3, 20),
+        more = test_chance(&shared, 2) ? 0 : (unsigned)test_below(&shared, 12);
+        for (int a = 0; a < 2; a++) far[a] = test_between(&shared, INT64_C(1) << 52, INT64_C(1) << 60);
+      }
       for (int i = 0; i < POINTS; i++) {
         int64_t z[2];
         coordinates(z, bits);
         for (int a = 0; a < 2; a++) {
-          z[a] = z[a] * (INT64_C(1) << more) + test_between(&shared, -1, 1);
+          z[a] = z[a] * (INT64_C(1) << more) + test_between(&shared, -1, 1) + far[a];
           put(b.q[i][a], z[a], e - (int64_t)(bits + more));
           if (thirds) mpz_mul_ui(mpq_denref(b.q[i][a]), mpq_denref(b.q[i][a]), 3), mpq_canonicalize(b.q[i][a]);
         }
@@ -314,19 +321,31 @@ static void test_inexact(void **state) {
   }
 }
 
-/* The orientation that was once wrong: a product overflowed, the bound did not. */
-static void test_found(void **state) {
-  (void)state;
-  static const double found[3][2] = {{0x1.99d68a711497p+511, 0x1.a587620a358abp+511},
-                                     {0x1.3465e35d7f665p+512, 0x1.388ed15d9eefep+512},
-                                     {-0x1.a58f408c48a82p+506, 0x1.5a109d27d23a8p+505}};
+/* Points for which a product once overflowed and the bound did not. */
+static void check_found(const double found[][2], int n) {
   bed b;
   bed_open(&b);
   for (int i = 0; i < POINTS; i++)
-    for (int a = 0; a < 2; a++) mpq_set_d(b.q[i][a], found[i % 3][a]);
+    for (int a = 0; a < 2; a++) mpq_set_d(b.q[i][a], found[i % n][a]);
   check_bed(&b);
-  check_orient(&b, (const uint32_t[]){0, 1, 2});
+  for (uint32_t k = 0; k < POINTS * POINTS * POINTS * POINTS; k++) {
+    const uint32_t v[4] = {k % POINTS, k / POINTS % POINTS, k / POINTS / POINTS % POINTS, k / POINTS / POINTS / POINTS};
+    check_orient(&b, v);
+    check_incircle(&b, v);
+  }
   bed_close(&b);
+}
+
+static void test_found(void **state) {
+  (void)state;
+  static const double turns[3][2] = {{0x1.99d68a711497p+511, 0x1.a587620a358abp+511},
+                                     {0x1.3465e35d7f665p+512, 0x1.388ed15d9eefep+512},
+                                     {-0x1.a58f408c48a82p+506, 0x1.5a109d27d23a8p+505}};
+  static const double circles[6][2] = {{-0x1.ff5695p+255, 0x1.7cdbdbdp+255},   {0x1.35d08f1p+254, 0x1.7cb1d9ap+255},
+                                       {0x1.259ada7p+255, -0x1.067517b8p+255}, {-0x1.8bb7beap+255, -0x1.95b687ep+254},
+                                       {0x1.0df3b71p+255, 0x1.b4106ae8p+255},  {0x1.a2823fp+251, 0x1.86b57ecp+255}};
+  check_found(turns, 3);
+  check_found(circles, 6);
 }
 
 int main(void) {
