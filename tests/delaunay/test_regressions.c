@@ -6,6 +6,7 @@
 #include "delaunay/filter_distance.h"
 #include "delaunay/read_case.h"
 #include <cmocka.h>
+#include <math.h>
 
 static harness shared;
 
