@@ -12,7 +12,7 @@ typedef struct scaled_points {
 /* Cannot fail: every representative lies in the exponent range, since its rectangle does. */
 static void load(scaled_points *s, const dyd_mesh *m, const uint32_t *v, size_t count) {
   dyd_rect r[4];
-  const dyd_rect *in[4];
+  const dyd_rect *in[4] = {NULL};
   s->count = count;
   for (size_t k = 0; k < count; k++) {
     dyd_irect_init(&s->p[k]);

@@ -20,13 +20,6 @@ static inline uint64_t test_environment(const char *name, uint64_t otherwise) {
   return text && *text ? strtoull(text, NULL, 10) : otherwise;
 }
 
-/* A generator for the test called `name`; prints the seed so that a failure can be run again. */
-static inline test_random test_random_start(const char *name) {
-  uint64_t seed = test_environment("DYADEL_TEST_SEED", 1);
-  fprintf(stderr, "# %s: DYADEL_TEST_SEED=%llu\n", name, (unsigned long long)seed);
-  return (test_random){seed * UINT64_C(0x9E3779B97F4A7C15)};
-}
-
 /* How many random cases to run when `base` is the number for everyday runs. */
 static inline size_t test_cases(size_t base) {
   return base * (size_t)test_environment("DYADEL_TEST_SCALE", 1);
@@ -38,6 +31,14 @@ static inline uint64_t test_u64(test_random *r) {
   z = (z ^ (z >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
   z = (z ^ (z >> 27)) * UINT64_C(0x94D049BB133111EB);
   return z ^ (z >> 31);
+}
+
+/* A generator for the test called `name`; prints the seed so that a failure can be run again. */
+static inline test_random test_random_start(const char *name) {
+  uint64_t seed = test_environment("DYADEL_TEST_SEED", 1);
+  fprintf(stderr, "# %s: DYADEL_TEST_SEED=%llu\n", name, (unsigned long long)seed);
+  test_random mix = {seed};
+  return (test_random){test_u64(&mix)}; /* neighbouring seeds start far apart */
 }
 
 /* Uniform in 0 .. n-1. */
