@@ -98,7 +98,8 @@ void dyd_cut_add(dyd_cut_list *l, const dyd_point *c, const dyd_rect *own, const
   scaled_clear(&z);
 }
 
-bool dyd_cut_exactly(dyd_half_plane *h, const dyd_point *c, const dyd_rect *own, const dyd_rect *other) {
+bool dyd_cut_exactly(bool *violated, dyd_half_plane *h, const dyd_point *c, const dyd_rect *own,
+                     const dyd_rect *other) {
   scaled z;
   scaled_init(&z, c, own, other);
   axis_part(&z, z.ax, z.c.x0, z.own.x0, z.own.x1, z.other.x0, z.other.x1);
@@ -119,6 +120,7 @@ bool dyd_cut_exactly(dyd_half_plane *h, const dyd_point *c, const dyd_rect *own,
   mpz_abs(z.t, h->b);
   mpz_add(h->w, h->w, z.t);
   bool differ = mpz_sgn(h->w) != 0;
+  *violated = mpz_sgn(z.b) <= 0;
   scaled_clear(&z);
   return differ;
 }

@@ -33,8 +33,9 @@ void dyd_cut_add(dyd_cut_list *l, const dyd_point *c, const dyd_rect *own, const
 /* Moves c to the centre of the largest disc inside all cuts; false when there is no room for one, or at the floor. */
 bool dyd_cut_move(dyd_point *c, dyd_cut_list *l, dyd_status *status);
 
-/* The half-plane of dyd_cut_add in user coordinates, exactly; false: the two points coincide. */
-bool dyd_cut_exactly(dyd_half_plane *h, const dyd_point *c, const dyd_rect *own, const dyd_rect *other);
+/* The half-plane of dyd_cut_add in user coordinates, exactly; false: the two points coincide. *violated: c is not in
+ * it. */
+bool dyd_cut_exactly(bool *violated, dyd_half_plane *h, const dyd_point *c, const dyd_rect *own, const dyd_rect *other);
 /* c = p rounded so that it stays inside the disc (in the sum norm) of radius z / d > 0. */
 dyd_status dyd_cut_round(dyd_point *c, const dyd_exact_centre *p);
 

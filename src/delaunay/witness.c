@@ -149,7 +149,7 @@ static dyd_status set_start(dyd_point *c, const dyd_delaunay *pd, uint32_t i, dy
 
 /* ---- the same in integers, for sites of very different scale ---- */
 
-enum { MAX_PLANES = 512, EXACT_STEPS = 200 };
+enum { MAX_PLANES = 512, EXACT_STEPS = 48 };
 
 typedef struct plane_list {
   dyd_half_plane h[MAX_PLANES];
@@ -188,12 +188,14 @@ static int64_t top_of(const dyd_rect *r) {
   return top;
 }
 
-/* Half-planes of all present rivals at c; false when there are too many, or two rectangles touch. */
+/* Half-planes of all present rivals that c violates; false when there are too many, or two rectangles touch. */
 static bool add_planes(search *s, plane_list *l) {
   for (size_t k = 0; k < s->rivals; k++)
     for (int q = 0; q < 2; q++) {
+      bool violated;
       dyd_half_plane *h = next_plane(l);
-      if (!h || !dyd_cut_exactly(h, &s->c, &s->own[q], &s->rect[k])) return false;
+      if (!h || !dyd_cut_exactly(&violated, h, &s->c, &s->own[q], &s->rect[k])) return false;
+      if (!violated) l->count--; /* nothing new */
     }
   return true;
 }
