@@ -137,8 +137,12 @@ static dyd_status rounded(dyd_dyadic *out, const mpz_t n, const mpz_t d, int64_t
   return st;
 }
 
+int64_t dyd_cut_exponent(const dyd_exact_centre *p) {
+  return (int64_t)mpz_sizeinbase(p->z, 2) - (int64_t)mpz_sizeinbase(p->d, 2) - 4;
+}
+
 dyd_status dyd_cut_round(dyd_point *c, const dyd_exact_centre *p) {
-  int64_t e = (int64_t)mpz_sizeinbase(p->z, 2) - (int64_t)mpz_sizeinbase(p->d, 2) - 4; /* 2^e < (z / d) / 4 */
+  int64_t e = dyd_cut_exponent(p);
   dyd_status st = rounded(&c->x, p->x, p->d, e);
   return st == DYD_OK ? rounded(&c->y, p->y, p->d, e) : st;
 }

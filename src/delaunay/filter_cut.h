@@ -36,6 +36,8 @@ bool dyd_cut_move(dyd_point *c, dyd_cut_list *l, dyd_status *status);
 /* The half-plane of dyd_cut_add in user coordinates, exactly; false: the two points coincide. *violated: c is not in
  * it. */
 bool dyd_cut_exactly(bool *violated, dyd_half_plane *h, const dyd_point *c, const dyd_rect *own, const dyd_rect *other);
+/* 2^e is less than a quarter of the radius z / d, and more than a 64th. */
+int64_t dyd_cut_exponent(const dyd_exact_centre *p);
 /* c = p rounded so that it stays inside the disc (in the sum norm) of radius z / d > 0. */
 dyd_status dyd_cut_round(dyd_point *c, const dyd_exact_centre *p);
 

@@ -209,6 +209,30 @@ static int64_t square_top(const search *s, int64_t top) {
   return top;
 }
 
+/* Exponent of the finest bit of an end of r, its denominator counted too. */
+static int64_t finest_bit(const dyd_rect *r) {
+  const dyd_interval *side[2] = {&r->x, &r->y};
+  int64_t low = DYD_EXP_LIMIT;
+  for (int a = 0; a < 2; a++) {
+    int64_t bits = (int64_t)mpz_sizeinbase(side[a]->den, 2) - 1;
+    if (mpz_sgn(side[a]->lo.man) && side[a]->lo.exp - bits < low) low = side[a]->lo.exp - bits;
+    if (mpz_sgn(side[a]->hi.man) && side[a]->hi.exp - bits < low) low = side[a]->hi.exp - bits;
+  }
+  return low;
+}
+
+/* The floor: exponent of a radius far below unit^2 / size, for ends that are multiples of `unit` up to `size` = 2^top.
+ * A disc of witnesses that small is not looked for; where there is none, but three rectangles touch one circle, the
+ * discs of the half-planes would shrink for ever. */
+static int64_t floor_exponent(const search *s, int64_t top) {
+  int64_t low = DYD_EXP_LIMIT;
+  for (size_t k = 0; k < s->rivals + 2; k++) {
+    int64_t b = finest_bit(k < s->rivals ? &s->rect[k] : &s->own[k - s->rivals]);
+    if (b < low) low = b;
+  }
+  return 2 * low - top - 64;
+}
+
 /* Moves c into the middle of all half-planes; false: no room, not even in a far larger square, or no end. */
 static bool step_exactly(search *s, plane_list *l, int64_t top) {
   dyd_exact_centre p;
@@ -217,7 +241,7 @@ static bool step_exactly(search *s, plane_list *l, int64_t top) {
   for (int wide = 0; wide < 2 && good && !room; wide++) {
     set_square(l, top + (wide ? 4096 : 0));
     good = dyd_exact_lp(&p, l->h, l->count);
-    room = good && mpz_sgn(p.z) > 0;
+    room = good && mpz_sgn(p.z) > 0 && dyd_cut_exponent(&p) >= floor_exponent(s, top);
   }
   s->cuts.empty = good && !room;
   if (room) s->status = dyd_cut_round(&s->c, &p);

@@ -8,7 +8,8 @@
 /* Looks for a witness of the pair of vertices i, j from a first guess (any doubles, NaN allowed).
  * *found: a witness was found and checked exactly against every site; c (may be NULL) is set to it.
  * Not found: half-planes that hold all witnesses have no common point (in doubles by a margin of 1e-9 of the distances
- * that bound it, else exactly), or 48 exact steps gave no answer: the floor. */
+ * that bound it, else exactly), or the floor is met: every disc of witnesses has a radius below 2^-64 unit^2 / size
+ * (ends of the rectangles being multiples of unit, up to size), or 48 exact steps gave no answer. */
 dyd_status dyd_witness_search(bool *found, dyd_point *c, const dyd_delaunay *pd, uint32_t i, uint32_t j, dyd_xy guess);
 /* A witness far out, for a pair on the hull: found whenever all centres far enough in some direction are witnesses. */
 dyd_status dyd_witness_far(bool *found, dyd_point *c, dyd_work *w, const dyd_delaunay *pd, uint32_t i, uint32_t j);
