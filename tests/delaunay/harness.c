@@ -25,8 +25,8 @@ void harness_init(harness *h, const char *name) {
 }
 
 void harness_clear(harness *h) {
-  fprintf(stderr, "# cases %zu, pairs %zu, legal %zu, undecided %zu, carried %zu, hairlines %zu\n", h->cases, h->pairs,
-          h->legal, h->undecided, h->carried, h->hairlines);
+  fprintf(stderr, "# cases %zu, pairs %zu, legal %zu, undecided %zu, carried %zu, hairlines %zu, missed %zu\n",
+          h->cases, h->pairs, h->legal, h->undecided, h->carried, h->hairlines, h->missed);
   orc_pool_clear(&h->pool);
 }
 

@@ -15,6 +15,7 @@ typedef struct harness {
   test_random random;
   size_t cases, pairs, legal, undecided; /* how much was compared */
   size_t carried;                        /* legal statuses carried over where a fresh run says indeterminate */
+  size_t missed;                         /* the same with room, in cases whose ends span more than 2^WIDE_SPAN */
   size_t hairlines;                      /* legal pairs called indeterminate, with room below the engine's floor */
 } harness;
 
@@ -38,8 +39,11 @@ dyd_delaunay *harness_engine(char *message, const dyd_sites *s, const dyd_delaun
 
 /* The floor documented in delaunay/witness.h is about 2^-30 of the distances concerned; some slack for "about". */
 #define FLOOR_BITS 24
+/* The search gives up after a number of exact steps, too: seen only where the ends of a case span this many bits. */
+#define WIDE_SPAN 200
 
-/* Is the pair legal, with less room for witnesses than the floor asks for? Counts it as a hairline. */
+/* May the engine miss that the pair is legal? Counts it as a hairline (less room for witnesses than the floor asks
+ * for) or as missed (a very wide span). */
 bool is_hairline(harness *h, const orc_case *c, uint32_t i, uint32_t j);
 /* All statuses of the engine against the oracle's. A legal pair may be called indeterminate only if its
  * witnesses have no room above the floor and not all sites are points. */

@@ -4,6 +4,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* log2 of the largest end over the smallest that is not 0, in size. */
+static long span_of(const orc_case *c) {
+  long least = 0, most = 0;
+  bool some = false;
+  for (size_t i = 0; i < c->n; i++)
+    for (size_t k = 0; k < 4; k++) {
+      mpq_srcptr x = c->rect[i].e[k];
+      if (mpq_sgn(x) == 0) continue;
+      long size = (long)mpz_sizeinbase(mpq_numref(x), 2) - (long)mpz_sizeinbase(mpq_denref(x), 2);
+      if (!some || size < least) least = size;
+      if (!some || size > most) most = size;
+      some = true;
+    }
+  return most - least;
+}
+
 bool is_hairline(harness *h, const orc_case *c, uint32_t i, uint32_t j) {
   orc_case unique;
   size_t at[2] = {0, 0}, mark = orc_mark(&h->pool);
@@ -15,12 +31,14 @@ bool is_hairline(harness *h, const orc_case *c, uint32_t i, uint32_t j) {
     orc_case_add_rect(&unique, &c->rect[k]);
   }
   mpq_srcptr x = NULL, y = NULL;
-  bool thin = orc_legal(&x, &y, &h->pool, &unique, at[0], at[1]) &&
-              !orc_is_roomy(&h->pool, &unique, at[0], at[1], x, y, FLOOR_BITS);
+  bool legal = orc_legal(&x, &y, &h->pool, &unique, at[0], at[1]);
+  bool thin = legal && !orc_is_roomy(&h->pool, &unique, at[0], at[1], x, y, FLOOR_BITS);
+  bool wide = legal && !thin && span_of(c) > WIDE_SPAN;
   orc_release(&h->pool, mark);
   orc_case_clear(&unique);
   h->hairlines += thin;
-  return thin;
+  h->missed += wide;
+  return thin || wide;
 }
 
 bool same_status(harness *h, const orc_case *c, uint32_t i, uint32_t j, int s, int t) {
