@@ -105,8 +105,8 @@ DYD_API dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaun
 /* Triangles with three legal edges that hold no site for any choice: Delaunay triangles for every choice. Sorted. */
 DYD_API dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, const dyd_delaunay *pd);
 /* The sites of the undecided faces of the legal graph: face f (0 <= f < dyd_delaunay_undecided_faces). Ascending.
- * *outer tells whether the face is unbounded. Every non-legal possible pair lies in exactly one of them, up to
- * its end points on the boundary. */
+ * *outer tells whether the face is unbounded (the unbounded face may come in parts, between sure corners of the hull).
+ * Every non-legal possible pair lies in exactly one of them, up to its end points on the boundary. */
 DYD_API dyd_status dyd_delaunay_face(dyd_index_list *out, bool *outer, const dyd_delaunay *pd, size_t f);
 /* The pairs of face f that are possible and not legal, sorted. */
 DYD_API dyd_status dyd_delaunay_face_pairs(dyd_pair_list *out, const dyd_delaunay *pd, size_t f);
