@@ -3,7 +3,6 @@
 #include "delaunay/mesh.h"
 
 #include "base/alloc.h"
-#include "base/verify.h"
 #include "delaunay/filter_mesh.h"
 #include "delaunay/mesh_exact.h"
 #include "delaunay/mesh_fixed.h"

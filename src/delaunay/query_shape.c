@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Reading shapes: sure triangles, the hull, witnesses. */
 #include "base/alloc.h"
-#include "base/verify.h"
 #include "delaunay/build.h"
 #include "delaunay/certify.h"
 #include "delaunay/witness.h"

@@ -3,7 +3,6 @@
 #include "delaunay/reps.h"
 
 #include "base/alloc.h"
-#include "base/verify.h"
 
 #include <float.h>
 #include <math.h>

@@ -6,11 +6,9 @@
 #include "delaunay/update.h"
 
 #include "base/alloc.h"
-#include "base/verify.h"
 #include "delaunay/build.h"
 #include "delaunay/certify.h"
 #include "delaunay/faces.h"
-#include "delaunay/mesh_check.h"
 #include "delaunay/splice.h"
 
 #include <string.h>

@@ -3,7 +3,6 @@
 #include "rect/sites_table.h"
 
 #include "base/alloc.h"
-#include "base/verify.h"
 
 #include <math.h>
 #include <string.h>
