@@ -6,6 +6,6 @@
 #include <dyadel/engine.h>
 #include <dyadel/io.h>
 #include <dyadel/metric.h>
-#include <dyadel/predicate.h>
+#include <dyadel/voronoi.h>
 
 #endif

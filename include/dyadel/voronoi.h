@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The partial Voronoi diagram of a partial Delaunay triangulation (mathematics: sections 2, 8, 9).
+ *
+ *   Int_i = { c : dl_i(c) < ds_j(c) for all j != i }   surely nearest to i: convex, open
+ *   Pos_i = { c : ds_i(c) <= dl_j(c) for all j }       possibly nearest to i: closed, star-shaped towards R_i
+ *
+ * They are the intersection and the union of the true cells over all choices of points [CELL-1]; only possible
+ * neighbours bound them [CELL-2]. Refinement makes Int_i larger and Pos_i smaller [CELL-3].
+ * All functions answer for aliases as for the site they stand for, and return DYD_CAPPED (outputs unchanged) when the
+ * triangulation is capped, since neighbours are missing then. pd is borrowed for the call and not changed. */
+#ifndef DYADEL_VORONOI_H
+#define DYADEL_VORONOI_H
+
+#include <dyadel/arc.h>
+#include <dyadel/delaunay.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- exact cells ---- */
+
+/* The exact boundary of Int_i / Pos_i in the whole plane, with its arcs, counter-clockwise. *out is replaced, owned
+ * by the caller. Cost: O(K^3) exact steps for K possible neighbours. */
+DYD_API dyd_status dyd_voronoi_int(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i);
+DYD_API dyd_status dyd_voronoi_pos(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i);
+/* The same for Int_i n W / Pos_i n W on a closed window of positive area: all chains are closed. */
+DYD_API dyd_status dyd_voronoi_int_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window);
+DYD_API dyd_status dyd_voronoi_pos_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window);
+
+/* Is c in Int_i (TRUE), in Ext_i (FALSE), undetermined (UNKNOWN)? Exact. O(K). */
+DYD_API dyd_truth dyd_voronoi_side(const dyd_delaunay *pd, uint32_t i, const dyd_point *c);
+
+/* ---- verified polygons on a window ---- */
+
+/* A simple polygon with dyadic vertices, counter-clockwise; count 0: empty. Owned: init with {0}. */
+typedef struct dyd_polygon {
+  size_t count;
+  dyd_point *vertex;
+} dyd_polygon;
+DYD_API void dyd_polygon_clear(dyd_polygon *p);
+/* Twice the area. Exact, initialised by the caller. */
+DYD_API dyd_status dyd_polygon_area2(dyd_dyadic *out, const dyd_polygon *p);
+
+/* A convex polygon inside Int_i n W: each vertex satisfies dl_i < ds_j for all possible neighbours j, and lies in W
+ * [POLY-1]. Every point of Int_i n W is within 2^-bits of it; where Int_i n W holds no disc of radius about
+ * 2^-bits the polygon may be empty. */
+DYD_API dyd_status dyd_voronoi_inner_polygon(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i,
+                                             const dyd_rect *window, int64_t bits);
+/* A polygon (star-shaped or not, simple) that holds Pos_i n W: each edge lies in Ext_i, by a common convex C_ji, or
+ * on the boundary of W or outside of W [POLY-2]. Every point of it in W is within 2^-bits of Pos_i n W. */
+DYD_API dyd_status dyd_voronoi_outer_polygon(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i,
+                                             const dyd_rect *window, int64_t bits);
+
+/* ---- vertices ---- */
+
+/* A rectangle that holds the Voronoi vertex of the sure triangle t for every choice, within 2^-bits of the smallest
+ * one. DYD_E_ARG when t is not a sure triangle of pd. */
+DYD_API dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_triangle *t, int64_t bits);
+
+/* ---- nearest sites ---- */
+
+/* Which sites are possibly nearest to c (ds_i(c) <= min_k dl_k(c)), ascending; *sure is true when one site is
+ * surely nearest (it is alone in the list, aliases aside, or dl_i(c) < ds_k(c) for all other k). Exact [NEAR-1].
+ * Cost: O(log N + output) on separated input. */
+DYD_API dyd_status dyd_nearest(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_point *c);
+/* The same for a point anywhere in the rectangle q: i is listed iff q meets Pos_i; *sure: q lies in Int_i. Exact. */
+DYD_API dyd_status dyd_nearest_rect(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_rect *q);
+
+/* ---- convex hull ---- */
+
+/* Status of the convex hull of the sites, since the ghost vertex is one of the vertices of the triangulation. */
+typedef struct dyd_hull {
+  dyd_index_list sure_vertices;     /* on the boundary of the hull for every choice */
+  dyd_index_list possible_vertices; /* on it for some choice, the sure ones included; ascending */
+  dyd_pair_list pairs;              /* possible hull edges, LEGAL: a hull edge for every choice; sorted */
+} dyd_hull;
+DYD_API void dyd_hull_clear(dyd_hull *h);
+DYD_API dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
