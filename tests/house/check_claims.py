@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Claims: every id like [ORI-1] is stated once under proofs/claims, cited in the code and in a test, and listed in proofs/README.md.
 
+A claim that says it is machine-checked names theorems, as in `name`, `name` in theories/X.v; they must exist there and
+be rows of the table of theorems in proofs/README.md, as must every theorem of that table.
+
 Usage: check_claims.py ROOT   (prints every breach; exit status 1 when there is one)
 """
 import collections
@@ -11,7 +14,12 @@ import sys
 
 ID = re.compile(r'\[([A-Z]{2,}-[A-Z0-9]+)\]')
 HEADING = re.compile(r'^## \[([A-Z]{2,}-[A-Z0-9]+)\]', re.M)
-STATUS = re.compile(r'^Status: .*(machine-checked: no \(proof on paper\)|tested only)', re.M)
+STATUS = re.compile(r'^Status: .*(machine-checked: (no \(proof on paper\)|yes, theorem |in part, theorem )|tested only)', re.M)
+CHECKED = re.compile(r'^Status: .*?machine-checked: (?:yes|in part).*?(?:\n\n|\Z)', re.M | re.S)
+IN_THEORY = re.compile(r'((?:`\w+`(?:,| and)?\s+)+)in\s+theories/(\w+)\.v')
+THEOREM_ROW = re.compile(r'^\| ([^|]*) \| \[(\w+)\.v\]\(theories/\2\.v\) \| ([^|]*) \| [^|]* \|$', re.M)
+THEORY_LINK = re.compile(r'^\|.*\]\(theories/', re.M)
+PROVED = re.compile(r'^\s*(?:Theorem|Lemma|Corollary)\s+(\w+)', re.M)
 ROW = re.compile(r'^\| \[([A-Z]{2,}-[A-Z0-9]+)\] \| \[[^]]*\]\(([^)]*)\) \| ([^|]*) \| ([^|]*) \|$', re.M)
 CODE = ('.c', '.h')
 TESTS = ('.c', '.h', '.py', '.sh')
@@ -49,7 +57,7 @@ def check_statements(stated, code, tests):
             yield f'[{name}] is stated {len(places)} times: {", ".join(path for path, _ in places)}'
         for path, text in places:
             if not STATUS.search(text):
-                yield f'{path}: [{name}] has no status line that says "proof on paper" or "tested only"'
+                yield f'{path}: [{name}] has no status line of a known form'
         if name not in code:
             yield f'[{name}] is stated in {places[0][0]}, but nothing under src or include cites it'
         if name not in tests:
@@ -87,6 +95,40 @@ def check_table(root, stated, code_text, tests):
         yield from check_row(row, root, stated, code_text, tests)
 
 
+def claimed_theorems(stated):
+    """{(claim, theory, theorem)} of the claims that say they are machine-checked, wholly or in part."""
+    for name, places in sorted(stated.items()):
+        for status in CHECKED.findall('\n'.join(text for _, text in places)):
+            named = IN_THEORY.findall(status)
+            yield from ((name, theory, theorem) for names, theory in named for theorem in re.findall(r'`(\w+)`', names))
+            if not named:
+                yield name, '', ''
+
+
+def listed_theorems(readme):
+    """{(claim, theory, theorem)} of the table of theorems; the claim is '-' where there is none."""
+    for claims, theory, names in THEOREM_ROW.findall(readme):
+        for claim in claims.split(', '):
+            yield from ((claim.strip('[]'), theory, name) for name in names.split(', '))
+
+
+def check_theorems(root, stated):
+    readme = (root / 'proofs/README.md').read_text(encoding='utf-8')
+    proved = {path.stem: set(PROVED.findall(path.read_text(encoding='utf-8')))
+              for path in (root / 'proofs/theories').glob('*.v')}
+    claimed, listed = set(claimed_theorems(stated)), set(listed_theorems(readme))
+    if len(THEORY_LINK.findall(readme)) != len(THEOREM_ROW.findall(readme)):
+        yield 'proofs/README.md: a row of the table of theorems is not of the form | claim | [X.v](theories/X.v) | names | text |'
+    for claim, theory, name in sorted(claimed | listed):
+        if name not in proved.get(theory, ()):
+            yield f'[{claim}]: there is no theorem {name} in theories/{theory}.v'
+    for claim, theory, name in sorted(claimed - listed):
+        yield f'proofs/README.md: the table of theorems lacks {name} of {theory}.v for [{claim}]'
+    for claim, theory, name in sorted(listed - claimed):
+        if claim != '-':
+            yield f'[{claim}]: its status line does not name {name} in theories/{theory}.v'
+
+
 def breaches(root):
     code = read(root, 'src', CODE) | read(root, 'include', CODE)
     stated = statements(read(root, 'proofs/claims', ('.md',)))
@@ -94,6 +136,7 @@ def breaches(root):
     yield from check_citations(stated, in_code, in_tests, citations(read(root, 'proofs', ('.md',))))
     yield from check_statements(stated, in_code, in_tests)
     yield from check_table(root, stated, '\n'.join(code.values()), in_tests)
+    yield from check_theorems(root, stated)
 
 
 def main():
