@@ -42,14 +42,23 @@ DYD_API void dyd_polygon_clear(dyd_polygon *p);
 /* Twice the area. Exact, initialised by the caller. */
 DYD_API dyd_status dyd_polygon_area2(dyd_dyadic *out, const dyd_polygon *p);
 
-/* A convex polygon inside Int_i n W: each vertex satisfies dl_i < ds_j for all possible neighbours j, and lies in W
- * [POLY-1]. Every point of Int_i n W is within 2^-bits of it; where Int_i n W holds no disc of radius about
- * 2^-bits the polygon may be empty. */
+/* Several of them; their insides are disjoint. */
+typedef struct dyd_polygon_list {
+  size_t count;
+  dyd_polygon *item;
+} dyd_polygon_list;
+DYD_API void dyd_polygon_list_clear(dyd_polygon_list *l);
+
+/* The window W below: a closed rectangle of positive area with dyadic ends (DYD_E_ARG otherwise).
+ *
+ * A convex polygon inside Int_i n W: each vertex lies in W and satisfies dl_i < ds_j for all possible neighbours j
+ * [POLY-1]. Every point of Int_i n W is within 2^-bits of it; only where Int_i n W holds no disc of radius 2^-bits the
+ * polygon may be empty. *out is replaced. */
 DYD_API dyd_status dyd_voronoi_inner_polygon(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i,
                                              const dyd_rect *window, int64_t bits);
-/* A polygon (star-shaped or not, simple) that holds Pos_i n W: each edge lies in Ext_i, by a common convex C_ji, or
- * on the boundary of W or outside of W [POLY-2]. Every point of it in W is within 2^-bits of Pos_i n W. */
-DYD_API dyd_status dyd_voronoi_outer_polygon(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i,
+/* Polygons that hold Pos_i n W, one for each part of it: the ends of each edge lie in one convex C_ji, so the edge lies
+ * in Ext_i, or the edge lies outside of W [POLY-2]. They reach at most 2^-bits beyond Pos_i. */
+DYD_API dyd_status dyd_voronoi_outer_polygon(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i,
                                              const dyd_rect *window, int64_t bits);
 
 /* ---- vertices ---- */
