@@ -31,6 +31,8 @@ typedef enum dyd_format {
 } dyd_format;
 /* Finds a format by its name ("csv"); false when there is none. */
 DYD_API bool dyd_format_from_name(dyd_format *out, const char *name);
+/* The name of a format; NULL behind the last one, so that counting up from 0 lists them all. Static storage. */
+DYD_API const char *dyd_format_name(dyd_format format);
 
 /* Writes the current result of e. DYD_E_ARG when e has none; DYD_E_IO when a write fails. */
 DYD_API dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err);

@@ -1,5 +1,12 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The parts of the command: options, output files, signals, progress. It uses the public headers only. */
+/* The parts of the command: options, sessions, output files, signals, progress. It uses the public headers only.
+ *
+ *   main.c       finds out what is asked and does it
+ *   table.c      all commands and options: parsing, help, manual page and completion come from there
+ *   options.c    arguments to cli_options; values.c: the value of one option; suggest.c: "did you mean"
+ *   help*.c      --help, the manual page, completion scripts
+ *   session.c    what commands share: read points, run the engine, write a result, exit status
+ *   COMMAND.c    one file for each command */
 #ifndef DYD_CLI_CLI_H
 #define DYD_CLI_CLI_H
 
@@ -17,25 +24,70 @@ enum {
   CLI_CANCELLED = 5
 };
 
-/* All texts borrowed from argv. */
+/* All texts borrowed from argv; NULL where an option was not given, unless said otherwise. */
 typedef struct cli_options {
   const char *command;
-  const char *file;
+  const char *file;   /* the points file, or the certificate of verify; NULL with an oracle */
+  const char *at[2];  /* X Y of nearest */
   const char *output; /* NULL: standard output */
   dyd_read_options read;
+  const char *oracle;
+  unsigned oracle_jobs, oracle_batch; /* 0: default */
+  double oracle_timeout;              /* seconds; 0: default */
   dyd_engine_options engine;
-  dyd_format format;
-  bool stats, quiet, help, version;
+  dyd_format format; /* one that the command can write; csv when not given */
+  bool format_set;
+  const char *window; /* checked text: see cli_window_read */
+  int64_t flatten_bits;
+  bool flatten_set;
+  const char *certificate, *trace, *replay, *plot;
+  uint64_t seed;
+  bool seed_set;
+  unsigned schedules; /* 0: default */
+  bool no_times;
+  bool stats, quiet, version;
+  const char *help; /* "" (--help), or the kind of --help=KIND */
 } cli_options;
 
 /* options.c: 0, or CLI_USAGE after a message. */
 int cli_options_read(cli_options *out, int argc, char **argv);
-void cli_help(FILE *out);
 /* Prints "dyadel: ..." to standard error. */
 void cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* delaunay.c: the command; returns the exit status. */
+/* values.c: --window XLO,XHI,YLO,YHI. Ends that are no dyadics are rounded outward (dyd_real_from_interval).
+ * out is initialised by the caller; false after a message. */
+bool cli_window_read(dyd_rect *out, const char *text);
+
+/* One function for each command, in a file of its own; returns the exit status. */
 int cli_delaunay(const cli_options *o);
+
+/* session.c: an engine with the points of the file (or oracle), and what goes on around it. */
+typedef struct cli_progress cli_progress;
+typedef struct cli_session {
+  const cli_options *options; /* borrowed */
+  dyd_engine *engine;
+  cli_progress *progress; /* may be NULL */
+  double begun;
+} cli_session;
+
+/* A writer of results; err is clear. Returns an error with *err filled, else DYD_OK. */
+typedef dyd_status (*cli_write_fn)(FILE *out, const dyd_engine *e, const cli_options *o, dyd_error *err);
+
+/* All of a command that reads, runs, and writes one result. Returns the exit status. */
+int cli_session_all(const cli_options *o, cli_write_fn write);
+
+/* The same in steps. Each returns 0, or an exit status after a message; cli_session_close comes after any of them. */
+int cli_session_open(cli_session *s, const cli_options *o);
+/* Runs with options (progress and signals are added). 0 whatever the outcome, DYD_OUTCOME_ERROR aside: then
+ * CLI_FAILED, and dyd_engine_delaunay tells whether there is a result all the same. */
+int cli_session_run(cli_session *s, const dyd_engine_options *options);
+/* Writes the result to --output, when there is one (otherwise says so). */
+int cli_session_write(cli_session *s, cli_write_fn write);
+/* Prints notes and --stats as the outcome of the engine and `status` ask for, frees s; returns the exit status: that
+ * of the outcome where status is 0. */
+int cli_session_close(cli_session *s, int status);
+/* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: left out. */
+void cli_complain_at(const char *file, const dyd_error *err);
 
 /* output.c: a result file that appears whole or not at all. */
 typedef struct cli_output {
@@ -56,9 +108,7 @@ void cli_signals_cancel(dyd_engine *e);
 /* Signals end the process; the file `temporary` (may be NULL, borrowed) is removed before. */
 void cli_signals_remove(const char *temporary);
 
-/* progress.c */
-typedef struct cli_progress cli_progress;
-/* NULL when quiet or out of memory: all functions take NULL. */
+/* progress.c: NULL when quiet or out of memory: all functions take NULL. */
 cli_progress *cli_progress_start(bool quiet);
 /* What is being done now ("reading"); static text. */
 void cli_progress_phase(cli_progress *p, const char *phase);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The command dyadel: finds out what is asked and does it. */
-#include "cli.h"
+#include "table.h"
 #include <signal.h>
 #include <stdarg.h>
 #include <string.h>
@@ -14,43 +14,26 @@ void cli_complain(const char *format, ...) {
   va_end(args);
 }
 
-static const struct {
-  const char *name;
-  int (*run)(const cli_options *o);
-} commands[] = {{"delaunay", cli_delaunay}};
-#define COMMANDS (sizeof commands / sizeof *commands)
-
-static int print_and_close(void (*print)(FILE *)) {
-  print(stdout);
+static int flush_output(void) {
   if (fflush(stdout) == 0 && !ferror(stdout)) return CLI_OK;
   cli_complain("cannot write to standard output");
   return CLI_FAILED;
 }
 
-static void print_version(FILE *out) {
-  fprintf(out, "dyadel %s\n", dyd_version());
-}
-
-static int unknown_command(const char *name) {
-  cli_complain("there is no command \"%s\"; the commands are:", name);
-  for (size_t k = 0; k < COMMANDS; k++) fprintf(stderr, "  dyadel %s FILE\n", commands[k].name);
-  return CLI_USAGE;
-}
-
-static int dispatch(const cli_options *o) {
-  if (o->help) return print_and_close(cli_help);
-  if (o->version) return print_and_close(print_version);
-  if (!o->command) {
-    cli_complain("a command is missing; try: dyadel delaunay FILE, or dyadel --help");
+static int help(const cli_options *o) {
+  if (!*o->help) {
+    cli_help(stdout, o->command ? cli_command_find(o->command) : NULL);
+  } else if (strcmp(o->help, "man") == 0) {
+    cli_help_man(stdout);
+  } else if (strcmp(o->help, "bash") == 0) {
+    cli_help_bash(stdout);
+  } else if (strcmp(o->help, "zsh") == 0) {
+    cli_help_zsh(stdout);
+  } else {
+    cli_complain("--help=%s is not understood; give --help, --help=man, --help=bash or --help=zsh", o->help);
     return CLI_USAGE;
   }
-  for (size_t k = 0; k < COMMANDS; k++) {
-    if (strcmp(commands[k].name, o->command) != 0) continue;
-    if (o->file) return commands[k].run(o);
-    cli_complain("the points file is missing; give its name, or - for standard input");
-    return CLI_USAGE;
-  }
-  return unknown_command(o->command);
+  return flush_output();
 }
 
 int main(int argc, char **argv) {
@@ -58,5 +41,11 @@ int main(int argc, char **argv) {
   if (!cli_guard_descriptors()) return CLI_FAILED;
   signal(SIGPIPE, SIG_IGN); /* a reader that went away is a write error like others */
   int status = cli_options_read(&options, argc, argv);
-  return status ? status : dispatch(&options);
+  if (status) return status;
+  if (options.help) return help(&options);
+  if (options.version) {
+    printf("dyadel %s\n", dyd_version());
+    return flush_output();
+  }
+  return cli_command_find(options.command)->run(&options);
 }

@@ -1,202 +1,184 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The options of the command, before or after the file name. */
-#include "cli.h"
-#include <errno.h>
+/* Arguments to cli_options, by the table: options may stand before or after the command and its operands.
+ *
+ * What begins with a minus sign and a digit or a point is an operand, not an option: coordinates may be negative. */
+#include "table.h"
+#include <ctype.h>
 #include <getopt.h>
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum {
-  OPT_UNTIL = 256,
-  OPT_MAX_BITS,
-  OPT_MAX_PAIRS,
-  OPT_TIMEOUT,
-  OPT_SCHEDULE,
-  OPT_THREADS,
-  OPT_FORMAT,
-  OPT_STATS,
-  OPT_QUIET,
-  OPT_COLUMNS,
-  OPT_MEASURED,
-  OPT_RADIUS,
-  OPT_VERSION
-};
+enum { MOST_OPTIONS = 64, MOST_OPERANDS = 5, FIRST_VALUE = 256 };
 
-static const struct option table[] = {{"until", required_argument, NULL, OPT_UNTIL},
-                                      {"max-bits", required_argument, NULL, OPT_MAX_BITS},
-                                      {"max-pairs", required_argument, NULL, OPT_MAX_PAIRS},
-                                      {"timeout", required_argument, NULL, OPT_TIMEOUT},
-                                      {"schedule", required_argument, NULL, OPT_SCHEDULE},
-                                      {"threads", required_argument, NULL, OPT_THREADS},
-                                      {"format", required_argument, NULL, OPT_FORMAT},
-                                      {"output", required_argument, NULL, 'o'},
-                                      {"stats", no_argument, NULL, OPT_STATS},
-                                      {"quiet", no_argument, NULL, OPT_QUIET},
-                                      {"columns", required_argument, NULL, OPT_COLUMNS},
-                                      {"measured", no_argument, NULL, OPT_MEASURED},
-                                      {"radius", required_argument, NULL, OPT_RADIUS},
-                                      {"help", no_argument, NULL, 'h'},
-                                      {"version", no_argument, NULL, OPT_VERSION},
-                                      {NULL, 0, NULL, 0}};
+/* What was found before the command is known. Invariant: bit k of seen is set when option k was given. */
+typedef struct scan {
+  struct option known[MOST_OPTIONS + 1];
+  char letters[2 * MOST_OPTIONS + 3];
+  uint64_t seen;
+  const char *operand[MOST_OPERANDS];
+  size_t operands;
+} scan;
 
-void cli_help(FILE *out) {
-  fputs("Usage: dyadel delaunay [OPTION...] FILE\n"
-        "Delaunay triangulation of points that are exact, imprecise or computable reals:\n"
-        "which pairs are edges surely (legal), possibly (indeterminate, tie), never (not listed).\n"
-        "FILE has one point per line, two coordinates; - is standard input.\n"
-        "\n"
-        "Input\n"
-        "  --columns NAME,NAME   FILE is CSV with a header; take these two columns as x,y\n"
-        "  --measured            decimals are rounded measurements: 47.61 is [47.605,47.615]\n"
-        "  --radius R            widen every point by R on each side\n"
-        "Refinement\n"
-        "  --until GOAL          decided (default), area:M or hausdorff:M (bound 2^-M)\n"
-        "  --max-bits B          precision at which to give up (default 4096)\n"
-        "  --max-pairs K         cap on stored pairs (default 4000000 + 16 per point)\n"
-        "  --timeout SECONDS     stop after this time\n"
-        "  --schedule WHICH      adaptive (default) or uniform\n"
-        "  --threads T           threads to use (default 1)\n"
-        "Output\n"
-        "  --format F            csv (default), json, wkt, geojson, obj, svg\n"
-        "  -o, --output FILE     write to FILE, whole or not at all\n"
-        "  --stats               print counters to standard error\n"
-        "  --quiet               no progress, no notes\n"
-        "  -h, --help            this text\n"
-        "  --version             the version\n"
-        "\n"
-        "Exit status: 0 decided or certified, 1 bad input or failure, 2 bad usage,\n"
-        "3 fixpoint (ties or fixed rectangles), 4 budget spent, 5 cancelled.\n"
-        "Results are written for 0, 3, 4 and 5.\n",
-        out);
+/* Tells getopt_long of all options that exist; its value for option k is FIRST_VALUE + k. */
+static void prepare(scan *s) {
+  size_t n = 0, m = 0;
+  *s = (scan){0};
+  s->letters[m++] = '+';
+  s->letters[m++] = ':';
+  for (size_t k = 0; k < cli_option_count && n < MOST_OPTIONS; k++) {
+    const cli_option *o = &cli_option_table[k];
+    if (!cli_option_exists(o, cli_existing())) continue;
+    int argument = o->kind == CLI_HELP ? optional_argument : o->argument ? required_argument : no_argument;
+    s->known[n++] = (struct option){o->name, argument, NULL, FIRST_VALUE + (int)k};
+    if (!o->letter) continue;
+    s->letters[m++] = o->letter;
+    if (argument == required_argument) s->letters[m++] = ':';
+  }
 }
 
-static bool usage(const char *option, const char *value, const char *wanted) {
-  cli_complain("--%s \"%s\" is not understood; give %s", option, value, wanted);
-  return false;
+static size_t option_number(int value) {
+  if (value >= FIRST_VALUE) return (size_t)(value - FIRST_VALUE);
+  for (size_t k = 0; k < cli_option_count; k++)
+    if (cli_option_table[k].letter == value) return k;
+  return 0;
 }
 
-static bool read_integer(long long *out, const char *text, long long least, long long most) {
-  char *end;
-  errno = 0;
-  *out = strtoll(text, &end, 10);
-  return end != text && !*end && errno == 0 && *out >= least && *out <= most;
-}
-
-static bool read_until(cli_options *o, const char *text) {
-  const char *colon = strchr(text, ':');
-  size_t length = colon ? (size_t)(colon - text) : strlen(text);
-  long long bits = 0;
-  o->engine.goal = DYD_GOAL_DECIDED;
-  if (!colon && strcmp(text, "decided") == 0) return true;
-  if (length == 4 && strncmp(text, "area", 4) == 0) o->engine.goal = DYD_GOAL_AREA;
-  if (length == 9 && strncmp(text, "hausdorff", 9) == 0) o->engine.goal = DYD_GOAL_HAUSDORFF;
-  if (!colon || o->engine.goal == DYD_GOAL_DECIDED || !read_integer(&bits, colon + 1, -DYD_EXP_LIMIT, DYD_EXP_LIMIT))
-    return usage("until", text, "decided, area:M or hausdorff:M with a whole number M");
-  o->engine.goal_bits = bits;
-  return true;
-}
-
-static bool read_timeout(cli_options *o, const char *text) {
-  char *end;
-  double seconds = strtod(text, &end);
-  if (end == text || *end || !isfinite(seconds) || seconds <= 0)
-    return usage("timeout", text, "a number of seconds above 0");
-  o->engine.seconds = seconds;
-  return true;
-}
-
-static bool read_schedule(cli_options *o, const char *text) {
-  if (strcmp(text, "adaptive") == 0)
-    o->engine.schedule = DYD_SCHEDULE_ADAPTIVE;
-  else if (strcmp(text, "uniform") == 0)
-    o->engine.schedule = DYD_SCHEDULE_UNIFORM;
+static int complain_unknown(const char *argument) {
+  char name[64];
+  snprintf(name, sizeof name, "%s", argument + strspn(argument, "-"));
+  name[strcspn(name, "=")] = 0;
+  cli_suggestion s;
+  cli_suggest_begin(&s, name);
+  for (size_t k = 0; k < cli_option_count; k++)
+    if (cli_option_exists(&cli_option_table[k], cli_existing())) cli_suggest_try(&s, cli_option_table[k].name);
+  if (s.best)
+    cli_complain("there is no option %s; did you mean --%s?", argument, s.best);
   else
-    return usage("schedule", text, "adaptive or uniform");
-  return true;
+    cli_complain("there is no option %s; see dyadel --help", argument);
+  return CLI_USAGE;
 }
 
-static bool read_count(long long *out, const char *option, const char *text, long long most) {
-  return read_integer(out, text, 1, most) || usage(option, text, "a whole number above 0 (and not beyond reason)");
-}
-
-static bool read_limit(cli_options *o, int option, const char *text) {
-  long long value;
-  switch (option) {
-  case OPT_MAX_BITS:
-    if (!read_count(&value, "max-bits", text, DYD_EXP_LIMIT)) return false;
-    o->engine.max_bits = value;
-    return true;
-  case OPT_MAX_PAIRS:
-    if (!read_count(&value, "max-pairs", text, (long long)1 << 40)) return false;
-    o->engine.max_pairs = (size_t)value;
-    return true;
-  default:
-    if (!read_count(&value, "threads", text, 1024)) return false;
-    o->engine.threads = (unsigned)value;
-    return true;
-  }
-}
-
-static bool read_format(cli_options *o, const char *text) {
-  return dyd_format_from_name(&o->format, text) || usage("format", text, "csv, json, wkt, geojson, obj or svg");
-}
-
-static bool read_one(cli_options *o, int option, const char *value) {
-  switch (option) {
-  case OPT_UNTIL:
-    return read_until(o, value);
-  case OPT_TIMEOUT:
-    return read_timeout(o, value);
-  case OPT_SCHEDULE:
-    return read_schedule(o, value);
-  case OPT_FORMAT:
-    return read_format(o, value);
-  case OPT_COLUMNS:
-    o->read.columns = value;
-    return true;
-  case OPT_MEASURED:
-    return o->read.measured = true;
-  case OPT_RADIUS:
-    o->read.radius = value;
-    return true;
-  case OPT_STATS:
-    return o->stats = true;
-  case OPT_QUIET:
-    return o->quiet = true;
-  case OPT_VERSION:
-    return o->version = true;
-  case 'o':
-    o->output = value;
-    return true;
-  case 'h':
-    return o->help = true;
-  default:
-    return read_limit(o, option, value);
-  }
-}
-
-static int complain_option(int kind, char **argv) {
+static int complain_option(int kind, const char *argument) {
   if (kind == ':')
-    cli_complain("%s needs a value; see dyadel --help", argv[optind - 1]);
-  else if (optopt && optopt < 256)
+    cli_complain("%s needs a value; see dyadel --help", argument);
+  else if (optopt >= FIRST_VALUE)
+    cli_complain("--%s takes no value; leave \"=\" and what follows away",
+                 cli_option_table[option_number(optopt)].name);
+  else if (optopt)
     cli_complain("there is no option -%c; see dyadel --help", optopt);
   else
-    cli_complain("there is no option %s, or it takes no value; see dyadel --help", argv[optind - 1]);
+    return complain_unknown(argument);
+  return CLI_USAGE;
+}
+
+static bool is_operand(const char *a) {
+  return a[0] != '-' || !a[1] || isdigit((unsigned char)a[1]) || a[1] == '.';
+}
+
+static int add_operand(scan *s, const char *text) {
+  if (s->operands < MOST_OPERANDS) {
+    s->operand[s->operands++] = text;
+    return 0;
+  }
+  cli_complain("\"%s\" is one argument too many; see dyadel --help", text);
+  return CLI_USAGE;
+}
+
+static int scan_all(scan *s, cli_options *o, int argc, char **argv) {
+  bool operands_only = false;
+  opterr = 0;
+  for (int status = 0; optind < argc;) {
+    char *a = argv[optind];
+    if (!operands_only && strcmp(a, "--") == 0) {
+      operands_only = true;
+      optind++;
+    } else if (operands_only || is_operand(a)) {
+      status = add_operand(s, a);
+      optind++;
+    } else {
+      int value = getopt_long(argc, argv, s->letters, s->known, NULL);
+      if (value == '?' || value == ':') return complain_option(value, a);
+      size_t k = option_number(value);
+      s->seen |= (uint64_t)1 << k;
+      if (!cli_value_read(o, &cli_option_table[k], optarg)) return CLI_USAGE;
+    }
+    if (status) return status;
+  }
+  return 0;
+}
+
+/* ---- does it fit the command? ---- */
+
+static int unknown_command(const char *name) {
+  cli_suggestion s;
+  cli_suggest_begin(&s, name);
+  for (size_t c = 0; c < CLI_COMMANDS; c++)
+    if (cli_commands[c].run) cli_suggest_try(&s, cli_commands[c].name);
+  if (s.best)
+    cli_complain("there is no command \"%s\"; did you mean %s?", name, s.best);
+  else
+    cli_complain("there is no command \"%s\"; the commands are:", name);
+  for (size_t c = 0; !s.best && c < CLI_COMMANDS; c++)
+    if (cli_commands[c].run) fprintf(stderr, "  dyadel %s %s\n", cli_commands[c].name, cli_commands[c].operands);
+  return CLI_USAGE;
+}
+
+static int check_options(const cli_options *o, uint64_t seen, const cli_command *c) {
+  for (size_t k = 0; k < cli_option_count; k++) {
+    if (!(seen >> k & 1) || cli_option_exists(&cli_option_table[k], cli_command_bit(c))) continue;
+    cli_complain("%s does not take --%s; see dyadel %s --help", c->name, cli_option_table[k].name, c->name);
+    return CLI_USAGE;
+  }
+  if (!o->format_set || c->formats >> o->format & 1) return 0;
+  fprintf(stderr, "dyadel: %s does not write %s; give ", c->name, dyd_format_name(o->format));
+  cli_formats_print(stderr, c->formats, ", ", false);
+  fputs("\n", stderr);
+  return CLI_USAGE;
+}
+
+/* Hands the operands behind the command's name to their fields. With an oracle there is no file. */
+static int place_operands(cli_options *o, const scan *s, const cli_command *c) {
+  const char **place[MOST_OPERANDS];
+  size_t wanted = 0;
+  if (!o->oracle) place[wanted++] = &o->file;
+  if (strstr(c->operands, " X Y")) {
+    place[wanted++] = &o->at[0];
+    place[wanted++] = &o->at[1];
+  }
+  size_t given = s->operands - 1;
+  if (given > wanted) {
+    cli_complain("\"%s\" is one argument too many; give dyadel %s %s", s->operand[wanted + 1], c->name,
+                 o->oracle ? c->operands + strcspn(c->operands, " ") : c->operands);
+    return CLI_USAGE;
+  }
+  for (size_t k = 0; k < given; k++) *place[k] = s->operand[k + 1];
+  if (given == wanted) return 0;
+  if (given == 0 && !o->oracle && strncmp(c->operands, "FILE", 4) == 0)
+    cli_complain("the points file is missing; give its name, or - for standard input");
+  else
+    cli_complain("an argument is missing; give dyadel %s %s", c->name, c->operands);
   return CLI_USAGE;
 }
 
 int cli_options_read(cli_options *out, int argc, char **argv) {
+  scan s;
   *out = (cli_options){.format = DYD_FORMAT_CSV};
   dyd_engine_options_init(&out->engine);
-  opterr = 0;
-  for (int option; (option = getopt_long(argc, argv, ":o:h", table, NULL)) != -1;) {
-    if (option == '?' || option == ':') return complain_option(option, argv);
-    if (!read_one(out, option, optarg)) return CLI_USAGE;
+  prepare(&s);
+  int status = scan_all(&s, out, argc, argv);
+  if (status) return status;
+  if (s.operands == 0) {
+    if (out->help || out->version) return 0;
+    cli_complain("a command is missing; try: dyadel delaunay FILE, or dyadel --help");
+    return CLI_USAGE;
   }
-  if (optind < argc) out->command = argv[optind++];
-  if (optind < argc) out->file = argv[optind++];
-  if (optind >= argc) return 0;
-  cli_complain("\"%s\" is one argument too many; give one file", argv[optind]);
-  return CLI_USAGE;
+  const cli_command *c = cli_command_find(s.operand[0]);
+  if (!c) return unknown_command(s.operand[0]);
+  out->command = c->name;
+  if (out->help || out->version) return 0;
+  for (unsigned f = 0; !out->format_set && c->formats >> f; f++) {
+    out->format = (dyd_format)f;
+    if (c->formats >> f & 1) break;
+  }
+  status = check_options(out, s.seen, c);
+  return status ? status : place_operands(out, &s, c);
 }

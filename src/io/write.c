@@ -25,6 +25,10 @@ bool dyd_format_from_name(dyd_format *out, const char *name) {
   return false;
 }
 
+const char *dyd_format_name(dyd_format format) {
+  return (size_t)format < FORMATS ? formats[format].name : NULL;
+}
+
 const char *dyd_pair_status_text(dyd_pair_status status) {
   static const char *const text[] = {
       [DYD_ILLEGAL] = "illegal", [DYD_TIE] = "tie", [DYD_INDETERMINATE] = "indeterminate", [DYD_LEGAL] = "legal"};

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The manual page, in the mdoc macros. */
+#include "table.h"
+#include <string.h>
+
+/* Text between macros. A line must not begin with a control character, a backslash is written \e, and a hyphen that
+ * is to be copied from the page as it is typed is written \-. */
+static void letter(FILE *out, char c) {
+  if (c == '\\')
+    fputs("\\e", out);
+  else if (c == '-')
+    fputs("\\-", out);
+  else
+    fputc(c, out);
+}
+
+/* Text in lines of moderate length; a sentence begins on a new line. */
+static void text(FILE *out, const char *t) {
+  int column = 0;
+  for (; *t; t++) {
+    bool blank = *t == ' ' || *t == '\n';
+    bool sentence = blank && column && t[-1] == '.' && t[1] >= 'A' && t[1] <= 'Z';
+    if (sentence || *t == '\n' || (blank && column + (int)strcspn(t + 1, " \n") > 70)) {
+      fputc('\n', out);
+      column = 0;
+      continue;
+    }
+    if (column == 0 && (*t == '.' || *t == '\'')) fputs("\\&", out);
+    letter(out, *t);
+    column++;
+  }
+  fputs("\n", out);
+}
+
+/* An argument of a macro. */
+static void quoted(FILE *out, const char *t) {
+  fputc('"', out);
+  for (; *t; t++) {
+    if (*t == '"')
+      fputs("\\(dq", out);
+    else
+      letter(out, *t);
+  }
+  fputc('"', out);
+}
+
+static void terms(FILE *out, const cli_term *t, const char *macro) {
+  fputs(".Bl -tag -width Ds\n", out);
+  for (; t->term; t++) {
+    fprintf(out, ".It %s ", macro);
+    quoted(out, t->term);
+    fputs("\n", out);
+    text(out, t->meaning);
+  }
+  fputs(".El\n", out);
+}
+
+static void takers(FILE *out, const cli_option *o) {
+  unsigned existing = cli_existing(), set = o->commands & existing;
+  if (set == existing) return;
+  const char *separator = "(";
+  for (unsigned c = 0; c < CLI_COMMANDS; c++) {
+    if (!(set >> c & 1)) continue;
+    fprintf(out, "%s%s", separator, cli_commands[c].name);
+    separator = ", ";
+  }
+  fputs(")\n", out);
+}
+
+static void option(FILE *out, const cli_option *o) {
+  fputs(".It ", out);
+  if (o->letter) fprintf(out, "Fl %c , ", o->letter);
+  fprintf(out, "Fl \\-%s", o->name);
+  if (o->kind == CLI_HELP)
+    fprintf(out, " Ns Op = Ns Ar %s", o->argument);
+  else if (o->argument)
+    fprintf(out, " Ar %s", o->argument);
+  fputs("\n", out);
+  if (o->kind == CLI_FORMAT) {
+    cli_formats_print(out, cli_formats_of(o->commands), ", ", true);
+    fputs("\n", out);
+  } else {
+    text(out, o->help);
+  }
+  takers(out, o);
+}
+
+static void options(FILE *out) {
+  for (int g = 0; g < CLI_GROUPS; g++) {
+    bool any = false;
+    for (size_t k = 0; k < cli_option_count; k++) {
+      const cli_option *o = &cli_option_table[k];
+      if (o->group != (cli_group)g || !cli_option_exists(o, cli_existing())) continue;
+      if (!any) fprintf(out, ".Ss %s\n.Bl -tag -width Ds\n", cli_group_names[g]);
+      any = true;
+      option(out, o);
+    }
+    if (any) fputs(".El\n", out);
+  }
+}
+
+static void commands(FILE *out) {
+  fputs(".Bl -tag -width Ds\n", out);
+  for (size_t c = 0; c < CLI_COMMANDS; c++) {
+    if (!cli_commands[c].run) continue;
+    fprintf(out, ".It Cm %s Ar %s\n", cli_commands[c].name, cli_commands[c].operands);
+    text(out, cli_commands[c].about);
+  }
+  fputs(".El\n", out);
+}
+
+void cli_help_man(FILE *out) {
+  fputs(".\\\" SPDX-License-Identifier: LGPL-3.0-or-later\n.Dd " CLI_MANUAL_DATE "\n.Dt DYADEL 1\n.Os\n"
+        ".Sh NAME\n.Nm dyadel\n.Nd Delaunay and Voronoi of computable points\n.Sh SYNOPSIS\n",
+        out);
+  for (size_t c = 0; c < CLI_COMMANDS; c++)
+    if (cli_commands[c].run)
+      fprintf(out, ".Nm\n.Cm %s\n.Op Ar option ...\n.Ar %s\n", cli_commands[c].name, cli_commands[c].operands);
+  fputs(".Sh DESCRIPTION\n", out);
+  text(out, cli_summary);
+  fputs(".Pp\nThe commands are:\n", out);
+  commands(out);
+  fputs(".Ss The points file\n", out);
+  text(out, cli_file_text);
+  fputs("A coordinate is one of\n", out);
+  terms(out, cli_coordinate_forms, "Li");
+  fputs(".Sh OPTIONS\n", out);
+  text(out, "Commands in parentheses are those that take the option; where none is named, all do.");
+  options(out);
+  fputs(".Sh FORMATS\n", out);
+  text(out, "No format holds a rounded number without saying to which side, or by how much at most, it is rounded.");
+  terms(out, cli_format_notes, "Cm");
+  fputs(".Sh EXIT STATUS\n", out);
+  terms(out, cli_exit_statuses, "Li");
+  fputs(".Pp\n", out);
+  text(out, "Results are written for 0, 3, 4 and 5; they are true and complete for the rectangles reached.");
+  fputs(".Sh EXAMPLES\n", out);
+  terms(out, cli_examples, "Li");
+}

@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What commands share: an engine with the points, a run with progress and signals, a result file, exit statuses. */
+#include "cli.h"
+#include <errno.h>
+#include <string.h>
+
+void cli_complain_at(const char *file, const dyd_error *err) {
+  char point[40] = "";
+  if (err->point != DYD_NO_POINT) snprintf(point, sizeof point, "point %zu: ", err->point);
+  if (!file)
+    cli_complain("%s%s", point, err->message);
+  else if (err->line)
+    cli_complain("%s:%zu:%zu: %s%s", file, err->line, err->column, point, err->message);
+  else
+    cli_complain("%s: %s%s", file, point, err->message);
+}
+
+/* ---- reading ---- */
+
+static int read_file(dyd_engine *e, const cli_options *o) {
+  bool standard = strcmp(o->file, "-") == 0;
+  FILE *in = standard ? stdin : fopen(o->file, "rb");
+  if (!in) {
+    cli_complain("%s: cannot open: %s; check the name of the points file", o->file, strerror(errno));
+    return CLI_FAILED;
+  }
+  dyd_error err;
+  dyd_status status = dyd_read_points(e, in, &o->read, &err);
+  if (!standard) fclose(in);
+  if (status == DYD_E_ARG) {
+    cli_complain("%s", err.message);
+    return CLI_USAGE;
+  }
+  if (status < 0) cli_complain_at(o->file, &err);
+  return status < 0 ? CLI_FAILED : 0;
+}
+
+int cli_session_open(cli_session *s, const cli_options *o) {
+  *s = (cli_session){.options = o, .begun = cli_clock()};
+  if (dyd_engine_new(&s->engine) < 0) {
+    cli_complain("memory is exhausted; close other programs");
+    return CLI_FAILED;
+  }
+  s->progress = cli_progress_start(o->quiet);
+  cli_progress_phase(s->progress, "reading");
+  return read_file(s->engine, o);
+}
+
+/* ---- running ---- */
+
+int cli_session_run(cli_session *s, const dyd_engine_options *options) {
+  cli_progress_phase(s->progress, "triangulating");
+  dyd_engine_options run = *options;
+  run.progress = cli_progress_stage;
+  run.progress_user = s->progress;
+  dyd_outcome outcome;
+  dyd_error err;
+  dyd_error_clear(&err);
+  cli_signals_cancel(s->engine);
+  dyd_status done = dyd_engine_run(&outcome, s->engine, &run, &err);
+  cli_signals_remove(NULL);
+  if (done >= 0) return 0;
+  cli_complain_at(s->options->file, &err);
+  return CLI_FAILED;
+}
+
+static int exit_status(dyd_outcome outcome) {
+  switch (outcome) {
+  case DYD_OUTCOME_DECIDED:
+  case DYD_OUTCOME_CERTIFIED:
+    return CLI_OK;
+  case DYD_OUTCOME_FIXPOINT:
+    return CLI_FIXPOINT;
+  case DYD_OUTCOME_BUDGET:
+    return CLI_BUDGET;
+  case DYD_OUTCOME_CANCELLED:
+    return CLI_CANCELLED;
+  default:
+    return CLI_FAILED;
+  }
+}
+
+static const char *budget_advice(dyd_budget b) {
+  switch (b) {
+  case DYD_BUDGET_BITS:
+    return "the precision is used up; raise --max-bits, unless the points are tied";
+  case DYD_BUDGET_PAIRS:
+    return "the cap on stored pairs was met; raise --max-pairs";
+  case DYD_BUDGET_SECONDS:
+    return "the time is used up; raise --timeout";
+  default:
+    return "the budget is used up";
+  }
+}
+
+/* One line about a result that leaves something open. */
+static void note_outcome(const dyd_engine *e) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(e);
+  dyd_outcome outcome = dyd_engine_outcome(e);
+  if (!pd || outcome == DYD_OUTCOME_DECIDED || outcome == DYD_OUTCOME_CERTIFIED) return;
+  dyd_engine_counters c;
+  size_t count[4];
+  dyd_engine_get_counters(&c, e);
+  dyd_delaunay_count(count, pd);
+  const char *why = "stopped on request";
+  if (outcome == DYD_OUTCOME_FIXPOINT) why = "no refinement can decide the rest: exact ties or fixed rectangles";
+  if (outcome == DYD_OUTCOME_BUDGET) why = budget_advice(c.spent);
+  if (outcome == DYD_OUTCOME_ERROR) why = "a point failed; this much was known before";
+  cli_complain("%s: %zu legal, %zu indeterminate, %zu tie; %s", dyd_outcome_text(outcome), count[DYD_LEGAL],
+               count[DYD_INDETERMINATE], count[DYD_TIE], why);
+}
+
+/* ---- writing ---- */
+
+int cli_session_write(cli_session *s, cli_write_fn write) {
+  const cli_options *o = s->options;
+  cli_progress_phase(s->progress, "writing");
+  if (!dyd_engine_delaunay(s->engine)) {
+    cli_complain("%s before the first triangulation was complete: there is no result to write",
+                 dyd_outcome_text(dyd_engine_outcome(s->engine)));
+    return 0;
+  }
+  cli_output out;
+  if (!cli_output_open(&out, o->output)) return CLI_FAILED;
+  dyd_error err;
+  dyd_error_clear(&err);
+  dyd_status status = write(out.stream, s->engine, o, &err);
+  bool done = status >= 0;
+  if (!done) cli_complain_at(o->output ? o->output : "standard output", &err);
+  cli_signals_remove(NULL);
+  if (done)
+    done = cli_output_finish(&out);
+  else
+    cli_output_drop(&out);
+  return done ? 0 : CLI_FAILED;
+}
+
+int cli_session_close(cli_session *s, int status) {
+  const cli_options *o = s->options;
+  cli_progress_stop(s->progress);
+  if (s->engine) {
+    dyd_outcome outcome = dyd_engine_outcome(s->engine);
+    if (status == 0) status = exit_status(outcome);
+    if (!o->quiet && status != CLI_OK && status != CLI_USAGE) note_outcome(s->engine);
+    if (o->stats && outcome != DYD_OUTCOME_NONE) cli_stats(stderr, s->engine, cli_clock() - s->begun);
+  }
+  dyd_engine_free(s->engine);
+  *s = (cli_session){0};
+  return status;
+}
+
+int cli_session_all(const cli_options *o, cli_write_fn write) {
+  cli_session s;
+  int status = cli_session_open(&s, o);
+  if (status == 0) {
+    status = cli_session_run(&s, &o->engine);
+    /* What was stated before a point failed stays true: it is written, and the exit status tells of the failure. */
+    if (status == 0 || dyd_engine_delaunay(s.engine)) {
+      int written = cli_session_write(&s, write);
+      if (status == 0) status = written;
+    }
+  }
+  return cli_session_close(&s, status);
+}

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The table of commands and options.
+ *
+ * A new command: its row in cli_commands, `int cli_NAME(const cli_options *o)` in NAME.c, its declaration in cli.h.
+ * A new option: its row in cli_option_table and its field in cli_options. The rest follows: parsing, messages, help,
+ * manual page, completion. Options of commands that do not exist (run = NULL) do not exist either. */
+#include "table.h"
+#include <string.h>
+
+#define BIT(command) (1u << (command))
+#define FORMAT(format) (1u << (format))
+#define AT(field) .offset = offsetof(cli_options, field), .width = sizeof(((cli_options *)0)->field)
+#define RANGE(low, high) .least = (low), .most = (high)
+#define GIVEN(field) .given = offsetof(cli_options, field)
+
+enum {
+  ALL = BIT(CLI_COMMANDS) - 1,
+  READ = ALL & ~BIT(CLI_VERIFY),                                                   /* reads points */
+  RUN = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_CHECK), /* runs the engine to a goal */
+  REFINE = RUN | BIT(CLI_DISC) | BIT(CLI_BISECTOR) | BIT(CLI_NEAREST)              /* asks points to narrow */
+};
+
+const cli_command cli_commands[CLI_COMMANDS] = {
+    [CLI_DELAUNAY] = {"delaunay", "FILE", "which pairs of points are edges: surely, possibly, by a tie",
+                      "Delaunay triangulation of the points. A pair is legal (an edge whatever the points\n"
+                      "in the rectangles are), indeterminate (an edge for some choice), a tie (as\n"
+                      "indeterminate, but no refinement can decide it), or not listed (never an edge).",
+                      FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | FORMAT(DYD_FORMAT_WKT) |
+                          FORMAT(DYD_FORMAT_GEOJSON) | FORMAT(DYD_FORMAT_OBJ) | FORMAT(DYD_FORMAT_SVG),
+                      cli_delaunay},
+};
+
+const char *const cli_group_names[CLI_GROUPS] = {[CLI_INPUT] = "Input",
+                                                 [CLI_REFINEMENT] = "Refinement",
+                                                 [CLI_OUTPUT] = "Output",
+                                                 [CLI_EXPERIMENTS] = "Experiments",
+                                                 [CLI_OTHER] = "Other"};
+
+const cli_option cli_option_table[] = {
+    {"columns", 0, "NAME,NAME", CLI_TEXT, READ, CLI_INPUT, "FILE is CSV with a header; take these two columns as x,y",
+     AT(read.columns)},
+    {"measured", 0, NULL, CLI_FLAG, READ, CLI_INPUT, "decimals are rounded measurements: 47.61 is [47.605,47.615]",
+     AT(read.measured)},
+    {"radius", 0, "R", CLI_TEXT, READ, CLI_INPUT, "widen every point by R on each side", AT(read.radius)},
+
+    {"until", 0, "GOAL", CLI_GOAL, RUN, CLI_REFINEMENT, "decided (default), area:M or hausdorff:M (bound 2^-M)",
+     AT(engine)},
+    {"max-bits", 0, "B", CLI_INTEGER, REFINE, CLI_REFINEMENT, "precision at which to give up (default 4096)",
+     AT(engine.max_bits), RANGE(1, DYD_EXP_LIMIT)},
+    {"max-pairs", 0, "K", CLI_INTEGER, RUN, CLI_REFINEMENT, "cap on stored pairs (default 4000000 + 16 per point)",
+     AT(engine.max_pairs), RANGE(1, (long long)1 << 40)},
+    {"timeout", 0, "SECONDS", CLI_SECONDS, REFINE, CLI_REFINEMENT, "stop after this time", AT(engine.seconds)},
+    {"schedule", 0, "WHICH", CLI_SCHEDULE, RUN, CLI_REFINEMENT,
+     "adaptive (default): refine what is undecided;\nuniform: refine all points", AT(engine.schedule)},
+    {"threads", 0, "T", CLI_INTEGER, RUN, CLI_REFINEMENT, "threads to use (default 1); results do not depend on it",
+     AT(engine.threads), RANGE(1, 1024)},
+
+    {"format", 0, "F", CLI_FORMAT, ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
+    {"output", 'o', "FILE", CLI_FILE, ALL, CLI_OUTPUT, "write to FILE, whole or not at all", AT(output)},
+    {"stats", 0, NULL, CLI_FLAG, RUN, CLI_OUTPUT, "print counters to standard error", AT(stats)},
+    {"quiet", 0, NULL, CLI_FLAG, ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
+
+    {"help", 'h', "KIND", CLI_HELP, ALL, CLI_OTHER,
+     "this text; after a command: its options;\n--help=man, bash, zsh: manual page, completion script", AT(help)},
+    {"version", 0, NULL, CLI_FLAG, ALL, CLI_OTHER, "the version", AT(version)},
+};
+const size_t cli_option_count = sizeof cli_option_table / sizeof *cli_option_table;
+
+unsigned cli_existing(void) {
+  unsigned set = 0;
+  for (unsigned c = 0; c < CLI_COMMANDS; c++)
+    if (cli_commands[c].run) set |= BIT(c);
+  return set;
+}
+
+bool cli_option_exists(const cli_option *option, unsigned commands) {
+  if (option->kind == CLI_FORMAT && !cli_formats_of(option->commands & commands)) return false;
+  return (option->commands & commands & cli_existing()) != 0;
+}
+
+const cli_command *cli_command_find(const char *name) {
+  for (unsigned c = 0; c < CLI_COMMANDS; c++)
+    if (cli_commands[c].run && strcmp(cli_commands[c].name, name) == 0) return &cli_commands[c];
+  return NULL;
+}
+
+unsigned cli_command_bit(const cli_command *c) {
+  return BIT((unsigned)(c - cli_commands));
+}
+
+unsigned cli_formats_of(unsigned commands) {
+  unsigned formats = 0;
+  for (unsigned c = 0; c < CLI_COMMANDS; c++)
+    if (commands & BIT(c) && cli_commands[c].run) formats |= cli_commands[c].formats;
+  return formats;
+}
+
+void cli_formats_print(FILE *out, unsigned formats, const char *separator, bool mark) {
+  bool first = true;
+  for (unsigned f = 0; dyd_format_name((dyd_format)f); f++) {
+    if (!(formats & FORMAT(f))) continue;
+    fprintf(out, "%s%s%s", first ? "" : separator, dyd_format_name((dyd_format)f), first && mark ? " (default)" : "");
+    first = false;
+  }
+}

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The table of commands and options: the one source of parsing, help, manual page and completion. */
+#ifndef DYD_CLI_TABLE_H
+#define DYD_CLI_TABLE_H
+
+#include "cli.h"
+
+/* A command, as the number of its bit in sets of commands. */
+typedef enum cli_command_number {
+  CLI_DELAUNAY,
+  CLI_VORONOI,
+  CLI_CONVERGE,
+  CLI_CHECK,
+  CLI_VERIFY,
+  CLI_DISC,
+  CLI_BISECTOR,
+  CLI_NEAREST,
+  CLI_COMMANDS
+} cli_command_number;
+
+/* What the value of an option is: how it is read, and what completion offers for it. */
+typedef enum cli_kind {
+  CLI_FLAG,     /* no value; a bool is set */
+  CLI_TEXT,     /* any text */
+  CLI_FILE,     /* the name of a file */
+  CLI_INTEGER,  /* least..most, into an integer of `width` bytes */
+  CLI_SECONDS,  /* a double above 0 */
+  CLI_GOAL,     /* decided, area:M, hausdorff:M */
+  CLI_SCHEDULE, /* adaptive or uniform */
+  CLI_FORMAT,   /* a format of the command */
+  CLI_WINDOW,   /* XLO,XHI,YLO,YHI */
+  CLI_HELP      /* nothing, or =KIND */
+} cli_kind;
+
+typedef enum cli_group { CLI_INPUT, CLI_REFINEMENT, CLI_OUTPUT, CLI_EXPERIMENTS, CLI_OTHER, CLI_GROUPS } cli_group;
+
+typedef struct cli_option {
+  const char *name;
+  char letter;          /* 0: none */
+  const char *argument; /* placeholder of the value; NULL: takes none */
+  cli_kind kind;
+  unsigned commands; /* the set of commands that take it */
+  cli_group group;
+  const char *help; /* one line, or lines; no full stop. Of formats: NULL, the list is made */
+  size_t offset;    /* of the value in cli_options */
+  size_t width;     /* and its size */
+  long long least, most;
+  size_t given; /* offset of a bool that is set, 0: none */
+} cli_option;
+
+/* Invariant: rows with run = NULL do not exist for the user. */
+typedef struct cli_command {
+  const char *name;
+  const char *operands; /* "FILE", "FILE X Y", "CERT" */
+  const char *line;     /* what it does, in a line without a full stop */
+  const char *about;    /* a paragraph or more for its help and the manual page, lines of at most 79 characters */
+  unsigned formats;     /* the set of formats (dyd_format) it writes; the lowest is the default */
+  int (*run)(const cli_options *o);
+} cli_command;
+
+extern const cli_command cli_commands[CLI_COMMANDS];
+extern const cli_option cli_option_table[];
+extern const size_t cli_option_count;
+extern const char *const cli_group_names[CLI_GROUPS];
+
+/* Texts of help and manual page: lines, each a paragraph "TERM\tMEANING". */
+typedef struct cli_term {
+  const char *term, *meaning;
+} cli_term;
+extern const cli_term cli_exit_statuses[], cli_coordinate_forms[], cli_format_notes[], cli_examples[];
+extern const char cli_summary[], cli_file_text[];
+/* Day of the last change of these texts, as the manual page shows it. */
+#define CLI_MANUAL_DATE "November 21, 2026"
+
+/* The set of commands that exist. */
+unsigned cli_existing(void);
+/* Does the option exist for one of these commands? */
+bool cli_option_exists(const cli_option *option, unsigned commands);
+/* NULL when there is none of that name. */
+const cli_command *cli_command_find(const char *name);
+/* The set with this command alone. */
+unsigned cli_command_bit(const cli_command *c);
+/* The names of a set of formats, separated; the first is marked when `mark` says so ("csv (default), json"). */
+void cli_formats_print(FILE *out, unsigned formats, const char *separator, bool mark);
+/* The formats that some of these commands write. */
+unsigned cli_formats_of(unsigned commands);
+
+/* values.c: reads the value of an option into *o; false after a message. */
+bool cli_value_read(cli_options *o, const cli_option *option, const char *text);
+
+/* suggest.c: the candidate most like `name`, NULL when none is like it. A name that begins as `name` does, or a few
+ * typing errors away. */
+typedef struct cli_suggestion {
+  const char *name, *best;
+  size_t distance;
+} cli_suggestion;
+void cli_suggest_begin(cli_suggestion *s, const char *name);
+void cli_suggest_try(cli_suggestion *s, const char *candidate);
+
+/* help.c, help_man.c, help_complete.c: command NULL: help on everything. */
+void cli_help(FILE *out, const cli_command *command);
+void cli_help_man(FILE *out);
+void cli_help_bash(FILE *out);
+void cli_help_zsh(FILE *out);
+
+#endif
