@@ -17,7 +17,8 @@ enum {
   ALL = BIT(CLI_COMMANDS) - 1,
   READ = ALL & ~BIT(CLI_VERIFY),                                                   /* reads points */
   RUN = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_CHECK), /* runs the engine to a goal */
-  REFINE = RUN | BIT(CLI_DISC) | BIT(CLI_BISECTOR) | BIT(CLI_NEAREST)              /* asks points to narrow */
+  PIECES = BIT(CLI_DISC) | BIT(CLI_BISECTOR),
+  REFINE = RUN | PIECES | BIT(CLI_NEAREST) /* asks points to narrow */
 };
 
 const cli_command cli_commands[CLI_COMMANDS] = {
@@ -28,6 +29,13 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                       FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | FORMAT(DYD_FORMAT_WKT) |
                           FORMAT(DYD_FORMAT_GEOJSON) | FORMAT(DYD_FORMAT_OBJ) | FORMAT(DYD_FORMAT_SVG),
                       cli_delaunay},
+    [CLI_VORONOI] = {.name = "voronoi", .operands = "FILE"},
+    [CLI_CONVERGE] = {.name = "converge", .operands = "FILE"},
+    [CLI_CHECK] = {.name = "check", .operands = "FILE"},
+    [CLI_VERIFY] = {.name = "verify", .operands = "CERT"},
+    [CLI_DISC] = {.name = "disc", .operands = "FILE"},
+    [CLI_BISECTOR] = {.name = "bisector", .operands = "FILE"},
+    [CLI_NEAREST] = {.name = "nearest", .operands = "FILE X Y"},
 };
 
 const char *const cli_group_names[CLI_GROUPS] = {[CLI_INPUT] = "Input",
@@ -55,10 +63,20 @@ const cli_option cli_option_table[] = {
     {"threads", 0, "T", CLI_INTEGER, RUN, CLI_REFINEMENT, "threads to use (default 1); results do not depend on it",
      AT(engine.threads), RANGE(1, 1024)},
 
+    {"window", 0, "XLO,XHI,YLO,YHI", CLI_WINDOW, BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_CHECK) | PIECES,
+     CLI_OUTPUT, "the part of the plane looked at; exact numbers\n(default: the box of the points enlarged by half)",
+     AT(window)},
+    {"flatten", 0, "M", CLI_INTEGER, BIT(CLI_VORONOI) | PIECES, CLI_OUTPUT, "draw arcs by polygons within 2^-M of them",
+     AT(flatten_bits), RANGE(-DYD_EXP_LIMIT, DYD_EXP_LIMIT), GIVEN(flatten_set)},
     {"format", 0, "F", CLI_FORMAT, ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
     {"output", 'o', "FILE", CLI_FILE, ALL, CLI_OUTPUT, "write to FILE, whole or not at all", AT(output)},
     {"stats", 0, NULL, CLI_FLAG, RUN, CLI_OUTPUT, "print counters to standard error", AT(stats)},
     {"quiet", 0, NULL, CLI_FLAG, ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
+
+    {"seed", 0, "S", CLI_INTEGER, BIT(CLI_CHECK), CLI_EXPERIMENTS, "seed of random choices; printed", AT(seed),
+     RANGE(0, INT64_MAX), GIVEN(seed_set)},
+    {"schedules", 0, "K", CLI_INTEGER, BIT(CLI_CHECK), CLI_EXPERIMENTS, "random schedules to try", AT(schedules),
+     RANGE(1, 1000000)},
 
     {"help", 'h', "KIND", CLI_HELP, ALL, CLI_OTHER,
      "this text; after a command: its options;\n--help=man, bash, zsh: manual page, completion script", AT(help)},
