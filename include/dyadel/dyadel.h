@@ -6,6 +6,7 @@
 #include <dyadel/engine.h>
 #include <dyadel/io.h>
 #include <dyadel/metric.h>
+#include <dyadel/oracle.h>
 #include <dyadel/voronoi.h>
 
 #endif

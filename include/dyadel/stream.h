@@ -27,23 +27,33 @@ typedef struct dyd_request {
   size_t point;
   int64_t bits;
   int64_t max_bits;
+  /* NULL, or a flag that becomes not 0 when the answer is no longer wanted (the run was cancelled, or its time is
+   * over): a callback that may take long reads it atomically now and then, and then returns DYD_CANCELLED. */
+  const volatile int *stop;
 } dyd_request;
 
 /* The callback of the library.
  * out    in: the rectangle known so far (the whole plane is shown as an empty init value at stage 0);
  *        out: a rectangle inside it. Initialised and owned by the caller.
- * Returns DYD_OK; DYD_FIXED when this rectangle is final; < 0 with *err filled (message at least).
+ * Returns DYD_OK; DYD_FIXED when this rectangle is final; DYD_CANCELLED when request->stop was seen; < 0 with *err
+ * filled (message at least).
  * A wider rectangle than asked is allowed, a rectangle not inside the previous one is a nesting error. */
 typedef dyd_status (*dyd_narrow_fn)(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err);
 typedef dyd_status (*dyd_narrow_real_fn)(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err);
 typedef void (*dyd_release_fn)(void *user);
+/* Told before a stage what the source will be asked in it, in that order, so that slow answers can be sought side by
+ * side; narrow then collects them one by one. A hint: it may be ignored, and narrow may be called for fewer of them, or
+ * for others. Each list replaces the one before. request is borrowed for the call. */
+typedef void (*dyd_announce_fn)(void *user, const dyd_request *request, size_t count);
 
 /* A callback with its context. release may be NULL; it is called exactly once, when nothing uses user any more: also
- * when the constructor that was given it fails. */
+ * when the constructor that was given it fails. announce may be NULL; only engines call it, for sources added to them.
+ */
 typedef struct dyd_source {
   dyd_narrow_fn narrow;
   dyd_release_fn release;
   void *user;
+  dyd_announce_fn announce;
 } dyd_source;
 
 /* ---- reals ---- */

@@ -66,9 +66,13 @@ static inline void dyd_flag_set(volatile int *flag, int value) {
 /* The refinable point of a site, NULL when the site is fixed. O(log points). */
 dyd_refinable *dyd_engine_find(const dyd_engine *e, uint32_t site);
 /* Brings one point to precision bits (2^-bits) and its site in the table with it; *calls counts calls made (0 when the
- * point was that narrow before). On failure the site and p->bits are as before, and err names site and stage. */
+ * point was that narrow before). On failure the site and p->bits are as before, and err names site and stage; so they
+ * are for DYD_CANCELLED, which a source returns when it saw e->stop raised. */
 dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits, int64_t max_bits,
                              dyd_error *err);
+/* Tells the sources that want to know which of their points are marked, in the order in which narrowing will come to
+ * them, `most` points of such sources at most. */
+void dyd_engine_announce(const dyd_engine *e, uint64_t most, int64_t max_bits);
 /* Releases streams and sources. */
 void dyd_engine_clear_points(dyd_engine *e);
 

@@ -132,6 +132,14 @@ dyd_refinable *dyd_engine_find(const dyd_engine *e, uint32_t site) {
 
 /* ---- asking ---- */
 
+/* The request for p, with the flag that says that the answer is not wanted any more. */
+static dyd_status make_request(dyd_request *out, const dyd_refinable *p, const dyd_engine *e, int64_t bits,
+                               int64_t max_bits, dyd_error *err) {
+  dyd_status status = dyd_request_make(out, p->site - e->source[p->source].first, bits, max_bits, err);
+  out->stop = &e->stop;
+  return status;
+}
+
 /* Asks the source of p. *r comes in as the rectangle so far and goes out as the answer, checked to be one. */
 static dyd_status ask_source(dyd_rect *r, const dyd_refinable *p, const dyd_engine *e, int64_t bits, int64_t max_bits,
                              dyd_error *err) {
@@ -139,9 +147,10 @@ static dyd_status ask_source(dyd_rect *r, const dyd_refinable *p, const dyd_engi
   dyd_request request;
   dyd_error own;
   dyd_error_clear(&own);
-  dyd_status status = dyd_request_make(&request, p->site - use->first, bits, max_bits, err);
+  dyd_status status = make_request(&request, p, e, bits, max_bits, err);
   if (status < 0) return status;
   status = use->source.narrow(r, use->source.user, &request, &own);
+  if (status == DYD_CANCELLED && dyd_flag_get(&e->stop)) return status;
   if (status != DYD_OK && status != DYD_FIXED) return dyd_callback_fail(err, &own, status, p->site, p->calls);
   if (!dyd_interval_is_valid(&r->x) || !dyd_interval_is_valid(&r->y)) {
     return dyd_fail(err, DYD_E_STREAM, "the source gave no valid rectangle; fill it with dyd_interval_set_ends");
@@ -195,7 +204,7 @@ static dyd_status blame(const dyd_refinable *p, dyd_status status, dyd_error *er
 dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits, int64_t max_bits,
                              dyd_error *err) {
   dyd_rect r;
-  bool final = p->final;
+  bool final = p->final, cancelled = false;
   dyd_error_clear(err);
   dyd_rect_init(&r);
   dyd_status status = p->asked ? dyd_sites_get(&r, e->sites, p->site) : DYD_OK;
@@ -203,14 +212,52 @@ dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, i
     ++*calls;
     status = p->stream ? ask_stream(&r, p, bits, max_bits, err) : ask_source(&r, p, e, bits, max_bits, err);
     final = status == DYD_FIXED || dyd_rect_is_point(&r);
-    if (status >= 0) status = put(p, e, &r, err);
-    if (status >= 0) p->calls++;
+    cancelled = status == DYD_CANCELLED;
+    if (status >= 0 && !cancelled) status = put(p, e, &r, err);
+    if (status >= 0 && !cancelled) p->calls++;
   }
-  if (status >= 0) {
+  if (status >= 0 && !cancelled) {
     p->bits = bits;
     p->final = final;
     p->asked = true;
   }
   dyd_rect_clear(&r);
-  return status < 0 ? blame(p, status, err) : DYD_OK;
+  if (status < 0) return blame(p, status, err);
+  return cancelled ? DYD_CANCELLED : DYD_OK;
+}
+
+/* ---- announcing ---- */
+
+/* Will p, marked, be asked for p->want? */
+static bool will_ask(dyd_rect *scratch, const dyd_refinable *p, const dyd_engine *e) {
+  if (!p->asked) return true;
+  return dyd_sites_get(scratch, e->sites, p->site) < 0 || dyd_rect_bits(scratch) < p->want;
+}
+
+/* Points first .. end-1 are all those of one source: tells it which of them are marked; *left is how many calls there
+ * may be. What cannot be told, for lack of memory or because the request is refused, is left out. */
+static void announce_source(uint64_t *left, const dyd_engine *e, size_t first, size_t end, int64_t max_bits) {
+  const dyd_source *source = &e->source[e->point[first].source].source;
+  dyd_request *list = dyd_alloc(end - first, sizeof *list);
+  dyd_rect scratch;
+  size_t count = 0;
+  dyd_rect_init(&scratch);
+  for (size_t k = first; list && *left && k < end; k++) {
+    const dyd_refinable *p = &e->point[k];
+    if (!p->marked || !will_ask(&scratch, p, e)) continue;
+    --*left;
+    if (make_request(&list[count], p, e, p->want, max_bits, NULL) >= 0) count++;
+  }
+  dyd_rect_clear(&scratch);
+  if (count) source->announce(source->user, list, count);
+  free(list);
+}
+
+void dyd_engine_announce(const dyd_engine *e, uint64_t most, int64_t max_bits) {
+  for (size_t k = 0, end; k < e->points; k = end) {
+    const dyd_refinable *p = &e->point[k];
+    for (end = k + 1; end < e->points && !p->stream; end++)
+      if (e->point[end].stream || e->point[end].source != p->source) break;
+    if (!p->stream && e->source[p->source].source.announce) announce_source(&most, e, k, end, max_bits);
+  }
 }

@@ -73,6 +73,14 @@ static bool calls_are_spent(const run *r) {
   return r->o.max_calls && r->calls >= r->o.max_calls;
 }
 
+/* Work was interrupted because e->stop is raised: by a cancel or at the deadline, and by nothing else. */
+static void end_interrupted(run *r) {
+  if (dyd_flag_get(&r->e->cancelled))
+    r->end = DYD_OUTCOME_CANCELLED;
+  else
+    end_budget(r, DYD_BUDGET_SECONDS);
+}
+
 /* ---- a stage ---- */
 
 /* Narrows the marked points. *bits becomes the greatest precision asked for; *cut whether points are left
@@ -82,6 +90,7 @@ static dyd_status narrow_marked(int64_t *bits, bool *cut, run *r, size_t marked)
   size_t need = e->pd ? e->changes + marked : 0;
   if (!dyd_reserve((void **)&e->changed, &e->change_cap, need, sizeof *e->changed)) return DYD_E_NOMEM;
   *bits = INT64_MIN;
+  dyd_engine_announce(e, r->o.max_calls ? r->o.max_calls - r->calls : UINT64_MAX, r->o.max_bits);
   for (size_t k = 0; k < e->points; k++) {
     dyd_refinable *p = &e->point[k];
     if (!p->marked) continue;
@@ -95,6 +104,10 @@ static dyd_status narrow_marked(int64_t *bits, bool *cut, run *r, size_t marked)
     r->calls += calls;
     e->calls += calls;
     if (status < 0) return status;
+    if (status == DYD_CANCELLED) {
+      end_interrupted(r);
+      return DYD_OK;
+    }
     p->marked = false;
     if (p->want > *bits) *bits = p->want;
     if (e->pd && calls) e->changed[e->changes++] = p->site;
@@ -129,11 +142,7 @@ static dyd_status triangulate(run *r, dyd_error *err) {
   dyd_status status =
       e->pd ? dyd_delaunay_update(e->pd, e->changed, e->changes, &o, err) : dyd_delaunay_new(&e->pd, e->sites, &o, err);
   if (status == DYD_CANCELLED) {
-    /* The flag is raised by a cancel or at the deadline, and by nothing else. */
-    if (dyd_flag_get(&e->cancelled))
-      r->end = DYD_OUTCOME_CANCELLED;
-    else
-      end_budget(r, DYD_BUDGET_SECONDS);
+    end_interrupted(r);
     return DYD_OK;
   }
   if (status < 0) return status;

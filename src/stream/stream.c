@@ -44,7 +44,7 @@ dyd_status dyd_stream_new_enclosing(dyd_stream **out, const dyd_source *source) 
 
 dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value) {
   dyd_stream *s;
-  dyd_source none = {NULL, NULL, NULL};
+  dyd_source none = {0};
   dyd_status st = stream_new(&s, &none, DYD_NO_POINT);
   if (st) return st;
   dyd_rect_swap(&s->now, value);

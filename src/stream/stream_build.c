@@ -61,7 +61,7 @@ dyd_status dyd_stream_from_reals(dyd_stream **out, dyd_real *x, dyd_real *y) {
   }
   *p = (pair){x, y};
   if (!pair_is_final(p)) {
-    dyd_source source = {pair_narrow, pair_release, p};
+    dyd_source source = {.narrow = pair_narrow, .release = pair_release, .user = p};
     return dyd_stream_new_enclosing(out, &source);
   }
   dyd_status st = pair_fixed(out, p);

@@ -175,5 +175,5 @@ static void faulty_release(void *user) {
 }
 
 dyd_source faulty_source(faulty *f) {
-  return (dyd_source){faulty_narrow, faulty_release, f};
+  return (dyd_source){.narrow = faulty_narrow, .release = faulty_release, .user = f};
 }

@@ -194,7 +194,7 @@ static void test_wide(void **state) {
   for (int k = 0; k < 3; k++) {
     int64_t size = sizes[k];
     dyd_engine *e = engine_new();
-    dyd_source source = {wide, NULL, &size};
+    dyd_source source = {.narrow = wide, .user = &size};
     const double x[3] = {0, 10, 0}, y[3] = {0, 0, 11};
     assert_int_equal(DYD_OK, dyd_engine_add_points(e, 3, x, y));
     assert_int_equal(DYD_OK, dyd_engine_add_source(e, 1, &source));

@@ -12,7 +12,7 @@ import sys
 LAYERS = [['base'], ['dyadic'], ['rect'], ['stream', 'predicate'], ['delaunay'], ['voronoi'], ['metric'], ['engine'], ['io']]
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 # Public headers in the order of the layers; a header may include only those before it.
-PUBLIC = ['status', 'dyadic', 'rect', 'stream sites', 'predicate delaunay', 'arc', 'voronoi', 'metric', 'engine', 'io', 'dyadel']
+PUBLIC = ['status', 'dyadic', 'rect', 'stream sites', 'oracle', 'predicate delaunay', 'arc', 'voronoi', 'metric', 'engine', 'io', 'dyadel']
 FILE_LINES, FUNCTION_LINES = 500, 60
 
 

@@ -79,7 +79,7 @@ static void faulty_release(void *user) {
 
 /* Narrows bit by bit up to the call with the fault; the status of that call is returned, *s keeps living. */
 static dyd_status run_faulty(dyd_stream **s, faulty *f, dyd_error *err) {
-  dyd_source source = {faulty_narrow, faulty_release, f};
+  dyd_source source = {.narrow = faulty_narrow, .release = faulty_release, .user = f};
   assert_int_equal(dyd_stream_new(s, &source, 7), DYD_OK);
   assert_null(dyd_stream_rect(*s));
   dyd_error_clear(err);
@@ -148,7 +148,7 @@ static void test_arguments(void **state) {
   faulty f = {.fault = NONE};
   dyd_stream *s = NULL;
   dyd_real *x = NULL;
-  dyd_source no_call = {NULL, faulty_release, &f};
+  dyd_source no_call = {.release = faulty_release, .user = &f};
   assert_int_equal(dyd_stream_new(&s, &no_call, 0), DYD_E_ARG);
   assert_int_equal(f.released, 1);
   assert_int_equal(dyd_real_new(&x, NULL, faulty_release, &f), DYD_E_ARG);
@@ -162,7 +162,7 @@ static void test_arguments(void **state) {
   assert_null(s);
   assert_null(x);
   mpq_clear(q);
-  dyd_source source = {faulty_narrow, faulty_release, &f};
+  dyd_source source = {.narrow = faulty_narrow, .release = faulty_release, .user = &f};
   f = (faulty){.at = -1};
   dyd_error err;
   dyd_error_clear(&err);
@@ -388,7 +388,7 @@ static void test_affine_chain(void **state) {
   assert_true(dyd_rect_bits(dyd_stream_rect(s)) >= 100);
   dyd_stream_free(s);
   faulty f = {.fault = FAILS, .at = 1};
-  dyd_source source = {faulty_narrow, faulty_release, &f};
+  dyd_source source = {.narrow = faulty_narrow, .release = faulty_release, .user = &f};
   assert_int_equal(dyd_stream_new(&s, &source, 7), DYD_OK);
   s = image_of(s, turn);
   dyd_error err;

@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Points served by a program of the user, in any language, over its standard input and output.
+ *
+ * The program is started as `sh -c COMMAND`. All is lines of text, at most 2^20 bytes long:
+ *   it first prints          points N
+ *   then for each line       refine I B                       (0 <= I < N)
+ *   it answers one line      I XLO XHI YLO YHI                or, when that can never be narrowed,
+ *                            I XLO XHI YLO YHI fixed
+ * where [XLO,XHI] x [YLO,YHI] encloses point I, lies inside every earlier answer for I, and aims at widths of 2^-B. The
+ * ends are plain exact numbers: -3.25, 1e-3, 22/7, 0x1.8p-3, 5*2^-20. Answers come in the order of the requests,
+ * without waiting for further ones, and the output is flushed after each. The program ends when its input does. What it
+ * answers should depend on I, B and its former answers for I only. Standard error is that of the caller.
+ *
+ * Several programs: point I is always asked of program number I modulo jobs, so a program may keep what it knows of its
+ * points. Each finds its number, from 0, in the environment as DYADEL_JOB (to choose a machine, say).
+ *
+ * Results do not depend on jobs, batch and time as long as the answers do not.
+ *
+ * Failures (statuses of narrow, with point and reason in the error record): DYD_E_STREAM when the program ended, was
+ * silent for too long, or wrote what is no answer to what was asked; DYD_E_NESTING, DYD_E_RANGE. What was answered
+ * before counts. A program that failed is not started again.
+ *
+ * Nothing is left behind: every program and what it starts is one process group, which is killed when the oracle is
+ * freed, one second after its input has ended, and also when the process that uses the library dies of whatever cause
+ * (a shell beside it watches for that). Only what leaves the group by its own will, such as a daemon, or runs on
+ * another machine, must see for itself that its input has ended. SIGPIPE is never raised. */
+#ifndef DYADEL_ORACLE_H
+#define DYADEL_ORACLE_H
+
+#include <dyadel/stream.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DYD_ORACLE_MAX_JOBS 1024
+#define DYD_ORACLE_MAX_BATCH 65536
+#define DYD_ORACLE_SECONDS 30
+
+typedef struct dyd_oracle_options {
+  unsigned jobs;            /* programs that run side by side; 0: one; never more than there are points */
+  unsigned batch;           /* requests a program is sent before its answers are awaited; 0: one */
+  double seconds;           /* the longest wait for one line; 0: DYD_ORACLE_SECONDS */
+  const volatile int *stop; /* not NULL: starting gives up with DYD_CANCELLED when it becomes not 0; borrowed for
+                             * the call of dyd_oracle_new only */
+} dyd_oracle_options;
+
+/* Programs that run, and what they were asked. Counted references; used by one thread at a time. */
+typedef struct dyd_oracle dyd_oracle;
+
+/* Starts the programs and waits until each has said how many points there are. options may be NULL.
+ * *out is new, with one reference. DYD_E_ARG for options out of range, DYD_E_STREAM when a program cannot be started or
+ * does not begin as it should, DYD_E_NOMEM, DYD_CANCELLED; *err (may be NULL) says more. Nothing is left running then.
+ */
+DYD_API dyd_status dyd_oracle_new(dyd_oracle **out, const char *command, const dyd_oracle_options *options,
+                                  dyd_error *err);
+/* How many points the programs serve. */
+DYD_API size_t dyd_oracle_count(const dyd_oracle *o);
+/* A source of points 0 .. dyd_oracle_count(o) - 1, for dyd_engine_add_source or dyd_stream_new. It holds a reference,
+ * which its release gives back; call this once for each time the source is handed over. */
+DYD_API dyd_source dyd_oracle_source(dyd_oracle *o);
+/* Gives back a reference. With the last one the inputs of the programs end; what still runs a second later is killed.
+ * NULL is allowed. */
+DYD_API void dyd_oracle_free(dyd_oracle *o);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

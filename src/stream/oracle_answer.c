@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What the lines of an oracle program mean.
+ *
+ * An answer [lo,hi] must lie inside the rectangle K known so far [NEST-1]: that is asked of the rational ends. Only
+ * then is it rounded outward to dyadics, and cut to K: K contains [lo,hi], so the cut does too, and it lies inside K
+ * whatever the two roundings were. */
+#include "stream/oracle_answer.h"
+
+#include "base/error.h"
+#include "stream/number.h"
+#include "stream/oracle_worker.h"
+#include "stream/real.h"
+#include <dyadel/sites.h>
+#include <string.h>
+
+/* A word of a line: text[begin, end). */
+typedef struct word {
+  size_t begin, end;
+} word;
+
+static bool is_blank(char c) {
+  return c == ' ' || c == '\t';
+}
+
+/* The words of a line; returns their number, at most `most` + 1. */
+static size_t split(word *out, size_t most, const char *line, size_t length) {
+  size_t n = 0;
+  for (size_t k = 0; k < length;) {
+    while (k < length && is_blank(line[k])) k++;
+    size_t begin = k;
+    while (k < length && !is_blank(line[k])) k++;
+    if (k == begin) continue;
+    if (n == most) return most + 1;
+    out[n++] = (word){begin, k};
+  }
+  return n;
+}
+
+static bool word_is(const char *line, word w, const char *text) {
+  return w.end - w.begin == strlen(text) && memcmp(line + w.begin, text, w.end - w.begin) == 0;
+}
+
+/* A whole number of at most nine digits. */
+static bool read_small(size_t *out, const char *line, word w) {
+  size_t value = 0;
+  if (w.end - w.begin > 9) return false;
+  for (size_t k = w.begin; k < w.end; k++) {
+    if (line[k] < '0' || line[k] > '9') return false;
+    value = 10 * value + (size_t)(line[k] - '0');
+  }
+  *out = value;
+  return true;
+}
+
+dyd_status dyd_oracle_read_count(size_t *out, const char *line, size_t length, dyd_error *err) {
+  word w[2];
+  size_t count;
+  char shown[80];
+  if (split(w, 2, line, length) != 2 || !word_is(line, w[0], "points") || !read_small(&count, line, w[1]) ||
+      count > DYD_MAX_SITES) {
+    return dyd_fail(err, DYD_E_STREAM,
+                    "the first line of the oracle program is %s; print \"points N\", with the number "
+                    "of points",
+                    dyd_quoted(shown, sizeof shown, line, length));
+  }
+  *out = count;
+  return DYD_OK;
+}
+
+/* ---- answers ---- */
+
+static dyd_status read_end(mpq_t out, const char *line, word w, dyd_error *err) {
+  dyd_error own;
+  char shown[80];
+  dyd_error_clear(&own);
+  dyd_status status = dyd_parse_number(out, line + w.begin, w.end - w.begin, &own);
+  if (status == DYD_OK || status == DYD_E_NOMEM || status == DYD_E_RANGE) {
+    return status ? dyd_fail(err, status, "%s", own.message) : status;
+  }
+  return dyd_fail(err, DYD_E_STREAM, "%s, column %zu of its answer, is not an exact number: %s",
+                  dyd_quoted(shown, sizeof shown, line + w.begin, w.end - w.begin), dyd_text_column(line, w.begin),
+                  own.message);
+}
+
+/* Is [lo,hi] inside *known? */
+static bool is_inside(const mpq_t lo, const mpq_t hi, const dyd_interval *known) {
+  mpq_t a, b;
+  mpq_inits(a, b, NULL);
+  dyd_interval_get_q(a, b, known);
+  bool inside = mpq_cmp(a, lo) <= 0 && mpq_cmp(hi, b) <= 0;
+  mpq_clears(a, b, NULL);
+  return inside;
+}
+
+/* *side comes in as what is known (known) and goes out as the new side. */
+static dyd_status set_side(dyd_interval *side, bool known, const char *name, const mpq_t lo, const mpq_t hi,
+                           dyd_error *err) {
+  dyd_interval next;
+  if (mpq_cmp(lo, hi) > 0) {
+    return dyd_fail(err, DYD_E_STREAM, "the lower end of the %s in its answer is above the upper end; exchange them",
+                    name);
+  }
+  dyd_interval_init(&next);
+  dyd_status status = dyd_interval_fix(&next, lo, hi);
+  if (status < 0)
+    dyd_fail(err, status, "the %s of its answer: %s", name, dyd_status_text(status));
+  else if (known && !is_inside(lo, hi, side))
+    status = dyd_nesting_fail(err, name, side, &next);
+  else if (known && (status = dyd_interval_intersect(&next, side, &next)) < 0)
+    dyd_fail(err, status, "the %s of its answer: %s", name, dyd_status_text(status));
+  if (status >= 0) dyd_interval_swap(side, &next);
+  dyd_interval_clear(&next);
+  return status;
+}
+
+static dyd_status read_side(dyd_interval *side, bool known, const char *name, const char *line, const word w[2],
+                            dyd_error *err) {
+  mpq_t lo, hi;
+  mpq_inits(lo, hi, NULL);
+  dyd_status status = read_end(lo, line, w[0], err);
+  if (status >= 0) status = read_end(hi, line, w[1], err);
+  if (status >= 0) status = set_side(side, known, name, lo, hi, err);
+  mpq_clears(lo, hi, NULL);
+  return status;
+}
+
+dyd_status dyd_oracle_read_answer(dyd_rect *r, bool known, const char *line, size_t length, dyd_error *err) {
+  word w[6];
+  dyd_rect next;
+  char shown[80];
+  size_t words = split(w, 6, line, length);
+  bool fixed = words == 6 && word_is(line, w[5], "fixed");
+  if (words != 5 && !fixed) {
+    return dyd_fail(err, DYD_E_STREAM,
+                    "its answer %s has not the five words I XLO XHI YLO YHI (and \"fixed\", if it is)",
+                    dyd_quoted(shown, sizeof shown, line, length));
+  }
+  dyd_rect_init(&next);
+  dyd_rect_set(&next, r);
+  dyd_status status = read_side(&next.x, known, "x side", line, w + 1, err);
+  if (status >= 0) status = read_side(&next.y, known, "y side", line, w + 3, err);
+  if (status >= 0) dyd_rect_swap(r, &next);
+  dyd_rect_clear(&next);
+  return status < 0 || !fixed ? status : DYD_FIXED;
+}

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* One program of an oracle: what it was asked, what it answered, and why it can be asked no more. */
+#ifndef DYD_STREAM_ORACLE_WORKER_H
+#define DYD_STREAM_ORACLE_WORKER_H
+
+#include "stream/oracle_process.h"
+#include <dyadel/stream.h>
+
+/* The longest line taken, and how many bytes of answers wait at most (and one line) before no more are read. */
+#define DYD_ORACLE_LINE ((size_t)1 << 20)
+#define DYD_ORACLE_HELD ((size_t)1 << 20)
+
+/* A request and its answer. The line "points N" is the answer to point DYD_NO_POINT. */
+typedef struct dyd_asked {
+  size_t point;
+  int64_t bits;
+  char *answer;  /* the whole line without its end, terminated by a NUL byte of ours; NULL: none yet, or not wanted */
+  size_t length; /* of the answer */
+  bool wanted;
+} dyd_asked;
+
+/* A queue of requests, two buffers, and a process.
+ * Invariant: head <= answered <= sent <= count; of asked[]: from head on not yet collected, before `answered` answered,
+ * before `sent` handed to `text`. held is the sum of the lengths of the answers held. Answers come in order, so those
+ * of requests no longer wanted come first. failed: why says what is wrong, and nothing more is read or written. */
+typedef struct dyd_worker {
+  dyd_process process;
+  dyd_asked *asked;
+  size_t head, answered, sent, count, cap;
+  size_t held;
+  char *line; /* bytes read, not yet a whole line; the first `scanned` hold no line end */
+  size_t line_length, line_cap, scanned;
+  char *text; /* bytes to write, from text_done on */
+  size_t text_length, text_done, text_cap;
+  unsigned batch;
+  bool deaf; /* it has closed its standard input */
+  bool failed;
+  double heard; /* when the last whole line came */
+  dyd_status code;
+  char why[DYD_MESSAGE_SIZE / 2];
+} dyd_worker;
+
+void dyd_worker_init(dyd_worker *w, unsigned batch);
+/* Ends the process and releases everything. */
+void dyd_worker_clear(dyd_worker *w);
+
+/* Appends a request; false: memory is exhausted. */
+bool dyd_worker_ask(dyd_worker *w, size_t point, int64_t bits);
+/* Appends the request that is answered by the first line of the program, and that is not sent. */
+bool dyd_worker_expect_count(dyd_worker *w);
+/* Drops what is not sent; answers to what is are not wanted any more. */
+void dyd_worker_forget(dyd_worker *w);
+/* The first request that is wanted, NULL when there is none. */
+dyd_asked *dyd_worker_first(dyd_worker *w);
+/* Is the first request that is wanted answered? Then it is at asked[head]. */
+bool dyd_worker_is_answered(dyd_worker *w);
+/* Takes the answered request at asked[head] off the queue. */
+void dyd_worker_drop(dyd_worker *w);
+/* Can the first request no longer be answered? true with failed set. */
+bool dyd_worker_is_lost(dyd_worker *w);
+
+/* May there be something to read, to write? */
+bool dyd_worker_reads(const dyd_worker *w);
+bool dyd_worker_writes(const dyd_worker *w);
+/* Puts requests into the text to write, as far as the batch allows: again when half of those sent are answered. */
+void dyd_worker_fill(dyd_worker *w);
+/* Read and write what goes without waiting. */
+void dyd_worker_hear(dyd_worker *w);
+void dyd_worker_tell(dyd_worker *w);
+
+/* From now on w has failed; its group is killed. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+void
+dyd_worker_fail(dyd_worker *w, dyd_status code, const char *format, ...);
+/* Copies a text for a message: in quotes, cut, with anything but printable ASCII as '?'. Returns out. */
+char *dyd_quoted(char *out, size_t size, const char *text, size_t length);
+
+#endif
