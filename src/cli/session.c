@@ -43,7 +43,7 @@ int cli_session_open(cli_session *s, const cli_options *o) {
   }
   s->progress = cli_progress_start(o->quiet);
   cli_progress_phase(s->progress, "reading");
-  return read_file(s->engine, o);
+  return o->oracle ? cli_oracle_read(s->engine, o) : read_file(s->engine, o);
 }
 
 /* ---- running ---- */

@@ -50,6 +50,20 @@ const cli_option cli_option_table[] = {
     {"measured", 0, NULL, CLI_FLAG, READ, CLI_INPUT, "decimals are rounded measurements: 47.61 is [47.605,47.615]",
      AT(read.measured)},
     {"radius", 0, "R", CLI_TEXT, READ, CLI_INPUT, "widen every point by R on each side", AT(read.radius)},
+    {"oracle", 0, "COMMAND", CLI_TEXT, READ, CLI_INPUT,
+     "in place of FILE: ask this program (sh -c) for the points;\nit prints \"points N\", then answers each line "
+     "\"refine I B\"\nby \"I XLO XHI YLO YHI\", aiming at widths of 2^-B",
+     AT(oracle)},
+    {"oracle-jobs", 0, "K", CLI_INTEGER, READ, CLI_INPUT,
+     "so many programs side by side (default 1); each finds its\n"
+     "number, from 0, in DYADEL_JOB",
+     AT(oracle_jobs), RANGE(1, DYD_ORACLE_MAX_JOBS)},
+    {"oracle-batch", 0, "B", CLI_INTEGER, READ, CLI_INPUT,
+     "send a program so many lines before awaiting answers\n"
+     "(default 1); higher where lines travel far",
+     AT(oracle_batch), RANGE(1, DYD_ORACLE_MAX_BATCH)},
+    {"oracle-timeout", 0, "SECONDS", CLI_SECONDS, READ, CLI_INPUT, "wait so long for a line of a program (default 30)",
+     AT(oracle_timeout)},
 
     {"until", 0, "GOAL", CLI_GOAL, RUN, CLI_REFINEMENT, "decided (default), area:M or hausdorff:M (bound 2^-M)",
      AT(engine)},

@@ -106,7 +106,7 @@ static int spawn_command(pid_t *pid, const char *command, unsigned job, int in, 
   size_t size = strlen(command) + 64;
   char *text = dyd_alloc(size, 1);
   if (!text) return ENOMEM;
-  snprintf(text, size, "export DYADEL_JOB=%u\n%s", job, command);
+  snprintf(text, size, "export DYADEL_JOB=%u; %s", job, command);
   char *const argv[] = {shell_word("sh"), shell_word("-c"), text, NULL};
   int why = spawn(pid, 0, in, out, argv);
   free(text);

@@ -58,6 +58,7 @@ void dyd_worker_fail(dyd_worker *w, dyd_status code, const char *format, ...) {
 
 /* ---- the queue ---- */
 
+#ifdef DYD_VERIFY
 static bool queue_is_valid(const dyd_worker *w) {
   size_t held = 0;
   bool wanted = false, sorted = true;
@@ -68,6 +69,7 @@ static bool queue_is_valid(const dyd_worker *w) {
   }
   return w->head <= w->answered && w->answered <= w->sent && w->sent <= w->count && held == w->held && sorted;
 }
+#endif
 
 static bool push(dyd_worker *w, dyd_asked a) {
   if (!dyd_reserve((void **)&w->asked, &w->cap, w->count + 1, sizeof *w->asked)) return false;

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* --oracle COMMAND: the points come from programs of the user. */
+#include "cli.h"
+
+static int add_oracle(dyd_engine *e, dyd_oracle *oracle) {
+  dyd_source source = dyd_oracle_source(oracle);
+  dyd_status status = dyd_engine_add_source(e, dyd_oracle_count(oracle), &source);
+  if (status >= 0) return 0;
+  cli_complain("the points of the oracle cannot be added: %s", dyd_status_text(status));
+  return CLI_FAILED;
+}
+
+int cli_oracle_read(dyd_engine *e, const cli_options *o) {
+  const char *no = NULL;
+  if (o->read.columns) no = "--columns";
+  if (o->read.measured) no = "--measured";
+  if (o->read.radius) no = "--radius";
+  if (no) {
+    cli_complain("%s is for points files; leave it out, and let the oracle answer with what you mean", no);
+    return CLI_USAGE;
+  }
+  dyd_oracle *oracle = NULL;
+  dyd_error err;
+  dyd_error_clear(&err);
+  const dyd_oracle_options options = {.jobs = o->oracle_jobs, .batch = o->oracle_batch, .seconds = o->oracle_timeout};
+  if (dyd_oracle_new(&oracle, o->oracle, &options, &err) < 0) {
+    cli_complain("%s", err.message);
+    return CLI_FAILED;
+  }
+  int status = add_oracle(e, oracle);
+  dyd_oracle_free(oracle);
+  return status;
+}
