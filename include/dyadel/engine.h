@@ -63,11 +63,34 @@ typedef struct dyd_progress {
   double seconds;
 } dyd_progress;
 
+/* Why a point was narrowed. */
+typedef enum dyd_reason {
+  DYD_REASON_FIRST = 0, /* it had not been asked before */
+  DYD_REASON_END,       /* an end of the indeterminate pair i, j */
+  DYD_REASON_BLOCKER,   /* a site of an undecided face, less precise than the ends of its pairs; i is one of these */
+  DYD_REASON_BOUND,     /* contributes to the bound asked for, through the pair i, j (i = j: by its own diameter) */
+  DYD_REASON_UNIFORM    /* all points are refined */
+} dyd_reason;
+/* "first", "end", ... Static storage. */
+DYD_API const char *dyd_reason_text(dyd_reason reason);
+
+/* One point brought to a precision. */
+typedef struct dyd_step {
+  uint64_t stage; /* the stage it belongs to, from 1: that of the next report of progress */
+  uint32_t site;
+  int64_t bits; /* precision asked for */
+  dyd_reason reason;
+  uint32_t i, j;        /* see dyd_reason; the site itself where that names none */
+  bool called;          /* false: it was that narrow before, no stream was called */
+  const dyd_rect *rect; /* reached; borrowed during the call */
+} dyd_step;
+
 typedef struct dyd_engine_options {
   dyd_goal goal;
   int64_t goal_bits; /* M of "bound 2^-M" for the area and Hausdorff goals */
   dyd_schedule schedule;
   int64_t start_bits;  /* precision of the first stage; 0: default 64 */
+  int64_t step_bits;   /* each refinement asks for so many bits more; 0: growth is geometric */
   int64_t max_bits;    /* 0: default 4096 */
   uint64_t max_stages; /* of this run; 0: no limit */
   uint64_t max_calls;  /* of this run; 0: no limit */
@@ -75,9 +98,13 @@ typedef struct dyd_engine_options {
   double seconds;      /* of this run; 0: no limit; wall clock */
   unsigned threads;    /* 0: one */
   bool no_filter;      /* exact rung only (tests) */
-  /* Called after each stage from the running thread; may be NULL. */
+  /* Called after each stage from the running thread; may be NULL. It may look at the engine (the functions below that
+   * take it const) and cancel it, nothing else. */
   void (*progress)(const dyd_progress *p, void *user);
   void *progress_user;
+  /* Called after each narrowing, in the order they are made; may be NULL. It may cancel the engine. */
+  void (*trace)(const dyd_step *step, void *user);
+  void *trace_user;
 } dyd_engine_options;
 /* Fills in the defaults (all zero but for what the comments say). */
 DYD_API void dyd_engine_options_init(dyd_engine_options *o);

@@ -25,6 +25,22 @@ const char *dyd_outcome_text(dyd_outcome outcome) {
   return "unknown outcome";
 }
 
+const char *dyd_reason_text(dyd_reason reason) {
+  switch (reason) {
+  case DYD_REASON_FIRST:
+    return "first";
+  case DYD_REASON_END:
+    return "end";
+  case DYD_REASON_BLOCKER:
+    return "blocker";
+  case DYD_REASON_BOUND:
+    return "bound";
+  case DYD_REASON_UNIFORM:
+    return "uniform";
+  }
+  return "unknown reason";
+}
+
 void dyd_engine_options_init(dyd_engine_options *o) {
   *o = (dyd_engine_options){.start_bits = 64, .max_bits = 4096};
 }

@@ -18,10 +18,12 @@ typedef struct dyd_refinable {
   uint32_t site, source;
   dyd_stream *stream;
   int64_t bits, want;
-  uint64_t calls; /* how often the engine has asked it */
-  bool final;     /* no call can narrow it further */
-  bool marked;    /* to be narrowed to `want` in this stage */
-  bool asked;     /* has been brought to `bits` once */
+  uint64_t calls;    /* how often the engine has asked it */
+  bool final;        /* no call can narrow it further */
+  bool marked;       /* to be narrowed to `want` in this stage */
+  bool asked;        /* has been brought to `bits` once */
+  dyd_reason reason; /* of the mark, with the pair it names */
+  uint32_t pair[2];
 } dyd_refinable;
 
 /* A source and the site that is its point 0. */

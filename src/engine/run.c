@@ -44,7 +44,7 @@ static bool set_options(dyd_engine_options *o, const dyd_engine_options *given) 
   if (o->max_bits > MOST_BITS) o->max_bits = MOST_BITS;
   if (o->start_bits > o->max_bits) o->start_bits = o->max_bits;
   if (o->start_bits < -DYD_EXP_LIMIT || o->goal_bits > MOST_GOAL_BITS || o->goal_bits < -MOST_GOAL_BITS) return false;
-  if (!(o->seconds >= 0)) return false;
+  if (!(o->seconds >= 0) || o->step_bits < 0) return false;
   if (o->goal != DYD_GOAL_DECIDED && o->goal != DYD_GOAL_AREA && o->goal != DYD_GOAL_HAUSDORFF) return false;
   return o->schedule == DYD_SCHEDULE_ADAPTIVE || o->schedule == DYD_SCHEDULE_UNIFORM;
 }
@@ -83,6 +83,20 @@ static void end_interrupted(run *r) {
 
 /* ---- a stage ---- */
 
+/* Tells of p, just brought to p->want. */
+static dyd_status tell_step(const run *r, const dyd_refinable *p, bool called) {
+  dyd_rect rect;
+  dyd_rect_init(&rect);
+  dyd_status status = dyd_sites_get(&rect, r->e->sites, p->site);
+  dyd_step step = {.stage = r->e->stages + 1, .site = p->site, .bits = p->want, .reason = p->reason, .called = called};
+  step.i = p->pair[0];
+  step.j = p->pair[1];
+  step.rect = &rect;
+  if (status >= 0) r->o.trace(&step, r->o.trace_user);
+  dyd_rect_clear(&rect);
+  return status;
+}
+
 /* Narrows the marked points. *bits becomes the greatest precision asked for; *cut whether points are left
  * because calls are used up. On failure and when stopped the points after are left marked. */
 static dyd_status narrow_marked(int64_t *bits, bool *cut, run *r, size_t marked) {
@@ -111,6 +125,8 @@ static dyd_status narrow_marked(int64_t *bits, bool *cut, run *r, size_t marked)
     p->marked = false;
     if (p->want > *bits) *bits = p->want;
     if (e->pd && calls) e->changed[e->changes++] = p->site;
+    if (r->o.trace) status = tell_step(r, p, calls != 0);
+    if (status < 0) return status;
   }
   return DYD_OK;
 }

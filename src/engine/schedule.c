@@ -15,20 +15,22 @@
  * the largest pair with a point that can.
  *
  * Every rule marks a point whenever one that matters can be narrowed, and every mark asks for more than before, up to
- * max_bits: the loop ends. Growth is geometric, so a run asks for at most about twice the bits it needs. */
+ * max_bits: the loop ends. Growth is geometric, so a run asks for at most about twice the bits it needs; with step_bits
+ * it is that step instead, for tables of convergence. */
 #include "engine/engine.h"
 
 #include "metric/bounds.h"
 
-/* The step from precision b to the next. */
-static int64_t grown(int64_t b) {
-  int64_t size = b < 0 ? -b : b;
-  return b + (size < 16 ? 16 : size);
-}
-
-/* The smaller step of those offered, without overflow: b + by where by >= 0, at most max. */
+/* b + by without overflow, by >= 0; at most max where b is. */
 static int64_t raised(int64_t b, int64_t by, int64_t max) {
   return b > max - by ? max : b + by;
+}
+
+/* The step from precision b to the next. */
+static int64_t grown(int64_t b, const dyd_engine_options *o) {
+  int64_t size = b < 0 ? -b : b;
+  if (o->step_bits) return raised(b, o->step_bits, o->max_bits);
+  return b + (size < 16 ? 16 : size);
 }
 
 /* Can p still be asked, now or under a larger max_bits? In the second case the plan remembers that. */
@@ -39,27 +41,45 @@ static bool can_narrow(dyd_plan *plan, const dyd_refinable *p, const dyd_engine_
   return false;
 }
 
-static void mark(dyd_plan *plan, dyd_refinable *p, int64_t want, const dyd_engine_options *o) {
+/* Why a point is marked, and the pair that this names. */
+typedef struct cause {
+  dyd_reason reason;
+  uint32_t i, j;
+} cause;
+
+/* Marks p; of several causes the one that asks for most is kept, the first among equals. */
+static void mark(dyd_plan *plan, dyd_refinable *p, int64_t want, cause why, const dyd_engine_options *o) {
   if (want > o->max_bits) want = o->max_bits;
   if (!p->marked) plan->marked++;
-  if (!p->marked || p->want < want) p->want = want;
+  if (!p->marked || p->want < want) {
+    p->want = want;
+    p->reason = why.reason;
+    p->pair[0] = why.i;
+    p->pair[1] = why.j;
+  }
   p->marked = true;
+}
+
+/* A cause that names no pair. */
+static cause alone(dyd_reason reason, const dyd_refinable *p) {
+  return (cause){reason, p->site, p->site};
 }
 
 void dyd_engine_plan_first(dyd_plan *out, dyd_engine *e, const dyd_engine_options *o) {
   *out = (dyd_plan){0};
   for (size_t k = 0; k < e->points; k++)
-    if (!e->point[k].asked) mark(out, &e->point[k], o->start_bits, o);
+    if (!e->point[k].asked) mark(out, &e->point[k], o->start_bits, alone(DYD_REASON_FIRST, &e->point[k]), o);
 }
 
 /* ---- undecided faces ---- */
 
 /* Marks the ends of a pair one step on; *lead becomes the least precision such an end has now, if lower. */
-static void mark_end(int64_t *lead, dyd_plan *plan, const dyd_engine *e, uint32_t site, const dyd_engine_options *o) {
-  dyd_refinable *p = dyd_engine_find(e, site);
+static void mark_end(int64_t *lead, dyd_plan *plan, const dyd_engine *e, const dyd_pair *pair, bool second,
+                     const dyd_engine_options *o) {
+  dyd_refinable *p = dyd_engine_find(e, second ? pair->j : pair->i);
   if (!can_narrow(plan, p, o)) return;
   if (p->bits < *lead) *lead = p->bits;
-  mark(plan, p, grown(p->bits), o);
+  mark(plan, p, grown(p->bits, o), (cause){DYD_REASON_END, pair->i, pair->j}, o);
 }
 
 /* Marks the sites of a face with a precision below `lead`. */
@@ -69,7 +89,7 @@ static dyd_status mark_face(dyd_plan *plan, const dyd_engine *e, size_t f, int64
   dyd_status status = dyd_delaunay_face(&sites, &outer, e->pd, f);
   for (size_t k = 0; status >= 0 && k < sites.count; k++) {
     dyd_refinable *p = dyd_engine_find(e, sites.item[k]);
-    if (can_narrow(plan, p, o) && p->bits < lead) mark(plan, p, grown(p->bits), o);
+    if (can_narrow(plan, p, o) && p->bits < lead) mark(plan, p, grown(p->bits, o), alone(DYD_REASON_BLOCKER, p), o);
   }
   dyd_index_list_clear(&sites);
   return status;
@@ -95,8 +115,8 @@ static dyd_status plan_face(dyd_plan *plan, mpfr_ptr number, const dyd_engine *e
     status = pair_matters(&matters, number, m, &pairs.item[k], o);
     if (status < 0 || !matters) continue;
     any = true;
-    mark_end(&lead, plan, e, pairs.item[k].i, o);
-    mark_end(&lead, plan, e, pairs.item[k].j, o);
+    mark_end(&lead, plan, e, &pairs.item[k], false, o);
+    mark_end(&lead, plan, e, &pairs.item[k], true, o);
   }
   dyd_pair_list_clear(&pairs);
   if (status < 0 || !any) return status;
@@ -125,7 +145,8 @@ static dyd_status plan_hausdorff(dyd_plan *plan, const dyd_engine *e, dyd_measur
     status = dyd_measure_diameter(diameter, m, p->site);
     if (mpfr_cmp_ui_2exp(diameter, 1, (mpfr_exp_t)-o->goal_bits) <= 0 || !can_narrow(plan, p, o)) continue;
     /* Widths of 2^-b give a diameter of at most sqrt(2) 2^-b. */
-    mark(plan, p, p->bits <= o->goal_bits ? o->goal_bits + 1 : grown(p->bits), o);
+    mark(plan, p, p->bits <= o->goal_bits && !o->step_bits ? o->goal_bits + 1 : grown(p->bits, o),
+         alone(DYD_REASON_BOUND, p), o);
   }
   mpfr_clear(diameter);
   return status;
@@ -149,8 +170,9 @@ static dyd_status mark_areas(dyd_plan *plan, mpfr_ptr largest, const dyd_engine 
       dyd_refinable *p = dyd_engine_find(e, end[a]);
       if (!can_narrow(plan, p, o)) continue;
       mpfr_max(largest, largest, area, MPFR_RNDU);
-      int64_t target = raised(p->bits, excess < 0 ? 0 : excess, o->max_bits), step = grown(p->bits);
-      if (mpfr_cmp(area, least) > 0) mark(plan, p, target > step ? target : step, o);
+      int64_t target = raised(p->bits, excess < 0 ? 0 : excess, o->max_bits), step = grown(p->bits, o);
+      if (mpfr_cmp(area, least) > 0)
+        mark(plan, p, target > step && !o->step_bits ? target : step, (cause){DYD_REASON_BOUND, end[0], end[1]}, o);
     }
   }
   mpfr_clear(area);
@@ -184,9 +206,10 @@ static void plan_uniform(dyd_plan *plan, dyd_engine *e, const dyd_engine_options
     if (!e->point[k].final && e->point[k].bits < least) least = e->point[k].bits;
   }
   plan->marked = 0;
-  int64_t level = grown(least) < o->max_bits ? grown(least) : o->max_bits;
+  int64_t level = grown(least, o) < o->max_bits ? grown(least, o) : o->max_bits;
   for (size_t k = 0; k < e->points; k++)
-    if (!e->point[k].final && e->point[k].bits < level) mark(plan, &e->point[k], level, o);
+    if (!e->point[k].final && e->point[k].bits < level)
+      mark(plan, &e->point[k], level, alone(DYD_REASON_UNIFORM, &e->point[k]), o);
 }
 
 dyd_status dyd_engine_plan(dyd_plan *out, dyd_engine *e, const dyd_engine_options *o) {
