@@ -3,6 +3,7 @@
 #ifndef DYADEL_DYADEL_H
 #define DYADEL_DYADEL_H
 
+#include <dyadel/converge.h>
 #include <dyadel/engine.h>
 #include <dyadel/io.h>
 #include <dyadel/metric.h>

@@ -3,7 +3,7 @@
 #ifndef DYADEL_IO_H
 #define DYADEL_IO_H
 
-#include <dyadel/engine.h>
+#include <dyadel/converge.h>
 #include <stdio.h>
 
 #ifdef __cplusplus
@@ -36,6 +36,11 @@ DYD_API const char *dyd_format_name(dyd_format format);
 
 /* Writes the current result of e. DYD_E_ARG when e has none; DYD_E_IO when a write fails. */
 DYD_API dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err);
+
+/* Writes a table of convergence: DYD_FORMAT_CSV or DYD_FORMAT_JSON (else DYD_E_ARG). Bounds and widths are rounded up,
+ * and the output says so. times = false leaves the seconds out: then equal runs give equal bytes. */
+DYD_API dyd_status dyd_write_convergence(FILE *out, const dyd_convergence *c, dyd_format format, bool times,
+                                         dyd_error *err);
 
 #ifdef __cplusplus
 }

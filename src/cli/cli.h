@@ -44,6 +44,7 @@ typedef struct cli_options {
   uint64_t seed;
   bool seed_set;
   unsigned schedules; /* 0: default */
+  bool start_set;     /* engine.start_bits was given */
   bool no_times;
   bool stats, quiet, version;
   const char *help; /* "" (--help), or the kind of --help=KIND */
@@ -60,6 +61,7 @@ bool cli_window_read(dyd_rect *out, const char *text);
 
 /* One function for each command, in a file of its own; returns the exit status. */
 int cli_delaunay(const cli_options *o);
+int cli_converge(const cli_options *o);
 
 /* oracle.c: adds the points that the programs of --oracle serve. 0, or an exit status after a message. */
 int cli_oracle_read(dyd_engine *e, const cli_options *o);
@@ -84,8 +86,14 @@ int cli_session_open(cli_session *s, const cli_options *o);
 /* Runs with options (progress and signals are added). 0 whatever the outcome, DYD_OUTCOME_ERROR aside: then
  * CLI_FAILED, and dyd_engine_delaunay tells whether there is a result all the same. */
 int cli_session_run(cli_session *s, const dyd_engine_options *options);
+/* The same, with something done around dyd_engine_run: run is called with the options completed. */
+typedef dyd_status (*cli_run_fn)(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err);
+int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_run_fn run, void *user);
 /* Writes the result to --output, when there is one (otherwise says so). */
 int cli_session_write(cli_session *s, cli_write_fn write);
+/* Writes anything to the file `name` (NULL: standard output), whole or not at all. 0, or CLI_FAILED after a message. */
+typedef dyd_status (*cli_print_fn)(FILE *out, const void *what, const cli_options *o, dyd_error *err);
+int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, const void *what);
 /* Prints notes and --stats as the outcome of the engine and `status` ask for, frees s; returns the exit status: that
  * of the outcome where status is 0. */
 int cli_session_close(cli_session *s, int status);

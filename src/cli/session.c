@@ -48,20 +48,29 @@ int cli_session_open(cli_session *s, const cli_options *o) {
 
 /* ---- running ---- */
 
-int cli_session_run(cli_session *s, const dyd_engine_options *options) {
+int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_run_fn run, void *user) {
   cli_progress_phase(s->progress, "triangulating");
-  dyd_engine_options run = *options;
-  run.progress = cli_progress_stage;
-  run.progress_user = s->progress;
-  dyd_outcome outcome;
+  dyd_engine_options o = *options;
+  o.progress = cli_progress_stage;
+  o.progress_user = s->progress;
   dyd_error err;
   dyd_error_clear(&err);
   cli_signals_cancel(s->engine);
-  dyd_status done = dyd_engine_run(&outcome, s->engine, &run, &err);
+  dyd_status done = run(s->engine, &o, user, &err);
   cli_signals_remove(NULL);
   if (done >= 0) return 0;
   cli_complain_at(s->options->file, &err);
   return CLI_FAILED;
+}
+
+static dyd_status run_once(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
+  (void)user;
+  dyd_outcome outcome;
+  return dyd_engine_run(&outcome, e, options, err);
+}
+
+int cli_session_run(cli_session *s, const dyd_engine_options *options) {
+  return cli_session_run_by(s, options, run_once, NULL);
 }
 
 static int exit_status(dyd_outcome outcome) {
@@ -112,27 +121,42 @@ static void note_outcome(const dyd_engine *e) {
 
 /* ---- writing ---- */
 
-int cli_session_write(cli_session *s, cli_write_fn write) {
-  const cli_options *o = s->options;
-  cli_progress_phase(s->progress, "writing");
-  if (!dyd_engine_delaunay(s->engine)) {
-    cli_complain("%s before the first triangulation was complete: there is no result to write",
-                 dyd_outcome_text(dyd_engine_outcome(s->engine)));
-    return 0;
-  }
+int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, const void *what) {
   cli_output out;
-  if (!cli_output_open(&out, o->output)) return CLI_FAILED;
+  if (!cli_output_open(&out, name)) return CLI_FAILED;
   dyd_error err;
   dyd_error_clear(&err);
-  dyd_status status = write(out.stream, s->engine, o, &err);
+  dyd_status status = print(out.stream, what, o, &err);
   bool done = status >= 0;
-  if (!done) cli_complain_at(o->output ? o->output : "standard output", &err);
+  if (!done) cli_complain_at(name ? name : "standard output", &err);
   cli_signals_remove(NULL);
   if (done)
     done = cli_output_finish(&out);
   else
     cli_output_drop(&out);
   return done ? 0 : CLI_FAILED;
+}
+
+/* A writer of results as a printer of anything. */
+typedef struct result_writer {
+  const dyd_engine *engine;
+  cli_write_fn write;
+} result_writer;
+
+static dyd_status print_result(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+  const result_writer *w = what;
+  return w->write(out, w->engine, o, err);
+}
+
+int cli_session_write(cli_session *s, cli_write_fn write) {
+  cli_progress_phase(s->progress, "writing");
+  if (!dyd_engine_delaunay(s->engine)) {
+    cli_complain("%s before the first triangulation was complete: there is no result to write",
+                 dyd_outcome_text(dyd_engine_outcome(s->engine)));
+    return 0;
+  }
+  result_writer w = {s->engine, write};
+  return cli_write_file(s->options->output, s->options, print_result, &w);
 }
 
 int cli_session_close(cli_session *s, int status) {

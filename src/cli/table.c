@@ -30,7 +30,11 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                           FORMAT(DYD_FORMAT_GEOJSON) | FORMAT(DYD_FORMAT_OBJ) | FORMAT(DYD_FORMAT_SVG),
                       cli_delaunay},
     [CLI_VORONOI] = {.name = "voronoi", .operands = "FILE"},
-    [CLI_CONVERGE] = {.name = "converge", .operands = "FILE"},
+    [CLI_CONVERGE] = {"converge", "FILE", "a run stage by stage, as a table",
+                      "The run of delaunay, with one line for each stage: precision asked for, widths,\n"
+                      "statuses, bounds of what is open, decisions, calls of points, seconds. The first\n"
+                      "stage asks for 4 bits, unless told otherwise.",
+                      FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_converge},
     [CLI_CHECK] = {.name = "check", .operands = "FILE"},
     [CLI_VERIFY] = {.name = "verify", .operands = "CERT"},
     [CLI_DISC] = {.name = "disc", .operands = "FILE"},
@@ -74,6 +78,10 @@ const cli_option cli_option_table[] = {
     {"timeout", 0, "SECONDS", CLI_SECONDS, REFINE, CLI_REFINEMENT, "stop after this time", AT(engine.seconds)},
     {"schedule", 0, "WHICH", CLI_SCHEDULE, RUN, CLI_REFINEMENT,
      "adaptive (default): refine what is undecided;\nuniform: refine all points", AT(engine.schedule)},
+    {"start-bits", 0, "B", CLI_INTEGER, RUN, CLI_REFINEMENT, "precision of the first stage (default 64; converge: 4)",
+     AT(engine.start_bits), RANGE(1, DYD_EXP_LIMIT), GIVEN(start_set)},
+    {"step-bits", 0, "K", CLI_INTEGER, RUN, CLI_REFINEMENT, "refine in steps of K bits (default: geometric growth)",
+     AT(engine.step_bits), RANGE(1, DYD_EXP_LIMIT)},
     {"threads", 0, "T", CLI_INTEGER, RUN, CLI_REFINEMENT, "threads to use (default 1); results do not depend on it",
      AT(engine.threads), RANGE(1, 1024)},
 
@@ -87,6 +95,8 @@ const cli_option cli_option_table[] = {
     {"stats", 0, NULL, CLI_FLAG, RUN, CLI_OUTPUT, "print counters to standard error", AT(stats)},
     {"quiet", 0, NULL, CLI_FLAG, ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
 
+    {"no-times", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
+     "leave seconds out: equal runs give equal bytes", AT(no_times)},
     {"seed", 0, "S", CLI_INTEGER, BIT(CLI_CHECK), CLI_EXPERIMENTS, "seed of random choices; printed", AT(seed),
      RANGE(0, INT64_MAX), GIVEN(seed_set)},
     {"schedules", 0, "K", CLI_INTEGER, BIT(CLI_CHECK), CLI_EXPERIMENTS, "random schedules to try", AT(schedules),

@@ -15,6 +15,8 @@ void dyd_decimal_directed(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd_
 /* A short decimal for some double r in [lo,hi] (finite): r is the nearest double to the decimal. *error is an upper
  * bound of the distance from the decimal to any number in [lo,hi]. */
 void dyd_decimal_within(char out[DYD_DECIMAL_SIZE], double *error, double lo, double hi);
+/* The decimal "d.ddde-61" of 2..17 significant digits next to x in direction dir, however small or large x is. */
+void dyd_decimal_dyadic(char out[DYD_DECIMAL_SIZE], const dyd_dyadic *x, int digits, dyd_round dir);
 /* A JSON value: the decimal next to x, or null for infinities and NaN. */
 void dyd_decimal_json(FILE *out, double x, dyd_round dir);
 /* The exact lower (upper) end: "m*2^e", an integer, or a rational "p/q"; a coordinate that the reader takes.

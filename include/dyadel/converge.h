@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Experiments on convergence: a run of the engine stage by stage, as a table (mathematics: sections 7, 8). */
+#ifndef DYADEL_CONVERGE_H
+#define DYADEL_CONVERGE_H
+
+#include <dyadel/engine.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What holds after one stage. All but `seconds` is the same in every run and for every number of threads.
+ * Invariant: area, hausdorff count when bounded, v_area, v_hausdorff when voronoi; they are 0 otherwise. */
+typedef struct dyd_stage_row {
+  uint64_t stage;
+  int64_t bits_least, bits_most;  /* asked of any refinable point so far; 0 when there is none */
+  uint64_t bits_total;            /* sum over the points of the bits last asked */
+  dyd_dyadic width_largest;       /* of all sides of all rectangles; rounded up by at most 2^-63 of itself */
+  dyd_dyadic width_median;        /* of the longer sides: number N/2 of N in ascending order; rounded alike */
+  size_t count[4];                /* pairs by status; the possible ones are all of them */
+  size_t undecided_faces;         /* */
+  bool bounded, voronoi;          /* are the bounds of T, of V known? */
+  dyd_dyadic area, hausdorff;     /* upper bounds for T (metric.h) */
+  dyd_dyadic v_area, v_hausdorff; /* upper bounds for V on the window (metric.h) */
+  dyd_delaunay_counters rungs;    /* decisions since the start, by rung */
+  uint64_t calls;                 /* stream calls since the start */
+  uint64_t digest;                /* of all pairs with their statuses (FNV-1a, 64 bits) */
+  double seconds;                 /* wall clock since the start of the run, the making of this table aside */
+} dyd_stage_row;
+
+/* The rows of a run. Init with {0}, release with dyd_convergence_clear. */
+typedef struct dyd_convergence {
+  size_t count, cap;
+  dyd_stage_row *row;
+  dyd_outcome outcome;
+  dyd_engine_options options; /* as given to the run; callbacks are not to be used */
+} dyd_convergence;
+DYD_API void dyd_convergence_clear(dyd_convergence *c);
+
+typedef struct dyd_converge_options {
+  /* Called after each row is complete; may be NULL. */
+  void (*stage)(const dyd_stage_row *row, const dyd_delaunay *pd, void *user);
+  void *stage_user;
+} dyd_converge_options;
+
+/* Runs e as dyd_engine_run does, callbacks of options included, and notes a row after each stage. *out, given cleared,
+ * holds the rows of the stages that were complete, whatever is returned. Returns what dyd_engine_run returns, or
+ * DYD_E_NOMEM with outcome cancelled. converge may be NULL. Each row costs O(N log N + pairs). */
+DYD_API dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engine_options *options,
+                                    const dyd_converge_options *converge, dyd_error *err);
+
+/* Appends a row about pd: everything that pd tells. stage is one more than that of the row before; the caller fills in
+ * bits, calls and seconds. *row is borrowed until the next call that changes out. */
+DYD_API dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const dyd_delaunay *pd,
+                                       const dyd_converge_options *converge);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

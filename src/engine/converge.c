@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The table of convergence: what holds after each stage of a run.
+ *
+ * Widths are compared and kept as t 2^e with 2^63 <= t < 2^64, rounded up: rounding is monotone, so the largest and the
+ * median of the rounded widths are the rounded largest and median. */
+#include <dyadel/converge.h>
+
+#include "base/alloc.h"
+#include "base/error.h"
+#include <dyadel/metric.h>
+#include <time.h>
+
+static void row_init(dyd_stage_row *r) {
+  *r = (dyd_stage_row){0};
+  dyd_dyadic_init(&r->width_largest);
+  dyd_dyadic_init(&r->width_median);
+  dyd_dyadic_init(&r->area);
+  dyd_dyadic_init(&r->hausdorff);
+  dyd_dyadic_init(&r->v_area);
+  dyd_dyadic_init(&r->v_hausdorff);
+}
+
+static void row_clear(dyd_stage_row *r) {
+  dyd_dyadic_clear(&r->v_hausdorff);
+  dyd_dyadic_clear(&r->v_area);
+  dyd_dyadic_clear(&r->hausdorff);
+  dyd_dyadic_clear(&r->area);
+  dyd_dyadic_clear(&r->width_median);
+  dyd_dyadic_clear(&r->width_largest);
+}
+
+void dyd_convergence_clear(dyd_convergence *c) {
+  for (size_t k = 0; k < c->count; k++) row_clear(&c->row[k]);
+  free(c->row);
+  *c = (dyd_convergence){0};
+}
+
+/* ---- widths ---- */
+
+/* top * 2^exp. Invariant: top >= 2^63, or top = 0 and exp = INT64_MIN. */
+typedef struct width {
+  int64_t exp;
+  uint64_t top;
+} width;
+
+static int compare_width(const void *a, const void *b) {
+  const width *v = a, *w = b;
+  if (v->exp != w->exp) return v->exp < w->exp ? -1 : 1;
+  return (v->top > w->top) - (v->top < w->top);
+}
+
+/* The least width >= x; x >= 0 is spoilt. */
+static width width_above(dyd_dyadic *x) {
+  if (dyd_dyadic_sgn(x) == 0) return (width){INT64_MIN, 0};
+  int64_t shift = (int64_t)mpz_sizeinbase(x->man, 2) - 64;
+  if (shift <= 0)
+    mpz_mul_2exp(x->man, x->man, (mp_bitcnt_t)-shift);
+  else
+    mpz_cdiv_q_2exp(x->man, x->man, (mp_bitcnt_t)shift);
+  if (mpz_sizeinbase(x->man, 2) > 64) { /* rounded up to 2^64 */
+    mpz_tdiv_q_2exp(x->man, x->man, 1);
+    shift++;
+  }
+  width w = {x->exp + shift, 0};
+  mpz_export(&w.top, NULL, 1, sizeof w.top, 0, 0, x->man);
+  return w;
+}
+
+static dyd_status width_get(dyd_dyadic *out, width w) {
+  mpz_t top;
+  mpz_init(top);
+  mpz_import(top, 1, 1, sizeof w.top, 0, 0, &w.top);
+  dyd_status status = dyd_dyadic_set_z_2exp(out, top, w.top ? w.exp : 0);
+  mpz_clear(top);
+  return status;
+}
+
+/* The longer side of r, rounded up. spare is overwritten. */
+static dyd_status rect_width(width *out, dyd_dyadic *spare, const dyd_rect *r) {
+  *out = (width){INT64_MIN, 0};
+  const dyd_interval *side[2] = {&r->x, &r->y};
+  for (int a = 0; a < 2; a++) {
+    if (dyd_interval_is_point(side[a])) continue;
+    dyd_status status = dyd_dyadic_sub(spare, &side[a]->hi, &side[a]->lo);
+    if (status < 0) return status;
+    width w = width_above(spare);
+    if (compare_width(&w, out) > 0) *out = w;
+  }
+  return DYD_OK;
+}
+
+static dyd_status measure_widths(dyd_stage_row *row, const dyd_sites *sites) {
+  size_t n = dyd_sites_count(sites);
+  width *w = dyd_alloc(n, sizeof *w);
+  if (!w) return DYD_E_NOMEM;
+  dyd_rect rect;
+  dyd_dyadic spare;
+  dyd_status status = DYD_OK;
+  dyd_rect_init(&rect);
+  dyd_dyadic_init(&spare);
+  for (size_t i = 0; status >= 0 && i < n; i++) {
+    w[i] = (width){INT64_MIN, 0};
+    if (dyd_sites_is_point(sites, i)) continue;
+    status = dyd_sites_get(&rect, sites, i);
+    if (status >= 0) status = rect_width(&w[i], &spare, &rect);
+  }
+  if (status >= 0 && n) {
+    qsort(w, n, sizeof *w, compare_width);
+    status = width_get(&row->width_largest, w[n - 1]);
+    if (status >= 0) status = width_get(&row->width_median, w[n / 2]);
+  }
+  dyd_dyadic_clear(&spare);
+  dyd_rect_clear(&rect);
+  free(w);
+  return status;
+}
+
+/* ---- a row ---- */
+
+static uint64_t digest_word(uint64_t digest, uint32_t word) {
+  for (int k = 0; k < 4; k++) digest = (digest ^ (word >> 8 * k & 255)) * 1099511628211u;
+  return digest;
+}
+
+static dyd_status digest_pairs(uint64_t *out, const dyd_delaunay *pd) {
+  dyd_pair_list pairs = {0};
+  dyd_status status = dyd_delaunay_pairs(&pairs, pd);
+  if (status < 0) return status;
+  *out = 14695981039346656037u;
+  for (size_t k = 0; k < pairs.count; k++) {
+    *out = digest_word(*out, pairs.item[k].i);
+    *out = digest_word(*out, pairs.item[k].j);
+    *out = digest_word(*out, (uint32_t)pairs.item[k].status);
+  }
+  dyd_pair_list_clear(&pairs);
+  return DYD_OK;
+}
+
+/* A capped result has no bounds, which is no failure. */
+static dyd_status measure_bounds(dyd_stage_row *row, const dyd_delaunay *pd) {
+  dyd_status status = dyd_metric_area(&row->area, pd);
+  if (status == DYD_OK) status = dyd_metric_hausdorff(&row->hausdorff, pd);
+  row->bounded = status == DYD_OK;
+  return status < 0 ? status : DYD_OK;
+}
+
+static dyd_status measure(dyd_stage_row *row, const dyd_delaunay *pd) {
+  dyd_delaunay_count(row->count, pd);
+  row->undecided_faces = dyd_delaunay_undecided_faces(pd);
+  dyd_delaunay_get_counters(&row->rungs, pd);
+  dyd_status status = digest_pairs(&row->digest, pd);
+  if (status >= 0) status = measure_widths(row, dyd_delaunay_sites(pd));
+  if (status >= 0) status = measure_bounds(row, pd);
+  return status;
+}
+
+dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const dyd_delaunay *pd,
+                               const dyd_converge_options *converge) {
+  (void)converge;
+  if (!dyd_reserve((void **)&out->row, &out->cap, out->count + 1, sizeof *out->row)) return DYD_E_NOMEM;
+  dyd_stage_row *r = &out->row[out->count];
+  row_init(r);
+  r->stage = out->count ? r[-1].stage + 1 : 1;
+  dyd_status status = measure(r, pd);
+  if (status < 0) {
+    row_clear(r);
+    return status;
+  }
+  out->count++;
+  *row = r;
+  return DYD_OK;
+}
+
+/* ---- a run ---- */
+
+typedef struct recorder {
+  dyd_convergence *out;
+  dyd_engine *e;
+  const dyd_engine_options *o;
+  const dyd_converge_options *converge;
+  dyd_status failed; /* of the table, not of the run */
+  double spent;      /* seconds in here */
+} recorder;
+
+static double clock_seconds(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static dyd_status record_row(recorder *r, const dyd_progress *p) {
+  dyd_stage_row *row;
+  const dyd_delaunay *pd = dyd_engine_delaunay(r->e);
+  dyd_status status = dyd_convergence_add(&row, r->out, pd, r->converge);
+  if (status < 0) return status;
+  dyd_engine_counters c;
+  dyd_engine_get_counters(&c, r->e);
+  row->stage = p->stage;
+  row->bits_least = c.bits_least;
+  row->bits_most = c.bits_most;
+  row->bits_total = c.bits_total;
+  row->calls = c.calls;
+  row->seconds = p->seconds - r->spent;
+  if (r->converge && r->converge->stage) r->converge->stage(row, pd, r->converge->stage_user);
+  return DYD_OK;
+}
+
+static void record(const dyd_progress *p, void *user) {
+  recorder *r = user;
+  if (r->o && r->o->progress) r->o->progress(p, r->o->progress_user);
+  if (r->failed < 0) return;
+  double begun = clock_seconds();
+  r->failed = record_row(r, p);
+  if (r->failed < 0) dyd_engine_cancel(r->e);
+  r->spent += clock_seconds() - begun;
+}
+
+dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engine_options *options,
+                            const dyd_converge_options *converge, dyd_error *err) {
+  recorder r = {.out = out, .e = e, .o = options, .converge = converge};
+  dyd_engine_options o;
+  dyd_engine_options_init(&o);
+  if (options) o = *options;
+  out->options = o;
+  o.progress = record;
+  o.progress_user = &r;
+  dyd_status status = dyd_engine_run(&out->outcome, e, &o, err);
+  if (status >= 0 && r.failed < 0) return dyd_fail(err, r.failed, "%s", dyd_status_text(r.failed));
+  return status;
+}
