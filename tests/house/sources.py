@@ -9,10 +9,12 @@ import re
 import sys
 
 # What a layer may include besides itself: everything below it. stream and predicate are side by side.
-LAYERS = [['base'], ['dyadic'], ['rect'], ['stream', 'predicate'], ['delaunay'], ['voronoi'], ['metric'], ['engine'], ['io']]
+LAYERS = [['base'], ['dyadic'], ['rect', 'verify'], ['stream', 'predicate'], ['delaunay'], ['voronoi'], ['metric'], ['engine'], ['io']]
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 # Public headers in the order of the layers; a header may include only those before it.
-PUBLIC = ['status', 'dyadic', 'rect', 'stream sites', 'oracle', 'predicate delaunay', 'arc', 'voronoi', 'metric', 'engine', 'io', 'dyadel']
+PUBLIC = ['status', 'dyadic certificate', 'rect', 'stream sites', 'oracle', 'predicate delaunay', 'arc', 'voronoi', 'metric', 'engine', 'converge', 'io', 'dyadel']
+# The checker of certificates stands on the number layer alone.
+VERIFY_MAY = ['dyadel/status.h', 'dyadel/dyadic.h', 'dyadel/certificate.h']
 FILE_LINES, FUNCTION_LINES = 500, 60
 
 
@@ -28,6 +30,8 @@ def check_source_includes(path, text, root):
     layer = path.relative_to(root / 'src').parts[0]
     for kind, name in INCLUDE.findall(text):
         if kind == '<':
+            if layer == 'verify' and name.startswith('dyadel/') and name not in VERIFY_MAY:
+                yield f'{path}: the checker of certificates must not include <{name}>'
             continue
         parts = name.split('/')
         if layer == 'cli':
