@@ -42,6 +42,35 @@ DYD_API dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format
 DYD_API dyd_status dyd_write_convergence(FILE *out, const dyd_convergence *c, dyd_format format, bool times,
                                          dyd_error *err);
 
+/* ---- traces ---- */
+
+/* A trace tells which point was narrowed to what, and why; replaying it gives the same statuses without asking a point.
+ * It is one JSON object per line, exact numbers are texts "m*2^e" or "p/q":
+ *   {"format":"dyadel trace 1","points":N,"schedule":...}                    first line: what was asked for
+ *   {"stage":S,"point":I,"bits":B,"called":C,"why":W,"pair":[I,J],"x":[LO,HI],"y":[LO,HI]}
+ *                                      point I has been narrowed for stage S; W is a dyd_reason, "pair" is there when
+ *                                      it names one; C = false: it was narrow enough before
+ *   {"stage":1,"point":I,"why":"fixed","x":[LO,HI],"y":[LO,HI]}              a point that cannot be narrowed
+ *   {"stage":S,"done":true,"legal":..,"indeterminate":..,"tie":..,"statuses":DIGEST}
+ *                                      stage S is complete; DIGEST as in dyd_stage_row, in hexadecimal
+ *   {"outcome":O}                                                            last line */
+typedef struct dyd_trace dyd_trace;
+
+/* Begins a trace of a run of e (not run before) with these options. `out` is borrowed until dyd_trace_end. */
+DYD_API dyd_status dyd_trace_new(dyd_trace **trace, FILE *out, const dyd_engine *e, const dyd_engine_options *options);
+/* For dyd_engine_options.trace and dyd_converge_options.stage; user is the dyd_trace. */
+DYD_API void dyd_trace_step(const dyd_step *step, void *trace);
+DYD_API void dyd_trace_stage(const dyd_stage_row *row, const dyd_delaunay *pd, void *trace);
+/* Writes the last line and frees the trace. DYD_E_IO, DYD_E_NOMEM for whatever failed since it began. */
+DYD_API dyd_status dyd_trace_end(dyd_trace *trace, dyd_outcome outcome, dyd_error *err);
+
+/* Puts the rectangles of a trace into a table of sites and triangulates after each stage, as the run did. *out, given
+ * cleared, receives a row per stage as dyd_converge_run makes it (seconds 0), and keeps those made before a failure.
+ * DYD_E_PARSE with line and message when the trace is not of its form, ends early, names a rectangle that is not inside
+ * the one before, or tells of other statuses than the replay finds. converge and err may be NULL. */
+DYD_API dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_options *converge,
+                                    dyd_error *err);
+
 #ifdef __cplusplus
 }
 #endif

@@ -97,6 +97,7 @@ int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, c
 /* Prints notes and --stats as the outcome of the engine and `status` ask for, frees s; returns the exit status: that
  * of the outcome where status is 0. */
 int cli_session_close(cli_session *s, int status);
+int cli_exit_status(dyd_outcome outcome);
 /* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: left out. */
 void cli_complain_at(const char *file, const dyd_error *err);
 

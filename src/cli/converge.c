@@ -1,27 +1,99 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* dyadel converge FILE: a run stage by stage, as a table. */
+/* dyadel converge FILE: a run stage by stage, as a table and a plot; traces of runs, and replays of these. */
 #include "cli.h"
+#include <errno.h>
+#include <string.h>
 
-static dyd_status write_table(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+static dyd_status print_table(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   return dyd_write_convergence(out, what, o->format, !o->no_times, err);
 }
 
-/* Runs with the table being made; the outcome goes where cli_session_run puts it. */
-static dyd_status run(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
-  return dyd_converge_run(user, e, options, NULL, err);
+/* The table, as far as it was made. */
+static int write_results(const dyd_convergence *table, const cli_options *o) {
+  return table->count ? cli_write_file(o->output, o, print_table, table) : 0;
 }
 
-int cli_converge(const cli_options *o) {
+/* ---- a run ---- */
+
+typedef struct run {
+  const cli_options *o;
+  dyd_convergence table;
+  dyd_trace *trace;
+} run;
+
+static dyd_status run_table(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
+  run *r = user;
+  dyd_engine_options o = *options;
+  dyd_converge_options converge = {0};
+  if (r->trace) {
+    o.trace = dyd_trace_step;
+    converge.stage = dyd_trace_stage;
+    o.trace_user = converge.stage_user = r->trace;
+  }
+  return dyd_converge_run(&r->table, e, &o, &converge, err);
+}
+
+static int end_trace(run *r, cli_output *out) {
+  dyd_error err;
+  dyd_error_clear(&err);
+  dyd_status status = dyd_trace_end(r->trace, r->table.outcome, &err);
+  r->trace = NULL;
+  if (status >= 0) return cli_output_finish(out) ? 0 : CLI_FAILED;
+  cli_complain_at(r->o->trace, &err);
+  cli_output_drop(out);
+  return CLI_FAILED;
+}
+
+static int run_traced(run *r, cli_session *s, const dyd_engine_options *options) {
+  cli_output out;
+  if (!cli_output_open(&out, r->o->trace)) return CLI_FAILED;
+  if (dyd_trace_new(&r->trace, out.stream, s->engine, options) < 0) {
+    cli_complain("memory is exhausted; close other programs");
+    cli_output_drop(&out);
+    return CLI_FAILED;
+  }
+  int status = cli_session_run_by(s, options, run_table, r), ended = end_trace(r, &out);
+  return status ? status : ended;
+}
+
+static int converge(const cli_options *o) {
   cli_session s;
-  dyd_convergence table = {0};
+  run r = {.o = o};
   dyd_engine_options options = o->engine;
   if (!o->start_set) options.start_bits = 4;
   int status = cli_session_open(&s, o);
   if (status == 0) {
-    status = cli_session_run_by(&s, &options, run, &table);
-    int written = table.count ? cli_write_file(o->output, o, write_table, &table) : 0;
+    status = o->trace ? run_traced(&r, &s, &options) : cli_session_run_by(&s, &options, run_table, &r);
+    int written = write_results(&r.table, o);
     if (status == 0) status = written;
   }
-  dyd_convergence_clear(&table);
+  dyd_convergence_clear(&r.table);
   return cli_session_close(&s, status);
+}
+
+/* ---- a replay ---- */
+
+static int replay(const cli_options *o) {
+  bool standard = strcmp(o->replay, "-") == 0;
+  FILE *in = standard ? stdin : fopen(o->replay, "rb");
+  if (!in) {
+    cli_complain("%s: cannot open: %s; check the name of the trace", o->replay, strerror(errno));
+    return CLI_FAILED;
+  }
+  dyd_convergence table = {0};
+  dyd_error err;
+  dyd_status done = dyd_trace_replay(&table, in, NULL, &err);
+  if (!standard) fclose(in);
+  if (done < 0) cli_complain_at(o->replay, &err);
+  int status = write_results(&table, o);
+  if (done < 0 || status)
+    status = CLI_FAILED;
+  else
+    status = cli_exit_status(table.outcome);
+  dyd_convergence_clear(&table);
+  return status;
+}
+
+int cli_converge(const cli_options *o) {
+  return o->replay ? replay(o) : converge(o);
 }

@@ -128,6 +128,12 @@ static int check_options(const cli_options *o, uint64_t seen, const cli_command 
     cli_complain("%s does not take --%s; see dyadel %s --help", c->name, cli_option_table[k].name, c->name);
     return CLI_USAGE;
   }
+  for (size_t k = 0; o->replay && k < cli_option_count; k++) {
+    cli_group group = cli_option_table[k].group;
+    if (!(seen >> k & 1) || (group != CLI_INPUT && group != CLI_REFINEMENT)) continue;
+    cli_complain("--replay takes points and options from the trace; leave --%s away", cli_option_table[k].name);
+    return CLI_USAGE;
+  }
   if (!o->format_set || c->formats >> o->format & 1) return 0;
   fprintf(stderr, "dyadel: %s does not write %s; give ", c->name, dyd_format_name(o->format));
   cli_formats_print(stderr, c->formats, ", ", false);
@@ -135,11 +141,12 @@ static int check_options(const cli_options *o, uint64_t seen, const cli_command 
   return CLI_USAGE;
 }
 
-/* Hands the operands behind the command's name to their fields. With an oracle there is no file. */
+/* Hands the operands behind the command's name to their fields. With an oracle or a trace there is no file. */
 static int place_operands(cli_options *o, const scan *s, const cli_command *c) {
   const char **place[MOST_OPERANDS];
   size_t wanted = 0;
-  if (!o->oracle) place[wanted++] = &o->file;
+  bool file = !o->oracle && !o->replay;
+  if (file) place[wanted++] = &o->file;
   if (strstr(c->operands, " X Y")) {
     place[wanted++] = &o->at[0];
     place[wanted++] = &o->at[1];
@@ -147,12 +154,12 @@ static int place_operands(cli_options *o, const scan *s, const cli_command *c) {
   size_t given = s->operands - 1;
   if (given > wanted) {
     cli_complain("\"%s\" is one argument too many; give dyadel %s %s", s->operand[wanted + 1], c->name,
-                 o->oracle ? c->operands + strcspn(c->operands, " ") : c->operands);
+                 file ? c->operands : c->operands + strcspn(c->operands, " "));
     return CLI_USAGE;
   }
   for (size_t k = 0; k < given; k++) *place[k] = s->operand[k + 1];
   if (given == wanted) return 0;
-  if (given == 0 && !o->oracle && strncmp(c->operands, "FILE", 4) == 0)
+  if (given == 0 && file && strncmp(c->operands, "FILE", 4) == 0)
     cli_complain("the points file is missing; give its name, or - for standard input");
   else
     cli_complain("an argument is missing; give dyadel %s %s", c->name, c->operands);

@@ -73,7 +73,7 @@ int cli_session_run(cli_session *s, const dyd_engine_options *options) {
   return cli_session_run_by(s, options, run_once, NULL);
 }
 
-static int exit_status(dyd_outcome outcome) {
+int cli_exit_status(dyd_outcome outcome) {
   switch (outcome) {
   case DYD_OUTCOME_DECIDED:
   case DYD_OUTCOME_CERTIFIED:
@@ -164,7 +164,7 @@ int cli_session_close(cli_session *s, int status) {
   cli_progress_stop(s->progress);
   if (s->engine) {
     dyd_outcome outcome = dyd_engine_outcome(s->engine);
-    if (status == 0) status = exit_status(outcome);
+    if (status == 0) status = cli_exit_status(outcome);
     if (!o->quiet && status != CLI_OK && status != CLI_USAGE) note_outcome(s->engine);
     if (o->stats && outcome != DYD_OUTCOME_NONE) cli_stats(stderr, s->engine, cli_clock() - s->begun);
   }

@@ -95,6 +95,10 @@ const cli_option cli_option_table[] = {
     {"stats", 0, NULL, CLI_FLAG, RUN, CLI_OUTPUT, "print counters to standard error", AT(stats)},
     {"quiet", 0, NULL, CLI_FLAG, ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
 
+    {"trace", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
+     "write which point was narrowed to what, and why", AT(trace)},
+    {"replay", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "repeat a trace, which stands for the points",
+     AT(replay)},
     {"no-times", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
      "leave seconds out: equal runs give equal bytes", AT(no_times)},
     {"seed", 0, "S", CLI_INTEGER, BIT(CLI_CHECK), CLI_EXPERIMENTS, "seed of random choices; printed", AT(seed),

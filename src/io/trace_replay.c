@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Replaying a trace: the rectangles it names are put into a table of sites, stage by stage, and triangulated as the
+ * engine did; no stream is asked. That every rectangle is inside the one before is checked [NEST-1]. */
+#include "base/alloc.h"
+#include "base/error.h"
+#include "io/text.h"
+#include "io/trace.h"
+#include <dyadel/io.h>
+#include <inttypes.h>
+#include <jansson.h>
+#include <string.h>
+
+/* A point of the trace. rect holds its first rectangle until the table of sites is made. */
+typedef struct replay_point {
+  dyd_rect rect;
+  int64_t bits;
+  bool had, asked;
+} replay_point;
+
+/* Invariant: pd = NULL until the first stage is complete; changed holds the `changes` sites narrowed since. */
+typedef struct replay {
+  dyd_convergence *out;
+  const dyd_converge_options *converge;
+  dyd_error *err;
+  size_t points;
+  replay_point *point;
+  dyd_sites *sites;
+  dyd_delaunay *pd;
+  uint32_t *changed;
+  size_t changes, change_cap;
+  uint64_t calls;
+  bool ended;
+} replay;
+
+static dyd_status bad(const replay *r, const char *what) {
+  return dyd_fail(r->err, DYD_E_PARSE, "%s; give a trace as dyadel wrote it", what);
+}
+
+/* ---- values ---- */
+
+static bool get_integer(int64_t *out, const json_t *line, const char *name, int64_t least, int64_t most) {
+  const json_t *value = json_object_get(line, name);
+  if (!json_is_integer(value)) return false;
+  *out = json_integer_value(value);
+  return *out >= least && *out <= most;
+}
+
+static bool is_text(const json_t *line, const char *name, const char *wanted) {
+  const char *text = json_string_value(json_object_get(line, name));
+  return text && strcmp(text, wanted) == 0;
+}
+
+/* The position of a word in a list; false when it is not there. */
+static bool get_word(int *out, const json_t *line, const char *name, const char *const *words, int count) {
+  for (*out = 0; *out < count; ++*out)
+    if (is_text(line, name, words[*out])) return true;
+  return false;
+}
+
+/* An exact point; any form that the writer uses for rationals. */
+static bool get_exact(dyd_interval *out, const char *text) {
+  dyd_real *real = NULL;
+  if (dyd_real_parse(&real, text, strlen(text), NULL) < 0) return false;
+  bool exact = dyd_real_is_final(real) && dyd_interval_is_point(dyd_real_interval(real));
+  if (exact) dyd_interval_set(out, dyd_real_interval(real));
+  dyd_real_free(real);
+  return exact;
+}
+
+static bool get_side(dyd_interval *out, const json_t *line, const char *name) {
+  const json_t *side = json_object_get(line, name);
+  const char *lo = json_string_value(json_array_get(side, 0)), *hi = json_string_value(json_array_get(side, 1));
+  if (!lo || !hi || json_array_size(side) != 2) return false;
+  if (strcmp(lo, hi) == 0) return get_exact(out, lo);
+  dyd_dyadic a, b;
+  dyd_dyadic_init(&a);
+  dyd_dyadic_init(&b);
+  bool good = dyd_dyadic_set_str(&a, lo, NULL) >= 0 && dyd_dyadic_set_str(&b, hi, NULL) >= 0 &&
+              dyd_interval_set_ends(out, &a, &b) >= 0;
+  dyd_dyadic_clear(&b);
+  dyd_dyadic_clear(&a);
+  return good;
+}
+
+/* ---- lines ---- */
+
+static dyd_status read_head(replay *r, const json_t *line) {
+  int64_t points, max_pairs;
+  int schedule, goal;
+  dyd_engine_options *o = &r->out->options;
+  dyd_engine_options_init(o);
+  if (!is_text(line, "format", DYD_TRACE_FORMAT))
+    return bad(r, "this is no trace of the format \"" DYD_TRACE_FORMAT "\"");
+  if (!get_integer(&points, line, "points", 0, (int64_t)DYD_MAX_SITES) ||
+      !get_integer(&o->goal_bits, line, "goal_bits", INT64_MIN, INT64_MAX) ||
+      !get_integer(&o->start_bits, line, "start_bits", INT64_MIN, INT64_MAX) ||
+      !get_integer(&o->step_bits, line, "step_bits", 0, INT64_MAX) ||
+      !get_integer(&o->max_bits, line, "max_bits", INT64_MIN, INT64_MAX) ||
+      !get_integer(&max_pairs, line, "max_pairs", 0, INT64_MAX) ||
+      !get_word(&schedule, line, "schedule", dyd_trace_schedule, DYD_TRACE_SCHEDULES) ||
+      !get_word(&goal, line, "goal", dyd_trace_goal, DYD_TRACE_GOALS))
+    return bad(r, "the first line lacks a field");
+  o->schedule = (dyd_schedule)schedule;
+  o->goal = (dyd_goal)goal;
+  o->max_pairs = (size_t)max_pairs;
+  r->points = (size_t)points;
+  r->point = calloc(r->points + 1, sizeof *r->point);
+  if (!r->point) {
+    r->points = 0;
+    return dyd_fail_nomem(r->err);
+  }
+  for (size_t i = 0; i < r->points; i++) dyd_rect_init(&r->point[i].rect);
+  return DYD_OK;
+}
+
+/* The rectangle of a line goes into the table, or is kept until there is one. */
+static dyd_status take_rect(replay *r, size_t i, const dyd_rect *rect, bool called) {
+  replay_point *p = &r->point[i];
+  if (!r->pd) {
+    if (p->had && !dyd_rect_contains(&p->rect, rect)) return bad(r, "this rectangle is not inside the one before");
+    dyd_rect_set(&p->rect, rect);
+    p->had = true;
+    return DYD_OK;
+  }
+  dyd_status status = dyd_sites_narrow(r->sites, i, rect);
+  if (status == DYD_E_NESTING) return bad(r, "this rectangle is not inside the one before");
+  if (status >= 0 && !dyd_reserve((void **)&r->changed, &r->change_cap, r->changes + 1, sizeof *r->changed))
+    status = DYD_E_NOMEM;
+  if (status < 0) return dyd_fail(r->err, status, "%s", dyd_status_text(status));
+  if (called) r->changed[r->changes++] = (uint32_t)i;
+  return DYD_OK;
+}
+
+static dyd_status read_step(replay *r, const json_t *line) {
+  int64_t point;
+  if (!get_integer(&point, line, "point", 0, (int64_t)r->points - 1)) return bad(r, "there is no such point");
+  replay_point *p = &r->point[point];
+  bool fixed = is_text(line, "why", "fixed"), called = json_is_true(json_object_get(line, "called"));
+  if (!fixed && !get_integer(&p->bits, line, "bits", INT64_MIN, INT64_MAX)) return bad(r, "the bits asked are missing");
+  if (!fixed) p->asked = true;
+  if (called) r->calls++;
+  dyd_rect rect;
+  dyd_rect_init(&rect);
+  dyd_status status = get_side(&rect.x, line, "x") && get_side(&rect.y, line, "y")
+                          ? take_rect(r, (size_t)point, &rect, called)
+                          : bad(r, "this is no rectangle");
+  dyd_rect_clear(&rect);
+  return status;
+}
+
+static dyd_status first_result(replay *r, const dyd_delaunay_options *o) {
+  dyd_status status = dyd_sites_new(&r->sites);
+  for (size_t i = 0; status >= 0 && i < r->points; i++) {
+    if (!r->point[i].had) return bad(r, "the first stage ends before every point has a rectangle");
+    status = dyd_sites_add_rect(r->sites, &r->point[i].rect);
+    dyd_rect_clear(&r->point[i].rect);
+    dyd_rect_init(&r->point[i].rect);
+  }
+  return status < 0 ? status : dyd_delaunay_new(&r->pd, r->sites, o, r->err);
+}
+
+/* The same figures as the engine's. */
+static void count_bits(dyd_stage_row *row, const replay *r) {
+  bool any = false;
+  for (size_t i = 0; i < r->points; i++) {
+    const replay_point *p = &r->point[i];
+    if (!p->asked) continue;
+    if (!any || p->bits < row->bits_least) row->bits_least = p->bits;
+    if (!any || p->bits > row->bits_most) row->bits_most = p->bits;
+    if (p->bits > 0) row->bits_total += (uint64_t)p->bits;
+    any = true;
+  }
+  row->calls = r->calls;
+}
+
+static bool agrees(const dyd_stage_row *row, const json_t *line) {
+  int64_t legal, open, tie;
+  char digest[17];
+  snprintf(digest, sizeof digest, "%016" PRIx64, row->digest);
+  return get_integer(&legal, line, "legal", 0, INT64_MAX) && (size_t)legal == row->count[DYD_LEGAL] &&
+         get_integer(&open, line, "indeterminate", 0, INT64_MAX) && (size_t)open == row->count[DYD_INDETERMINATE] &&
+         get_integer(&tie, line, "tie", 0, INT64_MAX) && (size_t)tie == row->count[DYD_TIE] &&
+         is_text(line, "statuses", digest);
+}
+
+static dyd_status finish_stage(replay *r, const json_t *line) {
+  dyd_delaunay_options o = {.max_pairs = r->out->options.max_pairs};
+  dyd_stage_row *row;
+  dyd_status status = r->pd ? dyd_delaunay_update(r->pd, r->changed, r->changes, &o, r->err) : first_result(r, &o);
+  if (status < 0) return status;
+  r->changes = 0;
+  status = dyd_convergence_add(&row, r->out, r->pd, r->converge);
+  if (status < 0) return dyd_fail(r->err, status, "%s", dyd_status_text(status));
+  count_bits(row, r);
+  if (r->converge && r->converge->stage) r->converge->stage(row, r->pd, r->converge->stage_user);
+  if (agrees(row, line)) return DYD_OK;
+  return dyd_fail(r->err, DYD_E_PARSE, "the statuses of this stage are not those that the trace tells of");
+}
+
+static dyd_status read_outcome(replay *r, const json_t *line) {
+  for (int k = DYD_OUTCOME_NONE; k <= DYD_OUTCOME_ERROR; k++) {
+    if (!is_text(line, "outcome", dyd_outcome_text((dyd_outcome)k))) continue;
+    r->out->outcome = (dyd_outcome)k;
+    r->ended = true;
+    return DYD_OK;
+  }
+  return bad(r, "there is no such outcome");
+}
+
+static dyd_status read_line(replay *r, const dyd_line *text) {
+  json_t *line = json_loadb(text->text, text->length, JSON_REJECT_DUPLICATES, NULL);
+  dyd_status status;
+  if (!json_is_object(line))
+    status = bad(r, "this line is no JSON object");
+  else if (!r->point)
+    status = read_head(r, line);
+  else if (r->ended)
+    status = bad(r, "the trace goes on behind its outcome");
+  else if (json_object_get(line, "outcome"))
+    status = read_outcome(r, line);
+  else if (json_object_get(line, "done"))
+    status = finish_stage(r, line);
+  else
+    status = read_step(r, line);
+  json_decref(line);
+  return status;
+}
+
+static void replay_clear(replay *r) {
+  dyd_delaunay_free(r->pd);
+  dyd_sites_free(r->sites);
+  for (size_t i = 0; i < r->points; i++) dyd_rect_clear(&r->point[i].rect);
+  free(r->point);
+  free(r->changed);
+}
+
+dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_options *converge, dyd_error *err) {
+  dyd_error local;
+  replay r = {.out = out, .converge = converge, .err = err ? err : &local};
+  dyd_text text;
+  dyd_line line = {0};
+  dyd_error_clear(r.err);
+  dyd_text_init(&text, in);
+  dyd_status status;
+  do {
+    status = dyd_text_next(&line, &text, r.err);
+    if (status >= 0 && line.text) status = read_line(&r, &line);
+  } while (status >= 0 && line.text);
+  if (status >= 0 && !r.ended) status = bad(&r, "the trace ends before its outcome");
+  if (status < 0) {
+    r.err->code = status;
+    if (!r.err->line) r.err->line = line.text ? line.number : text.line;
+    if (!r.err->column) r.err->column = 1;
+    if (!r.err->message[0]) dyd_fail(r.err, status, "%s", dyd_status_text(status));
+  }
+  dyd_text_clear(&text);
+  replay_clear(&r);
+  return status < 0 ? status : DYD_OK;
+}

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Writing a trace: one line of JSON for each narrowing and for each stage. All texts are our own words and numbers, so
+ * nothing needs escaping. */
+#include "base/alloc.h"
+#include "base/error.h"
+#include "io/decimal.h"
+#include "io/trace.h"
+#include <dyadel/io.h>
+#include <errno.h>
+#include <inttypes.h>
+#include <string.h>
+
+const char *const dyd_trace_goal[DYD_TRACE_GOALS] = {
+    [DYD_GOAL_DECIDED] = "decided", [DYD_GOAL_AREA] = "area", [DYD_GOAL_HAUSDORFF] = "hausdorff"};
+const char *const dyd_trace_schedule[DYD_TRACE_SCHEDULES] = {
+    [DYD_SCHEDULE_ADAPTIVE] = "adaptive", [DYD_SCHEDULE_UNIFORM] = "uniform"};
+
+/* Invariant: seen[i] tells whether point i was narrowed; NULL once the fixed points are written. */
+struct dyd_trace {
+  FILE *out;
+  size_t points;
+  bool *seen;
+  dyd_status failed;
+};
+
+static void write_head(const dyd_trace *t, const dyd_engine_options *o) {
+  fprintf(t->out,
+          "{\"format\":\"" DYD_TRACE_FORMAT
+          "\",\"points\":%zu,\"schedule\":\"%s\",\"goal\":\"%s\",\"goal_bits\":%" PRId64 ",\"start_bits\":%" PRId64
+          ",\"step_bits\":%" PRId64 ",\"max_bits\":%" PRId64 ",\"max_pairs\":%zu}\n",
+          t->points, dyd_trace_schedule[o->schedule], dyd_trace_goal[o->goal], o->goal_bits, o->start_bits,
+          o->step_bits, o->max_bits, o->max_pairs);
+}
+
+dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dyd_engine_options *options) {
+  dyd_engine_options o;
+  dyd_engine_options_init(&o);
+  if (options) o = *options;
+  if ((unsigned)o.goal >= DYD_TRACE_GOALS || (unsigned)o.schedule >= DYD_TRACE_SCHEDULES) return DYD_E_ARG;
+  dyd_trace *t = calloc(1, sizeof *t);
+  if (!t) return DYD_E_NOMEM;
+  t->out = f;
+  t->points = dyd_engine_count(e);
+  t->seen = calloc(t->points + 1, sizeof *t->seen);
+  if (!t->seen) {
+    free(t);
+    return DYD_E_NOMEM;
+  }
+  write_head(t, &o);
+  *out = t;
+  return DYD_OK;
+}
+
+static dyd_status write_side(FILE *out, const char *name, const dyd_interval *a) {
+  char *lo = dyd_end_text(a, false), *hi = dyd_end_text(a, true);
+  dyd_status status = lo && hi ? DYD_OK : DYD_E_NOMEM;
+  if (status >= 0) fprintf(out, ",\"%s\":[\"%s\",\"%s\"]", name, lo, hi);
+  free(lo);
+  free(hi);
+  return status;
+}
+
+static dyd_status write_rect(FILE *out, const dyd_rect *r) {
+  dyd_status status = write_side(out, "x", &r->x);
+  if (status >= 0) status = write_side(out, "y", &r->y);
+  fputs("}\n", out);
+  return status;
+}
+
+void dyd_trace_step(const dyd_step *step, void *trace) {
+  dyd_trace *t = trace;
+  if (t->failed < 0) return;
+  if (t->seen) t->seen[step->site] = true;
+  fprintf(t->out, "{\"stage\":%" PRIu64 ",\"point\":%" PRIu32 ",\"bits\":%" PRId64 ",\"called\":%s,\"why\":\"%s\"",
+          step->stage, step->site, step->bits, step->called ? "true" : "false", dyd_reason_text(step->reason));
+  if (step->i != step->j) fprintf(t->out, ",\"pair\":[%" PRIu32 ",%" PRIu32 "]", step->i, step->j);
+  t->failed = write_rect(t->out, step->rect);
+}
+
+/* Lines of the points that were not asked: they are fixed. */
+static dyd_status write_fixed(dyd_trace *t, const dyd_delaunay *pd) {
+  dyd_status status = DYD_OK;
+  dyd_rect rect;
+  dyd_rect_init(&rect);
+  for (size_t i = 0; status >= 0 && i < t->points; i++) {
+    if (t->seen[i]) continue;
+    status = dyd_sites_get(&rect, dyd_delaunay_sites(pd), i);
+    fprintf(t->out, "{\"stage\":1,\"point\":%zu,\"why\":\"fixed\"", i);
+    if (status >= 0) status = write_rect(t->out, &rect);
+  }
+  dyd_rect_clear(&rect);
+  free(t->seen);
+  t->seen = NULL;
+  return status;
+}
+
+void dyd_trace_stage(const dyd_stage_row *row, const dyd_delaunay *pd, void *trace) {
+  dyd_trace *t = trace;
+  if (t->failed < 0) return;
+  if (t->seen) t->failed = write_fixed(t, pd);
+  fprintf(t->out,
+          "{\"stage\":%" PRIu64
+          ",\"done\":true,\"legal\":%zu,\"indeterminate\":%zu,\"tie\":%zu,\"statuses\":\"%016" PRIx64 "\"}\n",
+          row->stage, row->count[DYD_LEGAL], row->count[DYD_INDETERMINATE], row->count[DYD_TIE], row->digest);
+}
+
+dyd_status dyd_trace_end(dyd_trace *t, dyd_outcome outcome, dyd_error *err) {
+  dyd_status status = t->failed;
+  fprintf(t->out, "{\"outcome\":\"%s\"}\n", dyd_outcome_text(outcome));
+  if (status < 0)
+    dyd_fail(err, status, "%s", dyd_status_text(status));
+  else if (fflush(t->out) != 0 || ferror(t->out))
+    status = dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno ? errno : EIO));
+  free(t->seen);
+  free(t);
+  return status;
+}
