@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Points ((ax + bx sqrt(c)) / d, (ay + by sqrt(c)) / d).
+ *
+ * Distances: the closest or farthest point of a rectangle is found coordinate by coordinate [DIST-1], and the
+ * difference of two squared distances is (P + Q sqrt(c)) / d^2, whose sign is exact [SQR-1].
+ * Enclosures: floor(x / d) = floor(floor(x) / d) for an integer d > 0, and floor(a + b sqrt(c)) = a + floor(sqrt(b^2 c))
+ * for b >= 0, a - ceil(sqrt(b^2 c)) for b < 0; so integer roots decide. */
+#include "voronoi/surd_point.h"
+
+#include "predicate/surd.h"
+
+void dyd_surd_point_init(dyd_surd_point *p) {
+  mpz_inits(p->ax, p->bx, p->ay, p->by, p->c, NULL);
+  mpz_init_set_ui(p->d, 1);
+}
+
+void dyd_surd_point_clear(dyd_surd_point *p) {
+  mpz_clears(p->ax, p->bx, p->ay, p->by, p->c, p->d, NULL);
+}
+
+void dyd_surd_point_set(dyd_surd_point *out, const dyd_surd_point *p) {
+  mpz_set(out->ax, p->ax);
+  mpz_set(out->bx, p->bx);
+  mpz_set(out->ay, p->ay);
+  mpz_set(out->by, p->by);
+  mpz_set(out->c, p->c);
+  mpz_set(out->d, p->d);
+}
+
+static dyd_surd coordinate(const dyd_surd_point *p, int axis) {
+  if (axis) return (dyd_surd){p->ay, p->by, p->c, p->d};
+  return (dyd_surd){p->ax, p->bx, p->c, p->d};
+}
+
+int dyd_surd_point_cmp(const dyd_surd_point *p, const dyd_surd_point *q, int axis) {
+  dyd_surd s = coordinate(p, axis), t = coordinate(q, axis);
+  mpz_t a, b, d;
+  mpz_inits(a, b, d, NULL);
+  mpz_mul(a, s.a, t.d);
+  mpz_submul(a, t.a, s.d);
+  mpz_mul(b, s.b, t.d);
+  mpz_mul(d, t.b, s.d);
+  mpz_neg(d, d);
+  int sign = dyd_sqrt2_sign(a, b, s.c, d, t.c);
+  mpz_clears(a, b, d, NULL);
+  return sign;
+}
+
+int dyd_surd_point_cmp_z(const dyd_surd_point *p, int axis, mpz_srcptr z) {
+  dyd_surd s = coordinate(p, axis);
+  mpz_t a;
+  mpz_init_set(a, s.a);
+  mpz_submul(a, z, s.d);
+  int sign = dyd_sqrt_sign(a, s.b, s.c);
+  mpz_clear(a);
+  return sign;
+}
+
+/* Scratch of one comparison; sum is P + Q sqrt(c). */
+typedef struct frame {
+  mpz_t p, q, s, t;
+} frame;
+
+/* sum += sign * d^2 (s - z)^2; nothing for z = NULL: the distance along this axis is 0. */
+static void add_square(frame *f, const dyd_surd *s, mpz_srcptr z, int sign) {
+  if (!z) return;
+  mpz_set(f->s, s->a);
+  mpz_submul(f->s, z, s->d);
+  mpz_mul(f->t, f->s, s->b);
+  mpz_mul_2exp(f->t, f->t, 1);
+  if (sign > 0) {
+    mpz_add(f->q, f->q, f->t);
+    mpz_addmul(f->p, f->s, f->s);
+  } else {
+    mpz_sub(f->q, f->q, f->t);
+    mpz_submul(f->p, f->s, f->s);
+  }
+  mpz_mul(f->t, s->b, s->b);
+  if (sign > 0) {
+    mpz_addmul(f->p, f->t, s->c);
+  } else {
+    mpz_submul(f->p, f->t, s->c);
+  }
+}
+
+static void add_distance(frame *f, const dyd_surd_point *p, const dyd_irect *r, dyd_touch touch, int sign) {
+  dyd_surd x = coordinate(p, 0), y = coordinate(p, 1);
+  bool far = touch == DYD_FARTHEST;
+  add_square(f, &x, far ? dyd_surd_farthest(f->s, f->t, &x, r->x0, r->x1) : dyd_surd_closest(f->s, &x, r->x0, r->x1),
+             sign);
+  add_square(f, &y, far ? dyd_surd_farthest(f->s, f->t, &y, r->y0, r->y1) : dyd_surd_closest(f->s, &y, r->y0, r->y1),
+             sign);
+}
+
+int dyd_surd_point_side(const dyd_surd_point *p, const dyd_irect *a, dyd_touch ta, const dyd_irect *b, dyd_touch tb) {
+  frame f;
+  mpz_inits(f.p, f.q, f.s, f.t, NULL);
+  add_distance(&f, p, a, ta, 1);
+  add_distance(&f, p, b, tb, -1);
+  int sign = dyd_sqrt_sign(f.p, f.q, p->c);
+  mpz_clears(f.p, f.q, f.s, f.t, NULL);
+  return sign;
+}
+
+static void make_rational(dyd_surd_point *p) {
+  if (mpz_sgn(p->bx) || mpz_sgn(p->by)) {
+    if (!mpz_perfect_square_p(p->c)) return;
+    mpz_sqrt(p->c, p->c);
+    mpz_addmul(p->ax, p->bx, p->c);
+    mpz_addmul(p->ay, p->by, p->c);
+  }
+  mpz_set_ui(p->bx, 0);
+  mpz_set_ui(p->by, 0);
+  mpz_set_ui(p->c, 0);
+}
+
+void dyd_surd_point_tidy(dyd_surd_point *p) {
+  make_rational(p);
+  mpz_ptr part[5] = {p->ax, p->bx, p->ay, p->by, p->d};
+  mpz_t gcd;
+  mpz_init_set(gcd, p->d);
+  for (int k = 0; k < 4; k++) mpz_gcd(gcd, gcd, part[k]);
+  for (int k = 0; k < 5; k++) mpz_divexact(part[k], part[k], gcd);
+  mpz_clear(gcd);
+}
+
+static void shift_up(mpz_ptr z, int64_t e) {
+  if (e > 0) mpz_mul_2exp(z, z, (mp_bitcnt_t)e);
+}
+
+void dyd_surd_point_unscale(dyd_surd_point *p, mpz_srcptr ox, mpz_srcptr oy, mpz_srcptr man, int64_t exp) {
+  mpz_ptr part[4] = {p->ax, p->bx, p->ay, p->by};
+  mpz_addmul(p->ax, ox, p->d);
+  mpz_addmul(p->ay, oy, p->d);
+  mpz_mul(p->d, p->d, man);
+  shift_up(p->d, exp);
+  for (int k = 0; k < 4; k++) shift_up(part[k], -exp);
+  dyd_surd_point_tidy(p);
+}
+
+void dyd_surd_point_scale(dyd_surd_point *p, mpz_srcptr man, int64_t exp) {
+  mpz_ptr part[4] = {p->ax, p->bx, p->ay, p->by};
+  for (int k = 0; k < 4; k++) {
+    mpz_mul(part[k], part[k], man);
+    shift_up(part[k], exp);
+  }
+  shift_up(p->d, -exp);
+}
+
+int dyd_surd_point_compare(const dyd_surd_point *p, const dyd_rect *a, dyd_touch ta, const dyd_rect *b, dyd_touch tb) {
+  const dyd_rect *in[2] = {a, b};
+  dyd_irect r[2];
+  dyd_surd_point q;
+  mpz_t man;
+  int64_t exp;
+  mpz_init(man);
+  for (int k = 0; k < 2; k++) dyd_irect_init(&r[k]);
+  dyd_surd_point_init(&q);
+  dyd_irects_scale(r, in, 2, man, &exp);
+  dyd_surd_point_set(&q, p);
+  dyd_surd_point_scale(&q, man, exp);
+  int sign = dyd_surd_point_side(&q, &r[0], ta, &r[1], tb);
+  dyd_surd_point_clear(&q);
+  for (int k = 2; k-- > 0;) dyd_irect_clear(&r[k]);
+  mpz_clear(man);
+  return sign;
+}
+
+void dyd_surd_point_floor(mpz_ptr floor, mpz_ptr ceiling, const dyd_surd_point *p, int axis, int64_t bits) {
+  dyd_surd s = coordinate(p, axis);
+  mpz_t root, rest, d;
+  mpz_inits(root, rest, d, NULL);
+  mpz_mul(root, s.b, s.b);
+  mpz_mul(root, root, s.c);
+  shift_up(root, 2 * bits);
+  mpz_sqrtrem(root, rest, root);
+  mpz_set(floor, s.a);
+  shift_up(floor, bits);
+  mpz_set(d, s.d);
+  shift_up(d, -bits);
+  int over = mpz_sgn(rest) != 0;
+  if (mpz_sgn(s.b) < 0) {
+    mpz_sub(ceiling, floor, root);
+    mpz_sub_ui(floor, ceiling, (unsigned long)over);
+  } else {
+    mpz_add(floor, floor, root);
+    mpz_add_ui(ceiling, floor, (unsigned long)over);
+  }
+  mpz_fdiv_q(floor, floor, d);
+  mpz_cdiv_q(ceiling, ceiling, d);
+  mpz_clears(root, rest, d, NULL);
+}
+
+static dyd_status enclose_side(dyd_interval *out, const dyd_surd_point *p, int axis, int64_t bits) {
+  mpz_t floor, ceiling;
+  dyd_dyadic lo, hi;
+  mpz_inits(floor, ceiling, NULL);
+  dyd_dyadic_init(&lo);
+  dyd_dyadic_init(&hi);
+  dyd_surd_point_floor(floor, ceiling, p, axis, bits);
+  dyd_status st = dyd_dyadic_set_z_2exp(&lo, floor, -bits);
+  if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&hi, ceiling, -bits);
+  if (st == DYD_OK) st = dyd_interval_set_ends(out, &lo, &hi);
+  dyd_dyadic_clear(&hi);
+  dyd_dyadic_clear(&lo);
+  mpz_clears(floor, ceiling, NULL);
+  return st;
+}
+
+dyd_status dyd_surd_point_enclose(dyd_rect *out, const dyd_surd_point *p, int64_t bits) {
+  if (bits > DYD_EXP_LIMIT || bits < -DYD_EXP_LIMIT) return DYD_E_RANGE;
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = enclose_side(&r.x, p, 0, bits);
+  if (st == DYD_OK) st = enclose_side(&r.y, p, 1, bits);
+  if (st == DYD_OK) dyd_rect_swap(out, &r);
+  dyd_rect_clear(&r);
+  return st;
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Points with coordinates A + B sqrt(C) against integers, integer rectangles and one another. */
+#ifndef DYD_VORONOI_SURD_POINT_H
+#define DYD_VORONOI_SURD_POINT_H
+
+#include "rect/irect.h"
+#include <dyadel/arc.h>
+
+/* Sign of (coordinate of p) - (that of q); axis 0: x, 1: y. */
+int dyd_surd_point_cmp(const dyd_surd_point *p, const dyd_surd_point *q, int axis);
+/* Sign of (coordinate of p) - z. */
+int dyd_surd_point_cmp_z(const dyd_surd_point *p, int axis, mpz_srcptr z);
+/* dyd_surd_point_compare on one integer scale. */
+int dyd_surd_point_side(const dyd_surd_point *p, const dyd_irect *a, dyd_touch ta, const dyd_irect *b, dyd_touch tb);
+/* The same point with c = 0 when it is rational, and without common factors. */
+void dyd_surd_point_tidy(dyd_surd_point *p);
+/* floor = the greatest integer <= 2^bits times the coordinate, ceiling = the least one >=. */
+void dyd_surd_point_floor(mpz_ptr floor, mpz_ptr ceiling, const dyd_surd_point *p, int axis, int64_t bits);
+/* p = (p + (ox,oy)) / (man * 2^exp), man > 0. */
+void dyd_surd_point_unscale(dyd_surd_point *p, mpz_srcptr ox, mpz_srcptr oy, mpz_srcptr man, int64_t exp);
+/* p = p * man * 2^exp. */
+void dyd_surd_point_scale(dyd_surd_point *p, mpz_srcptr man, int64_t exp);
+
+#endif
