@@ -42,6 +42,9 @@ DYD_API dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format
 DYD_API dyd_status dyd_write_convergence(FILE *out, const dyd_convergence *c, dyd_format format, bool times,
                                          dyd_error *err);
 
+/* Draws bounds and counts against stages on logarithmic scales; kind is "svg", "pdf" or "png" (else DYD_E_ARG). */
+DYD_API dyd_status dyd_plot_convergence(FILE *out, const dyd_convergence *c, const char *kind, dyd_error *err);
+
 /* ---- traces ---- */
 
 /* A trace tells which point was narrowed to what, and why; replaying it gives the same statuses without asking a point.

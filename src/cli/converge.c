@@ -8,9 +8,25 @@ static dyd_status print_table(FILE *out, const void *what, const cli_options *o,
   return dyd_write_convergence(out, what, o->format, !o->no_times, err);
 }
 
-/* The table, as far as it was made. */
+/* svg, pdf or png, from the name of the plot's file; NULL when it is none of these. */
+static const char *plot_kind(const char *name) {
+  static const char *const kind[] = {"svg", "pdf", "png"};
+  const char *dot = strrchr(name, '.');
+  for (int k = 0; dot && k < 3; k++)
+    if (strcmp(dot + 1, kind[k]) == 0) return kind[k];
+  return NULL;
+}
+
+static dyd_status print_plot(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+  return dyd_plot_convergence(out, what, plot_kind(o->plot), err);
+}
+
+/* Table and plot, as far as they were made. */
 static int write_results(const dyd_convergence *table, const cli_options *o) {
-  return table->count ? cli_write_file(o->output, o, print_table, table) : 0;
+  if (!table->count) return 0;
+  int status = o->plot ? cli_write_file(o->plot, o, print_plot, table) : 0;
+  int written = cli_write_file(o->output, o, print_table, table);
+  return status ? status : written;
 }
 
 /* ---- a run ---- */
@@ -95,5 +111,9 @@ static int replay(const cli_options *o) {
 }
 
 int cli_converge(const cli_options *o) {
+  if (o->plot && !plot_kind(o->plot)) {
+    cli_complain("--plot \"%s\" does not say what kind of picture is wanted; end it in .svg, .pdf or .png", o->plot);
+    return CLI_USAGE;
+  }
   return o->replay ? replay(o) : converge(o);
 }

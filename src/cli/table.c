@@ -95,6 +95,8 @@ const cli_option cli_option_table[] = {
     {"stats", 0, NULL, CLI_FLAG, RUN, CLI_OUTPUT, "print counters to standard error", AT(stats)},
     {"quiet", 0, NULL, CLI_FLAG, ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
 
+    {"plot", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "draw the table; FILE ends in .svg, .pdf or .png",
+     AT(plot)},
     {"trace", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
      "write which point was narrowed to what, and why", AT(trace)},
     {"replay", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "repeat a trace, which stands for the points",
