@@ -3,6 +3,8 @@
 #ifndef DYADEL_DYADEL_H
 #define DYADEL_DYADEL_H
 
+#include <dyadel/certificate.h>
+#include <dyadel/compose.h>
 #include <dyadel/converge.h>
 #include <dyadel/engine.h>
 #include <dyadel/io.h>

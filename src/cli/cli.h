@@ -62,6 +62,7 @@ bool cli_window_read(dyd_rect *out, const char *text);
 /* One function for each command, in a file of its own; returns the exit status. */
 int cli_delaunay(const cli_options *o);
 int cli_converge(const cli_options *o);
+int cli_verify(const cli_options *o);
 
 /* oracle.c: adds the points that the programs of --oracle serve. 0, or an exit status after a message. */
 int cli_oracle_read(dyd_engine *e, const cli_options *o);

@@ -148,6 +148,11 @@ static dyd_status print_result(FILE *out, const void *what, const cli_options *o
   return w->write(out, w->engine, o, err);
 }
 
+static dyd_status print_certificate(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+  (void)o;
+  return dyd_write_certificate(out, what, err);
+}
+
 int cli_session_write(cli_session *s, cli_write_fn write) {
   cli_progress_phase(s->progress, "writing");
   if (!dyd_engine_delaunay(s->engine)) {
@@ -155,6 +160,9 @@ int cli_session_write(cli_session *s, cli_write_fn write) {
                  dyd_outcome_text(dyd_engine_outcome(s->engine)));
     return 0;
   }
+  const char *certificate = s->options->certificate;
+  int status = certificate ? cli_write_file(certificate, s->options, print_certificate, s->engine) : 0;
+  if (status) return status;
   result_writer w = {s->engine, write};
   return cli_write_file(s->options->output, s->options, print_result, &w);
 }

@@ -36,7 +36,10 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                       "stage asks for 4 bits, unless told otherwise.",
                       FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_converge},
     [CLI_CHECK] = {.name = "check", .operands = "FILE"},
-    [CLI_VERIFY] = {.name = "verify", .operands = "CERT"},
+    [CLI_VERIFY] = {"verify", "CERT", "check a certificate, in integers, without the engine",
+                    "Checks a certificate that --certificate wrote, and says what it checked and what not.\n"
+                    "Exit status 0: accepted; 1: rejected, with the line and the reason.",
+                    0, cli_verify},
     [CLI_DISC] = {.name = "disc", .operands = "FILE"},
     [CLI_BISECTOR] = {.name = "bisector", .operands = "FILE"},
     [CLI_NEAREST] = {.name = "nearest", .operands = "FILE X Y"},
@@ -92,6 +95,8 @@ const cli_option cli_option_table[] = {
      AT(flatten_bits), RANGE(-DYD_EXP_LIMIT, DYD_EXP_LIMIT), GIVEN(flatten_set)},
     {"format", 0, "F", CLI_FORMAT, ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
     {"output", 'o', "FILE", CLI_FILE, ALL, CLI_OUTPUT, "write to FILE, whole or not at all", AT(output)},
+    {"certificate", 0, "FILE", CLI_FILE, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_OUTPUT,
+     "write what proves the result; see dyadel verify", AT(certificate)},
     {"stats", 0, NULL, CLI_FLAG, RUN, CLI_OUTPUT, "print counters to standard error", AT(stats)},
     {"quiet", 0, NULL, CLI_FLAG, ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
 

@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Certificates: a result together with what proves it, and the independent check of it.
+ *
+ * A certificate is a text that anybody can check with integer arithmetic; the format is fixed below, and what it
+ * proves is said there too. dyd_verify_certificate shares no code with the engine but the numbers (src/verify).
+ *
+ * Format. Lines of UTF-8 ended by '\n', words divided by single blanks, no other blank. A number is
+ *     m       an integer      or      m*2^e    m odd, e not 0
+ * in decimal, without leading zeros or plus signs; a coordinate of a site is
+ *     lo      an exact dyadic
+ *     lo/d    an exact rational, d > 1 odd
+ *     lo+w    the interval [lo, lo + w], w > 0.
+ * Sites are numbered from 0. In pairs i < j; lists are sorted by i, then by j, without repeats.
+ *
+ *     dyadel certificate 1
+ *     outcome decided | certified | fixpoint | budget | cancelled | error
+ *     goal decided | area M | hausdorff M
+ *     capped no | yes
+ *     sites N
+ *       X Y                 N lines: the rectangle of a site; or
+ *       = K                   the same exact point as site K, a lower number and itself no such line (an alias)
+ *     legal L
+ *       i j x y             L lines: the pair is legal, (x,y) is the witness
+ *     places P
+ *       i x y               P lines: the place of a site, a point of its rectangle; of other sites: the lower left
+ * corner bridges B i j x y             B lines: see [CERT-2] corners C i x y               C lines: site i is a corner
+ * of the hull for every choice, outward (x,y) pairs o i j               indeterminate t i j               tie l i j
+ * legal without a witness n i j x y k x y k ... x y k x y     illegal, proved by a chain: a direction, then blocker and
+ * point by turns, a blocker, a direction triangles T unproved U area A | none         upper bounds, see metric.h
+ *     hausdorff H | none
+ *     end
+ *
+ * Aliases occur in no pair. Pairs of sites without a line are stated to be illegal, unless capped.
+ *
+ * What is proved, c being a point, ds_k and dl_k the least and the greatest distance from it to rectangle k:
+ *
+ * [CERT-1] Legal pairs: max(dl_i, dl_j)(c) < ds_k(c) at the witness c, for all other sites k but aliases: whatever the
+ * points are, the segment from point i to point j is a strictly Delaunay edge.
+ *
+ * [CERT-2] The faces of the graph of legal pairs, drawn with the places as points; a bridge is an edge between two
+ * places with a centre (x,y) nearer to both than to all other places. Legal pairs and bridges must connect all sites
+ * (else the faces are not known, and C = T = 0); then each face is one closed walk. T is the number of bounded faces
+ * with three legal edges: triangles for every choice, without a further site. A pair that is possible has both sites
+ * on one of the other faces, or is a side of a triangle.
+ *
+ * [CERT-3] Corners: a corner occurs once in the walk of the unbounded face, is a strict corner of the hull of the
+ * places, and surely beyond, in its direction, all other sites of the walk up to the next corner on either side.
+ * Corners cut the walk into parts; a possible pair of the unbounded face is within one part. A part of two sites that
+ * are a legal pair is done. What is left of [CERT-2] and [CERT-3] are the open sets of sites.
+ *
+ * [CERT-4] Chains: on each piece of the chain (the ray from the first point in the first direction, the segments, the
+ * ray from the last point in the last direction) its blocker k has dl_k < ds_i and dl_k < ds_j at the ends, on rays
+ * also u.x < u.y for all x of rectangle i or j and y of rectangle k, u the direction; and the chain crosses the segment
+ * between the places of i and j an odd number of times. Then no centre, finite or not, is possibly nearest to both.
+ *
+ * [CERT-5] The bounds: the sum of the areas of the hulls of R_i and R_j over all pairs listed, chains apart; the
+ * greatest diameter of a rectangle of such a pair, for pairs that are not legal plus half their greatest length.
+ *
+ * U counts, over the open sets, the pairs within the set that have no line: nothing proves that they are illegal (0:
+ * the certificate proves its list of pairs complete). Nothing is proved by: the words fixpoint, budget, cancelled and error,
+ * the lines o and l (they say less than legal and illegal), and that ties cannot be resolved, but both sites of a tie
+ * are exact points. decided needs no o, t and l line and capped no; certified needs the goal's bound. */
+#ifndef DYADEL_CERTIFICATE_H
+#define DYADEL_CERTIFICATE_H
+
+#include <dyadel/status.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct dyd_engine;
+
+/* Writes the certificate of the current result of e, for every outcome that has one.
+ * DYD_E_ARG when e has no result; DYD_E_NOMEM; DYD_E_IO. Then what was written is no certificate: the last line,
+ * "end", is missing. Cost: about N log N, plus a search for chains in undecided faces, which gives up where it is long
+ * (such pairs are counted as unproved). */
+DYD_API dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, dyd_error *err);
+
+/* What an accepted certificate states. Texts have static storage. */
+typedef struct dyd_certificate_report {
+  const char *outcome, *goal;
+  long long goal_bits; /* of area and hausdorff: the bound is to be at most 2^-goal_bits */
+  bool capped;
+  size_t sites, aliases;
+  size_t legal;          /* proved by witnesses */
+  size_t legal_unproved; /* without a witness */
+  size_t indeterminate, tie;
+  size_t illegal_chains; /* pairs within undecided faces that are proved illegal one by one */
+  uint64_t unproved;     /* pairs within undecided faces stated illegal (or not stated, when capped), not proved */
+  size_t triangles;      /* sure triangles */
+  size_t corners;        /* sure corners of the hull */
+  size_t undecided_sets; /* faces and parts of the unbounded face that are not proved to be decided */
+  bool connected;        /* were the faces found? */
+  bool area, hausdorff;  /* is there a bound? Then it was checked against the pairs listed */
+} dyd_certificate_report;
+
+/* Checks the certificate in `in` up to its end, in integers. DYD_OK: accepted, *out is what it states. DYD_E_PARSE:
+ * rejected; err has the line and the reason. DYD_E_IO, DYD_E_NOMEM: not known. err may be NULL. Memory: linear in the
+ * number of sites and legal pairs. Cost: near-linear where each disc meets few rectangles. */
+DYD_API dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

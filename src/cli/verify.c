@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* dyadel verify CERT: checks a certificate and says what was checked and what was not. */
+#include "cli.h"
+#include <errno.h>
+#include <string.h>
+
+static void print_checked(FILE *out, const dyd_certificate_report *r) {
+  fprintf(out, "sites: %zu, of which %zu aliases\n", r->sites, r->aliases);
+  fprintf(out, "checked: %zu legal pairs, each by its witness against all sites\n", r->legal);
+  if (!r->connected) {
+    fputs("not checked: faces, since legal pairs and bridges do not connect all sites\n", out);
+  } else {
+    fprintf(out, "checked: %zu sure triangles, %zu sure corners of the hull\n", r->triangles, r->corners);
+  }
+  if (r->illegal_chains)
+    fprintf(out, "checked: %zu illegal pairs within undecided faces, each by its chain\n", r->illegal_chains);
+  if (r->area || r->hausdorff) fputs("checked: the bounds of area and Hausdorff distance, for the pairs listed\n", out);
+}
+
+static void print_open(FILE *out, const dyd_certificate_report *r) {
+  size_t open = r->indeterminate + r->tie + r->legal_unproved;
+  if (r->unproved)
+    fprintf(out, "not checked: that %llu pairs within %zu undecided faces are %s\n", (unsigned long long)r->unproved,
+            r->undecided_sets, r->capped ? "possible or not (the cap was met: nothing is stated)" : "illegal");
+  else
+    fputs("checked: all pairs that are not listed are illegal\n", out);
+  if (open)
+    fprintf(out, "nothing to check: %zu indeterminate pairs, %zu ties, %zu legal pairs without a witness\n",
+            r->indeterminate, r->tie, r->legal_unproved);
+}
+
+static dyd_status print_report(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+  const dyd_certificate_report *r = what;
+  (void)o, (void)err;
+  fprintf(out, "accepted: outcome %s, goal %s", r->outcome, r->goal);
+  if (strcmp(r->goal, "decided") != 0) fprintf(out, " %lld", r->goal_bits);
+  fputs(r->capped ? ", capped\n" : "\n", out);
+  print_checked(out, r);
+  print_open(out, r);
+  if (strcmp(r->outcome, "decided") != 0 && strcmp(r->outcome, "certified") != 0)
+    fprintf(out, "not checked: why the run ended (%s)\n", r->outcome);
+  return DYD_OK;
+}
+
+int cli_verify(const cli_options *o) {
+  bool standard = strcmp(o->file, "-") == 0;
+  FILE *in = standard ? stdin : fopen(o->file, "rb");
+  if (!in) {
+    cli_complain("%s: cannot open: %s; check the name of the certificate", o->file, strerror(errno));
+    return CLI_FAILED;
+  }
+  dyd_error err;
+  dyd_certificate_report report;
+  dyd_status status = dyd_verify_certificate(&report, in, &err);
+  if (!standard) fclose(in);
+  if (status == DYD_E_PARSE)
+    cli_complain("%s:%zu: rejected: %s", o->file, err.line, err.message);
+  else if (status < 0)
+    cli_complain("%s: %s", o->file, err.message);
+  if (status < 0) return CLI_FAILED;
+  return cli_write_file(o->output, o, print_report, &report);
+}

@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Looks for a chain that proves a pair illegal (certificate.h, [CERT-4]).
+ *
+ * Doubles follow the curve of the centres with ds_i = ds_j from one end to the other: from a blocker's interval to the
+ * next one that overlaps it, with a point in each overlap. Rounding errors only make the search fail: what it finds is
+ * shortened and kept if the exact checker takes it. */
+#include "io/certificate.h"
+#include <math.h>
+
+#define STEPS 30 /* bisections */
+#define MOST_POINTS 64
+
+typedef struct xy {
+  double x, y;
+} xy;
+
+/* The curve: the point number t in (-1,1) lies beside m, t / (1 - t^2) * scale along n, and then moved along d. */
+typedef struct curve {
+  const dyd_proof *proof;
+  double box[2][4]; /* of i and j, relative to m */
+  xy m, d, n;
+  double scale;
+} curve;
+
+static void box_at(double out[4], const dyd_proof *p, uint32_t v, xy origin) {
+  double e[4];
+  dyd_sites_get_d(e, dyd_delaunay_sites(p->pd), v);
+  for (int k = 0; k < 4; k++) out[k] = e[k] - (k < 2 ? origin.x : origin.y);
+}
+
+static double near_to(const double e[4], xy c) {
+  double x = fmax(0, fmax(e[0] - c.x, c.x - e[1])), y = fmax(0, fmax(e[2] - c.y, c.y - e[3]));
+  return hypot(x, y);
+}
+
+static double far_from(const double e[4], xy c) {
+  return hypot(fmax(c.x - e[0], e[1] - c.x), fmax(c.y - e[2], e[3] - c.y));
+}
+
+/* max u.x over the box, or the minimum. */
+static double top_of(const double e[4], xy u) {
+  return (u.x > 0 ? e[1] : e[0]) * u.x + (u.y > 0 ? e[3] : e[2]) * u.y;
+}
+static double bottom_of(const double e[4], xy u) {
+  return (u.x > 0 ? e[0] : e[1]) * u.x + (u.y > 0 ? e[2] : e[3]) * u.y;
+}
+
+/* The gap between two sides [a0,a1], [b0,b1] from a to b, signed; 0 where they overlap. */
+static double gap_between(double a0, double a1, double b0, double b1) {
+  return b0 > a1 ? b0 - a1 : b1 < a0 ? b1 - a0 : 0;
+}
+
+static bool make_curve(curve *c, const dyd_proof *p, uint32_t i, uint32_t j) {
+  double a[4], b[4];
+  *c = (curve){.proof = p};
+  box_at(a, p, i, (xy){0, 0});
+  box_at(b, p, j, (xy){0, 0});
+  xy d = {gap_between(a[0], a[1], b[0], b[1]), gap_between(a[2], a[3], b[2], b[3])};
+  double length = hypot(d.x, d.y);
+  if (!(length > 0) || !isfinite(length)) return false;
+  c->m = (xy){(fmin(a[1], b[1]) + fmax(a[0], b[0])) / 2, (fmin(a[3], b[3]) + fmax(a[2], b[2])) / 2};
+  c->d = (xy){d.x / length, d.y / length};
+  c->n = (xy){-c->d.y, c->d.x};
+  c->scale = length;
+  box_at(c->box[0], p, i, c->m);
+  box_at(c->box[1], p, j, c->m);
+  return true;
+}
+
+/* A point of the curve, relative to m. ds_i - ds_j grows along d. */
+static xy point_at(const curve *c, double t) {
+  double along = t / (1 - t * t) * c->scale, lo = -8 * (c->scale + fabs(along)), hi = -lo;
+  xy at = {0, 0};
+  for (int k = 0; k < STEPS + 12; k++) {
+    double s = (lo + hi) / 2;
+    at = (xy){along * c->n.x + s * c->d.x, along * c->n.y + s * c->d.y};
+    if (near_to(c->box[0], at) > near_to(c->box[1], at))
+      hi = s;
+    else
+      lo = s;
+  }
+  return at;
+}
+
+/* The direction of the curve's end: i and j equally far out. side = -1 or 1: of n. */
+static xy end_direction(const curve *c, int side) {
+  double lo = -1.5707963267948966, hi = -lo; /* angle from n towards d */
+  xy u = {0, 0};
+  for (int k = 0; k < STEPS + 12; k++) {
+    double angle = (lo + hi) / 2, x = side * cos(angle), y = sin(angle);
+    u = (xy){x * c->n.x + y * c->d.x, x * c->n.y + y * c->d.y};
+    if (top_of(c->box[1], u) > top_of(c->box[0], u))
+      hi = angle;
+    else
+      lo = angle;
+  }
+  return u;
+}
+
+/* A point of the curve, or an end of it (u): what blocks it is nearer (or farther out) than `own`. */
+typedef struct spot {
+  bool end;
+  xy at;
+  double own;
+} spot;
+
+static spot spot_at(const curve *c, double t) {
+  spot s = {.end = fabs(t) >= 1};
+  s.at = s.end ? end_direction(c, t < 0 ? -1 : 1) : point_at(c, t);
+  s.own = s.end ? fmax(top_of(c->box[0], s.at), top_of(c->box[1], s.at))
+                : fmin(near_to(c->box[0], s.at), near_to(c->box[1], s.at));
+  return s;
+}
+
+static bool blocks_spot(const double e[4], const spot *s) {
+  return s->end ? bottom_of(e, s->at) > s->own : far_from(e, s->at) < s->own;
+}
+
+static bool blocks(const curve *c, const double e[4], double t) {
+  spot s = spot_at(c, t);
+  return blocks_spot(e, &s);
+}
+
+/* With k blocking `in` but not `out`: a point close to where it ceases, still blocked. */
+static double last_blocked(const curve *c, const double e[4], double in, double out) {
+  for (int k = 0; k < STEPS; k++) {
+    double t = (in + out) / 2;
+    if (t == in || t == out) break;
+    if (blocks(c, e, t))
+      in = t;
+    else
+      out = t;
+  }
+  return in;
+}
+
+/* How far on from t the blocker k reaches; looked for at ever smaller steps. */
+static double reach_of(const curve *c, const double e[4], double t) {
+  double in = t, step = (1 - t) / 2;
+  if (blocks(c, e, 1) && blocks(c, e, (t + 1) / 2)) return 1;
+  for (int k = 0; k < 6; k++, step /= 2) {
+    double out = in + step;
+    if (!blocks(c, e, out)) return last_blocked(c, e, in, out);
+    in = out;
+  }
+  return in;
+}
+
+/* The blocker of t that reaches farthest. */
+static bool best_blocker(uint32_t *out, double *reach, const curve *c, double t, uint32_t i, uint32_t j,
+                         const uint32_t *near, size_t count) {
+  double e[4];
+  spot here = spot_at(c, t);
+  *reach = -2;
+  for (size_t q = 0; q < count; q++) {
+    if (near[q] == i || near[q] == j) continue;
+    box_at(e, c->proof, near[q], c->m);
+    if (!blocks_spot(e, &here)) continue;
+    double r = reach_of(c, e, t);
+    if (r <= *reach) continue;
+    *reach = r;
+    *out = near[q];
+  }
+  return *reach > -2;
+}
+
+/* ---- the chain ---- */
+
+static bool set_double(dyd_exact *out, double v) {
+  if (!isfinite(v)) return false;
+  int exp;
+  double m = frexp(v, &exp);
+  mpz_set_d(out->man, ldexp(m, 53));
+  out->exp = exp - 53;
+  dyd_proof_trim(out);
+  return true;
+}
+
+static bool put_point(dyd_cert_chain *out, const curve *c, double t) {
+  xy at = point_at(c, t);
+  if (dyd_cert_chain_resize(out, out->points + 1) < 0) return false;
+  dyd_exact *to = out->point[out->points - 1];
+  return set_double(&to[0], at.x + c->m.x) && set_double(&to[1], at.y + c->m.y);
+}
+
+static bool walk(dyd_cert_chain *out, const curve *c, uint32_t i, uint32_t j, const uint32_t *near, size_t count) {
+  double t = -1, reach, e[4];
+  uint32_t k, next;
+  dyd_cert_chain_resize(out, 0);
+  if (!best_blocker(&k, &reach, c, t, i, j, near, count)) return false;
+  while (reach < 1 && out->points < MOST_POINTS) {
+    double here = reach, after;
+    /* one that blocks the end of k too; it began earlier */
+    if (!best_blocker(&next, &after, c, here, i, j, near, count) || after <= here) return false;
+    box_at(e, c->proof, next, c->m);
+    double begin = blocks(c, e, t) ? t : last_blocked(c, e, here, t);
+    if (!put_point(out, c, (begin + here) / 2)) return false;
+    out->blocker[out->points - 1] = k;
+    t = here;
+    k = next;
+    reach = after;
+  }
+  if (reach < 1) return false;
+  if (out->points == 0) {
+    if (!put_point(out, c, 0)) return false;
+    out->blocker[0] = k;
+  }
+  out->blocker[out->points] = k;
+  return true;
+}
+
+/* Rounds all numbers to so many bits of the curve's scale; directions to `bits` bits. */
+static void round_chain(dyd_cert_chain *to, const dyd_cert_chain *from, const curve *c, int bits) {
+  int size;
+  frexp(c->scale, &size);
+  for (int k = 0; k < 4; k++) dyd_proof_round(&to->u[k / 2][k % 2], &from->u[k / 2][k % 2], -bits);
+  for (size_t q = 0; q < from->points; q++)
+    for (int a = 0; a < 2; a++) dyd_proof_round(&to->point[q][a], &from->point[q][a], (int64_t)size - bits);
+}
+
+static dyd_status keep_shortest(bool *found, dyd_cert_chain *out, const dyd_cert_chain *chain, const curve *c,
+                                uint32_t i, uint32_t j) {
+  dyd_status status = dyd_cert_chain_resize(out, chain->points);
+  if (status < 0) return status;
+  for (size_t q = 0; q <= chain->points; q++) out->blocker[q] = chain->blocker[q];
+  for (int bits = 2; bits <= 66 && !*found; bits += 4) {
+    round_chain(out, chain, c, bits);
+    *found = dyd_cert_chain_holds(out, &c->proof->sites, i, j);
+  }
+  return DYD_OK;
+}
+
+dyd_status dyd_proof_find_chain(bool *found, dyd_cert_chain *out, const dyd_proof *p, uint32_t i, uint32_t j,
+                                const uint32_t *near, size_t count) {
+  curve c;
+  *found = false;
+  if (!make_curve(&c, p, i, j)) return DYD_OK;
+  dyd_cert_chain chain;
+  dyd_cert_chain_init(&chain);
+  bool good = true;
+  for (int k = 0; k < 2; k++) {
+    xy u = end_direction(&c, k ? 1 : -1);
+    good = good && set_double(&chain.u[k][0], u.x) && set_double(&chain.u[k][1], u.y);
+  }
+  dyd_status status = DYD_OK;
+  if (good && walk(&chain, &c, i, j, near, count)) status = keep_shortest(found, out, &chain, &c, i, j);
+  dyd_cert_chain_clear(&chain);
+  return status;
+}
