@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Exact boundaries of Int_i and Pos_i: everything one cell needs, on one integer scale. */
+#ifndef DYD_VORONOI_EXACT_CELL_H
+#define DYD_VORONOI_EXACT_CELL_H
+
+#include "voronoi/bisector.h"
+#include <dyadel/delaunay.h>
+
+/* What is asked: the region of site `site` against `count` others.
+ * rect: the rectangle of `site`, of the others, and of the window if there is one; site numbers ascending. outer: Pos,
+ * else Int. pd: only pairs of others that it calls possible share a vertex; NULL: all may. All borrowed. */
+typedef struct dyd_cell_task {
+  uint32_t site;
+  const uint32_t *other;
+  size_t count;
+  const dyd_rect *const *rect;
+  bool outer, windowed;
+  const dyd_delaunay *pd;
+} dyd_cell_task;
+
+/* Part of an arc of curve `curve` (or of side curve - count of the window, arc = NULL), in the direction that has the
+ * region on the left. begin, end: borrowed from the curves, the meets or the corners. */
+typedef struct dyd_piece {
+  size_t curve;
+  const dyd_elementary *arc;
+  const dyd_spot *begin, *end;
+} dyd_piece;
+
+/* Points at which the curves of two others cross. */
+typedef struct dyd_meet {
+  uint32_t curve[2];
+  dyd_spot spot;
+} dyd_meet;
+
+/* Coordinates are F (x - o) for the caller's x: F = man * 2^exp, even on rectangles; o = the centre of `fixed`, about.
+ * curve[k]: the boundary of C_ik (Int) or C_ki (Pos), count = 0 if the rectangles meet. kept: the rectangles that do
+ * not meet `fixed`, the only ones that matter to Pos; Int is empty when there are others. */
+typedef struct dyd_exact_cell {
+  const dyd_cell_task *task;
+  size_t count;
+  uint32_t *site;
+  dyd_touch fixed_touch, other_touch;
+  dyd_scaled fixed, window, *other;
+  mpz_t man, ox, oy;
+  int64_t exp, shift;
+  dyd_curve *curve;
+  dyd_meet *meet;
+  size_t meets, meet_cap;
+  dyd_spot corner[4]; /* of the window: x0 y0, x1 y0, x1 y1, x0 y1 */
+  dyd_piece *piece;
+  size_t pieces, piece_cap;
+  dyd_sample sample;
+  const dyd_spot **cut; /* scratch: cuts of one arc */
+  size_t cut_cap;
+} dyd_exact_cell;
+
+/* Is the sample nearer to (sign = -1), as far from (0), or farther from (1) other k than the radius dl_i or ds_i? */
+int dyd_cell_side(const dyd_exact_cell *c, dyd_sample *s, const dyd_elementary *arc, int window_side, size_t k);
+/* The same for a point. */
+int dyd_cell_spot_side(const dyd_exact_cell *c, const dyd_spot *p, size_t k);
+/* Sorts cuts along axis, drops repeats; returns how many are left. */
+size_t dyd_cell_sort_cuts(const dyd_spot **cut, size_t count, int axis);
+/* A sample strictly between two points, on an arc or (arc = NULL) on a side of the window. */
+void dyd_cell_sample(dyd_exact_cell *c, const dyd_elementary *arc, int window_side, const dyd_spot *low,
+                     const dyd_spot *high);
+dyd_status dyd_cell_add_piece(dyd_exact_cell *c, dyd_piece p);
+dyd_status dyd_cell_add_cut(dyd_exact_cell *c, size_t *count, const dyd_spot *s);
+
+/* Side of the window: bottom, right, top, left. Its axis, and the coordinate of the other axis. */
+static inline int dyd_window_axis(int side) {
+  return side & 1;
+}
+mpz_srcptr dyd_window_level(const dyd_exact_cell *c, int side);
+
+/* The pieces of the sides of the window strictly inside the region. */
+dyd_status dyd_cell_window_pieces(dyd_exact_cell *c);
+/* Joins the pieces to chains. *out is empty before; on failure the caller clears it. */
+dyd_status dyd_cell_link(dyd_boundary *out, const dyd_exact_cell *c);
+
+/* *out is replaced. */
+dyd_status dyd_cell_boundary(dyd_boundary *out, const dyd_cell_task *task);
+
+#endif
