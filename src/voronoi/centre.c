@@ -70,7 +70,8 @@ dyd_status dyd_partial_centre_enclose(dyd_rect *out, const dyd_rect *a, const dy
 dyd_truth dyd_partial_disc_side(const dyd_partial_disc *d, const dyd_point *c) {
   dyd_rect r;
   dyd_rect_init(&r);
-  bool placed = dyd_interval_set_ends(&r.x, &c->x, &c->x) == DYD_OK && dyd_interval_set_ends(&r.y, &c->y, &c->y) == DYD_OK;
+  bool placed =
+      dyd_interval_set_ends(&r.x, &c->x, &c->x) == DYD_OK && dyd_interval_set_ends(&r.y, &c->y, &c->y) == DYD_OK;
   dyd_sure con = placed ? dyd_partial_disc_con(d, &r) : DYD_UNSURE;
   dyd_rect_clear(&r);
   return con == DYD_SURE_PLUS ? DYD_TRUE : con == DYD_SURE_MINUS ? DYD_FALSE : DYD_UNKNOWN;

@@ -3,8 +3,8 @@
  *
  * Distances: the closest or farthest point of a rectangle is found coordinate by coordinate [DIST-1], and the
  * difference of two squared distances is (P + Q sqrt(c)) / d^2, whose sign is exact [SQR-1].
- * Enclosures: floor(x / d) = floor(floor(x) / d) for an integer d > 0, and floor(a + b sqrt(c)) = a + floor(sqrt(b^2 c))
- * for b >= 0, a - ceil(sqrt(b^2 c)) for b < 0; so integer roots decide. */
+ * Enclosures: floor(x / d) = floor(floor(x) / d) for an integer d > 0, and floor(a + b sqrt(c)) = a + floor(sqrt(b^2
+ * c)) for b >= 0, a - ceil(sqrt(b^2 c)) for b < 0; so integer roots decide. */
 #include "voronoi/surd_point.h"
 
 #include "predicate/surd.h"
