@@ -91,7 +91,7 @@ void cli_help_bash(FILE *out) {
         "  [[ $words ]] || return # names of files\n"
         "  compopt +o default 2>/dev/null\n"
         "  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$cur\")\n"
-        "  [[ ${COMPREPLY[0]} == *: ]] && compopt -o nospace 2>/dev/null\n"
+        "  [[ ${COMPREPLY[0]-} == *: ]] && compopt -o nospace 2>/dev/null\n"
         "  return 0\n"
         "}\n"
         "complete -o default -F _dyadel dyadel\n",

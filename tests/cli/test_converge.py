@@ -1,0 +1,226 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""dyadel converge: the table against what is known of the run, both schedules, traces and their replay, plots.
+
+Usage: test_converge.py COMMAND DATA
+"""
+import csv
+import json
+import os
+import re
+import sys
+import tempfile
+from fractions import Fraction
+
+from harness import expect, main, run
+
+# Twelve points; the last two are 2^-200 apart.
+FAR = [(13, 7), (91, 12), (55, 98), (8, 77), (73, 61), (34, 42), (60, 25), (20, 95), (97, 84), (45, 70)]
+NEAR_PAIR = ''.join(f'{x}+sqrt({2 + k * k})/7 {y}+exp(-{k})/11\n' for k, (x, y) in enumerate(FAR))
+NEAR_PAIR += '50+sqrt(2) 50+sqrt(3)\n50+sqrt(2)+3*2^-202 50+sqrt(3)+2^-201\n'
+# Twelve points; the last four on a circle but for 2^-200.
+NEAR_CIRCLE = ''.join(f'{x}+sqrt({2 + k * k})/7 {y}+exp(-{k})/11\n' for k, (x, y) in enumerate(FAR[:8]))
+NEAR_CIRCLE += '50+cos(1) 50+sin(1)\n50+cos(2) 50+sin(2)\n50+cos(4) 50+sin(4)\n50+(1+2^-200)*cos(5) 50+(1+2^-200)*sin(5)\n'
+MIXED = '0 0\n1/3 [1,1.25]\n0.1 2.7\nsqrt(2) 1\n0 0.0\n3 1e-3\n5 5\n-sqrt(2) pi\n2^-300 -7/3\n'
+SQUARE = 'exp(log(6)/2) 0\n0 sqrt(6)\n-sqrt(6) 0\n0 -exp(log(6)/2)\n'
+
+
+def table(*args, text, code=0):
+    result = run('converge', '-', '--no-times', *args, stdin=text)
+    expect(result, code, r'^stage,bits_least')
+    lines = [line for line in result.out.splitlines() if not line.startswith('#')]
+    return list(csv.DictReader(lines))
+
+
+def test_columns_agree_with_delaunay():
+    for text in (NEAR_PAIR, NEAR_CIRCLE, MIXED):
+        last = table('--start-bits', '64', text=text, code=run('delaunay', '-', stdin=text).code)[-1]
+        answer = json.loads(run('delaunay', '-', '--format', 'json', stdin=text).out)
+        for name in ('legal', 'indeterminate', 'tie'):
+            assert int(last[name]) == answer['count'][name]
+        assert int(last['possible']) == len(answer['pairs'])
+        assert int(last['stage']) == answer['counters']['stages'] and int(last['calls']) == answer['counters']['stream_calls']
+        for name in ('bits_least', 'bits_most', 'bits_total', 'filter', 'integer', 'exact'):
+            assert int(last[name]) == answer['counters'][name], name
+        for name in ('area', 'hausdorff'):
+            exact = number(answer['bounds'][name]['exact'])
+            assert exact <= Fraction(last[name]) <= exact * (1 + Fraction(1, 10 ** 5)), name
+
+
+def number(text):
+    match = re.fullmatch(r'(-?\d+)(?:\*2\^(-?\d+))?(?:/(\d+))?', text)
+    return Fraction(int(match[1])) * Fraction(2) ** int(match[2] or 0) / int(match[3] or 1)
+
+
+def test_widths():
+    answer = json.loads(run('delaunay', '-', '--format', 'json', '--max-bits', '40', '--start-bits', '40', stdin=MIXED).out)
+    widths = sorted(max(number(s[a][1]) - number(s[a][0]) for a in 'xy') for s in answer['sites'])
+    row = json.loads(run('converge', '-', '--format', 'json', '--max-bits', '40', '--start-bits', '40', stdin=MIXED).out)['stages'][-1]
+    for name, width in (('width_largest', widths[-1]), ('width_median', widths[len(widths) // 2])):
+        assert width <= number(row[name]['exact']) <= width * (1 + Fraction(1, 2 ** 62)), name
+        assert Fraction(repr(row[name]['decimal'])) >= number(row[name]['exact'])
+
+
+def test_bounds_fall_by_half_per_bit():
+    # Uniform steps of 8 bits: widths and area fall by 2^-8 a stage, while the near-tie stays open until about bit 200.
+    for text in (NEAR_PAIR, NEAR_CIRCLE):
+        rows = table('--schedule', 'uniform', '--step-bits', '8', text=text)
+        for before, row in zip(rows[2:], rows[3:]):
+            assert int(row['bits_most']) == int(before['bits_most']) + 8 == int(row['bits_least'])
+            for name in ('width_largest', 'width_median', 'area'):
+                ratio = Fraction(before[name]) / Fraction(row[name])
+                assert 2 ** 7 < ratio < 2 ** 9, (name, before[name], row[name])
+        opened = [int(row['bits_most']) for row in rows if row['indeterminate'] != '0']
+        assert 180 <= max(opened) <= 216, max(opened)
+        assert rows[-1]['indeterminate'] == '0' and int(rows[-1]['bits_most']) <= 220
+
+
+def test_hausdorff_falls_by_half_per_bit():
+    rows = table('--schedule', 'uniform', '--step-bits', '8', '--until', 'hausdorff:300', text=NEAR_PAIR)
+    decided = [row for row in rows if row['indeterminate'] == '0']
+    assert len(decided) > 10
+    for before, row in zip(decided, decided[1:]):
+        assert 2 ** 7 < Fraction(before['hausdorff']) / Fraction(row['hausdorff']) < 2 ** 9
+    assert Fraction(rows[-1]['hausdorff']) <= Fraction(1, 2 ** 300) * (1 + Fraction(1, 10 ** 5))
+
+
+def test_adaptive_asks_for_a_fifth():
+    for steps in ((), ('--step-bits', '8')):
+        adaptive, uniform = (table('--schedule', s, *steps, text=NEAR_PAIR)[-1] for s in ('adaptive', 'uniform'))
+        assert adaptive['indeterminate'] == uniform['indeterminate'] == '0'
+        assert adaptive['statuses'] == uniform['statuses']
+        assert 5 * int(adaptive['bits_total']) <= int(uniform['bits_total']), (adaptive['bits_total'], uniform['bits_total'])
+        # Of four nearly cocircular points each has to be known: a third of the bits, and little more.
+        adaptive, uniform = (table('--schedule', s, *steps, text=NEAR_CIRCLE)[-1] for s in ('adaptive', 'uniform'))
+        assert adaptive['statuses'] == uniform['statuses']
+        assert int(adaptive['bits_total']) <= 0.4 * int(uniform['bits_total']), (adaptive['bits_total'], uniform['bits_total'])
+
+
+def test_same_bytes_every_time():
+    for text in (NEAR_PAIR, MIXED):
+        for how in (('--format', 'csv'), ('--format', 'json'), ('--schedule', 'uniform')):
+            runs = [run('converge', '-', '--no-times', *how, '--threads', t, stdin=text) for t in '1124']
+            assert all(r.out == runs[0].out for r in runs)
+            timed = run('converge', '-', *how, stdin=text).out
+            assert timed != runs[0].out and 'seconds' in timed
+
+
+def test_outcomes():
+    expect(run('converge', '-', '--max-bits', '100', stdin=SQUARE), 4, 'outcome budget', 'precision is used up')
+    expect(run('converge', '-', stdin='0 0\n1 0\n1 1\n0 1\n'), 3, 'outcome fixpoint', 'fixpoint')
+    expect(run('converge', '-', '--until', 'area:30', stdin=SQUARE), 0, 'goal area 2.-30; .*outcome certified', r'\A\Z')
+    expect(run('converge', '-', stdin=''), 0, r'^1,0,0,0,0,0,0,0,0,0,0,', r'\A\Z')
+
+
+# The corners of a square, nearly; no more than 60 bits are to be had.
+ORACLE = '''
+import sys
+print("points 4", flush=True)
+for line in sys.stdin:
+    word, i, bits = line.split()
+    if int(bits) > 60:
+        sys.exit(1)
+    x, y = [(2, 0), (0, 2), (-2, 0), (0, -2)][int(i)]
+    print(i, *(f"{v * 2 ** 70 + s}*2^-70" for v in (x, y) for s in (-5, 5)), flush=True)
+'''
+
+
+def test_a_point_that_fails_later():
+    with tempfile.TemporaryDirectory() as folder:
+        path, trace = os.path.join(folder, 'oracle.py'), os.path.join(folder, 'trace')
+        with open(path, 'w', encoding='utf-8') as f:
+            f.write(ORACLE)
+        command = ('--oracle', f'{sys.executable} {path}')
+        result = run('converge', '--no-times', '--trace', trace, *command)
+        expect(result, 1, 'outcome error(.*\n)+3,', 'point [0-3]: (.*\n)*.*a point failed; this much was known before')
+        expect(run('delaunay', *command), 1, '0,2,indeterminate', 'point [0-3]: ')
+        expect(run('converge', '--replay', trace, '--no-times'), 1, re.escape(result.out), r'\A\Z')
+
+
+def test_capped():
+    boxes = ''.join(f'[-{k},{k}] [-{k},{k}]\n' for k in range(1, 30))
+    rows = table('--max-pairs', '10', text=boxes, code=4)
+    assert rows[-1]['area'] == rows[-1]['hausdorff'] == ''
+    stages = json.loads(run('converge', '-', '--format', 'json', '--max-pairs', '10', stdin=boxes).out)['stages']
+    assert stages[-1]['area'] is None
+
+
+def trace_of(folder, text, *args):
+    path = os.path.join(folder, 'trace')
+    result = run('converge', '-', '--no-times', '--trace', path, *args, stdin=text)
+    with open(path, encoding='utf-8') as f:
+        return result, f.read()
+
+
+def test_trace_and_replay():
+    cases = [(text, how) for text in (NEAR_PAIR, NEAR_CIRCLE, MIXED, SQUARE, '', '1 1\n', 'pi e\n0 0\n')
+             for how in (('--schedule', 'adaptive'), ('--schedule', 'uniform'), ('--until', 'area:20'),
+                         ('--until', 'hausdorff:20'), ('--step-bits', '30'), ('--format', 'json'))]
+    with tempfile.TemporaryDirectory() as folder:
+        for text, how in cases:
+            result, trace = trace_of(folder, text, '--max-bits', '300', *how)
+            steps = [json.loads(line) for line in trace.splitlines()]
+            assert steps[0]['format'] == 'dyadel trace 1' and 'outcome' in steps[-1]
+            assert {s['why'] for s in steps if 'why' in s} <= {'first', 'end', 'blocker', 'bound', 'uniform', 'fixed'}
+            again = run('converge', '--no-times', '--replay', '-', *(how if how[0] == '--format' else ()), stdin=trace)
+            assert (again.code, again.out) == (result.code, result.out), (text, how, again.err)
+            # Rectangles only shrink, and every pair named is there for a reason.
+            seen = {}
+            for s in steps:
+                if 'x' not in s:
+                    continue
+                now = [number(v) if '2^' in v or '/' not in v else Fraction(v) for v in s['x'] + s['y']]
+                old = seen.get(s['point'], now)
+                assert old[0] <= now[0] <= now[1] <= old[1] and old[2] <= now[2] <= now[3] <= old[3]
+                assert s['point'] in s.get('pair', [s['point']])
+                seen[s['point']] = now
+            assert len(seen) == steps[0]['points']
+
+
+def test_bad_traces():
+    with tempfile.TemporaryDirectory() as folder:
+        _, trace = trace_of(folder, NEAR_CIRCLE)
+    lines = trace.splitlines(keepends=True)
+
+    def replay(text, code, message):
+        expect(run('converge', '--replay', '-', '-o', '/dev/null', stdin=text), code, r'\A\Z', message)
+
+    replay(trace, 0, r'\A\Z')
+    replay('', 1, 'the trace ends before its outcome')
+    replay('0 0\n', 1, r'\Adyadel: -:1:1: this line is no JSON object; give a trace as dyadel wrote it')
+    replay('{}\n', 1, '-:1:1: this is no trace of the format "dyadel trace 1"')
+    for k in range(1, len(lines)):
+        replay(''.join(lines[:k]), 1, 'the trace ends before its outcome')
+    replay(trace + lines[1], 1, 'goes on behind its outcome')
+    for field in ('points', 'schedule', 'goal', 'start_bits', 'max_pairs'):
+        replay(re.sub(rf',"{field}":[^,}}]*', '', trace, count=1), 1, ':1:1: the first line lacks a field')
+    replay(trace.replace('"stage":1,"point":3', '"stage":1,"point":99', 1), 1, 'there is no such point')
+    replay(trace.replace('"stage":1,"point":3', '"stage":1,"point":4', 1), 1, 'not inside the one before|before every point')
+    replay(re.sub(r'("stage":2.*"x":\[)"[^"]*"', r'\1"-1000"', trace, count=1), 1, 'not inside the one before')
+    replay(re.sub(r'("stage":1.*"x":\[)"[^"]*"', r'\1"pi"', trace, count=1), 1, 'this is no rectangle')
+    replay(re.sub(r'"legal":(\d+)', r'"legal":1', trace, count=1), 1, 'not those that the trace tells of')
+    replay(re.sub(r'"statuses":"(.)', r'"statuses":"x', trace, count=1), 1, 'not those that the trace tells of')
+    # Other rectangles, other statuses: without the last refinement the pairs stay open.
+    last = [k for k, line in enumerate(lines) if '"why":"end"' in line][-4:]
+    replay(''.join(line for k, line in enumerate(lines) if k not in last), 1, 'not those that the trace tells of')
+    expect(run('converge', '--replay', 'nowhere'), 1, r'\A\Z', 'nowhere: cannot open')
+    expect(run('converge', '--replay', '-', '-', stdin=trace), 2, r'\A\Z', 'one argument too many')
+    for option in ('--measured', '--max-bits=5', '--schedule=uniform'):
+        expect(run('converge', '--replay', '-', option, stdin=trace), 2, r'\A\Z', 'from the trace; leave --')
+
+
+def test_plots():
+    with tempfile.TemporaryDirectory() as folder:
+        for kind, magic in (('svg', b'<?xml'), ('pdf', b'%PDF'), ('png', b'\x89PNG')):
+            for text in (NEAR_PAIR, SQUARE, '', '1 1\n', '0 0\n1 0\n1 1\n0 1\n'):
+                path = os.path.join(folder, 'plot.' + kind)
+                result = run('converge', '-', '--max-bits', '100', '--quiet', '--plot', path, stdin=text)
+                assert result.code in (0, 3, 4), result.err
+                with open(path, 'rb') as f:
+                    data = f.read()
+                assert data.startswith(magic) and b'nan' not in data.lower()[:2000]
+                os.remove(path)
+    expect(run('converge', '-', '--plot', 'nowhere/x.svg', stdin=SQUARE, ), 1, '^stage', 'nowhere/x.svg: cannot write')
+
+
+main(globals())

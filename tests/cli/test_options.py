@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Every option: wrong values, wrong commands; help, manual page and completion agree with what is accepted.
+
+Usage: test_options.py COMMAND DATA
+"""
+import re
+import shutil
+import subprocess
+
+from harness import COMMAND, expect, main, run
+
+WHOLE = ('0', '-1', 'x', '1.5', '', '1e3', '99999999999999999999', '3 4')
+SECONDS = ('0', '-1', 'nan', 'inf', 'x', '', '1s')
+# Values that are refused before any file is looked at.
+WRONG = {
+    '--until': ('', 'area', 'area:', 'are:3', 'decided:3', 'hausdorff:3x', 'hausdorff:99999999'),
+    '--max-bits': WHOLE, '--max-pairs': WHOLE, '--threads': WHOLE, '--start-bits': WHOLE, '--step-bits': WHOLE,
+    '--oracle-jobs': WHOLE, '--oracle-batch': WHOLE, '--schedules': WHOLE,
+    '--seed': WHOLE[1:],
+    '--flatten': WHOLE[2:],
+    '--timeout': SECONDS, '--oracle-timeout': SECONDS,
+    '--schedule': ('', 'fast', 'Adaptive', 'uniform '),
+    '--format': ('', 'gif', 'CSV', 'csv,json'),
+    '--window': ('', '0,1,0', '0,1,0,1,2', '0,1,0,x', '0,1,0,pi', '0,1,,1', '0,1,0,1,', '1,0,0,1', '0,1,2,1', '1,1,0,1',
+                 '0,1,2,2', '[0,1],0,1,2'),
+    '--plot': ('', 'plot', 'plot.gif', 'png'),
+    '--help': ('fish', 'MAN'),
+}
+RIGHT = {'--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--until': 'decided'}
+# Any text that is not empty will do for a start; what is wrong is found when it is used.
+TEXTS = {'--columns', '--radius', '--oracle', '--output', '--trace', '--replay', '--certificate'}
+
+
+def help_of(*command):
+    result = run(*command, '--help')
+    expect(result, 0, r'\AUsage: dyadel', r'\A\Z')
+    assert all(len(line) <= 110 for line in result.out.splitlines()), 'a line is too long'
+    return result.out
+
+
+def commands():
+    part = help_of().split('Commands\n')[1].split('\n\n')[0]
+    return re.findall(r'^  (\w+) ([A-Z ]*[A-Z])  ', part, re.M)
+
+
+def options(text):
+    """Long name: placeholder or None."""
+    return {name: value or None for name, value in re.findall(r'^  (?:-\w, )?(--[\w-]+)[ [=]*(\S+)?(?=\]| |$)', text, re.M)
+            } | {name: None for name in re.findall(r'^  (?:-\w, )?(--[\w-]+)  ', text, re.M)}
+
+
+def test_every_option_has_wrong_values():
+    known = options(help_of())
+    values = {name for name, placeholder in known.items() if placeholder}
+    assert values <= set(WRONG) | TEXTS, f'no wrong values are tried for {values - set(WRONG) - TEXTS}'
+
+
+def test_wrong_values():
+    for name, operands in commands():
+        taken = options(help_of(name))
+        rest = operands.replace('FILE', 'nowhere').replace('CERT', 'nowhere').replace('X Y', '1 2').split()
+        for option, values in WRONG.items():
+            for value in values if option in taken else ():
+                expect(run(name, *rest, f'{option}={value}'), 2, r'\A\Z', r'\Adyadel: .*give |\Adyadel: .*end it in')
+        for option in TEXTS & set(taken):
+            expect(run(name, *rest, f'{option}='), 2, r'\A\Z', rf'{option} "" is not understood; give')
+        for option, placeholder in taken.items():
+            if placeholder and option != '--help':
+                expect(run(name, *rest, option), 2, r'\A\Z', f'{option} needs a value')
+            if not placeholder:
+                expect(run(name, *rest, f'{option}=yes'), 2, r'\A\Z', f'{option} takes no value')
+
+
+def test_options_of_other_commands():
+    everything = options(help_of())
+    for name, operands in commands():
+        taken = options(help_of(name))
+        assert set(taken) <= set(everything)
+        for option in set(everything) - set(taken):
+            value = RIGHT.get(option, '3')
+            arguments = [f'{option}={value}' if everything[option] else option]
+            expect(run(name, *operands.split(), *arguments), 2, r'\A\Z', f'{name} does not take {option}; see dyadel {name} --help')
+
+
+def test_formats_of_commands():
+    lists = {name: re.search(r'^  --format F +(.*)$', help_of(name), re.M) for name, _ in commands()}
+    known = {name: re.findall(r'\w+(?= \(default\)|,|$)', match[1]) for name, match in lists.items() if match}
+    everything = set().union(*known.values())
+    for name, formats in known.items():
+        for other in everything - set(formats):
+            expect(run(name, 'a', '--format', other), 2, r'\A\Z', f'{name} does not write {other}; give {", ".join(formats)}$')
+
+
+def test_operands():
+    for name, operands in commands():
+        rest = operands.split()
+        expect(run(name, *['1'] * (len(rest) + 1)), 2, r'\A\Z', f'too many; give dyadel {name} {operands}')
+        expect(run(name, *['1'] * (len(rest) - 1)), 2, r'\A\Z', 'is missing; give')
+    assert run('delaunay', '-5').code == 1  # a file of that name
+    expect(run('delaunay', '-.5x'), 1, r'\A\Z', r'-\.5x: cannot open')
+
+
+def test_suggestions():
+    for wrong, meant in (('--qiuet', '--quiet'), ('--colums', '--columns'), ('--timout', '--timeout'), ('--max', '--max-bits'),
+                         ('--Stats', '--stats'), ('--schedul=x', '--schedule')):
+        result = run('delaunay', '-', wrong)
+        assert f'did you mean {meant}?' in result.err or meant + ' "' in result.err, (wrong, result.err)
+    for wrong, meant in (('delauney', 'delaunay'), ('converg', 'converge'), ('conv', 'converge'), ('Delaunay', 'delaunay')):
+        expect(run(wrong, '-'), 2, r'\A\Z', rf'there is no command "{wrong}"; did you mean {meant}\?')
+    for wrong in ('--zzzzzzzz', '--x', '-Q'):
+        expect(run('delaunay', '-', wrong), 2, r'\A\Z', 'there is no option .*see dyadel --help')
+
+
+def test_window():
+    for window in ('0,1,0,1', '-1/3,1/3,0.1,2', '0x1p-3,1,-5*2^3,1e9', ' 0 , 1 , (1+1)/7 , 2 '):
+        for name in [name for name, _ in commands() if '--window' in options(help_of(name))]:
+            assert run(name, 'nowhere', *(['0', '0'] if name == 'nearest' else []), '--window', window).code == 1, window
+
+
+def test_manual_page():
+    page = run('--help=man')
+    expect(page, 0, r'^\.Sh NAME', r'\A\Z')
+    for name, _ in commands():
+        assert f'.It Cm {name}' in page.out
+    for option in options(help_of()):
+        assert re.search(rf'^\.It .*Fl \\{option[1:]}( |$)', page.out, re.M), option
+    if shutil.which('mandoc'):
+        lint = subprocess.run(['mandoc', '-Tlint'], input=page.out.encode(), stdout=subprocess.PIPE, check=False)
+        assert lint.stdout == b'', lint.stdout.decode()
+        text = subprocess.run(['mandoc', '-Tascii'], input=page.out.encode(), stdout=subprocess.PIPE, check=True).stdout
+        assert b'22/7' in text and b'--' in re.sub(rb'.\x08', b'', text)
+
+
+def complete(*words):
+    """What bash offers for the last word."""
+    script = run('--help=bash').out
+    array = ' '.join("'" + word + "'" for word in words)
+    script += f'\nCOMP_WORDS=({array}); COMP_CWORD={len(words) - 1}; _dyadel; printf "%s\\n" "${{COMPREPLY[@]}}"\n'
+    done = subprocess.run(['bash', '--norc', '-u'], input=script.encode(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=True)
+    assert done.stderr == b'', done.stderr
+    return done.stdout.decode().split()
+
+
+def test_bash_completion():
+    names = [name for name, _ in commands()]
+    assert sorted(complete('dyadel', '')) == sorted(names)
+    assert complete('dyadel', 'del') == ['delaunay']
+    assert complete('dyadel', '--quiet', 'conv') == ['converge']
+    for name in names:
+        offered = {word for word in complete('dyadel', name, '-') if word.startswith('--')}
+        assert offered == set(options(help_of(name))), name
+    assert set(complete('dyadel', '--')) == set(options(help_of()))
+    assert complete('dyadel', 'delaunay', '--max') == ['--max-bits', '--max-pairs']
+    assert complete('dyadel', 'delaunay', '--schedule', 'u') == ['uniform']
+    assert complete('dyadel', 'delaunay', '--format', '=', 'js') == ['json']
+    assert complete('dyadel', 'delaunay', '--format', '=') == complete('dyadel', 'delaunay', '--format', '')
+    assert complete('dyadel', 'converge', '--format', '') == ['csv', 'json']
+    assert complete('dyadel', 'delaunay', '--until', 'a') == ['area:']
+    assert complete('dyadel', '--help', '=', '') == ['man', 'bash', 'zsh']
+    for words in (('delaunay', '-o', ''), ('delaunay', '--max-bits', ''), ('delaunay', ''), ('delaunay', 'no')):
+        assert complete('dyadel', *words) == []  # names of files, or nothing
+
+
+def test_zsh_completion():
+    script = run('--help=zsh')
+    expect(script, 0, r'\A#compdef dyadel', r'\A\Z')
+    for name, _ in commands():
+        part = re.search(rf'^    {name}\) options=\((.*?)^      \) ;;', script.out, re.M | re.S)[1]
+        assert set(re.findall(r'--[\w-]+(?==|\[)', part)) == set(options(help_of(name))), name
+    if shutil.which('zsh'):
+        subprocess.run(['zsh', '-n'], input=script.out.encode(), check=True)
+
+
+def test_help_into_a_full_device():
+    with open('/dev/full', 'w', encoding='utf-8') as full:
+        for arguments in (['--help'], ['--version'], ['--help=man']):
+            assert subprocess.run([COMMAND, *arguments], stdout=full, stderr=subprocess.PIPE, check=False).returncode == 1
+
+
+main(globals())
