@@ -26,7 +26,13 @@ typedef enum dyd_outcome {
 /* "decided", "certified", ... Static storage. */
 DYD_API const char *dyd_outcome_text(dyd_outcome outcome);
 
-typedef enum dyd_goal { DYD_GOAL_DECIDED = 0, DYD_GOAL_AREA, DYD_GOAL_HAUSDORFF } dyd_goal;
+typedef enum dyd_goal {
+  DYD_GOAL_DECIDED = 0,
+  DYD_GOAL_AREA, /* bounds on the triangulation */
+  DYD_GOAL_HAUSDORFF,
+  DYD_GOAL_VORONOI_AREA, /* bounds on the diagram in a window; they can hold at ties */
+  DYD_GOAL_VORONOI_HAUSDORFF
+} dyd_goal;
 typedef enum dyd_schedule {
   DYD_SCHEDULE_ADAPTIVE = 0, /* refine what takes part in something undecided */
   DYD_SCHEDULE_UNIFORM       /* refine every point at each stage, as KEL */
@@ -87,7 +93,8 @@ typedef struct dyd_step {
 
 typedef struct dyd_engine_options {
   dyd_goal goal;
-  int64_t goal_bits; /* M of "bound 2^-M" for the area and Hausdorff goals */
+  int64_t goal_bits;      /* M of "bound 2^-M" for the area and Hausdorff goals */
+  const dyd_rect *window; /* of the Voronoi goals: dyadic ends, positive area; borrowed during the run */
   dyd_schedule schedule;
   int64_t start_bits;  /* precision of the first stage; 0: default 64 */
   int64_t step_bits;   /* each refinement asks for so many bits more; 0: growth is geometric */
@@ -149,6 +156,27 @@ DYD_API const dyd_delaunay *dyd_engine_delaunay(const dyd_engine *e);
 DYD_API void dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e);
 /* The bounds of the current result (metric.h), DYD_E_ARG before the first complete stage. */
 DYD_API dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, const dyd_engine *e);
+
+/* ---- points as streams, and questions about computable points ---- */
+
+/* Point i of e, as a new reference to a stream that stays valid when e is freed (compose.h). It begins with the
+ * rectangle that e knows. What one of the two narrows later the other may find or not; both enclose the same point.
+ * DYD_E_ARG when there is no point i. */
+DYD_API dyd_status dyd_engine_stream(dyd_stream **out, dyd_engine *e, uint32_t i);
+/* The centre of the circle through the corners of t (dyd_stream_voronoi_vertex): for a triangle of
+ * dyd_delaunay_triangles, a Voronoi vertex. */
+DYD_API dyd_status dyd_engine_voronoi_vertex(dyd_stream **out, dyd_engine *e, const dyd_triangle *t);
+
+/* Which points of e are possibly nearest to the point `at`, ascending; *sure: exactly one is, and it is surely nearest.
+ * Refines `at` and the points that are possibly nearest until that is sure (decided), until nothing concerned can be
+ * refined (fixpoint: exact ties, fixed rectangles), or until options->max_bits, max_calls or seconds are spent
+ * (budget); dyd_engine_cancel works (cancelled). *out is right for the rectangles reached in every case, and the list
+ * only ever shrinks [NEAR-3]. Needs a result (DYD_E_ARG before the first run); points narrowed here are brought into
+ * it by the next run. `at` is borrowed. options (may be NULL): goal, schedule, stages and pairs mean nothing here. On
+ * errors *outcome is DYD_OUTCOME_ERROR, *err (may be NULL) is filled, *out and *sure are as before. dyd_engine_outcome
+ * and the counter `spent` still tell about the last run. */
+DYD_API dyd_status dyd_engine_nearest(dyd_index_list *out, bool *sure, dyd_outcome *outcome, dyd_engine *e,
+                                      dyd_stream *at, const dyd_engine_options *options, dyd_error *err);
 
 #ifdef __cplusplus
 }

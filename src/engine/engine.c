@@ -58,6 +58,7 @@ dyd_status dyd_engine_new(dyd_engine **out) {
 
 void dyd_engine_free(dyd_engine *e) {
   if (!e) return;
+  dyd_engine_voronoi_forget(e);
   dyd_delaunay_free(e->pd);
   dyd_engine_clear_points(e);
   dyd_sites_free(e->sites);

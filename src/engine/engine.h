@@ -3,12 +3,16 @@
  *
  *   points.c     adding points, asking one point to narrow
  *   schedule.c   which points to narrow next, and how far
+ *   goal_voronoi.c  goals on the Voronoi diagram
+ *   compose.c    points of the engine as streams
+ *   nearest.c    nearest sites of a computable point
  *   watch.c      the clock, and stopping work at a deadline
  *   run.c        the one loop
  *   engine.c     life, counters, results */
 #ifndef DYD_ENGINE_ENGINE_H
 #define DYD_ENGINE_ENGINE_H
 
+#include "metric/voronoi_bounds.h"
 #include <dyadel/engine.h>
 
 /* A site that can be asked to narrow. Everything else about a site is in the table of sites.
@@ -26,10 +30,17 @@ typedef struct dyd_refinable {
   uint32_t pair[2];
 } dyd_refinable;
 
-/* A source and the site that is its point 0. */
+/* A source that streams taken out of the engine use as well: released by the last of refs. */
+typedef struct dyd_shared_source {
+  size_t refs;
+  dyd_source source;
+} dyd_shared_source;
+
+/* A source and the site that is its point 0. shared: NULL until a stream is taken out; then it owns the source. */
 typedef struct dyd_source_use {
   dyd_source source;
   uint32_t first;
+  dyd_shared_source *shared;
 } dyd_source_use;
 
 /* Invariant: point is sorted by site; changed lists (with repeats) the sites narrowed since pd was last brought up
@@ -52,6 +63,7 @@ struct dyd_engine {
   dyd_budget spent;
   uint64_t stages, calls;
   double seconds;
+  dyd_voronoi_sums *sums; /* between a goal on the Voronoi diagram that does not hold and its plan; else NULL */
   volatile int cancelled; /* set by dyd_engine_cancel; atomic access only, as for stop */
   volatile int stop;      /* set together with cancelled, and at a deadline; read by the triangulation */
 };
@@ -78,10 +90,29 @@ void dyd_engine_announce(const dyd_engine *e, uint64_t most, int64_t max_bits);
 /* Releases streams and sources. */
 void dyd_engine_clear_points(dyd_engine *e);
 
+/* ---- compose.c ---- */
+
+void dyd_shared_source_free(dyd_shared_source *s);
+
+/* ---- goal_voronoi.c ---- */
+
+static inline bool dyd_goal_is_voronoi(dyd_goal goal) {
+  return goal == DYD_GOAL_VORONOI_AREA || goal == DYD_GOAL_VORONOI_HAUSDORFF;
+}
+/* Is there a window, of positive area and with dyadic ends? */
+bool dyd_engine_window_is_good(const dyd_rect *window);
+/* Does the goal, one of those two, hold? Keeps what it found out in e->sums for the plan. */
+dyd_status dyd_engine_voronoi_holds(bool *out, dyd_engine *e, const dyd_engine_options *o);
+/* What a pair contributes to the bound; infinite when its rectangles meet. After dyd_engine_voronoi_holds. */
+dyd_status dyd_engine_voronoi_number(mpfr_ptr out, dyd_engine *e, dyd_measure *m, const dyd_pair *pair,
+                                     const dyd_engine_options *o);
+/* Gives back e->sums. */
+void dyd_engine_voronoi_forget(dyd_engine *e);
+
 /* ---- schedule.c ---- */
 
 /* Does the goal hold for the current result? */
-dyd_status dyd_engine_goal_holds(bool *out, const dyd_engine *e, const dyd_engine_options *o);
+dyd_status dyd_engine_goal_holds(bool *out, dyd_engine *e, const dyd_engine_options *o);
 
 typedef struct dyd_plan {
   size_t marked;     /* points to narrow */

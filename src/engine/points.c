@@ -98,7 +98,7 @@ static dyd_status add_source(dyd_engine *e, size_t n, const dyd_source *source) 
   if (!dyd_reserve((void **)&e->source, &e->source_cap, e->sources + 1, sizeof *e->source)) return DYD_E_NOMEM;
   size_t first = dyd_sites_count(e->sites);
   dyd_status status = add_refinable(e, n, (dyd_refinable){.source = (uint32_t)e->sources});
-  if (status >= 0) e->source[e->sources++] = (dyd_source_use){*source, (uint32_t)first};
+  if (status >= 0) e->source[e->sources++] = (dyd_source_use){*source, (uint32_t)first, NULL};
   return status;
 }
 
@@ -112,7 +112,10 @@ void dyd_engine_clear_points(dyd_engine *e) {
   for (size_t k = 0; k < e->points; k++) dyd_stream_free(e->point[k].stream);
   for (size_t k = 0; k < e->sources; k++) {
     const dyd_source *s = &e->source[k].source;
-    if (s->release) s->release(s->user);
+    if (e->source[k].shared)
+      dyd_shared_source_free(e->source[k].shared);
+    else if (s->release)
+      s->release(s->user);
   }
   free(e->point);
   free(e->source);

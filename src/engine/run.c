@@ -45,7 +45,8 @@ static bool set_options(dyd_engine_options *o, const dyd_engine_options *given) 
   if (o->start_bits > o->max_bits) o->start_bits = o->max_bits;
   if (o->start_bits < -DYD_EXP_LIMIT || o->goal_bits > MOST_GOAL_BITS || o->goal_bits < -MOST_GOAL_BITS) return false;
   if (!(o->seconds >= 0) || o->step_bits < 0) return false;
-  if (o->goal != DYD_GOAL_DECIDED && o->goal != DYD_GOAL_AREA && o->goal != DYD_GOAL_HAUSDORFF) return false;
+  if (o->goal < DYD_GOAL_DECIDED || o->goal > DYD_GOAL_VORONOI_HAUSDORFF) return false;
+  if (dyd_goal_is_voronoi(o->goal) && !dyd_engine_window_is_good(o->window)) return false;
   return o->schedule == DYD_SCHEDULE_ADAPTIVE || o->schedule == DYD_SCHEDULE_UNIFORM;
 }
 
@@ -215,6 +216,10 @@ static dyd_status judge(size_t *marked, run *r) {
   dyd_plan plan = {0};
   dyd_status status = dyd_engine_goal_holds(&holds, r->e, &r->o);
   if (status < 0) return status;
+  if (status == DYD_CANCELLED) {
+    end_interrupted(r);
+    return DYD_OK;
+  }
   if (holds) {
     r->end = r->o.goal == DYD_GOAL_DECIDED ? DYD_OUTCOME_DECIDED : DYD_OUTCOME_CERTIFIED;
     return DYD_OK;

@@ -14,6 +14,8 @@
  * / P; the ends of all these are narrowed. Where none of them can be, the points in pairs of at least half the area of
  * the largest pair with a point that can.
  *
+ * Towards bounds on the Voronoi diagram the same is done with other numbers of the pairs (goal_voronoi.c).
+ *
  * Every rule marks a point whenever one that matters can be narrowed, and every mark asks for more than before, up to
  * max_bits: the loop ends. Growth is geometric, so a run asks for at most about twice the bits it needs; with step_bits
  * it is that step instead, for tables of convergence. */
@@ -152,45 +154,58 @@ static dyd_status plan_hausdorff(dyd_plan *plan, const dyd_engine *e, dyd_measur
   return status;
 }
 
-/* Marks the ends of pairs with an area above `least`, so that the areas shrink below `share`;
- * *largest becomes the largest area of a pair with an end that can be narrowed. */
-static dyd_status mark_areas(dyd_plan *plan, mpfr_ptr largest, const dyd_engine *e, dyd_measure *m,
-                             const dyd_pair_list *pairs, mpfr_srcptr least, mpfr_srcptr share,
+/* What a pair contributes to a bound; infinite when it has to be refined before anything is known. */
+typedef dyd_status (*number_fn)(mpfr_ptr out, dyd_engine *e, dyd_measure *m, const dyd_pair *pair,
+                                const dyd_engine_options *o);
+
+static dyd_status number_area(mpfr_ptr out, dyd_engine *e, dyd_measure *m, const dyd_pair *pair,
+                              const dyd_engine_options *o) {
+  (void)e, (void)o;
+  return dyd_measure_area(out, m, pair->i, pair->j);
+}
+
+/* Marks the ends of pairs with a number above `least`, so that the numbers shrink below `share`;
+ * *largest becomes the largest number of a pair with an end that can be narrowed. */
+static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_engine *e, dyd_measure *m,
+                             const dyd_pair_list *pairs, number_fn number, mpfr_srcptr least, mpfr_srcptr share,
                              const dyd_engine_options *o) {
   dyd_status status = DYD_OK;
-  mpfr_t area;
-  mpfr_init2(area, DYD_MEASURE_PREC);
+  mpfr_t value;
+  mpfr_init2(value, DYD_MEASURE_PREC);
   mpfr_set_zero(largest, 1);
   for (size_t k = 0; status >= 0 && k < pairs->count; k++) {
     const uint32_t end[2] = {pairs->item[k].i, pairs->item[k].j};
-    status = dyd_measure_area(area, m, end[0], end[1]);
-    if (status < 0 || mpfr_zero_p(area)) continue;
-    int64_t excess = (int64_t)mpfr_get_exp(area) - (int64_t)mpfr_get_exp(share) + 2;
+    status = number(value, e, m, &pairs->item[k], o);
+    if (status < 0 || mpfr_zero_p(value)) continue;
+    int64_t excess = mpfr_inf_p(value) ? 0 : (int64_t)mpfr_get_exp(value) - (int64_t)mpfr_get_exp(share) + 2;
     for (int a = 0; a < 2; a++) {
       dyd_refinable *p = dyd_engine_find(e, end[a]);
       if (!can_narrow(plan, p, o)) continue;
-      mpfr_max(largest, largest, area, MPFR_RNDU);
+      mpfr_max(largest, largest, value, MPFR_RNDU);
       int64_t target = raised(p->bits, excess < 0 ? 0 : excess, o->max_bits), step = grown(p->bits, o);
-      if (mpfr_cmp(area, least) > 0)
+      if (mpfr_cmp(value, least) > 0)
         mark(plan, p, target > step && !o->step_bits ? target : step, (cause){DYD_REASON_BOUND, end[0], end[1]}, o);
     }
   }
-  mpfr_clear(area);
+  mpfr_clear(value);
   return status;
 }
 
-static dyd_status plan_area(dyd_plan *plan, const dyd_engine *e, dyd_measure *m, const dyd_engine_options *o) {
+/* The ends of the pairs whose numbers are above 2^-M, or above the share 2^-M / P of P pairs; where none of them can be
+ * narrowed, those of at least half the largest number with an end that can. */
+static dyd_status plan_bound(dyd_plan *plan, dyd_engine *e, dyd_measure *m, number_fn number, bool shared,
+                             const dyd_engine_options *o) {
   dyd_pair_list pairs = {0};
   mpfr_t share, largest, unused;
   mpfr_inits2(DYD_MEASURE_PREC, share, largest, unused, (mpfr_ptr)0);
   dyd_status status = dyd_delaunay_pairs(&pairs, e->pd);
   if (status >= 0 && pairs.count) {
     mpfr_set_ui_2exp(share, 1, (mpfr_exp_t)-o->goal_bits, MPFR_RNDD);
-    mpfr_div_ui(share, share, (unsigned long)pairs.count, MPFR_RNDD);
-    status = mark_areas(plan, largest, e, m, &pairs, share, share, o);
+    if (shared) mpfr_div_ui(share, share, (unsigned long)pairs.count, MPFR_RNDD);
+    status = mark_bound(plan, largest, e, m, &pairs, number, share, share, o);
     if (status >= 0 && plan->marked == 0 && !mpfr_zero_p(largest)) {
       mpfr_div_2ui(largest, largest, 1, MPFR_RNDD);
-      status = mark_areas(plan, unused, e, m, &pairs, largest, share, o);
+      status = mark_bound(plan, unused, e, m, &pairs, number, largest, share, o);
     }
   }
   mpfr_clears(share, largest, unused, (mpfr_ptr)0);
@@ -221,9 +236,12 @@ dyd_status dyd_engine_plan(dyd_plan *out, dyd_engine *e, const dyd_engine_option
     status = plan_faces(out, e, NULL, o);
   else if (o->goal == DYD_GOAL_HAUSDORFF)
     status = plan_hausdorff(out, e, &m, o);
+  else if (o->goal == DYD_GOAL_AREA)
+    status = plan_bound(out, e, &m, number_area, true, o);
   else
-    status = plan_area(out, e, &m, o);
+    status = plan_bound(out, e, &m, dyd_engine_voronoi_number, o->goal == DYD_GOAL_VORONOI_AREA, o);
   dyd_measure_clear(&m);
+  dyd_engine_voronoi_forget(e);
   if (status >= 0 && out->marked && o->schedule == DYD_SCHEDULE_UNIFORM) plan_uniform(out, e, o);
   return status;
 }
@@ -247,9 +265,10 @@ static dyd_status bound_holds(bool *out, const dyd_engine *e, const dyd_engine_o
   return status;
 }
 
-dyd_status dyd_engine_goal_holds(bool *out, const dyd_engine *e, const dyd_engine_options *o) {
+dyd_status dyd_engine_goal_holds(bool *out, dyd_engine *e, const dyd_engine_options *o) {
   *out = false;
   if (dyd_delaunay_is_capped(e->pd)) return DYD_OK;
+  if (dyd_goal_is_voronoi(o->goal)) return dyd_engine_voronoi_holds(out, e, o);
   if (o->goal != DYD_GOAL_DECIDED) return bound_holds(out, e, o);
   size_t count[4];
   dyd_delaunay_count(count, e->pd);

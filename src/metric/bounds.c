@@ -63,8 +63,7 @@ dyd_status dyd_bound_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair_list
   return status;
 }
 
-/* out = x >= 0 rounded up to 64 bits, and up to the least positive dyadic. */
-static dyd_status to_dyadic(dyd_dyadic *out, mpfr_srcptr x) {
+dyd_status dyd_bound_to_dyadic(dyd_dyadic *out, mpfr_srcptr x) {
   if (mpfr_zero_p(x)) return dyd_dyadic_set_si_2exp(out, 0, 0);
   if (!mpfr_regular_p(x)) return DYD_E_RANGE;
   if (mpfr_cmp_ui_2exp(x, 1, -(mpfr_exp_t)DYD_EXP_LIMIT) <= 0) return dyd_dyadic_set_si_2exp(out, 1, -DYD_EXP_LIMIT);
@@ -96,7 +95,7 @@ static dyd_status bound(dyd_dyadic *out, const dyd_delaunay *pd, bound_fn f) {
     dyd_measure_init(&m, dyd_delaunay_sites(pd));
     mpfr_init2(x, DYD_MEASURE_PREC);
     status = f(x, &m, &pairs);
-    if (status >= 0) status = to_dyadic(out, x);
+    if (status >= 0) status = dyd_bound_to_dyadic(out, x);
     mpfr_clear(x);
     dyd_measure_clear(&m);
   }

@@ -14,4 +14,7 @@ dyd_status dyd_bound_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair_list
 /* What one possible pair adds to (area) or asks of (Hausdorff) the bound. */
 dyd_status dyd_bound_pair_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair *pair);
 
+/* out = x >= 0 rounded up to 64 bits, and up to the least positive dyadic. DYD_E_RANGE when x is too large. */
+dyd_status dyd_bound_to_dyadic(dyd_dyadic *out, mpfr_srcptr x);
+
 #endif

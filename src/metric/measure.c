@@ -126,3 +126,23 @@ dyd_status dyd_measure_reach(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
   mpfr_add(out, out, m->t, MPFR_RNDU);
   return DYD_OK;
 }
+
+/* sum += the square of the gap between the intervals at end[p] and end[q]. */
+static void add_gap2(dyd_measure *m, size_t p, size_t q) {
+  mpq_sub(m->term, m->end[q], m->end[p + 1]);
+  if (mpq_sgn(m->term) <= 0) mpq_sub(m->term, m->end[p], m->end[q + 1]);
+  if (mpq_sgn(m->term) <= 0) return;
+  mpq_mul(m->term, m->term, m->term);
+  mpq_add(m->sum, m->sum, m->term);
+}
+
+dyd_status dyd_measure_gap(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
+  dyd_status status = fetch(m, i, j);
+  if (status < 0) return status;
+  mpq_set_ui(m->sum, 0, 1);
+  add_gap2(m, 0, 4);
+  add_gap2(m, 2, 6);
+  mpfr_set_q(out, m->sum, MPFR_RNDD);
+  mpfr_sqrt(out, out, MPFR_RNDD);
+  return DYD_OK;
+}

@@ -32,4 +32,8 @@ dyd_status dyd_measure_diameter(mpfr_ptr out, dyd_measure *m, size_t i);
 /* Half the largest distance of a point of R_i to one of R_j, plus the larger diameter. */
 dyd_status dyd_measure_reach(mpfr_ptr out, dyd_measure *m, size_t i, size_t j);
 
+/* The smallest distance of a point of R_i to one of R_j, rounded down: not above the true value t and not below
+ * (1 - 2^-80) t. */
+dyd_status dyd_measure_gap(mpfr_ptr out, dyd_measure *m, size_t i, size_t j);
+
 #endif

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Goals on the Voronoi diagram: whether they hold, and what each pair contributes.
+ *
+ * The bounds themselves are certified (metric/voronoi_bounds.c). The numbers of pairs that steer the refinement need no
+ * proof: for the Hausdorff bound they are the very terms it is the maximum of; for the area, four times that term (the
+ * width of the strip in which the pair is undecided, twice over) times the smaller reach of the two cells (half its
+ * length). Where all numbers together stay below the goal and the area does not, it is the flattening of the polygons
+ * that costs, and they are made finer. */
+#include "engine/engine.h"
+
+#include "base/alloc.h"
+
+enum { FINER = 8, MOST_FINER = 64 };
+
+void dyd_engine_voronoi_forget(dyd_engine *e) {
+  if (!e->sums) return;
+  dyd_voronoi_sums_clear(e->sums);
+  free(e->sums);
+  e->sums = NULL;
+}
+
+bool dyd_engine_window_is_good(const dyd_rect *window) {
+  dyd_window w;
+  return window && dyd_window_init(&w, window) >= 0;
+}
+
+/* Makes e->sums with polygons within 2^-bits. Stopped when e->stop is raised: DYD_CANCELLED. */
+static dyd_status find_sums(dyd_engine *e, const dyd_rect *window, int64_t bits) {
+  dyd_engine_voronoi_forget(e);
+  e->sums = malloc(sizeof *e->sums);
+  if (!e->sums) return DYD_E_NOMEM;
+  dyd_status status = dyd_voronoi_sums_init(e->sums, e->pd, window);
+  if (status == DYD_OK) status = dyd_voronoi_sums_all(e->sums, bits, &e->stop);
+  return status;
+}
+
+dyd_status dyd_engine_voronoi_number(mpfr_ptr out, dyd_engine *e, dyd_measure *m, const dyd_pair *pair,
+                                     const dyd_engine_options *o) {
+  bool finite;
+  dyd_status status = dyd_voronoi_pair_hausdorff(out, &finite, e->sums, m, pair);
+  if (status < 0) return status;
+  if (!finite) {
+    mpfr_set_inf(out, 1);
+  } else if (o->goal == DYD_GOAL_VORONOI_AREA) {
+    double a = e->sums->reach[pair->i], b = e->sums->reach[pair->j];
+    mpfr_mul_d(out, out, a < b ? a : b, MPFR_RNDU);
+    mpfr_mul_2ui(out, out, 2, MPFR_RNDU);
+  }
+  return DYD_OK;
+}
+
+/* Do the numbers of all pairs stay below the goal? */
+static dyd_status numbers_are_small(bool *out, dyd_engine *e, const dyd_engine_options *o, const dyd_pair_list *pairs) {
+  dyd_measure m;
+  mpfr_t sum, one;
+  dyd_status status = DYD_OK;
+  dyd_measure_init(&m, e->sites);
+  mpfr_inits2(DYD_MEASURE_PREC, sum, one, (mpfr_ptr)0);
+  mpfr_set_zero(sum, 1);
+  for (size_t k = 0; k < pairs->count && status >= 0; k++) {
+    status = dyd_engine_voronoi_number(one, e, &m, &pairs->item[k], o);
+    mpfr_add(sum, sum, one, MPFR_RNDU);
+  }
+  *out = status >= 0 && mpfr_cmp_ui_2exp(sum, 1, (mpfr_exp_t)-o->goal_bits) < 0;
+  mpfr_clears(sum, one, (mpfr_ptr)0);
+  dyd_measure_clear(&m);
+  return status;
+}
+
+static dyd_status area_holds(bool *out, mpfr_ptr bound, dyd_engine *e, const dyd_engine_options *o,
+                             const dyd_pair_list *pairs) {
+  dyd_status status = DYD_OK;
+  bool small = true;
+  int64_t bits = dyd_metric_flattening(e->pd, o->window, o->goal_bits);
+  for (int finer = 0; status == DYD_OK && !*out && small && finer <= MOST_FINER; finer += FINER) {
+    status = find_sums(e, o->window, bits + finer);
+    if (status != DYD_OK) break;
+    dyd_voronoi_area(bound, e->sums);
+    *out = mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
+    if (!*out) status = numbers_are_small(&small, e, o, pairs);
+  }
+  return status;
+}
+
+dyd_status dyd_engine_voronoi_holds(bool *out, dyd_engine *e, const dyd_engine_options *o) {
+  dyd_pair_list pairs = {0};
+  mpfr_t bound;
+  bool finite = false;
+  mpfr_init2(bound, DYD_MEASURE_PREC);
+  dyd_status status = dyd_delaunay_pairs(&pairs, e->pd);
+  if (status == DYD_OK && o->goal == DYD_GOAL_VORONOI_AREA) {
+    status = area_holds(out, bound, e, o, &pairs);
+  } else if (status == DYD_OK) {
+    status = find_sums(e, o->window, dyd_metric_coarseness(e->pd, o->window));
+    if (status == DYD_OK) status = dyd_voronoi_hausdorff(bound, &finite, e->sums, &pairs);
+    *out = status == DYD_OK && finite && mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
+  }
+  if (*out || status != DYD_OK) dyd_engine_voronoi_forget(e);
+  mpfr_clear(bound);
+  dyd_pair_list_clear(&pairs);
+  return status;
+}

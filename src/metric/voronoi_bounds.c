@@ -1,0 +1,261 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Upper bounds on what the partial Voronoi diagram leaves open on a window (mathematics: section 8).
+ *
+ * [AREA-V] The inner polygons lie in the Int_i, which are disjoint: U has at most the area of W less theirs.
+ *
+ * [HAUS-V] Let z be in U, p a choice, p_a nearest to z, and j the site with the smallest ds_j(z) among the others.
+ * z is not in Int_a, so ds_j(z) <= dl_a(z). Both are possible at z: ds_a <= |z - p_a| <= |z - p_k| <= dl_k for all k,
+ * and ds_j <= ds_k <= dl_k for k other than a. So |z - p_j| <= ds_j + diam R_j <= dl_a + diam R_j <= |z - p_a| + diam
+ * R_a
+ * + diam R_j, and z is at most
+ *   (|z-p_j|^2 - |z-p_a|^2) / (2 |p_a - p_j|) <= (diam R_a + diam R_j)(dl_a(z) + dl_j(z)) / (2 dist(R_a,R_j))
+ * away from the bisector of p_a and p_j. On the way there it leaves the cell of p_a, at the latest on the bisector: it
+ * meets the true diagram. Also p_j is not in the cell of p_a when they differ, so the segment from z to p_j meets the
+ * diagram: z is at most dl_j(z) away. z lies in Pos_a n Pos_j n W, where dl_a, dl_j are at most their largest values at
+ * the vertices of the outer polygons (dl is convex). Where R_a meets R_j nothing follows but: p_k for any R_k disjoint
+ * from R_a is another point, and z is within the diameter of W and all sites of it. */
+#include "metric/voronoi_bounds.h"
+
+#include "base/alloc.h"
+#include "metric/bounds.h"
+#include "metric/filter_voronoi.h"
+
+dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window) {
+  size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
+  *s = (dyd_voronoi_sums){.pd = pd, .window = window};
+  mpfr_inits2(DYD_MEASURE_PREC, s->inner, s->term, (mpfr_ptr)0);
+  mpfr_set_zero(s->inner, 1);
+  dyd_dyadic_init(&s->area2);
+  s->reach = dyd_alloc(n, sizeof *s->reach);
+  for (size_t i = 0; s->reach && i < n; i++) s->reach[i] = -1;
+  return s->reach ? DYD_OK : DYD_E_NOMEM;
+}
+
+void dyd_voronoi_sums_clear(dyd_voronoi_sums *s) {
+  free(s->reach);
+  dyd_dyadic_clear(&s->area2);
+  mpfr_clears(s->inner, s->term, (mpfr_ptr)0);
+}
+
+static void set_dyadic(mpfr_ptr out, const dyd_dyadic *x, mpfr_rnd_t rnd) {
+  mpfr_set_z_2exp(out, x->man, (mpfr_exp_t)x->exp, rnd);
+}
+
+static dyd_status add_exact(double area[2], dyd_voronoi_sums *s, const dyd_shape *shape) {
+  dyd_status status = dyd_shape_area2(&s->area2, shape, true);
+  if (status < 0) return status;
+  set_dyadic(s->term, &s->area2, MPFR_RNDU);
+  mpfr_div_2ui(s->term, s->term, 1, MPFR_RNDU);
+  area[1] = mpfr_get_d(s->term, MPFR_RNDU);
+  status = dyd_shape_area2(&s->area2, shape, false);
+  if (status < 0) return status;
+  set_dyadic(s->term, &s->area2, MPFR_RNDD);
+  mpfr_div_2ui(s->term, s->term, 1, MPFR_RNDD);
+  area[0] = mpfr_get_d(s->term, MPFR_RNDD);
+  mpfr_add(s->inner, s->inner, s->term, MPFR_RNDD);
+  return DYD_OK;
+}
+
+dyd_status dyd_voronoi_sums_add(double area[2], dyd_voronoi_sums *s, uint32_t i, const dyd_shape *shape) {
+  double box[4], own[2];
+  dyd_sites_get_d(box, dyd_delaunay_sites(s->pd), i);
+  s->reach[i] = dyd_filter_reach_of_shape(shape, box);
+  dyd_status status = DYD_OK;
+  if (shape->in_doubles) {
+    own[0] = shape->area[0];
+    own[1] = shape->area[1];
+    mpfr_add_d(s->inner, s->inner, own[0], MPFR_RNDD);
+  } else {
+    status = add_exact(own, s, shape);
+  }
+  if (status >= 0 && area) {
+    area[0] = own[0];
+    area[1] = own[1];
+  }
+  return status;
+}
+
+dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, int64_t bits, const volatile int *cancel) {
+  size_t n = dyd_sites_count(dyd_delaunay_sites(s->pd));
+  dyd_shape shape = {0};
+  dyd_window w;
+  dyd_status status = dyd_window_init(&w, s->window);
+  for (size_t i = 0; i < n && status == DYD_OK; i++) {
+    if (dyd_delaunay_alias(s->pd, (uint32_t)i) != i) continue;
+    if (i % 64 == 0 && dyd_flag_is_set(cancel)) status = DYD_CANCELLED;
+    if (status == DYD_OK) status = dyd_shape_find(&shape, s->pd, (uint32_t)i, &w, bits);
+    if (status == DYD_OK) status = dyd_voronoi_sums_add(NULL, s, (uint32_t)i, &shape);
+  }
+  dyd_shape_clear(&shape);
+  return status;
+}
+
+/* ---- area ---- */
+
+void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s) {
+  dyd_dyadic side[2], area;
+  for (int k = 0; k < 2; k++) dyd_dyadic_init(&side[k]);
+  dyd_dyadic_init(&area);
+  mpfr_t exact;
+  mpfr_init2(exact, DYD_MEASURE_PREC);
+  mpfr_set_inf(out, 1);
+  if (dyd_dyadic_sub(&side[0], &s->window->x.hi, &s->window->x.lo) >= 0 &&
+      dyd_dyadic_sub(&side[1], &s->window->y.hi, &s->window->y.lo) >= 0 &&
+      dyd_dyadic_mul(&area, &side[0], &side[1]) >= 0) {
+    set_dyadic(exact, &area, MPFR_RNDU);
+    mpfr_sub(out, exact, s->inner, MPFR_RNDU);
+    if (mpfr_sgn(out) < 0) mpfr_set_zero(out, 1); /* rounded sums of what fills W */
+  }
+  mpfr_clear(exact);
+  dyd_dyadic_clear(&area);
+  for (int k = 0; k < 2; k++) dyd_dyadic_clear(&side[k]);
+}
+
+/* ---- Hausdorff ---- */
+
+dyd_status dyd_voronoi_pair_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, dyd_measure *m,
+                                      const dyd_pair *pair) {
+  double a = s->reach[pair->i], b = s->reach[pair->j];
+  *finite = true;
+  mpfr_set_zero(out, 1);
+  const dyd_sites *sites = m->sites;
+  if (a < 0 || b < 0 || (dyd_sites_is_point(sites, pair->i) && dyd_sites_is_point(sites, pair->j))) return DYD_OK;
+  mpfr_t gap, other;
+  mpfr_inits2(DYD_MEASURE_PREC, gap, other, (mpfr_ptr)0);
+  dyd_status status = dyd_measure_gap(gap, m, pair->i, pair->j);
+  *finite = status < 0 || !mpfr_zero_p(gap);
+  if (status >= 0) status = dyd_measure_diameter(out, m, pair->i);
+  if (status >= 0) status = dyd_measure_diameter(other, m, pair->j);
+  if (status >= 0 && *finite) {
+    mpfr_add(out, out, other, MPFR_RNDU);
+    mpfr_set_d(other, a, MPFR_RNDU);
+    mpfr_add_d(other, other, b, MPFR_RNDU);
+    mpfr_mul(out, out, other, MPFR_RNDU);
+    mpfr_div(out, out, gap, MPFR_RNDU);
+    mpfr_div_2ui(out, out, 1, MPFR_RNDU);
+    double most = a > b ? a : b;
+    if (mpfr_cmp_d(out, most) > 0) mpfr_set_d(out, most, MPFR_RNDU);
+  }
+  mpfr_clears(gap, other, (mpfr_ptr)0);
+  return status;
+}
+
+/* Can the pair not be above `most`? */
+static bool is_small(const dyd_voronoi_sums *s, const dyd_pair *pair, mpfr_srcptr most) {
+  double a[4], b[4], ra = s->reach[pair->i], rb = s->reach[pair->j];
+  if (ra < 0 || rb < 0) return true;
+  dyd_sites_get_d(a, dyd_delaunay_sites(s->pd), pair->i);
+  dyd_sites_get_d(b, dyd_delaunay_sites(s->pd), pair->j);
+  double value = dyd_filter_voronoi_pair(a, b, ra, rb);
+  return value < HUGE_VAL && mpfr_cmp_d(most, value) >= 0;
+}
+
+dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, const dyd_pair_list *pairs) {
+  dyd_measure m;
+  mpfr_t one;
+  bool open = false;
+  dyd_status status = DYD_OK;
+  dyd_measure_init(&m, dyd_delaunay_sites(s->pd));
+  mpfr_init2(one, DYD_MEASURE_PREC);
+  mpfr_set_zero(out, 1);
+  *finite = true;
+  for (size_t k = 0; k < pairs->count && status >= 0; k++) {
+    bool known;
+    if (is_small(s, &pairs->item[k], out)) continue;
+    status = dyd_voronoi_pair_hausdorff(one, &known, s, &m, &pairs->item[k]);
+    open |= !known;
+    if (known) mpfr_max(out, out, one, MPFR_RNDU);
+  }
+  if (status >= 0 && open) {
+    double extent = dyd_filter_extent(finite, m.sites, s->window);
+    if (*finite && !(extent < HUGE_VAL)) *finite = false;
+    if (*finite)
+      mpfr_set_d(out, extent, MPFR_RNDU);
+    else
+      mpfr_set_zero(out, 1);
+  }
+  mpfr_clear(one);
+  dyd_measure_clear(&m);
+  return status;
+}
+
+/* ---- public ---- */
+
+void dyd_voronoi_bounds_init(dyd_voronoi_bounds *b) {
+  dyd_dyadic_init(&b->area);
+  dyd_dyadic_init(&b->hausdorff);
+  b->finite = false;
+}
+
+void dyd_voronoi_bounds_clear(dyd_voronoi_bounds *b) {
+  dyd_dyadic_clear(&b->hausdorff);
+  dyd_dyadic_clear(&b->area);
+}
+
+static dyd_status find_bounds(dyd_voronoi_bounds *out, const dyd_voronoi_sums *s) {
+  dyd_pair_list pairs = {0};
+  mpfr_t area, hausdorff;
+  mpfr_inits2(DYD_MEASURE_PREC, area, hausdorff, (mpfr_ptr)0);
+  dyd_status status = dyd_delaunay_pairs(&pairs, s->pd);
+  dyd_voronoi_area(area, s);
+  if (status >= 0) status = dyd_voronoi_hausdorff(hausdorff, &out->finite, s, &pairs);
+  if (status >= 0) status = dyd_bound_to_dyadic(&out->area, area);
+  if (status >= 0) status = dyd_bound_to_dyadic(&out->hausdorff, hausdorff);
+  mpfr_clears(area, hausdorff, (mpfr_ptr)0);
+  dyd_pair_list_clear(&pairs);
+  return status;
+}
+
+dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits,
+                              const volatile int *cancel) {
+  dyd_voronoi_sums s;
+  dyd_voronoi_bounds b;
+  dyd_window w;
+  if (bits < -DYD_EXP_LIMIT / 4 || bits > DYD_EXP_LIMIT / 4) return DYD_E_ARG;
+  dyd_status status = dyd_window_init(&w, window);
+  if (status < 0) return status;
+  if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
+  dyd_voronoi_bounds_init(&b);
+  status = dyd_voronoi_sums_init(&s, pd, window);
+  if (status == DYD_OK) status = dyd_voronoi_sums_all(&s, bits, cancel);
+  if (status == DYD_OK) status = find_bounds(&b, &s);
+  if (status == DYD_OK) {
+    dyd_dyadic_swap(&out->area, &b.area);
+    dyd_dyadic_swap(&out->hausdorff, &b.hausdorff);
+    out->finite = b.finite;
+  }
+  dyd_voronoi_sums_clear(&s);
+  dyd_voronoi_bounds_clear(&b);
+  return status;
+}
+
+/* The perimeters of N cells of equal area in W are about 4 sqrt(N area(W)) in all, plus the perimeter of W. */
+int64_t dyd_metric_flattening(const dyd_delaunay *pd, const dyd_rect *window, int64_t goal_bits) {
+  mpfr_t side[2], length;
+  size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
+  mpfr_inits2(64, side[0], side[1], length, (mpfr_ptr)0);
+  set_dyadic(side[0], &window->x.hi, MPFR_RNDU);
+  set_dyadic(length, &window->x.lo, MPFR_RNDD);
+  mpfr_sub(side[0], side[0], length, MPFR_RNDU);
+  set_dyadic(side[1], &window->y.hi, MPFR_RNDU);
+  set_dyadic(length, &window->y.lo, MPFR_RNDD);
+  mpfr_sub(side[1], side[1], length, MPFR_RNDU);
+  mpfr_add(length, side[0], side[1], MPFR_RNDU);
+  mpfr_mul_ui(length, length, 2, MPFR_RNDU);
+  mpfr_mul(side[0], side[0], side[1], MPFR_RNDU);
+  mpfr_mul_ui(side[0], side[0], n ? (unsigned long)n : 1, MPFR_RNDU);
+  mpfr_sqrt(side[0], side[0], MPFR_RNDU);
+  mpfr_mul_ui(side[0], side[0], 4, MPFR_RNDU);
+  mpfr_add(length, length, side[0], MPFR_RNDU);
+  int64_t bits = goal_bits + 3 + (mpfr_regular_p(length) ? (int64_t)mpfr_get_exp(length) : 0);
+  mpfr_clears(side[0], side[1], length, (mpfr_ptr)0);
+  return bits;
+}
+
+/* With a total perimeter L of N cells, a cell has about the size L / (4 N). */
+int64_t dyd_metric_coarseness(const dyd_delaunay *pd, const dyd_rect *window) {
+  size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
+  int64_t log2_n = 0, log2_length = dyd_metric_flattening(pd, window, 0) - 3;
+  while (log2_n < 60 && (size_t)1 << log2_n < n) log2_n++;
+  return log2_n + 6 - log2_length;
+}

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The bounds on the Voronoi diagram, added up cell by cell. */
+#ifndef DYD_METRIC_VORONOI_BOUNDS_H
+#define DYD_METRIC_VORONOI_BOUNDS_H
+
+#include "metric/measure.h"
+#include "voronoi/shape.h"
+#include <dyadel/metric.h>
+
+/* Invariant: inner <= the areas of the inner polygons added; reach[i] >= dl_i over Pos_i n W, -1 where that is
+ * empty or i was not added. */
+typedef struct dyd_voronoi_sums {
+  const dyd_delaunay *pd;
+  const dyd_rect *window;
+  mpfr_t inner, term;
+  dyd_dyadic area2;
+  double *reach;
+} dyd_voronoi_sums;
+
+dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window);
+void dyd_voronoi_sums_clear(dyd_voronoi_sums *s);
+/* Adds the shape of site i (no alias). area[0] <= area of Int_i n W and area[1] >= area of Pos_i n W as doubles, for
+ * those who want them; may be NULL. */
+dyd_status dyd_voronoi_sums_add(double area[2], dyd_voronoi_sums *s, uint32_t i, const dyd_shape *shape);
+
+/* After all sites: initialised by the caller at DYD_MEASURE_PREC bits or more. */
+void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s);
+/* *finite as in dyd_voronoi_bounds. */
+dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, const dyd_pair_list *pairs);
+
+/* What one possible pair asks of the Hausdorff bound; *finite = false when the rectangles meet. */
+dyd_status dyd_voronoi_pair_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, dyd_measure *m,
+                                      const dyd_pair *pair);
+
+/* Adds the shapes of all sites. */
+dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, int64_t bits, const volatile int *cancel);
+
+#endif

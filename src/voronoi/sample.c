@@ -1,0 +1,219 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Dyadic points close to exact arcs. */
+#include "voronoi/sample.h"
+
+#include "base/alloc.h"
+
+#include <string.h>
+
+enum { MOST_STEPS = 1 << 24 };
+
+/* ---- the sites of a cell ---- */
+
+dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32_t i) {
+  *s = (dyd_cell_sites){0};
+  dyd_rect_init(&s->own);
+  dyd_index_list list = {0};
+  dyd_status status = dyd_sites_get(&s->own, dyd_delaunay_sites(pd), i);
+  if (status >= 0) status = dyd_delaunay_neighbours(&list, pd, i, DYD_TIE);
+  if (status < 0) return status;
+  s->site = list.item;
+  s->other = dyd_alloc(list.count, sizeof *s->other);
+  if (!s->other) return DYD_E_NOMEM;
+  for (; s->count < list.count && status >= 0; s->count++) {
+    dyd_rect_init(&s->other[s->count]);
+    status = dyd_sites_get(&s->other[s->count], dyd_delaunay_sites(pd), list.item[s->count]);
+  }
+  return status;
+}
+
+void dyd_cell_sites_clear(dyd_cell_sites *s) {
+  for (size_t k = 0; k < s->count; k++) dyd_rect_clear(&s->other[k]);
+  free(s->other);
+  free(s->site);
+  dyd_rect_clear(&s->own);
+}
+
+const dyd_rect *dyd_cell_site(const dyd_cell_sites *s, uint32_t site) {
+  size_t lo = 0, hi = s->count;
+  while (lo < hi) {
+    size_t middle = (lo + hi) / 2;
+    if (s->site[middle] < site)
+      lo = middle + 1;
+    else
+      hi = middle;
+  }
+  return lo < s->count && s->site[lo] == site ? &s->other[lo] : &s->own;
+}
+
+bool dyd_cell_holds(const dyd_cell_sites *s, const dyd_point *c) {
+  for (size_t k = 0; k < s->count; k++)
+    if (dyd_nearer(c, &s->own, &s->other[k]) != DYD_TRUE) return false;
+  return true;
+}
+
+/* ---- parabolas ---- */
+
+/* The parabola of an arc: coordinate `along` runs along the directrix, the other one is
+ * ((t - f_along)^2 + f_across^2 - d^2) / (2 (f_across - d)). */
+typedef struct parabola {
+  int along; /* 0: x */
+  mpq_t focus[2], directrix;
+} parabola;
+
+static void parabola_init(parabola *p) {
+  mpq_inits(p->focus[0], p->focus[1], p->directrix, NULL);
+}
+static void parabola_clear(parabola *p) {
+  mpq_clears(p->focus[0], p->focus[1], p->directrix, NULL);
+}
+
+static void parabola_set(parabola *p, const dyd_arc *arc, const dyd_cell_sites *s, uint32_t own) {
+  const dyd_rect *far = arc->far_site == own ? &s->own : dyd_cell_site(s, arc->far_site);
+  const dyd_rect *near = arc->near_site == own ? &s->own : dyd_cell_site(s, arc->near_site);
+  mpq_t lo, hi;
+  mpq_inits(lo, hi, NULL);
+  dyd_interval_get_q(lo, hi, &far->x);
+  mpq_set(p->focus[0], arc->corner & 1 ? hi : lo);
+  dyd_interval_get_q(lo, hi, &far->y);
+  mpq_set(p->focus[1], arc->corner & 2 ? hi : lo);
+  p->along = arc->feature >= DYD_SIDE_Y0 ? 0 : 1;
+  dyd_interval_get_q(lo, hi, p->along == 0 ? &near->y : &near->x);
+  mpq_set(p->directrix, arc->feature & 1 ? hi : lo);
+  mpq_clears(lo, hi, NULL);
+}
+
+/* across = the other coordinate at abscissa t. */
+static void parabola_at(mpq_t across, const parabola *p, const mpq_t t) {
+  mpq_t a, b;
+  mpq_inits(a, b, NULL);
+  mpq_srcptr f = p->focus[1 - p->along];
+  mpq_sub(a, t, p->focus[p->along]);
+  mpq_mul(a, a, a);
+  mpq_mul(b, f, f);
+  mpq_add(a, a, b);
+  mpq_mul(b, p->directrix, p->directrix);
+  mpq_sub(a, a, b);
+  mpq_sub(b, f, p->directrix);
+  mpq_mul_2exp(b, b, 1);
+  mpq_div(across, a, b);
+  mpq_clears(a, b, NULL);
+}
+
+/* ---- samples ---- */
+
+/* The middle of an enclosure of the end, within 2^-bits of it. */
+static dyd_status end_point(dyd_point *out, const dyd_arc_end *end, int64_t bits) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status status = dyd_surd_point_enclose(&r, &end->at, bits);
+  mpq_t a, b;
+  mpq_inits(a, b, NULL);
+  for (int axis = 0; status >= 0 && axis < 2; axis++) {
+    dyd_interval_get_q(a, b, axis ? &r.y : &r.x);
+    mpq_add(a, a, b);
+    mpq_div_2exp(a, a, 1);
+    status = dyd_dyadic_round_q(axis ? &out->y : &out->x, a, -(bits + 1), DYD_DOWN);
+  }
+  mpq_clears(a, b, NULL);
+  dyd_rect_clear(&r);
+  return status;
+}
+
+/* An e with 2^e >= q > 0, one or two above the least. */
+static int64_t log2_above(const mpq_t q) {
+  return (int64_t)mpz_sizeinbase(mpq_numref(q), 2) - (int64_t)mpz_sizeinbase(mpq_denref(q), 2) + 1;
+}
+
+/* Into how many parts the arc has to be cut: n >= length sqrt(2^bits / (8 q)). */
+static dyd_status count_steps(uint32_t *out, const dyd_arc *arc, const dyd_cell_sites *s, uint32_t own, int64_t bits) {
+  *out = 1;
+  if (arc->kind != DYD_ARC_PARABOLA) return DYD_OK;
+  parabola p;
+  dyd_point a, b;
+  mpq_t length, q;
+  parabola_init(&p);
+  dyd_point_init(&a);
+  dyd_point_init(&b);
+  mpq_inits(length, q, NULL);
+  parabola_set(&p, arc, s, own);
+  dyd_status status = end_point(&a, &arc->begin, bits + 4);
+  if (status >= 0) status = end_point(&b, &arc->end, bits + 4);
+  if (status >= 0) {
+    dyd_dyadic_get_q(length, p.along ? &a.y : &a.x);
+    dyd_dyadic_get_q(q, p.along ? &b.y : &b.x);
+    mpq_sub(length, length, q);
+    mpq_mul(length, length, length);
+    mpq_sub(q, p.focus[1 - p.along], p.directrix);
+    mpq_abs(q, q);
+    mpq_div(length, length, q); /* n^2 >= (length^2 / q) 2^bits / 8 */
+    int64_t twice = mpq_sgn(length) ? log2_above(length) + bits - 3 : -1;
+    int64_t shift = twice <= 0 ? 0 : (twice + 1) / 2;
+    if (shift > 24)
+      status = DYD_E_RANGE;
+    else
+      *out = (uint32_t)1 << shift;
+  }
+  mpq_clears(length, q, NULL);
+  dyd_point_clear(&b);
+  dyd_point_clear(&a);
+  parabola_clear(&p);
+  return status;
+}
+
+dyd_status dyd_chain_samples(dyd_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
+                             int64_t bits) {
+  for (size_t k = 0; k < chain->count; k++) {
+    const dyd_arc *arc = &chain->arc[k], *before = &chain->arc[k ? k - 1 : chain->count - 1];
+    uint32_t steps;
+    dyd_status status = count_steps(&steps, arc, s, own, bits);
+    if (status < 0) return status;
+    if (out->count + steps > MOST_STEPS) return DYD_E_RANGE;
+    if (!dyd_reserve((void **)&out->item, &out->cap, out->count + steps, sizeof *out->item)) return DYD_E_NOMEM;
+    for (uint32_t step = 0; step < steps; step++)
+      out->item[out->count++] = (dyd_sample){arc, step ? arc : before, step, steps};
+  }
+  return DYD_OK;
+}
+
+/* t = the dyadic abscissa number step of the arc, up to 2^-bits between its ends. */
+static dyd_status abscissa(mpq_t t, const dyd_sample *at, const parabola *p, int64_t bits) {
+  dyd_point a, b;
+  mpq_t u;
+  dyd_point_init(&a);
+  dyd_point_init(&b);
+  mpq_init(u);
+  dyd_status status = end_point(&a, &at->arc->begin, bits);
+  if (status >= 0) status = end_point(&b, &at->arc->end, bits);
+  if (status >= 0) {
+    dyd_dyadic_get_q(t, p->along ? &a.y : &a.x);
+    dyd_dyadic_get_q(u, p->along ? &b.y : &b.x);
+    mpq_sub(u, u, t);
+    mpz_mul_ui(mpq_numref(u), mpq_numref(u), at->step);
+    mpz_mul_ui(mpq_denref(u), mpq_denref(u), at->steps);
+    mpq_canonicalize(u);
+    mpq_add(t, t, u);
+  }
+  mpq_clear(u);
+  dyd_point_clear(&b);
+  dyd_point_clear(&a);
+  return status;
+}
+
+dyd_status dyd_sample_point(dyd_point *out, const dyd_sample *at, const dyd_cell_sites *s, uint32_t own, int64_t bits) {
+  if (at->step == 0) return end_point(out, &at->arc->begin, bits);
+  parabola p;
+  mpq_t t, across;
+  parabola_init(&p);
+  mpq_inits(t, across, NULL);
+  parabola_set(&p, at->arc, s, own);
+  dyd_status status = abscissa(t, at, &p, bits);
+  if (status >= 0) {
+    parabola_at(across, &p, t);
+    status = dyd_dyadic_round_q(p.along ? &out->y : &out->x, t, -(bits + 1), DYD_DOWN);
+  }
+  if (status >= 0) status = dyd_dyadic_round_q(p.along ? &out->x : &out->y, across, -(bits + 1), DYD_DOWN);
+  mpq_clears(t, across, NULL);
+  parabola_clear(&p);
+  return status;
+}

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Dyadic points close to exact arcs, and what has to be verified of them.
+ *
+ * A chord of a parabola between abscissae at distance h along its directrix is at most h^2 / (8 q) away from it, q the
+ * distance of focus and directrix. */
+#ifndef DYD_VORONOI_SAMPLE_H
+#define DYD_VORONOI_SAMPLE_H
+
+#include <dyadel/voronoi.h>
+
+/* The cell's own rectangle and those of its possible neighbours, fetched once. */
+typedef struct dyd_cell_sites {
+  dyd_rect own;
+  size_t count;
+  uint32_t *site; /* ascending */
+  dyd_rect *other;
+} dyd_cell_sites;
+dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32_t i);
+void dyd_cell_sites_clear(dyd_cell_sites *s);
+/* The rectangle of a possible neighbour. */
+const dyd_rect *dyd_cell_site(const dyd_cell_sites *s, uint32_t site);
+/* Is c in Int_i? Exact. */
+bool dyd_cell_holds(const dyd_cell_sites *s, const dyd_point *c);
+
+/* A point of an arc: its beginning (step = 0), or the point number step of `steps` equal parts along the directrix. */
+typedef struct dyd_sample {
+  const dyd_arc *arc, *before; /* before: the arc that ends where this one begins, when step = 0 */
+  uint32_t step, steps;
+} dyd_sample;
+
+/* Owned. */
+typedef struct dyd_samples {
+  size_t count, cap;
+  dyd_sample *item;
+} dyd_samples;
+
+/* The samples of a closed chain, so close that every chord is within 2^-bits of its arc. far and near give the
+ * rectangles of sites. Appended to *out. DYD_E_RANGE when more than 2^24 would be needed. */
+dyd_status dyd_chain_samples(dyd_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
+                             int64_t bits);
+/* A dyadic point within 2^-bits of the sample in each coordinate; a multiple of 2^-(bits+1). */
+dyd_status dyd_sample_point(dyd_point *out, const dyd_sample *at, const dyd_cell_sites *s, uint32_t own, int64_t bits);
+
+#endif

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The verified polygons of one cell on a window, in doubles where doubles do, else in dyadics.
+ *
+ * Both rungs leave an inner polygon in Int_i n W [POLY-1] and outer polygons round Pos_i n W [POLY-2]. */
+#ifndef DYD_VORONOI_SHAPE_H
+#define DYD_VORONOI_SHAPE_H
+
+#include "delaunay/state.h"
+#include <dyadel/voronoi.h>
+
+/* The window W. Invariant: dyadic ends, positive area; d[] are doubles within W: xlo, xhi, ylo, yhi. */
+typedef struct dyd_window {
+  const dyd_rect *rect;
+  double d[4];
+} dyd_window;
+/* DYD_E_ARG unless W is as it has to be. */
+dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect);
+
+/* Invariant: in_doubles: inner[inner_count], outer[outer_count] are the polygons (one outer part), counter-clockwise,
+ * and the areas of the polygons lie within area[]: inner from below, outer from above. Otherwise the exact ones. The
+ * arrays behind are scratch, kept from cell to cell. */
+typedef struct dyd_shape {
+  bool in_doubles;
+  uint32_t inner_count, outer_count;
+  dyd_xy *inner, *outer;
+  double area[2];
+  dyd_polygon inner_exact;
+  dyd_polygon_list outer_exact;
+  uint32_t *fan; /* vertices round the site */
+  dyd_bbox *fan_box;
+  size_t inner_cap, outer_cap, fan_cap, box_cap;
+} dyd_shape;
+/* Release with dyd_shape_clear; init with {0}. */
+void dyd_shape_clear(dyd_shape *s);
+
+/* The shape of the cell of site i (not an alias): every point of Int_i n W is within 2^-bits of the inner polygon, the
+ * outer ones reach at most 2^-bits beyond Pos_i. pd is not capped. */
+dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w, int64_t bits);
+/* Twice the area of the inner polygon, or of all outer ones together. Exact. */
+dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer);
+/* Copies of the polygons as dyadics. */
+dyd_status dyd_shape_inner(dyd_polygon *out, const dyd_shape *s);
+dyd_status dyd_shape_outer(dyd_polygon_list *out, const dyd_shape *s);
+
+/* filter_shape.c: the rung in doubles. DYD_OK with *done telling whether it succeeded, or DYD_E_NOMEM. */
+dyd_status dyd_filter_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t v, const dyd_window *w,
+                            int64_t bits);
+
+/* polygon_exact.c: the rung in dyadics, from the exact boundaries. */
+dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits);
+dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
+                           int64_t bits);
+
+#endif
