@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/verify.h"
+#include "delaunay/blocks.h"
 #include "delaunay/certify.h"
 #include "delaunay/faces.h"
 #include "delaunay/line.h"
@@ -17,6 +18,7 @@ void dyd_build_clear(dyd_delaunay *pd) {
   dyd_faces_clear(&pd->faces);
   dyd_line_clear(&pd->line);
   dyd_tree_clear(&pd->tree);
+  dyd_blocks_clear(pd);
   dyd_mesh_clear(&pd->mesh);
   dyd_reps_clear(&pd->reps);
   free(pd->box);
@@ -80,7 +82,7 @@ static dyd_status build_maps(dyd_delaunay *pd) {
 enum { FETCH_AHEAD = 24 };
 
 static dyd_status build_boxes(dyd_delaunay *pd) {
-  if (pd->all_points || pd->mesh.collinear) return DYD_OK;
+  if (pd->all_points || pd->mesh.collinear) return dyd_blocks_build(pd);
   pd->box = dyd_alloc(pd->n, sizeof *pd->box);
   uint32_t *item = dyd_alloc(pd->n, sizeof *item), count = 0;
   if (!pd->box || !item) return free(item), DYD_E_NOMEM;

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Who can be nearest to a point of the query rectangle, by bounds of distances in doubles [FLT-DST].
+ *
+ * Let B be an upper bound of min_k max_{c in q} dl_k(c)^2. A site that is possibly nearest to some c in q has ds(c)^2
+ * <= min_k dl_k(c)^2 <= B, so its box comes within sqrt(B) of q. The box of a tree node that holds a site bounds that
+ * site's dl from above: a descent towards q gives a first B, one search of the tree the final one and everybody within.
+ */
+#include "base/alloc.h"
+#include "dyadic/raw.h"
+#include "voronoi/nearest.h"
+
+typedef struct search {
+  const dyd_delaunay *pd;
+  const dyd_tree *tree;
+  dyd_bbox q;
+  double bound;
+  uint32_t *vertex;
+  double *lower; /* of ds^2 */
+  size_t count, vertex_cap, lower_cap;
+  bool failed;
+} search;
+
+static void lower_bound(search *s, const dyd_bbox *b) {
+  double upper = dyd_dl2_upper(&s->q, b);
+  if (upper < s->bound) s->bound = upper;
+}
+
+/* From the root to an item, always into the child with the least upper bound. */
+static void descend(search *s) {
+  const dyd_tree *t = s->tree;
+  size_t node = 0;
+  for (int level = t->levels - 1; level >= 0; level--) {
+    size_t below = level == 0 ? t->count : t->level[level] - t->level[level - 1];
+    size_t first = node * DYD_TREE_FANOUT, end = first + DYD_TREE_FANOUT < below ? first + DYD_TREE_FANOUT : below;
+    double best = HUGE_VAL;
+    node = first;
+    for (size_t e = first; e < end; e++) {
+      const dyd_bbox *b = level == 0 ? &t->box[t->item[e]] : &t->node[t->level[level - 1] + e];
+      double upper = dyd_dl2_upper(&s->q, b);
+      if (!(upper < best)) continue;
+      best = upper;
+      node = e;
+    }
+    if (best < s->bound) s->bound = best;
+  }
+}
+
+static bool consider(search *s, uint32_t v) {
+  dyd_bbox b;
+  if (s->pd->vertex[s->pd->reps.site[v]] != v) return true; /* an alias */
+  dyd_vertex_box(&b, s->pd, v);
+  double lower = dyd_ds2_lower(&s->q, &b);
+  if (lower > s->bound) return true;
+  if (!s->pd->options.no_filter) lower_bound(s, &b);
+  s->failed = !dyd_reserve((void **)&s->vertex, &s->vertex_cap, s->count + 1, sizeof *s->vertex) ||
+              !dyd_reserve((void **)&s->lower, &s->lower_cap, s->count + 1, sizeof *s->lower);
+  if (s->failed) return false;
+  s->vertex[s->count] = v;
+  s->lower[s->count++] = lower;
+  return true;
+}
+
+static bool visit_vertex(void *context, uint32_t v) {
+  return consider(context, v);
+}
+
+static bool visit_block(void *context, uint32_t b) {
+  search *s = context;
+  for (uint32_t v = b * DYD_BLOCK; v < dyd_block_end(s->pd, b); v++)
+    if (!consider(s, v)) return false;
+  return true;
+}
+
+dyd_status dyd_near_candidates(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, const dyd_rect *q) {
+  bool fine = pd->tree.count > 0;
+  search s = {.pd = pd, .tree = fine ? &pd->tree : &pd->blocks, .bound = HUGE_VAL};
+  dyd_interval_get_d(&s.q.e[0], &s.q.e[1], &q->x);
+  dyd_interval_get_d(&s.q.e[2], &s.q.e[3], &q->y);
+  if (!pd->options.no_filter) descend(&s);
+  dyd_tree_near(s.tree, &s.q, &s.bound, fine ? visit_vertex : visit_block, &s);
+  size_t kept = 0;
+  for (size_t k = 0; k < s.count; k++)
+    if (!(s.lower[k] > s.bound)) s.vertex[kept++] = s.vertex[k];
+  free(s.lower);
+  if (s.failed) {
+    free(s.vertex);
+    return DYD_E_NOMEM;
+  }
+  *vertex = s.vertex;
+  *count = kept;
+  return DYD_OK;
+}
+
+/* ---- sides ---- */
+
+dyd_truth dyd_filter_blocks(const dyd_bbox *c, const dyd_near_site *k, const dyd_near_site *i) {
+  if (dyd_dl2_upper(c, &k->box) < dyd_ds2_lower(c, &i->box)) return DYD_TRUE;
+  if (dyd_dl2_lower(c, &k->box, k->slack) >= dyd_ds2_upper(c, &i->box, i->slack)) return DYD_FALSE;
+  return DYD_UNKNOWN;
+}
+
+size_t dyd_filter_blocker(const dyd_bbox *c, const dyd_near_site *site, size_t count, size_t i) {
+  size_t best = count;
+  double least = HUGE_VAL;
+  for (size_t k = 0; k < count; k++) {
+    double upper = dyd_dl2_upper(c, &site[k].box);
+    if (k == i || !(upper < least)) continue;
+    least = upper;
+    best = k;
+  }
+  return best < count && least < dyd_ds2_lower(c, &site[i].box) ? best : count;
+}
+
+static void enclose(double out[2], const mpq_t q) {
+  out[0] = dyd_raw_quotient_get_d(mpq_numref(q), 0, mpq_denref(q), DYD_DOWN);
+  out[1] = dyd_raw_quotient_get_d(mpq_numref(q), 0, mpq_denref(q), DYD_UP);
+}
+
+/* Roots and sums are correctly rounded; one step outward each. */
+static void add_root(double out[2], const mpq_t c) {
+  double square[2];
+  if (!mpq_sgn(c)) return;
+  enclose(square, c);
+  for (int k = 0; k < 2; k++) {
+    double away = k ? HUGE_VAL : -HUGE_VAL, sum = out[k] + nextafter(sqrt(square[k]), away);
+    out[k] = isnan(sum) ? away : nextafter(sum, away);
+  }
+}
+
+void dyd_filter_place(dyd_bbox *c, const dyd_near_side *side, const mpq_t at, const mpq_t root) {
+  enclose(&c->e[2 * side->axis], at);
+  add_root(&c->e[2 * side->axis], root);
+  enclose(&c->e[2 - 2 * side->axis], side->across);
+}
+
+double dyd_filter_slack(const dyd_bbox *b, bool in_doubles) {
+  if (in_doubles) return 0;
+  double m = dyd_max(dyd_max(fabs(b->e[0]), fabs(b->e[1])), dyd_max(fabs(b->e[2]), fabs(b->e[3])));
+  return m * 0x1p-52 + 0x1p-1074;
+}

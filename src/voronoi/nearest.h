@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Nearest sites: who can be concerned, and the exact tests on a side of the query. */
+#ifndef DYD_VORONOI_NEAREST_H
+#define DYD_VORONOI_NEAREST_H
+
+#include "delaunay/blocks.h"
+
+/* ---- filter_nearest.c ---- */
+
+/* Vertices that hold all that are possibly nearest to some point of q. Every vertex that surely nearer sites rule out
+ * is left out, up to rounding. *vertex is owned by the caller. */
+dyd_status dyd_near_candidates(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, const dyd_rect *q);
+
+/* A rational rectangle x0 x1 y0 y1, its outward box, and by how much that may be too large. */
+typedef struct dyd_near_site {
+  mpq_t e[4];
+  dyd_bbox box;
+  double slack;
+} dyd_near_site;
+
+/* A side of the query: the points with coordinate `across` on the other axis and lo <= coordinate <= hi on `axis`. */
+typedef struct dyd_near_side {
+  int axis;
+  mpq_srcptr lo, hi, across;
+} dyd_near_side;
+
+/* Doubles around the place at + sqrt(root) of a side. */
+void dyd_filter_place(dyd_bbox *c, const dyd_near_side *side, const mpq_t at, const mpq_t root);
+/* Is dl(k) < ds(i) at the centre in c? */
+dyd_truth dyd_filter_blocks(const dyd_bbox *c, const dyd_near_site *k, const dyd_near_site *i);
+/* The site of least dl at the centre in c, if that is surely below ds(i); otherwise count. */
+size_t dyd_filter_blocker(const dyd_bbox *c, const dyd_near_site *site, size_t count, size_t i);
+/* The slack of a site whose outward box is b: 0 when doubles hold it. */
+double dyd_filter_slack(const dyd_bbox *b, bool in_doubles);
+
+/* ---- nearest_side.c ---- */
+
+/* Scratch of the walk. */
+typedef struct dyd_near_work {
+  mpq_t at, root; /* the place on the side: at + sqrt(root) */
+  mpq_t far, near, d, p, q, s, t, mid;
+} dyd_near_work;
+void dyd_near_work_init(dyd_near_work *w);
+void dyd_near_work_clear(dyd_near_work *w);
+
+/* Does a point of the side lie in Pos_i as far as the other sites of the list tell [NEAR-2]? Exact. */
+bool dyd_near_side_meets(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *site, size_t count, size_t i,
+                         bool no_filter);
+
+#endif
