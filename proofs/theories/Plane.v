@@ -148,6 +148,19 @@ Proof.
   intros T A B. apply dist_le in A, B. apply dist_le. pose proof (nearer_affine t a b x y). nra.
 Qed.
 
+(* Discs are convex. *)
+Lemma dist2_mix t o a b :
+  dist2 o (mix t a b) = (1 - t) * dist2 o a + t * dist2 o b - t * (1 - t) * dist2 a b.
+Proof. unfold dist2, mix. simpl. ring. Qed.
+
+Lemma disc_convex t o r a b : 0 <= t <= 1 -> dist o a <= r -> dist o b <= r -> dist o (mix t a b) <= r.
+Proof.
+  intros T A B. pose proof (dist_nonneg o a). pose proof (dist_nonneg o b).
+  apply le_of_squares; [lra |]. rewrite dist_sq, dist2_mix, <- (dist_sq o a), <- (dist_sq o b).
+  pose proof (dist2_nonneg a b). assert (0 <= t * (1 - t)) by nra. assert (0 <= t * (1 - t) * dist2 a b) by nra.
+  assert (dist o a * dist o a <= r * r) by nra. assert (dist o b * dist o b <= r * r) by nra. nra.
+Qed.
+
 (* Intermediate values of functions with a Lipschitz constant. *)
 Definition lipschitz (K : R) (f : R -> R) : Prop := forall s t, f s - f t <= K * Rabs (s - t).
 
