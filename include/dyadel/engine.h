@@ -73,7 +73,8 @@ typedef struct dyd_progress {
 typedef enum dyd_reason {
   DYD_REASON_FIRST = 0, /* it had not been asked before */
   DYD_REASON_END,       /* an end of the indeterminate pair i, j */
-  DYD_REASON_BLOCKER,   /* a site of an undecided face, less precise than the ends of its pairs; i is one of these */
+  DYD_REASON_BLOCKER,   /* a site of an undecided face, coarser than the ends of its pairs, or none of these can be
+                           narrowed */
   DYD_REASON_BOUND,     /* contributes to the bound asked for, through the pair i, j (i = j: by its own diameter) */
   DYD_REASON_UNIFORM    /* all points are refined */
 } dyd_reason;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Which points to narrow next, and how far (mathematics: section 7).
  *
- * Towards "decided": in each undecided face, the ends of indeterminate pairs; where none of them can be narrowed
- * further, all sites of the face, since a blocker may be what keeps a pair open. Sites of the face that are no ends
- * follow one step behind, so that a wide blocker is not left alone while the ends are refined for nothing. In a result
- * that met its cap pairs are missing: all sites of the undecided faces are refined.
+ * Towards "decided": in each undecided face, those ends of indeterminate pairs that are coarsest for their surroundings
+ * (coarse.c); where no end can be narrowed further, the coarsest sites of the face, since a blocker may be what keeps a
+ * pair open. Sites of the face that are no ends follow one step behind, so that a wide blocker is not left alone while
+ * the ends are refined for nothing. In a result that met its cap pairs are missing: all sites of the undecided faces
+ * are refined.
  *
  * Towards "Hausdorff bound 2^-M": the bound is the largest of one number per pair (metric/bounds.c). For legal pairs it
  * is the larger diameter, so every point with a diameter above 2^-M is narrowed; for the others, as above, but only in
@@ -19,6 +20,7 @@
  * Every rule marks a point whenever one that matters can be narrowed, and every mark asks for more than before, up to
  * max_bits: the loop ends. Growth is geometric, so a run asks for at most about twice the bits it needs; with step_bits
  * it is that step instead, for tables of convergence. */
+#include "engine/coarse.h"
 #include "engine/engine.h"
 
 #include "metric/bounds.h"
@@ -75,28 +77,6 @@ void dyd_engine_plan_first(dyd_plan *out, dyd_engine *e, const dyd_engine_option
 
 /* ---- undecided faces ---- */
 
-/* Marks the ends of a pair one step on; *lead becomes the least precision such an end has now, if lower. */
-static void mark_end(int64_t *lead, dyd_plan *plan, const dyd_engine *e, const dyd_pair *pair, bool second,
-                     const dyd_engine_options *o) {
-  dyd_refinable *p = dyd_engine_find(e, second ? pair->j : pair->i);
-  if (!can_narrow(plan, p, o)) return;
-  if (p->bits < *lead) *lead = p->bits;
-  mark(plan, p, grown(p->bits, o), (cause){DYD_REASON_END, pair->i, pair->j}, o);
-}
-
-/* Marks the sites of a face with a precision below `lead`. */
-static dyd_status mark_face(dyd_plan *plan, const dyd_engine *e, size_t f, int64_t lead, const dyd_engine_options *o) {
-  dyd_index_list sites = {0};
-  bool outer;
-  dyd_status status = dyd_delaunay_face(&sites, &outer, e->pd, f);
-  for (size_t k = 0; status >= 0 && k < sites.count; k++) {
-    dyd_refinable *p = dyd_engine_find(e, sites.item[k]);
-    if (can_narrow(plan, p, o) && p->bits < lead) mark(plan, p, grown(p->bits, o), alone(DYD_REASON_BLOCKER, p), o);
-  }
-  dyd_index_list_clear(&sites);
-  return status;
-}
-
 /* Must the pair be refined? m = NULL: always; otherwise when its Hausdorff number is above the goal. */
 static dyd_status pair_matters(bool *out, mpfr_ptr number, dyd_measure *m, const dyd_pair *pair,
                                const dyd_engine_options *o) {
@@ -107,22 +87,104 @@ static dyd_status pair_matters(bool *out, mpfr_ptr number, dyd_measure *m, const
   return status;
 }
 
+/* Removes the pairs that need not be refined. */
+static dyd_status keep_pairs(dyd_pair_list *pairs, mpfr_ptr number, dyd_measure *m, const dyd_engine_options *o) {
+  dyd_status status = DYD_OK;
+  size_t kept = 0;
+  for (size_t k = 0; status >= 0 && k < pairs->count; k++) {
+    bool matters;
+    status = pair_matters(&matters, number, m, &pairs->item[k], o);
+    if (status >= 0 && matters) pairs->item[kept++] = pairs->item[k];
+  }
+  pairs->count = kept;
+  return status;
+}
+
+/* Sites known about as well as the least known one are refined with it: up to twice its bits. */
+static int64_t companions(int64_t least) {
+  return least > INT64_MAX / 4 ? INT64_MAX : 2 * least + 2;
+}
+
+static int64_t lesser(int64_t a, int64_t b) {
+  return a < b ? a : b;
+}
+
+/* The step of a point that is known to `relative` bits of its distances: to twice as many, where these are few of its
+ * bits. Where it meets a neighbour the distance is not known, and all of its bits are doubled. */
+static int64_t next_bits(const dyd_refinable *p, int64_t relative, const dyd_engine_options *o) {
+  if (o->step_bits || relative < 16 || relative > p->bits / 2) return grown(p->bits, o);
+  return raised(p->bits, relative, o->max_bits);
+}
+
+/* Marks the coarsest of the ends of pairs that can be narrowed; *least becomes their relative precision. false: none
+ * can be. */
+static bool mark_ends(int64_t *least, dyd_plan *plan, const dyd_engine *e, const dyd_coarse *c,
+                      const dyd_pair_list *pairs, const dyd_engine_options *o) {
+  bool any = false;
+  *least = INT64_MAX;
+  for (int pass = 0; pass < 2; pass++) {
+    for (size_t k = 0; k < 2 * pairs->count; k++) {
+      const dyd_pair *pair = &pairs->item[k / 2];
+      dyd_refinable *p = dyd_engine_find(e, k % 2 ? pair->j : pair->i);
+      if (!can_narrow(plan, p, o)) continue;
+      int64_t relative = dyd_coarse_bits(c, p->site);
+      any = true;
+      if (pass == 0)
+        *least = lesser(*least, relative);
+      else if (relative <= companions(*least))
+        mark(plan, p, next_bits(p, relative, o), (cause){DYD_REASON_END, pair->i, pair->j}, o);
+    }
+  }
+  return any;
+}
+
+/* Marks the sites of the face that are coarser than the ends; where no end can be narrowed, the coarsest of all. */
+static void mark_blockers(dyd_plan *plan, const dyd_engine *e, const dyd_coarse *c, bool ends, int64_t least,
+                          const dyd_engine_options *o) {
+  int64_t limit = ends ? least - 1 : INT64_MAX;
+  for (int pass = ends ? 1 : 0; pass < 2; pass++) {
+    for (size_t k = 0; k < c->sites.count; k++) {
+      dyd_refinable *p = dyd_engine_find(e, c->sites.item[k]);
+      if (!can_narrow(plan, p, o)) continue;
+      int64_t relative = dyd_coarse_bits(c, p->site);
+      if (pass == 0)
+        limit = lesser(limit, relative);
+      else if (relative <= limit)
+        mark(plan, p, next_bits(p, relative, o), alone(DYD_REASON_BLOCKER, p), o);
+    }
+    if (pass == 0) limit = companions(limit);
+  }
+}
+
+/* Marks all sites of a face whose pairs are not all known. */
+static dyd_status plan_capped(dyd_plan *plan, const dyd_engine *e, size_t f, const dyd_engine_options *o) {
+  dyd_index_list sites = {0};
+  bool outer;
+  dyd_status status = dyd_delaunay_face(&sites, &outer, e->pd, f);
+  for (size_t k = 0; status >= 0 && k < sites.count; k++) {
+    dyd_refinable *p = dyd_engine_find(e, sites.item[k]);
+    if (can_narrow(plan, p, o)) mark(plan, p, grown(p->bits, o), alone(DYD_REASON_BLOCKER, p), o);
+  }
+  dyd_index_list_clear(&sites);
+  return status;
+}
+
 static dyd_status plan_face(dyd_plan *plan, mpfr_ptr number, const dyd_engine *e, size_t f, dyd_measure *m,
                             const dyd_engine_options *o) {
-  bool matters = dyd_delaunay_is_capped(e->pd), any = matters;
-  int64_t lead = INT64_MAX;
+  if (dyd_delaunay_is_capped(e->pd)) return plan_capped(plan, e, f, o);
+  dyd_coarse c = {0};
   dyd_pair_list pairs = {0};
   dyd_status status = dyd_delaunay_face_pairs(&pairs, e->pd, f);
-  for (size_t k = 0; status >= 0 && k < pairs.count; k++) {
-    status = pair_matters(&matters, number, m, &pairs.item[k], o);
-    if (status < 0 || !matters) continue;
-    any = true;
-    mark_end(&lead, plan, e, &pairs.item[k], false, o);
-    mark_end(&lead, plan, e, &pairs.item[k], true, o);
+  if (status >= 0) status = keep_pairs(&pairs, number, m, o);
+  if (status >= 0 && pairs.count) status = dyd_coarse_set(&c, e->pd, f, &pairs);
+  if (status >= 0 && pairs.count) {
+    int64_t least;
+    bool ends = mark_ends(&least, plan, e, &c, &pairs, o);
+    mark_blockers(plan, e, &c, ends, least, o);
   }
+  dyd_coarse_clear(&c);
   dyd_pair_list_clear(&pairs);
-  if (status < 0 || !any) return status;
-  return mark_face(plan, e, f, dyd_delaunay_is_capped(e->pd) ? INT64_MAX : lead, o);
+  return status;
 }
 
 static dyd_status plan_faces(dyd_plan *plan, const dyd_engine *e, dyd_measure *m, const dyd_engine_options *o) {

@@ -133,7 +133,7 @@ def test_a_point_that_fails_later():
         command = ('--oracle', f'{sys.executable} {path}')
         result = run('converge', '--no-times', '--trace', trace, *command)
         expect(result, 1, 'outcome error(.*\n)+3,', 'point [0-3]: (.*\n)*.*a point failed; this much was known before')
-        expect(run('delaunay', *command), 1, '0,2,indeterminate', 'point [0-3]: ')
+        expect(run('delaunay', '--start-bits', '20', *command), 1, '0,2,indeterminate', 'point [0-3]: ')
         expect(run('converge', '--replay', trace, '--no-times'), 1, re.escape(result.out), r'\A\Z')
 
 
