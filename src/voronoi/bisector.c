@@ -252,9 +252,10 @@ static bool clip_across(dyd_elementary *a, dyd_surd_point *p, int side) {
   return true;
 }
 
-/* Sets the ends; false: no arc of positive length. */
+/* Sets the ends and `point`; false: nothing in the cell. */
 static bool clip(dyd_elementary *a, dyd_surd_point *p, int side) {
   a->end[0].infinite = a->end[1].infinite = true;
+  a->point = false;
   for (int e = 0; e < 2; e++) {
     mpz_srcptr bound = e ? a->hi[a->axis] : a->lo[a->axis];
     if (!bound) continue;
@@ -263,7 +264,9 @@ static bool clip(dyd_elementary *a, dyd_surd_point *p, int side) {
   }
   if (!clip_across(a, p, side)) return false;
   if (a->end[0].infinite || a->end[1].infinite) return true;
-  return dyd_surd_point_cmp(&a->end[0].at, &a->end[1].at, a->axis) < 0;
+  int order = dyd_surd_point_cmp(&a->end[0].at, &a->end[1].at, a->axis);
+  a->point = order == 0;
+  return order <= 0;
 }
 
 /* ---- arcs ---- */

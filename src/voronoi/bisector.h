@@ -10,9 +10,10 @@ enum { DYD_CURVE_ARCS = 16 };
 
 /* { c in the cell lo .. hi (NULL: no bound) : |c - s| = distance to q }, q a corner, or the line of coordinate
  * q[1 - axis] (q[axis] = NULL). The coordinate `axis` is strictly monotone along the arc; end[0] is its lower end.
- * direction = 1: C_ab is on the left when that coordinate grows. shape: the same in doubles. */
+ * direction = 1: C_ab is on the left when that coordinate grows. shape: the same in doubles. point: the arc is one
+ * point, at which the curve touches the border of the cell. */
 typedef struct dyd_elementary {
-  bool parabola;
+  bool parabola, point;
   int axis, direction, branch;
   dyd_feature_kind corner, feature;
   mpz_srcptr s[2], q[2], lo[2], hi[2];
@@ -20,7 +21,7 @@ typedef struct dyd_elementary {
   dyd_spot end[2];
 } dyd_elementary;
 
-/* Invariant: arc[0 .. count) have positive length and meet in end points only; together they are the boundary of C_ab
+/* Invariant: arc[0 .. count) meet in end points only; together they are the boundary of C_ab
  * (within the window, if there is one). All numbers are borrowed from the rectangles, and from middle. */
 typedef struct dyd_curve {
   mpz_t middle[2];

@@ -180,6 +180,7 @@ static bool is_kept(dyd_exact_cell *c, const dyd_elementary *a, size_t j) {
 
 static dyd_status arc_pieces(dyd_exact_cell *c, size_t j, const dyd_elementary *a) {
   size_t count;
+  if (a->point) return DYD_OK;
   dyd_status st = find_cuts(c, &count, a, j);
   if (st != DYD_OK) return st;
   count = dyd_cell_sort_cuts(c->cut, count, a->axis);

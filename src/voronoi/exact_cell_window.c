@@ -2,9 +2,10 @@
 /* The sides of the window inside a region.
  *
  * Inside W the boundary of the region consists of pieces of the curves, and of points at which a curve touches W from
- * outside. So along a side the region can begin or end only at an end of an arc on that side. Between two such ends a
- * sample decides; a stretch that lies on the boundary of the region itself is no piece of the window (the curve's arc
- * is one, if it has the region on the side of W). */
+ * outside. So along a side the region can begin or end only at an end of an arc on that side (arcs that are one point
+ * included, so that no sample meets a touching point). Between two such ends a sample decides; a stretch that lies on
+ * the boundary of the region itself is no piece of the window (the curve's arc is one, if it has the region on the side
+ * of W). */
 #include "voronoi/exact_cell.h"
 
 /* Adds s if it lies strictly inside the side. */

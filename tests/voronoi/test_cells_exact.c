@@ -6,7 +6,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-#include "voronoi/region.h"
+#include "voronoi/region_oracle.h"
 #include <cmocka.h>
 #include <dyadel/voronoi.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Crossing counts, samples and literal definitions in the oracle's rationals and a + b sqrt(c). */
-#include "voronoi/region.h"
+#include "voronoi/region_oracle.h"
 
 static mpq_srcptr quotient(orc_pool *p, const mpz_t a, const mpz_t d) {
   mpq_ptr q = orc_new(p);
