@@ -27,7 +27,8 @@ typedef enum dyd_format {
   DYD_FORMAT_WKT,
   DYD_FORMAT_GEOJSON,
   DYD_FORMAT_OBJ,
-  DYD_FORMAT_SVG
+  DYD_FORMAT_SVG,
+  DYD_FORMAT_VTK
 } dyd_format;
 /* Finds a format by its name ("csv"); false when there is none. */
 DYD_API bool dyd_format_from_name(dyd_format *out, const char *name);
@@ -36,6 +37,17 @@ DYD_API const char *dyd_format_name(dyd_format format);
 
 /* Writes the current result of e. DYD_E_ARG when e has none; DYD_E_IO when a write fails. */
 DYD_API dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err);
+
+typedef struct dyd_voronoi_options {
+  const dyd_rect *window; /* dyadic ends, positive area; NULL: dyd_voronoi_window */
+  int64_t flatten_bits;   /* polygons within 2^-flatten_bits of their cells */
+  bool flatten_set;       /* false: a choice that suits the mean size of cells */
+} dyd_voronoi_options;
+
+/* Writes the Voronoi diagram of the current result of e: csv, json, wkt, geojson, vtk (else DYD_E_ARG). o may be NULL.
+ * DYD_CAPPED when neighbours are missing since the cap on pairs was met. */
+DYD_API dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_options *o, dyd_format format,
+                                     dyd_error *err);
 
 /* Writes a table of convergence: DYD_FORMAT_CSV or DYD_FORMAT_JSON (else DYD_E_ARG). Bounds and widths are rounded up,
  * and the output says so. times = false leaves the seconds out: then equal runs give equal bytes. */
@@ -60,7 +72,8 @@ DYD_API dyd_status dyd_plot_convergence(FILE *out, const dyd_convergence *c, con
 typedef struct dyd_trace dyd_trace;
 
 /* Begins a trace of a run of e (not run before) with these options. `out` is borrowed until dyd_trace_end. */
-DYD_API dyd_status dyd_trace_new(dyd_trace **trace, FILE *out, const dyd_engine *e, const dyd_engine_options *options);
+DYD_API dyd_status dyd_trace_new(dyd_trace **trace, FILE *out, const dyd_engine *e, const dyd_engine_options *options,
+                                 const dyd_converge_options *converge);
 /* For dyd_engine_options.trace and dyd_converge_options.stage; user is the dyd_trace. */
 DYD_API void dyd_trace_step(const dyd_step *step, void *trace);
 DYD_API void dyd_trace_stage(const dyd_stage_row *row, const dyd_delaunay *pd, void *trace);
@@ -70,7 +83,8 @@ DYD_API dyd_status dyd_trace_end(dyd_trace *trace, dyd_outcome outcome, dyd_erro
 /* Puts the rectangles of a trace into a table of sites and triangulates after each stage, as the run did. *out, given
  * cleared, receives a row per stage as dyd_converge_run makes it (seconds 0), and keeps those made before a failure.
  * DYD_E_PARSE with line and message when the trace is not of its form, ends early, names a rectangle that is not inside
- * the one before, or tells of other statuses than the replay finds. converge and err may be NULL. */
+ * the one before, or tells of other statuses than the replay finds. Window and no_voronoi come from the trace; the
+ * callback of converge is called. converge and err may be NULL. */
 DYD_API dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_options *converge,
                                     dyd_error *err);
 

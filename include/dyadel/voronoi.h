@@ -67,6 +67,16 @@ DYD_API dyd_status dyd_voronoi_outer_polygon(dyd_polygon_list *out, const dyd_de
  * one. DYD_E_ARG when t is not a sure triangle of pd. */
 DYD_API dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_triangle *t, int64_t bits);
 
+/* The default window: the bounding box of the sites enlarged by half its size (a quarter of it on each side; by 1 where
+ * it has none). DYD_E_RANGE when that leaves the doubles. */
+DYD_API dyd_status dyd_voronoi_window(dyd_rect *out, const dyd_sites *sites);
+
+/* A rectangle that holds, for every choice, all Voronoi vertices in the window that come from triangles of the
+ * undecided face f (0 <= f < dyd_delaunay_undecided_faces): *any = false when there are none, and out is unchanged
+ * [REGION-1]. O(pairs of the face). */
+DYD_API dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaunay *pd, size_t f,
+                                      const dyd_rect *window);
+
 /* ---- nearest sites ---- */
 
 /* Which sites are possibly nearest to c (ds_i(c) <= min_k dl_k(c)), ascending; *sure is true when one site is
@@ -78,13 +88,20 @@ DYD_API dyd_status dyd_nearest_rect(dyd_index_list *out, bool *sure, const dyd_d
 
 /* ---- convex hull ---- */
 
-/* Status of the convex hull of the sites, since the ghost vertex is one of the vertices of the triangulation. */
+/* Status of the convex hull of the sites, since the ghost vertex is one of the vertices of the triangulation. As for
+ * pairs, what is possible is closed and what is sure is open: an exact point in the middle of a side of the hull is
+ * possible, not sure, and its pairs on that side are ties. Aliases are not listed. */
 typedef struct dyd_hull {
-  dyd_index_list sure_vertices;     /* on the boundary of the hull for every choice */
-  dyd_index_list possible_vertices; /* on it for some choice, the sure ones included; ascending */
-  dyd_pair_list pairs;              /* possible hull edges, LEGAL: a hull edge for every choice; sorted */
+  dyd_index_list sure_vertices;     /* corners of the hull for every choice; ascending */
+  dyd_index_list possible_vertices; /* on its boundary for some choice, the sure ones included; ascending */
+  /* The pairs ij for which some choice has all points on one closed side of a line through p_i and p_j; sorted. LEGAL:
+   * for every choice all others are strictly on one side (so ij is an edge of the hull). TIE: not LEGAL, and i, j and
+   * all that may be on the line with both are exact. */
+  dyd_pair_list pairs;
 } dyd_hull;
 DYD_API void dyd_hull_clear(dyd_hull *h);
+/* Exact [HST-1] [HST-2]. *out is replaced. DYD_CAPPED: more pairs than the cap of pd; `pairs` is empty then, the rest
+ * is complete. O(h log h + pairs), h the sites on the skeleton's hull or in unbounded undecided faces. */
 DYD_API dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd);
 
 #ifdef __cplusplus

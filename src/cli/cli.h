@@ -45,7 +45,7 @@ typedef struct cli_options {
   bool seed_set;
   unsigned schedules; /* 0: default */
   bool start_set;     /* engine.start_bits was given */
-  bool no_times;
+  bool no_times, no_voronoi;
   bool stats, quiet, version;
   const char *help; /* "" (--help), or the kind of --help=KIND */
 } cli_options;
@@ -61,6 +61,7 @@ bool cli_window_read(dyd_rect *out, const char *text);
 
 /* One function for each command, in a file of its own; returns the exit status. */
 int cli_delaunay(const cli_options *o);
+int cli_voronoi(const cli_options *o);
 int cli_converge(const cli_options *o);
 int cli_verify(const cli_options *o);
 

@@ -27,9 +27,17 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                       "in the rectangles are), indeterminate (an edge for some choice), a tie (as\n"
                       "indeterminate, but no refinement can decide it), or not listed (never an edge).",
                       FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | FORMAT(DYD_FORMAT_WKT) |
-                          FORMAT(DYD_FORMAT_GEOJSON) | FORMAT(DYD_FORMAT_OBJ) | FORMAT(DYD_FORMAT_SVG),
+                          FORMAT(DYD_FORMAT_GEOJSON) | FORMAT(DYD_FORMAT_OBJ) | FORMAT(DYD_FORMAT_SVG) |
+                          FORMAT(DYD_FORMAT_VTK),
                       cli_delaunay},
-    [CLI_VORONOI] = {.name = "voronoi", .operands = "FILE"},
+    [CLI_VORONOI] = {"voronoi", "FILE", "the cells of the points on a window, with certified bounds",
+                     "Voronoi diagram of the points on a window: for each point the part of the window that\n"
+                     "is surely and the part that is possibly nearest to it, the vertices that are sure with\n"
+                     "enclosures, and bounds of what is undetermined. The goals area:M and hausdorff:M of\n"
+                     "--until are those of the diagram.",
+                     FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | FORMAT(DYD_FORMAT_WKT) |
+                         FORMAT(DYD_FORMAT_GEOJSON) | FORMAT(DYD_FORMAT_VTK),
+                     cli_voronoi},
     [CLI_CONVERGE] = {"converge", "FILE", "a run stage by stage, as a table",
                       "The run of delaunay, with one line for each stage: precision asked for, widths,\n"
                       "statuses, bounds of what is open, decisions, calls of points, seconds. The first\n"
@@ -106,6 +114,8 @@ const cli_option cli_option_table[] = {
      "write which point was narrowed to what, and why", AT(trace)},
     {"replay", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "repeat a trace, which stands for the points",
      AT(replay)},
+    {"no-voronoi", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
+     "no bounds of the Voronoi diagram (they take long)", AT(no_voronoi)},
     {"no-times", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
      "leave seconds out: equal runs give equal bytes", AT(no_times)},
     {"seed", 0, "S", CLI_INTEGER, BIT(CLI_CHECK), CLI_EXPERIMENTS, "seed of random choices; printed", AT(seed),

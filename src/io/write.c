@@ -13,7 +13,8 @@ static const struct {
   dyd_write_fn write;
 } formats[] = {[DYD_FORMAT_CSV] = {"csv", dyd_write_csv}, [DYD_FORMAT_JSON] = {"json", dyd_write_json},
                [DYD_FORMAT_WKT] = {"wkt", dyd_write_wkt}, [DYD_FORMAT_GEOJSON] = {"geojson", dyd_write_geojson},
-               [DYD_FORMAT_OBJ] = {"obj", dyd_write_obj}, [DYD_FORMAT_SVG] = {"svg", dyd_write_svg}};
+               [DYD_FORMAT_OBJ] = {"obj", dyd_write_obj}, [DYD_FORMAT_SVG] = {"svg", dyd_write_svg},
+               [DYD_FORMAT_VTK] = {"vtk", dyd_write_vtk}};
 #define FORMATS (sizeof formats / sizeof *formats)
 
 bool dyd_format_from_name(dyd_format *out, const char *name) {

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* dyadel voronoi FILE: read, run to the goal on a window, write the diagram. */
+#include "cli.h"
+
+/* The goals of --until, for the diagram in place of the triangulation. */
+static dyd_goal voronoi_goal(dyd_goal goal) {
+  if (goal == DYD_GOAL_AREA) return DYD_GOAL_VORONOI_AREA;
+  return goal == DYD_GOAL_HAUSDORFF ? DYD_GOAL_VORONOI_HAUSDORFF : goal;
+}
+
+/* The window given, or the default one, which needs to know where the points are: *s has to have run a first stage
+ * then. 0, or an exit status after a message. */
+static int find_window(dyd_rect *out, const cli_session *s) {
+  if (s->options->window) return cli_window_read(out, s->options->window) ? 0 : CLI_USAGE;
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
+  if (!pd || dyd_voronoi_window(out, dyd_delaunay_sites(pd)) >= 0) return 0;
+  cli_complain("the points span more than doubles hold; give --window XLO,XHI,YLO,YHI");
+  return CLI_FAILED;
+}
+
+/* Does the run go on after the stage that only shows where the points are? */
+static bool goes_on(const dyd_engine *e) {
+  dyd_engine_counters c;
+  dyd_engine_get_counters(&c, e);
+  return dyd_engine_outcome(e) != DYD_OUTCOME_CANCELLED && dyd_engine_delaunay(e) &&
+         !(dyd_engine_outcome(e) == DYD_OUTCOME_BUDGET && c.spent == DYD_BUDGET_SECONDS);
+}
+
+static int run(cli_session *s, dyd_rect *window, const dyd_engine_options *options) {
+  dyd_engine_options first = *options;
+  int status = 0;
+  first.goal = DYD_GOAL_DECIDED;
+  first.max_stages = 1;
+  if (!s->options->window) status = cli_session_run(s, &first);
+  if (!status) status = find_window(window, s);
+  if (status || (!s->options->window && !goes_on(s->engine))) return status;
+  return cli_session_run(s, options);
+}
+
+static dyd_status write_voronoi(FILE *out, const dyd_engine *e, const cli_options *o, dyd_error *err) {
+  dyd_voronoi_options options = {.flatten_bits = o->flatten_bits, .flatten_set = o->flatten_set};
+  options.window = o->engine.window;
+  return dyd_write_voronoi(out, e, &options, o->format, err);
+}
+
+int cli_voronoi(const cli_options *o) {
+  cli_session s;
+  cli_options own = *o; /* with the window read */
+  dyd_rect window;
+  dyd_rect_init(&window);
+  own.engine.goal = voronoi_goal(o->engine.goal);
+  own.engine.window = &window;
+  int status = cli_session_open(&s, &own);
+  if (!status) status = run(&s, &window, &own.engine);
+  if (status != CLI_USAGE && dyd_engine_delaunay(s.engine)) {
+    int written = cli_session_write(&s, write_voronoi);
+    if (!status) status = written;
+  }
+  status = cli_session_close(&s, status);
+  dyd_rect_clear(&window);
+  return status;
+}

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Exact boundaries as JSON. */
+#ifndef DYD_IO_ARC_JSON_H
+#define DYD_IO_ARC_JSON_H
+
+#include <dyadel/arc.h>
+#include <stdio.h>
+
+/* {"x": {"a": "..", "b": "..", "c": "..", "d": ".."}, ...}: the point (a + b sqrt(c)) / d with integers, and its
+ * decimal enclosure. */
+dyd_status dyd_surd_point_json(FILE *out, const dyd_surd_point *p);
+/* {"whole": .., "chains": [{"closed": .., "arcs": [..]}]}. */
+dyd_status dyd_boundary_json(FILE *out, const dyd_boundary *b);
+
+#endif

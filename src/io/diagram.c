@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The Voronoi diagram to be written: its window, vertices, cells and bounds. */
+#include "io/diagram.h"
+
+#include "base/alloc.h"
+#include "base/error.h"
+#include "metric/bounds.h"
+#include "voronoi/filter_vertex.h"
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+static const struct {
+  dyd_format format;
+  dyd_diagram_write_fn write;
+} formats[] = {{DYD_FORMAT_CSV, dyd_write_voronoi_csv},
+               {DYD_FORMAT_JSON, dyd_write_voronoi_json},
+               {DYD_FORMAT_WKT, dyd_write_voronoi_wkt},
+               {DYD_FORMAT_GEOJSON, dyd_write_voronoi_geojson},
+               {DYD_FORMAT_VTK, dyd_write_voronoi_vtk}};
+#define FORMATS (sizeof formats / sizeof *formats)
+
+/* ---- cells ---- */
+
+static void grow(double box[4], double xlo, double xhi, double ylo, double yhi) {
+  box[0] = fmin(box[0], xlo);
+  box[1] = fmax(box[1], xhi);
+  box[2] = fmin(box[2], ylo);
+  box[3] = fmax(box[3], yhi);
+}
+
+static void find_box(dyd_cell_row *row, const dyd_shape *s, const double window[4]) {
+  double *b = row->box;
+  b[0] = b[2] = INFINITY;
+  b[1] = b[3] = -INFINITY;
+  for (uint32_t k = 0; s->in_doubles && k < s->outer_count; k++)
+    grow(b, s->outer[k].x, s->outer[k].x, s->outer[k].y, s->outer[k].y);
+  for (size_t p = 0; !s->in_doubles && p < s->outer_exact.count; p++)
+    for (size_t k = 0; k < s->outer_exact.item[p].count; k++) {
+      const dyd_point *z = &s->outer_exact.item[p].vertex[k];
+      grow(b, dyd_dyadic_get_d(&z->x, DYD_DOWN), dyd_dyadic_get_d(&z->x, DYD_UP), dyd_dyadic_get_d(&z->y, DYD_DOWN),
+           dyd_dyadic_get_d(&z->y, DYD_UP));
+    }
+  row->present = b[0] <= b[1];
+  b[0] = fmax(b[0], window[0]);
+  b[1] = fmin(b[1], window[1]);
+  b[2] = fmax(b[2], window[2]);
+  b[3] = fmin(b[3], window[3]);
+}
+
+/* Bounds of everything, after all cells have been added. */
+static dyd_status find_bounds(dyd_diagram *d, const dyd_voronoi_sums *sums) {
+  dyd_pair_list pairs = {0};
+  mpfr_t x;
+  mpfr_init2(x, DYD_MEASURE_PREC);
+  dyd_status status = dyd_delaunay_pairs(&pairs, d->pd);
+  dyd_voronoi_area(x, sums);
+  if (status >= 0) status = dyd_bound_to_dyadic(&d->bounds.area, x);
+  if (status >= 0) status = dyd_voronoi_hausdorff(x, &d->bounds.finite, sums, &pairs);
+  if (status >= 0) status = dyd_bound_to_dyadic(&d->bounds.hausdorff, x);
+  mpfr_clear(x);
+  dyd_pair_list_clear(&pairs);
+  return status;
+}
+
+dyd_status dyd_diagram_visit(dyd_diagram *d, dyd_cell_visit visit, void *context) {
+  dyd_voronoi_sums sums;
+  dyd_shape shape = {0};
+  dyd_window w;
+  double window[4];
+  dyd_interval_get_d(&window[0], &window[1], &d->window.x);
+  dyd_interval_get_d(&window[2], &window[3], &d->window.y);
+  dyd_status status = dyd_window_init(&w, &d->window);
+  if (status < 0) return status;
+  status = dyd_voronoi_sums_init(&sums, d->pd, &d->window);
+  for (size_t i = 0; i < d->count && status >= 0; i++) {
+    dyd_cell_row row;
+    if (dyd_delaunay_alias(d->pd, (uint32_t)i) != i) continue;
+    status = dyd_shape_find(&shape, d->pd, (uint32_t)i, &w, d->bits);
+    if (status >= 0) status = dyd_voronoi_sums_add(row.area, &sums, (uint32_t)i, &shape);
+    if (status < 0) break;
+    find_box(&row, &shape, window);
+    if (visit) status = visit(context, (uint32_t)i, &shape, &row);
+  }
+  if (status >= 0) status = find_bounds(d, &sums);
+  dyd_voronoi_sums_clear(&sums);
+  dyd_shape_clear(&shape);
+  return status;
+}
+
+/* ---- vertices ---- */
+
+static dyd_status find_vertex(double out[4], const dyd_diagram *d, const dyd_triangle *t, int64_t bits) {
+  uint32_t v[3] = {d->pd->vertex[t->v[0]], d->pd->vertex[t->v[1]], d->pd->vertex[t->v[2]]};
+  dyd_bbox b;
+  if (dyd_filter_vertex(&b, d->pd, v)) {
+    for (int k = 0; k < 4; k++) out[k] = b.e[k];
+    return DYD_OK;
+  }
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status status = dyd_voronoi_vertex(&r, d->pd, t, bits);
+  dyd_interval_get_d(&out[0], &out[1], &r.x);
+  dyd_interval_get_d(&out[2], &out[3], &r.y);
+  if (status < 0) {
+    out[0] = out[2] = -INFINITY;
+    out[1] = out[3] = INFINITY;
+  }
+  dyd_rect_clear(&r);
+  return status == DYD_E_RANGE ? DYD_OK : status;
+}
+
+static dyd_status find_vertices(dyd_diagram *d) {
+  dyd_status status = dyd_delaunay_triangles(&d->triangles, d->pd);
+  if (status < 0) return status;
+  d->vertex = dyd_alloc(d->triangles.count, sizeof *d->vertex);
+  if (!d->vertex) return DYD_E_NOMEM;
+  for (size_t k = 0; k < d->triangles.count && status >= 0; k++)
+    status = find_vertex(d->vertex[k], d, &d->triangles.item[k], d->bits > 64 ? d->bits : 64);
+  return status;
+}
+
+/* ---- all ---- */
+
+static dyd_status find_window(dyd_diagram *d, const dyd_rect *given, dyd_error *err) {
+  if (given) {
+    dyd_window w;
+    dyd_rect_set(&d->window, given);
+    if (dyd_window_init(&w, given) >= 0) return DYD_OK;
+    return dyd_fail(err, DYD_E_ARG, "the window has to have positive area and dyadic ends");
+  }
+  if (dyd_voronoi_window(&d->window, d->sites) >= 0) return DYD_OK;
+  return dyd_fail(err, DYD_E_RANGE, "the points span more than doubles hold; give a window (--window)");
+}
+
+/* Fine enough for the eye, and for the goal on the area where there was one. */
+static int64_t default_bits(const dyd_diagram *d) {
+  int64_t goal_bits, bits = dyd_metric_coarseness(d->pd, &d->window) + 4;
+  if (dyd_engine_goal(&goal_bits, d->engine) != DYD_GOAL_VORONOI_AREA) return bits;
+  int64_t fine = dyd_metric_flattening(d->pd, &d->window, goal_bits) + 8;
+  return fine > bits ? fine : bits;
+}
+
+static dyd_status write(dyd_diagram *d, const dyd_voronoi_options *o, dyd_format format, dyd_error *err) {
+  dyd_status status = find_window(d, o ? o->window : NULL, err);
+  if (status < 0) return status;
+  d->bits = o && o->flatten_set ? o->flatten_bits : default_bits(d);
+  status = find_vertices(d);
+  if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
+  for (size_t k = 0; k < FORMATS; k++)
+    if (formats[k].format == format) return formats[k].write(d, err);
+  return dyd_fail(err, DYD_E_ARG, "the diagram cannot be written as %s",
+                  dyd_format_name(format) ? dyd_format_name(format) : "this format");
+}
+
+dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_options *o, dyd_format format,
+                             dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  const dyd_delaunay *pd = dyd_engine_delaunay(e);
+  if (!pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
+  if (dyd_delaunay_is_capped(pd))
+    return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise --max-pairs");
+  dyd_diagram d = {.out = out, .engine = e, .pd = pd, .sites = dyd_delaunay_sites(pd)};
+  d.count = dyd_sites_count(d.sites);
+  dyd_rect_init(&d.window);
+  dyd_voronoi_bounds_init(&d.bounds);
+  dyd_status status = write(&d, o, format, err);
+  dyd_voronoi_bounds_clear(&d.bounds);
+  dyd_rect_clear(&d.window);
+  dyd_triangle_list_clear(&d.triangles);
+  free(d.vertex);
+  if (status < 0) return status;
+  if (fflush(out) != 0 || ferror(out))
+    return dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno ? errno : EIO));
+  return DYD_OK;
+}

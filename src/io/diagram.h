@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What the writers of the Voronoi diagram share. */
+#ifndef DYD_IO_DIAGRAM_H
+#define DYD_IO_DIAGRAM_H
+
+#include "io/decimal.h"
+#include "metric/voronoi_bounds.h"
+#include <dyadel/io.h>
+
+/* One cell: bounds of its areas in W and the box of Pos_i n W, all rounded outward. Invariant: present = Pos_i may meet
+ * W. */
+typedef struct dyd_cell_row {
+  double area[2], box[4];
+  bool present;
+} dyd_cell_row;
+
+/* All borrowed but the lists and bounds. */
+typedef struct dyd_diagram {
+  FILE *out;
+  const dyd_engine *engine;
+  const dyd_delaunay *pd;
+  const dyd_sites *sites;
+  size_t count;
+  dyd_rect window;
+  int64_t bits; /* polygons are within 2^-bits of their cells */
+  dyd_triangle_list triangles;
+  double (*vertex)[4]; /* enclosures of their Voronoi vertices; infinite ends: not known in doubles */
+  dyd_voronoi_bounds bounds;
+} dyd_diagram;
+
+/* Called for every site that stands for itself, in order. */
+typedef dyd_status (*dyd_cell_visit)(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row);
+/* Makes the polygons of all cells once, shows them to `visit` (may be NULL), and finds the bounds. */
+dyd_status dyd_diagram_visit(dyd_diagram *d, dyd_cell_visit visit, void *context);
+
+typedef dyd_status (*dyd_diagram_write_fn)(dyd_diagram *d, dyd_error *err);
+dyd_status dyd_write_voronoi_csv(dyd_diagram *d, dyd_error *err);
+dyd_status dyd_write_voronoi_json(dyd_diagram *d, dyd_error *err);
+dyd_status dyd_write_voronoi_wkt(dyd_diagram *d, dyd_error *err);
+dyd_status dyd_write_voronoi_geojson(dyd_diagram *d, dyd_error *err);
+dyd_status dyd_write_voronoi_vtk(dyd_diagram *d, dyd_error *err);
+
+#endif

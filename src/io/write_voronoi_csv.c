@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The csv format of the Voronoi diagram: cells with areas, vertices with enclosures, undecided regions. */
+#include "base/alloc.h"
+#include "base/error.h"
+#include "io/diagram.h"
+#include <math.h>
+
+static void put(FILE *out, double x, dyd_round dir) {
+  char text[DYD_DECIMAL_SIZE] = "";
+  if (isfinite(x)) dyd_decimal_directed(text, x, 17, dir);
+  fputc(',', out);
+  fputs(text, out);
+}
+
+static void put_box(FILE *out, const double b[4]) {
+  for (int k = 0; k < 4; k++) put(out, b[k], k & 1 ? DYD_UP : DYD_DOWN);
+}
+
+static dyd_status keep_row(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
+  (void)shape;
+  dyd_cell_row *rows = context;
+  rows[i] = *row;
+  return DYD_OK;
+}
+
+static dyd_status write_exact(FILE *out, const char *name, const dyd_dyadic *x) {
+  char *text = dyd_dyadic_get_str(x);
+  if (!text) return DYD_E_NOMEM;
+  fprintf(out, "%s%s", name, text);
+  free(text);
+  return DYD_OK;
+}
+
+static dyd_status write_head(const dyd_diagram *d) {
+  FILE *out = d->out;
+  for (size_t i = 0; i < d->count; i++) {
+    uint32_t of = dyd_delaunay_alias(d->pd, (uint32_t)i);
+    if (of != i) fprintf(out, "# alias %zu %u\n", i, (unsigned)of);
+  }
+  dyd_status status = write_exact(out, "# window ", &d->window.x.lo);
+  if (status >= 0) status = write_exact(out, " ", &d->window.x.hi);
+  if (status >= 0) status = write_exact(out, " ", &d->window.y.lo);
+  if (status >= 0) status = write_exact(out, " ", &d->window.y.hi);
+  fputs("\n# undetermined_area", out);
+  put(out, dyd_dyadic_get_d(&d->bounds.area, DYD_UP), DYD_UP);
+  fputs("\n# distance_to_true_diagram", out);
+  put(out, d->bounds.finite ? dyd_dyadic_get_d(&d->bounds.hausdorff, DYD_UP) : INFINITY, DYD_UP);
+  fputs("\n# rounding: lo down, hi up, bounds up; empty: unbounded or beyond doubles\n"
+        "type,i,j,k,xlo,xhi,ylo,yhi,area_lo,area_hi\n",
+        out);
+  return status;
+}
+
+static void write_cells(const dyd_diagram *d, const dyd_cell_row *rows) {
+  for (size_t i = 0; i < d->count; i++) {
+    if (!rows[i].present) continue;
+    fprintf(d->out, "cell,%zu,,", i);
+    put_box(d->out, rows[i].box);
+    put(d->out, rows[i].area[0], DYD_DOWN);
+    put(d->out, rows[i].area[1], DYD_UP);
+    fputc('\n', d->out);
+  }
+}
+
+static void write_vertices(const dyd_diagram *d) {
+  for (size_t k = 0; k < d->triangles.count; k++) {
+    const uint32_t *v = d->triangles.item[k].v;
+    fprintf(d->out, "vertex,%u,%u,%u", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
+    put_box(d->out, d->vertex[k]);
+    fputs(",,\n", d->out);
+  }
+}
+
+static dyd_status write_regions(const dyd_diagram *d) {
+  dyd_status status = DYD_OK;
+  dyd_rect r;
+  dyd_rect_init(&r);
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(d->pd) && status >= 0; f++) {
+    bool any;
+    double b[4];
+    status = dyd_voronoi_region(&r, &any, d->pd, f, &d->window);
+    if (status < 0 || !any) continue;
+    dyd_interval_get_d(&b[0], &b[1], &r.x);
+    dyd_interval_get_d(&b[2], &b[3], &r.y);
+    fprintf(d->out, "region,%zu,,", f);
+    put_box(d->out, b);
+    fputs(",,\n", d->out);
+  }
+  dyd_rect_clear(&r);
+  return status;
+}
+
+dyd_status dyd_write_voronoi_csv(dyd_diagram *d, dyd_error *err) {
+  dyd_cell_row *rows = calloc(d->count ? d->count : 1, sizeof *rows);
+  if (!rows) return dyd_fail_nomem(err);
+  dyd_status status = dyd_diagram_visit(d, keep_row, rows);
+  if (status >= 0) status = write_head(d);
+  if (status >= 0) {
+    write_cells(d, rows);
+    write_vertices(d);
+    status = write_regions(d);
+  }
+  free(rows);
+  return status < 0 ? dyd_fail(err, status, "%s", dyd_status_text(status)) : DYD_OK;
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The vtk format of the triangulation: legacy polygon data, edges with their status and sure triangles. */
+#include "io/result.h"
+#include <math.h>
+#include <stdlib.h>
+
+static void write_cells(const dyd_result *r, const dyd_triangle_list *triangles) {
+  FILE *out = r->out;
+  fprintf(out, "LINES %zu %zu\n", r->pairs.count, 3 * r->pairs.count);
+  for (size_t k = 0; k < r->pairs.count; k++)
+    fprintf(out, "2 %u %u\n", (unsigned)r->pairs.item[k].i, (unsigned)r->pairs.item[k].j);
+  fprintf(out, "POLYGONS %zu %zu\n", triangles->count, 4 * triangles->count);
+  for (size_t k = 0; k < triangles->count; k++) {
+    const uint32_t *v = triangles->item[k].v;
+    fprintf(out, "3 %u %u %u\n", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
+  }
+  fprintf(out, "CELL_DATA %zu\nSCALARS status int 1\nLOOKUP_TABLE default\n", r->pairs.count + triangles->count);
+  for (size_t k = 0; k < r->pairs.count; k++) fprintf(out, "%d\n", (int)r->pairs.item[k].status);
+  for (size_t k = 0; k < triangles->count; k++) fprintf(out, "%d\n", (int)DYD_LEGAL);
+}
+
+dyd_status dyd_write_vtk(const dyd_result *r, dyd_error *err) {
+  dyd_place *place = NULL;
+  dyd_triangle_list triangles = {0};
+  double error;
+  char bound[DYD_DECIMAL_SIZE];
+  dyd_status status = dyd_result_places(&place, &error, r, err);
+  if (status >= 0) status = dyd_delaunay_triangles(&triangles, r->pd);
+  if (status >= 0) {
+    dyd_decimal_directed(bound, error, 2, DYD_UP);
+    fprintf(r->out,
+            "# vtk DataFile Version 3.0\ndyadel delaunay, outcome %s; status 1 tie, 2 indeterminate, 3 legal; "
+            "coordinates within %s of their rectangles\nASCII\nDATASET POLYDATA\nPOINTS %zu double\n",
+            dyd_outcome_text(dyd_engine_outcome(r->engine)), bound, r->count);
+    for (size_t i = 0; i < r->count; i++) fprintf(r->out, "%s %s 0\n", place[i].x, place[i].y);
+    write_cells(r, &triangles);
+  }
+  dyd_triangle_list_clear(&triangles);
+  free(place);
+  return status;
+}

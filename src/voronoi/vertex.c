@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Voronoi vertices of sure triangles, and default windows. */
+#include "delaunay/build.h"
+#include "voronoi/filter_vertex.h"
+#include "voronoi/region.h"
+#include <dyadel/voronoi.h>
+
+#include <math.h>
+
+bool dyd_triangle_is_sure(const dyd_delaunay *pd, const dyd_triangle *t, uint32_t v[3]) {
+  if (pd->mesh.collinear) return false;
+  for (int k = 0; k < 3; k++) {
+    if (t->v[k] >= pd->n) return false;
+    v[k] = pd->vertex[t->v[k]];
+  }
+  uint32_t h = dyd_find_edge(pd, v[0], v[1]);
+  if (h == DYD_NONE) return false;
+  uint32_t tri = h >> 2;
+  return pd->mesh.tri[tri].v[dyd_prev(h & 3)] == v[2] && pd->certain[tri] == 7 &&
+         !(pd->faces.of && pd->faces.of[tri] != DYD_NONE);
+}
+
+static dyd_status set_box(dyd_rect *out, const dyd_bbox *b) {
+  return dyd_rect_set_d(out, b->e[0], b->e[1], b->e[2], b->e[3]);
+}
+
+dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_triangle *t, int64_t bits) {
+  uint32_t v[3];
+  dyd_bbox box;
+  if (!dyd_triangle_is_sure(pd, t, v)) return DYD_E_ARG;
+  if (!pd->options.no_filter && bits > -1000 && bits < 1000 && dyd_filter_vertex(&box, pd, v)) {
+    double limit = ldexp(1, (int)-bits);
+    if (box.e[1] - box.e[0] < limit && box.e[3] - box.e[2] < limit) return set_box(out, &box);
+  }
+  dyd_rect r[3];
+  dyd_status status = DYD_OK;
+  for (int k = 0; k < 3; k++) {
+    dyd_rect_init(&r[k]);
+    if (status >= 0) status = dyd_sites_get(&r[k], pd->sites, t->v[k]);
+  }
+  if (status >= 0) status = dyd_partial_centre_enclose(out, &r[0], &r[1], &r[2], bits);
+  for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
+  return status;
+}
+
+/* ---- undecided faces ---- */
+
+dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaunay *pd, size_t f, const dyd_rect *window) {
+  dyd_pair_list pairs = {0};
+  dyd_index_list sites = {0};
+  dyd_bbox box;
+  bool outer;
+  if (f >= dyd_delaunay_undecided_faces(pd)) return DYD_E_ARG;
+  if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
+  dyd_interval_get_d(&box.e[0], &box.e[1], &window->x);
+  dyd_interval_get_d(&box.e[2], &box.e[3], &window->y);
+  dyd_status status = dyd_delaunay_face(&sites, &outer, pd, f);
+  if (status >= 0) status = dyd_delaunay_face_pairs(&pairs, pd, f);
+  if (status >= 0) {
+    *any = dyd_filter_region(&box, pd, &pairs, &sites);
+    if (*any) status = set_box(out, &box);
+  }
+  dyd_index_list_clear(&sites);
+  dyd_pair_list_clear(&pairs);
+  return status;
+}
+
+/* ---- windows ---- */
+
+/* The margin on each side of an extent: a quarter of it; other, or 1, stands in for nothing. */
+static double margin(double lo, double hi, double other) {
+  double size = hi / 4 - lo / 4;
+  return size > 0 ? size : other > 0 ? other : 1;
+}
+
+dyd_status dyd_voronoi_window(dyd_rect *out, const dyd_sites *sites) {
+  double e[4] = {HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL}, b[4];
+  size_t n = dyd_sites_count(sites);
+  for (size_t i = 0; i < n; i++) {
+    dyd_sites_get_d(b, sites, i);
+    for (int k = 0; k < 4; k += 2) {
+      e[k] = dyd_min(e[k], b[k]);
+      e[k + 1] = dyd_max(e[k + 1], b[k + 1]);
+    }
+  }
+  if (!n) e[0] = e[1] = e[2] = e[3] = 0;
+  double mx = margin(e[0], e[1], e[3] / 4 - e[2] / 4), my = margin(e[2], e[3], mx);
+  double w[4] = {e[0] - mx, e[1] + mx, e[2] - my, e[3] + my};
+  for (int k = 0; k < 4; k++)
+    if (!(fabs(w[k]) <= DBL_MAX)) return DYD_E_RANGE;
+  if (!(w[0] < w[1] && w[2] < w[3])) return DYD_E_RANGE;
+  return dyd_rect_set_d(out, w[0], w[1], w[2], w[3]);
+}
