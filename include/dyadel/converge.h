@@ -33,11 +33,16 @@ typedef struct dyd_convergence {
   size_t count, cap;
   dyd_stage_row *row;
   dyd_outcome outcome;
-  dyd_engine_options options; /* as given to the run; callbacks are not to be used */
+  dyd_engine_options options; /* as given to the run, pointers and callbacks aside */
+  dyd_rect *window;           /* of the bounds of V; NULL when there is none */
 } dyd_convergence;
 DYD_API void dyd_convergence_clear(dyd_convergence *c);
 
 typedef struct dyd_converge_options {
+  /* The window of the bounds of V (dyadic ends, positive area), borrowed; NULL: the default window of the sites after
+   * the first stage (dyd_voronoi_window). */
+  const dyd_rect *window;
+  bool no_voronoi; /* leave the bounds of V out: they cost more than the rest of the table */
   /* Called after each row is complete; may be NULL. */
   void (*stage)(const dyd_stage_row *row, const dyd_delaunay *pd, void *user);
   void *stage_user;

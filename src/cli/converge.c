@@ -35,12 +35,13 @@ typedef struct run {
   const cli_options *o;
   dyd_convergence table;
   dyd_trace *trace;
+  dyd_converge_options converge;
 } run;
 
 static dyd_status run_table(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
   run *r = user;
   dyd_engine_options o = *options;
-  dyd_converge_options converge = {0};
+  dyd_converge_options converge = r->converge;
   if (r->trace) {
     o.trace = dyd_trace_step;
     converge.stage = dyd_trace_stage;
@@ -63,7 +64,7 @@ static int end_trace(run *r, cli_output *out) {
 static int run_traced(run *r, cli_session *s, const dyd_engine_options *options) {
   cli_output out;
   if (!cli_output_open(&out, r->o->trace)) return CLI_FAILED;
-  if (dyd_trace_new(&r->trace, out.stream, s->engine, options) < 0) {
+  if (dyd_trace_new(&r->trace, out.stream, s->engine, options, &r->converge) < 0) {
     cli_complain("memory is exhausted; close other programs");
     cli_output_drop(&out);
     return CLI_FAILED;
@@ -75,7 +76,11 @@ static int run_traced(run *r, cli_session *s, const dyd_engine_options *options)
 static int converge(const cli_options *o) {
   cli_session s;
   run r = {.o = o};
+  dyd_rect window;
   dyd_engine_options options = o->engine;
+  dyd_rect_init(&window);
+  if (o->window && cli_window_read(&window, o->window)) r.converge.window = &window;
+  r.converge.no_voronoi = o->no_voronoi;
   if (!o->start_set) options.start_bits = 4;
   int status = cli_session_open(&s, o);
   if (status == 0) {
@@ -84,6 +89,7 @@ static int converge(const cli_options *o) {
     if (status == 0) status = written;
   }
   dyd_convergence_clear(&r.table);
+  dyd_rect_clear(&window);
   return cli_session_close(&s, status);
 }
 

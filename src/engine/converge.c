@@ -32,6 +32,8 @@ static void row_clear(dyd_stage_row *r) {
 void dyd_convergence_clear(dyd_convergence *c) {
   for (size_t k = 0; k < c->count; k++) row_clear(&c->row[k]);
   free(c->row);
+  if (c->window) dyd_rect_clear(c->window);
+  free(c->window);
   *c = (dyd_convergence){0};
 }
 
@@ -144,6 +146,47 @@ static dyd_status measure_bounds(dyd_stage_row *row, const dyd_delaunay *pd) {
   return status < 0 ? status : DYD_OK;
 }
 
+/* ---- the Voronoi diagram ---- */
+
+/* The window, fixed with the first row; out->window stays NULL where the sites have none. */
+static dyd_status set_window(dyd_convergence *out, const dyd_delaunay *pd, const dyd_rect *window) {
+  if (out->window || out->count) return DYD_OK;
+  out->window = malloc(sizeof *out->window);
+  if (!out->window) return DYD_E_NOMEM;
+  dyd_rect_init(out->window);
+  dyd_status status = DYD_OK;
+  if (window)
+    dyd_rect_set(out->window, window);
+  else
+    status = dyd_voronoi_window(out->window, dyd_delaunay_sites(pd));
+  if (status >= 0) return DYD_OK;
+  dyd_rect_clear(out->window);
+  free(out->window);
+  out->window = NULL;
+  return status == DYD_E_NOMEM ? status : DYD_OK;
+}
+
+/* Polygons a good deal finer than the rectangles, so that what is undetermined comes from these. */
+static int64_t flattening(const dyd_stage_row *row) {
+  enum { FINER = 8, EXACT = 64 };
+  const dyd_dyadic *w = &row->width_largest;
+  return dyd_dyadic_sgn(w) == 0 ? EXACT : FINER - (w->exp + (int64_t)mpz_sizeinbase(w->man, 2));
+}
+
+/* Bounds that cannot be had (a capped result, rectangles that all meet, numbers out of range) are left out. */
+static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out, const dyd_delaunay *pd) {
+  dyd_voronoi_bounds b;
+  dyd_voronoi_bounds_init(&b);
+  dyd_status status = dyd_metric_voronoi(&b, pd, out->window, flattening(row), NULL);
+  row->voronoi = status == DYD_OK && b.finite;
+  if (row->voronoi) {
+    dyd_dyadic_swap(&row->v_area, &b.area);
+    dyd_dyadic_swap(&row->v_hausdorff, &b.hausdorff);
+  }
+  dyd_voronoi_bounds_clear(&b);
+  return status == DYD_E_NOMEM ? status : DYD_OK;
+}
+
 static dyd_status measure(dyd_stage_row *row, const dyd_delaunay *pd) {
   dyd_delaunay_count(row->count, pd);
   row->undecided_faces = dyd_delaunay_undecided_faces(pd);
@@ -156,12 +199,15 @@ static dyd_status measure(dyd_stage_row *row, const dyd_delaunay *pd) {
 
 dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const dyd_delaunay *pd,
                                const dyd_converge_options *converge) {
-  (void)converge;
+  static const dyd_converge_options defaults = {0};
+  if (!converge) converge = &defaults;
   if (!dyd_reserve((void **)&out->row, &out->cap, out->count + 1, sizeof *out->row)) return DYD_E_NOMEM;
   dyd_stage_row *r = &out->row[out->count];
   row_init(r);
   r->stage = out->count ? r[-1].stage + 1 : 1;
   dyd_status status = measure(r, pd);
+  if (status >= 0 && !converge->no_voronoi) status = set_window(out, pd, converge->window);
+  if (status >= 0 && out->window) status = measure_voronoi(r, out, pd);
   if (status < 0) {
     row_clear(r);
     return status;
@@ -222,6 +268,10 @@ dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engin
   dyd_engine_options_init(&o);
   if (options) o = *options;
   out->options = o;
+  out->options.window = NULL;
+  out->options.progress = NULL;
+  out->options.trace = NULL;
+  out->options.progress_user = out->options.trace_user = NULL;
   o.progress = record;
   o.progress_user = &r;
   dyd_status status = dyd_engine_run(&out->outcome, e, &o, err);

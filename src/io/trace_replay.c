@@ -20,7 +20,8 @@ typedef struct replay_point {
 /* Invariant: pd = NULL until the first stage is complete; changed holds the `changes` sites narrowed since. */
 typedef struct replay {
   dyd_convergence *out;
-  const dyd_converge_options *converge;
+  dyd_converge_options converge;
+  dyd_rect window; /* that of converge */
   dyd_error *err;
   size_t points;
   replay_point *point;
@@ -84,6 +85,26 @@ static bool get_side(dyd_interval *out, const json_t *line, const char *name) {
 
 /* ---- lines ---- */
 
+/* The window of the bounds of V, when one was given. */
+static bool get_window(replay *r, const json_t *line) {
+  const json_t *list = json_object_get(line, "window");
+  dyd_dyadic end[4];
+  r->converge.no_voronoi = json_is_true(json_object_get(line, "no_voronoi"));
+  if (!list) return true;
+  bool good = json_array_size(list) == 4;
+  for (int k = 0; k < 4; k++) dyd_dyadic_init(&end[k]);
+  for (size_t k = 0; good && k < 4; k++) {
+    const char *text = json_string_value(json_array_get(list, k));
+    good = text && dyd_dyadic_set_str(&end[k], text, NULL) >= 0;
+  }
+  good = good && dyd_interval_set_ends(&r->window.x, &end[0], &end[1]) >= 0 &&
+         dyd_interval_set_ends(&r->window.y, &end[2], &end[3]) >= 0 && !dyd_interval_is_point(&r->window.x) &&
+         !dyd_interval_is_point(&r->window.y);
+  for (int k = 0; k < 4; k++) dyd_dyadic_clear(&end[k]);
+  r->converge.window = &r->window;
+  return good;
+}
+
 static dyd_status read_head(replay *r, const json_t *line) {
   int64_t points, max_pairs;
   int schedule, goal;
@@ -98,8 +119,8 @@ static dyd_status read_head(replay *r, const json_t *line) {
       !get_integer(&o->max_bits, line, "max_bits", INT64_MIN, INT64_MAX) ||
       !get_integer(&max_pairs, line, "max_pairs", 0, INT64_MAX) ||
       !get_word(&schedule, line, "schedule", dyd_trace_schedule, DYD_TRACE_SCHEDULES) ||
-      !get_word(&goal, line, "goal", dyd_trace_goal, DYD_TRACE_GOALS))
-    return bad(r, "the first line lacks a field");
+      !get_word(&goal, line, "goal", dyd_trace_goal, DYD_TRACE_GOALS) || !get_window(r, line))
+    return bad(r, "the first line lacks a field, or has a wrong one");
   o->schedule = (dyd_schedule)schedule;
   o->goal = (dyd_goal)goal;
   o->max_pairs = (size_t)max_pairs;
@@ -189,10 +210,10 @@ static dyd_status finish_stage(replay *r, const json_t *line) {
   dyd_status status = r->pd ? dyd_delaunay_update(r->pd, r->changed, r->changes, &o, r->err) : first_result(r, &o);
   if (status < 0) return status;
   r->changes = 0;
-  status = dyd_convergence_add(&row, r->out, r->pd, r->converge);
+  status = dyd_convergence_add(&row, r->out, r->pd, &r->converge);
   if (status < 0) return dyd_fail(r->err, status, "%s", dyd_status_text(status));
   count_bits(row, r);
-  if (r->converge && r->converge->stage) r->converge->stage(row, r->pd, r->converge->stage_user);
+  if (r->converge.stage) r->converge.stage(row, r->pd, r->converge.stage_user);
   if (agrees(row, line)) return DYD_OK;
   return dyd_fail(r->err, DYD_E_PARSE, "the statuses of this stage are not those that the trace tells of");
 }
@@ -232,11 +253,15 @@ static void replay_clear(replay *r) {
   for (size_t i = 0; i < r->points; i++) dyd_rect_clear(&r->point[i].rect);
   free(r->point);
   free(r->changed);
+  dyd_rect_clear(&r->window);
 }
 
 dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_options *converge, dyd_error *err) {
   dyd_error local;
-  replay r = {.out = out, .converge = converge, .err = err ? err : &local};
+  replay r = {.out = out, .err = err ? err : &local};
+  if (converge) r.converge = *converge;
+  r.converge.window = NULL;
+  dyd_rect_init(&r.window);
   dyd_text text;
   dyd_line line = {0};
   dyd_error_clear(r.err);

@@ -23,16 +23,35 @@ struct dyd_trace {
   dyd_status failed;
 };
 
-static void write_head(const dyd_trace *t, const dyd_engine_options *o) {
+static dyd_status write_window(FILE *out, const dyd_rect *w) {
+  fputs(",\"window\":[", out);
+  const dyd_dyadic *end[] = {&w->x.lo, &w->x.hi, &w->y.lo, &w->y.hi};
+  for (int k = 0; k < 4; k++) {
+    char *text = dyd_dyadic_get_str(end[k]);
+    if (!text) return DYD_E_NOMEM;
+    fprintf(out, "%s\"%s\"", k ? "," : "", text);
+    free(text);
+  }
+  fputs("]", out);
+  return DYD_OK;
+}
+
+static dyd_status write_head(const dyd_trace *t, const dyd_engine_options *o, const dyd_converge_options *c) {
+  dyd_status status = DYD_OK;
   fprintf(t->out,
           "{\"format\":\"" DYD_TRACE_FORMAT
           "\",\"points\":%zu,\"schedule\":\"%s\",\"goal\":\"%s\",\"goal_bits\":%" PRId64 ",\"start_bits\":%" PRId64
-          ",\"step_bits\":%" PRId64 ",\"max_bits\":%" PRId64 ",\"max_pairs\":%zu}\n",
+          ",\"step_bits\":%" PRId64 ",\"max_bits\":%" PRId64 ",\"max_pairs\":%zu",
           t->points, dyd_trace_schedule[o->schedule], dyd_trace_goal[o->goal], o->goal_bits, o->start_bits,
           o->step_bits, o->max_bits, o->max_pairs);
+  if (c && c->no_voronoi) fputs(",\"no_voronoi\":true", t->out);
+  if (c && c->window) status = write_window(t->out, c->window);
+  fputs("}\n", t->out);
+  return status;
 }
 
-dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dyd_engine_options *options) {
+dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dyd_engine_options *options,
+                         const dyd_converge_options *converge) {
   dyd_engine_options o;
   dyd_engine_options_init(&o);
   if (options) o = *options;
@@ -46,7 +65,7 @@ dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dy
     free(t);
     return DYD_E_NOMEM;
   }
-  write_head(t, &o);
+  t->failed = write_head(t, &o, converge);
   *out = t;
   return DYD_OK;
 }

@@ -32,14 +32,30 @@ static void csv_bound(FILE *out, const dyd_dyadic *x, bool known) {
   fprintf(out, ",%s", text);
 }
 
+static const char *const goals[] = {[DYD_GOAL_DECIDED] = "decided",
+                                    [DYD_GOAL_AREA] = "area",
+                                    [DYD_GOAL_HAUSDORFF] = "hausdorff",
+                                    [DYD_GOAL_VORONOI_AREA] = "voronoi area",
+                                    [DYD_GOAL_VORONOI_HAUSDORFF] = "voronoi hausdorff"};
+
 static void csv_goal(FILE *out, const dyd_engine_options *o) {
-  if (o->goal == DYD_GOAL_DECIDED)
-    fputs("decided", out);
-  else
-    fprintf(out, "%s 2^%" PRId64, o->goal == DYD_GOAL_AREA ? "area" : "hausdorff", -o->goal_bits);
+  fputs(goals[o->goal], out);
+  if (o->goal != DYD_GOAL_DECIDED) fprintf(out, " 2^%" PRId64, -o->goal_bits);
 }
 
-static void csv_head(FILE *out, const dyd_convergence *c, bool times) {
+/* The ends of the window, separated by commas, each between `quote`. */
+static dyd_status write_window(FILE *out, const dyd_rect *w, const char *quote) {
+  const dyd_dyadic *end[] = {&w->x.lo, &w->x.hi, &w->y.lo, &w->y.hi};
+  for (int k = 0; k < 4; k++) {
+    char *text = dyd_dyadic_get_str(end[k]);
+    if (!text) return DYD_E_NOMEM;
+    fprintf(out, "%s%s%s%s", k ? "," : "", quote, text, quote);
+    free(text);
+  }
+  return DYD_OK;
+}
+
+static dyd_status csv_head(FILE *out, const dyd_convergence *c, bool times) {
   const dyd_engine_options *o = &c->options;
   fprintf(out, "# schedule %s; goal ", schedule_text(o->schedule));
   csv_goal(out, o);
@@ -49,6 +65,12 @@ static void csv_head(FILE *out, const dyd_convergence *c, bool times) {
   else
     fputs("geometric growth", out);
   fprintf(out, "; at most %" PRId64 " bits; outcome %s\n", o->max_bits, dyd_outcome_text(c->outcome));
+  dyd_status status = DYD_OK;
+  if (c->window) {
+    fputs("# v_area and v_hausdorff are of the Voronoi diagram on the window ", out);
+    status = write_window(out, c->window, "");
+    fputs("\n", out);
+  }
   fputs("# widths, areas and Hausdorff distances are upper bounds, decimals rounded up; empty: not known\n"
         "# bits, decisions (filter, integer, exact) and calls are counted from the start; statuses is a digest of all "
         "pairs with their statuses\n",
@@ -59,6 +81,7 @@ static void csv_head(FILE *out, const dyd_convergence *c, bool times) {
           "stage,bits_least,bits_most,bits_total,width_largest,width_median,possible,legal,indeterminate,tie,faces,"
           "area,hausdorff,v_area,v_hausdorff,filter,integer,exact,calls,statuses%s\n",
           times ? ",seconds" : "");
+  return status;
 }
 
 static void csv_row(FILE *out, const dyd_stage_row *r, bool times) {
@@ -105,18 +128,26 @@ static dyd_status json_bounds(FILE *out, const dyd_stage_row *r) {
   return status;
 }
 
-static void json_head(FILE *out, const dyd_convergence *c) {
+static dyd_status json_head(FILE *out, const dyd_convergence *c) {
   const dyd_engine_options *o = &c->options;
-  static const char *const goal[] = {
-      [DYD_GOAL_DECIDED] = "decided", [DYD_GOAL_AREA] = "area", [DYD_GOAL_HAUSDORFF] = "hausdorff"};
   fprintf(
       out,
       "{\"format\": \"dyadel converge 1\",\n\"version\": \"%s\",\n\"rounding\": \"widths and bounds are upper bounds; "
       "exact is exact, decimal is rounded up; null is not known, or beyond the largest double; seconds are rounded "
       "up\",\n\"schedule\": \"%s\",\n\"goal\": \"%s\",\n\"goal_bits\": %" PRId64 ",\n\"start_bits\": %" PRId64
       ",\n\"step_bits\": %" PRId64 ",\n\"max_bits\": %" PRId64 ",\n\"seed\": null,\n\"outcome\": \"%s\",\n",
-      dyd_version(), schedule_text(o->schedule), goal[o->goal], o->goal_bits, o->start_bits, o->step_bits, o->max_bits,
+      dyd_version(), schedule_text(o->schedule), goals[o->goal], o->goal_bits, o->start_bits, o->step_bits, o->max_bits,
       dyd_outcome_text(c->outcome));
+  dyd_status status = DYD_OK;
+  fputs("\"window\": ", out);
+  if (c->window) {
+    fputs("[", out);
+    status = write_window(out, c->window, "\"");
+    fputs("],\n", out);
+  } else {
+    fputs("null,\n", out);
+  }
+  return status;
 }
 
 static dyd_status json_row(FILE *out, const dyd_stage_row *r, bool times) {
@@ -136,13 +167,13 @@ static dyd_status json_row(FILE *out, const dyd_stage_row *r, bool times) {
 }
 
 static dyd_status write_rows(FILE *out, const dyd_convergence *c, dyd_format format, bool times) {
-  dyd_status status = DYD_OK;
+  dyd_status status;
   if (format == DYD_FORMAT_CSV) {
-    csv_head(out, c, times);
+    status = csv_head(out, c, times);
     for (size_t k = 0; k < c->count; k++) csv_row(out, &c->row[k], times);
-    return DYD_OK;
+    return status;
   }
-  json_head(out, c);
+  status = json_head(out, c);
   fputs("\"stages\": [", out);
   for (size_t k = 0; status >= 0 && k < c->count; k++) {
     fputs(k ? ",\n" : "\n", out);
