@@ -168,7 +168,7 @@ static dyd_status set_window(dyd_convergence *out, const dyd_delaunay *pd, const
 
 /* Polygons a good deal finer than the rectangles, so that what is undetermined comes from these. */
 static int64_t flattening(const dyd_stage_row *row) {
-  enum { FINER = 8, EXACT = 64 };
+  enum { FINER = 4, EXACT = 64 };
   const dyd_dyadic *w = &row->width_largest;
   return dyd_dyadic_sgn(w) == 0 ? EXACT : FINER - (w->exp + (int64_t)mpz_sizeinbase(w->man, 2));
 }
