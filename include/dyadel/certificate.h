@@ -38,15 +38,16 @@
  * points are, the segment from point i to point j is a strictly Delaunay edge.
  *
  * [CERT-2] The faces of the graph of legal pairs, drawn with the places as points; a bridge is an edge between two
- * places with a centre (x,y) nearer to both than to all other places. Legal pairs and bridges must connect all sites
+ * places with a centre (x,y) nearer to both than to all other places, that joins two
+ * sites not connected by legal pairs and other bridges. Legal pairs and bridges must connect all sites
  * (else the faces are not known, and C = T = 0); then each face is one closed walk. T is the number of bounded faces
  * with three legal edges: triangles for every choice, without a further site. A pair that is possible has both sites
  * on one of the other faces, or is a side of a triangle.
  *
- * [CERT-3] Corners: a corner occurs once in the walk of the unbounded face, is a strict corner of the hull of the
- * places, and surely beyond, in its direction, all other sites of the walk up to the next corner on either side.
- * Corners cut the walk into parts; a possible pair of the unbounded face is within one part. A part of two sites that
- * are a legal pair is done. What is left of [CERT-2] and [CERT-3] are the open sets of sites.
+ * [CERT-3] Corners cut the walk of the unbounded face into parts; two parts with a bridge in common are of one group. A
+ * corner occurs once in the walk, is a strict corner of the hull of the places, and surely beyond, in its direction,
+ * all other sites of the groups on its two sides. A possible pair of the unbounded face is within one group. A group of
+ * two sites that are a legal pair is done. What is left of [CERT-2] and [CERT-3] are the open sets of sites.
  *
  * [CERT-4] Chains: on each piece of the chain (the ray from the first point in the first direction, the segments, the
  * ray from the last point in the last direction) its blocker k has dl_k < ds_i and dl_k < ds_j at the ends, on rays
@@ -57,9 +58,9 @@
  * greatest diameter of a rectangle of such a pair, for pairs that are not legal plus half their greatest length.
  *
  * U counts, over the open sets, the pairs within the set that have no line: nothing proves that they are illegal (0:
- * the certificate proves its list of pairs complete). Nothing is proved by: the words fixpoint, budget, cancelled and error,
- * the lines o and l (they say less than legal and illegal), and that ties cannot be resolved, but both sites of a tie
- * are exact points. decided needs no o, t and l line and capped no; certified needs the goal's bound. */
+ * the certificate proves its list of pairs complete). Nothing is proved by: the words fixpoint, budget, cancelled and
+ * error, the lines o and l (they say less than legal and illegal), and that ties cannot be resolved, but both sites of
+ * a tie are exact points. decided needs no o, t and l line and capped no; certified needs the goal's bound. */
 #ifndef DYADEL_CERTIFICATE_H
 #define DYADEL_CERTIFICATE_H
 

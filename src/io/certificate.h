@@ -32,8 +32,8 @@ typedef struct dyd_proof {
 
 /* Copies a site into the checker's form. */
 dyd_status dyd_proof_add_site(dyd_cert_sites *out, const dyd_rect *r);
-/* Appends a centre, shortened to the fewest bits that still make it a witness; *found = false (nothing appended) when it
- * is none. */
+/* Appends a centre, shortened to the fewest bits that still make it a witness; *found = false (nothing appended) when
+ * it is none. */
 dyd_status dyd_proof_add_witness(bool *found, dyd_proof_points *out, const dyd_proof *p, uint32_t i, uint32_t j,
                                  const dyd_point *c, bool places);
 void dyd_proof_points_clear(dyd_proof_points *p);

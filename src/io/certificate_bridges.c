@@ -42,7 +42,7 @@ static dyd_status place_rect(dyd_rect *out, const dyd_cert_site *s) {
 static dyd_status move_place(dyd_cert_site *s, uint32_t i, unsigned round) {
   dyd_exact at[2], width;
   dyd_exact_init(&width);
-  uint64_t part[2] = {i + 1, (i + 1) * UINT64_C(0x9E3779B97F4A7C15) >> 32};
+  uint64_t part[2] = {i, (i + 1) * UINT64_C(0x9E3779B97F4A7C15) >> 32};
   dyd_status status = DYD_OK;
   for (int a = 0; a < 2; a++) {
     dyd_exact_init(&at[a]);
@@ -50,8 +50,8 @@ static dyd_status move_place(dyd_cert_site *s, uint32_t i, unsigned round) {
     dyd_exact_set(&at[a], &s->side[a].lo);
     if (s->side[a].point) continue;
     dyd_exact_sub(&width, &s->side[a].hi, &s->side[a].lo);
-    mpz_mul_ui(width.man, width.man, (unsigned long)(part[a] ^ round * 0x5555u) | 1);
-    width.exp -= 33;
+    mpz_mul_ui(width.man, width.man, 2 * (unsigned long)(part[a] ^ round * 0x5555u) + 1);
+    width.exp -= 34;
     dyd_exact_add(&at[a], &at[a], &width);
     dyd_proof_trim(&at[a]);
   }

@@ -5,20 +5,23 @@
  * span a cone, and a direction at an obtuse angle to both of its sides will do. Integers only. */
 #include "base/alloc.h"
 #include "io/certificate.h"
+#include "verify/parts.h"
 
 #include <string.h>
 
 /* The walk of the unbounded face as sites, and which of them may be corners. */
 typedef struct rim {
-  uint32_t *site;
+  uint32_t *walk, *site;
   size_t count;
   bool *corner; /* by site */
 } rim;
 
 static dyd_status make_rim(rim *r, const dyd_proof *p) {
-  dyd_status status = dyd_cert_walk(&r->site, &r->count, &p->graph, dyd_cert_outer(&p->graph));
+  dyd_status status = dyd_cert_walk(&r->walk, &r->count, &p->graph, dyd_cert_outer(&p->graph));
   if (status < 0) return status;
-  for (size_t q = 0; q < r->count; q++) r->site[q] = dyd_cert_origin(&p->graph, r->site[q]);
+  r->site = dyd_alloc(r->count, sizeof *r->site);
+  if (!r->site) return DYD_E_NOMEM;
+  for (size_t q = 0; q < r->count; q++) r->site[q] = dyd_cert_origin(&p->graph, r->walk[q]);
   uint32_t *copy = dyd_alloc(r->count, sizeof *copy), *times = calloc(p->sites.count, sizeof *times);
   r->corner = dyd_alloc(p->sites.count, sizeof *r->corner);
   size_t kept = 0;
@@ -164,35 +167,37 @@ static void choose(dyd_exact u[2], const cone *k, int64_t bits) {
   }
 }
 
-/* Calls for the sites of the two parts at the corner at position q: takes them into the cone (u = NULL), or asks
- * whether the corner is beyond them all in direction u. */
-static bool each_beside(cone *k, const dyd_exact *u, const dyd_proof *p, const rim *r, size_t q) {
+/* For the sites of the two groups at the corner at position q: takes them into the cone (u = NULL), or asks whether the
+ * corner is beyond them all in direction u. */
+static bool each_beside(cone *k, const dyd_exact *u, const dyd_proof *p, const rim *r, const dyd_cert_parts *parts,
+                        size_t q) {
   uint32_t v = r->site[q];
-  for (int way = 0; way < 2; way++)
-    for (size_t step = 1; step <= r->count; step++) {
-      uint32_t w = r->site[(way ? q + step : q + r->count - step) % r->count];
-      if (w == v) break;
+  for (int way = 0; way < 2; way++) {
+    uint32_t group = parts->group[way ? q : (q + r->count - 1) % r->count];
+    for (size_t m = parts->start[group]; m < parts->start[group + 1]; m++) {
+      uint32_t w = parts->site[m];
+      if (w == v) continue;
       if (!u)
         take_in(k, &p->sites, v, w);
       else if (dyd_cert_compare_heights(&p->sites, u, w, v) >= 0)
         return false;
       if (k->broken) return false;
-      if (r->corner[w]) break;
     }
+  }
   return true;
 }
 
-static bool find_direction(dyd_exact u[2], const dyd_proof *p, const rim *r, size_t q) {
+static bool find_direction(dyd_exact u[2], const dyd_proof *p, const rim *r, const dyd_cert_parts *parts, size_t q) {
   cone k = {.empty = true};
   for (int a = 0; a < 2; a++) {
     dyd_exact_init(&k.first[a]);
     dyd_exact_init(&k.last[a]);
   }
   bool found = false;
-  if (each_beside(&k, NULL, p, r, q) && !k.empty)
+  if (each_beside(&k, NULL, p, r, parts, q) && !k.empty)
     for (int64_t bits = 3; bits <= (int64_t)1 << 14 && !found; bits += bits / 2 + 1) {
       choose(u, &k, bits);
-      found = each_beside(&k, u, p, r, q);
+      found = each_beside(&k, u, p, r, parts, q);
     }
   for (int a = 0; a < 2; a++) {
     dyd_exact_clear(&k.first[a]);
@@ -203,31 +208,54 @@ static bool find_direction(dyd_exact u[2], const dyd_proof *p, const rim *r, siz
 
 /* ---- all corners ---- */
 
-/* Drops corners that are not sure until all are; parts grow as corners go. */
-static void settle(const dyd_proof *p, rim *r) {
+static dyd_status keep_corner(dyd_proof *p, uint32_t v, const dyd_exact u[2]) {
+  if (!dyd_reserve((void **)&p->corner, &p->corner_cap, p->corners + 1, sizeof *p->corner)) return DYD_E_NOMEM;
+  dyd_cert_corner *c = &p->corner[p->corners++];
+  c->i = v;
+  for (int a = 0; a < 2; a++) {
+    dyd_exact_init(&c->u[a]);
+    dyd_exact_set(&c->u[a], &u[a]);
+  }
+  return DYD_OK;
+}
+
+static bool have_corner(const rim *r) {
+  for (size_t q = 0; q < r->count; q++)
+    if (r->corner[r->site[q]]) return true;
+  return false;
+}
+
+static void drop_corners(dyd_proof *p) {
+  for (size_t q = 0; q < p->corners; q++) {
+    dyd_exact_clear(&p->corner[q].u[0]);
+    dyd_exact_clear(&p->corner[q].u[1]);
+  }
+  p->corners = 0;
+}
+
+/* Keeps the corners that have a direction; *again: some have none and are corners no more, so parts have grown. */
+static dyd_status try_corners(bool *again, dyd_proof *p, rim *r) {
+  dyd_cert_parts parts;
   dyd_exact u[2];
+  *again = false;
+  drop_corners(p);
+  dyd_status status = dyd_cert_parts_init(&parts, &p->graph, r->walk, r->count, r->corner);
+  if (status < 0) return status;
   dyd_exact_init(&u[0]);
   dyd_exact_init(&u[1]);
-  for (bool again = true; again;) {
-    again = false;
-    for (size_t q = 0; q < r->count; q++) {
-      if (!r->corner[r->site[q]] || find_direction(u, p, r, q)) continue;
+  for (size_t q = 0; q < r->count && status >= 0; q++) {
+    if (!r->corner[r->site[q]]) continue;
+    if (find_direction(u, p, r, &parts, q)) {
+      status = keep_corner(p, r->site[q], (const dyd_exact *)u);
+    } else {
       r->corner[r->site[q]] = false;
-      again = true;
+      *again = true;
     }
   }
   dyd_exact_clear(&u[0]);
   dyd_exact_clear(&u[1]);
-}
-
-static dyd_status keep_corner(dyd_proof *p, const rim *r, size_t q) {
-  if (!dyd_reserve((void **)&p->corner, &p->corner_cap, p->corners + 1, sizeof *p->corner)) return DYD_E_NOMEM;
-  dyd_cert_corner *c = &p->corner[p->corners++];
-  c->i = r->site[q];
-  dyd_exact_init(&c->u[0]);
-  dyd_exact_init(&c->u[1]);
-  find_direction(c->u, p, r, q);
-  return DYD_OK;
+  dyd_cert_parts_clear(&parts);
+  return status;
 }
 
 static int compare_corner(const void *a, const void *b) {
@@ -239,10 +267,15 @@ static dyd_status find_corners(dyd_proof *p) {
   if (!p->graph.connected || p->graph.count == 0) return DYD_OK;
   rim r = {0};
   dyd_status status = make_rim(&r, p);
-  if (status >= 0) settle(p, &r);
-  for (size_t q = 0; q < r.count && status >= 0; q++)
-    if (r.corner[r.site[q]]) status = keep_corner(p, &r, q);
+  for (bool again = true; again && status >= 0;) {
+    again = false;
+    if (have_corner(&r))
+      status = try_corners(&again, p, &r);
+    else
+      drop_corners(p);
+  }
   if (p->corners) qsort(p->corner, p->corners, sizeof *p->corner, compare_corner);
+  free(r.walk);
   free(r.site);
   free(r.corner);
   return status;

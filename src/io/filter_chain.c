@@ -7,7 +7,9 @@
 #include "io/certificate.h"
 #include <math.h>
 
-#define STEPS 30 /* bisections */
+#define STEPS 16  /* bisections along the curve */
+#define ACROSS 36 /* bisections across it */
+#define CANDIDATES 6
 #define MOST_POINTS 64
 
 typedef struct xy {
@@ -71,7 +73,7 @@ static bool make_curve(curve *c, const dyd_proof *p, uint32_t i, uint32_t j) {
 static xy point_at(const curve *c, double t) {
   double along = t / (1 - t * t) * c->scale, lo = -8 * (c->scale + fabs(along)), hi = -lo;
   xy at = {0, 0};
-  for (int k = 0; k < STEPS + 12; k++) {
+  for (int k = 0; k < ACROSS; k++) {
     double s = (lo + hi) / 2;
     at = (xy){along * c->n.x + s * c->d.x, along * c->n.y + s * c->d.y};
     if (near_to(c->box[0], at) > near_to(c->box[1], at))
@@ -86,7 +88,7 @@ static xy point_at(const curve *c, double t) {
 static xy end_direction(const curve *c, int side) {
   double lo = -1.5707963267948966, hi = -lo; /* angle from n towards d */
   xy u = {0, 0};
-  for (int k = 0; k < STEPS + 12; k++) {
+  for (int k = 0; k < ACROSS; k++) {
     double angle = (lo + hi) / 2, x = side * cos(angle), y = sin(angle);
     u = (xy){x * c->n.x + y * c->d.x, x * c->n.y + y * c->d.y};
     if (top_of(c->box[1], u) > top_of(c->box[0], u))
@@ -146,20 +148,48 @@ static double reach_of(const curve *c, const double e[4], double t) {
   return in;
 }
 
-/* The blocker of t that reaches farthest. */
+/* Blockers of one spot, the strongest first. */
+typedef struct candidates {
+  uint32_t site[CANDIDATES];
+  double margin[CANDIDATES];
+  size_t count;
+} candidates;
+
+static double margin_of(const double e[4], const spot *s) {
+  return s->end ? bottom_of(e, s->at) - s->own : s->own - far_from(e, s->at);
+}
+
+static void consider(candidates *c, uint32_t k, double margin) {
+  size_t at = c->count < CANDIDATES ? c->count++ : CANDIDATES;
+  if (at == CANDIDATES) {
+    if (margin <= c->margin[--at]) return;
+  }
+  for (; at && c->margin[at - 1] < margin; at--) {
+    c->margin[at] = c->margin[at - 1];
+    c->site[at] = c->site[at - 1];
+  }
+  c->margin[at] = margin;
+  c->site[at] = k;
+}
+
+/* Of the strongest blockers of t, the one that reaches farthest. */
 static bool best_blocker(uint32_t *out, double *reach, const curve *c, double t, uint32_t i, uint32_t j,
                          const uint32_t *near, size_t count) {
   double e[4];
   spot here = spot_at(c, t);
-  *reach = -2;
+  candidates found = {.count = 0};
   for (size_t q = 0; q < count; q++) {
     if (near[q] == i || near[q] == j) continue;
     box_at(e, c->proof, near[q], c->m);
-    if (!blocks_spot(e, &here)) continue;
+    if (blocks_spot(e, &here)) consider(&found, near[q], margin_of(e, &here));
+  }
+  *reach = -2;
+  for (size_t q = 0; q < found.count; q++) {
+    box_at(e, c->proof, found.site[q], c->m);
     double r = reach_of(c, e, t);
     if (r <= *reach) continue;
     *reach = r;
-    *out = near[q];
+    *out = found.site[q];
   }
   return *reach > -2;
 }

@@ -11,8 +11,9 @@
 #include <inttypes.h>
 #include <string.h>
 
-/* Looking at so many blockers in all, the search for chains gives up. */
-#define CHAIN_EFFORT ((uint64_t)50 * 1000 * 1000)
+/* After so much work in all (a blocker looked at is 1, a pair CHAIN_PAIR beside) the search for chains gives up. */
+#define CHAIN_EFFORT ((uint64_t)30 * 1000 * 1000)
+#define CHAIN_PAIR 200
 
 static void clear(dyd_proof *p) {
   for (size_t q = 0; q < p->corners; q++) {
@@ -113,7 +114,8 @@ static void put_head(FILE *out, const dyd_proof *p) {
       [DYD_GOAL_DECIDED] = "decided", [DYD_GOAL_AREA] = "area", [DYD_GOAL_HAUSDORFF] = "hausdorff"};
   int64_t bits;
   dyd_goal goal = dyd_engine_goal(&bits, p->engine);
-  fprintf(out, "dyadel certificate 1\noutcome %s\ngoal %s", dyd_outcome_text(dyd_engine_outcome(p->engine)), goals[goal]);
+  fprintf(out, "dyadel certificate 1\noutcome %s\ngoal %s", dyd_outcome_text(dyd_engine_outcome(p->engine)),
+          goals[goal]);
   if (goal != DYD_GOAL_DECIDED) fprintf(out, " %" PRId64, bits);
   fprintf(out, "\ncapped %s\n", dyd_delaunay_is_capped(p->pd) ? "yes" : "no");
 }
@@ -213,34 +215,56 @@ static dyd_status illegal_lines(lines *l, const dyd_proof *p, size_t known) {
     const uint32_t *site = p->faces.member + p->faces.start[f];
     uint64_t m = p->faces.start[f + 1] - p->faces.start[f];
     if (m < 3 || p->faces.covered[f] == m * (m - 1) / 2) continue;
-    for (size_t a = 0; a < m && effort < CHAIN_EFFORT; a++)
-      for (size_t b = a + 1; b < m && status >= 0; b++) {
+    for (size_t a = 0; a < m; a++)
+      for (size_t b = a + 1; b < m && status >= 0 && effort < CHAIN_EFFORT; b++) {
         if (is_listed(l, known, p, site[a], site[b])) continue;
         status = add_line(l, site[a], site[b], 'n');
-        effort += m;
+        effort += m + CHAIN_PAIR;
       }
   }
   return status;
 }
 
-/* The open set of both sites: blockers are looked for there. */
-static void set_of(const uint32_t **site, size_t *count, const dyd_proof *p, uint32_t i, uint32_t j) {
-  const dyd_cert_faces *f = &p->faces;
-  for (size_t a = f->first[i]; a < f->first[i + 1]; a++)
-    for (size_t b = f->first[j]; b < f->first[j + 1]; b++)
-      if (f->of[a] == f->of[b]) {
-        *site = f->member + f->start[f->of[a]];
-        *count = f->start[f->of[a] + 1] - f->start[f->of[a]];
-        return;
-      }
+/* Where blockers are looked for: the open set of both sites, and their neighbours. Owned by the list. */
+typedef struct blockers {
+  uint32_t *site;
+  size_t count, cap;
+} blockers;
+
+static dyd_status add_blockers(blockers *b, const uint32_t *site, size_t count) {
+  if (!dyd_reserve((void **)&b->site, &b->cap, b->count + count, sizeof *b->site)) return DYD_E_NOMEM;
+  memcpy(b->site + b->count, site, count * sizeof *site);
+  b->count += count;
+  return DYD_OK;
 }
 
-static dyd_status put_chain(FILE *out, dyd_cert_chain *chain, dyd_proof *p, const line *l) {
-  const uint32_t *near = NULL;
-  size_t count = 0;
-  bool found;
-  set_of(&near, &count, p, l->i, l->j);
-  dyd_status status = dyd_proof_find_chain(&found, chain, p, l->i, l->j, near, count);
+static dyd_status add_neighbours(blockers *b, const dyd_proof *p, uint32_t v) {
+  dyd_status status = DYD_OK;
+  for (size_t q = p->graph.start[v]; q < p->graph.start[v + 1] && status >= 0; q++) {
+    uint32_t w = dyd_cert_origin(&p->graph, p->graph.around[q] ^ 1);
+    status = add_blockers(b, &w, 1);
+  }
+  return status;
+}
+
+static dyd_status find_blockers(blockers *b, const dyd_proof *p, uint32_t i, uint32_t j) {
+  const dyd_cert_faces *f = &p->faces;
+  b->count = 0;
+  dyd_status status = add_neighbours(b, p, i);
+  if (status >= 0) status = add_neighbours(b, p, j);
+  for (size_t k = f->first[i]; k < f->first[i + 1] && status >= 0; k++) {
+    bool shared = false;
+    for (size_t l = f->first[j]; l < f->first[j + 1]; l++) shared |= f->of[k] == f->of[l];
+    size_t start = f->start[f->of[k]];
+    if (shared) status = add_blockers(b, f->member + start, f->start[f->of[k] + 1] - start);
+  }
+  return status;
+}
+
+static dyd_status put_chain(FILE *out, dyd_cert_chain *chain, blockers *near, dyd_proof *p, const line *l) {
+  bool found = false;
+  dyd_status status = find_blockers(near, p, l->i, l->j);
+  if (status >= 0) status = dyd_proof_find_chain(&found, chain, p, l->i, l->j, near->site, near->count);
   if (status < 0 || !found) return status;
   fprintf(out, "n %" PRIu32 " %" PRIu32 " ", l->i, l->j);
   put_point(out, (const dyd_exact *)chain->u[0]);
@@ -257,17 +281,19 @@ static dyd_status put_chain(FILE *out, dyd_cert_chain *chain, dyd_proof *p, cons
 
 static dyd_status put_lines(FILE *out, dyd_proof *p, const lines *l) {
   dyd_cert_chain chain;
+  blockers near = {0};
   dyd_cert_chain_init(&chain);
   dyd_status status = DYD_OK;
   for (size_t k = 0; k < l->count && status >= 0; k++) {
     const line *at = &l->item[k];
     if (k && compare_line(at, at - 1) == 0) continue; /* a pair of two sets */
     if (at->kind == 'n')
-      status = put_chain(out, &chain, p, at);
+      status = put_chain(out, &chain, &near, p, at);
     else
       fprintf(out, "%c %" PRIu32 " %" PRIu32 "\n", at->kind, at->i, at->j);
   }
   dyd_cert_chain_clear(&chain);
+  free(near.site);
   return status;
 }
 

@@ -128,7 +128,8 @@ static int64_t larger(int64_t a, int64_t b) {
   return a > b ? a : b;
 }
 
-/* Is sqrt(l) / 2 + sqrt(d) <= h? With Q the product of the denominators: is 2 h Q - sqrt(l Q^2) - 2 sqrt(d Q^2) >= 0? */
+/* Is sqrt(l) / 2 + sqrt(d) <= h? With Q the product of the denominators: is 2 h Q - sqrt(l Q^2) - 2 sqrt(d Q^2) >= 0?
+ */
 static bool half_and_diameter_fit(const dyd_fraction *l, const dyd_fraction *d, const dyd_exact *h) {
   dyd_exact x, y, z;
   mpz_t one[3];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Chains that prove a pair illegal.
  *
- * C_ki = { c : dl_k(c) < ds_i(c) } is convex, so a segment lies in it when its ends do; a ray from a point of it lies in
- * it, and i is not extreme in its direction u, when u.y < u.x for all y in R_i, x in R_k. */
+ * C_ki = { c : dl_k(c) < ds_i(c) } is convex, so a segment lies in it when its ends do; a ray from a point of it lies
+ * in it, and i is not extreme in its direction u, when u.y < u.x for all y in R_i, x in R_k. */
 #include "verify/chain.h"
 #include "base/alloc.h"
 

@@ -219,8 +219,9 @@ dyd_status dyd_cert_corners_add(dyd_cert_corners *c, uint32_t i, const dyd_exact
 static dyd_status find_faces(dyd_cert_check *c) {
   uint32_t bad;
   dyd_status status = dyd_cert_graph_init(&c->graph, &c->sites, &c->legal, &c->bridges);
-  if (status >= 0)
-    status = dyd_cert_faces_init(&c->faces, &bad, &c->graph, c->corners.item, c->corners.count);
+  if (status >= 0 && c->graph.redundant)
+    return dyd_cert_reject(&c->in, "a bridge joins sites that are connected without it");
+  if (status >= 0) status = dyd_cert_faces_init(&c->faces, &bad, &c->graph, c->corners.item, c->corners.count);
   if (status < 0) return dyd_fail_nomem(c->in.err);
   if (bad != DYD_CERT_NONE) return dyd_cert_reject(&c->in, "site %u is not proved to be a corner", (unsigned)bad);
   c->report.connected = c->graph.connected;

@@ -2,13 +2,9 @@
 /* The faces of the legal graph, and the sets of sites within which a pair can be possible. */
 #include "verify/faces.h"
 #include "base/alloc.h"
+#include "verify/parts.h"
 
 #include <string.h>
-
-static int compare_index(const void *a, const void *b) {
-  uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-  return (x > y) - (x < y);
-}
 
 dyd_status dyd_cert_walk(uint32_t **out, size_t *count, const dyd_cert_graph *g, uint32_t h) {
   size_t n = 0;
@@ -23,15 +19,6 @@ dyd_status dyd_cert_walk(uint32_t **out, size_t *count, const dyd_cert_graph *g,
   return DYD_OK;
 }
 
-/* Sorts, drops repeats. */
-static size_t distinct(uint32_t *item, size_t count) {
-  size_t kept = 0;
-  if (count) qsort(item, count, sizeof *item, compare_index);
-  for (size_t q = 0; q < count; q++)
-    if (kept == 0 || item[kept - 1] != item[q]) item[kept++] = item[q];
-  return kept;
-}
-
 /* Appends the sites as an open set, unless they are the two ends of a legal edge or less. */
 static dyd_status add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint32_t *site, size_t count) {
   if (!dyd_reserve((void **)&f->member, &f->member_cap, f->members + count, sizeof *f->member) ||
@@ -39,7 +26,7 @@ static dyd_status add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint
     return DYD_E_NOMEM;
   uint32_t *to = f->member + f->members;
   memcpy(to, site, count * sizeof *to);
-  count = distinct(to, count);
+  count = dyd_cert_distinct(to, count);
   if (count < 2 || (count == 2 && dyd_cert_edges_have(g->legal, to[0], to[1]))) return DYD_OK;
   f->start[f->sets++] = f->members;
   f->members += count;
@@ -70,11 +57,11 @@ static dyd_status add_face(dyd_cert_faces *f, bool *seen, const dyd_cert_graph *
 
 /* ---- the unbounded face ---- */
 
-/* Its walk, as sites, and for each site the number of its corner (DYD_CERT_NONE: none). */
+/* Its walk, as half-edges and as sites; which sites are corners. */
 typedef struct rim {
-  uint32_t *site;
+  uint32_t *walk, *site;
   size_t count;
-  uint32_t *corner_of;
+  bool *corner;
 } rim;
 
 static int compare_place_of(const dyd_cert_sites *s, uint32_t a, uint32_t b) {
@@ -134,7 +121,7 @@ static dyd_status check_places(uint32_t *bad, const rim *r, const dyd_cert_sites
   dyd_status status = copy && hull && times ? DYD_OK : DYD_E_NOMEM;
   if (status == DYD_OK) {
     memcpy(copy, r->site, r->count * sizeof *copy);
-    status = dyd_cert_hull(hull, s, copy, distinct(copy, r->count));
+    status = dyd_cert_hull(hull, s, copy, dyd_cert_distinct(copy, r->count));
   }
   if (status == DYD_OK) {
     for (size_t q = 0; q < r->count; q++) times[r->site[q]]++;
@@ -147,61 +134,63 @@ static dyd_status check_places(uint32_t *bad, const rim *r, const dyd_cert_sites
   return status;
 }
 
-/* Is the corner surely beyond all sites of the part (itself left out), in its direction? */
-static bool is_beyond(const dyd_cert_sites *s, const dyd_cert_corner *corner, const rim *r, size_t from, size_t length) {
-  for (size_t q = 0; q < length; q++) {
-    uint32_t w = r->site[(from + q) % r->count];
-    if (w != corner->i && dyd_cert_compare_heights(s, corner->u, w, corner->i) >= 0) return false;
-  }
+/* Is the corner surely beyond all sites of the group (itself left out), in its direction? */
+static bool is_beyond(const dyd_cert_sites *s, const dyd_cert_corner *corner, const dyd_cert_parts *p, uint32_t r) {
+  for (size_t q = p->start[r]; q < p->start[r + 1]; q++)
+    if (p->site[q] != corner->i && dyd_cert_compare_heights(s, corner->u, p->site[q], corner->i) >= 0) return false;
   return true;
 }
 
-/* The part from position `from`, a corner, up to the next corner. */
-static dyd_status add_part(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const rim *r,
-                           const dyd_cert_corner *corner, size_t from) {
-  size_t length = 1;
-  do length++;
-  while (r->corner_of[r->site[(from + length - 1) % r->count]] == DYD_CERT_NONE);
-  const dyd_cert_corner *a = &corner[r->corner_of[r->site[from]]],
-                        *b = &corner[r->corner_of[r->site[(from + length - 1) % r->count]]];
-  if (!is_beyond(g->sites, a, r, from, length)) *bad = a->i;
-  if (!is_beyond(g->sites, b, r, from, length)) *bad = b->i;
-  uint32_t *part = dyd_alloc(length, sizeof *part);
-  if (!part) return DYD_E_NOMEM;
-  for (size_t q = 0; q < length; q++) part[q] = r->site[(from + q) % r->count];
-  dyd_status status = add_set(f, g, part, length);
-  free(part);
-  return status;
+static int compare_corner(const void *a, const void *b) {
+  uint32_t x = *(const uint32_t *)a, y = ((const dyd_cert_corner *)b)->i;
+  return (x > y) - (x < y);
+}
+
+static void check_corners(uint32_t *bad, const dyd_cert_sites *s, const rim *r, const dyd_cert_parts *p,
+                          const dyd_cert_corner *corner, size_t corners) {
+  for (size_t q = 0; q < r->count; q++) {
+    if (!r->corner[r->site[q]]) continue;
+    const dyd_cert_corner *c = bsearch(&r->site[q], corner, corners, sizeof *corner, compare_corner);
+    uint32_t after = p->group[q], before = p->group[(q + r->count - 1) % r->count];
+    if (!is_beyond(s, c, p, after) || (before != after && !is_beyond(s, c, p, before))) *bad = c->i;
+  }
 }
 
 static dyd_status split_rim(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const rim *r,
                             const dyd_cert_corner *corner, size_t corners) {
   if (corners == 0) return add_set(f, g, r->site, r->count);
   dyd_status status = check_places(bad, r, g->sites, corner, corners);
-  for (size_t q = 0; q < r->count && status == DYD_OK && *bad == DYD_CERT_NONE; q++)
-    if (r->corner_of[r->site[q]] != DYD_CERT_NONE) status = add_part(f, bad, g, r, corner, q);
+  if (status < 0 || *bad != DYD_CERT_NONE) return status;
+  dyd_cert_parts p;
+  status = dyd_cert_parts_init(&p, g, r->walk, r->count, r->corner);
+  if (status < 0) return status;
+  check_corners(bad, g->sites, r, &p, corner, corners);
+  for (size_t k = 0; k < p.groups && status == DYD_OK; k++)
+    status = add_set(f, g, p.site + p.start[k], p.start[k + 1] - p.start[k]);
+  dyd_cert_parts_clear(&p);
   return status;
 }
 
 static dyd_status add_outer(dyd_cert_faces *f, uint32_t *bad, bool *seen, const dyd_cert_graph *g, uint32_t h,
                             const dyd_cert_corner *corner, size_t corners) {
   rim r = {0};
-  dyd_status status = dyd_cert_walk(&r.site, &r.count, g, h);
+  dyd_status status = dyd_cert_walk(&r.walk, &r.count, g, h);
   if (status < 0) return status;
-  for (size_t q = 0; q < r.count; q++) {
-    seen[r.site[q]] = true;
-    r.site[q] = dyd_cert_origin(g, r.site[q]);
-  }
-  r.corner_of = dyd_alloc(g->sites->count, sizeof *r.corner_of);
-  if (r.corner_of) {
-    for (size_t v = 0; v < g->sites->count; v++) r.corner_of[v] = DYD_CERT_NONE;
-    for (size_t c = 0; c < corners; c++) r.corner_of[corner[c].i] = (uint32_t)c;
+  r.site = dyd_alloc(r.count, sizeof *r.site);
+  r.corner = calloc(g->sites->count, sizeof *r.corner);
+  if (r.site && r.corner) {
+    for (size_t q = 0; q < r.count; q++) {
+      seen[r.walk[q]] = true;
+      r.site[q] = dyd_cert_origin(g, r.walk[q]);
+    }
+    for (size_t c = 0; c < corners; c++) r.corner[corner[c].i] = true;
     status = split_rim(f, bad, g, &r, corner, corners);
   } else {
     status = DYD_E_NOMEM;
   }
+  free(r.walk);
   free(r.site);
-  free(r.corner_of);
+  free(r.corner);
   return status;
 }
 

@@ -3,8 +3,8 @@
  *
  * A possible pair is a segment that crosses no legal edge, for some choice: its ends lie on one face of the legal graph
  * [CERT-2]. Bounded faces of three sites are triangles for every choice. The unbounded face is cut by rays out of sure
- * corners of the hull; a part of two sites is one edge of the hull [CERT-3]. What is left are the open sets: a possible
- * pair that is not legal has both ends in one of them. */
+ * corners of the hull; a group of two sites is one edge of the hull [CERT-3]. What is left are the open sets: a
+ * possible pair that is not legal has both ends in one of them. */
 #ifndef DYD_VERIFY_FACES_H
 #define DYD_VERIFY_FACES_H
 

@@ -97,6 +97,7 @@ static dyd_status find_connected(dyd_cert_graph *g) {
   for (size_t e = 0; e < g->count; e++) {
     dyd_cert_edge edge = dyd_cert_edge_of(g, (uint32_t)(2 * e));
     uint32_t a = find_root(parent, edge.i), b = find_root(parent, edge.j);
+    g->redundant |= a == b && e >= g->legal->count;
     parts -= a != b;
     parent[a] = b;
   }

@@ -22,13 +22,14 @@ typedef struct dyd_cert_edges {
 
 /* Half-edge 2 e goes from i to j of edge e, 2 e + 1 back; legal edges come first, then the bridges. */
 typedef struct dyd_cert_graph {
-  const dyd_cert_sites *sites; /* borrowed */
+  const dyd_cert_sites *sites;           /* borrowed */
   const dyd_cert_edges *legal, *bridges; /* borrowed */
   size_t count;                          /* of both */
-  size_t *start;             /* of each site's half-edges in around[] */
-  uint32_t *around;          /* half-edges by origin, counter-clockwise */
-  uint32_t *position;        /* half-edge -> its place in around[] */
-  bool connected;            /* all sites but aliases are */
+  size_t *start;                         /* of each site's half-edges in around[] */
+  uint32_t *around;                      /* half-edges by origin, counter-clockwise */
+  uint32_t *position;                    /* half-edge -> its place in around[] */
+  bool connected;                        /* all sites but aliases are */
+  bool redundant;                        /* a bridge joins what is joined already: it could cut a face in two */
 } dyd_cert_graph;
 
 /* Legal edges and bridges are sorted and borrowed. */

@@ -151,8 +151,7 @@ static dyd_status check_bounds(dyd_cert_check *c, dyd_exact bound[2]) {
   }
   c->report.area = present[0];
   c->report.hausdorff = present[1];
-  if (c->report.capped && (present[0] || present[1]))
-    return dyd_cert_reject(&c->in, "a capped result has no bounds");
+  if (c->report.capped && (present[0] || present[1])) return dyd_cert_reject(&c->in, "a capped result has no bounds");
   dyd_cert_bounds b;
   dyd_cert_bounds_init(&b);
   b.hausdorff = present[1] ? &bound[1] : NULL;

@@ -16,8 +16,7 @@ typedef struct dyd_cert_reader {
 
 void dyd_cert_reader_clear(dyd_cert_reader *r);
 /* Rejects: fills in the error with the number of the line; returns DYD_E_PARSE. */
-dyd_status dyd_cert_reject(const dyd_cert_reader *r, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
+dyd_status dyd_cert_reject(const dyd_cert_reader *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* The next line. */
 dyd_status dyd_cert_next_line(dyd_cert_reader *r);
 /* Nothing may follow the line. */

@@ -124,8 +124,7 @@ static bool visit_node(const dyd_cert_tree *t, int level, size_t q, const dyd_ce
   size_t first = q * DYD_CERT_FANOUT, last = first + DYD_CERT_FANOUT, size = size_below(t, level);
   for (size_t child = first; child < last && child < size; child++) {
     if (!c->far && dyd_cert_near_lower(c, below(t, level, child)) > limit) continue;
-    bool more = level == 0 ? visit(context, t->item[child])
-                           : visit_node(t, level - 1, child, c, limit, visit, context);
+    bool more = level == 0 ? visit(context, t->item[child]) : visit_node(t, level - 1, child, c, limit, visit, context);
     if (!more) return false;
   }
   return true;
