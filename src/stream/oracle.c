@@ -3,7 +3,7 @@
  *
  * One loop (wait_for) does all waiting: it sends every program what it may be sent, takes whatever comes from any of
  * them, and ends when the one request in question is answered, cannot be answered, took too long, or is not wanted any
- * more. Which program is asked what, in which order, does not depend on time. */
+ * more. Which program is asked what, in which order, does not depend on time [ORA-2]. */
 #include "stream/oracle_answer.h"
 #include "stream/oracle_worker.h"
 #include <dyadel/oracle.h>
@@ -51,10 +51,15 @@ static void exchange(dyd_oracle *o, double seconds) {
 }
 
 static void fail_silent(const dyd_oracle *o, dyd_worker *w) {
+  char how[100];
   const char *deaf = dyd_process_is_deaf(&w->process) ? " and has closed its standard input" : "";
-  dyd_worker_fail(w, DYD_E_STREAM,
-                  "it was silent for %g s%s; flush its output after each line, or allow more time (--oracle-timeout)",
-                  o->seconds, deaf);
+  if (dyd_process_ended(how, sizeof how, &w->process, 0))
+    dyd_worker_fail(w, DYD_E_STREAM, "%s, and what it left running was silent for %g s; answer until the input ends",
+                    how, o->seconds);
+  else
+    dyd_worker_fail(w, DYD_E_STREAM,
+                    "it was silent for %g s%s; flush its output after each line, or allow more time (--oracle-timeout)",
+                    o->seconds, deaf);
 }
 
 static bool is_stopped(const volatile int *stop) {

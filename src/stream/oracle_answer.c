@@ -96,10 +96,6 @@ static bool is_inside(const mpq_t lo, const mpq_t hi, const dyd_interval *known)
 static dyd_status set_side(dyd_interval *side, bool known, const char *name, const mpq_t lo, const mpq_t hi,
                            dyd_error *err) {
   dyd_interval next;
-  if (mpq_cmp(lo, hi) > 0) {
-    return dyd_fail(err, DYD_E_STREAM, "the lower end of the %s in its answer is above the upper end; exchange them",
-                    name);
-  }
   dyd_interval_init(&next);
   dyd_status status = dyd_interval_fix(&next, lo, hi);
   if (status < 0)
@@ -113,20 +109,36 @@ static dyd_status set_side(dyd_interval *side, bool known, const char *name, con
   return status;
 }
 
-static dyd_status read_side(dyd_interval *side, bool known, const char *name, const char *line, const word w[2],
-                            dyd_error *err) {
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
-  dyd_status status = read_end(lo, line, w[0], err);
-  if (status >= 0) status = read_end(hi, line, w[1], err);
-  if (status >= 0) status = set_side(side, known, name, lo, hi, err);
-  mpq_clears(lo, hi, NULL);
+/* The four ends, each side in order. */
+static dyd_status read_ends(mpq_t end[4], const char *line, const word *w, dyd_error *err) {
+  dyd_status status = DYD_OK;
+  for (int k = 0; status >= 0 && k < 4; k++) status = read_end(end[k], line, w[k], err);
+  for (int k = 0; status >= 0 && k < 4; k += 2) {
+    if (mpq_cmp(end[k], end[k + 1]) <= 0) continue;
+    status =
+        dyd_fail(err, DYD_E_STREAM, "the lower end of the %c side in its answer is above the upper end; exchange them",
+                 k ? 'y' : 'x');
+  }
+  return status;
+}
+
+static dyd_status read_rect(dyd_rect *r, bool known, const char *line, const word *w, dyd_error *err) {
+  mpq_t end[4];
+  dyd_rect next;
+  for (int k = 0; k < 4; k++) mpq_init(end[k]);
+  dyd_rect_init(&next);
+  dyd_rect_set(&next, r);
+  dyd_status status = read_ends(end, line, w, err);
+  if (status >= 0) status = set_side(&next.x, known, "x side", end[0], end[1], err);
+  if (status >= 0) status = set_side(&next.y, known, "y side", end[2], end[3], err);
+  if (status >= 0) dyd_rect_swap(r, &next);
+  dyd_rect_clear(&next);
+  for (int k = 0; k < 4; k++) mpq_clear(end[k]);
   return status;
 }
 
 dyd_status dyd_oracle_read_answer(dyd_rect *r, bool known, const char *line, size_t length, dyd_error *err) {
   word w[6];
-  dyd_rect next;
   char shown[80];
   size_t words = split(w, 6, line, length);
   bool fixed = words == 6 && word_is(line, w[5], "fixed");
@@ -135,11 +147,6 @@ dyd_status dyd_oracle_read_answer(dyd_rect *r, bool known, const char *line, siz
                     "its answer %s has not the five words I XLO XHI YLO YHI (and \"fixed\", if it is)",
                     dyd_quoted(shown, sizeof shown, line, length));
   }
-  dyd_rect_init(&next);
-  dyd_rect_set(&next, r);
-  dyd_status status = read_side(&next.x, known, "x side", line, w + 1, err);
-  if (status >= 0) status = read_side(&next.y, known, "y side", line, w + 3, err);
-  if (status >= 0) dyd_rect_swap(r, &next);
-  dyd_rect_clear(&next);
+  dyd_status status = read_rect(r, known, line, w + 1, err);
   return status < 0 || !fixed ? status : DYD_FIXED;
 }
