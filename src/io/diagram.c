@@ -72,7 +72,7 @@ dyd_status dyd_diagram_visit(dyd_diagram *d, dyd_cell_visit visit, void *context
   dyd_interval_get_d(&window[2], &window[3], &d->window.y);
   dyd_status status = dyd_window_init(&w, &d->window);
   if (status < 0) return status;
-  status = dyd_voronoi_sums_init(&sums, d->pd, &d->window);
+  status = dyd_voronoi_sums_init(&sums, d->pd, &d->window, d->bits);
   for (size_t i = 0; i < d->count && status >= 0; i++) {
     dyd_cell_row row;
     if (dyd_delaunay_alias(d->pd, (uint32_t)i) != i) continue;

@@ -17,13 +17,25 @@
 #include "metric/voronoi_bounds.h"
 
 #include "base/alloc.h"
+#include "dyadic/raw.h"
 #include "metric/bounds.h"
 #include "metric/filter_voronoi.h"
 
-dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window) {
+/* Areas in W are below 2^(2 e), polygons are within 2^-bits: sums need some e + bits more digits than a bound. */
+static mpfr_prec_t sum_precision(const dyd_rect *window, int64_t bits) {
+  const dyd_dyadic *end[4] = {&window->x.lo, &window->x.hi, &window->y.lo, &window->y.hi};
+  int64_t most = 0;
+  for (int k = 0; k < 4; k++) {
+    int64_t e = end[k]->exp + dyd_bits(end[k]->man);
+    if (e > most) most = e;
+  }
+  return DYD_MEASURE_PREC + (bits + 2 * most > 0 ? (mpfr_prec_t)(bits + 2 * most) : 0);
+}
+
+dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits) {
   size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
-  *s = (dyd_voronoi_sums){.pd = pd, .window = window};
-  mpfr_inits2(DYD_MEASURE_PREC, s->inner, s->term, (mpfr_ptr)0);
+  *s = (dyd_voronoi_sums){.pd = pd, .window = window, .bits = bits};
+  mpfr_inits2(sum_precision(window, bits), s->inner, s->term, (mpfr_ptr)0);
   mpfr_set_zero(s->inner, 1);
   dyd_dyadic_init(&s->area2);
   s->reach = dyd_alloc(n, sizeof *s->reach);
@@ -75,7 +87,7 @@ dyd_status dyd_voronoi_sums_add(double area[2], dyd_voronoi_sums *s, uint32_t i,
   return status;
 }
 
-dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, int64_t bits, const volatile int *cancel) {
+dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, const volatile int *cancel) {
   size_t n = dyd_sites_count(dyd_delaunay_sites(s->pd));
   dyd_shape shape = {0};
   dyd_window w;
@@ -83,7 +95,7 @@ dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, int64_t bits, const volatil
   for (size_t i = 0; i < n && status == DYD_OK; i++) {
     if (dyd_delaunay_alias(s->pd, (uint32_t)i) != i) continue;
     if (i % 64 == 0 && dyd_flag_is_set(cancel)) status = DYD_CANCELLED;
-    if (status == DYD_OK) status = dyd_shape_find(&shape, s->pd, (uint32_t)i, &w, bits);
+    if (status == DYD_OK) status = dyd_shape_find(&shape, s->pd, (uint32_t)i, &w, s->bits);
     if (status == DYD_OK) status = dyd_voronoi_sums_add(NULL, s, (uint32_t)i, &shape);
   }
   dyd_shape_clear(&shape);
@@ -97,7 +109,7 @@ void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s) {
   for (int k = 0; k < 2; k++) dyd_dyadic_init(&side[k]);
   dyd_dyadic_init(&area);
   mpfr_t exact;
-  mpfr_init2(exact, DYD_MEASURE_PREC);
+  mpfr_init2(exact, mpfr_get_prec(s->inner));
   mpfr_set_inf(out, 1);
   if (dyd_dyadic_sub(&side[0], &s->window->x.hi, &s->window->x.lo) >= 0 &&
       dyd_dyadic_sub(&side[1], &s->window->y.hi, &s->window->y.lo) >= 0 &&
@@ -216,8 +228,8 @@ dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, c
   if (status < 0) return status;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   dyd_voronoi_bounds_init(&b);
-  status = dyd_voronoi_sums_init(&s, pd, window);
-  if (status == DYD_OK) status = dyd_voronoi_sums_all(&s, bits, cancel);
+  status = dyd_voronoi_sums_init(&s, pd, window, bits);
+  if (status == DYD_OK) status = dyd_voronoi_sums_all(&s, cancel);
   if (status == DYD_OK) status = find_bounds(&b, &s);
   if (status == DYD_OK) {
     dyd_dyadic_swap(&out->area, &b.area);

@@ -13,11 +13,13 @@ typedef struct dyd_voronoi_sums {
   const dyd_delaunay *pd;
   const dyd_rect *window;
   mpfr_t inner, term;
+  int64_t bits;
   dyd_dyadic area2;
   double *reach;
 } dyd_voronoi_sums;
 
-dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window);
+/* bits: of the polygons to come; sums are kept so precise that rounding does not spoil what these give. */
+dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits);
 void dyd_voronoi_sums_clear(dyd_voronoi_sums *s);
 /* Adds the shape of site i (no alias). area[0] <= area of Int_i n W and area[1] >= area of Pos_i n W as doubles, for
  * those who want them; may be NULL. */
@@ -33,6 +35,6 @@ dyd_status dyd_voronoi_pair_hausdorff(mpfr_ptr out, bool *finite, const dyd_voro
                                       const dyd_pair *pair);
 
 /* Adds the shapes of all sites. */
-dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, int64_t bits, const volatile int *cancel);
+dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, const volatile int *cancel);
 
 #endif
