@@ -3,7 +3,7 @@
    of an empty disc; the same for half-planes, the centres at infinity.
    A simplex is given by the set S of its sites: a pair, a triangle, or any number of them. *)
 From Coq Require Import Reals Lra Lia Psatz Classical.
-From Dyadel Require Import Plane Finite Distance Cells.
+From Dyadel Require Import Plane Finite Distance Cells Neighbours.
 Open Scope R_scope.
 
 (* The sites of S can share the centre c. *)
@@ -203,4 +203,27 @@ Theorem possible_monotone N B' B i j : (i < N)%nat -> (j < N)%nat -> refined N B
 Proof.
   intros I J F. rewrite !possible_exact by assumption. intros [p [P W]]. exists p. split; [| exact W].
   intros k K. apply F, P; exact K.
+Qed.
+
+(* The neighbours that bound the cells are possible pairs. *)
+Lemma neighbours_are_possible N B i j : neighbours N B i j -> possible N B i j.
+Proof. intros [c [Pi Pj]]. left. exists c. intros k K _ _. split; [now apply Pi | now apply Pj]. Qed.
+
+(* So the possible pairs of i decide both of its cells. *)
+Corollary int_by_possible_pairs N B i c : (i < N)%nat ->
+  (int N B i c <-> forall j, (j < N)%nat -> j <> i -> possible N B i j -> dl c (B i) < ds c (B j)).
+Proof.
+  intros I. split.
+  - intros H j J D _. now apply H.
+  - intros H. apply int_by_neighbours; [exact I |]. intros j J D G. apply H; [exact J | exact D |].
+    now apply neighbours_are_possible.
+Qed.
+
+Corollary pos_by_possible_pairs N B i c : (i < N)%nat ->
+  (pos N B i c <-> forall j, (j < N)%nat -> j <> i -> possible N B i j -> ds c (B i) <= dl c (B j)).
+Proof.
+  intros I. split.
+  - intros H j J _ _. now apply H.
+  - intros H. apply pos_by_neighbours; [exact I |]. intros j J D G. apply H; [exact J | exact D |].
+    now apply neighbours_are_possible.
 Qed.
