@@ -141,3 +141,23 @@ Proof.
   - pose proof (ds_move c (mix t c q) B) as H. rewrite dist_mix_left in H by lra.
     replace (dist c q) with (ds c B) in H by reflexivity. lra.
 Qed.
+
+(* The corners at which a linear form is largest and least over a rectangle. *)
+Definition highest (u : point) (B : rect) : point :=
+  ((if Rle_dec 0 (fst u) then xhi B else xlo B), (if Rle_dec 0 (snd u) then yhi B else ylo B)).
+Definition lowest (u : point) (B : rect) : point :=
+  ((if Rle_dec 0 (fst u) then xlo B else xhi B), (if Rle_dec 0 (snd u) then ylo B else yhi B)).
+
+Lemma highest_spec u B : inside (highest u B) B /\ forall z, inside z B -> dot u z <= dot u (highest u B).
+Proof.
+  pose proof (x_ordered B). pose proof (y_ordered B). unfold inside, highest, dot. simpl. split.
+  - destruct (Rle_dec 0 (fst u)); destruct (Rle_dec 0 (snd u)); lra.
+  - intros z [X Y]. destruct (Rle_dec 0 (fst u)); destruct (Rle_dec 0 (snd u)); nra.
+Qed.
+
+Lemma lowest_spec u B : inside (lowest u B) B /\ forall z, inside z B -> dot u (lowest u B) <= dot u z.
+Proof.
+  pose proof (x_ordered B). pose proof (y_ordered B). unfold inside, lowest, dot. simpl. split.
+  - destruct (Rle_dec 0 (fst u)); destruct (Rle_dec 0 (snd u)); lra.
+  - intros z [X Y]. destruct (Rle_dec 0 (fst u)); destruct (Rle_dec 0 (snd u)); nra.
+Qed.

@@ -143,3 +143,48 @@ Proof.
   intros K Di Dj F W. destruct (W k K Di Dj). pose proof (le_dl w _ _ (farthest_inside c (B i))).
   pose proof (ds_le w _ _ (nearest_inside c (B k))). split; [lra | exact F].
 Qed.
+
+Lemma witness_sym N B i j c : witness N B i j c -> witness N B j i c.
+Proof. intros W k K Dj Di. destruct (W k K Di Dj). now split. Qed.
+
+(* Far witnesses: if R_i is strictly beyond R_k in direction u, points far away in that direction are nearer to it. *)
+Lemma far_nearer p u X Y e : 0 < e -> dot u (highest u Y) + e <= dot u (lowest u X) ->
+  exists t0, 0 <= t0 /\ forall t, t0 < t ->
+    dl (fst p + t * fst u, snd p + t * snd u) X < ds (fst p + t * fst u, snd p + t * snd u) Y.
+Proof.
+  intros E H. exists (dl p X * dl p X / (2 * e)). split.
+  { apply Rmult_le_pos; [pose proof (dl_nonneg p X); nra |]. left. apply Rinv_0_lt_compat. lra. }
+  intros t T. set (c := (fst p + t * fst u, snd p + t * snd u)).
+  assert (T2 : dl p X * dl p X < 2 * t * e).
+  { apply (Rmult_lt_compat_r (2 * e)) in T; [| lra]. unfold Rdiv in T. rewrite Rmult_assoc, Rinv_l in T by lra. lra. }
+  set (x := farthest c X). set (y := nearest c Y). apply dist_lt. fold x y.
+  assert (K : dist2 c x - dist2 c y = dist2 p x - dist2 p y - 2 * t * (dot u x - dot u y))
+    by (unfold c, dist2, dot; simpl; ring).
+  destruct (lowest_spec u X) as [_ A]. destruct (highest_spec u Y) as [_ B].
+  specialize (A x (farthest_inside c X)). specialize (B y (nearest_inside c Y)).
+  pose proof (le_dl p X x (farthest_inside c X)) as D. pose proof (dist_nonneg p x).
+  assert (dist2 p x <= dl p X * dl p X) by (rewrite <- dist_sq; nra). pose proof (dist2_nonneg p y).
+  assert (0 < t).
+  { assert (0 <= dl p X * dl p X) by (pose proof (dl_nonneg p X); nra). nra. }
+  assert (2 * t * e <= 2 * t * (dot u x - dot u y)) by (apply Rmult_le_compat_l; lra). lra.
+Qed.
+
+(* If R_i and R_j are strictly beyond all others in direction u, every point far enough in that direction is a witness. *)
+Theorem far_witness N B i j p u : (i < N)%nat -> (j < N)%nat ->
+  (forall k, (k < N)%nat -> k <> i -> k <> j ->
+    dot u (highest u (B k)) < dot u (lowest u (B i)) /\ dot u (highest u (B k)) < dot u (lowest u (B j))) ->
+  exists t0, forall t, t0 < t -> witness N B i j (fst p + t * fst u, snd p + t * snd u).
+Proof.
+  intros I J H.
+  destruct (finite_choice 0 (fun k t0 => k <> i -> k <> j -> forall t, t0 < t ->
+    dl (fst p + t * fst u, snd p + t * snd u) (B i) < ds (fst p + t * fst u, snd p + t * snd u) (B k) /\
+    dl (fst p + t * fst u, snd p + t * snd u) (B j) < ds (fst p + t * fst u, snd p + t * snd u) (B k)) N) as [f F].
+  { intros k K. destruct (classic (k <> i /\ k <> j)) as [[Di Dj] | D].
+    - destruct (H k K Di Dj) as [U V].
+      destruct (far_nearer p u (B i) (B k) (dot u (lowest u (B i)) - dot u (highest u (B k)))) as [a [_ A]]; [lra | lra |].
+      destruct (far_nearer p u (B j) (B k) (dot u (lowest u (B j)) - dot u (highest u (B k)))) as [b [_ G]]; [lra | lra |].
+      exists (Rmax a b). intros _ _ t T. pose proof (Rmax_l a b). pose proof (Rmax_r a b). split; [apply A | apply G]; lra.
+    - exists 0. intros Di Dj. exfalso. now apply D. }
+  destruct (finite_max (fun _ => True) f N) as [m [M [_ L]]]; [now exists i |].
+  exists (f m). intros t T k K Di Dj. apply (F k K Di Dj). pose proof (L k K Logic.I). lra.
+Qed.

@@ -12,10 +12,6 @@ Definition possible_at (N : nat) (B : sites) (S : nat -> Prop) (c : point) : Pro
 
 (* The sites of S share a centre at infinity in direction u: some line across u meets all of their rectangles, or
    has them beyond, and no rectangle lies wholly beyond it. *)
-Definition highest (u : point) (B : rect) : point :=
-  ((if Rle_dec 0 (fst u) then xhi B else xlo B), (if Rle_dec 0 (snd u) then yhi B else ylo B)).
-Definition lowest (u : point) (B : rect) : point :=
-  ((if Rle_dec 0 (fst u) then xlo B else xhi B), (if Rle_dec 0 (snd u) then ylo B else yhi B)).
 Definition possible_far (N : nat) (B : sites) (S : nat -> Prop) (u : point) : Prop :=
   u <> (0, 0) /\ forall i k, (i < N)%nat -> S i -> (k < N)%nat ->
     dot u (lowest u (B k)) <= dot u (highest u (B i)).
@@ -81,20 +77,6 @@ Proof.
     + now exists p, c, r.
     + subst. destruct (positive_disc N p S c D) as [c' [r [Pr D']]]. now exists p, c', r.
   - intros [p [c [r [P [_ D]]]]]. exists c. now apply disc_shows_possible with p r.
-Qed.
-
-Lemma highest_spec u B : inside (highest u B) B /\ forall z, inside z B -> dot u z <= dot u (highest u B).
-Proof.
-  pose proof (x_ordered B). pose proof (y_ordered B). unfold inside, highest, dot. simpl. split.
-  - destruct (Rle_dec 0 (fst u)); destruct (Rle_dec 0 (snd u)); lra.
-  - intros z [X Y]. destruct (Rle_dec 0 (fst u)); destruct (Rle_dec 0 (snd u)); nra.
-Qed.
-
-Lemma lowest_spec u B : inside (lowest u B) B /\ forall z, inside z B -> dot u (lowest u B) <= dot u z.
-Proof.
-  pose proof (x_ordered B). pose proof (y_ordered B). unfold inside, lowest, dot. simpl. split.
-  - destruct (Rle_dec 0 (fst u)); destruct (Rle_dec 0 (snd u)); lra.
-  - intros z [X Y]. destruct (Rle_dec 0 (fst u)); destruct (Rle_dec 0 (snd u)); nra.
 Qed.
 
 Lemma dot_mix u t a b : dot u (mix t a b) = (1 - t) * dot u a + t * dot u b.
@@ -166,6 +148,35 @@ Proof.
       intros m _ [-> | ->] k K; pose proof (A k K); lra.
 Qed.
 
+(* Centres at equal distance from both rectangles suffice. *)
+Lemma equal_distances_from N B i j c : (i < N)%nat -> ds c (B j) <= ds c (B i) -> others_allow N B i j c ->
+  exists c', ds c' (B i) = ds c' (B j) /\ others_allow N B i j c'.
+Proof.
+  intros I L H. set (q := nearest c (B i)). set (f t := ds (mix t c q) (B j) - (1 - t) * ds c (B i)).
+  destruct (intermediate f) as [t [T E]].
+  - apply (lipschitz_continuous (ds c (B i) + ds c (B i))). apply lipschitz_minus.
+    + intros s t. pose proof (ds_move (mix s c q) (mix t c q) (B j)) as M. rewrite dist_mix_mix in M.
+      change (dist c q) with (ds c (B i)) in M. lra.
+    + apply lipschitz_scale, ds_nonneg.
+  - unfold f. rewrite mix_0. lra.
+  - unfold f. pose proof (ds_nonneg (mix 1 c q) (B j)). lra.
+  - unfold f in E. exists (mix t c q).
+    assert (X : ds (mix t c q) (B i) = (1 - t) * ds c (B i)) by (now apply ds_towards).
+    split; [lra |]. intros k K Di Dj. destruct (H k K Di Dj) as [A _].
+    pose proof (dl_move c (mix t c q) (B k)) as M. rewrite dist_mix_left in M by lra.
+    change (dist c q) with (ds c (B i)) in M. lra.
+Qed.
+
+Theorem equal_distances_suffice N B i j : (i < N)%nat -> (j < N)%nat ->
+  (exists c, others_allow N B i j c) -> exists c, ds c (B i) = ds c (B j) /\ others_allow N B i j c.
+Proof.
+  intros I J [c H]. destruct (Rle_dec (ds c (B j)) (ds c (B i))) as [L | L].
+  - now apply equal_distances_from with c.
+  - destruct (equal_distances_from N B j i c) as [x [E X]]; [exact J | lra | |].
+    + intros k K Dj Di. destruct (H k K Di Dj). now split.
+    + exists x. split; [now symmetry |]. intros k K Di Dj. destruct (X k K Dj Di). now split.
+Qed.
+
 Theorem pair_possible N B i j : (i < N)%nat -> (j < N)%nat ->
   ((exists c, others_allow N B i j c) <-> (exists c, possible_at N B (pair i j) c)).
 Proof.
@@ -226,4 +237,19 @@ Proof.
   - intros H j J _ _. now apply H.
   - intros H. apply pos_by_neighbours; [exact I |]. intros j J D G. apply H; [exact J | exact D |].
     now apply neighbours_are_possible.
+Qed.
+
+(* Where the boundaries of three cells come together, the two others are possible neighbours of each other. *)
+Theorem joint_of_int N B i j k c : (forall l, (l < N)%nat -> l <> i -> dl c (B i) <= ds c (B l)) ->
+  ds c (B j) = dl c (B i) -> ds c (B k) = dl c (B i) -> possible N B j k.
+Proof.
+  intros H Ej Ek. left. exists c. intros l L _ _. rewrite Ej, Ek.
+  destruct (Nat.eq_dec l i) as [-> | D]; [lra |]. pose proof (H l L D). pose proof (ds_le_dl c (B l)). lra.
+Qed.
+
+Theorem joint_of_pos N B i j k c : (forall l, (l < N)%nat -> ds c (B i) <= dl c (B l)) ->
+  dl c (B j) = ds c (B i) -> dl c (B k) = ds c (B i) -> possible N B j k.
+Proof.
+  intros H Ej Ek. left. exists c. intros l L _ _. pose proof (H l L).
+  pose proof (ds_le_dl c (B j)). pose proof (ds_le_dl c (B k)). lra.
 Qed.

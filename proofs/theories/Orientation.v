@@ -58,6 +58,17 @@ Proof.
   intros s Hs. rewrite <- orient_affine. now apply H.
 Qed.
 
+(* For b, c given, the least value over a rectangle is at the corner that the signs of b's and c's differences name. *)
+Theorem least_at_corner A b c a : inside a A ->
+  corner (lowest (snd b - snd c, fst c - fst b) A) A /\
+  orient (lowest (snd b - snd c, fst c - fst b) A) b c <= orient a b c.
+Proof.
+  intros I. split.
+  - unfold corner, lowest. simpl. destruct (Rle_dec 0 (snd b - snd c)); destruct (Rle_dec 0 (fst c - fst b)); tauto.
+  - destruct (lowest_spec (snd b - snd c, fst c - fst b) A) as [_ H]. specialize (H a I).
+    rewrite !orient_affine. unfold dot in H. cbn [fst snd] in H. lra.
+Qed.
+
 (* The 64 corner choices decide. *)
 Theorem corners_decide_left A B C :
   surely_left A B C <-> (forall a b c, corner a A -> corner b B -> corner c C -> 0 < orient a b c).
