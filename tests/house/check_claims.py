@@ -20,7 +20,7 @@ IN_THEORY = re.compile(r'((?:`\w+`(?:,| and)?\s+)+)in\s+theories/(\w+)\.v')
 THEOREM_ROW = re.compile(r'^\| ([^|]*) \| \[(\w+)\.v\]\(theories/\2\.v\) \| ([^|]*) \| [^|]* \|$', re.M)
 THEORY_LINK = re.compile(r'^\|.*\]\(theories/', re.M)
 PROVED = re.compile(r'^\s*(?:Theorem|Lemma|Corollary)\s+(\w+)', re.M)
-ROW = re.compile(r'^\| \[([A-Z]{2,}-[A-Z0-9]+)\] \| \[[^]]*\]\(([^)]*)\) \| ([^|]*) \| ([^|]*) \|$', re.M)
+ROW = re.compile(r'^\| \[([A-Z]{2,}-[A-Z0-9]+)\] \| \[[^]]*\]\((claims/[^)]*)\) \| ([^|]*) \| ([^|]*) \|$', re.M)
 CODE = ('.c', '.h')
 TESTS = ('.c', '.h', '.py', '.sh')
 
