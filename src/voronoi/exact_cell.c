@@ -4,10 +4,11 @@
  * On the boundary of Int_i some j has dl_i = ds_j <= ds_k for all k; on that of Pos_i some j has dl_j = ds_i <= dl_k.
  * Let D_k = ds_k (Int) or dl_k (Pos), r = dl_i or ds_i. So the boundary consists of those points of the curves r = D_j
  * where no D_k is less than r. Along a curve this can change only where D_k = r too and no other D_l is less: there j
- * and k are both possible at the point, so jk is a possible pair [CELL-2]. Such points are critical circles FCC (Int)
- * or CFF (Pos) of i, j, k, which dyd_icircles finds [CRIT-1], or ends of a stretch in which j and k show the same
- * feature, so that the curves coincide; such an end is a joint of one of the curves. Between two cuts one exact sample
- * decides. Of curves that coincide the one with the lowest number counts. */
+ * and k are both possible at the point, so jk is a possible pair [CELL-2]. Such points are centres of critical circles
+ * FCC (Int) or CFF (Pos) of i, j, k, which dyd_icircles finds [CRIT-1]: where the curves of j and k coincide along a
+ * stretch, since both show the same feature, the end of the stretch is in a cell beyond it, in which they show
+ * different ones, and different features leave finitely many circles. Between two cuts one exact sample decides. Of
+ * curves that coincide the one with the lowest number counts. */
 #include "voronoi/exact_cell.h"
 
 #include "base/alloc.h"
@@ -124,25 +125,6 @@ static dyd_status cut_arc(dyd_exact_cell *c, size_t *count, const dyd_elementary
   return dyd_cell_add_cut(c, count, s);
 }
 
-/* Have two rectangles an end in common, along either axis? Else they show no common feature. */
-static bool share_ends(const dyd_irect *a, const dyd_irect *b) {
-  return !mpz_cmp(a->x0, b->x0) || !mpz_cmp(a->x0, b->x1) || !mpz_cmp(a->x1, b->x0) || !mpz_cmp(a->x1, b->x1) ||
-         !mpz_cmp(a->y0, b->y0) || !mpz_cmp(a->y0, b->y1) || !mpz_cmp(a->y1, b->y0) || !mpz_cmp(a->y1, b->y1);
-}
-
-/* The joints of curve k that lie on curve j, among the cuts of arc a of curve j. */
-static dyd_status cut_by_joints(dyd_exact_cell *c, size_t *count, const dyd_elementary *a, size_t j, size_t k) {
-  const dyd_curve *curve = &c->curve[k];
-  for (size_t m = 0; m < curve->count; m++)
-    for (int e = 0; e < 2; e++) {
-      const dyd_spot *s = &curve->arc[m].end[e];
-      if (s->infinite || dyd_cell_spot_side(c, s, j)) continue;
-      dyd_status st = cut_arc(c, count, a, s);
-      if (st != DYD_OK) return st;
-    }
-  return DYD_OK;
-}
-
 /* All cuts of an arc, unsorted. */
 static dyd_status find_cuts(dyd_exact_cell *c, size_t *count, const dyd_elementary *a, size_t j) {
   *count = 0;
@@ -150,11 +132,6 @@ static dyd_status find_cuts(dyd_exact_cell *c, size_t *count, const dyd_elementa
     const dyd_meet *meet = &c->meet[m];
     if (meet->curve[0] != j && meet->curve[1] != j) continue;
     dyd_status st = cut_arc(c, count, a, &meet->spot);
-    if (st != DYD_OK) return st;
-  }
-  for (size_t k = 0; k < c->count; k++) {
-    if (k == j || !share_ends(&c->other[j].r, &c->other[k].r)) continue;
-    dyd_status st = cut_by_joints(c, count, a, j, k);
     if (st != DYD_OK) return st;
   }
   return DYD_OK;

@@ -320,6 +320,44 @@ static void strip_and_plane(void **state) {
   orc_case_clear(&c);
 }
 
+static void set_rect(dyd_rect *out, double x0, double x1, double y0, double y1) {
+  assert_int_equal(dyd_rect_set_d(out, x0, x1, y0, y1), DYD_OK);
+}
+
+/* A curve that touches a side of the window, from outside and from inside, changes nothing on that side. */
+static void touched_window(void **state) {
+  (void)state;
+  orc_case c;
+  orc_case_init(&c);
+  dyd_boundary b = {0};
+  dyd_rect w;
+  dyd_rect_init(&w);
+  orc_case_add(&c, 0, 1, 0, 0, 1);
+  orc_case_add(&c, 0, 0, 0, 2, 1);
+  orc_case_add(&c, 1, 1, 0, 2, 1);
+  dyd_sites *s;
+  dyd_delaunay *pd = engine_of(&s, &c);
+  set_rect(&w, -0.5, 1, 0.875, 1.125);
+  assert_int_equal(dyd_voronoi_pos_on(&b, pd, 1, &w), DYD_OK);
+  assert_true(b.whole && b.count == 1 && b.chain[0].count == 4);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(s);
+  c.n = 0;
+  orc_case_add(&c, -5, 5, 0, 0, 1);
+  orc_case_add(&c, 0, 0, 2, 2, 1); /* the parabola y = x^2 / 4 + 1 */
+  pd = engine_of(&s, &c);
+  set_rect(&w, -1, 1, 1, 3);
+  assert_int_equal(dyd_voronoi_pos_on(&b, pd, 0, &w), DYD_OK);
+  assert_true(!b.whole && b.count == 1 && b.chain[0].closed && b.chain[0].count == 4);
+  assert_int_equal(dyd_voronoi_int_on(&b, pd, 1, &w), DYD_OK);
+  assert_true(!b.whole && b.count == 1 && b.chain[0].closed && b.chain[0].count == 4);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(s);
+  dyd_rect_clear(&w);
+  dyd_boundary_clear(&b);
+  orc_case_clear(&c);
+}
+
 /* Exact points: the boundaries of Int and Pos are the same classical cell. */
 static void classical(void **state) {
   (void)state;
@@ -443,9 +481,9 @@ static void refinement(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(strip_and_plane), cmocka_unit_test(random_cases), cmocka_unit_test(small_triples),
-      cmocka_unit_test(lattice_cases),   cmocka_unit_test(classical),    cmocka_unit_test(symmetries),
-      cmocka_unit_test(refinement),
+      cmocka_unit_test(strip_and_plane), cmocka_unit_test(touched_window), cmocka_unit_test(random_cases),
+      cmocka_unit_test(small_triples),   cmocka_unit_test(lattice_cases),  cmocka_unit_test(classical),
+      cmocka_unit_test(symmetries),      cmocka_unit_test(refinement),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
