@@ -26,7 +26,8 @@ DYD_API dyd_status dyd_metric_hausdorff(dyd_dyadic *out, const dyd_delaunay *pd)
  * area       an upper bound of the Lebesgue measure of U: the area of W minus the areas of inner polygons [AREA-V]
  * hausdorff  an upper bound of the distance of any point of U to the true diagram, for any choice [HAUS-V]; it takes
  *            disjoint rectangles, also where nothing is decided (cocircular points)
- * finite     false: no bound is known, as no two rectangles are disjoint; then hausdorff is 0 and means nothing
+ * finite     false: no bound is known, as no two rectangles are disjoint or distances are beyond doubles; then
+ * hausdorff is 0 and means nothing
  *
  * Both are rounded up by at most 2^-53 of themselves. bits: the polygons are within 2^-bits of their cells, which adds
  * at most the perimeter of all cells in W times 2^-bits to the area. */

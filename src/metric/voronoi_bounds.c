@@ -186,6 +186,10 @@ dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_s
     else
       mpfr_set_zero(out, 1);
   }
+  if (mpfr_inf_p(out)) { /* beyond the doubles that reaches are kept in */
+    *finite = false;
+    mpfr_set_zero(out, 1);
+  }
   mpfr_clear(one);
   dyd_measure_clear(&m);
   return status;
