@@ -64,6 +64,8 @@ int cli_delaunay(const cli_options *o);
 int cli_voronoi(const cli_options *o);
 int cli_converge(const cli_options *o);
 int cli_verify(const cli_options *o);
+int cli_disc(const cli_options *o);
+int cli_bisector(const cli_options *o);
 
 /* oracle.c: adds the points that the programs of --oracle serve. 0, or an exit status after a message. */
 int cli_oracle_read(dyd_engine *e, const cli_options *o);

@@ -48,8 +48,16 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                     "Checks a certificate that --certificate wrote, and says what it checked and what not.\n"
                     "Exit status 0: accepted; 1: rejected, with the line and the reason.",
                     0, cli_verify},
-    [CLI_DISC] = {.name = "disc", .operands = "FILE"},
-    [CLI_BISECTOR] = {.name = "bisector", .operands = "FILE"},
+    [CLI_DISC] = {"disc", "FILE", "the partial disc of the first three points, and where the others are",
+                  "The six critical circles of the first three points, exactly, the box of all centres\n"
+                  "of circles through them, and for each other point whether it is surely inside or\n"
+                  "outside of all these circles. Points are refined until that is known.",
+                  FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_disc},
+    [CLI_BISECTOR] = {"bisector", "FILE", "the partial bisector of the first two points",
+                      "The two curves that bound what is surely nearer to the one point, and to the other:\n"
+                      "each a chain of at most seven arcs of lines and parabolas, with exact ends. The\n"
+                      "points are refined until their rectangles are disjoint.",
+                      FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_bisector},
     [CLI_NEAREST] = {.name = "nearest", .operands = "FILE X Y"},
 };
 

@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Numbers (a + b sqrt(c)) / d as text.
+ *
+ * Enclosures: with n = floor(x 2^g), x lies in [n, n+1] 2^-g; g is chosen so that 2^-g is small against 1 / d. For a
+ * root sqrt(x) lies in [floor(sqrt(n)), ceil(sqrt(n+1))] 2^-(g/2). */
+#include "io/exact_text.h"
+
+#include "dyadic/raw.h"
+#include "io/decimal.h"
+#include "voronoi/surd_point.h"
+#include <math.h>
+
+void dyd_exact_text(FILE *out, mpz_srcptr a, mpz_srcptr b, mpz_srcptr c, mpz_srcptr d) {
+  mpz_t gcd, p, q, r;
+  mpz_inits(gcd, p, q, r, NULL);
+  bool root = mpz_sgn(b) && mpz_sgn(c);
+  mpz_gcd(gcd, a, d);
+  if (root) mpz_gcd(gcd, gcd, b);
+  mpz_divexact(p, a, gcd);
+  mpz_divexact(r, d, gcd);
+  bool whole = !mpz_cmp_ui(r, 1);
+  if (root) {
+    mpz_divexact(q, b, gcd);
+    if (!whole) fputc('(', out);
+    if (mpz_sgn(p)) gmp_fprintf(out, "%Zd%s", p, mpz_sgn(q) > 0 ? "+" : "");
+    gmp_fprintf(out, "%Zd*sqrt(%Zd)%s", q, c, whole ? "" : ")");
+  } else {
+    gmp_fprintf(out, "%Zd", p);
+  }
+  if (!whole) gmp_fprintf(out, "/%Zd", r);
+  mpz_clears(gcd, p, q, r, NULL);
+}
+
+/* Fine enough for 17 digits of 1 / d. */
+static int64_t choose_bits(const dyd_surd_point *p) {
+  return 64 + dyd_bits(p->d);
+}
+
+void dyd_exact_enclose(double *lo, double *hi, const dyd_surd_point *p, int axis) {
+  int64_t bits = choose_bits(p);
+  mpz_t floor, ceiling;
+  mpz_inits(floor, ceiling, NULL);
+  dyd_surd_point_floor(floor, ceiling, p, axis, bits);
+  *lo = dyd_raw_get_d(floor, -bits, DYD_DOWN);
+  *hi = dyd_raw_get_d(ceiling, -bits, DYD_UP);
+  mpz_clears(floor, ceiling, NULL);
+}
+
+void dyd_exact_enclose_root(double *lo, double *hi, const dyd_surd_point *p) {
+  int64_t bits = choose_bits(p);
+  mpz_t floor, ceiling, rest;
+  mpz_inits(floor, ceiling, rest, NULL);
+  dyd_surd_point_floor(floor, ceiling, p, 0, 2 * bits);
+  mpz_sqrt(floor, floor);
+  mpz_sqrtrem(ceiling, rest, ceiling);
+  if (mpz_sgn(rest)) mpz_add_ui(ceiling, ceiling, 1);
+  *lo = dyd_raw_get_d(floor, -bits, DYD_DOWN);
+  *hi = dyd_raw_get_d(ceiling, -bits, DYD_UP);
+  mpz_clears(floor, ceiling, rest, NULL);
+}
+
+static void put(FILE *out, double x, dyd_round dir) {
+  char text[DYD_DECIMAL_SIZE];
+  if (isinf(x)) {
+    fputs(x < 0 ? "-inf" : "inf", out);
+    return;
+  }
+  dyd_decimal_directed(text, x, 17, dir);
+  fputs(text, out);
+}
+
+void dyd_exact_decimals(FILE *out, double lo, double hi, const char *between) {
+  put(out, lo, DYD_DOWN);
+  fputs(between, out);
+  put(out, hi, DYD_UP);
+}
+
+void dyd_exact_decimals_json(FILE *out, double lo, double hi) {
+  fputs("[", out);
+  dyd_decimal_json(out, lo, DYD_DOWN);
+  fputs(", ", out);
+  dyd_decimal_json(out, hi, DYD_UP);
+  fputs("]", out);
+}
