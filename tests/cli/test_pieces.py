@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""dyadel bisector and dyadel disc.
+
+Usage: test_pieces.py COMMAND DATA
+"""
+import csv
+import json
+import math
+from fractions import Fraction
+
+from harness import expect, main, run
+
+FIGURE_4 = '[0,1] [0,2]\n[3,5] [5,6]\n'
+
+
+def rows(text):
+    return list(csv.DictReader(line for line in text.splitlines() if not line.startswith('#')))
+
+
+def number(text):
+    """A rational exactly, a root to double precision."""
+    if 'sqrt' not in text:
+        return Fraction(text)
+    return Fraction(eval(text, {'sqrt': math.sqrt}))  # our own output
+
+
+def check_decimals(row, end):
+    if row[end] == 'infinite':
+        assert not any(row[end + '_' + k] for k in ('x', 'y', 'xlo', 'xhi', 'ylo', 'yhi')), row
+        return
+    for axis in 'xy':
+        exact, low, high = (row[f'{end}_{axis}{k}'] for k in ('', 'lo', 'hi'))
+        slack = Fraction(0) if 'sqrt' not in exact else abs(number(exact)) / 2**50
+        assert Fraction(low) - slack <= number(exact) <= Fraction(high) + slack, row
+        assert Fraction(high) - Fraction(low) <= abs(number(exact)) / 2**50 + Fraction(1, 10**300), row
+
+
+def test_bisector_csv():
+    result = run('bisector', '-', stdin=FIGURE_4)
+    expect(result, 0, '^# .*rounded down')
+    table = rows(result.out)
+    kinds = {far: ''.join(r['kind'][0] for r in table if r['far'] == far) for far in '01'}
+    assert kinds['0'] == 'lppllpl', kinds
+    assert all(r['near'] == str(1 - int(r['far'])) for r in table)
+    for far in '01':
+        chain = [r for r in table if r['far'] == far]
+        assert chain[0]['begin'] == chain[-1]['end'] == 'infinite'
+        for a, b in zip(chain, chain[1:]):
+            assert [number(a['end_' + k]) for k in 'xy'] == [number(b['begin_' + k]) for k in 'xy'], (a, b)
+    for row in table:
+        check_decimals(row, 'begin')
+        check_decimals(row, 'end')
+
+
+def test_ends_are_coordinates():
+    """The exact ends can be read back as points."""
+    table = rows(run('bisector', '-', stdin='[0,1] [0,2]\n[3,5] [5,6.25]\n').out)
+    points = sorted({r['begin_x'] + ' ' + r['begin_y'] for r in table if r['begin'] != 'infinite'})
+    assert any('sqrt' in p for p in points), points
+    expect(run('delaunay', '-', stdin='\n'.join(points) + '\n'), 0, '^0,')
+
+
+def test_bisector_json():
+    result = run('bisector', '--format', 'json', '-', stdin='sqrt(2) 0\npi pi\n')
+    expect(result, 0)
+    data = json.loads(result.out)
+    assert data['format'] == 'dyadel bisector 1' and data['outcome'] == 'decided'
+    assert [c['far'] for c in data['curves']] == [0, 1]
+    assert all(len(c['boundary']['chains']) == 1 for c in data['curves'])
+    assert len(data['rectangles']) == 2
+
+
+def test_bisector_outcomes():
+    expect(run('bisector', '-', stdin='[0,2] 0\n[1,3] 0\n'), 3, '^# the rectangles meet', '^dyadel: fixpoint')
+    expect(run('bisector', '--quiet', '-', stdin='0 0\n0 0\n'), 3, '^# the rectangles meet', r'\A\Z')
+    close = 'sqrt(2) 0\nsqrt(2)+2^-300 0\n'
+    expect(run('bisector', '-', stdin=close), 0, '^0,1,line')
+    expect(run('bisector', '--max-bits', '100', '-', stdin=close), 4, '^# the rectangles meet', '^dyadel: budget')
+    expect(run('bisector', '-', stdin='0 0\n'), 1, r'\A\Z', 'dyadel: -: 2 points are needed, here are 1')
+    expect(run('bisector', '-', stdin='0 0\n1\n'), 1, r'\A\Z', r'\Adyadel: -:2:2')
+    expect(run('bisector', '--format', 'obj', '-', stdin=FIGURE_4), 2, r'\A\Z')
+
+
+def con(*args, stdin):
+    result = run('disc', *args, '-', stdin=stdin)
+    return result, {r['i']: r['con'] for r in rows(result.out)}
+
+
+def test_disc_of_points():
+    result, where = con(stdin='0 0\n4 0\n0 4\n4 4\n2 2\n5 5\n4 -1/8\n')
+    expect(result, 3, '^# orientation of 0 1 2: counter-clockwise')
+    assert where == {'3': 'unknown', '4': 'inside', '5': 'outside', '6': 'outside'}, where
+    circles = [line for line in result.out.splitlines() if line.startswith('# circle') and 'radius^2' in line]
+    assert len(circles) == 6 and all(c.endswith('x 2 y 2 radius^2 8') for c in circles), circles
+    assert '# partial centre within xlo 2 xhi 2 ylo 2 yhi 2' in result.out
+
+
+def test_disc_refines():
+    near = '0 0\n1 0\n0 1\ncos(1)/sqrt(2)+1/2 sin(1)/sqrt(2)+1/2+2^-%d\n'
+    result, where = con(stdin=near % 400)
+    expect(result, 0)
+    assert where == {'3': 'outside'}, where
+    result, where = con('--max-bits', '200', stdin=near % 400)
+    expect(result, 4, '', '^dyadel: budget')
+    assert where == {'3': 'unknown'}, where
+
+
+def test_disc_of_rectangles():
+    result, where = con(stdin='[0,1] 0\n4 [0,1]\n[0,1] 4\n2 2\n[-9,9] 2\n20 20\n')
+    expect(result, 3, '', '^dyadel: fixpoint')
+    assert where == {'3': 'inside', '4': 'unknown', '5': 'outside'}, where
+    data = json.loads(run('disc', '--format', 'json', '-', stdin='[0,1] 0\n4 [0,1]\n[0,1] 4\n').out)
+    assert [c['labels'] for c in data['circles']] == ['FCC', 'CFC', 'CCF', 'CFF', 'FCF', 'FFC']
+    box = data['partial_centre']
+    for circle in data['circles']:
+        for axis in 'xy':
+            low, high = circle[axis + '_decimal']
+            assert box[axis + '_decimal'][0] <= low <= high <= box[axis + '_decimal'][1]
+        assert circle['radius_decimal'][0] > 0
+    assert data['con'] == []
+
+
+def test_disc_without_orientation():
+    result, where = con(stdin='0 0\n1 1\n2 2\n3 0\n')
+    expect(result, 3, '^# orientation of 0 1 2: unknown', '^dyadel: fixpoint')
+    assert where == {'3': 'unknown'} and '# circle ' not in result.out
+    expect(run('disc', '-', stdin='0 0\n1 1\n'), 1, r'\A\Z', '3 points are needed, here are 2')
+    data = json.loads(run('disc', '--format', 'json', '-', stdin='0 0\n1 1\n2 2\n').out)
+    assert data['circles'] == [] and data['partial_centre'] is None and data['outcome'] == 'fixpoint'
+
+
+main(globals())
