@@ -55,8 +55,8 @@ DYD_API dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_re
                                       dyd_format format, dyd_error *err);
 /* The partial disc of r[0], r[1], r[2]: orientation, the six critical circles exactly and enclosed, the box of the
  * partial centre, and Con of r[3 .. n-1]. csv or json (else DYD_E_ARG, as for n < 3). */
-DYD_API dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome,
-                                  dyd_format format, dyd_error *err);
+DYD_API dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome, dyd_format format,
+                                  dyd_error *err);
 
 /* Writes a table of convergence: DYD_FORMAT_CSV or DYD_FORMAT_JSON (else DYD_E_ARG). Bounds and widths are rounded up,
  * and the output says so. times = false leaves the seconds out: then equal runs give equal bytes. */
