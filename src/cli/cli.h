@@ -63,6 +63,7 @@ bool cli_window_read(dyd_rect *out, const char *text);
 int cli_delaunay(const cli_options *o);
 int cli_voronoi(const cli_options *o);
 int cli_converge(const cli_options *o);
+int cli_nearest(const cli_options *o);
 int cli_verify(const cli_options *o);
 int cli_disc(const cli_options *o);
 int cli_bisector(const cli_options *o);

@@ -58,7 +58,11 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                       "each a chain of at most seven arcs of lines and parabolas, with exact ends. The\n"
                       "points are refined until their rectangles are disjoint.",
                       FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_bisector},
-    [CLI_NEAREST] = {.name = "nearest", .operands = "FILE X Y"},
+    [CLI_NEAREST] = {"nearest", "FILE X Y", "which points are surely, which are possibly nearest to a place",
+                     "The points that are nearest to the place (X,Y), coordinates of any form: sure when\n"
+                     "exactly one is, whatever the points in the rectangles are; possible otherwise. The\n"
+                     "place and the points concerned are refined until one is sure.",
+                     FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_nearest},
 };
 
 const char *const cli_group_names[CLI_GROUPS] = {[CLI_INPUT] = "Input",

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""dyadel nearest: answers, outcomes, exit statuses, formats and messages.
+
+Usage: test_nearest.py COMMAND DATA
+"""
+import csv
+import json
+import os
+
+from harness import DATA, expect, main, run
+
+SITES = '0 0\n2*sqrt(2) 0\n0 10\n0 0\n10 10\n'
+ALIAS = r'\A# alias 3 0\ni,status\n'
+
+# (options, X, Y, exit status, standard output, standard error)
+CASES = [
+    ('', '1', '1', 0, ALIAS + r'0,sure\n\Z', r'\A\Z'),
+    ('', '-1', '-22/7', 0, ALIAS + r'0,sure\n\Z', r'\A\Z'),
+    ('', 'sqrt(2)', 'pi', 4, ALIAS + r'0,possible\n1,possible\n\Z', r'\Adyadel: budget: 2 possibly nearest; .*--max-bits'),
+    ('--quiet', 'sqrt(2)', 'pi', 4, ALIAS + r'0,possible\n1,possible\n\Z', r'\A\Z'),
+    ('', 'sqrt(2)+2^-3000', 'pi', 0, ALIAS + r'1,sure\n\Z', r'\A\Z'),
+    ('--max-bits 2000', 'sqrt(2)+2^-3000', 'pi', 4, ALIAS + r'0,possible\n1,possible\n\Z', ''),
+    ('', '5', '123/7', 3, ALIAS + r'2,possible\n4,possible\n\Z', r'\Adyadel: fixpoint: 2 possibly nearest'),
+    ('', '[0,1]', '5', 3, ALIAS + r'0,possible\n2,possible\n\Z', ''),
+    ('', '0.5+-0.25', '1', 0, ALIAS + r'0,sure\n\Z', ''),
+    ('', '1+', '2', 2, r'\A\Z', r'\Adyadel: X "1\+", column 3: '),
+    ('', '1', 'log(0)', 2, r'\A\Z', r'\Adyadel: Y "log\(0\)", column 1: '),
+    ('', '1', 'log(sqrt(2)-sqrt(2))', 1, r'\A\Z', r'\Adyadel: .*log'),
+    ('--format obj', '1', '1', 2, r'\A\Z', 'nearest does not write obj'),
+    ('--until area:3', '1', '1', 2, r'\A\Z', 'nearest does not take --until'),
+]
+
+
+def test_cases():
+    for options, x, y, code, out, err in CASES:
+        try:
+            expect(run('nearest', *options.split(), '-', x, y, stdin=SITES), code, out, err)
+        except AssertionError as problem:
+            raise AssertionError(f'{options} {x} {y}: {problem}') from problem
+
+
+def test_arguments():
+    expect(run('nearest', '-', '1', stdin=SITES), 2, r'\A\Z', 'an argument is missing')
+    expect(run('nearest', '-', '1', '2', '3', stdin=SITES), 2, r'\A\Z', 'one argument too many')
+    expect(run('nearest', 'nowhere', '1', '2'), 1, r'\A\Z', 'nowhere: cannot open')
+    expect(run('nearest', '-', '1', '2', stdin=''), 3, r'\Ai,status\n\Z', 'fixpoint: 0 possibly')
+
+
+def test_measured():
+    """A rectangle at each site: the two are as near as each other to the middle, and not elsewhere."""
+    expect(run('nearest', '--measured', '-', '5', '0', stdin='0 0\n10 0\n'), 3, r'\Ai,status\n0,possible\n1,possible\n\Z')
+    expect(run('nearest', '--measured', '-', '4', '0', stdin='0 0\n10 0\n'), 0, r'\Ai,status\n0,sure\n\Z')
+    expect(run('nearest', '--radius', '2', '-', '4', '0', stdin='0 0\n10 0\n'), 3, r'\Ai,status\n0,possible\n1,')
+
+
+def test_json():
+    result = run('nearest', '--format', 'json', '-', '1/3', '0.5', stdin=SITES)
+    expect(result, 0)
+    answer = json.loads(result.out)
+    assert answer['format'] == 'dyadel nearest 1' and answer['outcome'] == 'decided', answer
+    assert answer['x'] == ['1/3', '1/3'] and answer['y'] == ['1*2^-1', '1*2^-1'], answer
+    assert answer['nearest'] == [{'i': 0, 'status': 'sure'}] and answer['aliases'] == [[3, 0]], answer
+
+
+def test_airports():
+    """Against all distances; the coordinates are decimals, exact as integers of 10^-20 degrees."""
+    path = os.path.join(DATA, 'airports.csv')
+    with open(path, encoding='utf-8', newline='') as file:
+        rows = list(csv.DictReader(file))
+
+    def whole(text):
+        sign = -1 if text.startswith('-') else 1
+        head, _, tail = text.lstrip('-').partition('.')
+        assert 'e' not in tail and len(tail) <= 20, text
+        return sign * int((head or '0') + tail.ljust(20, '0'))
+
+    sites = [(whole(row['longitude']), whole(row['latitude'])) for row in rows]
+    for x, y in [('-75.5', '40.25'), ('-150', '61.2'), ('0', '0'), ('-98.35', '39.5')]:
+        away = [(px - whole(x)) ** 2 + (py - whole(y)) ** 2 for px, py in sites]
+        nearest = away.index(min(away))
+        expect(run('nearest', '--columns', 'longitude,latitude', path, x, y), 0, rf'^{nearest},sure\n\Z')
+
+
+main(globals())
