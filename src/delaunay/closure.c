@@ -12,11 +12,19 @@
 
 #include "base/alloc.h"
 #include "delaunay/build.h"
+#include "delaunay/filter_cells.h"
 #include "delaunay/filter_quad.h"
 #include "delaunay/hull.h"
 #include "delaunay/pair_map.h"
 
 #include <string.h>
+
+/* Least number of triangles of a face worth looking at the plane; in the verify build small faces take part, too. */
+#ifdef DYD_VERIFY
+enum { CROWD = 5 };
+#else
+enum { CROWD = 64 };
+#endif
 
 /* Members 0 .. vertices-1 are the face's vertices, member `vertices` is the ghost (if outer). */
 typedef struct closing {
@@ -120,7 +128,7 @@ static dyd_status add(closing *c, uint32_t a, uint32_t b, dyd_pair_state state) 
   return dyd_pair_map_add(&c->map, a, b, state);
 }
 
-/* The ghost's pairs, all of them; the skeleton's edges. */
+/* The ghost's pairs, all of them. */
 static dyd_status start_ghost(closing *c) {
   uint32_t ghost = c->out->vertices;
   dyd_status st = DYD_OK;
@@ -142,8 +150,49 @@ static dyd_status start(closing *c) {
       uint32_t a = member_of(c, t->v[dyd_next(k)]), b = member_of(c, t->v[dyd_prev(k)]);
       if (dyd_pair_map_get(&c->map, a, b) == DYD_PAIR_UNKNOWN) st = add(c, a, b, DYD_PAIR_OPEN);
     }
-  return st == DYD_OK ? start_ghost(c) : st;
+  return st;
 }
+
+/* A pair of sites without a state. */
+static dyd_status add_possible(closing *c, uint32_t a, uint32_t b) {
+  return add(c, a, b, dyd_is_legal(c->pd, c->out->vertex[a], c->out->vertex[b]) ? DYD_PAIR_CERTAIN : DYD_PAIR_OPEN);
+}
+
+/* ---- many overlapping rectangles: cells of the plane [CELL-1] ---- */
+
+static dyd_status found(void *context, bool *enough, uint32_t a, uint32_t b) {
+  closing *c = context;
+  dyd_status st = add_possible(c, a, b);
+  *enough = c->full;
+  return st;
+}
+
+/* Is it worth looking at the plane? Only if most vertices have uncertain edges all around, and are many among those of
+ * the plane, all of whom are looked at. */
+static bool is_crowded(const closing *c) {
+  uint32_t vertices = c->out->vertices;
+  bool many = c->tris >= CROWD && c->tris / 3 >= vertices / 2 && c->pd->tree.count / 16 <= vertices;
+  return many && !c->pd->options.no_filter;
+}
+
+/* *done: all possible pairs have been found. */
+static dyd_status close_by_cells(bool *done, closing *c) {
+  static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
+  const uint32_t *v = c->out->vertex;
+  dyd_cells cells = {
+      .pd = c->pd, .vertex = v, .vertices = c->out->vertices, .map = &c->map, .found = found, .context = c};
+  dyd_status st = dyd_cells_run(done, &cells);
+  for (size_t q = 0; q < cells.count && *done && st == DYD_OK && !c->full; q++) {
+    uint32_t a = cells.left[q].a, b = cells.left[q].b;
+    bool possible;
+    st = dyd_cancelled(c->pd) ? DYD_CANCELLED : dyd_cover_possible(&possible, c->w, c->pd, v[a], v[b], no_hint);
+    if (st == DYD_OK && possible) st = add_possible(c, a, b);
+  }
+  dyd_cells_clear(&cells);
+  return st;
+}
+
+/* ---- few: closure under flips ---- */
 
 /* The pair kl may take the place of ij: decide it, once. */
 static dyd_status flip(closing *c, uint32_t i, uint32_t j, uint32_t k, uint32_t l) {
@@ -157,10 +206,7 @@ static dyd_status flip(closing *c, uint32_t i, uint32_t j, uint32_t k, uint32_t 
     dyd_status st = dyd_cover_possible(&possible, c->w, c->pd, v[k], v[l], hint);
     if (st != DYD_OK) return st;
   }
-  return add(c, k, l,
-             !possible                         ? DYD_PAIR_IMPOSSIBLE
-             : dyd_is_legal(c->pd, v[k], v[l]) ? DYD_PAIR_CERTAIN
-                                               : DYD_PAIR_OPEN);
+  return possible ? add_possible(c, k, l) : add(c, k, l, DYD_PAIR_IMPOSSIBLE);
 }
 
 static bool possible(const closing *c, uint32_t a, uint32_t b) {
@@ -192,7 +238,11 @@ static dyd_status settle(closing *c, uint32_t a, uint32_t b) {
 }
 
 static dyd_status close(closing *c) {
+  bool done = false;
   dyd_status st = start(c);
+  if (st == DYD_OK && is_crowded(c)) st = close_by_cells(&done, c);
+  if (done || c->full) return st;
+  if (st == DYD_OK) st = start_ghost(c);
   for (size_t q = 0; q < c->map.links && st == DYD_OK && !c->full; q += 2) {
     if (dyd_cancelled(c->pd)) return DYD_CANCELLED;
     st = settle(c, c->map.link[q + 1].to, c->map.link[q].to);

@@ -6,13 +6,6 @@
 
 #include <math.h>
 
-double dyd_box_slack(const dyd_delaunay *pd, uint32_t v) {
-  if (dyd_sites_in_doubles(pd->sites, pd->reps.site[v])) return 0;
-  const double *e = pd->box[v].e;
-  double m = dyd_max(dyd_max(fabs(e[0]), fabs(e[1])), dyd_max(fabs(e[2]), fabs(e[3])));
-  return m * 0x1p-52 + 0x1p-1074;
-}
-
 double dyd_pair_ds2_upper(const dyd_delaunay *pd, const dyd_bbox *c, uint32_t i, uint32_t j) {
   double a = dyd_ds2_upper(c, &pd->box[i], dyd_box_slack(pd, i));
   double b = dyd_ds2_upper(c, &pd->box[j], dyd_box_slack(pd, j));

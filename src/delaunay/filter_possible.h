@@ -7,7 +7,12 @@
 
 /* By how much an end of v's outward box can lie outside its rectangle: 0 when doubles hold it, else one unit in the
  * last place of the largest end, at most 2^-52 of it (or 2^-1074). */
-double dyd_box_slack(const dyd_delaunay *pd, uint32_t v);
+static inline double dyd_box_slack(const dyd_delaunay *pd, uint32_t v) {
+  if (dyd_sites_in_doubles(pd->sites, pd->reps.site[v])) return 0;
+  const double *e = pd->box[v].e;
+  double m = dyd_max(dyd_max(fabs(e[0]), fabs(e[1])), dyd_max(fabs(e[2]), fabs(e[3])));
+  return m * 0x1p-52 + 0x1p-1074;
+}
 /* Upper bound of max(ds_i, ds_j)^2 over the centres in c. */
 double dyd_pair_ds2_upper(const dyd_delaunay *pd, const dyd_bbox *c, uint32_t i, uint32_t j);
 /* Is dl_k^2 >= bound for all centres in c, surely? */

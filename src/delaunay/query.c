@@ -43,7 +43,8 @@ size_t dyd_delaunay_memory(const dyd_delaunay *pd) {
   bytes += n * (3 * sizeof(uint32_t) + sizeof(dyd_xy)) + t * sizeof(dyd_tri) + pd->mesh.count;
   if (pd->reps.code) bytes += n * sizeof(uint32_t);
   if (pd->box) bytes += n * sizeof(dyd_bbox) + pd->tree.count * sizeof(uint32_t);
-  bytes += (pd->tree.level[pd->tree.levels] + pd->blocks.level[pd->blocks.levels] + pd->blocks.count) * sizeof(dyd_bbox);
+  bytes +=
+      (pd->tree.level[pd->tree.levels] + pd->blocks.level[pd->blocks.levels] + pd->blocks.count) * sizeof(dyd_bbox);
   bytes += pd->faces.face_cap * sizeof(dyd_face) + pd->faces.tri_cap * sizeof(uint32_t);
   bytes += pd->faces.pair_cap * sizeof(dyd_vertex_pair) + (pd->faces.of ? pd->mesh.count * sizeof(uint32_t) : 0);
   return bytes;
