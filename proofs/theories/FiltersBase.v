@@ -359,6 +359,45 @@ Proof.
   - destruct x as [s|s|s p H|s m e H]; try discriminate; simpl; [apply xorb_nilpotent|easy].
 Qed.
 
+Lemma fsqr_total x : finite x ->
+  (finite (x * x)%D /\ val (x * x)%D = rnd (val x * val x)) \/
+  (x * x = B754_infinity 53 1024 false)%D /\ bpow radix2 1024 <= rnd (val x * val x).
+Proof.
+  intros Fx. assert (R0 : 0 <= rnd (val x * val x)) by (apply rnd_ge_0, Rle_0_sqr).
+  destruct (Rlt_or_le (Rabs (rnd (val x * val x))) (bpow radix2 1024)) as [K|K].
+  - left. now apply fmul_finite.
+  - right. split; [|now rewrite Rabs_pos_eq in K].
+    generalize (Bmult_correct 53 1024 (eq_refl : (0 < 53)%Z) (eq_refl : (53 < 1024)%Z) binop_nan_pl64 mode_NE x x).
+    change (SpecFloat.fexp 53 1024) with fexp; change (round_mode mode_NE) with ZnearestE.
+    fold (b64_mult mode_NE x x); change (b64_mult mode_NE x x) with (x * x)%D.
+    rewrite Rlt_bool_false by exact K. rewrite xorb_nilpotent. intros A; now apply overflow_infinite in A.
+Qed.
+
+(** A positive constant times an infinite or finite value. *)
+Lemma fmul_total_pos x y : finite x -> finite y -> 0 <= val x -> 0 < val y ->
+  (finite (x * y)%D /\ val (x * y)%D = rnd (val x * val y)) \/
+  (x * y = B754_infinity 53 1024 false)%D /\ bpow radix2 1024 <= rnd (val x * val y).
+Proof.
+  intros Fx Fy Px Py. assert (R0 : 0 <= rnd (val x * val y)) by (apply rnd_ge_0, Rmult_le_pos; lra).
+  destruct (Rlt_or_le (Rabs (rnd (val x * val y))) (bpow radix2 1024)) as [K|K].
+  - left. now apply fmul_finite.
+  - right. split; [|now rewrite Rabs_pos_eq in K].
+    assert (Nx : nneg x) by now apply nneg_of_val. assert (Ny : nneg y) by (apply nneg_of_val; [exact Fy|lra]).
+    assert (N : nneg (x * y)%D) by now apply nneg_mul.
+    generalize (Bmult_correct 53 1024 (eq_refl : (0 < 53)%Z) (eq_refl : (53 < 1024)%Z) binop_nan_pl64 mode_NE x y).
+    change (SpecFloat.fexp 53 1024) with fexp; change (round_mode mode_NE) with ZnearestE.
+    fold (b64_mult mode_NE x y); change (b64_mult mode_NE x y) with (x * y)%D.
+    rewrite Rlt_bool_false by exact K. intros A; apply overflow_infinite in A. rewrite A in *. simpl in N.
+    now rewrite N.
+Qed.
+
+Lemma inf_mul_pos y : finite y -> 0 < val y ->
+  (B754_infinity 53 1024 false * y)%D = B754_infinity 53 1024 false.
+Proof.
+  intros F P. destruct y as [s|s|s p H|[|] m e H]; try discriminate F; [simpl in P; lra| |reflexivity].
+  exfalso. assert (F2R (Float radix2 (Zneg m) e) < 0) by (apply F2R_lt_0; simpl; lia). simpl in P. lra.
+Qed.
+
 Lemma nneg_sqrt x : nneg (fsqrt x).
 Proof.
   generalize (Bsqrt_correct 53 1024 (eq_refl : (0 < 53)%Z) (eq_refl : (53 < 1024)%Z) unop_nan_pl64 mode_NE x).
@@ -391,4 +430,27 @@ Qed.
 (** Values of constants in a hypothesis. *)
 Ltac lits H :=
   repeat match type of H with context [B2R 53 1024 (lit ?c)] => rewrite (proj2 (lit_correct c eq_refl)) in H end.
+(** Arithmetic with infinity. *)
+Lemma inf_sqr : (B754_infinity 53 1024 false * B754_infinity 53 1024 false)%D = B754_infinity 53 1024 false.
+Proof. reflexivity. Qed.
+Lemma inf_inf : (B754_infinity 53 1024 false + B754_infinity 53 1024 false)%D = B754_infinity 53 1024 false.
+Proof. reflexivity. Qed.
+Lemma inf_add x : finite x -> (B754_infinity 53 1024 false + x)%D = B754_infinity 53 1024 false.
+Proof. destruct x; try discriminate; reflexivity. Qed.
+Lemma add_inf x : finite x -> (x + B754_infinity 53 1024 false)%D = B754_infinity 53 1024 false.
+Proof. destruct x; try discriminate; reflexivity. Qed.
+Lemma inf_sub x : finite x -> (B754_infinity 53 1024 false - x)%D = B754_infinity 53 1024 false.
+Proof. destruct x; try discriminate; reflexivity. Qed.
+Lemma sub_inf x : finite x -> (x - B754_infinity 53 1024 false)%D = B754_infinity 53 1024 true.
+Proof. destruct x; try discriminate; reflexivity. Qed.
+Lemma ninf_sub x : finite x -> (B754_infinity 53 1024 true - x)%D = B754_infinity 53 1024 true.
+Proof. destruct x; try discriminate; reflexivity. Qed.
+Lemma sub_ninf x : finite x -> (x - B754_infinity 53 1024 true)%D = B754_infinity 53 1024 false.
+Proof. destruct x; try discriminate; reflexivity. Qed.
+Lemma inf_sub_ninf : (B754_infinity 53 1024 false - B754_infinity 53 1024 true)%D = B754_infinity 53 1024 false.
+Proof. reflexivity. Qed.
+Lemma ninf_sub_inf : (B754_infinity 53 1024 true - B754_infinity 53 1024 false)%D = B754_infinity 53 1024 true.
+Proof. reflexivity. Qed.
+Lemma gt_of_inf x : finite x -> gt (B754_infinity 53 1024 false) x = true.
+Proof. destruct x; try discriminate; reflexivity. Qed.
 #[global] Opaque fadd fsub fmul fdiv fsqrt fopp fabs lit.

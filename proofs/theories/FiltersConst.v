@@ -18,7 +18,7 @@ Definition c_orient_near : const := (2257429313219461, -102)%Z.
 (* [FLT-ORI] src/delaunay/filter_mesh.h: (fabs(left) + fabs(right)) + {}; *)
 Definition c_orient_near_tiny : const := (1, -1000)%Z.
 
-(* [FLT-ORI] src/delaunay/filter_mesh.h: if (m->incircle_delta > {}) return 0; *)
+(* [FLT-INC] src/delaunay/filter_mesh.h: if (m->incircle_delta > {}) { *)
 Definition c_zero : const := (0, 0)%Z.
 
 (* [FLT-INC] src/delaunay/filter_mesh.h: #define DYD_INCIRCLE_BOUND {} *)

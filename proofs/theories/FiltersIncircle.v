@@ -16,7 +16,7 @@ Definition incircle (ax ay bx by_ cx cy px py : R) : R :=
 
 (** ** The determinant as the C code computes it, in doubles *)
 
-(* C src/delaunay/filter_mesh.h dyd_filter_incircle_at: lines of ax .. d *)
+(** The parts of d: see dyd_filter_incircle_at. *)
 Definition lift (x y : double) : double := (x * x + y * y)%D.
 Definition cross (bx by_ cx cy : double) : double := (bx * cy - by_ * cx)%D.
 Definition term (ax ay bx by_ cx cy : double) : double := (lift ax ay * cross bx by_ cx cy)%D.
