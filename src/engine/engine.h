@@ -106,6 +106,10 @@ dyd_status dyd_engine_voronoi_holds(bool *out, dyd_engine *e, const dyd_engine_o
 /* What a pair contributes to the bound; infinite when its rectangles meet. After dyd_engine_voronoi_holds. */
 dyd_status dyd_engine_voronoi_number(mpfr_ptr out, dyd_engine *e, dyd_measure *m, const dyd_pair *pair,
                                      const dyd_engine_options *o);
+/* By how many bits the enclosure of the Voronoi vertex of a sure triangle is wider than 2^-M; at most 0 when it is not,
+ * or lies outside of the window. */
+dyd_status dyd_engine_vertex_excess(int64_t *out, const dyd_engine *e, const dyd_triangle *t,
+                                    const dyd_engine_options *o);
 /* Gives back e->sums. */
 void dyd_engine_voronoi_forget(dyd_engine *e);
 

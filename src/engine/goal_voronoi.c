@@ -100,3 +100,16 @@ dyd_status dyd_engine_voronoi_holds(bool *out, dyd_engine *e, const dyd_engine_o
   dyd_pair_list_clear(&pairs);
   return status;
 }
+
+/* ---- vertices ---- */
+
+dyd_status dyd_engine_vertex_excess(int64_t *out, const dyd_engine *e, const dyd_triangle *t,
+                                    const dyd_engine_options *o) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status status = dyd_voronoi_vertex(&r, e->pd, t, o->goal_bits + 2);
+  int64_t bits = dyd_rect_bits(&r);
+  *out = status < 0 || bits >= o->goal_bits || !dyd_rect_meets(&r, o->window) ? 0 : o->goal_bits - bits;
+  dyd_rect_clear(&r);
+  return status;
+}

@@ -275,6 +275,25 @@ static dyd_status plan_bound(dyd_plan *plan, dyd_engine *e, dyd_measure *m, numb
   return status;
 }
 
+/* Marks the ends of sure triangles whose Voronoi vertex may be in the window and is enclosed in more than 2^-M. */
+static dyd_status plan_vertices(dyd_plan *plan, dyd_engine *e, const dyd_engine_options *o) {
+  dyd_triangle_list list = {0};
+  dyd_status status = dyd_delaunay_triangles(&list, e->pd);
+  for (size_t k = 0; k < list.count && status >= 0; k++) {
+    const uint32_t *v = list.item[k].v;
+    int64_t excess;
+    status = dyd_engine_vertex_excess(&excess, e, &list.item[k], o);
+    for (int m = 0; m < 3 && status >= 0 && excess > 0; m++) {
+      dyd_refinable *p = dyd_engine_find(e, v[m]);
+      if (!can_narrow(plan, p, o)) continue;
+      int64_t target = raised(p->bits, excess, o->max_bits), step = grown(p->bits, o);
+      mark(plan, p, target > step && !o->step_bits ? target : step, (cause){DYD_REASON_BOUND, v[m], v[(m + 1) % 3]}, o);
+    }
+  }
+  dyd_triangle_list_clear(&list);
+  return status;
+}
+
 /* Replaces the marks by: every point to one precision, a step above the least so far. */
 static void plan_uniform(dyd_plan *plan, dyd_engine *e, const dyd_engine_options *o) {
   int64_t least = INT64_MAX;
@@ -289,6 +308,14 @@ static void plan_uniform(dyd_plan *plan, dyd_engine *e, const dyd_engine_options
       mark(plan, &e->point[k], level, alone(DYD_REASON_UNIFORM, &e->point[k]), o);
 }
 
+/* Where the bound holds already only vertices are left to be narrowed. */
+static dyd_status plan_voronoi(dyd_plan *plan, dyd_engine *e, dyd_measure *m, const dyd_engine_options *o) {
+  dyd_status status = DYD_OK;
+  if (e->sums) status = plan_bound(plan, e, m, dyd_engine_voronoi_number, o->goal == DYD_GOAL_VORONOI_AREA, o);
+  if (status >= 0 && o->goal == DYD_GOAL_VORONOI_HAUSDORFF) status = plan_vertices(plan, e, o);
+  return status;
+}
+
 dyd_status dyd_engine_plan(dyd_plan *out, dyd_engine *e, const dyd_engine_options *o) {
   dyd_measure m;
   dyd_status status;
@@ -301,7 +328,7 @@ dyd_status dyd_engine_plan(dyd_plan *out, dyd_engine *e, const dyd_engine_option
   else if (o->goal == DYD_GOAL_AREA)
     status = plan_bound(out, e, &m, number_area, true, o);
   else
-    status = plan_bound(out, e, &m, dyd_engine_voronoi_number, o->goal == DYD_GOAL_VORONOI_AREA, o);
+    status = plan_voronoi(out, e, &m, o);
   dyd_measure_clear(&m);
   dyd_engine_voronoi_forget(e);
   if (status >= 0 && out->marked && o->schedule == DYD_SCHEDULE_UNIFORM) plan_uniform(out, e, o);
@@ -327,10 +354,21 @@ static dyd_status bound_holds(bool *out, const dyd_engine *e, const dyd_engine_o
   return status;
 }
 
+/* The bound holds, and no vertex is left that is too wide and could be narrowed. */
+static dyd_status voronoi_holds(bool *out, dyd_engine *e, const dyd_engine_options *o) {
+  dyd_plan plan = {0};
+  dyd_status status = dyd_engine_voronoi_holds(out, e, o);
+  if (status != DYD_OK || !*out || o->goal != DYD_GOAL_VORONOI_HAUSDORFF) return status;
+  status = plan_vertices(&plan, e, o);
+  for (size_t k = 0; k < e->points; k++) e->point[k].marked = false;
+  *out = status == DYD_OK && plan.marked == 0;
+  return status;
+}
+
 dyd_status dyd_engine_goal_holds(bool *out, dyd_engine *e, const dyd_engine_options *o) {
   *out = false;
   if (dyd_delaunay_is_capped(e->pd)) return DYD_OK;
-  if (dyd_goal_is_voronoi(o->goal)) return dyd_engine_voronoi_holds(out, e, o);
+  if (dyd_goal_is_voronoi(o->goal)) return voronoi_holds(out, e, o);
   if (o->goal != DYD_GOAL_DECIDED) return bound_holds(out, e, o);
   size_t count[4];
   dyd_delaunay_count(count, e->pd);

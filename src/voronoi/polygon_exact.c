@@ -225,13 +225,23 @@ static dyd_status outer_part(dyd_polygon *out, work *w, const dyd_chain *chain) 
   return status;
 }
 
+/* A polygon that comes out clockwise winds round no point of Pos_i n W: its part was outside of W, and is left out. */
+static dyd_status drop_if_clockwise(dyd_polygon_list *l) {
+  dyd_dyadic area2;
+  dyd_dyadic_init(&area2);
+  dyd_status status = dyd_polygon_area2(&area2, &l->item[l->count - 1]);
+  if (status >= 0 && dyd_dyadic_sgn(&area2) <= 0) dyd_polygon_clear(&l->item[--l->count]);
+  dyd_dyadic_clear(&area2);
+  return status;
+}
+
 static dyd_status outer(dyd_polygon_list *out, work *w) {
   out->item = calloc(w->boundary.count, sizeof *out->item);
   if (!out->item) return DYD_E_NOMEM;
   dyd_status status = DYD_OK;
   for (size_t k = 0; k < w->boundary.count && status >= 0; k++) {
-    out->count = k + 1;
-    status = outer_part(&out->item[k], w, &w->boundary.chain[k]);
+    status = outer_part(&out->item[out->count++], w, &w->boundary.chain[k]);
+    if (status >= 0) status = drop_if_clockwise(out);
   }
   return status;
 }

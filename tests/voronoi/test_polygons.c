@@ -231,9 +231,9 @@ static bool edge_is_outside(const orc_rect *w, xy a, xy b) {
 }
 
 /* Moved towards R_i by four times what it may be off, the vertex is in Pos_i (or the move ends in R_i). A sliver of
- * Pos_i may be missed that way, so cases of mixed scales are left out. */
+ * Pos_i may be missed that way, so only cases of one scale are looked at. */
 static bool vertex_is_close(orc_pool *p, const setting *s, size_t i, xy z) {
-  if (strcmp(s->c->kind, "mixed_scales") == 0) return true;
+  if (strcmp(s->c->kind, "thin") != 0) return true;
   const orc_rect *r = &s->c->rect[i];
   xy d = {orc_si(p, 0, 1), orc_si(p, 0, 1)};
   if (mpq_cmp(z.x, r->e[0]) < 0) d.x = orc_sub(p, r->e[0], z.x);
