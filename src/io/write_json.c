@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "io/result.h"
+#include <dyadel/voronoi.h>
 #include <inttypes.h>
 
 static dyd_status write_interval(FILE *out, const char *name, const dyd_interval *a) {
@@ -83,6 +84,28 @@ static dyd_status write_triangles(const dyd_result *r) {
   }
   fputs("],\n", r->out);
   dyd_triangle_list_clear(&list);
+  return status;
+}
+
+/* The hull: possible pairs as hull edges; "capped" when they are too many to be listed. */
+static dyd_status write_hull(const dyd_result *r) {
+  dyd_hull hull = {0};
+  dyd_status status = dyd_delaunay_partial_hull(&hull, r->pd);
+  const dyd_index_list *list[2] = {&hull.sure_vertices, &hull.possible_vertices};
+  fprintf(r->out, "\"hull\": {\"capped\": %s", status == DYD_CAPPED ? "true" : "false");
+  for (int n = 0; n < 2; n++) {
+    fprintf(r->out, ",\n\"%s_vertices\": [", n ? "possible" : "sure");
+    for (size_t k = 0; k < list[n]->count; k++) fprintf(r->out, "%s%u", k ? ", " : "", (unsigned)list[n]->item[k]);
+    fputs("]", r->out);
+  }
+  fputs(",\n\"edges\": [", r->out);
+  for (size_t k = 0; k < hull.pairs.count; k++) {
+    const dyd_pair *p = &hull.pairs.item[k];
+    fprintf(r->out, "%s\n{\"i\": %u, \"j\": %u, \"status\": \"%s\"}", k ? "," : "", (unsigned)p->i, (unsigned)p->j,
+            dyd_pair_status_text(p->status));
+  }
+  fputs("\n]},\n", r->out);
+  dyd_hull_clear(&hull);
   return status;
 }
 
@@ -181,6 +204,7 @@ dyd_status dyd_write_json(const dyd_result *r, dyd_error *err) {
   if (status >= 0) write_pairs(r);
   if (status >= 0) status = write_faces(r);
   if (status >= 0) status = write_triangles(r);
+  if (status >= 0) status = write_hull(r);
   if (status >= 0) write_counters(r);
   fputs("}\n", r->out);
   return status < 0 ? dyd_fail(err, status, "%s", dyd_status_text(status)) : DYD_OK;

@@ -63,6 +63,17 @@ def test_json():
     assert answer['nearest'] == [{'i': 0, 'status': 'sure'}] and answer['aliases'] == [[3, 0]], answer
 
 
+def test_hull():
+    """The hull in delaunay --format json: an exact point in the middle of a side is possible, its pairs are ties."""
+    text = '0 0\n2 0\n1 0\n[1,3] 4\n1 1\n[0,4] [-1,-0.5]\n'
+    hull = json.loads(run('delaunay', '--quiet', '--format', 'json', '-', stdin=text[:text.rindex('[0,4]')]).out)['hull']
+    assert hull['sure_vertices'] == [0, 1, 3] and hull['possible_vertices'] == [0, 1, 2, 3] and not hull['capped'], hull
+    edges = {(e['i'], e['j']): e['status'] for e in hull['edges']}
+    assert edges == {(0, 1): 'tie', (0, 2): 'tie', (1, 2): 'tie', (0, 3): 'legal', (1, 3): 'legal'}, edges
+    hull = json.loads(run('delaunay', '--quiet', '--format', 'json', '-', stdin=text).out)['hull']
+    assert hull['sure_vertices'] == [0, 3, 5] and hull['possible_vertices'] == [0, 1, 3, 5], hull
+
+
 def test_airports():
     """Against all distances; the coordinates are decimals, exact as integers of 10^-20 degrees."""
     path = os.path.join(DATA, 'airports.csv')
