@@ -1,39 +1,14 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Outputs as inputs: Voronoi vertices, combinations, streams taken out of engines, their life times, and nearest sites
- * of computable points [VTX-1] [CMB-1] [NEAR-3]. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+/* Outputs as inputs: Voronoi vertices, combinations, streams taken out of engines, their life times
+ * [VTX-1] [CMB-1]. */
+#include "voronoi/streams.h"
 
-#include <cmocka.h>
 #include <dyadel/arc.h>
-#include <dyadel/dyadel.h>
 #include <flint/flint.h>
-#include <string.h>
-
-#include "support/random.h"
 
 static test_random shared;
 
-/* ---- streams ---- */
-
-static dyd_stream *text_stream(const char *x, const char *y) {
-  dyd_real *rx = NULL, *ry = NULL;
-  dyd_stream *s = NULL;
-  assert_int_equal(dyd_real_parse(&rx, x, strlen(x), NULL), DYD_OK);
-  assert_int_equal(dyd_real_parse(&ry, y, strlen(y), NULL), DYD_OK);
-  assert_int_equal(dyd_stream_from_reals(&s, rx, ry), DYD_OK);
-  return s;
-}
-
-/* (sqrt(a) + b/7, sqrt(c) - d/5) for random numbers. */
-static dyd_stream *random_stream(test_random *r) {
-  char x[64], y[64];
-  snprintf(x, sizeof x, "sqrt(%d)+(%d)/7", (int)test_between(r, 2, 9999), (int)test_between(r, -300, 300));
-  snprintf(y, sizeof y, "sqrt(%d)-%d/5", (int)test_between(r, 2, 9999), (int)test_between(r, 0, 300));
-  return text_stream(x, y);
-}
+/* ---- vertices ---- */
 
 static void ends(mpq_t e[4], const dyd_rect *r) {
   dyd_interval_get_q(e[0], e[1], &r->x);
@@ -45,13 +20,6 @@ static void init4(mpq_t e[4]) {
 }
 static void clear4(mpq_t e[4]) {
   for (int n = 0; n < 4; n++) mpq_clear(e[n]);
-}
-
-static void narrow(dyd_stream *s, int64_t bits) {
-  dyd_error err;
-  dyd_error_clear(&err);
-  dyd_status st = dyd_stream_narrow(s, bits, 4096, &err);
-  if (st < 0) fail_msg("%s", err.message);
 }
 
 /* Is the point inside the stream's rectangle, up to 2^-slack? */
@@ -282,20 +250,6 @@ static void test_combinations(void **state) {
 
 /* ---- engines on engines ---- */
 
-static dyd_engine *engine_new(void) {
-  dyd_engine *e = NULL;
-  assert_int_equal(dyd_engine_new(&e), DYD_OK);
-  return e;
-}
-
-static void run(dyd_engine *e, dyd_outcome want) {
-  dyd_outcome outcome;
-  dyd_error err;
-  dyd_status st = dyd_engine_run(&outcome, e, NULL, &err);
-  if (st < 0) fail_msg("%s", err.message);
-  assert_int_equal(outcome, want);
-}
-
 /* A new engine on the Voronoi vertices of e, which is freed. */
 static dyd_engine *next_level(dyd_engine *e) {
   dyd_triangle_list t = {0};
@@ -425,107 +379,11 @@ static void test_life(void **state) {
   dyd_stream_free(shared_one);
 }
 
-/* ---- nearest ---- */
-
-static dyd_outcome nearest(dyd_index_list *out, bool *sure, dyd_engine *e, const char *x, const char *y,
-                           const dyd_engine_options *o) {
-  dyd_stream *at = text_stream(x, y);
-  dyd_outcome outcome;
-  dyd_error err;
-  dyd_status st = dyd_engine_nearest(out, sure, &outcome, e, at, o, &err);
-  assert_true((st < 0) == (outcome == DYD_OUTCOME_ERROR));
-  dyd_stream_free(at);
-  return outcome;
-}
-
-static void test_nearest(void **state) {
-  (void)state;
-  dyd_engine *e = engine_new();
-  dyd_index_list l = {0};
-  dyd_outcome outcome;
-  bool sure;
-  dyd_engine_add_stream(e, text_stream("0", "0"));
-  dyd_engine_add_stream(e, text_stream("2*sqrt(2)", "0"));
-  dyd_engine_add_stream(e, text_stream("0", "10"));
-  dyd_engine_add_stream(e, text_stream("10", "10"));
-  dyd_engine_add_stream(e, text_stream("[29,30]", "[4,5]"));
-  assert_int_equal(nearest(&l, &sure, e, "1", "1", NULL), DYD_OUTCOME_ERROR); /* no result yet */
-  run(e, DYD_OUTCOME_DECIDED);
-  assert_int_equal(nearest(&l, &sure, e, "1", "1", NULL), DYD_OUTCOME_DECIDED);
-  assert_true(sure && l.count == 1 && l.item[0] == 0);
-  assert_int_equal(nearest(&l, &sure, e, "sqrt(2)", "-sqrt(3)", NULL), DYD_OUTCOME_BUDGET); /* equal reals */
-  assert_true(!sure && l.count == 2 && l.item[0] == 0 && l.item[1] == 1);
-  assert_int_equal(nearest(&l, &sure, e, "sqrt(2)+2^-1000", "-sqrt(3)", NULL), DYD_OUTCOME_DECIDED);
-  assert_true(sure && l.count == 1 && l.item[0] == 1);
-  assert_int_equal(nearest(&l, &sure, e, "5", "123/7", NULL), DYD_OUTCOME_FIXPOINT); /* an exact tie */
-  assert_true(!sure && l.count == 2 && l.item[0] == 2 && l.item[1] == 3);
-  assert_int_equal(nearest(&l, &sure, e, "20+sqrt(5)/4", "sqrt(7)", NULL), DYD_OUTCOME_DECIDED);
-  assert_int_equal(nearest(&l, &sure, e, "[4,6]", "123/7", NULL), DYD_OUTCOME_FIXPOINT); /* a fixed rectangle */
-  assert_true(!sure && l.count == 2);
-  assert_int_equal(nearest(&l, &sure, e, "[0,20]", "3", NULL), DYD_OUTCOME_BUDGET); /* site 1 is never exact */
-  assert_true(!sure && l.count == 4);
-  dyd_engine_options o;
-  dyd_engine_options_init(&o);
-  o.max_calls = 1;
-  assert_int_equal(nearest(&l, &sure, e, "sqrt(2)+2^-1000", "-sqrt(3)", &o), DYD_OUTCOME_BUDGET);
-  o.max_calls = 0;
-  o.max_bits = 900;
-  assert_int_equal(nearest(&l, &sure, e, "sqrt(2)+2^-1000", "-sqrt(3)", &o), DYD_OUTCOME_BUDGET);
-  o.seconds = -1;
-  assert_int_equal(nearest(&l, &sure, e, "0", "0", &o), DYD_OUTCOME_ERROR);
-  assert_int_equal(nearest(&l, &sure, e, "log(sqrt(2)-sqrt(2))", "0", NULL), DYD_OUTCOME_ERROR);
-  dyd_engine_cancel(e);
-  assert_int_equal(nearest(&l, &sure, e, "sqrt(2)", "0", NULL), DYD_OUTCOME_CANCELLED);
-  assert_true(!sure && l.count == 2);
-  assert_int_equal(nearest(&l, &sure, e, "1", "1", NULL), DYD_OUTCOME_DECIDED);
-  assert_int_equal(dyd_engine_run(&outcome, e, NULL, NULL), DYD_OK); /* brings the points narrowed into the result */
-  assert_int_equal(outcome, DYD_OUTCOME_DECIDED);
-  dyd_index_list_clear(&l);
-  dyd_engine_free(e);
-}
-
-/* Random: the answer of the computable point is that of the sites and points known to 2^-300. */
-static void test_nearest_random(void **state) {
-  (void)state;
-  dyd_engine *e = engine_new();
-  enum { SITES = 60 };
-  for (int k = 0; k < SITES; k++) dyd_engine_add_stream(e, random_stream(&shared));
-  run(e, DYD_OUTCOME_DECIDED);
-  for (size_t k = test_cases(40); k; k--) {
-    dyd_stream *at = random_stream(&shared);
-    dyd_index_list l = {0};
-    dyd_outcome outcome;
-    bool sure;
-    assert_int_equal(dyd_engine_nearest(&l, &sure, &outcome, e, at, NULL, NULL), DYD_OK);
-    assert_int_equal(outcome, DYD_OUTCOME_DECIDED);
-    assert_true(sure && l.count == 1);
-    narrow(at, 300);
-    const dyd_rect *q = dyd_stream_rect(at);
-    bool dyadic = mpz_cmp_ui(q->x.den, 1) == 0 && mpz_cmp_ui(q->y.den, 1) == 0;
-    dyd_stream *site[SITES];
-    for (uint32_t i = 0; i < SITES; i++) {
-      assert_int_equal(dyd_engine_stream(&site[i], e, i), DYD_OK);
-      narrow(site[i], 300);
-    }
-    for (uint32_t i = 0; i < SITES; i++) {
-      dyd_point c = {q->x.lo, q->y.lo}; /* borrowed */
-      if (dyadic && i != l.item[0])
-        assert_true(dyd_compare_distance(&c, dyd_stream_rect(site[l.item[0]]), DYD_CLOSEST, dyd_stream_rect(site[i]),
-                                         DYD_FARTHEST) < 0);
-    }
-    for (uint32_t i = 0; i < SITES; i++) dyd_stream_free(site[i]);
-    dyd_index_list_clear(&l);
-    dyd_stream_free(at);
-  }
-  dyd_engine_free(e);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_exact_vertices), cmocka_unit_test(test_real_vertices),
                                      cmocka_unit_test(test_fixed_vertices), cmocka_unit_test(test_bad_vertices),
                                      cmocka_unit_test(test_combinations),   cmocka_unit_test(test_exact_tie),
-                                     cmocka_unit_test(test_levels),         cmocka_unit_test(test_life),
-                                     cmocka_unit_test(test_nearest),        cmocka_unit_test(test_nearest_random)};
+                                     cmocka_unit_test(test_levels),         cmocka_unit_test(test_life)};
   shared = test_random_start("compose");
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   flint_cleanup();

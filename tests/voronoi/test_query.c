@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Nearest sites of computable points: outcomes, and answers against all distances [NEAR-3]. */
+#include "voronoi/streams.h"
+
+#include <dyadel/predicate.h>
+#include <flint/flint.h>
+
+static test_random shared;
+
+static dyd_outcome nearest(dyd_index_list *out, bool *sure, dyd_engine *e, const char *x, const char *y,
+                           const dyd_engine_options *o) {
+  dyd_stream *at = text_stream(x, y);
+  dyd_outcome outcome;
+  dyd_error err;
+  dyd_status st = dyd_engine_nearest(out, sure, &outcome, e, at, o, &err);
+  assert_true((st < 0) == (outcome == DYD_OUTCOME_ERROR));
+  dyd_stream_free(at);
+  return outcome;
+}
+
+static void test_nearest(void **state) {
+  (void)state;
+  dyd_engine *e = engine_new();
+  dyd_index_list l = {0};
+  dyd_outcome outcome;
+  bool sure;
+  dyd_engine_add_stream(e, text_stream("0", "0"));
+  dyd_engine_add_stream(e, text_stream("2*sqrt(2)", "0"));
+  dyd_engine_add_stream(e, text_stream("0", "10"));
+  dyd_engine_add_stream(e, text_stream("10", "10"));
+  dyd_engine_add_stream(e, text_stream("[29,30]", "[4,5]"));
+  assert_int_equal(nearest(&l, &sure, e, "1", "1", NULL), DYD_OUTCOME_ERROR); /* no result yet */
+  run(e, DYD_OUTCOME_DECIDED);
+  assert_int_equal(nearest(&l, &sure, e, "1", "1", NULL), DYD_OUTCOME_DECIDED);
+  assert_true(sure && l.count == 1 && l.item[0] == 0);
+  assert_int_equal(nearest(&l, &sure, e, "sqrt(2)", "-sqrt(3)", NULL), DYD_OUTCOME_BUDGET); /* equal reals */
+  assert_true(!sure && l.count == 2 && l.item[0] == 0 && l.item[1] == 1);
+  assert_int_equal(nearest(&l, &sure, e, "sqrt(2)+2^-1000", "-sqrt(3)", NULL), DYD_OUTCOME_DECIDED);
+  assert_true(sure && l.count == 1 && l.item[0] == 1);
+  assert_int_equal(nearest(&l, &sure, e, "5", "123/7", NULL), DYD_OUTCOME_FIXPOINT); /* an exact tie */
+  assert_true(!sure && l.count == 2 && l.item[0] == 2 && l.item[1] == 3);
+  assert_int_equal(nearest(&l, &sure, e, "20+sqrt(5)/4", "sqrt(7)", NULL), DYD_OUTCOME_DECIDED);
+  assert_int_equal(nearest(&l, &sure, e, "[4,6]", "123/7", NULL), DYD_OUTCOME_FIXPOINT); /* a fixed rectangle */
+  assert_true(!sure && l.count == 2);
+  assert_int_equal(nearest(&l, &sure, e, "[0,20]", "3", NULL), DYD_OUTCOME_BUDGET); /* site 1 is never exact */
+  assert_true(!sure && l.count == 4);
+  dyd_engine_options o;
+  dyd_engine_options_init(&o);
+  o.max_calls = 1;
+  assert_int_equal(nearest(&l, &sure, e, "sqrt(2)+2^-1000", "-sqrt(3)", &o), DYD_OUTCOME_BUDGET);
+  o.max_calls = 0;
+  o.max_bits = 900;
+  assert_int_equal(nearest(&l, &sure, e, "sqrt(2)+2^-1000", "-sqrt(3)", &o), DYD_OUTCOME_BUDGET);
+  o.seconds = -1;
+  assert_int_equal(nearest(&l, &sure, e, "0", "0", &o), DYD_OUTCOME_ERROR);
+  assert_int_equal(nearest(&l, &sure, e, "log(sqrt(2)-sqrt(2))", "0", NULL), DYD_OUTCOME_ERROR);
+  dyd_engine_cancel(e);
+  assert_int_equal(nearest(&l, &sure, e, "sqrt(2)", "0", NULL), DYD_OUTCOME_CANCELLED);
+  assert_true(!sure && l.count == 2);
+  assert_int_equal(nearest(&l, &sure, e, "1", "1", NULL), DYD_OUTCOME_DECIDED);
+  assert_int_equal(dyd_engine_run(&outcome, e, NULL, NULL), DYD_OK); /* brings the points narrowed into the result */
+  assert_int_equal(outcome, DYD_OUTCOME_DECIDED);
+  dyd_index_list_clear(&l);
+  dyd_engine_free(e);
+}
+
+/* Random: the answer of the computable point is that of the sites and points known to 2^-300. */
+static void test_nearest_random(void **state) {
+  (void)state;
+  dyd_engine *e = engine_new();
+  enum { SITES = 60 };
+  for (int k = 0; k < SITES; k++) dyd_engine_add_stream(e, random_stream(&shared));
+  run(e, DYD_OUTCOME_DECIDED);
+  for (size_t k = test_cases(40); k; k--) {
+    dyd_stream *at = random_stream(&shared);
+    dyd_index_list l = {0};
+    dyd_outcome outcome;
+    bool sure;
+    assert_int_equal(dyd_engine_nearest(&l, &sure, &outcome, e, at, NULL, NULL), DYD_OK);
+    assert_int_equal(outcome, DYD_OUTCOME_DECIDED);
+    assert_true(sure && l.count == 1);
+    narrow(at, 300);
+    const dyd_rect *q = dyd_stream_rect(at);
+    bool dyadic = mpz_cmp_ui(q->x.den, 1) == 0 && mpz_cmp_ui(q->y.den, 1) == 0;
+    dyd_stream *site[SITES];
+    for (uint32_t i = 0; i < SITES; i++) {
+      assert_int_equal(dyd_engine_stream(&site[i], e, i), DYD_OK);
+      narrow(site[i], 300);
+    }
+    for (uint32_t i = 0; i < SITES; i++) {
+      dyd_point c = {q->x.lo, q->y.lo}; /* borrowed */
+      if (dyadic && i != l.item[0])
+        assert_true(dyd_compare_distance(&c, dyd_stream_rect(site[l.item[0]]), DYD_CLOSEST, dyd_stream_rect(site[i]),
+                                         DYD_FARTHEST) < 0);
+    }
+    for (uint32_t i = 0; i < SITES; i++) dyd_stream_free(site[i]);
+    dyd_index_list_clear(&l);
+    dyd_stream_free(at);
+  }
+  dyd_engine_free(e);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_nearest), cmocka_unit_test(test_nearest_random)};
+  shared = test_random_start("query");
+  int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  flint_cleanup();
+  return failed;
+}
