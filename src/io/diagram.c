@@ -116,8 +116,28 @@ static dyd_status find_vertices(dyd_diagram *d) {
   d->vertex = dyd_alloc(d->triangles.count, sizeof *d->vertex);
   if (!d->vertex) return DYD_E_NOMEM;
   for (size_t k = 0; k < d->triangles.count && status >= 0; k++)
-    status = find_vertex(d->vertex[k], d, &d->triangles.item[k], d->bits > 64 ? d->bits : 64);
+    status = find_vertex(d->vertex[k], d, &d->triangles.item[k], d->vertex_bits);
   return status;
+}
+
+dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  for (int m = 0; m < 4; m++) text[m] = NULL;
+  dyd_status status = dyd_voronoi_vertex(&r, d->pd, &d->triangles.item[k], d->vertex_bits);
+  for (int m = 0; m < 4 && status >= 0; m++) {
+    text[m] = dyd_end_text(m < 2 ? &r.x : &r.y, m & 1);
+    if (!text[m]) status = DYD_E_NOMEM;
+  }
+  dyd_rect_clear(&r);
+  return status;
+}
+
+/* As fine as the goal on the distance asks, and fine enough for doubles. */
+static int64_t vertex_bits(const dyd_diagram *d) {
+  int64_t goal_bits, bits = d->bits + 40 > 64 ? d->bits + 40 : 64;
+  bool hausdorff = dyd_engine_goal(&goal_bits, d->engine) == DYD_GOAL_VORONOI_HAUSDORFF;
+  return hausdorff && goal_bits + 2 > bits ? goal_bits + 2 : bits;
 }
 
 /* ---- all ---- */
@@ -145,6 +165,7 @@ static dyd_status write(dyd_diagram *d, const dyd_voronoi_options *o, dyd_format
   dyd_status status = find_window(d, o ? o->window : NULL, err);
   if (status < 0) return status;
   d->bits = o && o->flatten_set ? o->flatten_bits : default_bits(d);
+  d->vertex_bits = vertex_bits(d);
   status = find_vertices(d);
   if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
   for (size_t k = 0; k < FORMATS; k++)

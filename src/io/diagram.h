@@ -25,6 +25,7 @@ typedef struct dyd_diagram {
   int64_t bits; /* polygons are within 2^-bits of their cells */
   dyd_triangle_list triangles;
   double (*vertex)[4]; /* enclosures of their Voronoi vertices; infinite ends: not known in doubles */
+  int64_t vertex_bits; /* exact enclosures are asked for with these bits */
   dyd_voronoi_bounds bounds;
 } dyd_diagram;
 
@@ -32,6 +33,9 @@ typedef struct dyd_diagram {
 typedef dyd_status (*dyd_cell_visit)(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row);
 /* Makes the polygons of all cells once, shows them to `visit` (may be NULL), and finds the bounds. */
 dyd_status dyd_diagram_visit(dyd_diagram *d, dyd_cell_visit visit, void *context);
+
+/* The exact enclosure of vertex k as four texts: x lower, x upper, y lower, y upper; release each with free(). */
+dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k);
 
 typedef dyd_status (*dyd_diagram_write_fn)(dyd_diagram *d, dyd_error *err);
 dyd_status dyd_write_voronoi_csv(dyd_diagram *d, dyd_error *err);

@@ -45,7 +45,7 @@ static dyd_status write_head(const dyd_diagram *d) {
   put(out, dyd_dyadic_get_d(&d->bounds.area, DYD_UP), DYD_UP);
   fputs("\n# distance_to_true_diagram", out);
   put(out, d->bounds.finite ? dyd_dyadic_get_d(&d->bounds.hausdorff, DYD_UP) : INFINITY, DYD_UP);
-  fputs("\n# rounding: lo down, hi up, bounds up; empty: unbounded or beyond doubles\n"
+  fputs("\n# rounding: lo down, hi up, bounds up; empty: unbounded or beyond doubles; m*2^e is exact\n"
         "type,i,j,k,xlo,xhi,ylo,yhi,area_lo,area_hi\n",
         out);
   return status;
@@ -62,13 +62,31 @@ static void write_cells(const dyd_diagram *d, const dyd_cell_row *rows) {
   }
 }
 
-static void write_vertices(const dyd_diagram *d) {
-  for (size_t k = 0; k < d->triangles.count; k++) {
+static dyd_status put_exact(const dyd_diagram *d, size_t k) {
+  char *text[4];
+  dyd_status status = dyd_diagram_vertex(text, d, k);
+  for (int m = 0; m < 4; m++) {
+    if (status >= 0) fprintf(d->out, ",%s", text[m]);
+    free(text[m]);
+  }
+  return status;
+}
+
+/* Where a goal asks for more than decimals of 17 digits show, the enclosures are exact numbers. */
+static dyd_status write_vertices(const dyd_diagram *d) {
+  int64_t goal_bits;
+  bool exact = dyd_engine_goal(&goal_bits, d->engine) == DYD_GOAL_VORONOI_HAUSDORFF && goal_bits > 32;
+  dyd_status status = DYD_OK;
+  for (size_t k = 0; k < d->triangles.count && status >= 0; k++) {
     const uint32_t *v = d->triangles.item[k].v;
     fprintf(d->out, "vertex,%u,%u,%u", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
-    put_box(d->out, d->vertex[k]);
+    if (exact)
+      status = put_exact(d, k);
+    else
+      put_box(d->out, d->vertex[k]);
     fputs(",,\n", d->out);
   }
+  return status;
 }
 
 static dyd_status write_regions(const dyd_diagram *d) {
@@ -97,8 +115,8 @@ dyd_status dyd_write_voronoi_csv(dyd_diagram *d, dyd_error *err) {
   if (status >= 0) status = write_head(d);
   if (status >= 0) {
     write_cells(d, rows);
-    write_vertices(d);
-    status = write_regions(d);
+    status = write_vertices(d);
+    if (status >= 0) status = write_regions(d);
   }
   free(rows);
   return status < 0 ? dyd_fail(err, status, "%s", dyd_status_text(status)) : DYD_OK;

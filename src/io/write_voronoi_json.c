@@ -86,15 +86,28 @@ static void put_box(FILE *out, const double b[4]) {
   fputs("]", out);
 }
 
-static void write_vertices(const dyd_diagram *d) {
+static dyd_status put_exact_box(const dyd_diagram *d, size_t k) {
+  char *text[4];
+  dyd_status status = dyd_diagram_vertex(text, d, k);
+  if (status >= 0)
+    fprintf(d->out, ", \"x_exact\": [\"%s\", \"%s\"], \"y_exact\": [\"%s\", \"%s\"]", text[0], text[1], text[2],
+            text[3]);
+  for (int m = 0; m < 4; m++) free(text[m]);
+  return status;
+}
+
+static dyd_status write_vertices(const dyd_diagram *d) {
+  dyd_status status = DYD_OK;
   fputs("\"vertices\": [", d->out);
-  for (size_t k = 0; k < d->triangles.count; k++) {
+  for (size_t k = 0; k < d->triangles.count && status >= 0; k++) {
     const uint32_t *v = d->triangles.item[k].v;
     fprintf(d->out, "%s\n{\"sites\": [%u, %u, %u], ", k ? "," : "", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
     put_box(d->out, d->vertex[k]);
+    status = put_exact_box(d, k);
     fputs("}", d->out);
   }
   fputs("\n],\n", d->out);
+  return status;
 }
 
 static void put_end(FILE *out, const char *name, const dyd_dual_end *end) {
@@ -239,8 +252,8 @@ dyd_status dyd_write_voronoi_json(dyd_diagram *d, dyd_error *err) {
   if (status >= 0) status = dyd_diagram_visit(d, write_cell, &c);
   fputs("\n],\n", d->out);
   if (status >= 0) {
-    write_vertices(d);
-    status = write_edges(d);
+    status = write_vertices(d);
+    if (status >= 0) status = write_edges(d);
   }
   if (status >= 0) status = write_regions(d);
   if (status >= 0) status = write_bounds(d);
