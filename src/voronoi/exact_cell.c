@@ -344,7 +344,7 @@ static dyd_status set_curves(dyd_exact_cell *c) {
 static dyd_status find_pieces(dyd_exact_cell *c) {
   dyd_status st = set_curves(c);
   if (st == DYD_OK) st = find_meets(c);
-  for (size_t j = 0; j < c->count; j++)
+  for (size_t j = 0; j < c->count && st == DYD_OK; j++)
     for (size_t a = 0; a < c->curve[j].count && st == DYD_OK; a++) st = arc_pieces(c, j, &c->curve[j].arc[a]);
   if (st == DYD_OK && c->task->windowed) st = dyd_cell_window_pieces(c);
   return st;
