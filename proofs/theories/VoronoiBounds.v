@@ -4,9 +4,9 @@ From Coq Require Import Reals Lra Lia Psatz Classical.
 From Dyadel Require Import Plane Finite Distance Cells Neighbours Bounds.
 Open Scope R_scope.
 
-(* The true diagram of a choice: points with two nearest sites. *)
+(* The true diagram of a choice: points with two different nearest points. *)
 Definition diagram (N : nat) (p : nat -> point) (z : point) : Prop :=
-  exists i j, (i < N)%nat /\ (j < N)%nat /\ i <> j /\ cell N p i z /\ cell N p j z.
+  exists i j, (i < N)%nat /\ (j < N)%nat /\ p i <> p j /\ cell N p i z /\ cell N p j z.
 
 (* The undetermined set: what is in no Int. *)
 Definition undetermined (N : nat) (B : sites) (z : point) : Prop := forall i, (i < N)%nat -> ~ int N B i z.
@@ -15,9 +15,9 @@ Definition undetermined (N : nat) (B : sites) (z : point) : Prop := forall i, (i
    when sets inside the cells Int are taken away bounds the undetermined area. *)
 Theorem diagram_is_undetermined N B p z : choice N B p -> diagram N p z -> undetermined N B z.
 Proof.
-  intros P [i [j [I [J [D [Ci Cj]]]]]] k K H. pose proof (proj1 (int_exact N B k z K) H p P) as O.
+  intros P [i [j [I [J [D [Ci Cj]]]]]] k K H. assert (Dij : i <> j) by (now intros ->). pose proof (proj1 (int_exact N B k z K) H p P) as O.
   destruct (Nat.eq_dec i k) as [-> | Dk].
-  - pose proof (O j J (not_eq_sym D)). pose proof (Cj k K). lra.
+  - pose proof (O j J (not_eq_sym Dij)). pose proof (Cj k K). lra.
   - pose proof (O i I Dk). pose proof (Ci k K). lra.
 Qed.
 
@@ -30,7 +30,7 @@ Theorem undetermined_monotone N B' B z : refined N B' B -> undetermined N B' z -
 Proof. intros F U i I H. apply (U i I). now apply (int_monotone N B' B). Qed.
 
 (* Moving from a point of p i's cell to a point that is at least as near to p j meets the diagram. *)
-Lemma way_meets_diagram N p i j z y : (i < N)%nat -> (j < N)%nat -> j <> i -> cell N p i z ->
+Lemma way_meets_diagram N p i j z y : (i < N)%nat -> (j < N)%nat -> p j <> p i -> cell N p i z ->
   dist y (p j) <= dist y (p i) -> exists t, 0 <= t <= 1 /\ diagram N p (mix t z y).
 Proof.
   intros I J D C Y.
@@ -47,10 +47,10 @@ Proof.
       + unfold f. rewrite mix_1. unfold wins in W. lra.
       + exists t. now split.
     - exists 0. split; [lra |]. now intros. }
-  destruct (finite_min (fun k => k <> i /\ wins k) t N) as [m [M [[Dm Wm] L]]]; [now exists j |].
+  destruct (finite_min (fun k => p k <> p i /\ wins k) t N) as [m [M [[Dm Wm] L]]]; [now exists j |].
   destruct (T m M) as [Tm Em]. specialize (Em Wm). exists (t m). split; [exact Tm |].
   assert (A : cell N p i (mix (t m) z y)).
-  { intros k K. destruct (Nat.eq_dec k i) as [-> | Dk]; [lra |]. destruct (classic (wins k)) as [W | W].
+  { intros k K. destruct (classic (p k = p i)) as [-> | Dk]; [lra |]. destruct (classic (wins k)) as [W | W].
     - pose proof (L k K (conj Dk W)) as Lk. destruct (T k K) as [Tk Ek]. specialize (Ek W).
       destruct (Req_dec (t k) 0) as [Z | Z].
       + replace (t m) with 0 by lra. rewrite mix_0. now apply C.
@@ -88,17 +88,20 @@ Proof.
     rewrite F in E. lra.
 Qed.
 
-(* V, Hausdorff: if z is undetermined, and every pair (i,j) that shares z has disjoint rectangles and
-   (diam R_i + diam R_j) (dl_i(z) + dl_j(z)) <= 2 h dist(R_i,R_j), then the true diagram is within h of z. *)
+(* V, Hausdorff: if z is undetermined, and every pair (i,j) that shares z has disjoint rectangles and either
+   (diam R_i + diam R_j) (dl_i(z) + dl_j(z)) <= 2 h dist(R_i,R_j), or dl_i(z) and dl_j(z) at most h, then the true diagram
+   is within h of z, for every choice. *)
 Theorem voronoi_hausdorff N B p z h : (2 <= N)%nat -> 0 <= h -> choice N B p -> undetermined N B z ->
   (forall i j, (i < N)%nat -> (j < N)%nat -> i <> j -> neighbours_at N B i j z ->
-    exists di dj s, diameter_le (B i) di /\ diameter_le (B j) dj /\ 0 < s /\
-      (forall x y, inside x (B i) -> inside y (B j) -> s <= dist x y) /\
-      (di + dj) * (dl z (B i) + dl z (B j)) <= 2 * h * s) ->
+    exists s, 0 < s /\ (forall x y, inside x (B i) -> inside y (B j) -> s <= dist x y) /\
+      ((exists di dj, diameter_le (B i) di /\ diameter_le (B j) dj /\
+         (di + dj) * (dl z (B i) + dl z (B j)) <= 2 * h * s) \/
+       (dl z (B i) <= h /\ dl z (B j) <= h))) ->
   exists w, diagram N p w /\ dist z w <= h.
 Proof.
   intros H2 H0 P U H.
-  destruct (finite_min (fun _ => True) (fun k => dist z (p k)) N) as [i [I [_ Li]]]; [exists 0%nat; split; [lia | exact Logic.I] |].
+  destruct (finite_min (fun _ => True) (fun k => dist z (p k)) N) as [i [I [_ Li]]].
+  { exists 0%nat. split; [lia | exact Logic.I]. }
   assert (C : cell N p i z) by (intros k K; now apply Li).
   destruct (finite_min (fun k => k <> i) (fun k => ds z (B k)) N) as [j [J [D Lj]]].
   { destruct i; [exists 1%nat | exists 0%nat]; lia. }
@@ -107,23 +110,29 @@ Proof.
   assert (Q : neighbours_at N B i j z).
   { split; [apply pos_exact; [exact I | now exists p] |]. intros k K.
     destruct (Nat.eq_dec k i) as [-> | Dk]; [exact W |]. pose proof (Lj k K Dk). pose proof (ds_le_dl z (B k)). lra. }
-  destruct (H i j I J (not_eq_sym D) Q) as [di [dj [s [Di [Dj [S [Sep M]]]]]]].
+  destruct (H i j I J (not_eq_sym D) Q) as [s [S [Sep M]]].
   pose proof (Sep _ _ (P i I) (P j J)) as Far.
   assert (Ne : p i <> p j) by (intros E; rewrite E, dist_self in Far; lra).
-  (* |z - p_j| - |z - p_i| <= di + dj, and the sum of the two is at most dl_i + dl_j *)
-  assert (A1 : dist z (p j) <= ds z (B j) + dj).
-  { pose proof (dist_triangle z (nearest z (B j)) (p j)). pose proof (Dj _ _ (nearest_inside z (B j)) (P j J)).
-    unfold ds. lra. }
-  assert (A2 : dl z (B i) <= dist z (p i) + di).
-  { pose proof (dist_triangle z (p i) (farthest z (B i))). pose proof (Di _ _ (P i I) (farthest_inside z (B i))).
-    unfold dl. lra. }
-  pose proof (le_dl z _ _ (P i I)) as A3. pose proof (le_dl z _ _ (P j J)) as A4. pose proof (C j J) as A5.
-  destruct (reach_bisector z (p i) (p j) h Ne H0) as [y [Y1 Y2]].
-  { rewrite <- !dist_sq. pose proof (dist_nonneg z (p i)).
-    replace (dist z (p j) * dist z (p j) - dist z (p i) * dist z (p i))
-      with ((dist z (p j) - dist z (p i)) * (dist z (p j) + dist z (p i))) by ring.
-    apply Rle_trans with ((di + dj) * (dl z (B i) + dl z (B j))); [apply Rmult_le_compat; lra |].
-    apply Rle_trans with (2 * h * s); [exact M |]. nra. }
-  destruct (way_meets_diagram N p i j z y I J D C Y2) as [t [T G]].
-  exists (mix t z y). split; [exact G |]. rewrite dist_mix_left by lra. pose proof (dist_nonneg z y). nra.
+  assert (Way : exists y, dist z y <= h /\ dist y (p j) <= dist y (p i)).
+  { destruct M as [[di [dj [Di [Dj M]]]] | [_ M]].
+    - (* |z - p_j| - |z - p_i| <= di + dj, and the sum of the two is at most dl_i + dl_j *)
+      assert (A1 : dist z (p j) <= ds z (B j) + dj).
+      { pose proof (dist_triangle z (nearest z (B j)) (p j)). pose proof (Dj _ _ (nearest_inside z (B j)) (P j J)).
+        unfold ds. lra. }
+      assert (A2 : dl z (B i) <= dist z (p i) + di).
+      { pose proof (dist_triangle z (p i) (farthest z (B i))). pose proof (Di _ _ (P i I) (farthest_inside z (B i))).
+        unfold dl. lra. }
+      pose proof (le_dl z _ _ (P i I)) as A3. pose proof (le_dl z _ _ (P j J)) as A4. pose proof (C j J) as A5.
+      apply reach_bisector; [exact Ne | exact H0 |]. rewrite <- !dist_sq. pose proof (dist_nonneg z (p i)).
+      replace (dist z (p j) * dist z (p j) - dist z (p i) * dist z (p i))
+        with ((dist z (p j) - dist z (p i)) * (dist z (p j) + dist z (p i))) by ring.
+      apply Rle_trans with ((di + dj) * (dl z (B i) + dl z (B j))); [apply Rmult_le_compat; lra |].
+      apply Rle_trans with (2 * h * s); [exact M |].
+      assert (h * s <= h * dist (p i) (p j)) by (apply Rmult_le_compat_l; lra). lra.
+    - exists (p j). rewrite dist_self. split; [| apply dist_nonneg].
+      pose proof (le_dl z _ _ (P j J)). lra. }
+  destruct Way as [y [Y1 Y2]].
+  destruct (way_meets_diagram N p i j z y I J (not_eq_sym Ne) C Y2) as [t [T G]].
+  exists (mix t z y). split; [exact G |]. rewrite dist_mix_left by lra. pose proof (dist_nonneg z y).
+  assert (t * dist z y <= 1 * dist z y) by (apply Rmult_le_compat_r; lra). lra.
 Qed.
