@@ -71,25 +71,29 @@ void dyd_tree_refresh(dyd_tree *t, uint32_t q) {
   for (int k = 0; k < t->levels; k++) fill_node(t, k, entry /= DYD_TREE_FANOUT);
 }
 
-/* A depth-first search; at most 7 waiting siblings on each level. */
+/* A depth-first search; at most 7 waiting siblings on each level. value: distance or height of the node when it was
+ * put aside; the limit may have moved meanwhile. */
 typedef struct frame {
   int level;
   size_t node;
+  double value;
 } frame;
 enum { STACK = DYD_TREE_LEVELS * DYD_TREE_FANOUT };
 
 void dyd_tree_near(const dyd_tree *t, const dyd_bbox *c, const double *radius2, dyd_visit visit, void *context) {
   frame stack[STACK];
   int depth = 0;
-  if (t->levels) stack[depth++] = (frame){t->levels - 1, 0};
+  if (t->levels) stack[depth++] = (frame){t->levels - 1, 0, 0};
   while (depth) {
     frame f = stack[--depth];
     size_t first, end;
+    if (f.value > *radius2) continue;
     children(&first, &end, t, f.level, f.node);
     for (size_t e = first; e < end; e++) {
-      if (dyd_ds2_lower(c, child_box(t, f.level, e)) > *radius2) continue;
+      double value = dyd_ds2_lower(c, child_box(t, f.level, e));
+      if (value > *radius2) continue;
       if (f.level > 0)
-        stack[depth++] = (frame){f.level - 1, e};
+        stack[depth++] = (frame){f.level - 1, e, value};
       else if (!visit(context, t->item[e]))
         return;
     }
@@ -108,15 +112,17 @@ static double reach(const dyd_bbox *b, double ux, double uy) {
 void dyd_tree_beyond(const dyd_tree *t, double ux, double uy, const double *height, dyd_visit visit, void *context) {
   frame stack[STACK];
   int depth = 0;
-  if (t->levels) stack[depth++] = (frame){t->levels - 1, 0};
+  if (t->levels) stack[depth++] = (frame){t->levels - 1, 0, INFINITY};
   while (depth) {
     frame f = stack[--depth];
     size_t first, end;
+    if (f.value < *height) continue;
     children(&first, &end, t, f.level, f.node);
     for (size_t e = first; e < end; e++) {
-      if (reach(child_box(t, f.level, e), ux, uy) < *height) continue;
+      double value = reach(child_box(t, f.level, e), ux, uy);
+      if (value < *height) continue;
       if (f.level > 0)
-        stack[depth++] = (frame){f.level - 1, e};
+        stack[depth++] = (frame){f.level - 1, e, value};
       else if (!visit(context, t->item[e]))
         return;
     }

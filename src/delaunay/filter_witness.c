@@ -17,7 +17,7 @@ typedef struct quick {
   const dyd_delaunay *pd;
   uint32_t i, j;
   dyd_bbox c;
-  double bound;
+  double bound, reach; /* squared radius of the pair; within which rivals are looked for */
   uint32_t rival[MAX_RIVALS];
   double distance[MAX_RIVALS];
   int rivals;
@@ -28,7 +28,7 @@ typedef struct quick {
   bool coarse;  /* some half-plane depends on that */
 } quick;
 
-/* Keeps the nearest ones. */
+/* Keeps the nearest ones; who is farther than all of them is not asked any more. */
 static bool keep_rival(void *context, uint32_t k) {
   quick *q = context;
   if (k == q->i || k == q->j) return true;
@@ -43,14 +43,16 @@ static bool keep_rival(void *context, uint32_t k) {
     q->distance[at] = d;
     q->rival[at] = k;
   }
+  if (q->rivals == MAX_RIVALS) q->reach = dyd_min(q->reach, q->distance[MAX_RIVALS - 1]);
   return true;
 }
 
 static void evaluate(quick *q, dyd_xy c) {
   q->c = (dyd_bbox){{c.x, c.x, c.y, c.y}};
   q->bound = dyd_max(dyd_dl2_upper(&q->c, &q->pd->box[q->i]), dyd_dl2_upper(&q->c, &q->pd->box[q->j]));
+  q->reach = q->bound;
   q->rivals = 0;
-  dyd_tree_near(&q->pd->tree, &q->c, &q->bound, keep_rival, q);
+  dyd_tree_near(&q->pd->tree, &q->c, &q->reach, keep_rival, q);
 }
 
 static double farther_end(double c, double lo, double hi) {
