@@ -84,6 +84,26 @@ def test_hausdorff_falls_by_half_per_bit():
     assert Fraction(rows[-1]['hausdorff']) <= Fraction(1, 2 ** 300) * (1 + Fraction(1, 10 ** 5))
 
 
+def test_voronoi_bounds():
+    # Four nearly cocircular points: T stays open, the bounds of V fall with the widths all the same.
+    rows = table('--schedule', 'uniform', '--step-bits', '8', '--max-bits', '90', text=NEAR_CIRCLE, code=4)
+    for before, row in zip(rows[2:], rows[3:-1]):
+        for name in ('v_area', 'v_hausdorff'):
+            assert 2 ** 7 < Fraction(before[name]) / Fraction(row[name]) < 2 ** 9, (name, before[name], row[name])
+    # On a window of one's own; what is undetermined is no larger than the window.
+    text = ''.join(f'[{x - 0.1},{x + 0.1}] {y}\n' for x, y in FAR)
+    small, large = (table('--window', w, text=text)[-1] for w in ('40,60,40,60', '0,100,0,100'))
+    assert 0 < Fraction(small['v_area']) < 400 and Fraction(small['v_area']) < Fraction(large['v_area']) < 10000
+    assert 'window 40,50,40,50\n' in run('converge', '-', '--window', '40,50,40,50', stdin=text).out
+    answer = json.loads(run('converge', '-', '--format', 'json', '--window', '40,50,40,50', stdin=text).out)
+    assert answer['window'] == ['40', '50', '40', '50']
+    row = table('--no-voronoi', text=text)[-1]
+    assert row['v_area'] == row['v_hausdorff'] == ''
+    # Exact points: nothing is undetermined but for the flattening of cells, which have straight edges.
+    row = table(text='0 0\n1 0\n1 1\n0 1\n5 7\n', code=3)[-1]
+    assert Fraction(row['v_hausdorff']) == 0 and Fraction(row['v_area']) < Fraction(1, 2 ** 40)
+
+
 def test_adaptive_asks_for_a_fifth():
     for steps in ((), ('--step-bits', '8')):
         adaptive, uniform = (table('--schedule', s, *steps, text=NEAR_PAIR)[-1] for s in ('adaptive', 'uniform'))
@@ -154,7 +174,7 @@ def trace_of(folder, text, *args):
 
 def test_trace_and_replay():
     cases = [(text, how) for text in (NEAR_PAIR, NEAR_CIRCLE, MIXED, SQUARE, '', '1 1\n', 'pi e\n0 0\n')
-             for how in (('--schedule', 'adaptive'), ('--schedule', 'uniform'), ('--until', 'area:20'),
+             for how in (('--schedule', 'adaptive'), ('--schedule', 'uniform'), ('--until', 'area:20'), ('--no-voronoi',), ('--window', '-1,1/3,0,2'),
                          ('--until', 'hausdorff:20'), ('--step-bits', '30'), ('--format', 'json'))]
     with tempfile.TemporaryDirectory() as folder:
         for text, how in cases:
