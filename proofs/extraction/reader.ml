@@ -1,8 +1,9 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Reads certificates (include/dyadel/certificate.h) and hands their sites and legal pairs to the extracted checker.
-   Nothing proves this file: it turns text into the numbers written there, and chooses the unit, which cannot make a
-   wrong answer.
-   Usage: checker FILE...   (exit status 1 when a certificate is rejected) *)
+(* Reads certificates (include/dyadel/certificate.h) and hands them to the extracted checker. Nothing proves this file:
+   it turns text into the numbers written there. It also chooses the unit and finds triangles, corners and fans; wrong
+   ones cannot make a wrong answer.
+   Usage: checker FILE...   (exit status 1 when a certificate is rejected)
+   "complete": every pair that is not listed as legal is proved to be illegal. *)
 open Checker
 
 exception Bad of string
@@ -81,7 +82,17 @@ let read_certificate channel =
         | [ i; j; x; y ] -> { from = of_text i; to0 = of_text j; at_x = number x; at_y = number y }
         | _ -> raise (Bad "legal pair"))
   in
-  (sites, edges)
+  let corners =
+    List.init (heading "corners") (fun _ ->
+        match words (line ()) with
+        | [ i; x; y ] ->
+          let x = number x and y = number y in
+          let e = Z.min x.expo y.expo in
+          let whole n = Z.shiftl n.man (Z.add n.expo (Z.opp e)) in
+          { vertex = of_text i; ux = whole x; uy = whole y }
+        | _ -> raise (Bad "corner"))
+  in
+  (sites, edges, corners)
 
 (* ---- the unit ---- *)
 
@@ -94,18 +105,81 @@ let unit_of sites edges =
   ( List.fold_left (fun d n -> if n.den = Zpos XH then d else Z.lcm d n.den) (Zpos XH) all,
     List.fold_left (fun e n -> Z.max e (Z.opp n.expo)) Z0 all )
 
+(* ---- hints: triangles and fans ---- *)
+
+let rec int_of_positive = function XH -> 1 | XO p -> 2 * int_of_positive p | XI p -> (2 * int_of_positive p) + 1
+let to_int = function Z0 -> 0 | Zpos p -> int_of_positive p | Zneg p -> -int_of_positive p
+
+(* The neighbours of every site, counterclockwise around its lower left corner. *)
+let rotation boxes edges =
+  let near = Hashtbl.create 1000 in
+  let add a b = Hashtbl.replace near a (b :: Option.value ~default:[] (Hashtbl.find_opt near a)) in
+  List.iter (fun e -> let i = to_int e.from and j = to_int e.to0 in add i j; add j i) edges;
+  let right a b = Z.ltb a.x0 b.x0 || (a.x0 = b.x0 && Z.ltb a.y0 b.y0) in
+  let compare_around a b c =
+    match (right a b, right a c) with
+    | true, false -> -1
+    | false, true -> 1
+    | _ -> ( match turn a b c with Zpos _ -> -1 | Z0 -> 0 | Zneg _ -> 1)
+  in
+  let sorted = Hashtbl.create 1000 in
+  Hashtbl.iter
+    (fun a l ->
+      let box = Hashtbl.find boxes in
+      Hashtbl.replace sorted a
+        (Array.of_list (List.sort (fun b c -> compare_around (box a) (box b) (box c)) l)))
+    near;
+  sorted
+
+(* Round each site: where two neighbours that follow one another are neighbours, a triangle; a site without a gap, or with
+   one, gives a fan. *)
+let hints boxes edges =
+  let around = rotation boxes edges and is_edge = Hashtbl.create 1000 in
+  List.iter (fun e -> Hashtbl.replace is_edge (to_int e.from, to_int e.to0) ()) edges;
+  let closes a i j =
+    Hashtbl.mem is_edge (min i j, max i j)
+    && match turn (Hashtbl.find boxes a) (Hashtbl.find boxes i) (Hashtbl.find boxes j) with Zpos _ -> true | _ -> false
+  in
+  let triangles = ref [] and fans = ref [] in
+  Hashtbl.iter
+    (fun a near ->
+      let n = Array.length near in
+      let follow k = closes a near.(k) near.((k + 1) mod n) in
+      let gaps = List.filter (fun k -> not (follow k)) (List.init n Fun.id) in
+      for k = 0 to n - 1 do
+        let i = near.(k) and j = near.((k + 1) mod n) in
+        if a < i && a < j && follow k then triangles := { ta = of_int a; tb = of_int i; tc = of_int j } :: !triangles
+      done;
+      let from first = List.init n (fun k -> of_int near.((first + k) mod n)) in
+      match gaps with
+      | [] -> fans := { centre = of_int a; spokes = from 0; whole = true } :: !fans
+      | [ k ] -> fans := { centre = of_int a; spokes = from (k + 1); whole = false } :: !fans
+      | _ -> ())
+    around;
+  (!triangles, !fans)
+
+let completeness d e sites edges corners =
+  let boxes = Hashtbl.create 1000 in
+  Option.iter (List.iter (fun b -> Hashtbl.replace boxes (to_int b.box_name) b)) (scaled_sites d e sites);
+  let triangles, fans = hints boxes edges in
+  let found = surrounded d e sites edges triangles corners fans in
+  Printf.sprintf "%d surrounded%s" (List.length found) (if all_surrounded sites found then ", complete" else "")
+
+(* ---- all ---- *)
+
 let verdict name =
   let channel = open_in_bin name in
   let answer =
     try
-      let sites, edges = read_certificate channel in
+      let sites, edges, corners = read_certificate channel in
       let d, e = unit_of sites edges in
       let good = check d e sites edges in
-      Printf.printf "%s: %s, %d sites, %d legal pairs\n%!" name
+      Printf.printf "%s: %s, %d sites, %d legal pairs%s\n%!" name
         (if good then "accepted" else "rejected")
-        (List.length sites) (List.length edges);
+        (List.length sites) (List.length edges)
+        (if good then ", " ^ completeness d e sites edges corners else "");
       good
-    with Bad _ | Failure _ | Invalid_argument _ | Sys_error _ ->
+    with Bad _ | Failure _ | Invalid_argument _ | Not_found | Sys_error _ ->
       Printf.printf "%s: rejected, no certificate\n" name;
       false
   in
