@@ -4,11 +4,12 @@
 
 Usage: test_options.py COMMAND DATA
 """
+import os
 import re
 import shutil
 import subprocess
 
-from harness import COMMAND, expect, main, run
+from harness import COMMAND, DATA, expect, main, run
 
 WHOLE = ('0', '-1', 'x', '1.5', '', '1e3', '99999999999999999999', '3 4')
 SECONDS = ('0', '-1', 'nan', 'inf', 'x', '', '1s')
@@ -170,6 +171,15 @@ def test_zsh_completion():
         assert set(re.findall(r'--[\w-]+(?==|\[)', part)) == set(options(help_of(name))), name
     if shutil.which('zsh'):
         subprocess.run(['zsh', '-n'], input=script.out.encode(), check=True)
+
+
+def test_readme():
+    with open(os.path.join(DATA, '..', '..', 'README.md'), encoding='utf-8') as f:
+        readme = f.read()
+    for option in options(help_of()):
+        assert re.search(rf'`{option}[` ]', readme), f'README does not know {option}'
+    for name, operands in commands():
+        assert f'`dyadel {name} {operands}`' in readme, f'README does not know dyadel {name}'
 
 
 def test_help_into_a_full_device():
