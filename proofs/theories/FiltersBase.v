@@ -45,7 +45,7 @@ Definition const := (Z * Z)%type.
 Definition lit (c : const) : double :=
   binary_normalize 53 1024 (eq_refl : (0 < 53)%Z) (eq_refl : (53 < 1024)%Z) mode_NE (fst c) (snd c) false.
 Definition is_double (c : const) : bool :=
-  (Z.abs (fst c) <? 2 ^ 53)%Z && (-1074 <=? snd c)%Z && (snd c <=? 970)%Z.
+  (Z.abs (fst c) <? 2 ^ 53)%Z && (-1074 <=? snd c)%Z && (snd c <=? 971)%Z.
 Definition cval (c : const) : R := IZR (fst c) * bpow radix2 (snd c).
 
 Lemma lit_correct c : is_double c = true -> finite (lit c) /\ val (lit c) = cval c.
@@ -452,5 +452,15 @@ Proof. reflexivity. Qed.
 Lemma ninf_sub_inf : (B754_infinity 53 1024 true - B754_infinity 53 1024 false)%D = B754_infinity 53 1024 true.
 Proof. reflexivity. Qed.
 Lemma gt_of_inf x : finite x -> gt (B754_infinity 53 1024 false) x = true.
+Proof. destruct x; try discriminate; reflexivity. Qed.
+Lemma ninf_add x : finite x -> (B754_infinity 53 1024 true + x)%D = B754_infinity 53 1024 true.
+Proof. destruct x; try discriminate; reflexivity. Qed.
+Lemma le_inf x : finite x -> le (B754_infinity 53 1024 false) x = false.
+Proof. destruct x; try discriminate; reflexivity. Qed.
+Lemma le_add_inf f x : finite x -> le (f + B754_infinity 53 1024 false)%D x = false.
+Proof. destruct f as [|[|]| |]; destruct x; try discriminate; reflexivity. Qed.
+Lemma gt_sub_inf f x : finite x -> gt (f - B754_infinity 53 1024 false)%D x = false.
+Proof. destruct f as [|[|]| |]; destruct x; try discriminate; reflexivity. Qed.
+Lemma gt_ninf x : finite x -> gt (B754_infinity 53 1024 true) x = false.
 Proof. destruct x; try discriminate; reflexivity. Qed.
 #[global] Opaque fadd fsub fmul fdiv fsqrt fopp fabs lit.

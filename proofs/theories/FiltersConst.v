@@ -37,13 +37,15 @@ Definition c_incircle_near_tiny : const := (1, -1060)%Z.
 Definition c_one : const := (1, 0)%Z.
 
 (* [FLT-DST] src/delaunay/filter_distance.h: #define DYD_DOWN_FACTOR {} *)
-Definition c_down_factor : const := (1125899906842623, -50)%Z.
+Definition c_down_factor : const := (4503599627370491, -52)%Z.
 (* [FLT-DST] src/delaunay/filter_distance.h: #define DYD_UP_FACTOR {} *)
-Definition c_up_factor : const := (1125899906842625, -50)%Z.
+Definition c_up_factor : const := (4503599627370501, -52)%Z.
 (* [FLT-DST] src/delaunay/filter_distance.h: #define DYD_TINY {} *)
 Definition c_tiny : const := (1, -1000)%Z.
 (* [FLT-DST] src/delaunay/filter_distance.h: return y > DBL_MAX / 4 ? {} : y; *)
 Definition c_cut : const := (9007199254740991, 969)%Z.
+(* [FLT-DST] src/delaunay/filter_distance.h: if (!(dx <= {} && dy *)
+Definition c_dbl_max : const := (9007199254740991, 971)%Z.
 
 (** Constants as numerals that lra can read. *)
 Ltac numerals :=

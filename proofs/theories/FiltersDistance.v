@@ -56,13 +56,13 @@ Definition Dl (x0 x1 c : R) : R := Rmax (c - x0) (x1 - c).
 
 Notation W := (bpow radix2 1024).
 
-Lemma W_big : 1 <= W.
-Proof. change 1 with (bpow radix2 0). apply bpow_le; lia. Qed.
+Lemma W_big : 8 <= W.
+Proof. change 8 with (bpow radix2 3). apply bpow_le; lia. Qed.
 
 (** ** Lower bounds *)
 
 (** At most r, or infinite for a reason. *)
-Definition lob (f : double) (r : R) : Prop := (finite f /\ 0 <= val f <= r) \/ (f = inf /\ W <= r).
+Definition lob (f : double) (r : R) : Prop := (finite f /\ 0 <= val f <= r) \/ (f = inf /\ W / 2 <= r).
 (** The same, or not positive. *)
 Definition lo (f : double) (r : R) : Prop := lob f r \/ f = ninf \/ (finite f /\ val f <= 0).
 
@@ -88,7 +88,7 @@ Proof.
     + left; left. split; [exact F|]. rewrite E. split; [now apply rnd_pos|now apply K].
     + right; right. split; [exact F|]. rewrite E. now apply N.
   - left; right. split; [exact E|]. destruct (Rle_or_lt 0 (val f - val g)) as [P|P].
-    + apply Rle_trans with (1 := A). now apply K.
+    + specialize (K P). generalize (bpow_gt_0 radix2 1024). lra.
     + apply N in P. generalize (bpow_gt_0 radix2 1024). lra.
   - right; left; exact E.
 Qed.
@@ -119,7 +119,7 @@ Qed.
 
 Lemma lob_sqr f r : lob f r -> lob (f * f)%D (r * r * (1 + u) + eta).
 Proof.
-  generalize eta_pos u_pos; intros EP UP. intros [[F [P V]]|[-> A]].
+  generalize eta_pos u_pos W_big; intros EP UP WB. intros [[F [P V]]|[-> A]].
   - assert (Q : val f * val f <= r * r) by (apply Rmult_le_compat; assumption).
     assert (K : rnd (val f * val f) <= r * r * (1 + u) + eta).
     { apply Rle_trans with (1 := rnd_upper _ (Rle_0_sqr _)). unfold Rsqr.
@@ -127,9 +127,9 @@ Proof.
     destruct (fsqr_total f F) as [[G E]|[E B]].
     + left. split; [exact G|]. rewrite E. split; [apply rnd_pos, Rle_0_sqr|exact K].
     + right. split; [exact E|lra].
-  - right. split; [apply inf_sqr|]. generalize W_big; intros WB.
-    assert (W * W <= r * r) by (apply Rmult_le_compat; lra).
-    assert (W * 1 <= W * W) by (apply Rmult_le_compat_l; lra).
+  - right. split; [apply inf_sqr|].
+    assert (W / 2 * (W / 2) <= r * r) by (apply Rmult_le_compat; lra).
+    assert (W / 2 * 1 <= W / 2 * (W / 2)) by (apply Rmult_le_compat_l; lra).
     assert (0 <= r * r * u) by (apply Rmult_le_pos; [apply Rle_0_sqr|lra]). lra.
 Qed.
 
@@ -152,9 +152,9 @@ Proof.
   - right. split; [|lra]. destruct G as [[G _]|[-> _]]; [apply inf_add; exact G|apply inf_inf].
 Qed.
 
-Lemma factor_up : 1 + 8 * u <= cval c_up_factor <= 1 + 8 * u.
+Lemma factor_up : 1 + 10 * u <= cval c_up_factor <= 1 + 10 * u.
 Proof. unfold c_up_factor, u; split; numerals; lra. Qed.
-Lemma factor_down : 1 - 8 * u <= cval c_down_factor <= 1 - 8 * u.
+Lemma factor_down : 1 - 10 * u <= cval c_down_factor <= 1 - 10 * u.
 Proof. unfold c_down_factor, u; split; numerals; lra. Qed.
 Lemma tiny_eta : cval c_tiny = 37778931862957161709568 * eta.
 Proof. unfold c_tiny, cval, fst, snd. rewrite bpow_eta; simpl (-1000 + 1075)%Z; numerals; ring. Qed.
@@ -166,7 +166,7 @@ Proof.
     change (bpow radix2 2) with 4. field.
 Qed.
 
-Lemma lower_correct f d : 0 <= d -> lob f (d * (1 + 401 / 100 * u) + 3 * eta) ->
+Lemma lower_correct f d : 0 <= d -> lob f (d * (1 + 62 / 10 * u) + 4 * eta) ->
   lower f <> inf /\ (finite (lower f) -> val (lower f) <= d).
 Proof.
   intros Pd H. unfold lower. cbv zeta.
@@ -175,13 +175,13 @@ Proof.
   pose proof cut_W as CW. generalize eta_pos W_big; intros EP WB.
   set (y := (f * lit c_down_factor - lit c_tiny)%D).
   assert (CI : lit c_cut <> inf) by (intros E; rewrite E in Fc; discriminate).
-  assert (Cut : W <= d * (1 + 401 / 100 * u) + 3 * eta -> cval c_cut <= d).
+  assert (Cut : W / 2 <= d * (1 + 62 / 10 * u) + 4 * eta -> cval c_cut <= d).
   { intros K. assert (E1 : eta <= 1) by (unfold eta; change 1 with (bpow radix2 0); apply bpow_le; lia).
-    assert (W4 : 8 <= W) by (change 8 with (bpow radix2 3); apply bpow_le; lia). unfold u in *. lra. }
+    assert (W4 : 32 <= W) by (change 32 with (bpow radix2 5); apply bpow_le; lia). unfold u in *. lra. }
   destruct (gt y (lit c_cut)) eqn:G.
   - split; [exact CI|]. intros _. rewrite Vc.
     destruct H as [[F [P V]]|[_ A]]; [|now apply Cut].
-    destruct (Rle_or_lt W (d * (1 + 401 / 100 * u) + 3 * eta)) as [K|K]; [now apply Cut|].
+    destruct (Rle_or_lt (W / 2) (d * (1 + 62 / 10 * u) + 4 * eta)) as [K|K]; [now apply Cut|].
     assert (Q : finite (f * lit c_down_factor)%D /\ val (f * lit c_down_factor)%D = rnd (val f * val (lit
       c_down_factor))).
     { apply fmul_finite; try assumption. rewrite Vd. rewrite <- rnd_abs.
@@ -196,7 +196,7 @@ Proof.
     destruct (Rle_or_lt 0 (q - cval c_tiny)) as [S|S].
     + assert (Q2 : rnd (q - cval c_tiny) <= (q - cval c_tiny) * (1 + u)).
       { apply (rnd_add_upper q (- cval c_tiny)); [apply rnd_format|rewrite <- Vt; apply format_opp, val_format|lra]. }
-      assert (Q3 : val f * cval c_down_factor <= (d * (1 + 401 / 100 * u) + 3 * eta) * (1 - 8 * u))
+      assert (Q3 : val f * cval c_down_factor <= (d * (1 + 62 / 10 * u) + 4 * eta) * (1 - 10 * u))
         by (apply Rmult_le_compat; unfold u in *; lra).
       rewrite T in *. unfold u in *. lra.
     + assert (rnd (q - cval c_tiny) <= 0) by (rewrite <- (round_0 radix2 fexp ZnearestE); apply rnd_le; lra). lra.
@@ -213,7 +213,7 @@ Proof.
       destruct (Rle_or_lt 0 (q - cval c_tiny)) as [S|S].
       * assert (Q2 : rnd (q - cval c_tiny) <= (q - cval c_tiny) * (1 + u)).
         { apply (rnd_add_upper q (- cval c_tiny)); [apply rnd_format|rewrite <- Vt; apply format_opp, val_format|lra]. }
-        assert (Q3 : val f * cval c_down_factor <= (d * (1 + 401 / 100 * u) + 3 * eta) * (1 - 8 * u))
+        assert (Q3 : val f * cval c_down_factor <= (d * (1 + 62 / 10 * u) + 4 * eta) * (1 - 10 * u))
           by (apply Rmult_le_compat; unfold u in *; lra).
         rewrite T in *. unfold u in *. lra.
       * assert (rnd (q - cval c_tiny) <= 0) by (rewrite <- (round_0 radix2 fexp ZnearestE); apply rnd_le; lra). lra.
@@ -247,7 +247,7 @@ Proof.
   apply lower_correct; [exact P|].
   assert (M : (dx * (1 + u) * (dx * (1 + u)) * (1 + u) + eta + (dy * (1 + u) * (dy * (1 + u)) * (1 + u) + eta)) * (1 +
     u)
-    <= (dx * dx + dy * dy) * (1 + 401 / 100 * u) + 3 * eta).
+    <= (dx * dx + dy * dy) * (1 + 62 / 10 * u) + 4 * eta).
   { replace ((dx * (1 + u) * (dx * (1 + u)) * (1 + u) + eta + (dy * (1 + u) * (dy * (1 + u)) * (1 + u) + eta)) * (1 +
     u))
       with ((dx * dx + dy * dy) * (1 + u) ^ 4 + 2 * (1 + u) * eta) by ring.
@@ -337,7 +337,7 @@ Proof.
     + apply rnd_add_lower; try apply val_format; lra.
 Qed.
 
-Lemma upper_correct f d : 0 <= d -> upb f (d * (1 - 401 / 100 * u) - 3 * eta) ->
+Lemma upper_correct f d : 0 <= d -> upb f (d * (1 - 62 / 10 * u) - 4 * eta) ->
   upper f = inf \/ (finite (upper f) /\ d <= val (upper f)).
 Proof.
   intros Pd H. unfold upper. destruct (lit_correct c_tiny eq_refl) as [Ft Vt].
@@ -360,7 +360,7 @@ Proof.
       (lit c_tiny)))
       by (apply rnd_add_lower; try apply val_format; lra).
     apply Rle_trans with (2 := Q2). rewrite Vt, T.
-    assert (Q3 : val f * (1 + 8 * u) <= val f * cval c_up_factor) by (apply Rmult_le_compat_l; [exact P|lra]).
+    assert (Q3 : val f * (1 + 10 * u) <= val f * cval c_up_factor) by (apply Rmult_le_compat_l; [exact P|lra]).
     unfold u in *. lra.
 Qed.
 
@@ -391,7 +391,7 @@ Proof.
   pose proof (upb_add _ _ _ _ Sx Sy) as S.
   assert (P : 0 <= dx * dx + dy * dy) by (generalize (Rle_0_sqr dx) (Rle_0_sqr dy); unfold Rsqr; lra).
   apply upper_correct; [exact P|].
-  assert (M : (dx * dx + dy * dy) * (1 - 401 / 100 * u) - 3 * eta <=
+  assert (M : (dx * dx + dy * dy) * (1 - 62 / 10 * u) - 4 * eta <=
     (dx * (1 - u) * (dx * (1 - u)) * (1 - u) - eta + (dy * (1 - u) * (dy * (1 - u)) * (1 - u) - eta)) * (1 - u)).
   { replace ((dx * (1 - u) * (dx * (1 - u)) * (1 - u) - eta + (dy * (1 - u) * (dy * (1 - u)) * (1 - u) - eta)) * (1 -
     u))

@@ -2,9 +2,10 @@
 /* Bounds of ds^2 and dl^2 in doubles [FLT-DST].
  *
  * A centre is known by an enclosing box C of doubles (a point when it is a double), a site by its outward box b. Each
- * difference, product and the sum carry a relative error u = 2^-53, (1+u)^4 in all; 1 +- 8u covers that and the
- * rounding of the bound itself; underflow of a square is at most 2^-1075 and covered by 2^-1000. An overflowing lower
- * bound is cut to DBL_MAX/4, an overflowing upper bound is infinite, and NaN compares false: never sure. */
+ * difference, product and the sum carry a relative error u = 2^-53, (1+u)^4 in all, (1+u)^6 where slack is added;
+ * 1 +- 10u covers that and the rounding of the bound itself; underflow of a square is at most 2^-1075 and covered by
+ * 2^-1000. An overflowing lower bound is cut to DBL_MAX/4, an overflowing upper bound is infinite, and NaN compares
+ * false: never sure. */
 #ifndef DYD_DELAUNAY_FILTER_DISTANCE_H
 #define DYD_DELAUNAY_FILTER_DISTANCE_H
 
@@ -16,8 +17,8 @@ typedef struct dyd_bbox {
   double e[4];
 } dyd_bbox;
 
-#define DYD_DOWN_FACTOR (1 - 8 * 0x1p-53)
-#define DYD_UP_FACTOR (1 + 8 * 0x1p-53)
+#define DYD_DOWN_FACTOR (1 - 10 * 0x1p-53)
+#define DYD_UP_FACTOR (1 + 10 * 0x1p-53)
 #define DYD_TINY 0x1p-1000
 
 static inline double dyd_max(double a, double b) {

@@ -18,7 +18,7 @@ MESH, DISTANCE = 'src/delaunay/filter_mesh.h', 'src/delaunay/filter_distance.h'
 FAULTS = [
     (MESH, 'extent_x * extent_y * 1.01e-15', 'extent_x * extent_y * 1.0e-15', 'constants', 'c_orient_bound'),
     (MESH, '#define DYD_INCIRCLE_BOUND 4.5e-16', '#define DYD_INCIRCLE_BOUND 4.0e-16', 'constants', 'c_incircle_bound'),
-    (DISTANCE, '(1 - 8 * 0x1p-53)', '(1 - 4 * 0x1p-53)', 'constants', 'c_down_factor'),
+    (DISTANCE, '(1 - 10 * 0x1p-53)', '(1 - 4 * 0x1p-53)', 'constants', 'c_down_factor'),
     (MESH, 'extent_x * extent_y * 1.01e-15', '1.01e-15 * extent_x * extent_y', 'constants', 'dyd_filter_orient_bound'),
     (MESH, 'e = 11.05 * 0x1p-53 * e', 'e = 11.0 * 0x1p-53 * e', 'constants', 'c_incircle_near'),
     ('src/dyadic/sqrt_sign.c', 'if (nb - 3 >= na) return -1;', 'if (nb - 2 >= na) return -1;', 'constants', 'compare_squares'),
