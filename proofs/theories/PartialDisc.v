@@ -6,10 +6,11 @@ From Dyadel Require Import Plane Distance Orientation Disc.
 Open Scope R_scope.
 
 (* The three circles with one F bound I, the three with two F bound E. *)
-Record six_circles (X Y Z : rect) : Type := Six {
+Record once (X Y Z : rect) : Type := Once {
   o1 : point; r1 : R; fcc : critical F C C X Y Z o1 r1;
   o2 : point; r2 : R; cfc : critical C F C X Y Z o2 r2;
-  o3 : point; r3 : R; ccf : critical C C F X Y Z o3 r3;
+  o3 : point; r3 : R; ccf : critical C C F X Y Z o3 r3 }.
+Record twice (X Y Z : rect) : Type := Twice {
   o4 : point; r4 : R; cff : critical C F F X Y Z o4 r4;
   o5 : point; r5 : R; fcf : critical F C F X Y Z o5 r5;
   o6 : point; r6 : R; ffc : critical F F C X Y Z o6 r6 }.
@@ -21,10 +22,10 @@ Arguments o4 {X Y Z}. Arguments r4 {X Y Z}. Arguments cff {X Y Z}.
 Arguments o5 {X Y Z}. Arguments r5 {X Y Z}. Arguments fcf {X Y Z}.
 Arguments o6 {X Y Z}. Arguments r6 {X Y Z}. Arguments ffc {X Y Z}.
 
-Definition in_three {X Y Z} (K : six_circles X Y Z) (w : point) : Prop :=
+Definition in_three {X Y Z} (K : once X Y Z) (w : point) : Prop :=
   dist (o1 K) w < r1 K /\ dist (o2 K) w < r2 K /\ dist (o3 K) w < r3 K.
-Definition out_of_three {X Y Z} (K : six_circles X Y Z) (w : point) : Prop :=
-  r4 K < dist (o4 K) w /\ r5 K < dist (o5 K) w /\ r6 K < dist (o6 K) w.
+Definition out_of_three {X Y Z} (M : twice X Y Z) (w : point) : Prop :=
+  r4 M < dist (o4 M) w /\ r5 M < dist (o5 M) w /\ r6 M < dist (o6 M) w.
 
 (* Strictly inside, strictly outside all circles through points of the three rectangles. *)
 Definition in_all (X Y Z : rect) (w : point) : Prop :=
@@ -69,7 +70,7 @@ Qed.
 Section Three.
 Variables (X Y Z : rect).
 Variable oriented : surely_left X Y Z.
-Variable K : six_circles X Y Z.
+Variables (K : once X Y Z) (M : twice X Y Z).
 
 Lemma distinct_points x y z : inside x X -> inside y Y -> inside z Z ->
   0 < dist2 x y /\ 0 < dist2 y z /\ 0 < dist2 x z.
@@ -80,41 +81,52 @@ Proof.
   repeat split; apply P; intros ->; unfold orient in D; nra.
 Qed.
 
-(* A point inside the three circles for I, or outside the three for E, is on no circle. *)
-Lemma not_on_circle x y z o r w : inside x X -> inside y Y -> inside z Z -> circle o r x y z -> dist o w = r ->
-  ~ in_three K w /\ ~ out_of_three K w.
+(* A point inside the three circles for I is on no circle. *)
+Lemma inner_not_on_circle x y z o r w : inside x X -> inside y Y -> inside z Z -> circle o r x y z -> dist o w = r ->
+  ~ in_three K w.
 Proof.
   intros Ix Iy Iz H W. destruct (distinct_points x y z Ix Iy Iz) as [XY [YZ XZ]].
   pose proof (oriented x y z Ix Iy Iz) as D. pose proof (cocircular_barycentric o r x y z w H W) as E.
   destruct H as [Hx [Hy Hz]].
   assert (S : orient w y z + orient x w z + orient x y w = orient x y z) by (unfold orient; ring).
-  split; intros [W1 [W2 W3]].
-  - destruct (fcc K) as [A1 [A2 A3]]. destruct (cfc K) as [B1 [B2 B3]]. destruct (ccf K) as [C1 [C2 C3]].
-    apply power_lt in W1, W2, W3. pose proof (power_zero o r w W) as Wz.
-    refine (not_next_to_three (orient w y z) (orient x w z) (orient x y w) x y z _ _ _ _ _ _ _ _ _ _ XY YZ XZ _
-      (far_radical _ _ _ o r x A1 Ix Hx) (near_radical _ _ _ o r y A2 Iy Hy) (near_radical _ _ _ o r z A3 Iz Hz) _
-      (near_radical _ _ _ o r x B1 Ix Hx) (far_radical _ _ _ o r y B2 Iy Hy) (near_radical _ _ _ o r z B3 Iz Hz) _
-      (near_radical _ _ _ o r x C1 Ix Hx) (near_radical _ _ _ o r y C2 Iy Hy) (far_radical _ _ _ o r z C3 Iz Hz) _);
-      try lra; rewrite <- radical_barycentric; unfold radical; rewrite Wz; nra.
-  - destruct (cff K) as [A1 [A2 A3]]. destruct (fcf K) as [B1 [B2 B3]]. destruct (ffc K) as [C1 [C2 C3]].
-    apply power_gt in W1; [| apply (touches_nonneg _ _ _ _ A1)].
-    apply power_gt in W2; [| apply (touches_nonneg _ _ _ _ B1)].
-    apply power_gt in W3; [| apply (touches_nonneg _ _ _ _ C1)]. pose proof (power_zero o r w W) as Wz.
-    pose proof (near_radical _ _ _ o r x A1 Ix Hx) as a1. pose proof (far_radical _ _ _ o r y A2 Iy Hy) as a2.
-    pose proof (far_radical _ _ _ o r z A3 Iz Hz) as a3. pose proof (far_radical _ _ _ o r x B1 Ix Hx) as b1.
-    pose proof (near_radical _ _ _ o r y B2 Iy Hy) as b2. pose proof (far_radical _ _ _ o r z B3 Iz Hz) as b3.
-    pose proof (far_radical _ _ _ o r x C1 Ix Hx) as c1. pose proof (far_radical _ _ _ o r y C2 Iy Hy) as c2.
-    pose proof (near_radical _ _ _ o r z C3 Iz Hz) as c3.
-    pose proof (radical_barycentric (o4 K) (r4 K) o r x y z w) as La.
-    pose proof (radical_barycentric (o5 K) (r5 K) o r x y z w) as Lb.
-    pose proof (radical_barycentric (o6 K) (r6 K) o r x y z w) as Lc.
-    assert (Pa : 0 < orient x y z * radical (o4 K) (r4 K) o r w) by (unfold radical; rewrite Wz; nra).
-    assert (Pb : 0 < orient x y z * radical (o5 K) (r5 K) o r w) by (unfold radical; rewrite Wz; nra).
-    assert (Pc : 0 < orient x y z * radical (o6 K) (r6 K) o r w) by (unfold radical; rewrite Wz; nra).
-    apply (not_next_to_three (orient w y z) (orient x w z) (orient x y w) x y z
-      (- radical (o4 K) (r4 K) o r x) (- radical (o4 K) (r4 K) o r y) (- radical (o4 K) (r4 K) o r z)
-      (- radical (o5 K) (r5 K) o r x) (- radical (o5 K) (r5 K) o r y) (- radical (o5 K) (r5 K) o r z)
-      (- radical (o6 K) (r6 K) o r x) (- radical (o6 K) (r6 K) o r y) (- radical (o6 K) (r6 K) o r z)); lra.
+  intros [W1 [W2 W3]].
+  destruct (fcc K) as [A1 [A2 A3]]. destruct (cfc K) as [B1 [B2 B3]]. destruct (ccf K) as [C1 [C2 C3]].
+  apply power_lt in W1, W2, W3. pose proof (power_zero o r w W) as Wz.
+  refine (not_next_to_three (orient w y z) (orient x w z) (orient x y w) x y z _ _ _ _ _ _ _ _ _ _ XY YZ XZ _
+    (far_radical _ _ _ o r x A1 Ix Hx) (near_radical _ _ _ o r y A2 Iy Hy) (near_radical _ _ _ o r z A3 Iz Hz) _
+    (near_radical _ _ _ o r x B1 Ix Hx) (far_radical _ _ _ o r y B2 Iy Hy) (near_radical _ _ _ o r z B3 Iz Hz) _
+    (near_radical _ _ _ o r x C1 Ix Hx) (near_radical _ _ _ o r y C2 Iy Hy) (far_radical _ _ _ o r z C3 Iz Hz) _);
+    try lra; rewrite <- radical_barycentric; unfold radical; rewrite Wz; nra.
+Qed.
+
+(* Nor is a point outside the three for E. *)
+Lemma outer_not_on_circle x y z o r w : inside x X -> inside y Y -> inside z Z -> circle o r x y z -> dist o w = r ->
+  ~ out_of_three M w.
+Proof.
+  intros Ix Iy Iz H W. destruct (distinct_points x y z Ix Iy Iz) as [XY [YZ XZ]].
+  pose proof (oriented x y z Ix Iy Iz) as D. pose proof (cocircular_barycentric o r x y z w H W) as E.
+  destruct H as [Hx [Hy Hz]].
+  assert (S : orient w y z + orient x w z + orient x y w = orient x y z) by (unfold orient; ring).
+  intros [W1 [W2 W3]].
+  destruct (cff M) as [A1 [A2 A3]]. destruct (fcf M) as [B1 [B2 B3]]. destruct (ffc M) as [C1 [C2 C3]].
+  apply power_gt in W1; [| apply (touches_nonneg _ _ _ _ A1)].
+  apply power_gt in W2; [| apply (touches_nonneg _ _ _ _ B1)].
+  apply power_gt in W3; [| apply (touches_nonneg _ _ _ _ C1)]. pose proof (power_zero o r w W) as Wz.
+  pose proof (near_radical _ _ _ o r x A1 Ix Hx) as a1. pose proof (far_radical _ _ _ o r y A2 Iy Hy) as a2.
+  pose proof (far_radical _ _ _ o r z A3 Iz Hz) as a3. pose proof (far_radical _ _ _ o r x B1 Ix Hx) as b1.
+  pose proof (near_radical _ _ _ o r y B2 Iy Hy) as b2. pose proof (far_radical _ _ _ o r z B3 Iz Hz) as b3.
+  pose proof (far_radical _ _ _ o r x C1 Ix Hx) as c1. pose proof (far_radical _ _ _ o r y C2 Iy Hy) as c2.
+  pose proof (near_radical _ _ _ o r z C3 Iz Hz) as c3.
+  pose proof (radical_barycentric (o4 M) (r4 M) o r x y z w) as La.
+  pose proof (radical_barycentric (o5 M) (r5 M) o r x y z w) as Lb.
+  pose proof (radical_barycentric (o6 M) (r6 M) o r x y z w) as Lc.
+  assert (Pa : 0 < orient x y z * radical (o4 M) (r4 M) o r w) by (unfold radical; rewrite Wz; nra).
+  assert (Pb : 0 < orient x y z * radical (o5 M) (r5 M) o r w) by (unfold radical; rewrite Wz; nra).
+  assert (Pc : 0 < orient x y z * radical (o6 M) (r6 M) o r w) by (unfold radical; rewrite Wz; nra).
+  apply (not_next_to_three (orient w y z) (orient x w z) (orient x y w) x y z
+    (- radical (o4 M) (r4 M) o r x) (- radical (o4 M) (r4 M) o r y) (- radical (o4 M) (r4 M) o r z)
+    (- radical (o5 M) (r5 M) o r x) (- radical (o5 M) (r5 M) o r y) (- radical (o5 M) (r5 M) o r z)
+    (- radical (o6 M) (r6 M) o r x) (- radical (o6 M) (r6 M) o r y) (- radical (o6 M) (r6 M) o r z)); lra.
 Qed.
 
 (* Along a path of choices, from w inside its circle to w' outside its circle, some choice is on one circle. *)
@@ -153,8 +165,8 @@ Proof.
       try assumption.
     + apply power_le. destruct H. lra.
     + now apply power_ge.
-    + assert (M : mix t w w = w) by (destruct w; unfold mix; simpl; f_equal; ring). rewrite M in E.
-      exact (proj1 (not_on_circle a' b' c' q s w Ia' Ib' Ic' Q' E) H).
+    + assert (Same : mix t w w = w) by (destruct w; unfold mix; simpl; f_equal; ring). rewrite Same in E.
+      exact (inner_not_on_circle a' b' c' q s w Ia' Ib' Ic' Q' E H).
   - intros H. repeat split.
     + destruct (critical_is_circle _ _ _ _ _ _ _ _ (fcc K)) as [a [b [c [Ia [Ib [Ic Q]]]]]]. now apply (H a b c).
     + destruct (critical_is_circle _ _ _ _ _ _ _ _ (cfc K)) as [a [b [c [Ia [Ib [Ic Q]]]]]]. now apply (H a b c).
@@ -162,25 +174,25 @@ Proof.
 Qed.
 
 (* E: outside the three circles with two F iff outside all circles. *)
-Theorem outer_exact w : out_of_three K w <-> out_of_all X Y Z w.
+Theorem outer_exact w : out_of_three M w <-> out_of_all X Y Z w.
 Proof.
   split.
   - intros H x y z o r Ix Iy Iz Q. apply Rnot_le_lt. intros L.
-    destruct (critical_is_circle _ _ _ _ _ _ _ _ (cff K)) as [a [b [c [Ia [Ib [Ic Q1]]]]]].
-    destruct (on_the_way x y z o r w a b c (o4 K) (r4 K) w Ix Iy Iz Q) as [t [a' [b' [c' [q [s [T [Ia' [Ib' [Ic' [_ [Q' E]]]]]]]]]]]];
+    destruct (critical_is_circle _ _ _ _ _ _ _ _ (cff M)) as [a [b [c [Ia [Ib [Ic Q1]]]]]].
+    destruct (on_the_way x y z o r w a b c (o4 M) (r4 M) w Ix Iy Iz Q) as [t [a' [b' [c' [q [s [T [Ia' [Ib' [Ic' [_ [Q' E]]]]]]]]]]]];
       [now apply power_le | exact Ia | exact Ib | exact Ic | exact Q1 | |].
-    + apply power_ge; [| destruct H; lra]. destruct (cff K) as [A _]. apply (touches_nonneg _ _ _ _ A).
-    + assert (M : mix t w w = w) by (destruct w; unfold mix; simpl; f_equal; ring). rewrite M in E.
-      exact (proj2 (not_on_circle a' b' c' q s w Ia' Ib' Ic' Q' E) H).
+    + apply power_ge; [| destruct H; lra]. destruct (cff M) as [A _]. apply (touches_nonneg _ _ _ _ A).
+    + assert (Same : mix t w w = w) by (destruct w; unfold mix; simpl; f_equal; ring). rewrite Same in E.
+      exact (outer_not_on_circle a' b' c' q s w Ia' Ib' Ic' Q' E H).
   - intros H. repeat split.
-    + destruct (critical_is_circle _ _ _ _ _ _ _ _ (cff K)) as [a [b [c [Ia [Ib [Ic Q]]]]]]. now apply (H a b c).
-    + destruct (critical_is_circle _ _ _ _ _ _ _ _ (fcf K)) as [a [b [c [Ia [Ib [Ic Q]]]]]]. now apply (H a b c).
-    + destruct (critical_is_circle _ _ _ _ _ _ _ _ (ffc K)) as [a [b [c [Ia [Ib [Ic Q]]]]]]. now apply (H a b c).
+    + destruct (critical_is_circle _ _ _ _ _ _ _ _ (cff M)) as [a [b [c [Ia [Ib [Ic Q]]]]]]. now apply (H a b c).
+    + destruct (critical_is_circle _ _ _ _ _ _ _ _ (fcf M)) as [a [b [c [Ia [Ib [Ic Q]]]]]]. now apply (H a b c).
+    + destruct (critical_is_circle _ _ _ _ _ _ _ _ (ffc M)) as [a [b [c [Ia [Ib [Ic Q]]]]]]. now apply (H a b c).
 Qed.
 
 (* Con of a fourth rectangle: + and - by the largest and smallest distances from the six centres. *)
 Definition con_plus (W : rect) : Prop := dl (o1 K) W < r1 K /\ dl (o2 K) W < r2 K /\ dl (o3 K) W < r3 K.
-Definition con_minus (W : rect) : Prop := r4 K < ds (o4 K) W /\ r5 K < ds (o5 K) W /\ r6 K < ds (o6 K) W.
+Definition con_minus (W : rect) : Prop := r4 M < ds (o4 M) W /\ r5 M < ds (o5 M) W /\ r6 M < ds (o6 M) W.
 
 Theorem con_plus_exact W : con_plus W <-> forall w, inside w W -> in_all X Y Z w.
 Proof.
@@ -196,12 +208,12 @@ Qed.
 Theorem con_minus_exact W : con_minus W <-> forall w, inside w W -> out_of_all X Y Z w.
 Proof.
   split.
-  - intros [A [H G]] w I. apply outer_exact. pose proof (ds_le (o4 K) W w I). pose proof (ds_le (o5 K) W w I).
-    pose proof (ds_le (o6 K) W w I). unfold out_of_three. lra.
+  - intros [A [H G]] w I. apply outer_exact. pose proof (ds_le (o4 M) W w I). pose proof (ds_le (o5 M) W w I).
+    pose proof (ds_le (o6 M) W w I). unfold out_of_three. lra.
   - intros H. repeat split.
-    + apply (outer_exact (nearest (o4 K) W)), H, nearest_inside.
-    + apply (outer_exact (nearest (o5 K) W)), H, nearest_inside.
-    + apply (outer_exact (nearest (o6 K) W)), H, nearest_inside.
+    + apply (outer_exact (nearest (o4 M) W)), H, nearest_inside.
+    + apply (outer_exact (nearest (o5 M) W)), H, nearest_inside.
+    + apply (outer_exact (nearest (o6 M) W)), H, nearest_inside.
 Qed.
 
 (* Con is unknown iff some circle meets all four rectangles. *)
@@ -235,34 +247,47 @@ End Three.
 Lemma critical_swap l m n X Y Z o r : critical l m n X Y Z o r -> critical l n m X Z Y o r.
 Proof. intros [A [H G]]. now repeat split. Qed.
 
-Definition swapped {X Y Z} (K : six_circles X Y Z) : six_circles X Z Y := Six X Z Y
+Definition swap_once {X Y Z} (K : once X Y Z) : once X Z Y := Once X Z Y
   (o1 K) (r1 K) (critical_swap _ _ _ _ _ _ _ _ (fcc K)) (o3 K) (r3 K) (critical_swap _ _ _ _ _ _ _ _ (ccf K))
-  (o2 K) (r2 K) (critical_swap _ _ _ _ _ _ _ _ (cfc K)) (o4 K) (r4 K) (critical_swap _ _ _ _ _ _ _ _ (cff K))
-  (o6 K) (r6 K) (critical_swap _ _ _ _ _ _ _ _ (ffc K)) (o5 K) (r5 K) (critical_swap _ _ _ _ _ _ _ _ (fcf K)).
+  (o2 K) (r2 K) (critical_swap _ _ _ _ _ _ _ _ (cfc K)).
+Definition swap_twice {X Y Z} (M : twice X Y Z) : twice X Z Y := Twice X Z Y
+  (o4 M) (r4 M) (critical_swap _ _ _ _ _ _ _ _ (cff M)) (o6 M) (r6 M) (critical_swap _ _ _ _ _ _ _ _ (ffc M))
+  (o5 M) (r5 M) (critical_swap _ _ _ _ _ _ _ _ (fcf M)).
 
 Lemma circle_swap o r x y z : circle o r x y z -> circle o r x z y.
 Proof. intros [A [H G]]. now repeat split. Qed.
 
 Definition surely_oriented (X Y Z : rect) : Prop := surely_left X Y Z \/ surely_right X Y Z.
 
-(* Con is + iff W is strictly inside all circles, - iff it is strictly outside all, unknown iff a circle meets all four. *)
-Theorem con_exact X Y Z (K : six_circles X Y Z) W : surely_oriented X Y Z ->
-  (con_plus X Y Z K W <-> forall w, inside w W -> in_all X Y Z w) /\
-  (con_minus X Y Z K W <-> forall w, inside w W -> out_of_all X Y Z w) /\
-  ((~ con_plus X Y Z K W /\ ~ con_minus X Y Z K W) <->
+(* Con is + iff W is strictly inside all circles: three critical circles decide. *)
+Theorem con_plus_decided X Y Z (K : once X Y Z) W : surely_oriented X Y Z ->
+  (con_plus X Y Z K W <-> forall w, inside w W -> in_all X Y Z w).
+Proof.
+  intros [S | S]; [now apply con_plus_exact |]. apply surely_right_left in S.
+  assert (P : con_plus X Y Z K W <-> con_plus X Z Y (swap_once K) W) by (unfold con_plus; simpl; tauto).
+  rewrite P, con_plus_exact by exact S.
+  split; intros H w I x y z o r Ix Iy Iz Q; apply (H w I x z y o r Ix Iz Iy (circle_swap _ _ _ _ _ Q)).
+Qed.
+
+(* Con is - iff W is strictly outside all circles: the three others decide. *)
+Theorem con_minus_decided X Y Z (M : twice X Y Z) W : surely_oriented X Y Z ->
+  (con_minus X Y Z M W <-> forall w, inside w W -> out_of_all X Y Z w).
+Proof.
+  intros [S | S]; [now apply con_minus_exact |]. apply surely_right_left in S.
+  assert (P : con_minus X Y Z M W <-> con_minus X Z Y (swap_twice M) W) by (unfold con_minus; simpl; tauto).
+  rewrite P, con_minus_exact by exact S.
+  split; intros H w I x y z o r Ix Iy Iz Q; apply (H w I x z y o r Ix Iz Iy (circle_swap _ _ _ _ _ Q)).
+Qed.
+
+(* Otherwise a circle meets all four rectangles. *)
+Theorem con_unknown_decided X Y Z (K : once X Y Z) (M : twice X Y Z) W : surely_oriented X Y Z ->
+  ((~ con_plus X Y Z K W /\ ~ con_minus X Y Z M W) <->
     exists x y z w o r, inside x X /\ inside y Y /\ inside z Z /\ inside w W /\ circle o r x y z /\ dist o w = r).
 Proof.
-  intros [S | S].
-  - split; [now apply con_plus_exact |]. split; [now apply con_minus_exact | now apply con_unknown_exact].
-  - apply surely_right_left in S.
-    assert (P : con_plus X Y Z K W <-> con_plus X Z Y (swapped K) W) by (unfold con_plus; simpl; tauto).
-    assert (M : con_minus X Y Z K W <-> con_minus X Z Y (swapped K) W) by (unfold con_minus; simpl; tauto).
-    rewrite P, M. split; [| split].
-    + rewrite con_plus_exact by exact S.
-      split; intros H w I x y z o r Ix Iy Iz Q; apply (H w I x z y o r Ix Iz Iy (circle_swap _ _ _ _ _ Q)).
-    + rewrite con_minus_exact by exact S.
-      split; intros H w I x y z o r Ix Iy Iz Q; apply (H w I x z y o r Ix Iz Iy (circle_swap _ _ _ _ _ Q)).
-    + rewrite con_unknown_exact by exact S.
-      split; intros [x [y [z [w [o [r [Ix [Iy [Iz [Iw [Q E]]]]]]]]]]]; exists x, z, y, w, o, r;
-        exact (conj Ix (conj Iz (conj Iy (conj Iw (conj (circle_swap _ _ _ _ _ Q) E))))).
+  intros [S | S]; [now apply con_unknown_exact |]. apply surely_right_left in S.
+  assert (P : con_plus X Y Z K W <-> con_plus X Z Y (swap_once K) W) by (unfold con_plus; simpl; tauto).
+  assert (P' : con_minus X Y Z M W <-> con_minus X Z Y (swap_twice M) W) by (unfold con_minus; simpl; tauto).
+  rewrite P, P', con_unknown_exact by exact S.
+  split; intros [x [y [z [w [o [r [Ix [Iy [Iz [Iw [Q E]]]]]]]]]]]; exists x, z, y, w, o, r;
+    exact (conj Ix (conj Iz (conj Iy (conj Iw (conj (circle_swap _ _ _ _ _ Q) E))))).
 Qed.
