@@ -4,6 +4,7 @@
 #define DYADEL_DYADEL_H
 
 #include <dyadel/certificate.h>
+#include <dyadel/check.h>
 #include <dyadel/compose.h>
 #include <dyadel/converge.h>
 #include <dyadel/engine.h>

@@ -62,6 +62,7 @@ bool cli_window_read(dyd_rect *out, const char *text);
 /* One function for each command, in a file of its own; returns the exit status. */
 int cli_delaunay(const cli_options *o);
 int cli_voronoi(const cli_options *o);
+int cli_check(const cli_options *o);
 int cli_converge(const cli_options *o);
 int cli_nearest(const cli_options *o);
 int cli_verify(const cli_options *o);
@@ -86,6 +87,8 @@ typedef dyd_status (*cli_write_fn)(FILE *out, const dyd_engine *e, const cli_opt
 /* All of a command that reads, runs, and writes one result. Returns the exit status. */
 int cli_session_all(const cli_options *o, cli_write_fn write);
 
+/* Adds the points of the file or oracle to e. 0, or an exit status after a message. */
+int cli_points_read(dyd_engine *e, const cli_options *o);
 /* The same in steps. Each returns 0, or an exit status after a message; cli_session_close comes after any of them. */
 int cli_session_open(cli_session *s, const cli_options *o);
 /* Runs with options (progress and signals are added). 0 whatever the outcome, DYD_OUTCOME_ERROR aside: then

@@ -35,6 +35,10 @@ static int read_file(dyd_engine *e, const cli_options *o) {
   return status < 0 ? CLI_FAILED : 0;
 }
 
+int cli_points_read(dyd_engine *e, const cli_options *o) {
+  return o->oracle ? cli_oracle_read(e, o) : read_file(e, o);
+}
+
 int cli_session_open(cli_session *s, const cli_options *o) {
   *s = (cli_session){.options = o, .begun = cli_clock()};
   if (dyd_engine_new(&s->engine) < 0) {
@@ -43,7 +47,7 @@ int cli_session_open(cli_session *s, const cli_options *o) {
   }
   s->progress = cli_progress_start(o->quiet);
   cli_progress_phase(s->progress, "reading");
-  return o->oracle ? cli_oracle_read(s->engine, o) : read_file(s->engine, o);
+  return cli_points_read(s->engine, o);
 }
 
 /* ---- running ---- */

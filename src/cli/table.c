@@ -43,7 +43,13 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                       "statuses, bounds of what is open, decisions, calls of points, seconds. The first\n"
                       "stage asks for 4 bits, unless told otherwise.",
                       FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_converge},
-    [CLI_CHECK] = {.name = "check", .operands = "FILE"},
+    [CLI_CHECK] = {"check", "FILE", "try random refinement schedules, and look for broken promises",
+                   "Runs random refinement schedules over the points and checks, after each stage, that\n"
+                   "rectangles are nested and shrink as asked, that no status is retracted, that cells only\n"
+                   "grow, that the way to the rectangles does not matter, and that random choices of points\n"
+                   "agree. A fault is shown by the shortest schedule found, which --trace writes and --replay\n"
+                   "repeats. Exit status 0: no fault; 1: a fault.",
+                   FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_check},
     [CLI_VERIFY] = {"verify", "CERT", "check a certificate, in integers, without the engine",
                     "Checks a certificate that --certificate wrote, and says what it checked and what not.\n"
                     "Exit status 0: accepted; 1: rejected, with the line and the reason.",
@@ -122,10 +128,10 @@ const cli_option cli_option_table[] = {
 
     {"plot", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "draw the table; FILE ends in .svg, .pdf or .png",
      AT(plot)},
-    {"trace", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
-     "write which point was narrowed to what, and why", AT(trace)},
-    {"replay", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "repeat a trace, which stands for the points",
-     AT(replay)},
+    {"trace", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
+     "write which point was narrowed to what, and why;\ncheck: the schedule that shows a fault", AT(trace)},
+    {"replay", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
+     "repeat a trace, which stands for the points;\ncheck: repeat a schedule", AT(replay)},
     {"no-voronoi", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
      "no bounds of the Voronoi diagram (they take long)", AT(no_voronoi)},
     {"no-times", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,

@@ -12,7 +12,7 @@ import sys
 LAYERS = [['base'], ['dyadic'], ['rect', 'verify'], ['stream', 'predicate'], ['delaunay'], ['voronoi'], ['metric'], ['engine'], ['io']]
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 # Public headers in the order of the layers; a header may include only those before it.
-PUBLIC = ['status', 'dyadic certificate', 'rect', 'stream sites', 'oracle', 'predicate delaunay', 'arc', 'voronoi', 'compose', 'metric', 'engine', 'converge', 'io', 'dyadel']
+PUBLIC = ['status', 'dyadic certificate', 'rect', 'stream sites', 'oracle', 'predicate delaunay', 'arc', 'voronoi', 'compose', 'metric', 'engine', 'converge check', 'io', 'dyadel']
 # The checker of certificates stands on the number layer alone.
 VERIFY_MAY = ['dyadel/status.h', 'dyadel/dyadic.h', 'dyadel/certificate.h']
 FILE_LINES, FUNCTION_LINES = 500, 60
