@@ -54,11 +54,15 @@ def test_bisector_csv():
 
 
 def test_ends_are_coordinates():
-    """The exact ends can be read back as points."""
-    table = rows(run('bisector', '-', stdin='[0,1] [0,2]\n[3,5] [5,6.25]\n').out)
-    points = sorted({r['begin_x'] + ' ' + r['begin_y'] for r in table if r['begin'] != 'infinite'})
-    assert any('sqrt' in p for p in points), points
-    expect(run('delaunay', '-', stdin='\n'.join(points) + '\n'), 0, '^0,')
+    """The exact ends can be read back as points, whatever the signs."""
+    for mirrored in ('[0,1] [0,2]\n[3,5] [5,6.25]\n', '[-1,0] [-2,0]\n[-5,-3] [-6.25,-5]\n'):
+        table = rows(run('bisector', '-', stdin=mirrored).out)
+        for row in table:
+            check_decimals(row, 'begin')
+            check_decimals(row, 'end')
+        points = sorted({r['begin_x'] + ' ' + r['begin_y'] for r in table if r['begin'] != 'infinite'})
+        assert any('sqrt' in p for p in points), points
+        expect(run('delaunay', '-', stdin='\n'.join(points) + '\n'), 0, '^0,')
 
 
 def test_bisector_json():
