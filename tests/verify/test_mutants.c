@@ -162,11 +162,8 @@ static void boxes(orc_case *c, test_random *r, size_t n, long wide) {
   for (size_t k = 0; k < n; k++) {
     long x = (long)test_between(r, 0, 1000), y = (long)test_between(r, 0, 1000);
     long w = test_chance(r, 3) ? (long)test_between(r, 0, wide) : 1;
-    orc_case_add(c, x, x + w, y, y + w, test_chance(r, 4) ? 3 : 1);
-    orc_rect *at = &c->rect[c->n - 1];
-    if (mpz_cmp_ui(mpq_denref(at->e[0]), 1) == 0 && mpz_cmp_ui(mpq_denref(at->e[2]), 1) == 0) continue;
-    mpq_set(at->e[1], at->e[0]); /* thirds are exact points */
-    mpq_set(at->e[3], at->e[2]);
+    bool third = test_chance(r, 4); /* an exact point of thirds */
+    orc_case_add(c, x, third ? x : x + w, y, third ? y : y + w, third ? 3 : 1);
   }
 }
 
