@@ -23,7 +23,9 @@ void dyd_exact_text(FILE *out, mpz_srcptr a, mpz_srcptr b, mpz_srcptr c, mpz_src
     mpz_divexact(q, b, gcd);
     if (!whole) fputc('(', out);
     if (mpz_sgn(p)) gmp_fprintf(out, "%Zd%s", p, mpz_sgn(q) > 0 ? "+" : "");
-    gmp_fprintf(out, "%Zd*sqrt(%Zd)%s", q, c, whole ? "" : ")");
+    if (!mpz_cmp_si(q, -1)) fputc('-', out);
+    if (mpz_cmpabs_ui(q, 1)) gmp_fprintf(out, "%Zd*", q);
+    gmp_fprintf(out, "sqrt(%Zd)%s", c, whole ? "" : ")");
   } else {
     gmp_fprintf(out, "%Zd", p);
   }

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "io/exact_text.h"
 #include "io/pieces.h"
+#include "voronoi/surd_point.h"
 #include <dyadel/arc.h>
 #include <dyadel/io.h>
 
@@ -19,7 +20,7 @@ static const char *orientation_text(dyd_sure s) {
   return s == DYD_SURE_PLUS ? "counter-clockwise" : s == DYD_SURE_MINUS ? "clockwise" : "unknown";
 }
 
-/* A circle as points: its centre, and (radius^2, 0). Copied. */
+/* A circle as points in lowest terms: its centre, and (radius^2, 0). Copied. */
 static void split(dyd_surd_point *centre, dyd_surd_point *radius2, const dyd_circle *k) {
   mpz_set(centre->ax, k->ax);
   mpz_set(centre->bx, k->bx);
@@ -29,8 +30,12 @@ static void split(dyd_surd_point *centre, dyd_surd_point *radius2, const dyd_cir
   mpz_set(centre->d, k->d);
   mpz_set(radius2->ax, k->ar);
   mpz_set(radius2->bx, k->br);
+  mpz_set_ui(radius2->ay, 0);
+  mpz_set_ui(radius2->by, 0);
   mpz_set(radius2->c, k->c);
   mpz_set(radius2->d, k->dr);
+  dyd_surd_point_tidy(centre);
+  dyd_surd_point_tidy(radius2);
 }
 
 typedef void (*put_circle_fn)(FILE *out, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2);

@@ -114,8 +114,25 @@ static void make_rational(dyd_surd_point *p) {
   mpz_set_ui(p->c, 0);
 }
 
+/* Squares of the primes that scales are made of go from under the root before it. */
+static void shrink_root(dyd_surd_point *p) {
+  static const unsigned long prime[] = {5, 3};
+  if (!mpz_sgn(p->c)) return;
+  mp_bitcnt_t twos = mpz_scan1(p->c, 0) / 2;
+  mpz_tdiv_q_2exp(p->c, p->c, 2 * twos);
+  mpz_mul_2exp(p->bx, p->bx, twos);
+  mpz_mul_2exp(p->by, p->by, twos);
+  for (int k = 0; k < 2; k++)
+    while (mpz_divisible_ui_p(p->c, prime[k] * prime[k])) {
+      mpz_divexact_ui(p->c, p->c, prime[k] * prime[k]);
+      mpz_mul_ui(p->bx, p->bx, prime[k]);
+      mpz_mul_ui(p->by, p->by, prime[k]);
+    }
+}
+
 void dyd_surd_point_tidy(dyd_surd_point *p) {
   make_rational(p);
+  shrink_root(p);
   mpz_ptr part[5] = {p->ax, p->bx, p->ay, p->by, p->d};
   mpz_t gcd;
   mpz_init_set(gcd, p->d);

@@ -55,7 +55,7 @@ def test_bisector_csv():
 
 def test_ends_are_coordinates():
     """The exact ends can be read back as points, whatever the signs."""
-    for mirrored in ('[0,1] [0,2]\n[3,5] [5,6.25]\n', '[-1,0] [-2,0]\n[-5,-3] [-6.25,-5]\n'):
+    for mirrored in ('[1,2] [1,3]\n[4,6] [6,7.25]\n', '[-2,-1] [-3,-1]\n[-6,-4] [-7.25,-6]\n'):
         table = rows(run('bisector', '-', stdin=mirrored).out)
         for row in table:
             check_decimals(row, 'begin')
