@@ -37,6 +37,7 @@ typedef struct dyd_check_options {
   int64_t slack_bits;         /* 0: 16 */
   unsigned stages;            /* of each schedule; 0: 6 */
   unsigned cells;             /* watched from stage to stage; 0: 6 */
+  bool no_cells;              /* watch none */
   const volatile int *cancel; /* may be NULL */
   /* Called before each schedule; may be NULL. */
   void (*progress)(unsigned schedule, unsigned of, void *user);

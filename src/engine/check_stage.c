@@ -252,7 +252,7 @@ static dyd_status watch(dyd_watched *w, dyd_check_state *s) {
 static dyd_status check_cells(dyd_check_state *s, bool last) {
   dyd_status status = DYD_OK;
   for (size_t k = 0; k < s->watch_count && status >= 0; k++) status = check_cell(s, &s->watched[k]);
-  if (last || !dyd_sites_count(s->e->sites) || dyd_delaunay_is_capped(s->pd)) return status;
+  if (last || s->o->no_cells || !dyd_sites_count(s->e->sites) || dyd_delaunay_is_capped(s->pd)) return status;
   if (!s->watched) {
     s->watched = calloc(s->o->cells, sizeof *s->watched);
     if (!s->watched) return DYD_E_NOMEM;

@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The harness of monotone refinement: quiet on good points, and finds every planted fault within 100 schedules, with a
+ * schedule that shows it again. The faults of the engine are put in at link time: one comparison answers the opposite.
+ */
+#include "help.h"
+
+#include "delaunay/filter_quad.h"
+#include "predicate/icircle.h"
+#include <string.h>
+
+/* ---- planted faults of the engine ---- */
+
+static bool flip_side, flip_displaced;
+
+int __real_dyd_icircle_side(const dyd_icircle *k, const dyd_irect *r, dyd_touch touch);
+int __wrap_dyd_icircle_side(const dyd_icircle *k, const dyd_irect *r, dyd_touch touch);
+int __wrap_dyd_icircle_side(const dyd_icircle *k, const dyd_irect *r, dyd_touch touch) {
+  int side = __real_dyd_icircle_side(k, r, touch);
+  return flip_side ? -side : side;
+}
+
+bool __real_dyd_surely_not_displaced(const dyd_delaunay *pd, uint32_t i, uint32_t j, uint32_t k, uint32_t l);
+bool __wrap_dyd_surely_not_displaced(const dyd_delaunay *pd, uint32_t i, uint32_t j, uint32_t k, uint32_t l);
+bool __wrap_dyd_surely_not_displaced(const dyd_delaunay *pd, uint32_t i, uint32_t j, uint32_t k, uint32_t l) {
+  return __real_dyd_surely_not_displaced(pd, i, j, k, l) != flip_displaced;
+}
+
+/* ---- points ---- */
+
+typedef struct points {
+  uint64_t seed;
+  int corners;  /* of a regular polygon; 0: none */
+  size_t roots; /* random ones */
+  fault kind;   /* of a source of eight points more */
+  uint64_t stage;
+  faulty *made; /* the sources, one for each engine; released at the end of the test */
+  size_t count;
+} points;
+
+static dyd_status open_points(dyd_engine **out, void *user, dyd_error *err) {
+  points *p = user;
+  test_random r = {p->seed};
+  (void)err;
+  *out = engine_new();
+  if (p->corners) engine_add_polygon(*out, p->corners, NULL, 0);
+  engine_add_roots(*out, &r, p->roots);
+  if (p->kind != FAULT_NONE) {
+    assert_true(p->count < 4096);
+    faulty *f = &p->made[p->count++];
+    *f = (faulty){.kind = p->kind, .point = 5, .stage = p->stage};
+    dyd_source source = faulty_source(f);
+    assert_int_equal(dyd_engine_add_source(*out, 8, &source), DYD_OK);
+  }
+  return DYD_OK;
+}
+
+/* Runs; a fault has to be of the kind `want`, and to show again from its moves, none of which can be left out. */
+static void run(points *p, const dyd_check_options *o, dyd_check_fault want) {
+  dyd_check_report report = {0}, again = {0};
+  dyd_error err;
+  p->made = calloc(4096, sizeof *p->made);
+  p->count = 0;
+  assert_int_equal(dyd_check_run(&report, open_points, p, o, &err), DYD_OK);
+  if (report.fault != want) fprintf(stderr, "# fault %s: %s\n", dyd_check_fault_text(report.fault), report.message);
+  assert_int_equal(report.fault, want);
+  assert_true(report.stages > 0 || want == DYD_CHECK_STREAM || want == DYD_CHECK_RATE);
+  if (want != DYD_CHECK_FINE) {
+    dyd_check_options same = o ? *o : (dyd_check_options){0};
+    same.seed = report.seed;
+    same.base_bits = report.base_bits;
+    fprintf(stderr, "# %s after %u schedules, %zu moves: %s\n", dyd_check_fault_text(want), (unsigned)report.schedules,
+            report.moves, report.message);
+    assert_int_equal(dyd_check_replay(&again, open_points, p, report.move, report.moves, &same, &err), DYD_OK);
+    assert_int_equal(again.fault, want);
+    assert_string_equal(again.message, report.message);
+    dyd_check_report_clear(&again);
+    for (size_t k = 0; k < report.moves && report.moves > 1; k++) {
+      dyd_check_move *less = calloc(report.moves, sizeof *less);
+      memcpy(less, report.move, k * sizeof *less);
+      memcpy(less + k, report.move + k + 1, (report.moves - k - 1) * sizeof *less);
+      assert_int_equal(dyd_check_replay(&again, open_points, p, less, report.moves - 1, &same, &err), DYD_OK);
+      assert_int_not_equal(again.fault, want);
+      dyd_check_report_clear(&again);
+      free(less);
+    }
+  } else {
+    assert_int_equal(report.moves, 0);
+  }
+  dyd_check_report_clear(&report);
+  free(p->made);
+}
+
+/* ---- tests ---- */
+
+static void good_points(void **state) {
+  (void)state;
+  test_random r = test_random_start("check good");
+  dyd_check_options o = {.seed = test_u64(&r) >> 2, .schedules = (unsigned)test_cases(8), .max_bits = 80};
+  points mixed = {.seed = 7, .roots = 9, .kind = FAULT_NONE}, tied = {.seed = 8, .corners = 4, .roots = 2};
+  run(&mixed, &o, DYD_CHECK_FINE);
+  run(&tied, &o, DYD_CHECK_FINE);
+  points none = {.seed = 1}, one = {.seed = 1, .roots = 1};
+  run(&none, &o, DYD_CHECK_FINE);
+  run(&one, &o, DYD_CHECK_FINE);
+}
+
+static void bad_streams(void **state) {
+  (void)state;
+  dyd_check_options o = {.seed = 3, .max_bits = 120};
+  points widens = {.seed = 5, .roots = 3, .kind = FAULT_WIDEN, .stage = 2};
+  points drifts = {.seed = 5, .roots = 3, .kind = FAULT_DRIFT, .stage = 3};
+  points stalls = {.seed = 5, .roots = 3, .kind = FAULT_STALL, .stage = 1};
+  points fails = {.seed = 5, .roots = 3, .kind = FAULT_FAIL, .stage = 2};
+  run(&widens, &o, DYD_CHECK_STREAM);
+  run(&drifts, &o, DYD_CHECK_STREAM);
+  run(&stalls, &o, DYD_CHECK_RATE);
+  run(&fails, &o, DYD_CHECK_STREAM);
+}
+
+/* Which check tells depends on where the fault strikes: any but those of streams. */
+static void must_tell(points *p, const dyd_check_options *o) {
+  dyd_check_report report = {0};
+  dyd_error err;
+  assert_int_equal(dyd_check_run(&report, open_points, p, o, &err), DYD_OK);
+  fprintf(stderr, "# %s after %u schedules, %zu moves: %s\n", dyd_check_fault_text(report.fault),
+          (unsigned)report.schedules, report.moves, report.message);
+  assert_true(report.fault >= DYD_CHECK_RETRACT);
+  dyd_check_report_clear(&report);
+}
+
+/* Cells are not watched: they would stand on a triangulation that is no triangulation, which the verify build sees. */
+static void bad_engine(void **state) {
+  (void)state;
+  dyd_check_options o = {.seed = 3, .max_bits = 60, .base_bits = 2, .schedules = 100, .no_cells = true};
+  points p = {.seed = 11, .corners = 5, .roots = 4};
+  flip_side = true;
+  must_tell(&p, &o);
+  flip_side = false;
+  flip_displaced = true;
+  must_tell(&p, &o);
+  flip_displaced = false;
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(good_points), cmocka_unit_test(bad_streams),
+                                     cmocka_unit_test(bad_engine)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
