@@ -22,7 +22,7 @@ Lemma sure_hull_not_between N B p v a b : (v < N)%nat -> (a < N)%nat -> (b < N)%
   choice N B p -> sure_hull N B v -> ~ between (p v) (p a) (p b).
 Proof.
   intros V A H Da Db P [u U] [t [T Z]]. pose proof (U a (p v) (p a) A Da (P v V) (P a A)).
-  pose proof (U b (p v) (p b) H Db (P v V) (P b H)). 
+  pose proof (U b (p v) (p b) H Db (P v V) (P b H)).
   assert (E : dot u (p v) = (1 - t) * dot u (p a) + t * dot u (p b)) by (rewrite Z; apply dot_mix).
   destruct (Req_dec t 0) as [-> | T0]; [lra |].
   assert (t * dot u (p b) < t * dot u (p v)) by (apply Rmult_lt_compat_l; lra).
