@@ -349,17 +349,18 @@ static void test_life(void **state) {
   dyd_engine *e = engine_new();
   dyd_stream *early = NULL, *late = NULL, *fixed = NULL, *none = NULL, *shared_one = NULL,
              *own = random_stream(&shared);
-  double x = 7, y = 5;
+  double x = 7, y = 5, far = -90;
+  assert_int_equal(dyd_engine_add_points(e, 1, &far, &y), DYD_OK);
   assert_int_equal(dyd_engine_add_source(e, 4, &source), DYD_OK);
   assert_int_equal(dyd_engine_add_points(e, 1, &x, &y), DYD_OK);
   assert_int_equal(dyd_engine_add_stream(e, dyd_stream_ref(own)), DYD_OK);
-  assert_int_equal(dyd_engine_stream(&early, e, 2), DYD_OK);
+  assert_int_equal(dyd_engine_stream(&early, e, 3), DYD_OK);
   assert_null(dyd_stream_rect(early));
   run(e, DYD_OUTCOME_DECIDED);
-  assert_int_equal(dyd_engine_stream(&late, e, 3), DYD_OK);
-  assert_int_equal(dyd_engine_stream(&fixed, e, 4), DYD_OK);
-  assert_int_equal(dyd_engine_stream(&shared_one, e, 5), DYD_OK);
-  assert_int_equal(dyd_engine_stream(&none, e, 6), DYD_E_ARG);
+  assert_int_equal(dyd_engine_stream(&late, e, 4), DYD_OK);
+  assert_int_equal(dyd_engine_stream(&fixed, e, 5), DYD_OK);
+  assert_int_equal(dyd_engine_stream(&shared_one, e, 6), DYD_OK);
+  assert_int_equal(dyd_engine_stream(&none, e, 7), DYD_E_ARG);
   assert_true(dyd_stream_is_final(fixed) && shared_one == own);
   int calls = c.calls;
   narrow(late, 10); /* the engine knows more already */
@@ -368,6 +369,7 @@ static void test_life(void **state) {
   dyd_engine_free(e);
   assert_int_equal(c.released, 0);
   narrow(early, 20);
+  assert_true(mpz_cmp_ui(dyd_stream_rect(early)->y.lo.man, 1) == 0 && dyd_stream_rect(early)->y.lo.exp == 2); /* 2^2 */
   narrow(late, 200);
   assert_int_equal(c.calls, calls + 2);
   dyd_stream_free(early);

@@ -239,7 +239,14 @@ static void test_grid(void **state) {
     snprintf(c.kind, sizeof c.kind, "grid");
     for (int k = 0; k < 4; k++) orc_case_add(&c, list[at[k]][0], list[at[k]][1], list[at[k]][2], list[at[k]][3], 1);
     harness_run(&shared, &c, case_right);
-    c.n = n % 4;
+  }
+  for (size_t code = 0; code < (size_t)LIST * LIST; code++) { /* two sites; one */
+    c.n = 0;
+    for (int k = 0; k < 2; k++) {
+      const long *e = list[k ? code / LIST : code % LIST];
+      orc_case_add(&c, e[0], e[1], e[2], e[3], 1);
+    }
+    if (code % LIST == code / LIST) c.n = 1;
     harness_run(&shared, &c, case_right);
   }
   orc_case_clear(&c);

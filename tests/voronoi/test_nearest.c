@@ -263,6 +263,44 @@ static void test_grid(void **state) {
   orc_case_clear(&c);
 }
 
+/* A wide rectangle above, two or three blockers below it: on the query, a segment under the rectangle, they block |x -
+ * a| < sqrt(4 - b^2), so ends of intervals are surds and everything turns on who covers what. */
+static bool shelf_right(char *message, harness *h, const orc_case *c) {
+  dyd_sites *s = harness_sites(c);
+  dyd_delaunay *pd = harness_engine(message, s, NULL);
+  bool good = pd;
+  orc_rect q;
+  query_init(&q);
+  for (long n = 0; n < 30 && good; n++) {
+    mpq_set_si(q.e[0], n % 6, 1);
+    mpq_set_si(q.e[1], n % 6 + n / 6, 1);
+    size_t mark = orc_mark(&h->pool);
+    good = query_right(message, &h->pool, c, pd, &q);
+    orc_release(&h->pool, mark);
+  }
+  query_clear(&q);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(s);
+  return good;
+}
+
+static void test_shelf(void **state) {
+  (void)state;
+  orc_case c;
+  orc_case_init(&c);
+  snprintf(c.kind, sizeof c.kind, "shelf");
+  for (size_t n = test_cases(80); n; n--) {
+    c.n = 0;
+    orc_case_add(&c, 0, 12, 4, 5, 2); /* in halves */
+    for (size_t k = 1 + n % 3; k; k--) {
+      long a = (long)test_between(&shared.random, 0, 12), b = (long)test_between(&shared.random, -4, 2);
+      orc_case_add(&c, a, a, b, b, 2);
+    }
+    harness_run(&shared, &c, shelf_right);
+  }
+  orc_case_clear(&c);
+}
+
 /* ---- large ---- */
 
 static void box_of(double e[4], test_random *r, bool points) {
@@ -362,7 +400,8 @@ static void test_few(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_few), cmocka_unit_test(test_random_cases),
-                                     cmocka_unit_test(test_grid), cmocka_unit_test(test_large)};
+                                     cmocka_unit_test(test_grid), cmocka_unit_test(test_shelf),
+                                     cmocka_unit_test(test_large)};
   harness_init(&shared, "nearest");
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   harness_clear(&shared);
