@@ -53,12 +53,16 @@ def number(text):
 
 
 def test_widths():
-    answer = json.loads(run('delaunay', '-', '--format', 'json', '--max-bits', '40', '--start-bits', '40', stdin=MIXED).out)
-    widths = sorted(max(number(s[a][1]) - number(s[a][0]) for a in 'xy') for s in answer['sites'])
-    row = json.loads(run('converge', '-', '--format', 'json', '--max-bits', '40', '--start-bits', '40', stdin=MIXED).out)['stages'][-1]
-    for name, width in (('width_largest', widths[-1]), ('width_median', widths[len(widths) // 2])):
-        assert width <= number(row[name]['exact']) <= width * (1 + Fraction(1, 2 ** 62)), name
-        assert Fraction(repr(row[name]['decimal'])) >= number(row[name]['exact'])
+    # Fixed intervals of many widths, one of them a number of 101 bits.
+    boxes = ''.join(f'[{k},{k}.{k}] {k * k}\n' for k in range(1, 7)) + f'[0,{2 ** 100 + 1}*2^-97] 50\n'
+    for text in (MIXED, MIXED + boxes, boxes):
+        how = ('--format', 'json', '--max-bits', '40', '--start-bits', '40', '--quiet')
+        answer = json.loads(run('delaunay', '-', *how, stdin=text).out)
+        widths = sorted(max(number(s[a][1]) - number(s[a][0]) for a in 'xy') for s in answer['sites'])
+        row = json.loads(run('converge', '-', *how, stdin=text).out)['stages'][-1]
+        for name, width in (('width_largest', widths[-1]), ('width_median', widths[len(widths) // 2])):
+            assert width <= number(row[name]['exact']) <= width * (1 + Fraction(1, 2 ** 62)), name
+            assert Fraction(row[name]['decimal']) >= number(row[name]['exact'])
 
 
 def test_bounds_fall_by_half_per_bit():
@@ -194,7 +198,7 @@ def test_trace_and_replay():
                 assert old[0] <= now[0] <= now[1] <= old[1] and old[2] <= now[2] <= now[3] <= old[3]
                 assert s['point'] in s.get('pair', [s['point']])
                 seen[s['point']] = now
-            assert len(seen) == steps[0]['points']
+            assert len(seen) == steps[0]['points'] == sum('x' in s and s['stage'] == 1 for s in steps)
 
 
 def test_bad_traces():

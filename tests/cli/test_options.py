@@ -103,7 +103,7 @@ def test_operands():
 
 
 def test_suggestions():
-    for wrong, meant in (('--qiuet', '--quiet'), ('--colums', '--columns'), ('--timout', '--timeout'), ('--max', '--max-bits'),
+    for wrong, meant in (('--qiuet', '--quiet'), ('--colums', '--columns'), ('--oclumsn', '--columns'), ('--timout', '--timeout'), ('--max', '--max-bits'),
                          ('--Stats', '--stats'), ('--schedul=x', '--schedule')):
         result = run('delaunay', '-', wrong)
         assert f'did you mean {meant}?' in result.err or meant + ' "' in result.err, (wrong, result.err)
