@@ -58,13 +58,13 @@ static bool is_exact_tie(dyd_delaunay *pd, uint32_t t, unsigned k) {
 
 dyd_status dyd_certify_edge(dyd_delaunay *pd, dyd_work *w, uint32_t t, unsigned k) {
   uint32_t g = pd->mesh.n, i = pd->mesh.tri[t].v[dyd_next(k)], j = pd->mesh.tri[t].v[dyd_prev(k)];
-  bool certain = false;
+  uint32_t twin = pd->mesh.tri[t].n[k], across[2] = {pd->mesh.tri[t].v[k], pd->mesh.tri[twin >> 2].v[twin & 3]};
+  bool certain = false, hull = across[0] == g || across[1] == g;
   dyd_status st = DYD_OK;
   if (i == g || j == g)
     st = dyd_hull_sure(&certain, w, pd, i == g ? j : i);
   else if (!is_exact_tie(pd, t, k)) {
-    st = dyd_witness_search(&certain, NULL, pd, i, j, dyd_edge_centre(pd, t, k));
-    bool hull = dyd_mesh_is_ghost(&pd->mesh, t) || dyd_mesh_is_ghost(&pd->mesh, pd->mesh.tri[t].n[k] >> 2);
+    st = dyd_witness_search(&certain, NULL, pd, i, j, dyd_edge_centre(pd, t, k), hull ? NULL : across);
     if (st == DYD_OK && !certain && hull) st = dyd_witness_far(&certain, NULL, w, pd, i, j);
     if (certain) pd->counters.witness_search++;
   }

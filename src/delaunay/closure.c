@@ -12,6 +12,7 @@
 
 #include "base/alloc.h"
 #include "delaunay/build.h"
+#include "delaunay/centre.h"
 #include "delaunay/filter_cells.h"
 #include "delaunay/filter_quad.h"
 #include "delaunay/hull.h"
@@ -19,11 +20,12 @@
 
 #include <string.h>
 
-/* Least number of triangles of a face worth looking at the plane; in the verify build small faces take part, too. */
+/* CROWD: least number of triangles of a face worth looking at the plane. PATIENCE: walks before the first centre is
+ * tried. In the verify build small faces take part, too. */
 #ifdef DYD_VERIFY
-enum { CROWD = 5 };
+enum { CROWD = 5, PATIENCE = 1 };
 #else
-enum { CROWD = 64 };
+enum { CROWD = 64, PATIENCE = 4 };
 #endif
 
 /* Members 0 .. vertices-1 are the face's vertices, member `vertices` is the ghost (if outer). */
@@ -35,6 +37,8 @@ typedef struct closing {
   const uint32_t *tri;
   uint32_t tris;
   size_t open, room;
+  size_t known;                  /* pairs of sites that have a state */
+  size_t walks, patience, tries; /* walks to a possible pair since a centre was tried; after how many the next one is */
   bool full;
 } closing;
 
@@ -96,6 +100,13 @@ static bool is_polygon(const closing *c) {
   return ghosts == 0 || ghosts == c->tris;
 }
 
+static dyd_status add(closing *c, uint32_t a, uint32_t b, dyd_pair_state state) {
+  uint32_t ghost = c->out->vertices;
+  c->known += a != ghost && b != ghost;
+  if (state == DYD_PAIR_OPEN && a != ghost && b != ghost && c->open++ >= c->room) c->full = true;
+  return dyd_pair_map_add(&c->map, a, b, state);
+}
+
 /* The pairs of the polygon's boundary (or of the chain's links) are certain. */
 static dyd_status add_certain_edges(closing *c) {
   const dyd_mesh *m = &c->pd->mesh;
@@ -105,7 +116,7 @@ static dyd_status add_certain_edges(closing *c) {
       const dyd_tri *t = &m->tri[c->tri[q]];
       uint32_t a = member_of(c, t->v[dyd_next(k)]), b = member_of(c, t->v[dyd_prev(k)]);
       if (dyd_edge_is_certain(c->pd, c->tri[q], k) && dyd_pair_map_get(&c->map, a, b) == DYD_PAIR_UNKNOWN)
-        st = dyd_pair_map_add(&c->map, a, b, DYD_PAIR_CERTAIN);
+        st = add(c, a, b, DYD_PAIR_CERTAIN);
     }
   return st;
 }
@@ -121,12 +132,6 @@ static dyd_status all_pairs(closing *c) {
 }
 
 /* ---- the general case ---- */
-
-static dyd_status add(closing *c, uint32_t a, uint32_t b, dyd_pair_state state) {
-  uint32_t ghost = c->out->vertices;
-  if (state == DYD_PAIR_OPEN && a != ghost && b != ghost && c->open++ >= c->room) c->full = true;
-  return dyd_pair_map_add(&c->map, a, b, state);
-}
 
 /* The ghost's pairs, all of them. */
 static dyd_status start_ghost(closing *c) {
@@ -194,6 +199,36 @@ static dyd_status close_by_cells(bool *done, closing *c) {
 
 /* ---- few: closure under flips ---- */
 
+/* All pairs of the vertices given that have no state are possible; not all of them are members. */
+static dyd_status add_all(closing *c, const uint32_t *vertex, size_t count) {
+  const dyd_closure *out = c->out;
+  dyd_status st = DYD_OK;
+  for (size_t a = 0; a < count && !c->full; a++)
+    for (size_t b = a + 1; b < count && !c->full && st == DYD_OK; b++) {
+      const uint32_t *p = bsearch(&vertex[a], out->vertex, out->vertices, sizeof *p, dyd_compare_index);
+      const uint32_t *q = bsearch(&vertex[b], out->vertex, out->vertices, sizeof *q, dyd_compare_index);
+      uint32_t i = p ? (uint32_t)(p - out->vertex) : 0, j = q ? (uint32_t)(q - out->vertex) : 0;
+      if (p && q && dyd_pair_map_get(&c->map, i, j) == DYD_PAIR_UNKNOWN) st = add_possible(c, i, j);
+    }
+  return st;
+}
+
+/* Exact walks have found several possible pairs: perhaps the sites are nearly on one circle, whose centre shows many
+ * more: the circle through the last three, or, at first, through three sites of the face far apart. */
+static dyd_status try_centre(closing *c, uint32_t k, uint32_t l, uint32_t other) {
+  const uint32_t *v = c->out->vertex, n = c->out->vertices;
+  const uint32_t three[2][3] = {{v[0], v[n / 3], v[2 * n / 3]}, {k, l, other}};
+  uint32_t *vertex = NULL;
+  size_t count = 0, before = c->known;
+  if (other == DYD_NONE || ++c->walks < c->patience || c->pd->options.no_filter) return DYD_OK;
+  dyd_status st = dyd_centre_shows(&vertex, &count, c->pd, three[c->tries++ > 0]);
+  if (st == DYD_OK) st = add_all(c, vertex, count);
+  free(vertex);
+  if (c->known < before + c->walks) c->patience *= 2;
+  c->walks = 0;
+  return st;
+}
+
 /* The pair kl may take the place of ij: decide it, once. */
 static dyd_status flip(closing *c, uint32_t i, uint32_t j, uint32_t k, uint32_t l) {
   uint32_t ghost = c->out->vertices;
@@ -204,6 +239,8 @@ static dyd_status flip(closing *c, uint32_t i, uint32_t j, uint32_t k, uint32_t 
   if (i != ghost && j != ghost && dyd_surely_not_displaced(c->pd, v[i], v[j], v[k], v[l])) return DYD_OK;
   if (!dyd_surely_possible(c->pd, v[k], v[l], hint[0], hint[1])) {
     dyd_status st = dyd_cover_possible(&possible, c->w, c->pd, v[k], v[l], hint);
+    if (st == DYD_OK && possible) st = add_possible(c, k, l);
+    if (st == DYD_OK && possible) return try_centre(c, v[k], v[l], hint[0]);
     if (st != DYD_OK) return st;
   }
   return possible ? add_possible(c, k, l) : add(c, k, l, DYD_PAIR_IMPOSSIBLE);
@@ -243,7 +280,8 @@ static dyd_status close(closing *c) {
   if (st == DYD_OK && is_crowded(c)) st = close_by_cells(&done, c);
   if (done || c->full) return st;
   if (st == DYD_OK) st = start_ghost(c);
-  for (size_t q = 0; q < c->map.links && st == DYD_OK && !c->full; q += 2) {
+  uint64_t m = c->out->vertices, all = m * (m - 1) / 2;
+  for (size_t q = 0; q < c->map.links && st == DYD_OK && !c->full && c->known < all; q += 2) {
     if (dyd_cancelled(c->pd)) return DYD_CANCELLED;
     st = settle(c, c->map.link[q + 1].to, c->map.link[q].to);
   }
@@ -278,7 +316,7 @@ static dyd_status skeleton_pairs(closing *c) {
 
 dyd_status dyd_closure_run(dyd_closure *out, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris,
                            size_t room) {
-  closing c = {.pd = pd, .w = w, .out = out, .tri = tri, .tris = tris, .room = room};
+  closing c = {.pd = pd, .w = w, .out = out, .tri = tri, .tris = tris, .room = room, .patience = PATIENCE};
   *out = (dyd_closure){0};
   dyd_status st = gather_vertices(&c);
   if (st == DYD_OK) st = dyd_pair_map_init(&c.map, out->vertices + 1);

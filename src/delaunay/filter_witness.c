@@ -12,6 +12,8 @@
 #include <math.h>
 
 enum { STEPS = 24, MAX_RIVALS = 12 };
+/* Half-planes known up to this part of the distances are good enough for an "empty" by 1e-9 of them. */
+#define COARSE 0x1p-36
 
 typedef struct quick {
   const dyd_delaunay *pd;
@@ -69,7 +71,7 @@ static bool add_cut(quick *q, dyd_xy c, const dyd_bbox *own, const dyd_bbox *oth
   double qx = nearest(c.x, other->e[0], other->e[1]), qy = nearest(c.y, other->e[2], other->e[3]);
   double ax = sx - qx, ay = sy - qy, length = hypot(ax, ay);
   if (!(length > 0)) return false;
-  if (slack > length * 0x1p-44) q->coarse = true;
+  if (slack > length * COARSE) q->coarse = true;
   if (q->cuts == DYD_LP_CUTS) return true;
   dyd_cut *k = &q->cut[q->cuts++];
   k->nx = ax / length;

@@ -130,7 +130,7 @@ static dyd_status make_view(dyd_delaunay *view, const dyd_delaunay *pd, uint32_t
 
 static dyd_status find_witness(dyd_point *out, const dyd_delaunay *pd, uint32_t v, uint32_t w, dyd_xy guess) {
   bool found;
-  dyd_status st = dyd_witness_search(&found, out, pd, v, w, guess);
+  dyd_status st = dyd_witness_search(&found, out, pd, v, w, guess, NULL);
   if (st == DYD_OK && !found) {
     dyd_work work;
     dyd_work_init(&work, pd);

@@ -15,6 +15,7 @@
 #include "base/alloc.h"
 #include "delaunay/exact_lp.h"
 #include "delaunay/filter_cut.h"
+#include "delaunay/filter_possible.h"
 #include "delaunay/filter_witness.h"
 #include "delaunay/hull.h"
 #include <dyadel/predicate.h>
@@ -82,9 +83,16 @@ static bool is_outside(const search *s, const dyd_rect *r) {
   return true;
 }
 
+/* Would another violator change nothing? There is no room for one, and k surely does not touch the pair. */
+static bool is_one_too_many(const search *s, uint32_t k) {
+  const dyd_bbox *box = s->pd->box;
+  return s->violated && s->rivals == MAX_RIVALS && !s->pd->options.no_filter &&
+         dyd_boxes_disjoint(&box[k], &box[s->i]) && dyd_boxes_disjoint(&box[k], &box[s->j]);
+}
+
 static bool examine(void *context, uint32_t k) {
   search *s = context;
-  if (k == s->i || k == s->j) return true;
+  if (k == s->i || k == s->j || is_one_too_many(s, k)) return true;
   dyd_rect r;
   dyd_rect_init(&r);
   s->status = dyd_sites_get(&r, s->pd->sites, s->pd->reps.site[k]);
@@ -288,7 +296,26 @@ static dyd_status search_exactly(bool *found, dyd_point *c, const dyd_delaunay *
   return st;
 }
 
-dyd_status dyd_witness_search(bool *found, dyd_point *c, const dyd_delaunay *pd, uint32_t i, uint32_t j, dyd_xy guess) {
+/* Does some circle meet the rectangles of i, j and of both vertices across, these surely on opposite sides of ij? Then
+ * there is no witness [WIT-QUAD]. */
+static dyd_status is_excluded(bool *excluded, const dyd_delaunay *pd, uint32_t i, uint32_t j,
+                              const uint32_t across[2]) {
+  const uint32_t v[4] = {i, j, across[0], across[1]};
+  dyd_rect r[4];
+  dyd_status st = DYD_OK;
+  for (int k = 0; k < 4; k++) dyd_rect_init(&r[k]);
+  for (int k = 0; k < 4 && st == DYD_OK; k++) st = dyd_sites_get(&r[k], pd->sites, pd->reps.site[v[k]]);
+  if (st == DYD_OK) {
+    dyd_sure a = dyd_orientation(&r[0], &r[1], &r[2]), b = dyd_orientation(&r[0], &r[1], &r[3]);
+    bool opposite = a != DYD_UNSURE && (int)a == -(int)b;
+    *excluded = opposite && dyd_con(&r[3], &r[0], &r[1], &r[2]) == DYD_UNSURE;
+  }
+  for (int k = 0; k < 4; k++) dyd_rect_clear(&r[k]);
+  return st;
+}
+
+dyd_status dyd_witness_search(bool *found, dyd_point *c, const dyd_delaunay *pd, uint32_t i, uint32_t j, dyd_xy guess,
+                              const uint32_t across[2]) {
   *found = false;
   if (i > j) { /* one search for a pair, whoever is named first */
     uint32_t t = i;
@@ -296,8 +323,11 @@ dyd_status dyd_witness_search(bool *found, dyd_point *c, const dyd_delaunay *pd,
     j = t;
   }
   dyd_truth quick = dyd_filter_witness(&guess, pd, i, j);
-  if (quick == DYD_UNKNOWN || (quick == DYD_TRUE && pd->options.no_filter))
-    return search_exactly(found, c, pd, i, j, guess);
+  if (quick == DYD_UNKNOWN || (quick == DYD_TRUE && pd->options.no_filter)) {
+    bool excluded = false;
+    dyd_status st = across && !pd->options.no_filter ? is_excluded(&excluded, pd, i, j, across) : DYD_OK;
+    return st != DYD_OK || excluded ? st : search_exactly(found, c, pd, i, j, guess);
+  }
   *found = quick == DYD_TRUE;
   return *found && c ? set_start(c, pd, i, guess) : DYD_OK;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Crowds of overlapping rectangles: cells of the plane against closure under flips, which the exact rung alone uses
- * [CELL-1] [CLO-1]. */
+ * [CELL-1] [CLO-1] [WIT-QUAD]. */
 #include <setjmp.h>
 #include <stdarg.h>
 
@@ -44,6 +44,21 @@ static void fill(crowd *c, test_random *r, unsigned kind, double half) {
     c->y0[k] = at + (y - h);
     c->y1[k] = at + (y + h);
   }
+}
+
+/* Boxes a few units wide around points exactly on a circle of 2^51 units: too close for doubles. */
+static void fill_circle(crowd *c, test_random *r) {
+  c->n = 0;
+  for (int x = -33; x <= 33; x++)
+    for (int y = -33; y <= 33; y++) {
+      if (x * x + y * y != 1105 || test_chance(r, 3)) continue;
+      double w = (double)test_between(r, 0, 2), h = (double)test_between(r, 0, 2), off = (double)test_between(r, -1, 1);
+      if (test_chance(r, 2)) off *= 50;
+      c->x0[c->n] = x * 0x1p46 + off - w;
+      c->x1[c->n] = x * 0x1p46 + off + w;
+      c->y0[c->n] = y * 0x1p46 - h;
+      c->y1[c->n++] = y * 0x1p46 + h;
+    }
 }
 
 /* x and y change places. */
@@ -105,7 +120,19 @@ static void test_crowds(void **state) {
   assert_true(walks[0] < walks[1]);
 }
 
-/* Many equal squares: every list is the longest; the cap on pairs ends it, in time proportional to the cap. */
+static void test_near_circles(void **state) {
+  (void)state;
+  test_random r = test_random_start("near circles");
+  uint64_t walks[2] = {0, 0};
+  for (size_t k = 0; k < test_cases(5); k++) {
+    crowd c;
+    fill_circle(&c, &r);
+    check_same(walks, &c);
+  }
+  assert_true(walks[0] < walks[1]);
+}
+
+/* Many squares around one point: every list is the longest; the cap on pairs ends it, in time proportional to it. */
 static void test_equal_squares(void **state) {
   (void)state;
   enum { MANY = 6000 };
@@ -125,6 +152,7 @@ static void test_equal_squares(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_crowds), cmocka_unit_test(test_equal_squares)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_crowds), cmocka_unit_test(test_near_circles),
+                                     cmocka_unit_test(test_equal_squares)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
