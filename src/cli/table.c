@@ -58,12 +58,12 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                   "The six critical circles of the first three points, exactly, the box of all centres\n"
                   "of circles through them, and for each other point whether it is surely inside or\n"
                   "outside of all these circles. Points are refined until that is known.",
-                  FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_disc},
+                  FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | FORMAT(DYD_FORMAT_SVG), cli_disc},
     [CLI_BISECTOR] = {"bisector", "FILE", "the partial bisector of the first two points",
                       "The two curves that bound what is surely nearer to the one point, and to the other:\n"
                       "each a chain of at most seven arcs of lines and parabolas, with exact ends. The\n"
                       "points are refined until their rectangles are disjoint.",
-                      FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_bisector},
+                      FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | FORMAT(DYD_FORMAT_SVG), cli_bisector},
     [CLI_NEAREST] = {"nearest", "FILE X Y", "which points are surely, which are possibly nearest to a place",
                      "The points that are nearest to the place (X,Y), coordinates of any form: sure when\n"
                      "exactly one is, whatever the points in the rectangles are; possible otherwise. The\n"
@@ -114,10 +114,9 @@ const cli_option cli_option_table[] = {
     {"threads", 0, "T", CLI_INTEGER, RUN, CLI_REFINEMENT, "threads to use (default 1); results do not depend on it",
      AT(engine.threads), RANGE(1, 1024)},
 
-    {"window", 0, "XLO,XHI,YLO,YHI", CLI_WINDOW, BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_CHECK) | PIECES,
-     CLI_OUTPUT, "the part of the plane looked at; exact numbers\n(default: the box of the points enlarged by half)",
-     AT(window)},
-    {"flatten", 0, "M", CLI_INTEGER, BIT(CLI_VORONOI) | PIECES, CLI_OUTPUT, "draw arcs by polygons within 2^-M of them",
+    {"window", 0, "XLO,XHI,YLO,YHI", CLI_WINDOW, BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_OUTPUT,
+     "the part of the plane looked at; exact numbers\n(default: the box of the points enlarged by half)", AT(window)},
+    {"flatten", 0, "M", CLI_INTEGER, BIT(CLI_VORONOI), CLI_OUTPUT, "draw arcs by polygons within 2^-M of them",
      AT(flatten_bits), RANGE(-DYD_EXP_LIMIT, DYD_EXP_LIMIT), GIVEN(flatten_set)},
     {"format", 0, "F", CLI_FORMAT, ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
     {"output", 'o', "FILE", CLI_FILE, ALL, CLI_OUTPUT, "write to FILE, whole or not at all", AT(output)},

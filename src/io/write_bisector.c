@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The partial bisector of two points: csv (a line for each arc) and json. */
+/* The partial bisector of two points: csv (a line for each arc), json and svg. */
 #include "base/error.h"
 #include "io/arc_json.h"
 #include "io/decimal.h"
 #include "io/exact_text.h"
 #include "io/pieces.h"
+#include "io/svg_pieces.h"
 #include <dyadel/io.h>
 #include <stdlib.h>
 
@@ -104,18 +105,22 @@ dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_rect *b, d
                               dyd_error *err) {
   const dyd_rect *const r[2] = {a, b};
   dyd_boundary curve[2] = {{0}, {0}};
-  if (format != DYD_FORMAT_CSV && format != DYD_FORMAT_JSON)
-    return dyd_fail(err, DYD_E_ARG, "bisectors are written as csv or json");
+  if (format != DYD_FORMAT_CSV && format != DYD_FORMAT_JSON && format != DYD_FORMAT_SVG)
+    return dyd_fail(err, DYD_E_ARG, "bisectors are written as csv, json or svg");
   dyd_status status = dyd_bisector(&curve[0], a, b);
   if (status >= 0) status = dyd_bisector(&curve[1], b, a);
   if (status >= 0) {
     swap_names(&curve[1]);
     if (format == DYD_FORMAT_JSON)
       status = write_json(out, r, curve, outcome);
+    else if (format == DYD_FORMAT_SVG)
+      status = dyd_bisector_svg(out, r, curve);
     else
       write_csv(out, curve);
   }
   for (int k = 2; k-- > 0;) dyd_boundary_clear(&curve[k]);
+  if (status == DYD_E_RANGE)
+    return dyd_fail(err, status, "the points are too far apart or too close for this format; use csv");
   if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
   return ferror(out) ? dyd_fail(err, DYD_E_IO, "%s", dyd_status_text(DYD_E_IO)) : DYD_OK;
 }

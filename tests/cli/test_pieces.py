@@ -7,6 +7,7 @@ Usage: test_pieces.py COMMAND DATA
 import csv
 import json
 import math
+import xml.etree.ElementTree
 from fractions import Fraction
 
 from harness import expect, main, run
@@ -132,6 +133,24 @@ def test_disc_without_orientation():
     expect(run('disc', '-', stdin='0 0\n1 1\n'), 1, r'\A\Z', '3 points are needed, here are 2')
     data = json.loads(run('disc', '--format', 'json', '-', stdin='0 0\n1 1\n2 2\n').out)
     assert data['circles'] == [] and data['partial_centre'] is None and data['outcome'] == 'fixpoint'
+
+
+def shapes(text, tag):
+    return [e for e in xml.etree.ElementTree.fromstring(text).iter() if e.tag.endswith('}' + tag)]
+
+
+def test_svg():
+    paths = shapes(run('bisector', '--format', 'svg', '-', stdin=FIGURE_4).out, 'path')
+    kinds = ''.join(p.get('class')[0] for p in paths)
+    assert kinds == ''.join(r['kind'][0] for r in rows(run('bisector', '-', stdin=FIGURE_4).out)), kinds
+    assert all(('Q' in p.get('d')) == (p.get('class') == 'parabola') for p in paths)
+    assert not shapes(run('bisector', '--format', 'svg', '-', stdin='0 0\n0 0\n').out, 'path')
+    disc = run('disc', '--format', 'svg', '-', stdin='[0,1] 0\n4 [0,1]\n[0,1] 4\n2 2\n20 20\n').out
+    strokes = [c.get('stroke-dasharray') for c in shapes(disc, 'circle') if c.get('stroke')]
+    assert len(strokes) == 6 and strokes.count(None) == 3, strokes
+    assert [t.text for t in shapes(disc, 'text')][:5] == ['0', '1', '2', '3', '4']
+    far = run('bisector', '--format', 'svg', '-', stdin='0 0\n1*2^100000 0\n')
+    expect(far, 1, r'\A\Z', 'too far apart')
 
 
 main(globals())
