@@ -109,6 +109,18 @@ static void commands(FILE *out) {
   fputs(".El\n", out);
 }
 
+/* Notes on the formats that there are. */
+static void formats(FILE *out) {
+  fputs(".Bl -tag -width Ds\n", out);
+  for (const cli_term *t = cli_format_notes; t->term; t++) {
+    dyd_format format;
+    if (!dyd_format_from_name(&format, t->term)) continue;
+    fprintf(out, ".It Cm %s\n", t->term);
+    text(out, t->meaning);
+  }
+  fputs(".El\n", out);
+}
+
 void cli_help_man(FILE *out) {
   fputs(".\\\" SPDX-License-Identifier: LGPL-3.0-or-later\n.Dd " CLI_MANUAL_DATE "\n.Dt DYADEL 1\n.Os\n"
         ".Sh NAME\n.Nm dyadel\n.Nd Delaunay and Voronoi of computable points\n.Sh SYNOPSIS\n",
@@ -129,7 +141,7 @@ void cli_help_man(FILE *out) {
   options(out);
   fputs(".Sh FORMATS\n", out);
   text(out, "No format holds a rounded number without saying to which side, or by how much at most, it is rounded.");
-  terms(out, cli_format_notes, "Cm");
+  formats(out);
   fputs(".Sh EXIT STATUS\n", out);
   terms(out, cli_exit_statuses, "Li");
   fputs(".Pp\n", out);

@@ -20,12 +20,16 @@ const cli_term cli_coordinate_forms[] = {
     {NULL, NULL}};
 
 const cli_term cli_format_notes[] = {
-    {"csv", "one line for each pair that is possible: i,j,status"},
-    {"json", "everything: rectangles reached, pairs, sure triangles, outcome, bounds, counters"},
-    {"wkt", "a CSV table with a LINESTRING per pair"},
-    {"geojson", "a FeatureCollection of LineStrings"},
+    {"csv",
+     "a table: of delaunay one line for each pair that is possible (i,j,status), of converge one for each stage"},
+    {"json", "everything: rectangles reached, statuses or exact arcs, outcome, bounds, counters"},
+    {"wkt", "a CSV table with a geometry per line, as QGIS and ogr2ogr read it"},
+    {"geojson", "a FeatureCollection"},
     {"obj", "vertices, legal edges, sure triangles"},
-    {"svg", "a picture"},
+    {"vtk", "legacy VTK text, as ParaView reads it"},
+    {"svg", "a picture with legend and scale"},
+    {"pdf", "the same picture"},
+    {"png", "the same picture"},
     {NULL, NULL}};
 
 const cli_term cli_exit_statuses[] = {
@@ -42,4 +46,7 @@ const cli_term cli_examples[] = {
     {"dyadel delaunay --columns longitude,latitude --measured --format svg -o map.svg airports.csv",
      "a picture of columns of measured decimals"},
     {"dyadel delaunay --until hausdorff:40 points.txt", "refine until edges are known to 2^-40"},
+    {"dyadel delaunay --certificate c.txt points.txt && dyadel verify c.txt", "edges, and a check of what proves them"},
+    {"dyadel converge --schedule uniform --step-bits 8 --plot run.svg points.txt",
+     "how bounds and statuses develop with the precision"},
     {NULL, NULL}};

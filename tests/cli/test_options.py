@@ -126,6 +126,9 @@ def test_manual_page():
         assert f'.It Cm {name}' in page.out
     for option in options(help_of()):
         assert re.search(rf'^\.It .*Fl \\{option[1:]}( |$)', page.out, re.M), option
+    formats = re.search(r'^  --format F +(.*)$', help_of(), re.M)[1]
+    for name in re.findall(r'\w+(?= \(default\)|,|$)', formats):
+        assert f'.It Cm {name}\n' in page.out.split('.Sh FORMATS')[1], f'the manual page says nothing of the format {name}'
     if shutil.which('mandoc'):
         lint = subprocess.run(['mandoc', '-Tlint'], input=page.out.encode(), stdout=subprocess.PIPE, check=False)
         assert lint.stdout == b'', lint.stdout.decode()
