@@ -188,3 +188,19 @@ Proof.
   destruct (finite_max (fun _ => True) f N) as [m [M [_ L]]]; [now exists i |].
   exists (f m). intros t T k K Di Dj. apply (F k K Di Dj). pose proof (L k K Logic.I). lra.
 Qed.
+
+(* C_ij is convex at infinity too: from a point of it one stays in it in every direction in which no point of R_j is
+   beyond one of R_i. *)
+Theorem closer_rect_ray p u X Y t : 0 <= t -> dl p X < ds p Y ->
+  (forall x y, inside x X -> inside y Y -> dot u y <= dot u x) ->
+  dl (fst p + t * fst u, snd p + t * snd u) X < ds (fst p + t * fst u, snd p + t * snd u) Y.
+Proof.
+  intros T H U. set (c := (fst p + t * fst u, snd p + t * snd u)).
+  set (x := farthest c X). set (y := nearest c Y). apply dist_lt. fold x y.
+  assert (K : dist2 c x - dist2 c y = dist2 p x - dist2 p y - 2 * t * (dot u x - dot u y))
+    by (unfold c, dist2, dot; simpl; ring).
+  pose proof (U x y (farthest_inside c X) (nearest_inside c Y)).
+  pose proof (le_dl p X x (farthest_inside c X)). pose proof (ds_le p Y y (nearest_inside c Y)).
+  assert (Q : dist p x < dist p y) by lra. apply dist_lt in Q.
+  assert (0 <= t * (dot u x - dot u y)) by (apply Rmult_le_pos; lra). lra.
+Qed.
