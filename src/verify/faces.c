@@ -24,6 +24,7 @@ static dyd_status add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint
   if (!dyd_reserve((void **)&f->member, &f->member_cap, f->members + count, sizeof *f->member) ||
       !dyd_reserve((void **)&f->start, &f->set_cap, f->sets + 2, sizeof *f->start))
     return DYD_E_NOMEM;
+  if (count < 2) return DYD_OK;
   uint32_t *to = f->member + f->members;
   memcpy(to, site, count * sizeof *to);
   count = dyd_cert_distinct(to, count);
