@@ -53,7 +53,7 @@ static void row_files(const bench_options *o, bool hex) {
   cloud_uniform(&points, bench_size(o, 1000000));
   FILE *in = points_file(&points, hex);
   for (size_t r = 0; r < bench_runs(o, 3); r++) round_trip(&s, in, points.n);
-  bench_row row = {.n = points.n, .peer = &s.run, .peer_name = "own triangulation"};
+  bench_row row = {.n = points.n, .peer = &s.run, .peer_name = "own triangulation", .ratio_goal = 1};
   row.name = hex ? "readhex" : "read";
   row.ours = &s.read;
   row.remark = hex ? "hexadecimal floats" : "decimals of 17 digits";

@@ -78,6 +78,7 @@ static void row_roots(const bench_options *o) {
                                .ours = &ours,
                                .peer = &peer,
                                .peer_name = peer_roots_name(),
+                               .ratio_goal = n < 100000 ? 0.6 : 0.4,
                                .input_bytes = input,
                                .remark = remark});
   bench_edges_clear(&edges);

@@ -72,10 +72,41 @@ void cloud_circle(cloud *c, size_t n) {
   for (size_t i = n; i > 1; i--) swap_points(c, i - 1, next_random(&state) % i);
 }
 
+/* Products of Gaussian primes: (x + iy)(a +- ib) for all that there are so far, then times the units. */
+void cloud_cocircular(cloud *c, size_t primes) {
+  static const int prime[10][2] = {{2, 1}, {3, 2}, {4, 1}, {5, 2}, {6, 1}, {5, 4}, {7, 2}, {6, 5}, {8, 3}, {8, 5}};
+  uint64_t state = 5;
+  size_t n = 1;
+  start(c, (size_t)4 << primes);
+  c->x[0] = 1;
+  c->y[0] = 0;
+  for (size_t p = 0; p < primes; p++, n *= 2)
+    for (size_t i = 0; i < n; i++) {
+      double x = c->x[i], y = c->y[i], a = prime[p][0], b = prime[p][1];
+      c->x[i] = x * a - y * b;
+      c->y[i] = x * b + y * a;
+      c->x[n + i] = x * a + y * b;
+      c->y[n + i] = y * a - x * b;
+    }
+  for (int turn = 0; turn < 2; turn++, n *= 2) /* by 180, then by 90 degrees */
+    for (size_t i = 0; i < n; i++) {
+      c->x[n + i] = turn ? -c->y[i] : -c->x[i];
+      c->y[n + i] = turn ? c->x[i] : -c->y[i];
+    }
+  for (size_t i = n; i > 1; i--) swap_points(c, i - 1, next_random(&state) % i);
+}
+
 /* The end p + w rounded away from p: the error of the rounded sum is known exactly (Knuth's two-sum). */
 static double outward(double p, double w) {
   double s = p + w, b = s - p, error = (p - (s - b)) + (w - b);
   return w < 0 ? (error < 0 ? nextafter(s, -INFINITY) : s) : (error > 0 ? nextafter(s, INFINITY) : s);
+}
+
+void cloud_widen_one(cloud *c, size_t i, double half_width) {
+  c->x0[i] = outward(c->x[i], -half_width);
+  c->x1[i] = outward(c->x[i], half_width);
+  c->y0[i] = outward(c->y[i], -half_width);
+  c->y1[i] = outward(c->y[i], half_width);
 }
 
 void cloud_widen(cloud *c, double half_width) {
@@ -83,12 +114,7 @@ void cloud_widen(cloud *c, double half_width) {
   c->x1 = doubles(c->n);
   c->y0 = doubles(c->n);
   c->y1 = doubles(c->n);
-  for (size_t i = 0; i < c->n; i++) {
-    c->x0[i] = outward(c->x[i], -half_width);
-    c->x1[i] = outward(c->x[i], half_width);
-    c->y0[i] = outward(c->y[i], -half_width);
-    c->y1[i] = outward(c->y[i], half_width);
-  }
+  for (size_t i = 0; i < c->n; i++) cloud_widen_one(c, i, half_width);
 }
 
 void cloud_clear(cloud *c) {

@@ -20,8 +20,13 @@ void cloud_uniform(cloud *c, size_t n);
 void cloud_grid(cloud *c, size_t n);
 /* Distinct doubles next to the unit circle. */
 void cloud_circle(cloud *c, size_t n);
+/* All integer points on the circle about the origin whose squared radius is the product of the first `primes` primes of
+ * the form 4k + 1: 4 * 2^primes of them, in random order. At most 10 primes. */
+void cloud_cocircular(cloud *c, size_t primes);
 /* Boxes of the given half-width, rounded outward by at most one unit in the last place. */
 void cloud_widen(cloud *c, double half_width);
+/* The box of one point becomes that wide. */
+void cloud_widen_one(cloud *c, size_t i, double half_width);
 void cloud_clear(cloud *c);
 
 #endif

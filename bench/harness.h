@@ -34,12 +34,13 @@ size_t bench_size(const bench_options *o, size_t otherwise);
 size_t bench_runs(const bench_options *o, size_t otherwise);
 
 typedef struct bench_cost {
-  double seconds;
+  double seconds; /* of CPU, all threads */
+  double wall;
   double bytes; /* peak beyond the start; negative when the system does not tell */
 } bench_cost;
 
 typedef struct bench_meter {
-  double seconds, bytes;
+  double seconds, wall, bytes;
 } bench_meter;
 bench_meter bench_start(void);
 bench_cost bench_stop(const bench_meter *m);
@@ -47,7 +48,7 @@ bench_cost bench_stop(const bench_meter *m);
 /* Costs of the runs of one contestant. */
 typedef struct bench_series {
   size_t count;
-  double seconds[BENCH_MAX_RUNS], bytes[BENCH_MAX_RUNS];
+  double seconds[BENCH_MAX_RUNS], wall[BENCH_MAX_RUNS], bytes[BENCH_MAX_RUNS];
 } bench_series;
 void bench_series_add(bench_series *s, bench_cost c);
 /* Medians over the runs; zeros when there was none. */
@@ -62,6 +63,8 @@ typedef struct bench_row {
   double input_bytes;            /* what the table of sites holds, per point; part of ours' peak */
   double ratio_bar, ratio_goal;  /* of time, ours to the peer */
   double total_bar, beyond_goal; /* bytes a point: the whole peak / the peak less the input */
+  const char *measure;           /* what else is measured, with its unit; NULL: nothing */
+  double figure, figure_goal;    /* of that; the goal is an upper bound */
   const char *remark;
 } bench_row;
 /* Prints the row with its goals, and appends it to the CSV. */

@@ -45,3 +45,21 @@ bench_cost ours_run(ours_answer *out, const char *row, const cloud *c, ours_what
   dyd_sites_free(sites);
   return cost;
 }
+
+bench_cost ours_capped(char *remark, size_t size, const cloud *c) {
+  dyd_sites *sites = NULL;
+  dyd_delaunay *pd = NULL;
+  dyd_error err;
+  bench_meter meter = bench_start();
+  check("capped", dyd_sites_new(&sites));
+  check("capped", dyd_sites_add_points(sites, c->n, c->x, c->y));
+  dyd_status status = dyd_delaunay_new(&pd, sites, NULL, &err);
+  bench_cost cost = bench_stop(&meter);
+  if (status != DYD_CAPPED) bench_die("capped", "the cap was not met");
+  snprintf(remark, size, "%s", err.message);
+  for (char *q = remark; *q; q++)
+    if (*q == ',') *q = ';';
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  return cost;
+}

@@ -2,8 +2,9 @@
 /* Arguments in, table and CSV out.
  *
  * CSV:
- * row,n,ours_ns_per_point,peer,peer_ns_per_point,ratio,ours_bytes_per_point,peer_bytes_per_point,flags,commit,machine.
- * The flags column holds the compiler flags, then the remarks of the row, separated by semicolons. */
+ * row,n,ours_ns_per_point,peer,peer_ns_per_point,ratio,ratio_goal,ours_bytes_per_point,peer_bytes_per_point,measure,
+ * figure,figure_goal,flags,commit,machine. The flags column holds the compiler flags, then the remarks of the row,
+ * separated by semicolons. */
 #include "bench_commit.h"
 #include "bench_config.h"
 #include "harness.h"
@@ -109,16 +110,20 @@ static void csv_line(const bench_options *o, const bench_row *row, bench_cost ou
   double n = (double)row->n;
   machine(name, sizeof name);
   if (fseek(o->out, 0, SEEK_END) == 0 && ftell(o->out) == 0)
-    fputs("row,n,ours_ns_per_point,peer,peer_ns_per_point,ratio,ours_bytes_per_point,peer_bytes_per_point,flags,commit,"
-          "machine\n",
+    fputs("row,n,ours_ns_per_point,peer,peer_ns_per_point,ratio,ratio_goal,ours_bytes_per_point,peer_bytes_per_point,"
+          "measure,figure,figure_goal,flags,commit,machine\n",
           o->out);
   fprintf(o->out, "%s,%zu,", row->name, row->n);
   csv_number(o->out, ours.seconds / n * 1e9);
   fprintf(o->out, "%s,", row->peer->count ? row->peer_name : "");
   csv_number(o->out, peer.seconds / n * 1e9);
   csv_number(o->out, ratio);
+  csv_number(o->out, row->ratio_goal);
   csv_number(o->out, ours.bytes / n);
   csv_number(o->out, peer.bytes / n);
+  fprintf(o->out, "%s,", row->measure ? row->measure : "");
+  csv_number(o->out, row->figure);
+  csv_number(o->out, row->figure_goal);
   fprintf(o->out, "%s; %s,%s,%s\n", BENCH_FLAGS, row->remark ? row->remark : "", BENCH_COMMIT, name);
   fflush(o->out);
 }
@@ -126,9 +131,10 @@ static void csv_line(const bench_options *o, const bench_row *row, bench_cost ou
 void bench_report(const bench_options *o, const bench_row *row) {
   bench_cost ours = bench_series_median(row->ours), peer = bench_series_median(row->peer);
   double n = (double)row->n, ratio = row->peer->count ? ours.seconds / peer.seconds : 0;
-  printf("%-8s n=%-9zu ours %.1f ns/pt", row->name, row->n, ours.seconds / n * 1e9);
+  printf("%-10s n=%-9zu ours %.1f ns/pt", row->name, row->n, ours.seconds / n * 1e9);
   if (row->peer->count) printf("  %s %.1f ns/pt", row->peer_name, peer.seconds / n * 1e9);
   print_figure("ratio", ratio, row->peer->count ? row->ratio_goal : 0, row->peer->count ? row->ratio_bar : 0);
+  if (row->measure) print_figure(row->measure, row->figure, row->figure_goal, 0);
   print_figure("bytes/pt beyond the input", ours.bytes / n - row->input_bytes, row->beyond_goal, 0);
   print_figure("in all", ours.bytes / n, 0, row->total_bar);
   if (row->peer->count) print_figure("peer's", peer.bytes / n, 0, 0);
