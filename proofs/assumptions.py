@@ -50,6 +50,20 @@ def asked(folder, names):
     lines = [f'From Dyadel Require {theory}.' for theory in sorted({theory for theory, _ in names})]
     for theory, name in names:
         lines += [f'Goal True. idtac "@@ {theory}.{name}". Abort.', f'Print Assumptions {theory}.{name}.']
+    return answers_of(folder, lines)
+
+
+def asked_at_once(folder, names):
+    """The same for all together, which is much faster: one answer."""
+    lines = [f'From Dyadel Require {theory}.' for theory in sorted({theory for theory, _ in names})]
+    term = 'tt'
+    for theory, name in names:
+        term = f'(@{theory}.{name}, {term})'
+    return answers_of(folder, lines + [f'Definition everything := {term}.', 'Goal True. idtac "@@ everything". Abort.',
+                                       'Print Assumptions everything.'])
+
+
+def answers_of(folder, lines):
     (folder / 'assumptions.v').write_text('\n'.join(lines) + '\n')
     done = subprocess.run(['coqc', '-R', 'theories', 'Dyadel', 'assumptions.v'], cwd=folder, check=False,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -80,10 +94,13 @@ def main():
     except subprocess.CalledProcessError as error:
         found.append(f'failed: {" ".join(error.cmd)}')
     else:
-        answers = asked(folder, names) if names else []
-        found += judged(answers)
-        if len(answers) != len(names):
-            found.append(f'{len(names)} theorems are named, Coq answered for {len(answers)}')
+        at_once = asked_at_once(folder, names)
+        if len(at_once) != 1 or list(judged(at_once)):
+            answers = asked(folder, names)
+            found += judged(answers)
+            if len(answers) != len(names):
+                found.append(f'{len(names)} theorems are named, Coq answered for {len(answers)}')
+            found += [] if found else judged(at_once)
     print('\n'.join(found) or f'{len(names)} theorems rest on nothing but the allowed axioms')
     return 1 if found else 0
 
