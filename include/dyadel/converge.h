@@ -13,12 +13,12 @@ extern "C" {
  * Invariant: area, hausdorff count when bounded, v_area, v_hausdorff when voronoi; they are 0 otherwise. */
 typedef struct dyd_stage_row {
   uint64_t stage;
-  int64_t bits_least, bits_most;  /* asked of any refinable point so far; 0 when there is none */
-  uint64_t bits_total;            /* sum over the points of the bits last asked */
-  dyd_dyadic width_largest;       /* of all sides of all rectangles; rounded up by at most 2^-63 of itself */
-  dyd_dyadic width_median;        /* of the longer sides: number N/2 of N in ascending order; rounded alike */
-  size_t count[4];                /* pairs by status; the possible ones are all of them */
-  size_t undecided_faces;         /* */
+  int64_t bits_least, bits_most; /* asked of any refinable point so far; 0 when there is none */
+  uint64_t bits_total;           /* sum over the points of the bits last asked */
+  dyd_dyadic width_largest;      /* of all sides of all rectangles; rounded up by at most 2^-63 of itself */
+  dyd_dyadic width_median;       /* of the longer sides: number N/2 of N in ascending order; rounded alike */
+  size_t count[4];               /* pairs by status; the possible ones are all of them */
+  size_t undecided_faces;
   bool bounded, voronoi;          /* are the bounds of T, of V known? */
   dyd_dyadic area, hausdorff;     /* upper bounds for T (metric.h) */
   dyd_dyadic v_area, v_hausdorff; /* upper bounds for V on the window (metric.h) */

@@ -3,6 +3,8 @@
  *
  *   points.c     adding points, asking one point to narrow
  *   schedule.c   which points to narrow next, and how far
+ *   coarse.c     which sites of a face are coarse for their distances
+ *   converge.c   tables of runs, stage by stage
  *   goal_voronoi.c  goals on the Voronoi diagram
  *   compose.c    points of the engine as streams
  *   nearest.c    nearest sites of a computable point
