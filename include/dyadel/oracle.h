@@ -11,6 +11,9 @@
  * without waiting for further ones, and the output is flushed after each. The program ends when its input does. What it
  * answers should depend on I, B and its former answers for I only. Standard error is that of the caller.
  *
+ * A COMMAND that is one program should begin with exec: else a shell stands between, which keeps the pipes open when
+ * the program closes them, so that this is seen only as silence.
+ *
  * Several programs: point I is always asked of program number I modulo jobs, so a program may keep what it knows of its
  * points. Each finds its number, from 0, in the environment as DYADEL_JOB (to choose a machine, say).
  *

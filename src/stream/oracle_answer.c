@@ -3,7 +3,7 @@
  *
  * An answer [lo,hi] must lie inside the rectangle K known so far [NEST-1]: that is asked of the rational ends. Only
  * then is it rounded outward to dyadics, and cut to K: K contains [lo,hi], so the cut does too, and it lies inside K
- * whatever the two roundings were. */
+ * whatever the two roundings were [ORA-1]. */
 #include "stream/oracle_answer.h"
 
 #include "base/error.h"

@@ -66,7 +66,7 @@ bool dyd_pipe(int end[2]) {
 
 /* What a child gets: its group (0: its own), standard input and output (out < 0: output and errors go nowhere), and the
  * signals as a fresh program has them. Returns an errno. */
-static int spawn(pid_t *pid, pid_t group, int in, int out, char *const argv[]) {
+static int spawn(pid_t *pid, pid_t group, int in, int out, char *const argv[], char *const env[]) {
   posix_spawnattr_t attr;
   posix_spawn_file_actions_t files;
   sigset_t none, all;
@@ -87,7 +87,7 @@ static int spawn(pid_t *pid, pid_t group, int in, int out, char *const argv[]) {
   for (int fd = STDOUT_FILENO; !why && fd <= (out < 0 ? STDERR_FILENO : STDOUT_FILENO); fd++)
     why = out < 0 ? posix_spawn_file_actions_addopen(&files, fd, "/dev/null", O_WRONLY, 0)
                   : posix_spawn_file_actions_adddup2(&files, out, fd);
-  if (!why) why = posix_spawn(pid, "/bin/sh", &files, &attr, argv, environ);
+  if (!why) why = posix_spawn(pid, "/bin/sh", &files, &attr, argv, env);
   posix_spawn_file_actions_destroy(&files);
   posix_spawnattr_destroy(&attr);
   return why;
@@ -102,21 +102,34 @@ static char *shell_word(const char *word) {
   return w.taken;
 }
 
-static int spawn_command(pid_t *pid, const char *command, unsigned job, int in, int out) {
-  size_t size = strlen(command) + 64;
-  char *text = dyd_alloc(size, 1);
-  if (!text) return ENOMEM;
-  snprintf(text, size, "export DYADEL_JOB=%u; %s", job, command);
-  char *const argv[] = {shell_word("sh"), shell_word("-c"), text, NULL};
-  int why = spawn(pid, 0, in, out, argv);
-  free(text);
+/* The environment with DYADEL_JOB, whose text is borrowed, in the place of a former one. NULL: memory is exhausted. */
+static char **make_environment(char *job) {
+  size_t n = 0, kept = 0;
+  while (environ[n]) n++;
+  char **env = dyd_alloc(n + 2, sizeof *env);
+  if (!env) return NULL;
+  for (size_t k = 0; k < n; k++)
+    if (strncmp(environ[k], "DYADEL_JOB=", 11) != 0) env[kept++] = environ[k];
+  env[kept++] = job;
+  env[kept] = NULL;
+  return env;
+}
+
+static int spawn_command(pid_t *pid, const char *command, unsigned number, int in, int out) {
+  char job[40];
+  snprintf(job, sizeof job, "DYADEL_JOB=%u", number);
+  char **env = make_environment(job);
+  if (!env) return ENOMEM;
+  char *const argv[] = {shell_word("sh"), shell_word("-c"), shell_word(command), NULL};
+  int why = spawn(pid, 0, in, out, argv, env);
+  free(env);
   return why;
 }
 
 static int spawn_watcher(pid_t *pid, pid_t group, int lifeline) {
   char *const argv[] = {shell_word("sh"), shell_word("-c"), shell_word("read _; kill -s KILL 0"),
                         shell_word("dyadel-watcher"), NULL};
-  return spawn(pid, group, lifeline, -1, argv);
+  return spawn(pid, group, lifeline, -1, argv, environ);
 }
 
 static bool unblock(int fd) {

@@ -184,7 +184,7 @@ int oracle_serve(int argc, char **argv) {
       meet(more, (int)stage);
       fault = "none";
     }
-    if (strcmp(fault, "slow") == 0) usleep(20000);
+    if (strcmp(fault, "slow") == 0) usleep(5000);
     if (strcmp(fault, "noisy") == 0) fprintf(stderr, "asked for %lu\n", point);
     if (point == BAD_POINT && seen++ == stage && strcmp(fault, "none") != 0 && strcmp(fault, "slow") != 0)
       misbehave(fault, bits);

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Programs as sources: [ORA-1] what answers become; [ORA-2] results whatever jobs, batch and time; every fault of a
+/* Programs as sources: [ORA-2] results whatever jobs, batch and time; every fault of a
  * program gives the right error, in little memory and time, keeps what was known, and leaves no process, descriptor or
  * signal behind. The programs are this test, started with "serve" (oracle_serve.c). */
 #define _GNU_SOURCE /* usleep, NSIG */
 #include "stream/check.h"
 #include "stream/leftover.h"
-#include "stream/oracle_answer.h"
 #include "stream/oracle_serve.h"
 
 #include <dyadel/dyadel.h>
@@ -28,127 +27,8 @@ static double now(void) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* ---- answers ---- */
-
-static const struct {
-  const char *line;
-  dyd_status status;
-  const char *x0, *x1, *says;
-} answers[] = {
-    {"0 1 2 3 4", DYD_OK, "1", "2", ""},
-    {"0 \t -3.25\t1e-3   22/7  0x1.8p3 ", DYD_OK, "-13/4", NULL, ""},
-    {"0 5*2^-20 5*2^-20 1/3 1/3", DYD_OK, "5/1048576", "5/1048576", ""},
-    {"0 1/3 1/3 0 1", DYD_OK, "1/3", "1/3", ""},
-    {"0 0 1 0 1 fixed", DYD_FIXED, "0", "1", ""},
-    {"0 1 2 3", DYD_E_STREAM, NULL, NULL, "five words"},
-    {"0 1 2 3 4 fixed 5", DYD_E_STREAM, NULL, NULL, "five words"},
-    {"0 1 2 3 4 Fixed", DYD_E_STREAM, NULL, NULL, "five words"},
-    {"0", DYD_E_STREAM, NULL, NULL, "five words"},
-    {"0 2 1 0 1", DYD_E_STREAM, NULL, NULL, "lower end of the x side"},
-    {"0 1 2 1 1/2", DYD_E_STREAM, NULL, NULL, "lower end of the y side"},
-    {"0 1 2 3 4x", DYD_E_STREAM, NULL, NULL, "\"4x\", column 9"},
-    {"0 1 2 1/0 4", DYD_E_STREAM, NULL, NULL, "\"1/0\", column 7"},
-    {"0 1 2 nan 4", DYD_E_STREAM, NULL, NULL, "\"nan\", column 7"},
-    {"0 [1,2] 2 3 4", DYD_E_STREAM, NULL, NULL, "\"[1,2]\", column 3"},
-    {"0 1 1e99999999 3 4", DYD_E_RANGE, NULL, NULL, ""},
-    {"0 1 2 3 \x01\x02", DYD_E_STREAM, NULL, NULL, "\"??\", column 9"},
-};
-
 static void assert_says(const dyd_error *err, const char *words) {
   if (!strstr(err->message, words)) fail_msg("no \"%s\" in: %s", words, err->message);
-}
-
-static void test_answers(void **state) {
-  (void)state;
-  for (size_t k = 0; k < sizeof answers / sizeof *answers; k++) {
-    dyd_rect r;
-    dyd_error err;
-    dyd_error_clear(&err);
-    dyd_rect_init(&r);
-    dyd_status status = dyd_oracle_read_answer(&r, false, answers[k].line, strlen(answers[k].line), &err);
-    if (status != answers[k].status) fail_msg("%s: status %d: %s", answers[k].line, status, err.message);
-    if (status < 0) assert_true(dyd_rect_is_point(&r)); /* unchanged */
-    assert_says(&err, answers[k].says);
-    mpq_t lo, hi, q;
-    mpq_inits(lo, hi, q, NULL);
-    dyd_interval_get_q(lo, hi, &r.x);
-    if (answers[k].x0) assert_int_equal(0, mpq_set_str(q, answers[k].x0, 10) || mpq_cmp(q, lo));
-    if (answers[k].x1) assert_int_equal(0, mpq_set_str(q, answers[k].x1, 10) || mpq_cmp(q, hi));
-    mpq_clears(lo, hi, q, NULL);
-    dyd_rect_clear(&r);
-  }
-}
-
-static void random_rational(mpq_t out, test_random *r) {
-  static const unsigned long den[] = {1, 2, 3, 7, 10, 4096, 1000003};
-  mpq_set_si(out, test_between(r, -40, 40), den[test_below(r, sizeof den / sizeof *den)]);
-  mpq_canonicalize(out);
-  if (test_chance(r, 3)) mpq_div_2exp(out, out, (mp_bitcnt_t)test_below(r, 200));
-}
-
-/* lo <= hi, equal now and then. */
-static void random_interval(mpq_t lo, mpq_t hi, test_random *r) {
-  random_rational(lo, r);
-  random_rational(hi, r);
-  if (mpq_cmp(lo, hi) > 0) mpq_swap(lo, hi);
-  if (test_chance(r, 6)) mpq_set(hi, lo);
-}
-
-/* Inside the old one by its given ends? Then it contains them, lies in the old one, and is hardly wider. [ORA-1] */
-static void check_answer(const dyd_interval *old, const mpq_t lo, const mpq_t hi) {
-  char *line = NULL;
-  dyd_rect r;
-  dyd_error err;
-  mpq_t a, b, c, d;
-  mpq_inits(a, b, c, d, NULL);
-  dyd_rect_init(&r);
-  dyd_interval_set(&r.x, old);
-  dyd_rect_set_d(&r, 0, 1, -1e9, 1e9);
-  dyd_interval_set(&r.x, old);
-  gmp_asprintf(&line, "7 %Qd %Qd 0 1", lo, hi);
-  dyd_interval_get_q(a, b, old);
-  bool inside = mpq_cmp(a, lo) <= 0 && mpq_cmp(hi, b) <= 0;
-  dyd_status status = dyd_oracle_read_answer(&r, true, line, strlen(line), &err);
-  assert_int_equal(inside ? DYD_OK : DYD_E_NESTING, status);
-  assert_true(dyd_interval_contains(old, &r.x));
-  if (!inside) assert_true(dyd_interval_contains(&r.x, old));
-  dyd_interval_get_q(c, d, &r.x);
-  if (inside) assert_true(mpq_cmp(c, lo) <= 0 && mpq_cmp(hi, d) <= 0);
-  mpq_sub(a, hi, lo);
-  mpq_sub(b, d, c);
-  mpq_sub(b, b, a);
-  mpq_div_2exp(a, a, 62);
-  if (inside) assert_true(mpq_cmp(b, a) <= 0);
-  mpq_clears(a, b, c, d, NULL);
-  dyd_rect_clear(&r);
-  void (*release)(void *, size_t);
-  mp_get_memory_functions(NULL, NULL, &release);
-  release(line, strlen(line) + 1);
-}
-
-static void test_random_answers(void **state) {
-  (void)state;
-  test_random r = test_random_start("oracle answers");
-  mpq_t lo, hi;
-  mpq_inits(lo, hi, NULL);
-  for (size_t k = test_cases(4000); k; k--) {
-    dyd_interval old;
-    dyd_error err;
-    dyd_rect rect;
-    char *line = NULL;
-    dyd_interval_init(&old);
-    dyd_rect_init(&rect);
-    random_interval(lo, hi, &r);
-    gmp_asprintf(&line, "7 %Qd %Qd 0 0", lo, hi);
-    assert_int_equal(DYD_OK, dyd_oracle_read_answer(&rect, false, line, strlen(line), &err));
-    dyd_interval_swap(&old, &rect.x);
-    if (test_chance(&r, 2)) random_interval(lo, hi, &r);
-    check_answer(&old, lo, hi);
-    free(line);
-    dyd_rect_clear(&rect);
-    dyd_interval_clear(&old);
-  }
-  mpq_clears(lo, hi, NULL);
 }
 
 /* ---- engines ---- */
@@ -290,7 +170,7 @@ static const struct {
     {"exit", DYD_E_STREAM, false, false, "ended with exit status 3"},
     {"kill", DYD_E_STREAM, false, false, "killed by signal 9"},
     {"half", DYD_E_STREAM, false, false, "in the middle of a line"},
-    {"mute", DYD_E_STREAM, false, false, "closed its standard output"},
+    {"mute", DYD_E_STREAM, false, true, "closed its standard output"},
     {"hang", DYD_E_STREAM, false, true, "silent for 0.4 s; flush"},
     {"stubborn", DYD_E_STREAM, false, true, "silent for 0.4 s; flush"},
     {"child", DYD_E_STREAM, false, true, "what it left running was silent"},
@@ -329,13 +209,13 @@ static long peak_kib(void) {
 }
 
 /* The error a run ended with. Where the next request of the faulty program is for the same point, in the next stage, a
- * line too many may come in time to pass for its answer: then the error comes later, or it is one of nesting. */
+ * line too many may come in time to pass for its answer, and fail for not being nested. */
 static void check_error(size_t k, size_t stage, const dyd_error *err, const dyd_oracle_options *o) {
   assert_says(err, "the oracle program was asked \"refine ");
   if (faults[k].next && o->jobs > 2) {
     assert_true(err->code == DYD_E_STREAM || err->code == DYD_E_NESTING);
     assert_int_equal(EXACT + BAD_POINT, err->point);
-    assert_in_range(err->stage, stage + 1, stage + 2);
+    assert_int_equal(stage + 1, err->stage);
     return;
   }
   if (faults[k].code != err->code) fail_msg("%s: code %d: %s", faults[k].name, err->code, err->message);
@@ -376,6 +256,8 @@ static void test_faults(void **state) {
       int stage = way % 2 * 2;
       if (faults[k].code == DYD_E_NESTING && stage == 0) continue; /* the first answer has nothing to be nested in */
       if (faults[k].slow && way > 1) continue;
+      /* A good answer for the same point is an answer, if it comes late enough. */
+      if (way > 1 && strcmp(faults[k].name, "twice") == 0) continue;
       dyd_oracle_options o = {.jobs = way < 2 ? 1 : 3, .batch = way < 2 ? 1 : 4, .seconds = faults[k].slow ? 0.4 : 60};
       check_fault(k, stage, &o, good);
     }
@@ -481,7 +363,7 @@ static void test_resumed(void **state) {
     dyd_engine *e = engine_with("slow", 0, "", &o);
     dyd_engine_options run = long_run();
     dyd_outcome outcome = DYD_OUTCOME_NONE;
-    run.seconds = 0.05;
+    run.seconds = 0.02;
     for (int tries = 0; tries < 1000 && outcome != DYD_OUTCOME_CERTIFIED; tries++)
       assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &run, NULL));
     assert_same_rects(want, e);
@@ -554,10 +436,9 @@ int main(int argc, char **argv) {
   self = argv[0];
   leftover_mark();
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_answers),        cmocka_unit_test(test_random_answers), cmocka_unit_test(test_same),
-      cmocka_unit_test(test_side_by_side),   cmocka_unit_test(test_faults),         cmocka_unit_test(test_starts),
-      cmocka_unit_test(test_no_descriptors), cmocka_unit_test(test_interrupted),    cmocka_unit_test(test_resumed),
-      cmocka_unit_test(test_orphans),        cmocka_unit_test(test_streams),
+      cmocka_unit_test(test_same),    cmocka_unit_test(test_side_by_side),   cmocka_unit_test(test_faults),
+      cmocka_unit_test(test_starts),  cmocka_unit_test(test_no_descriptors), cmocka_unit_test(test_interrupted),
+      cmocka_unit_test(test_resumed), cmocka_unit_test(test_orphans),        cmocka_unit_test(test_streams),
   };
   return cmocka_run_group_tests(tests, NULL, release_caches);
 }

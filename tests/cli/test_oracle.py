@@ -1,0 +1,282 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""--oracle: the example programs agree with points given as text; faults give their message, exit status 1 and what was
+known before; nothing is left running, whichever way the command ends.
+
+Usage: test_oracle.py COMMAND DATA FOLDER EXAMPLE   (tests/oracles, and the example in C, compiled)
+"""
+import importlib.util
+import os
+import random
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+from harness import COMMAND, count, expect, main, run
+
+FOLDER, IN_C = (os.path.abspath(path) for path in sys.argv[3:5])
+MARK = f'DYADEL_TEST_MARK={os.getpid()}.{time.time()}'
+os.environ.update([MARK.split('=')])
+
+
+def marked():
+    """Other processes with the mark in their environment."""
+    found = []
+    for pid in filter(str.isdigit, os.listdir('/proc')):
+        try:
+            with open(f'/proc/{pid}/environ', 'rb') as f:
+                if int(pid) != os.getpid() and MARK.encode() in f.read():
+                    found.append(pid)
+        except OSError:
+            pass
+    return found
+
+
+def assert_nothing_left():
+    until = time.monotonic() + 5
+    while marked() and time.monotonic() < until:
+        time.sleep(0.02)
+    assert not marked(), subprocess.run(['ps', '-eo', 'pid,ppid,pgid,args'], stdout=subprocess.PIPE, check=False).stdout
+
+
+def ask(command, *args, **options):
+    result = run('delaunay', '--oracle', command, *args, **options)
+    assert_nothing_left()
+    return result
+
+
+# ---- examples ----
+
+def pairs(text):
+    return [line for line in text.splitlines() if not line.startswith('#')]
+
+
+def agree(command, points, *args):
+    """The program and the points as text give the same decided result, for any number of programs and any batch."""
+    wanted = run('delaunay', '-', *args, stdin=points)
+    expect(wanted, 0)
+    for jobs, batch in ((1, 1), (1, 7), (3, 1), (4, 5)):
+        result = ask(command, '--oracle-jobs', str(jobs), '--oracle-batch', str(batch), *args)
+        expect(result, 0, err=r'\A\Z')
+        assert pairs(result.out) == pairs(wanted.out), (command, jobs, batch)
+
+
+def script(name):
+    return shlex.join([sys.executable if name.endswith('.py') else 'sh', os.path.join(FOLDER, name)])
+
+
+def test_plain_python():
+    choose = random.Random(5)
+    lines = []
+    for _ in range(25):
+        two = [(choose.randint(-99, 99), -choose.randint(1, 999)) for _ in 'xy']
+        lines.append(' '.join(f'(sqrt({b * b - 4 * c})-({b}))/2' for b, c in two))
+    agree(script('quadratic.py') + ' 5 25', '\n'.join(lines) + '\n', '--quiet')
+
+
+def test_shell_and_bc():
+    if shutil.which('bc') is None:
+        print('# square_roots.sh is not tried: bc is not installed')
+        return
+    with open(os.path.join(FOLDER, 'square_roots.sh'), encoding='utf-8') as f:
+        text = f.read().split("'")[1]
+    points = ''.join(f'sqrt({a}) -sqrt({b})\n' for a, b in (line.split() for line in text.splitlines()))
+    assert points.count('\n') == 8
+    agree(script('square_roots.sh'), points, '--quiet')
+
+
+def thue_morse(a):
+    """To 600 binary digits, and the middle of what may follow."""
+    number = 0
+    for k in range(1, 601):
+        number = 2 * number + bin(k * a).count('1') % 2
+    return f'{2 * number + 1}*2^-601'
+
+
+def test_plain_c():
+    points = ''.join(f'{thue_morse(2 * k + 1)} {thue_morse(2 * k + 1001)}\n' for k in range(12))
+    agree(shlex.quote(IN_C), points, '--quiet')
+
+
+def test_mpmath():
+    if importlib.util.find_spec('mpmath') is None:
+        print('# polygon.py is not tried: mpmath is not installed')
+        return
+    points = ''.join(f'(1+2^(-300)*{0 ** k})*cos(2*pi*{k}/4) (1+2^(-300)*{0 ** k})*sin(2*pi*{k}/4)\n' for k in range(4))
+    agree(script('polygon.py') + ' 4 300', points, '--quiet')
+
+
+# ---- faults ----
+
+# Corners of a square, sqrt(2) from the centre but for the last, which is 2^-200 farther: decided at stage 3, 256 bits.
+SERVER = r'''
+import math, os, sys, time
+SIGNS = (1, 0), (0, 1), (-1, 0), (0, -1)
+def ends(sign, bits, more):
+    low = math.isqrt(2 << 2 * bits) + (more << bits - 200 if bits >= 200 else 0)
+    high = low + 1 + (more if bits < 200 else 0)
+    low, high = sorted((sign * low, sign * high))
+    return f'{low}*2^-{bits} {high}*2^-{bits}'
+def fault(bits): pass
+%s
+print('points 4', flush=True)
+while True:
+    line = sys.stdin.readline()
+    if not line: break
+    point, bits = map(int, line.split()[1:])
+    if fault(bits) if point == 3 else None: continue
+    print(point, *(ends(s, bits + 2, point == 3) for s in SIGNS[point]), flush=True)
+'''
+KNOWN = {'legal': 4, 'indeterminate': 2}  # at 64 and 128 bits
+
+
+def server(fault='pass', prefix='exec '):
+    body = f'def fault(bits):\n    if bits >= 256: {fault}\n' if fault != 'pass' else ''
+    return prefix + shlex.join([sys.executable, '-c', SERVER % body])
+
+
+FAULTS = [
+    ('sys.exit(3)', 'it ended with exit status 3; it must go on'),
+    ('os.kill(os.getpid(), 9)', 'it was killed by signal 9'),
+    ('time.sleep(1000)', r'silent for 1 s; flush its output .*--oracle-timeout'),
+    ('print("lorem \x1b[2J ipsum", flush=True); return True', r'it wrote "lorem \?\[2J ipsum", which is no answer for point 3'),
+    ('print("3 -9 9 -9 9", flush=True); return True', 'the new x side .* is not inside the old one .*must be a subset'),
+    ('print("2 0 1 0 1", flush=True); return True', 'it wrote "2 0 1 0 1", which is no answer for point 3'),
+    ('print("3 0 1 0", flush=True); return True', 'has not the five words I XLO XHI YLO YHI'),
+    ('os.close(1); time.sleep(1000)', 'it has closed its standard output'),
+    ('os.fork() or os.setpgid(0, 0) or time.sleep(3); sys.exit(4)', 'exit status 4'),
+    ('os.fork() and sys.exit(3); time.sleep(1000)', 'exit status 3, and what it left running was silent for 1 s'),
+    ('[os.write(1, b"7" * 65536) for _ in iter(int, 1)]', 'a line of more than 1048576 bytes'),
+    ('[os.write(1, b"\\n" * 65536) for _ in iter(int, 1)]', 'it wrote "", which is no answer'),
+]
+
+
+def test_faults():
+    for fault, message in FAULTS:
+        for jobs, batch in ((1, 1), (4, 3)):
+            begun = time.monotonic()
+            result = ask(server(fault), '--oracle-timeout', '1' if 'sleep(1000)' in fault else '60',
+                         '--oracle-jobs', str(jobs), '--oracle-batch', str(batch))
+            expect(result, 1, err=rf'^dyadel: point 3: the oracle program was asked "refine 3 256": .*({message})')
+            assert count(result.out) == KNOWN, (fault, result)
+            assert time.monotonic() - begun < 30
+
+
+def test_behind_a_shell():
+    """Without exec a shell stands between, and keeps the pipes open."""
+    for prefix in '', 'true; ', 'cat | ':
+        result = ask(server(prefix=prefix), '--quiet')
+        expect(result, 0)
+        assert count(result.out) == {'legal': 5}, result.out
+        for fault, message in (('os.close(1); time.sleep(1000)', 'silent for 1 s'), ('sys.exit(3)', 'exit status 3|silent'),
+                               ('os.kill(os.getpid(), 9)', 'exit status 137|silent')):
+            result = ask(server(fault, prefix), '--oracle-timeout', '1')
+            expect(result, 1, err=message)
+            assert count(result.out) == KNOWN, (prefix, fault, result)
+
+
+def test_good_server():
+    result = ask(server(), '--quiet')
+    expect(result, 0)
+    assert count(result.out) == {'legal': 5}, result.out
+
+
+def test_closes_its_input():
+    for jobs in '1', '4':
+        # After its good answer for point 3 it is deaf; the next request of the program meets that.
+        fault = 'os.dup2(os.open("/dev/null", 0), 0) if point == 3 and bits >= 64 else None'
+        result = ask(server().replace('    print(point', f'    {fault}\n    print(point'), '--oracle-timeout', '1',
+                     '--oracle-jobs', jobs)
+        expect(result, 1, err='^dyadel: point [03]: .*(ended with exit status 0|closed its standard input)')
+
+
+def test_faults_at_start():
+    for command, message in (('exit 7', 'was to print "points N".*exit status 7'), (' ', 'exit status 0'),
+                             ('no-such-program-at-all 2>/dev/null', 'exit status 127 .the shell did not find'),
+                             ('sleep 1000', 'silent for 1 s'), ('echo hello; cat', 'is "hello"; print "points N"'),
+                             ('yes', 'is "y"; print'), ('cat /dev/zero', 'more than 1048576 bytes'),
+                             ('echo points 1e3; cat', 'is "points 1e3"; print')):
+        result = ask(command, '--oracle-timeout', '1')
+        expect(result, 1, r'\A\Z', message)
+
+
+def test_memory():
+    """Gigabytes without a line end, and lines without end, in little memory."""
+    for text in 'head -c 3000000000 /dev/zero', 'yes 0 1 2 3 4':
+        result = ask(f'echo points 3; read -r x; exec {text}', '--stats', '--oracle-timeout', '60')
+        expect(result, 1)
+        assert int(result.err.split('KiB of memory at most')[1].split()[0]) < 60000, result.err
+
+
+def test_usage():
+    for args, message in ((('--measured',), '--measured is for points files; leave it out'),
+                          (('--radius', '1'), '--radius is for points files'),
+                          (('--columns', 'x,y'), '--columns is for points files'),
+                          (('file.txt',), 'one argument too many'), (('--oracle-jobs', '0'), '--oracle-jobs "0"'),
+                          (('--oracle-batch', '-1'), '--oracle-batch "-1"'),
+                          (('--oracle-timeout', 'soon'), '--oracle-timeout "soon"')):
+        expect(ask('echo points 0', *args), 2, r'\A\Z', message)
+
+
+def test_small():
+    expect(ask('echo points 0; cat'), 0, r'\Ai,j,status\n\Z', r'\A\Z')
+    expect(ask('echo points 1; while read -r _ i b; do echo $i 0 0 1/3 1/3; done'), 0, r'\Ai,j,status\n\Z', r'\A\Z')
+    # Fixed rectangles: nothing more is asked. The number of the program is in its environment.
+    fixed = 'echo points 4; while read -r _ i b; do echo $i $((i%2)) $((i%2+1)) $((i/2)) $((i/2+1)) fixed; done'
+    expect(ask(fixed, '--oracle-jobs', '2', '--oracle-timeout', '60'), 3, 'indeterminate', '^dyadel: fixpoint')
+    for jobs, alias in ('1', '# alias 1 0'), ('2', r'\Ai,j,status\n0,1,legal\n\Z'):
+        expect(ask('echo points 2; while read -r _ i b; do echo $i $DYADEL_JOB $DYADEL_JOB 0 0; done',
+                   '--oracle-jobs', jobs, env={**os.environ, 'DYADEL_JOB': '7'}), 0, alias)
+
+
+# ---- ends ----
+
+def start(command, *args):
+    return subprocess.Popen([COMMAND, 'delaunay', '--oracle', command, *args], stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE)
+
+
+def wait_for_marked(least):
+    until = time.monotonic() + 20
+    while len(marked()) < least and time.monotonic() < until:
+        time.sleep(0.02)
+    time.sleep(0.7)
+
+
+STUBBORN = 'import signal; [signal.signal(s, signal.SIG_IGN) for s in (1, 2, 15)]; os.fork(); time.sleep(1000)'
+
+
+def test_interrupt():
+    """The first Ctrl-C ends the wait for a program that hangs, and what is known is written."""
+    process = start(server(STUBBORN), '--oracle-timeout', '1000', '--oracle-jobs', '2')
+    wait_for_marked(5)
+    begun = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 5 and count(out.decode()) == KNOWN, (process.returncode, err)
+    assert time.monotonic() - begun < 20
+    assert_nothing_left()
+
+
+def test_time_limit():
+    result = ask(server(STUBBORN), '--oracle-timeout', '1000', '--timeout', '2')
+    expect(result, 4, err='the time is used up; raise --timeout')
+    assert count(result.out) == KNOWN
+
+
+def test_death():
+    """Killed outright, or by a signal while programs start: nothing goes on."""
+    for number, command in ((signal.SIGKILL, server(STUBBORN)), (signal.SIGTERM, 'trap "" TERM; sleep 1000 & sleep 1000'),
+                            (signal.SIGINT, 'sleep 1000'), (signal.SIGKILL, 'sleep 1000 | sleep 1000')):
+        process = start(command, '--oracle-timeout', '1000', '--oracle-jobs', '2')
+        wait_for_marked(3)
+        process.send_signal(number)
+        process.communicate(timeout=60)
+        assert process.returncode == -number, process.returncode
+        assert_nothing_left()
+
+
+main(globals())
