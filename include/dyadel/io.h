@@ -28,7 +28,9 @@ typedef enum dyd_format {
   DYD_FORMAT_GEOJSON,
   DYD_FORMAT_OBJ,
   DYD_FORMAT_SVG,
-  DYD_FORMAT_VTK
+  DYD_FORMAT_VTK,
+  DYD_FORMAT_PDF,
+  DYD_FORMAT_PNG
 } dyd_format;
 /* Finds a format by its name ("csv"); false when there is none. */
 DYD_API bool dyd_format_from_name(dyd_format *out, const char *name);
@@ -44,7 +46,7 @@ typedef struct dyd_voronoi_options {
   bool flatten_set;       /* false: a choice that suits the mean size of cells */
 } dyd_voronoi_options;
 
-/* Writes the Voronoi diagram of the current result of e: csv, json, wkt, geojson, vtk (else DYD_E_ARG). o may be NULL.
+/* Writes the Voronoi diagram of the current result of e: every format but obj (else DYD_E_ARG). o may be NULL.
  * DYD_CAPPED when neighbours are missing since the cap on pairs was met. */
 DYD_API dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_options *o, dyd_format format,
                                      dyd_error *err);

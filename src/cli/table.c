@@ -9,6 +9,7 @@
 
 #define BIT(command) (1u << (command))
 #define FORMAT(format) (1u << (format))
+#define PICTURES (FORMAT(DYD_FORMAT_SVG) | FORMAT(DYD_FORMAT_PDF) | FORMAT(DYD_FORMAT_PNG))
 #define AT(field) .offset = offsetof(cli_options, field), .width = sizeof(((cli_options *)0)->field)
 #define RANGE(low, high) .least = (low), .most = (high)
 #define GIVEN(field) .given = offsetof(cli_options, field)
@@ -27,8 +28,7 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                       "in the rectangles are), indeterminate (an edge for some choice), a tie (as\n"
                       "indeterminate, but no refinement can decide it), or not listed (never an edge).",
                       FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | FORMAT(DYD_FORMAT_WKT) |
-                          FORMAT(DYD_FORMAT_GEOJSON) | FORMAT(DYD_FORMAT_OBJ) | FORMAT(DYD_FORMAT_SVG) |
-                          FORMAT(DYD_FORMAT_VTK),
+                          FORMAT(DYD_FORMAT_GEOJSON) | FORMAT(DYD_FORMAT_OBJ) | FORMAT(DYD_FORMAT_VTK) | PICTURES,
                       cli_delaunay},
     [CLI_VORONOI] = {"voronoi", "FILE", "the cells of the points on a window, with certified bounds",
                      "Voronoi diagram of the points on a window: for each point the part of the window that\n"
@@ -36,7 +36,7 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                      "enclosures, and bounds of what is undetermined. The goals area:M and hausdorff:M of\n"
                      "--until are those of the diagram.",
                      FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | FORMAT(DYD_FORMAT_WKT) |
-                         FORMAT(DYD_FORMAT_GEOJSON) | FORMAT(DYD_FORMAT_VTK),
+                         FORMAT(DYD_FORMAT_GEOJSON) | FORMAT(DYD_FORMAT_VTK) | PICTURES,
                      cli_voronoi},
     [CLI_CONVERGE] = {"converge", "FILE", "a run stage by stage, as a table",
                       "The run of delaunay, with one line for each stage: precision asked for, widths,\n"

@@ -13,11 +13,10 @@
 static const struct {
   dyd_format format;
   dyd_diagram_write_fn write;
-} formats[] = {{DYD_FORMAT_CSV, dyd_write_voronoi_csv},
-               {DYD_FORMAT_JSON, dyd_write_voronoi_json},
-               {DYD_FORMAT_WKT, dyd_write_voronoi_wkt},
-               {DYD_FORMAT_GEOJSON, dyd_write_voronoi_geojson},
-               {DYD_FORMAT_VTK, dyd_write_voronoi_vtk}};
+} formats[] = {{DYD_FORMAT_CSV, dyd_write_voronoi_csv}, {DYD_FORMAT_JSON, dyd_write_voronoi_json},
+               {DYD_FORMAT_WKT, dyd_write_voronoi_wkt}, {DYD_FORMAT_GEOJSON, dyd_write_voronoi_geojson},
+               {DYD_FORMAT_VTK, dyd_write_voronoi_vtk}, {DYD_FORMAT_SVG, dyd_write_voronoi_svg},
+               {DYD_FORMAT_PDF, dyd_write_voronoi_pdf}, {DYD_FORMAT_PNG, dyd_write_voronoi_png}};
 #define FORMATS (sizeof formats / sizeof *formats)
 
 /* ---- cells ---- */

@@ -43,5 +43,8 @@ dyd_status dyd_write_voronoi_json(dyd_diagram *d, dyd_error *err);
 dyd_status dyd_write_voronoi_wkt(dyd_diagram *d, dyd_error *err);
 dyd_status dyd_write_voronoi_geojson(dyd_diagram *d, dyd_error *err);
 dyd_status dyd_write_voronoi_vtk(dyd_diagram *d, dyd_error *err);
+dyd_status dyd_write_voronoi_svg(dyd_diagram *d, dyd_error *err);
+dyd_status dyd_write_voronoi_pdf(dyd_diagram *d, dyd_error *err);
+dyd_status dyd_write_voronoi_png(dyd_diagram *d, dyd_error *err);
 
 #endif

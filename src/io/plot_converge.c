@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The plot of a table of convergence: bounds and counts against stages, logarithmic, as svg, pdf or png. */
 #include "base/error.h"
+#include "io/picture.h"
 #include "io/plot.h"
-#include <cairo-pdf.h>
-#include <cairo-svg.h>
 #include <dyadel/io.h>
 #include <errno.h>
 #include <math.h>
 #include <string.h>
 
-enum { WIDTH = 860, HEIGHT = 640, SCALE_OF_PNG = 2 };
+enum { WIDTH = 860, HEIGHT = 640 };
 
 /* ---- values; a picture shows them to the width of a line ---- */
 
@@ -101,36 +100,16 @@ static void draw(cairo_t *cr, const dyd_convergence *c) {
   dyd_panel_draw(cr, &bottom, c, 10);
 }
 
-static cairo_status_t put(void *closure, const unsigned char *data, unsigned length) {
-  return fwrite(data, 1, length, closure) == length ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
-}
-
-/* NULL for a kind that there is not. */
-static cairo_surface_t *new_surface(FILE *out, const char *kind) {
-  if (strcmp(kind, "svg") == 0) return cairo_svg_surface_create_for_stream(put, out, WIDTH, HEIGHT);
-  if (strcmp(kind, "pdf") == 0) return cairo_pdf_surface_create_for_stream(put, out, WIDTH, HEIGHT);
-  if (strcmp(kind, "png") != 0) return NULL;
-  return cairo_image_surface_create(CAIRO_FORMAT_RGB24, WIDTH * SCALE_OF_PNG, HEIGHT * SCALE_OF_PNG);
+/* For dyd_page_write. */
+static void draw_page(cairo_t *cr, void *context) {
+  const dyd_convergence *const *c = context;
+  draw(cr, *c);
 }
 
 dyd_status dyd_plot_convergence(FILE *out, const dyd_convergence *c, const char *kind, dyd_error *err) {
   if (err) dyd_error_clear(err);
-  cairo_surface_t *surface = new_surface(out, kind);
-  if (!surface) return dyd_fail(err, DYD_E_ARG, "a plot is svg, pdf or png, not \"%.20s\"", kind);
-  bool png = strcmp(kind, "png") == 0;
-  cairo_t *cr = cairo_create(surface);
-  if (png) cairo_scale(cr, SCALE_OF_PNG, SCALE_OF_PNG);
-  draw(cr, c);
-  cairo_status_t status = cairo_status(cr);
-  cairo_destroy(cr);
-  if (png && status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png_stream(surface, put, out);
-  cairo_surface_finish(surface);
-  if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
-  cairo_surface_destroy(surface);
-  if (status == CAIRO_STATUS_NO_MEMORY) return dyd_fail_nomem(err);
-  if (status != CAIRO_STATUS_SUCCESS)
-    return dyd_fail(err, DYD_E_IO, "cannot write the plot: %s", cairo_status_to_string(status));
-  if (fflush(out) != 0 || ferror(out))
-    return dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno ? errno : EIO));
-  return DYD_OK;
+  dyd_format format;
+  if (!dyd_format_from_name(&format, kind) || !dyd_format_is_picture(format))
+    return dyd_fail(err, DYD_E_ARG, "a plot is svg, pdf or png, not \"%.20s\"", kind);
+  return dyd_page_write(out, format, WIDTH, HEIGHT, draw_page, &c, err);
 }

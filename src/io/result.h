@@ -30,6 +30,8 @@ dyd_status dyd_write_wkt(const dyd_result *r, dyd_error *err);
 dyd_status dyd_write_geojson(const dyd_result *r, dyd_error *err);
 dyd_status dyd_write_obj(const dyd_result *r, dyd_error *err);
 dyd_status dyd_write_svg(const dyd_result *r, dyd_error *err);
+dyd_status dyd_write_pdf(const dyd_result *r, dyd_error *err);
+dyd_status dyd_write_png(const dyd_result *r, dyd_error *err);
 dyd_status dyd_write_vtk(const dyd_result *r, dyd_error *err);
 
 /* "legal", "indeterminate", "tie", "illegal". */

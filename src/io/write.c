@@ -14,7 +14,8 @@ static const struct {
 } formats[] = {[DYD_FORMAT_CSV] = {"csv", dyd_write_csv}, [DYD_FORMAT_JSON] = {"json", dyd_write_json},
                [DYD_FORMAT_WKT] = {"wkt", dyd_write_wkt}, [DYD_FORMAT_GEOJSON] = {"geojson", dyd_write_geojson},
                [DYD_FORMAT_OBJ] = {"obj", dyd_write_obj}, [DYD_FORMAT_SVG] = {"svg", dyd_write_svg},
-               [DYD_FORMAT_VTK] = {"vtk", dyd_write_vtk}};
+               [DYD_FORMAT_VTK] = {"vtk", dyd_write_vtk}, [DYD_FORMAT_PDF] = {"pdf", dyd_write_pdf},
+               [DYD_FORMAT_PNG] = {"png", dyd_write_png}};
 #define FORMATS (sizeof formats / sizeof *formats)
 
 bool dyd_format_from_name(dyd_format *out, const char *name) {

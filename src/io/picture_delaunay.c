@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The picture of the triangulation: rectangles, edges and partial edges by status, sure triangles. */
+#include "base/alloc.h"
+#include "base/error.h"
+#include "io/picture.h"
+#include "io/plot.h"
+#include "io/result.h"
+#include <math.h>
+#include <stdlib.h>
+
+static const struct {
+  dyd_pair_status status;
+  const char *name;
+  unsigned rgb, region;
+  double on, off, width;
+} style[3] = {{DYD_TIE, "tie", 0x6b6b6b, 0xe4e4e4, 0.2, 2.2, 1.0},
+              {DYD_INDETERMINATE, "indeterminate", 0xd55e00, 0xfbe3d1, 4, 2.5, 1.0},
+              {DYD_LEGAL, "legal", 0x0072b2, 0xd3e6f2, 0, 0, 1.2}};
+
+typedef struct drawing {
+  const dyd_result *r;
+  dyd_view view;
+  dyd_triangle_list triangles;
+} drawing;
+
+static double middle(double lo, double hi) {
+  return lo / 2 + hi / 2;
+}
+
+static void to_centre(cairo_t *cr, const drawing *d, uint32_t i, bool first) {
+  double b[4];
+  dyd_sites_get_d(b, d->r->sites, i);
+  double x = dyd_view_x(&d->view, middle(b[0], b[1])), y = dyd_view_y(&d->view, middle(b[2], b[3]));
+  if (first)
+    cairo_move_to(cr, x, y);
+  else
+    cairo_line_to(cr, x, y);
+}
+
+static void draw_triangles(cairo_t *cr, const drawing *d) {
+  cairo_new_path(cr);
+  for (size_t k = 0; k < d->triangles.count; k++) {
+    for (int c = 0; c < 3; c++) to_centre(cr, d, d->triangles.item[k].v[c], c == 0);
+    cairo_close_path(cr);
+  }
+  dyd_picture_colour(cr, 0xe6f0f7);
+  cairo_fill(cr);
+}
+
+/* Is the rectangle more than a dot? */
+static bool is_wide(const drawing *d, const double b[4]) {
+  return fmax(b[1] - b[0], b[3] - b[2]) * d->view.scale >= 2 * d->view.dot;
+}
+
+static double turn(const double p[2], const double q[2], const double r[2]) {
+  return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+}
+
+static int compare(const void *a, const void *b) {
+  const double *p = a, *q = b;
+  if (p[0] != q[0]) return p[0] < q[0] ? -1 : 1;
+  return (p[1] > q[1]) - (p[1] < q[1]);
+}
+
+/* Ed(a,b) as a path: the hull of eight corners, by monotone chains. */
+static void hull_path(cairo_t *cr, const drawing *d, const double a[4], const double b[4]) {
+  double z[8][2], chain[17][2];
+  int n = 0;
+  for (int k = 0; k < 8; k++) {
+    const double *r = k < 4 ? a : b;
+    z[k][0] = dyd_view_x(&d->view, r[k & 1]);
+    z[k][1] = dyd_view_y(&d->view, r[2 + (k >> 1 & 1)]);
+  }
+  qsort(z, 8, sizeof z[0], compare);
+  for (int pass = 0; pass < 2; pass++) {
+    int floor = n;
+    for (int k = 0; k < 8; k++) {
+      const double *p = z[pass ? 7 - k : k];
+      while (n >= floor + 2 && turn(chain[n - 2], chain[n - 1], p) <= 0) n--;
+      chain[n][0] = p[0], chain[n][1] = p[1];
+      n++;
+    }
+    n--;
+  }
+  for (int k = 0; k < n; k++)
+    if (k)
+      cairo_line_to(cr, chain[k][0], chain[k][1]);
+    else
+      cairo_move_to(cr, chain[k][0], chain[k][1]);
+  cairo_close_path(cr);
+}
+
+static void draw_regions(cairo_t *cr, const drawing *d, int k) {
+  for (size_t p = 0; p < d->r->pairs.count; p++) {
+    const dyd_pair *pair = &d->r->pairs.item[p];
+    double a[4], b[4];
+    if (pair->status != style[k].status) continue;
+    dyd_sites_get_d(a, d->r->sites, pair->i);
+    dyd_sites_get_d(b, d->r->sites, pair->j);
+    if (!is_wide(d, a) && !is_wide(d, b)) continue;
+    cairo_new_path(cr);
+    hull_path(cr, d, a, b);
+    dyd_picture_colour(cr, style[k].region);
+    cairo_fill(cr);
+  }
+}
+
+static void draw_edges(cairo_t *cr, const drawing *d, int k) {
+  cairo_new_path(cr);
+  for (size_t p = 0; p < d->r->pairs.count; p++) {
+    const dyd_pair *pair = &d->r->pairs.item[p];
+    if (pair->status != style[k].status) continue;
+    to_centre(cr, d, pair->i, true);
+    to_centre(cr, d, pair->j, false);
+  }
+  dyd_picture_pen(cr, style[k].rgb, d->view.line * style[k].width, style[k].on, style[k].off);
+  cairo_stroke(cr);
+}
+
+static void draw_legend(cairo_t *cr, const drawing *d) {
+  size_t count[4];
+  char text[160];
+  double width, height, y, x = 30;
+  dyd_view_page(&width, &height, &y, &d->view);
+  dyd_delaunay_count(count, d->r->pd);
+  for (int k = 2; k >= 0; k--) {
+    snprintf(text, sizeof text, "%s: %zu", style[k].name, count[style[k].status]);
+    dyd_picture_entry(cr, &x, y, style[k].rgb, false, style[k].on, style[k].off, text);
+  }
+  dyd_picture_entry(cr, &x, y, 0xe6f0f7, true, 0, 0, "sure triangle");
+  dyd_picture_scale(cr, &d->view, y);
+  snprintf(text, sizeof text, "%zu points, outcome %s%s; positions rounded by at most 0.01 point", d->r->count,
+           dyd_outcome_text(dyd_engine_outcome(d->r->engine)),
+           dyd_delaunay_is_capped(d->r->pd) ? ", not all possible pairs are shown" : "");
+  dyd_plot_text(cr, 30, y + 28, 0, 14, text);
+}
+
+static void draw(cairo_t *cr, void *context) {
+  const drawing *d = context;
+  dyd_picture_begin(cr);
+  draw_triangles(cr, d);
+  for (int k = 2; k >= 0; k--) draw_regions(cr, d, k);
+  for (int k = 0; k < 3; k++) draw_edges(cr, d, k);
+  for (size_t i = 0; i < d->r->count; i++) {
+    double b[4];
+    dyd_sites_get_d(b, d->r->sites, i);
+    dyd_picture_site(cr, &d->view, b, dyd_sites_is_point(d->r->sites, i));
+  }
+  draw_legend(cr, d);
+}
+
+static dyd_status find_view(dyd_view *v, const dyd_result *r, dyd_error *err) {
+  double all[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+  for (size_t i = 0; i < r->count; i++) {
+    double b[4];
+    dyd_status status = dyd_result_box(b, r, i, err);
+    if (status < 0) return status;
+    all[0] = fmin(all[0], b[0]), all[1] = fmax(all[1], b[1]);
+    all[2] = fmin(all[2], b[2]), all[3] = fmax(all[3], b[3]);
+  }
+  if (r->count == 0) all[0] = all[1] = all[2] = all[3] = 0;
+  return dyd_view_fit(v, all, dyd_view_spacing(r->pd), err);
+}
+
+static dyd_status write_picture(const dyd_result *r, dyd_format kind, dyd_error *err) {
+  drawing d = {.r = r};
+  double width, height, legend;
+  dyd_status status = find_view(&d.view, r, err);
+  if (status < 0) return status;
+  status = dyd_delaunay_triangles(&d.triangles, r->pd);
+  if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
+  dyd_view_page(&width, &height, &legend, &d.view);
+  status = dyd_page_write(r->out, kind, width, height, draw, &d, err);
+  dyd_triangle_list_clear(&d.triangles);
+  return status;
+}
+
+dyd_status dyd_write_svg(const dyd_result *r, dyd_error *err) {
+  return write_picture(r, DYD_FORMAT_SVG, err);
+}
+dyd_status dyd_write_pdf(const dyd_result *r, dyd_error *err) {
+  return write_picture(r, DYD_FORMAT_PDF, err);
+}
+dyd_status dyd_write_png(const dyd_result *r, dyd_error *err) {
+  return write_picture(r, DYD_FORMAT_PNG, err);
+}
