@@ -116,6 +116,14 @@ Proof.
   - destruct (any_edge_near N B p i j z l d I J D P Hl Di Dj Z) as [w [G W]]. exists w. split; [exact G | lra].
 Qed.
 
-(* Points of an indeterminate pair: the complement of the other partial edges is never met by the true graph. *)
+(* No true graph reaches outside of the region. *)
 Corollary outside_region_is_free N B p z : choice N B p -> ~ possible_region N B z -> ~ graph N p z.
 Proof. intros P H G. now apply H, graph_in_region with p. Qed.
+
+(* More information leaves a smaller region: T is monotone. *)
+Theorem region_monotone N B' B z : refined N B' B -> possible_region N B' z -> possible_region N B z.
+Proof.
+  intros F [i [j [I [J [D [P [x [y [X [Y Z]]]]]]]]]]. exists i, j. repeat split; try assumption.
+  - now apply (possible_monotone N B' B).
+  - exists x, y. split; [now apply (F i I) |]. split; [now apply (F j J) | exact Z].
+Qed.
