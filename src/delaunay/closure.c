@@ -163,7 +163,7 @@ static dyd_status add_possible(closing *c, uint32_t a, uint32_t b) {
   return add(c, a, b, dyd_is_legal(c->pd, c->out->vertex[a], c->out->vertex[b]) ? DYD_PAIR_CERTAIN : DYD_PAIR_OPEN);
 }
 
-/* ---- many overlapping rectangles: cells of the plane [CELL-1] ---- */
+/* ---- many overlapping rectangles: cells of the plane [PLANE-1] ---- */
 
 static dyd_status found(void *context, bool *enough, uint32_t a, uint32_t b) {
   closing *c = context;
@@ -221,7 +221,7 @@ static dyd_status try_centre(closing *c, uint32_t k, uint32_t l, uint32_t other)
   uint32_t *vertex = NULL;
   size_t count = 0, before = c->known;
   if (other == DYD_NONE || ++c->walks < c->patience || c->pd->options.no_filter) return DYD_OK;
-  dyd_status st = dyd_centre_shows(&vertex, &count, c->pd, three[c->tries++ > 0]);
+  dyd_status st = dyd_centre_shows(&vertex, &count, c->pd, three[c->tries++ > 0], 2 * (size_t)n);
   if (st == DYD_OK) st = add_all(c, vertex, count);
   free(vertex);
   if (c->known < before + c->walks) c->patience *= 2;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Cells of the plane, and who is possibly nearest in them.
  *
- * [CELL-1] C_ki = {c : dl_k(c) < ds_i(c)} is convex. So when the corners of a convex cell are in C_ki, i is nowhere in
+ * [PLANE-1] C_ki = {c : dl_k(c) < ds_i(c)} is convex. So when the corners of a convex cell are in C_ki, i is nowhere in
  * the cell possibly nearest, and no pair of i has a centre there (ij is possible iff Pos_i and Pos_j meet). A cell is a
  * square, or a strip outside the root square between two rays; the far corners of a strip are the directions u of its
  * rays, and there C_ki means min u.x over R_k > max u.x over R_i, as for centres at infinity. The cells cover the plane

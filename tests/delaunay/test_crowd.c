@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Crowds of overlapping rectangles: cells of the plane against closure under flips, which the exact rung alone uses
- * [CELL-1] [CLO-1] [WIT-QUAD]. */
+ * [PLANE-1] [CLO-1] [WIT-QUAD]. */
 #include <setjmp.h>
 #include <stdarg.h>
 
