@@ -34,13 +34,12 @@ size_t bench_size(const bench_options *o, size_t otherwise);
 size_t bench_runs(const bench_options *o, size_t otherwise);
 
 typedef struct bench_cost {
-  double seconds; /* of CPU, all threads */
-  double wall;
+  double seconds;
   double bytes; /* peak beyond the start; negative when the system does not tell */
 } bench_cost;
 
 typedef struct bench_meter {
-  double seconds, wall, bytes;
+  double seconds, bytes;
 } bench_meter;
 bench_meter bench_start(void);
 bench_cost bench_stop(const bench_meter *m);
@@ -48,7 +47,7 @@ bench_cost bench_stop(const bench_meter *m);
 /* Costs of the runs of one contestant. */
 typedef struct bench_series {
   size_t count;
-  double seconds[BENCH_MAX_RUNS], wall[BENCH_MAX_RUNS], bytes[BENCH_MAX_RUNS];
+  double seconds[BENCH_MAX_RUNS], bytes[BENCH_MAX_RUNS];
 } bench_series;
 void bench_series_add(bench_series *s, bench_cost c);
 /* Medians over the runs; zeros when there was none. */

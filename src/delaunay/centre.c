@@ -68,7 +68,7 @@ static dyd_status round_centre(bool *found, dyd_point *c, const dyd_delaunay *pd
 
 typedef struct meeting {
   uint32_t *vertex;
-  size_t count, cap;
+  size_t count, cap, most;
   bool full; /* no memory */
 } meeting;
 
@@ -76,16 +76,17 @@ static bool meet(void *context, uint32_t k) {
   meeting *m = context;
   m->full = !dyd_reserve((void **)&m->vertex, &m->cap, m->count + 1, sizeof *m->vertex);
   if (!m->full) m->vertex[m->count++] = k;
-  return !m->full;
+  return !m->full && m->count <= m->most;
 }
 
-/* Everybody who may have ds <= M: not farther than dl of the vertex v. */
+/* Everybody who may have ds <= M: not farther than dl of the vertex v. Nobody if they are too many. */
 static dyd_status gather(meeting *m, const dyd_delaunay *pd, const dyd_point *c, uint32_t v) {
   dyd_bbox box;
   dyd_cut_box(&box, c);
   double radius2 = dyd_dl2_upper(&box, &pd->box[v]);
   if (isnan(radius2) || pd->options.no_filter) radius2 = INFINITY;
   dyd_tree_near(&pd->tree, &box, &radius2, meet, m);
+  if (m->count > m->most) m->count = 0;
   return m->full ? DYD_E_NOMEM : DYD_OK;
 }
 
@@ -112,8 +113,9 @@ static dyd_status choose(meeting *m, const dyd_delaunay *pd, const dyd_point *c)
   return st;
 }
 
-dyd_status dyd_centre_shows(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, const uint32_t v[3]) {
-  meeting m = {0};
+dyd_status dyd_centre_shows(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, const uint32_t v[3],
+                            size_t most) {
+  meeting m = {.most = most};
   dyd_point c;
   bool found;
   dyd_point_init(&c);
