@@ -1,0 +1,382 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""dyadel voronoi: goals, windows, budgets, formats, and bounds that shrink by half per bit.
+
+Usage: test_voronoi.py COMMAND DATA
+"""
+import csv
+import json
+import math
+import os
+import re
+import sys
+import tempfile
+import xml.etree.ElementTree
+from fractions import Fraction
+
+from harness import DATA, expect, main, run
+
+POLYGON = ''.join(f'cos({k}*pi/6) sin({k}*pi/6)\n' for k in range(12))
+RADICANDS = [((2, 1, 0), (3, 1, 0)), ((5, 1, 1), (2, 3, 0)), ((7, 2, 0), (11, 1, 0)),
+             ((13, 1, -3), (17, 5, 0)), ((19, 2, 1), (23, 2, 0)), ((29, 3, 0), (31, 4, 0))]  # sqrt(a)/b + c
+ROOTS = ''.join(' '.join(f'sqrt({a})/{b}+({c})' for a, b, c in p) + '\n' for p in RADICANDS)
+TOUCHING = '[0,1] [0,1]\n[1,2] [0,1]\n5 5\n'
+# An oracle whose rectangles are exactly as wide as asked for: width 2^-B.
+EXACT_WIDTH = f'''
+import math, sys
+P = {RADICANDS!r}
+def side(t, b):
+    a, d, c = t
+    m = math.isqrt((a << 2 * b) // (d * d)) + (c << b)
+    return '%d*2^-%d %d*2^-%d' % (m, b, m + 1, b)
+print('points', len(P), flush=True)
+for line in sys.stdin:
+    _, i, b = line.split()
+    b = max(int(b), 0)
+    print(i, side(P[int(i)][0], b), side(P[int(i)][1], b), flush=True)
+'''
+
+
+def number(text):
+    """m*2^e or a rational."""
+    if '*2^' in text:
+        m, e = text.split('*2^')
+        return int(m) * Fraction(2) ** int(e)
+    return Fraction(text)
+
+
+def decided(points, *options):
+    result = run('voronoi', '--quiet', '--format', 'json', *options, '-', stdin=points)
+    return result, json.loads(result.out)
+
+
+def table(text):
+    """Comments of a csv, and its rows."""
+    lines = text.splitlines()
+    return [x for x in lines if x.startswith('#')], list(csv.DictReader(x for x in lines if not x.startswith('#')))
+
+
+# ---- goals ----
+
+def test_cocircular_points_are_certified():
+    for goal, key, bits in (('hausdorff:40', 'distance_to_true_diagram', 40), ('area:30', 'undetermined_area', 30)):
+        result, data = decided(POLYGON, '--until', goal)
+        expect(result, 0)
+        assert data['outcome'] == 'certified' and data['goal'] == goal.split(':')[0] and data['goal_bits'] == bits
+        assert data['count'] == {'sites': 12, 'legal': 12, 'indeterminate': 54, 'tie': 0}, data['count']
+        bound = data['bounds'][key]
+        assert number(bound['exact']) <= Fraction(1, 2**bits), bound
+        assert Fraction(bound['decimal']) >= number(bound['exact']), bound
+        assert len(data['cells']) == 12 and not data['vertices']
+        region, = data['regions']
+        assert region['sites'] == list(range(12))
+        for axis in 'xy':  # the centre of the polygon
+            assert region[axis][0] <= 0 <= region[axis][1] < 1e-9, region
+        check_cells(data)
+
+
+def test_decided_goal_of_cocircular_points():
+    result = run('voronoi', '--max-bits', '64', '-', stdin=POLYGON)
+    expect(result, 4, '^# distance_to_true_diagram,', '^dyadel: budget: .*raise --max-bits')
+
+
+def test_exit_of_goals():
+    expect(run('voronoi', '--until', 'hausdorff:0', '-', stdin=ROOTS), 0)
+    for wrong in ('hausdorff:x', 'area:', 'area', 'hausdorff:1.5', 'volume:3'):
+        expect(run('voronoi', '--until', wrong, '-', stdin=ROOTS), 2, r'\A\Z', '--until')
+
+
+def test_small_budget():
+    result = run('voronoi', '--max-bits', '8', '--until', 'hausdorff:60', '-', stdin=ROOTS)
+    expect(result, 4, '^cell,5,', '^dyadel: budget: .*raise --max-bits')
+    bound = re.search('^# distance_to_true_diagram,(.*)$', result.out, re.M).group(1)
+    assert Fraction(1, 2**60) < Fraction(bound) < 1, bound
+
+
+def test_fixed_rectangles():
+    for goal in ('hausdorff:10', 'area:10', 'decided'):
+        result, data = decided(TOUCHING, '--until', goal)
+        expect(result, 3)
+        assert data['outcome'] == 'fixpoint' and len(data['cells']) == 3, data['outcome']
+    expect(run('voronoi', '--until', 'hausdorff:10', '-', stdin=TOUCHING), 3, '', '^dyadel: fixpoint')
+    apart = '[0,1/8] 0\n[4,33/8] 0\n2 3\n'
+    result, data = decided(apart, '--until', 'hausdorff:20')
+    expect(result, 3)
+    assert data['count']['indeterminate'] == 0 and number(data['bounds']['distance_to_true_diagram']['exact']) > 2**-20
+    result, data = decided(apart, '--until', 'hausdorff:0')
+    expect(result, 0)
+
+
+# ---- windows ----
+
+def test_wrong_windows():
+    for window, message in (('1,0,0,1', 'wrong order'), ('0,1,1,0', 'wrong order'), ('0,0,0,1', 'no area'),
+                            ('0,1,2,2', 'no area'), ('a,b,c,d', 'four exact numbers'), ('0,1', 'four exact numbers'),
+                            ('0,1,0,1,2', 'four exact numbers'), ('0,1,0,nan', 'four exact numbers'),
+                            ('-inf,inf,0,1', 'four exact numbers'), ('', 'four exact numbers')):
+        expect(run('voronoi', '--window', window, '-', stdin=ROOTS), 2, r'\A\Z', f'^dyadel: --window .*{message}')
+
+
+def test_window_is_stated():
+    result, data = decided('0 0\n8 0\n0 4\n')
+    expect(result, 0)
+    assert [[number(t) for t in data['window'][k]] for k in 'xy'] == [[-2, 10], [-1, 5]], data['window']
+    comments, _ = table(run('voronoi', '-', stdin='0 0\n8 0\n0 4\n').out)
+    line, = [c for c in comments if c.startswith('# window ')]
+    assert [number(t) for t in line.split()[2:]] == [-2, 10, -1, 5], line
+    result, data = decided('0 0\n8 0\n0 4\n', '--window=-1/4,3/2,0,2^10')
+    expect(result, 0)
+    assert [[number(t) for t in data['window'][k]] for k in 'xy'] == [[Fraction(-1, 4), Fraction(3, 2)], [0, 1024]]
+    assert sum(Fraction(c['area'][0]) for c in data['cells']) <= 1792 <= sum(Fraction(c['area'][1])
+                                                                            for c in data['cells'])
+
+
+# ---- few points, coincident points, points on a line ----
+
+def test_few_points():
+    for n, cells in ((0, 0), (1, 1), (2, 2)):
+        points = ''.join(f'{k} {k}\n' for k in range(n))
+        for form in ('csv', 'json', 'geojson', 'wkt', 'vtk', 'svg'):
+            expect(run('voronoi', '--format', form, '-', stdin=points), 0)
+        result, data = decided(points)
+        assert data['count']['sites'] == n and len(data['cells']) == cells
+        assert not data['vertices'] and not data['regions'] and len(data['edges']) == n // 2
+        assert number(data['bounds']['distance_to_true_diagram']['exact']) == 0
+
+
+def test_coincident_points():
+    result, data = decided('0 0\n1 1\n0 0\n3 1\n1 1\n0 0\n')
+    expect(result, 0)
+    assert data['aliases'] == [[2, 0], [4, 1], [5, 0]], data['aliases']
+    assert [c['i'] for c in data['cells']] == [0, 1, 3] and len(data['vertices']) == 1
+    comments, rows = table(run('voronoi', '-', stdin='0 0\n1 1\n0 0\n').out)
+    assert '# alias 2 0' in comments and [r['i'] for r in rows if r['type'] == 'cell'] == ['0', '1']
+    result, data = decided('1/3 1/7\n' * 5)
+    expect(result, 0)
+    assert len(data['cells']) == 1 and len(data['aliases']) == 4
+
+
+def test_collinear_points():
+    result, data = decided('0 0\n1 1\n2 2\n')
+    expect(result, 3)  # 0 and 2 share the point at infinity: an exact tie
+    assert data['count']['tie'] == 1 and not data['vertices'] and len(data['cells']) == 3
+    result, data = decided('0 0\n1 1\n2 2\n', '--until', 'hausdorff:50')
+    expect(result, 0)
+    result, data = decided('sqrt(2) sqrt(2)\n1 1\n0 0\n', '--until', 'hausdorff:50')
+    expect(result, 0)
+    assert number(data['bounds']['distance_to_true_diagram']['exact']) <= Fraction(1, 2**50)
+
+
+# ---- json ----
+
+def signed_area2(ring):
+    """Twice the area; exact."""
+    return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:] + ring[:1]))
+
+
+def check_boundary(boundary, i):
+    for chain in boundary['chains']:
+        arcs = chain['arcs']
+        assert arcs and {a['kind'] for a in arcs} <= {'line', 'parabola', 'window'}
+        assert all(i in (a['far'], a['near']) for a in arcs if 'near' in a), arcs
+        for a, b in list(zip(arcs, arcs[1:])) + ([(arcs[-1], arcs[0])] if chain['closed'] else []):
+            assert a['end']['kind'] == 'infinite' or a['end']['at'] == b['begin']['at'], (a, b)
+        if not chain['closed']:
+            assert arcs[0]['begin']['kind'] == arcs[-1]['end']['kind'] == 'infinite'
+
+
+def check_cells(data):
+    """Areas of the polygons against the areas stated; arcs join up; what is undetermined adds up."""
+    window = [[number(t) for t in data['window'][k]] for k in 'xy']
+    whole = (window[0][1] - window[0][0]) * (window[1][1] - window[1][0])
+    inside = Fraction(0)
+    for cell in data['cells']:
+        inner = [[number(t) for t in z] for z in cell['inner']]
+        outer = [[[number(t) for t in z] for z in ring] for ring in cell['outer']]
+        area = signed_area2(inner) / 2
+        assert Fraction(cell['area'][0]) <= area and all(signed_area2(ring) > 0 for ring in outer), cell['i']
+        assert Fraction(cell['area'][0]) <= Fraction(cell['area'][1]), cell['area']
+        assert all(w[0] <= t <= w[1] for z in inner for t, w in zip(z, window))
+        inside += area
+        check_boundary(cell['int'], cell['i'])
+        check_boundary(cell['pos'], cell['i'])
+    assert inside <= whole <= sum(Fraction(c['area'][1]) for c in data['cells'])
+    assert number(data['bounds']['undetermined_area']['exact']) >= whole - inside
+
+
+def root(t, bits=400):
+    """sqrt(a)/b + c within 2^-bits."""
+    a, b, c = t
+    return Fraction(math.isqrt(a << 2 * bits), b << bits) + c
+
+
+def centre(p):
+    """Circumcentre of three points."""
+    (ax, ay), (bx, by), (cx, cy) = p
+    bx, by, cx, cy = bx - ax, by - ay, cx - ax, cy - ay
+    d = 2 * (bx * cy - by * cx)
+    return (ax + (cy * (bx * bx + by * by) - by * (cx * cx + cy * cy)) / d,
+            ay + (bx * (cx * cx + cy * cy) - cx * (bx * bx + by * by)) / d)
+
+
+def test_vertices_are_as_narrow_as_the_goal():
+    points = [tuple(root(t) for t in p) for p in RADICANDS]
+    for bits in (10, 100, 300):
+        result, data = decided(ROOTS, '--until', f'hausdorff:{bits}')
+        expect(result, 0)
+        assert data['outcome'] == 'certified' and len(data['vertices']) == 6 and len(data['edges']) == 11
+        for vertex in data['vertices']:
+            truth = centre([points[i] for i in vertex['sites']])
+            for axis, value in zip('xy', truth):
+                low, high = (number(t) for t in vertex[axis + '_exact'])
+                assert 0 <= high - low <= Fraction(1, 2**bits), (bits, float(high - low))
+                assert low - Fraction(1, 2**390) <= value <= high + Fraction(1, 2**390), vertex
+                assert Fraction(vertex[axis][0]) <= value <= Fraction(vertex[axis][1]), vertex
+        check_cells(data)
+
+
+def test_rational_vertices():
+    """Of exact points the vertices are known: inside their enclosures, and edges join those of their two sites."""
+    points = [(Fraction(k * k % 17), Fraction(k * k * k % 23, 3)) for k in range(1, 12)]
+    result, data = decided(''.join(f'{x} {y}\n' for x, y in points))
+    expect(result, 0)
+    n = len(data['vertices'])
+    for vertex in data['vertices']:
+        for axis, value in zip('xy', centre([points[i] for i in vertex['sites']])):
+            low, high = (number(t) for t in vertex[axis + '_exact'])
+            assert low <= value <= high, vertex
+    rays = 0
+    for edge in data['edges']:
+        for end in ('from', 'to'):
+            if isinstance(edge[end], dict):
+                rays += 1
+                continue
+            assert 0 <= edge[end] < n and {edge['i'], edge['j']} <= set(data['vertices'][edge[end]]['sites']), edge
+    assert len(data['edges']) - n == data['count']['sites'] - 1 and 2 * len(data['edges']) == 3 * n + rays  # Euler
+    check_cells(data)
+
+
+# ---- other formats ----
+
+def outputs(*options):
+    return {form: run('voronoi', '--quiet', '--until', 'hausdorff:40', '--format', form, *options, '-', stdin=POLYGON)
+            for form in ('csv', 'json', 'geojson', 'wkt', 'vtk', 'svg')}
+
+
+def check_csv(text):
+    _, rows = table(text)
+    assert [r['type'] for r in rows].count('cell') == 12 and [r['type'] for r in rows].count('region') == 1
+    for r in rows:
+        assert Fraction(r['xlo']) <= Fraction(r['xhi']) and Fraction(r['ylo']) <= Fraction(r['yhi'])
+        assert r['type'] != 'cell' or Fraction(r['area_lo']) <= Fraction(r['area_hi'])
+
+
+def check_geojson(text):
+    kinds = []
+    for feature in json.loads(text)['features']:
+        kinds.append(feature['properties']['kind'])
+        if feature['geometry']['type'] == 'Polygon':
+            for ring in feature['geometry']['coordinates']:
+                assert len(ring) >= 4 and ring[0] == ring[-1], ring
+    assert kinds.count('surely nearest') == kinds.count('possibly nearest') == 12, kinds
+
+
+def check_wkt(text):
+    rows = list(csv.DictReader(text.splitlines()))
+    assert len(rows) >= 24 and [r['kind'] for r in rows].count('surely nearest') == 12
+    for r in rows:
+        shape, body = re.fullmatch(r'(POLYGON|MULTIPOLYGON|POINT|LINESTRING) (\(.*\))', r['WKT']).groups()
+        assert body.count('(') == body.count(')')
+        points = [[float(t) for t in z.split()] for z in re.sub('[()]', '', body).split(',')]
+        assert all(len(z) == 2 for z in points) and (shape != 'POLYGON' or points[0] == points[-1]), r
+
+
+def check_vtk(text):
+    lines = iter(text.splitlines())
+    assert next(lines) == '# vtk DataFile Version 3.0' and 'outcome certified' in next(lines)
+    assert [next(lines), next(lines)] == ['ASCII', 'DATASET POLYDATA']
+    count = int(re.fullmatch(r'POINTS (\d+) double', next(lines)).group(1))
+    assert all(len([float(t) for t in next(lines).split()]) == 3 for _ in range(count))
+    cells, size = map(int, re.fullmatch(r'POLYGONS (\d+) (\d+)', next(lines)).groups())
+    for _ in range(cells):
+        indices = [int(t) for t in next(lines).split()]
+        assert indices[0] == len(indices) - 1 and all(0 <= k < count for k in indices[1:])
+        size -= len(indices)
+    assert size == 0 and next(lines) == f'CELL_DATA {cells}'
+    rest = list(lines)
+    assert rest.count('LOOKUP_TABLE default') == 2 and len(rest) == 2 * cells + 4
+
+
+def test_formats():
+    made = outputs()
+    for result in made.values():
+        expect(result, 0, '.', r'\A\Z')
+    check_csv(made['csv'].out)
+    check_geojson(made['geojson'].out)
+    check_wkt(made['wkt'].out)
+    check_vtk(made['vtk'].out)
+    xml.etree.ElementTree.fromstring(made['svg'].out)
+    expect(run('voronoi', '--format', 'obj', '-', stdin=POLYGON), 2, r'\A\Z', 'obj')
+
+
+def test_threads_and_repeats_give_equal_bytes():
+    one, again, three = outputs('--threads', '1'), outputs('--threads', '1'), outputs('--threads', '3')
+    for form, result in one.items():
+        assert result.out == again[form].out == three[form].out, form
+
+
+# ---- convergence ----
+
+def stages(*options):
+    result = run('converge', '--schedule', 'uniform', '--step-bits', '1', '--until', 'hausdorff:50', '--max-bits', '44',
+                 '--window', '0,4,0,4', '--no-times', *options)
+    expect(result, 4)
+    return table(result.out)[1]
+
+
+def check_halving(rows, span):
+    """Per bit, over spans of so many bits, on all stages from 8 bits on."""
+    rows = [r for r in rows if int(r['bits_least']) >= 8]
+    assert len(rows) > 30 and all(r['indeterminate'] == '0' for r in rows)
+    for column in ('v_area', 'v_hausdorff'):
+        for a, b in zip(rows, rows[span:]):
+            per_bit = (float(b[column]) / float(a[column])) ** (1 / span)
+            assert 0.35 < per_bit < 0.65, (column, span, a, b)
+        for a, b in zip(rows, rows[1:]):
+            assert float(b[column]) <= float(a[column]), (column, a, b)
+        ratio = float(rows[24][column]) / float(rows[0][column]) * 2**24
+        assert 0.8 < ratio < 1.25, (column, ratio)
+
+
+def test_bounds_fall_by_half_per_bit():
+    """Rectangles exactly as wide as asked for: every bit counts."""
+    with tempfile.TemporaryDirectory() as folder:
+        script = os.path.join(folder, 'oracle.py')
+        with open(script, 'w', encoding='ascii') as out:
+            out.write(EXACT_WIDTH)
+        check_halving(stages('--oracle', f"'{sys.executable}' '{script}'"), 1)
+
+
+def test_bounds_of_expressions():
+    """Expressions narrow by some bits at a time (three, here), so that is the step to look at."""
+    with tempfile.TemporaryDirectory() as folder:
+        points = os.path.join(folder, 'points.txt')
+        with open(points, 'w', encoding='ascii') as out:
+            out.write(ROOTS)
+        rows = stages(points)
+    check_halving(rows, 3)
+    check_halving(rows, 24)
+
+
+def test_airports_on_a_window():
+    """A real file: the diagram of a part of the country."""
+    result = run('voronoi', '--quiet', '--columns', 'longitude,latitude', '--window=-100,-84,30,46',
+                 os.path.join(DATA, 'airports.csv'))
+    comments, rows = table(result.out)
+    cells = [r for r in rows if r['type'] == 'cell']
+    low, high = (math.fsum(float(r[k]) for r in cells) for k in ('area_lo', 'area_hi'))
+    assert result.code in (0, 3) and len(cells) > 100 and low < 256 < high, (result.code, len(cells), low, high)
+    assert [c for c in comments if c.startswith('# window ')] == ['# window -100 -84 30 46'], comments
+
+
+main(globals())
