@@ -66,6 +66,23 @@ static dyd_status round_centre(bool *found, dyd_point *c, const dyd_delaunay *pd
   return st;
 }
 
+dyd_status dyd_centre_between(bool *found, dyd_point *c, const dyd_delaunay *pd, uint32_t i, uint32_t j,
+                              const uint32_t across[2]) {
+  dyd_point other;
+  dyd_point_init(&other);
+  const uint32_t v[2][3] = {{i, j, across[0]}, {i, j, across[1]}};
+  dyd_status st = round_centre(found, c, pd, v[0]);
+  if (st == DYD_OK && *found) st = round_centre(found, &other, pd, v[1]);
+  if (st == DYD_OK && *found) st = dyd_dyadic_add(&c->x, &c->x, &other.x);
+  if (st == DYD_OK && *found) st = dyd_dyadic_add(&c->y, &c->y, &other.y);
+  if (st == DYD_OK && *found) st = dyd_dyadic_mul_2exp(&c->x, &c->x, -1);
+  if (st == DYD_OK && *found) st = dyd_dyadic_mul_2exp(&c->y, &c->y, -1);
+  dyd_point_clear(&other);
+  if (st != DYD_E_RANGE) return st;
+  *found = false;
+  return DYD_OK;
+}
+
 typedef struct meeting {
   uint32_t *vertex;
   size_t count, cap, most;

@@ -11,4 +11,9 @@
  * NULL when *count is 0. */
 dyd_status dyd_centre_shows(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, const uint32_t v[3], size_t most);
 
+/* c: a dyadic point next to the middle of the centres of the circles through the representatives of i, j and each of
+ * the two across: where a witness of ij is likely, at any depth. *found: false when one of the triples is collinear. */
+dyd_status dyd_centre_between(bool *found, dyd_point *c, const dyd_delaunay *pd, uint32_t i, uint32_t j,
+                              const uint32_t across[2]);
+
 #endif

@@ -13,6 +13,7 @@
 #include "delaunay/witness.h"
 
 #include "base/alloc.h"
+#include "delaunay/centre.h"
 #include "delaunay/exact_lp.h"
 #include "delaunay/filter_cut.h"
 #include "delaunay/filter_possible.h"
@@ -314,6 +315,22 @@ static dyd_status is_excluded(bool *excluded, const dyd_delaunay *pd, uint32_t i
   return st;
 }
 
+/* Before a search with big numbers: is there surely none, or one between the centres of the triangles beside the edge?
+ */
+static dyd_status look_between(bool *found, bool *settled, dyd_point *c, const dyd_delaunay *pd, uint32_t i, uint32_t j,
+                               const uint32_t across[2]) {
+  dyd_point middle;
+  dyd_point_init(&middle);
+  bool exists = false;
+  dyd_status st = is_excluded(settled, pd, i, j, across);
+  if (st == DYD_OK && !*settled) st = dyd_centre_between(&exists, &middle, pd, i, j, across);
+  if (st == DYD_OK && exists) st = dyd_witness_check(found, pd, i, j, &middle);
+  if (st == DYD_OK && *found && c) dyd_point_set(c, &middle);
+  *settled = *settled || *found;
+  dyd_point_clear(&middle);
+  return st;
+}
+
 dyd_status dyd_witness_search(bool *found, dyd_point *c, const dyd_delaunay *pd, uint32_t i, uint32_t j, dyd_xy guess,
                               const uint32_t across[2]) {
   *found = false;
@@ -324,9 +341,9 @@ dyd_status dyd_witness_search(bool *found, dyd_point *c, const dyd_delaunay *pd,
   }
   dyd_truth quick = dyd_filter_witness(&guess, pd, i, j);
   if (quick == DYD_UNKNOWN || (quick == DYD_TRUE && pd->options.no_filter)) {
-    bool excluded = false;
-    dyd_status st = across && !pd->options.no_filter ? is_excluded(&excluded, pd, i, j, across) : DYD_OK;
-    return st != DYD_OK || excluded ? st : search_exactly(found, c, pd, i, j, guess);
+    bool settled = false;
+    dyd_status st = across && !pd->options.no_filter ? look_between(found, &settled, c, pd, i, j, across) : DYD_OK;
+    return st != DYD_OK || settled ? st : search_exactly(found, c, pd, i, j, guess);
   }
   *found = quick == DYD_TRUE;
   return *found && c ? set_start(c, pd, i, guess) : DYD_OK;
