@@ -76,8 +76,8 @@ struct dyd_engine;
 
 /* Writes the certificate of the current result of e, for every outcome that has one.
  * DYD_E_ARG when e has no result; DYD_E_NOMEM; DYD_E_IO. Then what was written is no certificate: the last line,
- * "end", is missing. Cost: about N log N, plus a search for chains in undecided faces, which gives up where it is long
- * (such pairs are counted as unproved). */
+ * "end", is missing. Cost: about N log N, plus a search for chains in undecided faces, which gives up after about half
+ * a minute (such pairs are counted as unproved). */
 DYD_API dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, dyd_error *err);
 
 /* What an accepted certificate states. Texts have static storage. */
