@@ -33,6 +33,9 @@ typedef enum dyd_goal {
   DYD_GOAL_VORONOI_AREA, /* bounds on the diagram in a window; they can hold at ties */
   DYD_GOAL_VORONOI_HAUSDORFF
 } dyd_goal;
+/* "decided", "area", "hausdorff", "voronoi area", "voronoi hausdorff". Static storage. */
+DYD_API const char *dyd_goal_text(dyd_goal goal);
+
 typedef enum dyd_schedule {
   DYD_SCHEDULE_ADAPTIVE = 0, /* refine what takes part in something undecided */
   DYD_SCHEDULE_UNIFORM       /* refine every point at each stage, as KEL */

@@ -25,6 +25,11 @@ const char *dyd_outcome_text(dyd_outcome outcome) {
   return "unknown outcome";
 }
 
+const char *dyd_goal_text(dyd_goal goal) {
+  static const char *const text[] = {"decided", "area", "hausdorff", "voronoi area", "voronoi hausdorff"};
+  return (unsigned)goal < sizeof text / sizeof *text ? text[goal] : "unknown goal";
+}
+
 const char *dyd_reason_text(dyd_reason reason) {
   switch (reason) {
   case DYD_REASON_FIRST:

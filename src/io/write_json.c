@@ -4,6 +4,7 @@
  * All texts are our own ASCII words and numbers, so nothing needs escaping. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "io/json_parts.h"
 #include "io/result.h"
 #include <dyadel/voronoi.h>
 #include <inttypes.h>
@@ -47,15 +48,8 @@ static dyd_status write_sites(const dyd_result *r) {
   dyd_status status = DYD_OK;
   fputs("\"sites\": [", r->out);
   for (size_t i = 0; i < r->count && status >= 0; i++) status = write_site(r, i, &rect);
-  fputs("\n],\n\"aliases\": [", r->out);
-  bool any = false;
-  for (size_t i = 0; i < r->count; i++) {
-    uint32_t of = dyd_delaunay_alias(r->pd, (uint32_t)i);
-    if (of == i) continue;
-    fprintf(r->out, "%s[%zu, %u]", any ? ", " : "", i, (unsigned)of);
-    any = true;
-  }
-  fputs("],\n", r->out);
+  fputs("\n],\n", r->out);
+  dyd_json_aliases(r->out, r->pd, r->count);
   dyd_rect_clear(&rect);
   return status;
 }
@@ -109,16 +103,6 @@ static dyd_status write_hull(const dyd_result *r) {
   return status;
 }
 
-static dyd_status write_bound(const dyd_result *r, const char *name, const dyd_dyadic *value) {
-  char *exact = dyd_dyadic_get_str(value);
-  if (!exact) return DYD_E_NOMEM;
-  fprintf(r->out, "\"%s\": {\"exact\": \"%s\", \"decimal\": ", name, exact);
-  dyd_decimal_json(r->out, dyd_dyadic_get_d(value, DYD_UP), DYD_UP);
-  fputs("}", r->out);
-  free(exact);
-  return DYD_OK;
-}
-
 /* No bounds exist for a capped result: its pairs are not all known. */
 static dyd_status write_bounds(const dyd_result *r) {
   dyd_dyadic area, hausdorff;
@@ -128,9 +112,9 @@ static dyd_status write_bounds(const dyd_result *r) {
   dyd_status status = dyd_engine_bounds(&area, &hausdorff, r->engine);
   if (status == DYD_OK) {
     fputs("{", r->out);
-    status = write_bound(r, "area", &area);
+    status = dyd_json_bound(r->out, "area", &area);
     fputs(", ", r->out);
-    if (status >= 0) status = write_bound(r, "hausdorff", &hausdorff);
+    if (status >= 0) status = dyd_json_bound(r->out, "hausdorff", &hausdorff);
     fputs("},\n", r->out);
   } else if (status != DYD_E_NOMEM) {
     fputs("null,\n", r->out);
@@ -155,11 +139,6 @@ static void write_counters(const dyd_result *r) {
           d->integer, d->exact, d->witness_guess, d->witness_search, d->cover_walks, (uint64_t)(c.seconds * 1000) + 1);
 }
 
-static const char *goal_text(dyd_goal goal) {
-  if (goal == DYD_GOAL_AREA) return "area";
-  return goal == DYD_GOAL_HAUSDORFF ? "hausdorff" : "decided";
-}
-
 static void write_head(const dyd_result *r) {
   size_t count[4];
   int64_t bits;
@@ -170,7 +149,7 @@ static void write_head(const dyd_result *r) {
           "\"rounding\": \"x, y and exact are exact; x_decimal and y_decimal are rounded outward: the first down, the "
           "second up; decimal is rounded up; null is beyond the largest double\",\n"
           "\"outcome\": \"%s\",\n\"goal\": \"%s\",\n",
-          dyd_version(), dyd_outcome_text(dyd_engine_outcome(r->engine)), goal_text(goal));
+          dyd_version(), dyd_outcome_text(dyd_engine_outcome(r->engine)), dyd_goal_text(goal));
   if (goal != DYD_GOAL_DECIDED) fprintf(r->out, "\"goal_bits\": %" PRId64 ",\n", bits);
   fprintf(r->out,
           "\"capped\": %s,\n\"count\": {\"sites\": %zu, \"legal\": %zu, \"indeterminate\": %zu, \"tie\": %zu},\n",

@@ -7,6 +7,7 @@
 #include "io/arc_json.h"
 #include "io/diagram.h"
 #include "io/dual.h"
+#include "io/json_parts.h"
 #include <inttypes.h>
 
 /* ---- cells ---- */
@@ -173,21 +174,6 @@ static dyd_status write_regions(const dyd_diagram *d) {
 
 /* ---- head and bounds ---- */
 
-static const char *goal_text(dyd_goal goal) {
-  switch (goal) {
-  case DYD_GOAL_AREA:
-    return "delaunay area";
-  case DYD_GOAL_HAUSDORFF:
-    return "delaunay hausdorff";
-  case DYD_GOAL_VORONOI_AREA:
-    return "area";
-  case DYD_GOAL_VORONOI_HAUSDORFF:
-    return "hausdorff";
-  default:
-    return "decided";
-  }
-}
-
 static dyd_status write_head(const dyd_diagram *d) {
   size_t count[4];
   int64_t bits;
@@ -200,7 +186,7 @@ static dyd_status write_head(const dyd_diagram *d) {
       "null is unbounded or beyond the largest double\",\n"
       "\"outcome\": \"%s\",\n\"goal\": \"%s\",\n\"goal_bits\": %" PRId64 ",\n\"flatten_bits\": %" PRId64
       ",\n\"count\": {\"sites\": %zu, \"legal\": %zu, \"indeterminate\": %zu, \"tie\": %zu},\n\"window\": ",
-      dyd_version(), dyd_outcome_text(dyd_engine_outcome(d->engine)), goal_text(goal), bits, d->bits, d->count,
+      dyd_version(), dyd_outcome_text(dyd_engine_outcome(d->engine)), dyd_goal_text(goal), bits, d->bits, d->count,
       count[DYD_LEGAL], count[DYD_INDETERMINATE], count[DYD_TIE]);
   dyd_point p;
   p.x = d->window.x.lo; /* borrowed */
@@ -211,36 +197,19 @@ static dyd_status write_head(const dyd_diagram *d) {
   p.y = d->window.y.hi;
   fputs(", \"y\": ", d->out);
   if (status >= 0) status = put_point(d->out, &p);
-  fputs("},\n\"aliases\": [", d->out);
-  bool any = false;
-  for (size_t i = 0; i < d->count; i++) {
-    uint32_t of = dyd_delaunay_alias(d->pd, (uint32_t)i);
-    if (of == i) continue;
-    fprintf(d->out, "%s[%zu, %u]", any ? ", " : "", i, (unsigned)of);
-    any = true;
-  }
-  fputs("],\n", d->out);
+  fputs("},\n", d->out);
+  dyd_json_aliases(d->out, d->pd, d->count);
   return status;
-}
-
-static dyd_status put_bound(FILE *out, const char *name, const dyd_dyadic *value) {
-  char *exact = dyd_dyadic_get_str(value);
-  if (!exact) return DYD_E_NOMEM;
-  fprintf(out, "\"%s\": {\"exact\": \"%s\", \"decimal\": ", name, exact);
-  dyd_decimal_json(out, dyd_dyadic_get_d(value, DYD_UP), DYD_UP);
-  fputs("}", out);
-  free(exact);
-  return DYD_OK;
 }
 
 static dyd_status write_bounds(const dyd_diagram *d) {
   fputs("\"bounds\": {", d->out);
-  dyd_status status = put_bound(d->out, "undetermined_area", &d->bounds.area);
+  dyd_status status = dyd_json_bound(d->out, "undetermined_area", &d->bounds.area);
   fputs(", ", d->out);
   if (!d->bounds.finite)
     fputs("\"distance_to_true_diagram\": null", d->out);
   else if (status >= 0)
-    status = put_bound(d->out, "distance_to_true_diagram", &d->bounds.hausdorff);
+    status = dyd_json_bound(d->out, "distance_to_true_diagram", &d->bounds.hausdorff);
   fputs("}\n}\n", d->out);
   return status;
 }
