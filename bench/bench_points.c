@@ -131,7 +131,7 @@ static void row_growth(const bench_options *o) {
     double each = bench_series_median(&ours).seconds / (double)n;
     least = least == 0 || each < least ? each : least;
     greatest = each > greatest ? each : greatest;
-    snprintf(remark, sizeof remark, "of the time a point, from 10^4 on");
+    snprintf(remark, sizeof remark, "of the time a point from 10^4 on");
     bench_report(o, &(bench_row){.name = "growth",
                                  .n = n,
                                  .ours = &ours,
