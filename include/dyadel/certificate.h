@@ -38,11 +38,11 @@
  * points are, the segment from point i to point j is a strictly Delaunay edge.
  *
  * [CERT-2] The faces of the graph of legal pairs, drawn with the places as points; a bridge is an edge between two
- * places with a centre (x,y) nearer to both than to all other places, that joins two
- * sites not connected by legal pairs and other bridges. Legal pairs and bridges must connect all sites
- * (else the faces are not known, and C = T = 0); then each face is one closed walk. T is the number of bounded faces
- * with three legal edges: triangles for every choice, without a further site. A pair that is possible has both sites
- * on one of the other faces, or is a side of a triangle.
+ * places with a centre (x,y) nearer to both than to all other places, that joins two sites not connected by legal pairs
+ * and other bridges. Legal pairs and bridges must connect all sites, joined ones having different places (else the
+ * faces are not known, and C = T = 0); then each face is one closed walk. T is the number of bounded faces with three
+ * legal edges: triangles for every choice, without a further site. A pair that is possible has both sites on one of the
+ * other faces, or is a side of a triangle.
  *
  * [CERT-3] Corners cut the walk of the unbounded face into parts; two parts with a bridge in common are of one group. A
  * corner occurs once in the walk, is a strict corner of the hull of the places, and surely beyond, in its direction,

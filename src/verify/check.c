@@ -176,21 +176,11 @@ dyd_status dyd_cert_check_places(dyd_cert_check *c) {
   return status;
 }
 
-static dyd_status check_distinct(dyd_cert_check *c, const dyd_cert_edges *edges) {
-  for (size_t e = 0; e < edges->count; e++)
-    if (dyd_cert_compare_places(&c->sites, edges->item[e].i, edges->item[e].j) == 0)
-      return dyd_cert_reject(&c->in, "sites %u and %u are joined but have one place", (unsigned)edges->item[e].i,
-                             (unsigned)edges->item[e].j);
-  return DYD_OK;
-}
-
 dyd_status dyd_cert_check_bridges(dyd_cert_check *c) {
   dyd_status status = read_edges(c, &c->bridges, "bridges", true);
   for (size_t e = 0; e < c->bridges.count && status >= 0; e++)
     if (dyd_cert_edges_have(&c->legal, c->bridges.item[e].i, c->bridges.item[e].j))
       status = dyd_cert_reject(&c->in, "a bridge is a legal pair");
-  if (status >= 0) status = check_distinct(c, &c->legal);
-  if (status >= 0) status = check_distinct(c, &c->bridges);
   return status;
 }
 

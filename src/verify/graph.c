@@ -86,6 +86,15 @@ static uint32_t find_root(uint32_t *parent, uint32_t v) {
   return v;
 }
 
+/* An edge between two sites with one place has no direction: then the faces are not known. */
+static bool have_directions(const dyd_cert_graph *g) {
+  for (size_t e = 0; e < g->count; e++) {
+    dyd_cert_edge edge = dyd_cert_edge_of(g, (uint32_t)(2 * e));
+    if (dyd_cert_compare_places(g->sites, edge.i, edge.j) == 0) return false;
+  }
+  return true;
+}
+
 static dyd_status find_connected(dyd_cert_graph *g) {
   size_t n = g->sites->count, parts = 0;
   uint32_t *parent = dyd_alloc(n, sizeof *parent);
@@ -101,7 +110,7 @@ static dyd_status find_connected(dyd_cert_graph *g) {
     parts -= a != b;
     parent[a] = b;
   }
-  g->connected = parts <= 1;
+  g->connected = parts <= 1 && have_directions(g);
   free(parent);
   return DYD_OK;
 }

@@ -28,7 +28,7 @@ typedef struct dyd_cert_graph {
   size_t *start;                         /* of each site's half-edges in around[] */
   uint32_t *around;                      /* half-edges by origin, counter-clockwise */
   uint32_t *position;                    /* half-edge -> its place in around[] */
-  bool connected;                        /* all sites but aliases are */
+  bool connected;                        /* all sites but aliases are, and joined sites have different places */
   bool redundant;                        /* a bridge joins what is joined already: it could cut a face in two */
 } dyd_cert_graph;
 

@@ -177,6 +177,23 @@ static void bridge_is_no_border(void **state) {
   orc_pool_clear(&pool);
 }
 
+/* Two joined sites whose lower left corner, a fraction, is the same: the edge has no direction, so no face is known. */
+static void joined_in_one_place(void **state) {
+  (void)state;
+  orc_case c;
+  dyd_certificate_report r;
+  orc_case_init(&c);
+  orc_case_add(&c, 1, 1, 0, 3, 3);
+  orc_case_add(&c, 1, 1, 0, 6, 3);
+  char *text = certificate_of_case(&c, NULL);
+  assert_int_equal(certificate_check(&r, text, strlen(text), NULL), DYD_OK);
+  assert_int_equal(r.legal, 1);
+  assert_false(r.connected);
+  assert_int_equal(r.unproved, 0);
+  free(text);
+  orc_case_clear(&c);
+}
+
 /* Both diagonals of a quadrangle are open. A bridge along one, true for the places, would hide the other. */
 static void bridge_across_a_face(void **state) {
   (void)state;
@@ -235,6 +252,7 @@ int main(void) {
                                      cmocka_unit_test(full_disk),
                                      cmocka_unit_test(bridge_is_no_border),
                                      cmocka_unit_test(bridge_across_a_face),
+                                     cmocka_unit_test(joined_in_one_place),
                                      cmocka_unit_test(rubbish)};
   return cmocka_run_group_tests_name("certificates of special results", tests, NULL, NULL);
 }
