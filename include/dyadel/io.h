@@ -51,12 +51,14 @@ typedef struct dyd_voronoi_options {
 DYD_API dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_options *o, dyd_format format,
                                      dyd_error *err);
 
-/* The partial bisector of the points in a and b (numbered 0, 1): the arcs of both curves with exact ends. csv, json or
- * svg (else DYD_E_ARG). outcome: how narrowing them ended. */
+/* The partial bisector of the points in a and b (numbered 0, 1): the arcs of both curves with exact ends. csv, json,
+ * svg, pdf or png (else DYD_E_ARG). outcome: how narrowing them ended. DYD_E_RANGE when doubles cannot hold the
+ * picture. */
 DYD_API dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_rect *b, dyd_outcome outcome,
                                       dyd_format format, dyd_error *err);
 /* The partial disc of r[0], r[1], r[2]: orientation, the six critical circles exactly and enclosed, the box of the
- * partial centre, and Con of r[3 .. n-1]. csv, json or svg (else DYD_E_ARG, as for n < 3). */
+ * partial centre, and Con of r[3 .. n-1]. csv, json, svg, pdf or png (else DYD_E_ARG, as for n < 3).
+ * DYD_E_RANGE when doubles cannot hold the picture. */
 DYD_API dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome, dyd_format format,
                                   dyd_error *err);
 

@@ -58,12 +58,12 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                   "The six critical circles of the first three points, exactly, the box of all centres\n"
                   "of circles through them, and for each other point whether it is surely inside or\n"
                   "outside of all these circles. Points are refined until that is known.",
-                  FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | FORMAT(DYD_FORMAT_SVG), cli_disc},
+                  FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | PICTURES, cli_disc},
     [CLI_BISECTOR] = {"bisector", "FILE", "the partial bisector of the first two points",
                       "The two curves that bound what is surely nearer to the one point, and to the other:\n"
                       "each a chain of at most seven arcs of lines and parabolas, with exact ends. The\n"
                       "points are refined until their rectangles are disjoint.",
-                      FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | FORMAT(DYD_FORMAT_SVG), cli_bisector},
+                      FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | PICTURES, cli_bisector},
     [CLI_NEAREST] = {"nearest", "FILE X Y", "which points are surely, which are possibly nearest to a place",
                      "The points that are nearest to the place (X,Y), coordinates of any form: sure when\n"
                      "exactly one is, whatever the points in the rectangles are; possible otherwise. The\n"

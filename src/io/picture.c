@@ -110,6 +110,11 @@ void dyd_view_page(double *width, double *height, double *legend, const dyd_view
   *legend = v->height + 2 * EDGE + 4;
 }
 
+void dyd_view_frame_path(cairo_t *cr, const dyd_view *v) {
+  cairo_new_path(cr);
+  cairo_rectangle(cr, EDGE, EDGE, v->width, v->height);
+}
+
 /* ---- drawing ---- */
 
 void dyd_picture_begin(cairo_t *cr) {
@@ -146,6 +151,36 @@ void dyd_picture_site(cairo_t *cr, const dyd_view *v, const double box[4], bool 
   cairo_fill_preserve(cr);
   dyd_picture_pen(cr, 0x8a5a00, fmax(v->line * 0.7, 0.5), 0, 0);
   cairo_stroke(cr);
+}
+
+void dyd_picture_dot(cairo_t *cr, double x, double y, double radius, unsigned fill, unsigned edge) {
+  cairo_new_path(cr);
+  cairo_arc(cr, x, y, radius, 0, 2 * acos(-1.0));
+  dyd_picture_colour(cr, fill);
+  cairo_fill_preserve(cr);
+  dyd_picture_pen(cr, edge, 1.2, 0, 0);
+  cairo_stroke(cr);
+  dyd_picture_colour(cr, 0);
+}
+
+void dyd_picture_numbered(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb, size_t number) {
+  char text[24];
+  double w = fmax((box[1] - box[0]) * v->scale, 7), h = fmax((box[3] - box[2]) * v->scale, 7);
+  double x = dyd_view_x(v, box[0] / 2 + box[1] / 2), y = dyd_view_y(v, box[2] / 2 + box[3] / 2);
+  cairo_new_path(cr);
+  cairo_rectangle(cr, x - w / 2, y - h / 2, w, h);
+  dyd_picture_colour(cr, rgb);
+  cairo_fill_preserve(cr);
+  dyd_picture_pen(cr, 0x222222, 1.5, 0, 0);
+  cairo_stroke(cr);
+  snprintf(text, sizeof text, "%zu", number);
+  cairo_move_to(cr, x + w / 2 + 5, y - h / 2 - 4);
+  cairo_set_font_size(cr, 20);
+  cairo_text_path(cr, text);
+  dyd_picture_pen(cr, 0xffffff, 4, 0, 0);
+  cairo_stroke_preserve(cr);
+  dyd_picture_colour(cr, 0);
+  cairo_fill(cr);
 }
 
 void dyd_picture_entry(cairo_t *cr, double *x, double y, unsigned rgb, bool fill, double on, double off,

@@ -32,6 +32,11 @@ double dyd_view_y(const dyd_view *v, double y);
 /* The page around the view: size, and the baseline of the legend. */
 void dyd_view_page(double *width, double *height, double *legend, const dyd_view *v);
 
+void dyd_view_frame_path(cairo_t *cr, const dyd_view *v);
+
+/* What is undetermined, in all pictures. */
+#define DYD_PICTURE_BAND 0xe69f00
+
 /* Paints the page white, sets font and line style. */
 void dyd_picture_begin(cairo_t *cr);
 void dyd_picture_colour(cairo_t *cr, unsigned rgb);
@@ -39,6 +44,10 @@ void dyd_picture_colour(cairo_t *cr, unsigned rgb);
 void dyd_picture_pen(cairo_t *cr, unsigned rgb, double width, double on, double off);
 /* A rectangle where it can be seen, else a dot. */
 void dyd_picture_site(cairo_t *cr, const dyd_view *v, const double box[4], bool fixed_point);
+/* A rectangle, however small it is, filled with rgb, and its number beside it. */
+void dyd_picture_numbered(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb, size_t number);
+/* Leaves the pen black, for text. */
+void dyd_picture_dot(cairo_t *cr, double x, double y, double radius, unsigned fill, unsigned edge);
 /* One entry of a legend: a line (fill = 0) or a patch; moves *x behind it. */
 void dyd_picture_entry(cairo_t *cr, double *x, double y, unsigned rgb, bool fill, double on, double off,
                        const char *text);

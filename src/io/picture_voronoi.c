@@ -10,7 +10,6 @@
 
 /* Blues that neighbours rarely share; light, so that grey copies show the darker band between them. */
 static const unsigned tints[4] = {0xdcebf5, 0xe8f2e4, 0xeee9f6, 0xe3f3f3};
-#define BAND 0xe69f00
 
 typedef struct drawing {
   dyd_diagram *d;
@@ -97,7 +96,7 @@ static void draw_legend(const drawing *g) {
   double width, height, y, x = 30;
   dyd_view_page(&width, &height, &y, &g->view);
   dyd_picture_entry(g->cr, &x, y, tints[0], true, 0, 0, "surely nearest to one point");
-  dyd_picture_entry(g->cr, &x, y, BAND, true, 0, 0, "undetermined");
+  dyd_picture_entry(g->cr, &x, y, DYD_PICTURE_BAND, true, 0, 0, "undetermined");
   dyd_picture_entry(g->cr, &x, y, 0xd55e00, false, 4, 2.5, "undecided vertices");
   dyd_picture_scale(g->cr, &g->view, y);
   bound_text(bounds, sizeof bounds, &g->d->bounds);
@@ -113,7 +112,7 @@ static void draw(cairo_t *cr, void *context) {
   cairo_save(cr);
   box_path(cr, &g->view, g->window);
   cairo_clip(cr);
-  dyd_picture_colour(cr, BAND);
+  dyd_picture_colour(cr, DYD_PICTURE_BAND);
   cairo_paint(cr);
   g->status = dyd_diagram_visit(g->d, draw_cell, g);
   if (g->status >= 0) g->status = draw_regions(g);

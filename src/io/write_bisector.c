@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The partial bisector of two points: csv (a line for each arc), json and svg. */
+/* The partial bisector of two points: csv (a line for each arc), json, pictures. */
 #include "base/error.h"
 #include "io/arc_json.h"
 #include "io/decimal.h"
 #include "io/exact_text.h"
+#include "io/picture.h"
 #include "io/pieces.h"
-#include "io/svg_pieces.h"
 #include <dyadel/io.h>
 #include <stdlib.h>
 
@@ -104,23 +104,23 @@ static void swap_names(dyd_boundary *curve) {
 dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_rect *b, dyd_outcome outcome, dyd_format format,
                               dyd_error *err) {
   const dyd_rect *const r[2] = {a, b};
+  dyd_status pictured = DYD_OK; /* tells err itself */
   dyd_boundary curve[2] = {{0}, {0}};
-  if (format != DYD_FORMAT_CSV && format != DYD_FORMAT_JSON && format != DYD_FORMAT_SVG)
-    return dyd_fail(err, DYD_E_ARG, "bisectors are written as csv, json or svg");
+  if (format != DYD_FORMAT_CSV && format != DYD_FORMAT_JSON && !dyd_format_is_picture(format))
+    return dyd_fail(err, DYD_E_ARG, "bisectors are written as csv, json, svg, pdf or png");
   dyd_status status = dyd_bisector(&curve[0], a, b);
   if (status >= 0) status = dyd_bisector(&curve[1], b, a);
   if (status >= 0) {
     swap_names(&curve[1]);
     if (format == DYD_FORMAT_JSON)
       status = write_json(out, r, curve, outcome);
-    else if (format == DYD_FORMAT_SVG)
-      status = dyd_bisector_svg(out, r, curve);
+    else if (format != DYD_FORMAT_CSV)
+      pictured = dyd_picture_bisector(out, format, r, curve, err);
     else
       write_csv(out, curve);
   }
   for (int k = 2; k-- > 0;) dyd_boundary_clear(&curve[k]);
-  if (status == DYD_E_RANGE)
-    return dyd_fail(err, status, "the points are too far apart or too close for this format; use csv");
   if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
+  if (pictured < 0) return pictured;
   return ferror(out) ? dyd_fail(err, DYD_E_IO, "%s", dyd_status_text(DYD_E_IO)) : DYD_OK;
 }

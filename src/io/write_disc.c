@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The partial disc of three points, and where the others are: csv, json and svg. */
+/* The partial disc of three points, and where the others are: csv, json, pictures. */
 #include "base/error.h"
 #include "io/exact_text.h"
+#include "io/picture.h"
 #include "io/pieces.h"
-#include "io/svg_pieces.h"
 #include "voronoi/surd_point.h"
 #include <dyadel/arc.h>
 #include <dyadel/io.h>
@@ -175,21 +175,20 @@ static dyd_status write_json(FILE *out, const dyd_partial_disc *d, const dyd_rec
 dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome, dyd_format format,
                           dyd_error *err) {
   if (n < 3) return dyd_fail(err, DYD_E_ARG, "a disc needs three points");
-  if (format != DYD_FORMAT_CSV && format != DYD_FORMAT_JSON && format != DYD_FORMAT_SVG)
-    return dyd_fail(err, DYD_E_ARG, "discs are written as csv, json or svg");
-  dyd_status status = DYD_OK;
+  if (format != DYD_FORMAT_CSV && format != DYD_FORMAT_JSON && !dyd_format_is_picture(format))
+    return dyd_fail(err, DYD_E_ARG, "discs are written as csv, json, svg, pdf or png");
+  dyd_status status = DYD_OK, pictured = DYD_OK; /* the latter tells err itself */
   dyd_partial_disc d;
   dyd_partial_disc_init(&d);
   dyd_partial_disc_set(&d, r[0], r[1], r[2]);
   if (format == DYD_FORMAT_JSON)
     status = write_json(out, &d, r, n, outcome);
-  else if (format == DYD_FORMAT_SVG)
-    status = dyd_disc_svg(out, &d, r, n);
+  else if (format != DYD_FORMAT_CSV)
+    pictured = dyd_picture_disc(out, format, &d, r, n, err);
   else
     write_csv(out, &d, r, n);
   dyd_partial_disc_clear(&d);
-  if (status == DYD_E_RANGE)
-    return dyd_fail(err, status, "the points are too far apart or too close for this format; use csv");
   if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
+  if (pictured < 0) return pictured;
   return ferror(out) ? dyd_fail(err, DYD_E_IO, "%s", dyd_status_text(DYD_E_IO)) : DYD_OK;
 }

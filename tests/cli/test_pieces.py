@@ -7,6 +7,9 @@ Usage: test_pieces.py COMMAND DATA
 import csv
 import json
 import math
+import os
+import re
+import tempfile
 import xml.etree.ElementTree
 from fractions import Fraction
 
@@ -135,22 +138,74 @@ def test_disc_without_orientation():
     assert data['circles'] == [] and data['partial_centre'] is None and data['outcome'] == 'fixpoint'
 
 
-def shapes(text, tag):
-    return [e for e in xml.etree.ElementTree.fromstring(text).iter() if e.tag.endswith('}' + tag)]
+CURVE = (0, 114, 178)  # what lines, parabolas, circles and dots are drawn with
 
 
-def test_svg():
-    paths = shapes(run('bisector', '--format', 'svg', '-', stdin=FIGURE_4).out, 'path')
-    kinds = ''.join(p.get('class')[0] for p in paths)
-    assert kinds == ''.join(r['kind'][0] for r in rows(run('bisector', '-', stdin=FIGURE_4).out)), kinds
-    assert all(('Q' in p.get('d')) == (p.get('class') == 'parabola') for p in paths)
-    assert not shapes(run('bisector', '--format', 'svg', '-', stdin='0 0\n0 0\n').out, 'path')
-    disc = run('disc', '--format', 'svg', '-', stdin='[0,1] 0\n4 [0,1]\n[0,1] 4\n2 2\n20 20\n').out
-    strokes = [c.get('stroke-dasharray') for c in shapes(disc, 'circle') if c.get('stroke')]
-    assert len(strokes) == 6 and strokes.count(None) == 3, strokes
-    assert [t.text for t in shapes(disc, 'text')][:5] == ['0', '1', '2', '3', '4']
+def style(element):
+    """Attributes, whether they stand alone or in a style, as versions of cairo differ."""
+    pairs = (p.split(':', 1) for p in element.get('style', '').split(';') if ':' in p)
+    return {**element.attrib, **{k.strip(): v for k, v in pairs}}
+
+
+def strokes(text):
+    """The curves of a picture, legend included, as (dashed?, path)."""
+    assert 'nan' not in text and 'inf' not in text
+    found = []
+    for e in xml.etree.ElementTree.fromstring(text).iter():
+        look = style(e)
+        colour = re.findall(r'[0-9.]+', look.get('stroke', ''))
+        if e.tag.endswith('}path') and tuple(round(float(c) * 2.55) for c in colour) == CURVE:
+            found.append((look.get('stroke-dasharray', 'none') != 'none', e.get('d')))
+    return found
+
+
+def picture(command, text):
+    result = run(command, '--quiet', '--format', 'svg', '-', stdin=text)
+    assert result.code in (0, 3), result
+    return strokes(result.out)
+
+
+def round_dots(curves):
+    return [d for dashed, d in curves if not dashed and 'C' in d]
+
+
+def test_svg_of_bisector():
+    table = rows(run('bisector', '-', stdin=FIGURE_4).out)
+    curves = picture('bisector', FIGURE_4)
+    dashed = [d for dash, d in curves if dash]
+    full = [d for dash, d in curves if not dash and 'C' not in d]
+    parabolas = [r for r in table if r['kind'] == 'parabola']
+    assert sum('C' in d for d in dashed) == len(parabolas) and len(dashed) == len(parabolas) + 1, dashed
+    assert len(full) == len(table) - len(parabolas) + 1, full
+    dots = sum(r['begin'] != 'infinite' for r in table)
+    assert len(round_dots(curves)) == dots + 2, curves
+    assert len(picture('bisector', '0 0\n0 0\n')) == 2  # the legend
     far = run('bisector', '--format', 'svg', '-', stdin='0 0\n1*2^100000 0\n')
     expect(far, 1, r'\A\Z', 'too far apart')
+
+
+def test_svg_of_disc():
+    text = '[0,1] 0\n4 [0,1]\n[0,1] 4\n2 2\n20 20\n'
+    curves = picture('disc', text)
+    assert sum(dash and 'C' in d for dash, d in curves) == 3, curves
+    assert len(round_dots(curves)) == 3 + 6 + 2, curves
+    assert not round_dots(picture('disc', '0 0\n1 1\n2 2\n3 0\n'))
+    flat = picture('disc', '0 0\n1 0\n2 1*2^-20\n3 0\n')  # large circles: the parts in the picture
+    assert sum(dash and d.count('L') > 9 for dash, d in flat) == 3, flat
+    for flatter in ('1*2^-200', '1*2^-100000'):
+        result = run('disc', '--format', 'svg', '-', stdin=f'0 0\n1 0\n2 {flatter}\n')
+        expect(result, 1, r'\A\Z', 'too large for a picture')
+
+
+def test_pdf_and_png():
+    for command in ('bisector', 'disc'):
+        for kind, magic in (('pdf', b'%PDF'), ('png', b'\x89PNG')):
+            with tempfile.TemporaryDirectory() as folder:
+                name = os.path.join(folder, 'x.' + kind)
+                result = run(command, '-', '--quiet', '--format', kind, '-o', name, stdin='[0,1] 0\n4 1\n1 4\n')
+                assert result.code in (0, 3), result
+                with open(name, 'rb') as f:
+                    assert f.read(4) == magic
 
 
 main(globals())
