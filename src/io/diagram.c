@@ -92,7 +92,9 @@ dyd_status dyd_diagram_visit(dyd_diagram *d, dyd_cell_visit visit, void *context
 static dyd_status find_vertex(double out[4], const dyd_diagram *d, const dyd_triangle *t, int64_t bits) {
   uint32_t v[3] = {d->pd->vertex[t->v[0]], d->pd->vertex[t->v[1]], d->pd->vertex[t->v[2]]};
   dyd_bbox b;
-  if (dyd_filter_vertex(&b, d->pd, v)) {
+  double most = ldexp(1, d->bits < -1000 ? 1000 : d->bits > 1000 ? -1000 : (int)-d->bits);
+  /* Wide boxes in doubles say much less than the exact ones. */
+  if (dyd_filter_vertex(&b, d->pd, v) && b.e[1] - b.e[0] < most && b.e[3] - b.e[2] < most) {
     for (int k = 0; k < 4; k++) out[k] = b.e[k];
     return DYD_OK;
   }
