@@ -4,9 +4,9 @@
 
 #include "io/decimal.h"
 
-static const char *const corner_names[] = {"x0y0", "x1y0", "x0y1", "x1y1", "x0", "x1", "y0", "y1"};
-static const char *const arc_names[] = {"line", "parabola", "window"};
-static const char *const end_names[] = {"infinite", "sites", "axis", "feature", "window"};
+const char *const dyd_feature_names[8] = {"x0y0", "x1y0", "x0y1", "x1y1", "x0", "x1", "y0", "y1"};
+const char *const dyd_arc_names[3] = {"line", "parabola", "window"};
+const char *const dyd_end_names[5] = {"infinite", "sites", "axis", "feature", "window"};
 
 static void put_interval(FILE *out, const char *name, const dyd_interval *a) {
   double lo, hi;
@@ -36,7 +36,7 @@ dyd_status dyd_surd_point_json(FILE *out, const dyd_surd_point *p) {
 }
 
 static dyd_status put_end(FILE *out, const char *name, const dyd_arc_end *end) {
-  fprintf(out, ",\n  \"%s\": {\"kind\": \"%s\"", name, end_names[end->kind]);
+  fprintf(out, ",\n  \"%s\": {\"kind\": \"%s\"", name, dyd_end_names[end->kind]);
   dyd_status status = DYD_OK;
   if (end->kind == DYD_END_SITES) fprintf(out, ", \"site\": %u", (unsigned)end->site);
   if (end->kind != DYD_END_INFINITE) {
@@ -48,10 +48,10 @@ static dyd_status put_end(FILE *out, const char *name, const dyd_arc_end *end) {
 }
 
 static dyd_status put_arc(FILE *out, const dyd_arc *arc) {
-  fprintf(out, "\n {\"kind\": \"%s\"", arc_names[arc->kind]);
+  fprintf(out, "\n {\"kind\": \"%s\"", dyd_arc_names[arc->kind]);
   if (arc->kind != DYD_ARC_WINDOW)
     fprintf(out, ", \"far\": %u, \"corner\": \"%s\", \"near\": %u, \"feature\": \"%s\"", (unsigned)arc->far_site,
-            corner_names[arc->corner], (unsigned)arc->near_site, corner_names[arc->feature]);
+            dyd_feature_names[arc->corner], (unsigned)arc->near_site, dyd_feature_names[arc->feature]);
   dyd_status status = put_end(out, "begin", &arc->begin);
   if (status >= 0) status = put_end(out, "end", &arc->end);
   fputs("}", out);

@@ -4,7 +4,6 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
-#include "metric/bounds.h"
 #include "voronoi/filter_vertex.h"
 #include <errno.h>
 #include <math.h>
@@ -47,21 +46,6 @@ static void find_box(dyd_cell_row *row, const dyd_shape *s, const double window[
   b[3] = fmin(b[3], window[3]);
 }
 
-/* Bounds of everything, after all cells have been added. */
-static dyd_status find_bounds(dyd_diagram *d, const dyd_voronoi_sums *sums) {
-  dyd_pair_list pairs = {0};
-  mpfr_t x;
-  mpfr_init2(x, DYD_MEASURE_PREC);
-  dyd_status status = dyd_delaunay_pairs(&pairs, d->pd);
-  dyd_voronoi_area(x, sums);
-  if (status >= 0) status = dyd_bound_to_dyadic(&d->bounds.area, x);
-  if (status >= 0) status = dyd_voronoi_hausdorff(x, &d->bounds.finite, sums, &pairs);
-  if (status >= 0) status = dyd_bound_to_dyadic(&d->bounds.hausdorff, x);
-  mpfr_clear(x);
-  dyd_pair_list_clear(&pairs);
-  return status;
-}
-
 dyd_status dyd_diagram_visit(dyd_diagram *d, dyd_cell_visit visit, void *context) {
   dyd_voronoi_sums sums;
   dyd_shape shape = {0};
@@ -81,7 +65,7 @@ dyd_status dyd_diagram_visit(dyd_diagram *d, dyd_cell_visit visit, void *context
     find_box(&row, &shape, window);
     if (visit) status = visit(context, (uint32_t)i, &shape, &row);
   }
-  if (status >= 0) status = find_bounds(d, &sums);
+  if (status >= 0) status = dyd_voronoi_sums_bounds(&d->bounds, &sums);
   dyd_voronoi_sums_clear(&sums);
   dyd_shape_clear(&shape);
   return status;

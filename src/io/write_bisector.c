@@ -9,16 +9,12 @@
 #include <dyadel/io.h>
 #include <stdlib.h>
 
-static const char *const corner_names[] = {"x0y0", "x1y0", "x0y1", "x1y1", "x0", "x1", "y0", "y1"};
-static const char *const arc_names[] = {"line", "parabola", "window"};
-static const char *const end_names[] = {"infinite", "sites", "axis", "feature", "window"};
-
 /* ---- csv ---- */
 
 static void put_end(FILE *out, const dyd_arc_end *end) {
   const dyd_surd_point *p = &end->at;
   double lo, hi;
-  fprintf(out, ",%s,", end_names[end->kind]);
+  fprintf(out, ",%s,", dyd_end_names[end->kind]);
   if (end->kind == DYD_END_INFINITE) {
     fputs(",,,,,", out);
     return;
@@ -37,8 +33,8 @@ static void put_curve(FILE *out, const dyd_boundary *b) {
   for (size_t m = 0; m < b->count; m++)
     for (size_t k = 0; k < b->chain[m].count; k++) {
       const dyd_arc *a = &b->chain[m].arc[k];
-      fprintf(out, "%u,%u,%s,%s,%s", (unsigned)a->far_site, (unsigned)a->near_site, arc_names[a->kind],
-              corner_names[a->corner], corner_names[a->feature]);
+      fprintf(out, "%u,%u,%s,%s,%s", (unsigned)a->far_site, (unsigned)a->near_site, dyd_arc_names[a->kind],
+              dyd_feature_names[a->corner], dyd_feature_names[a->feature]);
       put_end(out, &a->begin);
       put_end(out, &a->end);
       fputs("\n", out);

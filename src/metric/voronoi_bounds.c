@@ -208,7 +208,7 @@ void dyd_voronoi_bounds_clear(dyd_voronoi_bounds *b) {
   dyd_dyadic_clear(&b->area);
 }
 
-static dyd_status find_bounds(dyd_voronoi_bounds *out, const dyd_voronoi_sums *s) {
+dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, const dyd_voronoi_sums *s) {
   dyd_pair_list pairs = {0};
   mpfr_t area, hausdorff;
   mpfr_inits2(DYD_MEASURE_PREC, area, hausdorff, (mpfr_ptr)0);
@@ -234,7 +234,7 @@ dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, c
   dyd_voronoi_bounds_init(&b);
   status = dyd_voronoi_sums_init(&s, pd, window, bits);
   if (status == DYD_OK) status = dyd_voronoi_sums_all(&s, cancel);
-  if (status == DYD_OK) status = find_bounds(&b, &s);
+  if (status == DYD_OK) status = dyd_voronoi_sums_bounds(&b, &s);
   if (status == DYD_OK) {
     dyd_dyadic_swap(&out->area, &b.area);
     dyd_dyadic_swap(&out->hausdorff, &b.hausdorff);

@@ -30,6 +30,9 @@ void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s);
 /* *finite as in dyd_voronoi_bounds. */
 dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, const dyd_pair_list *pairs);
 
+/* Both as dyadics; *out is initialised by the caller. */
+dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, const dyd_voronoi_sums *s);
+
 /* What one possible pair asks of the Hausdorff bound; *finite = false when the rectangles meet. */
 dyd_status dyd_voronoi_pair_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, dyd_measure *m,
                                       const dyd_pair *pair);
