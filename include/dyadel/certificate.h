@@ -22,11 +22,23 @@
  *     legal L
  *       i j x y             L lines: the pair is legal, (x,y) is the witness
  *     places P
- *       i x y               P lines: the place of a site, a point of its rectangle; of other sites: the lower left
- * corner bridges B i j x y             B lines: see [CERT-2] corners C i x y               C lines: site i is a corner
- * of the hull for every choice, outward (x,y) pairs o i j               indeterminate t i j               tie l i j
- * legal without a witness n i j x y k x y k ... x y k x y     illegal, proved by a chain: a direction, then blocker and
- * point by turns, a blocker, a direction triangles T unproved U area A | none         upper bounds, see metric.h
+ *       i x y               P lines: the place of a site, a point of its
+ *                           rectangle; of other sites: the lower left corner
+ *     bridges B
+ *       i j x y             B lines: see [CERT-2]
+ *     corners C
+ *       i x y               C lines: site i is a corner of the hull for every
+ *                           choice, outward direction (x,y)
+ *     pairs
+ *       o i j               indeterminate
+ *       t i j               tie
+ *       l i j               legal without a witness
+ *       n i j x y k x y k ... x y k x y
+ *                           illegal, proved by a chain: a direction, then
+ *                           blocker and point by turns, a blocker, a direction
+ *     triangles T
+ *     unproved U
+ *     area A | none         upper bounds, see metric.h
  *     hausdorff H | none
  *     end
  *
