@@ -29,6 +29,10 @@ static void shift_right(mpz_ptr q, mpz_srcptr n, int64_t shift, dyd_round dir) {
   }
 }
 
+int64_t dyd_q_log2_above(mpq_srcptr q) {
+  return dyd_bits(mpq_numref(q)) - dyd_bits(mpq_denref(q)) + 1;
+}
+
 static void divide(mpz_ptr q, mpz_srcptr n, mpz_srcptr den, dyd_round dir) {
   if (dir == DYD_DOWN) {
     mpz_fdiv_q(q, n, den);

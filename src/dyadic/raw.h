@@ -28,4 +28,8 @@ double dyd_raw_get_d(mpz_srcptr man, int64_t exp, dyd_round dir);
 /* The same for man * 2^exp / den, den > 0. */
 double dyd_raw_quotient_get_d(mpz_srcptr man, int64_t exp, mpz_srcptr den, dyd_round dir);
 
+/* The least e with 2^e >= |q|, or one more; q is not 0. (With a and b bits in numerator and denominator, |q| lies
+ * strictly between 2^(a-b-1) and 2^(a-b+1).) */
+int64_t dyd_q_log2_above(mpq_srcptr q);
+
 #endif

@@ -30,7 +30,7 @@ static dyd_status find_sums(dyd_engine *e, const dyd_rect *window, int64_t bits)
   e->sums = malloc(sizeof *e->sums);
   if (!e->sums) return DYD_E_NOMEM;
   dyd_status status = dyd_voronoi_sums_init(e->sums, e->pd, window, bits);
-  if (status == DYD_OK) status = dyd_voronoi_sums_all(e->sums, &e->stop);
+  if (status == DYD_OK) status = dyd_voronoi_sums_all(e->sums, NULL, NULL, &e->stop);
   return status;
 }
 

@@ -46,28 +46,45 @@ static void find_box(dyd_cell_row *row, const dyd_shape *s, const double window[
   b[3] = fmin(b[3], window[3]);
 }
 
+typedef struct visitor {
+  dyd_cell_visit visit;
+  void *context;
+  double window[4];
+} visitor;
+
+static dyd_status visit_cell(void *context, uint32_t i, const dyd_shape *shape, const double area[2]) {
+  const visitor *v = context;
+  dyd_cell_row row = {.area = {area[0], area[1]}};
+  find_box(&row, shape, v->window);
+  return v->visit(v->context, i, shape, &row);
+}
+
 dyd_status dyd_diagram_visit(dyd_diagram *d, dyd_cell_visit visit, void *context) {
   dyd_voronoi_sums sums;
-  dyd_shape shape = {0};
-  dyd_window w;
-  double window[4];
-  dyd_interval_get_d(&window[0], &window[1], &d->window.x);
-  dyd_interval_get_d(&window[2], &window[3], &d->window.y);
-  dyd_status status = dyd_window_init(&w, &d->window);
-  if (status < 0) return status;
-  status = dyd_voronoi_sums_init(&sums, d->pd, &d->window, d->bits);
-  for (size_t i = 0; i < d->count && status >= 0; i++) {
-    dyd_cell_row row;
-    if (dyd_delaunay_alias(d->pd, (uint32_t)i) != i) continue;
-    status = dyd_shape_find(&shape, d->pd, (uint32_t)i, &w, d->bits);
-    if (status >= 0) status = dyd_voronoi_sums_add(row.area, &sums, (uint32_t)i, &shape);
-    if (status < 0) break;
-    find_box(&row, &shape, window);
-    if (visit) status = visit(context, (uint32_t)i, &shape, &row);
-  }
+  visitor v = {.visit = visit, .context = context};
+  dyd_interval_get_d(&v.window[0], &v.window[1], &d->window.x);
+  dyd_interval_get_d(&v.window[2], &v.window[3], &d->window.y);
+  dyd_status status = dyd_voronoi_sums_init(&sums, d->pd, &d->window, d->bits);
+  if (status >= 0) status = dyd_voronoi_sums_all(&sums, visit_cell, &v, NULL);
   if (status >= 0) status = dyd_voronoi_sums_bounds(&d->bounds, &sums);
   dyd_voronoi_sums_clear(&sums);
-  dyd_shape_clear(&shape);
+  return status;
+}
+
+dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, void *context) {
+  dyd_rect r;
+  dyd_status status = DYD_OK;
+  dyd_rect_init(&r);
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(d->pd) && status >= 0; f++) {
+    bool any;
+    double b[4];
+    status = dyd_voronoi_region(&r, &any, d->pd, f, &d->window);
+    if (status < 0) break;
+    dyd_interval_get_d(&b[0], &b[1], &r.x);
+    dyd_interval_get_d(&b[2], &b[3], &r.y);
+    status = visit(context, f, any ? b : NULL);
+  }
+  dyd_rect_clear(&r);
   return status;
 }
 

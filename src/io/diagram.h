@@ -31,8 +31,13 @@ typedef struct dyd_diagram {
 
 /* Called for every site that stands for itself, in order. */
 typedef dyd_status (*dyd_cell_visit)(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row);
-/* Makes the polygons of all cells once, shows them to `visit` (may be NULL), and finds the bounds. */
+/* Makes the polygons of all cells once, shows them to `visit`, and finds the bounds. */
 dyd_status dyd_diagram_visit(dyd_diagram *d, dyd_cell_visit visit, void *context);
+
+/* Called for every undecided face in order, with the box of its vertices in the window, rounded outward; NULL: there
+ * are none. */
+typedef dyd_status (*dyd_region_visit)(void *context, size_t face, const double box[4]);
+dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, void *context);
 
 /* The exact enclosure of vertex k as four texts: x lower, x upper, y lower, y upper; release each with free(). */
 dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k);

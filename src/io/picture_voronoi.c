@@ -48,26 +48,17 @@ static void box_path(cairo_t *cr, const dyd_view *v, const double b[4]) {
   cairo_rectangle(cr, dyd_view_x(v, b[0]), dyd_view_y(v, b[3]), (b[1] - b[0]) * v->scale, (b[3] - b[2]) * v->scale);
 }
 
-static dyd_status draw_regions(drawing *g) {
-  dyd_rect r;
-  dyd_status status = DYD_OK;
-  dyd_rect_init(&r);
-  for (size_t f = 0; f < dyd_delaunay_undecided_faces(g->d->pd) && status >= 0; f++) {
-    bool any;
-    double b[4];
-    status = dyd_voronoi_region(&r, &any, g->d->pd, f, &g->d->window);
-    if (status < 0 || !any) continue;
-    dyd_interval_get_d(&b[0], &b[1], &r.x);
-    dyd_interval_get_d(&b[2], &b[3], &r.y);
-    if ((b[1] - b[0] + b[3] - b[2]) * g->view.scale > 60 * g->view.dot) continue; /* would hide what it is about */
-    double pad = 2 * g->view.dot / g->view.scale;                                 /* so that it is seen however small */
-    b[0] -= pad, b[1] += pad, b[2] -= pad, b[3] += pad;
-    box_path(g->cr, &g->view, b);
-    dyd_picture_pen(g->cr, 0xd55e00, g->view.line, 4, 2.5);
-    cairo_stroke(g->cr);
-  }
-  dyd_rect_clear(&r);
-  return status;
+static dyd_status draw_region(void *context, size_t face, const double box[4]) {
+  const drawing *g = context;
+  (void)face;
+  if (!box || (box[1] - box[0] + box[3] - box[2]) * g->view.scale > 60 * g->view.dot)
+    return DYD_OK;                              /* a large one would hide what it is about */
+  double pad = 2 * g->view.dot / g->view.scale, /* so that it is seen however small */
+      show[4] = {box[0] - pad, box[1] + pad, box[2] - pad, box[3] + pad};
+  box_path(g->cr, &g->view, show);
+  dyd_picture_pen(g->cr, 0xd55e00, g->view.line, 4, 2.5);
+  cairo_stroke(g->cr);
+  return DYD_OK;
 }
 
 static void draw_vertices(const drawing *g) {
@@ -115,7 +106,7 @@ static void draw(cairo_t *cr, void *context) {
   dyd_picture_colour(cr, DYD_PICTURE_BAND);
   cairo_paint(cr);
   g->status = dyd_diagram_visit(g->d, draw_cell, g);
-  if (g->status >= 0) g->status = draw_regions(g);
+  if (g->status >= 0) g->status = dyd_diagram_regions(g->d, draw_region, g);
   draw_vertices(g);
   for (size_t i = 0; i < g->d->count; i++) {
     double b[4];

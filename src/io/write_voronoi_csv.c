@@ -89,23 +89,13 @@ static dyd_status write_vertices(const dyd_diagram *d) {
   return status;
 }
 
-static dyd_status write_regions(const dyd_diagram *d) {
-  dyd_status status = DYD_OK;
-  dyd_rect r;
-  dyd_rect_init(&r);
-  for (size_t f = 0; f < dyd_delaunay_undecided_faces(d->pd) && status >= 0; f++) {
-    bool any;
-    double b[4];
-    status = dyd_voronoi_region(&r, &any, d->pd, f, &d->window);
-    if (status < 0 || !any) continue;
-    dyd_interval_get_d(&b[0], &b[1], &r.x);
-    dyd_interval_get_d(&b[2], &b[3], &r.y);
-    fprintf(d->out, "region,%zu,,", f);
-    put_box(d->out, b);
-    fputs(",,\n", d->out);
-  }
-  dyd_rect_clear(&r);
-  return status;
+static dyd_status write_region(void *context, size_t face, const double box[4]) {
+  FILE *out = context;
+  if (!box) return DYD_OK;
+  fprintf(out, "region,%zu,,", face);
+  put_box(out, box);
+  fputs(",,\n", out);
+  return DYD_OK;
 }
 
 dyd_status dyd_write_voronoi_csv(dyd_diagram *d, dyd_error *err) {
@@ -116,7 +106,7 @@ dyd_status dyd_write_voronoi_csv(dyd_diagram *d, dyd_error *err) {
   if (status >= 0) {
     write_cells(d, rows);
     status = write_vertices(d);
-    if (status >= 0) status = write_regions(d);
+    if (status >= 0) status = dyd_diagram_regions(d, write_region, d->out);
   }
   free(rows);
   return status < 0 ? dyd_fail(err, status, "%s", dyd_status_text(status)) : DYD_OK;

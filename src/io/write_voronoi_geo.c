@@ -101,28 +101,17 @@ static void put_box(layer *l, const char *kind, const double b[4], const uint32_
     fprintf(out, "))\",%s,,,\n", kind);
 }
 
-static dyd_status put_regions(layer *l) {
-  dyd_status status = DYD_OK;
-  dyd_rect r;
-  dyd_rect_init(&r);
-  for (size_t f = 0; f < dyd_delaunay_undecided_faces(l->d->pd) && status >= 0; f++) {
-    bool any;
-    double b[4];
-    status = dyd_voronoi_region(&r, &any, l->d->pd, f, &l->d->window);
-    if (status < 0 || !any) continue;
-    dyd_interval_get_d(&b[0], &b[1], &r.x);
-    dyd_interval_get_d(&b[2], &b[3], &r.y);
-    put_box(l, "undecided region", b, NULL);
-  }
-  dyd_rect_clear(&r);
-  return status;
+static dyd_status put_region(void *context, size_t face, const double box[4]) {
+  (void)face;
+  if (box) put_box(context, "undecided region", box, NULL);
+  return DYD_OK;
 }
 
 static dyd_status put_all(layer *l, dyd_error *err) {
   dyd_status status = dyd_diagram_visit(l->d, put_cell, l);
   for (size_t k = 0; status >= 0 && k < l->d->triangles.count; k++)
     put_box(l, "vertex", l->d->vertex[k], l->d->triangles.item[k].v);
-  if (status >= 0) status = put_regions(l);
+  if (status >= 0) status = dyd_diagram_regions(l->d, put_region, l);
   return status < 0 ? dyd_fail(err, status, "%s", dyd_status_text(status)) : DYD_OK;
 }
 

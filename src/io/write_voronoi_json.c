@@ -140,35 +140,27 @@ static dyd_status write_edges(const dyd_diagram *d) {
   return status;
 }
 
-static dyd_status put_region(const dyd_diagram *d, size_t f, dyd_rect *r) {
+static dyd_status put_region(void *context, size_t face, const double box[4]) {
+  const dyd_diagram *d = context;
   dyd_index_list sites = {0};
-  bool any, outer;
-  dyd_status status = dyd_voronoi_region(r, &any, d->pd, f, &d->window);
-  if (status >= 0) status = dyd_delaunay_face(&sites, &outer, d->pd, f);
-  fprintf(d->out, "%s\n{\"sites\": [", f ? "," : "");
+  bool outer;
+  dyd_status status = dyd_delaunay_face(&sites, &outer, d->pd, face);
+  fprintf(d->out, "%s\n{\"sites\": [", face ? "," : "");
   for (size_t k = 0; k < sites.count; k++) fprintf(d->out, "%s%u", k ? ", " : "", (unsigned)sites.item[k]);
   fputs("], ", d->out);
-  if (status >= 0 && any) {
-    double b[4];
-    dyd_interval_get_d(&b[0], &b[1], &r->x);
-    dyd_interval_get_d(&b[2], &b[3], &r->y);
-    put_box(d->out, b);
-  } else {
+  if (box)
+    put_box(d->out, box);
+  else
     fputs("\"x\": null, \"y\": null", d->out);
-  }
   fputs("}", d->out);
   dyd_index_list_clear(&sites);
   return status;
 }
 
-static dyd_status write_regions(const dyd_diagram *d) {
-  dyd_rect r;
-  dyd_status status = DYD_OK;
-  dyd_rect_init(&r);
+static dyd_status write_regions(dyd_diagram *d) {
   fputs("\"regions\": [", d->out);
-  for (size_t f = 0; f < dyd_delaunay_undecided_faces(d->pd) && status >= 0; f++) status = put_region(d, f, &r);
+  dyd_status status = dyd_diagram_regions(d, put_region, d);
   fputs("\n],\n", d->out);
-  dyd_rect_clear(&r);
   return status;
 }
 

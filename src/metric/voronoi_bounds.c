@@ -87,16 +87,19 @@ dyd_status dyd_voronoi_sums_add(double area[2], dyd_voronoi_sums *s, uint32_t i,
   return status;
 }
 
-dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, const volatile int *cancel) {
+dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, void *context,
+                                const volatile int *cancel) {
   size_t n = dyd_sites_count(dyd_delaunay_sites(s->pd));
   dyd_shape shape = {0};
   dyd_window w;
   dyd_status status = dyd_window_init(&w, s->window);
   for (size_t i = 0; i < n && status == DYD_OK; i++) {
+    double area[2];
     if (dyd_delaunay_alias(s->pd, (uint32_t)i) != i) continue;
     if (i % 64 == 0 && dyd_flag_is_set(cancel)) status = DYD_CANCELLED;
     if (status == DYD_OK) status = dyd_shape_find(&shape, s->pd, (uint32_t)i, &w, s->bits);
-    if (status == DYD_OK) status = dyd_voronoi_sums_add(NULL, s, (uint32_t)i, &shape);
+    if (status == DYD_OK) status = dyd_voronoi_sums_add(area, s, (uint32_t)i, &shape);
+    if (status == DYD_OK && visit) status = visit(context, (uint32_t)i, &shape, area);
   }
   dyd_shape_clear(&shape);
   return status;
@@ -233,7 +236,7 @@ dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, c
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   dyd_voronoi_bounds_init(&b);
   status = dyd_voronoi_sums_init(&s, pd, window, bits);
-  if (status == DYD_OK) status = dyd_voronoi_sums_all(&s, cancel);
+  if (status == DYD_OK) status = dyd_voronoi_sums_all(&s, NULL, NULL, cancel);
   if (status == DYD_OK) status = dyd_voronoi_sums_bounds(&b, &s);
   if (status == DYD_OK) {
     dyd_dyadic_swap(&out->area, &b.area);

@@ -37,7 +37,12 @@ dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, const dyd_voronoi_su
 dyd_status dyd_voronoi_pair_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, dyd_measure *m,
                                       const dyd_pair *pair);
 
-/* Adds the shapes of all sites. */
-dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, const volatile int *cancel);
+/* Called for every site that stands for itself, in order, with bounds of its areas as dyd_voronoi_sums_add gives them.
+ */
+typedef dyd_status (*dyd_voronoi_visit)(void *context, uint32_t i, const dyd_shape *shape, const double area[2]);
+/* Makes the polygons of all cells once, adds them up and shows them to `visit`, whose status ends the walk unless it is
+ * DYD_OK. visit and cancel may be NULL; DYD_CANCELLED once *cancel is set. */
+dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, void *context,
+                                const volatile int *cancel);
 
 #endif

@@ -217,17 +217,3 @@ dyd_status dyd_polygon_copy(dyd_polygon *out, const dyd_polygon *p) {
   *out = copy;
   return DYD_OK;
 }
-
-dyd_status dyd_polygon_of_rect(dyd_polygon *out, const dyd_rect *r) {
-  dyd_polygon p = {0};
-  p.vertex = dyd_alloc(4, sizeof *p.vertex);
-  if (!p.vertex) return DYD_E_NOMEM;
-  for (; p.count < 4; p.count++) {
-    dyd_point *z = &p.vertex[p.count];
-    dyd_point_init(z);
-    dyd_dyadic_set(&z->x, p.count == 1 || p.count == 2 ? &r->x.hi : &r->x.lo);
-    dyd_dyadic_set(&z->y, p.count >= 2 ? &r->y.hi : &r->y.lo);
-  }
-  *out = p;
-  return DYD_OK;
-}

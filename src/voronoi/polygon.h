@@ -12,8 +12,6 @@ dyd_status dyd_polygon_make_convex(dyd_polygon *p);
 /* Does no edge meet another one but in the common vertex of neighbours? Repeated consecutive vertices are taken out
  * first. O(n^2) comparisons of doubles, exact steps only where boxes of edges meet. */
 dyd_status dyd_polygon_is_simple(bool *out, dyd_polygon *p);
-/* The four corners of a rectangle with dyadic ends. */
-dyd_status dyd_polygon_of_rect(dyd_polygon *out, const dyd_rect *r);
 /* A copy; out is empty before. */
 dyd_status dyd_polygon_copy(dyd_polygon *out, const dyd_polygon *p);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The polygons of a cell in dyadics, from its exact boundary.
+/* The polygons of a cell in dyadics, from its exact boundary. In a window no chain means no cell: where the cell is all
+ * of the window, its chain is the window's sides.
  *
  * Samples of the boundary are moved a little off it, rounded, and verified exactly; where rounding spoils one, it is
  * taken anew with more bits. This ends: inwards, the samples move towards a point g inside the open convex set Int_i n
@@ -8,6 +9,7 @@
  *
  * Moves are at most 2^-(bits+2), chords are within 2^-(bits+1) of their arcs. [POLY-1] [POLY-2] */
 #include "base/alloc.h"
+#include "dyadic/raw.h"
 #include "voronoi/polygon.h"
 #include "voronoi/sample.h"
 #include "voronoi/shape.h"
@@ -49,9 +51,7 @@ static int64_t log2_length(const mpq_t x, const mpq_t y) {
     mpq_add(s, s, y);
   else
     mpq_sub(s, s, y);
-  int64_t e = mpq_sgn(s) == 0
-                  ? INT64_MIN / 2
-                  : (int64_t)mpz_sizeinbase(mpq_numref(s), 2) - (int64_t)mpz_sizeinbase(mpq_denref(s), 2) + 1;
+  int64_t e = mpq_sgn(s) == 0 ? INT64_MIN / 2 : dyd_q_log2_above(s);
   mpq_clear(s);
   return e;
 }
@@ -193,10 +193,7 @@ dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i,
   dyd_polygon polygon = {0};
   dyd_status status = work_init(&w, pd, i, window, bits);
   if (status >= 0) status = dyd_voronoi_int_on(&w.boundary, pd, i, window);
-  if (status >= 0 && w.boundary.count)
-    status = inner(&polygon, &w);
-  else if (status >= 0 && w.boundary.whole)
-    status = dyd_polygon_of_rect(&polygon, window);
+  if (status >= 0 && w.boundary.count) status = inner(&polygon, &w);
   if (status >= 0) {
     dyd_polygon_clear(out);
     *out = polygon;
@@ -271,11 +268,6 @@ dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32
   if (status >= 0) status = enlarge(&wide, window, bits);
   if (status >= 0) status = dyd_voronoi_pos_on(&w.boundary, pd, i, &wide);
   if (status >= 0 && w.boundary.count) status = outer(&list, &w);
-  if (status >= 0 && !w.boundary.count && w.boundary.whole) {
-    list.item = calloc(1, sizeof *list.item);
-    list.count = list.item ? 1 : 0;
-    status = list.item ? dyd_polygon_of_rect(&list.item[0], &wide) : DYD_E_NOMEM;
-  }
   if (status >= 0) {
     dyd_polygon_list_clear(out);
     *out = list;

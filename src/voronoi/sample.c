@@ -3,6 +3,7 @@
 #include "voronoi/sample.h"
 
 #include "base/alloc.h"
+#include "dyadic/raw.h"
 
 #include <string.h>
 
@@ -120,11 +121,6 @@ static dyd_status end_point(dyd_point *out, const dyd_arc_end *end, int64_t bits
   return status;
 }
 
-/* An e with 2^e >= q > 0, one or two above the least. */
-static int64_t log2_above(const mpq_t q) {
-  return (int64_t)mpz_sizeinbase(mpq_numref(q), 2) - (int64_t)mpz_sizeinbase(mpq_denref(q), 2) + 1;
-}
-
 /* Into how many parts the arc has to be cut: n >= length sqrt(2^bits / (8 q)). */
 static dyd_status count_steps(uint32_t *out, const dyd_arc *arc, const dyd_cell_sites *s, uint32_t own, int64_t bits) {
   *out = 1;
@@ -147,7 +143,7 @@ static dyd_status count_steps(uint32_t *out, const dyd_arc *arc, const dyd_cell_
     mpq_sub(q, p.focus[1 - p.along], p.directrix);
     mpq_abs(q, q);
     mpq_div(length, length, q); /* n^2 >= (length^2 / q) 2^bits / 8 */
-    int64_t twice = mpq_sgn(length) ? log2_above(length) + bits - 3 : -1;
+    int64_t twice = mpq_sgn(length) ? dyd_q_log2_above(length) + bits - 3 : -1;
     int64_t shift = twice <= 0 ? 0 : (twice + 1) / 2;
     if (shift > 24)
       status = DYD_E_RANGE;
