@@ -47,6 +47,12 @@ dyd_status dyd_proof_find_faces(dyd_proof *p);
 dyd_status dyd_proof_find_chain(bool *found, dyd_cert_chain *out, const dyd_proof *p, uint32_t i, uint32_t j,
                                 const uint32_t *near, size_t count);
 
+/* Writes a number, a point (two numbers). */
+void dyd_proof_put_number(FILE *out, const dyd_exact *x);
+void dyd_proof_put_point(FILE *out, const dyd_exact c[2]);
+/* Writes the section of the pairs; counts in the faces what is proved. */
+dyd_status dyd_proof_put_pairs(FILE *out, dyd_proof *p);
+
 /* out = x rounded to the nearest multiple of 2^exp, without trailing zero bits. */
 void dyd_proof_round(dyd_exact *out, const dyd_exact *x, int64_t exp);
 void dyd_proof_trim(dyd_exact *x);

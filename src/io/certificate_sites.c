@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Sites and witnesses in the form that the checker of certificates takes; witnesses shortened. */
+/* Sites and witnesses in the form that the checker of certificates takes; witnesses shortened; numbers as they are
+ * written. */
 #include "base/alloc.h"
 #include "io/certificate.h"
+#include <inttypes.h>
 
 static void copy(dyd_exact *out, const dyd_dyadic *x) {
   mpz_set(out->man, x->man);
@@ -111,4 +113,22 @@ dyd_status dyd_proof_add_witness(bool *found, dyd_proof_points *out, const dyd_p
       dyd_exact_clear(&to[a]);
   }
   return DYD_OK;
+}
+
+/* ---- writing ---- */
+
+void dyd_proof_put_number(FILE *out, const dyd_exact *x) {
+  dyd_exact t;
+  dyd_exact_init(&t);
+  dyd_exact_set(&t, x);
+  dyd_proof_trim(&t);
+  mpz_out_str(out, 10, t.man);
+  if (t.exp) fprintf(out, "*2^%" PRId64, t.exp);
+  dyd_exact_clear(&t);
+}
+
+void dyd_proof_put_point(FILE *out, const dyd_exact c[2]) {
+  dyd_proof_put_number(out, &c[0]);
+  putc(' ', out);
+  dyd_proof_put_number(out, &c[1]);
 }

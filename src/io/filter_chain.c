@@ -8,7 +8,8 @@
 #include <math.h>
 
 #define STEPS 16  /* bisections along the curve */
-#define ACROSS 36 /* bisections across it */
+#define ACROSS 24 /* steps across it */
+#define TURNS 36  /* bisections of an angle */
 #define CANDIDATES 6
 #define MOST_POINTS 64
 
@@ -16,27 +17,45 @@ typedef struct xy {
   double x, y;
 } xy;
 
-/* The curve: the point number t in (-1,1) lies beside m, t / (1 - t^2) * scale along n, and then moved along d. */
+/* A point of the curve, or an end of it (a direction): what blocks it is nearer (or farther out) than `own`; distances
+ * are squared. */
+typedef struct spot {
+  bool end;
+  xy at;
+  double own;
+} spot;
+
+/* The curve: the point number t in (-1,1) lies beside m, t / (1 - t^2) along n, and then moved along d. Lengths are in
+ * units of a power of two that is about the distance of the rectangles. */
 typedef struct curve {
   const dyd_proof *proof;
   double box[2][4]; /* of i and j, relative to m */
   xy m, d, n;
-  double scale;
+  double unit;
+  spot end[2];
 } curve;
 
-static void box_at(double out[4], const dyd_proof *p, uint32_t v, xy origin) {
-  double e[4];
-  dyd_sites_get_d(e, dyd_delaunay_sites(p->pd), v);
-  for (int k = 0; k < 4; k++) out[k] = e[k] - (k < 2 ? origin.x : origin.y);
+static void box_at(double out[4], const curve *c, uint32_t v) {
+  dyd_sites_get_d(out, dyd_delaunay_sites(c->proof->pd), v);
+  for (int k = 0; k < 4; k++) out[k] = (out[k] - (k < 2 ? c->m.x : c->m.y)) / c->unit;
+}
+
+static double larger(double a, double b) {
+  return a > b ? a : b;
+}
+
+static double clamp(double v, double lo, double hi) {
+  return v < lo ? lo : v > hi ? hi : v;
 }
 
 static double near_to(const double e[4], xy c) {
-  double x = fmax(0, fmax(e[0] - c.x, c.x - e[1])), y = fmax(0, fmax(e[2] - c.y, c.y - e[3]));
-  return hypot(x, y);
+  double x = c.x - clamp(c.x, e[0], e[1]), y = c.y - clamp(c.y, e[2], e[3]);
+  return x * x + y * y;
 }
 
 static double far_from(const double e[4], xy c) {
-  return hypot(fmax(c.x - e[0], e[1] - c.x), fmax(c.y - e[2], e[3] - c.y));
+  double x = larger(c.x - e[0], e[1] - c.x), y = larger(c.y - e[2], e[3] - c.y);
+  return x * x + y * y;
 }
 
 /* max u.x over the box, or the minimum. */
@@ -52,34 +71,22 @@ static double gap_between(double a0, double a1, double b0, double b1) {
   return b0 > a1 ? b0 - a1 : b1 < a0 ? b1 - a0 : 0;
 }
 
-static bool make_curve(curve *c, const dyd_proof *p, uint32_t i, uint32_t j) {
-  double a[4], b[4];
-  *c = (curve){.proof = p};
-  box_at(a, p, i, (xy){0, 0});
-  box_at(b, p, j, (xy){0, 0});
-  xy d = {gap_between(a[0], a[1], b[0], b[1]), gap_between(a[2], a[3], b[2], b[3])};
-  double length = hypot(d.x, d.y);
-  if (!(length > 0) || !isfinite(length)) return false;
-  c->m = (xy){(fmin(a[1], b[1]) + fmax(a[0], b[0])) / 2, (fmin(a[3], b[3]) + fmax(a[2], b[2])) / 2};
-  c->d = (xy){d.x / length, d.y / length};
-  c->n = (xy){-c->d.y, c->d.x};
-  c->scale = length;
-  box_at(c->box[0], p, i, c->m);
-  box_at(c->box[1], p, j, c->m);
-  return true;
-}
-
-/* A point of the curve, relative to m. ds_i - ds_j grows along d. */
+/* A point of the curve. The square of ds_i less that of ds_j grows along d: at twice the way, along d, from the point
+ * of R_i nearest to it to the one of R_j. Newton's steps, halved where they leave what is known of the place. */
 static xy point_at(const curve *c, double t) {
-  double along = t / (1 - t * t) * c->scale, lo = -8 * (c->scale + fabs(along)), hi = -lo;
+  const double *a = c->box[0], *b = c->box[1];
+  double along = t / (1 - t * t), lo = -8 * (1 + fabs(along)), hi = -lo, s = 0;
   xy at = {0, 0};
   for (int k = 0; k < ACROSS; k++) {
-    double s = (lo + hi) / 2;
     at = (xy){along * c->n.x + s * c->d.x, along * c->n.y + s * c->d.y};
-    if (near_to(c->box[0], at) > near_to(c->box[1], at))
-      hi = s;
-    else
-      lo = s;
+    double px = clamp(at.x, a[0], a[1]), py = clamp(at.y, a[2], a[3]);
+    double qx = clamp(at.x, b[0], b[1]), qy = clamp(at.y, b[2], b[3]);
+    double own = (at.x - px) * (at.x - px) + (at.y - py) * (at.y - py);
+    double excess = own - (at.x - qx) * (at.x - qx) - (at.y - qy) * (at.y - qy);
+    if (fabs(excess) <= 0x1p-40 * own) break;
+    *(excess > 0 ? &hi : &lo) = s;
+    s -= excess / (2 * ((qx - px) * c->d.x + (qy - py) * c->d.y));
+    if (!(s > lo && s < hi)) s = (lo + hi) / 2;
   }
   return at;
 }
@@ -88,7 +95,7 @@ static xy point_at(const curve *c, double t) {
 static xy end_direction(const curve *c, int side) {
   double lo = -1.5707963267948966, hi = -lo; /* angle from n towards d */
   xy u = {0, 0};
-  for (int k = 0; k < ACROSS; k++) {
+  for (int k = 0; k < TURNS; k++) {
     double angle = (lo + hi) / 2, x = side * cos(angle), y = sin(angle);
     u = (xy){x * c->n.x + y * c->d.x, x * c->n.y + y * c->d.y};
     if (top_of(c->box[1], u) > top_of(c->box[0], u))
@@ -99,18 +106,39 @@ static xy end_direction(const curve *c, int side) {
   return u;
 }
 
-/* A point of the curve, or an end of it (u): what blocks it is nearer (or farther out) than `own`. */
-typedef struct spot {
-  bool end;
-  xy at;
-  double own;
-} spot;
+static spot end_spot(const curve *c, int side) {
+  spot s = {.end = true, .at = end_direction(c, side)};
+  s.own = larger(top_of(c->box[0], s.at), top_of(c->box[1], s.at));
+  return s;
+}
+
+static bool make_curve(curve *c, const dyd_proof *p, uint32_t i, uint32_t j) {
+  double a[4], b[4];
+  int exp;
+  *c = (curve){.proof = p, .unit = 1};
+  box_at(a, c, i);
+  box_at(b, c, j);
+  xy d = {gap_between(a[0], a[1], b[0], b[1]), gap_between(a[2], a[3], b[2], b[3])};
+  double length = hypot(d.x, d.y);
+  if (!(length > 0) || !isfinite(length)) return false;
+  c->m = (xy){(fmin(a[1], b[1]) + fmax(a[0], b[0])) / 2, (fmin(a[3], b[3]) + fmax(a[2], b[2])) / 2};
+  c->d = (xy){d.x / length, d.y / length};
+  c->n = (xy){-c->d.y, c->d.x};
+  frexp(length, &exp);
+  c->unit = ldexp(1, exp);
+  if (!(c->unit > 0)) return false;
+  box_at(c->box[0], c, i);
+  box_at(c->box[1], c, j);
+  c->end[0] = end_spot(c, -1);
+  c->end[1] = end_spot(c, 1);
+  return true;
+}
 
 static spot spot_at(const curve *c, double t) {
-  spot s = {.end = fabs(t) >= 1};
-  s.at = s.end ? end_direction(c, t < 0 ? -1 : 1) : point_at(c, t);
-  s.own = s.end ? fmax(top_of(c->box[0], s.at), top_of(c->box[1], s.at))
-                : fmin(near_to(c->box[0], s.at), near_to(c->box[1], s.at));
+  if (fabs(t) >= 1) return c->end[t > 0];
+  spot s = {.at = point_at(c, t)};
+  double a = near_to(c->box[0], s.at), b = near_to(c->box[1], s.at);
+  s.own = a < b ? a : b;
   return s;
 }
 
@@ -180,12 +208,12 @@ static bool best_blocker(uint32_t *out, double *reach, const curve *c, double t,
   candidates found = {.count = 0};
   for (size_t q = 0; q < count; q++) {
     if (near[q] == i || near[q] == j) continue;
-    box_at(e, c->proof, near[q], c->m);
+    box_at(e, c, near[q]);
     if (blocks_spot(e, &here)) consider(&found, near[q], margin_of(e, &here));
   }
   *reach = -2;
   for (size_t q = 0; q < found.count; q++) {
-    box_at(e, c->proof, found.site[q], c->m);
+    box_at(e, c, found.site[q]);
     double r = reach_of(c, e, t);
     if (r <= *reach) continue;
     *reach = r;
@@ -210,7 +238,7 @@ static bool put_point(dyd_cert_chain *out, const curve *c, double t) {
   xy at = point_at(c, t);
   if (dyd_cert_chain_resize(out, out->points + 1) < 0) return false;
   dyd_exact *to = out->point[out->points - 1];
-  return set_double(&to[0], at.x + c->m.x) && set_double(&to[1], at.y + c->m.y);
+  return set_double(&to[0], at.x * c->unit + c->m.x) && set_double(&to[1], at.y * c->unit + c->m.y);
 }
 
 static bool walk(dyd_cert_chain *out, const curve *c, uint32_t i, uint32_t j, const uint32_t *near, size_t count) {
@@ -222,7 +250,7 @@ static bool walk(dyd_cert_chain *out, const curve *c, uint32_t i, uint32_t j, co
     double here = reach, after;
     /* one that blocks the end of k too; it began earlier */
     if (!best_blocker(&next, &after, c, here, i, j, near, count) || after <= here) return false;
-    box_at(e, c->proof, next, c->m);
+    box_at(e, c, next);
     double begin = blocks(c, e, t) ? t : last_blocked(c, e, here, t);
     if (!put_point(out, c, (begin + here) / 2)) return false;
     out->blocker[out->points - 1] = k;
@@ -242,7 +270,7 @@ static bool walk(dyd_cert_chain *out, const curve *c, uint32_t i, uint32_t j, co
 /* Rounds all numbers to so many bits of the curve's scale; directions to `bits` bits. */
 static void round_chain(dyd_cert_chain *to, const dyd_cert_chain *from, const curve *c, int bits) {
   int size;
-  frexp(c->scale, &size);
+  frexp(c->unit, &size);
   for (int k = 0; k < 4; k++) dyd_proof_round(&to->u[k / 2][k % 2], &from->u[k / 2][k % 2], -bits);
   for (size_t q = 0; q < from->points; q++)
     for (int a = 0; a < 2; a++) dyd_proof_round(&to->point[q][a], &from->point[q][a], (int64_t)size - bits);

@@ -11,10 +11,6 @@
 #include <inttypes.h>
 #include <string.h>
 
-/* After so much work in all (a blocker looked at is 1, a pair CHAIN_PAIR beside) the search for chains gives up. */
-#define CHAIN_EFFORT ((uint64_t)30 * 1000 * 1000)
-#define CHAIN_PAIR 200
-
 static void clear(dyd_proof *p) {
   for (size_t q = 0; q < p->corners; q++) {
     dyd_exact_clear(&p->corner[q].u[0]);
@@ -74,26 +70,10 @@ static dyd_status gather(dyd_proof *p) {
   return status < 0 ? status : dyd_proof_find_faces(p);
 }
 
-/* ---- numbers ---- */
-
-static void put_number(FILE *out, const dyd_exact *x) {
-  dyd_exact t;
-  dyd_exact_init(&t);
-  dyd_exact_set(&t, x);
-  dyd_proof_trim(&t);
-  mpz_out_str(out, 10, t.man);
-  if (t.exp) fprintf(out, "*2^%" PRId64, t.exp);
-  dyd_exact_clear(&t);
-}
-
-static void put_point(FILE *out, const dyd_exact c[2]) {
-  put_number(out, &c[0]);
-  putc(' ', out);
-  put_number(out, &c[1]);
-}
+/* ---- sections ---- */
 
 static void put_side(FILE *out, const dyd_cert_side *s) {
-  put_number(out, &s->lo);
+  dyd_proof_put_number(out, &s->lo);
   if (s->den) {
     putc('/', out);
     mpz_out_str(out, 10, *s->den);
@@ -103,11 +83,9 @@ static void put_side(FILE *out, const dyd_cert_side *s) {
   dyd_exact_init(&width);
   dyd_exact_sub(&width, &s->hi, &s->lo);
   putc('+', out);
-  put_number(out, &width);
+  dyd_proof_put_number(out, &width);
   dyd_exact_clear(&width);
 }
-
-/* ---- sections ---- */
 
 static void put_head(FILE *out, const dyd_proof *p) {
   static const char *const goals[] = {
@@ -139,7 +117,7 @@ static void put_edges(FILE *out, const char *name, const dyd_cert_edges *edges, 
   fprintf(out, "%s %zu\n", name, edges->count);
   for (size_t e = 0; e < edges->count; e++) {
     fprintf(out, "%" PRIu32 " %" PRIu32 " ", edges->item[e].i, edges->item[e].j);
-    put_point(out, (const dyd_exact *)centre->item[e]);
+    dyd_proof_put_point(out, (const dyd_exact *)centre->item[e]);
     putc('\n', out);
   }
 }
@@ -151,7 +129,7 @@ static void put_places(FILE *out, const dyd_proof *p) {
   for (size_t i = 0; i < p->sites.count; i++) {
     if (!p->sites.site[i].place) continue;
     fprintf(out, "%zu ", i);
-    put_point(out, (const dyd_exact *)p->sites.site[i].place);
+    dyd_proof_put_point(out, (const dyd_exact *)p->sites.site[i].place);
     putc('\n', out);
   }
 }
@@ -160,154 +138,9 @@ static void put_corners(FILE *out, const dyd_proof *p) {
   fprintf(out, "corners %zu\n", p->corners);
   for (size_t q = 0; q < p->corners; q++) {
     fprintf(out, "%" PRIu32 " ", p->corner[q].i);
-    put_point(out, (const dyd_exact *)p->corner[q].u);
+    dyd_proof_put_point(out, (const dyd_exact *)p->corner[q].u);
     putc('\n', out);
   }
-}
-
-/* ---- pairs ---- */
-
-/* A line of the section: an open pair, or an illegal one of an open set, to be proved. Invariant: i < j. */
-typedef struct line {
-  uint32_t i, j;
-  char kind;
-} line;
-
-typedef struct lines {
-  line *item;
-  size_t count, cap;
-} lines;
-
-static dyd_status add_line(lines *l, uint32_t i, uint32_t j, char kind) {
-  if (!dyd_reserve((void **)&l->item, &l->cap, l->count + 1, sizeof *l->item)) return DYD_E_NOMEM;
-  l->item[l->count++] = (line){i, j, kind};
-  return DYD_OK;
-}
-
-static int compare_line(const void *a, const void *b) {
-  const line *x = a, *y = b;
-  if (x->i != y->i) return x->i < y->i ? -1 : 1;
-  return (x->j > y->j) - (x->j < y->j);
-}
-
-static dyd_status open_lines(lines *l, const dyd_proof *p) {
-  static const char kind[] = {[DYD_TIE] = 't', [DYD_INDETERMINATE] = 'o', [DYD_LEGAL] = 'l'};
-  dyd_status status = DYD_OK;
-  for (size_t k = 0; k < p->pairs.count && status >= 0; k++) {
-    const dyd_pair *q = &p->pairs.item[k];
-    if (q->status == DYD_LEGAL && dyd_cert_edges_have(&p->legal, q->i, q->j)) continue;
-    status = add_line(l, q->i, q->j, kind[q->status]);
-  }
-  return status;
-}
-
-static bool is_listed(const lines *l, size_t count, const dyd_proof *p, uint32_t i, uint32_t j) {
-  line key = {i, j, 0};
-  return dyd_cert_edges_have(&p->legal, i, j) ||
-         (count && bsearch(&key, l->item, count, sizeof key, compare_line) != NULL);
-}
-
-/* The pairs of open sets that are not listed, as far as the effort allows. The first `known` lines are sorted. */
-static dyd_status illegal_lines(lines *l, const dyd_proof *p, size_t known) {
-  uint64_t effort = 0;
-  dyd_status status = DYD_OK;
-  for (size_t f = 0; f < p->faces.sets; f++) {
-    const uint32_t *site = p->faces.member + p->faces.start[f];
-    uint64_t m = p->faces.start[f + 1] - p->faces.start[f];
-    if (m < 3 || p->faces.covered[f] == m * (m - 1) / 2) continue;
-    for (size_t a = 0; a < m; a++)
-      for (size_t b = a + 1; b < m && status >= 0 && effort < CHAIN_EFFORT; b++) {
-        if (is_listed(l, known, p, site[a], site[b])) continue;
-        status = add_line(l, site[a], site[b], 'n');
-        effort += m + CHAIN_PAIR;
-      }
-  }
-  return status;
-}
-
-/* Where blockers are looked for: the open set of both sites, and their neighbours. Owned by the list. */
-typedef struct blockers {
-  uint32_t *site;
-  size_t count, cap;
-} blockers;
-
-static dyd_status add_blockers(blockers *b, const uint32_t *site, size_t count) {
-  if (!dyd_reserve((void **)&b->site, &b->cap, b->count + count, sizeof *b->site)) return DYD_E_NOMEM;
-  memcpy(b->site + b->count, site, count * sizeof *site);
-  b->count += count;
-  return DYD_OK;
-}
-
-static dyd_status add_neighbours(blockers *b, const dyd_proof *p, uint32_t v) {
-  dyd_status status = DYD_OK;
-  for (size_t q = p->graph.start[v]; q < p->graph.start[v + 1] && status >= 0; q++) {
-    uint32_t w = dyd_cert_origin(&p->graph, p->graph.around[q] ^ 1);
-    status = add_blockers(b, &w, 1);
-  }
-  return status;
-}
-
-static dyd_status find_blockers(blockers *b, const dyd_proof *p, uint32_t i, uint32_t j) {
-  const dyd_cert_faces *f = &p->faces;
-  b->count = 0;
-  dyd_status status = add_neighbours(b, p, i);
-  if (status >= 0) status = add_neighbours(b, p, j);
-  for (size_t k = f->first[i]; k < f->first[i + 1] && status >= 0; k++) {
-    bool shared = false;
-    for (size_t l = f->first[j]; l < f->first[j + 1]; l++) shared |= f->of[k] == f->of[l];
-    size_t start = f->start[f->of[k]];
-    if (shared) status = add_blockers(b, f->member + start, f->start[f->of[k] + 1] - start);
-  }
-  return status;
-}
-
-static dyd_status put_chain(FILE *out, dyd_cert_chain *chain, blockers *near, dyd_proof *p, const line *l) {
-  bool found = false;
-  dyd_status status = find_blockers(near, p, l->i, l->j);
-  if (status >= 0) status = dyd_proof_find_chain(&found, chain, p, l->i, l->j, near->site, near->count);
-  if (status < 0 || !found) return status;
-  fprintf(out, "n %" PRIu32 " %" PRIu32 " ", l->i, l->j);
-  put_point(out, (const dyd_exact *)chain->u[0]);
-  for (size_t q = 0; q < chain->points; q++) {
-    fprintf(out, " %" PRIu32 " ", chain->blocker[q]);
-    put_point(out, (const dyd_exact *)chain->point[q]);
-  }
-  fprintf(out, " %" PRIu32 " ", chain->blocker[chain->points]);
-  put_point(out, (const dyd_exact *)chain->u[1]);
-  putc('\n', out);
-  dyd_cert_faces_cover(&p->faces, l->i, l->j);
-  return DYD_OK;
-}
-
-static dyd_status put_lines(FILE *out, dyd_proof *p, const lines *l) {
-  dyd_cert_chain chain;
-  blockers near = {0};
-  dyd_cert_chain_init(&chain);
-  dyd_status status = DYD_OK;
-  for (size_t k = 0; k < l->count && status >= 0; k++) {
-    const line *at = &l->item[k];
-    if (k && compare_line(at, at - 1) == 0) continue; /* a pair of two sets */
-    if (at->kind == 'n')
-      status = put_chain(out, &chain, &near, p, at);
-    else
-      fprintf(out, "%c %" PRIu32 " %" PRIu32 "\n", at->kind, at->i, at->j);
-  }
-  dyd_cert_chain_clear(&chain);
-  free(near.site);
-  return status;
-}
-
-static dyd_status put_pairs(FILE *out, dyd_proof *p) {
-  lines l = {0};
-  fputs("pairs\n", out);
-  dyd_status status = open_lines(&l, p);
-  size_t known = l.count;
-  for (size_t k = 0; k < known; k++) dyd_cert_faces_cover(&p->faces, l.item[k].i, l.item[k].j);
-  if (status >= 0 && !dyd_delaunay_is_capped(p->pd)) status = illegal_lines(&l, p, known);
-  if (status >= 0 && l.count) qsort(l.item, l.count, sizeof *l.item, compare_line);
-  if (status >= 0) status = put_lines(out, p, &l);
-  free(l.item);
-  return status;
 }
 
 /* ---- the end ---- */
@@ -318,7 +151,7 @@ static void put_bound(FILE *out, const char *name, const dyd_dyadic *bound) {
   mpz_set(x.man, bound->man);
   x.exp = bound->exp;
   fprintf(out, "%s ", name);
-  put_number(out, &x);
+  dyd_proof_put_number(out, &x);
   putc('\n', out);
   dyd_exact_clear(&x);
 }
@@ -347,7 +180,7 @@ static dyd_status put_all(FILE *out, dyd_proof *p) {
   put_places(out, p);
   put_edges(out, "bridges", &p->bridges, &p->centre);
   put_corners(out, p);
-  dyd_status status = put_pairs(out, p);
+  dyd_status status = dyd_proof_put_pairs(out, p);
   return status < 0 ? status : put_end(out, p);
 }
 
