@@ -1,39 +1,14 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Exhausted memory and late cancelling: the k-th allocation fails, for every k. A failed call returns its code, leaks
- * nothing (run under a leak checker), leaves *out NULL or the old statements in force, and can be repeated.
- *
- * Linked with --wrap for malloc, calloc and realloc; GMP's own allocations are not touched. */
+ * nothing (run under a leak checker), leaves *out NULL or the old statements in force, and can be repeated. */
 #include <setjmp.h>
 #include <stdarg.h>
 
 #include "delaunay/harness.h"
+#include "support/failing_memory.h"
 #include <cmocka.h>
 #include <pthread.h>
 #include <time.h>
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *old, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *old, size_t size);
-
-/* 0: never fails; k > 0: the k-th allocation from now fails, once. */
-static size_t countdown;
-
-static bool fails(void) {
-  return countdown && --countdown == 0;
-}
-
-void *__wrap_malloc(size_t size) {
-  return fails() ? NULL : __real_malloc(size);
-}
-void *__wrap_calloc(size_t count, size_t size) {
-  return fails() ? NULL : __real_calloc(count, size);
-}
-void *__wrap_realloc(void *old, size_t size) {
-  return fails() ? NULL : __real_realloc(old, size);
-}
 
 static harness shared;
 

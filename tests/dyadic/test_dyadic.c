@@ -206,9 +206,33 @@ static void test_get_d(void **state) {
   dyd_dyadic_clear(&y), dyd_dyadic_clear(&x);
 }
 
+/* 2^e >= |q| and 2^(e-2) < |q|: the least such e, or one more. Every fraction of small numbers, of both signs. */
+static void test_log2_above(void **state) {
+  (void)state;
+  mpq_t q, power;
+  mpq_inits(q, power, NULL);
+  for (long num = -70; num <= 70; num++)
+    for (unsigned long den = 1; num && den <= 70; den++) {
+      mpq_set_si(q, num, den);
+      mpq_canonicalize(q);
+      int64_t e = dyd_q_log2_above(q);
+      mpq_abs(q, q);
+      for (int less = 0; less <= 2; less += 2) {
+        mpq_set_ui(power, 1, 1);
+        if (e - less >= 0)
+          mpq_mul_2exp(power, power, (mp_bitcnt_t)(e - less));
+        else
+          mpq_div_2exp(power, power, (mp_bitcnt_t)(less - e));
+        assert_true(less ? mpq_cmp(power, q) < 0 : mpq_cmp(power, q) >= 0);
+      }
+    }
+  mpq_clears(q, power, NULL);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_arithmetic), cmocka_unit_test(test_range),
-                                     cmocka_unit_test(test_round), cmocka_unit_test(test_get_d)};
+                                     cmocka_unit_test(test_round), cmocka_unit_test(test_get_d),
+                                     cmocka_unit_test(test_log2_above)};
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   mpfr_free_cache();
   return failed;

@@ -1,38 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Exhausted memory: the k-th allocation of a call fails, for every k. The call says so, leaks nothing (run under a leak
- * checker), leaves its output as it was, and can be repeated. Capped triangulations: outputs stay too.
- *
- * Linked with --wrap for malloc, calloc and realloc; GMP's own allocations are not touched. */
+ * checker), leaves its output as it was, and can be repeated. Capped triangulations: outputs stay too. */
 #include <setjmp.h>
 #include <stdarg.h>
 
 #include "delaunay/harness.h"
+#include "support/failing_memory.h"
 #include <cmocka.h>
 #include <dyadel/voronoi.h>
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *old, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *old, size_t size);
-
-/* 0: never fails; k > 0: the k-th allocation from now fails, once. */
-static size_t countdown;
-
-static bool fails(void) {
-  return countdown && --countdown == 0;
-}
-
-void *__wrap_malloc(size_t size) {
-  return fails() ? NULL : __real_malloc(size);
-}
-void *__wrap_calloc(size_t count, size_t size) {
-  return fails() ? NULL : __real_calloc(count, size);
-}
-void *__wrap_realloc(void *old, size_t size) {
-  return fails() ? NULL : __real_realloc(old, size);
-}
 
 enum { CALLS = 4 };
 

@@ -1,38 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Exhausted memory in nearest-site queries, the partial hull and the making of streams: the k-th allocation fails, for
- * every k. The call says so, leaks nothing (run under a leak checker) and leaves its output as it was.
- *
- * Linked with --wrap for malloc, calloc and realloc; GMP's own allocations are not touched. */
+ * every k. The call says so, leaks nothing (run under a leak checker) and leaves its output as it was. */
 #include <setjmp.h>
 #include <stdarg.h>
 
 #include "delaunay/harness.h"
+#include "support/failing_memory.h"
 #include <cmocka.h>
 #include <dyadel/dyadel.h>
-
-void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *old, size_t size);
-void *__wrap_malloc(size_t size);
-void *__wrap_calloc(size_t count, size_t size);
-void *__wrap_realloc(void *old, size_t size);
-
-/* 0: never fails; k > 0: the k-th allocation from now fails, once. */
-static size_t countdown;
-
-static bool fails(void) {
-  return countdown && --countdown == 0;
-}
-
-void *__wrap_malloc(size_t size) {
-  return fails() ? NULL : __real_malloc(size);
-}
-void *__wrap_calloc(size_t count, size_t size) {
-  return fails() ? NULL : __real_calloc(count, size);
-}
-void *__wrap_realloc(void *old, size_t size) {
-  return fails() ? NULL : __real_realloc(old, size);
-}
 
 /* Engines of exact points, of rectangles, of points on a line. */
 static dyd_engine *engine_of(int kind) {

@@ -6,6 +6,7 @@
 
 #include "delaunay/harness.h"
 #include "metric/filter_voronoi.h"
+#include "support/thin_case.h"
 #include "voronoi/plane.h"
 #include <cmocka.h>
 #include <dyadel/metric.h>
@@ -439,13 +440,7 @@ static void thin_cases(void **state) {
   orc_case c;
   orc_case_init(&c);
   for (size_t k = 0; k < test_cases(30); k++) {
-    unsigned long den = (unsigned long)1 << test_between(&h.random, 10, 40);
-    c.n = 0;
-    strcpy(c.kind, "thin");
-    for (size_t i = 0; i < 14; i++) {
-      long x = (long)(test_unit(&h.random) * (double)den), y = (long)(test_unit(&h.random) * (double)den);
-      orc_case_add(&c, x, x + (long)test_below(&h.random, 3), y, y + (long)test_below(&h.random, 3), den);
-    }
+    thin_case(&c, &h.random, 14, 10, 40);
     harness_run(&h, &c, check_case);
   }
   fprintf(stderr, "# cells in doubles %zu, exact %zu\n", fast_sites, exact_sites);

@@ -4,9 +4,9 @@
 #include <stdarg.h>
 
 #include "delaunay/harness.h"
+#include "support/thin_case.h"
 #include <cmocka.h>
 #include <dyadel/voronoi.h>
-#include <string.h>
 
 static size_t sure_vertices, open_vertices;
 
@@ -157,13 +157,7 @@ static void random_cases(void **state) {
     harness_run(&h, &c, check_case);
   }
   for (size_t k = 0; k < test_cases(60); k++) {
-    unsigned long den = (unsigned long)1 << test_between(&h.random, 6, 50);
-    c.n = 0;
-    strcpy(c.kind, "thin");
-    for (size_t i = 0; i < 9; i++) {
-      long x = (long)(test_unit(&h.random) * (double)den), y = (long)(test_unit(&h.random) * (double)den);
-      orc_case_add(&c, x, x + (long)test_below(&h.random, 3), y, y + (long)test_below(&h.random, 3), den);
-    }
+    thin_case(&c, &h.random, 9, 6, 50);
     harness_run(&h, &c, check_case);
   }
   fprintf(stderr, "# %zu sure vertices, %zu in regions\n", sure_vertices, open_vertices);
