@@ -2,9 +2,8 @@
 /* Adding points to an engine, and asking one point to narrow.
  *
  * A fixed site is an entry of the table of sites and nothing else. A site that can be narrowed has a record besides,
- * and holds the whole plane in the table until it is first asked: the square whose ends are the largest dyadics of 64
- * bits. [NEST-1] is kept by dyd_sites_narrow, for sources and streams alike: the table is the one memory of what was
- * given before. */
+ * and holds the whole plane in the table until it is first asked. [NEST-1] is kept by dyd_sites_narrow, for sources and
+ * streams alike: the table is the one memory of what was given before. */
 #include "engine/engine.h"
 
 #include "base/alloc.h"
@@ -12,6 +11,7 @@
 #include "rect/interval.h"
 #include "rect/sites_table.h"
 #include "stream/real.h"
+#include "stream/stream.h"
 
 dyd_status dyd_engine_add_points(dyd_engine *e, size_t n, const double *x, const double *y) {
   return e->started ? DYD_E_ARG : dyd_sites_add_points(e->sites, n, x, y);
@@ -26,52 +26,12 @@ dyd_status dyd_engine_add_rect(dyd_engine *e, const dyd_rect *r) {
   return e->started ? DYD_E_ARG : dyd_sites_add_rect(e->sites, r);
 }
 
-/* The interval [-(2^64 - 1) 2^(L-64), (2^64 - 1) 2^(L-64)], L = DYD_EXP_LIMIT: every dyadic of at most 64 bits. */
-static dyd_status set_line(dyd_interval *out) {
-  mpz_t man;
-  dyd_dyadic lo, hi;
-  mpz_init(man);
-  dyd_dyadic_init(&lo);
-  dyd_dyadic_init(&hi);
-  mpz_ui_pow_ui(man, 2, 64);
-  mpz_sub_ui(man, man, 1);
-  dyd_status status = dyd_dyadic_set_z_2exp(&hi, man, DYD_EXP_LIMIT - 64);
-  if (status >= 0) {
-    dyd_dyadic_neg(&lo, &hi);
-    status = dyd_interval_set_ends(out, &lo, &hi);
-  }
-  dyd_dyadic_clear(&hi);
-  dyd_dyadic_clear(&lo);
-  mpz_clear(man);
-  return status;
-}
-
-/* Appends n sites that hold the whole plane; none on failure. */
-static dyd_status add_planes(dyd_sites *s, size_t n) {
-  size_t count = s->count, bytes = s->packed_bytes;
-  dyd_rect plane;
-  dyd_rect_init(&plane);
-  dyd_status status = set_line(&plane.x);
-  if (status >= 0) status = set_line(&plane.y);
-  for (size_t k = 0; status >= 0 && k < n; k++) status = dyd_sites_add_rect(s, &plane);
-  if (status < 0) {
-    while (s->count > count) {
-      s->count--;
-      free(s->exact[s->count]);
-      s->exact[s->count] = NULL;
-    }
-    s->packed_bytes = bytes;
-  }
-  dyd_rect_clear(&plane);
-  return status;
-}
-
 /* Appends n sites with records like p; the site number is filled in. Nothing on failure. */
 static dyd_status add_refinable(dyd_engine *e, size_t n, dyd_refinable p) {
   size_t first = dyd_sites_count(e->sites);
   if (n > DYD_MAX_SITES) return DYD_E_RANGE;
   if (!dyd_reserve((void **)&e->point, &e->point_cap, e->points + n, sizeof *e->point)) return DYD_E_NOMEM;
-  dyd_status status = add_planes(e->sites, n);
+  dyd_status status = dyd_sites_add_planes(e->sites, n);
   if (status < 0) return status;
   for (size_t k = 0; k < n; k++) {
     p.site = (uint32_t)(first + k);
@@ -204,9 +164,24 @@ static dyd_status blame(const dyd_refinable *p, dyd_status status, dyd_error *er
   return status;
 }
 
+/* The first call of a stream, where doubles hold its answer. */
+static bool narrow_in_doubles(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits) {
+  dyd_double_span side[2];
+  if (p->asked || !p->stream || !dyd_stream_glance(side, p->stream, bits)) return false;
+  const double box[4] = {side[0].lo, side[0].hi, side[1].lo, side[1].hi};
+  if (dyd_sites_narrow_d(e->sites, p->site, box) < 0) return false;
+  ++*calls;
+  p->calls++;
+  p->bits = bits;
+  p->final = box[0] == box[1] && box[2] == box[3];
+  p->asked = true;
+  return true;
+}
+
 dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits, int64_t max_bits,
                              dyd_error *err) {
   dyd_rect r;
+  if (narrow_in_doubles(p, calls, e, bits)) return DYD_OK;
   bool final = p->final, cancelled = false;
   dyd_error_clear(err);
   dyd_rect_init(&r);

@@ -39,7 +39,6 @@ typedef struct run {
 static bool set_options(dyd_engine_options *o, const dyd_engine_options *given) {
   dyd_engine_options_init(o);
   if (given) *o = *given;
-  if (o->start_bits == 0) o->start_bits = 64;
   if (o->max_bits == 0) o->max_bits = 4096;
   if (o->max_bits > MOST_BITS) o->max_bits = MOST_BITS;
   if (o->start_bits > o->max_bits) o->start_bits = o->max_bits;

@@ -24,6 +24,7 @@
 #include "engine/engine.h"
 
 #include "metric/bounds.h"
+#include "stream/stream.h"
 
 /* b + by without overflow, by >= 0; at most max where b is. */
 static int64_t raised(int64_t b, int64_t by, int64_t max) {
@@ -69,10 +70,24 @@ static cause alone(dyd_reason reason, const dyd_refinable *p) {
   return (cause){reason, p->site, p->site};
 }
 
+/* The precision of the first stage. Where none is given it is 64, or what doubles give, if that is worth a stage: most
+ * points need no more. */
+#define FIRST_BITS 64
+#define FIRST_IN_DOUBLES 24
+
+static int64_t first_bits(const dyd_refinable *p, const dyd_engine_options *o) {
+  if (o->start_bits) return o->start_bits;
+  if (!p->stream || o->schedule != DYD_SCHEDULE_ADAPTIVE) return FIRST_BITS;
+  int64_t bits = dyd_stream_glance_bits(p->stream);
+  return bits >= FIRST_IN_DOUBLES && bits < FIRST_BITS ? bits : FIRST_BITS;
+}
+
 void dyd_engine_plan_first(dyd_plan *out, dyd_engine *e, const dyd_engine_options *o) {
   *out = (dyd_plan){0};
-  for (size_t k = 0; k < e->points; k++)
-    if (!e->point[k].asked) mark(out, &e->point[k], o->start_bits, alone(DYD_REASON_FIRST, &e->point[k]), o);
+  for (size_t k = 0; k < e->points; k++) {
+    dyd_refinable *p = &e->point[k];
+    if (!p->asked) mark(out, p, first_bits(p, o), alone(DYD_REASON_FIRST, p), o);
+  }
 }
 
 /* ---- undecided faces ---- */

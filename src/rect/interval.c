@@ -154,3 +154,9 @@ void dyd_interval_get_d(double *lo, double *hi, const dyd_interval *a) {
   *lo = dyd_raw_quotient_get_d(a->lo.man, a->lo.exp, a->den, DYD_DOWN);
   *hi = dyd_raw_quotient_get_d(a->hi.man, a->hi.exp, a->den, DYD_UP);
 }
+
+bool dyd_interval_get_exact_d(double *lo, double *hi, const dyd_interval *a) {
+  if (mpz_cmp_ui(a->den, 1) || !dyd_dyadic_is_double(&a->lo) || !dyd_dyadic_is_double(&a->hi)) return false;
+  dyd_interval_get_d(lo, hi, a);
+  return true;
+}

@@ -6,5 +6,7 @@
 #include <dyadel/rect.h>
 
 bool dyd_interval_is_valid(const dyd_interval *a);
+/* Both ends as doubles, when they are doubles; else false. */
+bool dyd_interval_get_exact_d(double *lo, double *hi, const dyd_interval *a);
 
 #endif

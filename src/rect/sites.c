@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The table of sites: outward doubles in arrays, exact rectangles packed beside them where needed. */
+#include "rect/interval.h"
 #include "rect/sites_table.h"
 
 #include "base/alloc.h"
@@ -109,6 +110,21 @@ dyd_status dyd_sites_add_boxes(dyd_sites *s, size_t n, const double *x0, const d
   return add_doubles(s, n, lo, hi);
 }
 
+dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n) {
+  dyd_status st = make_room(s, n);
+  if (st == DYD_OK) st = split_ends(s);
+  if (st != DYD_OK) return st;
+  for (size_t i = s->count; i < s->count + n; i++) {
+    for (int a = 0; a < 2; a++) {
+      s->lower[a][i] = -INFINITY;
+      s->upper[a][i] = INFINITY;
+    }
+  }
+  if (s->exact) memset(s->exact + s->count, 0, n * sizeof *s->exact);
+  s->count += n;
+  return DYD_OK;
+}
+
 /* ---- packing ---- */
 
 static size_t limbs_of(int32_t size) {
@@ -178,8 +194,27 @@ static const mp_limb_t *unpack_interval(dyd_interval *out, const mp_limb_t *from
 
 /* ---- single sites ---- */
 
+static dyd_status get_plane(dyd_rect *out) {
+  mpz_t man;
+  dyd_dyadic lo, hi;
+  mpz_init(man);
+  dyd_dyadic_init(&lo);
+  dyd_dyadic_init(&hi);
+  mpz_ui_pow_ui(man, 2, 64);
+  mpz_sub_ui(man, man, 1);
+  dyd_status st = dyd_dyadic_set_z_2exp(&hi, man, DYD_EXP_LIMIT - 64);
+  dyd_dyadic_neg(&lo, &hi);
+  if (st == DYD_OK) st = dyd_interval_set_ends(&out->x, &lo, &hi);
+  if (st == DYD_OK) st = dyd_interval_set_ends(&out->y, &lo, &hi);
+  dyd_dyadic_clear(&hi);
+  dyd_dyadic_clear(&lo);
+  mpz_clear(man);
+  return st;
+}
+
 dyd_status dyd_sites_get(dyd_rect *out, const dyd_sites *s, size_t i) {
   if (i >= s->count) return DYD_E_ARG;
+  if (dyd_sites_in_doubles(s, i) && isinf(dyd_sites_lo(s, 0, i))) return get_plane(out);
   if (dyd_sites_in_doubles(s, i))
     return dyd_rect_set_d(out, dyd_sites_lo(s, 0, i), dyd_sites_hi(s, 0, i), dyd_sites_lo(s, 1, i),
                           dyd_sites_hi(s, 1, i));
@@ -202,17 +237,17 @@ bool dyd_sites_is_point(const dyd_sites *s, size_t i) {
   return s->exact[i]->size[1] == SAME_AS_LOWER && s->exact[i]->size[4] == SAME_AS_LOWER;
 }
 
-static bool interval_in_doubles(const dyd_interval *a) {
-  return mpz_cmp_ui(a->den, 1) == 0 && dyd_dyadic_is_double(&a->lo) && dyd_dyadic_is_double(&a->hi);
-}
-
 /* Writes r over entry i, which has room in every array it needs. */
 static dyd_status put(dyd_sites *s, size_t i, const dyd_rect *r, dyd_packed *old) {
   double lo[2], hi[2];
   dyd_packed *p = NULL;
-  dyd_interval_get_d(&lo[0], &hi[0], &r->x);
-  dyd_interval_get_d(&lo[1], &hi[1], &r->y);
-  bool doubles = interval_in_doubles(&r->x) && interval_in_doubles(&r->y);
+  const dyd_interval *side[2] = {&r->x, &r->y};
+  bool doubles = true;
+  for (int a = 0; a < 2; a++) {
+    if (dyd_interval_get_exact_d(&lo[a], &hi[a], side[a])) continue;
+    dyd_interval_get_d(&lo[a], &hi[a], side[a]);
+    doubles = false;
+  }
   if (!doubles || lo[0] != hi[0] || lo[1] != hi[1]) {
     dyd_status st = split_ends(s);
     if (st == DYD_OK && !doubles) st = make_exact(s);
@@ -250,6 +285,28 @@ dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
   if (st == DYD_OK) st = put(s, i, r, s->exact ? s->exact[i] : NULL);
   dyd_rect_clear(&now);
   return st;
+}
+
+/* Narrows site i to a rectangle of doubles by way of exact ones. */
+static dyd_status narrow_exact(dyd_sites *s, size_t i, const double box[4]) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = dyd_rect_set_d(&r, box[0], box[1], box[2], box[3]);
+  if (st == DYD_OK) st = dyd_sites_narrow(s, i, &r);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]) {
+  if (i >= s->count) return DYD_E_ARG;
+  if (!dyd_sites_in_doubles(s, i) || !s->upper[0]) return narrow_exact(s, i, box);
+  for (int a = 0; a < 2; a++)
+    if (box[2 * a] < s->lower[a][i] || box[2 * a + 1] > s->upper[a][i]) return DYD_E_NESTING;
+  for (int a = 0; a < 2; a++) {
+    s->lower[a][i] = box[2 * a];
+    s->upper[a][i] = box[2 * a + 1];
+  }
+  return DYD_OK;
 }
 
 size_t dyd_sites_memory(const dyd_sites *s) {

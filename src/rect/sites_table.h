@@ -15,7 +15,9 @@ typedef struct dyd_packed {
 } dyd_packed;
 
 /* Invariant: upper[a] = NULL means that every site is an exact double point (lower and upper ends are the same array);
- * exact = NULL means that every rectangle is held by its doubles; exact[i] = NULL the same for site i alone. */
+ * exact = NULL means that every rectangle is held by its doubles; exact[i] = NULL the same for site i alone. Infinite
+ * doubles stand for the whole plane, of a site of which nothing is known yet: the square whose ends are the largest
+ * dyadics of 64 bits. */
 struct dyd_sites {
   size_t count, cap;
   double *lower[2]; /* x, y; rounded down */
@@ -23,6 +25,11 @@ struct dyd_sites {
   dyd_packed **exact;
   size_t packed_bytes;
 };
+
+/* Appends n sites that hold the whole plane; none on failure. */
+dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n);
+/* As dyd_sites_narrow, for the rectangle [box[0],box[1]] x [box[2],box[3]] of finite doubles, without -0. */
+dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]);
 
 static inline double dyd_sites_lo(const dyd_sites *s, int axis, size_t i) {
   return s->lower[axis][i];

@@ -14,7 +14,8 @@
 #include <string.h>
 
 typedef struct parser {
-  dyd_expr *e;
+  dyd_draft *d;
+  dyd_expr *e; /* &d->e */
   const char *text;
   size_t length, pos;
   size_t start, start_column; /* all that is part of an expression is ASCII: columns count on from here */
@@ -41,21 +42,6 @@ const char *dyd_op_name(dyd_op op) {
   return op == DYD_OP_DIV ? "/" : op == DYD_OP_POW ? "^" : op == DYD_OP_MUL ? "*" : op == DYD_OP_ADD ? "+" : "-";
 }
 
-void dyd_expr_init(dyd_expr *e) {
-  memset(e, 0, sizeof *e);
-}
-
-void dyd_expr_clear(dyd_expr *e) {
-  for (size_t i = 0; i < e->constants; i++) mpq_clear(e->constant[i]);
-  free(e->constant);
-  free(e->node);
-  dyd_expr_init(e);
-}
-
-mpq_srcptr dyd_expr_rational(const dyd_expr *e) {
-  return e->count == 1 && e->node[0].op == DYD_OP_CONST ? e->constant[e->node[0].constant] : NULL;
-}
-
 static dyd_status parse_sum(parser *p);
 static dyd_status parse_signed(parser *p);
 
@@ -70,14 +56,25 @@ static dyd_node *last(parser *p) {
   return &p->e->node[p->e->count - 1];
 }
 
+/* The constant that the last node names. */
+static dyd_constant *last_constant(parser *p) {
+  return &p->e->constant[last(p)->constant];
+}
+
+/* Takes the last node, a constant, off the end. */
+static void drop_constant(parser *p) {
+  dyd_constant_clear(&p->e->constant[--p->e->constants]);
+  p->e->count--;
+}
+
 static dyd_status push(parser *p, dyd_op op, size_t at) {
   if (p->e->count >= DYD_EXPR_NODES) {
     return FAIL(p, at, DYD_E_RANGE, "the expression is too long: at most %zu operations; split it", DYD_EXPR_NODES);
   }
-  if (!dyd_reserve((void **)&p->e->node, &p->e->cap, p->e->count + 1, sizeof *p->e->node)) {
-    return dyd_fail_nomem(p->err);
-  }
-  p->e->node[p->e->count++] = (dyd_node){.op = op, .column = p->start_column + (at - p->start)};
+  if (!dyd_draft_reserve_node(p->d)) return dyd_fail_nomem(p->err);
+  size_t column = p->start_column + (at - p->start);
+  p->e->node[p->e->count++] =
+      (dyd_node){.op = (unsigned char)op, .column = column < UINT32_MAX ? (uint32_t)column : UINT32_MAX};
   return DYD_OK;
 }
 
@@ -98,9 +95,9 @@ static dyd_status fold_fail(parser *p, dyd_status st, dyd_op op, size_t at) {
 
 /* Charges the last constant to the budget of exact arithmetic. */
 static dyd_status charge(parser *p, size_t at) {
-  mpq_srcptr q = p->e->constant[last(p)->constant];
-  p->work += mpz_sizeinbase(mpq_numref(q), 2) + mpz_sizeinbase(mpq_denref(q), 2);
-  last(p)->range = dyd_range_of_constant(q);
+  const dyd_constant *c = last_constant(p);
+  p->work += dyd_constant_bits(c);
+  last(p)->range = dyd_range_of_constant(c);
   if (p->work <= DYD_EXPR_WORK) return DYD_OK;
   return FAIL(p, at, DYD_E_RANGE, "the exact numbers of this expression are too long; shorten it");
 }
@@ -109,12 +106,10 @@ static dyd_status push_literal(parser *p, const dyd_literal *l, size_t at) {
   dyd_expr *e = p->e;
   dyd_status st = push(p, DYD_OP_CONST, at);
   if (st) return st;
-  if (!dyd_reserve((void **)&e->constant, &e->constant_cap, e->constants + 1, sizeof *e->constant)) {
-    return dyd_fail_nomem(p->err);
-  }
-  last(p)->constant = e->constants;
-  mpq_init(e->constant[e->constants++]);
-  st = dyd_literal_value(e->constant[e->constants - 1], l);
+  if (!dyd_draft_reserve_constant(p->d)) return dyd_fail_nomem(p->err);
+  last(p)->constant = (uint32_t)e->constants;
+  e->constant[e->constants++] = (dyd_constant){.den = 1};
+  st = dyd_constant_literal(last_constant(p), l);
   if (st) return fold_fail(p, st, DYD_OP_CONST, at);
   return charge(p, at);
 }
@@ -125,13 +120,13 @@ static dyd_status emit_unary(parser *p, dyd_op op, long exponent, size_t at) {
   dyd_range a = last(p)->range;
   if (last(p)->op == DYD_OP_CONST) {
     bool done;
-    st = dyd_fold_unary(p->e->constant[last(p)->constant], &done, op, exponent);
+    st = dyd_fold_unary(last_constant(p), &done, op, exponent);
     if (st) return fold_fail(p, st, op, at);
     if (done) return charge(p, at);
   }
   st = push(p, op, at);
   if (st) return st;
-  last(p)->exponent = exponent;
+  last(p)->exponent = (int32_t)exponent;
   last(p)->range = dyd_range_apply(op, a, a, exponent);
   return DYD_OK;
 }
@@ -139,15 +134,14 @@ static dyd_status emit_unary(parser *p, dyd_op op, long exponent, size_t at) {
 /* Applies a binary operator to the operand whose last node is `left`, and the one behind it. */
 static dyd_status emit_binary(parser *p, dyd_op op, size_t left, size_t at) {
   dyd_expr *e = p->e;
-  dyd_node *a = &e->node[left], *b = last(p);
+  const dyd_node *a = &e->node[left], *b = last(p);
   bool both = a->op == DYD_OP_CONST && b->op == DYD_OP_CONST;
-  if (op == DYD_OP_DIV && b->op == DYD_OP_CONST && !mpq_sgn(e->constant[b->constant])) {
+  if (op == DYD_OP_DIV && b->op == DYD_OP_CONST && dyd_constant_cmp(&e->constant[b->constant], 0) == 0) {
     return fold_fail(p, DYD_E_DOMAIN, op, at);
   }
   if (both) {
-    dyd_status st = dyd_fold_binary(e->constant[a->constant], op, e->constant[b->constant]);
-    mpq_clear(e->constant[--e->constants]);
-    e->count--;
+    dyd_status st = dyd_fold_binary(&e->constant[a->constant], op, &e->constant[b->constant]);
+    drop_constant(p);
     return st ? fold_fail(p, st, op, at) : charge(p, at);
   }
   dyd_range range = dyd_range_apply(op, a->range, b->range, 0);
@@ -158,15 +152,14 @@ static dyd_status emit_binary(parser *p, dyd_op op, size_t left, size_t at) {
 
 /* Takes the exponent, which must be an integer, off the end and applies it. */
 static dyd_status emit_power(parser *p, size_t left, size_t at) {
-  dyd_expr *e = p->e;
-  mpq_srcptr q = last(p)->op == DYD_OP_CONST ? e->constant[last(p)->constant] : NULL;
-  if (e->count != left + 2 || !q || mpz_cmp_ui(mpq_denref(q), 1)) {
+  dyd_constant_view view;
+  mpq_srcptr q = last(p)->op == DYD_OP_CONST ? dyd_constant_get(&view, last_constant(p)) : NULL;
+  if (p->e->count != left + 2 || !q || mpz_cmp_ui(mpq_denref(q), 1)) {
     return FAIL(p, at, DYD_E_PARSE, "only integer powers are known; write sqrt(a), cbrt(a) or exp(b*log(a))");
   }
   if (mpz_cmpabs_ui(mpq_numref(q), (unsigned long)DYD_EXP_LIMIT) > 0) return fold_fail(p, DYD_E_RANGE, DYD_OP_POW, at);
   long exponent = mpz_get_si(mpq_numref(q));
-  mpq_clear(e->constant[--e->constants]);
-  e->count--;
+  drop_constant(p);
   return emit_unary(p, DYD_OP_POW, exponent, at);
 }
 
@@ -305,8 +298,9 @@ static dyd_status parse_sum(parser *p) {
   return st;
 }
 
-dyd_status dyd_expr_parse(dyd_expr *e, size_t *pos, const char *text, size_t length, bool allow_x, dyd_error *err) {
-  parser p = {.e = e, .text = text, .length = length, .pos = *pos, .start = *pos, .allow_x = allow_x, .err = err};
+dyd_status dyd_expr_parse(dyd_draft *d, size_t *pos, const char *text, size_t length, bool allow_x, dyd_error *err) {
+  parser p = {
+      .d = d, .e = &d->e, .text = text, .length = length, .pos = *pos, .start = *pos, .allow_x = allow_x, .err = err};
   p.start_column = dyd_text_column(text, *pos);
   dyd_status st = parse_sum(&p);
   if (st) return st;

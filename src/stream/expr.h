@@ -6,6 +6,7 @@
 #ifndef DYD_STREAM_EXPR_H
 #define DYD_STREAM_EXPR_H
 
+#include "stream/constant.h"
 #include <dyadel/stream.h>
 
 /* Bounds that keep hostile text cheap: nesting, nodes, and bits of all rationals computed while folding. */
@@ -58,37 +59,55 @@ typedef struct dyd_range {
 } dyd_range;
 
 typedef struct dyd_node {
-  dyd_op op;
+  unsigned char op; /* a dyd_op */
   dyd_range range;
-  size_t column;   /* of the operator or name in the text, from 1 */
-  long exponent;   /* DYD_OP_POW */
-  size_t constant; /* DYD_OP_CONST: index in the table of constants */
+  uint32_t column;   /* of the operator or name in the text, from 1; the largest number stands for all beyond */
+  int32_t exponent;  /* DYD_OP_POW: within +- DYD_EXP_LIMIT */
+  uint32_t constant; /* DYD_OP_CONST: index in the table of constants */
 } dyd_node;
 
 /* Invariant: node[0..count-1] is a complete expression in postfix order, constants are used in order, each once;
  * a rational expression is the single node DYD_OP_CONST. */
 typedef struct dyd_expr {
   dyd_node *node;
-  size_t count, cap;
-  mpq_t *constant;
-  size_t constants, constant_cap;
+  dyd_constant *constant;
+  size_t count, constants;
 } dyd_expr;
 
-void dyd_expr_init(dyd_expr *e);
+/* An expression while it is parsed: short ones need no memory of their own.
+ * Invariant: e.node = node or a block of node_cap nodes, the same for constants. Stays where it was initialised. */
+typedef struct dyd_draft {
+  dyd_expr e;
+  size_t node_cap, constant_cap;
+  dyd_node node[16];
+  dyd_constant constant[8];
+} dyd_draft;
+
+void dyd_draft_init(dyd_draft *d);
+void dyd_draft_clear(dyd_draft *d);
+/* Parses the longest expression at text[*pos] and moves *pos behind it and the blanks that follow. d was just
+ * initialised; x is known only when allow_x. Errors have column and message; d can only be cleared then. */
+dyd_status dyd_expr_parse(dyd_draft *d, size_t *pos, const char *text, size_t length, bool allow_x, dyd_error *err);
+/* Bytes that follow a dyd_expr into which dyd_expr_take moves e. */
+size_t dyd_expr_size(const dyd_expr *e);
+/* Moves the parsed expression to *out and the dyd_expr_size bytes that follow it in the same block; the constants
+ * leave the draft. Release with dyd_expr_clear, which leaves the block. */
+void dyd_expr_take(dyd_expr *out, dyd_draft *d);
 void dyd_expr_clear(dyd_expr *e);
-/* Parses the longest expression at text[*pos] and moves *pos behind it and the blanks that follow. e was just
- * initialised; x is known only when allow_x. Errors have column and message; e can only be cleared then. */
-dyd_status dyd_expr_parse(dyd_expr *e, size_t *pos, const char *text, size_t length, bool allow_x, dyd_error *err);
 /* The value when the expression is rational, else NULL. Borrowed. */
-mpq_srcptr dyd_expr_rational(const dyd_expr *e);
+const dyd_constant *dyd_expr_rational(const dyd_expr *e);
 /* The range of op applied to known ranges (b: binary operators; exponent: DYD_OP_POW) [RANGE-1]. */
 dyd_range dyd_range_apply(dyd_op op, dyd_range a, dyd_range b, long exponent);
-dyd_range dyd_range_of_constant(mpq_srcptr q);
+dyd_range dyd_range_of_constant(const dyd_constant *c);
+
+/* Room for one more node or constant; false: memory is exhausted. */
+bool dyd_draft_reserve_node(dyd_draft *d);
+bool dyd_draft_reserve_constant(dyd_draft *d);
 
 /* Exact folding: x = op(x) or x = op(x, y). *done tells whether the result is rational and now in x.
- * DYD_E_DOMAIN when op is undefined there, DYD_E_RANGE when the result is too large. */
-dyd_status dyd_fold_unary(mpq_ptr x, bool *done, dyd_op op, long exponent);
-dyd_status dyd_fold_binary(mpq_ptr x, dyd_op op, mpq_srcptr y);
+ * DYD_E_DOMAIN when op is undefined there, DYD_E_RANGE when the result is too large, DYD_E_NOMEM. */
+dyd_status dyd_fold_unary(dyd_constant *x, bool *done, dyd_op op, long exponent);
+dyd_status dyd_fold_binary(dyd_constant *x, dyd_op op, const dyd_constant *y);
 
 /* An interval that contains the value of e, of width at most 2^-bits if the precision needed stays below a cap
  * that follows from max_bits and the size of the numbers; its ends are multiples of 2^-(bits + 2) unless it is a

@@ -20,7 +20,8 @@ typedef struct machine {
 static slong stack_need(const dyd_expr *e) {
   slong need = 0, now = 0;
   for (size_t i = 0; i < e->count; i++) {
-    now += dyd_op_is_leaf(e->node[i].op) ? 1 : dyd_op_is_binary(e->node[i].op) ? -1 : 0;
+    dyd_op op = (dyd_op)e->node[i].op;
+    now += dyd_op_is_leaf(op) ? 1 : dyd_op_is_binary(op) ? -1 : 0;
     if (now > need) need = now;
   }
   return need;
@@ -33,22 +34,23 @@ static void push_leaf(machine *m, const dyd_expr *e, const dyd_node *n) {
   } else if (n->op == DYD_OP_E) {
     arb_const_e(out, m->prec);
   } else {
-    dyd_ball_set_q(out, e->constant[n->constant], m->prec);
+    dyd_constant_view view;
+    dyd_ball_set_q(out, dyd_constant_get(&view, &e->constant[n->constant]), m->prec);
   }
 }
 
 /* Applies node i to the top of the stack. The operand just below the top is what node `i - 1` ends. */
 static dyd_defined apply(machine *m, const dyd_expr *e, const dyd_range *below, size_t i) {
   const dyd_node *n = &e->node[i];
-  if (dyd_op_is_leaf(n->op)) {
+  if (dyd_op_is_leaf((dyd_op)n->op)) {
     push_leaf(m, e, n);
     return DYD_DEFINED;
   }
-  if (dyd_op_is_binary(n->op)) {
+  if (dyd_op_is_binary((dyd_op)n->op)) {
     m->top--;
-    return dyd_ball_binary(m->ball + m->top - 1, n->op, m->ball + m->top, m->prec);
+    return dyd_ball_binary(m->ball + m->top - 1, (dyd_op)n->op, m->ball + m->top, m->prec);
   }
-  return dyd_ball_unary(m->ball + m->top - 1, n->op, *below, n->exponent, m->prec);
+  return dyd_ball_unary(m->ball + m->top - 1, (dyd_op)n->op, *below, n->exponent, m->prec);
 }
 
 /* Runs all nodes; the value is then m->ball[0]. On failure *culprit is the node. */
@@ -66,7 +68,7 @@ static dyd_defined run(machine *m, size_t *culprit, const dyd_expr *e) {
 
 static dyd_status undefined_fail(dyd_error *err, const dyd_expr *e, size_t culprit, dyd_defined d, slong prec) {
   const dyd_node *n = &e->node[culprit];
-  const char *name = dyd_op_name(n->op);
+  const char *name = dyd_op_name((dyd_op)n->op);
   if (err) err->column = n->column;
   if (d == DYD_TOO_BIG || d == DYD_TOO_BIG_YET) {
     return dyd_fail(err, DYD_E_RANGE,

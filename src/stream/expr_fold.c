@@ -37,7 +37,7 @@ static bool fold_special(mpq_ptr x, dyd_op op) {
   return true;
 }
 
-dyd_status dyd_fold_unary(mpq_ptr x, bool *done, dyd_op op, long exponent) {
+static dyd_status fold_unary(mpq_ptr x, bool *done, dyd_op op, long exponent) {
   *done = true;
   switch (op) {
   case DYD_OP_NEG:
@@ -70,7 +70,7 @@ dyd_status dyd_fold_unary(mpq_ptr x, bool *done, dyd_op op, long exponent) {
   }
 }
 
-dyd_status dyd_fold_binary(mpq_ptr x, dyd_op op, mpq_srcptr y) {
+static dyd_status fold_binary(mpq_ptr x, dyd_op op, mpq_srcptr y) {
   switch (op) {
   case DYD_OP_ADD:
     mpq_add(x, x, y);
@@ -93,4 +93,36 @@ dyd_status dyd_fold_binary(mpq_ptr x, dyd_op op, mpq_srcptr y) {
     break;
   }
   return dyd_rational_fits(x);
+}
+
+/* x = op of a copy of x, where that is rational. */
+static dyd_status with_rational(dyd_constant *x, bool *done, dyd_op op, long exponent, const dyd_constant *y) {
+  dyd_constant_view view;
+  mpq_t q;
+  mpq_init(q);
+  mpq_set(q, dyd_constant_get(&view, x));
+  *done = true;
+  dyd_status st = y ? fold_binary(q, op, dyd_constant_get(&view, y)) : fold_unary(q, done, op, exponent);
+  if (!st && *done) st = dyd_constant_set(x, q);
+  mpq_clear(q);
+  return st;
+}
+
+/* Is the short positive constant surely no square of a rational? */
+static bool is_no_square(const dyd_constant *x) {
+  mp_limb_t num = (mp_limb_t)x->num, den = (mp_limb_t)x->den;
+  return !x->big && x->num > 0 && (!mpn_perfect_square_p(&num, 1) || !mpn_perfect_square_p(&den, 1));
+}
+
+dyd_status dyd_fold_unary(dyd_constant *x, bool *done, dyd_op op, long exponent) {
+  *done = op == DYD_OP_NEG;
+  if (op == DYD_OP_SQRT && is_no_square(x)) return DYD_OK;
+  if (op != DYD_OP_NEG || x->big) return with_rational(x, done, op, exponent, NULL);
+  x->num = -x->num;
+  return DYD_OK;
+}
+
+dyd_status dyd_fold_binary(dyd_constant *x, dyd_op op, const dyd_constant *y) {
+  bool done;
+  return with_rational(x, &done, op, 0, y);
 }

@@ -25,11 +25,11 @@ static dyd_range make(int lo, int hi) {
   return (dyd_range){(signed char)l, (signed char)h};
 }
 
-dyd_range dyd_range_of_constant(mpq_srcptr q) {
+dyd_range dyd_range_of_constant(const dyd_constant *c) {
   int lo = -NONE, hi = NONE;
   for (int k = -1; k <= 1; k++) {
-    if (mpq_cmp_si(q, k, 1) >= 0) lo = k;
-    if (mpq_cmp_si(q, -k, 1) <= 0) hi = -k;
+    if (dyd_constant_cmp(c, k) >= 0) lo = k;
+    if (dyd_constant_cmp(c, -k) <= 0) hi = -k;
   }
   return make(lo, hi);
 }

@@ -23,6 +23,9 @@ typedef struct dyd_literal {
 bool dyd_literal_scan(dyd_literal *out, const char *text, size_t length, size_t pos);
 /* The exact value, canonical. DYD_OK, DYD_E_RANGE or DYD_E_NOMEM (out is then unspecified but valid). */
 dyd_status dyd_literal_value(mpq_ptr out, const dyd_literal *in);
+/* The value num / den of a short decimal literal, in lowest terms. false (nothing written) where words are too short.
+ */
+bool dyd_literal_words(uint64_t *num, uint64_t *den, const dyd_literal *in);
 /* out = m * 10^ten, canonical, by single words: m <= 10^18, -18 <= ten <= 18. false (out unchanged) where words
  * are too short. */
 bool dyd_small_decimal(mpq_ptr out, uint64_t m, int ten);

@@ -24,8 +24,9 @@ static uint64_t ten_to(int k) {
   return p;
 }
 
-bool dyd_small_decimal(mpq_ptr out, uint64_t m, int ten) {
-  uint64_t den = 1;
+/* *num / *den = m * 10^ten in lowest terms. */
+static bool decimal_words(uint64_t *num, uint64_t *den, uint64_t m, int ten) {
+  *den = 1;
   if (ten > 0) {
     if (m > UINT64_MAX / ten_to(ten)) return false;
     m *= ten_to(ten);
@@ -34,10 +35,16 @@ bool dyd_small_decimal(mpq_ptr out, uint64_t m, int ten) {
     if (!m) two = five = 0;
     for (; two && !(m & 1); two--) m >>= 1;
     for (; five && m % 5 == 0; five--) m /= 5;
-    for (; five; five--) den *= 5;
-    den <<= two;
+    for (; five; five--) *den *= 5;
+    *den <<= two;
   }
-  if (m > ULONG_MAX || den > ULONG_MAX) return false;
+  *num = m;
+  return true;
+}
+
+bool dyd_small_decimal(mpq_ptr out, uint64_t m, int ten) {
+  uint64_t den;
+  if (!decimal_words(&m, &den, m, ten) || m > ULONG_MAX || den > ULONG_MAX) return false;
   mpz_set_ui(mpq_numref(out), (unsigned long)m);
   mpz_set_ui(mpq_denref(out), (unsigned long)den);
   return true;
@@ -55,6 +62,10 @@ static uint64_t small_digits(const dyd_literal *in) {
 static bool is_small(const dyd_literal *in) {
   int64_t ten = in->exponent - (int64_t)in->fraction;
   return !in->hex && in->digits <= SMALL_DIGITS && ten >= -SMALL_DIGITS && ten <= SMALL_DIGITS;
+}
+
+bool dyd_literal_words(uint64_t *num, uint64_t *den, const dyd_literal *in) {
+  return is_small(in) && decimal_words(num, den, small_digits(in), (int)(in->exponent - (int64_t)in->fraction));
 }
 
 /* All digits as an integer, whatever their number up to MAX_DIGITS (leading zeros aside). */

@@ -26,8 +26,9 @@ static void set_leaf(fmpq_poly_t out, const dyd_expr *e, const dyd_node *n) {
     fmpq_poly_set_coeff_ui(out, 1, 1);
   } else {
     fmpq_t c;
+    dyd_constant_view view;
     fmpq_init(c);
-    fmpq_set_mpq(c, e->constant[n->constant]);
+    fmpq_set_mpq(c, dyd_constant_get(&view, &e->constant[n->constant]));
     fmpq_poly_set_fmpq(out, c);
     fmpq_clear(c);
   }
@@ -57,8 +58,8 @@ static dyd_status too_large(dyd_error *err, const dyd_node *n) {
 
 static dyd_status no_polynomial(dyd_error *err, const dyd_node *n, const char *why) {
   if (err) err->column = n->column;
-  return dyd_fail(err, DYD_E_PARSE, "'%s' does not give a polynomial with rational coefficients%s", dyd_op_name(n->op),
-                  why);
+  return dyd_fail(err, DYD_E_PARSE, "'%s' does not give a polynomial with rational coefficients%s",
+                  dyd_op_name((dyd_op)n->op), why);
 }
 
 static dyd_status raise_power(fmpq_poly_t x, const dyd_node *n, dyd_error *err) {
@@ -94,12 +95,12 @@ static dyd_status combine(fmpq_poly_t x, const dyd_node *n, const fmpq_poly_t y,
 
 static dyd_status apply(ring *r, const dyd_expr *e, const dyd_node *n, dyd_error *err) {
   if (n->op == DYD_OP_PI || n->op == DYD_OP_E) return no_polynomial(err, n, "");
-  if (dyd_op_is_leaf(n->op)) {
+  if (dyd_op_is_leaf((dyd_op)n->op)) {
     set_leaf(&r->value[r->top++], e, n);
     return DYD_OK;
   }
   fmpq_poly_struct *x = &r->value[r->top - 1];
-  if (dyd_op_is_binary(n->op)) {
+  if (dyd_op_is_binary((dyd_op)n->op)) {
     r->top--;
     return combine(x - 1, n, x, err);
   }
@@ -126,7 +127,7 @@ static dyd_status copy_coefficients(dyd_poly *out, const fmpq_poly_t p, dyd_erro
 /* The number of values held at once is at most the number of leaves. */
 static bool ring_init(ring *r, const dyd_expr *e) {
   r->top = r->capacity = 0;
-  for (size_t i = 0; i < e->count; i++) r->capacity += dyd_op_is_leaf(e->node[i].op);
+  for (size_t i = 0; i < e->count; i++) r->capacity += dyd_op_is_leaf((dyd_op)e->node[i].op);
   r->value = dyd_alloc(r->capacity, sizeof *r->value);
   if (!r->value) return false;
   for (size_t i = 0; i < r->capacity; i++) fmpq_poly_init(&r->value[i]);

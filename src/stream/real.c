@@ -11,29 +11,31 @@
 #include "base/verify.h"
 #include "rect/interval.h"
 
-/* Invariant: refs > 0; known: `now` holds an interval, valid; final: known and no call can narrow it. */
+/* Invariant: refs > 0; now: NULL before the first narrowing, else owned and valid; final: known and no call can narrow
+ * it; spans: the value lies in span, and so does every interval that the source gives after intersection; encloses. */
 struct dyd_real {
   size_t refs;
   dyd_narrow_real_fn narrow; /* NULL for values fixed from the start */
   dyd_release_fn release;
   void *user;
-  bool encloses, known, final;
+  bool encloses, final, spans;
   uint64_t stage;
   size_t line, column; /* 0: no place known */
-  dyd_interval now;
+  dyd_double_span span;
+  dyd_interval *now;
 };
 
-static dyd_status real_new(dyd_real **out, dyd_narrow_real_fn narrow, dyd_release_fn release, void *user) {
-  dyd_real *x = dyd_alloc(1, sizeof *x);
+/* `more` bytes follow the real. */
+static dyd_status real_new(dyd_real **out, size_t more, dyd_narrow_real_fn narrow, dyd_release_fn release, void *user) {
+  dyd_real *x = more > SIZE_MAX / 2 ? NULL : malloc(sizeof *x + more);
   if (!x) return DYD_E_NOMEM;
   *x = (dyd_real){.refs = 1, .narrow = narrow, .release = release, .user = user};
-  dyd_interval_init(&x->now);
   *out = x;
   return DYD_OK;
 }
 
 dyd_status dyd_real_new(dyd_real **out, dyd_narrow_real_fn narrow, dyd_release_fn release, void *user) {
-  dyd_status st = out && narrow ? real_new(out, narrow, release, user) : DYD_E_ARG;
+  dyd_status st = out && narrow ? real_new(out, 0, narrow, release, user) : DYD_E_ARG;
   if (st && release) release(user);
   return st;
 }
@@ -44,13 +46,40 @@ dyd_status dyd_real_new_enclosing(dyd_real **out, dyd_narrow_real_fn narrow, dyd
   return st;
 }
 
+dyd_status dyd_real_new_inside(dyd_real **out, void **user, size_t size, dyd_narrow_real_fn narrow,
+                               dyd_release_fn release) {
+  dyd_status st = real_new(out, size, narrow, release, NULL);
+  if (st) return st;
+  (*out)->user = *user = *out + 1;
+  (*out)->encloses = true;
+  return DYD_OK;
+}
+
+void dyd_real_set_span(dyd_real *x, dyd_double_span span) {
+  DYD_CHECK(x->encloses && !x->now && span.lo <= span.hi);
+  x->spans = true;
+  x->span = span;
+}
+
+/* Makes room for an interval. */
+static bool hold(dyd_real *x) {
+  if (x->now) return true;
+  x->now = dyd_alloc(1, sizeof *x->now);
+  if (x->now) dyd_interval_init(x->now);
+  return x->now;
+}
+
 dyd_status dyd_real_new_fixed(dyd_real **out, dyd_interval *value) {
   dyd_real *x;
-  dyd_status st = real_new(&x, NULL, NULL, NULL);
+  dyd_status st = real_new(&x, 0, NULL, NULL, NULL);
   if (st) return st;
-  dyd_interval_swap(&x->now, value);
-  x->known = x->final = true;
-  DYD_CHECK(dyd_interval_is_valid(&x->now));
+  if (!hold(x)) {
+    free(x);
+    return DYD_E_NOMEM;
+  }
+  dyd_interval_swap(x->now, value);
+  x->final = true;
+  DYD_CHECK(dyd_interval_is_valid(x->now));
   *out = x;
   return DYD_OK;
 }
@@ -63,12 +92,13 @@ dyd_real *dyd_real_ref(dyd_real *x) {
 void dyd_real_free(dyd_real *x) {
   if (!x || --x->refs) return;
   if (x->release) x->release(x->user);
-  dyd_interval_clear(&x->now);
+  if (x->now) dyd_interval_clear(x->now);
+  free(x->now);
   free(x);
 }
 
 const dyd_interval *dyd_real_interval(const dyd_real *x) {
-  return x->known ? &x->now : NULL;
+  return x->now;
 }
 
 bool dyd_real_is_final(const dyd_real *x) {
@@ -80,20 +110,36 @@ void dyd_real_place(dyd_real *x, size_t line, size_t column) {
   x->column = column;
 }
 
+/* next = next and old, which must meet. */
+static dyd_status cut(dyd_interval *next, const dyd_interval *old, dyd_error *err) {
+  dyd_status st = dyd_interval_intersect(next, old, next);
+  if (st == DYD_E_ARG) return dyd_nesting_fail(err, "interval", old, next);
+  return st ? dyd_fail(err, st, "%s", dyd_status_text(st)) : st;
+}
+
+/* next = next and the span. */
+static dyd_status cut_to_span(dyd_interval *next, dyd_double_span span, dyd_error *err) {
+  dyd_interval old;
+  dyd_interval_init(&old);
+  dyd_status st = dyd_interval_set_d(&old, span.lo, span.hi);
+  st = st ? dyd_fail(err, st, "%s", dyd_status_text(st)) : cut(next, &old, err);
+  dyd_interval_clear(&old);
+  return st;
+}
+
 /* Takes `next` over if it may follow; it becomes the interval now. */
 static dyd_status accept(dyd_real *x, dyd_interval *next, dyd_error *err) {
   if (!dyd_interval_is_valid(next)) {
     return dyd_fail(err, DYD_E_STREAM, "the callback gave no valid interval; fill it with dyd_interval_set_ends");
   }
-  if (x->known && x->encloses) {
-    dyd_status st = dyd_interval_intersect(next, &x->now, next);
-    if (st == DYD_E_ARG) return dyd_nesting_fail(err, "interval", &x->now, next);
-    if (st) return dyd_fail(err, st, "%s", dyd_status_text(st));
-  } else if (x->known && !dyd_interval_contains(&x->now, next)) {
-    return dyd_nesting_fail(err, "interval", &x->now, next);
+  if (x->now && x->encloses) {
+    dyd_status st = cut(next, x->now, err);
+    if (st) return st;
+  } else if (x->now && !dyd_interval_contains(x->now, next)) {
+    return dyd_nesting_fail(err, "interval", x->now, next);
   }
-  dyd_interval_swap(&x->now, next);
-  x->known = true;
+  if (!hold(x)) return dyd_fail_nomem(err);
+  dyd_interval_swap(x->now, next);
   return DYD_OK;
 }
 
@@ -102,13 +148,15 @@ static dyd_status call_source(dyd_real *x, const dyd_request *request, dyd_error
   dyd_error own;
   dyd_error_clear(&own);
   dyd_interval_init(&next);
-  if (x->known) dyd_interval_set(&next, &x->now);
+  if (x->now) dyd_interval_set(&next, x->now);
   dyd_status st = x->narrow(&next, x->user, request, &own);
   bool fixed = st == DYD_FIXED;
-  if (!st || fixed) st = accept(x, &next, &own);
+  if (fixed) st = DYD_OK;
+  if (!st && x->spans) st = cut_to_span(&next, x->span, &own);
+  if (!st) st = accept(x, &next, &own);
   dyd_interval_clear(&next);
   if (!st) {
-    x->final = fixed || dyd_interval_is_point(&x->now);
+    x->final = fixed || dyd_interval_is_point(x->now);
   } else {
     st = dyd_callback_fail(err, &own, st, DYD_NO_POINT, x->stage);
   }
@@ -123,12 +171,38 @@ static void place_error(const dyd_real *x, dyd_error *err) {
   err->column = err->column ? err->column + x->column - 1 : x->column;
 }
 
+bool dyd_real_glance(dyd_double_span *out, const dyd_real *x, int64_t bits) {
+  if (x->final) return dyd_interval_get_exact_d(&out->lo, &out->hi, x->now);
+  return x->spans && !x->now && dyd_filter_round(out, x->span, bits);
+}
+
+int64_t dyd_real_glance_bits(const dyd_real *x) {
+  dyd_double_span exact;
+  if (x->final) return dyd_interval_get_exact_d(&exact.lo, &exact.hi, x->now) ? INT64_MAX : INT64_MIN;
+  return x->spans && !x->now ? dyd_filter_bits(x->span) : INT64_MIN;
+}
+
+/* Narrows to what the span gives for `bits`. */
+static dyd_status take_span(dyd_real *x, dyd_double_span span, dyd_error *err) {
+  dyd_interval next;
+  dyd_interval_init(&next);
+  dyd_status st = dyd_interval_set_d(&next, span.lo, span.hi);
+  st = st ? dyd_fail(err, st, "%s", dyd_status_text(st)) : accept(x, &next, err);
+  dyd_interval_clear(&next);
+  if (!st) x->final = dyd_interval_is_point(x->now);
+  return st;
+}
+
 dyd_status dyd_real_narrow(dyd_real *x, int64_t bits, int64_t max_bits, dyd_error *err) {
   dyd_request request;
+  dyd_double_span span;
   if (x->final) return DYD_FIXED;
-  if (x->known && dyd_interval_bits(&x->now) >= bits) return DYD_OK;
+  if (x->now && dyd_interval_bits(x->now) >= bits) return DYD_OK;
   dyd_status st = dyd_request_make(&request, 0, bits, max_bits, err);
-  if (!st) st = call_source(x, &request, err);
+  if (!st && x->spans && dyd_filter_round(&span, x->span, request.bits))
+    st = take_span(x, span, err);
+  else if (!st)
+    st = call_source(x, &request, err);
   if (st) {
     place_error(x, err);
     return st;

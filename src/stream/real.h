@@ -3,11 +3,23 @@
 #ifndef DYD_STREAM_REAL_H
 #define DYD_STREAM_REAL_H
 
+#include "stream/filter_expr.h"
 #include <dyadel/stream.h>
 
 /* As dyd_real_new for a source that encloses one and the same value every time: its intervals are intersected with
  * the former ones, so that they are nested by construction [NEST-2]. Takes over user, also on failure. */
 dyd_status dyd_real_new_enclosing(dyd_real **out, dyd_narrow_real_fn narrow, dyd_release_fn release, void *user);
+/* The same with a context of `size` bytes in one block with the real; *user is where. release, which may be NULL, must
+ * not free it. Only a success calls it, when the real goes. */
+dyd_status dyd_real_new_inside(dyd_real **out, void **user, size_t size, dyd_narrow_real_fn narrow,
+                               dyd_release_fn release);
+/* From now on x is known to lie in `span`, from which coarse intervals are made without a call of the source. For a
+ * source that encloses one and the same value, before it is narrowed. */
+void dyd_real_set_span(dyd_real *x, dyd_double_span span);
+/* Where doubles hold the interval that a first narrowing to `bits` gives, that interval; x is not changed. */
+bool dyd_real_glance(dyd_double_span *out, const dyd_real *x, int64_t bits);
+/* The greatest bits for which dyd_real_glance succeeds; INT64_MIN when there is none, INT64_MAX for exact doubles. */
+int64_t dyd_real_glance_bits(const dyd_real *x);
 /* A real that is final from the start; swaps *value into it. */
 dyd_status dyd_real_new_fixed(dyd_real **out, dyd_interval *value);
 /* From now on errors of x have this line, and their columns count from `column` on: the place in a file of the

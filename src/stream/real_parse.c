@@ -9,7 +9,6 @@
 #include "stream/poly.h"
 #include "stream/real.h"
 
-#include "base/alloc.h"
 #include "base/error.h"
 #include <string.h>
 
@@ -41,15 +40,15 @@ static bool take(reader *r, const char *word) {
 
 /* ---- expressions as reals ---- */
 
+/* The expression comes last: its nodes follow. */
 typedef struct computed {
-  dyd_expr expr;
   int64_t extra;
+  dyd_expr expr;
 } computed;
 
 static void computed_release(void *user) {
   computed *c = user;
   dyd_expr_clear(&c->expr);
-  free(c);
 }
 
 static dyd_status computed_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
@@ -57,26 +56,33 @@ static dyd_status computed_narrow(dyd_interval *out, void *user, const dyd_reque
   return dyd_expr_enclose(out, &c->extra, &c->expr, request, err);
 }
 
-/* Takes *e over when it succeeds. */
-static dyd_status real_from_expr(dyd_real **out, reader *r, size_t at, dyd_expr *e) {
-  mpq_srcptr q = dyd_expr_rational(e);
-  if (q) return plain_fail(r, at, dyd_real_from_q(out, q));
-  dyd_status st = dyd_expr_probe(e, r->err);
+/* What is finite in doubles is defined; what they cannot tell is probed. */
+static dyd_status real_from_draft(dyd_real **out, reader *r, size_t at, dyd_draft *d) {
+  const dyd_constant *rational = dyd_expr_rational(&d->e);
+  dyd_constant_view view;
+  dyd_double_span span;
+  void *inside;
+  if (rational) return plain_fail(r, at, dyd_real_from_q(out, dyd_constant_get(&view, rational)));
+  bool spans = dyd_filter_expr(&span, &d->e);
+  dyd_status st = spans ? DYD_OK : dyd_expr_probe(&d->e, r->err);
   if (st) return st;
-  computed *c = dyd_alloc(1, sizeof *c);
-  if (!c) return dyd_fail_nomem(r->err);
-  *c = (computed){.expr = *e, .extra = DYD_EXPR_EXTRA};
-  dyd_expr_init(e);
-  return plain_fail(r, at, dyd_real_new_enclosing(out, computed_narrow, computed_release, c));
+  size_t size = sizeof(computed) + dyd_expr_size(&d->e);
+  st = dyd_real_new_inside(out, &inside, size, computed_narrow, computed_release);
+  if (st) return plain_fail(r, at, st);
+  computed *c = inside;
+  c->extra = DYD_EXPR_EXTRA;
+  dyd_expr_take(&c->expr, d);
+  if (spans) dyd_real_set_span(*out, span);
+  return DYD_OK;
 }
 
 static dyd_status read_expr(dyd_real **out, reader *r) {
-  dyd_expr e;
+  dyd_draft d;
   size_t at = r->pos;
-  dyd_expr_init(&e);
-  dyd_status st = dyd_expr_parse(&e, &r->pos, r->text, r->length, false, r->err);
-  if (!st) st = real_from_expr(out, r, at, &e);
-  dyd_expr_clear(&e);
+  dyd_draft_init(&d);
+  dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, false, r->err);
+  if (!st) st = real_from_draft(out, r, at, &d);
+  dyd_draft_clear(&d);
   return st;
 }
 
@@ -84,15 +90,16 @@ static dyd_status read_expr(dyd_real **out, reader *r) {
 
 /* An expression that must be rational; what names it in messages. */
 static dyd_status read_rational(mpq_t out, reader *r, const char *what) {
-  dyd_expr e;
+  dyd_draft d;
+  dyd_constant_view view;
   skip_blanks(r);
   size_t at = r->pos;
-  dyd_expr_init(&e);
-  dyd_status st = dyd_expr_parse(&e, &r->pos, r->text, r->length, false, r->err);
-  mpq_srcptr q = st ? NULL : dyd_expr_rational(&e);
+  dyd_draft_init(&d);
+  dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, false, r->err);
+  const dyd_constant *q = st ? NULL : dyd_expr_rational(&d.e);
   if (!st && !q) st = FAIL(r, at, DYD_E_PARSE, "%s must be rational: numbers and + - * / ^ only", what);
-  if (!st) mpq_set(out, q);
-  dyd_expr_clear(&e);
+  if (!st) mpq_set(out, dyd_constant_get(&view, q));
+  dyd_draft_clear(&d);
   return st;
 }
 
@@ -123,12 +130,12 @@ static dyd_status read_interval(dyd_real **out, reader *r) {
 /* ---- roots ---- */
 
 static dyd_status read_polynomial(dyd_poly *out, reader *r) {
-  dyd_expr e;
-  dyd_expr_init(&e);
-  dyd_status st = dyd_expr_parse(&e, &r->pos, r->text, r->length, true, r->err);
-  if (!st) st = dyd_poly_expand(out, &e, r->err);
+  dyd_draft d;
+  dyd_draft_init(&d);
+  dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, true, r->err);
+  if (!st) st = dyd_poly_expand(out, &d.e, r->err);
   if (!st && !take(r, ",")) st = FAIL(r, r->pos, DYD_E_PARSE, "a ',' is missing after the polynomial");
-  dyd_expr_clear(&e);
+  dyd_draft_clear(&d);
   return st;
 }
 

@@ -10,28 +10,36 @@
 #include "rect/interval.h"
 #include "stream/real.h"
 
-/* Invariant: as dyd_real, with rectangles. */
+/* Invariant: as dyd_real, with rectangles and without span. */
 struct dyd_stream {
   size_t refs;
   dyd_source source; /* source.narrow is NULL for rectangles fixed from the start */
   size_t point;
-  bool encloses, known, final;
+  bool encloses, final;
   uint64_t stage;
-  dyd_rect now;
+  dyd_rect *now;
 };
 
-static dyd_status stream_new(dyd_stream **out, const dyd_source *source, size_t point) {
-  dyd_stream *s = dyd_alloc(1, sizeof *s);
+/* `more` bytes follow the stream. */
+static dyd_status stream_new(dyd_stream **out, size_t more, const dyd_source *source, size_t point) {
+  dyd_stream *s = malloc(sizeof *s + more);
   if (!s) return DYD_E_NOMEM;
   *s = (dyd_stream){.refs = 1, .source = *source, .point = point};
-  dyd_rect_init(&s->now);
   *out = s;
   return DYD_OK;
 }
 
+/* Makes room for a rectangle. */
+static bool hold(dyd_stream *s) {
+  if (s->now) return true;
+  s->now = dyd_alloc(1, sizeof *s->now);
+  if (s->now) dyd_rect_init(s->now);
+  return s->now;
+}
+
 dyd_status dyd_stream_new(dyd_stream **out, const dyd_source *source, size_t point) {
   if (!source) return DYD_E_ARG;
-  dyd_status st = out && source->narrow ? stream_new(out, source, point) : DYD_E_ARG;
+  dyd_status st = out && source->narrow ? stream_new(out, 0, source, point) : DYD_E_ARG;
   if (st && source->release) source->release(source->user);
   return st;
 }
@@ -42,13 +50,27 @@ dyd_status dyd_stream_new_enclosing(dyd_stream **out, const dyd_source *source) 
   return st;
 }
 
+dyd_status dyd_stream_new_inside(dyd_stream **out, void **user, size_t size, dyd_narrow_fn narrow,
+                                 dyd_release_fn release) {
+  dyd_source source = {.narrow = narrow, .release = release};
+  dyd_status st = stream_new(out, size, &source, DYD_NO_POINT);
+  if (st) return st;
+  (*out)->source.user = *user = *out + 1;
+  (*out)->encloses = true;
+  return DYD_OK;
+}
+
 dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value) {
   dyd_stream *s;
   dyd_source none = {0};
-  dyd_status st = stream_new(&s, &none, DYD_NO_POINT);
+  dyd_status st = stream_new(&s, 0, &none, DYD_NO_POINT);
   if (st) return st;
-  dyd_rect_swap(&s->now, value);
-  s->known = s->final = true;
+  if (!hold(s)) {
+    free(s);
+    return DYD_E_NOMEM;
+  }
+  dyd_rect_swap(s->now, value);
+  s->final = true;
   *out = s;
   return DYD_OK;
 }
@@ -65,12 +87,13 @@ dyd_stream *dyd_stream_ref(dyd_stream *s) {
 void dyd_stream_free(dyd_stream *s) {
   if (!s || --s->refs) return;
   if (s->source.release) s->source.release(s->source.user);
-  dyd_rect_clear(&s->now);
+  if (s->now) dyd_rect_clear(s->now);
+  free(s->now);
   free(s);
 }
 
 const dyd_rect *dyd_stream_rect(const dyd_stream *s) {
-  return s->known ? &s->now : NULL;
+  return s->now;
 }
 
 bool dyd_stream_is_final(const dyd_stream *s) {
@@ -87,7 +110,7 @@ static dyd_status accept_side(dyd_interval *next, const dyd_stream *s, const dyd
   if (!dyd_interval_is_valid(next)) {
     return dyd_fail(err, DYD_E_STREAM, "the callback gave no valid %s; fill it with dyd_interval_set_ends", side);
   }
-  if (!s->known) return DYD_OK;
+  if (!s->now) return DYD_OK;
   if (!s->encloses) {
     return dyd_interval_contains(old, next) ? DYD_OK : dyd_nesting_fail(err, side, old, next);
   }
@@ -97,11 +120,11 @@ static dyd_status accept_side(dyd_interval *next, const dyd_stream *s, const dyd
 }
 
 static dyd_status accept(dyd_stream *s, dyd_rect *next, dyd_error *err) {
-  dyd_status st = accept_side(&next->x, s, &s->now.x, "x side", err);
-  if (!st) st = accept_side(&next->y, s, &s->now.y, "y side", err);
+  dyd_status st = accept_side(&next->x, s, s->now ? &s->now->x : NULL, "x side", err);
+  if (!st) st = accept_side(&next->y, s, s->now ? &s->now->y : NULL, "y side", err);
   if (st) return st;
-  dyd_rect_swap(&s->now, next);
-  s->known = true;
+  if (!hold(s)) return dyd_fail_nomem(err);
+  dyd_rect_swap(s->now, next);
   return DYD_OK;
 }
 
@@ -110,13 +133,13 @@ static dyd_status call_source(dyd_stream *s, const dyd_request *request, dyd_err
   dyd_error own;
   dyd_error_clear(&own);
   dyd_rect_init(&next);
-  if (s->known) dyd_rect_set(&next, &s->now);
+  if (s->now) dyd_rect_set(&next, s->now);
   dyd_status st = s->source.narrow(&next, s->source.user, request, &own);
   bool fixed = st == DYD_FIXED;
   if (!st || fixed) st = accept(s, &next, &own);
   dyd_rect_clear(&next);
   if (!st) {
-    s->final = fixed || dyd_rect_is_point(&s->now);
+    s->final = fixed || dyd_rect_is_point(s->now);
   } else {
     st = dyd_callback_fail(err, &own, st, s->point, s->stage);
   }
@@ -127,7 +150,7 @@ static dyd_status call_source(dyd_stream *s, const dyd_request *request, dyd_err
 dyd_status dyd_stream_narrow(dyd_stream *s, int64_t bits, int64_t max_bits, dyd_error *err) {
   dyd_request request;
   if (s->final) return DYD_FIXED;
-  if (s->known && dyd_rect_bits(&s->now) >= bits) return DYD_OK;
+  if (s->now && dyd_rect_bits(s->now) >= bits) return DYD_OK;
   dyd_status st = dyd_request_make(&request, s->point == DYD_NO_POINT ? 0 : s->point, bits, max_bits, err);
   if (!st) st = call_source(s, &request, err);
   if (st) return st;

@@ -3,6 +3,7 @@
 #ifndef DYD_STREAM_STREAM_H
 #define DYD_STREAM_STREAM_H
 
+#include "stream/filter_expr.h"
 #include <dyadel/stream.h>
 
 /* As dyd_stream_new for a source that encloses one and the same point every time: its rectangles are intersected
@@ -10,6 +11,14 @@
 dyd_status dyd_stream_new_enclosing(dyd_stream **out, const dyd_source *source);
 /* A stream that is final from the start; swaps *value into it. */
 dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value);
+/* The same with a context of `size` bytes in one block with the stream, as dyd_real_new_inside. */
+dyd_status dyd_stream_new_inside(dyd_stream **out, void **user, size_t size, dyd_narrow_fn narrow,
+                                 dyd_release_fn release);
+/* Where doubles hold the rectangle that a first narrowing to `bits` gives, that rectangle: x side, y side. s is not
+ * changed; what it gives later lies in that rectangle. */
+bool dyd_stream_glance(dyd_double_span out[2], const dyd_stream *s, int64_t bits);
+/* The greatest bits for which dyd_stream_glance succeeds; INT64_MIN when there is none. */
+int64_t dyd_stream_glance_bits(const dyd_stream *s);
 /* The context of s if `narrow` is its callback, else NULL. Borrowed. */
 void *dyd_stream_user(const dyd_stream *s, dyd_narrow_fn narrow);
 

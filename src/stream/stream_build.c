@@ -2,8 +2,7 @@
 /* Streams from rectangles and from pairs of reals. */
 #include "stream/stream.h"
 
-#include "base/alloc.h"
-#include "base/error.h"
+#include "stream/real.h"
 
 dyd_status dyd_stream_from_rect(dyd_stream **out, const dyd_rect *r) {
   dyd_rect copy;
@@ -22,7 +21,6 @@ static void pair_release(void *user) {
   pair *p = user;
   dyd_real_free(p->y);
   dyd_real_free(p->x);
-  free(p);
 }
 
 static bool pair_is_final(const pair *p) {
@@ -53,18 +51,31 @@ static dyd_status pair_fixed(dyd_stream **out, const pair *p) {
 }
 
 dyd_status dyd_stream_from_reals(dyd_stream **out, dyd_real *x, dyd_real *y) {
-  pair *p = x && y ? dyd_alloc(1, sizeof *p) : NULL;
-  if (!p) {
-    dyd_real_free(x);
-    dyd_real_free(y);
-    return x && y ? DYD_E_NOMEM : DYD_E_ARG;
+  pair p = {x, y};
+  void *inside;
+  dyd_status st = x && y ? DYD_OK : DYD_E_ARG;
+  if (!st && !pair_is_final(&p)) {
+    st = dyd_stream_new_inside(out, &inside, sizeof p, pair_narrow, pair_release);
+    if (!st) {
+      *(pair *)inside = p;
+      return DYD_OK;
+    }
+  } else if (!st) {
+    st = pair_fixed(out, &p);
   }
-  *p = (pair){x, y};
-  if (!pair_is_final(p)) {
-    dyd_source source = {.narrow = pair_narrow, .release = pair_release, .user = p};
-    return dyd_stream_new_enclosing(out, &source);
-  }
-  dyd_status st = pair_fixed(out, p);
-  pair_release(p);
+  pair_release(&p);
   return st;
+}
+
+bool dyd_stream_glance(dyd_double_span out[2], const dyd_stream *s, int64_t bits) {
+  const pair *p = dyd_stream_user(s, pair_narrow);
+  if (!p || dyd_stream_rect(s)) return false;
+  return dyd_real_glance(&out[0], p->x, bits) && dyd_real_glance(&out[1], p->y, bits);
+}
+
+int64_t dyd_stream_glance_bits(const dyd_stream *s) {
+  const pair *p = dyd_stream_user(s, pair_narrow);
+  if (!p || dyd_stream_rect(s)) return INT64_MIN;
+  int64_t x = dyd_real_glance_bits(p->x), y = dyd_real_glance_bits(p->y);
+  return x < y ? x : y;
 }

@@ -8,7 +8,7 @@ static void test_texts(void **state) {
   assert_string_equal("cancelled", dyd_outcome_text(DYD_OUTCOME_CANCELLED));
   dyd_engine_options o;
   dyd_engine_options_init(&o);
-  assert_int_equal(64, o.start_bits);
+  assert_int_equal(0, o.start_bits);
   assert_int_equal(4096, o.max_bits);
   assert_int_equal(DYD_GOAL_DECIDED, o.goal);
 }
@@ -190,18 +190,62 @@ static void test_schedules(void **state) {
   }
 }
 
-/* Adaptive asks only for what matters: a far-away cluster that is decided stays at the first precision. */
+/* Adaptive asks only for what matters: a far-away cluster that is decided stays at the first precision, which is that
+ * of doubles unless another is given. */
 static void test_adaptive_is_local(void **state) {
   (void)state;
+  for (int64_t start = 0; start <= 64; start += 64) {
+    dyd_engine *e = engine_new();
+    dyd_engine_options o;
+    dyd_engine_options_init(&o);
+    o.start_bits = start;
+    engine_add_polygon(e, 4, weights, 300);
+    engine_add_text(e, "sqrt(10000)+sqrt(2)", "sqrt(3)");
+    engine_add_text(e, "sqrt(10000)+sqrt(5)", "sqrt(7)");
+    engine_run(e, &o, DYD_OUTCOME_DECIDED);
+    dyd_engine_counters c = engine_counters(e);
+    if (start)
+      assert_int_equal(64, c.bits_least);
+    else
+      assert_in_range(c.bits_least, 40, 52);
+    assert_int_equal(512, c.bits_most);
+    assert_true(c.calls <= 4 * 4 + 2);
+    dyd_engine_free(e);
+  }
+}
+
+/* The rectangles of a first stage in doubles are as narrow as said [FLT-GRID], and narrower ones lie inside, whoever asks
+ * for them first. */
+static void test_first_in_doubles(void **state) {
+  (void)state;
   dyd_engine *e = engine_new();
-  engine_add_polygon(e, 4, weights, 300);
-  engine_add_text(e, "sqrt(10000)+sqrt(2)", "sqrt(3)");
-  engine_add_text(e, "sqrt(10000)+sqrt(5)", "sqrt(7)");
+  dyd_stream *s;
+  dyd_rect first, later;
+  dyd_rect_init(&first);
+  dyd_rect_init(&later);
+  engine_add_text(e, "sqrt(2)*1e4", "3/7-sqrt(5)");
+  engine_add_text(e, "sqrt(3)", "0.5");
+  engine_add_text(e, "sqrt(3)", "1/3");
+  engine_add_text(e, "sqrt(3)*1e12", "sqrt(7)");
   engine_run(e, NULL, DYD_OUTCOME_DECIDED);
+  const dyd_sites *sites = dyd_delaunay_sites(dyd_engine_delaunay(e));
   dyd_engine_counters c = engine_counters(e);
-  assert_int_equal(64, c.bits_least);
-  assert_int_equal(512, c.bits_most);
-  assert_true(c.calls <= 4 * 4 + 2);
+  assert_in_range(c.bits_least, 30, 40); /* 14142 +- 2^-38 */
+  assert_int_equal(64, c.bits_most);     /* 1/3 is no double, and 1e12 leaves too few bits */
+  for (uint32_t i = 0; i < 4; i++) {
+    assert_int_equal(DYD_OK, dyd_sites_get(&first, sites, i));
+    assert_true(dyd_rect_bits(&first) >= (i < 2 ? 30 : 64));
+    assert_int_equal(DYD_OK, dyd_engine_stream(&s, e, i));
+    for (int64_t bits = 10; bits <= 640; bits *= 2) {
+      assert_int_equal(DYD_OK, dyd_stream_narrow(s, bits, 4096, NULL));
+      dyd_rect_set(&later, dyd_stream_rect(s));
+      assert_true(dyd_rect_bits(&later) >= bits);
+    }
+    assert_true(dyd_rect_contains(&first, &later));
+    dyd_stream_free(s);
+  }
+  dyd_rect_clear(&later);
+  dyd_rect_clear(&first);
   dyd_engine_free(e);
 }
 
@@ -272,6 +316,7 @@ int main(void) {
       cmocka_unit_test(test_near_polygon),
       cmocka_unit_test(test_schedules),
       cmocka_unit_test(test_adaptive_is_local),
+      cmocka_unit_test(test_first_in_doubles),
       cmocka_unit_test(test_mixed),
       cmocka_unit_test(test_coincident),
   };
