@@ -237,13 +237,11 @@ static dyd_status flip(closing *c, uint32_t i, uint32_t j, uint32_t k, uint32_t 
   bool possible = true;
   if (k == ghost || l == ghost || dyd_pair_map_get(&c->map, k, l) != DYD_PAIR_UNKNOWN) return DYD_OK;
   if (i != ghost && j != ghost && dyd_surely_not_displaced(c->pd, v[i], v[j], v[k], v[l])) return DYD_OK;
-  if (!dyd_surely_possible(c->pd, v[k], v[l], hint[0], hint[1])) {
-    dyd_status st = dyd_cover_possible(&possible, c->w, c->pd, v[k], v[l], hint);
-    if (st == DYD_OK && possible) st = add_possible(c, k, l);
-    if (st == DYD_OK && possible) return try_centre(c, v[k], v[l], hint[0]);
-    if (st != DYD_OK) return st;
-  }
-  return possible ? add_possible(c, k, l) : add(c, k, l, DYD_PAIR_IMPOSSIBLE);
+  dyd_status st = dyd_cover_possible(&possible, c->w, c->pd, v[k], v[l], hint);
+  if (st != DYD_OK) return st;
+  st = possible ? add_possible(c, k, l) : add(c, k, l, DYD_PAIR_IMPOSSIBLE);
+  if (st == DYD_OK && possible && c->w->walked) st = try_centre(c, v[k], v[l], hint[0]);
+  return st;
 }
 
 static bool possible(const closing *c, uint32_t a, uint32_t b) {

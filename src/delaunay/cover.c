@@ -11,11 +11,13 @@
  * beta is covered, the pair is illegal [COV-1]. */
 #include "delaunay/cover.h"
 
+#include "delaunay/filter_cover.h"
 #include "delaunay/filter_possible.h"
 
 #include <math.h>
 
 void dyd_work_init(dyd_work *w, const dyd_delaunay *pd) {
+  w->walked = false;
   dyd_scale_set_init(&w->set, pd);
   dyd_icircle_init(&w->here);
   for (int k = 0; k < DYD_CIRCLES; k++) dyd_icircle_init(&w->next[k]);
@@ -191,7 +193,10 @@ dyd_status dyd_cover_possible(bool *possible, dyd_work *w, dyd_delaunay *pd, uin
                               const uint32_t hint[2]) {
   walk k = {.w = w, .pd = pd, .i = i, .j = j, .hint = hint, .end = -1, .status = DYD_OK};
   k.blocker = k.last = DYD_NONE;
-  *possible = true;
+  dyd_truth quick = pd->options.no_filter ? DYD_UNKNOWN : dyd_filter_cover(pd, i, j, hint);
+  *possible = quick != DYD_FALSE;
+  w->walked = quick == DYD_UNKNOWN;
+  if (!w->walked) return DYD_OK;
   if (!start(&k)) return k.status;
   const dyd_irect *a = &w->set.rect[0], *b = &w->set.rect[1];
   if (meet(a, b)) return DYD_OK;

@@ -14,16 +14,15 @@ typedef struct dyd_work {
   dyd_scale_set set;
   dyd_icircle here, next[DYD_CIRCLES];
   mpz_t u[2], h, s, t;
+  bool walked; /* the last pair was decided by the exact walk */
 } dyd_work;
 
 void dyd_work_init(dyd_work *w, const dyd_delaunay *pd);
 void dyd_work_clear(dyd_work *w);
 
-/* *possible: is the pair of vertices i, j possible [POS-1]? Exact. hint: two vertices that are likely to block it
- * (DYD_NONE: no idea); they only save steps. */
+/* *possible: is the pair of vertices i, j possible [POS-1]? Exact; in doubles where they tell. hint: two vertices that
+ * are likely to block it (DYD_NONE: no idea); they only save steps. */
 dyd_status dyd_cover_possible(bool *possible, dyd_work *w, dyd_delaunay *pd, uint32_t i, uint32_t j,
                               const uint32_t hint[2]);
-/* A quick certificate that ij is possible: a centre in doubles with nobody surely nearer. false: not known. */
-bool dyd_possible_at(const dyd_delaunay *pd, uint32_t i, uint32_t j, dyd_xy centre);
 
 #endif

@@ -2,8 +2,6 @@
 /* Bounds for the walks: everything here is conservative, the walks decide what is left. */
 #include "delaunay/filter_possible.h"
 
-#include "delaunay/cover.h"
-
 #include <math.h>
 
 double dyd_pair_ds2_upper(const dyd_delaunay *pd, const dyd_bbox *c, uint32_t i, uint32_t j) {
@@ -16,27 +14,26 @@ bool dyd_surely_not_nearer(const dyd_delaunay *pd, const dyd_bbox *c, uint32_t k
   return dyd_dl2_lower(c, &pd->box[k], dyd_box_slack(pd, k)) >= bound;
 }
 
-typedef struct search {
-  const dyd_delaunay *pd;
-  uint32_t i, j;
-  dyd_bbox c;
-  double bound;
-  bool free;
-} search;
-
-static bool nobody_nearer(void *context, uint32_t k) {
-  search *s = context;
-  if (k == s->i || k == s->j || dyd_surely_not_nearer(s->pd, &s->c, k, s->bound)) return true;
-  s->free = false;
+static bool is_listed(const uint32_t *list, int count, uint32_t v) {
+  for (int k = 0; k < count; k++)
+    if (list[k] == v) return true;
   return false;
 }
 
-bool dyd_possible_at(const dyd_delaunay *pd, uint32_t i, uint32_t j, dyd_xy centre) {
-  if (!isfinite(centre.x) || !isfinite(centre.y)) return false;
-  search s = {pd, i, j, {{centre.x, centre.x, centre.y, centre.y}}, 0, true};
-  s.bound = dyd_pair_ds2_upper(pd, &s.c, i, j);
-  dyd_tree_near(&pd->tree, &s.c, &s.bound, nobody_nearer, &s);
-  return s.free;
+int dyd_neighbours(uint32_t *out, int room, const dyd_delaunay *pd, uint32_t i, uint32_t j) {
+  const dyd_mesh *m = &pd->mesh;
+  int count = 0, before;
+  for (int k = 0; k < 2; k++) {
+    uint32_t first = pd->corner[k ? j : i], h = first;
+    before = count;
+    if (first == DYD_NONE) continue;
+    do {
+      uint32_t v = m->tri[h >> 2].v[dyd_next(h & 3)];
+      if (v != m->n && v != i && v != j && count < room && !is_listed(out, before, v)) out[count++] = v;
+      h = dyd_turn(m, h);
+    } while (h != first);
+  }
+  return count;
 }
 
 typedef struct nearest {

@@ -20,6 +20,9 @@ bool dyd_surely_not_nearer(const dyd_delaunay *pd, const dyd_bbox *c, uint32_t k
 /* Somebody surely nearer than i and j to all centres in c, dl_k < ds_i, ds_j: the one of least dl_k by its upper bound.
  * DYD_NONE: not known. */
 uint32_t dyd_surely_nearest(const dyd_delaunay *pd, const dyd_bbox *c, uint32_t i, uint32_t j);
+/* The neighbours of i and of j in the skeleton, without repeats, the ghost, i and j. At most `room`; returns how many.
+ */
+int dyd_neighbours(uint32_t *out, int room, const dyd_delaunay *pd, uint32_t i, uint32_t j);
 /* Do the boxes of i and j surely not meet? */
 static inline bool dyd_boxes_disjoint(const dyd_bbox *a, const dyd_bbox *b) {
   return a->e[1] < b->e[0] || b->e[1] < a->e[0] || a->e[3] < b->e[2] || b->e[3] < a->e[2];

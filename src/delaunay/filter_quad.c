@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Quad filters: the predicate layer's interval filters on outward boxes, and guessed centres checked by distance
- * bounds. */
+/* Quad filters: the predicate layer's interval filters on outward boxes. */
 #include "delaunay/filter_quad.h"
 
-#include "delaunay/cover.h"
-#include "delaunay/filter_mesh.h"
 #include "delaunay/filter_possible.h"
 #include "predicate/filter_predicate.h"
 
@@ -21,12 +18,4 @@ bool dyd_surely_not_displaced(const dyd_delaunay *pd, uint32_t i, uint32_t j, ui
   dyd_sure turn = dyd_filter_orientation(box[i].e, box[j].e, box[k].e);
   if (turn == DYD_UNSURE) return false;
   return (int)dyd_filter_incircle(box[i].e, box[j].e, box[k].e, box[l].e) == -(int)turn;
-}
-
-bool dyd_surely_possible(const dyd_delaunay *pd, uint32_t k, uint32_t l, uint32_t i, uint32_t j) {
-  const dyd_xy *xy = pd->reps.xy;
-  if (pd->options.no_filter || i == DYD_NONE || j == DYD_NONE) return false;
-  dyd_xy a = dyd_circumcentre(xy[k], xy[l], xy[i]), b = dyd_circumcentre(xy[k], xy[l], xy[j]);
-  dyd_xy middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
-  return dyd_possible_at(pd, k, l, middle) || dyd_possible_at(pd, k, l, a) || dyd_possible_at(pd, k, l, b);
 }

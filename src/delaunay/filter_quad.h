@@ -8,7 +8,5 @@
 /* Surely kl cannot displace ij: their hulls' boxes are disjoint, or l is surely outside the circle of i, j, k [QUAD-1].
  */
 bool dyd_surely_not_displaced(const dyd_delaunay *pd, uint32_t i, uint32_t j, uint32_t k, uint32_t l);
-/* Surely kl is possible: a centre near the circles through k, l and i or j shows it. i, j may be DYD_NONE. */
-bool dyd_surely_possible(const dyd_delaunay *pd, uint32_t k, uint32_t l, uint32_t i, uint32_t j);
 
 #endif

@@ -11,7 +11,7 @@
 
 #include <math.h>
 
-enum { STEPS = 24, MAX_RIVALS = 12 };
+enum { STEPS = 24, MAX_RIVALS = 12, MAX_NEIGHBOURS = 48 };
 /* Half-planes known up to this part of the distances are good enough for an "empty" by 1e-9 of them. */
 #define COARSE 0x1p-36
 
@@ -23,6 +23,8 @@ typedef struct quick {
   uint32_t rival[MAX_RIVALS];
   double distance[MAX_RIVALS];
   int rivals;
+  uint32_t neighbour[MAX_NEIGHBOURS]; /* of i and j in the skeleton: asked before all others */
+  int neighbours;
   dyd_cut cut[DYD_LP_CUTS];
   size_t cuts;
   double size;  /* of the coordinates met */
@@ -54,6 +56,9 @@ static void evaluate(quick *q, dyd_xy c) {
   q->bound = dyd_max(dyd_dl2_upper(&q->c, &q->pd->box[q->i]), dyd_dl2_upper(&q->c, &q->pd->box[q->j]));
   q->reach = q->bound;
   q->rivals = 0;
+  for (int k = 0; k < q->neighbours; k++)
+    if (!(dyd_ds2_lower(&q->c, &q->pd->box[q->neighbour[k]]) > q->reach)) keep_rival(q, q->neighbour[k]);
+  if (q->rivals) return;
   dyd_tree_near(&q->pd->tree, &q->c, &q->reach, keep_rival, q);
 }
 
@@ -113,6 +118,7 @@ dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_delaunay *pd, uint32_t i, uint
   quick q = {.pd = pd, .i = i, .j = j};
   if (!isfinite(c->x) || !isfinite(c->y)) return DYD_UNKNOWN;
   q.slack = dyd_max(dyd_box_slack(pd, i), dyd_box_slack(pd, j));
+  q.neighbours = dyd_neighbours(q.neighbour, MAX_NEIGHBOURS, pd, i, j);
   for (int step = 0; step < STEPS; step++) {
     evaluate(&q, *c);
     if (!isfinite(q.bound)) return DYD_UNKNOWN;

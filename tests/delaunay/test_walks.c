@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The exact walks, one by one: around the directions against all candidate directions, along beta against the oracle,
- * on a line against the oracle [HUL-1] [HUL-2] [HUL-3] [COV-1] [BETA-1] [POS-1] [LINE-1]. */
+ * on a line against the oracle [HUL-1] [HUL-2] [HUL-3] [COV-1] [COV-2] [BETA-1] [POS-1] [LINE-1]. */
 #include <setjmp.h>
 #include <stdarg.h>
 
+#include "delaunay/filter_cover.h"
 #include "delaunay/hull.h"
 #include "delaunay/line.h"
 #include "delaunay/read_case.h"
@@ -180,6 +181,18 @@ static void test_directions(void **state) {
 
 /* ---- cover ---- */
 
+/* How often doubles alone say FALSE, UNKNOWN, TRUE. */
+static uint64_t quickly[3];
+
+static bool quick_right(char *message, const dyd_delaunay *pd, uint32_t v, uint32_t v2, const uint32_t hint[2],
+                        bool want) {
+  dyd_truth quick = dyd_filter_cover(pd, v, v2, hint);
+  quickly[quick == DYD_TRUE ? 2 : quick == DYD_UNKNOWN]++;
+  if (quick == DYD_UNKNOWN || (quick == DYD_TRUE) == want) return true;
+  return wrong(message, "pair %u %u: doubles say %d, oracle %d", pd->reps.site[v], pd->reps.site[v2], quick == DYD_TRUE,
+               want);
+}
+
 /* Every pair, with good, bad and no hints. */
 static bool covers(char *message, harness *h, const orc_case *c, dyd_delaunay *pd) {
   dyd_work w;
@@ -200,6 +213,7 @@ static bool covers(char *message, harness *h, const orc_case *c, dyd_delaunay *p
         good = wrong(message, "cover of %u %u fails", i, j);
       else if (possible != want)
         good = wrong(message, "pair %u %u: possible %d, oracle %d", i, j, possible, want);
+      good = good && quick_right(message, pd, v, v2, hint, want);
       h->pairs++;
       h->undecided += !want;
     }
@@ -232,6 +246,9 @@ static void test_cover(void **state) {
   }
   orc_case_clear(&c);
   assert_true(shared.undecided > 20);
+  fprintf(stderr, "# in doubles: impossible %llu, unknown %llu, possible %llu\n", (unsigned long long)quickly[0],
+          (unsigned long long)quickly[1], (unsigned long long)quickly[2]);
+  assert_true(quickly[0] > 20 && quickly[2] > 20);
 }
 
 /* ---- line ---- */
