@@ -64,6 +64,6 @@ dyd_status dyd_delaunay_update(dyd_delaunay *pd, const uint32_t *changed, size_t
 bool dyd_delaunay_is_capped(const dyd_delaunay *pd) {
   if (pd->line.capped) return true;
   for (size_t f = 0; f < pd->faces.count; f++)
-    if (pd->faces.face[f].capped) return true;
+    if (dyd_face_is_capped(pd, f)) return true;
   return false;
 }

@@ -7,11 +7,13 @@
 #include "delaunay/build.h"
 #include "delaunay/certify.h"
 #include "delaunay/closure.h"
+#include "delaunay/ties.h"
 
 #include <string.h>
 
 void dyd_faces_clear(dyd_face_table *f) {
   free(f->face);
+  free(f->seed);
   free(f->tri);
   free(f->pair);
   free(f->of);
@@ -22,7 +24,7 @@ static bool has_uncertain_edge(const dyd_delaunay *pd, uint32_t t) {
   return (pd->certain[t] & 7) != 7;
 }
 
-static dyd_status make_marks(dyd_delaunay *pd) {
+dyd_status dyd_faces_mark(dyd_delaunay *pd) {
   if (pd->faces.of) return DYD_OK;
   pd->faces.of = dyd_alloc(pd->mesh.count, sizeof *pd->faces.of);
   if (!pd->faces.of) return DYD_E_NOMEM;
@@ -158,29 +160,8 @@ static void bequeath(dyd_delaunay *pd, uint32_t self) {
   }
 }
 
-/* Two real triangles of exact points joined by one tied edge (a square of a grid): its two diagonals are the pairs.
- * Fills in *c, whose pairs are borrowed from `pair`; false: another kind of face. */
-static bool tied_quad(dyd_closure *c, dyd_vertex_pair pair[2], const dyd_delaunay *pd, const uint32_t *tri,
-                      size_t tris) {
-  const dyd_mesh *m = &pd->mesh;
-  if (!pd->all_points || tris != 2 || dyd_mesh_is_ghost(m, tri[0]) || dyd_mesh_is_ghost(m, tri[1])) return false;
-  unsigned open = 7 & ~pd->certain[tri[0]], twins = 7 & ~pd->certain[tri[1]], k = open >> 1;
-  if ((open != 1 && open != 2 && open != 4) || (twins & (twins - 1))) return false;
-  const dyd_tri *t = &m->tri[tri[0]];
-  uint32_t a = t->v[dyd_next(k)], b = t->v[dyd_prev(k)], u = t->v[k], v = m->tri[t->n[k] >> 2].v[t->n[k] & 3];
-  pair[0] = a < b ? (dyd_vertex_pair){.i = a, .j = b} : (dyd_vertex_pair){.i = b, .j = a};
-  pair[1] = u < v ? (dyd_vertex_pair){.i = u, .j = v} : (dyd_vertex_pair){.i = v, .j = u};
-  if (dyd_compare_vertex_pair(&pair[0], &pair[1]) > 0) {
-    dyd_vertex_pair swap = pair[0];
-    pair[0] = pair[1];
-    pair[1] = swap;
-  }
-  *c = (dyd_closure){.pair = pair, .pairs = 2, .all_points = true, .polygon = true};
-  return true;
-}
-
 static bool is_all_points(const dyd_delaunay *pd, const uint32_t *tri, size_t tris) {
-  for (size_t q = 0; q < tris && !pd->all_points; q++)
+  for (size_t q = 0; q < tris; q++)
     for (int k = 0; k < 3; k++) {
       uint32_t v = pd->mesh.tri[tri[q]].v[k];
       if (v != pd->mesh.n && !dyd_vertex_is_point(pd, v)) return false;
@@ -193,7 +174,7 @@ static bool is_all_points(const dyd_delaunay *pd, const uint32_t *tri, size_t tr
  * missed some. *any: an edge has become certain. */
 static void settle_points(bool *any, dyd_delaunay *pd, const uint32_t *tri, size_t tris) {
   *any = false;
-  if (pd->all_points || !is_all_points(pd, tri, tris)) return;
+  if (!is_all_points(pd, tri, tris)) return;
   for (size_t q = 0; q < tris; q++)
     for (unsigned k = 0; k < 3; k++)
       if (!dyd_edge_is_certain(pd, tri[q], k) && dyd_point_edge_is_certain(pd, tri[q], k)) {
@@ -204,15 +185,12 @@ static void settle_points(bool *any, dyd_delaunay *pd, const uint32_t *tri, size
 
 static dyd_status close_face(dyd_delaunay *pd, dyd_work *w, size_t first) {
   dyd_face_table *f = &pd->faces;
-  dyd_vertex_pair pair[2];
   dyd_closure c = {0};
-  dyd_status st = DYD_OK;
   size_t room = pd->max_pairs > f->live_pairs ? pd->max_pairs - f->live_pairs : 0, tris = f->tri_count - first;
-  bool quad = room >= 2 && tied_quad(&c, pair, pd, f->tri + first, tris);
-  if (!quad) st = dyd_closure_run(&c, pd, w, f->tri + first, (uint32_t)tris, room);
+  dyd_status st = dyd_closure_run(&c, pd, w, f->tri + first, (uint32_t)tris, room);
   if (st == DYD_OK) st = store(pd, &c, first);
   pd->counters.faces++;
-  if (!quad) dyd_closure_clear(&c);
+  dyd_closure_clear(&c);
   return st;
 }
 
@@ -252,10 +230,11 @@ dyd_status dyd_faces_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, si
   dyd_face_table *f = &pd->faces, before = *f;
   size_t all = tri ? count : pd->mesh.count;
   dyd_status st = DYD_OK;
+  if (pd->all_points) return dyd_ties_find(pd);
   for (size_t q = 0; q < all && st == DYD_OK; q++) {
     uint32_t t = tri ? tri[q] : (uint32_t)q;
     if (!has_uncertain_edge(pd, t)) continue;
-    st = make_marks(pd);
+    st = dyd_faces_mark(pd);
     if (st == DYD_OK && f->of[t] == DYD_NONE) st = dyd_cancelled(pd) ? DYD_CANCELLED : find_face(pd, w, t);
   }
   if (st != DYD_OK) {
@@ -389,13 +368,15 @@ dyd_status dyd_faces_replace(bool *replaced, dyd_delaunay *pd, dyd_work *w, cons
   return st;
 }
 
-dyd_status dyd_face_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, const dyd_face *f) {
-  uint32_t *v = dyd_alloc(3 * (size_t)f->tris, sizeof *v);
+dyd_status dyd_face_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, size_t f) {
+  if (pd->all_points) return dyd_tie_vertices(vertex, count, pd, f);
+  const dyd_face *face = &pd->faces.face[f];
+  uint32_t *v = dyd_alloc(3 * (size_t)face->tris, sizeof *v);
   size_t all = 0, kept = 0;
   if (!v) return DYD_E_NOMEM;
-  for (uint32_t q = 0; q < f->tris; q++)
+  for (uint32_t q = 0; q < face->tris; q++)
     for (int k = 0; k < 3; k++) {
-      uint32_t w = pd->mesh.tri[pd->faces.tri[f->first_tri + q]].v[k];
+      uint32_t w = pd->mesh.tri[pd->faces.tri[face->first_tri + q]].v[k];
       if (w != pd->mesh.n) v[all++] = w;
     }
   qsort(v, all, sizeof *v, dyd_compare_index);
@@ -404,6 +385,14 @@ dyd_status dyd_face_vertices(uint32_t **vertex, size_t *count, const dyd_delauna
   *vertex = v;
   *count = kept;
   return DYD_OK;
+}
+
+bool dyd_face_is_outer(const dyd_delaunay *pd, size_t f) {
+  return pd->all_points ? dyd_tie_is_outer(pd, f) : pd->faces.face[f].outer;
+}
+
+bool dyd_face_is_capped(const dyd_delaunay *pd, size_t f) {
+  return pd->all_points ? dyd_tie_is_capped(pd, f) : pd->faces.face[f].capped;
 }
 
 dyd_pair_status dyd_face_status(const dyd_delaunay *pd, const dyd_face *f, uint32_t i, uint32_t j) {

@@ -5,6 +5,7 @@
 #include "delaunay/certify.h"
 #include "delaunay/faces.h"
 #include "delaunay/line.h"
+#include "delaunay/visit.h"
 #include "delaunay/witness.h"
 
 #include <math.h>
@@ -45,7 +46,7 @@ size_t dyd_delaunay_memory(const dyd_delaunay *pd) {
   if (pd->box) bytes += n * sizeof(dyd_bbox) + pd->tree.count * sizeof(uint32_t);
   bytes +=
       (pd->tree.level[pd->tree.levels] + pd->blocks.level[pd->blocks.levels] + pd->blocks.count) * sizeof(dyd_bbox);
-  bytes += pd->faces.face_cap * sizeof(dyd_face) + pd->faces.tri_cap * sizeof(uint32_t);
+  bytes += pd->faces.face_cap * sizeof(dyd_face) + (pd->faces.tri_cap + pd->faces.seed_cap) * sizeof(uint32_t);
   bytes += pd->faces.pair_cap * sizeof(dyd_vertex_pair) + (pd->faces.of ? pd->mesh.count * sizeof(uint32_t) : 0);
   return bytes;
 }
@@ -93,6 +94,7 @@ static dyd_pair_status vertex_status(const dyd_delaunay *pd, uint32_t v, uint32_
   if (pd->mesh.collinear) return dyd_line_status(&pd->line, v, w);
   uint32_t h = dyd_find_edge(pd, v, w);
   if (h != DYD_NONE && corner_edge_is_certain(pd, h)) return DYD_LEGAL;
+  if (pd->all_points) return dyd_tie_status(pd, v, w);
   dyd_pair_status s = status_in_faces(pd, v, w);
   if (s == DYD_ILLEGAL && share_capped_face(pd, v, w)) s = DYD_INDETERMINATE;
   return s;
@@ -104,114 +106,7 @@ dyd_pair_status dyd_delaunay_status(const dyd_delaunay *pd, uint32_t i, uint32_t
   return v == w ? DYD_ILLEGAL : vertex_status(pd, v, w);
 }
 
-/* ---- all pairs ---- */
-
-typedef void (*pair_visit)(void *context, uint32_t v, uint32_t w, dyd_pair_status status);
-
-static void each_line_pair(const dyd_delaunay *pd, pair_visit visit, void *context) {
-  const dyd_line *l = &pd->line;
-  for (uint32_t a = 0; a + 1 < l->count; a++)
-    for (uint32_t b = a + 1; b < l->count && (b == a + 1 || !l->capped); b++) {
-      dyd_pair_status s = dyd_line_status(l, l->order[a], l->order[b]);
-      if (!l->capped || s == DYD_LEGAL) visit(context, l->order[a], l->order[b], s);
-    }
-}
-
-static void each_pair(const dyd_delaunay *pd, pair_visit visit, void *context) {
-  const dyd_mesh *m = &pd->mesh;
-  if (m->collinear) {
-    each_line_pair(pd, visit, context);
-    return;
-  }
-  for (uint32_t t = 0; t < m->count; t++)
-    for (unsigned k = 0; k < 3; k++) {
-      uint32_t v = m->tri[t].v[dyd_next(k)], w = m->tri[t].v[dyd_prev(k)];
-      if (m->tri[t].n[k] > 4 * t + k && v != m->n && w != m->n && dyd_edge_is_certain(pd, t, k))
-        visit(context, v, w, DYD_LEGAL);
-    }
-  for (size_t f = 0; f < pd->faces.count; f++) {
-    const dyd_face *face = &pd->faces.face[f];
-    for (uint32_t q = 0; q < face->pairs; q++) {
-      dyd_vertex_pair p = pd->faces.pair[face->first_pair + q];
-      if (!p.hidden) visit(context, p.i, p.j, dyd_face_open_status(face));
-    }
-  }
-}
-
-/* Counting sort by i, then each short run by j. */
-typedef struct pair_sort {
-  const dyd_delaunay *pd;
-  size_t *start;
-  dyd_pair *to;
-  size_t total;
-} pair_sort;
-
-static void count_pair(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
-  pair_sort *s = context;
-  (void)status;
-  uint32_t i = s->pd->reps.site[v], j = s->pd->reps.site[w];
-  s->start[i < j ? i : j]++;
-  s->total++;
-}
-
-static void place_pair(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
-  pair_sort *s = context;
-  uint32_t i = s->pd->reps.site[v], j = s->pd->reps.site[w];
-  if (i > j) {
-    uint32_t t = i;
-    i = j;
-    j = t;
-  }
-  s->to[s->start[i]++] = (dyd_pair){i, j, status};
-}
-
-static void starts_from_counts(size_t *start, uint32_t n) {
-  size_t sum = 0;
-  for (uint32_t i = 0; i < n; i++) {
-    size_t c = start[i];
-    start[i] = sum;
-    sum += c;
-  }
-}
-
-static int compare_second(const void *a, const void *b) {
-  uint32_t x = ((const dyd_pair *)a)->j, y = ((const dyd_pair *)b)->j;
-  return (x > y) - (x < y);
-}
-
-static void sort_run(dyd_pair *run, size_t count) {
-  if (count > 16) {
-    qsort(run, count, sizeof *run, compare_second);
-    return;
-  }
-  for (size_t q = 1; q < count; q++) {
-    dyd_pair p = run[q];
-    size_t r = q;
-    for (; r && run[r - 1].j > p.j; r--) run[r] = run[r - 1];
-    run[r] = p;
-  }
-}
-
-dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd) {
-  pair_sort s = {.pd = pd};
-  s.start = calloc(pd->n ? pd->n : 1, sizeof *s.start);
-  if (!s.start) return DYD_E_NOMEM;
-  each_pair(pd, count_pair, &s);
-  s.to = dyd_alloc(s.total, sizeof *s.to);
-  if (s.to) {
-    starts_from_counts(s.start, pd->n);
-    each_pair(pd, place_pair, &s);
-    /* each start has moved on to the end of its run */
-    for (uint32_t i = 0; i < pd->n; i++) {
-      size_t first = i ? s.start[i - 1] : 0;
-      sort_run(s.to + first, s.start[i] - first);
-    }
-    dyd_pair_list_clear(out);
-    *out = (dyd_pair_list){s.total, s.to};
-  }
-  free(s.start);
-  return s.to ? DYD_OK : DYD_E_NOMEM;
-}
+/* ---- counts ---- */
 
 void dyd_delaunay_count(size_t count[4], const dyd_delaunay *pd) {
   memset(count, 0, 4 * sizeof *count);
@@ -225,7 +120,9 @@ void dyd_delaunay_count(size_t count[4], const dyd_delaunay *pd) {
     for (unsigned k = 0; k < 3; k++)
       count[DYD_LEGAL] += m->tri[t].n[k] > 4 * t + k && m->tri[t].v[dyd_next(k)] != m->n &&
                           m->tri[t].v[dyd_prev(k)] != m->n && dyd_edge_is_certain(pd, t, k);
-  for (size_t f = 0; f < pd->faces.count; f++)
+  count[DYD_INDETERMINATE] = pd->faces.capped_pairs;
+  if (pd->all_points) count[DYD_TIE] = pd->faces.live_pairs - pd->faces.capped_pairs;
+  for (size_t f = 0; f < pd->faces.count && !pd->all_points; f++)
     count[dyd_face_open_status(&pd->faces.face[f])] += pd->faces.face[f].pairs - pd->faces.face[f].hidden;
 }
 
@@ -260,37 +157,71 @@ static dyd_status deliver(dyd_index_list *out, collector *c, bool sort) {
   return DYD_OK;
 }
 
-static void face_neighbours(collector *c, const dyd_delaunay *pd, uint32_t v, uint32_t f, dyd_pair_status least) {
+/* For visits: those with at least the status asked for. */
+typedef struct neighbour_filter {
+  collector list;
+  const uint32_t *site;
+  dyd_pair_status least;
+} neighbour_filter;
+
+static void collect_neighbour(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
+  neighbour_filter *f = context;
+  (void)v;
+  if (status >= f->least) collect(&f->list, f->site[w]);
+}
+
+static void face_neighbours(neighbour_filter *c, const dyd_delaunay *pd, uint32_t v, uint32_t f) {
   const dyd_face *face = &pd->faces.face[f];
-  if (dyd_face_open_status(face) < least) return;
+  if (dyd_face_open_status(face) < c->least) return;
   for (uint32_t q = 0; q < face->pairs; q++) {
     dyd_vertex_pair p = pd->faces.pair[face->first_pair + q];
     if (p.hidden) continue;
-    if (p.i == v) collect(c, pd->reps.site[p.j]);
-    if (p.j == v) collect(c, pd->reps.site[p.i]);
+    if (p.i == v) collect(&c->list, pd->reps.site[p.j]);
+    if (p.j == v) collect(&c->list, pd->reps.site[p.i]);
   }
 }
 
-dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaunay *pd, uint32_t i, dyd_pair_status least) {
-  collector c = {0};
-  if (i >= pd->n) return DYD_E_ARG;
-  uint32_t v = pd->vertex[i], before = DYD_NONE;
-  if (pd->mesh.collinear) {
-    for (uint32_t q = 0; q < pd->line.count; q++) {
-      uint32_t w = pd->line.order[q];
-      if (w != v && dyd_line_status(&pd->line, v, w) >= least) collect(&c, pd->reps.site[w]);
-    }
-    return deliver(out, &c, true);
+/* Neighbours of v by ties of the face on the left of the rim's corner h. */
+static void tied_neighbours(neighbour_filter *c, const dyd_delaunay *pd, uint32_t h, uint32_t f) {
+  const dyd_mesh *m = &pd->mesh;
+  uint32_t v = dyd_tie_vertex(m, h);
+  if (!dyd_tie_is_capped(pd, f)) {
+    dyd_each_tie_of(pd, h, h, collect_neighbour, c);
+    return;
   }
-  uint32_t first = pd->corner[v], h = first;
+  for (; !dyd_edge_is_certain(pd, h >> 2, dyd_next(h & 3)); h = dyd_turn(m, h)) {
+    uint32_t w = m->tri[h >> 2].v[dyd_prev(h & 3)];
+    if (w != m->n) collect_neighbour(c, v, w, DYD_INDETERMINATE);
+  }
+}
+
+/* Neighbours by legal edges and through the faces around v. */
+static void neighbours_around(neighbour_filter *c, const dyd_delaunay *pd, uint32_t v) {
+  uint32_t first = pd->corner[v], h = first, before = DYD_NONE;
   do {
     uint32_t w = pd->mesh.tri[h >> 2].v[dyd_next(h & 3)], f = pd->faces.of ? pd->faces.of[h >> 2] : DYD_NONE;
-    if (w != pd->mesh.n && corner_edge_is_certain(pd, h)) collect(&c, pd->reps.site[w]);
-    if (f != DYD_NONE && f != before) face_neighbours(&c, pd, v, f, least);
+    bool certain = corner_edge_is_certain(pd, h);
+    if (w != pd->mesh.n && certain) collect_neighbour(c, v, w, DYD_LEGAL);
+    if (f != DYD_NONE && pd->all_points && certain) tied_neighbours(c, pd, h, f);
+    if (f != DYD_NONE && !pd->all_points && f != before) face_neighbours(c, pd, v, f);
     before = f;
     h = dyd_turn(&pd->mesh, h);
   } while (h != first);
-  return deliver(out, &c, true);
+}
+
+dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaunay *pd, uint32_t i, dyd_pair_status least) {
+  neighbour_filter c = {.site = pd->reps.site, .least = least};
+  if (i >= pd->n) return DYD_E_ARG;
+  uint32_t v = pd->vertex[i];
+  if (pd->mesh.collinear) {
+    for (uint32_t q = 0; q < pd->line.count; q++) {
+      uint32_t w = pd->line.order[q];
+      if (w != v) collect_neighbour(&c, v, w, dyd_line_status(&pd->line, v, w));
+    }
+  } else {
+    neighbours_around(&c, pd, v);
+  }
+  return deliver(out, &c.list, true);
 }
 
 dyd_status dyd_delaunay_face(dyd_index_list *out, bool *outer, const dyd_delaunay *pd, size_t f) {
@@ -303,11 +234,11 @@ dyd_status dyd_delaunay_face(dyd_index_list *out, bool *outer, const dyd_delauna
   }
   uint32_t *v;
   size_t count;
-  dyd_status st = dyd_face_vertices(&v, &count, pd, &pd->faces.face[f]);
+  dyd_status st = dyd_face_vertices(&v, &count, pd, f);
   if (st != DYD_OK) return st;
   for (size_t q = 0; q < count; q++) collect(&c, pd->reps.site[v[q]]);
   free(v);
-  *outer = pd->faces.face[f].outer;
+  *outer = dyd_face_is_outer(pd, f);
   return deliver(out, &c, true);
 }
 
@@ -317,30 +248,55 @@ static int compare_pair(const void *a, const void *b) {
   return (x->j > y->j) - (x->j < y->j);
 }
 
+/* For visits: a list of pairs that are not legal. */
+typedef struct pair_collector {
+  const uint32_t *site;
+  dyd_pair *item;
+  size_t count, cap;
+  dyd_status status;
+} pair_collector;
+
+static void collect_pair(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
+  pair_collector *c = context;
+  uint32_t i = c->site[v], j = c->site[w];
+  if (status == DYD_LEGAL || c->status != DYD_OK) return;
+  if (!dyd_reserve((void **)&c->item, &c->cap, c->count + 1, sizeof *c->item))
+    c->status = DYD_E_NOMEM;
+  else
+    c->item[c->count++] = (dyd_pair){i < j ? i : j, i < j ? j : i, status};
+}
+
+/* The edges of the skeleton inside a capped face that lists none, from one vertex of the rim after the other. */
+static void capped_face_pairs(pair_collector *c, const dyd_delaunay *pd, size_t f) {
+  const dyd_mesh *m = &pd->mesh;
+  uint32_t first = dyd_tie_start(pd, f), h = first;
+  do {
+    uint32_t v = dyd_tie_vertex(m, h), g = h;
+    for (; v != m->n && !dyd_edge_is_certain(pd, g >> 2, dyd_next(g & 3)); g = dyd_turn(m, g)) {
+      uint32_t w = m->tri[g >> 2].v[dyd_prev(g & 3)];
+      if (w != m->n && v < w) collect_pair(c, v, w, DYD_INDETERMINATE);
+    }
+    h = dyd_tie_next(pd, h);
+  } while (h != first);
+}
+
 dyd_status dyd_delaunay_face_pairs(dyd_pair_list *out, const dyd_delaunay *pd, size_t f) {
+  pair_collector c = {.site = pd->reps.site};
   if (f >= dyd_delaunay_undecided_faces(pd)) return DYD_E_ARG;
-  if (pd->mesh.collinear) {
-    dyd_pair_list all = {0};
-    dyd_status st = dyd_delaunay_pairs(&all, pd);
-    size_t kept = 0;
-    for (size_t q = 0; q < all.count; q++)
-      if (all.item[q].status != DYD_LEGAL) all.item[kept++] = all.item[q];
-    if (st != DYD_OK) return st;
-    dyd_pair_list_clear(out);
-    *out = (dyd_pair_list){kept, all.item};
-    return DYD_OK;
+  if (pd->mesh.collinear)
+    dyd_each_line_pair(pd, collect_pair, &c);
+  else if (!pd->all_points)
+    dyd_each_listed_pair(pd, f, collect_pair, &c);
+  else if (dyd_tie_is_capped(pd, f))
+    capped_face_pairs(&c, pd, f);
+  else
+    dyd_each_tie(pd, f, collect_pair, &c);
+  if (c.status != DYD_OK) {
+    free(c.item);
+    return c.status;
   }
-  const dyd_face *face = &pd->faces.face[f];
-  dyd_pair *p = dyd_alloc(face->pairs, sizeof *p);
-  if (!p) return DYD_E_NOMEM;
-  size_t count = 0;
-  for (uint32_t q = 0; q < face->pairs; q++) {
-    dyd_vertex_pair s = pd->faces.pair[face->first_pair + q];
-    uint32_t i = pd->reps.site[s.i], j = pd->reps.site[s.j];
-    if (!s.hidden) p[count++] = (dyd_pair){i < j ? i : j, i < j ? j : i, dyd_face_open_status(face)};
-  }
-  qsort(p, count, sizeof *p, compare_pair);
+  if (c.count) qsort(c.item, c.count, sizeof *c.item, compare_pair);
   dyd_pair_list_clear(out);
-  *out = (dyd_pair_list){count, p};
+  *out = (dyd_pair_list){c.count, c.item};
   return DYD_OK;
 }

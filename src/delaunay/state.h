@@ -28,9 +28,18 @@ typedef struct dyd_face {
   bool outer, tie, capped, polygon;
 } dyd_face;
 
+#define DYD_SEED_CAPPED (UINT32_C(1) << 31)
+#define DYD_SEED_QUAD (UINT32_C(1) << 30)
+#define DYD_SEED_MARKS (DYD_SEED_CAPPED | DYD_SEED_QUAD)
+
+/* When all sites are exact points face, tri and pair are empty, and seed[f] is a triangle of face f (ties.h), with a
+ * mark if pairs beyond the skeleton are missing, and else one if it has two triangles and no ghost. Otherwise seed is
+ * empty. */
 typedef struct dyd_face_table {
   dyd_face *face;
   size_t count, face_cap;
+  uint32_t *seed;
+  size_t seed_cap, capped_pairs; /* live pairs of capped faces, while there are seeds */
   uint32_t *tri;
   size_t tri_count, tri_cap;
   dyd_vertex_pair *pair;

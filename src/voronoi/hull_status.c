@@ -12,6 +12,7 @@
 
 #include "base/alloc.h"
 #include "delaunay/build.h"
+#include "delaunay/faces.h"
 
 #include <string.h>
 
@@ -62,7 +63,7 @@ static dyd_status gather(uint32_t **list, size_t *count, const dyd_delaunay *pd)
   if (st == DYD_OK) st = append(list, count, &cap, pd, &some);
   for (size_t f = 0; f < pd->faces.count && st == DYD_OK; f++) {
     bool outer;
-    if (!pd->faces.face[f].outer) continue;
+    if (!dyd_face_is_outer(pd, f)) continue;
     st = dyd_delaunay_face(&some, &outer, pd, f);
     if (st == DYD_OK) st = append(list, count, &cap, pd, &some);
   }

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The sorted list of all possible pairs.
+ *
+ * The pairs are met in the skeleton's order. They are dealt into blocks of consecutive sites i, few enough to be
+ * written side by side; a block is small enough for the nearer caches, and is sorted there: dealt to its sites, and
+ * each site's pairs by j. */
+#include "base/alloc.h"
+#include "delaunay/visit.h"
+
+#include <string.h>
+
+/* At most MOST_BLOCKS blocks; up to SHORT_RUN pairs are sorted by insertion. In the verify build few sites need all. */
+#ifdef DYD_VERIFY
+enum { MOST_BLOCKS = 4, SHORT_RUN = 4 };
+#else
+enum { MOST_BLOCKS = 512, SHORT_RUN = 48 };
+#endif
+
+/* Invariant: end[b] is the place of the next pair of block b, sites b << shift and on. */
+typedef struct pair_sort {
+  const uint32_t *site; /* of a vertex */
+  uint32_t n;
+  unsigned shift;
+  size_t end[MOST_BLOCKS + 1];
+  dyd_pair *to;
+  dyd_pair *spare[2];
+  size_t cap[2];
+  size_t *start; /* of the sites of one block */
+} pair_sort;
+
+static void count_pair(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
+  pair_sort *s = context;
+  uint32_t i = s->site[v], j = s->site[w];
+  (void)status;
+  s->end[(i < j ? i : j) >> s->shift]++;
+}
+
+static void place_pair(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
+  pair_sort *s = context;
+  uint32_t i = s->site[v], j = s->site[w], low = i < j ? i : j, high = i < j ? j : i;
+  s->to[s->end[low >> s->shift]++] = (dyd_pair){low, high, status};
+}
+
+/* Counts become the places where the runs start; returns the sum. */
+static size_t starts_from_counts(size_t *start, size_t n) {
+  size_t sum = 0;
+  for (size_t i = 0; i < n; i++) {
+    size_t c = start[i];
+    start[i] = sum;
+    sum += c;
+  }
+  return sum;
+}
+
+static void sort_short_run(dyd_pair *run, size_t count) {
+  for (size_t q = 1; q < count; q++) {
+    dyd_pair p = run[q];
+    size_t r = q;
+    for (; r && run[r - 1].j > p.j; r--) run[r] = run[r - 1];
+    run[r] = p;
+  }
+}
+
+/* By j: digits of 8 bits from the lowest one, to and fro between run and spare. */
+static void sort_long_run(dyd_pair *run, dyd_pair *spare, size_t count, uint32_t n) {
+  dyd_pair *from = run, *to = spare;
+  for (unsigned shift = 0; shift < 32 && n >> shift; shift += 8) {
+    size_t place[256] = {0};
+    for (size_t q = 0; q < count; q++) place[from[q].j >> shift & 255]++;
+    starts_from_counts(place, 256);
+    for (size_t q = 0; q < count; q++) to[place[from[q].j >> shift & 255]++] = from[q];
+    dyd_pair *swap = from;
+    from = to;
+    to = swap;
+  }
+  if (from != run) memcpy(run, from, count * sizeof *run);
+}
+
+static dyd_status sort_run(pair_sort *s, dyd_pair *run, size_t count) {
+  if (count <= SHORT_RUN) {
+    sort_short_run(run, count);
+    return DYD_OK;
+  }
+  if (!dyd_reserve((void **)&s->spare[1], &s->cap[1], count, sizeof *s->spare[1])) return DYD_E_NOMEM;
+  sort_long_run(run, s->spare[1], count, s->n);
+  return DYD_OK;
+}
+
+/* The pairs of `width` sites from `low` on. */
+static dyd_status sort_block(pair_sort *s, dyd_pair *block, size_t count, uint32_t low, size_t width) {
+  dyd_status st = DYD_OK;
+  if (width == 1) return sort_run(s, block, count);
+  if (!dyd_reserve((void **)&s->spare[0], &s->cap[0], count, sizeof *s->spare[0])) return DYD_E_NOMEM;
+  memcpy(s->spare[0], block, count * sizeof *block);
+  memset(s->start, 0, width * sizeof *s->start);
+  for (size_t q = 0; q < count; q++) s->start[s->spare[0][q].i - low]++;
+  starts_from_counts(s->start, width);
+  for (size_t q = 0; q < count; q++) block[s->start[s->spare[0][q].i - low]++] = s->spare[0][q];
+  for (size_t i = 0, first = 0; i < width && st == DYD_OK; first = s->start[i++])
+    st = sort_run(s, block + first, s->start[i] - first);
+  return st;
+}
+
+/* Each end has moved on to the end of its block. */
+static dyd_status sort_blocks(pair_sort *s) {
+  size_t first = 0, width = (size_t)1 << s->shift;
+  dyd_status st = DYD_OK;
+  s->start = dyd_alloc(width, sizeof *s->start);
+  if (!s->start) return DYD_E_NOMEM;
+  for (size_t b = 0; b < MOST_BLOCKS && st == DYD_OK; first = s->end[b++])
+    if (s->end[b] > first) st = sort_block(s, s->to + first, s->end[b] - first, (uint32_t)(b << s->shift), width);
+  free(s->start);
+  free(s->spare[0]);
+  free(s->spare[1]);
+  return st;
+}
+
+dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd) {
+  pair_sort s = {.site = pd->reps.site, .n = pd->n};
+  while (pd->n && (pd->n - 1) >> s.shift >= MOST_BLOCKS) s.shift++;
+  dyd_each_pair(pd, count_pair, &s);
+  size_t total = starts_from_counts(s.end, MOST_BLOCKS);
+  s.to = dyd_alloc(total, sizeof *s.to);
+  if (!s.to) return DYD_E_NOMEM;
+  dyd_each_pair(pd, place_pair, &s);
+  dyd_status st = sort_blocks(&s);
+  if (st != DYD_OK) {
+    free(s.to);
+    return st;
+  }
+  dyd_pair_list_clear(out);
+  *out = (dyd_pair_list){total, s.to};
+  return DYD_OK;
+}

@@ -1,0 +1,306 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Faces of exact points: polygons and chains of many sites, with and without a cap, against the definition in integers
+ * [CLO-2] [CLO-3] [TIE-1] [TIE-2].
+ *
+ * The oracle: with p_i at the origin, D = p_j, N = D turned by a right angle, the centre D/2 + t N is not nearer to K
+ * than to i and j iff A - t B >= 0, A = K.K - D.K, B = 2 N.K. Strictly for some t: legal; for some t, or for t = +-inf
+ * (B of one sign): possible. */
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include "support/random.h"
+#include <cmocka.h>
+#include <dyadel/delaunay.h>
+#include <string.h>
+
+enum { MOST = 120 };
+
+typedef struct example {
+  size_t n;
+  int64_t x[MOST], y[MOST];
+  uint32_t alias[MOST];
+  dyd_pair_status status[MOST][MOST];
+} example;
+
+static void add(example *e, int64_t x, int64_t y) {
+  if (e->n < MOST) {
+    e->x[e->n] = x;
+    e->y[e->n++] = y;
+  }
+}
+
+/* Integer points at the squared distance r from (a,b), each with a chance of one in `one_in`. */
+static void add_circle(example *e, test_random *g, int64_t a, int64_t b, int64_t r, unsigned one_in) {
+  for (int64_t x = -60; x <= 60; x++)
+    for (int64_t y = -60; y <= 60; y++)
+      if (x * x + y * y == r && test_chance(g, one_in)) add(e, a + x, b + y);
+}
+
+static void add_grid(example *e, test_random *g, int64_t side, unsigned one_in) {
+  for (int64_t x = 0; x < side; x++)
+    for (int64_t y = 0; y < side; y++)
+      if (!test_chance(g, one_in)) add(e, 3 * x, 3 * y);
+}
+
+static void make(example *e, test_random *g) {
+  static const int64_t radius[6] = {25, 65, 325, 425, 1105, 2125};
+  e->n = 0;
+  switch (test_below(g, 5)) {
+  case 0:
+    add_grid(e, g, 3 + (int64_t)test_below(g, 4), 2 + (unsigned)test_below(g, 30));
+    break;
+  case 1:
+    add_circle(e, g, 0, 0, radius[test_below(g, 6)], 1 + (unsigned)test_below(g, 2));
+    break;
+  case 2:
+    for (int q = 0; q < 3; q++)
+      add_circle(e, g, test_between(g, -9, 9), test_between(g, -60, 60), radius[test_below(g, 6)], 2);
+    break;
+  case 3: /* chains on the hull */
+    for (int64_t x = 0; x < 30; x++) add(e, x * (1 + (int64_t)test_below(g, 2)), 0);
+    for (int64_t x = 0; x < 12; x++) add(e, test_between(g, 0, 20), test_between(g, 0, 3));
+    break;
+  default:
+    for (int q = 0; q < 12; q++) add(e, test_between(g, 0, 4), test_between(g, 0, 4));
+  }
+  for (int q = 0; q < 3; q++) add(e, test_between(g, -5, 5), test_between(g, -5, 5));
+  for (size_t i = e->n; i > 1; i--) {
+    size_t k = (size_t)test_below(g, i);
+    int64_t x = e->x[k], y = e->y[k];
+    e->x[k] = e->x[i - 1], e->y[k] = e->y[i - 1];
+    e->x[i - 1] = x, e->y[i - 1] = y;
+  }
+}
+
+typedef struct range {
+  int64_t lo[2], hi[2]; /* numerator, denominator > 0; denominator 0: infinite */
+} range;
+
+static dyd_pair_status status_of(const example *e, size_t i, size_t j) {
+  range t = {{0, 0}, {0, 0}};
+  bool left = true, right = true, between = false;
+  int64_t dx = e->x[j] - e->x[i], dy = e->y[j] - e->y[i];
+  for (size_t k = 0; k < e->n; k++) {
+    int64_t kx = e->x[k] - e->x[i], ky = e->y[k] - e->y[i];
+    if ((!kx && !ky) || (kx == dx && ky == dy)) continue;
+    int64_t a = kx * kx + ky * ky - dx * kx - dy * ky, b = 2 * (dx * ky - dy * kx);
+    left = left && b <= 0;
+    right = right && b >= 0;
+    between = between || (b == 0 && a < 0);
+    if (b > 0 && (!t.hi[1] || a * t.hi[1] < t.hi[0] * b)) t.hi[0] = a, t.hi[1] = b;
+    if (b < 0 && (!t.lo[1] || -a * t.lo[1] > t.lo[0] * -b)) t.lo[0] = -a, t.lo[1] = -b;
+  }
+  int64_t room = t.lo[1] && t.hi[1] ? t.hi[0] * t.lo[1] - t.lo[0] * t.hi[1] : 1;
+  if (!between && room > 0) return DYD_LEGAL;
+  return left || right || (!between && room == 0) ? DYD_TIE : DYD_ILLEGAL;
+}
+
+static void settle(example *e) {
+  for (uint32_t i = 0; i < e->n; i++) {
+    e->alias[i] = i;
+    for (uint32_t j = i; j-- > 0;)
+      if (e->x[i] == e->x[j] && e->y[i] == e->y[j]) e->alias[i] = j;
+  }
+  for (uint32_t i = 0; i < e->n; i++)
+    for (uint32_t j = 0; j < e->n; j++) e->status[i][j] = e->alias[i] == e->alias[j] ? DYD_ILLEGAL : status_of(e, i, j);
+}
+
+static dyd_sites *sites_of(const example *e) {
+  dyd_sites *s = NULL;
+  double x[MOST], y[MOST];
+  for (size_t i = 0; i < e->n; i++) {
+    x[i] = (double)e->x[i];
+    y[i] = (double)e->y[i];
+  }
+  assert_int_equal(dyd_sites_new(&s), DYD_OK);
+  assert_int_equal(dyd_sites_add_points(s, e->n, x, y), DYD_OK);
+  return s;
+}
+
+/* ---- without a cap ---- */
+
+static bool is_own(const example *e, uint32_t i) {
+  return e->alias[i] == i;
+}
+
+static void check_pairs(const example *e, const dyd_delaunay *pd) {
+  dyd_pair_list l = {0};
+  size_t count[4], want[4] = {0}, k = 0;
+  assert_int_equal(dyd_delaunay_pairs(&l, pd), DYD_OK);
+  for (uint32_t i = 0; i < e->n; i++)
+    for (uint32_t j = 0; j < e->n; j++) {
+      dyd_pair_status s = e->status[i][j];
+      assert_int_equal(dyd_delaunay_status(pd, i, j), s);
+      if (j <= i || !is_own(e, i) || !is_own(e, j) || s == DYD_ILLEGAL) continue;
+      assert_true(k < l.count && l.item[k].i == i && l.item[k].j == j && l.item[k].status == s);
+      want[s]++;
+      k++;
+    }
+  assert_int_equal(k, l.count);
+  dyd_delaunay_count(count, pd);
+  assert_memory_equal(count, want, sizeof count);
+  dyd_pair_list_clear(&l);
+}
+
+static void check_neighbours(const example *e, const dyd_delaunay *pd) {
+  for (uint32_t i = 0; i < e->n; i++)
+    for (int least = DYD_TIE; least <= DYD_LEGAL; least++) {
+      dyd_index_list l = {0};
+      size_t k = 0;
+      assert_int_equal(dyd_delaunay_neighbours(&l, pd, i, (dyd_pair_status)least), DYD_OK);
+      for (uint32_t j = 0; j < e->n; j++)
+        if (is_own(e, j) && (int)e->status[i][j] >= least) assert_true(k < l.count && l.item[k++] == j);
+      assert_int_equal(k, l.count);
+      dyd_index_list_clear(&l);
+    }
+}
+
+/* A face has all ties among its sites; each tie is in one face; only chains are outer. */
+static void check_faces(const example *e, const dyd_delaunay *pd) {
+  size_t ties[4], seen = 0;
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd); f++) {
+    dyd_index_list sites = {0};
+    dyd_pair_list pairs = {0};
+    bool outer;
+    size_t k = 0;
+    assert_int_equal(dyd_delaunay_face(&sites, &outer, pd, f), DYD_OK);
+    assert_int_equal(dyd_delaunay_face_pairs(&pairs, pd, f), DYD_OK);
+    for (size_t a = 0; a < sites.count; a++)
+      for (size_t b = a + 1; b < sites.count; b++) {
+        uint32_t i = sites.item[a], j = sites.item[b];
+        assert_true(i < j && is_own(e, i) && is_own(e, j) && e->status[i][j] != DYD_ILLEGAL);
+        if (e->status[i][j] == DYD_LEGAL) continue;
+        assert_true(k < pairs.count && pairs.item[k].i == i && pairs.item[k].j == j && pairs.item[k].status == DYD_TIE);
+        k++;
+      }
+    assert_int_equal(k, pairs.count);
+    uint32_t u = sites.item[0], v = sites.item[1], w = sites.item[2];
+    int64_t turn = (e->x[v] - e->x[u]) * (e->y[w] - e->y[u]) - (e->y[v] - e->y[u]) * (e->x[w] - e->x[u]);
+    assert_int_equal(outer, turn == 0);
+    seen += k;
+    dyd_index_list_clear(&sites);
+    dyd_pair_list_clear(&pairs);
+  }
+  dyd_delaunay_count(ties, pd);
+  assert_int_equal(seen, ties[DYD_TIE]);
+}
+
+/* ---- with a cap ---- */
+
+/* What the cap leaves of face f: how many pairs are told. */
+static size_t capped_face(bool *capped, size_t *live, const dyd_delaunay *free, const dyd_delaunay *pd, size_t f,
+                          size_t cap) {
+  dyd_index_list sites = {0};
+  dyd_pair_list all = {0}, some = {0};
+  bool outer;
+  assert_int_equal(dyd_delaunay_face(&sites, &outer, pd, f), DYD_OK);
+  assert_int_equal(dyd_delaunay_face_pairs(&all, free, f), DYD_OK);
+  assert_int_equal(dyd_delaunay_face_pairs(&some, pd, f), DYD_OK);
+  *capped = *live > cap || all.count > cap - *live;
+  size_t told = !*capped ? all.count : outer ? 0 : sites.count - 3, k = 0;
+  assert_int_equal(some.count, told);
+  *live += told;
+  for (size_t q = 0; q < all.count; q++) {
+    dyd_pair p = all.item[q];
+    assert_int_equal(dyd_delaunay_status(pd, p.i, p.j), *capped ? DYD_INDETERMINATE : DYD_TIE);
+    if (k == told || some.item[k].i != p.i || some.item[k].j != p.j) continue;
+    assert_int_equal(some.item[k++].status, *capped ? DYD_INDETERMINATE : DYD_TIE);
+  }
+  assert_int_equal(k, told); /* sorted, and among all */
+  dyd_index_list_clear(&sites);
+  dyd_pair_list_clear(&all);
+  dyd_pair_list_clear(&some);
+  return told;
+}
+
+/* The list of all pairs and the neighbours say the same. */
+static void check_capped_lists(const example *e, const dyd_delaunay *pd, const size_t want[4]) {
+  dyd_pair_list l = {0};
+  size_t count[4], told = 0, twice = 0;
+  assert_int_equal(dyd_delaunay_pairs(&l, pd), DYD_OK);
+  dyd_delaunay_count(count, pd);
+  for (size_t q = 0; q < l.count; q++) {
+    dyd_pair p = l.item[q];
+    assert_true(p.i < p.j && p.status == dyd_delaunay_status(pd, p.i, p.j));
+    if (q) assert_true(l.item[q - 1].i < p.i || (l.item[q - 1].i == p.i && l.item[q - 1].j < p.j));
+    told += p.status != DYD_LEGAL;
+  }
+  assert_int_equal(told, want[DYD_TIE] + want[DYD_INDETERMINATE]);
+  assert_int_equal(count[DYD_TIE], want[DYD_TIE]);
+  assert_int_equal(count[DYD_INDETERMINATE], want[DYD_INDETERMINATE]);
+  assert_int_equal(count[DYD_LEGAL] + told, l.count);
+  for (uint32_t i = 0; i < e->n; i++) {
+    dyd_index_list near = {0};
+    if (!is_own(e, i)) continue;
+    assert_int_equal(dyd_delaunay_neighbours(&near, pd, i, DYD_TIE), DYD_OK);
+    for (size_t q = 0; q < near.count; q++) assert_int_not_equal(dyd_delaunay_status(pd, i, near.item[q]), DYD_ILLEGAL);
+    twice += near.count;
+    dyd_index_list_clear(&near);
+  }
+  assert_int_equal(twice, 2 * l.count);
+  dyd_pair_list_clear(&l);
+}
+
+static void check_cap(const example *e, const dyd_sites *s, const dyd_delaunay *free, size_t cap) {
+  dyd_delaunay *pd = NULL;
+  dyd_delaunay_options o = {.max_pairs = cap};
+  dyd_error err = {0};
+  dyd_status status = dyd_delaunay_new(&pd, s, &o, &err);
+  size_t faces = dyd_delaunay_undecided_faces(pd), live = 0, want[4] = {0};
+  bool some = false, capped;
+  assert_int_equal(faces, dyd_delaunay_undecided_faces(free));
+  for (size_t f = 0; f < faces; f++) {
+    size_t told = capped_face(&capped, &live, free, pd, f, cap);
+    want[capped ? DYD_INDETERMINATE : DYD_TIE] += told;
+    some = some || capped;
+  }
+  assert_int_equal(status, some ? DYD_CAPPED : DYD_OK);
+  assert_int_equal(dyd_delaunay_is_capped(pd), some);
+  if (some) assert_non_null(strstr(err.message, "cap"));
+  check_capped_lists(e, pd, want);
+  dyd_delaunay_free(pd);
+}
+
+static bool is_line(const example *e) {
+  for (size_t k = 0; k < e->n; k++)
+    for (size_t q = 0; q < k; q++) {
+      int64_t x = e->x[k] - e->x[0], y = e->y[k] - e->y[0];
+      if (x * (e->y[q] - e->y[0]) != y * (e->x[q] - e->x[0])) return false;
+    }
+  return true;
+}
+
+static void test_definition(void **state) {
+  (void)state;
+  test_random g = test_random_start("ties");
+  example *e = malloc(sizeof *e);
+  size_t undecided = 0;
+  assert_non_null(e);
+  for (size_t q = 0; q < test_cases(400); q++) {
+    dyd_delaunay *pd = NULL;
+    dyd_delaunay_options o = {.no_filter = test_chance(&g, 8)};
+    size_t count[4];
+    make(e, &g);
+    if (is_line(e)) continue;
+    settle(e);
+    dyd_sites *s = sites_of(e);
+    assert_int_equal(dyd_delaunay_new(&pd, s, &o, NULL), DYD_OK);
+    check_pairs(e, pd);
+    check_neighbours(e, pd);
+    check_faces(e, pd);
+    dyd_delaunay_count(count, pd);
+    undecided += count[DYD_TIE];
+    for (size_t cap = 1; cap < count[DYD_TIE]; cap += 1 + (size_t)test_below(&g, count[DYD_TIE]))
+      check_cap(e, s, pd, cap);
+    check_cap(e, s, pd, count[DYD_TIE] + 1);
+    dyd_delaunay_free(pd);
+    dyd_sites_free(s);
+  }
+  assert_true(undecided > 1000);
+  free(e);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_definition)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
