@@ -46,11 +46,10 @@ Definition counterclockwise (P : list point) : Prop := match P with [] => True |
 Fixpoint fan (o : point) (l : list point) (z : point) : Prop :=
   match l with a :: ((b :: _) as r) => triangle o a b z \/ fan o r z | _ => False end.
 
-Lemma fan_side o q l z : Forall (fun b => 0 <= orient o q b) l -> fan o l z -> 0 <= orient o q z.
+Lemma fan_side p q o l z : 0 <= orient p q o -> Forall (fun b => 0 <= orient p q b) l -> fan o l z -> 0 <= orient p q z.
 Proof.
-  assert (Z : 0 <= orient o q o) by (unfold orient; lra).
-  induction l as [| a l IH]; [intros _ [] |]. destruct l as [| b l]; [intros _ [] |]. intros F [T | T].
-  - inversion F as [| ? ? Fa F']; subst. inversion F' as [| ? ? Fb _]; subst. now apply (triangle_side o q o a b z).
+  intros Z. induction l as [| a l IH]; [intros _ [] |]. destruct l as [| b l]; [intros _ [] |]. intros F [T | T].
+  - inversion F as [| ? ? Fa F']; subst. inversion F' as [| ? ? Fb _]; subst. now apply (triangle_side p q o a b z).
   - apply IH; [now inversion F | exact T].
 Qed.
 
@@ -61,7 +60,7 @@ Proof.
   replace (fan_area2 o (a :: b :: l) / 2) with (orient o a b / 2 + fan_area2 o (b :: l) / 2) by (simpl; field).
   apply (inner_union (triangle o a b) (fan o (b :: l))); [| simpl; tauto | simpl; tauto | apply triangle_inner | now apply IH].
   intros z [_ [_ O]] F. assert (0 <= orient o b z).
-  { apply (fan_side o b (b :: l)); [| exact F]. inversion H' as [| ? ? G _]; subst. constructor; [unfold orient; lra | exact G]. }
+  { apply (fan_side o b o (b :: l)); [unfold orient; lra | | exact F]. inversion H' as [| ? ? G _]; subst. constructor; [unfold orient; lra | exact G]. }
   assert (orient b o z = - orient o b z) by (unfold orient; ring). unfold triangle in *. lra.
 Qed.
 
