@@ -33,14 +33,16 @@ void dyd_build_clear(dyd_delaunay *pd) {
 static dyd_status build_skeleton(dyd_delaunay *pd) {
   uint32_t *order = dyd_alloc(pd->n, sizeof *order);
   if (!order) return DYD_E_NOMEM;
-  dyd_status st = dyd_spatial_order(order, pd->sites);
+  dyd_strips strips;
+  dyd_status st = dyd_spatial_order(order, &strips, pd->sites);
   if (st != DYD_OK) {
     free(order);
     return st;
   }
   st = dyd_reps_init(&pd->reps, pd->sites, order, pd->n);
   if (st == DYD_OK)
-    st = dyd_mesh_build(&pd->mesh, &pd->reps, NULL, pd->n, pd->options.no_filter, &pd->counters, pd->options.cancel);
+    st = dyd_mesh_build_strips(&pd->mesh, &pd->reps, &strips, pd->options.no_filter, &pd->counters, pd->options.cancel,
+                               pd->options.threads);
   return st;
 }
 

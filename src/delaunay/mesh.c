@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "delaunay/filter_mesh.h"
+#include "delaunay/join.h"
 #include "delaunay/mesh_exact.h"
 #include "delaunay/mesh_fixed.h"
 #include "delaunay/mesh_start.h"
@@ -72,10 +73,9 @@ int dyd_mesh_incircle(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t 
 
 /* ---- location and insertion ---- */
 
-/* A triangle whose circle holds v: the real triangle around it, or a ghost triangle whose hull edge it is beyond.
- * The walk goes over an edge only when v is strictly beyond it; it ends since the power of v decreases, or inside
+/* The walk goes over an edge only when v is strictly beyond it; it ends since the power of v decreases, or inside
  * one cocircular polygon, whose dual is a tree that is never walked back. */
-static uint32_t locate(dyd_mesh *m, uint32_t v) {
+uint32_t dyd_mesh_locate(dyd_mesh *m, uint32_t v) {
   uint32_t t = m->hint;
   unsigned from = 3;
   for (unsigned k = 0; k < 3; k++)
@@ -150,7 +150,7 @@ static uint32_t twin_of(dyd_mesh *m, uint32_t v, uint32_t t) {
 
 static dyd_status insert(dyd_mesh *m, uint32_t v) {
   for (uint32_t k = 1;; k++) {
-    uint32_t t = locate(m, v);
+    uint32_t t = dyd_mesh_locate(m, v);
     uint32_t same = twin_of(m, v, t);
     if (same == DYD_NONE) return insert_at(m, v, t);
     if (dyd_mesh_is_point(m, v)) return dyd_mesh_set_alias(m, v, same);
@@ -162,7 +162,7 @@ static dyd_status insert(dyd_mesh *m, uint32_t v) {
 /* ---- the whole ---- */
 
 static dyd_status insert_all(dyd_mesh *m, const uint32_t first[3], const volatile int *cancel) {
-  for (uint32_t v = 0; v < m->n; v++) {
+  for (uint32_t v = m->begin; v < m->end; v++) {
     if (v == first[0] || v == first[1] || v == first[2] || dyd_mesh_alias(m, v) != DYD_NONE) continue;
     if ((v & 1023) == 0 && dyd_flag_is_set(cancel)) return DYD_CANCELLED;
     dyd_status st = insert(m, v);
@@ -171,29 +171,44 @@ static dyd_status insert_all(dyd_mesh *m, const uint32_t first[3], const volatil
   return DYD_OK;
 }
 
-static dyd_status allocate(dyd_mesh *m) {
-  m->tri = dyd_alloc(2 * (size_t)m->n + 2, sizeof *m->tri);
-  return m->tri && room(m, 61, 63) ? DYD_OK : DYD_E_NOMEM;
+dyd_status dyd_mesh_fill(dyd_mesh *m, const volatile int *cancel) {
+  uint32_t first[3];
+  dyd_status st = dyd_mesh_first_triangle(first, m);
+  if (st != DYD_OK || m->collinear) return st;
+  if (!m->tri) m->tri = dyd_alloc(2 * (size_t)m->n + 2, sizeof *m->tri);
+  if (!m->tri || !room(m, 61, 63)) return DYD_E_NOMEM;
+  dyd_mesh_put_first(m, first);
+  return insert_all(m, first, cancel);
+}
+
+static dyd_status prepare(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, uint32_t n, bool no_filter,
+                          dyd_delaunay_counters *counters) {
+  *m = (dyd_mesh){.reps = reps,
+                  .local = local,
+                  .n = n,
+                  .end = n,
+                  .strips = {1, {0, n}},
+                  .no_filter = no_filter,
+                  .counters = counters,
+                  .beyond = counters->integer + counters->exact};
+  return dyd_mesh_coordinates(m);
 }
 
 dyd_status dyd_mesh_build(dyd_mesh *m, dyd_reps *reps, const uint32_t *local, uint32_t n, bool no_filter,
                           dyd_delaunay_counters *counters, const volatile int *cancel) {
-  uint32_t first[3];
-  *m = (dyd_mesh){.reps = reps,
-                  .local = local,
-                  .n = n,
-                  .no_filter = no_filter,
-                  .counters = counters,
-                  .beyond = counters->integer + counters->exact};
-  dyd_status st = dyd_mesh_coordinates(m);
-  if (st == DYD_OK) st = dyd_mesh_first_triangle(first, m);
-  if (st == DYD_OK && !m->collinear) {
-    st = allocate(m);
-    if (st == DYD_OK) {
-      dyd_mesh_put_first(m, first);
-      st = insert_all(m, first, cancel);
-    }
-  }
+  dyd_status st = prepare(m, reps, local, n, no_filter, counters);
+  if (st == DYD_OK) st = dyd_mesh_fill(m, cancel);
+  if (st != DYD_OK) dyd_mesh_clear(m);
+  return st;
+}
+
+dyd_status dyd_mesh_build_strips(dyd_mesh *m, dyd_reps *reps, const dyd_strips *strips, bool no_filter,
+                                 dyd_delaunay_counters *counters, const volatile int *cancel, unsigned threads) {
+  bool joined = false;
+  dyd_status st = prepare(m, reps, NULL, reps->n, no_filter, counters);
+  if (st == DYD_OK && dyd_strips_are_apart(reps, strips))
+    st = dyd_mesh_join_strips(&joined, m, strips, cancel, threads);
+  if (st == DYD_OK && !joined) st = dyd_mesh_fill(m, cancel);
   if (st != DYD_OK) dyd_mesh_clear(m);
   return st;
 }

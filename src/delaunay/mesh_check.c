@@ -3,6 +3,7 @@
 #include "delaunay/mesh_check.h"
 
 #include "delaunay/mesh_exact.h"
+#include "dyadic/raw.h"
 
 static bool twins_agree(const dyd_mesh *m, uint32_t t, unsigned k) {
   uint32_t h = m->tri[t].n[k], s = h >> 2;
@@ -20,7 +21,45 @@ static bool edge_is_delaunay(dyd_mesh *m, uint32_t t, unsigned k) {
   return dyd_mesh_orient_exact(m, v[dyd_next(g)], v[dyd_prev(g)], p) <= 0;
 }
 
+/* In the order of x, then y; exactly. */
+static bool comes_before(const dyd_mesh *m, uint32_t v, uint32_t w) {
+  dyd_rect p, q;
+  dyd_rect_init(&p);
+  dyd_rect_init(&q);
+  (void)dyd_reps_get(&p, m->reps, dyd_mesh_rep(m, v));
+  (void)dyd_reps_get(&q, m->reps, dyd_mesh_rep(m, w));
+  int c = dyd_raw_cmp(&p.x.lo, q.x.den, &q.x.lo, p.x.den);
+  if (c == 0) c = dyd_raw_cmp(&p.y.lo, q.y.den, &q.y.lo, p.y.den);
+  dyd_rect_clear(&q);
+  dyd_rect_clear(&p);
+  return c < 0;
+}
+
+/* All hull edges are in one cycle, and it goes to the right once and back once: a cycle that is convex everywhere could
+ * wind twice around overlapping parts. */
+static bool hull_turns_once(const dyd_mesh *m) {
+  uint32_t ghosts = 0, met = 0, turns = 0, first = DYD_NONE;
+  for (uint32_t t = 0; t < m->count; t++)
+    if (dyd_mesh_is_ghost(m, t)) {
+      ghosts++;
+      first = t;
+    }
+  if (first == DYD_NONE) return false;
+  uint32_t t = first;
+  bool before = false;
+  do {
+    const uint32_t *v = m->tri[t].v;
+    unsigned g = v[0] == m->n ? 0 : v[1] == m->n ? 1 : 2;
+    bool right = comes_before(m, v[dyd_prev(g)], v[dyd_next(g)]);
+    turns += met && right != before;
+    before = right;
+    t = m->tri[t].n[dyd_prev(g)] >> 2;
+  } while (++met <= ghosts && t != first);
+  return met == ghosts && turns <= 2;
+}
+
 bool dyd_mesh_check(dyd_mesh *m) {
+  if (!hull_turns_once(m)) return false;
   for (uint32_t t = 0; t < m->count; t++) {
     const uint32_t *v = m->tri[t].v;
     if (!dyd_mesh_is_ghost(m, t) && dyd_mesh_orient_exact(m, v[0], v[1], v[2]) <= 0) return false;

@@ -5,8 +5,8 @@
 
 #include "delaunay/mesh.h"
 
-/* Twins agree, triangles turn left, every edge is locally (weakly) Delaunay: hence the whole is a Delaunay
- * triangulation. Exact; O(n). */
+/* Twins agree, triangles turn left, every edge is locally (weakly) Delaunay, the hull is one cycle that turns once:
+ * hence the whole is a Delaunay triangulation. Exact; O(n). */
 bool dyd_mesh_check(dyd_mesh *m);
 
 #endif

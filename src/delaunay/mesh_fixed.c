@@ -14,9 +14,10 @@
 __extension__ typedef __int128 i128;
 __extension__ typedef unsigned __int128 u128;
 
-/* Invariant: z != NULL: z[v] are the scaled coordinates of v; else they are xy[v] * 2^-unit, exactly. */
+/* Invariant: z != NULL: z[v] are the scaled coordinates of v; else they are xy[v] * 2^-unit, exactly, and below 2^(high
+ * - unit). */
 struct dyd_fixed {
-  int unit;
+  int unit, high;
   int64_t (*z)[2];
 };
 
@@ -28,34 +29,44 @@ void dyd_fixed_free(dyd_fixed *f) {
   free(f);
 }
 
-/* Largest e with x a multiple of 2^e; x finite and not 0. */
-static int lowest_bit(double x) {
-  int e;
-  int64_t m = (int64_t)ldexp(frexp(x, &e), 53);
-  return e - 53 + __builtin_ctzll((uint64_t)m);
+/* x = man * 2^exp, man odd; x finite, not 0 and not subnormal (false otherwise). */
+static bool exponent_range(int *low, int *high, double x) {
+  uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  int e = (int)(bits >> 52 & 2047);
+  uint64_t man = (bits & ((UINT64_C(1) << 52) - 1)) | UINT64_C(1) << 52;
+  if (x == 0) return true;
+  if (e == 0) return false;
+  int l = e - 1075 + __builtin_ctzll(man), h = e - 1022;
+  if (l < *low) *low = l;
+  if (h > *high) *high = h;
+  return true;
 }
 
-/* Exponents of the lowest and of (above) the highest bit over all coordinates. */
-static void bit_range(int *low, int *high, const dyd_mesh *m) {
-  *low = INT32_MAX;
-  *high = INT32_MIN;
-  for (uint32_t v = 0; v < m->n; v++) {
-    double c[2] = {m->xy[v].x, m->xy[v].y};
-    for (int a = 0; a < 2; a++) {
-      int e;
-      if (c[a] == 0) continue;
-      frexp(c[a], &e);
-      if (e > *high) *high = e;
-      if ((e = lowest_bit(c[a])) < *low) *low = e;
-    }
-  }
+/* The same for every finite x. */
+static void widen_range(int *low, int *high, double x) {
+  int e;
+  if (exponent_range(low, high, x)) return;
+  int64_t man = (int64_t)ldexp(frexp(x, &e), 53);
+  int l = e - 53 + __builtin_ctzll((uint64_t)man);
+  if (l < *low) *low = l;
+  if (e > *high) *high = e;
+}
+
+/* The unit is the lowest bit of all coordinates; false when they span too many bits. */
+static bool set_range(dyd_fixed *f, int low, int high) {
+  f->unit = low == INT32_MAX ? 0 : low;
+  f->high = low == INT32_MAX ? 0 : high;
+  return f->high - f->unit <= COORDINATE_BITS;
 }
 
 static bool prepare_doubles(dyd_fixed *f, const dyd_mesh *m) {
-  int low, high;
-  bit_range(&low, &high, m);
-  f->unit = low == INT32_MAX ? 0 : low;
-  return low == INT32_MAX || high - low <= COORDINATE_BITS;
+  int low = INT32_MAX, high = INT32_MIN;
+  for (uint32_t v = m->begin; v < m->end; v++) {
+    widen_range(&low, &high, m->xy[v].x);
+    widen_range(&low, &high, m->xy[v].y);
+  }
+  return set_range(f, low, high);
 }
 
 /* The common denominator and the least binary exponent of all representatives; false when they are too big. */
@@ -104,13 +115,42 @@ static bool prepare_rationals(dyd_fixed *f, const dyd_mesh *m) {
   return good;
 }
 
+static void install(dyd_mesh *m, dyd_fixed *f) {
+  m->exact_s = f && !f->z && f->unit >= -240 && f->unit <= 220 ? ldexp(1, 26 + 2 * f->unit) : -1;
+  m->fixed = f;
+  m->no_fixed = !f;
+}
+
 void dyd_fixed_prepare(dyd_mesh *m) {
   dyd_fixed *f = calloc(1, sizeof *f);
-  bool good = f && (m->reps->code ? prepare_rationals(f, m) : prepare_doubles(f, m));
-  if (!good) dyd_fixed_free(f);
-  m->exact_s = good && !f->z && f->unit >= -240 && f->unit <= 220 ? ldexp(1, 26 + 2 * f->unit) : -1;
-  m->fixed = good ? f : NULL;
-  m->no_fixed = !good;
+  if (f && !(m->reps->code ? prepare_rationals(f, m) : prepare_doubles(f, m))) {
+    dyd_fixed_free(f);
+    f = NULL;
+  }
+  install(m, f);
+}
+
+void dyd_fixed_join(dyd_mesh *m, const dyd_mesh *right) {
+  dyd_fixed *f = m->fixed;
+  const dyd_fixed *g = right->fixed;
+  bool known = f && g;
+  if (known && !set_range(f, f->unit < g->unit ? f->unit : g->unit, f->high > g->high ? f->high : g->high))
+    known = false;
+  if (known) {
+    install(m, f);
+    return;
+  }
+  dyd_fixed_free(f);
+  m->fixed = NULL;
+  m->no_fixed = m->no_fixed || right->no_fixed || (f && g);
+  m->exact_s = m->no_fixed ? -1 : 0;
+}
+
+void dyd_fixed_take(dyd_mesh *m, dyd_mesh *whole) {
+  m->fixed = whole->fixed;
+  m->no_fixed = whole->no_fixed;
+  m->exact_s = whole->exact_s;
+  whole->fixed = NULL;
 }
 
 static void coordinates(int64_t z[2], const dyd_mesh *m, uint32_t v) {
@@ -170,20 +210,6 @@ static i256 sum(i256 a, i256 b) {
   i256 r = {a.low + b.low, a.high + b.high};
   r.high += r.low < a.low;
   return r;
-}
-
-/* x = man * 2^exp, man odd; x finite, not 0 and not subnormal (false otherwise). */
-static bool exponent_range(int *low, int *high, double x) {
-  uint64_t bits;
-  memcpy(&bits, &x, sizeof bits);
-  int e = (int)(bits >> 52 & 2047);
-  uint64_t man = (bits & ((UINT64_C(1) << 52) - 1)) | UINT64_C(1) << 52;
-  if (x == 0) return true;
-  if (e == 0) return false;
-  int l = e - 1075 + __builtin_ctzll(man), h = e - 1022;
-  if (l < *low) *low = l;
-  if (h > *high) *high = h;
-  return true;
 }
 
 /* The four points as integers on their own common scale; false when they span too many bits. */

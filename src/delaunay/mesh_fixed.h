@@ -13,5 +13,9 @@ int dyd_fixed_orient(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);
 /* Exact sign on a grid of the four points' own, or on the common one; false when neither exists. */
 bool dyd_fixed_incircle(int *sign, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
 void dyd_fixed_free(dyd_fixed *f);
+/* m, a part that grows by `right`: the grid of both, or none yet. m takes the grid of `whole`, which has none
+ * afterwards. Only for meshes whose representatives are doubles. */
+void dyd_fixed_join(dyd_mesh *m, const dyd_mesh *right);
+void dyd_fixed_take(dyd_mesh *m, dyd_mesh *whole);
 
 #endif

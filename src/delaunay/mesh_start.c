@@ -58,6 +58,7 @@ dyd_status dyd_mesh_coordinates(dyd_mesh *m) {
 
 /* A moved point may be inexact: the constants follow, and the grid is made anew. */
 dyd_status dyd_mesh_move(dyd_mesh *m, uint32_t v, uint32_t k) {
+  if (m->part) return m->stuck = true, DYD_CANCELLED;
   uint32_t r = dyd_mesh_rep(m, v);
   dyd_status st = dyd_reps_choose(m->reps, r, k);
   if (st != DYD_OK) return st;
@@ -87,7 +88,7 @@ static dyd_status separate(bool *differs, dyd_mesh *m, uint32_t v, uint32_t w) {
 /* The first two vertices that differ from each other and from `without`; false when there are none. */
 static bool two_others(uint32_t pair[2], dyd_mesh *m, uint32_t without) {
   unsigned found = 0;
-  for (uint32_t v = 0; v < m->n && found < 2; v++) {
+  for (uint32_t v = m->begin; v < m->end && found < 2; v++) {
     if (v == without || dyd_mesh_alias(m, v) != DYD_NONE) continue;
     if (found == 0 || !dyd_mesh_same(m, pair[0], v)) pair[found++] = v;
   }
@@ -103,7 +104,7 @@ static dyd_status always_collinear(bool *always, dyd_mesh *m) {
   dyd_rect_init(&first);
   dyd_rect_init(&r);
   dyd_status st = DYD_OK;
-  for (uint32_t v = 0; v < m->n && st == DYD_OK; v++) {
+  for (uint32_t v = m->begin; v < m->end && st == DYD_OK; v++) {
     if (dyd_mesh_alias(m, v) != DYD_NONE) continue;
     st = dyd_sites_get(alive ? &r : &first, m->reps->sites, m->reps->site[dyd_mesh_rep(m, v)]);
     if (!alive++) dyd_rect_set(&r, &first);
@@ -143,7 +144,7 @@ static dyd_status leave_line(uint32_t first[3], dyd_mesh *m) {
   dyd_status st = always_collinear(&m->collinear, m);
   bool done = m->collinear;
   for (uint32_t round = 0; !done && st == DYD_OK; round++)
-    for (uint32_t v = 0; v < m->n && !done && st == DYD_OK; v++)
+    for (uint32_t v = m->begin; v < m->end && !done && st == DYD_OK; v++)
       st = step_aside(&done, first, m, v, 1 + 4 * (v % 1024) + round % 1024);
   return st;
 }
@@ -151,7 +152,7 @@ static dyd_status leave_line(uint32_t first[3], dyd_mesh *m) {
 dyd_status dyd_mesh_first_triangle(uint32_t first[3], dyd_mesh *m) {
   unsigned found = 0;
   dyd_status st = DYD_OK;
-  for (uint32_t v = 0; v < m->n && found < 3 && st == DYD_OK; v++) {
+  for (uint32_t v = m->begin; v < m->end && found < 3 && st == DYD_OK; v++) {
     bool differs = true;
     if (found >= 1) st = separate(&differs, m, v, first[0]);
     if (st == DYD_OK && differs && found >= 2) {
@@ -159,6 +160,7 @@ dyd_status dyd_mesh_first_triangle(uint32_t first[3], dyd_mesh *m) {
     }
     if (st == DYD_OK && differs) first[found++] = v;
   }
+  if (st == DYD_OK && found < 3 && m->part) return m->stuck = true, DYD_CANCELLED;
   if (st == DYD_OK && found < 3) st = leave_line(first, m);
   if (st == DYD_OK && !m->collinear && dyd_mesh_orient(m, first[0], first[1], first[2]) < 0) {
     uint32_t t = first[0];
@@ -169,11 +171,11 @@ dyd_status dyd_mesh_first_triangle(uint32_t first[3], dyd_mesh *m) {
 }
 
 void dyd_mesh_put_first(dyd_mesh *m, const uint32_t first[3]) {
-  uint32_t a = first[0], b = first[1], c = first[2], g = m->n;
-  m->tri[0] = (dyd_tri){{a, b, c}, {4 * 2 + 2, 4 * 3 + 2, 4 * 1 + 2}};
-  m->tri[1] = (dyd_tri){{b, a, g}, {4 * 3 + 1, 4 * 2 + 0, 4 * 0 + 2}};
-  m->tri[2] = (dyd_tri){{c, b, g}, {4 * 1 + 1, 4 * 3 + 0, 4 * 0 + 0}};
-  m->tri[3] = (dyd_tri){{a, c, g}, {4 * 2 + 1, 4 * 1 + 0, 4 * 0 + 1}};
-  m->count = 4;
-  m->hint = 0;
+  uint32_t a = first[0], b = first[1], c = first[2], g = m->n, t = 2 * m->begin, h = 4 * t;
+  m->tri[t] = (dyd_tri){{a, b, c}, {h + 8 + 2, h + 12 + 2, h + 4 + 2}};
+  m->tri[t + 1] = (dyd_tri){{b, a, g}, {h + 12 + 1, h + 8 + 0, h + 0 + 2}};
+  m->tri[t + 2] = (dyd_tri){{c, b, g}, {h + 4 + 1, h + 12 + 0, h + 0 + 0}};
+  m->tri[t + 3] = (dyd_tri){{a, c, g}, {h + 8 + 1, h + 4 + 0, h + 0 + 1}};
+  m->count = t + 4;
+  m->hint = t;
 }

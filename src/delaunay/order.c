@@ -9,7 +9,22 @@
 #include <float.h>
 #include <string.h>
 
-enum { RADIX_BITS = 11, RADIX = 1 << RADIX_BITS, PASSES = 3, SAMPLE = 16, LEVELS = 2 };
+enum {
+  RADIX_BITS = 11,
+  RADIX = 1 << RADIX_BITS,
+  PASSES = 3,
+  SAMPLE = 16,
+  LEVELS = 2,
+  COLUMNS = 1 << 16,
+  STRIP_BIT = 29
+};
+
+/* A strip has at least so many sites. The verify build divides every second set of sites, however small. */
+#ifdef DYD_VERIFY
+#define STRIP_LEAST(n) ((n) % 2 ? 4 : 1 << 16)
+#else
+#define STRIP_LEAST(n) (1 << 16)
+#endif
 
 /* step[state][x 4 bits, y 4 bits] = 8 bits of the curve | next state << 8. */
 typedef struct hilbert_table {
@@ -78,12 +93,53 @@ static unsigned level_of(uint32_t i) {
   return level;
 }
 
-static uint32_t key_of(const dyd_sites *s, const frame *f, const hilbert_table *h, bool mixed, uint32_t i) {
-  uint32_t x = (uint32_t)((half_middle(s, 0, i) - f->origin[0]) * f->scale);
-  uint32_t y = (uint32_t)((half_middle(s, 1, i) - f->origin[1]) * f->scale);
-  uint32_t fat = mixed && !dyd_sites_is_point(s, i);
-  return fat << 30 | (uint32_t)level_of(i) << 28 | hilbert_key(h, x, y);
+/* What the key of a site is made of. shift: 0, or as many low bits of the curve as the strip number takes. */
+typedef struct keys {
+  const dyd_sites *sites;
+  frame f;
+  hilbert_table h;
+  bool mixed;
+  unsigned strips, shift;
+  uint32_t *column; /* the strip of each column of the frame; NULL: one strip */
+  uint32_t members[DYD_STRIPS];
+  uint64_t *a;
+  size_t (*count)[RADIX];
+} keys;
+
+static uint32_t place(const keys *k, int axis, size_t i) {
+  return (uint32_t)((half_middle(k->sites, axis, i) - k->f.origin[axis]) * k->f.scale);
 }
+
+static uint32_t key_of(const keys *k, uint32_t i) {
+  uint32_t x = place(k, 0, i), y = place(k, 1, i), fat = k->mixed && !dyd_sites_is_point(k->sites, i);
+  uint32_t key = (fat << 30 | (uint32_t)level_of(i) << 28 | hilbert_key(&k->h, x, y)) >> k->shift;
+  return k->column ? key | k->column[x] << STRIP_BIT : key;
+}
+
+/* ---- strips ---- */
+
+static unsigned strips_for(size_t n) {
+  size_t count = n / STRIP_LEAST(n);
+  return count < 2 ? 1 : count > DYD_STRIPS ? DYD_STRIPS : (unsigned)count;
+}
+
+/* Columns with about the same number of sites, judged by a sample; a column is never divided. */
+static void share_columns(keys *k) {
+  size_t n = k->sites->count, step = n / COLUMNS + 1, sample = (n + step - 1) / step, seen = 0;
+  for (size_t i = 0; i < n; i += step) k->column[place(k, 0, i)]++;
+  for (size_t c = 0; c < COLUMNS; c++) {
+    size_t here = k->column[c], strip = (seen + here / 2) * k->strips / sample;
+    k->column[c] = strip < k->strips ? (uint32_t)strip : k->strips - 1;
+    seen += here;
+  }
+}
+
+static void set_strips(dyd_strips *out, const keys *k) {
+  *out = (dyd_strips){.count = k->strips};
+  for (unsigned s = 0; s < k->strips; s++) out->begin[s + 1] = out->begin[s] + k->members[s];
+}
+
+/* ---- sorting ---- */
 
 static void radix_sort(uint64_t *a, uint64_t *b, size_t n, size_t count[PASSES][RADIX]) {
   for (int p = 0; p < PASSES; p++) {
@@ -101,26 +157,36 @@ static void radix_sort(uint64_t *a, uint64_t *b, size_t n, size_t count[PASSES][
   }
 }
 
-dyd_status dyd_spatial_order(uint32_t *order, const dyd_sites *s) {
-  size_t n = s->count;
-  uint64_t *a = dyd_alloc(n, sizeof *a), *b = dyd_alloc(n, sizeof *b);
-  size_t(*count)[RADIX] = calloc(PASSES, sizeof *count);
-  hilbert_table h;
-  dyd_status st = a && b && count ? DYD_OK : DYD_E_NOMEM;
-  if (st == DYD_OK) {
-    frame f = frame_of(s);
-    bool mixed = s->upper[0] || s->upper[1] || s->exact;
-    fill_table(&h);
-    for (uint32_t i = 0; i < n; i++) {
-      uint32_t key = key_of(s, &f, &h, mixed, i);
-      a[i] = (uint64_t)key << 32 | i;
-      for (int p = 0; p < PASSES; p++) count[p][key >> (RADIX_BITS * p) & (RADIX - 1)]++;
-    }
-    radix_sort(a, b, n, count);
-    for (size_t i = 0; i < n; i++) order[i] = (uint32_t)b[i]; /* an odd number of passes ends in b */
+static void fill_keys(keys *k) {
+  for (uint32_t i = 0; i < k->sites->count; i++) {
+    uint32_t key = key_of(k, i);
+    k->a[i] = (uint64_t)key << 32 | i;
+    k->members[k->column ? key >> STRIP_BIT : 0]++;
+    for (int p = 0; p < PASSES; p++) k->count[p][key >> (RADIX_BITS * p) & (RADIX - 1)]++;
   }
-  free(count);
+}
+
+dyd_status dyd_spatial_order(uint32_t *order, dyd_strips *strips, const dyd_sites *s) {
+  size_t n = s->count;
+  uint64_t *b = dyd_alloc(n, sizeof *b);
+  keys k = {.sites = s, .strips = strips_for(n), .a = dyd_alloc(n, sizeof *k.a)};
+  k.count = calloc(PASSES, sizeof *k.count);
+  if (k.strips > 1) k.column = calloc(COLUMNS, sizeof *k.column);
+  k.shift = k.strips > 1 ? 31 - STRIP_BIT : 0;
+  dyd_status st = k.a && b && k.count && (k.strips == 1 || k.column) ? DYD_OK : DYD_E_NOMEM;
+  if (st == DYD_OK) {
+    k.f = frame_of(s);
+    k.mixed = s->upper[0] || s->upper[1] || s->exact;
+    fill_table(&k.h);
+    if (k.column) share_columns(&k);
+    fill_keys(&k);
+    radix_sort(k.a, b, n, k.count);
+    for (size_t i = 0; i < n; i++) order[i] = (uint32_t)b[i]; /* an odd number of passes ends in b */
+    set_strips(strips, &k);
+  }
+  free(k.column);
+  free(k.count);
   free(b);
-  free(a);
+  free(k.a);
   return st;
 }

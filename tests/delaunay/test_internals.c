@@ -308,15 +308,19 @@ static void test_order(void **state) {
     dyd_sites *s = NULL;
     uint32_t order[400];
     bool seen[400] = {false}, fat = false;
+    dyd_strips strips;
     assert_int_equal(dyd_sites_new(&s), DYD_OK);
     for (size_t i = 0; i < n; i++) add_any(s);
-    assert_int_equal(dyd_spatial_order(order, s), DYD_OK);
+    assert_int_equal(dyd_spatial_order(order, &strips, s), DYD_OK);
+    assert_int_equal(strips.begin[strips.count], n);
+    unsigned strip = 0;
     for (size_t q = 0; q < n; q++) {
+      for (; q == strips.begin[strip + 1]; strip++) fat = false;
       assert_in_range(order[q], 0, n - 1);
       assert_false(seen[order[q]]);
       seen[order[q]] = true;
       bool is_point = dyd_sites_is_point(s, order[q]);
-      assert_false(fat && is_point); /* exact points come first */
+      assert_false(fat && is_point); /* exact points come first in each strip */
       fat = fat || !is_point;
     }
     dyd_sites_free(s);

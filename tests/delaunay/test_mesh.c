@@ -47,7 +47,7 @@ static void bed_make(bed *b) {
   }
   dyd_rect_clear(&r);
   assert_int_equal(dyd_reps_init(&b->reps, b->s, site, POINTS), DYD_OK);
-  b->m = (dyd_mesh){.reps = &b->reps, .n = POINTS, .counters = &b->counters};
+  b->m = (dyd_mesh){.reps = &b->reps, .n = POINTS, .end = POINTS, .counters = &b->counters};
   assert_int_equal(dyd_mesh_coordinates(&b->m), DYD_OK);
 }
 

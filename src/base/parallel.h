@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Independent tasks side by side.
+ *
+ * What a task does may depend on its number only, never on the thread that runs it or on how many there are: then
+ * results are the same for every number of threads. */
+#ifndef DYD_BASE_PARALLEL_H
+#define DYD_BASE_PARALLEL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+typedef void dyd_task(void *context, size_t number);
+
+/* Runs task(context, 0 .. tasks - 1), each once, in any order, on the calling thread and at most threads - 1 others,
+ * which are started with all signals blocked and have ended when this returns. Where threads cannot be started, those
+ * there are do all the work. What tasks wrote is visible to the caller afterwards. */
+void dyd_parallel(unsigned threads, size_t tasks, dyd_task *task, void *context);
+
+/* A long loop over 0 .. count - 1 is cut into at most 64 ranges, which depend on count alone. */
+enum { DYD_RANGE_LEAST = 1 << 13, DYD_RANGES_MOST = 64 };
+
+static inline size_t dyd_ranges(size_t count) {
+  size_t n = count / DYD_RANGE_LEAST;
+  return n < 1 ? 1 : n > DYD_RANGES_MOST ? DYD_RANGES_MOST : n;
+}
+/* First item of range `number`; of the range after the last: count. */
+static inline size_t dyd_range_begin(size_t count, size_t number) {
+  size_t n = dyd_ranges(count);
+  return count / n * number + (number < count % n ? number : count % n);
+}
+
+#endif

@@ -1,0 +1,261 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Meshes joined from strips [JOIN-1]: every edge is checked with integers, links and counts as well; without ties they
+ * have the edges of the mesh made at once; a mesh that met no exact zero has none. */
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include "delaunay/join.h"
+#include "delaunay/mesh_check.h"
+#include "delaunay/mesh_exact.h"
+#include "delaunay/mesh_start.h"
+#include "support/random.h"
+#include <cmocka.h>
+#include <string.h>
+
+enum { MOST = 400 };
+
+static test_random shared;
+static size_t joined_meshes, stuck_meshes, tied_meshes, aliases_met;
+
+typedef struct bed {
+  dyd_sites *sites;
+  dyd_reps reps;
+  dyd_mesh m;
+  dyd_delaunay_counters counters;
+} bed;
+
+static void bed_close(bed *b) {
+  dyd_mesh_clear(&b->m);
+  dyd_reps_clear(&b->reps);
+  dyd_sites_free(b->sites);
+}
+
+/* strips = NULL: at once. */
+static void bed_make(bed *b, const double *x, const double *y, size_t n, const dyd_strips *strips, unsigned threads,
+                     bool no_filter) {
+  uint32_t *site = malloc(n * sizeof *site);
+  memset(b, 0, sizeof *b);
+  assert_non_null(site);
+  assert_int_equal(dyd_sites_new(&b->sites), DYD_OK);
+  assert_int_equal(dyd_sites_add_points(b->sites, n, x, y), DYD_OK);
+  for (uint32_t v = 0; v < n; v++) site[v] = v;
+  assert_int_equal(dyd_reps_init(&b->reps, b->sites, site, (uint32_t)n), DYD_OK);
+  dyd_strips one = {1, {0, (uint32_t)n}};
+  assert_int_equal(
+      dyd_mesh_build_strips(&b->m, &b->reps, strips ? strips : &one, no_filter, &b->counters, NULL, threads), DYD_OK);
+}
+
+static uint32_t alive(const dyd_mesh *m) {
+  uint32_t n = 0;
+  for (uint32_t v = 0; v < m->n; v++) n += dyd_mesh_alias(m, v) == DYD_NONE;
+  return n;
+}
+
+static bool has_edge(const dyd_mesh *m, uint32_t v, uint32_t w) {
+  for (uint32_t t = 0; t < m->count; t++)
+    for (unsigned k = 0; k < 3; k++)
+      if (m->tri[t].v[k] == v && m->tri[t].v[dyd_next(k)] == w) return true;
+  return false;
+}
+
+/* Is there an edge whose two triangles are cocircular, or a hull vertex on the line of its neighbours? */
+static bool has_tie(dyd_mesh *m) {
+  for (uint32_t t = 0; t < m->count; t++)
+    for (unsigned k = 0; k < 3; k++) {
+      const uint32_t *v = m->tri[t].v, *w = m->tri[m->tri[t].n[k] >> 2].v;
+      uint32_t p = w[m->tri[t].n[k] & 3];
+      bool here = dyd_mesh_is_ghost(m, t), there = dyd_mesh_is_ghost(m, m->tri[t].n[k] >> 2);
+      if (here != there) continue;
+      if (!here && dyd_mesh_incircle(m, v[0], v[1], v[2], p) == 0) return true;
+      unsigned g = v[0] == m->n ? 0 : v[1] == m->n ? 1 : 2;
+      if (here && v[k] != m->n && dyd_mesh_orient(m, v[dyd_next(g)], v[dyd_prev(g)], p) == 0) return true;
+    }
+  return false;
+}
+
+static void compare(bed *joined, bed *whole) {
+  dyd_mesh *m = &joined->m, *w = &whole->m;
+  assert_int_equal(m->collinear, w->collinear);
+  if (m->collinear) return;
+  assert_int_equal(m->count, 2 * alive(m) - 2);
+  assert_int_equal(m->count, w->count);
+  assert_true(dyd_mesh_check(m));
+  aliases_met += m->n - alive(m);
+  for (uint32_t v = 0; v < m->n; v++) /* an alias stands for an equal vertex that is none */
+    if (dyd_mesh_alias(m, v) != DYD_NONE) {
+      assert_int_equal(dyd_mesh_alias(m, dyd_mesh_alias(m, v)), DYD_NONE);
+      assert_true(dyd_mesh_same(m, v, dyd_mesh_alias(m, v)));
+    }
+  if (m->ties) {
+    tied_meshes++;
+    return;
+  }
+  assert_false(has_tie(m));
+  if (m->n > 60) return;
+  for (uint32_t t = 0; t < w->count; t++)
+    for (unsigned k = 0; k < 3; k++) assert_true(has_edge(m, w->tri[t].v[k], w->tri[t].v[dyd_next(k)]));
+}
+
+/* The points are in the order of their strips; inside a strip in any order. */
+static void check(const double *x, const double *y, size_t n, const dyd_strips *strips) {
+  bed joined, whole;
+  bool no_filter = test_below(&shared, 8) == 0;
+  bed_make(&joined, x, y, n, strips, 1 + (unsigned)test_below(&shared, 3), no_filter);
+  bed_make(&whole, x, y, n, NULL, 1, no_filter);
+  bool apart = dyd_strips_are_apart(&joined.reps, strips);
+  bool made = joined.m.strips.count > 1;
+  assert_true(apart || !made);
+  joined_meshes += apart && made;
+  stuck_meshes += apart && !made;
+  compare(&joined, &whole);
+  bed_close(&whole);
+  bed_close(&joined);
+}
+
+typedef double place(size_t q, int axis);
+static double scale, span;
+
+static double on_grid(size_t q, int axis) {
+  (void)q, (void)axis;
+  return scale * (double)test_below(&shared, (uint64_t)span);
+}
+static double anywhere(size_t q, int axis) {
+  (void)q, (void)axis;
+  return scale * test_unit(&shared);
+}
+/* Integers on the left, and a last bit more or less on the right: the grid of one part is too coarse for the other. */
+static double on_two_grains(size_t q, int axis) {
+  static double x;
+  (void)q;
+  double c = 1 + (double)test_below(&shared, (uint64_t)span);
+  if (axis == 0) return x = test_chance(&shared, 2) ? c : 64 + c;
+  return x < 64 || test_chance(&shared, 2) ? c : c + (c < 8 ? 0x1p-50 : 0x1p-49) * (double)test_between(&shared, -1, 1);
+}
+/* One rectangle around x = 0 among points of no order: a single tie, across the seam if there is one near. */
+static double on_rectangle(size_t q, int axis) {
+  static const double corner[4][2] = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+  if (q < 4) return scale * corner[q][axis] * (axis ? span : 3);
+  double x = (test_unit(&shared) * 2 - 1) * 8 * span;
+  return scale * (x < 0 ? x - 4 * span : x + 4 * span);
+}
+/* On a parabola, cut at x = 0: all points are hull vertices, the seam runs through everything. */
+static double on_curve(size_t q, int axis) {
+  static double x;
+  if (axis == 0) x = (double)test_below(&shared, 4 * (uint64_t)span) - 2 * span;
+  (void)q;
+  return scale * (axis == 0 ? x : x * x);
+}
+
+static int by_x(const void *a, const void *b) {
+  const double *p = a, *q = b;
+  return (p[0] > q[0]) - (p[0] < q[0]);
+}
+
+/* Cuts between different x only (one case in ten: anywhere, then the strips may not be apart). */
+static dyd_strips cut(double (*p)[2], size_t n) {
+  dyd_strips s = {1, {0}};
+  unsigned want = 2 + (unsigned)test_below(&shared, n < 40 ? 2 : DYD_STRIPS - 1);
+  bool careless = test_below(&shared, 10) == 0;
+  for (size_t v = 4; v + 4 < n && s.count < want; v++)
+    if (test_below(&shared, n) < 2 * want && (careless || p[v][0] > p[v - 1][0])) s.begin[s.count++] = (uint32_t)v;
+  s.begin[s.count] = (uint32_t)n;
+  return s;
+}
+
+static void shuffle(double (*p)[2], size_t n) {
+  for (size_t v = n; v > 1; v--) {
+    size_t w = test_below(&shared, v);
+    double t[2];
+    memcpy(t, p[v - 1], sizeof t);
+    memcpy(p[v - 1], p[w], sizeof t);
+    memcpy(p[w], t, sizeof t);
+  }
+}
+
+static void one_case(place *where, size_t n) {
+  static double p[MOST][2], x[MOST], y[MOST];
+  for (size_t v = 0; v < n; v++)
+    for (int a = 0; a < 2; a++) p[v][a] = where(v, a);
+  qsort(p, n, sizeof *p, by_x);
+  dyd_strips strips = cut(p, n);
+  for (unsigned s = 0; s < strips.count; s++) shuffle(p + strips.begin[s], strips.begin[s + 1] - strips.begin[s]);
+  for (size_t v = 0; v < n; v++) {
+    x[v] = p[v][0];
+    y[v] = p[v][1];
+  }
+  check(x, y, n, &strips);
+}
+
+static void run(place *where, size_t cases) {
+  joined_meshes = stuck_meshes = tied_meshes = aliases_met = 0;
+  for (size_t q = 0; q < test_cases(cases); q++) {
+    static const double scales[] = {1, 0x1p-900, 0x1p600, 0x1p-30, 3};
+    scale = scales[test_below(&shared, 5)];
+    span = 2 + (double)test_below(&shared, 12);
+    one_case(where, 3 + test_below(&shared, q % 16 == 0 ? MOST - 3 : 60));
+  }
+  print_message("# joined %zu, stuck %zu, tied %zu, aliases %zu\n", joined_meshes, stuck_meshes, tied_meshes,
+                aliases_met);
+  assert_true(joined_meshes > cases / 4);
+}
+
+static void test_grids(void **state) {
+  (void)state;
+  run(on_grid, 1500);
+  assert_true(tied_meshes > 100 && aliases_met > 100);
+}
+static void test_scattered(void **state) {
+  (void)state;
+  run(anywhere, 800);
+}
+static void test_curves(void **state) {
+  (void)state;
+  run(on_curve, 1200);
+}
+
+static void test_grains(void **state) {
+  (void)state;
+  run(on_two_grains, 800);
+}
+
+static void test_single_ties(void **state) {
+  (void)state;
+  run(on_rectangle, 800);
+  assert_true(tied_meshes > 300);
+}
+
+/* The same mesh, triangle by triangle, for every number of threads. */
+static void test_threads(void **state) {
+  (void)state;
+  enum { N = 4000 };
+  static double x[N], y[N];
+  dyd_strips strips = {DYD_STRIPS, {0}};
+  for (unsigned s = 0; s < DYD_STRIPS; s++)
+    for (uint32_t v = strips.begin[s] = s * N / DYD_STRIPS; v < (s + 1) * N / DYD_STRIPS; v++) {
+      x[v] = s + (double)test_below(&shared, 30) / 32;
+      y[v] = (double)test_below(&shared, 300) / 32;
+    }
+  strips.begin[DYD_STRIPS] = N;
+  bed one, many;
+  bed_make(&one, x, y, N, &strips, 1, false);
+  for (unsigned threads = 2; threads < 9; threads += 3) {
+    bed_make(&many, x, y, N, &strips, threads, false);
+    assert_int_equal(one.m.count, many.m.count);
+    assert_memory_equal(one.m.tri, many.m.tri, one.m.count * sizeof *one.m.tri);
+    assert_memory_equal(one.m.alias, many.m.alias, N * sizeof *one.m.alias);
+    assert_int_equal(one.m.ties, many.m.ties);
+    dyd_mesh_trim(&many.m);
+    if (threads == 2) dyd_mesh_trim(&one.m);
+    assert_memory_equal(&one.counters, &many.counters, sizeof one.counters);
+    bed_close(&many);
+  }
+  bed_close(&one);
+}
+
+int main(void) {
+  shared = test_random_start("join");
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_grids),  cmocka_unit_test(test_scattered),
+                                     cmocka_unit_test(test_curves), cmocka_unit_test(test_single_ties),
+                                     cmocka_unit_test(test_grains), cmocka_unit_test(test_threads)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
