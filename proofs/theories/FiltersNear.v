@@ -13,7 +13,7 @@ Proof. intros H. rewrite H. ring. Qed.
 
 (** The heart of both: if D |t| <= P, no site but the ends is within rho + 2E of (0,c). *)
 Lemma nobody_near s t c h rho r D E m : 0 < h -> 0 <= rho -> rho * rho = h * h + c * c -> rho <= r -> h <= r ->
-  0 < D -> D <= 2 * r -> 0 <= E -> 0 < m -> m <= 2 * h -> 200 * E <= m -> 2424 / 100 * E * (r * r) < m * h * D ->
+  0 < D -> D <= 2 * r -> 0 <= E -> 0 < m -> m <= 2 * h -> 199 * E <= m -> 2425 / 100 * E * (r * r) < m * h * D ->
   D * Rabs t <= s * s + t * t - 2 * t * c - h * h ->
   m * m <= (s - h) * (s - h) + t * t -> m * m <= (s + h) * (s + h) + t * t ->
   (rho + 2 * E) * (rho + 2 * E) < s * s + (t - c) * (t - c).
@@ -22,14 +22,15 @@ Proof.
   destruct (Rlt_or_le ((rho + 2 * E) * (rho + 2 * E)) (s * s + (t - c) * (t - c))) as [L|L]; [exact L|exfalso].
   rewrite (power _ _ _ _ _ Erho) in L. set (P := s * s + t * t - 2 * t * c - h * h) in *.
   assert (Pr : 0 < r) by lra.
-  set (W := 404 / 100 * E * r).
+  set (W := 4041 / 1000 * E * r).
   assert (PW : P <= W).
   { assert (E * rho <= E * r) by (apply Rmult_le_compat_l; lra).
-    assert (E * E <= E * (r / 100)) by (apply Rmult_le_compat_l; lra). unfold W. lra. }
+    assert (E * E <= E * (2 * r / 199)) by (apply Rmult_le_compat_l; lra).
+    assert (0 <= E * r) by (apply Rmult_le_pos; lra). unfold W. lra. }
   assert (W0 : 0 <= W) by (unfold W; apply Rmult_le_pos; lra).
   set (T := Rabs t) in *. assert (T0 : 0 <= T) by apply Rabs_pos.
   assert (TT : T * T = t * t) by (unfold T; rewrite <- Rabs_mult; apply Rabs_pos_eq, Rle_0_sqr).
-  assert (C6 : 6 * W * r < m * h * D) by (unfold W; lra).
+  assert (C6 : 6 * W * r < m * h * D) by (assert (0 <= E * (r * r)) by (repeat apply Rmult_le_pos; lra); unfold W; lra).
   (* T < r / 3 *)
   assert (DTW : D * T <= W) by lra.
   assert (T3 : T <= r).
@@ -80,7 +81,7 @@ Qed.
 (** [WIT-NEAR] Two triangles: circles of centres (0,y1), (0,y2) without the site inside; c in the middle. *)
 Theorem edge_near_witness s t y1 y2 h rho r E m : let c := (y1 + y2) / 2 in let D := Rabs (y1 - y2) in
   0 < h -> 0 <= rho -> rho * rho = h * h + c * c -> 0 <= r -> h * h + y1 * y1 <= r * r -> h * h + y2 * y2 <= r * r ->
-  0 < D -> 0 <= E -> 0 < m -> m <= 2 * h -> 200 * E <= m -> 2424 / 100 * E * (r * r) < m * h * D ->
+  0 < D -> 0 <= E -> 0 < m -> m <= 2 * h -> 199 * E <= m -> 2425 / 100 * E * (r * r) < m * h * D ->
   h * h + y1 * y1 <= s * s + (t - y1) * (t - y1) -> h * h + y2 * y2 <= s * s + (t - y2) * (t - y2) ->
   m * m <= (s - h) * (s - h) + t * t -> m * m <= (s + h) * (s + h) + t * t ->
   (rho + 2 * E) * (rho + 2 * E) < s * s + (t - c) * (t - c).
@@ -103,7 +104,7 @@ Qed.
 (** [WIT-HULL] A hull edge: all sites on the side t >= 0, one circle of centre (0,y1) and radius r1, c = y1 - r1. *)
 Theorem hull_edge_near_witness s t y1 r1 h rho E m : let c := y1 - r1 in
   0 < h -> 0 <= rho -> rho * rho = h * h + c * c -> 0 < r1 -> h * h + y1 * y1 = r1 * r1 ->
-  0 <= E -> 0 < m -> m <= 2 * h -> 200 * E <= m -> 4848 / 100 * E * r1 < m * h ->
+  0 <= E -> 0 < m -> m <= 2 * h -> 199 * E <= m -> 4850 / 100 * E * r1 < m * h ->
   0 <= t -> r1 * r1 <= s * s + (t - y1) * (t - y1) ->
   m * m <= (s - h) * (s - h) + t * t -> m * m <= (s + h) * (s + h) + t * t ->
   (rho + 2 * E) * (rho + 2 * E) < s * s + (t - c) * (t - c).
@@ -118,7 +119,7 @@ Proof.
   apply (nobody_near s t c h rho (2 * r1) (2 * r1) E m); try assumption; try lra.
   - rewrite <- (Rabs_pos_eq rho Prho). apply sq; [lra|]. rewrite Erho. unfold c.
     assert (- y1 * r1 <= r1 * r1) by (apply Rmult_le_compat_r; lra). lra.
-  - replace (2424 / 100 * E * (2 * r1 * (2 * r1))) with (4848 / 100 * E * r1 * (2 * r1)) by field.
+  - replace (2425 / 100 * E * (2 * r1 * (2 * r1))) with (4850 / 100 * E * r1 * (2 * r1)) by field.
     apply Rmult_lt_compat_r; lra.
   - rewrite (Rabs_pos_eq t Pt). unfold c. lra.
 Qed.

@@ -5,24 +5,24 @@
  * of empty circles (c1,r1), (c2,r2), |ij| = 2h, m <= the distances of p_i and p_j to their nearest representatives
  * (attained on skeleton edges), r = max(r1,r2), D = |c1-c2|.
  *
- * [WIT-NEAR] If E <= m/200 and 24.24 E r^2 < m h D, then c = (c1+c2)/2 is a witness.
+ * [WIT-NEAR] If E <= m/199 and 24.25 E r^2 < m h D, then c = (c1+c2)/2 is a witness.
  *   Proof. rho = |c-p_i| <= r, as |.-p_i| is convex along the bisector of ij. If k breaks the witness, |c-p_k| - E <=
- * rho + E, so P := |c-p_k|^2 - rho^2 <= W := 4 E rho + 4 E^2 <= 4.04 E r. The power of p_k is affine along the
+ * rho + E, so P := |c-p_k|^2 - rho^2 <= W := 4 E rho + 4 E^2 <= 4.041 E r. The power of p_k is affine along the
  * bisector, so P is the mean of its powers P1, P2 >= 0 for the two circles, and |P1-P2| = 2 D |t|, t the distance of
  * p_k from the line ij: D |t| <= P
  *   <= W, |t| <= tau := W/D. With s the coordinate of p_k along ij from the middle, P = s^2 - h^2 + t^2 - 2 t t_c,
  * |t_c| <= rho: | |s| - h | <= (W + tau^2 + 2 tau r)/h. D <= 2 r gives W = tau D <= 2 tau r; the assumption gives tau <
  * m h/(6 r) <= r (m <= 2h, h <= r), so p_k is within tau + 5 tau r/h <= 6 tau r/h < m of p_i or p_j: a contradiction.
- * [WIT-HULL] Hull edge, iju inside: if E <= m/200 and 48.48 E r1 < m h, then c = c1 + r1 n, n the outward normal, is a
+ * [WIT-HULL] Hull edge, iju inside: if E <= m/199 and 48.5 E r1 < m h, then c = c1 + r1 n, n the outward normal, is a
  *   witness: the same proof with r = 2 r1 and P = P1 + 2 r1 t, t >= 0, that is D = r.
  *
  * With a1, a2 twice the areas, det > 0 the in-circle determinant, lu = |iu|^2, lw = |ju|^2, lv = |iv|^2, lz = |jv|^2:
- * r1^2 = |ij|^2 lu lw/(4 a1^2), r2^2 = |ij|^2 lv lz/(4 a2^2), D = det |ij|/(2 a1 a2). The conditions become 24.24 E lu
- * lw a2 < m det a1 and 24.24 E lv lz a1 < m det a2;   48.48 E sqrt(lu lw) < m a1.
+ * r1^2 = |ij|^2 lu lw/(4 a1^2), r2^2 = |ij|^2 lv lz/(4 a2^2), D = det |ij|/(2 a1 a2). The conditions become 24.25 E lu
+ * lw a2 < m det a1 and 24.25 E lv lz a1 < m det a2;   48.5 E sqrt(lu lw) < m a1.
  *
  * Rounding, u = 2^-53: a has an absolute error <= 4.01 u (|jx uy| + |jy ux|) <= 2.1 u (lj + lu), det one <= 4.5e-16 s^2
- * [FLT-INC]; both are moved to the safe side. What is left are fewer than 40 factors 1+u: 24.3 for 24.24 and 48.6
- * for 48.48 have room. Nothing underflows: a >= 2^-100 and squares <= 2^100 make squares >= 2^-300, det >= 2^-300, E >=
+ * [FLT-INC]; both are moved to the safe side. What is left are fewer than 40 factors 1+u: 24.3 for 24.25 and 48.6
+ * for 48.5 have room. Nothing underflows: a >= 2^-100 and squares <= 2^100 make squares >= 2^-300, det >= 2^-300, E >=
  * 2^-300. NaN (the ghost) fails. */
 #ifndef DYD_DELAUNAY_FILTER_NEAR_H
 #define DYD_DELAUNAY_FILTER_NEAR_H
@@ -36,7 +36,7 @@ static inline double dyd_square_distance(dyd_xy a, dyd_xy b) {
   return x * x + y * y;
 }
 
-/* reach: E >= 2^-300. m: as above, up to a relative error of 2^-40. */
+/* reach: E >= 2^-300. m: as above, up to a relative error of 10^-12. */
 static inline bool dyd_filter_edge_near(dyd_xy i, dyd_xy j, dyd_xy u, dyd_xy v, double reach, double m) {
   double jx = j.x - i.x, jy = j.y - i.y, ux = u.x - i.x, uy = u.y - i.y, vx = v.x - i.x, vy = v.y - i.y;
   double lj = jx * jx + jy * jy, lu = ux * ux + uy * uy, lv = vx * vx + vy * vy, s = lj + lu + lv;
