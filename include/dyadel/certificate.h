@@ -14,7 +14,7 @@
  *
  *     dyadel certificate 1
  *     outcome decided | certified | fixpoint | budget | cancelled | error
- *     goal decided | area M | hausdorff M
+ *     goal decided | area M | hausdorff M | voronoi area M | voronoi hausdorff M
  *     capped no | yes
  *     sites N
  *       X Y                 N lines: the rectangle of a site; or
@@ -40,6 +40,18 @@
  *     unproved U
  *     area A | none         upper bounds, see metric.h
  *     hausdorff H | none
+ *
+ * then, where the certificate says something of the Voronoi diagram,
+ *
+ *     window XLO XHI YLO YHI
+ *     polygons
+ *       i x y x y x y ...   a polygon whose points are surely nearest to site
+ *                           i; sorted by i, one at most for each site
+ *     undetermined A        upper bounds on the window, see metric.h
+ *     distance none | H | H unproved
+ *
+ * and at last
+ *
  *     end
  *
  * Aliases occur in no pair. Pairs of sites without a line are stated to be illegal, unless capped.
@@ -69,10 +81,22 @@
  * [CERT-5] The bounds: the sum of the areas of the hulls of R_i and R_j over all pairs listed, chains apart; the
  * greatest diameter of a rectangle of such a pair, for pairs that are not legal plus half their greatest length.
  *
+ * [CERT-6] Polygons: the vertices (at least three) are those of a strictly convex polygon, counter-clockwise; each lies
+ * in the window and has dl_i < ds_k for all other sites k but aliases. Then the polygon lies in Int_i (voronoi.h), and
+ * the area of the window outside of all Int_k is at most A, the area of the window less those of the polygons.
+ *
+ * [CERT-7] The distance: for every choice of points, what of the window is outside of all Int_k is at most H from the
+ * true diagram. There is no list to prove it; it follows from the rectangles, and the checker finds the proof: it cuts
+ * the window in four, and parts again, until the sites that are possibly nearest somewhere in a part give the bound
+ * there (src/verify/distance.c). Whether a bound can be proved within the effort that the checker spends, which is
+ * about N log N, is up to the writer, who may write "unproved": then nothing is checked. Nothing else in the
+ * certificate is needed.
+ *
  * U counts, over the open sets, the pairs within the set that have no line: nothing proves that they are illegal (0:
  * the certificate proves its list of pairs complete). Nothing is proved by: the words fixpoint, budget, cancelled and
  * error, the lines o and l (they say less than legal and illegal), and that ties cannot be resolved, but both sites of
- * a tie are exact points. decided needs no o, t and l line and capped no; certified needs the goal's bound. */
+ * a tie are exact points. decided needs no o, t and l line and capped no; certified needs the goal's bound, if
+ * unproved. */
 #ifndef DYADEL_CERTIFICATE_H
 #define DYADEL_CERTIFICATE_H
 
@@ -85,17 +109,26 @@ extern "C" {
 #endif
 
 struct dyd_engine;
+struct dyd_rect;
 
-/* Writes the certificate of the current result of e, for every outcome that has one.
- * DYD_E_ARG when e has no result; DYD_E_NOMEM; DYD_E_IO. Then what was written is no certificate: the last line,
- * "end", is missing. Cost: about N log N, plus a search for chains in undecided faces, which gives up after about half
- * a minute (such pairs are counted as unproved). */
+/* Writes the certificate of the current result of e, for every outcome that has one. No section on the diagram.
+ * DYD_E_ARG when e has no result, or a goal on the diagram was certified (see below); DYD_E_NOMEM; DYD_E_IO. Then what
+ * was written is no certificate: the last line, "end", is missing. Cost: about N log N, plus a search for chains in
+ * undecided faces, which gives up after about half a minute (such pairs are counted as unproved). */
 DYD_API dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, dyd_error *err);
+
+/* The same with a section on the Voronoi diagram in the window, which has dyadic ends and positive area. NULL: as
+ * dyd_voronoi_window. A result that is capped has no such section. The bound of the area is that of dyd_metric_voronoi
+ * with polygons within a 256th of a cell, or as fine as a goal on it asks; H is that of dyd_metric_voronoi, too, or at
+ * most four times as much (but within the goal that was reached), or it is unproved. DYD_E_ARG for a wrong window;
+ * DYD_E_RANGE when there is no window by default. */
+DYD_API dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, const struct dyd_rect *window,
+                                                 dyd_error *err);
 
 /* What an accepted certificate states. Texts have static storage. */
 typedef struct dyd_certificate_report {
   const char *outcome, *goal;
-  long long goal_bits; /* of area and hausdorff: the bound is to be at most 2^-goal_bits */
+  long long goal_bits; /* of all goals but "decided": the bound is to be at most 2^-goal_bits */
   bool capped;
   size_t sites, aliases;
   size_t legal;          /* proved by witnesses */
@@ -108,6 +141,9 @@ typedef struct dyd_certificate_report {
   size_t undecided_sets; /* faces and parts of the unbounded face that are not proved to be decided */
   bool connected;        /* were the faces found? */
   bool area, hausdorff;  /* is there a bound? Then it was checked against the pairs listed */
+  bool diagram;          /* is there a section on the Voronoi diagram? Then its area was checked */
+  size_t polygons;
+  bool distance, distance_proved; /* is its other bound stated; was it checked? */
 } dyd_certificate_report;
 
 /* Checks the certificate in `in` up to its end, in integers. DYD_OK: accepted, *out is what it states. DYD_E_PARSE:

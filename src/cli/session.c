@@ -106,21 +106,31 @@ static const char *budget_advice(dyd_budget b) {
   }
 }
 
-/* One line about a result that leaves something open. */
-static void note_outcome(const dyd_engine *e) {
-  const dyd_delaunay *pd = dyd_engine_delaunay(e);
-  dyd_outcome outcome = dyd_engine_outcome(e);
-  if (!pd || outcome == DYD_OUTCOME_DECIDED || outcome == DYD_OUTCOME_CERTIFIED) return;
+static const char *outcome_advice(const dyd_engine *e) {
   dyd_engine_counters c;
+  switch (dyd_engine_outcome(e)) {
+  case DYD_OUTCOME_FIXPOINT:
+    return "no refinement can decide the rest: exact ties or fixed rectangles";
+  case DYD_OUTCOME_BUDGET:
+    dyd_engine_get_counters(&c, e);
+    return budget_advice(c.spent);
+  case DYD_OUTCOME_ERROR:
+    return "a point failed; this much was known before";
+  default:
+    return "stopped on request";
+  }
+}
+
+/* One line about a result that leaves something open. */
+static void note_outcome(const cli_session *s) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
+  dyd_outcome outcome = dyd_engine_outcome(s->engine);
+  if (!pd || outcome == DYD_OUTCOME_DECIDED || outcome == DYD_OUTCOME_CERTIFIED) return;
+  if (cli_note_goal(s, outcome_advice(s->engine))) return;
   size_t count[4];
-  dyd_engine_get_counters(&c, e);
   dyd_delaunay_count(count, pd);
-  const char *why = "stopped on request";
-  if (outcome == DYD_OUTCOME_FIXPOINT) why = "no refinement can decide the rest: exact ties or fixed rectangles";
-  if (outcome == DYD_OUTCOME_BUDGET) why = budget_advice(c.spent);
-  if (outcome == DYD_OUTCOME_ERROR) why = "a point failed; this much was known before";
   cli_complain("%s: %zu legal, %zu indeterminate, %zu tie; %s", dyd_outcome_text(outcome), count[DYD_LEGAL],
-               count[DYD_INDETERMINATE], count[DYD_TIE], why);
+               count[DYD_INDETERMINATE], count[DYD_TIE], outcome_advice(s->engine));
 }
 
 /* ---- writing ---- */
@@ -153,8 +163,8 @@ static dyd_status print_result(FILE *out, const void *what, const cli_options *o
 }
 
 static dyd_status print_certificate(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  (void)o;
-  return dyd_write_certificate(out, what, err);
+  const dyd_rect *window = o->engine.window;
+  return window ? dyd_write_voronoi_certificate(out, what, window, err) : dyd_write_certificate(out, what, err);
 }
 
 int cli_session_write(cli_session *s, cli_write_fn write) {
@@ -177,7 +187,7 @@ int cli_session_close(cli_session *s, int status) {
   if (s->engine) {
     dyd_outcome outcome = dyd_engine_outcome(s->engine);
     if (status == 0) status = cli_exit_status(outcome);
-    if (!o->quiet && status != CLI_OK && status != CLI_USAGE) note_outcome(s->engine);
+    if (!o->quiet && status != CLI_OK && status != CLI_USAGE) note_outcome(s);
     if (o->stats && outcome != DYD_OUTCOME_NONE) cli_stats(stderr, s->engine, cli_clock() - s->begun);
   }
   dyd_engine_free(s->engine);

@@ -17,6 +17,18 @@ static void print_checked(FILE *out, const dyd_certificate_report *r) {
   if (r->area || r->hausdorff) fputs("checked: the bounds of area and Hausdorff distance, for the pairs listed\n", out);
 }
 
+static void print_diagram(FILE *out, const dyd_certificate_report *r) {
+  if (!r->diagram) return;
+  fprintf(out, "checked: the undetermined area of the diagram, by %zu polygons inside cells\n", r->polygons);
+  if (r->distance_proved)
+    fputs("checked: the distance of undetermined points to the diagram\n", out);
+  else if (r->distance)
+    fputs("not checked: the distance of undetermined points to the diagram, which is stated without a proof\n", out);
+  if (r->distance && !r->distance_proved && strcmp(r->outcome, "certified") == 0 &&
+      strcmp(r->goal, "voronoi hausdorff") == 0)
+    fputs("not checked: the outcome, as the goal is about that distance\n", out);
+}
+
 static void print_open(FILE *out, const dyd_certificate_report *r) {
   size_t open = r->indeterminate + r->tie + r->legal_unproved;
   if (r->unproved)
@@ -37,6 +49,7 @@ static dyd_status print_report(FILE *out, const void *what, const cli_options *o
   fputs(r->capped ? ", capped\n" : "\n", out);
   print_checked(out, r);
   print_open(out, r);
+  print_diagram(out, r);
   if (strcmp(r->outcome, "decided") != 0 && strcmp(r->outcome, "certified") != 0)
     fprintf(out, "not checked: why the run ended (%s)\n", r->outcome);
   return DYD_OK;

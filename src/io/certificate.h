@@ -53,6 +53,9 @@ void dyd_proof_put_point(FILE *out, const dyd_exact c[2]);
 /* Writes the section of the pairs; counts in the faces what is proved. */
 dyd_status dyd_proof_put_pairs(FILE *out, dyd_proof *p);
 
+/* Writes the section on the diagram; nothing for a result that is capped. DYD_E_ARG for a wrong window. */
+dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window);
+
 /* out = x rounded to the nearest multiple of 2^exp, without trailing zero bits. */
 void dyd_proof_round(dyd_exact *out, const dyd_exact *x, int64_t exp);
 void dyd_proof_trim(dyd_exact *x);

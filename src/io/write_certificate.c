@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "io/certificate.h"
+#include "voronoi/shape.h"
 #include <dyadel/certificate.h>
 #include <errno.h>
 #include <inttypes.h>
@@ -88,12 +89,10 @@ static void put_side(FILE *out, const dyd_cert_side *s) {
 }
 
 static void put_head(FILE *out, const dyd_proof *p) {
-  static const char *const goals[] = {
-      [DYD_GOAL_DECIDED] = "decided", [DYD_GOAL_AREA] = "area", [DYD_GOAL_HAUSDORFF] = "hausdorff"};
   int64_t bits;
   dyd_goal goal = dyd_engine_goal(&bits, p->engine);
   fprintf(out, "dyadel certificate 1\noutcome %s\ngoal %s", dyd_outcome_text(dyd_engine_outcome(p->engine)),
-          goals[goal]);
+          dyd_goal_text(goal));
   if (goal != DYD_GOAL_DECIDED) fprintf(out, " %" PRId64, bits);
   fprintf(out, "\ncapped %s\n", dyd_delaunay_is_capped(p->pd) ? "yes" : "no");
 }
@@ -173,7 +172,8 @@ static dyd_status put_end(FILE *out, const dyd_proof *p) {
   return status == DYD_E_NOMEM ? status : DYD_OK;
 }
 
-static dyd_status put_all(FILE *out, dyd_proof *p) {
+/* window: NULL: no section on the diagram. */
+static dyd_status put_all(FILE *out, dyd_proof *p, const dyd_rect *window) {
   put_head(out, p);
   put_sites(out, p);
   put_edges(out, "legal", &p->legal, &p->witness);
@@ -181,19 +181,49 @@ static dyd_status put_all(FILE *out, dyd_proof *p) {
   put_edges(out, "bridges", &p->bridges, &p->centre);
   put_corners(out, p);
   dyd_status status = dyd_proof_put_pairs(out, p);
-  return status < 0 ? status : put_end(out, p);
+  if (status >= 0) status = put_end(out, p);
+  if (status >= 0 && window) status = dyd_proof_put_diagram(out, p, window);
+  return status;
 }
 
-dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, dyd_error *err) {
-  if (err) dyd_error_clear(err);
+static dyd_status write_all(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_error *err) {
   dyd_proof p = {.engine = e, .pd = dyd_engine_delaunay(e)};
-  if (!p.pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
   dyd_cert_sites_init(&p.sites);
   dyd_status status = gather(&p);
-  if (status >= 0) status = put_all(out, &p);
+  if (status >= 0) status = put_all(out, &p, window);
   clear(&p);
   if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
   if (fputs("end\n", out) < 0 || fflush(out) != 0 || ferror(out))
     return dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno ? errno : EIO));
   return DYD_OK;
+}
+
+dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  if (!dyd_engine_delaunay(e)) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
+  dyd_goal goal = dyd_engine_goal(NULL, e);
+  if (dyd_engine_outcome(e) == DYD_OUTCOME_CERTIFIED &&
+      (goal == DYD_GOAL_VORONOI_AREA || goal == DYD_GOAL_VORONOI_HAUSDORFF))
+    return dyd_fail(err, DYD_E_ARG, "a goal on the diagram was reached; its certificate needs the window");
+  return write_all(out, e, NULL, err);
+}
+
+dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, const struct dyd_rect *window,
+                                         dyd_error *err) {
+  dyd_rect own;
+  dyd_window w;
+  if (err) dyd_error_clear(err);
+  const dyd_delaunay *pd = dyd_engine_delaunay(e);
+  if (!pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
+  dyd_rect_init(&own);
+  dyd_status status = DYD_OK;
+  if (!window) status = dyd_voronoi_window(&own, dyd_delaunay_sites(pd));
+  if (status < 0)
+    status = dyd_fail(err, status, "the points span more than doubles hold; give a window");
+  else if (dyd_window_init(&w, window ? window : &own) < 0)
+    status = dyd_fail(err, DYD_E_ARG, "the window has to have positive area and dyadic ends");
+  else
+    status = write_all(out, e, window ? window : &own, err);
+  dyd_rect_clear(&own);
+  return status;
 }

@@ -34,6 +34,7 @@ dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_err
   if (status >= 0) status = dyd_cert_check_bridges(&c);
   if (status >= 0) status = dyd_cert_check_corners(&c);
   if (status >= 0) status = dyd_cert_check_pairs(&c);
+  if (status >= 0) status = dyd_cert_check_end(&c);
   if (status >= 0) *out = c.report;
   clear(&c);
   return status;

@@ -53,9 +53,24 @@ dyd_status dyd_cert_read_pair(dyd_cert_edge *pair, dyd_cert_check *c) {
 
 /* ---- head ---- */
 
+static dyd_status check_goal(dyd_cert_check *c) {
+  static const char *const first[] = {"decided", "area", "hausdorff", "voronoi"},
+                           *const second[] = {"area", "hausdorff"},
+                           *const voronoi[] = {"voronoi area", "voronoi hausdorff"};
+  size_t k = 0, m = 0;
+  dyd_status status = dyd_cert_next_line(&c->in);
+  if (status >= 0) status = dyd_cert_expect_word(c, "goal");
+  if (status >= 0) status = dyd_cert_read_choice(&k, c, first, 4);
+  if (status >= 0 && k == 3) status = dyd_cert_read_choice(&m, c, second, 2);
+  if (status >= 0 && k > 0) status = dyd_cert_read_integer(&c->report.goal_bits, &c->in);
+  if (status < 0) return status;
+  c->report.goal = k == 3 ? voronoi[m] : first[k];
+  return dyd_cert_line_done(&c->in);
+}
+
 dyd_status dyd_cert_check_head(dyd_cert_check *c) {
   static const char *const outcome[] = {"decided", "certified", "fixpoint", "budget", "cancelled", "error"};
-  static const char *const goal[] = {"decided", "area", "hausdorff"}, *const answer[] = {"no", "yes"};
+  static const char *const answer[] = {"no", "yes"};
   size_t k = 0;
   dyd_status status = dyd_cert_next_line(&c->in);
   if (status >= 0 && strcmp(c->in.line, "dyadel certificate 1") != 0)
@@ -66,14 +81,8 @@ dyd_status dyd_cert_check_head(dyd_cert_check *c) {
   if (status >= 0) status = dyd_cert_line_done(&c->in);
   if (status < 0) return status;
   c->report.outcome = outcome[k];
-  status = dyd_cert_next_line(&c->in);
-  if (status >= 0) status = dyd_cert_expect_word(c, "goal");
-  if (status >= 0) status = dyd_cert_read_choice(&k, c, goal, 3);
-  if (status >= 0 && k > 0) status = dyd_cert_read_integer(&c->report.goal_bits, &c->in);
-  if (status >= 0) status = dyd_cert_line_done(&c->in);
-  if (status < 0) return status;
-  c->report.goal = goal[k];
-  status = dyd_cert_next_line(&c->in);
+  status = check_goal(c);
+  if (status >= 0) status = dyd_cert_next_line(&c->in);
   if (status >= 0) status = dyd_cert_expect_word(c, "capped");
   if (status >= 0) status = dyd_cert_read_choice(&k, c, answer, 2);
   c->report.capped = k == 1;

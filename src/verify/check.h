@@ -5,6 +5,7 @@
 
 #include "verify/bounds.h"
 #include "verify/chain.h"
+#include "verify/distance.h"
 #include "verify/faces.h"
 #include "verify/read.h"
 #include "verify/witness.h"
@@ -27,6 +28,7 @@ typedef struct dyd_cert_check {
   dyd_cert_chain chain;
   dyd_cert_edges open; /* pairs o, t, l: kept for the bounds */
   dyd_exact point[2];
+  bool reached; /* a bound that is stated is as small as the goal asks */
 } dyd_cert_check;
 
 /* The parts of a certificate, in order; each rejects what does not hold. */
@@ -36,8 +38,21 @@ dyd_status dyd_cert_check_legal(dyd_cert_check *c);
 dyd_status dyd_cert_check_places(dyd_cert_check *c);
 dyd_status dyd_cert_check_bridges(dyd_cert_check *c);
 dyd_status dyd_cert_check_corners(dyd_cert_check *c);
-/* Up to the end. */
+/* Up to the bounds. */
 dyd_status dyd_cert_check_pairs(dyd_cert_check *c);
+/* The section on the diagram, if there is one, the outcome, and the last line. */
+dyd_status dyd_cert_check_end(dyd_cert_check *c);
+/* The section on the Voronoi diagram, whose first line has been read. */
+dyd_status dyd_cert_check_diagram(dyd_cert_check *c);
+/* The bound that the goal `goal` is about is stated to be `bound`. */
+void dyd_cert_note_bound(dyd_cert_check *c, const char *goal, const dyd_exact *bound);
+
+/* Are the points of p, in this order, the corners of a strictly convex polygon, counter-clockwise? */
+bool dyd_cert_polygon_is_convex(const dyd_cert_chain *p);
+/* Adds twice the area of such a polygon. */
+void dyd_cert_polygon_area2(dyd_exact *out, const dyd_cert_chain *p);
+bool dyd_cert_window_has(const dyd_cert_window *w, const dyd_exact at[2]);
+void dyd_cert_window_area(dyd_exact *out, const dyd_cert_window *w);
 
 /* A line "NAME count"; the count is at most `most`. */
 dyd_status dyd_cert_read_heading(uint32_t *count, dyd_cert_check *c, const char *name, uint64_t most);

@@ -80,7 +80,7 @@ static void read_line(statement *s, char *line, unsigned long *sites, unsigned l
     s->kind[i][j] = 'L';
     --*legal;
   } else if (sscanf(line, "outcome %15s", s->outcome) == 1 ||
-             sscanf(line, "goal %15s %ld", s->goal, &s->goal_bits) > 0 || sscanf(line, "sites %lu", sites) == 1 ||
+             sscanf(line, "goal %21[a-z ] %ld", s->goal, &s->goal_bits) > 0 || sscanf(line, "sites %lu", sites) == 1 ||
              sscanf(line, "legal %lu", legal) == 1 || sscanf(line, "triangles %lu", &s->triangles) == 1 ||
              sscanf(line, "unproved %lu", &s->unproved) == 1) {
     return;

@@ -15,7 +15,7 @@
 typedef struct statement {
   orc_case sites; /* aliases as points of their own */
   char kind[ORC_MAX][ORC_MAX];
-  char outcome[16], goal[16];
+  char outcome[16], goal[24];
   long goal_bits;
   bool capped;
   unsigned long triangles, unproved;
