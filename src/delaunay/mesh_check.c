@@ -59,6 +59,7 @@ static bool hull_turns_once(const dyd_mesh *m) {
 }
 
 bool dyd_mesh_check(dyd_mesh *m) {
+  if (m->count == 0) return true; /* all on one line */
   if (!hull_turns_once(m)) return false;
   for (uint32_t t = 0; t < m->count; t++) {
     const uint32_t *v = m->tri[t].v;
