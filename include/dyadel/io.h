@@ -4,6 +4,7 @@
 #define DYADEL_IO_H
 
 #include <dyadel/converge.h>
+#include <dyadel/metric.h>
 #include <stdio.h>
 
 #ifdef __cplusplus
@@ -41,9 +42,10 @@ DYD_API const char *dyd_format_name(dyd_format format);
 DYD_API dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err);
 
 typedef struct dyd_voronoi_options {
-  const dyd_rect *window; /* dyadic ends, positive area; NULL: dyd_voronoi_window */
-  int64_t flatten_bits;   /* polygons within 2^-flatten_bits of their cells */
-  bool flatten_set;       /* false: a choice that suits the mean size of cells */
+  const dyd_rect *window;     /* dyadic ends, positive area; NULL: dyd_voronoi_window */
+  int64_t flatten_bits;       /* polygons within 2^-flatten_bits of their cells */
+  bool flatten_set;           /* false: a choice that suits the mean size of cells */
+  dyd_voronoi_bounds *bounds; /* initialised by the caller; receives the bounds that were written; may be NULL */
 } dyd_voronoi_options;
 
 /* Writes the Voronoi diagram of the current result of e: every format but obj (else DYD_E_ARG). o may be NULL.
@@ -61,6 +63,18 @@ DYD_API dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_re
  * DYD_E_RANGE when doubles cannot hold the picture. */
 DYD_API dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome, dyd_format format,
                                   dyd_error *err);
+
+/* What dyd_engine_nearest found; all borrowed. */
+typedef struct dyd_nearest_answer {
+  const dyd_rect *at; /* the rectangle reached of the point asked about */
+  const dyd_index_list *found;
+  bool sure;
+  dyd_outcome outcome;
+} dyd_nearest_answer;
+/* The points of e that are possibly, or the one that is surely nearest. csv, json, svg, pdf or png (else DYD_E_ARG, as
+ * when e has no result). DYD_E_RANGE when doubles cannot hold the picture. */
+DYD_API dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_answer *answer,
+                                     dyd_format format, dyd_error *err);
 
 /* Writes a table of convergence: DYD_FORMAT_CSV or DYD_FORMAT_JSON (else DYD_E_ARG). Bounds and widths are rounded up,
  * and the output says so. times = false leaves the seconds out: then equal runs give equal bytes. */

@@ -46,6 +46,7 @@ typedef struct cli_options {
   unsigned schedules; /* 0: default */
   bool start_set;     /* engine.start_bits was given */
   bool no_times, no_voronoi;
+  dyd_voronoi_bounds *bounds; /* voronoi: where the bounds of what is written go */
   bool stats, quiet, version;
   const char *help; /* "" (--help), or the kind of --help=KIND */
 } cli_options;
@@ -79,6 +80,7 @@ typedef struct cli_session {
   dyd_engine *engine;
   cli_progress *progress; /* may be NULL */
   double begun;
+  const dyd_voronoi_bounds *bounds; /* of the diagram written, borrowed; NULL: of none */
 } cli_session;
 
 /* A writer of results; err is clear. Returns an error with *err filled, else DYD_OK. */
@@ -106,6 +108,9 @@ int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, c
  * of the outcome where status is 0. */
 int cli_session_close(cli_session *s, int status);
 int cli_exit_status(dyd_outcome outcome);
+/* goal.c: one line that tells which bound was asked for, which is reached, why it is no better (advice), and what to
+ * do. false, and nothing said, where no bound was asked for. */
+bool cli_note_goal(const cli_session *s, const char *advice);
 /* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: left out. */
 void cli_complain_at(const char *file, const dyd_error *err);
 
@@ -125,6 +130,8 @@ bool cli_guard_descriptors(void);
 
 /* signals.c: the first SIGINT or SIGTERM cancels the engine, the next one ends the process. */
 void cli_signals_cancel(dyd_engine *e);
+/* Has a signal cancelled an engine? */
+bool cli_signals_cancelled(void);
 /* Signals end the process; the file `temporary` (may be NULL, borrowed) is removed before. */
 void cli_signals_remove(const char *temporary);
 

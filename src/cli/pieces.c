@@ -41,7 +41,12 @@ int cli_pieces_open(cli_pieces *p, const cli_options *o, size_t least, size_t mo
   p->stream = calloc(count, sizeof *p->stream);
   p->rect = calloc(count, sizeof *p->rect);
   if (!p->stream || !p->rect) return out_of_memory();
+  cli_signals_cancel(p->session.engine);
   for (; p->count < count && !status; p->count++) {
+    if (cli_signals_cancelled()) {
+      cli_complain("cancelled before the points were known: there is no result to write");
+      return CLI_CANCELLED;
+    }
     if (dyd_engine_stream(&p->stream[p->count], p->session.engine, (uint32_t)p->count) < 0) return out_of_memory();
     status = narrow(p, p->count);
   }
@@ -52,7 +57,7 @@ int cli_pieces_open(cli_pieces *p, const cli_options *o, size_t least, size_t mo
 static int refine(bool *moved, cli_pieces *p, cli_wanted_fn wanted) {
   *moved = false;
   p->bits = p->bits > p->max_bits / 2 ? p->max_bits : 2 * p->bits;
-  for (size_t i = 0; i < p->count; i++) {
+  for (size_t i = 0; i < p->count && !cli_signals_cancelled(); i++) {
     if (!wanted(p, i) || dyd_stream_is_final(p->stream[i])) continue;
     *moved = true;
     int status = narrow(p, i);
@@ -61,11 +66,11 @@ static int refine(bool *moved, cli_pieces *p, cli_wanted_fn wanted) {
   return 0;
 }
 
-int cli_pieces_run(cli_pieces *p, cli_answered_fn answered, cli_wanted_fn wanted) {
+static int run(cli_pieces *p, cli_answered_fn answered, cli_wanted_fn wanted) {
   const cli_options *o = p->session.options;
-  cli_progress_phase(p->session.progress, "refining");
   for (bool moved = true;;) {
     if (answered(p)) return p->outcome = DYD_OUTCOME_DECIDED, 0;
+    if (cli_signals_cancelled()) return p->outcome = DYD_OUTCOME_CANCELLED, 0;
     if (!moved) return p->outcome = DYD_OUTCOME_FIXPOINT, 0;
     bool late = o->engine.seconds > 0 && cli_clock() - p->session.begun > o->engine.seconds;
     p->outcome = DYD_OUTCOME_BUDGET;
@@ -79,7 +84,15 @@ int cli_pieces_run(cli_pieces *p, cli_answered_fn answered, cli_wanted_fn wanted
   return 0;
 }
 
+int cli_pieces_run(cli_pieces *p, cli_answered_fn answered, cli_wanted_fn wanted) {
+  cli_progress_phase(p->session.progress, "refining");
+  int status = run(p, answered, wanted);
+  cli_signals_remove(NULL);
+  return status;
+}
+
 static void note(const cli_pieces *p) {
+  if (p->outcome == DYD_OUTCOME_CANCELLED) cli_complain("cancelled: stopped on request; this much was known before");
   if (p->outcome == DYD_OUTCOME_FIXPOINT)
     cli_complain("fixpoint: no refinement can decide the rest: exact ties or fixed rectangles");
   if (p->outcome == DYD_OUTCOME_BUDGET)
@@ -90,6 +103,7 @@ static void note(const cli_pieces *p) {
 int cli_pieces_close(cli_pieces *p, int status) {
   if (!status) status = cli_exit_status(p->outcome);
   bool quiet = p->session.options->quiet;
+  cli_signals_remove(NULL); /* the engine goes */
   for (size_t i = p->count; i-- > 0;) dyd_stream_free(p->stream[i]);
   free(p->stream);
   free(p->rect);

@@ -5,14 +5,17 @@
 #include "cli.h"
 #include <signal.h>
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <unistd.h>
 
 static _Atomic(dyd_engine *) to_cancel;
 static _Atomic(const char *) to_remove;
+static atomic_bool cancelled;
 
 static void handle(int number) {
   dyd_engine *e = atomic_exchange(&to_cancel, NULL);
   if (e) {
+    atomic_store(&cancelled, true);
     dyd_engine_cancel(e);
     return;
   }
@@ -34,6 +37,10 @@ void cli_signals_cancel(dyd_engine *e) {
   atomic_store(&to_cancel, e);
   install(SIGINT);
   install(SIGTERM);
+}
+
+bool cli_signals_cancelled(void) {
+  return atomic_load(&cancelled);
 }
 
 void cli_signals_remove(const char *temporary) {

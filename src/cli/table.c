@@ -68,7 +68,7 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                      "The points that are nearest to the place (X,Y), coordinates of any form: sure when\n"
                      "exactly one is, whatever the points in the rectangles are; possible otherwise. The\n"
                      "place and the points concerned are refined until one is sure.",
-                     FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_nearest},
+                     FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | PICTURES, cli_nearest},
 };
 
 const char *const cli_group_names[CLI_GROUPS] = {[CLI_INPUT] = "Input",

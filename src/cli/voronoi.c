@@ -40,23 +40,41 @@ static int run(cli_session *s, dyd_rect *window, const dyd_engine_options *optio
 static dyd_status write_voronoi(FILE *out, const dyd_engine *e, const cli_options *o, dyd_error *err) {
   dyd_voronoi_options options = {.flatten_bits = o->flatten_bits, .flatten_set = o->flatten_set};
   options.window = o->engine.window;
+  options.bounds = o->bounds;
   return dyd_write_voronoi(out, e, &options, o->format, err);
+}
+
+/* The diagram, where there is one. */
+static int write_result(cli_session *s) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
+  if (pd && dyd_delaunay_is_capped(pd)) {
+    cli_complain("neighbours are missing, so no diagram is written: %s",
+                 "the cap on stored pairs was met; raise --max-pairs");
+    return 0;
+  }
+  int status = cli_session_write(s, write_voronoi);
+  if (pd && !status) s->bounds = s->options->bounds;
+  return status;
 }
 
 int cli_voronoi(const cli_options *o) {
   cli_session s;
   cli_options own = *o; /* with the window read */
   dyd_rect window;
+  dyd_voronoi_bounds bounds;
   dyd_rect_init(&window);
+  dyd_voronoi_bounds_init(&bounds);
+  own.bounds = &bounds;
   own.engine.goal = voronoi_goal(o->engine.goal);
   own.engine.window = &window;
   int status = cli_session_open(&s, &own);
   if (!status) status = run(&s, &window, &own.engine);
   if (status != CLI_USAGE && dyd_engine_delaunay(s.engine)) {
-    int written = cli_session_write(&s, write_voronoi);
+    int written = write_result(&s);
     if (!status) status = written;
   }
   status = cli_session_close(&s, status);
+  dyd_voronoi_bounds_clear(&bounds);
   dyd_rect_clear(&window);
   return status;
 }

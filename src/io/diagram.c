@@ -155,20 +155,47 @@ static dyd_status find_window(dyd_diagram *d, const dyd_rect *given, dyd_error *
   return dyd_fail(err, DYD_E_RANGE, "the points span more than doubles hold; give a window (--window)");
 }
 
-/* Fine enough for the eye, and for the goal on the area where there was one. */
-static int64_t default_bits(const dyd_diagram *d) {
-  int64_t goal_bits, bits = dyd_metric_coarseness(d->pd, &d->window) + 4;
-  if (dyd_engine_goal(&goal_bits, d->engine) != DYD_GOAL_VORONOI_AREA) return bits;
+/* Is the bound of the area at bits + step less than half of that at bits: does flattening still matter? */
+static dyd_status finer_helps(bool *out, const dyd_diagram *d, int64_t bits, int64_t step) {
+  dyd_voronoi_bounds b[2];
+  dyd_status status = DYD_OK;
+  for (int k = 0; k < 2; k++) dyd_voronoi_bounds_init(&b[k]);
+  for (int k = 0; k < 2 && status >= 0; k++)
+    status = dyd_metric_voronoi(&b[k], d->pd, &d->window, bits + (k ? step : 0), NULL);
+  if (status >= 0) status = dyd_dyadic_add(&b[1].area, &b[1].area, &b[1].area);
+  *out = status >= 0 && dyd_dyadic_cmp(&b[1].area, &b[0].area) < 0;
+  for (int k = 2; k-- > 0;) dyd_voronoi_bounds_clear(&b[k]);
+  return status;
+}
+
+/* Fine enough for the eye, and for the goal on the area where there was one. Where that was not reached, what is
+ * undetermined hides the flattening, and polygons as fine as the goal could be endless: only as fine as it helps. */
+static dyd_status choose_bits(dyd_diagram *d) {
+  enum { STEP = 6 };
+  int64_t goal_bits;
+  bool helps = true;
+  dyd_status status = DYD_OK;
+  d->bits = dyd_metric_coarseness(d->pd, &d->window) + 4;
+  if (dyd_engine_goal(&goal_bits, d->engine) != DYD_GOAL_VORONOI_AREA) return DYD_OK;
   int64_t fine = dyd_metric_flattening(d->pd, &d->window, goal_bits) + 8;
-  return fine > bits ? fine : bits;
+  bool reached = dyd_engine_outcome(d->engine) == DYD_OUTCOME_CERTIFIED;
+  while (d->bits < fine && !reached && helps && status >= 0) {
+    status = finer_helps(&helps, d, d->bits, STEP);
+    if (helps) d->bits += STEP;
+  }
+  if (reached && fine > d->bits) d->bits = fine;
+  return status;
 }
 
 static dyd_status write(dyd_diagram *d, const dyd_voronoi_options *o, dyd_format format, dyd_error *err) {
   dyd_status status = find_window(d, o ? o->window : NULL, err);
   if (status < 0) return status;
-  d->bits = o && o->flatten_set ? o->flatten_bits : default_bits(d);
+  if (o && o->flatten_set)
+    d->bits = o->flatten_bits;
+  else
+    status = choose_bits(d);
   d->vertex_bits = vertex_bits(d);
-  status = find_vertices(d);
+  if (status >= 0) status = find_vertices(d);
   if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
   for (size_t k = 0; k < FORMATS; k++)
     if (formats[k].format == format) return formats[k].write(d, err);
@@ -188,6 +215,11 @@ dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_o
   dyd_rect_init(&d.window);
   dyd_voronoi_bounds_init(&d.bounds);
   dyd_status status = write(&d, o, format, err);
+  if (status >= 0 && o && o->bounds) {
+    dyd_dyadic_swap(&o->bounds->area, &d.bounds.area);
+    dyd_dyadic_swap(&o->bounds->hausdorff, &d.bounds.hausdorff);
+    o->bounds->finite = d.bounds.finite;
+  }
   dyd_voronoi_bounds_clear(&d.bounds);
   dyd_rect_clear(&d.window);
   dyd_triangle_list_clear(&d.triangles);

@@ -5,7 +5,7 @@
 #include "io/decimal.h"
 #include <stdlib.h>
 
-void dyd_json_aliases(FILE *out, const dyd_delaunay *pd, size_t count) {
+void dyd_json_aliases(FILE *out, const dyd_delaunay *pd, size_t count, const char *after) {
   bool any = false;
   fputs("\"aliases\": [", out);
   for (size_t i = 0; i < count; i++) {
@@ -14,7 +14,7 @@ void dyd_json_aliases(FILE *out, const dyd_delaunay *pd, size_t count) {
     fprintf(out, "%s[%zu, %u]", any ? ", " : "", i, (unsigned)of);
     any = true;
   }
-  fputs("],\n", out);
+  fprintf(out, "]%s", after);
 }
 
 dyd_status dyd_json_bound(FILE *out, const char *name, const dyd_dyadic *value) {

@@ -6,8 +6,8 @@
 #include <dyadel/delaunay.h>
 #include <stdio.h>
 
-/* "aliases": [[7, 3], ..], for the first `count` sites, with a comma and a line end. */
-void dyd_json_aliases(FILE *out, const dyd_delaunay *pd, size_t count);
+/* "aliases": [[7, 3], ..], for the first `count` sites, and `after` behind it. */
+void dyd_json_aliases(FILE *out, const dyd_delaunay *pd, size_t count, const char *after);
 /* "NAME": {"exact": "m*2^e", "decimal": rounded up}. */
 dyd_status dyd_json_bound(FILE *out, const char *name, const dyd_dyadic *value);
 

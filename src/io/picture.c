@@ -163,8 +163,7 @@ void dyd_picture_dot(cairo_t *cr, double x, double y, double radius, unsigned fi
   dyd_picture_colour(cr, 0);
 }
 
-void dyd_picture_numbered(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb, size_t number) {
-  char text[24];
+void dyd_picture_marked(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb) {
   double w = fmax((box[1] - box[0]) * v->scale, 7), h = fmax((box[3] - box[2]) * v->scale, 7);
   double x = dyd_view_x(v, box[0] / 2 + box[1] / 2), y = dyd_view_y(v, box[2] / 2 + box[3] / 2);
   cairo_new_path(cr);
@@ -173,9 +172,19 @@ void dyd_picture_numbered(cairo_t *cr, const dyd_view *v, const double box[4], u
   cairo_fill_preserve(cr);
   dyd_picture_pen(cr, 0x222222, 1.5, 0, 0);
   cairo_stroke(cr);
+}
+
+/* Beside the upper right corner, or where the view ends before it. */
+void dyd_picture_numbered(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb, size_t number) {
+  char text[24];
+  cairo_text_extents_t e;
+  dyd_picture_marked(cr, v, box, rgb);
   snprintf(text, sizeof text, "%zu", number);
-  cairo_move_to(cr, x + w / 2 + 5, y - h / 2 - 4);
   cairo_set_font_size(cr, 20);
+  cairo_text_extents(cr, text, &e);
+  double x = fmax(dyd_view_x(v, box[1]), dyd_view_x(v, box[0] / 2 + box[1] / 2) + 3.5) + 5,
+         y = fmin(dyd_view_y(v, box[3]), dyd_view_y(v, box[2] / 2 + box[3] / 2) - 3.5) - 4;
+  cairo_move_to(cr, fmin(x, EDGE + v->width - e.x_advance - 4), fmax(y, EDGE + 20));
   cairo_text_path(cr, text);
   dyd_picture_pen(cr, 0xffffff, 4, 0, 0);
   cairo_stroke_preserve(cr);

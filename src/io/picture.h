@@ -44,7 +44,8 @@ void dyd_picture_colour(cairo_t *cr, unsigned rgb);
 void dyd_picture_pen(cairo_t *cr, unsigned rgb, double width, double on, double off);
 /* A rectangle where it can be seen, else a dot. */
 void dyd_picture_site(cairo_t *cr, const dyd_view *v, const double box[4], bool fixed_point);
-/* A rectangle, however small it is, filled with rgb, and its number beside it. */
+/* A rectangle, however small it is, filled with rgb; and its number beside it. */
+void dyd_picture_marked(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb);
 void dyd_picture_numbered(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb, size_t number);
 /* Leaves the pen black, for text. */
 void dyd_picture_dot(cairo_t *cr, double x, double y, double radius, unsigned fill, unsigned edge);

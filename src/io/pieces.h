@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What the writers of bisectors and discs share. */
+/* What the writers of bisectors, discs and nearest points share. */
 #ifndef DYD_IO_PIECES_H
 #define DYD_IO_PIECES_H
 
@@ -20,5 +20,7 @@ dyd_status dyd_picture_bisector(FILE *out, dyd_format kind, const dyd_rect *cons
                                 dyd_error *err);
 dyd_status dyd_picture_disc(FILE *out, dyd_format kind, const dyd_partial_disc *d, const dyd_rect *const *r, size_t n,
                             dyd_error *err);
+dyd_status dyd_picture_nearest(FILE *out, dyd_format kind, const dyd_delaunay *pd, const dyd_nearest_answer *answer,
+                               dyd_error *err);
 
 #endif

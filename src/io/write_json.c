@@ -49,7 +49,7 @@ static dyd_status write_sites(const dyd_result *r) {
   fputs("\"sites\": [", r->out);
   for (size_t i = 0; i < r->count && status >= 0; i++) status = write_site(r, i, &rect);
   fputs("\n],\n", r->out);
-  dyd_json_aliases(r->out, r->pd, r->count);
+  dyd_json_aliases(r->out, r->pd, r->count, ",\n");
   dyd_rect_clear(&rect);
   return status;
 }

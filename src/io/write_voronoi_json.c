@@ -190,7 +190,7 @@ static dyd_status write_head(const dyd_diagram *d) {
   fputs(", \"y\": ", d->out);
   if (status >= 0) status = put_point(d->out, &p);
   fputs("},\n", d->out);
-  dyd_json_aliases(d->out, d->pd, d->count);
+  dyd_json_aliases(d->out, d->pd, d->count, ",\n");
   return status;
 }
 
