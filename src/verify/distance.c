@@ -381,7 +381,7 @@ dyd_status dyd_cert_distance_holds(bool *holds, const dyd_cert_sites *sites, con
     make_grid(&window, &s, w);
     for (uint32_t v = 0; v < sites->count; v++)
       if (sites->site[v].alias == v) place_site(&s, v);
-    s.effort_most = ((uint64_t)s.count + 1024) << EFFORT_BITS;
+    s.effort_most = ((uint64_t)s.count + 64) << EFFORT_BITS;
     if (!dyd_reserve((void **)&s.list, &s.cap, s.count, sizeof *s.list)) s.status = DYD_E_NOMEM;
     for (size_t k = 0; s.status >= 0 && k < s.count; k++) s.list[k] = (uint32_t)k;
     *holds = s.status >= 0 && s.count && (spans_all(&s, w) || covers(&s, &window, 0, s.count));

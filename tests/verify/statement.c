@@ -21,7 +21,7 @@ void statement_clear(statement *s) {
 /* ---- reading ---- */
 
 /* m or m*2^e, up to the end of the number; returns what follows. */
-static const char *read_number(mpq_ptr out, const char *text) {
+const char *statement_number(mpq_ptr out, const char *text) {
   size_t length = strspn(text, "-0123456789");
   char *digits = strndup(text, length);
   assert_int_equal(mpq_set_str(out, digits, 10), 0);
@@ -40,14 +40,14 @@ static const char *read_number(mpq_ptr out, const char *text) {
 static void read_side(mpq_t *end, const char *text) {
   mpq_t t;
   mpq_init(t);
-  const char *rest = read_number(end[0], text);
+  const char *rest = statement_number(end[0], text);
   mpq_set(end[1], end[0]);
   if (*rest == '/') {
-    read_number(t, rest + 1);
+    statement_number(t, rest + 1);
     mpq_div(end[0], end[0], t);
     mpq_set(end[1], end[0]);
   } else if (*rest == '+') {
-    read_number(t, rest + 1);
+    statement_number(t, rest + 1);
     mpq_add(end[1], end[0], t);
   }
   mpq_clear(t);
@@ -88,10 +88,10 @@ static void read_line(statement *s, char *line, unsigned long *sites, unsigned l
     s->capped = strcmp(word, "yes") == 0;
   } else if (sscanf(line, "area %15s", word) == 1) {
     s->area_given = strcmp(word, "none") != 0;
-    if (s->area_given) read_number(s->area, line + 5);
+    if (s->area_given) statement_number(s->area, line + 5);
   } else if (sscanf(line, "hausdorff %15s", word) == 1) {
     s->hausdorff_given = strcmp(word, "none") != 0;
-    if (s->hausdorff_given) read_number(s->hausdorff, line + 10);
+    if (s->hausdorff_given) statement_number(s->hausdorff, line + 10);
   } else if (strchr("otln", *line) && sscanf(line, "%c %u %u", &kind, &i, &j) == 3) {
     s->kind[i][j] = kind;
   }
@@ -121,10 +121,6 @@ bool statement_same(const statement *a, const statement *b) {
          (strcmp(a->goal, b->goal) == 0 || strcmp(b->outcome, "certified") != 0);
 }
 
-static void rect_of(dyd_rect *out, const orc_rect *r) {
-  harness_rect(out, r);
-}
-
 /* The area by the library's rectangles, the Hausdorff terms in doubles: good to about 1e-15. */
 static void term(double *most, mpq_ptr area2, const orc_rect *a, const orc_rect *b, bool legal) {
   dyd_rect x, y;
@@ -132,8 +128,8 @@ static void term(double *most, mpq_ptr area2, const orc_rect *a, const orc_rect 
   dyd_rect_init(&x);
   dyd_rect_init(&y);
   mpq_init(t);
-  rect_of(&x, a);
-  rect_of(&y, b);
+  harness_rect(&x, a);
+  harness_rect(&y, b);
   dyd_hull_area2(t, &x, &y);
   mpq_add(area2, area2, t);
   double d = 0, l = 0, e[8];
@@ -196,6 +192,26 @@ const char *statement_judge(orc_pool *p, const statement *s) {
   return statement_bounds_hold(s) ? NULL : "the bounds are too small";
 }
 
+const char *statement_judge_by_engine(const statement *s) {
+  static char message[200];
+  const char *wrong = NULL;
+  dyd_sites *sites = harness_sites(&s->sites);
+  dyd_delaunay *pd = harness_engine(message, sites, NULL);
+  assert_non_null(pd);
+  for (size_t i = 0; i < s->sites.n && !wrong; i++)
+    for (size_t j = i + 1; j < s->sites.n && !wrong; j++) {
+      char kind = s->kind[i][j];
+      if (dyd_delaunay_alias(pd, (uint32_t)i) != i || dyd_delaunay_alias(pd, (uint32_t)j) != j) continue;
+      dyd_pair_status status = dyd_delaunay_status(pd, (uint32_t)i, (uint32_t)j);
+      bool illegal = kind == 'n' || (kind == 0 && s->unproved == 0);
+      if (illegal != (status == DYD_ILLEGAL) && (illegal || kind == 'L')) wrong = message;
+      if (wrong) snprintf(message, sizeof message, "pair %zu %zu: the engine calls it otherwise", i, j);
+    }
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  return wrong;
+}
+
 /* ---- certificates ---- */
 
 char *certificate_of_engine(const dyd_engine *e) {
@@ -208,20 +224,25 @@ char *certificate_of_engine(const dyd_engine *e) {
   return text;
 }
 
-char *certificate_of_case(const orc_case *c, const dyd_engine_options *o) {
+dyd_engine *engine_of_case(const orc_case *c, const dyd_engine_options *o) {
   dyd_engine *e = NULL;
   dyd_rect r;
   dyd_outcome outcome;
   dyd_rect_init(&r);
   assert_int_equal(dyd_engine_new(&e), DYD_OK);
   for (size_t i = 0; i < c->n; i++) {
-    rect_of(&r, &c->rect[i]);
+    harness_rect(&r, &c->rect[i]);
     assert_int_equal(dyd_engine_add_rect(e, &r), DYD_OK);
   }
   assert_int_equal(dyd_engine_run(&outcome, e, o, NULL), DYD_OK);
+  dyd_rect_clear(&r);
+  return e;
+}
+
+char *certificate_of_case(const orc_case *c, const dyd_engine_options *o) {
+  dyd_engine *e = engine_of_case(c, o);
   char *text = certificate_of_engine(e);
   dyd_engine_free(e);
-  dyd_rect_clear(&r);
   return text;
 }
 

@@ -31,9 +31,17 @@ void statement_read(statement *s, const char *text);
 bool statement_same(const statement *a, const statement *b);
 /* Is what is stated true, by the oracle? NULL, or what is wrong. */
 const char *statement_judge(orc_pool *p, const statement *s);
+/* The same by the engine, which is quick and shares nothing with the checker but numbers: what is called legal is not
+ * illegal (a witness may be one the engine does not find), what is called illegal is. */
+const char *statement_judge_by_engine(const statement *s);
 /* Are the bounds not below those of the listed pairs? */
 bool statement_bounds_hold(const statement *s);
 
+/* Reads m or m*2^e; returns what follows. */
+const char *statement_number(mpq_ptr out, const char *text);
+
+/* The engine of the case, run with these options (may be NULL). */
+dyd_engine *engine_of_case(const orc_case *c, const dyd_engine_options *o);
 /* The certificate of the case, run with these options (may be NULL); release with free(). */
 char *certificate_of_case(const orc_case *c, const dyd_engine_options *o);
 char *certificate_of_engine(const dyd_engine *e);

@@ -1,8 +1,17 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Every truncation and every change of one field of a certificate is rejected, or states the same, or something true
- * [CERT-1] [CERT-2] [CERT-3] [CERT-4] [CERT-5]. What is accepted is read by a reader of its own; when it does not state
- * the same of the same rectangles, the oracle judges it. */
-#include "verify/statement.h"
+ * [CERT-1] [CERT-2] [CERT-3] [CERT-4] [CERT-5] [CERT-6] [CERT-7].
+ *
+ * What is accepted is read by a reader of its own.
+ *   "The same": the same rectangles, the same list of pairs by kind, the same count of triangles and of pairs that are
+ *   not proved; the same outcome, or one of the words that claim nothing; the same goal, unless it is said to be
+ *   reached; and the same section on the diagram. Witnesses, places, bridges, corners and chains may differ: they are
+ *   proofs, not statements. Bounds may differ, and are compared with the pairs listed each time.
+ *   "Something true": of the rectangles that the mutant has, which are other ones in most cases. Every such statement
+ *   is judged: each pair called legal or illegal by the engine, which shares no code with the checker; polygons and
+ *   areas in rationals, distances at random points; and in a sample (all of it with a large DYADEL_TEST_SCALE) each
+ * pair by the slow oracle too. */
+#include "verify/diagram.h"
 
 #include <ctype.h>
 #include <stdlib.h>
@@ -10,10 +19,12 @@
 
 typedef struct mutants {
   orc_pool pool;
+  test_random random;
   statement original, mutant;
+  diagram drawn, drawn_mutant;
   const char *text;
   size_t tried, same, judged;
-  size_t judge_every; /* the oracle is slow: of statements about other rectangles it sees one in so many */
+  size_t judge_every; /* of statements about other rectangles the oracle sees one in so many */
 } mutants;
 
 static void fail_mutant(const char *what, const char *text) {
@@ -26,12 +37,17 @@ static void try_text(mutants *m, const char *text, size_t length) {
   m->tried++;
   if (certificate_check(NULL, text, length, NULL) != DYD_OK) return;
   statement_read(&m->mutant, text);
+  diagram_read(&m->drawn_mutant, text);
   if (!statement_bounds_hold(&m->mutant)) fail_mutant("the bounds are too small", text);
-  m->same++;
-  if (statement_same(&m->original, &m->mutant)) return;
-  m->same--;
-  if (m->judged++ % m->judge_every != 0) return;
-  const char *wrong = statement_judge(&m->pool, &m->mutant);
+  bool same = statement_same(&m->original, &m->mutant);
+  const char *wrong = NULL;
+  if (!same || !diagram_same(&m->drawn, &m->drawn_mutant))
+    wrong = diagram_judge(&m->drawn_mutant, &m->mutant.sites, &m->random, 10);
+  if (wrong) fail_mutant(wrong, text);
+  m->same += same;
+  if (same) return;
+  wrong = statement_judge_by_engine(&m->mutant);
+  if (!wrong && m->judged++ % m->judge_every == 0) wrong = statement_judge(&m->pool, &m->mutant);
   if (wrong) fail_mutant(wrong, text);
 }
 
@@ -78,9 +94,9 @@ static void each_integer(mutants *m) {
 
 /* Each word removed, doubled, exchanged with the next one, or turned into another word that has a meaning. */
 static void each_word(mutants *m) {
-  static const char *const words[] = {"decided", "certified", "fixpoint", "budget", "cancelled", "error",
-                                      "area",    "hausdorff", "yes",      "no",     "none",      "o",
-                                      "t",       "l",         "n",        "=",      "end"};
+  static const char *const words[] = {"decided",   "certified", "fixpoint", "budget", "cancelled", "error",    "area",
+                                      "hausdorff", "voronoi",   "yes",      "no",     "none",      "unproved", "o",
+                                      "t",         "l",         "n",        "=",      "end",       "window"};
   for (size_t k = 0; m->text[k]; k++) {
     if ((k && !isspace((unsigned char)m->text[k - 1])) || isspace((unsigned char)m->text[k])) continue;
     size_t length = strcspn(m->text + k, " \n"), next = k + length + 1, second = strcspn(m->text + next, " \n");
@@ -132,14 +148,24 @@ static void each_byte(mutants *m, test_random *r) {
   free(text);
 }
 
-static void try_case(test_random *r, const orc_case *c, size_t judge_every) {
-  mutants m = {.judge_every = judge_every};
-  char *text = certificate_of_case(c, NULL);
+/* window: of a section on the diagram; NULL: none. */
+static void try_case(test_random *r, const orc_case *c, const dyd_rect *window, size_t judge_every) {
+  static mutants m;
+  size_t scale = test_cases(1);
+  memset(&m, 0, sizeof m);
+  m.judge_every = judge_every > scale ? judge_every / scale : 1;
+  m.random = *r;
+  dyd_engine *e = engine_of_case(c, NULL);
+  char *text = window ? diagram_of_engine(e, window) : certificate_of_engine(e);
+  dyd_engine_free(e);
   m.text = text;
   orc_pool_init(&m.pool);
   statement_init(&m.original);
   statement_init(&m.mutant);
+  diagram_init(&m.drawn);
+  diagram_init(&m.drawn_mutant);
   statement_read(&m.original, text);
+  diagram_read(&m.drawn, text);
   assert_int_equal(certificate_check(NULL, text, strlen(text), NULL), DYD_OK);
   each_truncation(&m);
   each_integer(&m);
@@ -151,6 +177,8 @@ static void try_case(test_random *r, const orc_case *c, size_t judge_every) {
   assert_true(m.same + m.judged < m.tried / 2);
   statement_clear(&m.original);
   statement_clear(&m.mutant);
+  diagram_clear(&m.drawn);
+  diagram_clear(&m.drawn_mutant);
   orc_pool_clear(&m.pool);
   free(text);
 }
@@ -173,9 +201,9 @@ static void thirty_sites(void **state) {
   orc_case_init(&c);
   test_random r = test_random_start("mutants of 30 sites");
   boxes(&c, &r, 30, 0);
-  try_case(&r, &c, 400);
+  try_case(&r, &c, NULL, 400);
   boxes(&c, &r, 30, 120);
-  try_case(&r, &c, 400);
+  try_case(&r, &c, NULL, 400);
   orc_case_clear(&c);
 }
 
@@ -187,15 +215,36 @@ static void few_sites(void **state) {
   for (size_t k = 0; k < test_cases(1); k++) {
     for (size_t kind = 0; kind < ORC_KINDS; kind++) {
       orc_generate(&c, &r, kind, 7);
-      if (orc_case_all_points(&c) || k > 0 || kind < 6) try_case(&r, &c, 10);
+      if (orc_case_all_points(&c) || k > 0 || kind < 6) try_case(&r, &c, NULL, 10);
     }
     boxes(&c, &r, 7, 200);
-    try_case(&r, &c, 3);
+    try_case(&r, &c, NULL, 3);
   }
   orc_case_clear(&c);
 }
 
+/* Certificates with a section on the diagram. */
+static void diagrams(void **state) {
+  (void)state;
+  orc_case c;
+  dyd_rect w;
+  orc_case_init(&c);
+  dyd_rect_init(&w);
+  assert_int_equal(dyd_interval_set_d(&w.x, -100, 1100), DYD_OK);
+  assert_int_equal(dyd_interval_set_d(&w.y, 0, 1000), DYD_OK);
+  test_random r = test_random_start("mutants of diagrams");
+  for (size_t k = 0; k < test_cases(1); k++) {
+    boxes(&c, &r, 5, 0);
+    try_case(&r, &c, &w, 40);
+    boxes(&c, &r, 4, 300);
+    try_case(&r, &c, &w, 40);
+  }
+  dyd_rect_clear(&w);
+  orc_case_clear(&c);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(thirty_sites), cmocka_unit_test(few_sites)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(thirty_sites), cmocka_unit_test(few_sites),
+                                     cmocka_unit_test(diagrams)};
   return cmocka_run_group_tests_name("mutants of certificates", tests, NULL, NULL);
 }
