@@ -14,6 +14,7 @@ import sys
 import tempfile
 
 MESH, DISTANCE = 'src/delaunay/filter_mesh.h', 'src/delaunay/filter_distance.h'
+NEAR, INTERVAL = 'src/delaunay/filter_near.h', 'src/predicate/filter_interval.h'
 # file, text, its replacement, script that must notice, word in its complaint
 FAULTS = [
     (MESH, 'extent_x * extent_y * 1.01e-15', 'extent_x * extent_y * 1.0e-15', 'constants', 'c_orient_bound'),
@@ -21,6 +22,12 @@ FAULTS = [
     (DISTANCE, '(1 - 10 * 0x1p-53)', '(1 - 4 * 0x1p-53)', 'constants', 'c_down_factor'),
     (MESH, 'extent_x * extent_y * 1.01e-15', '1.01e-15 * extent_x * extent_y', 'constants', 'dyd_filter_orient_bound'),
     (MESH, 'e = 11.05 * 0x1p-53 * e', 'e = 11.0 * 0x1p-53 * e', 'constants', 'c_incircle_near'),
+    (NEAR, 'k = 24.3 * reach', 'k = 24.2 * reach', 'constants', 'c_near_k'),
+    (NEAR, 'k * (lv * lz) * (a1 + ea)', 'k * (lv * lz) * (a1 - ea)', 'constants', 'dyd_filter_edge_near'),
+    (NEAR, 'return 48.6 * reach * sqrt(lu * lw)', 'return 48.6 * (reach * sqrt(lu * lw))', 'constants', 'dyd_filter_hull_edge_near'),
+    (INTERVAL, 'if (!(b.lo > 0 || b.hi < 0))', 'if (!(b.lo >= 0 || b.hi < 0))', 'constants', 'dyd_iv_div'),
+    ('src/delaunay/filter_tree.c', 'px + py + 8 * 0x1p-53', 'px + py + 2 * 0x1p-53', 'constants', 'c_reach'),
+    ('src/delaunay/filter_possible.c', 'isnan(h) ? -INFINITY : h', 'isnan(h) ? INFINITY : h', 'constants', 'dyd_height_lower'),
     ('src/dyadic/sqrt_sign.c', 'if (nb - 3 >= na) return -1;', 'if (nb - 2 >= na) return -1;', 'constants', 'compare_squares'),
     ('src/predicate/solve.c', 'mpz_submul(out->a[k], out->b[k], out->t);', 'mpz_addmul(out->a[k], out->b[k], out->t);',
      'constants', 'point_and_line'),
