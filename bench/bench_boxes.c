@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Rows over boxes: boxes (thin, every edge certified), thick (a few per cent of the spacing), overlap. */
+/* Rows over boxes: boxes (thin, every edge certified), boxes2 (two threads, by the clock), thick (a few per cent of the
+ * spacing), overlap. */
 #include "cloud.h"
 #include "ours.h"
 #include "peer.h"
@@ -24,7 +25,7 @@ static void compare(char *remark, size_t size, const ours_answer *a, const bench
            a->count[DYD_LEGAL], undecided, peer->count);
 }
 
-static void row_boxes(const bench_options *o) {
+static void row_boxes(const bench_options *o, const char *name, unsigned threads, double goal) {
   cloud boxes;
   bench_series ours = {0}, peer = {0};
   ours_answer first = {0}, again;
@@ -34,18 +35,19 @@ static void row_boxes(const bench_options *o) {
   cloud_widen(&boxes, 0x1p-30);
   for (size_t r = 0; r < bench_runs(o, 5); r++) {
     bench_cost cost;
-    bench_series_add(&ours, ours_run(r ? &again : &first, "boxes", &boxes, r ? OURS_STATUSES : OURS_AND_EDGES));
+    bench_series_add(&ours, ours_run(r ? &again : &first, name, &boxes, r ? OURS_STATUSES : OURS_AND_EDGES, threads));
     if (peer_points(&cost, r ? NULL : &edges, boxes.n, boxes.x, boxes.y)) bench_series_add(&peer, cost);
   }
   compare(remark, sizeof remark, &first, &edges);
-  bench_report(o, &(bench_row){.name = "boxes",
+  bench_report(o, &(bench_row){.name = name,
                                .n = boxes.n,
                                .ours = &ours,
                                .peer = &peer,
                                .peer_name = peer_points_name(),
                                .input_bytes = first.input_bytes / (double)boxes.n,
                                .ratio_bar = 2.0,
-                               .ratio_goal = 0.9,
+                               .ratio_goal = goal,
+                               .by_the_clock = threads > 1,
                                .total_bar = 400,
                                .beyond_goal = 180,
                                .remark = remark});
@@ -63,7 +65,7 @@ static double wide(const bench_options *o, const char *name, size_t n, double sh
   char remark[200];
   cloud_uniform(&boxes, n);
   cloud_widen(&boxes, share / sqrt((double)n));
-  for (size_t r = 0; r < runs; r++) bench_series_add(&ours, ours_run(&a, name, &boxes, OURS_STATUSES));
+  for (size_t r = 0; r < runs; r++) bench_series_add(&ours, ours_run(&a, name, &boxes, OURS_STATUSES, 1));
   double seconds = bench_series_median(&ours).seconds;
   size_t pairs = a.count[DYD_LEGAL] + a.count[DYD_INDETERMINATE] + a.count[DYD_TIE];
   snprintf(remark, sizeof remark, "%zu pairs; legal %zu; indeterminate %zu; tied %zu", pairs, a.count[DYD_LEGAL],
@@ -99,7 +101,8 @@ static void row_wide(const bench_options *o, const char *name, size_t n, double 
 int main(int argc, char **argv) {
   bench_options o;
   bench_options_read(&o, argc, argv);
-  if (bench_wants(&o, "boxes")) row_boxes(&o);
+  if (bench_wants(&o, "boxes")) row_boxes(&o, "boxes", 1, 0.9);
+  if (bench_wants(&o, "boxes2")) row_boxes(&o, "boxes2", 2, 0.55);
   if (bench_wants(&o, "thick")) row_wide(&o, "thick", 100000, 0.03, 5);
   if (bench_wants(&o, "overlap")) row_wide(&o, "overlap", 10000, 0.5, 10);
   bench_options_close(&o);

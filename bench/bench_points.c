@@ -25,7 +25,7 @@ static void contest_run(contest *c, const char *row, const cloud *points, ours_w
     bench_cost cost;
     bool first = r == 0;
     ours_what now = first && what == OURS_STATUSES ? OURS_AND_EDGES : what;
-    bench_series_add(&c->ours, ours_run(first ? &c->answer : &again, row, points, now));
+    bench_series_add(&c->ours, ours_run(first ? &c->answer : &again, row, points, now, 1));
     if (!first) bench_edges_clear(&again.edges);
     if (peer_points(&cost, first ? &c->peer_edges : NULL, points->n, points->x, points->y))
       bench_series_add(&c->peer, cost);
@@ -127,7 +127,7 @@ static void row_growth(const bench_options *o) {
     char remark[100];
     cloud_uniform(&points, n);
     for (size_t r = 0; r < bench_runs(o, n > 1000000 ? 1 : 5); r++)
-      bench_series_add(&ours, ours_run(&answer, "growth", &points, OURS_STATUSES));
+      bench_series_add(&ours, ours_run(&answer, "growth", &points, OURS_STATUSES, 1));
     double each = bench_series_median(&ours).seconds / (double)n;
     least = least == 0 || each < least ? each : least;
     greatest = each > greatest ? each : greatest;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What every benchmark driver shares: arguments, cost meter, medians, the table and the CSV.
  *
- * A cost is CPU time of the whole process (all threads) and the peak of resident memory beyond what was resident at
- * the start: Linux lets a process reset its own high-water mark. */
+ * A cost is CPU time of the whole process (all threads), time by the clock, and the peak of resident memory beyond what
+ * was resident at the start: Linux lets a process reset its own high-water mark. */
 #ifndef DYD_BENCH_HARNESS_H
 #define DYD_BENCH_HARNESS_H
 
@@ -34,12 +34,12 @@ size_t bench_size(const bench_options *o, size_t otherwise);
 size_t bench_runs(const bench_options *o, size_t otherwise);
 
 typedef struct bench_cost {
-  double seconds;
-  double bytes; /* peak beyond the start; negative when the system does not tell */
+  double seconds, wall; /* CPU time; by the clock */
+  double bytes;         /* peak beyond the start; negative when the system does not tell */
 } bench_cost;
 
 typedef struct bench_meter {
-  double seconds, bytes;
+  double seconds, wall, bytes;
 } bench_meter;
 bench_meter bench_start(void);
 bench_cost bench_stop(const bench_meter *m);
@@ -47,7 +47,7 @@ bench_cost bench_stop(const bench_meter *m);
 /* Costs of the runs of one contestant. */
 typedef struct bench_series {
   size_t count;
-  double seconds[BENCH_MAX_RUNS], bytes[BENCH_MAX_RUNS];
+  double seconds[BENCH_MAX_RUNS], wall[BENCH_MAX_RUNS], bytes[BENCH_MAX_RUNS];
 } bench_series;
 void bench_series_add(bench_series *s, bench_cost c);
 /* Medians over the runs; zeros when there was none. */
@@ -59,6 +59,7 @@ typedef struct bench_row {
   size_t n;
   const bench_series *ours, *peer; /* peer may be empty */
   const char *peer_name;
+  bool by_the_clock;             /* compare times by the clock, for rows with several threads */
   double input_bytes;            /* what the table of sites holds, per point; part of ours' peak */
   double ratio_bar, ratio_goal;  /* of time, ours to the peer */
   double total_bar, beyond_goal; /* bytes a point: the whole peak / the peak less the input */

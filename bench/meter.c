@@ -10,9 +10,9 @@
 #include <string.h>
 #include <time.h>
 
-static double cpu_seconds(void) {
+static double seconds_of(clockid_t clock) {
   struct timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  clock_gettime(clock, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
@@ -36,13 +36,14 @@ static bool reset_peak(void) {
 
 bench_meter bench_start(void) {
   malloc_trim(0);
-  bench_meter m = {0, reset_peak() ? status_bytes("VmRSS:") : -1};
-  m.seconds = cpu_seconds();
+  bench_meter m = {0, 0, reset_peak() ? status_bytes("VmRSS:") : -1};
+  m.wall = seconds_of(CLOCK_MONOTONIC);
+  m.seconds = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
   return m;
 }
 
 bench_cost bench_stop(const bench_meter *m) {
-  bench_cost c = {cpu_seconds() - m->seconds, -1};
+  bench_cost c = {seconds_of(CLOCK_PROCESS_CPUTIME_ID) - m->seconds, seconds_of(CLOCK_MONOTONIC) - m->wall, -1};
   double peak = status_bytes("VmHWM:");
   if (m->bytes >= 0 && peak >= m->bytes) c.bytes = peak - m->bytes;
   return c;
@@ -51,6 +52,7 @@ bench_cost bench_stop(const bench_meter *m) {
 void bench_series_add(bench_series *s, bench_cost c) {
   if (s->count == BENCH_MAX_RUNS) return;
   s->seconds[s->count] = c.seconds;
+  s->wall[s->count] = c.wall;
   s->bytes[s->count++] = c.bytes;
 }
 
@@ -67,6 +69,6 @@ static double median(const double *x, size_t count) {
 }
 
 bench_cost bench_series_median(const bench_series *s) {
-  if (s->count == 0) return (bench_cost){0, 0};
-  return (bench_cost){median(s->seconds, s->count), median(s->bytes, s->count)};
+  if (s->count == 0) return (bench_cost){0, 0, 0};
+  return (bench_cost){median(s->seconds, s->count), median(s->wall, s->count), median(s->bytes, s->count)};
 }

@@ -22,10 +22,11 @@ void ours_edges(bench_edges *out, const char *row, const dyd_delaunay *pd) {
   dyd_pair_list_clear(&pairs);
 }
 
-bench_cost ours_run(ours_answer *out, const char *row, const cloud *c, ours_what what) {
+bench_cost ours_run(ours_answer *out, const char *row, const cloud *c, ours_what what, unsigned threads) {
   dyd_sites *sites = NULL;
   dyd_delaunay *pd = NULL;
   dyd_pair_list pairs = {0};
+  dyd_delaunay_options options = {.threads = threads};
   *out = (ours_answer){0};
   bench_meter meter = bench_start();
   check(row, dyd_sites_new(&sites));
@@ -33,7 +34,7 @@ bench_cost ours_run(ours_answer *out, const char *row, const cloud *c, ours_what
     check(row, dyd_sites_add_boxes(sites, c->n, c->x0, c->x1, c->y0, c->y1));
   else
     check(row, dyd_sites_add_points(sites, c->n, c->x, c->y));
-  check(row, dyd_delaunay_new(&pd, sites, NULL, NULL));
+  check(row, dyd_delaunay_new(&pd, sites, &options, NULL));
   dyd_delaunay_count(out->count, pd);
   if (what == OURS_LISTED) check(row, dyd_delaunay_pairs(&pairs, pd));
   bench_cost cost = bench_stop(&meter);

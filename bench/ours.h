@@ -23,7 +23,7 @@ typedef enum ours_what {
 
 /* Table of sites (points, or boxes when the cloud has them), partial triangulation, counts. Ends the program with a
  * message when the library fails. */
-bench_cost ours_run(ours_answer *out, const char *row, const cloud *c, ours_what what);
+bench_cost ours_run(ours_answer *out, const char *row, const cloud *c, ours_what what, unsigned threads);
 /* A run over points that must meet the default cap on pairs; the message goes to remark. */
 bench_cost ours_capped(char *remark, size_t size, const cloud *c);
 /* The possible pairs of pd as sorted edges. */

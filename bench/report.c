@@ -130,6 +130,10 @@ static void csv_line(const bench_options *o, const bench_row *row, bench_cost ou
 
 void bench_report(const bench_options *o, const bench_row *row) {
   bench_cost ours = bench_series_median(row->ours), peer = bench_series_median(row->peer);
+  if (row->by_the_clock) {
+    ours.seconds = ours.wall;
+    peer.seconds = peer.wall;
+  }
   double n = (double)row->n, ratio = row->peer->count ? ours.seconds / peer.seconds : 0;
   printf("%-10s n=%-9zu ours %.1f ns/pt", row->name, row->n, ours.seconds / n * 1e9);
   if (row->peer->count) printf("  %s %.1f ns/pt", row->peer_name, peer.seconds / n * 1e9);

@@ -63,7 +63,7 @@ typedef struct dyd_delaunay_counters {
 typedef struct dyd_delaunay_options {
   size_t max_pairs;           /* cap on stored pairs beyond the skeleton; 0: the default, 4e6 + 16 N */
   const volatile int *cancel; /* when it points to a non-zero value, work stops with DYD_CANCELLED; may be NULL */
-  unsigned threads;           /* how many may be used; all work is done by the calling one so far */
+  unsigned threads;           /* how many may be used, the calling one included; 0: one. Nothing else depends on it */
   bool no_filter;             /* decide everything on the exact rung (for tests; statuses are the same) */
 } dyd_delaunay_options;
 

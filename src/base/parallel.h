@@ -16,8 +16,14 @@ typedef void dyd_task(void *context, size_t number);
  * there are do all the work. What tasks wrote is visible to the caller afterwards. */
 void dyd_parallel(unsigned threads, size_t tasks, dyd_task *task, void *context);
 
-/* A long loop over 0 .. count - 1 is cut into at most 64 ranges, which depend on count alone. */
-enum { DYD_RANGE_LEAST = 1 << 13, DYD_RANGES_MOST = 64 };
+/* A long loop over 0 .. count - 1 is cut into at most 64 ranges, which depend on count alone. The verify build cuts short
+ * ones, too. */
+#ifdef DYD_VERIFY
+enum { DYD_RANGE_LEAST = 5 };
+#else
+enum { DYD_RANGE_LEAST = 1 << 13 };
+#endif
+enum { DYD_RANGES_MOST = 64 };
 
 static inline size_t dyd_ranges(size_t count) {
   size_t n = count / DYD_RANGE_LEAST;

@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/verify.h"
 #include "delaunay/blocks.h"
 #include "delaunay/certify.h"
@@ -34,12 +35,12 @@ static dyd_status build_skeleton(dyd_delaunay *pd) {
   uint32_t *order = dyd_alloc(pd->n, sizeof *order);
   if (!order) return DYD_E_NOMEM;
   dyd_strips strips;
-  dyd_status st = dyd_spatial_order(order, &strips, pd->sites);
+  dyd_status st = dyd_spatial_order(order, &strips, pd->sites, pd->options.threads);
   if (st != DYD_OK) {
     free(order);
     return st;
   }
-  st = dyd_reps_init(&pd->reps, pd->sites, order, pd->n);
+  st = dyd_reps_init(&pd->reps, pd->sites, order, pd->n, pd->options.threads);
   if (st == DYD_OK)
     st = dyd_mesh_build_strips(&pd->mesh, &pd->reps, &strips, pd->options.no_filter, &pd->counters, pd->options.cancel,
                                pd->options.threads);
@@ -60,13 +61,34 @@ static void settle_aliases(dyd_delaunay *pd) {
   for (uint32_t v = 0; v < pd->n; v++) pd->vertex[site[v]] = alias && alias[v] != DYD_NONE ? alias[v] : v;
 }
 
-static void find_corners(dyd_delaunay *pd) {
-  memset(pd->corner, 0xff, pd->n * sizeof *pd->corner);
-  for (uint32_t t = 0; t < pd->mesh.count; t++)
+/* The corner of a vertex is the last one among the triangles of its strip. */
+static void corners_of_strip(void *context, size_t number) {
+  dyd_delaunay *pd = context;
+  uint32_t begin = pd->mesh.strips.begin[number], end = pd->mesh.strips.begin[number + 1];
+  uint32_t last = 2 * end < pd->mesh.count ? 2 * end : pd->mesh.count;
+  for (uint32_t t = 2 * begin; t < last; t++)
     for (unsigned k = 0; k < 3; k++) {
       uint32_t v = pd->mesh.tri[t].v[k];
-      if (v != pd->mesh.n) pd->corner[v] = 4 * t + k;
+      if (v - begin < end - begin) pd->corner[v] = 4 * t + k;
     }
+}
+
+/* A vertex at a seam may have triangles of the other strip only. */
+static bool has_lost_vertex(const dyd_delaunay *pd) {
+  for (uint32_t v = 0; v < pd->n; v++)
+    if (pd->corner[v] == DYD_NONE && !(pd->mesh.alias && pd->mesh.alias[v] != DYD_NONE)) return pd->mesh.count > 0;
+  return false;
+}
+
+static void find_corners(dyd_delaunay *pd) {
+  memset(pd->corner, 0xff, pd->n * sizeof *pd->corner);
+  dyd_parallel(pd->options.threads, pd->mesh.strips.count, corners_of_strip, pd);
+  if (has_lost_vertex(pd))
+    for (uint32_t t = 0; t < pd->mesh.count; t++)
+      for (unsigned k = 0; k < 3; k++) {
+        uint32_t v = pd->mesh.tri[t].v[k];
+        if (v != pd->mesh.n && pd->corner[v] == DYD_NONE) pd->corner[v] = 4 * t + k;
+      }
 }
 
 static dyd_status build_maps(dyd_delaunay *pd) {
@@ -83,16 +105,23 @@ static dyd_status build_maps(dyd_delaunay *pd) {
 
 enum { FETCH_AHEAD = 24 };
 
+static void boxes_of_range(void *context, size_t number) {
+  dyd_delaunay *pd = context;
+  size_t end = dyd_range_begin(pd->n, number + 1);
+  for (size_t v = dyd_range_begin(pd->n, number); v < end; v++) {
+    if (v + FETCH_AHEAD < end) dyd_sites_fetch(pd->sites, pd->reps.site[v + FETCH_AHEAD]);
+    dyd_sites_get_d(pd->box[v].e, pd->sites, pd->reps.site[v]);
+  }
+}
+
 static dyd_status build_boxes(dyd_delaunay *pd) {
   if (pd->all_points || pd->mesh.collinear) return dyd_blocks_build(pd);
   pd->box = dyd_alloc(pd->n, sizeof *pd->box);
   uint32_t *item = dyd_alloc(pd->n, sizeof *item), count = 0;
   if (!pd->box || !item) return free(item), DYD_E_NOMEM;
-  for (uint32_t v = 0; v < pd->n; v++) {
-    if (v + FETCH_AHEAD < pd->n) dyd_sites_fetch(pd->sites, pd->reps.site[v + FETCH_AHEAD]);
-    dyd_sites_get_d(pd->box[v].e, pd->sites, pd->reps.site[v]);
+  dyd_parallel(pd->options.threads, dyd_ranges(pd->n), boxes_of_range, pd);
+  for (uint32_t v = 0; v < pd->n; v++)
     if (pd->corner[v] != DYD_NONE) item[count++] = v;
-  }
   return dyd_tree_init(&pd->tree, item, count, pd->box);
 }
 
@@ -122,7 +151,7 @@ static void mark_known(dyd_delaunay *pd, dyd_known known) {
 static dyd_status build_statuses(dyd_delaunay *pd, dyd_known known) {
   dyd_work w;
   dyd_work_init(&w, pd);
-  dyd_status st = dyd_certify_all(pd, &w);
+  dyd_status st = dyd_certify_all(pd);
   mark_known(pd, known);
   if (st == DYD_OK) st = dyd_faces_find(pd, &w, NULL, 0);
   dyd_work_clear(&w);

@@ -7,7 +7,10 @@
  * [TIE-1]. */
 #include "delaunay/certify.h"
 
+#include "base/alloc.h"
 #include "delaunay/hull.h"
+#include "delaunay/marks.h"
+#include "delaunay/mesh_fixed.h"
 #include "delaunay/witness.h"
 
 #include <string.h>
@@ -27,25 +30,81 @@ bool dyd_point_edge_is_certain(dyd_delaunay *pd, uint32_t t, unsigned k) {
   return beyond_sign(pd, t, k) < 0;
 }
 
-/* Certain edges that are real: their witness is the middle of the skeleton's Voronoi edge. */
-static uint64_t certain_real_edges(const dyd_delaunay *pd) {
-  uint64_t twice = 0;
-  for (uint32_t t = 0; t < pd->mesh.count; t++) {
-    const uint32_t *v = pd->mesh.tri[t].v;
-    for (unsigned k = 0; k < 3; k++)
-      twice += v[dyd_next(k)] != pd->mesh.n && v[dyd_prev(k)] != pd->mesh.n && dyd_edge_is_certain(pd, t, k);
-  }
-  return twice / 2;
+/* ---- tasks ----
+ *
+ * Each task asks a mesh of its own, which shares all arrays and counts for itself. */
+
+typedef struct pass {
+  dyd_delaunay *pd;
+  dyd_mark_tasks tasks;
+} pass;
+
+typedef void range_task(dyd_delaunay *view, dyd_marks *range);
+
+static void run_on_view(pass *p, size_t number, range_task *task) {
+  dyd_delaunay view = *p->pd;
+  dyd_marks *range = &p->tasks.task[number];
+  memset(&view.counters, 0, sizeof view.counters);
+  view.mesh.counters = &view.counters;
+  view.mesh.asked = view.mesh.beyond = 0;
+  view.mesh.reps = &view.reps;
+  task(&view, range);
+  dyd_mesh_count(&view.mesh);
+  dyd_counters_add(&range->counters, &view.counters);
 }
 
-static void certify_points(dyd_delaunay *pd) {
-  if (pd->mesh.ties == 0) memset(pd->certain, 7, pd->mesh.count);
-  for (uint32_t t = 0; t < pd->mesh.count; t++)
-    for (unsigned k = 0; k < 3; k++)
-      if (pd->mesh.tri[t].n[k] > 4 * t + k && !dyd_edge_is_certain(pd, t, k) && dyd_point_edge_is_certain(pd, t, k))
-        dyd_set_certain(pd, t, k);
-  pd->counters.witness_guess += certain_real_edges(pd);
+static dyd_status run(dyd_delaunay *pd, dyd_task *task) {
+  pass *p = dyd_alloc(1, sizeof *p);
+  if (!p) return DYD_E_NOMEM;
+  if (!pd->mesh.fixed && !pd->mesh.no_fixed && !pd->mesh.no_filter) dyd_fixed_prepare(&pd->mesh);
+  p->pd = pd;
+  dyd_mark_tasks_init(&p->tasks, pd);
+  dyd_parallel(pd->options.threads, p->tasks.count, task, p);
+  dyd_status st = dyd_mark_tasks_settle(&p->tasks, pd);
+  free(p);
+  return st;
 }
+
+/* ---- exact points ---- */
+
+/* Certain edges that are real: their witness is the middle of the skeleton's Voronoi edge. */
+static uint64_t certain_real_edges(const dyd_delaunay *pd, const dyd_marks *range) {
+  uint64_t count = 0;
+  for (uint32_t t = range->first; t < range->end; t++) {
+    const uint32_t *v = pd->mesh.tri[t].v;
+    for (unsigned k = 0; k < 3; k++)
+      count += pd->mesh.tri[t].n[k] > 4 * t + k && v[dyd_next(k)] != pd->mesh.n && v[dyd_prev(k)] != pd->mesh.n &&
+               dyd_edge_is_certain(pd, t, k);
+  }
+  return count;
+}
+
+static void decide_point_edges(dyd_delaunay *view, dyd_marks *range) {
+  for (uint32_t t = range->first; t < range->end; t++)
+    for (unsigned k = 0; k < 3; k++)
+      if (view->mesh.tri[t].n[k] > 4 * t + k && dyd_point_edge_is_certain(view, t, k)) dyd_mark(range, view, t, k);
+}
+
+static void point_edges_of_range(void *context, size_t number) {
+  run_on_view(context, number, decide_point_edges);
+}
+
+static void count_guesses(void *context, size_t number) {
+  pass *p = context;
+  dyd_marks *range = &p->tasks.task[number];
+  range->counters.witness_guess = certain_real_edges(p->pd, range);
+}
+
+static dyd_status certify_points(dyd_delaunay *pd) {
+  dyd_status st = DYD_OK;
+  if (pd->mesh.ties == 0)
+    memset(pd->certain, 7, pd->mesh.count);
+  else
+    st = run(pd, point_edges_of_range);
+  return st == DYD_OK ? run(pd, count_guesses) : st;
+}
+
+/* ---- rectangles ---- */
 
 /* Four exact points on a circle: no witness, and no need to look for one. */
 static bool is_exact_tie(dyd_delaunay *pd, uint32_t t, unsigned k) {
@@ -56,32 +115,50 @@ static bool is_exact_tie(dyd_delaunay *pd, uint32_t t, unsigned k) {
   return across != pd->mesh.n && dyd_vertex_is_point(pd, across) && beyond_sign(pd, t, k) == 0;
 }
 
-dyd_status dyd_certify_edge(dyd_delaunay *pd, dyd_work *w, uint32_t t, unsigned k) {
+static dyd_status decide_edge(bool *certain, dyd_delaunay *pd, dyd_work *w, uint32_t t, unsigned k) {
   uint32_t g = pd->mesh.n, i = pd->mesh.tri[t].v[dyd_next(k)], j = pd->mesh.tri[t].v[dyd_prev(k)];
   uint32_t twin = pd->mesh.tri[t].n[k], across[2] = {pd->mesh.tri[t].v[k], pd->mesh.tri[twin >> 2].v[twin & 3]};
-  bool certain = false, hull = across[0] == g || across[1] == g;
+  bool hull = across[0] == g || across[1] == g;
   dyd_status st = DYD_OK;
+  *certain = false;
   if (i == g || j == g)
-    st = dyd_hull_sure(&certain, w, pd, i == g ? j : i);
+    st = dyd_hull_sure(certain, w, pd, i == g ? j : i);
   else if (!is_exact_tie(pd, t, k)) {
-    st = dyd_witness_search(&certain, NULL, pd, i, j, dyd_edge_centre(pd, t, k), hull ? NULL : across);
-    if (st == DYD_OK && !certain && hull) st = dyd_witness_far(&certain, NULL, w, pd, i, j);
-    if (certain) pd->counters.witness_search++;
+    st = dyd_witness_search(certain, NULL, pd, i, j, dyd_edge_centre(pd, t, k), hull ? NULL : across);
+    if (st == DYD_OK && !*certain && hull) st = dyd_witness_far(certain, NULL, w, pd, i, j);
+    if (*certain) pd->counters.witness_search++;
   }
+  return st;
+}
+
+dyd_status dyd_certify_edge(dyd_delaunay *pd, dyd_work *w, uint32_t t, unsigned k) {
+  bool certain;
+  dyd_status st = decide_edge(&certain, pd, w, t, k);
   if (st == DYD_OK && certain) dyd_set_certain(pd, t, k);
   return st;
 }
 
-dyd_status dyd_certify_all(dyd_delaunay *pd, dyd_work *w) {
-  if (pd->all_points) {
-    certify_points(pd);
-    return DYD_OK;
+static void decide_edges(dyd_delaunay *view, dyd_marks *range) {
+  dyd_work w;
+  dyd_work_init(&w, view);
+  for (uint32_t t = range->first; t < range->end && range->status == DYD_OK; t++) {
+    if (dyd_cancelled(view)) range->status = DYD_CANCELLED;
+    for (unsigned k = 0; k < 3 && range->status == DYD_OK; k++) {
+      bool certain = false;
+      if (view->mesh.tri[t].n[k] < 4 * t + k || dyd_edge_is_certain(view, t, k)) continue;
+      range->status = decide_edge(&certain, view, &w, t, k);
+      if (certain) dyd_mark(range, view, t, k);
+    }
   }
+  dyd_work_clear(&w);
+}
+
+static void edges_of_range(void *context, size_t number) {
+  run_on_view(context, number, decide_edges);
+}
+
+dyd_status dyd_certify_all(dyd_delaunay *pd) {
+  if (pd->all_points) return certify_points(pd);
   dyd_status st = pd->options.no_filter ? DYD_OK : dyd_certify_stars(pd);
-  for (uint32_t t = 0; t < pd->mesh.count && st == DYD_OK; t++) {
-    if (dyd_cancelled(pd)) return DYD_CANCELLED;
-    for (unsigned k = 0; k < 3 && st == DYD_OK; k++)
-      if (pd->mesh.tri[t].n[k] > 4 * t + k && !dyd_edge_is_certain(pd, t, k)) st = dyd_certify_edge(pd, w, t, k);
-  }
-  return st;
+  return st == DYD_OK ? run(pd, edges_of_range) : st;
 }

@@ -5,8 +5,8 @@
 
 #include "delaunay/cover.h"
 
-/* Marks every certain edge of a fresh mesh. */
-dyd_status dyd_certify_all(dyd_delaunay *pd, dyd_work *w);
+/* Marks every certain edge of a fresh mesh, in options.threads threads. */
+dyd_status dyd_certify_all(dyd_delaunay *pd);
 /* Decides edge k of triangle t, by witness or hull test, and marks it. */
 dyd_status dyd_certify_edge(dyd_delaunay *pd, dyd_work *w, uint32_t t, unsigned k);
 /* Edge k of t, in a face (or a whole) of exact points bounded by certain edges: legal iff not cocircular, a hull edge

@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "delaunay/certify.h"
+#include "delaunay/marks.h"
 
 #include <float.h>
 
@@ -15,15 +16,10 @@ enum { BATCH = 240 };
 typedef struct near_pass {
   dyd_delaunay *pd;
   double reach, least, most;
-  uint8_t *close; /* bit per vertex: it has an edge shorter than `most` */
+  uint8_t *close; /* of each vertex: it has an edge shorter than `most` */
+  dyd_mark_tasks tasks;
+  double shortest2[DYD_RANGES_MOST]; /* in each range */
 } near_pass;
-
-static void set_bit(uint8_t *bits, uint32_t v) {
-  bits[v >> 3] |= (uint8_t)(1u << (v & 7));
-}
-static bool get_bit(const uint8_t *bits, uint32_t v) {
-  return bits[v >> 3] >> (v & 7) & 1;
-}
 
 /* About a tenth of the mean distance; any positive value is right. */
 static double tenth_of_spacing(const dyd_mesh *m) {
@@ -38,20 +34,36 @@ static double tenth_of_spacing(const dyd_mesh *m) {
   return 0.1 * sqrt((hi[0] - lo[0]) * (hi[1] - lo[1]) / m->n);
 }
 
+/* Several tasks may say the same of one vertex at once. */
+static void set_close(const near_pass *p, uint32_t v) {
+  if (!__atomic_load_n(&p->close[v], __ATOMIC_RELAXED)) __atomic_store_n(&p->close[v], 1, __ATOMIC_RELAXED);
+}
+
 /* Least edge, and the vertices that have a short one. Ghost edges are NaN and change nothing. */
-static void measure_edges(near_pass *p) {
+static void measure_range(void *context, size_t number) {
+  near_pass *p = context;
   const dyd_mesh *m = &p->pd->mesh;
+  const dyd_marks *range = &p->tasks.task[number];
   double least2 = DBL_MAX, most2 = p->most * p->most;
-  for (uint32_t t = 0; t < m->count; t++) {
+  for (uint32_t t = range->first; t < range->end; t++) {
     const uint32_t *v = m->tri[t].v;
     for (unsigned k = 0; k < 3; k++) {
       uint32_t a = v[k], b = v[dyd_next(k)];
       double d = dyd_square_distance(m->xy[a], m->xy[b]);
       if (d < least2) least2 = d;
-      if (d < most2) set_bit(p->close, a), set_bit(p->close, b);
+      if (d < most2) set_close(p, a), set_close(p, b);
     }
   }
+  p->shortest2[number] = least2;
+}
+
+static void measure_edges(near_pass *p) {
+  double least2 = DBL_MAX;
+  dyd_parallel(p->pd->options.threads, p->tasks.count, measure_range, p);
+  for (size_t r = 0; r < p->tasks.count; r++)
+    if (p->shortest2[r] < least2) least2 = p->shortest2[r];
   p->least = sqrt(least2);
+  if (p->most < p->least) p->most = p->least;
 }
 
 static bool is_near(const near_pass *p, uint32_t h) {
@@ -61,7 +73,7 @@ static bool is_near(const near_pass *p, uint32_t h) {
   uint32_t u = v[h & 3], i = v[dyd_next(h & 3)], j = v[dyd_prev(h & 3)];
   if (i == m->n || j == m->n) return false;
   const dyd_xy *xy = m->xy;
-  double nearest = get_bit(p->close, i) || get_bit(p->close, j) ? p->least : p->most;
+  double nearest = p->close[i] || p->close[j] ? p->least : p->most;
   if (dyd_filter_edge_near(xy[i], xy[j], xy[u], xy[a], p->reach, nearest)) return true;
   if (u == m->n) return dyd_filter_hull_edge_near(xy[j], xy[i], xy[a], p->reach, nearest);
   return a == m->n && dyd_filter_hull_edge_near(xy[i], xy[j], xy[u], p->reach, nearest);
@@ -76,7 +88,7 @@ static void fetch(const void *address) {
 }
 
 /* Three loops, so that memory answers in time: triangles, then points, then the decision. */
-static void decide_batch(const near_pass *p, const uint32_t *edge, unsigned count) {
+static void decide_batch(const near_pass *p, dyd_marks *range, const uint32_t *edge, unsigned count) {
   const dyd_mesh *m = &p->pd->mesh;
   for (unsigned q = 0; q < count; q++) {
     const dyd_tri *t = &m->tri[edge[q] >> 2];
@@ -85,33 +97,35 @@ static void decide_batch(const near_pass *p, const uint32_t *edge, unsigned coun
     fetch(&m->xy[m->tri[twin >> 2].v[twin & 3]]);
   }
   for (unsigned q = 0; q < count; q++)
-    if (is_near(p, edge[q])) dyd_set_certain(p->pd, edge[q] >> 2, edge[q] & 3);
+    if (is_near(p, edge[q])) dyd_mark(range, p->pd, edge[q] >> 2, edge[q] & 3);
 }
 
-static void decide_edges(const near_pass *p) {
+static void decide_range(void *context, size_t number) {
+  near_pass *p = context;
   const dyd_mesh *m = &p->pd->mesh;
+  dyd_marks *range = &p->tasks.task[number];
   uint32_t edge[BATCH + 3];
-  for (uint32_t t = 0; t < m->count;) {
+  for (uint32_t t = range->first; t < range->end;) {
     unsigned count = 0;
-    for (; t < m->count && count < BATCH; t++)
+    for (; t < range->end && count < BATCH; t++)
       for (unsigned k = 0; k < 3; k++) {
         uint32_t twin = m->tri[t].n[k];
         fetch(&m->tri[twin >> 2]);
         edge[count] = 4 * t + k;
         count += twin > 4 * t + k;
       }
-    decide_batch(p, edge, count);
+    decide_batch(p, range, edge, count);
   }
 }
 
 dyd_status dyd_certify_near(dyd_delaunay *pd, double reach) {
   near_pass p = {.pd = pd, .reach = reach > 0x1p-300 ? reach : 0x1p-300};
-  p.close = calloc((size_t)pd->mesh.n / 8 + 1, 1);
+  p.close = calloc((size_t)pd->mesh.n + 1, 1);
   if (!p.close) return DYD_E_NOMEM;
   p.most = tenth_of_spacing(&pd->mesh);
+  dyd_mark_tasks_init(&p.tasks, pd);
   measure_edges(&p);
-  if (p.most < p.least) p.most = p.least;
-  decide_edges(&p);
+  dyd_parallel(pd->options.threads, p.tasks.count, decide_range, &p);
   free(p.close);
-  return DYD_OK;
+  return dyd_mark_tasks_settle(&p.tasks, pd);
 }

@@ -13,6 +13,7 @@
  * The centres need no bound: any double will do. Both ends of an edge use the same bits for c and rho. */
 #include "delaunay/certify.h"
 #include "delaunay/filter_mesh.h"
+#include "delaunay/marks.h"
 
 #include "base/alloc.h"
 
@@ -23,9 +24,10 @@ enum { MAX_DEGREE = 62 };
 
 typedef struct pass {
   dyd_delaunay *pd;
-  uint8_t *open; /* bit per vertex: it has an edge, real or ghost, that is not certain yet */
-  double limit;  /* radius above which a rectangle is fat */
-  double reach;  /* 2 E */
+  uint8_t *open; /* of each vertex: it has an edge, real or ghost, that is not certain yet */
+  dyd_mark_tasks tasks;
+  double limit; /* radius above which a rectangle is fat */
+  double reach; /* 2 E */
   dyd_tree fat;
 } pass;
 
@@ -163,8 +165,9 @@ static bool others_farther(const star *s, int q, dyd_xy c, double limit) {
   return near == self + (s->ghost >= 0);
 }
 
-static void mark(dyd_delaunay *pd, uint32_t corner) {
-  pd->certain[corner >> 2] |= (uint8_t)(1u << dyd_prev(corner & 3));
+/* Neighbours that share a triangle may be in different tasks. Nobody reads these marks before all are made. */
+static void mark(dyd_delaunay *pd, uint32_t corner, unsigned k) {
+  (void)__atomic_fetch_or(&pd->certain[corner >> 2], (uint8_t)(1u << k), __ATOMIC_RELAXED);
 }
 
 static void certify_edges(const pass *p, const star *s) {
@@ -179,7 +182,7 @@ static void certify_edges(const pass *p, const star *s) {
     if (!others_farther(s, q, c, dyd_upper(wide * wide))) continue;
     uint32_t h = s->corner[q], j = p->pd->mesh.tri[h >> 2].v[dyd_next(h & 3)];
     if (p->fat.count && (is_fat(p, j) || fat_near(p, c, wide, s->v, j))) continue;
-    mark(p->pd, h);
+    mark(p->pd, h, dyd_prev(h & 3));
   }
 }
 
@@ -195,59 +198,75 @@ static void certify_hull(const pass *p, const star *s) {
     if (!(a + b > need + 8 * 0x1p-53 * (fabs(a) + fabs(b)) + DYD_TINY)) return;
   }
   uint32_t h = s->corner[s->ghost];
-  dyd_set_certain(p->pd, h >> 2, dyd_prev(h & 3));
+  uint32_t twin = p->pd->mesh.tri[h >> 2].n[dyd_prev(h & 3)];
+  mark(p->pd, h, dyd_prev(h & 3));
+  mark(p->pd, twin, twin & 3);
 }
 
 /* ---- the pass ---- */
 
-/* An edge is certain when both its ends found their stars clear. */
-static void join_halves(dyd_delaunay *pd) {
+/* An edge is certain when both its ends found their stars clear; a half alone is revoked. */
+static void join_halves(void *context, size_t number) {
+  pass *p = context;
+  const dyd_delaunay *pd = p->pd;
   const dyd_mesh *m = &pd->mesh;
-  for (uint32_t t = 0; t < m->count; t++)
+  dyd_marks *range = &p->tasks.task[number];
+  for (uint32_t t = range->first; t < range->end; t++)
     for (unsigned k = 0; k < 3; k++) {
       uint32_t twin = m->tri[t].n[k];
       if (twin < 4 * t + k) continue;
-      if ((pd->certain[t] >> k & 1) && (pd->certain[twin >> 2] >> (twin & 3) & 1)) {
-        pd->counters.filter++;
-        if (m->tri[t].v[dyd_next(k)] != m->n && m->tri[t].v[dyd_prev(k)] != m->n) pd->counters.witness_guess++;
-        continue;
-      }
-      pd->certain[t] &= (uint8_t) ~(1u << k);
-      pd->certain[twin >> 2] &= (uint8_t) ~(1u << (twin & 3));
+      bool here = pd->certain[t] >> k & 1, there = pd->certain[twin >> 2] >> (twin & 3) & 1;
+      if (here && there) {
+        range->counters.filter++;
+        range->counters.witness_guess += m->tri[t].v[dyd_next(k)] != m->n && m->tri[t].v[dyd_prev(k)] != m->n;
+      } else if (here || there)
+        dyd_mark_later(range, 4 * t + k);
     }
 }
 
-static void all_stars(const pass *p) {
-  star s;
-  for (uint32_t v = 0; v < p->pd->n; v++) {
-    if (p->pd->corner[v] == DYD_NONE || !(p->open[v >> 3] >> (v & 7) & 1) || is_fat(p, v) || !read_star(&s, p, v))
-      continue;
-    certify_edges(p, &s);
-    if (s.ghost >= 0) certify_hull(p, &s);
-  }
+static void certify_star(const pass *p, star *s, uint32_t v) {
+  if (p->pd->corner[v] == DYD_NONE || !p->open[v] || is_fat(p, v) || !read_star(s, p, v)) return;
+  certify_edges(p, s);
+  if (s->ghost >= 0) certify_hull(p, s);
 }
 
-static void find_open(const pass *p) {
+static void stars_of_range(void *context, size_t number) {
+  const pass *p = context;
+  star s;
+  for (size_t v = dyd_range_begin(p->pd->n, number); v < dyd_range_begin(p->pd->n, number + 1); v++)
+    certify_star(p, &s, (uint32_t)v);
+}
+
+/* Several tasks may say the same of one vertex at once. */
+static void find_open(void *context, size_t number) {
+  pass *p = context;
   const dyd_mesh *m = &p->pd->mesh;
-  for (uint32_t t = 0; t < m->count; t++)
+  const dyd_marks *range = &p->tasks.task[number];
+  for (uint32_t t = range->first; t < range->end; t++)
     for (unsigned k = 0; k < 3 && p->pd->certain[t] != 7; k++) {
       uint32_t v = m->tri[t].v[dyd_next(k)], w = m->tri[t].v[dyd_prev(k)];
       if (dyd_edge_is_certain(p->pd, t, k)) continue;
-      if (v != m->n) p->open[v >> 3] |= (uint8_t)(1u << (v & 7));
-      if (w != m->n) p->open[w >> 3] |= (uint8_t)(1u << (w & 7));
+      if (v != m->n) __atomic_store_n(&p->open[v], 1, __ATOMIC_RELAXED);
+      if (w != m->n) __atomic_store_n(&p->open[w], 1, __ATOMIC_RELAXED);
     }
+}
+
+static dyd_status pass_over_stars(pass *p) {
+  unsigned threads = p->pd->options.threads;
+  dyd_mark_tasks_init(&p->tasks, p->pd);
+  dyd_parallel(threads, p->tasks.count, find_open, p);
+  dyd_parallel(threads, dyd_ranges(p->pd->n), stars_of_range, p);
+  dyd_parallel(threads, p->tasks.count, join_halves, p);
+  return dyd_mark_tasks_revoke(&p->tasks, p->pd);
 }
 
 dyd_status dyd_certify_stars(dyd_delaunay *pd) {
   pass p = {.pd = pd};
   dyd_status st = gather_fat(&p);
-  p.open = calloc((size_t)pd->n / 8 + 1, 1);
-  if (st == DYD_OK && !p.open) st = DYD_E_NOMEM;
   if (st == DYD_OK && p.fat.count == 0 && !pd->reps.code) st = dyd_certify_near(pd, p.reach / 2);
   if (st == DYD_OK) {
-    find_open(&p);
-    all_stars(&p);
-    join_halves(pd);
+    p.open = calloc((size_t)pd->n + 1, 1);
+    st = p.open ? pass_over_stars(&p) : DYD_E_NOMEM;
   }
   free(p.open);
   dyd_tree_clear(&p.fat);

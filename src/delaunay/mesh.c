@@ -214,7 +214,7 @@ dyd_status dyd_mesh_build_strips(dyd_mesh *m, dyd_reps *reps, const dyd_strips *
 }
 
 /* Tests that were not passed on were answered by a filter. */
-static void count_filter(dyd_mesh *m) {
+void dyd_mesh_count(dyd_mesh *m) {
   uint64_t beyond = m->counters->integer + m->counters->exact - m->beyond;
   if (!m->no_filter && m->asked > beyond) m->counters->filter += m->asked - beyond;
   m->beyond = m->counters->integer + m->counters->exact;
@@ -222,7 +222,7 @@ static void count_filter(dyd_mesh *m) {
 }
 
 void dyd_mesh_trim(dyd_mesh *m) {
-  if (m->counters) count_filter(m);
+  if (m->counters) dyd_mesh_count(m);
   dyd_fixed_free(m->fixed);
   free(m->stack);
   free(m->spare);

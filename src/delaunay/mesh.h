@@ -84,6 +84,8 @@ dyd_status dyd_mesh_fill(dyd_mesh *m, const volatile int *cancel);
 void dyd_mesh_clear(dyd_mesh *m);
 /* Representatives have been chosen anew: the filter constants follow. */
 void dyd_mesh_follow(dyd_mesh *m);
+/* Brings the counters up to date. */
+void dyd_mesh_count(dyd_mesh *m);
 /* Gives back what only building needs. */
 void dyd_mesh_trim(dyd_mesh *m);
 

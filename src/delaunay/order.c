@@ -5,6 +5,7 @@
 #include "delaunay/order.h"
 
 #include "base/alloc.h"
+#include "base/parallel.h"
 
 #include <float.h>
 #include <string.h>
@@ -157,16 +158,22 @@ static void radix_sort(uint64_t *a, uint64_t *b, size_t n, size_t count[PASSES][
   }
 }
 
-static void fill_keys(keys *k) {
-  for (uint32_t i = 0; i < k->sites->count; i++) {
-    uint32_t key = key_of(k, i);
-    k->a[i] = (uint64_t)key << 32 | i;
+static void keys_of_range(void *context, size_t number) {
+  const keys *k = context;
+  size_t n = k->sites->count;
+  for (size_t i = dyd_range_begin(n, number); i < dyd_range_begin(n, number + 1); i++)
+    k->a[i] = (uint64_t)key_of(k, (uint32_t)i) << 32 | i;
+}
+
+static void count_keys(keys *k) {
+  for (size_t i = 0; i < k->sites->count; i++) {
+    uint32_t key = (uint32_t)(k->a[i] >> 32);
     k->members[k->column ? key >> STRIP_BIT : 0]++;
     for (int p = 0; p < PASSES; p++) k->count[p][key >> (RADIX_BITS * p) & (RADIX - 1)]++;
   }
 }
 
-dyd_status dyd_spatial_order(uint32_t *order, dyd_strips *strips, const dyd_sites *s) {
+dyd_status dyd_spatial_order(uint32_t *order, dyd_strips *strips, const dyd_sites *s, unsigned threads) {
   size_t n = s->count;
   uint64_t *b = dyd_alloc(n, sizeof *b);
   keys k = {.sites = s, .strips = strips_for(n), .a = dyd_alloc(n, sizeof *k.a)};
@@ -179,7 +186,8 @@ dyd_status dyd_spatial_order(uint32_t *order, dyd_strips *strips, const dyd_site
     k.mixed = s->upper[0] || s->upper[1] || s->exact;
     fill_table(&k.h);
     if (k.column) share_columns(&k);
-    fill_keys(&k);
+    dyd_parallel(threads, dyd_ranges(n), keys_of_range, &k);
+    count_keys(&k);
     radix_sort(k.a, b, n, k.count);
     for (size_t i = 0; i < n; i++) order[i] = (uint32_t)b[i]; /* an odd number of passes ends in b */
     set_strips(strips, &k);

@@ -17,7 +17,7 @@ typedef struct dyd_strips {
 
 /* order[0..n-1] (owned by the caller) becomes a permutation of the sites in the order of insertion: strip by strip;
  * within a strip exact points before fat rectangles; within each, two sparse samples first, then the rest; each along a
- * Hilbert curve. Deterministic; only speed depends on it. O(n). */
-dyd_status dyd_spatial_order(uint32_t *order, dyd_strips *strips, const dyd_sites *sites);
+ * Hilbert curve. The same for every number of threads; only speed depends on it. O(n). */
+dyd_status dyd_spatial_order(uint32_t *order, dyd_strips *strips, const dyd_sites *sites, unsigned threads);
 
 #endif

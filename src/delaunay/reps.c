@@ -3,6 +3,7 @@
 #include "delaunay/reps.h"
 
 #include "base/alloc.h"
+#include "base/parallel.h"
 
 #include <float.h>
 #include <math.h>
@@ -130,22 +131,38 @@ dyd_status dyd_reps_choose(dyd_reps *r, uint32_t v, uint32_t k) {
   return choose_exact(r, v, k);
 }
 
+/* ---- all of them ---- */
+
 enum { FETCH_AHEAD = 24 };
 
-dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, uint32_t n) {
-  *r = (dyd_reps){.sites = sites, .n = n, .site = site};
-  r->xy = dyd_alloc((size_t)n + 1, sizeof *r->xy);
-  dyd_status st = r->xy ? DYD_OK : DYD_E_NOMEM;
-  if (st == DYD_OK) r->xy[n] = (dyd_xy){NAN, NAN};
-  bool plain = !sites->exact && !sites->upper[0] && !sites->upper[1];
-  for (uint32_t v = 0; v < n && st == DYD_OK; v++) {
-    if (v + FETCH_AHEAD < n) dyd_sites_fetch(sites, site[v + FETCH_AHEAD]);
+static dyd_status choose_range(dyd_reps *r, size_t begin, size_t end) {
+  const dyd_sites *s = r->sites;
+  bool plain = !s->exact && !s->upper[0] && !s->upper[1];
+  dyd_status st = DYD_OK;
+  for (size_t v = begin; v < end && st == DYD_OK; v++) {
+    if (v + FETCH_AHEAD < end) dyd_sites_fetch(s, r->site[v + FETCH_AHEAD]);
     if (plain)
-      r->xy[v] = (dyd_xy){sites->lower[0][site[v]], sites->lower[1][site[v]]};
+      r->xy[v] = (dyd_xy){s->lower[0][r->site[v]], s->lower[1][r->site[v]]};
     else
-      st = dyd_reps_choose(r, v, 0);
+      st = dyd_reps_choose(r, (uint32_t)v, 0);
   }
   return st;
+}
+
+/* Where all rectangles have corners in doubles, their middles lie inside: no codes, nothing can fail. */
+static void choose_doubles(void *context, size_t number) {
+  dyd_reps *r = context;
+  (void)choose_range(r, dyd_range_begin(r->n, number), dyd_range_begin(r->n, number + 1));
+}
+
+dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, uint32_t n, unsigned threads) {
+  *r = (dyd_reps){.sites = sites, .n = n, .site = site};
+  r->xy = dyd_alloc((size_t)n + 1, sizeof *r->xy);
+  if (!r->xy) return DYD_E_NOMEM;
+  r->xy[n] = (dyd_xy){NAN, NAN};
+  if (sites->exact) return choose_range(r, 0, n);
+  dyd_parallel(threads, dyd_ranges(n), choose_doubles, r);
+  return DYD_OK;
 }
 
 void dyd_reps_clear(dyd_reps *r) {

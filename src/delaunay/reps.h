@@ -28,7 +28,7 @@ typedef struct dyd_reps {
 } dyd_reps;
 
 /* Takes over the array site[n]; chooses fraction 0 (the middle) everywhere. */
-dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, uint32_t n);
+dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, uint32_t n, unsigned threads);
 void dyd_reps_clear(dyd_reps *r);
 /* Chooses the representative of v anew: the double nearest to fraction k if it lies in the rectangle (k = 0 only),
  * else the exact fraction k. Different k give different points of a rectangle that is not a point. */

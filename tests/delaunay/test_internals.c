@@ -311,7 +311,7 @@ static void test_order(void **state) {
     dyd_strips strips;
     assert_int_equal(dyd_sites_new(&s), DYD_OK);
     for (size_t i = 0; i < n; i++) add_any(s);
-    assert_int_equal(dyd_spatial_order(order, &strips, s), DYD_OK);
+    assert_int_equal(dyd_spatial_order(order, &strips, s, 1), DYD_OK);
     assert_int_equal(strips.begin[strips.count], n);
     unsigned strip = 0;
     for (size_t q = 0; q < n; q++) {
