@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Certificates of special results: few sites, aliases, lines, caps, every outcome; what the report counts; places where
  * a naive reading of [CERT-2] and [CERT-3] goes wrong. */
-#include "verify/statement.h"
+#include "verify/diagram.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -117,6 +117,62 @@ static void outcomes(void **state) {
       free(bad);
     }
     free(text);
+    dyd_engine_free(e);
+  }
+}
+
+/* A corner of a square, known within 2^-40 and never better; asked for more than 100 bits it stops the run. */
+static dyd_status stop_run(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
+  dyd_engine *cancel = user;
+  const double wide = 0x1p-40;
+  if (request->bits > 100 && !cancel) {
+    snprintf(err->message, sizeof err->message, "this point fails on purpose");
+    return DYD_E_STREAM;
+  }
+  if (request->bits > 100) dyd_engine_cancel(cancel);
+  if (dyd_interval_set_d(&out->x, 1 - wide, 1 + wide) < 0) return DYD_E_NOMEM;
+  return dyd_interval_set_d(&out->y, 1 - wide, 1 + wide);
+}
+
+/* The certificate of a run that ended so, with every other word in place of it: accepted when it claims nothing. */
+static void try_words(const char *text, const char *outcome) {
+  static const char *const words[] = {"fixpoint", "budget", "cancelled", "error", "decided", "certified", "stopped"};
+  char other[8000], line[40];
+  snprintf(line, sizeof line, "outcome %s\n", outcome);
+  const char *at = strstr(text, line);
+  assert_non_null(at);
+  for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
+    snprintf(other, sizeof other, "%.*soutcome %s\n%s", (int)(at - text), text, words[k], at + strlen(line));
+    assert_int_equal(certificate_check(NULL, other, strlen(other), NULL), k < 4 ? DYD_OK : DYD_E_PARSE);
+  }
+}
+
+/* The words error and cancelled: what was stated before is written and accepted, with and without a diagram. */
+static void stopped(void **state) {
+  (void)state;
+  const double x[] = {0, 1, 0}, y[] = {0, 0, 1};
+  for (int cancel = 0; cancel < 2; cancel++) {
+    dyd_engine *e = engine_of(3, x, y);
+    dyd_stream *s = NULL;
+    dyd_outcome outcome;
+    dyd_error err;
+    dyd_certificate_report r;
+    dyd_source source = {.narrow = stop_run, .user = cancel ? e : NULL};
+    assert_int_equal(dyd_stream_new(&s, &source, 0), DYD_OK);
+    assert_int_equal(dyd_engine_add_stream(e, s), DYD_OK);
+    dyd_status status = dyd_engine_run(&outcome, e, &(dyd_engine_options){.start_bits = 30}, &err);
+    assert_int_equal(status, cancel ? DYD_OK : DYD_E_STREAM);
+    assert_int_equal(outcome, cancel ? DYD_OUTCOME_CANCELLED : DYD_OUTCOME_ERROR);
+    for (int with = 0; with < 2; with++) {
+      char *text = with ? diagram_of_engine(e, NULL) : certificate_of_engine(e);
+      assert_int_equal(certificate_check(&r, text, strlen(text), &err), DYD_OK);
+      assert_string_equal(r.outcome, cancel ? "cancelled" : "error");
+      assert_int_equal(r.diagram, with);
+      assert_int_equal(r.legal, 4);
+      assert_int_equal(r.indeterminate, 2); /* the diagonals */
+      try_words(text, r.outcome);
+      free(text);
+    }
     dyd_engine_free(e);
   }
 }
@@ -248,6 +304,7 @@ int main(void) {
                                      cmocka_unit_test(grid),
                                      cmocka_unit_test(capped),
                                      cmocka_unit_test(outcomes),
+                                     cmocka_unit_test(stopped),
                                      cmocka_unit_test(no_result),
                                      cmocka_unit_test(full_disk),
                                      cmocka_unit_test(bridge_is_no_border),
