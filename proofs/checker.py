@@ -40,6 +40,13 @@ def certify(dyadel, points, certificate, *options):
     assert done.returncode in (0, 3, 4), done
 
 
+def certify_diagram(dyadel, points, certificate):
+    """The same with a section on the Voronoi diagram."""
+    done = subprocess.run([dyadel, 'voronoi', '--quiet', '-o', '/dev/null', '--certificate', certificate, points],
+                          check=False)
+    assert done.returncode in (0, 3, 4), done
+
+
 def accepts(program, *files):
     """Which of the certificates the program accepts."""
     return [subprocess.run([*program, file], check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -125,6 +132,13 @@ def main():
     print(answer, end='')
     if ': accepted, 3376 sites, 10112 legal pairs' not in answer or not answer.endswith(', complete\n'):
         found.append('the certificate of the airports is rejected, or not proved to be complete')
+    square, diagram = folder / 'checker/square.txt', folder / 'checker/diagram.txt'
+    square.write_text('0 0\n5 0\n0 4\n6 [5,6]\n')
+    certify_diagram(dyadel, square, diagram)
+    answer = subprocess.run([program, diagram], check=False, stdout=subprocess.PIPE, text=True).stdout
+    print(answer, end='')
+    if ': accepted, 4 sites' not in answer or ', diagram not checked, ' not in answer:
+        found.append('the certificate with a diagram is rejected, or its diagram is said to be checked')
     print('\n'.join(found) or 'no fault')
     return 1 if found else 0
 

@@ -78,6 +78,54 @@ def check_airports(folder):
     rejected(certificate, line + 1)
 
 
+def check_crowds(folder):
+    """Every illegal pair of crowded faces has its chain."""
+    certificate = folder / 'crowd.txt'
+    done = run('delaunay', '--quiet', '--columns', 'longitude,latitude', '--radius', '0.05', '-o', '/dev/null',
+               '--certificate', certificate, DATA / 'airports.csv')
+    assert done.returncode == 3, done
+    accepted(certificate, '38570 illegal pairs within undecided faces', 'not listed are illegal')
+    rng = random.Random(1)
+    count, half = min(120 * SCALE, 400), 0.025 * (400 / min(120 * SCALE, 400)) ** 0.5
+    middles = [(rng.random(), rng.random()) for _ in range(count)]
+    points = ''.join(f'[{x - half},{x + half}] [{y - half},{y + half}]\n' for x, y in middles)
+    accepted(certify(folder, points, status=3), 'each by its chain', 'not listed are illegal')
+
+
+def check_diagrams(folder):
+    """dyadel voronoi --certificate: goals on the diagram are checked."""
+    certificate = folder / 'diagram.txt'
+    circle = ''.join(f'cos(2*pi*{k}/12) sin(2*pi*{k}/12)\n' for k in range(12))
+    (folder / 'circle.txt').write_text(circle)
+    area, distance = 'checked: the undetermined area of the diagram', '\nchecked: the distance of undetermined points'
+    for goal, bits in (('area', 20), ('hausdorff', 100)):
+        done = run('voronoi', '--quiet', '--until', f'{goal}:{bits}', '-o', folder / 'out.csv', '--certificate',
+                   certificate, folder / 'circle.txt')
+        assert done.returncode == 0, done
+        accepted(certificate, f'outcome certified, goal voronoi {goal} {bits}', area, distance, 'by 12 polygons')
+        text = certificate.read_text()
+        number = 'undetermined' if goal == 'area' else 'distance'
+        lines = text.split('\n')
+        at = next(k for k, line in enumerate(lines) if line.startswith(f'{number} '))
+        lines[at] = f'{number} 1'
+        certificate.write_text('\n'.join(lines))
+        rejected(certificate, len(lines) - 1)  # true, but not what the goal asks
+        if goal == 'hausdorff':
+            certificate.write_text(text.replace(f'\n{lines[at]}', '').replace('\nend', ' unproved\nend'))
+            accepted(certificate, area, 'not checked: the distance', 'not checked: the outcome')
+    done = run('voronoi', '--quiet', '--columns', 'longitude,latitude', '--window', '-20,20,40,60', '-o', '/dev/null',
+               '--certificate', certificate, DATA / 'airports.csv')
+    assert done.returncode == 0, done
+    accepted(certificate, area, distance)
+    (folder / 'two.txt').write_text('[0,2] [0,2]\n[1,3] [1,3]\n')
+    done = run('voronoi', '--quiet', '--certificate', certificate, '-o', '/dev/null', folder / 'two.txt')
+    assert done.returncode == 0, done
+    assert 'distance none\n' in certificate.read_text()
+    accepted(certificate, area)
+    done = run('voronoi', '--quiet', '--certificate', '/dev/full', '-o', '/dev/null', folder / 'two.txt')
+    assert done.returncode == 1 and 'cannot write' in done.stderr, done
+
+
 def check_files(folder):
     assert run('verify', folder / 'nothing').returncode == 1
     assert run('verify').returncode == 2
@@ -116,7 +164,7 @@ def check_size(folder):
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for check in (check_outcomes, check_airports, check_files, check_size):
+        for check in (check_outcomes, check_airports, check_crowds, check_diagrams, check_files, check_size):
             check(folder)
     return 0
 
