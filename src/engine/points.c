@@ -5,6 +5,7 @@
  * and holds the whole plane in the table until it is first asked. [NEST-1] is kept by dyd_sites_narrow, for sources and
  * streams alike: the table is the one memory of what was given before. */
 #include "engine/engine.h"
+#include "engine/words.h"
 
 #include "base/alloc.h"
 #include "base/error.h"
@@ -24,6 +25,10 @@ dyd_status dyd_engine_add_boxes(dyd_engine *e, size_t n, const double *x0, const
 
 dyd_status dyd_engine_add_rect(dyd_engine *e, const dyd_rect *r) {
   return e->started ? DYD_E_ARG : dyd_sites_add_rect(e->sites, r);
+}
+
+dyd_status dyd_engine_add_words(dyd_engine *e, size_t n, const dyd_words *xy) {
+  return e->started ? DYD_E_ARG : dyd_sites_add_words(e->sites, n, xy);
 }
 
 /* Appends n sites with records like p; the site number is filled in. Nothing on failure. */

@@ -44,8 +44,23 @@ static bool box_from_plain(dyd_coordinate *out, dyd_plain v, const dyd_manner *m
   return true;
 }
 
+/* Does the text look like a hexadecimal float? */
+static bool looks_hex(const dyd_span *span) {
+  for (size_t k = 1; k < 3 && k < span->length; k++)
+    if (span->text[k] == 'x' || span->text[k] == 'X') return true;
+  return false;
+}
+
+static bool read_hex(dyd_coordinate *out, const dyd_span *span, const dyd_manner *manner) {
+  double value;
+  if (manner->measured || manner->widen || !dyd_plain_scan_hex(&value, span->text, span->length)) return false;
+  *out = (dyd_coordinate){.kind = DYD_COORDINATE_BINARY, .lo = value, .hi = value};
+  return true;
+}
+
 static bool read_plain(dyd_coordinate *out, const dyd_span *span, const dyd_manner *manner) {
   dyd_plain plain;
+  if (looks_hex(span)) return read_hex(out, span, manner);
   if (!dyd_plain_scan(&plain, span->text, span->length)) return false;
   if (manner->measured || manner->widen) return box_from_plain(out, plain, manner);
   double value;

@@ -17,6 +17,7 @@ typedef struct dyd_manner {
 
 typedef enum dyd_coordinate_kind {
   DYD_COORDINATE_DOUBLE, /* the exact number lo = hi; plain holds it too */
+  DYD_COORDINATE_BINARY, /* the exact number lo = hi; plain means nothing */
   DYD_COORDINATE_PLAIN,  /* the exact number plain, not a double */
   DYD_COORDINATE_BOX,    /* the fixed interval [lo,hi] */
   DYD_COORDINATE_REAL    /* real, one reference */

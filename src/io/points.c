@@ -27,11 +27,16 @@ static int skip_separator(cursor *c, int allowed) {
   return commas;
 }
 
+/* Characters that may end a coordinate or open a parenthesis in it. */
+static const bool special[256] = {
+    [' '] = true, ['\t'] = true, [','] = true, ['('] = true, [')'] = true, ['['] = true, [']'] = true};
+
 /* From c->at up to a separator outside all parentheses. */
 static dyd_span take_coordinate(cursor *c) {
   const char *begin = c->at;
   int depth = 0;
   for (; c->at < c->end; c->at++) {
+    if (!special[(unsigned char)*c->at]) continue;
     if (*c->at == '(' || *c->at == '[') depth++;
     if ((*c->at == ')' || *c->at == ']') && depth > 0) depth--;
     if (depth == 0 && (is_blank(*c->at) || *c->at == ',')) break;

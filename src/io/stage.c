@@ -3,6 +3,7 @@
 #include "io/stage.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "engine/words.h"
 
 /* A point takes the most special kind of its coordinates; doubles fit all kinds. */
 struct dyd_staged {
@@ -32,7 +33,10 @@ void dyd_stage_clear(dyd_stage *s) {
   dyd_stage_init(s);
 }
 
+/* DOUBLE stands for BINARY, too, but beside a PLAIN coordinate. */
 static dyd_coordinate_kind common_kind(dyd_coordinate_kind a, dyd_coordinate_kind b) {
+  if (a == DYD_COORDINATE_BINARY && b != DYD_COORDINATE_PLAIN) a = DYD_COORDINATE_DOUBLE;
+  if (b == DYD_COORDINATE_BINARY && a != DYD_COORDINATE_PLAIN) b = DYD_COORDINATE_DOUBLE;
   if (a == b) return a;
   if (a == DYD_COORDINATE_DOUBLE && b != DYD_COORDINATE_REAL) return b;
   if (b == DYD_COORDINATE_DOUBLE && a != DYD_COORDINATE_REAL) return a;
@@ -43,6 +47,7 @@ static void join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coordinate
   *out = (dyd_staged){.kind = kind};
   switch (kind) {
   case DYD_COORDINATE_DOUBLE:
+  case DYD_COORDINATE_BINARY:
     out->u.box[0] = x->lo, out->u.box[1] = y->lo;
     break;
   case DYD_COORDINATE_BOX:
@@ -97,25 +102,42 @@ static dyd_status commit_boxes(size_t *count, dyd_engine *e, const dyd_stage *s,
   return dyd_engine_add_boxes(e, n, end[0], end[1], end[2], end[3]);
 }
 
-/* All decimals from `first` on up to another kind of point. */
-static dyd_status commit_plain(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first) {
+static dyd_plain plain_of(const dyd_staged *p, int axis) {
+  return (dyd_plain){p->u.man[axis], p->exp[axis]};
+}
+
+/* One pair of decimals of any size. */
+static dyd_status commit_wide(dyd_engine *e, const dyd_staged *p) {
   dyd_rect r;
   mpq_t x, y;
-  dyd_status status = DYD_OK;
-  size_t k = first;
   dyd_rect_init(&r);
   mpq_inits(x, y, NULL);
-  for (; status >= 0 && k < s->count && s->item[k].kind == DYD_COORDINATE_PLAIN; k++) {
-    const dyd_staged *p = &s->item[k];
-    dyd_plain_get_q(x, (dyd_plain){p->u.man[0], p->exp[0]});
-    dyd_plain_get_q(y, (dyd_plain){p->u.man[1], p->exp[1]});
-    status = dyd_rect_set_q(&r, x, y);
-    if (status >= 0) status = dyd_engine_add_rect(e, &r);
-  }
-  *count = k - first;
+  dyd_plain_get_q(x, plain_of(p, 0));
+  dyd_plain_get_q(y, plain_of(p, 1));
+  dyd_status status = dyd_rect_set_q(&r, x, y);
+  if (status >= 0) status = dyd_engine_add_rect(e, &r);
   mpq_clears(x, y, NULL);
   dyd_rect_clear(&r);
   return status;
+}
+
+/* The decimals from `first` on that fit single words, at most BULK. */
+static dyd_status commit_words(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first) {
+  dyd_words xy[2 * BULK];
+  size_t n = 0;
+  for (; n < BULK && first + n < s->count && s->item[first + n].kind == DYD_COORDINATE_PLAIN; n++) {
+    const dyd_staged *p = &s->item[first + n];
+    if (!dyd_plain_get_words(&xy[2 * n], plain_of(p, 0)) || !dyd_plain_get_words(&xy[2 * n + 1], plain_of(p, 1))) break;
+  }
+  *count = n;
+  return dyd_engine_add_words(e, n, xy);
+}
+
+static dyd_status commit_plain(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first) {
+  dyd_status status = commit_words(count, e, s, first);
+  if (status < 0 || *count) return status;
+  *count = 1;
+  return commit_wide(e, &s->item[first]);
 }
 
 static dyd_status commit_fixed(dyd_engine *e, const dyd_staged *p) {
@@ -146,6 +168,7 @@ dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err) {
     count = 1;
     switch (s->item[k].kind) {
     case DYD_COORDINATE_DOUBLE:
+    case DYD_COORDINATE_BINARY:
       status = commit_points(&count, e, s, k);
       break;
     case DYD_COORDINATE_BOX:

@@ -2,6 +2,7 @@
 /* The csv format: "i,j,status", one line per possible pair; comment lines tell aliases and capped faces. */
 #include "base/error.h"
 #include "io/result.h"
+#include <string.h>
 
 /* Pairs within a capped face may be possible without being listed, so the sites of such faces are. */
 static dyd_status write_faces(const dyd_result *r, dyd_error *err) {
@@ -22,21 +23,31 @@ static dyd_status write_faces(const dyd_result *r, dyd_error *err) {
 
 /* The digits of v and the character behind; returns the place behind both. */
 static char *put_number(char *at, uint32_t v, char behind) {
-  char digits[10];
-  int count = 0;
-  do digits[count++] = (char)('0' + v % 10);
+  char digits[10], *p = digits + sizeof digits;
+  do *--p = (char)('0' + v % 10);
   while (v /= 10);
-  while (count) *at++ = digits[--count];
-  *at++ = behind;
-  return at;
+  size_t count = (size_t)(digits + sizeof digits - p);
+  memcpy(at, p, count);
+  at[count] = behind;
+  return at + count + 1;
 }
 
-/* By hand, since there are millions of lines. */
-static void write_pair(FILE *out, const dyd_pair *p) {
-  char line[48], *end = put_number(put_number(line, p->i, ','), p->j, ',');
-  for (const char *status = dyd_pair_status_text(p->status); *status; status++) *end++ = *status;
-  *end++ = '\n';
-  fwrite(line, 1, (size_t)(end - line), out);
+enum { BLOCK = 1 << 14, LINE = 48 };
+
+/* By hand and in blocks, since there are millions of lines. */
+static void write_pairs(FILE *out, const dyd_pair_list *pairs) {
+  char block[BLOCK], *end = block;
+  for (size_t k = 0; k < pairs->count; k++) {
+    const dyd_pair *p = &pairs->item[k];
+    if (end > block + BLOCK - LINE) {
+      fwrite(block, 1, (size_t)(end - block), out);
+      end = block;
+    }
+    end = put_number(put_number(end, p->i, ','), p->j, ',');
+    for (const char *status = dyd_pair_status_text(p->status); *status; status++) *end++ = *status;
+    *end++ = '\n';
+  }
+  fwrite(block, 1, (size_t)(end - block), out);
 }
 
 dyd_status dyd_write_csv(const dyd_result *r, dyd_error *err) {
@@ -49,6 +60,6 @@ dyd_status dyd_write_csv(const dyd_result *r, dyd_error *err) {
     if (status < 0) return status;
   }
   fputs("i,j,status\n", r->out);
-  for (size_t k = 0; k < r->pairs.count; k++) write_pair(r->out, &r->pairs.item[k]);
+  write_pairs(r->out, &r->pairs);
   return DYD_OK;
 }

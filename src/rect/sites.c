@@ -276,6 +276,94 @@ dyd_status dyd_sites_add_rect(dyd_sites *s, const dyd_rect *r) {
   return st;
 }
 
+/* ---- points of single words ---- */
+
+__extension__ typedef unsigned __int128 u128;
+_Static_assert(GMP_NUMB_BITS >= 64, "a word is one limb");
+
+static uint64_t size_of(int64_t man) {
+  return man < 0 ? 0 - (uint64_t)man : (uint64_t)man;
+}
+
+static bool words_in_doubles(const dyd_words *w) {
+  return w->den == 1 && size_of(w->man) < (uint64_t)1 << 53;
+}
+
+static int bits_of(uint64_t z) {
+  return 64 - __builtin_clzll(z);
+}
+
+/* The doubles next to w. q, of 63 or 64 bits, is the integer part of |w| * 2^(k - exp); its first 53 bits are a double,
+ * far from the ends of the range, and w is above it unless nothing was cut off. */
+static void words_get_d(double *lo, double *hi, const dyd_words *w) {
+  *lo = *hi = 0;
+  if (!w->man) return;
+  uint64_t m = size_of(w->man);
+  int k = 63 - bits_of(m) + bits_of(w->den);
+  u128 n = (u128)m << k;
+  uint64_t q = (uint64_t)(n / w->den);
+  int cut = bits_of(q) - 53;
+  bool exact = (u128)q * w->den == n && (q >> cut) << cut == q;
+  double below = ldexp((double)(q >> cut), cut + w->exp - k);
+  double above = exact ? below : ldexp((double)((q >> cut) + 1), cut + w->exp - k);
+  *lo = w->man < 0 ? -above : below;
+  *hi = w->man < 0 ? -below : above;
+}
+
+static dyd_packed *pack_words(const dyd_words xy[2]) {
+  dyd_packed head;
+  for (int a = 0; a < 2; a++) {
+    head.exp[2 * a] = head.exp[2 * a + 1] = xy[a].exp;
+    head.size[3 * a] = (xy[a].man > 0) - (xy[a].man < 0);
+    head.size[3 * a + 1] = SAME_AS_LOWER;
+    head.size[3 * a + 2] = xy[a].den != 1;
+  }
+  dyd_packed *p = malloc(packed_size(&head));
+  if (!p) return NULL;
+  memcpy(p, &head, sizeof head);
+  mp_limb_t *to = p->limb;
+  for (int a = 0; a < 2; a++) {
+    if (xy[a].man) *to++ = (mp_limb_t)size_of(xy[a].man);
+    if (xy[a].den != 1) *to++ = (mp_limb_t)xy[a].den;
+  }
+  return p;
+}
+
+/* Writes a point behind the last site, where there is room in every array it needs. */
+static dyd_status put_words(dyd_sites *s, const dyd_words xy[2]) {
+  dyd_packed *p = NULL;
+  size_t i = s->count;
+  if (!words_in_doubles(&xy[0]) || !words_in_doubles(&xy[1])) {
+    p = pack_words(xy);
+    if (!p) return DYD_E_NOMEM;
+    s->packed_bytes += packed_size(p);
+  }
+  for (int a = 0; a < 2; a++) {
+    double lo, hi;
+    words_get_d(&lo, &hi, &xy[a]);
+    s->lower[a][i] = lo;
+    s->upper[a][i] = hi;
+  }
+  s->exact[i] = p;
+  s->count++;
+  return DYD_OK;
+}
+
+dyd_status dyd_sites_add_words(dyd_sites *s, size_t n, const dyd_words *xy) {
+  size_t before = s->count;
+  if (n == 0) return DYD_OK;
+  dyd_status st = make_room(s, n);
+  if (st == DYD_OK) st = split_ends(s);
+  if (st == DYD_OK) st = make_exact(s);
+  for (size_t k = 0; k < n && st == DYD_OK; k++) st = put_words(s, xy + 2 * k);
+  while (st != DYD_OK && s->count > before) {
+    dyd_packed *last = s->exact[--s->count];
+    if (last) s->packed_bytes -= packed_size(last);
+    free(last);
+  }
+  return st;
+}
+
 dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
   if (i >= s->count) return DYD_E_ARG;
   dyd_rect now;

@@ -26,6 +26,16 @@ struct dyd_sites {
   size_t packed_bytes;
 };
 
+/* The rational man * 2^exp / den. Invariant: man is odd, or 0 with exp = 0 and den = 1; den is odd and has no factor in
+ * common with man; |exp| <= 200. */
+typedef struct dyd_words {
+  int64_t man;
+  uint64_t den;
+  int exp;
+} dyd_words;
+
+/* Appends n exact points, number k being (xy[2 k], xy[2 k + 1]); none on failure. */
+dyd_status dyd_sites_add_words(dyd_sites *s, size_t n, const dyd_words *xy);
 /* Appends n sites that hold the whole plane; none on failure. */
 dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n);
 /* As dyd_sites_narrow, for the rectangle [box[0],box[1]] x [box[2],box[3]] of finite doubles, without -0. */

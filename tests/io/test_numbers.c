@@ -47,21 +47,78 @@ static void check_plain(const char *text, mpq_t exact, mpq_t other) {
   }
 }
 
+/* The words are the number, in lowest terms. */
+static bool check_words(dyd_plain p, mpq_t exact, mpq_t other) {
+  dyd_words w;
+  if (!dyd_plain_get_words(&w, p)) return false;
+  mpq_set_si(other, (long)w.man, w.den);
+  mpq_canonicalize(other);
+  assert_true(mpz_cmp_ui(mpq_denref(other), w.den) == 0);
+  assert_true(w.den % 2 == 1 && (w.man ? w.man % 2 != 0 : w.exp == 0 && w.den == 1) && abs(w.exp) <= 200);
+  if (w.exp > 0)
+    mpq_mul_2exp(other, other, (mp_bitcnt_t)w.exp);
+  else
+    mpq_div_2exp(other, other, (mp_bitcnt_t)-w.exp);
+  assert_true(mpq_equal(exact, other));
+  return true;
+}
+
+/* Hexadecimal floats of all sizes, few digits and many, zeros around; some are no doubles, some are no numbers. */
+static void random_hex(char out[64], test_random *r) {
+  char *p = out;
+  if (test_chance(r, 2)) *p++ = test_chance(r, 4) ? '+' : '-';
+  p += sprintf(p, test_chance(r, 2) ? "0x" : "0X");
+  unsigned whole = (unsigned)test_below(r, 4), part = (unsigned)test_below(r, 16);
+  for (unsigned k = 0; k < whole + part; k++) {
+    if (k == whole) *p++ = '.';
+    *p++ = test_chance(r, 3) ? '0' : "0123456789abcdefABCDEF"[test_below(r, 22)];
+  }
+  *p = 0;
+  if (test_chance(r, 4)) return;
+  p += sprintf(p, "%c%s%d", test_chance(r, 2) ? 'p' : 'P', test_chance(r, 3) ? "+" : "", (int)test_between(r, -9, 9));
+  if (test_chance(r, 3)) sprintf(p, "%02d", (int)test_below(r, 100));
+}
+
+static void test_hex(void **state) {
+  (void)state;
+  test_random r = test_random_start("hexadecimal");
+  mpq_t exact, other;
+  mpq_inits(exact, other, NULL);
+  size_t quick = 0, cases = test_cases(50000);
+  for (size_t k = 0; k < cases; k++) {
+    char text[64];
+    double value;
+    random_hex(text, &r);
+    if (test_chance(&r, 2)) sprintf(text, "%a", ldexp(test_unit(&r) - 0.5, (int)test_between(&r, -1100, 800)));
+    dyd_status status = dyd_parse_number(exact, text, strlen(text), NULL);
+    if (!dyd_plain_scan_hex(&value, text, strlen(text))) continue;
+    quick++;
+    assert_int_equal(status, DYD_OK);
+    mpq_set_d(other, value);
+    assert_true(mpq_equal(exact, other));
+    assert_false(value == 0 && signbit(value));
+  }
+  assert_true(quick > cases / 2);
+  mpq_clears(exact, other, NULL);
+}
+
 static void test_plain(void **state) {
   (void)state;
   test_random r = test_random_start("plain");
   mpq_t exact, other;
   mpq_inits(exact, other, NULL);
-  size_t quick = 0, cases = test_cases(100000);
+  size_t quick = 0, words = 0, cases = test_cases(100000);
   for (size_t k = 0; k < cases; k++) {
     char text[64];
     dyd_plain p;
     random_decimal(text, &r);
     assert_int_equal(dyd_parse_number(exact, text, strlen(text), NULL), DYD_OK);
-    quick += dyd_plain_scan(&p, text, strlen(text));
+    bool scanned = dyd_plain_scan(&p, text, strlen(text));
+    quick += scanned;
     check_plain(text, exact, other);
+    words += scanned && check_words(p, exact, other);
   }
-  assert_true(quick > cases / 2);
+  assert_true(quick > cases / 2 && words > cases / 3);
   mpq_clears(exact, other, NULL);
 }
 
@@ -158,7 +215,8 @@ static void test_within(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_plain), cmocka_unit_test(test_plain_refuses),
-                                     cmocka_unit_test(test_directed), cmocka_unit_test(test_within)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_plain), cmocka_unit_test(test_hex),
+                                     cmocka_unit_test(test_plain_refuses), cmocka_unit_test(test_directed),
+                                     cmocka_unit_test(test_within)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

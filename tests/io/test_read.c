@@ -36,9 +36,21 @@ static dyd_status read_text(dyd_engine **e, const char *data, size_t length, con
 /* A fixed coordinate of some form. */
 static void random_coordinate(char out[80], test_random *r) {
   long a = (long)test_between(r, -99999, 99999), b = (long)test_below(r, 1000);
-  switch (test_below(r, 9)) {
+  switch (test_below(r, 13)) {
   case 0:
     sprintf(out, "%ld/%ld", a, b + 1);
+    break;
+  case 7:
+    sprintf(out, "%a", ldexp((double)a + (double)b / 1000, (int)test_between(r, -30, 30)));
+    break;
+  case 8:
+    sprintf(out, "%.17g", (double)a * test_unit(r));
+    break;
+  case 9:
+    sprintf(out, "000.0%03ld%013lld", b, (long long)test_below(r, 10000000000000));
+    break;
+  case 10:
+    sprintf(out, "%ld.%03lde%d", a, b, (int)test_between(r, -50, 50));
     break;
   case 1:
     sprintf(out, "%ld*2^%ld", a, b - 500);

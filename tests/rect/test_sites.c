@@ -4,6 +4,7 @@
 #include <stdarg.h>
 
 #include "rect/literal.h"
+#include "rect/sites_table.h"
 #include <cmocka.h>
 #include <dyadel/sites.h>
 #include <float.h>
@@ -139,6 +140,60 @@ static void add_one(pairing *p, test_random *r) {
     assert_int_equal(dyd_sites_add_rect(p->s, w), DYD_OK);
   }
   p->n++;
+}
+
+/* man * 2^exp / den in lowest terms, man and den of up to one word, often next to a double or a power of two. */
+static void random_words(dyd_words *w, dyd_interval *want, test_random *r) {
+  mpq_t q;
+  mpq_init(q);
+  uint64_t man = test_below(r, UINT64_MAX) >> 1 >> test_below(r, 63), den = 1;
+  if (test_chance(r, 3)) man = (((uint64_t)1 << 53) - 2 + test_below(r, 4)) << test_below(r, 10);
+  for (uint64_t k = test_below(r, 28); k; k--) den *= 5;
+  if (test_chance(r, 4)) den = test_below(r, UINT64_MAX) >> test_below(r, 63) | 1;
+  if (test_chance(r, 20)) man = 0;
+  mpz_set_ui(mpq_numref(q), man);
+  mpz_set_ui(mpq_denref(q), den);
+  mpq_canonicalize(q);
+  mp_bitcnt_t twos = man ? mpz_scan1(mpq_numref(q), 0) : 0;
+  mpz_tdiv_q_2exp(mpq_numref(q), mpq_numref(q), twos);
+  int sign = test_chance(r, 2) ? 1 : -1, exp = man ? (int)test_between(r, -200, 200) : 0;
+  *w = (dyd_words){sign * (int64_t)mpz_get_ui(mpq_numref(q)), mpz_get_ui(mpq_denref(q)), exp};
+  if (sign < 0) mpq_neg(q, q);
+  if (exp > 0)
+    mpq_mul_2exp(q, q, (mp_bitcnt_t)exp);
+  else
+    mpq_div_2exp(q, q, (mp_bitcnt_t)-exp);
+  assert_int_equal(dyd_interval_set_q(want, q), DYD_OK);
+  mpq_clear(q);
+}
+
+static void test_words(void **state) {
+  (void)state;
+  test_random r = test_random_start("words");
+  for (size_t k = test_cases(1000); k; k--) {
+    pairing p, whole;
+    dyd_words xy[2 * MOST];
+    start(&p);
+    start(&whole);
+    while (p.n < MOST) {
+      size_t n = (size_t)test_below(&r, MOST - p.n) + 1;
+      if (test_chance(&r, 4)) add_one(&p, &r), n = 0;
+      for (size_t i = 0; i < n; i++) {
+        random_words(&xy[2 * i], &p.want[p.n + i].x, &r);
+        random_words(&xy[2 * i + 1], &p.want[p.n + i].y, &r);
+      }
+      assert_int_equal(dyd_sites_add_words(p.s, n, xy), DYD_OK);
+      p.n += n;
+    }
+    agree(&p);
+    for (; whole.n < MOST; whole.n++) {
+      dyd_rect_set(&whole.want[whole.n], &p.want[whole.n]);
+      assert_int_equal(dyd_sites_add_rect(whole.s, &whole.want[whole.n]), DYD_OK);
+    }
+    assert_int_equal(p.s->packed_bytes, whole.s->packed_bytes);
+    finish(&whole);
+    finish(&p);
+  }
 }
 
 /* Both ends move inward by eighths, or to a rational point inside. */
@@ -336,8 +391,9 @@ static void test_memory(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_tables), cmocka_unit_test(test_bulk_mixed),
-                                     cmocka_unit_test(test_bad_doubles),   cmocka_unit_test(test_negative_zero),
-                                     cmocka_unit_test(test_memory),        cmocka_unit_test(test_numbers_out_of_range)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_random_tables),       cmocka_unit_test(test_bulk_mixed),    cmocka_unit_test(test_words),
+      cmocka_unit_test(test_bad_doubles),         cmocka_unit_test(test_negative_zero), cmocka_unit_test(test_memory),
+      cmocka_unit_test(test_numbers_out_of_range)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
