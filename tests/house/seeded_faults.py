@@ -27,6 +27,7 @@ FAULTS = [
     (NEAR, 'return 48.6 * reach * sqrt(lu * lw)', 'return 48.6 * (reach * sqrt(lu * lw))', 'constants', 'dyd_filter_hull_edge_near'),
     (INTERVAL, 'if (!(b.lo > 0 || b.hi < 0))', 'if (!(b.lo >= 0 || b.hi < 0))', 'constants', 'dyd_iv_div'),
     ('src/delaunay/filter_tree.c', 'px + py + 8 * 0x1p-53', 'px + py + 2 * 0x1p-53', 'constants', 'c_reach'),
+    ('src/delaunay/filter_scale_set.c', '* 4 * 0x1p-52 * fabs(x)', '* 1 * 0x1p-53 * fabs(x)', 'constants', 'c_scale'),
     ('src/delaunay/filter_possible.c', 'isnan(h) ? -INFINITY : h', 'isnan(h) ? INFINITY : h', 'constants', 'dyd_height_lower'),
     ('src/dyadic/sqrt_sign.c', 'if (nb - 3 >= na) return -1;', 'if (nb - 2 >= na) return -1;', 'constants', 'compare_squares'),
     ('src/predicate/solve.c', 'mpz_submul(out->a[k], out->b[k], out->t);', 'mpz_addmul(out->a[k], out->b[k], out->t);',
