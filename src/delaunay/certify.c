@@ -10,7 +10,7 @@
 #include "base/alloc.h"
 #include "delaunay/hull.h"
 #include "delaunay/marks.h"
-#include "delaunay/mesh_fixed.h"
+#include "delaunay/view.h"
 #include "delaunay/witness.h"
 
 #include <string.h>
@@ -30,9 +30,7 @@ bool dyd_point_edge_is_certain(dyd_delaunay *pd, uint32_t t, unsigned k) {
   return beyond_sign(pd, t, k) < 0;
 }
 
-/* ---- tasks ----
- *
- * Each task asks a mesh of its own, which shares all arrays and counts for itself. */
+/* ---- tasks ---- */
 
 typedef struct pass {
   dyd_delaunay *pd;
@@ -42,21 +40,17 @@ typedef struct pass {
 typedef void range_task(dyd_delaunay *view, dyd_marks *range);
 
 static void run_on_view(pass *p, size_t number, range_task *task) {
-  dyd_delaunay view = *p->pd;
+  dyd_delaunay view;
   dyd_marks *range = &p->tasks.task[number];
-  memset(&view.counters, 0, sizeof view.counters);
-  view.mesh.counters = &view.counters;
-  view.mesh.asked = view.mesh.beyond = 0;
-  view.mesh.reps = &view.reps;
+  dyd_view_open(&view, p->pd);
   task(&view, range);
-  dyd_mesh_count(&view.mesh);
-  dyd_counters_add(&range->counters, &view.counters);
+  dyd_view_close(&range->counters, &view);
 }
 
 static dyd_status run(dyd_delaunay *pd, dyd_task *task) {
   pass *p = dyd_alloc(1, sizeof *p);
   if (!p) return DYD_E_NOMEM;
-  if (!pd->mesh.fixed && !pd->mesh.no_fixed && !pd->mesh.no_filter) dyd_fixed_prepare(&pd->mesh);
+  dyd_view_prepare(pd);
   p->pd = pd;
   dyd_mark_tasks_init(&p->tasks, pd);
   dyd_parallel(pd->options.threads, p->tasks.count, task, p);

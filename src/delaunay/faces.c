@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "delaunay/build.h"
 #include "delaunay/certify.h"
-#include "delaunay/closure.h"
+#include "delaunay/closures.h"
 #include "delaunay/ties.h"
 
 #include <string.h>
@@ -59,23 +59,30 @@ static void report_cap(dyd_delaunay *pd, const dyd_closure *c) {
            pd->max_pairs, n, site[v[0]], site[v[n / 2]], site[v[n - 1]]);
 }
 
-static dyd_status store(dyd_delaunay *pd, const dyd_closure *c, size_t first_tri) {
+/* An entry for the triangles from first_tri on, without pairs. */
+static dyd_status add_face(dyd_delaunay *pd, size_t first_tri) {
   dyd_face_table *f = &pd->faces;
   if (!dyd_reserve((void **)&f->face, &f->face_cap, f->count + 1, sizeof *f->face)) return DYD_E_NOMEM;
+  f->face[f->count++] =
+      (dyd_face){.first_tri = first_tri, .first_pair = f->pair_count, .tris = (uint32_t)(f->tri_count - first_tri)};
+  f->live_tris += f->tri_count - first_tri;
+  return DYD_OK;
+}
+
+static dyd_status store(dyd_delaunay *pd, const dyd_closure *c, size_t g) {
+  dyd_face_table *f = &pd->faces;
+  dyd_face *face = &f->face[g];
   if (!dyd_reserve((void **)&f->pair, &f->pair_cap, f->pair_count + c->pairs, sizeof *f->pair)) return DYD_E_NOMEM;
   if (c->pairs) memcpy(f->pair + f->pair_count, c->pair, c->pairs * sizeof *c->pair);
-  f->face[f->count++] = (dyd_face){.first_tri = first_tri,
-                                   .first_pair = f->pair_count,
-                                   .tris = (uint32_t)(f->tri_count - first_tri),
-                                   .pairs = (uint32_t)c->pairs,
-                                   .outer = c->outer,
-                                   .tie = c->all_points,
-                                   .capped = c->capped,
-                                   .polygon = c->polygon};
+  face->first_pair = f->pair_count;
+  face->pairs = (uint32_t)c->pairs;
+  face->outer = c->outer;
+  face->tie = c->all_points;
+  face->capped = c->capped;
+  face->polygon = c->polygon;
   f->others += !c->polygon;
   f->pair_count += c->pairs;
   f->live_pairs += c->pairs;
-  f->live_tris += f->tri_count - first_tri;
   if (c->capped) report_cap(pd, c);
   return DYD_OK;
 }
@@ -183,19 +190,8 @@ static void settle_points(bool *any, dyd_delaunay *pd, const uint32_t *tri, size
       }
 }
 
-static dyd_status close_face(dyd_delaunay *pd, dyd_work *w, size_t first) {
-  dyd_face_table *f = &pd->faces;
-  dyd_closure c = {0};
-  size_t room = pd->max_pairs > f->live_pairs ? pd->max_pairs - f->live_pairs : 0, tris = f->tri_count - first;
-  dyd_status st = dyd_closure_run(&c, pd, w, f->tri + first, (uint32_t)tris, room);
-  if (st == DYD_OK) st = store(pd, &c, first);
-  pd->counters.faces++;
-  dyd_closure_clear(&c);
-  return st;
-}
-
 /* The faces among the triangles of one that has fallen apart. */
-static dyd_status find_parts(dyd_delaunay *pd, dyd_work *w, size_t first) {
+static dyd_status find_parts(dyd_delaunay *pd, size_t first) {
   dyd_face_table *f = &pd->faces;
   size_t tris = f->tri_count - first;
   uint32_t *tri = dyd_alloc(tris, sizeof *tri);
@@ -207,36 +203,73 @@ static dyd_status find_parts(dyd_delaunay *pd, dyd_work *w, size_t first) {
     if (!has_uncertain_edge(pd, tri[q]) || f->of[tri[q]] != DYD_NONE) continue;
     size_t start = f->tri_count;
     st = flood(pd, tri[q], (uint32_t)f->count);
-    if (st == DYD_OK) st = close_face(pd, w, start);
-    if (st != DYD_OK) take_back(pd, start);
+    if (st == DYD_OK) st = add_face(pd, start);
   }
   free(tri);
   return st;
 }
 
-static dyd_status find_face(dyd_delaunay *pd, dyd_work *w, uint32_t t) {
+static dyd_status find_face(dyd_delaunay *pd, uint32_t t) {
   dyd_face_table *f = &pd->faces;
   size_t first = f->tri_count;
   bool apart = false;
   dyd_status st = flood(pd, t, (uint32_t)f->count);
   if (st == DYD_OK) settle_points(&apart, pd, f->tri + first, f->tri_count - first);
-  if (st == DYD_OK && apart) return find_parts(pd, w, first);
-  if (st == DYD_OK) st = close_face(pd, w, first);
-  if (st != DYD_OK) take_back(pd, first);
+  if (st == DYD_OK && apart) return find_parts(pd, first);
+  return st == DYD_OK ? add_face(pd, first) : st;
+}
+
+static dyd_status find_faces(dyd_delaunay *pd, const uint32_t *tri, size_t all) {
+  dyd_status st = DYD_OK;
+  for (size_t q = 0; q < all && st == DYD_OK; q++) {
+    uint32_t t = tri ? tri[q] : (uint32_t)q;
+    if (!has_uncertain_edge(pd, t)) continue;
+    st = dyd_faces_mark(pd);
+    if (st == DYD_OK && pd->faces.of[t] == DYD_NONE) st = find_face(pd, t);
+  }
+  return st;
+}
+
+/* Room for pairs now: what the faces stored so far leave. */
+static size_t room_left(const dyd_delaunay *pd) {
+  return pd->max_pairs > pd->faces.live_pairs ? pd->max_pairs - pd->faces.live_pairs : 0;
+}
+
+/* Closes the faces g .. g + count - 1 together. One that found more pairs than the others have left room for is closed
+ * again, with that room. */
+static dyd_status close_batch(dyd_closure *c, dyd_delaunay *pd, dyd_work *w, size_t g, size_t count) {
+  size_t room = room_left(pd);
+  dyd_status st = dyd_closures_run(c, pd, w, pd->faces.face + g, count, room);
+  if (st != DYD_OK) return st;
+  for (size_t k = 0; k < count; k++) {
+    dyd_face *face = &pd->faces.face[g + k];
+    if (st == DYD_OK && (c[k].capped || c[k].pairs > room_left(pd)) && room_left(pd) < room) {
+      dyd_closure_clear(&c[k]);
+      st = dyd_closure_run(&c[k], pd, w, pd->faces.tri + face->first_tri, face->tris, room_left(pd));
+    }
+    if (st == DYD_OK) st = store(pd, &c[k], g + k);
+    dyd_closure_clear(&c[k]);
+  }
+  return st;
+}
+
+enum { BATCH = 4096 };
+
+static dyd_status close_faces(dyd_delaunay *pd, dyd_work *w, size_t from) {
+  size_t end = pd->faces.count, most = end - from < BATCH ? end - from : BATCH;
+  dyd_closure *c = dyd_alloc(most, sizeof *c);
+  dyd_status st = c ? DYD_OK : DYD_E_NOMEM;
+  for (size_t g = from; g < end && st == DYD_OK; g += most)
+    st = close_batch(c, pd, w, g, end - g < most ? end - g : most);
+  free(c);
   return st;
 }
 
 dyd_status dyd_faces_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count) {
   dyd_face_table *f = &pd->faces, before = *f;
-  size_t all = tri ? count : pd->mesh.count;
-  dyd_status st = DYD_OK;
   if (pd->all_points) return dyd_ties_find(pd);
-  for (size_t q = 0; q < all && st == DYD_OK; q++) {
-    uint32_t t = tri ? tri[q] : (uint32_t)q;
-    if (!has_uncertain_edge(pd, t)) continue;
-    st = dyd_faces_mark(pd);
-    if (st == DYD_OK && f->of[t] == DYD_NONE) st = dyd_cancelled(pd) ? DYD_CANCELLED : find_face(pd, w, t);
-  }
+  dyd_status st = find_faces(pd, tri, tri ? count : pd->mesh.count);
+  if (st == DYD_OK) st = close_faces(pd, w, before.count);
   if (st != DYD_OK) {
     take_back(pd, before.tri_count);
     f->count = before.count;

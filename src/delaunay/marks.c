@@ -3,6 +3,7 @@
 #include "delaunay/marks.h"
 
 #include "base/alloc.h"
+#include "delaunay/view.h"
 
 #include <string.h>
 
@@ -30,16 +31,6 @@ void dyd_mark(dyd_marks *m, dyd_delaunay *pd, uint32_t t, unsigned k) {
     dyd_set_certain(pd, t, k);
   else
     dyd_mark_later(m, 4 * t + k);
-}
-
-void dyd_counters_add(dyd_delaunay_counters *sum, const dyd_delaunay_counters *c) {
-  sum->filter += c->filter;
-  sum->integer += c->integer;
-  sum->exact += c->exact;
-  sum->witness_guess += c->witness_guess;
-  sum->witness_search += c->witness_search;
-  sum->cover_walks += c->cover_walks;
-  sum->faces += c->faces;
 }
 
 static void clear_certain(dyd_delaunay *pd, uint32_t t, unsigned k) {

@@ -34,6 +34,4 @@ dyd_status dyd_mark_tasks_settle(dyd_mark_tasks *tasks, dyd_delaunay *pd);
 /* The same, but edges that waited are not certain. */
 dyd_status dyd_mark_tasks_revoke(dyd_mark_tasks *tasks, dyd_delaunay *pd);
 
-void dyd_counters_add(dyd_delaunay_counters *sum, const dyd_delaunay_counters *c);
-
 #endif
