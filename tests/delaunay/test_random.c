@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The engine against the oracle on random cases: every status of every pair, every query, every witness, and the
  * same answers for the exact rung, for permutations and for the symmetries of the square
- * [POS-1] [LEG-1] [CRIT-1] [QUAD-1] [HULL-1] [BETA-1] [COV-1] [CLO-1] [WIT-1] [WIT-QUAD] [WIT-NEAR] [WIT-HULL] [HUL-1]
- * [HUL-2] [HUL-3] [LINE-1] [FLT-ORI] [FLT-INC] [FLT-DST] [FLT-STAR] [FLT-DIR] [FLT-SCALE]. */
+ * [POS-1] [LEG-1] [CRIT-1] [QUAD-1] [HULL-1] [BETA-1] [COV-1] [COV-2] [CLO-1] [WIT-1] [WIT-QUAD] [WIT-NEAR] [WIT-HULL]
+ * [HUL-1] [HUL-2] [HUL-3] [LINE-1] [FLT-ORI] [FLT-INC] [FLT-DST] [FLT-STAR] [FLT-DIR] [FLT-SCALE]. */
 #include <setjmp.h>
 #include <stdarg.h>
 
