@@ -100,8 +100,8 @@ typedef struct dyd_engine_options {
   int64_t goal_bits;      /* M of "bound 2^-M" for the area and Hausdorff goals */
   const dyd_rect *window; /* of the Voronoi goals: dyadic ends, positive area; borrowed during the run */
   dyd_schedule schedule;
-  int64_t start_bits;  /* precision of the first stage; 0: 64, or less (24 at least) for expressions that doubles
-                          enclose so well, unless the schedule is uniform */
+  int64_t start_bits;  /* precision of the first stage; default 64. 0, and no options at all: 64, or less (24 at least)
+                          for expressions that doubles enclose so well, unless the schedule is uniform */
   int64_t step_bits;   /* each refinement asks for so many bits more; 0: growth is geometric */
   int64_t max_bits;    /* 0: default 4096 */
   uint64_t max_stages; /* of this run; 0: no limit */

@@ -47,7 +47,7 @@ const char *dyd_reason_text(dyd_reason reason) {
 }
 
 void dyd_engine_options_init(dyd_engine_options *o) {
-  *o = (dyd_engine_options){.max_bits = 4096};
+  *o = (dyd_engine_options){.start_bits = 64, .max_bits = 4096};
 }
 
 dyd_status dyd_engine_new(dyd_engine **out) {

@@ -3,6 +3,7 @@
  *
  *   points.c     adding points, asking one point to narrow
  *   schedule.c   which points to narrow next, and how far
+ *   scout.c      a few points that go ahead of the others
  *   coarse.c     which sites of a face are coarse for their distances
  *   converge.c   tables of runs, stage by stage
  *   goal_voronoi.c  goals on the Voronoi diagram
@@ -27,6 +28,7 @@ typedef struct dyd_refinable {
   uint64_t calls;    /* how often the engine has asked it */
   bool final;        /* no call can narrow it further */
   bool marked;       /* to be narrowed to `want` in this stage */
+  bool held;         /* was marked, and will be again when scouts have gone ahead (scout.h) */
   bool asked;        /* has been brought to `bits` once */
   dyd_reason reason; /* of the mark, with the pair it names */
   uint32_t pair[2];
@@ -120,13 +122,16 @@ void dyd_engine_voronoi_forget(dyd_engine *e);
 /* Does the goal hold for the current result? */
 dyd_status dyd_engine_goal_holds(bool *out, dyd_engine *e, const dyd_engine_options *o);
 
+typedef struct dyd_scouts dyd_scouts;
+
 typedef struct dyd_plan {
   size_t marked;     /* points to narrow */
   bool bits_blocked; /* some point would have been marked, but was asked for max_bits before */
 } dyd_plan;
 
-/* Marks the points to narrow next towards a goal that does not hold. Needs a result that is up to date. */
-dyd_status dyd_engine_plan(dyd_plan *out, dyd_engine *e, const dyd_engine_options *o);
+/* Marks the points to narrow next towards a goal that does not hold. Needs a result that is up to date. Adds to
+ * *scouts, just initialised, what may go ahead. */
+dyd_status dyd_engine_plan(dyd_plan *out, dyd_scouts *scouts, dyd_engine *e, const dyd_engine_options *o);
 /* Marks the points never asked, for the first stage. */
 void dyd_engine_plan_first(dyd_plan *out, dyd_engine *e, const dyd_engine_options *o);
 

@@ -17,6 +17,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "engine/scout.h"
 #include "engine/watch.h"
 
 /* One run. end is DYD_OUTCOME_NONE until it is known how the run ends. */
@@ -29,6 +30,7 @@ typedef struct run {
   dyd_outcome end;
   dyd_budget spent;
   dyd_error err;
+  dyd_scouts scouts; /* of the next stage */
 } run;
 
 /* The finest request that streams take (stream/nest.c). */
@@ -38,6 +40,7 @@ typedef struct run {
 /* Fills in defaults. false: an option is out of its range. */
 static bool set_options(dyd_engine_options *o, const dyd_engine_options *given) {
   dyd_engine_options_init(o);
+  o->start_bits = 0;
   if (given) *o = *given;
   if (o->max_bits == 0) o->max_bits = 4096;
   if (o->max_bits > MOST_BITS) o->max_bits = MOST_BITS;
@@ -97,13 +100,12 @@ static dyd_status tell_step(const run *r, const dyd_refinable *p, bool called) {
   return status;
 }
 
-/* Narrows the marked points. *bits becomes the greatest precision asked for; *cut whether points are left
- * because calls are used up. On failure and when stopped the points after are left marked. */
+/* Narrows the marked points. *bits is raised to the greatest precision asked for; *cut whether points
+ * are left because calls are used up. On failure and when stopped the points after are left marked. */
 static dyd_status narrow_marked(int64_t *bits, bool *cut, run *r, size_t marked) {
   dyd_engine *e = r->e;
   size_t need = e->pd ? e->changes + marked : 0;
   if (!dyd_reserve((void **)&e->changed, &e->change_cap, need, sizeof *e->changed)) return DYD_E_NOMEM;
-  *bits = INT64_MIN;
   dyd_engine_announce(e, r->o.max_calls ? r->o.max_calls - r->calls : UINT64_MAX, r->o.max_bits);
   for (size_t k = 0; k < e->points; k++) {
     dyd_refinable *p = &e->point[k];
@@ -180,12 +182,26 @@ static void report(const run *r, int64_t bits) {
   r->o.progress(&p, r->o.progress_user);
 }
 
+/* Lets the scouts go ahead; *marked becomes what is left to narrow after them. Ends as narrow_marked. */
+static dyd_status send_scouts(size_t *marked, int64_t *bits, bool *cut, run *r) {
+  dyd_status status = DYD_OK;
+  size_t sent = r->scouts.count;
+  while (status >= 0 && sent && !*cut && r->end == DYD_OUTCOME_NONE) {
+    status = dyd_scouts_next(&sent, &r->scouts, r->e, &r->o);
+    if (status >= 0 && sent) status = narrow_marked(bits, cut, r, sent);
+  }
+  if (r->scouts.count) dyd_scouts_finish(marked, &r->scouts, r->e, &r->o);
+  dyd_scouts_clear(&r->scouts);
+  return status;
+}
+
 /* One stage: narrows what is marked and triangulates. */
 static dyd_status stage(run *r, size_t marked) {
-  int64_t bits = 0;
+  int64_t bits = INT64_MIN;
   bool cut = false;
   dyd_error ignored;
-  dyd_status failed = narrow_marked(&bits, &cut, r, marked), status = DYD_OK;
+  dyd_status failed = send_scouts(&marked, &bits, &cut, r), status = DYD_OK;
+  if (failed >= 0 && !cut && r->end == DYD_OUTCOME_NONE) failed = narrow_marked(&bits, &cut, r, marked);
   if (r->end != DYD_OUTCOME_NONE) return DYD_OK;
   if (cut && !r->e->pd) end_budget(r, DYD_BUDGET_CALLS);
   if ((cut || failed < 0) && (!r->e->pd || r->e->changes == 0)) return failed;
@@ -223,7 +239,7 @@ static dyd_status judge(size_t *marked, run *r) {
     r->end = r->o.goal == DYD_GOAL_DECIDED ? DYD_OUTCOME_DECIDED : DYD_OUTCOME_CERTIFIED;
     return DYD_OK;
   }
-  status = dyd_engine_plan(&plan, r->e, &r->o);
+  status = dyd_engine_plan(&plan, &r->scouts, r->e, &r->o);
   *marked = plan.marked;
   if (status >= 0 && plan.marked == 0) end_exhausted(r, &plan);
   return status;
@@ -279,6 +295,7 @@ static void begin(run *r, dyd_engine *e) {
   r->spent = DYD_BUDGET_NONE;
   r->stages = r->calls = 0;
   r->seconds_before = e->seconds;
+  r->scouts = (dyd_scouts){0};
   dyd_error_clear(&r->err);
   /* Clear first, look after: a cancel that comes in between is not lost. */
   dyd_flag_set(&e->stop, 0);
@@ -296,6 +313,7 @@ dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_
     dyd_watch_start(&r.watch, r.o.seconds, &e->stop);
     status = loop(&r);
     dyd_watch_stop(&r.watch);
+    dyd_scouts_clear(&r.scouts);
     e->seconds += dyd_watch_seconds(&r.watch);
   } else {
     status = dyd_fail(&r.err, DYD_E_ARG, "an option of the run is out of its range");

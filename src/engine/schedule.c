@@ -17,11 +17,14 @@
  *
  * Towards bounds on the Voronoi diagram the same is done with other numbers of the pairs (goal_voronoi.c).
  *
+ * In faces of many points a few go ahead of the others, to tell how far these must go (scout.c).
+ *
  * Every rule marks a point whenever one that matters can be narrowed, and every mark asks for more than before, up to
  * max_bits: the loop ends. Growth is geometric, so a run asks for at most about twice the bits it needs; with step_bits
  * it is that step instead, for tables of convergence. */
 #include "engine/coarse.h"
 #include "engine/engine.h"
+#include "engine/scout.h"
 
 #include "metric/bounds.h"
 #include "stream/stream.h"
@@ -31,10 +34,16 @@ static int64_t raised(int64_t b, int64_t by, int64_t max) {
   return b > max - by ? max : b + by;
 }
 
+/* The precision of the first stage. Where none is given it is 64, or what doubles give, if that is worth a stage: most
+ * points need no more. Those that do go on as if they had been asked for 64. */
+#define FIRST_BITS 64
+#define FIRST_IN_DOUBLES 24
+
 /* The step from precision b to the next. */
 static int64_t grown(int64_t b, const dyd_engine_options *o) {
-  int64_t size = b < 0 ? -b : b;
   if (o->step_bits) return raised(b, o->step_bits, o->max_bits);
+  if (!o->start_bits && b < FIRST_BITS) b = FIRST_BITS;
+  int64_t size = b < 0 ? -b : b;
   return b + (size < 16 ? 16 : size);
 }
 
@@ -69,11 +78,6 @@ static void mark(dyd_plan *plan, dyd_refinable *p, int64_t want, cause why, cons
 static cause alone(dyd_reason reason, const dyd_refinable *p) {
   return (cause){reason, p->site, p->site};
 }
-
-/* The precision of the first stage. Where none is given it is 64, or what doubles give, if that is worth a stage: most
- * points need no more. */
-#define FIRST_BITS 64
-#define FIRST_IN_DOUBLES 24
 
 static int64_t first_bits(const dyd_refinable *p, const dyd_engine_options *o) {
   if (o->start_bits) return o->start_bits;
@@ -184,8 +188,8 @@ static dyd_status plan_capped(dyd_plan *plan, const dyd_engine *e, size_t f, con
   return status;
 }
 
-static dyd_status plan_face(dyd_plan *plan, mpfr_ptr number, const dyd_engine *e, size_t f, dyd_measure *m,
-                            const dyd_engine_options *o) {
+static dyd_status plan_face(dyd_plan *plan, dyd_scouts *scouts, mpfr_ptr number, const dyd_engine *e, size_t f,
+                            dyd_measure *m, const dyd_engine_options *o) {
   if (dyd_delaunay_is_capped(e->pd)) return plan_capped(plan, e, f, o);
   dyd_coarse c = {0};
   dyd_pair_list pairs = {0};
@@ -196,26 +200,29 @@ static dyd_status plan_face(dyd_plan *plan, mpfr_ptr number, const dyd_engine *e
     int64_t least;
     bool ends = mark_ends(&least, plan, e, &c, &pairs, o);
     mark_blockers(plan, e, &c, ends, least, o);
+    if (ends && scouts) status = dyd_scouts_add(scouts, e, &pairs);
   }
   dyd_coarse_clear(&c);
   dyd_pair_list_clear(&pairs);
   return status;
 }
 
-static dyd_status plan_faces(dyd_plan *plan, const dyd_engine *e, dyd_measure *m, const dyd_engine_options *o) {
+static dyd_status plan_faces(dyd_plan *plan, dyd_scouts *scouts, const dyd_engine *e, dyd_measure *m,
+                             const dyd_engine_options *o) {
   dyd_status status = DYD_OK;
   size_t faces = dyd_delaunay_undecided_faces(e->pd);
   mpfr_t number;
   mpfr_init2(number, DYD_MEASURE_PREC);
-  for (size_t f = 0; status >= 0 && f < faces; f++) status = plan_face(plan, number, e, f, m, o);
+  for (size_t f = 0; status >= 0 && f < faces; f++) status = plan_face(plan, scouts, number, e, f, m, o);
   mpfr_clear(number);
   return status;
 }
 
 /* ---- bounds ---- */
 
-static dyd_status plan_hausdorff(dyd_plan *plan, const dyd_engine *e, dyd_measure *m, const dyd_engine_options *o) {
-  dyd_status status = plan_faces(plan, e, m, o);
+static dyd_status plan_hausdorff(dyd_plan *plan, dyd_scouts *scouts, const dyd_engine *e, dyd_measure *m,
+                                 const dyd_engine_options *o) {
+  dyd_status status = plan_faces(plan, scouts, e, m, o);
   mpfr_t diameter;
   mpfr_init2(diameter, DYD_MEASURE_PREC);
   for (size_t k = 0; status >= 0 && k < e->points; k++) {
@@ -331,15 +338,16 @@ static dyd_status plan_voronoi(dyd_plan *plan, dyd_engine *e, dyd_measure *m, co
   return status;
 }
 
-dyd_status dyd_engine_plan(dyd_plan *out, dyd_engine *e, const dyd_engine_options *o) {
+dyd_status dyd_engine_plan(dyd_plan *out, dyd_scouts *scouts, dyd_engine *e, const dyd_engine_options *o) {
   dyd_measure m;
   dyd_status status;
   *out = (dyd_plan){0};
+  if (o->step_bits || o->schedule != DYD_SCHEDULE_ADAPTIVE) scouts = NULL;
   dyd_measure_init(&m, e->sites);
   if (o->goal == DYD_GOAL_DECIDED || dyd_delaunay_is_capped(e->pd))
-    status = plan_faces(out, e, NULL, o);
+    status = plan_faces(out, scouts, e, NULL, o);
   else if (o->goal == DYD_GOAL_HAUSDORFF)
-    status = plan_hausdorff(out, e, &m, o);
+    status = plan_hausdorff(out, scouts, e, &m, o);
   else if (o->goal == DYD_GOAL_AREA)
     status = plan_bound(out, e, &m, number_area, true, o);
   else

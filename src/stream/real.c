@@ -12,7 +12,7 @@
 #include "rect/interval.h"
 
 /* Invariant: refs > 0; now: NULL before the first narrowing, else owned and valid; final: known and no call can narrow
- * it; spans: the value lies in span, and so does every interval that the source gives after intersection; encloses. */
+ * it; spans: the value lies in span; encloses. */
 struct dyd_real {
   size_t refs;
   dyd_narrow_real_fn narrow; /* NULL for values fixed from the start */
@@ -117,9 +117,12 @@ static dyd_status cut(dyd_interval *next, const dyd_interval *old, dyd_error *er
   return st ? dyd_fail(err, st, "%s", dyd_status_text(st)) : st;
 }
 
-/* next = next and the span. */
-static dyd_status cut_to_span(dyd_interval *next, dyd_double_span span, dyd_error *err) {
+/* next, made for `bits`, and the span, which comes rounded to the same grid where it is the shorter one: so all
+ * intervals are inside of what a glance gave for fewer bits, and as wide as if there were no span. */
+static dyd_status cut_to_span(dyd_interval *next, dyd_double_span span, int64_t bits, dyd_error *err) {
   dyd_interval old;
+  if (bits < 0) return DYD_OK;
+  dyd_filter_round(&span, span, bits);
   dyd_interval_init(&old);
   dyd_status st = dyd_interval_set_d(&old, span.lo, span.hi);
   st = st ? dyd_fail(err, st, "%s", dyd_status_text(st)) : cut(next, &old, err);
@@ -152,7 +155,7 @@ static dyd_status call_source(dyd_real *x, const dyd_request *request, dyd_error
   dyd_status st = x->narrow(&next, x->user, request, &own);
   bool fixed = st == DYD_FIXED;
   if (fixed) st = DYD_OK;
-  if (!st && x->spans) st = cut_to_span(&next, x->span, &own);
+  if (!st && x->spans) st = cut_to_span(&next, x->span, request->bits, &own);
   if (!st) st = accept(x, &next, &own);
   dyd_interval_clear(&next);
   if (!st) {
@@ -182,6 +185,13 @@ int64_t dyd_real_glance_bits(const dyd_real *x) {
   return x->spans && !x->now ? dyd_filter_bits(x->span) : INT64_MIN;
 }
 
+/* Is the span so short that rounding it to the grid for `bits` very likely gives one cell, as it does with balls? */
+#define SPARE 16
+static bool span_is_short(const dyd_real *x, int64_t bits) {
+  int64_t most = dyd_filter_bits(x->span);
+  return most >= SPARE && bits <= most - SPARE;
+}
+
 /* Narrows to what the span gives for `bits`. */
 static dyd_status take_span(dyd_real *x, dyd_double_span span, dyd_error *err) {
   dyd_interval next;
@@ -199,7 +209,7 @@ dyd_status dyd_real_narrow(dyd_real *x, int64_t bits, int64_t max_bits, dyd_erro
   if (x->final) return DYD_FIXED;
   if (x->now && dyd_interval_bits(x->now) >= bits) return DYD_OK;
   dyd_status st = dyd_request_make(&request, 0, bits, max_bits, err);
-  if (!st && x->spans && dyd_filter_round(&span, x->span, request.bits))
+  if (!st && x->spans && span_is_short(x, request.bits) && dyd_filter_round(&span, x->span, request.bits))
     st = take_span(x, span, err);
   else if (!st)
     st = call_source(x, &request, err);

@@ -16,7 +16,8 @@ dyd_status dyd_real_new_inside(dyd_real **out, void **user, size_t size, dyd_nar
 /* From now on x is known to lie in `span`, from which coarse intervals are made without a call of the source. For a
  * source that encloses one and the same value, before it is narrowed. */
 void dyd_real_set_span(dyd_real *x, dyd_double_span span);
-/* Where doubles hold the interval that a first narrowing to `bits` gives, that interval; x is not changed. */
+/* Where doubles hold an interval of at most 2^-bits about x, which was not narrowed before, that interval; x is not
+ * changed, and what it gives later lies in that interval. */
 bool dyd_real_glance(dyd_double_span *out, const dyd_real *x, int64_t bits);
 /* The greatest bits for which dyd_real_glance succeeds; INT64_MIN when there is none, INT64_MAX for exact doubles. */
 int64_t dyd_real_glance_bits(const dyd_real *x);

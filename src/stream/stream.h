@@ -14,8 +14,7 @@ dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value);
 /* The same with a context of `size` bytes in one block with the stream, as dyd_real_new_inside. */
 dyd_status dyd_stream_new_inside(dyd_stream **out, void **user, size_t size, dyd_narrow_fn narrow,
                                  dyd_release_fn release);
-/* Where doubles hold the rectangle that a first narrowing to `bits` gives, that rectangle: x side, y side. s is not
- * changed; what it gives later lies in that rectangle. */
+/* The same as dyd_real_glance for both sides of a point. */
 bool dyd_stream_glance(dyd_double_span out[2], const dyd_stream *s, int64_t bits);
 /* The greatest bits for which dyd_stream_glance succeeds; INT64_MIN when there is none. */
 int64_t dyd_stream_glance_bits(const dyd_stream *s);

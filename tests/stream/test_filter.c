@@ -3,7 +3,7 @@
  * exact rationals, and short constants. The programs are made by hand, so that nothing is folded. */
 #include "stream/check.h"
 
-#include "stream/filter_expr.h"
+#include "stream/real.h"
 #include <math.h>
 
 #define PREC 2500
@@ -350,6 +350,45 @@ static void test_grids(void **state) {
   }
 }
 
+/* ---- reals ---- */
+
+/* What a real gives at first sight holds what it gives later for more bits, and widths are as asked. */
+static void check_glance(const char *text, int64_t first, int64_t later) {
+  dyd_double_span d;
+  dyd_interval whole;
+  dyd_real *x = parsed(text);
+  dyd_interval_init(&whole);
+  int64_t most = dyd_real_glance_bits(x);
+  assert_true(most > 20);
+  if (first > most) first = most;
+  assert_true(dyd_real_glance(&d, x, first));
+  assert_int_equal(DYD_OK, dyd_interval_set_d(&whole, d.lo, d.hi));
+  assert_true(dyd_interval_bits(&whole) >= first);
+  const dyd_interval *now = narrowed(x, later, 4096);
+  assert_true(dyd_interval_bits(now) >= later);
+  if (later >= first && !dyd_interval_contains(&whole, now)) fail_msg("%s: %d, %d bits", text, (int)first, (int)later);
+  assert_false(dyd_real_glance(&d, x, first));
+  dyd_interval_set(&whole, now);
+  assert_true(dyd_interval_contains(&whole, narrowed(x, later + 30, 4096)));
+  dyd_interval_clear(&whole);
+  dyd_real_free(x);
+}
+
+/* Values next to multiples of the grids: what doubles and balls know of them lies on different sides. */
+static void test_glances(void **state) {
+  (void)state;
+  test_random r = test_random_start("glances");
+  for (size_t n = test_cases(20000); n > 0; n--) {
+    char text[100];
+    int64_t first = test_between(&r, 0, 60), later = test_between(&r, 0, 130);
+    snprintf(text, sizeof text, "%d*2^-%d%csqrt(%d)*2^-%d*2^-%d", (int)test_below(&r, 2000), (int)test_below(&r, 12),
+             test_below(&r, 2) ? '+' : '-', (int)test_below(&r, 4) + 2, (int)test_below(&r, 50),
+             (int)test_below(&r, 50));
+    if (strstr(text, "sqrt(4)")) continue;
+    check_glance(text, first, later);
+  }
+}
+
 /* ---- constants ---- */
 
 static void test_constants(void **state) {
@@ -387,6 +426,7 @@ static void test_constants(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_programs), cmocka_unit_test(test_ends_of_doubles),
                                      cmocka_unit_test(test_special),         cmocka_unit_test(test_deep),
-                                     cmocka_unit_test(test_grids),           cmocka_unit_test(test_constants)};
+                                     cmocka_unit_test(test_grids),           cmocka_unit_test(test_glances),
+                                     cmocka_unit_test(test_constants)};
   return cmocka_run_group_tests(tests, NULL, release_caches);
 }
