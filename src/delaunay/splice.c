@@ -197,6 +197,25 @@ static void part_clear(part *p) {
   free(p->queue);
 }
 
+static bool triangle_stands(dyd_delaunay *pd, uint32_t t) {
+  dyd_mesh *m = &pd->mesh;
+  const uint32_t *v = m->tri[t].v;
+  if (dyd_mesh_is_ghost(m, t) || dyd_mesh_orient(m, v[0], v[1], v[2]) <= 0) return false;
+  for (unsigned k = 0; k < 3; k++) {
+    uint32_t beyond = m->tri[t].n[k];
+    if (dyd_edge_is_certain(pd, t, k) || beyond < 4 * t + k) continue;
+    uint32_t across = m->tri[beyond >> 2].v[beyond & 3];
+    if (across == m->n || dyd_mesh_incircle(m, v[0], v[1], v[2], across) > 0) return false;
+  }
+  return true;
+}
+
+bool dyd_splice_is_needless(dyd_delaunay *pd, const uint32_t *tri, uint32_t tris) {
+  for (uint32_t q = 0; q < tris; q++)
+    if (!triangle_stands(pd, tri[q])) return false;
+  return true;
+}
+
 dyd_status dyd_splice_face(bool *fits, dyd_delaunay *pd, const uint32_t *tri, uint32_t tris) {
   part p = {.pd = pd, .tri = tri, .tris = tris};
   dyd_status st = gather_rims(&p);

@@ -300,7 +300,38 @@ static void test_definition(void **state) {
   free(e);
 }
 
+/* More than 256 sites, so that site numbers have several digits: the list is sorted, and as long as counted. */
+static void test_large_grid(void **state) {
+  enum { SIDE = 27 };
+  double x[SIDE * SIDE], y[SIDE * SIDE];
+  size_t n = SIDE * SIDE, count[4], cells = (SIDE - 1) * (SIDE - 1), chain = (SIDE - 1) * (SIDE - 2) / 2;
+  dyd_sites *s = NULL;
+  dyd_delaunay *pd = NULL;
+  dyd_pair_list l = {0};
+  (void)state;
+  for (size_t i = 0, k = 0; i < n; i++, k = (k + 100) % n) { /* 100 is prime to the number of sites */
+    x[i] = (double)(k % SIDE);
+    y[i] = (double)(k / SIDE);
+  }
+  assert_int_equal(dyd_sites_new(&s), DYD_OK);
+  assert_int_equal(dyd_sites_add_points(s, n, x, y), DYD_OK);
+  assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
+  assert_int_equal(dyd_delaunay_pairs(&l, pd), DYD_OK);
+  dyd_delaunay_count(count, pd);
+  assert_int_equal(count[DYD_LEGAL], 2 * SIDE * (SIDE - 1));
+  assert_int_equal(count[DYD_TIE], 2 * cells + 4 * chain);
+  assert_int_equal(l.count, count[DYD_LEGAL] + count[DYD_TIE]);
+  for (size_t q = 0; q < l.count; q++) {
+    dyd_pair p = l.item[q], before = l.item[q ? q - 1 : 0];
+    assert_true(p.i < p.j && p.status == dyd_delaunay_status(pd, p.i, p.j));
+    if (q) assert_true(before.i < p.i || (before.i == p.i && before.j < p.j));
+  }
+  dyd_pair_list_clear(&l);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(s);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_definition)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_definition), cmocka_unit_test(test_large_grid)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Hundreds of rectangles narrowed bit by bit: after every update the pairs are those of a fresh run, except that legal
+ * ones may have been carried over. The verify build re-checks every witness found near its faces against all sites, and
+ * the whole skeleton after every update, exactly [LOC-1] [LOC-2] [LOC-3]. */
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include "delaunay/faces.h"
+#include "delaunay/filter_local.h"
+#include "delaunay/witness.h"
+#include "support/random.h"
+#include <cmocka.h>
+#include <dyadel/delaunay.h>
+#include <math.h>
+#include <string.h>
+
+enum { MOST = 400 };
+
+/* Boxes of multiples of `unit`. */
+typedef struct cloud {
+  size_t n;
+  double unit, x0[MOST], x1[MOST], y0[MOST], y1[MOST];
+} cloud;
+
+static double half_width(test_random *g, size_t n, unsigned wide) {
+  double spacing = 1 / sqrt((double)n);
+  if (!test_chance(g, wide)) return test_chance(g, 2) ? 0 : 0.01 * spacing * test_unit(g);
+  return spacing * test_unit(g) * (test_chance(g, 6) ? 2 : 0.6);
+}
+
+static double snap(const cloud *c, double x) {
+  return floor(x / c->unit) * c->unit;
+}
+
+/* Uniform, or most of them around a few places and on a ring. */
+static void make(cloud *c, test_random *g) {
+  static const double unit[3] = {0x1p-40, 0x1p-12, 0x1p-6};
+  unsigned wide = 2 + (unsigned)test_below(g, 12), shape = (unsigned)test_below(g, 3);
+  c->n = 20 + (size_t)test_below(g, test_chance(g, 4) ? MOST - 20 : 100);
+  c->unit = unit[test_below(g, 3)];
+  for (size_t i = 0; i < c->n; i++) {
+    double x = test_unit(g), y = test_unit(g), h = half_width(g, c->n, wide);
+    if (shape == 1) x = floor(3 * x) / 3 + 0.05 * test_unit(g), y = floor(3 * y) / 3 + 0.05 * test_unit(g);
+    if (shape == 2 && i % 2) x = 0.5 + 0.5 * cos(6.3 * y), y = 0.5 + 0.5 * sin(6.3 * y);
+    c->x0[i] = snap(c, x - h);
+    c->y0[i] = snap(c, y - h);
+    c->x1[i] = fmax(c->x0[i], snap(c, x + h));
+    c->y1[i] = fmax(c->y0[i], snap(c, y + h));
+  }
+}
+
+/* A random part of [lo,hi]: any, an end, or nearly all. */
+static void narrow_side(const cloud *c, test_random *g, double *lo, double *hi) {
+  double a = test_unit(g), b = test_unit(g), width = *hi - *lo, low = *lo;
+  if (test_chance(g, 4)) b = a;
+  if (test_chance(g, 4)) a = 0;
+  if (test_chance(g, 4)) b = 1;
+  double p = low + snap(c, fmin(a, b) * width), q = low + snap(c, fmax(a, b) * width);
+  *lo = fmax(*lo, p);
+  *hi = fmax(*lo, fmin(*hi, q));
+}
+
+static dyd_pair_list pairs_of(const dyd_delaunay *pd) {
+  dyd_pair_list l = {0};
+  assert_int_equal(dyd_delaunay_pairs(&l, pd), DYD_OK);
+  return l;
+}
+
+static size_t same_as_fresh(const dyd_sites *s, const dyd_delaunay *pd) {
+  dyd_delaunay *fresh = NULL;
+  size_t carried = 0;
+  assert_int_equal(dyd_delaunay_new(&fresh, s, NULL, NULL), DYD_OK);
+  dyd_pair_list is = pairs_of(pd), want = pairs_of(fresh);
+  assert_int_equal(is.count, want.count);
+  for (size_t k = 0; k < is.count; k++) {
+    assert_true(is.item[k].i == want.item[k].i && is.item[k].j == want.item[k].j);
+    carried += is.item[k].status != want.item[k].status;
+    if (is.item[k].status != want.item[k].status)
+      assert_true(is.item[k].status == DYD_LEGAL && want.item[k].status == DYD_INDETERMINATE);
+  }
+  dyd_pair_list_clear(&is);
+  dyd_pair_list_clear(&want);
+  dyd_delaunay_free(fresh);
+  return carried;
+}
+
+static void step(cloud *c, test_random *g, dyd_sites *s, dyd_delaunay *pd) {
+  uint32_t changed[MOST];
+  size_t count = 0;
+  unsigned one_in = 1 + (unsigned)test_below(g, 20);
+  for (size_t i = 0; i < c->n; i++) {
+    dyd_rect r;
+    if (!test_chance(g, one_in)) continue;
+    narrow_side(c, g, &c->x0[i], &c->x1[i]);
+    narrow_side(c, g, &c->y0[i], &c->y1[i]);
+    dyd_rect_init(&r);
+    assert_int_equal(dyd_rect_set_d(&r, c->x0[i], c->x1[i], c->y0[i], c->y1[i]), DYD_OK);
+    assert_int_equal(dyd_sites_narrow(s, i, &r), DYD_OK);
+    dyd_rect_clear(&r);
+    changed[count++] = (uint32_t)i;
+  }
+  dyd_delaunay_options o = {.no_filter = test_chance(g, 30)};
+  assert_int_equal(dyd_delaunay_update(pd, changed, count, &o, NULL), DYD_OK);
+}
+
+static void test_fresh(void **state) {
+  (void)state;
+  test_random g = test_random_start("update");
+  cloud *c = malloc(sizeof *c);
+  size_t carried = 0;
+  assert_non_null(c);
+  for (size_t q = 0; q < test_cases(12); q++) {
+    dyd_sites *s = NULL;
+    dyd_delaunay *pd = NULL;
+    make(c, &g);
+    assert_int_equal(dyd_sites_new(&s), DYD_OK);
+    assert_int_equal(dyd_sites_add_boxes(s, c->n, c->x0, c->x1, c->y0, c->y1), DYD_OK);
+    assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
+    for (int k = 0; k < 4; k++) {
+      step(c, &g, s, pd);
+      carried += same_as_fresh(s, pd);
+    }
+    dyd_delaunay_free(pd);
+    dyd_sites_free(s);
+  }
+  fprintf(stderr, "# carried over: %zu\n", carried);
+  free(c);
+}
+
+/* ---- any certain edges will do, and any centre ---- */
+
+/* Takes some edges back, and finds the faces that this gives. */
+static void forget_edges(dyd_delaunay *pd, test_random *g) {
+  dyd_work w;
+  unsigned one_in = 2 + (unsigned)test_below(g, 6);
+  for (uint32_t t = 0; t < pd->mesh.count; t++)
+    for (unsigned k = 0; k < 3; k++) {
+      uint32_t twin = pd->mesh.tri[t].n[k];
+      if (twin < 4 * t + k || !test_chance(g, one_in)) continue;
+      pd->certain[t] &= (uint8_t) ~(1u << k);
+      pd->certain[twin >> 2] &= (uint8_t) ~(1u << (twin & 3));
+    }
+  dyd_faces_clear(&pd->faces);
+  dyd_work_init(&w, pd);
+  assert_int_equal(dyd_faces_find(pd, &w, NULL, 0), DYD_OK);
+  dyd_work_clear(&w);
+}
+
+/* Looks at centres on both sides of the edge; returns how many are witnesses. */
+static size_t try_centres(dyd_delaunay *pd, test_random *g, uint32_t t, unsigned k) {
+  uint32_t i = pd->mesh.tri[t].v[dyd_next(k)], j = pd->mesh.tri[t].v[dyd_prev(k)];
+  dyd_xy p = pd->reps.xy[i], q = pd->reps.xy[j];
+  dyd_point c;
+  size_t count = 0;
+  dyd_point_init(&c);
+  for (int tries = 0; tries < 6; tries++) {
+    double a = test_unit(g), b = (test_unit(g) - 0.5) * (test_chance(g, 4) ? 4 : 1);
+    dyd_xy at = {p.x + a * (q.x - p.x) - b * (q.y - p.y), p.y + a * (q.y - p.y) + b * (q.x - p.x)};
+    bool good = false;
+    if (!dyd_filter_local_witness(pd, t, k, at)) continue;
+    assert_int_equal(dyd_dyadic_set_d(&c.x, at.x), DYD_OK);
+    assert_int_equal(dyd_dyadic_set_d(&c.y, at.y), DYD_OK);
+    assert_int_equal(dyd_witness_check(&good, pd, i, j, &c), DYD_OK);
+    assert_true(good);
+    count++;
+  }
+  dyd_point_clear(&c);
+  return count;
+}
+
+static void test_local_witness(void **state) {
+  (void)state;
+  test_random g = test_random_start("local witness");
+  cloud *c = malloc(sizeof *c);
+  size_t witnesses = 0;
+  assert_non_null(c);
+  for (size_t q = 0; q < test_cases(40); q++) {
+    dyd_sites *s = NULL;
+    dyd_delaunay *pd = NULL;
+    make(c, &g);
+    assert_int_equal(dyd_sites_new(&s), DYD_OK);
+    assert_int_equal(dyd_sites_add_boxes(s, c->n, c->x0, c->x1, c->y0, c->y1), DYD_OK);
+    assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
+    if (pd->box) forget_edges(pd, &g);
+    for (uint32_t t = 0; t < pd->mesh.count && pd->box; t++)
+      for (unsigned k = 0; k < 3; k++)
+        if (!dyd_edge_is_certain(pd, t, k)) witnesses += try_centres(pd, &g, t, k);
+    dyd_delaunay_free(pd);
+    dyd_sites_free(s);
+  }
+  assert_true(witnesses > 1000);
+  free(c);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_fresh), cmocka_unit_test(test_local_witness)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
