@@ -125,6 +125,30 @@ static dyd_status build_boxes(dyd_delaunay *pd) {
   return dyd_tree_init(&pd->tree, item, count, pd->box);
 }
 
+/* Some ghost triangle: that of the last seam if it is still one, or any. */
+static uint32_t ghost_triangle(const dyd_mesh *m) {
+  if (dyd_mesh_is_ghost(m, m->hint)) return m->hint;
+  for (uint32_t t = 0; t < m->count; t++)
+    if (dyd_mesh_is_ghost(m, t)) return t;
+  return DYD_NONE;
+}
+
+/* Bits of certain[] are halves of edges; edges to the ghost are told apart by a walk around the hull. */
+uint64_t dyd_certain_edges(const dyd_delaunay *pd) {
+  const dyd_mesh *m = &pd->mesh;
+  uint64_t halves = 0, ghosts = 0;
+  if (m->count == 0) return 0;
+  for (uint32_t t = 0; t < m->count; t++) halves += 0x32212110u >> 4 * (pd->certain[t] & 7) & 7;
+  uint32_t first = ghost_triangle(m), t = first;
+  do {
+    const uint32_t *v = m->tri[t].v;
+    unsigned g = v[0] == m->n ? 0 : v[1] == m->n ? 1 : 2;
+    ghosts += dyd_edge_is_certain(pd, t, dyd_prev(g));
+    t = m->tri[t].n[dyd_prev(g)] >> 2;
+  } while (t != first);
+  return halves / 2 - ghosts;
+}
+
 uint32_t dyd_find_edge(const dyd_delaunay *pd, uint32_t v, uint32_t w) {
   uint32_t first = pd->corner[v], h = first;
   if (first == DYD_NONE) return DYD_NONE;

@@ -18,6 +18,9 @@ void dyd_build_clear(dyd_delaunay *pd);
  * w may be the ghost. */
 uint32_t dyd_find_edge(const dyd_delaunay *pd, uint32_t v, uint32_t w);
 
+/* How many pairs are legal, that is certain edges that are real. O(n), a byte for each triangle. */
+uint64_t dyd_certain_edges(const dyd_delaunay *pd);
+
 /* Are v and w (not the ghost) joined by a certain edge of the skeleton? */
 bool dyd_is_legal(const dyd_delaunay *pd, uint32_t v, uint32_t w);
 

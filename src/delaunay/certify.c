@@ -8,6 +8,7 @@
 #include "delaunay/certify.h"
 
 #include "base/alloc.h"
+#include "delaunay/build.h"
 #include "delaunay/hull.h"
 #include "delaunay/marks.h"
 #include "delaunay/view.h"
@@ -61,18 +62,6 @@ static dyd_status run(dyd_delaunay *pd, dyd_task *task) {
 
 /* ---- exact points ---- */
 
-/* Certain edges that are real: their witness is the middle of the skeleton's Voronoi edge. */
-static uint64_t certain_real_edges(const dyd_delaunay *pd, const dyd_marks *range) {
-  uint64_t count = 0;
-  for (uint32_t t = range->first; t < range->end; t++) {
-    const uint32_t *v = pd->mesh.tri[t].v;
-    for (unsigned k = 0; k < 3; k++)
-      count += pd->mesh.tri[t].n[k] > 4 * t + k && v[dyd_next(k)] != pd->mesh.n && v[dyd_prev(k)] != pd->mesh.n &&
-               dyd_edge_is_certain(pd, t, k);
-  }
-  return count;
-}
-
 static void decide_point_edges(dyd_delaunay *view, dyd_marks *range) {
   for (uint32_t t = range->first; t < range->end; t++)
     for (unsigned k = 0; k < 3; k++)
@@ -83,19 +72,14 @@ static void point_edges_of_range(void *context, size_t number) {
   run_on_view(context, number, decide_point_edges);
 }
 
-static void count_guesses(void *context, size_t number) {
-  pass *p = context;
-  dyd_marks *range = &p->tasks.task[number];
-  range->counters.witness_guess = certain_real_edges(p->pd, range);
-}
-
 static dyd_status certify_points(dyd_delaunay *pd) {
   dyd_status st = DYD_OK;
   if (pd->mesh.ties == 0)
     memset(pd->certain, 7, pd->mesh.count);
   else
     st = run(pd, point_edges_of_range);
-  return st == DYD_OK ? run(pd, count_guesses) : st;
+  if (st == DYD_OK) pd->counters.witness_guess += dyd_certain_edges(pd); /* the middles of their Voronoi edges */
+  return st;
 }
 
 /* ---- rectangles ---- */

@@ -256,10 +256,10 @@ static void close_gaps(dyd_mesh *m, gap *gaps, unsigned count) {
     } else {
       uint32_t t = low->from++;
       m->tri[t] = m->tri[--m->count];
+      if (m->hint == m->count) m->hint = t;
       for (unsigned k = 0; k < 3; k++) join_edges(m, 4 * t + k, m->tri[t].n[k]);
     }
   }
-  m->hint = 0;
 }
 
 static dyd_status gather_aliases(dyd_mesh *m, const seams *s) {
@@ -301,6 +301,7 @@ dyd_status dyd_mesh_join_strips(bool *joined, dyd_mesh *m, const dyd_strips *str
     join_parts(s, threads);
     dyd_fixed_take(m, &s->part[0]);
     m->count = s->part[0].count;
+    m->hint = s->part[0].hint;
     close_gaps(m, s->gap + 1, s->parts - 1);
     st = gather_aliases(m, s);
     *joined = st == DYD_OK;

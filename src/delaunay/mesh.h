@@ -64,7 +64,7 @@ typedef struct dyd_mesh {
   dyd_fixed *fixed; /* scaled 64-bit coordinates, made at the first need; NULL before */
   bool no_fixed;    /* they do not exist */
   dyd_delaunay_counters *counters; /* borrowed */
-  uint32_t hint;
+  uint32_t hint;                   /* where the next search starts; of a mesh of several strips: a ghost triangle */
   uint32_t *stack, *spare;
   size_t stack_cap, spare_cap;
 } dyd_mesh;

@@ -115,11 +115,7 @@ void dyd_delaunay_count(size_t count[4], const dyd_delaunay *pd) {
     if (!pd->line.capped) count[pd->line.all_points ? DYD_TIE : DYD_INDETERMINATE] = dyd_line_open_pairs(&pd->line);
     return;
   }
-  const dyd_mesh *m = &pd->mesh;
-  for (uint32_t t = 0; t < m->count; t++)
-    for (unsigned k = 0; k < 3; k++)
-      count[DYD_LEGAL] += m->tri[t].n[k] > 4 * t + k && m->tri[t].v[dyd_next(k)] != m->n &&
-                          m->tri[t].v[dyd_prev(k)] != m->n && dyd_edge_is_certain(pd, t, k);
+  count[DYD_LEGAL] = dyd_certain_edges(pd);
   count[DYD_INDETERMINATE] = pd->faces.capped_pairs;
   if (pd->all_points) count[DYD_TIE] = pd->faces.live_pairs - pd->faces.capped_pairs;
   for (size_t f = 0; f < pd->faces.count && !pd->all_points; f++)
