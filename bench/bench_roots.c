@@ -5,9 +5,23 @@
 
 #include <dyadel/engine.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void check(dyd_status status, const dyd_error *err) {
   if (status != DYD_OK) bench_die("roots", *err->message ? err->message : dyd_status_text(status));
+}
+
+/* Writes "sqrt(a)" at the end of a text. */
+static char *write_root(char *end, uint32_t a) {
+  char digit[10];
+  int n = 0;
+  memcpy(end, "sqrt(", 5);
+  end += 5;
+  do digit[n++] = (char)('0' + a % 10);
+  while (a /= 10);
+  while (n) *end++ = digit[--n];
+  *end++ = ')';
+  return end;
 }
 
 static void add_point(dyd_engine *e, const uint32_t r[4], dyd_error *err) {
@@ -15,8 +29,10 @@ static void add_point(dyd_engine *e, const uint32_t r[4], dyd_error *err) {
   dyd_stream *s = NULL;
   for (int k = 0; k < 2; k++) {
     char text[64];
-    int length = snprintf(text, sizeof text, "sqrt(%u)+sqrt(%u)", (unsigned)r[2 * k], (unsigned)r[2 * k + 1]);
-    check(dyd_real_parse(&coordinate[k], text, (size_t)length, err), err);
+    char *end = write_root(text, r[2 * k]);
+    *end++ = '+';
+    end = write_root(end, r[2 * k + 1]);
+    check(dyd_real_parse(&coordinate[k], text, (size_t)(end - text), err), err);
   }
   check(dyd_stream_from_reals(&s, coordinate[0], coordinate[1]), err);
   check(dyd_engine_add_stream(e, s), err);
@@ -57,8 +73,7 @@ static uint32_t *radicands(size_t n) {
   return r;
 }
 
-static void row_roots(const bench_options *o) {
-  size_t n = bench_size(o, 10000);
+static void row_roots(const bench_options *o, size_t n) {
   uint32_t *r = radicands(n);
   bench_series ours = {0}, peer = {0};
   bench_edges edges = {0}, peers = {0};
@@ -89,7 +104,10 @@ static void row_roots(const bench_options *o) {
 int main(int argc, char **argv) {
   bench_options o;
   bench_options_read(&o, argc, argv);
-  if (bench_wants(&o, "roots")) row_roots(&o);
+  if (bench_wants(&o, "roots")) {
+    row_roots(&o, bench_size(&o, 10000));
+    if (!o.n) row_roots(&o, 100000);
+  }
   bench_options_close(&o);
   return 0;
 }

@@ -8,10 +8,10 @@
 #define SHORT_BITS (GMP_NUMB_BITS < 64 ? GMP_NUMB_BITS - 2 : 62)
 
 void dyd_constant_clear(dyd_constant *c) {
-  if (!c->big) return;
-  mpq_clear(c->big);
-  free(c->big);
-  c->big = NULL;
+  if (dyd_constant_is_short(c)) return;
+  mpq_clear(c->u.big);
+  free(c->u.big);
+  *c = (dyd_constant){.den = 1};
 }
 
 static bool is_short(mpz_srcptr z) {
@@ -20,26 +20,27 @@ static bool is_short(mpz_srcptr z) {
 
 dyd_status dyd_constant_set(dyd_constant *c, mpq_srcptr q) {
   if (is_short(mpq_numref(q)) && is_short(mpq_denref(q))) {
+    long num = mpz_get_si(mpq_numref(q)), den = mpz_get_si(mpq_denref(q)); /* q may be the value of c */
     dyd_constant_clear(c);
-    c->num = mpz_get_si(mpq_numref(q));
-    c->den = mpz_get_si(mpq_denref(q));
+    c->u.num = num;
+    c->den = den;
     return DYD_OK;
   }
-  if (!c->big) {
+  if (dyd_constant_is_short(c)) {
     mpq_ptr big = dyd_alloc(1, sizeof *big);
     if (!big) return DYD_E_NOMEM;
     mpq_init(big);
-    c->big = big;
+    *c = (dyd_constant){.u.big = big};
   }
-  mpq_set(c->big, q);
+  mpq_set(c->u.big, q);
   return DYD_OK;
 }
 
 mpq_srcptr dyd_constant_get(dyd_constant_view *view, const dyd_constant *c) {
-  if (c->big) return c->big;
-  view->limb[0] = (mp_limb_t)(c->num < 0 ? -c->num : c->num);
+  if (!dyd_constant_is_short(c)) return c->u.big;
+  view->limb[0] = (mp_limb_t)(c->u.num < 0 ? -c->u.num : c->u.num);
   view->limb[1] = (mp_limb_t)c->den;
-  mpz_roinit_n(mpq_numref(view->q), &view->limb[0], c->num < 0 ? -1 : 1);
+  mpz_roinit_n(mpq_numref(view->q), &view->limb[0], c->u.num < 0 ? -1 : 1);
   mpz_roinit_n(mpq_denref(view->q), &view->limb[1], 1);
   return view->q;
 }
@@ -47,7 +48,7 @@ mpq_srcptr dyd_constant_get(dyd_constant_view *view, const dyd_constant *c) {
 dyd_status dyd_constant_literal(dyd_constant *c, const dyd_literal *in) {
   uint64_t num, den;
   if (dyd_literal_words(&num, &den, in) && num >> SHORT_BITS == 0 && den >> SHORT_BITS == 0) {
-    c->num = (int64_t)num;
+    c->u.num = (int64_t)num;
     c->den = (int64_t)den;
     return DYD_OK;
   }
@@ -59,20 +60,18 @@ dyd_status dyd_constant_literal(dyd_constant *c, const dyd_literal *in) {
   return st;
 }
 
-static size_t bits(uint64_t x) {
-  size_t n = 1;
-  while (x >>= 1) n++;
-  return n;
+static size_t bits(int64_t x) {
+  mp_limb_t limb = (mp_limb_t)(x < 0 ? -x : x);
+  return limb ? mpn_sizeinbase(&limb, 1, 2) : 1;
 }
 
 size_t dyd_constant_bits(const dyd_constant *c) {
-  if (!c->big) return bits((uint64_t)(c->num < 0 ? -c->num : c->num)) + bits((uint64_t)c->den);
-  return mpz_sizeinbase(mpq_numref(c->big), 2) + mpz_sizeinbase(mpq_denref(c->big), 2);
+  if (dyd_constant_is_short(c)) return bits(c->u.num) + bits(c->den);
+  return mpz_sizeinbase(mpq_numref(c->u.big), 2) + mpz_sizeinbase(mpq_denref(c->u.big), 2);
 }
 
 int dyd_constant_cmp(const dyd_constant *c, int k) {
-  if (c->big) return mpq_cmp_si(c->big, k, 1);
-  /* k = -1, 0, 1 in all uses: no overflow below 2^62. */
+  if (!dyd_constant_is_short(c)) return mpq_cmp_si(c->u.big, k, 1);
   int64_t right = k * c->den;
-  return (c->num > right) - (c->num < right);
+  return (c->u.num > right) - (c->u.num < right);
 }

@@ -5,12 +5,18 @@
 
 #include "stream/number.h"
 
-/* big: the value, owned; NULL: the value is num / den.
- * Invariant: num / den is in lowest terms, den > 0, |num| and den are below 2^62. */
+/* den > 0: the value is num / den in lowest terms, |num| and den below 2^62; den = 0: the value is *big, owned. */
 typedef struct dyd_constant {
-  int64_t num, den;
-  mpq_ptr big;
+  union {
+    int64_t num;
+    mpq_ptr big;
+  } u;
+  int64_t den;
 } dyd_constant;
+
+static inline bool dyd_constant_is_short(const dyd_constant *c) {
+  return c->den != 0;
+}
 
 /* A place in which a short constant looks like a rational. */
 typedef struct dyd_constant_view {
@@ -27,7 +33,7 @@ mpq_srcptr dyd_constant_get(dyd_constant_view *view, const dyd_constant *c);
 dyd_status dyd_constant_literal(dyd_constant *c, const dyd_literal *in);
 /* Bits of numerator and denominator together, each at least 1. */
 size_t dyd_constant_bits(const dyd_constant *c);
-/* Sign of c - k. */
+/* Sign of c - k, |k| <= 1. */
 int dyd_constant_cmp(const dyd_constant *c, int k);
 
 #endif

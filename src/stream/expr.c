@@ -26,7 +26,7 @@ typedef struct parser {
 } parser;
 
 static const struct {
-  const char *name;
+  char name[5];
   dyd_op op;
 } names[] = {{"pi", DYD_OP_PI},     {"e", DYD_OP_E},       {"min", DYD_OP_MIN},   {"max", DYD_OP_MAX},
              {"sqrt", DYD_OP_SQRT}, {"cbrt", DYD_OP_CBRT}, {"exp", DYD_OP_EXP},   {"log", DYD_OP_LOG},
@@ -48,7 +48,7 @@ static dyd_status parse_signed(parser *p);
 #define FAIL(p, at, code, ...) dyd_text_fail((p)->err, (code), (p)->text, (at), __VA_ARGS__)
 
 static int peek(parser *p) {
-  while (p->pos < p->length && strchr(" \t\r\n", p->text[p->pos]) && p->text[p->pos]) p->pos++;
+  while (p->pos < p->length && dyd_is_blank(p->text[p->pos])) p->pos++;
   return p->pos < p->length ? (unsigned char)p->text[p->pos] : -1;
 }
 
@@ -58,7 +58,7 @@ static dyd_node *last(parser *p) {
 
 /* The constant that the last node names. */
 static dyd_constant *last_constant(parser *p) {
-  return &p->e->constant[last(p)->constant];
+  return &p->e->constant[last(p)->argument];
 }
 
 /* Takes the last node, a constant, off the end. */
@@ -107,7 +107,7 @@ static dyd_status push_literal(parser *p, const dyd_literal *l, size_t at) {
   dyd_status st = push(p, DYD_OP_CONST, at);
   if (st) return st;
   if (!dyd_draft_reserve_constant(p->d)) return dyd_fail_nomem(p->err);
-  last(p)->constant = (uint32_t)e->constants;
+  last(p)->argument = (int32_t)e->constants;
   e->constant[e->constants++] = (dyd_constant){.den = 1};
   st = dyd_constant_literal(last_constant(p), l);
   if (st) return fold_fail(p, st, DYD_OP_CONST, at);
@@ -126,7 +126,7 @@ static dyd_status emit_unary(parser *p, dyd_op op, long exponent, size_t at) {
   }
   st = push(p, op, at);
   if (st) return st;
-  last(p)->exponent = (int32_t)exponent;
+  last(p)->argument = (int32_t)exponent;
   last(p)->range = dyd_range_apply(op, a, a, exponent);
   return DYD_OK;
 }
@@ -136,11 +136,11 @@ static dyd_status emit_binary(parser *p, dyd_op op, size_t left, size_t at) {
   dyd_expr *e = p->e;
   const dyd_node *a = &e->node[left], *b = last(p);
   bool both = a->op == DYD_OP_CONST && b->op == DYD_OP_CONST;
-  if (op == DYD_OP_DIV && b->op == DYD_OP_CONST && dyd_constant_cmp(&e->constant[b->constant], 0) == 0) {
+  if (op == DYD_OP_DIV && b->op == DYD_OP_CONST && dyd_constant_cmp(&e->constant[b->argument], 0) == 0) {
     return fold_fail(p, DYD_E_DOMAIN, op, at);
   }
   if (both) {
-    dyd_status st = dyd_fold_binary(&e->constant[a->constant], op, &e->constant[b->constant]);
+    dyd_status st = dyd_fold_binary(&e->constant[a->argument], op, &e->constant[b->argument]);
     drop_constant(p);
     return st ? fold_fail(p, st, op, at) : charge(p, at);
   }
@@ -213,10 +213,15 @@ static dyd_status name_fail(parser *p, size_t at, size_t n) {
               shown, p->text + at);
 }
 
+/* Is the name the n letters of the text? */
+static bool is_name(const char name[5], const char *text, size_t n) {
+  return name[0] == *text && n < 5 && name[n] == 0 && !memcmp(name, text, n);
+}
+
 static dyd_status parse_name(parser *p) {
   size_t at = p->pos, n = 0, i = 0;
   while (at + n < p->length && (is_letter(p->text[at + n]) || (p->text[at + n] >= '0' && p->text[at + n] <= '9'))) n++;
-  while (i < NAME_COUNT && (strlen(names[i].name) != n || memcmp(names[i].name, p->text + at, n))) i++;
+  while (i < NAME_COUNT && !is_name(names[i].name, p->text + at, n)) i++;
   if (i == NAME_COUNT) return name_fail(p, at, n);
   dyd_op op = names[i].op;
   p->pos += n;

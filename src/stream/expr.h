@@ -61,9 +61,8 @@ typedef struct dyd_range {
 typedef struct dyd_node {
   unsigned char op; /* a dyd_op */
   dyd_range range;
-  uint32_t column;   /* of the operator or name in the text, from 1; the largest number stands for all beyond */
-  int32_t exponent;  /* DYD_OP_POW: within +- DYD_EXP_LIMIT */
-  uint32_t constant; /* DYD_OP_CONST: index in the table of constants */
+  uint32_t column;  /* of the operator or name in the text, from 1; the largest number stands for all beyond */
+  int32_t argument; /* DYD_OP_POW: the exponent, within +- DYD_EXP_LIMIT; DYD_OP_CONST: index of the constant */
 } dyd_node;
 
 /* Invariant: node[0..count-1] is a complete expression in postfix order, constants are used in order, each once;

@@ -58,5 +58,5 @@ void dyd_expr_take(dyd_expr *out, dyd_draft *d) {
 }
 
 const dyd_constant *dyd_expr_rational(const dyd_expr *e) {
-  return e->count == 1 && e->node[0].op == DYD_OP_CONST ? &e->constant[e->node[0].constant] : NULL;
+  return e->count == 1 && e->node[0].op == DYD_OP_CONST ? &e->constant[e->node[0].argument] : NULL;
 }

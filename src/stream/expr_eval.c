@@ -35,7 +35,7 @@ static void push_leaf(machine *m, const dyd_expr *e, const dyd_node *n) {
     arb_const_e(out, m->prec);
   } else {
     dyd_constant_view view;
-    dyd_ball_set_q(out, dyd_constant_get(&view, &e->constant[n->constant]), m->prec);
+    dyd_ball_set_q(out, dyd_constant_get(&view, &e->constant[n->argument]), m->prec);
   }
 }
 
@@ -50,7 +50,7 @@ static dyd_defined apply(machine *m, const dyd_expr *e, const dyd_range *below, 
     m->top--;
     return dyd_ball_binary(m->ball + m->top - 1, (dyd_op)n->op, m->ball + m->top, m->prec);
   }
-  return dyd_ball_unary(m->ball + m->top - 1, (dyd_op)n->op, *below, n->exponent, m->prec);
+  return dyd_ball_unary(m->ball + m->top - 1, (dyd_op)n->op, *below, n->argument, m->prec);
 }
 
 /* Runs all nodes; the value is then m->ball[0]. On failure *culprit is the node. */

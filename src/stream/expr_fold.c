@@ -110,15 +110,16 @@ static dyd_status with_rational(dyd_constant *x, bool *done, dyd_op op, long exp
 
 /* Is the short positive constant surely no square of a rational? */
 static bool is_no_square(const dyd_constant *x) {
-  mp_limb_t num = (mp_limb_t)x->num, den = (mp_limb_t)x->den;
-  return !x->big && x->num > 0 && (!mpn_perfect_square_p(&num, 1) || !mpn_perfect_square_p(&den, 1));
+  if (!dyd_constant_is_short(x) || x->u.num <= 0) return false;
+  mp_limb_t num = (mp_limb_t)x->u.num, den = (mp_limb_t)x->den;
+  return !mpn_perfect_square_p(&num, 1) || !mpn_perfect_square_p(&den, 1);
 }
 
 dyd_status dyd_fold_unary(dyd_constant *x, bool *done, dyd_op op, long exponent) {
   *done = op == DYD_OP_NEG;
   if (op == DYD_OP_SQRT && is_no_square(x)) return DYD_OK;
-  if (op != DYD_OP_NEG || x->big) return with_rational(x, done, op, exponent, NULL);
-  x->num = -x->num;
+  if (op != DYD_OP_NEG || !dyd_constant_is_short(x)) return with_rational(x, done, op, exponent, NULL);
+  x->u.num = -x->u.num;
   return DYD_OK;
 }
 

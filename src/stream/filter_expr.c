@@ -15,16 +15,33 @@
 #include "stream/filter_expr.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Operands open at one time; deeper expressions are left to the exact rungs. */
 #define OPEN 16
 #define MOST_BITS 1000
 
-static double below(double x) {
-  return nextafter(x, -INFINITY);
+/* IEEE doubles of one sign are ordered as their patterns: for x > 0 the next double is the next pattern. Beyond the
+ * largest is infinity, before infinity the largest; NaN stays. */
+static double double_of(uint64_t pattern) {
+  double x;
+  memcpy(&x, &pattern, sizeof x);
+  return x;
 }
+static uint64_t pattern_of(double x) {
+  uint64_t pattern;
+  memcpy(&pattern, &x, sizeof pattern);
+  return pattern;
+}
+
+/* The next double above x; infinite or NaN where there is none. */
 static double above(double x) {
-  return nextafter(x, INFINITY);
+  if (x > 0) return double_of(pattern_of(x) + (x < INFINITY));
+  if (x < 0) return double_of(pattern_of(x) - 1);
+  return x == 0 ? double_of(1) : x;
+}
+static double below(double x) {
+  return -above(-x);
 }
 
 static bool is_good(dyd_double_span a) {
@@ -34,8 +51,8 @@ static bool is_good(dyd_double_span a) {
 /* Words below 2^53 are doubles. */
 static bool set_constant(dyd_double_span *out, const dyd_constant *c) {
   const int64_t limit = (int64_t)1 << 53;
-  if (c->big || c->num > limit || c->num < -limit || c->den > limit) return false;
-  double q = (double)c->num / (double)c->den;
+  if (!dyd_constant_is_short(c) || c->u.num > limit || c->u.num < -limit || c->den > limit) return false;
+  double q = (double)c->u.num / (double)c->den;
   *out = c->den == 1 ? (dyd_double_span){q, q} : (dyd_double_span){below(q), above(q)};
   return true;
 }
@@ -93,7 +110,7 @@ static dyd_double_span power(dyd_double_span a, int32_t n) {
 static bool leaf(dyd_double_span *out, const dyd_expr *e, const dyd_node *n) {
   switch (n->op) {
   case DYD_OP_CONST:
-    return set_constant(out, &e->constant[n->constant]);
+    return set_constant(out, &e->constant[n->argument]);
   case DYD_OP_PI:
     *out = (dyd_double_span){0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1};
     return true;
@@ -118,7 +135,7 @@ static bool unary(dyd_double_span *a, const dyd_node *n, dyd_range range) {
     *a = square_root(*a, range);
     return is_good(*a);
   case DYD_OP_POW:
-    *a = power(*a, n->exponent);
+    *a = power(*a, n->argument);
     return is_good(*a);
   default:
     return false;
@@ -171,13 +188,18 @@ bool dyd_filter_expr(dyd_double_span *out, const dyd_expr *e) {
 /* ---- widths ---- */
 
 int64_t dyd_filter_bits(dyd_double_span a) {
-  int e;
   double width = a.hi - a.lo;
   if (width == 0) return INT64_MAX;
-  if (!isfinite(width)) return INT64_MIN;
-  if (frexp(width, &e) == 0.5) e--;
-  if (e > -1) return INT64_MIN;
+  if (!(width <= 0.5)) return INT64_MIN;
+  /* At most 2^e; subnormal widths are below 2^-1022. */
+  uint64_t pattern = pattern_of(width);
+  int64_t e = (int64_t)(pattern >> 52) - 1023 + (pattern << 12 != 0);
   return -e - 1 < MOST_BITS ? -e - 1 : MOST_BITS;
+}
+
+/* -1022 <= k <= 1023. */
+static double power_of_two(int64_t k) {
+  return double_of((uint64_t)(k + 1023) << 52);
 }
 
 bool dyd_filter_round(dyd_double_span *out, dyd_double_span a, int64_t bits) {
@@ -186,7 +208,7 @@ bool dyd_filter_round(dyd_double_span *out, dyd_double_span a, int64_t bits) {
   *out = a;
   if (most == INT64_MAX) return true;
   if (bits > MOST_BITS) return false;
-  double up = ldexp(1, (int)bits + 2), down = ldexp(1, -(int)bits - 2), lo = a.lo * up, hi = a.hi * up;
+  double up = power_of_two(bits + 2), down = power_of_two(-bits - 2), lo = a.lo * up, hi = a.hi * up;
   if (isfinite(lo) && isfinite(hi)) *out = (dyd_double_span){floor(lo) * down + 0.0, ceil(hi) * down + 0.0};
   return true;
 }

@@ -19,6 +19,10 @@ typedef struct dyd_literal {
   int64_t exponent;                /* held within +- 2^40 */
 } dyd_literal;
 
+static inline bool dyd_is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
 /* Reads the longest literal that starts at text[pos]; false when none does. */
 bool dyd_literal_scan(dyd_literal *out, const char *text, size_t length, size_t pos);
 /* The exact value, canonical. DYD_OK, DYD_E_RANGE or DYD_E_NOMEM (out is then unspecified but valid). */

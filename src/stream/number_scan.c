@@ -17,10 +17,6 @@ static bool is_hex_digit(char c) {
   return is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
 }
 
-static bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
 /* An optional sign and decimal digits at *pos; moves *pos behind them. false (nothing moved): no digits. */
 static bool scan_exponent(int64_t *out, const char *text, size_t length, size_t *pos) {
   size_t i = *pos;
@@ -84,8 +80,8 @@ static bool scan_suffix(dyd_number_form *f, const char *text, size_t length, siz
 bool dyd_number_scan(dyd_number_form *out, size_t *bad, const char *text, size_t length) {
   dyd_number_form f = {0};
   size_t i = 0;
-  while (length && is_blank(text[length - 1])) length--;
-  while (i < length && is_blank(text[i])) i++;
+  while (length && dyd_is_blank(text[length - 1])) length--;
+  while (i < length && dyd_is_blank(text[i])) i++;
   if (i < length && (text[i] == '-' || text[i] == '+')) f.negative = text[i++] == '-';
   *bad = i;
   if (!dyd_literal_scan(&f.literal, text, length, i)) return false;

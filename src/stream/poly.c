@@ -28,7 +28,7 @@ static void set_leaf(fmpq_poly_t out, const dyd_expr *e, const dyd_node *n) {
     fmpq_t c;
     dyd_constant_view view;
     fmpq_init(c);
-    fmpq_set_mpq(c, dyd_constant_get(&view, &e->constant[n->constant]));
+    fmpq_set_mpq(c, dyd_constant_get(&view, &e->constant[n->argument]));
     fmpq_poly_set_fmpq(out, c);
     fmpq_clear(c);
   }
@@ -63,8 +63,8 @@ static dyd_status no_polynomial(dyd_error *err, const dyd_node *n, const char *w
 }
 
 static dyd_status raise_power(fmpq_poly_t x, const dyd_node *n, dyd_error *err) {
-  if (n->exponent < 0) return no_polynomial(err, n, ": the exponent is negative");
-  size_t k = (size_t)n->exponent, d = degree(x), h = height(x);
+  if (n->argument < 0) return no_polynomial(err, n, ": the exponent is negative");
+  size_t k = (size_t)n->argument, d = degree(x), h = height(x);
   if (k > DYD_ROOT_DEGREE || (k && !product_fits(d * k, h * k, 0, k))) return too_large(err, n);
   fmpq_poly_pow(x, x, (ulong)k);
   return DYD_OK;

@@ -26,7 +26,7 @@ static dyd_status plain_fail(reader *r, size_t at, dyd_status st) {
 }
 
 static void skip_blanks(reader *r) {
-  while (r->pos < r->length && r->text[r->pos] && strchr(" \t\r\n", r->text[r->pos])) r->pos++;
+  while (r->pos < r->length && dyd_is_blank(r->text[r->pos])) r->pos++;
 }
 
 /* Is the literal text `word` next? Moves behind it. */
