@@ -12,7 +12,9 @@ m * 2^e (or n). Constant expressions are evaluated in doubles, as the compiler d
       body
     *)
 says that this is the whole body of that function, comments and white space aside; so the order of the operations is
-compared as well. In a C file that has such constants, every floating-point literal must be one of them.
+compared as well. In a C file that has such constants, every floating-point literal must be one of them, or
+    (* any path: text with {} for the constant *)
+says that the theorems hold whatever its value.
 """
 import ast
 import fractions
@@ -24,6 +26,7 @@ import sys
 PLACE = r'\(\* \[([A-Z]+-[A-Z0-9]+)\] ([\w/.]+): ((?:(?!\*\)\n).)*?) \*\)\n'
 CONSTANT = re.compile(r'((?:' + PLACE + r')+)(?:Definition (c_\w+) : const := \((-?\d+), (-?\d+)\)%Z\.|'
                       r'Notation (z_\w+) := \(?(-?\d+)\)?%Z\.)')
+ANY = re.compile(r'\(\* any ([\w/.]+): ((?:(?!\*\)\n).)*?) \*\)\n')
 DEFINED = re.compile(r'^(?:Definition (c_\w+) : const|Notation (z_\w+) :=)', re.M)
 BODY = re.compile(r'\(\* C ([\w/.]+) (\w+)\n(.*?)\n\*\)', re.S)
 LITERAL = re.compile(r'(?<![\w.])(?:0[xX][0-9a-fA-F]+(?:\.[0-9a-fA-F]*)?[pP][-+]?\d+|\d+\.\d*(?:[eE][-+]?\d+)?|\d+[eE][-+]?\d+)')
@@ -88,7 +91,8 @@ class Sources:
         return self.text[path]
 
 
-def check_place(sources, where, path, place, value):
+def check_place(sources, where, path, place, value=None):
+    """The constant at a place; its value does not matter when there is none to compare with."""
     code = sources.code(path)
     if code is None:
         yield f'{where}: there is no {path}'
@@ -102,7 +106,7 @@ def check_place(sources, where, path, place, value):
         return
     sources.known.setdefault(path, []).append(found[0].span(1))
     actual = evaluate(found[0][1])
-    if actual != value:
+    if value is not None and actual != value:
         yield f'{where}: {value} in the theory, {actual} ({found[0][1].strip()}) in {path}'
 
 
@@ -115,6 +119,8 @@ def check_constants(sources, name, text):
         value = fractions.Fraction(int(found[6])) * fractions.Fraction(2) ** int(found[7]) if found[5] else fractions.Fraction(int(found[9]))
         for _, path, place in re.findall(PLACE, found[1]):
             yield from check_place(sources, f'{name}: {constant}', path, place, value)
+    for path, place in ANY.findall(text):
+        yield from check_place(sources, f'{name}: any', path, place)
     for found in DEFINED.finditer(text):
         if (found[1] or found[2]) not in seen:
             yield f'{name}: {found[1] or found[2]} is tied to no place in the C source'

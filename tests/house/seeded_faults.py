@@ -15,6 +15,7 @@ import tempfile
 
 MESH, DISTANCE = 'src/delaunay/filter_mesh.h', 'src/delaunay/filter_distance.h'
 NEAR, INTERVAL = 'src/delaunay/filter_near.h', 'src/predicate/filter_interval.h'
+STAR = 'src/delaunay/filter_star.c'
 # file, text, its replacement, script that must notice, word in its complaint
 FAULTS = [
     (MESH, 'extent_x * extent_y * 1.01e-15', 'extent_x * extent_y * 1.0e-15', 'constants', 'c_orient_bound'),
@@ -28,6 +29,9 @@ FAULTS = [
     (INTERVAL, 'if (!(b.lo > 0 || b.hi < 0))', 'if (!(b.lo >= 0 || b.hi < 0))', 'constants', 'dyd_iv_div'),
     ('src/delaunay/filter_tree.c', 'px + py + 8 * 0x1p-53', 'px + py + 2 * 0x1p-53', 'constants', 'c_reach'),
     ('src/delaunay/filter_scale_set.c', '* 4 * 0x1p-52 * fabs(x)', '* 1 * 0x1p-53 * fabs(x)', 'constants', 'c_scale'),
+    (STAR, 'double wide = (rho + p->reach) * DYD_UP_FACTOR', 'double wide = rho + p->reach', 'constants', 'certify_edges'),
+    (STAR, 'need + 8 * 0x1p-53', 'need + 2 * 0x1p-53', 'constants', 'c_star_hull'),
+    (STAR, '2 * (largest + 3 * pd->reps.delta)', '2 * (largest + 2 * pd->reps.delta)', 'constants', 'z_star_three'),
     ('src/delaunay/filter_possible.c', 'isnan(h) ? -INFINITY : h', 'isnan(h) ? INFINITY : h', 'constants', 'dyd_height_lower'),
     ('src/dyadic/sqrt_sign.c', 'if (nb - 3 >= na) return -1;', 'if (nb - 2 >= na) return -1;', 'constants', 'compare_squares'),
     ('src/predicate/solve.c', 'mpz_submul(out->a[k], out->b[k], out->t);', 'mpz_addmul(out->a[k], out->b[k], out->t);',
