@@ -121,7 +121,7 @@ DYD_API dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, 
  * dyd_voronoi_window. A result that is capped has no such section. The bound of the area is that of dyd_metric_voronoi
  * with polygons within a 256th of a cell, or as fine as a goal on it asks; H is that of dyd_metric_voronoi, too, or at
  * most four times as much (but within the goal that was reached), or it is unproved. DYD_E_ARG for a wrong window;
- * DYD_E_RANGE when there is no window by default. */
+ * DYD_E_RANGE when there is no window by default, or polygons leave the range of numbers. */
 DYD_API dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, const struct dyd_rect *window,
                                                  dyd_error *err);
 

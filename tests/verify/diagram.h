@@ -5,11 +5,12 @@
 
 #include "verify/statement.h"
 
-#define DIAGRAM_VERTICES 80
+#define DIAGRAM_VERTICES 300
 
-/* The polygon of site i has count[i] vertices, 0: none. */
+/* The polygon of site i has count[i] vertices, 0: none. large: there are more than fit in here, and nothing is judged.
+ */
 typedef struct diagram {
-  bool present, distance_given, distance_proved;
+  bool present, large, distance_given, distance_proved;
   mpq_t window[4], undetermined, distance;
   size_t count[ORC_MAX];
   mpq_t vertex[ORC_MAX][DIAGRAM_VERTICES][2];
@@ -24,7 +25,8 @@ bool diagram_same(const diagram *a, const diagram *b);
  * `points` random points of the window, each for a random choice. NULL, or what is wrong. */
 const char *diagram_judge(const diagram *d, const orc_case *c, test_random *r, size_t points);
 
-/* The certificate, window NULL: the default one. Release with free(). */
+/* The certificate, window NULL: the default one; NULL when that or the polygons leave the range of numbers. Release
+ * with free(). */
 char *diagram_of_engine(const dyd_engine *e, const dyd_rect *window);
 
 #endif
