@@ -99,6 +99,8 @@ int cli_session_run(cli_session *s, const dyd_engine_options *options);
 /* The same, with something done around dyd_engine_run: run is called with the options completed. */
 typedef dyd_status (*cli_run_fn)(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err);
 int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_run_fn run, void *user);
+/* Comes before a result is written: takes the bar off a terminal that the result goes to. */
+void cli_session_settle(cli_session *s);
 /* Writes the result to --output, when there is one (otherwise says so). */
 int cli_session_write(cli_session *s, cli_write_fn write);
 /* Writes anything to the file `name` (NULL: standard output), whole or not at all. 0, or CLI_FAILED after a message. */

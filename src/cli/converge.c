@@ -85,6 +85,7 @@ static int converge(const cli_options *o) {
   int status = cli_session_open(&s, o);
   if (status == 0) {
     status = o->trace ? run_traced(&r, &s, &options) : cli_session_run_by(&s, &options, run_table, &r);
+    cli_session_settle(&s);
     int written = write_results(&r.table, o);
     if (status == 0) status = written;
   }

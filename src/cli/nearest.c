@@ -80,10 +80,10 @@ static int ask(cli_session *s, query *q, const cli_options *o) {
   q->end = cli_clock() + o->engine.seconds;
   int status = cli_session_run_by(s, &o->engine, answer, q);
   if (status) return status;
+  cli_session_settle(s);
   if (q->known) status = cli_write_file(o->output, o, write_answer, q);
   if (!q->known)
     cli_complain("%s before the points were known: there is no result to write", dyd_outcome_text(q->outcome));
-  if (q->known && !status && !o->quiet) note_outcome(q);
   return status ? status : cli_exit_status(q->outcome);
 }
 
@@ -100,6 +100,7 @@ int cli_nearest(const cli_options *o) {
     own.quiet = true; /* notes on the triangulation would mislead */
   }
   int end = cli_session_close(&s, status);
+  if (q.known && status == cli_exit_status(q.outcome) && !o->quiet) note_outcome(&q);
   dyd_index_list_clear(&q.found);
   dyd_stream_free(q.at);
   return answered ? status : end;

@@ -88,6 +88,7 @@ int cli_pieces_run(cli_pieces *p, cli_answered_fn answered, cli_wanted_fn wanted
   cli_progress_phase(p->session.progress, "refining");
   int status = run(p, answered, wanted);
   cli_signals_remove(NULL);
+  cli_session_settle(&p->session);
   return status;
 }
 

@@ -3,6 +3,7 @@
 #include "cli.h"
 #include <errno.h>
 #include <string.h>
+#include <unistd.h>
 
 void cli_complain_at(const char *file, const dyd_error *err) {
   char point[40] = "";
@@ -167,8 +168,15 @@ static dyd_status print_certificate(FILE *out, const void *what, const cli_optio
   return window ? dyd_write_voronoi_certificate(out, what, window, err) : dyd_write_certificate(out, what, err);
 }
 
-int cli_session_write(cli_session *s, cli_write_fn write) {
+void cli_session_settle(cli_session *s) {
   cli_progress_phase(s->progress, "writing");
+  if (s->options->output || !isatty(STDOUT_FILENO)) return;
+  cli_progress_stop(s->progress);
+  s->progress = NULL;
+}
+
+int cli_session_write(cli_session *s, cli_write_fn write) {
+  cli_session_settle(s);
   if (!dyd_engine_delaunay(s->engine)) {
     cli_complain("%s before the first triangulation was complete: there is no result to write",
                  dyd_outcome_text(dyd_engine_outcome(s->engine)));

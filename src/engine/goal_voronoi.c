@@ -67,17 +67,35 @@ static dyd_status numbers_are_small(bool *out, dyd_engine *e, const dyd_engine_o
   return status;
 }
 
+/* Is the bound, found with polygons within 2^-bits, above the goal even less what flattening adds to it (about
+ * 2^-(bits - flattening of goal 0))? Then finer polygons do not help. */
+static bool is_hopeless(mpfr_srcptr bound, int64_t bits, const dyd_engine *e, const dyd_engine_options *o) {
+  int64_t flat = bits - dyd_metric_flattening(e->pd, o->window, 0);
+  mpfr_t rest;
+  mpfr_init2(rest, DYD_MEASURE_PREC);
+  mpfr_set_ui_2exp(rest, 1, (mpfr_exp_t)-flat, MPFR_RNDU);
+  mpfr_sub(rest, bound, rest, MPFR_RNDD);
+  bool out = mpfr_cmp_ui_2exp(rest, 1, (mpfr_exp_t)-o->goal_bits) > 0;
+  mpfr_clear(rest);
+  return out;
+}
+
+/* Polygons start coarse and become as fine as the goal asks, or only so fine that they show that it does not hold:
+ * parabolas take 2^(bits/2) points. */
 static dyd_status area_holds(bool *out, mpfr_ptr bound, dyd_engine *e, const dyd_engine_options *o,
                              const dyd_pair_list *pairs) {
   dyd_status status = DYD_OK;
-  bool small = true;
-  int64_t bits = dyd_metric_flattening(e->pd, o->window, o->goal_bits);
-  for (int finer = 0; status == DYD_OK && !*out && small && finer <= MOST_FINER; finer += FINER) {
-    status = find_sums(e, o->window, bits + finer);
+  int64_t fine = dyd_metric_flattening(e->pd, o->window, o->goal_bits), bits = dyd_metric_coarseness(e->pd, o->window);
+  if (bits > fine) bits = fine;
+  while (status == DYD_OK && !*out && bits <= fine + MOST_FINER) {
+    bool small = false;
+    status = find_sums(e, o->window, bits);
     if (status != DYD_OK) break;
     dyd_voronoi_area(bound, e->sums);
     *out = mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
     if (!*out) status = numbers_are_small(&small, e, o, pairs);
+    if (!small && (bits >= fine || is_hopeless(bound, bits, e, o))) break;
+    bits = bits < fine && (small || bits + FINER > fine) ? fine : bits + FINER;
   }
   return status;
 }

@@ -14,7 +14,7 @@
 
 #define SIDE 1000.0 /* of the drawing */
 #define EDGE 30.0   /* free space around it */
-#define FOOT 84.0   /* room of the legend */
+#define FOOT 106.0  /* room of the legend */
 #define SCALE_OF_PNG 2
 
 /* ---- pages ---- */
@@ -136,7 +136,7 @@ void dyd_picture_pen(cairo_t *cr, unsigned rgb, double width, double on, double 
   cairo_set_dash(cr, dash, off > 0 ? 2 : 0, 0);
 }
 
-void dyd_picture_site(cairo_t *cr, const dyd_view *v, const double box[4], bool fixed_point) {
+void dyd_picture_site(cairo_t *cr, const dyd_view *v, const double box[4], bool fixed_point, unsigned rgb) {
   double x0 = dyd_view_x(v, box[0]), x1 = dyd_view_x(v, box[1]), y0 = dyd_view_y(v, box[3]), y1 = dyd_view_y(v, box[2]);
   cairo_new_path(cr);
   if (fixed_point || fmax(x1 - x0, y1 - y0) < 2 * v->dot) {
@@ -147,9 +147,9 @@ void dyd_picture_site(cairo_t *cr, const dyd_view *v, const double box[4], bool 
   }
   double least = fmax(v->line, 1);
   cairo_rectangle(cr, x0, y0, fmax(x1 - x0, least), fmax(y1 - y0, least));
-  cairo_set_source_rgba(cr, 0.90, 0.62, 0, 0.55);
+  cairo_set_source_rgba(cr, (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, 0.55);
   cairo_fill_preserve(cr);
-  dyd_picture_pen(cr, 0x8a5a00, fmax(v->line * 0.7, 0.5), 0, 0);
+  dyd_picture_pen(cr, (rgb >> 1 & 0x7f7f7f) + (rgb >> 4 & 0x0f0f0f), fmax(v->line * 0.7, 0.5), 0, 0);
   cairo_stroke(cr);
 }
 

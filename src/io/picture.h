@@ -36,14 +36,16 @@ void dyd_view_frame_path(cairo_t *cr, const dyd_view *v);
 
 /* What is undetermined, in all pictures. */
 #define DYD_PICTURE_BAND 0xe69f00
+/* Lines of the legend below the first one. */
+#define DYD_PICTURE_ROW 22
 
 /* Paints the page white, sets font and line style. */
 void dyd_picture_begin(cairo_t *cr);
 void dyd_picture_colour(cairo_t *cr, unsigned rgb);
 /* Dash in line widths; off = 0: full. */
 void dyd_picture_pen(cairo_t *cr, unsigned rgb, double width, double on, double off);
-/* A rectangle where it can be seen, else a dot. */
-void dyd_picture_site(cairo_t *cr, const dyd_view *v, const double box[4], bool fixed_point);
+/* A rectangle filled with rgb where it can be seen, else a dot. */
+void dyd_picture_site(cairo_t *cr, const dyd_view *v, const double box[4], bool fixed_point, unsigned rgb);
 /* A rectangle, however small it is, filled with rgb; and its number beside it. */
 void dyd_picture_marked(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb);
 void dyd_picture_numbered(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb, size_t number);

@@ -189,13 +189,14 @@ static void draw_legend(cairo_t *cr, const drawing *d) {
   dyd_picture_entry(cr, &x, y, CURVE, false, 4, 2.5, "parabola");
   dyd_picture_scale(cr, &d->view, y);
   if (!d->curve[0].count) {
-    dyd_plot_text(cr, 30, y + 28, 0, 14, "the rectangles meet: nothing is surely nearer to one of them");
+    dyd_plot_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14,
+                  "the rectangles meet: nothing is surely nearer to one of them");
     return;
   }
-  draw_mark(cr, 45, y + 23, DYD_END_AXIS);
-  dyd_plot_text(cr, 66, y + 28, 0, 14, "another corner of the one rectangle is farthest");
-  draw_mark(cr, 425, y + 23, DYD_END_FEATURE);
-  dyd_plot_text(cr, 440, y + 28, 0, 14, "another corner or side of the other rectangle is closest");
+  draw_mark(cr, 45, y + DYD_PICTURE_ROW, DYD_END_AXIS);
+  dyd_plot_text(cr, 66, y + DYD_PICTURE_ROW + 5, 0, 14, "another corner of the one rectangle is farthest");
+  draw_mark(cr, 425, y + DYD_PICTURE_ROW, DYD_END_FEATURE);
+  dyd_plot_text(cr, 440, y + DYD_PICTURE_ROW + 5, 0, 14, "another corner or side of the other rectangle is closest");
 }
 
 static void draw(cairo_t *cr, void *context) {

@@ -127,12 +127,15 @@ static void draw_legend(cairo_t *cr, const drawing *d) {
     snprintf(text, sizeof text, "%s: %zu", style[k].name, count[style[k].status]);
     dyd_picture_entry(cr, &x, y, style[k].rgb, false, style[k].on, style[k].off, text);
   }
-  dyd_picture_entry(cr, &x, y, 0xe6f0f7, true, 0, 0, "sure triangle");
   dyd_picture_scale(cr, &d->view, y);
+  x = 30, y += DYD_PICTURE_ROW;
+  dyd_picture_entry(cr, &x, y, 0xe6f0f7, true, 0, 0, "sure triangle");
+  dyd_picture_entry(cr, &x, y, 0xf2c766, true, 0, 0, "rectangle of a point");
+  dyd_picture_entry(cr, &x, y, style[1].region, true, 0, 0, "where an indeterminate edge may be");
   snprintf(text, sizeof text, "%zu points, outcome %s%s; positions rounded by at most 0.01 point", d->r->count,
            dyd_outcome_text(dyd_engine_outcome(d->r->engine)),
            dyd_delaunay_is_capped(d->r->pd) ? ", not all possible pairs are shown" : "");
-  dyd_plot_text(cr, 30, y + 28, 0, 14, text);
+  dyd_plot_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, text);
 }
 
 static void draw(cairo_t *cr, void *context) {
@@ -144,7 +147,7 @@ static void draw(cairo_t *cr, void *context) {
   for (size_t i = 0; i < d->r->count; i++) {
     double b[4];
     dyd_sites_get_d(b, d->r->sites, i);
-    dyd_picture_site(cr, &d->view, b, dyd_sites_is_point(d->r->sites, i));
+    dyd_picture_site(cr, &d->view, b, dyd_sites_is_point(d->r->sites, i), DYD_PICTURE_BAND);
   }
   draw_legend(cr, d);
 }

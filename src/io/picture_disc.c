@@ -133,15 +133,15 @@ static void draw_legend(cairo_t *cr, const drawing *g) {
   if (g->n > 3) dyd_plot_text(cr, x, y + 5, 0, 14, "other points: in darker shades of these");
   dyd_picture_scale(cr, &g->view, y);
   if (!g->d->known) {
-    dyd_plot_text(cr, 30, y + 28, 0, 14, "0, 1 and 2 may be on a line: there is no partial disc");
+    dyd_plot_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, "0, 1 and 2 may be on a line: there is no partial disc");
     return;
   }
   x = 30;
-  dyd_picture_entry(cr, &x, y + 23, CURVE, false, 0, 0, "circle around one of 0 1 2, touching two");
-  dyd_picture_entry(cr, &x, y + 23, CURVE, false, 4, 2.5, "around two, touching one");
-  dyd_picture_dot(cr, x, y + 23, 3, CURVE, CURVE);
-  dyd_picture_dot(cr, x + 12, y + 23, 3, WHITE, CURVE);
-  dyd_plot_text(cr, x + 22, y + 28, 0, 14, "their centres");
+  dyd_picture_entry(cr, &x, y + DYD_PICTURE_ROW, CURVE, false, 0, 0, "circle around one of 0 1 2, touching two");
+  dyd_picture_entry(cr, &x, y + DYD_PICTURE_ROW, CURVE, false, 4, 2.5, "around two, touching one");
+  dyd_picture_dot(cr, x, y + DYD_PICTURE_ROW, 3, CURVE, CURVE);
+  dyd_picture_dot(cr, x + 12, y + DYD_PICTURE_ROW, 3, WHITE, CURVE);
+  dyd_plot_text(cr, x + 22, y + DYD_PICTURE_ROW + 5, 0, 14, "their centres");
 }
 
 static void draw(cairo_t *cr, void *context) {

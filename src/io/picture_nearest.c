@@ -52,7 +52,7 @@ static void find_distances(drawing *g) {
 
 /* The larger disc in the middle, with its surroundings: some neighbours, unless that would make it too small. */
 static dyd_status find_view(drawing *g, dyd_error *err) {
-  double far = isfinite(g->far) ? g->far : 0, spacing = dyd_view_spacing(g->pd), box[4];
+  double far = g->count ? g->far : 0, spacing = dyd_view_spacing(g->pd), box[4];
   double reach = fmax(2.2 * far, fmin(1.5 * spacing, 12 * far));
   if (reach == 0) reach = spacing > 0 ? 1.5 * spacing : 1;
   for (int k = 0; k < 4; k++) box[k] = g->place[k] + (k & 1 ? reach : -reach);
@@ -77,6 +77,7 @@ static void draw_areas(cairo_t *cr, const drawing *g) {
   around_path(cr, g, g->far);
   dyd_picture_colour(cr, DYD_PICTURE_BAND);
   cairo_fill(cr);
+  if (!(g->near > 0)) return;
   around_path(cr, g, g->near);
   dyd_picture_colour(cr, FREE);
   cairo_fill(cr);
@@ -86,6 +87,7 @@ static void draw_circles(cairo_t *cr, const drawing *g) {
   around_path(cr, g, g->far);
   dyd_picture_pen(cr, 0x222222, 1.5, 0, 0);
   cairo_stroke(cr);
+  if (!(g->near > 0)) return;
   around_path(cr, g, g->near);
   dyd_picture_pen(cr, 0x222222, 1.5, 4, 2.5);
   cairo_stroke(cr);
@@ -175,9 +177,13 @@ static void draw_legend(cairo_t *cr, const drawing *g) {
   dyd_picture_entry(cr, &x, y, FREE, true, 0, 0, "surely free of points");
   dyd_picture_entry(cr, &x, y, DYD_PICTURE_BAND, true, 0, 0, "the nearest is in here");
   dyd_picture_scale(cr, &g->view, y);
-  snprintf(text, sizeof text, "%zu of %zu points %s nearest, outcome %s", g->answer->found->count, g->count,
-           g->answer->sure ? "is surely" : "possibly", dyd_outcome_text(g->answer->outcome));
-  dyd_plot_text(cr, 30, y + 28, 0, 14, g->count ? text : "there are no points");
+  if (g->answer->sure)
+    snprintf(text, sizeof text, "%zu points, number %u is surely nearest", g->count,
+             (unsigned)g->answer->found->item[0]);
+  else
+    snprintf(text, sizeof text, "%zu points, %zu possibly nearest, outcome %s", g->count, g->answer->found->count,
+             dyd_outcome_text(g->answer->outcome));
+  dyd_plot_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, g->count ? text : "there are no points");
 }
 
 static void draw(cairo_t *cr, void *context) {

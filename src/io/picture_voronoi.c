@@ -11,6 +11,9 @@
 /* Blues that neighbours rarely share; light, so that grey copies show the darker band between them. */
 static const unsigned tints[4] = {0xdcebf5, 0xe8f2e4, 0xeee9f6, 0xe3f3f3};
 
+/* Of rectangles, so that they are seen on the band. */
+#define SITE 0x444444
+
 typedef struct drawing {
   dyd_diagram *d;
   cairo_t *cr;
@@ -88,12 +91,15 @@ static void draw_legend(const drawing *g) {
   dyd_view_page(&width, &height, &y, &g->view);
   dyd_picture_entry(g->cr, &x, y, tints[0], true, 0, 0, "surely nearest to one point");
   dyd_picture_entry(g->cr, &x, y, DYD_PICTURE_BAND, true, 0, 0, "undetermined");
-  dyd_picture_entry(g->cr, &x, y, 0xd55e00, false, 4, 2.5, "undecided vertices");
   dyd_picture_scale(g->cr, &g->view, y);
+  x = 30, y += DYD_PICTURE_ROW;
+  dyd_picture_entry(g->cr, &x, y, 0x9b9b9b, true, 0, 0, "rectangle of a point");
+  dyd_picture_entry(g->cr, &x, y, 0x0072b2, false, 0, 0, "box: a sure vertex is in it");
+  dyd_picture_entry(g->cr, &x, y, 0xd55e00, false, 4, 2.5, "box: undecided vertices");
   bound_text(bounds, sizeof bounds, &g->d->bounds);
   snprintf(text, sizeof text, "%zu points, outcome %s; %s", g->d->count,
            dyd_outcome_text(dyd_engine_outcome(g->d->engine)), bounds);
-  dyd_plot_text(g->cr, 30, y + 28, 0, 14, text);
+  dyd_plot_text(g->cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, text);
 }
 
 static void draw(cairo_t *cr, void *context) {
@@ -112,7 +118,7 @@ static void draw(cairo_t *cr, void *context) {
     double b[4];
     dyd_sites_get_d(b, g->d->sites, i);
     if (isfinite(b[0]) && isfinite(b[1]) && isfinite(b[2]) && isfinite(b[3]))
-      dyd_picture_site(cr, &g->view, b, dyd_sites_is_point(g->d->sites, i));
+      dyd_picture_site(cr, &g->view, b, dyd_sites_is_point(g->d->sites, i), SITE);
   }
   cairo_restore(cr);
   box_path(cr, &g->view, g->window);

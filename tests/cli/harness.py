@@ -13,15 +13,15 @@ DATA = os.path.abspath(sys.argv[2])  # tests/data
 Run = collections.namedtuple('Run', 'code out err')
 
 
-def run(*args, stdin=b'', **options):
-    """Runs the command in an empty folder (or options['cwd'])."""
+def run(*args, stdin=b'', binary=False, **options):
+    """Runs the command in an empty folder (or options['cwd']). binary: the output is no text, bytes stand as they are."""
     if isinstance(stdin, str):
         stdin = stdin.encode()
     with tempfile.TemporaryDirectory() as folder:
         options.setdefault('cwd', folder)
         done = subprocess.run([COMMAND, *args], input=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               timeout=240, check=False, **options)
-    return Run(done.returncode, done.stdout.decode(), done.stderr.decode())
+    return Run(done.returncode, done.stdout.decode('latin-1' if binary else 'utf-8'), done.stderr.decode())
 
 
 def count(text):

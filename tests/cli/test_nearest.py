@@ -7,6 +7,8 @@ Usage: test_nearest.py COMMAND DATA
 import csv
 import json
 import os
+import re
+import xml.etree.ElementTree
 
 from harness import DATA, expect, main, run
 
@@ -61,6 +63,37 @@ def test_json():
     assert answer['format'] == 'dyadel nearest 1' and answer['outcome'] == 'decided', answer
     assert answer['x'] == ['1/3', '1/3'] and answer['y'] == ['1*2^-1', '1*2^-1'], answer
     assert answer['nearest'] == [{'i': 0, 'status': 'sure'}] and answer['aliases'] == [[3, 0]], answer
+
+
+def svg_of(*args, stdin):
+    result = run('nearest', '--format', 'svg', *args, stdin=stdin)
+    return result, xml.etree.ElementTree.fromstring(result.out)
+
+
+def fills(root):
+    """Whether cairo writes them as attributes or within styles."""
+    text = xml.etree.ElementTree.tostring(root, encoding='unicode')
+    return {rgb.replace(' ', '') for rgb in re.findall(r'fill(?:="|: ?)(rgb\([^)]*\))', text)}
+
+
+def test_picture():
+    """Sure ones are blue, possible ones vermillion, the band is there when it has an area."""
+    blue, vermillion = 'rgb(0%,44.705882%,69.803922%)', 'rgb(83.529412%,36.862745%,0%)'
+    band = 'rgb(90.196078%,62.352941%,0%)'
+    result, root = svg_of('-', '1', '1', stdin=SITES)
+    expect(result, 0, '', r'\A\Z')
+    assert blue in fills(root) and vermillion not in fills(root), fills(root)
+    result, root = svg_of('--radius', '2', '-', '5', '0', stdin='0 0\n10 0\n')
+    expect(result, 3, '', 'fixpoint: 2 possibly nearest')
+    assert {vermillion, band} <= fills(root), fills(root)
+    for text, x, y, code in (('', '0', '0', 3), ('1 1\n', '1', '1', 0), ('[0,9] [0,9]\n1 1\n', '[2,3]', '4', 3),
+                             ('1e-300 0\n-1e-300 0\n', '0', '1', 3)):
+        result = run('nearest', '--quiet', '--format', 'svg', '-', x, y, stdin=text)
+        expect(result, code, '</svg>', r'\A\Z')
+    expect(run('nearest', '--format', 'svg', '-', '1', '1', stdin='1e300 0\n-1e308 1e308\n'), 0, '</svg>')
+    expect(run('nearest', '--format', 'svg', '-', '1', '1', stdin='1e400 0\n'), 1, r'\A\Z', 'use csv or json')
+    expect(run('nearest', '--format', 'pdf', '-', '1', '1', stdin=SITES, binary=True), 0, r'\A%PDF')
+    expect(run('nearest', '--format', 'png', '-', '1', '1', stdin=SITES, binary=True), 0, r'\A.PNG')
 
 
 def test_hull():

@@ -6,6 +6,7 @@ Usage: test_signals.py COMMAND DATA
 """
 import os
 import pty
+import re
 import select
 import signal
 import subprocess
@@ -19,11 +20,21 @@ ENDLESS = 'exp(log(6)/2) 0\n0 sqrt(6)\n-sqrt(6) 0\n0 -exp(log(6)/2)\n'
 FOREVER = ('--max-bits', '1000000', '--timeout', '100')
 
 
-def start(*args, text, **options):
+# Equal reals for the commands of single answers; these take the longer the more bits are asked for.
+SINES = [f'sin({k})' for k in range(1, 31)]
+UP, DOWN = '+'.join(SINES), '+'.join(reversed(SINES))
+ENDLESS_PIECES = {
+    ('bisector',): f'{UP} 0\n{DOWN} 0\n',
+    ('disc',): f'0 0\n1 0\n0 1\n1+({UP})-({DOWN}) 1\n',
+    ('nearest', '0', '0'): f'{UP} 0\n0 {DOWN}\n',
+}
+
+
+def start(*args, text, command=('delaunay',), **options):
     with tempfile.NamedTemporaryFile('w', suffix='.txt', delete=False) as f:
         f.write(text)
     options.setdefault('stdout', subprocess.PIPE)
-    process = subprocess.Popen([COMMAND, 'delaunay', f.name, *args], stderr=subprocess.PIPE, **options)
+    process = subprocess.Popen([COMMAND, command[0], f.name, *command[1:], *args], stderr=subprocess.PIPE, **options)
     process.points = f.name
     return process
 
@@ -37,6 +48,62 @@ def test_first_interrupt_writes_what_is_known():
         assert process.returncode == 5, (process.returncode, err)
         assert count(out.decode())['indeterminate'] == 2 and count(out.decode())['legal'] == 4
         assert b'cancelled: 4 legal' in err, err
+
+
+def wait_for(process, what, seconds=60):
+    """Waits until the process has taken so many seconds of CPU, or ended."""
+    until = time.monotonic() + seconds
+    while process.poll() is None and time.monotonic() < until:
+        with open(f'/proc/{process.pid}/stat', encoding='ascii') as stat:
+            if int(stat.read().rsplit(')', 1)[1].split()[11]) >= what * os.sysconf('SC_CLK_TCK'):
+                return
+
+
+def test_first_interrupt_in_single_answers():
+    """bisector, disc, nearest: stopped between two narrowings, what is known is written."""
+    known = {'bisector': '^# the rectangles meet', 'disc': '^3,unknown', 'nearest': '^0,possible\n1,possible'}
+    for command, text in ENDLESS_PIECES.items():
+        process = start('--max-bits', '1000000', '--timeout', '100', text=text, command=command)
+        wait_for(process, 0.5)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=120)
+        assert process.returncode == 5, (command, process.returncode, err)
+        assert re.search(known[command[0]], out.decode(), re.M), (command, out)
+        assert err.startswith(b'dyadel: cancelled: '), (command, err)
+
+
+def test_second_interrupt_ends():
+    square = f'{UP} 0\n0 {DOWN}\n-({UP}) 0\n0 -({DOWN})\n'
+    for command, text in {('delaunay',): square, **ENDLESS_PIECES}.items():
+        with tempfile.TemporaryDirectory() as folder:
+            process = start('--max-bits', '1000000', '-o', os.path.join(folder, 'out'), text=text,
+                            command=command)
+            wait_for(process, 1)
+            process.send_signal(signal.SIGINT)
+            time.sleep(0.2)
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=60)
+            assert process.returncode in (-signal.SIGINT, 5), (command, process.returncode)
+            left = os.listdir(folder)
+            assert left == (['out'] if process.returncode == 5 else []), (command, left)
+
+
+def test_interrupt_on_a_terminal():
+    """Ctrl-C as the terminal sends it, with a bar drawn."""
+    for command, text in ENDLESS_PIECES.items():
+        with tempfile.NamedTemporaryFile('w', suffix='.txt') as f:
+            f.write(text)
+            f.flush()
+            pid, master = pty.fork()
+            if pid == 0:
+                os.execv(COMMAND, [COMMAND, command[0], f.name, *command[1:], '--max-bits', '1000000'])
+            seen = read_terminal(master, 2.5)
+            os.write(master, b'\x03')
+            seen += read_terminal(master, 60)
+            os.close(master)
+            status = os.waitpid(pid, 0)[1]
+        assert os.WIFEXITED(status) and os.WEXITSTATUS(status) == 5, (command, status, seen)
+        assert b'\r\x1b[K[' in seen and b'dyadel: cancelled: ' in seen.split(b'\r\x1b[K')[-1], (command, seen[-400:])
 
 
 def test_interrupt_while_reading_ends():

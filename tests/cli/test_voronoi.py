@@ -380,4 +380,43 @@ def test_airports_on_a_window():
     assert [c for c in comments if c.startswith('# window ')] == ['# window -100 -84 30 46'], comments
 
 
+def test_notes_on_goals():
+    """Which bound was asked for, which is reached, what to do: and what is said to hold does hold."""
+    boxes = '[0,0.125] 0\n4 [0,0.125]\n[0,0.125] 4\n4 4\n'
+    endless = 'exp(log(6)/2) 0\n0 sqrt(6)\n-sqrt(6) 0\n0 -exp(log(6)/2)\n'
+    for command, goal, text, code, options, why in (
+            ('voronoi', 'area', boxes, 3, (), 'fixed rectangles'), ('voronoi', 'hausdorff', boxes, 3, (), 'fixed rect'),
+            ('delaunay', 'area', boxes, 3, (), 'fixed rectangles'), ('delaunay', 'hausdorff', endless, 4, (), 'max-bits'),
+            ('voronoi', 'hausdorff', endless, 4, ('--max-bits', '99'), 'raise --max-bits')):
+        result = run(command, '--until', goal + ':200', *options, '-', stdin=text)
+        expect(result, code)
+        note = re.search(r'is at most 2\^(-?\d+), not 2\^-200 as asked; .*' + why + r'.*; --until (\w+:(-?\d+)) holds$',
+                         result.err)
+        assert note and int(note[1]) == -int(note[3]) > -200, (command, goal, result.err)
+        expect(run(command, '--until', note[2], *options, '-', stdin=text), 0, '', r'\A\Z')
+        expect(run(command, '--quiet', '--until', goal + ':200', *options, '-', stdin=text), code, '', r'\A\Z')
+    expect(run('voronoi', '--until', 'hausdorff:9', '-', stdin='[0,2] 0\n[1,3] 0\n'), 3, '',
+           'the distance to the true diagram is .* 2\\^-9')
+    expect(run('voronoi', '-', stdin=boxes), 3, '', 'fixpoint: [0-9]+ legal, [0-9]+ indeterminate')
+
+
+def test_area_goal_out_of_reach_ends():
+    """Polygons are as fine as they help, not as fine as a goal that the rectangles cannot reach."""
+    boxes = ''.join(f'[{x},{x}.25] [{y},{y}.125]\n' for x in range(4) for y in range(4))
+    result = run('voronoi', '--quiet', '--until', 'area:40', '--format', 'json', '-', stdin=boxes)
+    expect(result, 3)
+    coarse = run('voronoi', '--quiet', '--format', 'json', '-', stdin=boxes)
+    bound = [json.loads(r.out)['bounds']['undetermined_area']['decimal'] for r in (result, coarse)]
+    assert bound[0] <= bound[1] and len(result.out) < 4 * len(coarse.out), bound
+
+
+def test_capped():
+    """Neighbours are missing, so there is no diagram; a file is not made."""
+    boxes = ''.join(f'[{k},{k + 9}] [{k % 5},{k % 5 + 9}]\n' for k in range(12))
+    with tempfile.TemporaryDirectory() as folder:
+        result = run('voronoi', '--max-pairs', '1', '-o', 'out', '-', stdin=boxes, cwd=folder)
+        expect(result, 4, r'\A\Z', 'no diagram is written: .*raise --max-pairs')
+        assert not os.listdir(folder)
+
+
 main(globals())
