@@ -1,5 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [AREA-T] dyd_filter_hull_area2 in binary64: where it succeeds, what it gives is not below twice the area of the hull. *)
+(** [AREA-T] dyd_filter_hull_area2 in binary64: where it succeeds, what it gives is not below twice the area of the hull,
+    and exceeds it by at most 2^-86 of it. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
 From Flocq Require Import Core BinarySingleNaN Binary Bits.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersDistance.
@@ -229,7 +230,8 @@ Definition is_rect (a : bbox) (A : rect) : Prop :=
 
 (* However often it may call itself; by form_fits once is enough. *)
 Theorem filter_hull_area2_correct calls a b A B out : is_rect a A -> is_rect b B -> filter_hull_area2 calls a b = Some out ->
-  finite (fst out) /\ finite (snd out) /\ hull_area2 A B <= val (fst out) + val (snd out).
+  finite (fst out) /\ finite (snd out) /\
+  hull_area2 A B <= val (fst out) + val (snd out) <= (1 + bpow radix2 (-86)) * hull_area2 A B.
 Proof.
   assert (Once : forall a b A B, is_rect a A -> is_rect b B ->
     let x := axis_made (e0 a) (e1 a) (e0 b) (e1 b) in let y := axis_made (e2 a) (e3 a) (e2 b) (e3 b) in
@@ -245,7 +247,7 @@ Proof.
     let x := axis_made (e0 a) (e1 a) (e0 b) (e1 b) in let y := axis_made (e2 a) (e3 a) (e2 b) (e3 b) in
     (axis_fine x && axis_fine y)%bool = true -> (dsides x + dsides y <= 2)%nat ->
     finite (fst (inflate (sum_of x y))) /\ finite (snd (inflate (sum_of x y))) /\
-    hull_area2 A B <= val (fst (inflate (sum_of x y))) + val (snd (inflate (sum_of x y)))).
+    hull_area2 A B <= val (fst (inflate (sum_of x y))) + val (snd (inflate (sum_of x y))) <= (1 + bpow radix2 (-86)) * hull_area2 A B).
   { clear a b A B. intros a b A B Ra Rb x y F S. destruct (Once a b A B Ra Rb F) as [X Y]. fold x in X. fold y in Y.
     rewrite (Sides _ _ X), (Sides _ _ Y) in S. rewrite <- (form_correct A B S).
     destruct (sum_like _ _ _ _ X Y) as [N R]. apply (inflate_above 37); [exact N|lra|].
