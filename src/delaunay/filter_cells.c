@@ -135,8 +135,33 @@ typedef struct dominator {
   double at[4]; /* farthest_upper at the corners */
 } dominator;
 
+/* farthest_upper at the corners. Those of a square have two x and two y only: the same steps, but half of them. */
 static void measure(dominator *d, const plane *p, const corner v[4]) {
-  for (int k = 0; k < 4; k++) d->at[k] = farthest_upper(&v[k], &p->c->pd->box[d->vertex]);
+  const dyd_bbox *b = &p->c->pd->box[d->vertex];
+  const double c[4] = {v[0].x, v[3].x, v[0].y, v[3].y};
+  double s[4];
+  if (v[3].far) {
+    for (int k = 0; k < 4; k++) d->at[k] = farthest_upper(&v[k], b);
+    return;
+  }
+  for (int k = 0; k < 4; k++) s[k] = dyd_max(b->e[k | 1] - c[k], c[k] - b->e[k & 2]);
+  for (int k = 0; k < 4; k++) s[k] *= s[k];
+  for (int k = 0; k < 4; k++) d->at[k] = dyd_upper(s[k & 1] + s[2 + (k >> 1)]);
+}
+
+/* closest_lower at the corners, likewise. */
+static void measure_closest(double at[4], const plane *p, uint32_t vertex, const corner v[4]) {
+  const dyd_bbox *b = &p->c->pd->box[vertex];
+  const double c[4] = {v[0].x, v[3].x, v[0].y, v[3].y};
+  double s[4];
+  if (v[3].far) {
+    for (int k = 0; k < 4; k++) at[k] = closest_lower(&v[k], b);
+    return;
+  }
+  for (int k = 0; k < 4; k++) s[k] = dyd_max(b->e[k & 2] - c[k], c[k] - b->e[k | 1]);
+  for (int k = 0; k < 4; k++) s[k] = dyd_max(s[k], 0);
+  for (int k = 0; k < 4; k++) s[k] *= s[k];
+  for (int k = 0; k < 4; k++) at[k] = dyd_lower(s[k & 1] + s[2 + (k >> 1)]);
 }
 
 /* Who is nearest at the worst corner, and who at each corner. Returns how many. */
@@ -166,7 +191,7 @@ static int choose_dominators(dominator best[DOMINATORS], const plane *p, const c
 
 static bool is_dominated(const plane *p, uint32_t vertex, const corner v[4], const dominator *best, int count) {
   double at[4];
-  for (int k = 0; k < 4; k++) at[k] = closest_lower(&v[k], &p->c->pd->box[vertex]);
+  measure_closest(at, p, vertex, v);
   for (int m = 0; m < count; m++)
     if (best[m].at[0] < at[0] && best[m].at[1] < at[1] && best[m].at[2] < at[2] && best[m].at[3] < at[3] &&
         best[m].vertex != vertex)

@@ -3,6 +3,7 @@
 #include "delaunay/tree.h"
 
 #include "base/alloc.h"
+#include "base/verify.h"
 
 #include <math.h>
 #include <string.h>
@@ -34,7 +35,8 @@ static void fill_node(dyd_tree *t, int k, size_t q) {
 }
 
 dyd_status dyd_tree_init(dyd_tree *t, uint32_t *item, uint32_t count, const dyd_bbox *box) {
-  *t = (dyd_tree){.count = count, .item = item, .box = box};
+  *t = (dyd_tree){.count = count, .item = item, .box = box, .ascending = true};
+  for (uint32_t q = 1; q < count && t->ascending; q++) t->ascending = item[q - 1] < item[q];
   size_t width = count;
   while (count && (t->levels == 0 || width > 1)) {
     width = (width + DYD_TREE_FANOUT - 1) / DYD_TREE_FANOUT;
@@ -80,8 +82,38 @@ typedef struct frame {
 } frame;
 enum { STACK = DYD_TREE_LEVELS * DYD_TREE_FANOUT };
 
+/* The distance across of the centre from each box, along x (k = 0) or y (k = 2), as in dyd_ds2_lower. */
+static void gaps(double gap[DYD_TREE_FANOUT], const dyd_bbox *box, const dyd_bbox *c, int k) {
+  double lo = c->e[k], hi = c->e[k + 1];
+  for (size_t e = 0; e < DYD_TREE_FANOUT; e++) {
+    double g = dyd_max(box[e].e[k] - hi, lo - box[e].e[k + 1]);
+    gap[e] = dyd_max(g, 0);
+  }
+}
+
+/* dyd_ds2_lower for the children of a node; in loops without branches where their boxes lie side by side. Not to be
+ * inlined: the compiler would unroll the loops before it could use vectors. */
+#if defined(__GNUC__)
+__attribute__((noinline))
+#endif
+static void
+distances(double value[DYD_TREE_FANOUT], const dyd_tree *t, int level, size_t first, size_t end, const dyd_bbox *c) {
+  size_t count = end - first;
+  bool side_by_side = level > 0 || (t->ascending && t->item[end - 1] - t->item[first] == count - 1);
+  if (count == DYD_TREE_FANOUT && side_by_side) {
+    double dx[DYD_TREE_FANOUT], dy[DYD_TREE_FANOUT];
+    gaps(dx, child_box(t, level, first), c, 0);
+    gaps(dy, child_box(t, level, first), c, 2);
+    for (size_t e = 0; e < DYD_TREE_FANOUT; e++) value[e] = dyd_lower(dx[e] * dx[e] + dy[e] * dy[e]);
+  } else {
+    for (size_t e = 0; e < count; e++) value[e] = dyd_ds2_lower(c, child_box(t, level, first + e));
+  }
+  for (size_t e = 0; e < count; e++) DYD_CHECK(value[e] == dyd_ds2_lower(c, child_box(t, level, first + e)));
+}
+
 void dyd_tree_near(const dyd_tree *t, const dyd_bbox *c, const double *radius2, dyd_visit visit, void *context) {
   frame stack[STACK];
+  double value[DYD_TREE_FANOUT];
   int depth = 0;
   if (t->levels) stack[depth++] = (frame){t->levels - 1, 0, 0};
   while (depth) {
@@ -89,11 +121,11 @@ void dyd_tree_near(const dyd_tree *t, const dyd_bbox *c, const double *radius2, 
     size_t first, end;
     if (f.value > *radius2) continue;
     children(&first, &end, t, f.level, f.node);
+    distances(value, t, f.level, first, end, c);
     for (size_t e = first; e < end; e++) {
-      double value = dyd_ds2_lower(c, child_box(t, f.level, e));
-      if (value > *radius2) continue;
+      if (value[e - first] > *radius2) continue;
       if (f.level > 0)
-        stack[depth++] = (frame){f.level - 1, e, value};
+        stack[depth++] = (frame){f.level - 1, e, value[e - first]};
       else if (!visit(context, t->item[e]))
         return;
     }

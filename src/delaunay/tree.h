@@ -13,7 +13,7 @@
 enum { DYD_TREE_FANOUT = 8, DYD_TREE_LEVELS = 12 };
 
 /* Invariant: node level[k] .. level[k+1]-1 are the nodes of level k (0: over items); a node's box holds the boxes of
- * its children. item[q] is the vertex of entry q. */
+ * its children. item[q] is the vertex of entry q; ascending: they go up. */
 typedef struct dyd_tree {
   uint32_t count;
   uint32_t *item;
@@ -21,12 +21,13 @@ typedef struct dyd_tree {
   dyd_bbox *node;
   size_t level[DYD_TREE_LEVELS + 1];
   int levels;
+  bool ascending;
 } dyd_tree;
 
 /* Over the vertices item[0..count-1]; takes over the array. */
 dyd_status dyd_tree_init(dyd_tree *t, uint32_t *item, uint32_t count, const dyd_bbox *box);
 void dyd_tree_clear(dyd_tree *t);
-/* The entry of a vertex; the items are ascending. */
+/* The entry of a vertex, in an ascending tree. */
 uint32_t dyd_tree_entry(const dyd_tree *t, uint32_t vertex);
 /* Entry q's box has shrunk. */
 void dyd_tree_refresh(dyd_tree *t, uint32_t q);
