@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The pairs of a certificate: open ones, and illegal ones of open sets, each with its chain.
  *
- * Blockers are looked for among the sites of the set and the neighbours of the two; where that fails, among all. */
+ * Blockers are looked for first among those of the pairs just before with the same site i, as a few sites round i block
+ * most others; then among the sites of the set and the neighbours of the two; then among all. */
 #include "base/alloc.h"
 #include "io/certificate.h"
 #include <inttypes.h>
 #include <string.h>
 
-/* After so much work (a blocker looked at is 1, a pair CHAIN_PAIR beside) the search for chains gives up; the same
- * again is for searches among all sites. */
-#define CHAIN_EFFORT ((uint64_t)200 * 1000 * 1000)
+/* After so much work (a blocker looked at is 1, a search CHAIN_PAIR beside) the search for chains gives up. */
+#define CHAIN_EFFORT ((uint64_t)300 * 1000 * 1000)
 #define CHAIN_PAIR 200
+#define RECENT 40
 
 /* A line of the section: an open pair, or an illegal one of an open set, to be proved. Invariant: i < j. */
 typedef struct line {
@@ -64,18 +65,19 @@ static dyd_status illegal_lines(lines *l, const dyd_proof *p, size_t known) {
       for (size_t b = a + 1; b < m && status >= 0 && effort < CHAIN_EFFORT; b++) {
         if (is_listed(l, known, p, site[a], site[b])) continue;
         status = add_line(l, site[a], site[b], 'n');
-        effort += m + CHAIN_PAIR;
+        effort += CHAIN_PAIR;
       }
   }
   return status;
 }
 
-/* Where blockers are looked for: the open set of both sites, and their neighbours. Owned by the list. effort: of the
- * searches among all sites. */
+/* Where blockers are looked for, owned; what the searches have cost; blockers that were of use for site `of`. */
 typedef struct blockers {
   uint32_t *site;
   size_t count, cap;
   uint64_t effort;
+  uint32_t of, recent[RECENT];
+  size_t recents;
 } blockers;
 
 static dyd_status add_blockers(blockers *b, const uint32_t *site, size_t count) {
@@ -111,20 +113,42 @@ static dyd_status find_blockers(blockers *b, const dyd_proof *p, uint32_t i, uin
 static dyd_status all_blockers(blockers *b, const dyd_proof *p) {
   dyd_status status = DYD_OK;
   b->count = 0;
-  b->effort += p->sites.count + CHAIN_PAIR;
   for (uint32_t v = 0; v < p->sites.count && status >= 0; v++)
     if (p->sites.site[v].alias == v) status = add_blockers(b, &v, 1);
   return status;
 }
 
-static dyd_status put_chain(FILE *out, dyd_cert_chain *chain, blockers *near, dyd_proof *p, const line *l) {
-  bool found = false;
-  dyd_status status = find_blockers(near, p, l->i, l->j);
-  if (status >= 0) status = dyd_proof_find_chain(&found, chain, p, l->i, l->j, near->site, near->count);
-  if (status >= 0 && !found && near->effort < CHAIN_EFFORT) {
-    status = all_blockers(near, p);
-    if (status >= 0) status = dyd_proof_find_chain(&found, chain, p, l->i, l->j, near->site, near->count);
+static dyd_status recent_blockers(blockers *b, uint32_t i) {
+  if (b->of != i) b->recents = 0;
+  b->of = i;
+  b->count = 0;
+  return add_blockers(b, b->recent, b->recents);
+}
+
+static void remember_blockers(blockers *b, const dyd_cert_chain *chain) {
+  for (size_t q = 0; q <= chain->points && b->recents < RECENT; q++) {
+    size_t k = 0;
+    while (k < b->recents && b->recent[k] != chain->blocker[q]) k++;
+    if (k == b->recents) b->recent[b->recents++] = chain->blocker[q];
   }
+}
+
+static dyd_status find_chain(bool *found, dyd_cert_chain *chain, blockers *b, const dyd_proof *p, const line *l) {
+  dyd_status status = DYD_OK;
+  *found = false;
+  for (int wider = 0; wider < 3 && status >= 0 && !*found && b->effort < CHAIN_EFFORT; wider++) {
+    status = wider == 0 ? recent_blockers(b, l->i) : wider == 1 ? find_blockers(b, p, l->i, l->j) : all_blockers(b, p);
+    if (status < 0 || b->count == 0) continue;
+    b->effort += b->count + CHAIN_PAIR;
+    status = dyd_proof_find_chain(found, chain, p, l->i, l->j, b->site, b->count);
+  }
+  if (*found) remember_blockers(b, chain);
+  return status;
+}
+
+static dyd_status put_chain(FILE *out, dyd_cert_chain *chain, blockers *near, dyd_proof *p, const line *l) {
+  bool found;
+  dyd_status status = find_chain(&found, chain, near, p, l);
   if (status < 0 || !found) return status;
   fprintf(out, "n %" PRIu32 " %" PRIu32 " ", l->i, l->j);
   dyd_proof_put_point(out, (const dyd_exact *)chain->u[0]);
