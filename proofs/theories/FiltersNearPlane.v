@@ -10,8 +10,8 @@ Open Scope R_scope.
 Section Frame.
 Variables i j : point.
 Variable h : R.
-Hypothesis Ph : 0 < h.
-Hypothesis Eh : 4 * (h * h) = dist2 i j.
+Variable Ph : 0 < h.
+Variable Eh : 4 * (h * h) = dist2 i j.
 Let ex := (fst j - fst i) / (2 * h).
 Let ey := (snd j - snd i) / (2 * h).
 Definition along (p : point) : R := (fst p - (fst i + fst j) / 2) * ex + (snd p - (snd i + snd j) / 2) * ey.

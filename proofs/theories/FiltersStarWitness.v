@@ -173,15 +173,15 @@ Variable p : nat -> point.
 Variable delta L : R.
 Let P k : point := (val (x k), val (y k)).
 Variable fat : nat -> Prop.
-Hypothesis coordinates : forall k, (k < N)%nat -> finite (x k) /\ finite (y k).
-Hypothesis delta_pos : 0 <= delta.
-Hypothesis L_pos : 0 <= L.
-Hypothesis near_doubles : forall k, (k < N)%nat -> off_by (P k) (p k) delta.
-Hypothesis radii : forall k, (k < N)%nat -> ~ fat k -> dl (P k) (B k) <= L.
+Variable coordinates : forall k, (k < N)%nat -> finite (x k) /\ finite (y k).
+Variable delta_pos : 0 <= delta.
+Variable L_pos : 0 <= L.
+Variable near_doubles : forall k, (k < N)%nat -> off_by (P k) (p k) delta.
+Variable radii : forall k, (k < N)%nat -> ~ fat k -> dl (P k) (B k) <= L.
 Variable reach : double.
-Hypothesis reach_nneg : nneg reach.
-Hypothesis reach_least : 9 / 10 ^ 302 <= val reach.
-Hypothesis reach_most : 2 * (L + 3 * delta) <= val reach * (1 + 3 * u).
+Variable reach_nneg : nneg reach.
+Variable reach_least : 9 / 10 ^ 302 <= val reach.
+Variable reach_most : 2 * (L + 3 * delta) <= val reach * (1 + 3 * u).
 
 Lemma from_double k z : (k < N)%nat -> ~ fat k -> inside z (B k) -> dist (P k) z <= L.
 Proof. intros K F Z. apply Rle_trans with (2 := radii k K F). now apply le_dl. Qed.
