@@ -390,10 +390,52 @@ static void test_memory(void **state) {
   finish(&p);
 }
 
+/* Sites of which nothing is known hold everything, are no points, and shrink to doubles or to what doubles do not hold,
+ * whatever stands beside them. */
+static void check_planes(bool exact_beside) {
+  pairing p;
+  start(&p);
+  const double box[4] = {-0.5, 1e300, 0, 0x1p-1074}, inside[4] = {-0.5, 0.25, 0, 0},
+               *const outside[] = {(const double[]){-0.75, 0, 0, 0}, (const double[]){0, 0, 0, 0x1p-1073}};
+  dyd_rect *tiny = &p.want[0], *now = &p.want[1];
+  assert_int_equal(dyd_dyadic_set_si_2exp(&tiny->x.hi, 1, -5000), DYD_OK);
+  if (exact_beside) assert_int_equal(dyd_sites_add_rect(p.s, tiny), DYD_OK);
+  size_t first = dyd_sites_count(p.s);
+  assert_int_equal(dyd_sites_add_planes(p.s, 3), DYD_OK);
+  assert_int_equal(dyd_sites_count(p.s), first + 3);
+  for (size_t i = first; i < first + 3; i++) {
+    assert_false(dyd_sites_is_point(p.s, i));
+    assert_int_equal(dyd_sites_get(now, p.s, i), DYD_OK);
+    assert_true(dyd_rect_contains(now, tiny) && dyd_rect_bits(now) < -1000000);
+  }
+  assert_int_equal(dyd_sites_narrow_d(p.s, first, box), DYD_OK);
+  for (int k = 0; k < 2; k++) assert_int_equal(dyd_sites_narrow_d(p.s, first, outside[k]), DYD_E_NESTING);
+  assert_int_equal(dyd_sites_get(now, p.s, first), DYD_OK);
+  assert_int_equal(dyd_rect_set_d(&p.want[2], box[0], box[1], box[2], box[3]), DYD_OK);
+  assert_true(dyd_rect_equal(now, &p.want[2]));
+  assert_int_equal(dyd_sites_narrow_d(p.s, first, inside), DYD_OK);
+  assert_int_equal(dyd_sites_narrow_d(p.s, first, box), DYD_E_NESTING);
+  assert_int_equal(dyd_sites_narrow(p.s, first + 1, tiny), DYD_OK);
+  /* Now an exact rectangle is there; doubles around it, and inside of it. */
+  assert_int_equal(dyd_sites_narrow_d(p.s, first + 1, inside), DYD_E_NESTING);
+  assert_int_equal(dyd_sites_narrow_d(p.s, first + 1, (const double[]){0, 0, 0, 0}), DYD_OK);
+  assert_true(dyd_sites_is_point(p.s, first + 1));
+  assert_int_equal(dyd_sites_get(now, p.s, first + 2), DYD_OK);
+  assert_true(dyd_rect_bits(now) < -1000000);
+  assert_int_equal(dyd_sites_narrow_d(p.s, first + 3, inside), DYD_E_ARG);
+  finish(&p);
+}
+
+static void test_planes(void **state) {
+  (void)state;
+  check_planes(false);
+  check_planes(true);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_random_tables),       cmocka_unit_test(test_bulk_mixed),    cmocka_unit_test(test_words),
-      cmocka_unit_test(test_bad_doubles),         cmocka_unit_test(test_negative_zero), cmocka_unit_test(test_memory),
-      cmocka_unit_test(test_numbers_out_of_range)};
+      cmocka_unit_test(test_random_tables),        cmocka_unit_test(test_bulk_mixed),    cmocka_unit_test(test_words),
+      cmocka_unit_test(test_bad_doubles),          cmocka_unit_test(test_negative_zero), cmocka_unit_test(test_memory),
+      cmocka_unit_test(test_numbers_out_of_range), cmocka_unit_test(test_planes)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
