@@ -119,6 +119,7 @@ void cli_complain_at(const char *file, const dyd_error *err);
 /* output.c: a result file that appears whole or not at all. */
 typedef struct cli_output {
   FILE *stream;
+  const char *name;         /* as given, borrowed; NULL: standard output */
   char *target, *temporary; /* NULL when written in place */
 } cli_output;
 /* name NULL: standard output. false after a message. */

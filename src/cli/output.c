@@ -19,7 +19,7 @@ bool cli_guard_descriptors(void) {
 }
 
 static bool fail(const char *name) {
-  cli_complain("%s: cannot write: %s; choose another place with -o", name, strerror(errno));
+  cli_complain("%s: cannot write: %s; choose another place with -o", name ? name : "standard output", strerror(errno));
   return false;
 }
 
@@ -55,7 +55,7 @@ static bool open_temporary(cli_output *out, const char *name, mode_t mode) {
 }
 
 bool cli_output_open(cli_output *out, const char *name) {
-  *out = (cli_output){.stream = stdout};
+  *out = (cli_output){.stream = stdout, .name = name};
   if (!name) return true;
   struct stat info;
   bool exists = stat(name, &info) == 0;
@@ -71,7 +71,6 @@ bool cli_output_open(cli_output *out, const char *name) {
 }
 
 bool cli_output_finish(cli_output *out) {
-  const char *name = out->target ? out->target : "standard output";
   errno = 0;
   bool done = fflush(out->stream) == 0 && !ferror(out->stream);
   if (done && out->temporary) done = fsync(fileno(out->stream)) == 0;
@@ -81,7 +80,7 @@ bool cli_output_finish(cli_output *out) {
   if (done && out->temporary) done = rename(out->temporary, out->target) == 0;
   if (!done) {
     if (!errno) errno = EIO;
-    fail(name);
+    fail(out->name);
   }
   cli_signals_remove(NULL);
   if (done) {

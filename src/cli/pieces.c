@@ -34,7 +34,7 @@ int cli_pieces_open(cli_pieces *p, const cli_options *o, size_t least, size_t mo
   if (p->bits > p->max_bits) p->bits = p->max_bits;
   size_t count = dyd_engine_count(p->session.engine);
   if (count < least) {
-    cli_complain("%s: %zu points are needed, here are %zu", o->file ? o->file : "the oracle", least, count);
+    cli_complain("%s: %zu points are needed, here are %zu; give more", o->file ? o->file : "the oracle", least, count);
     return CLI_FAILED;
   }
   count = count < most ? count : most;

@@ -3,6 +3,7 @@
 #include "cli.h"
 #include <errno.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 void cli_complain_at(const char *file, const dyd_error *err) {
@@ -23,6 +24,12 @@ static int read_file(dyd_engine *e, const cli_options *o) {
   FILE *in = standard ? stdin : fopen(o->file, "rb");
   if (!in) {
     cli_complain("%s: cannot open: %s; check the name of the points file", o->file, strerror(errno));
+    return CLI_FAILED;
+  }
+  struct stat info;
+  if (fstat(fileno(in), &info) == 0 && S_ISDIR(info.st_mode)) {
+    cli_complain("%s: is a directory; give the name of a points file in it", o->file);
+    if (!standard) fclose(in);
     return CLI_FAILED;
   }
   dyd_error err;
@@ -143,7 +150,10 @@ int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, c
   dyd_error_clear(&err);
   dyd_status status = print(out.stream, what, o, &err);
   bool done = status >= 0;
-  if (!done) cli_complain_at(name ? name : "standard output", &err);
+  if (!done && status == DYD_E_IO)
+    cli_complain("%s: %s; choose another place with -o", name ? name : "standard output", err.message);
+  else if (!done)
+    cli_complain_at(name ? name : "standard output", &err);
   cli_signals_remove(NULL);
   if (done)
     done = cli_output_finish(&out);

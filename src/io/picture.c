@@ -19,15 +19,24 @@
 
 /* ---- pages ---- */
 
+/* error: errno of the first write that failed, else 0. */
+typedef struct sink {
+  FILE *out;
+  int error;
+} sink;
+
 static cairo_status_t put(void *closure, const unsigned char *data, unsigned length) {
-  return fwrite(data, 1, length, closure) == length ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
+  sink *s = closure;
+  if (fwrite(data, 1, length, s->out) == length) return CAIRO_STATUS_SUCCESS;
+  if (!s->error) s->error = errno ? errno : EIO;
+  return CAIRO_STATUS_WRITE_ERROR;
 }
 
 bool dyd_format_is_picture(dyd_format format) {
   return format == DYD_FORMAT_SVG || format == DYD_FORMAT_PDF || format == DYD_FORMAT_PNG;
 }
 
-static cairo_surface_t *new_surface(FILE *out, dyd_format kind, double width, double height) {
+static cairo_surface_t *new_surface(sink *out, dyd_format kind, double width, double height) {
   if (kind == DYD_FORMAT_SVG) return cairo_svg_surface_create_for_stream(put, out, width, height);
   if (kind == DYD_FORMAT_PDF) return cairo_pdf_surface_create_for_stream(put, out, width, height);
   return cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)ceil(width * SCALE_OF_PNG),
@@ -37,18 +46,20 @@ static cairo_surface_t *new_surface(FILE *out, dyd_format kind, double width, do
 dyd_status dyd_page_write(FILE *out, dyd_format kind, double width, double height, dyd_draw_fn draw, void *context,
                           dyd_error *err) {
   if (!dyd_format_is_picture(kind)) return dyd_fail(err, DYD_E_ARG, "a picture is svg, pdf or png");
-  cairo_surface_t *surface = new_surface(out, kind, width, height);
+  sink s = {.out = out};
+  cairo_surface_t *surface = new_surface(&s, kind, width, height);
   bool png = kind == DYD_FORMAT_PNG;
   cairo_t *cr = cairo_create(surface);
   if (png) cairo_scale(cr, SCALE_OF_PNG, SCALE_OF_PNG);
   draw(cr, context);
   cairo_status_t status = cairo_status(cr);
   cairo_destroy(cr);
-  if (png && status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png_stream(surface, put, out);
+  if (png && status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png_stream(surface, put, &s);
   cairo_surface_finish(surface);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
   cairo_surface_destroy(surface);
   if (status == CAIRO_STATUS_NO_MEMORY) return dyd_fail_nomem(err);
+  if (s.error) return dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(s.error));
   if (status != CAIRO_STATUS_SUCCESS)
     return dyd_fail(err, DYD_E_IO, "cannot write the picture: %s", cairo_status_to_string(status));
   if (fflush(out) != 0 || ferror(out))

@@ -45,6 +45,30 @@ static dyd_status stage_point(dyd_stage *stage, const dyd_span span[2], const dy
   return status;
 }
 
+/* Is every field of the line a word or quoted, as in the header of a CSV file? */
+static bool is_header(const dyd_line *line) {
+  const char *end = line->text + line->length;
+  if (!memchr(line->text, ',', line->length)) return false;
+  for (const char *at = line->text; at < end; at++) {
+    while (at < end && (*at == ' ' || *at == '\t')) at++;
+    if (at == end || !(*at == '"' || *at == '_' || (*at >= 'A' && *at <= 'Z') || (*at >= 'a' && *at <= 'z')))
+      return false;
+    const char *comma = memchr(at, ',', (size_t)(end - at));
+    if (!comma) return true;
+    at = comma;
+  }
+  return false;
+}
+
+/* A first line that is not understood may be a header. */
+static dyd_status hint(dyd_status status, const dyd_line *line, const dyd_stage *stage, dyd_error *err) {
+  size_t length = strlen(err->message);
+  if (status == DYD_E_PARSE && !stage->count && is_header(line))
+    snprintf(err->message + length, sizeof err->message - length,
+             "; if this is CSV with a header, name two of its columns: --columns X,Y");
+  return status;
+}
+
 static dyd_status read_points_file(dyd_stage *stage, dyd_text *text, const dyd_manner *manner, dyd_error *err) {
   for (;;) {
     dyd_line line;
@@ -54,7 +78,7 @@ static dyd_status read_points_file(dyd_stage *stage, dyd_text *text, const dyd_m
     if (status < 0 || !line.text) return status;
     status = dyd_points_split(span, &count, &line, err);
     if (status >= 0 && count) status = stage_point(stage, span, manner, err);
-    if (status < 0) return status;
+    if (status < 0) return hint(status, &line, stage, err);
   }
 }
 

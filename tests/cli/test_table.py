@@ -102,7 +102,7 @@ USAGE = [
     ('delaunay - --schedule fast', 2, r'\A\Z', '--schedule "fast" is not understood; give adaptive or uniform'),
     ('delaunay - --threads 0', 2, r'\A\Z', '--threads'),
     ('delaunay nowhere.txt', 1, r'\A\Z', r'\Adyadel: nowhere.txt: cannot open: No such file or directory; check'),
-    ('delaunay .', 1, r'\A\Z', r'\Adyadel: \.: cannot read: Is a directory'),
+    ('delaunay .', 1, r'\A\Z', r'\Adyadel: \.: is a directory; give the name of a points file'),
     ('--quiet - --stats', 2, r'\A\Z', 'there is no command "-"'),
     ('--format svg --quiet delaunay -', 0, r'\A<(svg |\?xml )', r'\A\Z'),
     ('delaunay - --format svg --quiet', 0, r'\A<(svg |\?xml )', r'\A\Z'),
