@@ -14,6 +14,7 @@
 #include "delaunay/build.h"
 #include "delaunay/centre.h"
 #include "delaunay/filter_cells.h"
+#include "delaunay/filter_possible.h"
 #include "delaunay/filter_quad.h"
 #include "delaunay/hull.h"
 #include "delaunay/pair_map.h"
@@ -180,6 +181,48 @@ static bool is_crowded(const closing *c) {
   return many && !c->pd->options.no_filter;
 }
 
+/* A member's box, for a sweep from left to right. */
+typedef struct sweep_entry {
+  const dyd_bbox *box;
+  uint32_t member;
+} sweep_entry;
+
+static int compare_left(const void *a, const void *b) {
+  const sweep_entry *x = a, *y = b;
+  double p = x->box->e[0], q = y->box->e[0];
+  if (p != q) return p < q ? -1 : 1;
+  return (x->member > y->member) - (x->member < y->member);
+}
+
+/* The members whose boxes are their rectangles, by their left sides. */
+static dyd_status sweep_order(sweep_entry **order, size_t *count, const closing *c) {
+  const dyd_delaunay *pd = c->pd;
+  const uint32_t *v = c->out->vertex;
+  sweep_entry *e = dyd_alloc(c->out->vertices, sizeof *e);
+  if (!e) return DYD_E_NOMEM;
+  for (uint32_t a = 0; a < c->out->vertices; a++)
+    if (dyd_sites_in_doubles(pd->sites, pd->reps.site[v[a]])) e[(*count)++] = (sweep_entry){&pd->box[v[a]], a};
+  qsort(e, *count, sizeof *e, compare_left);
+  *order = e;
+  return DYD_OK;
+}
+
+/* Rectangles that meet are a possible pair [POS-1]: those that doubles hold are compared at once. */
+static dyd_status add_meeting(closing *c) {
+  sweep_entry *e = NULL;
+  size_t count = 0;
+  dyd_status st = sweep_order(&e, &count, c);
+  for (size_t q = 0; q < count && st == DYD_OK && !c->full; q++) {
+    if (dyd_cancelled(c->pd)) st = DYD_CANCELLED;
+    for (size_t r = q + 1; r < count && st == DYD_OK && !c->full && e[r].box->e[0] <= e[q].box->e[1]; r++)
+      if (!dyd_boxes_disjoint(e[q].box, e[r].box) &&
+          dyd_pair_map_get(&c->map, e[q].member, e[r].member) == DYD_PAIR_UNKNOWN)
+        st = add(c, e[q].member, e[r].member, DYD_PAIR_OPEN);
+  }
+  free(e);
+  return st;
+}
+
 /* *done: all possible pairs have been found. */
 static dyd_status close_by_cells(bool *done, closing *c) {
   static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
@@ -274,11 +317,13 @@ static dyd_status settle(closing *c, uint32_t a, uint32_t b) {
 
 static dyd_status close(closing *c) {
   bool done = false;
+  uint64_t m = c->out->vertices, all = m * (m - 1) / 2;
+  bool crowded = is_crowded(c);
   dyd_status st = start(c);
-  if (st == DYD_OK && is_crowded(c)) st = close_by_cells(&done, c);
+  if (st == DYD_OK && crowded) st = add_meeting(c);
+  if (st == DYD_OK && crowded && !c->full && c->known < all) st = close_by_cells(&done, c);
   if (done || c->full) return st;
   if (st == DYD_OK) st = start_ghost(c);
-  uint64_t m = c->out->vertices, all = m * (m - 1) / 2;
   for (size_t q = 0; q < c->map.links && st == DYD_OK && !c->full && c->known < all; q += 2) {
     if (dyd_cancelled(c->pd)) return DYD_CANCELLED;
     st = settle(c, c->map.link[q + 1].to, c->map.link[q].to);

@@ -183,12 +183,27 @@ static void test_beyond_doubles(void **state) {
   orc_case_clear(&c);
 }
 
+/* Among overlapping rectangles, three points within a unit in the last place: their boxes meet, they do not [POS-1]. */
+static void test_boxes_meet(void **state) {
+  (void)state;
+  expect_text("boxes meet",
+              "1208925819614629174706177*2^-80 0\n1208925819614629174706178*2^-80 0\n"
+              "1208925819614629174706179*2^-80 0\n[-4,4] [-4,4]\n[-4,4] [-3,4]\n[-30,-3] [-10,10]\n[3,30] [-10,10]\n"
+              "[-5,5] [3,30]\n[-5,5] [-30,-3]\n");
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_pairs_of_faces), cmocka_unit_test(test_alias_on_a_line),
-                                     cmocka_unit_test(test_leave_line),     cmocka_unit_test(test_scales),
-                                     cmocka_unit_test(test_thin_wedge),     cmocka_unit_test(test_mixed_scales),
-                                     cmocka_unit_test(test_fat_regions),    cmocka_unit_test(test_overflowing_bound),
-                                     cmocka_unit_test(test_infinite_boxes), cmocka_unit_test(test_beyond_doubles)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_boxes_meet),
+                                     cmocka_unit_test(test_pairs_of_faces),
+                                     cmocka_unit_test(test_alias_on_a_line),
+                                     cmocka_unit_test(test_leave_line),
+                                     cmocka_unit_test(test_scales),
+                                     cmocka_unit_test(test_thin_wedge),
+                                     cmocka_unit_test(test_mixed_scales),
+                                     cmocka_unit_test(test_fat_regions),
+                                     cmocka_unit_test(test_overflowing_bound),
+                                     cmocka_unit_test(test_infinite_boxes),
+                                     cmocka_unit_test(test_beyond_doubles)};
   harness_init(&shared, "regressions");
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   harness_clear(&shared);
