@@ -259,6 +259,22 @@ static void test_first_in_doubles(void **state) {
   dyd_engine_free(e);
 }
 
+/* After doubles the precisions are those of a run that began with 64 bits. */
+static void test_after_doubles(void **state) {
+  (void)state;
+  dyd_engine *e = engine_new();
+  engine_add_text(e, "sqrt(2)", "0");
+  engine_add_text(e, "0", "sqrt(2)");
+  engine_add_text(e, "-sqrt(2)", "0");
+  engine_add_text(e, "0", "-sqrt(2)*(1+2^-50*2^-45)");
+  engine_run(e, NULL, DYD_OUTCOME_DECIDED);
+  dyd_engine_counters c = engine_counters(e);
+  assert_int_equal(128, c.bits_most);
+  assert_int_equal(8, c.calls);
+  assert_int_equal(2, c.stages);
+  dyd_engine_free(e);
+}
+
 /* All kinds of points in one engine, numbered in the order added. */
 static void test_mixed(void **state) {
   (void)state;
@@ -327,6 +343,7 @@ int main(void) {
       cmocka_unit_test(test_schedules),
       cmocka_unit_test(test_adaptive_is_local),
       cmocka_unit_test(test_first_in_doubles),
+      cmocka_unit_test(test_after_doubles),
       cmocka_unit_test(test_mixed),
       cmocka_unit_test(test_coincident),
   };
