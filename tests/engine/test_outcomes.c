@@ -270,6 +270,7 @@ static void test_after_doubles(void **state) {
   engine_run(e, NULL, DYD_OUTCOME_DECIDED);
   dyd_engine_counters c = engine_counters(e);
   assert_int_equal(128, c.bits_most);
+  assert_int_equal(4 * 128, c.bits_total);
   assert_int_equal(8, c.calls);
   assert_int_equal(2, c.stages);
   dyd_engine_free(e);
