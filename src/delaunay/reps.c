@@ -111,9 +111,23 @@ static dyd_status holds(bool *inside, const dyd_reps *r, uint32_t v, dyd_xy p) {
   return st;
 }
 
+/* An exact point that is no double: the table has the doubles next to it. They are what choose_exact would find. */
+static dyd_status choose_point(dyd_reps *r, uint32_t v, uint32_t k, const double b[4]) {
+  dyd_status st = keep_code(r, v, k + 1);
+  if (st != DYD_OK) return st;
+  r->xy[v] = (dyd_xy){to_finite(b[0]), to_finite(b[2])};
+  for (int a = 0; a < 4; a += 2) r->delta = fmax(r->delta, spread(b[a], b[a + 1]));
+  return DYD_OK;
+}
+
 dyd_status dyd_reps_choose(dyd_reps *r, uint32_t v, uint32_t k) {
   const dyd_sites *s = r->sites;
   uint32_t i = r->site[v];
+  if (!dyd_sites_in_doubles(s, i) && dyd_sites_is_point(s, i)) {
+    double b[4];
+    dyd_sites_get_d(b, s, i);
+    if (b[0] < b[1] || b[2] < b[3]) return choose_point(r, v, k, b);
+  }
   if (k == 0) {
     double b[4];
     dyd_sites_get_d(b, s, i);
