@@ -22,8 +22,8 @@ typedef bool (*cli_wanted_fn)(const cli_pieces *p, size_t i);
 /* Reads the points, `least` of them at least, and takes the first `most`. 0, or an exit status after a message;
  * cli_pieces_close comes after it in any case. */
 int cli_pieces_open(cli_pieces *p, const cli_options *o, size_t least, size_t most);
-/* Doubles the precision of the points wanted until the question is answered, they are final, the budget is spent, or a signal
- * asks to stop; sets outcome. 0, or an exit status after a message. */
+/* Doubles the precision of the points wanted until the question is answered, they are final, the budget is spent, or a
+ * signal asks to stop; sets outcome. 0, or an exit status after a message. */
 int cli_pieces_run(cli_pieces *p, cli_answered_fn answered, cli_wanted_fn wanted);
 /* Frees; returns the exit status: that of the outcome where status is 0. */
 int cli_pieces_close(cli_pieces *p, int status);

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Exact boundaries as JSON: what each arc lies on, and its ends as integers a, b, c, d of (a + b sqrt(c)) / d. */
+#define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "io/arc_json.h"
 
 #include "io/decimal.h"
+#include "voronoi/surd_point.h"
+#include <stdlib.h>
 
 const char *const dyd_feature_names[8] = {"x0y0", "x1y0", "x0y1", "x1y1", "x0", "x1", "y0", "y1"};
 const char *const dyd_arc_names[3] = {"line", "parabola", "window"};
@@ -35,37 +38,79 @@ dyd_status dyd_surd_point_json(FILE *out, const dyd_surd_point *p) {
   return status;
 }
 
-static dyd_status put_end(FILE *out, const char *name, const dyd_arc_end *end) {
+/* ---- texts kept ---- */
+
+void dyd_point_texts_clear(dyd_point_texts *t) {
+  for (size_t k = 0; k < DYD_POINT_TEXTS; k++) {
+    if (t->text[k]) dyd_surd_point_clear(&t->point[k]);
+    free(t->text[k]);
+    t->text[k] = NULL;
+  }
+}
+
+static bool is_same(const dyd_surd_point *p, const dyd_surd_point *q) {
+  return !mpz_cmp(p->ax, q->ax) && !mpz_cmp(p->ay, q->ay) && !mpz_cmp(p->d, q->d) && !mpz_cmp(p->bx, q->bx) &&
+         !mpz_cmp(p->by, q->by) && !mpz_cmp(p->c, q->c);
+}
+
+/* The text of p, made if need be; borrowed from t until 64 others were made. */
+static dyd_status find_text(const char **out, dyd_point_texts *t, const dyd_surd_point *p) {
+  char *text = NULL;
+  size_t size = 0;
+  for (size_t k = 0; k < DYD_POINT_TEXTS; k++)
+    if (t->text[k] && is_same(&t->point[k], p)) return *out = t->text[k], DYD_OK;
+  FILE *memory = open_memstream(&text, &size);
+  if (!memory) return DYD_E_NOMEM;
+  dyd_status status = dyd_surd_point_json(memory, p);
+  bool good = !ferror(memory);
+  if (fclose(memory) != 0 || !good) status = DYD_E_NOMEM;
+  if (status < 0) {
+    free(text);
+    return status;
+  }
+  size_t k = t->next++ % DYD_POINT_TEXTS;
+  if (!t->text[k]) dyd_surd_point_init(&t->point[k]);
+  dyd_surd_point_set(&t->point[k], p);
+  free(t->text[k]);
+  *out = t->text[k] = text;
+  return DYD_OK;
+}
+
+/* ---- arcs ---- */
+
+static dyd_status put_end(FILE *out, const char *name, const dyd_arc_end *end, dyd_point_texts *texts) {
   fprintf(out, ",\n  \"%s\": {\"kind\": \"%s\"", name, dyd_end_names[end->kind]);
   dyd_status status = DYD_OK;
   if (end->kind == DYD_END_SITES) fprintf(out, ", \"site\": %u", (unsigned)end->site);
   if (end->kind != DYD_END_INFINITE) {
+    const char *text = "";
+    status = find_text(&text, texts, &end->at);
     fputs(", \"at\": ", out);
-    status = dyd_surd_point_json(out, &end->at);
+    fputs(text, out);
   }
   fputs("}", out);
   return status;
 }
 
-static dyd_status put_arc(FILE *out, const dyd_arc *arc) {
+static dyd_status put_arc(FILE *out, const dyd_arc *arc, dyd_point_texts *texts) {
   fprintf(out, "\n {\"kind\": \"%s\"", dyd_arc_names[arc->kind]);
   if (arc->kind != DYD_ARC_WINDOW)
     fprintf(out, ", \"far\": %u, \"corner\": \"%s\", \"near\": %u, \"feature\": \"%s\"", (unsigned)arc->far_site,
             dyd_feature_names[arc->corner], (unsigned)arc->near_site, dyd_feature_names[arc->feature]);
-  dyd_status status = put_end(out, "begin", &arc->begin);
-  if (status >= 0) status = put_end(out, "end", &arc->end);
+  dyd_status status = put_end(out, "begin", &arc->begin, texts);
+  if (status >= 0) status = put_end(out, "end", &arc->end, texts);
   fputs("}", out);
   return status;
 }
 
-dyd_status dyd_boundary_json(FILE *out, const dyd_boundary *b) {
+dyd_status dyd_boundary_json(FILE *out, const dyd_boundary *b, dyd_point_texts *texts) {
   dyd_status status = DYD_OK;
   fprintf(out, "{\"whole\": %s, \"chains\": [", b->whole ? "true" : "false");
   for (size_t k = 0; k < b->count && status >= 0; k++) {
     fprintf(out, "%s{\"closed\": %s, \"arcs\": [", k ? ", " : "", b->chain[k].closed ? "true" : "false");
     for (size_t a = 0; a < b->chain[k].count && status >= 0; a++) {
       if (a) fputs(",", out);
-      status = put_arc(out, &b->chain[k].arc[a]);
+      status = put_arc(out, &b->chain[k].arc[a], texts);
     }
     fputs("]}", out);
   }

@@ -70,6 +70,7 @@ void dyd_pieces_json_head(FILE *out, const char *format, dyd_outcome outcome) {
 
 static dyd_status write_json(FILE *out, const dyd_rect *const r[2], const dyd_boundary curve[2], dyd_outcome outcome) {
   dyd_status status = DYD_OK;
+  dyd_point_texts texts = {0};
   dyd_pieces_json_head(out, "dyadel bisector 1", outcome);
   fputs("\"rectangles\": [", out);
   for (int k = 0; k < 2 && status >= 0; k++) {
@@ -79,10 +80,11 @@ static dyd_status write_json(FILE *out, const dyd_rect *const r[2], const dyd_bo
   fputs("],\n\"curves\": [", out);
   for (int k = 0; k < 2 && status >= 0; k++) {
     fprintf(out, "%s\n{\"far\": %d, \"near\": %d, \"boundary\": ", k ? "," : "", k, 1 - k);
-    status = dyd_boundary_json(out, &curve[k]);
+    status = dyd_boundary_json(out, &curve[k], &texts);
     fputs("}", out);
   }
   fputs("\n]\n}\n", out);
+  dyd_point_texts_clear(&texts);
   return status;
 }
 

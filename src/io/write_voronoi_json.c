@@ -53,6 +53,7 @@ static dyd_status put_polygons(FILE *out, const dyd_shape *shape) {
 typedef struct cells {
   dyd_diagram *d;
   bool any;
+  dyd_point_texts texts;
 } cells;
 
 static dyd_status write_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
@@ -68,10 +69,10 @@ static dyd_status write_cell(void *context, uint32_t i, const dyd_shape *shape, 
   dyd_status status = put_polygons(out, shape);
   fputs(",\n\"int\": ", out);
   if (status >= 0) status = dyd_voronoi_int(&boundary, c->d->pd, i);
-  if (status >= 0) status = dyd_boundary_json(out, &boundary);
+  if (status >= 0) status = dyd_boundary_json(out, &boundary, &c->texts);
   fputs(",\n\"pos\": ", out);
   if (status >= 0) status = dyd_voronoi_pos(&boundary, c->d->pd, i);
-  if (status >= 0) status = dyd_boundary_json(out, &boundary);
+  if (status >= 0) status = dyd_boundary_json(out, &boundary, &c->texts);
   fputs("}", out);
   dyd_boundary_clear(&boundary);
   return status;
@@ -211,6 +212,7 @@ dyd_status dyd_write_voronoi_json(dyd_diagram *d, dyd_error *err) {
   dyd_status status = write_head(d);
   fputs("\"cells\": [", d->out);
   if (status >= 0) status = dyd_diagram_visit(d, write_cell, &c);
+  dyd_point_texts_clear(&c.texts);
   fputs("\n],\n", d->out);
   if (status >= 0) {
     status = write_vertices(d);
