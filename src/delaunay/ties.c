@@ -48,15 +48,15 @@ static dyd_status report_cap(dyd_delaunay *pd, size_t face) {
   return DYD_OK;
 }
 
-/* Counts the pairs of the face in work. A polygon of m = t + 2 sites has m sides and t - 1 edges inside; a chain of
- * m = t + 1 sites has t links, and its edges inside go to the ghost. */
-static dyd_status settle(dyd_delaunay *pd, const tie_flood *f) {
+/* Counts the pairs of the face in work, of t triangles. A polygon of m = t + 2 sites has m sides and t - 1 edges
+ * inside; a chain of m = t + 1 sites has t links, and its edges inside go to the ghost. */
+static dyd_status settle(dyd_delaunay *pd, uint64_t t, bool ghost) {
   dyd_face_table *table = &pd->faces;
-  uint64_t t = f->count, all = f->ghost ? t * (t - 1) / 2 : (t + 2) * (t - 1) / 2, inside = f->ghost ? 0 : t - 1;
+  uint64_t all = ghost ? t * (t - 1) / 2 : (t + 2) * (t - 1) / 2, inside = ghost ? 0 : t - 1;
   size_t face = table->count++;
   if (table->live_pairs <= pd->max_pairs && all <= pd->max_pairs - table->live_pairs) {
     table->live_pairs += all;
-    if (t == 2 && !f->ghost) table->seed[face] |= DYD_SEED_QUAD;
+    if (t == 2 && !ghost) table->seed[face] |= DYD_SEED_QUAD;
     return DYD_OK;
   }
   table->seed[face] |= DYD_SEED_CAPPED;
@@ -65,14 +65,27 @@ static dyd_status settle(dyd_delaunay *pd, const tie_flood *f) {
   return report_cap(pd, face);
 }
 
+/* Two triangles joined by the only uncertain edge of both, no ghost among them: marks them. */
+static bool is_quad(dyd_delaunay *pd, uint32_t t, uint32_t face) {
+  unsigned open = 7 & ~pd->certain[t], k = open >> 1;
+  if ((open & (open - 1)) || dyd_mesh_is_ghost(&pd->mesh, t)) return false;
+  uint32_t u = pd->mesh.tri[t].n[k] >> 2; /* no ghost: the edge would be one of the hull, and certain */
+  unsigned other = 7 & ~pd->certain[u];
+  if (other & (other - 1)) return false;
+  pd->faces.of[t] = pd->faces.of[u] = face;
+  return true;
+}
+
 static dyd_status find_face(tie_flood *f, dyd_delaunay *pd, uint32_t t) {
   dyd_face_table *table = &pd->faces;
+  uint32_t face = (uint32_t)table->count;
   if (dyd_cancelled(pd)) return DYD_CANCELLED;
   if (!dyd_reserve((void **)&table->seed, &table->seed_cap, table->count + 1, sizeof *table->seed)) return DYD_E_NOMEM;
-  table->seed[table->count] = t;
+  table->seed[face] = t;
   pd->counters.faces++;
-  dyd_status st = flood(f, pd, t, (uint32_t)table->count);
-  return st == DYD_OK ? settle(pd, f) : st;
+  if (is_quad(pd, t, face)) return settle(pd, 2, false);
+  dyd_status st = flood(f, pd, t, face);
+  return st == DYD_OK ? settle(pd, f->count, f->ghost) : st;
 }
 
 dyd_status dyd_ties_find(dyd_delaunay *pd) {

@@ -75,18 +75,29 @@ static inline void dyd_each_inner(const dyd_delaunay *pd, uint32_t t, unsigned k
   visit(context, here->v[k], there->v[here->n[k] & 3], DYD_TIE);
 }
 
-/* Edges of the skeleton: legal ones, and those inside faces that list none. */
+/* The real edges of t that t names before its neighbours do, as bits. */
+static inline unsigned dyd_edges_first_named(const dyd_mesh *m, uint32_t t) {
+  const dyd_tri *at = &m->tri[t];
+  unsigned later =
+      (unsigned)(at->n[0] > 4 * t) | (unsigned)(at->n[1] > 4 * t + 1) << 1 | (unsigned)(at->n[2] > 4 * t + 2) << 2;
+  if (!dyd_mesh_is_ghost(m, t)) return later;
+  return later & (at->v[0] == m->n ? 1u : at->v[1] == m->n ? 2u : 4u);
+}
+
+/* Edges of the skeleton: legal ones, and those inside faces that list none. Loops over bits: which edges qualify is as
+ * good as random, and branches on it would be guessed wrongly. */
 static inline void dyd_each_edge(const dyd_delaunay *pd, dyd_pair_visit visit, void *context) {
-  const dyd_mesh *m = &pd->mesh;
-  for (uint32_t t = 0; t < m->count; t++)
-    for (unsigned k = 0; k < 3; k++) {
-      uint32_t v = m->tri[t].v[dyd_next(k)], w = m->tri[t].v[dyd_prev(k)];
-      if (m->tri[t].n[k] < 4 * t + k || v == m->n || w == m->n) continue;
-      if (dyd_edge_is_certain(pd, t, k))
-        visit(context, v, w, DYD_LEGAL);
-      else if (pd->all_points)
-        dyd_each_inner(pd, t, k, visit, context);
+  const unsigned lowest = 0x1210; /* two bits for each value of three bits: its lowest bit */
+  for (uint32_t t = 0; t < pd->mesh.count; t++) {
+    const uint32_t *v = pd->mesh.tri[t].v;
+    unsigned named = dyd_edges_first_named(&pd->mesh, t), legal = named & pd->certain[t];
+    unsigned inner = pd->all_points ? named & ~legal : 0;
+    for (; legal; legal &= legal - 1) {
+      unsigned k = lowest >> 2 * legal & 3;
+      visit(context, v[dyd_next(k)], v[dyd_prev(k)], DYD_LEGAL);
     }
+    for (; inner; inner &= inner - 1) dyd_each_inner(pd, t, lowest >> 2 * inner & 3, visit, context);
+  }
 }
 
 /* Every pair once; of capped faces only those of the skeleton. */
