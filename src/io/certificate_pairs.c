@@ -82,7 +82,7 @@ typedef struct blockers {
 
 static dyd_status add_blockers(blockers *b, const uint32_t *site, size_t count) {
   if (!dyd_reserve((void **)&b->site, &b->cap, b->count + count, sizeof *b->site)) return DYD_E_NOMEM;
-  memcpy(b->site + b->count, site, count * sizeof *site);
+  if (count) memcpy(b->site + b->count, site, count * sizeof *site);
   b->count += count;
   return DYD_OK;
 }
