@@ -65,10 +65,15 @@ void dyd_partial_disc_set(dyd_partial_disc *out, const dyd_rect *a, const dyd_re
   const dyd_rect *r[3] = {a, b, c};
   out->known = dyd_orientation(a, b, c) != DYD_UNSURE;
   if (!out->known) return;
+  bool exact = dyd_rect_is_point(a) && dyd_rect_is_point(b) && dyd_rect_is_point(c); /* then all six are one */
   triple t;
   triple_init(&t, r);
   for (int k = 0; k < CIRCLES && out->known; k++) {
     dyd_touch touch[3];
+    if (exact && k) {
+      dyd_circle_set(&out->circle[k], &out->circle[0]);
+      continue;
+    }
     labels(touch, k);
     out->known = find(&out->circle[k], &t, touch);
   }
