@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "voronoi/filter_vertex.h"
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
@@ -187,6 +188,15 @@ static dyd_status choose_bits(dyd_diagram *d) {
   return status;
 }
 
+/* Numbers out of range come from polygons that are too fine; pictures tell of their own. */
+static dyd_status told(dyd_status status, const dyd_diagram *d, dyd_error *err) {
+  if (status != DYD_E_RANGE || !err || strcmp(err->message, dyd_status_text(status)) != 0) return status;
+  return dyd_fail(err, status,
+                  "polygons within 2^%" PRId64 " of their cells take more points or digits than can be held; give a "
+                  "smaller M by --flatten",
+                  -d->bits);
+}
+
 static dyd_status write(dyd_diagram *d, const dyd_voronoi_options *o, dyd_format format, dyd_error *err) {
   dyd_status status = find_window(d, o ? o->window : NULL, err);
   if (status < 0) return status;
@@ -198,7 +208,7 @@ static dyd_status write(dyd_diagram *d, const dyd_voronoi_options *o, dyd_format
   if (status >= 0) status = find_vertices(d);
   if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
   for (size_t k = 0; k < FORMATS; k++)
-    if (formats[k].format == format) return formats[k].write(d, err);
+    if (formats[k].format == format) return told(formats[k].write(d, err), d, err);
   return dyd_fail(err, DYD_E_ARG, "the diagram cannot be written as %s",
                   dyd_format_name(format) ? dyd_format_name(format) : "this format");
 }
