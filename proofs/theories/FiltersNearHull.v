@@ -175,7 +175,26 @@ Proof.
   now apply (hull_edge_near_legal N B p (val reach) M i j k c1).
 Qed.
 
-(** ** The bound m *)
+(** ** The reach and the bound m that dyd_certify_near hands over *)
+
+(* [WIT-NEAR] src/delaunay/filter_near.c: .reach = reach > {} ? reach *)
+(* [WIT-NEAR] src/delaunay/filter_near.c: ? reach : {}}; *)
+Definition c_near_floor : const := (1, -300)%Z.
+(* Any positive value will do for the distance that is tried first: *)
+(* any src/delaunay/filter_near.c: return {} * sqrt((hi[0] - lo[0]) *)
+Definition near_reach (reach : double) : double := if gt reach (lit c_near_floor) then reach else lit c_near_floor.
+
+Lemma near_reach_correct reach : is_nan 53 1024 reach = false -> finite (near_reach reach) ->
+  bpow radix2 (-300) <= val (near_reach reach) /\ (finite reach -> val reach <= val (near_reach reach)).
+Proof.
+  intros N. destruct (lit_correct c_near_floor eq_refl) as [Fc Vc].
+  replace (cval c_near_floor) with (bpow radix2 (-300)) in Vc by (unfold c_near_floor, cval, fst, snd; ring).
+  unfold near_reach. destruct (gt reach (lit c_near_floor)) eqn:G; intros F.
+  - apply gt_finite in G; [|assumption..]. split; [lra|intros _; lra].
+  - split; [lra|]. intros Fr. destruct (Rle_or_lt (val reach) (val (lit c_near_floor))) as [L|L]; [exact L|].
+    apply (gt_finite _ _ Fr Fc) in L. congruence.
+Qed.
+
 
 (** What is below 2^1024 by 10^-13 of itself does not overflow. *)
 Lemma below_overflow x : 0 <= x <= bpow radix2 1024 * (1 - / 10 ^ 13) -> Rabs (rnd x) < bpow radix2 1024.

@@ -34,6 +34,7 @@ FAULTS = [
     (STAR, '2 * (largest + 3 * pd->reps.delta)', '2 * (largest + 2 * pd->reps.delta)', 'constants', 'z_star_three'),
     ('src/stream/filter_expr.c', 'if (b.lo <= 0 && b.hi >= 0)', 'if (b.lo < 0 && b.hi > 0)', 'constants', 'divide'),
     ('src/predicate/filter_cell.c', 'i ? dyd_iv_sub(bl, root) : dyd_iv_add(bl, root)', 'dyd_iv_add(bl, root)', 'constants', 'point_and_line'),
+    ('src/delaunay/filter_near.c', 'reach : 0x1p-300}', 'reach : 0x1p-500}', 'constants', 'c_near_floor'),
     ('src/delaunay/filter_possible.c', 'isnan(h) ? -INFINITY : h', 'isnan(h) ? INFINITY : h', 'constants', 'dyd_height_lower'),
     ('src/dyadic/sqrt_sign.c', 'if (nb - 3 >= na) return -1;', 'if (nb - 2 >= na) return -1;', 'constants', 'compare_squares'),
     ('src/predicate/solve.c', 'mpz_submul(out->a[k], out->b[k], out->t);', 'mpz_addmul(out->a[k], out->b[k], out->t);',
