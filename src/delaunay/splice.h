@@ -10,8 +10,8 @@
 
 #include "delaunay/state.h"
 
-/* Are the triangles of the face Delaunay for the present representatives as they are, so that it may stay [LOC-2]? Exact
- * for bounded faces; false for others. */
+/* Are the triangles of the face Delaunay for the present representatives as they are, so that it may stay [LOC-2]?
+ * Exact for bounded faces; false for others. */
 bool dyd_splice_is_needless(dyd_delaunay *pd, const uint32_t *tri, uint32_t tris);
 /* Replaces the triangles tri[0..tris-1], a whole undecided face, by the skeleton of the present representatives. Edges
  * inside become uncertain; the marks of the face table are not touched. *fits: false if the face cannot be treated
