@@ -149,12 +149,12 @@ static uint32_t twin_of(dyd_mesh *m, uint32_t v, uint32_t t) {
 }
 
 static dyd_status insert(dyd_mesh *m, uint32_t v) {
-  for (uint32_t k = 1;; k++) {
+  for (;;) {
     uint32_t t = dyd_mesh_locate(m, v);
     uint32_t same = twin_of(m, v, t);
     if (same == DYD_NONE) return insert_at(m, v, t);
     if (dyd_mesh_is_point(m, v)) return dyd_mesh_set_alias(m, v, same);
-    dyd_status st = dyd_mesh_move(m, v, k);
+    dyd_status st = dyd_mesh_move(m, v, m->moved + 1);
     if (st != DYD_OK) return st;
   }
 }

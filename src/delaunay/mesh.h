@@ -63,6 +63,7 @@ typedef struct dyd_mesh {
   bool part, stuck; /* a part cannot move representatives and needs a triangle: where it would have to, it is stuck */
   dyd_fixed *fixed; /* scaled 64-bit coordinates, made at the first need; NULL before */
   bool no_fixed;    /* they do not exist */
+  uint32_t moved;   /* moves of representatives so far; a coincidence takes the next fraction */
   dyd_delaunay_counters *counters; /* borrowed */
   uint32_t hint;                   /* where the next search starts; of a mesh of several strips: a ghost triangle */
   uint32_t *stack, *spare;

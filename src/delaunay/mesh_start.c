@@ -65,8 +65,8 @@ dyd_status dyd_mesh_move(dyd_mesh *m, uint32_t v, uint32_t k) {
   if (m->own_xy) m->own_xy[v] = m->reps->xy[r];
   dyd_fixed_free(m->fixed);
   m->fixed = NULL;
-  m->no_fixed = false;
-  m->exact_s = 0;
+  m->no_fixed = ++m->moved > 16; /* the grid costs O(n) each time */
+  m->exact_s = m->no_fixed ? -1 : 0;
   dyd_mesh_follow(m);
   return DYD_OK;
 }
