@@ -40,6 +40,10 @@ DYD_API const char *dyd_format_name(dyd_format format);
 
 /* Writes the current result of e. DYD_E_ARG when e has none; DYD_E_IO when a write fails. */
 DYD_API dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err);
+/* The same; svg, pdf and png show the part of the plane in `window` (positive area; NULL: everything), other formats
+ * do not depend on it. DYD_E_RANGE when doubles cannot hold a picture so near. */
+DYD_API dyd_status dyd_write_delaunay_window(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_format format,
+                                             dyd_error *err);
 
 typedef struct dyd_voronoi_options {
   const dyd_rect *window;     /* dyadic ends, positive area; NULL: dyd_voronoi_window */

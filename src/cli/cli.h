@@ -37,7 +37,8 @@ typedef struct cli_options {
   dyd_engine_options engine;
   dyd_format format; /* one that the command can write; csv when not given */
   bool format_set;
-  const char *window; /* checked text: see cli_window_read */
+  const char *window;   /* checked text: see cli_window_read */
+  const dyd_rect *view; /* delaunay: the window read, which pictures show */
   int64_t flatten_bits;
   bool flatten_set;
   const char *certificate, *trace, *replay, *plot;

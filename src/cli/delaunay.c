@@ -1,11 +1,21 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* dyadel delaunay FILE: read, run, write. */
+/* dyadel delaunay FILE: read, run, write. A window is what pictures show. */
 #include "cli.h"
 
 static dyd_status write_delaunay(FILE *out, const dyd_engine *e, const cli_options *o, dyd_error *err) {
-  return dyd_write_delaunay(out, e, o->format, err);
+  return dyd_write_delaunay_window(out, e, o->view, o->format, err);
 }
 
 int cli_delaunay(const cli_options *o) {
-  return cli_session_all(o, write_delaunay);
+  cli_options own = *o; /* with the window read */
+  dyd_rect window;
+  dyd_rect_init(&window);
+  int status = 0;
+  if (o->window) {
+    own.view = &window;
+    status = cli_window_read(&window, o->window) ? 0 : CLI_USAGE;
+  }
+  if (!status) status = cli_session_all(&own, write_delaunay);
+  dyd_rect_clear(&window);
+  return status;
 }

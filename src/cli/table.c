@@ -114,8 +114,10 @@ const cli_option cli_option_table[] = {
     {"threads", 0, "T", CLI_INTEGER, RUN, CLI_REFINEMENT, "threads to use (default 1); results do not depend on it",
      AT(engine.threads), RANGE(1, 1024)},
 
-    {"window", 0, "XLO,XHI,YLO,YHI", CLI_WINDOW, BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_OUTPUT,
-     "the part of the plane looked at; exact numbers\n(default: the box of the points enlarged by half)", AT(window)},
+    {"window", 0, "XLO,XHI,YLO,YHI", CLI_WINDOW, RUN, CLI_OUTPUT,
+     "the part of the plane looked at; exact numbers\n(default: the box of the points enlarged by half);\n"
+     "delaunay: what svg, pdf and png show (default: all),\nother formats list everything all the same",
+     AT(window)},
     {"flatten", 0, "M", CLI_INTEGER, BIT(CLI_VORONOI), CLI_OUTPUT, "draw arcs by polygons within 2^-M of them",
      AT(flatten_bits), RANGE(-DYD_EXP_LIMIT, DYD_EXP_LIMIT), GIVEN(flatten_set)},
     {"format", 0, "F", CLI_FORMAT, ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},

@@ -90,18 +90,31 @@ static int compare_doubles(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-double dyd_view_spacing(const dyd_delaunay *pd) {
+/* Of the line between the centres; -1 when its middle is not in the box. */
+static double pair_length(const dyd_delaunay *pd, const dyd_pair *pair, const double box[4]) {
+  double a[4], b[4], c[2][2];
+  dyd_sites_get_d(a, dyd_delaunay_sites(pd), pair->i);
+  dyd_sites_get_d(b, dyd_delaunay_sites(pd), pair->j);
+  for (int k = 0; k < 2; k++) {
+    c[0][k] = a[2 * k] / 2 + a[2 * k + 1] / 2;
+    c[1][k] = b[2 * k] / 2 + b[2 * k + 1] / 2;
+    double middle = c[0][k] / 2 + c[1][k] / 2;
+    if (box && !(box[2 * k] <= middle && middle <= box[2 * k + 1])) return -1;
+  }
+  return hypot(c[0][0] - c[1][0], c[0][1] - c[1][1]);
+}
+
+double dyd_view_spacing(const dyd_delaunay *pd, const double box[4]) {
   enum { SAMPLES = 1000 };
   double length[SAMPLES];
   dyd_pair_list pairs = {0};
-  size_t n = 0;
+  size_t n = 0, inside = 0, seen = 0;
   if (dyd_delaunay_pairs(&pairs, pd) < 0) return 0;
-  size_t step = pairs.count / SAMPLES + 1;
-  for (size_t k = 0; k < pairs.count; k += step) {
-    double a[4], b[4];
-    dyd_sites_get_d(a, dyd_delaunay_sites(pd), pairs.item[k].i);
-    dyd_sites_get_d(b, dyd_delaunay_sites(pd), pairs.item[k].j);
-    length[n++] = hypot(a[0] / 2 + a[1] / 2 - b[0] / 2 - b[1] / 2, a[2] / 2 + a[3] / 2 - b[2] / 2 - b[3] / 2);
+  for (size_t k = 0; box && k < pairs.count; k++) inside += pair_length(pd, &pairs.item[k], box) >= 0;
+  size_t step = (box ? inside : pairs.count) / SAMPLES + 1;
+  for (size_t k = 0; k < pairs.count; k++) {
+    double one = box || k % step == 0 ? pair_length(pd, &pairs.item[k], box) : -1;
+    if (one >= 0 && (!box || seen++ % step == 0)) length[n++] = one;
   }
   qsort(length, n, sizeof *length, compare_doubles);
   dyd_pair_list_clear(&pairs);
@@ -149,8 +162,11 @@ void dyd_picture_pen(cairo_t *cr, unsigned rgb, double width, double on, double 
 
 void dyd_picture_site(cairo_t *cr, const dyd_view *v, const double box[4], bool fixed_point, unsigned rgb) {
   double x0 = dyd_view_x(v, box[0]), x1 = dyd_view_x(v, box[1]), y0 = dyd_view_y(v, box[3]), y1 = dyd_view_y(v, box[2]);
+  bool small = fixed_point || fmax(x1 - x0, y1 - y0) < 2 * v->dot;
+  if (!(x1 >= 0 && x0 <= v->width + 2 * EDGE && y1 >= 0 && y0 <= v->height + 2 * EDGE)) return;
+  x0 = fmax(x0, -EDGE), x1 = fmin(x1, v->width + 3 * EDGE), y0 = fmax(y0, -EDGE), y1 = fmin(y1, v->height + 3 * EDGE);
   cairo_new_path(cr);
-  if (fixed_point || fmax(x1 - x0, y1 - y0) < 2 * v->dot) {
+  if (small) {
     dyd_picture_colour(cr, 0x222222);
     cairo_arc(cr, x0 / 2 + x1 / 2, y0 / 2 + y1 / 2, v->dot, 0, 2 * acos(-1.0));
     cairo_fill(cr);

@@ -25,14 +25,21 @@ typedef struct dyd_view {
 /* A view of the box (x lower, x upper, y lower, y upper) of something whose neighbours are about `spacing` apart (0:
  * not known); DYD_E_RANGE with a message when doubles cannot scale it. */
 dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_error *err);
-/* About the median length of the possible pairs; 0 when there is none. */
-double dyd_view_spacing(const dyd_delaunay *pd);
+/* About the median length of the possible pairs whose middle is in `box` (NULL: of all); 0 when there is none. */
+double dyd_view_spacing(const dyd_delaunay *pd, const double box[4]);
 double dyd_view_x(const dyd_view *v, double x);
 double dyd_view_y(const dyd_view *v, double y);
 /* The page around the view: size, and the baseline of the legend. */
 void dyd_view_page(double *width, double *height, double *legend, const dyd_view *v);
 
 void dyd_view_frame_path(cairo_t *cr, const dyd_view *v);
+
+/* More corners than any polygon has that is cut. */
+enum { DYD_CLIP_MOST = 24 };
+/* Cuts the segment z[0], z[1] to the box (x lower, x upper, y lower, y upper); false: nothing is left. */
+bool dyd_clip_segment(double z[2][2], const double box[4]);
+/* The same for a convex polygon of n <= DYD_CLIP_MOST - 4 corners; returns how many there are then. */
+int dyd_clip_convex(double z[DYD_CLIP_MOST][2], int n, const double box[4]);
 
 /* What is undetermined, in all pictures. */
 #define DYD_PICTURE_BAND 0xe69f00
@@ -44,7 +51,7 @@ void dyd_picture_begin(cairo_t *cr);
 void dyd_picture_colour(cairo_t *cr, unsigned rgb);
 /* Dash in line widths; off = 0: full. */
 void dyd_picture_pen(cairo_t *cr, unsigned rgb, double width, double on, double off);
-/* A rectangle filled with rgb where it can be seen, else a dot. */
+/* A rectangle filled with rgb where it is large enough, else a dot; nothing outside of the view. */
 void dyd_picture_site(cairo_t *cr, const dyd_view *v, const double box[4], bool fixed_point, unsigned rgb);
 /* A rectangle, however small it is, filled with rgb; and its number beside it. */
 void dyd_picture_marked(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb);

@@ -132,7 +132,7 @@ static dyd_status write_picture(dyd_diagram *d, dyd_format kind, dyd_error *err)
   double width, height, legend;
   dyd_interval_get_d(&g.window[0], &g.window[1], &d->window.x);
   dyd_interval_get_d(&g.window[2], &g.window[3], &d->window.y);
-  dyd_status status = dyd_view_fit(&g.view, g.window, dyd_view_spacing(d->pd), err);
+  dyd_status status = dyd_view_fit(&g.view, g.window, dyd_view_spacing(d->pd, g.window), err);
   if (status < 0) return status;
   dyd_view_page(&width, &height, &legend, &g.view);
   status = dyd_page_write(d->out, kind, width, height, draw, &g, err);

@@ -14,6 +14,7 @@ typedef struct dyd_result {
   const dyd_sites *sites;
   size_t count; /* sites, aliases included */
   dyd_pair_list pairs;
+  const dyd_rect *window; /* what pictures show; NULL: everything */
 } dyd_result;
 
 /* A representative of a site. Invariant: every point of the site's rectangle is within `error` of it in x and

@@ -72,11 +72,16 @@ dyd_status dyd_result_places(dyd_place **out, double *error, const dyd_result *r
 }
 
 dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err) {
+  return dyd_write_delaunay_window(out, e, NULL, format, err);
+}
+
+dyd_status dyd_write_delaunay_window(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_format format,
+                                     dyd_error *err) {
   if (err) dyd_error_clear(err);
   const dyd_delaunay *pd = dyd_engine_delaunay(e);
   if (!pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
   if ((size_t)format >= FORMATS) return dyd_fail(err, DYD_E_ARG, "there is no format number %d", (int)format);
-  dyd_result r = {.out = out, .engine = e, .pd = pd, .sites = dyd_delaunay_sites(pd)};
+  dyd_result r = {.out = out, .engine = e, .pd = pd, .sites = dyd_delaunay_sites(pd), .window = window};
   r.count = dyd_sites_count(r.sites);
   dyd_status status = dyd_delaunay_pairs(&r.pairs, pd);
   if (status < 0) dyd_fail(err, status, "%s", dyd_status_text(status));
