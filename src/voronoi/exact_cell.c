@@ -18,11 +18,6 @@
 
 #include <string.h>
 
-/* How many circles two curves of one rectangle can share, a circle too many included: a convex curve crosses each of
- * the at most ten lines that bound cells of the three rectangles at most twice, so it runs through at most 21 cells,
- * and each holds at most two. */
-enum { ROOM = 43 };
-
 /* ---- samples and sides ---- */
 
 int dyd_cell_spot_side(const dyd_exact_cell *c, const dyd_spot *p, size_t k) {
@@ -99,32 +94,32 @@ dyd_status dyd_cell_add_cut(dyd_exact_cell *c, size_t *count, const dyd_spot *s)
   return DYD_OK;
 }
 
-static int compare(const dyd_spot *p, const dyd_spot *q, int axis) {
+int dyd_cell_spot_cmp(const dyd_spot *p, const dyd_spot *q, int axis) {
   int sign = dyd_filter_spot_cmp(p, q, axis);
   return sign ? sign : dyd_surd_point_cmp(&p->at, &q->at, axis);
 }
 
 static int compare_x(const void *p, const void *q) {
-  return compare(*(const dyd_spot *const *)p, *(const dyd_spot *const *)q, 0);
+  return dyd_cell_spot_cmp(*(const dyd_spot *const *)p, *(const dyd_spot *const *)q, 0);
 }
 
 static int compare_y(const void *p, const void *q) {
-  return compare(*(const dyd_spot *const *)p, *(const dyd_spot *const *)q, 1);
+  return dyd_cell_spot_cmp(*(const dyd_spot *const *)p, *(const dyd_spot *const *)q, 1);
 }
 
 size_t dyd_cell_sort_cuts(const dyd_spot **cut, size_t count, int axis) {
   if (count > 1) qsort(cut, count, sizeof(const dyd_spot *), axis ? compare_y : compare_x);
   size_t kept = 0;
   for (size_t k = 0; k < count; k++)
-    if (!kept || compare(cut[kept - 1], cut[k], axis)) cut[kept++] = cut[k];
+    if (!kept || dyd_cell_spot_cmp(cut[kept - 1], cut[k], axis)) cut[kept++] = cut[k];
   return kept;
 }
 
 /* Adds s if it is strictly inside the arc. */
 static dyd_status cut_arc(dyd_exact_cell *c, size_t *count, const dyd_elementary *a, const dyd_spot *s) {
   if (s->infinite || !dyd_elementary_holds(a, s)) return DYD_OK;
-  if (!a->end[0].infinite && compare(s, &a->end[0], a->axis) <= 0) return DYD_OK;
-  if (!a->end[1].infinite && compare(s, &a->end[1], a->axis) >= 0) return DYD_OK;
+  if (!a->end[0].infinite && dyd_cell_spot_cmp(s, &a->end[0], a->axis) <= 0) return DYD_OK;
+  if (!a->end[1].infinite && dyd_cell_spot_cmp(s, &a->end[1], a->axis) >= 0) return DYD_OK;
   return dyd_cell_add_cut(c, count, s);
 }
 
@@ -148,13 +143,18 @@ dyd_status dyd_cell_add_piece(dyd_exact_cell *c, dyd_piece p) {
   return DYD_OK;
 }
 
-/* Is the sample on curve j a point of the boundary that counts for j? */
+/* Does k take the sample on curve j away from it? */
+static bool takes(dyd_exact_cell *c, const dyd_elementary *a, size_t j, size_t k) {
+  if (k == j) return false;
+  int sign = dyd_cell_side(c, &c->sample, a, 0, k);
+  return sign < 0 || (!sign && k < j);
+}
+
+/* Is the sample on curve j a point of the boundary that counts for j? Who took the last one is asked first. */
 static bool is_kept(dyd_exact_cell *c, const dyd_elementary *a, size_t j) {
-  for (size_t k = 0; k < c->count; k++) {
-    if (k == j) continue;
-    int sign = dyd_cell_side(c, &c->sample, a, 0, k);
-    if (sign < 0 || (!sign && k < j)) return false;
-  }
+  if (c->taker < c->count && takes(c, a, j, c->taker)) return false;
+  for (size_t k = 0; k < c->count; k++)
+    if (k != c->taker && takes(c, a, j, k)) return c->taker = k, false;
   return true;
 }
 
@@ -197,19 +197,19 @@ static bool may_meet(const dyd_exact_cell *c, size_t j, size_t k) {
 }
 
 static dyd_status find_meets(dyd_exact_cell *c) {
-  dyd_icircle circle[ROOM];
-  for (int m = 0; m < ROOM; m++) dyd_icircle_init(&circle[m]);
+  dyd_icircle circle[DYD_CELL_CIRCLES];
+  for (int m = 0; m < DYD_CELL_CIRCLES; m++) dyd_icircle_init(&circle[m]);
   const dyd_touch touch[3] = {c->fixed_touch, c->other_touch, c->other_touch};
   dyd_status st = DYD_OK;
   for (size_t j = 0; j < c->count; j++)
     for (size_t k = j + 1; k < c->count && st == DYD_OK; k++) {
       if (!may_meet(c, j, k)) continue;
       const dyd_irect *r[3] = {&c->fixed.r, &c->other[j].r, &c->other[k].r};
-      size_t found = dyd_icircles(circle, ROOM, r, touch);
-      DYD_CHECK(found < ROOM);
+      size_t found = dyd_icircles(circle, DYD_CELL_CIRCLES, r, touch);
+      DYD_CHECK(found < DYD_CELL_CIRCLES);
       for (size_t m = 0; m < found && st == DYD_OK; m++) st = add_meet(c, j, k, &circle[m]);
     }
-  for (int m = ROOM; m-- > 0;) dyd_icircle_clear(&circle[m]);
+  for (int m = DYD_CELL_CIRCLES; m-- > 0;) dyd_icircle_clear(&circle[m]);
   return st;
 }
 
@@ -313,7 +313,7 @@ static void cell_init(dyd_exact_cell *c, const dyd_cell_task *task) {
   dyd_surd_point_init(&c->sample.spot.at);
 }
 
-static void cell_clear(dyd_exact_cell *c) {
+void dyd_cell_forget(dyd_exact_cell *c) {
   free(c->cut);
   free(c->piece);
   for (size_t m = c->meets; m-- > 0;) dyd_surd_point_clear(&c->meet[m].spot.at);
@@ -321,6 +321,15 @@ static void cell_clear(dyd_exact_cell *c) {
   if (c->curve)
     for (size_t k = c->count; k-- > 0;) dyd_curve_clear(&c->curve[k]);
   free(c->curve);
+  c->cut = NULL;
+  c->piece = NULL;
+  c->meet = NULL;
+  c->curve = NULL;
+  c->cut_cap = c->pieces = c->piece_cap = c->meets = c->meet_cap = 0;
+}
+
+static void cell_clear(dyd_exact_cell *c) {
+  dyd_cell_forget(c);
   for (size_t k = c->count; k-- > 0;) dyd_irect_clear(&c->other[k].r);
   free(c->other);
   free(c->site);
@@ -344,7 +353,7 @@ static dyd_status set_curves(dyd_exact_cell *c) {
   return DYD_OK;
 }
 
-static dyd_status find_pieces(dyd_exact_cell *c) {
+dyd_status dyd_cell_find_pieces(dyd_exact_cell *c) {
   dyd_status st = set_curves(c);
   if (st == DYD_OK) st = find_meets(c);
   for (size_t j = 0; j < c->count && st == DYD_OK; j++)
@@ -365,7 +374,8 @@ dyd_status dyd_cell_boundary(dyd_boundary *out, const dyd_cell_task *task) {
   cell_init(&c, task);
   dyd_status st = set_rects(&c, &blocked);
   if (st == DYD_OK && (task->outer || !blocked)) {
-    st = find_pieces(&c);
+    st = dyd_cell_prune(&c);
+    if (st == DYD_OK) st = dyd_cell_find_pieces(&c);
     if (st == DYD_OK && c.pieces) st = dyd_cell_link(&b, &c);
     if (!c.pieces) b.whole = is_whole(&c);
   }

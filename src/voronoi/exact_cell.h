@@ -8,7 +8,8 @@
 
 /* What is asked: the region of site `site` against `count` others.
  * rect: the rectangle of `site`, of the others, and of the window if there is one; site numbers ascending. outer: Pos,
- * else Int. pd: only pairs of others that it calls possible share a vertex; NULL: all may. All borrowed. */
+ * else Int. pd: only pairs of others that it calls possible share a vertex; NULL: all may. keep_all: without
+ * dyd_cell_prune, for comparison. All borrowed. */
 typedef struct dyd_cell_task {
   uint32_t site;
   const uint32_t *other;
@@ -16,6 +17,7 @@ typedef struct dyd_cell_task {
   const dyd_rect *const *rect;
   bool outer, windowed;
   const dyd_delaunay *pd;
+  bool keep_all;
 } dyd_cell_task;
 
 /* Part of an arc of curve `curve` (or of side curve - count of the window, arc = NULL), in the direction that has the
@@ -50,14 +52,22 @@ typedef struct dyd_exact_cell {
   dyd_piece *piece;
   size_t pieces, piece_cap;
   dyd_sample sample;
+  size_t taker;         /* who took the last sample: likely takes the next */
   const dyd_spot **cut; /* scratch: cuts of one arc */
   size_t cut_cap;
 } dyd_exact_cell;
+
+/* How many circles two curves of one rectangle can share, a circle too many included: a convex curve crosses each of
+ * the at most ten lines that bound cells of the three rectangles at most twice, so it runs through at most 21 cells,
+ * and each holds at most two. */
+enum { DYD_CELL_CIRCLES = 43 };
 
 /* Is the sample nearer to (sign = -1), as far from (0), or farther from (1) other k than the radius dl_i or ds_i? */
 int dyd_cell_side(const dyd_exact_cell *c, dyd_sample *s, const dyd_elementary *arc, int window_side, size_t k);
 /* The same for a point. */
 int dyd_cell_spot_side(const dyd_exact_cell *c, const dyd_spot *p, size_t k);
+/* Sign of (coordinate of p) - (that of q). */
+int dyd_cell_spot_cmp(const dyd_spot *p, const dyd_spot *q, int axis);
 /* Sorts cuts along axis, drops repeats; returns how many are left. */
 size_t dyd_cell_sort_cuts(const dyd_spot **cut, size_t count, int axis);
 /* A sample strictly between two points, on an arc or (arc = NULL) on a side of the window. */
@@ -74,6 +84,11 @@ mpz_srcptr dyd_window_level(const dyd_exact_cell *c, int side);
 
 /* The pieces of the sides of the window strictly inside the region. */
 dyd_status dyd_cell_window_pieces(dyd_exact_cell *c);
+/* Fills curve, meet, piece, empty before; and their release. */
+dyd_status dyd_cell_find_pieces(dyd_exact_cell *c);
+void dyd_cell_forget(dyd_exact_cell *c);
+/* Leaves out others that surely do not bound the region, before the pieces are looked for. [PRUNE-1] */
+dyd_status dyd_cell_prune(dyd_exact_cell *c);
 /* Joins the pieces to chains. *out is empty before; on failure the caller clears it. */
 dyd_status dyd_cell_link(dyd_boundary *out, const dyd_exact_cell *c);
 

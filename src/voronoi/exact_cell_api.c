@@ -60,7 +60,7 @@ static dyd_status region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, 
   dyd_status st = neighbourhood_set(&n, pd, i);
   if (st == DYD_OK) {
     if (window) n.in[n.count] = window;
-    dyd_cell_task task = {n.site, n.others.item, n.others.count, n.in, outer, window != NULL, pd};
+    dyd_cell_task task = {n.site, n.others.item, n.others.count, n.in, outer, window != NULL, pd, false};
     st = dyd_cell_boundary(out, &task);
   }
   neighbourhood_clear(&n);
@@ -86,7 +86,7 @@ dyd_status dyd_voronoi_pos_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_
 dyd_status dyd_bisector(dyd_boundary *out, const dyd_rect *a, const dyd_rect *b) {
   const uint32_t other = 1;
   const dyd_rect *in[2] = {a, b};
-  dyd_cell_task task = {0, &other, 1, in, false, false, NULL};
+  dyd_cell_task task = {0, &other, 1, in, false, false, NULL, false};
   return dyd_cell_boundary(out, &task);
 }
 

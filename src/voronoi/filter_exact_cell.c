@@ -48,6 +48,13 @@ bool dyd_filter_spot_beside(const dyd_spot *p, const dyd_spot *low, const dyd_sp
   return false;
 }
 
+void dyd_filter_spot_hull(dyd_spot *out, const dyd_spot *p, const dyd_spot *q) {
+  for (int k = 0; k < 4; k++) {
+    double a = p->box[k], b = q->box[k];
+    out->box[k] = !(a == a) || !(b == b) ? a + b : (k & 1 ? a > b : a < b) ? a : b; /* NaN stays */
+  }
+}
+
 int dyd_filter_side(const dyd_spot *p, const dyd_box *a, dyd_touch ta, const dyd_box *b, dyd_touch tb) {
   dyd_iv x = along(p, 0), y = along(p, 1);
   dyd_iv da = dyd_filter_distance2(x, y, a, ta), db = dyd_filter_distance2(x, y, b, tb);

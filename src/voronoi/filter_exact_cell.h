@@ -34,6 +34,8 @@ void dyd_filter_irect_box(dyd_box *out, const dyd_irect *r, int64_t shift);
 int dyd_filter_spot_cmp(const dyd_spot *p, const dyd_spot *q, int axis);
 /* The box of p is surely not met by the smallest box around both ends (infinite ones included). */
 bool dyd_filter_spot_beside(const dyd_spot *p, const dyd_spot *low, const dyd_spot *high);
+/* The box of out, nothing else, becomes the smallest box around both finite ends. */
+void dyd_filter_spot_hull(dyd_spot *out, const dyd_spot *p, const dyd_spot *q);
 /* Sign of (distance of p to a) - (distance of p to b), 0: not known. */
 int dyd_filter_side(const dyd_spot *p, const dyd_box *a, dyd_touch ta, const dyd_box *b, dyd_touch tb);
 

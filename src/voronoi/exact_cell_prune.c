@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Which of many others bound a cell in a window: the rest is left out before the exact work, which is cubic in them.
+ *
+ * Let A be some of the others, G_A the closure of the interior of their region in the window (of its part in the window
+ * that has area). Its boundary consists of the pieces that A gives; if other k has D_k > r on all of these, closed,
+ * then D_k > r on G_A, and k neither has pieces of its own nor takes any away, whoever else comes to A [PRUNE-1]. So A
+ * starts with the neighbours in the skeleton; every other is compared with the pieces of A once, and either left out,
+ * or taken into A, or kept without use. One of A that no longer touches the pieces is left out as well.
+ *
+ * D_k > r on a piece: it lies in the box of its ends, as arcs are monotone in both coordinates [ARC-1], which doubles
+ * may tell. For Int, D_k > r is the convex C_ik, so the ends of a straight piece tell. For Pos, dl_k >= |c - x| for a
+ * corner x of R_k, while ds_i = dl_j = |c - s| on the curve of j with far corner s, and ds_i <= |c - y| for a corner y
+ * of R_i; a difference of two squares of such is linear in c, so the ends of a straight piece tell again. Else both
+ * ends tell if no critical circle of i, j, k has its centre on the piece. What is not sure is kept. */
+#include "base/alloc.h"
+#include "delaunay/state.h"
+#include "predicate/icircle.h"
+#include "voronoi/exact_cell.h"
+
+#include <string.h>
+
+enum { FEW = 8, BATCH = 12, MOST_PICKS = 48, MOST_REBUILDS = 80 };
+
+typedef enum relation { CLEAR, TOUCHES, CUTS } relation;
+/* of an other: not compared yet, left out, kept, in A, cuts a piece */
+enum { NEW, OUT, KEPT, PICKED, CUTTING };
+
+/* sub: the pieces of the region of c->other[pick[..picks)], everything else borrowed from c. built: how many of pick
+ * that was; those left out since do not change the region. */
+typedef struct prune {
+  dyd_exact_cell sub;
+  dyd_cell_task task;
+  const dyd_exact_cell *c;
+  dyd_icircle circle[DYD_CELL_CIRCLES];
+  size_t *pick, picks, rebuilds;
+  uint8_t *state;
+  bool joined; /* those that no longer touch may leave A */
+} prune;
+
+/* ---- one piece ---- */
+
+/* The corner `which` as a rectangle, limbs borrowed. */
+static dyd_irect corner_of(const dyd_irect *r, int which) {
+  const __mpz_struct *x = which & 1 ? r->x1 : r->x0, *y = which & 2 ? r->y1 : r->y0;
+  return (dyd_irect){{*x}, {*x}, {*y}, {*y}};
+}
+
+/* |c - x| > |c - y| at both ends of the piece? Then everywhere on it, if it is straight. */
+static bool both_farther(const dyd_piece *p, const dyd_irect *x, const dyd_irect *y) {
+  return dyd_surd_point_side(&p->begin->at, x, DYD_CLOSEST, y, DYD_CLOSEST) > 0 &&
+         dyd_surd_point_side(&p->end->at, x, DYD_CLOSEST, y, DYD_CLOSEST) > 0;
+}
+
+/* Pos, a straight piece: is some corner of k farther than a point that bounds the radius from above? */
+static bool corner_is_farther(const prune *f, const dyd_piece *p, size_t k) {
+  for (int a = 0; a < 4; a++) {
+    dyd_irect x = corner_of(&f->c->other[k].r, a);
+    if (p->arc) {
+      dyd_irect s = {{p->arc->s[0][0]}, {p->arc->s[0][0]}, {p->arc->s[1][0]}, {p->arc->s[1][0]}};
+      if (both_farther(p, &x, &s)) return true;
+    }
+    for (int b = 0; b < 4 && !p->arc; b++) {
+      dyd_irect y = corner_of(&f->c->fixed.r, b);
+      if (both_farther(p, &x, &y)) return true;
+    }
+  }
+  return false;
+}
+
+/* Is the centre of no critical circle with k on the piece of an arc? */
+static bool no_circle(prune *f, const dyd_piece *p, size_t k) {
+  const dyd_touch touch[3] = {f->c->fixed_touch, f->c->other_touch, f->c->other_touch};
+  const dyd_irect *r[3] = {&f->c->fixed.r, &f->sub.other[p->curve].r, &f->c->other[k].r};
+  size_t found = dyd_icircles(f->circle, DYD_CELL_CIRCLES, r, touch);
+  if (found >= DYD_CELL_CIRCLES) return false;
+  bool forward = p->begin == &p->arc->end[0] || dyd_cell_spot_cmp(p->begin, p->end, p->arc->axis) < 0;
+  const dyd_spot *low = forward ? p->begin : p->end, *high = forward ? p->end : p->begin;
+  for (size_t m = 0; m < found; m++) {
+    const dyd_icircle *o = &f->circle[m];
+    dyd_spot at = {.at = {{o->ax[0]}, {o->bx[0]}, {o->ay[0]}, {o->by[0]}, {o->c[0]}, {o->d[0]}}}; /* borrowed limbs */
+    dyd_filter_spot_box(&at, f->c->shift);
+    if (dyd_elementary_holds(p->arc, &at) && dyd_cell_spot_cmp(&at, low, p->arc->axis) >= 0 &&
+        dyd_cell_spot_cmp(&at, high, p->arc->axis) <= 0)
+      return false;
+  }
+  return true;
+}
+
+static relation against_piece(prune *f, const dyd_piece *p, size_t k) {
+  const dyd_exact_cell *c = f->c;
+  bool outer = c->task->outer, straight = !p->arc || !p->arc->parabola;
+  dyd_spot hull;
+  dyd_filter_spot_hull(&hull, p->begin, p->end);
+  if (dyd_filter_side(&hull, &c->other[k].box, c->other_touch, &c->fixed.box, c->fixed_touch) > 0) return CLEAR;
+  if (outer && straight && corner_is_farther(f, p, k)) return CLEAR;
+  int begin = dyd_cell_spot_side(c, p->begin, k), end = dyd_cell_spot_side(c, p->end, k);
+  if (begin < 0 || end < 0) return CUTS;
+  if (!begin || !end) return TOUCHES;
+  if (straight && !outer) return CLEAR;
+  return p->arc && no_circle(f, p, k) ? CLEAR : TOUCHES;
+}
+
+static relation against(prune *f, size_t k) {
+  relation all = CLEAR;
+  for (size_t p = 0; p < f->sub.pieces && all != CUTS; p++) {
+    relation one = against_piece(f, &f->sub.piece[p], k);
+    if (one > all) all = one;
+  }
+  return all;
+}
+
+/* ---- A ---- */
+
+static dyd_status rebuild(prune *f) {
+  dyd_cell_forget(&f->sub);
+  f->rebuilds++;
+  f->sub.count = f->picks;
+  for (size_t m = 0; m < f->picks; m++) {
+    f->sub.other[m] = f->c->other[f->pick[m]];
+    f->sub.site[m] = f->c->site[f->pick[m]];
+  }
+  return dyd_cell_find_pieces(&f->sub);
+}
+
+/* Those of A that do not touch the pieces leave it. */
+static void release(prune *f) {
+  size_t kept = 0;
+  for (size_t m = 0; m < f->picks; m++) {
+    size_t k = f->pick[m];
+    if (against(f, k) == CLEAR)
+      f->state[k] = OUT;
+    else
+      f->pick[kept++] = k;
+  }
+  f->picks = kept;
+}
+
+/* Takes some of those marked CUTTING into A, far apart in the order of the sites; keeps them all when A is full. */
+static dyd_status take_some(prune *f, size_t cutting) {
+  size_t room = MOST_PICKS - f->picks, batch = room < BATCH ? room : BATCH, seen = 0, taken = 0;
+  if (f->rebuilds == MOST_REBUILDS) batch = 0;
+  for (size_t k = 0; k < f->c->count; k++) {
+    if (f->state[k] != CUTTING) continue;
+    bool due = batch > 0 && seen++ * batch >= taken * cutting;
+    f->state[k] = !batch ? KEPT : due && taken < batch ? PICKED : NEW;
+    if (f->state[k] != PICKED) continue;
+    f->pick[f->picks++] = k;
+    taken++;
+  }
+  if (!taken) return DYD_OK;
+  dyd_status st = rebuild(f);
+  if (st == DYD_OK && f->joined && f->sub.pieces) release(f);
+  return st;
+}
+
+static void pick_site(prune *f, uint32_t site) {
+  for (size_t k = 0; k < f->c->count && f->picks < MOST_PICKS / 4; k++)
+    if (f->c->site[k] == site && f->state[k] == NEW) {
+      f->pick[f->picks++] = k;
+      f->state[k] = PICKED;
+    }
+}
+
+/* A good guess: the neighbours of the cell in the skeleton. */
+static void pick_skeleton(prune *f) {
+  const dyd_delaunay *pd = f->c->task->pd;
+  if (!pd || !pd->mesh.n || pd->mesh.collinear) return;
+  uint32_t first = pd->corner[pd->vertex[f->c->task->site]], h = first;
+  do {
+    uint32_t v = pd->mesh.tri[h >> 2].v[dyd_next(h & 3)];
+    if (v != pd->mesh.n) pick_site(f, pd->reps.site[v]);
+    h = dyd_turn(&pd->mesh, h);
+  } while (h != first);
+}
+
+/* ---- all ---- */
+
+static bool holds_strictly(const dyd_irect *w, const dyd_irect *r) {
+  return mpz_cmp(w->x0, r->x0) < 0 && mpz_cmp(r->x1, w->x1) < 0 && mpz_cmp(w->y0, r->y0) < 0 &&
+         mpz_cmp(r->y1, w->y1) < 0;
+}
+
+static dyd_status prune_init(prune *f, const dyd_exact_cell *c) {
+  memset(f, 0, sizeof *f);
+  f->c = c;
+  f->task = *c->task;
+  f->task.pd = NULL; /* pairs of A may meet on its region though they do not on the cell */
+  f->joined = !c->task->outer || holds_strictly(&c->window.r, &c->fixed.r);
+  f->sub = *c;
+  f->sub.task = &f->task;
+  f->sub.other = dyd_alloc(MOST_PICKS, sizeof *f->sub.other);
+  f->sub.site = dyd_alloc(MOST_PICKS, sizeof *f->sub.site);
+  mpz_init(f->sub.sample.num);
+  dyd_surd_point_init(&f->sub.sample.spot.at);
+  for (int m = 0; m < DYD_CELL_CIRCLES; m++) dyd_icircle_init(&f->circle[m]);
+  f->pick = dyd_alloc(MOST_PICKS, sizeof *f->pick);
+  f->state = calloc(c->count, sizeof *f->state);
+  return f->sub.other && f->sub.site && f->pick && f->state ? DYD_OK : DYD_E_NOMEM;
+}
+
+static void prune_clear(prune *f) {
+  dyd_cell_forget(&f->sub);
+  free(f->state);
+  free(f->pick);
+  for (int m = DYD_CELL_CIRCLES; m-- > 0;) dyd_icircle_clear(&f->circle[m]);
+  dyd_surd_point_clear(&f->sub.sample.spot.at);
+  mpz_clear(f->sub.sample.num);
+  free(f->sub.site);
+  free(f->sub.other);
+}
+
+/* Compares all that are NEW with the pieces; how many cut them. Without pieces the region is empty, whatever comes. */
+static size_t compare_all(prune *f) {
+  static const uint8_t next[] = {[CLEAR] = OUT, [TOUCHES] = KEPT, [CUTS] = CUTTING};
+  size_t cutting = 0;
+  for (size_t k = 0; k < f->c->count; k++) {
+    if (f->state[k] != NEW) continue;
+    f->state[k] = next[f->sub.pieces ? against(f, k) : CLEAR];
+    cutting += f->state[k] == CUTTING;
+  }
+  return cutting;
+}
+
+/* Decides about every other. */
+static dyd_status decide(prune *f) {
+  pick_skeleton(f);
+  dyd_status st = rebuild(f);
+  for (size_t cutting = 1; st == DYD_OK && cutting;) {
+    cutting = compare_all(f);
+    if (cutting) st = take_some(f, cutting);
+  }
+  return st;
+}
+
+static void compact(dyd_exact_cell *c, const uint8_t *state) {
+  size_t kept = 0;
+  for (size_t k = 0; k < c->count; k++) {
+    dyd_scaled t = c->other[kept];
+    if (state[k] == OUT) continue;
+    c->other[kept] = c->other[k];
+    c->other[k] = t;
+    c->site[kept++] = c->site[k];
+  }
+  for (size_t k = kept; k < c->count; k++) dyd_irect_clear(&c->other[k].r);
+  c->count = kept;
+}
+
+dyd_status dyd_cell_prune(dyd_exact_cell *c) {
+  if (!c->task->windowed || c->task->keep_all || c->count <= FEW) return DYD_OK;
+  prune f;
+  dyd_status st = prune_init(&f, c);
+  if (st == DYD_OK) st = decide(&f);
+  if (st == DYD_OK) compact(c, f.state);
+  prune_clear(&f);
+  return st;
+}
