@@ -49,7 +49,7 @@ static void every_allocation(void **state) {
   dyd_rect_init(&w);
   size_t failures = 0;
   for (size_t n = 0; n < test_cases(8); n++) {
-    orc_generate(&c, &r, (size_t)test_below(&r, ORC_KINDS), n % 4 ? 6 : 12);
+    orc_generate(&c, &r, (size_t)test_below(&r, ORC_KINDS), n % 4 ? 6 : ORC_MAX);
     char message[MESSAGE_SIZE] = "";
     dyd_sites *s = harness_sites(&c);
     dyd_delaunay *pd = harness_engine(message, s, NULL);

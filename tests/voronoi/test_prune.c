@@ -132,7 +132,7 @@ static void check_site(const dyd_rect *rect, uint32_t n, uint32_t i, const dyd_d
 }
 
 static void check_case(test_random *r, dyd_rect *rect, size_t kind) {
-  uint32_t n = (uint32_t)test_between(r, 10, kind < 2 ? 24 : 16);
+  uint32_t n = (uint32_t)test_between(r, 18, kind < 2 ? 30 : 24);
   dyd_rect window;
   dyd_rect_init(&window);
   dyd_sites *s = NULL;
@@ -163,7 +163,7 @@ static void same_with_and_without(void **state) {
   test_random r = test_random_start("voronoi prune");
   dyd_rect rect[MOST];
   for (int k = 0; k < MOST; k++) dyd_rect_init(&rect[k]);
-  for (size_t k = 0; k < test_cases(90); k++) check_case(&r, rect, k % KINDS);
+  for (size_t k = 0; k < test_cases(60); k++) check_case(&r, rect, k % KINDS);
   for (int k = MOST; k-- > 0;) dyd_rect_clear(&rect[k]);
   fprintf(stderr, "# %zu regions, %zu arcs\n", regions, arcs);
   assert_true(arcs > regions);
