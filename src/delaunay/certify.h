@@ -16,8 +16,8 @@ bool dyd_point_edge_is_certain(dyd_delaunay *pd, uint32_t t, unsigned k);
 dyd_xy dyd_edge_centre(const dyd_delaunay *pd, uint32_t t, unsigned k);
 /* The quick pass in doubles over all vertices: marks edges whose first guess is proved a witness [FLT-STAR]. */
 dyd_status dyd_certify_stars(dyd_delaunay *pd);
-/* Before it, for representatives that are doubles and sites all within `reach` of them: marks the edges that the two
- * triangles beside them prove legal [WIT-NEAR]. */
-dyd_status dyd_certify_near(dyd_delaunay *pd, double reach);
+/* Before it, for representatives that are doubles and sites within `reach` of them: marks the edges that the two
+ * triangles beside them prove legal [WIT-NEAR]. met (NULL: no site is farther): of dyd_fat_meet for those that are. */
+dyd_status dyd_certify_near(dyd_delaunay *pd, double reach, const uint32_t *met);
 
 #endif

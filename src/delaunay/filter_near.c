@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The first pass over the edges of thin rectangles: most are certain by the two triangles beside them [WIT-NEAR].
+/* The first pass over the edges of thin rectangles: most are certain by the two triangles beside them [WIT-NEAR]. Those
+ * whose triangles a fat one meets are left to the next pass [WIT-FAT].
  *
  * The distance m to the nearest representatives is first bounded for all vertices at once: `most` for vertices that
  * have no shorter skeleton edge (found by one pass over the edges), the least edge of all for the others. */
@@ -16,7 +17,8 @@ enum { BATCH = 240 };
 typedef struct near_pass {
   dyd_delaunay *pd;
   double reach, least, most;
-  uint8_t *close; /* of each vertex: it has an edge shorter than `most` */
+  const uint32_t *met; /* triangles whose edges are left to later passes: not 0. NULL: none */
+  uint8_t *close;      /* of each vertex: it has an edge shorter than `most` */
   dyd_mark_tasks tasks;
   double shortest2[DYD_RANGES_MOST]; /* in each range */
 } near_pass;
@@ -71,7 +73,7 @@ static bool is_near(const near_pass *p, uint32_t h) {
   const uint32_t *v = m->tri[h >> 2].v;
   uint32_t twin = m->tri[h >> 2].n[h & 3], a = m->tri[twin >> 2].v[twin & 3];
   uint32_t u = v[h & 3], i = v[dyd_next(h & 3)], j = v[dyd_prev(h & 3)];
-  if (i == m->n || j == m->n) return false;
+  if (i == m->n || j == m->n || (p->met && (p->met[h >> 2] || p->met[twin >> 2]))) return false;
   const dyd_xy *xy = m->xy;
   double nearest = p->close[i] || p->close[j] ? p->least : p->most;
   if (dyd_filter_edge_near(xy[i], xy[j], xy[u], xy[a], p->reach, nearest)) return true;
@@ -118,8 +120,8 @@ static void decide_range(void *context, size_t number) {
   }
 }
 
-dyd_status dyd_certify_near(dyd_delaunay *pd, double reach) {
-  near_pass p = {.pd = pd, .reach = reach > 0x1p-300 ? reach : 0x1p-300};
+dyd_status dyd_certify_near(dyd_delaunay *pd, double reach, const uint32_t *met) {
+  near_pass p = {.pd = pd, .met = met, .reach = reach > 0x1p-300 ? reach : 0x1p-300};
   p.close = calloc((size_t)pd->mesh.n + 1, 1);
   if (!p.close) return DYD_E_NOMEM;
   p.most = tenth_of_spacing(&pd->mesh);

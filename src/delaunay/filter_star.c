@@ -12,6 +12,7 @@
  * Bounds: distances as in filter_distance.h; representatives that are not doubles are off by delta, E grows by 3 delta.
  * The centres need no bound: any double will do. Both ends of an edge use the same bits for c and rho. */
 #include "delaunay/certify.h"
+#include "delaunay/filter_fat.h"
 #include "delaunay/filter_mesh.h"
 #include "delaunay/marks.h"
 
@@ -260,10 +261,20 @@ static dyd_status pass_over_stars(pass *p) {
   return dyd_mark_tasks_revoke(&p->tasks, p->pd);
 }
 
+/* The first pass, where fat rectangles do not spoil it [WIT-FAT]. */
+static dyd_status certify_thin(const pass *p) {
+  uint32_t *met = NULL;
+  if (p->pd->reps.code) return DYD_OK;
+  dyd_status st = dyd_fat_meet(&met, p->pd, p->fat.item, p->fat.count, p->reach / 2);
+  if (st == DYD_OK && (met || p->fat.count == 0)) st = dyd_certify_near(p->pd, p->reach / 2, met);
+  free(met);
+  return st;
+}
+
 dyd_status dyd_certify_stars(dyd_delaunay *pd) {
   pass p = {.pd = pd};
   dyd_status st = gather_fat(&p);
-  if (st == DYD_OK && p.fat.count == 0 && !pd->reps.code) st = dyd_certify_near(pd, p.reach / 2);
+  if (st == DYD_OK) st = certify_thin(&p);
   if (st == DYD_OK) {
     p.open = calloc((size_t)pd->n + 1, 1);
     st = p.open ? pass_over_stars(&p) : DYD_E_NOMEM;
