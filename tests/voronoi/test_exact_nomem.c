@@ -49,7 +49,7 @@ static void every_allocation(void **state) {
   dyd_rect_init(&w);
   size_t failures = 0;
   for (size_t n = 0; n < test_cases(8); n++) {
-    orc_generate(&c, &r, (size_t)test_below(&r, ORC_KINDS), n % 4 ? 6 : ORC_MAX);
+    orc_generate(&c, &r, (size_t)test_below(&r, ORC_KINDS), 6);
     char message[MESSAGE_SIZE] = "";
     dyd_sites *s = harness_sites(&c);
     dyd_delaunay *pd = harness_engine(message, s, NULL);
@@ -62,6 +62,29 @@ static void every_allocation(void **state) {
   }
   assert_true(failures > 100);
   dyd_rect_clear(&w);
+  orc_case_clear(&c);
+}
+
+/* Many neighbours, of which most are left out beforehand. */
+static void many_neighbours(void **state) {
+  (void)state;
+  static const long leg[5][2] = {{16, 63}, {25, 60}, {33, 56}, {39, 52}, {52, 39}};
+  orc_case c;
+  orc_case_init(&c);
+  for (long k = 0; k < 20; k++)
+    orc_case_add(&c, (k & 1 ? 1 : -1) * leg[k / 4][0], (k & 1 ? 1 : -1) * leg[k / 4][0] + 1,
+                 (k & 2 ? 1 : -1) * leg[k / 4][1], (k & 2 ? 1 : -1) * leg[k / 4][1] + 1, 1);
+  char message[MESSAGE_SIZE] = "";
+  dyd_sites *s = harness_sites(&c);
+  dyd_delaunay *pd = harness_engine(message, s, NULL);
+  assert_non_null(pd);
+  dyd_rect w;
+  dyd_rect_init(&w);
+  assert_int_equal(dyd_rect_set_d(&w, -99, 99, -99, 99), DYD_OK);
+  assert_true(check_call(2, pd, 0, &w) + check_call(3, pd, 0, &w) > 40);
+  dyd_rect_clear(&w);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(s);
   orc_case_clear(&c);
 }
 
@@ -92,6 +115,7 @@ static void capped(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_allocation), cmocka_unit_test(capped)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_allocation), cmocka_unit_test(many_neighbours),
+                                     cmocka_unit_test(capped)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
