@@ -141,8 +141,7 @@ uint64_t dyd_certain_edges(const dyd_delaunay *pd) {
   for (uint32_t t = 0; t < m->count; t++) halves += 0x32212110u >> 4 * (pd->certain[t] & 7) & 7;
   uint32_t first = ghost_triangle(m), t = first;
   do {
-    const uint32_t *v = m->tri[t].v;
-    unsigned g = v[0] == m->n ? 0 : v[1] == m->n ? 1 : 2;
+    unsigned g = dyd_mesh_ghost_corner(m, t);
     ghosts += dyd_edge_is_certain(pd, t, dyd_prev(g));
     t = m->tri[t].n[dyd_prev(g)] >> 2;
   } while (t != first);

@@ -45,7 +45,7 @@ static dyd_xy ghost_centre(dyd_xy a, dyd_xy b, dyd_xy o) {
 static dyd_xy centre_of(const dyd_mesh *m, uint32_t t) {
   const uint32_t *v = m->tri[t].v;
   if (!dyd_mesh_is_ghost(m, t)) return dyd_circumcentre(m->xy[v[0]], m->xy[v[1]], m->xy[v[2]]);
-  unsigned g = v[0] == m->n ? 0 : v[1] == m->n ? 1 : 2;
+  unsigned g = dyd_mesh_ghost_corner(m, t);
   const uint32_t *w = m->tri[m->tri[t].n[g] >> 2].v;
   dyd_xy o = dyd_circumcentre(m->xy[w[0]], m->xy[w[1]], m->xy[w[2]]);
   return ghost_centre(m->xy[v[dyd_prev(g)]], m->xy[v[dyd_next(g)]], o);

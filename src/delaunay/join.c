@@ -37,9 +37,7 @@ static uint32_t apex(const dyd_mesh *m, uint32_t h) {
 /* Some hull edge: the ghost triangle beyond which v lies. */
 static uint32_t hull_towards(dyd_mesh *m, uint32_t v) {
   uint32_t t = dyd_mesh_locate(m, v);
-  for (unsigned k = 0; k < 2; k++)
-    if (m->tri[t].v[k] == m->n) return 4 * t + k;
-  return 4 * t + 2;
+  return 4 * t + dyd_mesh_ghost_corner(m, t);
 }
 
 static bool is_right_of(const dyd_mesh *m, uint32_t v, uint32_t w) {

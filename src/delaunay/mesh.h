@@ -98,6 +98,12 @@ static inline bool dyd_mesh_is_ghost(const dyd_mesh *m, uint32_t t) {
 /* A triangle whose circle holds v, which is no vertex: the real triangle around it, or a ghost triangle whose hull edge
  * it is beyond. */
 uint32_t dyd_mesh_locate(dyd_mesh *m, uint32_t v);
+/* Which corner of the ghost triangle t is the ghost. */
+static inline unsigned dyd_mesh_ghost_corner(const dyd_mesh *m, uint32_t t) {
+  const uint32_t *v = m->tri[t].v;
+  return v[0] == m->n ? 0 : v[1] == m->n ? 1 : 2;
+}
+
 /* Exact sign of the orientation of three real vertices: > 0 left turn. */
 int dyd_mesh_orient(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);
 /* Exact sign: > 0 iff p lies strictly inside the circle of the counter-clockwise triangle abc; for a ghost triangle:

@@ -17,7 +17,7 @@ static bool edge_is_delaunay(dyd_mesh *m, uint32_t t, unsigned k) {
   uint32_t h = m->tri[t].n[k], p = m->tri[h >> 2].v[h & 3];
   if (p == m->n) return true;
   if (!dyd_mesh_is_ghost(m, t)) return dyd_mesh_incircle_exact(m, v[0], v[1], v[2], p) <= 0;
-  unsigned g = v[0] == m->n ? 0 : v[1] == m->n ? 1 : 2;
+  unsigned g = dyd_mesh_ghost_corner(m, t);
   return dyd_mesh_orient_exact(m, v[dyd_next(g)], v[dyd_prev(g)], p) <= 0;
 }
 
@@ -49,7 +49,7 @@ static bool hull_turns_once(const dyd_mesh *m) {
   bool before = false;
   do {
     const uint32_t *v = m->tri[t].v;
-    unsigned g = v[0] == m->n ? 0 : v[1] == m->n ? 1 : 2;
+    unsigned g = dyd_mesh_ghost_corner(m, t);
     bool right = comes_before(m, v[dyd_prev(g)], v[dyd_next(g)]);
     turns += met && right != before;
     before = right;
