@@ -2,7 +2,7 @@
 /* Certificates: a result together with what proves it, and the independent check of it.
  *
  * A certificate is a text that anybody can check with integer arithmetic; the format is fixed below, and what it
- * proves is said there too. dyd_verify_certificate shares no code with the engine but the numbers (src/verify).
+ * proves is said there too. dyd_verify_certificate shares no code with the engine but the numbers (src/checker).
  *
  * Format. Lines of UTF-8 ended by '\n', words divided by single blanks, no other blank. A number is
  *     m       an integer      or      m*2^e    m odd, e not 0
@@ -88,7 +88,7 @@
  * [CERT-7] The distance: for every choice of points, what of the window is outside of all Int_k is at most H from the
  * true diagram. There is no list to prove it; it follows from the rectangles, and the checker finds the proof: it cuts
  * the window in four, and parts again, until the sites that are possibly nearest somewhere in a part give the bound
- * there (src/verify/distance.c). Whether a bound can be proved within the effort that the checker spends, which is
+ * there (src/checker/distance.c). Whether a bound can be proved within the effort that the checker spends, which is
  * about N log N, is up to the writer, who may write "unproved": then nothing is checked. Nothing else in the
  * certificate is needed.
  *

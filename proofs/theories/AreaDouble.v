@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** Double-double arithmetic of src/metric/filter_measure.c on numbers that are not negative: sums and products with
+(** Double-double arithmetic of src/metric/measure_filter.c on numbers that are not negative: sums and products with
     relative errors of a few u^2, and inflate, which makes an upper bound. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
 From Flocq Require Import Core BinarySingleNaN Binary Bits.
@@ -13,35 +13,35 @@ Definition ffma : double -> double -> double -> double := b64_fma mode_NE.
 (** h and l. *)
 Definition dd : Type := (double * double)%type.
 
-(* C src/metric/filter_measure.c two_sum
+(* C src/metric/measure_filter.c two_sum
   double s = a + b, t = s - a;
   return (dd){s, (a - (s - t)) + (b - t)};
 *)
 Definition two_sum (a b : double) : dd :=
   let s := (a + b)%D in let t := (s - a)%D in (s, ((a - (s - t)) + (b - t))%D).
-(* C src/metric/filter_measure.c fast_two_sum
+(* C src/metric/measure_filter.c fast_two_sum
   double s = a + b;
   return (dd){s, b - (s - a)};
 *)
 Definition fast_two_sum (a b : double) : dd := let s := (a + b)%D in (s, (b - (s - a))%D).
-(* C src/metric/filter_measure.c dd_sub_d
+(* C src/metric/measure_filter.c dd_sub_d
   return two_sum(a, -b);
 *)
 Definition dd_sub_d (a b : double) : dd := two_sum a (- b)%D.
-(* C src/metric/filter_measure.c dd_add
+(* C src/metric/measure_filter.c dd_add
   dd s = two_sum(x.h, y.h);
   return fast_two_sum(s.h, s.l + (x.l + y.l));
 *)
 Definition dd_add (x y : dd) : dd :=
   let s := two_sum (fst x) (fst y) in fast_two_sum (fst s) (snd s + (snd x + snd y))%D.
-(* C src/metric/filter_measure.c dd_mul
+(* C src/metric/measure_filter.c dd_mul
   double p = x.h * y.h, e = fma(x.h, y.h, -p);
   return fast_two_sum(p, e + (x.h * y.l + x.l * y.h));
 *)
 Definition dd_mul (x y : dd) : dd :=
   let p := (fst x * fst y)%D in let e := ffma (fst x) (fst y) (- p)%D in
   fast_two_sum p (e + (fst x * snd y + snd x * fst y))%D.
-(* C src/metric/filter_measure.c inflate
+(* C src/metric/measure_filter.c inflate
   out[0] = x.h;
   out[1] = x.l + x.h * 0x1p-87;
 *)

@@ -9,14 +9,14 @@ Open Scope R_scope.
 
 (** ** The C code *)
 
-(* C src/metric/filter_measure.c lead_in_range
+(* C src/metric/measure_filter.c lead_in_range
   return x.h == 0 || (x.h >= 0x1p-400 && x.h <= 0x1p400);
 *)
 Definition equal (x y : double) : bool := match b64_compare x y with Some Eq => true | _ => false end.
 Definition lead_in_range (x : dd) : bool :=
   equal (fst x) (lit (0, 0)%Z) || (le (lit (1, -400)%Z) (fst x) && le (fst x) (lit (1, 400)%Z)).
 
-(* C src/metric/filter_measure.c axis_set
+(* C src/metric/measure_filter.c axis_set
   out->b_low = b[0] < a[0];
   out->b_high = b[1] > a[1];
   out->wa = dd_sub_d(a[1], a[0]);
@@ -32,7 +32,7 @@ Definition axis_made (a0 a1 b0 b1 : double) : daxis :=
 Definition axis_fine (x : daxis) : bool :=
   lead_in_range (dwa x) && lead_in_range (dwb x) && lead_in_range (dlow x) && lead_in_range (dhigh x).
 
-(* C src/metric/filter_measure.c area2_one
+(* C src/metric/measure_filter.c area2_one
   dd p = x->b_low ? x->low : x->high;
   dd whole = dd_mul(x->wa, y->wa), part = dd_mul(p, dd_add(y->wa, y->wb));
   return dd_add(dd_add(whole, whole), part);
@@ -41,7 +41,7 @@ Definition one (x y : daxis) : dd :=
   let p := if db_low x then dlow x else dhigh x in
   let whole := dd_mul (dwa x) (dwa y) in let part := dd_mul p (dd_add (dwa y) (dwb y)) in
   dd_add (dd_add whole whole) part.
-(* C src/metric/filter_measure.c area2_corner
+(* C src/metric/measure_filter.c area2_corner
   dd p = x->b_low ? x->low : x->high, r = x->b_low ? x->high : x->low;
   dd tall = dd_add(y->wa, y->b_low ? y->low : y->high);
   dd left = dd_add(dd_mul(x->wa, tall), dd_mul(p, y->wb));
@@ -51,13 +51,13 @@ Definition corner (x y : daxis) : dd :=
   let p := if db_low x then dlow x else dhigh x in let r := if db_low x then dhigh x else dlow x in
   let tall := dd_add (dwa y) (if db_low y then dlow y else dhigh y) in
   dd_add (dd_add (dd_mul (dwa x) tall) (dd_mul p (dwb y))) (dd_add (dd_mul (dwb x) tall) (dd_mul r (dwa y))).
-(* C src/metric/filter_measure.c area2_cross
+(* C src/metric/measure_filter.c area2_cross
   return dd_add(dd_mul(x->wb, dd_add(y->wa, y->wb)), dd_mul(x->wa, dd_add(y->low, y->high)));
 *)
 Definition cross (x y : daxis) : dd :=
   dd_add (dd_mul (dwb x) (dd_add (dwa y) (dwb y))) (dd_mul (dwa x) (dd_add (dlow y) (dhigh y))).
 
-(* C src/metric/filter_measure.c dyd_filter_hull_area2
+(* C src/metric/measure_filter.c dyd_filter_hull_area2
   axis x, y;
   if (!axis_set(&x, a, b) || !axis_set(&y, a + 2, b + 2)) return false;
   int in_x = x.b_low + x.b_high, in_y = y.b_low + y.b_high;

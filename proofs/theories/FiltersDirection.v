@@ -7,14 +7,14 @@ From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient F
   FiltersInterval FiltersNearRound FiltersNearCode.
 Open Scope R_scope.
 
-(* [FLT-DIR] src/delaunay/filter_tree.c: double r = px + py + {} * (fabs(px) + fabs(py)) *)
+(* [FLT-DIR] src/skeleton/tree_filter.c: double r = px + py + {} * (fabs(px) + fabs(py)) *)
 Definition c_reach : const := (1, -50)%Z.
-(* [FLT-DIR] src/delaunay/filter_possible.c: double slack = {} * (fabs(ux) * mx *)
+(* [FLT-DIR] src/skeleton/site_filter.c: double slack = {} * (fabs(ux) * mx *)
 Definition c_height : const := (1, -48)%Z.
-(* [FLT-DIR] src/delaunay/filter_possible.c: fabs(uy) * my) + {} * (mx + my) *)
+(* [FLT-DIR] src/skeleton/site_filter.c: fabs(uy) * my) + {} * (mx + my) *)
 Definition c_height_cut : const := (1, -898)%Z.
 
-(* C src/delaunay/filter_tree.c reach
+(* C src/skeleton/tree_filter.c reach
   double px = ux * (ux > 0 ? b->e[1] : b->e[0]), py = uy * (uy > 0 ? b->e[3] : b->e[2]);
   double r = px + py + 8 * 0x1p-53 * (fabs(px) + fabs(py)) + DYD_TINY;
   return isnan(r) ? INFINITY : r;
@@ -24,7 +24,7 @@ Definition reach (b : bbox) (ux uy : double) : double :=
   let px := (ux * farther_end ux (e0 b) (e1 b))%D in let py := (uy * farther_end uy (e2 b) (e3 b))%D in
   let r := (px + py + lit c_reach * (fabs px + fabs py) + lit c_tiny)%D in
   if is_nan 53 1024 r then inf else r.
-(* C src/delaunay/filter_possible.c dyd_height_lower
+(* C src/skeleton/site_filter.c dyd_height_lower
   const dyd_bbox *all = &pd->tree.node[pd->tree.level[pd->tree.levels - 1]];
   double mx = dyd_max(fabs(all->e[0]), fabs(all->e[1])), my = dyd_max(fabs(all->e[2]), fabs(all->e[3]));
   double x = ux > 0 ? p->e[1] : p->e[0], y = uy > 0 ? p->e[3] : p->e[2];

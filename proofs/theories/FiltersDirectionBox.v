@@ -30,11 +30,11 @@ Proof.
      now apply lower_end_less with (ylo R)|now apply upper_end_more with (yhi R)].
 Qed.
 
-(* C src/delaunay/filter_distance.h dyd_min
+(* C src/skeleton/distance_filter.h dyd_min
   return a < b ? a : b;
 *)
 Definition fmin (a b : double) : double := if lt a b then a else b.
-(* C src/delaunay/filter_tree.c hull
+(* C src/skeleton/tree_filter.c hull
   h->e[0] = dyd_min(h->e[0], b->e[0]);
   h->e[1] = dyd_max(h->e[1], b->e[1]);
   h->e[2] = dyd_min(h->e[2], b->e[2]);
@@ -90,7 +90,7 @@ Proof.
   pose proof (P (- x) ltac:(lra)) as Q. rewrite round_ZR_opp, !Rabs_Ropp in Q. exact Q.
 Qed.
 
-(* C src/delaunay/filter_possible.c dyd_direction_d
+(* C src/skeleton/site_filter.c dyd_direction_d
   long e[2];
   u[0] = mpz_get_d_2exp(&e[0], x);
   u[1] = mpz_get_d_2exp(&e[1], y);
@@ -170,7 +170,7 @@ Proof.
   - now apply H.
 Qed.
 
-(** The corner of a box that is nearest along u, as a box: own_height of src/delaunay/hull.c. *)
+(** The corner of a box that is nearest along u, as a box: own_height of src/possible/hull.c. *)
 Definition nearer_end (ux lower upper : double) : double := if gt ux (lit c_zero) then lower else upper.
 Definition nearer_corner (p : bbox) (ux uy : double) : bbox :=
   let x := nearer_end ux (e0 p) (e1 p) in let y := nearer_end uy (e2 p) (e3 p) in

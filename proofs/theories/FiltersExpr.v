@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [FLT-EXPR] Expressions in doubles: where an operation of src/stream/filter_expr.c gives finite ends, the value lies
+(** [FLT-EXPR] Expressions in doubles: where an operation of src/stream/expr_filter.c gives finite ends, the value lies
     between them; subnormals and overflow included. Not here: that the next pattern is the next double. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
 From Flocq Require Import Core BinarySingleNaN Binary Bits.
@@ -46,7 +46,7 @@ Proof.
   - pose proof (val_lt_max (b64_succ f)) as M. pose proof (Rle_abs (- p)). rewrite Rabs_Ropp in H. fold p in M. lra.
 Qed.
 
-(* C src/stream/filter_expr.c add
+(* C src/stream/expr_filter.c add
   return (dyd_double_span){below(a.lo + b.lo), above(a.hi + b.hi)};
 *)
 Definition span_add (a b : iv) : iv := {| lo := b64_pred (lo a + lo b); hi := b64_succ (hi a + hi b) |}.
@@ -63,7 +63,7 @@ Proof.
     + right. split; [exact E|]. apply Rle_trans with (2 := A). apply rnd_le. lra.
 Qed.
 
-(* C src/stream/filter_expr.c negated
+(* C src/stream/expr_filter.c negated
   return (dyd_double_span){-a.hi, -a.lo};
 *)
 Definition span_neg (a : iv) : iv := {| lo := - hi a; hi := - lo a |}.
@@ -78,7 +78,7 @@ Qed.
 (** fmin and fmax of C for numbers (either zero may be the smaller one: the doubles next to it are the same). *)
 Definition cmin (a b : double) : double := if lt a b then a else b.
 Definition cmax (a b : double) : double := if gt a b then a else b.
-(* C src/stream/filter_expr.c corners
+(* C src/stream/expr_filter.c corners
   if (isnan(p + q + r + s)) return (dyd_double_span){NAN, NAN};
   return (dyd_double_span){below(fmin(fmin(p, q), fmin(r, s))), above(fmax(fmax(p, q), fmax(r, s)))};
 *)
@@ -177,7 +177,7 @@ Proof.
   - apply upper_step; [|exact G]. left. split; [exact G6|]. destruct U as [U|[U|[U|U]]]; lra.
 Qed.
 
-(* C src/stream/filter_expr.c multiply
+(* C src/stream/expr_filter.c multiply
   if (a.lo >= 0 && b.lo >= 0) return (dyd_double_span){below(a.lo * b.lo), above(a.hi * b.hi)};
   return corners(a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi);
 *)
@@ -209,7 +209,7 @@ Proof.
     + destruct (corner_high _ _ _ _ _ _ (conj A2 A3) (conj B2 B3)) as [H|[H|[H|H]]]; apply rnd_le in H; tauto.
 Qed.
 
-(* C src/stream/filter_expr.c divide
+(* C src/stream/expr_filter.c divide
   if (b.lo <= 0 && b.hi >= 0) return (dyd_double_span){NAN, NAN};
   return corners(a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi);
 *)
@@ -237,7 +237,7 @@ Proof.
   - destruct (corner_high _ _ _ _ _ _ (conj A2 A3) (conj Y1 Y2)) as [H|[H|[H|H]]]; apply rnd_le in H; tauto.
 Qed.
 
-(* C src/stream/filter_expr.c square_root
+(* C src/stream/expr_filter.c square_root
   if (a.lo < 0 && range.lo < 0) return (dyd_double_span){NAN, NAN};
   double lo = a.lo > 0 ? below(sqrt(a.lo)) : 0;
   return (dyd_double_span){lo, above(sqrt(a.hi))};
@@ -263,7 +263,7 @@ Proof.
     destruct (fsqrt_inv _ S) as (_ & _ & ->). now apply rnd_le, sqrt_le_1_alt.
 Qed.
 
-(* C src/stream/filter_expr.c absolute
+(* C src/stream/expr_filter.c absolute
   if (a.lo >= 0) return a;
   if (a.hi <= 0) return negated(a);
   return (dyd_double_span){0, fmax(-a.lo, a.hi)};

@@ -10,7 +10,7 @@ Definition is_good (a : iv) : bool := is_finite 53 1024 (lo a) && is_finite 53 1
 Lemma is_good_good a : is_good a = true <-> good a.
 Proof. unfold is_good, good. rewrite andb_true_iff. reflexivity. Qed.
 
-(* C src/stream/filter_expr.c power
+(* C src/stream/expr_filter.c power
   dyd_double_span result = {1, 1};
   const dyd_double_span nothing = {NAN, NAN};
   if (n < 0) return divide(result, power(a, -n));

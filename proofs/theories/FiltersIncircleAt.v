@@ -6,7 +6,7 @@ From Flocq Require Import Core Binary.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient FiltersIncircle.
 Open Scope R_scope.
 
-(* C src/delaunay/filter_mesh.h dyd_filter_incircle_at
+(* C src/skeleton/mesh_filter.h dyd_filter_incircle_at
   double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y, cx = c.x - p.x, cy = c.y - p.y;
   double la = ax * ax + ay * ay, lb = bx * bx + by * by, lc = cx * cx + cy * cy;
   double d = la * (bx * cy - by * cx) + lb * (cx * ay - cy * ax) + lc * (ax * by - ay * bx);

@@ -1,25 +1,25 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** Interval arithmetic of src/predicate/filter_interval.h: dyd_down(c) is below, dyd_up(c) above every number that
+(** Interval arithmetic of src/predicate/interval_filter.h: dyd_down(c) is below, dyd_up(c) above every number that
     rounds to c, subnormals and overflow included; so sums and differences are enclosed. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
 From Flocq Require Import Core Plus_error Binary.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersDistance.
 Open Scope R_scope.
 
-(* [ORI-1] src/predicate/filter_interval.h: return c - ({} * fabs(c) *)
+(* [ORI-1] src/predicate/interval_filter.h: return c - ({} * fabs(c) *)
 Definition c_down : const := (4503599627370497, -105)%Z.
-(* [ORI-1] src/predicate/filter_interval.h: return c + ({} * fabs(c) *)
+(* [ORI-1] src/predicate/interval_filter.h: return c + ({} * fabs(c) *)
 Definition c_up : const := (4503599627370497, -105)%Z.
-(* [ORI-1] src/predicate/filter_interval.h: return c - (0x1.0000000000001p-53 * fabs(c) + {}); *)
+(* [ORI-1] src/predicate/interval_filter.h: return c - (0x1.0000000000001p-53 * fabs(c) + {}); *)
 Definition c_down_eta : const := (1, -1074)%Z.
-(* [ORI-1] src/predicate/filter_interval.h: return c + (0x1.0000000000001p-53 * fabs(c) + {}); *)
+(* [ORI-1] src/predicate/interval_filter.h: return c + (0x1.0000000000001p-53 * fabs(c) + {}); *)
 Definition c_up_eta : const := (1, -1074)%Z.
 
-(* C src/predicate/filter_interval.h dyd_down
+(* C src/predicate/interval_filter.h dyd_down
   return c - (0x1.0000000000001p-53 * fabs(c) + 0x1p-1074);
 *)
 Definition down (c : double) : double := (c - (lit c_down * fabs c + lit c_down_eta))%D.
-(* C src/predicate/filter_interval.h dyd_up
+(* C src/predicate/interval_filter.h dyd_up
   return c + (0x1.0000000000001p-53 * fabs(c) + 0x1p-1074);
 *)
 Definition up (c : double) : double := (c + (lit c_up * fabs c + lit c_up_eta))%D.
@@ -206,11 +206,11 @@ Proof. intros F. exact (proj1 (fsub_inv _ _ F)). Qed.
 Lemma up_finite f : finite (up f) -> finite f.
 Proof. intros F. exact (proj1 (fadd_inv _ _ F)). Qed.
 
-(* C src/predicate/filter_interval.h dyd_iv_add
+(* C src/predicate/interval_filter.h dyd_iv_add
   return (dyd_iv){dyd_down(a.lo + b.lo), dyd_up(a.hi + b.hi)};
 *)
 Definition iv_add (a b : iv) : iv := {| lo := down (lo a + lo b); hi := up (hi a + hi b) |}.
-(* C src/predicate/filter_interval.h dyd_iv_sub
+(* C src/predicate/interval_filter.h dyd_iv_sub
   return (dyd_iv){dyd_down(a.lo - b.hi), dyd_up(a.hi - b.lo)};
 *)
 Definition iv_sub (a b : iv) : iv := {| lo := down (lo a - hi b); hi := up (hi a - lo b) |}.

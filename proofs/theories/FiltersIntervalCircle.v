@@ -6,7 +6,7 @@ From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersDistance
   FiltersIntervalSign.
 Open Scope R_scope.
 
-(* C src/predicate/filter_interval.h dyd_iv_sqr
+(* C src/predicate/interval_filter.h dyd_iv_sqr
   double p = a.lo * a.lo, q = a.hi * a.hi;
   if (!isfinite(p + q)) return DYD_IV_UNKNOWN;
   bool zero_inside = a.lo <= 0 && a.hi >= 0;
@@ -63,7 +63,7 @@ Proof.
     lra]).
 Qed.
 
-(* C src/predicate/filter_predicate.c dyd_filter_incircle
+(* C src/predicate/predicate_filter.c dyd_filter_incircle
   const double *const abc[3] = {a, b, c};
   dyd_iv x[3], y[3], sum = {0, 0};
   for (int k = 0; k < 3; k++) {

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** Interval arithmetic of src/predicate/filter_interval.h: negatives, multiples, quotients and roots. *)
+(** Interval arithmetic of src/predicate/interval_filter.h: negatives, multiples, quotients and roots. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
 From Flocq Require Import Core BinarySingleNaN Binary Bits.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersDistance FiltersInterval FiltersIntervalSign.
@@ -30,7 +30,7 @@ Lemma div_nan x y : is_nan 53 1024 y = true -> is_finite 53 1024 (x / y)%D = tru
 Proof. destruct y; try discriminate; destruct x; discriminate. Qed.
 End Div.
 
-(* C src/predicate/filter_interval.h dyd_iv_div
+(* C src/predicate/interval_filter.h dyd_iv_div
   if (!(b.lo > 0 || b.hi < 0)) return DYD_IV_UNKNOWN;
   return dyd_iv_span4(a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi);
 *)
@@ -92,7 +92,7 @@ Proof.
   - destruct (corner_high _ _ _ _ _ _ (conj A1 A2) (conj Y1 Y2)) as [H|[H|[H|H]]]; apply rnd_le in H; tauto.
 Qed.
 
-(* C src/predicate/filter_interval.h dyd_iv_sqrt
+(* C src/predicate/interval_filter.h dyd_iv_sqrt
   if (!(a.hi >= 0) || isnan(a.lo)) return DYD_IV_UNKNOWN;
   double lo = a.lo > 0 ? dyd_down(sqrt(a.lo)) : 0;
   return (dyd_iv){lo < 0 ? 0 : lo, dyd_up(sqrt(a.hi))};
@@ -117,14 +117,14 @@ Proof.
     destruct (fsqrt_inv _ (up_finite _ K)) as (F & _ & ->). apply rnd_le, sqrt_le_1_alt, A2, F.
 Qed.
 
-(* C src/predicate/filter_interval.h dyd_iv_point
+(* C src/predicate/interval_filter.h dyd_iv_point
   return (dyd_iv){x, x};
 *)
 Definition iv_point (x : double) : iv := {| lo := x; hi := x |}.
 Lemma iv_point_contains x : finite x -> contains (iv_point x) (val x).
 Proof. intros F. split; (split; [intros E; simpl in E; subst; discriminate|intros _; simpl; lra]). Qed.
 
-(* C src/predicate/filter_interval.h dyd_iv_neg
+(* C src/predicate/interval_filter.h dyd_iv_neg
   return (dyd_iv){-a.hi, -a.lo};
 *)
 Definition iv_neg (a : iv) : iv := {| lo := - hi a; hi := - lo a |}.
@@ -141,7 +141,7 @@ Proof.
 Qed.
 End Neg.
 
-(* C src/predicate/filter_interval.h dyd_iv_scale
+(* C src/predicate/interval_filter.h dyd_iv_scale
   return (dyd_iv){dyd_down(a.lo * f), dyd_up(a.hi * f)};
 *)
 Definition iv_scale (a : iv) (f : double) : iv := {| lo := down (lo a * f); hi := up (hi a * f) |}.

@@ -19,7 +19,7 @@ Proof.
     intros F; destruct nan; discriminate.
 Qed.
 
-(* C src/predicate/filter_interval.h dyd_iv_span4
+(* C src/predicate/interval_filter.h dyd_iv_span4
   if (!isfinite(p + q + r + s)) return DYD_IV_UNKNOWN;
   double lo1 = p < q ? p : q, hi1 = p < q ? q : p, lo2 = r < s ? r : s, hi2 = r < s ? s : r;
   return (dyd_iv){dyd_down(lo1 < lo2 ? lo1 : lo2), dyd_up(hi1 > hi2 ? hi1 : hi2)};
@@ -30,11 +30,11 @@ Definition span4 (p q r s : double) : iv :=
     let lo1 := if lt p q then p else q in let hi1 := if lt p q then q else p in
     let lo2 := if lt r s then r else s in let hi2 := if lt r s then s else r in
     {| lo := down (if lt lo1 lo2 then lo1 else lo2); hi := up (if gt hi1 hi2 then hi1 else hi2) |}.
-(* C src/predicate/filter_interval.h dyd_iv_mul
+(* C src/predicate/interval_filter.h dyd_iv_mul
   return dyd_iv_span4(a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi);
 *)
 Definition iv_mul (a b : iv) : iv := span4 (lo a * lo b) (lo a * hi b) (hi a * lo b) (hi a * hi b).
-(* C src/predicate/filter_interval.h dyd_iv_sign
+(* C src/predicate/interval_filter.h dyd_iv_sign
   return a.lo > 0 ? 1 : a.hi < 0 ? -1 : 0;
 *)
 Definition iv_sign (a : iv) : Z := if gt (lo a) (lit c_zero) then 1%Z else if lt (hi a) (lit c_zero) then (-1)%Z else
@@ -136,11 +136,11 @@ Proof.
   destruct (lt (hi a) (lit c_zero)); [split; [discriminate|intros _; now apply Q]|]. split; discriminate.
 Qed.
 
-(* C src/predicate/filter_predicate.c det2
+(* C src/predicate/predicate_filter.c det2
   return dyd_iv_sub(dyd_iv_mul(p, q), dyd_iv_mul(r, s));
 *)
 Definition iv_det2 (p q r s : iv) : iv := iv_sub (iv_mul p q) (iv_mul r s).
-(* C src/predicate/filter_predicate.c sign_of_boxes
+(* C src/predicate/predicate_filter.c sign_of_boxes
   dyd_iv ux = dyd_iv_sub(side_x(b), side_x(a)), uy = dyd_iv_sub(side_y(b), side_y(a));
   dyd_iv vx = dyd_iv_sub(side_x(c), side_x(a)), vy = dyd_iv_sub(side_y(c), side_y(a));
   return dyd_iv_sign(det2(ux, vy, uy, vx));

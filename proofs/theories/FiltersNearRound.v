@@ -1,16 +1,16 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [WIT-NEAR] [WIT-HULL] The rounding of filter_near.h: sides moved to the safe side, products. The theorems about the C
+(** [WIT-NEAR] [WIT-HULL] The rounding of near_filter.h: sides moved to the safe side, products. The theorems about the C
     functions are in FiltersNearCode.v. *)
 From Coq Require Import ZArith Reals Lia Lra Psatz.
 From Flocq Require Import Core Binary.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient FiltersIncircle FiltersIncircleAt.
 Open Scope R_scope.
 
-(* [WIT-NEAR] src/delaunay/filter_near.h: double ea = {} * s, *)
+(* [WIT-NEAR] src/legal/near_filter.h: double ea = {} * s, *)
 Definition c_near_side : const := (4728779608739021, -104)%Z.
-(* [WIT-NEAR] src/delaunay/filter_near.h: lv * a1) - {} * s * s; *)
+(* [WIT-NEAR] src/legal/near_filter.h: lv * a1) - {} * s * s; *)
 Definition c_near_det : const := (2281771080410813, -102)%Z.
-(* [WIT-NEAR] src/delaunay/filter_near.h: k = {} * reach; *)
+(* [WIT-NEAR] src/legal/near_filter.h: k = {} * reach; *)
 Definition c_near_k : const := (6839841934068941, -48)%Z.
 
 (** ** Powers of two as decimal numbers *)

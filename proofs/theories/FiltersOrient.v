@@ -5,7 +5,7 @@ From Flocq Require Import Core.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst.
 Open Scope R_scope.
 
-(* C src/delaunay/filter_mesh.h dyd_filter_orient_bound
+(* C src/skeleton/mesh_filter.h dyd_filter_orient_bound
   double e = extent_x > extent_y ? extent_x : extent_y;
   return extent_x * extent_y * 1.01e-15 + 10 * delta * (e + 4 * delta) + 0x1p-1000;
 *)
@@ -14,7 +14,7 @@ Definition orient_bound (extent_x extent_y delta : double) : double :=
   (extent_x * extent_y * lit c_orient_bound + lit c_orient_delta * delta * (e + lit c_orient_delta2 * delta)
    + lit c_orient_tiny)%D.
 
-(* C src/delaunay/filter_mesh.h dyd_filter_orient
+(* C src/skeleton/mesh_filter.h dyd_filter_orient
   double d = (a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x);
   if (d > m->orient_bound) return 1;
   return d < -m->orient_bound ? -1 : 0;
@@ -288,7 +288,7 @@ End Mesh.
 
 (** ** The bound for three points alone *)
 
-(* C src/delaunay/filter_mesh.h dyd_filter_orient_near
+(* C src/skeleton/mesh_filter.h dyd_filter_orient_near
   double left = (a.x - p.x) * (b.y - p.y), right = (a.y - p.y) * (b.x - p.x), d = left - right;
   double e = 4.01 * 0x1p-53 * (fabs(left) + fabs(right)) + 0x1p-1000;
   if (m->incircle_delta > 0) return 0;

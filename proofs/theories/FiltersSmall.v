@@ -5,7 +5,7 @@ From Flocq Require Import Core Binary.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient FiltersIncircle FiltersIncircleAt.
 Open Scope R_scope.
 
-(* C src/delaunay/filter_mesh.h dyd_filter_incircle_small
+(* C src/skeleton/mesh_filter.h dyd_filter_incircle_small
   double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y, cx = c.x - p.x, cy = c.y - p.y;
   double la = ax * ax + ay * ay, lb = bx * bx + by * by, lc = cx * cx + cy * cy;
   if (!(la + lb + lc <= m->exact_s)) return false;
@@ -21,7 +21,7 @@ Definition filter_incircle_small (exact_s ax ay bx by_ cx cy px py : double) : o
   let cx := (cx - px)%D in let cy := (cy - py)%D in
   if le (incircle_s ax ay bx by_ cx cy) exact_s then Some (sign_of (incircle_d ax ay bx by_ cx cy)) else None.
 
-(* C src/delaunay/filter_mesh.h dyd_filter_orient_small
+(* C src/skeleton/mesh_filter.h dyd_filter_orient_small
   double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y;
   if (!(ax * ax + ay * ay + bx * bx + by * by <= m->exact_s)) return false;
   double d = ax * by - ay * bx;

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [FLT-STAR] The distances that filter_star.c compares, in doubles: radii, the disc of an edge, who is outside of it;
+(** [FLT-STAR] The distances that star_filter.c compares, in doubles: radii, the disc of an edge, who is outside of it;
     overflow, underflow and NaN included. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
 From Flocq Require Import Core BinarySingleNaN Binary Bits.
@@ -57,7 +57,7 @@ Qed.
 
 (** ** Radii *)
 
-(* C src/delaunay/filter_star.c radius
+(* C src/legal/star_filter.c radius
   dyd_xy p = pd->reps.xy[v];
   dyd_bbox c = {{p.x, p.x, p.y, p.y}};
   return sqrt(dyd_dl2_upper(&c, &pd->box[v])) * DYD_UP_FACTOR + DYD_TINY;
@@ -137,9 +137,9 @@ Proof.
   - apply Rle_trans with (1 := TV). rewrite <- (rnd_id (cval c_tiny)) at 1 by exact FT. apply rnd_le. lra.
 Qed.
 
-(* [FLT-STAR] src/delaunay/filter_star.c: p->reach = {} * (largest *)
+(* [FLT-STAR] src/legal/star_filter.c: p->reach = {} * (largest *)
 Notation z_star_two := 2%Z.
-(* [FLT-STAR] src/delaunay/filter_star.c: (largest + {} * pd->reps.delta); *)
+(* [FLT-STAR] src/legal/star_filter.c: (largest + {} * pd->reps.delta); *)
 Notation z_star_three := 3%Z.
 Definition star_reach (largest delta : double) : double :=
   (lit (z_star_two, 0%Z) * (largest + lit (z_star_three, 0%Z) * delta))%D.
@@ -169,13 +169,13 @@ Qed.
 (** ** The disc of an edge *)
 
 (* Where the centre comes from does not matter: *)
-(* any src/delaunay/filter_star.c: double want = out > -{} ? *)
-(* any src/delaunay/filter_star.c: return (dyd_xy){(a.x + b.x) * {}, (a.y *)
-(* any src/delaunay/filter_star.c: return (dyd_xy){(a.x + b.x) * 0.5, (a.y + b.y) * {}} *)
-(* any src/delaunay/filter_star.c: dyd_xy c = {(a.x + b.x) * {}, (a.y *)
-(* any src/delaunay/filter_star.c: dyd_xy c = {(a.x + b.x) * 0.5, (a.y + b.y) * {}} *)
+(* any src/legal/star_filter.c: double want = out > -{} ? *)
+(* any src/legal/star_filter.c: return (dyd_xy){(a.x + b.x) * {}, (a.y *)
+(* any src/legal/star_filter.c: return (dyd_xy){(a.x + b.x) * 0.5, (a.y + b.y) * {}} *)
+(* any src/legal/star_filter.c: dyd_xy c = {(a.x + b.x) * {}, (a.y *)
+(* any src/legal/star_filter.c: dyd_xy c = {(a.x + b.x) * 0.5, (a.y + b.y) * {}} *)
 
-(* C src/delaunay/filter_star.c certify_edges
+(* C src/legal/star_filter.c certify_edges
   dyd_xy v = p->pd->reps.xy[s->v];
   for (int q = 0; q < s->degree; q++) {
     if (q == s->ghost) continue;
@@ -194,7 +194,7 @@ Definition star_wide (vx vy jx jy cx cy reach : double) : double :=
   let rho := (fsqrt (upper (fmax (lift (vx - cx) (vy - cy)) (lift (jx - cx) (jy - cy)))) * lit c_up_factor)%D in
   ((rho + reach) * lit c_up_factor)%D.
 Definition star_limit (wide : double) : double := upper (wide * wide).
-(* C src/delaunay/filter_star.c others_farther
+(* C src/legal/star_filter.c others_farther
   int near = 0;
   for (int k = 0; k < s->degree; k++) {
     double dx = s->x[k] - c.x, dy = s->y[k] - c.y;

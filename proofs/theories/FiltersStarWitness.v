@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [FLT-STAR] What filter_star.c concludes: an edge has its centre as witness, a hull vertex is surely farthest; for
+(** [FLT-STAR] What star_filter.c concludes: an edge has its centre as witness, a hull vertex is surely farthest; for
     representatives that are off their doubles by delta. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
 From Flocq Require Import Core Binary.
@@ -8,10 +8,10 @@ From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient F
 From Dyadel Require Import Plane Distance Cells Legal.
 Open Scope R_scope.
 
-(* [FLT-STAR] src/delaunay/filter_star.c: (a + b > need + {} * (fabs(a) *)
+(* [FLT-STAR] src/legal/star_filter.c: (a + b > need + {} * (fabs(a) *)
 Definition c_star_hull : const := (1, -50)%Z.
 
-(* C src/delaunay/filter_star.c certify_hull
+(* C src/legal/star_filter.c certify_hull
   int next = (s->ghost + 1) % s->degree, before = (s->ghost + s->degree - 1) % s->degree;
   dyd_xy v = p->pd->reps.xy[s->v];
   double ux = s->y[next] - s->y[before], uy = s->x[before] - s->x[next];

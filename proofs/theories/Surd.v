@@ -83,7 +83,7 @@ Definition compare_squares (a b c : Z) : Z :=
   else Z.sgn (a * a - b * b * c).
 
 (* C src/dyadic/sqrt_sign.c dyd_sqrt_sign
-  DYD_CHECK(mpz_sgn(c) >= 0);
+  DYD_INVARIANT(mpz_sgn(c) >= 0);
   int sa = mpz_sgn(a), sb = mpz_sgn(c) ? mpz_sgn(b) : 0;
   if (!sb || sa == sb) return sa;
   if (!sa) return sb;
@@ -166,7 +166,7 @@ Qed.
 (** ** Two roots *)
 
 (* C src/dyadic/sqrt_sign.c dyd_sqrt2_sign
-  DYD_CHECK(mpz_sgn(e) >= 0);
+  DYD_INVARIANT(mpz_sgn(e) >= 0);
   int sx = dyd_sqrt_sign(a, b, c), sy = mpz_sgn(e) ? mpz_sgn(d) : 0;
   if (!sy || sx == sy) return sx;
   if (!sx) return sy;

@@ -16,9 +16,9 @@ typedef void dyd_task(void *context, size_t number);
  * there are do all the work. What tasks wrote is visible to the caller afterwards. */
 void dyd_parallel(unsigned threads, size_t tasks, dyd_task *task, void *context);
 
-/* A long loop over 0 .. count - 1 is cut into at most 64 ranges, which depend on count alone. The verify build cuts
+/* A long loop over 0 .. count - 1 is cut into at most 64 ranges, which depend on count alone. The armed build cuts
  * short ones, too. */
-#ifdef DYD_VERIFY
+#ifdef DYD_ARMED
 enum { DYD_RANGE_LEAST = 5 };
 #else
 enum { DYD_RANGE_LEAST = 1 << 13 };

@@ -4,14 +4,14 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/invariant.h"
 #include "base/parallel.h"
-#include "base/verify.h"
-#include "delaunay/blocks.h"
-#include "delaunay/certify.h"
 #include "delaunay/faces.h"
 #include "delaunay/line.h"
-#include "delaunay/mesh_check.h"
-#include "delaunay/order.h"
+#include "legal/certify.h"
+#include "skeleton/blocks.h"
+#include "skeleton/mesh_invariant.h"
+#include "skeleton/order.h"
 
 #include <string.h>
 
@@ -199,7 +199,7 @@ dyd_status dyd_build(dyd_delaunay *pd, dyd_known known) {
   if (st == DYD_OK && pd->mesh.collinear) st = build_line(pd);
   if (st == DYD_OK) st = build_maps(pd);
   if (st == DYD_OK) st = build_boxes(pd);
-  if (st == DYD_OK) DYD_CHECK(dyd_mesh_check(&pd->mesh));
+  if (st == DYD_OK) DYD_INVARIANT(dyd_mesh_check(&pd->mesh));
   if (st == DYD_OK) st = pd->mesh.collinear ? DYD_OK : build_statuses(pd, known);
   if (st != DYD_OK)
     dyd_build_clear(pd);

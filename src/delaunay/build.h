@@ -3,7 +3,7 @@
 #ifndef DYD_DELAUNAY_BUILD_H
 #define DYD_DELAUNAY_BUILD_H
 
-#include "delaunay/cover.h"
+#include "possible/cover.h"
 
 /* Legal pairs known from before, as sites; they are in every skeleton and stay legal. */
 typedef struct dyd_known {

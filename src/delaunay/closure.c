@@ -12,18 +12,18 @@
 
 #include "base/alloc.h"
 #include "delaunay/build.h"
-#include "delaunay/centre.h"
-#include "delaunay/filter_cells.h"
-#include "delaunay/filter_possible.h"
-#include "delaunay/filter_quad.h"
-#include "delaunay/hull.h"
-#include "delaunay/pair_map.h"
+#include "possible/cells_filter.h"
+#include "possible/centre.h"
+#include "possible/hull.h"
+#include "possible/pair_map.h"
+#include "possible/quad_filter.h"
+#include "skeleton/site_filter.h"
 
 #include <string.h>
 
 /* CROWD: least number of triangles of a face worth looking at the plane. PATIENCE: walks before the first centre is
- * tried. In the verify build small faces take part, too. */
-#ifdef DYD_VERIFY
+ * tried. In the armed build small faces take part, too. */
+#ifdef DYD_ARMED
 enum { CROWD = 5, PATIENCE = 1 };
 #else
 enum { CROWD = 64, PATIENCE = 4 };

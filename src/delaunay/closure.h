@@ -3,7 +3,7 @@
 #ifndef DYD_DELAUNAY_CLOSURE_H
 #define DYD_DELAUNAY_CLOSURE_H
 
-#include "delaunay/cover.h"
+#include "possible/cover.h"
 
 /* What a face holds. Owned by the caller, released with dyd_closure_clear. */
 typedef struct dyd_closure {

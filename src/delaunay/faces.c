@@ -5,9 +5,9 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "delaunay/build.h"
-#include "delaunay/certify.h"
 #include "delaunay/closures.h"
 #include "delaunay/ties.h"
+#include "legal/certify.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #ifndef DYD_DELAUNAY_FACES_H
 #define DYD_DELAUNAY_FACES_H
 
-#include "delaunay/cover.h"
+#include "possible/cover.h"
 
 /* Finds and closes all undecided faces among the triangles tri[0..count-1] (NULL: all), whose marks are DYD_NONE, and
  * adds them to the table. On failure the faces added so far are taken back. */

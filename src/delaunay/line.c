@@ -8,8 +8,8 @@
 #include "delaunay/line.h"
 
 #include "base/alloc.h"
-#include "delaunay/mesh_start.h"
 #include "rect/irect.h"
+#include "skeleton/mesh_start.h"
 
 #include <string.h>
 

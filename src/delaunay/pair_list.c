@@ -9,8 +9,8 @@
 
 #include <string.h>
 
-/* At most MOST_BLOCKS blocks; up to SHORT_RUN pairs are sorted by insertion. In the verify build few sites need all. */
-#ifdef DYD_VERIFY
+/* At most MOST_BLOCKS blocks; up to SHORT_RUN pairs are sorted by insertion. In the armed build few sites need all. */
+#ifdef DYD_ARMED
 enum { MOST_BLOCKS = 4, SHORT_RUN = 4 };
 #else
 enum { MOST_BLOCKS = 512, SHORT_RUN = 48 };

@@ -2,11 +2,11 @@
 /* Reading the statuses: pairs, neighbours, triangles, faces, hull. */
 #include "base/alloc.h"
 #include "delaunay/build.h"
-#include "delaunay/certify.h"
 #include "delaunay/faces.h"
 #include "delaunay/line.h"
 #include "delaunay/visit.h"
-#include "delaunay/witness.h"
+#include "legal/certify.h"
+#include "legal/witness.h"
 
 #include <math.h>
 #include <string.h>

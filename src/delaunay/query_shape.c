@@ -2,8 +2,8 @@
 /* Reading shapes: sure triangles, the hull, witnesses. */
 #include "base/alloc.h"
 #include "delaunay/build.h"
-#include "delaunay/certify.h"
-#include "delaunay/witness.h"
+#include "legal/certify.h"
+#include "legal/witness.h"
 
 #include <math.h>
 #include <string.h>

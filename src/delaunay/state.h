@@ -8,8 +8,8 @@
 #ifndef DYD_DELAUNAY_STATE_H
 #define DYD_DELAUNAY_STATE_H
 
-#include "delaunay/mesh.h"
-#include "delaunay/tree.h"
+#include "skeleton/mesh.h"
+#include "skeleton/tree.h"
 
 /* Two vertices, i < j. Two sites on the rims of two faces may make a pair that both closures find; it stays in both
  * lists, since either face may be worked on again alone, and is hidden in all but one. */

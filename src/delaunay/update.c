@@ -6,14 +6,14 @@
 #include "delaunay/update.h"
 
 #include "base/alloc.h"
-#include "base/verify.h"
+#include "base/invariant.h"
 #include "delaunay/build.h"
-#include "delaunay/certify.h"
 #include "delaunay/faces.h"
-#include "delaunay/filter_local.h"
-#include "delaunay/mesh_check.h"
+#include "delaunay/local_filter.h"
 #include "delaunay/splice.h"
-#include "delaunay/witness.h"
+#include "legal/certify.h"
+#include "legal/witness.h"
+#include "skeleton/mesh_invariant.h"
 
 #include <string.h>
 
@@ -113,7 +113,7 @@ static dyd_status affected(uint32_t **seed, size_t *seeds, dyd_delaunay *pd, con
 
 /* ---- one face ---- */
 
-#ifdef DYD_VERIFY
+#ifdef DYD_ARMED
 /* Is the first guess a witness for edge k of t among all sites? Exact; true where memory is exhausted. */
 static bool is_witness(const dyd_delaunay *pd, uint32_t t, unsigned k) {
   const uint32_t *v = pd->mesh.tri[t].v;
@@ -133,7 +133,7 @@ static bool is_witness(const dyd_delaunay *pd, uint32_t t, unsigned k) {
 static dyd_status certify(dyd_delaunay *pd, dyd_work *w, uint32_t t, unsigned k) {
   if (pd->options.no_filter || !dyd_filter_local_witness(pd, t, k, dyd_edge_centre(pd, t, k)))
     return dyd_certify_edge(pd, w, t, k);
-  DYD_CHECK(is_witness(pd, t, k));
+  DYD_INVARIANT(is_witness(pd, t, k));
   dyd_set_certain(pd, t, k);
   pd->counters.filter++;
   pd->counters.witness_guess++;
@@ -198,6 +198,6 @@ dyd_status dyd_update(dyd_delaunay *pd, const uint32_t *changed, size_t count) {
   dyd_work_clear(&w);
   free(seed);
   if (st == DYD_OK && !fits) return rebuild(pd);
-  if (st == DYD_OK) DYD_CHECK(dyd_mesh_check(&pd->mesh));
+  if (st == DYD_OK) DYD_INVARIANT(dyd_mesh_check(&pd->mesh));
   return st;
 }

@@ -3,8 +3,8 @@
 #ifndef DYD_DELAUNAY_VIEW_H
 #define DYD_DELAUNAY_VIEW_H
 
-#include "delaunay/mesh_fixed.h"
 #include "delaunay/state.h"
+#include "skeleton/mesh_fixed.h"
 
 #include <string.h>
 

@@ -41,9 +41,9 @@ static inline void dyd_each_tie_of(const dyd_delaunay *pd, uint32_t h, uint32_t 
   }
 }
 
-/* So many vertices of a rim are paired with the later ones in one walk; in the verify build small faces need several.
+/* So many vertices of a rim are paired with the later ones in one walk; in the armed build small faces need several.
  */
-#ifdef DYD_VERIFY
+#ifdef DYD_ARMED
 enum { DYD_RIM_PART = 3 };
 #else
 enum { DYD_RIM_PART = 64 };

@@ -3,7 +3,7 @@
  *
  * Sums and products of dyadics are dyadic; a result is refused, not rounded, when a bit of it would lie outside
  * [2^-DYD_EXP_LIMIT, 2^DYD_EXP_LIMIT). */
-#include "base/verify.h"
+#include "base/invariant.h"
 #include "dyadic/raw.h"
 
 int64_t dyd_bits(mpz_srcptr man) {
@@ -25,7 +25,7 @@ void dyd_dyadic_clear(dyd_dyadic *x) {
 }
 
 void dyd_dyadic_set(dyd_dyadic *out, const dyd_dyadic *x) {
-  DYD_CHECK(dyd_dyadic_is_valid(x));
+  DYD_INVARIANT(dyd_dyadic_is_valid(x));
   mpz_set(out->man, x->man);
   out->exp = x->exp;
 }
@@ -50,7 +50,7 @@ dyd_status dyd_dyadic_take(dyd_dyadic *out, mpz_ptr man, int64_t exp) {
   }
   mpz_swap(out->man, man);
   out->exp = exp;
-  DYD_CHECK(dyd_dyadic_is_valid(out));
+  DYD_INVARIANT(dyd_dyadic_is_valid(out));
   return DYD_OK;
 }
 
@@ -84,7 +84,7 @@ void dyd_raw_add(mpz_ptr man, int64_t *exp, const dyd_dyadic *x, const dyd_dyadi
 }
 
 static dyd_status add(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y, int sign) {
-  DYD_CHECK(dyd_dyadic_is_valid(x) && dyd_dyadic_is_valid(y));
+  DYD_INVARIANT(dyd_dyadic_is_valid(x) && dyd_dyadic_is_valid(y));
   mpz_t t;
   int64_t exp;
   mpz_init(t);
@@ -103,7 +103,7 @@ dyd_status dyd_dyadic_sub(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic
 }
 
 dyd_status dyd_dyadic_mul(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y) {
-  DYD_CHECK(dyd_dyadic_is_valid(x) && dyd_dyadic_is_valid(y));
+  DYD_INVARIANT(dyd_dyadic_is_valid(x) && dyd_dyadic_is_valid(y));
   mpz_t t;
   mpz_init(t);
   mpz_mul(t, x->man, y->man);

@@ -4,7 +4,7 @@
  * [SQR-1] If a and b sqrt(c) have opposite signs, the sign of a + b sqrt(c) is that of a times that of a^2 - b^2 c.
  * [SQR-2] If X = a + b sqrt(c) and Y = d sqrt(e) have opposite signs, the sign of X + Y is that of X times that of
  * X^2 - Y^2 = (a^2 + b^2 c - d^2 e) + 2 a b sqrt(c), which has one root only. */
-#include "base/verify.h"
+#include "base/invariant.h"
 #include "dyadic/raw.h"
 
 /* Sign of a^2 - b^2 c for nonzero a, b and c > 0. An integer of n bits lies in [2^(n-1), 2^n). */
@@ -25,7 +25,7 @@ static int compare_squares(mpz_srcptr a, mpz_srcptr b, mpz_srcptr c) {
 }
 
 int dyd_sqrt_sign(const mpz_t a, const mpz_t b, const mpz_t c) {
-  DYD_CHECK(mpz_sgn(c) >= 0);
+  DYD_INVARIANT(mpz_sgn(c) >= 0);
   int sa = mpz_sgn(a), sb = mpz_sgn(c) ? mpz_sgn(b) : 0;
   if (!sb || sa == sb) return sa;
   if (!sa) return sb;
@@ -33,7 +33,7 @@ int dyd_sqrt_sign(const mpz_t a, const mpz_t b, const mpz_t c) {
 }
 
 int dyd_sqrt2_sign(const mpz_t a, const mpz_t b, const mpz_t c, const mpz_t d, const mpz_t e) {
-  DYD_CHECK(mpz_sgn(e) >= 0);
+  DYD_INVARIANT(mpz_sgn(e) >= 0);
   int sx = dyd_sqrt_sign(a, b, c), sy = mpz_sgn(e) ? mpz_sgn(d) : 0;
   if (!sy || sx == sy) return sx;
   if (!sx) return sy;

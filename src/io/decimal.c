@@ -5,7 +5,7 @@
  * double nearest to d is <= x, so the direction survives reading the decimal back. */
 #include "io/decimal.h"
 #include "base/alloc.h"
-#include "io/plain.h"
+#include "io/read/plain.h"
 #include <math.h>
 #include <mpfr.h>
 #include <string.h>

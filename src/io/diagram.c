@@ -4,7 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
-#include "voronoi/filter_vertex.h"
+#include "voronoi/vertex_filter.h"
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>

@@ -3,7 +3,7 @@
  * engine did; no stream is asked. That every rectangle is inside the one before is checked [NEST-1]. */
 #include "base/alloc.h"
 #include "base/error.h"
-#include "io/text.h"
+#include "io/read/text.h"
 #include "io/trace.h"
 #include <dyadel/io.h>
 #include <inttypes.h>

@@ -4,8 +4,8 @@
 #include "io/arc_json.h"
 #include "io/decimal.h"
 #include "io/exact_text.h"
-#include "io/picture.h"
 #include "io/pieces.h"
+#include "picture/picture.h"
 #include <dyadel/io.h>
 #include <stdlib.h>
 

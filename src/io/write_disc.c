@@ -2,8 +2,8 @@
 /* The partial disc of three points, and where the others are: csv, json, pictures. */
 #include "base/error.h"
 #include "io/exact_text.h"
-#include "io/picture.h"
 #include "io/pieces.h"
+#include "picture/picture.h"
 #include "voronoi/surd_point.h"
 #include <dyadel/arc.h>
 #include <dyadel/io.h>

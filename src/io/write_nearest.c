@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "io/decimal.h"
 #include "io/json_parts.h"
-#include "io/picture.h"
 #include "io/pieces.h"
+#include "picture/picture.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,7 @@
  * DYD_MEASURE_PREC bits (value, square root, sum): the excess is below 8 * 2^-127 of the value. */
 #include "metric/measure.h"
 
-#include "metric/filter_measure.h"
+#include "metric/measure_filter.h"
 #include "rect/sites_table.h"
 
 /* May pairs of site i be measured in doubles? */

@@ -19,7 +19,7 @@
 #include "base/alloc.h"
 #include "dyadic/raw.h"
 #include "metric/bounds.h"
-#include "metric/filter_voronoi.h"
+#include "metric/voronoi_filter.h"
 
 /* Areas in W are below 2^(2 e), polygons are within 2^-bits: sums need some e + bits more digits than a bound. */
 static mpfr_prec_t sum_precision(const dyd_rect *window, int64_t bits) {

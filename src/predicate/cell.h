@@ -8,7 +8,7 @@
 #ifndef DYD_PREDICATE_CELL_H
 #define DYD_PREDICATE_CELL_H
 
-#include "predicate/filter_interval.h"
+#include "predicate/interval_filter.h"
 #include "rect/irect.h"
 #include <dyadel/predicate.h>
 

@@ -3,7 +3,7 @@
  *
  * [QUAD-1] If ab replaced ij by a flip, the open segments would cross and the circle through i, j, b would hold a, the
  * one through i, j, a would hold b. Disjoint hulls exclude the first, Con = - one of the others. */
-#include "predicate/filter_predicate.h"
+#include "predicate/predicate_filter.h"
 #include "rect/irect.h"
 
 static bool hulls_disjoint(const dyd_rect *const r[4]) {

@@ -6,7 +6,7 @@
  * is linear in the centre, and for the line u = l: (u - l)^2 - radius^2 = l^2 - 2 l u - v^2. */
 #include "predicate/icircle.h"
 
-#include "base/verify.h"
+#include "base/invariant.h"
 #include "predicate/surd.h"
 
 void dyd_icircle_init(dyd_icircle *k) {
@@ -73,7 +73,7 @@ static int side_of_line(frame *f, const dyd_icircle *k, mpz_srcptr au, mpz_srcpt
 }
 
 int dyd_icircle_side(const dyd_icircle *k, const dyd_irect *r, dyd_touch touch) {
-  DYD_CHECK(mpz_sgn(k->d) > 0 && mpz_sgn(k->c) >= 0);
+  DYD_INVARIANT(mpz_sgn(k->d) > 0 && mpz_sgn(k->c) >= 0);
   frame f;
   frame_init(&f, k);
   dyd_surd ox = {k->ax, k->bx, k->c, k->d}, oy = {k->ay, k->by, k->c, k->d};

@@ -6,7 +6,7 @@
  * cell, found from the features of that cell, has exactly these features at distance ds or dl. So the circles are the
  * solutions of predicate/solve.c, cell by cell, whose centre is in the cell. Some rectangle is F, hence some corner is
  * on the circle. */
-#include "base/verify.h"
+#include "base/invariant.h"
 #include "predicate/cell.h"
 #include "predicate/solve.h"
 
@@ -123,7 +123,7 @@ static size_t search_cell(search *q, dyd_icircle *out, size_t count, size_t room
 size_t dyd_icircles(dyd_icircle *out, size_t room, const dyd_irect *const r[3], const dyd_touch touch[3]) {
   search q = {.r = r, .touch = touch, .base = 0};
   while (q.base < 3 && touch[q.base] != DYD_FARTHEST) q.base++;
-  DYD_CHECK(q.base < 3);
+  DYD_INVARIANT(q.base < 3);
   search_init(&q);
   int64_t shift = choose_shift(&q);
   dyd_axis_set(&q.axis[0], r, touch, 0, r[q.base]->x0, shift);

@@ -3,8 +3,8 @@
  *
  * A filter answers when every choice in the outward boxes agrees, or, for boxes that are the rectangles themselves,
  * when two choices surely differ. Everything else goes to the exact rung [ORI-1] [CON-1]. */
-#include "predicate/filter_predicate.h"
 #include "predicate/icircle.h"
+#include "predicate/predicate_filter.h"
 
 /* The four rectangles on a common integer scale. */
 static void scale(dyd_irect *out, const dyd_rect *const *in, size_t n) {

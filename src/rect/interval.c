@@ -4,7 +4,7 @@
  * The end lo/den is a dyadic over an odd number; ends are compared by cross multiplication, which may leave the
  * exponent range of dyadics and is done on raw integers. */
 #include "rect/interval.h"
-#include "base/verify.h"
+#include "base/invariant.h"
 #include "dyadic/raw.h"
 
 bool dyd_interval_is_valid(const dyd_interval *a) {
@@ -33,7 +33,7 @@ void dyd_interval_clear(dyd_interval *a) {
 }
 
 void dyd_interval_set(dyd_interval *out, const dyd_interval *a) {
-  DYD_CHECK(dyd_interval_is_valid(a));
+  DYD_INVARIANT(dyd_interval_is_valid(a));
   dyd_dyadic_set(&out->lo, &a->lo);
   dyd_dyadic_set(&out->hi, &a->hi);
   mpz_set(out->den, a->den);
@@ -77,7 +77,7 @@ dyd_status dyd_interval_set_q(dyd_interval *out, const mpq_t q) {
     dyd_dyadic_set(&t.hi, &t.lo);
     mpz_tdiv_q_2exp(t.den, mpq_denref(q), (mp_bitcnt_t)k);
     dyd_interval_swap(out, &t);
-    DYD_CHECK(dyd_interval_is_valid(out));
+    DYD_INVARIANT(dyd_interval_is_valid(out));
   }
   dyd_interval_clear(&t);
   return status;

@@ -9,7 +9,7 @@
  * slanted line is ordered by x. So the two axes and the four joins of each hull are all directions to try. */
 #include "rect/irect.h"
 
-#include "base/verify.h"
+#include "base/invariant.h"
 
 void dyd_irect_init(dyd_irect *r) {
   mpz_inits(r->x0, r->x1, r->y0, r->y1, NULL);
@@ -63,7 +63,7 @@ static void scale_interval(mpz_ptr lo, mpz_ptr hi, const dyd_interval *a, const 
   }
   scale_dyadic(lo, &a->lo, factor, s->exp);
   scale_dyadic(hi, &a->hi, factor, s->exp);
-  DYD_CHECK(mpz_cmp(lo, hi) <= 0);
+  DYD_INVARIANT(mpz_cmp(lo, hi) <= 0);
 }
 
 void dyd_irects_scale_with(mpz_ptr cx, mpz_ptr cy, dyd_irect *out, const dyd_point *c, const dyd_rect *const *in,

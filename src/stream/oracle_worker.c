@@ -9,7 +9,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
-#include "base/verify.h"
+#include "base/invariant.h"
 #include <errno.h>
 #include <inttypes.h>
 #include <stdarg.h>
@@ -58,7 +58,7 @@ void dyd_worker_fail(dyd_worker *w, dyd_status code, const char *format, ...) {
 
 /* ---- the queue ---- */
 
-#ifdef DYD_VERIFY
+#ifdef DYD_ARMED
 static bool queue_is_valid(const dyd_worker *w) {
   size_t held = 0;
   bool wanted = false, sorted = true;
@@ -100,7 +100,7 @@ void dyd_worker_forget(dyd_worker *w) {
   if (left) memmove(w->asked, w->asked + w->head, left * sizeof *w->asked);
   w->head = w->answered = 0;
   w->sent = w->count = left;
-  DYD_CHECK(queue_is_valid(w));
+  DYD_INVARIANT(queue_is_valid(w));
 }
 
 dyd_asked *dyd_worker_first(dyd_worker *w) {
@@ -229,7 +229,7 @@ static void take_lines(dyd_worker *w) {
   if (w->line_length > DYD_ORACLE_LINE)
     dyd_worker_fail(w, DYD_E_STREAM, "it wrote a line of more than %zu bytes; an answer is one line of five words",
                     DYD_ORACLE_LINE);
-  DYD_CHECK(queue_is_valid(w));
+  DYD_INVARIANT(queue_is_valid(w));
 }
 
 static void hear_end(dyd_worker *w) {

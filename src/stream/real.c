@@ -8,7 +8,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
-#include "base/verify.h"
+#include "base/invariant.h"
 #include "rect/interval.h"
 
 /* Invariant: refs > 0; now: NULL before the first narrowing, else owned and valid; final: known and no call can narrow
@@ -56,7 +56,7 @@ dyd_status dyd_real_new_inside(dyd_real **out, void **user, size_t size, dyd_nar
 }
 
 void dyd_real_set_span(dyd_real *x, dyd_double_span span) {
-  DYD_CHECK(x->encloses && !x->now && span.lo <= span.hi);
+  DYD_INVARIANT(x->encloses && !x->now && span.lo <= span.hi);
   x->spans = true;
   x->span = span;
 }
@@ -79,7 +79,7 @@ dyd_status dyd_real_new_fixed(dyd_real **out, dyd_interval *value) {
   }
   dyd_interval_swap(x->now, value);
   x->final = true;
-  DYD_CHECK(dyd_interval_is_valid(x->now));
+  DYD_INVARIANT(dyd_interval_is_valid(x->now));
   *out = x;
   return DYD_OK;
 }

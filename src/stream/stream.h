@@ -3,7 +3,7 @@
 #ifndef DYD_STREAM_STREAM_H
 #define DYD_STREAM_STREAM_H
 
-#include "stream/filter_expr.h"
+#include "stream/expr_filter.h"
 #include <dyadel/stream.h>
 
 /* As dyd_stream_new for a source that encloses one and the same point every time: its rectangles are intersected

@@ -10,7 +10,7 @@
  * rectangles; along a side of the window it can. For singletons a and b no cut is needed. */
 #include "voronoi/bisector.h"
 
-#include "base/verify.h"
+#include "base/invariant.h"
 
 void dyd_curve_init(dyd_curve *c) {
   c->count = 0;
@@ -289,7 +289,7 @@ static int choose_axis(const dyd_elementary *a) {
 static int choose_branch(const dyd_elementary *a) {
   int k = a->axis;
   if (a->lo[k] && mpz_cmp(a->lo[k], a->s[k]) >= 0) return 1;
-  DYD_CHECK(a->hi[k] && mpz_cmp(a->hi[k], a->s[k]) <= 0);
+  DYD_INVARIANT(a->hi[k] && mpz_cmp(a->hi[k], a->s[k]) <= 0);
   return -1;
 }
 

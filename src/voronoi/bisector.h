@@ -4,7 +4,7 @@
 #ifndef DYD_VORONOI_BISECTOR_H
 #define DYD_VORONOI_BISECTOR_H
 
-#include "voronoi/filter_exact_cell.h"
+#include "voronoi/exact_cell_filter.h"
 
 enum { DYD_CURVE_ARCS = 16 };
 

@@ -12,7 +12,7 @@
 #include "voronoi/exact_cell.h"
 
 #include "base/alloc.h"
-#include "base/verify.h"
+#include "base/invariant.h"
 #include "dyadic/raw.h"
 #include "predicate/icircle.h"
 
@@ -206,7 +206,7 @@ static dyd_status find_meets(dyd_exact_cell *c) {
       if (!may_meet(c, j, k)) continue;
       const dyd_irect *r[3] = {&c->fixed.r, &c->other[j].r, &c->other[k].r};
       size_t found = dyd_icircles(circle, DYD_CELL_CIRCLES, r, touch);
-      DYD_CHECK(found < DYD_CELL_CIRCLES);
+      DYD_INVARIANT(found < DYD_CELL_CIRCLES);
       for (size_t m = 0; m < found && st == DYD_OK; m++) st = add_meet(c, j, k, &circle[m]);
     }
   for (int m = DYD_CELL_CIRCLES; m-- > 0;) dyd_icircle_clear(&circle[m]);

@@ -6,7 +6,7 @@
  * a side of the window; there each goes on by itself, so a piece is first joined to the next one of its own curve.
  * Neighbours that differ in nothing but a cut become one arc. */
 #include "base/alloc.h"
-#include "base/verify.h"
+#include "base/invariant.h"
 #include "voronoi/boundary.h"
 #include "voronoi/exact_cell.h"
 
@@ -53,7 +53,7 @@ static void join(links *l, const dyd_exact_cell *c, bool own) {
       l->last[q] = p;
       break;
     }
-    DYD_CHECK(own || l->next[p] != NONE);
+    DYD_INVARIANT(own || l->next[p] != NONE);
   }
 }
 
@@ -76,7 +76,7 @@ static dyd_arc_end end_kind(const dyd_exact_cell *c, const dyd_piece *p, const d
   } else if (p->arc && other->arc) {
     size_t k = 0;
     while (k < c->count && (k == p->curve || dyd_cell_spot_side(c, at, k))) k++;
-    DYD_CHECK(k < c->count);
+    DYD_INVARIANT(k < c->count);
     e.kind = DYD_END_SITES;
     e.site = c->site[k < c->count ? k : other->curve];
   }

@@ -3,9 +3,9 @@
 #ifndef DYD_VORONOI_NEAREST_H
 #define DYD_VORONOI_NEAREST_H
 
-#include "delaunay/blocks.h"
+#include "skeleton/blocks.h"
 
-/* ---- filter_nearest.c ---- */
+/* ---- nearest_filter.c ---- */
 
 /* Vertices that hold all that are possibly nearest to some point of q. Every vertex that surely nearer sites rule out
  * is left out, up to rounding. *vertex is owned by the caller. */

@@ -42,7 +42,7 @@ dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer);
 dyd_status dyd_shape_inner(dyd_polygon *out, const dyd_shape *s);
 dyd_status dyd_shape_outer(dyd_polygon_list *out, const dyd_shape *s);
 
-/* filter_shape.c: the rung in doubles. DYD_OK with *done telling whether it succeeded, or DYD_E_NOMEM. */
+/* shape_filter.c: the rung in doubles. DYD_OK with *done telling whether it succeeded, or DYD_E_NOMEM. */
 dyd_status dyd_filter_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t v, const dyd_window *w,
                             int64_t bits);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Voronoi vertices of sure triangles, and default windows. */
 #include "delaunay/build.h"
-#include "voronoi/filter_vertex.h"
 #include "voronoi/region.h"
+#include "voronoi/vertex_filter.h"
 #include <dyadel/voronoi.h>
 
 #include <math.h>

@@ -37,7 +37,7 @@ dyd_sites *harness_sites(const orc_case *c);
 /* dyd_delaunay_new, NULL with a message when it does not return DYD_OK. */
 dyd_delaunay *harness_engine(char *message, const dyd_sites *s, const dyd_delaunay_options *options);
 
-/* The floor documented in delaunay/witness.h is about 2^-30 of the distances concerned; some slack for "about". */
+/* The floor documented in legal/witness.h is about 2^-30 of the distances concerned; some slack for "about". */
 #define FLOOR_BITS 24
 /* The search gives up after a number of exact steps, too: seen only where the ends of a case span this many bits. */
 #define WIDE_SPAN 200

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "delaunay/exact_lp.h"
+#include "legal/exact_lp.h"
 #include "support/random.h"
 
 enum { MOST = 12 };

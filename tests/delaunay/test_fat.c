@@ -4,8 +4,8 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-#include "delaunay/certify.h"
-#include "delaunay/filter_fat.h"
+#include "legal/certify.h"
+#include "legal/fat_filter.h"
 #include "support/random.h"
 
 #include <cmocka.h>

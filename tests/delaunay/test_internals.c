@@ -4,12 +4,12 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-#include "delaunay/filter_lp.h"
-#include "delaunay/order.h"
-#include "delaunay/pair_map.h"
 #include "delaunay/read_case.h"
-#include "delaunay/scale_set.h"
-#include "delaunay/tree.h"
+#include "legal/lp_filter.h"
+#include "possible/pair_map.h"
+#include "skeleton/order.h"
+#include "skeleton/scale_set.h"
+#include "skeleton/tree.h"
 #include <cmocka.h>
 #include <math.h>
 #include <string.h>

@@ -4,10 +4,10 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-#include "delaunay/join.h"
-#include "delaunay/mesh_check.h"
-#include "delaunay/mesh_exact.h"
-#include "delaunay/mesh_start.h"
+#include "skeleton/join.h"
+#include "skeleton/mesh_exact.h"
+#include "skeleton/mesh_invariant.h"
+#include "skeleton/mesh_start.h"
 #include "support/random.h"
 #include <cmocka.h>
 #include <string.h>

@@ -4,10 +4,10 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-#include "delaunay/filter_mesh.h"
-#include "delaunay/mesh_exact.h"
-#include "delaunay/mesh_fixed.h"
-#include "delaunay/mesh_start.h"
+#include "skeleton/mesh_exact.h"
+#include "skeleton/mesh_filter.h"
+#include "skeleton/mesh_fixed.h"
+#include "skeleton/mesh_start.h"
 #include "support/random.h"
 #include <cmocka.h>
 #include <math.h>

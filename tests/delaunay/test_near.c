@@ -4,10 +4,10 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-#include "delaunay/certify.h"
-#include "delaunay/filter_near.h"
-#include "delaunay/hull.h"
 #include "delaunay/read_case.h"
+#include "legal/certify.h"
+#include "legal/near_filter.h"
+#include "possible/hull.h"
 #include <cmocka.h>
 #include <math.h>
 #include <string.h>

@@ -3,8 +3,8 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-#include "delaunay/filter_distance.h"
 #include "delaunay/read_case.h"
+#include "skeleton/distance_filter.h"
 #include <cmocka.h>
 #include <math.h>
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Hundreds of rectangles narrowed bit by bit: after every update the pairs are those of a fresh run, except that legal
- * ones may have been carried over. The verify build re-checks every witness found near its faces against all sites, and
+ * ones may have been carried over. The armed build re-checks every witness found near its faces against all sites, and
  * the whole skeleton after every update, exactly [LOC-1] [LOC-2] [LOC-3]. */
 #include <setjmp.h>
 #include <stdarg.h>
 
 #include "delaunay/faces.h"
-#include "delaunay/filter_local.h"
-#include "delaunay/witness.h"
+#include "delaunay/local_filter.h"
+#include "legal/witness.h"
 #include "support/random.h"
 #include <cmocka.h>
 #include <dyadel/delaunay.h>

@@ -4,10 +4,10 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-#include "delaunay/filter_cover.h"
-#include "delaunay/hull.h"
 #include "delaunay/line.h"
 #include "delaunay/read_case.h"
+#include "possible/cover_filter.h"
+#include "possible/hull.h"
 #include <cmocka.h>
 #include <string.h>
 

@@ -4,7 +4,7 @@
  */
 #include "help.h"
 
-#include "delaunay/filter_quad.h"
+#include "possible/quad_filter.h"
 #include "predicate/icircle.h"
 #include <string.h>
 
@@ -128,7 +128,7 @@ static void must_tell(points *p, const dyd_check_options *o) {
   dyd_check_report_clear(&report);
 }
 
-/* Cells are not watched: they would stand on a triangulation that is no triangulation, which the verify build sees. */
+/* Cells are not watched: they would stand on a triangulation that is no triangulation, which the armed build sees. */
 static void bad_engine(void **state) {
   (void)state;
   dyd_check_options o = {.seed = 3, .max_bits = 60, .base_bits = 2, .schedules = 100, .no_cells = true};

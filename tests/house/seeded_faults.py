@@ -13,9 +13,9 @@ import subprocess
 import sys
 import tempfile
 
-MESH, DISTANCE = 'src/delaunay/filter_mesh.h', 'src/delaunay/filter_distance.h'
-NEAR, INTERVAL = 'src/delaunay/filter_near.h', 'src/predicate/filter_interval.h'
-STAR = 'src/delaunay/filter_star.c'
+MESH, DISTANCE = 'src/skeleton/mesh_filter.h', 'src/skeleton/distance_filter.h'
+NEAR, INTERVAL = 'src/legal/near_filter.h', 'src/predicate/interval_filter.h'
+STAR = 'src/legal/star_filter.c'
 # file, text, its replacement, script that must notice, word in its complaint
 FAULTS = [
     (MESH, 'extent_x * extent_y * 1.01e-15', 'extent_x * extent_y * 1.0e-15', 'constants', 'c_orient_bound'),
@@ -27,15 +27,15 @@ FAULTS = [
     (NEAR, 'k * (lv * lz) * (a1 + ea)', 'k * (lv * lz) * (a1 - ea)', 'constants', 'dyd_filter_edge_near'),
     (NEAR, 'return 48.6 * reach * sqrt(lu * lw)', 'return 48.6 * (reach * sqrt(lu * lw))', 'constants', 'dyd_filter_hull_edge_near'),
     (INTERVAL, 'if (!(b.lo > 0 || b.hi < 0))', 'if (!(b.lo >= 0 || b.hi < 0))', 'constants', 'dyd_iv_div'),
-    ('src/delaunay/filter_tree.c', 'px + py + 8 * 0x1p-53', 'px + py + 2 * 0x1p-53', 'constants', 'c_reach'),
-    ('src/delaunay/filter_scale_set.c', '* 4 * 0x1p-52 * fabs(x)', '* 1 * 0x1p-53 * fabs(x)', 'constants', 'c_scale'),
+    ('src/skeleton/tree_filter.c', 'px + py + 8 * 0x1p-53', 'px + py + 2 * 0x1p-53', 'constants', 'c_reach'),
+    ('src/skeleton/scale_set_filter.c', '* 4 * 0x1p-52 * fabs(x)', '* 1 * 0x1p-53 * fabs(x)', 'constants', 'c_scale'),
     (STAR, 'double wide = (rho + p->reach) * DYD_UP_FACTOR', 'double wide = rho + p->reach', 'constants', 'certify_edges'),
     (STAR, 'need + 8 * 0x1p-53', 'need + 2 * 0x1p-53', 'constants', 'c_star_hull'),
     (STAR, '2 * (largest + 3 * pd->reps.delta)', '2 * (largest + 2 * pd->reps.delta)', 'constants', 'z_star_three'),
-    ('src/stream/filter_expr.c', 'if (b.lo <= 0 && b.hi >= 0)', 'if (b.lo < 0 && b.hi > 0)', 'constants', 'divide'),
-    ('src/predicate/filter_cell.c', 'i ? dyd_iv_sub(bl, root) : dyd_iv_add(bl, root)', 'dyd_iv_add(bl, root)', 'constants', 'point_and_line'),
-    ('src/delaunay/filter_near.c', 'reach : 0x1p-300}', 'reach : 0x1p-500}', 'constants', 'c_near_floor'),
-    ('src/delaunay/filter_possible.c', 'isnan(h) ? -INFINITY : h', 'isnan(h) ? INFINITY : h', 'constants', 'dyd_height_lower'),
+    ('src/stream/expr_filter.c', 'if (b.lo <= 0 && b.hi >= 0)', 'if (b.lo < 0 && b.hi > 0)', 'constants', 'divide'),
+    ('src/predicate/cell_filter.c', 'i ? dyd_iv_sub(bl, root) : dyd_iv_add(bl, root)', 'dyd_iv_add(bl, root)', 'constants', 'point_and_line'),
+    ('src/legal/near_filter.c', 'reach : 0x1p-300}', 'reach : 0x1p-500}', 'constants', 'c_near_floor'),
+    ('src/skeleton/site_filter.c', 'isnan(h) ? -INFINITY : h', 'isnan(h) ? INFINITY : h', 'constants', 'dyd_height_lower'),
     ('src/dyadic/sqrt_sign.c', 'if (nb - 3 >= na) return -1;', 'if (nb - 2 >= na) return -1;', 'constants', 'compare_squares'),
     ('src/predicate/solve.c', 'mpz_submul(out->a[k], out->b[k], out->t);', 'mpz_addmul(out->a[k], out->b[k], out->t);',
      'constants', 'point_and_line'),

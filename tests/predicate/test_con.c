@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
-#include "predicate/filter_predicate.h"
 #include "predicate/icircle.h"
+#include "predicate/predicate_filter.h"
 #include "predicate/shapes.h"
 
 /* Four rectangles in every form: 0, 1, 2 the triple, 3 the one asked about. */

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "predicate/filter_predicate.h"
+#include "predicate/predicate_filter.h"
 #include "predicate/shapes.h"
 #include "rect/literal.h"
 

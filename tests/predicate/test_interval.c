@@ -10,7 +10,7 @@
 #include <mpfr.h>
 #include <string.h>
 
-#include "predicate/filter_interval.h"
+#include "predicate/interval_filter.h"
 #include "support/random.h"
 
 enum { PRECISION = 5000 }; /* sums and products of doubles are exact */

@@ -7,8 +7,8 @@
 
 #include <cmocka.h>
 
-#include "predicate/filter_predicate.h"
 #include "predicate/icircle.h"
+#include "predicate/predicate_filter.h"
 #include "predicate/shapes.h"
 
 enum { SIDES = 6, RECTS = SIDES * SIDES };

@@ -1,0 +1,300 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The faces of the legal graph, and the sets of sites within which a pair can be possible. */
+#include "checker/faces.h"
+#include "base/alloc.h"
+#include "checker/parts.h"
+
+#include <string.h>
+
+dyd_status dyd_cert_walk(uint32_t **out, size_t *count, const dyd_cert_graph *g, uint32_t h) {
+  size_t n = 0;
+  uint32_t k = h;
+  do n++;
+  while ((k = dyd_cert_follow(g, k)) != h);
+  uint32_t *walk = dyd_alloc(n, sizeof *walk);
+  if (!walk) return DYD_E_NOMEM;
+  for (size_t q = 0; q < n; q++, k = dyd_cert_follow(g, k)) walk[q] = k;
+  *out = walk;
+  *count = n;
+  return DYD_OK;
+}
+
+/* Appends the sites as an open set, unless they are the two ends of a legal edge or less. */
+static dyd_status add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint32_t *site, size_t count) {
+  if (!dyd_reserve((void **)&f->member, &f->member_cap, f->members + count, sizeof *f->member) ||
+      !dyd_reserve((void **)&f->start, &f->set_cap, f->sets + 2, sizeof *f->start))
+    return DYD_E_NOMEM;
+  if (count < 2) return DYD_OK;
+  uint32_t *to = f->member + f->members;
+  memcpy(to, site, count * sizeof *to);
+  count = dyd_cert_distinct(to, count);
+  if (count < 2 || (count == 2 && dyd_cert_edges_have(g->legal, to[0], to[1]))) return DYD_OK;
+  f->start[f->sets++] = f->members;
+  f->members += count;
+  f->start[f->sets] = f->members;
+  return DYD_OK;
+}
+
+/* ---- bounded faces ---- */
+
+static dyd_status add_face(dyd_cert_faces *f, bool *seen, const dyd_cert_graph *g, uint32_t h) {
+  uint32_t *walk = NULL;
+  size_t count = 0;
+  dyd_status status = dyd_cert_walk(&walk, &count, g, h);
+  if (status < 0) return status;
+  bool legal = true;
+  for (size_t q = 0; q < count; q++) {
+    seen[walk[q]] = true;
+    legal &= walk[q] / 2 < g->legal->count;
+    walk[q] = dyd_cert_origin(g, walk[q]);
+  }
+  if (count == 3 && legal)
+    f->triangles++;
+  else
+    status = add_set(f, g, walk, count);
+  free(walk);
+  return status;
+}
+
+/* ---- the unbounded face ---- */
+
+/* Its walk, as half-edges and as sites; which sites are corners. */
+typedef struct rim {
+  uint32_t *walk, *site;
+  size_t count;
+  bool *corner;
+} rim;
+
+static int compare_place_of(const dyd_cert_sites *s, uint32_t a, uint32_t b) {
+  int sign = dyd_cert_compare_places(s, a, b);
+  return sign ? sign : (a > b) - (a < b);
+}
+
+static void sift_place(const dyd_cert_sites *s, uint32_t *a, size_t root, size_t count) {
+  for (size_t child; (child = 2 * root + 1) < count; root = child) {
+    if (child + 1 < count && compare_place_of(s, a[child], a[child + 1]) < 0) child++;
+    if (compare_place_of(s, a[root], a[child]) >= 0) return;
+    uint32_t t = a[root];
+    a[root] = a[child];
+    a[child] = t;
+  }
+}
+
+static void sort_places(const dyd_cert_sites *s, uint32_t *a, size_t count) {
+  for (size_t q = count / 2; q-- > 0;) sift_place(s, a, q, count);
+  for (size_t last = count; last-- > 1;) {
+    uint32_t t = a[0];
+    a[0] = a[last];
+    a[last] = t;
+    sift_place(s, a, 0, last);
+  }
+}
+
+/* Marks one chain of the hull: the item are passed in order, from the lowest place or from the highest. */
+static void mark_chain(bool *hull, uint32_t *stack, const dyd_cert_sites *s, const uint32_t *item, size_t count,
+                       bool back) {
+  size_t top = 0;
+  for (size_t q = 0; q < count; q++) {
+    uint32_t v = item[back ? count - 1 - q : q];
+    while (top > 1 && dyd_cert_turn(s, stack[top - 2], stack[top - 1], v) <= 0) top--;
+    stack[top++] = v;
+  }
+  for (size_t q = 0; q < top; q++) hull[stack[q]] = true;
+}
+
+dyd_status dyd_cert_hull(bool *hull, const dyd_cert_sites *s, uint32_t *item, size_t count) {
+  uint32_t *stack = dyd_alloc(count, sizeof *stack);
+  if (!stack) return DYD_E_NOMEM;
+  memset(hull, 0, s->count * sizeof *hull);
+  sort_places(s, item, count);
+  mark_chain(hull, stack, s, item, count, false);
+  mark_chain(hull, stack, s, item, count, true);
+  free(stack);
+  return DYD_OK;
+}
+
+/* Is every corner on the rim exactly once, and a strict corner of the hull of the places? */
+static dyd_status check_places(uint32_t *bad, const rim *r, const dyd_cert_sites *s, const dyd_cert_corner *corner,
+                               size_t corners) {
+  uint32_t *copy = dyd_alloc(r->count, sizeof *copy);
+  bool *hull = dyd_alloc(s->count, sizeof *hull);
+  uint32_t *times = calloc(s->count ? s->count : 1, sizeof *times);
+  dyd_status status = copy && hull && times ? DYD_OK : DYD_E_NOMEM;
+  if (status == DYD_OK) {
+    memcpy(copy, r->site, r->count * sizeof *copy);
+    status = dyd_cert_hull(hull, s, copy, dyd_cert_distinct(copy, r->count));
+  }
+  if (status == DYD_OK) {
+    for (size_t q = 0; q < r->count; q++) times[r->site[q]]++;
+    for (size_t c = 0; c < corners; c++)
+      if (times[corner[c].i] != 1 || !hull[corner[c].i]) *bad = corner[c].i;
+  }
+  free(copy);
+  free(hull);
+  free(times);
+  return status;
+}
+
+/* Is the corner surely beyond all sites of the group (itself left out), in its direction? */
+static bool is_beyond(const dyd_cert_sites *s, const dyd_cert_corner *corner, const dyd_cert_parts *p, uint32_t r) {
+  for (size_t q = p->start[r]; q < p->start[r + 1]; q++)
+    if (p->site[q] != corner->i && dyd_cert_compare_heights(s, corner->u, p->site[q], corner->i) >= 0) return false;
+  return true;
+}
+
+static int compare_corner(const void *a, const void *b) {
+  uint32_t x = *(const uint32_t *)a, y = ((const dyd_cert_corner *)b)->i;
+  return (x > y) - (x < y);
+}
+
+static void check_corners(uint32_t *bad, const dyd_cert_sites *s, const rim *r, const dyd_cert_parts *p,
+                          const dyd_cert_corner *corner, size_t corners) {
+  for (size_t q = 0; q < r->count; q++) {
+    if (!r->corner[r->site[q]]) continue;
+    const dyd_cert_corner *c = bsearch(&r->site[q], corner, corners, sizeof *corner, compare_corner);
+    uint32_t after = p->group[q], before = p->group[(q + r->count - 1) % r->count];
+    if (!is_beyond(s, c, p, after) || (before != after && !is_beyond(s, c, p, before))) *bad = c->i;
+  }
+}
+
+static dyd_status split_rim(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const rim *r,
+                            const dyd_cert_corner *corner, size_t corners) {
+  if (corners == 0) return add_set(f, g, r->site, r->count);
+  dyd_status status = check_places(bad, r, g->sites, corner, corners);
+  if (status < 0 || *bad != DYD_CERT_NONE) return status;
+  dyd_cert_parts p;
+  status = dyd_cert_parts_init(&p, g, r->walk, r->count, r->corner);
+  if (status < 0) return status;
+  check_corners(bad, g->sites, r, &p, corner, corners);
+  for (size_t k = 0; k < p.groups && status == DYD_OK; k++)
+    status = add_set(f, g, p.site + p.start[k], p.start[k + 1] - p.start[k]);
+  dyd_cert_parts_clear(&p);
+  return status;
+}
+
+static dyd_status add_outer(dyd_cert_faces *f, uint32_t *bad, bool *seen, const dyd_cert_graph *g, uint32_t h,
+                            const dyd_cert_corner *corner, size_t corners) {
+  rim r = {0};
+  dyd_status status = dyd_cert_walk(&r.walk, &r.count, g, h);
+  if (status < 0) return status;
+  r.site = dyd_alloc(r.count, sizeof *r.site);
+  r.corner = calloc(g->sites->count, sizeof *r.corner);
+  if (r.site && r.corner) {
+    for (size_t q = 0; q < r.count; q++) {
+      seen[r.walk[q]] = true;
+      r.site[q] = dyd_cert_origin(g, r.walk[q]);
+    }
+    for (size_t c = 0; c < corners; c++) r.corner[corner[c].i] = true;
+    status = split_rim(f, bad, g, &r, corner, corners);
+  } else {
+    status = DYD_E_NOMEM;
+  }
+  free(r.walk);
+  free(r.site);
+  free(r.corner);
+  return status;
+}
+
+/* ---- all ---- */
+
+static dyd_status add_all_sites(dyd_cert_faces *f, const dyd_cert_graph *g) {
+  uint32_t *all = dyd_alloc(g->sites->count, sizeof *all);
+  if (!all) return DYD_E_NOMEM;
+  size_t count = 0;
+  for (size_t v = 0; v < g->sites->count; v++)
+    if (g->sites->site[v].alias == v) all[count++] = (uint32_t)v;
+  dyd_status status = add_set(f, g, all, count);
+  free(all);
+  return status;
+}
+
+static dyd_status find_sets(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const dyd_cert_corner *corner,
+                            size_t corners) {
+  uint32_t outer = g->connected ? dyd_cert_outer(g) : DYD_CERT_NONE;
+  if (outer == DYD_CERT_NONE) {
+    if (corners) *bad = corner[0].i;
+    return add_all_sites(f, g);
+  }
+  bool *seen = calloc(2 * g->count, sizeof *seen);
+  if (!seen) return DYD_E_NOMEM;
+  dyd_status status = add_outer(f, bad, seen, g, outer, corner, corners);
+  for (uint32_t h = 0; h < 2 * g->count && status == DYD_OK && *bad == DYD_CERT_NONE; h++)
+    if (!seen[h]) status = add_face(f, seen, g, h);
+  free(seen);
+  return status;
+}
+
+static dyd_status index_sites(dyd_cert_faces *f, size_t n) {
+  f->first = calloc(n + 1, sizeof *f->first);
+  f->of = dyd_alloc(f->members, sizeof *f->of);
+  f->covered = calloc(f->sets ? f->sets : 1, sizeof *f->covered);
+  if (!f->first || !f->of || !f->covered) return DYD_E_NOMEM;
+  for (size_t q = 0; q < f->members; q++) f->first[f->member[q]]++;
+  size_t sum = 0;
+  for (size_t v = 0; v <= n; v++) {
+    size_t c = f->first[v];
+    f->first[v] = sum;
+    sum += c;
+  }
+  for (size_t k = 0; k < f->sets; k++)
+    for (size_t q = f->start[k]; q < f->start[k + 1]; q++) f->of[f->first[f->member[q]]++] = (uint32_t)k;
+  for (size_t v = n; v > 0; v--) f->first[v] = f->first[v - 1];
+  f->first[0] = 0;
+  return DYD_OK;
+}
+
+dyd_status dyd_cert_faces_init(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const dyd_cert_corner *corner,
+                               size_t corners) {
+  *f = (dyd_cert_faces){0};
+  *bad = DYD_CERT_NONE;
+  dyd_status status = find_sets(f, bad, g, corner, corners);
+  if (status == DYD_OK) status = index_sites(f, g->sites->count);
+  if (status == DYD_OK)
+    for (size_t e = 0; e < g->legal->count; e++) dyd_cert_faces_cover(f, g->legal->item[e].i, g->legal->item[e].j);
+  if (status < 0) dyd_cert_faces_clear(f);
+  return status;
+}
+
+void dyd_cert_faces_clear(dyd_cert_faces *f) {
+  free(f->start);
+  free(f->member);
+  free(f->covered);
+  free(f->first);
+  free(f->of);
+  *f = (dyd_cert_faces){0};
+}
+
+/* Passes the sets that hold both; returns their number. */
+static size_t common(const dyd_cert_faces *f, uint64_t *covered, uint32_t i, uint32_t j) {
+  size_t a = f->first[i], b = f->first[j], count = 0;
+  while (a < f->first[i + 1] && b < f->first[j + 1]) {
+    if (f->of[a] == f->of[b]) {
+      if (covered) covered[f->of[a]]++;
+      count++;
+      a++;
+      b++;
+    } else if (f->of[a] < f->of[b]) {
+      a++;
+    } else {
+      b++;
+    }
+  }
+  return count;
+}
+
+void dyd_cert_faces_cover(dyd_cert_faces *f, uint32_t i, uint32_t j) {
+  common(f, f->covered, i, j);
+}
+
+bool dyd_cert_faces_share(const dyd_cert_faces *f, uint32_t i, uint32_t j) {
+  return common(f, NULL, i, j) > 0;
+}
+
+uint64_t dyd_cert_faces_left(const dyd_cert_faces *f) {
+  uint64_t left = 0;
+  for (size_t k = 0; k < f->sets; k++) {
+    uint64_t m = f->start[k + 1] - f->start[k];
+    left += m * (m - 1) / 2 - f->covered[k];
+  }
+  return left;
+}

@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Exact distances, heights and turns of the sites of a certificate.
+ *
+ * ds clamps the centre to the rectangle, dl goes to the farther end on each axis; heights are u.x at a corner. */
+#include "checker/sites.h"
+#include <stddef.h>
+
+void dyd_fraction_init(dyd_fraction *f) {
+  dyd_exact_init(&f->num);
+  mpz_init(f->den);
+  f->whole = true;
+}
+
+void dyd_fraction_clear(dyd_fraction *f) {
+  dyd_exact_clear(&f->num);
+  mpz_clear(f->den);
+}
+
+void dyd_fraction_swap(dyd_fraction *a, dyd_fraction *b) {
+  dyd_fraction t = *a;
+  *a = *b;
+  *b = t;
+}
+
+int dyd_fraction_cmp(const dyd_fraction *a, const dyd_fraction *b) {
+  if (a->whole && b->whole) return dyd_exact_cmp(&a->num, &b->num);
+  dyd_exact x, y;
+  dyd_exact_init(&x);
+  dyd_exact_init(&y);
+  dyd_exact_set(&x, &a->num);
+  dyd_exact_set(&y, &b->num);
+  if (!b->whole) dyd_exact_mul_z(&x, &x, b->den);
+  if (!a->whole) dyd_exact_mul_z(&y, &y, a->den);
+  int sign = dyd_exact_cmp(&x, &y);
+  dyd_exact_clear(&x);
+  dyd_exact_clear(&y);
+  return sign;
+}
+
+void dyd_fraction_sub(dyd_fraction *out, const dyd_exact *a, mpz_srcptr da, const dyd_exact *b, mpz_srcptr db) {
+  out->whole = !da && !db;
+  if (out->whole) {
+    dyd_exact_sub(&out->num, a, b);
+    return;
+  }
+  dyd_exact t;
+  dyd_exact_init(&t);
+  dyd_exact_set(&t, b);
+  dyd_exact_set(&out->num, a);
+  mpz_set_ui(out->den, 1);
+  if (da) {
+    dyd_exact_mul_z(&t, &t, da);
+    mpz_mul(out->den, out->den, da);
+  }
+  if (db) {
+    dyd_exact_mul_z(&out->num, &out->num, db);
+    mpz_mul(out->den, out->den, db);
+  }
+  dyd_exact_sub(&out->num, &out->num, &t);
+  dyd_exact_clear(&t);
+}
+
+/* out may be a or b. */
+void dyd_fraction_mul(dyd_fraction *out, const dyd_fraction *a, const dyd_fraction *b) {
+  bool whole = a->whole && b->whole;
+  if (!whole) {
+    if (a->whole)
+      mpz_set(out->den, b->den);
+    else if (b->whole)
+      mpz_set(out->den, a->den);
+    else
+      mpz_mul(out->den, a->den, b->den);
+  }
+  dyd_exact_mul(&out->num, &a->num, &b->num);
+  out->whole = whole;
+}
+
+void dyd_fraction_add(dyd_fraction *out, const dyd_fraction *a, const dyd_fraction *b) {
+  if (a->whole && b->whole) {
+    dyd_exact_add(&out->num, &a->num, &b->num);
+    out->whole = true;
+    return;
+  }
+  dyd_exact x, y;
+  dyd_exact_init(&x);
+  dyd_exact_init(&y);
+  dyd_exact_set(&x, &a->num);
+  dyd_exact_set(&y, &b->num);
+  if (!b->whole) dyd_exact_mul_z(&x, &x, b->den);
+  if (!a->whole) dyd_exact_mul_z(&y, &y, a->den);
+  if (a->whole)
+    mpz_set(out->den, b->den);
+  else if (b->whole)
+    mpz_set(out->den, a->den);
+  else
+    mpz_mul(out->den, a->den, b->den);
+  dyd_exact_add(&out->num, &x, &y);
+  out->whole = false;
+  dyd_exact_clear(&x);
+  dyd_exact_clear(&y);
+}
+
+/* ---- distances ---- */
+
+/* d = c - the number the measure takes on this axis (of either sign). */
+static void axis_distance(dyd_fraction *d, const dyd_exact *c, const dyd_cert_site *s, int axis,
+                          dyd_cert_measure measure) {
+  const dyd_cert_side *side = &s->side[axis];
+  mpz_srcptr den = dyd_cert_den(side);
+  const dyd_exact *at = &side->lo;
+  if (measure == DYD_CERT_PLACE) {
+    at = dyd_cert_place(&den, s, axis);
+  } else if (!side->point && measure == DYD_CERT_NEAR) {
+    if (dyd_exact_cmp(c, &side->lo) > 0) at = dyd_exact_cmp(c, &side->hi) < 0 ? c : &side->hi;
+  } else if (!side->point) { /* the farther end: hi unless c - lo > hi - c */
+    dyd_exact twice, sum;
+    dyd_exact_init(&twice);
+    dyd_exact_init(&sum);
+    dyd_exact_add(&sum, &side->lo, &side->hi);
+    dyd_exact_add(&twice, c, c);
+    if (dyd_exact_cmp(&twice, &sum) <= 0) at = &side->hi;
+    dyd_exact_clear(&twice);
+    dyd_exact_clear(&sum);
+  }
+  dyd_fraction_sub(d, c, NULL, at, den);
+}
+
+void dyd_cert_distance2(dyd_fraction *out, const dyd_exact c[2], const dyd_cert_site *s, dyd_cert_measure measure) {
+  dyd_fraction d;
+  dyd_fraction_init(&d);
+  axis_distance(&d, &c[0], s, 0, measure);
+  dyd_fraction_mul(out, &d, &d);
+  axis_distance(&d, &c[1], s, 1, measure);
+  dyd_fraction_mul(&d, &d, &d);
+  dyd_fraction_add(out, out, &d);
+  dyd_fraction_clear(&d);
+}
+
+/* ---- places ---- */
+
+dyd_cert_spot dyd_cert_place_of(const dyd_cert_sites *s, uint32_t v) {
+  dyd_cert_spot spot;
+  for (int axis = 0; axis < 2; axis++) spot.v[axis] = dyd_cert_place(&spot.den[axis], &s->site[v], axis);
+  return spot;
+}
+
+dyd_cert_spot dyd_cert_spot_at(const dyd_exact v[2]) {
+  return (dyd_cert_spot){{&v[0], &v[1]}, {NULL, NULL}};
+}
+
+static void difference(dyd_fraction *out, const dyd_cert_spot *a, const dyd_cert_spot *b, int axis) {
+  dyd_fraction_sub(out, b->v[axis], b->den[axis], a->v[axis], a->den[axis]);
+}
+
+int dyd_cert_cross(dyd_cert_spot a, dyd_cert_spot b, dyd_cert_spot c, dyd_cert_spot d) {
+  dyd_fraction t[4];
+  for (int k = 0; k < 4; k++) dyd_fraction_init(&t[k]);
+  difference(&t[0], &a, &b, 0);
+  difference(&t[1], &c, &d, 1);
+  difference(&t[2], &a, &b, 1);
+  difference(&t[3], &c, &d, 0);
+  dyd_fraction_mul(&t[0], &t[0], &t[1]);
+  dyd_fraction_mul(&t[2], &t[2], &t[3]);
+  int sign = dyd_fraction_cmp(&t[0], &t[2]);
+  for (int k = 0; k < 4; k++) dyd_fraction_clear(&t[k]);
+  return sign;
+}
+
+/* Grid coordinates of a place, rounded down; false when they are not at hand. */
+static bool grid_place(int64_t out[2], const dyd_cert_sites *s, uint32_t v) {
+  if (!s->box || s->site[v].place) return false;
+  out[0] = s->box[v].e[0];
+  out[1] = s->box[v].e[2];
+  return true;
+}
+
+static int64_t size(int64_t d) {
+  return d < 0 ? -d : d;
+}
+
+/* Grid differences x, y, z, t are below 2^31 and within 1 of the true ones, so xt - yz is within |x| + |y| + |z| + |t|
+ * + 2 of the true determinant. 0: not known. */
+static int turn_on_grid(const dyd_cert_sites *s, uint32_t a, uint32_t b, uint32_t c) {
+  int64_t p[3][2];
+  if (!grid_place(p[0], s, a) || !grid_place(p[1], s, b) || !grid_place(p[2], s, c)) return 0;
+  int64_t x = p[1][0] - p[0][0], y = p[1][1] - p[0][1], z = p[2][0] - p[0][0], t = p[2][1] - p[0][1];
+  int64_t det = x * t - y * z, error = size(x) + size(y) + size(z) + size(t) + 2;
+  return det > error ? 1 : det < -error ? -1 : 0;
+}
+
+int dyd_cert_turn(const dyd_cert_sites *s, uint32_t a, uint32_t b, uint32_t c) {
+  int quick = turn_on_grid(s, a, b, c);
+  if (quick) return quick;
+  dyd_cert_spot at = dyd_cert_place_of(s, a);
+  return dyd_cert_cross(at, dyd_cert_place_of(s, b), at, dyd_cert_place_of(s, c));
+}
+
+int dyd_cert_compare_places(const dyd_cert_sites *s, uint32_t a, uint32_t b) {
+  int64_t p[2], q[2];
+  if (grid_place(p, s, a) && grid_place(q, s, b) && p[0] != q[0]) return p[0] < q[0] ? -1 : 1;
+  dyd_cert_spot at[2] = {dyd_cert_place_of(s, a), dyd_cert_place_of(s, b)};
+  dyd_fraction d;
+  dyd_fraction_init(&d);
+  int sign = 0;
+  for (int axis = 0; axis < 2 && sign == 0; axis++) {
+    difference(&d, &at[1], &at[0], axis);
+    sign = dyd_exact_sgn(&d.num);
+  }
+  dyd_fraction_clear(&d);
+  return sign;
+}
+
+/* ---- heights ---- */
+
+/* out = max (upper) or min of u.x over the rectangle. */
+static void height(dyd_fraction *out, const dyd_exact u[2], const dyd_cert_site *s, bool upper) {
+  dyd_fraction t;
+  dyd_exact zero;
+  dyd_fraction_init(&t);
+  dyd_exact_init(&zero);
+  for (int axis = 0; axis < 2; axis++) {
+    const dyd_cert_side *side = &s->side[axis];
+    bool high = (dyd_exact_sgn(&u[axis]) > 0) == upper;
+    dyd_fraction_sub(&t, high ? dyd_cert_high(side) : &side->lo, dyd_cert_den(side), &zero, NULL);
+    dyd_exact_mul(&t.num, &t.num, &u[axis]);
+    if (axis == 0)
+      dyd_fraction_swap(out, &t);
+    else
+      dyd_fraction_add(out, out, &t);
+  }
+  dyd_fraction_clear(&t);
+  dyd_exact_clear(&zero);
+}
+
+int dyd_cert_compare_heights(const dyd_cert_sites *s, const dyd_exact u[2], uint32_t a, uint32_t b) {
+  dyd_fraction x, y;
+  dyd_fraction_init(&x);
+  dyd_fraction_init(&y);
+  height(&x, u, &s->site[a], true);
+  height(&y, u, &s->site[b], false);
+  int sign = dyd_fraction_cmp(&x, &y);
+  dyd_fraction_clear(&x);
+  dyd_fraction_clear(&y);
+  return sign;
+}

@@ -1,0 +1,110 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The unbounded face cut into parts at sure corners of the hull. */
+#include "checker/parts.h"
+#include "base/alloc.h"
+
+#include <string.h>
+
+static int compare_index(const void *a, const void *b) {
+  uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+  return (x > y) - (x < y);
+}
+
+size_t dyd_cert_distinct(uint32_t *item, size_t count) {
+  size_t kept = 0;
+  if (count) qsort(item, count, sizeof *item, compare_index);
+  for (size_t q = 0; q < count; q++)
+    if (kept == 0 || item[kept - 1] != item[q]) item[kept++] = item[q];
+  return kept;
+}
+
+static uint32_t find_root(uint32_t *parent, uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+/* What is borrowed while parts are made; at: half-edge -> its position in the walk, DYD_CERT_NONE: not there. */
+typedef struct maker {
+  const dyd_cert_graph *g;
+  const uint32_t *walk;
+  size_t count, first;
+  const bool *corner;
+  uint32_t *parent, *at, *number;
+} maker;
+
+static uint32_t site_at(const maker *m, size_t q) {
+  return dyd_cert_origin(m->g, m->walk[q % m->count]);
+}
+
+/* group[q] = the number of the part that begins at the last corner at or before q; then parts with a bridge in common
+ * are united, and groups are numbered. */
+static void number_groups(dyd_cert_parts *p, maker *m) {
+  uint32_t part = 0;
+  for (m->first = 0; m->first < m->count && !m->corner[site_at(m, m->first)];) m->first++;
+  for (size_t k = 0; k < m->count; k++) {
+    size_t q = (m->first + k) % m->count;
+    if (k && m->corner[site_at(m, q)]) part++;
+    p->group[q] = part;
+    m->parent[part] = part;
+    m->at[m->walk[q]] = (uint32_t)q;
+  }
+  for (size_t q = 0; q < m->count; q++) {
+    uint32_t h = m->walk[q], twin = m->at[h ^ 1];
+    if (h / 2 >= m->g->legal->count && twin != DYD_CERT_NONE)
+      m->parent[find_root(m->parent, p->group[q])] = find_root(m->parent, p->group[twin]);
+  }
+  for (uint32_t k = 0; k <= part; k++)
+    if (find_root(m->parent, k) == k) m->number[k] = (uint32_t)p->groups++;
+  for (size_t q = 0; q < m->count; q++) p->group[q] = m->number[find_root(m->parent, p->group[q])];
+}
+
+/* A position's site is a site of its group; a corner also of the group before. */
+static void gather_sites(dyd_cert_parts *p, const maker *m) {
+  for (size_t q = 0; q < m->count; q++)
+    for (int end = 0; end < 2; end++)
+      if (!end || m->corner[site_at(m, q + 1)]) p->start[p->group[q] + 1]++;
+  for (size_t r = 0; r < p->groups; r++) p->start[r + 1] += p->start[r];
+  for (size_t q = 0; q < m->count; q++)
+    for (int end = 0; end < 2; end++)
+      if (!end || m->corner[site_at(m, q + 1)]) p->site[p->start[p->group[q]]++] = site_at(m, q + (size_t)end);
+  size_t from = 0, kept = 0;
+  for (size_t r = 0; r < p->groups; r++) {
+    size_t count = p->start[r] - from;
+    memmove(p->site + kept, p->site + from, count * sizeof *p->site);
+    from = p->start[r];
+    p->start[r] = kept;
+    kept += dyd_cert_distinct(p->site + kept, count);
+  }
+  p->start[p->groups] = kept;
+}
+
+dyd_status dyd_cert_parts_init(dyd_cert_parts *p, const dyd_cert_graph *g, const uint32_t *walk, size_t count,
+                               const bool *corner) {
+  maker m = {.g = g, .walk = walk, .count = count, .corner = corner};
+  *p = (dyd_cert_parts){0};
+  p->group = dyd_alloc(count, sizeof *p->group);
+  p->site = dyd_alloc(2 * count, sizeof *p->site);
+  p->start = calloc(count + 1, sizeof *p->start);
+  m.parent = dyd_alloc(count, sizeof *m.parent);
+  m.number = dyd_alloc(count, sizeof *m.number);
+  m.at = dyd_alloc(2 * g->count, sizeof *m.at);
+  bool good = p->group && p->site && p->start && m.parent && m.number && m.at;
+  if (good) {
+    for (size_t h = 0; h < 2 * g->count; h++) m.at[h] = DYD_CERT_NONE;
+    number_groups(p, &m);
+    gather_sites(p, &m);
+  } else {
+    dyd_cert_parts_clear(p);
+  }
+  free(m.parent);
+  free(m.number);
+  free(m.at);
+  return good ? DYD_OK : DYD_E_NOMEM;
+}
+
+void dyd_cert_parts_clear(dyd_cert_parts *p) {
+  free(p->group);
+  free(p->site);
+  free(p->start);
+  *p = (dyd_cert_parts){0};
+}

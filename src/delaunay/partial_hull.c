@@ -1,0 +1,298 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The partial convex hull of the sites.
+ *
+ * A vertex is possible iff some choice puts it on the boundary of the hull, a pair iff for some choice all points lie
+ * on one closed side of a line through both [HST-1]. A vertex is sure iff it is a corner of the hull for every choice:
+ * the certain edges to the ghost say so [HUL-2]. A pair is legal iff for every choice all others are strictly on one
+ * side of the line through both: iff it is an edge of the hull of the representatives, the rectangles do not meet, and
+ * it is surely oriented with every common neighbour among the possible pairs [HST-2].
+ *
+ * Who is possible on the hull is on the hull of the representatives or in an unbounded undecided face [CLO-1]. */
+#include "delaunay/partial_hull.h"
+
+#include "base/alloc.h"
+#include "delaunay/build.h"
+#include "delaunay/faces.h"
+
+#include <string.h>
+
+typedef struct hull {
+  const dyd_delaunay *pd;
+  dyd_extreme *x; /* by vertex, ascending */
+  size_t count, made;
+  dyd_hull_pairs pairs; /* of indices of x, sorted */
+  size_t *start;        /* neighbours of k: next[start[k] .. start[k + 1]), ascending */
+  uint32_t *next;
+} hull;
+
+void dyd_hull_clear(dyd_hull *h) {
+  dyd_index_list_clear(&h->sure_vertices);
+  dyd_index_list_clear(&h->possible_vertices);
+  dyd_pair_list_clear(&h->pairs);
+}
+
+static void hull_clear(hull *h) {
+  for (size_t k = 0; k < h->made; k++)
+    for (int n = 0; n < 4; n++) mpq_clear(h->x[k].e[n]);
+  free(h->x);
+  free(h->pairs.item);
+  free(h->start);
+  free(h->next);
+}
+
+/* ---- candidates ---- */
+
+static dyd_status append(uint32_t **list, size_t *count, size_t *cap, const dyd_delaunay *pd, const dyd_index_list *l) {
+  if (!dyd_reserve((void **)list, cap, *count + l->count, sizeof **list)) return DYD_E_NOMEM;
+  for (size_t k = 0; k < l->count; k++) (*list)[(*count)++] = pd->vertex[l->item[k]];
+  return DYD_OK;
+}
+
+/* Vertices on the skeleton's hull and in unbounded faces; all vertices where there are no triangles. */
+static dyd_status gather(uint32_t **list, size_t *count, const dyd_delaunay *pd) {
+  dyd_index_list some = {0};
+  size_t cap = 0;
+  dyd_status st = DYD_OK;
+  if (pd->mesh.collinear) {
+    if (!dyd_reserve((void **)list, &cap, pd->n, sizeof **list)) return DYD_E_NOMEM;
+    for (uint32_t v = 0; v < pd->n; v++)
+      if (pd->vertex[pd->reps.site[v]] == v) (*list)[(*count)++] = v;
+    return DYD_OK;
+  }
+  st = dyd_delaunay_hull(&some, pd);
+  if (st == DYD_OK) st = append(list, count, &cap, pd, &some);
+  for (size_t f = 0; f < pd->faces.count && st == DYD_OK; f++) {
+    bool outer;
+    if (!dyd_face_is_outer(pd, f)) continue;
+    st = dyd_delaunay_face(&some, &outer, pd, f);
+    if (st == DYD_OK) st = append(list, count, &cap, pd, &some);
+  }
+  dyd_index_list_clear(&some);
+  return st;
+}
+
+static dyd_status load(hull *h) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < h->count && st == DYD_OK; k++) {
+    dyd_extreme *x = &h->x[h->made++];
+    for (int n = 0; n < 4; n++) mpq_init(x->e[n]);
+    st = dyd_sites_get(&r, h->pd->sites, h->pd->reps.site[x->vertex]);
+    dyd_interval_get_q(x->e[0], x->e[1], &r.x);
+    dyd_interval_get_q(x->e[2], x->e[3], &r.y);
+    dyd_extreme_enclose(x);
+  }
+  dyd_rect_clear(&r);
+  return st;
+}
+
+static dyd_status find_candidates(hull *h) {
+  uint32_t *list = NULL;
+  size_t count = 0;
+  dyd_status st = gather(&list, &count, h->pd);
+  if (st == DYD_OK && count) qsort(list, count, sizeof *list, dyd_compare_index);
+  h->x = st == DYD_OK ? dyd_alloc(count, sizeof *h->x) : NULL;
+  for (size_t k = 0; h->x && k < count; k++) {
+    if (k && list[k] == list[k - 1]) continue;
+    h->x[h->count].possible = false;
+    h->x[h->count++].vertex = list[k];
+  }
+  free(list);
+  if (st == DYD_OK && !h->x) st = DYD_E_NOMEM;
+  return st == DYD_OK ? load(h) : st;
+}
+
+/* ---- possible ---- */
+
+/* Mirrors all in the axis. */
+static void mirror(hull *h, int axis) {
+  for (size_t k = 0; k < h->count; k++) {
+    dyd_extreme *x = &h->x[k];
+    mpq_swap(x->e[2 * axis], x->e[2 * axis + 1]);
+    dyd_iv t = x->d[2 * axis];
+    x->d[2 * axis] = dyd_iv_neg(x->d[2 * axis + 1]);
+    x->d[2 * axis + 1] = dyd_iv_neg(t);
+    for (int n = 0; n < 2; n++) mpq_neg(x->e[2 * axis + n], x->e[2 * axis + n]);
+  }
+}
+
+static void sort_pairs(dyd_hull_pairs *p) {
+  size_t kept = 0;
+  if (p->count) qsort(p->item, p->count, sizeof *p->item, dyd_compare_vertex_pair);
+  for (size_t k = 0; k < p->count; k++)
+    if (k == 0 || dyd_compare_vertex_pair(&p->item[kept - 1], &p->item[k])) p->item[kept++] = p->item[k];
+  p->count = kept;
+}
+
+/* The four quadrants of directions; the last mirror image is the original. */
+static dyd_status find_possible(hull *h) {
+  dyd_status st = DYD_OK;
+  for (int quadrant = 0; quadrant < 4 && st == DYD_OK; quadrant++) {
+    st = dyd_hull_quadrant(&h->pairs, h->x, h->count);
+    sort_pairs(&h->pairs);
+    mirror(h, quadrant & 1);
+  }
+  return st;
+}
+
+/* The pairs of each, ascending. */
+static dyd_status find_neighbours(hull *h) {
+  h->start = calloc(h->count + 2, sizeof *h->start);
+  h->next = dyd_alloc(2 * h->pairs.count, sizeof *h->next);
+  if (!h->start || !h->next) return DYD_E_NOMEM;
+  for (size_t k = 0; k < h->pairs.count; k++) {
+    h->start[h->pairs.item[k].i + 2]++;
+    h->start[h->pairs.item[k].j + 2]++;
+  }
+  for (size_t k = 2; k < h->count + 2; k++) h->start[k] += h->start[k - 1];
+  for (int lower = 1; lower >= 0; lower--) /* first the neighbours below k, then those above */
+    for (size_t k = 0; k < h->pairs.count; k++) {
+      uint32_t i = h->pairs.item[k].i, j = h->pairs.item[k].j;
+      h->next[h->start[(lower ? j : i) + 1]++] = lower ? i : j;
+    }
+  return DYD_OK;
+}
+
+/* ---- sure ---- */
+
+/* Is a surely before b on their common line: by x, on a vertical line by y? */
+static bool is_below(const dyd_extreme *a, const dyd_extreme *b) {
+  int order = dyd_hull_compare(0, (dyd_hull_corner){a, 1}, (dyd_hull_corner){b, 0});
+  if (order) return order < 0;
+  return dyd_hull_compare(1, (dyd_hull_corner){a, 1}, (dyd_hull_corner){b, 0}) < 0;
+}
+
+static bool rects_meet(const dyd_extreme *a, const dyd_extreme *b) {
+  for (int n = 0; n < 4; n += 2)
+    if (mpq_cmp(a->e[n + 1], b->e[n]) < 0 || mpq_cmp(b->e[n + 1], a->e[n]) < 0) return false;
+  return true;
+}
+
+/* Sites on a line: a corner is surely before, or surely behind all others. Two sites need not be on a line. */
+static bool is_sure_on_line(const hull *h, size_t k) {
+  if (h->count == 2) return !rects_meet(&h->x[0], &h->x[1]);
+  bool first = true, last = true;
+  for (size_t q = 0; q < h->count && (first || last); q++) {
+    if (q == k) continue;
+    first = first && is_below(&h->x[k], &h->x[q]);
+    last = last && is_below(&h->x[q], &h->x[k]);
+  }
+  return first || last;
+}
+
+static bool is_sure(const hull *h, size_t k) {
+  const dyd_delaunay *pd = h->pd;
+  if (pd->mesh.collinear) return is_sure_on_line(h, k);
+  uint32_t edge = dyd_find_edge(pd, h->x[k].vertex, pd->n);
+  return edge != DYD_NONE && dyd_edge_is_certain(pd, edge >> 2, dyd_prev(edge & 3));
+}
+
+/* Is ij an edge of the hull of the representatives, in either direction? */
+static bool is_skeleton_edge(const dyd_delaunay *pd, uint32_t v, uint32_t w) {
+  for (int k = 0; k < 2; k++) {
+    uint32_t h = k ? dyd_find_edge(pd, w, v) : dyd_find_edge(pd, v, w);
+    if (h != DYD_NONE && dyd_mesh_is_ghost(&pd->mesh, h >> 2)) return true;
+  }
+  return false;
+}
+
+static dyd_sure orientation(const hull *h, size_t i, size_t j, size_t k, dyd_rect r[3], dyd_status *st) {
+  const size_t at[3] = {i, j, k};
+  for (int n = 0; n < 3 && *st == DYD_OK; n++)
+    *st = dyd_sites_get(&r[n], h->pd->sites, h->pd->reps.site[h->x[at[n]].vertex]);
+  return *st == DYD_OK ? dyd_orientation(&r[0], &r[1], &r[2]) : DYD_UNSURE;
+}
+
+/* The status of pair p: legal when `edge` and no common neighbour is unsure; a tie when i, j and all unsure ones are
+ * exact points. r: scratch. */
+static dyd_status decide(dyd_pair_status *out, const hull *h, dyd_vertex_pair p, bool edge, dyd_rect r[3]) {
+  const dyd_delaunay *pd = h->pd;
+  bool legal = edge, tie = dyd_vertex_is_point(pd, h->x[p.i].vertex) && dyd_vertex_is_point(pd, h->x[p.j].vertex);
+  bool settled = pd->all_points && !edge; /* a tie */
+  dyd_status st = DYD_OK;
+  const uint32_t *a = h->next + h->start[p.i], *a_end = h->next + h->start[p.i + 1];
+  const uint32_t *b = h->next + h->start[p.j], *b_end = h->next + h->start[p.j + 1];
+  while (!settled && a < a_end && b < b_end && (legal || tie) && st == DYD_OK) {
+    if (*a != *b) {
+      if (*a < *b)
+        a++;
+      else
+        b++;
+      continue;
+    }
+    bool point = dyd_vertex_is_point(pd, h->x[*a].vertex);
+    if ((legal || !point) && orientation(h, p.i, p.j, *a, r, &st) == DYD_UNSURE) {
+      legal = false;
+      tie = tie && point;
+    }
+    a++, b++;
+  }
+  *out = legal ? DYD_LEGAL : tie ? DYD_TIE : DYD_INDETERMINATE;
+  return st;
+}
+
+static dyd_status decide_pairs(dyd_pair_list *out, const hull *h) {
+  const dyd_delaunay *pd = h->pd;
+  dyd_rect r[3];
+  dyd_status st = DYD_OK;
+  out->item = dyd_alloc(h->pairs.count, sizeof *out->item);
+  if (!out->item) return DYD_E_NOMEM;
+  for (int n = 0; n < 3; n++) dyd_rect_init(&r[n]);
+  for (size_t k = 0; k < h->pairs.count && st == DYD_OK; k++) {
+    dyd_vertex_pair p = h->pairs.item[k];
+    uint32_t v = h->x[p.i].vertex, w = h->x[p.j].vertex, i = pd->reps.site[v], j = pd->reps.site[w];
+    bool edge =
+        (pd->mesh.collinear ? h->count == 2 : is_skeleton_edge(pd, v, w)) && !rects_meet(&h->x[p.i], &h->x[p.j]);
+    dyd_pair *to = &out->item[out->count++];
+    *to = (dyd_pair){i < j ? i : j, i < j ? j : i, DYD_INDETERMINATE};
+    st = decide(&to->status, h, p, edge, r);
+  }
+  for (int n = 3; n-- > 0;) dyd_rect_clear(&r[n]);
+  return st;
+}
+
+/* ---- the result ---- */
+
+static int compare_pairs(const void *a, const void *b) {
+  const dyd_pair *x = a, *y = b;
+  if (x->i != y->i) return x->i < y->i ? -1 : 1;
+  return (x->j > y->j) - (x->j < y->j);
+}
+
+static dyd_status list_vertices(dyd_index_list *out, const hull *h, bool sure) {
+  out->item = dyd_alloc(h->count, sizeof *out->item);
+  if (!out->item) return DYD_E_NOMEM;
+  for (size_t k = 0; k < h->count; k++)
+    if (sure ? is_sure(h, k) : h->x[k].possible) out->item[out->count++] = h->pd->reps.site[h->x[k].vertex];
+  if (out->count) qsort(out->item, out->count, sizeof *out->item, dyd_compare_index);
+  return DYD_OK;
+}
+
+static dyd_status fill(dyd_hull *out, hull *h) {
+  dyd_status st = find_candidates(h);
+  if (st == DYD_OK) st = find_possible(h);
+  if (st == DYD_OK) st = list_vertices(&out->sure_vertices, h, true);
+  if (st == DYD_OK) st = list_vertices(&out->possible_vertices, h, false);
+  if (st != DYD_OK) return st;
+  if (h->pairs.capped) return DYD_CAPPED;
+  st = find_neighbours(h);
+  if (st == DYD_OK) st = decide_pairs(&out->pairs, h);
+  if (st == DYD_OK && out->pairs.count)
+    qsort(out->pairs.item, out->pairs.count, sizeof *out->pairs.item, compare_pairs);
+  return st;
+}
+
+dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd) {
+  hull h = {.pd = pd, .pairs = {.most = pd->max_pairs}};
+  dyd_hull found = {0};
+  dyd_status st = fill(&found, &h);
+  hull_clear(&h);
+  if (st < 0) {
+    dyd_hull_clear(&found);
+    return st;
+  }
+  dyd_hull_clear(out);
+  *out = found;
+  return st;
+}

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The partial convex hull: directions in which a site can be extreme, quadrant by quadrant. */
+#ifndef DYD_DELAUNAY_PARTIAL_HULL_H
+#define DYD_DELAUNAY_PARTIAL_HULL_H
+
+#include "delaunay/state.h"
+#include "predicate/interval_filter.h"
+#include <dyadel/voronoi.h>
+
+/* A vertex that may be on the hull: its rectangle x0 x1 y0 y1 mirrored so that the directions looked at are u >= 0,
+ * exactly and in doubles. */
+typedef struct dyd_extreme {
+  uint32_t vertex;
+  bool possible;
+  mpq_t e[4];
+  dyd_iv d[4];
+} dyd_extreme;
+
+/* A corner of an extreme's rectangle: the lower left (upper = 0) or the upper right one (upper = 1). */
+typedef struct dyd_hull_corner {
+  const dyd_extreme *of;
+  int upper;
+} dyd_hull_corner;
+
+/* ---- partial_hull_filter.c ---- */
+
+/* Sign of the cross product of the vectors a -> b and c -> d. Exact. */
+int dyd_hull_cross(dyd_hull_corner a, dyd_hull_corner b, dyd_hull_corner c, dyd_hull_corner d);
+/* Compares coordinates; axis 0 is x. Exact. */
+int dyd_hull_compare(int axis, dyd_hull_corner a, dyd_hull_corner b);
+void dyd_extreme_enclose(dyd_extreme *x);
+
+/* ---- partial_hull_chain.c ---- */
+
+/* Pairs of indices of extremes, i < j. */
+typedef struct dyd_hull_pairs {
+  dyd_vertex_pair *item;
+  size_t count, cap, most;
+  bool capped; /* there are more than `most` */
+} dyd_hull_pairs;
+
+/* For the directions u >= 0: marks the extremes that are possible on the hull, and appends the pairs that are possible
+ * edges, some of them possibly twice [HST-1]. */
+dyd_status dyd_hull_quadrant(dyd_hull_pairs *pairs, dyd_extreme *x, size_t count);
+
+#endif

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* One coordinate of the input: text to an exact number, a fixed interval or a computable real. */
+#ifndef DYD_IO_READ_COORDINATE_H
+#define DYD_IO_READ_COORDINATE_H
+
+#include "io/read/plain.h"
+#include "io/read/text.h"
+#include <dyadel/stream.h>
+
+/* How coordinates are to be understood. Owned by the reader of the file. */
+typedef struct dyd_manner {
+  bool measured; /* decimals are rounded measurements */
+  bool widen;    /* radius > 0 */
+  mpq_t radius;
+  double radius_up; /* the smallest double >= radius */
+} dyd_manner;
+
+typedef enum dyd_coordinate_kind {
+  DYD_COORDINATE_DOUBLE, /* the exact number lo = hi; plain holds it too */
+  DYD_COORDINATE_BINARY, /* the exact number lo = hi; plain means nothing */
+  DYD_COORDINATE_PLAIN,  /* the exact number plain, not a double */
+  DYD_COORDINATE_BOX,    /* the fixed interval [lo,hi] */
+  DYD_COORDINATE_REAL    /* real, one reference */
+} dyd_coordinate_kind;
+
+typedef struct dyd_coordinate {
+  dyd_coordinate_kind kind;
+  dyd_plain plain;
+  double lo, hi;
+  dyd_real *real;
+} dyd_coordinate;
+
+/* Reads one coordinate. Failures of the real later on (in refinement) tell its line and column too.
+ * On success a real in *out belongs to the caller. */
+dyd_status dyd_coordinate_read(dyd_coordinate *out, const dyd_span *span, const dyd_manner *manner, dyd_error *err);
+void dyd_coordinate_clear(dyd_coordinate *c);
+/* Turns any kind into DYD_COORDINATE_REAL. */
+dyd_status dyd_coordinate_make_real(dyd_coordinate *c);
+
+#endif

@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* CSV with a header (RFC 4180): fields may be quoted, quoted fields may hold commas, line ends and doubled quotes.
+ *
+ * In a well-formed file quotes come in pairs, so a record ends at the first line end before which their number is
+ * even. */
+#include "base/alloc.h"
+#include "base/error.h"
+#include "io/read/source.h"
+#include <string.h>
+
+void dyd_csv_clear(dyd_csv *csv) {
+  for (int k = 0; k < 2; k++) free(csv->name[k]);
+  free(csv->record);
+  free(csv->plain);
+  free(csv->field);
+  *csv = (dyd_csv){0};
+}
+
+/* ---- records ---- */
+
+static bool odd_quotes(const char *text, size_t length) {
+  bool odd = false;
+  for (const char *end = text + length; (text = memchr(text, '"', (size_t)(end - text))); text++) odd = !odd;
+  return odd;
+}
+
+static dyd_status append(dyd_csv *csv, size_t *length, const dyd_line *line, dyd_error *err) {
+  if (*length + line->length > DYD_TEXT_LINE_MAX) {
+    dyd_span span = {line->text, 0, line->text, line->text, line->number};
+    return dyd_span_fail(err, &span, 0, "a quoted field goes on for more than 1048576 bytes; close its quote");
+  }
+  if (!dyd_reserve((void **)&csv->record, &csv->record_cap, *length + line->length + 1, 1)) return dyd_fail_nomem(err);
+  if (*length) csv->record[(*length)++] = '\n';
+  memcpy(csv->record + *length, line->text, line->length);
+  *length += line->length;
+  return DYD_OK;
+}
+
+/* Appends lines until the quotes pair up. */
+static dyd_status join_lines(dyd_line *out, dyd_csv *csv, dyd_error *err) {
+  size_t length = 0, first = out->number;
+  dyd_status status = append(csv, &length, out, err);
+  for (bool odd = true; odd && status >= 0;) {
+    status = dyd_text_next(out, csv->text, err);
+    if (status < 0) break;
+    if (!out->text) {
+      dyd_span span = {csv->record, 0, csv->record, csv->record, first};
+      return dyd_span_fail(err, &span, (size_t)((char *)memchr(csv->record, '"', length) - csv->record),
+                           "the quotes of this record do not pair up; close the quoted field");
+    }
+    odd = !odd_quotes(out->text, out->length);
+    status = append(csv, &length, out, err);
+  }
+  *out = (dyd_line){csv->record, length, first};
+  return status;
+}
+
+/* The next record that is not an empty line; text = NULL at the end. */
+static dyd_status next_record(dyd_line *out, dyd_csv *csv, dyd_error *err) {
+  dyd_status status;
+  do status = dyd_text_next(out, csv->text, err);
+  while (status >= 0 && out->text && out->length == 0);
+  if (status < 0 || !out->text || !odd_quotes(out->text, out->length)) return status;
+  return join_lines(out, csv, err);
+}
+
+/* ---- fields ---- */
+
+/* Unquotes the field whose opening quote is at *at; *at is moved behind the closing one. */
+static dyd_status take_quoted(dyd_span *field, const char **at, const char *end, dyd_csv *csv, dyd_error *err) {
+  const char *p = *at + 1;
+  field->at = p;
+  field->text = csv->plain + csv->used;
+  for (; p < end; p++) {
+    if (*p == '"' && !(p + 1 < end && p[1] == '"')) break;
+    if (*p == '"') p++;
+    csv->plain[csv->used++] = *p;
+    field->length++;
+  }
+  if (p == end) return dyd_span_fail(err, field, 0, "this quoted field is not closed; add a quote");
+  *at = p + 1;
+  if (*at == end || **at == ',') return DYD_OK;
+  return dyd_span_fail(err, field, (size_t)(*at - field->at),
+                       "text behind a closing quote; double the quotes inside a quoted field");
+}
+
+static dyd_status take_field(dyd_span *field, const char **at, const char *end, dyd_csv *csv, dyd_error *err) {
+  field->text = field->at = *at;
+  if (*at < end && **at == '"') return take_quoted(field, at, end, csv, err);
+  const char *stop = memchr(*at, ',', (size_t)(end - *at));
+  if (!stop) stop = end;
+  field->length = (size_t)(stop - *at);
+  const char *quote = memchr(*at, '"', field->length);
+  *at = stop;
+  if (!quote) return DYD_OK;
+  return dyd_span_fail(err, field, (size_t)(quote - field->at),
+                       "a quote inside a field that is not quoted; quote the whole field and double its quotes");
+}
+
+/* Splits a record into csv->field. */
+static dyd_status split(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
+  const char *at = line->text, *end = line->text + line->length;
+  csv->used = csv->fields = 0;
+  if (!dyd_reserve((void **)&csv->plain, &csv->plain_cap, line->length, 1)) return dyd_fail_nomem(err);
+  for (;;) {
+    if (!dyd_reserve((void **)&csv->field, &csv->field_cap, csv->fields + 1, sizeof *csv->field))
+      return dyd_fail_nomem(err);
+    dyd_span *field = &csv->field[csv->fields++];
+    *field = (dyd_span){.origin = line->text, .line = line->number};
+    dyd_status status = take_field(field, &at, end, csv, err);
+    if (status < 0 || at == end) return status;
+    at++;
+  }
+}
+
+static void trim(dyd_span *s) {
+  while (s->length && (*s->text == ' ' || *s->text == '\t')) s->text++, s->at++, s->length--;
+  while (s->length && (s->text[s->length - 1] == ' ' || s->text[s->length - 1] == '\t')) s->length--;
+}
+
+/* ---- header ---- */
+
+static bool is_named(const dyd_span *field, const char *name) {
+  return field->length == strlen(name) && memcmp(field->text, name, field->length) == 0;
+}
+
+static char *copy_span(const dyd_span *s) {
+  char *copy = dyd_alloc(s->length + 1, 1);
+  if (!copy) return NULL;
+  memcpy(copy, s->text, s->length);
+  copy[s->length] = 0;
+  return copy;
+}
+
+static dyd_status read_names(dyd_csv *csv, const char *columns, dyd_error *err) {
+  dyd_line line = {columns, strlen(columns), 0};
+  if (odd_quotes(columns, line.length) || split(csv, &line, NULL) < 0 || csv->fields != 2)
+    return dyd_fail(err, DYD_E_ARG, "\"%.100s\" is not two column names; give NAME,NAME", columns);
+  for (int k = 0; k < 2; k++) {
+    trim(&csv->field[k]);
+    if (!(csv->name[k] = copy_span(&csv->field[k]))) return dyd_fail_nomem(err);
+  }
+  return DYD_OK;
+}
+
+/* The names of the header, as many as fit. */
+static void list_names(char *out, size_t size, const dyd_csv *csv) {
+  size_t used = 0;
+  for (size_t k = 0; k < csv->fields; k++) {
+    const dyd_span *f = &csv->field[k];
+    if (used + f->length + 8 > size) {
+      snprintf(out + used, size - used, ", ...");
+      return;
+    }
+    used += (size_t)snprintf(out + used, size - used, "%s%.*s", k ? ", " : "", (int)f->length, f->text);
+  }
+}
+
+static dyd_status find_column(dyd_csv *csv, int which, dyd_error *err) {
+  size_t found = 0, second = 0;
+  for (size_t k = 0; k < csv->fields; k++) {
+    if (!is_named(&csv->field[k], csv->name[which])) continue;
+    if (!found++)
+      csv->column[which] = k;
+    else
+      second = k;
+  }
+  if (found == 1) return DYD_OK;
+  char names[240];
+  list_names(names, sizeof names, csv);
+  if (err) dyd_span_position(&err->line, &err->column, &csv->field[second], 0);
+  if (found == 0)
+    return dyd_fail(err, DYD_E_PARSE, "no column is called \"%.60s\"; the header's names are: %s", csv->name[which],
+                    names);
+  return dyd_fail(err, DYD_E_PARSE, "%zu columns are called \"%.60s\"; rename them in the header, whose names are: %s",
+                  found, csv->name[which], names);
+}
+
+dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const char *columns, dyd_error *err) {
+  *csv = (dyd_csv){.text = text};
+  dyd_line line;
+  dyd_status status = read_names(csv, columns, err);
+  if (status >= 0) status = next_record(&line, csv, err);
+  if (status < 0) return status;
+  if (!line.text) {
+    if (err) err->line = err->column = 1;
+    return dyd_fail(err, DYD_E_PARSE, "the file has no header; its first line must name the columns");
+  }
+  status = split(csv, &line, err);
+  for (size_t k = 0; k < csv->fields && status >= 0; k++) trim(&csv->field[k]);
+  for (int k = 0; k < 2 && status >= 0; k++) status = find_column(csv, k, err);
+  csv->columns = csv->fields;
+  return status;
+}
+
+dyd_status dyd_csv_next(dyd_span coordinate[2], size_t *count, dyd_csv *csv, dyd_error *err) {
+  dyd_line line;
+  *count = 0;
+  dyd_status status = next_record(&line, csv, err);
+  if (status < 0 || !line.text) return status;
+  status = split(csv, &line, err);
+  if (status < 0) return status;
+  if (csv->fields != csv->columns) {
+    if (err) dyd_span_position(&err->line, &err->column, &csv->field[0], 0);
+    return dyd_fail(err, DYD_E_PARSE, "this record has %zu fields, the header %zu; quote fields that hold commas",
+                    csv->fields, csv->columns);
+  }
+  for (int k = 0; k < 2; k++) {
+    coordinate[k] = csv->field[csv->column[k]];
+    trim(&coordinate[k]);
+    if (!coordinate[k].length)
+      return dyd_span_fail(err, &coordinate[k], 0, "the coordinate is empty; remove the record or fill it in");
+  }
+  *count = 2;
+  return DYD_OK;
+}

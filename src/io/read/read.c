@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Reads points from a file into an engine, in one pass over the text. */
+#include "base/error.h"
+#include "io/read/source.h"
+#include "io/read/stage.h"
+#include <dyadel/io.h>
+#include <math.h>
+#include <string.h>
+
+/* The exact value of a number or of an expression that is a rational number. */
+static dyd_status parse_exact(mpq_t out, const char *text) {
+  dyd_real *real = NULL;
+  dyd_status status = dyd_real_parse(&real, text, strlen(text), NULL);
+  if (status < 0) return status;
+  bool exact = dyd_real_is_final(real) && dyd_interval_is_point(dyd_real_interval(real));
+  if (exact) dyd_interval_get_q(out, out, dyd_real_interval(real));
+  dyd_real_free(real);
+  return exact ? DYD_OK : DYD_E_PARSE;
+}
+
+static dyd_status read_radius(dyd_manner *m, const char *text, dyd_error *err) {
+  dyd_status status = parse_exact(m->radius, text);
+  if (status == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (status < 0 || mpq_sgn(m->radius) < 0)
+    return dyd_fail(err, DYD_E_ARG, "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64",
+                    text);
+  m->widen = mpq_sgn(m->radius) > 0;
+  /* mpq_get_d rounds towards zero; beyond doubles the radius goes the general way. */
+  double down = mpq_get_d(m->radius);
+  mpq_t back;
+  mpq_init(back);
+  if (isfinite(down)) mpq_set_d(back, down);
+  m->radius_up = mpq_equal(back, m->radius) ? down : nextafter(down, INFINITY);
+  mpq_clear(back);
+  return DYD_OK;
+}
+
+/* Reads the two coordinates of a point and stages it. */
+static dyd_status stage_point(dyd_stage *stage, const dyd_span span[2], const dyd_manner *manner, dyd_error *err) {
+  dyd_coordinate x = {.kind = DYD_COORDINATE_DOUBLE}, y = x;
+  dyd_status status = dyd_coordinate_read(&x, &span[0], manner, err);
+  if (status >= 0) status = dyd_coordinate_read(&y, &span[1], manner, err);
+  if (status >= 0) return dyd_stage_add(stage, &x, &y, err);
+  dyd_coordinate_clear(&x);
+  return status;
+}
+
+/* Is every field of the line a word or quoted, as in the header of a CSV file? */
+static bool is_header(const dyd_line *line) {
+  const char *end = line->text + line->length;
+  if (!memchr(line->text, ',', line->length)) return false;
+  for (const char *at = line->text; at < end; at++) {
+    while (at < end && (*at == ' ' || *at == '\t')) at++;
+    if (at == end || !(*at == '"' || *at == '_' || (*at >= 'A' && *at <= 'Z') || (*at >= 'a' && *at <= 'z')))
+      return false;
+    const char *comma = memchr(at, ',', (size_t)(end - at));
+    if (!comma) return true;
+    at = comma;
+  }
+  return false;
+}
+
+/* A first line that is not understood may be a header. */
+static dyd_status hint(dyd_status status, const dyd_line *line, const dyd_stage *stage, dyd_error *err) {
+  size_t length = strlen(err->message);
+  if (status == DYD_E_PARSE && !stage->count && is_header(line))
+    snprintf(err->message + length, sizeof err->message - length,
+             "; if this is CSV with a header, name two of its columns: --columns X,Y");
+  return status;
+}
+
+static dyd_status read_points_file(dyd_stage *stage, dyd_text *text, const dyd_manner *manner, dyd_error *err) {
+  for (;;) {
+    dyd_line line;
+    dyd_span span[2];
+    size_t count;
+    dyd_status status = dyd_text_next(&line, text, err);
+    if (status < 0 || !line.text) return status;
+    status = dyd_points_split(span, &count, &line, err);
+    if (status >= 0 && count) status = stage_point(stage, span, manner, err);
+    if (status < 0) return hint(status, &line, stage, err);
+  }
+}
+
+static dyd_status read_csv_file(dyd_stage *stage, dyd_text *text, const dyd_manner *manner, const char *columns,
+                                dyd_error *err) {
+  dyd_csv csv;
+  dyd_span span[2];
+  size_t count = 1;
+  dyd_status status = dyd_csv_open(&csv, text, columns, err);
+  while (status >= 0 && count) {
+    status = dyd_csv_next(span, &count, &csv, err);
+    if (status >= 0 && count) status = stage_point(stage, span, manner, err);
+  }
+  dyd_csv_clear(&csv);
+  return status;
+}
+
+dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *options, dyd_error *err) {
+  static const dyd_read_options defaults = {0};
+  if (!options) options = &defaults;
+  dyd_error local;
+  if (!err) err = &local;
+  dyd_error_clear(err);
+  dyd_manner manner = {.measured = options->measured};
+  dyd_text text;
+  dyd_stage stage;
+  mpq_init(manner.radius);
+  dyd_text_init(&text, in);
+  dyd_stage_init(&stage);
+  dyd_status status = options->radius ? read_radius(&manner, options->radius, err) : DYD_OK;
+  if (status >= 0)
+    status = options->columns ? read_csv_file(&stage, &text, &manner, options->columns, err)
+                              : read_points_file(&stage, &text, &manner, err);
+  if (status >= 0) status = dyd_stage_commit(e, &stage, err);
+  dyd_stage_clear(&stage);
+  dyd_text_clear(&text);
+  mpq_clear(manner.radius);
+  return status;
+}

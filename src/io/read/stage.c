@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Points read but not yet given to the engine: kept back so that bad input adds nothing. */
+#include "io/read/stage.h"
+#include "base/alloc.h"
+#include "base/error.h"
+#include "engine/words.h"
+
+/* A point takes the most special kind of its coordinates; doubles fit all kinds. */
+struct dyd_staged {
+  dyd_coordinate_kind kind;
+  int exp[2]; /* PLAIN */
+  union {
+    double box[4]; /* DOUBLE: x, y. BOX: x0, x1, y0, y1 */
+    int64_t man[2];
+    dyd_real *real[2];
+  } u;
+};
+
+void dyd_stage_init(dyd_stage *s) {
+  *s = (dyd_stage){0};
+}
+
+static void drop(dyd_staged *p) {
+  if (p->kind != DYD_COORDINATE_REAL) return;
+  dyd_real_free(p->u.real[0]);
+  dyd_real_free(p->u.real[1]);
+  p->kind = DYD_COORDINATE_DOUBLE;
+}
+
+void dyd_stage_clear(dyd_stage *s) {
+  for (size_t k = 0; k < s->count; k++) drop(&s->item[k]);
+  free(s->item);
+  dyd_stage_init(s);
+}
+
+/* DOUBLE stands for BINARY, too, but beside a PLAIN coordinate. */
+static dyd_coordinate_kind common_kind(dyd_coordinate_kind a, dyd_coordinate_kind b) {
+  if (a == DYD_COORDINATE_BINARY && b != DYD_COORDINATE_PLAIN) a = DYD_COORDINATE_DOUBLE;
+  if (b == DYD_COORDINATE_BINARY && a != DYD_COORDINATE_PLAIN) b = DYD_COORDINATE_DOUBLE;
+  if (a == b) return a;
+  if (a == DYD_COORDINATE_DOUBLE && b != DYD_COORDINATE_REAL) return b;
+  if (b == DYD_COORDINATE_DOUBLE && a != DYD_COORDINATE_REAL) return a;
+  return DYD_COORDINATE_REAL;
+}
+
+static void join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coordinate *x, const dyd_coordinate *y) {
+  *out = (dyd_staged){.kind = kind};
+  switch (kind) {
+  case DYD_COORDINATE_DOUBLE:
+  case DYD_COORDINATE_BINARY:
+    out->u.box[0] = x->lo, out->u.box[1] = y->lo;
+    break;
+  case DYD_COORDINATE_BOX:
+    out->u.box[0] = x->lo, out->u.box[1] = x->hi, out->u.box[2] = y->lo, out->u.box[3] = y->hi;
+    break;
+  case DYD_COORDINATE_PLAIN:
+    out->u.man[0] = x->plain.man, out->u.man[1] = y->plain.man;
+    out->exp[0] = x->plain.exp, out->exp[1] = y->plain.exp;
+    break;
+  case DYD_COORDINATE_REAL:
+    out->u.real[0] = x->real, out->u.real[1] = y->real;
+    break;
+  }
+}
+
+dyd_status dyd_stage_add(dyd_stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
+  dyd_status status = DYD_OK;
+  dyd_coordinate_kind kind = common_kind(x->kind, y->kind);
+  if (!dyd_reserve((void **)&s->item, &s->cap, s->count + 1, sizeof *s->item)) status = DYD_E_NOMEM;
+  if (status >= 0 && kind == DYD_COORDINATE_REAL) status = dyd_coordinate_make_real(x);
+  if (status >= 0 && kind == DYD_COORDINATE_REAL) status = dyd_coordinate_make_real(y);
+  if (status < 0) {
+    dyd_coordinate_clear(x);
+    dyd_coordinate_clear(y);
+    return dyd_fail(err, status, "%s", dyd_status_text(status));
+  }
+  join(&s->item[s->count++], kind, x, y);
+  x->kind = y->kind = DYD_COORDINATE_DOUBLE;
+  return DYD_OK;
+}
+
+#define BULK 1024
+
+/* The points from `first` on that are of the given kind, at most BULK; *count tells how many were added. */
+static dyd_status commit_points(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first) {
+  double x[BULK], y[BULK];
+  size_t n = 0;
+  for (; n < BULK && first + n < s->count && s->item[first + n].kind == DYD_COORDINATE_DOUBLE; n++) {
+    x[n] = s->item[first + n].u.box[0];
+    y[n] = s->item[first + n].u.box[1];
+  }
+  *count = n;
+  return dyd_engine_add_points(e, n, x, y);
+}
+
+static dyd_status commit_boxes(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first) {
+  double end[4][BULK];
+  size_t n = 0;
+  for (; n < BULK && first + n < s->count && s->item[first + n].kind == DYD_COORDINATE_BOX; n++)
+    for (int k = 0; k < 4; k++) end[k][n] = s->item[first + n].u.box[k];
+  *count = n;
+  return dyd_engine_add_boxes(e, n, end[0], end[1], end[2], end[3]);
+}
+
+static dyd_plain plain_of(const dyd_staged *p, int axis) {
+  return (dyd_plain){p->u.man[axis], p->exp[axis]};
+}
+
+/* One pair of decimals of any size. */
+static dyd_status commit_wide(dyd_engine *e, const dyd_staged *p) {
+  dyd_rect r;
+  mpq_t x, y;
+  dyd_rect_init(&r);
+  mpq_inits(x, y, NULL);
+  dyd_plain_get_q(x, plain_of(p, 0));
+  dyd_plain_get_q(y, plain_of(p, 1));
+  dyd_status status = dyd_rect_set_q(&r, x, y);
+  if (status >= 0) status = dyd_engine_add_rect(e, &r);
+  mpq_clears(x, y, NULL);
+  dyd_rect_clear(&r);
+  return status;
+}
+
+/* The decimals from `first` on that fit single words, at most BULK. */
+static dyd_status commit_words(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first) {
+  dyd_words xy[2 * BULK];
+  size_t n = 0;
+  for (; n < BULK && first + n < s->count && s->item[first + n].kind == DYD_COORDINATE_PLAIN; n++) {
+    const dyd_staged *p = &s->item[first + n];
+    if (!dyd_plain_get_words(&xy[2 * n], plain_of(p, 0)) || !dyd_plain_get_words(&xy[2 * n + 1], plain_of(p, 1))) break;
+  }
+  *count = n;
+  return dyd_engine_add_words(e, n, xy);
+}
+
+static dyd_status commit_plain(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first) {
+  dyd_status status = commit_words(count, e, s, first);
+  if (status < 0 || *count) return status;
+  *count = 1;
+  return commit_wide(e, &s->item[first]);
+}
+
+static dyd_status commit_fixed(dyd_engine *e, const dyd_staged *p) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_interval_set(&r.x, dyd_real_interval(p->u.real[0]));
+  dyd_interval_set(&r.y, dyd_real_interval(p->u.real[1]));
+  dyd_status status = dyd_engine_add_rect(e, &r);
+  dyd_rect_clear(&r);
+  return status;
+}
+
+static dyd_status commit_reals(dyd_engine *e, dyd_staged *p) {
+  if (dyd_real_is_final(p->u.real[0]) && dyd_real_is_final(p->u.real[1])) {
+    dyd_status status = commit_fixed(e, p);
+    drop(p);
+    return status;
+  }
+  dyd_stream *stream = NULL;
+  p->kind = DYD_COORDINATE_DOUBLE; /* the stream takes both reals over */
+  dyd_status status = dyd_stream_from_reals(&stream, p->u.real[0], p->u.real[1]);
+  return status < 0 ? status : dyd_engine_add_stream(e, stream);
+}
+
+dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err) {
+  dyd_status status = DYD_OK;
+  for (size_t k = 0, count = 1; k < s->count && status >= 0; k += count) {
+    count = 1;
+    switch (s->item[k].kind) {
+    case DYD_COORDINATE_DOUBLE:
+    case DYD_COORDINATE_BINARY:
+      status = commit_points(&count, e, s, k);
+      break;
+    case DYD_COORDINATE_BOX:
+      status = commit_boxes(&count, e, s, k);
+      break;
+    case DYD_COORDINATE_PLAIN:
+      status = commit_plain(&count, e, s, k);
+      break;
+    case DYD_COORDINATE_REAL:
+      status = commit_reals(e, &s->item[k]);
+      break;
+    }
+  }
+  dyd_stage_clear(s);
+  return status < 0 ? dyd_fail(err, status, "%s", dyd_status_text(status)) : DYD_OK;
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Points read but not yet given to the engine: kept back so that bad input adds nothing. */
+#ifndef DYD_IO_READ_STAGE_H
+#define DYD_IO_READ_STAGE_H
+
+#include "io/read/coordinate.h"
+#include <dyadel/engine.h>
+
+typedef struct dyd_staged dyd_staged;
+
+/* Invariant: count <= cap. 48 bytes per point, and what reals hold. */
+typedef struct dyd_stage {
+  size_t count, cap;
+  dyd_staged *item;
+} dyd_stage;
+
+void dyd_stage_init(dyd_stage *s);
+void dyd_stage_clear(dyd_stage *s);
+/* Appends a point; takes over reals, also on failure, and leaves both coordinates empty. */
+dyd_status dyd_stage_add(dyd_stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err);
+/* Adds all points to e in order, those that are doubles in bulk. The stage is empty afterwards.
+ * Fails only when memory is exhausted or e has run already. */
+dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err);
+
+#endif

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Lines of a text file, read in blocks, and positions in them for error messages. */
+#ifndef DYD_IO_READ_TEXT_H
+#define DYD_IO_READ_TEXT_H
+
+#include <dyadel/status.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+/* A line (or a record of several lines) longer than this is refused: it is no points file. */
+#define DYD_TEXT_LINE_MAX ((size_t)1 << 20)
+
+/* Invariant: start <= end <= cap; buffer[start .. end) is read and not yet handed out. */
+typedef struct dyd_text {
+  FILE *in; /* borrowed */
+  char *buffer;
+  size_t cap, start, end;
+  size_t line; /* number of the last line handed out */
+  bool ended;
+} dyd_text;
+
+/* text = NULL stands for the end of the file. Borrowed until the next call of dyd_text_next. */
+typedef struct dyd_line {
+  const char *text;
+  size_t length; /* without the line end (LF or CRLF) */
+  size_t number; /* from 1 */
+} dyd_line;
+
+/* A piece of a record, with what is needed to tell where it stands.
+ * Invariant: origin <= at, both in the same buffer. */
+typedef struct dyd_span {
+  const char *text; /* the characters, possibly unquoted into another buffer */
+  size_t length;
+  const char *at;     /* where it begins in the record */
+  const char *origin; /* where the record begins */
+  size_t line;        /* line of the record's first character */
+} dyd_span;
+
+void dyd_text_init(dyd_text *t, FILE *in);
+void dyd_text_clear(dyd_text *t);
+/* The next line. A byte order mark at the start of the file is skipped. DYD_E_PARSE for NUL bytes and over-long
+ * lines, DYD_E_IO, DYD_E_NOMEM. */
+dyd_status dyd_text_next(dyd_line *out, dyd_text *t, dyd_error *err);
+/* The line and column (in characters of UTF-8, both from 1) of the byte `offset` bytes after span->at. */
+void dyd_span_position(size_t *line, size_t *column, const dyd_span *span, size_t offset);
+/* Fails with DYD_E_PARSE and `message` at that byte. */
+dyd_status dyd_span_fail(dyd_error *err, const dyd_span *span, size_t offset, const char *message);
+/* How many of the first `length` bytes begin a character of UTF-8. */
+size_t dyd_text_characters(const char *text, size_t length);
+/* The byte at which character `character` (from 0) begins; length when there are not so many. */
+size_t dyd_text_offset(const char *text, size_t length, size_t character);
+
+#endif

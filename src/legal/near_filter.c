@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The first pass over the edges of thin rectangles: most are certain by the two triangles beside them [WIT-NEAR]. Those
+ * whose triangles a fat one meets are left to the next pass [WIT-FAT].
+ *
+ * The distance m to the nearest representatives is first bounded for all vertices at once: `most` for vertices that
+ * have no shorter skeleton edge (found by one pass over the edges), the least edge of all for the others. */
+#include "legal/near_filter.h"
+
+#include "base/alloc.h"
+#include "legal/certify.h"
+#include "legal/marks.h"
+
+#include <float.h>
+
+enum { BATCH = 240 };
+
+typedef struct near_pass {
+  dyd_delaunay *pd;
+  double reach, least, most;
+  const uint32_t *met; /* triangles whose edges are left to later passes: not 0. NULL: none */
+  uint8_t *close;      /* of each vertex: it has an edge shorter than `most` */
+  dyd_mark_tasks tasks;
+  double shortest2[DYD_RANGES_MOST]; /* in each range */
+} near_pass;
+
+/* About a tenth of the mean distance; any positive value is right. */
+static double tenth_of_spacing(const dyd_mesh *m) {
+  double lo[2] = {DBL_MAX, DBL_MAX}, hi[2] = {-DBL_MAX, -DBL_MAX};
+  for (uint32_t v = 0; v < m->n; v++) {
+    double c[2] = {m->xy[v].x, m->xy[v].y};
+    for (int a = 0; a < 2; a++) {
+      if (c[a] < lo[a]) lo[a] = c[a];
+      if (c[a] > hi[a]) hi[a] = c[a];
+    }
+  }
+  return 0.1 * sqrt((hi[0] - lo[0]) * (hi[1] - lo[1]) / m->n);
+}
+
+/* Several tasks may say the same of one vertex at once. */
+static void set_close(const near_pass *p, uint32_t v) {
+  if (!__atomic_load_n(&p->close[v], __ATOMIC_RELAXED)) __atomic_store_n(&p->close[v], 1, __ATOMIC_RELAXED);
+}
+
+/* Least edge, and the vertices that have a short one. Ghost edges are NaN and change nothing. */
+static void measure_range(void *context, size_t number) {
+  near_pass *p = context;
+  const dyd_mesh *m = &p->pd->mesh;
+  const dyd_marks *range = &p->tasks.task[number];
+  double least2 = DBL_MAX, most2 = p->most * p->most;
+  for (uint32_t t = range->first; t < range->end; t++) {
+    const uint32_t *v = m->tri[t].v;
+    for (unsigned k = 0; k < 3; k++) {
+      uint32_t a = v[k], b = v[dyd_next(k)];
+      double d = dyd_square_distance(m->xy[a], m->xy[b]);
+      if (d < least2) least2 = d;
+      if (d < most2) set_close(p, a), set_close(p, b);
+    }
+  }
+  p->shortest2[number] = least2;
+}
+
+static void measure_edges(near_pass *p) {
+  double least2 = DBL_MAX;
+  dyd_parallel(p->pd->options.threads, p->tasks.count, measure_range, p);
+  for (size_t r = 0; r < p->tasks.count; r++)
+    if (p->shortest2[r] < least2) least2 = p->shortest2[r];
+  p->least = sqrt(least2);
+  if (p->most < p->least) p->most = p->least;
+}
+
+static bool is_near(const near_pass *p, uint32_t h) {
+  const dyd_mesh *m = &p->pd->mesh;
+  const uint32_t *v = m->tri[h >> 2].v;
+  uint32_t twin = m->tri[h >> 2].n[h & 3], a = m->tri[twin >> 2].v[twin & 3];
+  uint32_t u = v[h & 3], i = v[dyd_next(h & 3)], j = v[dyd_prev(h & 3)];
+  if (i == m->n || j == m->n || (p->met && (p->met[h >> 2] || p->met[twin >> 2]))) return false;
+  const dyd_xy *xy = m->xy;
+  double nearest = p->close[i] || p->close[j] ? p->least : p->most;
+  if (dyd_filter_edge_near(xy[i], xy[j], xy[u], xy[a], p->reach, nearest)) return true;
+  if (u == m->n) return dyd_filter_hull_edge_near(xy[j], xy[i], xy[a], p->reach, nearest);
+  return a == m->n && dyd_filter_hull_edge_near(xy[i], xy[j], xy[u], p->reach, nearest);
+}
+
+static void fetch(const void *address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+#else
+  (void)address;
+#endif
+}
+
+/* Three loops, so that memory answers in time: triangles, then points, then the decision. */
+static void decide_batch(const near_pass *p, dyd_marks *range, const uint32_t *edge, unsigned count) {
+  const dyd_mesh *m = &p->pd->mesh;
+  for (unsigned q = 0; q < count; q++) {
+    const dyd_tri *t = &m->tri[edge[q] >> 2];
+    uint32_t twin = t->n[edge[q] & 3];
+    for (unsigned k = 0; k < 3; k++) fetch(&m->xy[t->v[k]]);
+    fetch(&m->xy[m->tri[twin >> 2].v[twin & 3]]);
+  }
+  for (unsigned q = 0; q < count; q++)
+    if (is_near(p, edge[q])) dyd_mark(range, p->pd, edge[q] >> 2, edge[q] & 3);
+}
+
+static void decide_range(void *context, size_t number) {
+  near_pass *p = context;
+  const dyd_mesh *m = &p->pd->mesh;
+  dyd_marks *range = &p->tasks.task[number];
+  uint32_t edge[BATCH + 3];
+  for (uint32_t t = range->first; t < range->end;) {
+    unsigned count = 0;
+    for (; t < range->end && count < BATCH; t++)
+      for (unsigned k = 0; k < 3; k++) {
+        uint32_t twin = m->tri[t].n[k];
+        fetch(&m->tri[twin >> 2]);
+        edge[count] = 4 * t + k;
+        count += twin > 4 * t + k;
+      }
+    decide_batch(p, range, edge, count);
+  }
+}
+
+dyd_status dyd_certify_near(dyd_delaunay *pd, double reach, const uint32_t *met) {
+  near_pass p = {.pd = pd, .met = met, .reach = reach > 0x1p-300 ? reach : 0x1p-300};
+  p.close = calloc((size_t)pd->mesh.n + 1, 1);
+  if (!p.close) return DYD_E_NOMEM;
+  p.most = tenth_of_spacing(&pd->mesh);
+  dyd_mark_tasks_init(&p.tasks, pd);
+  measure_edges(&p);
+  dyd_parallel(pd->options.threads, p.tasks.count, decide_range, &p);
+  free(p.close);
+  return dyd_mark_tasks_settle(&p.tasks, pd);
+}

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Certifying an edge in doubles from the two triangles beside it alone.
+ *
+ * Let every site lie within E of its representative p_k, ij a skeleton edge with triangles iju (left) and jiv (right)
+ * of empty circles (c1,r1), (c2,r2), |ij| = 2h, m <= the distances of p_i and p_j to their nearest representatives
+ * (attained on skeleton edges), r = max(r1,r2), D = |c1-c2|.
+ *
+ * [WIT-NEAR] If E <= m/199 and 24.25 E r^2 < m h D, then c = (c1+c2)/2 is a witness.
+ *   Proof. rho = |c-p_i| <= r, as |.-p_i| is convex along the bisector of ij. If k breaks the witness, |c-p_k| - E <=
+ * rho + E, so P := |c-p_k|^2 - rho^2 <= W := 4 E rho + 4 E^2 <= 4.041 E r. The power of p_k is affine along the
+ * bisector, so P is the mean of its powers P1, P2 >= 0 for the two circles, and |P1-P2| = 2 D |t|, t the distance of
+ * p_k from the line ij: D |t| <= P
+ *   <= W, |t| <= tau := W/D. With s the coordinate of p_k along ij from the middle, P = s^2 - h^2 + t^2 - 2 t t_c,
+ * |t_c| <= rho: | |s| - h | <= (W + tau^2 + 2 tau r)/h. D <= 2 r gives W = tau D <= 2 tau r; the assumption gives tau <
+ * m h/(6 r) <= r (m <= 2h, h <= r), so p_k is within tau + 5 tau r/h <= 6 tau r/h < m of p_i or p_j: a contradiction.
+ * [WIT-HULL] Hull edge, iju inside: if E <= m/199 and 48.5 E r1 < m h, then c = c1 + r1 n, n the outward normal, is a
+ *   witness: the same proof with r = 2 r1 and P = P1 + 2 r1 t, t >= 0, that is D = r.
+ *
+ * With a1, a2 twice the areas, det > 0 the in-circle determinant, lu = |iu|^2, lw = |ju|^2, lv = |iv|^2, lz = |jv|^2:
+ * r1^2 = |ij|^2 lu lw/(4 a1^2), r2^2 = |ij|^2 lv lz/(4 a2^2), D = det |ij|/(2 a1 a2). The conditions become 24.25 E lu
+ * lw a2 < m det a1 and 24.25 E lv lz a1 < m det a2;   48.5 E sqrt(lu lw) < m a1.
+ *
+ * Rounding, u = 2^-53: a has an absolute error <= 4.01 u (|jx uy| + |jy ux|) <= 2.1 u (lj + lu), det one <= 4.5e-16 s^2
+ * [FLT-INC]; both are moved to the safe side. What is left are fewer than 40 factors 1+u: 24.3 for 24.25 and 48.6
+ * for 48.5 have room. Nothing underflows: a >= 2^-100 and squares <= 2^100 make squares >= 2^-300, det >= 2^-300, E >=
+ * 2^-300. NaN (the ghost) fails. */
+#ifndef DYD_LEGAL_NEAR_FILTER_H
+#define DYD_LEGAL_NEAR_FILTER_H
+
+#include "skeleton/reps.h"
+
+#include <math.h>
+
+static inline double dyd_square_distance(dyd_xy a, dyd_xy b) {
+  double x = a.x - b.x, y = a.y - b.y;
+  return x * x + y * y;
+}
+
+/* reach: E >= 2^-300. m: as above, up to a relative error of 10^-12. */
+static inline bool dyd_filter_edge_near(dyd_xy i, dyd_xy j, dyd_xy u, dyd_xy v, double reach, double m) {
+  double jx = j.x - i.x, jy = j.y - i.y, ux = u.x - i.x, uy = u.y - i.y, vx = v.x - i.x, vy = v.y - i.y;
+  double lj = jx * jx + jy * jy, lu = ux * ux + uy * uy, lv = vx * vx + vy * vy, s = lj + lu + lv;
+  double a1 = jx * uy - jy * ux, a2 = vx * jy - vy * jx, cross = ux * vy - uy * vx;
+  double ea = 2.1 * 0x1p-53 * s, det = (lj * cross + lu * a2 + lv * a1) - 4.5e-16 * s * s;
+  double lw = dyd_square_distance(j, u), lz = dyd_square_distance(j, v), k = 24.3 * reach;
+  if (!(a1 - ea >= 0x1p-100 && a2 - ea >= 0x1p-100 && s <= 0x1p98 && det >= 0x1p-300 && 200 * reach <= m)) return false;
+  return k * (lu * lw) * (a2 + ea) < m * det * (a1 - ea) && k * (lv * lz) * (a1 + ea) < m * det * (a2 - ea);
+}
+
+static inline bool dyd_filter_hull_edge_near(dyd_xy i, dyd_xy j, dyd_xy u, double reach, double m) {
+  double jx = j.x - i.x, jy = j.y - i.y, ux = u.x - i.x, uy = u.y - i.y;
+  double lj = jx * jx + jy * jy, lu = ux * ux + uy * uy, lw = dyd_square_distance(j, u);
+  double a1 = (jx * uy - jy * ux) - 2.1 * 0x1p-53 * (lj + lu);
+  if (!(a1 >= 0x1p-100 && lj + lu <= 0x1p98 && 200 * reach <= m)) return false;
+  return 48.6 * reach * sqrt(lu * lw) < m * a1;
+}
+
+#endif

@@ -1,0 +1,285 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Certifying most edges in doubles, by looking at stars only.
+ *
+ * [FLT-STAR] Let p_k be the representatives, R_k within E of p_k for all k but a few "fat" ones. Let c be any point,
+ * rho >= |c-p_i|, |c-p_j|. The vertices of a Delaunay triangulation inside a disc about c span a connected subgraph,
+ * since from any of them a neighbour strictly nearer to c exists until a nearest one is reached, and the nearest ones
+ * are the corners of one empty circle. So if no Delaunay neighbour of i or of j other than i, j lies within rho + 2E of
+ * c, then no vertex does, hence for every k that is not fat ds_k(c) >= |c-p_k| - E > rho + E >= dl_i(c), dl_j(c); the
+ * fat ones are asked through a tree of their own: c is a witness. The hull in the same way: if v is farther than all
+ * its neighbours by 2E in the direction u, then it is farther than all vertices by 2E.
+ *
+ * Bounds: distances as in distance_filter.h; representatives that are not doubles are off by delta, E grows by 3 delta.
+ * The centres need no bound: any double will do. Both ends of an edge use the same bits for c and rho. */
+#include "legal/certify.h"
+#include "legal/fat_filter.h"
+#include "legal/marks.h"
+#include "skeleton/mesh_filter.h"
+
+#include "base/alloc.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MAX_DEGREE = 62 };
+
+typedef struct pass {
+  dyd_delaunay *pd;
+  uint8_t *open; /* of each vertex: it has an edge, real or ghost, that is not certain yet */
+  dyd_mark_tasks tasks;
+  double limit; /* radius above which a rectangle is fat */
+  double reach; /* 2 E */
+  dyd_tree fat;
+} pass;
+
+/* Beyond the hull edge from a to b (the inside on the left) the middle of the Voronoi edge is taken one edge length
+ * outside the inner centre o, or on the edge if o is far inside. */
+static dyd_xy ghost_centre(dyd_xy a, dyd_xy b, dyd_xy o) {
+  double ex = b.x - a.x, ey = b.y - a.y, mx = a.x + ex / 2, my = a.y + ey / 2;
+  double out = ((o.x - mx) * ey - (o.y - my) * ex) / (ex * ex + ey * ey); /* in edge lengths, outward */
+  double want = out > -0.5 ? out + 1 : 0;
+  dyd_xy c = {mx + want * ey, my - want * ex};
+  return (dyd_xy){2 * c.x - o.x, 2 * c.y - o.y};
+}
+
+static dyd_xy centre_of(const dyd_mesh *m, uint32_t t) {
+  const uint32_t *v = m->tri[t].v;
+  if (!dyd_mesh_is_ghost(m, t)) return dyd_circumcentre(m->xy[v[0]], m->xy[v[1]], m->xy[v[2]]);
+  unsigned g = dyd_mesh_ghost_corner(m, t);
+  const uint32_t *w = m->tri[m->tri[t].n[g] >> 2].v;
+  dyd_xy o = dyd_circumcentre(m->xy[w[0]], m->xy[w[1]], m->xy[w[2]]);
+  return ghost_centre(m->xy[v[dyd_prev(g)]], m->xy[v[dyd_next(g)]], o);
+}
+
+dyd_xy dyd_edge_centre(const dyd_delaunay *pd, uint32_t t, unsigned k) {
+  dyd_xy a = centre_of(&pd->mesh, t), b = centre_of(&pd->mesh, pd->mesh.tri[t].n[k] >> 2);
+  return (dyd_xy){(a.x + b.x) * 0.5, (a.y + b.y) * 0.5};
+}
+
+/* ---- radii ---- */
+
+static double radius(const dyd_delaunay *pd, uint32_t v) {
+  dyd_xy p = pd->reps.xy[v];
+  dyd_bbox c = {{p.x, p.x, p.y, p.y}};
+  return sqrt(dyd_dl2_upper(&c, &pd->box[v])) * DYD_UP_FACTOR + DYD_TINY;
+}
+
+static int compare(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+/* Four times the median radius of a sample: whoever is larger counts as fat. */
+static double ordinary_radius(const dyd_delaunay *pd) {
+  double sample[256];
+  size_t count = 0, step = pd->n / 256 + 1;
+  for (size_t v = 0; v < pd->n && count < 256; v += step) sample[count++] = radius(pd, (uint32_t)v);
+  qsort(sample, count, sizeof *sample, compare);
+  return 4 * sample[count / 2];
+}
+
+static dyd_status gather_fat(pass *p) {
+  const dyd_delaunay *pd = p->pd;
+  double largest = 0;
+  uint32_t *fat = NULL;
+  size_t count = 0, cap = 0;
+  p->limit = ordinary_radius(pd);
+  for (uint32_t v = 0; v < pd->n; v++) {
+    double r = radius(pd, v);
+    if (r <= p->limit)
+      largest = dyd_max(largest, r);
+    else if (!dyd_reserve((void **)&fat, &cap, count + 1, sizeof *fat))
+      return free(fat), DYD_E_NOMEM;
+    else
+      fat[count++] = v;
+  }
+  p->reach = 2 * (largest + 3 * pd->reps.delta);
+  return dyd_tree_init(&p->fat, fat, (uint32_t)count, pd->box);
+}
+
+/* ---- fat rectangles ---- */
+
+typedef struct fat_query {
+  uint32_t i, j;
+  bool met;
+} fat_query;
+
+static bool fat_met(void *context, uint32_t k) {
+  fat_query *q = context;
+  if (k == q->i || k == q->j) return true;
+  q->met = true;
+  return false;
+}
+
+static bool fat_near(const pass *p, dyd_xy c, double radius_upper, uint32_t i, uint32_t j) {
+  fat_query q = {i, j, false};
+  dyd_bbox at = {{c.x, c.x, c.y, c.y}};
+  double radius2 = dyd_upper(radius_upper * radius_upper);
+  if (p->fat.count) dyd_tree_near(&p->fat, &at, &radius2, fat_met, &q);
+  return q.met;
+}
+
+static bool is_fat(const pass *p, uint32_t v) {
+  return p->fat.count && !(radius(p->pd, v) <= p->limit);
+}
+
+/* ---- one star ---- */
+
+typedef struct star {
+  uint32_t v;
+  int degree, ghost; /* ghost: place of the ghost among the neighbours, -1: none */
+  uint32_t corner[MAX_DEGREE];
+  double x[MAX_DEGREE], y[MAX_DEGREE]; /* neighbour q = second vertex of the triangle at corner q */
+  dyd_xy centre[MAX_DEGREE];
+} star;
+
+static bool read_star(star *s, const pass *p, uint32_t v) {
+  const dyd_mesh *m = &p->pd->mesh;
+  uint32_t h = p->pd->corner[v], first = h;
+  s->v = v;
+  s->degree = 0;
+  s->ghost = -1;
+  do {
+    if (s->degree == MAX_DEGREE) return false;
+    uint32_t w = m->tri[h >> 2].v[dyd_next(h & 3)];
+    if (w == m->n) s->ghost = s->degree;
+    s->corner[s->degree] = h;
+    s->x[s->degree] = m->xy[w].x;
+    s->y[s->degree] = m->xy[w].y;
+    s->centre[s->degree] = centre_of(m, h >> 2);
+    s->degree++;
+    h = dyd_turn(m, h);
+  } while (h != first);
+  return true;
+}
+
+/* Are all neighbours but q and the ghost farther from c than sqrt(limit)? */
+static bool others_farther(const star *s, int q, dyd_xy c, double limit) {
+  int near = 0;
+  for (int k = 0; k < s->degree; k++) {
+    double dx = s->x[k] - c.x, dy = s->y[k] - c.y;
+    near += !(dyd_lower(dx * dx + dy * dy) > limit);
+  }
+  /* q itself and the ghost (NaN) count as near */
+  double dx = s->x[q] - c.x, dy = s->y[q] - c.y;
+  int self = !(dyd_lower(dx * dx + dy * dy) > limit);
+  return near == self + (s->ghost >= 0);
+}
+
+/* Neighbours that share a triangle may be in different tasks. Nobody reads these marks before all are made. */
+static void mark(dyd_delaunay *pd, uint32_t corner, unsigned k) {
+  (void)__atomic_fetch_or(&pd->certain[corner >> 2], (uint8_t)(1u << k), __ATOMIC_RELAXED);
+}
+
+static void certify_edges(const pass *p, const star *s) {
+  dyd_xy v = p->pd->reps.xy[s->v];
+  for (int q = 0; q < s->degree; q++) {
+    if (q == s->ghost) continue;
+    dyd_xy a = s->centre[q], b = s->centre[q ? q - 1 : s->degree - 1];
+    dyd_xy c = {(a.x + b.x) * 0.5, (a.y + b.y) * 0.5};
+    double ix = v.x - c.x, iy = v.y - c.y, jx = s->x[q] - c.x, jy = s->y[q] - c.y;
+    double rho = sqrt(dyd_upper(dyd_max(ix * ix + iy * iy, jx * jx + jy * jy))) * DYD_UP_FACTOR;
+    double wide = (rho + p->reach) * DYD_UP_FACTOR;
+    if (!others_farther(s, q, c, dyd_upper(wide * wide))) continue;
+    uint32_t h = s->corner[q], j = p->pd->mesh.tri[h >> 2].v[dyd_next(h & 3)];
+    if (p->fat.count && (is_fat(p, j) || fat_near(p, c, wide, s->v, j))) continue;
+    mark(p->pd, h, dyd_prev(h & 3));
+  }
+}
+
+static void certify_hull(const pass *p, const star *s) {
+  int next = (s->ghost + 1) % s->degree, before = (s->ghost + s->degree - 1) % s->degree;
+  dyd_xy v = p->pd->reps.xy[s->v];
+  double ux = s->y[next] - s->y[before], uy = s->x[before] - s->x[next];
+  double need = p->reach * sqrt(dyd_upper(ux * ux + uy * uy)) * DYD_UP_FACTOR;
+  if (p->fat.count) return;
+  for (int k = 0; k < s->degree; k++) {
+    if (k == s->ghost) continue;
+    double a = ux * (v.x - s->x[k]), b = uy * (v.y - s->y[k]);
+    if (!(a + b > need + 8 * 0x1p-53 * (fabs(a) + fabs(b)) + DYD_TINY)) return;
+  }
+  uint32_t h = s->corner[s->ghost];
+  uint32_t twin = p->pd->mesh.tri[h >> 2].n[dyd_prev(h & 3)];
+  mark(p->pd, h, dyd_prev(h & 3));
+  mark(p->pd, twin, twin & 3);
+}
+
+/* ---- the pass ---- */
+
+/* An edge is certain when both its ends found their stars clear; a half alone is revoked. */
+static void join_halves(void *context, size_t number) {
+  pass *p = context;
+  const dyd_delaunay *pd = p->pd;
+  const dyd_mesh *m = &pd->mesh;
+  dyd_marks *range = &p->tasks.task[number];
+  for (uint32_t t = range->first; t < range->end; t++)
+    for (unsigned k = 0; k < 3; k++) {
+      uint32_t twin = m->tri[t].n[k];
+      if (twin < 4 * t + k) continue;
+      bool here = pd->certain[t] >> k & 1, there = pd->certain[twin >> 2] >> (twin & 3) & 1;
+      if (here && there) {
+        range->counters.filter++;
+        range->counters.witness_guess += m->tri[t].v[dyd_next(k)] != m->n && m->tri[t].v[dyd_prev(k)] != m->n;
+      } else if (here || there)
+        dyd_mark_later(range, 4 * t + k);
+    }
+}
+
+static void certify_star(const pass *p, star *s, uint32_t v) {
+  if (p->pd->corner[v] == DYD_NONE || !p->open[v] || is_fat(p, v) || !read_star(s, p, v)) return;
+  certify_edges(p, s);
+  if (s->ghost >= 0) certify_hull(p, s);
+}
+
+static void stars_of_range(void *context, size_t number) {
+  const pass *p = context;
+  star s;
+  for (size_t v = dyd_range_begin(p->pd->n, number); v < dyd_range_begin(p->pd->n, number + 1); v++)
+    certify_star(p, &s, (uint32_t)v);
+}
+
+/* Several tasks may say the same of one vertex at once. */
+static void find_open(void *context, size_t number) {
+  pass *p = context;
+  const dyd_mesh *m = &p->pd->mesh;
+  const dyd_marks *range = &p->tasks.task[number];
+  for (uint32_t t = range->first; t < range->end; t++)
+    for (unsigned k = 0; k < 3 && p->pd->certain[t] != 7; k++) {
+      uint32_t v = m->tri[t].v[dyd_next(k)], w = m->tri[t].v[dyd_prev(k)];
+      if (dyd_edge_is_certain(p->pd, t, k)) continue;
+      if (v != m->n) __atomic_store_n(&p->open[v], 1, __ATOMIC_RELAXED);
+      if (w != m->n) __atomic_store_n(&p->open[w], 1, __ATOMIC_RELAXED);
+    }
+}
+
+static dyd_status pass_over_stars(pass *p) {
+  unsigned threads = p->pd->options.threads;
+  dyd_mark_tasks_init(&p->tasks, p->pd);
+  dyd_parallel(threads, p->tasks.count, find_open, p);
+  dyd_parallel(threads, dyd_ranges(p->pd->n), stars_of_range, p);
+  dyd_parallel(threads, p->tasks.count, join_halves, p);
+  return dyd_mark_tasks_revoke(&p->tasks, p->pd);
+}
+
+/* The first pass, where fat rectangles do not spoil it [WIT-FAT]. */
+static dyd_status certify_thin(const pass *p) {
+  uint32_t *met = NULL;
+  if (p->pd->reps.code) return DYD_OK;
+  dyd_status st = dyd_fat_meet(&met, p->pd, p->fat.item, p->fat.count, p->reach / 2);
+  if (st == DYD_OK && (met || p->fat.count == 0)) st = dyd_certify_near(p->pd, p->reach / 2, met);
+  free(met);
+  return st;
+}
+
+dyd_status dyd_certify_stars(dyd_delaunay *pd) {
+  pass p = {.pd = pd};
+  dyd_status st = gather_fat(&p);
+  if (st == DYD_OK) st = certify_thin(&p);
+  if (st == DYD_OK) {
+    p.open = calloc((size_t)pd->n + 1, 1);
+    st = p.open ? pass_over_stars(&p) : DYD_E_NOMEM;
+  }
+  free(p.open);
+  dyd_tree_clear(&p.fat);
+  return st;
+}

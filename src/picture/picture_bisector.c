@@ -1,0 +1,248 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The picture of a partial bisector: what is surely nearer to the one point, to the other, and the band between.
+ *
+ * A parabola v(t) between t0 and t1 is the quadratic Bezier curve whose middle point has t = (t0 + t1) / 2 and lies on
+ * the tangent at the first end: v = v(t0) + v'(t0) (t1 - t0) / 2. Arcs with an end at infinity are lines. What is
+ * surely nearer to a point is convex, and goes on to infinity between the ends of its chain. */
+#include "base/error.h"
+#include "io/exact_text.h"
+#include "io/pieces.h"
+#include "picture/picture.h"
+#include "picture/plot.h"
+#include <math.h>
+
+#define CURVE 0x0072b2
+static const unsigned tint[2] = {0xcfe4f3, 0xd9eccf}, body[2] = {0x6aaed6, 0x8cc27a};
+
+typedef struct drawing {
+  const dyd_rect *const *r;
+  const dyd_boundary *curve;
+  dyd_view view;
+  double reach; /* arcs are cut off so far from the rectangles: far outside of the picture */
+} drawing;
+
+/* Corners and the line of an arc in doubles: focus s; corner q, or line of coordinate q[1 - k] along axis k. */
+typedef struct locus {
+  double s[2], q[2];
+  int k;
+} locus;
+
+/* An arc as it is drawn: ends at[0], at[2], and, of a parabola, the point where the tangents at the ends meet. */
+typedef struct piece {
+  double at[3][2];
+  bool curved;
+} piece;
+
+static void box_of(double b[4], const dyd_rect *r) {
+  dyd_interval_get_d(&b[0], &b[1], &r->x);
+  dyd_interval_get_d(&b[2], &b[3], &r->y);
+}
+
+static locus locus_of(const dyd_arc *a, const dyd_rect *const r[2]) {
+  double far[4], near[4];
+  locus s = {.k = -1};
+  box_of(far, r[a->far_site]);
+  box_of(near, r[a->near_site]);
+  s.s[0] = far[a->corner & 1];
+  s.s[1] = far[2 + (a->corner >> 1)];
+  if (a->kind == DYD_ARC_PARABOLA) {
+    s.k = a->feature < DYD_SIDE_Y0 ? 1 : 0;
+    s.q[1 - s.k] = near[a->feature - DYD_SIDE_X0];
+  } else {
+    s.q[0] = near[a->feature & 1];
+    s.q[1] = near[2 + (a->feature >> 1)];
+  }
+  return s;
+}
+
+static void place(double out[2], const dyd_surd_point *p) {
+  for (int axis = 0; axis < 2; axis++) {
+    double lo, hi;
+    dyd_exact_enclose(&lo, &hi, p, axis);
+    out[axis] = lo / 2 + hi / 2;
+  }
+}
+
+static double on_parabola(const locus *s, double t) {
+  double h = s->s[1 - s->k] - s->q[1 - s->k], u = t - s->s[s->k];
+  return (u * u / h + s->s[1 - s->k] + s->q[1 - s->k]) / 2;
+}
+
+static void parabola_piece(piece *p, const locus *s, const double begin[2], const double end[2], double reach) {
+  double h = s->s[1 - s->k] - s->q[1 - s->k], most = sqrt(2 * fabs(h) * reach), t[3] = {begin[s->k], 0, end[s->k]};
+  for (int e = 0; e < 3; e += 2) t[e] = fmax(s->s[s->k] - most, fmin(s->s[s->k] + most, t[e]));
+  t[1] = t[0] / 2 + t[2] / 2;
+  for (int e = 0; e < 3; e++) p->at[e][s->k] = t[e];
+  p->at[0][1 - s->k] = on_parabola(s, t[0]);
+  p->at[1][1 - s->k] = p->at[0][1 - s->k] + (t[0] - s->s[s->k]) / h * (t[2] - t[0]) / 2;
+  p->at[2][1 - s->k] = on_parabola(s, t[2]);
+}
+
+/* The line through the middle of s and q, from `begin` to `end` (NULL: infinite). */
+static void line_piece(piece *p, const locus *s, const double *begin, const double *end, double reach) {
+  double n[2] = {s->q[0] - s->s[0], s->q[1] - s->s[1]}, length = hypot(n[0], n[1]);
+  double along[2] = {-n[1] / length, n[0] / length}, middle[2], t[2] = {-reach, reach};
+  const double *ends[2] = {begin, end};
+  for (int a = 0; a < 2; a++) middle[a] = s->q[a] / 2 + s->s[a] / 2;
+  for (int e = 0; e < 2; e++) {
+    if (ends[e]) t[e] = (ends[e][0] - middle[0]) * along[0] + (ends[e][1] - middle[1]) * along[1];
+    t[e] = fmax(-reach, fmin(reach, t[e]));
+    for (int a = 0; a < 2; a++) p->at[2 * e][a] = middle[a] + t[e] * along[a];
+  }
+}
+
+static piece piece_of(const drawing *d, const dyd_arc *a) {
+  locus s = locus_of(a, d->r);
+  piece p = {.curved = a->kind == DYD_ARC_PARABOLA};
+  double begin[2], end[2];
+  bool first = a->begin.kind != DYD_END_INFINITE, last = a->end.kind != DYD_END_INFINITE;
+  if (first) place(begin, &a->begin.at);
+  if (last) place(end, &a->end.at);
+  if (p.curved)
+    parabola_piece(&p, &s, begin, end, d->reach);
+  else
+    line_piece(&p, &s, first ? begin : NULL, last ? end : NULL, d->reach);
+  return p;
+}
+
+/* ---- drawing ---- */
+
+static void line_to(cairo_t *cr, const dyd_view *v, double x, double y) {
+  cairo_line_to(cr, dyd_view_x(v, x), dyd_view_y(v, y));
+}
+
+/* Behind the path so far. The cubic curve of a quadratic one has its inner points two thirds of the way to the middle
+ * point. */
+static void piece_path(cairo_t *cr, const dyd_view *v, const piece *p) {
+  double c[2][2];
+  line_to(cr, v, p->at[0][0], p->at[0][1]);
+  if (!p->curved) {
+    line_to(cr, v, p->at[2][0], p->at[2][1]);
+    return;
+  }
+  for (int e = 0; e < 2; e++)
+    for (int a = 0; a < 2; a++) c[e][a] = p->at[2 * e][a] / 3 + p->at[1][a] * 2 / 3;
+  cairo_curve_to(cr, dyd_view_x(v, c[0][0]), dyd_view_y(v, c[0][1]), dyd_view_x(v, c[1][0]), dyd_view_y(v, c[1][1]),
+                 dyd_view_x(v, p->at[2][0]), dyd_view_y(v, p->at[2][1]));
+}
+
+/* What is on the left of the chain, closed far outside of the picture. */
+static void fill_left(cairo_t *cr, const drawing *d, const dyd_chain *chain, unsigned rgb) {
+  piece p = {0};
+  double begin[2] = {0}, *end = p.at[2], n[2];
+  cairo_new_path(cr);
+  for (size_t k = 0; k < chain->count; k++) {
+    p = piece_of(d, &chain->arc[k]);
+    if (k == 0) begin[0] = p.at[0][0], begin[1] = p.at[0][1];
+    piece_path(cr, &d->view, &p);
+  }
+  double across[2] = {end[0] - begin[0], end[1] - begin[1]}, length = hypot(across[0], across[1]);
+  n[0] = length > 0 ? -across[1] / length * d->reach : 0;
+  n[1] = length > 0 ? across[0] / length * d->reach : 0;
+  line_to(cr, &d->view, end[0] + n[0], end[1] + n[1]);
+  line_to(cr, &d->view, begin[0] + n[0], begin[1] + n[1]);
+  cairo_close_path(cr);
+  dyd_picture_colour(cr, rgb);
+  cairo_fill(cr);
+}
+
+static void draw_arc(cairo_t *cr, const drawing *d, const dyd_arc *a) {
+  piece p = piece_of(d, a);
+  cairo_new_path(cr);
+  piece_path(cr, &d->view, &p);
+  dyd_picture_pen(cr, CURVE, 1.8, p.curved ? 4 : 0, p.curved ? 2.5 : 0);
+  cairo_stroke(cr);
+}
+
+static void draw_mark(cairo_t *cr, double x, double y, dyd_end_kind kind) {
+  dyd_picture_dot(cr, x, y, 3.5, kind == DYD_END_AXIS ? CURVE : 0xffffff, CURVE);
+}
+
+static void draw_ends(cairo_t *cr, const drawing *d, const dyd_chain *chain) {
+  double limit = 2 * d->reach, at[2];
+  for (size_t k = 1; k < chain->count; k++) {
+    place(at, &chain->arc[k].begin.at);
+    if (!(fabs(at[0] - d->view.left) < limit && fabs(at[1] - d->view.top) < limit)) continue;
+    draw_mark(cr, dyd_view_x(&d->view, at[0]), dyd_view_y(&d->view, at[1]), chain->arc[k].begin.kind);
+  }
+}
+
+static void draw_curves(cairo_t *cr, const drawing *d) {
+  const dyd_chain *chain[2] = {d->curve[0].chain, d->curve[1].chain};
+  dyd_picture_colour(cr, DYD_PICTURE_BAND);
+  cairo_paint(cr);
+  for (int k = 0; k < 2; k++)
+    if (d->curve[k].count) fill_left(cr, d, chain[k], tint[k]);
+  for (int k = 0; k < 2; k++)
+    for (size_t a = 0; d->curve[k].count && a < chain[k]->count; a++) draw_arc(cr, d, &chain[k]->arc[a]);
+  for (int k = 0; k < 2; k++)
+    if (d->curve[k].count) draw_ends(cr, d, chain[k]);
+}
+
+static void draw_legend(cairo_t *cr, const drawing *d) {
+  double width, height, y, x = 30;
+  dyd_view_page(&width, &height, &y, &d->view);
+  dyd_picture_entry(cr, &x, y, tint[0], true, 0, 0, "surely nearer to 0");
+  dyd_picture_entry(cr, &x, y, tint[1], true, 0, 0, "surely nearer to 1");
+  dyd_picture_entry(cr, &x, y, DYD_PICTURE_BAND, true, 0, 0, "undetermined");
+  dyd_picture_entry(cr, &x, y, CURVE, false, 0, 0, "line");
+  dyd_picture_entry(cr, &x, y, CURVE, false, 4, 2.5, "parabola");
+  dyd_picture_scale(cr, &d->view, y);
+  if (!d->curve[0].count) {
+    dyd_plot_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14,
+                  "the rectangles meet: nothing is surely nearer to one of them");
+    return;
+  }
+  draw_mark(cr, 45, y + DYD_PICTURE_ROW, DYD_END_AXIS);
+  dyd_plot_text(cr, 66, y + DYD_PICTURE_ROW + 5, 0, 14, "another corner of the one rectangle is farthest");
+  draw_mark(cr, 425, y + DYD_PICTURE_ROW, DYD_END_FEATURE);
+  dyd_plot_text(cr, 440, y + DYD_PICTURE_ROW + 5, 0, 14, "another corner or side of the other rectangle is closest");
+}
+
+static void draw(cairo_t *cr, void *context) {
+  const drawing *d = context;
+  dyd_picture_begin(cr);
+  cairo_save(cr);
+  dyd_view_frame_path(cr, &d->view);
+  cairo_clip(cr);
+  draw_curves(cr, d);
+  for (size_t k = 0; k < 2; k++) {
+    double b[4];
+    box_of(b, d->r[k]);
+    dyd_picture_numbered(cr, &d->view, b, body[k], k);
+  }
+  cairo_restore(cr);
+  dyd_view_frame_path(cr, &d->view);
+  dyd_picture_pen(cr, 0x222222, 1, 0, 0);
+  cairo_stroke(cr);
+  draw_legend(cr, d);
+}
+
+/* *box grows by the ends that are not far out. */
+static void see_ends(double box[4], const dyd_boundary *b, double reach) {
+  double most[4] = {box[0] - reach, box[1] + reach, box[2] - reach, box[3] + reach}, at[2];
+  for (size_t k = 1; b->count && k < b->chain->count; k++) {
+    place(at, &b->chain->arc[k].begin.at);
+    for (int a = 0; a < 2; a++) {
+      box[2 * a] = fmin(box[2 * a], fmax(most[2 * a], at[a]));
+      box[2 * a + 1] = fmax(box[2 * a + 1], fmin(most[2 * a + 1], at[a]));
+    }
+  }
+}
+
+dyd_status dyd_picture_bisector(FILE *out, dyd_format kind, const dyd_rect *const r[2], const dyd_boundary curve[2],
+                                dyd_error *err) {
+  drawing d = {.r = r, .curve = curve};
+  double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY}, see[4], width, height, legend;
+  dyd_status status = DYD_OK;
+  for (int k = 0; k < 2 && status >= 0; k++) status = dyd_pieces_grow(box, r[k], err);
+  if (status < 0) return status;
+  for (int e = 0; e < 4; e++) see[e] = box[e];
+  for (int k = 0; k < 2; k++) see_ends(see, &curve[k], fmax(box[1] - box[0], box[3] - box[2]));
+  dyd_pieces_pad(see);
+  status = dyd_view_fit(&d.view, see, 0, err);
+  if (status < 0) return status;
+  d.reach = 10 * (d.view.width + d.view.height) / d.view.scale;
+  dyd_view_page(&width, &height, &legend, &d.view);
+  return dyd_page_write(out, kind, width, height, draw, &d, err);
+}

@@ -1,0 +1,472 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Cells of the plane, and who is possibly nearest in them.
+ *
+ * [PLANE-1] C_ki = {c : dl_k(c) < ds_i(c)} is convex. So when the corners of a convex cell are in C_ki, i is nowhere in
+ * the cell possibly nearest, and no pair of i has a centre there (ij is possible iff Pos_i and Pos_j meet). A cell is a
+ * square, or a strip outside the root square between two rays; the far corners of a strip are the directions u of its
+ * rays, and there C_ki means min u.x over R_k > max u.x over R_i, as for centres at infinity. The cells cover the plane
+ * with its directions, since neighbours share lines or rays bit by bit. Whoever has the least dl at a point of a cell
+ * is possibly nearest there and never leaves its list, so the list alone tells M(c) from below: sites of the list with
+ * ds(c) <= M(c) are possible neighbours of one another. Distances are bounded as in distance_filter.h [FLT-DST],
+ * heights as in tree_filter.c [FLT-DIR]; NaN and infinities compare false and prove nothing. */
+#include "possible/cells_filter.h"
+
+#include "base/alloc.h"
+#include "skeleton/site_filter.h"
+
+#include <math.h>
+
+/* Lists up to SHORT are looked at pair by pair, longer ones when cutting makes them no shorter, and pairs of lists up
+ * to LONG are noted. DEEP: how often a cell is cut for the pairs noted. EARLY: cells are still so large that lists
+ * can't be short. */
+enum {
+  SHORT = 48,
+  LONG = 4096,
+  FIRST = 3,
+  STEP = 3,
+  DEEP = 6,
+  EARLY = 6,
+  DOMINATORS = 5,
+  MAX_DEPTH = 200,
+  WORK = 1000
+};
+
+/* Somebody in a cell. member: as such possibly nearest there, with open pairs; else DYD_NONE. rival: may have the least
+ * dl. */
+typedef struct entry {
+  uint32_t vertex, member;
+  bool rival;
+} entry;
+
+/* A pair that is still open, by places in the cell's list. */
+typedef struct wish {
+  uint16_t a, b;
+} wish;
+
+/* side < 0: the square [x0,x1] x [y0,y1]. Else the strip at that side of the root square between the rays x0, x1.
+ * listed: the open pairs are wish[first_wish .. + wishes) of the plane, else all pairs of the list. levels: how often
+ * it was cut since. */
+typedef struct cell {
+  double x0, x1, y0, y1;
+  int side, depth, levels;
+  size_t first, count, first_wish, wishes;
+  bool listed;
+} cell;
+
+typedef struct plane {
+  dyd_cells *c;
+  double x0, x1, y0, y1, cx, cy, radius; /* the root square */
+  entry *entry;
+  size_t entries, entry_cap;
+  wish *wish;
+  size_t wishes, wish_cap;
+  uint16_t *place; /* by place in the parent's list of a listed cell: place in the cell's list */
+  bool *rival, *wanted;
+  double *value;
+  bool *near; /* by place in the list: possibly nearest at the centre */
+  double least;
+  size_t work, found;
+  int deep; /* how often a listed cell is cut in this pass */
+  bool enough, lost;
+} plane;
+
+/* A point, or a direction. */
+typedef struct corner {
+  double x, y;
+  bool far;
+} corner;
+
+static corner ray(const plane *p, int side, double w, bool far) {
+  double one = side & 1 ? -1 : 1;
+  if (far) return side < 2 ? (corner){w, one, true} : (corner){one, w, true};
+  if (side < 2) return (corner){p->cx + p->radius * w, side & 1 ? p->y0 : p->y1, false};
+  return (corner){side & 1 ? p->x0 : p->x1, p->cy + p->radius * w, false};
+}
+
+static void corners(corner v[4], const plane *p, const cell *q) {
+  for (int k = 0; k < 4; k++)
+    v[k] = q->side < 0 ? (corner){k & 1 ? q->x1 : q->x0, k & 2 ? q->y1 : q->y0, false}
+                       : ray(p, q->side, k & 1 ? q->x1 : q->x0, k & 2);
+}
+
+/* ---- how far, as a number to compare at one corner: squared distance, or minus height ---- */
+
+static double height_error(double px, double py) {
+  return 8 * 0x1p-53 * (fabs(px) + fabs(py)) + DYD_TINY;
+}
+
+/* Lower bound of -u.x over a box that reaches `slack` farther. */
+static double depth_lower(double ux, double uy, double x, double y, double slack) {
+  double px = ux * x, py = uy * y, s = (fabs(ux) + fabs(uy)) * slack;
+  return -(px + py + s) - height_error(px, py) - 4 * 0x1p-53 * s;
+}
+static double depth_upper(double ux, double uy, double x, double y, double slack) {
+  return -depth_lower(-ux, -uy, x, y, slack);
+}
+
+/* Upper bound of the farthest of a rectangle. */
+static double farthest_upper(const corner *v, const dyd_bbox *b) {
+  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
+  if (!v->far) return dyd_dl2_upper(&c, b);
+  return depth_upper(v->x, v->y, v->x > 0 ? b->e[0] : b->e[1], v->y > 0 ? b->e[2] : b->e[3], 0);
+}
+/* Lower bound of the closest. */
+static double closest_lower(const corner *v, const dyd_bbox *b) {
+  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
+  if (!v->far) return dyd_ds2_lower(&c, b);
+  return depth_lower(v->x, v->y, v->x > 0 ? b->e[1] : b->e[0], v->y > 0 ? b->e[3] : b->e[2], 0);
+}
+/* The bounds from the other side; slack: by how much the box may be wider than the rectangle. */
+static double farthest_lower(const corner *v, const dyd_bbox *b, double slack) {
+  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
+  if (!v->far) return dyd_dl2_lower(&c, b, slack);
+  return depth_lower(v->x, v->y, v->x > 0 ? b->e[0] : b->e[1], v->y > 0 ? b->e[2] : b->e[3], slack);
+}
+static double closest_upper(const corner *v, const dyd_bbox *b, double slack) {
+  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
+  if (!v->far) return dyd_ds2_upper(&c, b, slack);
+  return depth_upper(v->x, v->y, v->x > 0 ? b->e[1] : b->e[0], v->y > 0 ? b->e[3] : b->e[2], slack);
+}
+
+/* ---- the list of a cell ---- */
+
+typedef struct dominator {
+  uint32_t vertex;
+  double at[4]; /* farthest_upper at the corners */
+} dominator;
+
+/* farthest_upper at the corners. Those of a square have two x and two y only: the same steps, but half of them. */
+static void measure(dominator *d, const plane *p, const corner v[4]) {
+  const dyd_bbox *b = &p->c->pd->box[d->vertex];
+  const double c[4] = {v[0].x, v[3].x, v[0].y, v[3].y};
+  double s[4];
+  if (v[3].far) {
+    for (int k = 0; k < 4; k++) d->at[k] = farthest_upper(&v[k], b);
+    return;
+  }
+  for (int k = 0; k < 4; k++) s[k] = dyd_max(b->e[k | 1] - c[k], c[k] - b->e[k & 2]);
+  for (int k = 0; k < 4; k++) s[k] *= s[k];
+  for (int k = 0; k < 4; k++) d->at[k] = dyd_upper(s[k & 1] + s[2 + (k >> 1)]);
+}
+
+/* closest_lower at the corners, likewise. */
+static void measure_closest(double at[4], const plane *p, uint32_t vertex, const corner v[4]) {
+  const dyd_bbox *b = &p->c->pd->box[vertex];
+  const double c[4] = {v[0].x, v[3].x, v[0].y, v[3].y};
+  double s[4];
+  if (v[3].far) {
+    for (int k = 0; k < 4; k++) at[k] = closest_lower(&v[k], b);
+    return;
+  }
+  for (int k = 0; k < 4; k++) s[k] = dyd_max(b->e[k & 2] - c[k], c[k] - b->e[k | 1]);
+  for (int k = 0; k < 4; k++) s[k] = dyd_max(s[k], 0);
+  for (int k = 0; k < 4; k++) s[k] *= s[k];
+  for (int k = 0; k < 4; k++) at[k] = dyd_lower(s[k & 1] + s[2 + (k >> 1)]);
+}
+
+/* Who is nearest at the worst corner, and who at each corner. Returns how many. */
+static int choose_dominators(dominator best[DOMINATORS], const plane *p, const cell *q, const corner v[4]) {
+  double least[DOMINATORS] = {INFINITY, INFINITY, INFINITY, INFINITY, INFINITY};
+  dominator all[DOMINATORS] = {{DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}};
+  for (size_t e = 0; e < q->count; e++) {
+    if (!p->rival[e]) continue;
+    dominator d = {.vertex = p->entry[q->first + e].vertex};
+    measure(&d, p, v);
+    double worst = dyd_max(dyd_max(d.at[0], d.at[1]), dyd_max(d.at[2], d.at[3]));
+    for (int k = 0; k < DOMINATORS; k++) {
+      double value = k == 0 ? worst : d.at[k - 1];
+      if (!(value < least[k])) continue;
+      least[k] = value;
+      all[k] = d;
+    }
+  }
+  int count = 0;
+  for (int k = 0; k < DOMINATORS; k++) {
+    bool fresh = all[k].vertex != DYD_NONE;
+    for (int m = 0; m < count && fresh; m++) fresh = best[m].vertex != all[k].vertex;
+    if (fresh) best[count++] = all[k];
+  }
+  return count;
+}
+
+static bool is_dominated(const plane *p, uint32_t vertex, const corner v[4], const dominator *best, int count) {
+  double at[4];
+  measure_closest(at, p, vertex, v);
+  for (int m = 0; m < count; m++)
+    if (best[m].at[0] < at[0] && best[m].at[1] < at[1] && best[m].at[2] < at[2] && best[m].at[3] < at[3] &&
+        best[m].vertex != vertex)
+      return true;
+  return false;
+}
+
+static corner centre_of(const plane *p, const cell *q) {
+  double x = q->x0 + (q->x1 - q->x0) / 2, y = q->y0 + (q->y1 - q->y0) / 2;
+  return q->side < 0 ? (corner){x, y, false} : ray(p, q->side, x, true);
+}
+
+/* An upper bound of dl at the centre for whoever has the least dl anywhere in a square: dl changes by at most the way,
+ * so it is at most the least one at the centre, and twice the way to the farthest corner. Infinite for strips. */
+static double rival_limit(const cell *q, const corner *centre, double least2) {
+  if (q->side >= 0) return INFINITY;
+  double dx = dyd_max(q->x1 - centre->x, centre->x - q->x0), dy = dyd_max(q->y1 - centre->y, centre->y - q->y0);
+  double limit = sqrt(least2) + 2 * sqrt(dyd_upper(dx * dx + dy * dy));
+  limit = dyd_upper(limit * limit);
+  return isnan(limit) ? INFINITY : limit;
+}
+
+/* rival[k]: whether the k-th of the parent's list may have the least dl somewhere in q. p->least: M at the centre from
+ * below. */
+static void find_rivals(plane *p, const cell *q) {
+  const entry *e = p->entry + q->first;
+  const dyd_bbox *box = p->c->pd->box;
+  corner centre = centre_of(p, q);
+  double upper = INFINITY;
+  bool good = true;
+  p->least = INFINITY;
+  for (size_t k = 0; k < q->count; k++) {
+    if (!e[k].rival) continue;
+    p->value[k] = farthest_lower(&centre, &box[e[k].vertex], dyd_box_slack(p->c->pd, e[k].vertex));
+    good = good && !isnan(p->value[k]);
+    p->least = dyd_min(p->value[k], p->least);
+    upper = dyd_min(farthest_upper(&centre, &box[e[k].vertex]), upper);
+  }
+  if (!good) p->least = -INFINITY;
+  double limit = rival_limit(q, &centre, upper);
+  for (size_t k = 0; k < q->count; k++) p->rival[k] = e[k].rival && !(p->value[k] > limit);
+}
+
+/* wanted[k]: whether the k-th of the parent's list is a member with open pairs. */
+static void find_wanted(plane *p, const cell *q) {
+  for (size_t k = 0; k < q->count; k++) p->wanted[k] = !q->listed && p->entry[q->first + k].member != DYD_NONE;
+  for (size_t k = 0; k < q->wishes && q->listed; k++) {
+    p->wanted[p->wish[q->first_wish + k].a] = true;
+    p->wanted[p->wish[q->first_wish + k].b] = true;
+  }
+}
+
+/* Writes the rivals of the parent's list, and its members with open pairs that are not dominated, behind all lists, and
+ * makes that q's list. place[] tells where the latter have gone. Returns how many they are. */
+static size_t make_list(plane *p, cell *q) {
+  corner v[4];
+  dominator best[DOMINATORS];
+  find_rivals(p, q);
+  find_wanted(p, q);
+  corners(v, p, q);
+  int dominators = choose_dominators(best, p, q, v);
+  size_t members = 0, first = p->entries;
+  for (size_t k = 0; k < q->count; k++) {
+    entry e = p->entry[q->first + k];
+    bool out = (!p->wanted[k] && !p->rival[k]) || is_dominated(p, e.vertex, v, best, dominators);
+    bool in = !out && p->wanted[k];
+    if (q->listed) p->place[k] = in ? (uint16_t)(p->entries - first) : UINT16_MAX;
+    if (out) continue;
+    p->entry[p->entries++] = (entry){e.vertex, in ? e.member : DYD_NONE, p->rival[k]};
+    members += in;
+  }
+  q->first = first;
+  q->count = p->entries - first;
+  return members;
+}
+
+/* ---- pairs shown to be possible ---- */
+
+static bool is_open(const plane *p, const entry *a, const entry *b) {
+  return dyd_pair_map_get(p->c->map, a->member, b->member) == DYD_PAIR_UNKNOWN;
+}
+
+/* near[k]: the k-th of the list is surely possibly nearest at the centre of the cell. All of them are possible
+ * neighbours of one another. */
+static void try_centre(plane *p, const cell *q) {
+  const dyd_delaunay *pd = p->c->pd;
+  const entry *e = p->entry + q->first;
+  corner v = centre_of(p, q);
+  for (size_t k = 0; k < q->count; k++)
+    p->near[k] =
+        e[k].member != DYD_NONE && closest_upper(&v, &pd->box[e[k].vertex], dyd_box_slack(pd, e[k].vertex)) <= p->least;
+}
+
+/* Tells of the pair of the list if it is open and shown, else keeps it if it is open and the cell is listed. */
+static dyd_status consider(plane *p, cell *q, size_t a, size_t b) {
+  const entry *i = &p->entry[q->first + a], *j = &p->entry[q->first + b];
+  if (i->member == DYD_NONE || j->member == DYD_NONE || !is_open(p, i, j)) return DYD_OK;
+  if (p->near[a] && p->near[b]) {
+    p->found++;
+    return p->c->found(p->c->context, &p->enough, i->member, j->member);
+  }
+  if (!q->listed) return DYD_OK;
+  if (!dyd_reserve((void **)&p->wish, &p->wish_cap, p->wishes + 1, sizeof *p->wish)) return DYD_E_NOMEM;
+  p->wish[p->wishes++] = (wish){(uint16_t)a, (uint16_t)b};
+  q->wishes++;
+  return DYD_OK;
+}
+
+/* The parent's open pairs. */
+static dyd_status consider_wishes(plane *p, cell *q) {
+  size_t from = q->first_wish, count = q->wishes;
+  dyd_status st = DYD_OK;
+  q->first_wish = p->wishes;
+  q->wishes = 0;
+  q->levels++;
+  for (size_t k = 0; k < count && st == DYD_OK && !p->enough; k++) {
+    uint16_t a = p->place[p->wish[from + k].a], b = p->place[p->wish[from + k].b];
+    if (a != UINT16_MAX && b != UINT16_MAX) st = consider(p, q, a, b);
+  }
+  return st;
+}
+
+/* All pairs of the list; if it is not too long, those that stay open are noted. */
+static dyd_status consider_all(plane *p, cell *q) {
+  dyd_status st = DYD_OK;
+  q->listed = q->count <= LONG;
+  q->first_wish = p->wishes;
+  for (size_t a = 0; a < q->count; a++)
+    for (size_t b = a + 1; b < q->count && st == DYD_OK && !p->enough; b++) st = consider(p, q, a, b);
+  return st;
+}
+
+static dyd_status leave(plane *p, const cell *q) {
+  dyd_cells *c = p->c;
+  if (!dyd_reserve((void **)&c->left, &c->cap, c->count + q->wishes, sizeof *c->left)) return DYD_E_NOMEM;
+  for (size_t k = 0; k < q->wishes; k++) {
+    wish w = p->wish[q->first_wish + k];
+    uint32_t a = p->entry[q->first + w.a].member, b = p->entry[q->first + w.b].member;
+    c->left[c->count++] = a < b ? (dyd_member_pair){a, b} : (dyd_member_pair){b, a};
+  }
+  return DYD_OK;
+}
+
+/* ---- the recursion ---- */
+
+static dyd_status look(plane *p, cell q);
+
+static dyd_status cut(plane *p, const cell *q) {
+  double x = q->x0 + (q->x1 - q->x0) / 2, y = q->y0 + (q->y1 - q->y0) / 2;
+  dyd_status st = DYD_OK;
+  for (int k = 0; k < (q->side < 0 ? 4 : 2) && st == DYD_OK; k++) {
+    cell part = *q;
+    part.depth++;
+    *(k & 1 ? &part.x0 : &part.x1) = x;
+    if (q->side < 0) *(k & 2 ? &part.y0 : &part.y1) = y;
+    st = look(p, part);
+  }
+  return st;
+}
+
+/* Has the search become hopeless: too much work for what it shows, or cells too small? */
+static bool is_lost(plane *p, const cell *q) {
+  p->lost = p->lost || q->depth > MAX_DEPTH || p->work > WORK * ((size_t)p->c->pd->tree.count + p->found);
+  return p->lost;
+}
+
+static dyd_status look(plane *p, cell q) {
+  size_t entries = p->entries, wishes = p->wishes;
+  p->work += q.count;
+  if (p->enough || is_lost(p, &q)) return DYD_OK;
+  if (dyd_cancelled(p->c->pd)) return DYD_CANCELLED;
+  if (!dyd_reserve((void **)&p->entry, &p->entry_cap, p->entries + 2 * q.count, sizeof *p->entry)) return DYD_E_NOMEM;
+  size_t before = q.count, members = make_list(p, &q);
+  bool stuck = q.count <= SHORT || (q.count > before / 4 * 3 && q.depth >= (q.side < 0 ? EARLY : EARLY / 2));
+  dyd_status st = DYD_OK;
+  if (members >= 2 && (q.listed || stuck)) {
+    try_centre(p, &q);
+    st = q.listed ? consider_wishes(p, &q) : consider_all(p, &q);
+  }
+  if (members >= 2 && st == DYD_OK && !p->enough) {
+    if (q.listed && q.levels >= p->deep)
+      st = leave(p, &q);
+    else if (!q.listed || q.wishes)
+      st = cut(p, &q);
+  }
+  p->entries = entries;
+  p->wishes = wishes;
+  return st;
+}
+
+/* ---- the whole plane ---- */
+
+static uint32_t member_of(const dyd_cells *c, uint32_t v) {
+  const uint32_t *at = bsearch(&v, c->vertex, c->vertices, sizeof v, dyd_compare_index);
+  return at ? (uint32_t)(at - c->vertex) : DYD_NONE;
+}
+
+/* The root square: the middle of all boxes, eight times their extent. */
+static void set_root(plane *p) {
+  const dyd_tree *t = &p->c->pd->tree;
+  const double *e = t->node[t->level[t->levels - 1]].e;
+  p->cx = e[0] + (e[1] - e[0]) / 2;
+  p->cy = e[2] + (e[3] - e[2]) / 2;
+  p->radius = 8 * dyd_max(e[1] - e[0], e[3] - e[2]);
+  p->x0 = p->cx - p->radius;
+  p->x1 = p->cx + p->radius;
+  p->y0 = p->cy - p->radius;
+  p->y1 = p->cy + p->radius;
+}
+
+static dyd_status everybody(plane *p) {
+  const dyd_tree *t = &p->c->pd->tree;
+  p->place = dyd_alloc(LONG, sizeof *p->place);
+  p->near = dyd_alloc(t->count, sizeof *p->near);
+  p->rival = dyd_alloc(t->count, sizeof *p->rival);
+  p->wanted = dyd_alloc(t->count, sizeof *p->wanted);
+  p->value = dyd_alloc(t->count, sizeof *p->value);
+  if (!p->place || !p->near || !p->rival || !p->wanted || !p->value ||
+      !dyd_reserve((void **)&p->entry, &p->entry_cap, t->count, sizeof *p->entry))
+    return DYD_E_NOMEM;
+  for (uint32_t q = 0; q < t->count; q++) p->entry[q] = (entry){t->item[q], member_of(p->c, t->item[q]), true};
+  p->entries = t->count;
+  return DYD_OK;
+}
+
+static int compare_pairs(const void *x, const void *y) {
+  const dyd_member_pair *a = x, *b = y;
+  if (a->a != b->a) return a->a < b->a ? -1 : 1;
+  return (a->b > b->b) - (a->b < b->b);
+}
+
+/* Sorts the pairs left over; those that have found a state meanwhile and repeats go. */
+static void tidy(dyd_cells *c) {
+  size_t kept = 0;
+  if (c->count) qsort(c->left, c->count, sizeof *c->left, compare_pairs);
+  for (size_t k = 0; k < c->count; k++) {
+    dyd_member_pair q = c->left[k];
+    if (kept && compare_pairs(&c->left[kept - 1], &q) == 0) continue;
+    if (dyd_pair_map_get(c->map, q.a, q.b) == DYD_PAIR_UNKNOWN) c->left[kept++] = q;
+  }
+  c->count = kept;
+}
+
+/* Looks at everything; deeper passes find most pairs decided, wherever their centres were met first. */
+static dyd_status pass(plane *p) {
+  cell root = {.x0 = p->x0, .x1 = p->x1, .y0 = p->y0, .y1 = p->y1, .side = -1, .count = p->entries};
+  p->c->count = 0;
+  dyd_status st = look(p, root);
+  for (int side = 0; side < 4 && st == DYD_OK; side++) {
+    cell strip = {.x0 = -1, .x1 = 1, .side = side, .count = p->entries};
+    st = look(p, strip);
+  }
+  return st;
+}
+
+dyd_status dyd_cells_run(bool *complete, dyd_cells *c) {
+  plane p = {.c = c};
+  set_root(&p);
+  bool finite = isfinite(p.x0) && isfinite(p.x1) && isfinite(p.y0) && isfinite(p.y1);
+  dyd_status st = finite ? everybody(&p) : DYD_OK;
+  for (p.deep = FIRST; p.deep <= DEEP && finite && st == DYD_OK; p.deep += STEP) st = pass(&p);
+  *complete = finite && st == DYD_OK && !p.enough && !p.lost;
+  if (*complete) tidy(c);
+  free(p.entry);
+  free(p.wish);
+  free(p.value);
+  free(p.wanted);
+  free(p.rival);
+  free(p.near);
+  free(p.place);
+  return st;
+}
+
+void dyd_cells_clear(dyd_cells *c) {
+  free(c->left);
+  c->left = NULL;
+  c->count = c->cap = 0;
+}

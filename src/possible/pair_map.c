@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Open addressing with multiplicative hashing, and adjacency as linked lists in one array. */
+#include "possible/pair_map.h"
+
+#include "base/alloc.h"
+
+#include <string.h>
+
+static uint64_t key_of(uint32_t a, uint32_t b) {
+  return a < b ? ((uint64_t)a << 32 | b) + 1 : ((uint64_t)b << 32 | a) + 1;
+}
+
+static size_t place(const dyd_pair_map *m, uint64_t key) {
+  uint64_t mixed = (key ^ key >> 32) * UINT64_C(0x9E3779B97F4A7C15);
+  size_t q = (size_t)(mixed >> 24 ^ mixed >> 44) & m->mask;
+  while (m->key[q] && m->key[q] != key) q = (q + 1) & m->mask;
+  return q;
+}
+
+static dyd_status resize(dyd_pair_map *m, size_t size) {
+  uint64_t *key = calloc(size, sizeof *key);
+  uint8_t *state = calloc(size, sizeof *state);
+  if (!key || !state) {
+    free(key);
+    free(state);
+    return DYD_E_NOMEM;
+  }
+  dyd_pair_map old = *m;
+  m->key = key;
+  m->state = state;
+  m->mask = size - 1;
+  for (size_t q = 0; old.key && q <= old.mask; q++)
+    if (old.key[q]) {
+      size_t p = place(m, old.key[q]);
+      m->key[p] = old.key[q];
+      m->state[p] = old.state[q];
+    }
+  free(old.key);
+  free(old.state);
+  return DYD_OK;
+}
+
+dyd_status dyd_pair_map_init(dyd_pair_map *m, uint32_t members) {
+  *m = (dyd_pair_map){.members = members};
+  m->head = dyd_alloc(members, sizeof *m->head);
+  if (!m->head) return DYD_E_NOMEM;
+  memset(m->head, 0xff, members * sizeof *m->head);
+  return resize(m, 64);
+}
+
+void dyd_pair_map_clear(dyd_pair_map *m) {
+  free(m->key);
+  free(m->state);
+  free(m->head);
+  free(m->link);
+  memset(m, 0, sizeof *m);
+}
+
+dyd_pair_state dyd_pair_map_get(const dyd_pair_map *m, uint32_t a, uint32_t b) {
+  return (dyd_pair_state)m->state[place(m, key_of(a, b))];
+}
+
+static void join(dyd_pair_map *m, uint32_t from, uint32_t to) {
+  m->link[m->links] = (dyd_pair_link){to, m->head[from]};
+  m->head[from] = (uint32_t)m->links++;
+}
+
+dyd_status dyd_pair_map_add(dyd_pair_map *m, uint32_t a, uint32_t b, dyd_pair_state state) {
+  if (2 * (m->used + 1) > m->mask + 1) {
+    dyd_status st = resize(m, 2 * (m->mask + 1));
+    if (st != DYD_OK) return st;
+  }
+  if (dyd_pair_is_possible(state) && !dyd_reserve((void **)&m->link, &m->link_cap, m->links + 2, sizeof *m->link))
+    return DYD_E_NOMEM;
+  uint64_t key = key_of(a, b);
+  size_t q = place(m, key);
+  if (!m->key[q]) m->used++;
+  m->key[q] = key;
+  m->state[q] = (uint8_t)state;
+  if (dyd_pair_is_possible(state)) {
+    join(m, a, b);
+    join(m, b, a);
+  }
+  return DYD_OK;
+}

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What the writer of certificates gathers: the sites and proofs in the form that the checker takes. */
+#ifndef DYD_PROVE_CERTIFICATE_H
+#define DYD_PROVE_CERTIFICATE_H
+
+#include "checker/chain.h"
+#include "checker/faces.h"
+#include "checker/witness.h"
+#include <dyadel/engine.h>
+#include <stdio.h>
+
+/* Centres, two numbers each. */
+typedef struct dyd_proof_points {
+  dyd_exact (*item)[2];
+  size_t count, cap;
+} dyd_proof_points;
+
+/* Invariant: witness k belongs to legal pair k, centre k to bridge k; everything passes the checker. */
+typedef struct dyd_proof {
+  const dyd_engine *engine; /* borrowed */
+  const dyd_delaunay *pd;
+  dyd_cert_sites sites;
+  dyd_cert_tree tree;
+  dyd_pair_list pairs; /* all possible pairs */
+  dyd_cert_edges legal, bridges;
+  dyd_proof_points witness, centre;
+  dyd_cert_corner *corner; /* sorted by site */
+  size_t corners, corner_cap;
+  dyd_cert_graph graph;
+  dyd_cert_faces faces;
+} dyd_proof;
+
+/* Copies a site into the checker's form. */
+dyd_status dyd_proof_add_site(dyd_cert_sites *out, const dyd_rect *r);
+/* Appends a centre, shortened to the fewest bits that still make it a witness; *found = false (nothing appended) when
+ * it is none. */
+dyd_status dyd_proof_add_witness(bool *found, dyd_proof_points *out, const dyd_proof *p, uint32_t i, uint32_t j,
+                                 const dyd_point *c, bool places);
+void dyd_proof_points_clear(dyd_proof_points *p);
+
+/* Bridges that connect the legal graph, and the places they need; none when it is connected, or when they are not
+ * found. */
+dyd_status dyd_proof_find_bridges(dyd_proof *p);
+/* The graph, the corners and the faces. */
+dyd_status dyd_proof_find_faces(dyd_proof *p);
+/* Looks for a chain that proves the pair of an open set illegal. Sites `near` are tried as blockers. */
+dyd_status dyd_proof_find_chain(bool *found, dyd_cert_chain *out, const dyd_proof *p, uint32_t i, uint32_t j,
+                                const uint32_t *near, size_t count);
+
+/* Writes a number, a point (two numbers). */
+void dyd_proof_put_number(FILE *out, const dyd_exact *x);
+void dyd_proof_put_point(FILE *out, const dyd_exact c[2]);
+/* Writes the section of the pairs; counts in the faces what is proved. */
+dyd_status dyd_proof_put_pairs(FILE *out, dyd_proof *p);
+
+/* Writes the section on the diagram; nothing for a result that is capped. DYD_E_ARG for a wrong window. */
+dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window);
+
+/* out = x rounded to the nearest multiple of 2^exp, without trailing zero bits. */
+void dyd_proof_round(dyd_exact *out, const dyd_exact *x, int64_t exp);
+void dyd_proof_trim(dyd_exact *x);
+
+#endif

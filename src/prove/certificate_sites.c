@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Sites and witnesses in the form that the checker of certificates takes; witnesses shortened; numbers as they are
+ * written. */
+#include "base/alloc.h"
+#include "prove/certificate.h"
+#include <inttypes.h>
+
+static void copy(dyd_exact *out, const dyd_dyadic *x) {
+  mpz_set(out->man, x->man);
+  out->exp = x->exp;
+}
+
+static dyd_status add_side(dyd_cert_side *out, const dyd_interval *a) {
+  copy(&out->lo, &a->lo);
+  out->point = dyd_interval_is_point(a);
+  if (!out->point) copy(&out->hi, &a->hi);
+  return mpz_cmp_ui(a->den, 1) == 0 ? DYD_OK : dyd_cert_side_set_den(out, a->den);
+}
+
+dyd_status dyd_proof_add_site(dyd_cert_sites *out, const dyd_rect *r) {
+  dyd_cert_site *site = dyd_cert_sites_add(out);
+  if (!site) return DYD_E_NOMEM;
+  dyd_status status = add_side(&site->side[0], &r->x);
+  return status < 0 ? status : add_side(&site->side[1], &r->y);
+}
+
+void dyd_proof_points_clear(dyd_proof_points *p) {
+  for (size_t q = 0; q < p->count; q++) {
+    dyd_exact_clear(&p->item[q][0]);
+    dyd_exact_clear(&p->item[q][1]);
+  }
+  free(p->item);
+  *p = (dyd_proof_points){0};
+}
+
+void dyd_proof_trim(dyd_exact *x) {
+  if (!mpz_sgn(x->man)) {
+    x->exp = 0;
+    return;
+  }
+  mp_bitcnt_t zeros = mpz_scan1(x->man, 0);
+  mpz_tdiv_q_2exp(x->man, x->man, zeros);
+  x->exp += (int64_t)zeros;
+}
+
+void dyd_proof_round(dyd_exact *out, const dyd_exact *x, int64_t exp) {
+  dyd_exact_set(out, x);
+  if (x->exp >= exp) return;
+  mpz_t half;
+  mpz_init_set_ui(half, 1);
+  mpz_mul_2exp(half, half, (mp_bitcnt_t)(exp - x->exp - 1));
+  mpz_add(half, half, x->man);
+  mpz_fdiv_q_2exp(out->man, half, (mp_bitcnt_t)(exp - x->exp));
+  out->exp = exp;
+  mpz_clear(half);
+  dyd_proof_trim(out);
+}
+
+/* A power of two about the distance of c from the lower left corner of the site. */
+static int64_t size_of_distance(const dyd_exact c[2], const dyd_cert_site *s) {
+  dyd_exact d;
+  dyd_exact_init(&d);
+  int64_t top = INT64_MIN;
+  for (int a = 0; a < 2; a++) {
+    mpz_srcptr den;
+    const dyd_exact *at = dyd_cert_place(&den, s, a);
+    mpz_t q;
+    mpz_init(q);
+    dyd_exact_floor(q, at, den, at->exp - 64);
+    mpz_set(d.man, q);
+    d.exp = at->exp - 64;
+    mpz_clear(q);
+    dyd_exact_sub(&d, &c[a], &d);
+    if (dyd_exact_top(&d) > top) top = dyd_exact_top(&d);
+  }
+  dyd_exact_clear(&d);
+  return top;
+}
+
+static int64_t lower(int64_t a, int64_t b) {
+  return a < b ? a : b;
+}
+
+/* Multiples of ever smaller powers of two, from a size like the distance on, until one is a witness. */
+static bool shorten(dyd_exact out[2], const dyd_proof *p, uint32_t i, uint32_t j, const dyd_exact c[2], bool places) {
+  int64_t last = lower(c[0].exp, c[1].exp), exp = size_of_distance(c, &p->sites.site[i]);
+  for (exp = exp == INT64_MIN ? last : exp - 2; exp > last; exp -= exp - last > 200 ? 32 : 2) {
+    dyd_proof_round(&out[0], &c[0], exp);
+    dyd_proof_round(&out[1], &c[1], exp);
+    if (dyd_cert_is_witness(NULL, &p->sites, &p->tree, i, j, out, places)) return true;
+  }
+  dyd_exact_set(&out[0], &c[0]);
+  dyd_exact_set(&out[1], &c[1]);
+  return dyd_cert_is_witness(NULL, &p->sites, &p->tree, i, j, out, places);
+}
+
+dyd_status dyd_proof_add_witness(bool *found, dyd_proof_points *out, const dyd_proof *p, uint32_t i, uint32_t j,
+                                 const dyd_point *c, bool places) {
+  if (!dyd_reserve((void **)&out->item, &out->cap, out->count + 1, sizeof *out->item)) return DYD_E_NOMEM;
+  dyd_exact from[2], *to = out->item[out->count];
+  for (int a = 0; a < 2; a++) {
+    dyd_exact_init(&from[a]);
+    dyd_exact_init(&to[a]);
+    copy(&from[a], a ? &c->y : &c->x);
+  }
+  *found = shorten(to, p, i, j, from, places);
+  if (*found) out->count++;
+  for (int a = 0; a < 2; a++) {
+    dyd_exact_clear(&from[a]);
+    if (*found)
+      dyd_proof_trim(&to[a]);
+    else
+      dyd_exact_clear(&to[a]);
+  }
+  return DYD_OK;
+}
+
+/* ---- writing ---- */
+
+void dyd_proof_put_number(FILE *out, const dyd_exact *x) {
+  dyd_exact t;
+  dyd_exact_init(&t);
+  dyd_exact_set(&t, x);
+  dyd_proof_trim(&t);
+  mpz_out_str(out, 10, t.man);
+  if (t.exp) fprintf(out, "*2^%" PRId64, t.exp);
+  dyd_exact_clear(&t);
+}
+
+void dyd_proof_put_point(FILE *out, const dyd_exact c[2]) {
+  dyd_proof_put_number(out, &c[0]);
+  putc(' ', out);
+  dyd_proof_put_number(out, &c[1]);
+}

@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Orientation and in-circle of representatives in doubles, inlined into the skeleton's loops.
+ *
+ * u = 2^-53. Let every representative differ from its double by at most delta per coordinate (0 when they are doubles),
+ * X, Y be the extents of all doubles, a, b, c, ... differences to the last point.
+ *
+ * Orientation [FLT-ORI]: d = ax by - ay bx. Each difference has relative error u, each product (1+u)^3 in all, the
+ * subtraction one more u: |error| <= 4 u (1+u)^3 (|ax by| + |ay bx|) <= 8.01 u X Y < 1e-15 X Y. An error delta' <= 2
+ * delta of each of four differences, each bounded by E = max(X, Y): <= 8 delta (E + 2 delta). Underflow of the two
+ * products: below 2^-1073; added as 2^-1000. The bound is one number for the whole mesh; infinite or NaN: never sure.
+ *
+ * In-circle [FLT-INC]: d = sum of la (b x c) with la = ax^2 + ay^2 and so on. la carries (1+u)^4, b x c an error of
+ * at most ((1+u)^4 - 1)(|bx cy| + |by cx|), and |bx cy| + |by cx| <= sqrt(lb lc) <= (lb + lc)/2; the product one u, two
+ * sums two u: |error| <= 11 u (1 + 20 u) (la lb + lb lc + lc la), and la lb + lb lc + lc la <= s^2/3, s = la + lb + lc.
+ * The computed s is at least s (1 - 6u). So |error| <= 4.08e-16 s^2; 4.5e-16 leaves room for the rounding of the bound.
+ * Underflow: an error of at most 2^-1074 in each product gives <= 20 * 2^-1074 (s + 1), covered by the excess 4e-17 s^2
+ * when s >= 2^-400, and when s < 2^-400, |d| <= s^2 < 2^-800: so 2^-790 is added. delta: each partial derivative of d
+ * by one of the six differences is at most 4 t^3 where t bounds the length of a, b, c along the way, t = sqrt(s) + 8
+ * delta: 6 * 4 t^3 * 2 delta = 48 delta t^3; 60 leaves room. The ghost is NaN: not sure.
+ *
+ * Overflow: every term of d is at most s^2 (X Y for orientation), rounding is monotone, and the bound multiplies s s (X
+ * Y) first: so if the bound is finite, no term has overflowed; if it is infinite, nothing is sure. */
+
+/* Small integers [FLT-SMALL]: if all coordinates are multiples of a power of two q and the computed s <= 2^26 q^2, then
+ * every difference is a multiple of q below 2^13 q, every lift and product of two a multiple of q^2 below 2^27 q^2,
+ * every later partial sum a multiple of q^4 of size <= s^2 <= 2^52 q^4: all are doubles, nothing is rounded, d is
+ * exact, given 2^-240 <= q <= 2^220 so that q^4 2^53 neither underflows nor overflows. */
+#ifndef DYD_SKELETON_MESH_FILTER_H
+#define DYD_SKELETON_MESH_FILTER_H
+
+#include "skeleton/mesh.h"
+
+#include <math.h>
+
+#define DYD_INCIRCLE_BOUND 4.5e-16
+#define DYD_INCIRCLE_TINY 0x1p-790
+
+/* The orientation bound from the extents of the doubles [FLT-ORI]. */
+static inline double dyd_filter_orient_bound(double extent_x, double extent_y, double delta) {
+  double e = extent_x > extent_y ? extent_x : extent_y;
+  return extent_x * extent_y * 1.01e-15 + 10 * delta * (e + 4 * delta) + 0x1p-1000;
+}
+
+/* 1, -1: sure sign; 0: not sure. */
+static inline int dyd_filter_orient(const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy p) {
+  double d = (a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x);
+  if (d > m->orient_bound) return 1;
+  return d < -m->orient_bound ? -1 : 0;
+}
+
+static inline int dyd_filter_incircle_at(const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy c, dyd_xy p) {
+  double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y, cx = c.x - p.x, cy = c.y - p.y;
+  double la = ax * ax + ay * ay, lb = bx * bx + by * by, lc = cx * cx + cy * cy;
+  double d = la * (bx * cy - by * cx) + lb * (cx * ay - cy * ax) + lc * (ax * by - ay * bx);
+  double s = la + lb + lc, e = s * s * DYD_INCIRCLE_BOUND + DYD_INCIRCLE_TINY;
+  if (m->incircle_delta > 0) {
+    double t = sqrt(s) + 8 * m->incircle_delta;
+    e += 60 * m->incircle_delta * t * t * t;
+  }
+  if (d > e) return 1;
+  return d < -e ? -1 : 0;
+}
+
+/* After the in-circle filter was unsure: true and the exact sign when small integers make doubles exact [FLT-SMALL]. */
+static inline bool dyd_filter_incircle_small(int *sign, const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy c, dyd_xy p) {
+  double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y, cx = c.x - p.x, cy = c.y - p.y;
+  double la = ax * ax + ay * ay, lb = bx * bx + by * by, lc = cx * cx + cy * cy;
+  if (!(la + lb + lc <= m->exact_s)) return false;
+  double d = la * (bx * cy - by * cx) + lb * (cx * ay - cy * ax) + lc * (ax * by - ay * bx);
+  *sign = (d > 0) - (d < 0);
+  return true;
+}
+
+/* After the mesh-wide orientation bound was unsure: the bound for these three points alone [FLT-ORI]. */
+static inline int dyd_filter_orient_near(const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy p) {
+  double left = (a.x - p.x) * (b.y - p.y), right = (a.y - p.y) * (b.x - p.x), d = left - right;
+  double e = 4.01 * 0x1p-53 * (fabs(left) + fabs(right)) + 0x1p-1000;
+  if (m->incircle_delta > 0) return 0;
+  if (d > e) return 1;
+  return d < -e ? -1 : 0;
+}
+
+/* After the in-circle filter was unsure: the permanent instead of its estimate s^2/3 [FLT-INC], for triangles with one
+ * far vertex. la, bx cy, ... as before: |error| <= ((1+u)^11 - 1)(sum of la (|bx cy| + |by cx|)), computed with a
+ * relative error below 20 u: 11.05 u leaves room. Underflow: <= 20 * 2^-1074 (s + 1). */
+static inline int dyd_filter_incircle_near(const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy c, dyd_xy p) {
+  double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y, cx = c.x - p.x, cy = c.y - p.y;
+  double la = ax * ax + ay * ay, lb = bx * bx + by * by, lc = cx * cx + cy * cy;
+  double a1 = bx * cy, a2 = by * cx, b1 = cx * ay, b2 = cy * ax, c1 = ax * by, c2 = ay * bx;
+  double d = la * (a1 - a2) + lb * (b1 - b2) + lc * (c1 - c2);
+  double e = la * (fabs(a1) + fabs(a2)) + lb * (fabs(b1) + fabs(b2)) + lc * (fabs(c1) + fabs(c2));
+  e = 11.05 * 0x1p-53 * e + 0x1p-1060 * (la + lb + lc + 1);
+  if (m->incircle_delta > 0) return 0;
+  if (d > e) return 1;
+  return d < -e ? -1 : 0;
+}
+
+/* The same for orientation: then both products and their difference are exact [FLT-SMALL]. */
+static inline bool dyd_filter_orient_small(int *sign, const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy p) {
+  double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y;
+  if (!(ax * ax + ay * ay + bx * bx + by * by <= m->exact_s)) return false;
+  double d = ax * by - ay * bx;
+  *sign = (d > 0) - (d < 0);
+  return true;
+}
+
+/* Circumcentre in doubles, a guess without a bound; NaN or infinite for collinear points. */
+static inline dyd_xy dyd_circumcentre(dyd_xy a, dyd_xy b, dyd_xy c) {
+  double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
+  double lb = bx * bx + by * by, lc = cx * cx + cy * cy, d = 2 * (bx * cy - by * cx);
+  return (dyd_xy){a.x + (cy * lb - by * lc) / d, a.y + (bx * lc - cx * lb) / d};
+}
+
+#endif

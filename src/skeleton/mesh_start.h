@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Before the first insertion: coordinates, filter constants, the first triangle, coincident representatives. */
+#ifndef DYD_SKELETON_MESH_START_H
+#define DYD_SKELETON_MESH_START_H
+
+#include "skeleton/mesh.h"
+
+/* Sets xy (a copy for a part of the vertices) and the filter constants. */
+dyd_status dyd_mesh_coordinates(dyd_mesh *m);
+/* Finds three vertices that make a triangle, counter-clockwise; moves representatives where that is needed and
+ * possible; sets m->collinear when every choice is collinear (or there are fewer than three distinct sites). */
+dyd_status dyd_mesh_first_triangle(uint32_t first[3], dyd_mesh *m);
+/* The first triangle and its three ghost triangles. */
+void dyd_mesh_put_first(dyd_mesh *m, const uint32_t first[3]);
+/* Moves the representative of v to fraction k of its rectangle. */
+dyd_status dyd_mesh_move(dyd_mesh *m, uint32_t v, uint32_t k);
+/* Is the site of v an exact point? */
+bool dyd_mesh_is_point(const dyd_mesh *m, uint32_t v);
+dyd_status dyd_mesh_set_alias(dyd_mesh *m, uint32_t v, uint32_t of);
+static inline uint32_t dyd_mesh_alias(const dyd_mesh *m, uint32_t v) {
+  return m->alias ? m->alias[v] : DYD_NONE;
+}
+
+#endif

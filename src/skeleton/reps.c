@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Choosing representatives; all conversions between doubles and exact points happen here. */
+#include "skeleton/reps.h"
+
+#include "base/alloc.h"
+#include "base/parallel.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* f = num / 2^bits, 0 < f < 1: the van der Corput sequence (bits of m mirrored behind the point), m >= 1.
+ * m -> f is injective, so different m give different points. */
+typedef struct fraction {
+  uint64_t num;
+  unsigned bits;
+} fraction;
+
+static fraction mirrored(uint64_t m) {
+  fraction f = {0, 0};
+  for (; m; m >>= 1, f.bits++) f.num = f.num << 1 | (m & 1);
+  return f;
+}
+
+/* The fractions of x and y differ for k > 0, so that the points leave the diagonals and the centre lines. */
+static fraction fraction_of(uint32_t k, int axis) {
+  return mirrored(axis == 0 ? (uint64_t)k + 1 : 2 * (uint64_t)k + 1);
+}
+
+/* lo + f (hi - lo), exactly; a rational point stays itself. */
+static dyd_status at_fraction(dyd_interval *a, fraction f) {
+  if (dyd_interval_is_point(a)) return DYD_OK;
+  dyd_dyadic d, t;
+  dyd_dyadic_init(&d);
+  dyd_dyadic_init(&t);
+  mpz_set_ui(t.man, 1);
+  mpz_set_ui(d.man, (unsigned long)f.num);
+  dyd_status st = dyd_dyadic_set_z_2exp(&t, d.man, -(int64_t)f.bits);
+  if (st == DYD_OK) st = dyd_dyadic_sub(&d, &a->hi, &a->lo);
+  if (st == DYD_OK) st = dyd_dyadic_mul(&d, &d, &t);
+  if (st == DYD_OK) st = dyd_dyadic_add(&d, &d, &a->lo);
+  if (st == DYD_OK) st = dyd_interval_set_ends(a, &d, &d);
+  dyd_dyadic_clear(&t);
+  dyd_dyadic_clear(&d);
+  return st;
+}
+
+static dyd_status exact_fraction(dyd_rect *out, const dyd_reps *r, uint32_t v, uint32_t k) {
+  dyd_status st = dyd_sites_get(out, r->sites, r->site[v]);
+  if (st == DYD_OK) st = at_fraction(&out->x, fraction_of(k, 0));
+  if (st == DYD_OK) st = at_fraction(&out->y, fraction_of(k, 1));
+  return st;
+}
+
+dyd_status dyd_reps_get(dyd_rect *out, const dyd_reps *r, uint32_t v) {
+  if (!dyd_reps_is_double(r, v)) return exact_fraction(out, r, v, r->code[v] - 1);
+  return dyd_rect_set_d(out, r->xy[v].x, r->xy[v].x, r->xy[v].y, r->xy[v].y);
+}
+
+/* Middle of two doubles without overflow; lies between them. */
+static double middle(double lo, double hi) {
+  double m = lo / 2 + hi / 2;
+  return m < lo ? lo : m > hi ? hi : m;
+}
+
+static double to_finite(double x) {
+  return x > DBL_MAX ? DBL_MAX : x < -DBL_MAX ? -DBL_MAX : x;
+}
+
+/* A bound of the error of the nearest (clamped) double to a point in [lo,hi], adjacent doubles or equal. */
+static double spread(double lo, double hi) {
+  return hi > DBL_MAX || lo < -DBL_MAX ? INFINITY : hi - lo;
+}
+
+static dyd_status keep_code(dyd_reps *r, uint32_t v, uint32_t code) {
+  if (!r->code && code) {
+    r->code = calloc(r->n ? r->n : 1, sizeof *r->code);
+    if (!r->code) return DYD_E_NOMEM;
+  }
+  if (r->code) r->code[v] = code;
+  return DYD_OK;
+}
+
+static dyd_status choose_exact(dyd_reps *r, uint32_t v, uint32_t k) {
+  dyd_rect q;
+  double lo[2], hi[2];
+  dyd_rect_init(&q);
+  dyd_status st = exact_fraction(&q, r, v, k);
+  if (st == DYD_OK) st = keep_code(r, v, k + 1);
+  if (st == DYD_OK) {
+    dyd_interval_get_d(&lo[0], &hi[0], &q.x);
+    dyd_interval_get_d(&lo[1], &hi[1], &q.y);
+    r->xy[v] = (dyd_xy){to_finite(lo[0]), to_finite(lo[1])};
+    for (int a = 0; a < 2; a++) r->delta = fmax(r->delta, spread(lo[a], hi[a]));
+    if (r->delta == 0 && lo[0] == hi[0] && lo[1] == hi[1]) st = keep_code(r, v, 0);
+  }
+  dyd_rect_clear(&q);
+  return st;
+}
+
+/* Is the double point p inside the exact rectangle of v? */
+static dyd_status holds(bool *inside, const dyd_reps *r, uint32_t v, dyd_xy p) {
+  dyd_rect box, point;
+  dyd_rect_init(&box);
+  dyd_rect_init(&point);
+  dyd_status st = dyd_sites_get(&box, r->sites, r->site[v]);
+  if (st == DYD_OK) st = dyd_rect_set_d(&point, p.x, p.x, p.y, p.y);
+  if (st == DYD_OK) *inside = dyd_rect_contains(&box, &point);
+  dyd_rect_clear(&point);
+  dyd_rect_clear(&box);
+  return st;
+}
+
+/* An exact point that is no double: the table has the doubles next to it. They are what choose_exact would find. */
+static dyd_status choose_point(dyd_reps *r, uint32_t v, uint32_t k, const double b[4]) {
+  dyd_status st = keep_code(r, v, k + 1);
+  if (st != DYD_OK) return st;
+  r->xy[v] = (dyd_xy){to_finite(b[0]), to_finite(b[2])};
+  for (int a = 0; a < 4; a += 2) r->delta = fmax(r->delta, spread(b[a], b[a + 1]));
+  return DYD_OK;
+}
+
+dyd_status dyd_reps_choose(dyd_reps *r, uint32_t v, uint32_t k) {
+  const dyd_sites *s = r->sites;
+  uint32_t i = r->site[v];
+  if (!dyd_sites_in_doubles(s, i) && dyd_sites_is_point(s, i)) {
+    double b[4];
+    dyd_sites_get_d(b, s, i);
+    if (b[0] < b[1] || b[2] < b[3]) return choose_point(r, v, k, b);
+  }
+  if (k == 0) {
+    double b[4];
+    dyd_sites_get_d(b, s, i);
+    dyd_xy p = {middle(b[0], b[1]), middle(b[2], b[3])};
+    bool inside = dyd_sites_in_doubles(s, i);
+    if (!inside && isfinite(b[0]) && isfinite(b[1]) && isfinite(b[2]) && isfinite(b[3])) {
+      dyd_status st = holds(&inside, r, v, p);
+      if (st != DYD_OK) return st;
+    }
+    if (inside) {
+      r->xy[v] = p;
+      return keep_code(r, v, 0);
+    }
+  }
+  return choose_exact(r, v, k);
+}
+
+/* ---- all of them ---- */
+
+enum { FETCH_AHEAD = 24 };
+
+static dyd_status choose_range(dyd_reps *r, size_t begin, size_t end) {
+  const dyd_sites *s = r->sites;
+  bool plain = !s->exact && !s->upper[0] && !s->upper[1];
+  dyd_status st = DYD_OK;
+  for (size_t v = begin; v < end && st == DYD_OK; v++) {
+    if (v + FETCH_AHEAD < end) dyd_sites_fetch(s, r->site[v + FETCH_AHEAD]);
+    if (plain)
+      r->xy[v] = (dyd_xy){s->lower[0][r->site[v]], s->lower[1][r->site[v]]};
+    else
+      st = dyd_reps_choose(r, (uint32_t)v, 0);
+  }
+  return st;
+}
+
+/* Where all rectangles have corners in doubles, their middles lie inside: no codes, nothing can fail. */
+static void choose_doubles(void *context, size_t number) {
+  dyd_reps *r = context;
+  (void)choose_range(r, dyd_range_begin(r->n, number), dyd_range_begin(r->n, number + 1));
+}
+
+dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, uint32_t n, unsigned threads) {
+  *r = (dyd_reps){.sites = sites, .n = n, .site = site};
+  r->xy = dyd_alloc((size_t)n + 1, sizeof *r->xy);
+  if (!r->xy) return DYD_E_NOMEM;
+  r->xy[n] = (dyd_xy){NAN, NAN};
+  if (sites->exact) return choose_range(r, 0, n);
+  dyd_parallel(threads, dyd_ranges(n), choose_doubles, r);
+  return DYD_OK;
+}
+
+void dyd_reps_clear(dyd_reps *r) {
+  free(r->site);
+  free(r->xy);
+  free(r->code);
+  memset(r, 0, sizeof *r);
+}

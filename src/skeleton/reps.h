@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Representatives: one point of each rectangle, the vertices of the skeleton.
+ *
+ * Any point of the rectangle will do for the theory; a short one is quick. Vertex v stands for site site[v]. Its
+ * representative is the double point xy[v] when that lies in the rectangle ("exact"), otherwise the rational point
+ * lo + f (hi - lo), f from the dyadic sequence below, of which xy[v] is the nearest double up to `delta`. */
+#ifndef DYD_SKELETON_REPS_H
+#define DYD_SKELETON_REPS_H
+
+#include "rect/sites_table.h"
+
+#define DYD_NONE UINT32_MAX
+
+typedef struct dyd_xy {
+  double x, y;
+} dyd_xy;
+
+/* Invariant: xy has n + 1 entries, the last one (the ghost vertex) is NaN. code = NULL: every representative is its
+ * double point. code[v] = 0: the double point is exact; code[v] = k > 0: fraction number k - 1 of the rectangle.
+ * delta bounds |double - exact representative| per coordinate over all v; 0 when code = NULL. */
+typedef struct dyd_reps {
+  const dyd_sites *sites;
+  uint32_t n;
+  uint32_t *site;
+  dyd_xy *xy;
+  uint32_t *code;
+  double delta;
+} dyd_reps;
+
+/* Takes over the array site[n]; chooses fraction 0 (the middle) everywhere. */
+dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, uint32_t n, unsigned threads);
+void dyd_reps_clear(dyd_reps *r);
+/* Chooses the representative of v anew: the double nearest to fraction k if it lies in the rectangle (k = 0 only),
+ * else the exact fraction k. Different k give different points of a rectangle that is not a point. */
+dyd_status dyd_reps_choose(dyd_reps *r, uint32_t v, uint32_t k);
+/* The exact representative of v as a singleton rectangle. */
+dyd_status dyd_reps_get(dyd_rect *out, const dyd_reps *r, uint32_t v);
+static inline bool dyd_reps_is_double(const dyd_reps *r, uint32_t v) {
+  return !r->code || !r->code[v];
+}
+
+#endif

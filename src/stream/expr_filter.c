@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Expressions in double interval arithmetic.
+ *
+ * [FLT-EXPR] + - * / and sqrt of doubles are rounded to nearest, so a finite result and the double next to it, below
+ * or above, have the exact result between them, whatever its size: lower ends are taken one double down, upper ends one
+ * double up. The value of an operation on intervals lies between its values at corners: a product or quotient (by an
+ * interval without 0) at the least and the greatest of four, sums, differences and roots by monotony. Negation,
+ * absolute value, minimum and maximum are exact. Whatever is not finite, or may be undefined, gives no answer.
+ *
+ * [FLT-GRID] Scaling up by 2^k is exact unless it overflows, floor and ceil are exact, and an integer that came from
+ * x 2^k times 2^-k is again a double: below 2^53 it has 53 bits and 2^-k is at least 2^-1002; beyond, it is x 2^k.
+ * Where scaling overflows, both ends are multiples already. The computed width is at most 2^-(bits + 1), so the width
+ * is less than that times 1 + 2^-52, and each end moves by less than one unit 2^-(bits + 2): less than 4 + 2^-51 units,
+ * and as a whole number of them at most 4, which is 2^-bits. */
+#include "stream/expr_filter.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Operands open at one time; deeper expressions are left to the exact rungs. */
+#define OPEN 16
+#define MOST_BITS 1000
+
+/* IEEE doubles of one sign are ordered as their patterns: for x > 0 the next double is the next pattern. Beyond the
+ * largest is infinity, before infinity the largest; NaN stays. */
+static double double_of(uint64_t pattern) {
+  double x;
+  memcpy(&x, &pattern, sizeof x);
+  return x;
+}
+static uint64_t pattern_of(double x) {
+  uint64_t pattern;
+  memcpy(&pattern, &x, sizeof pattern);
+  return pattern;
+}
+
+/* The next double above x; infinite or NaN where there is none. */
+static double above(double x) {
+  if (x > 0) return double_of(pattern_of(x) + (x < INFINITY));
+  if (x < 0) return double_of(pattern_of(x) - 1);
+  return x == 0 ? double_of(1) : x;
+}
+static double below(double x) {
+  return -above(-x);
+}
+
+static bool is_good(dyd_double_span a) {
+  return isfinite(a.lo) && isfinite(a.hi);
+}
+
+/* Words below 2^53 are doubles. */
+static bool set_constant(dyd_double_span *out, const dyd_constant *c) {
+  const int64_t limit = (int64_t)1 << 53;
+  if (!dyd_constant_is_short(c) || c->u.num > limit || c->u.num < -limit || c->den > limit) return false;
+  double q = (double)c->u.num / (double)c->den;
+  *out = c->den == 1 ? (dyd_double_span){q, q} : (dyd_double_span){below(q), above(q)};
+  return true;
+}
+
+static dyd_double_span add(dyd_double_span a, dyd_double_span b) {
+  return (dyd_double_span){below(a.lo + b.lo), above(a.hi + b.hi)};
+}
+
+static dyd_double_span negated(dyd_double_span a) {
+  return (dyd_double_span){-a.hi, -a.lo};
+}
+
+/* From the least to the greatest of four rounded corners; NaN when one of them is. */
+static dyd_double_span corners(double p, double q, double r, double s) {
+  if (isnan(p + q + r + s)) return (dyd_double_span){NAN, NAN};
+  return (dyd_double_span){below(fmin(fmin(p, q), fmin(r, s))), above(fmax(fmax(p, q), fmax(r, s)))};
+}
+
+static dyd_double_span multiply(dyd_double_span a, dyd_double_span b) {
+  if (a.lo >= 0 && b.lo >= 0) return (dyd_double_span){below(a.lo * b.lo), above(a.hi * b.hi)};
+  return corners(a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi);
+}
+
+static dyd_double_span divide(dyd_double_span a, dyd_double_span b) {
+  if (b.lo <= 0 && b.hi >= 0) return (dyd_double_span){NAN, NAN};
+  return corners(a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi);
+}
+
+/* What is known of the value by its form may cut the lower end [RANGE-1]. */
+static dyd_double_span square_root(dyd_double_span a, dyd_range range) {
+  if (a.lo < 0 && range.lo < 0) return (dyd_double_span){NAN, NAN};
+  double lo = a.lo > 0 ? below(sqrt(a.lo)) : 0;
+  return (dyd_double_span){lo, above(sqrt(a.hi))};
+}
+
+static dyd_double_span absolute(dyd_double_span a) {
+  if (a.lo >= 0) return a;
+  if (a.hi <= 0) return negated(a);
+  return (dyd_double_span){0, fmax(-a.lo, a.hi)};
+}
+
+static dyd_double_span power(dyd_double_span a, int32_t n) {
+  dyd_double_span result = {1, 1};
+  const dyd_double_span nothing = {NAN, NAN};
+  if (n < 0) return divide(result, power(a, -n));
+  if (n % 2 == 0) a = absolute(a);
+  for (; n; n /= 2) {
+    if (n % 2) result = multiply(result, a);
+    a = multiply(a, a);
+    if (!is_good(a) && n > 1) return nothing;
+  }
+  return result;
+}
+
+static bool leaf(dyd_double_span *out, const dyd_expr *e, const dyd_node *n) {
+  switch (n->op) {
+  case DYD_OP_CONST:
+    return set_constant(out, &e->constant[n->argument]);
+  case DYD_OP_PI:
+    *out = (dyd_double_span){0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1};
+    return true;
+  case DYD_OP_E:
+    *out = (dyd_double_span){0x1.5bf0a8b145769p+1, 0x1.5bf0a8b14576ap+1};
+    return true;
+  default:
+    return false;
+  }
+}
+
+/* a = op(a), where a lies in `range` by its form. */
+static bool unary(dyd_double_span *a, const dyd_node *n, dyd_range range) {
+  switch (n->op) {
+  case DYD_OP_NEG:
+    *a = negated(*a);
+    return true;
+  case DYD_OP_ABS:
+    *a = absolute(*a);
+    return true;
+  case DYD_OP_SQRT:
+    *a = square_root(*a, range);
+    return is_good(*a);
+  case DYD_OP_POW:
+    *a = power(*a, n->argument);
+    return is_good(*a);
+  default:
+    return false;
+  }
+}
+
+static bool binary(dyd_double_span *a, dyd_op op, dyd_double_span b) {
+  switch (op) {
+  case DYD_OP_ADD:
+    *a = add(*a, b);
+    break;
+  case DYD_OP_SUB:
+    *a = add(*a, negated(b));
+    break;
+  case DYD_OP_MUL:
+    *a = multiply(*a, b);
+    break;
+  case DYD_OP_DIV:
+    *a = divide(*a, b);
+    break;
+  case DYD_OP_MIN:
+    *a = (dyd_double_span){fmin(a->lo, b.lo), fmin(a->hi, b.hi)};
+    break;
+  default: /* DYD_OP_MAX */
+    *a = (dyd_double_span){fmax(a->lo, b.lo), fmax(a->hi, b.hi)};
+    break;
+  }
+  return is_good(*a);
+}
+
+/* Applies node i to the stack of *top operands. */
+static bool apply(dyd_double_span *stack, size_t *top, const dyd_expr *e, size_t i) {
+  const dyd_node *n = &e->node[i];
+  dyd_op op = (dyd_op)n->op;
+  if (dyd_op_is_leaf(op)) return *top < OPEN && leaf(&stack[(*top)++], e, n);
+  if (!dyd_op_is_binary(op)) return unary(&stack[*top - 1], n, e->node[i - 1].range);
+  --*top;
+  return binary(&stack[*top - 1], op, stack[*top]);
+}
+
+bool dyd_filter_expr(dyd_double_span *out, const dyd_expr *e) {
+  dyd_double_span stack[OPEN];
+  size_t top = 0;
+  for (size_t i = 0; i < e->count; i++)
+    if (!apply(stack, &top, e, i)) return false;
+  *out = (dyd_double_span){stack[0].lo + 0.0, stack[0].hi + 0.0};
+  return true;
+}
+
+/* ---- widths ---- */
+
+int64_t dyd_filter_bits(dyd_double_span a) {
+  double width = a.hi - a.lo;
+  if (width == 0) return INT64_MAX;
+  if (!(width <= 0.5)) return INT64_MIN;
+  /* At most 2^e; subnormal widths are below 2^-1022. */
+  uint64_t pattern = pattern_of(width);
+  int64_t e = (int64_t)(pattern >> 52) - 1023 + (pattern << 12 != 0);
+  return -e - 1 < MOST_BITS ? -e - 1 : MOST_BITS;
+}
+
+/* -1022 <= k <= 1023. */
+static double power_of_two(int64_t k) {
+  return double_of((uint64_t)(k + 1023) << 52);
+}
+
+bool dyd_filter_round(dyd_double_span *out, dyd_double_span a, int64_t bits) {
+  int64_t most = dyd_filter_bits(a);
+  if (bits > most || bits < 0) return false;
+  *out = a;
+  if (most == INT64_MAX) return true;
+  if (bits > MOST_BITS) return false;
+  double up = power_of_two(bits + 2), down = power_of_two(-bits - 2), lo = a.lo * up, hi = a.hi * up;
+  if (isfinite(lo) && isfinite(hi)) *out = (dyd_double_span){floor(lo) * down + 0.0, ceil(hi) * down + 0.0};
+  return true;
+}

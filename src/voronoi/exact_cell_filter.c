@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Enclosures of points, samples and distances in doubles; interval arithmetic rounds outward throughout. */
+#include "voronoi/exact_cell_filter.h"
+
+#include "dyadic/raw.h"
+#include "predicate/icircle.h"
+
+void dyd_filter_spot_box(dyd_spot *s, int64_t shift) {
+  const dyd_surd_point *p = &s->at;
+  const dyd_icircle view = {.ax = {p->ax[0]},
+                            .bx = {p->bx[0]},
+                            .ay = {p->ay[0]},
+                            .by = {p->by[0]},
+                            .c = {p->c[0]},
+                            .d = {p->d[0]}}; /* borrowed limbs */
+  dyd_icircle_centre_d(s->box, &view, shift);
+}
+
+static dyd_iv enclose(mpz_srcptr z, int64_t shift) {
+  return (dyd_iv){dyd_raw_get_d(z, -shift, DYD_DOWN), dyd_raw_get_d(z, -shift, DYD_UP)};
+}
+
+void dyd_filter_irect_box(dyd_box *out, const dyd_irect *r, int64_t shift) {
+  mpz_srcptr end[4] = {r->x0, r->x1, r->y0, r->y1};
+  out->exact = true;
+  for (int k = 0; k < 4; k++) {
+    out->end[k] = enclose(end[k], shift);
+    out->outer[k] = k & 1 ? out->end[k].hi : out->end[k].lo;
+    if (!(out->end[k].lo == out->end[k].hi)) out->exact = false;
+  }
+}
+
+static dyd_iv along(const dyd_spot *p, int axis) {
+  return (dyd_iv){p->box[2 * axis], p->box[2 * axis + 1]};
+}
+
+int dyd_filter_spot_cmp(const dyd_spot *p, const dyd_spot *q, int axis) {
+  dyd_iv a = along(p, axis), b = along(q, axis);
+  return a.lo > b.hi ? 1 : a.hi < b.lo ? -1 : 0;
+}
+
+bool dyd_filter_spot_beside(const dyd_spot *p, const dyd_spot *low, const dyd_spot *high) {
+  if (low->infinite || high->infinite) return false;
+  for (int axis = 0; axis < 2; axis++) {
+    int a = dyd_filter_spot_cmp(p, low, axis), b = dyd_filter_spot_cmp(p, high, axis);
+    if (a && a == b) return true;
+  }
+  return false;
+}
+
+void dyd_filter_spot_hull(dyd_spot *out, const dyd_spot *p, const dyd_spot *q) {
+  for (int k = 0; k < 4; k++) {
+    double a = p->box[k], b = q->box[k];
+    out->box[k] = !(a == a) || !(b == b) ? a + b : (k & 1 ? a > b : a < b) ? a : b; /* NaN stays */
+  }
+}
+
+int dyd_filter_side(const dyd_spot *p, const dyd_box *a, dyd_touch ta, const dyd_box *b, dyd_touch tb) {
+  dyd_iv x = along(p, 0), y = along(p, 1);
+  dyd_iv da = dyd_filter_distance2(x, y, a, ta), db = dyd_filter_distance2(x, y, b, tb);
+  return da.lo > db.hi ? 1 : da.hi < db.lo ? -1 : 0;
+}
+
+/* A finite double strictly between; the box of the other coordinate is set by the caller. */
+static bool between(double *t, const dyd_spot *low, const dyd_spot *high, int axis) {
+  double a = low->infinite ? -INFINITY : low->box[2 * axis + 1], b = high->infinite ? INFINITY : high->box[2 * axis];
+  if (low->infinite && high->infinite) {
+    *t = 0;
+  } else if (low->infinite) {
+    *t = b - (fabs(b) / 2 + 1);
+  } else if (high->infinite) {
+    *t = a + (fabs(a) / 2 + 1);
+  } else {
+    *t = a / 2 + b / 2;
+  }
+  return isfinite(*t) && a < *t && *t < b;
+}
+
+/* num / 2^bits = t 2^shift */
+static void set_parameter(dyd_sample *out, double t, int axis, int64_t shift) {
+  int exp;
+  double man = frexp(t, &exp);
+  mpz_set_d(out->num, ldexp(man, 53));
+  int64_t bits = 53 - (int64_t)exp - shift;
+  if (bits < 0) {
+    mpz_mul_2exp(out->num, out->num, (mp_bitcnt_t)-bits);
+    bits = 0;
+  }
+  out->bits = bits;
+  out->known = false;
+  out->spot.infinite = false;
+  out->spot.box[2 * axis] = out->spot.box[2 * axis + 1] = t;
+}
+
+static void set_other(dyd_sample *out, dyd_iv other, int axis) {
+  out->spot.box[2 * (1 - axis)] = other.lo;
+  out->spot.box[2 * (1 - axis) + 1] = other.hi;
+}
+
+/* Lines: with n = q - s, m = q + s the other coordinate is m_o/2 + (n_k/n_o) (m_k/2 - t). Parabolas: with h = s_o - q_o
+ * it is ((t - s_k)^2 / h + q_o + s_o) / 2. */
+static dyd_iv other_coordinate(const dyd_filter_arc *arc, int k, double t) {
+  int o = 1 - k;
+  dyd_iv at = dyd_iv_point(t), mo = dyd_iv_scale(dyd_iv_add(arc->q[o], arc->s[o]), 0.5);
+  if (arc->parabola) {
+    dyd_iv h = dyd_iv_sub(arc->s[o], arc->q[o]);
+    return dyd_iv_add(dyd_iv_scale(dyd_iv_div(dyd_iv_sqr(dyd_iv_sub(at, arc->s[k])), h), 0.5), mo);
+  }
+  dyd_iv mk = dyd_iv_scale(dyd_iv_add(arc->q[k], arc->s[k]), 0.5);
+  dyd_iv slope = dyd_iv_div(dyd_iv_sub(arc->q[k], arc->s[k]), dyd_iv_sub(arc->q[o], arc->s[o]));
+  return dyd_iv_add(mo, dyd_iv_mul(slope, dyd_iv_sub(mk, at)));
+}
+
+bool dyd_filter_sample(dyd_sample *out, const dyd_filter_arc *arc, int axis, const dyd_spot *low, const dyd_spot *high,
+                       int64_t shift) {
+  double t;
+  if (!between(&t, low, high, axis)) return false;
+  set_parameter(out, t, axis, shift);
+  set_other(out, other_coordinate(arc, axis, t), axis);
+  return true;
+}
+
+bool dyd_filter_sample_segment(dyd_sample *out, dyd_iv other, int axis, const dyd_spot *low, const dyd_spot *high,
+                               int64_t shift) {
+  double t;
+  if (!between(&t, low, high, axis)) return false;
+  set_parameter(out, t, axis, shift);
+  set_other(out, other, axis);
+  return true;
+}
+
+/* The value of |c - s|^2 - d(c,q)^2 at a point. */
+static dyd_iv difference(const dyd_filter_arc *arc, int k, const dyd_iv c[2]) {
+  int o = 1 - k;
+  dyd_iv sum =
+      dyd_iv_mul(dyd_iv_sub(arc->q[o], arc->s[o]), dyd_iv_sub(dyd_iv_scale(c[o], 2), dyd_iv_add(arc->q[o], arc->s[o])));
+  if (arc->parabola) return dyd_iv_add(sum, dyd_iv_sqr(dyd_iv_sub(c[k], arc->s[k])));
+  return dyd_iv_add(sum, dyd_iv_mul(dyd_iv_sub(arc->q[k], arc->s[k]),
+                                    dyd_iv_sub(dyd_iv_scale(c[k], 2), dyd_iv_add(arc->q[k], arc->s[k]))));
+}
+
+bool dyd_filter_no_arc(const dyd_filter_arc *arc, int axis, int branch, const dyd_iv lo[2], const dyd_iv hi[2]) {
+  int grows[2];
+  for (int a = 0; a < 2; a++)
+    grows[a] = arc->parabola && a == axis ? branch : dyd_iv_sign(dyd_iv_sub(arc->q[a], arc->s[a]));
+  if (!grows[0] || !grows[1]) return false;
+  dyd_iv least[2], most[2];
+  for (int a = 0; a < 2; a++) {
+    least[a] = grows[a] > 0 ? lo[a] : hi[a];
+    most[a] = grows[a] > 0 ? hi[a] : lo[a];
+  }
+  return difference(arc, axis, least).lo > 0 || difference(arc, axis, most).hi < 0;
+}

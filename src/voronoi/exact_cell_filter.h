@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Points A + B sqrt(C) with enclosures in doubles, and the quick answers that these give.
+ *
+ * Boxes are in scaled coordinates times 2^-shift, the same for all points and rectangles of one cell; an end may be
+ * infinite. Every enclosure is rounded outward, and every answer comes from comparisons of enclosures that hold; where
+ * they overlap, or a number is infinite or NaN, the answer is "not known" (predicate/interval_filter.h). */
+#ifndef DYD_VORONOI_EXACT_CELL_FILTER_H
+#define DYD_VORONOI_EXACT_CELL_FILTER_H
+
+#include "predicate/predicate_filter.h"
+#include "voronoi/surd_point.h"
+
+/* A point, or an end at infinity (then at and box mean nothing).
+ * Invariant: box = xlo, xhi, ylo, yhi encloses the point. */
+typedef struct dyd_spot {
+  dyd_surd_point at;
+  double box[4];
+  bool infinite;
+} dyd_spot;
+
+/* A sample point on an arc: coordinate `axis` is num / 2^bits exactly; box as above.
+ * Invariant: at is the point when `known`; it is made only when the filter is unsure. */
+typedef struct dyd_sample {
+  dyd_spot spot;
+  mpz_t num;
+  int64_t bits;
+  bool known;
+} dyd_sample;
+
+void dyd_filter_spot_box(dyd_spot *s, int64_t shift);
+/* The rectangle in doubles. */
+void dyd_filter_irect_box(dyd_box *out, const dyd_irect *r, int64_t shift);
+/* 1, -1: the coordinate of p is surely more, less than that of q; 0: not known. */
+int dyd_filter_spot_cmp(const dyd_spot *p, const dyd_spot *q, int axis);
+/* The box of p is surely not met by the smallest box around both ends (infinite ones included). */
+bool dyd_filter_spot_beside(const dyd_spot *p, const dyd_spot *low, const dyd_spot *high);
+/* The box of out, nothing else, becomes the smallest box around both finite ends. */
+void dyd_filter_spot_hull(dyd_spot *out, const dyd_spot *p, const dyd_spot *q);
+/* Sign of (distance of p to a) - (distance of p to b), 0: not known. */
+int dyd_filter_side(const dyd_spot *p, const dyd_box *a, dyd_touch ta, const dyd_box *b, dyd_touch tb);
+
+/* The line or parabola of an arc in doubles: |c - s| = |c - q|, or distance to the line of coordinate q[1 - axis]. */
+typedef struct dyd_filter_arc {
+  dyd_iv s[2], q[2];
+  bool parabola;
+} dyd_filter_arc;
+
+/* A sample whose coordinate `axis` lies strictly between the points (infinite ends allowed), with its box; the other
+ * coordinate follows from the arc. false: not found in doubles. */
+bool dyd_filter_sample(dyd_sample *out, const dyd_filter_arc *arc, int axis, const dyd_spot *low, const dyd_spot *high,
+                       int64_t shift);
+/* The same on the axis-parallel segment on which the other coordinate is `other`. */
+bool dyd_filter_sample_segment(dyd_sample *out, dyd_iv other, int axis, const dyd_spot *low, const dyd_spot *high,
+                               int64_t shift);
+
+/* Do the conditions |c - s| = distance to q surely have no solution in the closed cell lo .. hi (an infinite interval
+ * where there is no bound)? The difference of squares is monotone in each coordinate there [ARC-1], so its extremes are
+ * at corners. branch: sign of (coordinate along the directrix) - (that of s) in the cell, for parabolas. */
+bool dyd_filter_no_arc(const dyd_filter_arc *arc, int axis, int branch, const dyd_iv lo[2], const dyd_iv hi[2]);
+
+#endif

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What a certificate states, read by a reader of its own, and judged by the oracle. */
+#ifndef DYD_TESTS_CHECKER_STATEMENT_H
+#define DYD_TESTS_CHECKER_STATEMENT_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include "delaunay/harness.h"
+#include <dyadel/dyadel.h>
+
+#include <cmocka.h>
+
+/* kind[i][j], i < j: 'L' legal, 'l' legal without a witness, 'o', 't', 'n' illegal by a chain, 0 not listed. */
+typedef struct statement {
+  orc_case sites; /* aliases as points of their own */
+  char kind[ORC_MAX][ORC_MAX];
+  char outcome[16], goal[24];
+  long goal_bits;
+  bool capped;
+  unsigned long triangles, unproved;
+  bool area_given, hausdorff_given;
+  mpq_t area, hausdorff;
+} statement;
+
+void statement_init(statement *s);
+void statement_clear(statement *s);
+/* Fails the test when the text is no certificate. */
+void statement_read(statement *s, const char *text);
+/* Do both say the same of the same rectangles? Bounds and the words that claim nothing (see certificate.h) apart. */
+bool statement_same(const statement *a, const statement *b);
+/* Is what is stated true, by the oracle? NULL, or what is wrong. */
+const char *statement_judge(orc_pool *p, const statement *s);
+/* The same by the engine, which is quick and shares nothing with the checker but numbers: what is called legal is not
+ * illegal (a witness may be one the engine does not find), what is called illegal is. */
+const char *statement_judge_by_engine(const statement *s);
+/* Are the bounds not below those of the listed pairs? */
+bool statement_bounds_hold(const statement *s);
+
+/* Reads m or m*2^e; returns what follows. */
+const char *statement_number(mpq_ptr out, const char *text);
+
+/* The engine of the case, run with these options (may be NULL). */
+dyd_engine *engine_of_case(const orc_case *c, const dyd_engine_options *o);
+/* The certificate of the case, run with these options (may be NULL); release with free(). */
+char *certificate_of_case(const orc_case *c, const dyd_engine_options *o);
+char *certificate_of_engine(const dyd_engine *e);
+/* DYD_OK or the error; report may be NULL. */
+dyd_status certificate_check(dyd_certificate_report *report, const char *text, size_t length, dyd_error *err);
+
+#endif
