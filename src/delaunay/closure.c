@@ -11,13 +11,14 @@
 #include "delaunay/closure.h"
 
 #include "base/alloc.h"
-#include "delaunay/build.h"
+#include "legal/certify.h"
 #include "possible/cells_filter.h"
 #include "possible/centre.h"
+#include "possible/cover.h"
 #include "possible/hull.h"
 #include "possible/pair_map.h"
 #include "possible/quad_filter.h"
-#include "skeleton/site_filter.h"
+#include "skeleton/rects_filter.h"
 
 #include <string.h>
 
@@ -31,7 +32,7 @@ enum { CROWD = 64, PATIENCE = 4 };
 
 /* Members 0 .. vertices-1 are the face's vertices, member `vertices` is the ghost (if outer). */
 typedef struct closing {
-  dyd_delaunay *pd;
+  const dyd_skeleton *sk;
   dyd_work *w;
   dyd_closure *out;
   dyd_pair_map map;
@@ -43,8 +44,8 @@ typedef struct closing {
   bool full;
 } closing;
 
-static dyd_status gather_vertices(closing *c) {
-  const dyd_mesh *m = &c->pd->mesh;
+static dyd_status closing_gather(closing *c) {
+  const dyd_mesh *m = &c->sk->mesh;
   dyd_closure *out = c->out;
   out->vertex = dyd_alloc(3 * (size_t)c->tris, sizeof *out->vertex);
   if (!out->vertex) return DYD_E_NOMEM;
@@ -62,13 +63,13 @@ static dyd_status gather_vertices(closing *c) {
   for (uint32_t q = 0; q < count; q++) {
     if (out->vertices && out->vertex[out->vertices - 1] == out->vertex[q]) continue;
     out->vertex[out->vertices++] = out->vertex[q];
-    out->all_points = out->all_points && (c->pd->all_points || dyd_vertex_is_point(c->pd, out->vertex[q]));
+    out->all_points = out->all_points && dyd_vertex_is_point(c->sk, out->vertex[q]);
   }
   return DYD_OK;
 }
 
 static uint32_t member_of(const closing *c, uint32_t v) {
-  if (v == c->pd->mesh.n) return c->out->vertices;
+  if (v == c->sk->mesh.n) return c->out->vertices;
   const uint32_t *p = bsearch(&v, c->out->vertex, c->out->vertices, sizeof v, dyd_compare_index);
   return (uint32_t)(p - c->out->vertex);
 }
@@ -81,50 +82,43 @@ static dyd_status keep_pair(dyd_closure *out, uint32_t a, uint32_t b) {
 
 /* ---- exact ties ---- */
 
-static bool edge_is_tie(dyd_delaunay *pd, uint32_t t, unsigned k) {
-  dyd_mesh *m = &pd->mesh;
-  const uint32_t *v = m->tri[t].v;
-  uint32_t twin = m->tri[t].n[k];
-  return dyd_mesh_incircle(m, v[0], v[1], v[2], m->tri[twin >> 2].v[twin & 3]) == 0;
-}
-
 /* All sites exact, all uncertain edges exact ties, and either no ghost triangle or nothing else? */
 static bool is_polygon(const closing *c) {
   uint32_t ghosts = 0;
   if (!c->out->all_points) return false;
   for (uint32_t q = 0; q < c->tris; q++) {
     uint32_t t = c->tri[q];
-    ghosts += dyd_mesh_is_ghost(&c->pd->mesh, t);
-    for (unsigned k = 0; k < 3; k++)
-      if (!dyd_edge_is_certain(c->pd, t, k) && !edge_is_tie(c->pd, t, k)) return false;
+    ghosts += dyd_is_ghost_triangle(&c->sk->mesh, t);
+    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++)
+      if (!dyd_edge_is_certain(c->sk, h) && !dyd_edge_is_tie(c->w, c->sk, h)) return false;
   }
   return ghosts == 0 || ghosts == c->tris;
 }
 
-static dyd_status add(closing *c, uint32_t a, uint32_t b, dyd_pair_state state) {
+static dyd_status closing_add(closing *c, uint32_t a, uint32_t b, dyd_pair_state state) {
   uint32_t ghost = c->out->vertices;
   c->known += a != ghost && b != ghost;
   if (state == DYD_PAIR_OPEN && a != ghost && b != ghost && c->open++ >= c->room) c->full = true;
   return dyd_pair_map_add(&c->map, a, b, state);
 }
 
-/* The pairs of the polygon's boundary (or of the chain's links) are certain. */
-static dyd_status add_certain_edges(closing *c) {
-  const dyd_mesh *m = &c->pd->mesh;
+/* The edges of the face's triangles: the certain ones, or the others. */
+static dyd_status add_edges(closing *c, bool certain) {
+  const dyd_mesh *m = &c->sk->mesh;
   dyd_status st = DYD_OK;
   for (uint32_t q = 0; q < c->tris && st == DYD_OK; q++)
-    for (unsigned k = 0; k < 3 && st == DYD_OK; k++) {
-      const dyd_tri *t = &m->tri[c->tri[q]];
-      uint32_t a = member_of(c, t->v[dyd_next(k)]), b = member_of(c, t->v[dyd_prev(k)]);
-      if (dyd_edge_is_certain(c->pd, c->tri[q], k) && dyd_pair_map_get(&c->map, a, b) == DYD_PAIR_UNKNOWN)
-        st = add(c, a, b, DYD_PAIR_CERTAIN);
+    for (dyd_half_edge h = dyd_edge_of(c->tri[q], 0); h < dyd_edge_end(c->tri[q]) && st == DYD_OK; h++) {
+      if (dyd_edge_is_certain(c->sk, h) != certain) continue;
+      uint32_t a = member_of(c, dyd_edge_origin(m, h)), b = member_of(c, dyd_edge_target(m, h));
+      if (dyd_pair_map_get(&c->map, a, b) == DYD_PAIR_UNKNOWN)
+        st = closing_add(c, a, b, certain ? DYD_PAIR_CERTAIN : DYD_PAIR_OPEN);
     }
   return st;
 }
 
 static dyd_status all_pairs(closing *c) {
   uint32_t m = c->out->vertices;
-  dyd_status st = add_certain_edges(c);
+  dyd_status st = add_edges(c, true);
   for (uint32_t a = 0; a < m && st == DYD_OK; a++)
     for (uint32_t b = a + 1; b < m && st == DYD_OK; b++)
       if (dyd_pair_map_get(&c->map, a, b) == DYD_PAIR_UNKNOWN)
@@ -141,32 +135,21 @@ static dyd_status start_ghost(closing *c) {
   for (uint32_t a = 0; a < ghost && c->out->outer && st == DYD_OK; a++) {
     if (dyd_pair_map_get(&c->map, a, ghost) != DYD_PAIR_UNKNOWN) continue;
     bool possible;
-    st = dyd_hull_possible(&possible, c->w, c->pd, c->out->vertex[a]);
-    if (st == DYD_OK) st = add(c, a, ghost, possible ? DYD_PAIR_OPEN : DYD_PAIR_IMPOSSIBLE);
+    st = dyd_hull_possible(&possible, c->w, c->sk, c->out->vertex[a]);
+    if (st == DYD_OK) st = closing_add(c, a, ghost, possible ? DYD_PAIR_OPEN : DYD_PAIR_IMPOSSIBLE);
   }
-  return st;
-}
-
-static dyd_status start(closing *c) {
-  const dyd_mesh *m = &c->pd->mesh;
-  dyd_status st = add_certain_edges(c);
-  for (uint32_t q = 0; q < c->tris && st == DYD_OK; q++)
-    for (unsigned k = 0; k < 3 && st == DYD_OK; k++) {
-      const dyd_tri *t = &m->tri[c->tri[q]];
-      uint32_t a = member_of(c, t->v[dyd_next(k)]), b = member_of(c, t->v[dyd_prev(k)]);
-      if (dyd_pair_map_get(&c->map, a, b) == DYD_PAIR_UNKNOWN) st = add(c, a, b, DYD_PAIR_OPEN);
-    }
   return st;
 }
 
 /* A pair of sites without a state. */
 static dyd_status add_possible(closing *c, uint32_t a, uint32_t b) {
-  return add(c, a, b, dyd_is_legal(c->pd, c->out->vertex[a], c->out->vertex[b]) ? DYD_PAIR_CERTAIN : DYD_PAIR_OPEN);
+  return closing_add(c, a, b,
+                     dyd_is_legal(c->sk, c->out->vertex[a], c->out->vertex[b]) ? DYD_PAIR_CERTAIN : DYD_PAIR_OPEN);
 }
 
 /* ---- many overlapping rectangles: cells of the plane [PLANE-1] ---- */
 
-static dyd_status found(void *context, bool *enough, uint32_t a, uint32_t b) {
+static dyd_status closing_found(void *context, bool *enough, uint32_t a, uint32_t b) {
   closing *c = context;
   dyd_status st = add_possible(c, a, b);
   *enough = c->full;
@@ -177,8 +160,8 @@ static dyd_status found(void *context, bool *enough, uint32_t a, uint32_t b) {
  * the plane, all of whom are looked at. */
 static bool is_crowded(const closing *c) {
   uint32_t vertices = c->out->vertices;
-  bool many = c->tris >= CROWD && c->tris / 3 >= vertices / 2 && c->pd->tree.count / 16 <= vertices;
-  return many && !c->pd->options.no_filter;
+  bool many = c->tris >= CROWD && c->tris / 3 >= vertices / 2 && c->sk->rects.tree.count / 16 <= vertices;
+  return many && !c->sk->mesh.no_filter;
 }
 
 /* A member's box, for a sweep from left to right. */
@@ -196,12 +179,12 @@ static int compare_left(const void *a, const void *b) {
 
 /* The members whose boxes are their rectangles, by their left sides. */
 static dyd_status sweep_order(sweep_entry **order, size_t *count, const closing *c) {
-  const dyd_delaunay *pd = c->pd;
+  const dyd_skeleton *sk = c->sk;
   const uint32_t *v = c->out->vertex;
   sweep_entry *e = dyd_alloc(c->out->vertices, sizeof *e);
   if (!e) return DYD_E_NOMEM;
   for (uint32_t a = 0; a < c->out->vertices; a++)
-    if (dyd_sites_in_doubles(pd->sites, pd->reps.site[v[a]])) e[(*count)++] = (sweep_entry){&pd->box[v[a]], a};
+    if (dyd_rects_in_doubles(&sk->rects, v[a])) e[(*count)++] = (sweep_entry){&sk->rects.box[v[a]], a};
   qsort(e, *count, sizeof *e, compare_left);
   *order = e;
   return DYD_OK;
@@ -213,11 +196,11 @@ static dyd_status add_meeting(closing *c) {
   size_t count = 0;
   dyd_status st = sweep_order(&e, &count, c);
   for (size_t q = 0; q < count && st == DYD_OK && !c->full; q++) {
-    if (dyd_cancelled(c->pd)) st = DYD_CANCELLED;
+    if (dyd_work_cancelled(c->w)) st = DYD_CANCELLED;
     for (size_t r = q + 1; r < count && st == DYD_OK && !c->full && e[r].box->e[0] <= e[q].box->e[1]; r++)
       if (!dyd_boxes_disjoint(e[q].box, e[r].box) &&
           dyd_pair_map_get(&c->map, e[q].member, e[r].member) == DYD_PAIR_UNKNOWN)
-        st = add(c, e[q].member, e[r].member, DYD_PAIR_OPEN);
+        st = closing_add(c, e[q].member, e[r].member, DYD_PAIR_OPEN);
   }
   free(e);
   return st;
@@ -227,13 +210,18 @@ static dyd_status add_meeting(closing *c) {
 static dyd_status close_by_cells(bool *done, closing *c) {
   static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
   const uint32_t *v = c->out->vertex;
-  dyd_cells cells = {
-      .pd = c->pd, .vertex = v, .vertices = c->out->vertices, .map = &c->map, .found = found, .context = c};
+  dyd_cells cells = {.rects = &c->sk->rects,
+                     .cancel = c->w->cancel,
+                     .vertex = v,
+                     .vertices = c->out->vertices,
+                     .map = &c->map,
+                     .found = closing_found,
+                     .context = c};
   dyd_status st = dyd_cells_run(done, &cells);
   for (size_t q = 0; q < cells.count && *done && st == DYD_OK && !c->full; q++) {
     uint32_t a = cells.left[q].a, b = cells.left[q].b;
     bool possible;
-    st = dyd_cancelled(c->pd) ? DYD_CANCELLED : dyd_cover_possible(&possible, c->w, c->pd, v[a], v[b], no_hint);
+    st = dyd_work_cancelled(c->w) ? DYD_CANCELLED : dyd_cover_possible(&possible, c->w, c->sk, v[a], v[b], no_hint);
     if (st == DYD_OK && possible) st = add_possible(c, a, b);
   }
   dyd_cells_clear(&cells);
@@ -263,8 +251,8 @@ static dyd_status try_centre(closing *c, uint32_t k, uint32_t l, uint32_t other)
   const uint32_t three[2][3] = {{v[0], v[n / 3], v[2 * n / 3]}, {k, l, other}};
   uint32_t *vertex = NULL;
   size_t count = 0, before = c->known;
-  if (other == DYD_NONE || ++c->walks < c->patience || c->pd->options.no_filter) return DYD_OK;
-  dyd_status st = dyd_centre_shows(&vertex, &count, c->pd, three[c->tries++ > 0], 2 * (size_t)n);
+  if (other == DYD_NONE || ++c->walks < c->patience || c->sk->mesh.no_filter) return DYD_OK;
+  dyd_status st = dyd_centre_shows(&vertex, &count, c->sk, three[c->tries++ > 0], 2 * (size_t)n);
   if (st == DYD_OK) st = add_all(c, vertex, count);
   free(vertex);
   if (c->known < before + c->walks) c->patience *= 2;
@@ -273,21 +261,21 @@ static dyd_status try_centre(closing *c, uint32_t k, uint32_t l, uint32_t other)
 }
 
 /* The pair kl may take the place of ij: decide it, once. */
-static dyd_status flip(closing *c, uint32_t i, uint32_t j, uint32_t k, uint32_t l) {
+static dyd_status closing_flip(closing *c, uint32_t i, uint32_t j, uint32_t k, uint32_t l) {
   uint32_t ghost = c->out->vertices;
   const uint32_t *v = c->out->vertex;
   const uint32_t hint[2] = {i == ghost ? DYD_NONE : v[i], j == ghost ? DYD_NONE : v[j]};
   bool possible = true;
   if (k == ghost || l == ghost || dyd_pair_map_get(&c->map, k, l) != DYD_PAIR_UNKNOWN) return DYD_OK;
-  if (i != ghost && j != ghost && dyd_surely_not_displaced(c->pd, v[i], v[j], v[k], v[l])) return DYD_OK;
-  dyd_status st = dyd_cover_possible(&possible, c->w, c->pd, v[k], v[l], hint);
+  if (i != ghost && j != ghost && dyd_surely_not_displaced(c->sk, v[i], v[j], v[k], v[l])) return DYD_OK;
+  dyd_status st = dyd_cover_possible(&possible, c->w, c->sk, v[k], v[l], hint);
   if (st != DYD_OK) return st;
-  st = possible ? add_possible(c, k, l) : add(c, k, l, DYD_PAIR_IMPOSSIBLE);
+  st = possible ? add_possible(c, k, l) : closing_add(c, k, l, DYD_PAIR_IMPOSSIBLE);
   if (st == DYD_OK && possible && c->w->walked) st = try_centre(c, v[k], v[l], hint[0]);
   return st;
 }
 
-static bool possible(const closing *c, uint32_t a, uint32_t b) {
+static bool closing_is_possible(const closing *c, uint32_t a, uint32_t b) {
   return dyd_pair_is_possible(dyd_pair_map_get(&c->map, a, b));
 }
 
@@ -297,17 +285,17 @@ static dyd_status flips_with(closing *c, uint32_t i, uint32_t j, uint32_t k) {
   if (dyd_pair_map_get(&c->map, i, j) != DYD_PAIR_OPEN) return st;
   for (uint32_t q = c->map.head[i]; q != DYD_NONE && st == DYD_OK; q = c->map.link[q].next) {
     uint32_t l = c->map.link[q].to;
-    if (l != j && l != k && possible(c, j, l)) st = flip(c, i, j, k, l);
+    if (l != j && l != k && closing_is_possible(c, j, l)) st = closing_flip(c, i, j, k, l);
   }
   return st;
 }
 
 /* All quads in which the pair ab is the last one: as the pair displaced, or as one of the four sides. */
-static dyd_status settle(closing *c, uint32_t a, uint32_t b) {
+static dyd_status closing_settle(closing *c, uint32_t a, uint32_t b) {
   dyd_status st = DYD_OK;
   for (uint32_t q = c->map.head[a]; q != DYD_NONE && st == DYD_OK; q = c->map.link[q].next) {
     uint32_t k = c->map.link[q].to;
-    if (k == b || !possible(c, b, k)) continue;
+    if (k == b || !closing_is_possible(c, b, k)) continue;
     st = flips_with(c, a, b, k);
     if (st == DYD_OK) st = flips_with(c, a, k, b);
     if (st == DYD_OK) st = flips_with(c, b, k, a);
@@ -315,24 +303,25 @@ static dyd_status settle(closing *c, uint32_t a, uint32_t b) {
   return st;
 }
 
-static dyd_status close(closing *c) {
+static dyd_status closing_run(closing *c) {
   bool done = false;
   uint64_t m = c->out->vertices, all = m * (m - 1) / 2;
   bool crowded = is_crowded(c);
-  dyd_status st = start(c);
+  dyd_status st = add_edges(c, true);
+  if (st == DYD_OK) st = add_edges(c, false);
   if (st == DYD_OK && crowded) st = add_meeting(c);
   if (st == DYD_OK && crowded && !c->full && c->known < all) st = close_by_cells(&done, c);
   if (done || c->full) return st;
   if (st == DYD_OK) st = start_ghost(c);
   for (size_t q = 0; q < c->map.links && st == DYD_OK && !c->full && c->known < all; q += 2) {
-    if (dyd_cancelled(c->pd)) return DYD_CANCELLED;
-    st = settle(c, c->map.link[q + 1].to, c->map.link[q].to);
+    if (dyd_work_cancelled(c->w)) return DYD_CANCELLED;
+    st = closing_settle(c, c->map.link[q + 1].to, c->map.link[q].to);
   }
   return st;
 }
 
 /* Every open pair of real members; when the cap was met only those of the skeleton, which come first. */
-static dyd_status collect(closing *c, size_t links) {
+static dyd_status closing_collect(closing *c, size_t links) {
   uint32_t ghost = c->out->vertices;
   dyd_status st = DYD_OK;
   for (size_t q = 0; q < links && st == DYD_OK; q += 2) {
@@ -344,24 +333,23 @@ static dyd_status collect(closing *c, size_t links) {
 }
 
 static dyd_status skeleton_pairs(closing *c) {
-  const dyd_mesh *m = &c->pd->mesh;
+  const dyd_mesh *m = &c->sk->mesh;
   dyd_status st = DYD_OK;
   c->out->capped = true;
   c->out->pairs = 0;
   for (uint32_t q = 0; q < c->tris && st == DYD_OK; q++)
-    for (unsigned k = 0; k < 3 && st == DYD_OK; k++) {
-      const dyd_tri *t = &m->tri[c->tri[q]];
-      uint32_t a = t->v[dyd_next(k)], b = t->v[dyd_prev(k)];
-      if (a < b && b != m->n && !dyd_edge_is_certain(c->pd, c->tri[q], k)) st = keep_pair(c->out, a, b);
+    for (dyd_half_edge h = dyd_edge_of(c->tri[q], 0); h < dyd_edge_end(c->tri[q]) && st == DYD_OK; h++) {
+      uint32_t a = dyd_edge_origin(m, h), b = dyd_edge_target(m, h);
+      if (a < b && b != m->n && !dyd_edge_is_certain(c->sk, h)) st = keep_pair(c->out, a, b);
     }
   return st;
 }
 
-dyd_status dyd_closure_run(dyd_closure *out, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris,
+dyd_status dyd_closure_run(dyd_closure *out, dyd_work *w, const dyd_skeleton *sk, const uint32_t *tri, uint32_t tris,
                            size_t room) {
-  closing c = {.pd = pd, .w = w, .out = out, .tri = tri, .tris = tris, .room = room, .patience = PATIENCE};
+  closing c = {.sk = sk, .w = w, .out = out, .tri = tri, .tris = tris, .room = room, .patience = PATIENCE};
   *out = (dyd_closure){0};
-  dyd_status st = gather_vertices(&c);
+  dyd_status st = closing_gather(&c);
   if (st == DYD_OK) st = dyd_pair_map_init(&c.map, out->vertices + 1);
   out->polygon = st == DYD_OK && is_polygon(&c);
   if (out->polygon) {
@@ -371,8 +359,8 @@ dyd_status dyd_closure_run(dyd_closure *out, dyd_delaunay *pd, dyd_work *w, cons
     else
       st = all_pairs(&c);
   } else if (st == DYD_OK) {
-    st = close(&c);
-    if (st == DYD_OK) st = collect(&c, c.map.links);
+    st = closing_run(&c);
+    if (st == DYD_OK) st = closing_collect(&c, c.map.links);
   }
   if (st == DYD_OK && (c.full || out->pairs > room)) st = skeleton_pairs(&c);
   bool sorted = out->polygon && !out->capped; /* all_pairs goes in order */

@@ -3,7 +3,8 @@
 #ifndef DYD_DELAUNAY_CLOSURE_H
 #define DYD_DELAUNAY_CLOSURE_H
 
-#include "possible/cover.h"
+#include "delaunay/state.h"
+#include "skeleton/work.h"
 
 /* What a face holds. Owned by the caller, released with dyd_closure_clear. */
 typedef struct dyd_closure {
@@ -17,7 +18,7 @@ typedef struct dyd_closure {
 
 /* Finds the pairs of the face made of the triangles tri[0..tris-1], joined by uncertain edges. At most `room` pairs are
  * kept; beyond that only skeleton edges and `capped`. */
-dyd_status dyd_closure_run(dyd_closure *out, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris,
+dyd_status dyd_closure_run(dyd_closure *out, dyd_work *w, const dyd_skeleton *sk, const uint32_t *tri, uint32_t tris,
                            size_t room);
 void dyd_closure_clear(dyd_closure *c);
 

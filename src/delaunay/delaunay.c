@@ -5,8 +5,6 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "delaunay/build.h"
-#include "delaunay/faces.h"
-#include "delaunay/line.h"
 #include "delaunay/update.h"
 
 #include <string.h>
@@ -14,15 +12,14 @@
 /* Links between pairs are 32-bit numbers, two for each. */
 #define MOST_PAIRS ((size_t)1 << 30)
 
-static void set_options(dyd_delaunay *pd, const dyd_delaunay_options *options) {
+static void set_options(dyd_delaunay *pd, const dyd_delaunay_options *options, size_t n) {
   pd->options = options ? *options : (dyd_delaunay_options){0};
-  pd->max_pairs = pd->options.max_pairs ? pd->options.max_pairs : 4000000 + 16 * (size_t)pd->n;
+  pd->max_pairs = pd->options.max_pairs ? pd->options.max_pairs : 4000000 + 16 * n;
   if (pd->max_pairs > MOST_PAIRS) pd->max_pairs = MOST_PAIRS;
 }
 
 static dyd_status finish(dyd_delaunay *pd, dyd_status st, dyd_error *err) {
   pd->options.cancel = NULL;
-  pd->err = NULL;
   if (st == DYD_OK) return dyd_delaunay_is_capped(pd) ? DYD_CAPPED : DYD_OK;
   return dyd_fail(err, st, "%s", dyd_status_text(st));
 }
@@ -33,11 +30,8 @@ dyd_status dyd_delaunay_new(dyd_delaunay **out, const dyd_sites *sites, const dy
   if (dyd_sites_count(sites) > DYD_MAX_SITES) return dyd_fail(err, DYD_E_RANGE, "too many sites");
   dyd_delaunay *pd = calloc(1, sizeof *pd);
   if (!pd) return dyd_fail_nomem(err);
-  pd->sites = sites;
-  pd->n = (uint32_t)dyd_sites_count(sites);
-  pd->err = err;
-  set_options(pd, options);
-  dyd_status st = finish(pd, dyd_build(pd, (dyd_known){NULL, 0}), err);
+  set_options(pd, options, dyd_sites_count(sites));
+  dyd_status st = finish(pd, dyd_build(pd, sites, (dyd_known){NULL, 0}, err), err);
   if (st < 0 || st == DYD_CANCELLED)
     free(pd);
   else
@@ -54,16 +48,13 @@ void dyd_delaunay_free(dyd_delaunay *pd) {
 dyd_status dyd_delaunay_update(dyd_delaunay *pd, const uint32_t *changed, size_t count,
                                const dyd_delaunay_options *options, dyd_error *err) {
   for (size_t q = 0; q < count; q++)
-    if (changed[q] >= pd->n) return dyd_fail(err, DYD_E_ARG, "site %u does not exist", changed[q]);
-  if (dyd_sites_count(pd->sites) != pd->n) return dyd_fail(err, DYD_E_ARG, "sites were added after the triangulation");
-  pd->err = err;
-  set_options(pd, options);
-  return finish(pd, dyd_update(pd, changed, count), err);
+    if (changed[q] >= pd->sk.n) return dyd_fail(err, DYD_E_ARG, "site %u does not exist", changed[q]);
+  if (dyd_sites_count(pd->sk.rects.sites) != pd->sk.n)
+    return dyd_fail(err, DYD_E_ARG, "sites were added after the triangulation");
+  set_options(pd, options, pd->sk.n);
+  return finish(pd, dyd_update(pd, changed, count, err), err);
 }
 
 bool dyd_delaunay_is_capped(const dyd_delaunay *pd) {
-  if (pd->line.capped) return true;
-  for (size_t f = 0; f < pd->faces.count; f++)
-    if (dyd_face_is_capped(pd, f)) return true;
-  return false;
+  return pd->open.capped > 0;
 }

@@ -23,17 +23,18 @@ typedef struct around {
 } around;
 
 static bool is_farther(const around *a, uint32_t v) {
-  return v == a->i || v == a->j || v == a->pd->mesh.n || dyd_ds2_lower(&a->c, &a->pd->box[v]) > a->bound;
+  const dyd_skeleton *sk = &a->pd->sk;
+  return v == a->i || v == a->j || v == sk->mesh.n || dyd_ds2_lower(&a->c, &sk->rects.box[v]) > a->bound;
 }
 
 static bool triangle_is_farther(around *a, uint32_t t) {
-  const uint32_t *v = a->pd->mesh.tri[t].v;
+  const uint32_t *v = a->pd->sk.mesh.tri[t].v;
   return a->left-- > 0 && is_farther(a, v[0]) && is_farther(a, v[1]) && is_farther(a, v[2]);
 }
 
 static bool face_is_farther(around *a, uint32_t f) {
-  const dyd_face *face = &a->pd->faces.face[f];
-  const uint32_t *tri = a->pd->faces.tri + face->first_tri;
+  const dyd_face *face = &a->pd->open.face[f];
+  const uint32_t *tri = a->pd->open.tri + face->first_tri;
   if (face->tris > a->left) return false;
   for (uint32_t q = 0; q < face->tris; q++)
     if (!triangle_is_farther(a, tri[q])) return false;
@@ -42,21 +43,24 @@ static bool face_is_farther(around *a, uint32_t f) {
 
 /* The faces at v but `own`. */
 static bool star_is_farther(around *a, uint32_t v, uint32_t own) {
-  uint32_t first = a->pd->corner[v], h = first, before = own;
+  dyd_half_edge first = a->pd->sk.leaving[v], h = first;
+  uint32_t before = own;
   do {
-    uint32_t f = a->pd->faces.of[h >> 2];
-    if (f == DYD_NONE && !triangle_is_farther(a, h >> 2)) return false;
+    uint32_t t = dyd_edge_triangle(h), f = a->pd->open.of[t];
+    if (f == DYD_NONE && !triangle_is_farther(a, t)) return false;
     if (f != DYD_NONE && f != own && f != before && !face_is_farther(a, f)) return false;
     before = f;
-    h = dyd_turn(&a->pd->mesh, h);
+    h = dyd_edge_turn(&a->pd->sk.mesh, h);
   } while (h != first);
   return true;
 }
 
-bool dyd_filter_local_witness(const dyd_delaunay *pd, uint32_t t, unsigned k, dyd_xy c) {
-  uint32_t i = pd->mesh.tri[t].v[dyd_next(k)], j = pd->mesh.tri[t].v[dyd_prev(k)], own = pd->faces.of[t];
+bool dyd_filter_local_witness(const dyd_delaunay *pd, dyd_half_edge h, dyd_xy c) {
+  const dyd_bbox *box = pd->sk.rects.box;
+  const dyd_mesh *m = &pd->sk.mesh;
+  uint32_t i = dyd_edge_origin(m, h), j = dyd_edge_target(m, h), own = pd->open.of[dyd_edge_triangle(h)];
   around a = {.pd = pd, .i = i, .j = j, .c = {{c.x, c.x, c.y, c.y}}, .left = MOST_TRIANGLES};
-  if (!isfinite(c.x) || !isfinite(c.y) || i == pd->mesh.n || j == pd->mesh.n) return false;
-  a.bound = dyd_max(dyd_dl2_upper(&a.c, &pd->box[i]), dyd_dl2_upper(&a.c, &pd->box[j]));
+  if (!isfinite(c.x) || !isfinite(c.y) || i == m->n || j == m->n) return false;
+  a.bound = dyd_max(dyd_dl2_upper(&a.c, &box[i]), dyd_dl2_upper(&a.c, &box[j]));
   return isfinite(a.bound) && face_is_farther(&a, own) && star_is_farther(&a, i, own) && star_is_farther(&a, j, own);
 }

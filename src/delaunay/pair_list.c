@@ -5,7 +5,7 @@
  * written side by side; a block is small enough for the nearer caches, and is sorted there: dealt to its sites, and
  * each site's pairs by j. */
 #include "base/alloc.h"
-#include "delaunay/visit.h"
+#include "delaunay/undecided.h"
 
 #include <string.h>
 
@@ -116,8 +116,8 @@ static dyd_status sort_blocks(pair_sort *s) {
 }
 
 dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd) {
-  pair_sort s = {.site = pd->reps.site, .n = pd->n};
-  while (pd->n && (pd->n - 1) >> s.shift >= MOST_BLOCKS) s.shift++;
+  pair_sort s = {.site = pd->sk.reps.site, .n = pd->sk.n};
+  while (pd->sk.n && (pd->sk.n - 1) >> s.shift >= MOST_BLOCKS) s.shift++;
   dyd_each_pair(pd, count_pair, &s);
   size_t total = starts_from_counts(s.end, MOST_BLOCKS);
   s.to = dyd_alloc(total, sizeof *s.to);

@@ -11,8 +11,7 @@
 #include "delaunay/partial_hull.h"
 
 #include "base/alloc.h"
-#include "delaunay/build.h"
-#include "delaunay/faces.h"
+#include "delaunay/undecided.h"
 
 #include <string.h>
 
@@ -44,7 +43,7 @@ static void hull_clear(hull *h) {
 
 static dyd_status append(uint32_t **list, size_t *count, size_t *cap, const dyd_delaunay *pd, const dyd_index_list *l) {
   if (!dyd_reserve((void **)list, cap, *count + l->count, sizeof **list)) return DYD_E_NOMEM;
-  for (size_t k = 0; k < l->count; k++) (*list)[(*count)++] = pd->vertex[l->item[k]];
+  for (size_t k = 0; k < l->count; k++) (*list)[(*count)++] = pd->sk.vertex[l->item[k]];
   return DYD_OK;
 }
 
@@ -53,17 +52,17 @@ static dyd_status gather(uint32_t **list, size_t *count, const dyd_delaunay *pd)
   dyd_index_list some = {0};
   size_t cap = 0;
   dyd_status st = DYD_OK;
-  if (pd->mesh.collinear) {
-    if (!dyd_reserve((void **)list, &cap, pd->n, sizeof **list)) return DYD_E_NOMEM;
-    for (uint32_t v = 0; v < pd->n; v++)
-      if (pd->vertex[pd->reps.site[v]] == v) (*list)[(*count)++] = v;
+  if (dyd_is_line(pd)) {
+    if (!dyd_reserve((void **)list, &cap, pd->sk.n, sizeof **list)) return DYD_E_NOMEM;
+    for (uint32_t v = 0; v < pd->sk.n; v++)
+      if (pd->sk.vertex[pd->sk.reps.site[v]] == v) (*list)[(*count)++] = v;
     return DYD_OK;
   }
   st = dyd_delaunay_hull(&some, pd);
   if (st == DYD_OK) st = append(list, count, &cap, pd, &some);
-  for (size_t f = 0; f < pd->faces.count && st == DYD_OK; f++) {
+  for (size_t f = 0; f < pd->open.count && st == DYD_OK; f++) {
     bool outer;
-    if (!dyd_face_is_outer(pd, f)) continue;
+    if (!dyd_open_is_outer(pd, f)) continue;
     st = dyd_delaunay_face(&some, &outer, pd, f);
     if (st == DYD_OK) st = append(list, count, &cap, pd, &some);
   }
@@ -78,7 +77,7 @@ static dyd_status load(hull *h) {
   for (size_t k = 0; k < h->count && st == DYD_OK; k++) {
     dyd_extreme *x = &h->x[h->made++];
     for (int n = 0; n < 4; n++) mpq_init(x->e[n]);
-    st = dyd_sites_get(&r, h->pd->sites, h->pd->reps.site[x->vertex]);
+    st = dyd_rects_get(&r, &h->pd->sk.rects, x->vertex);
     dyd_interval_get_q(x->e[0], x->e[1], &r.x);
     dyd_interval_get_q(x->e[2], x->e[3], &r.y);
     dyd_extreme_enclose(x);
@@ -183,24 +182,22 @@ static bool is_sure_on_line(const hull *h, size_t k) {
 
 static bool is_sure(const hull *h, size_t k) {
   const dyd_delaunay *pd = h->pd;
-  if (pd->mesh.collinear) return is_sure_on_line(h, k);
-  uint32_t edge = dyd_find_edge(pd, h->x[k].vertex, pd->n);
-  return edge != DYD_NONE && dyd_edge_is_certain(pd, edge >> 2, dyd_prev(edge & 3));
+  if (dyd_is_line(pd)) return is_sure_on_line(h, k);
+  return dyd_is_legal(&pd->sk, h->x[k].vertex, pd->sk.mesh.n);
 }
 
 /* Is ij an edge of the hull of the representatives, in either direction? */
 static bool is_skeleton_edge(const dyd_delaunay *pd, uint32_t v, uint32_t w) {
   for (int k = 0; k < 2; k++) {
-    uint32_t h = k ? dyd_find_edge(pd, w, v) : dyd_find_edge(pd, v, w);
-    if (h != DYD_NONE && dyd_mesh_is_ghost(&pd->mesh, h >> 2)) return true;
+    dyd_half_edge h = k ? dyd_find_edge(&pd->sk, w, v) : dyd_find_edge(&pd->sk, v, w);
+    if (h != DYD_NONE && dyd_is_ghost_triangle(&pd->sk.mesh, dyd_edge_triangle(h))) return true;
   }
   return false;
 }
 
 static dyd_sure orientation(const hull *h, size_t i, size_t j, size_t k, dyd_rect r[3], dyd_status *st) {
   const size_t at[3] = {i, j, k};
-  for (int n = 0; n < 3 && *st == DYD_OK; n++)
-    *st = dyd_sites_get(&r[n], h->pd->sites, h->pd->reps.site[h->x[at[n]].vertex]);
+  for (int n = 0; n < 3 && *st == DYD_OK; n++) *st = dyd_rects_get(&r[n], &h->pd->sk.rects, h->x[at[n]].vertex);
   return *st == DYD_OK ? dyd_orientation(&r[0], &r[1], &r[2]) : DYD_UNSURE;
 }
 
@@ -208,8 +205,9 @@ static dyd_sure orientation(const hull *h, size_t i, size_t j, size_t k, dyd_rec
  * exact points. r: scratch. */
 static dyd_status decide(dyd_pair_status *out, const hull *h, dyd_vertex_pair p, bool edge, dyd_rect r[3]) {
   const dyd_delaunay *pd = h->pd;
-  bool legal = edge, tie = dyd_vertex_is_point(pd, h->x[p.i].vertex) && dyd_vertex_is_point(pd, h->x[p.j].vertex);
-  bool settled = pd->all_points && !edge; /* a tie */
+  bool legal = edge,
+       tie = dyd_vertex_is_point(&pd->sk, h->x[p.i].vertex) && dyd_vertex_is_point(&pd->sk, h->x[p.j].vertex);
+  bool settled = pd->sk.all_points && !edge; /* a tie */
   dyd_status st = DYD_OK;
   const uint32_t *a = h->next + h->start[p.i], *a_end = h->next + h->start[p.i + 1];
   const uint32_t *b = h->next + h->start[p.j], *b_end = h->next + h->start[p.j + 1];
@@ -221,7 +219,7 @@ static dyd_status decide(dyd_pair_status *out, const hull *h, dyd_vertex_pair p,
         b++;
       continue;
     }
-    bool point = dyd_vertex_is_point(pd, h->x[*a].vertex);
+    bool point = dyd_vertex_is_point(&pd->sk, h->x[*a].vertex);
     if ((legal || !point) && orientation(h, p.i, p.j, *a, r, &st) == DYD_UNSURE) {
       legal = false;
       tie = tie && point;
@@ -241,9 +239,8 @@ static dyd_status decide_pairs(dyd_pair_list *out, const hull *h) {
   for (int n = 0; n < 3; n++) dyd_rect_init(&r[n]);
   for (size_t k = 0; k < h->pairs.count && st == DYD_OK; k++) {
     dyd_vertex_pair p = h->pairs.item[k];
-    uint32_t v = h->x[p.i].vertex, w = h->x[p.j].vertex, i = pd->reps.site[v], j = pd->reps.site[w];
-    bool edge =
-        (pd->mesh.collinear ? h->count == 2 : is_skeleton_edge(pd, v, w)) && !rects_meet(&h->x[p.i], &h->x[p.j]);
+    uint32_t v = h->x[p.i].vertex, w = h->x[p.j].vertex, i = pd->sk.reps.site[v], j = pd->sk.reps.site[w];
+    bool edge = (dyd_is_line(pd) ? h->count == 2 : is_skeleton_edge(pd, v, w)) && !rects_meet(&h->x[p.i], &h->x[p.j]);
     dyd_pair *to = &out->item[out->count++];
     *to = (dyd_pair){i < j ? i : j, i < j ? j : i, DYD_INDETERMINATE};
     st = decide(&to->status, h, p, edge, r);
@@ -264,7 +261,7 @@ static dyd_status list_vertices(dyd_index_list *out, const hull *h, bool sure) {
   out->item = dyd_alloc(h->count, sizeof *out->item);
   if (!out->item) return DYD_E_NOMEM;
   for (size_t k = 0; k < h->count; k++)
-    if (sure ? is_sure(h, k) : h->x[k].possible) out->item[out->count++] = h->pd->reps.site[h->x[k].vertex];
+    if (sure ? is_sure(h, k) : h->x[k].possible) out->item[out->count++] = h->pd->sk.reps.site[h->x[k].vertex];
   if (out->count) qsort(out->item, out->count, sizeof *out->item, dyd_compare_index);
   return DYD_OK;
 }

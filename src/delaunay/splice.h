@@ -9,13 +9,14 @@
 #define DYD_DELAUNAY_SPLICE_H
 
 #include "delaunay/state.h"
+#include "skeleton/work.h"
 
 /* Are the triangles of the face Delaunay for the present representatives as they are, so that it may stay [LOC-2]?
  * Exact for bounded faces; false for others. */
-bool dyd_splice_is_needless(dyd_delaunay *pd, const uint32_t *tri, uint32_t tris);
+bool dyd_splice_is_needless(dyd_work *w, const dyd_skeleton *sk, const uint32_t *tri, uint32_t tris);
 /* Replaces the triangles tri[0..tris-1], a whole undecided face, by the skeleton of the present representatives. Edges
  * inside become uncertain; the marks of the face table are not touched. *fits: false if the face cannot be treated
  * alone (two sites have become the same exact point); nothing is changed then, nor on failure. */
-dyd_status dyd_splice_face(bool *fits, dyd_delaunay *pd, const uint32_t *tri, uint32_t tris);
+dyd_status dyd_splice_face(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris);
 
 #endif

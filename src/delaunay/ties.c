@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Finding the faces of exact points, and reading them. */
+/* Finding the faces of exact points, and their vertices. */
 #include "delaunay/ties.h"
 
 #include "base/alloc.h"
-#include "base/error.h"
-#include "delaunay/faces.h"
+#include "delaunay/face_table.h"
 
 /* Invariant: list[0..count-1] are triangles of the face in work. */
 typedef struct tie_flood {
@@ -13,45 +12,41 @@ typedef struct tie_flood {
   bool ghost; /* a chain */
 } tie_flood;
 
-static bool mark(tie_flood *f, dyd_delaunay *pd, uint32_t t, uint32_t face) {
+static bool tie_mark(tie_flood *f, dyd_delaunay *pd, uint32_t t, uint32_t face) {
   if (!dyd_reserve((void **)&f->list, &f->cap, f->count + 1, sizeof *f->list)) return false;
   f->list[f->count++] = t;
-  pd->faces.of[t] = face;
+  pd->open.of[t] = face;
   return true;
 }
 
 /* All triangles joined to t by uncertain edges. */
-static dyd_status flood(tie_flood *f, dyd_delaunay *pd, uint32_t t, uint32_t face) {
+static dyd_status tie_flood_from(tie_flood *f, dyd_delaunay *pd, uint32_t t, uint32_t face) {
   f->count = 0;
-  f->ghost = dyd_mesh_is_ghost(&pd->mesh, t);
-  if (!mark(f, pd, t, face)) return DYD_E_NOMEM;
+  f->ghost = dyd_is_ghost_triangle(&pd->sk.mesh, t);
+  if (!tie_mark(f, pd, t, face)) return DYD_E_NOMEM;
   for (size_t q = 0; q < f->count; q++)
-    for (unsigned k = 0; k < 3; k++) {
-      uint32_t s = f->list[q], beyond = pd->mesh.tri[s].n[k] >> 2;
-      if (dyd_edge_is_certain(pd, s, k) || pd->faces.of[beyond] == face) continue;
-      if (!mark(f, pd, beyond, face)) return DYD_E_NOMEM;
+    for (dyd_half_edge h = dyd_edge_of(f->list[q], 0), end = dyd_edge_end(f->list[q]); h < end; h++) {
+      uint32_t beyond = dyd_edge_triangle(dyd_edge_twin(&pd->sk.mesh, h));
+      if (dyd_edge_is_certain(&pd->sk, h) || pd->open.of[beyond] == face) continue;
+      if (!tie_mark(f, pd, beyond, face)) return DYD_E_NOMEM;
     }
   return DYD_OK;
 }
 
-static dyd_status report_cap(dyd_delaunay *pd, size_t face) {
-  uint32_t *v = NULL, *site = pd->reps.site;
+static dyd_status report_cap(const dyd_delaunay *pd, dyd_work *w, size_t face) {
+  uint32_t *v = NULL;
   size_t n;
   dyd_status st = dyd_tie_vertices(&v, &n, pd, face);
   if (st != DYD_OK) return st;
-  dyd_fail(
-      pd->err, DYD_CAPPED,
-      "more than %zu undecided pairs to store: %zu sites around sites %u, %u, %u have too many possible neighbours "
-      "(nearly cocircular, collinear or overlapping); raise the cap on pairs, or give narrower rectangles",
-      pd->max_pairs, n, site[v[0]], site[v[n / 2]], site[v[n - 1]]);
+  dyd_report_cap(w, pd, v, n);
   free(v);
   return DYD_OK;
 }
 
 /* Counts the pairs of the face in work, of t triangles. A polygon of m = t + 2 sites has m sides and t - 1 edges
  * inside; a chain of m = t + 1 sites has t links, and its edges inside go to the ghost. */
-static dyd_status settle(dyd_delaunay *pd, uint64_t t, bool ghost) {
-  dyd_face_table *table = &pd->faces;
+static dyd_status tie_settle(dyd_delaunay *pd, dyd_work *w, uint64_t t, bool ghost) {
+  dyd_undecided *table = &pd->open;
   uint64_t all = ghost ? t * (t - 1) / 2 : (t + 2) * (t - 1) / 2, inside = ghost ? 0 : t - 1;
   size_t face = table->count++;
   if (table->live_pairs <= pd->max_pairs && all <= pd->max_pairs - table->live_pairs) {
@@ -62,84 +57,63 @@ static dyd_status settle(dyd_delaunay *pd, uint64_t t, bool ghost) {
   table->seed[face] |= DYD_SEED_CAPPED;
   table->live_pairs += inside;
   table->capped_pairs += inside;
-  return report_cap(pd, face);
+  table->capped++;
+  return report_cap(pd, w, face);
 }
 
 /* Two triangles joined by the only uncertain edge of both, no ghost among them: marks them. */
 static bool is_quad(dyd_delaunay *pd, uint32_t t, uint32_t face) {
-  unsigned open = 7 & ~pd->certain[t], k = open >> 1;
-  if ((open & (open - 1)) || dyd_mesh_is_ghost(&pd->mesh, t)) return false;
-  uint32_t u = pd->mesh.tri[t].n[k] >> 2; /* no ghost: the edge would be one of the hull, and certain */
-  unsigned other = 7 & ~pd->certain[u];
+  const dyd_mesh *m = &pd->sk.mesh;
+  unsigned open = 7 & ~pd->sk.certain[t];
+  if ((open & (open - 1)) || dyd_is_ghost_triangle(m, t)) return false;
+  /* no ghost beyond: the edge would be one of the hull, and certain */
+  uint32_t u = dyd_edge_triangle(dyd_edge_twin(m, dyd_edge_of(t, open >> 1)));
+  unsigned other = 7 & ~pd->sk.certain[u];
   if (other & (other - 1)) return false;
-  pd->faces.of[t] = pd->faces.of[u] = face;
+  pd->open.of[t] = pd->open.of[u] = face;
   return true;
 }
 
-static dyd_status find_face(tie_flood *f, dyd_delaunay *pd, uint32_t t) {
-  dyd_face_table *table = &pd->faces;
+static dyd_status tie_find_face(tie_flood *f, dyd_delaunay *pd, dyd_work *w, uint32_t t) {
+  dyd_undecided *table = &pd->open;
   uint32_t face = (uint32_t)table->count;
-  if (dyd_cancelled(pd)) return DYD_CANCELLED;
+  if (dyd_work_cancelled(w)) return DYD_CANCELLED;
   if (!dyd_reserve((void **)&table->seed, &table->seed_cap, table->count + 1, sizeof *table->seed)) return DYD_E_NOMEM;
   table->seed[face] = t;
-  pd->counters.faces++;
-  if (is_quad(pd, t, face)) return settle(pd, 2, false);
-  dyd_status st = flood(f, pd, t, face);
-  return st == DYD_OK ? settle(pd, f->count, f->ghost) : st;
+  w->counters.faces++;
+  if (is_quad(pd, t, face)) return tie_settle(pd, w, 2, false);
+  dyd_status st = tie_flood_from(f, pd, t, face);
+  return st == DYD_OK ? tie_settle(pd, w, f->count, f->ghost) : st;
 }
 
-dyd_status dyd_ties_find(dyd_delaunay *pd) {
+dyd_status dyd_ties_find(dyd_delaunay *pd, dyd_work *w) {
   tie_flood f = {0};
   dyd_status st = DYD_OK;
-  for (uint32_t t = 0; t < pd->mesh.count && st == DYD_OK; t++) {
-    if ((pd->certain[t] & 7) == 7) continue;
-    st = dyd_faces_mark(pd);
-    if (st == DYD_OK && pd->faces.of[t] == DYD_NONE) st = find_face(&f, pd, t);
+  for (uint32_t t = 0; t < pd->sk.mesh.count && st == DYD_OK; t++) {
+    if (dyd_triangle_is_certain(&pd->sk, t)) continue;
+    st = dyd_table_mark(pd);
+    if (st == DYD_OK && pd->open.of[t] == DYD_NONE) st = tie_find_face(&f, pd, w, t);
   }
   free(f.list);
-  if (st != DYD_OK) dyd_faces_clear(&pd->faces);
+  if (st != DYD_OK) dyd_table_clear(&pd->open);
   return st;
 }
 
 /* ---- reading ---- */
 
 dyd_status dyd_tie_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, size_t f) {
-  uint32_t first = dyd_tie_start(pd, f), h = first, *v = NULL;
+  const dyd_mesh *m = &pd->sk.mesh;
+  dyd_half_edge first = dyd_tie_start(pd, f), h = first;
+  uint32_t *v = NULL;
   size_t kept = 0, cap = 0;
   do {
-    uint32_t w = dyd_tie_vertex(&pd->mesh, h);
+    uint32_t w = dyd_edge_origin(m, h);
     if (!dyd_reserve((void **)&v, &cap, kept + 1, sizeof *v)) return free(v), DYD_E_NOMEM;
-    if (w != pd->mesh.n) v[kept++] = w;
-    h = dyd_tie_next(pd, h);
+    if (w != m->n) v[kept++] = w;
+    h = dyd_tie_next(&pd->sk, h);
   } while (h != first);
   qsort(v, kept, sizeof *v, dyd_compare_index);
   *vertex = v;
   *count = kept;
   return DYD_OK;
-}
-
-bool dyd_tie_is_outer(const dyd_delaunay *pd, size_t f) {
-  return dyd_mesh_is_ghost(&pd->mesh, pd->faces.seed[f] & ~DYD_SEED_MARKS);
-}
-
-static bool is_in_face(const dyd_delaunay *pd, uint32_t v, uint32_t face) {
-  uint32_t first = pd->corner[v], h = first;
-  do {
-    if (pd->faces.of[h >> 2] == face) return true;
-    h = dyd_turn(&pd->mesh, h);
-  } while (h != first);
-  return false;
-}
-
-dyd_pair_status dyd_tie_status(const dyd_delaunay *pd, uint32_t v, uint32_t w) {
-  uint32_t first = pd->corner[v], h = first, before = DYD_NONE;
-  if (!pd->faces.of) return DYD_ILLEGAL;
-  do {
-    uint32_t face = pd->faces.of[h >> 2];
-    if (face != DYD_NONE && face != before && is_in_face(pd, w, face))
-      return dyd_tie_is_capped(pd, face) ? DYD_INDETERMINATE : DYD_TIE;
-    before = face;
-    h = dyd_turn(&pd->mesh, h);
-  } while (h != first);
-  return DYD_ILLEGAL;
 }

@@ -3,50 +3,46 @@
  *
  * Each is one polygon of cocircular sites or one chain of collinear sites on the hull, and all its pairs but those of
  * its rim are ties [CLO-2], in no other face [CLO-3]. So nothing is listed: the table holds one triangle of each face,
- * and everything is read off the rim. The rim is walked with the face on the left by corners 4 t + k whose edge from
- * v[k] to v[k+1] is certain; the rim of a chain passes through the ghost. */
+ * and everything is read off the rim: the certain half-edges with the face on their left; that of a chain passes
+ * through the ghost. */
 #ifndef DYD_DELAUNAY_TIES_H
 #define DYD_DELAUNAY_TIES_H
 
 #include "delaunay/state.h"
+#include "skeleton/work.h"
 
 /* Finds all faces and fills the table; the marks of the table are made when there is a face. On failure the table is
  * empty. */
-dyd_status dyd_ties_find(dyd_delaunay *pd);
-/* The vertices of face f, ascending, without the ghost; *vertex is owned by the caller. */
-dyd_status dyd_tie_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, size_t f);
-bool dyd_tie_is_outer(const dyd_delaunay *pd, size_t f);
-/* Status of two vertices whose pair is not legal. */
-dyd_pair_status dyd_tie_status(const dyd_delaunay *pd, uint32_t v, uint32_t w);
+dyd_status dyd_ties_find(dyd_delaunay *pd, dyd_work *w);
 
 static inline bool dyd_tie_is_capped(const dyd_delaunay *pd, size_t f) {
-  return pd->faces.seed[f] & DYD_SEED_CAPPED;
+  return pd->open.seed[f] & DYD_SEED_CAPPED;
 }
-static inline uint32_t dyd_tie_vertex(const dyd_mesh *m, uint32_t h) {
-  return m->tri[h >> 2].v[h & 3];
+static inline uint32_t dyd_tie_seed(const dyd_delaunay *pd, size_t f) {
+  return pd->open.seed[f] & ~DYD_SEED_MARKS;
 }
-/* The rim's corner at the vertex of corner h, a corner of the face: turns clockwise across uncertain edges. */
-static inline uint32_t dyd_tie_rim(const dyd_delaunay *pd, uint32_t h) {
-  while (!dyd_edge_is_certain(pd, h >> 2, dyd_prev(h & 3))) {
-    uint32_t beyond = pd->mesh.tri[h >> 2].n[dyd_prev(h & 3)];
-    h = (beyond & ~3u) | dyd_prev(beyond & 3);
-  }
+/* The rim's half-edge out of the origin of h, a half-edge in the face: turns clockwise across uncertain edges. */
+static inline dyd_half_edge dyd_tie_rim(const dyd_skeleton *sk, dyd_half_edge h) {
+  while (!dyd_edge_is_certain(sk, h)) h = dyd_edge_turn_back(&sk->mesh, h);
   return h;
 }
-/* The rim's next corner, counter-clockwise. */
-static inline uint32_t dyd_tie_next(const dyd_delaunay *pd, uint32_t h) {
-  return dyd_tie_rim(pd, (h & ~3u) | dyd_next(h & 3));
+/* The rim's next half-edge, counter-clockwise. */
+static inline dyd_half_edge dyd_tie_next(const dyd_skeleton *sk, dyd_half_edge h) {
+  return dyd_tie_rim(sk, dyd_edge_next(h));
 }
-/* A corner on the rim of face f. */
-static inline uint32_t dyd_tie_start(const dyd_delaunay *pd, size_t f) {
-  return dyd_tie_rim(pd, 4 * (pd->faces.seed[f] & ~DYD_SEED_MARKS));
+/* A half-edge on the rim of face f. */
+static inline dyd_half_edge dyd_tie_start(const dyd_delaunay *pd, size_t f) {
+  return dyd_tie_rim(&pd->sk, dyd_edge_of(dyd_tie_seed(pd, f), 2));
 }
 /* Vertices on the rim, the ghost counted too. */
-static inline uint32_t dyd_tie_size(const dyd_delaunay *pd, uint32_t first) {
-  uint32_t h = first, size = 0;
+static inline uint32_t dyd_tie_size(const dyd_skeleton *sk, dyd_half_edge first) {
+  dyd_half_edge h = first;
+  uint32_t size = 0;
   do size++;
-  while ((h = dyd_tie_next(pd, h)) != first);
+  while ((h = dyd_tie_next(sk, h)) != first);
   return size;
 }
+/* The vertices of face f, ascending, without the ghost; *vertex is owned by the caller. */
+dyd_status dyd_tie_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, size_t f);
 
 #endif

@@ -6,6 +6,6 @@
 #include "delaunay/state.h"
 
 /* As dyd_delaunay_update. */
-dyd_status dyd_update(dyd_delaunay *pd, const uint32_t *changed, size_t count);
+dyd_status dyd_update(dyd_delaunay *pd, const uint32_t *changed, size_t count, dyd_error *err);
 
 #endif

@@ -92,7 +92,7 @@ dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, voi
 /* ---- vertices ---- */
 
 static dyd_status find_vertex(double out[4], const dyd_diagram *d, const dyd_triangle *t, int64_t bits) {
-  uint32_t v[3] = {d->pd->vertex[t->v[0]], d->pd->vertex[t->v[1]], d->pd->vertex[t->v[2]]};
+  uint32_t v[3] = {d->pd->sk.vertex[t->v[0]], d->pd->sk.vertex[t->v[1]], d->pd->sk.vertex[t->v[2]]};
   dyd_bbox b;
   double most = ldexp(1, d->bits < -1000 ? 1000 : d->bits > 1000 ? -1000 : (int)-d->bits);
   /* Wide boxes in doubles say much less than the exact ones. */

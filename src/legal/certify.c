@@ -7,136 +7,112 @@
  * [TIE-1]. */
 #include "legal/certify.h"
 
-#include "base/alloc.h"
-#include "delaunay/build.h"
-#include "delaunay/view.h"
+#include "legal/hull.h"
 #include "legal/marks.h"
+#include "legal/star_filter.h"
 #include "legal/witness.h"
-#include "possible/hull.h"
+#include "skeleton/centre_filter.h"
+#include "skeleton/mesh_fixed.h"
+#include "skeleton/predicates.h"
 
 #include <string.h>
 
-/* Sign of the vertex beyond edge k of t against the circle of t: < 0 strictly outside. */
-static int beyond_sign(dyd_delaunay *pd, uint32_t t, unsigned k) {
-  dyd_mesh *m = &pd->mesh;
-  const uint32_t *v = m->tri[t].v;
-  uint32_t twin = m->tri[t].n[k];
-  return dyd_mesh_incircle(m, v[0], v[1], v[2], m->tri[twin >> 2].v[twin & 3]);
+/* Sign of the vertex beyond an edge against the circle of its triangle: < 0 strictly outside. */
+static int beyond_sign(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
+  const uint32_t *v = sk->mesh.tri[dyd_edge_triangle(h)].v;
+  return dyd_mesh_incircle(&w->tally, &sk->mesh, v[0], v[1], v[2], dyd_edge_across(&sk->mesh, h));
 }
 
-bool dyd_point_edge_is_certain(dyd_delaunay *pd, uint32_t t, unsigned k) {
-  uint32_t twin = pd->mesh.tri[t].n[k];
-  bool here = dyd_mesh_is_ghost(&pd->mesh, t), there = dyd_mesh_is_ghost(&pd->mesh, twin >> 2);
-  if (here != there) return true; /* a hull edge */
-  return beyond_sign(pd, t, k) < 0;
+bool dyd_edge_is_tie(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
+  return beyond_sign(w, sk, h) == 0;
 }
 
-/* ---- tasks ---- */
-
-typedef struct pass {
-  dyd_delaunay *pd;
-  dyd_mark_tasks tasks;
-} pass;
-
-typedef void range_task(dyd_delaunay *view, dyd_marks *range);
-
-static void run_on_view(pass *p, size_t number, range_task *task) {
-  dyd_delaunay view;
-  dyd_marks *range = &p->tasks.task[number];
-  dyd_view_open(&view, p->pd);
-  task(&view, range);
-  dyd_view_close(&range->counters, &view);
-}
-
-static dyd_status run(dyd_delaunay *pd, dyd_task *task) {
-  pass *p = dyd_alloc(1, sizeof *p);
-  if (!p) return DYD_E_NOMEM;
-  dyd_view_prepare(pd);
-  p->pd = pd;
-  dyd_mark_tasks_init(&p->tasks, pd);
-  dyd_parallel(pd->options.threads, p->tasks.count, task, p);
-  dyd_status st = dyd_mark_tasks_settle(&p->tasks, pd);
-  free(p);
-  return st;
+bool dyd_point_edge_is_certain(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
+  const dyd_mesh *m = &sk->mesh;
+  bool hull = dyd_edge_apex(m, h) == m->n || dyd_edge_across(m, h) == m->n;
+  return hull || beyond_sign(w, sk, h) < 0;
 }
 
 /* ---- exact points ---- */
 
-static void decide_point_edges(dyd_delaunay *view, dyd_marks *range) {
+static void decide_point_edges(void *context, size_t number) {
+  dyd_mark_tasks *p = context;
+  dyd_marks *range = &p->task[number];
   for (uint32_t t = range->first; t < range->end; t++)
-    for (unsigned k = 0; k < 3; k++)
-      if (view->mesh.tri[t].n[k] > 4 * t + k && dyd_point_edge_is_certain(view, t, k)) dyd_mark(range, view, t, k);
-}
-
-static void point_edges_of_range(void *context, size_t number) {
-  run_on_view(context, number, decide_point_edges);
-}
-
-static dyd_status certify_points(dyd_delaunay *pd) {
-  dyd_status st = DYD_OK;
-  if (pd->mesh.ties == 0)
-    memset(pd->certain, 7, pd->mesh.count);
-  else
-    st = run(pd, point_edges_of_range);
-  if (st == DYD_OK) pd->counters.witness_guess += dyd_certain_edges(pd); /* the middles of their Voronoi edges */
-  return st;
+    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++)
+      if (dyd_edge_is_first(&p->sk->mesh, h) && dyd_point_edge_is_certain(&range->work, p->sk, h))
+        dyd_mark(range, p->sk, h);
 }
 
 /* ---- rectangles ---- */
 
 /* Four exact points on a circle: no witness, and no need to look for one. */
-static bool is_exact_tie(dyd_delaunay *pd, uint32_t t, unsigned k) {
-  const uint32_t *v = pd->mesh.tri[t].v;
-  uint32_t twin = pd->mesh.tri[t].n[k], across = pd->mesh.tri[twin >> 2].v[twin & 3];
-  for (unsigned q = 0; q < 3; q++)
-    if (v[q] == pd->mesh.n || !dyd_vertex_is_point(pd, v[q])) return false;
-  return across != pd->mesh.n && dyd_vertex_is_point(pd, across) && beyond_sign(pd, t, k) == 0;
+static bool is_exact_tie(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
+  const uint32_t *v = sk->mesh.tri[dyd_edge_triangle(h)].v;
+  const uint32_t four[4] = {v[0], v[1], v[2], dyd_edge_across(&sk->mesh, h)};
+  for (unsigned q = 0; q < 4; q++)
+    if (four[q] == sk->mesh.n || !dyd_vertex_is_point(sk, four[q])) return false;
+  return dyd_edge_is_tie(w, sk, h);
 }
 
-static dyd_status decide_edge(bool *certain, dyd_delaunay *pd, dyd_work *w, uint32_t t, unsigned k) {
-  uint32_t g = pd->mesh.n, i = pd->mesh.tri[t].v[dyd_next(k)], j = pd->mesh.tri[t].v[dyd_prev(k)];
-  uint32_t twin = pd->mesh.tri[t].n[k], across[2] = {pd->mesh.tri[t].v[k], pd->mesh.tri[twin >> 2].v[twin & 3]};
-  bool hull = across[0] == g || across[1] == g;
-  dyd_status st = DYD_OK;
+static dyd_status decide_edge(bool *certain, dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
+  const dyd_mesh *m = &sk->mesh;
+  uint32_t i = dyd_edge_origin(m, h), j = dyd_edge_target(m, h);
+  uint32_t across[2] = {dyd_edge_apex(m, h), dyd_edge_across(m, h)};
+  bool hull = across[0] == m->n || across[1] == m->n;
   *certain = false;
-  if (i == g || j == g)
-    st = dyd_hull_sure(certain, w, pd, i == g ? j : i);
-  else if (!is_exact_tie(pd, t, k)) {
-    st = dyd_witness_search(certain, NULL, pd, i, j, dyd_edge_centre(pd, t, k), hull ? NULL : across);
-    if (st == DYD_OK && !*certain && hull) st = dyd_witness_far(certain, NULL, w, pd, i, j);
-    if (*certain) pd->counters.witness_search++;
-  }
+  if (i == m->n || j == m->n) return dyd_hull_sure(certain, w, sk, i == m->n ? j : i);
+  if (is_exact_tie(w, sk, h)) return DYD_OK;
+  dyd_status st = dyd_witness_search(certain, NULL, w, sk, i, j, dyd_edge_centre(sk, h), hull ? NULL : across);
+  if (st == DYD_OK && !*certain && hull) st = dyd_witness_far(certain, NULL, w, sk, i, j);
+  if (*certain) w->counters.witness_search++;
   return st;
 }
 
-dyd_status dyd_certify_edge(dyd_delaunay *pd, dyd_work *w, uint32_t t, unsigned k) {
+dyd_status dyd_certify_edge(dyd_skeleton *sk, dyd_work *w, dyd_half_edge h) {
   bool certain;
-  dyd_status st = decide_edge(&certain, pd, w, t, k);
-  if (st == DYD_OK && certain) dyd_set_certain(pd, t, k);
+  dyd_status st = decide_edge(&certain, w, sk, h);
+  if (st == DYD_OK && certain) dyd_set_certain(sk, h, true);
   return st;
 }
 
-static void decide_edges(dyd_delaunay *view, dyd_marks *range) {
-  dyd_work w;
-  dyd_work_init(&w, view);
+static void decide_edges(void *context, size_t number) {
+  dyd_mark_tasks *p = context;
+  dyd_marks *range = &p->task[number];
   for (uint32_t t = range->first; t < range->end && range->status == DYD_OK; t++) {
-    if (dyd_cancelled(view)) range->status = DYD_CANCELLED;
-    for (unsigned k = 0; k < 3 && range->status == DYD_OK; k++) {
+    if (dyd_work_cancelled(&range->work)) range->status = DYD_CANCELLED;
+    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t) && range->status == DYD_OK; h++) {
       bool certain = false;
-      if (view->mesh.tri[t].n[k] < 4 * t + k || dyd_edge_is_certain(view, t, k)) continue;
-      range->status = decide_edge(&certain, view, &w, t, k);
-      if (certain) dyd_mark(range, view, t, k);
+      if (!dyd_edge_is_first(&p->sk->mesh, h) || dyd_edge_is_certain(p->sk, h)) continue;
+      range->status = decide_edge(&certain, &range->work, p->sk, h);
+      if (certain) dyd_mark(range, p->sk, h);
     }
   }
-  dyd_work_clear(&w);
 }
 
-static void edges_of_range(void *context, size_t number) {
-  run_on_view(context, number, decide_edges);
+/* ---- the passes ---- */
+
+static dyd_status certify_pass(dyd_skeleton *sk, dyd_work *w, dyd_task *task) {
+  dyd_mark_tasks p;
+  dyd_fixed_prepare(&sk->mesh); /* before several ask for it */
+  dyd_status st = dyd_mark_tasks_init(&p, sk, w);
+  if (st != DYD_OK) return st;
+  dyd_parallel(w->threads, p.count, task, &p);
+  return dyd_mark_tasks_settle(&p, true);
 }
 
-dyd_status dyd_certify_all(dyd_delaunay *pd) {
-  if (pd->all_points) return certify_points(pd);
-  dyd_status st = pd->options.no_filter ? DYD_OK : dyd_certify_stars(pd);
-  return st == DYD_OK ? run(pd, edges_of_range) : st;
+static dyd_status certify_points(dyd_skeleton *sk, dyd_work *w) {
+  dyd_status st = DYD_OK;
+  if (sk->mesh.tally.ties == 0)
+    memset(sk->certain, 7, sk->mesh.count);
+  else
+    st = certify_pass(sk, w, decide_point_edges);
+  if (st == DYD_OK) w->counters.witness_guess += dyd_certain_edges(sk); /* the middles of their Voronoi edges */
+  return st;
+}
+
+dyd_status dyd_certify_all(dyd_skeleton *sk, dyd_work *w) {
+  if (sk->all_points) return certify_points(sk, w);
+  dyd_status st = sk->mesh.no_filter ? DYD_OK : dyd_certify_stars(sk, w);
+  return st == DYD_OK ? certify_pass(sk, w, decide_edges) : st;
 }

@@ -97,8 +97,8 @@ static bool is_less(mpz_t s, mpz_t t, const dyd_exact_centre *p, const dyd_exact
 }
 
 /* The best exchange for half-plane k: true if there is one; *best is its centre, basis is updated. */
-static bool exchange(const dyd_half_plane *basis[3], dyd_exact_centre *best, dyd_exact_centre *trial, mpz_t scratch[5],
-                     const dyd_half_plane *k) {
+static bool exact_lp_exchange(const dyd_half_plane *basis[3], dyd_exact_centre *best, dyd_exact_centre *trial,
+                              mpz_t scratch[5], const dyd_half_plane *k) {
   int leaves = -1;
   for (int out = 0; out < 3; out++) {
     const dyd_half_plane *const h[3] = {k, basis[(out + 1) % 3], basis[(out + 2) % 3]};
@@ -123,7 +123,7 @@ bool dyd_exact_lp(dyd_exact_centre *out, const dyd_half_plane *h, size_t count) 
     size_t k = violated(scratch[3], h, count, out);
     done = k == count;
     if (done) break;
-    good = exchange(basis, &next, &trial, scratch, &h[k]);
+    good = exact_lp_exchange(basis, &next, &trial, scratch, &h[k]);
     if (good) swap_centres(out, &next);
   }
   for (int k = 0; k < 5; k++) mpz_clear(scratch[k]);

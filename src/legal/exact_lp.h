@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The linear programme of lp_filter.h in integers: for searches that doubles cannot lead to an end. */
+/* The linear programme of lp_filter.h in integers: the middle of a few half-planes. */
 #ifndef DYD_LEGAL_EXACT_LP_H
 #define DYD_LEGAL_EXACT_LP_H
 

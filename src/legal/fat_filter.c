@@ -66,13 +66,13 @@ static bool half_plane_is_clear(const flood *f, dyd_xy a, dyd_xy b) {
 static bool is_clear(const flood *f, uint32_t t) {
   const dyd_mesh *m = f->m;
   const uint32_t *v = m->tri[t].v;
-  for (unsigned g = 0; g < 3; g++)
-    if (v[g] == m->n) return half_plane_is_clear(f, m->xy[v[dyd_prev(g)]], m->xy[v[dyd_next(g)]]);
-  return disc_is_clear(f, m->xy[v[0]], m->xy[v[1]], m->xy[v[2]]);
+  if (!dyd_is_ghost_triangle(m, t)) return disc_is_clear(f, m->xy[v[0]], m->xy[v[1]], m->xy[v[2]]);
+  dyd_half_edge h = dyd_hull_edge(m, t);
+  return half_plane_is_clear(f, m->xy[dyd_hull_origin(m, h)], m->xy[dyd_hull_target(m, h)]);
 }
 
 /* DYD_CAPPED: enough. */
-static dyd_status meet(flood *f, uint32_t t) {
+static dyd_status fat_meet(flood *f, uint32_t t) {
   if (f->met[t] == f->mark) return DYD_OK;
   if (f->left == 0) return DYD_CAPPED;
   if (!dyd_reserve((void **)&f->stack, &f->cap, f->top + 1, sizeof *f->stack)) return DYD_E_NOMEM;
@@ -82,36 +82,38 @@ static dyd_status meet(flood *f, uint32_t t) {
   return DYD_OK;
 }
 
-static dyd_status flood_from(flood *f, const dyd_delaunay *pd, uint32_t k) {
+static dyd_status flood_from(flood *f, const dyd_skeleton *sk, uint32_t k) {
   dyd_xy p = f->m->xy[k];
-  uint32_t first = pd->corner[k], h = first;
+  dyd_half_edge first = sk->leaving[k], h = first;
   dyd_status st = first == DYD_NONE ? DYD_CAPPED : DYD_OK;
-  f->box = (dyd_bbox){{dyd_min(pd->box[k].e[0], p.x), dyd_max(pd->box[k].e[1], p.x), dyd_min(pd->box[k].e[2], p.y),
-                       dyd_max(pd->box[k].e[3], p.y)}};
+  f->box = (dyd_bbox){{dyd_min(sk->rects.box[k].e[0], p.x), dyd_max(sk->rects.box[k].e[1], p.x),
+                       dyd_min(sk->rects.box[k].e[2], p.y), dyd_max(sk->rects.box[k].e[3], p.y)}};
   f->top = 0;
   while (st == DYD_OK) {
-    st = meet(f, h >> 2);
-    h = dyd_turn(f->m, h);
+    st = fat_meet(f, dyd_edge_triangle(h));
+    h = dyd_edge_turn(f->m, h);
     if (h == first) break;
   }
   while (st == DYD_OK && f->top) {
-    const uint32_t *n = f->m->tri[f->stack[--f->top]].n;
-    for (unsigned e = 0; e < 3 && st == DYD_OK; e++)
-      if (f->met[n[e] >> 2] != f->mark && !is_clear(f, n[e] >> 2)) st = meet(f, n[e] >> 2);
+    uint32_t t = f->stack[--f->top];
+    for (dyd_half_edge e = dyd_edge_of(t, 0); e < dyd_edge_end(t) && st == DYD_OK; e++) {
+      uint32_t beyond = dyd_edge_triangle(dyd_edge_twin(f->m, e));
+      if (f->met[beyond] != f->mark && !is_clear(f, beyond)) st = fat_meet(f, beyond);
+    }
   }
   return st;
 }
 
-dyd_status dyd_fat_meet(uint32_t **met, const dyd_delaunay *pd, const uint32_t *fat, uint32_t count, double reach) {
-  flood f = {.m = &pd->mesh, .reach = reach, .left = pd->mesh.count / 2 + 64};
+dyd_status dyd_fat_meet(uint32_t **met, const dyd_skeleton *sk, const uint32_t *fat, uint32_t count, double reach) {
+  flood f = {.m = &sk->mesh, .reach = reach, .left = sk->mesh.count / 2 + 64};
   dyd_status st = DYD_OK;
   *met = NULL;
   if (count == 0) return DYD_OK;
-  f.met = calloc((size_t)pd->mesh.count + 1, sizeof *f.met);
+  f.met = calloc((size_t)sk->mesh.count + 1, sizeof *f.met);
   if (!f.met) return DYD_E_NOMEM;
   for (uint32_t q = 0; q < count && st == DYD_OK; q++) {
     f.mark = q + 1;
-    st = flood_from(&f, pd, fat[q]);
+    st = flood_from(&f, sk, fat[q]);
   }
   free(f.stack);
   if (st == DYD_OK)

@@ -10,13 +10,13 @@
 
 enum { STEPS = 200 };
 
-static double cross(const dyd_cut *a, const dyd_cut *b) {
+static double lp_cross(const dyd_cut *a, const dyd_cut *b) {
   return a->nx * b->ny - a->ny * b->nx;
 }
 
 /* The optimum of three cuts: n.x + d = z for all; false when 0 is not in the hull of their normals. */
-static bool optimum(dyd_lp_result *r, const dyd_cut *a, const dyd_cut *b, const dyd_cut *c) {
-  double la = cross(b, c), lb = cross(c, a), lc = cross(a, b);
+static bool lp_optimum(dyd_lp_result *r, const dyd_cut *a, const dyd_cut *b, const dyd_cut *c) {
+  double la = lp_cross(b, c), lb = lp_cross(c, a), lc = lp_cross(a, b);
   if (la < 0 || lb < 0 || lc < 0) {
     if (la > 0 || lb > 0 || lc > 0) return false;
     la = -la;
@@ -35,7 +35,8 @@ static bool optimum(dyd_lp_result *r, const dyd_cut *a, const dyd_cut *b, const 
 }
 
 /* The cut, or side of the frame, that is violated most; NULL: none. */
-static const dyd_cut *most_violated(const dyd_cut *cut, size_t count, const dyd_cut frame[3], const dyd_lp_result *r) {
+static const dyd_cut *lp_most_violated(const dyd_cut *cut, size_t count, const dyd_cut frame[3],
+                                       const dyd_lp_result *r) {
   const dyd_cut *worst = NULL;
   double least = r->z - 1e-13 * (fabs(r->z) + fabs(r->x) + fabs(r->y));
   for (size_t k = 0; k < count + 3; k++) {
@@ -51,16 +52,16 @@ static const dyd_cut *most_violated(const dyd_cut *cut, size_t count, const dyd_
 
 dyd_lp_result dyd_lp_centre(const dyd_cut *cut, size_t count, double bound) {
   const double h = 0.8660254037844386;
-  dyd_cut frame[3] = {{0, 1, bound, 0}, {-h, -0.5, bound, 0}, {h, -0.5, bound, 0}};
+  dyd_cut frame[3] = {{0, 1, bound}, {-h, -0.5, bound}, {h, -0.5, bound}};
   const dyd_cut *basis[3] = {&frame[0], &frame[1], &frame[2]};
   dyd_lp_result best = {.z = bound};
   for (int step = 0; step < STEPS; step++) {
-    const dyd_cut *k = most_violated(cut, count, frame, &best);
+    const dyd_cut *k = lp_most_violated(cut, count, frame, &best);
     if (!k) break;
     int leaves = 3;
     dyd_lp_result next = best, r = {0};
     for (int out = 0; out < 3; out++) {
-      if (!optimum(&r, k, basis[(out + 1) % 3], basis[(out + 2) % 3])) continue;
+      if (!lp_optimum(&r, k, basis[(out + 1) % 3], basis[(out + 2) % 3])) continue;
       if (leaves < 3 && r.z >= next.z) continue;
       leaves = out;
       next = r;
@@ -70,14 +71,12 @@ dyd_lp_result dyd_lp_centre(const dyd_cut *cut, size_t count, double bound) {
     basis[leaves] = k;
   }
   best.bounded = true;
-  best.active = best.noise = 0;
+  best.active = 0;
   for (int q = 0; q < 3; q++) {
     if (basis[q] >= frame && basis[q] < frame + 3)
       best.bounded = false;
-    else {
+    else
       best.active = fmax(best.active, fabs(basis[q]->d));
-      best.noise = fmax(best.noise, basis[q]->noise);
-    }
   }
   return best;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* A small linear programme in doubles: the centre of the largest disc inside a few half-planes.
  *
- * It only proposes: the centre is checked exactly by its user, so no error bound is needed here. */
+ * It only proposes: its user proves that the centre is a witness, so no error bound is needed here. */
 #ifndef DYD_LEGAL_LP_FILTER_H
 #define DYD_LEGAL_LP_FILTER_H
 
@@ -10,16 +10,15 @@
 
 enum { DYD_LP_CUTS = 192 };
 
-/* The half-plane n.x + d > 0 with |n| = 1; noise estimates the absolute error of d. */
+/* The half-plane n.x + d > 0 with |n| = 1. */
 typedef struct dyd_cut {
-  double nx, ny, d, noise;
+  double nx, ny, d;
 } dyd_cut;
 
 /* The centre x maximises z = min over the cuts of n.x + d, within about `bound` of the origin. */
 typedef struct dyd_lp_result {
   double x, y, z;
-  double active; /* largest |d| among the three cuts that hold z, */
-  double noise;  /* and their largest noise */
+  double active; /* largest |d| among the three cuts that hold z */
   bool bounded;  /* none of the three is the artificial bound */
 } dyd_lp_result;
 

@@ -7,31 +7,33 @@
 #define DYD_LEGAL_MARKS_H
 
 #include "base/parallel.h"
-#include "delaunay/state.h"
+#include "skeleton/work.h"
 
-/* What one task has marked and counted. */
+/* One task: its triangles, what it works with, which edges wait. */
 typedef struct dyd_marks {
-  uint32_t first, end; /* its triangles */
-  uint32_t *edge;      /* 4 t + k */
+  uint32_t first, end;
+  dyd_half_edge *edge;
   size_t count, cap;
-  dyd_delaunay_counters counters;
+  dyd_work work;
   dyd_status status;
 } dyd_marks;
 
-/* Tasks over all triangles of pd: one for each range of dyd_ranges(triangles). */
+/* Tasks over all triangles of the skeleton: one for each range of dyd_ranges(triangles). */
 typedef struct dyd_mark_tasks {
+  dyd_skeleton *sk;
+  dyd_work *w;
   size_t count;
-  dyd_marks task[DYD_RANGES_MOST];
+  dyd_marks *task;
 } dyd_mark_tasks;
 
-void dyd_mark_tasks_init(dyd_mark_tasks *tasks, const dyd_delaunay *pd);
-/* The edge 4 t + k, t in the range, is certain. Sets status on failure. */
-void dyd_mark(dyd_marks *marks, dyd_delaunay *pd, uint32_t t, unsigned k);
+/* Settling releases it. */
+dyd_status dyd_mark_tasks_init(dyd_mark_tasks *tasks, dyd_skeleton *sk, dyd_work *w);
+/* Half-edge h, of a triangle in the range, is certain. Sets status on failure. */
+void dyd_mark(dyd_marks *marks, dyd_skeleton *sk, dyd_half_edge h);
 /* Remembers the edge for later; sets status on failure. */
-void dyd_mark_later(dyd_marks *marks, uint32_t edge);
-/* Marks what waited, adds the counters to pd's and frees the lists. The first failure of a task. */
-dyd_status dyd_mark_tasks_settle(dyd_mark_tasks *tasks, dyd_delaunay *pd);
-/* The same, but edges that waited are not certain. */
-dyd_status dyd_mark_tasks_revoke(dyd_mark_tasks *tasks, dyd_delaunay *pd);
+void dyd_mark_later(dyd_marks *marks, dyd_half_edge h);
+/* Edges that waited become certain, or uncertain. Counters are added up in w, lists freed. The first failure of a task.
+ */
+dyd_status dyd_mark_tasks_settle(dyd_mark_tasks *tasks, bool certain);
 
 #endif

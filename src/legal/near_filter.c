@@ -7,7 +7,7 @@
 #include "legal/near_filter.h"
 
 #include "base/alloc.h"
-#include "legal/certify.h"
+#include "base/prefetch.h"
 #include "legal/marks.h"
 
 #include <float.h>
@@ -15,7 +15,8 @@
 enum { BATCH = 240 };
 
 typedef struct near_pass {
-  dyd_delaunay *pd;
+  dyd_skeleton *sk;
+  dyd_work *w;
   double reach, least, most;
   const uint32_t *met; /* triangles whose edges are left to later passes: not 0. NULL: none */
   uint8_t *close;      /* of each vertex: it has an edge shorter than `most` */
@@ -44,7 +45,7 @@ static void set_close(const near_pass *p, uint32_t v) {
 /* Least edge, and the vertices that have a short one. Ghost edges are NaN and change nothing. */
 static void measure_range(void *context, size_t number) {
   near_pass *p = context;
-  const dyd_mesh *m = &p->pd->mesh;
+  const dyd_mesh *m = &p->sk->mesh;
   const dyd_marks *range = &p->tasks.task[number];
   double least2 = DBL_MAX, most2 = p->most * p->most;
   for (uint32_t t = range->first; t < range->end; t++) {
@@ -61,19 +62,19 @@ static void measure_range(void *context, size_t number) {
 
 static void measure_edges(near_pass *p) {
   double least2 = DBL_MAX;
-  dyd_parallel(p->pd->options.threads, p->tasks.count, measure_range, p);
+  dyd_parallel(p->w->threads, p->tasks.count, measure_range, p);
   for (size_t r = 0; r < p->tasks.count; r++)
     if (p->shortest2[r] < least2) least2 = p->shortest2[r];
   p->least = sqrt(least2);
   if (p->most < p->least) p->most = p->least;
 }
 
-static bool is_near(const near_pass *p, uint32_t h) {
-  const dyd_mesh *m = &p->pd->mesh;
-  const uint32_t *v = m->tri[h >> 2].v;
-  uint32_t twin = m->tri[h >> 2].n[h & 3], a = m->tri[twin >> 2].v[twin & 3];
-  uint32_t u = v[h & 3], i = v[dyd_next(h & 3)], j = v[dyd_prev(h & 3)];
-  if (i == m->n || j == m->n || (p->met && (p->met[h >> 2] || p->met[twin >> 2]))) return false;
+static bool is_near(const near_pass *p, dyd_half_edge h) {
+  const dyd_mesh *m = &p->sk->mesh;
+  dyd_half_edge twin = dyd_edge_twin(m, h);
+  uint32_t u = dyd_edge_apex(m, h), a = dyd_edge_apex(m, twin), i = dyd_edge_origin(m, h), j = dyd_edge_target(m, h);
+  if (i == m->n || j == m->n) return false;
+  if (p->met && (p->met[dyd_edge_triangle(h)] || p->met[dyd_edge_triangle(twin)])) return false;
   const dyd_xy *xy = m->xy;
   double nearest = p->close[i] || p->close[j] ? p->least : p->most;
   if (dyd_filter_edge_near(xy[i], xy[j], xy[u], xy[a], p->reach, nearest)) return true;
@@ -81,53 +82,48 @@ static bool is_near(const near_pass *p, uint32_t h) {
   return a == m->n && dyd_filter_hull_edge_near(xy[i], xy[j], xy[u], p->reach, nearest);
 }
 
-static void fetch(const void *address) {
-#if defined(__GNUC__)
-  __builtin_prefetch(address);
-#else
-  (void)address;
-#endif
-}
-
 /* Three loops, so that memory answers in time: triangles, then points, then the decision. */
-static void decide_batch(const near_pass *p, dyd_marks *range, const uint32_t *edge, unsigned count) {
-  const dyd_mesh *m = &p->pd->mesh;
+static void decide_batch(const near_pass *p, dyd_marks *range, const dyd_half_edge *edge, unsigned count) {
+  const dyd_mesh *m = &p->sk->mesh;
   for (unsigned q = 0; q < count; q++) {
-    const dyd_tri *t = &m->tri[edge[q] >> 2];
-    uint32_t twin = t->n[edge[q] & 3];
-    for (unsigned k = 0; k < 3; k++) fetch(&m->xy[t->v[k]]);
-    fetch(&m->xy[m->tri[twin >> 2].v[twin & 3]]);
+    dyd_prefetch(&m->xy[dyd_edge_origin(m, edge[q])]);
+    dyd_prefetch(&m->xy[dyd_edge_target(m, edge[q])]);
+    dyd_prefetch(&m->xy[dyd_edge_apex(m, edge[q])]);
+    dyd_prefetch(&m->xy[dyd_edge_across(m, edge[q])]);
   }
   for (unsigned q = 0; q < count; q++)
-    if (is_near(p, edge[q])) dyd_mark(range, p->pd, edge[q] >> 2, edge[q] & 3);
+    if (is_near(p, edge[q])) dyd_mark(range, p->sk, edge[q]);
 }
 
-static void decide_range(void *context, size_t number) {
+static void near_of_range(void *context, size_t number) {
   near_pass *p = context;
-  const dyd_mesh *m = &p->pd->mesh;
+  const dyd_mesh *m = &p->sk->mesh;
   dyd_marks *range = &p->tasks.task[number];
-  uint32_t edge[BATCH + 3];
+  dyd_half_edge edge[BATCH + 3];
   for (uint32_t t = range->first; t < range->end;) {
     unsigned count = 0;
     for (; t < range->end && count < BATCH; t++)
-      for (unsigned k = 0; k < 3; k++) {
-        uint32_t twin = m->tri[t].n[k];
-        fetch(&m->tri[twin >> 2]);
-        edge[count] = 4 * t + k;
-        count += twin > 4 * t + k;
+      for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++) {
+        dyd_half_edge twin = dyd_edge_twin(m, h);
+        dyd_prefetch(&m->tri[dyd_edge_triangle(twin)]);
+        edge[count] = h;
+        count += twin > h;
       }
     decide_batch(p, range, edge, count);
   }
 }
 
-dyd_status dyd_certify_near(dyd_delaunay *pd, double reach, const uint32_t *met) {
-  near_pass p = {.pd = pd, .met = met, .reach = reach > 0x1p-300 ? reach : 0x1p-300};
-  p.close = calloc((size_t)pd->mesh.n + 1, 1);
+dyd_status dyd_certify_near(dyd_skeleton *sk, dyd_work *w, double reach, const uint32_t *met) {
+  near_pass p = {.sk = sk, .w = w, .met = met, .reach = reach > 0x1p-300 ? reach : 0x1p-300};
+  p.close = calloc((size_t)sk->mesh.n + 1, 1);
   if (!p.close) return DYD_E_NOMEM;
-  p.most = tenth_of_spacing(&pd->mesh);
-  dyd_mark_tasks_init(&p.tasks, pd);
-  measure_edges(&p);
-  dyd_parallel(pd->options.threads, p.tasks.count, decide_range, &p);
+  p.most = tenth_of_spacing(&sk->mesh);
+  dyd_status st = dyd_mark_tasks_init(&p.tasks, sk, w);
+  if (st == DYD_OK) {
+    measure_edges(&p);
+    dyd_parallel(w->threads, p.tasks.count, near_of_range, &p);
+    st = dyd_mark_tasks_settle(&p.tasks, true);
+  }
   free(p.close);
-  return dyd_mark_tasks_settle(&p.tasks, pd);
+  return st;
 }

@@ -27,7 +27,7 @@
 #ifndef DYD_LEGAL_NEAR_FILTER_H
 #define DYD_LEGAL_NEAR_FILTER_H
 
-#include "skeleton/reps.h"
+#include "skeleton/work.h"
 
 #include <math.h>
 
@@ -54,5 +54,9 @@ static inline bool dyd_filter_hull_edge_near(dyd_xy i, dyd_xy j, dyd_xy u, doubl
   if (!(a1 >= 0x1p-100 && lj + lu <= 0x1p98 && 200 * reach <= m)) return false;
   return 48.6 * reach * sqrt(lu * lw) < m * a1;
 }
+
+/* The first quick pass, for representatives that are doubles and sites within `reach` of them: marks the edges that the
+ * two triangles beside them prove legal. met (NULL: no site is farther): of dyd_fat_meet for those that are. */
+dyd_status dyd_certify_near(dyd_skeleton *sk, dyd_work *w, double reach, const uint32_t *met);
 
 #endif

@@ -11,20 +11,21 @@
  *
  * Bounds: distances as in distance_filter.h; representatives that are not doubles are off by delta, E grows by 3 delta.
  * The centres need no bound: any double will do. Both ends of an edge use the same bits for c and rho. */
-#include "legal/certify.h"
-#include "legal/fat_filter.h"
-#include "legal/marks.h"
-#include "skeleton/mesh_filter.h"
+#include "legal/star_filter.h"
 
 #include "base/alloc.h"
+#include "legal/fat_filter.h"
+#include "legal/marks.h"
+#include "legal/near_filter.h"
+#include "skeleton/centre_filter.h"
 
 #include <math.h>
-#include <string.h>
 
 enum { MAX_DEGREE = 62 };
 
 typedef struct pass {
-  dyd_delaunay *pd;
+  dyd_skeleton *sk;
+  dyd_work *w;
   uint8_t *open; /* of each vertex: it has an edge, real or ghost, that is not certain yet */
   dyd_mark_tasks tasks;
   double limit; /* radius above which a rectangle is fat */
@@ -32,60 +33,36 @@ typedef struct pass {
   dyd_tree fat;
 } pass;
 
-/* Beyond the hull edge from a to b (the inside on the left) the middle of the Voronoi edge is taken one edge length
- * outside the inner centre o, or on the edge if o is far inside. */
-static dyd_xy ghost_centre(dyd_xy a, dyd_xy b, dyd_xy o) {
-  double ex = b.x - a.x, ey = b.y - a.y, mx = a.x + ex / 2, my = a.y + ey / 2;
-  double out = ((o.x - mx) * ey - (o.y - my) * ex) / (ex * ex + ey * ey); /* in edge lengths, outward */
-  double want = out > -0.5 ? out + 1 : 0;
-  dyd_xy c = {mx + want * ey, my - want * ex};
-  return (dyd_xy){2 * c.x - o.x, 2 * c.y - o.y};
-}
-
-static dyd_xy centre_of(const dyd_mesh *m, uint32_t t) {
-  const uint32_t *v = m->tri[t].v;
-  if (!dyd_mesh_is_ghost(m, t)) return dyd_circumcentre(m->xy[v[0]], m->xy[v[1]], m->xy[v[2]]);
-  unsigned g = dyd_mesh_ghost_corner(m, t);
-  const uint32_t *w = m->tri[m->tri[t].n[g] >> 2].v;
-  dyd_xy o = dyd_circumcentre(m->xy[w[0]], m->xy[w[1]], m->xy[w[2]]);
-  return ghost_centre(m->xy[v[dyd_prev(g)]], m->xy[v[dyd_next(g)]], o);
-}
-
-dyd_xy dyd_edge_centre(const dyd_delaunay *pd, uint32_t t, unsigned k) {
-  dyd_xy a = centre_of(&pd->mesh, t), b = centre_of(&pd->mesh, pd->mesh.tri[t].n[k] >> 2);
-  return (dyd_xy){(a.x + b.x) * 0.5, (a.y + b.y) * 0.5};
-}
-
 /* ---- radii ---- */
 
-static double radius(const dyd_delaunay *pd, uint32_t v) {
-  dyd_xy p = pd->reps.xy[v];
+static double star_radius(const dyd_skeleton *sk, uint32_t v) {
+  dyd_xy p = sk->reps.xy[v];
   dyd_bbox c = {{p.x, p.x, p.y, p.y}};
-  return sqrt(dyd_dl2_upper(&c, &pd->box[v])) * DYD_UP_FACTOR + DYD_TINY;
+  return sqrt(dyd_dl2_upper(&c, &sk->rects.box[v])) * DYD_UP_FACTOR + DYD_TINY;
 }
 
-static int compare(const void *a, const void *b) {
+static int star_compare(const void *a, const void *b) {
   double x = *(const double *)a, y = *(const double *)b;
   return (x > y) - (x < y);
 }
 
 /* Four times the median radius of a sample: whoever is larger counts as fat. */
-static double ordinary_radius(const dyd_delaunay *pd) {
+static double ordinary_radius(const dyd_skeleton *sk) {
   double sample[256];
-  size_t count = 0, step = pd->n / 256 + 1;
-  for (size_t v = 0; v < pd->n && count < 256; v += step) sample[count++] = radius(pd, (uint32_t)v);
-  qsort(sample, count, sizeof *sample, compare);
+  size_t count = 0, step = sk->n / 256 + 1;
+  for (size_t v = 0; v < sk->n && count < 256; v += step) sample[count++] = star_radius(sk, (uint32_t)v);
+  qsort(sample, count, sizeof *sample, star_compare);
   return 4 * sample[count / 2];
 }
 
 static dyd_status gather_fat(pass *p) {
-  const dyd_delaunay *pd = p->pd;
+  const dyd_skeleton *sk = p->sk;
   double largest = 0;
   uint32_t *fat = NULL;
   size_t count = 0, cap = 0;
-  p->limit = ordinary_radius(pd);
-  for (uint32_t v = 0; v < pd->n; v++) {
-    double r = radius(pd, v);
+  p->limit = ordinary_radius(sk);
+  for (uint32_t v = 0; v < sk->n; v++) {
+    double r = star_radius(sk, v);
     if (r <= p->limit)
       largest = dyd_max(largest, r);
     else if (!dyd_reserve((void **)&fat, &cap, count + 1, sizeof *fat))
@@ -93,8 +70,8 @@ static dyd_status gather_fat(pass *p) {
     else
       fat[count++] = v;
   }
-  p->reach = 2 * (largest + 3 * pd->reps.delta);
-  return dyd_tree_init(&p->fat, fat, (uint32_t)count, pd->box);
+  p->reach = 2 * (largest + 3 * sk->reps.delta);
+  return dyd_tree_init(&p->fat, fat, (uint32_t)count, sk->rects.box);
 }
 
 /* ---- fat rectangles ---- */
@@ -120,35 +97,35 @@ static bool fat_near(const pass *p, dyd_xy c, double radius_upper, uint32_t i, u
 }
 
 static bool is_fat(const pass *p, uint32_t v) {
-  return p->fat.count && !(radius(p->pd, v) <= p->limit);
+  return p->fat.count && !(star_radius(p->sk, v) <= p->limit);
 }
 
 /* ---- one star ---- */
 
 typedef struct star {
   uint32_t v;
-  int degree, ghost; /* ghost: place of the ghost among the neighbours, -1: none */
-  uint32_t corner[MAX_DEGREE];
-  double x[MAX_DEGREE], y[MAX_DEGREE]; /* neighbour q = second vertex of the triangle at corner q */
+  int degree, ghost;              /* ghost: place of the ghost among the neighbours, -1: none */
+  dyd_half_edge edge[MAX_DEGREE]; /* out of v; to neighbour q */
+  double x[MAX_DEGREE], y[MAX_DEGREE];
   dyd_xy centre[MAX_DEGREE];
 } star;
 
 static bool read_star(star *s, const pass *p, uint32_t v) {
-  const dyd_mesh *m = &p->pd->mesh;
-  uint32_t h = p->pd->corner[v], first = h;
+  const dyd_mesh *m = &p->sk->mesh;
+  dyd_half_edge h = p->sk->leaving[v], first = h;
   s->v = v;
   s->degree = 0;
   s->ghost = -1;
   do {
     if (s->degree == MAX_DEGREE) return false;
-    uint32_t w = m->tri[h >> 2].v[dyd_next(h & 3)];
+    uint32_t w = dyd_edge_target(m, h);
     if (w == m->n) s->ghost = s->degree;
-    s->corner[s->degree] = h;
+    s->edge[s->degree] = h;
     s->x[s->degree] = m->xy[w].x;
     s->y[s->degree] = m->xy[w].y;
-    s->centre[s->degree] = centre_of(m, h >> 2);
+    s->centre[s->degree] = dyd_triangle_centre(m, dyd_edge_triangle(h));
     s->degree++;
-    h = dyd_turn(m, h);
+    h = dyd_edge_turn(m, h);
   } while (h != first);
   return true;
 }
@@ -167,12 +144,12 @@ static bool others_farther(const star *s, int q, dyd_xy c, double limit) {
 }
 
 /* Neighbours that share a triangle may be in different tasks. Nobody reads these marks before all are made. */
-static void mark(dyd_delaunay *pd, uint32_t corner, unsigned k) {
-  (void)__atomic_fetch_or(&pd->certain[corner >> 2], (uint8_t)(1u << k), __ATOMIC_RELAXED);
+static void star_mark(dyd_skeleton *sk, dyd_half_edge h) {
+  (void)__atomic_fetch_or(&sk->certain[dyd_edge_triangle(h)], (uint8_t)(1u << dyd_edge_corner(h)), __ATOMIC_RELAXED);
 }
 
 static void certify_edges(const pass *p, const star *s) {
-  dyd_xy v = p->pd->reps.xy[s->v];
+  dyd_xy v = p->sk->reps.xy[s->v];
   for (int q = 0; q < s->degree; q++) {
     if (q == s->ghost) continue;
     dyd_xy a = s->centre[q], b = s->centre[q ? q - 1 : s->degree - 1];
@@ -181,15 +158,15 @@ static void certify_edges(const pass *p, const star *s) {
     double rho = sqrt(dyd_upper(dyd_max(ix * ix + iy * iy, jx * jx + jy * jy))) * DYD_UP_FACTOR;
     double wide = (rho + p->reach) * DYD_UP_FACTOR;
     if (!others_farther(s, q, c, dyd_upper(wide * wide))) continue;
-    uint32_t h = s->corner[q], j = p->pd->mesh.tri[h >> 2].v[dyd_next(h & 3)];
+    uint32_t j = dyd_edge_target(&p->sk->mesh, s->edge[q]);
     if (p->fat.count && (is_fat(p, j) || fat_near(p, c, wide, s->v, j))) continue;
-    mark(p->pd, h, dyd_prev(h & 3));
+    star_mark(p->sk, s->edge[q]);
   }
 }
 
 static void certify_hull(const pass *p, const star *s) {
   int next = (s->ghost + 1) % s->degree, before = (s->ghost + s->degree - 1) % s->degree;
-  dyd_xy v = p->pd->reps.xy[s->v];
+  dyd_xy v = p->sk->reps.xy[s->v];
   double ux = s->y[next] - s->y[before], uy = s->x[before] - s->x[next];
   double need = p->reach * sqrt(dyd_upper(ux * ux + uy * uy)) * DYD_UP_FACTOR;
   if (p->fat.count) return;
@@ -198,10 +175,8 @@ static void certify_hull(const pass *p, const star *s) {
     double a = ux * (v.x - s->x[k]), b = uy * (v.y - s->y[k]);
     if (!(a + b > need + 8 * 0x1p-53 * (fabs(a) + fabs(b)) + DYD_TINY)) return;
   }
-  uint32_t h = s->corner[s->ghost];
-  uint32_t twin = p->pd->mesh.tri[h >> 2].n[dyd_prev(h & 3)];
-  mark(p->pd, h, dyd_prev(h & 3));
-  mark(p->pd, twin, twin & 3);
+  star_mark(p->sk, s->edge[s->ghost]);
+  star_mark(p->sk, dyd_edge_twin(&p->sk->mesh, s->edge[s->ghost]));
 }
 
 /* ---- the pass ---- */
@@ -209,24 +184,22 @@ static void certify_hull(const pass *p, const star *s) {
 /* An edge is certain when both its ends found their stars clear; a half alone is revoked. */
 static void join_halves(void *context, size_t number) {
   pass *p = context;
-  const dyd_delaunay *pd = p->pd;
-  const dyd_mesh *m = &pd->mesh;
+  const dyd_skeleton *sk = p->sk;
   dyd_marks *range = &p->tasks.task[number];
   for (uint32_t t = range->first; t < range->end; t++)
-    for (unsigned k = 0; k < 3; k++) {
-      uint32_t twin = m->tri[t].n[k];
-      if (twin < 4 * t + k) continue;
-      bool here = pd->certain[t] >> k & 1, there = pd->certain[twin >> 2] >> (twin & 3) & 1;
+    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++) {
+      if (!dyd_edge_is_first(&sk->mesh, h)) continue;
+      bool here = dyd_edge_is_certain(sk, h), there = dyd_edge_is_certain(sk, dyd_edge_twin(&sk->mesh, h));
       if (here && there) {
-        range->counters.filter++;
-        range->counters.witness_guess += m->tri[t].v[dyd_next(k)] != m->n && m->tri[t].v[dyd_prev(k)] != m->n;
+        range->work.counters.filter++;
+        range->work.counters.witness_guess += !dyd_edge_meets_ghost(&sk->mesh, h);
       } else if (here || there)
-        dyd_mark_later(range, 4 * t + k);
+        dyd_mark_later(range, h);
     }
 }
 
 static void certify_star(const pass *p, star *s, uint32_t v) {
-  if (p->pd->corner[v] == DYD_NONE || !p->open[v] || is_fat(p, v) || !read_star(s, p, v)) return;
+  if (p->sk->leaving[v] == DYD_NONE || !p->open[v] || is_fat(p, v) || !read_star(s, p, v)) return;
   certify_edges(p, s);
   if (s->ghost >= 0) certify_hull(p, s);
 }
@@ -234,49 +207,49 @@ static void certify_star(const pass *p, star *s, uint32_t v) {
 static void stars_of_range(void *context, size_t number) {
   const pass *p = context;
   star s;
-  for (size_t v = dyd_range_begin(p->pd->n, number); v < dyd_range_begin(p->pd->n, number + 1); v++)
+  for (size_t v = dyd_range_begin(p->sk->n, number); v < dyd_range_begin(p->sk->n, number + 1); v++)
     certify_star(p, &s, (uint32_t)v);
 }
 
 /* Several tasks may say the same of one vertex at once. */
 static void find_open(void *context, size_t number) {
   pass *p = context;
-  const dyd_mesh *m = &p->pd->mesh;
+  const dyd_mesh *m = &p->sk->mesh;
   const dyd_marks *range = &p->tasks.task[number];
   for (uint32_t t = range->first; t < range->end; t++)
-    for (unsigned k = 0; k < 3 && p->pd->certain[t] != 7; k++) {
-      uint32_t v = m->tri[t].v[dyd_next(k)], w = m->tri[t].v[dyd_prev(k)];
-      if (dyd_edge_is_certain(p->pd, t, k)) continue;
+    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t) && !dyd_triangle_is_certain(p->sk, t); h++) {
+      uint32_t v = dyd_edge_origin(m, h), w = dyd_edge_target(m, h);
+      if (dyd_edge_is_certain(p->sk, h)) continue;
       if (v != m->n) __atomic_store_n(&p->open[v], 1, __ATOMIC_RELAXED);
       if (w != m->n) __atomic_store_n(&p->open[w], 1, __ATOMIC_RELAXED);
     }
 }
 
 static dyd_status pass_over_stars(pass *p) {
-  unsigned threads = p->pd->options.threads;
-  dyd_mark_tasks_init(&p->tasks, p->pd);
-  dyd_parallel(threads, p->tasks.count, find_open, p);
-  dyd_parallel(threads, dyd_ranges(p->pd->n), stars_of_range, p);
-  dyd_parallel(threads, p->tasks.count, join_halves, p);
-  return dyd_mark_tasks_revoke(&p->tasks, p->pd);
+  dyd_status st = dyd_mark_tasks_init(&p->tasks, p->sk, p->w);
+  if (st != DYD_OK) return st;
+  dyd_parallel(p->w->threads, p->tasks.count, find_open, p);
+  dyd_parallel(p->w->threads, dyd_ranges(p->sk->n), stars_of_range, p);
+  dyd_parallel(p->w->threads, p->tasks.count, join_halves, p);
+  return dyd_mark_tasks_settle(&p->tasks, false);
 }
 
 /* The first pass, where fat rectangles do not spoil it [WIT-FAT]. */
 static dyd_status certify_thin(const pass *p) {
   uint32_t *met = NULL;
-  if (p->pd->reps.code) return DYD_OK;
-  dyd_status st = dyd_fat_meet(&met, p->pd, p->fat.item, p->fat.count, p->reach / 2);
-  if (st == DYD_OK && (met || p->fat.count == 0)) st = dyd_certify_near(p->pd, p->reach / 2, met);
+  if (p->sk->reps.code) return DYD_OK;
+  dyd_status st = dyd_fat_meet(&met, p->sk, p->fat.item, p->fat.count, p->reach / 2);
+  if (st == DYD_OK && (met || p->fat.count == 0)) st = dyd_certify_near(p->sk, p->w, p->reach / 2, met);
   free(met);
   return st;
 }
 
-dyd_status dyd_certify_stars(dyd_delaunay *pd) {
-  pass p = {.pd = pd};
+dyd_status dyd_certify_stars(dyd_skeleton *sk, dyd_work *w) {
+  pass p = {.sk = sk, .w = w};
   dyd_status st = gather_fat(&p);
   if (st == DYD_OK) st = certify_thin(&p);
   if (st == DYD_OK) {
-    p.open = calloc((size_t)pd->n + 1, 1);
+    p.open = calloc((size_t)sk->n + 1, 1);
     st = p.open ? pass_over_stars(&p) : DYD_E_NOMEM;
   }
   free(p.open);

@@ -3,20 +3,21 @@
 #ifndef DYD_LEGAL_WITNESS_H
 #define DYD_LEGAL_WITNESS_H
 
-#include "possible/cover.h"
+#include "skeleton/work.h"
 
 /* Looks for a witness of the pair of vertices i, j from a first guess (any doubles, NaN allowed).
  * *found: a witness was found and checked exactly against every site; c (may be NULL) is set to it.
  * Not found: half-planes that hold all witnesses have no common point (in doubles by a margin of 1e-9 of the distances
- * that bound it, else exactly), or the floor is met: every disc of witnesses has a radius below 2^-64 unit^2 / size
- * (ends of the rectangles being multiples of unit, up to size), or 48 exact steps gave no answer. across (may be NULL):
- * two vertices on either side of ij; when one circle meets all four rectangles, there is no witness, and none is looked
- * for where doubles do not tell [WIT-QUAD]. */
-dyd_status dyd_witness_search(bool *found, dyd_point *c, const dyd_delaunay *pd, uint32_t i, uint32_t j, dyd_xy guess,
-                              const uint32_t across[2]);
+ * that bound it, else exactly), or the floor is met: every disc of witnesses has a radius below 2^-120 unit^2 / size
+ * (ends of the rectangles met being multiples of unit, below size), or 400 exact steps or 1020 half-planes gave no
+ * answer. across (may be NULL): two vertices on either side of ij; when one circle meets all four rectangles, there is
+ * no witness, and none is looked for where doubles do not tell [WIT-QUAD]. */
+dyd_status dyd_witness_search(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
+                              dyd_xy guess, const uint32_t across[2]);
 /* A witness far out, for a pair on the hull: found whenever all centres far enough in some direction are witnesses. */
-dyd_status dyd_witness_far(bool *found, dyd_point *c, dyd_work *w, const dyd_delaunay *pd, uint32_t i, uint32_t j);
+dyd_status dyd_witness_far(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j);
 /* Is c a witness of i, j? Exact. */
-dyd_status dyd_witness_check(bool *good, const dyd_delaunay *pd, uint32_t i, uint32_t j, const dyd_point *c);
+dyd_status dyd_witness_check(bool *good, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
+                             const dyd_point *c);
 
 #endif

@@ -7,7 +7,7 @@
 #include "legal/witness_filter.h"
 
 #include "legal/lp_filter.h"
-#include "skeleton/site_filter.h"
+#include "skeleton/rects_filter.h"
 
 #include <math.h>
 
@@ -16,7 +16,7 @@ enum { STEPS = 24, MAX_RIVALS = 12, MAX_NEIGHBOURS = 48 };
 #define COARSE 0x1p-36
 
 typedef struct quick {
-  const dyd_delaunay *pd;
+  const dyd_rects *rects;
   uint32_t i, j;
   dyd_bbox c;
   double bound, reach; /* squared radius of the pair; within which rivals are looked for */
@@ -33,10 +33,10 @@ typedef struct quick {
 } quick;
 
 /* Keeps the nearest ones; who is farther than all of them is not asked any more. */
-static bool keep_rival(void *context, uint32_t k) {
+static bool witness_keep_rival(void *context, uint32_t k) {
   quick *q = context;
   if (k == q->i || k == q->j) return true;
-  double d = dyd_ds2_lower(&q->c, &q->pd->box[k]);
+  double d = dyd_ds2_lower(&q->c, &q->rects->box[k]);
   int at = q->rivals < MAX_RIVALS ? q->rivals++ : MAX_RIVALS;
   for (; at > 0 && q->distance[at - 1] > d; at--)
     if (at < MAX_RIVALS) {
@@ -51,29 +51,29 @@ static bool keep_rival(void *context, uint32_t k) {
   return true;
 }
 
-static void evaluate(quick *q, dyd_xy c) {
+static void witness_evaluate_d(quick *q, dyd_xy c) {
   q->c = (dyd_bbox){{c.x, c.x, c.y, c.y}};
-  q->bound = dyd_max(dyd_dl2_upper(&q->c, &q->pd->box[q->i]), dyd_dl2_upper(&q->c, &q->pd->box[q->j]));
+  q->bound = dyd_max(dyd_dl2_upper(&q->c, &q->rects->box[q->i]), dyd_dl2_upper(&q->c, &q->rects->box[q->j]));
   q->reach = q->bound;
   q->rivals = 0;
   for (int k = 0; k < q->neighbours; k++)
-    if (!(dyd_ds2_lower(&q->c, &q->pd->box[q->neighbour[k]]) > q->reach)) keep_rival(q, q->neighbour[k]);
+    if (!(dyd_ds2_lower(&q->c, &q->rects->box[q->neighbour[k]]) > q->reach)) witness_keep_rival(q, q->neighbour[k]);
   if (q->rivals) return;
-  dyd_tree_near(&q->pd->tree, &q->c, &q->reach, keep_rival, q);
+  dyd_tree_near(&q->rects->tree, &q->c, &q->reach, witness_keep_rival, q);
 }
 
-static double farther_end(double c, double lo, double hi) {
+static double witness_farther_end(double c, double lo, double hi) {
   return c - lo > hi - c ? lo : hi;
 }
-static double nearest(double c, double lo, double hi) {
+static double witness_nearest_d(double c, double lo, double hi) {
   return c < lo ? lo : c > hi ? hi : c;
 }
 
 /* The half-plane nearer to the far corner of `own` than to the nearest point of `other`, relative to c; false: they
  * touch. */
-static bool add_cut(quick *q, dyd_xy c, const dyd_bbox *own, const dyd_bbox *other, double slack) {
-  double sx = farther_end(c.x, own->e[0], own->e[1]), sy = farther_end(c.y, own->e[2], own->e[3]);
-  double qx = nearest(c.x, other->e[0], other->e[1]), qy = nearest(c.y, other->e[2], other->e[3]);
+static bool witness_add_cut(quick *q, dyd_xy c, const dyd_bbox *own, const dyd_bbox *other, double slack) {
+  double sx = witness_farther_end(c.x, own->e[0], own->e[1]), sy = witness_farther_end(c.y, own->e[2], own->e[3]);
+  double qx = witness_nearest_d(c.x, other->e[0], other->e[1]), qy = witness_nearest_d(c.y, other->e[2], other->e[3]);
   double ax = sx - qx, ay = sy - qy, length = hypot(ax, ay);
   if (!(length > 0)) return false;
   if (slack > length * COARSE) q->coarse = true;
@@ -86,18 +86,19 @@ static bool add_cut(quick *q, dyd_xy c, const dyd_bbox *own, const dyd_bbox *oth
   return true;
 }
 
-static bool add_cuts(quick *q, dyd_xy c) {
+static bool witness_add_cuts(quick *q, dyd_xy c) {
   for (int k = 0; k < q->rivals; k++) {
-    const dyd_bbox *other = &q->pd->box[q->rival[k]];
-    double slack = dyd_max(q->slack, dyd_box_slack(q->pd, q->rival[k]));
-    if (!add_cut(q, c, &q->pd->box[q->i], other, slack) || !add_cut(q, c, &q->pd->box[q->j], other, slack))
+    const dyd_bbox *other = &q->rects->box[q->rival[k]];
+    double slack = dyd_max(q->slack, dyd_box_slack(q->rects, q->rival[k]));
+    if (!witness_add_cut(q, c, &q->rects->box[q->i], other, slack) ||
+        !witness_add_cut(q, c, &q->rects->box[q->j], other, slack))
       return false;
   }
   return true;
 }
 
 /* The next centre: TRUE; FALSE: no room; UNKNOWN: too close to tell in doubles. */
-static dyd_truth move(quick *q, dyd_xy *c) {
+static dyd_truth witness_move(quick *q, dyd_xy *c) {
   double scale = 0, noise = q->size * 0x1p-46;
   for (size_t k = 0; k < q->cuts; k++) scale = dyd_max(scale, fabs(q->cut[k].d));
   dyd_lp_result r = {0};
@@ -114,17 +115,17 @@ static dyd_truth move(quick *q, dyd_xy *c) {
   return DYD_TRUE;
 }
 
-dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_delaunay *pd, uint32_t i, uint32_t j) {
-  quick q = {.pd = pd, .i = i, .j = j};
+dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j) {
+  quick q = {.rects = w->rects, .i = i, .j = j};
   if (!isfinite(c->x) || !isfinite(c->y)) return DYD_UNKNOWN;
-  q.slack = dyd_max(dyd_box_slack(pd, i), dyd_box_slack(pd, j));
-  q.neighbours = dyd_neighbours(q.neighbour, MAX_NEIGHBOURS, pd, i, j);
+  q.slack = dyd_max(dyd_box_slack(q.rects, i), dyd_box_slack(q.rects, j));
+  q.neighbours = dyd_neighbours(q.neighbour, MAX_NEIGHBOURS, sk, i, j);
   for (int step = 0; step < STEPS; step++) {
-    evaluate(&q, *c);
+    witness_evaluate_d(&q, *c);
     if (!isfinite(q.bound)) return DYD_UNKNOWN;
     if (q.rivals == 0) return DYD_TRUE;
-    if (!add_cuts(&q, *c)) return DYD_UNKNOWN;
-    dyd_truth moved = move(&q, c);
+    if (!witness_add_cuts(&q, *c)) return DYD_UNKNOWN;
+    dyd_truth moved = witness_move(&q, c);
     if (moved != DYD_TRUE) return moved;
   }
   return DYD_UNKNOWN;

@@ -3,11 +3,11 @@
 #ifndef DYD_LEGAL_WITNESS_FILTER_H
 #define DYD_LEGAL_WITNESS_FILTER_H
 
-#include "delaunay/state.h"
+#include "skeleton/work.h"
 
 /* TRUE: *c is a witness of i, j, proved by distance bounds; FALSE: there is none, or the largest disc of witnesses has
  * a radius below 1e-9 of the distances that bound it; UNKNOWN: doubles are too coarse, *c is the last centre tried. *c
  * is the first guess before. */
-dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_delaunay *pd, uint32_t i, uint32_t j);
+dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j);
 
 #endif

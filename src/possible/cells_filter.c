@@ -12,7 +12,7 @@
 #include "possible/cells_filter.h"
 
 #include "base/alloc.h"
-#include "skeleton/site_filter.h"
+#include "skeleton/rects_filter.h"
 
 #include <math.h>
 
@@ -137,7 +137,7 @@ typedef struct dominator {
 
 /* farthest_upper at the corners. Those of a square have two x and two y only: the same steps, but half of them. */
 static void measure(dominator *d, const plane *p, const corner v[4]) {
-  const dyd_bbox *b = &p->c->pd->box[d->vertex];
+  const dyd_bbox *b = &p->c->rects->box[d->vertex];
   const double c[4] = {v[0].x, v[3].x, v[0].y, v[3].y};
   double s[4];
   if (v[3].far) {
@@ -151,7 +151,7 @@ static void measure(dominator *d, const plane *p, const corner v[4]) {
 
 /* closest_lower at the corners, likewise. */
 static void measure_closest(double at[4], const plane *p, uint32_t vertex, const corner v[4]) {
-  const dyd_bbox *b = &p->c->pd->box[vertex];
+  const dyd_bbox *b = &p->c->rects->box[vertex];
   const double c[4] = {v[0].x, v[3].x, v[0].y, v[3].y};
   double s[4];
   if (v[3].far) {
@@ -218,14 +218,14 @@ static double rival_limit(const cell *q, const corner *centre, double least2) {
  * below. */
 static void find_rivals(plane *p, const cell *q) {
   const entry *e = p->entry + q->first;
-  const dyd_bbox *box = p->c->pd->box;
+  const dyd_bbox *box = p->c->rects->box;
   corner centre = centre_of(p, q);
   double upper = INFINITY;
   bool good = true;
   p->least = INFINITY;
   for (size_t k = 0; k < q->count; k++) {
     if (!e[k].rival) continue;
-    p->value[k] = farthest_lower(&centre, &box[e[k].vertex], dyd_box_slack(p->c->pd, e[k].vertex));
+    p->value[k] = farthest_lower(&centre, &box[e[k].vertex], dyd_box_slack(p->c->rects, e[k].vertex));
     good = good && !isnan(p->value[k]);
     p->least = dyd_min(p->value[k], p->least);
     upper = dyd_min(farthest_upper(&centre, &box[e[k].vertex]), upper);
@@ -277,12 +277,12 @@ static bool is_open(const plane *p, const entry *a, const entry *b) {
 /* near[k]: the k-th of the list is surely possibly nearest at the centre of the cell. All of them are possible
  * neighbours of one another. */
 static void try_centre(plane *p, const cell *q) {
-  const dyd_delaunay *pd = p->c->pd;
+  const dyd_rects *r = p->c->rects;
   const entry *e = p->entry + q->first;
   corner v = centre_of(p, q);
   for (size_t k = 0; k < q->count; k++)
     p->near[k] =
-        e[k].member != DYD_NONE && closest_upper(&v, &pd->box[e[k].vertex], dyd_box_slack(pd, e[k].vertex)) <= p->least;
+        e[k].member != DYD_NONE && closest_upper(&v, &r->box[e[k].vertex], dyd_box_slack(r, e[k].vertex)) <= p->least;
 }
 
 /* Tells of the pair of the list if it is open and shown, else keeps it if it is open and the cell is listed. */
@@ -354,7 +354,7 @@ static dyd_status cut(plane *p, const cell *q) {
 
 /* Has the search become hopeless: too much work for what it shows, or cells too small? */
 static bool is_lost(plane *p, const cell *q) {
-  p->lost = p->lost || q->depth > MAX_DEPTH || p->work > WORK * ((size_t)p->c->pd->tree.count + p->found);
+  p->lost = p->lost || q->depth > MAX_DEPTH || p->work > WORK * ((size_t)p->c->rects->tree.count + p->found);
   return p->lost;
 }
 
@@ -362,7 +362,7 @@ static dyd_status look(plane *p, cell q) {
   size_t entries = p->entries, wishes = p->wishes;
   p->work += q.count;
   if (p->enough || is_lost(p, &q)) return DYD_OK;
-  if (dyd_cancelled(p->c->pd)) return DYD_CANCELLED;
+  if (dyd_flag_is_set(p->c->cancel)) return DYD_CANCELLED;
   if (!dyd_reserve((void **)&p->entry, &p->entry_cap, p->entries + 2 * q.count, sizeof *p->entry)) return DYD_E_NOMEM;
   size_t before = q.count, members = make_list(p, &q);
   bool stuck = q.count <= SHORT || (q.count > before / 4 * 3 && q.depth >= (q.side < 0 ? EARLY : EARLY / 2));
@@ -391,7 +391,7 @@ static uint32_t member_of(const dyd_cells *c, uint32_t v) {
 
 /* The root square: the middle of all boxes, eight times their extent. */
 static void set_root(plane *p) {
-  const dyd_tree *t = &p->c->pd->tree;
+  const dyd_tree *t = &p->c->rects->tree;
   const double *e = t->node[t->level[t->levels - 1]].e;
   p->cx = e[0] + (e[1] - e[0]) / 2;
   p->cy = e[2] + (e[3] - e[2]) / 2;
@@ -403,7 +403,7 @@ static void set_root(plane *p) {
 }
 
 static dyd_status everybody(plane *p) {
-  const dyd_tree *t = &p->c->pd->tree;
+  const dyd_tree *t = &p->c->rects->tree;
   p->place = dyd_alloc(LONG, sizeof *p->place);
   p->near = dyd_alloc(t->count, sizeof *p->near);
   p->rival = dyd_alloc(t->count, sizeof *p->rival);

@@ -6,8 +6,9 @@
 #ifndef DYD_POSSIBLE_CELLS_FILTER_H
 #define DYD_POSSIBLE_CELLS_FILTER_H
 
-#include "delaunay/state.h"
 #include "possible/pair_map.h"
+#include "skeleton/mesh.h"
+#include "skeleton/rects.h"
 
 /* Two members, a < b. */
 typedef struct dyd_member_pair {
@@ -19,7 +20,8 @@ typedef struct dyd_member_pair {
  * Output, when complete: every possible pair of members that has no state by then is in left[0..count-1]. Init with {0}
  * and release with dyd_cells_clear. */
 typedef struct dyd_cells {
-  const dyd_delaunay *pd;
+  const dyd_rects *rects;
+  const volatile int *cancel;
   const uint32_t *vertex;
   uint32_t vertices;
   const dyd_pair_map *map;

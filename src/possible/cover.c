@@ -12,29 +12,14 @@
 #include "possible/cover.h"
 
 #include "possible/cover_filter.h"
-#include "skeleton/site_filter.h"
+#include "skeleton/rects_filter.h"
 
 #include <math.h>
-
-void dyd_work_init(dyd_work *w, const dyd_delaunay *pd) {
-  w->walked = false;
-  dyd_scale_set_init(&w->set, pd);
-  dyd_icircle_init(&w->here);
-  for (int k = 0; k < DYD_CIRCLES; k++) dyd_icircle_init(&w->next[k]);
-  mpz_inits(w->u[0], w->u[1], w->h, w->s, w->t, NULL);
-}
-
-void dyd_work_clear(dyd_work *w) {
-  mpz_clears(w->u[0], w->u[1], w->h, w->s, w->t, NULL);
-  for (int k = 0; k < DYD_CIRCLES; k++) dyd_icircle_clear(&w->next[k]);
-  dyd_icircle_clear(&w->here);
-  dyd_scale_set_clear(&w->set);
-}
 
 /* One walk. Members 0 and 1 of the set are i and j; axis is the coordinate t. */
 typedef struct walk {
   dyd_work *w;
-  dyd_delaunay *pd;
+  const dyd_skeleton *sk;
   uint32_t i, j;
   const uint32_t *hint; /* two vertices asked before all others */
   int axis;
@@ -46,12 +31,12 @@ typedef struct walk {
   dyd_status status;
 } walk;
 
-static bool meet(const dyd_irect *a, const dyd_irect *b) {
+static bool cover_rects_meet(const dyd_irect *a, const dyd_irect *b) {
   return mpz_cmp(a->x0, b->x1) <= 0 && mpz_cmp(b->x0, a->x1) <= 0 && mpz_cmp(a->y0, b->y1) <= 0 &&
          mpz_cmp(b->y0, a->y1) <= 0;
 }
 
-static void grow_circle(dyd_icircle *k, const mpz_t factor) {
+static void cover_grow_circle(dyd_icircle *k, const mpz_t factor) {
   mpz_mul(k->ax, k->ax, factor);
   mpz_mul(k->bx, k->bx, factor);
   mpz_mul(k->ay, k->ay, factor);
@@ -61,18 +46,18 @@ static void grow_circle(dyd_icircle *k, const mpz_t factor) {
 }
 
 /* Member index of v; the current circle follows the scale. */
-static bool member(size_t *index, walk *k, uint32_t v) {
+static bool cover_member(size_t *index, walk *k, uint32_t v) {
   bool grown;
   k->status = dyd_scale_add(index, &grown, &k->w->set, v);
-  if (k->status == DYD_OK && grown && k->end == 0) grow_circle(&k->w->here, k->w->set.growth);
+  if (k->status == DYD_OK && grown && k->end == 0) cover_grow_circle(&k->w->here, k->w->set.growth);
   return k->status == DYD_OK;
 }
 
 /* The ends of side `axis` of r. */
-static mpz_srcptr low_end(const dyd_irect *r, int axis) {
+static mpz_srcptr cover_low_end(const dyd_irect *r, int axis) {
   return axis == 0 ? r->x0 : r->y0;
 }
-static mpz_srcptr high_end(const dyd_irect *r, int axis) {
+static mpz_srcptr cover_high_end(const dyd_irect *r, int axis) {
   return axis == 0 ? r->x1 : r->y1;
 }
 
@@ -80,18 +65,20 @@ static mpz_srcptr high_end(const dyd_irect *r, int axis) {
 
 /* u = outward normal of the common tangent at the end of beta towards `end` of axis t; h = u.x on the tangent. The
  * tangent touches both rectangles on the side `end` of axis t, at the corners that face u in the other axis. */
-static void tangent(walk *k) {
+static void cover_tangent(walk *k) {
   const dyd_irect *a = &k->w->set.rect[0], *b = &k->w->set.rect[1];
   int t = k->axis, o = 1 - t;
-  if (mpz_cmp(high_end(a, o), low_end(b, o)) > 0) {
+  if (mpz_cmp(cover_high_end(a, o), cover_low_end(b, o)) > 0) {
     const dyd_irect *swap = a;
     a = b;
     b = swap;
   }
-  mpz_srcptr ta = k->end > 0 ? high_end(a, t) : low_end(a, t), tb = k->end > 0 ? high_end(b, t) : low_end(b, t);
+  mpz_srcptr ta = k->end > 0 ? cover_high_end(a, t) : cover_low_end(a, t),
+             tb = k->end > 0 ? cover_high_end(b, t) : cover_low_end(b, t);
   mpz_sub(k->w->t, tb, ta);
   int rise = mpz_sgn(k->w->t) * k->end; /* > 0: b reaches farther, u leans towards a's side */
-  mpz_srcptr oa = rise > 0 ? low_end(a, o) : high_end(a, o), ob = rise > 0 ? low_end(b, o) : high_end(b, o);
+  mpz_srcptr oa = rise > 0 ? cover_low_end(a, o) : cover_high_end(a, o),
+             ob = rise > 0 ? cover_low_end(b, o) : cover_high_end(b, o);
   mpz_sub(k->w->s, ob, oa);
   mpz_ptr ut = k->w->u[t], uo = k->w->u[o];
   mpz_mul_si(ut, k->w->s, k->end);
@@ -101,74 +88,74 @@ static void tangent(walk *k) {
 }
 
 /* Is min over r of u.x > h? */
-static bool beyond(dyd_work *w, const dyd_irect *r) {
+static bool cover_beyond(dyd_work *w, const dyd_irect *r) {
   mpz_mul(w->s, w->u[0], mpz_sgn(w->u[0]) > 0 ? r->x0 : r->x1);
   mpz_addmul(w->s, w->u[1], mpz_sgn(w->u[1]) > 0 ? r->y0 : r->y1);
   return mpz_cmp(w->s, w->h) > 0;
 }
 
-static bool blocks_end(void *context, uint32_t v) {
+static bool cover_blocks_end(void *context, uint32_t v) {
   walk *k = context;
   size_t q;
   if (v == k->i || v == k->j) return true;
-  if (!member(&q, k, v)) return false;
-  tangent(k);
-  if (!beyond(k->w, &k->w->set.rect[q])) return true;
+  if (!cover_member(&q, k, v)) return false;
+  cover_tangent(k);
+  if (!cover_beyond(k->w, &k->w->set.rect[q])) return true;
   k->blocker = v;
   return false;
 }
 
 /* Asks the two hints first; true if one of them blocks. */
-static bool ask_hints(walk *k, dyd_visit blocks) {
+static bool cover_ask_hints(walk *k, dyd_visit blocks) {
   for (int q = 0; q < 2; q++)
     if (k->hint[q] != DYD_NONE && !blocks(k, k->hint[q])) return true;
   return false;
 }
 
-static void ask_end(walk *k, int end) {
+static void cover_ask_end(walk *k, int end) {
   double u[2];
   k->end = end;
   k->blocker = DYD_NONE;
-  tangent(k);
-  if (ask_hints(k, blocks_end)) return;
-  tangent(k);
+  cover_tangent(k);
+  if (cover_ask_hints(k, cover_blocks_end)) return;
+  cover_tangent(k);
   dyd_direction_d(u, k->w->u[0], k->w->u[1]);
-  double a = dyd_height_lower(k->pd, u[0], u[1], &k->pd->box[k->i]);
-  double b = dyd_height_lower(k->pd, u[0], u[1], &k->pd->box[k->j]);
-  k->bound = k->pd->options.no_filter ? -INFINITY : dyd_max(a, b);
-  dyd_tree_beyond(&k->pd->tree, u[0], u[1], &k->bound, blocks_end, k);
+  double a = dyd_height_lower(&k->sk->rects, u[0], u[1], &k->sk->rects.box[k->i]);
+  double b = dyd_height_lower(&k->sk->rects, u[0], u[1], &k->sk->rects.box[k->j]);
+  k->bound = k->sk->mesh.no_filter ? -INFINITY : dyd_max(a, b);
+  dyd_tree_beyond(&k->sk->rects.tree, u[0], u[1], &k->bound, cover_blocks_end, k);
 }
 
 /* ---- circles ---- */
 
-static bool blocks_circle(void *context, uint32_t v) {
+static bool cover_blocks_circle(void *context, uint32_t v) {
   walk *k = context;
   size_t q;
   if (v == k->i || v == k->j || v == k->last) return true;
-  if (!k->pd->options.no_filter && dyd_surely_not_nearer(k->pd, &k->centre, v, k->bound)) return true;
-  if (!member(&q, k, v)) return false;
+  if (!k->sk->mesh.no_filter && dyd_surely_not_nearer(&k->sk->rects, &k->centre, v, k->bound)) return true;
+  if (!cover_member(&q, k, v)) return false;
   const dyd_irect *r = &k->w->set.rect[q];
-  if (meet(r, &k->w->set.rect[0]) || meet(r, &k->w->set.rect[1])) return true;
+  if (cover_rects_meet(r, &k->w->set.rect[0]) || cover_rects_meet(r, &k->w->set.rect[1])) return true;
   if (dyd_icircle_side(&k->w->here, r, DYD_FARTHEST) >= 0) return true;
   k->blocker = v;
   return false;
 }
 
-static void ask_circle(walk *k) {
+static void cover_ask_circle(walk *k) {
   k->blocker = DYD_NONE;
   dyd_icircle_centre_d(k->centre.e, &k->w->here, dyd_scale_shift(&k->w->set));
   dyd_scale_to_user(&k->centre, &k->w->set);
-  k->bound = k->pd->options.no_filter ? INFINITY : dyd_pair_ds2_upper(k->pd, &k->centre, k->i, k->j);
-  k->blocker = k->pd->options.no_filter ? DYD_NONE : dyd_surely_nearest(k->pd, &k->centre, k->i, k->j);
-  if (k->blocker != DYD_NONE || ask_hints(k, blocks_circle)) return;
-  dyd_tree_near(&k->pd->tree, &k->centre, &k->bound, blocks_circle, k);
+  k->bound = k->sk->mesh.no_filter ? INFINITY : dyd_pair_ds2_upper(&k->sk->rects, &k->centre, k->i, k->j);
+  k->blocker = k->sk->mesh.no_filter ? DYD_NONE : dyd_surely_nearest(&k->sk->rects, &k->centre, k->i, k->j);
+  if (k->blocker != DYD_NONE || cover_ask_hints(k, cover_blocks_circle)) return;
+  dyd_tree_near(&k->sk->rects.tree, &k->centre, &k->bound, cover_blocks_circle, k);
 }
 
 /* Moves to the far end of the blocker's interval; false if it has none. */
-static bool advance(walk *k) {
+static bool cover_advance(walk *k) {
   dyd_work *w = k->w;
   size_t q, best = DYD_CIRCLES;
-  if (!member(&q, k, k->blocker)) return false;
+  if (!cover_member(&q, k, k->blocker)) return false;
   const dyd_irect *const r[3] = {&w->set.rect[0], &w->set.rect[1], &w->set.rect[q]};
   static const dyd_touch touch[3] = {DYD_CLOSEST, DYD_CLOSEST, DYD_FARTHEST};
   size_t count = dyd_icircles(w->next, DYD_CIRCLES, r, touch);
@@ -183,34 +170,34 @@ static bool advance(walk *k) {
   return true;
 }
 
-static bool start(walk *k) {
+static bool cover_start(walk *k) {
   size_t q;
   dyd_scale_set_empty(&k->w->set);
-  return member(&q, k, k->i) && member(&q, k, k->j);
+  return cover_member(&q, k, k->i) && cover_member(&q, k, k->j);
 }
 
-dyd_status dyd_cover_possible(bool *possible, dyd_work *w, dyd_delaunay *pd, uint32_t i, uint32_t j,
+dyd_status dyd_cover_possible(bool *possible, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
                               const uint32_t hint[2]) {
-  walk k = {.w = w, .pd = pd, .i = i, .j = j, .hint = hint, .end = -1, .status = DYD_OK};
+  walk k = {.w = w, .sk = sk, .i = i, .j = j, .hint = hint, .end = -1, .status = DYD_OK};
   k.blocker = k.last = DYD_NONE;
-  dyd_truth quick = pd->options.no_filter ? DYD_UNKNOWN : dyd_filter_cover(pd, i, j, hint);
+  dyd_truth quick = sk->mesh.no_filter ? DYD_UNKNOWN : dyd_filter_cover(sk, i, j, hint);
   *possible = quick != DYD_FALSE;
   w->walked = quick == DYD_UNKNOWN;
   if (!w->walked) return DYD_OK;
-  if (!start(&k)) return k.status;
+  if (!cover_start(&k)) return k.status;
   const dyd_irect *a = &w->set.rect[0], *b = &w->set.rect[1];
-  if (meet(a, b)) return DYD_OK;
+  if (cover_rects_meet(a, b)) return DYD_OK;
   k.axis = mpz_cmp(a->x1, b->x0) < 0 || mpz_cmp(b->x1, a->x0) < 0 ? 1 : 0;
-  pd->counters.cover_walks++;
-  ask_end(&k, 1);
+  w->counters.cover_walks++;
+  cover_ask_end(&k, 1);
   if (k.status != DYD_OK || k.blocker == DYD_NONE) return k.status;
-  ask_end(&k, -1);
+  cover_ask_end(&k, -1);
   while (k.status == DYD_OK && k.blocker != DYD_NONE) {
-    if (!advance(&k)) {
+    if (!cover_advance(&k)) {
       *possible = k.status != DYD_OK;
       return k.status;
     }
-    ask_circle(&k);
+    cover_ask_circle(&k);
   }
   return k.status;
 }

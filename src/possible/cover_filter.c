@@ -13,14 +13,14 @@
 
 #include "predicate/predicate_filter.h"
 #include "skeleton/mesh_filter.h"
-#include "skeleton/site_filter.h"
+#include "skeleton/rects_filter.h"
 
 enum { STEPS = 10, ROUNDS = 3, MAX_RIVALS = 48 };
 
 /* a, b: boxes of i and j; a is below b in the coordinate across, t is the other one (0: x, 1: y). rival: neighbours of
  * i and j in the skeleton, once gathered. */
 typedef struct quick {
-  const dyd_delaunay *pd;
+  const dyd_skeleton *sk;
   uint32_t i, j;
   const dyd_bbox *a, *b;
   int across, t;
@@ -113,10 +113,10 @@ static uint32_t likely_blocker(quick *q, const place *p) {
   uint32_t best = DYD_NONE;
   if (!q->gathered) {
     q->gathered = true;
-    q->rivals = dyd_neighbours(q->rival, MAX_RIVALS, q->pd, q->i, q->j);
+    q->rivals = dyd_neighbours(q->rival, MAX_RIVALS, q->sk, q->i, q->j);
   }
   for (int k = 0; k < q->rivals; k++) {
-    double d = far2(p, &q->pd->box[q->rival[k]]);
+    double d = far2(p, &q->sk->rects.box[q->rival[k]]);
     if (!(d < least)) continue;
     least = d;
     best = q->rival[k];
@@ -133,7 +133,7 @@ typedef struct search {
 
 static bool perhaps_nearer(void *context, uint32_t k) {
   search *s = context;
-  if (k == s->q->i || k == s->q->j || dyd_surely_not_nearer(s->q->pd, &s->c, k, s->bound)) return true;
+  if (k == s->q->i || k == s->q->j || dyd_surely_not_nearer(&s->q->sk->rects, &s->c, k, s->bound)) return true;
   s->found = k;
   return false;
 }
@@ -141,8 +141,8 @@ static bool perhaps_nearer(void *context, uint32_t k) {
 /* Somebody who is perhaps nearer than i or j; DYD_NONE: surely nobody, so the pair is possible [POS-1]. */
 static uint32_t any_blocker(const quick *q, const place *p) {
   search s = {q, {{p->at[0], p->at[0], p->at[1], p->at[1]}}, 0, DYD_NONE};
-  s.bound = dyd_pair_ds2_upper(q->pd, &s.c, q->i, q->j);
-  dyd_tree_near(&q->pd->tree, &s.c, &s.bound, perhaps_nearer, &s);
+  s.bound = dyd_pair_ds2_upper(&q->sk->rects, &s.c, q->i, q->j);
+  dyd_tree_near(&q->sk->rects.tree, &s.c, &s.bound, perhaps_nearer, &s);
   return s.found;
 }
 
@@ -158,14 +158,14 @@ static bool crosses(dyd_bbox *c, const quick *q, const place *p, double width) {
     c->e[2 * q->across + k] = x;
     c->e[2 * q->t + k] = p->at[q->t];
   }
-  double slack_a = dyd_box_slack(q->pd, q->i), slack_b = dyd_box_slack(q->pd, q->j);
+  double slack_a = dyd_box_slack(&q->sk->rects, q->i), slack_b = dyd_box_slack(&q->sk->rects, q->j);
   return dyd_ds2_upper(&end[0], q->a, slack_a) < dyd_ds2_lower(&end[0], q->b) &&
          dyd_ds2_upper(&end[1], q->b, slack_b) < dyd_ds2_lower(&end[1], q->a);
 }
 
 /* Do k and l surely block all of beta? */
 static bool surely_cover(const quick *q, uint32_t k, uint32_t l, double t) {
-  const dyd_bbox *box = q->pd->box;
+  const dyd_bbox *box = q->sk->rects.box;
   place p = place_at(q, t);
   dyd_bbox c;
   double ds = sqrt(p.ds2), x = fabs(p.at[q->across]), gap = low(q->b, q->across) - high(q->a, q->across);
@@ -180,7 +180,7 @@ static bool surely_cover(const quick *q, uint32_t k, uint32_t l, double t) {
 
 /* k blocks the place p: its ray counts from now on. false: it tells nothing new. */
 static bool take(ray end[2], const quick *q, uint32_t k, place p) {
-  const dyd_bbox *b = &q->pd->box[k];
+  const dyd_bbox *b = &q->sk->rects.box[k];
   int up = side_of(q, b) > 0;
   double t = ray_end(q, b, p);
   if (!(up ? t < end[1].t : t > end[0].t)) return false;
@@ -214,9 +214,9 @@ static dyd_truth walk(quick *q, const uint32_t hint[2]) {
   return DYD_UNKNOWN;
 }
 
-dyd_truth dyd_filter_cover(const dyd_delaunay *pd, uint32_t i, uint32_t j, const uint32_t hint[2]) {
-  const dyd_bbox *a = &pd->box[i], *b = &pd->box[j];
-  quick q = {.pd = pd, .i = i, .j = j, .a = a, .b = b};
+dyd_truth dyd_filter_cover(const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t hint[2]) {
+  const dyd_bbox *a = &sk->rects.box[i], *b = &sk->rects.box[j];
+  quick q = {.sk = sk, .i = i, .j = j, .a = a, .b = b};
   double x = dyd_max(b->e[0] - a->e[1], a->e[0] - b->e[1]), y = dyd_max(b->e[2] - a->e[3], a->e[2] - b->e[3]);
   if (!(dyd_max(x, y) > 0)) return DYD_UNKNOWN;
   q.across = y > x;

@@ -3,10 +3,10 @@
 #ifndef DYD_POSSIBLE_COVER_FILTER_H
 #define DYD_POSSIBLE_COVER_FILTER_H
 
-#include "delaunay/state.h"
+#include "skeleton/work.h"
 
 /* Is the pair of vertices i, j possible [POS-1]? TRUE: a centre shows it; FALSE: two others block all of its curve
  * [COV-2]; UNKNOWN: doubles don't tell. hint: two vertices that are likely to block it (DYD_NONE: no idea). */
-dyd_truth dyd_filter_cover(const dyd_delaunay *pd, uint32_t i, uint32_t j, const uint32_t hint[2]);
+dyd_truth dyd_filter_cover(const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t hint[2]);
 
 #endif

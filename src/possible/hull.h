@@ -1,19 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The ghost's side: which vertices are possibly, which are surely on the convex hull (mathematics: sections 3, 6). */
+/* Which vertices are possibly on the convex hull (mathematics: sections 3, 6). */
 #ifndef DYD_POSSIBLE_HULL_H
 #define DYD_POSSIBLE_HULL_H
 
-#include "possible/cover.h"
+#include "skeleton/work.h"
 
 /* Does some direction u have max_{R_v} u.x >= min_{R_k} u.x for all k [HUL-1]? Exact. */
-dyd_status dyd_hull_possible(bool *possible, dyd_work *w, const dyd_delaunay *pd, uint32_t v);
-/* Does some direction u have min_{R_v} u.x > max_{R_k} u.x for all other k: is v a vertex of the hull for every choice
- * [HUL-2]? Exact. */
-dyd_status dyd_hull_sure(bool *sure, dyd_work *w, const dyd_delaunay *pd, uint32_t v);
-
-/* A direction u with min_{R_i} u.x and min_{R_j} u.x > max_{R_k} u.x for all other k, if there is one: then all centres
- * far enough out in the direction u are witnesses of ij [HUL-3]. Exact. */
-dyd_status dyd_hull_direction(bool *found, mpz_t ux, mpz_t uy, dyd_work *w, const dyd_delaunay *pd, uint32_t i,
-                              uint32_t j);
+dyd_status dyd_hull_possible(bool *possible, dyd_work *w, const dyd_skeleton *sk, uint32_t v);
 
 #endif

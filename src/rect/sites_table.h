@@ -3,6 +3,7 @@
 #ifndef DYD_RECT_SITES_TABLE_H
 #define DYD_RECT_SITES_TABLE_H
 
+#include "base/prefetch.h"
 #include "rect/irect.h"
 #include <dyadel/sites.h>
 
@@ -49,14 +50,10 @@ static inline double dyd_sites_hi(const dyd_sites *s, int axis, size_t i) {
 }
 /* Asks memory for the doubles of site i, for loops that visit the sites in another order. */
 static inline void dyd_sites_fetch(const dyd_sites *s, size_t i) {
-#if defined(__GNUC__)
   for (int a = 0; a < 2; a++) {
-    __builtin_prefetch(&s->lower[a][i]);
-    if (s->upper[a]) __builtin_prefetch(&s->upper[a][i]);
+    dyd_prefetch(&s->lower[a][i]);
+    if (s->upper[a]) dyd_prefetch(&s->upper[a][i]);
   }
-#else
-  (void)s, (void)i;
-#endif
 }
 /* Do the doubles hold the rectangle of site i exactly? */
 static inline bool dyd_sites_in_doubles(const dyd_sites *s, size_t i) {

@@ -3,19 +3,19 @@
 #ifndef DYD_SKELETON_BLOCKS_H
 #define DYD_SKELETON_BLOCKS_H
 
-#include "delaunay/state.h"
+#include "skeleton/skeleton.h"
 
 enum { DYD_BLOCK = 32 };
 
-/* Builds pd->block and pd->blocks over all vertices, aliases included; needs reps and all_points. On failure
+/* Builds sk->block and sk->blocks over all vertices, aliases included; needs reps and all_points. On failure
  * dyd_blocks_clear is due as well. */
-dyd_status dyd_blocks_build(dyd_delaunay *pd);
-void dyd_blocks_clear(dyd_delaunay *pd);
+dyd_status dyd_blocks_build(dyd_skeleton *sk);
+void dyd_blocks_clear(dyd_skeleton *sk);
 /* One beyond the last vertex of block b. */
-static inline uint32_t dyd_block_end(const dyd_delaunay *pd, uint32_t b) {
-  return pd->n - b * DYD_BLOCK < DYD_BLOCK ? pd->n : (b + 1) * DYD_BLOCK;
+static inline uint32_t dyd_block_end(const dyd_skeleton *sk, uint32_t b) {
+  return sk->n - b * DYD_BLOCK < DYD_BLOCK ? sk->n : (b + 1) * DYD_BLOCK;
 }
 /* An outward box of the rectangle of v. */
-void dyd_vertex_box(dyd_bbox *out, const dyd_delaunay *pd, uint32_t v);
+void dyd_vertex_box(dyd_bbox *out, const dyd_skeleton *sk, uint32_t v);
 
 #endif

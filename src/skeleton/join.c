@@ -4,40 +4,18 @@
 
 #include "base/alloc.h"
 #include "base/parallel.h"
+#include "skeleton/insert.h"
 #include "skeleton/mesh_fixed.h"
 #include "skeleton/mesh_start.h"
+#include "skeleton/predicates.h"
 
 #include <math.h>
 
-/* ---- walking along a hull ----
- *
- * A hull edge, the inside on its left, is named by h = 4 t + k: its ghost triangle t, and the ghost is v[k] of it. */
-
-static uint32_t origin(const dyd_mesh *m, uint32_t h) {
-  return m->tri[h >> 2].v[dyd_prev(h & 3)];
-}
-static uint32_t target(const dyd_mesh *m, uint32_t h) {
-  return m->tri[h >> 2].v[dyd_next(h & 3)];
-}
-/* The hull edge that begins where h ends, the one that ends where h begins. */
-static uint32_t following(const dyd_mesh *m, uint32_t h) {
-  uint32_t twin = m->tri[h >> 2].n[dyd_prev(h & 3)];
-  return (twin & ~3u) | dyd_prev(twin & 3);
-}
-static uint32_t preceding(const dyd_mesh *m, uint32_t h) {
-  uint32_t twin = m->tri[h >> 2].n[dyd_next(h & 3)];
-  return (twin & ~3u) | dyd_next(twin & 3);
-}
-/* The third vertex of the triangle inside of h: the ghost, too, once the seam has eaten into thin parts. */
-static uint32_t apex(const dyd_mesh *m, uint32_t h) {
-  uint32_t twin = m->tri[h >> 2].n[h & 3];
-  return m->tri[twin >> 2].v[twin & 3];
-}
+/* ---- where the parts meet ---- */
 
 /* Some hull edge: the ghost triangle beyond which v lies. */
-static uint32_t hull_towards(dyd_mesh *m, uint32_t v) {
-  uint32_t t = dyd_mesh_locate(m, v);
-  return 4 * t + dyd_mesh_ghost_corner(m, t);
+static dyd_half_edge hull_towards(dyd_mesh *m, uint32_t v) {
+  return dyd_hull_edge(m, dyd_mesh_locate(m, v));
 }
 
 static bool is_right_of(const dyd_mesh *m, uint32_t v, uint32_t w) {
@@ -47,126 +25,122 @@ static bool is_right_of(const dyd_mesh *m, uint32_t v, uint32_t w) {
 
 /* The hull edge that begins at the last (right) or first vertex in the order of x, then y; that order rises and falls
  * once around the hull. */
-static uint32_t extreme(const dyd_mesh *m, uint32_t h, bool right) {
-  while (is_right_of(m, target(m, h), origin(m, h)) == right) h = following(m, h);
-  while (is_right_of(m, origin(m, preceding(m, h)), origin(m, h)) == right) h = preceding(m, h);
+static dyd_half_edge seam_extreme(const dyd_mesh *m, dyd_half_edge h, bool right) {
+  while (is_right_of(m, dyd_hull_target(m, h), dyd_hull_origin(m, h)) == right) h = dyd_hull_following(m, h);
+  while (is_right_of(m, dyd_hull_origin(m, dyd_hull_preceding(m, h)), dyd_hull_origin(m, h)) == right)
+    h = dyd_hull_preceding(m, h);
   return h;
 }
 
 /* ---- the seam ---- */
 
 /* Exact zeros are counted: the quad or corner may stay. */
-static int side(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t p) {
-  int sign = dyd_mesh_orient(m, a, b, p);
-  if (!sign) m->ties++;
+static int seam_side(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t p) {
+  int sign = dyd_build_orient(m, a, b, p);
+  if (!sign) m->tally.ties++;
   return sign;
 }
 
 /* Hull edges that begin at the ends a (left part) and b of the lower tangent: nothing lies below the line ab, nothing
  * on the segment between them. */
-static void lower_tangent(uint32_t *at_a, uint32_t *at_b, dyd_mesh *m) {
-  uint32_t a = *at_a, b = *at_b;
+static void lower_tangent(dyd_half_edge *at_a, dyd_half_edge *at_b, dyd_mesh *m) {
+  dyd_half_edge a = *at_a, b = *at_b;
   for (bool moved = true; moved;) {
     moved = false;
-    for (; side(m, origin(m, a), origin(m, b), origin(m, preceding(m, a))) < 0; moved = true) a = preceding(m, a);
-    for (; side(m, origin(m, a), origin(m, b), target(m, b)) < 0; moved = true) b = following(m, b);
+    for (; seam_side(m, dyd_hull_origin(m, a), dyd_hull_origin(m, b), dyd_hull_origin(m, dyd_hull_preceding(m, a))) < 0;
+         moved = true)
+      a = dyd_hull_preceding(m, a);
+    for (; seam_side(m, dyd_hull_origin(m, a), dyd_hull_origin(m, b), dyd_hull_target(m, b)) < 0; moved = true)
+      b = dyd_hull_following(m, b);
   }
   *at_a = a;
   *at_b = b;
 }
 
-static void join_edges(dyd_mesh *m, uint32_t h, uint32_t twin) {
-  m->tri[h >> 2].n[h & 3] = twin;
-  m->tri[twin >> 2].n[twin & 3] = h;
-}
-
 /* The triangles (p i j) and (o j i) at edge h = i j become t = (p i o) and s = (o j p), vertices in this order. */
-static void flip(dyd_mesh *m, uint32_t h) {
-  uint32_t t = h >> 2, twin = m->tri[t].n[h & 3], s = twin >> 2;
-  unsigned k = h & 3, q = twin & 3;
-  dyd_tri a = m->tri[t], b = m->tri[s];
-  uint32_t p = a.v[k], i = a.v[dyd_next(k)], j = a.v[dyd_prev(k)], o = b.v[q];
+static void seam_flip(dyd_mesh *m, dyd_half_edge h) {
+  dyd_half_edge twin = dyd_edge_twin(m, h);
+  uint32_t t = dyd_edge_triangle(h), s = dyd_edge_triangle(twin);
+  dyd_half_edge ij[2] = {dyd_edge_twin(m, dyd_edge_next(h)), dyd_edge_twin(m, dyd_edge_prev(h))};
+  dyd_half_edge ji[2] = {dyd_edge_twin(m, dyd_edge_next(twin)), dyd_edge_twin(m, dyd_edge_prev(twin))};
+  uint32_t p = dyd_edge_apex(m, h), i = dyd_edge_origin(m, h), j = dyd_edge_target(m, h), o = dyd_edge_apex(m, twin);
   m->tri[t] = (dyd_tri){{p, i, o}, {0, 0, 0}};
   m->tri[s] = (dyd_tri){{o, j, p}, {0, 0, 0}};
-  join_edges(m, 4 * t + 0, b.n[dyd_next(q)]);
-  join_edges(m, 4 * t + 1, 4 * s + 1);
-  join_edges(m, 4 * t + 2, a.n[dyd_prev(k)]);
-  join_edges(m, 4 * s + 0, a.n[dyd_next(k)]);
-  join_edges(m, 4 * s + 2, b.n[dyd_prev(q)]);
+  dyd_edge_join(m, dyd_edge_of(t, 0), ji[0]);
+  dyd_edge_join(m, dyd_edge_of(t, 1), dyd_edge_of(s, 1));
+  dyd_edge_join(m, dyd_edge_of(t, 2), ij[1]);
+  dyd_edge_join(m, dyd_edge_of(s, 0), ij[0]);
+  dyd_edge_join(m, dyd_edge_of(s, 2), ji[1]);
 }
 
 /* Cuts both spheres open at a and b and puts two ghost triangles between, t and t + 1: of the hull edge a b, below, and
  * of b a, the seam's upper end, which is returned. */
-static uint32_t glue(dyd_mesh *m, uint32_t at_a, uint32_t at_b, uint32_t t) {
-  uint32_t a = origin(m, at_a), b = origin(m, at_b);
-  uint32_t after_a = (at_a & ~3u) | dyd_next(at_a & 3), before_a = m->tri[at_a >> 2].n[after_a & 3];
-  uint32_t after_b = (at_b & ~3u) | dyd_next(at_b & 3), before_b = m->tri[at_b >> 2].n[after_b & 3];
-  uint32_t low = 4 * t, top = 4 * (t + 1);
+static dyd_half_edge seam_glue(dyd_mesh *m, dyd_half_edge at_a, dyd_half_edge at_b, uint32_t t) {
+  uint32_t a = dyd_hull_origin(m, at_a), b = dyd_hull_origin(m, at_b);
+  dyd_half_edge after_a = dyd_edge_next(at_a), before_a = dyd_edge_twin(m, after_a);
+  dyd_half_edge after_b = dyd_edge_next(at_b), before_b = dyd_edge_twin(m, after_b);
   m->tri[t] = (dyd_tri){{b, a, m->n}, {0, 0, 0}};
   m->tri[t + 1] = (dyd_tri){{a, b, m->n}, {0, 0, 0}};
-  join_edges(m, low + 2, top + 2);
-  join_edges(m, low + 0, before_a);
-  join_edges(m, low + 1, after_b);
-  join_edges(m, top + 0, before_b);
-  join_edges(m, top + 1, after_a);
-  return top + 2;
+  dyd_edge_join(m, dyd_edge_of(t, 2), dyd_edge_of(t + 1, 2));
+  dyd_edge_join(m, dyd_edge_of(t, 0), before_a);
+  dyd_edge_join(m, dyd_edge_of(t, 1), after_b);
+  dyd_edge_join(m, dyd_edge_of(t + 1, 0), before_b);
+  dyd_edge_join(m, dyd_edge_of(t + 1, 1), after_a);
+  return dyd_edge_of(t + 1, 2);
 }
 
 /* The candidate on the left: the hull vertex q after a, once all edges a q whose inner triangle's apex is inside the
  * circle a b q are deleted. false: q is not above the base. */
-static bool left_candidate(uint32_t *q, dyd_mesh *m, uint32_t top) {
-  uint32_t a = target(m, top), b = origin(m, top);
+static bool left_candidate(uint32_t *q, dyd_mesh *m, dyd_half_edge top) {
+  uint32_t a = dyd_hull_target(m, top), b = dyd_hull_origin(m, top);
   for (;;) {
-    uint32_t edge = following(m, top), r = apex(m, edge);
-    *q = target(m, edge);
-    if (side(m, a, b, *q) <= 0) return false;
-    if (r == m->n || dyd_mesh_incircle(m, a, b, *q, r) <= 0) return true;
-    flip(m, edge);
+    dyd_half_edge edge = dyd_hull_following(m, top);
+    uint32_t r = dyd_edge_across(m, edge);
+    *q = dyd_hull_target(m, edge);
+    if (seam_side(m, a, b, *q) <= 0) return false;
+    if (r == m->n || dyd_build_incircle(m, a, b, *q, r) <= 0) return true;
+    seam_flip(m, edge);
   }
 }
 
-static bool right_candidate(uint32_t *p, dyd_mesh *m, uint32_t top) {
-  uint32_t a = target(m, top), b = origin(m, top);
+static bool right_candidate(uint32_t *p, dyd_mesh *m, dyd_half_edge top) {
+  uint32_t a = dyd_hull_target(m, top), b = dyd_hull_origin(m, top);
   for (;;) {
-    uint32_t edge = preceding(m, top), r = apex(m, edge);
-    *p = origin(m, edge);
-    if (side(m, a, b, *p) <= 0) return false;
-    if (r == m->n || dyd_mesh_incircle(m, a, b, *p, r) <= 0) return true;
-    flip(m, edge);
+    dyd_half_edge edge = dyd_hull_preceding(m, top);
+    uint32_t r = dyd_edge_across(m, edge);
+    *p = dyd_hull_origin(m, edge);
+    if (seam_side(m, a, b, *p) <= 0) return false;
+    if (r == m->n || dyd_build_incircle(m, a, b, *p, r) <= 0) return true;
+    seam_flip(m, edge);
   }
 }
 
 /* One edge across; *top follows. false: the base is the upper tangent. */
-static bool zip_one(uint32_t *top, dyd_mesh *m) {
-  uint32_t a = target(m, *top), b = origin(m, *top), p = DYD_NONE, q = DYD_NONE;
+static bool zip_one(dyd_half_edge *top, dyd_mesh *m) {
+  uint32_t a = dyd_hull_target(m, *top), b = dyd_hull_origin(m, *top), p = DYD_NONE, q = DYD_NONE;
   bool left = left_candidate(&q, m, *top), right = right_candidate(&p, m, *top);
   if (!left && !right) return false;
-  if (left && right) left = dyd_mesh_incircle(m, a, b, q, p) <= 0;
-  uint32_t below = apex(m, *top), t = *top >> 2, k = *top & 3;
-  if (below != m->n) (void)dyd_mesh_incircle(m, a, b, left ? q : p, below); /* <= 0; counts a tie */
-  if (left) {
-    flip(m, 4 * t + dyd_prev(k)); /* t = (b, ghost, q) */
-    *top = 4 * t + 1;
-  } else {
-    uint32_t s = m->tri[t].n[dyd_next(k)] >> 2;
-    flip(m, 4 * t + dyd_next(k)); /* s = (p, ghost, a) */
-    *top = 4 * s + 1;
-  }
+  if (left && right) left = dyd_build_incircle(m, a, b, q, p) <= 0;
+  uint32_t below = dyd_edge_across(m, *top);
+  dyd_half_edge at = left ? dyd_edge_prev(*top) : dyd_edge_next(*top), beyond = dyd_edge_twin(m, at);
+  if (below != m->n) (void)dyd_build_incircle(m, a, b, left ? q : p, below); /* <= 0; counts a tie */
+  seam_flip(m, at); /* left: its triangle becomes (b, ghost, q); else the one beyond becomes (p, ghost, a) */
+  *top = dyd_edge_of(dyd_edge_triangle(left ? at : beyond), 1);
   return true;
 }
 
 /* The part m grows by its right neighbour, whose predicates know too little; triangles m->count and m->count + 1 are
  * free. */
-static void join(dyd_mesh *m, const dyd_mesh *right) {
+static void seam_join(dyd_mesh *m, const dyd_mesh *right) {
   dyd_fixed_join(m, right);
   m->end = right->end;
-  uint32_t at_a = extreme(m, hull_towards(m, right->begin), true);
+  dyd_half_edge at_a = seam_extreme(m, hull_towards(m, right->begin), true);
   m->hint = right->hint;
-  uint32_t at_b = extreme(m, hull_towards(m, m->begin), false);
+  dyd_half_edge at_b = seam_extreme(m, hull_towards(m, m->begin), false);
   lower_tangent(&at_a, &at_b, m);
-  uint32_t top = glue(m, at_a, at_b, m->count);
+  dyd_half_edge top = seam_glue(m, at_a, at_b, m->count);
   while (zip_one(&top, m)) continue;
-  m->hint = top >> 2;
+  m->hint = dyd_edge_triangle(top);
   m->count = right->count;
 }
 
@@ -180,7 +154,6 @@ typedef struct gap {
 typedef struct seams {
   dyd_mesh part[DYD_STRIPS];
   dyd_status status[DYD_STRIPS];
-  dyd_delaunay_counters counters[DYD_STRIPS];
   gap gap[DYD_STRIPS]; /* before part k */
   const volatile int *cancel;
   unsigned parts, stride;
@@ -197,7 +170,7 @@ static void join_pair(void *context, size_t k) {
   if (right >= s->parts) return;
   dyd_mesh *m = &s->part[left], *r = &s->part[right];
   s->gap[right] = (gap){m->count + 2, 2 * r->begin};
-  join(m, r);
+  seam_join(m, r);
 }
 
 bool dyd_strips_are_apart(const dyd_reps *reps, const dyd_strips *strips) {
@@ -225,8 +198,7 @@ static void make_parts(seams *s, const dyd_mesh *m, const dyd_strips *strips) {
     p->begin = begin;
     p->end = end;
     p->part = true;
-    p->counters = &s->counters[s->parts++];
-    p->beyond = 0;
+    s->parts++;
   }
 }
 
@@ -255,7 +227,7 @@ static void close_gaps(dyd_mesh *m, gap *gaps, unsigned count) {
       uint32_t t = low->from++;
       m->tri[t] = m->tri[--m->count];
       if (m->hint == m->count) m->hint = t;
-      for (unsigned k = 0; k < 3; k++) join_edges(m, 4 * t + k, m->tri[t].n[k]);
+      for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++) dyd_edge_join(m, h, dyd_edge_twin(m, h));
     }
   }
 }
@@ -269,14 +241,13 @@ static dyd_status gather_aliases(dyd_mesh *m, const seams *s) {
   return DYD_OK;
 }
 
-static void add_counters(dyd_mesh *m, const seams *s) {
+static void add_tallies(dyd_mesh *m, const seams *s) {
   for (unsigned k = 0; k < s->parts; k++) {
-    const dyd_delaunay_counters *c = &s->counters[k];
-    m->counters->filter += c->filter;
-    m->counters->integer += c->integer;
-    m->counters->exact += c->exact;
-    m->beyond += c->integer + c->exact;
-    m->ties += s->part[k].ties;
+    const dyd_tally *c = &s->part[k].tally;
+    m->tally.asked += c->asked;
+    m->tally.integer += c->integer;
+    m->tally.exact += c->exact;
+    m->tally.ties += c->ties;
   }
 }
 
@@ -309,7 +280,7 @@ dyd_status dyd_mesh_join_strips(bool *joined, dyd_mesh *m, const dyd_strips *str
     dyd_mesh_trim(&s->part[k]);
     free(s->part[k].alias);
   }
-  if (*joined) add_counters(m, s);
+  if (*joined) add_tallies(m, s);
   free(s);
   return st;
 }

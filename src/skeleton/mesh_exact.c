@@ -3,6 +3,7 @@
 #include "skeleton/mesh_exact.h"
 
 #include "rect/irect.h"
+#include "skeleton/half_edge.h"
 
 typedef struct scaled_points {
   dyd_irect p[4];
@@ -10,7 +11,7 @@ typedef struct scaled_points {
 } scaled_points;
 
 /* Cannot fail: every representative lies in the exponent range, since its rectangle does. */
-static void load(scaled_points *s, const dyd_mesh *m, const uint32_t *v, size_t count) {
+static void points_load(scaled_points *s, const dyd_mesh *m, const uint32_t *v, size_t count) {
   dyd_rect r[4];
   const dyd_rect *in[4] = {NULL};
   s->count = count;
@@ -24,12 +25,12 @@ static void load(scaled_points *s, const dyd_mesh *m, const uint32_t *v, size_t 
   for (size_t k = 0; k < count; k++) dyd_rect_clear(&r[k]);
 }
 
-static void unload(scaled_points *s) {
+static void points_unload(scaled_points *s) {
   for (size_t k = 0; k < s->count; k++) dyd_irect_clear(&s->p[k]);
 }
 
 /* Moves the origin to the last point. */
-static void centre(scaled_points *s) {
+static void points_recentre(scaled_points *s) {
   const dyd_irect *o = &s->p[s->count - 1];
   for (size_t k = 0; k + 1 < s->count; k++) {
     mpz_sub(s->p[k].x0, s->p[k].x0, o->x0);
@@ -37,61 +38,61 @@ static void centre(scaled_points *s) {
   }
 }
 
-static void cross(mpz_t out, mpz_t t, const dyd_irect *a, const dyd_irect *b) {
+static void points_cross(mpz_t out, mpz_t t, const dyd_irect *a, const dyd_irect *b) {
   mpz_mul(out, a->x0, b->y0);
   mpz_mul(t, a->y0, b->x0);
   mpz_sub(out, out, t);
 }
 
-int dyd_mesh_orient_exact(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
+int dyd_mesh_orient_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
   scaled_points s;
   mpz_t d, t;
   mpz_init(d);
   mpz_init(t);
-  load(&s, m, (const uint32_t[]){a, b, c}, 3);
-  centre(&s);
-  cross(d, t, &s.p[0], &s.p[1]);
+  points_load(&s, m, (const uint32_t[]){a, b, c}, 3);
+  points_recentre(&s);
+  points_cross(d, t, &s.p[0], &s.p[1]);
   int sign = mpz_sgn(d);
-  unload(&s);
+  points_unload(&s);
   mpz_clear(t);
   mpz_clear(d);
   return sign;
 }
 
-int dyd_mesh_incircle_exact(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
+int dyd_mesh_incircle_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
   scaled_points s;
   mpz_t d, l, x, t;
   mpz_inits(d, l, x, t, NULL);
-  load(&s, m, (const uint32_t[]){a, b, c, p}, 4);
-  centre(&s);
+  points_load(&s, m, (const uint32_t[]){a, b, c, p}, 4);
+  points_recentre(&s);
   for (unsigned k = 0; k < 3; k++) {
     const dyd_irect *q = &s.p[k];
     mpz_mul(l, q->x0, q->x0);
     mpz_addmul(l, q->y0, q->y0);
-    cross(x, t, &s.p[dyd_next(k)], &s.p[dyd_prev(k)]);
+    points_cross(x, t, &s.p[dyd_next(k)], &s.p[dyd_prev(k)]);
     mpz_addmul(d, l, x);
   }
   int sign = mpz_sgn(d);
-  unload(&s);
+  points_unload(&s);
   mpz_clears(d, l, x, t, NULL);
   return sign;
 }
 
-bool dyd_mesh_between(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t p) {
+bool dyd_mesh_between(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t p) {
   scaled_points s;
   mpz_t d;
   mpz_init(d);
-  load(&s, m, (const uint32_t[]){a, b, p}, 3);
-  centre(&s);
+  points_load(&s, m, (const uint32_t[]){a, b, p}, 3);
+  points_recentre(&s);
   mpz_mul(d, s.p[0].x0, s.p[1].x0);
   mpz_addmul(d, s.p[0].y0, s.p[1].y0);
   bool between = mpz_sgn(d) < 0;
-  unload(&s);
+  points_unload(&s);
   mpz_clear(d);
   return between;
 }
 
-bool dyd_mesh_same(dyd_mesh *m, uint32_t a, uint32_t b) {
+bool dyd_mesh_same(const dyd_mesh *m, uint32_t a, uint32_t b) {
   uint32_t u = dyd_mesh_rep(m, a), v = dyd_mesh_rep(m, b);
   if (m->xy[a].x != m->xy[b].x || m->xy[a].y != m->xy[b].y) return false;
   if (dyd_reps_is_double(m->reps, u) && dyd_reps_is_double(m->reps, v)) return true;

@@ -5,18 +5,12 @@
 
 #include "skeleton/mesh.h"
 
-/* Vertex of reps behind mesh vertex v. */
-static inline uint32_t dyd_mesh_rep(const dyd_mesh *m, uint32_t v) {
-  return m->local ? m->local[v] : v;
-}
-
 /* Exact signs for real vertices, by integers. */
-int dyd_mesh_orient_exact(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);
-int dyd_mesh_incircle_exact(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
+int dyd_mesh_orient_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);
+int dyd_mesh_incircle_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
 /* Does p, known to be collinear with a and b, lie strictly between them? */
-bool dyd_mesh_between(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t p);
+bool dyd_mesh_between(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t p);
 /* Are the representatives of a and b the same exact point? */
-bool dyd_mesh_same(dyd_mesh *m, uint32_t a, uint32_t b);
-void dyd_fixed_free(dyd_fixed *f);
+bool dyd_mesh_same(const dyd_mesh *m, uint32_t a, uint32_t b);
 
 #endif

@@ -6,7 +6,6 @@
 #include "skeleton/mesh_fixed.h"
 
 #include "base/alloc.h"
-#include "skeleton/mesh_exact.h"
 
 #include <math.h>
 #include <string.h>
@@ -122,6 +121,7 @@ static void install(dyd_mesh *m, dyd_fixed *f) {
 }
 
 void dyd_fixed_prepare(dyd_mesh *m) {
+  if (m->fixed || m->no_fixed || m->no_filter) return;
   dyd_fixed *f = calloc(1, sizeof *f);
   if (f && !(m->reps->code ? prepare_rationals(f, m) : prepare_doubles(f, m))) {
     dyd_fixed_free(f);

@@ -5,8 +5,8 @@
 
 #include "skeleton/mesh.h"
 
-/* Puts all representatives of m on a common grid with coordinates below 2^60, if there is one; sets m->fixed or
- * m->no_fixed. Never fails: without memory or grid, m->no_fixed. O(n), once per mesh. */
+/* Puts all representatives of m on a common grid with coordinates below 2^60, if there is one and that was not tried
+ * yet; sets m->fixed or m->no_fixed. Never fails: without memory or grid, m->no_fixed. O(n), once per mesh. */
 void dyd_fixed_prepare(dyd_mesh *m);
 /* Exact signs; m->fixed is set. */
 int dyd_fixed_orient(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);

@@ -3,22 +3,22 @@
 #include "skeleton/mesh_invariant.h"
 
 #include "dyadic/raw.h"
+#include "skeleton/half_edge.h"
 #include "skeleton/mesh_exact.h"
 
-static bool twins_agree(const dyd_mesh *m, uint32_t t, unsigned k) {
-  uint32_t h = m->tri[t].n[k], s = h >> 2;
-  unsigned q = h & 3;
-  return s < m->count && q < 3 && m->tri[s].n[q] == 4 * t + k && m->tri[s].v[dyd_next(q)] == m->tri[t].v[dyd_prev(k)] &&
-         m->tri[s].v[dyd_prev(q)] == m->tri[t].v[dyd_next(k)];
+static bool twins_agree(const dyd_mesh *m, dyd_half_edge h) {
+  dyd_half_edge twin = dyd_edge_twin(m, h);
+  return dyd_edge_triangle(twin) < m->count && dyd_edge_corner(twin) < 3 && dyd_edge_twin(m, twin) == h &&
+         dyd_edge_origin(m, twin) == dyd_edge_target(m, h) && dyd_edge_target(m, twin) == dyd_edge_origin(m, h);
 }
 
-static bool edge_is_delaunay(dyd_mesh *m, uint32_t t, unsigned k) {
+static bool edge_is_delaunay(const dyd_mesh *m, dyd_half_edge h) {
+  uint32_t t = dyd_edge_triangle(h), p = dyd_edge_across(m, h);
   const uint32_t *v = m->tri[t].v;
-  uint32_t h = m->tri[t].n[k], p = m->tri[h >> 2].v[h & 3];
   if (p == m->n) return true;
-  if (!dyd_mesh_is_ghost(m, t)) return dyd_mesh_incircle_exact(m, v[0], v[1], v[2], p) <= 0;
-  unsigned g = dyd_mesh_ghost_corner(m, t);
-  return dyd_mesh_orient_exact(m, v[dyd_next(g)], v[dyd_prev(g)], p) <= 0;
+  if (!dyd_is_ghost_triangle(m, t)) return dyd_mesh_incircle_exact(m, v[0], v[1], v[2], p) <= 0;
+  dyd_half_edge hull = dyd_hull_edge(m, t);
+  return dyd_mesh_orient_exact(m, dyd_edge_origin(m, hull), dyd_edge_target(m, hull), p) <= 0;
 }
 
 /* In the order of x, then y; exactly. */
@@ -38,34 +38,28 @@ static bool comes_before(const dyd_mesh *m, uint32_t v, uint32_t w) {
 /* All hull edges are in one cycle, and it goes to the right once and back once: a cycle that is convex everywhere could
  * wind twice around overlapping parts. */
 static bool hull_turns_once(const dyd_mesh *m) {
-  uint32_t ghosts = 0, met = 0, turns = 0, first = DYD_NONE;
-  for (uint32_t t = 0; t < m->count; t++)
-    if (dyd_mesh_is_ghost(m, t)) {
-      ghosts++;
-      first = t;
-    }
-  if (first == DYD_NONE) return false;
-  uint32_t t = first;
+  uint32_t ghosts = 0, met = 0, turns = 0;
+  for (uint32_t t = 0; t < m->count; t++) ghosts += dyd_is_ghost_triangle(m, t);
+  if (!ghosts) return false;
+  dyd_half_edge first = dyd_hull_first(m), h = first;
   bool before = false;
   do {
-    const uint32_t *v = m->tri[t].v;
-    unsigned g = dyd_mesh_ghost_corner(m, t);
-    bool right = comes_before(m, v[dyd_prev(g)], v[dyd_next(g)]);
+    bool right = comes_before(m, dyd_hull_origin(m, h), dyd_hull_target(m, h));
     turns += met && right != before;
     before = right;
-    t = m->tri[t].n[dyd_prev(g)] >> 2;
-  } while (++met <= ghosts && t != first);
+    h = dyd_hull_following(m, h);
+  } while (++met <= ghosts && h != first);
   return met == ghosts && turns <= 2;
 }
 
-bool dyd_mesh_check(dyd_mesh *m) {
+bool dyd_mesh_is_valid(const dyd_mesh *m) {
   if (m->count == 0) return true; /* all on one line */
   if (!hull_turns_once(m)) return false;
   for (uint32_t t = 0; t < m->count; t++) {
     const uint32_t *v = m->tri[t].v;
-    if (!dyd_mesh_is_ghost(m, t) && dyd_mesh_orient_exact(m, v[0], v[1], v[2]) <= 0) return false;
-    for (unsigned k = 0; k < 3; k++)
-      if (!twins_agree(m, t, k) || !edge_is_delaunay(m, t, k)) return false;
+    if (!dyd_is_ghost_triangle(m, t) && dyd_mesh_orient_exact(m, v[0], v[1], v[2]) <= 0) return false;
+    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++)
+      if (!twins_agree(m, h) || !edge_is_delaunay(m, h)) return false;
   }
   return true;
 }

@@ -7,6 +7,6 @@
 
 /* Twins agree, triangles turn left, every edge is locally (weakly) Delaunay, the hull is one cycle that turns once:
  * hence the whole is a Delaunay triangulation. Exact; O(n). */
-bool dyd_mesh_check(dyd_mesh *m);
+bool dyd_mesh_is_valid(const dyd_mesh *m);
 
 #endif

@@ -4,7 +4,8 @@
 
 #include "base/alloc.h"
 #include "skeleton/mesh_exact.h"
-#include "skeleton/mesh_filter.h"
+#include "skeleton/mesh_fixed.h"
+#include "skeleton/predicates.h"
 
 #include <math.h>
 #include <string.h>
@@ -126,7 +127,7 @@ static dyd_status step_aside(bool *done, uint32_t first[3], dyd_mesh *m, uint32_
   for (uint32_t last = k + 4; k < last; k++) {
     dyd_status st = dyd_mesh_move(m, v, k);
     if (st != DYD_OK) return st;
-    if (dyd_mesh_orient(m, pair[0], pair[1], v) == 0) continue;
+    if (dyd_build_orient(m, pair[0], pair[1], v) == 0) continue;
     first[0] = pair[0];
     first[1] = pair[1];
     first[2] = v;
@@ -156,13 +157,13 @@ dyd_status dyd_mesh_first_triangle(uint32_t first[3], dyd_mesh *m) {
     bool differs = true;
     if (found >= 1) st = separate(&differs, m, v, first[0]);
     if (st == DYD_OK && differs && found >= 2) {
-      if (dyd_mesh_orient(m, first[0], first[1], v) == 0) continue;
+      if (dyd_build_orient(m, first[0], first[1], v) == 0) continue;
     }
     if (st == DYD_OK && differs) first[found++] = v;
   }
   if (st == DYD_OK && found < 3 && m->part) return m->stuck = true, DYD_CANCELLED;
   if (st == DYD_OK && found < 3) st = leave_line(first, m);
-  if (st == DYD_OK && !m->collinear && dyd_mesh_orient(m, first[0], first[1], first[2]) < 0) {
+  if (st == DYD_OK && !m->collinear && dyd_build_orient(m, first[0], first[1], first[2]) < 0) {
     uint32_t t = first[0];
     first[0] = first[1];
     first[1] = t;
@@ -171,11 +172,32 @@ dyd_status dyd_mesh_first_triangle(uint32_t first[3], dyd_mesh *m) {
 }
 
 void dyd_mesh_put_first(dyd_mesh *m, const uint32_t first[3]) {
-  uint32_t a = first[0], b = first[1], c = first[2], g = m->n, t = 2 * m->begin, h = 4 * t;
-  m->tri[t] = (dyd_tri){{a, b, c}, {h + 8 + 2, h + 12 + 2, h + 4 + 2}};
-  m->tri[t + 1] = (dyd_tri){{b, a, g}, {h + 12 + 1, h + 8 + 0, h + 0 + 2}};
-  m->tri[t + 2] = (dyd_tri){{c, b, g}, {h + 4 + 1, h + 12 + 0, h + 0 + 0}};
-  m->tri[t + 3] = (dyd_tri){{a, c, g}, {h + 8 + 1, h + 4 + 0, h + 0 + 1}};
+  uint32_t t = 2 * m->begin;
+  m->tri[t] = (dyd_tri){{first[0], first[1], first[2]}, {0, 0, 0}};
+  for (unsigned k = 0; k < 3; k++) m->tri[t + 1 + k] = (dyd_tri){{first[dyd_next(k)], first[k], m->n}, {0, 0, 0}};
+  for (unsigned k = 0; k < 3; k++) {
+    dyd_edge_join(m, dyd_edge_of(t, dyd_prev(k)), dyd_edge_of(t + 1 + k, 2));
+    dyd_edge_join(m, dyd_edge_of(t + 1 + k, 0), dyd_edge_of(t + 1 + dyd_prev(k), 1));
+  }
   m->count = t + 4;
   m->hint = t;
+}
+
+void dyd_mesh_trim(dyd_mesh *m) {
+  dyd_fixed_free(m->fixed);
+  free(m->stack);
+  free(m->spare);
+  m->fixed = NULL;
+  m->exact_s = -1;
+  m->no_fixed = true; /* later questions are few, and the grid would cost O(n) */
+  m->stack = m->spare = NULL;
+  m->stack_cap = m->spare_cap = 0;
+}
+
+void dyd_mesh_clear(dyd_mesh *m) {
+  dyd_mesh_trim(m);
+  free(m->own_xy);
+  free(m->tri);
+  free(m->alias);
+  memset(m, 0, sizeof *m);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Before the first insertion: coordinates, filter constants, the first triangle, coincident representatives. */
+/* Before the first insertion: coordinates, filter constants, the first triangle, coincident representatives; and the
+ * end. */
 #ifndef DYD_SKELETON_MESH_START_H
 #define DYD_SKELETON_MESH_START_H
 
@@ -17,8 +18,10 @@ dyd_status dyd_mesh_move(dyd_mesh *m, uint32_t v, uint32_t k);
 /* Is the site of v an exact point? */
 bool dyd_mesh_is_point(const dyd_mesh *m, uint32_t v);
 dyd_status dyd_mesh_set_alias(dyd_mesh *m, uint32_t v, uint32_t of);
-static inline uint32_t dyd_mesh_alias(const dyd_mesh *m, uint32_t v) {
-  return m->alias ? m->alias[v] : DYD_NONE;
-}
+/* Representatives have been chosen anew: the filter constants follow. */
+void dyd_mesh_follow(dyd_mesh *m);
+/* Gives back what only building needs. */
+void dyd_mesh_trim(dyd_mesh *m);
+void dyd_mesh_clear(dyd_mesh *m);
 
 #endif

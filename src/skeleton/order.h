@@ -3,6 +3,7 @@
 #ifndef DYD_SKELETON_ORDER_H
 #define DYD_SKELETON_ORDER_H
 
+#include "base/index.h"
 #include "rect/sites_table.h"
 
 /* Many sites are divided by vertical lines into strips, which are triangulated one by one and joined. */

@@ -9,8 +9,6 @@
 
 #include "rect/sites_table.h"
 
-#define DYD_NONE UINT32_MAX
-
 typedef struct dyd_xy {
   double x, y;
 } dyd_xy;

@@ -6,11 +6,11 @@
 #ifndef DYD_SKELETON_SCALE_SET_H
 #define DYD_SKELETON_SCALE_SET_H
 
-#include "delaunay/state.h"
 #include "rect/irect.h"
+#include "skeleton/rects.h"
 
 typedef struct dyd_scale_set {
-  const dyd_delaunay *pd;
+  const dyd_rects *rects;
   uint32_t *vertex;
   dyd_irect *rect;
   size_t count, made, vertex_cap, rect_cap;
@@ -19,7 +19,7 @@ typedef struct dyd_scale_set {
   dyd_rect load;
 } dyd_scale_set;
 
-void dyd_scale_set_init(dyd_scale_set *s, const dyd_delaunay *pd);
+void dyd_scale_set_init(dyd_scale_set *s, const dyd_rects *rects);
 void dyd_scale_set_clear(dyd_scale_set *s);
 /* Forgets the members. */
 void dyd_scale_set_empty(dyd_scale_set *s);

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-void dyd_scale_set_init(dyd_scale_set *s, const dyd_delaunay *pd) {
-  *s = (dyd_scale_set){.pd = pd};
+void dyd_scale_set_init(dyd_scale_set *s, const dyd_rects *rects) {
+  *s = (dyd_scale_set){.rects = rects};
   mpz_inits(s->lcm, s->growth, s->t, NULL);
   dyd_rect_init(&s->load);
   dyd_scale_set_empty(s);
@@ -28,7 +28,7 @@ void dyd_scale_set_empty(dyd_scale_set *s) {
   s->low = INT64_MAX;
 }
 
-static void lower(int64_t *low, const dyd_dyadic *x) {
+static void scale_lower(int64_t *low, const dyd_dyadic *x) {
   if (mpz_sgn(x->man) && x->exp < *low) *low = x->exp;
 }
 
@@ -46,13 +46,13 @@ static void scale_end(mpz_t out, const dyd_scale_set *s, const dyd_dyadic *x, co
 }
 
 /* Refines the scale for the loaded rectangle; true if members there were have to grow. */
-static bool refine(dyd_scale_set *s) {
+static bool scale_refine(dyd_scale_set *s) {
   int64_t low = s->low;
   const dyd_interval *side[2] = {&s->load.x, &s->load.y};
   mpz_set(s->t, s->lcm);
   for (int a = 0; a < 2; a++) {
-    lower(&low, &side[a]->lo);
-    lower(&low, &side[a]->hi);
+    scale_lower(&low, &side[a]->lo);
+    scale_lower(&low, &side[a]->hi);
     mpz_lcm(s->t, s->t, side[a]->den);
   }
   bool grows = s->count > 0 && (low < s->low || mpz_cmp(s->t, s->lcm) != 0);
@@ -74,7 +74,7 @@ static void grow_members(dyd_scale_set *s) {
   }
 }
 
-static bool find(size_t *index, const dyd_scale_set *s, uint32_t v) {
+static bool scale_find(size_t *index, const dyd_scale_set *s, uint32_t v) {
   for (size_t k = 0; k < s->count; k++)
     if (s->vertex[k] == v) return *index = k, true;
   return false;
@@ -82,13 +82,13 @@ static bool find(size_t *index, const dyd_scale_set *s, uint32_t v) {
 
 dyd_status dyd_scale_add(size_t *index, bool *grown, dyd_scale_set *s, uint32_t v) {
   *grown = false;
-  if (find(index, s, v)) return DYD_OK;
+  if (scale_find(index, s, v)) return DYD_OK;
   if (!dyd_reserve((void **)&s->vertex, &s->vertex_cap, s->count + 1, sizeof *s->vertex)) return DYD_E_NOMEM;
   if (!dyd_reserve((void **)&s->rect, &s->rect_cap, s->count + 1, sizeof *s->rect)) return DYD_E_NOMEM;
-  dyd_status st = dyd_sites_get(&s->load, s->pd->sites, s->pd->reps.site[v]);
+  dyd_status st = dyd_rects_get(&s->load, s->rects, v);
   if (st != DYD_OK) return st;
   if (s->made == s->count) dyd_irect_init(&s->rect[s->made++]);
-  *grown = refine(s);
+  *grown = scale_refine(s);
   if (*grown) grow_members(s);
   dyd_irect *r = &s->rect[s->count];
   scale_end(r->x0, s, &s->load.x.lo, s->load.x.den);

@@ -164,14 +164,15 @@ static void pick_site(prune *f, uint32_t site) {
 
 /* A good guess: the neighbours of the cell in the skeleton. */
 static void pick_skeleton(prune *f) {
-  const dyd_delaunay *pd = f->c->task->pd;
-  if (!pd || !pd->mesh.n || pd->mesh.collinear) return;
-  uint32_t first = pd->corner[pd->vertex[f->c->task->site]], h = first;
-  do {
-    uint32_t v = pd->mesh.tri[h >> 2].v[dyd_next(h & 3)];
-    if (v != pd->mesh.n) pick_site(f, pd->reps.site[v]);
-    h = dyd_turn(&pd->mesh, h);
-  } while (h != first);
+  if (!f->c->task->pd) return;
+  const dyd_skeleton *sk = &f->c->task->pd->sk;
+  dyd_half_edge first = sk->leaving[sk->vertex[f->c->task->site]], h = first;
+  while (h != DYD_NONE) {
+    uint32_t v = dyd_edge_target(&sk->mesh, h);
+    if (v != sk->mesh.n) pick_site(f, sk->reps.site[v]);
+    h = dyd_edge_turn(&sk->mesh, h);
+    if (h == first) break;
+  }
 }
 
 /* ---- all ---- */

@@ -10,6 +10,7 @@
 #include <dyadel/voronoi.h>
 
 #include "base/alloc.h"
+#include "delaunay/state.h"
 #include "voronoi/nearest.h"
 
 #include <string.h>
@@ -43,14 +44,14 @@ static dyd_status load_sites(query *q) {
   dyd_rect_init(&r);
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < q->count && st == DYD_OK; k++) {
-    uint32_t i = q->pd->reps.site[q->vertex[k]];
+    uint32_t i = q->pd->sk.reps.site[q->vertex[k]];
     dyd_near_site *s = &q->site[q->made++];
     for (int n = 0; n < 4; n++) mpq_init(s->e[n]);
-    st = dyd_sites_get(&r, q->pd->sites, i);
+    st = dyd_sites_get(&r, q->pd->sk.rects.sites, i);
     if (st != DYD_OK) break;
     get_ends(s->e, &r);
-    dyd_sites_get_d(s->box.e, q->pd->sites, i);
-    s->slack = dyd_filter_slack(&s->box, dyd_sites_in_doubles(q->pd->sites, i));
+    dyd_sites_get_d(s->box.e, q->pd->sk.rects.sites, i);
+    s->slack = dyd_filter_slack(&s->box, dyd_sites_in_doubles(q->pd->sk.rects.sites, i));
   }
   dyd_rect_clear(&r);
   return st;
@@ -113,7 +114,7 @@ static bool is_listed(dyd_near_work *w, const query *q, size_t i) {
     bool beyond = n & 1 ? mpq_cmp(s->e[n], q->e[n]) > 0 : mpq_cmp(s->e[n], q->e[n]) < 0;
     int axis = n < 2;
     const dyd_near_side side = {axis, q->e[2 * axis], q->e[2 * axis + 1], q->e[n]};
-    if (beyond && dyd_near_side_meets(w, &side, q->site, q->count, i, q->pd->options.no_filter)) return true;
+    if (beyond && dyd_near_side_meets(w, &side, q->site, q->count, i, q->pd->sk.mesh.no_filter)) return true;
   }
   return false;
 }
@@ -137,7 +138,7 @@ static dyd_status keep_in_rect(query *q) {
 
 /* Vertices become sites, sorted, and are handed over. */
 static void deliver(dyd_index_list *out, query *q) {
-  for (size_t k = 0; k < q->count; k++) q->vertex[k] = q->pd->reps.site[q->vertex[k]];
+  for (size_t k = 0; k < q->count; k++) q->vertex[k] = q->pd->sk.reps.site[q->vertex[k]];
   if (q->count) qsort(q->vertex, q->count, sizeof *q->vertex, dyd_compare_index);
   dyd_index_list_clear(out);
   *out = (dyd_index_list){q->count, q->vertex};

@@ -6,6 +6,7 @@
  * site's dl from above: a descent towards q gives a first B, one search of the tree the final one and everybody within.
  */
 #include "base/alloc.h"
+#include "delaunay/state.h"
 #include "dyadic/raw.h"
 #include "voronoi/nearest.h"
 
@@ -47,11 +48,11 @@ static void descend(search *s) {
 
 static bool consider(search *s, uint32_t v) {
   dyd_bbox b;
-  if (s->pd->vertex[s->pd->reps.site[v]] != v) return true; /* an alias */
-  dyd_vertex_box(&b, s->pd, v);
+  if (s->pd->sk.vertex[s->pd->sk.reps.site[v]] != v) return true; /* an alias */
+  dyd_vertex_box(&b, &s->pd->sk, v);
   double lower = dyd_ds2_lower(&s->q, &b);
   if (lower > s->bound) return true;
-  if (!s->pd->options.no_filter) lower_bound(s, &b);
+  if (!s->pd->sk.mesh.no_filter) lower_bound(s, &b);
   s->failed = !dyd_reserve((void **)&s->vertex, &s->vertex_cap, s->count + 1, sizeof *s->vertex) ||
               !dyd_reserve((void **)&s->lower, &s->lower_cap, s->count + 1, sizeof *s->lower);
   if (s->failed) return false;
@@ -66,17 +67,17 @@ static bool visit_vertex(void *context, uint32_t v) {
 
 static bool visit_block(void *context, uint32_t b) {
   search *s = context;
-  for (uint32_t v = b * DYD_BLOCK; v < dyd_block_end(s->pd, b); v++)
+  for (uint32_t v = b * DYD_BLOCK; v < dyd_block_end(&s->pd->sk, b); v++)
     if (!consider(s, v)) return false;
   return true;
 }
 
 dyd_status dyd_near_candidates(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, const dyd_rect *q) {
-  bool fine = pd->tree.count > 0;
-  search s = {.pd = pd, .tree = fine ? &pd->tree : &pd->blocks, .bound = HUGE_VAL};
+  bool fine = pd->sk.rects.tree.count > 0;
+  search s = {.pd = pd, .tree = fine ? &pd->sk.rects.tree : &pd->sk.blocks, .bound = HUGE_VAL};
   dyd_interval_get_d(&s.q.e[0], &s.q.e[1], &q->x);
   dyd_interval_get_d(&s.q.e[2], &s.q.e[3], &q->y);
-  if (!pd->options.no_filter) descend(&s);
+  if (!pd->sk.mesh.no_filter) descend(&s);
   dyd_tree_near(s.tree, &s.q, &s.bound, fine ? visit_vertex : visit_block, &s);
   size_t kept = 0;
   for (size_t k = 0; k < s.count; k++)

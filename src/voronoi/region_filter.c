@@ -71,7 +71,7 @@ static bool shrink(dyd_bbox *c, search *s) {
 
 static dyd_bbox box_of(const dyd_delaunay *pd, uint32_t site) {
   dyd_bbox b;
-  dyd_sites_get_d(b.e, pd->sites, site);
+  dyd_sites_get_d(b.e, pd->sk.rects.sites, site);
   return b;
 }
 

@@ -31,8 +31,8 @@ dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, cons
   s->in_doubles = false;
   dyd_polygon_clear(&s->inner_exact);
   dyd_polygon_list_clear(&s->outer_exact);
-  if (!pd->options.no_filter) {
-    dyd_status status = dyd_filter_shape(&done, s, pd, pd->vertex[i], w, bits);
+  if (!pd->sk.mesh.no_filter) {
+    dyd_status status = dyd_filter_shape(&done, s, pd, pd->sk.vertex[i], w, bits);
     if (status < 0 || done) return status;
   }
   dyd_status status = dyd_exact_inner(&s->inner_exact, pd, i, w->rect, bits);
@@ -103,7 +103,7 @@ dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer) {
 
 static dyd_status find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits) {
   dyd_window w;
-  if (i >= pd->n || bits < -DYD_EXP_LIMIT / 4 || bits > DYD_EXP_LIMIT / 4) return DYD_E_ARG;
+  if (i >= pd->sk.n || bits < -DYD_EXP_LIMIT / 4 || bits > DYD_EXP_LIMIT / 4) return DYD_E_ARG;
   dyd_status status = dyd_window_init(&w, window);
   if (status < 0) return status;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;

@@ -27,18 +27,19 @@ static double turn(double *error, dyd_xy o, dyd_xy a, dyd_xy b) {
 
 /* The vertices round v, counter-clockwise, with their boxes. false: a ghost or an undecided face is among them. */
 static dyd_status find_fan(bool *done, uint32_t *degree, dyd_shape *s, const dyd_delaunay *pd, uint32_t v) {
-  const dyd_mesh *m = &pd->mesh;
-  uint32_t first = pd->corner[v], h = first, n = 0;
+  const dyd_mesh *m = &pd->sk.mesh;
+  dyd_half_edge first = pd->sk.leaving[v], h = first;
+  uint32_t n = 0;
   *done = false;
+  if (first == DYD_NONE) return DYD_OK;
   do {
-    uint32_t t = h >> 2, k = h & 3;
-    if (dyd_mesh_is_ghost(m, t) || pd->certain[t] != 7 || (pd->faces.of && pd->faces.of[t] != DYD_NONE)) return DYD_OK;
+    if (!dyd_triangle_is_sure(pd, dyd_edge_triangle(h))) return DYD_OK;
     if (!dyd_reserve((void **)&s->fan, &s->fan_cap, n + 1, sizeof *s->fan)) return DYD_E_NOMEM;
     if (!dyd_reserve((void **)&s->fan_box, &s->box_cap, n + 1, sizeof *s->fan_box)) return DYD_E_NOMEM;
-    s->fan[n] = m->tri[t].v[dyd_next(k)];
-    dyd_sites_get_d(s->fan_box[n].e, pd->sites, pd->reps.site[s->fan[n]]);
+    s->fan[n] = dyd_edge_target(m, h);
+    dyd_sites_get_d(s->fan_box[n].e, pd->sk.rects.sites, pd->sk.reps.site[s->fan[n]]);
     n++;
-    h = dyd_turn(m, h);
+    h = dyd_edge_turn(m, h);
   } while (h != first);
   *degree = n;
   *done = n >= 3;
@@ -92,7 +93,7 @@ static bool in_window(const dyd_window *w, dyd_xy z) {
 static bool place(dyd_shape *s, uint32_t t, uint32_t degree, const dyd_delaunay *pd, dyd_xy o, const dyd_bbox *own,
                   const dyd_window *w, double flat) {
   uint32_t next = t + 1 == degree ? 0 : t + 1;
-  dyd_xy a = pd->reps.xy[s->fan[t]], b = pd->reps.xy[s->fan[next]];
+  dyd_xy a = pd->sk.reps.xy[s->fan[t]], b = pd->sk.reps.xy[s->fan[next]];
   double wide = spread(own, o) + dyd_max(spread(&s->fan_box[t], a), spread(&s->fan_box[next], b));
   for (double times = 1.25; times < 100; times *= 8) {
     dyd_xy *in = &s->inner[t], *out = &s->outer[t];
@@ -146,15 +147,15 @@ dyd_status dyd_filter_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, ui
                             int64_t bits) {
   uint32_t degree = 0;
   *done = false;
-  if (pd->mesh.collinear || bits > 1000 || bits < -1000) return DYD_OK;
+  if (bits > 1000 || bits < -1000) return DYD_OK;
   bool found;
   dyd_status status = find_fan(&found, &degree, s, pd, v);
   if (status < 0 || !found) return status;
   if (!dyd_reserve((void **)&s->inner, &s->inner_cap, degree, sizeof *s->inner)) return DYD_E_NOMEM;
   if (!dyd_reserve((void **)&s->outer, &s->outer_cap, degree, sizeof *s->outer)) return DYD_E_NOMEM;
-  dyd_xy o = pd->reps.xy[v];
+  dyd_xy o = pd->sk.reps.xy[v];
   dyd_bbox own;
-  dyd_sites_get_d(own.e, pd->sites, pd->reps.site[v]);
+  dyd_sites_get_d(own.e, pd->sk.rects.sites, pd->sk.reps.site[v]);
   if (!(own.e[0] <= o.x && o.x <= own.e[1] && own.e[2] <= o.y && o.y <= own.e[3])) return DYD_OK;
   double flat = ldexp(1, bits > 500 ? -1000 : (int)(-2 * bits)), area, error;
   for (uint32_t t = 0; t < degree; t++)

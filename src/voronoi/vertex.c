@@ -1,23 +1,18 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Voronoi vertices of sure triangles, and default windows. */
-#include "delaunay/build.h"
 #include "voronoi/region.h"
 #include "voronoi/vertex_filter.h"
 #include <dyadel/voronoi.h>
 
 #include <math.h>
 
-bool dyd_triangle_is_sure(const dyd_delaunay *pd, const dyd_triangle *t, uint32_t v[3]) {
-  if (pd->mesh.collinear) return false;
+bool dyd_sure_vertices(const dyd_delaunay *pd, const dyd_triangle *t, uint32_t v[3]) {
   for (int k = 0; k < 3; k++) {
-    if (t->v[k] >= pd->n) return false;
-    v[k] = pd->vertex[t->v[k]];
+    if (t->v[k] >= pd->sk.n) return false;
+    v[k] = pd->sk.vertex[t->v[k]];
   }
-  uint32_t h = dyd_find_edge(pd, v[0], v[1]);
-  if (h == DYD_NONE) return false;
-  uint32_t tri = h >> 2;
-  return pd->mesh.tri[tri].v[dyd_prev(h & 3)] == v[2] && pd->certain[tri] == 7 &&
-         !(pd->faces.of && pd->faces.of[tri] != DYD_NONE);
+  dyd_half_edge h = dyd_find_edge(&pd->sk, v[0], v[1]);
+  return h != DYD_NONE && dyd_edge_apex(&pd->sk.mesh, h) == v[2] && dyd_triangle_is_sure(pd, dyd_edge_triangle(h));
 }
 
 static dyd_status set_box(dyd_rect *out, const dyd_bbox *b) {
@@ -27,8 +22,8 @@ static dyd_status set_box(dyd_rect *out, const dyd_bbox *b) {
 dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_triangle *t, int64_t bits) {
   uint32_t v[3];
   dyd_bbox box;
-  if (!dyd_triangle_is_sure(pd, t, v)) return DYD_E_ARG;
-  if (!pd->options.no_filter && bits > -1000 && bits < 1000 && dyd_filter_vertex(&box, pd, v)) {
+  if (!dyd_sure_vertices(pd, t, v)) return DYD_E_ARG;
+  if (!pd->sk.mesh.no_filter && bits > -1000 && bits < 1000 && dyd_filter_vertex(&box, pd, v)) {
     double limit = ldexp(1, (int)-bits);
     if (box.e[1] - box.e[0] < limit && box.e[3] - box.e[2] < limit) return set_box(out, &box);
   }
@@ -36,7 +31,7 @@ dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_t
   dyd_status status = DYD_OK;
   for (int k = 0; k < 3; k++) {
     dyd_rect_init(&r[k]);
-    if (status >= 0) status = dyd_sites_get(&r[k], pd->sites, t->v[k]);
+    if (status >= 0) status = dyd_sites_get(&r[k], pd->sk.rects.sites, t->v[k]);
   }
   if (status >= 0) status = dyd_partial_centre_enclose(out, &r[0], &r[1], &r[2], bits);
   for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);

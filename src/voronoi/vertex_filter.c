@@ -49,7 +49,7 @@ bool dyd_filter_vertex(dyd_bbox *out, const dyd_delaunay *pd, const uint32_t v[3
   dyd_bbox box[3];
   dyd_xy m[3];
   for (int k = 0; k < 3; k++) {
-    dyd_sites_get_d(box[k].e, pd->sites, pd->reps.site[v[k]]);
+    dyd_sites_get_d(box[k].e, pd->sk.rects.sites, pd->sk.reps.site[v[k]]);
     m[k] = middle(&box[k]);
   }
   ball2 a = difference(&box[0], &box[1], m[0], m[1]), b = difference(&box[0], &box[2], m[0], m[2]);

@@ -254,7 +254,7 @@ static size_t random_cuts(dyd_cut *cut) {
     bool regular = test_chance(&shared, 3);
     double angle = regular ? ((double)test_below(&shared, 24) + test_unit(&shared) * 0x1p-8) * 0.2617993877991494
                            : test_unit(&shared) * 6.283185307;
-    cut[q] = (dyd_cut){cos(angle), sin(angle), test_unit(&shared) * 4 - 2, 0};
+    cut[q] = (dyd_cut){cos(angle), sin(angle), test_unit(&shared) * 4 - 2};
   }
   return count;
 }
@@ -268,9 +268,9 @@ static void test_lp(void **state) {
     dyd_cut cut[15];
     size_t count = random_cuts(cut);
     dyd_lp_result r = dyd_lp_centre(cut, count, bound);
-    cut[count] = (dyd_cut){0, 1, bound, 0};
-    cut[count + 1] = (dyd_cut){-h, -0.5, bound, 0};
-    cut[count + 2] = (dyd_cut){h, -0.5, bound, 0};
+    cut[count] = (dyd_cut){0, 1, bound};
+    cut[count + 1] = (dyd_cut){-h, -0.5, bound};
+    cut[count + 2] = (dyd_cut){h, -0.5, bound};
     double own = least_over_triples(cut, count), framed = least_over_triples(cut, count + 3), value = INFINITY;
     for (size_t q = 0; q < count; q++) value = fmin(value, cut[q].nx * r.x + cut[q].ny * r.y + cut[q].d);
     bool good = r.bounded ? fabs(r.z - own) < 1e-5 && fabs(value - own) < 1e-5

@@ -5,7 +5,7 @@
  * interior. A pair is legal iff a disc holds both rectangles and meets no other, that is iff the segment hull(R_i u
  * R_j) of the line meets no other rectangle (the disc over that segment does it; any disc meets the line in a segment).
  * With two sites the pair is legal [LINE-1]. */
-#include "delaunay/line.h"
+#include "skeleton/line.h"
 
 #include "base/alloc.h"
 #include "rect/irect.h"
@@ -27,21 +27,21 @@ void dyd_line_clear(dyd_line *l) {
   memset(l, 0, sizeof *l);
 }
 
-static mpz_srcptr low(const entry *e) {
+static mpz_srcptr line_low(const entry *e) {
   return e->axis == 0 ? e->r.x0 : e->r.y0;
 }
-static mpz_srcptr high(const entry *e) {
+static mpz_srcptr line_high(const entry *e) {
   return e->axis == 0 ? e->r.x1 : e->r.y1;
 }
 
-static int compare(const void *a, const void *b) {
+static int line_compare(const void *a, const void *b) {
   const entry *x = a, *y = b;
-  int c = mpz_cmp(low(x), low(y));
-  if (!c) c = mpz_cmp(high(x), high(y));
+  int c = mpz_cmp(line_low(x), line_low(y));
+  if (!c) c = mpz_cmp(line_high(x), line_high(y));
   return c ? c : (x->vertex > y->vertex) - (x->vertex < y->vertex);
 }
 
-static dyd_status load(entry *e, const dyd_delaunay *pd, uint32_t count, const uint32_t *vertex) {
+static dyd_status line_load(entry *e, const dyd_rects *rects, uint32_t count, const uint32_t *vertex) {
   dyd_rect *r = dyd_alloc(count, sizeof *r);
   const dyd_rect **in = dyd_alloc(count, sizeof *in);
   dyd_irect *out = dyd_alloc(count, sizeof *out);
@@ -49,7 +49,7 @@ static dyd_status load(entry *e, const dyd_delaunay *pd, uint32_t count, const u
   for (uint32_t q = 0; q < count && st == DYD_OK; q++) {
     dyd_rect_init(&r[q]);
     dyd_irect_init(&out[q]);
-    (void)dyd_sites_get(&r[q], pd->sites, pd->reps.site[vertex[q]]);
+    (void)dyd_rects_get(&r[q], rects, vertex[q]);
     in[q] = &r[q];
   }
   if (st == DYD_OK) {
@@ -66,7 +66,7 @@ static dyd_status load(entry *e, const dyd_delaunay *pd, uint32_t count, const u
 }
 
 /* x, unless the line is vertical. */
-static int axis_of(const entry *e, uint32_t count) {
+static int line_axis(const entry *e, uint32_t count) {
   for (uint32_t q = 0; q < count; q++)
     if (mpz_cmp(e[q].r.x0, e[0].r.x0) != 0 || mpz_cmp(e[q].r.x1, e[q].r.x0) != 0) return 0;
   return 1;
@@ -74,34 +74,32 @@ static int axis_of(const entry *e, uint32_t count) {
 
 /* Sorted by lower end. hull(R_q u R_q+1) is free of others iff nobody before reaches R_q's lower end and nobody after
  * starts at or before the larger upper end. */
-static void find_legal(dyd_line *l, const entry *e) {
+static void line_find_legal(dyd_line *l, const entry *e) {
   uint32_t reach = 0; /* the entry with the largest upper end among 0 .. q-1 */
   for (uint32_t q = 0; q + 1 < l->count; q++) {
-    mpz_srcptr top = mpz_cmp(high(&e[q]), high(&e[q + 1])) > 0 ? high(&e[q]) : high(&e[q + 1]);
-    bool before = q == 0 || mpz_cmp(high(&e[reach]), low(&e[q])) < 0;
-    bool after = q + 2 >= l->count || mpz_cmp(low(&e[q + 2]), top) > 0;
+    mpz_srcptr top = mpz_cmp(line_high(&e[q]), line_high(&e[q + 1])) > 0 ? line_high(&e[q]) : line_high(&e[q + 1]);
+    bool before = q == 0 || mpz_cmp(line_high(&e[reach]), line_low(&e[q])) < 0;
+    bool after = q + 2 >= l->count || mpz_cmp(line_low(&e[q + 2]), top) > 0;
     l->legal[q] = before && after;
-    if (q == 0 || mpz_cmp(high(&e[q]), high(&e[reach])) > 0) reach = q;
+    if (q == 0 || mpz_cmp(line_high(&e[q]), line_high(&e[reach])) > 0) reach = q;
   }
 }
 
-static dyd_status allocate(dyd_delaunay *pd) {
-  dyd_line *l = &pd->line;
-  l->order = dyd_alloc(pd->n, sizeof *l->order);
-  l->rank = dyd_alloc(pd->n, sizeof *l->rank);
-  l->legal = calloc(pd->n ? pd->n : 1, sizeof *l->legal);
+static dyd_status line_allocate(dyd_line *l, uint32_t n) {
+  l->order = dyd_alloc(n, sizeof *l->order);
+  l->rank = dyd_alloc(n, sizeof *l->rank);
+  l->legal = calloc(n ? n : 1, sizeof *l->legal);
   return l->order && l->rank && l->legal ? DYD_OK : DYD_E_NOMEM;
 }
 
 /* Equal exact points are neighbours in the order: the later ones become aliases and leave the list. */
-static dyd_status drop_aliases(dyd_delaunay *pd, entry *e) {
-  dyd_line *l = &pd->line;
+static dyd_status line_drop_aliases(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, entry *e) {
   uint32_t kept = 0;
   dyd_status st = DYD_OK;
   for (uint32_t q = 0; q < l->count; q++) {
-    bool same = kept && dyd_vertex_is_point(pd, e[q].vertex) && dyd_vertex_is_point(pd, e[kept - 1].vertex) &&
+    bool same = kept && dyd_rects_is_point(rects, e[q].vertex) && dyd_rects_is_point(rects, e[kept - 1].vertex) &&
                 mpz_cmp(e[q].r.x0, e[kept - 1].r.x0) == 0 && mpz_cmp(e[q].r.y0, e[kept - 1].r.y0) == 0;
-    if (same && st == DYD_OK) st = dyd_mesh_set_alias(&pd->mesh, e[q].vertex, e[kept - 1].vertex);
+    if (same && st == DYD_OK) st = dyd_mesh_set_alias(m, e[q].vertex, e[kept - 1].vertex);
     if (same)
       dyd_irect_clear(&e[q].r);
     else
@@ -111,45 +109,39 @@ static dyd_status drop_aliases(dyd_delaunay *pd, entry *e) {
   return st;
 }
 
-dyd_status dyd_line_build(dyd_delaunay *pd) {
-  dyd_line *l = &pd->line;
-  *l = (dyd_line){.all_points = true};
-  dyd_status st = allocate(pd);
+static dyd_status line_sort(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, entry *e) {
+  int axis = line_axis(e, l->count);
+  for (uint32_t q = 0; q < l->count; q++) e[q].axis = axis;
+  qsort(e, l->count, sizeof *e, line_compare);
+  dyd_status st = line_drop_aliases(l, m, rects, e);
+  for (uint32_t q = 0; q < l->count; q++) {
+    l->order[q] = e[q].vertex;
+    l->rank[e[q].vertex] = q;
+  }
+  line_find_legal(l, e);
+  for (uint32_t q = 0; q < l->count; q++) dyd_irect_clear(&e[q].r);
+  return st;
+}
+
+dyd_status dyd_line_build(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, uint32_t n) {
+  *l = (dyd_line){0};
+  dyd_status st = line_allocate(l, n);
   if (st != DYD_OK) return st;
-  for (uint32_t v = 0; v < pd->n; v++) {
+  for (uint32_t v = 0; v < n; v++) {
     l->rank[v] = DYD_NONE;
-    if (pd->mesh.alias && pd->mesh.alias[v] != DYD_NONE) continue;
-    l->order[l->count++] = v;
-    l->all_points = l->all_points && dyd_vertex_is_point(pd, v);
+    if (dyd_mesh_alias(m, v) == DYD_NONE) l->order[l->count++] = v;
   }
   entry *e = dyd_alloc(l->count, sizeof *e);
   if (!e) return DYD_E_NOMEM;
-  st = load(e, pd, l->count, l->order);
-  if (st == DYD_OK) {
-    int axis = axis_of(e, l->count);
-    for (uint32_t q = 0; q < l->count; q++) e[q].axis = axis;
-    qsort(e, l->count, sizeof *e, compare);
-    st = drop_aliases(pd, e);
-    for (uint32_t q = 0; q < l->count; q++) {
-      l->order[q] = e[q].vertex;
-      l->rank[e[q].vertex] = q;
-    }
-    find_legal(l, e);
-    for (uint32_t q = 0; q < l->count; q++) dyd_irect_clear(&e[q].r);
-  }
+  st = line_load(e, rects, l->count, l->order);
+  if (st == DYD_OK) st = line_sort(l, m, rects, e);
   free(e);
   return st;
 }
 
-dyd_pair_status dyd_line_status(const dyd_line *l, uint32_t i, uint32_t j) {
-  uint32_t a = l->rank[i], b = l->rank[j];
-  if (a > b) {
-    uint32_t t = a;
-    a = b;
-    b = t;
-  }
-  if (b == a + 1 && l->legal[a]) return DYD_LEGAL;
-  return l->all_points && !l->capped ? DYD_TIE : DYD_INDETERMINATE;
+bool dyd_line_is_legal(const dyd_line *l, uint32_t v, uint32_t w) {
+  uint32_t a = l->rank[v], b = l->rank[w];
+  return a < b ? b == a + 1 && l->legal[a] : a == b + 1 && l->legal[b];
 }
 
 size_t dyd_line_legal_pairs(const dyd_line *l) {

@@ -1,0 +1,238 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Entries of the table of undecided faces. */
+#include "delaunay/face_table.h"
+
+#include "base/alloc.h"
+#include "base/error.h"
+
+#include <string.h>
+
+void dyd_table_clear(dyd_undecided *f) {
+  free(f->face);
+  free(f->seed);
+  free(f->tri);
+  free(f->pair);
+  free(f->of);
+  *f = (dyd_undecided){.kind = f->kind};
+}
+
+dyd_status dyd_table_mark(dyd_delaunay *pd) {
+  size_t count = pd->sk.mesh.count;
+  if (pd->open.of) return DYD_OK;
+  pd->open.of = dyd_alloc(count, sizeof *pd->open.of);
+  if (!pd->open.of) return DYD_E_NOMEM;
+  memset(pd->open.of, 0xff, count * sizeof *pd->open.of);
+  return DYD_OK;
+}
+
+static dyd_status table_append(dyd_undecided *f, uint32_t t, uint32_t face) {
+  if (!dyd_reserve((void **)&f->tri, &f->tri_cap, f->tri_count + 1, sizeof *f->tri)) return DYD_E_NOMEM;
+  f->tri[f->tri_count++] = t;
+  f->of[t] = face;
+  return DYD_OK;
+}
+
+dyd_status dyd_table_flood(dyd_delaunay *pd, uint32_t t, uint32_t face) {
+  dyd_undecided *f = &pd->open;
+  size_t done = f->tri_count;
+  dyd_status st = table_append(f, t, face);
+  for (; done < f->tri_count && st == DYD_OK; done++)
+    for (dyd_half_edge h = dyd_edge_of(f->tri[done], 0), end = h + 3; h < end && st == DYD_OK; h++) {
+      uint32_t beyond = dyd_edge_triangle(dyd_edge_twin(&pd->sk.mesh, h));
+      if (!dyd_edge_is_certain(&pd->sk, h) && f->of[beyond] == DYD_NONE) st = table_append(f, beyond, face);
+    }
+  return st;
+}
+
+dyd_status dyd_table_add(dyd_delaunay *pd, size_t first_tri) {
+  dyd_undecided *f = &pd->open;
+  if (!dyd_reserve((void **)&f->face, &f->face_cap, f->count + 1, sizeof *f->face)) return DYD_E_NOMEM;
+  f->face[f->count++] =
+      (dyd_face){.first_tri = first_tri, .first_pair = f->pair_count, .tris = (uint32_t)(f->tri_count - first_tri)};
+  f->live_tris += f->tri_count - first_tri;
+  return DYD_OK;
+}
+
+void dyd_table_take_back(dyd_delaunay *pd, size_t first_tri) {
+  dyd_undecided *f = &pd->open;
+  for (size_t q = first_tri; q < f->tri_count; q++) f->of[f->tri[q]] = DYD_NONE;
+  f->tri_count = first_tri;
+}
+
+dyd_status dyd_table_store(dyd_delaunay *pd, size_t g, dyd_face as, const dyd_vertex_pair *pair) {
+  dyd_undecided *f = &pd->open;
+  if (!dyd_reserve((void **)&f->pair, &f->pair_cap, f->pair_count + as.pairs, sizeof *f->pair)) return DYD_E_NOMEM;
+  if (as.pairs) memcpy(f->pair + f->pair_count, pair, as.pairs * sizeof *pair);
+  as.first_tri = f->face[g].first_tri;
+  as.tris = f->face[g].tris;
+  as.first_pair = f->pair_count;
+  f->face[g] = as;
+  f->others += !as.polygon;
+  f->capped += as.capped;
+  f->pair_count += as.pairs;
+  f->live_pairs += as.pairs;
+  return DYD_OK;
+}
+
+void dyd_table_roll_back(dyd_delaunay *pd, const dyd_undecided *before) {
+  dyd_undecided *f = &pd->open;
+  dyd_table_take_back(pd, before->tri_count);
+  f->count = before->count;
+  f->pair_count = before->pair_count;
+  f->others = before->others;
+  f->capped = before->capped;
+  f->live_pairs = before->live_pairs;
+  f->live_tris = before->live_tris;
+}
+
+/* ---- one face for each pair ---- */
+
+/* A face but `self` that lists p, numbered at least `from` and below `to`, and where; hidden: 1 only where it is
+ * hidden, 0 only where it is shown, -1 both. */
+static dyd_vertex_pair *table_find(dyd_face **owner, const dyd_delaunay *pd, dyd_vertex_pair p, size_t from, size_t to,
+                                   uint32_t self, int hidden) {
+  dyd_half_edge first = pd->sk.leaving[p.i], h = first;
+  do {
+    uint32_t g = pd->open.of[dyd_edge_triangle(h)];
+    bool asked = g != DYD_NONE && g != self && g >= from && g < to;
+    dyd_vertex_pair *at = asked ? dyd_listed_pair(pd, g, p.i, p.j) : NULL;
+    if (at && (hidden < 0 || at->hidden == (unsigned)hidden)) {
+      *owner = &pd->open.face[g];
+      return at;
+    }
+    h = dyd_edge_turn(&pd->sk.mesh, h);
+  } while (h != first);
+  return NULL;
+}
+
+dyd_vertex_pair *dyd_table_listed(dyd_face **owner, const dyd_delaunay *pd, dyd_vertex_pair p, size_t from, size_t to) {
+  return table_find(owner, pd, p, from, to, DYD_NONE, -1);
+}
+
+static dyd_vertex_pair *elsewhere(dyd_face **owner, const dyd_delaunay *pd, uint32_t self, dyd_vertex_pair p,
+                                  bool hidden) {
+  return table_find(owner, pd, p, 0, pd->open.count, self, hidden);
+}
+
+/* The face inside which the skeleton has the pair as an uncertain edge, or DYD_NONE. */
+static uint32_t skeleton_face(const dyd_delaunay *pd, dyd_vertex_pair p) {
+  dyd_half_edge h = dyd_find_edge(&pd->sk, p.i, p.j);
+  return h == DYD_NONE || dyd_edge_is_certain(&pd->sk, h) ? DYD_NONE : pd->open.of[dyd_edge_triangle(h)];
+}
+
+static void table_hide(dyd_face *face, dyd_vertex_pair *at, bool hidden) {
+  if (at->hidden == hidden) return;
+  at->hidden = hidden;
+  if (hidden)
+    face->hidden++;
+  else
+    face->hidden--;
+}
+
+/* No two faces share a pair when all are polygons. */
+static bool shares_nothing(const dyd_undecided *f, const dyd_face *face) {
+  return f->count == 1 || (face->polygon && f->others == 0);
+}
+
+void dyd_table_share_out(dyd_delaunay *pd, uint32_t self) {
+  dyd_undecided *f = &pd->open;
+  dyd_face *face = &f->face[self], *other = NULL;
+  if (shares_nothing(f, face)) return;
+  for (uint32_t q = 0; q < face->pairs; q++) {
+    dyd_vertex_pair *p = &f->pair[face->first_pair + q], *there;
+    while (!p->hidden && (there = elsewhere(&other, pd, self, *p, false))) {
+      uint32_t home = skeleton_face(pd, *p);
+      bool mine = home == self || (home == DYD_NONE && face->polygon && !other->polygon);
+      if (mine)
+        table_hide(other, there, true);
+      else
+        table_hide(face, p, true);
+    }
+  }
+}
+
+/* The pairs that face `self` shows are shown by others that list them, for it goes. */
+static void bequeath(dyd_delaunay *pd, uint32_t self) {
+  dyd_undecided *f = &pd->open;
+  dyd_face *face = &f->face[self], *other = NULL;
+  if (shares_nothing(f, face)) return;
+  for (uint32_t q = 0; q < face->pairs; q++) {
+    dyd_vertex_pair p = f->pair[face->first_pair + q], *there = NULL;
+    if (!p.hidden) there = elsewhere(&other, pd, self, p, true);
+    if (there) table_hide(other, there, false);
+  }
+}
+
+/* ---- coming and going ---- */
+
+static void mark_face(dyd_undecided *f, const dyd_face *face, uint32_t with) {
+  for (uint32_t q = 0; q < face->tris; q++) f->of[f->tri[face->first_tri + q]] = with;
+}
+
+void dyd_table_take_out(dyd_delaunay *pd, uint32_t g) {
+  dyd_undecided *f = &pd->open;
+  bequeath(pd, g);
+  dyd_face gone = f->face[g];
+  mark_face(f, &gone, DYD_NONE);
+  f->face[g] = f->face[--f->count];
+  if (g < f->count) mark_face(f, &f->face[g], g);
+  f->others -= !gone.polygon;
+  f->capped -= gone.capped;
+  f->live_pairs -= gone.pairs;
+  f->live_tris -= gone.tris;
+}
+
+void dyd_table_put_back(dyd_delaunay *pd, const dyd_face *face) {
+  dyd_undecided *f = &pd->open;
+  mark_face(f, face, (uint32_t)f->count);
+  f->face[f->count++] = *face;
+  f->others += !face->polygon;
+  f->capped += face->capped;
+  f->live_pairs += face->pairs;
+  f->live_tris += face->tris;
+  dyd_table_share_out(pd, (uint32_t)(f->count - 1));
+}
+
+void dyd_table_compact(dyd_undecided *f) {
+  if (f->tri_count + f->pair_count < 2 * (f->live_tris + f->live_pairs) + 4096) return;
+  uint32_t *tri = dyd_alloc(f->live_tris, sizeof *tri);
+  dyd_vertex_pair *pair = dyd_alloc(f->live_pairs, sizeof *pair);
+  if (!tri || !pair) {
+    free(tri);
+    free(pair);
+    return;
+  }
+  f->tri_count = f->pair_count = 0;
+  for (size_t g = 0; g < f->count; g++) {
+    dyd_face *face = &f->face[g];
+    memcpy(tri + f->tri_count, f->tri + face->first_tri, face->tris * sizeof *tri);
+    memcpy(pair + f->pair_count, f->pair + face->first_pair, face->pairs * sizeof *pair);
+    face->first_tri = f->tri_count;
+    face->first_pair = f->pair_count;
+    f->tri_count += face->tris;
+    f->pair_count += face->pairs;
+  }
+  free(f->tri);
+  free(f->pair);
+  f->tri = tri;
+  f->pair = pair;
+  f->tri_cap = f->live_tris;
+  f->pair_cap = f->live_pairs;
+}
+
+void dyd_table_delete(dyd_undecided *f, dyd_face *face, dyd_vertex_pair *at) {
+  dyd_vertex_pair *end = f->pair + face->first_pair + face->pairs;
+  table_hide(face, at, false);
+  memmove(at, at + 1, (size_t)(end - at - 1) * sizeof *at);
+  face->pairs--;
+  f->live_pairs--;
+}
+
+void dyd_report_cap(dyd_work *w, const dyd_delaunay *pd, const uint32_t *v, size_t n) {
+  const uint32_t *site = pd->sk.reps.site;
+  dyd_fail(
+      w->err, DYD_CAPPED,
+      "more than %zu undecided pairs to store: %zu sites around sites %u, %u, %u have too many possible neighbours "
+      "(nearly cocircular, collinear or overlapping); raise the cap on pairs, or give narrower rectangles",
+      pd->max_pairs, n, site[v[0]], site[v[n / 2]], site[v[n - 1]]);
+}

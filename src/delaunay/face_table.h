@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The table of undecided faces: entries come and go, and a pair that several list is shown by one. */
+#ifndef DYD_DELAUNAY_FACE_TABLE_H
+#define DYD_DELAUNAY_FACE_TABLE_H
+
+#include "delaunay/undecided.h"
+
+void dyd_table_clear(dyd_undecided *f);
+/* Marks all triangles as decided, unless there are marks. */
+dyd_status dyd_table_mark(dyd_delaunay *pd);
+/* Appends t and the triangles joined to it by uncertain edges, and marks them with `face`. */
+dyd_status dyd_table_flood(dyd_delaunay *pd, uint32_t t, uint32_t face);
+/* An entry for the triangles from first_tri on, without pairs. */
+dyd_status dyd_table_add(dyd_delaunay *pd, size_t first_tri);
+/* Takes back the marks and entries of the triangles from first_tri on. */
+void dyd_table_take_back(dyd_delaunay *pd, size_t first_tri);
+/* Gives face g its pairs, copied, and what `as` says of them. */
+dyd_status dyd_table_store(dyd_delaunay *pd, size_t g, dyd_face as, const dyd_vertex_pair *pair);
+/* Back to what the table was before faces were added. */
+void dyd_table_roll_back(dyd_delaunay *pd, const dyd_undecided *before);
+/* Hides the pairs of face g that belong to other faces, and in those the pairs that belong to it: each is shown where
+ * the skeleton has it, else in a polygon, else where it was found first. */
+void dyd_table_share_out(dyd_delaunay *pd, uint32_t g);
+/* Takes face g out; the last one gets its number. Puts it in again: there is room for it. */
+void dyd_table_take_out(dyd_delaunay *pd, uint32_t g);
+void dyd_table_put_back(dyd_delaunay *pd, const dyd_face *face);
+/* Drops what replaced faces have left over, once it is more than what is in use. Without memory, later. */
+void dyd_table_compact(dyd_undecided *f);
+/* A face numbered at least `from` and below `to` that lists p, shown or hidden, and where; NULL: none. */
+dyd_vertex_pair *dyd_table_listed(dyd_face **owner, const dyd_delaunay *pd, dyd_vertex_pair p, size_t from, size_t to);
+void dyd_table_delete(dyd_undecided *f, dyd_face *face, dyd_vertex_pair *at);
+
+/* Says who has too many possible neighbours: the n vertices v, or the sites of a line. */
+void dyd_report_cap(dyd_work *w, const dyd_delaunay *pd, const uint32_t *v, size_t n);
+
+#endif

@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Reading what is undecided: one switch over how it is stored, for each question. */
+#include "delaunay/undecided.h"
+
+#include "base/alloc.h"
+
+dyd_pair_status dyd_open_status_of(const dyd_delaunay *pd, size_t f) {
+  switch (pd->open.kind) {
+  case DYD_LINE:
+    return pd->sk.all_points && !pd->open.capped ? DYD_TIE : DYD_INDETERMINATE;
+  case DYD_TIED:
+    return dyd_tie_is_capped(pd, f) ? DYD_INDETERMINATE : DYD_TIE;
+  default:
+    return dyd_listed_status(&pd->open.face[f]);
+  }
+}
+
+/* ---- faces ---- */
+
+/* Sorts, drops repeats. */
+static size_t distinct(uint32_t *v, size_t count) {
+  size_t kept = 0;
+  if (count) qsort(v, count, sizeof *v, dyd_compare_index);
+  for (size_t q = 0; q < count; q++)
+    if (kept == 0 || v[kept - 1] != v[q]) v[kept++] = v[q];
+  return kept;
+}
+
+static dyd_status listed_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, size_t f) {
+  const dyd_face *face = &pd->open.face[f];
+  const dyd_mesh *m = &pd->sk.mesh;
+  uint32_t *v = dyd_alloc(3 * (size_t)face->tris, sizeof *v);
+  size_t all = 0;
+  if (!v) return DYD_E_NOMEM;
+  for (uint32_t q = 0; q < face->tris; q++)
+    for (int k = 0; k < 3; k++) {
+      uint32_t w = m->tri[pd->open.tri[face->first_tri + q]].v[k];
+      if (w != m->n) v[all++] = w;
+    }
+  *vertex = v;
+  *count = distinct(v, all);
+  return DYD_OK;
+}
+
+static dyd_status line_vertices(uint32_t **vertex, size_t *count, const dyd_line *l) {
+  uint32_t *v = dyd_alloc(l->count, sizeof *v);
+  if (!v) return DYD_E_NOMEM;
+  for (uint32_t q = 0; q < l->count; q++) v[q] = l->order[q];
+  *vertex = v;
+  *count = distinct(v, l->count);
+  return DYD_OK;
+}
+
+dyd_status dyd_open_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, size_t f) {
+  switch (pd->open.kind) {
+  case DYD_LINE:
+    return line_vertices(vertex, count, &pd->sk.line);
+  case DYD_TIED:
+    return dyd_tie_vertices(vertex, count, pd, f);
+  default:
+    return listed_vertices(vertex, count, pd, f);
+  }
+}
+
+bool dyd_open_is_outer(const dyd_delaunay *pd, size_t f) {
+  switch (pd->open.kind) {
+  case DYD_LINE:
+    return true;
+  case DYD_TIED:
+    return dyd_is_ghost_triangle(&pd->sk.mesh, dyd_tie_seed(pd, f));
+  default:
+    return pd->open.face[f].outer;
+  }
+}
+
+/* ---- one pair ---- */
+
+static bool is_in_face(const dyd_delaunay *pd, uint32_t v, uint32_t face) {
+  dyd_half_edge first = pd->sk.leaving[v], h = first;
+  do {
+    if (dyd_face_of(pd, dyd_edge_triangle(h)) == face) return true;
+    h = dyd_edge_turn(&pd->sk.mesh, h);
+  } while (h != first);
+  return false;
+}
+
+/* The status of vw as far as face f, of which v is a vertex, tells. */
+static dyd_pair_status status_in_face(const dyd_delaunay *pd, uint32_t f, uint32_t v, uint32_t w) {
+  if (pd->open.kind == DYD_TIED) return is_in_face(pd, w, f) ? dyd_open_status_of(pd, f) : DYD_ILLEGAL;
+  const dyd_vertex_pair *p = dyd_listed_pair(pd, f, v, w);
+  return p && !p->hidden ? dyd_listed_status(&pd->open.face[f]) : DYD_ILLEGAL;
+}
+
+/* In a capped face any pair may be possible. */
+static bool may_be_missing(const dyd_delaunay *pd, uint32_t f, uint32_t w) {
+  return pd->open.kind == DYD_LISTED && pd->open.face[f].capped && is_in_face(pd, w, f);
+}
+
+dyd_pair_status dyd_open_status(const dyd_delaunay *pd, uint32_t v, uint32_t w) {
+  if (pd->open.kind == DYD_LINE) return dyd_open_status_of(pd, 0);
+  dyd_half_edge first = pd->sk.leaving[v], h = first;
+  uint32_t before = DYD_NONE;
+  bool missing = false;
+  do {
+    uint32_t f = dyd_face_of(pd, dyd_edge_triangle(h));
+    if (f != DYD_NONE && f != before) {
+      dyd_pair_status status = status_in_face(pd, f, v, w);
+      if (status != DYD_ILLEGAL) return status;
+      missing = missing || may_be_missing(pd, f, w);
+    }
+    before = f;
+    h = dyd_edge_turn(&pd->sk.mesh, h);
+  } while (h != first);
+  return missing ? DYD_INDETERMINATE : DYD_ILLEGAL;
+}
+
+/* ---- all of them ---- */
+
+static void count_listed(size_t count[4], const dyd_delaunay *pd) {
+  for (size_t f = 0; f < pd->open.count; f++) {
+    const dyd_face *face = &pd->open.face[f];
+    count[dyd_listed_status(face)] += face->pairs - face->hidden;
+  }
+}
+
+void dyd_open_count(size_t count[4], const dyd_delaunay *pd) {
+  switch (pd->open.kind) {
+  case DYD_LINE:
+    if (!pd->open.capped) count[dyd_open_status_of(pd, 0)] += dyd_line_open_pairs(&pd->sk.line);
+    return;
+  case DYD_TIED:
+    count[DYD_INDETERMINATE] += pd->open.capped_pairs;
+    count[DYD_TIE] += pd->open.live_pairs - pd->open.capped_pairs;
+    return;
+  default:
+    count_listed(count, pd);
+  }
+}
+
+uint64_t dyd_legal_count(const dyd_delaunay *pd) {
+  return pd->open.kind == DYD_LINE ? dyd_line_legal_pairs(&pd->sk.line) : dyd_certain_edges(&pd->sk);
+}
+
+bool dyd_pair_is_legal(const dyd_delaunay *pd, uint32_t v, uint32_t w) {
+  return pd->open.kind == DYD_LINE ? dyd_line_is_legal(&pd->sk.line, v, w) : dyd_is_legal(&pd->sk, v, w);
+}
+
+/* ---- those of one face ---- */
+
+/* The edges of the skeleton inside a tied face, out of the origin of the rim's half-edge h. */
+static void each_inside_at(const dyd_delaunay *pd, dyd_half_edge h, bool once, dyd_pair_visit visit, void *context) {
+  const dyd_mesh *m = &pd->sk.mesh;
+  uint32_t v = dyd_edge_origin(m, h);
+  for (; v != m->n && !dyd_edge_is_certain(&pd->sk, dyd_edge_prev(h)); h = dyd_edge_turn(m, h)) {
+    uint32_t w = dyd_edge_apex(m, h);
+    if (w != m->n && (!once || v < w)) visit(context, v, w, DYD_INDETERMINATE);
+  }
+}
+
+static void each_capped_tied(const dyd_delaunay *pd, size_t f, dyd_pair_visit visit, void *context) {
+  dyd_half_edge first = dyd_tie_start(pd, f), h = first;
+  do {
+    each_inside_at(pd, h, true, visit, context);
+    h = dyd_tie_next(&pd->sk, h);
+  } while (h != first);
+}
+
+/* Passes on those that are not legal. */
+typedef struct only_open {
+  dyd_pair_visit visit;
+  void *context;
+} only_open;
+
+static void visit_open(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
+  const only_open *o = context;
+  if (status != DYD_LEGAL) o->visit(o->context, v, w, status);
+}
+
+void dyd_open_each_in(const dyd_delaunay *pd, size_t f, dyd_pair_visit visit, void *context) {
+  only_open o = {visit, context};
+  if (pd->open.kind == DYD_LINE)
+    dyd_each_on_line(pd, visit_open, &o);
+  else if (pd->open.kind == DYD_LISTED)
+    dyd_each_listed(pd, f, visit, context);
+  else if (dyd_tie_is_capped(pd, f))
+    each_capped_tied(pd, f, visit, context);
+  else
+    dyd_each_tied(pd, f, visit, context);
+}
+
+/* ---- those of one vertex ---- */
+
+static void each_on_line_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit visit, void *context) {
+  const dyd_line *l = &pd->sk.line;
+  for (uint32_t q = 0; q < l->count; q++)
+    if (l->order[q] != v && !dyd_line_is_legal(l, v, l->order[q]))
+      visit(context, v, l->order[q], dyd_open_status_of(pd, 0));
+}
+
+/* Of the tied face on the left of the rim's half-edge h: the origin with those that are not next to it on the rim. */
+static void each_tied_at(const dyd_delaunay *pd, dyd_half_edge h, dyd_pair_visit visit, void *context) {
+  const dyd_skeleton *sk = &pd->sk;
+  uint32_t v = dyd_edge_origin(&sk->mesh, h);
+  for (dyd_half_edge at = dyd_tie_next(sk, dyd_tie_next(sk, h)), next; at != h; at = next) {
+    uint32_t w = dyd_edge_origin(&sk->mesh, at);
+    next = dyd_tie_next(sk, at);
+    if (w != sk->mesh.n && next != h) visit(context, v, w, DYD_TIE);
+  }
+}
+
+static void each_listed_at(const dyd_delaunay *pd, uint32_t f, uint32_t v, dyd_pair_visit visit, void *context) {
+  const dyd_face *face = &pd->open.face[f];
+  for (uint32_t q = 0; q < face->pairs; q++) {
+    dyd_vertex_pair p = pd->open.pair[face->first_pair + q];
+    if (!p.hidden && (p.i == v || p.j == v)) visit(context, v, p.i == v ? p.j : p.i, dyd_listed_status(face));
+  }
+}
+
+void dyd_open_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit visit, void *context) {
+  if (pd->open.kind == DYD_LINE) {
+    each_on_line_at(pd, v, visit, context);
+    return;
+  }
+  dyd_half_edge first = pd->sk.leaving[v], h = first;
+  uint32_t before = DYD_NONE;
+  do {
+    uint32_t f = dyd_face_of(pd, dyd_edge_triangle(h));
+    if (f != DYD_NONE && pd->open.kind == DYD_LISTED) {
+      if (f != before) each_listed_at(pd, f, v, visit, context);
+    } else if (f != DYD_NONE && dyd_edge_is_certain(&pd->sk, h)) {
+      if (dyd_tie_is_capped(pd, f))
+        each_inside_at(pd, h, false, visit, context);
+      else
+        each_tied_at(pd, h, visit, context);
+    }
+    before = f;
+    h = dyd_edge_turn(&pd->sk.mesh, h);
+  } while (h != first);
+}
+
+void dyd_legal_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit visit, void *context) {
+  const dyd_line *l = &pd->sk.line;
+  if (pd->open.kind == DYD_LINE) {
+    uint32_t q = l->rank[v];
+    if (q > 0 && l->legal[q - 1]) visit(context, v, l->order[q - 1], DYD_LEGAL);
+    if (q + 1 < l->count && l->legal[q]) visit(context, v, l->order[q + 1], DYD_LEGAL);
+    return;
+  }
+  const dyd_mesh *m = &pd->sk.mesh;
+  dyd_half_edge first = pd->sk.leaving[v], h = first;
+  do {
+    if (dyd_edge_is_certain(&pd->sk, h) && dyd_edge_target(m, h) != m->n)
+      visit(context, v, dyd_edge_target(m, h), DYD_LEGAL);
+    h = dyd_edge_turn(m, h);
+  } while (h != first);
+}

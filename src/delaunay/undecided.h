@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What is undecided, whatever stores it: faces, their vertices and pairs; and the walk over all possible pairs.
+ *
+ * The walks are inline, so that visitors are. */
+#ifndef DYD_DELAUNAY_UNDECIDED_H
+#define DYD_DELAUNAY_UNDECIDED_H
+
+#include "delaunay/ties.h"
+
+#include <stdlib.h>
+
+/* v and w in any order. */
+typedef void (*dyd_pair_visit)(void *context, uint32_t v, uint32_t w, dyd_pair_status status);
+
+/* How pairs of face f that are not legal are called. */
+dyd_pair_status dyd_open_status_of(const dyd_delaunay *pd, size_t f);
+/* Vertices of face f, ascending; *vertex is owned by the caller. */
+dyd_status dyd_open_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, size_t f);
+/* Does it have triangles at the ghost? */
+bool dyd_open_is_outer(const dyd_delaunay *pd, size_t f);
+/* The status of a pair that is not legal: not yet decided, or illegal. */
+dyd_pair_status dyd_open_status(const dyd_delaunay *pd, uint32_t v, uint32_t w);
+/* How many pairs of each status, that are not legal, are added to count[]. */
+void dyd_open_count(size_t count[4], const dyd_delaunay *pd);
+/* The pairs of vertex v that are not legal, each once. */
+void dyd_open_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit visit, void *context);
+/* The pairs of face f that are not legal, each once. */
+void dyd_open_each_in(const dyd_delaunay *pd, size_t f, dyd_pair_visit visit, void *context);
+
+/* How many pairs are legal; is this one? */
+uint64_t dyd_legal_count(const dyd_delaunay *pd);
+bool dyd_pair_is_legal(const dyd_delaunay *pd, uint32_t v, uint32_t w);
+/* The legal pairs of vertex v. */
+void dyd_legal_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit visit, void *context);
+
+static inline dyd_pair_status dyd_listed_status(const dyd_face *face) {
+  return face->tie && !face->capped ? DYD_TIE : DYD_INDETERMINATE;
+}
+
+/* Where listed face f has the pair, shown or hidden; NULL: nowhere. */
+static inline dyd_vertex_pair *dyd_listed_pair(const dyd_delaunay *pd, size_t f, uint32_t v, uint32_t w) {
+  const dyd_face *face = &pd->open.face[f];
+  dyd_vertex_pair key = {v < w ? v : w, v < w ? w : v, 0};
+  if (!face->pairs) return NULL;
+  return bsearch(&key, pd->open.pair + face->first_pair, face->pairs, sizeof key, dyd_compare_vertex_pair);
+}
+
+static inline void dyd_each_listed(const dyd_delaunay *pd, size_t f, dyd_pair_visit visit, void *context) {
+  const dyd_face *face = &pd->open.face[f];
+  for (uint32_t q = 0; q < face->pairs; q++) {
+    dyd_vertex_pair p = pd->open.pair[face->first_pair + q];
+    if (!p.hidden) visit(context, p.i, p.j, dyd_listed_status(face));
+  }
+}
+
+/* So many vertices of a rim are paired with the later ones in one walk; in the armed build small faces need several. */
+#ifdef DYD_ARMED
+enum { DYD_RIM_PART = 3 };
+#else
+enum { DYD_RIM_PART = 64 };
+#endif
+
+static inline void dyd_each_tied(const dyd_delaunay *pd, size_t f, dyd_pair_visit visit, void *context) {
+  const dyd_skeleton *sk = &pd->sk;
+  uint32_t v[DYD_RIM_PART], ghost = sk->mesh.n;
+  dyd_half_edge from = dyd_tie_start(pd, f);
+  uint32_t size = dyd_tie_size(sk, from);
+  for (uint32_t base = 0; base < size; base += DYD_RIM_PART) {
+    dyd_half_edge h = from;
+    for (uint32_t q = base; q < size; q++, h = dyd_tie_next(sk, h)) {
+      uint32_t w = dyd_edge_origin(&sk->mesh, h);
+      for (uint32_t p = base; w != ghost && p + 1 < q && p < base + DYD_RIM_PART; p++)
+        if (v[p - base] != ghost && (p > 0 || q + 1 < size)) visit(context, v[p - base], w, DYD_TIE);
+      if (q < base + DYD_RIM_PART) v[q - base] = w;
+      if (q == base + DYD_RIM_PART) from = h;
+    }
+  }
+}
+
+/* An edge of the skeleton inside a tied face: itself, if the face is capped, or both diagonals of a quad. */
+static inline void dyd_each_inside(const dyd_delaunay *pd, dyd_half_edge h, dyd_pair_visit visit, void *context) {
+  const dyd_mesh *m = &pd->sk.mesh;
+  uint32_t seed = pd->open.seed[pd->open.of[dyd_edge_triangle(h)]];
+  uint32_t v = dyd_edge_origin(m, h), w = dyd_edge_target(m, h);
+  if (seed & DYD_SEED_CAPPED) visit(context, v, w, DYD_INDETERMINATE);
+  if (!(seed & DYD_SEED_QUAD)) return;
+  visit(context, v, w, DYD_TIE);
+  visit(context, dyd_edge_apex(m, h), dyd_edge_across(m, h), DYD_TIE);
+}
+
+/* Edges of the skeleton: legal ones, and those inside tied faces. Loops over bits: which edges qualify is as good as
+ * random, and branches on it would be guessed wrongly. */
+static inline void dyd_each_edge(const dyd_delaunay *pd, dyd_pair_visit visit, void *context) {
+  const dyd_mesh *m = &pd->sk.mesh;
+  const unsigned lowest = 0x1210; /* two bits for each value of three bits: its lowest bit */
+  for (uint32_t t = 0; t < m->count; t++) {
+    const uint32_t *v = m->tri[t].v;
+    unsigned named = dyd_edges_first_named(m, t), legal = named & pd->sk.certain[t];
+    unsigned inside = pd->open.kind == DYD_TIED ? named & ~legal : 0;
+    for (; legal; legal &= legal - 1) {
+      unsigned k = lowest >> 2 * legal & 3;
+      visit(context, v[dyd_next(k)], v[dyd_prev(k)], DYD_LEGAL);
+    }
+    for (; inside; inside &= inside - 1) dyd_each_inside(pd, dyd_edge_of(t, lowest >> 2 * inside & 3), visit, context);
+  }
+}
+
+/* Pairs of a line; of a capped one only the legal ones. */
+static inline void dyd_each_on_line(const dyd_delaunay *pd, dyd_pair_visit visit, void *context) {
+  const dyd_line *l = &pd->sk.line;
+  for (uint32_t a = 0; a + 1 < l->count; a++)
+    for (uint32_t b = a + 1; b < l->count && (b == a + 1 || !pd->open.capped); b++) {
+      bool legal = b == a + 1 && l->legal[a];
+      if (legal || !pd->open.capped)
+        visit(context, l->order[a], l->order[b], legal ? DYD_LEGAL : dyd_open_status_of(pd, 0));
+    }
+}
+
+/* Every possible pair once; of capped faces only those of the skeleton. */
+static inline void dyd_each_pair(const dyd_delaunay *pd, dyd_pair_visit visit, void *context) {
+  if (pd->open.kind == DYD_LINE) {
+    dyd_each_on_line(pd, visit, context);
+    return;
+  }
+  dyd_each_edge(pd, visit, context);
+  for (size_t f = 0; f < pd->open.count; f++) {
+    if (pd->open.kind == DYD_LISTED)
+      dyd_each_listed(pd, f, visit, context);
+    else if (!(pd->open.seed[f] & DYD_SEED_MARKS))
+      dyd_each_tied(pd, f, visit, context);
+  }
+}
+
+#endif

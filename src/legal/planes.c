@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Half-planes from a centre and two rectangles, and the next centre. */
+#include "legal/planes.h"
+
+#include "rect/irect.h"
+#include "skeleton/circumcentre.h"
+
+/* How far out centres are looked for, in bits above the sites: first, and when there is no room. */
+enum { NEAR_BITS = 64, FAR_BITS = NEAR_BITS + 4096 };
+
+void dyd_planes_init(dyd_plane_list *l) {
+  for (l->count = 0; l->count < 4; l->count++) dyd_half_plane_init(&l->h[l->count]);
+  l->made = l->count;
+  l->low = DYD_EXP_LIMIT;
+  l->top = -DYD_EXP_LIMIT;
+}
+
+void dyd_planes_clear(dyd_plane_list *l) {
+  for (size_t k = 0; k < l->made; k++) dyd_half_plane_clear(&l->h[k]);
+}
+
+static void planes_measure(dyd_plane_list *l, const dyd_rect *r) {
+  const dyd_interval *side[2] = {&r->x, &r->y};
+  for (int k = 0; k < 4; k++) {
+    const dyd_interval *a = side[k / 2];
+    const dyd_dyadic *end = k % 2 ? &a->hi : &a->lo;
+    if (!mpz_sgn(end->man)) continue;
+    int64_t low = end->exp + 1 - (int64_t)mpz_sizeinbase(a->den, 2);
+    int64_t top = end->exp + (int64_t)mpz_sizeinbase(end->man, 2);
+    if (low < l->low) l->low = low;
+    if (top > l->top) l->top = top;
+  }
+}
+
+/* On one axis: a = s - q, and q^2 - s^2 is added to sum; s the end of own farther from c, q the point of other nearest
+ * to c. */
+static void plane_axis(mpz_t a, mpz_t sum, mpz_t t, mpz_srcptr c, mpz_srcptr own0, mpz_srcptr own1, mpz_srcptr other0,
+                       mpz_srcptr other1) {
+  mpz_add(t, own0, own1);
+  mpz_submul_ui(t, c, 2);
+  mpz_srcptr s = mpz_sgn(t) > 0 ? own1 : own0;
+  mpz_srcptr q = mpz_cmp(c, other0) < 0 ? other0 : mpz_cmp(c, other1) > 0 ? other1 : c;
+  mpz_sub(a, s, q);
+  mpz_add(t, s, q);
+  mpz_submul(sum, a, t);
+}
+
+/* From a.x + c > 0 for x in units of 1 / (factor 2^exp) to user units, without common powers of two; w = |a| + |b|. */
+static void plane_to_user(dyd_half_plane *h, const mpz_t factor, int64_t exp) {
+  mpz_ptr part[3] = {h->a, h->b, h->c};
+  mp_bitcnt_t zeros = ~(mp_bitcnt_t)0;
+  for (int k = 0; k < 3; k++) {
+    if (k < 2) mpz_mul(part[k], part[k], factor);
+    int64_t up = k < 2 ? exp : -exp;
+    if (up > 0) mpz_mul_2exp(part[k], part[k], (mp_bitcnt_t)up);
+    mp_bitcnt_t z = mpz_scan1(part[k], 0); /* of 0: the largest number */
+    if (z < zeros) zeros = z;
+  }
+  for (int k = 0; k < 3; k++) mpz_tdiv_q_2exp(part[k], part[k], zeros);
+  mpz_abs(h->w, h->a);
+  if (mpz_sgn(h->b) > 0)
+    mpz_add(h->w, h->w, h->b);
+  else
+    mpz_sub(h->w, h->w, h->b);
+}
+
+/* The half-plane |q|^2 - |s|^2 + 2 (s - q).x > 0. Returns the sign of that at c; *differ: s != q. */
+static int plane_set(bool *differ, dyd_half_plane *h, const dyd_point *c, const dyd_rect *own, const dyd_rect *other) {
+  const dyd_rect *in[2] = {own, other};
+  dyd_irect r[2];
+  mpz_t cx, cy, factor, t;
+  int64_t exp;
+  mpz_inits(cx, cy, factor, t, NULL);
+  for (int k = 0; k < 2; k++) dyd_irect_init(&r[k]);
+  dyd_irects_scale_with(cx, cy, r, c, in, 2, factor, &exp);
+  mpz_set_ui(h->c, 0);
+  plane_axis(h->a, h->c, t, cx, r[0].x0, r[0].x1, r[1].x0, r[1].x1);
+  plane_axis(h->b, h->c, t, cy, r[0].y0, r[0].y1, r[1].y0, r[1].y1);
+  *differ = mpz_sgn(h->a) || mpz_sgn(h->b);
+  mpz_mul(t, h->a, cx);
+  mpz_addmul(t, h->b, cy);
+  mpz_mul_2exp(t, t, 1);
+  mpz_add(t, t, h->c);
+  int sign = mpz_sgn(t);
+  if (*differ) plane_to_user(h, factor, exp + 1);
+  for (int k = 0; k < 2; k++) dyd_irect_clear(&r[k]);
+  mpz_clears(cx, cy, factor, t, NULL);
+  return sign;
+}
+
+bool dyd_planes_add(dyd_plane_list *l, const dyd_point *c, const dyd_rect *own, const dyd_rect *other) {
+  bool differ;
+  if (l->count == DYD_PLANES) return false;
+  dyd_half_plane *h = &l->h[l->count];
+  if (l->made == l->count) dyd_half_plane_init(&l->h[l->made++]);
+  planes_measure(l, own);
+  planes_measure(l, other);
+  l->count += plane_set(&differ, h, c, own, other) <= 0 && differ;
+  return differ;
+}
+
+/* The first four: the square |x|, |y| < 2^top. */
+static void planes_square(dyd_plane_list *l, int64_t top) {
+  for (int k = 0; k < 4; k++) {
+    dyd_half_plane *h = &l->h[k];
+    mpz_ptr n = k < 2 ? h->a : h->b, zero = k < 2 ? h->b : h->a;
+    mpz_set_ui(zero, 0);
+    mpz_set_ui(h->w, 1);
+    mpz_set_ui(h->c, 1);
+    mpz_mul_2exp(h->w, h->w, (mp_bitcnt_t)(top < 0 ? -top : 0));
+    mpz_mul_2exp(h->c, h->c, (mp_bitcnt_t)(top > 0 ? top : 0));
+    mpz_set(n, h->w);
+    if (k & 1) mpz_neg(n, n);
+  }
+}
+
+/* 2^e is less than a quarter of the radius z / d, and more than a 64th. */
+static int64_t step_within(const dyd_exact_centre *p) {
+  return (int64_t)mpz_sizeinbase(p->z, 2) - (int64_t)mpz_sizeinbase(p->d, 2) - 4;
+}
+
+/* The floor: exponent of a radius far below unit^2 / size, for ends that are multiples of unit = 2^low up to size =
+ * 2^top. A disc of witnesses that small is not looked for; where there is none, but three rectangles touch one circle,
+ * the discs of the half-planes would shrink for ever. */
+static int64_t floor_exponent(const dyd_plane_list *l) {
+  return 2 * l->low - l->top - 128;
+}
+
+dyd_status dyd_planes_centre(bool *room, dyd_point *c, dyd_plane_list *l) {
+  static const int64_t beyond[2] = {NEAR_BITS, FAR_BITS};
+  dyd_exact_centre p;
+  dyd_status st = DYD_OK;
+  dyd_exact_centre_init(&p);
+  bool good = true;
+  *room = false;
+  for (int k = 0; k < 2 && good && !*room; k++) {
+    planes_square(l, l->top + beyond[k]);
+    good = dyd_exact_lp(&p, l->h, l->count);
+    *room = good && mpz_sgn(p.z) > 0 && step_within(&p) >= floor_exponent(l);
+  }
+  if (*room) st = dyd_centre_round(c, p.x, p.y, p.d, step_within(&p));
+  dyd_exact_centre_clear(&p);
+  if (st != DYD_E_RANGE) return st;
+  *room = false; /* beyond the numbers there are */
+  return DYD_OK;
+}

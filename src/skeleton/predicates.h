@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Orientation and in-circle of the skeleton's vertices, by all rungs: the answers are exact. */
+#ifndef DYD_SKELETON_PREDICATES_H
+#define DYD_SKELETON_PREDICATES_H
+
+#include "skeleton/mesh_filter.h"
+
+/* Exact sign of the orientation of three real vertices: > 0 left turn. */
+int dyd_mesh_orient(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);
+/* Exact sign: > 0 iff p lies strictly inside the circle of the counter-clockwise triangle abc; for a ghost triangle:
+ * strictly beyond the hull edge or on it between its ends. p is real; 0 also at ties. */
+int dyd_mesh_incircle(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
+
+/* The same for whoever builds m: counts in its tally, and makes its grid of integers at the first need. */
+int dyd_build_orient(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);
+int dyd_build_incircle_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
+static inline int dyd_build_incircle(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
+  m->tally.asked++;
+  int sign = m->no_filter ? 0 : dyd_filter_incircle_at(m, m->xy[a], m->xy[b], m->xy[c], m->xy[p]);
+  return sign ? sign : dyd_build_incircle_slow(m, a, b, c, p);
+}
+
+/* Adds what was counted to the public counters: tests that were not passed on were answered by a filter. */
+void dyd_tally_add(dyd_delaunay_counters *sum, const dyd_tally *tally, bool no_filter);
+
+#endif

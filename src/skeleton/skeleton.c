@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* From sites to a skeleton: order, representatives, triangles, maps, boxes. */
+#include "skeleton/skeleton.h"
+
+#include "base/alloc.h"
+#include "base/invariant.h"
+#include "base/parallel.h"
+#include "skeleton/blocks.h"
+#include "skeleton/mesh_build.h"
+#include "skeleton/mesh_invariant.h"
+#include "skeleton/mesh_start.h"
+
+#include <string.h>
+
+void dyd_skeleton_clear(dyd_skeleton *sk) {
+  dyd_tree_clear(&sk->rects.tree);
+  dyd_blocks_clear(sk);
+  dyd_mesh_clear(&sk->mesh);
+  dyd_line_clear(&sk->line);
+  dyd_reps_clear(&sk->reps);
+  free(sk->rects.box);
+  free(sk->certain);
+  free(sk->leaving);
+  free(sk->vertex);
+  memset(sk, 0, sizeof *sk);
+}
+
+void dyd_skeleton_moved(dyd_skeleton *sk) {
+  sk->mesh.reps = &sk->reps;
+  sk->rects.tree.box = sk->rects.box;
+}
+
+static dyd_status skeleton_triangulate(dyd_skeleton *sk, const dyd_skeleton_options *o) {
+  uint32_t *order = dyd_alloc(sk->n, sizeof *order);
+  if (!order) return DYD_E_NOMEM;
+  dyd_strips strips;
+  dyd_status st = dyd_spatial_order(order, &strips, sk->rects.sites, o->threads);
+  if (st != DYD_OK) {
+    free(order);
+    return st;
+  }
+  st = dyd_reps_init(&sk->reps, sk->rects.sites, order, sk->n, o->threads);
+  sk->rects.site = sk->reps.site;
+  if (st == DYD_OK) st = dyd_mesh_build_strips(&sk->mesh, &sk->reps, &strips, o->no_filter, o->cancel, o->threads);
+  return st;
+}
+
+/* A vertex stands for the lowest of its equal sites: site numbers of a vertex and its aliases are exchanged. */
+static void settle_aliases(dyd_skeleton *sk) {
+  uint32_t *site = sk->reps.site;
+  for (uint32_t v = 0; v < sk->n && sk->mesh.alias; v++) {
+    uint32_t a = sk->mesh.alias[v];
+    if (a == DYD_NONE || site[v] > site[a]) continue;
+    uint32_t t = site[v];
+    site[v] = site[a];
+    site[a] = t;
+  }
+  for (uint32_t v = 0; v < sk->n; v++) {
+    uint32_t a = dyd_mesh_alias(&sk->mesh, v);
+    sk->vertex[site[v]] = a != DYD_NONE ? a : v;
+  }
+}
+
+/* Of a vertex: a half-edge out of the last one among the triangles of its strip. */
+static void leaving_of_strip(void *context, size_t number) {
+  dyd_skeleton *sk = context;
+  uint32_t begin = sk->mesh.strips.begin[number], end = sk->mesh.strips.begin[number + 1];
+  uint32_t last = 2 * end < sk->mesh.count ? 2 * end : sk->mesh.count;
+  for (uint32_t t = 2 * begin; t < last; t++)
+    for (unsigned k = 0; k < 3; k++) {
+      uint32_t v = sk->mesh.tri[t].v[k];
+      if (v - begin < end - begin) sk->leaving[v] = dyd_edge_of(t, dyd_prev(k));
+    }
+}
+
+/* A vertex at a seam may have triangles of the other strip only. */
+static bool has_lost_vertex(const dyd_skeleton *sk) {
+  for (uint32_t v = 0; v < sk->n; v++)
+    if (sk->leaving[v] == DYD_NONE && dyd_mesh_alias(&sk->mesh, v) == DYD_NONE) return sk->mesh.count > 0;
+  return false;
+}
+
+static void find_leaving(dyd_skeleton *sk, unsigned threads) {
+  memset(sk->leaving, 0xff, sk->n * sizeof *sk->leaving);
+  dyd_parallel(threads, sk->mesh.strips.count, leaving_of_strip, sk);
+  if (!has_lost_vertex(sk)) return;
+  for (uint32_t t = 0; t < sk->mesh.count; t++)
+    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++) {
+      uint32_t v = dyd_edge_origin(&sk->mesh, h);
+      if (v != sk->mesh.n && sk->leaving[v] == DYD_NONE) sk->leaving[v] = h;
+    }
+}
+
+static dyd_status build_maps(dyd_skeleton *sk, unsigned threads) {
+  sk->vertex = dyd_alloc(sk->n, sizeof *sk->vertex);
+  sk->leaving = dyd_alloc(sk->n, sizeof *sk->leaving);
+  sk->certain = calloc(sk->mesh.count ? sk->mesh.count : 1, 1);
+  if (!sk->vertex || !sk->leaving || !sk->certain) return DYD_E_NOMEM;
+  settle_aliases(sk);
+  find_leaving(sk, threads);
+  sk->all_points = true;
+  for (uint32_t i = 0; i < sk->n && sk->all_points; i++) sk->all_points = dyd_sites_is_point(sk->rects.sites, i);
+  return DYD_OK;
+}
+
+enum { FETCH_AHEAD = 24 };
+
+static void boxes_of_range(void *context, size_t number) {
+  dyd_skeleton *sk = context;
+  size_t end = dyd_range_begin(sk->n, number + 1);
+  for (size_t v = dyd_range_begin(sk->n, number); v < end; v++) {
+    if (v + FETCH_AHEAD < end) dyd_sites_fetch(sk->rects.sites, sk->reps.site[v + FETCH_AHEAD]);
+    dyd_rects_set_box(&sk->rects, (uint32_t)v);
+  }
+}
+
+static dyd_status build_boxes(dyd_skeleton *sk, unsigned threads) {
+  if (sk->all_points || sk->mesh.collinear) return dyd_blocks_build(sk);
+  sk->rects.box = dyd_alloc(sk->n, sizeof *sk->rects.box);
+  uint32_t *item = dyd_alloc(sk->n, sizeof *item), count = 0;
+  if (!sk->rects.box || !item) return free(item), DYD_E_NOMEM;
+  dyd_parallel(threads, dyd_ranges(sk->n), boxes_of_range, sk);
+  for (uint32_t v = 0; v < sk->n; v++)
+    if (sk->leaving[v] != DYD_NONE) item[count++] = v;
+  return dyd_tree_init(&sk->rects.tree, item, count, sk->rects.box);
+}
+
+dyd_status dyd_skeleton_build(dyd_skeleton *sk, const dyd_sites *sites, const dyd_skeleton_options *o) {
+  *sk = (dyd_skeleton){.n = (uint32_t)dyd_sites_count(sites), .rects = {.sites = sites}};
+  dyd_status st = skeleton_triangulate(sk, o);
+  if (st == DYD_OK && sk->mesh.collinear) st = dyd_line_build(&sk->line, &sk->mesh, &sk->rects, sk->n);
+  if (st == DYD_OK) st = build_maps(sk, o->threads);
+  if (st == DYD_OK) st = build_boxes(sk, o->threads);
+  if (st == DYD_OK) DYD_INVARIANT(dyd_mesh_is_valid(&sk->mesh));
+  if (st != DYD_OK) dyd_skeleton_clear(sk);
+  return st;
+}
+
+dyd_status dyd_skeleton_refresh(dyd_skeleton *sk, uint32_t v) {
+  dyd_tree *tree = &sk->rects.tree;
+  dyd_rects_set_box(&sk->rects, v);
+  bool own_number = v < tree->count && tree->item[v] == v; /* no aliases before it */
+  dyd_tree_refresh(tree, own_number ? v : dyd_tree_entry(tree, v));
+  return dyd_reps_choose(&sk->reps, v, sk->reps.code && sk->reps.code[v] ? sk->reps.code[v] - 1 : 0);
+}
+
+size_t dyd_skeleton_memory(const dyd_skeleton *sk) {
+  size_t n = sk->n, t = sk->mesh.collinear ? 0 : 2 * n + 2;
+  const dyd_tree *tree = &sk->rects.tree;
+  size_t bytes = n * (3 * sizeof(uint32_t) + sizeof(dyd_xy)) + t * sizeof(dyd_tri) + sk->mesh.count;
+  if (sk->reps.code) bytes += n * sizeof(uint32_t);
+  if (sk->rects.box) bytes += n * sizeof(dyd_bbox) + tree->count * sizeof(uint32_t);
+  return bytes +
+         (tree->level[tree->levels] + sk->blocks.level[sk->blocks.levels] + sk->blocks.count) * sizeof(dyd_bbox);
+}

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The skeleton of a set of sites, and what is known of its edges.
+ *
+ * Vertices are the sites in spatial order. The edges carry one flag, "certain": a real edge is legal, an edge to the
+ * ghost says that its vertex is surely on the hull. If the true points are always collinear (or there are at most two
+ * sites) there are no triangles. */
+#ifndef DYD_SKELETON_SKELETON_H
+#define DYD_SKELETON_SKELETON_H
+
+#include "skeleton/half_edge.h"
+#include "skeleton/line.h"
+#include "skeleton/rects.h"
+
+typedef struct dyd_skeleton {
+  uint32_t n;
+  dyd_reps reps;
+  dyd_mesh mesh;
+  dyd_line line;          /* instead of triangles, if mesh.collinear */
+  uint32_t *vertex;       /* site -> its vertex, of the site it stands for if it is an alias */
+  dyd_half_edge *leaving; /* vertex -> a half-edge out of it; DYD_NONE: alias or line */
+  uint8_t *certain;       /* triangle -> bit k: half-edge k is certain */
+  bool all_points;        /* every site is an exact point */
+  dyd_rects rects;        /* of the vertices in the mesh; neither boxes nor tree when all_points or on a line */
+  dyd_bbox *block;        /* then: boxes of blocks of vertices (blocks.h), and the tree over them */
+  dyd_tree blocks;
+} dyd_skeleton;
+
+typedef struct dyd_skeleton_options {
+  bool no_filter;
+  unsigned threads;
+  const volatile int *cancel;
+} dyd_skeleton_options;
+
+/* The skeleton of all sites, nothing certain yet. On failure *sk is cleared. */
+dyd_status dyd_skeleton_build(dyd_skeleton *sk, const dyd_sites *sites, const dyd_skeleton_options *o);
+void dyd_skeleton_clear(dyd_skeleton *sk);
+/* It has moved in memory: what points into it follows. */
+void dyd_skeleton_moved(dyd_skeleton *sk);
+/* Box, tree and representative of a vertex follow its rectangle. */
+dyd_status dyd_skeleton_refresh(dyd_skeleton *sk, uint32_t v);
+/* Bytes allocated, of everything that stays. */
+size_t dyd_skeleton_memory(const dyd_skeleton *sk);
+
+static inline bool dyd_vertex_is_point(const dyd_skeleton *sk, uint32_t v) {
+  return sk->all_points || dyd_rects_is_point(&sk->rects, v);
+}
+static inline bool dyd_edge_is_certain(const dyd_skeleton *sk, dyd_half_edge h) {
+  return sk->certain[dyd_edge_triangle(h)] >> dyd_edge_corner(h) & 1;
+}
+static inline bool dyd_triangle_is_certain(const dyd_skeleton *sk, uint32_t t) {
+  return (sk->certain[t] & 7) == 7;
+}
+static inline void dyd_set_certain(dyd_skeleton *sk, dyd_half_edge h, bool certain) {
+  dyd_half_edge both[2] = {h, dyd_edge_twin(&sk->mesh, h)};
+  for (int q = 0; q < 2; q++) {
+    uint8_t bit = (uint8_t)(1u << dyd_edge_corner(both[q])), *at = &sk->certain[dyd_edge_triangle(both[q])];
+    *at = certain ? *at | bit : *at & (uint8_t)~bit;
+  }
+}
+
+/* The half-edge from v to w, or DYD_NONE. w may be the ghost. O(degree of v). */
+dyd_half_edge dyd_find_edge(const dyd_skeleton *sk, uint32_t v, uint32_t w);
+/* Are v and w (not the ghost) joined by a certain edge? */
+bool dyd_is_legal(const dyd_skeleton *sk, uint32_t v, uint32_t w);
+/* How many pairs are legal, that is certain edges that are real. O(n), a byte for each triangle. */
+uint64_t dyd_certain_edges(const dyd_skeleton *sk);
+/* The neighbours of i and of j, without repeats, the ghost, i and j. At most `room`; returns how many. */
+int dyd_neighbours(uint32_t *out, int room, const dyd_skeleton *sk, uint32_t i, uint32_t j);
+
+#endif
