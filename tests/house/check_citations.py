@@ -13,7 +13,8 @@ In comments of src and include also
     section 4                        of nothing named is a breach
     tree_filter.c, legal/witness.h   a name with a folder is a path from the root, src or include; a bare one is a file of
                                      the same folder, one that the file includes, or a public header
-And relative links of the guides in Markdown lead to files, to headings that exist, and from claims to where they are stated.
+In the guides in Markdown, paths and names of functions between backquotes exist (exercises apart, which tell of what is not
+there), and links lead to files, to headings that exist, and from claims to where they are stated.
 """
 import pathlib
 import re
@@ -32,8 +33,11 @@ YEAR = re.compile(r'\b([A-Z][A-Za-z-]{2,})(?: et al\.)?,? \(?((?:19|20)\d\d)\b')
 BARE = re.compile(r'\b[Ss]ections? \d+')
 FILE = re.compile(r'(?<![\w./<-])((?:[\w-]+/)*[a-z][\w-]+\.(?:c|h|v|py|md|sh|cpp|build))\b(?![\w/])')
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)
+NAME = re.compile(r'\b(?:dyd|cli)_\w+')
 LINK = re.compile(r'\]\(([^)\s]+)\)')
 CLAIM_LINK = re.compile(r'^\[([A-Z]{2,}-[A-Z0-9]+)\]: (\S+)$', re.M)
+QUOTED_FILE = re.compile(r'`((?:src|include|tests|bench|proofs)/[a-z][\w./-]*)`')
+QUOTED_NAME = re.compile(r'`((?:dyd|cli)_\w+)`')
 COMMENT = {'.c': r'/\*.*?\*/|//[^\n]*', '.h': r'/\*.*?\*/|//[^\n]*', '.v': r'\(\*.*?\*\)', '.md': r'.*'}
 
 
@@ -127,6 +131,17 @@ def check_links(path, text):
             yield f'[{name}] is not stated in {target}'
 
 
+def check_quoted(root, text, code):
+    """Paths and functions that a guide names."""
+    text = re.sub(r'```.*?```', '', text.partition('\n## Three exercises')[0], flags=re.S)
+    for name in QUOTED_FILE.findall(text):
+        if 'NAME' not in name and not (root / name).exists():
+            yield f'there is no {name}'
+    for name in QUOTED_NAME.findall(text):
+        if name not in code and 'NAME' not in name:
+            yield f'there is no {name} under src or include'
+
+
 def check_source(root, theory, path):
     text = path.read_text(encoding='utf-8')
     ours = path.relative_to(root).parts[0] in ('src', 'include')
@@ -153,9 +168,11 @@ def breaches(root):
         yield f'{THEORY}: a number of a section is used twice'
     for path in files(root):
         yield from (f'{path.relative_to(root)}: {found}' for found in check_source(root, theory, path))
-    for pattern in GUIDES:
-        for path in sorted(root.glob(pattern)):
-            yield from (f'{path.relative_to(root)}: {found}' for found in check_links(path, path.read_text(encoding='utf-8')))
+    code = {w for folder in ('src', 'include') for p in (root / folder).rglob('*.[ch]') for w in NAME.findall(p.read_text(encoding='utf-8'))}
+    for path in (p for pattern in GUIDES for p in sorted(root.glob(pattern))):
+        text = path.read_text(encoding='utf-8')
+        for found in [*check_links(path, text), *check_quoted(root, text, code)]:
+            yield f'{path.relative_to(root)}: {found}'
 
 
 def main():
