@@ -9,6 +9,7 @@ Usage: check_map.py ROOT            (prints every breach; exit status 1 when the
 A file uses another one when it includes it, or calls a function that this one alone defines (a header: in its inline
 functions), be it declared in include/dyadel or anywhere. A folder uses another one when a file of it does. The drawing has an
 arrow from a folder to each folder that it uses, but for those that it reaches by way of others; the lines below it have all.
+The table of rooms in the same guide has a row for each folder, below those of all that it uses.
 """
 import collections
 import pathlib
@@ -22,6 +23,7 @@ DEFINITION = re.compile(r'^(?!static\b|typedef\b|#)[A-Za-z_][\w \t*]*?\b(\w+)\([
 TYPE = re.compile(r'\b(?:struct|enum|union) (\w+)')
 WORD = re.compile(r'[A-Za-z_]\w*')
 BEGIN, END = '<!-- map: tests/house/check_map.py --renew writes what follows -->\n', '<!-- end of the map -->\n'
+ROOM = re.compile(r'^\| `src/(\w+)` \|', re.M)
 GUIDE = 'src/README.md'
 
 
@@ -187,12 +189,24 @@ def check_drawing(root, graph, renew):
         yield f'{GUIDE}: the map is not that of the sources; check_map.py ROOT --renew writes it: {"; ".join(wrong[:4]).strip()}'
 
 
+def check_rooms(root, graph):
+    rows = ROOM.findall((root / GUIDE).read_text(encoding='utf-8'))
+    knot = {m: members for members in knots(graph) for m in members}
+    for room in sorted(set(graph) ^ set(rows)):
+        yield f'{GUIDE}: {room} is {"a room without a row" if room in graph else "no room"} in the table of rooms'
+    for room in (r for r in rows if r in graph):
+        for used in graph[room]:
+            if used in rows and used not in knot[room] and rows.index(used) > rows.index(room):
+                yield f'{GUIDE}: {room} stands above {used}, which it uses, in the table of rooms'
+
+
 def breaches(root, options):
     graph = uses(read_files(root))
     rooms = folders(graph)
     yield from check_circles('files', join_pairs(graph) if '--pairs' in options else graph)
     yield from check_circles('folders', rooms)
     yield from check_drawing(root, rooms, '--renew' in options)
+    yield from check_rooms(root, rooms)
 
 
 def main():

@@ -58,6 +58,7 @@ FAULTS = [
     ('src/README.md', '`src/io/read/read.c`', '`src/io/read.c`', 'citations', 'there is no src/io/read.c'),
     ('src/README.md', '`dyd_stage_commit`', '`dyd_stage_comit`', 'citations', 'there is no dyd_stage_comit'),
     ('src/README.md', '  rect --> dyadic\n', '', 'map', 'rect --> dyadic'),
+    ('src/README.md', '| `src/metric` |', '| `src/measure` |', 'map', 'metric is a room without a row'),
     ('src/dyadic/text.c', '#include "dyadic/raw.h"', '#include "rect/irect.h"', 'map', 'circle of folders: dyadic, rect'),
     ('src/rect/interval.c', '#include "rect/interval.h"\n', '#include "rect/interval.h"\nvoid f(void) {\n  dyd_rect_init(0);\n}\n',
      'map', 'circle of files: rect/interval.c, rect/rect.c'),
