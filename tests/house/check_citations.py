@@ -104,7 +104,7 @@ def check_files(root, path, text, included):
     for name in FILE.findall(text):
         bases = [root, root / 'src', root / 'include', root / 'include/dyadel']
         bare = '/' not in name
-        if not any((base / name).is_file() for base in ([path.parent, root / 'include/dyadel'] if bare else bases)):
+        if not any((base / name).is_file() for base in ([path.parent, root, root / 'include/dyadel'] if bare else bases)):
             if not (bare and name in included):
                 yield f'there is no {name}' + (' in this folder; say which folder' if bare else '')
 

@@ -7,7 +7,7 @@ Usage: check_map.py ROOT            (prints every breach; exit status 1 when the
        check_map.py ROOT --pairs    (counts a .c and the .h of its name as one file: stricter, for looking around)
 
 A file uses another one when it includes it, or calls a function that this one alone defines (a header: in its inline
-functions), be it declared in include/dyadel or anywhere. A folder uses another one when a file of it does. The drawing has an
+functions; not those of its own .c), be it declared in include/dyadel or anywhere. A folder uses another one when a file of it does. The drawing has an
 arrow from a folder to each folder that it uses, but for those that it reaches by way of others; the lines below it have all.
 The table of rooms in the same guide has a row for each folder, below those of all that it uses.
 """
@@ -64,7 +64,7 @@ def uses(files):
                 used[target] = f'includes {header}'
         plain = re.sub(r'"(?:[^"\\\n]|\\.)*"', '""', text)
         for word in WORD.findall(plain if path.endswith('.c') else bodies(plain)):
-            if home.get(word, path) != path:
+            if home.get(word, path)[:-2] != path[:-2]:
                 used.setdefault(home[word], f'calls {word}')
     return graph
 
