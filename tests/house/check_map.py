@@ -7,8 +7,10 @@ Usage: check_map.py ROOT            (prints every breach; exit status 1 when the
        check_map.py ROOT --pairs    (counts a .c and the .h of its name as one file: stricter, for looking around)
 
 A file uses another one when it includes it, or calls a function that this one alone defines (a header: in its inline
-functions; not those of its own .c), be it declared in include/dyadel or anywhere. A folder uses another one when a file of it does. The drawing has an
-arrow from a folder to each folder that it uses, but for those that it reaches by way of others; the lines below it have all.
+functions; not those of its own .c), be it declared in include/dyadel or anywhere. A folder uses another one when a file of
+it does. The drawing has an arrow from a folder to each folder that it uses, but for those that it reaches by way of others;
+the lines below it have all.
+Below it each folder's files (a .c and its .h as one) stand in an order in which they can be read: each after what it uses.
 The table of rooms in the same guide has a row for each folder, below those of all that it uses.
 """
 import collections
@@ -126,14 +128,18 @@ def check_circles(what, graph):
             yield f'src: a circle of {what}: {", ".join(sorted(members))}; a way round: {"; ".join(steps)}'
 
 
+def folder(path):
+    return path.partition('/')[0]
+
+
 def folders(graph):
     """{folder: {folder used: an example}}"""
     found = {}
     for path, used in graph.items():
-        own = found.setdefault(path.split('/')[0], {})
+        own = found.setdefault(folder(path), {})
         for other, why in used.items():
-            if other.split('/')[0] != path.split('/')[0]:
-                own.setdefault(other.split('/')[0], f'by {path}, which {why}')
+            if folder(other) != folder(path):
+                own.setdefault(folder(other), f'by {path}, which {why}')
     return found
 
 
@@ -149,12 +155,13 @@ def below(graph, start):
 
 
 def levels(graph):
-    """Folders, those that use none first; each after all that it uses."""
-    height = {}
+    """Nodes, those that use none first; each after all that it uses, but that those of one circle stand together."""
+    height, first = {}, {}
     for members in knots(graph):
         level = max((height[o] + 1 for m in members for o in graph[m] if o not in members), default=0)
         height.update(dict.fromkeys(members, level))
-    return sorted(graph, key=lambda f: (height[f], f))
+        first.update(dict.fromkeys(members, min(members)))
+    return sorted(graph, key=lambda f: (height[f], first[f], f))
 
 
 def arrows(graph):
@@ -167,25 +174,37 @@ def arrows(graph):
                 yield f, t
 
 
-def drawing(graph):
-    """The map as it should stand in the guide."""
+def reading_order(graph, room):
+    """Names of a folder's files without folder and ending: each after those that it uses, families with one header
+    together."""
+    joined = join_pairs(graph)
+    own = {f for f in joined if folder(f) == room}
+    inner = {f: {t for t in joined[f] if t in own} for f in own}
+    return [f.partition('/')[2] for f in levels(inner)]
+
+
+def drawing(graph, files):
+    """The map as it should stand in the guide: of folders, and of the files of each."""
     order = levels(graph)
     lines = [f'  {f} --> {t}' for f, t in sorted(arrows(graph), key=lambda a: (-order.index(a[0]), -order.index(a[1])))]
     rows = [f'| `{f}` | {", ".join(f"`{t}`" for t in order if t in graph[f]) or "nothing"} |' for f in order]
+    reading = [f'* `{f}`: {", ".join(reading_order(files, f))}' for f in order]
     return '\n'.join(['', '```mermaid', 'flowchart TD'] + lines +
-                     ['```', '', '| folder | uses, by include or call |', '|---|---|'] + rows + ['', ''])
+                     ['```', '', '| folder | uses, by include or call |', '|---|---|'] + rows +
+                     ['', 'The files of each, in an order to read them: each stands after those that it uses, and files that',
+                      'share a header stand together.', ''] + reading + ['', ''])
 
 
-def check_drawing(root, graph, renew):
+def check_drawing(root, graph, files, renew):
     path = root / GUIDE
     before, begin, rest = path.read_text(encoding='utf-8').partition(BEGIN)
     old, end, after = rest.partition(END)
     if not begin or not end:
         yield f'{GUIDE}: the lines "{BEGIN.strip()}" and "{END.strip()}" are needed'
     elif renew:
-        path.write_text(before + begin + drawing(graph) + end + after, encoding='utf-8')
-    elif old != drawing(graph):
-        wrong = sorted(set(old.splitlines()) ^ set(drawing(graph).splitlines()))
+        path.write_text(before + begin + drawing(graph, files) + end + after, encoding='utf-8')
+    elif old != drawing(graph, files):
+        wrong = sorted(set(old.splitlines()) ^ set(drawing(graph, files).splitlines()))
         yield f'{GUIDE}: the map is not that of the sources; check_map.py ROOT --renew writes it: {"; ".join(wrong[:4]).strip()}'
 
 
@@ -205,7 +224,7 @@ def breaches(root, options):
     rooms = folders(graph)
     yield from check_circles('files', join_pairs(graph) if '--pairs' in options else graph)
     yield from check_circles('folders', rooms)
-    yield from check_drawing(root, rooms, '--renew' in options)
+    yield from check_drawing(root, rooms, graph, '--renew' in options)
     yield from check_rooms(root, rooms)
 
 
