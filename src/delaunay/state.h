@@ -69,7 +69,7 @@ struct dyd_delaunay {
   bool all_points;  /* every site is an exact point */
   dyd_bbox *box;    /* vertex -> outward box; NULL when all_points */
   dyd_tree tree;    /* over all vertices in the skeleton; empty when all_points */
-  dyd_bbox *block;  /* when tree is empty: boxes of blocks of vertices (blocks.h), and the tree over them */
+  dyd_bbox *block;  /* when tree is empty: boxes of blocks of vertices (skeleton/blocks.h), and the tree over them */
   dyd_tree blocks;
   dyd_line line;
   dyd_face_table faces;
