@@ -20,7 +20,7 @@ Definition cell (N : nat) (p : nat -> point) (i : nat) (c : point) : Prop :=
 Definition open_cell (N : nat) (p : nat -> point) (i : nat) (c : point) : Prop :=
   forall k, (k < N)%nat -> k <> i -> dist c (p i) < dist c (p k).
 
-(* Int, Pos and Ext of section 2 of the specification: surely nearest, possibly nearest, surely not nearest. *)
+(* Int, Pos and Ext (mathematics: section 2): surely nearest, possibly nearest, surely not nearest. *)
 Definition int (N : nat) (B : sites) (i : nat) (c : point) : Prop :=
   forall j, (j < N)%nat -> j <> i -> dl c (B i) < ds c (B j).
 Definition pos (N : nat) (B : sites) (i : nat) (c : point) : Prop :=

@@ -118,7 +118,7 @@ Proof.
     pose proof (A _ (P k K)). pose proof (C _ (P i I)). pose proof (H i I Si). pose proof (G k K). lra.
 Qed.
 
-(* Pairs: section 3 of the specification asks for the other sites only. The two definitions agree. *)
+(* Pairs (mathematics: section 3): the definition asks for the other sites only. The two definitions agree. *)
 Definition pair (i j : nat) (k : nat) : Prop := k = i \/ k = j.
 Definition others_allow (N : nat) (B : sites) (i j : nat) (c : point) : Prop :=
   forall k, (k < N)%nat -> k <> i -> k <> j -> ds c (B i) <= dl c (B k) /\ ds c (B j) <= dl c (B k).

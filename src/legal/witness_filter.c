@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Cutting planes in doubles, as in witness.c, with distances bounded as in distance_filter.h.
+/* Cutting planes in doubles, as in witness.c, with distances bounded as in skeleton/distance_filter.h.
  *
  * A witness is stated only when ds_k^2 from below exceeds dl_i^2, dl_j^2 from above for everybody the tree names.
  * "None" is no statement about points (the pair just stays undecided), so the half-planes need no proved bound; still

@@ -7,8 +7,8 @@
  * rays, and there C_ki means min u.x over R_k > max u.x over R_i, as for centres at infinity. The cells cover the plane
  * with its directions, since neighbours share lines or rays bit by bit. Whoever has the least dl at a point of a cell
  * is possibly nearest there and never leaves its list, so the list alone tells M(c) from below: sites of the list with
- * ds(c) <= M(c) are possible neighbours of one another. Distances are bounded as in distance_filter.h [FLT-DST],
- * heights as in tree_filter.c [FLT-DIR]; NaN and infinities compare false and prove nothing. */
+ * ds(c) <= M(c) are possible neighbours of one another. Distances are bounded as in skeleton/distance_filter.h
+ * [FLT-DST], heights as in skeleton/tree_filter.c [FLT-DIR]; NaN and infinities compare false and prove nothing. */
 #include "possible/cells_filter.h"
 
 #include "base/alloc.h"

@@ -4,8 +4,8 @@
  * [COV-2] Let (i,j,k) and (i,j,l) be surely oriented, k and l on opposite sides. Then k blocks exactly a ray of the
  * curve beta = {ds_i = ds_j} and the end of it, l a ray to the other end; so if both block one point of beta, the
  * pair is impossible. That beta passes through a short segment across it is shown by ds_i < ds_j at the one end and
- * ds_j < ds_i at the other [BETA-1]; distances are bounded as in distance_filter.h [FLT-DST], orientations as in
- * predicate/predicate_filter.h.
+ * ds_j < ds_i at the other [BETA-1]; distances are bounded as in skeleton/distance_filter.h [FLT-DST], orientations as
+ * in predicate/predicate_filter.h.
  *
  * Where to look needs no bound: t runs along beta, lo is the end of the rays from below met so far, hi that of the
  * rays from above. Between them somebody else blocks, or nobody, which the tree confirms. */

@@ -4,8 +4,9 @@
 
 Usage: seeded_faults.py ROOT   (exit status 1 when a fault goes unnoticed)
 
-Each fault replaces a text, which must occur, by another; check_constants.py or check_claims.py must then fail and
-say something about it that it does not say without the fault.
+Each fault replaces a text, which must occur, by another; check_constants.py, check_claims.py, check_citations.py or
+check_map.py must then fail and say something about it that it does not say without the fault. Each change in CHANGES is
+noticed by check_constants.py as well; renew_quotes.py must say about it what it should, and check_constants.py be content then.
 """
 import pathlib
 import shutil
@@ -42,25 +43,51 @@ FAULTS = [
     ('proofs/theories/FiltersConst.v', '(2281771080410813, -102)%Z', '(2281771080410812, -102)%Z', 'constants', 'c_incircle_bound'),
     ('proofs/claims/filters.md', '`filter_incircle_at_correct`', '`filter_incircle_correct`', 'claims', 'filter_incircle_correct'),
     ('proofs/README.md', 'filter_orient_correct, ', '', 'claims', 'filter_orient_correct'),
+    ('src/predicate/icircle.h', '(mathematics: section 4)', '(mathematics: section 40)', 'citations', 'section 40'),
+    ('include/dyadel/arc.h', 'sections 2, 3', 'sections 2, 9', 'citations', 'section 9 of KEL'),
+    ('include/dyadel/rect.h', '(mathematics: section 1)', '(section 1)', 'citations', 'of what?'),
+    ('tests/engine/test_outcomes.c', 'section 10, case 3', 'mathematics: section 10, case 30', 'citations', 'no item 30'),
+    ('src/metric/measure_filter.c', 'Popescu 2017', 'Popescu 2018', 'citations', 'Popescu 2018'),
+    ('src/stream/root_step.c', 'Abbott 2006', 'Abbot 2006', 'citations', 'Abbot 2006'),
+    ('src/predicate/cell_filter.c', 'predicate/solve.c', 'predicate/solves.c', 'citations', 'predicate/solves.c'),
+    ('include/dyadel/compose.h', '(stream.h)', '(streams.h)', 'citations', 'streams.h in this folder'),
+    ('proofs/mathematics.md', '## 9. Output', '## 8. Output', 'citations', 'used twice'),
+    ('proofs/mathematics.md', '(#10-cases', '(#11-cases', 'citations', 'no such heading'),
+    ('proofs/mathematics.md', '[ORI-1]: claims/predicate.md', '[ORI-1]: claims/possible.md', 'citations', '[ORI-1] is not stated'),
+    ('src/README.md', '](../proofs/mathematics.md)', '](../proofs/mathematic.md)', 'citations', 'leads nowhere'),
+    ('src/README.md', '`src/io/read/read.c`', '`src/io/read.c`', 'citations', 'there is no src/io/read.c'),
+    ('src/README.md', '`dyd_stage_commit`', '`dyd_stage_comit`', 'citations', 'there is no dyd_stage_comit'),
+    ('src/README.md', '  rect --> dyadic\n', '', 'map', 'rect --> dyadic'),
+    ('src/README.md', '| `src/metric` |', '| `src/measure` |', 'map', 'metric is a room without a row'),
+    ('src/dyadic/text.c', '#include "dyadic/raw.h"', '#include "rect/irect.h"', 'map', 'circle of folders: dyadic, rect'),
+    ('src/rect/interval.c', '#include "rect/interval.h"\n', '#include "rect/interval.h"\nvoid f(void) {\n  dyd_rect_init(0);\n}\n',
+     'map', 'circle of files: rect/interval.c, rect/rect.c'),
+]
+# file, text, its replacement (all occurrences), what renew_quotes.py says
+CHANGES = [
+    ('src/predicate/cell_filter.c', 'det2', 'twice', 'names only (det2 -> twice)'),
+    ('src/skeleton/mesh_fixed.c', 'product(', 'fixed_product(', 'fixed_product of src/skeleton/mesh_fixed.c: the place only'),
+    ('src/skeleton/mesh_fixed.c', 'r.low < a.low', 'r.low <= a.low', 'prove anew: fixed_incircle_correct, sum_correct'),
+    ('src/metric/measure_filter.c', 'return two_sum(a, -b);', 'return two_sum(b, -a);', 'compare dd_sub_d'),
 ]
 
 
 def run(root, script):
     """Exit status and the set of complaints of a script on root."""
-    done = subprocess.run([sys.executable, str(root / f'tests/house/check_{script}.py'), str(root)],
+    done = subprocess.run([sys.executable, str(root / f'tests/house/{script}.py'), str(root)],
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     return done.returncode, set(done.stdout.splitlines())
 
 
 def unnoticed(root):
-    before = {script: run(root, script)[1] for script in ('constants', 'claims')}
+    before = {script: run(root, f'check_{script}')[1] for script in ('constants', 'claims', 'citations', 'map')}
     for path, text, fault, script, word in FAULTS:
         good = (root / path).read_text(encoding='utf-8')
         if text not in good:
             yield f'{path}: "{text}" is not there any more'
             continue
         (root / path).write_text(good.replace(text, fault, 1), encoding='utf-8')
-        status, said = run(root, script)
+        status, said = run(root, f'check_{script}')
         (root / path).write_text(good, encoding='utf-8')
         new = sorted(line for line in said - before[script] if word in line)
         if status != 1 or not new:
@@ -69,14 +96,33 @@ def unnoticed(root):
             print(f'noticed: {new[0]}')
 
 
+def unrenewed(root):
+    """Changes of the C source that the theories do not follow."""
+    kept = root / 'kept'
+    shutil.copytree(root / 'proofs/theories', kept)
+    before = run(root, 'check_constants')[1]
+    for path, text, change, word in CHANGES:
+        good = (root / path).read_text(encoding='utf-8')
+        (root / path).write_text(good.replace(text, change), encoding='utf-8')
+        noticed = run(root, 'check_constants')[1] - before
+        said = '\n'.join(sorted(run(root, 'renew_quotes')[1]))
+        left = run(root, 'check_constants')[1] - before
+        (root / path).write_text(good, encoding='utf-8')
+        shutil.copytree(kept, root / 'proofs/theories', dirs_exist_ok=True)
+        if text not in good or not noticed or left or word not in said:
+            yield f'{path}: "{change}" for "{text}" is not renewed: {said} {left or ""}'
+        else:
+            print(f'renewed: {path}: {word}')
+
+
 def main():
     source = pathlib.Path(sys.argv[1]).resolve()
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         for name in ('src', 'include', 'proofs', 'tests'):
             shutil.copytree(source / name, root / name, ignore=shutil.ignore_patterns('data', '__pycache__'))
-        found = list(unnoticed(root))
-    print('\n'.join(found) or f'{len(FAULTS)} faults, all noticed')
+        found = list(unnoticed(root)) + list(unrenewed(root))
+    print('\n'.join(found) or f'{len(FAULTS)} faults, all noticed; {len(CHANGES)} changes, all renewed')
     return 1 if found else 0
 
 
