@@ -4,6 +4,7 @@
 #include "checker/check.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static void clear(dyd_cert_check *c) {
   dyd_cert_reader_clear(&c->in);
@@ -20,6 +21,29 @@ static void clear(dyd_cert_check *c) {
   dyd_exact_clear(&c->point[1]);
 }
 
+static dyd_status check_outcome(const dyd_cert_check *c) {
+  const dyd_certificate_report *r = &c->report;
+  bool open = r->indeterminate || r->tie || r->legal_unproved || r->capped;
+  if (strcmp(r->outcome, "decided") == 0 && open)
+    return dyd_cert_reject(&c->in, "the outcome is not decided: pairs are open");
+  if (strcmp(r->outcome, "certified") == 0 && !c->reached)
+    return dyd_cert_reject(&c->in, "the outcome is not certified: no bound reaches the goal");
+  return DYD_OK;
+}
+
+/* The section on the diagram, if there is one, the outcome, and the last line. */
+static dyd_status check_end(dyd_cert_check *c) {
+  dyd_status st = dyd_cert_next_line(&c->in);
+  if (st == DYD_OK && strncmp(c->in.line, "window", 6) == 0) {
+    st = dyd_cert_check_diagram(c);
+    if (st == DYD_OK) st = dyd_cert_next_line(&c->in);
+  }
+  if (st == DYD_OK) st = check_outcome(c);
+  if (st == DYD_OK) st = dyd_cert_expect_word(c, "end");
+  if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
+  return st == DYD_OK ? dyd_cert_expect_end(&c->in) : st;
+}
+
 dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_error *err) {
   dyd_cert_check c = {.in = {.in = in, .err = err}};
   if (err) dyd_error_clear(err);
@@ -27,15 +51,15 @@ dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_err
   dyd_cert_chain_init(&c.chain);
   dyd_exact_init(&c.point[0]);
   dyd_exact_init(&c.point[1]);
-  dyd_status status = dyd_cert_check_head(&c);
-  if (status >= 0) status = dyd_cert_check_sites(&c);
-  if (status >= 0) status = dyd_cert_check_legal(&c);
-  if (status >= 0) status = dyd_cert_check_places(&c);
-  if (status >= 0) status = dyd_cert_check_bridges(&c);
-  if (status >= 0) status = dyd_cert_check_corners(&c);
-  if (status >= 0) status = dyd_cert_check_pairs(&c);
-  if (status >= 0) status = dyd_cert_check_end(&c);
-  if (status >= 0) *out = c.report;
+  dyd_status st = dyd_cert_check_head(&c);
+  if (st == DYD_OK) st = dyd_cert_check_sites(&c);
+  if (st == DYD_OK) st = dyd_cert_check_legal(&c);
+  if (st == DYD_OK) st = dyd_cert_check_places(&c);
+  if (st == DYD_OK) st = dyd_cert_check_bridges(&c);
+  if (st == DYD_OK) st = dyd_cert_check_corners(&c);
+  if (st == DYD_OK) st = dyd_cert_check_pairs(&c);
+  if (st == DYD_OK) st = check_end(&c);
+  if (st == DYD_OK) *out = c.report;
   clear(&c);
-  return status;
+  return st;
 }

@@ -10,45 +10,67 @@
 
 dyd_status dyd_cert_expect_word(dyd_cert_check *c, const char *name) {
   char *word = NULL;
-  dyd_status status = dyd_cert_word(&word, &c->in);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_word(&word, &c->in);
+  if (st != DYD_OK) return st;
   return strcmp(word, name) == 0 ? DYD_OK : dyd_cert_reject(&c->in, "\"%s\" is missing", name);
 }
 
 dyd_status dyd_cert_read_choice(size_t *out, dyd_cert_check *c, const char *const *text, size_t count) {
   char *word = NULL;
-  dyd_status status = dyd_cert_word(&word, &c->in);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_word(&word, &c->in);
+  if (st != DYD_OK) return st;
   for (*out = 0; *out < count; ++*out)
     if (strcmp(word, text[*out]) == 0) return DYD_OK;
   return dyd_cert_reject(&c->in, "\"%.40s\" is no word that may stand here", word);
 }
 
-dyd_status dyd_cert_read_heading(uint32_t *count, dyd_cert_check *c, const char *name, uint64_t most) {
-  dyd_status status = dyd_cert_next_line(&c->in);
-  if (status >= 0) status = dyd_cert_expect_word(c, name);
-  if (status >= 0) status = dyd_cert_read_index(count, &c->in, most);
-  return status < 0 ? status : dyd_cert_line_done(&c->in);
+/* A line "NAME count"; the count is at most `most`. */
+static dyd_status read_heading(uint32_t *count, dyd_cert_check *c, const char *name, uint64_t most) {
+  dyd_status st = dyd_cert_next_line(&c->in);
+  if (st == DYD_OK) st = dyd_cert_expect_word(c, name);
+  if (st == DYD_OK) st = dyd_cert_read_index(count, &c->in, most);
+  return st == DYD_OK ? dyd_cert_line_done(&c->in) : st;
 }
 
 dyd_status dyd_cert_read_site(uint32_t *out, dyd_cert_check *c) {
   if (c->sites.count == 0) return dyd_cert_reject(&c->in, "there is no site");
-  dyd_status status = dyd_cert_read_index(out, &c->in, c->sites.count - 1);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_read_index(out, &c->in, c->sites.count - 1);
+  if (st != DYD_OK) return st;
   if (c->sites.site[*out].alias != *out) return dyd_cert_reject(&c->in, "site %u is an alias", (unsigned)*out);
   return DYD_OK;
 }
 
 dyd_status dyd_cert_read_pair(dyd_cert_edge *pair, dyd_cert_check *c) {
   dyd_cert_edge next;
-  dyd_status status = dyd_cert_read_site(&next.i, c);
-  if (status >= 0) status = dyd_cert_read_site(&next.j, c);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_read_site(&next.i, c);
+  if (st == DYD_OK) st = dyd_cert_read_site(&next.j, c);
+  if (st != DYD_OK) return st;
   if (next.i >= next.j) return dyd_cert_reject(&c->in, "the second site must have the larger number");
   if (next.i < pair->i || (next.i == pair->i && next.j <= pair->j))
     return dyd_cert_reject(&c->in, "pairs are not in order");
   *pair = next;
   return DYD_OK;
+}
+
+/* A line "i x y" of a list sorted by i; *i is that of the line before. The point is c->point. */
+static dyd_status read_site_and_point(uint32_t *i, dyd_cert_check *c, bool first, const char *list) {
+  uint32_t last = *i;
+  dyd_status st = dyd_cert_next_line(&c->in);
+  if (st == DYD_OK) st = dyd_cert_read_site(i, c);
+  if (st == DYD_OK) st = dyd_cert_read_point(c->point, &c->in);
+  if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
+  if (st == DYD_OK && !first && *i <= last) st = dyd_cert_reject(&c->in, "%s are not in order", list);
+  return st;
+}
+
+void dyd_cert_note_bound(dyd_cert_check *c, const char *goal, const dyd_exact *bound) {
+  if (strcmp(c->report.goal, goal) != 0) return;
+  dyd_exact most;
+  dyd_exact_init(&most);
+  mpz_set_ui(most.man, 1);
+  most.exp = -c->report.goal_bits;
+  c->reached = dyd_exact_cmp(bound, &most) <= 0;
+  dyd_exact_clear(&most);
 }
 
 /* ---- head ---- */
@@ -58,12 +80,12 @@ static dyd_status check_goal(dyd_cert_check *c) {
                            *const second[] = {"area", "hausdorff"},
                            *const voronoi[] = {"voronoi area", "voronoi hausdorff"};
   size_t k = 0, m = 0;
-  dyd_status status = dyd_cert_next_line(&c->in);
-  if (status >= 0) status = dyd_cert_expect_word(c, "goal");
-  if (status >= 0) status = dyd_cert_read_choice(&k, c, first, 4);
-  if (status >= 0 && k == 3) status = dyd_cert_read_choice(&m, c, second, 2);
-  if (status >= 0 && k > 0) status = dyd_cert_read_integer(&c->report.goal_bits, &c->in);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_next_line(&c->in);
+  if (st == DYD_OK) st = dyd_cert_expect_word(c, "goal");
+  if (st == DYD_OK) st = dyd_cert_read_choice(&k, c, first, 4);
+  if (st == DYD_OK && k == 3) st = dyd_cert_read_choice(&m, c, second, 2);
+  if (st == DYD_OK && k > 0) st = dyd_cert_read_integer(&c->report.goal_bits, &c->in);
+  if (st != DYD_OK) return st;
   c->report.goal = k == 3 ? voronoi[m] : first[k];
   return dyd_cert_line_done(&c->in);
 }
@@ -72,93 +94,93 @@ dyd_status dyd_cert_check_head(dyd_cert_check *c) {
   static const char *const outcome[] = {"decided", "certified", "fixpoint", "budget", "cancelled", "error"};
   static const char *const answer[] = {"no", "yes"};
   size_t k = 0;
-  dyd_status status = dyd_cert_next_line(&c->in);
-  if (status >= 0 && strcmp(c->in.line, "dyadel certificate 1") != 0)
-    status = dyd_cert_reject(&c->in, "this is no \"dyadel certificate 1\"");
-  if (status >= 0) status = dyd_cert_next_line(&c->in);
-  if (status >= 0) status = dyd_cert_expect_word(c, "outcome");
-  if (status >= 0) status = dyd_cert_read_choice(&k, c, outcome, 6);
-  if (status >= 0) status = dyd_cert_line_done(&c->in);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_next_line(&c->in);
+  if (st == DYD_OK && strcmp(c->in.line, "dyadel certificate 1") != 0)
+    st = dyd_cert_reject(&c->in, "this is no \"dyadel certificate 1\"");
+  if (st == DYD_OK) st = dyd_cert_next_line(&c->in);
+  if (st == DYD_OK) st = dyd_cert_expect_word(c, "outcome");
+  if (st == DYD_OK) st = dyd_cert_read_choice(&k, c, outcome, 6);
+  if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
+  if (st != DYD_OK) return st;
   c->report.outcome = outcome[k];
-  status = check_goal(c);
-  if (status >= 0) status = dyd_cert_next_line(&c->in);
-  if (status >= 0) status = dyd_cert_expect_word(c, "capped");
-  if (status >= 0) status = dyd_cert_read_choice(&k, c, answer, 2);
+  st = check_goal(c);
+  if (st == DYD_OK) st = dyd_cert_next_line(&c->in);
+  if (st == DYD_OK) st = dyd_cert_expect_word(c, "capped");
+  if (st == DYD_OK) st = dyd_cert_read_choice(&k, c, answer, 2);
   c->report.capped = k == 1;
-  return status < 0 ? status : dyd_cert_line_done(&c->in);
+  return st == DYD_OK ? dyd_cert_line_done(&c->in) : st;
 }
 
 /* ---- sites ---- */
 
 static dyd_status read_alias(dyd_cert_check *c) {
   uint32_t own = (uint32_t)c->sites.count, of;
-  dyd_status status = dyd_cert_expect_word(c, "=");
-  if (status >= 0) status = dyd_cert_read_site(&of, c);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_expect_word(c, "=");
+  if (st == DYD_OK) st = dyd_cert_read_site(&of, c);
+  if (st != DYD_OK) return st;
   if (!dyd_cert_is_point(&c->sites.site[of])) return dyd_cert_reject(&c->in, "site %u is not exact", (unsigned)of);
   dyd_cert_site *site = dyd_cert_sites_add(&c->sites);
   if (!site) return dyd_fail_nomem(c->in.err);
-  for (int a = 0; a < 2 && status >= 0; a++) {
+  for (int a = 0; a < 2 && st == DYD_OK; a++) {
     const dyd_cert_side *from = &c->sites.site[of].side[a];
     dyd_exact_set(&site->side[a].lo, &from->lo);
-    if (from->den) status = dyd_cert_side_set_den(&site->side[a], *from->den);
+    if (from->den) st = dyd_cert_side_set_den(&site->side[a], *from->den);
   }
   c->sites.site[own].alias = of;
   c->report.aliases++;
-  return status;
+  return st;
 }
 
 static dyd_status read_rectangle(dyd_cert_check *c) {
   dyd_cert_site *site = dyd_cert_sites_add(&c->sites);
   if (!site) return dyd_fail_nomem(c->in.err);
-  dyd_status status = dyd_cert_read_side(&site->side[0], &c->in);
-  if (status >= 0) status = dyd_cert_read_side(&site->side[1], &c->in);
-  return status;
+  dyd_status st = dyd_cert_read_side(&site->side[0], &c->in);
+  if (st == DYD_OK) st = dyd_cert_read_side(&site->side[1], &c->in);
+  return st;
 }
 
 dyd_status dyd_cert_check_sites(dyd_cert_check *c) {
   uint32_t count;
-  dyd_status status = dyd_cert_read_heading(&count, c, "sites", (uint64_t)1 << 28);
-  for (uint32_t i = 0; i < count && status >= 0; i++) {
-    status = dyd_cert_next_line(&c->in);
-    if (status >= 0) status = c->in.line[0] == '=' ? read_alias(c) : read_rectangle(c);
-    if (status >= 0) status = dyd_cert_line_done(&c->in);
+  dyd_status st = read_heading(&count, c, "sites", (uint64_t)1 << 28);
+  for (uint32_t i = 0; i < count && st == DYD_OK; i++) {
+    st = dyd_cert_next_line(&c->in);
+    if (st == DYD_OK) st = c->in.line[0] == '=' ? read_alias(c) : read_rectangle(c);
+    if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
   }
-  if (status < 0) return status;
+  if (st != DYD_OK) return st;
   c->report.sites = count;
-  status = dyd_cert_sites_finish(&c->sites);
-  if (status >= 0) status = dyd_cert_tree_init(&c->tree, &c->sites);
-  return status < 0 ? dyd_fail_nomem(c->in.err) : DYD_OK;
+  st = dyd_cert_sites_finish(&c->sites);
+  if (st == DYD_OK) st = dyd_cert_tree_init(&c->tree, &c->sites);
+  return st != DYD_OK ? dyd_fail_nomem(c->in.err) : DYD_OK;
 }
 
 /* ---- legal pairs and bridges ---- */
 
 static dyd_status read_witnessed(dyd_cert_check *c, dyd_cert_edges *to, dyd_cert_edge *pair, bool places) {
   uint32_t other = 0;
-  dyd_status status = dyd_cert_next_line(&c->in);
-  if (status >= 0) status = dyd_cert_read_pair(pair, c);
-  if (status >= 0) status = dyd_cert_read_point(c->point, &c->in);
-  if (status >= 0) status = dyd_cert_line_done(&c->in);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_next_line(&c->in);
+  if (st == DYD_OK) st = dyd_cert_read_pair(pair, c);
+  if (st == DYD_OK) st = dyd_cert_read_point(c->point, &c->in);
+  if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
+  if (st != DYD_OK) return st;
   if (!dyd_cert_is_witness(&other, &c->sites, &c->tree, pair->i, pair->j, c->point, places))
     return dyd_cert_reject(&c->in, "the point is no witness of %u %u: site %u may be as near", (unsigned)pair->i,
                            (unsigned)pair->j, (unsigned)other);
-  return dyd_cert_edges_add(to, pair->i, pair->j) < 0 ? dyd_fail_nomem(c->in.err) : DYD_OK;
+  return dyd_cert_edges_add(to, pair->i, pair->j) != DYD_OK ? dyd_fail_nomem(c->in.err) : DYD_OK;
 }
 
 static dyd_status read_edges(dyd_cert_check *c, dyd_cert_edges *to, const char *name, bool places) {
   uint32_t count;
   dyd_cert_edge pair = {0, 0};
-  dyd_status status = dyd_cert_read_heading(&count, c, name, UINT32_MAX / 4);
-  for (uint32_t e = 0; e < count && status >= 0; e++) status = read_witnessed(c, to, &pair, places);
-  return status;
+  dyd_status st = read_heading(&count, c, name, UINT32_MAX / 4);
+  for (uint32_t e = 0; e < count && st == DYD_OK; e++) st = read_witnessed(c, to, &pair, places);
+  return st;
 }
 
 dyd_status dyd_cert_check_legal(dyd_cert_check *c) {
-  dyd_status status = read_edges(c, &c->legal, "legal", false);
+  dyd_status st = read_edges(c, &c->legal, "legal", false);
   c->report.legal = c->legal.count;
-  return status;
+  return st;
 }
 
 /* Is v in the side? */
@@ -168,29 +190,25 @@ static bool holds(const dyd_cert_side *s, const dyd_exact *v) {
 }
 
 dyd_status dyd_cert_check_places(dyd_cert_check *c) {
-  uint32_t count, i, last = 0;
-  dyd_status status = dyd_cert_read_heading(&count, c, "places", c->sites.count);
-  for (uint32_t q = 0; q < count && status >= 0; q++, last = i) {
-    status = dyd_cert_next_line(&c->in);
-    if (status >= 0) status = dyd_cert_read_site(&i, c);
-    if (status >= 0) status = dyd_cert_read_point(c->point, &c->in);
-    if (status >= 0) status = dyd_cert_line_done(&c->in);
-    if (status < 0) return status;
-    if (q && i <= last) return dyd_cert_reject(&c->in, "places are not in order");
+  uint32_t count, i = 0;
+  dyd_status st = read_heading(&count, c, "places", c->sites.count);
+  for (uint32_t q = 0; q < count && st == DYD_OK; q++) {
+    st = read_site_and_point(&i, c, q == 0, "places");
+    if (st != DYD_OK) return st;
     dyd_cert_site *site = &c->sites.site[i];
     if (!holds(&site->side[0], &c->point[0]) || !holds(&site->side[1], &c->point[1]))
       return dyd_cert_reject(&c->in, "the place is not in the rectangle of site %u", (unsigned)i);
-    if (dyd_cert_site_set_place(site, c->point) < 0) return dyd_fail_nomem(c->in.err);
+    if (dyd_cert_site_set_place(site, c->point) != DYD_OK) return dyd_fail_nomem(c->in.err);
   }
-  return status;
+  return st;
 }
 
 dyd_status dyd_cert_check_bridges(dyd_cert_check *c) {
-  dyd_status status = read_edges(c, &c->bridges, "bridges", true);
-  for (size_t e = 0; e < c->bridges.count && status >= 0; e++)
+  dyd_status st = read_edges(c, &c->bridges, "bridges", true);
+  for (size_t e = 0; e < c->bridges.count && st == DYD_OK; e++)
     if (dyd_cert_edges_have(&c->legal, c->bridges.item[e].i, c->bridges.item[e].j))
-      status = dyd_cert_reject(&c->in, "a bridge is a legal pair");
-  return status;
+      st = dyd_cert_reject(&c->in, "a bridge is a legal pair");
+  return st;
 }
 
 /* ---- corners ---- */
@@ -204,7 +222,7 @@ void dyd_cert_corners_clear(dyd_cert_corners *c) {
   *c = (dyd_cert_corners){0};
 }
 
-dyd_status dyd_cert_corners_add(dyd_cert_corners *c, uint32_t i, const dyd_exact u[2]) {
+static dyd_status add_corner(dyd_cert_corners *c, uint32_t i, const dyd_exact u[2]) {
   if (!dyd_reserve((void **)&c->item, &c->cap, c->count + 1, sizeof *c->item)) return DYD_E_NOMEM;
   dyd_cert_corner *corner = &c->item[c->count++];
   corner->i = i;
@@ -217,11 +235,11 @@ dyd_status dyd_cert_corners_add(dyd_cert_corners *c, uint32_t i, const dyd_exact
 
 static dyd_status find_faces(dyd_cert_check *c) {
   uint32_t bad;
-  dyd_status status = dyd_cert_graph_init(&c->graph, &c->sites, &c->legal, &c->bridges);
-  if (status >= 0 && c->graph.redundant)
+  dyd_status st = dyd_cert_graph_init(&c->graph, &c->sites, &c->legal, &c->bridges);
+  if (st == DYD_OK && c->graph.redundant)
     return dyd_cert_reject(&c->in, "a bridge joins sites that are connected without it");
-  if (status >= 0) status = dyd_cert_faces_init(&c->faces, &bad, &c->graph, c->corners.item, c->corners.count);
-  if (status < 0) return dyd_fail_nomem(c->in.err);
+  if (st == DYD_OK) st = dyd_cert_faces_init(&c->faces, &bad, &c->graph, c->corners.item, c->corners.count);
+  if (st != DYD_OK) return dyd_fail_nomem(c->in.err);
   if (bad != DYD_CERT_NONE) return dyd_cert_reject(&c->in, "site %u is not proved to be a corner", (unsigned)bad);
   c->report.connected = c->graph.connected;
   c->report.undecided_sets = c->faces.sets;
@@ -229,17 +247,12 @@ static dyd_status find_faces(dyd_cert_check *c) {
 }
 
 dyd_status dyd_cert_check_corners(dyd_cert_check *c) {
-  uint32_t count, i, last = 0;
-  dyd_status status = dyd_cert_read_heading(&count, c, "corners", c->sites.count);
-  for (uint32_t q = 0; q < count && status >= 0; q++, last = i) {
-    status = dyd_cert_next_line(&c->in);
-    if (status >= 0) status = dyd_cert_read_site(&i, c);
-    if (status >= 0) status = dyd_cert_read_point(c->point, &c->in);
-    if (status >= 0) status = dyd_cert_line_done(&c->in);
-    if (status < 0) return status;
-    if (q && i <= last) return dyd_cert_reject(&c->in, "corners are not in order");
-    if (dyd_cert_corners_add(&c->corners, i, c->point) < 0) return dyd_fail_nomem(c->in.err);
+  uint32_t count, i = 0;
+  dyd_status st = read_heading(&count, c, "corners", c->sites.count);
+  for (uint32_t q = 0; q < count && st == DYD_OK; q++) {
+    st = read_site_and_point(&i, c, q == 0, "corners");
+    if (st == DYD_OK && add_corner(&c->corners, i, c->point) != DYD_OK) st = dyd_fail_nomem(c->in.err);
   }
   c->report.corners = count;
-  return status < 0 ? status : find_faces(c);
+  return st == DYD_OK ? find_faces(c) : st;
 }

@@ -40,8 +40,6 @@ dyd_status dyd_cert_check_bridges(dyd_cert_check *c);
 dyd_status dyd_cert_check_corners(dyd_cert_check *c);
 /* Up to the bounds. */
 dyd_status dyd_cert_check_pairs(dyd_cert_check *c);
-/* The section on the diagram, if there is one, the outcome, and the last line. */
-dyd_status dyd_cert_check_end(dyd_cert_check *c);
 /* The section on the Voronoi diagram, whose first line has been read. */
 dyd_status dyd_cert_check_diagram(dyd_cert_check *c);
 /* The bound that the goal `goal` is about is stated to be `bound`. */
@@ -54,8 +52,6 @@ void dyd_cert_polygon_area2(dyd_exact *out, const dyd_cert_chain *p);
 bool dyd_cert_window_has(const dyd_cert_window *w, const dyd_exact at[2]);
 void dyd_cert_window_area(dyd_exact *out, const dyd_cert_window *w);
 
-/* A line "NAME count"; the count is at most `most`. */
-dyd_status dyd_cert_read_heading(uint32_t *count, dyd_cert_check *c, const char *name, uint64_t most);
 /* The word must be there. */
 dyd_status dyd_cert_expect_word(dyd_cert_check *c, const char *name);
 /* The word is one of text[0 .. count-1]; *out is its number. */
@@ -66,6 +62,5 @@ dyd_status dyd_cert_read_site(uint32_t *out, dyd_cert_check *c);
 dyd_status dyd_cert_read_pair(dyd_cert_edge *pair, dyd_cert_check *c);
 
 void dyd_cert_corners_clear(dyd_cert_corners *c);
-dyd_status dyd_cert_corners_add(dyd_cert_corners *c, uint32_t i, const dyd_exact u[2]);
 
 #endif

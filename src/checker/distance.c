@@ -53,7 +53,7 @@ typedef struct search {
   uint32_t *list;
   size_t cap;
   uint64_t effort, effort_most;
-  dyd_status status;
+  dyd_status st;
   mpz_t root, rest;
   dyd_fraction gap, part;
 } search;
@@ -127,17 +127,12 @@ static void make_grid(grid_box *window, search *s, const dyd_cert_window *w) {
 
 /* ---- distances on the grid ---- */
 
-static dyd_cert_area square(int64_t d) {
-  dyd_cert_area size = (dyd_cert_area)(d < 0 ? -d : d);
-  return size * size;
-}
-
 static dyd_cert_area far_of(const grid_box *q, const grid_site *g) {
   dyd_cert_area sum = 0;
   if (g->endless) return ~(dyd_cert_area)0;
   for (int a = 0; a < 4; a += 2) {
     int64_t left = q->e[a + 1] - g->box.e[a], right = g->box.e[a + 1] - q->e[a];
-    sum += square(left > right ? left : right);
+    sum += dyd_cert_square(left > right ? left : right);
   }
   return sum;
 }
@@ -146,7 +141,7 @@ static dyd_cert_area near_of(const grid_box *q, const grid_box *b) {
   dyd_cert_area sum = 0;
   for (int a = 0; a < 4; a += 2) {
     int64_t left = b->e[a] - q->e[a + 1], right = q->e[a] - b->e[a + 1], d = left > right ? left : right;
-    if (d > 0) sum += square(d);
+    if (d > 0) sum += dyd_cert_square(d);
   }
   return sum;
 }
@@ -277,7 +272,7 @@ static size_t keep_possible(search *s, const grid_box *q, size_t from, size_t co
   size_t kept = 0;
   s->effort += count;
   if (!dyd_reserve((void **)&s->list, &s->cap, from + 2 * count, sizeof *s->list)) {
-    s->status = DYD_E_NOMEM;
+    s->st = DYD_E_NOMEM;
     return 0;
   }
   for (size_t k = from; k < from + count; k++) {
@@ -297,7 +292,7 @@ static bool is_worth_a_look(size_t count, size_t before) {
 /* before: the sites of the box around q are list[from .. from+before). */
 static bool covers(search *s, const grid_box *q, size_t from, size_t before) {
   size_t count = keep_possible(s, q, from, before);
-  if (s->status < 0 || s->effort > s->effort_most) return false;
+  if (s->st != DYD_OK || s->effort > s->effort_most) return false;
   from += before;
   if (count == 1) return true;
   if (is_worth_a_look(count, before) && pairs_hold(s, q, s->list + from, count)) return true;
@@ -375,18 +370,18 @@ dyd_status dyd_cert_distance_holds(bool *holds, const dyd_cert_sites *sites, con
   grid_box window;
   search_init(&s);
   s.item = dyd_alloc(sites->count, sizeof *s.item);
-  if (!s.item) s.status = DYD_E_NOMEM;
+  if (!s.item) s.st = DYD_E_NOMEM;
   *holds = false;
-  if (s.status >= 0 && dyd_exact_sgn(bound) >= 0) {
+  if (s.st == DYD_OK && dyd_exact_sgn(bound) >= 0) {
     make_grid(&window, &s, w);
     for (uint32_t v = 0; v < sites->count; v++)
       if (sites->site[v].alias == v) place_site(&s, v);
     s.effort_most = ((uint64_t)s.count + 64) << EFFORT_BITS;
-    if (!dyd_reserve((void **)&s.list, &s.cap, s.count, sizeof *s.list)) s.status = DYD_E_NOMEM;
-    for (size_t k = 0; s.status >= 0 && k < s.count; k++) s.list[k] = (uint32_t)k;
-    *holds = s.status >= 0 && s.count && (spans_all(&s, w) || covers(&s, &window, 0, s.count));
-    *holds &= s.status >= 0;
+    if (!dyd_reserve((void **)&s.list, &s.cap, s.count, sizeof *s.list)) s.st = DYD_E_NOMEM;
+    for (size_t k = 0; s.st == DYD_OK && k < s.count; k++) s.list[k] = (uint32_t)k;
+    *holds = s.st == DYD_OK && s.count && (spans_all(&s, w) || covers(&s, &window, 0, s.count));
+    *holds &= s.st == DYD_OK;
   }
   search_clear(&s);
-  return s.status;
+  return s.st;
 }

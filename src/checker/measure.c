@@ -22,15 +22,30 @@ void dyd_fraction_swap(dyd_fraction *a, dyd_fraction *b) {
   *b = t;
 }
 
+/* x and y, initialised here: the numerators of two fractions over the product of their denominators. */
+static void init_over_common(dyd_exact *x, dyd_exact *y, const dyd_fraction *a, const dyd_fraction *b) {
+  dyd_exact_init(x);
+  dyd_exact_init(y);
+  dyd_exact_set(x, &a->num);
+  dyd_exact_set(y, &b->num);
+  if (!b->whole) dyd_exact_mul_z(x, x, b->den);
+  if (!a->whole) dyd_exact_mul_z(y, y, a->den);
+}
+
+/* The denominator of a product, one of the factors not being whole. */
+static void multiply_dens(dyd_fraction *out, const dyd_fraction *a, const dyd_fraction *b) {
+  if (a->whole)
+    mpz_set(out->den, b->den);
+  else if (b->whole)
+    mpz_set(out->den, a->den);
+  else
+    mpz_mul(out->den, a->den, b->den);
+}
+
 int dyd_fraction_cmp(const dyd_fraction *a, const dyd_fraction *b) {
   if (a->whole && b->whole) return dyd_exact_cmp(&a->num, &b->num);
   dyd_exact x, y;
-  dyd_exact_init(&x);
-  dyd_exact_init(&y);
-  dyd_exact_set(&x, &a->num);
-  dyd_exact_set(&y, &b->num);
-  if (!b->whole) dyd_exact_mul_z(&x, &x, b->den);
-  if (!a->whole) dyd_exact_mul_z(&y, &y, a->den);
+  init_over_common(&x, &y, a, b);
   int sign = dyd_exact_cmp(&x, &y);
   dyd_exact_clear(&x);
   dyd_exact_clear(&y);
@@ -63,14 +78,7 @@ void dyd_fraction_sub(dyd_fraction *out, const dyd_exact *a, mpz_srcptr da, cons
 /* out may be a or b. */
 void dyd_fraction_mul(dyd_fraction *out, const dyd_fraction *a, const dyd_fraction *b) {
   bool whole = a->whole && b->whole;
-  if (!whole) {
-    if (a->whole)
-      mpz_set(out->den, b->den);
-    else if (b->whole)
-      mpz_set(out->den, a->den);
-    else
-      mpz_mul(out->den, a->den, b->den);
-  }
+  if (!whole) multiply_dens(out, a, b);
   dyd_exact_mul(&out->num, &a->num, &b->num);
   out->whole = whole;
 }
@@ -82,18 +90,8 @@ void dyd_fraction_add(dyd_fraction *out, const dyd_fraction *a, const dyd_fracti
     return;
   }
   dyd_exact x, y;
-  dyd_exact_init(&x);
-  dyd_exact_init(&y);
-  dyd_exact_set(&x, &a->num);
-  dyd_exact_set(&y, &b->num);
-  if (!b->whole) dyd_exact_mul_z(&x, &x, b->den);
-  if (!a->whole) dyd_exact_mul_z(&y, &y, a->den);
-  if (a->whole)
-    mpz_set(out->den, b->den);
-  else if (b->whole)
-    mpz_set(out->den, a->den);
-  else
-    mpz_mul(out->den, a->den, b->den);
+  init_over_common(&x, &y, a, b);
+  multiply_dens(out, a, b);
   dyd_exact_add(&out->num, &x, &y);
   out->whole = false;
   dyd_exact_clear(&x);

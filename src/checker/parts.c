@@ -18,11 +18,6 @@ size_t dyd_cert_distinct(uint32_t *item, size_t count) {
   return kept;
 }
 
-static uint32_t find_root(uint32_t *parent, uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
 /* What is borrowed while parts are made; at: half-edge -> its position in the walk, DYD_CERT_NONE: not there. */
 typedef struct maker {
   const dyd_cert_graph *g;
@@ -51,11 +46,11 @@ static void number_groups(dyd_cert_parts *p, maker *m) {
   for (size_t q = 0; q < m->count; q++) {
     uint32_t h = m->walk[q], twin = m->at[h ^ 1];
     if (h / 2 >= m->g->legal->count && twin != DYD_CERT_NONE)
-      m->parent[find_root(m->parent, p->group[q])] = find_root(m->parent, p->group[twin]);
+      m->parent[dyd_cert_root(m->parent, p->group[q])] = dyd_cert_root(m->parent, p->group[twin]);
   }
   for (uint32_t k = 0; k <= part; k++)
-    if (find_root(m->parent, k) == k) m->number[k] = (uint32_t)p->groups++;
-  for (size_t q = 0; q < m->count; q++) p->group[q] = m->number[find_root(m->parent, p->group[q])];
+    if (dyd_cert_root(m->parent, k) == k) m->number[k] = (uint32_t)p->groups++;
+  for (size_t q = 0; q < m->count; q++) p->group[q] = m->number[dyd_cert_root(m->parent, p->group[q])];
 }
 
 /* A position's site is a site of its group; a corner also of the group before. */

@@ -95,16 +95,16 @@ static bool read_small(long long *out, const char *text) {
 
 dyd_status dyd_cert_read_integer(long long *out, dyd_cert_reader *r) {
   char *word = NULL;
-  dyd_status status = dyd_cert_word(&word, r);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_word(&word, r);
+  if (st != DYD_OK) return st;
   return read_small(out, word) ? DYD_OK : dyd_cert_reject(r, "\"%.40s\" is no integer", word);
 }
 
 dyd_status dyd_cert_read_index(uint32_t *out, dyd_cert_reader *r, uint64_t most) {
   long long value;
   char *word = NULL;
-  dyd_status status = dyd_cert_word(&word, r);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_word(&word, r);
+  if (st != DYD_OK) return st;
   if (!read_small(&value, word) || value < 0)
     return dyd_cert_reject(r, "\"%.40s\" is not a number of a site or of lines", word);
   if ((uint64_t)value > most) return dyd_cert_reject(r, "%lld is too large", value);
@@ -133,14 +133,14 @@ static bool scan_number(dyd_exact *out, char *text) {
 
 dyd_status dyd_cert_read_number(dyd_exact *out, dyd_cert_reader *r) {
   char *word = NULL;
-  dyd_status status = dyd_cert_word(&word, r);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_word(&word, r);
+  if (st != DYD_OK) return st;
   return scan_number(out, word) ? DYD_OK : dyd_cert_reject(r, "\"%.40s\" is not a number m or m*2^e", word);
 }
 
 dyd_status dyd_cert_read_point(dyd_exact out[2], dyd_cert_reader *r) {
-  dyd_status status = dyd_cert_read_number(&out[0], r);
-  return status < 0 ? status : dyd_cert_read_number(&out[1], r);
+  dyd_status st = dyd_cert_read_number(&out[0], r);
+  return st == DYD_OK ? dyd_cert_read_number(&out[1], r) : st;
 }
 
 /* A denominator: odd, > 1, without a factor in common with the numerator. */
@@ -152,16 +152,16 @@ static dyd_status read_den(dyd_cert_side *out, dyd_cert_reader *r, const char *t
   bool good = mpz_set_str(den, text, 10) == 0 && mpz_cmp_ui(den, 1) > 0 && mpz_odd_p(den);
   if (good) mpz_gcd(g, den, out->lo.man);
   good = good && mpz_cmp_ui(g, 1) == 0 && mpz_sizeinbase(den, 2) <= (size_t)DYD_EXP_LIMIT;
-  dyd_status status =
+  dyd_status st =
       good ? dyd_cert_side_set_den(out, den) : dyd_cert_reject(r, "\"%.40s\" is no denominator in lowest terms", text);
   mpz_clears(den, g, NULL);
-  return status;
+  return st;
 }
 
 dyd_status dyd_cert_read_side(dyd_cert_side *out, dyd_cert_reader *r) {
   char *word = NULL;
-  dyd_status status = dyd_cert_word(&word, r);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_word(&word, r);
+  if (st != DYD_OK) return st;
   size_t length = strcspn(word, "/+");
   char kind = word[length];
   word[length] = 0;
@@ -172,9 +172,9 @@ dyd_status dyd_cert_read_side(dyd_cert_side *out, dyd_cert_reader *r) {
   dyd_exact width;
   dyd_exact_init(&width);
   if (!scan_number(&width, word + length + 1) || dyd_exact_sgn(&width) <= 0)
-    status = dyd_cert_reject(r, "\"%.40s\" is not a width", word + length + 1);
+    st = dyd_cert_reject(r, "\"%.40s\" is not a width", word + length + 1);
   else
     dyd_exact_add(&out->hi, &out->lo, &width);
   dyd_exact_clear(&width);
-  return status;
+  return st;
 }

@@ -37,9 +37,9 @@ static dyd_status sort_items(dyd_cert_tree *t, const dyd_cert_sites *s) {
     qsort(k, t->count, sizeof *k, compare_keyed);
     for (size_t q = 0; q < t->count; q++) t->item[q] = k[q].site;
   }
-  dyd_status status = k && t->item ? DYD_OK : DYD_E_NOMEM;
+  dyd_status st = k && t->item ? DYD_OK : DYD_E_NOMEM;
   free(k);
-  return status;
+  return st;
 }
 
 static void enclose(dyd_cert_box *out, const dyd_cert_box *b, bool first) {
@@ -64,9 +64,9 @@ static void fill_level(dyd_cert_tree *t, int level) {
 
 dyd_status dyd_cert_tree_init(dyd_cert_tree *t, const dyd_cert_sites *s) {
   *t = (dyd_cert_tree){.box = s->box};
-  dyd_status status = sort_items(t, s);
+  dyd_status st = sort_items(t, s);
   t->node = dyd_alloc(t->count / 4 + DYD_CERT_LEVELS, sizeof *t->node); /* 1/8 + 1/64 + ... < 1/4, one more a level */
-  if (status < 0 || !t->node) {
+  if (st != DYD_OK || !t->node) {
     dyd_cert_tree_clear(t);
     return DYD_E_NOMEM;
   }
@@ -96,25 +96,21 @@ void dyd_cert_centre_set(dyd_cert_centre *out, const dyd_cert_sites *s, const dy
   mpz_clear(t);
 }
 
-static dyd_cert_area square(int64_t d) {
-  dyd_cert_area size = (dyd_cert_area)(d < 0 ? -d : d);
-  return size * size;
-}
-
 dyd_cert_area dyd_cert_far_upper(const dyd_cert_centre *c, const dyd_cert_box *b) {
   dyd_cert_area sum = 0;
   for (int a = 0; a < 4; a += 2) {
     int64_t left = c->e[a + 1] - b->e[a], right = b->e[a + 1] - c->e[a];
-    sum += square(left > right ? left : right);
+    sum += dyd_cert_square(left > right ? left : right);
   }
   return sum;
 }
 
-dyd_cert_area dyd_cert_near_lower(const dyd_cert_centre *c, const dyd_cert_box *b) {
+/* A lower bound of that to its closest point. */
+static dyd_cert_area near_lower(const dyd_cert_centre *c, const dyd_cert_box *b) {
   dyd_cert_area sum = 0;
   for (int a = 0; a < 4; a += 2) {
     int64_t left = b->e[a] - c->e[a + 1], right = c->e[a] - b->e[a + 1], d = left > right ? left : right;
-    if (d > 0) sum += square(d);
+    if (d > 0) sum += dyd_cert_square(d);
   }
   return sum;
 }
@@ -123,7 +119,7 @@ static bool visit_node(const dyd_cert_tree *t, int level, size_t q, const dyd_ce
                        dyd_cert_visit *visit, void *context) {
   size_t first = q * DYD_CERT_FANOUT, last = first + DYD_CERT_FANOUT, size = size_below(t, level);
   for (size_t child = first; child < last && child < size; child++) {
-    if (!c->far && dyd_cert_near_lower(c, below(t, level, child)) > limit) continue;
+    if (!c->far && near_lower(c, below(t, level, child)) > limit) continue;
     bool more = level == 0 ? visit(context, t->item[child]) : visit_node(t, level - 1, child, c, limit, visit, context);
     if (!more) return false;
   }
