@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [AREA-T] dyd_filter_hull_area2 in binary64: where it succeeds, what it gives is not below twice the area of the hull,
+(** [AREA-T] dyd_filter_partial_edge_area2 in binary64: where it succeeds, what it gives is not below twice the area of the hull,
     and exceeds it by at most 2^-86 of it. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
 From Flocq Require Import Core BinarySingleNaN Binary Bits.
@@ -57,12 +57,12 @@ Definition corner (x y : daxis) : dd :=
 Definition cross (x y : daxis) : dd :=
   dd_add (dd_mul (dwb x) (dd_add (dwa y) (dwb y))) (dd_mul (dwa x) (dd_add (dlow y) (dhigh y))).
 
-(* C src/metric/measure_filter.c dyd_filter_hull_area2
+(* C src/metric/measure_filter.c dyd_filter_partial_edge_area2
   axis x, y;
   if (!axis_set(&x, a, b) || !axis_set(&y, a + 2, b + 2)) return false;
   int in_x = x.b_low + x.b_high, in_y = y.b_low + y.b_high;
   if (in_x + in_y > 2) {
-    return dyd_filter_hull_area2(out, b, a);
+    return dyd_filter_partial_edge_area2(out, b, a);
   }
   dd sum;
   if (in_x + in_y == 0) {

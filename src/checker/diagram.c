@@ -5,7 +5,7 @@
  * less than half a turn each time, is convex and simple when its edges turn round once in all: when they change once
  * from going back to going on, in the order by x, then by y. */
 #include "base/error.h"
-#include "checker/check.h"
+#include "checker/checker.h"
 
 #include <string.h>
 
@@ -51,7 +51,7 @@ bool dyd_cert_window_has(const dyd_cert_window *w, const dyd_exact at[2]) {
 }
 
 /* The rest of a line: the vertices. */
-static dyd_status read_vertices(dyd_cert_check *c) {
+static dyd_status read_vertices(dyd_checker *c) {
   dyd_cert_chain *p = &c->chain;
   dyd_status st = DYD_OK;
   for (size_t k = 0; st == DYD_OK && (k == 0 || dyd_cert_line_has_more(&c->in)); k++) {
@@ -61,7 +61,7 @@ static dyd_status read_vertices(dyd_cert_check *c) {
   return st;
 }
 
-static dyd_status check_polygon(dyd_cert_check *c, dyd_exact *area2, const dyd_cert_window *w, uint32_t i) {
+static dyd_status check_polygon(dyd_checker *c, dyd_exact *area2, const dyd_cert_window *w, uint32_t i) {
   uint32_t other;
   dyd_status st = read_vertices(c);
   if (st != DYD_OK) return st;
@@ -79,7 +79,7 @@ static dyd_status check_polygon(dyd_cert_check *c, dyd_exact *area2, const dyd_c
 }
 
 /* Stops at the line "undetermined", which is left to be read on. */
-static dyd_status check_polygons(dyd_cert_check *c, dyd_exact *area2, const dyd_cert_window *w) {
+static dyd_status check_polygons(dyd_checker *c, dyd_exact *area2, const dyd_cert_window *w) {
   uint32_t i = 0, last = 0;
   dyd_status st = dyd_cert_next_line(&c->in);
   if (st == DYD_OK) st = dyd_cert_expect_word(c, "polygons");
@@ -106,7 +106,7 @@ void dyd_cert_window_area(dyd_exact *out, const dyd_cert_window *w) {
 }
 
 /* area2: twice the area of the polygons; it is used up. */
-static dyd_status check_area(dyd_cert_check *c, dyd_exact *area2, const dyd_cert_window *w) {
+static dyd_status check_area(dyd_checker *c, dyd_exact *area2, const dyd_cert_window *w) {
   dyd_exact bound, all;
   dyd_exact_init(&bound);
   dyd_exact_init(&all);
@@ -126,7 +126,7 @@ static dyd_status check_area(dyd_cert_check *c, dyd_exact *area2, const dyd_cert
 }
 
 /* The rest of a line "distance H" or "distance H unproved"; its number is *bound. */
-static dyd_status check_bound(dyd_cert_check *c, const dyd_exact *bound, const dyd_cert_window *w) {
+static dyd_status check_bound(dyd_checker *c, const dyd_exact *bound, const dyd_cert_window *w) {
   dyd_status st = DYD_OK;
   bool proved = !dyd_cert_line_has_more(&c->in), holds = false;
   if (!proved) st = dyd_cert_expect_word(c, "unproved");
@@ -142,7 +142,7 @@ static dyd_status check_bound(dyd_cert_check *c, const dyd_exact *bound, const d
   return DYD_OK;
 }
 
-static dyd_status check_distance(dyd_cert_check *c, const dyd_cert_window *w) {
+static dyd_status check_distance(dyd_checker *c, const dyd_cert_window *w) {
   dyd_exact bound;
   dyd_status st = dyd_cert_next_line(&c->in);
   if (st == DYD_OK) st = dyd_cert_expect_word(c, "distance");
@@ -156,7 +156,7 @@ static dyd_status check_distance(dyd_cert_check *c, const dyd_cert_window *w) {
 
 /* ---- all ---- */
 
-static dyd_status read_window(dyd_cert_check *c, dyd_cert_window *w) {
+static dyd_status read_window(dyd_checker *c, dyd_cert_window *w) {
   dyd_status st = dyd_cert_expect_word(c, "window");
   for (int k = 0; k < 4 && st == DYD_OK; k++) st = dyd_cert_read_number(&w->e[k], &c->in);
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
@@ -166,7 +166,7 @@ static dyd_status read_window(dyd_cert_check *c, dyd_cert_window *w) {
   return DYD_OK;
 }
 
-dyd_status dyd_cert_check_diagram(dyd_cert_check *c) {
+dyd_status dyd_checker_diagram(dyd_checker *c) {
   dyd_cert_window w;
   dyd_exact area2;
   dyd_cert_window_init(&w);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Checks the pairs of a certificate: chains, what is left unproved, bounds. */
 #include "base/error.h"
-#include "checker/check.h"
+#include "checker/checker.h"
 
 #include <string.h>
 
 /* ---- pairs ---- */
 
 /* The rest of a line "n i j": direction, blocker, point, blocker, ..., point, blocker, direction. */
-static dyd_status read_chain(dyd_cert_check *c) {
+static dyd_status read_chain(dyd_checker *c) {
   dyd_cert_chain *chain = &c->chain;
   dyd_status st = dyd_cert_read_point(chain->u[0], &c->in);
   for (size_t q = 0; st == DYD_OK; q++) {
@@ -24,7 +24,7 @@ static dyd_status read_chain(dyd_cert_check *c) {
   return st;
 }
 
-static dyd_status check_chain(dyd_cert_check *c, const dyd_cert_edge *pair) {
+static dyd_status check_chain(dyd_checker *c, const dyd_cert_edge *pair) {
   dyd_status st = read_chain(c);
   if (st != DYD_OK) return st;
   if (!dyd_cert_faces_share(&c->faces, pair->i, pair->j))
@@ -36,7 +36,7 @@ static dyd_status check_chain(dyd_cert_check *c, const dyd_cert_edge *pair) {
   return DYD_OK;
 }
 
-static dyd_status check_open(dyd_cert_check *c, const dyd_cert_edge *pair, char kind) {
+static dyd_status check_open(dyd_checker *c, const dyd_cert_edge *pair, char kind) {
   dyd_status st = dyd_cert_line_done(&c->in);
   if (st != DYD_OK) return st;
   if (kind == 't' && !(dyd_cert_is_point(&c->sites.site[pair->i]) && dyd_cert_is_point(&c->sites.site[pair->j])))
@@ -49,7 +49,7 @@ static dyd_status check_open(dyd_cert_check *c, const dyd_cert_edge *pair, char 
   return dyd_cert_edges_add(&c->open, pair->i, pair->j) != DYD_OK ? dyd_fail_nomem(c->in.err) : DYD_OK;
 }
 
-static dyd_status read_pair_line(dyd_cert_check *c, dyd_cert_edge *pair) {
+static dyd_status read_pair_line(dyd_checker *c, dyd_cert_edge *pair) {
   static const char *const kinds[] = {"o", "t", "l", "n"};
   size_t kind;
   dyd_status st = dyd_cert_read_choice(&kind, c, kinds, 4);
@@ -62,7 +62,7 @@ static dyd_status read_pair_line(dyd_cert_check *c, dyd_cert_edge *pair) {
 }
 
 /* Stops at the line "triangles", which is left to be read on. */
-static dyd_status read_pairs(dyd_cert_check *c) {
+static dyd_status read_pairs(dyd_checker *c) {
   dyd_cert_edge pair = {0, 0};
   dyd_status st = dyd_cert_next_line(&c->in);
   if (st == DYD_OK) st = dyd_cert_expect_word(c, "pairs");
@@ -77,7 +77,7 @@ static dyd_status read_pairs(dyd_cert_check *c) {
 
 /* ---- counts ---- */
 
-static dyd_status check_counts(dyd_cert_check *c) {
+static dyd_status check_counts(dyd_checker *c) {
   long long triangles, unproved;
   dyd_status st = dyd_cert_expect_word(c, "triangles");
   if (st == DYD_OK) st = dyd_cert_read_integer(&triangles, &c->in);
@@ -101,7 +101,7 @@ static dyd_status check_counts(dyd_cert_check *c) {
 /* ---- bounds ---- */
 
 /* "NAME none" or "NAME number"; *present tells. */
-static dyd_status read_bound(bool *present, dyd_exact *out, dyd_cert_check *c, const char *name) {
+static dyd_status read_bound(bool *present, dyd_exact *out, dyd_checker *c, const char *name) {
   dyd_status st = dyd_cert_next_line(&c->in);
   if (st == DYD_OK) st = dyd_cert_expect_word(c, name);
   if (st != DYD_OK) return st;
@@ -111,14 +111,14 @@ static dyd_status read_bound(bool *present, dyd_exact *out, dyd_cert_check *c, c
   return st == DYD_OK ? dyd_cert_line_done(&c->in) : st;
 }
 
-static void add_all(dyd_cert_bounds *b, const dyd_cert_check *c) {
+static void add_all(dyd_cert_bounds *b, const dyd_checker *c) {
   for (size_t e = 0; e < c->legal.count; e++)
     dyd_cert_bounds_add(b, &c->sites, c->legal.item[e].i, c->legal.item[e].j, true);
   for (size_t e = 0; e < c->open.count; e++)
     dyd_cert_bounds_add(b, &c->sites, c->open.item[e].i, c->open.item[e].j, false);
 }
 
-static dyd_status check_bounds(dyd_cert_check *c, dyd_exact bound[2]) {
+static dyd_status check_bounds(dyd_checker *c, dyd_exact bound[2]) {
   static const char *const name[2] = {"area", "hausdorff"};
   bool present[2] = {false, false};
   for (int k = 0; k < 2; k++) {
@@ -142,7 +142,7 @@ static dyd_status check_bounds(dyd_cert_check *c, dyd_exact bound[2]) {
   return DYD_OK;
 }
 
-dyd_status dyd_cert_check_pairs(dyd_cert_check *c) {
+dyd_status dyd_checker_pairs(dyd_checker *c) {
   dyd_exact bound[2];
   dyd_exact_init(&bound[0]);
   dyd_exact_init(&bound[1]);

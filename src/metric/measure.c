@@ -76,7 +76,7 @@ dyd_status dyd_measure_area(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
   if (in_doubles(m, i) && in_doubles(m, j)) {
     dyd_sites_get_d(a, m->sites, i);
     dyd_sites_get_d(b, m->sites, j);
-    if (dyd_filter_hull_area2(dd, a, b)) {
+    if (dyd_filter_partial_edge_area2(dd, a, b)) {
       set_dd(out, dd);
       mpfr_div_2ui(out, out, 1, MPFR_RNDU);
       return DYD_OK;
@@ -84,7 +84,7 @@ dyd_status dyd_measure_area(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
   }
   dyd_status status = fetch(m, i, j);
   if (status < 0) return status;
-  dyd_hull_area2(m->sum, &m->a, &m->b);
+  dyd_partial_edge_area2(m->sum, &m->a, &m->b);
   mpfr_set_q(out, m->sum, MPFR_RNDU);
   mpfr_div_2ui(out, out, 1, MPFR_RNDU);
   return DYD_OK;

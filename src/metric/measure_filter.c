@@ -122,13 +122,13 @@ static dd area2_cross(const axis *x, const axis *y) {
  * 2 area = 2 W H - sum of the products of the legs. The forms above are this, written without a subtraction:
  * for the corner case with W = wa + p = wb + r, H = ha + s = hb + q it is 2 W H - p q - r s, where
  * W H - p q = wa H + p hb and W H - r s = wb H + r ha; the others likewise. */
-bool dyd_filter_hull_area2(double out[2], const double a[4], const double b[4]) {
+bool dyd_filter_partial_edge_area2(double out[2], const double a[4], const double b[4]) {
   axis x, y;
   if (!axis_set(&x, a, b) || !axis_set(&y, a + 2, b + 2)) return false;
   int in_x = x.b_low + x.b_high, in_y = y.b_low + y.b_high;
   if (in_x + in_y > 2) {
     /* Seen from b, at most 4 - 3 sides are the other's; ties count for the first. */
-    return dyd_filter_hull_area2(out, b, a);
+    return dyd_filter_partial_edge_area2(out, b, a);
   }
   dd sum;
   if (in_x + in_y == 0) {

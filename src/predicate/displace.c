@@ -9,9 +9,9 @@
 static bool hulls_disjoint(const dyd_rect *const r[4]) {
   dyd_box box[4];
   for (int k = 0; k < 4; k++) dyd_filter_box(&box[k], r[k]);
-  dyd_truth answer = dyd_filter_hulls_disjoint(&box[0], &box[1], &box[2], &box[3]);
+  dyd_truth answer = dyd_filter_partial_edges_disjoint(&box[0], &box[1], &box[2], &box[3]);
   if (answer != DYD_UNKNOWN) return answer == DYD_TRUE;
-  return dyd_hulls_disjoint(r[0], r[1], r[2], r[3]);
+  return dyd_partial_edges_disjoint(r[0], r[1], r[2], r[3]);
 }
 
 dyd_truth dyd_cannot_displace(const dyd_rect *i, const dyd_rect *j, const dyd_rect *a, const dyd_rect *b) {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* All critical circles of three integer rectangles.
  *
- * [CRIT-1] A circle that meets r[m] as touch[m] says has its centre in some cell of predicate/cell.h, where its three
+ * [CRIT-1] A circle that meets r[m] as touch[m] says has its centre in some pane of predicate/pane.h, where its three
  * features are known; a C-rectangle around the centre has ds = 0, which is no circle. Conversely a centre in a closed
- * cell, found from the features of that cell, has exactly these features at distance ds or dl. So the circles are the
- * solutions of predicate/solve.c, cell by cell, whose centre is in the cell. Some rectangle is F, hence some corner is
+ * pane, found from the features of that pane, has exactly these features at distance ds or dl. So the circles are the
+ * solutions of predicate/solve.c, pane by pane, whose centre is in the pane. Some rectangle is F, hence some corner is
  * on the circle. */
 #include "base/invariant.h"
-#include "predicate/cell.h"
+#include "predicate/pane.h"
 #include "predicate/solve.h"
 
 /* Everything one call needs, allocated once. */
@@ -57,7 +57,7 @@ static int64_t choose_shift(search *q) {
   return bits > 200 ? (int64_t)bits - 200 : 0;
 }
 
-/* The feature of rectangle m in a cell, relative to the corner of the base; false: the centre itself. */
+/* The feature of rectangle m in a pane, relative to the corner of the base; false: the centre itself. */
 static bool set_feature(dyd_feature *out, const dyd_slab *const s[2], int m, int base) {
   for (int k = 0; k < 2; k++) {
     mpz_srcptr at = s[k]->mark[m].at;
@@ -107,11 +107,11 @@ static bool is_new(const dyd_icircle *out, size_t count, const dyd_icircle *k) {
   return true;
 }
 
-/* Adds the circles of one cell. */
-static size_t search_cell(search *q, dyd_icircle *out, size_t count, size_t room, const dyd_slab *const s[2]) {
+/* Adds the circles of one pane. */
+static size_t search_pane(search *q, dyd_icircle *out, size_t count, size_t room, const dyd_slab *const s[2]) {
   if (!set_feature(&q->f, s, (q->base + 1) % 3, q->base)) return count;
   if (!set_feature(&q->g, s, (q->base + 2) % 3, q->base)) return count;
-  if (dyd_filter_cell_empty(s[0], s[1], q->base)) return count;
+  if (dyd_filter_pane_empty(s[0], s[1], q->base)) return count;
   for (int which = 0; which < DYD_CENTRES_MAX && count < room; which++) {
     if (!dyd_solve(&q->centre, &q->f, &q->g, which) || !place(q, s)) continue;
     if (!within(q, q->circle.ax, q->circle.bx, s[0]) || !within(q, q->circle.ay, q->circle.by, s[1])) continue;
@@ -132,7 +132,7 @@ size_t dyd_icircles(dyd_icircle *out, size_t room, const dyd_irect *const r[3], 
   for (size_t i = 0; i < q.axis[0].slabs; i++) {
     for (size_t j = 0; j < q.axis[1].slabs && count < room; j++) {
       const dyd_slab *s[2] = {&q.axis[0].slab[i], &q.axis[1].slab[j]};
-      count = search_cell(&q, out, count, room, s);
+      count = search_pane(&q, out, count, room, s);
     }
   }
   search_clear(&q);

@@ -34,9 +34,9 @@ void dyd_irect_ds2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r
 void dyd_irect_dl2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r);
 
 /* Twice the area of the convex hull of a u b. */
-void dyd_irect_hull_area2(mpz_ptr out, const dyd_irect *a, const dyd_irect *b);
+void dyd_irect_partial_edge_area2(mpz_ptr out, const dyd_irect *a, const dyd_irect *b);
 
 /* Are the convex hulls of a u b and of c u d disjoint? Touching counts as meeting [HULL-1]. */
-bool dyd_irect_hulls_disjoint(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c, const dyd_irect *d);
+bool dyd_irect_partial_edges_disjoint(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c, const dyd_irect *d);
 
 #endif

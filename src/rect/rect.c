@@ -121,7 +121,7 @@ void dyd_rect_dl2(mpq_t out, const dyd_point *c, const dyd_rect *r) {
   distance2(out, c, r, dyd_irect_dl2);
 }
 
-void dyd_hull_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b) {
+void dyd_partial_edge_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b) {
   const dyd_rect *in[2] = {a, b};
   dyd_irect scaled[2];
   mpz_t man;
@@ -130,19 +130,19 @@ void dyd_hull_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b) {
   dyd_irect_init(&scaled[1]);
   mpz_init(man);
   dyd_irects_scale(scaled, in, 2, man, &exp);
-  dyd_irect_hull_area2(mpq_numref(out), &scaled[0], &scaled[1]);
+  dyd_irect_partial_edge_area2(mpq_numref(out), &scaled[0], &scaled[1]);
   unscale_square(out, man, exp);
   mpz_clear(man);
   dyd_irect_clear(&scaled[1]);
   dyd_irect_clear(&scaled[0]);
 }
 
-bool dyd_hulls_disjoint(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c, const dyd_rect *d) {
+bool dyd_partial_edges_disjoint(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c, const dyd_rect *d) {
   const dyd_rect *in[4] = {a, b, c, d};
   dyd_irect scaled[4];
   for (int k = 0; k < 4; k++) dyd_irect_init(&scaled[k]);
   dyd_irects_scale(scaled, in, 4, NULL, NULL);
-  bool disjoint = dyd_irect_hulls_disjoint(&scaled[0], &scaled[1], &scaled[2], &scaled[3]);
+  bool disjoint = dyd_irect_partial_edges_disjoint(&scaled[0], &scaled[1], &scaled[2], &scaled[3]);
   for (int k = 4; k-- > 0;) dyd_irect_clear(&scaled[k]);
   return disjoint;
 }

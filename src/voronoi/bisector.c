@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Elementary arcs of the boundary of C_ab.
  *
- * [ARC-1] Let s be the far corner of a and q the closest feature of b in a cell. With n = q - s and m = q + s, corners
+ * [ARC-1] Let s be the far corner of a and q the closest feature of b in a pane. With n = q - s and m = q + s, corners
  * q give the line n_x (2x - m_x) + n_y (2y - m_y) = 0; a side on the line of coordinate L along axis k (o the other
  * one) gives the parabola (t - s_k)^2 = h (2v - L - s_o), h = s_o - L, for the point with coordinates t along k, v
- * along o. The middle line of a through the far corner's axis bounds the cell, and s lies beyond it, so t - s_k has one
- * sign in the cell: the arc is one branch, monotone in both coordinates, and its part in the cell is connected. It
- * cannot run along the border of a cell, since s, the corner q or the corner opposite s would then lie in both
+ * along o. The middle line of a through the far corner's axis bounds the pane, and s lies beyond it, so t - s_k has one
+ * sign in the pane: the arc is one branch, monotone in both coordinates, and its part in the pane is connected. It
+ * cannot run along the border of a pane, since s, the corner q or the corner opposite s would then lie in both
  * rectangles; along a side of the window it can. For singletons a and b no cut is needed. */
 #include "voronoi/bisector.h"
 
@@ -218,7 +218,7 @@ static void tighten(dyd_spot *end, dyd_surd_point *p, int axis, int e) {
   end->infinite = false;
 }
 
-/* A line along `axis`, v = m/2 everywhere: is it in the cell, and on its border only with the region inside? */
+/* A line along `axis`, v = m/2 everywhere: is it in the pane, and on its border only with the region inside? */
 static bool level_is_inside(const dyd_elementary *a, int side) {
   int o = 1 - a->axis;
   mpz_t m, t;
@@ -252,7 +252,7 @@ static bool clip_across(dyd_elementary *a, dyd_surd_point *p, int side) {
   return true;
 }
 
-/* Sets the ends and `point`; false: nothing in the cell. */
+/* Sets the ends and `point`; false: nothing in the pane. */
 static bool clip(dyd_elementary *a, dyd_surd_point *p, int side) {
   a->end[0].infinite = a->end[1].infinite = true;
   a->point = false;
@@ -285,7 +285,7 @@ static int choose_axis(const dyd_elementary *a) {
   return axis;
 }
 
-/* Sign of t - s_k in the cell. */
+/* Sign of t - s_k in the pane. */
 static int choose_branch(const dyd_elementary *a) {
   int k = a->axis;
   if (a->lo[k] && mpz_cmp(a->lo[k], a->s[k]) >= 0) return 1;
@@ -299,20 +299,20 @@ static dyd_feature_kind feature_name(const slab *x, const slab *y) {
   return (dyd_feature_kind)(x->near_bit + 2 * y->near_bit);
 }
 
-/* The arc of the cell x times y; false: the cell is the near rectangle, or surely without an arc. */
+/* The arc of the pane x times y; false: the pane is the near rectangle, or surely without an arc. */
 static bool set_arc(dyd_elementary *a, const slab *x, const slab *y) {
-  const slab *cell[2] = {x, y};
+  const slab *pane[2] = {x, y};
   dyd_iv lo[2], hi[2];
   if (!x->q && !y->q) return false;
   for (int k = 0; k < 2; k++) {
-    a->s[k] = cell[k]->s;
-    a->q[k] = cell[k]->q;
-    a->lo[k] = cell[k]->lo;
-    a->hi[k] = cell[k]->hi;
-    a->shape.s[k] = cell[k]->s_d;
-    a->shape.q[k] = cell[k]->q_d;
-    lo[k] = cell[k]->lo_d;
-    hi[k] = cell[k]->hi_d;
+    a->s[k] = pane[k]->s;
+    a->q[k] = pane[k]->q;
+    a->lo[k] = pane[k]->lo;
+    a->hi[k] = pane[k]->hi;
+    a->shape.s[k] = pane[k]->s_d;
+    a->shape.q[k] = pane[k]->q_d;
+    lo[k] = pane[k]->lo_d;
+    hi[k] = pane[k]->hi_d;
   }
   a->corner = (dyd_feature_kind)(x->far_bit + 2 * y->far_bit);
   a->feature = feature_name(x, y);
@@ -320,7 +320,7 @@ static bool set_arc(dyd_elementary *a, const slab *x, const slab *y) {
   a->axis = choose_axis(a);
   a->branch = a->parabola ? choose_branch(a) : 0;
   int o = 1 - a->axis, across = mpz_cmp(a->s[o], a->q[o]);
-  if (!across) return false; /* a focus on the directrix, outside of the cell: the rectangles are disjoint */
+  if (!across) return false; /* a focus on the directrix, outside of the pane: the rectangles are disjoint */
   a->direction = (across > 0) == (a->axis == 0) ? 1 : -1;
   return !dyd_filter_no_arc(&a->shape, a->axis, a->branch, lo, hi);
 }

@@ -48,7 +48,7 @@ bool dyd_filter_spot_beside(const dyd_spot *p, const dyd_spot *low, const dyd_sp
   return false;
 }
 
-void dyd_filter_spot_hull(dyd_spot *out, const dyd_spot *p, const dyd_spot *q) {
+void dyd_filter_spot_span(dyd_spot *out, const dyd_spot *p, const dyd_spot *q) {
   for (int k = 0; k < 4; k++) {
     double a = p->box[k], b = q->box[k];
     out->box[k] = !(a == a) || !(b == b) ? a + b : (k & 1 ? a > b : a < b) ? a : b; /* NaN stays */

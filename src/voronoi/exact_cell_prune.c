@@ -91,7 +91,7 @@ static relation against_piece(prune *f, const dyd_piece *p, size_t k) {
   const dyd_exact_cell *c = f->c;
   bool outer = c->task->outer, straight = !p->arc || !p->arc->parabola;
   dyd_spot hull;
-  dyd_filter_spot_hull(&hull, p->begin, p->end);
+  dyd_filter_spot_span(&hull, p->begin, p->end);
   if (dyd_filter_side(&hull, &c->other[k].box, c->other_touch, &c->fixed.box, c->fixed_touch) > 0) return CLEAR;
   if (outer && straight && corner_is_farther(f, p, k)) return CLEAR;
   int begin = dyd_cell_spot_side(c, p->begin, k), end = dyd_cell_spot_side(c, p->end, k);

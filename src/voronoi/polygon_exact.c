@@ -2,7 +2,7 @@
 /* The polygons of a cell in dyadics, from its exact boundary. In a window no chain means no cell: where the cell is all
  * of the window, its chain is the window's sides.
  *
- * Samples of the boundary are moved a little off it, rounded, and verified exactly; where rounding spoils one, it is
+ * Samples of the boundary are moved a little off it, rounded, and proved exactly; where rounding spoils one, it is
  * taken anew with more bits. This ends: inwards, the samples move towards a point g inside the open convex set Int_i n
  * W, so that the segment's end has a disc around it inside the set; outwards, they move along the ray from their
  * nearest point of R_i, on which ds_i grows by the length of the step and every dl_k by less, unless R_k meets R_i.
@@ -22,7 +22,7 @@ typedef struct work {
   const dyd_rect *window;
   int64_t bits;
   dyd_boundary boundary;
-  dyd_samples samples;
+  dyd_arc_samples samples;
   dyd_point goal; /* of inward moves: a point inside */
   mpq_t x, y, s, t;
 } work;
@@ -108,7 +108,7 @@ static dyd_status find_goal(bool *out, work *w, int64_t fine) {
   return status;
 }
 
-static dyd_status inner_point(bool *out, dyd_point *z, work *w, const dyd_sample *at, int64_t fine) {
+static dyd_status inner_point(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine) {
   dyd_status status = dyd_sample_point(z, at, &w->sites, w->own, fine);
   if (status < 0) return status;
   dyd_dyadic_get_q(w->s, &z->x);
@@ -146,7 +146,7 @@ static bool beyond(const work *w, const dyd_arc *arc, const dyd_point *z) {
          dyd_nearer(z, dyd_cell_site(&w->sites, arc->far_site), &w->sites.own) == DYD_TRUE;
 }
 
-static dyd_status outer_point(bool *out, dyd_point *z, work *w, const dyd_sample *at, int64_t fine) {
+static dyd_status outer_point(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine) {
   dyd_status status = dyd_sample_point(z, at, &w->sites, w->own, fine);
   if (status < 0) return status;
   if (at->arc->kind == DYD_ARC_WINDOW && at->before->kind == DYD_ARC_WINDOW) {
@@ -161,11 +161,11 @@ static dyd_status outer_point(bool *out, dyd_point *z, work *w, const dyd_sample
 
 /* ---- both ---- */
 
-typedef dyd_status (*place_fn)(bool *out, dyd_point *z, work *w, const dyd_sample *at, int64_t fine);
+typedef dyd_status (*place_fn)(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine);
 
-/* Verified points for all samples. */
+/* Proved points for all samples. */
 static dyd_status place_all(dyd_polygon *out, work *w, place_fn place, int64_t extra) {
-  const dyd_samples *all = &w->samples;
+  const dyd_arc_samples *all = &w->samples;
   out->vertex = dyd_alloc(all->count, sizeof *out->vertex);
   if (!out->vertex) return DYD_E_NOMEM;
   dyd_status status = DYD_OK;

@@ -157,7 +157,7 @@ static dyd_status count_steps(uint32_t *out, const dyd_arc *arc, const dyd_cell_
   return status;
 }
 
-dyd_status dyd_chain_samples(dyd_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
+dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
                              int64_t bits) {
   for (size_t k = 0; k < chain->count; k++) {
     const dyd_arc *arc = &chain->arc[k], *before = &chain->arc[k ? k - 1 : chain->count - 1];
@@ -167,13 +167,13 @@ dyd_status dyd_chain_samples(dyd_samples *out, const dyd_chain *chain, const dyd
     if (out->count + steps > MOST_STEPS) return DYD_E_RANGE;
     if (!dyd_reserve((void **)&out->item, &out->cap, out->count + steps, sizeof *out->item)) return DYD_E_NOMEM;
     for (uint32_t step = 0; step < steps; step++)
-      out->item[out->count++] = (dyd_sample){arc, step ? arc : before, step, steps};
+      out->item[out->count++] = (dyd_arc_sample){arc, step ? arc : before, step, steps};
   }
   return DYD_OK;
 }
 
 /* t = the dyadic abscissa number step of the arc, up to 2^-bits between its ends. */
-static dyd_status abscissa(mpq_t t, const dyd_sample *at, const parabola *p, int64_t bits) {
+static dyd_status abscissa(mpq_t t, const dyd_arc_sample *at, const parabola *p, int64_t bits) {
   dyd_point a, b;
   mpq_t u;
   dyd_point_init(&a);
@@ -196,7 +196,8 @@ static dyd_status abscissa(mpq_t t, const dyd_sample *at, const parabola *p, int
   return status;
 }
 
-dyd_status dyd_sample_point(dyd_point *out, const dyd_sample *at, const dyd_cell_sites *s, uint32_t own, int64_t bits) {
+dyd_status dyd_sample_point(dyd_point *out, const dyd_arc_sample *at, const dyd_cell_sites *s, uint32_t own,
+                            int64_t bits) {
   if (at->step == 0) return end_point(out, &at->arc->begin, bits);
   parabola p;
   mpq_t t, across;

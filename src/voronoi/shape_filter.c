@@ -3,7 +3,7 @@
  *
  * Let p_k be the representatives, V_t the circumcentre of p_i, p_j, p_k for the t-th triangle round i, found in
  * doubles. Nothing is trusted of it: it is moved towards p_i by a margin to give an inner vertex, away from p_i to
- * give an outer one, and these are verified against the outward boxes with the bounds of [FLT-DST]:
+ * give an outer one, and these are proved against the outward boxes with the bounds of [FLT-DST]:
  *   inner vertex z: dl_i(z) < ds_j(z) for all neighbours j of i, so z is in Int_i [POLY-1];
  *   outer vertices z_t, z_t+1: dl_j < ds_i at both, j the neighbour between the triangles t and t+1, so the edge is
  *   in C_ji [POLY-2]; all turns about p_i are sure left turns and wind round once, so the polygon is star-shaped about
@@ -88,7 +88,7 @@ static bool in_window(const dyd_window *w, dyd_xy z) {
   return w->d[0] <= z.x && z.x <= w->d[1] && w->d[2] <= z.y && z.y <= w->d[3];
 }
 
-/* The vertices of triangle t round o, verified. */
+/* The vertices of triangle t round o, proved. */
 static bool place(dyd_shape *s, uint32_t t, uint32_t degree, const dyd_delaunay *pd, dyd_xy o, const dyd_bbox *own,
                   const dyd_window *w, double flat) {
   uint32_t next = t + 1 == degree ? 0 : t + 1;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Throwing out cells without a critical circle, in interval arithmetic.
+/* Throwing out panes without a critical circle, in interval arithmetic.
  *
  * The formulas are those of predicate/solve.c, evaluated on enclosures of the coordinates relative to a corner p on
- * the circle. Every step encloses the true value (predicate/interval_filter.h), so a cell is thrown out only when
+ * the circle. Every step encloses the true value (predicate/interval_filter.h), so a pane is thrown out only when
  * every root is surely outside one of its bounds or surely not real: no bound on the error is needed beyond that. */
-#include "predicate/cell.h"
+#include "predicate/pane.h"
 
 #include <stdint.h>
 
@@ -114,7 +114,7 @@ static bool outside(dyd_iv t, dyd_iv p, const dyd_slab *s) {
   return (s->lo2 && at.hi < s->lo.lo) || (s->hi2 && at.lo > s->hi.hi);
 }
 
-bool dyd_filter_cell_empty(const dyd_slab *x, const dyd_slab *y, int base) {
+bool dyd_filter_pane_empty(const dyd_slab *x, const dyd_slab *y, int base) {
   feature f = relative(x, y, (base + 1) % 3, base), g = relative(x, y, (base + 2) % 3, base);
   roots found = solve(&f, &g);
   if (!found.known) return false;

@@ -24,7 +24,7 @@ static mpz_srcptr largest(mpz_srcptr a, mpz_srcptr b) {
   return mpz_cmp(a, b) >= 0 ? a : b;
 }
 
-void dyd_irect_hull_area2(mpz_ptr out, const dyd_irect *a, const dyd_irect *b) {
+void dyd_irect_partial_edge_area2(mpz_ptr out, const dyd_irect *a, const dyd_irect *b) {
   mpz_t w, h;
   mpz_init(w);
   mpz_init(h);
@@ -78,7 +78,7 @@ static bool boxes_disjoint(const dyd_irect *const p[2], const dyd_irect *const q
          mpz_cmp(largest(q[0]->y1, q[1]->y1), least(p[0]->y0, p[1]->y0)) < 0;
 }
 
-bool dyd_irect_hulls_disjoint(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c, const dyd_irect *d) {
+bool dyd_irect_partial_edges_disjoint(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c, const dyd_irect *d) {
   const dyd_irect *p[2] = {a, b}, *q[2] = {c, d};
   if (boxes_disjoint(p, q)) return true;
   mpz_t nx, ny, u, v;

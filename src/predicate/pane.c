@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Cutting an axis into the slabs of predicate/cell.h.
+/* Cutting an axis into the slabs of predicate/pane.h.
  *
  * Bounds are kept doubled, since the middle of an integer interval may be a half. Slabs of width 0 are left out:
  * they are part of their neighbours, which are closed. */
-#include "predicate/cell.h"
+#include "predicate/pane.h"
 
 void dyd_axis_init(dyd_axis *a) {
   for (int k = 0; k < 6; k++) mpz_init(a->line2[k]);

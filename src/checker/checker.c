@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Checks a certificate, line by line: sites, legal pairs, places, bridges, corners. */
-#include "checker/check.h"
+#include "checker/checker.h"
 #include "base/alloc.h"
 #include "base/error.h"
 
@@ -8,14 +8,14 @@
 
 /* ---- words ---- */
 
-dyd_status dyd_cert_expect_word(dyd_cert_check *c, const char *name) {
+dyd_status dyd_cert_expect_word(dyd_checker *c, const char *name) {
   char *word = NULL;
   dyd_status st = dyd_cert_word(&word, &c->in);
   if (st != DYD_OK) return st;
   return strcmp(word, name) == 0 ? DYD_OK : dyd_cert_reject(&c->in, "\"%s\" is missing", name);
 }
 
-dyd_status dyd_cert_read_choice(size_t *out, dyd_cert_check *c, const char *const *text, size_t count) {
+dyd_status dyd_cert_read_choice(size_t *out, dyd_checker *c, const char *const *text, size_t count) {
   char *word = NULL;
   dyd_status st = dyd_cert_word(&word, &c->in);
   if (st != DYD_OK) return st;
@@ -25,14 +25,14 @@ dyd_status dyd_cert_read_choice(size_t *out, dyd_cert_check *c, const char *cons
 }
 
 /* A line "NAME count"; the count is at most `most`. */
-static dyd_status read_heading(uint32_t *count, dyd_cert_check *c, const char *name, uint64_t most) {
+static dyd_status read_heading(uint32_t *count, dyd_checker *c, const char *name, uint64_t most) {
   dyd_status st = dyd_cert_next_line(&c->in);
   if (st == DYD_OK) st = dyd_cert_expect_word(c, name);
   if (st == DYD_OK) st = dyd_cert_read_index(count, &c->in, most);
   return st == DYD_OK ? dyd_cert_line_done(&c->in) : st;
 }
 
-dyd_status dyd_cert_read_site(uint32_t *out, dyd_cert_check *c) {
+dyd_status dyd_cert_read_site(uint32_t *out, dyd_checker *c) {
   if (c->sites.count == 0) return dyd_cert_reject(&c->in, "there is no site");
   dyd_status st = dyd_cert_read_index(out, &c->in, c->sites.count - 1);
   if (st != DYD_OK) return st;
@@ -40,7 +40,7 @@ dyd_status dyd_cert_read_site(uint32_t *out, dyd_cert_check *c) {
   return DYD_OK;
 }
 
-dyd_status dyd_cert_read_pair(dyd_cert_edge *pair, dyd_cert_check *c) {
+dyd_status dyd_cert_read_pair(dyd_cert_edge *pair, dyd_checker *c) {
   dyd_cert_edge next;
   dyd_status st = dyd_cert_read_site(&next.i, c);
   if (st == DYD_OK) st = dyd_cert_read_site(&next.j, c);
@@ -53,7 +53,7 @@ dyd_status dyd_cert_read_pair(dyd_cert_edge *pair, dyd_cert_check *c) {
 }
 
 /* A line "i x y" of a list sorted by i; *i is that of the line before. The point is c->point. */
-static dyd_status read_site_and_point(uint32_t *i, dyd_cert_check *c, bool first, const char *list) {
+static dyd_status read_site_and_point(uint32_t *i, dyd_checker *c, bool first, const char *list) {
   uint32_t last = *i;
   dyd_status st = dyd_cert_next_line(&c->in);
   if (st == DYD_OK) st = dyd_cert_read_site(i, c);
@@ -63,7 +63,7 @@ static dyd_status read_site_and_point(uint32_t *i, dyd_cert_check *c, bool first
   return st;
 }
 
-void dyd_cert_note_bound(dyd_cert_check *c, const char *goal, const dyd_exact *bound) {
+void dyd_cert_note_bound(dyd_checker *c, const char *goal, const dyd_exact *bound) {
   if (strcmp(c->report.goal, goal) != 0) return;
   dyd_exact most;
   dyd_exact_init(&most);
@@ -75,7 +75,7 @@ void dyd_cert_note_bound(dyd_cert_check *c, const char *goal, const dyd_exact *b
 
 /* ---- head ---- */
 
-static dyd_status check_goal(dyd_cert_check *c) {
+static dyd_status check_goal(dyd_checker *c) {
   static const char *const first[] = {"decided", "area", "hausdorff", "voronoi"},
                            *const second[] = {"area", "hausdorff"},
                            *const voronoi[] = {"voronoi area", "voronoi hausdorff"};
@@ -90,7 +90,7 @@ static dyd_status check_goal(dyd_cert_check *c) {
   return dyd_cert_line_done(&c->in);
 }
 
-dyd_status dyd_cert_check_head(dyd_cert_check *c) {
+dyd_status dyd_checker_head(dyd_checker *c) {
   static const char *const outcome[] = {"decided", "certified", "fixpoint", "budget", "cancelled", "error"};
   static const char *const answer[] = {"no", "yes"};
   size_t k = 0;
@@ -113,7 +113,7 @@ dyd_status dyd_cert_check_head(dyd_cert_check *c) {
 
 /* ---- sites ---- */
 
-static dyd_status read_alias(dyd_cert_check *c) {
+static dyd_status read_alias(dyd_checker *c) {
   uint32_t own = (uint32_t)c->sites.count, of;
   dyd_status st = dyd_cert_expect_word(c, "=");
   if (st == DYD_OK) st = dyd_cert_read_site(&of, c);
@@ -131,7 +131,7 @@ static dyd_status read_alias(dyd_cert_check *c) {
   return st;
 }
 
-static dyd_status read_rectangle(dyd_cert_check *c) {
+static dyd_status read_rectangle(dyd_checker *c) {
   dyd_cert_site *site = dyd_cert_sites_add(&c->sites);
   if (!site) return dyd_fail_nomem(c->in.err);
   dyd_status st = dyd_cert_read_side(&site->side[0], &c->in);
@@ -139,7 +139,7 @@ static dyd_status read_rectangle(dyd_cert_check *c) {
   return st;
 }
 
-dyd_status dyd_cert_check_sites(dyd_cert_check *c) {
+dyd_status dyd_checker_sites(dyd_checker *c) {
   uint32_t count;
   dyd_status st = read_heading(&count, c, "sites", (uint64_t)1 << 28);
   for (uint32_t i = 0; i < count && st == DYD_OK; i++) {
@@ -156,7 +156,7 @@ dyd_status dyd_cert_check_sites(dyd_cert_check *c) {
 
 /* ---- legal pairs and bridges ---- */
 
-static dyd_status read_witnessed(dyd_cert_check *c, dyd_cert_edges *to, dyd_cert_edge *pair, bool places) {
+static dyd_status read_witnessed(dyd_checker *c, dyd_cert_edges *to, dyd_cert_edge *pair, bool places) {
   uint32_t other = 0;
   dyd_status st = dyd_cert_next_line(&c->in);
   if (st == DYD_OK) st = dyd_cert_read_pair(pair, c);
@@ -169,7 +169,7 @@ static dyd_status read_witnessed(dyd_cert_check *c, dyd_cert_edges *to, dyd_cert
   return dyd_cert_edges_add(to, pair->i, pair->j) != DYD_OK ? dyd_fail_nomem(c->in.err) : DYD_OK;
 }
 
-static dyd_status read_edges(dyd_cert_check *c, dyd_cert_edges *to, const char *name, bool places) {
+static dyd_status read_edges(dyd_checker *c, dyd_cert_edges *to, const char *name, bool places) {
   uint32_t count;
   dyd_cert_edge pair = {0, 0};
   dyd_status st = read_heading(&count, c, name, UINT32_MAX / 4);
@@ -177,7 +177,7 @@ static dyd_status read_edges(dyd_cert_check *c, dyd_cert_edges *to, const char *
   return st;
 }
 
-dyd_status dyd_cert_check_legal(dyd_cert_check *c) {
+dyd_status dyd_checker_legal(dyd_checker *c) {
   dyd_status st = read_edges(c, &c->legal, "legal", false);
   c->report.legal = c->legal.count;
   return st;
@@ -189,7 +189,7 @@ static bool holds(const dyd_cert_side *s, const dyd_exact *v) {
   return dyd_exact_cmp(v, &s->lo) >= 0 && dyd_exact_cmp(v, dyd_cert_high(s)) <= 0;
 }
 
-dyd_status dyd_cert_check_places(dyd_cert_check *c) {
+dyd_status dyd_checker_places(dyd_checker *c) {
   uint32_t count, i = 0;
   dyd_status st = read_heading(&count, c, "places", c->sites.count);
   for (uint32_t q = 0; q < count && st == DYD_OK; q++) {
@@ -203,7 +203,7 @@ dyd_status dyd_cert_check_places(dyd_cert_check *c) {
   return st;
 }
 
-dyd_status dyd_cert_check_bridges(dyd_cert_check *c) {
+dyd_status dyd_checker_bridges(dyd_checker *c) {
   dyd_status st = read_edges(c, &c->bridges, "bridges", true);
   for (size_t e = 0; e < c->bridges.count && st == DYD_OK; e++)
     if (dyd_cert_edges_have(&c->legal, c->bridges.item[e].i, c->bridges.item[e].j))
@@ -233,7 +233,7 @@ static dyd_status add_corner(dyd_cert_corners *c, uint32_t i, const dyd_exact u[
   return DYD_OK;
 }
 
-static dyd_status find_faces(dyd_cert_check *c) {
+static dyd_status find_faces(dyd_checker *c) {
   uint32_t bad;
   dyd_status st = dyd_cert_graph_init(&c->graph, &c->sites, &c->legal, &c->bridges);
   if (st == DYD_OK && c->graph.redundant)
@@ -246,7 +246,7 @@ static dyd_status find_faces(dyd_cert_check *c) {
   return DYD_OK;
 }
 
-dyd_status dyd_cert_check_corners(dyd_cert_check *c) {
+dyd_status dyd_checker_corners(dyd_checker *c) {
   uint32_t count, i = 0;
   dyd_status st = read_heading(&count, c, "corners", c->sites.count);
   for (uint32_t q = 0; q < count && st == DYD_OK; q++) {

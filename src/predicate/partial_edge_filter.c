@@ -50,7 +50,7 @@ static bool axis_separates(const dyd_box *const box[4], int lo, int hi) {
   return p1 < q0 || q1 < p0;
 }
 
-dyd_truth dyd_filter_hulls_disjoint(const dyd_box *a, const dyd_box *b, const dyd_box *c, const dyd_box *d) {
+dyd_truth dyd_filter_partial_edges_disjoint(const dyd_box *a, const dyd_box *b, const dyd_box *c, const dyd_box *d) {
   const dyd_box *const box[4] = {a, b, c, d};
   if (axis_separates(box, 0, 1) || axis_separates(box, 2, 3)) return DYD_TRUE;
   bool meet = a->exact && b->exact && c->exact && d->exact;
