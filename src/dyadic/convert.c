@@ -15,9 +15,9 @@ dyd_status dyd_dyadic_set_d(dyd_dyadic *out, double x) {
   int exp;
   mpz_t t;
   mpz_init_set_d(t, ldexp(frexp(x, &exp), DOUBLE_BITS));
-  dyd_status status = dyd_dyadic_take(out, t, (int64_t)exp - DOUBLE_BITS);
+  dyd_status st = dyd_dyadic_take(out, t, (int64_t)exp - DOUBLE_BITS);
   mpz_clear(t);
-  return status;
+  return st;
 }
 
 /* q = floor or ceiling of n / 2^shift. */
@@ -51,9 +51,9 @@ dyd_status dyd_dyadic_round(dyd_dyadic *out, const dyd_dyadic *x, int64_t exp, d
   mpz_t t;
   mpz_init(t);
   shift_right(t, x->man, exp - x->exp, dir);
-  dyd_status status = dyd_dyadic_take(out, t, exp);
+  dyd_status st = dyd_dyadic_take(out, t, exp);
   mpz_clear(t);
-  return status;
+  return st;
 }
 
 /* The exact value of q when its denominator is a power of two; DYD_E_RANGE otherwise. */
@@ -76,10 +76,10 @@ dyd_status dyd_dyadic_round_q(dyd_dyadic *out, const mpq_t q, int64_t exp, dyd_r
   if (exp < 0) mpz_mul_2exp(n, n, (mp_bitcnt_t)-exp);
   if (exp > 0) mpz_mul_2exp(d, d, (mp_bitcnt_t)exp);
   divide(n, n, d, dir);
-  dyd_status status = dyd_dyadic_take(out, n, exp);
+  dyd_status st = dyd_dyadic_take(out, n, exp);
   mpz_clear(d);
   mpz_clear(n);
-  return status;
+  return st;
 }
 
 void dyd_dyadic_get_q(mpq_t q, const dyd_dyadic *x) {

@@ -115,22 +115,22 @@ static dyd_status combine(dyd_dyadic *out, mpz_ptr man, int64_t exp2, int64_t ex
   mpz_t power;
   mpz_init(power);
   mpz_ui_pow_ui(power, 5, (unsigned long)(exp10 < 0 ? -exp10 : exp10));
-  dyd_status status = DYD_E_PARSE;
+  dyd_status st = DYD_E_PARSE;
   if (exp10 > 0) {
     mpz_mul(man, man, power);
-    status = dyd_dyadic_take(out, man, exp10);
+    st = dyd_dyadic_take(out, man, exp10);
   } else if (mpz_divisible_p(man, power)) {
     mpz_divexact(man, man, power);
-    status = dyd_dyadic_take(out, man, exp10);
+    st = dyd_dyadic_take(out, man, exp10);
   }
   mpz_clear(power);
-  return status;
+  return st;
 }
 
 /* The record for a text refused at column `column`. */
-static dyd_status refuse(dyd_error *err, dyd_status status, size_t column, const char *what) {
+static dyd_status refuse(dyd_error *err, dyd_status st, size_t column, const char *what) {
   if (err) err->column = column;
-  return dyd_fail(err, status, "%s", what);
+  return dyd_fail(err, st, "%s", what);
 }
 
 dyd_status dyd_dyadic_set_str(dyd_dyadic *out, const char *text, dyd_error *err) {
@@ -138,20 +138,20 @@ dyd_status dyd_dyadic_set_str(dyd_dyadic *out, const char *text, dyd_error *err)
   if (!r.digits) return dyd_fail_nomem(err);
   int base;
   bool negative;
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   mpz_t man;
   mpz_init(man);
   if (!read_number(&r, &base, &negative)) {
-    status = refuse(err, DYD_E_PARSE, (size_t)(r.at - text) + 1, "not a dyadic number: unexpected character");
+    st = refuse(err, DYD_E_PARSE, (size_t)(r.at - text) + 1, "not a dyadic number: unexpected character");
   } else {
     r.digits[r.count] = 0;
     mpz_set_str(man, r.digits, base);
     if (negative) mpz_neg(man, man);
-    status = combine(out, man, r.exp2, r.exp10);
-    if (status == DYD_E_PARSE) refuse(err, status, 1, "not a dyadic number: its denominator is no power of two");
-    if (status == DYD_E_RANGE) refuse(err, status, 1, dyd_status_text(DYD_E_RANGE));
+    st = combine(out, man, r.exp2, r.exp10);
+    if (st == DYD_E_PARSE) refuse(err, st, 1, "not a dyadic number: its denominator is no power of two");
+    if (st == DYD_E_RANGE) refuse(err, st, 1, dyd_status_text(DYD_E_RANGE));
   }
   mpz_clear(man);
   free(r.digits);
-  return status;
+  return st;
 }

@@ -38,9 +38,9 @@ static void set_dd(mpfr_ptr out, const double dd[2]) {
 
 /* Fetches R_i into a and end[0..3], R_j into b and end[4..7], in the order x lower, x upper, y lower, y upper. */
 static dyd_status fetch(dyd_measure *m, size_t i, size_t j) {
-  dyd_status status = dyd_sites_get(&m->a, m->sites, i);
-  if (status >= 0) status = dyd_sites_get(&m->b, m->sites, j);
-  if (status < 0) return status;
+  dyd_status st = dyd_sites_get(&m->a, m->sites, i);
+  if (st == DYD_OK) st = dyd_sites_get(&m->b, m->sites, j);
+  if (st != DYD_OK) return st;
   dyd_interval_get_q(m->end[0], m->end[1], &m->a.x);
   dyd_interval_get_q(m->end[2], m->end[3], &m->a.y);
   dyd_interval_get_q(m->end[4], m->end[5], &m->b.x);
@@ -82,8 +82,8 @@ dyd_status dyd_measure_area(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
       return DYD_OK;
     }
   }
-  dyd_status status = fetch(m, i, j);
-  if (status < 0) return status;
+  dyd_status st = fetch(m, i, j);
+  if (st != DYD_OK) return st;
   dyd_partial_edge_area2(m->sum, &m->a, &m->b);
   mpfr_set_q(out, m->sum, MPFR_RNDU);
   mpfr_div_2ui(out, out, 1, MPFR_RNDU);
@@ -101,9 +101,9 @@ dyd_status dyd_measure_diameter(mpfr_ptr out, dyd_measure *m, size_t i) {
       return DYD_OK;
     }
   }
-  dyd_status status = fetch(m, i, i);
-  if (status >= 0) farthest(out, m, 0, 0);
-  return status;
+  dyd_status st = fetch(m, i, i);
+  if (st == DYD_OK) farthest(out, m, 0, 0);
+  return st;
 }
 
 dyd_status dyd_measure_reach(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
@@ -116,8 +116,8 @@ dyd_status dyd_measure_reach(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
       return DYD_OK;
     }
   }
-  dyd_status status = fetch(m, i, j);
-  if (status < 0) return status;
+  dyd_status st = fetch(m, i, j);
+  if (st != DYD_OK) return st;
   farthest(out, m, 0, 0);
   farthest(m->t, m, 4, 4);
   mpfr_max(m->t, m->t, out, MPFR_RNDU);
@@ -137,8 +137,8 @@ static void add_gap2(dyd_measure *m, size_t p, size_t q) {
 }
 
 dyd_status dyd_measure_gap(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
-  dyd_status status = fetch(m, i, j);
-  if (status < 0) return status;
+  dyd_status st = fetch(m, i, j);
+  if (st != DYD_OK) return st;
   mpq_set_ui(m->sum, 0, 1);
   add_gap2(m, 0, 4);
   add_gap2(m, 2, 6);

@@ -29,11 +29,6 @@ void dyd_circle_set(dyd_circle *out, const dyd_circle *c) {
   mpz_set(out->dr, c->dr);
 }
 
-/* z * 2^e for e > 0 */
-static void shift_up(mpz_ptr z, int64_t e) {
-  if (e > 0) mpz_mul_2exp(z, z, (mp_bitcnt_t)e);
-}
-
 /* radius^2 = u^2 + v^2, u = (au + bx sqrt c) / d with au = ax - px d. */
 static void set_radius(dyd_circle *out, const dyd_icircle *k) {
   mpz_t u, v;
@@ -64,11 +59,11 @@ void dyd_circle_unscale(dyd_circle *out, const dyd_icircle *k, mpz_srcptr man, i
   mpz_mul(out->d, k->d, man);
   mpz_mul(out->dr, out->dr, man);
   mpz_mul(out->dr, out->dr, man);
-  shift_up(out->d, exp);
-  shift_up(out->dr, 2 * exp);
+  dyd_shift_up(out->d, exp);
+  dyd_shift_up(out->dr, 2 * exp);
   mpz_ptr centre[4] = {out->ax, out->bx, out->ay, out->by}, radius[2] = {out->ar, out->br};
-  for (int i = 0; i < 4; i++) shift_up(centre[i], -exp);
-  for (int i = 0; i < 2; i++) shift_up(radius[i], -2 * exp);
+  for (int i = 0; i < 4; i++) dyd_shift_up(centre[i], -exp);
+  for (int i = 0; i < 2; i++) dyd_shift_up(radius[i], -2 * exp);
 }
 
 /* k and r multiplied by F, then both by 2^-exp if exp < 0, which makes everything an integer again. */
@@ -76,13 +71,13 @@ static void rescale(dyd_circle *k, dyd_irect *r, mpz_srcptr man, int64_t exp) {
   mpz_ptr centre[4] = {k->ax, k->bx, k->ay, k->by}, radius[2] = {k->ar, k->br}, end[4] = {r->x0, r->x1, r->y0, r->y1};
   for (int i = 0; i < 4; i++) {
     mpz_mul(centre[i], centre[i], man);
-    shift_up(centre[i], exp);
-    shift_up(end[i], -exp);
+    dyd_shift_up(centre[i], exp);
+    dyd_shift_up(end[i], -exp);
   }
   for (int i = 0; i < 2; i++) {
     mpz_mul(radius[i], radius[i], man);
     mpz_mul(radius[i], radius[i], man);
-    shift_up(radius[i], 2 * exp);
+    dyd_shift_up(radius[i], 2 * exp);
   }
 }
 

@@ -86,9 +86,3 @@ dyd_sure dyd_irect_con_oriented(const dyd_irect *r, const dyd_irect *const abc[3
   if (sign < 0 && beyond_all(r, abc, DYD_CLOSEST, 1)) return DYD_SURE_MINUS;
   return DYD_UNSURE;
 }
-
-dyd_sure dyd_irect_con(const dyd_irect *r, const dyd_irect *a, const dyd_irect *b, const dyd_irect *c) {
-  dyd_sure orientation = dyd_irect_orientation(a, b, c);
-  const dyd_irect *const abc[3] = {a, b, c};
-  return orientation == DYD_UNSURE ? DYD_UNSURE : dyd_irect_con_oriented(r, abc, orientation);
-}

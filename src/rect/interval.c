@@ -60,11 +60,11 @@ dyd_status dyd_interval_set_d(dyd_interval *out, double lo, double hi) {
   if (!(lo <= hi)) return DYD_E_ARG;
   dyd_interval t;
   dyd_interval_init(&t);
-  dyd_status status = dyd_dyadic_set_d(&t.lo, lo);
-  if (status == DYD_OK) status = dyd_dyadic_set_d(&t.hi, hi);
-  if (status == DYD_OK) dyd_interval_swap(out, &t);
+  dyd_status st = dyd_dyadic_set_d(&t.lo, lo);
+  if (st == DYD_OK) st = dyd_dyadic_set_d(&t.hi, hi);
+  if (st == DYD_OK) dyd_interval_swap(out, &t);
   dyd_interval_clear(&t);
-  return status;
+  return st;
 }
 
 dyd_status dyd_interval_set_q(dyd_interval *out, const mpq_t q) {
@@ -72,26 +72,26 @@ dyd_status dyd_interval_set_q(dyd_interval *out, const mpq_t q) {
   if (dyd_bits(mpq_denref(q)) - k > DYD_EXP_LIMIT) return DYD_E_RANGE;
   dyd_interval t;
   dyd_interval_init(&t);
-  dyd_status status = dyd_dyadic_set_z_2exp(&t.lo, mpq_numref(q), -k);
-  if (status == DYD_OK) {
+  dyd_status st = dyd_dyadic_set_z_2exp(&t.lo, mpq_numref(q), -k);
+  if (st == DYD_OK) {
     dyd_dyadic_set(&t.hi, &t.lo);
     mpz_tdiv_q_2exp(t.den, mpq_denref(q), (mp_bitcnt_t)k);
     dyd_interval_swap(out, &t);
     DYD_INVARIANT(dyd_interval_is_valid(out));
   }
   dyd_interval_clear(&t);
-  return status;
+  return st;
 }
 
 dyd_status dyd_interval_set_outward(dyd_interval *out, const mpq_t lo, const mpq_t hi, int64_t exp) {
   if (mpq_cmp(lo, hi) > 0) return DYD_E_ARG;
   dyd_interval t;
   dyd_interval_init(&t);
-  dyd_status status = dyd_dyadic_round_q(&t.lo, lo, exp, DYD_DOWN);
-  if (status == DYD_OK) status = dyd_dyadic_round_q(&t.hi, hi, exp, DYD_UP);
-  if (status == DYD_OK) dyd_interval_swap(out, &t);
+  dyd_status st = dyd_dyadic_round_q(&t.lo, lo, exp, DYD_DOWN);
+  if (st == DYD_OK) st = dyd_dyadic_round_q(&t.hi, hi, exp, DYD_UP);
+  if (st == DYD_OK) dyd_interval_swap(out, &t);
   dyd_interval_clear(&t);
-  return status;
+  return st;
 }
 
 bool dyd_interval_is_point(const dyd_interval *a) {

@@ -19,13 +19,6 @@ void dyd_irect_clear(dyd_irect *r) {
   mpz_clears(r->x0, r->x1, r->y0, r->y1, NULL);
 }
 
-void dyd_irect_set(dyd_irect *out, const dyd_irect *r) {
-  mpz_set(out->x0, r->x0);
-  mpz_set(out->x1, r->x1);
-  mpz_set(out->y0, r->y0);
-  mpz_set(out->y1, r->y1);
-}
-
 /* The least exponent seen and the least common multiple of the denominators. */
 typedef struct scale {
   bool any;

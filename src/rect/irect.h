@@ -16,7 +16,6 @@ typedef struct dyd_irect {
 
 void dyd_irect_init(dyd_irect *r);
 void dyd_irect_clear(dyd_irect *r);
-void dyd_irect_set(dyd_irect *out, const dyd_irect *r);
 
 /* Scales in[0..n-1] by one common factor F = scale_man * 2^scale_exp > 0 into out[0..n-1] (initialised by the
  * caller). scale_man, scale_exp may be NULL. Exact, cannot fail. */

@@ -29,21 +29,21 @@ void dyd_rect_swap(dyd_rect *a, dyd_rect *b) {
 dyd_status dyd_rect_set_d(dyd_rect *out, double x0, double x1, double y0, double y1) {
   dyd_rect t;
   dyd_rect_init(&t);
-  dyd_status status = dyd_interval_set_d(&t.x, x0, x1);
-  if (status == DYD_OK) status = dyd_interval_set_d(&t.y, y0, y1);
-  if (status == DYD_OK) dyd_rect_swap(out, &t);
+  dyd_status st = dyd_interval_set_d(&t.x, x0, x1);
+  if (st == DYD_OK) st = dyd_interval_set_d(&t.y, y0, y1);
+  if (st == DYD_OK) dyd_rect_swap(out, &t);
   dyd_rect_clear(&t);
-  return status;
+  return st;
 }
 
 dyd_status dyd_rect_set_q(dyd_rect *out, const mpq_t x, const mpq_t y) {
   dyd_rect t;
   dyd_rect_init(&t);
-  dyd_status status = dyd_interval_set_q(&t.x, x);
-  if (status == DYD_OK) status = dyd_interval_set_q(&t.y, y);
-  if (status == DYD_OK) dyd_rect_swap(out, &t);
+  dyd_status st = dyd_interval_set_q(&t.x, x);
+  if (st == DYD_OK) st = dyd_interval_set_q(&t.y, y);
+  if (st == DYD_OK) dyd_rect_swap(out, &t);
   dyd_rect_clear(&t);
-  return status;
+  return st;
 }
 
 bool dyd_rect_is_point(const dyd_rect *r) {

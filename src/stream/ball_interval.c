@@ -50,15 +50,15 @@ dyd_status dyd_ball_interval(dyd_interval *out, arb_srcptr x, int64_t exp) {
   arf_init(end);
   dyd_status st = DYD_E_RANGE;
   if (arb_is_exact(x)) st = exact_point(&lo, x);
-  if (!st) {
+  if (st == DYD_OK) {
     dyd_dyadic_set(&hi, &lo);
   } else {
     arb_get_lbound_arf(end, x, ARF_PREC_EXACT);
     st = grid_end(&lo, end, exp, DYD_DOWN);
     arb_get_ubound_arf(end, x, ARF_PREC_EXACT);
-    if (!st) st = grid_end(&hi, end, exp, DYD_UP);
+    if (st == DYD_OK) st = grid_end(&hi, end, exp, DYD_UP);
   }
-  if (!st) st = dyd_interval_set_ends(out, &lo, &hi);
+  if (st == DYD_OK) st = dyd_interval_set_ends(out, &lo, &hi);
   arf_clear(end);
   dyd_dyadic_clear(&hi);
   dyd_dyadic_clear(&lo);

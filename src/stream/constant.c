@@ -55,7 +55,7 @@ dyd_status dyd_constant_literal(dyd_constant *c, const dyd_literal *in) {
   mpq_t q;
   mpq_init(q);
   dyd_status st = dyd_literal_value(q, in);
-  if (!st) st = dyd_constant_set(c, q);
+  if (st == DYD_OK) st = dyd_constant_set(c, q);
   mpq_clear(q);
   return st;
 }

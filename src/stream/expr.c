@@ -105,12 +105,12 @@ static dyd_status charge(parser *p, size_t at) {
 static dyd_status push_literal(parser *p, const dyd_literal *l, size_t at) {
   dyd_expr *e = p->e;
   dyd_status st = push(p, DYD_OP_CONST, at);
-  if (st) return st;
+  if (st != DYD_OK) return st;
   if (!dyd_draft_reserve_constant(p->d)) return dyd_fail_nomem(p->err);
   last(p)->argument = (int32_t)e->constants;
   e->constant[e->constants++] = (dyd_constant){.den = 1};
   st = dyd_constant_literal(last_constant(p), l);
-  if (st) return fold_fail(p, st, DYD_OP_CONST, at);
+  if (st != DYD_OK) return fold_fail(p, st, DYD_OP_CONST, at);
   return charge(p, at);
 }
 
@@ -121,11 +121,11 @@ static dyd_status emit_unary(parser *p, dyd_op op, long exponent, size_t at) {
   if (last(p)->op == DYD_OP_CONST) {
     bool done;
     st = dyd_fold_unary(last_constant(p), &done, op, exponent);
-    if (st) return fold_fail(p, st, op, at);
+    if (st != DYD_OK) return fold_fail(p, st, op, at);
     if (done) return charge(p, at);
   }
   st = push(p, op, at);
-  if (st) return st;
+  if (st != DYD_OK) return st;
   last(p)->argument = (int32_t)exponent;
   last(p)->range = dyd_range_apply(op, a, a, exponent);
   return DYD_OK;
@@ -142,11 +142,11 @@ static dyd_status emit_binary(parser *p, dyd_op op, size_t left, size_t at) {
   if (both) {
     dyd_status st = dyd_fold_binary(&e->constant[a->argument], op, &e->constant[b->argument]);
     drop_constant(p);
-    return st ? fold_fail(p, st, op, at) : charge(p, at);
+    return st != DYD_OK ? fold_fail(p, st, op, at) : charge(p, at);
   }
   dyd_range range = dyd_range_apply(op, a->range, b->range, 0);
   dyd_status st = push(p, op, at);
-  if (!st) last(p)->range = range;
+  if (st == DYD_OK) last(p)->range = range;
   return st;
 }
 
@@ -168,14 +168,14 @@ static dyd_status parse_arguments(parser *p, dyd_op op, size_t at) {
   bool many = dyd_op_is_binary(op);
   dyd_status st = parse_sum(p);
   size_t count = 1;
-  while (!st && many && peek(p) == ',') {
+  while (st == DYD_OK && many && peek(p) == ',') {
     size_t left = p->e->count - 1;
     p->pos++;
     st = parse_sum(p);
-    if (!st) st = emit_binary(p, op, left, at);
+    if (st == DYD_OK) st = emit_binary(p, op, left, at);
     count++;
   }
-  if (st) return st;
+  if (st != DYD_OK) return st;
   if (peek(p) == ',') return FAIL(p, p->pos, DYD_E_PARSE, "%s takes one argument", dyd_op_name(op));
   if (peek(p) != ')') return FAIL(p, p->pos, DYD_E_PARSE, "a ')' or an operator is missing here");
   if (many && count < 2) return FAIL(p, p->pos, DYD_E_PARSE, "%s takes two or more arguments", dyd_op_name(op));
@@ -189,8 +189,8 @@ static dyd_status parse_group(parser *p, dyd_op op, size_t at) {
   dyd_status st;
   if (op == DYD_OP_CONST) {
     st = parse_sum(p);
-    if (!st && peek(p) != ')') st = FAIL(p, p->pos, DYD_E_PARSE, "a ')' or an operator is missing here");
-    if (!st) p->pos++;
+    if (st == DYD_OK && peek(p) != ')') st = FAIL(p, p->pos, DYD_E_PARSE, "a ')' or an operator is missing here");
+    if (st == DYD_OK) p->pos++;
   } else {
     st = parse_arguments(p, op, at);
   }
@@ -230,7 +230,7 @@ static dyd_status parse_name(parser *p) {
   }
   if (dyd_op_is_leaf(op)) {
     dyd_status st = push(p, op, at);
-    if (!st) last(p)->range = dyd_range_apply(op, (dyd_range){0, 0}, (dyd_range){0, 0}, 0);
+    if (st == DYD_OK) last(p)->range = dyd_range_apply(op, (dyd_range){0, 0}, (dyd_range){0, 0}, 0);
     return st;
   }
   if (peek(p) != '(') return FAIL(p, p->pos, DYD_E_PARSE, "a '(' is missing after %s", names[i].name);
@@ -258,10 +258,10 @@ static dyd_status parse_power(parser *p) {
   }
   p->depth++;
   dyd_status st = parse_primary(p);
-  if (!st && peek(p) == '^') {
+  if (st == DYD_OK && peek(p) == '^') {
     size_t at = p->pos++, left = p->e->count - 1;
     st = parse_signed(p);
-    if (!st) st = emit_power(p, left, at);
+    if (st == DYD_OK) st = emit_power(p, left, at);
   }
   p->depth--;
   return st;
@@ -280,17 +280,17 @@ static dyd_status parse_signed(parser *p) {
 
 static dyd_status parse_product(parser *p) {
   dyd_status st = parse_signed(p);
-  for (int c; !st && ((c = peek(p)) == '*' || c == '/');) {
+  for (int c; st == DYD_OK && ((c = peek(p)) == '*' || c == '/');) {
     size_t at = p->pos++, left = p->e->count - 1;
     st = parse_signed(p);
-    if (!st) st = emit_binary(p, c == '*' ? DYD_OP_MUL : DYD_OP_DIV, left, at);
+    if (st == DYD_OK) st = emit_binary(p, c == '*' ? DYD_OP_MUL : DYD_OP_DIV, left, at);
   }
   return st;
 }
 
 static dyd_status parse_sum(parser *p) {
   dyd_status st = parse_product(p);
-  for (int c; !st && ((c = peek(p)) == '+' || c == '-');) {
+  for (int c; st == DYD_OK && ((c = peek(p)) == '+' || c == '-');) {
     if (c == '+' && p->pos + 1 < p->length && p->text[p->pos + 1] == '-') {
       if (!p->parentheses) break;
       return FAIL(p, p->pos, DYD_E_PARSE,
@@ -298,7 +298,7 @@ static dyd_status parse_sum(parser *p) {
     }
     size_t at = p->pos++, left = p->e->count - 1;
     st = parse_product(p);
-    if (!st) st = emit_binary(p, c == '+' ? DYD_OP_ADD : DYD_OP_SUB, left, at);
+    if (st == DYD_OK) st = emit_binary(p, c == '+' ? DYD_OP_ADD : DYD_OP_SUB, left, at);
   }
   return st;
 }
@@ -308,7 +308,7 @@ dyd_status dyd_expr_parse(dyd_draft *d, size_t *pos, const char *text, size_t le
       .d = d, .e = &d->e, .text = text, .length = length, .pos = *pos, .start = *pos, .allow_x = allow_x, .err = err};
   p.start_column = dyd_text_column(text, *pos);
   dyd_status st = parse_sum(&p);
-  if (st) return st;
+  if (st != DYD_OK) return st;
   peek(&p);
   *pos = p.pos;
   return DYD_OK;

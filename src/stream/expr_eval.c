@@ -142,7 +142,7 @@ dyd_status dyd_expr_enclose(dyd_interval *out, int64_t *extra, const dyd_expr *e
   machine m;
   if (!machine_init(&m, e)) return dyd_fail_nomem(err);
   dyd_status st = refine(&m, extra, e, request, err);
-  if (!st) {
+  if (st == DYD_OK) {
     st = dyd_ball_interval(out, m.ball, -request->bits - 2);
     if (st == DYD_E_RANGE) undefined_fail(err, e, e->count - 1, DYD_TOO_BIG, m.prec);
     if (st == DYD_E_NOMEM) dyd_fail_nomem(err);

@@ -5,6 +5,7 @@
 #include "stream/real.h"
 
 #include "base/error.h"
+#include "rect/interval.h"
 
 /* Room for the guard bits that built-in sources add. */
 #define GUARD 64
@@ -50,8 +51,17 @@ dyd_status dyd_nesting_fail(dyd_error *err, const char *side, const dyd_interval
       side, b[0], b[1], a[0], a[1], low ? "lower" : "upper", (long long)e);
 }
 
+dyd_status dyd_nest(dyd_interval *next, const dyd_interval *old, bool encloses, const char *side, dyd_error *err) {
+  if (!dyd_interval_is_valid(next))
+    return dyd_fail(err, DYD_E_STREAM, "the callback gave no valid %s; fill it with dyd_interval_set_ends", side);
+  if (!old || (!encloses && dyd_interval_contains(old, next))) return DYD_OK;
+  dyd_status st = encloses ? dyd_interval_intersect(next, old, next) : DYD_E_ARG;
+  if (st == DYD_E_ARG) return dyd_nesting_fail(err, side, old, next);
+  return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
+}
+
 dyd_status dyd_callback_fail(dyd_error *err, const dyd_error *own, dyd_status st, size_t point, uint64_t stage) {
-  bool known = st < 0 && st >= DYD_E_IO;
+  bool known = dyd_failed(st) && st >= DYD_E_IO;
   dyd_status code = known ? st : DYD_E_STREAM;
   if (!err) return code;
   *err = *own;

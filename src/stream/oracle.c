@@ -109,9 +109,9 @@ static bool ask(dyd_worker *w, const dyd_request *request) {
 }
 
 /* Puts what was asked before the message. */
-static dyd_status fail_request(dyd_error *err, dyd_status status, const dyd_request *request, const char *why) {
-  return dyd_fail(err, status, "the oracle program was asked \"refine %zu %" PRId64 "\": %s", request->point,
-                  request->bits, why);
+static dyd_status fail_request(dyd_error *err, dyd_status st, const dyd_request *request, const char *why) {
+  return dyd_fail(err, st, "the oracle program was asked \"refine %zu %" PRId64 "\": %s", request->point, request->bits,
+                  why);
 }
 
 static dyd_status narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
@@ -122,14 +122,14 @@ static dyd_status narrow(dyd_rect *out, void *user, const dyd_request *request, 
   }
   dyd_worker *w = worker_of(o, request->point);
   if (!ask(w, request)) return dyd_fail_nomem(err);
-  dyd_status status = wait_for(o, w, request->stop);
-  if (status < 0) return fail_request(err, status, request, w->why);
-  if (status > 0) return status;
+  dyd_status st = wait_for(o, w, request->stop);
+  if (dyd_failed(st)) return fail_request(err, st, request, w->why);
+  if (st != DYD_OK) return st;
   dyd_error_clear(&own);
   const dyd_asked *a = &w->asked[w->head];
-  status = dyd_oracle_read_answer(out, !dyd_rect_is_point(out), a->answer, a->length, &own);
+  st = dyd_oracle_read_answer(out, !dyd_rect_is_point(out), a->answer, a->length, &own);
   dyd_worker_drop(w);
-  return status < 0 ? fail_request(err, status, request, own.message) : status;
+  return dyd_failed(st) ? fail_request(err, st, request, own.message) : st;
 }
 
 static void release(void *user) {
@@ -150,46 +150,46 @@ size_t dyd_oracle_count(const dyd_oracle *o) {
 /* Reads the first line of program k. */
 static dyd_status read_count(size_t *count, dyd_oracle *o, unsigned k, const volatile int *stop, dyd_error *err) {
   dyd_worker *w = &o->worker[k];
-  dyd_status status = wait_for(o, w, stop);
-  if (status < 0) {
-    return dyd_fail(err, status, "the oracle program was to print \"points N\", with the number of points: %s", w->why);
+  dyd_status st = wait_for(o, w, stop);
+  if (dyd_failed(st)) {
+    return dyd_fail(err, st, "the oracle program was to print \"points N\", with the number of points: %s", w->why);
   }
-  if (status > 0) return status;
-  status = dyd_oracle_read_count(count, w->asked[w->head].answer, w->asked[w->head].length, err);
+  if (st != DYD_OK) return st;
+  st = dyd_oracle_read_count(count, w->asked[w->head].answer, w->asked[w->head].length, err);
   dyd_worker_drop(w);
-  return status;
+  return st;
 }
 
 /* Starts programs jobs .. want-1; they count as soon as they run. */
 static dyd_status start(dyd_oracle *o, const char *command, unsigned want, int lifeline, dyd_error *err) {
-  dyd_status status = DYD_OK;
-  while (status >= 0 && o->jobs < want) {
+  dyd_status st = DYD_OK;
+  while (st == DYD_OK && o->jobs < want) {
     dyd_worker *w = &o->worker[o->jobs];
     dyd_worker_init(w, o->batch);
-    status = dyd_process_start(&w->process, command, o->jobs++, lifeline, err);
-    if (status >= 0 && !dyd_worker_expect_count(w)) status = dyd_fail_nomem(err);
+    st = dyd_process_start(&w->process, command, o->jobs++, lifeline, err);
+    if (st == DYD_OK && !dyd_worker_expect_count(w)) st = dyd_fail_nomem(err);
   }
-  return status;
+  return st;
 }
 
 /* The first program says how many points there are; then the others are started, no more than points, and must say the
  * same. */
 static dyd_status start_all(dyd_oracle *o, const char *command, unsigned jobs, int lifeline, const volatile int *stop,
                             dyd_error *err) {
-  dyd_status status = start(o, command, 1, lifeline, err);
-  if (status >= 0) status = read_count(&o->points, o, 0, stop, err);
-  if (status != DYD_OK) return status;
+  dyd_status st = start(o, command, 1, lifeline, err);
+  if (st == DYD_OK) st = read_count(&o->points, o, 0, stop, err);
+  if (st != DYD_OK) return st;
   if (jobs > o->points) jobs = o->points ? (unsigned)o->points : 1;
-  status = start(o, command, jobs, lifeline, err);
-  for (unsigned k = 1; status == DYD_OK && k < jobs; k++) {
+  st = start(o, command, jobs, lifeline, err);
+  for (unsigned k = 1; st == DYD_OK && k < jobs; k++) {
     size_t count = 0;
-    status = read_count(&count, o, k, stop, err);
-    if (status == DYD_OK && count != o->points) {
+    st = read_count(&count, o, k, stop, err);
+    if (st == DYD_OK && count != o->points) {
       return dyd_fail(err, DYD_E_STREAM, "oracle program 0 has %zu points, program %u has %zu; all must serve the same",
                       o->points, k, count);
     }
   }
-  return status;
+  return st;
 }
 
 static dyd_status start_with_lifeline(dyd_oracle *o, const char *command, unsigned jobs, const volatile int *stop,
@@ -199,9 +199,9 @@ static dyd_status start_with_lifeline(dyd_oracle *o, const char *command, unsign
     return dyd_fail(err, DYD_E_STREAM, "no pipe for the oracle program: %s; close other files", strerror(errno));
   }
   o->lifeline = end[1];
-  dyd_status status = start_all(o, command, jobs, end[0], stop, err);
+  dyd_status st = start_all(o, command, jobs, end[0], stop, err);
   dyd_close(&end[0]);
-  return status;
+  return st;
 }
 
 /* Room for `jobs` programs, none started. NULL: memory is exhausted. */
@@ -228,12 +228,12 @@ dyd_status dyd_oracle_new(dyd_oracle **out, const char *command, const dyd_oracl
   }
   dyd_oracle *o = oracle_new(given.jobs, given.batch, given.seconds);
   if (!o) return dyd_fail_nomem(err);
-  dyd_status status = start_with_lifeline(o, command, given.jobs, given.stop, err);
-  if (status == DYD_OK)
+  dyd_status st = start_with_lifeline(o, command, given.jobs, given.stop, err);
+  if (st == DYD_OK)
     *out = o;
   else
     dyd_oracle_free(o);
-  return status;
+  return st;
 }
 
 /* ---- ending ---- */

@@ -73,9 +73,9 @@ static dyd_status read_end(mpq_t out, const char *line, word w, dyd_error *err) 
   dyd_error own;
   char shown[80];
   dyd_error_clear(&own);
-  dyd_status status = dyd_parse_number(out, line + w.begin, w.end - w.begin, &own);
-  if (status == DYD_OK || status == DYD_E_NOMEM || status == DYD_E_RANGE) {
-    return status ? dyd_fail(err, status, "%s", own.message) : status;
+  dyd_status st = dyd_parse_number(out, line + w.begin, w.end - w.begin, &own);
+  if (st == DYD_OK || st == DYD_E_NOMEM || st == DYD_E_RANGE) {
+    return st != DYD_OK ? dyd_fail(err, st, "%s", own.message) : st;
   }
   return dyd_fail(err, DYD_E_STREAM, "%s, column %zu of its answer, is not an exact number: %s",
                   dyd_quoted(shown, sizeof shown, line + w.begin, w.end - w.begin), dyd_text_column(line, w.begin),
@@ -97,29 +97,28 @@ static dyd_status set_side(dyd_interval *side, bool known, const char *name, con
                            dyd_error *err) {
   dyd_interval next;
   dyd_interval_init(&next);
-  dyd_status status = dyd_interval_fix(&next, lo, hi);
-  if (status < 0)
-    dyd_fail(err, status, "the %s of its answer: %s", name, dyd_status_text(status));
+  dyd_status st = dyd_interval_fix(&next, lo, hi);
+  if (st != DYD_OK)
+    dyd_fail(err, st, "the %s of its answer: %s", name, dyd_status_text(st));
   else if (known && !is_inside(lo, hi, side))
-    status = dyd_nesting_fail(err, name, side, &next);
-  else if (known && (status = dyd_interval_intersect(&next, side, &next)) < 0)
-    dyd_fail(err, status, "the %s of its answer: %s", name, dyd_status_text(status));
-  if (status >= 0) dyd_interval_swap(side, &next);
+    st = dyd_nesting_fail(err, name, side, &next);
+  else if (known && (st = dyd_interval_intersect(&next, side, &next)) != DYD_OK)
+    dyd_fail(err, st, "the %s of its answer: %s", name, dyd_status_text(st));
+  if (st == DYD_OK) dyd_interval_swap(side, &next);
   dyd_interval_clear(&next);
-  return status;
+  return st;
 }
 
 /* The four ends, each side in order. */
 static dyd_status read_ends(mpq_t end[4], const char *line, const word *w, dyd_error *err) {
-  dyd_status status = DYD_OK;
-  for (int k = 0; status >= 0 && k < 4; k++) status = read_end(end[k], line, w[k], err);
-  for (int k = 0; status >= 0 && k < 4; k += 2) {
+  dyd_status st = DYD_OK;
+  for (int k = 0; st == DYD_OK && k < 4; k++) st = read_end(end[k], line, w[k], err);
+  for (int k = 0; st == DYD_OK && k < 4; k += 2) {
     if (mpq_cmp(end[k], end[k + 1]) <= 0) continue;
-    status =
-        dyd_fail(err, DYD_E_STREAM, "the lower end of the %c side in its answer is above the upper end; exchange them",
-                 k ? 'y' : 'x');
+    st = dyd_fail(err, DYD_E_STREAM, "the lower end of the %c side in its answer is above the upper end; exchange them",
+                  k ? 'y' : 'x');
   }
-  return status;
+  return st;
 }
 
 static dyd_status read_rect(dyd_rect *r, bool known, const char *line, const word *w, dyd_error *err) {
@@ -128,13 +127,13 @@ static dyd_status read_rect(dyd_rect *r, bool known, const char *line, const wor
   for (int k = 0; k < 4; k++) mpq_init(end[k]);
   dyd_rect_init(&next);
   dyd_rect_set(&next, r);
-  dyd_status status = read_ends(end, line, w, err);
-  if (status >= 0) status = set_side(&next.x, known, "x side", end[0], end[1], err);
-  if (status >= 0) status = set_side(&next.y, known, "y side", end[2], end[3], err);
-  if (status >= 0) dyd_rect_swap(r, &next);
+  dyd_status st = read_ends(end, line, w, err);
+  if (st == DYD_OK) st = set_side(&next.x, known, "x side", end[0], end[1], err);
+  if (st == DYD_OK) st = set_side(&next.y, known, "y side", end[2], end[3], err);
+  if (st == DYD_OK) dyd_rect_swap(r, &next);
   dyd_rect_clear(&next);
   for (int k = 0; k < 4; k++) mpq_clear(end[k]);
-  return status;
+  return st;
 }
 
 dyd_status dyd_oracle_read_answer(dyd_rect *r, bool known, const char *line, size_t length, dyd_error *err) {
@@ -147,6 +146,6 @@ dyd_status dyd_oracle_read_answer(dyd_rect *r, bool known, const char *line, siz
                     "its answer %s has not the five words I XLO XHI YLO YHI (and \"fixed\", if it is)",
                     dyd_quoted(shown, sizeof shown, line, length));
   }
-  dyd_status status = read_rect(r, known, line, w + 1, err);
-  return status < 0 || !fixed ? status : DYD_FIXED;
+  dyd_status st = read_rect(r, known, line, w + 1, err);
+  return st == DYD_OK && fixed ? DYD_FIXED : st;
 }

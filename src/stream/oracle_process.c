@@ -28,7 +28,7 @@ double dyd_seconds(void) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-void dyd_sleep(double seconds) {
+static void sleep_for(double seconds) {
   struct timespec t = {.tv_sec = (time_t)seconds};
   t.tv_nsec = (long)((seconds - (double)t.tv_sec) * 1e9);
   nanosleep(&t, NULL);
@@ -195,7 +195,7 @@ bool dyd_process_ended(char *how, size_t size, const dyd_process *p, double seco
     if (ended < 0) snprintf(how, size, "it ended");
     if (ended) return true;
     if (dyd_seconds() >= until) return false;
-    dyd_sleep(nap);
+    sleep_for(nap);
   }
   snprintf(how, size, "it ended");
   return true;

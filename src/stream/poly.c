@@ -143,8 +143,8 @@ dyd_status dyd_poly_expand(dyd_poly *out, const dyd_expr *e, dyd_error *err) {
   ring r;
   dyd_status st = DYD_OK;
   if (!ring_init(&r, e)) return dyd_fail_nomem(err);
-  for (size_t i = 0; i < e->count && !st; i++) st = apply(&r, e, &e->node[i], err);
-  if (!st) st = copy_coefficients(out, &r.value[0], err);
+  for (size_t i = 0; i < e->count && st == DYD_OK; i++) st = apply(&r, e, &e->node[i], err);
+  if (st == DYD_OK) st = copy_coefficients(out, &r.value[0], err);
   ring_clear(&r);
   return st;
 }

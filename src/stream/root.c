@@ -32,8 +32,8 @@ static dyd_status root_interval(dyd_interval *out, const dyd_root *r, int64_t bi
   mpz_init(next);
   mpz_add_ui(next, r->cell, r->exact ? 0 : 1);
   dyd_status st = dyd_dyadic_set_z_2exp(&lo, r->cell, -r->s);
-  if (!st) st = dyd_dyadic_set_z_2exp(&hi, next, -r->s);
-  if (!st) st = dyd_interval_set_ends(out, &lo, &hi);
+  if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&hi, next, -r->s);
+  if (st == DYD_OK) st = dyd_interval_set_ends(out, &lo, &hi);
   mpz_clear(next);
   dyd_dyadic_clear(&hi);
   dyd_dyadic_clear(&lo);
@@ -44,10 +44,10 @@ static dyd_status root_narrow(dyd_interval *out, void *user, const dyd_request *
   dyd_root *r = user;
   while (!dyd_root_is_narrow(r, request->bits)) {
     dyd_status st = dyd_root_step(r, request->bits, err);
-    if (st) return st;
+    if (st != DYD_OK) return st;
   }
   dyd_status st = root_interval(out, r, request->bits);
-  if (st) return dyd_fail(err, st, "the interval of a root: %s", dyd_status_text(st));
+  if (st != DYD_OK) return dyd_fail(err, st, "the interval of a root: %s", dyd_status_text(st));
   return r->exact ? DYD_FIXED : DYD_OK;
 }
 
@@ -176,7 +176,7 @@ dyd_status dyd_real_root(dyd_real **out, const mpq_t *coeff, size_t count, const
     return dyd_fail(err, DYD_E_ARG, "the polynomial is zero everywhere; give one with a coefficient other than 0");
   if (mpq_cmp(lo, hi) > 0) return dyd_fail(err, DYD_E_ARG, "the interval is empty: its ends are in the wrong order");
   dyd_status st = check_size(coeff, count, lo, hi, err);
-  if (st) return st;
+  if (st != DYD_OK) return st;
   fmpz_poly_t p;
   fmpz_poly_init(p);
   integer_polynomial(p, coeff, count);

@@ -11,6 +11,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "dyadic/raw.h"
 
 typedef struct affine {
   dyd_stream *of;
@@ -56,16 +57,16 @@ static dyd_status image(dyd_rect *out, const affine *a, int64_t exp) {
   const dyd_rect *r = dyd_stream_rect(a->of);
   bool final = dyd_stream_is_final(a->of);
   dyd_status st = image_side(&out->x, a->m, r, final, exp);
-  return st ? st : image_side(&out->y, a->m + 3, r, final, exp);
+  return st == DYD_OK ? image_side(&out->y, a->m + 3, r, final, exp) : st;
 }
 
 static dyd_status affine_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
   affine *a = user;
   int64_t more = a->gain + 1;
   dyd_status st = dyd_stream_narrow(a->of, request->bits + more, request->max_bits + (more > 0 ? more : 0), err);
-  if (st < 0) return st;
+  if (dyd_failed(st)) return st;
   st = image(out, a, -request->bits - 2);
-  if (st) return dyd_fail(err, st, "the affine image of a point: %s", dyd_status_text(st));
+  if (st != DYD_OK) return dyd_fail(err, st, "the affine image of a point: %s", dyd_status_text(st));
   return dyd_stream_is_final(a->of) ? DYD_FIXED : DYD_OK;
 }
 
@@ -80,8 +81,8 @@ static int64_t gain_of(const mpq_t m[6]) {
     mpq_abs(t, m[3 * row + 1]);
     mpq_add(sum, sum, t);
     if (!mpq_sgn(sum)) continue;
-    int64_t g = (int64_t)mpz_sizeinbase(mpq_numref(sum), 2) - (int64_t)mpz_sizeinbase(mpq_denref(sum), 2) + 1;
-    if (g > gain) gain = g; /* num < 2^bits(num), den >= 2^(bits(den) - 1) */
+    int64_t g = dyd_q_log2_above(sum);
+    if (g > gain) gain = g;
   }
   mpq_clear(t);
   mpq_clear(sum);
@@ -129,7 +130,7 @@ static dyd_status affine_fixed(dyd_stream **out, const affine *a) {
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_status st = image(&r, a, 0);
-  if (!st) st = dyd_stream_new_fixed(out, &r);
+  if (st == DYD_OK) st = dyd_stream_new_fixed(out, &r);
   dyd_rect_clear(&r);
   return st;
 }

@@ -9,6 +9,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "dyadic/raw.h"
 #include "stream/real.h"
 #include "stream/stream.h"
 
@@ -62,7 +63,7 @@ static dyd_status image_side(dyd_interval *out, const combination *c, int side, 
 
 static dyd_status image(dyd_rect *out, const combination *c, int64_t exp) {
   dyd_status st = image_side(&out->x, c, 0, exp);
-  return st ? st : image_side(&out->y, c, 1, exp);
+  return st == DYD_OK ? image_side(&out->y, c, 1, exp) : st;
 }
 
 static dyd_status combination_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
@@ -70,10 +71,10 @@ static dyd_status combination_narrow(dyd_rect *out, void *user, const dyd_reques
   int64_t more = c->gain + 1, most = request->max_bits + (more > 0 ? more : 0);
   for (size_t k = 0; k < c->count; k++) {
     dyd_status st = dyd_stream_narrow(c->of[k], request->bits + more, most, err);
-    if (st < 0) return st;
+    if (dyd_failed(st)) return st;
   }
   dyd_status st = image(out, c, -request->bits - 2);
-  if (st) return dyd_fail(err, st, "a combination of points: %s", dyd_status_text(st));
+  if (st != DYD_OK) return dyd_fail(err, st, "a combination of points: %s", dyd_status_text(st));
   return combination_is_final(c) ? DYD_FIXED : DYD_OK;
 }
 
@@ -85,9 +86,7 @@ static int64_t gain_of(const combination *c) {
     mpq_abs(t, c->weight[k]);
     mpq_add(sum, sum, t);
   }
-  int64_t gain = -DYD_EXP_LIMIT;
-  if (mpq_sgn(sum)) /* num < 2^bits(num), den >= 2^(bits(den) - 1) */
-    gain = (int64_t)mpz_sizeinbase(mpq_numref(sum), 2) - (int64_t)mpz_sizeinbase(mpq_denref(sum), 2) + 1;
+  int64_t gain = mpq_sgn(sum) ? dyd_q_log2_above(sum) : -DYD_EXP_LIMIT;
   mpq_clears(sum, t, NULL);
   return gain;
 }
@@ -123,7 +122,7 @@ static dyd_status combination_fixed(dyd_stream **out, const combination *c) {
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_status st = image(&r, c, 0);
-  if (!st) st = dyd_stream_new_fixed(out, &r);
+  if (st == DYD_OK) st = dyd_stream_new_fixed(out, &r);
   dyd_rect_clear(&r);
   return st;
 }

@@ -148,8 +148,8 @@ dyd_status dyd_filter_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, ui
   *done = false;
   if (pd->mesh.collinear || bits > 1000 || bits < -1000) return DYD_OK;
   bool found;
-  dyd_status status = find_fan(&found, &degree, s, pd, v);
-  if (status < 0 || !found) return status;
+  dyd_status st = find_fan(&found, &degree, s, pd, v);
+  if (st != DYD_OK || !found) return st;
   if (!dyd_reserve((void **)&s->inner, &s->inner_cap, degree, sizeof *s->inner)) return DYD_E_NOMEM;
   if (!dyd_reserve((void **)&s->outer, &s->outer_cap, degree, sizeof *s->outer)) return DYD_E_NOMEM;
   dyd_xy o = pd->reps.xy[v];

@@ -140,7 +140,7 @@ static dyd_status enclose(dyd_rect *out, const dyd_rect *const in[3], int64_t ex
   dyd_irects_scale(r, in, 3, man, &scale);
   dyd_status st = DYD_E_DOMAIN;
   if (enclose_scaled(end, r, man, scale)) {
-    for (int a = 0; a < 2 && (a == 0 || !st); a++) {
+    for (int a = 0; a < 2 && (a == 0 || st == DYD_OK); a++) {
       dyd_interval *side = a ? &out->y : &out->x;
       const mpq_t *e = (const mpq_t *)&end[2 * a];
       st = mpq_equal(e[0], e[1]) ? dyd_interval_set_q(side, e[0]) : dyd_interval_set_outward(side, e[0], e[1], exp);
@@ -192,7 +192,7 @@ static dyd_status attempt(bool *known, dyd_rect *out, const vertex *v, int64_t b
   *known = false;
   for (int k = 0; k < 3; k++) {
     dyd_status st = dyd_stream_narrow(v->of[k], bits, max_bits, err);
-    if (st < 0) return st;
+    if (dyd_failed(st)) return st;
   }
   for (int k = 0; k < 3; k++) {
     in[k] = dyd_stream_rect(v->of[k]);
@@ -227,7 +227,7 @@ static dyd_status vertex_narrow(dyd_rect *out, void *user, const dyd_request *re
   for (;;) {
     if (bits > cap) bits = cap;
     dyd_status st = attempt(&known, out, v, bits, cap, -want - 2, err);
-    if (st < 0) return st;
+    if (dyd_failed(st)) return st;
     if (vertex_is_final(v) || bits == cap || (known && dyd_rect_bits(out) >= want)) break;
     bits = next_bits(bits, known ? out : NULL, want);
   }
@@ -241,8 +241,8 @@ static dyd_status vertex_fixed(dyd_stream **out, const vertex *v) {
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_status st = attempt(&known, &r, v, 0, 0, 0, NULL);
-  if (!st && !known) st = DYD_E_DOMAIN;
-  if (!st) st = dyd_stream_new_fixed(out, &r);
+  if (st == DYD_OK && !known) st = DYD_E_DOMAIN;
+  if (st == DYD_OK) st = dyd_stream_new_fixed(out, &r);
   dyd_rect_clear(&r);
   return st;
 }

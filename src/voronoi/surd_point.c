@@ -141,27 +141,24 @@ void dyd_surd_point_tidy(dyd_surd_point *p) {
   mpz_clear(gcd);
 }
 
-static void shift_up(mpz_ptr z, int64_t e) {
-  if (e > 0) mpz_mul_2exp(z, z, (mp_bitcnt_t)e);
-}
-
 void dyd_surd_point_unscale(dyd_surd_point *p, mpz_srcptr ox, mpz_srcptr oy, mpz_srcptr man, int64_t exp) {
   mpz_ptr part[4] = {p->ax, p->bx, p->ay, p->by};
   mpz_addmul(p->ax, ox, p->d);
   mpz_addmul(p->ay, oy, p->d);
   mpz_mul(p->d, p->d, man);
-  shift_up(p->d, exp);
-  for (int k = 0; k < 4; k++) shift_up(part[k], -exp);
+  dyd_shift_up(p->d, exp);
+  for (int k = 0; k < 4; k++) dyd_shift_up(part[k], -exp);
   dyd_surd_point_tidy(p);
 }
 
-void dyd_surd_point_scale(dyd_surd_point *p, mpz_srcptr man, int64_t exp) {
+/* p = p * man * 2^exp. */
+static void surd_point_scale(dyd_surd_point *p, mpz_srcptr man, int64_t exp) {
   mpz_ptr part[4] = {p->ax, p->bx, p->ay, p->by};
   for (int k = 0; k < 4; k++) {
     mpz_mul(part[k], part[k], man);
-    shift_up(part[k], exp);
+    dyd_shift_up(part[k], exp);
   }
-  shift_up(p->d, -exp);
+  dyd_shift_up(p->d, -exp);
 }
 
 int dyd_surd_point_compare(const dyd_surd_point *p, const dyd_rect *a, dyd_touch ta, const dyd_rect *b, dyd_touch tb) {
@@ -175,7 +172,7 @@ int dyd_surd_point_compare(const dyd_surd_point *p, const dyd_rect *a, dyd_touch
   dyd_surd_point_init(&q);
   dyd_irects_scale(r, in, 2, man, &exp);
   dyd_surd_point_set(&q, p);
-  dyd_surd_point_scale(&q, man, exp);
+  surd_point_scale(&q, man, exp);
   int sign = dyd_surd_point_side(&q, &r[0], ta, &r[1], tb);
   dyd_surd_point_clear(&q);
   for (int k = 2; k-- > 0;) dyd_irect_clear(&r[k]);
@@ -189,12 +186,12 @@ void dyd_surd_point_floor(mpz_ptr floor, mpz_ptr ceiling, const dyd_surd_point *
   mpz_inits(root, rest, d, NULL);
   mpz_mul(root, s.b, s.b);
   mpz_mul(root, root, s.c);
-  shift_up(root, 2 * bits);
+  dyd_shift_up(root, 2 * bits);
   mpz_sqrtrem(root, rest, root);
   mpz_set(floor, s.a);
-  shift_up(floor, bits);
+  dyd_shift_up(floor, bits);
   mpz_set(d, s.d);
-  shift_up(d, -bits);
+  dyd_shift_up(d, -bits);
   int over = mpz_sgn(rest) != 0;
   if (mpz_sgn(s.b) < 0) {
     mpz_sub(ceiling, floor, root);

@@ -7,7 +7,8 @@
 
 #include <math.h>
 
-bool dyd_triangle_is_sure(const dyd_delaunay *pd, const dyd_triangle *t, uint32_t v[3]) {
+/* Is t a sure triangle of pd? v becomes its vertices. */
+static bool triangle_is_sure(const dyd_delaunay *pd, const dyd_triangle *t, uint32_t v[3]) {
   if (pd->mesh.collinear) return false;
   for (int k = 0; k < 3; k++) {
     if (t->v[k] >= pd->n) return false;
@@ -27,20 +28,20 @@ static dyd_status set_box(dyd_rect *out, const dyd_bbox *b) {
 dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_triangle *t, int64_t bits) {
   uint32_t v[3];
   dyd_bbox box;
-  if (!dyd_triangle_is_sure(pd, t, v)) return DYD_E_ARG;
+  if (!triangle_is_sure(pd, t, v)) return DYD_E_ARG;
   if (!pd->options.no_filter && bits > -1000 && bits < 1000 && dyd_filter_vertex(&box, pd, v)) {
     double limit = ldexp(1, (int)-bits);
     if (box.e[1] - box.e[0] < limit && box.e[3] - box.e[2] < limit) return set_box(out, &box);
   }
   dyd_rect r[3];
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   for (int k = 0; k < 3; k++) {
     dyd_rect_init(&r[k]);
-    if (status >= 0) status = dyd_sites_get(&r[k], pd->sites, t->v[k]);
+    if (st == DYD_OK) st = dyd_sites_get(&r[k], pd->sites, t->v[k]);
   }
-  if (status >= 0) status = dyd_partial_centre_enclose(out, &r[0], &r[1], &r[2], bits);
+  if (st == DYD_OK) st = dyd_partial_centre_enclose(out, &r[0], &r[1], &r[2], bits);
   for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
-  return status;
+  return st;
 }
 
 /* ---- undecided faces ---- */
@@ -54,15 +55,15 @@ dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaunay *pd, 
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   dyd_interval_get_d(&box.e[0], &box.e[1], &window->x);
   dyd_interval_get_d(&box.e[2], &box.e[3], &window->y);
-  dyd_status status = dyd_delaunay_face(&sites, &outer, pd, f);
-  if (status >= 0) status = dyd_delaunay_face_pairs(&pairs, pd, f);
-  if (status >= 0) {
+  dyd_status st = dyd_delaunay_face(&sites, &outer, pd, f);
+  if (st == DYD_OK) st = dyd_delaunay_face_pairs(&pairs, pd, f);
+  if (st == DYD_OK) {
     *any = dyd_filter_region(&box, pd, &pairs, &sites);
-    if (*any) status = set_box(out, &box);
+    if (*any) st = set_box(out, &box);
   }
   dyd_index_list_clear(&sites);
   dyd_pair_list_clear(&pairs);
-  return status;
+  return st;
 }
 
 /* ---- windows ---- */
