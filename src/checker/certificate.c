@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void clear(dyd_checker *c) {
+static void checker_clear(dyd_checker *c) {
   dyd_cert_reader_clear(&c->in);
   dyd_cert_sites_clear(&c->sites);
   dyd_cert_tree_clear(&c->tree);
@@ -21,7 +21,7 @@ static void clear(dyd_checker *c) {
   dyd_exact_clear(&c->point[1]);
 }
 
-static dyd_status check_outcome(const dyd_checker *c) {
+static dyd_status checker_outcome(const dyd_checker *c) {
   const dyd_certificate_report *r = &c->report;
   bool open = r->indeterminate || r->tie || r->legal_unproved || r->capped;
   if (strcmp(r->outcome, "decided") == 0 && open)
@@ -32,13 +32,13 @@ static dyd_status check_outcome(const dyd_checker *c) {
 }
 
 /* The section on the diagram, if there is one, the outcome, and the last line. */
-static dyd_status check_end(dyd_checker *c) {
+static dyd_status checker_end(dyd_checker *c) {
   dyd_status st = dyd_cert_next_line(&c->in);
   if (st == DYD_OK && strncmp(c->in.line, "window", 6) == 0) {
     st = dyd_checker_diagram(c);
     if (st == DYD_OK) st = dyd_cert_next_line(&c->in);
   }
-  if (st == DYD_OK) st = check_outcome(c);
+  if (st == DYD_OK) st = checker_outcome(c);
   if (st == DYD_OK) st = dyd_cert_expect_word(c, "end");
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
   return st == DYD_OK ? dyd_cert_expect_end(&c->in) : st;
@@ -58,8 +58,8 @@ dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_err
   if (st == DYD_OK) st = dyd_checker_bridges(&c);
   if (st == DYD_OK) st = dyd_checker_corners(&c);
   if (st == DYD_OK) st = dyd_checker_pairs(&c);
-  if (st == DYD_OK) st = check_end(&c);
+  if (st == DYD_OK) st = checker_end(&c);
   if (st == DYD_OK) *out = c.report;
-  clear(&c);
+  checker_clear(&c);
   return st;
 }

@@ -184,7 +184,7 @@ dyd_status dyd_checker_legal(dyd_checker *c) {
 }
 
 /* Is v in the side? */
-static bool holds(const dyd_cert_side *s, const dyd_exact *v) {
+static bool side_holds_value(const dyd_cert_side *s, const dyd_exact *v) {
   if (s->den) return false; /* a dyadic is not a fraction in lowest terms */
   return dyd_exact_cmp(v, &s->lo) >= 0 && dyd_exact_cmp(v, dyd_cert_high(s)) <= 0;
 }
@@ -196,7 +196,7 @@ dyd_status dyd_checker_places(dyd_checker *c) {
     st = read_site_and_point(&i, c, q == 0, "places");
     if (st != DYD_OK) return st;
     dyd_cert_site *site = &c->sites.site[i];
-    if (!holds(&site->side[0], &c->point[0]) || !holds(&site->side[1], &c->point[1]))
+    if (!side_holds_value(&site->side[0], &c->point[0]) || !side_holds_value(&site->side[1], &c->point[1]))
       return dyd_cert_reject(&c->in, "the place is not in the rectangle of site %u", (unsigned)i);
     if (dyd_cert_site_set_place(site, c->point) != DYD_OK) return dyd_fail_nomem(c->in.err);
   }
@@ -222,7 +222,7 @@ void dyd_cert_corners_clear(dyd_cert_corners *c) {
   *c = (dyd_cert_corners){0};
 }
 
-static dyd_status add_corner(dyd_cert_corners *c, uint32_t i, const dyd_exact u[2]) {
+static dyd_status corners_add(dyd_cert_corners *c, uint32_t i, const dyd_exact u[2]) {
   if (!dyd_reserve((void **)&c->item, &c->cap, c->count + 1, sizeof *c->item)) return DYD_E_NOMEM;
   dyd_cert_corner *corner = &c->item[c->count++];
   corner->i = i;
@@ -233,7 +233,7 @@ static dyd_status add_corner(dyd_cert_corners *c, uint32_t i, const dyd_exact u[
   return DYD_OK;
 }
 
-static dyd_status find_faces(dyd_checker *c) {
+static dyd_status checker_find_faces(dyd_checker *c) {
   uint32_t bad;
   dyd_status st = dyd_cert_graph_init(&c->graph, &c->sites, &c->legal, &c->bridges);
   if (st == DYD_OK && c->graph.redundant)
@@ -251,8 +251,8 @@ dyd_status dyd_checker_corners(dyd_checker *c) {
   dyd_status st = read_heading(&count, c, "corners", c->sites.count);
   for (uint32_t q = 0; q < count && st == DYD_OK; q++) {
     st = read_site_and_point(&i, c, q == 0, "corners");
-    if (st == DYD_OK && add_corner(&c->corners, i, c->point) != DYD_OK) st = dyd_fail_nomem(c->in.err);
+    if (st == DYD_OK && corners_add(&c->corners, i, c->point) != DYD_OK) st = dyd_fail_nomem(c->in.err);
   }
   c->report.corners = count;
-  return st == DYD_OK ? find_faces(c) : st;
+  return st == DYD_OK ? checker_find_faces(c) : st;
 }

@@ -11,11 +11,11 @@
 
 /* ---- polygons ---- */
 
-static dyd_cert_spot spot(const dyd_cert_chain *p, size_t k) {
+static dyd_cert_spot polygon_spot(const dyd_cert_chain *p, size_t k) {
   return dyd_cert_spot_at(p->point[k % p->points]);
 }
 
-static bool goes_on(const dyd_cert_chain *p, size_t k) {
+static bool polygon_goes_on(const dyd_cert_chain *p, size_t k) {
   const dyd_exact *a = p->point[k % p->points], *b = p->point[(k + 1) % p->points];
   int sign = dyd_exact_cmp(&a[0], &b[0]);
   return sign ? sign < 0 : dyd_exact_cmp(&a[1], &b[1]) < 0;
@@ -25,8 +25,9 @@ bool dyd_cert_polygon_is_convex(const dyd_cert_chain *p) {
   size_t begins = 0;
   if (p->points < 3) return false;
   for (size_t k = 0; k < p->points; k++) {
-    if (dyd_cert_cross(spot(p, k), spot(p, k + 1), spot(p, k + 1), spot(p, k + 2)) <= 0) return false;
-    begins += !goes_on(p, k) && goes_on(p, k + 1);
+    if (dyd_cert_cross(polygon_spot(p, k), polygon_spot(p, k + 1), polygon_spot(p, k + 1), polygon_spot(p, k + 2)) <= 0)
+      return false;
+    begins += !polygon_goes_on(p, k) && polygon_goes_on(p, k + 1);
   }
   return begins == 1;
 }

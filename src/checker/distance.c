@@ -127,7 +127,7 @@ static void make_grid(grid_box *window, search *s, const dyd_cert_window *w) {
 
 /* ---- distances on the grid ---- */
 
-static dyd_cert_area far_of(const grid_box *q, const grid_site *g) {
+static dyd_cert_area far_on_grid(const grid_box *q, const grid_site *g) {
   dyd_cert_area sum = 0;
   if (g->endless) return ~(dyd_cert_area)0;
   for (int a = 0; a < 4; a += 2) {
@@ -137,7 +137,7 @@ static dyd_cert_area far_of(const grid_box *q, const grid_site *g) {
   return sum;
 }
 
-static dyd_cert_area near_of(const grid_box *q, const grid_box *b) {
+static dyd_cert_area near_on_grid(const grid_box *q, const grid_box *b) {
   dyd_cert_area sum = 0;
   for (int a = 0; a < 4; a += 2) {
     int64_t left = b->e[a] - q->e[a + 1], right = q->e[a] - b->e[a + 1], d = left > right ? left : right;
@@ -168,14 +168,14 @@ static void find_gap(search *s, const grid_site *a, const grid_site *b) {
 }
 
 static bool are_disjoint(search *s, const grid_site *a, const grid_site *b) {
-  if (near_of(&a->box, &b->box) > 0) return true;
+  if (near_on_grid(&a->box, &b->box) > 0) return true;
   find_gap(s, a, b);
   return dyd_exact_sgn(&s->gap.num) > 0;
 }
 
 /* s->root 2^*exp = a lower bound of the distance of two rectangles; exact ends where the grid is coarse for it. */
 static void gap_below(int64_t *exp, search *s, const grid_site *a, const grid_site *b) {
-  dyd_cert_area gap = near_of(&a->box, &b->box);
+  dyd_cert_area gap = near_on_grid(&a->box, &b->box);
   if (gap >> 48) {
     set_area(s->root, gap);
     *exp = s->unit;
@@ -232,13 +232,13 @@ static bool is_near_bisector(search *s, const grid_site *a, const grid_site *b, 
 static bool is_near_site(search *s, const grid_box *q, const grid_site *a, const uint32_t *list, size_t count) {
   dyd_cert_area most = (dyd_cert_area)s->most * s->most;
   for (size_t k = 0; k < count; k++)
-    if (far_of(q, &s->item[list[k]]) <= most && are_disjoint(s, a, &s->item[list[k]])) return true;
+    if (far_on_grid(q, &s->item[list[k]]) <= most && are_disjoint(s, a, &s->item[list[k]])) return true;
   return false;
 }
 
 /* The root of far_of, rounded up. The site is not endless. */
 static uint64_t far_root(search *s, const grid_box *q, const grid_site *g) {
-  set_area(s->root, far_of(q, g));
+  set_area(s->root, far_on_grid(q, g));
   mpz_sqrtrem(s->root, s->rest, s->root);
   return mpz_get_ui(s->root) + (mpz_sgn(s->rest) != 0);
 }
@@ -276,11 +276,11 @@ static size_t keep_possible(search *s, const grid_box *q, size_t from, size_t co
     return 0;
   }
   for (size_t k = from; k < from + count; k++) {
-    dyd_cert_area far = far_of(q, &s->item[s->list[k]]);
+    dyd_cert_area far = far_on_grid(q, &s->item[s->list[k]]);
     if (far < least) least = far;
   }
   for (size_t k = from; k < from + count; k++)
-    if (near_of(q, &s->item[s->list[k]].box) <= least) s->list[from + count + kept++] = s->list[k];
+    if (near_on_grid(q, &s->item[s->list[k]].box) <= least) s->list[from + count + kept++] = s->list[k];
   return kept;
 }
 
@@ -290,7 +290,7 @@ static bool is_worth_a_look(size_t count, size_t before) {
 }
 
 /* before: the sites of the box around q are list[from .. from+before). */
-static bool covers(search *s, const grid_box *q, size_t from, size_t before) {
+static bool box_is_covered(search *s, const grid_box *q, size_t from, size_t before) {
   size_t count = keep_possible(s, q, from, before);
   if (s->st != DYD_OK || s->effort > s->effort_most) return false;
   from += before;
@@ -300,7 +300,7 @@ static bool covers(search *s, const grid_box *q, size_t from, size_t before) {
   int64_t x = q->e[0] + (q->e[1] - q->e[0]) / 2, y = q->e[2] + (q->e[3] - q->e[2]) / 2;
   for (int k = 0; k < 4; k++) {
     grid_box part = {{k & 1 ? x : q->e[0], k & 1 ? q->e[1] : x, k & 2 ? y : q->e[2], k & 2 ? q->e[3] : y}};
-    if (!covers(s, &part, from, count)) return false;
+    if (!box_is_covered(s, &part, from, count)) return false;
   }
   return true;
 }
@@ -313,7 +313,7 @@ typedef struct extent {
   mpz_srcptr den[4];
 } extent;
 
-static void widen(extent *e, search *s, const dyd_cert_side *side) {
+static void extent_widen(extent *e, search *s, const dyd_cert_side *side) {
   const dyd_exact **best[4] = {&e->lo, &e->hi, &e->most_lo, &e->least_hi};
   for (int m = 0; m < 4; m++) {
     const dyd_exact *end = m % 2 ? dyd_cert_high(side) : &side->lo;
@@ -334,7 +334,7 @@ static bool spans_all(search *s, const dyd_cert_window *w) {
   dyd_fraction_init(&sum);
   for (int axis = 0; axis < 2; axis++) {
     extent e = {.lo = &w->e[2 * axis], .hi = &w->e[2 * axis + 1]};
-    for (size_t k = 0; k < s->count; k++) widen(&e, s, &s->sites->site[s->item[k].site].side[axis]);
+    for (size_t k = 0; k < s->count; k++) extent_widen(&e, s, &s->sites->site[s->item[k].site].side[axis]);
     dyd_fraction_sub(&s->part, e.most_lo, e.den[2], e.least_hi, e.den[3]);
     disjoint |= dyd_exact_sgn(&s->part.num) > 0;
     dyd_fraction_sub(&s->part, e.hi, e.den[1], e.lo, e.den[0]);
@@ -350,13 +350,13 @@ static bool spans_all(search *s, const dyd_cert_window *w) {
 
 /* ---- all ---- */
 
-static void search_init(search *s) {
+static void distance_search_init(search *s) {
   mpz_inits(s->origin[0], s->origin[1], s->root, s->rest, NULL);
   dyd_fraction_init(&s->gap);
   dyd_fraction_init(&s->part);
 }
 
-static void search_clear(search *s) {
+static void distance_search_clear(search *s) {
   mpz_clears(s->origin[0], s->origin[1], s->root, s->rest, NULL);
   dyd_fraction_clear(&s->gap);
   dyd_fraction_clear(&s->part);
@@ -368,7 +368,7 @@ dyd_status dyd_cert_distance_holds(bool *holds, const dyd_cert_sites *sites, con
                                    const dyd_exact *bound) {
   search s = {.sites = sites, .bound = bound};
   grid_box window;
-  search_init(&s);
+  distance_search_init(&s);
   s.item = dyd_alloc(sites->count, sizeof *s.item);
   if (!s.item) s.st = DYD_E_NOMEM;
   *holds = false;
@@ -379,9 +379,9 @@ dyd_status dyd_cert_distance_holds(bool *holds, const dyd_cert_sites *sites, con
     s.effort_most = ((uint64_t)s.count + 64) << EFFORT_BITS;
     if (!dyd_reserve((void **)&s.list, &s.cap, s.count, sizeof *s.list)) s.st = DYD_E_NOMEM;
     for (size_t k = 0; s.st == DYD_OK && k < s.count; k++) s.list[k] = (uint32_t)k;
-    *holds = s.st == DYD_OK && s.count && (spans_all(&s, w) || covers(&s, &window, 0, s.count));
+    *holds = s.st == DYD_OK && s.count && (spans_all(&s, w) || box_is_covered(&s, &window, 0, s.count));
     *holds &= s.st == DYD_OK;
   }
-  search_clear(&s);
+  distance_search_clear(&s);
   return s.st;
 }

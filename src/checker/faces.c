@@ -37,7 +37,7 @@ static dyd_status add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint
 
 /* ---- bounded faces ---- */
 
-static dyd_status add_face(dyd_cert_faces *f, bool *seen, const dyd_cert_graph *g, uint32_t h) {
+static dyd_status add_bounded_face(dyd_cert_faces *f, bool *seen, const dyd_cert_graph *g, uint32_t h) {
   uint32_t *walk = NULL;
   size_t count = 0;
   dyd_status st = dyd_cert_walk(&walk, &count, g, h);
@@ -116,13 +116,14 @@ static dyd_status check_places(uint32_t *bad, const rim *r, const dyd_cert_sites
 }
 
 /* Is the corner surely beyond all sites of the group (itself left out), in its direction? */
-static bool is_beyond(const dyd_cert_sites *s, const dyd_cert_corner *corner, const dyd_cert_parts *p, uint32_t r) {
+static bool corner_is_beyond(const dyd_cert_sites *s, const dyd_cert_corner *corner, const dyd_cert_parts *p,
+                             uint32_t r) {
   for (size_t q = p->start[r]; q < p->start[r + 1]; q++)
     if (p->site[q] != corner->i && dyd_cert_compare_heights(s, corner->u, p->site[q], corner->i) >= 0) return false;
   return true;
 }
 
-static int compare_corner(const void *a, const void *b) {
+static int compare_with_corner(const void *a, const void *b) {
   uint32_t x = *(const uint32_t *)a, y = ((const dyd_cert_corner *)b)->i;
   return (x > y) - (x < y);
 }
@@ -131,9 +132,9 @@ static void check_corners(uint32_t *bad, const dyd_cert_sites *s, const rim *r, 
                           const dyd_cert_corner *corner, size_t corners) {
   for (size_t q = 0; q < r->count; q++) {
     if (!r->corner[r->site[q]]) continue;
-    const dyd_cert_corner *c = bsearch(&r->site[q], corner, corners, sizeof *corner, compare_corner);
+    const dyd_cert_corner *c = bsearch(&r->site[q], corner, corners, sizeof *corner, compare_with_corner);
     uint32_t after = p->group[q], before = p->group[(q + r->count - 1) % r->count];
-    if (!is_beyond(s, c, p, after) || (before != after && !is_beyond(s, c, p, before))) *bad = c->i;
+    if (!corner_is_beyond(s, c, p, after) || (before != after && !corner_is_beyond(s, c, p, before))) *bad = c->i;
   }
 }
 
@@ -199,7 +200,7 @@ static dyd_status find_sets(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_gra
   if (!seen) return DYD_E_NOMEM;
   dyd_status st = add_outer(f, bad, seen, g, outer, corner, corners);
   for (uint32_t h = 0; h < 2 * g->count && st == DYD_OK && *bad == DYD_CERT_NONE; h++)
-    if (!seen[h]) st = add_face(f, seen, g, h);
+    if (!seen[h]) st = add_bounded_face(f, seen, g, h);
   free(seen);
   return st;
 }
@@ -238,7 +239,7 @@ void dyd_cert_faces_clear(dyd_cert_faces *f) {
 }
 
 /* Passes the sets that hold both; returns their number. */
-static size_t common(const dyd_cert_faces *f, uint64_t *covered, uint32_t i, uint32_t j) {
+static size_t common_sets(const dyd_cert_faces *f, uint64_t *covered, uint32_t i, uint32_t j) {
   size_t a = f->first[i], b = f->first[j], count = 0;
   while (a < f->first[i + 1] && b < f->first[j + 1]) {
     if (f->of[a] == f->of[b]) {
@@ -256,11 +257,11 @@ static size_t common(const dyd_cert_faces *f, uint64_t *covered, uint32_t i, uin
 }
 
 void dyd_cert_faces_cover(dyd_cert_faces *f, uint32_t i, uint32_t j) {
-  common(f, f->covered, i, j);
+  common_sets(f, f->covered, i, j);
 }
 
 bool dyd_cert_faces_share(const dyd_cert_faces *f, uint32_t i, uint32_t j) {
-  return common(f, NULL, i, j) > 0;
+  return common_sets(f, NULL, i, j) > 0;
 }
 
 uint64_t dyd_cert_faces_left(const dyd_cert_faces *f) {

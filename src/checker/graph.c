@@ -51,7 +51,7 @@ dyd_status dyd_cert_edges_add(dyd_cert_edges *edges, uint32_t i, uint32_t j) {
 /* ---- angular order ---- */
 
 /* The half-plane of directions from a to b: 0 for angles in (-90, 90] degrees, 1 for the others. */
-static int half_of(const dyd_cert_sites *s, uint32_t a, uint32_t b) {
+static int half_of_directions(const dyd_cert_sites *s, uint32_t a, uint32_t b) {
   return dyd_cert_compare_places(s, a, b) < 0 ? 0 : 1;
 }
 
@@ -59,7 +59,7 @@ static int half_of(const dyd_cert_sites *s, uint32_t a, uint32_t b) {
 static int compare_angle(const void *graph, uint32_t h, uint32_t k) {
   const dyd_cert_graph *g = graph;
   uint32_t v = dyd_cert_origin(g, h), a = dyd_cert_origin(g, h ^ 1), b = dyd_cert_origin(g, k ^ 1);
-  int ha = half_of(g->sites, v, a), hb = half_of(g->sites, v, b);
+  int ha = half_of_directions(g->sites, v, a), hb = half_of_directions(g->sites, v, b);
   if (ha != hb) return ha - hb;
   return -dyd_cert_turn(g->sites, v, a, b);
 }

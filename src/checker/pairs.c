@@ -111,7 +111,7 @@ static dyd_status read_bound(bool *present, dyd_exact *out, dyd_checker *c, cons
   return st == DYD_OK ? dyd_cert_line_done(&c->in) : st;
 }
 
-static void add_all(dyd_cert_bounds *b, const dyd_checker *c) {
+static void add_all_pairs(dyd_cert_bounds *b, const dyd_checker *c) {
   for (size_t e = 0; e < c->legal.count; e++)
     dyd_cert_bounds_add(b, &c->sites, c->legal.item[e].i, c->legal.item[e].j, true);
   for (size_t e = 0; e < c->open.count; e++)
@@ -131,7 +131,7 @@ static dyd_status check_bounds(dyd_checker *c, dyd_exact bound[2]) {
   dyd_cert_bounds b;
   dyd_cert_bounds_init(&b);
   b.hausdorff = present[1] ? &bound[1] : NULL;
-  if (present[0] || present[1]) add_all(&b, c);
+  if (present[0] || present[1]) add_all_pairs(&b, c);
   bool area = !present[0] || dyd_cert_bounds_area_holds(&b, &bound[0]), exceeded = b.exceeded;
   if (present[1] && dyd_exact_sgn(&bound[1]) < 0) exceeded = true;
   dyd_cert_bounds_clear(&b);

@@ -83,7 +83,7 @@ void dyd_raw_add(mpz_ptr man, int64_t *exp, const dyd_dyadic *x, const dyd_dyadi
   *exp = low->exp;
 }
 
-static dyd_status add(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y, int sign) {
+static dyd_status add_signed(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y, int sign) {
   DYD_INVARIANT(dyd_dyadic_is_valid(x) && dyd_dyadic_is_valid(y));
   mpz_t t;
   int64_t exp;
@@ -95,11 +95,11 @@ static dyd_status add(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y,
 }
 
 dyd_status dyd_dyadic_add(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y) {
-  return add(out, x, y, 1);
+  return add_signed(out, x, y, 1);
 }
 
 dyd_status dyd_dyadic_sub(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y) {
-  return add(out, x, y, -1);
+  return add_signed(out, x, y, -1);
 }
 
 dyd_status dyd_dyadic_mul(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y) {

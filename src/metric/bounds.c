@@ -85,7 +85,7 @@ dyd_status dyd_bound_to_dyadic(dyd_dyadic *out, mpfr_srcptr x) {
 
 typedef dyd_status (*bound_fn)(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs);
 
-static dyd_status bound(dyd_dyadic *out, const dyd_delaunay *pd, bound_fn f) {
+static dyd_status metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, bound_fn f) {
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   dyd_pair_list pairs = {0};
   dyd_measure m;
@@ -104,9 +104,9 @@ static dyd_status bound(dyd_dyadic *out, const dyd_delaunay *pd, bound_fn f) {
 }
 
 dyd_status dyd_metric_area(dyd_dyadic *out, const dyd_delaunay *pd) {
-  return bound(out, pd, dyd_bound_area);
+  return metric_bound(out, pd, dyd_bound_area);
 }
 
 dyd_status dyd_metric_hausdorff(dyd_dyadic *out, const dyd_delaunay *pd) {
-  return bound(out, pd, dyd_bound_hausdorff);
+  return metric_bound(out, pd, dyd_bound_hausdorff);
 }

@@ -49,19 +49,19 @@ void dyd_voronoi_sums_clear(dyd_voronoi_sums *s) {
   mpfr_clears(s->inner, s->term, (mpfr_ptr)0);
 }
 
-static void set_dyadic(mpfr_ptr out, const dyd_dyadic *x, mpfr_rnd_t rnd) {
+static void mpfr_from_dyadic(mpfr_ptr out, const dyd_dyadic *x, mpfr_rnd_t rnd) {
   mpfr_set_z_2exp(out, x->man, (mpfr_exp_t)x->exp, rnd);
 }
 
-static dyd_status add_exact(double area[2], dyd_voronoi_sums *s, const dyd_shape *shape) {
+static dyd_status add_exact_shape(double area[2], dyd_voronoi_sums *s, const dyd_shape *shape) {
   dyd_status st = dyd_shape_area2(&s->area2, shape, true);
   if (st != DYD_OK) return st;
-  set_dyadic(s->term, &s->area2, MPFR_RNDU);
+  mpfr_from_dyadic(s->term, &s->area2, MPFR_RNDU);
   mpfr_div_2ui(s->term, s->term, 1, MPFR_RNDU);
   area[1] = mpfr_get_d(s->term, MPFR_RNDU);
   st = dyd_shape_area2(&s->area2, shape, false);
   if (st != DYD_OK) return st;
-  set_dyadic(s->term, &s->area2, MPFR_RNDD);
+  mpfr_from_dyadic(s->term, &s->area2, MPFR_RNDD);
   mpfr_div_2ui(s->term, s->term, 1, MPFR_RNDD);
   area[0] = mpfr_get_d(s->term, MPFR_RNDD);
   mpfr_add(s->inner, s->inner, s->term, MPFR_RNDD);
@@ -73,7 +73,7 @@ static dyd_status add_shape(double area[2], dyd_voronoi_sums *s, uint32_t i, con
   double box[4];
   dyd_sites_get_d(box, dyd_delaunay_sites(s->pd), i);
   s->reach[i] = dyd_filter_reach_of_shape(shape, box);
-  if (!shape->in_doubles) return add_exact(area, s, shape);
+  if (!shape->in_doubles) return add_exact_shape(area, s, shape);
   area[0] = shape->area[0];
   area[1] = shape->area[1];
   mpfr_add_d(s->inner, s->inner, area[0], MPFR_RNDD);
@@ -110,7 +110,7 @@ void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s) {
   if (dyd_dyadic_sub(&side[0], &s->window->x.hi, &s->window->x.lo) == DYD_OK &&
       dyd_dyadic_sub(&side[1], &s->window->y.hi, &s->window->y.lo) == DYD_OK &&
       dyd_dyadic_mul(&area, &side[0], &side[1]) == DYD_OK) {
-    set_dyadic(exact, &area, MPFR_RNDU);
+    mpfr_from_dyadic(exact, &area, MPFR_RNDU);
     mpfr_sub(out, exact, s->inner, MPFR_RNDU);
     if (mpfr_sgn(out) < 0) mpfr_set_zero(out, 1); /* rounded sums of what fills W */
   }
@@ -149,7 +149,7 @@ dyd_status dyd_voronoi_pair_hausdorff(mpfr_ptr out, bool *finite, const dyd_voro
 }
 
 /* Can the pair not be above `most`? */
-static bool is_small(const dyd_voronoi_sums *s, const dyd_pair *pair, mpfr_srcptr most) {
+static bool pair_is_small(const dyd_voronoi_sums *s, const dyd_pair *pair, mpfr_srcptr most) {
   double a[4], b[4], ra = s->reach[pair->i], rb = s->reach[pair->j];
   if (ra < 0 || rb < 0) return true;
   dyd_sites_get_d(a, dyd_delaunay_sites(s->pd), pair->i);
@@ -169,7 +169,7 @@ dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_s
   *finite = true;
   for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
     bool known;
-    if (is_small(s, &pairs->item[k], out)) continue;
+    if (pair_is_small(s, &pairs->item[k], out)) continue;
     st = dyd_voronoi_pair_hausdorff(one, &known, s, &m, &pairs->item[k]);
     open |= !known;
     if (known) mpfr_max(out, out, one, MPFR_RNDU);
@@ -246,11 +246,11 @@ int64_t dyd_metric_flattening(const dyd_delaunay *pd, const dyd_rect *window, in
   mpfr_t side[2], length;
   size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
   mpfr_inits2(64, side[0], side[1], length, (mpfr_ptr)0);
-  set_dyadic(side[0], &window->x.hi, MPFR_RNDU);
-  set_dyadic(length, &window->x.lo, MPFR_RNDD);
+  mpfr_from_dyadic(side[0], &window->x.hi, MPFR_RNDU);
+  mpfr_from_dyadic(length, &window->x.lo, MPFR_RNDD);
   mpfr_sub(side[0], side[0], length, MPFR_RNDU);
-  set_dyadic(side[1], &window->y.hi, MPFR_RNDU);
-  set_dyadic(length, &window->y.lo, MPFR_RNDD);
+  mpfr_from_dyadic(side[1], &window->y.hi, MPFR_RNDU);
+  mpfr_from_dyadic(length, &window->y.lo, MPFR_RNDD);
   mpfr_sub(side[1], side[1], length, MPFR_RNDU);
   mpfr_add(length, side[0], side[1], MPFR_RNDU);
   mpfr_mul_ui(length, length, 2, MPFR_RNDU);

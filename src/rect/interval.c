@@ -99,16 +99,17 @@ bool dyd_interval_is_point(const dyd_interval *a) {
 }
 
 /* Sign of the end x of a minus the end y of b. */
-static int cmp_ends(const dyd_dyadic *x, const dyd_interval *a, const dyd_dyadic *y, const dyd_interval *b) {
+static int interval_cmp_ends(const dyd_dyadic *x, const dyd_interval *a, const dyd_dyadic *y, const dyd_interval *b) {
   return dyd_raw_cmp(x, b->den, y, a->den);
 }
 
 bool dyd_interval_contains(const dyd_interval *outer, const dyd_interval *inner) {
-  return cmp_ends(&outer->lo, outer, &inner->lo, inner) <= 0 && cmp_ends(&inner->hi, inner, &outer->hi, outer) <= 0;
+  return interval_cmp_ends(&outer->lo, outer, &inner->lo, inner) <= 0 &&
+         interval_cmp_ends(&inner->hi, inner, &outer->hi, outer) <= 0;
 }
 
 bool dyd_interval_meets(const dyd_interval *a, const dyd_interval *b) {
-  return cmp_ends(&a->lo, a, &b->hi, b) <= 0 && cmp_ends(&b->lo, b, &a->hi, a) <= 0;
+  return interval_cmp_ends(&a->lo, a, &b->hi, b) <= 0 && interval_cmp_ends(&b->lo, b, &a->hi, a) <= 0;
 }
 
 dyd_status dyd_interval_intersect(dyd_interval *out, const dyd_interval *a, const dyd_interval *b) {
@@ -125,14 +126,14 @@ dyd_status dyd_interval_intersect(dyd_interval *out, const dyd_interval *a, cons
   return DYD_OK;
 }
 
-static void end_get_q(mpq_t out, const dyd_dyadic *end, const dyd_interval *a) {
+static void interval_end_get_q(mpq_t out, const dyd_dyadic *end, const dyd_interval *a) {
   dyd_dyadic_get_q(out, end);
   mpz_mul(mpq_denref(out), mpq_denref(out), a->den);
 }
 
 void dyd_interval_get_q(mpq_t lo, mpq_t hi, const dyd_interval *a) {
-  end_get_q(lo, &a->lo, a);
-  end_get_q(hi, &a->hi, a);
+  interval_end_get_q(lo, &a->lo, a);
+  interval_end_get_q(hi, &a->hi, a);
 }
 
 /* A width w with highest bit 2^(top-1) is at most 2^(top-1) if it is that power, else less than 2^top. */

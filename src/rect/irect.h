@@ -17,6 +17,12 @@ typedef struct dyd_irect {
 void dyd_irect_init(dyd_irect *r);
 void dyd_irect_clear(dyd_irect *r);
 
+/* The lower (upper = 0) or upper end (1) of the side along axis 0 (x) or 1 (y). */
+static inline mpz_srcptr dyd_irect_end(const dyd_irect *r, int axis, int upper) {
+  if (axis) return upper ? r->y1 : r->y0;
+  return upper ? r->x1 : r->x0;
+}
+
 /* Scales in[0..n-1] by one common factor F = scale_man * 2^scale_exp > 0 into out[0..n-1] (initialised by the
  * caller). scale_man, scale_exp may be NULL. Exact, cannot fail. */
 void dyd_irects_scale(dyd_irect *out, const dyd_rect *const *in, size_t n, mpz_ptr scale_man, int64_t *scale_exp);

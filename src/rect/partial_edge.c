@@ -9,18 +9,10 @@
  * The four triangles do not overlap: the legs on a side of the box lie on disjoint parts of it. */
 #include "rect/irect.h"
 
-/* Coordinates of the corner (right?, upper?) of r. */
-static mpz_srcptr corner_x(const dyd_irect *r, int right) {
-  return right ? r->x1 : r->x0;
-}
-static mpz_srcptr corner_y(const dyd_irect *r, int upper) {
-  return upper ? r->y1 : r->y0;
-}
-
-static mpz_srcptr least(mpz_srcptr a, mpz_srcptr b) {
+static mpz_srcptr lesser_z(mpz_srcptr a, mpz_srcptr b) {
   return mpz_cmp(a, b) <= 0 ? a : b;
 }
-static mpz_srcptr largest(mpz_srcptr a, mpz_srcptr b) {
+static mpz_srcptr larger_z(mpz_srcptr a, mpz_srcptr b) {
   return mpz_cmp(a, b) >= 0 ? a : b;
 }
 
@@ -28,14 +20,14 @@ void dyd_irect_partial_edge_area2(mpz_ptr out, const dyd_irect *a, const dyd_ire
   mpz_t w, h;
   mpz_init(w);
   mpz_init(h);
-  mpz_sub(w, largest(a->x1, b->x1), least(a->x0, b->x0));
-  mpz_sub(h, largest(a->y1, b->y1), least(a->y0, b->y0));
+  mpz_sub(w, larger_z(a->x1, b->x1), lesser_z(a->x0, b->x0));
+  mpz_sub(h, larger_z(a->y1, b->y1), lesser_z(a->y0, b->y0));
   mpz_mul(out, w, h);
   mpz_mul_2exp(out, out, 1);
   for (int corner = 0; corner < 4; corner++) {
     int right = corner & 1, upper = corner >> 1;
-    mpz_sub(w, corner_x(b, right), corner_x(a, right));
-    mpz_sub(h, corner_y(b, upper), corner_y(a, upper));
+    mpz_sub(w, dyd_irect_end(b, 0, right), dyd_irect_end(a, 0, right));
+    mpz_sub(h, dyd_irect_end(b, 1, upper), dyd_irect_end(a, 1, upper));
     int sign = mpz_sgn(w) * mpz_sgn(h) * (right == upper ? 1 : -1);
     if (sign >= 0) continue;
     mpz_mul(w, w, h);
@@ -47,49 +39,49 @@ void dyd_irect_partial_edge_area2(mpz_ptr out, const dyd_irect *a, const dyd_ire
 }
 
 /* out = largest value of nx x + ny y over r (side = 1) or smallest (side = 0). */
-static void support(mpz_ptr out, mpz_srcptr nx, mpz_srcptr ny, const dyd_irect *r, int side) {
-  mpz_mul(out, nx, corner_x(r, mpz_sgn(nx) >= 0 ? side : !side));
-  mpz_addmul(out, ny, corner_y(r, mpz_sgn(ny) >= 0 ? side : !side));
+static void irect_support(mpz_ptr out, mpz_srcptr nx, mpz_srcptr ny, const dyd_irect *r, int side) {
+  mpz_mul(out, nx, dyd_irect_end(r, 0, mpz_sgn(nx) >= 0 ? side : !side));
+  mpz_addmul(out, ny, dyd_irect_end(r, 1, mpz_sgn(ny) >= 0 ? side : !side));
 }
 
 /* Is max n.(a u b) < min n.(c u d)?  u, v: scratch. */
-static bool precedes(mpz_srcptr nx, mpz_srcptr ny, const dyd_irect *const p[2], const dyd_irect *const q[2], mpz_ptr u,
-                     mpz_ptr v) {
+static bool edge_precedes(mpz_srcptr nx, mpz_srcptr ny, const dyd_irect *const p[2], const dyd_irect *const q[2],
+                          mpz_ptr u, mpz_ptr v) {
   for (int i = 0; i < 2; i++) {
-    support(u, nx, ny, p[i], 1);
+    irect_support(u, nx, ny, p[i], 1);
     for (int j = 0; j < 2; j++) {
-      support(v, nx, ny, q[j], 0);
+      irect_support(v, nx, ny, q[j], 0);
       if (mpz_cmp(u, v) >= 0) return false;
     }
   }
   return true;
 }
 
-static bool separates(mpz_srcptr nx, mpz_srcptr ny, const dyd_irect *const p[2], const dyd_irect *const q[2], mpz_ptr u,
-                      mpz_ptr v) {
-  return precedes(nx, ny, p, q, u, v) || precedes(nx, ny, q, p, u, v);
+static bool normal_separates(mpz_srcptr nx, mpz_srcptr ny, const dyd_irect *const p[2], const dyd_irect *const q[2],
+                             mpz_ptr u, mpz_ptr v) {
+  return edge_precedes(nx, ny, p, q, u, v) || edge_precedes(nx, ny, q, p, u, v);
 }
 
 /* The axes, by comparisons only. */
-static bool boxes_disjoint(const dyd_irect *const p[2], const dyd_irect *const q[2]) {
-  return mpz_cmp(largest(p[0]->x1, p[1]->x1), least(q[0]->x0, q[1]->x0)) < 0 ||
-         mpz_cmp(largest(q[0]->x1, q[1]->x1), least(p[0]->x0, p[1]->x0)) < 0 ||
-         mpz_cmp(largest(p[0]->y1, p[1]->y1), least(q[0]->y0, q[1]->y0)) < 0 ||
-         mpz_cmp(largest(q[0]->y1, q[1]->y1), least(p[0]->y0, p[1]->y0)) < 0;
+static bool edge_boxes_disjoint(const dyd_irect *const p[2], const dyd_irect *const q[2]) {
+  return mpz_cmp(larger_z(p[0]->x1, p[1]->x1), lesser_z(q[0]->x0, q[1]->x0)) < 0 ||
+         mpz_cmp(larger_z(q[0]->x1, q[1]->x1), lesser_z(p[0]->x0, p[1]->x0)) < 0 ||
+         mpz_cmp(larger_z(p[0]->y1, p[1]->y1), lesser_z(q[0]->y0, q[1]->y0)) < 0 ||
+         mpz_cmp(larger_z(q[0]->y1, q[1]->y1), lesser_z(p[0]->y0, p[1]->y0)) < 0;
 }
 
 bool dyd_irect_partial_edges_disjoint(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c, const dyd_irect *d) {
   const dyd_irect *p[2] = {a, b}, *q[2] = {c, d};
-  if (boxes_disjoint(p, q)) return true;
+  if (edge_boxes_disjoint(p, q)) return true;
   mpz_t nx, ny, u, v;
   mpz_inits(nx, ny, u, v, NULL);
   bool disjoint = false;
   for (int join = 0; join < 8 && !disjoint; join++) {
     const dyd_irect *const *e = join < 4 ? p : q;
     int right = join & 1, upper = (join >> 1) & 1;
-    mpz_sub(nx, corner_y(e[0], upper), corner_y(e[1], upper));
-    mpz_sub(ny, corner_x(e[1], right), corner_x(e[0], right));
-    disjoint = separates(nx, ny, p, q, u, v);
+    mpz_sub(nx, dyd_irect_end(e[0], 1, upper), dyd_irect_end(e[1], 1, upper));
+    mpz_sub(ny, dyd_irect_end(e[1], 0, right), dyd_irect_end(e[0], 0, right));
+    disjoint = normal_separates(nx, ny, p, q, u, v);
   }
   mpz_clears(nx, ny, u, v, NULL);
   return disjoint;

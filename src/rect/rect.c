@@ -96,7 +96,7 @@ static void unscale_square(mpq_t q, mpz_srcptr man, int64_t exp) {
 
 typedef void distance_function(mpz_ptr, mpz_srcptr, mpz_srcptr, const dyd_irect *);
 
-static void distance2(mpq_t out, const dyd_point *c, const dyd_rect *r, distance_function *distance) {
+static void rect_distance2(mpq_t out, const dyd_point *c, const dyd_rect *r, distance_function *distance) {
   dyd_irect scaled;
   mpz_t cx, cy, man;
   int64_t exp;
@@ -114,11 +114,11 @@ static void distance2(mpq_t out, const dyd_point *c, const dyd_rect *r, distance
 }
 
 void dyd_rect_ds2(mpq_t out, const dyd_point *c, const dyd_rect *r) {
-  distance2(out, c, r, dyd_irect_ds2);
+  rect_distance2(out, c, r, dyd_irect_ds2);
 }
 
 void dyd_rect_dl2(mpq_t out, const dyd_point *c, const dyd_rect *r) {
-  distance2(out, c, r, dyd_irect_dl2);
+  rect_distance2(out, c, r, dyd_irect_dl2);
 }
 
 void dyd_partial_edge_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b) {

@@ -24,7 +24,7 @@ dyd_status dyd_request_make(dyd_request *out, size_t point, int64_t bits, int64_
 }
 
 /* The least e with the distance by which `now` leaves `old` below 2^e, at its worse end; *low tells which end. */
-static int64_t excess(bool *low, const dyd_interval *old, const dyd_interval *now) {
+static int64_t nesting_excess(bool *low, const dyd_interval *old, const dyd_interval *now) {
   mpq_t a, b, c, d;
   mpq_inits(a, b, c, d, NULL);
   dyd_interval_get_q(a, b, old);
@@ -43,7 +43,7 @@ dyd_status dyd_nesting_fail(dyd_error *err, const char *side, const dyd_interval
   bool low;
   dyd_interval_get_d(&a[0], &a[1], old);
   dyd_interval_get_d(&b[0], &b[1], now);
-  int64_t e = excess(&low, old, now);
+  int64_t e = nesting_excess(&low, old, now);
   return dyd_fail(
       err, DYD_E_NESTING,
       "the new %s [%.17g, %.17g] is not inside the old one [%.17g, %.17g] (rounded): its %s end lies outside by "

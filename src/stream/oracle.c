@@ -35,7 +35,7 @@ struct dyd_oracle {
 /* ---- waiting ---- */
 
 /* Sends and takes what goes within the time. */
-static void exchange(dyd_oracle *o, double seconds) {
+static void exchange_lines(dyd_oracle *o, double seconds) {
   for (unsigned k = 0; k < o->jobs; k++) {
     dyd_worker *w = &o->worker[k];
     dyd_worker_fill(w);
@@ -62,18 +62,18 @@ static void fail_silent(const dyd_oracle *o, dyd_worker *w) {
                     o->seconds, deaf);
 }
 
-static bool is_stopped(const volatile int *stop) {
+static bool stop_is_raised(const volatile int *stop) {
   return stop && __atomic_load_n(stop, __ATOMIC_SEQ_CST);
 }
 
 /* Until the first request of w that is wanted is answered (DYD_OK), w has failed (its code), or *stop is raised
  * (DYD_CANCELLED). The clock starts anew with each line of w, and what has come is read before it is looked at. */
-static dyd_status wait_for(dyd_oracle *o, dyd_worker *w, const volatile int *stop) {
+static dyd_status wait_for_answer(dyd_oracle *o, dyd_worker *w, const volatile int *stop) {
   double begun = dyd_seconds(), left = o->seconds;
   while (!dyd_worker_is_answered(w)) {
     if (dyd_worker_is_lost(w)) return w->code;
-    if (is_stopped(stop)) return DYD_CANCELLED;
-    exchange(o, left < SLICE_SECONDS ? left : SLICE_SECONDS);
+    if (stop_is_raised(stop)) return DYD_CANCELLED;
+    exchange_lines(o, left < SLICE_SECONDS ? left : SLICE_SECONDS);
     left = (w->heard > begun ? w->heard : begun) + o->seconds - dyd_seconds();
     if (left > 0) continue;
     if (!w->failed && !dyd_worker_is_answered(w)) fail_silent(o, w);
@@ -89,7 +89,7 @@ static dyd_worker *worker_of(const dyd_oracle *o, size_t point) {
 }
 
 /* What is already asked stays; a list that does not fit into memory is as good as none. */
-static void announce(void *user, const dyd_request *request, size_t count) {
+static void oracle_announce(void *user, const dyd_request *request, size_t count) {
   dyd_oracle *o = user;
   for (unsigned k = 0; k < o->jobs; k++) dyd_worker_forget(&o->worker[k]);
   for (size_t k = 0; k < count; k++) {
@@ -97,11 +97,11 @@ static void announce(void *user, const dyd_request *request, size_t count) {
     dyd_worker *w = worker_of(o, request[k].point);
     if (!dyd_worker_ask(w, request[k].point, request[k].bits)) break;
   }
-  exchange(o, 0);
+  exchange_lines(o, 0);
 }
 
 /* Sees to it that the first request of w that is wanted is this one. */
-static bool ask(dyd_worker *w, const dyd_request *request) {
+static bool ask_first(dyd_worker *w, const dyd_request *request) {
   const dyd_asked *first = dyd_worker_first(w);
   if (first && first->point == request->point && first->bits == request->bits) return true;
   dyd_worker_forget(w);
@@ -114,15 +114,15 @@ static dyd_status fail_request(dyd_error *err, dyd_status st, const dyd_request 
                   why);
 }
 
-static dyd_status narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
+static dyd_status oracle_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
   dyd_oracle *o = user;
   dyd_error own;
   if (request->point >= o->points) {
     return dyd_fail(err, DYD_E_ARG, "the oracle program has %zu points only", o->points);
   }
   dyd_worker *w = worker_of(o, request->point);
-  if (!ask(w, request)) return dyd_fail_nomem(err);
-  dyd_status st = wait_for(o, w, request->stop);
+  if (!ask_first(w, request)) return dyd_fail_nomem(err);
+  dyd_status st = wait_for_answer(o, w, request->stop);
   if (dyd_failed(st)) return fail_request(err, st, request, w->why);
   if (st != DYD_OK) return st;
   dyd_error_clear(&own);
@@ -132,13 +132,13 @@ static dyd_status narrow(dyd_rect *out, void *user, const dyd_request *request, 
   return dyd_failed(st) ? fail_request(err, st, request, own.message) : st;
 }
 
-static void release(void *user) {
+static void oracle_release(void *user) {
   dyd_oracle_free(user);
 }
 
 dyd_source dyd_oracle_source(dyd_oracle *o) {
   o->refs++;
-  return (dyd_source){.narrow = narrow, .release = release, .user = o, .announce = announce};
+  return (dyd_source){.narrow = oracle_narrow, .release = oracle_release, .user = o, .announce = oracle_announce};
 }
 
 size_t dyd_oracle_count(const dyd_oracle *o) {
@@ -150,7 +150,7 @@ size_t dyd_oracle_count(const dyd_oracle *o) {
 /* Reads the first line of program k. */
 static dyd_status read_count(size_t *count, dyd_oracle *o, unsigned k, const volatile int *stop, dyd_error *err) {
   dyd_worker *w = &o->worker[k];
-  dyd_status st = wait_for(o, w, stop);
+  dyd_status st = wait_for_answer(o, w, stop);
   if (dyd_failed(st)) {
     return dyd_fail(err, st, "the oracle program was to print \"points N\", with the number of points: %s", w->why);
   }
@@ -161,7 +161,7 @@ static dyd_status read_count(size_t *count, dyd_oracle *o, unsigned k, const vol
 }
 
 /* Starts programs jobs .. want-1; they count as soon as they run. */
-static dyd_status start(dyd_oracle *o, const char *command, unsigned want, int lifeline, dyd_error *err) {
+static dyd_status start_programs(dyd_oracle *o, const char *command, unsigned want, int lifeline, dyd_error *err) {
   dyd_status st = DYD_OK;
   while (st == DYD_OK && o->jobs < want) {
     dyd_worker *w = &o->worker[o->jobs];
@@ -174,13 +174,13 @@ static dyd_status start(dyd_oracle *o, const char *command, unsigned want, int l
 
 /* The first program says how many points there are; then the others are started, no more than points, and must say the
  * same. */
-static dyd_status start_all(dyd_oracle *o, const char *command, unsigned jobs, int lifeline, const volatile int *stop,
-                            dyd_error *err) {
-  dyd_status st = start(o, command, 1, lifeline, err);
+static dyd_status start_all_programs(dyd_oracle *o, const char *command, unsigned jobs, int lifeline,
+                                     const volatile int *stop, dyd_error *err) {
+  dyd_status st = start_programs(o, command, 1, lifeline, err);
   if (st == DYD_OK) st = read_count(&o->points, o, 0, stop, err);
   if (st != DYD_OK) return st;
   if (jobs > o->points) jobs = o->points ? (unsigned)o->points : 1;
-  st = start(o, command, jobs, lifeline, err);
+  st = start_programs(o, command, jobs, lifeline, err);
   for (unsigned k = 1; st == DYD_OK && k < jobs; k++) {
     size_t count = 0;
     st = read_count(&count, o, k, stop, err);
@@ -199,7 +199,7 @@ static dyd_status start_with_lifeline(dyd_oracle *o, const char *command, unsign
     return dyd_fail(err, DYD_E_STREAM, "no pipe for the oracle program: %s; close other files", strerror(errno));
   }
   o->lifeline = end[1];
-  dyd_status st = start_all(o, command, jobs, end[0], stop, err);
+  dyd_status st = start_all_programs(o, command, jobs, end[0], stop, err);
   dyd_close(&end[0]);
   return st;
 }
@@ -239,7 +239,7 @@ dyd_status dyd_oracle_new(dyd_oracle **out, const char *command, const dyd_oracl
 /* ---- ending ---- */
 
 /* Closes all pipes and waits a little, so that programs that read on can end by themselves. */
-static void let_end(dyd_oracle *o) {
+static void let_programs_end(dyd_oracle *o) {
   double until = dyd_seconds() + GRACE_SECONDS;
   for (unsigned k = 0; k < o->jobs; k++) dyd_process_close(&o->worker[k].process);
   for (unsigned k = 0; k < o->jobs; k++) {
@@ -251,7 +251,7 @@ static void let_end(dyd_oracle *o) {
 
 void dyd_oracle_free(dyd_oracle *o) {
   if (!o || --o->refs) return;
-  let_end(o);
+  let_programs_end(o);
   for (unsigned k = 0; k < o->jobs; k++) dyd_worker_clear(&o->worker[k]);
   dyd_close(&o->lifeline);
   free(o->poll);

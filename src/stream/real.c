@@ -62,7 +62,7 @@ void dyd_real_set_span(dyd_real *x, dyd_double_span span) {
 }
 
 /* Makes room for an interval. */
-static bool hold(dyd_real *x) {
+static bool real_hold(dyd_real *x) {
   if (x->now) return true;
   x->now = dyd_alloc(1, sizeof *x->now);
   if (x->now) dyd_interval_init(x->now);
@@ -73,7 +73,7 @@ dyd_status dyd_real_new_fixed(dyd_real **out, dyd_interval *value) {
   dyd_real *x;
   dyd_status st = real_new(&x, 0, NULL, NULL, NULL);
   if (st != DYD_OK) return st;
-  if (!hold(x)) {
+  if (!real_hold(x)) {
     free(x);
     return DYD_E_NOMEM;
   }
@@ -112,7 +112,7 @@ void dyd_real_place(dyd_real *x, size_t line, size_t column) {
 
 /* next, made for `bits`, and the span, which comes rounded to the same grid where it is the shorter one: so all
  * intervals are inside of what a glance gave for fewer bits, and as wide as if there were no span. */
-static dyd_status cut_to_span(dyd_interval *next, dyd_double_span span, int64_t bits, dyd_error *err) {
+static dyd_status real_cut_to_span(dyd_interval *next, dyd_double_span span, int64_t bits, dyd_error *err) {
   dyd_interval old;
   if (bits < 0) return DYD_OK;
   dyd_filter_round(&span, span, bits);
@@ -124,15 +124,15 @@ static dyd_status cut_to_span(dyd_interval *next, dyd_double_span span, int64_t 
 }
 
 /* Takes `next` over if it may follow; it becomes the interval now. */
-static dyd_status accept(dyd_real *x, dyd_interval *next, dyd_error *err) {
+static dyd_status real_accept(dyd_real *x, dyd_interval *next, dyd_error *err) {
   dyd_status st = dyd_nest(next, x->now, x->encloses, "interval", err);
   if (st != DYD_OK) return st;
-  if (!hold(x)) return dyd_fail_nomem(err);
+  if (!real_hold(x)) return dyd_fail_nomem(err);
   dyd_interval_swap(x->now, next);
   return DYD_OK;
 }
 
-static dyd_status call_source(dyd_real *x, const dyd_request *request, dyd_error *err) {
+static dyd_status real_call_source(dyd_real *x, const dyd_request *request, dyd_error *err) {
   dyd_interval next;
   dyd_error own;
   dyd_error_clear(&own);
@@ -141,8 +141,8 @@ static dyd_status call_source(dyd_real *x, const dyd_request *request, dyd_error
   dyd_status st = x->narrow(&next, x->user, request, &own);
   bool fixed = st == DYD_FIXED;
   if (fixed) st = DYD_OK;
-  if (st == DYD_OK && x->spans) st = cut_to_span(&next, x->span, request->bits, &own);
-  if (st == DYD_OK) st = accept(x, &next, &own);
+  if (st == DYD_OK && x->spans) st = real_cut_to_span(&next, x->span, request->bits, &own);
+  if (st == DYD_OK) st = real_accept(x, &next, &own);
   dyd_interval_clear(&next);
   if (st == DYD_OK) {
     x->final = fixed || dyd_interval_is_point(x->now);
@@ -179,11 +179,11 @@ static bool span_is_short(const dyd_real *x, int64_t bits) {
 }
 
 /* Narrows to what the span gives for `bits`. */
-static dyd_status take_span(dyd_real *x, dyd_double_span span, dyd_error *err) {
+static dyd_status real_take_span(dyd_real *x, dyd_double_span span, dyd_error *err) {
   dyd_interval next;
   dyd_interval_init(&next);
   dyd_status st = dyd_interval_set_d(&next, span.lo, span.hi);
-  st = st == DYD_OK ? accept(x, &next, err) : dyd_fail(err, st, "%s", dyd_status_text(st));
+  st = st == DYD_OK ? real_accept(x, &next, err) : dyd_fail(err, st, "%s", dyd_status_text(st));
   dyd_interval_clear(&next);
   if (st == DYD_OK) x->final = dyd_interval_is_point(x->now);
   return st;
@@ -196,9 +196,9 @@ dyd_status dyd_real_narrow(dyd_real *x, int64_t bits, int64_t max_bits, dyd_erro
   if (x->now && dyd_interval_bits(x->now) >= bits) return DYD_OK;
   dyd_status st = dyd_request_make(&request, 0, bits, max_bits, err);
   if (st == DYD_OK && x->spans && span_is_short(x, request.bits) && dyd_filter_round(&span, x->span, request.bits))
-    st = take_span(x, span, err);
+    st = real_take_span(x, span, err);
   else if (st == DYD_OK)
-    st = call_source(x, &request, err);
+    st = real_call_source(x, &request, err);
   if (st != DYD_OK) {
     place_error(x, err);
     return st;

@@ -15,7 +15,7 @@
 #include "base/error.h"
 #include <arb_fmpz_poly.h>
 
-static void load(fmpz_poly_t p, const dyd_root *r) {
+static void root_load(fmpz_poly_t p, const dyd_root *r) {
   fmpz_t c;
   fmpz_init(c);
   for (size_t k = r->count; k-- > 0;) {
@@ -30,7 +30,7 @@ static slong start_precision(mpz_srcptr m) {
 }
 
 /* The exact sign at m 2^-s. */
-static int sign_at(const fmpz_poly_t p, mpz_srcptr m, int64_t s) {
+static int root_sign_at(const fmpz_poly_t p, mpz_srcptr m, int64_t s) {
   arb_t x, y;
   arb_init(x);
   arb_init(y);
@@ -46,7 +46,7 @@ static int sign_at(const fmpz_poly_t p, mpz_srcptr m, int64_t s) {
 }
 
 /* Makes m 2^-s the exact root when sign says so. */
-static bool hit(dyd_root *r, int sign, mpz_srcptr m, int64_t s) {
+static bool root_hit(dyd_root *r, int sign, mpz_srcptr m, int64_t s) {
   if (sign) return false;
   mpz_set(r->cell, m);
   r->s = s;
@@ -92,15 +92,15 @@ static int64_t grid_for(const dyd_root *r) {
 }
 
 /* Between the grid points first < last lies the sign change: bisects the cells. */
-static void choose_cell(dyd_root *r, const fmpz_poly_t p, mpz_ptr first, mpz_ptr last, int64_t s) {
+static void root_choose_slot(dyd_root *r, const fmpz_poly_t p, mpz_ptr first, mpz_ptr last, int64_t s) {
   mpz_t middle;
   mpz_init(middle);
   for (;;) {
     mpz_add(middle, first, last);
     mpz_fdiv_q_2exp(middle, middle, 1);
     if (mpz_cmp(middle, first) == 0) break;
-    int sign = sign_at(p, middle, s);
-    if (hit(r, sign, middle, s)) break;
+    int sign = root_sign_at(p, middle, s);
+    if (root_hit(r, sign, middle, s)) break;
     mpz_set(sign == r->sign_left ? first : last, middle);
   }
   if (!r->exact) {
@@ -113,7 +113,7 @@ static void choose_cell(dyd_root *r, const fmpz_poly_t p, mpz_ptr first, mpz_ptr
 
 /* Phase 1. The bracket (lo,hi) has inner grid points first <= last; the sign change is left of first, right of last,
  * or between them. In the first two cases the bracket becomes four times narrower at least. */
-static dyd_status enter_grid(dyd_root *r, const fmpz_poly_t p, dyd_error *err) {
+static dyd_status root_enter_grid(dyd_root *r, const fmpz_poly_t p, dyd_error *err) {
   int64_t s = grid_for(r);
   if (s > DYD_EXP_LIMIT) {
     return dyd_fail(err, DYD_E_RANGE, "the root lies too close to an end of its interval; give another interval");
@@ -123,14 +123,14 @@ static dyd_status enter_grid(dyd_root *r, const fmpz_poly_t p, dyd_error *err) {
   mpz_init(last);
   to_grid(first, r->lo, s, DYD_UP);
   to_grid(last, r->hi, s, DYD_DOWN);
-  int left = sign_at(p, first, s), right = sign_at(p, last, s);
-  bool done = hit(r, left, first, s) || hit(r, right, last, s);
+  int left = root_sign_at(p, first, s), right = root_sign_at(p, last, s);
+  bool done = root_hit(r, left, first, s) || root_hit(r, right, last, s);
   if (!done && left != r->sign_left) {
     from_grid(r->hi, first, s);
   } else if (!done && right == r->sign_left) {
     from_grid(r->lo, last, s);
   } else if (!done) {
-    choose_cell(r, p, first, last, s);
+    root_choose_slot(r, p, first, last, s);
   }
   mpz_clear(last);
   mpz_clear(first);
@@ -158,13 +158,13 @@ static bool is_isolated(const dyd_root *r, const fmpz_poly_t p) {
   return result;
 }
 
-static void bisect(dyd_root *r, const fmpz_poly_t p) {
+static void root_bisect(dyd_root *r, const fmpz_poly_t p) {
   mpz_t middle;
   mpz_init(middle);
   mpz_mul_2exp(middle, r->cell, 1);
   mpz_add_ui(middle, middle, 1);
-  int sign = sign_at(p, middle, r->s + 1);
-  if (!hit(r, sign, middle, r->s + 1)) {
+  int sign = root_sign_at(p, middle, r->s + 1);
+  if (!root_hit(r, sign, middle, r->s + 1)) {
     mpz_sub_ui(r->cell, middle, sign == r->sign_left ? 0 : 1);
     r->s++;
   }
@@ -172,7 +172,7 @@ static void bisect(dyd_root *r, const fmpz_poly_t p) {
 }
 
 /* The secant's proposal m, 0 < m < 2^j, for the root at (cell 2^j + m) 2^-(s+j). Only a guess. */
-static void propose(mpz_ptr m, const dyd_root *r, const fmpz_poly_t p, unsigned j) {
+static void root_propose(mpz_ptr m, const dyd_root *r, const fmpz_poly_t p, unsigned j) {
   arb_t x, a, b;
   arb_init(x);
   arb_init(a);
@@ -201,7 +201,7 @@ static void propose(mpz_ptr m, const dyd_root *r, const fmpz_poly_t p, unsigned 
 }
 
 /* Holds m within 1 .. 2^j - 1. */
-static void clamp(mpz_ptr m, unsigned j) {
+static void root_clamp(mpz_ptr m, unsigned j) {
   mpz_t most;
   mpz_init_set_ui(most, 1);
   mpz_mul_2exp(most, most, j);
@@ -212,18 +212,18 @@ static void clamp(mpz_ptr m, unsigned j) {
 }
 
 /* Phase 3: tries the subcell beside the proposal. false: refuted, r unchanged. */
-static bool quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
+static bool root_quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
   mpz_t m, base, other;
   mpz_init(m);
   mpz_init(base);
   mpz_init(other);
-  propose(m, r, p, j);
-  clamp(m, j);
+  root_propose(m, r, p, j);
+  root_clamp(m, j);
   mpz_mul_2exp(base, r->cell, j);
   mpz_add(m, m, base);
   int64_t s = r->s + j;
-  int sign = sign_at(p, m, s), next = sign;
-  bool found = hit(r, sign, m, s);
+  int sign = root_sign_at(p, m, s), next = sign;
+  bool found = root_hit(r, sign, m, s);
   if (!found) {
     bool left = sign == r->sign_left; /* the root is to the right of m */
     if (left) {
@@ -231,8 +231,8 @@ static bool quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
     } else {
       mpz_sub_ui(other, m, 1);
     }
-    next = sign_at(p, other, s);
-    found = hit(r, next, other, s);
+    next = root_sign_at(p, other, s);
+    found = root_hit(r, next, other, s);
     if (!found && next != sign) {
       mpz_set(r->cell, left ? m : other);
       r->s = s;
@@ -248,15 +248,15 @@ static bool quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
 static void grid_step(dyd_root *r, const fmpz_poly_t p, int64_t target) {
   if (!r->isolated) {
     r->isolated = is_isolated(r, p);
-    if (!r->isolated) bisect(r, p);
+    if (!r->isolated) root_bisect(r, p);
     return;
   }
   unsigned j = r->jump;
   if ((int64_t)j > target - r->s) j = target > r->s ? (unsigned)(target - r->s) : 1;
   if (j < 2) {
-    bisect(r, p);
+    root_bisect(r, p);
     if (r->jump < 2) r->jump = 2;
-  } else if (quadratic(r, p, j)) {
+  } else if (root_quadratic(r, p, j)) {
     if (r->jump < 1u << 20) r->jump *= 2;
   } else {
     r->jump = j / 2;
@@ -272,9 +272,9 @@ dyd_status dyd_root_step(dyd_root *r, int64_t target, dyd_error *err) {
   fmpz_poly_t p;
   dyd_status st = DYD_OK;
   fmpz_poly_init(p);
-  load(p, r);
+  root_load(p, r);
   if (!r->on_grid) {
-    st = enter_grid(r, p, err);
+    st = root_enter_grid(r, p, err);
   } else if (!r->exact) {
     grid_step(r, p, target);
   }

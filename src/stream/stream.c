@@ -30,7 +30,7 @@ static dyd_status stream_new(dyd_stream **out, size_t more, const dyd_source *so
 }
 
 /* Makes room for a rectangle. */
-static bool hold(dyd_stream *s) {
+static bool stream_hold(dyd_stream *s) {
   if (s->now) return true;
   s->now = dyd_alloc(1, sizeof *s->now);
   if (s->now) dyd_rect_init(s->now);
@@ -65,7 +65,7 @@ dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value) {
   dyd_source none = {0};
   dyd_status st = stream_new(&s, 0, &none, DYD_NO_POINT);
   if (st != DYD_OK) return st;
-  if (!hold(s)) {
+  if (!stream_hold(s)) {
     free(s);
     return DYD_E_NOMEM;
   }
@@ -104,16 +104,16 @@ uint64_t dyd_stream_stage(const dyd_stream *s) {
   return s->stage;
 }
 
-static dyd_status accept(dyd_stream *s, dyd_rect *next, dyd_error *err) {
+static dyd_status stream_accept(dyd_stream *s, dyd_rect *next, dyd_error *err) {
   dyd_status st = dyd_nest(&next->x, s->now ? &s->now->x : NULL, s->encloses, "x side", err);
   if (st == DYD_OK) st = dyd_nest(&next->y, s->now ? &s->now->y : NULL, s->encloses, "y side", err);
   if (st != DYD_OK) return st;
-  if (!hold(s)) return dyd_fail_nomem(err);
+  if (!stream_hold(s)) return dyd_fail_nomem(err);
   dyd_rect_swap(s->now, next);
   return DYD_OK;
 }
 
-static dyd_status call_source(dyd_stream *s, const dyd_request *request, dyd_error *err) {
+static dyd_status stream_call_source(dyd_stream *s, const dyd_request *request, dyd_error *err) {
   dyd_rect next;
   dyd_error own;
   dyd_error_clear(&own);
@@ -122,7 +122,7 @@ static dyd_status call_source(dyd_stream *s, const dyd_request *request, dyd_err
   dyd_status st = s->source.narrow(&next, s->source.user, request, &own);
   bool fixed = st == DYD_FIXED;
   if (fixed) st = DYD_OK;
-  if (st == DYD_OK) st = accept(s, &next, &own);
+  if (st == DYD_OK) st = stream_accept(s, &next, &own);
   dyd_rect_clear(&next);
   if (st == DYD_OK) {
     s->final = fixed || dyd_rect_is_point(s->now);
@@ -138,7 +138,7 @@ dyd_status dyd_stream_narrow(dyd_stream *s, int64_t bits, int64_t max_bits, dyd_
   if (s->final) return DYD_FIXED;
   if (s->now && dyd_rect_bits(s->now) >= bits) return DYD_OK;
   dyd_status st = dyd_request_make(&request, s->point == DYD_NO_POINT ? 0 : s->point, bits, max_bits, err);
-  if (st == DYD_OK) st = call_source(s, &request, err);
+  if (st == DYD_OK) st = stream_call_source(s, &request, err);
   if (st != DYD_OK) return st;
   return s->final ? DYD_FIXED : DYD_OK;
 }

@@ -27,7 +27,7 @@ static void affine_release(void *user) {
 }
 
 /* Adds c [x0,x1] to [lo,hi]. */
-static void add_term(mpq_t lo, mpq_t hi, const mpq_t c, const mpq_t x0, const mpq_t x1) {
+static void affine_add_term(mpq_t lo, mpq_t hi, const mpq_t c, const mpq_t x0, const mpq_t x1) {
   mpq_t t;
   mpq_init(t);
   mpq_mul(t, c, mpq_sgn(c) < 0 ? x1 : x0);
@@ -38,26 +38,26 @@ static void add_term(mpq_t lo, mpq_t hi, const mpq_t c, const mpq_t x0, const mp
 }
 
 /* out = row[0] x + row[1] y + row[2] over r [AFF-1]. Fixed rectangles are rounded once and for all. */
-static dyd_status image_side(dyd_interval *out, const mpq_t *row, const dyd_rect *r, bool final, int64_t exp) {
+static dyd_status affine_image_side(dyd_interval *out, const mpq_t *row, const dyd_rect *r, bool final, int64_t exp) {
   mpq_t lo, hi, x0, x1;
   mpq_inits(lo, hi, x0, x1, NULL);
   mpq_set(lo, row[2]);
   mpq_set(hi, row[2]);
   dyd_interval_get_q(x0, x1, &r->x);
-  add_term(lo, hi, row[0], x0, x1);
+  affine_add_term(lo, hi, row[0], x0, x1);
   dyd_interval_get_q(x0, x1, &r->y);
-  add_term(lo, hi, row[1], x0, x1);
+  affine_add_term(lo, hi, row[1], x0, x1);
   bool exact = final || mpq_equal(lo, hi);
   dyd_status st = exact ? dyd_interval_fix(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
   mpq_clears(lo, hi, x0, x1, NULL);
   return st;
 }
 
-static dyd_status image(dyd_rect *out, const affine *a, int64_t exp) {
+static dyd_status affine_image(dyd_rect *out, const affine *a, int64_t exp) {
   const dyd_rect *r = dyd_stream_rect(a->of);
   bool final = dyd_stream_is_final(a->of);
-  dyd_status st = image_side(&out->x, a->m, r, final, exp);
-  return st == DYD_OK ? image_side(&out->y, a->m + 3, r, final, exp) : st;
+  dyd_status st = affine_image_side(&out->x, a->m, r, final, exp);
+  return st == DYD_OK ? affine_image_side(&out->y, a->m + 3, r, final, exp) : st;
 }
 
 static dyd_status affine_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
@@ -65,13 +65,13 @@ static dyd_status affine_narrow(dyd_rect *out, void *user, const dyd_request *re
   int64_t more = a->gain + 1;
   dyd_status st = dyd_stream_narrow(a->of, request->bits + more, request->max_bits + (more > 0 ? more : 0), err);
   if (dyd_failed(st)) return st;
-  st = image(out, a, -request->bits - 2);
+  st = affine_image(out, a, -request->bits - 2);
   if (st != DYD_OK) return dyd_fail(err, st, "the affine image of a point: %s", dyd_status_text(st));
   return dyd_stream_is_final(a->of) ? DYD_FIXED : DYD_OK;
 }
 
 /* A g for which both rows have |row[0]| + |row[1]| <= 2^g; very small for a constant map. */
-static int64_t gain_of(const mpq_t m[6]) {
+static int64_t affine_gain(const mpq_t m[6]) {
   int64_t gain = -DYD_EXP_LIMIT;
   mpq_t sum, t;
   mpq_init(sum);
@@ -90,7 +90,7 @@ static int64_t gain_of(const mpq_t m[6]) {
 }
 
 /* out = outer o inner. */
-static void compose(mpq_t out[6], const mpq_t outer[6], const mpq_t inner[6]) {
+static void affine_compose(mpq_t out[6], const mpq_t outer[6], const mpq_t inner[6]) {
   mpq_t t;
   mpq_init(t);
   for (int row = 0; row < 2; row++) {
@@ -116,20 +116,20 @@ static affine *affine_make(dyd_stream *of, const mpq_t m[6]) {
   for (int i = 0; i < 6; i++) mpq_init(a->m[i]);
   a->of = of;
   if (inner) {
-    compose(a->m, m, inner->m);
+    affine_compose(a->m, m, inner->m);
     a->of = dyd_stream_ref(inner->of);
     dyd_stream_free(of);
   } else {
     for (int i = 0; i < 6; i++) mpq_set(a->m[i], m[i]);
   }
-  a->gain = gain_of((const mpq_t *)a->m);
+  a->gain = affine_gain((const mpq_t *)a->m);
   return a;
 }
 
 static dyd_status affine_fixed(dyd_stream **out, const affine *a) {
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status st = image(&r, a, 0);
+  dyd_status st = affine_image(&r, a, 0);
   if (st == DYD_OK) st = dyd_stream_new_fixed(out, &r);
   dyd_rect_clear(&r);
   return st;

@@ -41,7 +41,7 @@ static bool combination_is_final(const combination *c) {
 }
 
 /* One side of the image: side 0 is x [CMB-1]. Fixed rectangles are rounded once and for all. */
-static dyd_status image_side(dyd_interval *out, const combination *c, int side, int64_t exp) {
+static dyd_status combination_image_side(dyd_interval *out, const combination *c, int side, int64_t exp) {
   mpq_t lo, hi, end[2];
   mpq_inits(lo, hi, end[0], end[1], NULL);
   mpq_set(lo, c->shift[side]);
@@ -61,9 +61,9 @@ static dyd_status image_side(dyd_interval *out, const combination *c, int side, 
   return st;
 }
 
-static dyd_status image(dyd_rect *out, const combination *c, int64_t exp) {
-  dyd_status st = image_side(&out->x, c, 0, exp);
-  return st == DYD_OK ? image_side(&out->y, c, 1, exp) : st;
+static dyd_status combination_image(dyd_rect *out, const combination *c, int64_t exp) {
+  dyd_status st = combination_image_side(&out->x, c, 0, exp);
+  return st == DYD_OK ? combination_image_side(&out->y, c, 1, exp) : st;
 }
 
 static dyd_status combination_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
@@ -73,13 +73,13 @@ static dyd_status combination_narrow(dyd_rect *out, void *user, const dyd_reques
     dyd_status st = dyd_stream_narrow(c->of[k], request->bits + more, most, err);
     if (dyd_failed(st)) return st;
   }
-  dyd_status st = image(out, c, -request->bits - 2);
+  dyd_status st = combination_image(out, c, -request->bits - 2);
   if (st != DYD_OK) return dyd_fail(err, st, "a combination of points: %s", dyd_status_text(st));
   return combination_is_final(c) ? DYD_FIXED : DYD_OK;
 }
 
 /* A g with sum of |weight| <= 2^g. */
-static int64_t gain_of(const combination *c) {
+static int64_t combination_gain(const combination *c) {
   mpq_t sum, t;
   mpq_inits(sum, t, NULL);
   for (size_t k = 0; k < c->count; k++) {
@@ -114,14 +114,14 @@ static combination *combination_make(size_t n, dyd_stream *const *of, const mpq_
     return NULL;
   }
   for (int a = 0; c && shift && a < 2; a++) mpq_set(c->shift[a], shift[a]);
-  if (c) c->gain = gain_of(c);
+  if (c) c->gain = combination_gain(c);
   return c;
 }
 
 static dyd_status combination_fixed(dyd_stream **out, const combination *c) {
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status st = image(&r, c, 0);
+  dyd_status st = combination_image(&r, c, 0);
   if (st == DYD_OK) st = dyd_stream_new_fixed(out, &r);
   dyd_rect_clear(&r);
   return st;

@@ -18,7 +18,7 @@ mpz_srcptr dyd_window_level(const dyd_exact_cell *c, int side) {
   return side == 0 ? w->y0 : side == 1 ? w->x1 : side == 2 ? w->y1 : w->x0;
 }
 
-static void make_exact(const dyd_exact_cell *c, dyd_sample *s, const dyd_elementary *arc, int window_side) {
+static void sample_make_exact(const dyd_exact_cell *c, dyd_sample *s, const dyd_elementary *arc, int window_side) {
   dyd_surd_point *p = &s->spot.at;
   s->known = true;
   if (arc) {
@@ -38,12 +38,12 @@ static void make_exact(const dyd_exact_cell *c, dyd_sample *s, const dyd_element
 int dyd_cell_side(const dyd_exact_cell *c, dyd_sample *s, const dyd_elementary *arc, int window_side, size_t k) {
   int sign = dyd_filter_side(&s->spot, &c->other[k].box, c->other_touch, &c->fixed.box, c->fixed_touch);
   if (sign) return sign;
-  if (!s->known) make_exact(c, s, arc, window_side);
+  if (!s->known) sample_make_exact(c, s, arc, window_side);
   return dyd_surd_point_side(&s->spot.at, &c->other[k].r, c->other_touch, &c->fixed.r, c->fixed_touch);
 }
 
 /* num / 2^bits strictly between two points, by enclosures of growing precision. */
-static void between(dyd_sample *s, const dyd_spot *low, const dyd_spot *high, int axis) {
+static void sample_between(dyd_sample *s, const dyd_spot *low, const dyd_spot *high, int axis) {
   mpz_t up, down, t;
   mpz_inits(up, down, t, NULL);
   for (s->bits = 4;; s->bits *= 2) {
@@ -68,9 +68,9 @@ void dyd_cell_sample(dyd_exact_cell *c, const dyd_elementary *arc, int window_si
     static const int end[4] = {2, 1, 3, 0};
     if (dyd_filter_sample_segment(s, c->window.box.end[end[window_side]], axis, low, high, c->shift)) return;
   }
-  between(s, low, high, axis);
+  sample_between(s, low, high, axis);
   s->spot.infinite = false;
-  make_exact(c, s, arc, window_side);
+  sample_make_exact(c, s, arc, window_side);
   dyd_filter_spot_box(&s->spot, c->shift);
 }
 
@@ -87,16 +87,16 @@ int dyd_cell_spot_cmp(const dyd_spot *p, const dyd_spot *q, int axis) {
   return sign ? sign : dyd_surd_point_cmp(&p->at, &q->at, axis);
 }
 
-static int compare_x(const void *p, const void *q) {
+static int compare_cut_x(const void *p, const void *q) {
   return dyd_cell_spot_cmp(*(const dyd_spot *const *)p, *(const dyd_spot *const *)q, 0);
 }
 
-static int compare_y(const void *p, const void *q) {
+static int compare_cut_y(const void *p, const void *q) {
   return dyd_cell_spot_cmp(*(const dyd_spot *const *)p, *(const dyd_spot *const *)q, 1);
 }
 
 size_t dyd_cell_sort_cuts(const dyd_spot **cut, size_t count, int axis) {
-  if (count > 1) qsort(cut, count, sizeof(const dyd_spot *), axis ? compare_y : compare_x);
+  if (count > 1) qsort(cut, count, sizeof(const dyd_spot *), axis ? compare_cut_y : compare_cut_x);
   size_t kept = 0;
   for (size_t k = 0; k < count; k++)
     if (!kept || dyd_cell_spot_cmp(cut[kept - 1], cut[k], axis)) cut[kept++] = cut[k];

@@ -19,13 +19,13 @@ static dyd_status find_site(uint32_t *site, const dyd_delaunay *pd, uint32_t i) 
   return DYD_OK;
 }
 
-static bool has_area(const dyd_rect *w) {
+static bool window_has_area(const dyd_rect *w) {
   return dyd_dyadic_cmp(&w->x.lo, &w->x.hi) < 0 && dyd_dyadic_cmp(&w->y.lo, &w->y.hi) < 0;
 }
 
 /* The region of `site` among the sites s of its cell; window: NULL for the whole plane. */
-static dyd_status region_of(dyd_boundary *out, const dyd_delaunay *pd, const dyd_cell_sites *s, uint32_t site,
-                            bool outer, const dyd_rect *window) {
+static dyd_status cell_region_among(dyd_boundary *out, const dyd_delaunay *pd, const dyd_cell_sites *s, uint32_t site,
+                                    bool outer, const dyd_rect *window) {
   const dyd_rect **in = dyd_alloc(s->count + 2, sizeof *in);
   if (!in) return DYD_E_NOMEM;
   in[0] = &s->own;
@@ -37,32 +37,33 @@ static dyd_status region_of(dyd_boundary *out, const dyd_delaunay *pd, const dyd
   return st;
 }
 
-static dyd_status region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer, const dyd_rect *window) {
+static dyd_status cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer,
+                              const dyd_rect *window) {
   uint32_t site;
-  if (window && !has_area(window)) return DYD_E_ARG;
+  if (window && !window_has_area(window)) return DYD_E_ARG;
   dyd_status st = find_site(&site, pd, i);
   if (st != DYD_OK) return st;
   dyd_cell_sites s;
   st = dyd_cell_sites_init(&s, pd, site);
-  if (st == DYD_OK) st = region_of(out, pd, &s, site, outer, window);
+  if (st == DYD_OK) st = cell_region_among(out, pd, &s, site, outer, window);
   dyd_cell_sites_clear(&s);
   return st;
 }
 
 dyd_status dyd_voronoi_int(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i) {
-  return region(out, pd, i, false, NULL);
+  return cell_region(out, pd, i, false, NULL);
 }
 
 dyd_status dyd_voronoi_pos(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i) {
-  return region(out, pd, i, true, NULL);
+  return cell_region(out, pd, i, true, NULL);
 }
 
 dyd_status dyd_voronoi_int_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {
-  return window ? region(out, pd, i, false, window) : DYD_E_ARG;
+  return window ? cell_region(out, pd, i, false, window) : DYD_E_ARG;
 }
 
 dyd_status dyd_voronoi_pos_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {
-  return window ? region(out, pd, i, true, window) : DYD_E_ARG;
+  return window ? cell_region(out, pd, i, true, window) : DYD_E_ARG;
 }
 
 dyd_status dyd_bisector(dyd_boundary *out, const dyd_rect *a, const dyd_rect *b) {

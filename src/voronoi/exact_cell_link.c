@@ -43,7 +43,7 @@ static bool same_point(const dyd_spot *p, const dyd_spot *q) {
 }
 
 /* Joins every loose end of a finite piece to a loose beginning; own: of the same curve only. */
-static void join(links *l, const dyd_exact_cell *c, bool own) {
+static void links_join(links *l, const dyd_exact_cell *c, bool own) {
   for (size_t p = 0; p < c->pieces; p++) {
     if (c->piece[p].end->infinite || l->next[p] != NONE) continue;
     for (size_t q = 0; q < c->pieces; q++) {
@@ -143,7 +143,7 @@ static dyd_status write_chain(dyd_boundary *out, links *l, const dyd_exact_cell 
   return DYD_OK;
 }
 
-static dyd_status write_all(dyd_boundary *out, links *l, const dyd_exact_cell *c) {
+static dyd_status links_write_all(dyd_boundary *out, links *l, const dyd_exact_cell *c) {
   out->chain = dyd_alloc(c->pieces, sizeof *out->chain);
   if (!out->chain) return DYD_E_NOMEM;
   dyd_status st = DYD_OK;
@@ -160,9 +160,9 @@ dyd_status dyd_cell_link(dyd_boundary *out, const dyd_exact_cell *c) {
   links l;
   dyd_status st = links_init(&l, c->pieces);
   if (st == DYD_OK) {
-    join(&l, c, true);
-    join(&l, c, false);
-    st = write_all(out, &l, c);
+    links_join(&l, c, true);
+    links_join(&l, c, false);
+    st = links_write_all(out, &l, c);
   }
   links_clear(&l);
   return st;

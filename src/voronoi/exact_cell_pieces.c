@@ -25,7 +25,7 @@ static dyd_status cut_arc(dyd_exact_cell *c, size_t *count, const dyd_elementary
 }
 
 /* All cuts of an arc, unsorted. */
-static dyd_status find_cuts(dyd_exact_cell *c, size_t *count, const dyd_elementary *a, size_t j) {
+static dyd_status arc_find_cuts(dyd_exact_cell *c, size_t *count, const dyd_elementary *a, size_t j) {
   *count = 0;
   for (size_t m = 0; m < c->meets; m++) {
     const dyd_meet *meet = &c->meet[m];
@@ -39,31 +39,31 @@ static dyd_status find_cuts(dyd_exact_cell *c, size_t *count, const dyd_elementa
 /* ---- pieces of an arc ---- */
 
 /* Does k take the sample on curve j away from it? */
-static bool takes(dyd_exact_cell *c, const dyd_elementary *a, size_t j, size_t k) {
+static bool other_takes_sample(dyd_exact_cell *c, const dyd_elementary *a, size_t j, size_t k) {
   if (k == j) return false;
   int sign = dyd_cell_side(c, &c->sample, a, 0, k);
   return sign < 0 || (!sign && k < j);
 }
 
 /* Is the sample on curve j a point of the boundary that counts for j? Who took the last one is asked first. */
-static bool is_kept(dyd_exact_cell *c, const dyd_elementary *a, size_t j) {
-  if (c->taker < c->count && takes(c, a, j, c->taker)) return false;
+static bool sample_is_kept(dyd_exact_cell *c, const dyd_elementary *a, size_t j) {
+  if (c->taker < c->count && other_takes_sample(c, a, j, c->taker)) return false;
   for (size_t k = 0; k < c->count; k++)
-    if (k != c->taker && takes(c, a, j, k)) return c->taker = k, false;
+    if (k != c->taker && other_takes_sample(c, a, j, k)) return c->taker = k, false;
   return true;
 }
 
 static dyd_status arc_pieces(dyd_exact_cell *c, size_t j, const dyd_elementary *a) {
   size_t count;
   if (a->point) return DYD_OK;
-  dyd_status st = find_cuts(c, &count, a, j);
+  dyd_status st = arc_find_cuts(c, &count, a, j);
   if (st != DYD_OK) return st;
   count = dyd_cell_sort_cuts(c->cut, count, a->axis);
   bool grows = (a->direction > 0) != c->task->outer;
   for (size_t k = 0; k <= count && st == DYD_OK; k++) {
     const dyd_spot *low = k ? c->cut[k - 1] : &a->end[0], *high = k < count ? c->cut[k] : &a->end[1];
     dyd_cell_sample(c, a, 0, low, high);
-    if (is_kept(c, a, j)) st = dyd_cell_add_piece(c, (dyd_piece){j, a, grows ? low : high, grows ? high : low});
+    if (sample_is_kept(c, a, j)) st = dyd_cell_add_piece(c, (dyd_piece){j, a, grows ? low : high, grows ? high : low});
   }
   return st;
 }
@@ -86,7 +86,7 @@ static dyd_status add_meet(dyd_exact_cell *c, size_t j, size_t k, dyd_icircle *c
   return DYD_OK;
 }
 
-static bool may_meet(const dyd_exact_cell *c, size_t j, size_t k) {
+static bool curves_may_meet(const dyd_exact_cell *c, size_t j, size_t k) {
   const dyd_delaunay *pd = c->task->pd;
   return !pd || dyd_delaunay_status(pd, c->site[j], c->site[k]) != DYD_ILLEGAL;
 }
@@ -98,7 +98,7 @@ static dyd_status find_meets(dyd_exact_cell *c) {
   dyd_status st = DYD_OK;
   for (size_t j = 0; j < c->count; j++)
     for (size_t k = j + 1; k < c->count && st == DYD_OK; k++) {
-      if (!may_meet(c, j, k)) continue;
+      if (!curves_may_meet(c, j, k)) continue;
       const dyd_irect *r[3] = {&c->fixed.r, &c->other[j].r, &c->other[k].r};
       size_t found = dyd_icircles(circle, DYD_CELL_CIRCLES, r, touch);
       DYD_INVARIANT(found < DYD_CELL_CIRCLES);

@@ -27,14 +27,14 @@ typedef struct work {
   mpq_t x, y, s, t;
 } work;
 
-static dyd_status work_init(work *w, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits) {
+static dyd_status polygon_work_init(work *w, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits) {
   *w = (work){.own = i, .window = window, .bits = bits};
   dyd_point_init(&w->goal);
   mpq_inits(w->x, w->y, w->s, w->t, NULL);
   return dyd_cell_sites_init(&w->sites, pd, i);
 }
 
-static void work_clear(work *w) {
+static void polygon_work_clear(work *w) {
   mpq_clears(w->x, w->y, w->s, w->t, NULL);
   dyd_point_clear(&w->goal);
   free(w->samples.item);
@@ -58,7 +58,7 @@ static int64_t log2_length(const mpq_t x, const mpq_t y) {
 
 /* z += (x, y) 2^-shift with shift such that the move has between 2^-(bits+5) and 2^-(bits+2), or the whole of (x, y) if
  * that is shorter and not `stretch`; rounded to multiples of 2^-fine. */
-static dyd_status move(dyd_point *z, work *w, bool stretch, int64_t fine) {
+static dyd_status move_by_step(dyd_point *z, work *w, bool stretch, int64_t fine) {
   int64_t shift = log2_length(w->x, w->y) + w->bits + 2;
   if (shift < 1 && !stretch) shift = 1;
   for (int axis = 0; axis < 2; axis++) {
@@ -108,7 +108,7 @@ static dyd_status find_goal(bool *out, work *w, int64_t fine) {
   return st;
 }
 
-static dyd_status inner_point(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine) {
+static dyd_status place_inner(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine) {
   dyd_status st = dyd_sample_point(z, at, &w->sites, w->own, fine);
   if (st != DYD_OK) return st;
   dyd_dyadic_get_q(w->s, &z->x);
@@ -117,7 +117,7 @@ static dyd_status inner_point(bool *out, dyd_point *z, work *w, const dyd_arc_sa
   dyd_dyadic_get_q(w->s, &z->y);
   dyd_dyadic_get_q(w->y, &w->goal.y);
   mpq_sub(w->y, w->y, w->s);
-  st = move(z, w, false, fine);
+  st = move_by_step(z, w, false, fine);
   *out = st == DYD_OK && inside_window(w, z) && dyd_cell_holds(&w->sites, z);
   return st;
 }
@@ -125,7 +125,7 @@ static dyd_status inner_point(bool *out, dyd_point *z, work *w, const dyd_arc_sa
 /* ---- outward ---- */
 
 /* (x, y) = z minus its nearest point in R_i. */
-static void away(work *w, const dyd_point *z) {
+static void set_away(work *w, const dyd_point *z) {
   const dyd_rect *r = &w->sites.own;
   for (int axis = 0; axis < 2; axis++) {
     mpq_ptr d = axis ? w->y : w->x;
@@ -141,21 +141,21 @@ static void away(work *w, const dyd_point *z) {
 }
 
 /* Is z in C_ki for the far site k of the arc? Window arcs ask nothing. */
-static bool beyond(const work *w, const dyd_arc *arc, const dyd_point *z) {
+static bool beyond_arc(const work *w, const dyd_arc *arc, const dyd_point *z) {
   return arc->kind == DYD_ARC_WINDOW ||
          dyd_nearer(z, dyd_cell_site(&w->sites, arc->far_site), &w->sites.own) == DYD_TRUE;
 }
 
-static dyd_status outer_point(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine) {
+static dyd_status place_outer(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine) {
   dyd_status st = dyd_sample_point(z, at, &w->sites, w->own, fine);
   if (st != DYD_OK) return st;
   if (at->arc->kind == DYD_ARC_WINDOW && at->before->kind == DYD_ARC_WINDOW) {
     *out = true; /* a corner of W: its edges need no proof */
     return DYD_OK;
   }
-  away(w, z);
-  st = move(z, w, true, fine);
-  *out = st == DYD_OK && beyond(w, at->arc, z) && beyond(w, at->before, z);
+  set_away(w, z);
+  st = move_by_step(z, w, true, fine);
+  *out = st == DYD_OK && beyond_arc(w, at->arc, z) && beyond_arc(w, at->before, z);
   return st;
 }
 
@@ -164,7 +164,7 @@ static dyd_status outer_point(bool *out, dyd_point *z, work *w, const dyd_arc_sa
 typedef dyd_status (*place_fn)(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine);
 
 /* Proved points for all samples. */
-static dyd_status place_all(dyd_polygon *out, work *w, place_fn place, int64_t extra) {
+static dyd_status place_samples(dyd_polygon *out, work *w, place_fn place, int64_t extra) {
   const dyd_arc_samples *all = &w->samples;
   out->vertex = dyd_alloc(all->count, sizeof *out->vertex);
   if (!out->vertex) return DYD_E_NOMEM;
@@ -179,28 +179,28 @@ static dyd_status place_all(dyd_polygon *out, work *w, place_fn place, int64_t e
   return st;
 }
 
-static dyd_status inner(dyd_polygon *out, work *w) {
+static dyd_status exact_inner(dyd_polygon *out, work *w) {
   bool found = false;
   dyd_status st = dyd_chain_samples(&w->samples, &w->boundary.chain[0], &w->sites, w->own, w->bits + 1);
   for (int64_t extra = FIRST_EXTRA; !found && st == DYD_OK; extra *= 2)
     st = extra > MOST_EXTRA ? DYD_E_RANGE : find_goal(&found, w, w->bits + extra);
-  if (st == DYD_OK) st = place_all(out, w, inner_point, FIRST_EXTRA);
+  if (st == DYD_OK) st = place_samples(out, w, place_inner, FIRST_EXTRA);
   return st == DYD_OK ? dyd_polygon_make_convex(out) : st;
 }
 
 dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits) {
   work w;
   dyd_polygon polygon = {0};
-  dyd_status st = work_init(&w, pd, i, window, bits);
+  dyd_status st = polygon_work_init(&w, pd, i, window, bits);
   if (st == DYD_OK) st = dyd_voronoi_int_on(&w.boundary, pd, i, window);
-  if (st == DYD_OK && w.boundary.count) st = inner(&polygon, &w);
+  if (st == DYD_OK && w.boundary.count) st = exact_inner(&polygon, &w);
   if (st == DYD_OK) {
     dyd_polygon_clear(out);
     *out = polygon;
     polygon = (dyd_polygon){0};
   }
   dyd_polygon_clear(&polygon);
-  work_clear(&w);
+  polygon_work_clear(&w);
   return st;
 }
 
@@ -215,7 +215,7 @@ static dyd_status outer_part(dyd_polygon *out, work *w, const dyd_chain *chain) 
     w->samples.count = 0;
     w->bits = bits + extra;
     st = dyd_chain_samples(&w->samples, chain, &w->sites, w->own, w->bits + 1);
-    if (st == DYD_OK) st = place_all(out, w, outer_point, FIRST_EXTRA);
+    if (st == DYD_OK) st = place_samples(out, w, place_outer, FIRST_EXTRA);
     if (st == DYD_OK) st = dyd_polygon_is_simple(&simple, out);
   }
   w->bits = bits;
@@ -232,7 +232,7 @@ static dyd_status drop_if_clockwise(dyd_polygon_list *l) {
   return st;
 }
 
-static dyd_status outer(dyd_polygon_list *out, work *w) {
+static dyd_status exact_outer(dyd_polygon_list *out, work *w) {
   out->item = calloc(w->boundary.count, sizeof *out->item);
   if (!out->item) return DYD_E_NOMEM;
   dyd_status st = DYD_OK;
@@ -244,7 +244,7 @@ static dyd_status outer(dyd_polygon_list *out, work *w) {
 }
 
 /* W enlarged by 2^-(bits+1) on each side, so that its boundary and all within 2^-(bits+2) of it is outside of W. */
-static dyd_status enlarge(dyd_rect *out, const dyd_rect *window, int64_t bits) {
+static dyd_status enlarge_window(dyd_rect *out, const dyd_rect *window, int64_t bits) {
   dyd_dyadic margin;
   dyd_dyadic_init(&margin);
   dyd_status st = dyd_dyadic_set_si_2exp(&margin, 1, -(bits + 1));
@@ -264,17 +264,17 @@ dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32
   dyd_polygon_list list = {0};
   dyd_rect wide;
   dyd_rect_init(&wide);
-  dyd_status st = work_init(&w, pd, i, &wide, bits);
-  if (st == DYD_OK) st = enlarge(&wide, window, bits);
+  dyd_status st = polygon_work_init(&w, pd, i, &wide, bits);
+  if (st == DYD_OK) st = enlarge_window(&wide, window, bits);
   if (st == DYD_OK) st = dyd_voronoi_pos_on(&w.boundary, pd, i, &wide);
-  if (st == DYD_OK && w.boundary.count) st = outer(&list, &w);
+  if (st == DYD_OK && w.boundary.count) st = exact_outer(&list, &w);
   if (st == DYD_OK) {
     dyd_polygon_list_clear(out);
     *out = list;
     list = (dyd_polygon_list){0};
   }
   dyd_polygon_list_clear(&list);
-  work_clear(&w);
+  polygon_work_clear(&w);
   dyd_rect_clear(&wide);
   return st;
 }

@@ -173,7 +173,7 @@ dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const
 }
 
 /* t = the dyadic abscissa number step of the arc, up to 2^-bits between its ends. */
-static dyd_status abscissa(mpq_t t, const dyd_arc_sample *at, const parabola *p, int64_t bits) {
+static dyd_status sample_abscissa(mpq_t t, const dyd_arc_sample *at, const parabola *p, int64_t bits) {
   dyd_point a, b;
   mpq_t u;
   dyd_point_init(&a);
@@ -204,7 +204,7 @@ dyd_status dyd_sample_point(dyd_point *out, const dyd_arc_sample *at, const dyd_
   parabola_init(&p);
   mpq_inits(t, across, NULL);
   parabola_set(&p, at->arc, s, own);
-  dyd_status st = abscissa(t, at, &p, bits);
+  dyd_status st = sample_abscissa(t, at, &p, bits);
   if (st == DYD_OK) {
     parabola_at(across, &p, t);
     st = dyd_dyadic_round_q(p.along ? &out->y : &out->x, t, -(bits + 1), DYD_DOWN);

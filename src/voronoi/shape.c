@@ -42,7 +42,7 @@ dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, cons
 
 /* ---- copies and areas ---- */
 
-static dyd_status from_doubles(dyd_polygon *out, const dyd_xy *z, uint32_t count) {
+static dyd_status polygon_from_doubles(dyd_polygon *out, const dyd_xy *z, uint32_t count) {
   dyd_polygon p = {0};
   p.vertex = dyd_alloc(count, sizeof *p.vertex);
   if (!p.vertex) return DYD_E_NOMEM;
@@ -56,7 +56,7 @@ static dyd_status from_doubles(dyd_polygon *out, const dyd_xy *z, uint32_t count
 }
 
 dyd_status dyd_shape_inner(dyd_polygon *out, const dyd_shape *s) {
-  return s->in_doubles ? from_doubles(out, s->inner, s->inner_count) : dyd_polygon_copy(out, &s->inner_exact);
+  return s->in_doubles ? polygon_from_doubles(out, s->inner, s->inner_count) : dyd_polygon_copy(out, &s->inner_exact);
 }
 
 dyd_status dyd_shape_outer(dyd_polygon_list *out, const dyd_shape *s) {
@@ -66,7 +66,7 @@ dyd_status dyd_shape_outer(dyd_polygon_list *out, const dyd_shape *s) {
   if (!list.item) return DYD_E_NOMEM;
   dyd_status st = DYD_OK;
   for (; list.count < parts && st == DYD_OK; list.count++)
-    st = s->in_doubles ? from_doubles(&list.item[0], s->outer, s->outer_count)
+    st = s->in_doubles ? polygon_from_doubles(&list.item[0], s->outer, s->outer_count)
                        : dyd_polygon_copy(&list.item[list.count], &s->outer_exact.item[list.count]);
   if (st == DYD_OK)
     *out = list;
@@ -75,7 +75,7 @@ dyd_status dyd_shape_outer(dyd_polygon_list *out, const dyd_shape *s) {
   return st;
 }
 
-static dyd_status list_area2(dyd_dyadic *out, const dyd_polygon_list *l) {
+static dyd_status polygon_list_area2(dyd_dyadic *out, const dyd_polygon_list *l) {
   dyd_dyadic sum, one;
   dyd_dyadic_init(&sum);
   dyd_dyadic_init(&one);
@@ -91,9 +91,9 @@ static dyd_status list_area2(dyd_dyadic *out, const dyd_polygon_list *l) {
 }
 
 dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer) {
-  if (!s->in_doubles) return outer ? list_area2(out, &s->outer_exact) : dyd_polygon_area2(out, &s->inner_exact);
+  if (!s->in_doubles) return outer ? polygon_list_area2(out, &s->outer_exact) : dyd_polygon_area2(out, &s->inner_exact);
   dyd_polygon p = {0};
-  dyd_status st = from_doubles(&p, outer ? s->outer : s->inner, outer ? s->outer_count : s->inner_count);
+  dyd_status st = polygon_from_doubles(&p, outer ? s->outer : s->inner, outer ? s->outer_count : s->inner_count);
   if (st == DYD_OK) st = dyd_polygon_area2(out, &p);
   dyd_polygon_clear(&p);
   return st;
@@ -101,7 +101,8 @@ dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer) {
 
 /* ---- public ---- */
 
-static dyd_status find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits) {
+static dyd_status shape_find_public(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
+                                    int64_t bits) {
   dyd_window w;
   if (i >= pd->n || bits < -DYD_EXP_LIMIT / 4 || bits > DYD_EXP_LIMIT / 4) return DYD_E_ARG;
   dyd_status st = dyd_window_init(&w, window);
@@ -114,7 +115,7 @@ dyd_status dyd_voronoi_inner_polygon(dyd_polygon *out, const dyd_delaunay *pd, u
                                      int64_t bits) {
   dyd_shape s = {0};
   dyd_polygon p = {0};
-  dyd_status st = find(&s, pd, i, window, bits);
+  dyd_status st = shape_find_public(&s, pd, i, window, bits);
   if (st == DYD_OK) st = dyd_shape_inner(&p, &s);
   if (st == DYD_OK) {
     dyd_polygon_clear(out);
@@ -128,7 +129,7 @@ dyd_status dyd_voronoi_outer_polygon(dyd_polygon_list *out, const dyd_delaunay *
                                      int64_t bits) {
   dyd_shape s = {0};
   dyd_polygon_list l = {0};
-  dyd_status st = find(&s, pd, i, window, bits);
+  dyd_status st = shape_find_public(&s, pd, i, window, bits);
   if (st == DYD_OK) st = dyd_shape_outer(&l, &s);
   if (st == DYD_OK) {
     dyd_polygon_list_clear(out);

@@ -21,7 +21,7 @@ static bool triangle_is_sure(const dyd_delaunay *pd, const dyd_triangle *t, uint
          !(pd->faces.of && pd->faces.of[tri] != DYD_NONE);
 }
 
-static dyd_status set_box(dyd_rect *out, const dyd_bbox *b) {
+static dyd_status rect_set_box(dyd_rect *out, const dyd_bbox *b) {
   return dyd_rect_set_d(out, b->e[0], b->e[1], b->e[2], b->e[3]);
 }
 
@@ -31,7 +31,7 @@ dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_t
   if (!triangle_is_sure(pd, t, v)) return DYD_E_ARG;
   if (!pd->options.no_filter && bits > -1000 && bits < 1000 && dyd_filter_vertex(&box, pd, v)) {
     double limit = ldexp(1, (int)-bits);
-    if (box.e[1] - box.e[0] < limit && box.e[3] - box.e[2] < limit) return set_box(out, &box);
+    if (box.e[1] - box.e[0] < limit && box.e[3] - box.e[2] < limit) return rect_set_box(out, &box);
   }
   dyd_rect r[3];
   dyd_status st = DYD_OK;
@@ -59,7 +59,7 @@ dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaunay *pd, 
   if (st == DYD_OK) st = dyd_delaunay_face_pairs(&pairs, pd, f);
   if (st == DYD_OK) {
     *any = dyd_filter_region(&box, pd, &pairs, &sites);
-    if (*any) st = set_box(out, &box);
+    if (*any) st = rect_set_box(out, &box);
   }
   dyd_index_list_clear(&sites);
   dyd_pair_list_clear(&pairs);
@@ -69,7 +69,7 @@ dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaunay *pd, 
 /* ---- windows ---- */
 
 /* The margin on each side of an extent: a quarter of it; other, or 1, stands in for nothing. */
-static double margin(double lo, double hi, double other) {
+static double window_margin(double lo, double hi, double other) {
   double size = hi / 4 - lo / 4;
   return size > 0 ? size : other > 0 ? other : 1;
 }
@@ -85,7 +85,7 @@ dyd_status dyd_voronoi_window(dyd_rect *out, const dyd_sites *sites) {
     }
   }
   if (!n) e[0] = e[1] = e[2] = e[3] = 0;
-  double mx = margin(e[0], e[1], e[3] / 4 - e[2] / 4), my = margin(e[2], e[3], mx);
+  double mx = window_margin(e[0], e[1], e[3] / 4 - e[2] / 4), my = window_margin(e[2], e[3], mx);
   double w[4] = {e[0] - mx, e[1] + mx, e[2] - my, e[3] + my};
   for (int k = 0; k < 4; k++)
     if (!(fabs(w[k]) <= DBL_MAX)) return DYD_E_RANGE;
