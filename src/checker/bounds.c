@@ -50,7 +50,7 @@ static void side_span(dyd_fraction *out, const dyd_cert_side *a, const dyd_cert_
 
 /* Takes the corner (ux, uy) off: *out is lessened by the product of the legs when one rectangle is farther out in x and
  * the other in y. */
-static void cut_corner(dyd_fraction *out, const dyd_cert_site *a, const dyd_cert_site *b, int ux, int uy) {
+static void bounds_cut_corner(dyd_fraction *out, const dyd_cert_site *a, const dyd_cert_site *b, int ux, int uy) {
   dyd_fraction x, y;
   dyd_fraction_init(&x);
   dyd_fraction_init(&y);
@@ -78,7 +78,7 @@ static void fraction_make_whole(dyd_fraction *f) {
   f->whole = true;
 }
 
-static void add_area(dyd_cert_bounds *b, const dyd_cert_site *i, const dyd_cert_site *j) {
+static void bounds_add_area(dyd_cert_bounds *b, const dyd_cert_site *i, const dyd_cert_site *j) {
   dyd_fraction area, t;
   dyd_fraction_init(&area);
   dyd_fraction_init(&t);
@@ -86,7 +86,7 @@ static void add_area(dyd_cert_bounds *b, const dyd_cert_site *i, const dyd_cert_
   side_span(&t, &i->side[1], &j->side[1]);
   dyd_fraction_mul(&area, &area, &t);
   area.num.exp++;
-  for (int k = 0; k < 4; k++) cut_corner(&area, i, j, k & 1, k >> 1);
+  for (int k = 0; k < 4; k++) bounds_cut_corner(&area, i, j, k & 1, k >> 1);
   fraction_make_whole(&area);
   dyd_fraction_add(&b->area2, &b->area2, &area);
   dyd_fraction_clear(&area);
@@ -183,7 +183,7 @@ static bool hausdorff_fits(const dyd_cert_bounds *b, const dyd_cert_site *i, con
 }
 
 void dyd_cert_bounds_add(dyd_cert_bounds *b, const dyd_cert_sites *s, uint32_t i, uint32_t j, bool legal) {
-  add_area(b, &s->site[i], &s->site[j]);
+  bounds_add_area(b, &s->site[i], &s->site[j]);
   if (b->hausdorff && !b->exceeded) b->exceeded = !hausdorff_fits(b, &s->site[i], &s->site[j], legal);
 }
 

@@ -41,7 +41,7 @@ dyd_status dyd_cert_chain_resize(dyd_cert_chain *c, size_t points) {
 
 /* ---- in the blocked region ---- */
 
-static bool is_nearer(const dyd_cert_sites *s, const dyd_exact at[2], uint32_t k, uint32_t i, uint32_t j) {
+static bool blocker_is_nearer(const dyd_cert_sites *s, const dyd_exact at[2], uint32_t k, uint32_t i, uint32_t j) {
   dyd_fraction own, other;
   dyd_fraction_init(&own);
   dyd_fraction_init(&other);
@@ -55,15 +55,17 @@ static bool is_nearer(const dyd_cert_sites *s, const dyd_exact at[2], uint32_t k
   return good;
 }
 
-static bool is_farther_out(const dyd_cert_sites *s, const dyd_exact u[2], uint32_t k, uint32_t i, uint32_t j) {
+static bool blocker_is_farther_out(const dyd_cert_sites *s, const dyd_exact u[2], uint32_t k, uint32_t i, uint32_t j) {
   return dyd_cert_compare_heights(s, u, i, k) < 0 && dyd_cert_compare_heights(s, u, j, k) < 0;
 }
 
 static bool chain_is_blocked(const dyd_cert_chain *c, const dyd_cert_sites *s, uint32_t i, uint32_t j) {
   for (size_t q = 0; q < c->points; q++)
-    if (!is_nearer(s, c->point[q], c->blocker[q], i, j) || !is_nearer(s, c->point[q], c->blocker[q + 1], i, j))
+    if (!blocker_is_nearer(s, c->point[q], c->blocker[q], i, j) ||
+        !blocker_is_nearer(s, c->point[q], c->blocker[q + 1], i, j))
       return false;
-  return is_farther_out(s, c->u[0], c->blocker[0], i, j) && is_farther_out(s, c->u[1], c->blocker[c->points], i, j);
+  return blocker_is_farther_out(s, c->u[0], c->blocker[0], i, j) &&
+         blocker_is_farther_out(s, c->u[1], c->blocker[c->points], i, j);
 }
 
 /* ---- separation ----

@@ -146,7 +146,7 @@ static dyd_cert_area near_on_grid(const grid_box *q, const grid_box *b) {
   return sum;
 }
 
-static void set_area(mpz_ptr out, dyd_cert_area v) {
+static void mpz_set_area(mpz_ptr out, dyd_cert_area v) {
   mpz_set_ui(out, (unsigned long)(v >> 64));
   mpz_mul_2exp(out, out, 64);
   mpz_add_ui(out, out, (unsigned long)v);
@@ -155,7 +155,7 @@ static void set_area(mpz_ptr out, dyd_cert_area v) {
 /* ---- pairs ---- */
 
 /* s->gap = the squared distance of two rectangles. */
-static void find_gap(search *s, const grid_site *a, const grid_site *b) {
+static void find_site_gap(search *s, const grid_site *a, const grid_site *b) {
   for (int axis = 0; axis < 2; axis++) {
     const dyd_cert_side *x = &s->sites->site[a->site].side[axis], *y = &s->sites->site[b->site].side[axis];
     dyd_fraction *f = axis ? &s->part : &s->gap;
@@ -169,18 +169,18 @@ static void find_gap(search *s, const grid_site *a, const grid_site *b) {
 
 static bool are_disjoint(search *s, const grid_site *a, const grid_site *b) {
   if (near_on_grid(&a->box, &b->box) > 0) return true;
-  find_gap(s, a, b);
+  find_site_gap(s, a, b);
   return dyd_exact_sgn(&s->gap.num) > 0;
 }
 
 /* s->root 2^*exp = a lower bound of the distance of two rectangles; exact ends where the grid is coarse for it. */
-static void gap_below(int64_t *exp, search *s, const grid_site *a, const grid_site *b) {
+static void site_gap_below(int64_t *exp, search *s, const grid_site *a, const grid_site *b) {
   dyd_cert_area gap = near_on_grid(&a->box, &b->box);
   if (gap >> 48) {
-    set_area(s->root, gap);
+    mpz_set_area(s->root, gap);
     *exp = s->unit;
   } else {
-    find_gap(s, a, b);
+    find_site_gap(s, a, b);
     const dyd_fraction *f = &s->gap;
     int64_t top = dyd_exact_sgn(&f->num) == 0 ? 0 : dyd_exact_top(&f->num), least = top - 128;
     if (!f->whole) least -= (int64_t)mpz_sizeinbase(f->den, 2);
@@ -213,7 +213,7 @@ static bool is_near_bisector(search *s, const grid_site *a, const grid_site *b, 
   if (a->diameter == 0 && b->diameter == 0) return are_disjoint(s, a, b);
   dyd_exact_init(&left);
   dyd_exact_init(&right);
-  gap_below(&right.exp, s, a, b);
+  site_gap_below(&right.exp, s, a, b);
   bool positive = mpz_sgn(s->root) > 0;
   mpz_mul(right.man, s->root, s->bound->man);
   right.exp += s->bound->exp + 1;
@@ -238,13 +238,13 @@ static bool is_near_site(search *s, const grid_box *q, const grid_site *a, const
 
 /* The root of far_of, rounded up. The site is not endless. */
 static uint64_t far_root(search *s, const grid_box *q, const grid_site *g) {
-  set_area(s->root, far_on_grid(q, g));
+  mpz_set_area(s->root, far_on_grid(q, g));
   mpz_sqrtrem(s->root, s->rest, s->root);
   return mpz_get_ui(s->root) + (mpz_sgn(s->rest) != 0);
 }
 
 /* Is every undetermined point of q near the diagram? list has 2 .. MANY sites. */
-static bool pairs_hold(search *s, const grid_box *q, const uint32_t *list, size_t count) {
+static bool box_pairs_hold(search *s, const grid_box *q, const uint32_t *list, size_t count) {
   uint64_t far[MANY];
   bool near[MANY];
   for (size_t k = 0; k < count; k++) {
@@ -267,7 +267,7 @@ static bool pairs_hold(search *s, const grid_box *q, const uint32_t *list, size_
 /* ---- boxes ---- */
 
 /* The sites of list[from .. from+count) that q may belong to, put behind them; returns how many. */
-static size_t keep_possible(search *s, const grid_box *q, size_t from, size_t count) {
+static size_t box_keep_possible(search *s, const grid_box *q, size_t from, size_t count) {
   dyd_cert_area least = ~(dyd_cert_area)0;
   size_t kept = 0;
   s->effort += count;
@@ -291,11 +291,11 @@ static bool is_worth_a_look(size_t count, size_t before) {
 
 /* before: the sites of the box around q are list[from .. from+before). */
 static bool box_is_covered(search *s, const grid_box *q, size_t from, size_t before) {
-  size_t count = keep_possible(s, q, from, before);
+  size_t count = box_keep_possible(s, q, from, before);
   if (s->st != DYD_OK || s->effort > s->effort_most) return false;
   from += before;
   if (count == 1) return true;
-  if (is_worth_a_look(count, before) && pairs_hold(s, q, s->list + from, count)) return true;
+  if (is_worth_a_look(count, before) && box_pairs_hold(s, q, s->list + from, count)) return true;
   if (q->e[1] - q->e[0] < 2 && q->e[3] - q->e[2] < 2) return false;
   int64_t x = q->e[0] + (q->e[1] - q->e[0]) / 2, y = q->e[2] + (q->e[3] - q->e[2]) / 2;
   for (int k = 0; k < 4; k++) {

@@ -20,7 +20,7 @@ dyd_status dyd_cert_walk(uint32_t **out, size_t *count, const dyd_cert_graph *g,
 }
 
 /* Appends the sites as an open set, unless they are the two ends of a legal edge or less. */
-static dyd_status add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint32_t *site, size_t count) {
+static dyd_status faces_add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint32_t *site, size_t count) {
   if (!dyd_reserve((void **)&f->member, &f->member_cap, f->members + count, sizeof *f->member) ||
       !dyd_reserve((void **)&f->start, &f->set_cap, f->sets + 2, sizeof *f->start))
     return DYD_E_NOMEM;
@@ -51,7 +51,7 @@ static dyd_status add_bounded_face(dyd_cert_faces *f, bool *seen, const dyd_cert
   if (count == 3 && legal)
     f->triangles++;
   else
-    st = add_set(f, g, walk, count);
+    st = faces_add_set(f, g, walk, count);
   free(walk);
   return st;
 }
@@ -71,8 +71,8 @@ static int compare_place_of(const void *sites, uint32_t a, uint32_t b) {
 }
 
 /* Marks one chain of the hull: the items are passed in order, from the lowest place or from the highest. */
-static void mark_chain(bool *hull, uint32_t *stack, const dyd_cert_sites *s, const uint32_t *item, size_t count,
-                       bool back) {
+static void mark_hull_chain(bool *hull, uint32_t *stack, const dyd_cert_sites *s, const uint32_t *item, size_t count,
+                            bool back) {
   size_t top = 0;
   for (size_t q = 0; q < count; q++) {
     uint32_t v = item[back ? count - 1 - q : q];
@@ -87,8 +87,8 @@ dyd_status dyd_cert_hull(bool *hull, const dyd_cert_sites *s, uint32_t *item, si
   if (!stack) return DYD_E_NOMEM;
   memset(hull, 0, s->count * sizeof *hull);
   dyd_cert_sort(item, count, compare_place_of, s);
-  mark_chain(hull, stack, s, item, count, false);
-  mark_chain(hull, stack, s, item, count, true);
+  mark_hull_chain(hull, stack, s, item, count, false);
+  mark_hull_chain(hull, stack, s, item, count, true);
   free(stack);
   return DYD_OK;
 }
@@ -140,7 +140,7 @@ static void check_corners(uint32_t *bad, const dyd_cert_sites *s, const rim *r, 
 
 static dyd_status split_rim(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const rim *r,
                             const dyd_cert_corner *corner, size_t corners) {
-  if (corners == 0) return add_set(f, g, r->site, r->count);
+  if (corners == 0) return faces_add_set(f, g, r->site, r->count);
   dyd_status st = check_places(bad, r, g->sites, corner, corners);
   if (st != DYD_OK || *bad != DYD_CERT_NONE) return st;
   dyd_cert_parts p;
@@ -148,13 +148,13 @@ static dyd_status split_rim(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_gra
   if (st != DYD_OK) return st;
   check_corners(bad, g->sites, r, &p, corner, corners);
   for (size_t k = 0; k < p.groups && st == DYD_OK; k++)
-    st = add_set(f, g, p.site + p.start[k], p.start[k + 1] - p.start[k]);
+    st = faces_add_set(f, g, p.site + p.start[k], p.start[k + 1] - p.start[k]);
   dyd_cert_parts_clear(&p);
   return st;
 }
 
-static dyd_status add_outer(dyd_cert_faces *f, uint32_t *bad, bool *seen, const dyd_cert_graph *g, uint32_t h,
-                            const dyd_cert_corner *corner, size_t corners) {
+static dyd_status faces_add_outer(dyd_cert_faces *f, uint32_t *bad, bool *seen, const dyd_cert_graph *g, uint32_t h,
+                                  const dyd_cert_corner *corner, size_t corners) {
   rim r = {0};
   dyd_status st = dyd_cert_walk(&r.walk, &r.count, g, h);
   if (st != DYD_OK) return st;
@@ -178,34 +178,34 @@ static dyd_status add_outer(dyd_cert_faces *f, uint32_t *bad, bool *seen, const 
 
 /* ---- all ---- */
 
-static dyd_status add_all_sites(dyd_cert_faces *f, const dyd_cert_graph *g) {
+static dyd_status faces_add_all_sites(dyd_cert_faces *f, const dyd_cert_graph *g) {
   uint32_t *all = dyd_alloc(g->sites->count, sizeof *all);
   if (!all) return DYD_E_NOMEM;
   size_t count = 0;
   for (size_t v = 0; v < g->sites->count; v++)
     if (g->sites->site[v].alias == v) all[count++] = (uint32_t)v;
-  dyd_status st = add_set(f, g, all, count);
+  dyd_status st = faces_add_set(f, g, all, count);
   free(all);
   return st;
 }
 
-static dyd_status find_sets(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const dyd_cert_corner *corner,
-                            size_t corners) {
+static dyd_status faces_find_sets(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g,
+                                  const dyd_cert_corner *corner, size_t corners) {
   uint32_t outer = g->connected ? dyd_cert_outer(g) : DYD_CERT_NONE;
   if (outer == DYD_CERT_NONE) {
     if (corners) *bad = corner[0].i;
-    return add_all_sites(f, g);
+    return faces_add_all_sites(f, g);
   }
   bool *seen = calloc(2 * g->count, sizeof *seen);
   if (!seen) return DYD_E_NOMEM;
-  dyd_status st = add_outer(f, bad, seen, g, outer, corner, corners);
+  dyd_status st = faces_add_outer(f, bad, seen, g, outer, corner, corners);
   for (uint32_t h = 0; h < 2 * g->count && st == DYD_OK && *bad == DYD_CERT_NONE; h++)
     if (!seen[h]) st = add_bounded_face(f, seen, g, h);
   free(seen);
   return st;
 }
 
-static dyd_status index_sites(dyd_cert_faces *f, size_t n) {
+static dyd_status faces_index_sites(dyd_cert_faces *f, size_t n) {
   f->first = calloc(n + 1, sizeof *f->first);
   f->of = dyd_alloc(f->members, sizeof *f->of);
   f->covered = calloc(f->sets ? f->sets : 1, sizeof *f->covered);
@@ -221,8 +221,8 @@ dyd_status dyd_cert_faces_init(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_
                                size_t corners) {
   *f = (dyd_cert_faces){0};
   *bad = DYD_CERT_NONE;
-  dyd_status st = find_sets(f, bad, g, corner, corners);
-  if (st == DYD_OK) st = index_sites(f, g->sites->count);
+  dyd_status st = faces_find_sets(f, bad, g, corner, corners);
+  if (st == DYD_OK) st = faces_index_sites(f, g->sites->count);
   if (st == DYD_OK)
     for (size_t e = 0; e < g->legal->count; e++) dyd_cert_faces_cover(f, g->legal->item[e].i, g->legal->item[e].j);
   if (st != DYD_OK) dyd_cert_faces_clear(f);

@@ -31,7 +31,7 @@ void dyd_measure_clear(dyd_measure *m) {
   dyd_rect_clear(&m->a);
 }
 
-static void set_dd(mpfr_ptr out, const double dd[2]) {
+static void mpfr_from_dd(mpfr_ptr out, const double dd[2]) {
   mpfr_set_d(out, dd[0], MPFR_RNDU);
   mpfr_add_d(out, out, dd[1], MPFR_RNDU);
 }
@@ -77,7 +77,7 @@ dyd_status dyd_measure_area(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
     dyd_sites_get_d(a, m->sites, i);
     dyd_sites_get_d(b, m->sites, j);
     if (dyd_filter_partial_edge_area2(dd, a, b)) {
-      set_dd(out, dd);
+      mpfr_from_dd(out, dd);
       mpfr_div_2ui(out, out, 1, MPFR_RNDU);
       return DYD_OK;
     }
@@ -97,7 +97,7 @@ dyd_status dyd_measure_diameter(mpfr_ptr out, dyd_measure *m, size_t i) {
   if (measure_in_doubles(m, i)) {
     dyd_sites_get_d(a, m->sites, i);
     if (dyd_filter_diameter(dd, a)) {
-      set_dd(out, dd);
+      mpfr_from_dd(out, dd);
       return DYD_OK;
     }
   }
@@ -112,7 +112,7 @@ dyd_status dyd_measure_reach(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
     dyd_sites_get_d(a, m->sites, i);
     dyd_sites_get_d(b, m->sites, j);
     if (dyd_filter_reach(dd, a, b)) {
-      set_dd(out, dd);
+      mpfr_from_dd(out, dd);
       return DYD_OK;
     }
   }

@@ -43,7 +43,7 @@ static void circle_search_clear(search *q) {
 }
 
 /* Coordinates relative to a corner of the base, cut so that products of four stay below 2^1000. */
-static int64_t choose_shift(search *q) {
+static int64_t circles_choose_shift(search *q) {
   const dyd_irect *o = q->r[q->base];
   size_t bits = 0;
   for (int m = 0; m < 3; m++) {
@@ -58,7 +58,7 @@ static int64_t choose_shift(search *q) {
 }
 
 /* The feature of rectangle m in a pane, relative to the corner of the base; false: the centre itself. */
-static bool set_feature(dyd_feature *out, const dyd_slab *const s[2], int m, int base) {
+static bool circles_set_feature(dyd_feature *out, const dyd_slab *const s[2], int m, int base) {
   for (int k = 0; k < 2; k++) {
     mpz_srcptr at = s[k]->mark[m].at;
     out->has[k] = at != NULL;
@@ -109,8 +109,8 @@ static bool circle_is_new(const dyd_icircle *out, size_t count, const dyd_icircl
 
 /* Adds the circles of one pane. */
 static size_t search_pane(search *q, dyd_icircle *out, size_t count, size_t room, const dyd_slab *const s[2]) {
-  if (!set_feature(&q->f, s, (q->base + 1) % 3, q->base)) return count;
-  if (!set_feature(&q->g, s, (q->base + 2) % 3, q->base)) return count;
+  if (!circles_set_feature(&q->f, s, (q->base + 1) % 3, q->base)) return count;
+  if (!circles_set_feature(&q->g, s, (q->base + 2) % 3, q->base)) return count;
   if (dyd_filter_pane_empty(s[0], s[1], q->base)) return count;
   for (int which = 0; which < DYD_CENTRES_MAX && count < room; which++) {
     if (!dyd_solve(&q->centre, &q->f, &q->g, which) || !circle_place(q, s)) continue;
@@ -126,7 +126,7 @@ size_t dyd_icircles(dyd_icircle *out, size_t room, const dyd_irect *const r[3], 
   while (q.base < 3 && touch[q.base] != DYD_FARTHEST) q.base++;
   DYD_INVARIANT(q.base < 3);
   circle_search_init(&q);
-  int64_t shift = choose_shift(&q);
+  int64_t shift = circles_choose_shift(&q);
   dyd_axis_set(&q.axis[0], r, touch, 0, r[q.base]->x0, shift);
   dyd_axis_set(&q.axis[1], r, touch, 1, r[q.base]->y0, shift);
   size_t count = 0;

@@ -55,7 +55,7 @@ static dyd_status sites_make_room(dyd_sites *s, size_t more) {
 }
 
 /* Gives upper ends arrays of their own. */
-static dyd_status split_ends(dyd_sites *s) {
+static dyd_status sites_split_ends(dyd_sites *s) {
   for (int a = 0; a < 2; a++) {
     if (s->upper[a]) continue;
     double *p = dyd_alloc(s->cap ? s->cap : 1, sizeof *p);
@@ -83,12 +83,12 @@ static void sites_copy_ends(double *to, const double *from, size_t n) {
   for (size_t i = 0; i < n; i++) to[i] = from[i] + 0.0;
 }
 
-static dyd_status add_doubles(dyd_sites *s, size_t n, const double *const lo[2], const double *const hi[2]) {
+static dyd_status sites_add_doubles(dyd_sites *s, size_t n, const double *const lo[2], const double *const hi[2]) {
   bool points = lo[0] == hi[0] && lo[1] == hi[1];
   for (int a = 0; a < 2; a++)
     if (!ends_are_good(n, lo[a], hi[a])) return DYD_E_ARG;
   dyd_status st = sites_make_room(s, n);
-  if (st == DYD_OK && !points) st = split_ends(s);
+  if (st == DYD_OK && !points) st = sites_split_ends(s);
   if (st != DYD_OK) return st;
   for (int a = 0; a < 2; a++) {
     sites_copy_ends(s->lower[a] + s->count, lo[a], n);
@@ -101,18 +101,18 @@ static dyd_status add_doubles(dyd_sites *s, size_t n, const double *const lo[2],
 
 dyd_status dyd_sites_add_points(dyd_sites *s, size_t n, const double *x, const double *y) {
   const double *const lo[2] = {x, y};
-  return add_doubles(s, n, lo, lo);
+  return sites_add_doubles(s, n, lo, lo);
 }
 
 dyd_status dyd_sites_add_boxes(dyd_sites *s, size_t n, const double *x0, const double *x1, const double *y0,
                                const double *y1) {
   const double *const lo[2] = {x0, y0}, *const hi[2] = {x1, y1};
-  return add_doubles(s, n, lo, hi);
+  return sites_add_doubles(s, n, lo, hi);
 }
 
 dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n) {
   dyd_status st = sites_make_room(s, n);
-  if (st == DYD_OK) st = split_ends(s);
+  if (st == DYD_OK) st = sites_split_ends(s);
   if (st != DYD_OK) return st;
   for (size_t i = s->count; i < s->count + n; i++) {
     for (int a = 0; a < 2; a++) {
@@ -194,7 +194,7 @@ static const mp_limb_t *unpack_interval(dyd_interval *out, const mp_limb_t *from
 
 /* ---- single sites ---- */
 
-static dyd_status get_plane(dyd_rect *out) {
+static dyd_status sites_get_plane(dyd_rect *out) {
   mpz_t man;
   dyd_dyadic lo, hi;
   mpz_init(man);
@@ -214,7 +214,7 @@ static dyd_status get_plane(dyd_rect *out) {
 
 dyd_status dyd_sites_get(dyd_rect *out, const dyd_sites *s, size_t i) {
   if (i >= s->count) return DYD_E_ARG;
-  if (dyd_sites_in_doubles(s, i) && isinf(dyd_sites_lo(s, 0, i))) return get_plane(out);
+  if (dyd_sites_in_doubles(s, i) && isinf(dyd_sites_lo(s, 0, i))) return sites_get_plane(out);
   if (dyd_sites_in_doubles(s, i))
     return dyd_rect_set_d(out, dyd_sites_lo(s, 0, i), dyd_sites_hi(s, 0, i), dyd_sites_lo(s, 1, i),
                           dyd_sites_hi(s, 1, i));
@@ -249,7 +249,7 @@ static dyd_status sites_put(dyd_sites *s, size_t i, const dyd_rect *r, dyd_packe
     doubles = false;
   }
   if (!doubles || lo[0] != hi[0] || lo[1] != hi[1]) {
-    dyd_status st = split_ends(s);
+    dyd_status st = sites_split_ends(s);
     if (st == DYD_OK && !doubles) st = sites_make_exact(s);
     if (st != DYD_OK) return st;
   }
@@ -353,7 +353,7 @@ dyd_status dyd_sites_add_words(dyd_sites *s, size_t n, const dyd_words *xy) {
   size_t before = s->count;
   if (n == 0) return DYD_OK;
   dyd_status st = sites_make_room(s, n);
-  if (st == DYD_OK) st = split_ends(s);
+  if (st == DYD_OK) st = sites_split_ends(s);
   if (st == DYD_OK) st = sites_make_exact(s);
   for (size_t k = 0; k < n && st == DYD_OK; k++) st = put_words(s, xy + 2 * k);
   while (st != DYD_OK && s->count > before) {
@@ -376,7 +376,7 @@ dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
 }
 
 /* Narrows site i to a rectangle of doubles by way of exact ones. */
-static dyd_status narrow_exact(dyd_sites *s, size_t i, const double box[4]) {
+static dyd_status sites_narrow_exact(dyd_sites *s, size_t i, const double box[4]) {
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_status st = dyd_rect_set_d(&r, box[0], box[1], box[2], box[3]);
@@ -387,7 +387,7 @@ static dyd_status narrow_exact(dyd_sites *s, size_t i, const double box[4]) {
 
 dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]) {
   if (i >= s->count) return DYD_E_ARG;
-  if (!dyd_sites_in_doubles(s, i) || !s->upper[0]) return narrow_exact(s, i, box);
+  if (!dyd_sites_in_doubles(s, i) || !s->upper[0]) return sites_narrow_exact(s, i, box);
   for (int a = 0; a < 2; a++)
     if (box[2 * a] < s->lower[a][i] || box[2 * a + 1] > s->upper[a][i]) return DYD_E_NESTING;
   for (int a = 0; a < 2; a++) {

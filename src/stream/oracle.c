@@ -50,7 +50,7 @@ static void exchange_lines(dyd_oracle *o, double seconds) {
   }
 }
 
-static void fail_silent(const dyd_oracle *o, dyd_worker *w) {
+static void oracle_fail_silent(const dyd_oracle *o, dyd_worker *w) {
   char how[100];
   const char *deaf = dyd_process_is_deaf(&w->process) ? " and has closed its standard input" : "";
   if (dyd_process_ended(how, sizeof how, &w->process, 0))
@@ -76,7 +76,7 @@ static dyd_status wait_for_answer(dyd_oracle *o, dyd_worker *w, const volatile i
     exchange_lines(o, left < SLICE_SECONDS ? left : SLICE_SECONDS);
     left = (w->heard > begun ? w->heard : begun) + o->seconds - dyd_seconds();
     if (left > 0) continue;
-    if (!w->failed && !dyd_worker_is_answered(w)) fail_silent(o, w);
+    if (!w->failed && !dyd_worker_is_answered(w)) oracle_fail_silent(o, w);
     left = 0;
   }
   return DYD_OK;
@@ -84,7 +84,7 @@ static dyd_status wait_for_answer(dyd_oracle *o, dyd_worker *w, const volatile i
 
 /* ---- the source ---- */
 
-static dyd_worker *worker_of(const dyd_oracle *o, size_t point) {
+static dyd_worker *oracle_worker_of(const dyd_oracle *o, size_t point) {
   return &o->worker[point % o->jobs];
 }
 
@@ -94,7 +94,7 @@ static void oracle_announce(void *user, const dyd_request *request, size_t count
   for (unsigned k = 0; k < o->jobs; k++) dyd_worker_forget(&o->worker[k]);
   for (size_t k = 0; k < count; k++) {
     if (request[k].point >= o->points) continue;
-    dyd_worker *w = worker_of(o, request[k].point);
+    dyd_worker *w = oracle_worker_of(o, request[k].point);
     if (!dyd_worker_ask(w, request[k].point, request[k].bits)) break;
   }
   exchange_lines(o, 0);
@@ -109,7 +109,7 @@ static bool ask_first(dyd_worker *w, const dyd_request *request) {
 }
 
 /* Puts what was asked before the message. */
-static dyd_status fail_request(dyd_error *err, dyd_status st, const dyd_request *request, const char *why) {
+static dyd_status oracle_fail_request(dyd_error *err, dyd_status st, const dyd_request *request, const char *why) {
   return dyd_fail(err, st, "the oracle program was asked \"refine %zu %" PRId64 "\": %s", request->point, request->bits,
                   why);
 }
@@ -120,16 +120,16 @@ static dyd_status oracle_narrow(dyd_rect *out, void *user, const dyd_request *re
   if (request->point >= o->points) {
     return dyd_fail(err, DYD_E_ARG, "the oracle program has %zu points only", o->points);
   }
-  dyd_worker *w = worker_of(o, request->point);
+  dyd_worker *w = oracle_worker_of(o, request->point);
   if (!ask_first(w, request)) return dyd_fail_nomem(err);
   dyd_status st = wait_for_answer(o, w, request->stop);
-  if (dyd_failed(st)) return fail_request(err, st, request, w->why);
+  if (dyd_failed(st)) return oracle_fail_request(err, st, request, w->why);
   if (st != DYD_OK) return st;
   dyd_error_clear(&own);
   const dyd_asked *a = &w->asked[w->head];
   st = dyd_oracle_read_answer(out, !dyd_rect_is_point(out), a->answer, a->length, &own);
   dyd_worker_drop(w);
-  return dyd_failed(st) ? fail_request(err, st, request, own.message) : st;
+  return dyd_failed(st) ? oracle_fail_request(err, st, request, own.message) : st;
 }
 
 static void oracle_release(void *user) {
@@ -148,7 +148,8 @@ size_t dyd_oracle_count(const dyd_oracle *o) {
 /* ---- starting ---- */
 
 /* Reads the first line of program k. */
-static dyd_status read_count(size_t *count, dyd_oracle *o, unsigned k, const volatile int *stop, dyd_error *err) {
+static dyd_status oracle_read_count(size_t *count, dyd_oracle *o, unsigned k, const volatile int *stop,
+                                    dyd_error *err) {
   dyd_worker *w = &o->worker[k];
   dyd_status st = wait_for_answer(o, w, stop);
   if (dyd_failed(st)) {
@@ -177,13 +178,13 @@ static dyd_status start_programs(dyd_oracle *o, const char *command, unsigned wa
 static dyd_status start_all_programs(dyd_oracle *o, const char *command, unsigned jobs, int lifeline,
                                      const volatile int *stop, dyd_error *err) {
   dyd_status st = start_programs(o, command, 1, lifeline, err);
-  if (st == DYD_OK) st = read_count(&o->points, o, 0, stop, err);
+  if (st == DYD_OK) st = oracle_read_count(&o->points, o, 0, stop, err);
   if (st != DYD_OK) return st;
   if (jobs > o->points) jobs = o->points ? (unsigned)o->points : 1;
   st = start_programs(o, command, jobs, lifeline, err);
   for (unsigned k = 1; st == DYD_OK && k < jobs; k++) {
     size_t count = 0;
-    st = read_count(&count, o, k, stop, err);
+    st = oracle_read_count(&count, o, k, stop, err);
     if (st == DYD_OK && count != o->points) {
       return dyd_fail(err, DYD_E_STREAM, "oracle program 0 has %zu points, program %u has %zu; all must serve the same",
                       o->points, k, count);

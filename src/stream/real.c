@@ -171,7 +171,8 @@ int64_t dyd_real_glance_bits(const dyd_real *x) {
   return x->spans && !x->now ? dyd_filter_bits(x->span) : INT64_MIN;
 }
 
-/* Is the span so short that rounding it to the grid for `bits` very likely gives one cell, as it does with balls? */
+/* Is the span so short that rounding it to the grid for `bits` very likely gives one step of it, as it does with balls?
+ */
 #define SPARE 16
 static bool span_is_short(const dyd_real *x, int64_t bits) {
   int64_t most = dyd_filter_bits(x->span);

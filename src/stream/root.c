@@ -16,7 +16,7 @@ static void root_release(void *user) {
   dyd_root *r = user;
   for (size_t k = 0; k < r->count; k++) mpz_clear(r->coeff[k]);
   free(r->coeff);
-  mpz_clear(r->cell);
+  mpz_clear(r->slot);
   mpq_clear(r->hi);
   mpq_clear(r->lo);
   free(r);
@@ -30,8 +30,8 @@ static dyd_status root_interval(dyd_interval *out, const dyd_root *r, int64_t bi
   dyd_dyadic_init(&lo);
   dyd_dyadic_init(&hi);
   mpz_init(next);
-  mpz_add_ui(next, r->cell, r->exact ? 0 : 1);
-  dyd_status st = dyd_dyadic_set_z_2exp(&lo, r->cell, -r->s);
+  mpz_add_ui(next, r->slot, r->exact ? 0 : 1);
+  dyd_status st = dyd_dyadic_set_z_2exp(&lo, r->slot, -r->s);
   if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&hi, next, -r->s);
   if (st == DYD_OK) st = dyd_interval_set_ends(out, &lo, &hi);
   mpz_clear(next);
@@ -116,7 +116,7 @@ static dyd_status root_new(dyd_real **out, const fmpz_poly_t g, const mpq_t lo, 
   *r = (dyd_root){.sign_left = sign_at_q(g, lo), .jump = 2};
   mpq_init(r->lo);
   mpq_init(r->hi);
-  mpz_init(r->cell);
+  mpz_init(r->slot);
   mpq_set(r->lo, lo);
   mpq_set(r->hi, hi);
   if (root_copy_coefficients(r, g)) return dyd_real_new_enclosing(out, root_narrow, root_release, r);

@@ -5,9 +5,9 @@
  * from ball arithmetic at a precision that is doubled until the ball excludes 0 or is the exact number, so they
  * are exact. Three phases, of which the first two do not depend on the width asked for, so that it is always the
  * same root that is found:
- *   1. from the given ends to a cell (c, c+1) 2^-s;
- *   2. bisection until the derivative has no zero on the cell: exactly one, simple root is left;
- *   3. quadratic interval refinement (Abbott 2006): the secant through the ends proposes one of 2^j subcells, two
+ *   1. from the given ends to a slot (c, c+1) 2^-s;
+ *   2. bisection until the derivative has no zero on the slot: exactly one, simple root is left;
+ *   3. quadratic interval refinement (Abbott 2006): the secant through the ends proposes one of 2^j parts, two
  *      signs confirm or refute it; j doubles with each success and halves with each failure. */
 #include "stream/ball.h"
 #include "stream/root.h"
@@ -48,7 +48,7 @@ static int root_sign_at(const fmpz_poly_t p, mpz_srcptr m, int64_t s) {
 /* Makes m 2^-s the exact root when sign says so. */
 static bool root_hit(dyd_root *r, int sign, mpz_srcptr m, int64_t s) {
   if (sign) return false;
-  mpz_set(r->cell, m);
+  mpz_set(r->slot, m);
   r->s = s;
   r->on_grid = r->exact = true;
   return true;
@@ -91,7 +91,7 @@ static int64_t grid_for(const dyd_root *r) {
   return s;
 }
 
-/* Between the grid points first < last lies the sign change: bisects the cells. */
+/* Between the grid points first < last lies the sign change: bisects the slots. */
 static void root_choose_slot(dyd_root *r, const fmpz_poly_t p, mpz_ptr first, mpz_ptr last, int64_t s) {
   mpz_t middle;
   mpz_init(middle);
@@ -104,7 +104,7 @@ static void root_choose_slot(dyd_root *r, const fmpz_poly_t p, mpz_ptr first, mp
     mpz_set(sign == r->sign_left ? first : last, middle);
   }
   if (!r->exact) {
-    mpz_set(r->cell, first);
+    mpz_set(r->slot, first);
     r->s = s;
     r->on_grid = true;
   }
@@ -137,7 +137,7 @@ static dyd_status root_enter_grid(dyd_root *r, const fmpz_poly_t p, dyd_error *e
   return DYD_OK;
 }
 
-/* Does p' have no zero on the cell? */
+/* Does p' have no zero on the slot? */
 static bool is_isolated(const dyd_root *r, const fmpz_poly_t p) {
   fmpz_poly_t d;
   arb_t x, y;
@@ -145,12 +145,12 @@ static bool is_isolated(const dyd_root *r, const fmpz_poly_t p) {
   arb_init(x);
   arb_init(y);
   fmpz_poly_derivative(d, p);
-  arf_set_mpz(arb_midref(x), r->cell);
+  arf_set_mpz(arb_midref(x), r->slot);
   arb_mul_2exp_si(x, x, 1);
   arb_add_ui(x, x, 1, ARF_PREC_EXACT);
   mag_one(arb_radref(x));
   arb_mul_2exp_si(x, x, (slong)-r->s - 1);
-  arb_fmpz_poly_evaluate_arb_horner(y, d, x, start_precision(r->cell));
+  arb_fmpz_poly_evaluate_arb_horner(y, d, x, start_precision(r->slot));
   bool result = !arb_contains_zero(y);
   arb_clear(y);
   arb_clear(x);
@@ -161,26 +161,26 @@ static bool is_isolated(const dyd_root *r, const fmpz_poly_t p) {
 static void root_bisect(dyd_root *r, const fmpz_poly_t p) {
   mpz_t middle;
   mpz_init(middle);
-  mpz_mul_2exp(middle, r->cell, 1);
+  mpz_mul_2exp(middle, r->slot, 1);
   mpz_add_ui(middle, middle, 1);
   int sign = root_sign_at(p, middle, r->s + 1);
   if (!root_hit(r, sign, middle, r->s + 1)) {
-    mpz_sub_ui(r->cell, middle, sign == r->sign_left ? 0 : 1);
+    mpz_sub_ui(r->slot, middle, sign == r->sign_left ? 0 : 1);
     r->s++;
   }
   mpz_clear(middle);
 }
 
-/* The secant's proposal m, 0 < m < 2^j, for the root at (cell 2^j + m) 2^-(s+j). Only a guess. */
+/* The secant's proposal m, 0 < m < 2^j, for the root at (slot 2^j + m) 2^-(s+j). Only a guess. */
 static void root_propose(mpz_ptr m, const dyd_root *r, const fmpz_poly_t p, unsigned j) {
   arb_t x, a, b;
   arb_init(x);
   arb_init(a);
   arb_init(b);
-  slong prec = start_precision(r->cell) + 2 * (slong)j;
-  dyd_ball_set_z_2exp(x, r->cell, (slong)-r->s);
+  slong prec = start_precision(r->slot) + 2 * (slong)j;
+  dyd_ball_set_z_2exp(x, r->slot, (slong)-r->s);
   arb_fmpz_poly_evaluate_arb(a, p, x, prec);
-  dyd_ball_set_z_2exp(x, r->cell, 0);
+  dyd_ball_set_z_2exp(x, r->slot, 0);
   arb_add_ui(x, x, 1, ARF_PREC_EXACT);
   arb_mul_2exp_si(x, x, (slong)-r->s);
   arb_fmpz_poly_evaluate_arb(b, p, x, prec);
@@ -211,7 +211,7 @@ static void root_clamp(mpz_ptr m, unsigned j) {
   mpz_clear(most);
 }
 
-/* Phase 3: tries the subcell beside the proposal. false: refuted, r unchanged. */
+/* Phase 3: tries the part beside the proposal. false: refuted, r unchanged. */
 static bool root_quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
   mpz_t m, base, other;
   mpz_init(m);
@@ -219,7 +219,7 @@ static bool root_quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
   mpz_init(other);
   root_propose(m, r, p, j);
   root_clamp(m, j);
-  mpz_mul_2exp(base, r->cell, j);
+  mpz_mul_2exp(base, r->slot, j);
   mpz_add(m, m, base);
   int64_t s = r->s + j;
   int sign = root_sign_at(p, m, s), next = sign;
@@ -234,7 +234,7 @@ static bool root_quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
     next = root_sign_at(p, other, s);
     found = root_hit(r, next, other, s);
     if (!found && next != sign) {
-      mpz_set(r->cell, left ? m : other);
+      mpz_set(r->slot, left ? m : other);
       r->s = s;
       found = true;
     }

@@ -85,7 +85,7 @@ static void show_slab(slab *out, const side_set *s, bool far_thin, bool near_thi
 }
 
 /* The slabs of one axis, lowest first; points: both rectangles are singletons. */
-static size_t set_slabs(slab out[4], const side_set *s, bool near_point) {
+static size_t curve_set_slabs(slab out[4], const side_set *s, bool near_point) {
   bool far_thin = !mpz_cmp(s->far[0], s->far[1]), near_thin = !mpz_cmp(s->near[0], s->near[1]);
   cut list[3];
   size_t n = 0;
@@ -295,7 +295,7 @@ static dyd_feature_kind feature_name(const slab *x, const slab *y) {
 }
 
 /* The arc of the pane x times y; false: the pane is the near rectangle, or surely without an arc. */
-static bool set_arc(dyd_elementary *a, const slab *x, const slab *y) {
+static bool curve_set_arc(dyd_elementary *a, const slab *x, const slab *y) {
   const slab *pane[2] = {x, y};
   dyd_iv lo[2], hi[2];
   if (!x->q && !y->q) return false;
@@ -332,12 +332,12 @@ void dyd_curve_set(dyd_curve *out, const dyd_scaled *far, const dyd_scaled *near
     mpz_tdiv_q_2exp(out->middle[k], out->middle[k], 1);
     side_set_init(&s[k], far, near, window, k, out->middle[k]);
   }
-  size_t columns = set_slabs(x, &s[0], near_point), rows = set_slabs(y, &s[1], near_point);
+  size_t columns = curve_set_slabs(x, &s[0], near_point), rows = curve_set_slabs(y, &s[1], near_point);
   out->count = 0;
   for (size_t c = 0; c < columns; c++)
     for (size_t r = 0; r < rows; r++) {
       dyd_elementary *a = &out->arc[out->count];
-      if (!set_arc(a, &x[c], &y[r]) || !clip_arc(a, &p, side)) continue;
+      if (!curve_set_arc(a, &x[c], &y[r]) || !clip_arc(a, &p, side)) continue;
       for (int e = 0; e < 2; e++)
         if (!a->end[e].infinite) dyd_filter_spot_box(&a->end[e], shift);
       out->count++;

@@ -12,7 +12,7 @@
 #include <dyadel/voronoi.h>
 
 /* *site = the site whose cell is asked for by i. */
-static dyd_status find_site(uint32_t *site, const dyd_delaunay *pd, uint32_t i) {
+static dyd_status find_cell_site(uint32_t *site, const dyd_delaunay *pd, uint32_t i) {
   if (i >= dyd_sites_count(dyd_delaunay_sites(pd))) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   *site = dyd_delaunay_alias(pd, i);
@@ -41,7 +41,7 @@ static dyd_status cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_
                               const dyd_rect *window) {
   uint32_t site;
   if (window && !window_has_area(window)) return DYD_E_ARG;
-  dyd_status st = find_site(&site, pd, i);
+  dyd_status st = find_cell_site(&site, pd, i);
   if (st != DYD_OK) return st;
   dyd_cell_sites s;
   st = dyd_cell_sites_init(&s, pd, site);
@@ -87,7 +87,7 @@ static dyd_truth side_of_cell(const dyd_cell_sites *s, const dyd_point *c) {
 
 dyd_truth dyd_voronoi_side(const dyd_delaunay *pd, uint32_t i, const dyd_point *c) {
   uint32_t site;
-  if (find_site(&site, pd, i) != DYD_OK) return DYD_UNKNOWN;
+  if (find_cell_site(&site, pd, i) != DYD_OK) return DYD_UNKNOWN;
   dyd_cell_sites s;
   dyd_truth answer = dyd_cell_sites_init(&s, pd, site) == DYD_OK ? side_of_cell(&s, c) : DYD_UNKNOWN;
   dyd_cell_sites_clear(&s);

@@ -70,7 +70,7 @@ static dyd_status arc_pieces(dyd_exact_cell *c, size_t j, const dyd_elementary *
 
 /* ---- meets ---- */
 
-static dyd_status add_meet(dyd_exact_cell *c, size_t j, size_t k, dyd_icircle *circle) {
+static dyd_status curves_add_meet(dyd_exact_cell *c, size_t j, size_t k, dyd_icircle *circle) {
   if (!dyd_reserve((void **)&c->meet, &c->meet_cap, c->meets + 1, sizeof *c->meet)) return DYD_E_NOMEM;
   dyd_meet *m = &c->meet[c->meets++];
   *m = (dyd_meet){.curve = {(uint32_t)j, (uint32_t)k}};
@@ -91,7 +91,7 @@ static bool curves_may_meet(const dyd_exact_cell *c, size_t j, size_t k) {
   return !pd || dyd_delaunay_status(pd, c->site[j], c->site[k]) != DYD_ILLEGAL;
 }
 
-static dyd_status find_meets(dyd_exact_cell *c) {
+static dyd_status curves_find_meets(dyd_exact_cell *c) {
   dyd_icircle circle[DYD_CELL_CIRCLES];
   for (int m = 0; m < DYD_CELL_CIRCLES; m++) dyd_icircle_init(&circle[m]);
   const dyd_touch touch[3] = {c->fixed_touch, c->other_touch, c->other_touch};
@@ -102,7 +102,7 @@ static dyd_status find_meets(dyd_exact_cell *c) {
       const dyd_irect *r[3] = {&c->fixed.r, &c->other[j].r, &c->other[k].r};
       size_t found = dyd_icircles(circle, DYD_CELL_CIRCLES, r, touch);
       DYD_INVARIANT(found < DYD_CELL_CIRCLES);
-      for (size_t m = 0; m < found && st == DYD_OK; m++) st = add_meet(c, j, k, &circle[m]);
+      for (size_t m = 0; m < found && st == DYD_OK; m++) st = curves_add_meet(c, j, k, &circle[m]);
     }
   for (int m = DYD_CELL_CIRCLES; m-- > 0;) dyd_icircle_clear(&circle[m]);
   return st;
@@ -125,7 +125,7 @@ void dyd_cell_forget(dyd_exact_cell *c) {
   c->cut_cap = c->pieces = c->piece_cap = c->meets = c->meet_cap = 0;
 }
 
-static dyd_status set_curves(dyd_exact_cell *c) {
+static dyd_status cell_set_curves(dyd_exact_cell *c) {
   c->curve = dyd_alloc(c->count, sizeof *c->curve);
   if (!c->curve) return DYD_E_NOMEM;
   const dyd_scaled *window = c->task->windowed ? &c->window : NULL;
@@ -139,8 +139,8 @@ static dyd_status set_curves(dyd_exact_cell *c) {
 }
 
 dyd_status dyd_cell_find_pieces(dyd_exact_cell *c) {
-  dyd_status st = set_curves(c);
-  if (st == DYD_OK) st = find_meets(c);
+  dyd_status st = cell_set_curves(c);
+  if (st == DYD_OK) st = curves_find_meets(c);
   for (size_t j = 0; j < c->count && st == DYD_OK; j++)
     for (size_t a = 0; a < c->curve[j].count && st == DYD_OK; a++) st = arc_pieces(c, j, &c->curve[j].arc[a]);
   if (st == DYD_OK && c->task->windowed) st = dyd_cell_window_pieces(c);

@@ -36,7 +36,7 @@ static void query_clear(query *q) {
   free(q->vertex);
 }
 
-static dyd_status load_sites(query *q) {
+static dyd_status query_load_sites(query *q) {
   q->site = dyd_alloc(q->count, sizeof *q->site);
   if (!q->site) return DYD_E_NOMEM;
   dyd_rect r;
@@ -81,7 +81,7 @@ static void query_distance2(mpq_t out, mpq_t t, const query *q, const dyd_near_s
 }
 
 /* Keeps the sites with ds <= the least dl. */
-static void keep_at_point(query *q) {
+static void query_keep_at_point(query *q) {
   mpq_t least, d, t;
   mpq_inits(least, d, t, NULL);
   for (size_t k = 0; k < q->count; k++) {
@@ -118,7 +118,7 @@ static bool query_lists(dyd_near_work *w, const query *q, size_t i) {
   return false;
 }
 
-static dyd_status keep_in_rect(query *q) {
+static dyd_status query_keep_in_rect(query *q) {
   bool *keep = dyd_alloc(q->count, sizeof *keep);
   if (!keep) return DYD_E_NOMEM;
   dyd_near_work w;
@@ -150,11 +150,11 @@ dyd_status dyd_nearest_rect(dyd_index_list *out, bool *sure, const dyd_delaunay 
   dyd_status st = dyd_near_candidates(&q.vertex, &q.count, pd, rect);
   if (st == DYD_OK && q.count > 1) {
     rect_get_ends(q.e, rect);
-    st = load_sites(&q);
+    st = query_load_sites(&q);
     if (st == DYD_OK && dyd_rect_is_point(rect))
-      keep_at_point(&q);
+      query_keep_at_point(&q);
     else if (st == DYD_OK)
-      st = keep_in_rect(&q);
+      st = query_keep_in_rect(&q);
   }
   if (st == DYD_OK) {
     query_deliver(out, &q);

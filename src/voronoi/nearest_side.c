@@ -138,8 +138,8 @@ static bool place_advance(dyd_near_work *w, const dyd_near_side *side, const dyd
 }
 
 /* Somebody who blocks the place, with D and the middle set; count: nobody. */
-static size_t find_blocker(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *site, size_t count,
-                           size_t i, bool no_filter) {
+static size_t side_find_blocker(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *site, size_t count,
+                                size_t i, bool no_filter) {
   dyd_bbox c;
   dyd_filter_place(&c, side, w->at, w->root);
   size_t sure = no_filter ? count : dyd_filter_blocker(&c, site, count, i);
@@ -157,7 +157,7 @@ bool dyd_near_side_meets(dyd_near_work *w, const dyd_near_side *side, const dyd_
   mpq_set(w->at, side->lo);
   mpq_set_ui(w->root, 0, 1);
   for (;;) {
-    size_t k = find_blocker(w, side, site, count, i, no_filter);
+    size_t k = side_find_blocker(w, side, site, count, i, no_filter);
     if (k == count) return true;
     if (!place_advance(w, side, &site[k], &site[i]) || place_compare(w, side->hi) > 0) return false;
   }

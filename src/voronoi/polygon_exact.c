@@ -84,7 +84,7 @@ static bool inside_window(const work *w, const dyd_point *z) {
 }
 
 /* goal = the mean of the samples, rounded: inside when fine is large enough. */
-static dyd_status find_goal(bool *out, work *w, int64_t fine) {
+static dyd_status find_inner_goal(bool *out, work *w, int64_t fine) {
   dyd_point z;
   dyd_point_init(&z);
   mpq_t x, y;
@@ -183,7 +183,7 @@ static dyd_status exact_inner(dyd_polygon *out, work *w) {
   bool found = false;
   dyd_status st = dyd_chain_samples(&w->samples, &w->boundary.chain[0], &w->sites, w->own, w->bits + 1);
   for (int64_t extra = FIRST_EXTRA; !found && st == DYD_OK; extra *= 2)
-    st = extra > MOST_EXTRA ? DYD_E_RANGE : find_goal(&found, w, w->bits + extra);
+    st = extra > MOST_EXTRA ? DYD_E_RANGE : find_inner_goal(&found, w, w->bits + extra);
   if (st == DYD_OK) st = place_samples(out, w, place_inner, FIRST_EXTRA);
   return st == DYD_OK ? dyd_polygon_make_convex(out) : st;
 }
@@ -205,7 +205,7 @@ dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i,
 }
 
 /* One part; taken anew with more bits while it crosses itself. */
-static dyd_status outer_part(dyd_polygon *out, work *w, const dyd_chain *chain) {
+static dyd_status exact_outer_part(dyd_polygon *out, work *w, const dyd_chain *chain) {
   int64_t bits = w->bits;
   bool simple = false;
   dyd_status st = DYD_OK;
@@ -237,7 +237,7 @@ static dyd_status exact_outer(dyd_polygon_list *out, work *w) {
   if (!out->item) return DYD_E_NOMEM;
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < w->boundary.count && st == DYD_OK; k++) {
-    st = outer_part(&out->item[out->count++], w, &w->boundary.chain[k]);
+    st = exact_outer_part(&out->item[out->count++], w, &w->boundary.chain[k]);
     if (st == DYD_OK) st = drop_if_clockwise(out);
   }
   return st;

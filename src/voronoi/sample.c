@@ -104,7 +104,7 @@ static void parabola_at(mpq_t across, const parabola *p, const mpq_t t) {
 /* ---- samples ---- */
 
 /* The middle of an enclosure of the end, within 2^-bits of it. */
-static dyd_status end_point(dyd_point *out, const dyd_arc_end *end, int64_t bits) {
+static dyd_status arc_end_point(dyd_point *out, const dyd_arc_end *end, int64_t bits) {
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_status st = dyd_surd_point_enclose(&r, &end->at, bits);
@@ -122,7 +122,8 @@ static dyd_status end_point(dyd_point *out, const dyd_arc_end *end, int64_t bits
 }
 
 /* Into how many parts the arc has to be cut: n >= length sqrt(2^bits / (8 q)). */
-static dyd_status count_steps(uint32_t *out, const dyd_arc *arc, const dyd_cell_sites *s, uint32_t own, int64_t bits) {
+static dyd_status arc_count_steps(uint32_t *out, const dyd_arc *arc, const dyd_cell_sites *s, uint32_t own,
+                                  int64_t bits) {
   *out = 1;
   if (arc->kind != DYD_ARC_PARABOLA) return DYD_OK;
   parabola p;
@@ -133,8 +134,8 @@ static dyd_status count_steps(uint32_t *out, const dyd_arc *arc, const dyd_cell_
   dyd_point_init(&b);
   mpq_inits(length, q, NULL);
   parabola_set(&p, arc, s, own);
-  dyd_status st = end_point(&a, &arc->begin, bits + 4);
-  if (st == DYD_OK) st = end_point(&b, &arc->end, bits + 4);
+  dyd_status st = arc_end_point(&a, &arc->begin, bits + 4);
+  if (st == DYD_OK) st = arc_end_point(&b, &arc->end, bits + 4);
   if (st == DYD_OK) {
     dyd_dyadic_get_q(length, p.along ? &a.y : &a.x);
     dyd_dyadic_get_q(q, p.along ? &b.y : &b.x);
@@ -162,7 +163,7 @@ dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const
   for (size_t k = 0; k < chain->count; k++) {
     const dyd_arc *arc = &chain->arc[k], *before = &chain->arc[k ? k - 1 : chain->count - 1];
     uint32_t steps;
-    dyd_status st = count_steps(&steps, arc, s, own, bits);
+    dyd_status st = arc_count_steps(&steps, arc, s, own, bits);
     if (st != DYD_OK) return st;
     if (out->count + steps > MOST_STEPS) return DYD_E_RANGE;
     if (!dyd_reserve((void **)&out->item, &out->cap, out->count + steps, sizeof *out->item)) return DYD_E_NOMEM;
@@ -179,8 +180,8 @@ static dyd_status sample_abscissa(mpq_t t, const dyd_arc_sample *at, const parab
   dyd_point_init(&a);
   dyd_point_init(&b);
   mpq_init(u);
-  dyd_status st = end_point(&a, &at->arc->begin, bits);
-  if (st == DYD_OK) st = end_point(&b, &at->arc->end, bits);
+  dyd_status st = arc_end_point(&a, &at->arc->begin, bits);
+  if (st == DYD_OK) st = arc_end_point(&b, &at->arc->end, bits);
   if (st == DYD_OK) {
     dyd_dyadic_get_q(t, p->along ? &a.y : &a.x);
     dyd_dyadic_get_q(u, p->along ? &b.y : &b.x);
@@ -198,7 +199,7 @@ static dyd_status sample_abscissa(mpq_t t, const dyd_arc_sample *at, const parab
 
 dyd_status dyd_sample_point(dyd_point *out, const dyd_arc_sample *at, const dyd_cell_sites *s, uint32_t own,
                             int64_t bits) {
-  if (at->step == 0) return end_point(out, &at->arc->begin, bits);
+  if (at->step == 0) return arc_end_point(out, &at->arc->begin, bits);
   parabola p;
   mpq_t t, across;
   parabola_init(&p);
