@@ -246,12 +246,12 @@ int64_t dyd_metric_flattening(const dyd_delaunay *pd, const dyd_rect *window, in
   mpfr_t side[2], length;
   size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
   mpfr_inits2(64, side[0], side[1], length, (mpfr_ptr)0);
-  mpfr_from_dyadic(side[0], &window->x.hi, MPFR_RNDU);
-  mpfr_from_dyadic(length, &window->x.lo, MPFR_RNDD);
-  mpfr_sub(side[0], side[0], length, MPFR_RNDU);
-  mpfr_from_dyadic(side[1], &window->y.hi, MPFR_RNDU);
-  mpfr_from_dyadic(length, &window->y.lo, MPFR_RNDD);
-  mpfr_sub(side[1], side[1], length, MPFR_RNDU);
+  for (int a = 0; a < 2; a++) {
+    const dyd_interval *s = a ? &window->y : &window->x;
+    mpfr_from_dyadic(side[a], &s->hi, MPFR_RNDU);
+    mpfr_from_dyadic(length, &s->lo, MPFR_RNDD);
+    mpfr_sub(side[a], side[a], length, MPFR_RNDU);
+  }
   mpfr_add(length, side[0], side[1], MPFR_RNDU);
   mpfr_mul_ui(length, length, 2, MPFR_RNDU);
   mpfr_mul(side[0], side[0], side[1], MPFR_RNDU);

@@ -44,12 +44,6 @@ dyd_status dyd_stream_new(dyd_stream **out, const dyd_source *source, size_t poi
   return st;
 }
 
-dyd_status dyd_stream_new_enclosing(dyd_stream **out, const dyd_source *source) {
-  dyd_status st = dyd_stream_new(out, source, DYD_NO_POINT);
-  if (st == DYD_OK) (*out)->encloses = true;
-  return st;
-}
-
 dyd_status dyd_stream_new_inside(dyd_stream **out, void **user, size_t size, dyd_narrow_fn narrow,
                                  dyd_release_fn release) {
   dyd_source source = {.narrow = narrow, .release = release};
@@ -73,6 +67,24 @@ dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value) {
   s->final = true;
   *out = s;
   return DYD_OK;
+}
+
+static dyd_status stream_new_final(dyd_stream **out, const dyd_source *source) {
+  dyd_request any = {0};
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = source->narrow(&r, source->user, &any, NULL);
+  if (!dyd_failed(st)) st = dyd_stream_new_fixed(out, &r);
+  dyd_rect_clear(&r);
+  source->release(source->user);
+  return st;
+}
+
+dyd_status dyd_stream_new_enclosing(dyd_stream **out, const dyd_source *source, bool final) {
+  if (final) return stream_new_final(out, source);
+  dyd_status st = dyd_stream_new(out, source, DYD_NO_POINT);
+  if (st == DYD_OK) (*out)->encloses = true;
+  return st;
 }
 
 void *dyd_stream_user(const dyd_stream *s, dyd_narrow_fn narrow) {

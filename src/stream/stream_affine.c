@@ -26,30 +26,29 @@ static void affine_release(void *user) {
   free(a);
 }
 
-/* Adds c [x0,x1] to [lo,hi]. */
-static void affine_add_term(mpq_t lo, mpq_t hi, const mpq_t c, const mpq_t x0, const mpq_t x1) {
-  mpq_t t;
-  mpq_init(t);
-  mpq_mul(t, c, mpq_sgn(c) < 0 ? x1 : x0);
-  mpq_add(lo, lo, t);
-  mpq_mul(t, c, mpq_sgn(c) < 0 ? x0 : x1);
-  mpq_add(hi, hi, t);
-  mpq_clear(t);
+void dyd_add_scaled_interval(mpq_t lo, mpq_t hi, const mpq_t c, const dyd_interval *r) {
+  mpq_t end[2];
+  bool flip = mpq_sgn(c) < 0;
+  mpq_inits(end[0], end[1], NULL);
+  dyd_interval_get_q(end[0], end[1], r);
+  mpq_mul(end[0], end[0], c);
+  mpq_mul(end[1], end[1], c);
+  mpq_add(lo, lo, end[flip]);
+  mpq_add(hi, hi, end[!flip]);
+  mpq_clears(end[0], end[1], NULL);
 }
 
 /* out = row[0] x + row[1] y + row[2] over r [AFF-1]. Fixed rectangles are rounded once and for all. */
 static dyd_status affine_image_side(dyd_interval *out, const mpq_t *row, const dyd_rect *r, bool final, int64_t exp) {
-  mpq_t lo, hi, x0, x1;
-  mpq_inits(lo, hi, x0, x1, NULL);
+  mpq_t lo, hi;
+  mpq_inits(lo, hi, NULL);
   mpq_set(lo, row[2]);
   mpq_set(hi, row[2]);
-  dyd_interval_get_q(x0, x1, &r->x);
-  affine_add_term(lo, hi, row[0], x0, x1);
-  dyd_interval_get_q(x0, x1, &r->y);
-  affine_add_term(lo, hi, row[1], x0, x1);
+  dyd_add_scaled_interval(lo, hi, row[0], &r->x);
+  dyd_add_scaled_interval(lo, hi, row[1], &r->y);
   bool exact = final || mpq_equal(lo, hi);
   dyd_status st = exact ? dyd_interval_fix(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
-  mpq_clears(lo, hi, x0, x1, NULL);
+  mpq_clears(lo, hi, NULL);
   return st;
 }
 
@@ -126,24 +125,10 @@ static affine *affine_make(dyd_stream *of, const mpq_t m[6]) {
   return a;
 }
 
-static dyd_status affine_fixed(dyd_stream **out, const affine *a) {
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = affine_image(&r, a, 0);
-  if (st == DYD_OK) st = dyd_stream_new_fixed(out, &r);
-  dyd_rect_clear(&r);
-  return st;
-}
-
 dyd_status dyd_stream_affine(dyd_stream **out, dyd_stream *of, const mpq_t m[6]) {
   if (!of) return DYD_E_ARG;
   affine *a = affine_make(of, m);
   if (!a) return DYD_E_NOMEM;
-  if (!dyd_stream_is_final(a->of)) {
-    dyd_source source = {.narrow = affine_narrow, .release = affine_release, .user = a};
-    return dyd_stream_new_enclosing(out, &source);
-  }
-  dyd_status st = affine_fixed(out, a);
-  affine_release(a);
-  return st;
+  dyd_source source = {.narrow = affine_narrow, .release = affine_release, .user = a};
+  return dyd_stream_new_enclosing(out, &source, dyd_stream_is_final(a->of));
 }

@@ -42,22 +42,17 @@ static bool combination_is_final(const combination *c) {
 
 /* One side of the image: side 0 is x [CMB-1]. Fixed rectangles are rounded once and for all. */
 static dyd_status combination_image_side(dyd_interval *out, const combination *c, int side, int64_t exp) {
-  mpq_t lo, hi, end[2];
-  mpq_inits(lo, hi, end[0], end[1], NULL);
+  mpq_t lo, hi;
+  mpq_inits(lo, hi, NULL);
   mpq_set(lo, c->shift[side]);
   mpq_set(hi, c->shift[side]);
   for (size_t k = 0; k < c->count; k++) {
     const dyd_rect *r = dyd_stream_rect(c->of[k]);
-    bool flip = mpq_sgn(c->weight[k]) < 0;
-    dyd_interval_get_q(end[0], end[1], side == 0 ? &r->x : &r->y);
-    mpq_mul(end[0], end[0], c->weight[k]);
-    mpq_mul(end[1], end[1], c->weight[k]);
-    mpq_add(lo, lo, end[flip]);
-    mpq_add(hi, hi, end[!flip]);
+    dyd_add_scaled_interval(lo, hi, c->weight[k], side == 0 ? &r->x : &r->y);
   }
   bool exact = combination_is_final(c) || mpq_equal(lo, hi);
   dyd_status st = exact ? dyd_interval_fix(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
-  mpq_clears(lo, hi, end[0], end[1], NULL);
+  mpq_clears(lo, hi, NULL);
   return st;
 }
 
@@ -118,15 +113,6 @@ static combination *combination_make(size_t n, dyd_stream *const *of, const mpq_
   return c;
 }
 
-static dyd_status combination_fixed(dyd_stream **out, const combination *c) {
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = combination_image(&r, c, 0);
-  if (st == DYD_OK) st = dyd_stream_new_fixed(out, &r);
-  dyd_rect_clear(&r);
-  return st;
-}
-
 dyd_status dyd_stream_combination(dyd_stream **out, size_t n, dyd_stream *const *of, const mpq_t *weight,
                                   const mpq_t shift[2]) {
   bool whole = true;
@@ -137,13 +123,8 @@ dyd_status dyd_stream_combination(dyd_stream **out, size_t n, dyd_stream *const 
   }
   combination *c = combination_make(n, of, weight, shift);
   if (!c) return DYD_E_NOMEM;
-  if (!combination_is_final(c)) {
-    dyd_source source = {.narrow = combination_narrow, .release = combination_release, .user = c};
-    return dyd_stream_new_enclosing(out, &source);
-  }
-  dyd_status st = combination_fixed(out, c);
-  combination_release(c);
-  return st;
+  dyd_source source = {.narrow = combination_narrow, .release = combination_release, .user = c};
+  return dyd_stream_new_enclosing(out, &source, combination_is_final(c));
 }
 
 dyd_status dyd_stream_midpoint(dyd_stream **out, dyd_stream *a, dyd_stream *b) {

@@ -236,17 +236,6 @@ static dyd_status vertex_narrow(dyd_rect *out, void *user, const dyd_request *re
   return vertex_is_final(v) ? DYD_FIXED : DYD_OK;
 }
 
-static dyd_status vertex_fixed(dyd_stream **out, const vertex *v) {
-  bool known;
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = vertex_attempt(&known, &r, v, 0, 0, 0, NULL);
-  if (st == DYD_OK && !known) st = DYD_E_DOMAIN;
-  if (st == DYD_OK) st = dyd_stream_new_fixed(out, &r);
-  dyd_rect_clear(&r);
-  return st;
-}
-
 dyd_status dyd_stream_voronoi_vertex(dyd_stream **out, dyd_stream *a, dyd_stream *b, dyd_stream *c) {
   bool good = a && b && c && a != b && a != c && b != c;
   vertex *v = good ? dyd_alloc(1, sizeof *v) : NULL;
@@ -257,11 +246,6 @@ dyd_status dyd_stream_voronoi_vertex(dyd_stream **out, dyd_stream *a, dyd_stream
     return good ? DYD_E_NOMEM : DYD_E_ARG;
   }
   *v = (vertex){{a, b, c}, LEAST_EXTRA};
-  if (!vertex_is_final(v)) {
-    dyd_source source = {.narrow = vertex_narrow, .release = vertex_release, .user = v};
-    return dyd_stream_new_enclosing(out, &source);
-  }
-  dyd_status st = vertex_fixed(out, v);
-  vertex_release(v);
-  return st;
+  dyd_source source = {.narrow = vertex_narrow, .release = vertex_release, .user = v};
+  return dyd_stream_new_enclosing(out, &source, vertex_is_final(v));
 }
