@@ -15,6 +15,11 @@ dyd_status dyd_cert_expect_word(dyd_checker *c, const char *name) {
   return strcmp(word, name) == 0 ? DYD_OK : dyd_cert_reject(&c->in, "\"%s\" is missing", name);
 }
 
+dyd_status dyd_cert_expect_line(dyd_checker *c, const char *name) {
+  dyd_status st = dyd_cert_next_line(&c->in);
+  return st == DYD_OK ? dyd_cert_expect_word(c, name) : st;
+}
+
 dyd_status dyd_cert_read_choice(size_t *out, dyd_checker *c, const char *const *text, size_t count) {
   char *word = NULL;
   dyd_status st = dyd_cert_word(&word, &c->in);
@@ -26,8 +31,7 @@ dyd_status dyd_cert_read_choice(size_t *out, dyd_checker *c, const char *const *
 
 /* A line "NAME count"; the count is at most `most`. */
 static dyd_status read_heading(uint32_t *count, dyd_checker *c, const char *name, uint64_t most) {
-  dyd_status st = dyd_cert_next_line(&c->in);
-  if (st == DYD_OK) st = dyd_cert_expect_word(c, name);
+  dyd_status st = dyd_cert_expect_line(c, name);
   if (st == DYD_OK) st = dyd_cert_read_index(count, &c->in, most);
   return st == DYD_OK ? dyd_cert_line_done(&c->in) : st;
 }
@@ -80,8 +84,7 @@ static dyd_status check_goal(dyd_checker *c) {
                            *const second[] = {"area", "hausdorff"},
                            *const voronoi[] = {"voronoi area", "voronoi hausdorff"};
   size_t k = 0, m = 0;
-  dyd_status st = dyd_cert_next_line(&c->in);
-  if (st == DYD_OK) st = dyd_cert_expect_word(c, "goal");
+  dyd_status st = dyd_cert_expect_line(c, "goal");
   if (st == DYD_OK) st = dyd_cert_read_choice(&k, c, first, 4);
   if (st == DYD_OK && k == 3) st = dyd_cert_read_choice(&m, c, second, 2);
   if (st == DYD_OK && k > 0) st = dyd_cert_read_integer(&c->report.goal_bits, &c->in);
@@ -97,15 +100,13 @@ dyd_status dyd_checker_head(dyd_checker *c) {
   dyd_status st = dyd_cert_next_line(&c->in);
   if (st == DYD_OK && strcmp(c->in.line, "dyadel certificate 1") != 0)
     st = dyd_cert_reject(&c->in, "this is no \"dyadel certificate 1\"");
-  if (st == DYD_OK) st = dyd_cert_next_line(&c->in);
-  if (st == DYD_OK) st = dyd_cert_expect_word(c, "outcome");
+  if (st == DYD_OK) st = dyd_cert_expect_line(c, "outcome");
   if (st == DYD_OK) st = dyd_cert_read_choice(&k, c, outcome, 6);
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
   if (st != DYD_OK) return st;
   c->report.outcome = outcome[k];
   st = check_goal(c);
-  if (st == DYD_OK) st = dyd_cert_next_line(&c->in);
-  if (st == DYD_OK) st = dyd_cert_expect_word(c, "capped");
+  if (st == DYD_OK) st = dyd_cert_expect_line(c, "capped");
   if (st == DYD_OK) st = dyd_cert_read_choice(&k, c, answer, 2);
   c->report.capped = k == 1;
   return st == DYD_OK ? dyd_cert_line_done(&c->in) : st;

@@ -45,7 +45,7 @@ dyd_status dyd_checker_diagram(dyd_checker *c);
 /* The bound that the goal `goal` is about is stated to be `bound`. */
 void dyd_cert_note_bound(dyd_checker *c, const char *goal, const dyd_exact *bound);
 
-/* Are the points of p, in this order, the corners of a strictly convex polygon, counter-clockwise? */
+/* Are the points of p, in this order, the vertices of a strictly convex polygon, counter-clockwise? */
 bool dyd_cert_polygon_is_convex(const dyd_cert_chain *p);
 /* Adds twice the area of such a polygon. */
 void dyd_cert_polygon_area2(dyd_exact *out, const dyd_cert_chain *p);
@@ -54,6 +54,8 @@ void dyd_cert_window_area(dyd_exact *out, const dyd_cert_window *w);
 
 /* The word must be there. */
 dyd_status dyd_cert_expect_word(dyd_checker *c, const char *name);
+/* The next line, which must begin with the word. */
+dyd_status dyd_cert_expect_line(dyd_checker *c, const char *name);
 /* The word is one of text[0 .. count-1]; *out is its number. */
 dyd_status dyd_cert_read_choice(size_t *out, dyd_checker *c, const char *const *text, size_t count);
 /* A site that is no alias. */

@@ -82,8 +82,7 @@ static dyd_status check_polygon(dyd_checker *c, dyd_exact *area2, const dyd_cert
 /* Stops at the line "undetermined", which is left to be read on. */
 static dyd_status check_polygons(dyd_checker *c, dyd_exact *area2, const dyd_cert_window *w) {
   uint32_t i = 0, last = 0;
-  dyd_status st = dyd_cert_next_line(&c->in);
-  if (st == DYD_OK) st = dyd_cert_expect_word(c, "polygons");
+  dyd_status st = dyd_cert_expect_line(c, "polygons");
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
   for (size_t q = 0; st == DYD_OK; q++, last = i) {
     st = dyd_cert_next_line(&c->in);
@@ -145,8 +144,7 @@ static dyd_status check_bound(dyd_checker *c, const dyd_exact *bound, const dyd_
 
 static dyd_status check_distance(dyd_checker *c, const dyd_cert_window *w) {
   dyd_exact bound;
-  dyd_status st = dyd_cert_next_line(&c->in);
-  if (st == DYD_OK) st = dyd_cert_expect_word(c, "distance");
+  dyd_status st = dyd_cert_expect_line(c, "distance");
   if (st != DYD_OK || (c->in.at && strcmp(c->in.at, "none") == 0)) return st;
   dyd_exact_init(&bound);
   st = dyd_cert_read_number(&bound, &c->in);

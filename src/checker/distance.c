@@ -236,7 +236,7 @@ static bool is_near_site(search *s, const grid_box *q, const grid_site *a, const
   return false;
 }
 
-/* The root of far_of, rounded up. The site is not endless. */
+/* The root of far_on_grid, rounded up. The site is not endless. */
 static uint64_t far_root(search *s, const grid_box *q, const grid_site *g) {
   mpz_set_area(s->root, far_on_grid(q, g));
   mpz_sqrtrem(s->root, s->rest, s->root);

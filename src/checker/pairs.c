@@ -64,8 +64,7 @@ static dyd_status read_pair_line(dyd_checker *c, dyd_cert_edge *pair) {
 /* Stops at the line "triangles", which is left to be read on. */
 static dyd_status read_pairs(dyd_checker *c) {
   dyd_cert_edge pair = {0, 0};
-  dyd_status st = dyd_cert_next_line(&c->in);
-  if (st == DYD_OK) st = dyd_cert_expect_word(c, "pairs");
+  dyd_status st = dyd_cert_expect_line(c, "pairs");
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
   while (st == DYD_OK) {
     st = dyd_cert_next_line(&c->in);
@@ -85,8 +84,7 @@ static dyd_status check_counts(dyd_checker *c) {
   if (st != DYD_OK) return st;
   if ((uint64_t)triangles != c->faces.triangles)
     return dyd_cert_reject(&c->in, "there are %zu sure triangles", c->faces.triangles);
-  st = dyd_cert_next_line(&c->in);
-  if (st == DYD_OK) st = dyd_cert_expect_word(c, "unproved");
+  st = dyd_cert_expect_line(c, "unproved");
   if (st == DYD_OK) st = dyd_cert_read_integer(&unproved, &c->in);
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
   if (st != DYD_OK) return st;
@@ -102,8 +100,7 @@ static dyd_status check_counts(dyd_checker *c) {
 
 /* "NAME none" or "NAME number"; *present tells. */
 static dyd_status read_bound(bool *present, dyd_exact *out, dyd_checker *c, const char *name) {
-  dyd_status st = dyd_cert_next_line(&c->in);
-  if (st == DYD_OK) st = dyd_cert_expect_word(c, name);
+  dyd_status st = dyd_cert_expect_line(c, name);
   if (st != DYD_OK) return st;
   *present = !c->in.at || strcmp(c->in.at, "none") != 0;
   if (!*present) return DYD_OK;

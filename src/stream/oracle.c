@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Points served by programs of the user: starting them, waiting for them, ending them.
  *
- * One loop (wait_for) does all waiting: it sends every program what it may be sent, takes whatever comes from any of
- * them, and ends when the one request in question is answered, cannot be answered, took too long, or is not wanted any
- * more. Which program is asked what, in which order, does not depend on time [ORA-2]. */
+ * One loop (wait_for_answer) does all waiting: it sends every program what it may be sent, takes whatever comes from
+ * any of them, and ends when the one request in question is answered, cannot be answered, took too long, or is not
+ * wanted any more. Which program is asked what, in which order, does not depend on time [ORA-2]. */
 #include "stream/oracle_answer.h"
 #include "stream/oracle_worker.h"
 #include <dyadel/oracle.h>
