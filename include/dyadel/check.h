@@ -7,7 +7,7 @@
  *   nested   every rectangle is inside the one before (a stream's fault);
  *   rate     a point asked for b bits is narrower than 2^-(b - slack_bits), or final (a stream's fault);
  *   retract  no pair that was illegal is possible, no legal one is anything else;
- *   cell     verified polygons inside Int and round Pos of some sites, made a stage before, still are that;
+ *   cell     proved polygons inside Int and round Pos of some sites, made a stage before, still are that;
  *   path     a triangulation made afresh from the same rectangles has the same statuses (legal against indeterminate
  *            aside where the witness search stops at its floor, see legal/witness.h: these are counted);
  *   choice   a random exact choice of points has every legal pair as a strict edge, and no impossible pair as one. */

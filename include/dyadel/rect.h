@@ -77,9 +77,9 @@ DYD_API void dyd_rect_ds2(mpq_t out, const dyd_point *c, const dyd_rect *r);
 DYD_API void dyd_rect_dl2(mpq_t out, const dyd_point *c, const dyd_rect *r);
 
 /* Twice the area of the partial edge Ed(a,b), the convex hull of two rectangles. Exact. */
-DYD_API void dyd_hull_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b);
+DYD_API void dyd_partial_edge_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b);
 /* Are Ed(a,b) and Ed(c,d) disjoint as closed sets? Exact, touching counts as meeting [HULL-1]. */
-DYD_API bool dyd_hulls_disjoint(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c, const dyd_rect *d);
+DYD_API bool dyd_partial_edges_disjoint(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c, const dyd_rect *d);
 
 #ifdef __cplusplus
 }

@@ -31,7 +31,7 @@ DYD_API dyd_status dyd_voronoi_pos_on(dyd_boundary *out, const dyd_delaunay *pd,
 /* Is c in Int_i (TRUE), in Ext_i (FALSE), undetermined (UNKNOWN)? Exact. O(K). */
 DYD_API dyd_truth dyd_voronoi_side(const dyd_delaunay *pd, uint32_t i, const dyd_point *c);
 
-/* ---- verified polygons on a window ---- */
+/* ---- proved polygons on a window ---- */
 
 /* A simple polygon with dyadic vertices, counter-clockwise; count 0: empty. Owned: init with {0}. */
 typedef struct dyd_polygon {

@@ -41,7 +41,7 @@ Definition dd_add (x y : dd) : dd :=
 Definition dd_mul (x y : dd) : dd :=
   let p := (fst x * fst y)%D in let e := ffma (fst x) (fst y) (- p)%D in
   fast_two_sum p (e + (fst x * snd y + snd x * fst y))%D.
-(* C src/metric/measure_filter.c inflate
+(* C src/metric/measure_filter.c dd_inflate
   out[0] = x.h;
   out[1] = x.l + x.h * 0x1p-87;
 *)

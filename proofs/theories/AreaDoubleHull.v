@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [AREA-T] dyd_filter_hull_area2 in binary64: where it succeeds, what it gives is not below twice the area of the hull,
+(** [AREA-T] dyd_filter_partial_edge_area2 in binary64: where it succeeds, what it gives is not below twice the area of the hull,
     and exceeds it by at most 2^-86 of it. *)
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
 From Flocq Require Import Core BinarySingleNaN Binary Bits.
@@ -9,21 +9,21 @@ Open Scope R_scope.
 
 (** ** The C code *)
 
-(* C src/metric/measure_filter.c lead_in_range
+(* C src/metric/measure_filter.c dd_lead_in_range
   return x.h == 0 || (x.h >= 0x1p-400 && x.h <= 0x1p400);
 *)
 Definition equal (x y : double) : bool := match b64_compare x y with Some Eq => true | _ => false end.
 Definition lead_in_range (x : dd) : bool :=
   equal (fst x) (lit (0, 0)%Z) || (le (lit (1, -400)%Z) (fst x) && le (fst x) (lit (1, 400)%Z)).
 
-(* C src/metric/measure_filter.c axis_set
+(* C src/metric/measure_filter.c area2_axis_set
   out->b_low = b[0] < a[0];
   out->b_high = b[1] > a[1];
   out->wa = dd_sub_d(a[1], a[0]);
   out->wb = dd_sub_d(b[1], b[0]);
   out->low = out->b_low ? dd_sub_d(a[0], b[0]) : dd_sub_d(b[0], a[0]);
   out->high = out->b_high ? dd_sub_d(b[1], a[1]) : dd_sub_d(a[1], b[1]);
-  return lead_in_range(out->wa) && lead_in_range(out->wb) && lead_in_range(out->low) && lead_in_range(out->high);
+  return dd_lead_in_range(out->wa) && dd_lead_in_range(out->wb) && dd_lead_in_range(out->low) && dd_lead_in_range(out->high);
 *)
 Record daxis : Type := DAxis { dwa : dd; dwb : dd; dlow : dd; dhigh : dd; db_low : bool; db_high : bool }.
 Definition axis_made (a0 a1 b0 b1 : double) : daxis :=
@@ -57,12 +57,12 @@ Definition corner (x y : daxis) : dd :=
 Definition cross (x y : daxis) : dd :=
   dd_add (dd_mul (dwb x) (dd_add (dwa y) (dwb y))) (dd_mul (dwa x) (dd_add (dlow y) (dhigh y))).
 
-(* C src/metric/measure_filter.c dyd_filter_hull_area2
+(* C src/metric/measure_filter.c dyd_filter_partial_edge_area2
   axis x, y;
-  if (!axis_set(&x, a, b) || !axis_set(&y, a + 2, b + 2)) return false;
+  if (!area2_axis_set(&x, a, b) || !area2_axis_set(&y, a + 2, b + 2)) return false;
   int in_x = x.b_low + x.b_high, in_y = y.b_low + y.b_high;
   if (in_x + in_y > 2) {
-    return dyd_filter_hull_area2(out, b, a);
+    return dyd_filter_partial_edge_area2(out, b, a);
   }
   dd sum;
   if (in_x + in_y == 0) {
@@ -75,7 +75,7 @@ Definition cross (x y : daxis) : dd :=
   } else {
     sum = in_x ? area2_cross(&x, &y) : area2_cross(&y, &x);
   }
-  inflate(out, sum);
+  dd_inflate(out, sum);
   return true;
 *)
 Definition dsides (x : daxis) : nat := (Nat.b2n (db_low x) + Nat.b2n (db_high x))%nat.

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Twice the area of the hull of two rectangles without a subtraction of products, as dyd_filter_hull_area2 has it: the
+(* Twice the area of the hull of two rectangles without a subtraction of products, as dyd_filter_partial_edge_area2 has it: the
    four forms, and that one of them fits a and b or b and a. *)
 From Coq Require Import Reals Lra Lia Psatz List.
 From Dyadel Require Import Plane Distance Cells AreaHull.

@@ -7,7 +7,7 @@ From Dyadel Require Import Measure MeasureCut MeasureTriangle.
 Import ListNotations.
 Open Scope R_scope.
 
-(* As dyd_irect_hull_area2 computes it: twice the box, less the product of the legs at each corner. *)
+(* As dyd_irect_partial_edge_area2 computes it: twice the box, less the product of the legs at each corner. *)
 Definition legs_ll (A B : rect) : R := Rmax 0 (- ((xlo B - xlo A) * (ylo B - ylo A))).
 Definition legs_lr (A B : rect) : R := Rmax 0 ((xhi B - xhi A) * (ylo B - ylo A)).
 Definition legs_ul (A B : rect) : R := Rmax 0 ((xlo B - xlo A) * (yhi B - yhi A)).

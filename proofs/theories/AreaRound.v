@@ -14,7 +14,7 @@ Definition dpoint : Type := (double * double)%type.
 Definition real (a : dpoint) : point := (val (fst a), val (snd a)).
 Definition dfinite (a : dpoint) : Prop := finite (fst a) /\ finite (snd a).
 
-(* C src/voronoi/shape_filter.c turn
+(* C src/voronoi/shape_filter.c double_turn
   double ax = a.x - o.x, ay = a.y - o.y, bx = b.x - o.x, by = b.y - o.y, p = ax * by, q = ay * bx;
   *error = 8 * U * (fabs(p) + fabs(q)) + DYD_TINY;
   return p - q;
@@ -25,12 +25,12 @@ Definition turn_error (o a b : dpoint) : double :=
   (lit (1, -50)%Z * (fabs (turn_p o a b) + fabs (turn_q o a b)) + lit c_tiny)%D.
 Definition turn (o a b : dpoint) : double := (turn_p o a b - turn_q o a b)%D.
 
-(* C src/voronoi/shape_filter.c star
+(* C src/voronoi/shape_filter.c shape_star
   int crossings = 0;
   *area = *error = 0;
   for (uint32_t t = 0; t < n; t++) {
     dyd_xy a = z[t], b = z[t + 1 == n ? 0 : t + 1];
-    double e, d = turn(&e, o, a, b);
+    double e, d = double_turn(&e, o, a, b);
     if (!(d > e)) return false;
     crossings += a.y < o.y && b.y >= o.y;
     *area += d;

@@ -27,12 +27,12 @@ Definition good (k : centre) : Prop := (0 < dd k)%Z /\ (0 <= cc k)%Z.
 
 Definition norm2 (f : feature) : Z := (at0 f * at0 f + at1 f * at1 f)%Z.
 
-(* C src/predicate/solve.c make_rational
+(* C src/predicate/solve.c centre_make_rational
   mpz_set_ui(out->b[0], 0);
   mpz_set_ui(out->b[1], 0);
   mpz_set_ui(out->c, 0);
 *)
-(* C src/predicate/solve.c make_denominator_positive
+(* C src/predicate/solve.c centre_make_positive
   if (mpz_sgn(out->d) > 0) return;
   mpz_neg(out->d, out->d);
   mpz_neg(out->a[0], out->a[0]);
@@ -42,19 +42,19 @@ Definition rational (x y d : Z) : centre :=
   if (0 <? d)%Z then {| a0 := x; a1 := y; b0 := 0; b1 := 0; cc := 0; dd := d |}
   else {| a0 := - x; a1 := - y; b0 := 0; b1 := 0; cc := 0; dd := - d |}.
 
-(* C src/predicate/solve.c two_points
+(* C src/predicate/solve.c solve_two_points
   mpz_mul(out->d, f->at[0], g->at[1]);
   mpz_submul(out->d, g->at[0], f->at[1]);
   if (!mpz_sgn(out->d)) return false;
   mpz_mul_2exp(out->d, out->d, 1);
-  norm2(out->s, f);
-  norm2(out->t, g);
+  feature_norm2(out->s, f);
+  feature_norm2(out->t, g);
   mpz_mul(out->a[0], out->s, g->at[1]);
   mpz_submul(out->a[0], out->t, f->at[1]);
   mpz_mul(out->a[1], f->at[0], out->t);
   mpz_submul(out->a[1], g->at[0], out->s);
-  make_rational(out);
-  make_denominator_positive(out);
+  centre_make_rational(out);
+  centre_make_positive(out);
   return true;
 *)
 Definition two_points (f g : feature) : option centre :=
@@ -68,7 +68,7 @@ Definition along (k : bool) (au av bu bv c d : Z) : centre :=
   if k then {| a0 := av; a1 := au; b0 := bv; b1 := bu; cc := c; dd := d |}
   else {| a0 := au; a1 := av; b0 := bu; b1 := bv; cc := c; dd := d |}.
 
-(* C src/predicate/solve.c point_beside_line
+(* C src/predicate/solve.c solve_point_beside_line
   if (!mpz_sgn(b) || !mpz_sgn(l)) return false;
   mpz_mul_2exp(out->d, l, 3);
   mpz_mul(out->a[1 - k], b, l);
@@ -76,8 +76,8 @@ Definition along (k : bool) (au av bu bv c d : Z) : centre :=
   mpz_mul(out->a[k], l, l);
   mpz_mul_2exp(out->a[k], out->a[k], 2);
   mpz_submul(out->a[k], b, b);
-  make_rational(out);
-  make_denominator_positive(out);
+  centre_make_rational(out);
+  centre_make_positive(out);
   return true;
 *)
 Definition point_beside_line (b l : Z) (k : bool) : option centre :=
@@ -85,14 +85,14 @@ Definition point_beside_line (b l : Z) (k : bool) : option centre :=
   else let u := (l * l * 4 - b * b)%Z in let v := (b * l * 4)%Z in
     Some (if k then rational v u (l * 8) else rational u v (l * 8)).
 
-(* C src/predicate/solve.c point_and_line
+(* C src/predicate/solve.c solve_point_and_line
   int k = line->has[0] ? 0 : 1;
   mpz_srcptr a = point->at[k], b = point->at[1 - k], l = line->at[k];
-  if (!mpz_sgn(a)) return which == 0 && point_beside_line(out, b, l, k);
+  if (!mpz_sgn(a)) return which == 0 && solve_point_beside_line(out, b, l, k);
   mpz_sub(out->t, l, a);
   mpz_mul(out->t, out->t, l);
   if (mpz_sgn(out->t) < 0 || (which && !mpz_sgn(out->t))) return false;
-  norm2(out->s, point);
+  feature_norm2(out->s, point);
   mpz_mul(out->c, out->s, out->t);
   mpz_mul(out->d, a, a);
   mpz_mul_2exp(out->d, out->d, 1);
@@ -121,7 +121,7 @@ Definition point_and_line (point line : feature) (which : bool) : option centre 
       let av := (bv * bl)%Z in let au := (s * a - bu * bl)%Z in
       Some (along k au av (if which then bu else - bu) (if which then - bv else bv) (s * t) (a * a * 2)).
 
-(* C src/predicate/solve.c parallel_lines
+(* C src/predicate/solve.c solve_parallel_lines
   mpz_mul(out->c, l, m);
   mpz_neg(out->c, out->c);
   if (!mpz_cmp(l, m) || mpz_sgn(out->c) < 0 || (which && !mpz_sgn(out->c))) return false;
@@ -137,7 +137,7 @@ Definition parallel_lines (l m : Z) (k which : bool) : option centre :=
   if (l =? m)%Z || (c <? 0)%Z || (which && (c =? 0)%Z) then None
   else Some (along k (l + m) 0 0 (if which then -2 else 2) c 2).
 
-(* C src/predicate/solve.c crossing_lines
+(* C src/predicate/solve.c solve_crossing_lines
   int z = mpz_sgn(l) * mpz_sgn(m);
   int root = which ? -1 : 1;
   if (!z) {
@@ -163,12 +163,12 @@ Definition crossing_lines (l m : Z) (which : bool) : centre :=
 
 (* C src/predicate/solve.c dyd_solve
   bool f_point = f->has[0] && f->has[1], g_point = g->has[0] && g->has[1];
-  if (f_point && g_point) return which == 0 && two_points(out, f, g);
-  if (f_point) return point_and_line(out, f, g, which);
-  if (g_point) return point_and_line(out, g, f, which);
-  if (f->has[0] && g->has[0]) return parallel_lines(out, f->at[0], g->at[0], 0, which);
-  if (f->has[1] && g->has[1]) return parallel_lines(out, f->at[1], g->at[1], 1, which);
-  return f->has[0] ? crossing_lines(out, f->at[0], g->at[1], which) : crossing_lines(out, g->at[0], f->at[1], which);
+  if (f_point && g_point) return which == 0 && solve_two_points(out, f, g);
+  if (f_point) return solve_point_and_line(out, f, g, which);
+  if (g_point) return solve_point_and_line(out, g, f, which);
+  if (f->has[0] && g->has[0]) return solve_parallel_lines(out, f->at[0], g->at[0], 0, which);
+  if (f->has[1] && g->has[1]) return solve_parallel_lines(out, f->at[1], g->at[1], 1, which);
+  return f->has[0] ? solve_crossing_lines(out, f->at[0], g->at[1], which) : solve_crossing_lines(out, g->at[0], f->at[1], which);
 *)
 Definition solve (f g : feature) (which : bool) : option centre :=
   let f_point := has0 f && has1 f in let g_point := has0 g && has1 g in

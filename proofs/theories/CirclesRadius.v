@@ -8,7 +8,7 @@ Open Scope R_scope.
 (** The centre ((ax + bx sqrt c) / d, (ay + by sqrt c) / d) and the corner (px, py) on the circle. *)
 Definition coordinate (a b c d : Z) : R := (IZR a + IZR b * sqrt (IZR c)) / IZR d.
 
-(* C src/predicate/circle.c set_radius
+(* C src/predicate/circle.c circle_set_radius
   mpz_t u, v;
   mpz_init_set(u, k->ax);
   mpz_init_set(v, k->ay);
@@ -44,7 +44,7 @@ Proof.
   repeat rewrite ?mult_IZR, ?plus_IZR, ?minus_IZR. rewrite <- R. field. exact D'.
 Qed.
 
-(* C src/predicate/circle.c add_square
+(* C src/predicate/circle.c circle_add_square
   if (!z) return;
   mpz_mul(t, s->b, s->b);
   mpz_addmul(p, t, s->c);
@@ -98,7 +98,7 @@ Proof.
   rewrite S. unfold coordinate. field. lra.
 Qed.
 
-(* C src/predicate/icircles.c within
+(* C src/predicate/icircles.c within_slab
   const dyd_icircle *k = &q->circle;
   mpz_mul_2exp(q->s, b, 1);
   for (int side = 0; side < 2; side++) {

@@ -46,8 +46,8 @@ Proof.
   - pose proof (val_lt_max (b64_succ f)) as M. pose proof (Rle_abs (- p)). rewrite Rabs_Ropp in H. fold p in M. lra.
 Qed.
 
-(* C src/stream/expr_filter.c add
-  return (dyd_double_span){below(a.lo + b.lo), above(a.hi + b.hi)};
+(* C src/stream/expr_filter.c glance_add
+  return (dyd_double_span){next_below(a.lo + b.lo), next_above(a.hi + b.hi)};
 *)
 Definition span_add (a b : iv) : iv := {| lo := b64_pred (lo a + lo b); hi := b64_succ (hi a + hi b) |}.
 Theorem span_add_holds a b x y : holds a x -> holds b y -> good (span_add a b) -> holds (span_add a b) (x + y).
@@ -63,7 +63,7 @@ Proof.
     + right. split; [exact E|]. apply Rle_trans with (2 := A). apply rnd_le. lra.
 Qed.
 
-(* C src/stream/expr_filter.c negated
+(* C src/stream/expr_filter.c glance_negated
   return (dyd_double_span){-a.hi, -a.lo};
 *)
 Definition span_neg (a : iv) : iv := {| lo := - hi a; hi := - lo a |}.
@@ -78,9 +78,9 @@ Qed.
 (** fmin and fmax of C for numbers (either zero may be the smaller one: the doubles next to it are the same). *)
 Definition cmin (a b : double) : double := if lt a b then a else b.
 Definition cmax (a b : double) : double := if gt a b then a else b.
-(* C src/stream/expr_filter.c corners
+(* C src/stream/expr_filter.c glance_corners
   if (isnan(p + q + r + s)) return (dyd_double_span){NAN, NAN};
-  return (dyd_double_span){below(fmin(fmin(p, q), fmin(r, s))), above(fmax(fmax(p, q), fmax(r, s)))};
+  return (dyd_double_span){next_below(fmin(fmin(p, q), fmin(r, s))), next_above(fmax(fmax(p, q), fmax(r, s)))};
 *)
 Definition corners (p q r s : double) : iv :=
   if is_nan 53 1024 (p + q + r + s)%D then unknown
@@ -177,9 +177,9 @@ Proof.
   - apply upper_step; [|exact G]. left. split; [exact G6|]. destruct U as [U|[U|[U|U]]]; lra.
 Qed.
 
-(* C src/stream/expr_filter.c multiply
-  if (a.lo >= 0 && b.lo >= 0) return (dyd_double_span){below(a.lo * b.lo), above(a.hi * b.hi)};
-  return corners(a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi);
+(* C src/stream/expr_filter.c glance_multiply
+  if (a.lo >= 0 && b.lo >= 0) return (dyd_double_span){next_below(a.lo * b.lo), next_above(a.hi * b.hi)};
+  return glance_corners(a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi);
 *)
 Definition span_mul (a b : iv) : iv :=
   if le (lit c_zero) (lo a) && le (lit c_zero) (lo b) then {| lo := b64_pred (lo a * lo b); hi := b64_succ (hi a * hi b) |}
@@ -209,9 +209,9 @@ Proof.
     + destruct (corner_high _ _ _ _ _ _ (conj A2 A3) (conj B2 B3)) as [H|[H|[H|H]]]; apply rnd_le in H; tauto.
 Qed.
 
-(* C src/stream/expr_filter.c divide
+(* C src/stream/expr_filter.c glance_divide
   if (b.lo <= 0 && b.hi >= 0) return (dyd_double_span){NAN, NAN};
-  return corners(a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi);
+  return glance_corners(a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi);
 *)
 Definition span_div (a b : iv) : iv :=
   if le (lo b) (lit c_zero) && le (lit c_zero) (hi b) then unknown
@@ -237,10 +237,10 @@ Proof.
   - destruct (corner_high _ _ _ _ _ _ (conj A2 A3) (conj Y1 Y2)) as [H|[H|[H|H]]]; apply rnd_le in H; tauto.
 Qed.
 
-(* C src/stream/expr_filter.c square_root
+(* C src/stream/expr_filter.c glance_square_root
   if (a.lo < 0 && range.lo < 0) return (dyd_double_span){NAN, NAN};
-  double lo = a.lo > 0 ? below(sqrt(a.lo)) : 0;
-  return (dyd_double_span){lo, above(sqrt(a.hi))};
+  double lo = a.lo > 0 ? next_below(sqrt(a.lo)) : 0;
+  return (dyd_double_span){lo, next_above(sqrt(a.hi))};
 *)
 Definition span_sqrt (a : iv) (known : bool) : iv :=
   if lt (lo a) (lit c_zero) && negb known then unknown
@@ -263,9 +263,9 @@ Proof.
     destruct (fsqrt_inv _ S) as (_ & _ & ->). now apply rnd_le, sqrt_le_1_alt.
 Qed.
 
-(* C src/stream/expr_filter.c absolute
+(* C src/stream/expr_filter.c glance_absolute
   if (a.lo >= 0) return a;
-  if (a.hi <= 0) return negated(a);
+  if (a.hi <= 0) return glance_negated(a);
   return (dyd_double_span){0, fmax(-a.lo, a.hi)};
 *)
 Definition span_abs (a : iv) : iv :=

@@ -10,15 +10,15 @@ Definition is_good (a : iv) : bool := is_finite 53 1024 (lo a) && is_finite 53 1
 Lemma is_good_good a : is_good a = true <-> good a.
 Proof. unfold is_good, good. rewrite andb_true_iff. reflexivity. Qed.
 
-(* C src/stream/expr_filter.c power
+(* C src/stream/expr_filter.c glance_power
   dyd_double_span result = {1, 1};
   const dyd_double_span nothing = {NAN, NAN};
-  if (n < 0) return divide(result, power(a, -n));
-  if (n % 2 == 0) a = absolute(a);
+  if (n < 0) return glance_divide(result, glance_power(a, -n));
+  if (n % 2 == 0) a = glance_absolute(a);
   for (; n; n /= 2) {
-    if (n % 2) result = multiply(result, a);
-    a = multiply(a, a);
-    if (!is_good(a) && n > 1) return nothing;
+    if (n % 2) result = glance_multiply(result, a);
+    a = glance_multiply(a, a);
+    if (!glance_is_good(a) && n > 1) return nothing;
   }
   return result;
 *)

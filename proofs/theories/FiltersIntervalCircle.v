@@ -73,7 +73,7 @@ Qed.
   for (int k = 0; k < 3; k++) {
     int i = (k + 1) % 3, j = (k + 2) % 3;
     dyd_iv norm = dyd_iv_add(dyd_iv_sqr(x[k]), dyd_iv_sqr(y[k]));
-    sum = dyd_iv_add(sum, dyd_iv_mul(norm, det2(x[i], y[j], x[j], y[i])));
+    sum = dyd_iv_add(sum, dyd_iv_mul(norm, iv_det2(x[i], y[j], x[j], y[i])));
   }
   int sign = dyd_iv_sign(sum);
   return sign > 0 ? DYD_SURE_PLUS : sign < 0 ? DYD_SURE_MINUS : DYD_UNSURE;

@@ -136,14 +136,14 @@ Proof.
   destruct (lt (hi a) (lit c_zero)); [split; [discriminate|intros _; now apply Q]|]. split; discriminate.
 Qed.
 
-(* C src/predicate/predicate_filter.c det2
+(* C src/predicate/predicate_filter.c iv_det2
   return dyd_iv_sub(dyd_iv_mul(p, q), dyd_iv_mul(r, s));
 *)
 Definition iv_det2 (p q r s : iv) : iv := iv_sub (iv_mul p q) (iv_mul r s).
 (* C src/predicate/predicate_filter.c sign_of_boxes
   dyd_iv ux = dyd_iv_sub(side_x(b), side_x(a)), uy = dyd_iv_sub(side_y(b), side_y(a));
   dyd_iv vx = dyd_iv_sub(side_x(c), side_x(a)), vy = dyd_iv_sub(side_y(c), side_y(a));
-  return dyd_iv_sign(det2(ux, vy, uy, vx));
+  return dyd_iv_sign(iv_det2(ux, vy, uy, vx));
 *)
 Definition sign_of_boxes (ax ay bx by_ cx cy : iv) : Z :=
   let ux := iv_sub bx ax in let uy := iv_sub by_ ay in

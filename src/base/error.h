@@ -4,6 +4,12 @@
 #define DYD_BASE_ERROR_H
 
 #include <dyadel/status.h>
+#include <stdbool.h>
+
+/* Did it fail? For calls that may return a positive code. */
+static inline bool dyd_failed(dyd_status st) {
+  return st < 0;
+}
 
 /* Writes code and the formatted message to *err (NULL: nothing), leaves point, stage, line and column as they
  * are, cuts over-long messages, and returns code: `return dyd_fail(err, DYD_E_ARG, "...")`. */

@@ -14,7 +14,7 @@ typedef struct crew {
   size_t tasks, next;
 } crew;
 
-static void *work(void *arg) {
+static void *work_on_tasks(void *arg) {
   crew *c = arg;
   for (;;) {
     size_t k = __atomic_fetch_add(&c->next, 1, __ATOMIC_RELAXED);
@@ -24,12 +24,12 @@ static void *work(void *arg) {
 }
 
 /* Handlers stay with the threads of the program. */
-static unsigned start(pthread_t *helper, unsigned want, crew *c) {
+static unsigned start_helpers(pthread_t *helper, unsigned want, crew *c) {
   sigset_t all, before;
   unsigned started = 0;
   sigfillset(&all);
   if (want == 0 || pthread_sigmask(SIG_SETMASK, &all, &before)) return 0;
-  while (started < want && pthread_create(&helper[started], NULL, work, c) == 0) started++;
+  while (started < want && pthread_create(&helper[started], NULL, work_on_tasks, c) == 0) started++;
   pthread_sigmask(SIG_SETMASK, &before, NULL);
   return started;
 }
@@ -39,7 +39,7 @@ void dyd_parallel(unsigned threads, size_t tasks, dyd_task *task, void *context)
   crew c = {task, context, tasks, 0};
   size_t want = threads < 1 ? 1 : threads > MOST_THREADS ? MOST_THREADS : threads;
   if (want > tasks) want = tasks;
-  unsigned started = start(helper, want ? (unsigned)want - 1 : 0, &c);
-  work(&c);
+  unsigned started = start_helpers(helper, want ? (unsigned)want - 1 : 0, &c);
+  work_on_tasks(&c);
   while (started) pthread_join(helper[--started], NULL);
 }

@@ -16,46 +16,46 @@ void dyd_cert_bounds_clear(dyd_cert_bounds *b) {
 }
 
 /* One end of one side: numerator; the denominator is the side's. */
-static const dyd_exact *end_of(const dyd_cert_side *s, int upper) {
+static const dyd_exact *side_end(const dyd_cert_side *s, int upper) {
   return upper ? dyd_cert_high(s) : &s->lo;
 }
 
 /* out = end of b - end of a. */
-static void gap(dyd_fraction *out, const dyd_cert_side *a, int ua, const dyd_cert_side *b, int ub) {
-  dyd_fraction_sub(out, end_of(b, ub), dyd_cert_den(b), end_of(a, ua), dyd_cert_den(a));
+static void side_gap(dyd_fraction *out, const dyd_cert_side *a, int ua, const dyd_cert_side *b, int ub) {
+  dyd_fraction_sub(out, side_end(b, ub), dyd_cert_den(b), side_end(a, ua), dyd_cert_den(a));
 }
 
 /* out = the greatest distance along one axis between points of two sides. */
-static void reach(dyd_fraction *out, const dyd_cert_side *a, const dyd_cert_side *b) {
+static void side_reach(dyd_fraction *out, const dyd_cert_side *a, const dyd_cert_side *b) {
   dyd_fraction t;
   dyd_fraction_init(&t);
-  gap(out, a, 0, b, 1);
-  gap(&t, b, 0, a, 1);
+  side_gap(out, a, 0, b, 1);
+  side_gap(&t, b, 0, a, 1);
   if (dyd_fraction_cmp(&t, out) > 0) dyd_fraction_swap(&t, out);
   dyd_fraction_clear(&t);
 }
 
 /* out = the length of the hull of two sides. */
-static void span(dyd_fraction *out, const dyd_cert_side *a, const dyd_cert_side *b) {
+static void side_span(dyd_fraction *out, const dyd_cert_side *a, const dyd_cert_side *b) {
   const dyd_cert_side *low = a, *high = a;
   dyd_fraction t;
   dyd_fraction_init(&t);
-  gap(&t, a, 0, b, 0);
+  side_gap(&t, a, 0, b, 0);
   if (dyd_exact_sgn(&t.num) < 0) low = b;
-  gap(&t, a, 1, b, 1);
+  side_gap(&t, a, 1, b, 1);
   if (dyd_exact_sgn(&t.num) > 0) high = b;
-  gap(out, low, 0, high, 1);
+  side_gap(out, low, 0, high, 1);
   dyd_fraction_clear(&t);
 }
 
 /* Takes the corner (ux, uy) off: *out is lessened by the product of the legs when one rectangle is farther out in x and
  * the other in y. */
-static void cut_corner(dyd_fraction *out, const dyd_cert_site *a, const dyd_cert_site *b, int ux, int uy) {
+static void bounds_cut_corner(dyd_fraction *out, const dyd_cert_site *a, const dyd_cert_site *b, int ux, int uy) {
   dyd_fraction x, y;
   dyd_fraction_init(&x);
   dyd_fraction_init(&y);
-  gap(&x, &a->side[0], ux, &b->side[0], ux);
-  gap(&y, &a->side[1], uy, &b->side[1], uy);
+  side_gap(&x, &a->side[0], ux, &b->side[0], ux);
+  side_gap(&y, &a->side[1], uy, &b->side[1], uy);
   int sx = dyd_exact_sgn(&x.num) * (ux ? 1 : -1), sy = dyd_exact_sgn(&y.num) * (uy ? 1 : -1);
   if (sx * sy < 0) {
     dyd_fraction_mul(&x, &x, &y);
@@ -67,7 +67,7 @@ static void cut_corner(dyd_fraction *out, const dyd_cert_site *a, const dyd_cert
 }
 
 /* A fraction becomes a dyadic, rounded up by at most 2^-200 of itself, so that sums stay short. */
-static void make_whole(dyd_fraction *f) {
+static void fraction_make_whole(dyd_fraction *f) {
   if (f->whole) return;
   int64_t exp = dyd_exact_top(&f->num);
   if (exp != INT64_MIN) {
@@ -78,45 +78,45 @@ static void make_whole(dyd_fraction *f) {
   f->whole = true;
 }
 
-static void add_area(dyd_cert_bounds *b, const dyd_cert_site *i, const dyd_cert_site *j) {
+static void bounds_add_area(dyd_cert_bounds *b, const dyd_cert_site *i, const dyd_cert_site *j) {
   dyd_fraction area, t;
   dyd_fraction_init(&area);
   dyd_fraction_init(&t);
-  span(&area, &i->side[0], &j->side[0]);
-  span(&t, &i->side[1], &j->side[1]);
+  side_span(&area, &i->side[0], &j->side[0]);
+  side_span(&t, &i->side[1], &j->side[1]);
   dyd_fraction_mul(&area, &area, &t);
   area.num.exp++;
-  for (int k = 0; k < 4; k++) cut_corner(&area, i, j, k & 1, k >> 1);
-  make_whole(&area);
+  for (int k = 0; k < 4; k++) bounds_cut_corner(&area, i, j, k & 1, k >> 1);
+  fraction_make_whole(&area);
   dyd_fraction_add(&b->area2, &b->area2, &area);
   dyd_fraction_clear(&area);
   dyd_fraction_clear(&t);
 }
 
 /* out = the sum of the squares of reach over both axes. */
-static void reach2(dyd_fraction *out, const dyd_cert_site *a, const dyd_cert_site *b) {
+static void site_reach2(dyd_fraction *out, const dyd_cert_site *a, const dyd_cert_site *b) {
   dyd_fraction t;
   dyd_fraction_init(&t);
-  reach(out, &a->side[0], &b->side[0]);
+  side_reach(out, &a->side[0], &b->side[0]);
   dyd_fraction_mul(out, out, out);
-  reach(&t, &a->side[1], &b->side[1]);
+  side_reach(&t, &a->side[1], &b->side[1]);
   dyd_fraction_mul(&t, &t, &t);
   dyd_fraction_add(out, out, &t);
   dyd_fraction_clear(&t);
 }
 
 /* The square of the greater diameter. */
-static void diameter2(dyd_fraction *out, const dyd_cert_site *a, const dyd_cert_site *b) {
+static void site_diameter2(dyd_fraction *out, const dyd_cert_site *a, const dyd_cert_site *b) {
   dyd_fraction t;
   dyd_fraction_init(&t);
-  reach2(out, a, a);
-  reach2(&t, b, b);
+  site_reach2(out, a, a);
+  site_reach2(&t, b, b);
   if (dyd_fraction_cmp(&t, out) > 0) dyd_fraction_swap(&t, out);
   dyd_fraction_clear(&t);
 }
 
 /* man = x 2^s exactly, s being great enough. */
-static void scaled(mpz_ptr man, const dyd_exact *x, int64_t s) {
+static void set_scaled(mpz_ptr man, const dyd_exact *x, int64_t s) {
   mpz_mul_2exp(man, x->man, mpz_sgn(x->man) ? (mp_bitcnt_t)(x->exp + s) : 0);
 }
 
@@ -124,7 +124,7 @@ static int64_t half_up(int64_t e) {
   return e >= 0 ? (e + 1) / 2 : e / 2;
 }
 
-static int64_t larger(int64_t a, int64_t b) {
+static int64_t larger_exponent(int64_t a, int64_t b) {
   return a > b ? a : b;
 }
 
@@ -149,10 +149,10 @@ static bool half_and_diameter_fit(const dyd_fraction *l, const dyd_fraction *d, 
     dyd_exact_mul_z(k ? &x : &y, k ? &x : &y, f->den);
     dyd_exact_mul_z(k ? &x : &y, k ? &x : &y, f->den);
   }
-  int64_t s = larger(-z.exp, larger(half_up(-x.exp), half_up(-y.exp)));
-  scaled(one[0], &z, s);
-  scaled(one[1], &x, 2 * s);
-  scaled(one[2], &y, 2 * s);
+  int64_t s = larger_exponent(-z.exp, larger_exponent(half_up(-x.exp), half_up(-y.exp)));
+  set_scaled(one[0], &z, s);
+  set_scaled(one[1], &x, 2 * s);
+  set_scaled(one[2], &y, 2 * s);
   mpz_t minus, twice;
   mpz_init_set_si(minus, -1);
   mpz_init_set_si(twice, -2);
@@ -168,13 +168,13 @@ static bool hausdorff_fits(const dyd_cert_bounds *b, const dyd_cert_site *i, con
   dyd_fraction d, l;
   dyd_fraction_init(&d);
   dyd_fraction_init(&l);
-  diameter2(&d, i, j);
+  site_diameter2(&d, i, j);
   bool fits;
   if (legal) {
     dyd_exact_mul(&l.num, b->hausdorff, b->hausdorff);
     fits = dyd_fraction_cmp(&d, &l) <= 0;
   } else {
-    reach2(&l, i, j);
+    site_reach2(&l, i, j);
     fits = half_and_diameter_fit(&l, &d, b->hausdorff);
   }
   dyd_fraction_clear(&d);
@@ -183,7 +183,7 @@ static bool hausdorff_fits(const dyd_cert_bounds *b, const dyd_cert_site *i, con
 }
 
 void dyd_cert_bounds_add(dyd_cert_bounds *b, const dyd_cert_sites *s, uint32_t i, uint32_t j, bool legal) {
-  add_area(b, &s->site[i], &s->site[j]);
+  bounds_add_area(b, &s->site[i], &s->site[j]);
   if (b->hausdorff && !b->exceeded) b->exceeded = !hausdorff_fits(b, &s->site[i], &s->site[j], legal);
 }
 

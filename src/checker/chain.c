@@ -41,7 +41,7 @@ dyd_status dyd_cert_chain_resize(dyd_cert_chain *c, size_t points) {
 
 /* ---- in the blocked region ---- */
 
-static bool is_nearer(const dyd_cert_sites *s, const dyd_exact at[2], uint32_t k, uint32_t i, uint32_t j) {
+static bool blocker_is_nearer(const dyd_cert_sites *s, const dyd_exact at[2], uint32_t k, uint32_t i, uint32_t j) {
   dyd_fraction own, other;
   dyd_fraction_init(&own);
   dyd_fraction_init(&other);
@@ -55,15 +55,17 @@ static bool is_nearer(const dyd_cert_sites *s, const dyd_exact at[2], uint32_t k
   return good;
 }
 
-static bool is_farther_out(const dyd_cert_sites *s, const dyd_exact u[2], uint32_t k, uint32_t i, uint32_t j) {
+static bool blocker_is_farther_out(const dyd_cert_sites *s, const dyd_exact u[2], uint32_t k, uint32_t i, uint32_t j) {
   return dyd_cert_compare_heights(s, u, i, k) < 0 && dyd_cert_compare_heights(s, u, j, k) < 0;
 }
 
-static bool is_blocked(const dyd_cert_chain *c, const dyd_cert_sites *s, uint32_t i, uint32_t j) {
+static bool chain_is_blocked(const dyd_cert_chain *c, const dyd_cert_sites *s, uint32_t i, uint32_t j) {
   for (size_t q = 0; q < c->points; q++)
-    if (!is_nearer(s, c->point[q], c->blocker[q], i, j) || !is_nearer(s, c->point[q], c->blocker[q + 1], i, j))
+    if (!blocker_is_nearer(s, c->point[q], c->blocker[q], i, j) ||
+        !blocker_is_nearer(s, c->point[q], c->blocker[q + 1], i, j))
       return false;
-  return is_farther_out(s, c->u[0], c->blocker[0], i, j) && is_farther_out(s, c->u[1], c->blocker[c->points], i, j);
+  return blocker_is_farther_out(s, c->u[0], c->blocker[0], i, j) &&
+         blocker_is_farther_out(s, c->u[1], c->blocker[c->points], i, j);
 }
 
 /* ---- separation ----
@@ -72,12 +74,12 @@ static bool is_blocked(const dyd_cert_chain *c, const dyd_cert_sites *s, uint32_
  * crosses the segment pq an odd number of times. Points on the line pq count as left of it: moving the chain a little
  * changes nothing. */
 
-static int side_of(dyd_cert_spot p, dyd_cert_spot q, dyd_cert_spot at) {
+static int chain_side(dyd_cert_spot p, dyd_cert_spot q, dyd_cert_spot at) {
   return dyd_cert_cross(p, q, p, at) >= 0 ? 1 : -1;
 }
 
 /* Is the segment pq met by the line from a to b, known to cross the line pq between them (or beyond, for a ray)? */
-static bool is_met(dyd_cert_spot p, dyd_cert_spot q, dyd_cert_spot from, dyd_cert_spot a, dyd_cert_spot b) {
+static bool segment_is_met(dyd_cert_spot p, dyd_cert_spot q, dyd_cert_spot from, dyd_cert_spot a, dyd_cert_spot b) {
   return dyd_cert_cross(a, b, from, p) * dyd_cert_cross(a, b, from, q) < 0;
 }
 
@@ -86,8 +88,8 @@ static bool ray_crosses(dyd_cert_spot p, dyd_cert_spot q, const dyd_exact from[2
   dyd_exact_init(&zero[0]);
   dyd_exact_init(&zero[1]);
   dyd_cert_spot at = dyd_cert_spot_at(from), origin = dyd_cert_spot_at(zero), way = dyd_cert_spot_at(u);
-  int here = side_of(p, q, at), end = dyd_cert_cross(p, q, origin, way);
-  bool crosses = end && end != here && is_met(p, q, at, origin, way);
+  int here = chain_side(p, q, at), end = dyd_cert_cross(p, q, origin, way);
+  bool crosses = end && end != here && segment_is_met(p, q, at, origin, way);
   dyd_exact_clear(&zero[0]);
   dyd_exact_clear(&zero[1]);
   return crosses;
@@ -95,10 +97,10 @@ static bool ray_crosses(dyd_cert_spot p, dyd_cert_spot q, const dyd_exact from[2
 
 static bool segment_crosses(dyd_cert_spot p, dyd_cert_spot q, const dyd_exact a[2], const dyd_exact b[2]) {
   dyd_cert_spot from = dyd_cert_spot_at(a), to = dyd_cert_spot_at(b);
-  return side_of(p, q, from) != side_of(p, q, to) && is_met(p, q, from, from, to);
+  return chain_side(p, q, from) != chain_side(p, q, to) && segment_is_met(p, q, from, from, to);
 }
 
-static bool separates(const dyd_cert_chain *c, const dyd_cert_sites *s, uint32_t i, uint32_t j) {
+static bool chain_separates(const dyd_cert_chain *c, const dyd_cert_sites *s, uint32_t i, uint32_t j) {
   dyd_cert_spot p = dyd_cert_place_of(s, i), q = dyd_cert_place_of(s, j);
   bool odd = ray_crosses(p, q, c->point[0], c->u[0]) != ray_crosses(p, q, c->point[c->points - 1], c->u[1]);
   for (size_t k = 0; k + 1 < c->points; k++) odd ^= segment_crosses(p, q, c->point[k], c->point[k + 1]);
@@ -106,5 +108,5 @@ static bool separates(const dyd_cert_chain *c, const dyd_cert_sites *s, uint32_t
 }
 
 bool dyd_cert_chain_holds(const dyd_cert_chain *c, const dyd_cert_sites *s, uint32_t i, uint32_t j) {
-  return c->points > 0 && is_blocked(c, s, i, j) && separates(c, s, i, j);
+  return c->points > 0 && chain_is_blocked(c, s, i, j) && chain_separates(c, s, i, j);
 }

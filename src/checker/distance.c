@@ -53,7 +53,7 @@ typedef struct search {
   uint32_t *list;
   size_t cap;
   uint64_t effort, effort_most;
-  dyd_status status;
+  dyd_status st;
   mpz_t root, rest;
   dyd_fraction gap, part;
 } search;
@@ -127,31 +127,26 @@ static void make_grid(grid_box *window, search *s, const dyd_cert_window *w) {
 
 /* ---- distances on the grid ---- */
 
-static dyd_cert_area square(int64_t d) {
-  dyd_cert_area size = (dyd_cert_area)(d < 0 ? -d : d);
-  return size * size;
-}
-
-static dyd_cert_area far_of(const grid_box *q, const grid_site *g) {
+static dyd_cert_area far_on_grid(const grid_box *q, const grid_site *g) {
   dyd_cert_area sum = 0;
   if (g->endless) return ~(dyd_cert_area)0;
   for (int a = 0; a < 4; a += 2) {
     int64_t left = q->e[a + 1] - g->box.e[a], right = g->box.e[a + 1] - q->e[a];
-    sum += square(left > right ? left : right);
+    sum += dyd_cert_square(left > right ? left : right);
   }
   return sum;
 }
 
-static dyd_cert_area near_of(const grid_box *q, const grid_box *b) {
+static dyd_cert_area near_on_grid(const grid_box *q, const grid_box *b) {
   dyd_cert_area sum = 0;
   for (int a = 0; a < 4; a += 2) {
     int64_t left = b->e[a] - q->e[a + 1], right = q->e[a] - b->e[a + 1], d = left > right ? left : right;
-    if (d > 0) sum += square(d);
+    if (d > 0) sum += dyd_cert_square(d);
   }
   return sum;
 }
 
-static void set_area(mpz_ptr out, dyd_cert_area v) {
+static void mpz_set_area(mpz_ptr out, dyd_cert_area v) {
   mpz_set_ui(out, (unsigned long)(v >> 64));
   mpz_mul_2exp(out, out, 64);
   mpz_add_ui(out, out, (unsigned long)v);
@@ -160,7 +155,7 @@ static void set_area(mpz_ptr out, dyd_cert_area v) {
 /* ---- pairs ---- */
 
 /* s->gap = the squared distance of two rectangles. */
-static void find_gap(search *s, const grid_site *a, const grid_site *b) {
+static void find_site_gap(search *s, const grid_site *a, const grid_site *b) {
   for (int axis = 0; axis < 2; axis++) {
     const dyd_cert_side *x = &s->sites->site[a->site].side[axis], *y = &s->sites->site[b->site].side[axis];
     dyd_fraction *f = axis ? &s->part : &s->gap;
@@ -173,19 +168,19 @@ static void find_gap(search *s, const grid_site *a, const grid_site *b) {
 }
 
 static bool are_disjoint(search *s, const grid_site *a, const grid_site *b) {
-  if (near_of(&a->box, &b->box) > 0) return true;
-  find_gap(s, a, b);
+  if (near_on_grid(&a->box, &b->box) > 0) return true;
+  find_site_gap(s, a, b);
   return dyd_exact_sgn(&s->gap.num) > 0;
 }
 
 /* s->root 2^*exp = a lower bound of the distance of two rectangles; exact ends where the grid is coarse for it. */
-static void gap_below(int64_t *exp, search *s, const grid_site *a, const grid_site *b) {
-  dyd_cert_area gap = near_of(&a->box, &b->box);
+static void site_gap_below(int64_t *exp, search *s, const grid_site *a, const grid_site *b) {
+  dyd_cert_area gap = near_on_grid(&a->box, &b->box);
   if (gap >> 48) {
-    set_area(s->root, gap);
+    mpz_set_area(s->root, gap);
     *exp = s->unit;
   } else {
-    find_gap(s, a, b);
+    find_site_gap(s, a, b);
     const dyd_fraction *f = &s->gap;
     int64_t top = dyd_exact_sgn(&f->num) == 0 ? 0 : dyd_exact_top(&f->num), least = top - 128;
     if (!f->whole) least -= (int64_t)mpz_sizeinbase(f->den, 2);
@@ -218,7 +213,7 @@ static bool is_near_bisector(search *s, const grid_site *a, const grid_site *b, 
   if (a->diameter == 0 && b->diameter == 0) return are_disjoint(s, a, b);
   dyd_exact_init(&left);
   dyd_exact_init(&right);
-  gap_below(&right.exp, s, a, b);
+  site_gap_below(&right.exp, s, a, b);
   bool positive = mpz_sgn(s->root) > 0;
   mpz_mul(right.man, s->root, s->bound->man);
   right.exp += s->bound->exp + 1;
@@ -237,19 +232,19 @@ static bool is_near_bisector(search *s, const grid_site *a, const grid_site *b, 
 static bool is_near_site(search *s, const grid_box *q, const grid_site *a, const uint32_t *list, size_t count) {
   dyd_cert_area most = (dyd_cert_area)s->most * s->most;
   for (size_t k = 0; k < count; k++)
-    if (far_of(q, &s->item[list[k]]) <= most && are_disjoint(s, a, &s->item[list[k]])) return true;
+    if (far_on_grid(q, &s->item[list[k]]) <= most && are_disjoint(s, a, &s->item[list[k]])) return true;
   return false;
 }
 
-/* The root of far_of, rounded up. The site is not endless. */
+/* The root of far_on_grid, rounded up. The site is not endless. */
 static uint64_t far_root(search *s, const grid_box *q, const grid_site *g) {
-  set_area(s->root, far_of(q, g));
+  mpz_set_area(s->root, far_on_grid(q, g));
   mpz_sqrtrem(s->root, s->rest, s->root);
   return mpz_get_ui(s->root) + (mpz_sgn(s->rest) != 0);
 }
 
 /* Is every undetermined point of q near the diagram? list has 2 .. MANY sites. */
-static bool pairs_hold(search *s, const grid_box *q, const uint32_t *list, size_t count) {
+static bool box_pairs_hold(search *s, const grid_box *q, const uint32_t *list, size_t count) {
   uint64_t far[MANY];
   bool near[MANY];
   for (size_t k = 0; k < count; k++) {
@@ -272,20 +267,20 @@ static bool pairs_hold(search *s, const grid_box *q, const uint32_t *list, size_
 /* ---- boxes ---- */
 
 /* The sites of list[from .. from+count) that q may belong to, put behind them; returns how many. */
-static size_t keep_possible(search *s, const grid_box *q, size_t from, size_t count) {
+static size_t box_keep_possible(search *s, const grid_box *q, size_t from, size_t count) {
   dyd_cert_area least = ~(dyd_cert_area)0;
   size_t kept = 0;
   s->effort += count;
   if (!dyd_reserve((void **)&s->list, &s->cap, from + 2 * count, sizeof *s->list)) {
-    s->status = DYD_E_NOMEM;
+    s->st = DYD_E_NOMEM;
     return 0;
   }
   for (size_t k = from; k < from + count; k++) {
-    dyd_cert_area far = far_of(q, &s->item[s->list[k]]);
+    dyd_cert_area far = far_on_grid(q, &s->item[s->list[k]]);
     if (far < least) least = far;
   }
   for (size_t k = from; k < from + count; k++)
-    if (near_of(q, &s->item[s->list[k]].box) <= least) s->list[from + count + kept++] = s->list[k];
+    if (near_on_grid(q, &s->item[s->list[k]].box) <= least) s->list[from + count + kept++] = s->list[k];
   return kept;
 }
 
@@ -295,17 +290,17 @@ static bool is_worth_a_look(size_t count, size_t before) {
 }
 
 /* before: the sites of the box around q are list[from .. from+before). */
-static bool covers(search *s, const grid_box *q, size_t from, size_t before) {
-  size_t count = keep_possible(s, q, from, before);
-  if (s->status < 0 || s->effort > s->effort_most) return false;
+static bool box_is_covered(search *s, const grid_box *q, size_t from, size_t before) {
+  size_t count = box_keep_possible(s, q, from, before);
+  if (s->st != DYD_OK || s->effort > s->effort_most) return false;
   from += before;
   if (count == 1) return true;
-  if (is_worth_a_look(count, before) && pairs_hold(s, q, s->list + from, count)) return true;
+  if (is_worth_a_look(count, before) && box_pairs_hold(s, q, s->list + from, count)) return true;
   if (q->e[1] - q->e[0] < 2 && q->e[3] - q->e[2] < 2) return false;
   int64_t x = q->e[0] + (q->e[1] - q->e[0]) / 2, y = q->e[2] + (q->e[3] - q->e[2]) / 2;
   for (int k = 0; k < 4; k++) {
     grid_box part = {{k & 1 ? x : q->e[0], k & 1 ? q->e[1] : x, k & 2 ? y : q->e[2], k & 2 ? q->e[3] : y}};
-    if (!covers(s, &part, from, count)) return false;
+    if (!box_is_covered(s, &part, from, count)) return false;
   }
   return true;
 }
@@ -318,7 +313,7 @@ typedef struct extent {
   mpz_srcptr den[4];
 } extent;
 
-static void widen(extent *e, search *s, const dyd_cert_side *side) {
+static void extent_widen(extent *e, search *s, const dyd_cert_side *side) {
   const dyd_exact **best[4] = {&e->lo, &e->hi, &e->most_lo, &e->least_hi};
   for (int m = 0; m < 4; m++) {
     const dyd_exact *end = m % 2 ? dyd_cert_high(side) : &side->lo;
@@ -339,7 +334,7 @@ static bool spans_all(search *s, const dyd_cert_window *w) {
   dyd_fraction_init(&sum);
   for (int axis = 0; axis < 2; axis++) {
     extent e = {.lo = &w->e[2 * axis], .hi = &w->e[2 * axis + 1]};
-    for (size_t k = 0; k < s->count; k++) widen(&e, s, &s->sites->site[s->item[k].site].side[axis]);
+    for (size_t k = 0; k < s->count; k++) extent_widen(&e, s, &s->sites->site[s->item[k].site].side[axis]);
     dyd_fraction_sub(&s->part, e.most_lo, e.den[2], e.least_hi, e.den[3]);
     disjoint |= dyd_exact_sgn(&s->part.num) > 0;
     dyd_fraction_sub(&s->part, e.hi, e.den[1], e.lo, e.den[0]);
@@ -355,13 +350,13 @@ static bool spans_all(search *s, const dyd_cert_window *w) {
 
 /* ---- all ---- */
 
-static void search_init(search *s) {
+static void distance_search_init(search *s) {
   mpz_inits(s->origin[0], s->origin[1], s->root, s->rest, NULL);
   dyd_fraction_init(&s->gap);
   dyd_fraction_init(&s->part);
 }
 
-static void search_clear(search *s) {
+static void distance_search_clear(search *s) {
   mpz_clears(s->origin[0], s->origin[1], s->root, s->rest, NULL);
   dyd_fraction_clear(&s->gap);
   dyd_fraction_clear(&s->part);
@@ -373,20 +368,20 @@ dyd_status dyd_cert_distance_holds(bool *holds, const dyd_cert_sites *sites, con
                                    const dyd_exact *bound) {
   search s = {.sites = sites, .bound = bound};
   grid_box window;
-  search_init(&s);
+  distance_search_init(&s);
   s.item = dyd_alloc(sites->count, sizeof *s.item);
-  if (!s.item) s.status = DYD_E_NOMEM;
+  if (!s.item) s.st = DYD_E_NOMEM;
   *holds = false;
-  if (s.status >= 0 && dyd_exact_sgn(bound) >= 0) {
+  if (s.st == DYD_OK && dyd_exact_sgn(bound) >= 0) {
     make_grid(&window, &s, w);
     for (uint32_t v = 0; v < sites->count; v++)
       if (sites->site[v].alias == v) place_site(&s, v);
     s.effort_most = ((uint64_t)s.count + 64) << EFFORT_BITS;
-    if (!dyd_reserve((void **)&s.list, &s.cap, s.count, sizeof *s.list)) s.status = DYD_E_NOMEM;
-    for (size_t k = 0; s.status >= 0 && k < s.count; k++) s.list[k] = (uint32_t)k;
-    *holds = s.status >= 0 && s.count && (spans_all(&s, w) || covers(&s, &window, 0, s.count));
-    *holds &= s.status >= 0;
+    if (!dyd_reserve((void **)&s.list, &s.cap, s.count, sizeof *s.list)) s.st = DYD_E_NOMEM;
+    for (size_t k = 0; s.st == DYD_OK && k < s.count; k++) s.list[k] = (uint32_t)k;
+    *holds = s.st == DYD_OK && s.count && (spans_all(&s, w) || box_is_covered(&s, &window, 0, s.count));
+    *holds &= s.st == DYD_OK;
   }
-  search_clear(&s);
-  return s.status;
+  distance_search_clear(&s);
+  return s.st;
 }

@@ -25,7 +25,7 @@ int64_t dyd_exact_top(const dyd_exact *x) {
 }
 
 /* out = x + sign * y. */
-static void combine(dyd_exact *out, const dyd_exact *x, const dyd_exact *y, int sign) {
+static void exact_combine(dyd_exact *out, const dyd_exact *x, const dyd_exact *y, int sign) {
   int64_t exp = x->exp;
   if (x->exp == y->exp) {
     (sign > 0 ? mpz_add : mpz_sub)(out->man, x->man, y->man);
@@ -53,7 +53,7 @@ void dyd_exact_add(dyd_exact *out, const dyd_exact *x, const dyd_exact *y) {
   else if (!mpz_sgn(x->man))
     dyd_exact_set(out, y);
   else
-    combine(out, x, y, 1);
+    exact_combine(out, x, y, 1);
 }
 
 void dyd_exact_sub(dyd_exact *out, const dyd_exact *x, const dyd_exact *y) {
@@ -63,7 +63,7 @@ void dyd_exact_sub(dyd_exact *out, const dyd_exact *x, const dyd_exact *y) {
     mpz_neg(out->man, y->man);
     out->exp = y->exp;
   } else {
-    combine(out, x, y, -1);
+    exact_combine(out, x, y, -1);
   }
 }
 
@@ -97,7 +97,7 @@ typedef void divide_fn(mpz_ptr q, mpz_srcptr n, mpz_srcptr d);
 typedef void shift_fn(mpz_ptr q, mpz_srcptr n, mp_bitcnt_t bits);
 
 /* Rounding twice to the same side is rounding once. */
-static void divide(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp, divide_fn *by, shift_fn *down) {
+static void exact_divide(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp, divide_fn *by, shift_fn *down) {
   if (x->exp >= exp)
     mpz_mul_2exp(out, x->man, mpz_sgn(x->man) ? (mp_bitcnt_t)(x->exp - exp) : 0);
   else
@@ -106,9 +106,9 @@ static void divide(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp,
 }
 
 void dyd_exact_floor(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp) {
-  divide(out, x, den, exp, mpz_fdiv_q, mpz_fdiv_q_2exp);
+  exact_divide(out, x, den, exp, mpz_fdiv_q, mpz_fdiv_q_2exp);
 }
 
 void dyd_exact_ceil(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp) {
-  divide(out, x, den, exp, mpz_cdiv_q, mpz_cdiv_q_2exp);
+  exact_divide(out, x, den, exp, mpz_cdiv_q, mpz_cdiv_q_2exp);
 }

@@ -20,7 +20,7 @@ dyd_status dyd_cert_walk(uint32_t **out, size_t *count, const dyd_cert_graph *g,
 }
 
 /* Appends the sites as an open set, unless they are the two ends of a legal edge or less. */
-static dyd_status add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint32_t *site, size_t count) {
+static dyd_status faces_add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint32_t *site, size_t count) {
   if (!dyd_reserve((void **)&f->member, &f->member_cap, f->members + count, sizeof *f->member) ||
       !dyd_reserve((void **)&f->start, &f->set_cap, f->sets + 2, sizeof *f->start))
     return DYD_E_NOMEM;
@@ -37,11 +37,11 @@ static dyd_status add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint
 
 /* ---- bounded faces ---- */
 
-static dyd_status add_face(dyd_cert_faces *f, bool *seen, const dyd_cert_graph *g, uint32_t h) {
+static dyd_status add_bounded_face(dyd_cert_faces *f, bool *seen, const dyd_cert_graph *g, uint32_t h) {
   uint32_t *walk = NULL;
   size_t count = 0;
-  dyd_status status = dyd_cert_walk(&walk, &count, g, h);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_walk(&walk, &count, g, h);
+  if (st != DYD_OK) return st;
   bool legal = true;
   for (size_t q = 0; q < count; q++) {
     seen[walk[q]] = true;
@@ -51,9 +51,9 @@ static dyd_status add_face(dyd_cert_faces *f, bool *seen, const dyd_cert_graph *
   if (count == 3 && legal)
     f->triangles++;
   else
-    status = add_set(f, g, walk, count);
+    st = faces_add_set(f, g, walk, count);
   free(walk);
-  return status;
+  return st;
 }
 
 /* ---- the unbounded face ---- */
@@ -65,34 +65,14 @@ typedef struct rim {
   bool *corner;
 } rim;
 
-static int compare_place_of(const dyd_cert_sites *s, uint32_t a, uint32_t b) {
-  int sign = dyd_cert_compare_places(s, a, b);
+static int compare_place_of(const void *sites, uint32_t a, uint32_t b) {
+  int sign = dyd_cert_compare_places(sites, a, b);
   return sign ? sign : (a > b) - (a < b);
 }
 
-static void sift_place(const dyd_cert_sites *s, uint32_t *a, size_t root, size_t count) {
-  for (size_t child; (child = 2 * root + 1) < count; root = child) {
-    if (child + 1 < count && compare_place_of(s, a[child], a[child + 1]) < 0) child++;
-    if (compare_place_of(s, a[root], a[child]) >= 0) return;
-    uint32_t t = a[root];
-    a[root] = a[child];
-    a[child] = t;
-  }
-}
-
-static void sort_places(const dyd_cert_sites *s, uint32_t *a, size_t count) {
-  for (size_t q = count / 2; q-- > 0;) sift_place(s, a, q, count);
-  for (size_t last = count; last-- > 1;) {
-    uint32_t t = a[0];
-    a[0] = a[last];
-    a[last] = t;
-    sift_place(s, a, 0, last);
-  }
-}
-
-/* Marks one chain of the hull: the item are passed in order, from the lowest place or from the highest. */
-static void mark_chain(bool *hull, uint32_t *stack, const dyd_cert_sites *s, const uint32_t *item, size_t count,
-                       bool back) {
+/* Marks one chain of the hull: the items are passed in order, from the lowest place or from the highest. */
+static void mark_hull_chain(bool *hull, uint32_t *stack, const dyd_cert_sites *s, const uint32_t *item, size_t count,
+                            bool back) {
   size_t top = 0;
   for (size_t q = 0; q < count; q++) {
     uint32_t v = item[back ? count - 1 - q : q];
@@ -106,9 +86,9 @@ dyd_status dyd_cert_hull(bool *hull, const dyd_cert_sites *s, uint32_t *item, si
   uint32_t *stack = dyd_alloc(count, sizeof *stack);
   if (!stack) return DYD_E_NOMEM;
   memset(hull, 0, s->count * sizeof *hull);
-  sort_places(s, item, count);
-  mark_chain(hull, stack, s, item, count, false);
-  mark_chain(hull, stack, s, item, count, true);
+  dyd_cert_sort(item, count, compare_place_of, s);
+  mark_hull_chain(hull, stack, s, item, count, false);
+  mark_hull_chain(hull, stack, s, item, count, true);
   free(stack);
   return DYD_OK;
 }
@@ -119,12 +99,12 @@ static dyd_status check_places(uint32_t *bad, const rim *r, const dyd_cert_sites
   uint32_t *copy = dyd_alloc(r->count, sizeof *copy);
   bool *hull = dyd_alloc(s->count, sizeof *hull);
   uint32_t *times = calloc(s->count ? s->count : 1, sizeof *times);
-  dyd_status status = copy && hull && times ? DYD_OK : DYD_E_NOMEM;
-  if (status == DYD_OK) {
+  dyd_status st = copy && hull && times ? DYD_OK : DYD_E_NOMEM;
+  if (st == DYD_OK) {
     memcpy(copy, r->site, r->count * sizeof *copy);
-    status = dyd_cert_hull(hull, s, copy, dyd_cert_distinct(copy, r->count));
+    st = dyd_cert_hull(hull, s, copy, dyd_cert_distinct(copy, r->count));
   }
-  if (status == DYD_OK) {
+  if (st == DYD_OK) {
     for (size_t q = 0; q < r->count; q++) times[r->site[q]]++;
     for (size_t c = 0; c < corners; c++)
       if (times[corner[c].i] != 1 || !hull[corner[c].i]) *bad = corner[c].i;
@@ -132,17 +112,18 @@ static dyd_status check_places(uint32_t *bad, const rim *r, const dyd_cert_sites
   free(copy);
   free(hull);
   free(times);
-  return status;
+  return st;
 }
 
 /* Is the corner surely beyond all sites of the group (itself left out), in its direction? */
-static bool is_beyond(const dyd_cert_sites *s, const dyd_cert_corner *corner, const dyd_cert_parts *p, uint32_t r) {
+static bool corner_is_beyond(const dyd_cert_sites *s, const dyd_cert_corner *corner, const dyd_cert_parts *p,
+                             uint32_t r) {
   for (size_t q = p->start[r]; q < p->start[r + 1]; q++)
     if (p->site[q] != corner->i && dyd_cert_compare_heights(s, corner->u, p->site[q], corner->i) >= 0) return false;
   return true;
 }
 
-static int compare_corner(const void *a, const void *b) {
+static int compare_with_corner(const void *a, const void *b) {
   uint32_t x = *(const uint32_t *)a, y = ((const dyd_cert_corner *)b)->i;
   return (x > y) - (x < y);
 }
@@ -151,32 +132,32 @@ static void check_corners(uint32_t *bad, const dyd_cert_sites *s, const rim *r, 
                           const dyd_cert_corner *corner, size_t corners) {
   for (size_t q = 0; q < r->count; q++) {
     if (!r->corner[r->site[q]]) continue;
-    const dyd_cert_corner *c = bsearch(&r->site[q], corner, corners, sizeof *corner, compare_corner);
+    const dyd_cert_corner *c = bsearch(&r->site[q], corner, corners, sizeof *corner, compare_with_corner);
     uint32_t after = p->group[q], before = p->group[(q + r->count - 1) % r->count];
-    if (!is_beyond(s, c, p, after) || (before != after && !is_beyond(s, c, p, before))) *bad = c->i;
+    if (!corner_is_beyond(s, c, p, after) || (before != after && !corner_is_beyond(s, c, p, before))) *bad = c->i;
   }
 }
 
 static dyd_status split_rim(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const rim *r,
                             const dyd_cert_corner *corner, size_t corners) {
-  if (corners == 0) return add_set(f, g, r->site, r->count);
-  dyd_status status = check_places(bad, r, g->sites, corner, corners);
-  if (status < 0 || *bad != DYD_CERT_NONE) return status;
+  if (corners == 0) return faces_add_set(f, g, r->site, r->count);
+  dyd_status st = check_places(bad, r, g->sites, corner, corners);
+  if (st != DYD_OK || *bad != DYD_CERT_NONE) return st;
   dyd_cert_parts p;
-  status = dyd_cert_parts_init(&p, g, r->walk, r->count, r->corner);
-  if (status < 0) return status;
+  st = dyd_cert_parts_init(&p, g, r->walk, r->count, r->corner);
+  if (st != DYD_OK) return st;
   check_corners(bad, g->sites, r, &p, corner, corners);
-  for (size_t k = 0; k < p.groups && status == DYD_OK; k++)
-    status = add_set(f, g, p.site + p.start[k], p.start[k + 1] - p.start[k]);
+  for (size_t k = 0; k < p.groups && st == DYD_OK; k++)
+    st = faces_add_set(f, g, p.site + p.start[k], p.start[k + 1] - p.start[k]);
   dyd_cert_parts_clear(&p);
-  return status;
+  return st;
 }
 
-static dyd_status add_outer(dyd_cert_faces *f, uint32_t *bad, bool *seen, const dyd_cert_graph *g, uint32_t h,
-                            const dyd_cert_corner *corner, size_t corners) {
+static dyd_status faces_add_outer(dyd_cert_faces *f, uint32_t *bad, bool *seen, const dyd_cert_graph *g, uint32_t h,
+                                  const dyd_cert_corner *corner, size_t corners) {
   rim r = {0};
-  dyd_status status = dyd_cert_walk(&r.walk, &r.count, g, h);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_walk(&r.walk, &r.count, g, h);
+  if (st != DYD_OK) return st;
   r.site = dyd_alloc(r.count, sizeof *r.site);
   r.corner = calloc(g->sites->count, sizeof *r.corner);
   if (r.site && r.corner) {
@@ -185,61 +166,54 @@ static dyd_status add_outer(dyd_cert_faces *f, uint32_t *bad, bool *seen, const 
       r.site[q] = dyd_cert_origin(g, r.walk[q]);
     }
     for (size_t c = 0; c < corners; c++) r.corner[corner[c].i] = true;
-    status = split_rim(f, bad, g, &r, corner, corners);
+    st = split_rim(f, bad, g, &r, corner, corners);
   } else {
-    status = DYD_E_NOMEM;
+    st = DYD_E_NOMEM;
   }
   free(r.walk);
   free(r.site);
   free(r.corner);
-  return status;
+  return st;
 }
 
 /* ---- all ---- */
 
-static dyd_status add_all_sites(dyd_cert_faces *f, const dyd_cert_graph *g) {
+static dyd_status faces_add_all_sites(dyd_cert_faces *f, const dyd_cert_graph *g) {
   uint32_t *all = dyd_alloc(g->sites->count, sizeof *all);
   if (!all) return DYD_E_NOMEM;
   size_t count = 0;
   for (size_t v = 0; v < g->sites->count; v++)
     if (g->sites->site[v].alias == v) all[count++] = (uint32_t)v;
-  dyd_status status = add_set(f, g, all, count);
+  dyd_status st = faces_add_set(f, g, all, count);
   free(all);
-  return status;
+  return st;
 }
 
-static dyd_status find_sets(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const dyd_cert_corner *corner,
-                            size_t corners) {
+static dyd_status faces_find_sets(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g,
+                                  const dyd_cert_corner *corner, size_t corners) {
   uint32_t outer = g->connected ? dyd_cert_outer(g) : DYD_CERT_NONE;
   if (outer == DYD_CERT_NONE) {
     if (corners) *bad = corner[0].i;
-    return add_all_sites(f, g);
+    return faces_add_all_sites(f, g);
   }
   bool *seen = calloc(2 * g->count, sizeof *seen);
   if (!seen) return DYD_E_NOMEM;
-  dyd_status status = add_outer(f, bad, seen, g, outer, corner, corners);
-  for (uint32_t h = 0; h < 2 * g->count && status == DYD_OK && *bad == DYD_CERT_NONE; h++)
-    if (!seen[h]) status = add_face(f, seen, g, h);
+  dyd_status st = faces_add_outer(f, bad, seen, g, outer, corner, corners);
+  for (uint32_t h = 0; h < 2 * g->count && st == DYD_OK && *bad == DYD_CERT_NONE; h++)
+    if (!seen[h]) st = add_bounded_face(f, seen, g, h);
   free(seen);
-  return status;
+  return st;
 }
 
-static dyd_status index_sites(dyd_cert_faces *f, size_t n) {
+static dyd_status faces_index_sites(dyd_cert_faces *f, size_t n) {
   f->first = calloc(n + 1, sizeof *f->first);
   f->of = dyd_alloc(f->members, sizeof *f->of);
   f->covered = calloc(f->sets ? f->sets : 1, sizeof *f->covered);
   if (!f->first || !f->of || !f->covered) return DYD_E_NOMEM;
   for (size_t q = 0; q < f->members; q++) f->first[f->member[q]]++;
-  size_t sum = 0;
-  for (size_t v = 0; v <= n; v++) {
-    size_t c = f->first[v];
-    f->first[v] = sum;
-    sum += c;
-  }
-  for (size_t k = 0; k < f->sets; k++)
-    for (size_t q = f->start[k]; q < f->start[k + 1]; q++) f->of[f->first[f->member[q]]++] = (uint32_t)k;
-  for (size_t v = n; v > 0; v--) f->first[v] = f->first[v - 1];
-  f->first[0] = 0;
+  for (size_t v = 0; v < n; v++) f->first[v + 1] += f->first[v]; /* ends, which filling makes beginnings */
+  for (size_t k = f->sets; k-- > 0;)
+    for (size_t q = f->start[k]; q < f->start[k + 1]; q++) f->of[--f->first[f->member[q]]] = (uint32_t)k;
   return DYD_OK;
 }
 
@@ -247,12 +221,12 @@ dyd_status dyd_cert_faces_init(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_
                                size_t corners) {
   *f = (dyd_cert_faces){0};
   *bad = DYD_CERT_NONE;
-  dyd_status status = find_sets(f, bad, g, corner, corners);
-  if (status == DYD_OK) status = index_sites(f, g->sites->count);
-  if (status == DYD_OK)
+  dyd_status st = faces_find_sets(f, bad, g, corner, corners);
+  if (st == DYD_OK) st = faces_index_sites(f, g->sites->count);
+  if (st == DYD_OK)
     for (size_t e = 0; e < g->legal->count; e++) dyd_cert_faces_cover(f, g->legal->item[e].i, g->legal->item[e].j);
-  if (status < 0) dyd_cert_faces_clear(f);
-  return status;
+  if (st != DYD_OK) dyd_cert_faces_clear(f);
+  return st;
 }
 
 void dyd_cert_faces_clear(dyd_cert_faces *f) {
@@ -265,7 +239,7 @@ void dyd_cert_faces_clear(dyd_cert_faces *f) {
 }
 
 /* Passes the sets that hold both; returns their number. */
-static size_t common(const dyd_cert_faces *f, uint64_t *covered, uint32_t i, uint32_t j) {
+static size_t common_sets(const dyd_cert_faces *f, uint64_t *covered, uint32_t i, uint32_t j) {
   size_t a = f->first[i], b = f->first[j], count = 0;
   while (a < f->first[i + 1] && b < f->first[j + 1]) {
     if (f->of[a] == f->of[b]) {
@@ -283,11 +257,11 @@ static size_t common(const dyd_cert_faces *f, uint64_t *covered, uint32_t i, uin
 }
 
 void dyd_cert_faces_cover(dyd_cert_faces *f, uint32_t i, uint32_t j) {
-  common(f, f->covered, i, j);
+  common_sets(f, f->covered, i, j);
 }
 
 bool dyd_cert_faces_share(const dyd_cert_faces *f, uint32_t i, uint32_t j) {
-  return common(f, NULL, i, j) > 0;
+  return common_sets(f, NULL, i, j) > 0;
 }
 
 uint64_t dyd_cert_faces_left(const dyd_cert_faces *f) {

@@ -5,6 +5,28 @@
 
 #include <string.h>
 
+/* ---- lists ---- */
+
+static void sift_down(uint32_t *a, size_t root, size_t count, dyd_cert_compare *compare, const void *with) {
+  for (size_t child; (child = 2 * root + 1) < count; root = child) {
+    if (child + 1 < count && compare(with, a[child], a[child + 1]) < 0) child++;
+    if (compare(with, a[root], a[child]) >= 0) return;
+    uint32_t t = a[root];
+    a[root] = a[child];
+    a[child] = t;
+  }
+}
+
+void dyd_cert_sort(uint32_t *item, size_t count, dyd_cert_compare *compare, const void *with) {
+  for (size_t q = count / 2; q-- > 0;) sift_down(item, q, count, compare, with);
+  for (size_t last = count; last-- > 1;) {
+    uint32_t t = item[0];
+    item[0] = item[last];
+    item[last] = t;
+    sift_down(item, 0, last, compare, with);
+  }
+}
+
 /* ---- edges ---- */
 
 static int compare_edge(const void *a, const void *b) {
@@ -29,62 +51,31 @@ dyd_status dyd_cert_edges_add(dyd_cert_edges *edges, uint32_t i, uint32_t j) {
 /* ---- angular order ---- */
 
 /* The half-plane of directions from a to b: 0 for angles in (-90, 90] degrees, 1 for the others. */
-static int half_of(const dyd_cert_sites *s, uint32_t a, uint32_t b) {
+static int half_of_directions(const dyd_cert_sites *s, uint32_t a, uint32_t b) {
   return dyd_cert_compare_places(s, a, b) < 0 ? 0 : 1;
 }
 
 /* Compares the directions of two half-edges of one origin. */
-static int compare_angle(const dyd_cert_graph *g, uint32_t h, uint32_t k) {
+static int compare_angle(const void *graph, uint32_t h, uint32_t k) {
+  const dyd_cert_graph *g = graph;
   uint32_t v = dyd_cert_origin(g, h), a = dyd_cert_origin(g, h ^ 1), b = dyd_cert_origin(g, k ^ 1);
-  int ha = half_of(g->sites, v, a), hb = half_of(g->sites, v, b);
+  int ha = half_of_directions(g->sites, v, a), hb = half_of_directions(g->sites, v, b);
   if (ha != hb) return ha - hb;
   return -dyd_cert_turn(g->sites, v, a, b);
 }
 
-/* Insertion sort for the few half-edges that most sites have, heap sort for more. */
-static void sift(const dyd_cert_graph *g, uint32_t *a, size_t root, size_t count) {
-  for (size_t child; (child = 2 * root + 1) < count; root = child) {
-    if (child + 1 < count && compare_angle(g, a[child], a[child + 1]) < 0) child++;
-    if (compare_angle(g, a[root], a[child]) >= 0) return;
-    uint32_t t = a[root];
-    a[root] = a[child];
-    a[child] = t;
-  }
-}
-
-static void sort_around(const dyd_cert_graph *g, uint32_t *a, size_t count) {
-  for (size_t q = count / 2; q-- > 0;) sift(g, a, q, count);
-  for (size_t last = count; last-- > 1;) {
-    uint32_t t = a[0];
-    a[0] = a[last];
-    a[last] = t;
-    sift(g, a, 0, last);
-  }
-}
-
-static void gather(dyd_cert_graph *g) {
+static void gather_around(dyd_cert_graph *g) {
   size_t n = g->sites->count;
   memset(g->start, 0, (n + 1) * sizeof *g->start);
-  for (uint32_t h = 0; h < 2 * g->count; h++) g->start[dyd_cert_origin(g, h)]++;
-  size_t sum = 0;
-  for (size_t v = 0; v <= n; v++) {
-    size_t c = g->start[v];
-    g->start[v] = sum;
-    sum += c;
-  }
-  for (uint32_t h = 0; h < 2 * g->count; h++) g->around[g->start[dyd_cert_origin(g, h)]++] = h;
-  for (size_t v = n; v > 0; v--) g->start[v] = g->start[v - 1];
-  g->start[0] = 0;
-  for (size_t v = 0; v < n; v++) sort_around(g, g->around + g->start[v], g->start[v + 1] - g->start[v]);
+  for (size_t h = 0; h < 2 * g->count; h++) g->start[dyd_cert_origin(g, (uint32_t)h)]++;
+  for (size_t v = 0; v < n; v++) g->start[v + 1] += g->start[v]; /* ends, which filling makes beginnings */
+  for (size_t h = 2 * g->count; h-- > 0;) g->around[--g->start[dyd_cert_origin(g, (uint32_t)h)]] = (uint32_t)h;
+  for (size_t v = 0; v < n; v++)
+    dyd_cert_sort(g->around + g->start[v], g->start[v + 1] - g->start[v], compare_angle, g);
   for (size_t q = 0; q < 2 * g->count; q++) g->position[g->around[q]] = (uint32_t)q;
 }
 
 /* ---- connection ---- */
-
-static uint32_t find_root(uint32_t *parent, uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
 
 /* An edge between two sites with one place has no direction: then the faces are not known. */
 static bool have_directions(const dyd_cert_graph *g) {
@@ -105,7 +96,7 @@ static dyd_status find_connected(dyd_cert_graph *g) {
   }
   for (size_t e = 0; e < g->count; e++) {
     dyd_cert_edge edge = dyd_cert_edge_of(g, (uint32_t)(2 * e));
-    uint32_t a = find_root(parent, edge.i), b = find_root(parent, edge.j);
+    uint32_t a = dyd_cert_root(parent, edge.i), b = dyd_cert_root(parent, edge.j);
     g->redundant |= a == b && e >= g->legal->count;
     parts -= a != b;
     parent[a] = b;
@@ -122,12 +113,12 @@ dyd_status dyd_cert_graph_init(dyd_cert_graph *g, const dyd_cert_sites *s, const
   g->start = dyd_alloc(s->count + 1, sizeof *g->start);
   g->around = dyd_alloc(2 * g->count, sizeof *g->around);
   g->position = dyd_alloc(2 * g->count, sizeof *g->position);
-  dyd_status status = g->start && g->around && g->position ? find_connected(g) : DYD_E_NOMEM;
-  if (status == DYD_OK)
-    gather(g);
+  dyd_status st = g->start && g->around && g->position ? find_connected(g) : DYD_E_NOMEM;
+  if (st == DYD_OK)
+    gather_around(g);
   else
     dyd_cert_graph_clear(g);
-  return status;
+  return st;
 }
 
 void dyd_cert_graph_clear(dyd_cert_graph *g) {

@@ -50,6 +50,16 @@ uint32_t dyd_cert_follow(const dyd_cert_graph *g, uint32_t h);
 /* A half-edge with the unbounded face on its left; DYD_CERT_NONE when there is no edge. */
 uint32_t dyd_cert_outer(const dyd_cert_graph *g);
 
+/* The representative of v among the united, with the way there shortened. */
+static inline uint32_t dyd_cert_root(uint32_t *parent, uint32_t v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+/* Sorts in place, without memory, ascending by `compare`. */
+typedef int dyd_cert_compare(const void *with, uint32_t a, uint32_t b);
+void dyd_cert_sort(uint32_t *item, size_t count, dyd_cert_compare *compare, const void *with);
+
 /* Is the sorted list holding the pair i < j? */
 bool dyd_cert_edges_have(const dyd_cert_edges *edges, uint32_t i, uint32_t j);
 dyd_status dyd_cert_edges_add(dyd_cert_edges *edges, uint32_t i, uint32_t j);

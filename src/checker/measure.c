@@ -22,15 +22,30 @@ void dyd_fraction_swap(dyd_fraction *a, dyd_fraction *b) {
   *b = t;
 }
 
+/* x and y, initialised here: the numerators of two fractions over the product of their denominators. */
+static void init_over_common(dyd_exact *x, dyd_exact *y, const dyd_fraction *a, const dyd_fraction *b) {
+  dyd_exact_init(x);
+  dyd_exact_init(y);
+  dyd_exact_set(x, &a->num);
+  dyd_exact_set(y, &b->num);
+  if (!b->whole) dyd_exact_mul_z(x, x, b->den);
+  if (!a->whole) dyd_exact_mul_z(y, y, a->den);
+}
+
+/* The denominator of a product, one of the factors not being whole. */
+static void multiply_dens(dyd_fraction *out, const dyd_fraction *a, const dyd_fraction *b) {
+  if (a->whole)
+    mpz_set(out->den, b->den);
+  else if (b->whole)
+    mpz_set(out->den, a->den);
+  else
+    mpz_mul(out->den, a->den, b->den);
+}
+
 int dyd_fraction_cmp(const dyd_fraction *a, const dyd_fraction *b) {
   if (a->whole && b->whole) return dyd_exact_cmp(&a->num, &b->num);
   dyd_exact x, y;
-  dyd_exact_init(&x);
-  dyd_exact_init(&y);
-  dyd_exact_set(&x, &a->num);
-  dyd_exact_set(&y, &b->num);
-  if (!b->whole) dyd_exact_mul_z(&x, &x, b->den);
-  if (!a->whole) dyd_exact_mul_z(&y, &y, a->den);
+  init_over_common(&x, &y, a, b);
   int sign = dyd_exact_cmp(&x, &y);
   dyd_exact_clear(&x);
   dyd_exact_clear(&y);
@@ -63,14 +78,7 @@ void dyd_fraction_sub(dyd_fraction *out, const dyd_exact *a, mpz_srcptr da, cons
 /* out may be a or b. */
 void dyd_fraction_mul(dyd_fraction *out, const dyd_fraction *a, const dyd_fraction *b) {
   bool whole = a->whole && b->whole;
-  if (!whole) {
-    if (a->whole)
-      mpz_set(out->den, b->den);
-    else if (b->whole)
-      mpz_set(out->den, a->den);
-    else
-      mpz_mul(out->den, a->den, b->den);
-  }
+  if (!whole) multiply_dens(out, a, b);
   dyd_exact_mul(&out->num, &a->num, &b->num);
   out->whole = whole;
 }
@@ -82,18 +90,8 @@ void dyd_fraction_add(dyd_fraction *out, const dyd_fraction *a, const dyd_fracti
     return;
   }
   dyd_exact x, y;
-  dyd_exact_init(&x);
-  dyd_exact_init(&y);
-  dyd_exact_set(&x, &a->num);
-  dyd_exact_set(&y, &b->num);
-  if (!b->whole) dyd_exact_mul_z(&x, &x, b->den);
-  if (!a->whole) dyd_exact_mul_z(&y, &y, a->den);
-  if (a->whole)
-    mpz_set(out->den, b->den);
-  else if (b->whole)
-    mpz_set(out->den, a->den);
-  else
-    mpz_mul(out->den, a->den, b->den);
+  init_over_common(&x, &y, a, b);
+  multiply_dens(out, a, b);
   dyd_exact_add(&out->num, &x, &y);
   out->whole = false;
   dyd_exact_clear(&x);
@@ -148,17 +146,17 @@ dyd_cert_spot dyd_cert_spot_at(const dyd_exact v[2]) {
   return (dyd_cert_spot){{&v[0], &v[1]}, {NULL, NULL}};
 }
 
-static void difference(dyd_fraction *out, const dyd_cert_spot *a, const dyd_cert_spot *b, int axis) {
+static void spot_difference(dyd_fraction *out, const dyd_cert_spot *a, const dyd_cert_spot *b, int axis) {
   dyd_fraction_sub(out, b->v[axis], b->den[axis], a->v[axis], a->den[axis]);
 }
 
 int dyd_cert_cross(dyd_cert_spot a, dyd_cert_spot b, dyd_cert_spot c, dyd_cert_spot d) {
   dyd_fraction t[4];
   for (int k = 0; k < 4; k++) dyd_fraction_init(&t[k]);
-  difference(&t[0], &a, &b, 0);
-  difference(&t[1], &c, &d, 1);
-  difference(&t[2], &a, &b, 1);
-  difference(&t[3], &c, &d, 0);
+  spot_difference(&t[0], &a, &b, 0);
+  spot_difference(&t[1], &c, &d, 1);
+  spot_difference(&t[2], &a, &b, 1);
+  spot_difference(&t[3], &c, &d, 0);
   dyd_fraction_mul(&t[0], &t[0], &t[1]);
   dyd_fraction_mul(&t[2], &t[2], &t[3]);
   int sign = dyd_fraction_cmp(&t[0], &t[2]);
@@ -174,7 +172,7 @@ static bool grid_place(int64_t out[2], const dyd_cert_sites *s, uint32_t v) {
   return true;
 }
 
-static int64_t size(int64_t d) {
+static int64_t absolute_value(int64_t d) {
   return d < 0 ? -d : d;
 }
 
@@ -184,7 +182,8 @@ static int turn_on_grid(const dyd_cert_sites *s, uint32_t a, uint32_t b, uint32_
   int64_t p[3][2];
   if (!grid_place(p[0], s, a) || !grid_place(p[1], s, b) || !grid_place(p[2], s, c)) return 0;
   int64_t x = p[1][0] - p[0][0], y = p[1][1] - p[0][1], z = p[2][0] - p[0][0], t = p[2][1] - p[0][1];
-  int64_t det = x * t - y * z, error = size(x) + size(y) + size(z) + size(t) + 2;
+  int64_t det = x * t - y * z,
+          error = absolute_value(x) + absolute_value(y) + absolute_value(z) + absolute_value(t) + 2;
   return det > error ? 1 : det < -error ? -1 : 0;
 }
 
@@ -203,7 +202,7 @@ int dyd_cert_compare_places(const dyd_cert_sites *s, uint32_t a, uint32_t b) {
   dyd_fraction_init(&d);
   int sign = 0;
   for (int axis = 0; axis < 2 && sign == 0; axis++) {
-    difference(&d, &at[1], &at[0], axis);
+    spot_difference(&d, &at[1], &at[0], axis);
     sign = dyd_exact_sgn(&d.num);
   }
   dyd_fraction_clear(&d);
@@ -213,7 +212,7 @@ int dyd_cert_compare_places(const dyd_cert_sites *s, uint32_t a, uint32_t b) {
 /* ---- heights ---- */
 
 /* out = max (upper) or min of u.x over the rectangle. */
-static void height(dyd_fraction *out, const dyd_exact u[2], const dyd_cert_site *s, bool upper) {
+static void site_height(dyd_fraction *out, const dyd_exact u[2], const dyd_cert_site *s, bool upper) {
   dyd_fraction t;
   dyd_exact zero;
   dyd_fraction_init(&t);
@@ -236,8 +235,8 @@ int dyd_cert_compare_heights(const dyd_cert_sites *s, const dyd_exact u[2], uint
   dyd_fraction x, y;
   dyd_fraction_init(&x);
   dyd_fraction_init(&y);
-  height(&x, u, &s->site[a], true);
-  height(&y, u, &s->site[b], false);
+  site_height(&x, u, &s->site[a], true);
+  site_height(&y, u, &s->site[b], false);
   int sign = dyd_fraction_cmp(&x, &y);
   dyd_fraction_clear(&x);
   dyd_fraction_clear(&y);

@@ -18,11 +18,6 @@ size_t dyd_cert_distinct(uint32_t *item, size_t count) {
   return kept;
 }
 
-static uint32_t find_root(uint32_t *parent, uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
 /* What is borrowed while parts are made; at: half-edge -> its position in the walk, DYD_CERT_NONE: not there. */
 typedef struct maker {
   const dyd_cert_graph *g;
@@ -32,7 +27,7 @@ typedef struct maker {
   uint32_t *parent, *at, *number;
 } maker;
 
-static uint32_t site_at(const maker *m, size_t q) {
+static uint32_t site_on_walk(const maker *m, size_t q) {
   return dyd_cert_origin(m->g, m->walk[q % m->count]);
 }
 
@@ -40,10 +35,10 @@ static uint32_t site_at(const maker *m, size_t q) {
  * are united, and groups are numbered. */
 static void number_groups(dyd_cert_parts *p, maker *m) {
   uint32_t part = 0;
-  for (m->first = 0; m->first < m->count && !m->corner[site_at(m, m->first)];) m->first++;
+  for (m->first = 0; m->first < m->count && !m->corner[site_on_walk(m, m->first)];) m->first++;
   for (size_t k = 0; k < m->count; k++) {
     size_t q = (m->first + k) % m->count;
-    if (k && m->corner[site_at(m, q)]) part++;
+    if (k && m->corner[site_on_walk(m, q)]) part++;
     p->group[q] = part;
     m->parent[part] = part;
     m->at[m->walk[q]] = (uint32_t)q;
@@ -51,22 +46,23 @@ static void number_groups(dyd_cert_parts *p, maker *m) {
   for (size_t q = 0; q < m->count; q++) {
     uint32_t h = m->walk[q], twin = m->at[h ^ 1];
     if (h / 2 >= m->g->legal->count && twin != DYD_CERT_NONE)
-      m->parent[find_root(m->parent, p->group[q])] = find_root(m->parent, p->group[twin]);
+      m->parent[dyd_cert_root(m->parent, p->group[q])] = dyd_cert_root(m->parent, p->group[twin]);
   }
   for (uint32_t k = 0; k <= part; k++)
-    if (find_root(m->parent, k) == k) m->number[k] = (uint32_t)p->groups++;
-  for (size_t q = 0; q < m->count; q++) p->group[q] = m->number[find_root(m->parent, p->group[q])];
+    if (dyd_cert_root(m->parent, k) == k) m->number[k] = (uint32_t)p->groups++;
+  for (size_t q = 0; q < m->count; q++) p->group[q] = m->number[dyd_cert_root(m->parent, p->group[q])];
 }
 
 /* A position's site is a site of its group; a corner also of the group before. */
-static void gather_sites(dyd_cert_parts *p, const maker *m) {
+static void gather_group_sites(dyd_cert_parts *p, const maker *m) {
   for (size_t q = 0; q < m->count; q++)
     for (int end = 0; end < 2; end++)
-      if (!end || m->corner[site_at(m, q + 1)]) p->start[p->group[q] + 1]++;
+      if (!end || m->corner[site_on_walk(m, q + 1)]) p->start[p->group[q] + 1]++;
   for (size_t r = 0; r < p->groups; r++) p->start[r + 1] += p->start[r];
   for (size_t q = 0; q < m->count; q++)
     for (int end = 0; end < 2; end++)
-      if (!end || m->corner[site_at(m, q + 1)]) p->site[p->start[p->group[q]]++] = site_at(m, q + (size_t)end);
+      if (!end || m->corner[site_on_walk(m, q + 1)])
+        p->site[p->start[p->group[q]]++] = site_on_walk(m, q + (size_t)end);
   size_t from = 0, kept = 0;
   for (size_t r = 0; r < p->groups; r++) {
     size_t count = p->start[r] - from;
@@ -92,7 +88,7 @@ dyd_status dyd_cert_parts_init(dyd_cert_parts *p, const dyd_cert_graph *g, const
   if (good) {
     for (size_t h = 0; h < 2 * g->count; h++) m.at[h] = DYD_CERT_NONE;
     number_groups(p, &m);
-    gather_sites(p, &m);
+    gather_group_sites(p, &m);
   } else {
     dyd_cert_parts_clear(p);
   }

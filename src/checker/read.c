@@ -77,7 +77,7 @@ dyd_status dyd_cert_line_done(dyd_cert_reader *r) {
 /* ---- numbers ---- */
 
 /* The end of a decimal integer at `text` in its only spelling; NULL when there is none. */
-static const char *scan_integer(const char *text) {
+static const char *scan_decimal(const char *text) {
   const char *digit = text + (*text == '-');
   if (*digit == '0') return digit == text ? digit + 1 : NULL;
   const char *p = digit;
@@ -86,8 +86,8 @@ static const char *scan_integer(const char *text) {
 }
 
 /* A decimal of at most 18 digits. */
-static bool read_small(long long *out, const char *text) {
-  const char *end = scan_integer(text);
+static bool scan_small(long long *out, const char *text) {
+  const char *end = scan_decimal(text);
   if (!end || *end || end - text > 18) return false;
   *out = strtoll(text, NULL, 10);
   return true;
@@ -95,73 +95,73 @@ static bool read_small(long long *out, const char *text) {
 
 dyd_status dyd_cert_read_integer(long long *out, dyd_cert_reader *r) {
   char *word = NULL;
-  dyd_status status = dyd_cert_word(&word, r);
-  if (status < 0) return status;
-  return read_small(out, word) ? DYD_OK : dyd_cert_reject(r, "\"%.40s\" is no integer", word);
+  dyd_status st = dyd_cert_word(&word, r);
+  if (st != DYD_OK) return st;
+  return scan_small(out, word) ? DYD_OK : dyd_cert_reject(r, "\"%.40s\" is no integer", word);
 }
 
 dyd_status dyd_cert_read_index(uint32_t *out, dyd_cert_reader *r, uint64_t most) {
   long long value;
   char *word = NULL;
-  dyd_status status = dyd_cert_word(&word, r);
-  if (status < 0) return status;
-  if (!read_small(&value, word) || value < 0)
+  dyd_status st = dyd_cert_word(&word, r);
+  if (st != DYD_OK) return st;
+  if (!scan_small(&value, word) || value < 0)
     return dyd_cert_reject(r, "\"%.40s\" is not a number of a site or of lines", word);
   if ((uint64_t)value > most) return dyd_cert_reject(r, "%lld is too large", value);
   *out = (uint32_t)value;
   return DYD_OK;
 }
 
-static bool in_range(const dyd_exact *x) {
+static bool exact_in_range(const dyd_exact *x) {
   return dyd_exact_sgn(x) == 0 ||
          (x->exp >= -DYD_EXP_LIMIT && x->exp <= DYD_EXP_LIMIT && dyd_exact_top(x) <= DYD_EXP_LIMIT);
 }
 
 /* m or m*2^e; the text is destroyed. */
 static bool scan_number(dyd_exact *out, char *text) {
-  const char *end = scan_integer(text);
+  const char *end = scan_decimal(text);
   long long exp = 0;
   if (!end) return false;
   if (*end) {
-    if (strncmp(end, "*2^", 3) != 0 || !read_small(&exp, end + 3) || exp == 0) return false;
+    if (strncmp(end, "*2^", 3) != 0 || !scan_small(&exp, end + 3) || exp == 0) return false;
     text[end - text] = 0;
   }
   if (mpz_set_str(out->man, text, 10) != 0 || (exp && !mpz_odd_p(out->man))) return false;
   out->exp = exp;
-  return in_range(out);
+  return exact_in_range(out);
 }
 
 dyd_status dyd_cert_read_number(dyd_exact *out, dyd_cert_reader *r) {
   char *word = NULL;
-  dyd_status status = dyd_cert_word(&word, r);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_word(&word, r);
+  if (st != DYD_OK) return st;
   return scan_number(out, word) ? DYD_OK : dyd_cert_reject(r, "\"%.40s\" is not a number m or m*2^e", word);
 }
 
 dyd_status dyd_cert_read_point(dyd_exact out[2], dyd_cert_reader *r) {
-  dyd_status status = dyd_cert_read_number(&out[0], r);
-  return status < 0 ? status : dyd_cert_read_number(&out[1], r);
+  dyd_status st = dyd_cert_read_number(&out[0], r);
+  return st == DYD_OK ? dyd_cert_read_number(&out[1], r) : st;
 }
 
 /* A denominator: odd, > 1, without a factor in common with the numerator. */
 static dyd_status read_den(dyd_cert_side *out, dyd_cert_reader *r, const char *text) {
-  const char *end = scan_integer(text);
+  const char *end = scan_decimal(text);
   if (!end || *end) return dyd_cert_reject(r, "\"%.40s\" is no denominator", text);
   mpz_t den, g;
   mpz_inits(den, g, NULL);
   bool good = mpz_set_str(den, text, 10) == 0 && mpz_cmp_ui(den, 1) > 0 && mpz_odd_p(den);
   if (good) mpz_gcd(g, den, out->lo.man);
   good = good && mpz_cmp_ui(g, 1) == 0 && mpz_sizeinbase(den, 2) <= (size_t)DYD_EXP_LIMIT;
-  dyd_status status =
+  dyd_status st =
       good ? dyd_cert_side_set_den(out, den) : dyd_cert_reject(r, "\"%.40s\" is no denominator in lowest terms", text);
   mpz_clears(den, g, NULL);
-  return status;
+  return st;
 }
 
 dyd_status dyd_cert_read_side(dyd_cert_side *out, dyd_cert_reader *r) {
   char *word = NULL;
-  dyd_status status = dyd_cert_word(&word, r);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_word(&word, r);
+  if (st != DYD_OK) return st;
   size_t length = strcspn(word, "/+");
   char kind = word[length];
   word[length] = 0;
@@ -172,9 +172,9 @@ dyd_status dyd_cert_read_side(dyd_cert_side *out, dyd_cert_reader *r) {
   dyd_exact width;
   dyd_exact_init(&width);
   if (!scan_number(&width, word + length + 1) || dyd_exact_sgn(&width) <= 0)
-    status = dyd_cert_reject(r, "\"%.40s\" is not a width", word + length + 1);
+    st = dyd_cert_reject(r, "\"%.40s\" is not a width", word + length + 1);
   else
     dyd_exact_add(&out->hi, &out->lo, &width);
   dyd_exact_clear(&width);
-  return status;
+  return st;
 }

@@ -73,7 +73,7 @@ dyd_status dyd_cert_site_set_place(dyd_cert_site *site, const dyd_exact at[2]) {
 /* ---- the grid ---- */
 
 /* An end as a dyadic, rounded outward by less than 2^-64 of itself. */
-static void outward(dyd_exact *out, const dyd_cert_side *s, bool upper) {
+static void end_outward(dyd_exact *out, const dyd_cert_side *s, bool upper) {
   const dyd_exact *end = upper ? dyd_cert_high(s) : &s->lo;
   dyd_exact_set(out, end);
   if (!s->den || !dyd_exact_sgn(end)) return;
@@ -82,12 +82,12 @@ static void outward(dyd_exact *out, const dyd_cert_side *s, bool upper) {
 }
 
 /* The least and the greatest end along an axis. */
-static void extent(dyd_exact range[2], const dyd_cert_sites *s, int axis) {
+static void axis_extent(dyd_exact range[2], const dyd_cert_sites *s, int axis) {
   dyd_exact end;
   dyd_exact_init(&end);
   for (size_t i = 0; i < s->count; i++)
     for (int upper = 0; upper < 2; upper++) {
-      outward(&end, &s->site[i].side[axis], upper);
+      end_outward(&end, &s->site[i].side[axis], upper);
       int sign = dyd_exact_cmp(&end, &range[upper]);
       if (i == 0 || (upper ? sign > 0 : sign < 0)) dyd_exact_set(&range[upper], &end);
     }
@@ -118,7 +118,7 @@ dyd_status dyd_cert_sites_finish(dyd_cert_sites *s) {
   for (int axis = 0; axis < 2; axis++) {
     dyd_exact_init(&range[axis][0]);
     dyd_exact_init(&range[axis][1]);
-    extent(range[axis], s, axis);
+    axis_extent(range[axis], s, axis);
     dyd_exact_sub(&width, &range[axis][1], &range[axis][0]);
     if (dyd_exact_top(&width) > top) top = dyd_exact_top(&width);
   }

@@ -30,9 +30,13 @@ typedef struct dyd_cert_centre {
 void dyd_cert_centre_set(dyd_cert_centre *out, const dyd_cert_sites *s, const dyd_exact c[2]);
 
 __extension__ typedef unsigned __int128 dyd_cert_area;
-/* Bounds of the squared distance from the centre to the box, in grid units; the centre is not far. */
+static inline dyd_cert_area dyd_cert_square(int64_t d) {
+  dyd_cert_area size = (dyd_cert_area)(d < 0 ? -d : d);
+  return size * size;
+}
+/* An upper bound of the squared distance from the centre to the farthest point of the box, in grid units; the centre is
+ * not far. */
 dyd_cert_area dyd_cert_far_upper(const dyd_cert_centre *c, const dyd_cert_box *b);
-dyd_cert_area dyd_cert_near_lower(const dyd_cert_centre *c, const dyd_cert_box *b);
 
 /* Calls visit for every item whose near distance may be <= the root of `limit` (all, when the centre is far) until it
  * returns false; returns whether all calls returned true. */

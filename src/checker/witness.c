@@ -10,7 +10,7 @@ typedef struct search {
   dyd_fraction radius2, here;
 } search;
 
-static bool is_outside(void *context, uint32_t k) {
+static bool is_outside_disc(void *context, uint32_t k) {
   search *s = context;
   if (k == s->i || k == s->j) return true;
   dyd_cert_distance2(&s->here, s->c, &s->sites->site[k], s->measure);
@@ -35,7 +35,7 @@ bool dyd_cert_is_witness(uint32_t *other, const dyd_cert_sites *s, const dyd_cer
     dyd_cert_area a = dyd_cert_far_upper(&centre, &s->box[i]), b = dyd_cert_far_upper(&centre, &s->box[j]);
     limit = a > b ? a : b;
   }
-  bool good = dyd_cert_tree_visit(t, &centre, limit, is_outside, &q);
+  bool good = dyd_cert_tree_visit(t, &centre, limit, is_outside_disc, &q);
   if (!good && other) *other = q.other;
   dyd_fraction_clear(&q.radius2);
   dyd_fraction_clear(&q.here);

@@ -15,13 +15,13 @@ dyd_status dyd_dyadic_set_d(dyd_dyadic *out, double x) {
   int exp;
   mpz_t t;
   mpz_init_set_d(t, ldexp(frexp(x, &exp), DOUBLE_BITS));
-  dyd_status status = dyd_dyadic_take(out, t, (int64_t)exp - DOUBLE_BITS);
+  dyd_status st = dyd_dyadic_take(out, t, (int64_t)exp - DOUBLE_BITS);
   mpz_clear(t);
-  return status;
+  return st;
 }
 
 /* q = floor or ceiling of n / 2^shift. */
-static void shift_right(mpz_ptr q, mpz_srcptr n, int64_t shift, dyd_round dir) {
+static void shift_right_directed(mpz_ptr q, mpz_srcptr n, int64_t shift, dyd_round dir) {
   if (dir == DYD_DOWN) {
     mpz_fdiv_q_2exp(q, n, (mp_bitcnt_t)shift);
   } else {
@@ -33,7 +33,7 @@ int64_t dyd_q_log2_above(mpq_srcptr q) {
   return dyd_bits(mpq_numref(q)) - dyd_bits(mpq_denref(q)) + 1;
 }
 
-static void divide(mpz_ptr q, mpz_srcptr n, mpz_srcptr den, dyd_round dir) {
+static void divide_directed(mpz_ptr q, mpz_srcptr n, mpz_srcptr den, dyd_round dir) {
   if (dir == DYD_DOWN) {
     mpz_fdiv_q(q, n, den);
   } else {
@@ -50,10 +50,10 @@ dyd_status dyd_dyadic_round(dyd_dyadic *out, const dyd_dyadic *x, int64_t exp, d
   if (exp > DYD_EXP_LIMIT) exp = DYD_EXP_LIMIT;
   mpz_t t;
   mpz_init(t);
-  shift_right(t, x->man, exp - x->exp, dir);
-  dyd_status status = dyd_dyadic_take(out, t, exp);
+  shift_right_directed(t, x->man, exp - x->exp, dir);
+  dyd_status st = dyd_dyadic_take(out, t, exp);
   mpz_clear(t);
-  return status;
+  return st;
 }
 
 /* The exact value of q when its denominator is a power of two; DYD_E_RANGE otherwise. */
@@ -75,11 +75,11 @@ dyd_status dyd_dyadic_round_q(dyd_dyadic *out, const mpq_t q, int64_t exp, dyd_r
   mpz_init_set(d, mpq_denref(q));
   if (exp < 0) mpz_mul_2exp(n, n, (mp_bitcnt_t)-exp);
   if (exp > 0) mpz_mul_2exp(d, d, (mp_bitcnt_t)exp);
-  divide(n, n, d, dir);
-  dyd_status status = dyd_dyadic_take(out, n, exp);
+  divide_directed(n, n, d, dir);
+  dyd_status st = dyd_dyadic_take(out, n, exp);
   mpz_clear(d);
   mpz_clear(n);
-  return status;
+  return st;
 }
 
 void dyd_dyadic_get_q(mpq_t q, const dyd_dyadic *x) {
@@ -88,7 +88,7 @@ void dyd_dyadic_get_q(mpq_t q, const dyd_dyadic *x) {
   if (x->exp < 0) mpz_mul_2exp(mpq_denref(q), mpq_denref(q), (mp_bitcnt_t)-x->exp); /* man is odd: canonical */
 }
 
-static double too_large(int sign, dyd_round dir) {
+static double largest_in_direction(int sign, dyd_round dir) {
   double largest = sign == (int)dir ? HUGE_VAL : DBL_MAX;
   return sign > 0 ? largest : -largest;
 }
@@ -98,12 +98,12 @@ static double too_large(int sign, dyd_round dir) {
 double dyd_raw_get_d(mpz_srcptr man, int64_t exp, dyd_round dir) {
   int64_t bits = dyd_bits(man), top = exp + bits;
   if (!bits) return 0;
-  if (top > DOUBLE_TOP) return too_large(mpz_sgn(man), dir);
+  if (top > DOUBLE_TOP) return largest_in_direction(mpz_sgn(man), dir);
   int64_t low = top - DOUBLE_BITS > DOUBLE_LOW ? top - DOUBLE_BITS : DOUBLE_LOW;
   if (exp >= low) return ldexp(mpz_get_d(man), (int)exp);
   mpz_t t;
   mpz_init(t);
-  shift_right(t, man, low - exp, dir);
+  shift_right_directed(t, man, low - exp, dir);
   double x = ldexp(mpz_get_d(t), (int)low);
   mpz_clear(t);
   return x;
@@ -116,7 +116,7 @@ double dyd_raw_quotient_get_d(mpz_srcptr man, int64_t exp, mpz_srcptr den, dyd_r
   mpz_t t;
   mpz_init(t);
   mpz_mul_2exp(t, man, (mp_bitcnt_t)shift);
-  divide(t, t, den, dir);
+  divide_directed(t, t, den, dir);
   double x = dyd_raw_get_d(t, exp - shift, dir);
   mpz_clear(t);
   return x;

@@ -57,17 +57,17 @@ dyd_status dyd_dyadic_take(dyd_dyadic *out, mpz_ptr man, int64_t exp) {
 dyd_status dyd_dyadic_set_z_2exp(dyd_dyadic *out, const mpz_t man, int64_t exp) {
   mpz_t t;
   mpz_init_set(t, man);
-  dyd_status status = dyd_dyadic_take(out, t, exp);
+  dyd_status st = dyd_dyadic_take(out, t, exp);
   mpz_clear(t);
-  return status;
+  return st;
 }
 
 dyd_status dyd_dyadic_set_si_2exp(dyd_dyadic *out, long man, int64_t exp) {
   mpz_t t;
   mpz_init_set_si(t, man);
-  dyd_status status = dyd_dyadic_take(out, t, exp);
+  dyd_status st = dyd_dyadic_take(out, t, exp);
   mpz_clear(t);
-  return status;
+  return st;
 }
 
 void dyd_raw_add(mpz_ptr man, int64_t *exp, const dyd_dyadic *x, const dyd_dyadic *y, int sign) {
@@ -83,23 +83,23 @@ void dyd_raw_add(mpz_ptr man, int64_t *exp, const dyd_dyadic *x, const dyd_dyadi
   *exp = low->exp;
 }
 
-static dyd_status add(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y, int sign) {
+static dyd_status add_signed(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y, int sign) {
   DYD_INVARIANT(dyd_dyadic_is_valid(x) && dyd_dyadic_is_valid(y));
   mpz_t t;
   int64_t exp;
   mpz_init(t);
   dyd_raw_add(t, &exp, x, y, sign);
-  dyd_status status = dyd_dyadic_take(out, t, exp);
+  dyd_status st = dyd_dyadic_take(out, t, exp);
   mpz_clear(t);
-  return status;
+  return st;
 }
 
 dyd_status dyd_dyadic_add(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y) {
-  return add(out, x, y, 1);
+  return add_signed(out, x, y, 1);
 }
 
 dyd_status dyd_dyadic_sub(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y) {
-  return add(out, x, y, -1);
+  return add_signed(out, x, y, -1);
 }
 
 dyd_status dyd_dyadic_mul(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic *y) {
@@ -107,9 +107,9 @@ dyd_status dyd_dyadic_mul(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic
   mpz_t t;
   mpz_init(t);
   mpz_mul(t, x->man, y->man);
-  dyd_status status = dyd_dyadic_take(out, t, x->exp + y->exp);
+  dyd_status st = dyd_dyadic_take(out, t, x->exp + y->exp);
   mpz_clear(t);
-  return status;
+  return st;
 }
 
 dyd_status dyd_dyadic_mul_2exp(dyd_dyadic *out, const dyd_dyadic *x, int64_t e) {

@@ -26,41 +26,41 @@
 #include "metric/bounds.h"
 
 dyd_status dyd_bound_area(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs) {
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   mpfr_t term;
   mpfr_init2(term, DYD_MEASURE_PREC);
   mpfr_set_zero(out, 1);
-  for (size_t k = 0; k < pairs->count && status >= 0; k++) {
-    status = dyd_measure_area(term, m, pairs->item[k].i, pairs->item[k].j);
+  for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
+    st = dyd_measure_area(term, m, pairs->item[k].i, pairs->item[k].j);
     mpfr_add(out, out, term, MPFR_RNDU);
   }
   mpfr_clear(term);
-  return status;
+  return st;
 }
 
 dyd_status dyd_bound_pair_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair *pair) {
   if (pair->status != DYD_LEGAL) return dyd_measure_reach(out, m, pair->i, pair->j);
-  dyd_status status = dyd_measure_diameter(out, m, pair->i);
-  if (status < 0) return status;
+  dyd_status st = dyd_measure_diameter(out, m, pair->i);
+  if (st != DYD_OK) return st;
   mpfr_t other;
   mpfr_init2(other, DYD_MEASURE_PREC);
-  status = dyd_measure_diameter(other, m, pair->j);
+  st = dyd_measure_diameter(other, m, pair->j);
   mpfr_max(out, out, other, MPFR_RNDU);
   mpfr_clear(other);
-  return status;
+  return st;
 }
 
 dyd_status dyd_bound_hausdorff(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs) {
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   mpfr_t term;
   mpfr_init2(term, DYD_MEASURE_PREC);
   mpfr_set_zero(out, 1);
-  for (size_t k = 0; k < pairs->count && status >= 0; k++) {
-    status = dyd_bound_pair_hausdorff(term, m, &pairs->item[k]);
+  for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
+    st = dyd_bound_pair_hausdorff(term, m, &pairs->item[k]);
     mpfr_max(out, out, term, MPFR_RNDU);
   }
   mpfr_clear(term);
-  return status;
+  return st;
 }
 
 dyd_status dyd_bound_to_dyadic(dyd_dyadic *out, mpfr_srcptr x) {
@@ -77,36 +77,36 @@ dyd_status dyd_bound_to_dyadic(dyd_dyadic *out, mpfr_srcptr x) {
     mpz_cdiv_q_2exp(man, man, (mp_bitcnt_t)(-DYD_EXP_LIMIT - exp));
     exp = -DYD_EXP_LIMIT;
   }
-  dyd_status status = dyd_dyadic_set_z_2exp(out, man, exp);
+  dyd_status st = dyd_dyadic_set_z_2exp(out, man, exp);
   mpfr_clear(short_x);
   mpz_clear(man);
-  return status;
+  return st;
 }
 
 typedef dyd_status (*bound_fn)(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs);
 
-static dyd_status bound(dyd_dyadic *out, const dyd_delaunay *pd, bound_fn f) {
+static dyd_status metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, bound_fn f) {
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   dyd_pair_list pairs = {0};
   dyd_measure m;
   mpfr_t x;
-  dyd_status status = dyd_delaunay_pairs(&pairs, pd);
-  if (status >= 0) {
+  dyd_status st = dyd_delaunay_pairs(&pairs, pd);
+  if (st == DYD_OK) {
     dyd_measure_init(&m, dyd_delaunay_sites(pd));
     mpfr_init2(x, DYD_MEASURE_PREC);
-    status = f(x, &m, &pairs);
-    if (status >= 0) status = dyd_bound_to_dyadic(out, x);
+    st = f(x, &m, &pairs);
+    if (st == DYD_OK) st = dyd_bound_to_dyadic(out, x);
     mpfr_clear(x);
     dyd_measure_clear(&m);
   }
   dyd_pair_list_clear(&pairs);
-  return status;
+  return st;
 }
 
 dyd_status dyd_metric_area(dyd_dyadic *out, const dyd_delaunay *pd) {
-  return bound(out, pd, dyd_bound_area);
+  return metric_bound(out, pd, dyd_bound_area);
 }
 
 dyd_status dyd_metric_hausdorff(dyd_dyadic *out, const dyd_delaunay *pd) {
-  return bound(out, pd, dyd_bound_hausdorff);
+  return metric_bound(out, pd, dyd_bound_hausdorff);
 }

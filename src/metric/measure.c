@@ -9,7 +9,7 @@
 #include "rect/sites_table.h"
 
 /* May pairs of site i be measured in doubles? */
-static bool in_doubles(const dyd_measure *m, size_t i) {
+static bool measure_in_doubles(const dyd_measure *m, size_t i) {
   return m->filter && dyd_sites_in_doubles(m->sites, i);
 }
 
@@ -31,16 +31,16 @@ void dyd_measure_clear(dyd_measure *m) {
   dyd_rect_clear(&m->a);
 }
 
-static void set_dd(mpfr_ptr out, const double dd[2]) {
+static void mpfr_from_dd(mpfr_ptr out, const double dd[2]) {
   mpfr_set_d(out, dd[0], MPFR_RNDU);
   mpfr_add_d(out, out, dd[1], MPFR_RNDU);
 }
 
 /* Fetches R_i into a and end[0..3], R_j into b and end[4..7], in the order x lower, x upper, y lower, y upper. */
-static dyd_status fetch(dyd_measure *m, size_t i, size_t j) {
-  dyd_status status = dyd_sites_get(&m->a, m->sites, i);
-  if (status >= 0) status = dyd_sites_get(&m->b, m->sites, j);
-  if (status < 0) return status;
+static dyd_status measure_fetch(dyd_measure *m, size_t i, size_t j) {
+  dyd_status st = dyd_sites_get(&m->a, m->sites, i);
+  if (st == DYD_OK) st = dyd_sites_get(&m->b, m->sites, j);
+  if (st != DYD_OK) return st;
   dyd_interval_get_q(m->end[0], m->end[1], &m->a.x);
   dyd_interval_get_q(m->end[2], m->end[3], &m->a.y);
   dyd_interval_get_q(m->end[4], m->end[5], &m->b.x);
@@ -61,7 +61,7 @@ static void add_farthest2(dyd_measure *m, size_t p, size_t q) {
 }
 
 /* out = the largest distance of a point of the rectangle at end[p] to one at end[q]; p = q: the diameter. */
-static void farthest(mpfr_ptr out, dyd_measure *m, size_t p, size_t q) {
+static void measure_farthest(mpfr_ptr out, dyd_measure *m, size_t p, size_t q) {
   mpq_set_ui(m->sum, 0, 1);
   add_farthest2(m, p, q);
   add_farthest2(m, p + 2, q + 2);
@@ -73,18 +73,18 @@ dyd_status dyd_measure_area(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
   mpfr_set_zero(out, 1);
   if (dyd_sites_is_point(m->sites, i) && dyd_sites_is_point(m->sites, j)) return DYD_OK;
   double a[4], b[4], dd[2];
-  if (in_doubles(m, i) && in_doubles(m, j)) {
+  if (measure_in_doubles(m, i) && measure_in_doubles(m, j)) {
     dyd_sites_get_d(a, m->sites, i);
     dyd_sites_get_d(b, m->sites, j);
-    if (dyd_filter_hull_area2(dd, a, b)) {
-      set_dd(out, dd);
+    if (dyd_filter_partial_edge_area2(dd, a, b)) {
+      mpfr_from_dd(out, dd);
       mpfr_div_2ui(out, out, 1, MPFR_RNDU);
       return DYD_OK;
     }
   }
-  dyd_status status = fetch(m, i, j);
-  if (status < 0) return status;
-  dyd_hull_area2(m->sum, &m->a, &m->b);
+  dyd_status st = measure_fetch(m, i, j);
+  if (st != DYD_OK) return st;
+  dyd_partial_edge_area2(m->sum, &m->a, &m->b);
   mpfr_set_q(out, m->sum, MPFR_RNDU);
   mpfr_div_2ui(out, out, 1, MPFR_RNDU);
   return DYD_OK;
@@ -94,34 +94,34 @@ dyd_status dyd_measure_diameter(mpfr_ptr out, dyd_measure *m, size_t i) {
   mpfr_set_zero(out, 1);
   if (dyd_sites_is_point(m->sites, i)) return DYD_OK;
   double a[4], dd[2];
-  if (in_doubles(m, i)) {
+  if (measure_in_doubles(m, i)) {
     dyd_sites_get_d(a, m->sites, i);
     if (dyd_filter_diameter(dd, a)) {
-      set_dd(out, dd);
+      mpfr_from_dd(out, dd);
       return DYD_OK;
     }
   }
-  dyd_status status = fetch(m, i, i);
-  if (status >= 0) farthest(out, m, 0, 0);
-  return status;
+  dyd_status st = measure_fetch(m, i, i);
+  if (st == DYD_OK) measure_farthest(out, m, 0, 0);
+  return st;
 }
 
 dyd_status dyd_measure_reach(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
   double a[4], b[4], dd[2];
-  if (in_doubles(m, i) && in_doubles(m, j)) {
+  if (measure_in_doubles(m, i) && measure_in_doubles(m, j)) {
     dyd_sites_get_d(a, m->sites, i);
     dyd_sites_get_d(b, m->sites, j);
     if (dyd_filter_reach(dd, a, b)) {
-      set_dd(out, dd);
+      mpfr_from_dd(out, dd);
       return DYD_OK;
     }
   }
-  dyd_status status = fetch(m, i, j);
-  if (status < 0) return status;
-  farthest(out, m, 0, 0);
-  farthest(m->t, m, 4, 4);
+  dyd_status st = measure_fetch(m, i, j);
+  if (st != DYD_OK) return st;
+  measure_farthest(out, m, 0, 0);
+  measure_farthest(m->t, m, 4, 4);
   mpfr_max(m->t, m->t, out, MPFR_RNDU);
-  farthest(out, m, 0, 4);
+  measure_farthest(out, m, 0, 4);
   mpfr_div_2ui(out, out, 1, MPFR_RNDU);
   mpfr_add(out, out, m->t, MPFR_RNDU);
   return DYD_OK;
@@ -137,8 +137,8 @@ static void add_gap2(dyd_measure *m, size_t p, size_t q) {
 }
 
 dyd_status dyd_measure_gap(mpfr_ptr out, dyd_measure *m, size_t i, size_t j) {
-  dyd_status status = fetch(m, i, j);
-  if (status < 0) return status;
+  dyd_status st = measure_fetch(m, i, j);
+  if (st != DYD_OK) return st;
   mpq_set_ui(m->sum, 0, 1);
   add_gap2(m, 0, 4);
   add_gap2(m, 2, 6);

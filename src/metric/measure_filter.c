@@ -70,11 +70,11 @@ static dd dd_sqrt(dd x) {
   return fast_two_sum(s, (r + x.l) / (2 * s));
 }
 
-static bool lead_in_range(dd x) {
+static bool dd_lead_in_range(dd x) {
   return x.h == 0 || (x.h >= 0x1p-400 && x.h <= 0x1p400);
 }
 
-static void inflate(double out[2], dd x) {
+static void dd_inflate(double out[2], dd x) {
   out[0] = x.h;
   out[1] = x.l + x.h * 0x1p-87;
 }
@@ -87,14 +87,15 @@ typedef struct axis {
   bool b_low, b_high;
 } axis;
 
-static bool axis_set(axis *out, const double a[2], const double b[2]) {
+static bool area2_axis_set(axis *out, const double a[2], const double b[2]) {
   out->b_low = b[0] < a[0];
   out->b_high = b[1] > a[1];
   out->wa = dd_sub_d(a[1], a[0]);
   out->wb = dd_sub_d(b[1], b[0]);
   out->low = out->b_low ? dd_sub_d(a[0], b[0]) : dd_sub_d(b[0], a[0]);
   out->high = out->b_high ? dd_sub_d(b[1], a[1]) : dd_sub_d(a[1], b[1]);
-  return lead_in_range(out->wa) && lead_in_range(out->wb) && lead_in_range(out->low) && lead_in_range(out->high);
+  return dd_lead_in_range(out->wa) && dd_lead_in_range(out->wb) && dd_lead_in_range(out->low) &&
+         dd_lead_in_range(out->high);
 }
 
 /* b sticks out of a on one side of x only, by p: 2 wa ha + p (ha + hb). */
@@ -122,13 +123,13 @@ static dd area2_cross(const axis *x, const axis *y) {
  * 2 area = 2 W H - sum of the products of the legs. The forms above are this, written without a subtraction:
  * for the corner case with W = wa + p = wb + r, H = ha + s = hb + q it is 2 W H - p q - r s, where
  * W H - p q = wa H + p hb and W H - r s = wb H + r ha; the others likewise. */
-bool dyd_filter_hull_area2(double out[2], const double a[4], const double b[4]) {
+bool dyd_filter_partial_edge_area2(double out[2], const double a[4], const double b[4]) {
   axis x, y;
-  if (!axis_set(&x, a, b) || !axis_set(&y, a + 2, b + 2)) return false;
+  if (!area2_axis_set(&x, a, b) || !area2_axis_set(&y, a + 2, b + 2)) return false;
   int in_x = x.b_low + x.b_high, in_y = y.b_low + y.b_high;
   if (in_x + in_y > 2) {
     /* Seen from b, at most 4 - 3 sides are the other's; ties count for the first. */
-    return dyd_filter_hull_area2(out, b, a);
+    return dyd_filter_partial_edge_area2(out, b, a);
   }
   dd sum;
   if (in_x + in_y == 0) {
@@ -141,7 +142,7 @@ bool dyd_filter_hull_area2(double out[2], const double a[4], const double b[4]) 
   } else {
     sum = in_x ? area2_cross(&x, &y) : area2_cross(&y, &x);
   }
-  inflate(out, sum);
+  dd_inflate(out, sum);
   return true;
 }
 
@@ -153,30 +154,30 @@ static dd dd_max(dd x, dd y) {
   return x.h > y.h || (x.h == y.h && x.l > y.l) ? x : y;
 }
 
-static bool diameter(dd *out, const double a[4]) {
+static bool dd_diameter(dd *out, const double a[4]) {
   dd w = dd_sub_d(a[1], a[0]), h = dd_sub_d(a[3], a[2]);
-  if (!lead_in_range(w) || !lead_in_range(h)) return false;
+  if (!dd_lead_in_range(w) || !dd_lead_in_range(h)) return false;
   *out = dd_norm(w, h);
   return true;
 }
 
 bool dyd_filter_diameter(double out[2], const double a[4]) {
   dd d;
-  if (!diameter(&d, a)) return false;
-  inflate(out, d);
+  if (!dd_diameter(&d, a)) return false;
+  dd_inflate(out, d);
   return true;
 }
 
 /* The largest distance of a point of [a0,a1] to one of [b0,b1]. It is never negative:
  * (a1 - b0) + (b1 - a0) is the sum of the widths. */
-static dd farthest(const double a[2], const double b[2]) {
+static dd dd_farthest(const double a[2], const double b[2]) {
   return dd_max(dd_sub_d(a[1], b[0]), dd_sub_d(b[1], a[0]));
 }
 
 bool dyd_filter_reach(double out[2], const double a[4], const double b[4]) {
-  dd da, db, x = farthest(a, b), y = farthest(a + 2, b + 2);
-  if (!diameter(&da, a) || !diameter(&db, b) || !lead_in_range(x) || !lead_in_range(y)) return false;
+  dd da, db, x = dd_farthest(a, b), y = dd_farthest(a + 2, b + 2);
+  if (!dd_diameter(&da, a) || !dd_diameter(&db, b) || !dd_lead_in_range(x) || !dd_lead_in_range(y)) return false;
   dd length = dd_norm(x, y), half = {length.h / 2, length.l / 2};
-  inflate(out, dd_add(half, dd_max(da, db)));
+  dd_inflate(out, dd_add(half, dd_max(da, db)));
   return true;
 }

@@ -13,7 +13,7 @@
 bool dyd_filter_measure_usable(void);
 
 /* Twice the area of the hull of a and b. */
-bool dyd_filter_hull_area2(double out[2], const double a[4], const double b[4]);
+bool dyd_filter_partial_edge_area2(double out[2], const double a[4], const double b[4]);
 /* The largest distance of two points of a. */
 bool dyd_filter_diameter(double out[2], const double a[4]);
 /* Half the largest distance of a point of a to a point of b, plus the larger of the two diameters. */

@@ -49,42 +49,35 @@ void dyd_voronoi_sums_clear(dyd_voronoi_sums *s) {
   mpfr_clears(s->inner, s->term, (mpfr_ptr)0);
 }
 
-static void set_dyadic(mpfr_ptr out, const dyd_dyadic *x, mpfr_rnd_t rnd) {
+static void mpfr_from_dyadic(mpfr_ptr out, const dyd_dyadic *x, mpfr_rnd_t rnd) {
   mpfr_set_z_2exp(out, x->man, (mpfr_exp_t)x->exp, rnd);
 }
 
-static dyd_status add_exact(double area[2], dyd_voronoi_sums *s, const dyd_shape *shape) {
-  dyd_status status = dyd_shape_area2(&s->area2, shape, true);
-  if (status < 0) return status;
-  set_dyadic(s->term, &s->area2, MPFR_RNDU);
+static dyd_status add_exact_shape(double area[2], dyd_voronoi_sums *s, const dyd_shape *shape) {
+  dyd_status st = dyd_shape_area2(&s->area2, shape, true);
+  if (st != DYD_OK) return st;
+  mpfr_from_dyadic(s->term, &s->area2, MPFR_RNDU);
   mpfr_div_2ui(s->term, s->term, 1, MPFR_RNDU);
   area[1] = mpfr_get_d(s->term, MPFR_RNDU);
-  status = dyd_shape_area2(&s->area2, shape, false);
-  if (status < 0) return status;
-  set_dyadic(s->term, &s->area2, MPFR_RNDD);
+  st = dyd_shape_area2(&s->area2, shape, false);
+  if (st != DYD_OK) return st;
+  mpfr_from_dyadic(s->term, &s->area2, MPFR_RNDD);
   mpfr_div_2ui(s->term, s->term, 1, MPFR_RNDD);
   area[0] = mpfr_get_d(s->term, MPFR_RNDD);
   mpfr_add(s->inner, s->inner, s->term, MPFR_RNDD);
   return DYD_OK;
 }
 
-dyd_status dyd_voronoi_sums_add(double area[2], dyd_voronoi_sums *s, uint32_t i, const dyd_shape *shape) {
-  double box[4], own[2];
+/* Adds the shape of site i (no alias). */
+static dyd_status add_shape(double area[2], dyd_voronoi_sums *s, uint32_t i, const dyd_shape *shape) {
+  double box[4];
   dyd_sites_get_d(box, dyd_delaunay_sites(s->pd), i);
   s->reach[i] = dyd_filter_reach_of_shape(shape, box);
-  dyd_status status = DYD_OK;
-  if (shape->in_doubles) {
-    own[0] = shape->area[0];
-    own[1] = shape->area[1];
-    mpfr_add_d(s->inner, s->inner, own[0], MPFR_RNDD);
-  } else {
-    status = add_exact(own, s, shape);
-  }
-  if (status >= 0 && area) {
-    area[0] = own[0];
-    area[1] = own[1];
-  }
-  return status;
+  if (!shape->in_doubles) return add_exact_shape(area, s, shape);
+  area[0] = shape->area[0];
+  area[1] = shape->area[1];
+  mpfr_add_d(s->inner, s->inner, area[0], MPFR_RNDD);
+  return DYD_OK;
 }
 
 dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, void *context,
@@ -92,17 +85,17 @@ dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, vo
   size_t n = dyd_sites_count(dyd_delaunay_sites(s->pd));
   dyd_shape shape = {0};
   dyd_window w;
-  dyd_status status = dyd_window_init(&w, s->window);
-  for (size_t i = 0; i < n && status == DYD_OK; i++) {
+  dyd_status st = dyd_window_init(&w, s->window);
+  for (size_t i = 0; i < n && st == DYD_OK; i++) {
     double area[2];
     if (dyd_delaunay_alias(s->pd, (uint32_t)i) != i) continue;
-    if (i % 64 == 0 && dyd_flag_is_set(cancel)) status = DYD_CANCELLED;
-    if (status == DYD_OK) status = dyd_shape_find(&shape, s->pd, (uint32_t)i, &w, s->bits);
-    if (status == DYD_OK) status = dyd_voronoi_sums_add(area, s, (uint32_t)i, &shape);
-    if (status == DYD_OK && visit) status = visit(context, (uint32_t)i, &shape, area);
+    if (i % 64 == 0 && dyd_flag_is_set(cancel)) st = DYD_CANCELLED;
+    if (st == DYD_OK) st = dyd_shape_find(&shape, s->pd, (uint32_t)i, &w, s->bits);
+    if (st == DYD_OK) st = add_shape(area, s, (uint32_t)i, &shape);
+    if (st == DYD_OK && visit) st = visit(context, (uint32_t)i, &shape, area);
   }
   dyd_shape_clear(&shape);
-  return status;
+  return st;
 }
 
 /* ---- area ---- */
@@ -114,10 +107,10 @@ void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s) {
   mpfr_t exact;
   mpfr_init2(exact, mpfr_get_prec(s->inner));
   mpfr_set_inf(out, 1);
-  if (dyd_dyadic_sub(&side[0], &s->window->x.hi, &s->window->x.lo) >= 0 &&
-      dyd_dyadic_sub(&side[1], &s->window->y.hi, &s->window->y.lo) >= 0 &&
-      dyd_dyadic_mul(&area, &side[0], &side[1]) >= 0) {
-    set_dyadic(exact, &area, MPFR_RNDU);
+  if (dyd_dyadic_sub(&side[0], &s->window->x.hi, &s->window->x.lo) == DYD_OK &&
+      dyd_dyadic_sub(&side[1], &s->window->y.hi, &s->window->y.lo) == DYD_OK &&
+      dyd_dyadic_mul(&area, &side[0], &side[1]) == DYD_OK) {
+    mpfr_from_dyadic(exact, &area, MPFR_RNDU);
     mpfr_sub(out, exact, s->inner, MPFR_RNDU);
     if (mpfr_sgn(out) < 0) mpfr_set_zero(out, 1); /* rounded sums of what fills W */
   }
@@ -137,11 +130,11 @@ dyd_status dyd_voronoi_pair_hausdorff(mpfr_ptr out, bool *finite, const dyd_voro
   if (a < 0 || b < 0 || (dyd_sites_is_point(sites, pair->i) && dyd_sites_is_point(sites, pair->j))) return DYD_OK;
   mpfr_t gap, other;
   mpfr_inits2(DYD_MEASURE_PREC, gap, other, (mpfr_ptr)0);
-  dyd_status status = dyd_measure_gap(gap, m, pair->i, pair->j);
-  *finite = status < 0 || !mpfr_zero_p(gap);
-  if (status >= 0) status = dyd_measure_diameter(out, m, pair->i);
-  if (status >= 0) status = dyd_measure_diameter(other, m, pair->j);
-  if (status >= 0 && *finite) {
+  dyd_status st = dyd_measure_gap(gap, m, pair->i, pair->j);
+  *finite = st != DYD_OK || !mpfr_zero_p(gap);
+  if (st == DYD_OK) st = dyd_measure_diameter(out, m, pair->i);
+  if (st == DYD_OK) st = dyd_measure_diameter(other, m, pair->j);
+  if (st == DYD_OK && *finite) {
     mpfr_add(out, out, other, MPFR_RNDU);
     mpfr_set_d(other, a, MPFR_RNDU);
     mpfr_add_d(other, other, b, MPFR_RNDU);
@@ -152,11 +145,11 @@ dyd_status dyd_voronoi_pair_hausdorff(mpfr_ptr out, bool *finite, const dyd_voro
     if (mpfr_cmp_d(out, most) > 0) mpfr_set_d(out, most, MPFR_RNDU);
   }
   mpfr_clears(gap, other, (mpfr_ptr)0);
-  return status;
+  return st;
 }
 
 /* Can the pair not be above `most`? */
-static bool is_small(const dyd_voronoi_sums *s, const dyd_pair *pair, mpfr_srcptr most) {
+static bool pair_is_small(const dyd_voronoi_sums *s, const dyd_pair *pair, mpfr_srcptr most) {
   double a[4], b[4], ra = s->reach[pair->i], rb = s->reach[pair->j];
   if (ra < 0 || rb < 0) return true;
   dyd_sites_get_d(a, dyd_delaunay_sites(s->pd), pair->i);
@@ -169,19 +162,19 @@ dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_s
   dyd_measure m;
   mpfr_t one;
   bool open = false;
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   dyd_measure_init(&m, dyd_delaunay_sites(s->pd));
   mpfr_init2(one, DYD_MEASURE_PREC);
   mpfr_set_zero(out, 1);
   *finite = true;
-  for (size_t k = 0; k < pairs->count && status >= 0; k++) {
+  for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
     bool known;
-    if (is_small(s, &pairs->item[k], out)) continue;
-    status = dyd_voronoi_pair_hausdorff(one, &known, s, &m, &pairs->item[k]);
+    if (pair_is_small(s, &pairs->item[k], out)) continue;
+    st = dyd_voronoi_pair_hausdorff(one, &known, s, &m, &pairs->item[k]);
     open |= !known;
     if (known) mpfr_max(out, out, one, MPFR_RNDU);
   }
-  if (status >= 0 && open) {
+  if (st == DYD_OK && open) {
     double extent = dyd_filter_extent(finite, m.sites, s->window);
     if (*finite && !(extent < HUGE_VAL)) *finite = false;
     if (*finite)
@@ -195,7 +188,7 @@ dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_s
   }
   mpfr_clear(one);
   dyd_measure_clear(&m);
-  return status;
+  return st;
 }
 
 /* ---- public ---- */
@@ -215,14 +208,14 @@ dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, const dyd_voronoi_su
   dyd_pair_list pairs = {0};
   mpfr_t area, hausdorff;
   mpfr_inits2(DYD_MEASURE_PREC, area, hausdorff, (mpfr_ptr)0);
-  dyd_status status = dyd_delaunay_pairs(&pairs, s->pd);
+  dyd_status st = dyd_delaunay_pairs(&pairs, s->pd);
   dyd_voronoi_area(area, s);
-  if (status >= 0) status = dyd_voronoi_hausdorff(hausdorff, &out->finite, s, &pairs);
-  if (status >= 0) status = dyd_bound_to_dyadic(&out->area, area);
-  if (status >= 0) status = dyd_bound_to_dyadic(&out->hausdorff, hausdorff);
+  if (st == DYD_OK) st = dyd_voronoi_hausdorff(hausdorff, &out->finite, s, &pairs);
+  if (st == DYD_OK) st = dyd_bound_to_dyadic(&out->area, area);
+  if (st == DYD_OK) st = dyd_bound_to_dyadic(&out->hausdorff, hausdorff);
   mpfr_clears(area, hausdorff, (mpfr_ptr)0);
   dyd_pair_list_clear(&pairs);
-  return status;
+  return st;
 }
 
 dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits,
@@ -231,21 +224,21 @@ dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, c
   dyd_voronoi_bounds b;
   dyd_window w;
   if (bits < -DYD_EXP_LIMIT / 4 || bits > DYD_EXP_LIMIT / 4) return DYD_E_ARG;
-  dyd_status status = dyd_window_init(&w, window);
-  if (status < 0) return status;
+  dyd_status st = dyd_window_init(&w, window);
+  if (st != DYD_OK) return st;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   dyd_voronoi_bounds_init(&b);
-  status = dyd_voronoi_sums_init(&s, pd, window, bits);
-  if (status == DYD_OK) status = dyd_voronoi_sums_all(&s, NULL, NULL, cancel);
-  if (status == DYD_OK) status = dyd_voronoi_sums_bounds(&b, &s);
-  if (status == DYD_OK) {
+  st = dyd_voronoi_sums_init(&s, pd, window, bits);
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(&s, NULL, NULL, cancel);
+  if (st == DYD_OK) st = dyd_voronoi_sums_bounds(&b, &s);
+  if (st == DYD_OK) {
     dyd_dyadic_swap(&out->area, &b.area);
     dyd_dyadic_swap(&out->hausdorff, &b.hausdorff);
     out->finite = b.finite;
   }
   dyd_voronoi_sums_clear(&s);
   dyd_voronoi_bounds_clear(&b);
-  return status;
+  return st;
 }
 
 /* The perimeters of N cells of equal area in W are about 4 sqrt(N area(W)) in all, plus the perimeter of W. */
@@ -253,12 +246,12 @@ int64_t dyd_metric_flattening(const dyd_delaunay *pd, const dyd_rect *window, in
   mpfr_t side[2], length;
   size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
   mpfr_inits2(64, side[0], side[1], length, (mpfr_ptr)0);
-  set_dyadic(side[0], &window->x.hi, MPFR_RNDU);
-  set_dyadic(length, &window->x.lo, MPFR_RNDD);
-  mpfr_sub(side[0], side[0], length, MPFR_RNDU);
-  set_dyadic(side[1], &window->y.hi, MPFR_RNDU);
-  set_dyadic(length, &window->y.lo, MPFR_RNDD);
-  mpfr_sub(side[1], side[1], length, MPFR_RNDU);
+  for (int a = 0; a < 2; a++) {
+    const dyd_interval *s = a ? &window->y : &window->x;
+    mpfr_from_dyadic(side[a], &s->hi, MPFR_RNDU);
+    mpfr_from_dyadic(length, &s->lo, MPFR_RNDD);
+    mpfr_sub(side[a], side[a], length, MPFR_RNDU);
+  }
   mpfr_add(length, side[0], side[1], MPFR_RNDU);
   mpfr_mul_ui(length, length, 2, MPFR_RNDU);
   mpfr_mul(side[0], side[0], side[1], MPFR_RNDU);

@@ -21,9 +21,6 @@ typedef struct dyd_voronoi_sums {
 /* bits: of the polygons to come; sums are kept so precise that rounding does not spoil what these give. */
 dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits);
 void dyd_voronoi_sums_clear(dyd_voronoi_sums *s);
-/* Adds the shape of site i (no alias). area[0] <= area of Int_i n W and area[1] >= area of Pos_i n W as doubles, for
- * those who want them; may be NULL. */
-dyd_status dyd_voronoi_sums_add(double area[2], dyd_voronoi_sums *s, uint32_t i, const dyd_shape *shape);
 
 /* After all sites: initialised by the caller at DYD_MEASURE_PREC bits or more. */
 void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s);
@@ -37,8 +34,8 @@ dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, const dyd_voronoi_su
 dyd_status dyd_voronoi_pair_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, dyd_measure *m,
                                       const dyd_pair *pair);
 
-/* Called for every site that stands for itself, in order, with bounds of its areas as dyd_voronoi_sums_add gives them.
- */
+/* Called for every site that stands for itself, in order, with doubles area[0] <= area of Int_i n W and
+ * area[1] >= area of Pos_i n W. */
 typedef dyd_status (*dyd_voronoi_visit)(void *context, uint32_t i, const dyd_shape *shape, const double area[2]);
 /* Makes the polygons of all cells once, adds them up and shows them to `visit`, whose status ends the walk unless it is
  * DYD_OK. visit and cancel may be NULL; DYD_CANCELLED once *cancel is set. */

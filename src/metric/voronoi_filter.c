@@ -8,7 +8,7 @@
 
 #define SAFE (1 + 32 * 0x1p-53)
 
-static dyd_bbox of_point(const dyd_point *z) {
+static dyd_bbox box_of_dyadic_point(const dyd_point *z) {
   return (dyd_bbox){{dyd_dyadic_get_d(&z->x, DYD_DOWN), dyd_dyadic_get_d(&z->x, DYD_UP),
                      dyd_dyadic_get_d(&z->y, DYD_DOWN), dyd_dyadic_get_d(&z->y, DYD_UP)}};
 }
@@ -25,14 +25,14 @@ double dyd_filter_reach_of_shape(const dyd_shape *s, const double box[4]) {
   }
   for (size_t p = 0; p < s->outer_exact.count; p++)
     for (size_t k = 0; k < s->outer_exact.item[p].count; k++) {
-      dyd_bbox c = of_point(&s->outer_exact.item[p].vertex[k]);
+      dyd_bbox c = box_of_dyadic_point(&s->outer_exact.item[p].vertex[k]);
       double d = dyd_dl2_upper(&c, &own);
       most = d <= DBL_MAX ? dyd_max(most, d) : HUGE_VAL;
     }
   return most < 0 ? most : sqrt(most) * SAFE;
 }
 
-static double diameter_upper(const double a[4]) {
+static double box_diameter_upper(const double a[4]) {
   double x = a[1] - a[0], y = a[3] - a[2];
   return sqrt(dyd_upper(x * x + y * y)) * SAFE;
 }
@@ -41,7 +41,7 @@ double dyd_filter_voronoi_pair(const double a[4], const double b[4], double ra, 
   dyd_bbox p = {{a[0], a[1], a[2], a[3]}}, q = {{b[0], b[1], b[2], b[3]}};
   double gap = dyd_ds2_lower(&p, &q); /* over centres in p: the distance of the boxes */
   if (!(gap >= 0x1p-600)) return HUGE_VAL;
-  double value = (diameter_upper(a) + diameter_upper(b)) * (ra + rb) / (2 * sqrt(gap)) * SAFE + DYD_TINY;
+  double value = (box_diameter_upper(a) + box_diameter_upper(b)) * (ra + rb) / (2 * sqrt(gap)) * SAFE + DYD_TINY;
   return value <= DBL_MAX ? value : HUGE_VAL;
 }
 
@@ -61,5 +61,5 @@ double dyd_filter_extent(bool *disjoint, const dyd_sites *s, const dyd_rect *win
     }
   }
   *disjoint = most_lo[0] > least_hi[0] || most_lo[1] > least_hi[1];
-  return diameter_upper(all);
+  return box_diameter_upper(all);
 }

@@ -29,13 +29,8 @@ void dyd_circle_set(dyd_circle *out, const dyd_circle *c) {
   mpz_set(out->dr, c->dr);
 }
 
-/* z * 2^e for e > 0 */
-static void shift_up(mpz_ptr z, int64_t e) {
-  if (e > 0) mpz_mul_2exp(z, z, (mp_bitcnt_t)e);
-}
-
 /* radius^2 = u^2 + v^2, u = (au + bx sqrt c) / d with au = ax - px d. */
-static void set_radius(dyd_circle *out, const dyd_icircle *k) {
+static void circle_set_radius(dyd_circle *out, const dyd_icircle *k) {
   mpz_t u, v;
   mpz_init_set(u, k->ax);
   mpz_init_set(v, k->ay);
@@ -55,7 +50,7 @@ static void set_radius(dyd_circle *out, const dyd_icircle *k) {
 }
 
 void dyd_circle_unscale(dyd_circle *out, const dyd_icircle *k, mpz_srcptr man, int64_t exp) {
-  set_radius(out, k);
+  circle_set_radius(out, k);
   mpz_set(out->ax, k->ax);
   mpz_set(out->bx, k->bx);
   mpz_set(out->ay, k->ay);
@@ -64,30 +59,30 @@ void dyd_circle_unscale(dyd_circle *out, const dyd_icircle *k, mpz_srcptr man, i
   mpz_mul(out->d, k->d, man);
   mpz_mul(out->dr, out->dr, man);
   mpz_mul(out->dr, out->dr, man);
-  shift_up(out->d, exp);
-  shift_up(out->dr, 2 * exp);
+  dyd_shift_up(out->d, exp);
+  dyd_shift_up(out->dr, 2 * exp);
   mpz_ptr centre[4] = {out->ax, out->bx, out->ay, out->by}, radius[2] = {out->ar, out->br};
-  for (int i = 0; i < 4; i++) shift_up(centre[i], -exp);
-  for (int i = 0; i < 2; i++) shift_up(radius[i], -2 * exp);
+  for (int i = 0; i < 4; i++) dyd_shift_up(centre[i], -exp);
+  for (int i = 0; i < 2; i++) dyd_shift_up(radius[i], -2 * exp);
 }
 
 /* k and r multiplied by F, then both by 2^-exp if exp < 0, which makes everything an integer again. */
-static void rescale(dyd_circle *k, dyd_irect *r, mpz_srcptr man, int64_t exp) {
+static void circle_rescale(dyd_circle *k, dyd_irect *r, mpz_srcptr man, int64_t exp) {
   mpz_ptr centre[4] = {k->ax, k->bx, k->ay, k->by}, radius[2] = {k->ar, k->br}, end[4] = {r->x0, r->x1, r->y0, r->y1};
   for (int i = 0; i < 4; i++) {
     mpz_mul(centre[i], centre[i], man);
-    shift_up(centre[i], exp);
-    shift_up(end[i], -exp);
+    dyd_shift_up(centre[i], exp);
+    dyd_shift_up(end[i], -exp);
   }
   for (int i = 0; i < 2; i++) {
     mpz_mul(radius[i], radius[i], man);
     mpz_mul(radius[i], radius[i], man);
-    shift_up(radius[i], 2 * exp);
+    dyd_shift_up(radius[i], 2 * exp);
   }
 }
 
 /* p + q sqrt c += d^2 ((a + b sqrt c) / d - z)^2; nothing for z = NULL (the distance along this axis is 0). */
-static void add_square(mpz_ptr p, mpz_ptr q, mpz_ptr t, const dyd_surd *s, mpz_srcptr z) {
+static void circle_add_square(mpz_ptr p, mpz_ptr q, mpz_ptr t, const dyd_surd *s, mpz_srcptr z) {
   if (!z) return;
   mpz_mul(t, s->b, s->b);
   mpz_addmul(p, t, s->c);
@@ -99,13 +94,15 @@ static void add_square(mpz_ptr p, mpz_ptr q, mpz_ptr t, const dyd_surd *s, mpz_s
 }
 
 /* Sign of distance^2 - radius^2 = (p + q sqrt c) / d^2 - (ar + br sqrt c) / dr. */
-static int side(const dyd_circle *k, const dyd_irect *r, dyd_touch touch) {
+static int circle_side_scaled(const dyd_circle *k, const dyd_irect *r, dyd_touch touch) {
   bool far = touch == DYD_FARTHEST;
   dyd_surd ox = {k->ax, k->bx, k->c, k->d}, oy = {k->ay, k->by, k->c, k->d};
   mpz_t p, q, s, t;
   mpz_inits(p, q, s, t, NULL);
-  add_square(p, q, t, &ox, far ? dyd_surd_farthest(s, t, &ox, r->x0, r->x1) : dyd_surd_closest(t, &ox, r->x0, r->x1));
-  add_square(p, q, t, &oy, far ? dyd_surd_farthest(s, t, &oy, r->y0, r->y1) : dyd_surd_closest(t, &oy, r->y0, r->y1));
+  circle_add_square(p, q, t, &ox,
+                    far ? dyd_surd_farthest(s, t, &ox, r->x0, r->x1) : dyd_surd_closest(t, &ox, r->x0, r->x1));
+  circle_add_square(p, q, t, &oy,
+                    far ? dyd_surd_farthest(s, t, &oy, r->y0, r->y1) : dyd_surd_closest(t, &oy, r->y0, r->y1));
   mpz_mul(p, p, k->dr);
   mpz_mul(q, q, k->dr);
   mpz_mul(t, k->d, k->d);
@@ -126,8 +123,8 @@ int dyd_circle_side(const dyd_circle *c, const dyd_rect *r, dyd_touch touch) {
   mpz_init(man);
   dyd_irects_scale(&scaled, &r, 1, man, &exp);
   dyd_circle_set(&k, c);
-  rescale(&k, &scaled, man, exp);
-  int sign = side(&k, &scaled, touch);
+  circle_rescale(&k, &scaled, man, exp);
+  int sign = circle_side_scaled(&k, &scaled, touch);
   mpz_clear(man);
   dyd_irect_clear(&scaled);
   dyd_circle_clear(&k);

@@ -6,21 +6,22 @@
 #include "predicate/predicate_filter.h"
 #include "rect/irect.h"
 
-static bool hulls_disjoint(const dyd_rect *const r[4]) {
+static bool partial_edges_disjoint(const dyd_rect *const r[4]) {
   dyd_box box[4];
   for (int k = 0; k < 4; k++) dyd_filter_box(&box[k], r[k]);
-  dyd_truth answer = dyd_filter_hulls_disjoint(&box[0], &box[1], &box[2], &box[3]);
+  dyd_truth answer = dyd_filter_partial_edges_disjoint(&box[0], &box[1], &box[2], &box[3]);
   if (answer != DYD_UNKNOWN) return answer == DYD_TRUE;
-  return dyd_hulls_disjoint(r[0], r[1], r[2], r[3]);
+  return dyd_partial_edges_disjoint(r[0], r[1], r[2], r[3]);
 }
 
 dyd_truth dyd_cannot_displace(const dyd_rect *i, const dyd_rect *j, const dyd_rect *a, const dyd_rect *b) {
   const dyd_rect *const r[4] = {i, j, a, b};
-  bool cannot = hulls_disjoint(r) || dyd_con(a, i, j, b) == DYD_SURE_MINUS || dyd_con(b, i, j, a) == DYD_SURE_MINUS;
+  bool cannot =
+      partial_edges_disjoint(r) || dyd_con(a, i, j, b) == DYD_SURE_MINUS || dyd_con(b, i, j, a) == DYD_SURE_MINUS;
   return cannot ? DYD_TRUE : DYD_UNKNOWN;
 }
 
-static int compare_exact(const dyd_point *c, const dyd_rect *const in[2], const dyd_touch touch[2]) {
+static int compare_distance_exact(const dyd_point *c, const dyd_rect *const in[2], const dyd_touch touch[2]) {
   dyd_irect r[2];
   mpz_t cx, cy, distance[2];
   for (int k = 0; k < 2; k++) {
@@ -60,7 +61,7 @@ int dyd_compare_distance(const dyd_point *c, const dyd_rect *a, dyd_touch ta, co
   }
   if (distance[0].hi < distance[1].lo) return -1;
   if (distance[0].lo > distance[1].hi) return 1;
-  return compare_exact(c, in, touch);
+  return compare_distance_exact(c, in, touch);
 }
 
 dyd_truth dyd_nearer(const dyd_point *c, const dyd_rect *a, const dyd_rect *b) {

@@ -41,9 +41,7 @@ void dyd_icircle_centre_d(double out[4], const dyd_icircle *k, int64_t shift);
 
 /* Exact rungs of the predicates on integer rectangles. */
 dyd_sure dyd_irect_orientation(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c);
-/* r against the partial disc of a, b, c; UNSURE unless a, b, c are surely oriented. */
-dyd_sure dyd_irect_con(const dyd_irect *r, const dyd_irect *a, const dyd_irect *b, const dyd_irect *c);
-/* The same for a triple already known to be surely oriented, PLUS or MINUS. */
+/* r against the partial disc of a triple that is known to be surely oriented, PLUS or MINUS. */
 dyd_sure dyd_irect_con_oriented(const dyd_irect *r, const dyd_irect *const abc[3], dyd_sure orientation);
 
 #endif

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* All critical circles of three integer rectangles.
  *
- * [CRIT-1] A circle that meets r[m] as touch[m] says has its centre in some cell of predicate/cell.h, where its three
+ * [CRIT-1] A circle that meets r[m] as touch[m] says has its centre in some pane of predicate/pane.h, where its three
  * features are known; a C-rectangle around the centre has ds = 0, which is no circle. Conversely a centre in a closed
- * cell, found from the features of that cell, has exactly these features at distance ds or dl. So the circles are the
- * solutions of predicate/solve.c, cell by cell, whose centre is in the cell. Some rectangle is F, hence some corner is
+ * pane, found from the features of that pane, has exactly these features at distance ds or dl. So the circles are the
+ * solutions of predicate/solve.c, pane by pane, whose centre is in the pane. Some rectangle is F, hence some corner is
  * on the circle. */
 #include "base/invariant.h"
-#include "predicate/cell.h"
+#include "predicate/pane.h"
 #include "predicate/solve.h"
 
 /* Everything one call needs, allocated once. */
@@ -22,7 +22,7 @@ typedef struct search {
   mpz_t s, t;
 } search;
 
-static void search_init(search *q) {
+static void circle_search_init(search *q) {
   for (int k = 0; k < 2; k++) dyd_axis_init(&q->axis[k]);
   dyd_feature_init(&q->f);
   dyd_feature_init(&q->g);
@@ -32,7 +32,7 @@ static void search_init(search *q) {
   mpz_init(q->t);
 }
 
-static void search_clear(search *q) {
+static void circle_search_clear(search *q) {
   mpz_clear(q->t);
   mpz_clear(q->s);
   dyd_icircle_clear(&q->circle);
@@ -43,7 +43,7 @@ static void search_clear(search *q) {
 }
 
 /* Coordinates relative to a corner of the base, cut so that products of four stay below 2^1000. */
-static int64_t choose_shift(search *q) {
+static int64_t circles_choose_shift(search *q) {
   const dyd_irect *o = q->r[q->base];
   size_t bits = 0;
   for (int m = 0; m < 3; m++) {
@@ -57,8 +57,8 @@ static int64_t choose_shift(search *q) {
   return bits > 200 ? (int64_t)bits - 200 : 0;
 }
 
-/* The feature of rectangle m in a cell, relative to the corner of the base; false: the centre itself. */
-static bool set_feature(dyd_feature *out, const dyd_slab *const s[2], int m, int base) {
+/* The feature of rectangle m in a pane, relative to the corner of the base; false: the centre itself. */
+static bool circles_set_feature(dyd_feature *out, const dyd_slab *const s[2], int m, int base) {
   for (int k = 0; k < 2; k++) {
     mpz_srcptr at = s[k]->mark[m].at;
     out->has[k] = at != NULL;
@@ -68,7 +68,7 @@ static bool set_feature(dyd_feature *out, const dyd_slab *const s[2], int m, int
 }
 
 /* circle = centre + corner of the base; false when the radius is 0. */
-static bool place(search *q, const dyd_slab *const s[2]) {
+static bool circle_place(search *q, const dyd_slab *const s[2]) {
   dyd_centre *o = &q->centre;
   dyd_icircle *k = &q->circle;
   if (!dyd_sqrt_sign(o->a[0], o->b[0], o->c) && !dyd_sqrt_sign(o->a[1], o->b[1], o->c)) return false;
@@ -86,7 +86,7 @@ static bool place(search *q, const dyd_slab *const s[2]) {
 }
 
 /* Is the coordinate (a + b sqrt c) / d within the slab? */
-static bool within(search *q, mpz_srcptr a, mpz_srcptr b, const dyd_slab *s) {
+static bool within_slab(search *q, mpz_srcptr a, mpz_srcptr b, const dyd_slab *s) {
   const dyd_icircle *k = &q->circle;
   mpz_mul_2exp(q->s, b, 1);
   for (int side = 0; side < 2; side++) {
@@ -100,22 +100,23 @@ static bool within(search *q, mpz_srcptr a, mpz_srcptr b, const dyd_slab *s) {
   return true;
 }
 
-static bool is_new(const dyd_icircle *out, size_t count, const dyd_icircle *k) {
+static bool circle_is_new(const dyd_icircle *out, size_t count, const dyd_icircle *k) {
   for (size_t i = 0; i < count; i++) {
     if (!dyd_icircle_compare(&out[i], k, 0) && !dyd_icircle_compare(&out[i], k, 1)) return false;
   }
   return true;
 }
 
-/* Adds the circles of one cell. */
-static size_t search_cell(search *q, dyd_icircle *out, size_t count, size_t room, const dyd_slab *const s[2]) {
-  if (!set_feature(&q->f, s, (q->base + 1) % 3, q->base)) return count;
-  if (!set_feature(&q->g, s, (q->base + 2) % 3, q->base)) return count;
-  if (dyd_filter_cell_empty(s[0], s[1], q->base)) return count;
+/* Adds the circles of one pane. */
+static size_t search_pane(search *q, dyd_icircle *out, size_t count, size_t room, const dyd_slab *const s[2]) {
+  if (!circles_set_feature(&q->f, s, (q->base + 1) % 3, q->base)) return count;
+  if (!circles_set_feature(&q->g, s, (q->base + 2) % 3, q->base)) return count;
+  if (dyd_filter_pane_empty(s[0], s[1], q->base)) return count;
   for (int which = 0; which < DYD_CENTRES_MAX && count < room; which++) {
-    if (!dyd_solve(&q->centre, &q->f, &q->g, which) || !place(q, s)) continue;
-    if (!within(q, q->circle.ax, q->circle.bx, s[0]) || !within(q, q->circle.ay, q->circle.by, s[1])) continue;
-    if (is_new(out, count, &q->circle)) dyd_icircle_swap(&out[count++], &q->circle);
+    if (!dyd_solve(&q->centre, &q->f, &q->g, which) || !circle_place(q, s)) continue;
+    if (!within_slab(q, q->circle.ax, q->circle.bx, s[0]) || !within_slab(q, q->circle.ay, q->circle.by, s[1]))
+      continue;
+    if (circle_is_new(out, count, &q->circle)) dyd_icircle_swap(&out[count++], &q->circle);
   }
   return count;
 }
@@ -124,17 +125,17 @@ size_t dyd_icircles(dyd_icircle *out, size_t room, const dyd_irect *const r[3], 
   search q = {.r = r, .touch = touch, .base = 0};
   while (q.base < 3 && touch[q.base] != DYD_FARTHEST) q.base++;
   DYD_INVARIANT(q.base < 3);
-  search_init(&q);
-  int64_t shift = choose_shift(&q);
+  circle_search_init(&q);
+  int64_t shift = circles_choose_shift(&q);
   dyd_axis_set(&q.axis[0], r, touch, 0, r[q.base]->x0, shift);
   dyd_axis_set(&q.axis[1], r, touch, 1, r[q.base]->y0, shift);
   size_t count = 0;
   for (size_t i = 0; i < q.axis[0].slabs; i++) {
     for (size_t j = 0; j < q.axis[1].slabs && count < room; j++) {
       const dyd_slab *s[2] = {&q.axis[0].slab[i], &q.axis[1].slab[j]};
-      count = search_cell(&q, out, count, room, s);
+      count = search_pane(&q, out, count, room, s);
     }
   }
-  search_clear(&q);
+  circle_search_clear(&q);
   return count;
 }

@@ -9,8 +9,8 @@
 #include "predicate/icircle.h"
 
 /* The value of `sign` * det(p,q,r) least over p in a is positive.  */
-static bool all_turn(const dyd_irect *a, mpz_srcptr qx, mpz_srcptr qy, mpz_srcptr rx, mpz_srcptr ry, int sign,
-                     mpz_ptr scratch[4]) {
+static bool corners_turn(const dyd_irect *a, mpz_srcptr qx, mpz_srcptr qy, mpz_srcptr rx, mpz_srcptr ry, int sign,
+                         mpz_ptr scratch[4]) {
   mpz_ptr nx = scratch[0], ny = scratch[1], s = scratch[2], det = scratch[3];
   mpz_sub(nx, qy, ry);
   mpz_sub(ny, rx, qx);
@@ -23,8 +23,8 @@ static bool all_turn(const dyd_irect *a, mpz_srcptr qx, mpz_srcptr qy, mpz_srcpt
 
 static bool surely_turns(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c, int sign, mpz_ptr scratch[4]) {
   for (int k = 0; k < 16; k++) {
-    if (!all_turn(a, k & 1 ? b->x1 : b->x0, k & 2 ? b->y1 : b->y0, k & 4 ? c->x1 : c->x0, k & 8 ? c->y1 : c->y0, sign,
-                  scratch)) {
+    if (!corners_turn(a, k & 1 ? b->x1 : b->x0, k & 2 ? b->y1 : b->y0, k & 4 ? c->x1 : c->x0, k & 8 ? c->y1 : c->y0,
+                      sign, scratch)) {
       return false;
     }
   }
@@ -66,7 +66,7 @@ static int corner_in_circle(const dyd_irect *r, const dyd_irect *const abc[3], d
 }
 
 /* Is r on the side `sign` of the three circles in which one rectangle has the touch `odd` and the others not? */
-static bool beyond_all(const dyd_irect *r, const dyd_irect *const abc[3], dyd_touch odd, int sign) {
+static bool beyond_critical_circles(const dyd_irect *r, const dyd_irect *const abc[3], dyd_touch odd, int sign) {
   dyd_touch even = odd == DYD_FARTHEST ? DYD_CLOSEST : DYD_FARTHEST;
   dyd_icircle circle;
   dyd_icircle_init(&circle);
@@ -82,13 +82,7 @@ static bool beyond_all(const dyd_irect *r, const dyd_irect *const abc[3], dyd_to
 
 dyd_sure dyd_irect_con_oriented(const dyd_irect *r, const dyd_irect *const abc[3], dyd_sure orientation) {
   int sign = corner_in_circle(r, abc, orientation);
-  if (sign > 0 && beyond_all(r, abc, DYD_FARTHEST, -1)) return DYD_SURE_PLUS;
-  if (sign < 0 && beyond_all(r, abc, DYD_CLOSEST, 1)) return DYD_SURE_MINUS;
+  if (sign > 0 && beyond_critical_circles(r, abc, DYD_FARTHEST, -1)) return DYD_SURE_PLUS;
+  if (sign < 0 && beyond_critical_circles(r, abc, DYD_CLOSEST, 1)) return DYD_SURE_MINUS;
   return DYD_UNSURE;
-}
-
-dyd_sure dyd_irect_con(const dyd_irect *r, const dyd_irect *a, const dyd_irect *b, const dyd_irect *c) {
-  dyd_sure orientation = dyd_irect_orientation(a, b, c);
-  const dyd_irect *const abc[3] = {a, b, c};
-  return orientation == DYD_UNSURE ? DYD_UNSURE : dyd_irect_con_oriented(r, abc, orientation);
 }

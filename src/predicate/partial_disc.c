@@ -9,7 +9,7 @@
 enum { F_ONCE = 3, CIRCLES = 6 };
 
 /* FCC CFC CCF CFF FCF FFC */
-static void labels(dyd_touch out[3], int number) {
+static void circle_labels(dyd_touch out[3], int number) {
   dyd_touch odd = number < F_ONCE ? DYD_FARTHEST : DYD_CLOSEST, even = number < F_ONCE ? DYD_CLOSEST : DYD_FARTHEST;
   for (int k = 0; k < 3; k++) out[k] = k == number % F_ONCE ? odd : even;
 }
@@ -32,7 +32,7 @@ static void triple_clear(triple *t) {
   for (int k = 3; k-- > 0;) dyd_irect_clear(&t->r[k]);
 }
 
-static bool find(dyd_circle *out, const triple *t, const dyd_touch touch[3]) {
+static bool find_critical_circle(dyd_circle *out, const triple *t, const dyd_touch touch[3]) {
   const dyd_irect *r[3] = {&t->r[0], &t->r[1], &t->r[2]};
   dyd_icircle k;
   dyd_icircle_init(&k);
@@ -47,7 +47,7 @@ dyd_status dyd_critical_circle(dyd_circle *out, const dyd_rect *const r[3], cons
   if (dyd_orientation(r[0], r[1], r[2]) == DYD_UNSURE) return DYD_E_ARG;
   triple t;
   triple_init(&t, r);
-  bool found = find(out, &t, touch);
+  bool found = find_critical_circle(out, &t, touch);
   triple_clear(&t);
   return found ? DYD_OK : DYD_E_ARG;
 }
@@ -74,14 +74,14 @@ void dyd_partial_disc_set(dyd_partial_disc *out, const dyd_rect *a, const dyd_re
       dyd_circle_set(&out->circle[k], &out->circle[0]);
       continue;
     }
-    labels(touch, k);
-    out->known = find(&out->circle[k], &t, touch);
+    circle_labels(touch, k);
+    out->known = find_critical_circle(&out->circle[k], &t, touch);
   }
   triple_clear(&t);
 }
 
 /* Is r on the side `sign` of circles first .. first + 2, in the given sense? */
-static bool beyond(const dyd_partial_disc *d, int first, const dyd_rect *r, dyd_touch touch, int sign) {
+static bool beyond_circles(const dyd_partial_disc *d, int first, const dyd_rect *r, dyd_touch touch, int sign) {
   for (int k = first; k < first + F_ONCE; k++) {
     if (dyd_circle_side(&d->circle[k], r, touch) != sign) return false;
   }
@@ -90,7 +90,7 @@ static bool beyond(const dyd_partial_disc *d, int first, const dyd_rect *r, dyd_
 
 dyd_sure dyd_partial_disc_con(const dyd_partial_disc *d, const dyd_rect *r) {
   if (!d->known) return DYD_UNSURE;
-  if (beyond(d, 0, r, DYD_FARTHEST, -1)) return DYD_SURE_PLUS;
-  if (beyond(d, F_ONCE, r, DYD_CLOSEST, 1)) return DYD_SURE_MINUS;
+  if (beyond_circles(d, 0, r, DYD_FARTHEST, -1)) return DYD_SURE_PLUS;
+  if (beyond_circles(d, F_ONCE, r, DYD_CLOSEST, 1)) return DYD_SURE_MINUS;
   return DYD_UNSURE;
 }

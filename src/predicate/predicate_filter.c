@@ -35,14 +35,14 @@ static dyd_iv side_y(const double a[4]) {
 }
 
 /* p q - r s */
-static dyd_iv det2(dyd_iv p, dyd_iv q, dyd_iv r, dyd_iv s) {
+static dyd_iv iv_det2(dyd_iv p, dyd_iv q, dyd_iv r, dyd_iv s) {
   return dyd_iv_sub(dyd_iv_mul(p, q), dyd_iv_mul(r, s));
 }
 
 static int sign_of_boxes(const double a[4], const double b[4], const double c[4]) {
   dyd_iv ux = dyd_iv_sub(side_x(b), side_x(a)), uy = dyd_iv_sub(side_y(b), side_y(a));
   dyd_iv vx = dyd_iv_sub(side_x(c), side_x(a)), vy = dyd_iv_sub(side_y(c), side_y(a));
-  return dyd_iv_sign(det2(ux, vy, uy, vx));
+  return dyd_iv_sign(iv_det2(ux, vy, uy, vx));
 }
 
 static int sign_of_points(double px, double py, double qx, double qy, double rx, double ry) {
@@ -83,7 +83,7 @@ dyd_sure dyd_filter_incircle(const double a[4], const double b[4], const double 
   for (int k = 0; k < 3; k++) {
     int i = (k + 1) % 3, j = (k + 2) % 3;
     dyd_iv norm = dyd_iv_add(dyd_iv_sqr(x[k]), dyd_iv_sqr(y[k]));
-    sum = dyd_iv_add(sum, dyd_iv_mul(norm, det2(x[i], y[j], x[j], y[i])));
+    sum = dyd_iv_add(sum, dyd_iv_mul(norm, iv_det2(x[i], y[j], x[j], y[i])));
   }
   int sign = dyd_iv_sign(sum);
   return sign > 0 ? DYD_SURE_PLUS : sign < 0 ? DYD_SURE_MINUS : DYD_UNSURE;
@@ -91,14 +91,14 @@ dyd_sure dyd_filter_incircle(const double a[4], const double b[4], const double 
 
 /* A point of box a: closest to t (far = false) or farthest from it. Any double between the ends is a choice, so t
  * need not be accurate. */
-static double choose(double t, double lo, double hi, bool far) {
+static double choose_end(double t, double lo, double hi, bool far) {
   if (far) return t - lo > hi - t ? lo : hi;
   return t < lo ? lo : t > hi ? hi : t;
 }
 
-static void choose_point(double out[4], const double t[2], const double a[4], bool far) {
-  out[0] = out[1] = choose(t[0], a[0], a[1], far);
-  out[2] = out[3] = choose(t[1], a[2], a[3], far);
+static void choose_box_point(double out[4], const double t[2], const double a[4], bool far) {
+  out[0] = out[1] = choose_end(t[0], a[0], a[1], far);
+  out[2] = out[3] = choose_end(t[1], a[2], a[3], far);
 }
 
 /* About the centre of the circle through the middles; false when that is not a number. */
@@ -118,10 +118,10 @@ bool dyd_filter_incircle_mixed(const double a[4], const double b[4], const doubl
   dyd_sure sign[2];
   if (!guess_centre(t, a, b, c)) return false;
   for (int far = 0; far < 2; far++) {
-    choose_point(p[0], t, a, far);
-    choose_point(p[1], t, b, far);
-    choose_point(p[2], t, c, far);
-    choose_point(p[3], t, d, !far);
+    choose_box_point(p[0], t, a, far);
+    choose_box_point(p[1], t, b, far);
+    choose_box_point(p[2], t, c, far);
+    choose_box_point(p[3], t, d, !far);
     sign[far] = dyd_filter_incircle(p[0], p[1], p[2], p[3]);
   }
   return (int)sign[0] * (int)sign[1] < 0;

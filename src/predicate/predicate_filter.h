@@ -40,7 +40,7 @@ dyd_sure dyd_filter_incircle(const double a[4], const double b[4], const double 
 bool dyd_filter_incircle_mixed(const double a[4], const double b[4], const double c[4], const double d[4]);
 
 /* TRUE: the convex hulls of a u b and of c u d are disjoint; FALSE (exact boxes only): they meet. */
-dyd_truth dyd_filter_hulls_disjoint(const dyd_box *a, const dyd_box *b, const dyd_box *c, const dyd_box *d);
+dyd_truth dyd_filter_partial_edges_disjoint(const dyd_box *a, const dyd_box *b, const dyd_box *c, const dyd_box *d);
 
 /* Enclosure of the square of the closest or farthest distance from c to r. */
 dyd_iv dyd_filter_distance2(dyd_iv cx, dyd_iv cy, const dyd_box *r, dyd_touch touch);

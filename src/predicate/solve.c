@@ -30,42 +30,42 @@ void dyd_centre_clear(dyd_centre *k) {
 }
 
 /* s = |f|^2 */
-static void norm2(mpz_ptr s, const dyd_feature *f) {
+static void feature_norm2(mpz_ptr s, const dyd_feature *f) {
   mpz_mul(s, f->at[0], f->at[0]);
   mpz_addmul(s, f->at[1], f->at[1]);
 }
 
-static void make_rational(dyd_centre *out) {
+static void centre_make_rational(dyd_centre *out) {
   mpz_set_ui(out->b[0], 0);
   mpz_set_ui(out->b[1], 0);
   mpz_set_ui(out->c, 0);
 }
 
-static void make_denominator_positive(dyd_centre *out) {
+static void centre_make_positive(dyd_centre *out) {
   if (mpz_sgn(out->d) > 0) return;
   mpz_neg(out->d, out->d);
   mpz_neg(out->a[0], out->a[0]);
   mpz_neg(out->a[1], out->a[1]);
 }
 
-static bool two_points(dyd_centre *out, const dyd_feature *f, const dyd_feature *g) {
+static bool solve_two_points(dyd_centre *out, const dyd_feature *f, const dyd_feature *g) {
   mpz_mul(out->d, f->at[0], g->at[1]);
   mpz_submul(out->d, g->at[0], f->at[1]);
   if (!mpz_sgn(out->d)) return false;
   mpz_mul_2exp(out->d, out->d, 1);
-  norm2(out->s, f);
-  norm2(out->t, g);
+  feature_norm2(out->s, f);
+  feature_norm2(out->t, g);
   mpz_mul(out->a[0], out->s, g->at[1]);
   mpz_submul(out->a[0], out->t, f->at[1]);
   mpz_mul(out->a[1], f->at[0], out->t);
   mpz_submul(out->a[1], g->at[0], out->s);
-  make_rational(out);
-  make_denominator_positive(out);
+  centre_make_rational(out);
+  centre_make_positive(out);
   return true;
 }
 
 /* a = 0: a line parallel to the join of the origin and the point. */
-static bool point_beside_line(dyd_centre *out, mpz_srcptr b, mpz_srcptr l, int k) {
+static bool solve_point_beside_line(dyd_centre *out, mpz_srcptr b, mpz_srcptr l, int k) {
   if (!mpz_sgn(b) || !mpz_sgn(l)) return false;
   mpz_mul_2exp(out->d, l, 3);
   mpz_mul(out->a[1 - k], b, l);
@@ -73,19 +73,19 @@ static bool point_beside_line(dyd_centre *out, mpz_srcptr b, mpz_srcptr l, int k
   mpz_mul(out->a[k], l, l);
   mpz_mul_2exp(out->a[k], out->a[k], 2);
   mpz_submul(out->a[k], b, b);
-  make_rational(out);
-  make_denominator_positive(out);
+  centre_make_rational(out);
+  centre_make_positive(out);
   return true;
 }
 
-static bool point_and_line(dyd_centre *out, const dyd_feature *point, const dyd_feature *line, int which) {
+static bool solve_point_and_line(dyd_centre *out, const dyd_feature *point, const dyd_feature *line, int which) {
   int k = line->has[0] ? 0 : 1;
   mpz_srcptr a = point->at[k], b = point->at[1 - k], l = line->at[k];
-  if (!mpz_sgn(a)) return which == 0 && point_beside_line(out, b, l, k);
+  if (!mpz_sgn(a)) return which == 0 && solve_point_beside_line(out, b, l, k);
   mpz_sub(out->t, l, a);
   mpz_mul(out->t, out->t, l);
   if (mpz_sgn(out->t) < 0 || (which && !mpz_sgn(out->t))) return false;
-  norm2(out->s, point);
+  feature_norm2(out->s, point);
   mpz_mul(out->c, out->s, out->t);
   mpz_mul(out->d, a, a);
   mpz_mul_2exp(out->d, out->d, 1);
@@ -100,7 +100,7 @@ static bool point_and_line(dyd_centre *out, const dyd_feature *point, const dyd_
   return true;
 }
 
-static bool parallel_lines(dyd_centre *out, mpz_srcptr l, mpz_srcptr m, int k, int which) {
+static bool solve_parallel_lines(dyd_centre *out, mpz_srcptr l, mpz_srcptr m, int k, int which) {
   mpz_mul(out->c, l, m);
   mpz_neg(out->c, out->c);
   if (!mpz_cmp(l, m) || mpz_sgn(out->c) < 0 || (which && !mpz_sgn(out->c))) return false;
@@ -112,7 +112,7 @@ static bool parallel_lines(dyd_centre *out, mpz_srcptr l, mpz_srcptr m, int k, i
   return true;
 }
 
-static bool crossing_lines(dyd_centre *out, mpz_srcptr l, mpz_srcptr m, int which) {
+static bool solve_crossing_lines(dyd_centre *out, mpz_srcptr l, mpz_srcptr m, int which) {
   int z = mpz_sgn(l) * mpz_sgn(m);
   int root = which ? -1 : 1;
   if (!z) {
@@ -132,10 +132,11 @@ static bool crossing_lines(dyd_centre *out, mpz_srcptr l, mpz_srcptr m, int whic
 
 bool dyd_solve(dyd_centre *out, const dyd_feature *f, const dyd_feature *g, int which) {
   bool f_point = f->has[0] && f->has[1], g_point = g->has[0] && g->has[1];
-  if (f_point && g_point) return which == 0 && two_points(out, f, g);
-  if (f_point) return point_and_line(out, f, g, which);
-  if (g_point) return point_and_line(out, g, f, which);
-  if (f->has[0] && g->has[0]) return parallel_lines(out, f->at[0], g->at[0], 0, which);
-  if (f->has[1] && g->has[1]) return parallel_lines(out, f->at[1], g->at[1], 1, which);
-  return f->has[0] ? crossing_lines(out, f->at[0], g->at[1], which) : crossing_lines(out, g->at[0], f->at[1], which);
+  if (f_point && g_point) return which == 0 && solve_two_points(out, f, g);
+  if (f_point) return solve_point_and_line(out, f, g, which);
+  if (g_point) return solve_point_and_line(out, g, f, which);
+  if (f->has[0] && g->has[0]) return solve_parallel_lines(out, f->at[0], g->at[0], 0, which);
+  if (f->has[1] && g->has[1]) return solve_parallel_lines(out, f->at[1], g->at[1], 1, which);
+  return f->has[0] ? solve_crossing_lines(out, f->at[0], g->at[1], which)
+                   : solve_crossing_lines(out, g->at[0], f->at[1], which);
 }

@@ -4,15 +4,15 @@
 
 #include <dyadel/dyadic.h>
 
-static int compare(mpz_ptr t, const dyd_surd *s, mpz_srcptr z) {
+static int surd_compare(mpz_ptr t, const dyd_surd *s, mpz_srcptr z) {
   mpz_set(t, s->a);
   mpz_submul(t, z, s->d);
   return dyd_sqrt_sign(t, s->b, s->c);
 }
 
 mpz_srcptr dyd_surd_closest(mpz_ptr t, const dyd_surd *s, mpz_srcptr lo, mpz_srcptr hi) {
-  if (compare(t, s, lo) <= 0) return lo;
-  return compare(t, s, hi) >= 0 ? hi : NULL;
+  if (surd_compare(t, s, lo) <= 0) return lo;
+  return surd_compare(t, s, hi) >= 0 ? hi : NULL;
 }
 
 mpz_srcptr dyd_surd_farthest(mpz_ptr t, mpz_ptr u, const dyd_surd *s, mpz_srcptr lo, mpz_srcptr hi) {

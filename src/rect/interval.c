@@ -60,11 +60,11 @@ dyd_status dyd_interval_set_d(dyd_interval *out, double lo, double hi) {
   if (!(lo <= hi)) return DYD_E_ARG;
   dyd_interval t;
   dyd_interval_init(&t);
-  dyd_status status = dyd_dyadic_set_d(&t.lo, lo);
-  if (status == DYD_OK) status = dyd_dyadic_set_d(&t.hi, hi);
-  if (status == DYD_OK) dyd_interval_swap(out, &t);
+  dyd_status st = dyd_dyadic_set_d(&t.lo, lo);
+  if (st == DYD_OK) st = dyd_dyadic_set_d(&t.hi, hi);
+  if (st == DYD_OK) dyd_interval_swap(out, &t);
   dyd_interval_clear(&t);
-  return status;
+  return st;
 }
 
 dyd_status dyd_interval_set_q(dyd_interval *out, const mpq_t q) {
@@ -72,26 +72,26 @@ dyd_status dyd_interval_set_q(dyd_interval *out, const mpq_t q) {
   if (dyd_bits(mpq_denref(q)) - k > DYD_EXP_LIMIT) return DYD_E_RANGE;
   dyd_interval t;
   dyd_interval_init(&t);
-  dyd_status status = dyd_dyadic_set_z_2exp(&t.lo, mpq_numref(q), -k);
-  if (status == DYD_OK) {
+  dyd_status st = dyd_dyadic_set_z_2exp(&t.lo, mpq_numref(q), -k);
+  if (st == DYD_OK) {
     dyd_dyadic_set(&t.hi, &t.lo);
     mpz_tdiv_q_2exp(t.den, mpq_denref(q), (mp_bitcnt_t)k);
     dyd_interval_swap(out, &t);
     DYD_INVARIANT(dyd_interval_is_valid(out));
   }
   dyd_interval_clear(&t);
-  return status;
+  return st;
 }
 
 dyd_status dyd_interval_set_outward(dyd_interval *out, const mpq_t lo, const mpq_t hi, int64_t exp) {
   if (mpq_cmp(lo, hi) > 0) return DYD_E_ARG;
   dyd_interval t;
   dyd_interval_init(&t);
-  dyd_status status = dyd_dyadic_round_q(&t.lo, lo, exp, DYD_DOWN);
-  if (status == DYD_OK) status = dyd_dyadic_round_q(&t.hi, hi, exp, DYD_UP);
-  if (status == DYD_OK) dyd_interval_swap(out, &t);
+  dyd_status st = dyd_dyadic_round_q(&t.lo, lo, exp, DYD_DOWN);
+  if (st == DYD_OK) st = dyd_dyadic_round_q(&t.hi, hi, exp, DYD_UP);
+  if (st == DYD_OK) dyd_interval_swap(out, &t);
   dyd_interval_clear(&t);
-  return status;
+  return st;
 }
 
 bool dyd_interval_is_point(const dyd_interval *a) {
@@ -99,16 +99,17 @@ bool dyd_interval_is_point(const dyd_interval *a) {
 }
 
 /* Sign of the end x of a minus the end y of b. */
-static int cmp_ends(const dyd_dyadic *x, const dyd_interval *a, const dyd_dyadic *y, const dyd_interval *b) {
+static int interval_cmp_ends(const dyd_dyadic *x, const dyd_interval *a, const dyd_dyadic *y, const dyd_interval *b) {
   return dyd_raw_cmp(x, b->den, y, a->den);
 }
 
 bool dyd_interval_contains(const dyd_interval *outer, const dyd_interval *inner) {
-  return cmp_ends(&outer->lo, outer, &inner->lo, inner) <= 0 && cmp_ends(&inner->hi, inner, &outer->hi, outer) <= 0;
+  return interval_cmp_ends(&outer->lo, outer, &inner->lo, inner) <= 0 &&
+         interval_cmp_ends(&inner->hi, inner, &outer->hi, outer) <= 0;
 }
 
 bool dyd_interval_meets(const dyd_interval *a, const dyd_interval *b) {
-  return cmp_ends(&a->lo, a, &b->hi, b) <= 0 && cmp_ends(&b->lo, b, &a->hi, a) <= 0;
+  return interval_cmp_ends(&a->lo, a, &b->hi, b) <= 0 && interval_cmp_ends(&b->lo, b, &a->hi, a) <= 0;
 }
 
 dyd_status dyd_interval_intersect(dyd_interval *out, const dyd_interval *a, const dyd_interval *b) {
@@ -125,14 +126,14 @@ dyd_status dyd_interval_intersect(dyd_interval *out, const dyd_interval *a, cons
   return DYD_OK;
 }
 
-static void end_get_q(mpq_t out, const dyd_dyadic *end, const dyd_interval *a) {
+static void interval_end_get_q(mpq_t out, const dyd_dyadic *end, const dyd_interval *a) {
   dyd_dyadic_get_q(out, end);
   mpz_mul(mpq_denref(out), mpq_denref(out), a->den);
 }
 
 void dyd_interval_get_q(mpq_t lo, mpq_t hi, const dyd_interval *a) {
-  end_get_q(lo, &a->lo, a);
-  end_get_q(hi, &a->hi, a);
+  interval_end_get_q(lo, &a->lo, a);
+  interval_end_get_q(hi, &a->hi, a);
 }
 
 /* A width w with highest bit 2^(top-1) is at most 2^(top-1) if it is that power, else less than 2^top. */

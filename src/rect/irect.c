@@ -19,13 +19,6 @@ void dyd_irect_clear(dyd_irect *r) {
   mpz_clears(r->x0, r->x1, r->y0, r->y1, NULL);
 }
 
-void dyd_irect_set(dyd_irect *out, const dyd_irect *r) {
-  mpz_set(out->x0, r->x0);
-  mpz_set(out->x1, r->x1);
-  mpz_set(out->y0, r->y0);
-  mpz_set(out->y1, r->y1);
-}
-
 /* The least exponent seen and the least common multiple of the denominators. */
 typedef struct scale {
   bool any;
@@ -102,7 +95,7 @@ void dyd_irects_scale_point(mpz_ptr cx, mpz_ptr cy, dyd_irect *out, const dyd_po
 }
 
 /* t = distance from c to the nearest point of [lo,hi]. */
-static void closest(mpz_ptr t, mpz_srcptr c, mpz_srcptr lo, mpz_srcptr hi) {
+static void closest_on_axis(mpz_ptr t, mpz_srcptr c, mpz_srcptr lo, mpz_srcptr hi) {
   if (mpz_cmp(c, lo) < 0) {
     mpz_sub(t, lo, c);
   } else if (mpz_cmp(c, hi) > 0) {
@@ -113,7 +106,7 @@ static void closest(mpz_ptr t, mpz_srcptr c, mpz_srcptr lo, mpz_srcptr hi) {
 }
 
 /* t = distance from c to the farthest point of [lo,hi]; s is scratch. */
-static void farthest(mpz_ptr t, mpz_ptr s, mpz_srcptr c, mpz_srcptr lo, mpz_srcptr hi) {
+static void farthest_on_axis(mpz_ptr t, mpz_ptr s, mpz_srcptr c, mpz_srcptr lo, mpz_srcptr hi) {
   mpz_sub(s, c, lo);
   mpz_sub(t, hi, c);
   if (mpz_cmp(s, t) > 0) mpz_swap(s, t);
@@ -122,9 +115,9 @@ static void farthest(mpz_ptr t, mpz_ptr s, mpz_srcptr c, mpz_srcptr lo, mpz_srcp
 void dyd_irect_ds2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r) {
   mpz_t t;
   mpz_init(t);
-  closest(t, cx, r->x0, r->x1);
+  closest_on_axis(t, cx, r->x0, r->x1);
   mpz_mul(out, t, t);
-  closest(t, cy, r->y0, r->y1);
+  closest_on_axis(t, cy, r->y0, r->y1);
   mpz_addmul(out, t, t);
   mpz_clear(t);
 }
@@ -133,9 +126,9 @@ void dyd_irect_dl2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r
   mpz_t s, t;
   mpz_init(s);
   mpz_init(t);
-  farthest(t, s, cx, r->x0, r->x1);
+  farthest_on_axis(t, s, cx, r->x0, r->x1);
   mpz_mul(out, t, t);
-  farthest(t, s, cy, r->y0, r->y1);
+  farthest_on_axis(t, s, cy, r->y0, r->y1);
   mpz_addmul(out, t, t);
   mpz_clear(t);
   mpz_clear(s);

@@ -16,7 +16,12 @@ typedef struct dyd_irect {
 
 void dyd_irect_init(dyd_irect *r);
 void dyd_irect_clear(dyd_irect *r);
-void dyd_irect_set(dyd_irect *out, const dyd_irect *r);
+
+/* The lower (upper = 0) or upper end (1) of the side along axis 0 (x) or 1 (y). */
+static inline mpz_srcptr dyd_irect_end(const dyd_irect *r, int axis, int upper) {
+  if (axis) return upper ? r->y1 : r->y0;
+  return upper ? r->x1 : r->x0;
+}
 
 /* Scales in[0..n-1] by one common factor F = scale_man * 2^scale_exp > 0 into out[0..n-1] (initialised by the
  * caller). scale_man, scale_exp may be NULL. Exact, cannot fail. */
@@ -34,9 +39,9 @@ void dyd_irect_ds2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r
 void dyd_irect_dl2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r);
 
 /* Twice the area of the convex hull of a u b. */
-void dyd_irect_hull_area2(mpz_ptr out, const dyd_irect *a, const dyd_irect *b);
+void dyd_irect_partial_edge_area2(mpz_ptr out, const dyd_irect *a, const dyd_irect *b);
 
 /* Are the convex hulls of a u b and of c u d disjoint? Touching counts as meeting [HULL-1]. */
-bool dyd_irect_hulls_disjoint(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c, const dyd_irect *d);
+bool dyd_irect_partial_edges_disjoint(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c, const dyd_irect *d);
 
 #endif

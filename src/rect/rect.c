@@ -29,21 +29,21 @@ void dyd_rect_swap(dyd_rect *a, dyd_rect *b) {
 dyd_status dyd_rect_set_d(dyd_rect *out, double x0, double x1, double y0, double y1) {
   dyd_rect t;
   dyd_rect_init(&t);
-  dyd_status status = dyd_interval_set_d(&t.x, x0, x1);
-  if (status == DYD_OK) status = dyd_interval_set_d(&t.y, y0, y1);
-  if (status == DYD_OK) dyd_rect_swap(out, &t);
+  dyd_status st = dyd_interval_set_d(&t.x, x0, x1);
+  if (st == DYD_OK) st = dyd_interval_set_d(&t.y, y0, y1);
+  if (st == DYD_OK) dyd_rect_swap(out, &t);
   dyd_rect_clear(&t);
-  return status;
+  return st;
 }
 
 dyd_status dyd_rect_set_q(dyd_rect *out, const mpq_t x, const mpq_t y) {
   dyd_rect t;
   dyd_rect_init(&t);
-  dyd_status status = dyd_interval_set_q(&t.x, x);
-  if (status == DYD_OK) status = dyd_interval_set_q(&t.y, y);
-  if (status == DYD_OK) dyd_rect_swap(out, &t);
+  dyd_status st = dyd_interval_set_q(&t.x, x);
+  if (st == DYD_OK) st = dyd_interval_set_q(&t.y, y);
+  if (st == DYD_OK) dyd_rect_swap(out, &t);
   dyd_rect_clear(&t);
-  return status;
+  return st;
 }
 
 bool dyd_rect_is_point(const dyd_rect *r) {
@@ -96,7 +96,7 @@ static void unscale_square(mpq_t q, mpz_srcptr man, int64_t exp) {
 
 typedef void distance_function(mpz_ptr, mpz_srcptr, mpz_srcptr, const dyd_irect *);
 
-static void distance2(mpq_t out, const dyd_point *c, const dyd_rect *r, distance_function *distance) {
+static void rect_distance2(mpq_t out, const dyd_point *c, const dyd_rect *r, distance_function *distance) {
   dyd_irect scaled;
   mpz_t cx, cy, man;
   int64_t exp;
@@ -114,14 +114,14 @@ static void distance2(mpq_t out, const dyd_point *c, const dyd_rect *r, distance
 }
 
 void dyd_rect_ds2(mpq_t out, const dyd_point *c, const dyd_rect *r) {
-  distance2(out, c, r, dyd_irect_ds2);
+  rect_distance2(out, c, r, dyd_irect_ds2);
 }
 
 void dyd_rect_dl2(mpq_t out, const dyd_point *c, const dyd_rect *r) {
-  distance2(out, c, r, dyd_irect_dl2);
+  rect_distance2(out, c, r, dyd_irect_dl2);
 }
 
-void dyd_hull_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b) {
+void dyd_partial_edge_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b) {
   const dyd_rect *in[2] = {a, b};
   dyd_irect scaled[2];
   mpz_t man;
@@ -130,19 +130,19 @@ void dyd_hull_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b) {
   dyd_irect_init(&scaled[1]);
   mpz_init(man);
   dyd_irects_scale(scaled, in, 2, man, &exp);
-  dyd_irect_hull_area2(mpq_numref(out), &scaled[0], &scaled[1]);
+  dyd_irect_partial_edge_area2(mpq_numref(out), &scaled[0], &scaled[1]);
   unscale_square(out, man, exp);
   mpz_clear(man);
   dyd_irect_clear(&scaled[1]);
   dyd_irect_clear(&scaled[0]);
 }
 
-bool dyd_hulls_disjoint(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c, const dyd_rect *d) {
+bool dyd_partial_edges_disjoint(const dyd_rect *a, const dyd_rect *b, const dyd_rect *c, const dyd_rect *d) {
   const dyd_rect *in[4] = {a, b, c, d};
   dyd_irect scaled[4];
   for (int k = 0; k < 4; k++) dyd_irect_init(&scaled[k]);
   dyd_irects_scale(scaled, in, 4, NULL, NULL);
-  bool disjoint = dyd_irect_hulls_disjoint(&scaled[0], &scaled[1], &scaled[2], &scaled[3]);
+  bool disjoint = dyd_irect_partial_edges_disjoint(&scaled[0], &scaled[1], &scaled[2], &scaled[3]);
   for (int k = 4; k-- > 0;) dyd_irect_clear(&scaled[k]);
   return disjoint;
 }

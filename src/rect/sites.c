@@ -33,29 +33,29 @@ size_t dyd_sites_count(const dyd_sites *s) {
   return s->count;
 }
 
-static bool resize(void *array, size_t cap, size_t size) {
+static bool resize_array(void *array, size_t cap, size_t size) {
   void *p = realloc(*(void **)array, cap * size);
   if (p) *(void **)array = p;
   return p != NULL;
 }
 
 /* Room for `more` further sites in every array there is. */
-static dyd_status make_room(dyd_sites *s, size_t more) {
+static dyd_status sites_make_room(dyd_sites *s, size_t more) {
   if (more > DYD_MAX_SITES - s->count) return DYD_E_RANGE;
   if (s->count + more <= s->cap) return DYD_OK;
   size_t cap = s->cap + s->cap / 2;
   if (cap < s->count + more) cap = s->count + more;
   for (int a = 0; a < 2; a++) {
-    if (!resize(&s->lower[a], cap, sizeof(double))) return DYD_E_NOMEM;
-    if (s->upper[a] && !resize(&s->upper[a], cap, sizeof(double))) return DYD_E_NOMEM;
+    if (!resize_array(&s->lower[a], cap, sizeof(double))) return DYD_E_NOMEM;
+    if (s->upper[a] && !resize_array(&s->upper[a], cap, sizeof(double))) return DYD_E_NOMEM;
   }
-  if (s->exact && !resize(&s->exact, cap, sizeof *s->exact)) return DYD_E_NOMEM;
+  if (s->exact && !resize_array(&s->exact, cap, sizeof *s->exact)) return DYD_E_NOMEM;
   s->cap = cap;
   return DYD_OK;
 }
 
 /* Gives upper ends arrays of their own. */
-static dyd_status split_ends(dyd_sites *s) {
+static dyd_status sites_split_ends(dyd_sites *s) {
   for (int a = 0; a < 2; a++) {
     if (s->upper[a]) continue;
     double *p = dyd_alloc(s->cap ? s->cap : 1, sizeof *p);
@@ -66,7 +66,7 @@ static dyd_status split_ends(dyd_sites *s) {
   return DYD_OK;
 }
 
-static dyd_status make_exact(dyd_sites *s) {
+static dyd_status sites_make_exact(dyd_sites *s) {
   if (s->exact) return DYD_OK;
   s->exact = calloc(s->cap ? s->cap : 1, sizeof *s->exact);
   return s->exact ? DYD_OK : DYD_E_NOMEM;
@@ -79,20 +79,20 @@ static bool ends_are_good(size_t n, const double *lo, const double *hi) {
 }
 
 /* Adding +0.0 turns -0.0 into +0.0, so that equal numbers are equal bits. */
-static void copy_ends(double *to, const double *from, size_t n) {
+static void sites_copy_ends(double *to, const double *from, size_t n) {
   for (size_t i = 0; i < n; i++) to[i] = from[i] + 0.0;
 }
 
-static dyd_status add_doubles(dyd_sites *s, size_t n, const double *const lo[2], const double *const hi[2]) {
+static dyd_status sites_add_doubles(dyd_sites *s, size_t n, const double *const lo[2], const double *const hi[2]) {
   bool points = lo[0] == hi[0] && lo[1] == hi[1];
   for (int a = 0; a < 2; a++)
     if (!ends_are_good(n, lo[a], hi[a])) return DYD_E_ARG;
-  dyd_status st = make_room(s, n);
-  if (st == DYD_OK && !points) st = split_ends(s);
+  dyd_status st = sites_make_room(s, n);
+  if (st == DYD_OK && !points) st = sites_split_ends(s);
   if (st != DYD_OK) return st;
   for (int a = 0; a < 2; a++) {
-    copy_ends(s->lower[a] + s->count, lo[a], n);
-    if (s->upper[a]) copy_ends(s->upper[a] + s->count, hi[a], n);
+    sites_copy_ends(s->lower[a] + s->count, lo[a], n);
+    if (s->upper[a]) sites_copy_ends(s->upper[a] + s->count, hi[a], n);
   }
   if (s->exact) memset(s->exact + s->count, 0, n * sizeof *s->exact);
   s->count += n;
@@ -101,18 +101,18 @@ static dyd_status add_doubles(dyd_sites *s, size_t n, const double *const lo[2],
 
 dyd_status dyd_sites_add_points(dyd_sites *s, size_t n, const double *x, const double *y) {
   const double *const lo[2] = {x, y};
-  return add_doubles(s, n, lo, lo);
+  return sites_add_doubles(s, n, lo, lo);
 }
 
 dyd_status dyd_sites_add_boxes(dyd_sites *s, size_t n, const double *x0, const double *x1, const double *y0,
                                const double *y1) {
   const double *const lo[2] = {x0, y0}, *const hi[2] = {x1, y1};
-  return add_doubles(s, n, lo, hi);
+  return sites_add_doubles(s, n, lo, hi);
 }
 
 dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n) {
-  dyd_status st = make_room(s, n);
-  if (st == DYD_OK) st = split_ends(s);
+  dyd_status st = sites_make_room(s, n);
+  if (st == DYD_OK) st = sites_split_ends(s);
   if (st != DYD_OK) return st;
   for (size_t i = s->count; i < s->count + n; i++) {
     for (int a = 0; a < 2; a++) {
@@ -152,7 +152,7 @@ static mp_limb_t *put_limbs(mp_limb_t *to, const mpz_t z, int32_t size) {
   return to + n;
 }
 
-static dyd_packed *pack(const dyd_rect *r) {
+static dyd_packed *pack_rect(const dyd_rect *r) {
   dyd_packed head;
   interval_sizes(head.size, head.exp, &r->x);
   interval_sizes(head.size + 3, head.exp + 2, &r->y);
@@ -194,7 +194,7 @@ static const mp_limb_t *unpack_interval(dyd_interval *out, const mp_limb_t *from
 
 /* ---- single sites ---- */
 
-static dyd_status get_plane(dyd_rect *out) {
+static dyd_status sites_get_plane(dyd_rect *out) {
   mpz_t man;
   dyd_dyadic lo, hi;
   mpz_init(man);
@@ -214,7 +214,7 @@ static dyd_status get_plane(dyd_rect *out) {
 
 dyd_status dyd_sites_get(dyd_rect *out, const dyd_sites *s, size_t i) {
   if (i >= s->count) return DYD_E_ARG;
-  if (dyd_sites_in_doubles(s, i) && isinf(dyd_sites_lo(s, 0, i))) return get_plane(out);
+  if (dyd_sites_in_doubles(s, i) && isinf(dyd_sites_lo(s, 0, i))) return sites_get_plane(out);
   if (dyd_sites_in_doubles(s, i))
     return dyd_rect_set_d(out, dyd_sites_lo(s, 0, i), dyd_sites_hi(s, 0, i), dyd_sites_lo(s, 1, i),
                           dyd_sites_hi(s, 1, i));
@@ -238,7 +238,7 @@ bool dyd_sites_is_point(const dyd_sites *s, size_t i) {
 }
 
 /* Writes r over entry i, which has room in every array it needs. */
-static dyd_status put(dyd_sites *s, size_t i, const dyd_rect *r, dyd_packed *old) {
+static dyd_status sites_put(dyd_sites *s, size_t i, const dyd_rect *r, dyd_packed *old) {
   double lo[2], hi[2];
   dyd_packed *p = NULL;
   const dyd_interval *side[2] = {&r->x, &r->y};
@@ -249,12 +249,12 @@ static dyd_status put(dyd_sites *s, size_t i, const dyd_rect *r, dyd_packed *old
     doubles = false;
   }
   if (!doubles || lo[0] != hi[0] || lo[1] != hi[1]) {
-    dyd_status st = split_ends(s);
-    if (st == DYD_OK && !doubles) st = make_exact(s);
+    dyd_status st = sites_split_ends(s);
+    if (st == DYD_OK && !doubles) st = sites_make_exact(s);
     if (st != DYD_OK) return st;
   }
   if (!doubles) {
-    p = pack(r);
+    p = pack_rect(r);
     if (!p) return DYD_E_NOMEM;
   }
   for (int a = 0; a < 2; a++) {
@@ -269,9 +269,9 @@ static dyd_status put(dyd_sites *s, size_t i, const dyd_rect *r, dyd_packed *old
 }
 
 dyd_status dyd_sites_add_rect(dyd_sites *s, const dyd_rect *r) {
-  dyd_status st = make_room(s, 1);
+  dyd_status st = sites_make_room(s, 1);
   if (st != DYD_OK) return st;
-  st = put(s, s->count, r, NULL);
+  st = sites_put(s, s->count, r, NULL);
   if (st == DYD_OK) s->count++;
   return st;
 }
@@ -281,15 +281,15 @@ dyd_status dyd_sites_add_rect(dyd_sites *s, const dyd_rect *r) {
 __extension__ typedef unsigned __int128 u128;
 _Static_assert(GMP_NUMB_BITS >= 64, "a word is one limb");
 
-static uint64_t size_of(int64_t man) {
+static uint64_t size_of_word(int64_t man) {
   return man < 0 ? 0 - (uint64_t)man : (uint64_t)man;
 }
 
 static bool words_in_doubles(const dyd_words *w) {
-  return w->den == 1 && size_of(w->man) < (uint64_t)1 << 53;
+  return w->den == 1 && size_of_word(w->man) < (uint64_t)1 << 53;
 }
 
-static int bits_of(uint64_t z) {
+static int bits_of_word(uint64_t z) {
   return 64 - __builtin_clzll(z);
 }
 
@@ -298,11 +298,11 @@ static int bits_of(uint64_t z) {
 static void words_get_d(double *lo, double *hi, const dyd_words *w) {
   *lo = *hi = 0;
   if (!w->man) return;
-  uint64_t m = size_of(w->man);
-  int k = 63 - bits_of(m) + bits_of(w->den);
+  uint64_t m = size_of_word(w->man);
+  int k = 63 - bits_of_word(m) + bits_of_word(w->den);
   u128 n = (u128)m << k;
   uint64_t q = (uint64_t)(n / w->den);
-  int cut = bits_of(q) - 53;
+  int cut = bits_of_word(q) - 53;
   bool exact = (u128)q * w->den == n && (q >> cut) << cut == q;
   double below = ldexp((double)(q >> cut), cut + w->exp - k);
   double above = exact ? below : ldexp((double)((q >> cut) + 1), cut + w->exp - k);
@@ -323,7 +323,7 @@ static dyd_packed *pack_words(const dyd_words xy[2]) {
   memcpy(p, &head, sizeof head);
   mp_limb_t *to = p->limb;
   for (int a = 0; a < 2; a++) {
-    if (xy[a].man) *to++ = (mp_limb_t)size_of(xy[a].man);
+    if (xy[a].man) *to++ = (mp_limb_t)size_of_word(xy[a].man);
     if (xy[a].den != 1) *to++ = (mp_limb_t)xy[a].den;
   }
   return p;
@@ -352,9 +352,9 @@ static dyd_status put_words(dyd_sites *s, const dyd_words xy[2]) {
 dyd_status dyd_sites_add_words(dyd_sites *s, size_t n, const dyd_words *xy) {
   size_t before = s->count;
   if (n == 0) return DYD_OK;
-  dyd_status st = make_room(s, n);
-  if (st == DYD_OK) st = split_ends(s);
-  if (st == DYD_OK) st = make_exact(s);
+  dyd_status st = sites_make_room(s, n);
+  if (st == DYD_OK) st = sites_split_ends(s);
+  if (st == DYD_OK) st = sites_make_exact(s);
   for (size_t k = 0; k < n && st == DYD_OK; k++) st = put_words(s, xy + 2 * k);
   while (st != DYD_OK && s->count > before) {
     dyd_packed *last = s->exact[--s->count];
@@ -370,13 +370,13 @@ dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
   dyd_rect_init(&now);
   dyd_status st = dyd_sites_get(&now, s, i);
   if (st == DYD_OK && !dyd_rect_contains(&now, r)) st = DYD_E_NESTING;
-  if (st == DYD_OK) st = put(s, i, r, s->exact ? s->exact[i] : NULL);
+  if (st == DYD_OK) st = sites_put(s, i, r, s->exact ? s->exact[i] : NULL);
   dyd_rect_clear(&now);
   return st;
 }
 
 /* Narrows site i to a rectangle of doubles by way of exact ones. */
-static dyd_status narrow_exact(dyd_sites *s, size_t i, const double box[4]) {
+static dyd_status sites_narrow_exact(dyd_sites *s, size_t i, const double box[4]) {
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_status st = dyd_rect_set_d(&r, box[0], box[1], box[2], box[3]);
@@ -387,7 +387,7 @@ static dyd_status narrow_exact(dyd_sites *s, size_t i, const double box[4]) {
 
 dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]) {
   if (i >= s->count) return DYD_E_ARG;
-  if (!dyd_sites_in_doubles(s, i) || !s->upper[0]) return narrow_exact(s, i, box);
+  if (!dyd_sites_in_doubles(s, i) || !s->upper[0]) return sites_narrow_exact(s, i, box);
   for (int a = 0; a < 2; a++)
     if (box[2 * a] < s->lower[a][i] || box[2 * a + 1] > s->upper[a][i]) return DYD_E_NESTING;
   for (int a = 0; a < 2; a++) {

@@ -23,7 +23,7 @@ void dyd_ball_set_q(arb_ptr out, mpq_srcptr q, slong prec) {
 }
 
 /* x = [f(l), f(u)] for the ends l <= u of x, cut to the range known. f is monotone there. */
-static void monotone(arb_ptr x, ball_fn f, dyd_range cut, slong prec) {
+static void ball_monotone(arb_ptr x, ball_fn f, dyd_range cut, slong prec) {
   arb_t l, u;
   arb_init(l);
   arb_init(u);
@@ -43,7 +43,7 @@ static void monotone(arb_ptr x, ball_fn f, dyd_range cut, slong prec) {
   arb_clear(u);
 }
 
-static void cube_root(arb_t out, const arb_t x, slong prec) {
+static void ball_cube_root(arb_t out, const arb_t x, slong prec) {
   if (arf_sgn(arb_midref(x)) < 0) {
     arb_neg(out, x);
     arb_root_ui(out, out, 3, prec);
@@ -54,7 +54,7 @@ static void cube_root(arb_t out, const arb_t x, slong prec) {
 }
 
 /* -1: all of x is below the integer lo; 1: all is above hi; 0: neither. */
-static int beside(arb_srcptr x, slong lo, slong hi) {
+static int ball_beside(arb_srcptr x, slong lo, slong hi) {
   arb_t t;
   arb_init(t);
   arb_set_si(t, lo);
@@ -66,8 +66,8 @@ static int beside(arb_srcptr x, slong lo, slong hi) {
 }
 
 /* arcsine and arccosine: every end beyond +-1 must be known to be harmless. */
-static dyd_defined arc(arb_ptr x, ball_fn f, dyd_range range, slong prec) {
-  if (beside(x, -1, 1)) return DYD_UNDEFINED;
+static dyd_defined ball_arc(arb_ptr x, ball_fn f, dyd_range range, slong prec) {
+  if (ball_beside(x, -1, 1)) return DYD_UNDEFINED;
   arb_t one;
   arb_init(one);
   arb_set_si(one, -1);
@@ -76,18 +76,18 @@ static dyd_defined arc(arb_ptr x, ball_fn f, dyd_range range, slong prec) {
   bool high = range.hi <= 1 || arb_le(x, one);
   arb_clear(one);
   if (!low || !high) return DYD_UNDEFINED_YET;
-  monotone(x, f, (dyd_range){-1, 1}, prec);
+  ball_monotone(x, f, (dyd_range){-1, 1}, prec);
   return DYD_DEFINED;
 }
 
-static dyd_defined square_root(arb_ptr x, dyd_range range, slong prec) {
+static dyd_defined ball_square_root(arb_ptr x, dyd_range range, slong prec) {
   if (arb_is_negative(x)) return DYD_UNDEFINED;
   if (!arb_is_nonnegative(x) && range.lo < 0) return DYD_UNDEFINED_YET;
-  monotone(x, arb_sqrt, (dyd_range){0, DYD_NO_END}, prec);
+  ball_monotone(x, arb_sqrt, (dyd_range){0, DYD_NO_END}, prec);
   return DYD_DEFINED;
 }
 
-static dyd_defined logarithm(arb_ptr x, slong prec) {
+static dyd_defined ball_logarithm(arb_ptr x, slong prec) {
   if (arb_is_nonpositive(x)) return DYD_UNDEFINED;
   if (!arb_is_positive(x)) return DYD_UNDEFINED_YET;
   arb_log(x, x, prec);
@@ -96,7 +96,7 @@ static dyd_defined logarithm(arb_ptr x, slong prec) {
 
 /* -1: x is surely < -2^20; 1: surely > 2^20; 0: |x| <= 2^21 for all of the ball; 2: none of these. */
 static int against_exponent_limit(arb_srcptr x) {
-  int side = beside(x, -(slong)DYD_EXP_LIMIT, (slong)DYD_EXP_LIMIT);
+  int side = ball_beside(x, -(slong)DYD_EXP_LIMIT, (slong)DYD_EXP_LIMIT);
   if (side) return side;
   mag_t m;
   mag_init(m);
@@ -107,13 +107,13 @@ static int against_exponent_limit(arb_srcptr x) {
 }
 
 /* x = a ball about 0 that holds all values below 2^-DYD_BALL_LIMIT in magnitude. */
-static void set_tiny(arb_ptr x) {
+static void ball_set_tiny(arb_ptr x) {
   arf_zero(arb_midref(x));
   mag_set_ui_2exp_si(arb_radref(x), 1, -DYD_BALL_LIMIT);
 }
 
 /* exp and the hyperbolic functions grow too fast for arguments beyond 2^20: the result would leave the range. */
-static dyd_defined exponential(arb_ptr x, dyd_op op, slong prec) {
+static dyd_defined ball_exponential(arb_ptr x, dyd_op op, slong prec) {
   int side = against_exponent_limit(x);
   if (side == 2) return DYD_TOO_BIG_YET;
   if (side > 0 || (side < 0 && op != DYD_OP_EXP)) return DYD_TOO_BIG;
@@ -129,7 +129,7 @@ static dyd_defined exponential(arb_ptr x, dyd_op op, slong prec) {
 }
 
 /* tanh is within 2^-(2^20) of +-1 beyond 2^20; a wide ball gives all of [-1,1]. */
-static void hyperbolic_tangent(arb_ptr x, slong prec) {
+static void ball_hyperbolic_tangent(arb_ptr x, slong prec) {
   int side = against_exponent_limit(x);
   if (!side) {
     arb_tanh(x, x, prec);
@@ -139,7 +139,7 @@ static void hyperbolic_tangent(arb_ptr x, slong prec) {
   mag_set_ui_2exp_si(arb_radref(x), 1, side == 2 ? 0 : -(slong)DYD_EXP_LIMIT);
 }
 
-static void absolute(arb_ptr x, slong prec) {
+static void ball_absolute(arb_ptr x, slong prec) {
   if (!arb_contains_zero(x)) {
     arb_abs(x, x);
     return;
@@ -153,7 +153,7 @@ static void absolute(arb_ptr x, slong prec) {
   arf_clear(most);
 }
 
-static dyd_defined power(arb_ptr x, long n, slong prec) {
+static dyd_defined ball_power(arb_ptr x, long n, slong prec) {
   if (n < 0 && arb_contains_zero(x)) return arb_is_zero(x) ? DYD_UNDEFINED : DYD_UNDEFINED_YET;
   fmpz_t k;
   fmpz_init_set_si(k, n);
@@ -162,7 +162,7 @@ static dyd_defined power(arb_ptr x, long n, slong prec) {
   return DYD_DEFINED;
 }
 
-static dyd_defined plain_function(arb_ptr x, dyd_op op, slong prec) {
+static dyd_defined ball_plain_function(arb_ptr x, dyd_op op, slong prec) {
   switch (op) {
   case DYD_OP_NEG:
     arb_neg(x, x);
@@ -180,13 +180,13 @@ static dyd_defined plain_function(arb_ptr x, dyd_op op, slong prec) {
     arb_atan(x, x, prec);
     break;
   case DYD_OP_TANH:
-    hyperbolic_tangent(x, prec);
+    ball_hyperbolic_tangent(x, prec);
     break;
   case DYD_OP_CBRT:
-    monotone(x, cube_root, (dyd_range){-DYD_NO_END, DYD_NO_END}, prec);
+    ball_monotone(x, ball_cube_root, (dyd_range){-DYD_NO_END, DYD_NO_END}, prec);
     break;
   default: /* DYD_OP_ABS */
-    absolute(x, prec);
+    ball_absolute(x, prec);
     break;
   }
   return DYD_DEFINED;
@@ -195,21 +195,21 @@ static dyd_defined plain_function(arb_ptr x, dyd_op op, slong prec) {
 dyd_defined dyd_ball_unary(arb_ptr x, dyd_op op, dyd_range range, long exponent, slong prec) {
   switch (op) {
   case DYD_OP_SQRT:
-    return square_root(x, range, prec);
+    return ball_square_root(x, range, prec);
   case DYD_OP_LOG:
-    return logarithm(x, prec);
+    return ball_logarithm(x, prec);
   case DYD_OP_ASIN:
-    return arc(x, arb_asin, range, prec);
+    return ball_arc(x, arb_asin, range, prec);
   case DYD_OP_ACOS:
-    return arc(x, arb_acos, range, prec);
+    return ball_arc(x, arb_acos, range, prec);
   case DYD_OP_EXP:
   case DYD_OP_SINH:
   case DYD_OP_COSH:
-    return exponential(x, op, prec);
+    return ball_exponential(x, op, prec);
   case DYD_OP_POW:
-    return power(x, exponent, prec);
+    return ball_power(x, exponent, prec);
   default:
-    return plain_function(x, op, prec);
+    return ball_plain_function(x, op, prec);
   }
 }
 
@@ -256,7 +256,7 @@ dyd_defined dyd_ball_check(arb_ptr x, slong *exponent) {
   if (mag_cmp_2exp_si(m, DYD_BALL_LIMIT) > 0) {
     d = dyd_ball_exceeds(x, DYD_BALL_LIMIT) ? DYD_TOO_BIG : DYD_TOO_BIG_YET;
   } else if (!mag_is_zero(m) && mag_cmp_2exp_si(m, -DYD_BALL_LIMIT) < 0) {
-    set_tiny(x);
+    ball_set_tiny(x);
   } else if (!mag_is_zero(m)) {
     slong e = fmpz_get_si(MAG_EXPREF(m));
     if (e > *exponent) *exponent = e;

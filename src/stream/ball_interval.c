@@ -12,7 +12,7 @@ slong dyd_ball_radius_exponent(arb_srcptr x) {
 }
 
 /* out = x rounded to the grid. */
-static dyd_status grid_end(dyd_dyadic *out, arf_t x, int64_t exp, dyd_round dir) {
+static dyd_status ball_grid_end(dyd_dyadic *out, arf_t x, int64_t exp, dyd_round dir) {
   fmpz_t f;
   mpz_t z;
   fmpz_init(f);
@@ -27,7 +27,7 @@ static dyd_status grid_end(dyd_dyadic *out, arf_t x, int64_t exp, dyd_round dir)
 }
 
 /* The point itself when the ball is exact and within range. */
-static dyd_status exact_point(dyd_dyadic *out, arb_srcptr x) {
+static dyd_status ball_exact_point(dyd_dyadic *out, arb_srcptr x) {
   fmpz_t man, exp;
   mpz_t z;
   fmpz_init(man);
@@ -49,16 +49,16 @@ dyd_status dyd_ball_interval(dyd_interval *out, arb_srcptr x, int64_t exp) {
   dyd_dyadic_init(&hi);
   arf_init(end);
   dyd_status st = DYD_E_RANGE;
-  if (arb_is_exact(x)) st = exact_point(&lo, x);
-  if (!st) {
+  if (arb_is_exact(x)) st = ball_exact_point(&lo, x);
+  if (st == DYD_OK) {
     dyd_dyadic_set(&hi, &lo);
   } else {
     arb_get_lbound_arf(end, x, ARF_PREC_EXACT);
-    st = grid_end(&lo, end, exp, DYD_DOWN);
+    st = ball_grid_end(&lo, end, exp, DYD_DOWN);
     arb_get_ubound_arf(end, x, ARF_PREC_EXACT);
-    if (!st) st = grid_end(&hi, end, exp, DYD_UP);
+    if (st == DYD_OK) st = ball_grid_end(&hi, end, exp, DYD_UP);
   }
-  if (!st) st = dyd_interval_set_ends(out, &lo, &hi);
+  if (st == DYD_OK) st = dyd_interval_set_ends(out, &lo, &hi);
   arf_clear(end);
   dyd_dyadic_clear(&hi);
   dyd_dyadic_clear(&lo);

@@ -14,12 +14,12 @@ void dyd_constant_clear(dyd_constant *c) {
   *c = (dyd_constant){.den = 1};
 }
 
-static bool is_short(mpz_srcptr z) {
+static bool integer_is_short(mpz_srcptr z) {
   return mpz_sizeinbase(z, 2) <= SHORT_BITS && mpz_fits_slong_p(z);
 }
 
 dyd_status dyd_constant_set(dyd_constant *c, mpq_srcptr q) {
-  if (is_short(mpq_numref(q)) && is_short(mpq_denref(q))) {
+  if (integer_is_short(mpq_numref(q)) && integer_is_short(mpq_denref(q))) {
     long num = mpz_get_si(mpq_numref(q)), den = mpz_get_si(mpq_denref(q)); /* q may be the value of c */
     dyd_constant_clear(c);
     c->u.num = num;
@@ -55,18 +55,18 @@ dyd_status dyd_constant_literal(dyd_constant *c, const dyd_literal *in) {
   mpq_t q;
   mpq_init(q);
   dyd_status st = dyd_literal_value(q, in);
-  if (!st) st = dyd_constant_set(c, q);
+  if (st == DYD_OK) st = dyd_constant_set(c, q);
   mpq_clear(q);
   return st;
 }
 
-static size_t bits(int64_t x) {
+static size_t bits_of_short(int64_t x) {
   mp_limb_t limb = (mp_limb_t)(x < 0 ? -x : x);
   return limb ? mpn_sizeinbase(&limb, 1, 2) : 1;
 }
 
 size_t dyd_constant_bits(const dyd_constant *c) {
-  if (dyd_constant_is_short(c)) return bits(c->u.num) + bits(c->den);
+  if (dyd_constant_is_short(c)) return bits_of_short(c->u.num) + bits_of_short(c->den);
   return mpz_sizeinbase(mpq_numref(c->u.big), 2) + mpz_sizeinbase(mpq_denref(c->u.big), 2);
 }
 

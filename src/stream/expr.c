@@ -47,18 +47,18 @@ static dyd_status parse_signed(parser *p);
 
 #define FAIL(p, at, code, ...) dyd_text_fail((p)->err, (code), (p)->text, (at), __VA_ARGS__)
 
-static int peek(parser *p) {
+static int peek_char(parser *p) {
   while (p->pos < p->length && dyd_is_blank(p->text[p->pos])) p->pos++;
   return p->pos < p->length ? (unsigned char)p->text[p->pos] : -1;
 }
 
-static dyd_node *last(parser *p) {
+static dyd_node *last_node(parser *p) {
   return &p->e->node[p->e->count - 1];
 }
 
 /* The constant that the last node names. */
 static dyd_constant *last_constant(parser *p) {
-  return &p->e->constant[last(p)->argument];
+  return &p->e->constant[last_node(p)->argument];
 }
 
 /* Takes the last node, a constant, off the end. */
@@ -67,7 +67,7 @@ static void drop_constant(parser *p) {
   p->e->count--;
 }
 
-static dyd_status push(parser *p, dyd_op op, size_t at) {
+static dyd_status push_node(parser *p, dyd_op op, size_t at) {
   if (p->e->count >= DYD_EXPR_NODES) {
     return FAIL(p, at, DYD_E_RANGE, "the expression is too long: at most %zu operations; split it", DYD_EXPR_NODES);
   }
@@ -94,47 +94,47 @@ static dyd_status fold_fail(parser *p, dyd_status st, dyd_op op, size_t at) {
 }
 
 /* Charges the last constant to the budget of exact arithmetic. */
-static dyd_status charge(parser *p, size_t at) {
+static dyd_status charge_constant(parser *p, size_t at) {
   const dyd_constant *c = last_constant(p);
   p->work += dyd_constant_bits(c);
-  last(p)->range = dyd_range_of_constant(c);
+  last_node(p)->range = dyd_range_of_constant(c);
   if (p->work <= DYD_EXPR_WORK) return DYD_OK;
   return FAIL(p, at, DYD_E_RANGE, "the exact numbers of this expression are too long; shorten it");
 }
 
 static dyd_status push_literal(parser *p, const dyd_literal *l, size_t at) {
   dyd_expr *e = p->e;
-  dyd_status st = push(p, DYD_OP_CONST, at);
-  if (st) return st;
+  dyd_status st = push_node(p, DYD_OP_CONST, at);
+  if (st != DYD_OK) return st;
   if (!dyd_draft_reserve_constant(p->d)) return dyd_fail_nomem(p->err);
-  last(p)->argument = (int32_t)e->constants;
+  last_node(p)->argument = (int32_t)e->constants;
   e->constant[e->constants++] = (dyd_constant){.den = 1};
   st = dyd_constant_literal(last_constant(p), l);
-  if (st) return fold_fail(p, st, DYD_OP_CONST, at);
-  return charge(p, at);
+  if (st != DYD_OK) return fold_fail(p, st, DYD_OP_CONST, at);
+  return charge_constant(p, at);
 }
 
 /* Applies a unary operator to the last operand. */
 static dyd_status emit_unary(parser *p, dyd_op op, long exponent, size_t at) {
   dyd_status st;
-  dyd_range a = last(p)->range;
-  if (last(p)->op == DYD_OP_CONST) {
+  dyd_range a = last_node(p)->range;
+  if (last_node(p)->op == DYD_OP_CONST) {
     bool done;
     st = dyd_fold_unary(last_constant(p), &done, op, exponent);
-    if (st) return fold_fail(p, st, op, at);
-    if (done) return charge(p, at);
+    if (st != DYD_OK) return fold_fail(p, st, op, at);
+    if (done) return charge_constant(p, at);
   }
-  st = push(p, op, at);
-  if (st) return st;
-  last(p)->argument = (int32_t)exponent;
-  last(p)->range = dyd_range_apply(op, a, a, exponent);
+  st = push_node(p, op, at);
+  if (st != DYD_OK) return st;
+  last_node(p)->argument = (int32_t)exponent;
+  last_node(p)->range = dyd_range_apply(op, a, a, exponent);
   return DYD_OK;
 }
 
 /* Applies a binary operator to the operand whose last node is `left`, and the one behind it. */
 static dyd_status emit_binary(parser *p, dyd_op op, size_t left, size_t at) {
   dyd_expr *e = p->e;
-  const dyd_node *a = &e->node[left], *b = last(p);
+  const dyd_node *a = &e->node[left], *b = last_node(p);
   bool both = a->op == DYD_OP_CONST && b->op == DYD_OP_CONST;
   if (op == DYD_OP_DIV && b->op == DYD_OP_CONST && dyd_constant_cmp(&e->constant[b->argument], 0) == 0) {
     return fold_fail(p, DYD_E_DOMAIN, op, at);
@@ -142,18 +142,18 @@ static dyd_status emit_binary(parser *p, dyd_op op, size_t left, size_t at) {
   if (both) {
     dyd_status st = dyd_fold_binary(&e->constant[a->argument], op, &e->constant[b->argument]);
     drop_constant(p);
-    return st ? fold_fail(p, st, op, at) : charge(p, at);
+    return st != DYD_OK ? fold_fail(p, st, op, at) : charge_constant(p, at);
   }
   dyd_range range = dyd_range_apply(op, a->range, b->range, 0);
-  dyd_status st = push(p, op, at);
-  if (!st) last(p)->range = range;
+  dyd_status st = push_node(p, op, at);
+  if (st == DYD_OK) last_node(p)->range = range;
   return st;
 }
 
 /* Takes the exponent, which must be an integer, off the end and applies it. */
 static dyd_status emit_power(parser *p, size_t left, size_t at) {
   dyd_constant_view view;
-  mpq_srcptr q = last(p)->op == DYD_OP_CONST ? dyd_constant_get(&view, last_constant(p)) : NULL;
+  mpq_srcptr q = last_node(p)->op == DYD_OP_CONST ? dyd_constant_get(&view, last_constant(p)) : NULL;
   if (p->e->count != left + 2 || !q || mpz_cmp_ui(mpq_denref(q), 1)) {
     return FAIL(p, at, DYD_E_PARSE, "only integer powers are known; write sqrt(a), cbrt(a) or exp(b*log(a))");
   }
@@ -168,16 +168,16 @@ static dyd_status parse_arguments(parser *p, dyd_op op, size_t at) {
   bool many = dyd_op_is_binary(op);
   dyd_status st = parse_sum(p);
   size_t count = 1;
-  while (!st && many && peek(p) == ',') {
+  while (st == DYD_OK && many && peek_char(p) == ',') {
     size_t left = p->e->count - 1;
     p->pos++;
     st = parse_sum(p);
-    if (!st) st = emit_binary(p, op, left, at);
+    if (st == DYD_OK) st = emit_binary(p, op, left, at);
     count++;
   }
-  if (st) return st;
-  if (peek(p) == ',') return FAIL(p, p->pos, DYD_E_PARSE, "%s takes one argument", dyd_op_name(op));
-  if (peek(p) != ')') return FAIL(p, p->pos, DYD_E_PARSE, "a ')' or an operator is missing here");
+  if (st != DYD_OK) return st;
+  if (peek_char(p) == ',') return FAIL(p, p->pos, DYD_E_PARSE, "%s takes one argument", dyd_op_name(op));
+  if (peek_char(p) != ')') return FAIL(p, p->pos, DYD_E_PARSE, "a ')' or an operator is missing here");
   if (many && count < 2) return FAIL(p, p->pos, DYD_E_PARSE, "%s takes two or more arguments", dyd_op_name(op));
   p->pos++;
   return many ? DYD_OK : emit_unary(p, op, 0, at);
@@ -189,8 +189,8 @@ static dyd_status parse_group(parser *p, dyd_op op, size_t at) {
   dyd_status st;
   if (op == DYD_OP_CONST) {
     st = parse_sum(p);
-    if (!st && peek(p) != ')') st = FAIL(p, p->pos, DYD_E_PARSE, "a ')' or an operator is missing here");
-    if (!st) p->pos++;
+    if (st == DYD_OK && peek_char(p) != ')') st = FAIL(p, p->pos, DYD_E_PARSE, "a ')' or an operator is missing here");
+    if (st == DYD_OK) p->pos++;
   } else {
     st = parse_arguments(p, op, at);
   }
@@ -214,14 +214,14 @@ static dyd_status name_fail(parser *p, size_t at, size_t n) {
 }
 
 /* Is the name the n letters of the text? */
-static bool is_name(const char name[5], const char *text, size_t n) {
+static bool text_is_name(const char name[5], const char *text, size_t n) {
   return name[0] == *text && n < 5 && name[n] == 0 && !memcmp(name, text, n);
 }
 
 static dyd_status parse_name(parser *p) {
   size_t at = p->pos, n = 0, i = 0;
   while (at + n < p->length && (is_letter(p->text[at + n]) || (p->text[at + n] >= '0' && p->text[at + n] <= '9'))) n++;
-  while (i < NAME_COUNT && !is_name(names[i].name, p->text + at, n)) i++;
+  while (i < NAME_COUNT && !text_is_name(names[i].name, p->text + at, n)) i++;
   if (i == NAME_COUNT) return name_fail(p, at, n);
   dyd_op op = names[i].op;
   p->pos += n;
@@ -229,16 +229,16 @@ static dyd_status parse_name(parser *p) {
     return FAIL(p, at, DYD_E_PARSE, "x has a meaning only in root(polynomial, lo, hi)");
   }
   if (dyd_op_is_leaf(op)) {
-    dyd_status st = push(p, op, at);
-    if (!st) last(p)->range = dyd_range_apply(op, (dyd_range){0, 0}, (dyd_range){0, 0}, 0);
+    dyd_status st = push_node(p, op, at);
+    if (st == DYD_OK) last_node(p)->range = dyd_range_apply(op, (dyd_range){0, 0}, (dyd_range){0, 0}, 0);
     return st;
   }
-  if (peek(p) != '(') return FAIL(p, p->pos, DYD_E_PARSE, "a '(' is missing after %s", names[i].name);
+  if (peek_char(p) != '(') return FAIL(p, p->pos, DYD_E_PARSE, "a '(' is missing after %s", names[i].name);
   return parse_group(p, op, at);
 }
 
 static dyd_status parse_primary(parser *p) {
-  int c = peek(p);
+  int c = peek_char(p);
   dyd_literal l;
   if (dyd_literal_scan(&l, p->text, p->length, p->pos)) {
     size_t at = p->pos;
@@ -258,10 +258,10 @@ static dyd_status parse_power(parser *p) {
   }
   p->depth++;
   dyd_status st = parse_primary(p);
-  if (!st && peek(p) == '^') {
+  if (st == DYD_OK && peek_char(p) == '^') {
     size_t at = p->pos++, left = p->e->count - 1;
     st = parse_signed(p);
-    if (!st) st = emit_power(p, left, at);
+    if (st == DYD_OK) st = emit_power(p, left, at);
   }
   p->depth--;
   return st;
@@ -270,7 +270,7 @@ static dyd_status parse_power(parser *p) {
 static dyd_status parse_signed(parser *p) {
   bool negative = false;
   size_t at = 0;
-  for (int c = peek(p); c == '-' || c == '+'; c = peek(p)) {
+  for (int c = peek_char(p); c == '-' || c == '+'; c = peek_char(p)) {
     at = p->pos++;
     negative ^= c == '-';
   }
@@ -280,17 +280,17 @@ static dyd_status parse_signed(parser *p) {
 
 static dyd_status parse_product(parser *p) {
   dyd_status st = parse_signed(p);
-  for (int c; !st && ((c = peek(p)) == '*' || c == '/');) {
+  for (int c; st == DYD_OK && ((c = peek_char(p)) == '*' || c == '/');) {
     size_t at = p->pos++, left = p->e->count - 1;
     st = parse_signed(p);
-    if (!st) st = emit_binary(p, c == '*' ? DYD_OP_MUL : DYD_OP_DIV, left, at);
+    if (st == DYD_OK) st = emit_binary(p, c == '*' ? DYD_OP_MUL : DYD_OP_DIV, left, at);
   }
   return st;
 }
 
 static dyd_status parse_sum(parser *p) {
   dyd_status st = parse_product(p);
-  for (int c; !st && ((c = peek(p)) == '+' || c == '-');) {
+  for (int c; st == DYD_OK && ((c = peek_char(p)) == '+' || c == '-');) {
     if (c == '+' && p->pos + 1 < p->length && p->text[p->pos + 1] == '-') {
       if (!p->parentheses) break;
       return FAIL(p, p->pos, DYD_E_PARSE,
@@ -298,7 +298,7 @@ static dyd_status parse_sum(parser *p) {
     }
     size_t at = p->pos++, left = p->e->count - 1;
     st = parse_product(p);
-    if (!st) st = emit_binary(p, c == '+' ? DYD_OP_ADD : DYD_OP_SUB, left, at);
+    if (st == DYD_OK) st = emit_binary(p, c == '+' ? DYD_OP_ADD : DYD_OP_SUB, left, at);
   }
   return st;
 }
@@ -308,8 +308,8 @@ dyd_status dyd_expr_parse(dyd_draft *d, size_t *pos, const char *text, size_t le
       .d = d, .e = &d->e, .text = text, .length = length, .pos = *pos, .start = *pos, .allow_x = allow_x, .err = err};
   p.start_column = dyd_text_column(text, *pos);
   dyd_status st = parse_sum(&p);
-  if (st) return st;
-  peek(&p);
+  if (st != DYD_OK) return st;
+  peek_char(&p);
   *pos = p.pos;
   return DYD_OK;
 }

@@ -24,7 +24,7 @@ void dyd_draft_clear(dyd_draft *d) {
 }
 
 /* Room for one more than `count` items of `size` bytes in *array, which is `own` until it has to move. */
-static bool reserve(void **array, size_t *cap, size_t count, size_t size, void *own) {
+static bool draft_reserve(void **array, size_t *cap, size_t count, size_t size, void *own) {
   if (count < *cap) return true;
   void *block = *array == own ? NULL : *array;
   size_t block_cap = block ? *cap : 0;
@@ -36,11 +36,11 @@ static bool reserve(void **array, size_t *cap, size_t count, size_t size, void *
 }
 
 bool dyd_draft_reserve_node(dyd_draft *d) {
-  return reserve((void **)&d->e.node, &d->node_cap, d->e.count, sizeof *d->node, d->node);
+  return draft_reserve((void **)&d->e.node, &d->node_cap, d->e.count, sizeof *d->node, d->node);
 }
 
 bool dyd_draft_reserve_constant(dyd_draft *d) {
-  return reserve((void **)&d->e.constant, &d->constant_cap, d->e.constants, sizeof *d->constant, d->constant);
+  return draft_reserve((void **)&d->e.constant, &d->constant_cap, d->e.constants, sizeof *d->constant, d->constant);
 }
 
 size_t dyd_expr_size(const dyd_expr *e) {

@@ -17,7 +17,7 @@ typedef struct machine {
   slong exponent; /* every ball so far is below 2^exponent in magnitude */
 } machine;
 
-static slong stack_need(const dyd_expr *e) {
+static slong machine_stack_need(const dyd_expr *e) {
   slong need = 0, now = 0;
   for (size_t i = 0; i < e->count; i++) {
     dyd_op op = (dyd_op)e->node[i].op;
@@ -27,7 +27,7 @@ static slong stack_need(const dyd_expr *e) {
   return need;
 }
 
-static void push_leaf(machine *m, const dyd_expr *e, const dyd_node *n) {
+static void machine_push_leaf(machine *m, const dyd_expr *e, const dyd_node *n) {
   arb_ptr out = m->ball + m->top++;
   if (n->op == DYD_OP_PI) {
     arb_const_pi(out, m->prec);
@@ -40,10 +40,10 @@ static void push_leaf(machine *m, const dyd_expr *e, const dyd_node *n) {
 }
 
 /* Applies node i to the top of the stack. The operand just below the top is what node `i - 1` ends. */
-static dyd_defined apply(machine *m, const dyd_expr *e, const dyd_range *below, size_t i) {
+static dyd_defined machine_apply(machine *m, const dyd_expr *e, const dyd_range *below, size_t i) {
   const dyd_node *n = &e->node[i];
   if (dyd_op_is_leaf((dyd_op)n->op)) {
-    push_leaf(m, e, n);
+    machine_push_leaf(m, e, n);
     return DYD_DEFINED;
   }
   if (dyd_op_is_binary((dyd_op)n->op)) {
@@ -54,12 +54,12 @@ static dyd_defined apply(machine *m, const dyd_expr *e, const dyd_range *below, 
 }
 
 /* Runs all nodes; the value is then m->ball[0]. On failure *culprit is the node. */
-static dyd_defined run(machine *m, size_t *culprit, const dyd_expr *e) {
+static dyd_defined machine_run(machine *m, size_t *culprit, const dyd_expr *e) {
   m->top = 0;
   m->exponent = 0;
   for (size_t i = 0; i < e->count; i++) {
     *culprit = i;
-    dyd_defined d = apply(m, e, i ? &e->node[i - 1].range : NULL, i);
+    dyd_defined d = machine_apply(m, e, i ? &e->node[i - 1].range : NULL, i);
     if (d == DYD_DEFINED) d = dyd_ball_check(m->ball + m->top - 1, &m->exponent);
     if (d != DYD_DEFINED) return d;
   }
@@ -106,12 +106,12 @@ static slong next_precision(const machine *m, const dyd_request *rq, dyd_defined
 }
 
 /* Raises the precision until the radius is at most 2^-(bits + 2) or the cap is met. */
-static dyd_status refine(machine *m, int64_t *extra, const dyd_expr *e, const dyd_request *rq, dyd_error *err) {
+static dyd_status machine_refine(machine *m, int64_t *extra, const dyd_expr *e, const dyd_request *rq, dyd_error *err) {
   int64_t base = rq->bits > 0 ? rq->bits : 0;
   m->prec = (slong)(base + *extra);
   for (;;) {
     size_t culprit = 0;
-    dyd_defined d = run(m, &culprit, e);
+    dyd_defined d = machine_run(m, &culprit, e);
     if (d == DYD_DEFINED && dyd_ball_radius_exponent(m->ball) <= -(slong)rq->bits - 2) {
       *extra = m->prec - base;
       return DYD_OK;
@@ -125,7 +125,7 @@ static dyd_status refine(machine *m, int64_t *extra, const dyd_expr *e, const dy
 }
 
 static bool machine_init(machine *m, const dyd_expr *e) {
-  m->capacity = stack_need(e);
+  m->capacity = machine_stack_need(e);
   m->ball = dyd_alloc((size_t)m->capacity, sizeof *m->ball);
   if (!m->ball) return false;
   for (slong i = 0; i < m->capacity; i++) arb_init(m->ball + i);
@@ -141,8 +141,8 @@ dyd_status dyd_expr_enclose(dyd_interval *out, int64_t *extra, const dyd_expr *e
                             dyd_error *err) {
   machine m;
   if (!machine_init(&m, e)) return dyd_fail_nomem(err);
-  dyd_status st = refine(&m, extra, e, request, err);
-  if (!st) {
+  dyd_status st = machine_refine(&m, extra, e, request, err);
+  if (st == DYD_OK) {
     st = dyd_ball_interval(out, m.ball, -request->bits - 2);
     if (st == DYD_E_RANGE) undefined_fail(err, e, e->count - 1, DYD_TOO_BIG, m.prec);
     if (st == DYD_E_NOMEM) dyd_fail_nomem(err);
@@ -156,7 +156,7 @@ dyd_status dyd_expr_probe(const dyd_expr *e, dyd_error *err) {
   size_t culprit = 0;
   if (!machine_init(&m, e)) return dyd_fail_nomem(err);
   m.prec = 64;
-  dyd_defined d = run(&m, &culprit, e);
+  dyd_defined d = machine_run(&m, &culprit, e);
   machine_clear(&m);
   return d == DYD_UNDEFINED || d == DYD_TOO_BIG ? undefined_fail(err, e, culprit, d, 64) : DYD_OK;
 }

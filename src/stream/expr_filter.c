@@ -23,7 +23,7 @@
 
 /* IEEE doubles of one sign are ordered as their patterns: for x > 0 the next double is the next pattern. Beyond the
  * largest is infinity, before infinity the largest; NaN stays. */
-static double double_of(uint64_t pattern) {
+static double double_of_pattern(uint64_t pattern) {
   double x;
   memcpy(&x, &pattern, sizeof x);
   return x;
@@ -35,82 +35,82 @@ static uint64_t pattern_of(double x) {
 }
 
 /* The next double above x; infinite or NaN where there is none. */
-static double above(double x) {
-  if (x > 0) return double_of(pattern_of(x) + (x < INFINITY));
-  if (x < 0) return double_of(pattern_of(x) - 1);
-  return x == 0 ? double_of(1) : x;
+static double next_above(double x) {
+  if (x > 0) return double_of_pattern(pattern_of(x) + (x < INFINITY));
+  if (x < 0) return double_of_pattern(pattern_of(x) - 1);
+  return x == 0 ? double_of_pattern(1) : x;
 }
-static double below(double x) {
-  return -above(-x);
+static double next_below(double x) {
+  return -next_above(-x);
 }
 
-static bool is_good(dyd_double_span a) {
+static bool glance_is_good(dyd_double_span a) {
   return isfinite(a.lo) && isfinite(a.hi);
 }
 
 /* Words below 2^53 are doubles. */
-static bool set_constant(dyd_double_span *out, const dyd_constant *c) {
+static bool glance_set_constant(dyd_double_span *out, const dyd_constant *c) {
   const int64_t limit = (int64_t)1 << 53;
   if (!dyd_constant_is_short(c) || c->u.num > limit || c->u.num < -limit || c->den > limit) return false;
   double q = (double)c->u.num / (double)c->den;
-  *out = c->den == 1 ? (dyd_double_span){q, q} : (dyd_double_span){below(q), above(q)};
+  *out = c->den == 1 ? (dyd_double_span){q, q} : (dyd_double_span){next_below(q), next_above(q)};
   return true;
 }
 
-static dyd_double_span add(dyd_double_span a, dyd_double_span b) {
-  return (dyd_double_span){below(a.lo + b.lo), above(a.hi + b.hi)};
+static dyd_double_span glance_add(dyd_double_span a, dyd_double_span b) {
+  return (dyd_double_span){next_below(a.lo + b.lo), next_above(a.hi + b.hi)};
 }
 
-static dyd_double_span negated(dyd_double_span a) {
+static dyd_double_span glance_negated(dyd_double_span a) {
   return (dyd_double_span){-a.hi, -a.lo};
 }
 
 /* From the least to the greatest of four rounded corners; NaN when one of them is. */
-static dyd_double_span corners(double p, double q, double r, double s) {
+static dyd_double_span glance_corners(double p, double q, double r, double s) {
   if (isnan(p + q + r + s)) return (dyd_double_span){NAN, NAN};
-  return (dyd_double_span){below(fmin(fmin(p, q), fmin(r, s))), above(fmax(fmax(p, q), fmax(r, s)))};
+  return (dyd_double_span){next_below(fmin(fmin(p, q), fmin(r, s))), next_above(fmax(fmax(p, q), fmax(r, s)))};
 }
 
-static dyd_double_span multiply(dyd_double_span a, dyd_double_span b) {
-  if (a.lo >= 0 && b.lo >= 0) return (dyd_double_span){below(a.lo * b.lo), above(a.hi * b.hi)};
-  return corners(a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi);
+static dyd_double_span glance_multiply(dyd_double_span a, dyd_double_span b) {
+  if (a.lo >= 0 && b.lo >= 0) return (dyd_double_span){next_below(a.lo * b.lo), next_above(a.hi * b.hi)};
+  return glance_corners(a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi);
 }
 
-static dyd_double_span divide(dyd_double_span a, dyd_double_span b) {
+static dyd_double_span glance_divide(dyd_double_span a, dyd_double_span b) {
   if (b.lo <= 0 && b.hi >= 0) return (dyd_double_span){NAN, NAN};
-  return corners(a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi);
+  return glance_corners(a.lo / b.lo, a.lo / b.hi, a.hi / b.lo, a.hi / b.hi);
 }
 
 /* What is known of the value by its form may cut the lower end [RANGE-1]. */
-static dyd_double_span square_root(dyd_double_span a, dyd_range range) {
+static dyd_double_span glance_square_root(dyd_double_span a, dyd_range range) {
   if (a.lo < 0 && range.lo < 0) return (dyd_double_span){NAN, NAN};
-  double lo = a.lo > 0 ? below(sqrt(a.lo)) : 0;
-  return (dyd_double_span){lo, above(sqrt(a.hi))};
+  double lo = a.lo > 0 ? next_below(sqrt(a.lo)) : 0;
+  return (dyd_double_span){lo, next_above(sqrt(a.hi))};
 }
 
-static dyd_double_span absolute(dyd_double_span a) {
+static dyd_double_span glance_absolute(dyd_double_span a) {
   if (a.lo >= 0) return a;
-  if (a.hi <= 0) return negated(a);
+  if (a.hi <= 0) return glance_negated(a);
   return (dyd_double_span){0, fmax(-a.lo, a.hi)};
 }
 
-static dyd_double_span power(dyd_double_span a, int32_t n) {
+static dyd_double_span glance_power(dyd_double_span a, int32_t n) {
   dyd_double_span result = {1, 1};
   const dyd_double_span nothing = {NAN, NAN};
-  if (n < 0) return divide(result, power(a, -n));
-  if (n % 2 == 0) a = absolute(a);
+  if (n < 0) return glance_divide(result, glance_power(a, -n));
+  if (n % 2 == 0) a = glance_absolute(a);
   for (; n; n /= 2) {
-    if (n % 2) result = multiply(result, a);
-    a = multiply(a, a);
-    if (!is_good(a) && n > 1) return nothing;
+    if (n % 2) result = glance_multiply(result, a);
+    a = glance_multiply(a, a);
+    if (!glance_is_good(a) && n > 1) return nothing;
   }
   return result;
 }
 
-static bool leaf(dyd_double_span *out, const dyd_expr *e, const dyd_node *n) {
+static bool glance_leaf(dyd_double_span *out, const dyd_expr *e, const dyd_node *n) {
   switch (n->op) {
   case DYD_OP_CONST:
-    return set_constant(out, &e->constant[n->argument]);
+    return glance_set_constant(out, &e->constant[n->argument]);
   case DYD_OP_PI:
     *out = (dyd_double_span){0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1};
     return true;
@@ -123,38 +123,38 @@ static bool leaf(dyd_double_span *out, const dyd_expr *e, const dyd_node *n) {
 }
 
 /* a = op(a), where a lies in `range` by its form. */
-static bool unary(dyd_double_span *a, const dyd_node *n, dyd_range range) {
+static bool glance_unary(dyd_double_span *a, const dyd_node *n, dyd_range range) {
   switch (n->op) {
   case DYD_OP_NEG:
-    *a = negated(*a);
+    *a = glance_negated(*a);
     return true;
   case DYD_OP_ABS:
-    *a = absolute(*a);
+    *a = glance_absolute(*a);
     return true;
   case DYD_OP_SQRT:
-    *a = square_root(*a, range);
-    return is_good(*a);
+    *a = glance_square_root(*a, range);
+    return glance_is_good(*a);
   case DYD_OP_POW:
-    *a = power(*a, n->argument);
-    return is_good(*a);
+    *a = glance_power(*a, n->argument);
+    return glance_is_good(*a);
   default:
     return false;
   }
 }
 
-static bool binary(dyd_double_span *a, dyd_op op, dyd_double_span b) {
+static bool glance_binary(dyd_double_span *a, dyd_op op, dyd_double_span b) {
   switch (op) {
   case DYD_OP_ADD:
-    *a = add(*a, b);
+    *a = glance_add(*a, b);
     break;
   case DYD_OP_SUB:
-    *a = add(*a, negated(b));
+    *a = glance_add(*a, glance_negated(b));
     break;
   case DYD_OP_MUL:
-    *a = multiply(*a, b);
+    *a = glance_multiply(*a, b);
     break;
   case DYD_OP_DIV:
-    *a = divide(*a, b);
+    *a = glance_divide(*a, b);
     break;
   case DYD_OP_MIN:
     *a = (dyd_double_span){fmin(a->lo, b.lo), fmin(a->hi, b.hi)};
@@ -163,24 +163,24 @@ static bool binary(dyd_double_span *a, dyd_op op, dyd_double_span b) {
     *a = (dyd_double_span){fmax(a->lo, b.lo), fmax(a->hi, b.hi)};
     break;
   }
-  return is_good(*a);
+  return glance_is_good(*a);
 }
 
 /* Applies node i to the stack of *top operands. */
-static bool apply(dyd_double_span *stack, size_t *top, const dyd_expr *e, size_t i) {
+static bool glance_apply(dyd_double_span *stack, size_t *top, const dyd_expr *e, size_t i) {
   const dyd_node *n = &e->node[i];
   dyd_op op = (dyd_op)n->op;
-  if (dyd_op_is_leaf(op)) return *top < OPEN && leaf(&stack[(*top)++], e, n);
-  if (!dyd_op_is_binary(op)) return unary(&stack[*top - 1], n, e->node[i - 1].range);
+  if (dyd_op_is_leaf(op)) return *top < OPEN && glance_leaf(&stack[(*top)++], e, n);
+  if (!dyd_op_is_binary(op)) return glance_unary(&stack[*top - 1], n, e->node[i - 1].range);
   --*top;
-  return binary(&stack[*top - 1], op, stack[*top]);
+  return glance_binary(&stack[*top - 1], op, stack[*top]);
 }
 
 bool dyd_filter_expr(dyd_double_span *out, const dyd_expr *e) {
   dyd_double_span stack[OPEN];
   size_t top = 0;
   for (size_t i = 0; i < e->count; i++)
-    if (!apply(stack, &top, e, i)) return false;
+    if (!glance_apply(stack, &top, e, i)) return false;
   *out = (dyd_double_span){stack[0].lo + 0.0, stack[0].hi + 0.0};
   return true;
 }
@@ -199,7 +199,7 @@ int64_t dyd_filter_bits(dyd_double_span a) {
 
 /* -1022 <= k <= 1023. */
 static double power_of_two(int64_t k) {
-  return double_of((uint64_t)(k + 1023) << 52);
+  return double_of_pattern((uint64_t)(k + 1023) << 52);
 }
 
 bool dyd_filter_round(dyd_double_span *out, dyd_double_span a, int64_t bits) {

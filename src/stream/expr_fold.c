@@ -103,7 +103,7 @@ static dyd_status with_rational(dyd_constant *x, bool *done, dyd_op op, long exp
   mpq_set(q, dyd_constant_get(&view, x));
   *done = true;
   dyd_status st = y ? fold_binary(q, op, dyd_constant_get(&view, y)) : fold_unary(q, done, op, exponent);
-  if (!st && *done) st = dyd_constant_set(x, q);
+  if (st == DYD_OK && *done) st = dyd_constant_set(x, q);
   mpq_clear(q);
   return st;
 }

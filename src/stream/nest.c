@@ -5,6 +5,7 @@
 #include "stream/real.h"
 
 #include "base/error.h"
+#include "rect/interval.h"
 
 /* Room for the guard bits that built-in sources add. */
 #define GUARD 64
@@ -23,7 +24,7 @@ dyd_status dyd_request_make(dyd_request *out, size_t point, int64_t bits, int64_
 }
 
 /* The least e with the distance by which `now` leaves `old` below 2^e, at its worse end; *low tells which end. */
-static int64_t excess(bool *low, const dyd_interval *old, const dyd_interval *now) {
+static int64_t nesting_excess(bool *low, const dyd_interval *old, const dyd_interval *now) {
   mpq_t a, b, c, d;
   mpq_inits(a, b, c, d, NULL);
   dyd_interval_get_q(a, b, old);
@@ -42,7 +43,7 @@ dyd_status dyd_nesting_fail(dyd_error *err, const char *side, const dyd_interval
   bool low;
   dyd_interval_get_d(&a[0], &a[1], old);
   dyd_interval_get_d(&b[0], &b[1], now);
-  int64_t e = excess(&low, old, now);
+  int64_t e = nesting_excess(&low, old, now);
   return dyd_fail(
       err, DYD_E_NESTING,
       "the new %s [%.17g, %.17g] is not inside the old one [%.17g, %.17g] (rounded): its %s end lies outside by "
@@ -50,8 +51,17 @@ dyd_status dyd_nesting_fail(dyd_error *err, const char *side, const dyd_interval
       side, b[0], b[1], a[0], a[1], low ? "lower" : "upper", (long long)e);
 }
 
+dyd_status dyd_nest(dyd_interval *next, const dyd_interval *old, bool encloses, const char *side, dyd_error *err) {
+  if (!dyd_interval_is_valid(next))
+    return dyd_fail(err, DYD_E_STREAM, "the callback gave no valid %s; fill it with dyd_interval_set_ends", side);
+  if (!old || (!encloses && dyd_interval_contains(old, next))) return DYD_OK;
+  dyd_status st = encloses ? dyd_interval_intersect(next, old, next) : DYD_E_ARG;
+  if (st == DYD_E_ARG) return dyd_nesting_fail(err, side, old, next);
+  return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
+}
+
 dyd_status dyd_callback_fail(dyd_error *err, const dyd_error *own, dyd_status st, size_t point, uint64_t stage) {
-  bool known = st < 0 && st >= DYD_E_IO;
+  bool known = dyd_failed(st) && st >= DYD_E_IO;
   dyd_status code = known ? st : DYD_E_STREAM;
   if (!err) return code;
   *err = *own;

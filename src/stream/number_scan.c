@@ -9,12 +9,12 @@
 /* Exponents beyond this mean DYD_E_RANGE in any case. */
 #define EXPONENT_CAP ((int64_t)1 << 40)
 
-static bool is_digit(char c) {
+static bool is_decimal_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
 static bool is_hex_digit(char c) {
-  return is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+  return is_decimal_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
 }
 
 /* An optional sign and decimal digits at *pos; moves *pos behind them. false (nothing moved): no digits. */
@@ -22,9 +22,9 @@ static bool scan_exponent(int64_t *out, const char *text, size_t length, size_t 
   size_t i = *pos;
   bool negative = i < length && text[i] == '-';
   if (i < length && (text[i] == '-' || text[i] == '+')) i++;
-  if (i >= length || !is_digit(text[i])) return false;
+  if (i >= length || !is_decimal_digit(text[i])) return false;
   int64_t value = 0;
-  for (; i < length && is_digit(text[i]); i++) {
+  for (; i < length && is_decimal_digit(text[i]); i++) {
     if (value < EXPONENT_CAP) value = 10 * value + (text[i] - '0');
   }
   if (value > EXPONENT_CAP) value = EXPONENT_CAP;
@@ -42,7 +42,7 @@ bool dyd_literal_scan(dyd_literal *out, const char *text, size_t length, size_t 
   for (; pos < length; pos++) {
     if (text[pos] == '.' && !point) {
       point = true;
-    } else if (l.hex ? is_hex_digit(text[pos]) : is_digit(text[pos])) {
+    } else if (l.hex ? is_hex_digit(text[pos]) : is_decimal_digit(text[pos])) {
       l.digits++;
       l.fraction += point;
     } else {

@@ -18,7 +18,7 @@ dyd_status dyd_rational_fits(mpq_srcptr q) {
   return fits ? DYD_OK : DYD_E_RANGE;
 }
 
-static uint64_t ten_to(int k) {
+static uint64_t power_of_ten(int k) {
   uint64_t p = 1;
   while (k-- > 0) p *= 10;
   return p;
@@ -28,8 +28,8 @@ static uint64_t ten_to(int k) {
 static bool decimal_words(uint64_t *num, uint64_t *den, uint64_t m, int ten) {
   *den = 1;
   if (ten > 0) {
-    if (m > UINT64_MAX / ten_to(ten)) return false;
-    m *= ten_to(ten);
+    if (m > UINT64_MAX / power_of_ten(ten)) return false;
+    m *= power_of_ten(ten);
   } else if (ten < 0) {
     int two = -ten, five = -ten;
     if (!m) two = five = 0;
@@ -59,13 +59,13 @@ static uint64_t small_digits(const dyd_literal *in) {
   return m;
 }
 
-static bool is_small(const dyd_literal *in) {
+static bool literal_is_small(const dyd_literal *in) {
   int64_t ten = in->exponent - (int64_t)in->fraction;
   return !in->hex && in->digits <= SMALL_DIGITS && ten >= -SMALL_DIGITS && ten <= SMALL_DIGITS;
 }
 
 bool dyd_literal_words(uint64_t *num, uint64_t *den, const dyd_literal *in) {
-  return is_small(in) && decimal_words(num, den, small_digits(in), (int)(in->exponent - (int64_t)in->fraction));
+  return literal_is_small(in) && decimal_words(num, den, small_digits(in), (int)(in->exponent - (int64_t)in->fraction));
 }
 
 /* All digits as an integer, whatever their number up to MAX_DIGITS (leading zeros aside). */
@@ -115,10 +115,10 @@ static dyd_status scale_ten(mpq_ptr x, int64_t ten) {
 
 dyd_status dyd_literal_value(mpq_ptr out, const dyd_literal *in) {
   int64_t fraction = (int64_t)in->fraction;
-  if (is_small(in) && dyd_small_decimal(out, small_digits(in), (int)(in->exponent - fraction))) return DYD_OK;
+  if (literal_is_small(in) && dyd_small_decimal(out, small_digits(in), (int)(in->exponent - fraction))) return DYD_OK;
   mpz_set_ui(mpq_denref(out), 1);
   dyd_status st = all_digits(mpq_numref(out), in);
-  if (st) return st;
+  if (st != DYD_OK) return st;
   return in->hex ? scale_two(out, in->exponent - 4 * fraction) : scale_ten(out, in->exponent - fraction);
 }
 
@@ -126,22 +126,22 @@ dyd_status dyd_literal_value(mpq_ptr out, const dyd_literal *in) {
 static dyd_status form_value(mpq_ptr out, size_t *at, const dyd_number_form *f) {
   *at = f->literal.first;
   dyd_status st = dyd_literal_value(out, &f->literal);
-  if (!st && f->dyadic) st = scale_two(out, f->two);
-  if (!st && f->rational) {
+  if (st == DYD_OK && f->dyadic) st = scale_two(out, f->two);
+  if (st == DYD_OK && f->rational) {
     mpq_t q;
     mpq_init(q);
     *at = f->denominator.first;
     st = dyd_literal_value(q, &f->denominator);
-    if (!st && !mpq_sgn(q)) st = DYD_E_DOMAIN;
-    if (!st) mpq_div(out, out, q);
-    if (!st) st = dyd_rational_fits(out);
+    if (st == DYD_OK && !mpq_sgn(q)) st = DYD_E_DOMAIN;
+    if (st == DYD_OK) mpq_div(out, out, q);
+    if (st == DYD_OK) st = dyd_rational_fits(out);
     mpq_clear(q);
   }
   if (f->negative) mpq_neg(out, out);
   return st;
 }
 
-static dyd_status value_fail(dyd_error *err, dyd_status st, const char *text, size_t at) {
+static dyd_status number_value_fail(dyd_error *err, dyd_status st, const char *text, size_t at) {
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (st == DYD_E_DOMAIN) return dyd_text_fail(err, st, text, at, "the denominator is 0; give a number other than 0");
   return dyd_text_fail(err, st, text, at,
@@ -159,8 +159,8 @@ static dyd_status scan_or_fail(dyd_number_form *f, const char *text, size_t leng
 dyd_status dyd_parse_number(mpq_t out, const char *text, size_t length, dyd_error *err) {
   dyd_number_form f;
   dyd_status st = scan_or_fail(&f, text, length, err);
-  if (st) return st;
-  if (!f.rational && !f.dyadic && is_small(&f.literal)) {
+  if (st != DYD_OK) return st;
+  if (!f.rational && !f.dyadic && literal_is_small(&f.literal)) {
     int ten = (int)(f.literal.exponent - (int64_t)f.literal.fraction);
     if (dyd_small_decimal(out, small_digits(&f.literal), ten)) {
       if (f.negative) mpq_neg(out, out);
@@ -171,9 +171,9 @@ dyd_status dyd_parse_number(mpq_t out, const char *text, size_t length, dyd_erro
   size_t at = 0;
   mpq_init(value);
   st = form_value(value, &at, &f);
-  if (!st) mpq_swap(out, value);
+  if (st == DYD_OK) mpq_swap(out, value);
   mpq_clear(value);
-  return st ? value_fail(err, st, text, at) : DYD_OK;
+  return st != DYD_OK ? number_value_fail(err, st, text, at) : DYD_OK;
 }
 
 /* lo = x - h, hi = x + h with h = 10^unit / 2. */
@@ -182,11 +182,11 @@ static dyd_status half_unit_around(mpq_ptr lo, mpq_ptr hi, mpq_srcptr x, int64_t
   mpq_init(h);
   mpq_set_ui(h, 1, 2);
   dyd_status st = scale_ten(h, unit);
-  if (!st) {
+  if (st == DYD_OK) {
     mpq_sub(lo, x, h);
     mpq_add(hi, x, h);
     st = dyd_rational_fits(lo);
-    if (!st) st = dyd_rational_fits(hi);
+    if (st == DYD_OK) st = dyd_rational_fits(hi);
   }
   mpq_clear(h);
   return st;
@@ -194,7 +194,7 @@ static dyd_status half_unit_around(mpq_ptr lo, mpq_ptr hi, mpq_srcptr x, int64_t
 
 /* The short way: 10 m -+ 5 units of 10^(ten - 1). */
 static bool small_measured(mpq_ptr lo, mpq_ptr hi, const dyd_number_form *f) {
-  if (!is_small(&f->literal) || f->literal.digits >= SMALL_DIGITS) return false;
+  if (!literal_is_small(&f->literal) || f->literal.digits >= SMALL_DIGITS) return false;
   int ten = (int)(f->literal.exponent - (int64_t)f->literal.fraction) - 1;
   if (ten < -SMALL_DIGITS) return false;
   uint64_t m = 10 * small_digits(&f->literal);
@@ -211,24 +211,24 @@ static bool small_measured(mpq_ptr lo, mpq_ptr hi, const dyd_number_form *f) {
 dyd_status dyd_parse_measured(mpq_t lo, mpq_t hi, const char *text, size_t length, dyd_error *err) {
   dyd_number_form f;
   dyd_status st = scan_or_fail(&f, text, length, err);
-  if (st) return st;
+  if (st != DYD_OK) return st;
   bool decimal = !f.rational && !f.dyadic && !f.literal.hex;
   mpq_t value[3];
   size_t at = f.literal.first;
   for (int i = 0; i < 3; i++) mpq_init(value[i]);
   if (!decimal || !small_measured(value[0], value[1], &f)) {
     st = form_value(value[2], &at, &f);
-    if (!st && decimal) {
+    if (st == DYD_OK && decimal) {
       st = half_unit_around(value[0], value[1], value[2], f.literal.exponent - (int64_t)f.literal.fraction);
-    } else if (!st) {
+    } else if (st == DYD_OK) {
       mpq_set(value[0], value[2]);
       mpq_set(value[1], value[2]);
     }
   }
-  if (!st) {
+  if (st == DYD_OK) {
     mpq_swap(lo, value[0]);
     mpq_swap(hi, value[1]);
   }
   for (int i = 0; i < 3; i++) mpq_clear(value[i]);
-  return st ? value_fail(err, st, text, at) : DYD_OK;
+  return st != DYD_OK ? number_value_fail(err, st, text, at) : DYD_OK;
 }

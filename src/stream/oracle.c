@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Points served by programs of the user: starting them, waiting for them, ending them.
  *
- * One loop (wait_for) does all waiting: it sends every program what it may be sent, takes whatever comes from any of
- * them, and ends when the one request in question is answered, cannot be answered, took too long, or is not wanted any
- * more. Which program is asked what, in which order, does not depend on time [ORA-2]. */
+ * One loop (wait_for_answer) does all waiting: it sends every program what it may be sent, takes whatever comes from
+ * any of them, and ends when the one request in question is answered, cannot be answered, took too long, or is not
+ * wanted any more. Which program is asked what, in which order, does not depend on time [ORA-2]. */
 #include "stream/oracle_answer.h"
 #include "stream/oracle_worker.h"
 #include <dyadel/oracle.h>
@@ -35,7 +35,7 @@ struct dyd_oracle {
 /* ---- waiting ---- */
 
 /* Sends and takes what goes within the time. */
-static void exchange(dyd_oracle *o, double seconds) {
+static void exchange_lines(dyd_oracle *o, double seconds) {
   for (unsigned k = 0; k < o->jobs; k++) {
     dyd_worker *w = &o->worker[k];
     dyd_worker_fill(w);
@@ -50,7 +50,7 @@ static void exchange(dyd_oracle *o, double seconds) {
   }
 }
 
-static void fail_silent(const dyd_oracle *o, dyd_worker *w) {
+static void oracle_fail_silent(const dyd_oracle *o, dyd_worker *w) {
   char how[100];
   const char *deaf = dyd_process_is_deaf(&w->process) ? " and has closed its standard input" : "";
   if (dyd_process_ended(how, sizeof how, &w->process, 0))
@@ -62,21 +62,21 @@ static void fail_silent(const dyd_oracle *o, dyd_worker *w) {
                     o->seconds, deaf);
 }
 
-static bool is_stopped(const volatile int *stop) {
+static bool stop_is_raised(const volatile int *stop) {
   return stop && __atomic_load_n(stop, __ATOMIC_SEQ_CST);
 }
 
 /* Until the first request of w that is wanted is answered (DYD_OK), w has failed (its code), or *stop is raised
  * (DYD_CANCELLED). The clock starts anew with each line of w, and what has come is read before it is looked at. */
-static dyd_status wait_for(dyd_oracle *o, dyd_worker *w, const volatile int *stop) {
+static dyd_status wait_for_answer(dyd_oracle *o, dyd_worker *w, const volatile int *stop) {
   double begun = dyd_seconds(), left = o->seconds;
   while (!dyd_worker_is_answered(w)) {
     if (dyd_worker_is_lost(w)) return w->code;
-    if (is_stopped(stop)) return DYD_CANCELLED;
-    exchange(o, left < SLICE_SECONDS ? left : SLICE_SECONDS);
+    if (stop_is_raised(stop)) return DYD_CANCELLED;
+    exchange_lines(o, left < SLICE_SECONDS ? left : SLICE_SECONDS);
     left = (w->heard > begun ? w->heard : begun) + o->seconds - dyd_seconds();
     if (left > 0) continue;
-    if (!w->failed && !dyd_worker_is_answered(w)) fail_silent(o, w);
+    if (!w->failed && !dyd_worker_is_answered(w)) oracle_fail_silent(o, w);
     left = 0;
   }
   return DYD_OK;
@@ -84,24 +84,24 @@ static dyd_status wait_for(dyd_oracle *o, dyd_worker *w, const volatile int *sto
 
 /* ---- the source ---- */
 
-static dyd_worker *worker_of(const dyd_oracle *o, size_t point) {
+static dyd_worker *oracle_worker_of(const dyd_oracle *o, size_t point) {
   return &o->worker[point % o->jobs];
 }
 
 /* What is already asked stays; a list that does not fit into memory is as good as none. */
-static void announce(void *user, const dyd_request *request, size_t count) {
+static void oracle_announce(void *user, const dyd_request *request, size_t count) {
   dyd_oracle *o = user;
   for (unsigned k = 0; k < o->jobs; k++) dyd_worker_forget(&o->worker[k]);
   for (size_t k = 0; k < count; k++) {
     if (request[k].point >= o->points) continue;
-    dyd_worker *w = worker_of(o, request[k].point);
+    dyd_worker *w = oracle_worker_of(o, request[k].point);
     if (!dyd_worker_ask(w, request[k].point, request[k].bits)) break;
   }
-  exchange(o, 0);
+  exchange_lines(o, 0);
 }
 
 /* Sees to it that the first request of w that is wanted is this one. */
-static bool ask(dyd_worker *w, const dyd_request *request) {
+static bool ask_first(dyd_worker *w, const dyd_request *request) {
   const dyd_asked *first = dyd_worker_first(w);
   if (first && first->point == request->point && first->bits == request->bits) return true;
   dyd_worker_forget(w);
@@ -109,36 +109,36 @@ static bool ask(dyd_worker *w, const dyd_request *request) {
 }
 
 /* Puts what was asked before the message. */
-static dyd_status fail_request(dyd_error *err, dyd_status status, const dyd_request *request, const char *why) {
-  return dyd_fail(err, status, "the oracle program was asked \"refine %zu %" PRId64 "\": %s", request->point,
-                  request->bits, why);
+static dyd_status oracle_fail_request(dyd_error *err, dyd_status st, const dyd_request *request, const char *why) {
+  return dyd_fail(err, st, "the oracle program was asked \"refine %zu %" PRId64 "\": %s", request->point, request->bits,
+                  why);
 }
 
-static dyd_status narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
+static dyd_status oracle_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
   dyd_oracle *o = user;
   dyd_error own;
   if (request->point >= o->points) {
     return dyd_fail(err, DYD_E_ARG, "the oracle program has %zu points only", o->points);
   }
-  dyd_worker *w = worker_of(o, request->point);
-  if (!ask(w, request)) return dyd_fail_nomem(err);
-  dyd_status status = wait_for(o, w, request->stop);
-  if (status < 0) return fail_request(err, status, request, w->why);
-  if (status > 0) return status;
+  dyd_worker *w = oracle_worker_of(o, request->point);
+  if (!ask_first(w, request)) return dyd_fail_nomem(err);
+  dyd_status st = wait_for_answer(o, w, request->stop);
+  if (dyd_failed(st)) return oracle_fail_request(err, st, request, w->why);
+  if (st != DYD_OK) return st;
   dyd_error_clear(&own);
   const dyd_asked *a = &w->asked[w->head];
-  status = dyd_oracle_read_answer(out, !dyd_rect_is_point(out), a->answer, a->length, &own);
+  st = dyd_oracle_read_answer(out, !dyd_rect_is_point(out), a->answer, a->length, &own);
   dyd_worker_drop(w);
-  return status < 0 ? fail_request(err, status, request, own.message) : status;
+  return dyd_failed(st) ? oracle_fail_request(err, st, request, own.message) : st;
 }
 
-static void release(void *user) {
+static void oracle_release(void *user) {
   dyd_oracle_free(user);
 }
 
 dyd_source dyd_oracle_source(dyd_oracle *o) {
   o->refs++;
-  return (dyd_source){.narrow = narrow, .release = release, .user = o, .announce = announce};
+  return (dyd_source){.narrow = oracle_narrow, .release = oracle_release, .user = o, .announce = oracle_announce};
 }
 
 size_t dyd_oracle_count(const dyd_oracle *o) {
@@ -148,48 +148,49 @@ size_t dyd_oracle_count(const dyd_oracle *o) {
 /* ---- starting ---- */
 
 /* Reads the first line of program k. */
-static dyd_status read_count(size_t *count, dyd_oracle *o, unsigned k, const volatile int *stop, dyd_error *err) {
+static dyd_status oracle_read_count(size_t *count, dyd_oracle *o, unsigned k, const volatile int *stop,
+                                    dyd_error *err) {
   dyd_worker *w = &o->worker[k];
-  dyd_status status = wait_for(o, w, stop);
-  if (status < 0) {
-    return dyd_fail(err, status, "the oracle program was to print \"points N\", with the number of points: %s", w->why);
+  dyd_status st = wait_for_answer(o, w, stop);
+  if (dyd_failed(st)) {
+    return dyd_fail(err, st, "the oracle program was to print \"points N\", with the number of points: %s", w->why);
   }
-  if (status > 0) return status;
-  status = dyd_oracle_read_count(count, w->asked[w->head].answer, w->asked[w->head].length, err);
+  if (st != DYD_OK) return st;
+  st = dyd_oracle_read_count(count, w->asked[w->head].answer, w->asked[w->head].length, err);
   dyd_worker_drop(w);
-  return status;
+  return st;
 }
 
 /* Starts programs jobs .. want-1; they count as soon as they run. */
-static dyd_status start(dyd_oracle *o, const char *command, unsigned want, int lifeline, dyd_error *err) {
-  dyd_status status = DYD_OK;
-  while (status >= 0 && o->jobs < want) {
+static dyd_status start_programs(dyd_oracle *o, const char *command, unsigned want, int lifeline, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  while (st == DYD_OK && o->jobs < want) {
     dyd_worker *w = &o->worker[o->jobs];
     dyd_worker_init(w, o->batch);
-    status = dyd_process_start(&w->process, command, o->jobs++, lifeline, err);
-    if (status >= 0 && !dyd_worker_expect_count(w)) status = dyd_fail_nomem(err);
+    st = dyd_process_start(&w->process, command, o->jobs++, lifeline, err);
+    if (st == DYD_OK && !dyd_worker_expect_count(w)) st = dyd_fail_nomem(err);
   }
-  return status;
+  return st;
 }
 
 /* The first program says how many points there are; then the others are started, no more than points, and must say the
  * same. */
-static dyd_status start_all(dyd_oracle *o, const char *command, unsigned jobs, int lifeline, const volatile int *stop,
-                            dyd_error *err) {
-  dyd_status status = start(o, command, 1, lifeline, err);
-  if (status >= 0) status = read_count(&o->points, o, 0, stop, err);
-  if (status != DYD_OK) return status;
+static dyd_status start_all_programs(dyd_oracle *o, const char *command, unsigned jobs, int lifeline,
+                                     const volatile int *stop, dyd_error *err) {
+  dyd_status st = start_programs(o, command, 1, lifeline, err);
+  if (st == DYD_OK) st = oracle_read_count(&o->points, o, 0, stop, err);
+  if (st != DYD_OK) return st;
   if (jobs > o->points) jobs = o->points ? (unsigned)o->points : 1;
-  status = start(o, command, jobs, lifeline, err);
-  for (unsigned k = 1; status == DYD_OK && k < jobs; k++) {
+  st = start_programs(o, command, jobs, lifeline, err);
+  for (unsigned k = 1; st == DYD_OK && k < jobs; k++) {
     size_t count = 0;
-    status = read_count(&count, o, k, stop, err);
-    if (status == DYD_OK && count != o->points) {
+    st = oracle_read_count(&count, o, k, stop, err);
+    if (st == DYD_OK && count != o->points) {
       return dyd_fail(err, DYD_E_STREAM, "oracle program 0 has %zu points, program %u has %zu; all must serve the same",
                       o->points, k, count);
     }
   }
-  return status;
+  return st;
 }
 
 static dyd_status start_with_lifeline(dyd_oracle *o, const char *command, unsigned jobs, const volatile int *stop,
@@ -199,9 +200,9 @@ static dyd_status start_with_lifeline(dyd_oracle *o, const char *command, unsign
     return dyd_fail(err, DYD_E_STREAM, "no pipe for the oracle program: %s; close other files", strerror(errno));
   }
   o->lifeline = end[1];
-  dyd_status status = start_all(o, command, jobs, end[0], stop, err);
+  dyd_status st = start_all_programs(o, command, jobs, end[0], stop, err);
   dyd_close(&end[0]);
-  return status;
+  return st;
 }
 
 /* Room for `jobs` programs, none started. NULL: memory is exhausted. */
@@ -228,18 +229,18 @@ dyd_status dyd_oracle_new(dyd_oracle **out, const char *command, const dyd_oracl
   }
   dyd_oracle *o = oracle_new(given.jobs, given.batch, given.seconds);
   if (!o) return dyd_fail_nomem(err);
-  dyd_status status = start_with_lifeline(o, command, given.jobs, given.stop, err);
-  if (status == DYD_OK)
+  dyd_status st = start_with_lifeline(o, command, given.jobs, given.stop, err);
+  if (st == DYD_OK)
     *out = o;
   else
     dyd_oracle_free(o);
-  return status;
+  return st;
 }
 
 /* ---- ending ---- */
 
 /* Closes all pipes and waits a little, so that programs that read on can end by themselves. */
-static void let_end(dyd_oracle *o) {
+static void let_programs_end(dyd_oracle *o) {
   double until = dyd_seconds() + GRACE_SECONDS;
   for (unsigned k = 0; k < o->jobs; k++) dyd_process_close(&o->worker[k].process);
   for (unsigned k = 0; k < o->jobs; k++) {
@@ -251,7 +252,7 @@ static void let_end(dyd_oracle *o) {
 
 void dyd_oracle_free(dyd_oracle *o) {
   if (!o || --o->refs) return;
-  let_end(o);
+  let_programs_end(o);
   for (unsigned k = 0; k < o->jobs; k++) dyd_worker_clear(&o->worker[k]);
   dyd_close(&o->lifeline);
   free(o->poll);

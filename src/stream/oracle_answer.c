@@ -18,17 +18,17 @@ typedef struct word {
   size_t begin, end;
 } word;
 
-static bool is_blank(char c) {
+static bool answer_is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
 /* The words of a line; returns their number, at most `most` + 1. */
-static size_t split(word *out, size_t most, const char *line, size_t length) {
+static size_t split_answer(word *out, size_t most, const char *line, size_t length) {
   size_t n = 0;
   for (size_t k = 0; k < length;) {
-    while (k < length && is_blank(line[k])) k++;
+    while (k < length && answer_is_blank(line[k])) k++;
     size_t begin = k;
-    while (k < length && !is_blank(line[k])) k++;
+    while (k < length && !answer_is_blank(line[k])) k++;
     if (k == begin) continue;
     if (n == most) return most + 1;
     out[n++] = (word){begin, k};
@@ -36,12 +36,12 @@ static size_t split(word *out, size_t most, const char *line, size_t length) {
   return n;
 }
 
-static bool word_is(const char *line, word w, const char *text) {
+static bool answer_word_is(const char *line, word w, const char *text) {
   return w.end - w.begin == strlen(text) && memcmp(line + w.begin, text, w.end - w.begin) == 0;
 }
 
 /* A whole number of at most nine digits. */
-static bool read_small(size_t *out, const char *line, word w) {
+static bool read_answer_count(size_t *out, const char *line, word w) {
   size_t value = 0;
   if (w.end - w.begin > 9) return false;
   for (size_t k = w.begin; k < w.end; k++) {
@@ -56,8 +56,8 @@ dyd_status dyd_oracle_read_count(size_t *out, const char *line, size_t length, d
   word w[2];
   size_t count;
   char shown[80];
-  if (split(w, 2, line, length) != 2 || !word_is(line, w[0], "points") || !read_small(&count, line, w[1]) ||
-      count > DYD_MAX_SITES) {
+  if (split_answer(w, 2, line, length) != 2 || !answer_word_is(line, w[0], "points") ||
+      !read_answer_count(&count, line, w[1]) || count > DYD_MAX_SITES) {
     return dyd_fail(err, DYD_E_STREAM,
                     "the first line of the oracle program is %s; print \"points N\", with the number "
                     "of points",
@@ -69,13 +69,13 @@ dyd_status dyd_oracle_read_count(size_t *out, const char *line, size_t length, d
 
 /* ---- answers ---- */
 
-static dyd_status read_end(mpq_t out, const char *line, word w, dyd_error *err) {
+static dyd_status read_answer_end(mpq_t out, const char *line, word w, dyd_error *err) {
   dyd_error own;
   char shown[80];
   dyd_error_clear(&own);
-  dyd_status status = dyd_parse_number(out, line + w.begin, w.end - w.begin, &own);
-  if (status == DYD_OK || status == DYD_E_NOMEM || status == DYD_E_RANGE) {
-    return status ? dyd_fail(err, status, "%s", own.message) : status;
+  dyd_status st = dyd_parse_number(out, line + w.begin, w.end - w.begin, &own);
+  if (st == DYD_OK || st == DYD_E_NOMEM || st == DYD_E_RANGE) {
+    return st != DYD_OK ? dyd_fail(err, st, "%s", own.message) : st;
   }
   return dyd_fail(err, DYD_E_STREAM, "%s, column %zu of its answer, is not an exact number: %s",
                   dyd_quoted(shown, sizeof shown, line + w.begin, w.end - w.begin), dyd_text_column(line, w.begin),
@@ -83,7 +83,7 @@ static dyd_status read_end(mpq_t out, const char *line, word w, dyd_error *err) 
 }
 
 /* Is [lo,hi] inside *known? */
-static bool is_inside(const mpq_t lo, const mpq_t hi, const dyd_interval *known) {
+static bool ends_are_inside(const mpq_t lo, const mpq_t hi, const dyd_interval *known) {
   mpq_t a, b;
   mpq_inits(a, b, NULL);
   dyd_interval_get_q(a, b, known);
@@ -93,60 +93,59 @@ static bool is_inside(const mpq_t lo, const mpq_t hi, const dyd_interval *known)
 }
 
 /* *side comes in as what is known (known) and goes out as the new side. */
-static dyd_status set_side(dyd_interval *side, bool known, const char *name, const mpq_t lo, const mpq_t hi,
-                           dyd_error *err) {
+static dyd_status set_answer_side(dyd_interval *side, bool known, const char *name, const mpq_t lo, const mpq_t hi,
+                                  dyd_error *err) {
   dyd_interval next;
   dyd_interval_init(&next);
-  dyd_status status = dyd_interval_fix(&next, lo, hi);
-  if (status < 0)
-    dyd_fail(err, status, "the %s of its answer: %s", name, dyd_status_text(status));
-  else if (known && !is_inside(lo, hi, side))
-    status = dyd_nesting_fail(err, name, side, &next);
-  else if (known && (status = dyd_interval_intersect(&next, side, &next)) < 0)
-    dyd_fail(err, status, "the %s of its answer: %s", name, dyd_status_text(status));
-  if (status >= 0) dyd_interval_swap(side, &next);
+  dyd_status st = dyd_interval_fix(&next, lo, hi);
+  if (st != DYD_OK)
+    dyd_fail(err, st, "the %s of its answer: %s", name, dyd_status_text(st));
+  else if (known && !ends_are_inside(lo, hi, side))
+    st = dyd_nesting_fail(err, name, side, &next);
+  else if (known && (st = dyd_interval_intersect(&next, side, &next)) != DYD_OK)
+    dyd_fail(err, st, "the %s of its answer: %s", name, dyd_status_text(st));
+  if (st == DYD_OK) dyd_interval_swap(side, &next);
   dyd_interval_clear(&next);
-  return status;
+  return st;
 }
 
 /* The four ends, each side in order. */
-static dyd_status read_ends(mpq_t end[4], const char *line, const word *w, dyd_error *err) {
-  dyd_status status = DYD_OK;
-  for (int k = 0; status >= 0 && k < 4; k++) status = read_end(end[k], line, w[k], err);
-  for (int k = 0; status >= 0 && k < 4; k += 2) {
+static dyd_status read_answer_ends(mpq_t end[4], const char *line, const word *w, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  for (int k = 0; st == DYD_OK && k < 4; k++) st = read_answer_end(end[k], line, w[k], err);
+  for (int k = 0; st == DYD_OK && k < 4; k += 2) {
     if (mpq_cmp(end[k], end[k + 1]) <= 0) continue;
-    status =
-        dyd_fail(err, DYD_E_STREAM, "the lower end of the %c side in its answer is above the upper end; exchange them",
-                 k ? 'y' : 'x');
+    st = dyd_fail(err, DYD_E_STREAM, "the lower end of the %c side in its answer is above the upper end; exchange them",
+                  k ? 'y' : 'x');
   }
-  return status;
+  return st;
 }
 
-static dyd_status read_rect(dyd_rect *r, bool known, const char *line, const word *w, dyd_error *err) {
+static dyd_status read_answer_rect(dyd_rect *r, bool known, const char *line, const word *w, dyd_error *err) {
   mpq_t end[4];
   dyd_rect next;
   for (int k = 0; k < 4; k++) mpq_init(end[k]);
   dyd_rect_init(&next);
   dyd_rect_set(&next, r);
-  dyd_status status = read_ends(end, line, w, err);
-  if (status >= 0) status = set_side(&next.x, known, "x side", end[0], end[1], err);
-  if (status >= 0) status = set_side(&next.y, known, "y side", end[2], end[3], err);
-  if (status >= 0) dyd_rect_swap(r, &next);
+  dyd_status st = read_answer_ends(end, line, w, err);
+  if (st == DYD_OK) st = set_answer_side(&next.x, known, "x side", end[0], end[1], err);
+  if (st == DYD_OK) st = set_answer_side(&next.y, known, "y side", end[2], end[3], err);
+  if (st == DYD_OK) dyd_rect_swap(r, &next);
   dyd_rect_clear(&next);
   for (int k = 0; k < 4; k++) mpq_clear(end[k]);
-  return status;
+  return st;
 }
 
 dyd_status dyd_oracle_read_answer(dyd_rect *r, bool known, const char *line, size_t length, dyd_error *err) {
   word w[6];
   char shown[80];
-  size_t words = split(w, 6, line, length);
-  bool fixed = words == 6 && word_is(line, w[5], "fixed");
+  size_t words = split_answer(w, 6, line, length);
+  bool fixed = words == 6 && answer_word_is(line, w[5], "fixed");
   if (words != 5 && !fixed) {
     return dyd_fail(err, DYD_E_STREAM,
                     "its answer %s has not the five words I XLO XHI YLO YHI (and \"fixed\", if it is)",
                     dyd_quoted(shown, sizeof shown, line, length));
   }
-  dyd_status status = read_rect(r, known, line, w + 1, err);
-  return status < 0 || !fixed ? status : DYD_FIXED;
+  dyd_status st = read_answer_rect(r, known, line, w + 1, err);
+  return st == DYD_OK && fixed ? DYD_FIXED : st;
 }

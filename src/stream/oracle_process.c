@@ -28,7 +28,7 @@ double dyd_seconds(void) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-void dyd_sleep(double seconds) {
+static void sleep_for(double seconds) {
   struct timespec t = {.tv_sec = (time_t)seconds};
   t.tv_nsec = (long)((seconds - (double)t.tv_sec) * 1e9);
   nanosleep(&t, NULL);
@@ -66,7 +66,7 @@ bool dyd_pipe(int end[2]) {
 
 /* What a child gets: its group (0: its own), standard input and output (out < 0: output and errors go nowhere), and the
  * signals as a fresh program has them. Returns an errno. */
-static int spawn(pid_t *pid, pid_t group, int in, int out, char *const argv[], char *const env[]) {
+static int spawn_child(pid_t *pid, pid_t group, int in, int out, char *const argv[], char *const env[]) {
   posix_spawnattr_t attr;
   posix_spawn_file_actions_t files;
   sigset_t none, all;
@@ -121,7 +121,7 @@ static int spawn_command(pid_t *pid, const char *command, unsigned number, int i
   char **env = make_environment(job);
   if (!env) return ENOMEM;
   char *const argv[] = {shell_word("sh"), shell_word("-c"), shell_word(command), NULL};
-  int why = spawn(pid, 0, in, out, argv, env);
+  int why = spawn_child(pid, 0, in, out, argv, env);
   free(env);
   return why;
 }
@@ -129,18 +129,18 @@ static int spawn_command(pid_t *pid, const char *command, unsigned number, int i
 static int spawn_watcher(pid_t *pid, pid_t group, int lifeline) {
   char *const argv[] = {shell_word("sh"), shell_word("-c"), shell_word("read _; kill -s KILL 0"),
                         shell_word("dyadel-watcher"), NULL};
-  return spawn(pid, group, lifeline, -1, argv, environ);
+  return spawn_child(pid, group, lifeline, -1, argv, environ);
 }
 
-static bool unblock(int fd) {
+static bool unblock_descriptor(int fd) {
   int flags = fcntl(fd, F_GETFL);
   return flags >= 0 && fcntl(fd, F_SETFL, flags | O_NONBLOCK) >= 0;
 }
 
 /* The ends of the child are closed in every case. Returns an errno. */
-static int start(dyd_process *p, const char *command, unsigned job, int lifeline) {
+static int start_program(dyd_process *p, const char *command, unsigned job, int lifeline) {
   int to[2] = {-1, -1}, from[2] = {-1, -1};
-  int why = dyd_pipe(to) && dyd_pipe(from) && unblock(to[1]) && unblock(from[0]) ? 0 : errno;
+  int why = dyd_pipe(to) && dyd_pipe(from) && unblock_descriptor(to[1]) && unblock_descriptor(from[0]) ? 0 : errno;
   p->in = to[1];
   p->out = from[0];
   if (!why) why = spawn_command(&p->pid, command, job, to[0], from[1]);
@@ -156,7 +156,7 @@ static int start(dyd_process *p, const char *command, unsigned job, int lifeline
 
 dyd_status dyd_process_start(dyd_process *p, const char *command, unsigned job, int lifeline, dyd_error *err) {
   *p = (dyd_process){.in = -1, .out = -1};
-  int why = start(p, command, job, lifeline);
+  int why = start_program(p, command, job, lifeline);
   if (!why) return DYD_OK;
   dyd_process_end(p);
   if (why == ENOMEM) return dyd_fail_nomem(err);
@@ -168,14 +168,14 @@ dyd_status dyd_process_start(dyd_process *p, const char *command, unsigned job, 
 /* ---- looking ---- */
 
 /* 1 ended, 0 runs, -1 the caller's process has reaped it or lets nobody wait. */
-static int look(siginfo_t *info, pid_t pid) {
+static int process_look(siginfo_t *info, pid_t pid) {
   info->si_pid = 0;
   int failed = waitid(P_PID, (id_t)pid, info, WEXITED | WNOHANG | WNOWAIT);
   if (failed) return errno == EINTR ? 0 : -1;
   return info->si_pid != 0;
 }
 
-static void describe(char *how, size_t size, const siginfo_t *info) {
+static void process_describe(char *how, size_t size, const siginfo_t *info) {
   if (info->si_code != CLD_EXITED) {
     snprintf(how, size, "it was killed by signal %d", info->si_status);
     return;
@@ -190,12 +190,12 @@ bool dyd_process_ended(char *how, size_t size, const dyd_process *p, double seco
   siginfo_t info;
   double until = dyd_seconds() + seconds;
   for (double nap = 0.001; p->pid; nap = nap < 0.05 ? 2 * nap : nap) {
-    int ended = look(&info, p->pid);
-    if (ended > 0) describe(how, size, &info);
+    int ended = process_look(&info, p->pid);
+    if (ended > 0) process_describe(how, size, &info);
     if (ended < 0) snprintf(how, size, "it ended");
     if (ended) return true;
     if (dyd_seconds() >= until) return false;
-    dyd_sleep(nap);
+    sleep_for(nap);
   }
   snprintf(how, size, "it ended");
   return true;
@@ -247,7 +247,7 @@ void dyd_process_kill(const dyd_process *p) {
 }
 
 /* A child of ours that was killed. */
-static void reap(pid_t *pid) {
+static void process_reap(pid_t *pid) {
   while (*pid > 0 && waitpid(*pid, NULL, 0) < 0 && errno == EINTR) continue;
   *pid = 0;
 }
@@ -255,6 +255,6 @@ static void reap(pid_t *pid) {
 void dyd_process_end(dyd_process *p) {
   dyd_process_close(p);
   dyd_process_kill(p);
-  reap(&p->watcher);
-  reap(&p->pid);
+  process_reap(&p->watcher);
+  process_reap(&p->pid);
 }

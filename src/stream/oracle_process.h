@@ -41,6 +41,5 @@ void dyd_process_end(dyd_process *p);
 
 /* Seconds of a clock that only goes forward. */
 double dyd_seconds(void);
-void dyd_sleep(double seconds);
 
 #endif

@@ -71,18 +71,18 @@ static bool queue_is_valid(const dyd_worker *w) {
 }
 #endif
 
-static bool push(dyd_worker *w, dyd_asked a) {
+static bool push_asked(dyd_worker *w, dyd_asked a) {
   if (!dyd_reserve((void **)&w->asked, &w->cap, w->count + 1, sizeof *w->asked)) return false;
   w->asked[w->count++] = a;
   return true;
 }
 
 bool dyd_worker_ask(dyd_worker *w, size_t point, int64_t bits) {
-  return push(w, (dyd_asked){.point = point, .bits = bits, .wanted = true});
+  return push_asked(w, (dyd_asked){.point = point, .bits = bits, .wanted = true});
 }
 
 bool dyd_worker_expect_count(dyd_worker *w) {
-  if (!push(w, (dyd_asked){.point = DYD_NO_POINT, .wanted = true})) return false;
+  if (!push_asked(w, (dyd_asked){.point = DYD_NO_POINT, .wanted = true})) return false;
   w->sent = w->count;
   return true;
 }
@@ -203,7 +203,7 @@ static void take_answer(dyd_worker *w, const char *line, size_t length) {
   w->heard = dyd_seconds();
 }
 
-static void take_line(dyd_worker *w, const char *line, size_t length) {
+static void take_answer_line(dyd_worker *w, const char *line, size_t length) {
   char shown[80];
   if (length && line[length - 1] == '\r') length--;
   if (w->answered == w->sent)
@@ -214,13 +214,13 @@ static void take_line(dyd_worker *w, const char *line, size_t length) {
 }
 
 /* Takes all whole lines out of the buffer. */
-static void take_lines(dyd_worker *w) {
+static void take_answer_lines(dyd_worker *w) {
   size_t begin = 0;
   while (!w->failed) {
     char *end = memchr(w->line + w->scanned, '\n', w->line_length - w->scanned);
     if (!end) break;
     size_t at = (size_t)(end - w->line);
-    take_line(w, w->line + begin, at - begin);
+    take_answer_line(w, w->line + begin, at - begin);
     begin = w->scanned = at + 1;
   }
   memmove(w->line, w->line + begin, w->line_length - begin);
@@ -253,7 +253,7 @@ void dyd_worker_hear(dyd_worker *w) {
   ssize_t n = read(w->process.out, w->line + w->line_length, READ_SIZE);
   if (n > 0) {
     w->line_length += (size_t)n;
-    take_lines(w);
+    take_answer_lines(w);
   } else if (n == 0) {
     hear_end(w);
   } else if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) {

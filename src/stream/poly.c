@@ -20,7 +20,7 @@ typedef struct ring {
   size_t top, capacity;
 } ring;
 
-static void set_leaf(fmpq_poly_t out, const dyd_expr *e, const dyd_node *n) {
+static void poly_set_leaf(fmpq_poly_t out, const dyd_expr *e, const dyd_node *n) {
   if (n->op == DYD_OP_X) {
     fmpq_poly_zero(out);
     fmpq_poly_set_coeff_ui(out, 1, 1);
@@ -35,22 +35,22 @@ static void set_leaf(fmpq_poly_t out, const dyd_expr *e, const dyd_node *n) {
 }
 
 /* A bound of the bits of one coefficient. */
-static size_t height(const fmpq_poly_t p) {
+static size_t poly_height(const fmpq_poly_t p) {
   slong bits = FLINT_ABS(_fmpz_vec_max_bits(p->coeffs, p->length));
   return (size_t)bits + fmpz_bits(p->den) + 1;
 }
 
-static size_t degree(const fmpq_poly_t p) {
+static size_t poly_degree(const fmpq_poly_t p) {
   return p->length ? (size_t)p->length - 1 : 0;
 }
 
 /* Do degree and size of a product of these stay within bounds? */
-static bool product_fits(size_t degree_a, size_t height_a, size_t degree_b, size_t height_b) {
+static bool poly_product_fits(size_t degree_a, size_t height_a, size_t degree_b, size_t height_b) {
   size_t d = degree_a + degree_b, h = height_a + height_b + 16;
   return d <= DYD_ROOT_DEGREE && h <= DYD_ROOT_WORK / (d + 1);
 }
 
-static dyd_status too_large(dyd_error *err, const dyd_node *n) {
+static dyd_status poly_too_large(dyd_error *err, const dyd_node *n) {
   if (err) err->column = n->column;
   return dyd_fail(err, DYD_E_RANGE, "the polynomial becomes too large here: degree at most %zu, %zu bits in all",
                   DYD_ROOT_DEGREE, DYD_ROOT_WORK);
@@ -62,17 +62,17 @@ static dyd_status no_polynomial(dyd_error *err, const dyd_node *n, const char *w
                   dyd_op_name((dyd_op)n->op), why);
 }
 
-static dyd_status raise_power(fmpq_poly_t x, const dyd_node *n, dyd_error *err) {
+static dyd_status poly_raise_power(fmpq_poly_t x, const dyd_node *n, dyd_error *err) {
   if (n->argument < 0) return no_polynomial(err, n, ": the exponent is negative");
-  size_t k = (size_t)n->argument, d = degree(x), h = height(x);
-  if (k > DYD_ROOT_DEGREE || (k && !product_fits(d * k, h * k, 0, k))) return too_large(err, n);
+  size_t k = (size_t)n->argument, d = poly_degree(x), h = poly_height(x);
+  if (k > DYD_ROOT_DEGREE || (k && !poly_product_fits(d * k, h * k, 0, k))) return poly_too_large(err, n);
   fmpq_poly_pow(x, x, (ulong)k);
   return DYD_OK;
 }
 
 /* x = x op y. */
-static dyd_status combine(fmpq_poly_t x, const dyd_node *n, const fmpq_poly_t y, dyd_error *err) {
-  if (!product_fits(degree(x), height(x), degree(y), height(y))) return too_large(err, n);
+static dyd_status poly_combine(fmpq_poly_t x, const dyd_node *n, const fmpq_poly_t y, dyd_error *err) {
+  if (!poly_product_fits(poly_degree(x), poly_height(x), poly_degree(y), poly_height(y))) return poly_too_large(err, n);
   switch (n->op) {
   case DYD_OP_ADD:
     fmpq_poly_add(x, x, y);
@@ -93,24 +93,24 @@ static dyd_status combine(fmpq_poly_t x, const dyd_node *n, const fmpq_poly_t y,
   }
 }
 
-static dyd_status apply(ring *r, const dyd_expr *e, const dyd_node *n, dyd_error *err) {
+static dyd_status poly_apply(ring *r, const dyd_expr *e, const dyd_node *n, dyd_error *err) {
   if (n->op == DYD_OP_PI || n->op == DYD_OP_E) return no_polynomial(err, n, "");
   if (dyd_op_is_leaf((dyd_op)n->op)) {
-    set_leaf(&r->value[r->top++], e, n);
+    poly_set_leaf(&r->value[r->top++], e, n);
     return DYD_OK;
   }
   fmpq_poly_struct *x = &r->value[r->top - 1];
   if (dyd_op_is_binary((dyd_op)n->op)) {
     r->top--;
-    return combine(x - 1, n, x, err);
+    return poly_combine(x - 1, n, x, err);
   }
-  if (n->op == DYD_OP_POW) return raise_power(x, n, err);
+  if (n->op == DYD_OP_POW) return poly_raise_power(x, n, err);
   if (n->op != DYD_OP_NEG) return no_polynomial(err, n, "");
   fmpq_poly_neg(x, x);
   return DYD_OK;
 }
 
-static dyd_status copy_coefficients(dyd_poly *out, const fmpq_poly_t p, dyd_error *err) {
+static dyd_status poly_copy_coefficients(dyd_poly *out, const fmpq_poly_t p, dyd_error *err) {
   out->coeff = dyd_alloc((size_t)p->length, sizeof *out->coeff);
   if (!out->coeff) return dyd_fail_nomem(err);
   fmpq_t c;
@@ -143,8 +143,8 @@ dyd_status dyd_poly_expand(dyd_poly *out, const dyd_expr *e, dyd_error *err) {
   ring r;
   dyd_status st = DYD_OK;
   if (!ring_init(&r, e)) return dyd_fail_nomem(err);
-  for (size_t i = 0; i < e->count && !st; i++) st = apply(&r, e, &e->node[i], err);
-  if (!st) st = copy_coefficients(out, &r.value[0], err);
+  for (size_t i = 0; i < e->count && st == DYD_OK; i++) st = poly_apply(&r, e, &e->node[i], err);
+  if (st == DYD_OK) st = poly_copy_coefficients(out, &r.value[0], err);
   ring_clear(&r);
   return st;
 }

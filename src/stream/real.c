@@ -36,20 +36,20 @@ static dyd_status real_new(dyd_real **out, size_t more, dyd_narrow_real_fn narro
 
 dyd_status dyd_real_new(dyd_real **out, dyd_narrow_real_fn narrow, dyd_release_fn release, void *user) {
   dyd_status st = out && narrow ? real_new(out, 0, narrow, release, user) : DYD_E_ARG;
-  if (st && release) release(user);
+  if (st != DYD_OK && release) release(user);
   return st;
 }
 
 dyd_status dyd_real_new_enclosing(dyd_real **out, dyd_narrow_real_fn narrow, dyd_release_fn release, void *user) {
   dyd_status st = dyd_real_new(out, narrow, release, user);
-  if (!st) (*out)->encloses = true;
+  if (st == DYD_OK) (*out)->encloses = true;
   return st;
 }
 
 dyd_status dyd_real_new_inside(dyd_real **out, void **user, size_t size, dyd_narrow_real_fn narrow,
                                dyd_release_fn release) {
   dyd_status st = real_new(out, size, narrow, release, NULL);
-  if (st) return st;
+  if (st != DYD_OK) return st;
   (*out)->user = *user = *out + 1;
   (*out)->encloses = true;
   return DYD_OK;
@@ -62,7 +62,7 @@ void dyd_real_set_span(dyd_real *x, dyd_double_span span) {
 }
 
 /* Makes room for an interval. */
-static bool hold(dyd_real *x) {
+static bool real_hold(dyd_real *x) {
   if (x->now) return true;
   x->now = dyd_alloc(1, sizeof *x->now);
   if (x->now) dyd_interval_init(x->now);
@@ -72,8 +72,8 @@ static bool hold(dyd_real *x) {
 dyd_status dyd_real_new_fixed(dyd_real **out, dyd_interval *value) {
   dyd_real *x;
   dyd_status st = real_new(&x, 0, NULL, NULL, NULL);
-  if (st) return st;
-  if (!hold(x)) {
+  if (st != DYD_OK) return st;
+  if (!real_hold(x)) {
     free(x);
     return DYD_E_NOMEM;
   }
@@ -110,43 +110,29 @@ void dyd_real_place(dyd_real *x, size_t line, size_t column) {
   x->column = column;
 }
 
-/* next = next and old, which must meet. */
-static dyd_status cut(dyd_interval *next, const dyd_interval *old, dyd_error *err) {
-  dyd_status st = dyd_interval_intersect(next, old, next);
-  if (st == DYD_E_ARG) return dyd_nesting_fail(err, "interval", old, next);
-  return st ? dyd_fail(err, st, "%s", dyd_status_text(st)) : st;
-}
-
 /* next, made for `bits`, and the span, which comes rounded to the same grid where it is the shorter one: so all
  * intervals are inside of what a glance gave for fewer bits, and as wide as if there were no span. */
-static dyd_status cut_to_span(dyd_interval *next, dyd_double_span span, int64_t bits, dyd_error *err) {
+static dyd_status real_cut_to_span(dyd_interval *next, dyd_double_span span, int64_t bits, dyd_error *err) {
   dyd_interval old;
   if (bits < 0) return DYD_OK;
   dyd_filter_round(&span, span, bits);
   dyd_interval_init(&old);
   dyd_status st = dyd_interval_set_d(&old, span.lo, span.hi);
-  st = st ? dyd_fail(err, st, "%s", dyd_status_text(st)) : cut(next, &old, err);
+  st = st == DYD_OK ? dyd_nest(next, &old, true, "interval", err) : dyd_fail(err, st, "%s", dyd_status_text(st));
   dyd_interval_clear(&old);
   return st;
 }
 
 /* Takes `next` over if it may follow; it becomes the interval now. */
-static dyd_status accept(dyd_real *x, dyd_interval *next, dyd_error *err) {
-  if (!dyd_interval_is_valid(next)) {
-    return dyd_fail(err, DYD_E_STREAM, "the callback gave no valid interval; fill it with dyd_interval_set_ends");
-  }
-  if (x->now && x->encloses) {
-    dyd_status st = cut(next, x->now, err);
-    if (st) return st;
-  } else if (x->now && !dyd_interval_contains(x->now, next)) {
-    return dyd_nesting_fail(err, "interval", x->now, next);
-  }
-  if (!hold(x)) return dyd_fail_nomem(err);
+static dyd_status real_accept(dyd_real *x, dyd_interval *next, dyd_error *err) {
+  dyd_status st = dyd_nest(next, x->now, x->encloses, "interval", err);
+  if (st != DYD_OK) return st;
+  if (!real_hold(x)) return dyd_fail_nomem(err);
   dyd_interval_swap(x->now, next);
   return DYD_OK;
 }
 
-static dyd_status call_source(dyd_real *x, const dyd_request *request, dyd_error *err) {
+static dyd_status real_call_source(dyd_real *x, const dyd_request *request, dyd_error *err) {
   dyd_interval next;
   dyd_error own;
   dyd_error_clear(&own);
@@ -155,10 +141,10 @@ static dyd_status call_source(dyd_real *x, const dyd_request *request, dyd_error
   dyd_status st = x->narrow(&next, x->user, request, &own);
   bool fixed = st == DYD_FIXED;
   if (fixed) st = DYD_OK;
-  if (!st && x->spans) st = cut_to_span(&next, x->span, request->bits, &own);
-  if (!st) st = accept(x, &next, &own);
+  if (st == DYD_OK && x->spans) st = real_cut_to_span(&next, x->span, request->bits, &own);
+  if (st == DYD_OK) st = real_accept(x, &next, &own);
   dyd_interval_clear(&next);
-  if (!st) {
+  if (st == DYD_OK) {
     x->final = fixed || dyd_interval_is_point(x->now);
   } else {
     st = dyd_callback_fail(err, &own, st, DYD_NO_POINT, x->stage);
@@ -185,7 +171,8 @@ int64_t dyd_real_glance_bits(const dyd_real *x) {
   return x->spans && !x->now ? dyd_filter_bits(x->span) : INT64_MIN;
 }
 
-/* Is the span so short that rounding it to the grid for `bits` very likely gives one cell, as it does with balls? */
+/* Is the span so short that rounding it to the grid for `bits` very likely gives one step of it, as it does with balls?
+ */
 #define SPARE 16
 static bool span_is_short(const dyd_real *x, int64_t bits) {
   int64_t most = dyd_filter_bits(x->span);
@@ -193,13 +180,13 @@ static bool span_is_short(const dyd_real *x, int64_t bits) {
 }
 
 /* Narrows to what the span gives for `bits`. */
-static dyd_status take_span(dyd_real *x, dyd_double_span span, dyd_error *err) {
+static dyd_status real_take_span(dyd_real *x, dyd_double_span span, dyd_error *err) {
   dyd_interval next;
   dyd_interval_init(&next);
   dyd_status st = dyd_interval_set_d(&next, span.lo, span.hi);
-  st = st ? dyd_fail(err, st, "%s", dyd_status_text(st)) : accept(x, &next, err);
+  st = st == DYD_OK ? real_accept(x, &next, err) : dyd_fail(err, st, "%s", dyd_status_text(st));
   dyd_interval_clear(&next);
-  if (!st) x->final = dyd_interval_is_point(x->now);
+  if (st == DYD_OK) x->final = dyd_interval_is_point(x->now);
   return st;
 }
 
@@ -209,11 +196,11 @@ dyd_status dyd_real_narrow(dyd_real *x, int64_t bits, int64_t max_bits, dyd_erro
   if (x->final) return DYD_FIXED;
   if (x->now && dyd_interval_bits(x->now) >= bits) return DYD_OK;
   dyd_status st = dyd_request_make(&request, 0, bits, max_bits, err);
-  if (!st && x->spans && span_is_short(x, request.bits) && dyd_filter_round(&span, x->span, request.bits))
-    st = take_span(x, span, err);
-  else if (!st)
-    st = call_source(x, &request, err);
-  if (st) {
+  if (st == DYD_OK && x->spans && span_is_short(x, request.bits) && dyd_filter_round(&span, x->span, request.bits))
+    st = real_take_span(x, span, err);
+  else if (st == DYD_OK)
+    st = real_call_source(x, &request, err);
+  if (st != DYD_OK) {
     place_error(x, err);
     return st;
   }

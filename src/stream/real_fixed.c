@@ -10,7 +10,7 @@ dyd_status dyd_real_from_dyadic(dyd_real **out, const dyd_dyadic *x) {
   dyd_interval a;
   dyd_interval_init(&a);
   dyd_status st = dyd_interval_set_ends(&a, x, x);
-  if (!st) st = dyd_real_new_fixed(out, &a);
+  if (st == DYD_OK) st = dyd_real_new_fixed(out, &a);
   dyd_interval_clear(&a);
   return st;
 }
@@ -19,7 +19,7 @@ dyd_status dyd_real_from_q(dyd_real **out, const mpq_t q) {
   dyd_interval a;
   dyd_interval_init(&a);
   dyd_status st = dyd_interval_set_q(&a, q);
-  if (!st) st = dyd_real_new_fixed(out, &a);
+  if (st == DYD_OK) st = dyd_real_new_fixed(out, &a);
   dyd_interval_clear(&a);
   return st;
 }
@@ -44,8 +44,8 @@ dyd_status dyd_interval_fix(dyd_interval *out, const mpq_t lo, const mpq_t hi) {
   /* 2^(bits(num) - bits(den) - 1) <= width <= 2 max(|lo|,|hi|), hence 65 more places. */
   int64_t exp = (int64_t)mpz_sizeinbase(mpq_numref(width), 2) - (int64_t)mpz_sizeinbase(mpq_denref(width), 2) - 1 - 66;
   dyd_status st = fixed_end(&l, lo, exp, DYD_DOWN);
-  if (!st) st = fixed_end(&h, hi, exp, DYD_UP);
-  if (!st) st = dyd_interval_set_ends(out, &l, &h);
+  if (st == DYD_OK) st = fixed_end(&h, hi, exp, DYD_UP);
+  if (st == DYD_OK) st = dyd_interval_set_ends(out, &l, &h);
   dyd_dyadic_clear(&h);
   dyd_dyadic_clear(&l);
   mpq_clear(width);
@@ -56,7 +56,7 @@ dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const mpq_t hi
   dyd_interval a;
   dyd_interval_init(&a);
   dyd_status st = dyd_interval_fix(&a, lo, hi);
-  if (!st) st = dyd_real_new_fixed(out, &a);
+  if (st == DYD_OK) st = dyd_real_new_fixed(out, &a);
   dyd_interval_clear(&a);
   return st;
 }
@@ -91,9 +91,9 @@ static dyd_status widened_interval(dyd_interval *out, const widened *w, int64_t 
 static dyd_status widened_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
   widened *w = user;
   dyd_status st = dyd_real_narrow(w->x, request->bits + 2, request->max_bits + 2, err);
-  if (st < 0) return st;
+  if (dyd_failed(st)) return st;
   st = widened_interval(out, w, -request->bits - 2);
-  if (st) return dyd_fail(err, st, "the interval around a value: %s", dyd_status_text(st));
+  if (st != DYD_OK) return dyd_fail(err, st, "the interval around a value: %s", dyd_status_text(st));
   return dyd_real_is_final(w->x) ? DYD_FIXED : DYD_OK;
 }
 
@@ -102,7 +102,7 @@ static dyd_status widened_fixed(dyd_real **out, const widened *w) {
   dyd_interval a;
   dyd_interval_init(&a);
   dyd_status st = widened_interval(&a, w, 0);
-  if (!st) st = dyd_real_new_fixed(out, &a);
+  if (st == DYD_OK) st = dyd_real_new_fixed(out, &a);
   dyd_interval_clear(&a);
   return st;
 }

@@ -22,7 +22,7 @@ typedef struct reader {
 
 /* A constructor without error record failed. */
 static dyd_status plain_fail(reader *r, size_t at, dyd_status st) {
-  return st ? FAIL(r, at, st, "%s", dyd_status_text(st)) : st;
+  return st != DYD_OK ? FAIL(r, at, st, "%s", dyd_status_text(st)) : st;
 }
 
 static void skip_blanks(reader *r) {
@@ -30,7 +30,7 @@ static void skip_blanks(reader *r) {
 }
 
 /* Is the literal text `word` next? Moves behind it. */
-static bool take(reader *r, const char *word) {
+static bool take_word(reader *r, const char *word) {
   size_t n = strlen(word);
   skip_blanks(r);
   if (r->length - r->pos < n || memcmp(r->text + r->pos, word, n)) return false;
@@ -65,10 +65,10 @@ static dyd_status real_from_draft(dyd_real **out, reader *r, size_t at, dyd_draf
   if (rational) return plain_fail(r, at, dyd_real_from_q(out, dyd_constant_get(&view, rational)));
   bool spans = dyd_filter_expr(&span, &d->e);
   dyd_status st = spans ? DYD_OK : dyd_expr_probe(&d->e, r->err);
-  if (st) return st;
+  if (st != DYD_OK) return st;
   size_t size = sizeof(computed) + dyd_expr_size(&d->e);
   st = dyd_real_new_inside(out, &inside, size, computed_narrow, computed_release);
-  if (st) return plain_fail(r, at, st);
+  if (st != DYD_OK) return plain_fail(r, at, st);
   computed *c = inside;
   c->extra = DYD_EXPR_EXTRA;
   dyd_expr_take(&c->expr, d);
@@ -81,7 +81,7 @@ static dyd_status read_expr(dyd_real **out, reader *r) {
   size_t at = r->pos;
   dyd_draft_init(&d);
   dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, false, r->err);
-  if (!st) st = real_from_draft(out, r, at, &d);
+  if (st == DYD_OK) st = real_from_draft(out, r, at, &d);
   dyd_draft_clear(&d);
   return st;
 }
@@ -96,19 +96,20 @@ static dyd_status read_rational(mpq_t out, reader *r, const char *what) {
   size_t at = r->pos;
   dyd_draft_init(&d);
   dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, false, r->err);
-  const dyd_constant *q = st ? NULL : dyd_expr_rational(&d.e);
-  if (!st && !q) st = FAIL(r, at, DYD_E_PARSE, "%s must be rational: numbers and + - * / ^ only", what);
-  if (!st) mpq_set(out, dyd_constant_get(&view, q));
+  const dyd_constant *q = st != DYD_OK ? NULL : dyd_expr_rational(&d.e);
+  if (st == DYD_OK && !q) st = FAIL(r, at, DYD_E_PARSE, "%s must be rational: numbers and + - * / ^ only", what);
+  if (st == DYD_OK) mpq_set(out, dyd_constant_get(&view, q));
   dyd_draft_clear(&d);
   return st;
 }
 
 /* "lo , hi" up to the closing bracket. */
-static dyd_status read_ends(mpq_t lo, mpq_t hi, reader *r, const char *close) {
+static dyd_status read_interval_ends(mpq_t lo, mpq_t hi, reader *r, const char *close) {
   dyd_status st = read_rational(lo, r, "the lower end");
-  if (!st && !take(r, ",")) st = FAIL(r, r->pos, DYD_E_PARSE, "a ',' is missing between the ends of the interval");
-  if (!st) st = read_rational(hi, r, "the upper end");
-  if (!st && !take(r, close)) st = FAIL(r, r->pos, DYD_E_PARSE, "a '%s' is missing here", close);
+  if (st == DYD_OK && !take_word(r, ","))
+    st = FAIL(r, r->pos, DYD_E_PARSE, "a ',' is missing between the ends of the interval");
+  if (st == DYD_OK) st = read_rational(hi, r, "the upper end");
+  if (st == DYD_OK && !take_word(r, close)) st = FAIL(r, r->pos, DYD_E_PARSE, "a '%s' is missing here", close);
   return st;
 }
 
@@ -117,11 +118,11 @@ static dyd_status read_interval(dyd_real **out, reader *r) {
   mpq_t lo, hi;
   mpq_init(lo);
   mpq_init(hi);
-  dyd_status st = read_ends(lo, hi, r, "]");
-  if (!st && mpq_cmp(lo, hi) > 0) {
+  dyd_status st = read_interval_ends(lo, hi, r, "]");
+  if (st == DYD_OK && mpq_cmp(lo, hi) > 0) {
     st = FAIL(r, at, DYD_E_PARSE, "the lower end of the interval is above the upper end; exchange them");
   }
-  if (!st) st = plain_fail(r, at, dyd_real_from_interval(out, lo, hi));
+  if (st == DYD_OK) st = plain_fail(r, at, dyd_real_from_interval(out, lo, hi));
   mpq_clear(hi);
   mpq_clear(lo);
   return st;
@@ -133,8 +134,8 @@ static dyd_status read_polynomial(dyd_poly *out, reader *r) {
   dyd_draft d;
   dyd_draft_init(&d);
   dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, true, r->err);
-  if (!st) st = dyd_poly_expand(out, &d.e, r->err);
-  if (!st && !take(r, ",")) st = FAIL(r, r->pos, DYD_E_PARSE, "a ',' is missing after the polynomial");
+  if (st == DYD_OK) st = dyd_poly_expand(out, &d.e, r->err);
+  if (st == DYD_OK && !take_word(r, ",")) st = FAIL(r, r->pos, DYD_E_PARSE, "a ',' is missing after the polynomial");
   dyd_draft_clear(&d);
   return st;
 }
@@ -147,16 +148,16 @@ static dyd_status read_root(dyd_real **out, reader *r) {
   mpq_init(lo);
   mpq_init(hi);
   dyd_status st = read_polynomial(&p, r);
-  if (!st) {
+  if (st == DYD_OK) {
     skip_blanks(r);
     if (p.count) at = r->pos;
-    st = read_ends(lo, hi, r, ")");
+    st = read_interval_ends(lo, hi, r, ")");
   }
-  if (!st) {
+  if (st == DYD_OK) {
     st = dyd_real_root(out, (const mpq_t *)p.coeff, p.count, lo, hi, r->err);
-    if (st && r->err) r->err->column = dyd_text_column(r->text, at);
+    if (st != DYD_OK && r->err) r->err->column = dyd_text_column(r->text, at);
     if (st == DYD_E_ARG) st = DYD_E_PARSE;
-    if (st && r->err) r->err->code = st;
+    if (st != DYD_OK && r->err) r->err->code = st;
   }
   dyd_poly_clear(&p);
   mpq_clear(hi);
@@ -166,7 +167,7 @@ static dyd_status read_root(dyd_real **out, reader *r) {
 
 static bool starts_root(reader *r) {
   size_t start = r->pos;
-  if (take(r, "root") && take(r, "(")) return true;
+  if (take_word(r, "root") && take_word(r, "(")) return true;
   r->pos = start;
   return false;
 }
@@ -174,13 +175,14 @@ static bool starts_root(reader *r) {
 /* ---- the whole coordinate ---- */
 
 /* Behind "+-". Widens *x, which is released on failure. */
-static dyd_status read_radius(dyd_real **x, reader *r) {
+static dyd_status read_real_radius(dyd_real **x, reader *r) {
   mpq_t radius;
   size_t at = r->pos;
   mpq_init(radius);
   dyd_status st = read_rational(radius, r, "the radius");
-  if (!st && mpq_sgn(radius) < 0) st = FAIL(r, at, DYD_E_PARSE, "the radius is negative; give one that is 0 or more");
-  if (st) {
+  if (st == DYD_OK && mpq_sgn(radius) < 0)
+    st = FAIL(r, at, DYD_E_PARSE, "the radius is negative; give one that is 0 or more");
+  if (st != DYD_OK) {
     dyd_real_free(*x);
   } else {
     st = plain_fail(r, at, dyd_real_widen(x, *x, radius));
@@ -189,7 +191,7 @@ static dyd_status read_radius(dyd_real **x, reader *r) {
   return st;
 }
 
-static dyd_status trailing(reader *r) {
+static dyd_status trailing_fail(reader *r) {
   char c = r->text[r->pos];
   bool operand = c == '(' || c == '.' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
   return FAIL(r, r->pos, DYD_E_PARSE,
@@ -197,30 +199,30 @@ static dyd_status trailing(reader *r) {
 }
 
 /* *out is set on success only. */
-static dyd_status read_coordinate(dyd_real **out, reader *r) {
+static dyd_status read_real_coordinate(dyd_real **out, reader *r) {
   dyd_real *x = NULL;
   dyd_status st;
-  if (take(r, "[")) {
+  if (take_word(r, "[")) {
     st = read_interval(&x, r);
   } else {
     st = starts_root(r) ? read_root(&x, r) : read_expr(&x, r);
-    if (!st && (take(r, "+-") || take(r, "\xC2\xB1"))) st = read_radius(&x, r);
+    if (st == DYD_OK && (take_word(r, "+-") || take_word(r, "\xC2\xB1"))) st = read_real_radius(&x, r);
   }
-  if (st) return st;
+  if (st != DYD_OK) return st;
   skip_blanks(r);
   if (r->pos < r->length) {
     dyd_real_free(x);
-    return trailing(r);
+    return trailing_fail(r);
   }
   *out = x;
   return DYD_OK;
 }
 
-static dyd_status read_plain(dyd_real **out, reader *r) {
+static dyd_status read_plain_number(dyd_real **out, reader *r) {
   mpq_t q;
   mpq_init(q);
   dyd_status st = dyd_parse_number(q, r->text, r->length, r->err);
-  if (!st) st = plain_fail(r, 0, dyd_real_from_q(out, q));
+  if (st == DYD_OK) st = plain_fail(r, 0, dyd_real_from_q(out, q));
   mpq_clear(q);
   return st;
 }
@@ -228,6 +230,6 @@ static dyd_status read_plain(dyd_real **out, reader *r) {
 dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_error *err) {
   reader r = {.text = text, .length = length, .err = err};
   if (!text && length) return dyd_fail(err, DYD_E_ARG, "no text was given");
-  if (dyd_is_plain_number(text, length)) return read_plain(out, &r);
-  return read_coordinate(out, &r);
+  if (dyd_is_plain_number(text, length)) return read_plain_number(out, &r);
+  return read_real_coordinate(out, &r);
 }

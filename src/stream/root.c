@@ -16,7 +16,7 @@ static void root_release(void *user) {
   dyd_root *r = user;
   for (size_t k = 0; k < r->count; k++) mpz_clear(r->coeff[k]);
   free(r->coeff);
-  mpz_clear(r->cell);
+  mpz_clear(r->slot);
   mpq_clear(r->hi);
   mpq_clear(r->lo);
   free(r);
@@ -30,10 +30,10 @@ static dyd_status root_interval(dyd_interval *out, const dyd_root *r, int64_t bi
   dyd_dyadic_init(&lo);
   dyd_dyadic_init(&hi);
   mpz_init(next);
-  mpz_add_ui(next, r->cell, r->exact ? 0 : 1);
-  dyd_status st = dyd_dyadic_set_z_2exp(&lo, r->cell, -r->s);
-  if (!st) st = dyd_dyadic_set_z_2exp(&hi, next, -r->s);
-  if (!st) st = dyd_interval_set_ends(out, &lo, &hi);
+  mpz_add_ui(next, r->slot, r->exact ? 0 : 1);
+  dyd_status st = dyd_dyadic_set_z_2exp(&lo, r->slot, -r->s);
+  if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&hi, next, -r->s);
+  if (st == DYD_OK) st = dyd_interval_set_ends(out, &lo, &hi);
   mpz_clear(next);
   dyd_dyadic_clear(&hi);
   dyd_dyadic_clear(&lo);
@@ -44,10 +44,10 @@ static dyd_status root_narrow(dyd_interval *out, void *user, const dyd_request *
   dyd_root *r = user;
   while (!dyd_root_is_narrow(r, request->bits)) {
     dyd_status st = dyd_root_step(r, request->bits, err);
-    if (st) return st;
+    if (st != DYD_OK) return st;
   }
   dyd_status st = root_interval(out, r, request->bits);
-  if (st) return dyd_fail(err, st, "the interval of a root: %s", dyd_status_text(st));
+  if (st != DYD_OK) return dyd_fail(err, st, "the interval of a root: %s", dyd_status_text(st));
   return r->exact ? DYD_FIXED : DYD_OK;
 }
 
@@ -95,7 +95,7 @@ static int sign_at_q(const fmpz_poly_t p, const mpq_t x) {
   return sign;
 }
 
-static bool copy_coefficients(dyd_root *r, const fmpz_poly_t g) {
+static bool root_copy_coefficients(dyd_root *r, const fmpz_poly_t g) {
   size_t count = (size_t)fmpz_poly_length(g);
   r->coeff = dyd_alloc(count, sizeof *r->coeff);
   if (!r->coeff) return false;
@@ -110,16 +110,16 @@ static bool copy_coefficients(dyd_root *r, const fmpz_poly_t g) {
   return true;
 }
 
-static dyd_status new_root(dyd_real **out, const fmpz_poly_t g, const mpq_t lo, const mpq_t hi) {
+static dyd_status root_new(dyd_real **out, const fmpz_poly_t g, const mpq_t lo, const mpq_t hi) {
   dyd_root *r = dyd_alloc(1, sizeof *r);
   if (!r) return DYD_E_NOMEM;
   *r = (dyd_root){.sign_left = sign_at_q(g, lo), .jump = 2};
   mpq_init(r->lo);
   mpq_init(r->hi);
-  mpz_init(r->cell);
+  mpz_init(r->slot);
   mpq_set(r->lo, lo);
   mpq_set(r->hi, hi);
-  if (copy_coefficients(r, g)) return dyd_real_new_enclosing(out, root_narrow, root_release, r);
+  if (root_copy_coefficients(r, g)) return dyd_real_new_enclosing(out, root_narrow, root_release, r);
   root_release(r);
   return DYD_E_NOMEM;
 }
@@ -139,7 +139,8 @@ static dyd_status linear_root(dyd_real **out, const fmpz_poly_t g) {
   return st;
 }
 
-static dyd_status root_of(dyd_real **out, const fmpz_poly_t p, const mpq_t lo, const mpq_t hi, dyd_error *err) {
+static dyd_status root_of_polynomial(dyd_real **out, const fmpz_poly_t p, const mpq_t lo, const mpq_t hi,
+                                     dyd_error *err) {
   int left = sign_at_q(p, lo), right = sign_at_q(p, hi);
   if (!left) return dyd_real_from_q(out, lo);
   if (!right) return dyd_real_from_q(out, hi);
@@ -151,19 +152,19 @@ static dyd_status root_of(dyd_real **out, const fmpz_poly_t p, const mpq_t lo, c
   fmpz_poly_t g;
   fmpz_poly_init(g);
   odd_part(g, p);
-  dyd_status st = fmpz_poly_degree(g) == 1 ? linear_root(out, g) : new_root(out, g, lo, hi);
+  dyd_status st = fmpz_poly_degree(g) == 1 ? linear_root(out, g) : root_new(out, g, lo, hi);
   fmpz_poly_clear(g);
   return st;
 }
 
-static size_t bits_of(const mpq_t q) {
+static size_t bits_of_rational(const mpq_t q) {
   return mpz_sizeinbase(mpq_numref(q), 2) + mpz_sizeinbase(mpq_denref(q), 2);
 }
 
 /* The bounds that keep every step cheap. */
-static dyd_status check_size(const mpq_t *coeff, size_t count, const mpq_t lo, const mpq_t hi, dyd_error *err) {
-  size_t most = bits_of(lo) > bits_of(hi) ? bits_of(lo) : bits_of(hi), sum = 0;
-  for (size_t k = 0; k < count && k <= DYD_ROOT_DEGREE; k++) sum += bits_of(coeff[k]);
+static dyd_status root_check_size(const mpq_t *coeff, size_t count, const mpq_t lo, const mpq_t hi, dyd_error *err) {
+  size_t most = bits_of_rational(lo) > bits_of_rational(hi) ? bits_of_rational(lo) : bits_of_rational(hi), sum = 0;
+  for (size_t k = 0; k < count && k <= DYD_ROOT_DEGREE; k++) sum += bits_of_rational(coeff[k]);
   if (count <= DYD_ROOT_DEGREE + 1 && count * most <= DYD_ROOT_WORK && sum <= DYD_ROOT_WORK) return DYD_OK;
   return dyd_fail(err, DYD_E_RANGE, "the polynomial or its interval is too large: degree at most %zu, %zu bits in all",
                   DYD_ROOT_DEGREE, DYD_ROOT_WORK);
@@ -175,12 +176,12 @@ dyd_status dyd_real_root(dyd_real **out, const mpq_t *coeff, size_t count, const
   if (!count)
     return dyd_fail(err, DYD_E_ARG, "the polynomial is zero everywhere; give one with a coefficient other than 0");
   if (mpq_cmp(lo, hi) > 0) return dyd_fail(err, DYD_E_ARG, "the interval is empty: its ends are in the wrong order");
-  dyd_status st = check_size(coeff, count, lo, hi, err);
-  if (st) return st;
+  dyd_status st = root_check_size(coeff, count, lo, hi, err);
+  if (st != DYD_OK) return st;
   fmpz_poly_t p;
   fmpz_poly_init(p);
   integer_polynomial(p, coeff, count);
-  st = root_of(out, p, lo, hi, err);
+  st = root_of_polynomial(out, p, lo, hi, err);
   fmpz_poly_clear(p);
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (st == DYD_E_RANGE) return dyd_fail(err, st, "the root leaves the range of numbers; scale the input");

@@ -12,19 +12,19 @@
 /* A root of the integer polynomial sum coeff[k] x^k, all of whose roots are simple, between two places of opposite
  * sign. sign_left = -1 or 1 is the sign at the left one.
  * Invariant: !on_grid: the root lies in the open interval (lo,hi); on_grid: in the open interval
- * (cell, cell + 1) 2^-s, or it is the point cell 2^-s when exact. isolated: the cell holds one root only. */
+ * (slot, slot + 1) 2^-s, or it is the point slot 2^-s when exact. isolated: the slot holds one root only. */
 typedef struct dyd_root {
   mpz_t *coeff;
   size_t count;
   mpq_t lo, hi;
   bool on_grid, exact, isolated;
   int sign_left;
-  mpz_t cell;
+  mpz_t slot;
   int64_t s;
   unsigned jump; /* places to be gained by the next quadratic step */
 } dyd_root;
 
-/* One step of narrowing towards a cell of side 2^-target; each step halves the bracket at least [ROOT-1]. */
+/* One step of narrowing towards a slot of side 2^-target; each step halves the bracket at least [ROOT-1]. */
 dyd_status dyd_root_step(dyd_root *r, int64_t target, dyd_error *err);
 /* Is the bracket at most 2^-bits wide (or the root known exactly)? */
 bool dyd_root_is_narrow(const dyd_root *r, int64_t bits);

@@ -5,9 +5,9 @@
  * from ball arithmetic at a precision that is doubled until the ball excludes 0 or is the exact number, so they
  * are exact. Three phases, of which the first two do not depend on the width asked for, so that it is always the
  * same root that is found:
- *   1. from the given ends to a cell (c, c+1) 2^-s;
- *   2. bisection until the derivative has no zero on the cell: exactly one, simple root is left;
- *   3. quadratic interval refinement (Abbott 2006): the secant through the ends proposes one of 2^j subcells, two
+ *   1. from the given ends to a slot (c, c+1) 2^-s;
+ *   2. bisection until the derivative has no zero on the slot: exactly one, simple root is left;
+ *   3. quadratic interval refinement (Abbott 2006): the secant through the ends proposes one of 2^j parts, two
  *      signs confirm or refute it; j doubles with each success and halves with each failure. */
 #include "stream/ball.h"
 #include "stream/root.h"
@@ -15,7 +15,7 @@
 #include "base/error.h"
 #include <arb_fmpz_poly.h>
 
-static void load(fmpz_poly_t p, const dyd_root *r) {
+static void root_load(fmpz_poly_t p, const dyd_root *r) {
   fmpz_t c;
   fmpz_init(c);
   for (size_t k = r->count; k-- > 0;) {
@@ -30,7 +30,7 @@ static slong start_precision(mpz_srcptr m) {
 }
 
 /* The exact sign at m 2^-s. */
-static int sign_at(const fmpz_poly_t p, mpz_srcptr m, int64_t s) {
+static int root_sign_at(const fmpz_poly_t p, mpz_srcptr m, int64_t s) {
   arb_t x, y;
   arb_init(x);
   arb_init(y);
@@ -46,9 +46,9 @@ static int sign_at(const fmpz_poly_t p, mpz_srcptr m, int64_t s) {
 }
 
 /* Makes m 2^-s the exact root when sign says so. */
-static bool hit(dyd_root *r, int sign, mpz_srcptr m, int64_t s) {
+static bool root_hit(dyd_root *r, int sign, mpz_srcptr m, int64_t s) {
   if (sign) return false;
-  mpz_set(r->cell, m);
+  mpz_set(r->slot, m);
   r->s = s;
   r->on_grid = r->exact = true;
   return true;
@@ -91,20 +91,20 @@ static int64_t grid_for(const dyd_root *r) {
   return s;
 }
 
-/* Between the grid points first < last lies the sign change: bisects the cells. */
-static void choose_cell(dyd_root *r, const fmpz_poly_t p, mpz_ptr first, mpz_ptr last, int64_t s) {
+/* Between the grid points first < last lies the sign change: bisects the slots. */
+static void root_choose_slot(dyd_root *r, const fmpz_poly_t p, mpz_ptr first, mpz_ptr last, int64_t s) {
   mpz_t middle;
   mpz_init(middle);
   for (;;) {
     mpz_add(middle, first, last);
     mpz_fdiv_q_2exp(middle, middle, 1);
     if (mpz_cmp(middle, first) == 0) break;
-    int sign = sign_at(p, middle, s);
-    if (hit(r, sign, middle, s)) break;
+    int sign = root_sign_at(p, middle, s);
+    if (root_hit(r, sign, middle, s)) break;
     mpz_set(sign == r->sign_left ? first : last, middle);
   }
   if (!r->exact) {
-    mpz_set(r->cell, first);
+    mpz_set(r->slot, first);
     r->s = s;
     r->on_grid = true;
   }
@@ -113,7 +113,7 @@ static void choose_cell(dyd_root *r, const fmpz_poly_t p, mpz_ptr first, mpz_ptr
 
 /* Phase 1. The bracket (lo,hi) has inner grid points first <= last; the sign change is left of first, right of last,
  * or between them. In the first two cases the bracket becomes four times narrower at least. */
-static dyd_status enter_grid(dyd_root *r, const fmpz_poly_t p, dyd_error *err) {
+static dyd_status root_enter_grid(dyd_root *r, const fmpz_poly_t p, dyd_error *err) {
   int64_t s = grid_for(r);
   if (s > DYD_EXP_LIMIT) {
     return dyd_fail(err, DYD_E_RANGE, "the root lies too close to an end of its interval; give another interval");
@@ -123,21 +123,21 @@ static dyd_status enter_grid(dyd_root *r, const fmpz_poly_t p, dyd_error *err) {
   mpz_init(last);
   to_grid(first, r->lo, s, DYD_UP);
   to_grid(last, r->hi, s, DYD_DOWN);
-  int left = sign_at(p, first, s), right = sign_at(p, last, s);
-  bool done = hit(r, left, first, s) || hit(r, right, last, s);
+  int left = root_sign_at(p, first, s), right = root_sign_at(p, last, s);
+  bool done = root_hit(r, left, first, s) || root_hit(r, right, last, s);
   if (!done && left != r->sign_left) {
     from_grid(r->hi, first, s);
   } else if (!done && right == r->sign_left) {
     from_grid(r->lo, last, s);
   } else if (!done) {
-    choose_cell(r, p, first, last, s);
+    root_choose_slot(r, p, first, last, s);
   }
   mpz_clear(last);
   mpz_clear(first);
   return DYD_OK;
 }
 
-/* Does p' have no zero on the cell? */
+/* Does p' have no zero on the slot? */
 static bool is_isolated(const dyd_root *r, const fmpz_poly_t p) {
   fmpz_poly_t d;
   arb_t x, y;
@@ -145,12 +145,12 @@ static bool is_isolated(const dyd_root *r, const fmpz_poly_t p) {
   arb_init(x);
   arb_init(y);
   fmpz_poly_derivative(d, p);
-  arf_set_mpz(arb_midref(x), r->cell);
+  arf_set_mpz(arb_midref(x), r->slot);
   arb_mul_2exp_si(x, x, 1);
   arb_add_ui(x, x, 1, ARF_PREC_EXACT);
   mag_one(arb_radref(x));
   arb_mul_2exp_si(x, x, (slong)-r->s - 1);
-  arb_fmpz_poly_evaluate_arb_horner(y, d, x, start_precision(r->cell));
+  arb_fmpz_poly_evaluate_arb_horner(y, d, x, start_precision(r->slot));
   bool result = !arb_contains_zero(y);
   arb_clear(y);
   arb_clear(x);
@@ -158,29 +158,29 @@ static bool is_isolated(const dyd_root *r, const fmpz_poly_t p) {
   return result;
 }
 
-static void bisect(dyd_root *r, const fmpz_poly_t p) {
+static void root_bisect(dyd_root *r, const fmpz_poly_t p) {
   mpz_t middle;
   mpz_init(middle);
-  mpz_mul_2exp(middle, r->cell, 1);
+  mpz_mul_2exp(middle, r->slot, 1);
   mpz_add_ui(middle, middle, 1);
-  int sign = sign_at(p, middle, r->s + 1);
-  if (!hit(r, sign, middle, r->s + 1)) {
-    mpz_sub_ui(r->cell, middle, sign == r->sign_left ? 0 : 1);
+  int sign = root_sign_at(p, middle, r->s + 1);
+  if (!root_hit(r, sign, middle, r->s + 1)) {
+    mpz_sub_ui(r->slot, middle, sign == r->sign_left ? 0 : 1);
     r->s++;
   }
   mpz_clear(middle);
 }
 
-/* The secant's proposal m, 0 < m < 2^j, for the root at (cell 2^j + m) 2^-(s+j). Only a guess. */
-static void propose(mpz_ptr m, const dyd_root *r, const fmpz_poly_t p, unsigned j) {
+/* The secant's proposal m, 0 < m < 2^j, for the root at (slot 2^j + m) 2^-(s+j). Only a guess. */
+static void root_propose(mpz_ptr m, const dyd_root *r, const fmpz_poly_t p, unsigned j) {
   arb_t x, a, b;
   arb_init(x);
   arb_init(a);
   arb_init(b);
-  slong prec = start_precision(r->cell) + 2 * (slong)j;
-  dyd_ball_set_z_2exp(x, r->cell, (slong)-r->s);
+  slong prec = start_precision(r->slot) + 2 * (slong)j;
+  dyd_ball_set_z_2exp(x, r->slot, (slong)-r->s);
   arb_fmpz_poly_evaluate_arb(a, p, x, prec);
-  dyd_ball_set_z_2exp(x, r->cell, 0);
+  dyd_ball_set_z_2exp(x, r->slot, 0);
   arb_add_ui(x, x, 1, ARF_PREC_EXACT);
   arb_mul_2exp_si(x, x, (slong)-r->s);
   arb_fmpz_poly_evaluate_arb(b, p, x, prec);
@@ -201,7 +201,7 @@ static void propose(mpz_ptr m, const dyd_root *r, const fmpz_poly_t p, unsigned 
 }
 
 /* Holds m within 1 .. 2^j - 1. */
-static void clamp(mpz_ptr m, unsigned j) {
+static void root_clamp(mpz_ptr m, unsigned j) {
   mpz_t most;
   mpz_init_set_ui(most, 1);
   mpz_mul_2exp(most, most, j);
@@ -211,19 +211,19 @@ static void clamp(mpz_ptr m, unsigned j) {
   mpz_clear(most);
 }
 
-/* Phase 3: tries the subcell beside the proposal. false: refuted, r unchanged. */
-static bool quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
+/* Phase 3: tries the part beside the proposal. false: refuted, r unchanged. */
+static bool root_quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
   mpz_t m, base, other;
   mpz_init(m);
   mpz_init(base);
   mpz_init(other);
-  propose(m, r, p, j);
-  clamp(m, j);
-  mpz_mul_2exp(base, r->cell, j);
+  root_propose(m, r, p, j);
+  root_clamp(m, j);
+  mpz_mul_2exp(base, r->slot, j);
   mpz_add(m, m, base);
   int64_t s = r->s + j;
-  int sign = sign_at(p, m, s), next = sign;
-  bool found = hit(r, sign, m, s);
+  int sign = root_sign_at(p, m, s), next = sign;
+  bool found = root_hit(r, sign, m, s);
   if (!found) {
     bool left = sign == r->sign_left; /* the root is to the right of m */
     if (left) {
@@ -231,10 +231,10 @@ static bool quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
     } else {
       mpz_sub_ui(other, m, 1);
     }
-    next = sign_at(p, other, s);
-    found = hit(r, next, other, s);
+    next = root_sign_at(p, other, s);
+    found = root_hit(r, next, other, s);
     if (!found && next != sign) {
-      mpz_set(r->cell, left ? m : other);
+      mpz_set(r->slot, left ? m : other);
       r->s = s;
       found = true;
     }
@@ -248,15 +248,15 @@ static bool quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
 static void grid_step(dyd_root *r, const fmpz_poly_t p, int64_t target) {
   if (!r->isolated) {
     r->isolated = is_isolated(r, p);
-    if (!r->isolated) bisect(r, p);
+    if (!r->isolated) root_bisect(r, p);
     return;
   }
   unsigned j = r->jump;
   if ((int64_t)j > target - r->s) j = target > r->s ? (unsigned)(target - r->s) : 1;
   if (j < 2) {
-    bisect(r, p);
+    root_bisect(r, p);
     if (r->jump < 2) r->jump = 2;
-  } else if (quadratic(r, p, j)) {
+  } else if (root_quadratic(r, p, j)) {
     if (r->jump < 1u << 20) r->jump *= 2;
   } else {
     r->jump = j / 2;
@@ -272,9 +272,9 @@ dyd_status dyd_root_step(dyd_root *r, int64_t target, dyd_error *err) {
   fmpz_poly_t p;
   dyd_status st = DYD_OK;
   fmpz_poly_init(p);
-  load(p, r);
+  root_load(p, r);
   if (!r->on_grid) {
-    st = enter_grid(r, p, err);
+    st = root_enter_grid(r, p, err);
   } else if (!r->exact) {
     grid_step(r, p, target);
   }

@@ -30,7 +30,7 @@ static dyd_status stream_new(dyd_stream **out, size_t more, const dyd_source *so
 }
 
 /* Makes room for a rectangle. */
-static bool hold(dyd_stream *s) {
+static bool stream_hold(dyd_stream *s) {
   if (s->now) return true;
   s->now = dyd_alloc(1, sizeof *s->now);
   if (s->now) dyd_rect_init(s->now);
@@ -40,13 +40,7 @@ static bool hold(dyd_stream *s) {
 dyd_status dyd_stream_new(dyd_stream **out, const dyd_source *source, size_t point) {
   if (!source) return DYD_E_ARG;
   dyd_status st = out && source->narrow ? stream_new(out, 0, source, point) : DYD_E_ARG;
-  if (st && source->release) source->release(source->user);
-  return st;
-}
-
-dyd_status dyd_stream_new_enclosing(dyd_stream **out, const dyd_source *source) {
-  dyd_status st = dyd_stream_new(out, source, DYD_NO_POINT);
-  if (!st) (*out)->encloses = true;
+  if (st != DYD_OK && source->release) source->release(source->user);
   return st;
 }
 
@@ -54,7 +48,7 @@ dyd_status dyd_stream_new_inside(dyd_stream **out, void **user, size_t size, dyd
                                  dyd_release_fn release) {
   dyd_source source = {.narrow = narrow, .release = release};
   dyd_status st = stream_new(out, size, &source, DYD_NO_POINT);
-  if (st) return st;
+  if (st != DYD_OK) return st;
   (*out)->source.user = *user = *out + 1;
   (*out)->encloses = true;
   return DYD_OK;
@@ -64,8 +58,8 @@ dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value) {
   dyd_stream *s;
   dyd_source none = {0};
   dyd_status st = stream_new(&s, 0, &none, DYD_NO_POINT);
-  if (st) return st;
-  if (!hold(s)) {
+  if (st != DYD_OK) return st;
+  if (!stream_hold(s)) {
     free(s);
     return DYD_E_NOMEM;
   }
@@ -73,6 +67,24 @@ dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value) {
   s->final = true;
   *out = s;
   return DYD_OK;
+}
+
+static dyd_status stream_new_final(dyd_stream **out, const dyd_source *source) {
+  dyd_request any = {0};
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = source->narrow(&r, source->user, &any, NULL);
+  if (!dyd_failed(st)) st = dyd_stream_new_fixed(out, &r);
+  dyd_rect_clear(&r);
+  source->release(source->user);
+  return st;
+}
+
+dyd_status dyd_stream_new_enclosing(dyd_stream **out, const dyd_source *source, bool final) {
+  if (final) return stream_new_final(out, source);
+  dyd_status st = dyd_stream_new(out, source, DYD_NO_POINT);
+  if (st == DYD_OK) (*out)->encloses = true;
+  return st;
 }
 
 void *dyd_stream_user(const dyd_stream *s, dyd_narrow_fn narrow) {
@@ -104,31 +116,16 @@ uint64_t dyd_stream_stage(const dyd_stream *s) {
   return s->stage;
 }
 
-/* One side: next becomes the intersection, or must be a subset. */
-static dyd_status accept_side(dyd_interval *next, const dyd_stream *s, const dyd_interval *old, const char *side,
-                              dyd_error *err) {
-  if (!dyd_interval_is_valid(next)) {
-    return dyd_fail(err, DYD_E_STREAM, "the callback gave no valid %s; fill it with dyd_interval_set_ends", side);
-  }
-  if (!s->now) return DYD_OK;
-  if (!s->encloses) {
-    return dyd_interval_contains(old, next) ? DYD_OK : dyd_nesting_fail(err, side, old, next);
-  }
-  dyd_status st = dyd_interval_intersect(next, old, next);
-  if (st == DYD_E_ARG) return dyd_nesting_fail(err, side, old, next);
-  return st ? dyd_fail(err, st, "%s", dyd_status_text(st)) : st;
-}
-
-static dyd_status accept(dyd_stream *s, dyd_rect *next, dyd_error *err) {
-  dyd_status st = accept_side(&next->x, s, s->now ? &s->now->x : NULL, "x side", err);
-  if (!st) st = accept_side(&next->y, s, s->now ? &s->now->y : NULL, "y side", err);
-  if (st) return st;
-  if (!hold(s)) return dyd_fail_nomem(err);
+static dyd_status stream_accept(dyd_stream *s, dyd_rect *next, dyd_error *err) {
+  dyd_status st = dyd_nest(&next->x, s->now ? &s->now->x : NULL, s->encloses, "x side", err);
+  if (st == DYD_OK) st = dyd_nest(&next->y, s->now ? &s->now->y : NULL, s->encloses, "y side", err);
+  if (st != DYD_OK) return st;
+  if (!stream_hold(s)) return dyd_fail_nomem(err);
   dyd_rect_swap(s->now, next);
   return DYD_OK;
 }
 
-static dyd_status call_source(dyd_stream *s, const dyd_request *request, dyd_error *err) {
+static dyd_status stream_call_source(dyd_stream *s, const dyd_request *request, dyd_error *err) {
   dyd_rect next;
   dyd_error own;
   dyd_error_clear(&own);
@@ -136,9 +133,10 @@ static dyd_status call_source(dyd_stream *s, const dyd_request *request, dyd_err
   if (s->now) dyd_rect_set(&next, s->now);
   dyd_status st = s->source.narrow(&next, s->source.user, request, &own);
   bool fixed = st == DYD_FIXED;
-  if (!st || fixed) st = accept(s, &next, &own);
+  if (fixed) st = DYD_OK;
+  if (st == DYD_OK) st = stream_accept(s, &next, &own);
   dyd_rect_clear(&next);
-  if (!st) {
+  if (st == DYD_OK) {
     s->final = fixed || dyd_rect_is_point(s->now);
   } else {
     st = dyd_callback_fail(err, &own, st, s->point, s->stage);
@@ -152,7 +150,7 @@ dyd_status dyd_stream_narrow(dyd_stream *s, int64_t bits, int64_t max_bits, dyd_
   if (s->final) return DYD_FIXED;
   if (s->now && dyd_rect_bits(s->now) >= bits) return DYD_OK;
   dyd_status st = dyd_request_make(&request, s->point == DYD_NO_POINT ? 0 : s->point, bits, max_bits, err);
-  if (!st) st = call_source(s, &request, err);
-  if (st) return st;
+  if (st == DYD_OK) st = stream_call_source(s, &request, err);
+  if (st != DYD_OK) return st;
   return s->final ? DYD_FIXED : DYD_OK;
 }

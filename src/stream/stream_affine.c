@@ -11,6 +11,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "dyadic/raw.h"
 
 typedef struct affine {
   dyd_stream *of;
@@ -25,52 +26,51 @@ static void affine_release(void *user) {
   free(a);
 }
 
-/* Adds c [x0,x1] to [lo,hi]. */
-static void add_term(mpq_t lo, mpq_t hi, const mpq_t c, const mpq_t x0, const mpq_t x1) {
-  mpq_t t;
-  mpq_init(t);
-  mpq_mul(t, c, mpq_sgn(c) < 0 ? x1 : x0);
-  mpq_add(lo, lo, t);
-  mpq_mul(t, c, mpq_sgn(c) < 0 ? x0 : x1);
-  mpq_add(hi, hi, t);
-  mpq_clear(t);
+void dyd_add_scaled_interval(mpq_t lo, mpq_t hi, const mpq_t c, const dyd_interval *r) {
+  mpq_t end[2];
+  bool flip = mpq_sgn(c) < 0;
+  mpq_inits(end[0], end[1], NULL);
+  dyd_interval_get_q(end[0], end[1], r);
+  mpq_mul(end[0], end[0], c);
+  mpq_mul(end[1], end[1], c);
+  mpq_add(lo, lo, end[flip]);
+  mpq_add(hi, hi, end[!flip]);
+  mpq_clears(end[0], end[1], NULL);
 }
 
 /* out = row[0] x + row[1] y + row[2] over r [AFF-1]. Fixed rectangles are rounded once and for all. */
-static dyd_status image_side(dyd_interval *out, const mpq_t *row, const dyd_rect *r, bool final, int64_t exp) {
-  mpq_t lo, hi, x0, x1;
-  mpq_inits(lo, hi, x0, x1, NULL);
+static dyd_status affine_image_side(dyd_interval *out, const mpq_t *row, const dyd_rect *r, bool final, int64_t exp) {
+  mpq_t lo, hi;
+  mpq_inits(lo, hi, NULL);
   mpq_set(lo, row[2]);
   mpq_set(hi, row[2]);
-  dyd_interval_get_q(x0, x1, &r->x);
-  add_term(lo, hi, row[0], x0, x1);
-  dyd_interval_get_q(x0, x1, &r->y);
-  add_term(lo, hi, row[1], x0, x1);
+  dyd_add_scaled_interval(lo, hi, row[0], &r->x);
+  dyd_add_scaled_interval(lo, hi, row[1], &r->y);
   bool exact = final || mpq_equal(lo, hi);
   dyd_status st = exact ? dyd_interval_fix(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
-  mpq_clears(lo, hi, x0, x1, NULL);
+  mpq_clears(lo, hi, NULL);
   return st;
 }
 
-static dyd_status image(dyd_rect *out, const affine *a, int64_t exp) {
+static dyd_status affine_image(dyd_rect *out, const affine *a, int64_t exp) {
   const dyd_rect *r = dyd_stream_rect(a->of);
   bool final = dyd_stream_is_final(a->of);
-  dyd_status st = image_side(&out->x, a->m, r, final, exp);
-  return st ? st : image_side(&out->y, a->m + 3, r, final, exp);
+  dyd_status st = affine_image_side(&out->x, a->m, r, final, exp);
+  return st == DYD_OK ? affine_image_side(&out->y, a->m + 3, r, final, exp) : st;
 }
 
 static dyd_status affine_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
   affine *a = user;
   int64_t more = a->gain + 1;
   dyd_status st = dyd_stream_narrow(a->of, request->bits + more, request->max_bits + (more > 0 ? more : 0), err);
-  if (st < 0) return st;
-  st = image(out, a, -request->bits - 2);
-  if (st) return dyd_fail(err, st, "the affine image of a point: %s", dyd_status_text(st));
+  if (dyd_failed(st)) return st;
+  st = affine_image(out, a, -request->bits - 2);
+  if (st != DYD_OK) return dyd_fail(err, st, "the affine image of a point: %s", dyd_status_text(st));
   return dyd_stream_is_final(a->of) ? DYD_FIXED : DYD_OK;
 }
 
 /* A g for which both rows have |row[0]| + |row[1]| <= 2^g; very small for a constant map. */
-static int64_t gain_of(const mpq_t m[6]) {
+static int64_t affine_gain(const mpq_t m[6]) {
   int64_t gain = -DYD_EXP_LIMIT;
   mpq_t sum, t;
   mpq_init(sum);
@@ -80,8 +80,8 @@ static int64_t gain_of(const mpq_t m[6]) {
     mpq_abs(t, m[3 * row + 1]);
     mpq_add(sum, sum, t);
     if (!mpq_sgn(sum)) continue;
-    int64_t g = (int64_t)mpz_sizeinbase(mpq_numref(sum), 2) - (int64_t)mpz_sizeinbase(mpq_denref(sum), 2) + 1;
-    if (g > gain) gain = g; /* num < 2^bits(num), den >= 2^(bits(den) - 1) */
+    int64_t g = dyd_q_log2_above(sum);
+    if (g > gain) gain = g;
   }
   mpq_clear(t);
   mpq_clear(sum);
@@ -89,7 +89,7 @@ static int64_t gain_of(const mpq_t m[6]) {
 }
 
 /* out = outer o inner. */
-static void compose(mpq_t out[6], const mpq_t outer[6], const mpq_t inner[6]) {
+static void affine_compose(mpq_t out[6], const mpq_t outer[6], const mpq_t inner[6]) {
   mpq_t t;
   mpq_init(t);
   for (int row = 0; row < 2; row++) {
@@ -115,34 +115,20 @@ static affine *affine_make(dyd_stream *of, const mpq_t m[6]) {
   for (int i = 0; i < 6; i++) mpq_init(a->m[i]);
   a->of = of;
   if (inner) {
-    compose(a->m, m, inner->m);
+    affine_compose(a->m, m, inner->m);
     a->of = dyd_stream_ref(inner->of);
     dyd_stream_free(of);
   } else {
     for (int i = 0; i < 6; i++) mpq_set(a->m[i], m[i]);
   }
-  a->gain = gain_of((const mpq_t *)a->m);
+  a->gain = affine_gain((const mpq_t *)a->m);
   return a;
-}
-
-static dyd_status affine_fixed(dyd_stream **out, const affine *a) {
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = image(&r, a, 0);
-  if (!st) st = dyd_stream_new_fixed(out, &r);
-  dyd_rect_clear(&r);
-  return st;
 }
 
 dyd_status dyd_stream_affine(dyd_stream **out, dyd_stream *of, const mpq_t m[6]) {
   if (!of) return DYD_E_ARG;
   affine *a = affine_make(of, m);
   if (!a) return DYD_E_NOMEM;
-  if (!dyd_stream_is_final(a->of)) {
-    dyd_source source = {.narrow = affine_narrow, .release = affine_release, .user = a};
-    return dyd_stream_new_enclosing(out, &source);
-  }
-  dyd_status st = affine_fixed(out, a);
-  affine_release(a);
-  return st;
+  dyd_source source = {.narrow = affine_narrow, .release = affine_release, .user = a};
+  return dyd_stream_new_enclosing(out, &source, dyd_stream_is_final(a->of));
 }

@@ -2,6 +2,7 @@
 /* Streams from rectangles and from pairs of reals. */
 #include "stream/stream.h"
 
+#include "base/error.h"
 #include "stream/real.h"
 
 dyd_status dyd_stream_from_rect(dyd_stream **out, const dyd_rect *r) {
@@ -35,8 +36,8 @@ static void pair_rect(dyd_rect *out, const pair *p) {
 static dyd_status pair_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
   pair *p = user;
   dyd_status st = dyd_real_narrow(p->x, request->bits, request->max_bits, err);
-  if (st >= 0) st = dyd_real_narrow(p->y, request->bits, request->max_bits, err);
-  if (st < 0) return st;
+  if (!dyd_failed(st)) st = dyd_real_narrow(p->y, request->bits, request->max_bits, err);
+  if (dyd_failed(st)) return st;
   pair_rect(out, p);
   return pair_is_final(p) ? DYD_FIXED : DYD_OK;
 }
@@ -54,13 +55,13 @@ dyd_status dyd_stream_from_reals(dyd_stream **out, dyd_real *x, dyd_real *y) {
   pair p = {x, y};
   void *inside;
   dyd_status st = x && y ? DYD_OK : DYD_E_ARG;
-  if (!st && !pair_is_final(&p)) {
+  if (st == DYD_OK && !pair_is_final(&p)) {
     st = dyd_stream_new_inside(out, &inside, sizeof p, pair_narrow, pair_release);
-    if (!st) {
+    if (st == DYD_OK) {
       *(pair *)inside = p;
       return DYD_OK;
     }
-  } else if (!st) {
+  } else if (st == DYD_OK) {
     st = pair_fixed(out, &p);
   }
   pair_release(&p);

@@ -9,6 +9,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "dyadic/raw.h"
 #include "stream/real.h"
 #include "stream/stream.h"
 
@@ -40,29 +41,24 @@ static bool combination_is_final(const combination *c) {
 }
 
 /* One side of the image: side 0 is x [CMB-1]. Fixed rectangles are rounded once and for all. */
-static dyd_status image_side(dyd_interval *out, const combination *c, int side, int64_t exp) {
-  mpq_t lo, hi, end[2];
-  mpq_inits(lo, hi, end[0], end[1], NULL);
+static dyd_status combination_image_side(dyd_interval *out, const combination *c, int side, int64_t exp) {
+  mpq_t lo, hi;
+  mpq_inits(lo, hi, NULL);
   mpq_set(lo, c->shift[side]);
   mpq_set(hi, c->shift[side]);
   for (size_t k = 0; k < c->count; k++) {
     const dyd_rect *r = dyd_stream_rect(c->of[k]);
-    bool flip = mpq_sgn(c->weight[k]) < 0;
-    dyd_interval_get_q(end[0], end[1], side == 0 ? &r->x : &r->y);
-    mpq_mul(end[0], end[0], c->weight[k]);
-    mpq_mul(end[1], end[1], c->weight[k]);
-    mpq_add(lo, lo, end[flip]);
-    mpq_add(hi, hi, end[!flip]);
+    dyd_add_scaled_interval(lo, hi, c->weight[k], side == 0 ? &r->x : &r->y);
   }
   bool exact = combination_is_final(c) || mpq_equal(lo, hi);
   dyd_status st = exact ? dyd_interval_fix(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
-  mpq_clears(lo, hi, end[0], end[1], NULL);
+  mpq_clears(lo, hi, NULL);
   return st;
 }
 
-static dyd_status image(dyd_rect *out, const combination *c, int64_t exp) {
-  dyd_status st = image_side(&out->x, c, 0, exp);
-  return st ? st : image_side(&out->y, c, 1, exp);
+static dyd_status combination_image(dyd_rect *out, const combination *c, int64_t exp) {
+  dyd_status st = combination_image_side(&out->x, c, 0, exp);
+  return st == DYD_OK ? combination_image_side(&out->y, c, 1, exp) : st;
 }
 
 static dyd_status combination_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
@@ -70,24 +66,22 @@ static dyd_status combination_narrow(dyd_rect *out, void *user, const dyd_reques
   int64_t more = c->gain + 1, most = request->max_bits + (more > 0 ? more : 0);
   for (size_t k = 0; k < c->count; k++) {
     dyd_status st = dyd_stream_narrow(c->of[k], request->bits + more, most, err);
-    if (st < 0) return st;
+    if (dyd_failed(st)) return st;
   }
-  dyd_status st = image(out, c, -request->bits - 2);
-  if (st) return dyd_fail(err, st, "a combination of points: %s", dyd_status_text(st));
+  dyd_status st = combination_image(out, c, -request->bits - 2);
+  if (st != DYD_OK) return dyd_fail(err, st, "a combination of points: %s", dyd_status_text(st));
   return combination_is_final(c) ? DYD_FIXED : DYD_OK;
 }
 
 /* A g with sum of |weight| <= 2^g. */
-static int64_t gain_of(const combination *c) {
+static int64_t combination_gain(const combination *c) {
   mpq_t sum, t;
   mpq_inits(sum, t, NULL);
   for (size_t k = 0; k < c->count; k++) {
     mpq_abs(t, c->weight[k]);
     mpq_add(sum, sum, t);
   }
-  int64_t gain = -DYD_EXP_LIMIT;
-  if (mpq_sgn(sum)) /* num < 2^bits(num), den >= 2^(bits(den) - 1) */
-    gain = (int64_t)mpz_sizeinbase(mpq_numref(sum), 2) - (int64_t)mpz_sizeinbase(mpq_denref(sum), 2) + 1;
+  int64_t gain = mpq_sgn(sum) ? dyd_q_log2_above(sum) : -DYD_EXP_LIMIT;
   mpq_clears(sum, t, NULL);
   return gain;
 }
@@ -115,17 +109,8 @@ static combination *combination_make(size_t n, dyd_stream *const *of, const mpq_
     return NULL;
   }
   for (int a = 0; c && shift && a < 2; a++) mpq_set(c->shift[a], shift[a]);
-  if (c) c->gain = gain_of(c);
+  if (c) c->gain = combination_gain(c);
   return c;
-}
-
-static dyd_status combination_fixed(dyd_stream **out, const combination *c) {
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = image(&r, c, 0);
-  if (!st) st = dyd_stream_new_fixed(out, &r);
-  dyd_rect_clear(&r);
-  return st;
 }
 
 dyd_status dyd_stream_combination(dyd_stream **out, size_t n, dyd_stream *const *of, const mpq_t *weight,
@@ -138,13 +123,8 @@ dyd_status dyd_stream_combination(dyd_stream **out, size_t n, dyd_stream *const 
   }
   combination *c = combination_make(n, of, weight, shift);
   if (!c) return DYD_E_NOMEM;
-  if (!combination_is_final(c)) {
-    dyd_source source = {.narrow = combination_narrow, .release = combination_release, .user = c};
-    return dyd_stream_new_enclosing(out, &source);
-  }
-  dyd_status st = combination_fixed(out, c);
-  combination_release(c);
-  return st;
+  dyd_source source = {.narrow = combination_narrow, .release = combination_release, .user = c};
+  return dyd_stream_new_enclosing(out, &source, combination_is_final(c));
 }
 
 dyd_status dyd_stream_midpoint(dyd_stream **out, dyd_stream *a, dyd_stream *b) {

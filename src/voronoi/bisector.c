@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Elementary arcs of the boundary of C_ab.
  *
- * [ARC-1] Let s be the far corner of a and q the closest feature of b in a cell. With n = q - s and m = q + s, corners
+ * [ARC-1] Let s be the far corner of a and q the closest feature of b in a pane. With n = q - s and m = q + s, corners
  * q give the line n_x (2x - m_x) + n_y (2y - m_y) = 0; a side on the line of coordinate L along axis k (o the other
  * one) gives the parabola (t - s_k)^2 = h (2v - L - s_o), h = s_o - L, for the point with coordinates t along k, v
- * along o. The middle line of a through the far corner's axis bounds the cell, and s lies beyond it, so t - s_k has one
- * sign in the cell: the arc is one branch, monotone in both coordinates, and its part in the cell is connected. It
- * cannot run along the border of a cell, since s, the corner q or the corner opposite s would then lie in both
+ * along o. The middle line of a through the far corner's axis bounds the pane, and s lies beyond it, so t - s_k has one
+ * sign in the pane: the arc is one branch, monotone in both coordinates, and its part in the pane is connected. It
+ * cannot run along the border of a pane, since s, the corner q or the corner opposite s would then lie in both
  * rectangles; along a side of the window it can. For singletons a and b no cut is needed. */
 #include "voronoi/bisector.h"
 
@@ -46,17 +46,12 @@ typedef struct side_set {
   dyd_iv far_d[2], near_d[2], window_d[2], middle_d;
 } side_set;
 
-static mpz_srcptr end_of(const dyd_irect *r, int axis, int upper) {
-  if (axis) return upper ? r->y1 : r->y0;
-  return upper ? r->x1 : r->x0;
-}
-
 static void side_set_init(side_set *s, const dyd_scaled *far, const dyd_scaled *near, const dyd_scaled *window,
                           int axis, mpz_srcptr middle) {
   for (int e = 0; e < 2; e++) {
-    s->far[e] = end_of(&far->r, axis, e);
-    s->near[e] = end_of(&near->r, axis, e);
-    s->window[e] = window ? end_of(&window->r, axis, e) : NULL;
+    s->far[e] = dyd_irect_end(&far->r, axis, e);
+    s->near[e] = dyd_irect_end(&near->r, axis, e);
+    s->window[e] = window ? dyd_irect_end(&window->r, axis, e) : NULL;
     s->far_d[e] = far->box.end[2 * axis + e];
     s->near_d[e] = near->box.end[2 * axis + e];
     s->window_d[e] = window ? window->box.end[2 * axis + e] : DYD_IV_UNKNOWN;
@@ -66,7 +61,7 @@ static void side_set_init(side_set *s, const dyd_scaled *far, const dyd_scaled *
 }
 
 /* Adds a cut, kept in ascending order without repeats, if it is strictly inside the window. */
-static size_t add_cut(cut *list, size_t n, const side_set *s, mpz_srcptr at, dyd_iv near) {
+static size_t add_slab_cut(cut *list, size_t n, const side_set *s, mpz_srcptr at, dyd_iv near) {
   if (s->window[0] && (mpz_cmp(at, s->window[0]) <= 0 || mpz_cmp(at, s->window[1]) >= 0)) return n;
   size_t k = n;
   while (k > 0 && mpz_cmp(list[k - 1].at, at) > 0) k--;
@@ -77,7 +72,7 @@ static size_t add_cut(cut *list, size_t n, const side_set *s, mpz_srcptr at, dyd
 }
 
 /* What the rectangles show in the slab lo .. hi. */
-static void show(slab *out, const side_set *s, bool far_thin, bool near_thin) {
+static void show_slab(slab *out, const side_set *s, bool far_thin, bool near_thin) {
   bool above = out->lo && mpz_cmp(out->lo, s->middle) >= 0;
   out->far_bit = far_thin || above ? 0 : 1;
   out->s = s->far[out->far_bit];
@@ -90,21 +85,21 @@ static void show(slab *out, const side_set *s, bool far_thin, bool near_thin) {
 }
 
 /* The slabs of one axis, lowest first; points: both rectangles are singletons. */
-static size_t set_slabs(slab out[4], const side_set *s, bool near_point) {
+static size_t curve_set_slabs(slab out[4], const side_set *s, bool near_point) {
   bool far_thin = !mpz_cmp(s->far[0], s->far[1]), near_thin = !mpz_cmp(s->near[0], s->near[1]);
   cut list[3];
   size_t n = 0;
-  if (!(far_thin && near_point)) n = add_cut(list, n, s, s->middle, s->middle_d);
+  if (!(far_thin && near_point)) n = add_slab_cut(list, n, s, s->middle, s->middle_d);
   if (!near_thin) {
-    n = add_cut(list, n, s, s->near[0], s->near_d[0]);
-    n = add_cut(list, n, s, s->near[1], s->near_d[1]);
+    n = add_slab_cut(list, n, s, s->near[0], s->near_d[0]);
+    n = add_slab_cut(list, n, s, s->near[1], s->near_d[1]);
   }
   for (size_t k = 0; k <= n; k++) {
     out[k].lo = k > 0 ? list[k - 1].at : s->window[0];
     out[k].lo_d = k > 0 ? list[k - 1].near : s->window_d[0];
     out[k].hi = k < n ? list[k].at : s->window[1];
     out[k].hi_d = k < n ? list[k].near : s->window_d[1];
-    show(&out[k], s, far_thin, near_thin);
+    show_slab(&out[k], s, far_thin, near_thin);
   }
   return n + 1;
 }
@@ -150,36 +145,36 @@ static void point_of_parabola(dyd_surd_point *out, const dyd_elementary *a, mpz_
   mpz_mul_2exp(out->d, out->d, (mp_bitcnt_t)bits);
 }
 
-static void make_denominator_positive(dyd_surd_point *p) {
+static void point_make_positive(dyd_surd_point *p) {
   if (mpz_sgn(p->d) > 0) return;
   mpz_neg(p->d, p->d);
   mpz_neg(p->ax, p->ax);
   mpz_neg(p->ay, p->ay);
 }
 
-static void make_rational(dyd_surd_point *p) {
+static void point_make_rational(dyd_surd_point *p) {
   mpz_set_ui(p->bx, 0);
   mpz_set_ui(p->by, 0);
   mpz_set_ui(p->c, 0);
 }
 
 void dyd_elementary_at(dyd_surd_point *out, const dyd_elementary *a, mpz_srcptr num, int64_t bits) {
-  make_rational(out);
+  point_make_rational(out);
   if (a->parabola) {
     point_of_parabola(out, a, num, bits);
   } else {
     point_of_line(out, a, a->axis, num, bits);
   }
-  make_denominator_positive(out);
+  point_make_positive(out);
 }
 
 /* The point where coordinate o = 1 - axis is z. -1, 1: there is none, all of the parabola is below, above z. */
 static int point_across(dyd_surd_point *out, const dyd_elementary *a, mpz_srcptr z) {
   int k = a->axis, o = 1 - k;
-  make_rational(out);
+  point_make_rational(out);
   if (!a->parabola) {
     point_of_line(out, a, o, z, 0);
-    make_denominator_positive(out);
+    point_make_positive(out);
     return 0;
   }
   mpz_ptr to[2] = {out->ax, out->ay}, root[2] = {out->bx, out->by};
@@ -200,7 +195,7 @@ static int point_across(dyd_surd_point *out, const dyd_elementary *a, mpz_srcptr
 /* ---- clipping ---- */
 
 /* Sign of dv/dt. */
-static int slope(const dyd_elementary *a) {
+static int arc_slope(const dyd_elementary *a) {
   int k = a->axis, o = 1 - k;
   int across = mpz_cmp(a->q[o], a->s[o]) > 0 ? 1 : -1;
   if (a->parabola) return -across * a->branch;
@@ -209,7 +204,7 @@ static int slope(const dyd_elementary *a) {
 }
 
 /* end[e] = the tighter of itself and p (swapped in); e = 0: lower end. */
-static void tighten(dyd_spot *end, dyd_surd_point *p, int axis, int e) {
+static void tighten_end(dyd_spot *end, dyd_surd_point *p, int axis, int e) {
   int sign = end->infinite ? 0 : dyd_surd_point_cmp(p, &end->at, axis);
   if (!end->infinite && (e ? sign >= 0 : sign <= 0)) return;
   dyd_surd_point t = end->at;
@@ -218,7 +213,7 @@ static void tighten(dyd_spot *end, dyd_surd_point *p, int axis, int e) {
   end->infinite = false;
 }
 
-/* A line along `axis`, v = m/2 everywhere: is it in the cell, and on its border only with the region inside? */
+/* A line along `axis`, v = m/2 everywhere: is it in the pane, and on its border only with the region inside? */
 static bool level_is_inside(const dyd_elementary *a, int side) {
   int o = 1 - a->axis;
   mpz_t m, t;
@@ -239,21 +234,21 @@ static bool level_is_inside(const dyd_elementary *a, int side) {
 }
 
 /* Cuts by the bounds of coordinate o; false: nothing left. */
-static bool clip_across(dyd_elementary *a, dyd_surd_point *p, int side) {
-  int o = 1 - a->axis, grows = slope(a);
+static bool clip_arc_across(dyd_elementary *a, dyd_surd_point *p, int side) {
+  int o = 1 - a->axis, grows = arc_slope(a);
   if (!a->parabola && !grows) return level_is_inside(a, side);
   for (int e = 0; e < 2; e++) {
     mpz_srcptr bound = e ? a->hi[o] : a->lo[o];
     if (!bound) continue;
     int missed = point_across(p, a, bound);
     if (missed && (missed > 0) == (e == 1)) return false;
-    if (!missed) tighten(&a->end[grows > 0 ? e : 1 - e], p, a->axis, grows > 0 ? e : 1 - e);
+    if (!missed) tighten_end(&a->end[grows > 0 ? e : 1 - e], p, a->axis, grows > 0 ? e : 1 - e);
   }
   return true;
 }
 
-/* Sets the ends and `point`; false: nothing in the cell. */
-static bool clip(dyd_elementary *a, dyd_surd_point *p, int side) {
+/* Sets the ends and `point`; false: nothing in the pane. */
+static bool clip_arc(dyd_elementary *a, dyd_surd_point *p, int side) {
   a->end[0].infinite = a->end[1].infinite = true;
   a->point = false;
   for (int e = 0; e < 2; e++) {
@@ -262,7 +257,7 @@ static bool clip(dyd_elementary *a, dyd_surd_point *p, int side) {
     dyd_elementary_at(&a->end[e].at, a, bound, 0);
     a->end[e].infinite = false;
   }
-  if (!clip_across(a, p, side)) return false;
+  if (!clip_arc_across(a, p, side)) return false;
   if (a->end[0].infinite || a->end[1].infinite) return true;
   int order = dyd_surd_point_cmp(&a->end[0].at, &a->end[1].at, a->axis);
   a->point = order == 0;
@@ -272,7 +267,7 @@ static bool clip(dyd_elementary *a, dyd_surd_point *p, int side) {
 /* ---- arcs ---- */
 
 /* Which coordinate to go along: across n where n is longer, or along the directrix. */
-static int choose_axis(const dyd_elementary *a) {
+static int arc_choose_axis(const dyd_elementary *a) {
   if (a->parabola) return a->q[0] ? 1 : 0;
   mpz_t x, y;
   mpz_init(x);
@@ -285,8 +280,8 @@ static int choose_axis(const dyd_elementary *a) {
   return axis;
 }
 
-/* Sign of t - s_k in the cell. */
-static int choose_branch(const dyd_elementary *a) {
+/* Sign of t - s_k in the pane. */
+static int arc_choose_branch(const dyd_elementary *a) {
   int k = a->axis;
   if (a->lo[k] && mpz_cmp(a->lo[k], a->s[k]) >= 0) return 1;
   DYD_INVARIANT(a->hi[k] && mpz_cmp(a->hi[k], a->s[k]) <= 0);
@@ -299,28 +294,28 @@ static dyd_feature_kind feature_name(const slab *x, const slab *y) {
   return (dyd_feature_kind)(x->near_bit + 2 * y->near_bit);
 }
 
-/* The arc of the cell x times y; false: the cell is the near rectangle, or surely without an arc. */
-static bool set_arc(dyd_elementary *a, const slab *x, const slab *y) {
-  const slab *cell[2] = {x, y};
+/* The arc of the pane x times y; false: the pane is the near rectangle, or surely without an arc. */
+static bool curve_set_arc(dyd_elementary *a, const slab *x, const slab *y) {
+  const slab *pane[2] = {x, y};
   dyd_iv lo[2], hi[2];
   if (!x->q && !y->q) return false;
   for (int k = 0; k < 2; k++) {
-    a->s[k] = cell[k]->s;
-    a->q[k] = cell[k]->q;
-    a->lo[k] = cell[k]->lo;
-    a->hi[k] = cell[k]->hi;
-    a->shape.s[k] = cell[k]->s_d;
-    a->shape.q[k] = cell[k]->q_d;
-    lo[k] = cell[k]->lo_d;
-    hi[k] = cell[k]->hi_d;
+    a->s[k] = pane[k]->s;
+    a->q[k] = pane[k]->q;
+    a->lo[k] = pane[k]->lo;
+    a->hi[k] = pane[k]->hi;
+    a->shape.s[k] = pane[k]->s_d;
+    a->shape.q[k] = pane[k]->q_d;
+    lo[k] = pane[k]->lo_d;
+    hi[k] = pane[k]->hi_d;
   }
   a->corner = (dyd_feature_kind)(x->far_bit + 2 * y->far_bit);
   a->feature = feature_name(x, y);
   a->parabola = a->shape.parabola = !x->q || !y->q;
-  a->axis = choose_axis(a);
-  a->branch = a->parabola ? choose_branch(a) : 0;
+  a->axis = arc_choose_axis(a);
+  a->branch = a->parabola ? arc_choose_branch(a) : 0;
   int o = 1 - a->axis, across = mpz_cmp(a->s[o], a->q[o]);
-  if (!across) return false; /* a focus on the directrix, outside of the cell: the rectangles are disjoint */
+  if (!across) return false; /* a focus on the directrix, outside of the pane: the rectangles are disjoint */
   a->direction = (across > 0) == (a->axis == 0) ? 1 : -1;
   return !dyd_filter_no_arc(&a->shape, a->axis, a->branch, lo, hi);
 }
@@ -333,16 +328,16 @@ void dyd_curve_set(dyd_curve *out, const dyd_scaled *far, const dyd_scaled *near
   dyd_surd_point_init(&p);
   bool near_point = !mpz_cmp(near->r.x0, near->r.x1) && !mpz_cmp(near->r.y0, near->r.y1);
   for (int k = 0; k < 2; k++) {
-    mpz_add(out->middle[k], end_of(&far->r, k, 0), end_of(&far->r, k, 1));
+    mpz_add(out->middle[k], dyd_irect_end(&far->r, k, 0), dyd_irect_end(&far->r, k, 1));
     mpz_tdiv_q_2exp(out->middle[k], out->middle[k], 1);
     side_set_init(&s[k], far, near, window, k, out->middle[k]);
   }
-  size_t columns = set_slabs(x, &s[0], near_point), rows = set_slabs(y, &s[1], near_point);
+  size_t columns = curve_set_slabs(x, &s[0], near_point), rows = curve_set_slabs(y, &s[1], near_point);
   out->count = 0;
   for (size_t c = 0; c < columns; c++)
     for (size_t r = 0; r < rows; r++) {
       dyd_elementary *a = &out->arc[out->count];
-      if (!set_arc(a, &x[c], &y[r]) || !clip(a, &p, side)) continue;
+      if (!curve_set_arc(a, &x[c], &y[r]) || !clip_arc(a, &p, side)) continue;
       for (int e = 0; e < 2; e++)
         if (!a->end[e].infinite) dyd_filter_spot_box(&a->end[e], shift);
       out->count++;

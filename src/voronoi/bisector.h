@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The boundary of C_ab = { c : dl_a(c) < ds_b(c) } cut into elementary arcs, one for each cell of the plane in which
+/* The boundary of C_ab = { c : dl_a(c) < ds_b(c) } cut into elementary arcs, one for each pane of the plane in which
  * the farthest corner of a and the closest feature of b stay the same. */
 #ifndef DYD_VORONOI_BISECTOR_H
 #define DYD_VORONOI_BISECTOR_H
@@ -8,10 +8,10 @@
 
 enum { DYD_CURVE_ARCS = 16 };
 
-/* { c in the cell lo .. hi (NULL: no bound) : |c - s| = distance to q }, q a corner, or the line of coordinate
+/* { c in the pane lo .. hi (NULL: no bound) : |c - s| = distance to q }, q a corner, or the line of coordinate
  * q[1 - axis] (q[axis] = NULL). The coordinate `axis` is strictly monotone along the arc; end[0] is its lower end.
  * direction = 1: C_ab is on the left when that coordinate grows. shape: the same in doubles. point: the arc is one
- * point, at which the curve touches the border of the cell. */
+ * point, at which the curve touches the border of the pane. */
 typedef struct dyd_elementary {
   bool parabola, point;
   int axis, direction, branch;
@@ -43,7 +43,7 @@ typedef struct dyd_scaled {
 void dyd_curve_set(dyd_curve *out, const dyd_scaled *far, const dyd_scaled *near, const dyd_scaled *window, int side,
                    int64_t shift);
 
-/* Is the point p of the curve in the closed cell of the arc? */
+/* Is the point p of the curve in the closed pane of the arc? */
 bool dyd_elementary_holds(const dyd_elementary *a, const dyd_spot *p);
 /* out = the point of the arc's line or branch of parabola whose coordinate a->axis is num / 2^bits. */
 void dyd_elementary_at(dyd_surd_point *out, const dyd_elementary *a, mpz_srcptr num, int64_t bits);

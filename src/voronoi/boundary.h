@@ -5,9 +5,6 @@
 
 #include <dyadel/arc.h>
 
-void dyd_arc_init(dyd_arc *a);
-void dyd_arc_clear(dyd_arc *a);
-
 /* Appends a chain with room for `arcs` initialised arcs (count = arcs) to a boundary whose chain array has room for it.
  * NULL when memory is exhausted, nothing changed then. */
 dyd_chain *dyd_boundary_add_chain(dyd_boundary *b, size_t arcs);

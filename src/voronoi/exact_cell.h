@@ -58,7 +58,7 @@ typedef struct dyd_exact_cell {
 } dyd_exact_cell;
 
 /* How many circles two curves of one rectangle can share, a circle too many included: a convex curve crosses each of
- * the at most ten lines that bound cells of the three rectangles at most twice, so it runs through at most 21 cells,
+ * the at most ten lines that bound panes of the three rectangles at most twice, so it runs through at most 21 panes,
  * and each holds at most two. */
 enum { DYD_CELL_CIRCLES = 43 };
 

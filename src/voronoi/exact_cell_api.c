@@ -8,79 +8,62 @@
 #include "base/alloc.h"
 #include "predicate/predicate_filter.h"
 #include "voronoi/exact_cell.h"
+#include "voronoi/sample.h"
 #include <dyadel/voronoi.h>
 
-/* Rectangles of a site, its possible neighbours, and a window. */
-typedef struct neighbourhood {
-  uint32_t site;
-  dyd_index_list others;
-  dyd_rect *rect;
-  const dyd_rect **in;
-  size_t count;
-} neighbourhood;
-
-static void neighbourhood_clear(neighbourhood *n) {
-  for (size_t k = n->count; k-- > 0;) dyd_rect_clear(&n->rect[k]);
-  free(n->rect);
-  free(n->in);
-  dyd_index_list_clear(&n->others);
-}
-
-static dyd_status fetch(neighbourhood *n, const dyd_delaunay *pd) {
-  size_t room = n->others.count + 1;
-  n->rect = dyd_alloc(room, sizeof *n->rect);
-  n->in = dyd_alloc(room + 1, sizeof *n->in);
-  if (!n->rect || !n->in) return DYD_E_NOMEM;
-  for (; n->count < room; n->count++) {
-    dyd_rect_init(&n->rect[n->count]);
-    n->in[n->count] = &n->rect[n->count];
-  }
-  dyd_status st = dyd_sites_get(&n->rect[0], dyd_delaunay_sites(pd), n->site);
-  for (size_t k = 1; k < room && st == DYD_OK; k++)
-    st = dyd_sites_get(&n->rect[k], dyd_delaunay_sites(pd), n->others.item[k - 1]);
-  return st;
-}
-
-static dyd_status neighbourhood_set(neighbourhood *n, const dyd_delaunay *pd, uint32_t i) {
-  *n = (neighbourhood){0};
+/* *site = the site whose cell is asked for by i. */
+static dyd_status find_cell_site(uint32_t *site, const dyd_delaunay *pd, uint32_t i) {
   if (i >= dyd_sites_count(dyd_delaunay_sites(pd))) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
-  n->site = dyd_delaunay_alias(pd, i);
-  dyd_status st = dyd_delaunay_neighbours(&n->others, pd, n->site, DYD_TIE);
-  return st == DYD_OK ? fetch(n, pd) : st;
+  *site = dyd_delaunay_alias(pd, i);
+  return DYD_OK;
 }
 
-static bool has_area(const dyd_rect *w) {
+static bool window_has_area(const dyd_rect *w) {
   return dyd_dyadic_cmp(&w->x.lo, &w->x.hi) < 0 && dyd_dyadic_cmp(&w->y.lo, &w->y.hi) < 0;
 }
 
-static dyd_status region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer, const dyd_rect *window) {
-  if (window && !has_area(window)) return DYD_E_ARG;
-  neighbourhood n;
-  dyd_status st = neighbourhood_set(&n, pd, i);
-  if (st == DYD_OK) {
-    if (window) n.in[n.count] = window;
-    dyd_cell_task task = {n.site, n.others.item, n.others.count, n.in, outer, window != NULL, pd, false};
-    st = dyd_cell_boundary(out, &task);
-  }
-  neighbourhood_clear(&n);
+/* The region of `site` among the sites s of its cell; window: NULL for the whole plane. */
+static dyd_status cell_region_among(dyd_boundary *out, const dyd_delaunay *pd, const dyd_cell_sites *s, uint32_t site,
+                                    bool outer, const dyd_rect *window) {
+  const dyd_rect **in = dyd_alloc(s->count + 2, sizeof *in);
+  if (!in) return DYD_E_NOMEM;
+  in[0] = &s->own;
+  for (size_t k = 0; k < s->count; k++) in[k + 1] = &s->other[k];
+  in[s->count + 1] = window;
+  dyd_cell_task task = {site, s->site, s->count, in, outer, window != NULL, pd, false};
+  dyd_status st = dyd_cell_boundary(out, &task);
+  free(in);
+  return st;
+}
+
+static dyd_status cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer,
+                              const dyd_rect *window) {
+  uint32_t site;
+  if (window && !window_has_area(window)) return DYD_E_ARG;
+  dyd_status st = find_cell_site(&site, pd, i);
+  if (st != DYD_OK) return st;
+  dyd_cell_sites s;
+  st = dyd_cell_sites_init(&s, pd, site);
+  if (st == DYD_OK) st = cell_region_among(out, pd, &s, site, outer, window);
+  dyd_cell_sites_clear(&s);
   return st;
 }
 
 dyd_status dyd_voronoi_int(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i) {
-  return region(out, pd, i, false, NULL);
+  return cell_region(out, pd, i, false, NULL);
 }
 
 dyd_status dyd_voronoi_pos(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i) {
-  return region(out, pd, i, true, NULL);
+  return cell_region(out, pd, i, true, NULL);
 }
 
 dyd_status dyd_voronoi_int_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {
-  return window ? region(out, pd, i, false, window) : DYD_E_ARG;
+  return window ? cell_region(out, pd, i, false, window) : DYD_E_ARG;
 }
 
 dyd_status dyd_voronoi_pos_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {
-  return window ? region(out, pd, i, true, window) : DYD_E_ARG;
+  return window ? cell_region(out, pd, i, true, window) : DYD_E_ARG;
 }
 
 dyd_status dyd_bisector(dyd_boundary *out, const dyd_rect *a, const dyd_rect *b) {
@@ -93,19 +76,20 @@ dyd_status dyd_bisector(dyd_boundary *out, const dyd_rect *a, const dyd_rect *b)
 /* ---- points ---- */
 
 /* TRUE unless some neighbour says otherwise. */
-static dyd_truth side_of(const neighbourhood *n, const dyd_point *c) {
+static dyd_truth side_of_cell(const dyd_cell_sites *s, const dyd_point *c) {
   dyd_truth answer = DYD_TRUE;
-  for (size_t k = 1; k < n->count && answer != DYD_FALSE; k++) {
-    dyd_truth one = dyd_nearer(c, &n->rect[0], &n->rect[k]);
+  for (size_t k = 0; k < s->count && answer != DYD_FALSE; k++) {
+    dyd_truth one = dyd_nearer(c, &s->own, &s->other[k]);
     if (one != DYD_TRUE) answer = one;
   }
   return answer;
 }
 
 dyd_truth dyd_voronoi_side(const dyd_delaunay *pd, uint32_t i, const dyd_point *c) {
-  neighbourhood n;
-  dyd_truth answer = DYD_UNKNOWN;
-  if (neighbourhood_set(&n, pd, i) == DYD_OK) answer = side_of(&n, c);
-  neighbourhood_clear(&n);
+  uint32_t site;
+  if (find_cell_site(&site, pd, i) != DYD_OK) return DYD_UNKNOWN;
+  dyd_cell_sites s;
+  dyd_truth answer = dyd_cell_sites_init(&s, pd, site) == DYD_OK ? side_of_cell(&s, c) : DYD_UNKNOWN;
+  dyd_cell_sites_clear(&s);
   return answer;
 }

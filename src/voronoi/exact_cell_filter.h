@@ -35,7 +35,7 @@ int dyd_filter_spot_cmp(const dyd_spot *p, const dyd_spot *q, int axis);
 /* The box of p is surely not met by the smallest box around both ends (infinite ones included). */
 bool dyd_filter_spot_beside(const dyd_spot *p, const dyd_spot *low, const dyd_spot *high);
 /* The box of out, nothing else, becomes the smallest box around both finite ends. */
-void dyd_filter_spot_hull(dyd_spot *out, const dyd_spot *p, const dyd_spot *q);
+void dyd_filter_spot_span(dyd_spot *out, const dyd_spot *p, const dyd_spot *q);
 /* Sign of (distance of p to a) - (distance of p to b), 0: not known. */
 int dyd_filter_side(const dyd_spot *p, const dyd_box *a, dyd_touch ta, const dyd_box *b, dyd_touch tb);
 
@@ -53,9 +53,9 @@ bool dyd_filter_sample(dyd_sample *out, const dyd_filter_arc *arc, int axis, con
 bool dyd_filter_sample_segment(dyd_sample *out, dyd_iv other, int axis, const dyd_spot *low, const dyd_spot *high,
                                int64_t shift);
 
-/* Do the conditions |c - s| = distance to q surely have no solution in the closed cell lo .. hi (an infinite interval
+/* Do the conditions |c - s| = distance to q surely have no solution in the closed pane lo .. hi (an infinite interval
  * where there is no bound)? The difference of squares is monotone in each coordinate there [ARC-1], so its extremes are
- * at corners. branch: sign of (coordinate along the directrix) - (that of s) in the cell, for parabolas. */
+ * at corners. branch: sign of (coordinate along the directrix) - (that of s) in the pane, for parabolas. */
 bool dyd_filter_no_arc(const dyd_filter_arc *arc, int axis, int branch, const dyd_iv lo[2], const dyd_iv hi[2]);
 
 #endif

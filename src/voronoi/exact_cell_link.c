@@ -35,7 +35,7 @@ static void links_clear(links *l) {
   free(l->next);
 }
 
-static bool same_point(const dyd_spot *p, const dyd_spot *q) {
+static bool same_spot(const dyd_spot *p, const dyd_spot *q) {
   if (p == q) return true;
   for (int axis = 0; axis < 2; axis++)
     if (dyd_filter_spot_cmp(p, q, axis)) return false;
@@ -43,12 +43,12 @@ static bool same_point(const dyd_spot *p, const dyd_spot *q) {
 }
 
 /* Joins every loose end of a finite piece to a loose beginning; own: of the same curve only. */
-static void join(links *l, const dyd_exact_cell *c, bool own) {
+static void links_join(links *l, const dyd_exact_cell *c, bool own) {
   for (size_t p = 0; p < c->pieces; p++) {
     if (c->piece[p].end->infinite || l->next[p] != NONE) continue;
     for (size_t q = 0; q < c->pieces; q++) {
       if (l->last[q] != NONE || c->piece[q].begin->infinite) continue;
-      if ((own && c->piece[p].curve != c->piece[q].curve) || !same_point(c->piece[p].end, c->piece[q].begin)) continue;
+      if ((own && c->piece[p].curve != c->piece[q].curve) || !same_spot(c->piece[p].end, c->piece[q].begin)) continue;
       l->next[p] = q;
       l->last[q] = p;
       break;
@@ -58,7 +58,7 @@ static void join(links *l, const dyd_exact_cell *c, bool own) {
 }
 
 /* Are the piece p and its successor one arc? */
-static bool is_smooth(const links *l, const dyd_exact_cell *c, size_t p) {
+static bool links_are_smooth(const links *l, const dyd_exact_cell *c, size_t p) {
   size_t n = l->next[p];
   if (n == NONE || c->piece[p].curve != c->piece[n].curve) return false;
   const dyd_elementary *a = c->piece[p].arc, *b = c->piece[n].arc;
@@ -67,7 +67,8 @@ static bool is_smooth(const links *l, const dyd_exact_cell *c, size_t p) {
 
 /* ---- writing ---- */
 
-static dyd_arc_end end_kind(const dyd_exact_cell *c, const dyd_piece *p, const dyd_piece *other, const dyd_spot *at) {
+static dyd_arc_end links_end_kind(const dyd_exact_cell *c, const dyd_piece *p, const dyd_piece *other,
+                                  const dyd_spot *at) {
   dyd_arc_end e = {.kind = DYD_END_WINDOW};
   if (!other) {
     e.kind = DYD_END_INFINITE;
@@ -84,9 +85,9 @@ static dyd_arc_end end_kind(const dyd_exact_cell *c, const dyd_piece *p, const d
 }
 
 /* other: the piece beyond this end. */
-static void write_end(dyd_arc_end *out, const dyd_exact_cell *c, const dyd_piece *p, const dyd_piece *other,
-                      const dyd_spot *at) {
-  dyd_arc_end e = end_kind(c, p, other, at);
+static void links_write_end(dyd_arc_end *out, const dyd_exact_cell *c, const dyd_piece *p, const dyd_piece *other,
+                            const dyd_spot *at) {
+  dyd_arc_end e = links_end_kind(c, p, other, at);
   out->kind = e.kind;
   out->site = e.site;
   if (e.kind == DYD_END_INFINITE) return;
@@ -95,7 +96,7 @@ static void write_end(dyd_arc_end *out, const dyd_exact_cell *c, const dyd_piece
 }
 
 /* The arc made of the pieces from first to last. */
-static void write_arc(dyd_arc *out, const dyd_exact_cell *c, const links *l, size_t first, size_t last) {
+static void links_write_arc(dyd_arc *out, const dyd_exact_cell *c, const links *l, size_t first, size_t last) {
   const dyd_piece *f = &c->piece[first], *t = &c->piece[last];
   const dyd_piece *before = l->last[first] == NONE ? NULL : &c->piece[l->last[first]];
   const dyd_piece *after = l->next[last] == NONE ? NULL : &c->piece[l->next[last]];
@@ -108,25 +109,25 @@ static void write_arc(dyd_arc *out, const dyd_exact_cell *c, const links *l, siz
     out->corner = f->arc->corner;
     out->feature = f->arc->feature;
   }
-  write_end(&out->begin, c, f, before, f->begin);
-  write_end(&out->end, c, t, after, t->end);
+  links_write_end(&out->begin, c, f, before, f->begin);
+  links_write_end(&out->end, c, t, after, t->end);
 }
 
 /* Where the chain through p starts: at infinity, or after a break. */
-static size_t chain_start(const links *l, const dyd_exact_cell *c, size_t p) {
+static size_t links_chain_start(const links *l, const dyd_exact_cell *c, size_t p) {
   size_t start = p;
   while (l->last[start] != NONE && l->last[start] != p) start = l->last[start];
   if (l->last[start] == NONE) return start;
   size_t q = p;
-  while (is_smooth(l, c, l->last[q]) && l->last[q] != p) q = l->last[q];
+  while (links_are_smooth(l, c, l->last[q]) && l->last[q] != p) q = l->last[q];
   return q;
 }
 
-static dyd_status write_chain(dyd_boundary *out, links *l, const dyd_exact_cell *c, size_t start) {
+static dyd_status links_write_chain(dyd_boundary *out, links *l, const dyd_exact_cell *c, size_t start) {
   size_t arcs = 0, p = start;
   do {
     l->done[p] = true;
-    bool smooth = is_smooth(l, c, p);
+    bool smooth = links_are_smooth(l, c, p);
     p = l->next[p];
     arcs += !smooth || p == start;
   } while (p != NONE && p != start);
@@ -136,21 +137,21 @@ static dyd_status write_chain(dyd_boundary *out, links *l, const dyd_exact_cell 
   p = start;
   for (size_t k = 0; k < arcs; k++) {
     size_t first = p;
-    while (is_smooth(l, c, p) && l->next[p] != start) p = l->next[p];
-    write_arc(&chain->arc[k], c, l, first, p);
+    while (links_are_smooth(l, c, p) && l->next[p] != start) p = l->next[p];
+    links_write_arc(&chain->arc[k], c, l, first, p);
     p = l->next[p];
   }
   return DYD_OK;
 }
 
-static dyd_status write_all(dyd_boundary *out, links *l, const dyd_exact_cell *c) {
+static dyd_status links_write_all(dyd_boundary *out, links *l, const dyd_exact_cell *c) {
   out->chain = dyd_alloc(c->pieces, sizeof *out->chain);
   if (!out->chain) return DYD_E_NOMEM;
   dyd_status st = DYD_OK;
   bool all_window = true;
   for (size_t p = 0; p < c->pieces && st == DYD_OK; p++) {
     all_window = all_window && !c->piece[p].arc;
-    if (!l->done[p]) st = write_chain(out, l, c, chain_start(l, c, p));
+    if (!l->done[p]) st = links_write_chain(out, l, c, links_chain_start(l, c, p));
   }
   out->whole = all_window;
   return st;
@@ -160,9 +161,9 @@ dyd_status dyd_cell_link(dyd_boundary *out, const dyd_exact_cell *c) {
   links l;
   dyd_status st = links_init(&l, c->pieces);
   if (st == DYD_OK) {
-    join(&l, c, true);
-    join(&l, c, false);
-    st = write_all(out, &l, c);
+    links_join(&l, c, true);
+    links_join(&l, c, false);
+    st = links_write_all(out, &l, c);
   }
   links_clear(&l);
   return st;

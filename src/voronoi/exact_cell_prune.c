@@ -41,7 +41,7 @@ typedef struct prune {
 /* ---- one piece ---- */
 
 /* The corner `which` as a rectangle, limbs borrowed. */
-static dyd_irect corner_of(const dyd_irect *r, int which) {
+static dyd_irect corner_of_irect(const dyd_irect *r, int which) {
   const __mpz_struct *x = which & 1 ? r->x1 : r->x0, *y = which & 2 ? r->y1 : r->y0;
   return (dyd_irect){{*x}, {*x}, {*y}, {*y}};
 }
@@ -55,13 +55,13 @@ static bool both_farther(const dyd_piece *p, const dyd_irect *x, const dyd_irect
 /* Pos, a straight piece: is some corner of k farther than a point that bounds the radius from above? */
 static bool corner_is_farther(const prune *f, const dyd_piece *p, size_t k) {
   for (int a = 0; a < 4; a++) {
-    dyd_irect x = corner_of(&f->c->other[k].r, a);
+    dyd_irect x = corner_of_irect(&f->c->other[k].r, a);
     if (p->arc) {
       dyd_irect s = {{p->arc->s[0][0]}, {p->arc->s[0][0]}, {p->arc->s[1][0]}, {p->arc->s[1][0]}};
       if (both_farther(p, &x, &s)) return true;
     }
     for (int b = 0; b < 4 && !p->arc; b++) {
-      dyd_irect y = corner_of(&f->c->fixed.r, b);
+      dyd_irect y = corner_of_irect(&f->c->fixed.r, b);
       if (both_farther(p, &x, &y)) return true;
     }
   }
@@ -69,7 +69,7 @@ static bool corner_is_farther(const prune *f, const dyd_piece *p, size_t k) {
 }
 
 /* Is the centre of no critical circle with k on the piece of an arc? */
-static bool no_circle(prune *f, const dyd_piece *p, size_t k) {
+static bool no_circle_on_piece(prune *f, const dyd_piece *p, size_t k) {
   const dyd_touch touch[3] = {f->c->fixed_touch, f->c->other_touch, f->c->other_touch};
   const dyd_irect *r[3] = {&f->c->fixed.r, &f->sub.other[p->curve].r, &f->c->other[k].r};
   size_t found = dyd_icircles(f->circle, DYD_CELL_CIRCLES, r, touch);
@@ -87,24 +87,24 @@ static bool no_circle(prune *f, const dyd_piece *p, size_t k) {
   return true;
 }
 
-static relation against_piece(prune *f, const dyd_piece *p, size_t k) {
+static relation prune_against_piece(prune *f, const dyd_piece *p, size_t k) {
   const dyd_exact_cell *c = f->c;
   bool outer = c->task->outer, straight = !p->arc || !p->arc->parabola;
   dyd_spot hull;
-  dyd_filter_spot_hull(&hull, p->begin, p->end);
+  dyd_filter_spot_span(&hull, p->begin, p->end);
   if (dyd_filter_side(&hull, &c->other[k].box, c->other_touch, &c->fixed.box, c->fixed_touch) > 0) return CLEAR;
   if (outer && straight && corner_is_farther(f, p, k)) return CLEAR;
   int begin = dyd_cell_spot_side(c, p->begin, k), end = dyd_cell_spot_side(c, p->end, k);
   if (begin < 0 || end < 0) return CUTS;
   if (!begin || !end) return TOUCHES;
   if (straight && !outer) return CLEAR;
-  return p->arc && no_circle(f, p, k) ? CLEAR : TOUCHES;
+  return p->arc && no_circle_on_piece(f, p, k) ? CLEAR : TOUCHES;
 }
 
-static relation against(prune *f, size_t k) {
+static relation prune_against(prune *f, size_t k) {
   relation all = CLEAR;
   for (size_t p = 0; p < f->sub.pieces && all != CUTS; p++) {
-    relation one = against_piece(f, &f->sub.piece[p], k);
+    relation one = prune_against_piece(f, &f->sub.piece[p], k);
     if (one > all) all = one;
   }
   return all;
@@ -112,7 +112,7 @@ static relation against(prune *f, size_t k) {
 
 /* ---- A ---- */
 
-static dyd_status rebuild(prune *f) {
+static dyd_status prune_rebuild(prune *f) {
   dyd_cell_forget(&f->sub);
   f->rebuilds++;
   f->sub.count = f->picks;
@@ -124,11 +124,11 @@ static dyd_status rebuild(prune *f) {
 }
 
 /* Those of A that do not touch the pieces leave it. */
-static void release(prune *f) {
+static void prune_release(prune *f) {
   size_t kept = 0;
   for (size_t m = 0; m < f->picks; m++) {
     size_t k = f->pick[m];
-    if (against(f, k) == CLEAR)
+    if (prune_against(f, k) == CLEAR)
       f->state[k] = OUT;
     else
       f->pick[kept++] = k;
@@ -137,7 +137,7 @@ static void release(prune *f) {
 }
 
 /* Takes some of those marked CUTTING into A, far apart in the order of the sites; keeps them all when A is full. */
-static dyd_status take_some(prune *f, size_t cutting) {
+static dyd_status prune_take_some(prune *f, size_t cutting) {
   size_t room = MOST_PICKS - f->picks, batch = room < BATCH ? room : BATCH, seen = 0, taken = 0;
   if (f->rebuilds == MOST_REBUILDS) batch = 0;
   for (size_t k = 0; k < f->c->count; k++) {
@@ -149,8 +149,8 @@ static dyd_status take_some(prune *f, size_t cutting) {
     taken++;
   }
   if (!taken) return DYD_OK;
-  dyd_status st = rebuild(f);
-  if (st == DYD_OK && f->joined && f->sub.pieces) release(f);
+  dyd_status st = prune_rebuild(f);
+  if (st == DYD_OK && f->joined && f->sub.pieces) prune_release(f);
   return st;
 }
 
@@ -212,29 +212,29 @@ static void prune_clear(prune *f) {
 }
 
 /* Compares all that are NEW with the pieces; how many cut them. Without pieces the region is empty, whatever comes. */
-static size_t compare_all(prune *f) {
+static size_t prune_compare_all(prune *f) {
   static const uint8_t next[] = {[CLEAR] = OUT, [TOUCHES] = KEPT, [CUTS] = CUTTING};
   size_t cutting = 0;
   for (size_t k = 0; k < f->c->count; k++) {
     if (f->state[k] != NEW) continue;
-    f->state[k] = next[f->sub.pieces ? against(f, k) : CLEAR];
+    f->state[k] = next[f->sub.pieces ? prune_against(f, k) : CLEAR];
     cutting += f->state[k] == CUTTING;
   }
   return cutting;
 }
 
 /* Decides about every other. */
-static dyd_status decide(prune *f) {
+static dyd_status prune_decide(prune *f) {
   pick_skeleton(f);
-  dyd_status st = rebuild(f);
+  dyd_status st = prune_rebuild(f);
   for (size_t cutting = 1; st == DYD_OK && cutting;) {
-    cutting = compare_all(f);
-    if (cutting) st = take_some(f, cutting);
+    cutting = prune_compare_all(f);
+    if (cutting) st = prune_take_some(f, cutting);
   }
   return st;
 }
 
-static void compact(dyd_exact_cell *c, const uint8_t *state) {
+static void prune_compact(dyd_exact_cell *c, const uint8_t *state) {
   size_t kept = 0;
   for (size_t k = 0; k < c->count; k++) {
     dyd_scaled t = c->other[kept];
@@ -251,8 +251,8 @@ dyd_status dyd_cell_prune(dyd_exact_cell *c) {
   if (!c->task->windowed || c->task->keep_all || c->count <= FEW) return DYD_OK;
   prune f;
   dyd_status st = prune_init(&f, c);
-  if (st == DYD_OK) st = decide(&f);
-  if (st == DYD_OK) compact(c, f.state);
+  if (st == DYD_OK) st = prune_decide(&f);
+  if (st == DYD_OK) prune_compact(c, f.state);
   prune_clear(&f);
   return st;
 }

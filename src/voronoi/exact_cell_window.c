@@ -13,12 +13,12 @@ static dyd_status cut_side(dyd_exact_cell *c, size_t *count, int side, const dyd
   int axis = dyd_window_axis(side);
   const dyd_irect *w = &c->window.r;
   if (s->infinite || dyd_surd_point_cmp_z(&s->at, 1 - axis, dyd_window_level(c, side))) return DYD_OK;
-  if (dyd_surd_point_cmp_z(&s->at, axis, axis ? w->y0 : w->x0) <= 0) return DYD_OK;
-  if (dyd_surd_point_cmp_z(&s->at, axis, axis ? w->y1 : w->x1) >= 0) return DYD_OK;
+  if (dyd_surd_point_cmp_z(&s->at, axis, dyd_irect_end(w, axis, 0)) <= 0) return DYD_OK;
+  if (dyd_surd_point_cmp_z(&s->at, axis, dyd_irect_end(w, axis, 1)) >= 0) return DYD_OK;
   return dyd_cell_add_cut(c, count, s);
 }
 
-static dyd_status find_cuts(dyd_exact_cell *c, size_t *count, int side) {
+static dyd_status side_find_cuts(dyd_exact_cell *c, size_t *count, int side) {
   *count = 0;
   for (size_t j = 0; j < c->count; j++)
     for (size_t a = 0; a < c->curve[j].count; a++)
@@ -29,7 +29,7 @@ static dyd_status find_cuts(dyd_exact_cell *c, size_t *count, int side) {
   return DYD_OK;
 }
 
-static bool is_inside(dyd_exact_cell *c, int side) {
+static bool side_is_inside(dyd_exact_cell *c, int side) {
   for (size_t k = 0; k < c->count; k++)
     if (dyd_cell_side(c, &c->sample, NULL, side, k) <= 0) return false;
   return true;
@@ -40,13 +40,13 @@ static dyd_status side_pieces(dyd_exact_cell *c, int side) {
   bool grows = side < 2;
   const dyd_spot *first = &c->corner[side], *last = &c->corner[(side + 1) & 3];
   const dyd_spot *lowest = grows ? first : last, *highest = grows ? last : first;
-  dyd_status st = find_cuts(c, &count, side);
+  dyd_status st = side_find_cuts(c, &count, side);
   if (st != DYD_OK) return st;
   count = dyd_cell_sort_cuts(c->cut, count, dyd_window_axis(side));
   for (size_t k = 0; k <= count && st == DYD_OK; k++) {
     const dyd_spot *low = k ? c->cut[k - 1] : lowest, *high = k < count ? c->cut[k] : highest;
     dyd_cell_sample(c, NULL, side, low, high);
-    if (is_inside(c, side))
+    if (side_is_inside(c, side))
       st = dyd_cell_add_piece(c, (dyd_piece){c->count + (size_t)side, NULL, grows ? low : high, grows ? high : low});
   }
   return st;

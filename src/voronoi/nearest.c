@@ -10,7 +10,6 @@
 #include <dyadel/voronoi.h>
 
 #include "base/alloc.h"
-#include "delaunay/state.h"
 #include "voronoi/nearest.h"
 
 #include <string.h>
@@ -24,7 +23,7 @@ typedef struct query {
   mpq_t e[4]; /* of the query rectangle */
 } query;
 
-static void get_ends(mpq_t e[4], const dyd_rect *r) {
+static void rect_get_ends(mpq_t e[4], const dyd_rect *r) {
   dyd_interval_get_q(e[0], e[1], &r->x);
   dyd_interval_get_q(e[2], e[3], &r->y);
 }
@@ -37,7 +36,7 @@ static void query_clear(query *q) {
   free(q->vertex);
 }
 
-static dyd_status load_sites(query *q) {
+static dyd_status query_load_sites(query *q) {
   q->site = dyd_alloc(q->count, sizeof *q->site);
   if (!q->site) return DYD_E_NOMEM;
   dyd_rect r;
@@ -49,7 +48,7 @@ static dyd_status load_sites(query *q) {
     for (int n = 0; n < 4; n++) mpq_init(s->e[n]);
     st = dyd_sites_get(&r, q->pd->sk.rects.sites, i);
     if (st != DYD_OK) break;
-    get_ends(s->e, &r);
+    rect_get_ends(s->e, &r);
     dyd_sites_get_d(s->box.e, q->pd->sk.rects.sites, i);
     s->slack = dyd_filter_slack(&s->box, dyd_sites_in_doubles(q->pd->sk.rects.sites, i));
   }
@@ -60,7 +59,7 @@ static dyd_status load_sites(query *q) {
 /* ---- a point ---- */
 
 /* Squared distance from the point (e[0], e[2]) to the site: closest, or farthest. */
-static void distance2(mpq_t out, mpq_t t, const query *q, const dyd_near_site *s, bool farthest) {
+static void query_distance2(mpq_t out, mpq_t t, const query *q, const dyd_near_site *s, bool farthest) {
   mpq_set_ui(out, 0, 1);
   for (int a = 0; a < 4; a += 2) {
     mpq_t below, above;
@@ -82,16 +81,16 @@ static void distance2(mpq_t out, mpq_t t, const query *q, const dyd_near_site *s
 }
 
 /* Keeps the sites with ds <= the least dl. */
-static void keep_at_point(query *q) {
+static void query_keep_at_point(query *q) {
   mpq_t least, d, t;
   mpq_inits(least, d, t, NULL);
   for (size_t k = 0; k < q->count; k++) {
-    distance2(d, t, q, &q->site[k], true);
+    query_distance2(d, t, q, &q->site[k], true);
     if (k == 0 || mpq_cmp(d, least) < 0) mpq_set(least, d);
   }
   size_t kept = 0;
   for (size_t k = 0; k < q->count; k++) {
-    distance2(d, t, q, &q->site[k], false);
+    query_distance2(d, t, q, &q->site[k], false);
     if (mpq_cmp(d, least) <= 0) q->vertex[kept++] = q->vertex[k];
   }
   q->count = kept;
@@ -100,16 +99,16 @@ static void keep_at_point(query *q) {
 
 /* ---- a rectangle ---- */
 
-static bool meets(const query *q, const dyd_near_site *s) {
+static bool query_meets(const query *q, const dyd_near_site *s) {
   for (int a = 0; a < 4; a += 2)
     if (mpq_cmp(s->e[a + 1], q->e[a]) < 0 || mpq_cmp(q->e[a + 1], s->e[a]) < 0) return false;
   return true;
 }
 
 /* Does the query meet Pos of candidate i? */
-static bool is_listed(dyd_near_work *w, const query *q, size_t i) {
+static bool query_lists(dyd_near_work *w, const query *q, size_t i) {
   const dyd_near_site *s = &q->site[i];
-  if (meets(q, s)) return true;
+  if (query_meets(q, s)) return true;
   for (int n = 0; n < 4; n++) { /* side n: coordinate n of the query is fixed */
     bool beyond = n & 1 ? mpq_cmp(s->e[n], q->e[n]) > 0 : mpq_cmp(s->e[n], q->e[n]) < 0;
     int axis = n < 2;
@@ -119,12 +118,12 @@ static bool is_listed(dyd_near_work *w, const query *q, size_t i) {
   return false;
 }
 
-static dyd_status keep_in_rect(query *q) {
+static dyd_status query_keep_in_rect(query *q) {
   bool *keep = dyd_alloc(q->count, sizeof *keep);
   if (!keep) return DYD_E_NOMEM;
   dyd_near_work w;
   dyd_near_work_init(&w);
-  for (size_t i = 0; i < q->count; i++) keep[i] = is_listed(&w, q, i);
+  for (size_t i = 0; i < q->count; i++) keep[i] = query_lists(&w, q, i);
   dyd_near_work_clear(&w);
   size_t kept = 0;
   for (size_t i = 0; i < q->count; i++)
@@ -137,7 +136,7 @@ static dyd_status keep_in_rect(query *q) {
 /* ---- both ---- */
 
 /* Vertices become sites, sorted, and are handed over. */
-static void deliver(dyd_index_list *out, query *q) {
+static void query_deliver(dyd_index_list *out, query *q) {
   for (size_t k = 0; k < q->count; k++) q->vertex[k] = q->pd->sk.reps.site[q->vertex[k]];
   if (q->count) qsort(q->vertex, q->count, sizeof *q->vertex, dyd_compare_index);
   dyd_index_list_clear(out);
@@ -150,15 +149,15 @@ dyd_status dyd_nearest_rect(dyd_index_list *out, bool *sure, const dyd_delaunay 
   for (int n = 0; n < 4; n++) mpq_init(q.e[n]);
   dyd_status st = dyd_near_candidates(&q.vertex, &q.count, pd, rect);
   if (st == DYD_OK && q.count > 1) {
-    get_ends(q.e, rect);
-    st = load_sites(&q);
+    rect_get_ends(q.e, rect);
+    st = query_load_sites(&q);
     if (st == DYD_OK && dyd_rect_is_point(rect))
-      keep_at_point(&q);
+      query_keep_at_point(&q);
     else if (st == DYD_OK)
-      st = keep_in_rect(&q);
+      st = query_keep_in_rect(&q);
   }
   if (st == DYD_OK) {
-    deliver(out, &q);
+    query_deliver(out, &q);
     *sure = out->count == 1;
   }
   query_clear(&q);

@@ -3,6 +3,7 @@
 #ifndef DYD_VORONOI_NEAREST_H
 #define DYD_VORONOI_NEAREST_H
 
+#include "delaunay/state.h"
 #include "skeleton/blocks.h"
 
 /* ---- nearest_filter.c ---- */

@@ -6,7 +6,6 @@
  * site's dl from above: a descent towards q gives a first B, one search of the tree the final one and everybody within.
  */
 #include "base/alloc.h"
-#include "delaunay/state.h"
 #include "dyadic/raw.h"
 #include "voronoi/nearest.h"
 
@@ -21,13 +20,13 @@ typedef struct search {
   bool failed;
 } search;
 
-static void lower_bound(search *s, const dyd_bbox *b) {
+static void search_lower_bound(search *s, const dyd_bbox *b) {
   double upper = dyd_dl2_upper(&s->q, b);
   if (upper < s->bound) s->bound = upper;
 }
 
 /* From the root to an item, always into the child with the least upper bound. */
-static void descend(search *s) {
+static void search_descend(search *s) {
   const dyd_tree *t = s->tree;
   size_t node = 0;
   for (int level = t->levels - 1; level >= 0; level--) {
@@ -46,13 +45,13 @@ static void descend(search *s) {
   }
 }
 
-static bool consider(search *s, uint32_t v) {
+static bool search_consider(search *s, uint32_t v) {
   dyd_bbox b;
   if (s->pd->sk.vertex[s->pd->sk.reps.site[v]] != v) return true; /* an alias */
   dyd_vertex_box(&b, &s->pd->sk, v);
   double lower = dyd_ds2_lower(&s->q, &b);
   if (lower > s->bound) return true;
-  if (!s->pd->sk.mesh.no_filter) lower_bound(s, &b);
+  if (!s->pd->sk.mesh.no_filter) search_lower_bound(s, &b);
   s->failed = !dyd_reserve((void **)&s->vertex, &s->vertex_cap, s->count + 1, sizeof *s->vertex) ||
               !dyd_reserve((void **)&s->lower, &s->lower_cap, s->count + 1, sizeof *s->lower);
   if (s->failed) return false;
@@ -61,14 +60,14 @@ static bool consider(search *s, uint32_t v) {
   return true;
 }
 
-static bool visit_vertex(void *context, uint32_t v) {
-  return consider(context, v);
+static bool search_visit_vertex(void *context, uint32_t v) {
+  return search_consider(context, v);
 }
 
-static bool visit_block(void *context, uint32_t b) {
+static bool search_visit_block(void *context, uint32_t b) {
   search *s = context;
   for (uint32_t v = b * DYD_BLOCK; v < dyd_block_end(&s->pd->sk, b); v++)
-    if (!consider(s, v)) return false;
+    if (!search_consider(s, v)) return false;
   return true;
 }
 
@@ -77,8 +76,8 @@ dyd_status dyd_near_candidates(uint32_t **vertex, size_t *count, const dyd_delau
   search s = {.pd = pd, .tree = fine ? &pd->sk.rects.tree : &pd->sk.blocks, .bound = HUGE_VAL};
   dyd_interval_get_d(&s.q.e[0], &s.q.e[1], &q->x);
   dyd_interval_get_d(&s.q.e[2], &s.q.e[3], &q->y);
-  if (!pd->sk.mesh.no_filter) descend(&s);
-  dyd_tree_near(s.tree, &s.q, &s.bound, fine ? visit_vertex : visit_block, &s);
+  if (!pd->sk.mesh.no_filter) search_descend(&s);
+  dyd_tree_near(s.tree, &s.q, &s.bound, fine ? search_visit_vertex : search_visit_block, &s);
   size_t kept = 0;
   for (size_t k = 0; k < s.count; k++)
     if (!(s.lower[k] > s.bound)) s.vertex[kept++] = s.vertex[k];
@@ -112,16 +111,16 @@ size_t dyd_filter_blocker(const dyd_bbox *c, const dyd_near_site *site, size_t c
   return best < count && least < dyd_ds2_lower(c, &site[i].box) ? best : count;
 }
 
-static void enclose(double out[2], const mpq_t q) {
+static void enclose_rational(double out[2], const mpq_t q) {
   out[0] = dyd_raw_quotient_get_d(mpq_numref(q), 0, mpq_denref(q), DYD_DOWN);
   out[1] = dyd_raw_quotient_get_d(mpq_numref(q), 0, mpq_denref(q), DYD_UP);
 }
 
 /* Roots and sums are correctly rounded; one step outward each. */
-static void add_root(double out[2], const mpq_t c) {
+static void add_enclosed_root(double out[2], const mpq_t c) {
   double square[2];
   if (!mpq_sgn(c)) return;
-  enclose(square, c);
+  enclose_rational(square, c);
   for (int k = 0; k < 2; k++) {
     double away = k ? HUGE_VAL : -HUGE_VAL, sum = out[k] + nextafter(sqrt(square[k]), away);
     out[k] = isnan(sum) ? away : nextafter(sum, away);
@@ -129,9 +128,9 @@ static void add_root(double out[2], const mpq_t c) {
 }
 
 void dyd_filter_place(dyd_bbox *c, const dyd_near_side *side, const mpq_t at, const mpq_t root) {
-  enclose(&c->e[2 * side->axis], at);
-  add_root(&c->e[2 * side->axis], root);
-  enclose(&c->e[2 - 2 * side->axis], side->across);
+  enclose_rational(&c->e[2 * side->axis], at);
+  add_enclosed_root(&c->e[2 * side->axis], root);
+  enclose_rational(&c->e[2 - 2 * side->axis], side->across);
 }
 
 double dyd_filter_slack(const dyd_bbox *b, bool in_doubles) {

@@ -42,7 +42,8 @@ static int place_compare(dyd_near_work *w, const mpq_t x) {
 }
 
 /* w->d = D for site k against site i. */
-static void set_across(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *k, const dyd_near_site *i) {
+static void side_set_across(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *k,
+                            const dyd_near_site *i) {
   int o = 2 - 2 * side->axis;
   mpq_sub(w->s, k->e[o + 1], side->across);
   mpq_sub(w->t, side->across, k->e[o]);
@@ -58,14 +59,14 @@ static void set_across(dyd_near_work *w, const dyd_near_side *side, const dyd_ne
   mpq_sub(w->d, w->d, w->s);
 }
 
-static void set_middle(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *k) {
+static void side_set_middle(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *k) {
   int a = 2 * side->axis;
   mpq_add(w->mid, k->e[a], k->e[a + 1]);
   mpq_div_2exp(w->mid, w->mid, 1);
 }
 
 /* Linear coefficients of f in a piece beyond an end of R_i: f = p t + q; w->far = s, w->near = e are set. */
-static void set_linear(dyd_near_work *w) {
+static void side_set_linear(dyd_near_work *w) {
   mpq_sub(w->p, w->near, w->far);
   mpq_add(w->p, w->p, w->p);
   mpq_mul(w->s, w->far, w->far);
@@ -75,13 +76,14 @@ static void set_linear(dyd_near_work *w) {
 }
 
 /* Sign of f at the place; D and the middle of k are set. */
-static int sign_at_place(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *k, const dyd_near_site *i) {
+static int blocker_sign_at_place(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *k,
+                                 const dyd_near_site *i) {
   int a = 2 * side->axis;
   mpq_set(w->far, place_compare(w, w->mid) <= 0 ? k->e[a + 1] : k->e[a]);
   bool below = place_compare(w, i->e[a])<0, above = place_compare(w, i->e[a + 1])> 0;
   if (below || above) {
     mpq_set(w->near, below ? i->e[a] : i->e[a + 1]);
-    set_linear(w);
+    side_set_linear(w);
     mpq_mul(w->s, w->p, w->at);
     mpq_add(w->q, w->q, w->s); /* value = q + p sqrt(root) */
     mpq_swap(w->p, w->q);
@@ -96,8 +98,8 @@ static int sign_at_place(dyd_near_work *w, const dyd_near_side *side, const dyd_
 }
 
 /* Sign of f at the rational x. */
-static int sign_at(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *k, const dyd_near_site *i,
-                   const mpq_t x) {
+static int blocker_sign_at(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *k, const dyd_near_site *i,
+                           const mpq_t x) {
   int a = 2 * side->axis;
   mpq_sub(w->s, x, mpq_cmp(x, w->mid) <= 0 ? k->e[a + 1] : k->e[a]);
   mpq_mul(w->s, w->s, w->s);
@@ -112,11 +114,11 @@ static int sign_at(dyd_near_work *w, const dyd_near_side *side, const dyd_near_s
 }
 
 /* Moves to the upper end of the interval of k, which holds the place; false: it has none. */
-static bool advance(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *k, const dyd_near_site *i) {
+static bool place_advance(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *k, const dyd_near_site *i) {
   int a = 2 * side->axis;
   mpq_srcptr lo = i->e[a], hi = i->e[a + 1], end[3] = {lo, hi, w->mid}, stop = NULL;
   for (int n = 0; n < 3; n++) {
-    if (place_compare(w, end[n]) >= 0 || sign_at(w, side, k, i, end[n]) < 0) continue;
+    if (place_compare(w, end[n]) >= 0 || blocker_sign_at(w, side, k, i, end[n]) < 0) continue;
     if (!stop || mpq_cmp(end[n], stop) < 0) stop = end[n];
   }
   /* The piece that ends at stop, or the last one. */
@@ -127,7 +129,7 @@ static bool advance(dyd_near_work *w, const dyd_near_side *side, const dyd_near_
     return true;
   }
   mpq_set(w->near, stop && mpq_cmp(stop, lo) <= 0 ? lo : hi);
-  set_linear(w);
+  side_set_linear(w);
   if (mpq_sgn(w->p) <= 0) return false;
   mpq_div(w->at, w->q, w->p);
   mpq_neg(w->at, w->at);
@@ -136,16 +138,16 @@ static bool advance(dyd_near_work *w, const dyd_near_side *side, const dyd_near_
 }
 
 /* Somebody who blocks the place, with D and the middle set; count: nobody. */
-static size_t find_blocker(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *site, size_t count,
-                           size_t i, bool no_filter) {
+static size_t side_find_blocker(dyd_near_work *w, const dyd_near_side *side, const dyd_near_site *site, size_t count,
+                                size_t i, bool no_filter) {
   dyd_bbox c;
   dyd_filter_place(&c, side, w->at, w->root);
   size_t sure = no_filter ? count : dyd_filter_blocker(&c, site, count, i);
   for (size_t k = sure < count ? sure : 0; k < count; k++) {
     if (k == i || (k != sure && !no_filter && dyd_filter_blocks(&c, &site[k], &site[i]) == DYD_FALSE)) continue;
-    set_across(w, side, &site[k], &site[i]);
-    set_middle(w, side, &site[k]);
-    if (k == sure || sign_at_place(w, side, &site[k], &site[i]) < 0) return k;
+    side_set_across(w, side, &site[k], &site[i]);
+    side_set_middle(w, side, &site[k]);
+    if (k == sure || blocker_sign_at_place(w, side, &site[k], &site[i]) < 0) return k;
   }
   return count;
 }
@@ -155,8 +157,8 @@ bool dyd_near_side_meets(dyd_near_work *w, const dyd_near_side *side, const dyd_
   mpq_set(w->at, side->lo);
   mpq_set_ui(w->root, 0, 1);
   for (;;) {
-    size_t k = find_blocker(w, side, site, count, i, no_filter);
+    size_t k = side_find_blocker(w, side, site, count, i, no_filter);
     if (k == count) return true;
-    if (!advance(w, side, &site[k], &site[i]) || place_compare(w, side->hi) > 0) return false;
+    if (!place_advance(w, side, &site[k], &site[i]) || place_compare(w, side->hi) > 0) return false;
   }
 }

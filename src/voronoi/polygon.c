@@ -40,7 +40,7 @@ static void raw_subtract(raw *a, raw *b) {
 }
 
 /* r[0] = (b - a) x (c - a); r[1..5] are scratch. */
-static void cross(raw r[6], const dyd_point *a, const dyd_point *b, const dyd_point *c) {
+static void raw_cross(raw r[6], const dyd_point *a, const dyd_point *b, const dyd_point *c) {
   dyd_raw_add(r[2].man, &r[2].exp, &b->x, &a->x, -1);
   dyd_raw_add(r[3].man, &r[3].exp, &c->y, &a->y, -1);
   dyd_raw_add(r[4].man, &r[4].exp, &b->y, &a->y, -1);
@@ -62,10 +62,11 @@ static void raws_clear(raw *r, size_t n) {
   for (size_t k = 0; k < n; k++) mpz_clear(r[k].man);
 }
 
-int dyd_turn_sign(const dyd_point *a, const dyd_point *b, const dyd_point *c) {
+/* Sign of the turn a, b, c: > 0 left. */
+static int turn_sign(const dyd_point *a, const dyd_point *b, const dyd_point *c) {
   raw r[6];
   raws_init(r, 6);
-  cross(r, a, b, c);
+  raw_cross(r, a, b, c);
   int sign = mpz_sgn(r[0].man);
   raws_clear(r, 6);
   return sign;
@@ -77,30 +78,30 @@ dyd_status dyd_polygon_area2(dyd_dyadic *out, const dyd_polygon *p) {
   raws_init(r, 6);
   dyd_dyadic_init(&sum);
   dyd_dyadic_init(&term);
-  dyd_status status = DYD_OK;
-  for (size_t k = 1; k + 1 < p->count && status >= 0; k++) {
-    cross(r, &p->vertex[0], &p->vertex[k], &p->vertex[k + 1]);
-    status = dyd_dyadic_take(&term, r[0].man, r[0].exp);
-    if (status >= 0) status = dyd_dyadic_add(&sum, &sum, &term);
+  dyd_status st = DYD_OK;
+  for (size_t k = 1; k + 1 < p->count && st == DYD_OK; k++) {
+    raw_cross(r, &p->vertex[0], &p->vertex[k], &p->vertex[k + 1]);
+    st = dyd_dyadic_take(&term, r[0].man, r[0].exp);
+    if (st == DYD_OK) st = dyd_dyadic_add(&sum, &sum, &term);
   }
-  if (status >= 0) dyd_dyadic_swap(out, &sum);
+  if (st == DYD_OK) dyd_dyadic_swap(out, &sum);
   dyd_dyadic_clear(&term);
   dyd_dyadic_clear(&sum);
   raws_clear(r, 6);
-  return status;
+  return st;
 }
 
 /* ---- hull ---- */
 
-static int compare_points(const void *a, const void *b) {
+static int compare_vertices(const void *a, const void *b) {
   const dyd_point *p = a, *q = b;
   int c = dyd_dyadic_cmp(&p->x, &q->x);
   return c ? c : dyd_dyadic_cmp(&p->y, &q->y);
 }
 
 /* Extends the chain of `kept` borrowed points by z, popping what is no left turn; stays above `floor`. */
-static size_t extend(const dyd_point **chain, size_t kept, size_t floor, const dyd_point *z) {
-  while (kept >= floor + 2 && dyd_turn_sign(chain[kept - 2], chain[kept - 1], z) <= 0) kept--;
+static size_t extend_chain(const dyd_point **chain, size_t kept, size_t floor, const dyd_point *z) {
+  while (kept >= floor + 2 && turn_sign(chain[kept - 2], chain[kept - 1], z) <= 0) kept--;
   chain[kept++] = z;
   return kept;
 }
@@ -110,21 +111,21 @@ dyd_status dyd_polygon_make_convex(dyd_polygon *p) {
   size_t n = p->count, kept = 0;
   const dyd_point **chain = dyd_alloc(2 * n + 1, sizeof *chain);
   if (!chain) return DYD_E_NOMEM;
-  qsort(p->vertex, n, sizeof *p->vertex, compare_points);
-  for (size_t k = 0; k < n; k++) kept = extend(chain, kept, 0, &p->vertex[k]);
+  qsort(p->vertex, n, sizeof *p->vertex, compare_vertices);
+  for (size_t k = 0; k < n; k++) kept = extend_chain(chain, kept, 0, &p->vertex[k]);
   size_t floor = kept ? kept - 1 : 0;
-  for (size_t k = n; k-- > 1;) kept = extend(chain, kept, floor, &p->vertex[k - 1]);
+  for (size_t k = n; k-- > 1;) kept = extend_chain(chain, kept, floor, &p->vertex[k - 1]);
   kept = kept ? kept - 1 : 0; /* the first point again */
   dyd_polygon hull = {0};
   if (kept >= 3) hull.vertex = dyd_alloc(kept, sizeof *hull.vertex);
-  dyd_status status = kept >= 3 && !hull.vertex ? DYD_E_NOMEM : DYD_OK;
-  for (size_t k = 0; status >= 0 && kept >= 3 && k < kept; k++) {
+  dyd_status st = kept >= 3 && !hull.vertex ? DYD_E_NOMEM : DYD_OK;
+  for (size_t k = 0; st == DYD_OK && kept >= 3 && k < kept; k++) {
     dyd_point_init(&hull.vertex[k]);
     dyd_point_set(&hull.vertex[k], chain[k]);
     hull.count++;
   }
   free(chain);
-  if (status < 0) return status;
+  if (st != DYD_OK) return st;
   dyd_polygon_clear(p);
   *p = hull;
   return DYD_OK;
@@ -133,12 +134,12 @@ dyd_status dyd_polygon_make_convex(dyd_polygon *p) {
 /* ---- simplicity ---- */
 
 static bool on_segment(const dyd_point *z, const dyd_point *a, const dyd_point *b) {
-  return compare_points(z, a) * compare_points(z, b) <= 0; /* z is on the line ab */
+  return compare_vertices(z, a) * compare_vertices(z, b) <= 0; /* z is on the line ab */
 }
 
 /* Do the closed segments ab and cd meet? */
 static bool segments_meet(const dyd_point *a, const dyd_point *b, const dyd_point *c, const dyd_point *d) {
-  int s = dyd_turn_sign(a, b, c), t = dyd_turn_sign(a, b, d), u = dyd_turn_sign(c, d, a), v = dyd_turn_sign(c, d, b);
+  int s = turn_sign(a, b, c), t = turn_sign(a, b, d), u = turn_sign(c, d, a), v = turn_sign(c, d, b);
   if (s * t < 0 && u * v < 0) return true;
   return (s == 0 && on_segment(c, a, b)) || (t == 0 && on_segment(d, a, b)) || (u == 0 && on_segment(a, c, d)) ||
          (v == 0 && on_segment(b, c, d));
@@ -146,14 +147,14 @@ static bool segments_meet(const dyd_point *a, const dyd_point *b, const dyd_poin
 
 /* Edges ab and bc: do they overlap beyond b? */
 static bool folds_back(const dyd_point *a, const dyd_point *b, const dyd_point *c) {
-  return dyd_turn_sign(a, b, c) == 0 && compare_points(a, b) * compare_points(b, c) < 0;
+  return turn_sign(a, b, c) == 0 && compare_vertices(a, b) * compare_vertices(b, c) < 0;
 }
 
 static void drop_repeats(dyd_polygon *p) {
   size_t kept = 0;
   for (size_t k = 0; k < p->count; k++) {
     const dyd_point *last = &p->vertex[kept ? kept - 1 : p->count - 1];
-    if (compare_points(&p->vertex[k], last) == 0 && p->count > 1) continue;
+    if (compare_vertices(&p->vertex[k], last) == 0 && p->count > 1) continue;
     dyd_dyadic_swap(&p->vertex[kept].x, &p->vertex[k].x);
     dyd_dyadic_swap(&p->vertex[kept].y, &p->vertex[k].y);
     kept++;

@@ -5,8 +5,6 @@
 
 #include <dyadel/voronoi.h>
 
-/* Sign of the turn a, b, c: > 0 left. Exact. */
-int dyd_turn_sign(const dyd_point *a, const dyd_point *b, const dyd_point *c);
 /* The vertices become those of their convex hull, counter-clockwise; none when they lie on a line. O(n log n). */
 dyd_status dyd_polygon_make_convex(dyd_polygon *p);
 /* Does no edge meet another one but in the common vertex of neighbours? Repeated consecutive vertices are taken out

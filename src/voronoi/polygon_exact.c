@@ -2,7 +2,7 @@
 /* The polygons of a cell in dyadics, from its exact boundary. In a window no chain means no cell: where the cell is all
  * of the window, its chain is the window's sides.
  *
- * Samples of the boundary are moved a little off it, rounded, and verified exactly; where rounding spoils one, it is
+ * Samples of the boundary are moved a little off it, rounded, and proved exactly; where rounding spoils one, it is
  * taken anew with more bits. This ends: inwards, the samples move towards a point g inside the open convex set Int_i n
  * W, so that the segment's end has a disc around it inside the set; outwards, they move along the ray from their
  * nearest point of R_i, on which ds_i grows by the length of the step and every dl_k by less, unless R_k meets R_i.
@@ -22,19 +22,19 @@ typedef struct work {
   const dyd_rect *window;
   int64_t bits;
   dyd_boundary boundary;
-  dyd_samples samples;
+  dyd_arc_samples samples;
   dyd_point goal; /* of inward moves: a point inside */
   mpq_t x, y, s, t;
 } work;
 
-static dyd_status work_init(work *w, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits) {
+static dyd_status polygon_work_init(work *w, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits) {
   *w = (work){.own = i, .window = window, .bits = bits};
   dyd_point_init(&w->goal);
   mpq_inits(w->x, w->y, w->s, w->t, NULL);
   return dyd_cell_sites_init(&w->sites, pd, i);
 }
 
-static void work_clear(work *w) {
+static void polygon_work_clear(work *w) {
   mpq_clears(w->x, w->y, w->s, w->t, NULL);
   dyd_point_clear(&w->goal);
   free(w->samples.item);
@@ -58,7 +58,7 @@ static int64_t log2_length(const mpq_t x, const mpq_t y) {
 
 /* z += (x, y) 2^-shift with shift such that the move has between 2^-(bits+5) and 2^-(bits+2), or the whole of (x, y) if
  * that is shorter and not `stretch`; rounded to multiples of 2^-fine. */
-static dyd_status move(dyd_point *z, work *w, bool stretch, int64_t fine) {
+static dyd_status move_by_step(dyd_point *z, work *w, bool stretch, int64_t fine) {
   int64_t shift = log2_length(w->x, w->y) + w->bits + 2;
   if (shift < 1 && !stretch) shift = 1;
   for (int axis = 0; axis < 2; axis++) {
@@ -69,8 +69,8 @@ static dyd_status move(dyd_point *z, work *w, bool stretch, int64_t fine) {
       mpq_mul_2exp(d, d, (mp_bitcnt_t)-shift);
     dyd_dyadic_get_q(w->s, axis ? &z->y : &z->x);
     mpq_add(d, d, w->s);
-    dyd_status status = dyd_dyadic_round_q(axis ? &z->y : &z->x, d, -fine, DYD_DOWN);
-    if (status < 0) return status;
+    dyd_status st = dyd_dyadic_round_q(axis ? &z->y : &z->x, d, -fine, DYD_DOWN);
+    if (st != DYD_OK) return st;
   }
   return DYD_OK;
 }
@@ -84,14 +84,14 @@ static bool inside_window(const work *w, const dyd_point *z) {
 }
 
 /* goal = the mean of the samples, rounded: inside when fine is large enough. */
-static dyd_status find_goal(bool *out, work *w, int64_t fine) {
+static dyd_status find_inner_goal(bool *out, work *w, int64_t fine) {
   dyd_point z;
   dyd_point_init(&z);
   mpq_t x, y;
   mpq_inits(x, y, NULL);
-  dyd_status status = DYD_OK;
-  for (size_t k = 0; k < w->samples.count && status >= 0; k++) {
-    status = dyd_sample_point(&z, &w->samples.item[k], &w->sites, w->own, fine);
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < w->samples.count && st == DYD_OK; k++) {
+    st = dyd_sample_point(&z, &w->samples.item[k], &w->sites, w->own, fine);
     dyd_dyadic_get_q(w->s, &z.x);
     mpq_add(x, x, w->s);
     dyd_dyadic_get_q(w->s, &z.y);
@@ -100,32 +100,32 @@ static dyd_status find_goal(bool *out, work *w, int64_t fine) {
   mpq_set_ui(w->s, w->samples.count, 1);
   mpq_div(x, x, w->s);
   mpq_div(y, y, w->s);
-  if (status >= 0) status = dyd_dyadic_round_q(&w->goal.x, x, -fine, DYD_DOWN);
-  if (status >= 0) status = dyd_dyadic_round_q(&w->goal.y, y, -fine, DYD_DOWN);
-  *out = status >= 0 && inside_window(w, &w->goal) && dyd_cell_holds(&w->sites, &w->goal);
+  if (st == DYD_OK) st = dyd_dyadic_round_q(&w->goal.x, x, -fine, DYD_DOWN);
+  if (st == DYD_OK) st = dyd_dyadic_round_q(&w->goal.y, y, -fine, DYD_DOWN);
+  *out = st == DYD_OK && inside_window(w, &w->goal) && dyd_cell_holds(&w->sites, &w->goal);
   mpq_clears(x, y, NULL);
   dyd_point_clear(&z);
-  return status;
+  return st;
 }
 
-static dyd_status inner_point(bool *out, dyd_point *z, work *w, const dyd_sample *at, int64_t fine) {
-  dyd_status status = dyd_sample_point(z, at, &w->sites, w->own, fine);
-  if (status < 0) return status;
+static dyd_status place_inner(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine) {
+  dyd_status st = dyd_sample_point(z, at, &w->sites, w->own, fine);
+  if (st != DYD_OK) return st;
   dyd_dyadic_get_q(w->s, &z->x);
   dyd_dyadic_get_q(w->x, &w->goal.x);
   mpq_sub(w->x, w->x, w->s);
   dyd_dyadic_get_q(w->s, &z->y);
   dyd_dyadic_get_q(w->y, &w->goal.y);
   mpq_sub(w->y, w->y, w->s);
-  status = move(z, w, false, fine);
-  *out = status >= 0 && inside_window(w, z) && dyd_cell_holds(&w->sites, z);
-  return status;
+  st = move_by_step(z, w, false, fine);
+  *out = st == DYD_OK && inside_window(w, z) && dyd_cell_holds(&w->sites, z);
+  return st;
 }
 
 /* ---- outward ---- */
 
 /* (x, y) = z minus its nearest point in R_i. */
-static void away(work *w, const dyd_point *z) {
+static void set_away(work *w, const dyd_point *z) {
   const dyd_rect *r = &w->sites.own;
   for (int axis = 0; axis < 2; axis++) {
     mpq_ptr d = axis ? w->y : w->x;
@@ -141,121 +141,121 @@ static void away(work *w, const dyd_point *z) {
 }
 
 /* Is z in C_ki for the far site k of the arc? Window arcs ask nothing. */
-static bool beyond(const work *w, const dyd_arc *arc, const dyd_point *z) {
+static bool beyond_arc(const work *w, const dyd_arc *arc, const dyd_point *z) {
   return arc->kind == DYD_ARC_WINDOW ||
          dyd_nearer(z, dyd_cell_site(&w->sites, arc->far_site), &w->sites.own) == DYD_TRUE;
 }
 
-static dyd_status outer_point(bool *out, dyd_point *z, work *w, const dyd_sample *at, int64_t fine) {
-  dyd_status status = dyd_sample_point(z, at, &w->sites, w->own, fine);
-  if (status < 0) return status;
+static dyd_status place_outer(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine) {
+  dyd_status st = dyd_sample_point(z, at, &w->sites, w->own, fine);
+  if (st != DYD_OK) return st;
   if (at->arc->kind == DYD_ARC_WINDOW && at->before->kind == DYD_ARC_WINDOW) {
     *out = true; /* a corner of W: its edges need no proof */
     return DYD_OK;
   }
-  away(w, z);
-  status = move(z, w, true, fine);
-  *out = status >= 0 && beyond(w, at->arc, z) && beyond(w, at->before, z);
-  return status;
+  set_away(w, z);
+  st = move_by_step(z, w, true, fine);
+  *out = st == DYD_OK && beyond_arc(w, at->arc, z) && beyond_arc(w, at->before, z);
+  return st;
 }
 
 /* ---- both ---- */
 
-typedef dyd_status (*place_fn)(bool *out, dyd_point *z, work *w, const dyd_sample *at, int64_t fine);
+typedef dyd_status (*place_fn)(bool *out, dyd_point *z, work *w, const dyd_arc_sample *at, int64_t fine);
 
-/* Verified points for all samples. */
-static dyd_status place_all(dyd_polygon *out, work *w, place_fn place, int64_t extra) {
-  const dyd_samples *all = &w->samples;
+/* Proved points for all samples. */
+static dyd_status place_samples(dyd_polygon *out, work *w, place_fn place, int64_t extra) {
+  const dyd_arc_samples *all = &w->samples;
   out->vertex = dyd_alloc(all->count, sizeof *out->vertex);
   if (!out->vertex) return DYD_E_NOMEM;
-  dyd_status status = DYD_OK;
-  for (; out->count < all->count && status >= 0; out->count++) {
+  dyd_status st = DYD_OK;
+  for (; out->count < all->count && st == DYD_OK; out->count++) {
     dyd_point *z = &out->vertex[out->count];
     dyd_point_init(z);
     bool done = false;
-    for (int64_t e = extra; !done && status >= 0; e *= 2)
-      status = e > MOST_EXTRA ? DYD_E_RANGE : place(&done, z, w, &all->item[out->count], w->bits + e);
+    for (int64_t e = extra; !done && st == DYD_OK; e *= 2)
+      st = e > MOST_EXTRA ? DYD_E_RANGE : place(&done, z, w, &all->item[out->count], w->bits + e);
   }
-  return status;
+  return st;
 }
 
-static dyd_status inner(dyd_polygon *out, work *w) {
+static dyd_status exact_inner(dyd_polygon *out, work *w) {
   bool found = false;
-  dyd_status status = dyd_chain_samples(&w->samples, &w->boundary.chain[0], &w->sites, w->own, w->bits + 1);
-  for (int64_t extra = FIRST_EXTRA; !found && status >= 0; extra *= 2)
-    status = extra > MOST_EXTRA ? DYD_E_RANGE : find_goal(&found, w, w->bits + extra);
-  if (status >= 0) status = place_all(out, w, inner_point, FIRST_EXTRA);
-  return status >= 0 ? dyd_polygon_make_convex(out) : status;
+  dyd_status st = dyd_chain_samples(&w->samples, &w->boundary.chain[0], &w->sites, w->own, w->bits + 1);
+  for (int64_t extra = FIRST_EXTRA; !found && st == DYD_OK; extra *= 2)
+    st = extra > MOST_EXTRA ? DYD_E_RANGE : find_inner_goal(&found, w, w->bits + extra);
+  if (st == DYD_OK) st = place_samples(out, w, place_inner, FIRST_EXTRA);
+  return st == DYD_OK ? dyd_polygon_make_convex(out) : st;
 }
 
 dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits) {
   work w;
   dyd_polygon polygon = {0};
-  dyd_status status = work_init(&w, pd, i, window, bits);
-  if (status >= 0) status = dyd_voronoi_int_on(&w.boundary, pd, i, window);
-  if (status >= 0 && w.boundary.count) status = inner(&polygon, &w);
-  if (status >= 0) {
+  dyd_status st = polygon_work_init(&w, pd, i, window, bits);
+  if (st == DYD_OK) st = dyd_voronoi_int_on(&w.boundary, pd, i, window);
+  if (st == DYD_OK && w.boundary.count) st = exact_inner(&polygon, &w);
+  if (st == DYD_OK) {
     dyd_polygon_clear(out);
     *out = polygon;
     polygon = (dyd_polygon){0};
   }
   dyd_polygon_clear(&polygon);
-  work_clear(&w);
-  return status;
+  polygon_work_clear(&w);
+  return st;
 }
 
 /* One part; taken anew with more bits while it crosses itself. */
-static dyd_status outer_part(dyd_polygon *out, work *w, const dyd_chain *chain) {
+static dyd_status exact_outer_part(dyd_polygon *out, work *w, const dyd_chain *chain) {
   int64_t bits = w->bits;
   bool simple = false;
-  dyd_status status = DYD_OK;
-  for (int64_t extra = 0; !simple && status >= 0; extra += extra + 4) {
+  dyd_status st = DYD_OK;
+  for (int64_t extra = 0; !simple && st == DYD_OK; extra += extra + 4) {
     if (extra > MOST_EXTRA) return DYD_E_RANGE;
     dyd_polygon_clear(out);
     w->samples.count = 0;
     w->bits = bits + extra;
-    status = dyd_chain_samples(&w->samples, chain, &w->sites, w->own, w->bits + 1);
-    if (status >= 0) status = place_all(out, w, outer_point, FIRST_EXTRA);
-    if (status >= 0) status = dyd_polygon_is_simple(&simple, out);
+    st = dyd_chain_samples(&w->samples, chain, &w->sites, w->own, w->bits + 1);
+    if (st == DYD_OK) st = place_samples(out, w, place_outer, FIRST_EXTRA);
+    if (st == DYD_OK) st = dyd_polygon_is_simple(&simple, out);
   }
   w->bits = bits;
-  return status;
+  return st;
 }
 
 /* A polygon that comes out clockwise winds round no point of Pos_i n W: its part was outside of W, and is left out. */
 static dyd_status drop_if_clockwise(dyd_polygon_list *l) {
   dyd_dyadic area2;
   dyd_dyadic_init(&area2);
-  dyd_status status = dyd_polygon_area2(&area2, &l->item[l->count - 1]);
-  if (status >= 0 && dyd_dyadic_sgn(&area2) <= 0) dyd_polygon_clear(&l->item[--l->count]);
+  dyd_status st = dyd_polygon_area2(&area2, &l->item[l->count - 1]);
+  if (st == DYD_OK && dyd_dyadic_sgn(&area2) <= 0) dyd_polygon_clear(&l->item[--l->count]);
   dyd_dyadic_clear(&area2);
-  return status;
+  return st;
 }
 
-static dyd_status outer(dyd_polygon_list *out, work *w) {
+static dyd_status exact_outer(dyd_polygon_list *out, work *w) {
   out->item = calloc(w->boundary.count, sizeof *out->item);
   if (!out->item) return DYD_E_NOMEM;
-  dyd_status status = DYD_OK;
-  for (size_t k = 0; k < w->boundary.count && status >= 0; k++) {
-    status = outer_part(&out->item[out->count++], w, &w->boundary.chain[k]);
-    if (status >= 0) status = drop_if_clockwise(out);
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < w->boundary.count && st == DYD_OK; k++) {
+    st = exact_outer_part(&out->item[out->count++], w, &w->boundary.chain[k]);
+    if (st == DYD_OK) st = drop_if_clockwise(out);
   }
-  return status;
+  return st;
 }
 
 /* W enlarged by 2^-(bits+1) on each side, so that its boundary and all within 2^-(bits+2) of it is outside of W. */
-static dyd_status enlarge(dyd_rect *out, const dyd_rect *window, int64_t bits) {
+static dyd_status enlarge_window(dyd_rect *out, const dyd_rect *window, int64_t bits) {
   dyd_dyadic margin;
   dyd_dyadic_init(&margin);
-  dyd_status status = dyd_dyadic_set_si_2exp(&margin, 1, -(bits + 1));
+  dyd_status st = dyd_dyadic_set_si_2exp(&margin, 1, -(bits + 1));
   dyd_rect_set(out, window);
-  for (int axis = 0; axis < 2 && status >= 0; axis++) {
+  for (int axis = 0; axis < 2 && st == DYD_OK; axis++) {
     dyd_interval *side = axis ? &out->y : &out->x;
-    status = dyd_dyadic_sub(&side->lo, &side->lo, &margin);
-    if (status >= 0) status = dyd_dyadic_add(&side->hi, &side->hi, &margin);
+    st = dyd_dyadic_sub(&side->lo, &side->lo, &margin);
+    if (st == DYD_OK) st = dyd_dyadic_add(&side->hi, &side->hi, &margin);
   }
   dyd_dyadic_clear(&margin);
-  return status;
+  return st;
 }
 
 dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
@@ -264,17 +264,17 @@ dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32
   dyd_polygon_list list = {0};
   dyd_rect wide;
   dyd_rect_init(&wide);
-  dyd_status status = work_init(&w, pd, i, &wide, bits);
-  if (status >= 0) status = enlarge(&wide, window, bits);
-  if (status >= 0) status = dyd_voronoi_pos_on(&w.boundary, pd, i, &wide);
-  if (status >= 0 && w.boundary.count) status = outer(&list, &w);
-  if (status >= 0) {
+  dyd_status st = polygon_work_init(&w, pd, i, &wide, bits);
+  if (st == DYD_OK) st = enlarge_window(&wide, window, bits);
+  if (st == DYD_OK) st = dyd_voronoi_pos_on(&w.boundary, pd, i, &wide);
+  if (st == DYD_OK && w.boundary.count) st = exact_outer(&list, &w);
+  if (st == DYD_OK) {
     dyd_polygon_list_clear(out);
     *out = list;
     list = (dyd_polygon_list){0};
   }
   dyd_polygon_list_clear(&list);
-  work_clear(&w);
+  polygon_work_clear(&w);
   dyd_rect_clear(&wide);
-  return status;
+  return st;
 }

@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Where the Voronoi vertices of undecided faces can lie; which triangles are sure. */
+/* Where the Voronoi vertices of undecided faces can lie. */
 #ifndef DYD_VORONOI_REGION_H
 #define DYD_VORONOI_REGION_H
 
 #include "delaunay/state.h"
-
-/* Is t a sure triangle of pd? v becomes its vertices. */
-bool dyd_sure_vertices(const dyd_delaunay *pd, const dyd_triangle *t, uint32_t v[3]);
 
 /* Shrinks *box to a box that still holds all points of it that are possible for both ends of one of the pairs (in
  * Pos_i n Pos_j): false when there are none. sites lists those of the face. [REGION-1] */

@@ -18,18 +18,18 @@ typedef struct search {
   bool any;
 } search;
 
-static bool is_excluded(const search *s, const dyd_bbox *c) {
+static bool region_is_excluded(const search *s, const dyd_bbox *c) {
   double di = dyd_ds2_lower(c, s->i), dj = dyd_ds2_lower(c, s->j), least = dyd_max(di, dj);
   for (size_t k = 0; k < s->others; k++)
     if (dyd_dl2_upper(c, &s->other[k]) < least) return true;
   return false;
 }
 
-static bool is_within(const dyd_bbox *a, const dyd_bbox *b) {
+static bool box_is_within(const dyd_bbox *a, const dyd_bbox *b) {
   return b->e[0] <= a->e[0] && a->e[1] <= b->e[1] && b->e[2] <= a->e[2] && a->e[3] <= b->e[3];
 }
 
-static void hull(dyd_bbox *out, bool *any, const dyd_bbox *c) {
+static void grow_box(dyd_bbox *out, bool *any, const dyd_bbox *c) {
   if (!*any) *out = *c;
   *any = true;
   for (int k = 0; k < 4; k += 2) {
@@ -39,37 +39,37 @@ static void hull(dyd_bbox *out, bool *any, const dyd_bbox *c) {
 }
 
 /* Bisects both sides, depth first; boxes inside the enclosure found so far add nothing. */
-static void bisect(search *s, const dyd_bbox *c, int depth) {
-  if ((s->any && is_within(c, &s->found)) || is_excluded(s, c)) return;
+static void region_bisect(search *s, const dyd_bbox *c, int depth) {
+  if ((s->any && box_is_within(c, &s->found)) || region_is_excluded(s, c)) return;
   if (depth == 0) {
-    hull(&s->found, &s->any, c);
+    grow_box(&s->found, &s->any, c);
     return;
   }
   double x = c->e[0] / 2 + c->e[1] / 2, y = c->e[2] / 2 + c->e[3] / 2;
   for (int q = 0; q < 4; q++) {
     dyd_bbox part = {{q & 1 ? x : c->e[0], q & 1 ? c->e[1] : x, q & 2 ? y : c->e[2], q & 2 ? c->e[3] : y}};
-    bisect(s, &part, depth - 1);
+    region_bisect(s, &part, depth - 1);
   }
 }
 
-static double size_of(const dyd_bbox *c) {
+static double size_of_box(const dyd_bbox *c) {
   return (c->e[1] - c->e[0]) + (c->e[3] - c->e[2]);
 }
 
 /* false: the pair has no point in *c. */
-static bool shrink(dyd_bbox *c, search *s) {
+static bool region_shrink(dyd_bbox *c, search *s) {
   for (int round = 0; round < ROUNDS; round++) {
     s->any = false;
-    bisect(s, c, DEPTH);
+    region_bisect(s, c, DEPTH);
     if (!s->any) return false;
-    bool pays = size_of(&s->found) < 0.75 * size_of(c);
+    bool pays = size_of_box(&s->found) < 0.75 * size_of_box(c);
     *c = s->found;
     if (!pays) break;
   }
   return true;
 }
 
-static dyd_bbox box_of(const dyd_delaunay *pd, uint32_t site) {
+static dyd_bbox box_of_site(const dyd_delaunay *pd, uint32_t site) {
   dyd_bbox b;
   dyd_sites_get_d(b.e, pd->sk.rects.sites, site);
   return b;
@@ -79,12 +79,12 @@ bool dyd_filter_region(dyd_bbox *box, const dyd_delaunay *pd, const dyd_pair_lis
   dyd_bbox other[FACE_SITES], all = *box;
   bool any = false;
   size_t step = sites->count / FACE_SITES + 1, others = 0; /* leaving sites out only makes the box larger */
-  for (size_t k = 0; k < sites->count; k += step) other[others++] = box_of(pd, sites->item[k]);
+  for (size_t k = 0; k < sites->count; k += step) other[others++] = box_of_site(pd, sites->item[k]);
   for (size_t k = 0; k < pairs->count; k++) {
-    dyd_bbox i = box_of(pd, pairs->item[k].i), j = box_of(pd, pairs->item[k].j), c = *box;
+    dyd_bbox i = box_of_site(pd, pairs->item[k].i), j = box_of_site(pd, pairs->item[k].j), c = *box;
     search s = {.i = &i, .j = &j, .other = other, .others = others};
-    if (any && is_within(&c, &all)) break;
-    if (shrink(&c, &s)) hull(&all, &any, &c);
+    if (any && box_is_within(&c, &all)) break;
+    if (region_shrink(&c, &s)) grow_box(&all, &any, &c);
   }
   *box = all;
   return any;

@@ -15,17 +15,17 @@ dyd_status dyd_cell_sites_init(dyd_cell_sites *s, const dyd_delaunay *pd, uint32
   *s = (dyd_cell_sites){0};
   dyd_rect_init(&s->own);
   dyd_index_list list = {0};
-  dyd_status status = dyd_sites_get(&s->own, dyd_delaunay_sites(pd), i);
-  if (status >= 0) status = dyd_delaunay_neighbours(&list, pd, i, DYD_TIE);
-  if (status < 0) return status;
+  dyd_status st = dyd_sites_get(&s->own, dyd_delaunay_sites(pd), i);
+  if (st == DYD_OK) st = dyd_delaunay_neighbours(&list, pd, i, DYD_TIE);
+  if (st != DYD_OK) return st;
   s->site = list.item;
   s->other = dyd_alloc(list.count, sizeof *s->other);
   if (!s->other) return DYD_E_NOMEM;
-  for (; s->count < list.count && status >= 0; s->count++) {
+  for (; s->count < list.count && st == DYD_OK; s->count++) {
     dyd_rect_init(&s->other[s->count]);
-    status = dyd_sites_get(&s->other[s->count], dyd_delaunay_sites(pd), list.item[s->count]);
+    st = dyd_sites_get(&s->other[s->count], dyd_delaunay_sites(pd), list.item[s->count]);
   }
-  return status;
+  return st;
 }
 
 void dyd_cell_sites_clear(dyd_cell_sites *s) {
@@ -104,25 +104,26 @@ static void parabola_at(mpq_t across, const parabola *p, const mpq_t t) {
 /* ---- samples ---- */
 
 /* The middle of an enclosure of the end, within 2^-bits of it. */
-static dyd_status end_point(dyd_point *out, const dyd_arc_end *end, int64_t bits) {
+static dyd_status arc_end_point(dyd_point *out, const dyd_arc_end *end, int64_t bits) {
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status status = dyd_surd_point_enclose(&r, &end->at, bits);
+  dyd_status st = dyd_surd_point_enclose(&r, &end->at, bits);
   mpq_t a, b;
   mpq_inits(a, b, NULL);
-  for (int axis = 0; status >= 0 && axis < 2; axis++) {
+  for (int axis = 0; st == DYD_OK && axis < 2; axis++) {
     dyd_interval_get_q(a, b, axis ? &r.y : &r.x);
     mpq_add(a, a, b);
     mpq_div_2exp(a, a, 1);
-    status = dyd_dyadic_round_q(axis ? &out->y : &out->x, a, -(bits + 1), DYD_DOWN);
+    st = dyd_dyadic_round_q(axis ? &out->y : &out->x, a, -(bits + 1), DYD_DOWN);
   }
   mpq_clears(a, b, NULL);
   dyd_rect_clear(&r);
-  return status;
+  return st;
 }
 
 /* Into how many parts the arc has to be cut: n >= length sqrt(2^bits / (8 q)). */
-static dyd_status count_steps(uint32_t *out, const dyd_arc *arc, const dyd_cell_sites *s, uint32_t own, int64_t bits) {
+static dyd_status arc_count_steps(uint32_t *out, const dyd_arc *arc, const dyd_cell_sites *s, uint32_t own,
+                                  int64_t bits) {
   *out = 1;
   if (arc->kind != DYD_ARC_PARABOLA) return DYD_OK;
   parabola p;
@@ -133,9 +134,9 @@ static dyd_status count_steps(uint32_t *out, const dyd_arc *arc, const dyd_cell_
   dyd_point_init(&b);
   mpq_inits(length, q, NULL);
   parabola_set(&p, arc, s, own);
-  dyd_status status = end_point(&a, &arc->begin, bits + 4);
-  if (status >= 0) status = end_point(&b, &arc->end, bits + 4);
-  if (status >= 0) {
+  dyd_status st = arc_end_point(&a, &arc->begin, bits + 4);
+  if (st == DYD_OK) st = arc_end_point(&b, &arc->end, bits + 4);
+  if (st == DYD_OK) {
     dyd_dyadic_get_q(length, p.along ? &a.y : &a.x);
     dyd_dyadic_get_q(q, p.along ? &b.y : &b.x);
     mpq_sub(length, length, q);
@@ -146,7 +147,7 @@ static dyd_status count_steps(uint32_t *out, const dyd_arc *arc, const dyd_cell_
     int64_t twice = mpq_sgn(length) ? dyd_q_log2_above(length) + bits - 3 : -1;
     int64_t shift = twice <= 0 ? 0 : (twice + 1) / 2;
     if (shift > 24)
-      status = DYD_E_RANGE;
+      st = DYD_E_RANGE;
     else
       *out = (uint32_t)1 << shift;
   }
@@ -154,34 +155,34 @@ static dyd_status count_steps(uint32_t *out, const dyd_arc *arc, const dyd_cell_
   dyd_point_clear(&b);
   dyd_point_clear(&a);
   parabola_clear(&p);
-  return status;
+  return st;
 }
 
-dyd_status dyd_chain_samples(dyd_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
+dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
                              int64_t bits) {
   for (size_t k = 0; k < chain->count; k++) {
     const dyd_arc *arc = &chain->arc[k], *before = &chain->arc[k ? k - 1 : chain->count - 1];
     uint32_t steps;
-    dyd_status status = count_steps(&steps, arc, s, own, bits);
-    if (status < 0) return status;
+    dyd_status st = arc_count_steps(&steps, arc, s, own, bits);
+    if (st != DYD_OK) return st;
     if (out->count + steps > MOST_STEPS) return DYD_E_RANGE;
     if (!dyd_reserve((void **)&out->item, &out->cap, out->count + steps, sizeof *out->item)) return DYD_E_NOMEM;
     for (uint32_t step = 0; step < steps; step++)
-      out->item[out->count++] = (dyd_sample){arc, step ? arc : before, step, steps};
+      out->item[out->count++] = (dyd_arc_sample){arc, step ? arc : before, step, steps};
   }
   return DYD_OK;
 }
 
 /* t = the dyadic abscissa number step of the arc, up to 2^-bits between its ends. */
-static dyd_status abscissa(mpq_t t, const dyd_sample *at, const parabola *p, int64_t bits) {
+static dyd_status sample_abscissa(mpq_t t, const dyd_arc_sample *at, const parabola *p, int64_t bits) {
   dyd_point a, b;
   mpq_t u;
   dyd_point_init(&a);
   dyd_point_init(&b);
   mpq_init(u);
-  dyd_status status = end_point(&a, &at->arc->begin, bits);
-  if (status >= 0) status = end_point(&b, &at->arc->end, bits);
-  if (status >= 0) {
+  dyd_status st = arc_end_point(&a, &at->arc->begin, bits);
+  if (st == DYD_OK) st = arc_end_point(&b, &at->arc->end, bits);
+  if (st == DYD_OK) {
     dyd_dyadic_get_q(t, p->along ? &a.y : &a.x);
     dyd_dyadic_get_q(u, p->along ? &b.y : &b.x);
     mpq_sub(u, u, t);
@@ -193,23 +194,24 @@ static dyd_status abscissa(mpq_t t, const dyd_sample *at, const parabola *p, int
   mpq_clear(u);
   dyd_point_clear(&b);
   dyd_point_clear(&a);
-  return status;
+  return st;
 }
 
-dyd_status dyd_sample_point(dyd_point *out, const dyd_sample *at, const dyd_cell_sites *s, uint32_t own, int64_t bits) {
-  if (at->step == 0) return end_point(out, &at->arc->begin, bits);
+dyd_status dyd_sample_point(dyd_point *out, const dyd_arc_sample *at, const dyd_cell_sites *s, uint32_t own,
+                            int64_t bits) {
+  if (at->step == 0) return arc_end_point(out, &at->arc->begin, bits);
   parabola p;
   mpq_t t, across;
   parabola_init(&p);
   mpq_inits(t, across, NULL);
   parabola_set(&p, at->arc, s, own);
-  dyd_status status = abscissa(t, at, &p, bits);
-  if (status >= 0) {
+  dyd_status st = sample_abscissa(t, at, &p, bits);
+  if (st == DYD_OK) {
     parabola_at(across, &p, t);
-    status = dyd_dyadic_round_q(p.along ? &out->y : &out->x, t, -(bits + 1), DYD_DOWN);
+    st = dyd_dyadic_round_q(p.along ? &out->y : &out->x, t, -(bits + 1), DYD_DOWN);
   }
-  if (status >= 0) status = dyd_dyadic_round_q(p.along ? &out->x : &out->y, across, -(bits + 1), DYD_DOWN);
+  if (st == DYD_OK) st = dyd_dyadic_round_q(p.along ? &out->x : &out->y, across, -(bits + 1), DYD_DOWN);
   mpq_clears(t, across, NULL);
   parabola_clear(&p);
-  return status;
+  return st;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Dyadic points close to exact arcs, and what has to be verified of them.
+/* Dyadic points close to exact arcs, and the rectangles of the sites that they are asked about.
  *
  * A chord of a parabola between abscissae at distance h along its directrix is at most h^2 / (8 q) away from it, q the
  * distance of focus and directrix. */
@@ -23,22 +23,23 @@ const dyd_rect *dyd_cell_site(const dyd_cell_sites *s, uint32_t site);
 bool dyd_cell_holds(const dyd_cell_sites *s, const dyd_point *c);
 
 /* A point of an arc: its beginning (step = 0), or the point number step of `steps` equal parts along the directrix. */
-typedef struct dyd_sample {
+typedef struct dyd_arc_sample {
   const dyd_arc *arc, *before; /* before: the arc that ends where this one begins, when step = 0 */
   uint32_t step, steps;
-} dyd_sample;
+} dyd_arc_sample;
 
 /* Owned. */
-typedef struct dyd_samples {
+typedef struct dyd_arc_samples {
   size_t count, cap;
-  dyd_sample *item;
-} dyd_samples;
+  dyd_arc_sample *item;
+} dyd_arc_samples;
 
 /* The samples of a closed chain, so close that every chord is within 2^-bits of its arc. far and near give the
  * rectangles of sites. Appended to *out. DYD_E_RANGE when more than 2^24 would be needed. */
-dyd_status dyd_chain_samples(dyd_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
+dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
                              int64_t bits);
 /* A dyadic point within 2^-bits of the sample in each coordinate; a multiple of 2^-(bits+1). */
-dyd_status dyd_sample_point(dyd_point *out, const dyd_sample *at, const dyd_cell_sites *s, uint32_t own, int64_t bits);
+dyd_status dyd_sample_point(dyd_point *out, const dyd_arc_sample *at, const dyd_cell_sites *s, uint32_t own,
+                            int64_t bits);
 
 #endif

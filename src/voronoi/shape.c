@@ -32,17 +32,17 @@ dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, cons
   dyd_polygon_clear(&s->inner_exact);
   dyd_polygon_list_clear(&s->outer_exact);
   if (!pd->sk.mesh.no_filter) {
-    dyd_status status = dyd_filter_shape(&done, s, pd, pd->sk.vertex[i], w, bits);
-    if (status < 0 || done) return status;
+    dyd_status st = dyd_filter_shape(&done, s, pd, pd->sk.vertex[i], w, bits);
+    if (st != DYD_OK || done) return st;
   }
-  dyd_status status = dyd_exact_inner(&s->inner_exact, pd, i, w->rect, bits);
-  if (status >= 0) status = dyd_exact_outer(&s->outer_exact, pd, i, w->rect, bits);
-  return status;
+  dyd_status st = dyd_exact_inner(&s->inner_exact, pd, i, w->rect, bits);
+  if (st == DYD_OK) st = dyd_exact_outer(&s->outer_exact, pd, i, w->rect, bits);
+  return st;
 }
 
 /* ---- copies and areas ---- */
 
-static dyd_status from_doubles(dyd_polygon *out, const dyd_xy *z, uint32_t count) {
+static dyd_status polygon_from_doubles(dyd_polygon *out, const dyd_xy *z, uint32_t count) {
   dyd_polygon p = {0};
   p.vertex = dyd_alloc(count, sizeof *p.vertex);
   if (!p.vertex) return DYD_E_NOMEM;
@@ -56,7 +56,7 @@ static dyd_status from_doubles(dyd_polygon *out, const dyd_xy *z, uint32_t count
 }
 
 dyd_status dyd_shape_inner(dyd_polygon *out, const dyd_shape *s) {
-  return s->in_doubles ? from_doubles(out, s->inner, s->inner_count) : dyd_polygon_copy(out, &s->inner_exact);
+  return s->in_doubles ? polygon_from_doubles(out, s->inner, s->inner_count) : dyd_polygon_copy(out, &s->inner_exact);
 }
 
 dyd_status dyd_shape_outer(dyd_polygon_list *out, const dyd_shape *s) {
@@ -64,48 +64,49 @@ dyd_status dyd_shape_outer(dyd_polygon_list *out, const dyd_shape *s) {
   size_t parts = s->in_doubles ? 1 : s->outer_exact.count;
   list.item = calloc(parts ? parts : 1, sizeof *list.item);
   if (!list.item) return DYD_E_NOMEM;
-  dyd_status status = DYD_OK;
-  for (; list.count < parts && status >= 0; list.count++)
-    status = s->in_doubles ? from_doubles(&list.item[0], s->outer, s->outer_count)
-                           : dyd_polygon_copy(&list.item[list.count], &s->outer_exact.item[list.count]);
-  if (status >= 0)
+  dyd_status st = DYD_OK;
+  for (; list.count < parts && st == DYD_OK; list.count++)
+    st = s->in_doubles ? polygon_from_doubles(&list.item[0], s->outer, s->outer_count)
+                       : dyd_polygon_copy(&list.item[list.count], &s->outer_exact.item[list.count]);
+  if (st == DYD_OK)
     *out = list;
   else
     dyd_polygon_list_clear(&list);
-  return status;
+  return st;
 }
 
-static dyd_status list_area2(dyd_dyadic *out, const dyd_polygon_list *l) {
+static dyd_status polygon_list_area2(dyd_dyadic *out, const dyd_polygon_list *l) {
   dyd_dyadic sum, one;
   dyd_dyadic_init(&sum);
   dyd_dyadic_init(&one);
-  dyd_status status = DYD_OK;
-  for (size_t k = 0; k < l->count && status >= 0; k++) {
-    status = dyd_polygon_area2(&one, &l->item[k]);
-    if (status >= 0) status = dyd_dyadic_add(&sum, &sum, &one);
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < l->count && st == DYD_OK; k++) {
+    st = dyd_polygon_area2(&one, &l->item[k]);
+    if (st == DYD_OK) st = dyd_dyadic_add(&sum, &sum, &one);
   }
-  if (status >= 0) dyd_dyadic_swap(out, &sum);
+  if (st == DYD_OK) dyd_dyadic_swap(out, &sum);
   dyd_dyadic_clear(&one);
   dyd_dyadic_clear(&sum);
-  return status;
+  return st;
 }
 
 dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer) {
-  if (!s->in_doubles) return outer ? list_area2(out, &s->outer_exact) : dyd_polygon_area2(out, &s->inner_exact);
+  if (!s->in_doubles) return outer ? polygon_list_area2(out, &s->outer_exact) : dyd_polygon_area2(out, &s->inner_exact);
   dyd_polygon p = {0};
-  dyd_status status = from_doubles(&p, outer ? s->outer : s->inner, outer ? s->outer_count : s->inner_count);
-  if (status >= 0) status = dyd_polygon_area2(out, &p);
+  dyd_status st = polygon_from_doubles(&p, outer ? s->outer : s->inner, outer ? s->outer_count : s->inner_count);
+  if (st == DYD_OK) st = dyd_polygon_area2(out, &p);
   dyd_polygon_clear(&p);
-  return status;
+  return st;
 }
 
 /* ---- public ---- */
 
-static dyd_status find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits) {
+static dyd_status shape_find_public(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
+                                    int64_t bits) {
   dyd_window w;
   if (i >= pd->sk.n || bits < -DYD_EXP_LIMIT / 4 || bits > DYD_EXP_LIMIT / 4) return DYD_E_ARG;
-  dyd_status status = dyd_window_init(&w, window);
-  if (status < 0) return status;
+  dyd_status st = dyd_window_init(&w, window);
+  if (st != DYD_OK) return st;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   return dyd_shape_find(s, pd, dyd_delaunay_alias(pd, i), &w, bits);
 }
@@ -114,26 +115,26 @@ dyd_status dyd_voronoi_inner_polygon(dyd_polygon *out, const dyd_delaunay *pd, u
                                      int64_t bits) {
   dyd_shape s = {0};
   dyd_polygon p = {0};
-  dyd_status status = find(&s, pd, i, window, bits);
-  if (status == DYD_OK) status = dyd_shape_inner(&p, &s);
-  if (status == DYD_OK) {
+  dyd_status st = shape_find_public(&s, pd, i, window, bits);
+  if (st == DYD_OK) st = dyd_shape_inner(&p, &s);
+  if (st == DYD_OK) {
     dyd_polygon_clear(out);
     *out = p;
   }
   dyd_shape_clear(&s);
-  return status;
+  return st;
 }
 
 dyd_status dyd_voronoi_outer_polygon(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
                                      int64_t bits) {
   dyd_shape s = {0};
   dyd_polygon_list l = {0};
-  dyd_status status = find(&s, pd, i, window, bits);
-  if (status == DYD_OK) status = dyd_shape_outer(&l, &s);
-  if (status == DYD_OK) {
+  dyd_status st = shape_find_public(&s, pd, i, window, bits);
+  if (st == DYD_OK) st = dyd_shape_outer(&l, &s);
+  if (st == DYD_OK) {
     dyd_polygon_list_clear(out);
     *out = l;
   }
   dyd_shape_clear(&s);
-  return status;
+  return st;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The verified polygons of one cell on a window, in doubles where doubles do, else in dyadics.
+/* The proved polygons of one cell on a window, in doubles where doubles do, else in dyadics.
  *
  * Both rungs leave an inner polygon in Int_i n W [POLY-1] and outer polygons round Pos_i n W [POLY-2]. */
 #ifndef DYD_VORONOI_SHAPE_H

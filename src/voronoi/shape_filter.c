@@ -3,7 +3,7 @@
  *
  * Let p_k be the representatives, V_t the circumcentre of p_i, p_j, p_k for the t-th triangle round i, found in
  * doubles. Nothing is trusted of it: it is moved towards p_i by a margin to give an inner vertex, away from p_i to
- * give an outer one, and these are verified against the outward boxes with the bounds of [FLT-DST]:
+ * give an outer one, and these are proved against the outward boxes with the bounds of [FLT-DST]:
  *   inner vertex z: dl_i(z) < ds_j(z) for all neighbours j of i, so z is in Int_i [POLY-1];
  *   outer vertices z_t, z_t+1: dl_j < ds_i at both, j the neighbour between the triangles t and t+1, so the edge is
  *   in C_ji [POLY-2]; all turns about p_i are sure left turns and wind round once, so the polygon is star-shaped about
@@ -19,14 +19,14 @@
 
 /* Twice the signed area of o, a, b with a bound on its rounding error: differences carry a relative error u, products
  * and their difference (1+u)^4 in all, 4.01 u (|ax by| + |ay bx|) < 8 u of the same; plus underflow. */
-static double turn(double *error, dyd_xy o, dyd_xy a, dyd_xy b) {
+static double double_turn(double *error, dyd_xy o, dyd_xy a, dyd_xy b) {
   double ax = a.x - o.x, ay = a.y - o.y, bx = b.x - o.x, by = b.y - o.y, p = ax * by, q = ay * bx;
   *error = 8 * U * (fabs(p) + fabs(q)) + DYD_TINY;
   return p - q;
 }
 
 /* The vertices round v, counter-clockwise, with their boxes. false: a ghost or an undecided face is among them. */
-static dyd_status find_fan(bool *done, uint32_t *degree, dyd_shape *s, const dyd_delaunay *pd, uint32_t v) {
+static dyd_status shape_find_fan(bool *done, uint32_t *degree, dyd_shape *s, const dyd_delaunay *pd, uint32_t v) {
   const dyd_mesh *m = &pd->sk.mesh;
   dyd_half_edge first = pd->sk.leaving[v], h = first;
   uint32_t n = 0;
@@ -47,14 +47,14 @@ static dyd_status find_fan(bool *done, uint32_t *degree, dyd_shape *s, const dyd
 }
 
 /* By how much a point of the box can be away from its representative; no bound is needed, only a guess. */
-static double spread(const dyd_bbox *b, dyd_xy p) {
+static double box_spread(const dyd_bbox *b, dyd_xy p) {
   double x = dyd_max(b->e[1] - p.x, p.x - b->e[0]), y = dyd_max(b->e[3] - p.y, p.y - b->e[2]);
   return x + y;
 }
 
 /* Moves the circumcentre of o, a, b towards o and away from it: guesses. `wide` bounds the rectangles; times is how
  * often the margin is doubled thrice. false: there is no good guess. */
-static bool guess(dyd_xy *in, dyd_xy *out, dyd_xy o, dyd_xy a, dyd_xy b, double wide, double times) {
+static bool shape_guess(dyd_xy *in, dyd_xy *out, dyd_xy o, dyd_xy a, dyd_xy b, double wide, double times) {
   double ax = a.x - o.x, ay = a.y - o.y, bx = b.x - o.x, by = b.y - o.y;
   double la = ax * ax + ay * ay, lb = bx * bx + by * by, d = 2 * (ax * by - ay * bx);
   double x = (by * la - ay * lb) / d, y = (ax * lb - bx * la) / d;
@@ -67,52 +67,53 @@ static bool guess(dyd_xy *in, dyd_xy *out, dyd_xy o, dyd_xy a, dyd_xy b, double 
   return true;
 }
 
-static dyd_bbox at(dyd_xy z) {
+static dyd_bbox box_of_xy(dyd_xy z) {
   return (dyd_bbox){{z.x, z.x, z.y, z.y}};
 }
 
-static bool inner_holds(const dyd_shape *s, uint32_t degree, const dyd_bbox *own, dyd_xy z) {
-  dyd_bbox c = at(z);
+static bool shape_inner_holds(const dyd_shape *s, uint32_t degree, const dyd_bbox *own, dyd_xy z) {
+  dyd_bbox c = box_of_xy(z);
   double most = dyd_dl2_upper(&c, own);
   for (uint32_t k = 0; k < degree; k++)
     if (!(most < dyd_ds2_lower(&c, &s->fan_box[k]))) return false;
   return true;
 }
 
-static bool outer_holds(const dyd_bbox *a, const dyd_bbox *b, const dyd_bbox *own, dyd_xy z) {
-  dyd_bbox c = at(z);
+static bool shape_outer_holds(const dyd_bbox *a, const dyd_bbox *b, const dyd_bbox *own, dyd_xy z) {
+  dyd_bbox c = box_of_xy(z);
   double least = dyd_ds2_lower(&c, own);
   return dyd_dl2_upper(&c, a) < least && dyd_dl2_upper(&c, b) < least;
 }
 
-static bool in_window(const dyd_window *w, dyd_xy z) {
+static bool shape_in_window(const dyd_window *w, dyd_xy z) {
   return w->d[0] <= z.x && z.x <= w->d[1] && w->d[2] <= z.y && z.y <= w->d[3];
 }
 
-/* The vertices of triangle t round o, verified. */
-static bool place(dyd_shape *s, uint32_t t, uint32_t degree, const dyd_delaunay *pd, dyd_xy o, const dyd_bbox *own,
-                  const dyd_window *w, double flat) {
+/* The vertices of triangle t round o, proved. */
+static bool shape_place(dyd_shape *s, uint32_t t, uint32_t degree, const dyd_delaunay *pd, dyd_xy o,
+                        const dyd_bbox *own, const dyd_window *w, double flat) {
   uint32_t next = t + 1 == degree ? 0 : t + 1;
   dyd_xy a = pd->sk.reps.xy[s->fan[t]], b = pd->sk.reps.xy[s->fan[next]];
-  double wide = spread(own, o) + dyd_max(spread(&s->fan_box[t], a), spread(&s->fan_box[next], b));
+  double wide = box_spread(own, o) + dyd_max(box_spread(&s->fan_box[t], a), box_spread(&s->fan_box[next], b));
   for (double times = 1.25; times < 100; times *= 8) {
     dyd_xy *in = &s->inner[t], *out = &s->outer[t];
-    if (!guess(in, out, o, a, b, wide, times)) return false;
+    if (!shape_guess(in, out, o, a, b, wide, times)) return false;
     double x = out->x - in->x, y = out->y - in->y;
-    if (!(dyd_upper(x * x + y * y) <= flat) || !in_window(w, *out) || !in_window(w, *in)) return false;
-    if (inner_holds(s, degree, own, *in) && outer_holds(&s->fan_box[t], &s->fan_box[next], own, *out)) return true;
+    if (!(dyd_upper(x * x + y * y) <= flat) || !shape_in_window(w, *out) || !shape_in_window(w, *in)) return false;
+    if (shape_inner_holds(s, degree, own, *in) && shape_outer_holds(&s->fan_box[t], &s->fan_box[next], own, *out))
+      return true;
   }
   return false;
 }
 
 /* Is the polygon star-shaped about o, with sure turns, winding round once? Adds up its area as it goes: *area less
  * *error is a lower bound, *area more *error an upper one. */
-static bool star(double *area, double *error, dyd_xy o, const dyd_xy *z, uint32_t n) {
+static bool shape_star(double *area, double *error, dyd_xy o, const dyd_xy *z, uint32_t n) {
   int crossings = 0;
   *area = *error = 0;
   for (uint32_t t = 0; t < n; t++) {
     dyd_xy a = z[t], b = z[t + 1 == n ? 0 : t + 1];
-    double e, d = turn(&e, o, a, b);
+    double e, d = double_turn(&e, o, a, b);
     if (!(d > e)) return false;
     crossings += a.y < o.y && b.y >= o.y;
     *area += d;
@@ -123,14 +124,14 @@ static bool star(double *area, double *error, dyd_xy o, const dyd_xy *z, uint32_
 
 /* Leaves out vertices that spoil convexity (as rounding does where three circles nearly coincide), then asks for sure
  * left turns everywhere. `flat` bounds the squared distance at which a vertex left out may stand for another. */
-static bool make_convex(dyd_shape *s, uint32_t n, double flat) {
+static bool shape_make_convex(dyd_shape *s, uint32_t n, double flat) {
   uint32_t kept = 0;
   for (uint32_t t = 0; t < n; t++) {
     const dyd_xy *last = kept ? &s->inner[kept - 1] : NULL, z = s->inner[t];
     if (last) {
       double x = s->outer[t].x - last->x, y = s->outer[t].y - last->y, e;
       dyd_xy beyond = s->inner[t + 1 == n ? 0 : t + 1];
-      if (!(turn(&e, *last, z, beyond) > e) && t + 1 < n && dyd_upper(x * x + y * y) <= flat) continue;
+      if (!(double_turn(&e, *last, z, beyond) > e) && t + 1 < n && dyd_upper(x * x + y * y) <= flat) continue;
     }
     s->inner[kept++] = z;
   }
@@ -138,7 +139,7 @@ static bool make_convex(dyd_shape *s, uint32_t n, double flat) {
   if (kept < 3) return false;
   for (uint32_t t = 0; t < kept; t++) {
     double e;
-    if (!(turn(&e, s->inner[t], s->inner[(t + 1) % kept], s->inner[(t + 2) % kept]) > e)) return false;
+    if (!(double_turn(&e, s->inner[t], s->inner[(t + 1) % kept], s->inner[(t + 2) % kept]) > e)) return false;
   }
   return true;
 }
@@ -149,8 +150,8 @@ dyd_status dyd_filter_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, ui
   *done = false;
   if (bits > 1000 || bits < -1000) return DYD_OK;
   bool found;
-  dyd_status status = find_fan(&found, &degree, s, pd, v);
-  if (status < 0 || !found) return status;
+  dyd_status st = shape_find_fan(&found, &degree, s, pd, v);
+  if (st != DYD_OK || !found) return st;
   if (!dyd_reserve((void **)&s->inner, &s->inner_cap, degree, sizeof *s->inner)) return DYD_E_NOMEM;
   if (!dyd_reserve((void **)&s->outer, &s->outer_cap, degree, sizeof *s->outer)) return DYD_E_NOMEM;
   dyd_xy o = pd->sk.reps.xy[v];
@@ -159,11 +160,11 @@ dyd_status dyd_filter_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, ui
   if (!(own.e[0] <= o.x && o.x <= own.e[1] && own.e[2] <= o.y && o.y <= own.e[3])) return DYD_OK;
   double flat = ldexp(1, bits > 500 ? -1000 : (int)(-2 * bits)), area, error;
   for (uint32_t t = 0; t < degree; t++)
-    if (!place(s, t, degree, pd, o, &own, w, flat)) return DYD_OK;
+    if (!shape_place(s, t, degree, pd, o, &own, w, flat)) return DYD_OK;
   s->outer_count = degree;
-  if (!star(&area, &error, o, s->outer, degree)) return DYD_OK;
+  if (!shape_star(&area, &error, o, s->outer, degree)) return DYD_OK;
   s->area[1] = dyd_upper((area + error) / 2);
-  if (!make_convex(s, degree, flat) || !star(&area, &error, o, s->inner, s->inner_count)) return DYD_OK;
+  if (!shape_make_convex(s, degree, flat) || !shape_star(&area, &error, o, s->inner, s->inner_count)) return DYD_OK;
   s->area[0] = dyd_max(dyd_lower((area - error) / 2), 0);
   *done = s->in_doubles = true;
   return DYD_OK;

@@ -75,8 +75,8 @@ static void span_norm(span *out, const span *x, const span *y) {
 /* ---- the formula ---- */
 
 /* [lo,hi] = ([a0,a1] + n/d) / F for d.lo > 0. */
-static void shifted_quotient(mpq_t lo, mpq_t hi, mpz_srcptr a0, mpz_srcptr a1, const span *n, const span *d,
-                             mpz_srcptr man, int64_t exp) {
+static void span_shifted_quotient(mpq_t lo, mpq_t hi, mpz_srcptr a0, mpz_srcptr a1, const span *n, const span *d,
+                                  mpz_srcptr man, int64_t exp) {
   mpq_ptr end[2] = {lo, hi};
   for (int k = 0; k < 2; k++) {
     mpz_srcptr top = k ? n->hi : n->lo, below = (mpz_sgn(top) >= 0) == (k == 1) ? d->lo : d->hi;
@@ -89,7 +89,7 @@ static void shifted_quotient(mpq_t lo, mpq_t hi, mpz_srcptr a0, mpz_srcptr a1, c
   }
 }
 
-static void difference(span *x, span *y, const dyd_irect *to, const dyd_irect *from) {
+static void span_difference(span *x, span *y, const dyd_irect *to, const dyd_irect *from) {
   mpz_sub(x->lo, to->x0, from->x1);
   mpz_sub(x->hi, to->x1, from->x0);
   mpz_sub(y->lo, to->y0, from->y1);
@@ -103,12 +103,12 @@ static void span_negate(span *a) {
 }
 
 /* The ends end[0..3] = x lower, x upper, y lower, y upper of an enclosure; false if the formula gives none. */
-static bool enclose_scaled(mpq_t end[4], const dyd_irect r[3], mpz_srcptr man, int64_t exp) {
+static bool vertex_enclose_scaled(mpq_t end[4], const dyd_irect r[3], mpz_srcptr man, int64_t exp) {
   enum { PX, PY, QX, QY, PP, QQ, D, NX, NY, SPANS };
   span s[SPANS];
   for (int k = 0; k < SPANS; k++) span_init(&s[k]);
-  difference(&s[PX], &s[PY], &r[1], &r[0]);
-  difference(&s[QX], &s[QY], &r[2], &r[0]);
+  span_difference(&s[PX], &s[PY], &r[1], &r[0]);
+  span_difference(&s[QX], &s[QY], &r[2], &r[0]);
   span_cross(&s[D], &s[PX], &s[QY], &s[PY], &s[QX]);
   mpz_mul_2exp(s[D].lo, s[D].lo, 1);
   mpz_mul_2exp(s[D].hi, s[D].hi, 1);
@@ -120,8 +120,8 @@ static bool enclose_scaled(mpq_t end[4], const dyd_irect r[3], mpz_srcptr man, i
     span_cross(&s[NY], &s[PX], &s[QQ], &s[QX], &s[PP]);
     if (mpz_sgn(s[D].hi) < 0)
       for (int k = D; k <= NY; k++) span_negate(&s[k]);
-    shifted_quotient(end[0], end[1], r[0].x0, r[0].x1, &s[NX], &s[D], man, exp);
-    shifted_quotient(end[2], end[3], r[0].y0, r[0].y1, &s[NY], &s[D], man, exp);
+    span_shifted_quotient(end[0], end[1], r[0].x0, r[0].x1, &s[NX], &s[D], man, exp);
+    span_shifted_quotient(end[2], end[3], r[0].y0, r[0].y1, &s[NY], &s[D], man, exp);
   }
   for (int k = 0; k < SPANS; k++) span_clear(&s[k]);
   return known;
@@ -129,7 +129,7 @@ static bool enclose_scaled(mpq_t end[4], const dyd_irect r[3], mpz_srcptr man, i
 
 /* An enclosure of the centre for all choices in the three rectangles, rounded outward to multiples of 2^exp unless it
  * is a point. DYD_E_DOMAIN: the formula gives none. */
-static dyd_status enclose(dyd_rect *out, const dyd_rect *const in[3], int64_t exp) {
+static dyd_status vertex_enclose(dyd_rect *out, const dyd_rect *const in[3], int64_t exp) {
   dyd_irect r[3];
   mpq_t end[4];
   mpz_t man;
@@ -139,8 +139,8 @@ static dyd_status enclose(dyd_rect *out, const dyd_rect *const in[3], int64_t ex
   mpz_init(man);
   dyd_irects_scale(r, in, 3, man, &scale);
   dyd_status st = DYD_E_DOMAIN;
-  if (enclose_scaled(end, r, man, scale)) {
-    for (int a = 0; a < 2 && (a == 0 || !st); a++) {
+  if (vertex_enclose_scaled(end, r, man, scale)) {
+    for (int a = 0; a < 2 && (a == 0 || st == DYD_OK); a++) {
       dyd_interval *side = a ? &out->y : &out->x;
       const mpq_t *e = (const mpq_t *)&end[2 * a];
       st = mpq_equal(e[0], e[1]) ? dyd_interval_set_q(side, e[0]) : dyd_interval_set_outward(side, e[0], e[1], exp);
@@ -153,14 +153,14 @@ static dyd_status enclose(dyd_rect *out, const dyd_rect *const in[3], int64_t ex
 }
 
 /* The same for fixed rectangles, once and for all: the box of the partial centre, within 2^-64 of the least width. */
-static dyd_status enclose_fixed(dyd_rect *out, const dyd_rect *const in[3]) {
+static dyd_status vertex_enclose_fixed(dyd_rect *out, const dyd_rect *const in[3]) {
   enum { FINER = 64 };
   int64_t bits = INT64_MIN;
   for (int k = 0; k < 6; k++) {
     int64_t b = dyd_interval_bits(k & 1 ? &in[k / 2]->x : &in[k / 2]->y);
     if (b != INT64_MAX && b > bits) bits = b;
   }
-  if (bits == INT64_MIN) return enclose(out, in, 0); /* three points */
+  if (bits == INT64_MIN) return vertex_enclose(out, in, 0); /* three points */
   dyd_status st = dyd_partial_centre_enclose(out, in[0], in[1], in[2], bits + FINER);
   return st == DYD_E_ARG ? DYD_E_DOMAIN : st;
 }
@@ -186,25 +186,25 @@ static bool vertex_is_final(const vertex *v) {
 }
 
 /* Narrows the points to 2^-bits and encloses; *known: is there an enclosure? */
-static dyd_status attempt(bool *known, dyd_rect *out, const vertex *v, int64_t bits, int64_t max_bits, int64_t exp,
-                          dyd_error *err) {
+static dyd_status vertex_attempt(bool *known, dyd_rect *out, const vertex *v, int64_t bits, int64_t max_bits,
+                                 int64_t exp, dyd_error *err) {
   const dyd_rect *in[3];
   *known = false;
   for (int k = 0; k < 3; k++) {
     dyd_status st = dyd_stream_narrow(v->of[k], bits, max_bits, err);
-    if (st < 0) return st;
+    if (dyd_failed(st)) return st;
   }
   for (int k = 0; k < 3; k++) {
     in[k] = dyd_stream_rect(v->of[k]);
     if (!in[k])
       return dyd_fail(err, DYD_E_STREAM, "a point of a Voronoi vertex has no rectangle after it was narrowed");
   }
-  dyd_status st = vertex_is_final(v) ? enclose_fixed(out, in) : enclose(out, in, exp);
+  dyd_status st = vertex_is_final(v) ? vertex_enclose_fixed(out, in) : vertex_enclose(out, in, exp);
   *known = st == DYD_OK;
   return st == DYD_OK || st == DYD_E_DOMAIN ? DYD_OK : dyd_fail(err, st, "a Voronoi vertex: %s", dyd_status_text(st));
 }
 
-static dyd_status domain_fail(dyd_error *err, const vertex *v, int64_t bits) {
+static dyd_status vertex_domain_fail(dyd_error *err, const vertex *v, int64_t bits) {
   if (vertex_is_final(v))
     return dyd_fail(err, DYD_E_DOMAIN, "a Voronoi vertex of three fixed points that are, or may be, on one line");
   return dyd_fail(err, DYD_E_DOMAIN,
@@ -214,7 +214,7 @@ static dyd_status domain_fail(dyd_error *err, const vertex *v, int64_t bits) {
 }
 
 /* The next precision to try: r lacks some bits; r = NULL: nothing is known yet. */
-static int64_t next_bits(int64_t bits, const dyd_rect *r, int64_t want) {
+static int64_t vertex_next_bits(int64_t bits, const dyd_rect *r, int64_t want) {
   int64_t size = bits < 0 ? -bits : bits, step = size < 16 ? 16 : size;
   int64_t missing = r ? want - dyd_rect_bits(r) + LEAST_EXTRA : step;
   return bits + (missing < step ? missing : step);
@@ -226,25 +226,14 @@ static dyd_status vertex_narrow(dyd_rect *out, void *user, const dyd_request *re
   bool known = false;
   for (;;) {
     if (bits > cap) bits = cap;
-    dyd_status st = attempt(&known, out, v, bits, cap, -want - 2, err);
-    if (st < 0) return st;
+    dyd_status st = vertex_attempt(&known, out, v, bits, cap, -want - 2, err);
+    if (dyd_failed(st)) return st;
     if (vertex_is_final(v) || bits == cap || (known && dyd_rect_bits(out) >= want)) break;
-    bits = next_bits(bits, known ? out : NULL, want);
+    bits = vertex_next_bits(bits, known ? out : NULL, want);
   }
-  if (!known) return domain_fail(err, v, bits);
+  if (!known) return vertex_domain_fail(err, v, bits);
   v->extra = bits - want;
   return vertex_is_final(v) ? DYD_FIXED : DYD_OK;
-}
-
-static dyd_status vertex_fixed(dyd_stream **out, const vertex *v) {
-  bool known;
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = attempt(&known, &r, v, 0, 0, 0, NULL);
-  if (!st && !known) st = DYD_E_DOMAIN;
-  if (!st) st = dyd_stream_new_fixed(out, &r);
-  dyd_rect_clear(&r);
-  return st;
 }
 
 dyd_status dyd_stream_voronoi_vertex(dyd_stream **out, dyd_stream *a, dyd_stream *b, dyd_stream *c) {
@@ -257,11 +246,6 @@ dyd_status dyd_stream_voronoi_vertex(dyd_stream **out, dyd_stream *a, dyd_stream
     return good ? DYD_E_NOMEM : DYD_E_ARG;
   }
   *v = (vertex){{a, b, c}, LEAST_EXTRA};
-  if (!vertex_is_final(v)) {
-    dyd_source source = {.narrow = vertex_narrow, .release = vertex_release, .user = v};
-    return dyd_stream_new_enclosing(out, &source);
-  }
-  dyd_status st = vertex_fixed(out, v);
-  vertex_release(v);
-  return st;
+  dyd_source source = {.narrow = vertex_narrow, .release = vertex_release, .user = v};
+  return dyd_stream_new_enclosing(out, &source, vertex_is_final(v));
 }

@@ -27,13 +27,13 @@ void dyd_surd_point_set(dyd_surd_point *out, const dyd_surd_point *p) {
   mpz_set(out->d, p->d);
 }
 
-static dyd_surd coordinate(const dyd_surd_point *p, int axis) {
+static dyd_surd surd_coordinate(const dyd_surd_point *p, int axis) {
   if (axis) return (dyd_surd){p->ay, p->by, p->c, p->d};
   return (dyd_surd){p->ax, p->bx, p->c, p->d};
 }
 
 int dyd_surd_point_cmp(const dyd_surd_point *p, const dyd_surd_point *q, int axis) {
-  dyd_surd s = coordinate(p, axis), t = coordinate(q, axis);
+  dyd_surd s = surd_coordinate(p, axis), t = surd_coordinate(q, axis);
   mpz_t a, b, d;
   mpz_inits(a, b, d, NULL);
   mpz_mul(a, s.a, t.d);
@@ -47,7 +47,7 @@ int dyd_surd_point_cmp(const dyd_surd_point *p, const dyd_surd_point *q, int axi
 }
 
 int dyd_surd_point_cmp_z(const dyd_surd_point *p, int axis, mpz_srcptr z) {
-  dyd_surd s = coordinate(p, axis);
+  dyd_surd s = surd_coordinate(p, axis);
   mpz_t a;
   mpz_init_set(a, s.a);
   mpz_submul(a, z, s.d);
@@ -62,7 +62,7 @@ typedef struct frame {
 } frame;
 
 /* sum += sign * d^2 (s - z)^2; nothing for z = NULL: the distance along this axis is 0. */
-static void add_square(frame *f, const dyd_surd *s, mpz_srcptr z, int sign) {
+static void surd_add_square(frame *f, const dyd_surd *s, mpz_srcptr z, int sign) {
   if (!z) return;
   mpz_set(f->s, s->a);
   mpz_submul(f->s, z, s->d);
@@ -83,26 +83,26 @@ static void add_square(frame *f, const dyd_surd *s, mpz_srcptr z, int sign) {
   }
 }
 
-static void add_distance(frame *f, const dyd_surd_point *p, const dyd_irect *r, dyd_touch touch, int sign) {
-  dyd_surd x = coordinate(p, 0), y = coordinate(p, 1);
+static void surd_add_distance(frame *f, const dyd_surd_point *p, const dyd_irect *r, dyd_touch touch, int sign) {
+  dyd_surd x = surd_coordinate(p, 0), y = surd_coordinate(p, 1);
   bool far = touch == DYD_FARTHEST;
-  add_square(f, &x, far ? dyd_surd_farthest(f->s, f->t, &x, r->x0, r->x1) : dyd_surd_closest(f->s, &x, r->x0, r->x1),
-             sign);
-  add_square(f, &y, far ? dyd_surd_farthest(f->s, f->t, &y, r->y0, r->y1) : dyd_surd_closest(f->s, &y, r->y0, r->y1),
-             sign);
+  surd_add_square(
+      f, &x, far ? dyd_surd_farthest(f->s, f->t, &x, r->x0, r->x1) : dyd_surd_closest(f->s, &x, r->x0, r->x1), sign);
+  surd_add_square(
+      f, &y, far ? dyd_surd_farthest(f->s, f->t, &y, r->y0, r->y1) : dyd_surd_closest(f->s, &y, r->y0, r->y1), sign);
 }
 
 int dyd_surd_point_side(const dyd_surd_point *p, const dyd_irect *a, dyd_touch ta, const dyd_irect *b, dyd_touch tb) {
   frame f;
   mpz_inits(f.p, f.q, f.s, f.t, NULL);
-  add_distance(&f, p, a, ta, 1);
-  add_distance(&f, p, b, tb, -1);
+  surd_add_distance(&f, p, a, ta, 1);
+  surd_add_distance(&f, p, b, tb, -1);
   int sign = dyd_sqrt_sign(f.p, f.q, p->c);
   mpz_clears(f.p, f.q, f.s, f.t, NULL);
   return sign;
 }
 
-static void make_rational(dyd_surd_point *p) {
+static void surd_make_rational(dyd_surd_point *p) {
   if (mpz_sgn(p->bx) || mpz_sgn(p->by)) {
     if (!mpz_perfect_square_p(p->c)) return;
     mpz_sqrt(p->c, p->c);
@@ -115,7 +115,7 @@ static void make_rational(dyd_surd_point *p) {
 }
 
 /* Squares of the primes that scales are made of go from under the root before it. */
-static void shrink_root(dyd_surd_point *p) {
+static void surd_shrink_root(dyd_surd_point *p) {
   static const unsigned long prime[] = {5, 3};
   if (!mpz_sgn(p->c)) return;
   mp_bitcnt_t twos = mpz_scan1(p->c, 0) / 2;
@@ -131,8 +131,8 @@ static void shrink_root(dyd_surd_point *p) {
 }
 
 void dyd_surd_point_tidy(dyd_surd_point *p) {
-  make_rational(p);
-  shrink_root(p);
+  surd_make_rational(p);
+  surd_shrink_root(p);
   mpz_ptr part[5] = {p->ax, p->bx, p->ay, p->by, p->d};
   mpz_t gcd;
   mpz_init_set(gcd, p->d);
@@ -141,27 +141,24 @@ void dyd_surd_point_tidy(dyd_surd_point *p) {
   mpz_clear(gcd);
 }
 
-static void shift_up(mpz_ptr z, int64_t e) {
-  if (e > 0) mpz_mul_2exp(z, z, (mp_bitcnt_t)e);
-}
-
 void dyd_surd_point_unscale(dyd_surd_point *p, mpz_srcptr ox, mpz_srcptr oy, mpz_srcptr man, int64_t exp) {
   mpz_ptr part[4] = {p->ax, p->bx, p->ay, p->by};
   mpz_addmul(p->ax, ox, p->d);
   mpz_addmul(p->ay, oy, p->d);
   mpz_mul(p->d, p->d, man);
-  shift_up(p->d, exp);
-  for (int k = 0; k < 4; k++) shift_up(part[k], -exp);
+  dyd_shift_up(p->d, exp);
+  for (int k = 0; k < 4; k++) dyd_shift_up(part[k], -exp);
   dyd_surd_point_tidy(p);
 }
 
-void dyd_surd_point_scale(dyd_surd_point *p, mpz_srcptr man, int64_t exp) {
+/* p = p * man * 2^exp. */
+static void surd_point_scale(dyd_surd_point *p, mpz_srcptr man, int64_t exp) {
   mpz_ptr part[4] = {p->ax, p->bx, p->ay, p->by};
   for (int k = 0; k < 4; k++) {
     mpz_mul(part[k], part[k], man);
-    shift_up(part[k], exp);
+    dyd_shift_up(part[k], exp);
   }
-  shift_up(p->d, -exp);
+  dyd_shift_up(p->d, -exp);
 }
 
 int dyd_surd_point_compare(const dyd_surd_point *p, const dyd_rect *a, dyd_touch ta, const dyd_rect *b, dyd_touch tb) {
@@ -175,7 +172,7 @@ int dyd_surd_point_compare(const dyd_surd_point *p, const dyd_rect *a, dyd_touch
   dyd_surd_point_init(&q);
   dyd_irects_scale(r, in, 2, man, &exp);
   dyd_surd_point_set(&q, p);
-  dyd_surd_point_scale(&q, man, exp);
+  surd_point_scale(&q, man, exp);
   int sign = dyd_surd_point_side(&q, &r[0], ta, &r[1], tb);
   dyd_surd_point_clear(&q);
   for (int k = 2; k-- > 0;) dyd_irect_clear(&r[k]);
@@ -184,17 +181,17 @@ int dyd_surd_point_compare(const dyd_surd_point *p, const dyd_rect *a, dyd_touch
 }
 
 void dyd_surd_point_floor(mpz_ptr floor, mpz_ptr ceiling, const dyd_surd_point *p, int axis, int64_t bits) {
-  dyd_surd s = coordinate(p, axis);
+  dyd_surd s = surd_coordinate(p, axis);
   mpz_t root, rest, d;
   mpz_inits(root, rest, d, NULL);
   mpz_mul(root, s.b, s.b);
   mpz_mul(root, root, s.c);
-  shift_up(root, 2 * bits);
+  dyd_shift_up(root, 2 * bits);
   mpz_sqrtrem(root, rest, root);
   mpz_set(floor, s.a);
-  shift_up(floor, bits);
+  dyd_shift_up(floor, bits);
   mpz_set(d, s.d);
-  shift_up(d, -bits);
+  dyd_shift_up(d, -bits);
   int over = mpz_sgn(rest) != 0;
   if (mpz_sgn(s.b) < 0) {
     mpz_sub(ceiling, floor, root);
@@ -208,7 +205,7 @@ void dyd_surd_point_floor(mpz_ptr floor, mpz_ptr ceiling, const dyd_surd_point *
   mpz_clears(root, rest, d, NULL);
 }
 
-static dyd_status enclose_side(dyd_interval *out, const dyd_surd_point *p, int axis, int64_t bits) {
+static dyd_status surd_enclose_side(dyd_interval *out, const dyd_surd_point *p, int axis, int64_t bits) {
   mpz_t floor, ceiling;
   dyd_dyadic lo, hi;
   mpz_inits(floor, ceiling, NULL);
@@ -228,8 +225,8 @@ dyd_status dyd_surd_point_enclose(dyd_rect *out, const dyd_surd_point *p, int64_
   if (bits > DYD_EXP_LIMIT || bits < -DYD_EXP_LIMIT) return DYD_E_RANGE;
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status st = enclose_side(&r.x, p, 0, bits);
-  if (st == DYD_OK) st = enclose_side(&r.y, p, 1, bits);
+  dyd_status st = surd_enclose_side(&r.x, p, 0, bits);
+  if (st == DYD_OK) st = surd_enclose_side(&r.y, p, 1, bits);
   if (st == DYD_OK) dyd_rect_swap(out, &r);
   dyd_rect_clear(&r);
   return st;

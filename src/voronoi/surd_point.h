@@ -18,7 +18,5 @@ void dyd_surd_point_tidy(dyd_surd_point *p);
 void dyd_surd_point_floor(mpz_ptr floor, mpz_ptr ceiling, const dyd_surd_point *p, int axis, int64_t bits);
 /* p = (p + (ox,oy)) / (man * 2^exp), man > 0. */
 void dyd_surd_point_unscale(dyd_surd_point *p, mpz_srcptr ox, mpz_srcptr oy, mpz_srcptr man, int64_t exp);
-/* p = p * man * 2^exp. */
-void dyd_surd_point_scale(dyd_surd_point *p, mpz_srcptr man, int64_t exp);
 
 #endif

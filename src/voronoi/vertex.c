@@ -6,7 +6,8 @@
 
 #include <math.h>
 
-bool dyd_sure_vertices(const dyd_delaunay *pd, const dyd_triangle *t, uint32_t v[3]) {
+/* Is t a sure triangle of pd? v becomes its vertices. */
+static bool triangle_is_sure(const dyd_delaunay *pd, const dyd_triangle *t, uint32_t v[3]) {
   for (int k = 0; k < 3; k++) {
     if (t->v[k] >= pd->sk.n) return false;
     v[k] = pd->sk.vertex[t->v[k]];
@@ -15,27 +16,27 @@ bool dyd_sure_vertices(const dyd_delaunay *pd, const dyd_triangle *t, uint32_t v
   return h != DYD_NONE && dyd_edge_apex(&pd->sk.mesh, h) == v[2] && dyd_triangle_is_sure(pd, dyd_edge_triangle(h));
 }
 
-static dyd_status set_box(dyd_rect *out, const dyd_bbox *b) {
+static dyd_status rect_set_box(dyd_rect *out, const dyd_bbox *b) {
   return dyd_rect_set_d(out, b->e[0], b->e[1], b->e[2], b->e[3]);
 }
 
 dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_triangle *t, int64_t bits) {
   uint32_t v[3];
   dyd_bbox box;
-  if (!dyd_sure_vertices(pd, t, v)) return DYD_E_ARG;
+  if (!triangle_is_sure(pd, t, v)) return DYD_E_ARG;
   if (!pd->sk.mesh.no_filter && bits > -1000 && bits < 1000 && dyd_filter_vertex(&box, pd, v)) {
     double limit = ldexp(1, (int)-bits);
-    if (box.e[1] - box.e[0] < limit && box.e[3] - box.e[2] < limit) return set_box(out, &box);
+    if (box.e[1] - box.e[0] < limit && box.e[3] - box.e[2] < limit) return rect_set_box(out, &box);
   }
   dyd_rect r[3];
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   for (int k = 0; k < 3; k++) {
     dyd_rect_init(&r[k]);
-    if (status >= 0) status = dyd_sites_get(&r[k], pd->sk.rects.sites, t->v[k]);
+    if (st == DYD_OK) st = dyd_sites_get(&r[k], pd->sk.rects.sites, t->v[k]);
   }
-  if (status >= 0) status = dyd_partial_centre_enclose(out, &r[0], &r[1], &r[2], bits);
+  if (st == DYD_OK) st = dyd_partial_centre_enclose(out, &r[0], &r[1], &r[2], bits);
   for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
-  return status;
+  return st;
 }
 
 /* ---- undecided faces ---- */
@@ -49,21 +50,21 @@ dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaunay *pd, 
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   dyd_interval_get_d(&box.e[0], &box.e[1], &window->x);
   dyd_interval_get_d(&box.e[2], &box.e[3], &window->y);
-  dyd_status status = dyd_delaunay_face(&sites, &outer, pd, f);
-  if (status >= 0) status = dyd_delaunay_face_pairs(&pairs, pd, f);
-  if (status >= 0) {
+  dyd_status st = dyd_delaunay_face(&sites, &outer, pd, f);
+  if (st == DYD_OK) st = dyd_delaunay_face_pairs(&pairs, pd, f);
+  if (st == DYD_OK) {
     *any = dyd_filter_region(&box, pd, &pairs, &sites);
-    if (*any) status = set_box(out, &box);
+    if (*any) st = rect_set_box(out, &box);
   }
   dyd_index_list_clear(&sites);
   dyd_pair_list_clear(&pairs);
-  return status;
+  return st;
 }
 
 /* ---- windows ---- */
 
 /* The margin on each side of an extent: a quarter of it; other, or 1, stands in for nothing. */
-static double margin(double lo, double hi, double other) {
+static double window_margin(double lo, double hi, double other) {
   double size = hi / 4 - lo / 4;
   return size > 0 ? size : other > 0 ? other : 1;
 }
@@ -79,7 +80,7 @@ dyd_status dyd_voronoi_window(dyd_rect *out, const dyd_sites *sites) {
     }
   }
   if (!n) e[0] = e[1] = e[2] = e[3] = 0;
-  double mx = margin(e[0], e[1], e[3] / 4 - e[2] / 4), my = margin(e[2], e[3], mx);
+  double mx = window_margin(e[0], e[1], e[3] / 4 - e[2] / 4), my = window_margin(e[2], e[3], mx);
   double w[4] = {e[0] - mx, e[1] + mx, e[2] - my, e[3] + my};
   for (int k = 0; k < 4; k++)
     if (!(fabs(w[k]) <= DBL_MAX)) return DYD_E_RANGE;

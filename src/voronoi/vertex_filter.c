@@ -18,7 +18,7 @@ typedef struct ball2 {
 } ball2;
 
 /* q_k - q_0 by boxes: middle of the representatives' difference, radius to the farthest corner. */
-static ball2 difference(const dyd_bbox *p, const dyd_bbox *q, dyd_xy mp, dyd_xy mq) {
+static ball2 ball_difference(const dyd_bbox *p, const dyd_bbox *q, dyd_xy mp, dyd_xy mq) {
   ball2 d = {mq.x - mp.x, mq.y - mp.y, 0, 0};
   d.rx = dyd_max(d.x - (q->e[0] - p->e[1]), (q->e[1] - p->e[0]) - d.x);
   d.ry = dyd_max(d.y - (q->e[2] - p->e[3]), (q->e[3] - p->e[2]) - d.y);
@@ -30,18 +30,18 @@ static ball2 difference(const dyd_bbox *p, const dyd_bbox *q, dyd_xy mp, dyd_xy 
 }
 
 /* A lower bound of |a x b|; not positive when the sign is not sure. */
-static double cross_lower(const ball2 *a, const ball2 *b) {
+static double ball_cross_lower(const ball2 *a, const ball2 *b) {
   double p = a->x * b->y, q = a->y * b->x, value = fabs(p - q);
   double vary = a->rx * (fabs(b->y) + b->ry) + fabs(a->x) * b->ry + a->ry * (fabs(b->x) + b->rx) + fabs(a->y) * b->rx;
   return value - (vary * SAFE + 32 * 0x1p-53 * (fabs(p) + fabs(q)));
 }
 
 /* An upper bound of | |q_k - z|^2 - |q_0 - z|^2 |. */
-static double gap2(const dyd_bbox *z, const dyd_bbox *p, const dyd_bbox *q) {
+static double circle_gap2(const dyd_bbox *z, const dyd_bbox *p, const dyd_bbox *q) {
   return dyd_max(dyd_dl2_upper(z, q) - dyd_ds2_lower(z, p), dyd_dl2_upper(z, p) - dyd_ds2_lower(z, q)) * SAFE;
 }
 
-static dyd_xy middle(const dyd_bbox *b) {
+static dyd_xy box_middle(const dyd_bbox *b) {
   return (dyd_xy){b->e[0] + (b->e[1] - b->e[0]) / 2, b->e[2] + (b->e[3] - b->e[2]) / 2};
 }
 
@@ -50,15 +50,15 @@ bool dyd_filter_vertex(dyd_bbox *out, const dyd_delaunay *pd, const uint32_t v[3
   dyd_xy m[3];
   for (int k = 0; k < 3; k++) {
     dyd_sites_get_d(box[k].e, pd->sk.rects.sites, pd->sk.reps.site[v[k]]);
-    m[k] = middle(&box[k]);
+    m[k] = box_middle(&box[k]);
   }
-  ball2 a = difference(&box[0], &box[1], m[0], m[1]), b = difference(&box[0], &box[2], m[0], m[2]);
+  ball2 a = ball_difference(&box[0], &box[1], m[0], m[1]), b = ball_difference(&box[0], &box[2], m[0], m[2]);
   double det = 2 * (a.x * b.y - a.y * b.x), la = a.x * a.x + a.y * a.y, lb = b.x * b.x + b.y * b.y;
-  double least = cross_lower(&a, &b);
+  double least = ball_cross_lower(&a, &b);
   if (!(least >= 0x1p-400)) return false;
   dyd_xy z = {m[0].x + (b.y * la - a.y * lb) / det, m[0].y + (a.x * lb - b.x * la) / det};
   dyd_bbox c = {{z.x, z.x, z.y, z.y}};
-  double ga = gap2(&c, &box[0], &box[1]), gb = gap2(&c, &box[0], &box[2]);
+  double ga = circle_gap2(&c, &box[0], &box[1]), gb = circle_gap2(&c, &box[0], &box[2]);
   double hx = (ga * (fabs(b.y) + b.ry) + gb * (fabs(a.y) + a.ry)) / (2 * least) * SAFE + DYD_TINY;
   double hy = (gb * (fabs(a.x) + a.rx) + ga * (fabs(b.x) + b.rx)) / (2 * least) * SAFE + DYD_TINY;
   hx += 4 * 0x1p-53 * (fabs(z.x) + hx);

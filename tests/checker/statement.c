@@ -130,7 +130,7 @@ static void term(double *most, mpq_ptr area2, const orc_rect *a, const orc_rect 
   mpq_init(t);
   harness_rect(&x, a);
   harness_rect(&y, b);
-  dyd_hull_area2(t, &x, &y);
+  dyd_partial_edge_area2(t, &x, &y);
   mpq_add(area2, area2, t);
   double d = 0, l = 0, e[8];
   for (int k = 0; k < 4; k++) e[k] = mpq_get_d(a->e[k]), e[4 + k] = mpq_get_d(b->e[k]);

@@ -34,7 +34,7 @@ FAULTS = [
     (STAR, 'need + 8 * 0x1p-53', 'need + 2 * 0x1p-53', 'constants', 'c_star_hull'),
     (STAR, '2 * (largest + 3 * pd->reps.delta)', '2 * (largest + 2 * pd->reps.delta)', 'constants', 'z_star_three'),
     ('src/stream/expr_filter.c', 'if (b.lo <= 0 && b.hi >= 0)', 'if (b.lo < 0 && b.hi > 0)', 'constants', 'divide'),
-    ('src/predicate/cell_filter.c', 'i ? dyd_iv_sub(bl, root) : dyd_iv_add(bl, root)', 'dyd_iv_add(bl, root)', 'constants', 'point_and_line'),
+    ('src/predicate/pane_filter.c', 'i ? dyd_iv_sub(bl, root) : dyd_iv_add(bl, root)', 'dyd_iv_add(bl, root)', 'constants', 'point_and_line'),
     ('src/legal/near_filter.c', 'reach : 0x1p-300}', 'reach : 0x1p-500}', 'constants', 'c_near_floor'),
     ('src/skeleton/site_filter.c', 'isnan(h) ? -INFINITY : h', 'isnan(h) ? INFINITY : h', 'constants', 'dyd_height_lower'),
     ('src/dyadic/sqrt_sign.c', 'if (nb - 3 >= na) return -1;', 'if (nb - 2 >= na) return -1;', 'constants', 'compare_squares'),

@@ -113,7 +113,7 @@ static void check_area(const dyd_dyadic *area, const dyd_sites *sites, const dyd
   for (size_t k = 0; k < pairs->count; k++) {
     dyd_sites_get(&a, sites, pairs->item[k].i);
     dyd_sites_get(&b, sites, pairs->item[k].j);
-    dyd_hull_area2(t, &a, &b);
+    dyd_partial_edge_area2(t, &a, &b);
     mpq_div_2exp(t, t, 1);
     mpq_add(sum, sum, t);
   }

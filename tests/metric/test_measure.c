@@ -158,7 +158,7 @@ static bool check(const double a[4], const double b[4]) {
   oracle_area2(area2, a, b);
   oracle_length2(length2, a, a);
   oracle_reach(lo, hi, a, b);
-  bool answered = dyd_filter_hull_area2(dd, a, b);
+  bool answered = dyd_filter_partial_edge_area2(dd, a, b);
   if (answered) {
     set_dd(x, dd);
     assert_close_q(x, area2, 86);

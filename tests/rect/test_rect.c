@@ -261,12 +261,12 @@ static void check_hulls(const dyd_rect r[4], literal_rect l[4]) {
   mpq_inits(got, expected, NULL);
   for (int k = 0; k < 4; k++) literal_set(&l[k], &r[k]);
   corners p = corners_of(&l[0], &l[1]), q = corners_of(&l[2], &l[3]);
-  dyd_hull_area2(got, &r[0], &r[1]);
+  dyd_partial_edge_area2(got, &r[0], &r[1]);
   literal_hull_area2(expected, &p);
   assert_true(mpq_equal(got, expected));
   bool disjoint = literal_hulls_disjoint(&p, &q);
-  assert_int_equal(dyd_hulls_disjoint(&r[0], &r[1], &r[2], &r[3]), disjoint);
-  assert_int_equal(dyd_hulls_disjoint(&r[3], &r[2], &r[1], &r[0]), disjoint);
+  assert_int_equal(dyd_partial_edges_disjoint(&r[0], &r[1], &r[2], &r[3]), disjoint);
+  assert_int_equal(dyd_partial_edges_disjoint(&r[3], &r[2], &r[1], &r[0]), disjoint);
   mpq_clears(got, expected, NULL);
 }
 

@@ -3,7 +3,7 @@
 #define _GNU_SOURCE /* memmem */
 #include "stream/leftover.h"
 
-#include "stream/check.h"
+#include "stream/harness.h"
 #include <ctype.h>
 #include <dirent.h>
 #include <errno.h>

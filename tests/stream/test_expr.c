@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Expressions against MPFR at 4000 bits: inclusion [ENC-1] [ENC-2], widths, nestedness [NEST-2], edges of domains,
  * static ranges [RANGE-1]. */
-#include "check.h"
+#include "harness.h"
 
 #include "stream/expr.h"
 

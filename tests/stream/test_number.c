@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Plain numbers against literal rational arithmetic: values, half units, columns, refusals, speed. */
-#include "check.h"
+#include "harness.h"
 
 #include "stream/number.h"
 

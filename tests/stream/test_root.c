@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Roots of polynomials against exact signs in rationals [ROOT-1] [ROOT-2]: the interval always holds a sign change
  * of the polynomial as given, or is the exact root. */
-#include "check.h"
+#include "harness.h"
 
 #define MAX_COUNT 16
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Streams: faulty callbacks are caught [NEST-1] and nothing is lost, contexts are released once on every path,
  * pairs, widened reals and affine images [AFF-1] hold the true points. */
-#include "check.h"
+#include "harness.h"
 
 #include "stream/real.h"
 

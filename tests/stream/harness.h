@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What the stream tests share: parsing shortly, and looking into intervals with exact rationals and MPFR. */
-#ifndef DYD_TESTS_STREAM_CHECK_H
-#define DYD_TESTS_STREAM_CHECK_H
+#ifndef DYD_TESTS_STREAM_HARNESS_H
+#define DYD_TESTS_STREAM_HARNESS_H
 
 #include <setjmp.h>
 #include <stdarg.h>

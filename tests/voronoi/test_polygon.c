@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Verified polygons against the literal definition: [POLY-1] [POLY-2] [SHAPE-1]; areas and distances against the true
+/* Proved polygons against the literal definition: [POLY-1] [POLY-2] [SHAPE-1]; areas and distances against the true
  * diagrams of random choices: [AREA-V] [HAUS-V]. Everything is compared in rationals, all sites looked at. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Releases the caches that FLINT and MPFR keep for a thread. */
-#include "check.h"
+#include "harness.h"
 
 #include <flint/flint.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Expressions in doubles [FLT-EXPR] against MPFR intervals of 2500 bits, their rounding to a grid [FLT-GRID] against
  * exact rationals, and short constants. The programs are made by hand, so that nothing is folded. */
-#include "stream/check.h"
+#include "stream/harness.h"
 
 #include "stream/real.h"
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Coordinates as text: exactness, fixed intervals, columns of errors, hostile and random input. */
-#include "check.h"
+#include "harness.h"
 
 typedef struct exact_row {
   const char *text, *value;

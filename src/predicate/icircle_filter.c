@@ -9,7 +9,7 @@
 #include "predicate/icircle.h"
 
 /* n <= (a + b sqrt c) 2^g <= n + 1 */
-static void enclose(mpz_ptr n, mpz_ptr t, mpz_srcptr a, mpz_srcptr b, mpz_srcptr c, int64_t g) {
+static void centre_enclose(mpz_ptr n, mpz_ptr t, mpz_srcptr a, mpz_srcptr b, mpz_srcptr c, int64_t g) {
   mpz_mul(n, b, b);
   mpz_mul(n, n, c);
   mpz_mul_2exp(n, n, (mp_bitcnt_t)(2 * g));
@@ -23,35 +23,35 @@ static void enclose(mpz_ptr n, mpz_ptr t, mpz_srcptr a, mpz_srcptr b, mpz_srcptr
 }
 
 /* [n, n + width] 2^-(g + shift) / d */
-static void divide(double out[2], mpz_ptr n, unsigned long width, const dyd_icircle *k, int64_t exp) {
+static void centre_quotient(double out[2], mpz_ptr n, unsigned long width, const dyd_icircle *k, int64_t exp) {
   out[0] = dyd_raw_quotient_get_d(n, exp, k->d, DYD_DOWN);
   mpz_add_ui(n, n, width);
   out[1] = dyd_raw_quotient_get_d(n, exp, k->d, DYD_UP);
 }
 
-static void coordinate(double out[2], mpz_srcptr a, mpz_srcptr b, const dyd_icircle *k, int64_t shift) {
+static void centre_coordinate(double out[2], mpz_srcptr a, mpz_srcptr b, const dyd_icircle *k, int64_t shift) {
   mpz_t n, t;
   mpz_init(n);
   mpz_init(t);
   if (!mpz_sgn(b) || !mpz_sgn(k->c)) {
     mpz_set(n, a);
-    divide(out, n, 0, k, -shift);
+    centre_quotient(out, n, 0, k, -shift);
   } else if (!dyd_sqrt_sign(a, b, k->c)) {
     out[0] = out[1] = 0;
   } else {
     int64_t size = dyd_bits(b) + dyd_bits(k->c) / 2, g = size > 70 ? 0 : 70 - size;
-    enclose(n, t, a, b, k->c, g);
+    centre_enclose(n, t, a, b, k->c, g);
     while (dyd_bits(n) < 64) {
       g = 2 * g + 64;
-      enclose(n, t, a, b, k->c, g);
+      centre_enclose(n, t, a, b, k->c, g);
     }
-    divide(out, n, 1, k, -g - shift);
+    centre_quotient(out, n, 1, k, -g - shift);
   }
   mpz_clear(t);
   mpz_clear(n);
 }
 
 void dyd_icircle_centre_d(double out[4], const dyd_icircle *k, int64_t shift) {
-  coordinate(out, k->ax, k->bx, k, shift);
-  coordinate(out + 2, k->ay, k->by, k, shift);
+  centre_coordinate(out, k->ax, k->bx, k, shift);
+  centre_coordinate(out + 2, k->ay, k->by, k, shift);
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Throwing out cells without a critical circle, in interval arithmetic.
+/* Throwing out panes without a critical circle, in interval arithmetic.
  *
  * The formulas are those of predicate/solve.c, evaluated on enclosures of the coordinates relative to a corner p on
- * the circle. Every step encloses the true value (predicate/interval_filter.h), so a cell is thrown out only when
+ * the circle. Every step encloses the true value (predicate/interval_filter.h), so a pane is thrown out only when
  * every root is surely outside one of its bounds or surely not real: no bound on the error is needed beyond that. */
-#include "predicate/cell.h"
+#include "predicate/pane.h"
 
 #include <stdint.h>
 
@@ -27,7 +27,7 @@ typedef struct feature {
   dyd_iv at[2];
 } feature;
 
-static feature relative(const dyd_slab *x, const dyd_slab *y, int m, int base) {
+static feature relative_feature(const dyd_slab *x, const dyd_slab *y, int m, int base) {
   feature f = {{x->mark[m].at != NULL, y->mark[m].at != NULL}, {DYD_IV_UNKNOWN, DYD_IV_UNKNOWN}};
   if (f.has[0]) f.at[0] = dyd_iv_sub(x->mark[m].near, x->mark[base].near);
   if (f.has[1]) f.at[1] = dyd_iv_sub(y->mark[m].near, y->mark[base].near);
@@ -44,7 +44,7 @@ typedef struct roots {
 static const roots unknown_roots = {false, 0, {{{0, 0}, {0, 0}}, {{0, 0}, {0, 0}}}};
 static const roots no_roots = {true, 0, {{{0, 0}, {0, 0}}, {{0, 0}, {0, 0}}}};
 
-static roots two_points(const feature *f, const feature *g) {
+static roots iv_two_points(const feature *f, const feature *g) {
   dyd_iv s = dyd_iv_add(dyd_iv_sqr(f->at[0]), dyd_iv_sqr(f->at[1]));
   dyd_iv t = dyd_iv_add(dyd_iv_sqr(g->at[0]), dyd_iv_sqr(g->at[1]));
   dyd_iv det = dyd_iv_sub(dyd_iv_mul(f->at[0], g->at[1]), dyd_iv_mul(g->at[0], f->at[1]));
@@ -54,7 +54,7 @@ static roots two_points(const feature *f, const feature *g) {
   return (roots){true, 1, {{dyd_iv_div(u, det2), dyd_iv_div(v, det2)}, {{0, 0}, {0, 0}}}};
 }
 
-static roots point_and_line(const feature *point, const feature *line) {
+static roots iv_point_and_line(const feature *point, const feature *line) {
   int k = line->has[0] ? 0 : 1;
   dyd_iv a = point->at[k], b = point->at[1 - k], l = line->at[k];
   dyd_iv s = dyd_iv_add(dyd_iv_sqr(a), dyd_iv_sqr(b));
@@ -71,7 +71,7 @@ static roots point_and_line(const feature *point, const feature *line) {
   return found;
 }
 
-static roots parallel_lines(const feature *f, const feature *g, int k) {
+static roots iv_parallel_lines(const feature *f, const feature *g, int k) {
   dyd_iv c = dyd_iv_neg(dyd_iv_mul(f->at[k], g->at[k]));
   if (c.hi < 0) return no_roots;
   dyd_iv u = dyd_iv_scale(dyd_iv_add(f->at[k], g->at[k]), 0.5), v = dyd_iv_sqrt(c);
@@ -82,7 +82,7 @@ static roots parallel_lines(const feature *f, const feature *g, int k) {
   return found;
 }
 
-static roots crossing_lines(dyd_iv l, dyd_iv m) {
+static roots iv_crossing_lines(dyd_iv l, dyd_iv m) {
   dyd_iv lm = dyd_iv_mul(l, m);
   int sign = dyd_iv_sign(lm);
   if (!sign) return unknown_roots;
@@ -98,28 +98,28 @@ static roots crossing_lines(dyd_iv l, dyd_iv m) {
   return (roots){true, 2, {{plus_u, minus_v}, {minus_u, plus_v}}};
 }
 
-static roots solve(const feature *f, const feature *g) {
+static roots iv_solve(const feature *f, const feature *g) {
   bool f_point = f->has[0] && f->has[1], g_point = g->has[0] && g->has[1];
-  if (f_point && g_point) return two_points(f, g);
-  if (f_point) return point_and_line(f, g);
-  if (g_point) return point_and_line(g, f);
-  if (f->has[0] && g->has[0]) return parallel_lines(f, g, 0);
-  if (f->has[1] && g->has[1]) return parallel_lines(f, g, 1);
-  return f->has[0] ? crossing_lines(f->at[0], g->at[1]) : crossing_lines(g->at[0], f->at[1]);
+  if (f_point && g_point) return iv_two_points(f, g);
+  if (f_point) return iv_point_and_line(f, g);
+  if (g_point) return iv_point_and_line(g, f);
+  if (f->has[0] && g->has[0]) return iv_parallel_lines(f, g, 0);
+  if (f->has[1] && g->has[1]) return iv_parallel_lines(f, g, 1);
+  return f->has[0] ? iv_crossing_lines(f->at[0], g->at[1]) : iv_crossing_lines(g->at[0], f->at[1]);
 }
 
 /* Is p + t surely below or above the slab? */
-static bool outside(dyd_iv t, dyd_iv p, const dyd_slab *s) {
+static bool outside_slab(dyd_iv t, dyd_iv p, const dyd_slab *s) {
   dyd_iv at = dyd_iv_add(t, p);
   return (s->lo2 && at.hi < s->lo.lo) || (s->hi2 && at.lo > s->hi.hi);
 }
 
-bool dyd_filter_cell_empty(const dyd_slab *x, const dyd_slab *y, int base) {
-  feature f = relative(x, y, (base + 1) % 3, base), g = relative(x, y, (base + 2) % 3, base);
-  roots found = solve(&f, &g);
+bool dyd_filter_pane_empty(const dyd_slab *x, const dyd_slab *y, int base) {
+  feature f = relative_feature(x, y, (base + 1) % 3, base), g = relative_feature(x, y, (base + 2) % 3, base);
+  roots found = iv_solve(&f, &g);
   if (!found.known) return false;
   for (int i = 0; i < found.count; i++) {
-    if (!outside(found.at[i][0], x->mark[base].near, x) && !outside(found.at[i][1], y->mark[base].near, y))
+    if (!outside_slab(found.at[i][0], x->mark[base].near, x) && !outside_slab(found.at[i][1], y->mark[base].near, y))
       return false;
   }
   return true;

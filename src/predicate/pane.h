@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The cells of the plane in which all three rectangles show the centre one fixed feature each.
+/* The panes of the plane in which all three rectangles show the centre one fixed feature each.
  *
  * The far corner of an F-rectangle changes where the centre crosses a middle line of it, the closest feature of a
  * C-rectangle where it crosses the line of a side. These lines cut each axis into at most six slabs and the plane
- * into at most 36 closed cells. In a cell the far point of F is one corner, and the closest point of C is one corner,
+ * into at most 36 closed panes. In a pane the far point of F is one corner, and the closest point of C is one corner,
  * or the foot on one side (the other coordinate is free), or the centre itself. */
-#ifndef DYD_PREDICATE_CELL_H
-#define DYD_PREDICATE_CELL_H
+#ifndef DYD_PREDICATE_PANE_H
+#define DYD_PREDICATE_PANE_H
 
 #include "predicate/interval_filter.h"
 #include "rect/irect.h"
@@ -42,8 +42,8 @@ void dyd_axis_set(dyd_axis *out, const dyd_irect *const r[3], const dyd_touch to
 /* An enclosure of (z - origin) * 2^-shift; scratch is overwritten. */
 dyd_iv dyd_filter_near(mpz_srcptr z, mpz_srcptr origin, int64_t shift, mpz_ptr scratch);
 
-/* true: no circle through the three features has its centre in the closed cell x times y. base is the number of an
+/* true: no circle through the three features has its centre in the closed pane x times y. base is the number of an
  * F-rectangle. Proved by interval arithmetic; false when in doubt. */
-bool dyd_filter_cell_empty(const dyd_slab *x, const dyd_slab *y, int base);
+bool dyd_filter_pane_empty(const dyd_slab *x, const dyd_slab *y, int base);
 
 #endif

@@ -88,8 +88,8 @@ static void test_hull_filter(void **state) {
       if (far) random_far_point(&rect[k], &r);
       dyd_filter_box(&box[k], &rect[k]);
     }
-    bool disjoint = dyd_hulls_disjoint(&rect[0], &rect[1], &rect[2], &rect[3]);
-    dyd_truth answer = dyd_filter_hulls_disjoint(&box[0], &box[1], &box[2], &box[3]);
+    bool disjoint = dyd_partial_edges_disjoint(&rect[0], &rect[1], &rect[2], &rect[3]);
+    dyd_truth answer = dyd_filter_partial_edges_disjoint(&box[0], &box[1], &box[2], &box[3]);
     if (answer == DYD_TRUE) assert_true(disjoint);
     if (answer == DYD_FALSE) assert_false(disjoint);
     if (scale == 1 && !small && !far) total++, known += answer != DYD_UNKNOWN;
@@ -112,7 +112,7 @@ static void test_quad_rule(void **state) {
       small_rect_get(&rect[k], &s[k]);
     }
     const dyd_rect *i = &rect[0], *j = &rect[1], *a = &rect[2], *b = &rect[3];
-    bool expected = dyd_hulls_disjoint(i, j, a, b) || dyd_con(a, i, j, b) == DYD_SURE_MINUS ||
+    bool expected = dyd_partial_edges_disjoint(i, j, a, b) || dyd_con(a, i, j, b) == DYD_SURE_MINUS ||
                     dyd_con(b, i, j, a) == DYD_SURE_MINUS;
     dyd_truth answer = dyd_cannot_displace(i, j, a, b);
     assert_int_equal(answer, expected ? DYD_TRUE : DYD_UNKNOWN);

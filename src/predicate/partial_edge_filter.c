@@ -8,14 +8,14 @@
 #include "predicate/predicate_filter.h"
 
 /* Values of nx x + ny y on box a: enclosures of the least and the largest. */
-static void support(dyd_iv *least, dyd_iv *largest, dyd_iv nx, dyd_iv ny, const dyd_box *a) {
+static void box_support(dyd_iv *least, dyd_iv *largest, dyd_iv nx, dyd_iv ny, const dyd_box *a) {
   int x = nx.lo + nx.hi < 0, y = ny.lo + ny.hi < 0;
   *least = dyd_iv_add(dyd_iv_mul(nx, dyd_iv_point(a->outer[x])), dyd_iv_mul(ny, dyd_iv_point(a->outer[2 + y])));
   *largest = dyd_iv_add(dyd_iv_mul(nx, dyd_iv_point(a->outer[!x])), dyd_iv_mul(ny, dyd_iv_point(a->outer[3 - y])));
 }
 
 /* TRUE: surely all of p is below all of q; FALSE: surely not; from the supports. */
-static dyd_truth below(const dyd_iv largest[2], const dyd_iv least[2]) {
+static dyd_truth supports_below(const dyd_iv largest[2], const dyd_iv least[2]) {
   bool all = true;
   for (int i = 0; i < 2; i++) {
     for (int j = 0; j < 2; j++) {
@@ -27,30 +27,30 @@ static dyd_truth below(const dyd_iv largest[2], const dyd_iv least[2]) {
 }
 
 /* Does the direction separate?  box: p[0], p[1], q[0], q[1]. */
-static dyd_truth separates(dyd_iv nx, dyd_iv ny, const dyd_box *const box[4]) {
+static dyd_truth direction_separates(dyd_iv nx, dyd_iv ny, const dyd_box *const box[4]) {
   dyd_iv least[4], largest[4];
-  for (int k = 0; k < 4; k++) support(&least[k], &largest[k], nx, ny, box[k]);
-  dyd_truth up = below(largest, least + 2);
+  for (int k = 0; k < 4; k++) box_support(&least[k], &largest[k], nx, ny, box[k]);
+  dyd_truth up = supports_below(largest, least + 2);
   if (up == DYD_TRUE) return DYD_TRUE;
-  dyd_truth down = below(largest + 2, least);
+  dyd_truth down = supports_below(largest + 2, least);
   if (down == DYD_TRUE) return DYD_TRUE;
   return up == DYD_FALSE && down == DYD_FALSE ? DYD_FALSE : DYD_UNKNOWN;
 }
 
-static double least(double a, double b) {
+static double lesser_end(double a, double b) {
   return a < b ? a : b;
 }
-static double largest(double a, double b) {
+static double larger_end(double a, double b) {
   return a > b ? a : b;
 }
 
 static bool axis_separates(const dyd_box *const box[4], int lo, int hi) {
-  double p0 = least(box[0]->outer[lo], box[1]->outer[lo]), p1 = largest(box[0]->outer[hi], box[1]->outer[hi]);
-  double q0 = least(box[2]->outer[lo], box[3]->outer[lo]), q1 = largest(box[2]->outer[hi], box[3]->outer[hi]);
+  double p0 = lesser_end(box[0]->outer[lo], box[1]->outer[lo]), p1 = larger_end(box[0]->outer[hi], box[1]->outer[hi]);
+  double q0 = lesser_end(box[2]->outer[lo], box[3]->outer[lo]), q1 = larger_end(box[2]->outer[hi], box[3]->outer[hi]);
   return p1 < q0 || q1 < p0;
 }
 
-dyd_truth dyd_filter_hulls_disjoint(const dyd_box *a, const dyd_box *b, const dyd_box *c, const dyd_box *d) {
+dyd_truth dyd_filter_partial_edges_disjoint(const dyd_box *a, const dyd_box *b, const dyd_box *c, const dyd_box *d) {
   const dyd_box *const box[4] = {a, b, c, d};
   if (axis_separates(box, 0, 1) || axis_separates(box, 2, 3)) return DYD_TRUE;
   bool meet = a->exact && b->exact && c->exact && d->exact;
@@ -63,7 +63,7 @@ dyd_truth dyd_filter_hulls_disjoint(const dyd_box *a, const dyd_box *b, const dy
       dx = (dyd_iv){dx.lo == 0 ? 0 : dyd_down(dx.lo), dx.hi == 0 ? 0 : dyd_up(dx.hi)};
       dy = (dyd_iv){dy.lo == 0 ? 0 : dyd_down(dy.lo), dy.hi == 0 ? 0 : dyd_up(dy.hi)};
     }
-    dyd_truth answer = separates(dy, dx, box);
+    dyd_truth answer = direction_separates(dy, dx, box);
     if (answer == DYD_TRUE) return DYD_TRUE;
     if (answer == DYD_UNKNOWN) meet = false;
   }
@@ -71,14 +71,14 @@ dyd_truth dyd_filter_hulls_disjoint(const dyd_box *a, const dyd_box *b, const dy
 }
 
 /* Squared distance from c to [lo,hi] along one axis. t = max(lo - c, c - hi, 0), or max(c - lo, hi - c). */
-static dyd_iv distance2(dyd_iv c, dyd_iv lo, dyd_iv hi, dyd_touch touch) {
+static dyd_iv axis_distance2(dyd_iv c, dyd_iv lo, dyd_iv hi, dyd_touch touch) {
   bool far = touch == DYD_FARTHEST;
   dyd_iv s = far ? dyd_iv_sub(c, lo) : dyd_iv_sub(lo, c), t = far ? dyd_iv_sub(hi, c) : dyd_iv_sub(c, hi);
   if (isnan(s.lo + s.hi + t.lo + t.hi)) return DYD_IV_UNKNOWN;
-  dyd_iv d = {largest(largest(s.lo, t.lo), 0), largest(largest(s.hi, t.hi), 0)};
+  dyd_iv d = {larger_end(larger_end(s.lo, t.lo), 0), larger_end(larger_end(s.hi, t.hi), 0)};
   return dyd_iv_sqr(d);
 }
 
 dyd_iv dyd_filter_distance2(dyd_iv cx, dyd_iv cy, const dyd_box *r, dyd_touch touch) {
-  return dyd_iv_add(distance2(cx, r->end[0], r->end[1], touch), distance2(cy, r->end[2], r->end[3], touch));
+  return dyd_iv_add(axis_distance2(cx, r->end[0], r->end[1], touch), axis_distance2(cy, r->end[2], r->end[3], touch));
 }

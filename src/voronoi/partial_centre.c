@@ -29,7 +29,7 @@ dyd_status dyd_partial_centre(dyd_surd_point out[6], const dyd_rect *a, const dy
 }
 
 /* *side grows to hold s. */
-static dyd_status grow(dyd_interval *side, const dyd_interval *s) {
+static dyd_status interval_grow(dyd_interval *side, const dyd_interval *s) {
   const dyd_dyadic *lo = dyd_dyadic_cmp(&s->lo, &side->lo) < 0 ? &s->lo : &side->lo;
   const dyd_dyadic *hi = dyd_dyadic_cmp(&s->hi, &side->hi) > 0 ? &s->hi : &side->hi;
   dyd_interval both;
@@ -40,14 +40,14 @@ static dyd_status grow(dyd_interval *side, const dyd_interval *s) {
   return st;
 }
 
-static dyd_status enclose_all(dyd_rect *out, const dyd_surd_point centre[CENTRES], int64_t bits) {
+static dyd_status enclose_centres(dyd_rect *out, const dyd_surd_point centre[CENTRES], int64_t bits) {
   dyd_rect one;
   dyd_rect_init(&one);
   dyd_status st = dyd_surd_point_enclose(out, &centre[0], bits);
   for (int k = 1; k < CENTRES && st == DYD_OK; k++) {
     st = dyd_surd_point_enclose(&one, &centre[k], bits);
-    if (st == DYD_OK) st = grow(&out->x, &one.x);
-    if (st == DYD_OK) st = grow(&out->y, &one.y);
+    if (st == DYD_OK) st = interval_grow(&out->x, &one.x);
+    if (st == DYD_OK) st = interval_grow(&out->y, &one.y);
   }
   dyd_rect_clear(&one);
   return st;
@@ -60,7 +60,7 @@ dyd_status dyd_partial_centre_enclose(dyd_rect *out, const dyd_rect *a, const dy
   dyd_rect_init(&r);
   for (int k = 0; k < CENTRES; k++) dyd_surd_point_init(&centre[k]);
   dyd_status st = dyd_partial_centre(centre, a, b, c);
-  if (st == DYD_OK) st = enclose_all(&r, centre, bits);
+  if (st == DYD_OK) st = enclose_centres(&r, centre, bits);
   if (st == DYD_OK) dyd_rect_swap(out, &r);
   for (int k = CENTRES; k-- > 0;) dyd_surd_point_clear(&centre[k]);
   dyd_rect_clear(&r);

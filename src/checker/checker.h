@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* A certificate being checked: what has been read so far. */
-#ifndef DYD_CHECKER_CHECK_H
-#define DYD_CHECKER_CHECK_H
+#ifndef DYD_CHECKER_CHECKER_H
+#define DYD_CHECKER_CHECKER_H
 
 #include "checker/bounds.h"
 #include "checker/chain.h"
@@ -16,7 +16,7 @@ typedef struct dyd_cert_corners {
   size_t count, cap;
 } dyd_cert_corners;
 
-typedef struct dyd_cert_check {
+typedef struct dyd_checker {
   dyd_cert_reader in;
   dyd_certificate_report report;
   dyd_cert_sites sites;
@@ -29,43 +29,40 @@ typedef struct dyd_cert_check {
   dyd_cert_edges open; /* pairs o, t, l: kept for the bounds */
   dyd_exact point[2];
   bool reached; /* a bound that is stated is as small as the goal asks */
-} dyd_cert_check;
+} dyd_checker;
 
 /* The parts of a certificate, in order; each rejects what does not hold. */
-dyd_status dyd_cert_check_head(dyd_cert_check *c);
-dyd_status dyd_cert_check_sites(dyd_cert_check *c);
-dyd_status dyd_cert_check_legal(dyd_cert_check *c);
-dyd_status dyd_cert_check_places(dyd_cert_check *c);
-dyd_status dyd_cert_check_bridges(dyd_cert_check *c);
-dyd_status dyd_cert_check_corners(dyd_cert_check *c);
+dyd_status dyd_checker_head(dyd_checker *c);
+dyd_status dyd_checker_sites(dyd_checker *c);
+dyd_status dyd_checker_legal(dyd_checker *c);
+dyd_status dyd_checker_places(dyd_checker *c);
+dyd_status dyd_checker_bridges(dyd_checker *c);
+dyd_status dyd_checker_corners(dyd_checker *c);
 /* Up to the bounds. */
-dyd_status dyd_cert_check_pairs(dyd_cert_check *c);
-/* The section on the diagram, if there is one, the outcome, and the last line. */
-dyd_status dyd_cert_check_end(dyd_cert_check *c);
+dyd_status dyd_checker_pairs(dyd_checker *c);
 /* The section on the Voronoi diagram, whose first line has been read. */
-dyd_status dyd_cert_check_diagram(dyd_cert_check *c);
+dyd_status dyd_checker_diagram(dyd_checker *c);
 /* The bound that the goal `goal` is about is stated to be `bound`. */
-void dyd_cert_note_bound(dyd_cert_check *c, const char *goal, const dyd_exact *bound);
+void dyd_cert_note_bound(dyd_checker *c, const char *goal, const dyd_exact *bound);
 
-/* Are the points of p, in this order, the corners of a strictly convex polygon, counter-clockwise? */
+/* Are the points of p, in this order, the vertices of a strictly convex polygon, counter-clockwise? */
 bool dyd_cert_polygon_is_convex(const dyd_cert_chain *p);
 /* Adds twice the area of such a polygon. */
 void dyd_cert_polygon_area2(dyd_exact *out, const dyd_cert_chain *p);
 bool dyd_cert_window_has(const dyd_cert_window *w, const dyd_exact at[2]);
 void dyd_cert_window_area(dyd_exact *out, const dyd_cert_window *w);
 
-/* A line "NAME count"; the count is at most `most`. */
-dyd_status dyd_cert_read_heading(uint32_t *count, dyd_cert_check *c, const char *name, uint64_t most);
 /* The word must be there. */
-dyd_status dyd_cert_expect_word(dyd_cert_check *c, const char *name);
+dyd_status dyd_cert_expect_word(dyd_checker *c, const char *name);
+/* The next line, which must begin with the word. */
+dyd_status dyd_cert_expect_line(dyd_checker *c, const char *name);
 /* The word is one of text[0 .. count-1]; *out is its number. */
-dyd_status dyd_cert_read_choice(size_t *out, dyd_cert_check *c, const char *const *text, size_t count);
+dyd_status dyd_cert_read_choice(size_t *out, dyd_checker *c, const char *const *text, size_t count);
 /* A site that is no alias. */
-dyd_status dyd_cert_read_site(uint32_t *out, dyd_cert_check *c);
+dyd_status dyd_cert_read_site(uint32_t *out, dyd_checker *c);
 /* Two sites i < j, later than the pair before, which is (0,0) at first. */
-dyd_status dyd_cert_read_pair(dyd_cert_edge *pair, dyd_cert_check *c);
+dyd_status dyd_cert_read_pair(dyd_cert_edge *pair, dyd_checker *c);
 
 void dyd_cert_corners_clear(dyd_cert_corners *c);
-dyd_status dyd_cert_corners_add(dyd_cert_corners *c, uint32_t i, const dyd_exact u[2]);
 
 #endif

@@ -39,7 +39,10 @@ static void quad_set(quad *q) {
 /* By the public function and by the exact rung, which must agree. */
 static dyd_sure con(quad *q, int r, int a, int b, int c) {
   dyd_sure answer = dyd_con(&q->rect[r], &q->rect[a], &q->rect[b], &q->rect[c]);
-  assert_int_equal(dyd_irect_con(&q->irect[r], &q->irect[a], &q->irect[b], &q->irect[c]), answer);
+  const dyd_irect *const abc[3] = {&q->irect[a], &q->irect[b], &q->irect[c]};
+  dyd_sure orientation = dyd_irect_orientation(abc[0], abc[1], abc[2]);
+  dyd_sure exact = orientation ? dyd_irect_con_oriented(&q->irect[r], abc, orientation) : DYD_UNSURE;
+  assert_int_equal(exact, answer);
   return answer;
 }
 
