@@ -12,6 +12,7 @@ extern "C" {
 #endif
 
 typedef struct dyd_read_options {
+  size_t struct_size;
   const char
       *columns;       /* "NAME,NAME": read CSV with a header (RFC 4180) and take these two columns; NULL: points file */
   bool measured;      /* read every decimal as a rounded measurement: 47.61 becomes [47.605,47.615] */
@@ -46,6 +47,7 @@ DYD_API dyd_status dyd_write_delaunay_window(FILE *out, const dyd_engine *e, con
                                              dyd_error *err);
 
 typedef struct dyd_voronoi_options {
+  size_t struct_size;
   const dyd_rect *window;     /* dyadic ends, positive area; NULL: dyd_voronoi_window */
   int64_t flatten_bits;       /* polygons within 2^-flatten_bits of their cells */
   bool flatten_set;           /* false: a choice that suits the mean size of cells */
@@ -68,8 +70,9 @@ DYD_API dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_re
 DYD_API dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome, dyd_format format,
                                   dyd_error *err);
 
-/* What dyd_engine_nearest found; all borrowed. */
+/* What dyd_engine_nearest found; all borrowed. Begun with DYD_SIZED. */
 typedef struct dyd_nearest_answer {
+  size_t struct_size;
   const dyd_rect *at; /* the rectangle reached of the point asked about */
   const dyd_index_list *found;
   bool sure;
@@ -104,10 +107,10 @@ typedef struct dyd_trace dyd_trace;
 
 /* Begins a trace of a run of e (not run before) with these options. `out` is borrowed until dyd_trace_end. */
 DYD_API dyd_status dyd_trace_new(dyd_trace **trace, FILE *out, const dyd_engine *e, const dyd_engine_options *options,
-                                 const dyd_converge_options *converge);
+                                 const dyd_converge_options *converge, dyd_error *err);
 /* For dyd_engine_options.trace and dyd_converge_options.stage; user is the dyd_trace. */
-DYD_API void dyd_trace_step(const dyd_step *step, void *trace);
-DYD_API void dyd_trace_stage(const dyd_stage_row *row, const dyd_delaunay *pd, void *trace);
+DYD_API void dyd_trace_step(void *trace, const dyd_step *step);
+DYD_API void dyd_trace_stage(void *trace, const dyd_stage_row *row, const dyd_delaunay *pd);
 /* Writes the last line and frees the trace. DYD_E_IO, DYD_E_NOMEM for whatever failed since it began. */
 DYD_API dyd_status dyd_trace_end(dyd_trace *trace, dyd_outcome outcome, dyd_error *err);
 

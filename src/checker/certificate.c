@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The check of a certificate from its first line to its last. */
+#include "base/abi.h"
 #include "base/error.h"
 #include "checker/check.h"
 
@@ -23,6 +24,7 @@ static void clear(dyd_cert_check *c) {
 dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_error *err) {
   dyd_cert_check c = {.in = {.in = in, .err = err}};
   if (err) dyd_error_clear(err);
+  if (dyd_abi_check(out, 0, "dyd_certificate_report", err) != DYD_OK) return DYD_E_ARG;
   dyd_cert_sites_init(&c.sites);
   dyd_cert_chain_init(&c.chain);
   dyd_exact_init(&c.point[0]);
@@ -35,7 +37,7 @@ dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_err
   if (status >= 0) status = dyd_cert_check_corners(&c);
   if (status >= 0) status = dyd_cert_check_pairs(&c);
   if (status >= 0) status = dyd_cert_check_end(&c);
-  if (status >= 0) *out = c.report;
+  if (status >= 0) dyd_abi_give(out, &c.report, sizeof c.report);
   clear(&c);
   return status;
 }

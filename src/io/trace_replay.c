@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Replaying a trace: the rectangles it names are put into a table of sites, stage by stage, and triangulated as the
  * engine did; no stream is asked. That every rectangle is inside the one before is checked [NEST-1]. */
+#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include "io/read/text.h"
@@ -108,7 +109,9 @@ static bool get_window(replay *r, const json_t *line) {
 static dyd_status read_head(replay *r, const json_t *line) {
   int64_t points, max_pairs;
   int schedule, goal;
-  dyd_engine_options *o = &r->out->options;
+  dyd_engine_options *o = r->out->options;
+  if (!o) o = r->out->options = malloc(sizeof *o);
+  if (!o) return dyd_fail_nomem(r->err);
   dyd_engine_options_init(o);
   if (!is_text(line, "format", DYD_TRACE_FORMAT))
     return bad(r, "this is no trace of the format \"" DYD_TRACE_FORMAT "\"");
@@ -205,15 +208,15 @@ static bool agrees(const dyd_stage_row *row, const json_t *line) {
 }
 
 static dyd_status finish_stage(replay *r, const json_t *line) {
-  dyd_delaunay_options o = {.max_pairs = r->out->options.max_pairs};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = r->out->options->max_pairs};
   dyd_stage_row *row;
   dyd_status status = r->pd ? dyd_delaunay_update(r->pd, r->changed, r->changes, &o, r->err) : first_result(r, &o);
   if (status < 0) return status;
   r->changes = 0;
-  status = dyd_convergence_add(&row, r->out, r->pd, &r->converge);
-  if (status < 0) return dyd_fail(r->err, status, "%s", dyd_status_text(status));
+  status = dyd_convergence_add(&row, r->out, r->pd, &r->converge, r->err);
+  if (status < 0) return status;
   count_bits(row, r);
-  if (r->converge.stage) r->converge.stage(row, r->pd, r->converge.stage_user);
+  if (r->converge.stage) r->converge.stage(r->converge.stage_user, row, r->pd);
   if (agrees(row, line)) return DYD_OK;
   return dyd_fail(r->err, DYD_E_PARSE, "the statuses of this stage are not those that the trace tells of");
 }
@@ -259,14 +262,15 @@ static void replay_clear(replay *r) {
 dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_options *converge, dyd_error *err) {
   dyd_error local;
   replay r = {.out = out, .err = err ? err : &local};
-  if (converge) r.converge = *converge;
+  dyd_status status = dyd_abi_check(out, sizeof *out, "dyd_convergence", err);
+  if (status == DYD_OK) status = dyd_abi_take(&r.converge, sizeof r.converge, converge, "dyd_converge_options", err);
+  if (status != DYD_OK) return status;
   r.converge.window = NULL;
   dyd_rect_init(&r.window);
   dyd_text text;
   dyd_line line = {0};
   dyd_error_clear(r.err);
   dyd_text_init(&text, in);
-  dyd_status status;
   do {
     status = dyd_text_next(&line, &text, r.err);
     if (status >= 0 && line.text) status = read_line(&r, &line);

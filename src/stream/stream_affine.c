@@ -139,7 +139,7 @@ dyd_status dyd_stream_affine(dyd_stream **out, dyd_stream *of, const mpq_t m[6])
   affine *a = affine_make(of, m);
   if (!a) return DYD_E_NOMEM;
   if (!dyd_stream_is_final(a->of)) {
-    dyd_source source = {.narrow = affine_narrow, .release = affine_release, .user = a};
+    dyd_source source = {DYD_SIZED(dyd_source), .narrow = affine_narrow, .release = affine_release, .user = a};
     return dyd_stream_new_enclosing(out, &source);
   }
   dyd_status st = affine_fixed(out, a);

@@ -258,7 +258,7 @@ dyd_status dyd_stream_voronoi_vertex(dyd_stream **out, dyd_stream *a, dyd_stream
   }
   *v = (vertex){{a, b, c}, LEAST_EXTRA};
   if (!vertex_is_final(v)) {
-    dyd_source source = {.narrow = vertex_narrow, .release = vertex_release, .user = v};
+    dyd_source source = {DYD_SIZED(dyd_source), .narrow = vertex_narrow, .release = vertex_release, .user = v};
     return dyd_stream_new_enclosing(out, &source);
   }
   dyd_status st = vertex_fixed(out, v);

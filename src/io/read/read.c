@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Reads points from a file into an engine, in one pass over the text. */
+#include "base/abi.h"
 #include "base/error.h"
 #include "io/read/source.h"
 #include "io/read/stage.h"
@@ -97,21 +98,22 @@ static dyd_status read_csv_file(dyd_stage *stage, dyd_text *text, const dyd_mann
 }
 
 dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *options, dyd_error *err) {
-  static const dyd_read_options defaults = {0};
-  if (!options) options = &defaults;
+  dyd_read_options o;
   dyd_error local;
   if (!err) err = &local;
   dyd_error_clear(err);
-  dyd_manner manner = {.measured = options->measured};
+  dyd_status status = dyd_abi_take(&o, sizeof o, options, "dyd_read_options", err);
+  if (status != DYD_OK) return status;
+  dyd_manner manner = {.measured = o.measured};
   dyd_text text;
   dyd_stage stage;
   mpq_init(manner.radius);
   dyd_text_init(&text, in);
   dyd_stage_init(&stage);
-  dyd_status status = options->radius ? read_radius(&manner, options->radius, err) : DYD_OK;
+  if (o.radius) status = read_radius(&manner, o.radius, err);
   if (status >= 0)
-    status = options->columns ? read_csv_file(&stage, &text, &manner, options->columns, err)
-                              : read_points_file(&stage, &text, &manner, err);
+    status = o.columns ? read_csv_file(&stage, &text, &manner, o.columns, err)
+                       : read_points_file(&stage, &text, &manner, err);
   if (status >= 0) status = dyd_stage_commit(e, &stage, err);
   dyd_stage_clear(&stage);
   dyd_text_clear(&text);
