@@ -51,6 +51,12 @@ static inline const dyd_request *dyd_request_at(const dyd_request *request, size
   return (const dyd_request *)(const void *)((const char *)request + k * request->struct_size);
 }
 
+/* For callbacks in languages that cannot fill in a dyd_rect: *r, as narrow was given it, becomes the answer that the
+ * text "XLO XHI YLO YHI" or "XLO XHI YLO YHI fixed" gives, four plain numbers (decimal, rational, hexadecimal, dyadic).
+ * Where they are not dyadic they are rounded outward, by less than 2^-64 of the width and never beyond what was known.
+ * What is returned (DYD_OK, DYD_FIXED, or an error with *r as it was) is for the callback to return. */
+DYD_API dyd_status dyd_rect_narrow_text(dyd_rect *r, const char *text, size_t length, dyd_error *err);
+
 /* A callback with its context, begun with DYD_SIZED. release may be NULL; it is called exactly once, when nothing uses
  * user any more: also when the constructor that was given it fails, unless it has no size. announce may be NULL; only
  * engines call it, for sources added to them.
@@ -79,6 +85,9 @@ DYD_API dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const 
 /* Every coordinate form of the points file: decimal, rational, hexadecimal float, dyadic, [lo,hi],
  * value+-radius, expression, root(polynomial,lo,hi). On DYD_E_PARSE err has the column (from 1). */
 DYD_API dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_error *err);
+/* The same where the text is an exact number, [lo,hi] or value+-radius, or an expression whose value is rational: out
+ * becomes the number, or the interval, rounded as dyd_real_from_interval says. DYD_E_PARSE for other expressions. */
+DYD_API dyd_status dyd_interval_set_text(dyd_interval *out, const char *text, size_t length, dyd_error *err);
 /* The interval [value - radius, value + radius] around any real, at every precision; takes over x. */
 DYD_API dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius);
 /* The root in [lo,hi] of the polynomial sum coeff[k] x^k, degree = count - 1, that has opposite signs at lo and hi. */

@@ -59,21 +59,12 @@ static bool get_word(int *out, const json_t *line, const char *name, const char 
   return false;
 }
 
-/* An exact point; any form that the writer uses for rationals. */
-static bool get_exact(dyd_interval *out, const char *text) {
-  dyd_real *real = NULL;
-  if (dyd_real_parse(&real, text, strlen(text), NULL) < 0) return false;
-  bool exact = dyd_real_is_final(real) && dyd_interval_is_point(dyd_real_interval(real));
-  if (exact) dyd_interval_set(out, dyd_real_interval(real));
-  dyd_real_free(real);
-  return exact;
-}
-
 static bool get_side(dyd_interval *out, const json_t *line, const char *name) {
   const json_t *side = json_object_get(line, name);
   const char *lo = json_string_value(json_array_get(side, 0)), *hi = json_string_value(json_array_get(side, 1));
   if (!lo || !hi || json_array_size(side) != 2) return false;
-  if (strcmp(lo, hi) == 0) return get_exact(out, lo);
+  if (strcmp(lo, hi) == 0) /* any form of an exact number */
+    return dyd_interval_set_text(out, lo, strlen(lo), NULL) == DYD_OK && dyd_interval_is_point(out);
   dyd_dyadic a, b;
   dyd_dyadic_init(&a);
   dyd_dyadic_init(&b);

@@ -11,6 +11,7 @@
 #include "stream/oracle_worker.h"
 #include "stream/real.h"
 #include <dyadel/sites.h>
+#include <dyadel/stream.h>
 #include <string.h>
 
 /* A word of a line: text[begin, end). */
@@ -149,4 +150,18 @@ dyd_status dyd_oracle_read_answer(dyd_rect *r, bool known, const char *line, siz
   }
   dyd_status status = read_rect(r, known, line, w + 1, err);
   return status < 0 || !fixed ? status : DYD_FIXED;
+}
+
+/* A point that is known exactly is not asked for again: then r is what a callback is given at first. */
+dyd_status dyd_rect_narrow_text(dyd_rect *r, const char *text, size_t length, dyd_error *err) {
+  word w[5];
+  char shown[80];
+  size_t words = split(w, 5, text, length);
+  bool fixed = words == 5 && word_is(text, w[4], "fixed");
+  if (words != 4 && !fixed) {
+    return dyd_fail(err, DYD_E_STREAM, "its answer %s is not XLO XHI YLO YHI (and \"fixed\", if it is)",
+                    dyd_quoted(shown, sizeof shown, text, length));
+  }
+  dyd_status st = read_rect(r, !dyd_rect_is_point(r), text, w, err);
+  return st != DYD_OK || !fixed ? st : DYD_FIXED;
 }
