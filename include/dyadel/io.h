@@ -27,7 +27,7 @@ DYD_API dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_optio
 DYD_API dyd_status dyd_engine_add_text(dyd_engine *e, const char *text, size_t length, const dyd_read_options *options,
                                        dyd_error *err);
 /* A rectangle from one line of a points file, such as "22/7 [1.2,1.3]"; each coordinate as dyd_interval_set_text has
- * it. On DYD_E_PARSE err has line 1, the column, and a message with the remedy. */
+ * it. On DYD_E_PARSE err has line, column and a message with the remedy. */
 DYD_API dyd_status dyd_rect_set_text(dyd_rect *out, const char *text, size_t length, dyd_error *err);
 
 typedef enum dyd_format {

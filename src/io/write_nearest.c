@@ -51,6 +51,7 @@ dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_a
   dyd_nearest_answer a;
   dyd_status status = dyd_abi_take(&a, sizeof a, answer, "dyd_nearest_answer", err);
   if (status != DYD_OK) return status;
+  if (!a.at || !a.found) return dyd_fail(err, DYD_E_ARG, "there is no answer to be written");
   const dyd_delaunay *pd = dyd_engine_delaunay(e);
   if (!pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
   if (dyd_format_is_picture(format)) return dyd_picture_nearest(out, format, pd, &a, err);
