@@ -30,7 +30,7 @@ typedef struct dyd_check_move {
 } dyd_check_move;
 
 typedef struct dyd_check_options {
-  size_t struct_size;
+  size_t struct_size; /* set by DYD_SIZED */
   uint64_t seed;
   unsigned schedules;         /* 0: 100 */
   int64_t base_bits;          /* 0: 8 */
@@ -59,7 +59,7 @@ DYD_API const char *dyd_check_fault_text(dyd_check_fault fault);
 
 /* What was found. Init with DYD_SIZED, release with dyd_check_report_clear. */
 typedef struct dyd_check_report {
-  size_t struct_size;
+  size_t struct_size;    /* set by DYD_SIZED */
   dyd_check_fault fault; /* of the first schedule that shows one */
   char message[DYD_MESSAGE_SIZE];
   uint64_t seed;     /* of that schedule */

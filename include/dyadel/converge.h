@@ -12,7 +12,7 @@ extern "C" {
 /* What holds after one stage. All but `seconds` is the same in every run and for every number of threads.
  * Invariant: area, hausdorff count when bounded, v_area, v_hausdorff when voronoi; they are 0 otherwise. */
 typedef struct dyd_stage_row {
-  size_t struct_size;
+  size_t struct_size; /* set by the library */
   uint64_t stage;
   int64_t bits_least, bits_most; /* asked of any refinable point so far; 0 when there is none */
   uint64_t bits_total;           /* sum over the points of the bits last asked */
@@ -31,7 +31,7 @@ typedef struct dyd_stage_row {
 
 /* The rows of a run. Init with DYD_SIZED, release with dyd_convergence_clear. */
 typedef struct dyd_convergence {
-  size_t struct_size;
+  size_t struct_size; /* set by DYD_SIZED */
   size_t count, cap;
   dyd_stage_row **row;
   dyd_outcome outcome;
@@ -41,7 +41,7 @@ typedef struct dyd_convergence {
 DYD_API void dyd_convergence_clear(dyd_convergence *c);
 
 typedef struct dyd_converge_options {
-  size_t struct_size;
+  size_t struct_size; /* set by DYD_SIZED */
   /* The window of the bounds of V (dyadic ends, positive area), borrowed; NULL: the default window of the sites after
    * the first stage (dyd_voronoi_window). */
   const dyd_rect *window;

@@ -52,7 +52,7 @@ DYD_API void dyd_index_list_clear(dyd_index_list *l);
 
 /* How many decisions each rung gave, since the object was made. */
 typedef struct dyd_delaunay_counters {
-  size_t struct_size;
+  size_t struct_size;                     /* set by DYD_SIZED */
   uint64_t filter;                        /* decided in doubles */
   uint64_t integer;                       /* decided in fixed-size integers */
   uint64_t exact;                         /* decided in GMP integers */
@@ -63,7 +63,7 @@ typedef struct dyd_delaunay_counters {
 } dyd_delaunay_counters;
 
 typedef struct dyd_delaunay_options {
-  size_t struct_size;
+  size_t struct_size;         /* set by DYD_SIZED */
   size_t max_pairs;           /* cap on stored pairs beyond the skeleton; 0: the default, 4e6 + 16 N */
   const volatile int *cancel; /* when it points to a non-zero value, work stops with DYD_CANCELLED; may be NULL */
   unsigned threads;           /* how many may be used, the calling one included; 0: one. Nothing else depends on it */

@@ -11,15 +11,16 @@
  *     function that is named beside the struct. The library reads and writes no byte beyond: members that an older
  *     caller lacks have their defaults (0); members of a newer caller that the library does not know must be 0
  *     (DYD_E_ARG otherwise), and are 0 in what is given back. A size of 0 is DYD_E_ARG, with a message.
- *  2. Such a struct only ever grows at its end, by members for which 0 means what was before, and never into the
- * padding there: sizeof grows. So it is no member of another struct and no element of an array, but for
+ *  2. Such a struct only ever grows at its end, by members for which 0 means what was before, and never into
+ *     padding: sizeof grows. So it is no member of another struct and no element of an array, but for
  *     dyd_delaunay_counters, which has room to spare, and the requests of dyd_announce_fn (dyd_request_at).
  *  3. All other structs (numbers, rectangles, arcs, pairs, lists, dyd_error, ...) never change. Enumerations only get
  *     new values; functions keep their arguments and their meaning.
  *  4. tests/data/abi.xml tells what the ABI is, and the test "abi" fails on any difference: additions too, so that each
  *     is seen in review. After an intended change: `meson compile -C build renew-abi`.
- *  5. The soname (soversion in meson.build) goes up by one with the first change since the last release that is not an
- *     addition (abidiff, and the test, call it incompatible), whatever the version; at no other time. */
+ *  5. The soname (dyadel_soversion in meson.build) goes up by one with the first change since the last release that is
+ *     more than rules 2 and 3 allow, whatever the version; at no other time. The library's version is never part of the
+ *     soname. Before the first release anything may change. */
 #ifndef DYADEL_DYADEL_H
 #define DYADEL_DYADEL_H
 

@@ -53,7 +53,7 @@ typedef enum dyd_budget {
 
 /* Totals since the engine was made. */
 typedef struct dyd_engine_counters {
-  size_t struct_size;
+  size_t struct_size; /* set by DYD_SIZED */
   uint64_t stages;    /* triangulations or updates done */
   uint64_t calls;     /* stream calls */
   int64_t bits_least; /* least / most precision asked of any refinable point so far; 0 when none was asked */
@@ -66,7 +66,7 @@ typedef struct dyd_engine_counters {
 } dyd_engine_counters;
 
 typedef struct dyd_progress {
-  size_t struct_size;
+  size_t struct_size; /* set by the library */
   uint64_t stage;
   int64_t bits; /* precision asked for in this stage */
   size_t sites;
@@ -89,8 +89,8 @@ DYD_API const char *dyd_reason_text(dyd_reason reason);
 
 /* One point brought to a precision. */
 typedef struct dyd_step {
-  size_t struct_size;
-  uint64_t stage; /* the stage it belongs to, from 1: that of the next report of progress */
+  size_t struct_size; /* set by the library */
+  uint64_t stage;     /* the stage it belongs to, from 1: that of the next report of progress */
   uint32_t site;
   int64_t bits; /* precision asked for */
   dyd_reason reason;
@@ -100,7 +100,7 @@ typedef struct dyd_step {
 } dyd_step;
 
 typedef struct dyd_engine_options {
-  size_t struct_size;
+  size_t struct_size; /* set by dyd_engine_options_init, or by DYD_SIZED */
   dyd_goal goal;
   int64_t goal_bits;      /* M of "bound 2^-M" for the area and Hausdorff goals */
   const dyd_rect *window; /* of the Voronoi goals: dyadic ends, positive area; borrowed during the run */

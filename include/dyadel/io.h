@@ -12,7 +12,7 @@ extern "C" {
 #endif
 
 typedef struct dyd_read_options {
-  size_t struct_size;
+  size_t struct_size; /* set by DYD_SIZED */
   const char
       *columns;       /* "NAME,NAME": read CSV with a header (RFC 4180) and take these two columns; NULL: points file */
   bool measured;      /* read every decimal as a rounded measurement: 47.61 becomes [47.605,47.615] */
@@ -54,7 +54,7 @@ DYD_API dyd_status dyd_write_delaunay_window(FILE *out, const dyd_engine *e, con
                                              dyd_error *err);
 
 typedef struct dyd_voronoi_options {
-  size_t struct_size;
+  size_t struct_size;         /* set by DYD_SIZED */
   const dyd_rect *window;     /* dyadic ends, positive area; NULL: dyd_voronoi_window */
   int64_t flatten_bits;       /* polygons within 2^-flatten_bits of their cells */
   bool flatten_set;           /* false: a choice that suits the mean size of cells */
@@ -79,7 +79,7 @@ DYD_API dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n,
 
 /* What dyd_engine_nearest found; all borrowed. Begun with DYD_SIZED. */
 typedef struct dyd_nearest_answer {
-  size_t struct_size;
+  size_t struct_size; /* set by DYD_SIZED */
   const dyd_rect *at; /* the rectangle reached of the point asked about */
   const dyd_index_list *found;
   bool sure;

@@ -32,7 +32,7 @@ DYD_API dyd_status dyd_metric_hausdorff(dyd_dyadic *out, const dyd_delaunay *pd)
  * Both are rounded up by at most 2^-53 of themselves. bits: the polygons are within 2^-bits of their cells, which adds
  * at most the perimeter of all cells in W times 2^-bits to the area. */
 typedef struct dyd_voronoi_bounds {
-  size_t struct_size;
+  size_t struct_size; /* set by dyd_voronoi_bounds_init */
   dyd_dyadic area, hausdorff;
   bool finite;
 } dyd_voronoi_bounds;

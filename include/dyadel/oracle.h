@@ -41,7 +41,7 @@ extern "C" {
 #define DYD_ORACLE_SECONDS 30
 
 typedef struct dyd_oracle_options {
-  size_t struct_size;
+  size_t struct_size;       /* set by DYD_SIZED */
   unsigned jobs;            /* programs that run side by side; 0: one; never more than there are points */
   unsigned batch;           /* requests a program is sent before its answers are awaited; 0: one */
   double seconds;           /* the longest wait for one line; 0: DYD_ORACLE_SECONDS */

@@ -24,7 +24,7 @@ extern "C" {
  * max_bits is the precision at which the caller would give up: working precision beyond about
  * max_bits + 64 is wasted (a function undefined up to there should return DYD_E_DOMAIN). */
 typedef struct dyd_request {
-  size_t struct_size;
+  size_t struct_size; /* set by the library */
   size_t point;
   int64_t bits;
   int64_t max_bits;
@@ -62,7 +62,7 @@ DYD_API dyd_status dyd_rect_narrow_text(dyd_rect *r, const char *text, size_t le
  * engines call it, for sources added to them.
  */
 typedef struct dyd_source {
-  size_t struct_size;
+  size_t struct_size; /* set by DYD_SIZED */
   dyd_narrow_fn narrow;
   dyd_release_fn release;
   void *user;

@@ -40,7 +40,6 @@ static bool hold(dyd_stream *s) {
 
 dyd_status dyd_stream_new(dyd_stream **out, const dyd_source *source, size_t point, dyd_error *err) {
   dyd_source s;
-  if (!source) return dyd_fail(err, DYD_E_ARG, "no source was given");
   dyd_status st = dyd_abi_take(&s, sizeof s, source, "dyd_source", err);
   if (st != DYD_OK) return st;
   st = out && s.narrow ? stream_new(out, 0, &s, point) : DYD_E_ARG;

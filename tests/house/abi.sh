@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # The ABI of the library is the one of tests/data/abi.xml ("ABI rules" in include/dyadel/dyadel.h): every difference
-# fails, and says whether it is an addition. Usage: abi.sh ROOT LIBRARY [--renew]   (LIBRARY has debug information;
+# fails, and is shown. Usage: abi.sh ROOT LIBRARY [--renew]   (LIBRARY has debug information;
 # --renew writes tests/data/abi.xml). Skipped where abigail-tools are not installed, and on other machines than x86-64.
 set -u
 for tool in abidw abidiff; do
@@ -35,9 +35,9 @@ cat "$work/difference"
 if [ $((status & 3)) -ne 0 ]; then
   echo "abidiff failed"
 elif [ $((status & 8)) -ne 0 ]; then
-  echo "The ABI has changed incompatibly: see \"ABI rules\" in include/dyadel/dyadel.h, which say what the soname does."
+  echo "The ABI has changed, and programs that exist will break: \"ABI rules\" in include/dyadel/dyadel.h, rule 5."
 else
-  echo "The ABI has changed: see whether what is above is an addition, by \"ABI rules\" in include/dyadel/dyadel.h."
+  echo "The ABI has changed: is it an addition, as \"ABI rules\" in include/dyadel/dyadel.h allow? Else rule 5."
 fi
 echo "If it is meant: meson compile -C BUILD renew-abi"
 exit 1
