@@ -9,14 +9,14 @@
 /* A size above this is no size: the struct was never initialised. */
 #define MOST_BYTES 65536
 
-static size_t size_of(const void *theirs) {
+static size_t abi_size(const void *theirs) {
   size_t size;
   memcpy(&size, theirs, sizeof size);
   return size;
 }
 
 dyd_status dyd_abi_check(const void *theirs, size_t least, const char *type, dyd_error *err) {
-  size_t size = size_of(theirs);
+  size_t size = abi_size(theirs);
   if (size >= least && size >= sizeof size && size <= MOST_BYTES) return DYD_OK;
   if (err) dyd_error_clear(err);
   return dyd_fail(err, DYD_E_ARG, "struct_size of %s is %zu; begin it with its size: %s s = {DYD_SIZED(%s)}", type,
@@ -36,7 +36,7 @@ dyd_status dyd_abi_take(void *own, size_t size, const void *theirs, const char *
   if (!theirs) return DYD_OK;
   dyd_status st = dyd_abi_check(theirs, 0, type, err);
   if (st != DYD_OK) return st;
-  size_t given = size_of(theirs);
+  size_t given = abi_size(theirs);
   if (ends_in_zeros(theirs, size, given)) {
     memcpy(own, theirs, given < size ? given : size);
     memcpy(own, &size, sizeof size);
@@ -49,7 +49,7 @@ dyd_status dyd_abi_take(void *own, size_t size, const void *theirs, const char *
 }
 
 void dyd_abi_give(void *theirs, const void *own, size_t size) {
-  size_t room = size_of(theirs), known = room < size ? room : size;
+  size_t room = abi_size(theirs), known = room < size ? room : size;
   if (known <= sizeof room) return;
   memcpy((char *)theirs + sizeof room, (const char *)own + sizeof room, known - sizeof room);
   memset((char *)theirs + known, 0, room - known);

@@ -104,9 +104,15 @@ static const struct {
   size_t column;
   const char *says;
 } bad_rects[] = {
-    {"", 0, "no point"},           {" # nothing", 0, "no point"}, {"1", 2, "one coordinate only"},
-    {"1 2 3", 5, "more than two"}, {"1 ,, 2", 4, "two commas"},   {" 1 2x", 5, ""},
-    {"\xC3\xA9 2", 1, ""},         {"[1,2] [3;4]", 9, "','"},     {"0 sqrt(2)", 3, "number or an interval"},
+    {"", 0, "no point"},
+    {" # nothing", 0, "no point"},
+    {"1", 2, "one coordinate only"},
+    {"1 2 3", 5, "more than two"},
+    {"1 ,, 2", 4, "two commas"},
+    {" 1 2x", 5, ""},
+    {"\xC3\xA9 2", 1, ""},
+    {"[1,2] [3;4]", 9, "','"},
+    {"0 sqrt(2)", 3, "number or an interval"},
     {"1 2\n3 4", 3, "more than two"},
 };
 

@@ -98,7 +98,7 @@ static dyd_status read_csv_file(dyd_stage *stage, dyd_text *text, const dyd_mann
 }
 
 /* Adds the points of text, which is ready to be read; err is not NULL. */
-static dyd_status read_text(dyd_engine *e, dyd_text *text, const dyd_read_options *o, dyd_error *err) {
+static dyd_status points_read_text(dyd_engine *e, dyd_text *text, const dyd_read_options *o, dyd_error *err) {
   dyd_manner manner = {.measured = o->measured};
   dyd_stage stage;
   mpq_init(manner.radius);
@@ -114,13 +114,13 @@ static dyd_status read_text(dyd_engine *e, dyd_text *text, const dyd_read_option
 }
 
 /* The same with what the caller gave; clears text. */
-static dyd_status read_given(dyd_engine *e, dyd_text *text, const dyd_read_options *options, dyd_error *err) {
+static dyd_status points_read_given(dyd_engine *e, dyd_text *text, const dyd_read_options *options, dyd_error *err) {
   dyd_read_options o;
   dyd_error own;
   if (!err) err = &own;
   dyd_error_clear(err);
   dyd_status st = dyd_abi_take(&o, sizeof o, options, "dyd_read_options", err);
-  if (st == DYD_OK) st = read_text(e, text, &o, err);
+  if (st == DYD_OK) st = points_read_text(e, text, &o, err);
   dyd_text_clear(text);
   return st;
 }
@@ -128,19 +128,19 @@ static dyd_status read_given(dyd_engine *e, dyd_text *text, const dyd_read_optio
 dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *options, dyd_error *err) {
   dyd_text text;
   dyd_text_init(&text, in);
-  return read_given(e, &text, options, err);
+  return points_read_given(e, &text, options, err);
 }
 
 dyd_status dyd_engine_add_text(dyd_engine *e, const char *text, size_t length, const dyd_read_options *options,
                                dyd_error *err) {
   dyd_text copy;
   if (dyd_text_init_copy(&copy, text, length) != DYD_OK) return dyd_fail_nomem(err);
-  return read_given(e, &copy, options, err);
+  return points_read_given(e, &copy, options, err);
 }
 
 /* ---- one rectangle ---- */
 
-static dyd_status set_side(dyd_interval *out, const dyd_span *span, dyd_error *err) {
+static dyd_status rect_set_side(dyd_interval *out, const dyd_span *span, dyd_error *err) {
   dyd_error own;
   dyd_error_clear(&own);
   dyd_status st = dyd_interval_set_text(out, span->text, span->length, &own);
@@ -157,8 +157,8 @@ dyd_status dyd_rect_set_text(dyd_rect *out, const char *text, size_t length, dyd
   if (st == DYD_OK && !count) st = dyd_fail(err, DYD_E_PARSE, "there is no point in this text; give two coordinates");
   if (st != DYD_OK) return st;
   dyd_rect_init(&r);
-  st = set_side(&r.x, &span[0], err);
-  if (st == DYD_OK) st = set_side(&r.y, &span[1], err);
+  st = rect_set_side(&r.x, &span[0], err);
+  if (st == DYD_OK) st = rect_set_side(&r.y, &span[1], err);
   if (st == DYD_OK) dyd_rect_swap(out, &r);
   dyd_rect_clear(&r);
   return st;
