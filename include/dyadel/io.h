@@ -90,8 +90,9 @@ typedef struct dyd_nearest_answer {
 DYD_API dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_answer *answer,
                                      dyd_format format, dyd_error *err);
 
-/* Writes a table of convergence: DYD_FORMAT_CSV or DYD_FORMAT_JSON (else DYD_E_ARG). Bounds and widths are rounded up,
- * and the output says so. times = false leaves the seconds out: then equal runs give equal bytes. */
+/* Writes the table of a run: DYD_FORMAT_CSV or DYD_FORMAT_JSON (else DYD_E_ARG, as for a table without a run). Bounds
+ * and widths are rounded up, and the output says so. times = false leaves the seconds out: then equal runs give equal
+ * bytes. */
 DYD_API dyd_status dyd_write_convergence(FILE *out, const dyd_convergence *c, dyd_format format, bool times,
                                          dyd_error *err);
 

@@ -17,7 +17,7 @@
 
 /* Begins the initialiser of a struct whose first member is struct_size: dyd_read_options o =
  * {DYD_SIZED(dyd_read_options)}; In C, other members may follow: {DYD_SIZED(dyd_read_options), .measured = true}. What
- * is not named is 0. */
+ * is not named is 0. C++ without warnings, and other languages: all 0, then o.struct_size = sizeof o. */
 #ifdef __cplusplus
 #define DYD_SIZED(type) sizeof(type)
 #else

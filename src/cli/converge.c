@@ -66,7 +66,7 @@ static int run_traced(run *r, cli_session *s, const dyd_engine_options *options)
   if (!cli_output_open(&out, r->o->trace)) return CLI_FAILED;
   dyd_error err;
   if (dyd_trace_new(&r->trace, out.stream, s->engine, options, &r->converge, &err) < 0) {
-    cli_complain("%s; close other programs", err.message);
+    cli_complain("%s", err.message);
     cli_output_drop(&out);
     return CLI_FAILED;
   }

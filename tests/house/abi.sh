@@ -1,13 +1,14 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # The ABI of the library is the one of tests/data/abi.xml ("ABI rules" in include/dyadel/dyadel.h): every difference
-# fails, and is shown. Usage: abi.sh ROOT LIBRARY [--renew]   (LIBRARY has debug information;
+# fails, and is shown. Usage: abi.sh ROOT [LIBRARY [--renew]]   (LIBRARY has debug information;
 # --renew writes tests/data/abi.xml). Skipped where abigail-tools are not installed, and on other machines than x86-64.
 set -u
 for tool in abidw abidiff; do
   command -v $tool >/dev/null || { echo "skipped: $tool is not installed (Debian package abigail-tools)"; exit 77; }
 done
 [ "$(uname -m)" = x86_64 ] || { echo "skipped: the dump is of x86-64, this is $(uname -m)"; exit 77; }
+[ $# -gt 1 ] || { echo "skipped: not in a build with sanitizers, or configure again to find abidw"; exit 77; }
 known=$1/tests/data/abi.xml
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
