@@ -28,8 +28,8 @@ static void add_point(dyd_engine *e, int k, dyd_error *err) {
 static bench_cost run(double *bits, char *remark, size_t size) {
   dyd_engine *e = NULL;
   dyd_outcome outcome = DYD_OUTCOME_NONE;
-  dyd_engine_options options = {.max_bits = 4 * APART};
-  dyd_engine_counters counters;
+  dyd_engine_options options = {DYD_SIZED(dyd_engine_options), .max_bits = 4 * APART};
+  dyd_engine_counters counters = {DYD_SIZED(dyd_engine_counters)};
   dyd_error err;
   size_t count[4];
   dyd_error_clear(&err);
@@ -38,7 +38,7 @@ static bench_cost run(double *bits, char *remark, size_t size) {
   for (int k = 0; k < POINTS; k++) add_point(e, k, &err);
   check(dyd_engine_run(&outcome, e, &options, &err), &err);
   bench_cost cost = bench_stop(&meter);
-  dyd_engine_get_counters(&counters, e);
+  dyd_engine_get_counters(&counters, e, NULL);
   dyd_delaunay_count(count, dyd_engine_delaunay(e));
   *bits = (double)counters.bits_total / POINTS;
   snprintf(remark, size, "outcome %s; legal %zu; undecided %zu; bits asked for each point %.0f on average",

@@ -26,7 +26,7 @@ bench_cost ours_run(ours_answer *out, const char *row, const cloud *c, ours_what
   dyd_sites *sites = NULL;
   dyd_delaunay *pd = NULL;
   dyd_pair_list pairs = {0};
-  dyd_delaunay_options options = {.threads = threads};
+  dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .threads = threads};
   *out = (ours_answer){0};
   bench_meter meter = bench_start();
   check(row, dyd_sites_new(&sites));

@@ -127,6 +127,7 @@ DYD_API dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_eng
 
 /* What an accepted certificate states. Texts have static storage. */
 typedef struct dyd_certificate_report {
+  size_t struct_size; /* set by DYD_SIZED */
   const char *outcome, *goal;
   long long goal_bits; /* of all goals but "decided": the bound is to be at most 2^-goal_bits */
   bool capped;

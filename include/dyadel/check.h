@@ -30,6 +30,7 @@ typedef struct dyd_check_move {
 } dyd_check_move;
 
 typedef struct dyd_check_options {
+  size_t struct_size; /* set by DYD_SIZED */
   uint64_t seed;
   unsigned schedules;         /* 0: 100 */
   int64_t base_bits;          /* 0: 8 */
@@ -40,7 +41,7 @@ typedef struct dyd_check_options {
   bool no_cells;              /* watch none */
   const volatile int *cancel; /* may be NULL */
   /* Called before each schedule; may be NULL. */
-  void (*progress)(unsigned schedule, unsigned of, void *user);
+  void (*progress)(void *user, unsigned schedule, unsigned of);
   void *progress_user;
 } dyd_check_options;
 
@@ -56,8 +57,9 @@ typedef enum dyd_check_fault {
 /* "fine", "stream", ... Static storage. */
 DYD_API const char *dyd_check_fault_text(dyd_check_fault fault);
 
-/* What was found. Init with {0}, release with dyd_check_report_clear. */
+/* What was found. Init with DYD_SIZED, release with dyd_check_report_clear. */
 typedef struct dyd_check_report {
+  size_t struct_size;    /* set by DYD_SIZED */
   dyd_check_fault fault; /* of the first schedule that shows one */
   char message[DYD_MESSAGE_SIZE];
   uint64_t seed;     /* of that schedule */

@@ -12,6 +12,7 @@ extern "C" {
 /* What holds after one stage. All but `seconds` is the same in every run and for every number of threads.
  * Invariant: area, hausdorff count when bounded, v_area, v_hausdorff when voronoi; they are 0 otherwise. */
 typedef struct dyd_stage_row {
+  size_t struct_size; /* set by the library */
   uint64_t stage;
   int64_t bits_least, bits_most; /* asked of any refinable point so far; 0 when there is none */
   uint64_t bits_total;           /* sum over the points of the bits last asked */
@@ -28,23 +29,25 @@ typedef struct dyd_stage_row {
   double seconds;                 /* wall clock since the start of the run, the making of this table aside */
 } dyd_stage_row;
 
-/* The rows of a run. Init with {0}, release with dyd_convergence_clear. */
+/* The rows of a run. Init with DYD_SIZED, release with dyd_convergence_clear. */
 typedef struct dyd_convergence {
+  size_t struct_size; /* set by DYD_SIZED */
   size_t count, cap;
-  dyd_stage_row *row;
+  dyd_stage_row **row;
   dyd_outcome outcome;
-  dyd_engine_options options; /* as given to the run, pointers and callbacks aside */
-  dyd_rect *window;           /* of the bounds of V; NULL when there is none */
+  dyd_engine_options *options; /* as given to the run, pointers and callbacks aside; NULL before the run */
+  dyd_rect *window;            /* of the bounds of V; NULL when there is none */
 } dyd_convergence;
 DYD_API void dyd_convergence_clear(dyd_convergence *c);
 
 typedef struct dyd_converge_options {
+  size_t struct_size; /* set by DYD_SIZED */
   /* The window of the bounds of V (dyadic ends, positive area), borrowed; NULL: the default window of the sites after
    * the first stage (dyd_voronoi_window). */
   const dyd_rect *window;
   bool no_voronoi; /* leave the bounds of V out: they cost more than the rest of the table */
   /* Called after each row is complete; may be NULL. */
-  void (*stage)(const dyd_stage_row *row, const dyd_delaunay *pd, void *user);
+  void (*stage)(void *user, const dyd_stage_row *row, const dyd_delaunay *pd);
   void *stage_user;
 } dyd_converge_options;
 
@@ -55,9 +58,9 @@ DYD_API dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const d
                                     const dyd_converge_options *converge, dyd_error *err);
 
 /* Appends a row about pd: everything that pd tells. stage is one more than that of the row before; the caller fills in
- * bits, calls and seconds. *row is borrowed until the next call that changes out. */
+ * bits, calls and seconds. *row is borrowed until out is cleared. */
 DYD_API dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const dyd_delaunay *pd,
-                                       const dyd_converge_options *converge);
+                                       const dyd_converge_options *converge, dyd_error *err);
 
 #ifdef __cplusplus
 }

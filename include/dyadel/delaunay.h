@@ -52,15 +52,18 @@ DYD_API void dyd_index_list_clear(dyd_index_list *l);
 
 /* How many decisions each rung gave, since the object was made. */
 typedef struct dyd_delaunay_counters {
+  size_t struct_size;                     /* set by DYD_SIZED */
   uint64_t filter;                        /* decided in doubles */
   uint64_t integer;                       /* decided in fixed-size integers */
   uint64_t exact;                         /* decided in GMP integers */
   uint64_t witness_guess, witness_search; /* legal edges by the first guess / by search */
   uint64_t cover_walks;
-  uint64_t faces; /* undecided faces worked on */
+  uint64_t faces;    /* undecided faces worked on */
+  uint64_t spare[8]; /* 0: for members to come, as other structs hold this one */
 } dyd_delaunay_counters;
 
 typedef struct dyd_delaunay_options {
+  size_t struct_size;         /* set by DYD_SIZED */
   size_t max_pairs;           /* cap on stored pairs beyond the skeleton; 0: the default, 4e6 + 16 N */
   const volatile int *cancel; /* when it points to a non-zero value, work stops with DYD_CANCELLED; may be NULL */
   unsigned threads;           /* how many may be used, the calling one included; 0: one. Nothing else depends on it */
@@ -90,7 +93,7 @@ DYD_API bool dyd_delaunay_is_capped(const dyd_delaunay *pd);
 /* Number of pairs by status; index with dyd_pair_status (entry DYD_ILLEGAL is 0: they are not stored). */
 DYD_API void dyd_delaunay_count(size_t count[4], const dyd_delaunay *pd);
 DYD_API size_t dyd_delaunay_undecided_faces(const dyd_delaunay *pd);
-DYD_API void dyd_delaunay_get_counters(dyd_delaunay_counters *out, const dyd_delaunay *pd);
+DYD_API dyd_status dyd_delaunay_get_counters(dyd_delaunay_counters *out, const dyd_delaunay *pd, dyd_error *err);
 DYD_API size_t dyd_delaunay_memory(const dyd_delaunay *pd);
 
 /* The lowest site with the same exact coordinates: i itself unless i is an alias. Aliases take part in nothing. */

@@ -9,6 +9,7 @@
 
 #include <dyadel/delaunay.h>
 #include <dyadel/stream.h>
+#include <string.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -52,6 +53,7 @@ typedef enum dyd_budget {
 
 /* Totals since the engine was made. */
 typedef struct dyd_engine_counters {
+  size_t struct_size; /* set by DYD_SIZED */
   uint64_t stages;    /* triangulations or updates done */
   uint64_t calls;     /* stream calls */
   int64_t bits_least; /* least / most precision asked of any refinable point so far; 0 when none was asked */
@@ -64,6 +66,7 @@ typedef struct dyd_engine_counters {
 } dyd_engine_counters;
 
 typedef struct dyd_progress {
+  size_t struct_size; /* set by the library */
   uint64_t stage;
   int64_t bits; /* precision asked for in this stage */
   size_t sites;
@@ -86,7 +89,8 @@ DYD_API const char *dyd_reason_text(dyd_reason reason);
 
 /* One point brought to a precision. */
 typedef struct dyd_step {
-  uint64_t stage; /* the stage it belongs to, from 1: that of the next report of progress */
+  size_t struct_size; /* set by the library */
+  uint64_t stage;     /* the stage it belongs to, from 1: that of the next report of progress */
   uint32_t site;
   int64_t bits; /* precision asked for */
   dyd_reason reason;
@@ -96,6 +100,7 @@ typedef struct dyd_step {
 } dyd_step;
 
 typedef struct dyd_engine_options {
+  size_t struct_size; /* set by dyd_engine_options_init, or by DYD_SIZED */
   dyd_goal goal;
   int64_t goal_bits;      /* M of "bound 2^-M" for the area and Hausdorff goals */
   const dyd_rect *window; /* of the Voronoi goals: dyadic ends, positive area; borrowed during the run */
@@ -112,14 +117,19 @@ typedef struct dyd_engine_options {
   bool no_filter;      /* exact rung only (tests) */
   /* Called after each stage from the running thread; may be NULL. It may look at the engine (the functions below that
    * take it const) and cancel it, nothing else. */
-  void (*progress)(const dyd_progress *p, void *user);
+  void (*progress)(void *user, const dyd_progress *p);
   void *progress_user;
   /* Called after each narrowing, in the order they are made; may be NULL. It may cancel the engine. */
-  void (*trace)(const dyd_step *step, void *user);
+  void (*trace)(void *user, const dyd_step *step);
   void *trace_user;
 } dyd_engine_options;
-/* Fills in the defaults (all zero but for what the comments say). */
-DYD_API void dyd_engine_options_init(dyd_engine_options *o);
+/* Fills in the size and the defaults (all zero but for what the comments say). */
+static inline void dyd_engine_options_init(dyd_engine_options *o) {
+  memset(o, 0, sizeof *o);
+  o->struct_size = sizeof *o;
+  o->start_bits = 64;
+  o->max_bits = 4096;
+}
 
 typedef struct dyd_engine dyd_engine;
 
@@ -137,7 +147,7 @@ DYD_API dyd_status dyd_engine_add_rect(dyd_engine *e, const dyd_rect *r);
 DYD_API dyd_status dyd_engine_add_stream(dyd_engine *e, dyd_stream *s);
 /* n points served by one callback: it is asked for points 0 .. n-1 of the source. Copied; release is called once,
  * when the engine is freed. */
-DYD_API dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_source *source);
+DYD_API dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err);
 DYD_API size_t dyd_engine_count(const dyd_engine *e);
 
 /* Runs until exactly one outcome holds; may be called again with other options to go on from there: what was
@@ -158,7 +168,7 @@ DYD_API dyd_outcome dyd_engine_outcome(const dyd_engine *e);
 DYD_API dyd_goal dyd_engine_goal(int64_t *bits, const dyd_engine *e);
 /* The current result; borrowed until the next call that changes e; NULL before the first complete stage. */
 DYD_API const dyd_delaunay *dyd_engine_delaunay(const dyd_engine *e);
-DYD_API void dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e);
+DYD_API dyd_status dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e, dyd_error *err);
 /* The bounds of the current result (metric.h), DYD_E_ARG before the first complete stage. */
 DYD_API dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, const dyd_engine *e);
 

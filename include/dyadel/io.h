@@ -12,6 +12,7 @@ extern "C" {
 #endif
 
 typedef struct dyd_read_options {
+  size_t struct_size; /* set by DYD_SIZED */
   const char
       *columns;       /* "NAME,NAME": read CSV with a header (RFC 4180) and take these two columns; NULL: points file */
   bool measured;      /* read every decimal as a rounded measurement: 47.61 becomes [47.605,47.615] */
@@ -21,6 +22,13 @@ typedef struct dyd_read_options {
 /* Reads points from `in` up to its end and adds them to e (nothing is added on failure). options may be NULL.
  * On DYD_E_PARSE err has line, column and a message with the remedy. */
 DYD_API dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *options, dyd_error *err);
+
+/* The same from a text in memory, which is copied: one point or a whole file. */
+DYD_API dyd_status dyd_engine_add_text(dyd_engine *e, const char *text, size_t length, const dyd_read_options *options,
+                                       dyd_error *err);
+/* A rectangle from one line of a points file, such as "22/7 [1.2,1.3]"; each coordinate as dyd_interval_set_text has
+ * it. On DYD_E_PARSE err has line, column and a message with the remedy. */
+DYD_API dyd_status dyd_rect_set_text(dyd_rect *out, const char *text, size_t length, dyd_error *err);
 
 typedef enum dyd_format {
   DYD_FORMAT_CSV = 0,
@@ -46,6 +54,7 @@ DYD_API dyd_status dyd_write_delaunay_window(FILE *out, const dyd_engine *e, con
                                              dyd_error *err);
 
 typedef struct dyd_voronoi_options {
+  size_t struct_size;         /* set by DYD_SIZED */
   const dyd_rect *window;     /* dyadic ends, positive area; NULL: dyd_voronoi_window */
   int64_t flatten_bits;       /* polygons within 2^-flatten_bits of their cells */
   bool flatten_set;           /* false: a choice that suits the mean size of cells */
@@ -68,8 +77,9 @@ DYD_API dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_re
 DYD_API dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome, dyd_format format,
                                   dyd_error *err);
 
-/* What dyd_engine_nearest found; all borrowed. */
+/* What dyd_engine_nearest found; all borrowed. Begun with DYD_SIZED. */
 typedef struct dyd_nearest_answer {
+  size_t struct_size; /* set by DYD_SIZED */
   const dyd_rect *at; /* the rectangle reached of the point asked about */
   const dyd_index_list *found;
   bool sure;
@@ -80,8 +90,9 @@ typedef struct dyd_nearest_answer {
 DYD_API dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_answer *answer,
                                      dyd_format format, dyd_error *err);
 
-/* Writes a table of convergence: DYD_FORMAT_CSV or DYD_FORMAT_JSON (else DYD_E_ARG). Bounds and widths are rounded up,
- * and the output says so. times = false leaves the seconds out: then equal runs give equal bytes. */
+/* Writes the table of a run: DYD_FORMAT_CSV or DYD_FORMAT_JSON (else DYD_E_ARG, as for a table without a run). Bounds
+ * and widths are rounded up, and the output says so. times = false leaves the seconds out: then equal runs give equal
+ * bytes. */
 DYD_API dyd_status dyd_write_convergence(FILE *out, const dyd_convergence *c, dyd_format format, bool times,
                                          dyd_error *err);
 
@@ -104,10 +115,10 @@ typedef struct dyd_trace dyd_trace;
 
 /* Begins a trace of a run of e (not run before) with these options. `out` is borrowed until dyd_trace_end. */
 DYD_API dyd_status dyd_trace_new(dyd_trace **trace, FILE *out, const dyd_engine *e, const dyd_engine_options *options,
-                                 const dyd_converge_options *converge);
+                                 const dyd_converge_options *converge, dyd_error *err);
 /* For dyd_engine_options.trace and dyd_converge_options.stage; user is the dyd_trace. */
-DYD_API void dyd_trace_step(const dyd_step *step, void *trace);
-DYD_API void dyd_trace_stage(const dyd_stage_row *row, const dyd_delaunay *pd, void *trace);
+DYD_API void dyd_trace_step(void *trace, const dyd_step *step);
+DYD_API void dyd_trace_stage(void *trace, const dyd_stage_row *row, const dyd_delaunay *pd);
 /* Writes the last line and frees the trace. DYD_E_IO, DYD_E_NOMEM for whatever failed since it began. */
 DYD_API dyd_status dyd_trace_end(dyd_trace *trace, dyd_outcome outcome, dyd_error *err);
 

@@ -32,11 +32,20 @@ DYD_API dyd_status dyd_metric_hausdorff(dyd_dyadic *out, const dyd_delaunay *pd)
  * Both are rounded up by at most 2^-53 of themselves. bits: the polygons are within 2^-bits of their cells, which adds
  * at most the perimeter of all cells in W times 2^-bits to the area. */
 typedef struct dyd_voronoi_bounds {
+  size_t struct_size; /* set by dyd_voronoi_bounds_init */
   dyd_dyadic area, hausdorff;
   bool finite;
 } dyd_voronoi_bounds;
-DYD_API void dyd_voronoi_bounds_init(dyd_voronoi_bounds *b);
-DYD_API void dyd_voronoi_bounds_clear(dyd_voronoi_bounds *b);
+static inline void dyd_voronoi_bounds_init(dyd_voronoi_bounds *b) {
+  b->struct_size = sizeof *b;
+  dyd_dyadic_init(&b->area);
+  dyd_dyadic_init(&b->hausdorff);
+  b->finite = false;
+}
+static inline void dyd_voronoi_bounds_clear(dyd_voronoi_bounds *b) {
+  dyd_dyadic_clear(&b->hausdorff);
+  dyd_dyadic_clear(&b->area);
+}
 /* out is initialised by the caller. cancel as in dyd_delaunay_options, may be NULL. DYD_CAPPED, DYD_CANCELLED (out
  * unchanged), DYD_E_ARG for a wrong window. O(N + pairs) for separated thin rectangles. */
 DYD_API dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, const dyd_rect *window,

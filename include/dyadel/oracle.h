@@ -41,6 +41,7 @@ extern "C" {
 #define DYD_ORACLE_SECONDS 30
 
 typedef struct dyd_oracle_options {
+  size_t struct_size;       /* set by DYD_SIZED */
   unsigned jobs;            /* programs that run side by side; 0: one; never more than there are points */
   unsigned batch;           /* requests a program is sent before its answers are awaited; 0: one */
   double seconds;           /* the longest wait for one line; 0: DYD_ORACLE_SECONDS */
@@ -60,8 +61,9 @@ DYD_API dyd_status dyd_oracle_new(dyd_oracle **out, const char *command, const d
 /* How many points the programs serve. */
 DYD_API size_t dyd_oracle_count(const dyd_oracle *o);
 /* A source of points 0 .. dyd_oracle_count(o) - 1, for dyd_engine_add_source or dyd_stream_new. It holds a reference,
- * which its release gives back; call this once for each time the source is handed over. */
-DYD_API dyd_source dyd_oracle_source(dyd_oracle *o);
+ * which its release gives back; call this once for each time the source is handed over. *out is begun with DYD_SIZED.
+ */
+DYD_API dyd_status dyd_oracle_source(dyd_source *out, dyd_oracle *o, dyd_error *err);
 /* Gives back a reference. With the last one the inputs of the programs end; what still runs a second later is killed.
  * NULL is allowed. */
 DYD_API void dyd_oracle_free(dyd_oracle *o);

@@ -15,6 +15,15 @@
 #define DYD_API
 #endif
 
+/* Begins the initialiser of a struct whose first member is struct_size: dyd_read_options o =
+ * {DYD_SIZED(dyd_read_options)}; In C, other members may follow: {DYD_SIZED(dyd_read_options), .measured = true}. What
+ * is not named is 0. C++ without warnings, and other languages: all 0, then o.struct_size = sizeof o. */
+#ifdef __cplusplus
+#define DYD_SIZED(type) sizeof(type)
+#else
+#define DYD_SIZED(type) .struct_size = sizeof(type)
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -57,6 +66,9 @@ typedef struct dyd_error {
 
 /* Sets *err to "no error". */
 DYD_API void dyd_error_clear(dyd_error *err);
+/* For callbacks in any language: notes code and message (cut where it is too long), and returns code. err may be NULL.
+ */
+DYD_API dyd_status dyd_error_set(dyd_error *err, dyd_status code, const char *message);
 
 /* A fixed English sentence for a status code. Static storage. */
 DYD_API const char *dyd_status_text(dyd_status status);

@@ -24,6 +24,7 @@ extern "C" {
  * max_bits is the precision at which the caller would give up: working precision beyond about
  * max_bits + 64 is wasted (a function undefined up to there should return DYD_E_DOMAIN). */
 typedef struct dyd_request {
+  size_t struct_size; /* set by the library */
   size_t point;
   int64_t bits;
   int64_t max_bits;
@@ -43,13 +44,25 @@ typedef dyd_status (*dyd_narrow_real_fn)(dyd_interval *out, void *user, const dy
 typedef void (*dyd_release_fn)(void *user);
 /* Told before a stage what the source will be asked in it, in that order, so that slow answers can be sought side by
  * side; narrow then collects them one by one. A hint: it may be ignored, and narrow may be called for fewer of them, or
- * for others. Each list replaces the one before. request is borrowed for the call. */
+ * for others. Each list replaces the one before. Its elements are read by dyd_request_at; borrowed for the call. */
 typedef void (*dyd_announce_fn)(void *user, const dyd_request *request, size_t count);
+/* Element k of such a list: they are as far apart as the library that made them says. */
+static inline const dyd_request *dyd_request_at(const dyd_request *request, size_t k) {
+  return (const dyd_request *)(const void *)((const char *)request + k * request->struct_size);
+}
 
-/* A callback with its context. release may be NULL; it is called exactly once, when nothing uses user any more: also
- * when the constructor that was given it fails. announce may be NULL; only engines call it, for sources added to them.
+/* For callbacks in languages that cannot fill in a dyd_rect: *r, as narrow was given it, becomes the answer that the
+ * text "XLO XHI YLO YHI" or "XLO XHI YLO YHI fixed" gives, four plain numbers (decimal, rational, hexadecimal, dyadic).
+ * Where they are not dyadic they are rounded outward, by less than 2^-64 of the width and never beyond what was known.
+ * What is returned (DYD_OK, DYD_FIXED, or an error with *r as it was) is for the callback to return. */
+DYD_API dyd_status dyd_rect_narrow_text(dyd_rect *r, const char *text, size_t length, dyd_error *err);
+
+/* A callback with its context, begun with DYD_SIZED. release may be NULL; it is called exactly once, when nothing uses
+ * user any more: also when the constructor that was given it fails, unless it has no size. announce may be NULL; only
+ * engines call it, for sources added to them.
  */
 typedef struct dyd_source {
+  size_t struct_size; /* set by DYD_SIZED */
   dyd_narrow_fn narrow;
   dyd_release_fn release;
   void *user;
@@ -72,6 +85,9 @@ DYD_API dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const 
 /* Every coordinate form of the points file: decimal, rational, hexadecimal float, dyadic, [lo,hi],
  * value+-radius, expression, root(polynomial,lo,hi). On DYD_E_PARSE err has the column (from 1). */
 DYD_API dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_error *err);
+/* The same where the text is an exact number, [lo,hi] or value+-radius, or an expression whose value is rational: out
+ * becomes the number, or the interval, rounded as dyd_real_from_interval says. DYD_E_PARSE for other expressions. */
+DYD_API dyd_status dyd_interval_set_text(dyd_interval *out, const char *text, size_t length, dyd_error *err);
 /* The interval [value - radius, value + radius] around any real, at every precision; takes over x. */
 DYD_API dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius);
 /* The root in [lo,hi] of the polynomial sum coeff[k] x^k, degree = count - 1, that has opposite signs at lo and hi. */
@@ -91,7 +107,7 @@ DYD_API bool dyd_real_is_final(const dyd_real *x);
 typedef struct dyd_stream dyd_stream;
 
 /* Point number `point` of a source; the source is copied, release is called when the stream is freed. */
-DYD_API dyd_status dyd_stream_new(dyd_stream **out, const dyd_source *source, size_t point);
+DYD_API dyd_status dyd_stream_new(dyd_stream **out, const dyd_source *source, size_t point, dyd_error *err);
 /* The fixed rectangle r (an exact point if r is a singleton). Copied. */
 DYD_API dyd_status dyd_stream_from_rect(dyd_stream **out, const dyd_rect *r);
 /* The point (x, y); takes over both references, also on failure. x and y may be the same real (two references). */

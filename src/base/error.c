@@ -22,6 +22,10 @@ dyd_status dyd_fail(dyd_error *err, dyd_status code, const char *format, ...) {
   return code;
 }
 
+dyd_status dyd_error_set(dyd_error *err, dyd_status code, const char *message) {
+  return dyd_fail(err, code, "%s", message);
+}
+
 dyd_status dyd_fail_nomem(dyd_error *err) {
   return dyd_fail(err, DYD_E_NOMEM, "%s", dyd_status_text(DYD_E_NOMEM));
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The check of a certificate from its first line to its last. */
+#include "base/abi.h"
 #include "base/error.h"
 #include "checker/checker.h"
 
@@ -47,6 +48,7 @@ static dyd_status checker_end(dyd_checker *c) {
 dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_error *err) {
   dyd_checker c = {.in = {.in = in, .err = err}};
   if (err) dyd_error_clear(err);
+  if (dyd_abi_check(out, 0, "dyd_certificate_report", err) != DYD_OK) return DYD_E_ARG;
   dyd_cert_sites_init(&c.sites);
   dyd_cert_chain_init(&c.chain);
   dyd_exact_init(&c.point[0]);
@@ -59,7 +61,7 @@ dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_err
   if (st == DYD_OK) st = dyd_checker_corners(&c);
   if (st == DYD_OK) st = dyd_checker_pairs(&c);
   if (st == DYD_OK) st = checker_end(&c);
-  if (st == DYD_OK) *out = c.report;
+  if (st == DYD_OK) dyd_abi_give(out, &c.report, sizeof c.report);
   checker_clear(&c);
   return st;
 }

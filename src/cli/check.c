@@ -115,9 +115,9 @@ static int tell(const dyd_check_report *r, const cli_options *o) {
 
 int cli_check(const cli_options *o) {
   check_input in = {o, 0};
-  dyd_check_options options = {
-      .seed = o->seed_set ? o->seed : 1, .schedules = o->schedules, .max_bits = o->engine.max_bits};
-  dyd_check_report report = {0};
+  dyd_check_options options = {DYD_SIZED(dyd_check_options), .seed = o->seed_set ? o->seed : 1,
+                               .schedules = o->schedules, .max_bits = o->engine.max_bits};
+  dyd_check_report report = {DYD_SIZED(dyd_check_report)};
   given_moves given = {0};
   dyd_error err;
   dyd_error_clear(&err);

@@ -144,7 +144,7 @@ cli_progress *cli_progress_start(bool quiet);
 /* What is being done now ("reading"); static text. */
 void cli_progress_phase(cli_progress *p, const char *phase);
 /* For dyd_engine_options.progress; user is the cli_progress. */
-void cli_progress_stage(const dyd_progress *stage, void *user);
+void cli_progress_stage(void *user, const dyd_progress *stage);
 /* Wipes the bar off the terminal and frees p. */
 void cli_progress_stop(cli_progress *p);
 

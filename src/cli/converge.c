@@ -64,8 +64,9 @@ static int end_trace(run *r, cli_output *out) {
 static int run_traced(run *r, cli_session *s, const dyd_engine_options *options) {
   cli_output out;
   if (!cli_output_open(&out, r->o->trace)) return CLI_FAILED;
-  if (dyd_trace_new(&r->trace, out.stream, s->engine, options, &r->converge) < 0) {
-    cli_complain("memory is exhausted; close other programs");
+  dyd_error err;
+  if (dyd_trace_new(&r->trace, out.stream, s->engine, options, &r->converge, &err) < 0) {
+    cli_complain("%s", err.message);
     cli_output_drop(&out);
     return CLI_FAILED;
   }
@@ -75,7 +76,7 @@ static int run_traced(run *r, cli_session *s, const dyd_engine_options *options)
 
 static int converge(const cli_options *o) {
   cli_session s;
-  run r = {.o = o};
+  run r = {o, {DYD_SIZED(dyd_convergence)}, NULL, {DYD_SIZED(dyd_converge_options)}};
   dyd_rect window;
   dyd_engine_options options = o->engine;
   dyd_rect_init(&window);
@@ -103,7 +104,7 @@ static int replay(const cli_options *o) {
     cli_complain("%s: cannot open: %s; check the name of the trace", o->replay, strerror(errno));
     return CLI_FAILED;
   }
-  dyd_convergence table = {0};
+  dyd_convergence table = {DYD_SIZED(dyd_convergence)};
   dyd_error err;
   dyd_status done = dyd_trace_replay(&table, in, NULL, &err);
   if (!standard) fclose(in);

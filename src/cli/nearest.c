@@ -59,7 +59,7 @@ static dyd_status answer(dyd_engine *e, const dyd_engine_options *options, void 
 
 static dyd_status write_answer(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const query *q = what;
-  const dyd_nearest_answer a = {dyd_stream_rect(q->at), &q->found, q->sure, q->outcome};
+  const dyd_nearest_answer a = {sizeof a, dyd_stream_rect(q->at), &q->found, q->sure, q->outcome};
   return dyd_write_nearest(out, q->engine, &a, o->format, err);
 }
 

@@ -168,7 +168,7 @@ static int place_operands(cli_options *o, const scan *s, const cli_command *c) {
 
 int cli_options_read(cli_options *out, int argc, char **argv) {
   scan s;
-  *out = (cli_options){.format = DYD_FORMAT_CSV};
+  *out = (cli_options){.format = DYD_FORMAT_CSV, .read = {DYD_SIZED(dyd_read_options)}};
   dyd_engine_options_init(&out->engine);
   prepare(&s);
   int status = scan_all(&s, out, argc, argv);

@@ -3,8 +3,9 @@
 #include "cli.h"
 
 static int add_oracle(dyd_engine *e, dyd_oracle *oracle) {
-  dyd_source source = dyd_oracle_source(oracle);
-  dyd_status status = dyd_engine_add_source(e, dyd_oracle_count(oracle), &source);
+  dyd_source source = {DYD_SIZED(dyd_source)};
+  dyd_status status = dyd_oracle_source(&source, oracle, NULL);
+  if (status >= 0) status = dyd_engine_add_source(e, dyd_oracle_count(oracle), &source, NULL);
   if (status >= 0) return 0;
   cli_complain("the points of the oracle cannot be added: %s", dyd_status_text(status));
   return CLI_FAILED;
@@ -22,7 +23,8 @@ int cli_oracle_read(dyd_engine *e, const cli_options *o) {
   dyd_oracle *oracle = NULL;
   dyd_error err;
   dyd_error_clear(&err);
-  const dyd_oracle_options options = {.jobs = o->oracle_jobs, .batch = o->oracle_batch, .seconds = o->oracle_timeout};
+  const dyd_oracle_options options = {DYD_SIZED(dyd_oracle_options), .jobs = o->oracle_jobs, .batch = o->oracle_batch,
+                                      .seconds = o->oracle_timeout};
   if (dyd_oracle_new(&oracle, o->oracle, &options, &err) < 0) {
     cli_complain("%s", err.message);
     return CLI_FAILED;

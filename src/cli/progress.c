@@ -79,7 +79,7 @@ void cli_progress_phase(cli_progress *p, const char *phase) {
   pthread_mutex_unlock(&p->lock);
 }
 
-void cli_progress_stage(const dyd_progress *stage, void *user) {
+void cli_progress_stage(void *user, const dyd_progress *stage) {
   cli_progress *p = user;
   if (!p) return;
   pthread_mutex_lock(&p->lock);

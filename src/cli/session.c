@@ -115,12 +115,12 @@ static const char *budget_advice(dyd_budget b) {
 }
 
 static const char *outcome_advice(const dyd_engine *e) {
-  dyd_engine_counters c;
+  dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
   switch (dyd_engine_outcome(e)) {
   case DYD_OUTCOME_FIXPOINT:
     return "no refinement can decide the rest: exact ties or fixed rectangles";
   case DYD_OUTCOME_BUDGET:
-    dyd_engine_get_counters(&c, e);
+    dyd_engine_get_counters(&c, e, NULL);
     return budget_advice(c.spent);
   case DYD_OUTCOME_ERROR:
     return "a point failed; this much was known before";

@@ -29,8 +29,8 @@ static const char *budget_text(dyd_budget b) {
 }
 
 void cli_stats(FILE *out, const dyd_engine *e, double seconds) {
-  dyd_engine_counters c;
-  dyd_engine_get_counters(&c, e);
+  dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
+  dyd_engine_get_counters(&c, e, NULL);
   fprintf(out, "%-26s %s\n", "outcome", dyd_outcome_text(dyd_engine_outcome(e)));
   fprintf(out, "%-26s %s\n", "budget spent", budget_text(c.spent));
   line(out, "points", dyd_engine_count(e));

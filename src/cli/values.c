@@ -78,11 +78,11 @@ static bool read_format(dyd_format *place, const cli_option *option, const char 
 
 /* The exact number text[0..length), which may be an expression with a rational value. */
 static bool read_number(mpq_t out, const char *text, size_t length) {
-  dyd_real *real = NULL;
-  if (dyd_real_parse(&real, text, length, NULL) < 0) return false;
-  bool exact = dyd_real_is_final(real) && dyd_interval_is_point(dyd_real_interval(real));
-  if (exact) dyd_interval_get_q(out, out, dyd_real_interval(real));
-  dyd_real_free(real);
+  dyd_interval a;
+  dyd_interval_init(&a);
+  bool exact = dyd_interval_set_text(&a, text, length, NULL) == DYD_OK && dyd_interval_is_point(&a);
+  if (exact) dyd_interval_get_q(out, out, &a);
+  dyd_interval_clear(&a);
   return exact;
 }
 

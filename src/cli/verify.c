@@ -63,7 +63,7 @@ int cli_verify(const cli_options *o) {
     return CLI_FAILED;
   }
   dyd_error err;
-  dyd_certificate_report report;
+  dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
   dyd_status status = dyd_verify_certificate(&report, in, &err);
   if (!standard) fclose(in);
   if (status == DYD_E_PARSE)

@@ -20,8 +20,8 @@ static int find_window(dyd_rect *out, const cli_session *s) {
 
 /* Does the run go on after the stage that only shows where the points are? */
 static bool goes_on(const dyd_engine *e) {
-  dyd_engine_counters c;
-  dyd_engine_get_counters(&c, e);
+  dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
+  dyd_engine_get_counters(&c, e, NULL);
   return dyd_engine_outcome(e) != DYD_OUTCOME_CANCELLED && dyd_engine_delaunay(e) &&
          !(dyd_engine_outcome(e) == DYD_OUTCOME_BUDGET && c.spent == DYD_BUDGET_SECONDS);
 }
@@ -38,7 +38,8 @@ static int run(cli_session *s, dyd_rect *window, const dyd_engine_options *optio
 }
 
 static dyd_status write_voronoi(FILE *out, const dyd_engine *e, const cli_options *o, dyd_error *err) {
-  dyd_voronoi_options options = {.flatten_bits = o->flatten_bits, .flatten_set = o->flatten_set};
+  dyd_voronoi_options options = {DYD_SIZED(dyd_voronoi_options), .flatten_bits = o->flatten_bits,
+                                 .flatten_set = o->flatten_set};
   options.window = o->engine.window;
   options.bounds = o->bounds;
   return dyd_write_voronoi(out, e, &options, o->format, err);

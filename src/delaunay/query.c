@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Reading the statuses: pairs, neighbours, triangles, faces, hull. */
-
+#include "base/abi.h"
 #include "base/alloc.h"
 #include "delaunay/undecided.h"
 
@@ -25,8 +25,10 @@ const dyd_sites *dyd_delaunay_sites(const dyd_delaunay *pd) {
   return pd->sk.rects.sites;
 }
 
-void dyd_delaunay_get_counters(dyd_delaunay_counters *out, const dyd_delaunay *pd) {
-  *out = pd->counters;
+dyd_status dyd_delaunay_get_counters(dyd_delaunay_counters *out, const dyd_delaunay *pd, dyd_error *err) {
+  dyd_status st = dyd_abi_check(out, 0, "dyd_delaunay_counters", err);
+  if (st == DYD_OK) dyd_abi_give(out, &pd->counters, sizeof pd->counters);
+  return st;
 }
 
 size_t dyd_delaunay_undecided_faces(const dyd_delaunay *pd) {

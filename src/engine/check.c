@@ -2,6 +2,7 @@
 /* The harness of monotone refinement: random schedules, given ones, and cutting a failing one down to what matters. */
 #include "engine/check.h"
 
+#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include <string.h>
@@ -12,20 +13,27 @@ const char *dyd_check_fault_text(dyd_check_fault fault) {
 }
 
 void dyd_check_report_clear(dyd_check_report *r) {
+  const dyd_check_report none = {0};
   free(r->move);
-  *r = (dyd_check_report){0};
+  dyd_abi_give(r, &none, sizeof none);
 }
 
-static dyd_check_options with_defaults(const dyd_check_options *given) {
-  dyd_check_options o = given ? *given : (dyd_check_options){0};
-  if (!o.schedules) o.schedules = 100;
-  if (!o.base_bits) o.base_bits = 8;
-  if (!o.max_bits) o.max_bits = 192;
-  if (!o.slack_bits) o.slack_bits = 16;
-  if (!o.stages) o.stages = 6;
-  if (!o.cells) o.cells = 6;
-  if (o.base_bits > o.max_bits) o.base_bits = o.max_bits;
-  return o;
+/* Fills in *o, and clears the report and the error record. */
+static dyd_status begin_check(dyd_check_options *o, dyd_check_report *out, const dyd_check_options *given,
+                              dyd_error *err) {
+  dyd_error_clear(err);
+  dyd_status st = dyd_abi_check(out, sizeof *out, "dyd_check_report", err);
+  if (st == DYD_OK) st = dyd_abi_take(o, sizeof *o, given, "dyd_check_options", err);
+  if (st != DYD_OK) return st;
+  dyd_check_report_clear(out);
+  if (!o->schedules) o->schedules = 100;
+  if (!o->base_bits) o->base_bits = 8;
+  if (!o->max_bits) o->max_bits = 192;
+  if (!o->slack_bits) o->slack_bits = 16;
+  if (!o->stages) o->stages = 6;
+  if (!o->cells) o->cells = 6;
+  if (o->base_bits > o->max_bits) o->base_bits = o->max_bits;
+  return DYD_OK;
 }
 
 typedef struct moves {
@@ -176,18 +184,17 @@ static dyd_status keep_fault(dyd_check_report *out, moves *m, uint64_t seed, dyd
 
 dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *user, const dyd_check_options *given,
                          dyd_error *err) {
-  dyd_check_options o = with_defaults(given);
+  dyd_check_options o;
   moves m = {0};
   uint32_t *point = NULL;
   size_t n = 0;
   dyd_error unused;
   if (!err) err = &unused;
-  dyd_error_clear(err);
-  dyd_check_report_clear(out);
-  dyd_status status = list_points(&point, &n, open, user, err);
+  dyd_status status = begin_check(&o, out, given, err);
+  if (status == DYD_OK) status = list_points(&point, &n, open, user, err);
   for (unsigned k = 0; k < o.schedules && status == DYD_OK && out->fault == DYD_CHECK_FINE; k++) {
     uint64_t seed = o.seed + k;
-    if (o.progress) o.progress(k, o.schedules, o.progress_user);
+    if (o.progress) o.progress(o.progress_user, k, o.schedules);
     status = make_schedule(&m, seed, point, n, &o);
     if (status == DYD_OK) status = play(out, open, user, &m, seed, &o, err);
     if (status == DYD_OK) out->schedules++;
@@ -200,15 +207,15 @@ dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *us
 
 dyd_status dyd_check_replay(dyd_check_report *out, dyd_check_open_fn open, void *user, const dyd_check_move *move,
                             size_t count, const dyd_check_options *given, dyd_error *err) {
-  dyd_check_options o = with_defaults(given);
+  dyd_check_options o;
   dyd_error unused;
   if (!err) err = &unused;
-  dyd_error_clear(err);
-  dyd_check_report_clear(out);
+  dyd_status status = begin_check(&o, out, given, err);
+  if (status != DYD_OK) return status;
   moves m = {.item = dyd_alloc(count, sizeof *m.item), .count = count};
   if (!m.item) return dyd_fail_nomem(err);
   memcpy(m.item, move, count * sizeof *move);
-  dyd_status status = play(out, open, user, &m, o.seed, &o, err);
+  status = play(out, open, user, &m, o.seed, &o, err);
   out->schedules = 1;
   out->seed = o.seed;
   out->base_bits = o.base_bits;

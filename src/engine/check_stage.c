@@ -106,7 +106,7 @@ static void same_or_floor(dyd_check_state *s, const dyd_pair *p, dyd_pair_status
 static dyd_status check_path(dyd_check_state *s) {
   dyd_delaunay *fresh = NULL;
   dyd_pair_list pairs = {0};
-  dyd_delaunay_options options = {.cancel = s->o->cancel};
+  dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = s->o->cancel};
   dyd_status status = dyd_delaunay_new(&fresh, s->e->sites, &options, NULL);
   if (status == DYD_OK) status = dyd_delaunay_pairs(&pairs, fresh);
   if (status == DYD_OK) compare_lists(s, &s->before, &pairs, same_or_floor);
@@ -173,7 +173,7 @@ static dyd_status check_choice(dyd_check_state *s) {
   dyd_sites *sites = NULL;
   dyd_delaunay *exact = NULL;
   dyd_pair_list pairs = {0};
-  dyd_delaunay_options options = {.cancel = s->o->cancel};
+  dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = s->o->cancel};
   dyd_status status = dyd_sites_new(&sites);
   if (status >= 0) status = choose_all(sites, s);
   if (status >= 0) status = dyd_delaunay_new(&exact, sites, &options, NULL);
@@ -266,7 +266,7 @@ static dyd_status check_cells(dyd_check_state *s, bool last) {
 /* ---- a stage ---- */
 
 static dyd_status triangulate(dyd_check_state *s) {
-  dyd_delaunay_options options = {.cancel = s->o->cancel};
+  dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = s->o->cancel};
   dyd_status status = s->pd ? dyd_delaunay_update(s->pd, s->changed, s->changes, &options, NULL)
                             : dyd_delaunay_new(&s->pd, s->e->sites, &options, NULL);
   s->changes = 0;

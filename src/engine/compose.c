@@ -65,8 +65,8 @@ static dyd_status take(dyd_stream **out, dyd_engine *e, const dyd_refinable *p) 
     taken_release(t);
     return status;
   }
-  const dyd_source source = {.narrow = taken_narrow, .release = taken_release, .user = t};
-  return dyd_stream_new(out, &source, p->site);
+  const dyd_source source = {DYD_SIZED(dyd_source), .narrow = taken_narrow, .release = taken_release, .user = t};
+  return dyd_stream_new(out, &source, p->site, NULL);
 }
 
 static dyd_status copy(dyd_stream **out, const dyd_engine *e, uint32_t i) {

@@ -5,13 +5,14 @@
  * median of the rounded widths are the rounded largest and median. */
 #include <dyadel/converge.h>
 
+#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include <dyadel/metric.h>
 #include <time.h>
 
 static void row_init(dyd_stage_row *r) {
-  *r = (dyd_stage_row){0};
+  *r = (dyd_stage_row){DYD_SIZED(dyd_stage_row), .rungs = {DYD_SIZED(dyd_delaunay_counters)}};
   dyd_dyadic_init(&r->width_largest);
   dyd_dyadic_init(&r->width_median);
   dyd_dyadic_init(&r->area);
@@ -20,21 +21,24 @@ static void row_init(dyd_stage_row *r) {
   dyd_dyadic_init(&r->v_hausdorff);
 }
 
-static void row_clear(dyd_stage_row *r) {
+static void row_free(dyd_stage_row *r) {
   dyd_dyadic_clear(&r->v_hausdorff);
   dyd_dyadic_clear(&r->v_area);
   dyd_dyadic_clear(&r->hausdorff);
   dyd_dyadic_clear(&r->area);
   dyd_dyadic_clear(&r->width_median);
   dyd_dyadic_clear(&r->width_largest);
+  free(r);
 }
 
 void dyd_convergence_clear(dyd_convergence *c) {
-  for (size_t k = 0; k < c->count; k++) row_clear(&c->row[k]);
+  const dyd_convergence none = {0};
+  for (size_t k = 0; k < c->count; k++) row_free(c->row[k]);
   free(c->row);
+  free(c->options);
   if (c->window) dyd_rect_clear(c->window);
   free(c->window);
-  *c = (dyd_convergence){0};
+  dyd_abi_give(c, &none, sizeof none);
 }
 
 /* ---- widths ---- */
@@ -190,42 +194,56 @@ static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out
 static dyd_status measure(dyd_stage_row *row, const dyd_delaunay *pd) {
   dyd_delaunay_count(row->count, pd);
   row->undecided_faces = dyd_delaunay_undecided_faces(pd);
-  dyd_delaunay_get_counters(&row->rungs, pd);
-  dyd_status status = digest_pairs(&row->digest, pd);
+  dyd_status status = dyd_delaunay_get_counters(&row->rungs, pd, NULL);
+  if (status >= 0) status = digest_pairs(&row->digest, pd);
   if (status >= 0) status = measure_widths(row, dyd_delaunay_sites(pd));
   if (status >= 0) status = measure_bounds(row, pd);
   return status;
 }
 
 dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const dyd_delaunay *pd,
-                               const dyd_converge_options *converge) {
-  static const dyd_converge_options defaults = {0};
-  if (!converge) converge = &defaults;
-  if (!dyd_reserve((void **)&out->row, &out->cap, out->count + 1, sizeof *out->row)) return DYD_E_NOMEM;
-  dyd_stage_row *r = &out->row[out->count];
+                               const dyd_converge_options *converge, dyd_error *err) {
+  dyd_converge_options o;
+  dyd_status st = dyd_abi_check(out, sizeof *out, "dyd_convergence", err);
+  if (st == DYD_OK) st = dyd_abi_take(&o, sizeof o, converge, "dyd_converge_options", err);
+  if (st != DYD_OK) return st;
+  if (!dyd_reserve((void **)&out->row, &out->cap, out->count + 1, sizeof *out->row)) return dyd_fail_nomem(err);
+  dyd_stage_row *r = malloc(sizeof *r);
+  if (!r) return dyd_fail_nomem(err);
   row_init(r);
-  r->stage = out->count ? r[-1].stage + 1 : 1;
-  dyd_status status = measure(r, pd);
-  if (status >= 0 && !converge->no_voronoi) status = set_window(out, pd, converge->window);
-  if (status >= 0 && out->window) status = measure_voronoi(r, out, pd);
-  if (status < 0) {
-    row_clear(r);
-    return status;
+  r->stage = out->count ? out->row[out->count - 1]->stage + 1 : 1;
+  st = measure(r, pd);
+  if (st == DYD_OK && !o.no_voronoi) st = set_window(out, pd, o.window);
+  if (st == DYD_OK && out->window) st = measure_voronoi(r, out, pd);
+  if (st != DYD_OK) {
+    row_free(r);
+    return dyd_fail(err, st, "%s", dyd_status_text(st));
   }
-  out->count++;
-  *row = r;
+  out->row[out->count++] = *row = r;
   return DYD_OK;
 }
 
 /* ---- a run ---- */
 
+/* out->options becomes a copy of o, pointers and callbacks aside. */
+static dyd_status note_options(dyd_convergence *out, const dyd_engine_options *o, dyd_error *err) {
+  if (!out->options) out->options = malloc(sizeof *out->options);
+  if (!out->options) return dyd_fail_nomem(err);
+  *out->options = *o;
+  out->options->window = NULL;
+  out->options->progress = NULL;
+  out->options->trace = NULL;
+  out->options->progress_user = out->options->trace_user = NULL;
+  return DYD_OK;
+}
+
 typedef struct recorder {
   dyd_convergence *out;
   dyd_engine *e;
   const dyd_engine_options *o;
-  const dyd_converge_options *converge;
-  dyd_status failed; /* of the table, not of the run */
-  double spent;      /* seconds in here */
+  const dyd_converge_options *converge; /* of this library's size */
+  dyd_status failed;                    /* of the table, not of the run */
+  double spent;                         /* seconds in here */
 } recorder;
 
 static double clock_seconds(void) {
@@ -237,23 +255,23 @@ static double clock_seconds(void) {
 static dyd_status record_row(recorder *r, const dyd_progress *p) {
   dyd_stage_row *row;
   const dyd_delaunay *pd = dyd_engine_delaunay(r->e);
-  dyd_status status = dyd_convergence_add(&row, r->out, pd, r->converge);
+  dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
+  dyd_status status = dyd_convergence_add(&row, r->out, pd, r->converge, NULL);
+  if (status >= 0) status = dyd_engine_get_counters(&c, r->e, NULL);
   if (status < 0) return status;
-  dyd_engine_counters c;
-  dyd_engine_get_counters(&c, r->e);
   row->stage = p->stage;
   row->bits_least = c.bits_least;
   row->bits_most = c.bits_most;
   row->bits_total = c.bits_total;
   row->calls = c.calls;
   row->seconds = p->seconds - r->spent;
-  if (r->converge && r->converge->stage) r->converge->stage(row, pd, r->converge->stage_user);
+  if (r->converge->stage) r->converge->stage(r->converge->stage_user, row, pd);
   return DYD_OK;
 }
 
-static void record(const dyd_progress *p, void *user) {
+static void record(void *user, const dyd_progress *p) {
   recorder *r = user;
-  if (r->o && r->o->progress) r->o->progress(p, r->o->progress_user);
+  if (r->o->progress) r->o->progress(r->o->progress_user, p);
   if (r->failed < 0) return;
   double begun = clock_seconds();
   r->failed = record_row(r, p);
@@ -263,18 +281,20 @@ static void record(const dyd_progress *p, void *user) {
 
 dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engine_options *options,
                             const dyd_converge_options *converge, dyd_error *err) {
-  recorder r = {.out = out, .e = e, .o = options, .converge = converge};
-  dyd_engine_options o;
-  dyd_engine_options_init(&o);
-  if (options) o = *options;
-  out->options = o;
-  out->options.window = NULL;
-  out->options.progress = NULL;
-  out->options.trace = NULL;
-  out->options.progress_user = out->options.trace_user = NULL;
+  dyd_engine_options defaults, given, o;
+  dyd_converge_options c;
+  recorder r = {.out = out, .e = e, .o = &given, .converge = &c};
+  dyd_engine_options_init(&defaults);
+  dyd_status status = dyd_abi_check(out, sizeof *out, "dyd_convergence", err);
+  if (status >= 0) status = dyd_abi_take(&c, sizeof c, converge, "dyd_converge_options", err);
+  if (status >= 0)
+    status = dyd_abi_take(&given, sizeof given, options ? options : &defaults, "dyd_engine_options", err);
+  if (status >= 0) status = note_options(out, &given, err);
+  if (status < 0) return status;
+  o = given;
   o.progress = record;
   o.progress_user = &r;
-  dyd_status status = dyd_engine_run(&out->outcome, e, &o, err);
+  status = dyd_engine_run(&out->outcome, e, &o, err);
   if (status >= 0 && r.failed < 0) return dyd_fail(err, r.failed, "%s", dyd_status_text(r.failed));
   return status;
 }

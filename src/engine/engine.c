@@ -2,6 +2,7 @@
 /* Life, counters and results of an engine. */
 #include "engine/engine.h"
 
+#include "base/abi.h"
 #include "base/alloc.h"
 #include <dyadel/metric.h>
 
@@ -44,10 +45,6 @@ const char *dyd_reason_text(dyd_reason reason) {
     return "uniform";
   }
   return "unknown reason";
-}
-
-void dyd_engine_options_init(dyd_engine_options *o) {
-  *o = (dyd_engine_options){.start_bits = 64, .max_bits = 4096};
 }
 
 dyd_status dyd_engine_new(dyd_engine **out) {
@@ -106,12 +103,16 @@ static void count_bits(dyd_engine_counters *out, const dyd_engine *e) {
   }
 }
 
-void dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e) {
-  *out = (dyd_engine_counters){.stages = e->stages, .calls = e->calls, .seconds = e->seconds, .spent = e->spent};
-  count_bits(out, e);
-  if (!e->pd) return;
-  out->undecided_faces = dyd_delaunay_undecided_faces(e->pd);
-  dyd_delaunay_get_counters(&out->delaunay, e->pd);
+dyd_status dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e, dyd_error *err) {
+  dyd_engine_counters c = {.stages = e->stages, .calls = e->calls, .seconds = e->seconds, .spent = e->spent};
+  c.delaunay.struct_size = sizeof c.delaunay;
+  dyd_status st = dyd_abi_check(out, 0, "dyd_engine_counters", err);
+  if (st == DYD_OK && e->pd) st = dyd_delaunay_get_counters(&c.delaunay, e->pd, err);
+  if (st != DYD_OK) return st;
+  count_bits(&c, e);
+  if (e->pd) c.undecided_faces = dyd_delaunay_undecided_faces(e->pd);
+  dyd_abi_give(out, &c, sizeof c);
+  return DYD_OK;
 }
 
 dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, const dyd_engine *e) {

@@ -7,6 +7,7 @@
  * whoever concerned was asked for less is asked for the level. */
 #include "engine/engine.h"
 
+#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include "engine/watch.h"
@@ -28,17 +29,18 @@ typedef struct query {
   dyd_error err;
 } query;
 
-static bool set_options(query *q, double *seconds, const dyd_engine_options *given) {
+static dyd_status set_options(query *q, double *seconds, const dyd_engine_options *given) {
   dyd_engine_options o;
-  dyd_engine_options_init(&o);
-  if (given) o = *given;
+  dyd_status st = dyd_abi_take(&o, sizeof o, given, "dyd_engine_options", &q->err);
+  if (st != DYD_OK) return st;
   q->level = o.start_bits ? o.start_bits : 64;
   q->max_bits = o.max_bits ? o.max_bits : 4096;
   q->max_calls = o.max_calls ? o.max_calls : UINT64_MAX;
   *seconds = o.seconds;
   if (q->max_bits > MOST_BITS) q->max_bits = MOST_BITS;
   if (q->level > q->max_bits) q->level = q->max_bits;
-  return q->level >= -DYD_EXP_LIMIT && o.seconds >= 0;
+  if (q->level >= -DYD_EXP_LIMIT && o.seconds >= 0) return DYD_OK;
+  return dyd_fail(&q->err, DYD_E_ARG, "an option of the query is out of its range");
 }
 
 /* Ends the query when it was cancelled, or time or calls are used up. */
@@ -142,15 +144,11 @@ static dyd_status run(query *q, double seconds) {
 dyd_status dyd_engine_nearest(dyd_index_list *out, bool *sure, dyd_outcome *outcome, dyd_engine *e, dyd_stream *at,
                               const dyd_engine_options *options, dyd_error *err) {
   query q = {.e = e, .at = at, .asked = INT64_MIN, .end = DYD_OUTCOME_NONE};
-  double seconds;
+  double seconds = 0;
   dyd_error_clear(&q.err);
-  dyd_status status = DYD_E_ARG;
-  if (!e->pd)
-    dyd_fail(&q.err, status, "there is no result yet: run the engine first");
-  else if (!set_options(&q, &seconds, options))
-    dyd_fail(&q.err, status, "an option of the query is out of its range");
-  else
-    status = run(&q, seconds);
+  dyd_status status = e->pd ? set_options(&q, &seconds, options)
+                            : dyd_fail(&q.err, DYD_E_ARG, "there is no result yet: run the engine first");
+  if (status == DYD_OK) status = run(&q, seconds);
   if (status >= 0) {
     dyd_index_list_clear(out);
     *out = q.near;

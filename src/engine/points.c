@@ -7,6 +7,7 @@
 #include "engine/engine.h"
 #include "engine/words.h"
 
+#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include "rect/interval.h"
@@ -67,10 +68,13 @@ static dyd_status add_source(dyd_engine *e, size_t n, const dyd_source *source) 
   return status;
 }
 
-dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_source *source) {
-  dyd_status status = add_source(e, n, source);
-  if (status < 0 && source->release) source->release(source->user);
-  return status;
+dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err) {
+  dyd_source s;
+  dyd_status st = dyd_abi_take(&s, sizeof s, source, "dyd_source", err);
+  if (st != DYD_OK) return st;
+  st = add_source(e, n, &s);
+  if (st != DYD_OK && s.release) s.release(s.user);
+  return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
 }
 
 void dyd_engine_clear_points(dyd_engine *e) {

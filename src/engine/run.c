@@ -15,6 +15,7 @@
  * Points narrowed are never asked for the same again, so a later run goes on where this one stopped. */
 #include "engine/engine.h"
 
+#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include "engine/scout.h"
@@ -38,10 +39,7 @@ typedef struct run {
 #define MOST_GOAL_BITS ((int64_t)1 << 40)
 
 /* Fills in defaults. false: an option is out of its range. */
-static bool set_options(dyd_engine_options *o, const dyd_engine_options *given) {
-  dyd_engine_options_init(o);
-  o->start_bits = 0;
-  if (given) *o = *given;
+static bool set_options(dyd_engine_options *o) {
   if (o->max_bits == 0) o->max_bits = 4096;
   if (o->max_bits > MOST_BITS) o->max_bits = MOST_BITS;
   if (o->start_bits > o->max_bits) o->start_bits = o->max_bits;
@@ -91,11 +89,12 @@ static dyd_status tell_step(const run *r, const dyd_refinable *p, bool called) {
   dyd_rect rect;
   dyd_rect_init(&rect);
   dyd_status status = dyd_sites_get(&rect, r->e->sites, p->site);
-  dyd_step step = {.stage = r->e->stages + 1, .site = p->site, .bits = p->want, .reason = p->reason, .called = called};
+  dyd_step step = {DYD_SIZED(dyd_step), .stage = r->e->stages + 1, .site = p->site,
+                   .bits = p->want,     .reason = p->reason,       .called = called};
   step.i = p->pair[0];
   step.j = p->pair[1];
   step.rect = &rect;
-  if (status >= 0) r->o.trace(&step, r->o.trace_user);
+  if (status >= 0) r->o.trace(r->o.trace_user, &step);
   dyd_rect_clear(&rect);
   return status;
 }
@@ -154,8 +153,8 @@ static dyd_status list_undecided(dyd_engine *e) {
 /* Makes the result, or brings it up to date. Ends the run when that was interrupted. */
 static dyd_status triangulate(run *r, dyd_error *err) {
   dyd_engine *e = r->e;
-  dyd_delaunay_options o = {
-      .max_pairs = r->o.max_pairs, .cancel = &e->stop, .threads = r->o.threads, .no_filter = r->o.no_filter};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = r->o.max_pairs, .cancel = &e->stop,
+                            .threads = r->o.threads, .no_filter = r->o.no_filter};
   dyd_error_clear(err);
   dyd_status status =
       e->pd ? dyd_delaunay_update(e->pd, e->changed, e->changes, &o, err) : dyd_delaunay_new(&e->pd, e->sites, &o, err);
@@ -175,11 +174,11 @@ static dyd_status triangulate(run *r, dyd_error *err) {
 static void report(const run *r, int64_t bits) {
   if (!r->o.progress) return;
   const dyd_engine *e = r->e;
-  dyd_progress p = {.stage = e->stages, .bits = bits, .sites = dyd_sites_count(e->sites)};
+  dyd_progress p = {DYD_SIZED(dyd_progress), .stage = e->stages, .bits = bits, .sites = dyd_sites_count(e->sites)};
   dyd_delaunay_count(p.count, e->pd);
   p.undecided_faces = dyd_delaunay_undecided_faces(e->pd);
   p.seconds = r->seconds_before + dyd_watch_seconds(&r->watch);
-  r->o.progress(&p, r->o.progress_user);
+  r->o.progress(r->o.progress_user, &p);
 }
 
 /* Lets the scouts go ahead; *marked becomes what is left to narrow after them. Ends as narrow_marked. */
@@ -304,9 +303,9 @@ static void begin(run *r, dyd_engine *e) {
 
 dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_options *options, dyd_error *err) {
   run r;
-  dyd_status status;
   begin(&r, e);
-  if (set_options(&r.o, options)) {
+  dyd_status status = dyd_abi_take(&r.o, sizeof r.o, options, "dyd_engine_options", &r.err);
+  if (status == DYD_OK && set_options(&r.o)) {
     e->started = true;
     e->goal = r.o.goal;
     e->goal_bits = r.o.goal_bits;
@@ -315,7 +314,7 @@ dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_
     dyd_watch_stop(&r.watch);
     dyd_scouts_clear(&r.scouts);
     e->seconds += dyd_watch_seconds(&r.watch);
-  } else {
+  } else if (status == DYD_OK) {
     status = dyd_fail(&r.err, DYD_E_ARG, "an option of the run is out of its range");
   }
   if (status < 0)

@@ -2,6 +2,7 @@
 /* The Voronoi diagram to be written: its window, vertices, cells and bounds. */
 #include "io/diagram.h"
 
+#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include "voronoi/vertex_filter.h"
@@ -198,9 +199,9 @@ static dyd_status told(dyd_status status, const dyd_diagram *d, dyd_error *err) 
 }
 
 static dyd_status write(dyd_diagram *d, const dyd_voronoi_options *o, dyd_format format, dyd_error *err) {
-  dyd_status status = find_window(d, o ? o->window : NULL, err);
+  dyd_status status = find_window(d, o->window, err);
   if (status < 0) return status;
-  if (o && o->flatten_set)
+  if (o->flatten_set)
     d->bits = o->flatten_bits;
   else
     status = choose_bits(d);
@@ -213,9 +214,13 @@ static dyd_status write(dyd_diagram *d, const dyd_voronoi_options *o, dyd_format
                   dyd_format_name(format) ? dyd_format_name(format) : "this format");
 }
 
-dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_options *o, dyd_format format,
+dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_options *options, dyd_format format,
                              dyd_error *err) {
   if (err) dyd_error_clear(err);
+  dyd_voronoi_options o;
+  dyd_status status = dyd_abi_take(&o, sizeof o, options, "dyd_voronoi_options", err);
+  if (status == DYD_OK && o.bounds) status = dyd_abi_check(o.bounds, sizeof *o.bounds, "dyd_voronoi_bounds", err);
+  if (status != DYD_OK) return status;
   const dyd_delaunay *pd = dyd_engine_delaunay(e);
   if (!pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
   if (dyd_delaunay_is_capped(pd))
@@ -224,11 +229,11 @@ dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_o
   d.count = dyd_sites_count(d.sites);
   dyd_rect_init(&d.window);
   dyd_voronoi_bounds_init(&d.bounds);
-  dyd_status status = write(&d, o, format, err);
-  if (status >= 0 && o && o->bounds) {
-    dyd_dyadic_swap(&o->bounds->area, &d.bounds.area);
-    dyd_dyadic_swap(&o->bounds->hausdorff, &d.bounds.hausdorff);
-    o->bounds->finite = d.bounds.finite;
+  status = write(&d, &o, format, err);
+  if (status >= 0 && o.bounds) {
+    dyd_dyadic_swap(&o.bounds->area, &d.bounds.area);
+    dyd_dyadic_swap(&o.bounds->hausdorff, &d.bounds.hausdorff);
+    o.bounds->finite = d.bounds.finite;
   }
   dyd_voronoi_bounds_clear(&d.bounds);
   dyd_rect_clear(&d.window);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Replaying a trace: the rectangles it names are put into a table of sites, stage by stage, and triangulated as the
  * engine did; no stream is asked. That every rectangle is inside the one before is checked [NEST-1]. */
+#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include "io/read/text.h"
@@ -58,21 +59,12 @@ static bool get_word(int *out, const json_t *line, const char *name, const char 
   return false;
 }
 
-/* An exact point; any form that the writer uses for rationals. */
-static bool get_exact(dyd_interval *out, const char *text) {
-  dyd_real *real = NULL;
-  if (dyd_real_parse(&real, text, strlen(text), NULL) < 0) return false;
-  bool exact = dyd_real_is_final(real) && dyd_interval_is_point(dyd_real_interval(real));
-  if (exact) dyd_interval_set(out, dyd_real_interval(real));
-  dyd_real_free(real);
-  return exact;
-}
-
 static bool get_side(dyd_interval *out, const json_t *line, const char *name) {
   const json_t *side = json_object_get(line, name);
   const char *lo = json_string_value(json_array_get(side, 0)), *hi = json_string_value(json_array_get(side, 1));
   if (!lo || !hi || json_array_size(side) != 2) return false;
-  if (strcmp(lo, hi) == 0) return get_exact(out, lo);
+  if (strcmp(lo, hi) == 0) /* any form of an exact number */
+    return dyd_interval_set_text(out, lo, strlen(lo), NULL) == DYD_OK && dyd_interval_is_point(out);
   dyd_dyadic a, b;
   dyd_dyadic_init(&a);
   dyd_dyadic_init(&b);
@@ -108,7 +100,9 @@ static bool get_window(replay *r, const json_t *line) {
 static dyd_status read_head(replay *r, const json_t *line) {
   int64_t points, max_pairs;
   int schedule, goal;
-  dyd_engine_options *o = &r->out->options;
+  dyd_engine_options *o = r->out->options;
+  if (!o) o = r->out->options = malloc(sizeof *o);
+  if (!o) return dyd_fail_nomem(r->err);
   dyd_engine_options_init(o);
   if (!is_text(line, "format", DYD_TRACE_FORMAT))
     return bad(r, "this is no trace of the format \"" DYD_TRACE_FORMAT "\"");
@@ -205,15 +199,15 @@ static bool agrees(const dyd_stage_row *row, const json_t *line) {
 }
 
 static dyd_status finish_stage(replay *r, const json_t *line) {
-  dyd_delaunay_options o = {.max_pairs = r->out->options.max_pairs};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = r->out->options->max_pairs};
   dyd_stage_row *row;
   dyd_status status = r->pd ? dyd_delaunay_update(r->pd, r->changed, r->changes, &o, r->err) : first_result(r, &o);
   if (status < 0) return status;
   r->changes = 0;
-  status = dyd_convergence_add(&row, r->out, r->pd, &r->converge);
-  if (status < 0) return dyd_fail(r->err, status, "%s", dyd_status_text(status));
+  status = dyd_convergence_add(&row, r->out, r->pd, &r->converge, r->err);
+  if (status < 0) return status;
   count_bits(row, r);
-  if (r->converge.stage) r->converge.stage(row, r->pd, r->converge.stage_user);
+  if (r->converge.stage) r->converge.stage(r->converge.stage_user, row, r->pd);
   if (agrees(row, line)) return DYD_OK;
   return dyd_fail(r->err, DYD_E_PARSE, "the statuses of this stage are not those that the trace tells of");
 }
@@ -259,14 +253,15 @@ static void replay_clear(replay *r) {
 dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_options *converge, dyd_error *err) {
   dyd_error local;
   replay r = {.out = out, .err = err ? err : &local};
-  if (converge) r.converge = *converge;
+  dyd_status status = dyd_abi_check(out, sizeof *out, "dyd_convergence", err);
+  if (status == DYD_OK) status = dyd_abi_take(&r.converge, sizeof r.converge, converge, "dyd_converge_options", err);
+  if (status != DYD_OK) return status;
   r.converge.window = NULL;
   dyd_rect_init(&r.window);
   dyd_text text;
   dyd_line line = {0};
   dyd_error_clear(r.err);
   dyd_text_init(&text, in);
-  dyd_status status;
   do {
     status = dyd_text_next(&line, &text, r.err);
     if (status >= 0 && line.text) status = read_line(&r, &line);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Writing a trace: one line of JSON for each narrowing and for each stage. All texts are our own words and numbers, so
  * nothing needs escaping. */
+#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include "io/decimal.h"
@@ -44,28 +45,32 @@ static dyd_status write_head(const dyd_trace *t, const dyd_engine_options *o, co
           ",\"step_bits\":%" PRId64 ",\"max_bits\":%" PRId64 ",\"max_pairs\":%zu",
           t->points, dyd_trace_schedule[o->schedule], dyd_trace_goal[o->goal], o->goal_bits, o->start_bits,
           o->step_bits, o->max_bits, o->max_pairs);
-  if (c && c->no_voronoi) fputs(",\"no_voronoi\":true", t->out);
-  if (c && c->window) status = write_window(t->out, c->window);
+  if (c->no_voronoi) fputs(",\"no_voronoi\":true", t->out);
+  if (c->window) status = write_window(t->out, c->window);
   fputs("}\n", t->out);
   return status;
 }
 
 dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dyd_engine_options *options,
-                         const dyd_converge_options *converge) {
-  dyd_engine_options o;
-  dyd_engine_options_init(&o);
-  if (options) o = *options;
-  if ((unsigned)o.goal >= DYD_TRACE_GOALS || (unsigned)o.schedule >= DYD_TRACE_SCHEDULES) return DYD_E_ARG;
+                         const dyd_converge_options *converge, dyd_error *err) {
+  dyd_engine_options defaults, o;
+  dyd_converge_options c;
+  dyd_engine_options_init(&defaults);
+  dyd_status st = dyd_abi_take(&o, sizeof o, options ? options : &defaults, "dyd_engine_options", err);
+  if (st == DYD_OK) st = dyd_abi_take(&c, sizeof c, converge, "dyd_converge_options", err);
+  if (st != DYD_OK) return st;
+  if ((unsigned)o.goal >= DYD_TRACE_GOALS || (unsigned)o.schedule >= DYD_TRACE_SCHEDULES)
+    return dyd_fail(err, DYD_E_ARG, "a trace cannot tell of this goal or schedule");
   dyd_trace *t = calloc(1, sizeof *t);
-  if (!t) return DYD_E_NOMEM;
+  if (!t) return dyd_fail_nomem(err);
   t->out = f;
   t->points = dyd_engine_count(e);
   t->seen = calloc(t->points + 1, sizeof *t->seen);
   if (!t->seen) {
     free(t);
-    return DYD_E_NOMEM;
+    return dyd_fail_nomem(err);
   }
-  t->failed = write_head(t, &o, converge);
+  t->failed = write_head(t, &o, &c);
   *out = t;
   return DYD_OK;
 }
@@ -86,7 +91,7 @@ static dyd_status write_rect(FILE *out, const dyd_rect *r) {
   return status;
 }
 
-void dyd_trace_step(const dyd_step *step, void *trace) {
+void dyd_trace_step(void *trace, const dyd_step *step) {
   dyd_trace *t = trace;
   if (t->failed < 0) return;
   if (t->seen) t->seen[step->site] = true;
@@ -113,7 +118,7 @@ static dyd_status write_fixed(dyd_trace *t, const dyd_delaunay *pd) {
   return status;
 }
 
-void dyd_trace_stage(const dyd_stage_row *row, const dyd_delaunay *pd, void *trace) {
+void dyd_trace_stage(void *trace, const dyd_stage_row *row, const dyd_delaunay *pd) {
   dyd_trace *t = trace;
   if (t->failed < 0) return;
   if (t->seen) t->failed = write_fixed(t, pd);

@@ -56,7 +56,7 @@ static dyd_status write_window(FILE *out, const dyd_rect *w, const char *quote) 
 }
 
 static dyd_status csv_head(FILE *out, const dyd_convergence *c, bool times) {
-  const dyd_engine_options *o = &c->options;
+  const dyd_engine_options *o = c->options;
   fprintf(out, "# schedule %s; goal ", schedule_text(o->schedule));
   csv_goal(out, o);
   fprintf(out, "; first stage %" PRId64 " bits, then ", o->start_bits);
@@ -129,7 +129,7 @@ static dyd_status json_bounds(FILE *out, const dyd_stage_row *r) {
 }
 
 static dyd_status json_head(FILE *out, const dyd_convergence *c) {
-  const dyd_engine_options *o = &c->options;
+  const dyd_engine_options *o = c->options;
   fprintf(
       out,
       "{\"format\": \"dyadel converge 1\",\n\"version\": \"%s\",\n\"rounding\": \"widths and bounds are upper bounds; "
@@ -170,14 +170,14 @@ static dyd_status write_rows(FILE *out, const dyd_convergence *c, dyd_format for
   dyd_status status;
   if (format == DYD_FORMAT_CSV) {
     status = csv_head(out, c, times);
-    for (size_t k = 0; k < c->count; k++) csv_row(out, &c->row[k], times);
+    for (size_t k = 0; k < c->count; k++) csv_row(out, c->row[k], times);
     return status;
   }
   status = json_head(out, c);
   fputs("\"stages\": [", out);
   for (size_t k = 0; status >= 0 && k < c->count; k++) {
     fputs(k ? ",\n" : "\n", out);
-    status = json_row(out, &c->row[k], times);
+    status = json_row(out, c->row[k], times);
   }
   fputs("\n]}\n", out);
   return status;
@@ -187,6 +187,7 @@ dyd_status dyd_write_convergence(FILE *out, const dyd_convergence *c, dyd_format
   if (err) dyd_error_clear(err);
   if (format != DYD_FORMAT_CSV && format != DYD_FORMAT_JSON)
     return dyd_fail(err, DYD_E_ARG, "a table of convergence is written as csv or json");
+  if (!c->options) return dyd_fail(err, DYD_E_ARG, "the table is empty: there was no run");
   dyd_status status = write_rows(out, c, format, times);
   if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
   if (fflush(out) != 0 || ferror(out))

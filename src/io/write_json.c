@@ -126,8 +126,8 @@ static dyd_status write_bounds(const dyd_result *r) {
 }
 
 static void write_counters(const dyd_result *r) {
-  dyd_engine_counters c;
-  dyd_engine_get_counters(&c, r->engine);
+  dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
+  dyd_engine_get_counters(&c, r->engine, NULL);
   const dyd_delaunay_counters *d = &c.delaunay;
   fprintf(r->out,
           "\"counters\": {\"stages\": %" PRIu64 ", \"stream_calls\": %" PRIu64 ", \"bits_least\": %" PRId64

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The answer to a nearest-site query: csv, json, pictures. */
+#include "base/abi.h"
 #include "base/error.h"
 #include "io/decimal.h"
 #include "io/json_parts.h"
@@ -47,16 +48,19 @@ static void write_csv(FILE *out, const dyd_delaunay *pd, const dyd_nearest_answe
 dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_answer *answer, dyd_format format,
                              dyd_error *err) {
   if (err) dyd_error_clear(err);
+  dyd_nearest_answer a;
+  dyd_status status = dyd_abi_take(&a, sizeof a, answer, "dyd_nearest_answer", err);
+  if (status != DYD_OK) return status;
+  if (!a.at || !a.found) return dyd_fail(err, DYD_E_ARG, "there is no answer to be written");
   const dyd_delaunay *pd = dyd_engine_delaunay(e);
   if (!pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
-  if (dyd_format_is_picture(format)) return dyd_picture_nearest(out, format, pd, answer, err);
+  if (dyd_format_is_picture(format)) return dyd_picture_nearest(out, format, pd, &a, err);
   if (format != DYD_FORMAT_CSV && format != DYD_FORMAT_JSON)
     return dyd_fail(err, DYD_E_ARG, "nearest points are written as csv, json, svg, pdf or png");
-  dyd_status status = DYD_OK;
   if (format == DYD_FORMAT_JSON)
-    status = write_json(out, pd, answer);
+    status = write_json(out, pd, &a);
   else
-    write_csv(out, pd, answer);
+    write_csv(out, pd, &a);
   if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
   if (fflush(out) != 0 || ferror(out))
     return dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno ? errno : EIO));

@@ -15,6 +15,7 @@
  * the vertices of the outer polygons (dl is convex). Where R_a meets R_j nothing follows but: p_k for any R_k disjoint
  * from R_a is another point, and z is within the diameter of W and all sites of it. */
 #include "metric/voronoi_bounds.h"
+#include "base/abi.h"
 
 #include "base/alloc.h"
 #include "dyadic/raw.h"
@@ -193,17 +194,6 @@ dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_s
 
 /* ---- public ---- */
 
-void dyd_voronoi_bounds_init(dyd_voronoi_bounds *b) {
-  dyd_dyadic_init(&b->area);
-  dyd_dyadic_init(&b->hausdorff);
-  b->finite = false;
-}
-
-void dyd_voronoi_bounds_clear(dyd_voronoi_bounds *b) {
-  dyd_dyadic_clear(&b->hausdorff);
-  dyd_dyadic_clear(&b->area);
-}
-
 dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, const dyd_voronoi_sums *s) {
   dyd_pair_list pairs = {0};
   mpfr_t area, hausdorff;
@@ -223,6 +213,7 @@ dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, c
   dyd_voronoi_sums s;
   dyd_voronoi_bounds b;
   dyd_window w;
+  if (dyd_abi_check(out, sizeof *out, "dyd_voronoi_bounds", NULL) != DYD_OK) return DYD_E_ARG;
   if (bits < -DYD_EXP_LIMIT / 4 || bits > DYD_EXP_LIMIT / 4) return DYD_E_ARG;
   dyd_status st = dyd_window_init(&w, window);
   if (st != DYD_OK) return st;

@@ -88,7 +88,7 @@ static void draw(cairo_t *cr, const dyd_convergence *c) {
   dyd_panel bottom = {70, 426, 570, 150, 0, 1, "Pairs and faces", counts, sizeof counts / sizeof *counts};
   char title[120];
   snprintf(title, sizeof title, "dyadel converge: %s schedule, outcome %s",
-           c->options.schedule == DYD_SCHEDULE_UNIFORM ? "uniform" : "adaptive", dyd_outcome_text(c->outcome));
+           c->options->schedule == DYD_SCHEDULE_UNIFORM ? "uniform" : "adaptive", dyd_outcome_text(c->outcome));
   cairo_set_source_rgb(cr, 1, 1, 1);
   cairo_paint(cr);
   cairo_set_source_rgb(cr, 0, 0, 0);
@@ -111,5 +111,6 @@ dyd_status dyd_plot_convergence(FILE *out, const dyd_convergence *c, const char 
   dyd_format format;
   if (!dyd_format_from_name(&format, kind) || !dyd_format_is_picture(format))
     return dyd_fail(err, DYD_E_ARG, "a plot is svg, pdf or png, not \"%.20s\"", kind);
+  if (!c->options) return dyd_fail(err, DYD_E_ARG, "the table is empty: there was no run");
   return dyd_page_write(out, format, WIDTH, HEIGHT, draw_page, &c, err);
 }

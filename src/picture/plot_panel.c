@@ -21,7 +21,7 @@ bool dyd_panel_fit(dyd_panel *p, const dyd_convergence *c) {
   double low = INFINITY, high = -INFINITY;
   for (size_t s = 0; s < p->count; s++) {
     for (size_t k = 0; k < c->count; k++) {
-      double v = p->series[s].value(&c->row[k]);
+      double v = p->series[s].value(c->row[k]);
       if (isfinite(v)) low = fmin(low, v), high = fmax(high, v);
     }
   }
@@ -82,9 +82,9 @@ static void draw_stages(cairo_t *cr, const dyd_panel *p, const dyd_convergence *
   for (size_t k = 0; k < c->count; k += step) {
     double x = dyd_panel_x(p, c, k), foot = p->y + p->height;
     grid_line(cr, x, p->y, x, foot);
-    snprintf(label, sizeof label, "%" PRIu64, c->row[k].stage);
+    snprintf(label, sizeof label, "%" PRIu64, c->row[k]->stage);
     dyd_plot_text(cr, x, foot + 13, 0.5, 10, label);
-    snprintf(label, sizeof label, "%" PRId64, c->row[k].bits_most);
+    snprintf(label, sizeof label, "%" PRId64, c->row[k]->bits_most);
     dyd_plot_text(cr, x, foot + 25, 0.5, 9, label);
   }
   dyd_plot_text(cr, p->x - 6, p->y + p->height + 13, 1, 10, "stage");
@@ -119,7 +119,7 @@ static void draw_curve(cairo_t *cr, const dyd_panel *p, const dyd_series *s, con
   set_pen(cr, s);
   cairo_new_path(cr);
   for (size_t k = 0; k < c->count; k++) {
-    double v = s->value(&c->row[k]);
+    double v = s->value(c->row[k]);
     if (isnan(v))
       cairo_new_sub_path(cr);
     else
@@ -128,14 +128,14 @@ static void draw_curve(cairo_t *cr, const dyd_panel *p, const dyd_series *s, con
   cairo_stroke(cr);
   cairo_set_dash(cr, NULL, 0, 0);
   for (size_t k = 0; k < c->count; k++) {
-    double v = s->value(&c->row[k]);
+    double v = s->value(c->row[k]);
     if (!isnan(v)) draw_mark(cr, s, dyd_panel_x(p, c, k), dyd_panel_y(p, v));
   }
 }
 
 static bool has_values(const dyd_series *s, const dyd_convergence *c) {
   for (size_t k = 0; k < c->count; k++)
-    if (!isnan(s->value(&c->row[k]))) return true;
+    if (!isnan(s->value(c->row[k]))) return true;
   return false;
 }
 

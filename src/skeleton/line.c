@@ -43,7 +43,7 @@ static int line_compare(const void *a, const void *b) {
 
 static dyd_status line_load(entry *e, const dyd_rects *rects, uint32_t count, const uint32_t *vertex) {
   dyd_rect *r = dyd_alloc(count, sizeof *r);
-  const dyd_rect **in = dyd_alloc(count, sizeof *in);
+  const dyd_rect **in = calloc((size_t)count + 1, sizeof *in);
   dyd_irect *out = dyd_alloc(count, sizeof *out);
   dyd_status st = r && in && out ? DYD_OK : DYD_E_NOMEM;
   for (uint32_t q = 0; q < count && st == DYD_OK; q++) {

@@ -19,7 +19,7 @@ dyd_status dyd_request_make(dyd_request *out, size_t point, int64_t bits, int64_
   if (bits < -limit) bits = -limit;
   if (max_bits > limit) max_bits = limit;
   if (max_bits < bits) max_bits = bits;
-  *out = (dyd_request){.point = point, .bits = bits, .max_bits = max_bits};
+  *out = (dyd_request){DYD_SIZED(dyd_request), .point = point, .bits = bits, .max_bits = max_bits};
   return DYD_OK;
 }
 

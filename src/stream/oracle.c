@@ -8,6 +8,7 @@
 #include "stream/oracle_worker.h"
 #include <dyadel/oracle.h>
 
+#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include <errno.h>
@@ -93,9 +94,9 @@ static void oracle_announce(void *user, const dyd_request *request, size_t count
   dyd_oracle *o = user;
   for (unsigned k = 0; k < o->jobs; k++) dyd_worker_forget(&o->worker[k]);
   for (size_t k = 0; k < count; k++) {
-    if (request[k].point >= o->points) continue;
-    dyd_worker *w = oracle_worker_of(o, request[k].point);
-    if (!dyd_worker_ask(w, request[k].point, request[k].bits)) break;
+    const dyd_request *r = dyd_request_at(request, k);
+    if (r->point >= o->points) continue;
+    if (!dyd_worker_ask(oracle_worker_of(o, r->point), r->point, r->bits)) break;
   }
   exchange_lines(o, 0);
 }
@@ -136,9 +137,13 @@ static void oracle_release(void *user) {
   dyd_oracle_free(user);
 }
 
-dyd_source dyd_oracle_source(dyd_oracle *o) {
+dyd_status dyd_oracle_source(dyd_source *out, dyd_oracle *o, dyd_error *err) {
+  const dyd_source source = {.narrow = oracle_narrow, .release = oracle_release, .user = o, .announce = oracle_announce};
+  dyd_status st = dyd_abi_check(out, 0, "dyd_source", err);
+  if (st != DYD_OK) return st;
   o->refs++;
-  return (dyd_source){.narrow = oracle_narrow, .release = oracle_release, .user = o, .announce = oracle_announce};
+  dyd_abi_give(out, &source, sizeof source);
+  return DYD_OK;
 }
 
 size_t dyd_oracle_count(const dyd_oracle *o) {
@@ -218,12 +223,12 @@ static dyd_oracle *oracle_new(unsigned jobs, unsigned batch, double seconds) {
 }
 
 dyd_status dyd_oracle_new(dyd_oracle **out, const char *command, const dyd_oracle_options *options, dyd_error *err) {
-  dyd_oracle_options given = {0};
-  if (options) given = *options;
+  dyd_oracle_options given;
+  if (err) dyd_error_clear(err);
+  if (dyd_abi_take(&given, sizeof given, options, "dyd_oracle_options", err) != DYD_OK) return DYD_E_ARG;
   if (given.jobs == 0) given.jobs = 1;
   if (given.batch == 0) given.batch = 1;
   if (given.seconds == 0) given.seconds = DYD_ORACLE_SECONDS;
-  if (err) dyd_error_clear(err);
   if (!command || given.jobs > DYD_ORACLE_MAX_JOBS || given.batch > DYD_ORACLE_MAX_BATCH || !(given.seconds > 0)) {
     return dyd_fail(err, DYD_E_ARG, "an option of the oracle is out of its range");
   }

@@ -11,6 +11,7 @@
 #include "stream/oracle_worker.h"
 #include "stream/real.h"
 #include <dyadel/sites.h>
+#include <dyadel/stream.h>
 #include <string.h>
 
 /* A word of a line: text[begin, end). */
@@ -136,16 +137,26 @@ static dyd_status read_answer_rect(dyd_rect *r, bool known, const char *line, co
   return st;
 }
 
-dyd_status dyd_oracle_read_answer(dyd_rect *r, bool known, const char *line, size_t length, dyd_error *err) {
+/* The four ends behind `before` words, and whether they are fixed. */
+static dyd_status read_answer(dyd_rect *r, bool known, size_t before, const char *form, const char *line, size_t length,
+                              dyd_error *err) {
   word w[6];
   char shown[80];
-  size_t words = split_answer(w, 6, line, length);
-  bool fixed = words == 6 && answer_word_is(line, w[5], "fixed");
-  if (words != 5 && !fixed) {
-    return dyd_fail(err, DYD_E_STREAM,
-                    "its answer %s has not the five words I XLO XHI YLO YHI (and \"fixed\", if it is)",
-                    dyd_quoted(shown, sizeof shown, line, length));
+  size_t words = split_answer(w, before + 5, line, length);
+  bool fixed = words == before + 5 && answer_word_is(line, w[before + 4], "fixed");
+  if (words != before + 4 && !fixed) {
+    return dyd_fail(err, DYD_E_STREAM, "its answer %s has not the %s (and \"fixed\", if it is)",
+                    dyd_quoted(shown, sizeof shown, line, length), form);
   }
-  dyd_status st = read_answer_rect(r, known, line, w + 1, err);
-  return st == DYD_OK && fixed ? DYD_FIXED : st;
+  dyd_status st = read_answer_rect(r, known, line, w + before, err);
+  return st != DYD_OK || !fixed ? st : DYD_FIXED;
+}
+
+dyd_status dyd_oracle_read_answer(dyd_rect *r, bool known, const char *line, size_t length, dyd_error *err) {
+  return read_answer(r, known, 1, "five words I XLO XHI YLO YHI", line, length, err);
+}
+
+/* A point that is known exactly is not asked for again: then r is what a callback is given at first. */
+dyd_status dyd_rect_narrow_text(dyd_rect *r, const char *text, size_t length, dyd_error *err) {
+  return read_answer(r, !dyd_rect_is_point(r), 0, "four words XLO XHI YLO YHI", text, length, err);
 }

@@ -5,6 +5,7 @@
  * its old rectangle otherwise. Built-in combinations are intersected with the former rectangle [NEST-2]. */
 #include "stream/stream.h"
 
+#include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
 #include "rect/interval.h"
@@ -37,11 +38,13 @@ static bool stream_hold(dyd_stream *s) {
   return s->now;
 }
 
-dyd_status dyd_stream_new(dyd_stream **out, const dyd_source *source, size_t point) {
-  if (!source) return DYD_E_ARG;
-  dyd_status st = out && source->narrow ? stream_new(out, 0, source, point) : DYD_E_ARG;
-  if (st != DYD_OK && source->release) source->release(source->user);
-  return st;
+dyd_status dyd_stream_new(dyd_stream **out, const dyd_source *source, size_t point, dyd_error *err) {
+  dyd_source s;
+  dyd_status st = dyd_abi_take(&s, sizeof s, source, "dyd_source", err);
+  if (st != DYD_OK) return st;
+  st = out && s.narrow ? stream_new(out, 0, &s, point) : DYD_E_ARG;
+  if (st != DYD_OK && s.release) s.release(s.user);
+  return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
 }
 
 dyd_status dyd_stream_new_inside(dyd_stream **out, void **user, size_t size, dyd_narrow_fn narrow,
@@ -70,7 +73,7 @@ dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value) {
 }
 
 static dyd_status stream_new_final(dyd_stream **out, const dyd_source *source) {
-  dyd_request any = {0};
+  dyd_request any = {DYD_SIZED(dyd_request)};
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_status st = source->narrow(&r, source->user, &any, NULL);
@@ -82,7 +85,7 @@ static dyd_status stream_new_final(dyd_stream **out, const dyd_source *source) {
 
 dyd_status dyd_stream_new_enclosing(dyd_stream **out, const dyd_source *source, bool final) {
   if (final) return stream_new_final(out, source);
-  dyd_status st = dyd_stream_new(out, source, DYD_NO_POINT);
+  dyd_status st = dyd_stream_new(out, source, DYD_NO_POINT, NULL);
   if (st == DYD_OK) (*out)->encloses = true;
   return st;
 }

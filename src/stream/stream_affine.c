@@ -129,6 +129,6 @@ dyd_status dyd_stream_affine(dyd_stream **out, dyd_stream *of, const mpq_t m[6])
   if (!of) return DYD_E_ARG;
   affine *a = affine_make(of, m);
   if (!a) return DYD_E_NOMEM;
-  dyd_source source = {.narrow = affine_narrow, .release = affine_release, .user = a};
+  dyd_source source = {DYD_SIZED(dyd_source), .narrow = affine_narrow, .release = affine_release, .user = a};
   return dyd_stream_new_enclosing(out, &source, dyd_stream_is_final(a->of));
 }

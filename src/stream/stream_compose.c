@@ -123,7 +123,7 @@ dyd_status dyd_stream_combination(dyd_stream **out, size_t n, dyd_stream *const 
   }
   combination *c = combination_make(n, of, weight, shift);
   if (!c) return DYD_E_NOMEM;
-  dyd_source source = {.narrow = combination_narrow, .release = combination_release, .user = c};
+  dyd_source source = {DYD_SIZED(dyd_source), .narrow = combination_narrow, .release = combination_release, .user = c};
   return dyd_stream_new_enclosing(out, &source, combination_is_final(c));
 }
 

@@ -246,6 +246,6 @@ dyd_status dyd_stream_voronoi_vertex(dyd_stream **out, dyd_stream *a, dyd_stream
     return good ? DYD_E_NOMEM : DYD_E_ARG;
   }
   *v = (vertex){{a, b, c}, LEAST_EXTRA};
-  dyd_source source = {.narrow = vertex_narrow, .release = vertex_release, .user = v};
+  dyd_source source = {DYD_SIZED(dyd_source), .narrow = vertex_narrow, .release = vertex_release, .user = v};
   return dyd_stream_new_enclosing(out, &source, vertex_is_final(v));
 }

@@ -247,7 +247,7 @@ char *certificate_of_case(const orc_case *c, const dyd_engine_options *o) {
 }
 
 dyd_status certificate_check(dyd_certificate_report *report, const char *text, size_t length, dyd_error *err) {
-  dyd_certificate_report unused;
+  dyd_certificate_report unused = {DYD_SIZED(dyd_certificate_report)};
   FILE *in = length ? fmemopen((char *)(uintptr_t)text, length, "r") : fopen("/dev/null", "r");
   assert_non_null(in);
   dyd_status status = dyd_verify_certificate(report ? report : &unused, in, err);

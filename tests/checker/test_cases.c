@@ -28,7 +28,7 @@ static dyd_engine *engine_of(size_t n, const double *x, const double *y) {
 }
 
 static void expect(size_t n, const double *x, const double *y, size_t legal, size_t tie, size_t triangles) {
-  dyd_certificate_report r;
+  dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
   dyd_engine *e = engine_of(n, x, y);
   free(certify(&r, e, NULL));
   assert_int_equal(r.legal, legal);
@@ -63,7 +63,7 @@ static void grid(void **state) {
   (void)state;
   double x[49], y[49];
   for (int k = 0; k < 49; k++) x[k] = k % 7, y[k] = k / 7;
-  dyd_certificate_report r;
+  dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
   dyd_engine *e = engine_of(49, x, y);
   free(certify(&r, e, NULL));
   assert_int_equal(r.legal, 84);
@@ -77,9 +77,9 @@ static void capped(void **state) {
   (void)state;
   double x[40], y[40];
   for (int k = 0; k < 40; k++) x[k] = k, y[k] = 0;
-  dyd_certificate_report r;
+  dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
   dyd_engine *e = engine_of(40, x, y);
-  free(certify(&r, e, &(dyd_engine_options){.max_pairs = 10}));
+  free(certify(&r, e, &(dyd_engine_options){DYD_SIZED(dyd_engine_options), .max_pairs = 10}));
   assert_true(r.capped);
   assert_int_equal(r.legal, 39);
   assert_int_equal(r.unproved, 2 * (780 - 39)); /* both sides of the line are open sets */
@@ -94,7 +94,7 @@ static void outcomes(void **state) {
       {"0", "0"}, {"sqrt(2)", "0"}, {"sqrt(2)", "sqrt(3)"}, {"0", "sqrt(3)"}, {"1/3", "1/7"}};
   for (int k = 0; k < 4; k++) {
     dyd_engine *e = NULL;
-    dyd_certificate_report r;
+    dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
     assert_int_equal(dyd_engine_new(&e), DYD_OK);
     for (int q = 0; q < (k ? 4 : 5); q++) {
       dyd_real *x = NULL, *y = NULL;
@@ -104,7 +104,7 @@ static void outcomes(void **state) {
       assert_int_equal(dyd_stream_from_reals(&s, x, y), DYD_OK);
       assert_int_equal(dyd_engine_add_stream(e, s), DYD_OK);
     }
-    dyd_engine_options o = {.max_bits = 200};
+    dyd_engine_options o = {DYD_SIZED(dyd_engine_options), .max_bits = 200};
     if (k == 1) o.goal = DYD_GOAL_AREA, o.goal_bits = 20;
     if (k == 3) o.max_stages = 1;
     char *text = certify(&r, e, &o);
@@ -156,11 +156,12 @@ static void stopped(void **state) {
     dyd_stream *s = NULL;
     dyd_outcome outcome;
     dyd_error err;
-    dyd_certificate_report r;
-    dyd_source source = {.narrow = stop_run, .user = cancel ? e : NULL};
-    assert_int_equal(dyd_stream_new(&s, &source, 0), DYD_OK);
+    dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
+    dyd_source source = {DYD_SIZED(dyd_source), .narrow = stop_run, .user = cancel ? e : NULL};
+    assert_int_equal(dyd_stream_new(&s, &source, 0, NULL), DYD_OK);
     assert_int_equal(dyd_engine_add_stream(e, s), DYD_OK);
-    dyd_status status = dyd_engine_run(&outcome, e, &(dyd_engine_options){.start_bits = 30}, &err);
+    dyd_status status =
+        dyd_engine_run(&outcome, e, &(dyd_engine_options){DYD_SIZED(dyd_engine_options), .start_bits = 30}, &err);
     assert_int_equal(status, cancel ? DYD_OK : DYD_E_STREAM);
     assert_int_equal(outcome, cancel ? DYD_OUTCOME_CANCELLED : DYD_OUTCOME_ERROR);
     for (int with = 0; with < 2; with++) {
@@ -237,7 +238,7 @@ static void bridge_is_no_border(void **state) {
 static void joined_in_one_place(void **state) {
   (void)state;
   orc_case c;
-  dyd_certificate_report r;
+  dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
   orc_case_init(&c);
   orc_case_add(&c, 1, 1, 0, 3, 3);
   orc_case_add(&c, 1, 1, 0, 6, 3);

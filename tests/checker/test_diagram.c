@@ -13,7 +13,7 @@ typedef struct totals {
 } totals;
 
 static void expect_good(totals *t, diagram *d, const orc_case *c, char *text, test_random *r) {
-  dyd_certificate_report report;
+  dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
   dyd_error err;
   t->cases++;
   if (!text) {
@@ -136,10 +136,10 @@ static void goals(void **state) {
   for (int area = 0; area < 2; area++)
     for (int bits = 5; bits < (area ? 30 : 200); bits *= 4) {
       dyd_engine *e = engine_of_reals();
-      dyd_engine_options o = {.goal_bits = bits, .window = &w, .max_bits = 2000};
+      dyd_engine_options o = {DYD_SIZED(dyd_engine_options), .goal_bits = bits, .window = &w, .max_bits = 2000};
       o.goal = area ? DYD_GOAL_VORONOI_AREA : DYD_GOAL_VORONOI_HAUSDORFF;
       dyd_outcome outcome;
-      dyd_certificate_report report;
+      dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
       dyd_error err;
       assert_int_equal(dyd_engine_run(&outcome, e, &o, NULL), DYD_OK);
       assert_int_equal(outcome, DYD_OUTCOME_CERTIFIED);
@@ -223,7 +223,7 @@ static void forged_sections(void **state) {
     orc_case_add(&c, x, x, y, y, 1);
   }
   char *text = certificate_of_case(&c, NULL);
-  dyd_certificate_report report;
+  dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
   for (size_t k = 0; k < sizeof good / sizeof *good; k++) {
     const char *all = with_section(text, good[k]);
     assert_int_equal(certificate_check(&report, all, strlen(all), NULL), DYD_OK);

@@ -72,7 +72,7 @@ static bool repair(char *text, const dyd_error *err, bool corner) {
 }
 
 static void try_claim(forger *f, const char *original, bool corner) {
-  dyd_certificate_report report;
+  dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
   dyd_error err;
   dyd_status status;
   f->tried++;

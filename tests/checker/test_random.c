@@ -11,7 +11,7 @@ typedef struct totals {
 } totals;
 
 static void check_case(totals *t, orc_pool *pool, const orc_case *c, bool judge) {
-  dyd_certificate_report report;
+  dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
   dyd_error err;
   statement s;
   char *text = certificate_of_case(c, NULL);

@@ -42,7 +42,7 @@ void read_case(orc_case *out, const char *name, const char *text) {
 }
 
 static bool right_with(char *message, harness *h, const orc_case *c, const orc_table *t, bool no_filter) {
-  dyd_delaunay_options o = {.no_filter = no_filter};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = no_filter};
   dyd_sites *s = harness_sites(c);
   dyd_delaunay *pd = harness_engine(message, s, &o);
   bool good = pd && same_as_oracle(message, h, c, t, pd) && queries_agree(message, c, pd) &&
@@ -64,7 +64,7 @@ void expect_right(harness *h, const orc_case *c) {
 
 int engine_status(const orc_case *c, uint32_t i, uint32_t j, bool no_filter) {
   char message[MESSAGE_SIZE] = "";
-  dyd_delaunay_options o = {.no_filter = no_filter};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = no_filter};
   dyd_sites *s = harness_sites(c);
   dyd_delaunay *pd = harness_engine(message, s, &o);
   int status = pd ? (int)dyd_delaunay_status(pd, i, j) : -1;

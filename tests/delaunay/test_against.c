@@ -12,7 +12,7 @@ static harness shared;
 
 static dyd_delaunay *engine(const dyd_sites *s, bool no_filter) {
   char message[MESSAGE_SIZE] = "";
-  dyd_delaunay_options o = {.no_filter = no_filter};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = no_filter};
   dyd_delaunay *pd = harness_engine(message, s, &o);
   if (!pd) fail_msg("%s", message);
   return pd;

@@ -230,7 +230,7 @@ static void test_cap(void **state) {
   dyd_delaunay *pd = NULL;
   dyd_error err;
   dyd_pair_list l = {0};
-  dyd_delaunay_options o = {.max_pairs = 10};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = 10};
   dyd_error_clear(&err);
   assert_int_equal(dyd_delaunay_new(&pd, s, &o, &err), DYD_CAPPED);
   assert_non_null(pd);
@@ -261,7 +261,7 @@ static void test_cap_dissolves(void **state) {
   dyd_sites *s = heap_of(n);
   dyd_delaunay *pd = NULL;
   dyd_rect r;
-  dyd_delaunay_options o = {.max_pairs = 5};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = 5};
   assert_int_equal(dyd_delaunay_new(&pd, s, &o, NULL), DYD_CAPPED);
   dyd_rect_init(&r);
   for (uint32_t i = 0; i < n; i++) {
@@ -285,7 +285,7 @@ static void test_cancel(void **state) {
   dyd_sites *s = heap_of(30);
   dyd_delaunay *pd = (dyd_delaunay *)s;
   volatile int flag = 1;
-  dyd_delaunay_options o = {.cancel = &flag};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = &flag};
   dyd_error err;
   dyd_error_clear(&err);
   assert_int_equal(dyd_delaunay_new(&pd, s, &o, &err), DYD_CANCELLED);
@@ -312,15 +312,15 @@ static void test_counters(void **state) {
   (void)state;
   dyd_sites *s = grid(4);
   dyd_delaunay *pd = NULL;
-  dyd_delaunay_counters k;
-  dyd_delaunay_options o = {.no_filter = true};
+  dyd_delaunay_counters k = {DYD_SIZED(dyd_delaunay_counters)};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = true};
   assert_int_equal(dyd_delaunay_new(&pd, s, &o, NULL), DYD_OK);
-  dyd_delaunay_get_counters(&k, pd);
+  dyd_delaunay_get_counters(&k, pd, NULL);
   assert_int_equal(k.filter, 0);
   assert_true(k.exact + k.integer > 0);
   dyd_delaunay_free(pd);
   assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
-  dyd_delaunay_get_counters(&k, pd);
+  dyd_delaunay_get_counters(&k, pd, NULL);
   assert_true(k.filter + k.exact + k.integer > 0);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);

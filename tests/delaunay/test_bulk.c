@@ -124,7 +124,7 @@ static void test_points(void **state) {
     b.n = drop_repeats(&b);
     dyd_sites *s = bulk_sites(&b);
     dyd_delaunay *pd = NULL;
-    dyd_delaunay_options o = {.no_filter = k % 5 == 0};
+    dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = k % 5 == 0};
     assert_int_equal(dyd_delaunay_new(&pd, s, &o, NULL), DYD_OK);
     check_choice(&b, pd, true);
     dyd_delaunay_free(pd);
@@ -162,7 +162,7 @@ static bool repeats(const bulk *b) {
 /* Two engines on the same sites, pair by pair. */
 static void check_same(const bulk *b, const dyd_sites *s, const dyd_delaunay *pd, bool no_filter, unsigned threads) {
   dyd_delaunay *other = NULL;
-  dyd_delaunay_options o = {.no_filter = no_filter, .threads = threads};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = no_filter, .threads = threads};
   assert_int_equal(dyd_delaunay_new(&other, s, &o, NULL), DYD_OK);
   for (uint32_t i = 0; i < b->n; i++)
     for (uint32_t j = i + 1; j < b->n; j++) {

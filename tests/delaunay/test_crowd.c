@@ -87,11 +87,11 @@ static dyd_sites *sites_of(const crowd *c) {
 static void check_same(uint64_t walks[2], const crowd *c) {
   dyd_sites *s = sites_of(c);
   dyd_delaunay *pd[2] = {NULL, NULL};
-  dyd_delaunay_counters counters;
+  dyd_delaunay_counters counters = {DYD_SIZED(dyd_delaunay_counters)};
   for (int k = 0; k < 2; k++) {
-    dyd_delaunay_options o = {.no_filter = k == 1};
+    dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = k == 1};
     assert_int_equal(dyd_delaunay_new(&pd[k], s, &o, NULL), DYD_OK);
-    dyd_delaunay_get_counters(&counters, pd[k]);
+    dyd_delaunay_get_counters(&counters, pd[k], NULL);
     walks[k] += counters.cover_walks;
   }
   for (uint32_t i = 0; i < c->n; i++)
@@ -138,7 +138,7 @@ static void test_equal_squares(void **state) {
   enum { MANY = 6000 };
   dyd_sites *s = NULL;
   dyd_delaunay *pd = NULL;
-  dyd_delaunay_options o = {.max_pairs = 100000};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = 100000};
   dyd_error err;
   assert_int_equal(dyd_sites_new(&s), DYD_OK);
   for (size_t k = 0; k < MANY; k++) {

@@ -137,7 +137,7 @@ static void test_flood(void **state) {
 static void check_marked(const flock *f, double thin, size_t *marked) {
   dyd_sites *s = sites_of(f);
   dyd_delaunay *pd = NULL, *plain = NULL;
-  dyd_delaunay_options slow = {.no_filter = true};
+  dyd_delaunay_options slow = {DYD_SIZED(dyd_delaunay_options), .no_filter = true};
   assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
   assert_int_equal(dyd_delaunay_new(&plain, s, &slow, NULL), DYD_OK);
   for (uint32_t i = 0; i < f->n; i++)

@@ -173,7 +173,7 @@ static bool cancelled_update(char *message, harness *h, const dyd_sites *s, dyd_
   snapshot was;
   pthread_t thread;
   alarm_clock a = {0, (long)test_below(&h->random, 2000000)};
-  dyd_delaunay_options o = {.cancel = &a.flag};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = &a.flag};
   take(was, pd, now->n);
   if (pthread_create(&thread, NULL, ring, &a)) return wrong(message, "no thread");
   dyd_status status = dyd_delaunay_update(pd, changed, count, &o, NULL);

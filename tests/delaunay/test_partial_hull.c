@@ -202,7 +202,7 @@ static bool narrowed_right(char *message, harness *h, const orc_case *c, dyd_sit
 
 static bool case_right(char *message, harness *h, const orc_case *c) {
   dyd_sites *s = harness_sites(c);
-  dyd_delaunay_options exact = {.no_filter = true};
+  dyd_delaunay_options exact = {DYD_SIZED(dyd_delaunay_options), .no_filter = true};
   dyd_delaunay *pd = harness_engine(message, s, NULL), *slow = harness_engine(message, s, &exact);
   bool good = pd && slow && hull_right(message, &h->pool, c, pd) && hull_right(message, &h->pool, c, slow) &&
               narrowed_right(message, h, c, s, pd);
@@ -294,7 +294,7 @@ static void test_cap(void **state) {
   dyd_sites *s = NULL;
   dyd_delaunay *pd = NULL;
   dyd_hull hull = {0};
-  dyd_delaunay_options o = {.max_pairs = 100};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = 100};
   dyd_error err;
   assert_int_equal(dyd_sites_new(&s), DYD_OK);
   for (int i = 0; i <= 60; i++) {

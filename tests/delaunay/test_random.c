@@ -69,8 +69,10 @@ static bool check(char *message, harness *h, const orc_case *c) {
   }
   good = good && same_as_oracle(message, h, c, &t, pd) && queries_agree(message, c, pd) &&
          triangles_right(message, &h->pool, c, pd) && witnesses_hold(message, &h->pool, c, pd);
-  good = good && same_with(message, h, c, s, pd, (dyd_delaunay_options){.no_filter = true}) &&
-         same_with(message, h, c, s, pd, (dyd_delaunay_options){.threads = 2}) && same_when_moved(message, h, c, pd);
+  good = good &&
+         same_with(message, h, c, s, pd, (dyd_delaunay_options){DYD_SIZED(dyd_delaunay_options), .no_filter = true}) &&
+         same_with(message, h, c, s, pd, (dyd_delaunay_options){DYD_SIZED(dyd_delaunay_options), .threads = 2}) &&
+         same_when_moved(message, h, c, pd);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);
   return good;

@@ -27,7 +27,7 @@ static void expect(const orc_case *c, const char *table) {
   for (size_t i = 0; i < c->n; i++)
     for (size_t j = 0; j < c->n; j++) assert_int_equal(found.status[i][j], want.status[i][j]);
   for (int exact = 0; exact < 2; exact++) {
-    dyd_delaunay_options o = {.no_filter = exact};
+    dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = exact};
     dyd_sites *s = harness_sites(c);
     dyd_delaunay *pd = harness_engine(message, s, &o);
     bool good = pd && same_as_oracle(message, &shared, c, &want, pd) && queries_agree(message, c, pd) &&

@@ -85,7 +85,7 @@ static void narrow(dyd_sites *s, uint32_t i) {
 
 static void compare(const dyd_delaunay *a, const dyd_delaunay *b) {
   dyd_pair_list p = {0}, q = {0};
-  dyd_delaunay_counters c, d;
+  dyd_delaunay_counters c = {DYD_SIZED(dyd_delaunay_counters)}, d = c;
   assert_int_equal(a->mesh.count, b->mesh.count);
   assert_memory_equal(a->certain, b->certain, a->mesh.count);
   if (a->mesh.count) assert_memory_equal(a->mesh.tri, b->mesh.tri, a->mesh.count * sizeof *a->mesh.tri);
@@ -95,8 +95,8 @@ static void compare(const dyd_delaunay *a, const dyd_delaunay *b) {
   assert_int_equal(p.count, q.count);
   for (size_t k = 0; k < p.count; k++)
     assert_true(p.item[k].i == q.item[k].i && p.item[k].j == q.item[k].j && p.item[k].status == q.item[k].status);
-  dyd_delaunay_get_counters(&c, a);
-  dyd_delaunay_get_counters(&d, b);
+  dyd_delaunay_get_counters(&c, a, NULL);
+  dyd_delaunay_get_counters(&d, b, NULL);
   assert_memory_equal(&c, &d, sizeof c);
   dyd_pair_list_clear(&q);
   dyd_pair_list_clear(&p);
@@ -106,8 +106,9 @@ static void one_case(bool no_filter) {
   static const unsigned counts[] = {2, 3, 8};
   dyd_sites *s = make_sites(), *t = make_sites();
   dyd_delaunay *one = NULL, *many = NULL;
-  dyd_delaunay_options alone = {.threads = 1, .no_filter = no_filter};
-  dyd_delaunay_options together = {.threads = counts[test_below(&shared, 3)], .no_filter = no_filter};
+  dyd_delaunay_options alone = {DYD_SIZED(dyd_delaunay_options), .threads = 1, .no_filter = no_filter};
+  dyd_delaunay_options together = {DYD_SIZED(dyd_delaunay_options), .threads = counts[test_below(&shared, 3)],
+                                   .no_filter = no_filter};
   uint32_t changed[12];
   assert_int_equal(dyd_delaunay_new(&one, s, &alone, NULL), DYD_OK);
   assert_int_equal(dyd_delaunay_new(&many, t, &together, NULL), DYD_OK);

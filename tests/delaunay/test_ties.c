@@ -243,7 +243,7 @@ static void check_capped_lists(const example *e, const dyd_delaunay *pd, const s
 
 static void check_cap(const example *e, const dyd_sites *s, const dyd_delaunay *free, size_t cap) {
   dyd_delaunay *pd = NULL;
-  dyd_delaunay_options o = {.max_pairs = cap};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = cap};
   dyd_error err = {0};
   dyd_status status = dyd_delaunay_new(&pd, s, &o, &err);
   size_t faces = dyd_delaunay_undecided_faces(pd), live = 0, want[4] = {0};
@@ -278,7 +278,7 @@ static void test_definition(void **state) {
   assert_non_null(e);
   for (size_t q = 0; q < test_cases(400); q++) {
     dyd_delaunay *pd = NULL;
-    dyd_delaunay_options o = {.no_filter = test_chance(&g, 8)};
+    dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = test_chance(&g, 8)};
     size_t count[4];
     make(e, &g);
     if (is_line(e)) continue;

@@ -99,7 +99,7 @@ static void step(cloud *c, test_random *g, dyd_sites *s, dyd_delaunay *pd) {
     dyd_rect_clear(&r);
     changed[count++] = (uint32_t)i;
   }
-  dyd_delaunay_options o = {.no_filter = test_chance(g, 30)};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = test_chance(g, 30)};
   assert_int_equal(dyd_delaunay_update(pd, changed, count, &o, NULL), DYD_OK);
 }
 

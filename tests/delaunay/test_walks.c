@@ -147,7 +147,7 @@ static bool directions(char *message, harness *h, const orc_case *c) {
   (void)h;
   if (!from_case(&b, c)) return true;
   for (int exact = 0; exact < 2 && good; exact++) {
-    dyd_delaunay_options o = {.no_filter = exact};
+    dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = exact};
     dyd_sites *s = harness_sites(c);
     dyd_delaunay *pd = harness_engine(message, s, &o);
     dyd_work w;
@@ -226,7 +226,7 @@ static bool cover_both(char *message, harness *h, const orc_case *c) {
   for (size_t k = 0; k < c->n; k++)
     if (orc_case_alias(c, k) != k) return true;
   for (int exact = 0; exact < 2 && good; exact++) {
-    dyd_delaunay_options o = {.no_filter = exact};
+    dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = exact};
     dyd_sites *s = harness_sites(c);
     dyd_delaunay *pd = harness_engine(message, s, &o);
     good = pd && (!pd->box || covers(message, h, c, pd));

@@ -64,8 +64,8 @@ void engine_count(size_t count[4], const dyd_engine *e) {
 }
 
 dyd_engine_counters engine_counters(const dyd_engine *e) {
-  dyd_engine_counters c;
-  dyd_engine_get_counters(&c, e);
+  dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
+  dyd_engine_get_counters(&c, e, NULL);
   return c;
 }
 
@@ -104,7 +104,7 @@ void monotone_look(monotone *m) {
     }
 }
 
-void monotone_progress(const dyd_progress *p, void *user) {
+void monotone_progress(void *user, const dyd_progress *p) {
   monotone *m = user;
   size_t count[4];
   assert_int_equal(m->n, p->sites);
@@ -175,5 +175,5 @@ static void faulty_release(void *user) {
 }
 
 dyd_source faulty_source(faulty *f) {
-  return (dyd_source){.narrow = faulty_narrow, .release = faulty_release, .user = f};
+  return (dyd_source){DYD_SIZED(dyd_source), .narrow = faulty_narrow, .release = faulty_release, .user = f};
 }

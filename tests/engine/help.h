@@ -35,7 +35,7 @@ typedef struct monotone {
 } monotone;
 void monotone_init(monotone *m, const dyd_engine *e);
 void monotone_clear(monotone *m);
-void monotone_progress(const dyd_progress *p, void *user);
+void monotone_progress(void *user, const dyd_progress *p);
 /* Compares with the present result once more. */
 void monotone_look(monotone *m);
 

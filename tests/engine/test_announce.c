@@ -50,8 +50,8 @@ static dyd_status watched_narrow(dyd_rect *out, void *user, const dyd_request *q
 }
 
 static void add(dyd_engine *e, watched *w, size_t n) {
-  dyd_source source = {.narrow = watched_narrow, .user = w, .announce = note};
-  assert_int_equal(DYD_OK, dyd_engine_add_source(e, n, &source));
+  dyd_source source = {DYD_SIZED(dyd_source), .narrow = watched_narrow, .user = w, .announce = note};
+  assert_int_equal(DYD_OK, dyd_engine_add_source(e, n, &source, NULL));
 }
 
 static void test_lists(void **state) {
@@ -137,8 +137,8 @@ static dyd_status liar(dyd_rect *out, void *user, const dyd_request *q, dyd_erro
 static void test_liar(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
-  dyd_source source = {.narrow = liar};
-  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 1, &source));
+  dyd_source source = {DYD_SIZED(dyd_source), .narrow = liar};
+  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 1, &source, NULL));
   engine_run(e, NULL, DYD_OUTCOME_ERROR);
   dyd_engine_free(e);
 }

@@ -37,7 +37,7 @@ static void test_calls(void **state) {
   dyd_source source = faulty_source(&f);
   dyd_engine *e = engine_new();
   const double x[4] = {0, 10, 9, -10}, y[4] = {1000, 1000, 1021, 1015};
-  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 4, &source));
+  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 4, &source, NULL));
   assert_int_equal(DYD_OK, dyd_engine_add_points(e, 4, x, y));
   for (int k = 0; k < 5; k++) {
     char cx[60], cy[60];
@@ -248,7 +248,7 @@ static void test_cancel_inside(void **state) {
     dyd_source source = faulty_source(&f);
     dyd_engine *e = engine_new();
     f.cancel = e;
-    assert_int_equal(DYD_OK, dyd_engine_add_source(e, 6, &source));
+    assert_int_equal(DYD_OK, dyd_engine_add_source(e, 6, &source, NULL));
     dyd_engine_options o = options();
     o.start_bits = 2;
     dyd_outcome outcome;

@@ -49,14 +49,14 @@ static dyd_status open_points(dyd_engine **out, void *user, dyd_error *err) {
     faulty *f = &p->made[p->count++];
     *f = (faulty){.kind = p->kind, .point = 5, .stage = p->stage};
     dyd_source source = faulty_source(f);
-    assert_int_equal(dyd_engine_add_source(*out, 8, &source), DYD_OK);
+    assert_int_equal(dyd_engine_add_source(*out, 8, &source, NULL), DYD_OK);
   }
   return DYD_OK;
 }
 
 /* Runs; a fault has to be of the kind `want`, and to show again from its moves, none of which can be left out. */
 static void run(points *p, const dyd_check_options *o, dyd_check_fault want) {
-  dyd_check_report report = {0}, again = {0};
+  dyd_check_report report = {DYD_SIZED(dyd_check_report)}, again = {DYD_SIZED(dyd_check_report)};
   dyd_error err;
   p->made = calloc(4096, sizeof *p->made);
   p->count = 0;
@@ -65,7 +65,7 @@ static void run(points *p, const dyd_check_options *o, dyd_check_fault want) {
   assert_int_equal(report.fault, want);
   assert_true(report.stages > 0 || want == DYD_CHECK_STREAM || want == DYD_CHECK_RATE);
   if (want != DYD_CHECK_FINE) {
-    dyd_check_options same = o ? *o : (dyd_check_options){0};
+    dyd_check_options same = o ? *o : (dyd_check_options){DYD_SIZED(dyd_check_options)};
     same.seed = report.seed;
     same.base_bits = report.base_bits;
     fprintf(stderr, "# %s after %u schedules, %zu moves: %s\n", dyd_check_fault_text(want), (unsigned)report.schedules,
@@ -95,7 +95,8 @@ static void run(points *p, const dyd_check_options *o, dyd_check_fault want) {
 static void good_points(void **state) {
   (void)state;
   test_random r = test_random_start("check good");
-  dyd_check_options o = {.seed = test_u64(&r) >> 2, .schedules = (unsigned)test_cases(8), .max_bits = 80};
+  dyd_check_options o = {DYD_SIZED(dyd_check_options), .seed = test_u64(&r) >> 2, .schedules = (unsigned)test_cases(8),
+                         .max_bits = 80};
   points mixed = {.seed = 7, .roots = 9, .kind = FAULT_NONE}, tied = {.seed = 8, .corners = 4, .roots = 2};
   run(&mixed, &o, DYD_CHECK_FINE);
   run(&tied, &o, DYD_CHECK_FINE);
@@ -106,7 +107,7 @@ static void good_points(void **state) {
 
 static void bad_streams(void **state) {
   (void)state;
-  dyd_check_options o = {.seed = 3, .max_bits = 120};
+  dyd_check_options o = {DYD_SIZED(dyd_check_options), .seed = 3, .max_bits = 120};
   points widens = {.seed = 5, .roots = 3, .kind = FAULT_WIDEN, .stage = 2};
   points drifts = {.seed = 5, .roots = 3, .kind = FAULT_DRIFT, .stage = 3};
   points stalls = {.seed = 5, .roots = 3, .kind = FAULT_STALL, .stage = 1};
@@ -119,7 +120,7 @@ static void bad_streams(void **state) {
 
 /* Which check tells depends on where the fault strikes: any but those of streams. */
 static void must_tell(points *p, const dyd_check_options *o) {
-  dyd_check_report report = {0};
+  dyd_check_report report = {DYD_SIZED(dyd_check_report)};
   dyd_error err;
   assert_int_equal(dyd_check_run(&report, open_points, p, o, &err), DYD_OK);
   fprintf(stderr, "# %s after %u schedules, %zu moves: %s\n", dyd_check_fault_text(report.fault),
@@ -131,7 +132,8 @@ static void must_tell(points *p, const dyd_check_options *o) {
 /* Cells are not watched: they would stand on a triangulation that is no triangulation, which the armed build sees. */
 static void bad_engine(void **state) {
   (void)state;
-  dyd_check_options o = {.seed = 3, .max_bits = 60, .base_bits = 2, .schedules = 100, .no_cells = true};
+  dyd_check_options o = {
+      DYD_SIZED(dyd_check_options), .seed = 3, .max_bits = 60, .base_bits = 2, .schedules = 100, .no_cells = true};
   points p = {.seed = 11, .corners = 5, .roots = 4};
   flip_side = true;
   must_tell(&p, &o);

@@ -12,13 +12,13 @@ static dyd_engine *faulty_engine(faulty *f, bool streams) {
   const double x[3] = {-50, 0, 60}, y[3] = {-30, 90, -40};
   assert_int_equal(DYD_OK, dyd_engine_add_points(e, 3, x, y));
   if (!streams) {
-    assert_int_equal(DYD_OK, dyd_engine_add_source(e, 5, &source));
+    assert_int_equal(DYD_OK, dyd_engine_add_source(e, 5, &source, NULL));
     return e;
   }
   for (size_t k = 0; k < 5; k++) {
     dyd_stream *s = NULL;
     if (k) source.release = NULL;
-    assert_int_equal(DYD_OK, dyd_stream_new(&s, &source, k));
+    assert_int_equal(DYD_OK, dyd_stream_new(&s, &source, k, NULL));
     assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s));
   }
   return e;
@@ -119,18 +119,18 @@ static void test_release(void **state) {
   dyd_engine *e = engine_new();
   dyd_source source = faulty_source(&f), none = faulty_source(&f);
   none.narrow = NULL;
-  assert_int_equal(DYD_E_ARG, dyd_engine_add_source(e, 3, &none));
+  assert_int_equal(DYD_E_ARG, dyd_engine_add_source(e, 3, &none, NULL));
   assert_int_equal(1, f.released);
-  assert_true(dyd_engine_add_source(e, SIZE_MAX / 2, &source) < 0);
+  assert_true(dyd_engine_add_source(e, SIZE_MAX / 2, &source, NULL) < 0);
   assert_int_equal(2, f.released);
   assert_int_equal(0, dyd_engine_count(e));
-  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 0, &source));
+  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 0, &source, NULL));
   assert_int_equal(2, f.released);
   engine_run(e, NULL, DYD_OUTCOME_DECIDED);
-  assert_int_equal(DYD_E_ARG, dyd_engine_add_source(e, 1, &source));
+  assert_int_equal(DYD_E_ARG, dyd_engine_add_source(e, 1, &source, NULL));
   assert_int_equal(3, f.released);
   dyd_stream *s = NULL;
-  assert_int_equal(DYD_OK, dyd_stream_new(&s, &source, 0));
+  assert_int_equal(DYD_OK, dyd_stream_new(&s, &source, 0, NULL));
   assert_int_equal(DYD_E_ARG, dyd_engine_add_stream(e, s));
   assert_int_equal(4, f.released);
   dyd_engine_free(e);
@@ -144,7 +144,7 @@ static void test_reference(void **state) {
   dyd_engine *e = engine_new();
   dyd_source source = faulty_source(&f);
   dyd_stream *s = NULL;
-  assert_int_equal(DYD_OK, dyd_stream_new(&s, &source, 2));
+  assert_int_equal(DYD_OK, dyd_stream_new(&s, &source, 2, NULL));
   assert_int_equal(DYD_OK, dyd_engine_add_stream(e, dyd_stream_ref(s)));
   assert_int_equal(DYD_OK, dyd_engine_add_stream(e, dyd_stream_ref(s)));
   engine_run(e, NULL, DYD_OUTCOME_DECIDED); /* two sites are always joined */
@@ -194,10 +194,10 @@ static void test_wide(void **state) {
   for (int k = 0; k < 3; k++) {
     int64_t size = sizes[k];
     dyd_engine *e = engine_new();
-    dyd_source source = {.narrow = wide, .user = &size};
+    dyd_source source = {DYD_SIZED(dyd_source), .narrow = wide, .user = &size};
     const double x[3] = {0, 10, 0}, y[3] = {0, 0, 11};
     assert_int_equal(DYD_OK, dyd_engine_add_points(e, 3, x, y));
-    assert_int_equal(DYD_OK, dyd_engine_add_source(e, 1, &source));
+    assert_int_equal(DYD_OK, dyd_engine_add_source(e, 1, &source, NULL));
     dyd_outcome outcome;
     dyd_status status = dyd_engine_run(&outcome, e, NULL, NULL);
     /* The widest rectangle there is may be too much for the triangulation: an error then, never a wrong answer. */

@@ -287,7 +287,7 @@ static void test_mixed(void **state) {
   const double x[2] = {-5, -7}, y[2] = {11, 2}, x1[2] = {-4.5, -6.5}, y1[2] = {11.5, 2};
   assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, x, y1));
   engine_add_text(e, "sqrt(2)", "pi");
-  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 3, &source));
+  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 3, &source, NULL));
   assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 2, x, x1, y, y1));
   assert_int_equal(DYD_OK, dyd_rect_set_d(&r, 20, 21, 30, 30));
   assert_int_equal(DYD_OK, dyd_engine_add_rect(e, &r));

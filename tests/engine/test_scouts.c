@@ -125,7 +125,7 @@ typedef struct canceller {
   int steps, at;
 } canceller;
 
-static void cancel_step(const dyd_step *step, void *user) {
+static void cancel_step(void *user, const dyd_step *step) {
   canceller *c = user;
   assert_true(step->rect && dyd_rect_bits(step->rect) >= step->bits);
   if (++c->steps == c->at) dyd_engine_cancel(c->e);
@@ -177,8 +177,8 @@ static void test_failure(void **state) {
     snprintf(text[1], sizeof *text, "sin(%d/2)*(1+%d*2^-400)", k, k * 5 % 12);
     for (int a = 0; a < 2; a++) assert_int_equal(DYD_OK, dyd_real_parse(&c[a], text[a], strlen(text[a]), NULL));
     assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, c[0], c[1]));
-    const dyd_source source = {.narrow = shallow, .release = release_stream, .user = s};
-    assert_int_equal(DYD_OK, dyd_engine_add_source(e, 1, &source));
+    const dyd_source source = {DYD_SIZED(dyd_source), .narrow = shallow, .release = release_stream, .user = s};
+    assert_int_equal(DYD_OK, dyd_engine_add_source(e, 1, &source, NULL));
   }
   dyd_outcome outcome;
   dyd_error err;

@@ -26,7 +26,7 @@ static void notes_clear(notes *n) {
   for (int k = 0; k < 32; k++) dyd_rect_clear(&n->rect[k]);
 }
 
-static void note_step(const dyd_step *s, void *user) {
+static void note_step(void *user, const dyd_step *s) {
   notes *n = user;
   assert_int_equal(n->stages + 1, s->stage);
   assert_true(s->site < 32);
@@ -50,7 +50,7 @@ static void note_step(const dyd_step *s, void *user) {
   if (++n->steps == n->cancel_at) dyd_engine_cancel(n->e);
 }
 
-static void note_stage(const dyd_progress *p, void *user) {
+static void note_stage(void *user, const dyd_progress *p) {
   notes *n = user;
   assert_int_equal(++n->stages, p->stage);
 }
@@ -217,12 +217,12 @@ typedef struct seen {
   size_t rows, reports;
 } seen;
 
-static void see_report(const dyd_progress *p, void *user) {
+static void see_report(void *user, const dyd_progress *p) {
   (void)p;
   ((seen *)user)->reports++;
 }
 
-static void see_row(const dyd_stage_row *row, const dyd_delaunay *pd, void *user) {
+static void see_row(void *user, const dyd_stage_row *row, const dyd_delaunay *pd) {
   seen *s = user;
   dyd_engine_counters c = engine_counters(s->e);
   assert_int_equal(++s->rows, s->reports); /* the caller's progress comes first */
@@ -251,27 +251,27 @@ static void test_table(void **state) {
     engine_add_roots(e, &r, 3 + k % 7);
     engine_add_polygon(e, 5, NULL, 0);
     seen s = {.e = e};
-    dyd_convergence table = {0};
+    dyd_convergence table = {DYD_SIZED(dyd_convergence)};
     dyd_engine_options o;
     dyd_engine_options_init(&o);
     o.start_bits = 3;
     o.max_bits = 200;
     o.progress = see_report;
     o.progress_user = &s;
-    dyd_converge_options c = {.stage = see_row, .stage_user = &s};
+    dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .stage = see_row, .stage_user = &s};
     dyd_error err;
     assert_int_equal(DYD_OK, dyd_converge_run(&table, e, &o, &c, &err));
     assert_int_equal(s.rows, table.count);
     assert_int_equal(table.outcome, dyd_engine_outcome(e));
-    assert_null(table.options.progress);
-    assert_int_equal(200, table.options.max_bits);
+    assert_null(table.options->progress);
+    assert_int_equal(200, table.options->max_bits);
     for (size_t i = 0; i < table.count; i++) {
-      assert_true(table.row[i].voronoi && table.row[i].seconds >= 0);
-      assert_true(dyd_dyadic_cmp(&table.row[i].width_median, &table.row[i].width_largest) <= 0);
+      assert_true(table.row[i]->voronoi && table.row[i]->seconds >= 0);
+      assert_true(dyd_dyadic_cmp(&table.row[i]->width_median, &table.row[i]->width_largest) <= 0);
       if (i == 0) continue;
-      assert_true(dyd_dyadic_cmp(&table.row[i].width_largest, &table.row[i - 1].width_largest) <= 0);
-      assert_true(table.row[i].seconds >= table.row[i - 1].seconds);
-      assert_true(table.row[i].count[DYD_LEGAL] >= table.row[i - 1].count[DYD_LEGAL]);
+      assert_true(dyd_dyadic_cmp(&table.row[i]->width_largest, &table.row[i - 1]->width_largest) <= 0);
+      assert_true(table.row[i]->seconds >= table.row[i - 1]->seconds);
+      assert_true(table.row[i]->count[DYD_LEGAL] >= table.row[i - 1]->count[DYD_LEGAL]);
     }
     dyd_convergence_clear(&table);
     dyd_convergence_clear(&table);
@@ -285,7 +285,7 @@ static void assert_same_rows(const dyd_convergence *a, const dyd_convergence *b)
   assert_int_equal(a->count, b->count);
   assert_int_equal(a->outcome, b->outcome);
   for (size_t k = 0; k < a->count; k++) {
-    const dyd_stage_row *r = &a->row[k], *s = &b->row[k];
+    const dyd_stage_row *r = a->row[k], *s = b->row[k];
     assert_true(r->digest == s->digest && r->stage == s->stage && r->calls == s->calls);
     assert_true(r->bits_least == s->bits_least && r->bits_most == s->bits_most && r->bits_total == s->bits_total);
     assert_memory_equal(r->count, s->count, sizeof r->count);
@@ -299,7 +299,7 @@ static void test_replay_of_cut_runs(void **state) {
   (void)state;
   for (uint64_t calls = 1; calls < 40; calls += 1 + calls / 4) {
     dyd_engine *e = engine_new();
-    dyd_convergence table = {0}, again = {0};
+    dyd_convergence table = {DYD_SIZED(dyd_convergence)}, again = {DYD_SIZED(dyd_convergence)};
     dyd_engine_options o;
     dyd_trace *trace;
     dyd_error err;
@@ -309,10 +309,11 @@ static void test_replay_of_cut_runs(void **state) {
     engine_add_text(e, "10/3", "2^-300");
     dyd_engine_options_init(&o);
     o.max_calls = calls;
-    assert_int_equal(DYD_OK, dyd_trace_new(&trace, f, e, &o, NULL));
+    assert_int_equal(DYD_OK, dyd_trace_new(&trace, f, e, &o, NULL, NULL));
     o.trace = dyd_trace_step;
     o.trace_user = trace;
-    dyd_converge_options c = {.stage = dyd_trace_stage, .stage_user = trace, .no_voronoi = true};
+    dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .stage = dyd_trace_stage, .stage_user = trace,
+                              .no_voronoi = true};
     assert_int_equal(DYD_OK, dyd_converge_run(&table, e, &o, &c, &err));
     assert_int_equal(DYD_OUTCOME_BUDGET, table.outcome);
     assert_int_equal(DYD_OK, dyd_trace_end(trace, table.outcome, &err));

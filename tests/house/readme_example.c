@@ -33,14 +33,14 @@ static dyd_status narrow(dyd_rect *out, void *user, const dyd_request *request, 
 
 int main(void) {
   const double x[] = {0, 3}, y[] = {0, 0}, left = 0, d = 2.718281828459045;
-  const dyd_source source = {.narrow = narrow};
+  const dyd_source source = {DYD_SIZED(dyd_source), .narrow = narrow};
   dyd_engine *engine = NULL;
   dyd_outcome outcome = DYD_OUTCOME_NONE;
   dyd_pair_list pairs = {0};
   dyd_error err;
   dyd_status status = dyd_engine_new(&engine);
-  if (status >= 0) status = dyd_engine_add_points(engine, 2, x, y);    /* points 0 and 1 */
-  if (status >= 0) status = dyd_engine_add_source(engine, 1, &source); /* point 2 */
+  if (status >= 0) status = dyd_engine_add_points(engine, 2, x, y);          /* points 0 and 1 */
+  if (status >= 0) status = dyd_engine_add_source(engine, 1, &source, NULL); /* point 2 */
   if (status >= 0) status = dyd_engine_add_points(engine, 1, &left, &d);
   if (status >= 0) status = dyd_engine_run(&outcome, engine, NULL, &err);
   if (status >= 0) status = dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(engine));

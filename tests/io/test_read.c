@@ -130,7 +130,7 @@ static void random_file(test_random *r, bool csv, size_t n) {
   }
   dyd_engine *e = NULL;
   dyd_error err;
-  dyd_read_options o = {.columns = csv ? "x,y" : NULL};
+  dyd_read_options o = {DYD_SIZED(dyd_read_options), .columns = csv ? "x,y" : NULL};
   dyd_status status = read_text(&e, t.data, t.used, &o, &err);
   if (status < 0) fail_msg("%zu:%zu: %s", err.line, err.column, err.message);
   check_sites(e, coordinate, n);
@@ -153,7 +153,7 @@ static void check_widened(const char *coordinate, bool measured, const char *rad
   sprintf(line, "%s 0.5\n", coordinate);
   dyd_engine *e = NULL;
   dyd_error err;
-  dyd_read_options o = {.measured = measured, .radius = radius};
+  dyd_read_options o = {DYD_SIZED(dyd_read_options), .measured = measured, .radius = radius};
   assert_int_equal(read_text(&e, line, strlen(line), &o, &err), DYD_OK);
   dyd_rect rect;
   mpq_t lo, hi, got_lo, got_hi, r;
@@ -205,7 +205,7 @@ static void test_widened(void **state) {
 static void check_fails(const char *data, const char *columns, size_t line, size_t column) {
   dyd_engine *e = NULL;
   dyd_error err;
-  dyd_read_options o = {.columns = columns};
+  dyd_read_options o = {DYD_SIZED(dyd_read_options), .columns = columns};
   assert_int_equal(read_text(&e, data, strlen(data), &o, &err), DYD_E_PARSE);
   assert_int_equal(err.line, line);
   assert_int_equal(err.column, column);

@@ -50,7 +50,7 @@ static dyd_engine *engine_of(const dyd_source *source) {
   const double x[EXACT] = {-50, 0, 60}, y[EXACT] = {-30, 90, -40};
   assert_int_equal(DYD_OK, dyd_engine_new(&e));
   assert_int_equal(DYD_OK, dyd_engine_add_points(e, EXACT, x, y));
-  assert_int_equal(DYD_OK, dyd_engine_add_source(e, POINTS, source));
+  assert_int_equal(DYD_OK, dyd_engine_add_source(e, POINTS, source, NULL));
   return e;
 }
 
@@ -58,7 +58,8 @@ static dyd_engine *engine_with(const char *fault, int stage, const char *more, c
   dyd_oracle *oracle = NULL;
   start(&oracle, fault, stage, more, o, DYD_OK, "");
   assert_int_equal(POINTS, dyd_oracle_count(oracle));
-  dyd_source source = dyd_oracle_source(oracle);
+  dyd_source source = {DYD_SIZED(dyd_source)};
+  assert_int_equal(DYD_OK, dyd_oracle_source(&source, oracle, NULL));
   dyd_oracle_free(oracle);
   return engine_of(&source);
 }
@@ -117,18 +118,18 @@ static void assert_same_rects(const dyd_engine *e, const dyd_engine *f) {
 static void test_same(void **state) {
   (void)state;
   const unsigned jobs[] = {1, 2, 3, 20}, batch[] = {1, 2, 3, 100};
-  dyd_source plain = {.narrow = in_process};
+  dyd_source plain = {DYD_SIZED(dyd_source), .narrow = in_process};
   dyd_engine *want = engine_of(&plain);
   assert_int_equal(DYD_OUTCOME_CERTIFIED, run_long(want, NULL));
-  dyd_engine_counters c, d;
-  dyd_engine_get_counters(&c, want);
+  dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)}, d = c;
+  dyd_engine_get_counters(&c, want, NULL);
   for (int k = 0; k < 16; k++) {
-    dyd_oracle_options o = {.jobs = jobs[k / 4], .batch = batch[k % 4]};
+    dyd_oracle_options o = {DYD_SIZED(dyd_oracle_options), .jobs = jobs[k / 4], .batch = batch[k % 4]};
     dyd_engine *e = engine_with(k == 7 ? "slow" : "none", 0, "", &o);
     dyd_error err;
     if (run_long(e, &err) != DYD_OUTCOME_CERTIFIED) fail_msg("%s", err.message);
     assert_same_rects(want, e);
-    dyd_engine_get_counters(&d, e);
+    dyd_engine_get_counters(&d, e, NULL);
     assert_int_equal(c.calls, d.calls);
     assert_int_equal(c.stages, d.stages);
     dyd_engine_free(e);
@@ -142,7 +143,7 @@ static void test_side_by_side(void **state) {
   (void)state;
   char folder[] = "/tmp/dyadel-oracle-XXXXXX", mark[100];
   assert_non_null(mkdtemp(folder));
-  dyd_oracle_options o = {.jobs = 3, .seconds = 60};
+  dyd_oracle_options o = {DYD_SIZED(dyd_oracle_options), .jobs = 3, .seconds = 60};
   dyd_engine *e = engine_with("meet", 3, folder, &o);
   assert_int_equal(DYD_OUTCOME_CERTIFIED, run_long(e, NULL));
   dyd_engine_free(e);
@@ -151,7 +152,7 @@ static void test_side_by_side(void **state) {
     assert_int_equal(0, unlink(mark));
   }
   assert_int_equal(0, rmdir(folder));
-  o = (dyd_oracle_options){.batch = 4, .seconds = 60};
+  o = (dyd_oracle_options){DYD_SIZED(dyd_oracle_options), .batch = 4, .seconds = 60};
   e = engine_with("gather", 99, "4", &o);
   assert_int_equal(DYD_OUTCOME_CERTIFIED, run_long(e, NULL));
   dyd_engine_free(e);
@@ -247,7 +248,7 @@ static void check_fault(size_t k, int stage, const dyd_oracle_options *o, const 
 
 static void test_faults(void **state) {
   (void)state;
-  dyd_source plain = {.narrow = in_process};
+  dyd_source plain = {DYD_SIZED(dyd_source), .narrow = in_process};
   dyd_engine *good = engine_of(&plain);
   assert_int_equal(DYD_OUTCOME_CERTIFIED, run_long(good, NULL));
   long before = peak_kib();
@@ -258,7 +259,8 @@ static void test_faults(void **state) {
       if (faults[k].slow && way > 1) continue;
       /* A good answer for the same point is an answer, if it comes late enough. */
       if (way > 1 && strcmp(faults[k].name, "twice") == 0) continue;
-      dyd_oracle_options o = {.jobs = way < 2 ? 1 : 3, .batch = way < 2 ? 1 : 4, .seconds = faults[k].slow ? 0.4 : 60};
+      dyd_oracle_options o = {DYD_SIZED(dyd_oracle_options), .jobs = way < 2 ? 1 : 3, .batch = way < 2 ? 1 : 4,
+                              .seconds = faults[k].slow ? 0.4 : 60};
       check_fault(k, stage, &o, good);
     }
   dyd_engine_free(good);
@@ -280,7 +282,7 @@ static void test_starts(void **state) {
   dyd_oracle *oracle = NULL;
   dyd_error err;
   for (size_t k = 0; k < sizeof starts / sizeof *starts; k++) {
-    dyd_oracle_options o = {.jobs = 2, .seconds = 0.4};
+    dyd_oracle_options o = {DYD_SIZED(dyd_oracle_options), .jobs = 2, .seconds = 0.4};
     if (strstr("start-flood start-differ start-exit", starts[k].name)) o.seconds = 60;
     start(&oracle, starts[k].name, 0, "", &o, DYD_E_STREAM, starts[k].says);
     assert_null(oracle);
@@ -289,12 +291,15 @@ static void test_starts(void **state) {
   assert_int_equal(DYD_E_STREAM, dyd_oracle_new(&oracle, "/nowhere/nothing 2>/dev/null", NULL, &err));
   assert_says(&err, "did not find the command");
   assert_int_equal(DYD_E_STREAM, dyd_oracle_new(&oracle, "", NULL, NULL));
-  const dyd_oracle_options bad[] = {{.jobs = 5000}, {.batch = 100000}, {.seconds = -1}, {.seconds = (double)NAN}};
-  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
+  dyd_oracle_options bad[] = {{.jobs = 5000}, {.batch = 100000}, {.seconds = -1}, {.seconds = (double)NAN}};
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+    bad[k].struct_size = sizeof bad[k];
     assert_int_equal(DYD_E_ARG, dyd_oracle_new(&oracle, "echo points 3", &bad[k], &err));
+    assert_says(&err, "out of its range");
+  }
   assert_int_equal(DYD_E_ARG, dyd_oracle_new(&oracle, NULL, NULL, &err));
   volatile int stop = 1;
-  dyd_oracle_options o = {.stop = &stop};
+  dyd_oracle_options o = {DYD_SIZED(dyd_oracle_options), .stop = &stop};
   start(&oracle, "start-hang", 0, "", &o, DYD_CANCELLED, "");
   assert_null(oracle);
   assert_nothing_left();
@@ -312,7 +317,7 @@ static void test_no_descriptors(void **state) {
     few = old;
     few.rlim_cur = (rlim_t)(open_now + more);
     assert_int_equal(0, setrlimit(RLIMIT_NOFILE, &few));
-    dyd_oracle_options o = {.jobs = 2};
+    dyd_oracle_options o = {DYD_SIZED(dyd_oracle_options), .jobs = 2};
     dyd_status status = dyd_oracle_new(&oracle, "echo points 3; cat >/dev/null", &o, &err);
     assert_int_equal(0, setrlimit(RLIMIT_NOFILE, &old));
     if (more < 4) assert_int_equal(DYD_E_STREAM, status);
@@ -334,7 +339,7 @@ static void *cancel_soon(void *engine) {
 static void test_interrupted(void **state) {
   (void)state;
   for (int timed = 0; timed < 2; timed++) {
-    dyd_oracle_options o = {.jobs = 2, .seconds = 100};
+    dyd_oracle_options o = {DYD_SIZED(dyd_oracle_options), .jobs = 2, .seconds = 100};
     dyd_engine *e = engine_with("hang", 1, "", &o);
     dyd_engine_options run = long_run();
     run.seconds = timed ? 0.3 : 0;
@@ -355,11 +360,11 @@ static void test_interrupted(void **state) {
 /* After a run that was stopped, late answers to old requests are not taken for new ones. */
 static void test_resumed(void **state) {
   (void)state;
-  dyd_source plain = {.narrow = in_process};
+  dyd_source plain = {DYD_SIZED(dyd_source), .narrow = in_process};
   dyd_engine *want = engine_of(&plain);
   assert_int_equal(DYD_OUTCOME_CERTIFIED, run_long(want, NULL));
   for (int k = 0; k < 4; k++) {
-    dyd_oracle_options o = {.jobs = k % 2 ? 2 : 1, .batch = k / 2 ? 3 : 1};
+    dyd_oracle_options o = {DYD_SIZED(dyd_oracle_options), .jobs = k % 2 ? 2 : 1, .batch = k / 2 ? 3 : 1};
     dyd_engine *e = engine_with("slow", 0, "", &o);
     dyd_engine_options run = long_run();
     dyd_outcome outcome = DYD_OUTCOME_NONE;
@@ -381,7 +386,7 @@ static void test_orphans(void **state) {
   assert_int_equal(0, pipe(ready));
   pid_t child = fork();
   if (child == 0) {
-    dyd_oracle_options o = {.jobs = 2, .seconds = 2};
+    dyd_oracle_options o = {DYD_SIZED(dyd_oracle_options), .jobs = 2, .seconds = 2};
     dyd_engine *e = engine_with("stubborn", 0, "", &o);
     write(ready[1], "x", 1);
     run_long(e, NULL);
@@ -402,23 +407,26 @@ static void test_streams(void **state) {
   (void)state;
   dyd_oracle *oracle = NULL;
   dyd_stream *stream[POINTS];
-  dyd_oracle_options o = {.jobs = 2, .batch = 3};
+  dyd_oracle_options o = {DYD_SIZED(dyd_oracle_options), .jobs = 2, .batch = 3};
   dyd_error err;
   start(&oracle, "none", 0, "", &o, DYD_OK, "");
   for (size_t k = 0; k < POINTS; k++) {
-    dyd_source source = dyd_oracle_source(oracle);
-    assert_int_equal(DYD_OK, dyd_stream_new(&stream[k], &source, k));
+    dyd_source source = {DYD_SIZED(dyd_source)};
+    assert_int_equal(DYD_OK, dyd_oracle_source(&source, oracle, NULL));
+    assert_int_equal(DYD_OK, dyd_stream_new(&stream[k], &source, k, NULL));
   }
-  dyd_source source = dyd_oracle_source(oracle);
+  dyd_source source = {DYD_SIZED(dyd_source)};
+  assert_int_equal(DYD_OK, dyd_oracle_source(&source, oracle, NULL));
   dyd_stream *beyond = NULL;
-  assert_int_equal(DYD_OK, dyd_stream_new(&beyond, &source, POINTS));
+  assert_int_equal(DYD_OK, dyd_stream_new(&beyond, &source, POINTS, NULL));
   dyd_oracle_free(oracle);
   test_random r = test_random_start("oracle streams");
   for (size_t k = test_cases(200); k; k--) {
     size_t p = (size_t)test_below(&r, POINTS);
     int64_t bits = test_between(&r, 0, 300);
     dyd_request list[POINTS];
-    for (size_t j = 0; j < POINTS; j++) list[j] = (dyd_request){.point = test_below(&r, POINTS + 1), .bits = bits};
+    for (size_t j = 0; j < POINTS; j++)
+      list[j] = (dyd_request){DYD_SIZED(dyd_request), .point = test_below(&r, POINTS + 1), .bits = bits};
     if (test_chance(&r, 3)) source.announce(source.user, list, (size_t)test_below(&r, POINTS));
     dyd_status status = dyd_stream_narrow(stream[p], bits, 4096, &err);
     if (status < 0) fail_msg("%s", err.message);

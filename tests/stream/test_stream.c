@@ -79,8 +79,8 @@ static void faulty_release(void *user) {
 
 /* Narrows bit by bit up to the call with the fault; the status of that call is returned, *s keeps living. */
 static dyd_status run_faulty(dyd_stream **s, faulty *f, dyd_error *err) {
-  dyd_source source = {.narrow = faulty_narrow, .release = faulty_release, .user = f};
-  assert_int_equal(dyd_stream_new(s, &source, 7), DYD_OK);
+  dyd_source source = {DYD_SIZED(dyd_source), .narrow = faulty_narrow, .release = faulty_release, .user = f};
+  assert_int_equal(dyd_stream_new(s, &source, 7, NULL), DYD_OK);
   assert_null(dyd_stream_rect(*s));
   dyd_error_clear(err);
   for (int64_t bits = 0; bits < f->at; bits++) assert_int_equal(dyd_stream_narrow(*s, bits, 100, err), DYD_OK);
@@ -148,8 +148,8 @@ static void test_arguments(void **state) {
   faulty f = {.fault = NONE};
   dyd_stream *s = NULL;
   dyd_real *x = NULL;
-  dyd_source no_call = {.release = faulty_release, .user = &f};
-  assert_int_equal(dyd_stream_new(&s, &no_call, 0), DYD_E_ARG);
+  dyd_source no_call = {DYD_SIZED(dyd_source), .release = faulty_release, .user = &f};
+  assert_int_equal(dyd_stream_new(&s, &no_call, 0, NULL), DYD_E_ARG);
   assert_int_equal(f.released, 1);
   assert_int_equal(dyd_real_new(&x, NULL, faulty_release, &f), DYD_E_ARG);
   assert_int_equal(f.released, 2);
@@ -162,11 +162,11 @@ static void test_arguments(void **state) {
   assert_null(s);
   assert_null(x);
   mpq_clear(q);
-  dyd_source source = {.narrow = faulty_narrow, .release = faulty_release, .user = &f};
+  dyd_source source = {DYD_SIZED(dyd_source), .narrow = faulty_narrow, .release = faulty_release, .user = &f};
   f = (faulty){.at = -1};
   dyd_error err;
   dyd_error_clear(&err);
-  assert_int_equal(dyd_stream_new(&s, &source, 0), DYD_OK);
+  assert_int_equal(dyd_stream_new(&s, &source, 0, NULL), DYD_OK);
   assert_int_equal(dyd_stream_narrow(s, INT64_MAX, INT64_MAX, &err), DYD_E_RANGE);
   assert_int_equal(dyd_stream_narrow(s, INT64_MIN + 1, 0, &err), DYD_OK);
   assert_int_equal(dyd_stream_narrow(s, 10, 10, NULL), DYD_OK);
@@ -388,8 +388,8 @@ static void test_affine_chain(void **state) {
   assert_true(dyd_rect_bits(dyd_stream_rect(s)) >= 100);
   dyd_stream_free(s);
   faulty f = {.fault = FAILS, .at = 1};
-  dyd_source source = {.narrow = faulty_narrow, .release = faulty_release, .user = &f};
-  assert_int_equal(dyd_stream_new(&s, &source, 7), DYD_OK);
+  dyd_source source = {DYD_SIZED(dyd_source), .narrow = faulty_narrow, .release = faulty_release, .user = &f};
+  assert_int_equal(dyd_stream_new(&s, &source, 7, NULL), DYD_OK);
   s = image_of(s, turn);
   dyd_error err;
   dyd_error_clear(&err);

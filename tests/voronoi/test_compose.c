@@ -271,8 +271,8 @@ static void test_levels(void **state) {
   for (int k = 0; k < 50; k++) dyd_engine_add_stream(e, random_stream(&shared));
   for (int level = 0;; level++) {
     run(e, DYD_OUTCOME_DECIDED);
-    dyd_engine_counters c;
-    dyd_engine_get_counters(&c, e);
+    dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
+    dyd_engine_get_counters(&c, e, NULL);
     fprintf(stderr, "# level %d: %zu points, %llu stages, at most %lld bits\n", level, dyd_engine_count(e),
             (unsigned long long)c.stages, (long long)c.bits_most);
     if (level == 3) break;
@@ -345,13 +345,13 @@ static void counted_release(void *user) {
 static void test_life(void **state) {
   (void)state;
   counted c = {0, 0, 1 << 20};
-  const dyd_source source = {.narrow = counted_narrow, .release = counted_release, .user = &c};
+  const dyd_source source = {DYD_SIZED(dyd_source), .narrow = counted_narrow, .release = counted_release, .user = &c};
   dyd_engine *e = engine_new();
   dyd_stream *early = NULL, *late = NULL, *fixed = NULL, *none = NULL, *shared_one = NULL,
              *own = random_stream(&shared);
   double x = 7, y = 5, far = -90;
   assert_int_equal(dyd_engine_add_points(e, 1, &far, &y), DYD_OK);
-  assert_int_equal(dyd_engine_add_source(e, 4, &source), DYD_OK);
+  assert_int_equal(dyd_engine_add_source(e, 4, &source, NULL), DYD_OK);
   assert_int_equal(dyd_engine_add_points(e, 1, &x, &y), DYD_OK);
   assert_int_equal(dyd_engine_add_stream(e, dyd_stream_ref(own)), DYD_OK);
   assert_int_equal(dyd_engine_stream(&early, e, 3), DYD_OK);

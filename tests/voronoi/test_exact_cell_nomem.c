@@ -96,7 +96,7 @@ static void capped(void **state) {
   dyd_sites *s = harness_sites(&c);
   dyd_delaunay *pd = NULL;
   dyd_error err;
-  const dyd_delaunay_options options = {.max_pairs = 1};
+  const dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .max_pairs = 1};
   dyd_rect w;
   dyd_point p;
   dyd_rect_init(&w);

@@ -190,7 +190,7 @@ static void query_clear(orc_rect *q) {
 
 static bool case_right(char *message, harness *h, const orc_case *c) {
   dyd_sites *s = harness_sites(c);
-  dyd_delaunay_options exact = {.no_filter = true};
+  dyd_delaunay_options exact = {DYD_SIZED(dyd_delaunay_options), .no_filter = true};
   dyd_delaunay *pd = harness_engine(message, s, NULL), *slow = harness_engine(message, s, &exact);
   bool good = pd && slow;
   orc_rect q;

@@ -401,7 +401,7 @@ static bool check_bounds(char *message, setting *s) {
 
 static bool check_case(char *message, harness *h, const orc_case *c) {
   if (c->n < 1) return true;
-  dyd_delaunay_options options = {.no_filter = test_chance(&h->random, 4)};
+  dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .no_filter = test_chance(&h->random, 4)};
   dyd_sites *sites = harness_sites(c);
   dyd_delaunay *pd = harness_engine(message, sites, &options);
   setting s;

@@ -105,6 +105,14 @@ static dyd_status read_real(dyd_real **out, const dyd_span *span, const dyd_mann
   return DYD_OK;
 }
 
+dyd_status dyd_coordinate_fail(dyd_error *err, dyd_status code, const dyd_span *span, const dyd_error *own) {
+  if (err) {
+    dyd_span_position(&err->line, &err->column, span, 0);
+    if (own->column) err->column += own->column - 1;
+  }
+  return dyd_fail(err, code, "%s", own->message[0] ? own->message : dyd_status_text(code));
+}
+
 dyd_status dyd_coordinate_read(dyd_coordinate *out, const dyd_span *span, const dyd_manner *manner, dyd_error *err) {
   if (read_plain(out, span, manner)) return DYD_OK;
   dyd_real *real = NULL;
@@ -117,11 +125,7 @@ dyd_status dyd_coordinate_read(dyd_coordinate *out, const dyd_span *span, const 
     *out = (dyd_coordinate){.kind = DYD_COORDINATE_REAL, .real = real};
     return DYD_OK;
   }
-  if (err) { /* the parser counts columns from the coordinate's first character on */
-    err->line = line;
-    err->column = column + (own.column ? own.column - 1 : 0);
-  }
-  return dyd_fail(err, status, "%s", own.message[0] ? own.message : dyd_status_text(status));
+  return dyd_coordinate_fail(err, status, span, &own);
 }
 
 void dyd_coordinate_clear(dyd_coordinate *c) {

@@ -33,6 +33,9 @@ typedef struct dyd_coordinate {
 /* Reads one coordinate. Failures of the real later on (in refinement) tell its line and column too.
  * On success a real in *out belongs to the caller. */
 dyd_status dyd_coordinate_read(dyd_coordinate *out, const dyd_span *span, const dyd_manner *manner, dyd_error *err);
+/* Passes on why a coordinate was refused: own counts columns from the first character of span, *err (may be NULL) from
+ * that of the line. */
+dyd_status dyd_coordinate_fail(dyd_error *err, dyd_status code, const dyd_span *span, const dyd_error *own);
 void dyd_coordinate_clear(dyd_coordinate *c);
 /* Turns any kind into DYD_COORDINATE_REAL. */
 dyd_status dyd_coordinate_make_real(dyd_coordinate *c);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Reads points from a file into an engine, in one pass over the text. */
+#include "base/abi.h"
 #include "base/error.h"
 #include "io/read/source.h"
 #include "io/read/stage.h"
@@ -9,13 +10,13 @@
 
 /* The exact value of a number or of an expression that is a rational number. */
 static dyd_status parse_exact(mpq_t out, const char *text) {
-  dyd_real *real = NULL;
-  dyd_status status = dyd_real_parse(&real, text, strlen(text), NULL);
-  if (status < 0) return status;
-  bool exact = dyd_real_is_final(real) && dyd_interval_is_point(dyd_real_interval(real));
-  if (exact) dyd_interval_get_q(out, out, dyd_real_interval(real));
-  dyd_real_free(real);
-  return exact ? DYD_OK : DYD_E_PARSE;
+  dyd_interval a;
+  dyd_interval_init(&a);
+  dyd_status st = dyd_interval_set_text(&a, text, strlen(text), NULL);
+  if (st == DYD_OK && !dyd_interval_is_point(&a)) st = DYD_E_PARSE;
+  if (st == DYD_OK) dyd_interval_get_q(out, out, &a);
+  dyd_interval_clear(&a);
+  return st;
 }
 
 static dyd_status read_radius(dyd_manner *m, const char *text, dyd_error *err) {
@@ -96,25 +97,69 @@ static dyd_status read_csv_file(dyd_stage *stage, dyd_text *text, const dyd_mann
   return status;
 }
 
-dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *options, dyd_error *err) {
-  static const dyd_read_options defaults = {0};
-  if (!options) options = &defaults;
-  dyd_error local;
-  if (!err) err = &local;
-  dyd_error_clear(err);
-  dyd_manner manner = {.measured = options->measured};
-  dyd_text text;
+/* Adds the points of text, which is ready to be read; err is not NULL. */
+static dyd_status points_read_text(dyd_engine *e, dyd_text *text, const dyd_read_options *o, dyd_error *err) {
+  dyd_manner manner = {.measured = o->measured};
   dyd_stage stage;
   mpq_init(manner.radius);
-  dyd_text_init(&text, in);
   dyd_stage_init(&stage);
-  dyd_status status = options->radius ? read_radius(&manner, options->radius, err) : DYD_OK;
-  if (status >= 0)
-    status = options->columns ? read_csv_file(&stage, &text, &manner, options->columns, err)
-                              : read_points_file(&stage, &text, &manner, err);
-  if (status >= 0) status = dyd_stage_commit(e, &stage, err);
+  dyd_status st = o->radius ? read_radius(&manner, o->radius, err) : DYD_OK;
+  if (st == DYD_OK)
+    st = o->columns ? read_csv_file(&stage, text, &manner, o->columns, err)
+                    : read_points_file(&stage, text, &manner, err);
+  if (st == DYD_OK) st = dyd_stage_commit(e, &stage, err);
   dyd_stage_clear(&stage);
-  dyd_text_clear(&text);
   mpq_clear(manner.radius);
-  return status;
+  return st;
+}
+
+/* The same with what the caller gave; clears text. */
+static dyd_status points_read_given(dyd_engine *e, dyd_text *text, const dyd_read_options *options, dyd_error *err) {
+  dyd_read_options o;
+  dyd_error own;
+  if (!err) err = &own;
+  dyd_error_clear(err);
+  dyd_status st = dyd_abi_take(&o, sizeof o, options, "dyd_read_options", err);
+  if (st == DYD_OK) st = points_read_text(e, text, &o, err);
+  dyd_text_clear(text);
+  return st;
+}
+
+dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *options, dyd_error *err) {
+  dyd_text text;
+  dyd_text_init(&text, in);
+  return points_read_given(e, &text, options, err);
+}
+
+dyd_status dyd_engine_add_text(dyd_engine *e, const char *text, size_t length, const dyd_read_options *options,
+                               dyd_error *err) {
+  dyd_text copy;
+  if (dyd_text_init_copy(&copy, text, length) != DYD_OK) return dyd_fail_nomem(err);
+  return points_read_given(e, &copy, options, err);
+}
+
+/* ---- one rectangle ---- */
+
+static dyd_status rect_set_side(dyd_interval *out, const dyd_span *span, dyd_error *err) {
+  dyd_error own;
+  dyd_error_clear(&own);
+  dyd_status st = dyd_interval_set_text(out, span->text, span->length, &own);
+  return st == DYD_OK ? st : dyd_coordinate_fail(err, st, span, &own);
+}
+
+dyd_status dyd_rect_set_text(dyd_rect *out, const char *text, size_t length, dyd_error *err) {
+  const dyd_line line = {text, length, 1};
+  dyd_span span[2];
+  dyd_rect r;
+  size_t count;
+  if (err) dyd_error_clear(err);
+  dyd_status st = dyd_points_split(span, &count, &line, err);
+  if (st == DYD_OK && !count) st = dyd_fail(err, DYD_E_PARSE, "there is no point in this text; give two coordinates");
+  if (st != DYD_OK) return st;
+  dyd_rect_init(&r);
+  st = rect_set_side(&r.x, &span[0], err);
+  if (st == DYD_OK) st = rect_set_side(&r.y, &span[1], err);
+  if (st == DYD_OK) dyd_rect_swap(out, &r);
+  dyd_rect_clear(&r);
+  return st;
 }

@@ -68,6 +68,14 @@ static void skip_mark(dyd_text *t) {
   if (t->end - t->start >= 3 && memcmp(t->buffer + t->start, "\xEF\xBB\xBF", 3) == 0) t->start += 3;
 }
 
+dyd_status dyd_text_init_copy(dyd_text *t, const char *text, size_t length) {
+  *t = (dyd_text){.buffer = dyd_alloc(length, 1), .cap = length, .end = length, .ended = true};
+  if (!t->buffer) return DYD_E_NOMEM;
+  if (length) memcpy(t->buffer, text, length);
+  skip_mark(t);
+  return DYD_OK;
+}
+
 /* Finds the line end in what is read, reading on as needed; *length is up to the LF or the end of the file. */
 static dyd_status find_end(size_t *length, bool *newline, dyd_text *t, dyd_error *err) {
   for (size_t seen = 0;;) {

@@ -37,6 +37,8 @@ typedef struct dyd_span {
 } dyd_span;
 
 void dyd_text_init(dyd_text *t, FILE *in);
+/* Lines of a copy of `text`. */
+dyd_status dyd_text_init_copy(dyd_text *t, const char *text, size_t length);
 void dyd_text_clear(dyd_text *t);
 /* The next line. A byte order mark at the start of the file is skipped. DYD_E_PARSE for NUL bytes and over-long
  * lines, DYD_E_IO, DYD_E_NOMEM. */
