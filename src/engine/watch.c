@@ -18,7 +18,7 @@ static void *wait_for_deadline(void *arg) {
 }
 
 /* The helper runs with all signals blocked: handlers stay with the threads of the program. */
-static bool spawn(dyd_watch *w) {
+static bool watch_spawn(dyd_watch *w) {
   sigset_t all, before;
   sigfillset(&all);
   if (pthread_sigmask(SIG_SETMASK, &all, &before)) return false;
@@ -38,7 +38,7 @@ static bool init_bell(pthread_cond_t *bell) {
 static bool start_helper(dyd_watch *w) {
   if (pthread_mutex_init(&w->lock, NULL)) return false;
   if (init_bell(&w->bell)) {
-    if (spawn(w)) return true;
+    if (watch_spawn(w)) return true;
     pthread_cond_destroy(&w->bell);
   }
   pthread_mutex_destroy(&w->lock);
