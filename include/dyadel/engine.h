@@ -183,6 +183,8 @@ typedef struct dyd_plan dyd_plan;
  * final, or was asked for max_bits before stays out of the plan, which is no error. Returns DYD_OK; DYD_E_ARG when
  * there is no site i, DYD_E_NOMEM: then the ask ends with this error, whatever the question does. O(log points). */
 DYD_API dyd_status dyd_plan_add(dyd_plan *plan, uint32_t i, int64_t bits);
+/* How many points are in it. */
+DYD_API size_t dyd_plan_count(const dyd_plan *plan);
 
 /* Looks whether the answer is known. Either sets *answered = true (false when called), or adds to *plan, empty when
  * called, who has to be narrower. e is borrowed for the call: see dyd_engine_sites, dyd_engine_knows,

@@ -140,3 +140,7 @@ dyd_status dyd_plan_add(dyd_plan *p, uint32_t site, int64_t bits) {
   dyd_plan_mark_alone(p, point, bits, DYD_REASON_QUESTION);
   return p->failed;
 }
+
+size_t dyd_plan_count(const dyd_plan *p) {
+  return p->count;
+}
