@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Telling sources what they will be asked, so that slow answers can be sought side by side. */
-#include "engine/announce.h"
+#include "engine/plan.h"
 
 #include "base/alloc.h"
 #include "engine/points.h"

@@ -18,7 +18,6 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
-#include "engine/announce.h"
 #include "engine/points.h"
 #include "engine/watch.h"
 
@@ -27,7 +26,7 @@
 typedef struct ask {
   dyd_engine *e;
   const dyd_question *q;
-  const dyd_engine_options *o;
+  dyd_engine_options o; /* defaults filled in */
   dyd_refinable *guest;
   dyd_plan plan;
   dyd_watch watch;
@@ -36,7 +35,7 @@ typedef struct ask {
   bool again;
   dyd_outcome end;
   dyd_budget spent;
-  dyd_error *err;
+  dyd_error err;
 } ask;
 
 /* The finest request that streams take (stream/nest.c). */
@@ -78,13 +77,13 @@ static dyd_status ask_end_interrupted(ask *a) {
 }
 
 static bool ask_calls_are_spent(const ask *a) {
-  return a->o->max_calls && a->calls >= a->o->max_calls;
+  return a->o.max_calls && a->calls >= a->o.max_calls;
 }
 
 /* Nothing is to be narrowed: why? */
 static void ask_end_exhausted(ask *a) {
   if (a->q->triangulate && dyd_delaunay_is_capped(a->e->pd)) {
-    *a->err = a->e->cap_error;
+    a->err = a->e->cap_error;
     ask_end_budget(a, DYD_BUDGET_PAIRS);
   } else if (a->plan.blocked) {
     ask_end_budget(a, DYD_BUDGET_BITS);
@@ -100,15 +99,11 @@ static dyd_status ask_tell_step(const ask *a, const dyd_refinable *p, const dyd_
   dyd_rect rect;
   dyd_rect_init(&rect);
   dyd_status st = dyd_sites_get(&rect, a->e->sites, p->site);
-  const dyd_step step = {.stage = a->e->stages + 1,
-                         .site = p->site,
-                         .bits = w->bits,
-                         .reason = w->reason,
-                         .i = w->i,
-                         .j = w->j,
-                         .called = called,
-                         .rect = &rect};
-  if (st == DYD_OK) a->o->trace(&step, a->o->trace_user);
+  dyd_step step = {.stage = a->e->stages + 1, .site = p->site, .bits = w->bits, .reason = w->reason, .called = called};
+  step.i = w->i;
+  step.j = w->j;
+  step.rect = &rect;
+  if (st == DYD_OK) a->o.trace(&step, a->o.trace_user);
   dyd_rect_clear(&rect);
   return st;
 }
@@ -119,14 +114,14 @@ static dyd_status ask_narrow(ask *a, const dyd_want *w) {
   bool guest = w->point < a->q->guests;
   dyd_refinable *p = guest ? &a->guest[w->point] : &e->point[w->point - a->q->guests];
   uint64_t calls = 0;
-  dyd_status st = dyd_engine_narrow(p, &calls, e, w->bits, a->o->max_bits, a->err);
+  dyd_status st = dyd_engine_narrow(p, &calls, e, w->bits, a->o.max_bits, &a->err);
   a->calls += calls;
   if (!guest) e->calls += calls;
   if (st == DYD_CANCELLED) return ask_end_interrupted(a);
   if (st != DYD_OK) return st;
   if (w->bits > a->bits) a->bits = w->bits;
   if (e->pd && calls && !guest) e->changed[e->changes++] = p->site;
-  return a->o->trace && !guest ? ask_tell_step(a, p, w, calls != 0) : DYD_OK;
+  return a->o.trace && !guest ? ask_tell_step(a, p, w, calls != 0) : DYD_OK;
 }
 
 /* Carries out the plan; *cut: points are left because calls are used up. */
@@ -135,7 +130,7 @@ static dyd_status ask_narrow_all(bool *cut, ask *a) {
   size_t need = e->pd ? e->changes + a->plan.count : 0;
   if (!dyd_reserve((void **)&e->changed, &e->change_cap, need, sizeof *e->changed)) return DYD_E_NOMEM;
   dyd_plan_sort(&a->plan);
-  dyd_plan_announce(&a->plan, a->o->max_calls ? a->o->max_calls - a->calls : UINT64_MAX);
+  dyd_plan_announce(&a->plan, a->o.max_calls ? a->o.max_calls - a->calls : UINT64_MAX);
   for (size_t k = 0; k < a->plan.count; k++) {
     if (ask_is_stopped(a)) return DYD_OK;
     *cut = ask_calls_are_spent(a);
@@ -171,14 +166,14 @@ static void ask_report(const ask *a) {
   dyd_delaunay_count(p.count, e->pd);
   p.undecided_faces = dyd_delaunay_undecided_faces(e->pd);
   p.seconds = e->seconds + dyd_watch_seconds(&a->watch);
-  a->o->progress(&p, a->o->progress_user);
+  a->o.progress(&p, a->o.progress_user);
 }
 
 /* Makes the result, or brings it up to date, and reports. */
 static dyd_status ask_triangulate(ask *a, dyd_error *err) {
   dyd_engine *e = a->e;
   const dyd_delaunay_options o = {
-      .max_pairs = a->o->max_pairs, .cancel = &e->stop, .threads = a->o->threads, .no_filter = a->o->no_filter};
+      .max_pairs = a->o.max_pairs, .cancel = &e->stop, .threads = a->o.threads, .no_filter = a->o.no_filter};
   dyd_error_clear(err);
   dyd_status st =
       e->pd ? dyd_delaunay_update(e->pd, e->changed, e->changes, &o, err) : dyd_delaunay_new(&e->pd, e->sites, &o, err);
@@ -188,11 +183,11 @@ static dyd_status ask_triangulate(ask *a, dyd_error *err) {
     st = DYD_OK;
   }
   if (st != DYD_OK) return st;
-  e->max_pairs = a->o->max_pairs;
+  e->max_pairs = a->o.max_pairs;
   e->changes = 0;
   e->stages++;
   a->stages++;
-  if (a->o->progress) ask_report(a);
+  if (a->o.progress) ask_report(a);
   a->bits = INT64_MIN;
   return DYD_OK;
 }
@@ -208,12 +203,12 @@ static bool ask_is_stale(const ask *a) {
 static dyd_status ask_question(bool *answered, ask *a) {
   *answered = false;
   dyd_plan_empty(&a->plan);
-  dyd_status st = a->q->ask(answered, &a->plan, a->e, a->q->user, a->err);
+  dyd_status st = a->q->ask(answered, &a->plan, a->e, a->q->user, &a->err);
   if (a->plan.failed == DYD_E_ARG)
-    return dyd_fail(a->err, DYD_E_ARG, "the question asks for site %lu, and there are %zu: they are numbered from 0",
+    return dyd_fail(&a->err, DYD_E_ARG, "the question asks for site %lu, and there are %zu: they are numbered from 0",
                     (unsigned long)a->plan.missing, dyd_sites_count(a->e->sites));
   if (st > 0 && st != DYD_CANCELLED)
-    return dyd_fail(a->err, DYD_E_ARG, "the question returned %d; it may be DYD_OK, DYD_CANCELLED or an error",
+    return dyd_fail(&a->err, DYD_E_ARG, "the question returned %d; it may be DYD_OK, DYD_CANCELLED or an error",
                     (int)st);
   return st == DYD_OK ? a->plan.failed : st;
 }
@@ -232,7 +227,7 @@ static dyd_status ask_judge(ask *a) {
 static dyd_status ask_prepare(ask *a) {
   const dyd_engine *e = a->e;
   dyd_status st = DYD_OK;
-  dyd_error_clear(a->err);
+  dyd_error_clear(&a->err);
   if (dyd_flag_get(&e->cancelled))
     a->end = DYD_OUTCOME_CANCELLED;
   else if (a->q->triangulate && !e->pd)
@@ -241,7 +236,7 @@ static dyd_status ask_prepare(ask *a) {
     st = ask_judge(a);
   if (st == DYD_OK) st = a->plan.failed;
   if (st != DYD_OK || a->end != DYD_OUTCOME_NONE) return st;
-  if (a->o->max_stages && a->stages >= a->o->max_stages)
+  if (a->o.max_stages && a->stages >= a->o.max_stages)
     ask_end_budget(a, DYD_BUDGET_STAGES);
   else if (a->plan.count && ask_calls_are_spent(a) && !a->again)
     ask_end_budget(a, DYD_BUDGET_CALLS);
@@ -262,7 +257,7 @@ static dyd_status ask_stage(ask *a) {
   if (!a->q->triangulate || a->again) return failed;
   if (cut && !e->pd) ask_end_budget(a, DYD_BUDGET_CALLS);
   if ((cut || failed != DYD_OK) && (!e->pd || e->changes == 0)) return failed;
-  dyd_status st = ask_triangulate(a, failed != DYD_OK ? &ignored : a->err);
+  dyd_status st = ask_triangulate(a, failed != DYD_OK ? &ignored : &a->err);
   return failed != DYD_OK ? failed : st;
 }
 
@@ -276,7 +271,7 @@ static dyd_status ask_guests(ask *a) {
     p->site = (uint32_t)(dyd_sites_count(a->e->sites) + k);
     p->stream = a->q->guest[k];
     p->final = dyd_stream_is_final(p->stream);
-    if (!p->final) st = dyd_engine_narrow(p, &calls, a->e, dyd_bits_first(a->o), a->o->max_bits, a->err);
+    if (!p->final) st = dyd_engine_narrow(p, &calls, a->e, dyd_bits_first(&a->o), a->o.max_bits, &a->err);
     a->calls += calls;
   }
   return st;
@@ -295,7 +290,7 @@ static dyd_status ask_last(ask *a) {
 static dyd_status ask_loop(ask *a) {
   const dyd_engine *e = a->e;
   /* Does the cap now given allow more than the one the result met? 0 is the default cap. */
-  bool raised = a->q->triangulate && e->pd && dyd_delaunay_is_capped(e->pd) && e->max_pairs != a->o->max_pairs;
+  bool raised = a->q->triangulate && e->pd && dyd_delaunay_is_capped(e->pd) && e->max_pairs != a->o.max_pairs;
   dyd_status st = raised ? ask_list_undecided(a->e) : DYD_OK;
   if (st == DYD_OK) st = ask_guests(a);
   while (st == DYD_OK && a->end == DYD_OUTCOME_NONE) {
@@ -312,12 +307,21 @@ static dyd_status ask_timed(ask *a) {
   dyd_flag_set(&e->stop, 0);
   if (dyd_flag_get(&e->cancelled)) dyd_flag_set(&e->stop, 1);
   e->started = e->busy = true;
-  dyd_watch_start(&a->watch, a->o->seconds, &e->stop);
+  dyd_watch_start(&a->watch, a->o.seconds, &e->stop);
   dyd_status st = ask_loop(a);
   dyd_watch_stop(&a->watch);
   e->seconds += dyd_watch_seconds(&a->watch);
   e->busy = false;
   if (st == DYD_OK && a->end == DYD_OUTCOME_CANCELLED) dyd_flag_set(&e->cancelled, 0);
+  return st;
+}
+
+static dyd_status ask_run(ask *a) {
+  a->guest = calloc(a->q->guests + 1, sizeof *a->guest);
+  dyd_plan_init(&a->plan, a->e, &a->o, a->guest, a->q->guests);
+  dyd_status st = a->guest ? ask_timed(a) : DYD_E_NOMEM;
+  dyd_plan_clear(&a->plan);
+  free(a->guest);
   return st;
 }
 
@@ -327,43 +331,24 @@ dyd_status dyd_ask_may_begin(const dyd_engine *e, dyd_error *err) {
 }
 
 dyd_status dyd_ask(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *e, const dyd_question *question,
-                   const dyd_engine_options *o, dyd_error *err) {
-  ask a = {.e = e, .q = question, .o = o, .bits = INT64_MIN, .end = DYD_OUTCOME_NONE, .err = err};
-  dyd_error_clear(err);
-  *outcome = DYD_OUTCOME_ERROR;
-  *spent = DYD_BUDGET_NONE;
-  dyd_status st = dyd_ask_may_begin(e, err);
-  if (st != DYD_OK) return st;
-  a.guest = calloc(question->guests + 1, sizeof *a.guest);
-  dyd_plan_init(&a.plan, e, o, a.guest, question->guests);
-  st = a.guest ? ask_timed(&a) : DYD_E_NOMEM;
-  dyd_plan_clear(&a.plan);
-  free(a.guest);
-  if (st != DYD_OK) {
-    err->code = st;
-    if (!err->message[0]) dyd_fail(err, st, "%s", dyd_status_text(st));
-    return st;
-  }
-  if (a.spent != DYD_BUDGET_PAIRS) dyd_error_clear(err);
-  *outcome = a.end;
-  *spent = a.spent;
-  return DYD_OK;
+                   const dyd_engine_options *options, dyd_error *err) {
+  ask a = {.e = e, .q = question, .bits = INT64_MIN};
+  dyd_error_clear(&a.err);
+  dyd_status st = dyd_ask_may_begin(e, &a.err);
+  if (st == DYD_OK && (!question->ask || !dyd_ask_options(&a.o, options)))
+    st = dyd_fail(&a.err, DYD_E_ARG, "%s", question->ask ? "an option is out of its range" : "the question is empty");
+  if (st == DYD_OK) st = ask_run(&a);
+  if (st != DYD_OK && !a.err.message[0]) dyd_fail(&a.err, st, "%s", dyd_status_text(st));
+  if (st != DYD_OK) a.err.code = st;
+  if (st == DYD_OK && a.spent != DYD_BUDGET_PAIRS) dyd_error_clear(&a.err);
+  *outcome = st == DYD_OK ? a.end : DYD_OUTCOME_ERROR;
+  *spent = st == DYD_OK ? a.spent : DYD_BUDGET_NONE;
+  if (err) *err = a.err;
+  return st;
 }
 
 dyd_status dyd_engine_ask(dyd_outcome *outcome, dyd_engine *e, const dyd_question *question,
                           const dyd_engine_options *options, dyd_error *err) {
-  dyd_engine_options o;
   dyd_budget spent;
-  dyd_error own;
-  dyd_error_clear(&own);
-  *outcome = DYD_OUTCOME_ERROR;
-  dyd_status st;
-  if (!question->ask)
-    st = dyd_fail(&own, DYD_E_ARG, "the question has no function to ask");
-  else if (!dyd_ask_options(&o, options))
-    st = dyd_fail(&own, DYD_E_ARG, "an option is out of its range");
-  else
-    st = dyd_ask(outcome, &spent, e, question, &o, &own);
-  if (err) *err = own;
-  return st;
+  return dyd_ask(outcome, &spent, e, question, options, err);
 }

@@ -6,11 +6,11 @@
  * made only make its boxes wider than they need be. Precision goes up in levels, as in schedule.c: at each level
  * whoever concerned was asked for less is asked for the level. */
 #include "base/error.h"
-#include "engine/ask.h"
+#include "engine/plan.h"
 #include "engine/points.h"
 #include <dyadel/voronoi.h>
 
-/* level: the precision worked towards; the point asked about is the only guest. */
+/* level: the precision worked towards, INT64_MIN at first; the point asked about is the only guest. */
 typedef struct nearest_question {
   dyd_stream *at;
   int64_t level;
@@ -27,6 +27,7 @@ static void nearest_mark(bool *open, dyd_plan *plan, const dyd_refinable *p, int
 
 /* Raises the level until somebody is below it. */
 static void nearest_plan(nearest_question *q, dyd_plan *plan) {
+  if (q->level == INT64_MIN) q->level = dyd_bits_first(plan->o);
   for (bool open = false;; q->level = dyd_bits_grown(q->level, plan->o)) {
     if (q->level > plan->o->max_bits) q->level = plan->o->max_bits;
     nearest_mark(&open, plan, plan->guest, q->level);
@@ -48,29 +49,18 @@ static dyd_status nearest_ask(bool *answered, dyd_plan *plan, const dyd_engine *
 
 dyd_status dyd_engine_nearest(dyd_index_list *out, bool *sure, dyd_outcome *outcome, dyd_engine *e, dyd_stream *at,
                               const dyd_engine_options *options, dyd_error *err) {
-  nearest_question q = {.at = at};
+  nearest_question q = {.at = at, .level = INT64_MIN};
   const dyd_question question = {.ask = nearest_ask, .user = &q, .guest = &at, .guests = 1};
-  dyd_engine_options o;
-  dyd_budget spent;
-  dyd_error own;
-  dyd_status st = DYD_E_ARG;
-  dyd_error_clear(&own);
   *outcome = DYD_OUTCOME_ERROR;
-  if (!e->pd) {
-    dyd_fail(&own, st, "there is no result yet: run the engine first");
-  } else if (!dyd_ask_options(&o, options)) {
-    dyd_fail(&own, st, "an option of the query is out of its range");
-  } else {
-    q.level = dyd_bits_first(&o);
-    st = dyd_ask(outcome, &spent, e, &question, &o, &own);
-  }
-  if (st == DYD_OK) {
-    dyd_index_list_clear(out);
-    *out = q.near;
-    *sure = q.sure;
-  } else {
+  if (err) dyd_error_clear(err);
+  if (!e->pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet: run the engine first");
+  dyd_status st = dyd_engine_ask(outcome, e, &question, options, err);
+  if (st != DYD_OK) {
     dyd_index_list_clear(&q.near);
+    return st;
   }
-  if (err) *err = own;
-  return st;
+  dyd_index_list_clear(out);
+  *out = q.near;
+  *sure = q.sure;
+  return DYD_OK;
 }

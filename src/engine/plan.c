@@ -30,12 +30,6 @@ void dyd_plan_empty(dyd_plan *p) {
   p->blocked = p->again = false;
 }
 
-void dyd_plan_swap(dyd_plan *a, dyd_plan *b) {
-  dyd_plan c = *a;
-  *a = *b;
-  *b = c;
-}
-
 static int plan_compare(const void *a, const void *b) {
   const dyd_want *v = a, *w = b;
   return (v->point > w->point) - (v->point < w->point);

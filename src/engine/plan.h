@@ -36,7 +36,6 @@ void dyd_plan_init(dyd_plan *p, const dyd_engine *e, const dyd_engine_options *o
 void dyd_plan_clear(dyd_plan *p);
 /* Makes it empty, and gives back what it held. */
 void dyd_plan_empty(dyd_plan *p);
-void dyd_plan_swap(dyd_plan *a, dyd_plan *b);
 /* Puts the wants in the order of points; dyd_plan_find may not be used after it. */
 void dyd_plan_sort(dyd_plan *p);
 
@@ -52,6 +51,9 @@ void dyd_plan_mark_alone(dyd_plan *p, const dyd_refinable *point, int64_t bits, 
 dyd_want *dyd_plan_find(const dyd_plan *p, const dyd_refinable *point);
 /* The points never asked, for the first stage. */
 void dyd_plan_first(dyd_plan *p);
+/* announce.c: tells the sources that want to know which of their points a plan, sorted, has, in the order in which
+ * narrowing will come to them; `most` points of such sources at most. */
+void dyd_plan_announce(const dyd_plan *p, uint64_t most);
 
 /* b + by without overflow, by >= 0; at most max where b is. */
 int64_t dyd_bits_raised(int64_t b, int64_t by, int64_t max);

@@ -10,7 +10,6 @@
 /* Invariant: while scouts.count > 0 the races began in the stage after number `stage`, and `held` is the plan that
  * waits for them. */
 typedef struct goal_question {
-  const dyd_engine_options *o;
   dyd_scouts scouts;
   dyd_plan held;
   uint64_t stage;
@@ -27,7 +26,9 @@ static dyd_status goal_ask(bool *answered, dyd_plan *plan, const dyd_engine *e, 
     dyd_status st = dyd_schedule_judge(answered, plan, &q->scouts);
     if (st != DYD_OK || q->scouts.count == 0) return st;
     q->stage = e->stages;
-    dyd_plan_swap(plan, &q->held);
+    dyd_plan all = *plan; /* waits */
+    *plan = q->held;
+    q->held = all;
   }
   dyd_status st = dyd_scouts_next(plan, &q->scouts, &q->held);
   plan->again = plan->count > 0;
@@ -45,14 +46,13 @@ static bool goal_options_are_good(const dyd_engine_options *o) {
   return o->schedule == DYD_SCHEDULE_ADAPTIVE || o->schedule == DYD_SCHEDULE_UNIFORM;
 }
 
-static dyd_status goal_run(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *e, const dyd_engine_options *o,
-                           dyd_error *err) {
-  goal_question g = {.o = o};
+static dyd_status goal_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_options *o, dyd_error *err) {
+  goal_question g = {.scouts = {0}};
   const dyd_question question = {.ask = goal_ask, .user = &g, .triangulate = true};
   e->goal = o->goal;
   e->goal_bits = o->goal_bits;
   dyd_plan_init(&g.held, e, o, NULL, 0);
-  dyd_status st = dyd_ask(outcome, spent, e, &question, o, err);
+  dyd_status st = dyd_ask(outcome, &e->spent, e, &question, o, err);
   dyd_plan_clear(&g.held);
   dyd_scouts_clear(&g.scouts);
   if (*outcome == DYD_OUTCOME_DECIDED && o->goal != DYD_GOAL_DECIDED) *outcome = DYD_OUTCOME_CERTIFIED;
@@ -61,20 +61,15 @@ static dyd_status goal_run(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *
 
 dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_options *options, dyd_error *err) {
   dyd_engine_options o;
-  dyd_budget spent = DYD_BUDGET_NONE;
-  dyd_error own;
-  dyd_error_clear(&own);
   *outcome = DYD_OUTCOME_ERROR;
-  dyd_status st = dyd_ask_may_begin(e, &own);
-  bool refused = st != DYD_OK;
-  if (!refused && dyd_ask_options(&o, options) && goal_options_are_good(&o))
-    st = goal_run(outcome, &spent, e, &o, &own);
-  else if (!refused)
-    st = dyd_fail(&own, DYD_E_ARG, "an option of the run is out of its range");
-  if (!refused) {
-    e->outcome = *outcome;
-    e->spent = spent;
-  }
-  if (err) *err = own;
+  if (err) dyd_error_clear(err);
+  dyd_status st = dyd_ask_may_begin(e, err);
+  if (st != DYD_OK) return st;
+  e->spent = DYD_BUDGET_NONE;
+  if (dyd_ask_options(&o, options) && goal_options_are_good(&o))
+    st = goal_run(outcome, e, &o, err);
+  else
+    st = dyd_fail(err, DYD_E_ARG, "an option of the run is out of its range");
+  e->outcome = *outcome;
   return st;
 }
