@@ -303,9 +303,7 @@ static dyd_status ask_loop(ask *a) {
 /* The loop with the clock running and the flags set. */
 static dyd_status ask_timed(ask *a) {
   dyd_engine *e = a->e;
-  /* Clear first, look after: a cancel that comes in between is not lost. */
-  dyd_flag_set(&e->stop, 0);
-  if (dyd_flag_get(&e->cancelled)) dyd_flag_set(&e->stop, 1);
+  dyd_flag_set(&e->stop, 0); /* where that undoes a cancel, `cancelled` is seen before any work */
   e->started = e->busy = true;
   dyd_watch_start(&a->watch, a->o.seconds, &e->stop);
   dyd_status st = ask_loop(a);

@@ -430,11 +430,13 @@ static void test_guests(void **state) {
   assert_int_equal(0, q.asked);
   dyd_stream_free(q.guest);
   /* Calls of guests count for the budget. */
-  o.max_calls = 1;
-  q.guest = stream_of("sqrt(2)-exp(log(2)/2)", "0");
-  assert_int_equal(DYD_OUTCOME_BUDGET, put(e, &q, &o, NULL));
-  assert_int_equal(4, engine_counters(e).calls);
-  dyd_stream_free(q.guest);
+  for (o.max_calls = 1; o.max_calls <= 2; o.max_calls++) {
+    q.guest = stream_of("sqrt(2)-exp(log(2)/2)", "0");
+    assert_int_equal(DYD_OUTCOME_BUDGET, put(e, &q, &o, NULL));
+    assert_int_equal(o.max_calls, dyd_stream_stage(q.guest));
+    assert_int_equal(4, engine_counters(e).calls);
+    dyd_stream_free(q.guest);
+  }
   dyd_engine_free(e);
 }
 
