@@ -6,7 +6,7 @@
 #include "engine/points.h"
 
 /* Will p be asked for `bits`, or is it that narrow already? */
-static bool will_ask(dyd_rect *scratch, const dyd_refinable *p, const dyd_engine *e, int64_t bits) {
+static bool announce_is_due(dyd_rect *scratch, const dyd_refinable *p, const dyd_engine *e, int64_t bits) {
   if (!p->asked) return true;
   return dyd_sites_get(scratch, e->sites, p->site) != DYD_OK || dyd_rect_bits(scratch) < bits;
 }
@@ -23,7 +23,7 @@ static void announce_source(uint64_t *left, const dyd_plan *plan, size_t first, 
   for (size_t k = first; list && *left && k < end; k++) {
     const dyd_want *w = &plan->item[k];
     const dyd_refinable *p = dyd_plan_point(plan, w);
-    if (!will_ask(&scratch, p, e, w->bits)) continue;
+    if (!announce_is_due(&scratch, p, e, w->bits)) continue;
     --*left;
     if (dyd_engine_request(&list[count], p, e, w->bits, plan->o->max_bits, NULL) == DYD_OK) count++;
   }

@@ -44,8 +44,8 @@ static dyd_status schedule_start(dyd_check_state *s, dyd_check_open_fn open, voi
 }
 
 /* Runs a schedule; counters and the fault go to *report. */
-static dyd_status play(dyd_check_report *report, dyd_check_open_fn open, void *user, const moves *m, uint64_t seed,
-                       const dyd_check_options *o, dyd_error *err) {
+static dyd_status schedule_play(dyd_check_report *report, dyd_check_open_fn open, void *user, const moves *m,
+                                uint64_t seed, const dyd_check_options *o, dyd_error *err) {
   dyd_check_state s = {.o = o, .report = report, .random = seed};
   dyd_rect_init(&s.window);
   dyd_status st = schedule_start(&s, open, user, err);
@@ -71,8 +71,8 @@ static dyd_status moves_add(moves *m, uint32_t stage, uint32_t point, int64_t bi
 }
 
 /* One stage: one point; a few; about a tenth; all at one precision; all unevenly. Repeats happen. */
-static dyd_status add_stage(moves *m, uint32_t stage, uint64_t *random, const uint32_t *point, size_t n,
-                            const dyd_check_options *o) {
+static dyd_status schedule_add_stage(moves *m, uint32_t stage, uint64_t *random, const uint32_t *point, size_t n,
+                                     const dyd_check_options *o) {
   dyd_status st = DYD_OK;
   uint64_t mode = dyd_check_below(random, 5);
   int64_t span = o->max_bits - o->base_bits + 1;
@@ -90,7 +90,8 @@ static dyd_status add_stage(moves *m, uint32_t stage, uint64_t *random, const ui
 }
 
 /* The numbers of the points that can be narrowed. */
-static dyd_status list_points(uint32_t **out, size_t *count, dyd_check_open_fn open, void *user, dyd_error *err) {
+static dyd_status schedule_list_points(uint32_t **out, size_t *count, dyd_check_open_fn open, void *user,
+                                       dyd_error *err) {
   dyd_engine *e = NULL;
   dyd_status st = open(&e, user, err);
   if (st != DYD_OK) return st;
@@ -102,20 +103,20 @@ static dyd_status list_points(uint32_t **out, size_t *count, dyd_check_open_fn o
   return st;
 }
 
-static dyd_status make_schedule(moves *m, uint64_t seed, const uint32_t *point, size_t n, const dyd_check_options *o) {
+static dyd_status schedule_make(moves *m, uint64_t seed, const uint32_t *point, size_t n, const dyd_check_options *o) {
   uint64_t random = seed;
   dyd_status st = DYD_OK;
   m->count = 0;
   for (uint32_t stage = 1; n && stage <= o->stages && st == DYD_OK; stage++)
-    st = add_stage(m, stage, &random, point, n, o);
+    st = schedule_add_stage(m, stage, &random, point, n, o);
   return st;
 }
 
 /* ---- cutting down ---- */
 
 /* Does m without [from, to) still show the fault? Then it is cut. */
-static dyd_status try_without(bool *cut, moves *m, size_t from, size_t to, dyd_check_fault fault,
-                              dyd_check_open_fn open, void *user, uint64_t seed, const dyd_check_options *o) {
+static dyd_status schedule_try_without(bool *cut, moves *m, size_t from, size_t to, dyd_check_fault fault,
+                                       dyd_check_open_fn open, void *user, uint64_t seed, const dyd_check_options *o) {
   moves less = {0};
   dyd_check_report report = {0};
   *cut = false;
@@ -124,7 +125,7 @@ static dyd_status try_without(bool *cut, moves *m, size_t from, size_t to, dyd_c
   memcpy(less.item, m->item, from * sizeof *less.item);
   memcpy(less.item + from, m->item + to, (m->count - to) * sizeof *less.item);
   less.count = m->count - (to - from);
-  dyd_status st = play(&report, open, user, &less, seed, o, NULL);
+  dyd_status st = schedule_play(&report, open, user, &less, seed, o, NULL);
   if (st == DYD_OK && report.fault == fault) {
     memcpy(m->item, less.item, less.count * sizeof *less.item);
     m->count = less.count;
@@ -136,15 +137,15 @@ static dyd_status try_without(bool *cut, moves *m, size_t from, size_t to, dyd_c
 }
 
 /* Leaves out ever smaller parts while the fault stays, until no single move can be left out. */
-static dyd_status cut_down(moves *m, dyd_check_fault fault, dyd_check_open_fn open, void *user, uint64_t seed,
-                           const dyd_check_options *o) {
+static dyd_status schedule_cut_down(moves *m, dyd_check_fault fault, dyd_check_open_fn open, void *user, uint64_t seed,
+                                    const dyd_check_options *o) {
   dyd_status st = DYD_OK;
   for (size_t size = m->count; size > 0 && st == DYD_OK;) {
     bool any = false;
     for (size_t from = 0; from < m->count && st == DYD_OK;) {
       size_t to = from + size < m->count ? from + size : m->count;
       bool cut;
-      st = try_without(&cut, m, from, to, fault, open, user, seed, o);
+      st = schedule_try_without(&cut, m, from, to, fault, open, user, seed, o);
       any |= cut;
       if (!cut) from = to;
     }
@@ -159,13 +160,13 @@ static dyd_status cut_down(moves *m, dyd_check_fault fault, dyd_check_open_fn op
 /* ---- public ---- */
 
 /* Keeps the shortest schedule that shows the fault found by m. */
-static dyd_status keep_fault(dyd_check_report *out, moves *m, uint64_t seed, dyd_check_open_fn open, void *user,
-                             const dyd_check_options *o) {
+static dyd_status report_keep_fault(dyd_check_report *out, moves *m, uint64_t seed, dyd_check_open_fn open, void *user,
+                                    const dyd_check_options *o) {
   dyd_check_report again = {0};
   out->seed = seed;
   out->base_bits = o->base_bits;
-  dyd_status st = cut_down(m, out->fault, open, user, seed, o);
-  if (st == DYD_OK) st = play(&again, open, user, m, seed, o, NULL);
+  dyd_status st = schedule_cut_down(m, out->fault, open, user, seed, o);
+  if (st == DYD_OK) st = schedule_play(&again, open, user, m, seed, o, NULL);
   if (st == DYD_OK && again.fault == out->fault) memcpy(out->message, again.message, sizeof out->message);
   dyd_check_report_clear(&again);
   out->move = m->item;
@@ -184,14 +185,14 @@ dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *us
   if (!err) err = &unused;
   dyd_error_clear(err);
   dyd_check_report_clear(out);
-  dyd_status st = list_points(&point, &n, open, user, err);
+  dyd_status st = schedule_list_points(&point, &n, open, user, err);
   for (unsigned k = 0; k < o.schedules && st == DYD_OK && out->fault == DYD_CHECK_FINE; k++) {
     uint64_t seed = o.seed + k;
     if (o.progress) o.progress(k, o.schedules, o.progress_user);
-    st = make_schedule(&m, seed, point, n, &o);
-    if (st == DYD_OK) st = play(out, open, user, &m, seed, &o, err);
+    st = schedule_make(&m, seed, point, n, &o);
+    if (st == DYD_OK) st = schedule_play(out, open, user, &m, seed, &o, err);
     if (st == DYD_OK) out->schedules++;
-    if (st == DYD_OK && out->fault != DYD_CHECK_FINE) st = keep_fault(out, &m, seed, open, user, &o);
+    if (st == DYD_OK && out->fault != DYD_CHECK_FINE) st = report_keep_fault(out, &m, seed, open, user, &o);
   }
   free(m.item);
   free(point);
@@ -208,7 +209,7 @@ dyd_status dyd_check_replay(dyd_check_report *out, dyd_check_open_fn open, void 
   moves m = {.item = dyd_alloc(count, sizeof *m.item), .count = count};
   if (!m.item) return dyd_fail_nomem(err);
   memcpy(m.item, move, count * sizeof *move);
-  dyd_status st = play(out, open, user, &m, o.seed, &o, err);
+  dyd_status st = schedule_play(out, open, user, &m, o.seed, &o, err);
   out->schedules = 1;
   out->seed = o.seed;
   out->base_bits = o.base_bits;

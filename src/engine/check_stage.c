@@ -67,7 +67,7 @@ static bool is_alias(const dyd_delaunay *pd, uint32_t i) {
   return dyd_delaunay_alias(pd, i) != i;
 }
 
-static const char *word(dyd_pair_status st) {
+static const char *pair_word(dyd_pair_status st) {
   static const char *const text[] = {"illegal", "tie", "indeterminate", "legal"};
   return text[st];
 }
@@ -76,7 +76,8 @@ static const char *word(dyd_pair_status st) {
 typedef void (*pair_visit)(dyd_check_state *s, const dyd_pair *pair, dyd_pair_status before, dyd_pair_status now);
 
 /* Merges two sorted lists. */
-static void compare_lists(dyd_check_state *s, const dyd_pair_list *before, const dyd_pair_list *now, pair_visit visit) {
+static void pairs_compare_lists(dyd_check_state *s, const dyd_pair_list *before, const dyd_pair_list *now,
+                                pair_visit visit) {
   size_t a = 0, b = 0;
   while ((a < before->count || b < now->count) && !fault_found(s)) {
     int c = a == before->count ? 1 : b == now->count ? -1 : pair_compare(&before->item[a], &now->item[b]);
@@ -91,8 +92,8 @@ static void compare_lists(dyd_check_state *s, const dyd_pair_list *before, const
 static void not_retracted(dyd_check_state *s, const dyd_pair *p, dyd_pair_status before, dyd_pair_status now) {
   if (is_alias(s->pd, p->i) || is_alias(s->pd, p->j)) return; /* became one exact point with another */
   if (before == DYD_ILLEGAL || (before == DYD_LEGAL && now != DYD_LEGAL))
-    dyd_check_found(s, DYD_CHECK_RETRACT, "pair %u %u was %s and is %s", (unsigned)p->i, (unsigned)p->j, word(before),
-                    word(now));
+    dyd_check_found(s, DYD_CHECK_RETRACT, "pair %u %u was %s and is %s", (unsigned)p->i, (unsigned)p->j,
+                    pair_word(before), pair_word(now));
 }
 
 static void same_or_floor(dyd_check_state *s, const dyd_pair *p, dyd_pair_status before, dyd_pair_status now) {
@@ -100,7 +101,7 @@ static void same_or_floor(dyd_check_state *s, const dyd_pair *p, dyd_pair_status
   s->report->floors += floor;
   if (before != now && !floor)
     dyd_check_found(s, DYD_CHECK_PATH, "pair %u %u is %s, but %s in a fresh run from the same rectangles",
-                    (unsigned)p->i, (unsigned)p->j, word(before), word(now));
+                    (unsigned)p->i, (unsigned)p->j, pair_word(before), pair_word(now));
 }
 
 static dyd_status check_path(dyd_check_state *s) {
@@ -109,7 +110,7 @@ static dyd_status check_path(dyd_check_state *s) {
   dyd_delaunay_options options = {.cancel = s->o->cancel};
   dyd_status st = dyd_delaunay_new(&fresh, s->e->sites, &options, NULL);
   if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, fresh);
-  if (st == DYD_OK) compare_lists(s, &s->before, &pairs, same_or_floor);
+  if (st == DYD_OK) pairs_compare_lists(s, &s->before, &pairs, same_or_floor);
   dyd_pair_list_clear(&pairs);
   dyd_delaunay_free(fresh);
   return st == DYD_CAPPED ? DYD_OK : st;
@@ -187,7 +188,7 @@ static dyd_status check_choice(dyd_check_state *s) {
 
 /* ---- cells ---- */
 
-static void forget(dyd_watched *w) {
+static void watched_forget(dyd_watched *w) {
   dyd_polygon_clear(&w->inner);
   dyd_polygon_list_clear(&w->outer);
 }
@@ -239,10 +240,10 @@ static dyd_status check_cell(dyd_check_state *s, const dyd_watched *w) {
   return st;
 }
 
-static dyd_status watch(dyd_watched *w, dyd_check_state *s) {
+static dyd_status watched_make(dyd_watched *w, dyd_check_state *s) {
   size_t n = dyd_sites_count(s->e->sites);
   int64_t bits = dyd_metric_coarseness(s->pd, &s->window) + 6;
-  forget(w);
+  watched_forget(w);
   w->site = dyd_delaunay_alias(s->pd, (uint32_t)dyd_check_below(&s->random, n));
   dyd_status st = dyd_voronoi_inner_polygon(&w->inner, s->pd, w->site, &s->window, bits);
   if (st == DYD_OK) st = dyd_voronoi_outer_polygon(&w->outer, s->pd, w->site, &s->window, bits);
@@ -259,7 +260,7 @@ static dyd_status check_cells(dyd_check_state *s, bool last) {
     s->windowed = dyd_voronoi_window(&s->window, s->e->sites) == DYD_OK;
     s->watch_count = s->windowed ? s->o->cells : 0;
   }
-  for (size_t k = 0; k < s->watch_count && st == DYD_OK; k++) st = watch(&s->watched[k], s);
+  for (size_t k = 0; k < s->watch_count && st == DYD_OK; k++) st = watched_make(&s->watched[k], s);
   return st;
 }
 
@@ -282,7 +283,7 @@ dyd_status dyd_check_stage(dyd_check_state *s, bool last) {
   s->report->stages++;
   st = dyd_delaunay_pairs(&now, s->pd);
   if (st != DYD_OK) return st;
-  if (!first && !capped) compare_lists(s, &s->before, &now, not_retracted);
+  if (!first && !capped) pairs_compare_lists(s, &s->before, &now, not_retracted);
   dyd_pair_list_clear(&s->before);
   s->before = now;
   if (!fault_found(s) && !capped) st = check_cells(s, last);
@@ -292,7 +293,7 @@ dyd_status dyd_check_stage(dyd_check_state *s, bool last) {
 }
 
 void dyd_check_state_clear(dyd_check_state *s) {
-  for (size_t k = 0; s->watched && k < s->o->cells; k++) forget(&s->watched[k]);
+  for (size_t k = 0; s->watched && k < s->o->cells; k++) watched_forget(&s->watched[k]);
   free(s->watched);
   free(s->changed);
   dyd_pair_list_clear(&s->before);

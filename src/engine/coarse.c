@@ -41,18 +41,18 @@ static dyd_status exponent_above(int64_t *out, const dyd_interval *low, bool low
 }
 
 /* Raises *out to the exponent of one of the two differences of ends, where it is larger. */
-static dyd_status raise_to(int64_t *out, const dyd_interval *low, bool low_end_up, const dyd_interval *high,
-                           bool high_end_up) {
+static dyd_status exponent_raise(int64_t *out, const dyd_interval *low, bool low_end_up, const dyd_interval *high,
+                                 bool high_end_up) {
   int64_t e;
   dyd_status st = exponent_above(&e, low, low_end_up, high, high_end_up);
   if (st == DYD_OK && e > *out) *out = e;
   return st;
 }
 
-static dyd_status find_width(dyd_coarse_site *s) {
+static dyd_status coarse_find_width(dyd_coarse_site *s) {
   s->width = INT64_MIN;
-  dyd_status st = raise_to(&s->width, &s->rect.x, false, &s->rect.x, true);
-  return st != DYD_OK ? st : raise_to(&s->width, &s->rect.y, false, &s->rect.y, true);
+  dyd_status st = exponent_raise(&s->width, &s->rect.x, false, &s->rect.x, true);
+  return st != DYD_OK ? st : exponent_raise(&s->width, &s->rect.y, false, &s->rect.y, true);
 }
 
 /* Lets two sites know of one another. */
@@ -61,8 +61,8 @@ static dyd_status coarse_meet(dyd_coarse_site *a, dyd_coarse_site *b) {
   const dyd_interval *side[2][2] = {{&a->rect.x, &b->rect.x}, {&a->rect.y, &b->rect.y}};
   dyd_status st = DYD_OK;
   for (int k = 0; st == DYD_OK && k < 2; k++) {
-    st = raise_to(&e, side[k][0], true, side[k][1], false);
-    if (st == DYD_OK) st = raise_to(&e, side[k][1], true, side[k][0], false);
+    st = exponent_raise(&e, side[k][0], true, side[k][1], false);
+    if (st == DYD_OK) st = exponent_raise(&e, side[k][1], true, side[k][0], false);
   }
   if (st != DYD_OK || e == INT64_MIN) return st;
   if (e < a->scale) a->scale = e;
@@ -96,13 +96,13 @@ static dyd_status coarse_fetch(dyd_coarse *c, const dyd_delaunay *pd, size_t f) 
   }
   for (size_t k = 0; st == DYD_OK && k < c->sites.count; k++) {
     st = dyd_sites_get(&c->item[k].rect, dyd_delaunay_sites(pd), c->sites.item[k]);
-    if (st == DYD_OK) st = find_width(&c->item[k]);
+    if (st == DYD_OK) st = coarse_find_width(&c->item[k]);
   }
   return st;
 }
 
 /* By left ends, then by lower ends; equal ones by their place, so that the order is always the same. */
-static int compare_place(const void *a, const void *b) {
+static int coarse_compare_place(const void *a, const void *b) {
   const dyd_coarse_site *s = *(dyd_coarse_site *const *)a, *t = *(dyd_coarse_site *const *)b;
   int c = dyd_dyadic_cmp(&s->rect.x.lo, &t->rect.x.lo);
   if (c == 0) c = dyd_dyadic_cmp(&s->rect.y.lo, &t->rect.y.lo);
@@ -114,7 +114,7 @@ static dyd_status coarse_meet_next(dyd_coarse *c) {
   dyd_coarse_site **order = dyd_alloc(c->sites.count, sizeof *order);
   if (!order) return DYD_E_NOMEM;
   for (size_t k = 0; k < c->sites.count; k++) order[k] = &c->item[k];
-  qsort(order, c->sites.count, sizeof *order, compare_place);
+  qsort(order, c->sites.count, sizeof *order, coarse_compare_place);
   for (size_t k = 0; k < c->sites.count; k++)
     for (size_t l = k + 1; st == DYD_OK && l < c->sites.count && l <= k + NEXT; l++)
       st = coarse_meet(order[k], order[l]);

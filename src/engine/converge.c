@@ -149,7 +149,7 @@ static dyd_status measure_bounds(dyd_stage_row *row, const dyd_delaunay *pd) {
 /* ---- the Voronoi diagram ---- */
 
 /* The window, fixed with the first row; out->window stays NULL where the sites have none. */
-static dyd_status set_window(dyd_convergence *out, const dyd_delaunay *pd, const dyd_rect *window) {
+static dyd_status convergence_set_window(dyd_convergence *out, const dyd_delaunay *pd, const dyd_rect *window) {
   if (out->window || out->count) return DYD_OK;
   out->window = malloc(sizeof *out->window);
   if (!out->window) return DYD_E_NOMEM;
@@ -167,7 +167,7 @@ static dyd_status set_window(dyd_convergence *out, const dyd_delaunay *pd, const
 }
 
 /* Polygons a good deal finer than the rectangles, so that what is undetermined comes from these. */
-static int64_t flattening(const dyd_stage_row *row) {
+static int64_t row_flattening(const dyd_stage_row *row) {
   enum { FINER = 4, EXACT = 64 };
   const dyd_dyadic *w = &row->width_largest;
   return dyd_dyadic_sgn(w) == 0 ? EXACT : FINER - (w->exp + (int64_t)mpz_sizeinbase(w->man, 2));
@@ -177,7 +177,7 @@ static int64_t flattening(const dyd_stage_row *row) {
 static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out, const dyd_delaunay *pd) {
   dyd_voronoi_bounds b;
   dyd_voronoi_bounds_init(&b);
-  dyd_status st = dyd_metric_voronoi(&b, pd, out->window, flattening(row), NULL);
+  dyd_status st = dyd_metric_voronoi(&b, pd, out->window, row_flattening(row), NULL);
   row->voronoi = st == DYD_OK && b.finite;
   if (row->voronoi) {
     dyd_dyadic_swap(&row->v_area, &b.area);
@@ -206,7 +206,7 @@ dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const 
   row_init(r);
   r->stage = out->count ? r[-1].stage + 1 : 1;
   dyd_status st = row_measure(r, pd);
-  if (st == DYD_OK && !converge->no_voronoi) st = set_window(out, pd, converge->window);
+  if (st == DYD_OK && !converge->no_voronoi) st = convergence_set_window(out, pd, converge->window);
   if (st == DYD_OK && out->window) st = measure_voronoi(r, out, pd);
   if (st != DYD_OK) {
     row_clear(r);
@@ -228,13 +228,13 @@ typedef struct recorder {
   double spent;      /* seconds in here */
 } recorder;
 
-static double clock_seconds(void) {
+static double recorder_clock(void) {
   struct timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static dyd_status record_row(recorder *r, const dyd_progress *p) {
+static dyd_status recorder_add_row(recorder *r, const dyd_progress *p) {
   dyd_stage_row *row;
   const dyd_delaunay *pd = dyd_engine_delaunay(r->e);
   dyd_status st = dyd_convergence_add(&row, r->out, pd, r->converge);
@@ -251,14 +251,14 @@ static dyd_status record_row(recorder *r, const dyd_progress *p) {
   return DYD_OK;
 }
 
-static void record(const dyd_progress *p, void *user) {
+static void recorder_stage(const dyd_progress *p, void *user) {
   recorder *r = user;
   if (r->o && r->o->progress) r->o->progress(p, r->o->progress_user);
   if (r->failed != DYD_OK) return;
-  double begun = clock_seconds();
-  r->failed = record_row(r, p);
+  double begun = recorder_clock();
+  r->failed = recorder_add_row(r, p);
   if (r->failed != DYD_OK) dyd_engine_cancel(r->e);
-  r->spent += clock_seconds() - begun;
+  r->spent += recorder_clock() - begun;
 }
 
 dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engine_options *options,
@@ -272,7 +272,7 @@ dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engin
   out->options.progress = NULL;
   out->options.trace = NULL;
   out->options.progress_user = out->options.trace_user = NULL;
-  o.progress = record;
+  o.progress = recorder_stage;
   o.progress_user = &r;
   dyd_status st = dyd_engine_run(&out->outcome, e, &o, err);
   if (st == DYD_OK && r.failed != DYD_OK) return dyd_fail(err, r.failed, "%s", dyd_status_text(r.failed));

@@ -25,7 +25,7 @@ bool dyd_goal_window_is_good(const dyd_rect *window) {
 }
 
 /* Makes *sums with polygons within 2^-bits. Stopped when e->stop is raised: DYD_CANCELLED. */
-static dyd_status find_sums(dyd_voronoi_sums **sums, const dyd_engine *e, const dyd_rect *window, int64_t bits) {
+static dyd_status goal_find_sums(dyd_voronoi_sums **sums, const dyd_engine *e, const dyd_rect *window, int64_t bits) {
   dyd_goal_sums_free(sums);
   *sums = malloc(sizeof **sums);
   if (!*sums) return DYD_E_NOMEM;
@@ -50,8 +50,8 @@ dyd_status dyd_goal_voronoi_number(mpfr_ptr out, const dyd_voronoi_sums *sums, d
 }
 
 /* Do the numbers of all pairs stay below the goal? */
-static dyd_status numbers_are_small(bool *out, const dyd_voronoi_sums *sums, const dyd_engine *e,
-                                    const dyd_engine_options *o, const dyd_pair_list *pairs) {
+static dyd_status goal_numbers_are_small(bool *out, const dyd_voronoi_sums *sums, const dyd_engine *e,
+                                         const dyd_engine_options *o, const dyd_pair_list *pairs) {
   dyd_measure m;
   mpfr_t sum, one;
   dyd_status st = DYD_OK;
@@ -70,7 +70,7 @@ static dyd_status numbers_are_small(bool *out, const dyd_voronoi_sums *sums, con
 
 /* Is the bound, found with polygons within 2^-bits, above the goal even less what flattening adds to it (about
  * 2^-(bits - flattening of goal 0))? Then finer polygons do not help. */
-static bool is_hopeless(mpfr_srcptr bound, int64_t bits, const dyd_engine *e, const dyd_engine_options *o) {
+static bool goal_is_hopeless(mpfr_srcptr bound, int64_t bits, const dyd_engine *e, const dyd_engine_options *o) {
   int64_t flat = bits - dyd_metric_flattening(e->pd, o->window, 0);
   mpfr_t rest;
   mpfr_init2(rest, DYD_MEASURE_PREC);
@@ -83,19 +83,19 @@ static bool is_hopeless(mpfr_srcptr bound, int64_t bits, const dyd_engine *e, co
 
 /* Polygons start coarse and become as fine as the goal asks, or only so fine that they show that it does not hold:
  * parabolas take 2^(bits/2) points. */
-static dyd_status area_holds(bool *out, mpfr_ptr bound, dyd_voronoi_sums **sums, const dyd_engine *e,
-                             const dyd_engine_options *o, const dyd_pair_list *pairs) {
+static dyd_status goal_area_holds(bool *out, mpfr_ptr bound, dyd_voronoi_sums **sums, const dyd_engine *e,
+                                  const dyd_engine_options *o, const dyd_pair_list *pairs) {
   dyd_status st = DYD_OK;
   int64_t fine = dyd_metric_flattening(e->pd, o->window, o->goal_bits), bits = dyd_metric_coarseness(e->pd, o->window);
   if (bits > fine) bits = fine;
   while (st == DYD_OK && !*out && bits <= fine + MOST_FINER) {
     bool small = false;
-    st = find_sums(sums, e, o->window, bits);
+    st = goal_find_sums(sums, e, o->window, bits);
     if (st != DYD_OK) break;
     dyd_voronoi_area(bound, *sums);
     *out = mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
-    if (!*out) st = numbers_are_small(&small, *sums, e, o, pairs);
-    if (!small && (bits >= fine || is_hopeless(bound, bits, e, o))) break;
+    if (!*out) st = goal_numbers_are_small(&small, *sums, e, o, pairs);
+    if (!small && (bits >= fine || goal_is_hopeless(bound, bits, e, o))) break;
     bits = bits < fine && (small || bits + FINER > fine) ? fine : bits + FINER;
   }
   return st;
@@ -109,9 +109,9 @@ dyd_status dyd_goal_voronoi_holds(bool *out, dyd_voronoi_sums **sums, const dyd_
   mpfr_init2(bound, DYD_MEASURE_PREC);
   dyd_status st = dyd_delaunay_pairs(&pairs, e->pd);
   if (st == DYD_OK && o->goal == DYD_GOAL_VORONOI_AREA) {
-    st = area_holds(out, bound, sums, e, o, &pairs);
+    st = goal_area_holds(out, bound, sums, e, o, &pairs);
   } else if (st == DYD_OK) {
-    st = find_sums(sums, e, o->window, dyd_metric_coarseness(e->pd, o->window));
+    st = goal_find_sums(sums, e, o->window, dyd_metric_coarseness(e->pd, o->window));
     if (st == DYD_OK) st = dyd_voronoi_hausdorff(bound, &finite, *sums, &pairs);
     *out = st == DYD_OK && finite && mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
   }

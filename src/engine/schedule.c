@@ -54,11 +54,11 @@ static dyd_status keep_pairs(dyd_pair_list *pairs, mpfr_ptr number, dyd_measure 
 }
 
 /* Sites known about as well as the least known one are refined with it: up to twice its bits. */
-static int64_t companions(int64_t least) {
+static int64_t companion_bits(int64_t least) {
   return least > INT64_MAX / 4 ? INT64_MAX : 2 * least + 2;
 }
 
-static int64_t lesser(int64_t a, int64_t b) {
+static int64_t lesser_bits(int64_t a, int64_t b) {
   return a < b ? a : b;
 }
 
@@ -82,8 +82,8 @@ static bool mark_ends(int64_t *least, dyd_plan *plan, const dyd_coarse *c, const
       int64_t relative = dyd_coarse_bits(c, p->site);
       any = true;
       if (pass == 0)
-        *least = lesser(*least, relative);
-      else if (relative <= companions(*least))
+        *least = lesser_bits(*least, relative);
+      else if (relative <= companion_bits(*least))
         dyd_plan_mark(plan, p, relative_step(p, relative, plan->o), DYD_REASON_END, pair->i, pair->j);
     }
   }
@@ -99,11 +99,11 @@ static void mark_blockers(dyd_plan *plan, const dyd_coarse *c, bool ends, int64_
       if (!dyd_plan_can_narrow(plan, p)) continue;
       int64_t relative = dyd_coarse_bits(c, p->site);
       if (pass == 0)
-        limit = lesser(limit, relative);
+        limit = lesser_bits(limit, relative);
       else if (relative <= limit)
         dyd_plan_mark_alone(plan, p, relative_step(p, relative, plan->o), DYD_REASON_BLOCKER);
     }
-    if (pass == 0) limit = companions(limit);
+    if (pass == 0) limit = companion_bits(limit);
   }
 }
 
@@ -254,7 +254,7 @@ static void plan_uniform(dyd_plan *plan) {
   for (size_t k = 0; k < e->points; k++)
     if (!e->point[k].final && e->point[k].bits < least) least = e->point[k].bits;
   dyd_plan_empty(plan);
-  int64_t level = lesser(dyd_bits_grown(least, plan->o), plan->o->max_bits);
+  int64_t level = lesser_bits(dyd_bits_grown(least, plan->o), plan->o->max_bits);
   for (size_t k = 0; k < e->points; k++)
     if (!e->point[k].final && e->point[k].bits < level)
       dyd_plan_mark_alone(plan, &e->point[k], level, DYD_REASON_UNIFORM);
@@ -274,7 +274,7 @@ static dyd_status plan_all(dyd_plan *plan, dyd_scouts *scouts, dyd_measure *m, c
 
 /* ---- goals ---- */
 
-static dyd_status bound_holds(bool *out, dyd_measure *m, const dyd_engine *e, const dyd_engine_options *o) {
+static dyd_status goal_bound_holds(bool *out, dyd_measure *m, const dyd_engine *e, const dyd_engine_options *o) {
   dyd_pair_list pairs = {0};
   mpfr_t bound;
   mpfr_init2(bound, DYD_MEASURE_PREC);
@@ -288,7 +288,8 @@ static dyd_status bound_holds(bool *out, dyd_measure *m, const dyd_engine *e, co
 }
 
 /* The bound holds, and no vertex is left that is too wide and could be narrowed. */
-static dyd_status voronoi_holds(bool *out, dyd_voronoi_sums **sums, const dyd_engine *e, const dyd_engine_options *o) {
+static dyd_status goal_voronoi_and_vertices_hold(bool *out, dyd_voronoi_sums **sums, const dyd_engine *e,
+                                                 const dyd_engine_options *o) {
   dyd_status st = dyd_goal_voronoi_holds(out, sums, e, o);
   if (st != DYD_OK || !*out || o->goal != DYD_GOAL_VORONOI_HAUSDORFF) return st;
   dyd_plan plan;
@@ -304,8 +305,8 @@ static dyd_status goal_holds(bool *out, dyd_measure *m, dyd_voronoi_sums **sums,
                              const dyd_engine_options *o) {
   *out = false;
   if (dyd_delaunay_is_capped(e->pd)) return DYD_OK;
-  if (dyd_goal_is_voronoi(o->goal)) return voronoi_holds(out, sums, e, o);
-  if (o->goal != DYD_GOAL_DECIDED) return bound_holds(out, m, e, o);
+  if (dyd_goal_is_voronoi(o->goal)) return goal_voronoi_and_vertices_hold(out, sums, e, o);
+  if (o->goal != DYD_GOAL_DECIDED) return goal_bound_holds(out, m, e, o);
   size_t count[4];
   dyd_delaunay_count(count, e->pd);
   *out = count[DYD_INDETERMINATE] == 0 && count[DYD_TIE] == 0;
