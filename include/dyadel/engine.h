@@ -3,7 +3,9 @@
  * (mathematics: section 7).
  *
  * Threads: one engine is used by one thread at a time, several engines in several threads work; only
- * dyd_engine_cancel may be called from anywhere, a signal handler included. */
+ * dyd_engine_cancel may be called from anywhere, a signal handler included. While the engine is at work its callbacks
+ * (questions, progress, trace, sources) may call what takes it const, and dyd_engine_cancel; dyd_engine_run,
+ * dyd_engine_ask and dyd_engine_nearest answer them DYD_E_ARG. */
 #ifndef DYADEL_ENGINE_H
 #define DYADEL_ENGINE_H
 
@@ -60,7 +62,7 @@ typedef struct dyd_engine_counters {
   int64_t bits_most;
   uint64_t bits_total; /* sum over points of the bits last asked */
   uint64_t undecided_faces;
-  double seconds;   /* wall clock, all runs */
+  double seconds;   /* wall clock, all runs and questions */
   dyd_budget spent; /* which budget ended the last run */
   dyd_delaunay_counters delaunay;
 } dyd_engine_counters;
@@ -82,7 +84,8 @@ typedef enum dyd_reason {
   DYD_REASON_BLOCKER,   /* a site of an undecided face, coarser than the ends of its pairs, or none of these can be
                            narrowed */
   DYD_REASON_BOUND,     /* contributes to the bound asked for, through the pair i, j (i = j: by its own diameter) */
-  DYD_REASON_UNIFORM    /* all points are refined */
+  DYD_REASON_UNIFORM,   /* all points are refined */
+  DYD_REASON_QUESTION   /* a question wants it narrower (dyd_engine_ask, dyd_engine_nearest) */
 } dyd_reason;
 /* "first", "end", ... Static storage. */
 DYD_API const char *dyd_reason_text(dyd_reason reason);
@@ -136,7 +139,8 @@ typedef struct dyd_engine dyd_engine;
 DYD_API dyd_status dyd_engine_new(dyd_engine **out);
 DYD_API void dyd_engine_free(dyd_engine *e);
 
-/* Adding points: numbered from 0 in the order added. Only before the first run (DYD_E_ARG afterwards).
+/* Adding points: numbered from 0 in the order added. Only before the first run or question (DYD_E_ARG
+ * afterwards).
  * On failure nothing is added (and for streams and sources: the reference or context is released). */
 DYD_API dyd_status dyd_engine_add_points(dyd_engine *e, size_t n, const double *x, const double *y);
 DYD_API dyd_status dyd_engine_add_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1, const double *y0,
@@ -166,11 +170,82 @@ DYD_API void dyd_engine_cancel(dyd_engine *e);
 DYD_API dyd_outcome dyd_engine_outcome(const dyd_engine *e);
 /* The goal of the last run, and its goal_bits in *bits (may be NULL); DYD_GOAL_DECIDED and 0 before the first one. */
 DYD_API dyd_goal dyd_engine_goal(int64_t *bits, const dyd_engine *e);
+/* The rectangles as they are now; borrowed until e is freed, they shrink in place. A point that was never asked holds
+ * the whole plane: numbers too large to compute with. */
+DYD_API const dyd_sites *dyd_engine_sites(const dyd_engine *e);
+/* Is there a rectangle for site i: is it fixed, or has it been asked once? false where there is no site i. */
+DYD_API bool dyd_engine_knows(const dyd_engine *e, uint32_t i);
 /* The current result; borrowed until the next call that changes e; NULL before the first complete stage. */
 DYD_API const dyd_delaunay *dyd_engine_delaunay(const dyd_engine *e);
 DYD_API dyd_status dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e, dyd_error *err);
 /* The bounds of the current result (metric.h), DYD_E_ARG before the first complete stage. */
 DYD_API dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, const dyd_engine *e);
+
+/* ---- questions ---- */
+
+/* Which sites a question needs narrower, and how far. Made by the engine, filled in by the question, carried out by the
+ * engine when the question returns: asking changes nothing. */
+typedef struct dyd_plan dyd_plan;
+#define DYD_BITS_NEXT INT64_MIN
+/* Adds site i, to be brought to 2^-bits. Where it was asked for so much before, and for DYD_BITS_NEXT, it is the next
+ * step of the options (start_bits, step_bits): what is in the plan always narrows. bits are cut to max_bits. Of several
+ * calls for one site the finest counts. Site dyd_engine_count(e) + k is guest k of the question. A site that is fixed,
+ * final, or was asked for max_bits before stays out of the plan, which is no error. Returns DYD_OK; DYD_E_ARG when
+ * there is no site i, DYD_E_NOMEM: then the ask ends with this error, whatever the question does. O(log points). */
+DYD_API dyd_status dyd_plan_add(dyd_plan *plan, uint32_t i, int64_t bits);
+/* How many points are in it. */
+DYD_API size_t dyd_plan_count(const dyd_plan *plan);
+
+/* Looks whether the answer is known. Either sets *answered = true (false when called), or adds to *plan, empty when
+ * called, who has to be narrower. e is borrowed for the call: see dyd_engine_sites, dyd_engine_knows,
+ * dyd_engine_delaunay. Returns DYD_OK; DYD_CANCELLED to give up; an error < 0 with *err (clear when called) filled. */
+typedef dyd_status (*dyd_ask_fn)(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err);
+
+/* A question, borrowed during the ask. */
+typedef struct dyd_question {
+  size_t struct_size;
+  dyd_ask_fn ask;
+  void *user;
+  bool triangulate; /* it looks at the triangulation: all points are asked once before it comes first, and the result
+                       is brought up to date before it comes again */
+  /* Further points that it looks at, borrowed; they may be narrowed, as sites are, and have a rectangle
+   * (dyd_stream_rect) whenever the question comes. They are no sites of the triangulation. */
+  dyd_stream *const *guest;
+  size_t guests;
+} dyd_question;
+
+/* The one loop of the engine: asks, narrows what the plan says, asks again, until exactly one outcome holds:
+ * decided (answered), fixpoint (the plan is empty: nothing the question needs can be narrowed), budget (bits: it needs
+ * more than max_bits; stages, pairs: with triangulate only; calls; seconds), cancelled. dyd_engine_run and
+ * dyd_engine_nearest are questions of this kind.
+ *
+ * A question that does not look at the triangulation is asked once more after a cancel or the end of time, so that it
+ * has seen the rectangles reached; what it wants then is not done. Points narrowed here are brought into the result by
+ * the next run. options may be NULL; goal and schedule mean nothing here; progress is called after each triangulation.
+ * Guests are asked for the precision of the first stage at the start, and are left out of traces.
+ *
+ * Returns DYD_OK, or an error with outcome DYD_OUTCOME_ERROR and *err (may be NULL) filled: that of a stream, of the
+ * question; DYD_E_ARG for bad options, for a site that does not exist, and from within a callback of e, which then is
+ * as before. What was stated stays valid in every case. dyd_engine_outcome and the counter `spent` tell about the last
+ * run. Cost: the calls of the question and its plans; O(log points) for each point narrowed, a triangulation update for
+ * each stage.
+ *
+ * Is point 0 surely left of point 1?
+ *
+ *     static dyd_status is_left(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
+ *       double a[4], b[4]; // x and y from, to, rounded outward
+ *       dyd_sites_get_d(a, dyd_engine_sites(e), 0);
+ *       dyd_sites_get_d(b, dyd_engine_sites(e), 1);
+ *       *answered = a[1] < b[0] || b[1] < a[0];
+ *       *(bool *)user = a[1] < b[0];
+ *       dyd_status st = dyd_plan_add(plan, 0, DYD_BITS_NEXT);
+ *       return st == DYD_OK ? dyd_plan_add(plan, 1, DYD_BITS_NEXT) : st;
+ *     }
+ *     dyd_question question = {DYD_SIZED(dyd_question), .ask = is_left, .user = &left};
+ *     dyd_status st = dyd_engine_ask(&outcome, e, &question, NULL, &err);
+ */
+DYD_API dyd_status dyd_engine_ask(dyd_outcome *outcome, dyd_engine *e, const dyd_question *question,
+                                  const dyd_engine_options *options, dyd_error *err);
 
 /* ---- points as streams, and questions about computable points ---- */
 
@@ -187,9 +262,9 @@ DYD_API dyd_status dyd_engine_voronoi_vertex(dyd_stream **out, dyd_engine *e, co
  * refined (fixpoint: exact ties, fixed rectangles), or until options->max_bits, max_calls or seconds are spent
  * (budget); dyd_engine_cancel works (cancelled). *out is right for the rectangles reached in every case, and the list
  * only ever shrinks [NEAR-3]. Needs a result (DYD_E_ARG before the first run); points narrowed here are brought into
- * it by the next run. `at` is borrowed. options (may be NULL): goal, schedule, stages and pairs mean nothing here. On
- * errors *outcome is DYD_OUTCOME_ERROR, *err (may be NULL) is filled, *out and *sure are as before. dyd_engine_outcome
- * and the counter `spent` still tell about the last run. */
+ * it by the next run. `at` is borrowed. options (may be NULL): goal, schedule, stages, pairs and progress mean nothing
+ * here. On errors *outcome is DYD_OUTCOME_ERROR, *err (may be NULL) is filled, *out and *sure are as before.
+ * dyd_engine_outcome and the counter `spent` still tell about the last run. */
 DYD_API dyd_status dyd_engine_nearest(dyd_index_list *out, bool *sure, dyd_outcome *outcome, dyd_engine *e,
                                       dyd_stream *at, const dyd_engine_options *options, dyd_error *err);
 

@@ -6,11 +6,6 @@
 #include <dyadel/status.h>
 #include <stdbool.h>
 
-/* Did it fail? For calls that may return a positive code. */
-static inline bool dyd_failed(dyd_status st) {
-  return st < 0;
-}
-
 /* Writes code and the formatted message to *err (NULL: nothing), leaves point, stage, line and column as they
  * are, cuts over-long messages, and returns code: `return dyd_fail(err, DYD_E_ARG, "...")`. */
 #if defined(__GNUC__)
@@ -18,6 +13,11 @@ __attribute__((format(printf, 3, 4)))
 #endif
 dyd_status
 dyd_fail(dyd_error *err, dyd_status code, const char *format, ...);
+
+/* st < 0, for calls that may return a positive code. */
+static inline bool dyd_failed(dyd_status st) {
+  return st < 0;
+}
 
 /* DYD_E_NOMEM with its standard sentence. */
 dyd_status dyd_fail_nomem(dyd_error *err);

@@ -1,98 +1,91 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What bisector and disc share: the points as streams, narrowed until a question is answered. */
+/* What bisector and disc share: a question about the first points of a file, put to the engine. */
 #include "pieces.h"
 #include <stdlib.h>
 
-enum { FIRST_BITS = 64, DEFAULT_MAX_BITS = 4096 };
+enum { FIRST_BITS = 64 };
 
-static int out_of_memory(void) {
-  cli_complain("memory is exhausted; close other programs");
-  return CLI_FAILED;
+/* ---- the question ---- */
+
+static bool pieces_are_known(const cli_pieces *p) {
+  for (size_t i = 0; i < p->count; i++)
+    if (!dyd_engine_knows(p->session.engine, (uint32_t)i)) return false;
+  return true;
 }
 
-static int fail_at_point(const cli_pieces *p, size_t i, dyd_status status, dyd_error *err) {
-  err->point = i;
-  if (!err->message[0]) snprintf(err->message, sizeof err->message, "%s", dyd_status_text(status));
-  cli_complain_at(p->session.options->file, err);
-  return CLI_FAILED;
+/* At each precision the points that make the piece come first, then, by what they are now, those others that are
+ * wanted. Where one of both wants nothing it is the turn of the other. */
+static dyd_status pieces_plan(dyd_plan *plan, cli_pieces *p) {
+  dyd_status st = DYD_OK;
+  for (int turn = 0; turn < 2 && st == DYD_OK && !dyd_plan_count(plan); turn++) {
+    size_t end = p->rest ? p->count : p->first;
+    if (!p->rest) p->bits *= 2;
+    for (size_t i = p->rest ? p->first : 0; st == DYD_OK && i < end; i++)
+      if (p->wanted(p, i)) st = dyd_plan_add(plan, (uint32_t)i, p->bits);
+    p->rest = !p->rest;
+  }
+  return st;
 }
 
-static int narrow(cli_pieces *p, size_t i) {
+/* Before all points have a rectangle nothing can be said. */
+static dyd_status pieces_ask(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
+  cli_pieces *p = user;
+  dyd_status st = DYD_OK;
+  (void)err;
+  if (!pieces_are_known(p)) {
+    for (size_t i = 0; st == DYD_OK && i < p->count; i++) st = dyd_plan_add(plan, (uint32_t)i, p->bits);
+    return st;
+  }
+  for (size_t i = 0; st == DYD_OK && i < p->count; i++) st = dyd_sites_get(&p->own[i], dyd_engine_sites(e), i);
+  *answered = st == DYD_OK && p->answered(p);
+  return st == DYD_OK && !*answered ? pieces_plan(plan, p) : st;
+}
+
+/* Asks it; 0, or an exit status after a message. */
+static int pieces_run(cli_pieces *p) {
+  const cli_options *o = p->session.options;
+  const dyd_question question = {DYD_SIZED(dyd_question), .ask = pieces_ask, .user = p};
   dyd_error err;
-  dyd_error_clear(&err);
-  dyd_status status = dyd_stream_narrow(p->stream[i], p->bits, p->max_bits, &err);
-  if (status < 0) return fail_at_point(p, i, status, &err);
-  p->rect[i] = dyd_stream_rect(p->stream[i]);
-  return 0;
+  cli_progress_phase(p->session.progress, "refining");
+  cli_signals_cancel(p->session.engine);
+  dyd_status st = dyd_engine_ask(&p->outcome, p->session.engine, &question, &o->engine, &err);
+  cli_signals_remove(NULL);
+  if (st != DYD_OK)
+    cli_complain_at(o->file, &err);
+  else if (!pieces_are_known(p))
+    cli_complain("%s before the points were known: there is no result to write", dyd_outcome_text(p->outcome));
+  if (st != DYD_OK) return CLI_FAILED;
+  return pieces_are_known(p) ? 0 : cli_exit_status(p->outcome);
 }
 
-int cli_pieces_open(cli_pieces *p, const cli_options *o, size_t least, size_t most) {
-  *p = (cli_pieces){.bits = FIRST_BITS};
+/* ---- the command ---- */
+
+/* Room for `count` rectangles. */
+static bool pieces_reserve(cli_pieces *p, size_t count) {
+  p->own = calloc(count, sizeof *p->own);
+  p->rect = calloc(count, sizeof *p->rect);
+  if (!p->own || !p->rect) return false;
+  for (; p->count < count; p->count++) {
+    dyd_rect_init(&p->own[p->count]);
+    p->rect[p->count] = &p->own[p->count];
+  }
+  return true;
+}
+
+static int pieces_open(cli_pieces *p, const cli_options *o, size_t least, size_t most) {
   int status = cli_session_open(&p->session, o);
   if (status) return status;
-  p->max_bits = o->engine.max_bits ? o->engine.max_bits : DEFAULT_MAX_BITS;
-  if (p->bits > p->max_bits) p->bits = p->max_bits;
   size_t count = dyd_engine_count(p->session.engine);
   if (count < least) {
     cli_complain("%s: %zu points are needed, here are %zu; give more", o->file ? o->file : "the oracle", least, count);
     return CLI_FAILED;
   }
-  count = count < most ? count : most;
-  p->stream = calloc(count, sizeof *p->stream);
-  p->rect = calloc(count, sizeof *p->rect);
-  if (!p->stream || !p->rect) return out_of_memory();
-  cli_signals_cancel(p->session.engine);
-  for (; p->count < count && !status; p->count++) {
-    if (cli_signals_cancelled()) {
-      cli_complain("cancelled before the points were known: there is no result to write");
-      return CLI_CANCELLED;
-    }
-    if (dyd_engine_stream(&p->stream[p->count], p->session.engine, (uint32_t)p->count) < 0) return out_of_memory();
-    status = narrow(p, p->count);
-  }
-  return status;
+  if (pieces_reserve(p, count < most ? count : most)) return 0;
+  cli_complain("memory is exhausted; close other programs");
+  return CLI_FAILED;
 }
 
-/* Asks the points that are wanted for more; *moved tells whether one could be narrowed. */
-static int refine(bool *moved, cli_pieces *p, cli_wanted_fn wanted) {
-  *moved = false;
-  p->bits = p->bits > p->max_bits / 2 ? p->max_bits : 2 * p->bits;
-  for (size_t i = 0; i < p->count && !cli_signals_cancelled(); i++) {
-    if (!wanted(p, i) || dyd_stream_is_final(p->stream[i])) continue;
-    *moved = true;
-    int status = narrow(p, i);
-    if (status) return status;
-  }
-  return 0;
-}
-
-static int run(cli_pieces *p, cli_answered_fn answered, cli_wanted_fn wanted) {
-  const cli_options *o = p->session.options;
-  for (bool moved = true;;) {
-    if (answered(p)) return p->outcome = DYD_OUTCOME_DECIDED, 0;
-    if (cli_signals_cancelled()) return p->outcome = DYD_OUTCOME_CANCELLED, 0;
-    if (!moved) return p->outcome = DYD_OUTCOME_FIXPOINT, 0;
-    bool late = o->engine.seconds > 0 && cli_clock() - p->session.begun > o->engine.seconds;
-    p->outcome = DYD_OUTCOME_BUDGET;
-    if (late || p->bits >= p->max_bits) break;
-    int status = refine(&moved, p, wanted);
-    if (status) return status;
-  }
-  for (size_t i = 0; i < p->count; i++)
-    if (wanted(p, i) && !dyd_stream_is_final(p->stream[i])) return 0;
-  p->outcome = DYD_OUTCOME_FIXPOINT;
-  return 0;
-}
-
-int cli_pieces_run(cli_pieces *p, cli_answered_fn answered, cli_wanted_fn wanted) {
-  cli_progress_phase(p->session.progress, "refining");
-  int status = run(p, answered, wanted);
-  cli_signals_remove(NULL);
-  cli_session_settle(&p->session);
-  return status;
-}
-
-static void note(const cli_pieces *p) {
+static void pieces_note(const cli_pieces *p) {
   if (p->outcome == DYD_OUTCOME_CANCELLED) cli_complain("cancelled: stopped on request; this much was known before");
   if (p->outcome == DYD_OUTCOME_FIXPOINT)
     cli_complain("fixpoint: no refinement can decide the rest: exact ties or fixed rectangles");
@@ -101,14 +94,23 @@ static void note(const cli_pieces *p) {
                  "tied");
 }
 
-int cli_pieces_close(cli_pieces *p, int status) {
-  if (!status) status = cli_exit_status(p->outcome);
-  bool quiet = p->session.options->quiet;
-  cli_signals_remove(NULL); /* the engine goes */
-  for (size_t i = p->count; i-- > 0;) dyd_stream_free(p->stream[i]);
-  free(p->stream);
+static void pieces_close(cli_pieces *p) {
+  for (size_t i = p->count; i-- > 0;) dyd_rect_clear(&p->own[i]);
   free(p->rect);
+  free(p->own);
   cli_session_close(&p->session, CLI_FAILED);
-  if (!quiet && status) note(p);
+}
+
+int cli_pieces_all(const cli_options *o, size_t least, size_t most, cli_answered_fn answered, cli_wanted_fn wanted,
+                   cli_print_fn print) {
+  cli_pieces p = {.answered = answered, .wanted = wanted, .first = least, .bits = FIRST_BITS};
+  int status = pieces_open(&p, o, least, most);
+  if (!status) status = pieces_run(&p);
+  bool known = !status;
+  cli_session_settle(&p.session);
+  if (known) status = cli_write_file(o->output, o, print, &p);
+  pieces_close(&p);
+  if (!status) status = cli_exit_status(p.outcome);
+  if (known && !o->quiet && status) pieces_note(&p);
   return status;
 }

@@ -19,7 +19,7 @@ void dyd_check_report_clear(dyd_check_report *r) {
 }
 
 /* Fills in *o, and clears the report and the error record. */
-static dyd_status begin_check(dyd_check_options *o, dyd_check_report *out, const dyd_check_options *given,
+static dyd_status check_begin(dyd_check_options *o, dyd_check_report *out, const dyd_check_options *given,
                               dyd_error *err) {
   dyd_error_clear(err);
   dyd_status st = dyd_abi_check(out, sizeof *out, "dyd_check_report", err);
@@ -44,86 +44,87 @@ typedef struct moves {
 /* ---- one schedule ---- */
 
 /* Opens the points and asks everybody for base_bits. */
-static dyd_status start(dyd_check_state *s, dyd_check_open_fn open, void *user, dyd_error *err) {
-  dyd_status status = open(&s->e, user, err);
-  for (size_t k = 0; status >= 0 && k < s->e->points && s->report->fault == DYD_CHECK_FINE; k++)
-    status = dyd_check_narrow(s, s->e->point[k].site, s->o->base_bits);
-  return status;
+static dyd_status schedule_start(dyd_check_state *s, dyd_check_open_fn open, void *user, dyd_error *err) {
+  dyd_status st = open(&s->e, user, err);
+  for (size_t k = 0; st == DYD_OK && k < s->e->points && s->report->fault == DYD_CHECK_FINE; k++)
+    st = dyd_check_narrow(s, s->e->point[k].site, s->o->base_bits);
+  return st;
 }
 
 /* Runs a schedule; counters and the fault go to *report. */
-static dyd_status play(dyd_check_report *report, dyd_check_open_fn open, void *user, const moves *m, uint64_t seed,
-                       const dyd_check_options *o, dyd_error *err) {
+static dyd_status schedule_play(dyd_check_report *report, dyd_check_open_fn open, void *user, const moves *m,
+                                uint64_t seed, const dyd_check_options *o, dyd_error *err) {
   dyd_check_state s = {.o = o, .report = report, .random = seed};
   dyd_rect_init(&s.window);
-  dyd_status status = start(&s, open, user, err);
+  dyd_status st = schedule_start(&s, open, user, err);
   size_t k = 0;
-  if (status == DYD_OK && report->fault == DYD_CHECK_FINE) status = dyd_check_stage(&s, m->count == 0);
-  while (status == DYD_OK && report->fault == DYD_CHECK_FINE && k < m->count) {
+  if (st == DYD_OK && report->fault == DYD_CHECK_FINE) st = dyd_check_stage(&s, m->count == 0);
+  while (st == DYD_OK && report->fault == DYD_CHECK_FINE && k < m->count) {
     uint32_t stage = m->item[k].stage;
-    for (; k < m->count && m->item[k].stage == stage && status == DYD_OK && report->fault == DYD_CHECK_FINE; k++)
-      status = dyd_check_narrow(&s, m->item[k].point, m->item[k].bits);
-    if (status == DYD_OK && report->fault == DYD_CHECK_FINE) status = dyd_check_stage(&s, k == m->count);
+    for (; k < m->count && m->item[k].stage == stage && st == DYD_OK && report->fault == DYD_CHECK_FINE; k++)
+      st = dyd_check_narrow(&s, m->item[k].point, m->item[k].bits);
+    if (st == DYD_OK && report->fault == DYD_CHECK_FINE) st = dyd_check_stage(&s, k == m->count);
   }
   dyd_check_state_clear(&s);
-  if (status == DYD_E_NOMEM) dyd_fail_nomem(err);
-  return status;
+  if (st == DYD_E_NOMEM) dyd_fail_nomem(err);
+  return st;
 }
 
 /* ---- random schedules ---- */
 
-static dyd_status add_move(moves *m, uint32_t stage, uint32_t point, int64_t bits) {
+static dyd_status moves_add(moves *m, uint32_t stage, uint32_t point, int64_t bits) {
   if (!dyd_reserve((void **)&m->item, &m->cap, m->count + 1, sizeof *m->item)) return DYD_E_NOMEM;
   m->item[m->count++] = (dyd_check_move){stage, point, bits};
   return DYD_OK;
 }
 
 /* One stage: one point; a few; about a tenth; all at one precision; all unevenly. Repeats happen. */
-static dyd_status add_stage(moves *m, uint32_t stage, uint64_t *random, const uint32_t *point, size_t n,
-                            const dyd_check_options *o) {
-  dyd_status status = DYD_OK;
+static dyd_status schedule_add_stage(moves *m, uint32_t stage, uint64_t *random, const uint32_t *point, size_t n,
+                                     const dyd_check_options *o) {
+  dyd_status st = DYD_OK;
   uint64_t mode = dyd_check_below(random, 5);
   int64_t span = o->max_bits - o->base_bits + 1;
   int64_t top = o->base_bits + span * stage / o->stages,
           level = o->base_bits + (int64_t)dyd_check_below(random, (uint64_t)(top - o->base_bits) + 1);
   size_t count = mode == 0 ? 1 : mode == 1 ? 1 + (size_t)dyd_check_below(random, 8) : mode == 2 ? n / 10 + 1 : n;
-  for (size_t k = 0; k < count && status >= 0; k++) {
+  for (size_t k = 0; k < count && st == DYD_OK; k++) {
     size_t at = mode >= 3 ? k : (size_t)dyd_check_below(random, n);
     int64_t bits =
         mode == 3 ? level : o->base_bits + (int64_t)dyd_check_below(random, (uint64_t)(top - o->base_bits) + 1);
-    status = add_move(m, stage, point[at], bits);
-    if (status >= 0 && dyd_check_below(random, 16) == 0) status = add_move(m, stage, point[at], bits);
+    st = moves_add(m, stage, point[at], bits);
+    if (st == DYD_OK && dyd_check_below(random, 16) == 0) st = moves_add(m, stage, point[at], bits);
   }
-  return status;
+  return st;
 }
 
 /* The numbers of the points that can be narrowed. */
-static dyd_status list_points(uint32_t **out, size_t *count, dyd_check_open_fn open, void *user, dyd_error *err) {
+static dyd_status schedule_list_points(uint32_t **out, size_t *count, dyd_check_open_fn open, void *user,
+                                       dyd_error *err) {
   dyd_engine *e = NULL;
-  dyd_status status = open(&e, user, err);
-  if (status < 0) return status;
+  dyd_status st = open(&e, user, err);
+  if (st != DYD_OK) return st;
   *out = dyd_alloc(e->points, sizeof **out);
   *count = *out ? e->points : 0;
   for (size_t k = 0; k < *count; k++) (*out)[k] = e->point[k].site;
-  if (!*out) status = dyd_fail_nomem(err);
+  if (!*out) st = dyd_fail_nomem(err);
   dyd_engine_free(e);
-  return status;
+  return st;
 }
 
-static dyd_status make_schedule(moves *m, uint64_t seed, const uint32_t *point, size_t n, const dyd_check_options *o) {
+static dyd_status schedule_make(moves *m, uint64_t seed, const uint32_t *point, size_t n, const dyd_check_options *o) {
   uint64_t random = seed;
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   m->count = 0;
-  for (uint32_t stage = 1; n && stage <= o->stages && status >= 0; stage++)
-    status = add_stage(m, stage, &random, point, n, o);
-  return status;
+  for (uint32_t stage = 1; n && stage <= o->stages && st == DYD_OK; stage++)
+    st = schedule_add_stage(m, stage, &random, point, n, o);
+  return st;
 }
 
 /* ---- cutting down ---- */
 
 /* Does m without [from, to) still show the fault? Then it is cut. */
-static dyd_status try_without(bool *cut, moves *m, size_t from, size_t to, dyd_check_fault fault,
-                              dyd_check_open_fn open, void *user, uint64_t seed, const dyd_check_options *o) {
+static dyd_status schedule_try_without(bool *cut, moves *m, size_t from, size_t to, dyd_check_fault fault,
+                                       dyd_check_open_fn open, void *user, uint64_t seed, const dyd_check_options *o) {
   moves less = {0};
   dyd_check_report report = {0};
   *cut = false;
@@ -132,27 +133,27 @@ static dyd_status try_without(bool *cut, moves *m, size_t from, size_t to, dyd_c
   memcpy(less.item, m->item, from * sizeof *less.item);
   memcpy(less.item + from, m->item + to, (m->count - to) * sizeof *less.item);
   less.count = m->count - (to - from);
-  dyd_status status = play(&report, open, user, &less, seed, o, NULL);
-  if (status >= 0 && report.fault == fault) {
+  dyd_status st = schedule_play(&report, open, user, &less, seed, o, NULL);
+  if (st == DYD_OK && report.fault == fault) {
     memcpy(m->item, less.item, less.count * sizeof *less.item);
     m->count = less.count;
     *cut = true;
   }
   free(less.item);
   dyd_check_report_clear(&report);
-  return status;
+  return st;
 }
 
 /* Leaves out ever smaller parts while the fault stays, until no single move can be left out. */
-static dyd_status cut_down(moves *m, dyd_check_fault fault, dyd_check_open_fn open, void *user, uint64_t seed,
-                           const dyd_check_options *o) {
-  dyd_status status = DYD_OK;
-  for (size_t size = m->count; size > 0 && status == DYD_OK;) {
+static dyd_status schedule_cut_down(moves *m, dyd_check_fault fault, dyd_check_open_fn open, void *user, uint64_t seed,
+                                    const dyd_check_options *o) {
+  dyd_status st = DYD_OK;
+  for (size_t size = m->count; size > 0 && st == DYD_OK;) {
     bool any = false;
-    for (size_t from = 0; from < m->count && status == DYD_OK;) {
+    for (size_t from = 0; from < m->count && st == DYD_OK;) {
       size_t to = from + size < m->count ? from + size : m->count;
       bool cut;
-      status = try_without(&cut, m, from, to, fault, open, user, seed, o);
+      st = schedule_try_without(&cut, m, from, to, fault, open, user, seed, o);
       any |= cut;
       if (!cut) from = to;
     }
@@ -161,25 +162,25 @@ static dyd_status cut_down(moves *m, dyd_check_fault fault, dyd_check_open_fn op
     else if (!any)
       break;
   }
-  return status;
+  return st;
 }
 
 /* ---- public ---- */
 
 /* Keeps the shortest schedule that shows the fault found by m. */
-static dyd_status keep_fault(dyd_check_report *out, moves *m, uint64_t seed, dyd_check_open_fn open, void *user,
-                             const dyd_check_options *o) {
+static dyd_status report_keep_fault(dyd_check_report *out, moves *m, uint64_t seed, dyd_check_open_fn open, void *user,
+                                    const dyd_check_options *o) {
   dyd_check_report again = {0};
   out->seed = seed;
   out->base_bits = o->base_bits;
-  dyd_status status = cut_down(m, out->fault, open, user, seed, o);
-  if (status == DYD_OK) status = play(&again, open, user, m, seed, o, NULL);
-  if (status == DYD_OK && again.fault == out->fault) memcpy(out->message, again.message, sizeof out->message);
+  dyd_status st = schedule_cut_down(m, out->fault, open, user, seed, o);
+  if (st == DYD_OK) st = schedule_play(&again, open, user, m, seed, o, NULL);
+  if (st == DYD_OK && again.fault == out->fault) memcpy(out->message, again.message, sizeof out->message);
   dyd_check_report_clear(&again);
   out->move = m->item;
   out->moves = m->count;
   *m = (moves){0};
-  return status;
+  return st;
 }
 
 dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *user, const dyd_check_options *given,
@@ -190,19 +191,19 @@ dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *us
   size_t n = 0;
   dyd_error unused;
   if (!err) err = &unused;
-  dyd_status status = begin_check(&o, out, given, err);
-  if (status == DYD_OK) status = list_points(&point, &n, open, user, err);
-  for (unsigned k = 0; k < o.schedules && status == DYD_OK && out->fault == DYD_CHECK_FINE; k++) {
+  dyd_status st = check_begin(&o, out, given, err);
+  if (st == DYD_OK) st = schedule_list_points(&point, &n, open, user, err);
+  for (unsigned k = 0; k < o.schedules && st == DYD_OK && out->fault == DYD_CHECK_FINE; k++) {
     uint64_t seed = o.seed + k;
     if (o.progress) o.progress(o.progress_user, k, o.schedules);
-    status = make_schedule(&m, seed, point, n, &o);
-    if (status == DYD_OK) status = play(out, open, user, &m, seed, &o, err);
-    if (status == DYD_OK) out->schedules++;
-    if (status == DYD_OK && out->fault != DYD_CHECK_FINE) status = keep_fault(out, &m, seed, open, user, &o);
+    st = schedule_make(&m, seed, point, n, &o);
+    if (st == DYD_OK) st = schedule_play(out, open, user, &m, seed, &o, err);
+    if (st == DYD_OK) out->schedules++;
+    if (st == DYD_OK && out->fault != DYD_CHECK_FINE) st = report_keep_fault(out, &m, seed, open, user, &o);
   }
   free(m.item);
   free(point);
-  return status;
+  return st;
 }
 
 dyd_status dyd_check_replay(dyd_check_report *out, dyd_check_open_fn open, void *user, const dyd_check_move *move,
@@ -210,20 +211,20 @@ dyd_status dyd_check_replay(dyd_check_report *out, dyd_check_open_fn open, void 
   dyd_check_options o;
   dyd_error unused;
   if (!err) err = &unused;
-  dyd_status status = begin_check(&o, out, given, err);
-  if (status != DYD_OK) return status;
+  dyd_status st = check_begin(&o, out, given, err);
+  if (st != DYD_OK) return st;
   moves m = {.item = dyd_alloc(count, sizeof *m.item), .count = count};
   if (!m.item) return dyd_fail_nomem(err);
   memcpy(m.item, move, count * sizeof *move);
-  status = play(out, open, user, &m, o.seed, &o, err);
+  st = schedule_play(out, open, user, &m, o.seed, &o, err);
   out->schedules = 1;
   out->seed = o.seed;
   out->base_bits = o.base_bits;
-  if (status == DYD_OK && out->fault != DYD_CHECK_FINE) {
+  if (st == DYD_OK && out->fault != DYD_CHECK_FINE) {
     out->move = m.item;
     out->moves = count;
   } else {
     free(m.item);
   }
-  return status;
+  return st;
 }

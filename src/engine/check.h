@@ -6,8 +6,10 @@
 #ifndef DYD_ENGINE_CHECK_H
 #define DYD_ENGINE_CHECK_H
 
-#include "engine/engine.h"
+#include "engine/points.h"
 #include <dyadel/check.h>
+#include <dyadel/metric.h>
+#include <dyadel/voronoi.h>
 
 /* A site whose polygons of the last stage are kept. */
 typedef struct dyd_watched {

@@ -25,40 +25,40 @@ dyd_status dyd_check_found(dyd_check_state *s, dyd_check_fault fault, const char
   return DYD_OK;
 }
 
-static bool found(const dyd_check_state *s) {
+static bool fault_found(const dyd_check_state *s) {
   return s->report->fault != DYD_CHECK_FINE;
 }
 
 /* ---- streams ---- */
 
 dyd_status dyd_check_narrow(dyd_check_state *s, uint32_t point, int64_t bits) {
-  dyd_refinable *p = dyd_engine_find(s->e, point);
+  const dyd_refinable *found = dyd_engine_find(s->e, point);
   dyd_error err;
   uint64_t calls = 0;
   dyd_error_clear(&err);
-  if (!p || p->final) return DYD_OK;
-  dyd_status status = dyd_engine_narrow(p, &calls, s->e, bits, s->o->max_bits, &err);
-  if (status == DYD_E_NOMEM || status == DYD_CANCELLED) return status;
-  if (status < 0)
+  if (!found || found->final) return DYD_OK;
+  dyd_refinable *p = &s->e->point[found - s->e->point];
+  dyd_status st = dyd_engine_narrow(p, &calls, s->e, bits, s->o->max_bits, &err);
+  if (st == DYD_E_NOMEM || st == DYD_CANCELLED) return st;
+  if (st != DYD_OK)
     return dyd_check_found(s, DYD_CHECK_STREAM, "point %u, asked for %lld bits: %s", (unsigned)point, (long long)bits,
                            err.message);
-  p->asked = true;
   if (!dyd_reserve((void **)&s->changed, &s->change_cap, s->changes + 1, sizeof *s->changed)) return DYD_E_NOMEM;
   s->changed[s->changes++] = point;
   if (p->final) return DYD_OK;
   dyd_rect r;
   dyd_rect_init(&r);
-  status = dyd_sites_get(&r, s->e->sites, point);
-  if (status >= 0 && dyd_rect_bits(&r) < bits - s->o->slack_bits)
+  st = dyd_sites_get(&r, s->e->sites, point);
+  if (st == DYD_OK && dyd_rect_bits(&r) < bits - s->o->slack_bits)
     dyd_check_found(s, DYD_CHECK_RATE, "point %u, asked for %lld bits, is only within 2^-%lld", (unsigned)point,
                     (long long)bits, (long long)dyd_rect_bits(&r));
   dyd_rect_clear(&r);
-  return status;
+  return st;
 }
 
 /* ---- statuses ---- */
 
-static int compare(const dyd_pair *a, const dyd_pair *b) {
+static int pair_compare(const dyd_pair *a, const dyd_pair *b) {
   if (a->i != b->i) return a->i < b->i ? -1 : 1;
   return (a->j > b->j) - (a->j < b->j);
 }
@@ -67,19 +67,20 @@ static bool is_alias(const dyd_delaunay *pd, uint32_t i) {
   return dyd_delaunay_alias(pd, i) != i;
 }
 
-static const char *word(dyd_pair_status status) {
+static const char *pair_word(dyd_pair_status st) {
   static const char *const text[] = {"illegal", "tie", "indeterminate", "legal"};
-  return text[status];
+  return text[st];
 }
 
 /* What is said of one pair before and now. */
 typedef void (*pair_visit)(dyd_check_state *s, const dyd_pair *pair, dyd_pair_status before, dyd_pair_status now);
 
 /* Merges two sorted lists. */
-static void compare_lists(dyd_check_state *s, const dyd_pair_list *before, const dyd_pair_list *now, pair_visit visit) {
+static void pairs_compare_lists(dyd_check_state *s, const dyd_pair_list *before, const dyd_pair_list *now,
+                                pair_visit visit) {
   size_t a = 0, b = 0;
-  while ((a < before->count || b < now->count) && !found(s)) {
-    int c = a == before->count ? 1 : b == now->count ? -1 : compare(&before->item[a], &now->item[b]);
+  while ((a < before->count || b < now->count) && !fault_found(s)) {
+    int c = a == before->count ? 1 : b == now->count ? -1 : pair_compare(&before->item[a], &now->item[b]);
     const dyd_pair *pair = c <= 0 ? &before->item[a] : &now->item[b];
     visit(s, pair, c <= 0 ? before->item[a].status : DYD_ILLEGAL, c >= 0 ? now->item[b].status : DYD_ILLEGAL);
     a += c <= 0;
@@ -91,8 +92,8 @@ static void compare_lists(dyd_check_state *s, const dyd_pair_list *before, const
 static void not_retracted(dyd_check_state *s, const dyd_pair *p, dyd_pair_status before, dyd_pair_status now) {
   if (is_alias(s->pd, p->i) || is_alias(s->pd, p->j)) return; /* became one exact point with another */
   if (before == DYD_ILLEGAL || (before == DYD_LEGAL && now != DYD_LEGAL))
-    dyd_check_found(s, DYD_CHECK_RETRACT, "pair %u %u was %s and is %s", (unsigned)p->i, (unsigned)p->j, word(before),
-                    word(now));
+    dyd_check_found(s, DYD_CHECK_RETRACT, "pair %u %u was %s and is %s", (unsigned)p->i, (unsigned)p->j,
+                    pair_word(before), pair_word(now));
 }
 
 static void same_or_floor(dyd_check_state *s, const dyd_pair *p, dyd_pair_status before, dyd_pair_status now) {
@@ -100,25 +101,25 @@ static void same_or_floor(dyd_check_state *s, const dyd_pair *p, dyd_pair_status
   s->report->floors += floor;
   if (before != now && !floor)
     dyd_check_found(s, DYD_CHECK_PATH, "pair %u %u is %s, but %s in a fresh run from the same rectangles",
-                    (unsigned)p->i, (unsigned)p->j, word(before), word(now));
+                    (unsigned)p->i, (unsigned)p->j, pair_word(before), pair_word(now));
 }
 
 static dyd_status check_path(dyd_check_state *s) {
   dyd_delaunay *fresh = NULL;
   dyd_pair_list pairs = {0};
   dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = s->o->cancel};
-  dyd_status status = dyd_delaunay_new(&fresh, s->e->sites, &options, NULL);
-  if (status == DYD_OK) status = dyd_delaunay_pairs(&pairs, fresh);
-  if (status == DYD_OK) compare_lists(s, &s->before, &pairs, same_or_floor);
+  dyd_status st = dyd_delaunay_new(&fresh, s->e->sites, &options, NULL);
+  if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, fresh);
+  if (st == DYD_OK) pairs_compare_lists(s, &s->before, &pairs, same_or_floor);
   dyd_pair_list_clear(&pairs);
   dyd_delaunay_free(fresh);
-  return status == DYD_CAPPED ? DYD_OK : status;
+  return st == DYD_CAPPED ? DYD_OK : st;
 }
 
 /* ---- choices ---- */
 
 /* A point of an interval: an end, or a multiple of an eighth of the way. */
-static void choose(mpq_t out, uint64_t *random, const dyd_interval *a) {
+static void choice_point(mpq_t out, uint64_t *random, const dyd_interval *a) {
   mpq_t hi;
   mpq_init(hi);
   dyd_interval_get_q(out, hi, a);
@@ -136,31 +137,31 @@ static dyd_status choose_all(dyd_sites *out, dyd_check_state *s) {
   dyd_rect_init(&r);
   dyd_rect_init(&point);
   mpq_inits(x, y, NULL);
-  dyd_status status = DYD_OK;
-  for (size_t i = 0; i < dyd_sites_count(s->e->sites) && status >= 0; i++) {
-    status = dyd_sites_get(&r, s->e->sites, i);
-    if (status < 0) break;
-    choose(x, &s->random, &r.x);
-    choose(y, &s->random, &r.y);
-    status = dyd_rect_set_q(&point, x, y);
-    if (status >= 0) status = dyd_sites_add_rect(out, &point);
+  dyd_status st = DYD_OK;
+  for (size_t i = 0; i < dyd_sites_count(s->e->sites) && st == DYD_OK; i++) {
+    st = dyd_sites_get(&r, s->e->sites, i);
+    if (st != DYD_OK) break;
+    choice_point(x, &s->random, &r.x);
+    choice_point(y, &s->random, &r.y);
+    st = dyd_rect_set_q(&point, x, y);
+    if (st == DYD_OK) st = dyd_sites_add_rect(out, &point);
   }
   mpq_clears(x, y, NULL);
   dyd_rect_clear(&point);
   dyd_rect_clear(&r);
-  return status;
+  return st;
 }
 
 /* Statuses `exact` of the choice against those of the rectangles: pairs whose points coincide are left out. */
 static void compare_choice(dyd_check_state *s, const dyd_delaunay *exact, const dyd_pair_list *pairs) {
-  for (size_t k = 0; k < s->before.count && !found(s); k++) {
+  for (size_t k = 0; k < s->before.count && !fault_found(s); k++) {
     const dyd_pair *p = &s->before.item[k];
     if (p->status != DYD_LEGAL || is_alias(exact, p->i) || is_alias(exact, p->j)) continue;
     if (dyd_delaunay_status(exact, p->i, p->j) != DYD_LEGAL)
       dyd_check_found(s, DYD_CHECK_CHOICE, "pair %u %u is legal, but not an edge for a choice of points",
                       (unsigned)p->i, (unsigned)p->j);
   }
-  for (size_t k = 0; k < pairs->count && !found(s); k++) {
+  for (size_t k = 0; k < pairs->count && !fault_found(s); k++) {
     const dyd_pair *p = &pairs->item[k];
     if (is_alias(s->pd, p->i) || is_alias(s->pd, p->j)) continue;
     if (dyd_delaunay_status(s->pd, p->i, p->j) == DYD_ILLEGAL)
@@ -174,20 +175,20 @@ static dyd_status check_choice(dyd_check_state *s) {
   dyd_delaunay *exact = NULL;
   dyd_pair_list pairs = {0};
   dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = s->o->cancel};
-  dyd_status status = dyd_sites_new(&sites);
-  if (status >= 0) status = choose_all(sites, s);
-  if (status >= 0) status = dyd_delaunay_new(&exact, sites, &options, NULL);
-  if (status == DYD_OK) status = dyd_delaunay_pairs(&pairs, exact);
-  if (status == DYD_OK) compare_choice(s, exact, &pairs);
+  dyd_status st = dyd_sites_new(&sites);
+  if (st == DYD_OK) st = choose_all(sites, s);
+  if (st == DYD_OK) st = dyd_delaunay_new(&exact, sites, &options, NULL);
+  if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, exact);
+  if (st == DYD_OK) compare_choice(s, exact, &pairs);
   dyd_pair_list_clear(&pairs);
   dyd_delaunay_free(exact);
   dyd_sites_free(sites);
-  return status == DYD_CAPPED ? DYD_OK : status;
+  return st == DYD_CAPPED ? DYD_OK : st;
 }
 
 /* ---- cells ---- */
 
-static void forget(dyd_watched *w) {
+static void watched_forget(dyd_watched *w) {
   dyd_polygon_clear(&w->inner);
   dyd_polygon_list_clear(&w->outer);
 }
@@ -199,19 +200,19 @@ static dyd_status edge_is_outside(bool *out, const dyd_check_state *s, uint32_t 
   dyd_rect own, other;
   dyd_rect_init(&own);
   dyd_rect_init(&other);
-  dyd_status status = dyd_delaunay_neighbours(&list, s->pd, i, DYD_TIE);
-  if (status >= 0) status = dyd_sites_get(&own, s->e->sites, i);
-  for (size_t k = 0; k < list.count && status >= 0 && !*out; k++) {
-    status = dyd_sites_get(&other, s->e->sites, list.item[k]);
-    *out = status >= 0 && dyd_nearer(a, &other, &own) == DYD_TRUE && dyd_nearer(b, &other, &own) == DYD_TRUE;
+  dyd_status st = dyd_delaunay_neighbours(&list, s->pd, i, DYD_TIE);
+  if (st == DYD_OK) st = dyd_sites_get(&own, s->e->sites, i);
+  for (size_t k = 0; k < list.count && st == DYD_OK && !*out; k++) {
+    st = dyd_sites_get(&other, s->e->sites, list.item[k]);
+    *out = st == DYD_OK && dyd_nearer(a, &other, &own) == DYD_TRUE && dyd_nearer(b, &other, &own) == DYD_TRUE;
   }
   dyd_index_list_clear(&list);
   dyd_rect_clear(&other);
   dyd_rect_clear(&own);
-  return status;
+  return st;
 }
 
-static bool in_window(const dyd_check_state *s, const dyd_point *z) {
+static bool watched_is_in_window(const dyd_check_state *s, const dyd_point *z) {
   return dyd_dyadic_cmp(&s->window.x.lo, &z->x) <= 0 && dyd_dyadic_cmp(&z->x, &s->window.x.hi) <= 0 &&
          dyd_dyadic_cmp(&s->window.y.lo, &z->y) <= 0 && dyd_dyadic_cmp(&z->y, &s->window.y.hi) <= 0;
 }
@@ -219,80 +220,80 @@ static bool in_window(const dyd_check_state *s, const dyd_point *z) {
 /* The inner vertices are still in Int_i, the outer ones in the window still in Ext_i. Where the edge of an outer
  * polygon was in Ext_i by a neighbour that is none any more, its ends are at least. */
 static dyd_status check_cell(dyd_check_state *s, const dyd_watched *w) {
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   if (is_alias(s->pd, w->site)) return DYD_OK;
-  for (size_t k = 0; k < w->inner.count && !found(s); k++)
+  for (size_t k = 0; k < w->inner.count && !fault_found(s); k++)
     if (dyd_voronoi_side(s->pd, w->site, &w->inner.vertex[k]) != DYD_TRUE)
       dyd_check_found(s, DYD_CHECK_CELL, "Int of site %u has lost a point", (unsigned)w->site);
   for (size_t p = 0; p < w->outer.count; p++)
-    for (size_t k = 0; k < w->outer.item[p].count && status >= 0 && !found(s); k++) {
+    for (size_t k = 0; k < w->outer.item[p].count && st == DYD_OK && !fault_found(s); k++) {
       const dyd_polygon *g = &w->outer.item[p];
       const dyd_point *a = &g->vertex[k], *b = &g->vertex[(k + 1) % g->count];
-      bool outside = !in_window(s, a) || !in_window(s, b);
-      if (!outside) status = edge_is_outside(&outside, s, w->site, a, b);
+      bool outside = !watched_is_in_window(s, a) || !watched_is_in_window(s, b);
+      if (!outside) st = edge_is_outside(&outside, s, w->site, a, b);
       if (!outside)
         outside = dyd_voronoi_side(s->pd, w->site, a) == DYD_FALSE && dyd_voronoi_side(s->pd, w->site, b) == DYD_FALSE;
-      if (status >= 0 && !outside)
+      if (st == DYD_OK && !outside)
         dyd_check_found(s, DYD_CHECK_CELL, "Ext of site %u has lost a point", (unsigned)w->site);
     }
   s->report->cells++;
-  return status;
+  return st;
 }
 
-static dyd_status watch(dyd_watched *w, dyd_check_state *s) {
+static dyd_status watched_make(dyd_watched *w, dyd_check_state *s) {
   size_t n = dyd_sites_count(s->e->sites);
   int64_t bits = dyd_metric_coarseness(s->pd, &s->window) + 6;
-  forget(w);
+  watched_forget(w);
   w->site = dyd_delaunay_alias(s->pd, (uint32_t)dyd_check_below(&s->random, n));
-  dyd_status status = dyd_voronoi_inner_polygon(&w->inner, s->pd, w->site, &s->window, bits);
-  if (status >= 0) status = dyd_voronoi_outer_polygon(&w->outer, s->pd, w->site, &s->window, bits);
-  return status == DYD_E_RANGE ? DYD_OK : status; /* scales too far apart for polygons: nothing to watch */
+  dyd_status st = dyd_voronoi_inner_polygon(&w->inner, s->pd, w->site, &s->window, bits);
+  if (st == DYD_OK) st = dyd_voronoi_outer_polygon(&w->outer, s->pd, w->site, &s->window, bits);
+  return st == DYD_E_RANGE ? DYD_OK : st; /* scales too far apart for polygons: nothing to watch */
 }
 
 static dyd_status check_cells(dyd_check_state *s, bool last) {
-  dyd_status status = DYD_OK;
-  for (size_t k = 0; k < s->watch_count && status >= 0; k++) status = check_cell(s, &s->watched[k]);
-  if (last || s->o->no_cells || !dyd_sites_count(s->e->sites) || dyd_delaunay_is_capped(s->pd)) return status;
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < s->watch_count && st == DYD_OK; k++) st = check_cell(s, &s->watched[k]);
+  if (last || s->o->no_cells || !dyd_sites_count(s->e->sites) || dyd_delaunay_is_capped(s->pd)) return st;
   if (!s->watched) {
     s->watched = calloc(s->o->cells, sizeof *s->watched);
     if (!s->watched) return DYD_E_NOMEM;
     s->windowed = dyd_voronoi_window(&s->window, s->e->sites) == DYD_OK;
     s->watch_count = s->windowed ? s->o->cells : 0;
   }
-  for (size_t k = 0; k < s->watch_count && status >= 0; k++) status = watch(&s->watched[k], s);
-  return status;
+  for (size_t k = 0; k < s->watch_count && st == DYD_OK; k++) st = watched_make(&s->watched[k], s);
+  return st;
 }
 
 /* ---- a stage ---- */
 
-static dyd_status triangulate(dyd_check_state *s) {
+static dyd_status check_triangulate(bool *capped, dyd_check_state *s) {
   dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = s->o->cancel};
-  dyd_status status = s->pd ? dyd_delaunay_update(s->pd, s->changed, s->changes, &options, NULL)
-                            : dyd_delaunay_new(&s->pd, s->e->sites, &options, NULL);
+  dyd_status st = s->pd ? dyd_delaunay_update(s->pd, s->changed, s->changes, &options, NULL)
+                        : dyd_delaunay_new(&s->pd, s->e->sites, &options, NULL);
   s->changes = 0;
-  return status;
+  *capped = st == DYD_CAPPED;
+  return *capped ? DYD_OK : st;
 }
 
 dyd_status dyd_check_stage(dyd_check_state *s, bool last) {
-  bool first = !s->pd;
+  bool first = !s->pd, capped;
   dyd_pair_list now = {0};
-  dyd_status status = triangulate(s);
-  if (status < 0 || status == DYD_CANCELLED) return status;
+  dyd_status st = check_triangulate(&capped, s);
+  if (st != DYD_OK) return st;
   s->report->stages++;
-  bool capped = status == DYD_CAPPED;
-  status = dyd_delaunay_pairs(&now, s->pd);
-  if (status < 0) return status;
-  if (!first && !capped) compare_lists(s, &s->before, &now, not_retracted);
+  st = dyd_delaunay_pairs(&now, s->pd);
+  if (st != DYD_OK) return st;
+  if (!first && !capped) pairs_compare_lists(s, &s->before, &now, not_retracted);
   dyd_pair_list_clear(&s->before);
   s->before = now;
-  if (!found(s) && !capped) status = check_cells(s, last);
-  if (status >= 0 && last && !found(s) && !capped) status = check_path(s);
-  if (status == DYD_OK && last && !found(s) && !capped) status = check_choice(s);
-  return status;
+  if (!fault_found(s) && !capped) st = check_cells(s, last);
+  if (st == DYD_OK && last && !fault_found(s) && !capped) st = check_path(s);
+  if (st == DYD_OK && last && !fault_found(s) && !capped) st = check_choice(s);
+  return st;
 }
 
 void dyd_check_state_clear(dyd_check_state *s) {
-  for (size_t k = 0; s->watched && k < s->o->cells; k++) forget(&s->watched[k]);
+  for (size_t k = 0; s->watched && k < s->o->cells; k++) watched_forget(&s->watched[k]);
   free(s->watched);
   free(s->changed);
   dyd_pair_list_clear(&s->before);

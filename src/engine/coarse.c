@@ -19,15 +19,15 @@
 /* The exponent of hi - lo for ends of intervals; INT64_MIN unless it is positive. */
 static dyd_status exponent_above(int64_t *out, const dyd_interval *low, bool low_end_up, const dyd_interval *high,
                                  bool high_end_up) {
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   *out = INT64_MIN;
   if (mpz_cmp_ui(low->den, 1) == 0 && mpz_cmp_ui(high->den, 1) == 0) {
     dyd_dyadic d;
     dyd_dyadic_init(&d);
-    status = dyd_dyadic_sub(&d, high_end_up ? &high->hi : &high->lo, low_end_up ? &low->hi : &low->lo);
-    if (status >= 0 && dyd_dyadic_sgn(&d) > 0) *out = d.exp + (int64_t)mpz_sizeinbase(d.man, 2);
+    st = dyd_dyadic_sub(&d, high_end_up ? &high->hi : &high->lo, low_end_up ? &low->hi : &low->lo);
+    if (st == DYD_OK && dyd_dyadic_sgn(&d) > 0) *out = d.exp + (int64_t)mpz_sizeinbase(d.man, 2);
     dyd_dyadic_clear(&d);
-    return status;
+    return st;
   }
   mpq_t a[2], b[2];
   mpq_inits(a[0], a[1], b[0], b[1], (mpq_ptr)0);
@@ -37,34 +37,34 @@ static dyd_status exponent_above(int64_t *out, const dyd_interval *low, bool low
   if (mpq_sgn(a[0]) > 0)
     *out = (int64_t)mpz_sizeinbase(mpq_numref(a[0]), 2) - (int64_t)mpz_sizeinbase(mpq_denref(a[0]), 2) + 1;
   mpq_clears(a[0], a[1], b[0], b[1], (mpq_ptr)0);
-  return status;
+  return st;
 }
 
 /* Raises *out to the exponent of one of the two differences of ends, where it is larger. */
-static dyd_status raise_to(int64_t *out, const dyd_interval *low, bool low_end_up, const dyd_interval *high,
-                           bool high_end_up) {
+static dyd_status exponent_raise(int64_t *out, const dyd_interval *low, bool low_end_up, const dyd_interval *high,
+                                 bool high_end_up) {
   int64_t e;
-  dyd_status status = exponent_above(&e, low, low_end_up, high, high_end_up);
-  if (status >= 0 && e > *out) *out = e;
-  return status;
+  dyd_status st = exponent_above(&e, low, low_end_up, high, high_end_up);
+  if (st == DYD_OK && e > *out) *out = e;
+  return st;
 }
 
-static dyd_status find_width(dyd_coarse_site *s) {
+static dyd_status coarse_find_width(dyd_coarse_site *s) {
   s->width = INT64_MIN;
-  dyd_status status = raise_to(&s->width, &s->rect.x, false, &s->rect.x, true);
-  return status < 0 ? status : raise_to(&s->width, &s->rect.y, false, &s->rect.y, true);
+  dyd_status st = exponent_raise(&s->width, &s->rect.x, false, &s->rect.x, true);
+  return st != DYD_OK ? st : exponent_raise(&s->width, &s->rect.y, false, &s->rect.y, true);
 }
 
 /* Lets two sites know of one another. */
-static dyd_status meet(dyd_coarse_site *a, dyd_coarse_site *b) {
+static dyd_status coarse_meet(dyd_coarse_site *a, dyd_coarse_site *b) {
   int64_t e = a->width > b->width ? a->width : b->width;
   const dyd_interval *side[2][2] = {{&a->rect.x, &b->rect.x}, {&a->rect.y, &b->rect.y}};
-  dyd_status status = DYD_OK;
-  for (int k = 0; status >= 0 && k < 2; k++) {
-    status = raise_to(&e, side[k][0], true, side[k][1], false);
-    if (status >= 0) status = raise_to(&e, side[k][1], true, side[k][0], false);
+  dyd_status st = DYD_OK;
+  for (int k = 0; st == DYD_OK && k < 2; k++) {
+    st = exponent_raise(&e, side[k][0], true, side[k][1], false);
+    if (st == DYD_OK) st = exponent_raise(&e, side[k][1], true, side[k][0], false);
   }
-  if (status < 0 || e == INT64_MIN) return status;
+  if (st != DYD_OK || e == INT64_MIN) return st;
   if (e < a->scale) a->scale = e;
   if (e < b->scale) b->scale = e;
   return DYD_OK;
@@ -72,7 +72,7 @@ static dyd_status meet(dyd_coarse_site *a, dyd_coarse_site *b) {
 
 /* ---- faces ---- */
 
-static dyd_coarse_site *find(const dyd_coarse *c, uint32_t site) {
+static dyd_coarse_site *coarse_find(const dyd_coarse *c, uint32_t site) {
   size_t lo = 0, hi = c->sites.count;
   while (lo < hi) {
     size_t mid = lo + (hi - lo) / 2;
@@ -84,50 +84,51 @@ static dyd_coarse_site *find(const dyd_coarse *c, uint32_t site) {
   return lo < c->sites.count && c->sites.item[lo] == site ? &c->item[lo] : NULL;
 }
 
-static dyd_status fetch(dyd_coarse *c, const dyd_delaunay *pd, size_t f) {
+static dyd_status coarse_fetch(dyd_coarse *c, const dyd_delaunay *pd, size_t f) {
   bool outer;
-  dyd_status status = dyd_delaunay_face(&c->sites, &outer, pd, f);
-  if (status < 0) return status;
+  dyd_status st = dyd_delaunay_face(&c->sites, &outer, pd, f);
+  if (st != DYD_OK) return st;
   c->item = dyd_alloc(c->sites.count, sizeof *c->item);
   if (!c->item) return DYD_E_NOMEM;
   for (size_t k = 0; k < c->sites.count; k++) {
     dyd_rect_init(&c->item[k].rect);
     c->item[k].scale = INT64_MAX;
   }
-  for (size_t k = 0; status >= 0 && k < c->sites.count; k++) {
-    status = dyd_sites_get(&c->item[k].rect, dyd_delaunay_sites(pd), c->sites.item[k]);
-    if (status >= 0) status = find_width(&c->item[k]);
+  for (size_t k = 0; st == DYD_OK && k < c->sites.count; k++) {
+    st = dyd_sites_get(&c->item[k].rect, dyd_delaunay_sites(pd), c->sites.item[k]);
+    if (st == DYD_OK) st = coarse_find_width(&c->item[k]);
   }
-  return status;
+  return st;
 }
 
 /* By left ends, then by lower ends; equal ones by their place, so that the order is always the same. */
-static int compare_place(const void *a, const void *b) {
+static int coarse_compare_place(const void *a, const void *b) {
   const dyd_coarse_site *s = *(dyd_coarse_site *const *)a, *t = *(dyd_coarse_site *const *)b;
   int c = dyd_dyadic_cmp(&s->rect.x.lo, &t->rect.x.lo);
   if (c == 0) c = dyd_dyadic_cmp(&s->rect.y.lo, &t->rect.y.lo);
   return c ? c : (s > t) - (s < t);
 }
 
-static dyd_status meet_next(dyd_coarse *c) {
-  dyd_status status = DYD_OK;
+static dyd_status coarse_meet_next(dyd_coarse *c) {
+  dyd_status st = DYD_OK;
   dyd_coarse_site **order = dyd_alloc(c->sites.count, sizeof *order);
   if (!order) return DYD_E_NOMEM;
   for (size_t k = 0; k < c->sites.count; k++) order[k] = &c->item[k];
-  qsort(order, c->sites.count, sizeof *order, compare_place);
+  qsort(order, c->sites.count, sizeof *order, coarse_compare_place);
   for (size_t k = 0; k < c->sites.count; k++)
-    for (size_t l = k + 1; status >= 0 && l < c->sites.count && l <= k + NEXT; l++) status = meet(order[k], order[l]);
+    for (size_t l = k + 1; st == DYD_OK && l < c->sites.count && l <= k + NEXT; l++)
+      st = coarse_meet(order[k], order[l]);
   free(order);
-  return status;
+  return st;
 }
 
 dyd_status dyd_coarse_set(dyd_coarse *out, const dyd_delaunay *pd, size_t f, const dyd_pair_list *pairs) {
-  dyd_status status = fetch(out, pd, f);
-  for (size_t k = 0; status >= 0 && k < pairs->count; k++) {
-    dyd_coarse_site *a = find(out, pairs->item[k].i), *b = find(out, pairs->item[k].j);
-    if (a && b) status = meet(a, b);
+  dyd_status st = coarse_fetch(out, pd, f);
+  for (size_t k = 0; st == DYD_OK && k < pairs->count; k++) {
+    dyd_coarse_site *a = coarse_find(out, pairs->item[k].i), *b = coarse_find(out, pairs->item[k].j);
+    if (a && b) st = coarse_meet(a, b);
   }
-  return status < 0 ? status : meet_next(out);
+  return st != DYD_OK ? st : coarse_meet_next(out);
 }
 
 void dyd_coarse_clear(dyd_coarse *c) {
@@ -138,7 +139,7 @@ void dyd_coarse_clear(dyd_coarse *c) {
 }
 
 int64_t dyd_coarse_bits(const dyd_coarse *c, uint32_t site) {
-  const dyd_coarse_site *s = find(c, site);
+  const dyd_coarse_site *s = coarse_find(c, site);
   if (!s || s->width == INT64_MIN || s->scale == INT64_MAX) return INT64_MAX;
   return s->scale - s->width;
 }

@@ -4,16 +4,10 @@
  * A fixed site is copied. The stream of a site is shared: one more reference. A point of a source becomes a stream of
  * its own, which begins with the rectangle that the engine knows and asks the same callback; the source is counted from
  * then on, and released by the last of its users. */
-#include "engine/engine.h"
+#include "engine/points.h"
 
 #include "base/alloc.h"
 #include <dyadel/compose.h>
-
-void dyd_shared_source_free(dyd_shared_source *s) {
-  if (!s || --s->refs) return;
-  if (s->source.release) s->source.release(s->source.user);
-  free(s);
-}
 
 /* One point of a shared source. begins: `known` is the rectangle to begin with, not handed on yet. */
 typedef struct taken {
@@ -36,15 +30,15 @@ static dyd_status taken_narrow(dyd_rect *out, void *user, const dyd_request *req
   own.point = t->point;
   if (t->begins) dyd_rect_set(out, &t->known);
   bool enough = t->begins && dyd_rect_bits(&t->known) >= request->bits;
-  dyd_status status = enough ? DYD_OK : t->shared->source.narrow(out, t->shared->source.user, &own, err);
-  if (t->begins && status >= 0 && status != DYD_CANCELLED) {
+  dyd_status st = enough ? DYD_OK : t->shared->source.narrow(out, t->shared->source.user, &own, err);
+  if (t->begins && (st == DYD_OK || st == DYD_FIXED)) {
     if (!dyd_rect_contains(&t->known, out)) return DYD_E_NESTING;
     t->begins = false;
   }
-  return status;
+  return st;
 }
 
-static dyd_status share(dyd_source_use *use) {
+static dyd_status source_share(dyd_source_use *use) {
   if (use->shared) return DYD_OK;
   use->shared = dyd_alloc(1, sizeof *use->shared);
   if (!use->shared) return DYD_E_NOMEM;
@@ -52,46 +46,46 @@ static dyd_status share(dyd_source_use *use) {
   return DYD_OK;
 }
 
-static dyd_status take(dyd_stream **out, dyd_engine *e, const dyd_refinable *p) {
+static dyd_status taken_new(dyd_stream **out, dyd_engine *e, const dyd_refinable *p) {
   dyd_source_use *use = &e->source[p->source];
-  dyd_status status = share(use);
-  taken *t = status < 0 ? NULL : dyd_alloc(1, sizeof *t);
+  dyd_status st = source_share(use);
+  taken *t = st != DYD_OK ? NULL : dyd_alloc(1, sizeof *t);
   if (!t) return DYD_E_NOMEM;
   *t = (taken){.shared = use->shared, .point = p->site - use->first, .begins = p->asked};
   use->shared->refs++;
   dyd_rect_init(&t->known);
-  if (p->asked) status = dyd_sites_get(&t->known, e->sites, p->site);
-  if (status < 0) {
+  if (p->asked) st = dyd_sites_get(&t->known, e->sites, p->site);
+  if (st != DYD_OK) {
     taken_release(t);
-    return status;
+    return st;
   }
   const dyd_source source = {DYD_SIZED(dyd_source), .narrow = taken_narrow, .release = taken_release, .user = t};
   return dyd_stream_new(out, &source, p->site, NULL);
 }
 
-static dyd_status copy(dyd_stream **out, const dyd_engine *e, uint32_t i) {
+static dyd_status fixed_copy(dyd_stream **out, const dyd_engine *e, uint32_t i) {
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status status = dyd_sites_get(&r, e->sites, i);
-  if (status >= 0) status = dyd_stream_from_rect(out, &r);
+  dyd_status st = dyd_sites_get(&r, e->sites, i);
+  if (st == DYD_OK) st = dyd_stream_from_rect(out, &r);
   dyd_rect_clear(&r);
-  return status;
+  return st;
 }
 
 dyd_status dyd_engine_stream(dyd_stream **out, dyd_engine *e, uint32_t i) {
   if (i >= dyd_sites_count(e->sites)) return DYD_E_ARG;
   const dyd_refinable *p = dyd_engine_find(e, i);
-  if (!p || p->final) return copy(out, e, i);
-  if (!p->stream) return take(out, e, p);
+  if (!p || p->final) return fixed_copy(out, e, i);
+  if (!p->stream) return taken_new(out, e, p);
   *out = dyd_stream_ref(p->stream);
   return DYD_OK;
 }
 
 dyd_status dyd_engine_voronoi_vertex(dyd_stream **out, dyd_engine *e, const dyd_triangle *t) {
   dyd_stream *corner[3] = {NULL, NULL, NULL};
-  dyd_status status = DYD_OK;
-  for (int k = 0; k < 3 && status >= 0; k++) status = dyd_engine_stream(&corner[k], e, t->v[k]);
-  if (status >= 0) return dyd_stream_voronoi_vertex(out, corner[0], corner[1], corner[2]);
+  dyd_status st = DYD_OK;
+  for (int k = 0; k < 3 && st == DYD_OK; k++) st = dyd_engine_stream(&corner[k], e, t->v[k]);
+  if (st == DYD_OK) return dyd_stream_voronoi_vertex(out, corner[0], corner[1], corner[2]);
   for (int k = 0; k < 3; k++) dyd_stream_free(corner[k]);
-  return status;
+  return st;
 }

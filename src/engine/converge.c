@@ -76,9 +76,9 @@ static dyd_status width_get(dyd_dyadic *out, width w) {
   mpz_t top;
   mpz_init(top);
   mpz_import(top, 1, 1, sizeof w.top, 0, 0, &w.top);
-  dyd_status status = dyd_dyadic_set_z_2exp(out, top, w.top ? w.exp : 0);
+  dyd_status st = dyd_dyadic_set_z_2exp(out, top, w.top ? w.exp : 0);
   mpz_clear(top);
-  return status;
+  return st;
 }
 
 /* The longer side of r, rounded up. spare is overwritten. */
@@ -87,8 +87,8 @@ static dyd_status rect_width(width *out, dyd_dyadic *spare, const dyd_rect *r) {
   const dyd_interval *side[2] = {&r->x, &r->y};
   for (int a = 0; a < 2; a++) {
     if (dyd_interval_is_point(side[a])) continue;
-    dyd_status status = dyd_dyadic_sub(spare, &side[a]->hi, &side[a]->lo);
-    if (status < 0) return status;
+    dyd_status st = dyd_dyadic_sub(spare, &side[a]->hi, &side[a]->lo);
+    if (st != DYD_OK) return st;
     width w = width_above(spare);
     if (compare_width(&w, out) > 0) *out = w;
   }
@@ -101,24 +101,24 @@ static dyd_status measure_widths(dyd_stage_row *row, const dyd_sites *sites) {
   if (!w) return DYD_E_NOMEM;
   dyd_rect rect;
   dyd_dyadic spare;
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   dyd_rect_init(&rect);
   dyd_dyadic_init(&spare);
-  for (size_t i = 0; status >= 0 && i < n; i++) {
+  for (size_t i = 0; st == DYD_OK && i < n; i++) {
     w[i] = (width){INT64_MIN, 0};
     if (dyd_sites_is_point(sites, i)) continue;
-    status = dyd_sites_get(&rect, sites, i);
-    if (status >= 0) status = rect_width(&w[i], &spare, &rect);
+    st = dyd_sites_get(&rect, sites, i);
+    if (st == DYD_OK) st = rect_width(&w[i], &spare, &rect);
   }
-  if (status >= 0 && n) {
+  if (st == DYD_OK && n) {
     qsort(w, n, sizeof *w, compare_width);
-    status = width_get(&row->width_largest, w[n - 1]);
-    if (status >= 0) status = width_get(&row->width_median, w[n / 2]);
+    st = width_get(&row->width_largest, w[n - 1]);
+    if (st == DYD_OK) st = width_get(&row->width_median, w[n / 2]);
   }
   dyd_dyadic_clear(&spare);
   dyd_rect_clear(&rect);
   free(w);
-  return status;
+  return st;
 }
 
 /* ---- a row ---- */
@@ -130,8 +130,8 @@ static uint64_t digest_word(uint64_t digest, uint32_t word) {
 
 static dyd_status digest_pairs(uint64_t *out, const dyd_delaunay *pd) {
   dyd_pair_list pairs = {0};
-  dyd_status status = dyd_delaunay_pairs(&pairs, pd);
-  if (status < 0) return status;
+  dyd_status st = dyd_delaunay_pairs(&pairs, pd);
+  if (st != DYD_OK) return st;
   *out = 14695981039346656037u;
   for (size_t k = 0; k < pairs.count; k++) {
     *out = digest_word(*out, pairs.item[k].i);
@@ -144,34 +144,34 @@ static dyd_status digest_pairs(uint64_t *out, const dyd_delaunay *pd) {
 
 /* A capped result has no bounds, which is no failure. */
 static dyd_status measure_bounds(dyd_stage_row *row, const dyd_delaunay *pd) {
-  dyd_status status = dyd_metric_area(&row->area, pd);
-  if (status == DYD_OK) status = dyd_metric_hausdorff(&row->hausdorff, pd);
-  row->bounded = status == DYD_OK;
-  return status < 0 ? status : DYD_OK;
+  dyd_status st = dyd_metric_area(&row->area, pd);
+  if (st == DYD_OK) st = dyd_metric_hausdorff(&row->hausdorff, pd);
+  row->bounded = st == DYD_OK;
+  return st == DYD_CAPPED ? DYD_OK : st;
 }
 
 /* ---- the Voronoi diagram ---- */
 
 /* The window, fixed with the first row; out->window stays NULL where the sites have none. */
-static dyd_status set_window(dyd_convergence *out, const dyd_delaunay *pd, const dyd_rect *window) {
+static dyd_status convergence_set_window(dyd_convergence *out, const dyd_delaunay *pd, const dyd_rect *window) {
   if (out->window || out->count) return DYD_OK;
   out->window = malloc(sizeof *out->window);
   if (!out->window) return DYD_E_NOMEM;
   dyd_rect_init(out->window);
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   if (window)
     dyd_rect_set(out->window, window);
   else
-    status = dyd_voronoi_window(out->window, dyd_delaunay_sites(pd));
-  if (status >= 0) return DYD_OK;
+    st = dyd_voronoi_window(out->window, dyd_delaunay_sites(pd));
+  if (st == DYD_OK) return DYD_OK;
   dyd_rect_clear(out->window);
   free(out->window);
   out->window = NULL;
-  return status == DYD_E_NOMEM ? status : DYD_OK;
+  return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
 /* Polygons a good deal finer than the rectangles, so that what is undetermined comes from these. */
-static int64_t flattening(const dyd_stage_row *row) {
+static int64_t row_flattening(const dyd_stage_row *row) {
   enum { FINER = 4, EXACT = 64 };
   const dyd_dyadic *w = &row->width_largest;
   return dyd_dyadic_sgn(w) == 0 ? EXACT : FINER - (w->exp + (int64_t)mpz_sizeinbase(w->man, 2));
@@ -181,24 +181,24 @@ static int64_t flattening(const dyd_stage_row *row) {
 static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out, const dyd_delaunay *pd) {
   dyd_voronoi_bounds b;
   dyd_voronoi_bounds_init(&b);
-  dyd_status status = dyd_metric_voronoi(&b, pd, out->window, flattening(row), NULL);
-  row->voronoi = status == DYD_OK && b.finite;
+  dyd_status st = dyd_metric_voronoi(&b, pd, out->window, row_flattening(row), NULL);
+  row->voronoi = st == DYD_OK && b.finite;
   if (row->voronoi) {
     dyd_dyadic_swap(&row->v_area, &b.area);
     dyd_dyadic_swap(&row->v_hausdorff, &b.hausdorff);
   }
   dyd_voronoi_bounds_clear(&b);
-  return status == DYD_E_NOMEM ? status : DYD_OK;
+  return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
-static dyd_status measure(dyd_stage_row *row, const dyd_delaunay *pd) {
+static dyd_status row_measure(dyd_stage_row *row, const dyd_delaunay *pd) {
   dyd_delaunay_count(row->count, pd);
   row->undecided_faces = dyd_delaunay_undecided_faces(pd);
-  dyd_status status = dyd_delaunay_get_counters(&row->rungs, pd, NULL);
-  if (status >= 0) status = digest_pairs(&row->digest, pd);
-  if (status >= 0) status = measure_widths(row, dyd_delaunay_sites(pd));
-  if (status >= 0) status = measure_bounds(row, pd);
-  return status;
+  dyd_status st = dyd_delaunay_get_counters(&row->rungs, pd, NULL);
+  if (st == DYD_OK) st = digest_pairs(&row->digest, pd);
+  if (st == DYD_OK) st = measure_widths(row, dyd_delaunay_sites(pd));
+  if (st == DYD_OK) st = measure_bounds(row, pd);
+  return st;
 }
 
 dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const dyd_delaunay *pd,
@@ -212,8 +212,8 @@ dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const 
   if (!r) return dyd_fail_nomem(err);
   row_init(r);
   r->stage = out->count ? out->row[out->count - 1]->stage + 1 : 1;
-  st = measure(r, pd);
-  if (st == DYD_OK && !o.no_voronoi) st = set_window(out, pd, o.window);
+  st = row_measure(r, pd);
+  if (st == DYD_OK && !o.no_voronoi) st = convergence_set_window(out, pd, o.window);
   if (st == DYD_OK && out->window) st = measure_voronoi(r, out, pd);
   if (st != DYD_OK) {
     row_free(r);
@@ -246,19 +246,19 @@ typedef struct recorder {
   double spent;                         /* seconds in here */
 } recorder;
 
-static double clock_seconds(void) {
+static double recorder_clock(void) {
   struct timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static dyd_status record_row(recorder *r, const dyd_progress *p) {
+static dyd_status recorder_add_row(recorder *r, const dyd_progress *p) {
   dyd_stage_row *row;
   const dyd_delaunay *pd = dyd_engine_delaunay(r->e);
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
-  dyd_status status = dyd_convergence_add(&row, r->out, pd, r->converge, NULL);
-  if (status >= 0) status = dyd_engine_get_counters(&c, r->e, NULL);
-  if (status < 0) return status;
+  dyd_status st = dyd_convergence_add(&row, r->out, pd, r->converge, NULL);
+  if (st == DYD_OK) st = dyd_engine_get_counters(&c, r->e, NULL);
+  if (st != DYD_OK) return st;
   row->stage = p->stage;
   row->bits_least = c.bits_least;
   row->bits_most = c.bits_most;
@@ -269,14 +269,14 @@ static dyd_status record_row(recorder *r, const dyd_progress *p) {
   return DYD_OK;
 }
 
-static void record(void *user, const dyd_progress *p) {
+static void recorder_stage(void *user, const dyd_progress *p) {
   recorder *r = user;
   if (r->o->progress) r->o->progress(r->o->progress_user, p);
-  if (r->failed < 0) return;
-  double begun = clock_seconds();
-  r->failed = record_row(r, p);
-  if (r->failed < 0) dyd_engine_cancel(r->e);
-  r->spent += clock_seconds() - begun;
+  if (r->failed != DYD_OK) return;
+  double begun = recorder_clock();
+  r->failed = recorder_add_row(r, p);
+  if (r->failed != DYD_OK) dyd_engine_cancel(r->e);
+  r->spent += recorder_clock() - begun;
 }
 
 dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engine_options *options,
@@ -285,16 +285,15 @@ dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engin
   dyd_converge_options c;
   recorder r = {.out = out, .e = e, .o = &given, .converge = &c};
   dyd_engine_options_init(&defaults);
-  dyd_status status = dyd_abi_check(out, sizeof *out, "dyd_convergence", err);
-  if (status >= 0) status = dyd_abi_take(&c, sizeof c, converge, "dyd_converge_options", err);
-  if (status >= 0)
-    status = dyd_abi_take(&given, sizeof given, options ? options : &defaults, "dyd_engine_options", err);
-  if (status >= 0) status = note_options(out, &given, err);
-  if (status < 0) return status;
+  dyd_status st = dyd_abi_check(out, sizeof *out, "dyd_convergence", err);
+  if (st == DYD_OK) st = dyd_abi_take(&c, sizeof c, converge, "dyd_converge_options", err);
+  if (st == DYD_OK) st = dyd_abi_take(&given, sizeof given, options ? options : &defaults, "dyd_engine_options", err);
+  if (st == DYD_OK) st = note_options(out, &given, err);
+  if (st != DYD_OK) return st;
   o = given;
-  o.progress = record;
+  o.progress = recorder_stage;
   o.progress_user = &r;
-  status = dyd_engine_run(&out->outcome, e, &o, err);
-  if (status >= 0 && r.failed < 0) return dyd_fail(err, r.failed, "%s", dyd_status_text(r.failed));
-  return status;
+  st = dyd_engine_run(&out->outcome, e, &o, err);
+  if (st == DYD_OK && r.failed != DYD_OK) return dyd_fail(err, r.failed, "%s", dyd_status_text(r.failed));
+  return st;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Life, counters and results of an engine. */
-#include "engine/engine.h"
+#include "engine/points.h"
 
 #include "base/abi.h"
 #include "base/alloc.h"
@@ -43,6 +43,8 @@ const char *dyd_reason_text(dyd_reason reason) {
     return "bound";
   case DYD_REASON_UNIFORM:
     return "uniform";
+  case DYD_REASON_QUESTION:
+    return "question";
   }
   return "unknown reason";
 }
@@ -50,17 +52,16 @@ const char *dyd_reason_text(dyd_reason reason) {
 dyd_status dyd_engine_new(dyd_engine **out) {
   dyd_engine *e = calloc(1, sizeof *e);
   if (!e) return DYD_E_NOMEM;
-  dyd_status status = dyd_sites_new(&e->sites);
-  if (status < 0)
+  dyd_status st = dyd_sites_new(&e->sites);
+  if (st != DYD_OK)
     free(e);
   else
     *out = e;
-  return status;
+  return st;
 }
 
 void dyd_engine_free(dyd_engine *e) {
   if (!e) return;
-  dyd_engine_voronoi_forget(e);
   dyd_delaunay_free(e->pd);
   dyd_engine_clear_points(e);
   dyd_sites_free(e->sites);
@@ -91,7 +92,16 @@ const dyd_delaunay *dyd_engine_delaunay(const dyd_engine *e) {
   return e->pd;
 }
 
-static void count_bits(dyd_engine_counters *out, const dyd_engine *e) {
+const dyd_sites *dyd_engine_sites(const dyd_engine *e) {
+  return e->sites;
+}
+
+bool dyd_engine_knows(const dyd_engine *e, uint32_t site) {
+  const dyd_refinable *p = dyd_engine_find(e, site);
+  return p ? p->asked : site < dyd_sites_count(e->sites);
+}
+
+static void counters_add_bits(dyd_engine_counters *out, const dyd_engine *e) {
   bool any = false;
   for (size_t k = 0; k < e->points; k++) {
     const dyd_refinable *p = &e->point[k];
@@ -109,7 +119,7 @@ dyd_status dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e
   dyd_status st = dyd_abi_check(out, 0, "dyd_engine_counters", err);
   if (st == DYD_OK && e->pd) st = dyd_delaunay_get_counters(&c.delaunay, e->pd, err);
   if (st != DYD_OK) return st;
-  count_bits(&c, e);
+  counters_add_bits(&c, e);
   if (e->pd) c.undecided_faces = dyd_delaunay_undecided_faces(e->pd);
   dyd_abi_give(out, &c, sizeof c);
   return DYD_OK;
@@ -119,9 +129,9 @@ dyd_status dyd_engine_bounds(dyd_dyadic *area, dyd_dyadic *hausdorff, const dyd_
   if (!e->pd) return DYD_E_ARG;
   dyd_dyadic a;
   dyd_dyadic_init(&a);
-  dyd_status status = dyd_metric_area(&a, e->pd);
-  if (status == DYD_OK) status = dyd_metric_hausdorff(hausdorff, e->pd);
-  if (status == DYD_OK) dyd_dyadic_swap(area, &a);
+  dyd_status st = dyd_metric_area(&a, e->pd);
+  if (st == DYD_OK) st = dyd_metric_hausdorff(hausdorff, e->pd);
+  if (st == DYD_OK) dyd_dyadic_swap(area, &a);
   dyd_dyadic_clear(&a);
-  return status;
+  return st;
 }

@@ -6,43 +6,43 @@
  * width of the strip in which the pair is undecided, twice over) times the smaller reach of the two cells (half its
  * length). Where all numbers together stay below the goal and the area does not, it is the flattening of the polygons
  * that costs, and they are made finer. */
-#include "engine/engine.h"
+#include "engine/goal_voronoi.h"
 
 #include "base/alloc.h"
 
 enum { FINER = 8, MOST_FINER = 64 };
 
-void dyd_engine_voronoi_forget(dyd_engine *e) {
-  if (!e->sums) return;
-  dyd_voronoi_sums_clear(e->sums);
-  free(e->sums);
-  e->sums = NULL;
+void dyd_goal_sums_free(dyd_voronoi_sums **sums) {
+  if (!*sums) return;
+  dyd_voronoi_sums_clear(*sums);
+  free(*sums);
+  *sums = NULL;
 }
 
-bool dyd_engine_window_is_good(const dyd_rect *window) {
+bool dyd_goal_window_is_good(const dyd_rect *window) {
   dyd_window w;
   return window && dyd_window_init(&w, window) >= 0;
 }
 
-/* Makes e->sums with polygons within 2^-bits. Stopped when e->stop is raised: DYD_CANCELLED. */
-static dyd_status find_sums(dyd_engine *e, const dyd_rect *window, int64_t bits) {
-  dyd_engine_voronoi_forget(e);
-  e->sums = malloc(sizeof *e->sums);
-  if (!e->sums) return DYD_E_NOMEM;
-  dyd_status status = dyd_voronoi_sums_init(e->sums, e->pd, window, bits);
-  if (status == DYD_OK) status = dyd_voronoi_sums_all(e->sums, NULL, NULL, &e->stop);
-  return status;
+/* Makes *sums with polygons within 2^-bits. Stopped when e->stop is raised: DYD_CANCELLED. */
+static dyd_status goal_find_sums(dyd_voronoi_sums **sums, const dyd_engine *e, const dyd_rect *window, int64_t bits) {
+  dyd_goal_sums_free(sums);
+  *sums = malloc(sizeof **sums);
+  if (!*sums) return DYD_E_NOMEM;
+  dyd_status st = dyd_voronoi_sums_init(*sums, e->pd, window, bits);
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(*sums, NULL, NULL, &e->stop);
+  return st;
 }
 
-dyd_status dyd_engine_voronoi_number(mpfr_ptr out, dyd_engine *e, dyd_measure *m, const dyd_pair *pair,
-                                     const dyd_engine_options *o) {
+dyd_status dyd_goal_voronoi_number(mpfr_ptr out, const dyd_voronoi_sums *sums, dyd_measure *m, const dyd_pair *pair,
+                                   const dyd_engine_options *o) {
   bool finite;
-  dyd_status status = dyd_voronoi_pair_hausdorff(out, &finite, e->sums, m, pair);
-  if (status < 0) return status;
+  dyd_status st = dyd_voronoi_pair_hausdorff(out, &finite, sums, m, pair);
+  if (st != DYD_OK) return st;
   if (!finite) {
     mpfr_set_inf(out, 1);
   } else if (o->goal == DYD_GOAL_VORONOI_AREA) {
-    double a = e->sums->reach[pair->i], b = e->sums->reach[pair->j];
+    double a = sums->reach[pair->i], b = sums->reach[pair->j];
     mpfr_mul_d(out, out, a < b ? a : b, MPFR_RNDU);
     mpfr_mul_2ui(out, out, 2, MPFR_RNDU);
   }
@@ -50,26 +50,27 @@ dyd_status dyd_engine_voronoi_number(mpfr_ptr out, dyd_engine *e, dyd_measure *m
 }
 
 /* Do the numbers of all pairs stay below the goal? */
-static dyd_status numbers_are_small(bool *out, dyd_engine *e, const dyd_engine_options *o, const dyd_pair_list *pairs) {
+static dyd_status goal_numbers_are_small(bool *out, const dyd_voronoi_sums *sums, const dyd_engine *e,
+                                         const dyd_engine_options *o, const dyd_pair_list *pairs) {
   dyd_measure m;
   mpfr_t sum, one;
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   dyd_measure_init(&m, e->sites);
   mpfr_inits2(DYD_MEASURE_PREC, sum, one, (mpfr_ptr)0);
   mpfr_set_zero(sum, 1);
-  for (size_t k = 0; k < pairs->count && status >= 0; k++) {
-    status = dyd_engine_voronoi_number(one, e, &m, &pairs->item[k], o);
+  for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
+    st = dyd_goal_voronoi_number(one, sums, &m, &pairs->item[k], o);
     mpfr_add(sum, sum, one, MPFR_RNDU);
   }
-  *out = status >= 0 && mpfr_cmp_ui_2exp(sum, 1, (mpfr_exp_t)-o->goal_bits) < 0;
+  *out = st == DYD_OK && mpfr_cmp_ui_2exp(sum, 1, (mpfr_exp_t)-o->goal_bits) < 0;
   mpfr_clears(sum, one, (mpfr_ptr)0);
   dyd_measure_clear(&m);
-  return status;
+  return st;
 }
 
 /* Is the bound, found with polygons within 2^-bits, above the goal even less what flattening adds to it (about
  * 2^-(bits - flattening of goal 0))? Then finer polygons do not help. */
-static bool is_hopeless(mpfr_srcptr bound, int64_t bits, const dyd_engine *e, const dyd_engine_options *o) {
+static bool goal_is_hopeless(mpfr_srcptr bound, int64_t bits, const dyd_engine *e, const dyd_engine_options *o) {
   int64_t flat = bits - dyd_metric_flattening(e->pd, o->window, 0);
   mpfr_t rest;
   mpfr_init2(rest, DYD_MEASURE_PREC);
@@ -82,52 +83,53 @@ static bool is_hopeless(mpfr_srcptr bound, int64_t bits, const dyd_engine *e, co
 
 /* Polygons start coarse and become as fine as the goal asks, or only so fine that they show that it does not hold:
  * parabolas take 2^(bits/2) points. */
-static dyd_status area_holds(bool *out, mpfr_ptr bound, dyd_engine *e, const dyd_engine_options *o,
-                             const dyd_pair_list *pairs) {
-  dyd_status status = DYD_OK;
+static dyd_status goal_area_holds(bool *out, mpfr_ptr bound, dyd_voronoi_sums **sums, const dyd_engine *e,
+                                  const dyd_engine_options *o, const dyd_pair_list *pairs) {
+  dyd_status st = DYD_OK;
   int64_t fine = dyd_metric_flattening(e->pd, o->window, o->goal_bits), bits = dyd_metric_coarseness(e->pd, o->window);
   if (bits > fine) bits = fine;
-  while (status == DYD_OK && !*out && bits <= fine + MOST_FINER) {
+  while (st == DYD_OK && !*out && bits <= fine + MOST_FINER) {
     bool small = false;
-    status = find_sums(e, o->window, bits);
-    if (status != DYD_OK) break;
-    dyd_voronoi_area(bound, e->sums);
+    st = goal_find_sums(sums, e, o->window, bits);
+    if (st != DYD_OK) break;
+    dyd_voronoi_area(bound, *sums);
     *out = mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
-    if (!*out) status = numbers_are_small(&small, e, o, pairs);
-    if (!small && (bits >= fine || is_hopeless(bound, bits, e, o))) break;
+    if (!*out) st = goal_numbers_are_small(&small, *sums, e, o, pairs);
+    if (!small && (bits >= fine || goal_is_hopeless(bound, bits, e, o))) break;
     bits = bits < fine && (small || bits + FINER > fine) ? fine : bits + FINER;
   }
-  return status;
+  return st;
 }
 
-dyd_status dyd_engine_voronoi_holds(bool *out, dyd_engine *e, const dyd_engine_options *o) {
+dyd_status dyd_goal_voronoi_holds(bool *out, dyd_voronoi_sums **sums, const dyd_engine *e,
+                                  const dyd_engine_options *o) {
   dyd_pair_list pairs = {0};
   mpfr_t bound;
   bool finite = false;
   mpfr_init2(bound, DYD_MEASURE_PREC);
-  dyd_status status = dyd_delaunay_pairs(&pairs, e->pd);
-  if (status == DYD_OK && o->goal == DYD_GOAL_VORONOI_AREA) {
-    status = area_holds(out, bound, e, o, &pairs);
-  } else if (status == DYD_OK) {
-    status = find_sums(e, o->window, dyd_metric_coarseness(e->pd, o->window));
-    if (status == DYD_OK) status = dyd_voronoi_hausdorff(bound, &finite, e->sums, &pairs);
-    *out = status == DYD_OK && finite && mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
+  dyd_status st = dyd_delaunay_pairs(&pairs, e->pd);
+  if (st == DYD_OK && o->goal == DYD_GOAL_VORONOI_AREA) {
+    st = goal_area_holds(out, bound, sums, e, o, &pairs);
+  } else if (st == DYD_OK) {
+    st = goal_find_sums(sums, e, o->window, dyd_metric_coarseness(e->pd, o->window));
+    if (st == DYD_OK) st = dyd_voronoi_hausdorff(bound, &finite, *sums, &pairs);
+    *out = st == DYD_OK && finite && mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
   }
-  if (*out || status != DYD_OK) dyd_engine_voronoi_forget(e);
+  if (*out || st != DYD_OK) dyd_goal_sums_free(sums);
   mpfr_clear(bound);
   dyd_pair_list_clear(&pairs);
-  return status;
+  return st;
 }
 
 /* ---- vertices ---- */
 
-dyd_status dyd_engine_vertex_excess(int64_t *out, const dyd_engine *e, const dyd_triangle *t,
-                                    const dyd_engine_options *o) {
+dyd_status dyd_goal_vertex_excess(int64_t *out, const dyd_engine *e, const dyd_triangle *t,
+                                  const dyd_engine_options *o) {
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status status = dyd_voronoi_vertex(&r, e->pd, t, o->goal_bits + 2);
+  dyd_status st = dyd_voronoi_vertex(&r, e->pd, t, o->goal_bits + 2);
   int64_t bits = dyd_rect_bits(&r);
-  *out = status < 0 || bits >= o->goal_bits || !dyd_rect_meets(&r, o->window) ? 0 : o->goal_bits - bits;
+  *out = st != DYD_OK || bits >= o->goal_bits || !dyd_rect_meets(&r, o->window) ? 0 : o->goal_bits - bits;
   dyd_rect_clear(&r);
-  return status;
+  return st;
 }

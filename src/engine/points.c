@@ -4,7 +4,7 @@
  * A fixed site is an entry of the table of sites and nothing else. A site that can be narrowed has a record besides,
  * and holds the whole plane in the table until it is first asked. [NEST-1] is kept by dyd_sites_narrow, for sources and
  * streams alike: the table is the one memory of what was given before. */
-#include "engine/engine.h"
+#include "engine/points.h"
 #include "engine/words.h"
 
 #include "base/abi.h"
@@ -33,12 +33,12 @@ dyd_status dyd_engine_add_words(dyd_engine *e, size_t n, const dyd_words *xy) {
 }
 
 /* Appends n sites with records like p; the site number is filled in. Nothing on failure. */
-static dyd_status add_refinable(dyd_engine *e, size_t n, dyd_refinable p) {
+static dyd_status points_add_refinable(dyd_engine *e, size_t n, dyd_refinable p) {
   size_t first = dyd_sites_count(e->sites);
   if (n > DYD_MAX_SITES) return DYD_E_RANGE;
   if (!dyd_reserve((void **)&e->point, &e->point_cap, e->points + n, sizeof *e->point)) return DYD_E_NOMEM;
-  dyd_status status = dyd_sites_add_planes(e->sites, n);
-  if (status < 0) return status;
+  dyd_status st = dyd_sites_add_planes(e->sites, n);
+  if (st != DYD_OK) return st;
   for (size_t k = 0; k < n; k++) {
     p.site = (uint32_t)(first + k);
     e->point[e->points++] = p;
@@ -47,34 +47,40 @@ static dyd_status add_refinable(dyd_engine *e, size_t n, dyd_refinable p) {
 }
 
 dyd_status dyd_engine_add_stream(dyd_engine *e, dyd_stream *s) {
-  dyd_status status;
+  dyd_status st;
   const dyd_rect *fixed = dyd_stream_is_final(s) ? dyd_stream_rect(s) : NULL;
   if (e->started)
-    status = DYD_E_ARG;
+    st = DYD_E_ARG;
   else if (fixed)
-    status = dyd_sites_add_rect(e->sites, fixed);
+    st = dyd_sites_add_rect(e->sites, fixed);
   else
-    status = add_refinable(e, 1, (dyd_refinable){.stream = s});
-  if (fixed || status < 0) dyd_stream_free(s);
-  return status;
+    st = points_add_refinable(e, 1, (dyd_refinable){.stream = s});
+  if (fixed || st != DYD_OK) dyd_stream_free(s);
+  return st;
 }
 
-static dyd_status add_source(dyd_engine *e, size_t n, const dyd_source *source) {
+static dyd_status points_add_source(dyd_engine *e, size_t n, const dyd_source *source) {
   if (e->started || !source->narrow) return DYD_E_ARG;
   if (!dyd_reserve((void **)&e->source, &e->source_cap, e->sources + 1, sizeof *e->source)) return DYD_E_NOMEM;
   size_t first = dyd_sites_count(e->sites);
-  dyd_status status = add_refinable(e, n, (dyd_refinable){.source = (uint32_t)e->sources});
-  if (status >= 0) e->source[e->sources++] = (dyd_source_use){*source, (uint32_t)first, NULL};
-  return status;
+  dyd_status st = points_add_refinable(e, n, (dyd_refinable){.source = (uint32_t)e->sources});
+  if (st == DYD_OK) e->source[e->sources++] = (dyd_source_use){*source, (uint32_t)first, NULL};
+  return st;
 }
 
 dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err) {
   dyd_source s;
   dyd_status st = dyd_abi_take(&s, sizeof s, source, "dyd_source", err);
   if (st != DYD_OK) return st;
-  st = add_source(e, n, &s);
+  st = points_add_source(e, n, &s);
   if (st != DYD_OK && s.release) s.release(s.user);
   return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
+}
+
+void dyd_shared_source_free(dyd_shared_source *s) {
+  if (!s || --s->refs) return;
+  if (s->source.release) s->source.release(s->source.user);
+  free(s);
 }
 
 void dyd_engine_clear_points(dyd_engine *e) {
@@ -90,7 +96,7 @@ void dyd_engine_clear_points(dyd_engine *e) {
   free(e->source);
 }
 
-dyd_refinable *dyd_engine_find(const dyd_engine *e, uint32_t site) {
+const dyd_refinable *dyd_engine_find(const dyd_engine *e, uint32_t site) {
   size_t lo = 0, hi = e->points;
   while (lo < hi) {
     size_t mid = lo + (hi - lo) / 2;
@@ -104,77 +110,80 @@ dyd_refinable *dyd_engine_find(const dyd_engine *e, uint32_t site) {
 
 /* ---- asking ---- */
 
-/* The request for p, with the flag that says that the answer is not wanted any more. */
-static dyd_status make_request(dyd_request *out, const dyd_refinable *p, const dyd_engine *e, int64_t bits,
-                               int64_t max_bits, dyd_error *err) {
-  dyd_status status = dyd_request_make(out, p->site - e->source[p->source].first, bits, max_bits, err);
+dyd_status dyd_engine_request(dyd_request *out, const dyd_refinable *p, const dyd_engine *e, int64_t bits,
+                              int64_t max_bits, dyd_error *err) {
+  dyd_status st = dyd_request_make(out, p->site - e->source[p->source].first, bits, max_bits, err);
   out->stop = &e->stop;
-  return status;
+  return st;
 }
 
-/* Asks the source of p. *r comes in as the rectangle so far and goes out as the answer, checked to be one. */
-static dyd_status ask_source(dyd_rect *r, const dyd_refinable *p, const dyd_engine *e, int64_t bits, int64_t max_bits,
-                             dyd_error *err) {
+/* Asks the source of p. *r comes in as the rectangle so far and goes out as the answer, checked to be one; *final:
+ * no call can narrow it further. */
+static dyd_status point_ask_source(dyd_rect *r, bool *final, const dyd_refinable *p, const dyd_engine *e, int64_t bits,
+                                   int64_t max_bits, dyd_error *err) {
   const dyd_source_use *use = &e->source[p->source];
   dyd_request request;
   dyd_error own;
   dyd_error_clear(&own);
-  dyd_status status = make_request(&request, p, e, bits, max_bits, err);
-  if (status < 0) return status;
-  status = use->source.narrow(r, use->source.user, &request, &own);
-  if (status == DYD_CANCELLED && dyd_flag_get(&e->stop)) return status;
-  if (status != DYD_OK && status != DYD_FIXED) return dyd_callback_fail(err, &own, status, p->site, p->calls);
+  dyd_status st = dyd_engine_request(&request, p, e, bits, max_bits, err);
+  if (st != DYD_OK) return st;
+  st = use->source.narrow(r, use->source.user, &request, &own);
+  *final = st == DYD_FIXED;
+  if (st == DYD_CANCELLED && dyd_flag_get(&e->stop)) return st;
+  if (st != DYD_OK && st != DYD_FIXED) return dyd_callback_fail(err, &own, st, p->site, p->calls);
   if (!dyd_interval_is_valid(&r->x) || !dyd_interval_is_valid(&r->y)) {
     return dyd_fail(err, DYD_E_STREAM, "the source gave no valid rectangle; fill it with dyd_interval_set_ends");
   }
-  return status;
+  return DYD_OK;
 }
 
-static dyd_status ask_stream(dyd_rect *r, const dyd_refinable *p, int64_t bits, int64_t max_bits, dyd_error *err) {
-  dyd_status status = dyd_stream_narrow(p->stream, bits, max_bits, err);
-  if (status < 0) return status;
+static dyd_status point_ask_stream(dyd_rect *r, bool *final, const dyd_refinable *p, int64_t bits, int64_t max_bits,
+                                   dyd_error *err) {
+  dyd_status st = dyd_stream_narrow(p->stream, bits, max_bits, err);
+  if (dyd_failed(st)) return st;
   const dyd_rect *now = dyd_stream_rect(p->stream);
   if (!now) return dyd_fail(err, DYD_E_STREAM, "the stream has no rectangle after it was narrowed");
-  dyd_rect_set(r, now);
-  return dyd_stream_is_final(p->stream) ? DYD_FIXED : DYD_OK;
+  if (r) dyd_rect_set(r, now);
+  *final = dyd_stream_is_final(p->stream);
+  return DYD_OK;
 }
 
 /* DYD_E_NESTING with the sides that are not nested. */
-static dyd_status nesting_fail(dyd_error *err, const dyd_engine *e, const dyd_refinable *p, const dyd_rect *r) {
+static dyd_status point_nesting_fail(dyd_error *err, const dyd_engine *e, const dyd_refinable *p, const dyd_rect *r) {
   dyd_rect old;
   dyd_rect_init(&old);
-  dyd_status status = dyd_sites_get(&old, e->sites, p->site);
-  if (status < 0)
-    dyd_fail(err, status, "%s", dyd_status_text(status));
+  dyd_status st = dyd_sites_get(&old, e->sites, p->site);
+  if (st != DYD_OK)
+    dyd_fail(err, st, "%s", dyd_status_text(st));
   else if (!dyd_interval_contains(&old.x, &r->x))
-    status = dyd_nesting_fail(err, "x side", &old.x, &r->x);
+    st = dyd_nesting_fail(err, "x side", &old.x, &r->x);
   else
-    status = dyd_nesting_fail(err, "y side", &old.y, &r->y);
+    st = dyd_nesting_fail(err, "y side", &old.y, &r->y);
   dyd_rect_clear(&old);
-  return status;
+  return st;
 }
 
 /* Puts what was given for p into the table, which checks that it is nested. */
-static dyd_status put(const dyd_refinable *p, const dyd_engine *e, const dyd_rect *r, dyd_error *err) {
-  dyd_status status = dyd_sites_narrow(e->sites, p->site, r);
-  if (status == DYD_E_NESTING && !p->asked) {
+static dyd_status point_put(const dyd_refinable *p, const dyd_engine *e, const dyd_rect *r, dyd_error *err) {
+  dyd_status st = dyd_sites_narrow(e->sites, p->site, r);
+  if (st == DYD_E_NESTING && !p->asked) {
     return dyd_fail(err, DYD_E_RANGE, "the rectangle given leaves the exponent range");
   }
-  if (status == DYD_E_NESTING) return nesting_fail(err, e, p, r);
-  return status < 0 ? dyd_fail(err, status, "%s", dyd_status_text(status)) : status;
+  if (st == DYD_E_NESTING) return point_nesting_fail(err, e, p, r);
+  return st != DYD_OK ? dyd_fail(err, st, "%s", dyd_status_text(st)) : st;
 }
 
 /* Fills in what the engine knows about a failure at p. */
-static dyd_status blame(const dyd_refinable *p, dyd_status status, dyd_error *err) {
-  err->code = status;
+static dyd_status point_blame(const dyd_refinable *p, dyd_status st, dyd_error *err) {
+  err->code = st;
   err->point = p->site;
   err->stage = p->calls;
-  if (!err->message[0]) dyd_fail(err, status, "%s", dyd_status_text(status));
-  return status;
+  if (!err->message[0]) dyd_fail(err, st, "%s", dyd_status_text(st));
+  return st;
 }
 
 /* The first call of a stream, where doubles hold its answer. */
-static bool narrow_in_doubles(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits) {
+static bool point_narrow_in_doubles(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits) {
   dyd_double_span side[2];
   if (p->asked || !p->stream || !dyd_stream_glance(side, p->stream, bits)) return false;
   const double box[4] = {side[0].lo, side[0].hi, side[1].lo, side[1].hi};
@@ -187,64 +196,38 @@ static bool narrow_in_doubles(dyd_refinable *p, uint64_t *calls, dyd_engine *e, 
   return true;
 }
 
+/* A guest has no place in the table, and counts what its stream was asked. */
+static dyd_status guest_narrow(dyd_refinable *p, uint64_t *calls, int64_t bits, int64_t max_bits, dyd_error *err) {
+  uint64_t before = dyd_stream_stage(p->stream);
+  dyd_status st = point_ask_stream(NULL, &p->final, p, bits, max_bits, err);
+  *calls += dyd_stream_stage(p->stream) - before;
+  p->bits = bits;
+  p->asked = true;
+  return st;
+}
+
 dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits, int64_t max_bits,
                              dyd_error *err) {
   dyd_rect r;
-  if (narrow_in_doubles(p, calls, e, bits)) return DYD_OK;
-  bool final = p->final, cancelled = false;
+  bool final = p->final;
+  if (p->site >= dyd_sites_count(e->sites)) return guest_narrow(p, calls, bits, max_bits, err);
+  if (point_narrow_in_doubles(p, calls, e, bits)) return DYD_OK;
   dyd_error_clear(err);
   dyd_rect_init(&r);
-  dyd_status status = p->asked ? dyd_sites_get(&r, e->sites, p->site) : DYD_OK;
-  if (status >= 0 && !(p->asked && dyd_rect_bits(&r) >= bits)) {
+  dyd_status st = p->asked ? dyd_sites_get(&r, e->sites, p->site) : DYD_OK;
+  if (st == DYD_OK && !(p->asked && dyd_rect_bits(&r) >= bits)) {
     ++*calls;
-    status = p->stream ? ask_stream(&r, p, bits, max_bits, err) : ask_source(&r, p, e, bits, max_bits, err);
-    final = status == DYD_FIXED || dyd_rect_is_point(&r);
-    cancelled = status == DYD_CANCELLED;
-    if (status >= 0 && !cancelled) status = put(p, e, &r, err);
-    if (status >= 0 && !cancelled) p->calls++;
+    st = p->stream ? point_ask_stream(&r, &final, p, bits, max_bits, err)
+                   : point_ask_source(&r, &final, p, e, bits, max_bits, err);
+    final |= dyd_rect_is_point(&r);
+    if (st == DYD_OK) st = point_put(p, e, &r, err);
+    if (st == DYD_OK) p->calls++;
   }
-  if (status >= 0 && !cancelled) {
+  if (st == DYD_OK) {
     p->bits = bits;
     p->final = final;
     p->asked = true;
   }
   dyd_rect_clear(&r);
-  if (status < 0) return blame(p, status, err);
-  return cancelled ? DYD_CANCELLED : DYD_OK;
-}
-
-/* ---- announcing ---- */
-
-/* Will p, marked, be asked for p->want? */
-static bool will_ask(dyd_rect *scratch, const dyd_refinable *p, const dyd_engine *e) {
-  if (!p->asked) return true;
-  return dyd_sites_get(scratch, e->sites, p->site) < 0 || dyd_rect_bits(scratch) < p->want;
-}
-
-/* Points first .. end-1 are all those of one source: tells it which of them are marked; *left is how many calls there
- * may be. What cannot be told, for lack of memory or because the request is refused, is left out. */
-static void announce_source(uint64_t *left, const dyd_engine *e, size_t first, size_t end, int64_t max_bits) {
-  const dyd_source *source = &e->source[e->point[first].source].source;
-  dyd_request *list = dyd_alloc(end - first, sizeof *list);
-  dyd_rect scratch;
-  size_t count = 0;
-  dyd_rect_init(&scratch);
-  for (size_t k = first; list && *left && k < end; k++) {
-    const dyd_refinable *p = &e->point[k];
-    if (!p->marked || !will_ask(&scratch, p, e)) continue;
-    --*left;
-    if (make_request(&list[count], p, e, p->want, max_bits, NULL) >= 0) count++;
-  }
-  dyd_rect_clear(&scratch);
-  if (count) source->announce(source->user, list, count);
-  free(list);
-}
-
-void dyd_engine_announce(const dyd_engine *e, uint64_t most, int64_t max_bits) {
-  for (size_t k = 0, end; k < e->points; k = end) {
-    const dyd_refinable *p = &e->point[k];
-    for (end = k + 1; end < e->points && !p->stream; end++)
-      if (e->point[end].stream || e->point[end].source != p->source) break;
-    if (!p->stream && e->source[p->source].source.announce) announce_source(&most, e, k, end, max_bits);
-  }
+  return st == DYD_OK || st == DYD_CANCELLED ? st : point_blame(p, st, err);
 }

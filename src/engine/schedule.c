@@ -19,80 +19,14 @@
  *
  * In faces of many points a few go ahead of the others, to tell how far these must go (scout.c).
  *
- * Every rule marks a point whenever one that matters can be narrowed, and every mark asks for more than before, up to
- * max_bits: the loop ends. Growth is geometric, so a run asks for at most about twice the bits it needs; with step_bits
- * it is that step instead, for tables of convergence. */
+ * Every rule marks a point whenever one that matters can be narrowed, and every mark asks for more than before
+ * (plan.c): the loop ends. */
+#include "engine/schedule.h"
+
 #include "engine/coarse.h"
-#include "engine/engine.h"
-#include "engine/scout.h"
-
+#include "engine/goal_voronoi.h"
+#include "engine/points.h"
 #include "metric/bounds.h"
-#include "stream/stream.h"
-
-/* b + by without overflow, by >= 0; at most max where b is. */
-static int64_t raised(int64_t b, int64_t by, int64_t max) {
-  return b > max - by ? max : b + by;
-}
-
-/* The precision of the first stage. Where none is given it is 64, or what doubles give, if that is worth a stage: most
- * points need no more. Those that do go on as if they had been asked for 64. */
-#define FIRST_BITS 64
-#define FIRST_IN_DOUBLES 24
-
-/* The step from precision b to the next. */
-static int64_t grown(int64_t b, const dyd_engine_options *o) {
-  if (o->step_bits) return raised(b, o->step_bits, o->max_bits);
-  if (!o->start_bits && b < FIRST_BITS) b = FIRST_BITS;
-  int64_t size = b < 0 ? -b : b;
-  return b + (size < 16 ? 16 : size);
-}
-
-/* Can p still be asked, now or under a larger max_bits? In the second case the plan remembers that. */
-static bool can_narrow(dyd_plan *plan, const dyd_refinable *p, const dyd_engine_options *o) {
-  if (!p || p->final) return false;
-  if (p->bits < o->max_bits) return true;
-  plan->bits_blocked = true;
-  return false;
-}
-
-/* Why a point is marked, and the pair that this names. */
-typedef struct cause {
-  dyd_reason reason;
-  uint32_t i, j;
-} cause;
-
-/* Marks p; of several causes the one that asks for most is kept, the first among equals. */
-static void mark(dyd_plan *plan, dyd_refinable *p, int64_t want, cause why, const dyd_engine_options *o) {
-  if (want > o->max_bits) want = o->max_bits;
-  if (!p->marked) plan->marked++;
-  if (!p->marked || p->want < want) {
-    p->want = want;
-    p->reason = why.reason;
-    p->pair[0] = why.i;
-    p->pair[1] = why.j;
-  }
-  p->marked = true;
-}
-
-/* A cause that names no pair. */
-static cause alone(dyd_reason reason, const dyd_refinable *p) {
-  return (cause){reason, p->site, p->site};
-}
-
-static int64_t first_bits(const dyd_refinable *p, const dyd_engine_options *o) {
-  if (o->start_bits) return o->start_bits;
-  if (!p->stream || o->schedule != DYD_SCHEDULE_ADAPTIVE) return FIRST_BITS;
-  int64_t bits = dyd_stream_glance_bits(p->stream);
-  return bits >= FIRST_IN_DOUBLES && bits < FIRST_BITS ? bits : FIRST_BITS;
-}
-
-void dyd_engine_plan_first(dyd_plan *out, dyd_engine *e, const dyd_engine_options *o) {
-  *out = (dyd_plan){0};
-  for (size_t k = 0; k < e->points; k++) {
-    dyd_refinable *p = &e->point[k];
-    if (!p->asked) mark(out, p, first_bits(p, o), alone(DYD_REASON_FIRST, p), o);
-  }
-}
 
 /* ---- undecided faces ---- */
 
@@ -101,300 +35,293 @@ static dyd_status pair_matters(bool *out, mpfr_ptr number, dyd_measure *m, const
                                const dyd_engine_options *o) {
   *out = pair->status == DYD_INDETERMINATE;
   if (!*out || !m) return DYD_OK;
-  dyd_status status = dyd_bound_pair_hausdorff(number, m, pair);
-  *out = status < 0 || mpfr_cmp_ui_2exp(number, 1, (mpfr_exp_t)-o->goal_bits) > 0;
-  return status;
+  dyd_status st = dyd_bound_pair_hausdorff(number, m, pair);
+  *out = st != DYD_OK || mpfr_cmp_ui_2exp(number, 1, (mpfr_exp_t)-o->goal_bits) > 0;
+  return st;
 }
 
 /* Removes the pairs that need not be refined. */
 static dyd_status keep_pairs(dyd_pair_list *pairs, mpfr_ptr number, dyd_measure *m, const dyd_engine_options *o) {
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   size_t kept = 0;
-  for (size_t k = 0; status >= 0 && k < pairs->count; k++) {
+  for (size_t k = 0; st == DYD_OK && k < pairs->count; k++) {
     bool matters;
-    status = pair_matters(&matters, number, m, &pairs->item[k], o);
-    if (status >= 0 && matters) pairs->item[kept++] = pairs->item[k];
+    st = pair_matters(&matters, number, m, &pairs->item[k], o);
+    if (st == DYD_OK && matters) pairs->item[kept++] = pairs->item[k];
   }
   pairs->count = kept;
-  return status;
+  return st;
 }
 
 /* Sites known about as well as the least known one are refined with it: up to twice its bits. */
-static int64_t companions(int64_t least) {
+static int64_t companion_bits(int64_t least) {
   return least > INT64_MAX / 4 ? INT64_MAX : 2 * least + 2;
 }
 
-static int64_t lesser(int64_t a, int64_t b) {
+static int64_t lesser_bits(int64_t a, int64_t b) {
   return a < b ? a : b;
 }
 
 /* The step of a point that is known to `relative` bits of its distances: to twice as many, where these are few of its
  * bits. Where it meets a neighbour the distance is not known, and all of its bits are doubled. */
-static int64_t next_bits(const dyd_refinable *p, int64_t relative, const dyd_engine_options *o) {
-  if (o->step_bits || relative < 16 || relative > p->bits / 2) return grown(p->bits, o);
-  return raised(p->bits, relative, o->max_bits);
+static int64_t relative_step(const dyd_refinable *p, int64_t relative, const dyd_engine_options *o) {
+  if (o->step_bits || relative < 16 || relative > p->bits / 2) return dyd_bits_grown(p->bits, o);
+  return dyd_bits_raised(p->bits, relative, o->max_bits);
 }
 
 /* Marks the coarsest of the ends of pairs that can be narrowed; *least becomes their relative precision. false: none
  * can be. */
-static bool mark_ends(int64_t *least, dyd_plan *plan, const dyd_engine *e, const dyd_coarse *c,
-                      const dyd_pair_list *pairs, const dyd_engine_options *o) {
+static bool mark_ends(int64_t *least, dyd_plan *plan, const dyd_coarse *c, const dyd_pair_list *pairs) {
   bool any = false;
   *least = INT64_MAX;
   for (int pass = 0; pass < 2; pass++) {
     for (size_t k = 0; k < 2 * pairs->count; k++) {
       const dyd_pair *pair = &pairs->item[k / 2];
-      dyd_refinable *p = dyd_engine_find(e, k % 2 ? pair->j : pair->i);
-      if (!can_narrow(plan, p, o)) continue;
+      const dyd_refinable *p = dyd_engine_find(plan->e, k % 2 ? pair->j : pair->i);
+      if (!dyd_plan_can_narrow(plan, p)) continue;
       int64_t relative = dyd_coarse_bits(c, p->site);
       any = true;
       if (pass == 0)
-        *least = lesser(*least, relative);
-      else if (relative <= companions(*least))
-        mark(plan, p, next_bits(p, relative, o), (cause){DYD_REASON_END, pair->i, pair->j}, o);
+        *least = lesser_bits(*least, relative);
+      else if (relative <= companion_bits(*least))
+        dyd_plan_mark(plan, p, relative_step(p, relative, plan->o), DYD_REASON_END, pair->i, pair->j);
     }
   }
   return any;
 }
 
 /* Marks the sites of the face that are coarser than the ends; where no end can be narrowed, the coarsest of all. */
-static void mark_blockers(dyd_plan *plan, const dyd_engine *e, const dyd_coarse *c, bool ends, int64_t least,
-                          const dyd_engine_options *o) {
+static void mark_blockers(dyd_plan *plan, const dyd_coarse *c, bool ends, int64_t least) {
   int64_t limit = ends ? least - 1 : INT64_MAX;
   for (int pass = ends ? 1 : 0; pass < 2; pass++) {
     for (size_t k = 0; k < c->sites.count; k++) {
-      dyd_refinable *p = dyd_engine_find(e, c->sites.item[k]);
-      if (!can_narrow(plan, p, o)) continue;
+      const dyd_refinable *p = dyd_engine_find(plan->e, c->sites.item[k]);
+      if (!dyd_plan_can_narrow(plan, p)) continue;
       int64_t relative = dyd_coarse_bits(c, p->site);
       if (pass == 0)
-        limit = lesser(limit, relative);
+        limit = lesser_bits(limit, relative);
       else if (relative <= limit)
-        mark(plan, p, next_bits(p, relative, o), alone(DYD_REASON_BLOCKER, p), o);
+        dyd_plan_mark_alone(plan, p, relative_step(p, relative, plan->o), DYD_REASON_BLOCKER);
     }
-    if (pass == 0) limit = companions(limit);
+    if (pass == 0) limit = companion_bits(limit);
   }
 }
 
 /* Marks all sites of a face whose pairs are not all known. */
-static dyd_status plan_capped(dyd_plan *plan, const dyd_engine *e, size_t f, const dyd_engine_options *o) {
+static dyd_status plan_capped(dyd_plan *plan, size_t f) {
   dyd_index_list sites = {0};
   bool outer;
-  dyd_status status = dyd_delaunay_face(&sites, &outer, e->pd, f);
-  for (size_t k = 0; status >= 0 && k < sites.count; k++) {
-    dyd_refinable *p = dyd_engine_find(e, sites.item[k]);
-    if (can_narrow(plan, p, o)) mark(plan, p, grown(p->bits, o), alone(DYD_REASON_BLOCKER, p), o);
+  dyd_status st = dyd_delaunay_face(&sites, &outer, plan->e->pd, f);
+  for (size_t k = 0; st == DYD_OK && k < sites.count; k++) {
+    const dyd_refinable *p = dyd_engine_find(plan->e, sites.item[k]);
+    if (dyd_plan_can_narrow(plan, p))
+      dyd_plan_mark_alone(plan, p, dyd_bits_grown(p->bits, plan->o), DYD_REASON_BLOCKER);
   }
   dyd_index_list_clear(&sites);
-  return status;
+  return st;
 }
 
-static dyd_status plan_face(dyd_plan *plan, dyd_scouts *scouts, mpfr_ptr number, const dyd_engine *e, size_t f,
-                            dyd_measure *m, const dyd_engine_options *o) {
-  if (dyd_delaunay_is_capped(e->pd)) return plan_capped(plan, e, f, o);
+static dyd_status plan_face(dyd_plan *plan, dyd_scouts *scouts, mpfr_ptr number, size_t f, dyd_measure *m) {
+  const dyd_delaunay *pd = plan->e->pd;
+  if (dyd_delaunay_is_capped(pd)) return plan_capped(plan, f);
   dyd_coarse c = {0};
   dyd_pair_list pairs = {0};
-  dyd_status status = dyd_delaunay_face_pairs(&pairs, e->pd, f);
-  if (status >= 0) status = keep_pairs(&pairs, number, m, o);
-  if (status >= 0 && pairs.count) status = dyd_coarse_set(&c, e->pd, f, &pairs);
-  if (status >= 0 && pairs.count) {
+  dyd_status st = dyd_delaunay_face_pairs(&pairs, pd, f);
+  if (st == DYD_OK) st = keep_pairs(&pairs, number, m, plan->o);
+  if (st == DYD_OK && pairs.count) st = dyd_coarse_set(&c, pd, f, &pairs);
+  if (st == DYD_OK && pairs.count) {
     int64_t least;
-    bool ends = mark_ends(&least, plan, e, &c, &pairs, o);
-    mark_blockers(plan, e, &c, ends, least, o);
-    if (ends && scouts) status = dyd_scouts_add(scouts, e, &pairs);
+    bool ends = mark_ends(&least, plan, &c, &pairs);
+    mark_blockers(plan, &c, ends, least);
+    if (ends && scouts) st = dyd_scouts_add(scouts, plan, &pairs);
   }
   dyd_coarse_clear(&c);
   dyd_pair_list_clear(&pairs);
-  return status;
+  return st;
 }
 
-static dyd_status plan_faces(dyd_plan *plan, dyd_scouts *scouts, const dyd_engine *e, dyd_measure *m,
-                             const dyd_engine_options *o) {
-  dyd_status status = DYD_OK;
-  size_t faces = dyd_delaunay_undecided_faces(e->pd);
+static dyd_status plan_faces(dyd_plan *plan, dyd_scouts *scouts, dyd_measure *m) {
+  dyd_status st = DYD_OK;
+  size_t faces = dyd_delaunay_undecided_faces(plan->e->pd);
   mpfr_t number;
   mpfr_init2(number, DYD_MEASURE_PREC);
-  for (size_t f = 0; status >= 0 && f < faces; f++) status = plan_face(plan, scouts, number, e, f, m, o);
+  for (size_t f = 0; st == DYD_OK && f < faces; f++) st = plan_face(plan, scouts, number, f, m);
   mpfr_clear(number);
-  return status;
+  return st;
 }
 
 /* ---- bounds ---- */
 
-static dyd_status plan_hausdorff(dyd_plan *plan, dyd_scouts *scouts, const dyd_engine *e, dyd_measure *m,
-                                 const dyd_engine_options *o) {
-  dyd_status status = plan_faces(plan, scouts, e, m, o);
+static dyd_status plan_hausdorff(dyd_plan *plan, dyd_scouts *scouts, dyd_measure *m) {
+  const dyd_engine *e = plan->e;
+  const dyd_engine_options *o = plan->o;
+  dyd_status st = plan_faces(plan, scouts, m);
   mpfr_t diameter;
   mpfr_init2(diameter, DYD_MEASURE_PREC);
-  for (size_t k = 0; status >= 0 && k < e->points; k++) {
-    dyd_refinable *p = &e->point[k];
+  for (size_t k = 0; st == DYD_OK && k < e->points; k++) {
+    const dyd_refinable *p = &e->point[k];
     if (p->final) continue;
-    status = dyd_measure_diameter(diameter, m, p->site);
-    if (mpfr_cmp_ui_2exp(diameter, 1, (mpfr_exp_t)-o->goal_bits) <= 0 || !can_narrow(plan, p, o)) continue;
+    st = dyd_measure_diameter(diameter, m, p->site);
+    if (mpfr_cmp_ui_2exp(diameter, 1, (mpfr_exp_t)-o->goal_bits) <= 0 || !dyd_plan_can_narrow(plan, p)) continue;
     /* Widths of 2^-b give a diameter of at most sqrt(2) 2^-b. */
-    mark(plan, p, p->bits <= o->goal_bits && !o->step_bits ? o->goal_bits + 1 : grown(p->bits, o),
-         alone(DYD_REASON_BOUND, p), o);
+    dyd_plan_mark_alone(plan, p,
+                        p->bits <= o->goal_bits && !o->step_bits ? o->goal_bits + 1 : dyd_bits_grown(p->bits, plan->o),
+                        DYD_REASON_BOUND);
   }
   mpfr_clear(diameter);
-  return status;
+  return st;
 }
 
-/* What a pair contributes to a bound; infinite when it has to be refined before anything is known. */
-typedef dyd_status (*number_fn)(mpfr_ptr out, dyd_engine *e, dyd_measure *m, const dyd_pair *pair,
-                                const dyd_engine_options *o);
-
-static dyd_status number_area(mpfr_ptr out, dyd_engine *e, dyd_measure *m, const dyd_pair *pair,
+/* What a pair contributes to the bound; infinite when it has to be refined before anything is known. */
+static dyd_status pair_number(mpfr_ptr out, dyd_measure *m, const dyd_voronoi_sums *sums, const dyd_pair *pair,
                               const dyd_engine_options *o) {
-  (void)e, (void)o;
-  return dyd_measure_area(out, m, pair->i, pair->j);
+  return sums ? dyd_goal_voronoi_number(out, sums, m, pair, o) : dyd_measure_area(out, m, pair->i, pair->j);
 }
 
 /* Marks the ends of pairs with a number above `least`, so that the numbers shrink below `share`;
  * *largest becomes the largest number of a pair with an end that can be narrowed. */
-static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_engine *e, dyd_measure *m,
-                             const dyd_pair_list *pairs, number_fn number, mpfr_srcptr least, mpfr_srcptr share,
-                             const dyd_engine_options *o) {
-  dyd_status status = DYD_OK;
+static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_measure *m, const dyd_voronoi_sums *sums,
+                             const dyd_pair_list *pairs, mpfr_srcptr least, mpfr_srcptr share) {
+  const dyd_engine_options *o = plan->o;
+  dyd_status st = DYD_OK;
   mpfr_t value;
   mpfr_init2(value, DYD_MEASURE_PREC);
   mpfr_set_zero(largest, 1);
-  for (size_t k = 0; status >= 0 && k < pairs->count; k++) {
+  for (size_t k = 0; st == DYD_OK && k < pairs->count; k++) {
     const uint32_t end[2] = {pairs->item[k].i, pairs->item[k].j};
-    status = number(value, e, m, &pairs->item[k], o);
-    if (status < 0 || mpfr_zero_p(value)) continue;
+    st = pair_number(value, m, sums, &pairs->item[k], o);
+    if (st != DYD_OK || mpfr_zero_p(value)) continue;
     int64_t excess = mpfr_inf_p(value) ? 0 : (int64_t)mpfr_get_exp(value) - (int64_t)mpfr_get_exp(share) + 2;
     for (int a = 0; a < 2; a++) {
-      dyd_refinable *p = dyd_engine_find(e, end[a]);
-      if (!can_narrow(plan, p, o)) continue;
+      const dyd_refinable *p = dyd_engine_find(plan->e, end[a]);
+      if (!dyd_plan_can_narrow(plan, p)) continue;
       mpfr_max(largest, largest, value, MPFR_RNDU);
-      int64_t target = raised(p->bits, excess < 0 ? 0 : excess, o->max_bits), step = grown(p->bits, o);
+      int64_t target = dyd_bits_raised(p->bits, excess < 0 ? 0 : excess, o->max_bits),
+              step = dyd_bits_grown(p->bits, plan->o);
       if (mpfr_cmp(value, least) > 0)
-        mark(plan, p, target > step && !o->step_bits ? target : step, (cause){DYD_REASON_BOUND, end[0], end[1]}, o);
+        dyd_plan_mark(plan, p, target > step && !o->step_bits ? target : step, DYD_REASON_BOUND, end[0], end[1]);
     }
   }
   mpfr_clear(value);
-  return status;
+  return st;
 }
 
 /* The ends of the pairs whose numbers are above 2^-M, or above the share 2^-M / P of P pairs; where none of them can be
  * narrowed, those of at least half the largest number with an end that can. */
-static dyd_status plan_bound(dyd_plan *plan, dyd_engine *e, dyd_measure *m, number_fn number, bool shared,
-                             const dyd_engine_options *o) {
+static dyd_status plan_bound(dyd_plan *plan, dyd_measure *m, const dyd_voronoi_sums *sums, bool shared) {
   dyd_pair_list pairs = {0};
   mpfr_t share, largest, unused;
   mpfr_inits2(DYD_MEASURE_PREC, share, largest, unused, (mpfr_ptr)0);
-  dyd_status status = dyd_delaunay_pairs(&pairs, e->pd);
-  if (status >= 0 && pairs.count) {
-    mpfr_set_ui_2exp(share, 1, (mpfr_exp_t)-o->goal_bits, MPFR_RNDD);
+  dyd_status st = dyd_delaunay_pairs(&pairs, plan->e->pd);
+  if (st == DYD_OK && pairs.count) {
+    mpfr_set_ui_2exp(share, 1, (mpfr_exp_t)-plan->o->goal_bits, MPFR_RNDD);
     if (shared) mpfr_div_ui(share, share, (unsigned long)pairs.count, MPFR_RNDD);
-    status = mark_bound(plan, largest, e, m, &pairs, number, share, share, o);
-    if (status >= 0 && plan->marked == 0 && !mpfr_zero_p(largest)) {
+    st = mark_bound(plan, largest, m, sums, &pairs, share, share);
+    if (st == DYD_OK && plan->count == 0 && !mpfr_zero_p(largest)) {
       mpfr_div_2ui(largest, largest, 1, MPFR_RNDD);
-      status = mark_bound(plan, unused, e, m, &pairs, number, largest, share, o);
+      st = mark_bound(plan, unused, m, sums, &pairs, largest, share);
     }
   }
   mpfr_clears(share, largest, unused, (mpfr_ptr)0);
   dyd_pair_list_clear(&pairs);
-  return status;
+  return st;
 }
 
 /* Marks the ends of sure triangles whose Voronoi vertex may be in the window and is enclosed in more than 2^-M. */
-static dyd_status plan_vertices(dyd_plan *plan, dyd_engine *e, const dyd_engine_options *o) {
+static dyd_status plan_vertices(dyd_plan *plan) {
+  const dyd_engine_options *o = plan->o;
   dyd_triangle_list list = {0};
-  dyd_status status = dyd_delaunay_triangles(&list, e->pd);
-  for (size_t k = 0; k < list.count && status >= 0; k++) {
+  dyd_status st = dyd_delaunay_triangles(&list, plan->e->pd);
+  for (size_t k = 0; k < list.count && st == DYD_OK; k++) {
     const uint32_t *v = list.item[k].v;
     int64_t excess;
-    status = dyd_engine_vertex_excess(&excess, e, &list.item[k], o);
-    for (int m = 0; m < 3 && status >= 0 && excess > 0; m++) {
-      dyd_refinable *p = dyd_engine_find(e, v[m]);
-      if (!can_narrow(plan, p, o)) continue;
-      int64_t target = raised(p->bits, excess, o->max_bits), step = grown(p->bits, o);
-      mark(plan, p, target > step && !o->step_bits ? target : step, (cause){DYD_REASON_BOUND, v[m], v[(m + 1) % 3]}, o);
+    st = dyd_goal_vertex_excess(&excess, plan->e, &list.item[k], o);
+    for (int m = 0; m < 3 && st == DYD_OK && excess > 0; m++) {
+      const dyd_refinable *p = dyd_engine_find(plan->e, v[m]);
+      if (!dyd_plan_can_narrow(plan, p)) continue;
+      int64_t target = dyd_bits_raised(p->bits, excess, o->max_bits), step = dyd_bits_grown(p->bits, plan->o);
+      dyd_plan_mark(plan, p, target > step && !o->step_bits ? target : step, DYD_REASON_BOUND, v[m], v[(m + 1) % 3]);
     }
   }
   dyd_triangle_list_clear(&list);
-  return status;
+  return st;
 }
 
 /* Replaces the marks by: every point to one precision, a step above the least so far. */
-static void plan_uniform(dyd_plan *plan, dyd_engine *e, const dyd_engine_options *o) {
+static void plan_uniform(dyd_plan *plan) {
+  const dyd_engine *e = plan->e;
   int64_t least = INT64_MAX;
-  for (size_t k = 0; k < e->points; k++) {
-    e->point[k].marked = false;
+  for (size_t k = 0; k < e->points; k++)
     if (!e->point[k].final && e->point[k].bits < least) least = e->point[k].bits;
-  }
-  plan->marked = 0;
-  int64_t level = grown(least, o) < o->max_bits ? grown(least, o) : o->max_bits;
+  dyd_plan_empty(plan);
+  int64_t level = lesser_bits(dyd_bits_grown(least, plan->o), plan->o->max_bits);
   for (size_t k = 0; k < e->points; k++)
     if (!e->point[k].final && e->point[k].bits < level)
-      mark(plan, &e->point[k], level, alone(DYD_REASON_UNIFORM, &e->point[k]), o);
+      dyd_plan_mark_alone(plan, &e->point[k], level, DYD_REASON_UNIFORM);
 }
 
-/* Where the bound holds already only vertices are left to be narrowed. */
-static dyd_status plan_voronoi(dyd_plan *plan, dyd_engine *e, dyd_measure *m, const dyd_engine_options *o) {
-  dyd_status status = DYD_OK;
-  if (e->sums) status = plan_bound(plan, e, m, dyd_engine_voronoi_number, o->goal == DYD_GOAL_VORONOI_AREA, o);
-  if (status >= 0 && o->goal == DYD_GOAL_VORONOI_HAUSDORFF) status = plan_vertices(plan, e, o);
-  return status;
-}
-
-dyd_status dyd_engine_plan(dyd_plan *out, dyd_scouts *scouts, dyd_engine *e, const dyd_engine_options *o) {
-  dyd_measure m;
-  dyd_status status;
-  *out = (dyd_plan){0};
+static dyd_status plan_all(dyd_plan *plan, dyd_scouts *scouts, dyd_measure *m, const dyd_voronoi_sums *sums) {
+  const dyd_engine_options *o = plan->o;
   if (o->step_bits || o->schedule != DYD_SCHEDULE_ADAPTIVE) scouts = NULL;
-  dyd_measure_init(&m, e->sites);
-  if (o->goal == DYD_GOAL_DECIDED || dyd_delaunay_is_capped(e->pd))
-    status = plan_faces(out, scouts, e, NULL, o);
-  else if (o->goal == DYD_GOAL_HAUSDORFF)
-    status = plan_hausdorff(out, scouts, e, &m, o);
-  else if (o->goal == DYD_GOAL_AREA)
-    status = plan_bound(out, e, &m, number_area, true, o);
-  else
-    status = plan_voronoi(out, e, &m, o);
-  dyd_measure_clear(&m);
-  dyd_engine_voronoi_forget(e);
-  if (status >= 0 && out->marked && o->schedule == DYD_SCHEDULE_UNIFORM) plan_uniform(out, e, o);
-  return status;
+  if (o->goal == DYD_GOAL_DECIDED || dyd_delaunay_is_capped(plan->e->pd)) return plan_faces(plan, scouts, NULL);
+  if (o->goal == DYD_GOAL_HAUSDORFF) return plan_hausdorff(plan, scouts, m);
+  if (o->goal == DYD_GOAL_AREA) return plan_bound(plan, m, NULL, true);
+  /* Where the bound on the diagram holds already, and sums are not kept, only vertices are left to be narrowed. */
+  dyd_status st = sums ? plan_bound(plan, m, sums, o->goal == DYD_GOAL_VORONOI_AREA) : DYD_OK;
+  if (st == DYD_OK && o->goal == DYD_GOAL_VORONOI_HAUSDORFF) st = plan_vertices(plan);
+  return st;
 }
 
 /* ---- goals ---- */
 
-static dyd_status bound_holds(bool *out, const dyd_engine *e, const dyd_engine_options *o) {
+static dyd_status goal_bound_holds(bool *out, dyd_measure *m, const dyd_engine *e, const dyd_engine_options *o) {
   dyd_pair_list pairs = {0};
-  dyd_measure m;
   mpfr_t bound;
-  dyd_measure_init(&m, e->sites);
   mpfr_init2(bound, DYD_MEASURE_PREC);
-  dyd_status status = dyd_delaunay_pairs(&pairs, e->pd);
-  if (status >= 0) {
-    status = o->goal == DYD_GOAL_AREA ? dyd_bound_area(bound, &m, &pairs) : dyd_bound_hausdorff(bound, &m, &pairs);
-    *out = status >= 0 && mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
-  }
+  dyd_status st = dyd_delaunay_pairs(&pairs, e->pd);
+  if (st == DYD_OK)
+    st = o->goal == DYD_GOAL_AREA ? dyd_bound_area(bound, m, &pairs) : dyd_bound_hausdorff(bound, m, &pairs);
+  *out = st == DYD_OK && mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
   mpfr_clear(bound);
-  dyd_measure_clear(&m);
   dyd_pair_list_clear(&pairs);
-  return status;
+  return st;
 }
 
 /* The bound holds, and no vertex is left that is too wide and could be narrowed. */
-static dyd_status voronoi_holds(bool *out, dyd_engine *e, const dyd_engine_options *o) {
-  dyd_plan plan = {0};
-  dyd_status status = dyd_engine_voronoi_holds(out, e, o);
-  if (status != DYD_OK || !*out || o->goal != DYD_GOAL_VORONOI_HAUSDORFF) return status;
-  status = plan_vertices(&plan, e, o);
-  for (size_t k = 0; k < e->points; k++) e->point[k].marked = false;
-  *out = status == DYD_OK && plan.marked == 0;
-  return status;
+static dyd_status goal_voronoi_and_vertices_hold(bool *out, dyd_voronoi_sums **sums, const dyd_engine *e,
+                                                 const dyd_engine_options *o) {
+  dyd_status st = dyd_goal_voronoi_holds(out, sums, e, o);
+  if (st != DYD_OK || !*out || o->goal != DYD_GOAL_VORONOI_HAUSDORFF) return st;
+  dyd_plan plan;
+  dyd_plan_init(&plan, e, o, NULL, 0);
+  st = plan_vertices(&plan);
+  if (st == DYD_OK) st = plan.failed;
+  *out = st == DYD_OK && plan.count == 0;
+  dyd_plan_clear(&plan);
+  return st;
 }
 
-dyd_status dyd_engine_goal_holds(bool *out, dyd_engine *e, const dyd_engine_options *o) {
+static dyd_status goal_holds(bool *out, dyd_measure *m, dyd_voronoi_sums **sums, const dyd_engine *e,
+                             const dyd_engine_options *o) {
   *out = false;
   if (dyd_delaunay_is_capped(e->pd)) return DYD_OK;
-  if (dyd_goal_is_voronoi(o->goal)) return voronoi_holds(out, e, o);
-  if (o->goal != DYD_GOAL_DECIDED) return bound_holds(out, e, o);
+  if (dyd_goal_is_voronoi(o->goal)) return goal_voronoi_and_vertices_hold(out, sums, e, o);
+  if (o->goal != DYD_GOAL_DECIDED) return goal_bound_holds(out, m, e, o);
   size_t count[4];
   dyd_delaunay_count(count, e->pd);
   *out = count[DYD_INDETERMINATE] == 0 && count[DYD_TIE] == 0;
   return DYD_OK;
+}
+
+dyd_status dyd_schedule_judge(bool *holds, dyd_plan *plan, dyd_scouts *scouts) {
+  dyd_measure m;
+  dyd_voronoi_sums *sums = NULL;
+  dyd_measure_init(&m, plan->e->sites);
+  dyd_status st = goal_holds(holds, &m, &sums, plan->e, plan->o);
+  if (st == DYD_OK && !*holds) st = plan_all(plan, scouts, &m, sums);
+  if (st == DYD_OK) st = plan->failed;
+  if (st == DYD_OK && plan->count && plan->o->schedule == DYD_SCHEDULE_UNIFORM) plan_uniform(plan);
+  dyd_goal_sums_free(&sums);
+  dyd_measure_clear(&m);
+  return st;
 }

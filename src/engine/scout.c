@@ -15,6 +15,7 @@
 #include "engine/scout.h"
 
 #include "base/alloc.h"
+#include "engine/points.h"
 #include <dyadel/predicate.h>
 #include <string.h>
 
@@ -37,51 +38,51 @@ void dyd_scouts_clear(dyd_scouts *s) {
 
 /* ---- quads ---- */
 
-static dyd_status fetch(dyd_rect r[4], const dyd_engine *e, const dyd_quad_sites *q) {
-  dyd_status status = DYD_OK;
-  for (int k = 0; status >= 0 && k < 4; k++) status = dyd_sites_get(&r[k], e->sites, q->v[k]);
-  return status;
+static dyd_status quad_fetch(dyd_rect r[4], const dyd_engine *e, const dyd_quad_sites *q) {
+  dyd_status st = DYD_OK;
+  for (int k = 0; st == DYD_OK && k < 4; k++) st = dyd_sites_get(&r[k], e->sites, q->v[k]);
+  return st;
 }
 
-static bool rule_decides(const dyd_rect r[4]) {
+static bool quad_rule_decides(const dyd_rect r[4]) {
   return dyd_cannot_displace(&r[0], &r[1], &r[2], &r[3]) == DYD_TRUE ||
          dyd_cannot_displace(&r[2], &r[3], &r[0], &r[1]) == DYD_TRUE;
 }
 
-static void init_rects(dyd_rect r[4]) {
+static void quad_init(dyd_rect r[4]) {
   for (int k = 0; k < 4; k++) dyd_rect_init(&r[k]);
 }
 
-static void clear_rects(dyd_rect r[4]) {
+static void quad_clear(dyd_rect r[4]) {
   for (int k = 0; k < 4; k++) dyd_rect_clear(&r[k]);
 }
 
-static dyd_status is_decided(bool *out, const dyd_engine *e, const dyd_quad_sites *q) {
+static dyd_status quad_is_decided(bool *out, const dyd_engine *e, const dyd_quad_sites *q) {
   dyd_rect r[4];
-  init_rects(r);
-  dyd_status status = fetch(r, e, q);
-  if (status >= 0) *out = rule_decides(r);
-  clear_rects(r);
-  return status;
+  quad_init(r);
+  dyd_status st = quad_fetch(r, e, q);
+  if (st == DYD_OK) *out = quad_rule_decides(r);
+  quad_clear(r);
+  return st;
 }
 
 /* ---- finding them ---- */
 
-static bool is_marked(const dyd_engine *e, uint32_t site) {
-  const dyd_refinable *p = dyd_engine_find(e, site);
-  return p && p->marked;
+static bool is_marked(const dyd_plan *plan, uint32_t site) {
+  const dyd_refinable *p = dyd_engine_find(plan->e, site);
+  return p && dyd_plan_find(plan, p);
 }
 
-static bool is_taken(const dyd_race *race, uint32_t site) {
+static bool race_has(const dyd_race *race, uint32_t site) {
   for (size_t k = 0; k < 4 * race->quads; k++)
     if (race->quad[k / 4].v[k % 4] == site) return true;
   return false;
 }
 
 /* An indeterminate pair with ends that are marked and free. */
-static bool is_usable(const dyd_race *race, const dyd_engine *e, const dyd_pair *p) {
-  return p->status == DYD_INDETERMINATE && !is_taken(race, p->i) && !is_taken(race, p->j) && is_marked(e, p->i) &&
-         is_marked(e, p->j);
+static bool race_can_take(const dyd_race *race, const dyd_plan *plan, const dyd_pair *p) {
+  return p->status == DYD_INDETERMINATE && !race_has(race, p->i) && !race_has(race, p->j) && is_marked(plan, p->i) &&
+         is_marked(plan, p->j);
 }
 
 static bool share_an_end(const dyd_pair *p, const dyd_pair *q) {
@@ -89,37 +90,38 @@ static bool share_an_end(const dyd_pair *p, const dyd_pair *q) {
 }
 
 /* Adds the quad of p and one of the pairs from number *at on, when one is found within the bounds. */
-static dyd_status find_partner(size_t *at, size_t *tries, dyd_race *race, const dyd_engine *e,
-                               const dyd_pair_list *pairs, const dyd_pair *p) {
-  dyd_status status = DYD_OK;
+static dyd_status race_find_partner(size_t *at, size_t *tries, dyd_race *race, const dyd_plan *plan,
+                                    const dyd_pair_list *pairs, const dyd_pair *p) {
+  dyd_status st = DYD_OK;
   bool decided = true;
-  for (size_t n = 0; status >= 0 && decided && n < pairs->count && n < STEPS && *tries % TRIES; n++) {
+  for (size_t n = 0; st == DYD_OK && decided && n < pairs->count && n < STEPS && *tries % TRIES; n++) {
     const dyd_pair *q = &pairs->item[*at];
     *at = (*at + STRIDE) % pairs->count;
-    if (share_an_end(p, q) || !is_usable(race, e, q)) continue;
+    if (share_an_end(p, q) || !race_can_take(race, plan, q)) continue;
     const dyd_quad_sites quad = {{p->i, p->j, q->i, q->j}};
-    status = is_decided(&decided, e, &quad);
+    st = quad_is_decided(&decided, plan->e, &quad);
     ++*tries;
-    if (status >= 0 && !decided) race->quad[race->quads++] = quad;
+    if (st == DYD_OK && !decided) race->quad[race->quads++] = quad;
   }
-  return status;
+  return st;
 }
 
 /* Adds a quad, when one is found within the bounds. Pairs are taken in strides, as if at random. */
-static dyd_status find_quad(size_t *at, dyd_race *race, const dyd_engine *e, const dyd_pair_list *pairs) {
-  dyd_status status = DYD_OK;
+static dyd_status race_find_quad(size_t *at, dyd_race *race, const dyd_plan *plan, const dyd_pair_list *pairs) {
+  dyd_status st = DYD_OK;
   size_t before = race->quads;
-  for (size_t n = 0, tries = 1; status >= 0 && race->quads == before && n < STEPS && tries < 4 * TRIES; n++) {
+  for (size_t n = 0, tries = 1; st == DYD_OK && race->quads == before && n < STEPS && tries < 4 * TRIES; n++) {
     const dyd_pair *p = &pairs->item[*at];
     *at = (*at + STRIDE) % pairs->count;
-    if (!is_usable(race, e, p)) continue;
-    status = find_partner(at, &tries, race, e, pairs, p);
+    if (!race_can_take(race, plan, p)) continue;
+    st = race_find_partner(at, &tries, race, plan, pairs, p);
     tries = (tries / TRIES + 1) * TRIES + 1;
   }
-  return status;
+  return st;
 }
 
-static dyd_status append(dyd_scouts *s, const dyd_engine *e, const dyd_pair_list *pairs, const dyd_race *race) {
+static dyd_status scouts_append(dyd_scouts *s, const dyd_plan *plan, const dyd_pair_list *pairs, const dyd_race *race) {
+  const dyd_engine *e = plan->e;
   if (!s->of) s->of = calloc(e->points, sizeof *s->of);
   if (!s->of || s->count >= UINT32_MAX || !dyd_reserve((void **)&s->item, &s->cap, s->count + 1, sizeof *s->item)) {
     return DYD_E_NOMEM;
@@ -127,140 +129,127 @@ static dyd_status append(dyd_scouts *s, const dyd_engine *e, const dyd_pair_list
   s->item[s->count++] = *race;
   for (size_t k = 0; k < 2 * pairs->count; k++) {
     const dyd_refinable *p = dyd_engine_find(e, k % 2 ? pairs->item[k / 2].j : pairs->item[k / 2].i);
-    if (p && p->marked) s->of[p - e->point] = (uint32_t)s->count;
+    if (p && dyd_plan_find(plan, p)) s->of[p - e->point] = (uint32_t)s->count;
   }
   return DYD_OK;
 }
 
-dyd_status dyd_scouts_add(dyd_scouts *s, const dyd_engine *e, const dyd_pair_list *pairs) {
+dyd_status dyd_scouts_add(dyd_scouts *s, const dyd_plan *plan, const dyd_pair_list *pairs) {
   dyd_race race = {.quads = 0};
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   /* Eight points have at least eight pairs that are not edges of their hull, if all cross. */
   if (pairs->count < 8) return DYD_OK;
-  for (size_t k = 0, at = 0; status >= 0 && k < DYD_SCOUT_QUADS && race.quads == k; k++)
-    status = find_quad(&at, &race, e, pairs);
-  return status < 0 || race.quads < 2 ? status : append(s, e, pairs, &race);
+  for (size_t k = 0, at = 0; st == DYD_OK && k < DYD_SCOUT_QUADS && race.quads == k; k++)
+    st = race_find_quad(&at, &race, plan, pairs);
+  return st != DYD_OK || race.quads < 2 ? st : scouts_append(s, plan, pairs, &race);
 }
 
 /* ---- the race ---- */
 
 /* Ends rounded outward to multiples of 2^-bits; rational points stay. */
-static dyd_status widen_side(dyd_interval *a, int64_t bits) {
+static dyd_status quad_widen_side(dyd_interval *a, int64_t bits) {
   if (mpz_cmp_ui(a->den, 1) != 0) return DYD_OK;
-  dyd_status status = dyd_dyadic_round(&a->lo, &a->lo, -bits, DYD_DOWN);
-  return status < 0 ? status : dyd_dyadic_round(&a->hi, &a->hi, -bits, DYD_UP);
+  dyd_status st = dyd_dyadic_round(&a->lo, &a->lo, -bits, DYD_DOWN);
+  return st != DYD_OK ? st : dyd_dyadic_round(&a->hi, &a->hi, -bits, DYD_UP);
 }
 
-static dyd_status decides_at(bool *out, const dyd_rect r[4], int64_t bits) {
+static dyd_status quad_decides_at(bool *out, const dyd_rect r[4], int64_t bits) {
   dyd_rect wide[4];
-  dyd_status status = DYD_OK;
-  init_rects(wide);
-  for (int k = 0; status >= 0 && k < 4; k++) {
+  dyd_status st = DYD_OK;
+  quad_init(wide);
+  for (int k = 0; st == DYD_OK && k < 4; k++) {
     dyd_rect_set(&wide[k], &r[k]);
-    status = widen_side(&wide[k].x, bits);
-    if (status >= 0) status = widen_side(&wide[k].y, bits);
+    st = quad_widen_side(&wide[k].x, bits);
+    if (st == DYD_OK) st = quad_widen_side(&wide[k].y, bits);
   }
-  if (status >= 0) *out = rule_decides(wide);
-  clear_rects(wide);
-  return status;
+  if (st == DYD_OK) *out = quad_rule_decides(wide);
+  quad_clear(wide);
+  return st;
 }
 
 /* About the least bits that decide the quad, which is decided now: at most what its points were asked for. */
-static dyd_status find_need(int64_t *out, const dyd_engine *e, const dyd_quad_sites *q) {
+static dyd_status quad_find_need(int64_t *out, const dyd_engine *e, const dyd_quad_sites *q) {
   dyd_rect r[4];
   int64_t hi = 0, lo = 0;
   for (int k = 0; k < 4; k++) {
     const dyd_refinable *p = dyd_engine_find(e, q->v[k]);
     if (p && p->bits > hi) hi = p->bits;
   }
-  init_rects(r);
-  dyd_status status = fetch(r, e, q);
-  while (status >= 0 && hi - lo > MARGIN + hi / 128) {
+  quad_init(r);
+  dyd_status st = quad_fetch(r, e, q);
+  while (st == DYD_OK && hi - lo > MARGIN + hi / 128) {
     int64_t mid = lo + (hi - lo) / 2;
     bool decided = false;
-    status = decides_at(&decided, r, mid);
+    st = quad_decides_at(&decided, r, mid);
     if (decided)
       hi = mid;
     else
       lo = mid;
   }
-  clear_rects(r);
+  quad_clear(r);
   *out = hi;
-  return status;
-}
-
-/* The point of a scout when it can go on, else NULL. */
-static dyd_refinable *runner(const dyd_engine *e, uint32_t site, const dyd_engine_options *o) {
-  dyd_refinable *p = dyd_engine_find(e, site);
-  return p && !p->final && p->bits < o->max_bits ? p : NULL;
+  return st;
 }
 
 /* From b bits to the next, at most to `most`: twice as many, and half as many again where that begins to cost. */
-static int64_t further(int64_t b, int64_t most) {
-  int64_t by = b < 16 ? 16 : b < DEAR ? b : b / 2;
-  return b > most - by ? most : b + by;
+static int64_t scout_step(int64_t b, int64_t most) {
+  return dyd_bits_raised(b, b < 16 ? 16 : b < DEAR ? b : b / 2, most);
 }
 
-/* Marks the scouts of a quad: for what the plan wanted at first, then for more. */
-static size_t send(dyd_engine *e, const dyd_quad_sites *q, const dyd_engine_options *o) {
-  size_t marked = 0;
-  for (int k = 0; k < 4; k++) {
-    dyd_refinable *p = runner(e, q->v[k], o);
-    if (!p) continue;
-    if (!p->held) p->want = further(p->bits, o->max_bits);
-    p->marked = true;
-    p->held = false;
-    marked++;
-  }
-  return marked;
-}
-
-/* Judges one race; *marked grows by the scouts that go on. */
-static dyd_status run_race(size_t *marked, dyd_race *race, dyd_engine *e, const dyd_engine_options *o) {
-  dyd_status status = DYD_OK;
+/* Sends the scouts of a quad that can go on: for what the plan wanted at first, then for more. How many there are. */
+static size_t race_send_quad(dyd_plan *out, dyd_plan *held, const dyd_quad_sites *q) {
   size_t sent = 0;
-  for (size_t k = 0; status >= 0 && !race->over && k < race->quads; k++) {
-    status = is_decided(&race->over, e, &race->quad[k]);
-    if (status >= 0 && race->over) status = find_need(&race->bits, e, &race->quad[k]);
+  for (int k = 0; k < 4; k++) {
+    const dyd_refinable *p = dyd_engine_find(out->e, q->v[k]);
+    if (p->final || p->bits >= out->o->max_bits) continue;
+    dyd_want *first = dyd_plan_find(held, p), *now = dyd_plan_find(out, p);
+    int64_t bits = first->sent ? scout_step(p->bits, out->o->max_bits) : first->bits;
+    if (now)
+      now->bits = bits;
+    else
+      dyd_plan_mark(out, p, bits, first->reason, first->i, first->j);
+    first->sent = true;
+    sent++;
   }
-  if (status < 0 || race->over) return status;
-  for (size_t k = 0; k < race->quads; k++) sent += send(e, &race->quad[k], o);
-  race->over = sent == 0;
-  *marked += sent;
-  return DYD_OK;
+  return sent;
 }
 
-dyd_status dyd_scouts_next(size_t *marked, dyd_scouts *s, dyd_engine *e, const dyd_engine_options *o) {
-  dyd_status status = DYD_OK;
-  *marked = 0;
-  for (size_t k = 0; k < e->points; k++) {
-    e->point[k].held |= e->point[k].marked;
-    e->point[k].marked = false;
+/* Judges one race, and sends the scouts on when it goes on. */
+static dyd_status race_run(dyd_plan *out, dyd_race *race, dyd_plan *held) {
+  dyd_status st = DYD_OK;
+  size_t sent = 0;
+  for (size_t k = 0; st == DYD_OK && !race->over && k < race->quads; k++) {
+    st = quad_is_decided(&race->over, out->e, &race->quad[k]);
+    if (st == DYD_OK && race->over) st = quad_find_need(&race->bits, out->e, &race->quad[k]);
   }
-  for (size_t k = 0; status >= 0 && k < s->count; k++)
-    if (!s->item[k].over) status = run_race(marked, &s->item[k], e, o);
-  return status;
+  if (st != DYD_OK || race->over) return st;
+  for (size_t k = 0; k < race->quads; k++) sent += race_send_quad(out, held, &race->quad[k]);
+  race->over = sent == 0;
+  return out->failed;
+}
+
+dyd_status dyd_scouts_next(dyd_plan *out, dyd_scouts *s, dyd_plan *held) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; st == DYD_OK && k < s->count; k++)
+    if (!s->item[k].over) st = race_run(out, &s->item[k], held);
+  return st;
 }
 
 /* What an end with b bits in a face with this race is asked for at least: 0 when the race tells nothing. Where no quad
  * was decided at the limit, the least that is worth a stage. */
-static int64_t leap(const dyd_race *race, int64_t b, int64_t most) {
+static int64_t race_leap(const dyd_race *race, int64_t b, int64_t most) {
   int64_t need = race->bits + MARGIN + race->bits / 64, longest = b > 0 ? MOST_LEAP * b : 0;
   if (!race->over) return 0;
   if (race->bits == 0 || (race->quads < DYD_SCOUT_QUADS && need > longest)) need = longest;
   return need < most ? need : most;
 }
 
-void dyd_scouts_finish(size_t *marked, const dyd_scouts *s, dyd_engine *e, const dyd_engine_options *o) {
-  *marked = 0;
-  for (size_t k = 0; k < e->points; k++) {
-    dyd_refinable *p = &e->point[k];
-    p->marked |= p->held;
-    p->held = false;
-    if (!p->marked) continue;
-    ++*marked;
-    if (!s->of || !s->of[k]) continue;
-    int64_t want = leap(&s->item[s->of[k] - 1], p->bits, o->max_bits);
-    if (want > p->want) p->want = want;
+void dyd_scouts_finish(dyd_plan *out, const dyd_scouts *s, const dyd_plan *held) {
+  for (size_t k = 0; k < held->count; k++) {
+    const dyd_want *w = &held->item[k];
+    const dyd_refinable *p = dyd_plan_point(held, w);
+    uint32_t race = s->of[p - held->e->point];
+    int64_t more = race ? race_leap(&s->item[race - 1], p->bits, out->o->max_bits) : 0;
+    if (!w->sent) dyd_plan_mark(out, p, more > w->bits ? more : w->bits, w->reason, w->i, w->j);
   }
 }

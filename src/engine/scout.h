@@ -3,7 +3,7 @@
 #ifndef DYD_ENGINE_SCOUT_H
 #define DYD_ENGINE_SCOUT_H
 
-#include "engine/engine.h"
+#include "engine/plan.h"
 
 #define DYD_SCOUT_QUADS 4
 
@@ -24,19 +24,20 @@ typedef struct dyd_race {
 
 /* Init with {0}. Invariant: of = NULL or of[k] is 1 + the number of the last race added whose face has point k as an
  * end that is to be narrowed, 0 when there is none. */
-struct dyd_scouts {
+typedef struct dyd_scouts {
   dyd_race *item;
   size_t count, cap;
   uint32_t *of;
-};
+} dyd_scouts;
 
 void dyd_scouts_clear(dyd_scouts *s);
-/* Looks for quads among the indeterminate pairs of a face with marked ends; adds a race when there are two or more. */
-dyd_status dyd_scouts_add(dyd_scouts *s, const dyd_engine *e, const dyd_pair_list *pairs);
-/* Judges the quads of all races; holds back every marked point but the scouts of races that go on, which are marked to
- * be narrowed further. *marked = 0: all races are over. */
-dyd_status dyd_scouts_next(size_t *marked, dyd_scouts *s, dyd_engine *e, const dyd_engine_options *o);
-/* Lets all points go, and raises what the ends of decided races are asked for; *marked counts the marked points. */
-void dyd_scouts_finish(size_t *marked, const dyd_scouts *s, dyd_engine *e, const dyd_engine_options *o);
+/* Looks for quads among the indeterminate pairs of a face with ends in the plan; adds a race when there are two or
+ * more. */
+dyd_status dyd_scouts_add(dyd_scouts *s, const dyd_plan *plan, const dyd_pair_list *pairs);
+/* Judges the quads of all races; *out, empty, becomes the scouts of races that go on, which are narrowed further, while
+ * all else in `held` waits. Nothing in *out: all races are over. */
+dyd_status dyd_scouts_next(dyd_plan *out, dyd_scouts *s, dyd_plan *held);
+/* *out, empty, becomes what has waited, with more for the ends of decided races. */
+void dyd_scouts_finish(dyd_plan *out, const dyd_scouts *s, const dyd_plan *held);
 
 #endif

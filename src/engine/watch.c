@@ -7,7 +7,7 @@
 /* Longer limits than this, about thirty years, are none. */
 #define LONGEST 1e9
 
-static void *wait_for_deadline(void *arg) {
+static void *watch_wait(void *arg) {
   dyd_watch *w = arg;
   int late = 0;
   pthread_mutex_lock(&w->lock);
@@ -18,16 +18,16 @@ static void *wait_for_deadline(void *arg) {
 }
 
 /* The helper runs with all signals blocked: handlers stay with the threads of the program. */
-static bool spawn(dyd_watch *w) {
+static bool watch_spawn(dyd_watch *w) {
   sigset_t all, before;
   sigfillset(&all);
   if (pthread_sigmask(SIG_SETMASK, &all, &before)) return false;
-  bool done = pthread_create(&w->thread, NULL, wait_for_deadline, w) == 0;
+  bool done = pthread_create(&w->thread, NULL, watch_wait, w) == 0;
   pthread_sigmask(SIG_SETMASK, &before, NULL);
   return done;
 }
 
-static bool init_bell(pthread_cond_t *bell) {
+static bool watch_init_bell(pthread_cond_t *bell) {
   pthread_condattr_t attr;
   if (pthread_condattr_init(&attr)) return false;
   bool done = !pthread_condattr_setclock(&attr, CLOCK_MONOTONIC) && !pthread_cond_init(bell, &attr);
@@ -35,10 +35,10 @@ static bool init_bell(pthread_cond_t *bell) {
   return done;
 }
 
-static bool start_helper(dyd_watch *w) {
+static bool watch_start_helper(dyd_watch *w) {
   if (pthread_mutex_init(&w->lock, NULL)) return false;
-  if (init_bell(&w->bell)) {
-    if (spawn(w)) return true;
+  if (watch_init_bell(&w->bell)) {
+    if (watch_spawn(w)) return true;
     pthread_cond_destroy(&w->bell);
   }
   pthread_mutex_destroy(&w->lock);
@@ -58,7 +58,7 @@ void dyd_watch_start(dyd_watch *w, double seconds, volatile int *flag) {
     w->deadline.tv_nsec -= 1000000000L;
     w->deadline.tv_sec++;
   }
-  w->running = start_helper(w);
+  w->running = watch_start_helper(w);
 }
 
 void dyd_watch_stop(dyd_watch *w) {

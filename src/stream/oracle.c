@@ -138,7 +138,8 @@ static void oracle_release(void *user) {
 }
 
 dyd_status dyd_oracle_source(dyd_source *out, dyd_oracle *o, dyd_error *err) {
-  const dyd_source source = {.narrow = oracle_narrow, .release = oracle_release, .user = o, .announce = oracle_announce};
+  const dyd_source source = {
+      .narrow = oracle_narrow, .release = oracle_release, .user = o, .announce = oracle_announce};
   dyd_status st = dyd_abi_check(out, 0, "dyd_source", err);
   if (st != DYD_OK) return st;
   o->refs++;

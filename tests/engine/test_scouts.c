@@ -110,7 +110,10 @@ static void test_cut(void **state) {
     for (int runs = 0; outcome != DYD_OUTCOME_DECIDED; runs++) {
       assert_true(runs < 1000);
       assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &o, NULL));
+      size_t count[4] = {1, 1, 1, 1};
       assert_true(outcome == DYD_OUTCOME_DECIDED || engine_counters(e).spent == DYD_BUDGET_CALLS);
+      if (dyd_engine_delaunay(e)) engine_count(count, e);
+      assert_int_equal(outcome == DYD_OUTCOME_DECIDED, count[DYD_INDETERMINATE] + count[DYD_TIE] == 0);
     }
     assert_same_statuses(whole, e);
     monotone_clear(&m);
@@ -123,11 +126,14 @@ static void test_cut(void **state) {
 typedef struct canceller {
   dyd_engine *e;
   int steps, at;
+  int64_t bits[MANY]; /* asked of each site; more each time */
 } canceller;
 
 static void cancel_step(void *user, const dyd_step *step) {
   canceller *c = user;
   assert_true(step->rect && dyd_rect_bits(step->rect) >= step->bits);
+  assert_true(step->bits > c->bits[step->site]);
+  c->bits[step->site] = step->bits;
   if (++c->steps == c->at) dyd_engine_cancel(c->e);
 }
 
@@ -138,7 +144,7 @@ static void test_cancel(void **state) {
     dyd_engine_options o = options(4096);
     dyd_outcome outcome;
     engine_run(f, &o, DYD_OUTCOME_DECIDED);
-    canceller c = {e, 0, at};
+    canceller c = {.e = e, .at = at};
     o.trace = cancel_step;
     o.trace_user = &c;
     assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &o, NULL));

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The reader against the parser of single coordinates: random files in both layouts, in order, over many blocks. */
-#include "engine/engine.h"
 #include "stream/number.h"
 #include "support/random.h"
+
+#include <dyadel/engine.h>
 #include <dyadel/io.h>
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <string.h>
@@ -90,7 +92,7 @@ static void check_sites(const dyd_engine *e, char (*coordinate)[80], size_t n) {
   dyd_rect rect;
   dyd_rect_init(&rect);
   for (size_t i = 0; i < n; i++) {
-    assert_int_equal(dyd_sites_get(&rect, e->sites, i), DYD_OK);
+    assert_int_equal(dyd_sites_get(&rect, dyd_engine_sites(e), i), DYD_OK);
     check_interval(&rect.x, coordinate[2 * i]);
     check_interval(&rect.y, coordinate[2 * i + 1]);
   }
@@ -167,7 +169,7 @@ static void check_widened(const char *coordinate, bool measured, const char *rad
   if (radius) assert_int_equal(dyd_parse_number(r, radius, strlen(radius), NULL), DYD_OK);
   mpq_sub(lo, lo, r);
   mpq_add(hi, hi, r);
-  assert_int_equal(dyd_sites_get(&rect, e->sites, 0), DYD_OK);
+  assert_int_equal(dyd_sites_get(&rect, dyd_engine_sites(e), 0), DYD_OK);
   dyd_interval_get_q(got_lo, got_hi, &rect.x);
   assert_true(mpq_cmp(got_lo, lo) <= 0 && mpq_cmp(hi, got_hi) <= 0);
   mpq_sub(lo, hi, lo);

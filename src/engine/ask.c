@@ -1,0 +1,354 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The one loop: ask, narrow what the question wants, triangulate where it looks at the triangulation, ask again
+ * (mathematics: section 7).
+ *
+ * Between stages the checks come in this order, and the first that holds is the outcome:
+ *   cancelled; the question is answered; nothing can be narrowed (pairs, when the cap was met; bits, when a larger
+ *   max_bits would allow more; otherwise fixpoint); stages, calls, seconds spent.
+ * Stages, calls and seconds are counted for each ask on its own, bits and pairs are absolute.
+ *
+ * A stage that is cut short leaves everything valid, because rectangles only shrink:
+ *   - calls used up, or a stream failed: what was narrowed is brought into the result, which is then complete for
+ *     the rectangles as they are. In the first stage there is no result before all points have been asked.
+ *   - cancelled or out of time: narrowed sites stay listed in `changed`; the statements of the result were made for the
+ *     wider rectangles of its last stage, and hold for the narrower ones as well (legal and illegal are for ever,
+ *     the possible pairs listed include all that are possible now). The next run begins by bringing it up to date.
+ * Points narrowed are never asked for the same again, so a later ask goes on where this one stopped. */
+#include "engine/ask.h"
+
+#include "base/abi.h"
+#include "base/alloc.h"
+#include "base/error.h"
+#include "engine/points.h"
+#include "engine/watch.h"
+
+/* One ask. end is DYD_OUTCOME_NONE until it is known how it ends; again: the plan just carried out asked for the
+ * question before the triangulation; bits: the greatest precision asked for in this stage. */
+typedef struct ask {
+  dyd_engine *e;
+  const dyd_question *q;
+  dyd_engine_options o; /* defaults filled in */
+  dyd_refinable *guest;
+  dyd_plan plan;
+  dyd_watch watch;
+  uint64_t stages, calls;
+  int64_t bits;
+  bool again;
+  dyd_outcome end;
+  dyd_budget spent;
+  dyd_error err;
+} ask;
+
+/* The finest request that streams take (stream/nest.c). */
+#define MOST_BITS (DYD_EXP_LIMIT - 64)
+
+bool dyd_ask_options(dyd_engine_options *o) {
+  if (o->max_bits == 0) o->max_bits = 4096;
+  if (o->max_bits > MOST_BITS) o->max_bits = MOST_BITS;
+  if (o->start_bits > o->max_bits) o->start_bits = o->max_bits;
+  return o->start_bits >= -DYD_EXP_LIMIT && o->seconds >= 0 && o->step_bits >= 0;
+}
+
+/* ---- how it ends ---- */
+
+static void ask_end_budget(ask *a, dyd_budget spent) {
+  a->end = DYD_OUTCOME_BUDGET;
+  a->spent = spent;
+}
+
+/* Ends it when it was cancelled or is out of time. */
+static bool ask_is_stopped(ask *a) {
+  if (dyd_flag_get(&a->e->cancelled))
+    a->end = DYD_OUTCOME_CANCELLED;
+  else if (dyd_watch_is_late(&a->watch))
+    ask_end_budget(a, DYD_BUDGET_SECONDS);
+  return a->end != DYD_OUTCOME_NONE;
+}
+
+/* Work was interrupted: by a cancel, by a question that gave up, or because e->stop was raised at the deadline. */
+static dyd_status ask_end_interrupted(ask *a) {
+  if (dyd_flag_get(&a->e->cancelled) || !dyd_flag_get(&a->e->stop))
+    a->end = DYD_OUTCOME_CANCELLED;
+  else
+    ask_end_budget(a, DYD_BUDGET_SECONDS);
+  return DYD_OK;
+}
+
+static bool ask_calls_are_spent(const ask *a) {
+  return a->o.max_calls && a->calls >= a->o.max_calls;
+}
+
+/* Nothing is to be narrowed: why? */
+static void ask_end_exhausted(ask *a) {
+  if (a->q->triangulate && dyd_delaunay_is_capped(a->e->pd)) {
+    a->err = a->e->cap_error;
+    ask_end_budget(a, DYD_BUDGET_PAIRS);
+  } else if (a->plan.blocked) {
+    ask_end_budget(a, DYD_BUDGET_BITS);
+  } else {
+    a->end = DYD_OUTCOME_FIXPOINT;
+  }
+}
+
+/* ---- narrowing ---- */
+
+/* Tells of p, just brought to what w wants. */
+static dyd_status ask_tell_step(const ask *a, const dyd_refinable *p, const dyd_want *w, bool called) {
+  dyd_rect rect;
+  dyd_rect_init(&rect);
+  dyd_status st = dyd_sites_get(&rect, a->e->sites, p->site);
+  dyd_step step = {DYD_SIZED(dyd_step), .stage = a->e->stages + 1, .site = p->site,
+                   .bits = w->bits,     .reason = w->reason,       .called = called};
+  step.i = w->i;
+  step.j = w->j;
+  step.rect = &rect;
+  if (st == DYD_OK) a->o.trace(a->o.trace_user, &step);
+  dyd_rect_clear(&rect);
+  return st;
+}
+
+/* Carries out one want. *err is as dyd_engine_narrow leaves it. */
+static dyd_status ask_narrow(ask *a, const dyd_want *w) {
+  dyd_engine *e = a->e;
+  bool guest = w->point < a->q->guests;
+  dyd_refinable *p = guest ? &a->guest[w->point] : &e->point[w->point - a->q->guests];
+  uint64_t calls = 0;
+  dyd_status st = dyd_engine_narrow(p, &calls, e, w->bits, a->o.max_bits, &a->err);
+  a->calls += calls;
+  if (!guest) e->calls += calls;
+  if (st == DYD_CANCELLED) return ask_end_interrupted(a);
+  if (st != DYD_OK) return st;
+  if (w->bits > a->bits) a->bits = w->bits;
+  if (e->pd && calls && !guest) e->changed[e->changes++] = p->site;
+  return a->o.trace && !guest ? ask_tell_step(a, p, w, calls != 0) : DYD_OK;
+}
+
+/* Carries out the plan; *cut: points are left because calls are used up. */
+static dyd_status ask_narrow_all(bool *cut, ask *a) {
+  dyd_engine *e = a->e;
+  size_t need = e->pd ? e->changes + a->plan.count : 0;
+  if (!dyd_reserve((void **)&e->changed, &e->change_cap, need, sizeof *e->changed)) return DYD_E_NOMEM;
+  dyd_plan_sort(&a->plan);
+  dyd_plan_announce(&a->plan, a->o.max_calls ? a->o.max_calls - a->calls : UINT64_MAX);
+  for (size_t k = 0; k < a->plan.count; k++) {
+    if (ask_is_stopped(a)) return DYD_OK;
+    *cut = ask_calls_are_spent(a);
+    if (*cut) return DYD_OK;
+    dyd_status st = ask_narrow(a, &a->plan.item[k]);
+    if (st != DYD_OK || a->end != DYD_OUTCOME_NONE) return st;
+  }
+  return DYD_OK;
+}
+
+/* ---- triangulating ---- */
+
+/* Adds the sites of all undecided faces to those changed, so that faces given up at a cap are worked on again. */
+static dyd_status ask_list_undecided(dyd_engine *e) {
+  dyd_status st = DYD_OK;
+  dyd_index_list sites = {0};
+  size_t faces = dyd_delaunay_undecided_faces(e->pd);
+  for (size_t f = 0; st == DYD_OK && f < faces; f++) {
+    bool outer;
+    st = dyd_delaunay_face(&sites, &outer, e->pd, f);
+    size_t need = e->changes + sites.count;
+    if (st == DYD_OK && !dyd_reserve((void **)&e->changed, &e->change_cap, need, sizeof *e->changed)) st = DYD_E_NOMEM;
+    for (size_t k = 0; st == DYD_OK && k < sites.count; k++) e->changed[e->changes++] = sites.item[k];
+    dyd_index_list_clear(&sites);
+  }
+  return st;
+}
+
+static void ask_report(const ask *a) {
+  const dyd_engine *e = a->e;
+  dyd_progress p = {DYD_SIZED(dyd_progress), .stage = e->stages, .sites = dyd_sites_count(e->sites)};
+  p.bits = a->bits == INT64_MIN ? 0 : a->bits;
+  dyd_delaunay_count(p.count, e->pd);
+  p.undecided_faces = dyd_delaunay_undecided_faces(e->pd);
+  p.seconds = e->seconds + dyd_watch_seconds(&a->watch);
+  a->o.progress(a->o.progress_user, &p);
+}
+
+/* Makes the result, or brings it up to date, and reports. */
+static dyd_status ask_triangulate(ask *a, dyd_error *err) {
+  dyd_engine *e = a->e;
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = a->o.max_pairs, .cancel = &e->stop,
+                                  .threads = a->o.threads, .no_filter = a->o.no_filter};
+  dyd_error_clear(err);
+  dyd_status st =
+      e->pd ? dyd_delaunay_update(e->pd, e->changed, e->changes, &o, err) : dyd_delaunay_new(&e->pd, e->sites, &o, err);
+  if (st == DYD_CANCELLED) return ask_end_interrupted(a);
+  if (st == DYD_CAPPED) {
+    e->cap_error = *err;
+    st = DYD_OK;
+  }
+  if (st != DYD_OK) return st;
+  e->max_pairs = a->o.max_pairs;
+  e->changes = 0;
+  e->stages++;
+  a->stages++;
+  if (a->o.progress) ask_report(a);
+  a->bits = INT64_MIN;
+  return DYD_OK;
+}
+
+/* ---- the loop ---- */
+
+/* Was something narrowed that is to be brought into the result before the question comes again? */
+static bool ask_is_stale(const ask *a) {
+  return a->q->triangulate && a->e->pd && a->e->changes && !a->again;
+}
+
+/* Calls the question. */
+static dyd_status ask_question(bool *answered, ask *a) {
+  *answered = false;
+  dyd_plan_empty(&a->plan);
+  dyd_status st = a->q->ask(answered, &a->plan, a->e, a->q->user, &a->err);
+  if (a->plan.failed == DYD_E_ARG)
+    return dyd_fail(&a->err, DYD_E_ARG, "the question asks for site %lu, and there are %zu: they are numbered from 0",
+                    (unsigned long)a->plan.missing, dyd_sites_count(a->e->sites));
+  if (st > 0 && st != DYD_CANCELLED)
+    return dyd_fail(&a->err, DYD_E_ARG, "the question returned %d; it may be DYD_OK, DYD_CANCELLED or an error",
+                    (int)st);
+  return st == DYD_OK ? a->plan.failed : st;
+}
+
+/* Asks: ends it, or there is a plan. */
+static dyd_status ask_judge(ask *a) {
+  bool answered;
+  dyd_status st = ask_question(&answered, a);
+  if (st == DYD_CANCELLED) return ask_end_interrupted(a);
+  if (st == DYD_OK && answered) a->end = DYD_OUTCOME_DECIDED;
+  if (st == DYD_OK && !answered && !a->plan.count && !a->again) ask_end_exhausted(a);
+  return st;
+}
+
+/* Prepares the next stage: its plan, or how it ends. */
+static dyd_status ask_prepare(ask *a) {
+  const dyd_engine *e = a->e;
+  dyd_status st = DYD_OK;
+  dyd_error_clear(&a->err);
+  if (dyd_flag_get(&e->cancelled))
+    a->end = DYD_OUTCOME_CANCELLED;
+  else if (a->q->triangulate && !e->pd)
+    dyd_plan_first(&a->plan);
+  else if (!ask_is_stale(a))
+    st = ask_judge(a);
+  if (st == DYD_OK) st = a->plan.failed;
+  if (st != DYD_OK || a->end != DYD_OUTCOME_NONE) return st;
+  if (a->o.max_stages && a->stages >= a->o.max_stages)
+    ask_end_budget(a, DYD_BUDGET_STAGES);
+  else if (a->plan.count && ask_calls_are_spent(a) && !a->again)
+    ask_end_budget(a, DYD_BUDGET_CALLS);
+  else
+    ask_is_stopped(a);
+  return DYD_OK;
+}
+
+/* Carries out the plan, and triangulates where the question looks at that. */
+static dyd_status ask_stage(ask *a) {
+  bool cut = false;
+  dyd_error ignored;
+  const dyd_engine *e = a->e;
+  dyd_status failed = ask_narrow_all(&cut, a);
+  if (a->end != DYD_OUTCOME_NONE) return DYD_OK;
+  a->again = a->plan.again && !cut && failed == DYD_OK;
+  dyd_plan_empty(&a->plan);
+  if (!a->q->triangulate || a->again) return failed;
+  if (cut && !e->pd) ask_end_budget(a, DYD_BUDGET_CALLS);
+  if ((cut || failed != DYD_OK) && (!e->pd || e->changes == 0)) return failed;
+  dyd_status st = ask_triangulate(a, failed != DYD_OK ? &ignored : &a->err);
+  return failed != DYD_OK ? failed : st;
+}
+
+/* Guests are asked for the first precision, come what may: a question about a point of which nothing is known has no
+ * answer. */
+static dyd_status ask_guests(ask *a) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; st == DYD_OK && k < a->q->guests; k++) {
+    dyd_refinable *p = &a->guest[k];
+    uint64_t calls = 0;
+    p->site = (uint32_t)(dyd_sites_count(a->e->sites) + k);
+    p->stream = a->q->guest[k];
+    p->final = dyd_stream_is_final(p->stream);
+    if (!p->final) st = dyd_engine_narrow(p, &calls, a->e, dyd_bits_first(&a->o), a->o.max_bits, &a->err);
+    a->calls += calls;
+  }
+  return st;
+}
+
+/* A question that looks at rectangles has seen those that are reached, however it ends. */
+static dyd_status ask_last(ask *a) {
+  bool answered, stopped = a->end == DYD_OUTCOME_CANCELLED || a->spent == DYD_BUDGET_SECONDS;
+  if (a->q->triangulate || !stopped) return DYD_OK;
+  dyd_status st = ask_question(&answered, a);
+  if (st == DYD_CANCELLED) return DYD_OK;
+  if (st == DYD_OK && answered) a->end = DYD_OUTCOME_DECIDED;
+  return st;
+}
+
+static dyd_status ask_loop(ask *a) {
+  const dyd_engine *e = a->e;
+  /* Does the cap now given allow more than the one the result met? 0 is the default cap. */
+  bool raised = a->q->triangulate && e->pd && dyd_delaunay_is_capped(e->pd) && e->max_pairs != a->o.max_pairs;
+  dyd_status st = raised ? ask_list_undecided(a->e) : DYD_OK;
+  if (st == DYD_OK) st = ask_guests(a);
+  while (st == DYD_OK && a->end == DYD_OUTCOME_NONE) {
+    st = ask_prepare(a);
+    if (st == DYD_OK && a->end == DYD_OUTCOME_NONE) st = ask_stage(a);
+  }
+  return st == DYD_OK ? ask_last(a) : st;
+}
+
+/* The loop with the clock running and the flags set. */
+static dyd_status ask_timed(ask *a) {
+  dyd_engine *e = a->e;
+  dyd_flag_set(&e->stop, 0); /* where that undoes a cancel, `cancelled` is seen before any work */
+  e->started = e->busy = true;
+  dyd_watch_start(&a->watch, a->o.seconds, &e->stop);
+  dyd_status st = ask_loop(a);
+  dyd_watch_stop(&a->watch);
+  e->seconds += dyd_watch_seconds(&a->watch);
+  e->busy = false;
+  if (st == DYD_OK && a->end == DYD_OUTCOME_CANCELLED) dyd_flag_set(&e->cancelled, 0);
+  return st;
+}
+
+static dyd_status ask_run(ask *a) {
+  a->guest = calloc(a->q->guests + 1, sizeof *a->guest);
+  dyd_plan_init(&a->plan, a->e, &a->o, a->guest, a->q->guests);
+  dyd_status st = a->guest ? ask_timed(a) : DYD_E_NOMEM;
+  dyd_plan_clear(&a->plan);
+  free(a->guest);
+  return st;
+}
+
+dyd_status dyd_ask_may_begin(const dyd_engine *e, dyd_error *err) {
+  if (!e->busy) return DYD_OK;
+  return dyd_fail(err, DYD_E_ARG, "the engine is at work: no callback of it may start another run or question");
+}
+
+dyd_status dyd_ask(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *e, const dyd_question *question,
+                   const dyd_engine_options *options, dyd_error *err) {
+  dyd_question q;
+  ask a = {.e = e, .q = &q, .bits = INT64_MIN};
+  dyd_error_clear(&a.err);
+  dyd_status st = dyd_ask_may_begin(e, &a.err);
+  if (st == DYD_OK) st = dyd_abi_take(&q, sizeof q, question, "dyd_question", &a.err);
+  if (st == DYD_OK) st = dyd_abi_take(&a.o, sizeof a.o, options, "dyd_engine_options", &a.err);
+  if (st == DYD_OK && (!q.ask || !dyd_ask_options(&a.o)))
+    st = dyd_fail(&a.err, DYD_E_ARG, "%s", q.ask ? "an option is out of its range" : "the question is empty");
+  if (st == DYD_OK) st = ask_run(&a);
+  if (st != DYD_OK && !a.err.message[0]) dyd_fail(&a.err, st, "%s", dyd_status_text(st));
+  if (st != DYD_OK) a.err.code = st;
+  if (st == DYD_OK && a.spent != DYD_BUDGET_PAIRS) dyd_error_clear(&a.err);
+  *outcome = st == DYD_OK ? a.end : DYD_OUTCOME_ERROR;
+  *spent = st == DYD_OK ? a.spent : DYD_BUDGET_NONE;
+  if (err) *err = a.err;
+  return st;
+}
+
+dyd_status dyd_engine_ask(dyd_outcome *outcome, dyd_engine *e, const dyd_question *question,
+                          const dyd_engine_options *options, dyd_error *err) {
+  dyd_budget spent;
+  return dyd_ask(outcome, &spent, e, question, options, err);
+}

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* A plan: which points to narrow, and how far. A value: making one changes neither engine nor points. */
+#ifndef DYD_ENGINE_PLAN_H
+#define DYD_ENGINE_PLAN_H
+
+#include "engine/state.h"
+
+/* One point and the precision it is to be brought to; why, and the pair that this names. */
+typedef struct dyd_want {
+  uint32_t point; /* guests of the question come first, then e->point */
+  int64_t bits;
+  dyd_reason reason;
+  uint32_t i, j;
+  bool sent; /* this was asked, as a scout, before the rest of the plan (scout.c) */
+} dyd_want;
+
+/* Invariant: slot[k] is 1 + the place in item of point k, 0 where there is none; bits are more than the point was asked
+ * for, and at most o->max_bits. Once `failed` says DYD_E_NOMEM, or DYD_E_ARG for a site `missing`, nothing counts. */
+struct dyd_plan {
+  const dyd_engine *e;
+  const dyd_engine_options *o; /* defaults filled in */
+  const dyd_refinable *guest;  /* of the question */
+  size_t guests;
+  dyd_want *item;
+  size_t count, cap;
+  uint32_t *slot;
+  bool blocked; /* some point would have been in it, but was asked for max_bits before */
+  bool again;   /* the question comes again before the triangulation is brought up to date */
+  dyd_status failed;
+  uint32_t missing;
+};
+
+/* Borrows e, o and the guests. Without memory the plan is `failed`. */
+void dyd_plan_init(dyd_plan *p, const dyd_engine *e, const dyd_engine_options *o, const dyd_refinable *guest,
+                   size_t guests);
+void dyd_plan_clear(dyd_plan *p);
+/* Makes it empty, and gives back what it held. */
+void dyd_plan_empty(dyd_plan *p);
+/* Puts the wants in the order of points; dyd_plan_find may not be used after it. */
+void dyd_plan_sort(dyd_plan *p);
+
+const dyd_refinable *dyd_plan_point(const dyd_plan *p, const dyd_want *w);
+/* Can the point (NULL: a fixed site) still be asked, now or under a larger max_bits? The plan remembers the second. */
+bool dyd_plan_can_narrow(dyd_plan *p, const dyd_refinable *point);
+/* Adds a want; of several for one point the one that asks for most is kept, the first among equals. bits are cut to
+ * max_bits. */
+void dyd_plan_mark(dyd_plan *p, const dyd_refinable *point, int64_t bits, dyd_reason reason, uint32_t i, uint32_t j);
+/* The same for a reason that names no pair. */
+void dyd_plan_mark_alone(dyd_plan *p, const dyd_refinable *point, int64_t bits, dyd_reason reason);
+/* What the plan wants of a point; NULL: nothing. Borrowed until the plan changes. */
+dyd_want *dyd_plan_find(const dyd_plan *p, const dyd_refinable *point);
+/* The points never asked, for the first stage. */
+void dyd_plan_first(dyd_plan *p);
+/* announce.c: tells the sources that want to know which of their points a plan, sorted, has, in the order in which
+ * narrowing will come to them; `most` points of such sources at most. */
+void dyd_plan_announce(const dyd_plan *p, uint64_t most);
+
+/* b + by without overflow, by >= 0; at most max where b is. */
+int64_t dyd_bits_raised(int64_t b, int64_t by, int64_t max);
+/* The step from precision b to the next. */
+int64_t dyd_bits_grown(int64_t b, const dyd_engine_options *o);
+/* What guests, and points of which nothing else is known, are asked for first. */
+int64_t dyd_bits_first(const dyd_engine_options *o);
+
+#endif

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The points of an engine: finding one, asking one to narrow. */
+#ifndef DYD_ENGINE_POINTS_H
+#define DYD_ENGINE_POINTS_H
+
+#include "engine/state.h"
+
+/* The refinable point of a site, NULL when the site is fixed. O(log points). */
+const dyd_refinable *dyd_engine_find(const dyd_engine *e, uint32_t site);
+/* Brings one point, or a guest, to precision bits (2^-bits) and its site in the table with it; *calls counts calls made
+ * (0 when the point was that narrow before). On failure the site and p->bits are as before, and err names site and
+ * stage; so they are for DYD_CANCELLED, which a source returns when it saw e->stop raised. */
+dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits, int64_t max_bits,
+                             dyd_error *err);
+
+/* The request for a point of a source, with the flag that says that the answer is not wanted any more. */
+dyd_status dyd_engine_request(dyd_request *out, const dyd_refinable *p, const dyd_engine *e, int64_t bits,
+                              int64_t max_bits, dyd_error *err);
+/* Releases streams and sources. */
+void dyd_engine_clear_points(dyd_engine *e);
+void dyd_shared_source_free(dyd_shared_source *s);
+
+#endif

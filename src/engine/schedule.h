@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Which points to narrow next, and how far, where a goal does not hold. */
+#ifndef DYD_ENGINE_SCHEDULE_H
+#define DYD_ENGINE_SCHEDULE_H
+
+#include "engine/plan.h"
+#include "engine/scout.h"
+
+/* Does the goal hold for the result, which is up to date? Otherwise *plan, empty, becomes what to narrow towards it;
+ * adds to *scouts, just initialised, what may go ahead. DYD_CANCELLED when e->stop was seen. */
+dyd_status dyd_schedule_judge(bool *holds, dyd_plan *plan, dyd_scouts *scouts);
+
+#endif

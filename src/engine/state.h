@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What an engine holds, for the files of this folder:
+ *
+ *   engine.c        life, counters, results
+ *   points.c        adding points, asking one point to narrow
+ *   compose.c       points of the engine as streams
+ *   plan.c          which points to narrow, and how far: a value
+ *   ask.c           the one loop: a question, its plan, narrowing, triangulating, until it is answered
+ *   run.c           the question of a run: does the goal hold?
+ *   schedule.c      what to narrow where it does not
+ *   scout.c         a few points that go ahead of the others
+ *   coarse.c        which sites of a face are coarse for their distances
+ *   goal_voronoi.c  goals on the Voronoi diagram
+ *   nearest.c       the question after the nearest sites of a computable point
+ *   watch.c         the clock, and stopping work at a deadline
+ *   converge.c      tables of runs, stage by stage
+ *   check.c, check_stage.c  the harness of monotone refinement */
+#ifndef DYD_ENGINE_STATE_H
+#define DYD_ENGINE_STATE_H
+
+#include <dyadel/engine.h>
+
+/* A point that can be asked to narrow. Everything else about a site is in the table of sites.
+ * Invariant: stream is NULL exactly when the site belongs to a source; then `source` is the source's number.
+ * bits is the precision last asked, meaningless before the first. */
+typedef struct dyd_refinable {
+  uint32_t site, source; /* guests of a question are numbered on from the sites */
+  dyd_stream *stream;
+  int64_t bits;
+  uint64_t calls; /* how often the engine has asked it */
+  bool final;     /* no call can narrow it further */
+  bool asked;     /* has been brought to `bits` once */
+} dyd_refinable;
+
+/* A source that streams taken out of the engine use as well: released by the last of refs. */
+typedef struct dyd_shared_source {
+  size_t refs;
+  dyd_source source;
+} dyd_shared_source;
+
+/* A source and the site that is its point 0. shared: NULL until a stream is taken out; then it owns the source. */
+typedef struct dyd_source_use {
+  dyd_source source;
+  uint32_t first;
+  dyd_shared_source *shared;
+} dyd_source_use;
+
+/* Invariant: point is sorted by site; changed lists (with repeats) the sites narrowed since pd was last brought up
+ * to date; pd = NULL before the first complete stage. Sites of points never asked hold the whole plane.
+ * Only points.c and ask.c write here once the engine has been started: whoever plans or judges takes it const. */
+struct dyd_engine {
+  dyd_sites *sites;
+  dyd_refinable *point;
+  size_t points, point_cap;
+  dyd_source_use *source;
+  size_t sources, source_cap;
+  dyd_delaunay *pd;
+  uint32_t *changed;
+  size_t changes, change_cap;
+  size_t max_pairs;    /* the cap pd was last worked on with */
+  dyd_error cap_error; /* what it said when the cap was met */
+  bool started;
+  bool busy; /* the loop is at work: callbacks of any kind must not enter it again */
+  dyd_outcome outcome;
+  dyd_goal goal; /* of the last run, with goal_bits */
+  int64_t goal_bits;
+  dyd_budget spent;
+  uint64_t stages, calls;
+  double seconds;
+  volatile int cancelled; /* set by dyd_engine_cancel; atomic access only, as for stop */
+  volatile int stop;      /* set together with cancelled, and at a deadline; read by the triangulation */
+};
+
+static inline int dyd_flag_get(const volatile int *flag) {
+  return __atomic_load_n(flag, __ATOMIC_SEQ_CST);
+}
+static inline void dyd_flag_set(volatile int *flag, int value) {
+  __atomic_store_n(flag, value, __ATOMIC_SEQ_CST);
+}
+
+#endif
