@@ -230,18 +230,17 @@ typedef struct dyd_question {
  * run. Cost: the calls of the question and its plans; O(log points) for each point narrowed, a triangulation update for
  * each stage.
  *
- * Is point 0 surely left of point 1?
+ * Are points 0 and 1 surely different? (r: two rectangles, initialised.)
  *
- *     static dyd_status is_left(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
- *       double a[4], b[4]; // x and y from, to, rounded outward
- *       dyd_sites_get_d(a, dyd_engine_sites(e), 0);
- *       dyd_sites_get_d(b, dyd_engine_sites(e), 1);
- *       *answered = a[1] < b[0] || b[1] < a[0];
- *       *(bool *)user = a[1] < b[0];
- *       dyd_status st = dyd_plan_add(plan, 0, DYD_BITS_NEXT);
- *       return st == DYD_OK ? dyd_plan_add(plan, 1, DYD_BITS_NEXT) : st;
+ *     static dyd_status differ(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
+ *       dyd_rect *r = user;
+ *       dyd_status st = DYD_OK;
+ *       for (uint32_t i = 0; st == DYD_OK && i < 2; i++) st = dyd_sites_get(&r[i], dyd_engine_sites(e), i);
+ *       *answered = st == DYD_OK && !dyd_rect_meets(&r[0], &r[1]);
+ *       for (uint32_t i = 0; st == DYD_OK && i < 2; i++) st = dyd_plan_add(plan, i, DYD_BITS_NEXT);
+ *       return st;
  *     }
- *     dyd_question question = {DYD_SIZED(dyd_question), .ask = is_left, .user = &left};
+ *     const dyd_question question = {DYD_SIZED(dyd_question), .ask = differ, .user = r};
  *     dyd_status st = dyd_engine_ask(&outcome, e, &question, NULL, &err);
  */
 DYD_API dyd_status dyd_engine_ask(dyd_outcome *outcome, dyd_engine *e, const dyd_question *question,

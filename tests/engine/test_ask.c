@@ -2,6 +2,8 @@
 /* Questions of users, put to the one loop of the engine. */
 #include "engine/help.h"
 
+#include "support/failing_memory.h"
+
 #include <string.h>
 
 /* A question that compares x of sites 0 and 1, and notes how it was asked. */
@@ -554,6 +556,43 @@ static void test_before_runs(void **state) {
   }
 }
 
+/* ---- exhausted memory ---- */
+
+static dyd_status ask_and_run(dyd_engine *e) {
+  dyd_outcome outcome = DYD_OUTCOME_NONE;
+  left q = {.bits = 100};
+  const dyd_question question = {DYD_SIZED(dyd_question), .ask = ask_left, .user = &q};
+  dyd_engine_options o = options();
+  dyd_status st = dyd_engine_ask(&outcome, e, &question, &o, NULL);
+  if (st == DYD_OK) st = dyd_engine_run(&outcome, e, &o, NULL);
+  assert_int_equal(st != DYD_OK, outcome == DYD_OUTCOME_ERROR);
+  return st;
+}
+
+/* An allocation fails, for every k or so the k-th: an error code, no leak (under a leak checker), and all goes on from
+ * there. Eight crossing pairs make scouts go ahead. */
+static void test_memory(void **state) {
+  (void)state;
+  bool over = false;
+  const int weight[12] = {3, 17, 5, 40, 1, 22, 9, 31, 12, 2, 27, 14};
+  dyd_engine *whole = engine_new();
+  engine_add_polygon(whole, 12, weight, 80);
+  assert_int_equal(DYD_OK, ask_and_run(whole));
+  for (size_t k = 1; !over; k += 1 + k / 32) {
+    dyd_engine *e = engine_new();
+    engine_add_polygon(e, 12, weight, 80);
+    countdown = k;
+    dyd_status st = ask_and_run(e);
+    over = countdown > 0;
+    countdown = 0;
+    assert_true(st == DYD_OK || st == DYD_E_NOMEM);
+    engine_run(e, NULL, DYD_OUTCOME_DECIDED);
+    assert_same_statuses(whole, e);
+    dyd_engine_free(e);
+  }
+  dyd_engine_free(whole);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_answered),     cmocka_unit_test(test_fixpoint),      cmocka_unit_test(test_bits),
@@ -561,7 +600,7 @@ int main(void) {
       cmocka_unit_test(test_seconds),      cmocka_unit_test(test_cancel),        cmocka_unit_test(test_cancel_inside),
       cmocka_unit_test(test_no_such_site), cmocka_unit_test(test_errors),        cmocka_unit_test(test_entering),
       cmocka_unit_test(test_guests),       cmocka_unit_test(test_triangulation), cmocka_unit_test(test_pairs),
-      cmocka_unit_test(test_before_runs),
+      cmocka_unit_test(test_before_runs),  cmocka_unit_test(test_memory),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
