@@ -159,7 +159,10 @@ static void check_incircle(bed *b, const uint32_t *v) {
 static void check_bed(bed *b) {
   bed_make(b);
   for (int round = 0; round < 3; round++) {
-    if (round == 1) dyd_fixed_prepare(&b->m);
+    if (round == 1) {
+      b->m.no_fixed = false;
+      dyd_fixed_prepare(&b->m);
+    }
     if (round == 2) dyd_mesh_trim(&b->m);
     for (int k = 0; k < 8; k++) {
       uint32_t v[POINTS];
