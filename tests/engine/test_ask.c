@@ -260,7 +260,7 @@ static void test_cancel_inside(void **state) {
     dyd_source source = faulty_source(&f);
     dyd_engine *e = engine_new();
     f.cancel = e;
-    assert_int_equal(DYD_OK, dyd_engine_add_source(e, 2, &source));
+    assert_int_equal(DYD_OK, dyd_engine_add_source(e, 2, &source, NULL));
     dyd_engine_options o = options();
     o.start_bits = -2;
     left q = {.bits = DYD_BITS_NEXT};
@@ -353,12 +353,12 @@ static void enter_from_within(dyd_engine *e) {
   assert_int_equal(DYD_E_ARG, dyd_engine_add_points(e, 1, &x, &x));
 }
 
-static void enter_from_progress(const dyd_progress *p, void *user) {
+static void enter_from_progress(void *user, const dyd_progress *p) {
   (void)p;
   enter_from_within(user);
 }
 
-static void enter_from_trace(const dyd_step *step, void *user) {
+static void enter_from_trace(void *user, const dyd_step *step) {
   (void)step;
   enter_from_within(user);
 }
@@ -383,8 +383,8 @@ static void test_entering(void **state) {
   assert_int_equal(6, q.asked);
   dyd_engine_free(e);
   e = engine_new();
-  const dyd_source source = {.narrow = enter_from_source, .user = e};
-  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 3, &source));
+  const dyd_source source = {DYD_SIZED(dyd_source), .narrow = enter_from_source, .user = e};
+  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 3, &source, NULL));
   engine_add_text(e, "sqrt(2)", "sqrt(3)");
   dyd_engine_options o = options();
   o.progress = enter_from_progress;
@@ -400,7 +400,7 @@ static void test_entering(void **state) {
 
 /* ---- guests ---- */
 
-static void count_step(const dyd_step *step, void *user) {
+static void count_step(void *user, const dyd_step *step) {
   unsigned *count = user;
   assert_int_equal(0, step->site);
   assert_int_equal(DYD_REASON_QUESTION, step->reason);
@@ -464,7 +464,7 @@ static dyd_status ask_pairs(bool *answered, dyd_plan *plan, const dyd_engine *e,
   return st;
 }
 
-static void count_stage(const dyd_progress *p, void *user) {
+static void count_stage(void *user, const dyd_progress *p) {
   assert_int_equal(++*(uint64_t *)user, p->stage);
 }
 
