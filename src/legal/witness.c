@@ -20,7 +20,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MAX_RIVALS = 12, MAX_STEPS = 400 };
+enum { MAX_RIVALS = 12, LEAST_STEPS = 48, MAX_STEPS = 400, STEP_BITS = 1 << 17 };
 
 /* Invariant: `rivals` counts those seen so far who violate the present c; ended: there is no witness, or no room for
  * more half-planes, or c is only asked about and violated. */
@@ -103,11 +103,18 @@ static dyd_status witness_set_start(dyd_point *c, const dyd_skeleton *sk, uint32
   return st == DYD_OK ? dyd_dyadic_set_d(&c->y, guess.y) : st;
 }
 
+/* How many steps are made: fewer where the ends of rectangles span many bits, since each then takes longer. */
+static int64_t witness_steps(const dyd_plane_list *l) {
+  int64_t span = l->top - l->low;
+  return span > STEP_BITS / (MAX_STEPS - LEAST_STEPS) ? LEAST_STEPS + STEP_BITS / span : MAX_STEPS;
+}
+
 /* Ends with no rivals (a witness), or with some (none, the floor, or too many steps). */
 static void witness_search_run(search *s) {
   bool room = true;
   witness_evaluate(s);
-  for (int step = 0; step < MAX_STEPS && s->status == DYD_OK && s->rivals && !s->ended && room; step++) {
+  for (int step = 0; s->status == DYD_OK && s->rivals && !s->ended && room; step++) {
+    if (step >= witness_steps(s->planes)) break;
     s->status = dyd_planes_centre(&room, &s->c, s->planes);
     if (s->status == DYD_OK && room) witness_evaluate(s);
   }

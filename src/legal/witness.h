@@ -9,9 +9,10 @@
  * *found: a witness was found and checked exactly against every site; c (may be NULL) is set to it.
  * Not found: half-planes that hold all witnesses have no common point (in doubles by a margin of 1e-9 of the distances
  * that bound it, else exactly), or the floor is met: every disc of witnesses has a radius below 2^-120 unit^2 / size
- * (ends of the rectangles met being multiples of unit, below size), or 400 exact steps or 1020 half-planes gave no
- * answer. across (may be NULL): two vertices on either side of ij; when one circle meets all four rectangles, there is
- * no witness, and none is looked for where doubles do not tell [WIT-QUAD]. */
+ * (ends of the rectangles met being multiples of unit, below size), or the exact search gave no answer in 48 + 2^17
+ * / log2(size / unit) steps, at most 400, or with 1020 half-planes. across (may be NULL): two vertices on either side
+ * of ij; when one circle meets all four rectangles, there is no witness, and none is looked for where doubles do not
+ * tell [WIT-QUAD]. */
 dyd_status dyd_witness_search(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
                               dyd_xy guess, const uint32_t across[2]);
 /* A witness far out, for a pair on the hull: found whenever all centres far enough in some direction are witnesses. */
