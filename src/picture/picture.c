@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "io/decimal.h"
-#include "picture/plot.h"
+#include "picture/panel.h"
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <errno.h>

@@ -4,7 +4,7 @@
  * Doubles follow the curve of the centres with ds_i = ds_j from one end to the other: from a blocker's interval to the
  * next one that overlaps it, with a point in each overlap. Rounding errors only make the search fail: what it finds is
  * shortened and kept if the exact checker takes it. */
-#include "prove/certificate.h"
+#include "prove/proof.h"
 #include <math.h>
 
 #define STEPS 16  /* bisections along the curve */

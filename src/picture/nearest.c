@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "io/pieces.h"
 #include "picture/picture.h"
-#include "picture/plot.h"
+#include "picture/panel.h"
 #include <math.h>
 
 #define FREE 0xcfe4f3

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Plots of series against stages on logarithmic scales, drawn with cairo. Lengths in points, y downward. */
-#ifndef DYD_PICTURE_PLOT_H
-#define DYD_PICTURE_PLOT_H
+#ifndef DYD_PICTURE_PANEL_H
+#define DYD_PICTURE_PANEL_H
 
 #include <cairo.h>
 #include <dyadel/converge.h>

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "io/diagram.h"
 #include "picture/picture.h"
-#include "picture/plot.h"
+#include "picture/panel.h"
 #include <math.h>
 
 /* Blues that neighbours rarely share; light, so that grey copies show the darker band between them. */

@@ -4,7 +4,7 @@
  * Blockers are looked for first among those of the pairs just before with the same site i, as a few sites round i block
  * most others; then among the sites of the set and the neighbours of the two; then among all. */
 #include "base/alloc.h"
-#include "prove/certificate.h"
+#include "prove/proof.h"
 #include <inttypes.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What the writer of certificates gathers: the sites and proofs in the form that the checker takes. */
-#ifndef DYD_PROVE_CERTIFICATE_H
-#define DYD_PROVE_CERTIFICATE_H
+#ifndef DYD_PROVE_PROOF_H
+#define DYD_PROVE_PROOF_H
 
 #include "checker/chain.h"
 #include "checker/faces.h"

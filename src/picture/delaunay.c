@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "io/result.h"
 #include "picture/picture.h"
-#include "picture/plot.h"
+#include "picture/panel.h"
 #include <math.h>
 #include <stdlib.h>
 

@@ -6,7 +6,7 @@
 #include "base/alloc.h"
 #include "checker/check.h"
 #include "metric/voronoi_bounds.h"
-#include "prove/certificate.h"
+#include "prove/proof.h"
 #include <inttypes.h>
 
 typedef struct section {

@@ -5,7 +5,7 @@
  * edges), and they do not cross legal edges, which are strictly Delaunay for these points too. So the triangulation
  * of the places, computed as of exact points, has bridges enough, each with a witness. */
 #include "base/alloc.h"
-#include "prove/certificate.h"
+#include "prove/proof.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 /* The plot of a table of convergence: bounds and counts against stages, logarithmic, as svg, pdf or png. */
 #include "base/error.h"
 #include "picture/picture.h"
-#include "picture/plot.h"
+#include "picture/panel.h"
 #include <dyadel/io.h>
 #include <errno.h>
 #include <math.h>

@@ -5,7 +5,7 @@
  * span a cone, and a direction at an obtuse angle to both of its sides will do. Integers only. */
 #include "base/alloc.h"
 #include "checker/parts.h"
-#include "prove/certificate.h"
+#include "prove/proof.h"
 
 #include <string.h>
 

@@ -8,7 +8,7 @@
 #include "io/exact_text.h"
 #include "io/pieces.h"
 #include "picture/picture.h"
-#include "picture/plot.h"
+#include "picture/panel.h"
 #include <math.h>
 
 #define CURVE 0x0072b2

@@ -8,7 +8,7 @@
 #include "io/exact_text.h"
 #include "io/pieces.h"
 #include "picture/picture.h"
-#include "picture/plot.h"
+#include "picture/panel.h"
 #include <math.h>
 
 enum { CIRCLES = 6, ONCE = 3, WHITE = 0xffffff };

@@ -5,7 +5,7 @@
  * unproved. */
 #include "base/alloc.h"
 #include "base/error.h"
-#include "prove/certificate.h"
+#include "prove/proof.h"
 #include "voronoi/shape.h"
 #include <dyadel/certificate.h>
 #include <errno.h>

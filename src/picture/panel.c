@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* One panel of a plot: frame, ticks, curves, legend. */
-#include "picture/plot.h"
+#include "picture/panel.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 /* Sites and witnesses in the form that the checker of certificates takes; witnesses shortened; numbers as they are
  * written. */
 #include "base/alloc.h"
-#include "prove/certificate.h"
+#include "prove/proof.h"
 #include <inttypes.h>
 
 static void copy(dyd_exact *out, const dyd_dyadic *x) {
