@@ -72,6 +72,8 @@ DYD_API dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const 
 /* Every coordinate form of the points file: decimal, rational, hexadecimal float, dyadic, [lo,hi],
  * value+-radius, expression, root(polynomial,lo,hi). On DYD_E_PARSE err has the column (from 1). */
 DYD_API dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_error *err);
+/* The exact value of a text of these forms, where it is a rational number: DYD_E_PARSE where it is not. */
+DYD_API dyd_status dyd_real_parse_exact(mpq_t out, const char *text, size_t length);
 /* The interval [value - radius, value + radius] around any real, at every precision; takes over x. */
 DYD_API dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius);
 /* The root in [lo,hi] of the polynomial sum coeff[k] x^k, degree = count - 1, that has opposite signs at lo and hi. */

@@ -87,17 +87,7 @@ static int read_schedule(given_moves *s, dyd_check_options *o, const char *name)
 /* ---- the report ---- */
 
 static dyd_status print_report(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  const dyd_check_report *r = what;
-  (void)err;
-  bool json = o->format == DYD_FORMAT_JSON;
-  const char *form = json ? "{\"fault\": \"%s\", \"schedules\": %" PRIu64 ", \"stages\": %" PRIu64
-                            ", \"pairs\": %" PRIu64 ", \"cells\": %" PRIu64 ", \"floors\": %" PRIu64
-                            ", \"seed\": %" PRIu64 ", \"moves\": %zu}\n"
-                          : "fault,schedules,stages,pairs,cells,floors,seed,moves\n%s,%" PRIu64 ",%" PRIu64 ",%" PRIu64
-                            ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%zu\n";
-  fprintf(out, form, dyd_check_fault_text(r->fault), r->schedules, r->stages, r->pairs, r->cells, r->floors, r->seed,
-          r->moves);
-  return DYD_OK;
+  return dyd_write_check(out, what, o->format, err);
 }
 
 static int tell(const dyd_check_report *r, const cli_options *o) {

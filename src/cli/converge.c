@@ -8,17 +8,15 @@ static dyd_status print_table(FILE *out, const void *what, const cli_options *o,
   return dyd_write_convergence(out, what, o->format, !o->no_times, err);
 }
 
-/* svg, pdf or png, from the name of the plot's file; NULL when it is none of these. */
-static const char *plot_kind(const char *name) {
-  static const char *const kind[] = {"svg", "pdf", "png"};
-  const char *dot = strrchr(name, '.');
-  for (int k = 0; dot && k < 3; k++)
-    if (strcmp(dot + 1, kind[k]) == 0) return kind[k];
-  return NULL;
+/* By the name of the plot's file; false when no format of that ending holds a plot. */
+static bool plot_format(dyd_format *out, const char *name) {
+  return dyd_format_from_file(out, name) && dyd_format_holds(*out, DYD_CONTENT_PLOT);
 }
 
 static dyd_status print_plot(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  return dyd_plot_convergence(out, what, plot_kind(o->plot), err);
+  dyd_format format = o->format;
+  plot_format(&format, o->plot);
+  return dyd_plot_convergence(out, what, format, err);
 }
 
 /* Table and plot, as far as they were made. */
@@ -65,9 +63,8 @@ static int run_traced(run *r, cli_session *s, const dyd_engine_options *options)
   cli_output out;
   if (!cli_output_open(&out, r->o->trace)) return CLI_FAILED;
   if (dyd_trace_new(&r->trace, out.stream, s->engine, options, &r->converge) < 0) {
-    cli_complain("memory is exhausted; close other programs");
     cli_output_drop(&out);
-    return CLI_FAILED;
+    return cli_complain_memory();
   }
   int status = cli_session_run_by(s, options, run_table, r), ended = end_trace(r, &out);
   return status ? status : ended;
@@ -118,7 +115,8 @@ static int replay(const cli_options *o) {
 }
 
 int cli_converge(const cli_options *o) {
-  if (o->plot && !plot_kind(o->plot)) {
+  dyd_format format;
+  if (o->plot && !plot_format(&format, o->plot)) {
     cli_complain("--plot \"%s\" does not say what kind of picture is wanted; end it in .svg, .pdf or .png", o->plot);
     return CLI_USAGE;
   }

@@ -37,7 +37,7 @@ static void bash_value(FILE *out, const cli_option *o) {
     for (size_t c = 0; c < CLI_COMMANDS; c++) {
       if (!cli_commands[c].run) continue;
       fprintf(out, "      %s) words='", cli_commands[c].name);
-      cli_formats_print(out, cli_commands[c].formats, " ", false);
+      cli_formats_print(out, cli_formats_of(cli_command_bit(&cli_commands[c])), " ", false);
       fputs("' ;;\n", out);
     }
     fputs("      *) words='", out);
@@ -112,7 +112,7 @@ static void zsh_text(FILE *out, const char *t) {
   }
 }
 
-static void zsh_option(FILE *out, const cli_option *o, unsigned formats) {
+static void zsh_option(FILE *out, const cli_option *o, const cli_command *c) {
   fputs("      ", out);
   if (o->letter)
     fprintf(out, "'(-%c --%s)'{-%c%s,--%s%s}'", o->letter, o->name, o->letter,
@@ -128,7 +128,7 @@ static void zsh_option(FILE *out, const cli_option *o, unsigned formats) {
   if (o->kind == CLI_GOAL) fputs("(decided area\\: hausdorff\\:)", out);
   if (o->kind == CLI_FORMAT) {
     fputs("(", out);
-    cli_formats_print(out, formats, " ", false);
+    cli_formats_print(out, cli_formats_of(cli_command_bit(c)), " ", false);
     fputs(")", out);
   }
   fputs("'\n", out);
@@ -137,7 +137,7 @@ static void zsh_option(FILE *out, const cli_option *o, unsigned formats) {
 static void zsh_command(FILE *out, const cli_command *c) {
   fprintf(out, "    %s) options=(\n", c->name);
   for (size_t k = 0; k < cli_option_count; k++)
-    if (cli_option_exists(&cli_option_table[k], cli_command_bit(c))) zsh_option(out, &cli_option_table[k], c->formats);
+    if (cli_option_exists(&cli_option_table[k], cli_command_bit(c))) zsh_option(out, &cli_option_table[k], c);
   fputs("      '1:file:_files'\n      '*:number:'\n      ) ;;\n", out);
 }
 

@@ -109,14 +109,11 @@ static void commands(FILE *out) {
   fputs(".El\n", out);
 }
 
-/* Notes on the formats that there are. */
 static void formats(FILE *out) {
   fputs(".Bl -tag -width Ds\n", out);
-  for (const cli_term *t = cli_format_notes; t->term; t++) {
-    dyd_format format;
-    if (!dyd_format_from_name(&format, t->term)) continue;
-    fprintf(out, ".It Cm %s\n", t->term);
-    text(out, t->meaning);
+  for (unsigned f = 0; dyd_format_name((dyd_format)f); f++) {
+    fprintf(out, ".It Cm %s\n", dyd_format_name((dyd_format)f));
+    text(out, dyd_format_about((dyd_format)f));
   }
   fputs(".El\n", out);
 }

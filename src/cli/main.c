@@ -2,17 +2,7 @@
 /* The command dyadel: finds out what is asked and does it. */
 #include "table.h"
 #include <signal.h>
-#include <stdarg.h>
 #include <string.h>
-
-void cli_complain(const char *format, ...) {
-  va_list args;
-  va_start(args, format);
-  fputs("dyadel: ", stderr);
-  vfprintf(stderr, format, args);
-  fputs("\n", stderr);
-  va_end(args);
-}
 
 static int flush_output(void) {
   if (fflush(stdout) == 0 && !ferror(stdout)) return CLI_OK;

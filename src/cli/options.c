@@ -134,9 +134,9 @@ static int check_options(const cli_options *o, uint64_t seen, const cli_command 
     cli_complain("--replay takes points and options from the trace; leave --%s away", cli_option_table[k].name);
     return CLI_USAGE;
   }
-  if (!o->format_set || c->formats >> o->format & 1) return 0;
+  if (!o->format_set || dyd_format_holds(o->format, c->content)) return 0;
   fprintf(stderr, "dyadel: %s does not write %s; give ", c->name, dyd_format_name(o->format));
-  cli_formats_print(stderr, c->formats, ", ", false);
+  cli_formats_print(stderr, cli_formats_of(cli_command_bit(c)), ", ", false);
   fputs("\n", stderr);
   return CLI_USAGE;
 }
@@ -182,10 +182,7 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   if (!c) return unknown_command(s.operand[0]);
   out->command = c->name;
   if (out->help || out->version) return 0;
-  for (unsigned f = 0; !out->format_set && c->formats >> f; f++) {
-    out->format = (dyd_format)f;
-    if (c->formats >> f & 1) break;
-  }
+  while (!out->format_set && dyd_format_name(out->format) && !dyd_format_holds(out->format, c->content)) out->format++;
   status = check_options(out, s.seen, c);
   return status ? status : place_operands(out, &s, c);
 }

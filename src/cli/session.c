@@ -6,17 +6,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-void cli_complain_at(const char *file, const dyd_error *err) {
-  char point[40] = "";
-  if (err->point != DYD_NO_POINT) snprintf(point, sizeof point, "point %zu: ", err->point);
-  if (!file)
-    cli_complain("%s%s", point, err->message);
-  else if (err->line)
-    cli_complain("%s:%zu:%zu: %s%s", file, err->line, err->column, point, err->message);
-  else
-    cli_complain("%s: %s%s", file, point, err->message);
-}
-
 /* ---- reading ---- */
 
 static int read_file(dyd_engine *e, const cli_options *o) {
@@ -49,10 +38,7 @@ int cli_points_read(dyd_engine *e, const cli_options *o) {
 
 int cli_session_open(cli_session *s, const cli_options *o) {
   *s = (cli_session){.options = o, .begun = cli_clock()};
-  if (dyd_engine_new(&s->engine) < 0) {
-    cli_complain("memory is exhausted; close other programs");
-    return CLI_FAILED;
-  }
+  if (dyd_engine_new(&s->engine) != DYD_OK) return cli_complain_memory();
   s->progress = cli_progress_start(o->quiet);
   cli_progress_phase(s->progress, "reading");
   return cli_points_read(s->engine, o);

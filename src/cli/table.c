@@ -7,9 +7,7 @@
 #include "table.h"
 #include <string.h>
 
-#define BIT(command) (1u << (command))
-#define FORMAT(format) (1u << (format))
-#define PICTURES (FORMAT(DYD_FORMAT_SVG) | FORMAT(DYD_FORMAT_PDF) | FORMAT(DYD_FORMAT_PNG))
+#define BIT(number) (1u << (number))
 #define AT(field) .offset = offsetof(cli_options, field), .width = sizeof(((cli_options *)0)->field)
 #define RANGE(low, high) .least = (low), .most = (high)
 #define GIVEN(field) .given = offsetof(cli_options, field)
@@ -27,48 +25,44 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                       "Delaunay triangulation of the points. A pair is legal (an edge whatever the points\n"
                       "in the rectangles are), indeterminate (an edge for some choice), a tie (as\n"
                       "indeterminate, but no refinement can decide it), or not listed (never an edge).",
-                      FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | FORMAT(DYD_FORMAT_WKT) |
-                          FORMAT(DYD_FORMAT_GEOJSON) | FORMAT(DYD_FORMAT_OBJ) | FORMAT(DYD_FORMAT_VTK) | PICTURES,
-                      cli_delaunay},
+                      DYD_CONTENT_DELAUNAY, cli_delaunay},
     [CLI_VORONOI] = {"voronoi", "FILE", "the cells of the points on a window, with certified bounds",
                      "Voronoi diagram of the points on a window: for each point the part of the window that\n"
                      "is surely and the part that is possibly nearest to it, the vertices that are sure with\n"
                      "enclosures, and bounds of what is undetermined. The goals area:M and hausdorff:M of\n"
                      "--until are those of the diagram.",
-                     FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | FORMAT(DYD_FORMAT_WKT) |
-                         FORMAT(DYD_FORMAT_GEOJSON) | FORMAT(DYD_FORMAT_VTK) | PICTURES,
-                     cli_voronoi},
+                     DYD_CONTENT_VORONOI, cli_voronoi},
     [CLI_CONVERGE] = {"converge", "FILE", "a run stage by stage, as a table",
                       "The run of delaunay, with one line for each stage: precision asked for, widths,\n"
                       "statuses, bounds of what is open, decisions, calls of points, seconds. The first\n"
                       "stage asks for 4 bits, unless told otherwise.",
-                      FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_converge},
+                      DYD_CONTENT_CONVERGENCE, cli_converge},
     [CLI_CHECK] = {"check", "FILE", "try random refinement schedules, and look for broken promises",
                    "Runs random refinement schedules over the points and checks, after each stage, that\n"
                    "rectangles are nested and shrink as asked, that no status is retracted, that cells only\n"
                    "grow, that the way to the rectangles does not matter, and that random choices of points\n"
                    "agree. A fault is shown by the shortest schedule found, which --trace writes and --replay\n"
                    "repeats. Exit status 0: no fault; 1: a fault.",
-                   FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_check},
+                   DYD_CONTENT_CHECK, cli_check},
     [CLI_VERIFY] = {"verify", "CERT", "check a certificate, in integers, without the engine",
                     "Checks a certificate that --certificate wrote, and says what it checked and what not.\n"
                     "Exit status 0: accepted; 1: rejected, with the line and the reason.",
-                    0, cli_verify},
+                    DYD_CONTENT_NONE, cli_verify},
     [CLI_DISC] = {"disc", "FILE", "the partial disc of the first three points, and where the others are",
                   "The six critical circles of the first three points, exactly, the box of all centres\n"
                   "of circles through them, and for each other point whether it is surely inside or\n"
                   "outside of all these circles. Points are refined until that is known.",
-                  FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | PICTURES, cli_disc},
+                  DYD_CONTENT_DISC, cli_disc},
     [CLI_BISECTOR] = {"bisector", "FILE", "the partial bisector of the first two points",
                       "The two curves that bound what is surely nearer to the one point, and to the other:\n"
                       "each a chain of at most seven arcs of lines and parabolas, with exact ends. The\n"
                       "points are refined until their rectangles are disjoint.",
-                      FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | PICTURES, cli_bisector},
+                      DYD_CONTENT_BISECTOR, cli_bisector},
     [CLI_NEAREST] = {"nearest", "FILE X Y", "which points are surely, which are possibly nearest to a place",
                      "The points that are nearest to the place (X,Y), coordinates of any form: sure when\n"
                      "exactly one is, whatever the points in the rectangles are; possible otherwise. The\n"
                      "place and the points concerned are refined until one is sure.",
-                     FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | PICTURES, cli_nearest},
+                     DYD_CONTENT_NEAREST, cli_nearest},
 };
 
 const char *const cli_group_names[CLI_GROUPS] = {[CLI_INPUT] = "Input",
@@ -173,14 +167,15 @@ unsigned cli_command_bit(const cli_command *c) {
 unsigned cli_formats_of(unsigned commands) {
   unsigned formats = 0;
   for (unsigned c = 0; c < CLI_COMMANDS; c++)
-    if (commands & BIT(c) && cli_commands[c].run) formats |= cli_commands[c].formats;
+    for (unsigned f = 0; commands & cli_existing() & BIT(c) && dyd_format_name((dyd_format)f); f++)
+      if (dyd_format_holds((dyd_format)f, cli_commands[c].content)) formats |= BIT(f);
   return formats;
 }
 
 void cli_formats_print(FILE *out, unsigned formats, const char *separator, bool mark) {
   bool first = true;
   for (unsigned f = 0; dyd_format_name((dyd_format)f); f++) {
-    if (!(formats & FORMAT(f))) continue;
+    if (!(formats & BIT(f))) continue;
     fprintf(out, "%s%s%s", first ? "" : separator, dyd_format_name((dyd_format)f), first && mark ? " (default)" : "");
     first = false;
   }

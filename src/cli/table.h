@@ -54,7 +54,7 @@ typedef struct cli_command {
   const char *operands; /* "FILE", "FILE X Y", "CERT" */
   const char *line;     /* what it does, in a line without a full stop */
   const char *about;    /* a paragraph or more for its help and the manual page, lines of at most 79 characters */
-  unsigned formats;     /* the set of formats (dyd_format) it writes; the lowest is the default */
+  dyd_content content;  /* what it writes; the first format that holds it is the default */
   int (*run)(const cli_options *o);
 } cli_command;
 
@@ -67,7 +67,7 @@ extern const char *const cli_group_names[CLI_GROUPS];
 typedef struct cli_term {
   const char *term, *meaning;
 } cli_term;
-extern const cli_term cli_exit_statuses[], cli_coordinate_forms[], cli_format_notes[], cli_examples[];
+extern const cli_term cli_exit_statuses[], cli_coordinate_forms[], cli_examples[];
 extern const char cli_summary[], cli_file_text[];
 /* Day of the last change of these texts, as the manual page shows it. */
 #define CLI_MANUAL_DATE "November 21, 2026"

@@ -74,56 +74,6 @@ static bool read_format(dyd_format *place, const cli_option *option, const char 
   return false;
 }
 
-/* ---- windows ---- */
-
-/* The exact number text[0..length), which may be an expression with a rational value. */
-static bool read_number(mpq_t out, const char *text, size_t length) {
-  dyd_real *real = NULL;
-  if (dyd_real_parse(&real, text, length, NULL) < 0) return false;
-  bool exact = dyd_real_is_final(real) && dyd_interval_is_point(dyd_real_interval(real));
-  if (exact) dyd_interval_get_q(out, out, dyd_real_interval(real));
-  dyd_real_free(real);
-  return exact;
-}
-
-/* Splits at the commas outside parentheses; true when there are exactly four numbers. */
-static bool read_four(mpq_t end[4], const char *text) {
-  size_t k = 0;
-  int depth = 0;
-  for (const char *from = text, *at = text;; at++) {
-    depth += (*at == '(') - (*at == ')');
-    if (*at && (*at != ',' || depth)) continue;
-    if (k == 4 || !read_number(end[k++], from, (size_t)(at - from))) return false;
-    if (!*at) return k == 4;
-    from = at + 1;
-  }
-}
-
-static bool set_side(dyd_interval *out, const mpq_t lo, const mpq_t hi) {
-  dyd_real *real = NULL;
-  if (dyd_real_from_interval(&real, lo, hi) < 0) return false;
-  dyd_interval_set(out, dyd_real_interval(real));
-  dyd_real_free(real);
-  return true;
-}
-
-bool cli_window_read(dyd_rect *out, const char *text) {
-  const char *wrong = NULL;
-  mpq_t end[4];
-  for (int k = 0; k < 4; k++) mpq_init(end[k]);
-  if (!read_four(end, text))
-    wrong = "is not four exact numbers; give XLO,XHI,YLO,YHI such as -1,2.5,0,1/3";
-  else if (mpq_cmp(end[0], end[1]) > 0 || mpq_cmp(end[2], end[3]) > 0)
-    wrong = "has its ends in the wrong order; give the lower end of x, the upper end of x, then those of y";
-  else if (mpq_equal(end[0], end[1]) || mpq_equal(end[2], end[3]))
-    wrong = "has no area; give XLO < XHI and YLO < YHI";
-  else if (!set_side(&out->x, end[0], end[1]) || !set_side(&out->y, end[2], end[3]))
-    wrong = "lies beyond the range of numbers; give smaller ones";
-  for (int k = 0; k < 4; k++) mpq_clear(end[k]);
-  if (wrong) cli_complain("--window \"%s\" %s", text, wrong);
-  return !wrong;
-}
-
 static bool check_window(const char *text) {
   dyd_rect window;
   dyd_rect_init(&window);

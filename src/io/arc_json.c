@@ -3,7 +3,7 @@
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "io/arc_json.h"
 
-#include "io/decimal.h"
+#include "io/parts.h"
 #include "voronoi/surd_point.h"
 #include <stdlib.h>
 
@@ -11,14 +11,11 @@ const char *const dyd_feature_names[8] = {"x0y0", "x1y0", "x0y1", "x1y1", "x0", 
 const char *const dyd_arc_names[3] = {"line", "parabola", "window"};
 const char *const dyd_end_names[5] = {"infinite", "sites", "axis", "feature", "window"};
 
-static void put_interval(FILE *out, const char *name, const dyd_interval *a) {
+static void decimal_side_json(FILE *out, const char *name, const dyd_interval *a) {
   double lo, hi;
   dyd_interval_get_d(&lo, &hi, a);
-  fprintf(out, ", \"%s_decimal\": [", name);
-  dyd_decimal_json(out, lo, DYD_DOWN);
-  fputs(", ", out);
-  dyd_decimal_json(out, hi, DYD_UP);
-  fputs("]", out);
+  fprintf(out, ", \"%s_decimal\": ", name);
+  dyd_json_decimals(out, lo, hi);
 }
 
 dyd_status dyd_surd_point_json(FILE *out, const dyd_surd_point *p) {
@@ -30,8 +27,8 @@ dyd_status dyd_surd_point_json(FILE *out, const dyd_surd_point *p) {
   dyd_rect_init(&r);
   dyd_status status = dyd_surd_point_enclose(&r, p, 64);
   if (status >= 0) {
-    put_interval(out, "x", &r.x);
-    put_interval(out, "y", &r.y);
+    decimal_side_json(out, "x", &r.x);
+    decimal_side_json(out, "y", &r.y);
   }
   fputs("}", out);
   dyd_rect_clear(&r);
@@ -78,7 +75,7 @@ static dyd_status find_text(const char **out, dyd_point_texts *t, const dyd_surd
 
 /* ---- arcs ---- */
 
-static dyd_status put_end(FILE *out, const char *name, const dyd_arc_end *end, dyd_point_texts *texts) {
+static dyd_status arc_end_json(FILE *out, const char *name, const dyd_arc_end *end, dyd_point_texts *texts) {
   fprintf(out, ",\n  \"%s\": {\"kind\": \"%s\"", name, dyd_end_names[end->kind]);
   dyd_status status = DYD_OK;
   if (end->kind == DYD_END_SITES) fprintf(out, ", \"site\": %u", (unsigned)end->site);
@@ -92,13 +89,13 @@ static dyd_status put_end(FILE *out, const char *name, const dyd_arc_end *end, d
   return status;
 }
 
-static dyd_status put_arc(FILE *out, const dyd_arc *arc, dyd_point_texts *texts) {
+static dyd_status arc_json(FILE *out, const dyd_arc *arc, dyd_point_texts *texts) {
   fprintf(out, "\n {\"kind\": \"%s\"", dyd_arc_names[arc->kind]);
   if (arc->kind != DYD_ARC_WINDOW)
     fprintf(out, ", \"far\": %u, \"corner\": \"%s\", \"near\": %u, \"feature\": \"%s\"", (unsigned)arc->far_site,
             dyd_feature_names[arc->corner], (unsigned)arc->near_site, dyd_feature_names[arc->feature]);
-  dyd_status status = put_end(out, "begin", &arc->begin, texts);
-  if (status >= 0) status = put_end(out, "end", &arc->end, texts);
+  dyd_status status = arc_end_json(out, "begin", &arc->begin, texts);
+  if (status >= 0) status = arc_end_json(out, "end", &arc->end, texts);
   fputs("}", out);
   return status;
 }
@@ -110,7 +107,7 @@ dyd_status dyd_boundary_json(FILE *out, const dyd_boundary *b, dyd_point_texts *
     fprintf(out, "%s{\"closed\": %s, \"arcs\": [", k ? ", " : "", b->chain[k].closed ? "true" : "false");
     for (size_t a = 0; a < b->chain[k].count && status >= 0; a++) {
       if (a) fputs(",", out);
-      status = put_arc(out, &b->chain[k].arc[a], texts);
+      status = arc_json(out, &b->chain[k].arc[a], texts);
     }
     fputs("]}", out);
   }

@@ -60,12 +60,11 @@ static bool get_word(int *out, const json_t *line, const char *name, const char 
 
 /* An exact point; any form that the writer uses for rationals. */
 static bool get_exact(dyd_interval *out, const char *text) {
-  dyd_real *real = NULL;
-  if (dyd_real_parse(&real, text, strlen(text), NULL) < 0) return false;
-  bool exact = dyd_real_is_final(real) && dyd_interval_is_point(dyd_real_interval(real));
-  if (exact) dyd_interval_set(out, dyd_real_interval(real));
-  dyd_real_free(real);
-  return exact;
+  mpq_t value;
+  mpq_init(value);
+  bool good = dyd_real_parse_exact(value, text, strlen(text)) == DYD_OK && dyd_interval_set_q(out, value) == DYD_OK;
+  mpq_clear(value);
+  return good;
 }
 
 static bool get_side(dyd_interval *out, const json_t *line, const char *name) {

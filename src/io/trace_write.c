@@ -4,11 +4,12 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "io/decimal.h"
+#include "io/output.h"
+#include "io/parts.h"
 #include "io/trace.h"
 #include <dyadel/io.h>
-#include <errno.h>
 #include <inttypes.h>
-#include <string.h>
+#include <stdlib.h>
 
 const char *const dyd_trace_goal[DYD_TRACE_GOALS] = {
     [DYD_GOAL_DECIDED] = "decided", [DYD_GOAL_AREA] = "area", [DYD_GOAL_HAUSDORFF] = "hausdorff"};
@@ -23,19 +24,6 @@ struct dyd_trace {
   dyd_status failed;
 };
 
-static dyd_status write_window(FILE *out, const dyd_rect *w) {
-  fputs(",\"window\":[", out);
-  const dyd_dyadic *end[] = {&w->x.lo, &w->x.hi, &w->y.lo, &w->y.hi};
-  for (int k = 0; k < 4; k++) {
-    char *text = dyd_dyadic_get_str(end[k]);
-    if (!text) return DYD_E_NOMEM;
-    fprintf(out, "%s\"%s\"", k ? "," : "", text);
-    free(text);
-  }
-  fputs("]", out);
-  return DYD_OK;
-}
-
 static dyd_status write_head(const dyd_trace *t, const dyd_engine_options *o, const dyd_converge_options *c) {
   dyd_status status = DYD_OK;
   fprintf(t->out,
@@ -45,7 +33,11 @@ static dyd_status write_head(const dyd_trace *t, const dyd_engine_options *o, co
           t->points, dyd_trace_schedule[o->schedule], dyd_trace_goal[o->goal], o->goal_bits, o->start_bits,
           o->step_bits, o->max_bits, o->max_pairs);
   if (c && c->no_voronoi) fputs(",\"no_voronoi\":true", t->out);
-  if (c && c->window) status = write_window(t->out, c->window);
+  if (c && c->window) {
+    fputs(",\"window\":[", t->out);
+    status = dyd_put_window(t->out, c->window, "\"", ",");
+    fputs("]", t->out);
+  }
   fputs("}\n", t->out);
   return status;
 }
@@ -128,8 +120,8 @@ dyd_status dyd_trace_end(dyd_trace *t, dyd_outcome outcome, dyd_error *err) {
   fprintf(t->out, "{\"outcome\":\"%s\"}\n", dyd_outcome_text(outcome));
   if (status < 0)
     dyd_fail(err, status, "%s", dyd_status_text(status));
-  else if (fflush(t->out) != 0 || ferror(t->out))
-    status = dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno ? errno : EIO));
+  else
+    status = dyd_output_end(t->out, err);
   free(t->seen);
   free(t);
   return status;

@@ -10,11 +10,12 @@ static void error_text(char out[DYD_DECIMAL_SIZE], double error) {
   dyd_decimal_directed(out, error, 2, DYD_UP);
 }
 
-dyd_status dyd_write_wkt(const dyd_result *r, dyd_error *err) {
+static dyd_status wkt_delaunay(const dyd_output *o) {
+  const dyd_result *r = o->what;
   dyd_place *place = NULL;
   double error;
-  dyd_status status = dyd_result_places(&place, &error, r, err);
-  if (status < 0) return status;
+  dyd_status st = dyd_result_places(&place, &error, r, o->err);
+  if (st != DYD_OK) return st;
   fputs("WKT,i,j,status,max_coordinate_error\n", r->out);
   for (size_t k = 0; k < r->pairs.count; k++) {
     const dyd_pair *p = &r->pairs.item[k];
@@ -28,12 +29,13 @@ dyd_status dyd_write_wkt(const dyd_result *r, dyd_error *err) {
   return DYD_OK;
 }
 
-dyd_status dyd_write_geojson(const dyd_result *r, dyd_error *err) {
+static dyd_status geojson_delaunay(const dyd_output *o) {
+  const dyd_result *r = o->what;
   dyd_place *place = NULL;
   double error;
   char bound[DYD_DECIMAL_SIZE];
-  dyd_status status = dyd_result_places(&place, &error, r, err);
-  if (status < 0) return status;
+  dyd_status st = dyd_result_places(&place, &error, r, o->err);
+  if (st != DYD_OK) return st;
   error_text(bound, error);
   fprintf(r->out,
           "{\"type\": \"FeatureCollection\",\n\"rounding\": \"a coordinate differs from every point of the "
@@ -53,7 +55,7 @@ dyd_status dyd_write_geojson(const dyd_result *r, dyd_error *err) {
   return DYD_OK;
 }
 
-static void write_obj_elements(const dyd_result *r, const dyd_triangle_list *triangles) {
+static void obj_elements(const dyd_result *r, const dyd_triangle_list *triangles) {
   fputs("g legal_edges\n", r->out);
   for (size_t k = 0; k < r->pairs.count; k++) {
     const dyd_pair *p = &r->pairs.item[k];
@@ -66,15 +68,16 @@ static void write_obj_elements(const dyd_result *r, const dyd_triangle_list *tri
   }
 }
 
-dyd_status dyd_write_obj(const dyd_result *r, dyd_error *err) {
+static dyd_status obj_delaunay(const dyd_output *o) {
+  const dyd_result *r = o->what;
   dyd_place *place = NULL;
   dyd_triangle_list triangles = {0};
   double error;
   char bound[DYD_DECIMAL_SIZE];
   size_t count[4];
-  dyd_status status = dyd_result_places(&place, &error, r, err);
-  if (status >= 0) status = dyd_delaunay_triangles(&triangles, r->pd);
-  if (status >= 0) {
+  dyd_status st = dyd_result_places(&place, &error, r, o->err);
+  if (st == DYD_OK) st = dyd_delaunay_triangles(&triangles, r->pd);
+  if (st == DYD_OK) {
     error_text(bound, error);
     dyd_delaunay_count(count, r->pd);
     fprintf(r->out,
@@ -83,9 +86,15 @@ dyd_status dyd_write_obj(const dyd_result *r, dyd_error *err) {
             dyd_version(), dyd_outcome_text(dyd_engine_outcome(r->engine)), bound, count[DYD_INDETERMINATE],
             count[DYD_TIE]);
     for (size_t i = 0; i < r->count; i++) fprintf(r->out, "v %s %s 0\n", place[i].x, place[i].y);
-    write_obj_elements(r, &triangles);
+    obj_elements(r, &triangles);
   }
   dyd_triangle_list_clear(&triangles);
   free(place);
-  return status;
+  return st;
 }
+
+const dyd_write_fn dyd_wkt_writers[DYD_CONTENTS] = {
+    [DYD_CONTENT_DELAUNAY] = wkt_delaunay, [DYD_CONTENT_VORONOI] = dyd_voronoi_wkt};
+const dyd_write_fn dyd_geojson_writers[DYD_CONTENTS] = {
+    [DYD_CONTENT_DELAUNAY] = geojson_delaunay, [DYD_CONTENT_VORONOI] = dyd_voronoi_geojson};
+const dyd_write_fn dyd_obj_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = obj_delaunay};

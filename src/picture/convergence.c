@@ -1,12 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The plot of a table of convergence: bounds and counts against stages, logarithmic, as svg, pdf or png. */
-#include "base/error.h"
-#include "picture/picture.h"
 #include "picture/panel.h"
-#include <dyadel/io.h>
-#include <errno.h>
+#include "picture/picture.h"
 #include <math.h>
-#include <string.h>
 
 enum { WIDTH = 860, HEIGHT = 640 };
 
@@ -82,7 +78,9 @@ static const dyd_series counts[] = {{"possible pairs", 0, 0, 0, 0, 0, possible},
 
 /* ---- the page ---- */
 
-static void draw(cairo_t *cr, const dyd_convergence *c) {
+static void plot_draw(cairo_t *cr, void *context) {
+  const dyd_output *o = context;
+  const dyd_convergence *c = o->what;
   dyd_panel top = {
       70, 66, 570, 290, 0, 1, "Upper bounds and widths (powers of 2)", bounds, sizeof bounds / sizeof *bounds};
   dyd_panel bottom = {70, 426, 570, 150, 0, 1, "Pairs and faces", counts, sizeof counts / sizeof *counts};
@@ -93,23 +91,14 @@ static void draw(cairo_t *cr, const dyd_convergence *c) {
   cairo_paint(cr);
   cairo_set_source_rgb(cr, 0, 0, 0);
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  dyd_plot_text(cr, 70, 32, 0, 15, title);
+  dyd_picture_text(cr, 70, 32, 0, 15, title);
   dyd_panel_fit(&top, c);
   dyd_panel_fit(&bottom, c);
   dyd_panel_draw(cr, &top, c, 2);
   dyd_panel_draw(cr, &bottom, c, 10);
 }
 
-/* For dyd_page_write. */
-static void draw_page(cairo_t *cr, void *context) {
-  const dyd_convergence *const *c = context;
-  draw(cr, *c);
-}
-
-dyd_status dyd_plot_convergence(FILE *out, const dyd_convergence *c, const char *kind, dyd_error *err) {
-  if (err) dyd_error_clear(err);
-  dyd_format format;
-  if (!dyd_format_from_name(&format, kind) || !dyd_format_is_picture(format))
-    return dyd_fail(err, DYD_E_ARG, "a plot is svg, pdf or png, not \"%.20s\"", kind);
-  return dyd_page_write(out, format, WIDTH, HEIGHT, draw_page, &c, err);
+dyd_status dyd_convergence_picture(const dyd_output *o) {
+  dyd_output own = *o;
+  return dyd_page_write(o, WIDTH, HEIGHT, plot_draw, &own);
 }

@@ -2,20 +2,12 @@
 /* One panel of a plot: frame, ticks, curves, legend. */
 #include "picture/panel.h"
 
+#include "picture/picture.h"
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 
 static const double turn = 6.283185307179586;
-
-/* align 0: from x on, 0.5: around x, 1: up to x. */
-void dyd_plot_text(cairo_t *cr, double x, double y, double align, double size, const char *text) {
-  cairo_text_extents_t e;
-  cairo_set_font_size(cr, size);
-  cairo_text_extents(cr, text, &e);
-  cairo_move_to(cr, x - align * e.x_advance, y);
-  cairo_show_text(cr, text);
-}
 
 bool dyd_panel_fit(dyd_panel *p, const dyd_convergence *c) {
   double low = INFINITY, high = -INFINITY;
@@ -70,10 +62,10 @@ static void draw_levels(cairo_t *cr, const dyd_panel *p, int base) {
       snprintf(label, sizeof label, "%.0f", pow(10, v));
     else
       snprintf(label, sizeof label, "%d^%.0f", base, v);
-    dyd_plot_text(cr, p->x - 6, y + 3.5, 1, 10, label);
+    dyd_picture_text(cr, p->x - 6, y + 3.5, 1, 10, label);
   }
   double zero = dyd_panel_y(p, -INFINITY);
-  dyd_plot_text(cr, p->x - 6, zero + 3.5, 1, 10, "0");
+  dyd_picture_text(cr, p->x - 6, zero + 3.5, 1, 10, "0");
 }
 
 static void draw_stages(cairo_t *cr, const dyd_panel *p, const dyd_convergence *c) {
@@ -83,17 +75,17 @@ static void draw_stages(cairo_t *cr, const dyd_panel *p, const dyd_convergence *
     double x = dyd_panel_x(p, c, k), foot = p->y + p->height;
     grid_line(cr, x, p->y, x, foot);
     snprintf(label, sizeof label, "%" PRIu64, c->row[k].stage);
-    dyd_plot_text(cr, x, foot + 13, 0.5, 10, label);
+    dyd_picture_text(cr, x, foot + 13, 0.5, 10, label);
     snprintf(label, sizeof label, "%" PRId64, c->row[k].bits_most);
-    dyd_plot_text(cr, x, foot + 25, 0.5, 9, label);
+    dyd_picture_text(cr, x, foot + 25, 0.5, 9, label);
   }
-  dyd_plot_text(cr, p->x - 6, p->y + p->height + 13, 1, 10, "stage");
-  dyd_plot_text(cr, p->x - 6, p->y + p->height + 25, 1, 9, "bits");
+  dyd_picture_text(cr, p->x - 6, p->y + p->height + 13, 1, 10, "stage");
+  dyd_picture_text(cr, p->x - 6, p->y + p->height + 25, 1, 9, "bits");
 }
 
 /* ---- curves ---- */
 
-static void draw_mark(cairo_t *cr, const dyd_series *s, double x, double y) {
+static void draw_series_mark(cairo_t *cr, const dyd_series *s, double x, double y) {
   const double radius = 3.4;
   cairo_new_path(cr);
   if (s->mark == 0) cairo_arc(cr, x, y, radius, 0, turn);
@@ -129,7 +121,7 @@ static void draw_curve(cairo_t *cr, const dyd_panel *p, const dyd_series *s, con
   cairo_set_dash(cr, NULL, 0, 0);
   for (size_t k = 0; k < c->count; k++) {
     double v = s->value(&c->row[k]);
-    if (!isnan(v)) draw_mark(cr, s, dyd_panel_x(p, c, k), dyd_panel_y(p, v));
+    if (!isnan(v)) draw_series_mark(cr, s, dyd_panel_x(p, c, k), dyd_panel_y(p, v));
   }
 }
 
@@ -145,14 +137,14 @@ static void draw_key(cairo_t *cr, const dyd_series *s, double x, double y) {
   cairo_line_to(cr, x + 30, y);
   cairo_stroke(cr);
   cairo_set_dash(cr, NULL, 0, 0);
-  draw_mark(cr, s, x + 15, y);
+  draw_series_mark(cr, s, x + 15, y);
   cairo_set_source_rgb(cr, 0, 0, 0);
-  dyd_plot_text(cr, x + 38, y + 3.5, 0, 10.5, s->name);
+  dyd_picture_text(cr, x + 38, y + 3.5, 0, 10.5, s->name);
 }
 
 void dyd_panel_draw(cairo_t *cr, const dyd_panel *p, const dyd_convergence *c, int base) {
   cairo_set_source_rgb(cr, 0, 0, 0);
-  dyd_plot_text(cr, p->x, p->y - 7, 0, 12, p->title);
+  dyd_picture_text(cr, p->x, p->y - 7, 0, 12, p->title);
   draw_levels(cr, p, base);
   draw_stages(cr, p, c);
   cairo_set_source_rgb(cr, 0.2, 0.2, 0.2);

@@ -31,6 +31,5 @@ double dyd_panel_x(const dyd_panel *p, const dyd_convergence *c, size_t row);
 double dyd_panel_y(const dyd_panel *p, double value);
 /* Frame, ticks (labels base^k), curves, legend. */
 void dyd_panel_draw(cairo_t *cr, const dyd_panel *p, const dyd_convergence *c, int base);
-void dyd_plot_text(cairo_t *cr, double x, double y, double align, double size, const char *text);
 
 #endif

@@ -7,19 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The exact value of a number or of an expression that is a rational number. */
-static dyd_status parse_exact(mpq_t out, const char *text) {
-  dyd_real *real = NULL;
-  dyd_status status = dyd_real_parse(&real, text, strlen(text), NULL);
-  if (status < 0) return status;
-  bool exact = dyd_real_is_final(real) && dyd_interval_is_point(dyd_real_interval(real));
-  if (exact) dyd_interval_get_q(out, out, dyd_real_interval(real));
-  dyd_real_free(real);
-  return exact ? DYD_OK : DYD_E_PARSE;
-}
-
 static dyd_status read_radius(dyd_manner *m, const char *text, dyd_error *err) {
-  dyd_status status = parse_exact(m->radius, text);
+  dyd_status status = dyd_real_parse_exact(m->radius, text, strlen(text));
   if (status == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (status < 0 || mpq_sgn(m->radius) < 0)
     return dyd_fail(err, DYD_E_ARG, "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64",

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Lines of a text file, read in blocks, and positions in them for error messages.
- *
- * A character of UTF-8 is counted at the one byte that does not have the form 10xxxxxx. */
+/* Lines of a text file, read in blocks, and positions in them for error messages. */
 #include "io/read/text.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "stream/number.h"
 #include <errno.h>
 #include <string.h>
 
@@ -19,21 +18,6 @@ void dyd_text_clear(dyd_text *t) {
   *t = (dyd_text){0};
 }
 
-size_t dyd_text_characters(const char *text, size_t length) {
-  size_t count = 0;
-  for (size_t k = 0; k < length; k++) count += ((unsigned char)text[k] & 0xC0) != 0x80;
-  return count;
-}
-
-size_t dyd_text_offset(const char *text, size_t length, size_t character) {
-  size_t k = 0;
-  for (; k < length; k++) {
-    if (((unsigned char)text[k] & 0xC0) == 0x80) continue;
-    if (character-- == 0) break;
-  }
-  return k;
-}
-
 void dyd_span_position(size_t *line, size_t *column, const dyd_span *span, size_t offset) {
   const char *end = span->at + offset, *begin = span->origin, *newline;
   *line = span->line;
@@ -41,7 +25,7 @@ void dyd_span_position(size_t *line, size_t *column, const dyd_span *span, size_
     ++*line;
     begin = newline + 1;
   }
-  *column = dyd_text_characters(begin, (size_t)(end - begin)) + 1;
+  *column = dyd_text_column(begin, (size_t)(end - begin));
 }
 
 dyd_status dyd_span_fail(dyd_error *err, const dyd_span *span, size_t offset, const char *message) {
