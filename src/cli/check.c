@@ -15,8 +15,8 @@ typedef struct check_input {
 static dyd_status open_points(dyd_engine **out, void *user, dyd_error *err) {
   check_input *in = user;
   (void)err;
-  dyd_status status = dyd_engine_new(out);
-  if (status < 0) return status;
+  dyd_status st = dyd_engine_new(out);
+  if (st != DYD_OK) return st;
   in->status = cli_points_read(*out, in->options);
   if (!in->status) return DYD_OK;
   dyd_engine_free(*out);
@@ -118,13 +118,14 @@ int cli_check(const cli_options *o) {
   int status = o->replay ? read_schedule(&given, &options, o->replay) : 0;
   cli_progress *progress = cli_progress_start(o->quiet);
   cli_progress_phase(progress, "checking");
-  dyd_status done = DYD_OK;
+  dyd_status st = DYD_OK;
   if (!status)
-    done = o->replay ? dyd_check_replay(&report, open_points, &in, given.move, given.count, &options, &err)
-                     : dyd_check_run(&report, open_points, &in, &options, &err);
+    st = o->replay ? dyd_check_replay(&report, open_points, &in, given.move, given.count, &options, &err)
+                   : dyd_check_run(&report, open_points, &in, &options, &err);
   cli_progress_stop(progress);
-  if (!status && done < 0) {
-    if (!in.status) cli_complain("%s", err.message[0] ? err.message : dyd_status_text(done));
+  if (st == DYD_CANCELLED) st = DYD_OK; /* the report tells what was done until then */
+  if (!status && st != DYD_OK) {
+    if (!in.status) cli_complain("%s", err.message[0] ? err.message : dyd_status_text(st));
     status = in.status ? in.status : CLI_FAILED;
   }
   if (!status) status = tell(&report, o);

@@ -51,9 +51,9 @@ static dyd_status run_table(dyd_engine *e, const dyd_engine_options *options, vo
 static int end_trace(run *r, cli_output *out) {
   dyd_error err;
   dyd_error_clear(&err);
-  dyd_status status = dyd_trace_end(r->trace, r->table.outcome, &err);
+  dyd_status st = dyd_trace_end(r->trace, r->table.outcome, &err);
   r->trace = NULL;
-  if (status >= 0) return cli_output_finish(out) ? 0 : CLI_FAILED;
+  if (st == DYD_OK) return cli_output_finish(out) ? 0 : CLI_FAILED;
   cli_complain_at(r->o->trace, &err);
   cli_output_drop(out);
   return CLI_FAILED;
@@ -62,7 +62,7 @@ static int end_trace(run *r, cli_output *out) {
 static int run_traced(run *r, cli_session *s, const dyd_engine_options *options) {
   cli_output out;
   if (!cli_output_open(&out, r->o->trace)) return CLI_FAILED;
-  if (dyd_trace_new(&r->trace, out.stream, s->engine, options, &r->converge) < 0) {
+  if (dyd_trace_new(&r->trace, out.stream, s->engine, options, &r->converge) != DYD_OK) {
     cli_output_drop(&out);
     return cli_complain_memory();
   }
@@ -102,11 +102,11 @@ static int replay(const cli_options *o) {
   }
   dyd_convergence table = {0};
   dyd_error err;
-  dyd_status done = dyd_trace_replay(&table, in, NULL, &err);
+  dyd_status st = dyd_trace_replay(&table, in, NULL, &err);
   if (!standard) fclose(in);
-  if (done < 0) cli_complain_at(o->replay, &err);
+  if (st != DYD_OK) cli_complain_at(o->replay, &err);
   int status = write_results(&table, o);
-  if (done < 0 || status)
+  if (st != DYD_OK || status)
     status = CLI_FAILED;
   else
     status = cli_exit_status(table.outcome);

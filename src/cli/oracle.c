@@ -4,9 +4,9 @@
 
 static int add_oracle(dyd_engine *e, dyd_oracle *oracle) {
   dyd_source source = dyd_oracle_source(oracle);
-  dyd_status status = dyd_engine_add_source(e, dyd_oracle_count(oracle), &source);
-  if (status >= 0) return 0;
-  cli_complain("the points of the oracle cannot be added: %s", dyd_status_text(status));
+  dyd_status st = dyd_engine_add_source(e, dyd_oracle_count(oracle), &source);
+  if (st == DYD_OK) return 0;
+  cli_complain("the points of the oracle cannot be added: %s", dyd_status_text(st));
   return CLI_FAILED;
 }
 
@@ -23,7 +23,7 @@ int cli_oracle_read(dyd_engine *e, const cli_options *o) {
   dyd_error err;
   dyd_error_clear(&err);
   const dyd_oracle_options options = {.jobs = o->oracle_jobs, .batch = o->oracle_batch, .seconds = o->oracle_timeout};
-  if (dyd_oracle_new(&oracle, o->oracle, &options, &err) < 0) {
+  if (dyd_oracle_new(&oracle, o->oracle, &options, &err) != DYD_OK) {
     cli_complain("%s", err.message);
     return CLI_FAILED;
   }

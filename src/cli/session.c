@@ -22,14 +22,15 @@ static int read_file(dyd_engine *e, const cli_options *o) {
     return CLI_FAILED;
   }
   dyd_error err;
-  dyd_status status = dyd_read_points(e, in, &o->read, &err);
+  dyd_status st = dyd_read_points(e, in, &o->read, &err);
   if (!standard) fclose(in);
-  if (status == DYD_E_ARG) {
+  if (st == DYD_E_ARG) {
     cli_complain("%s", err.message);
     return CLI_USAGE;
   }
-  if (status < 0) cli_complain_at(o->file, &err);
-  return status < 0 ? CLI_FAILED : 0;
+  if (st == DYD_OK) return 0;
+  cli_complain_at(o->file, &err);
+  return CLI_FAILED;
 }
 
 int cli_points_read(dyd_engine *e, const cli_options *o) {
@@ -54,9 +55,9 @@ int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_ru
   dyd_error err;
   dyd_error_clear(&err);
   cli_signals_cancel(s->engine);
-  dyd_status done = run(s->engine, &o, user, &err);
+  dyd_status st = run(s->engine, &o, user, &err);
   cli_signals_remove(NULL);
-  if (done >= 0) return 0;
+  if (st == DYD_OK) return 0;
   cli_complain_at(s->options->file, &err);
   return CLI_FAILED;
 }
@@ -134,9 +135,9 @@ int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, c
   if (!cli_output_open(&out, name)) return CLI_FAILED;
   dyd_error err;
   dyd_error_clear(&err);
-  dyd_status status = print(out.stream, what, o, &err);
-  bool done = status >= 0;
-  if (!done && status == DYD_E_IO)
+  dyd_status st = print(out.stream, what, o, &err);
+  bool done = st == DYD_OK;
+  if (st == DYD_E_IO)
     cli_complain("%s: %s; choose another place with -o", name ? name : "standard output", err.message);
   else if (!done)
     cli_complain_at(name ? name : "standard output", &err);

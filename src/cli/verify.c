@@ -64,12 +64,12 @@ int cli_verify(const cli_options *o) {
   }
   dyd_error err;
   dyd_certificate_report report;
-  dyd_status status = dyd_verify_certificate(&report, in, &err);
+  dyd_status st = dyd_verify_certificate(&report, in, &err);
   if (!standard) fclose(in);
-  if (status == DYD_E_PARSE)
+  if (st == DYD_E_PARSE)
     cli_complain("%s:%zu: rejected: %s", o->file, err.line, err.message);
-  else if (status < 0)
+  else if (st != DYD_OK)
     cli_complain("%s: %s", o->file, err.message);
-  if (status < 0) return CLI_FAILED;
+  if (st != DYD_OK) return CLI_FAILED;
   return cli_write_file(o->output, o, print_report, &report);
 }

@@ -13,7 +13,7 @@ static dyd_goal voronoi_goal(dyd_goal goal) {
 static int find_window(dyd_rect *out, const cli_session *s) {
   if (s->options->window) return cli_window_read(out, s->options->window) ? 0 : CLI_USAGE;
   const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
-  if (!pd || dyd_voronoi_window(out, dyd_delaunay_sites(pd)) >= 0) return 0;
+  if (!pd || dyd_voronoi_window(out, dyd_delaunay_sites(pd)) == DYD_OK) return 0;
   cli_complain("the points span more than doubles hold; give --window XLO,XHI,YLO,YHI");
   return CLI_FAILED;
 }

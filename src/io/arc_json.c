@@ -18,21 +18,23 @@ static void decimal_side_json(FILE *out, const char *name, const dyd_interval *a
   dyd_json_decimals(out, lo, hi);
 }
 
-dyd_status dyd_surd_point_json(FILE *out, const dyd_surd_point *p) {
+/* {"x": {"a": "..", "b": "..", "c": "..", "d": ".."}, ...}: the point (a + b sqrt(c)) / d with integers, and its
+ * decimal enclosure. */
+static dyd_status surd_point_json(FILE *out, const dyd_surd_point *p) {
   gmp_fprintf(out,
               "{\"x\": {\"a\": \"%Zd\", \"b\": \"%Zd\"}, \"y\": {\"a\": \"%Zd\", \"b\": \"%Zd\"}, \"c\": \"%Zd\", "
               "\"d\": \"%Zd\"",
               p->ax, p->bx, p->ay, p->by, p->c, p->d);
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status status = dyd_surd_point_enclose(&r, p, 64);
-  if (status >= 0) {
+  dyd_status st = dyd_surd_point_enclose(&r, p, 64);
+  if (st == DYD_OK) {
     decimal_side_json(out, "x", &r.x);
     decimal_side_json(out, "y", &r.y);
   }
   fputs("}", out);
   dyd_rect_clear(&r);
-  return status;
+  return st;
 }
 
 /* ---- texts kept ---- */
@@ -58,12 +60,12 @@ static dyd_status find_text(const char **out, dyd_point_texts *t, const dyd_surd
     if (t->text[k] && is_same(&t->point[k], p)) return *out = t->text[k], DYD_OK;
   FILE *memory = open_memstream(&text, &size);
   if (!memory) return DYD_E_NOMEM;
-  dyd_status status = dyd_surd_point_json(memory, p);
+  dyd_status st = surd_point_json(memory, p);
   bool good = !ferror(memory);
-  if (fclose(memory) != 0 || !good) status = DYD_E_NOMEM;
-  if (status < 0) {
+  if (fclose(memory) != 0 || !good) st = DYD_E_NOMEM;
+  if (st != DYD_OK) {
     free(text);
-    return status;
+    return st;
   }
   size_t k = t->next++ % DYD_POINT_TEXTS;
   if (!t->text[k]) dyd_surd_point_init(&t->point[k]);
@@ -77,16 +79,16 @@ static dyd_status find_text(const char **out, dyd_point_texts *t, const dyd_surd
 
 static dyd_status arc_end_json(FILE *out, const char *name, const dyd_arc_end *end, dyd_point_texts *texts) {
   fprintf(out, ",\n  \"%s\": {\"kind\": \"%s\"", name, dyd_end_names[end->kind]);
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   if (end->kind == DYD_END_SITES) fprintf(out, ", \"site\": %u", (unsigned)end->site);
   if (end->kind != DYD_END_INFINITE) {
     const char *text = "";
-    status = find_text(&text, texts, &end->at);
+    st = find_text(&text, texts, &end->at);
     fputs(", \"at\": ", out);
     fputs(text, out);
   }
   fputs("}", out);
-  return status;
+  return st;
 }
 
 static dyd_status arc_json(FILE *out, const dyd_arc *arc, dyd_point_texts *texts) {
@@ -94,23 +96,23 @@ static dyd_status arc_json(FILE *out, const dyd_arc *arc, dyd_point_texts *texts
   if (arc->kind != DYD_ARC_WINDOW)
     fprintf(out, ", \"far\": %u, \"corner\": \"%s\", \"near\": %u, \"feature\": \"%s\"", (unsigned)arc->far_site,
             dyd_feature_names[arc->corner], (unsigned)arc->near_site, dyd_feature_names[arc->feature]);
-  dyd_status status = arc_end_json(out, "begin", &arc->begin, texts);
-  if (status >= 0) status = arc_end_json(out, "end", &arc->end, texts);
+  dyd_status st = arc_end_json(out, "begin", &arc->begin, texts);
+  if (st == DYD_OK) st = arc_end_json(out, "end", &arc->end, texts);
   fputs("}", out);
-  return status;
+  return st;
 }
 
 dyd_status dyd_boundary_json(FILE *out, const dyd_boundary *b, dyd_point_texts *texts) {
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   fprintf(out, "{\"whole\": %s, \"chains\": [", b->whole ? "true" : "false");
-  for (size_t k = 0; k < b->count && status >= 0; k++) {
+  for (size_t k = 0; k < b->count && st == DYD_OK; k++) {
     fprintf(out, "%s{\"closed\": %s, \"arcs\": [", k ? ", " : "", b->chain[k].closed ? "true" : "false");
-    for (size_t a = 0; a < b->chain[k].count && status >= 0; a++) {
+    for (size_t a = 0; a < b->chain[k].count && st == DYD_OK; a++) {
       if (a) fputs(",", out);
-      status = arc_json(out, &b->chain[k].arc[a], texts);
+      st = arc_json(out, &b->chain[k].arc[a], texts);
     }
     fputs("]}", out);
   }
   fputs("]}", out);
-  return status;
+  return st;
 }

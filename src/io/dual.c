@@ -60,36 +60,37 @@ static void set_ray(dyd_dual_edge *e, const dyd_delaunay *pd) {
  * collinear, nothing is said. */
 static dyd_status join_rays(dyd_dual_edge *edge, size_t count, const dyd_delaunay *pd) {
   dyd_hull hull = {0};
-  dyd_status status = dyd_delaunay_partial_hull(&hull, pd);
-  for (size_t k = 0; status >= 0 && k < hull.pairs.count; k++) {
+  dyd_status st = dyd_delaunay_partial_hull(&hull, pd);
+  if (st == DYD_CAPPED) st = DYD_OK; /* then it lists no pairs */
+  for (size_t k = 0; st == DYD_OK && k < hull.pairs.count; k++) {
     if (hull.pairs.item[k].status != DYD_LEGAL) continue;
     dyd_dual_edge *e = find(edge, count, hull.pairs.item[k].i, hull.pairs.item[k].j);
     if (e && (e->end[0].kind == DYD_DUAL_VERTEX) != (e->end[1].kind == DYD_DUAL_VERTEX)) set_ray(e, pd);
   }
   dyd_hull_clear(&hull);
-  return status;
+  return st;
 }
 
 dyd_status dyd_dual_edges(dyd_dual_edge **out, size_t *count, const dyd_delaunay *pd,
                           const dyd_triangle_list *triangles) {
   dyd_pair_list pairs = {0};
   size_t legal = 0;
-  dyd_status status = dyd_delaunay_pairs(&pairs, pd);
-  dyd_dual_edge *edge = status >= 0 ? calloc(pairs.count ? pairs.count : 1, sizeof *edge) : NULL;
-  if (status >= 0 && !edge) status = DYD_E_NOMEM;
-  for (size_t k = 0; status >= 0 && k < pairs.count; k++)
+  dyd_status st = dyd_delaunay_pairs(&pairs, pd);
+  dyd_dual_edge *edge = st == DYD_OK ? calloc(pairs.count ? pairs.count : 1, sizeof *edge) : NULL;
+  if (st == DYD_OK && !edge) st = DYD_E_NOMEM;
+  for (size_t k = 0; st == DYD_OK && k < pairs.count; k++)
     if (pairs.item[k].status == DYD_LEGAL) {
       edge[legal].i = pairs.item[k].i;
       edge[legal++].j = pairs.item[k].j;
     }
   dyd_pair_list_clear(&pairs);
-  if (status >= 0) {
+  if (st == DYD_OK) {
     join_triangles(edge, legal, triangles);
-    status = join_rays(edge, legal, pd);
+    st = join_rays(edge, legal, pd);
   }
-  if (status < 0) {
+  if (st != DYD_OK) {
     free(edge);
-    return status;
+    return st;
   }
   *out = edge;
   *count = legal;

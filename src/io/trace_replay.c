@@ -75,8 +75,8 @@ static bool get_side(dyd_interval *out, const json_t *line, const char *name) {
   dyd_dyadic a, b;
   dyd_dyadic_init(&a);
   dyd_dyadic_init(&b);
-  bool good = dyd_dyadic_set_str(&a, lo, NULL) >= 0 && dyd_dyadic_set_str(&b, hi, NULL) >= 0 &&
-              dyd_interval_set_ends(out, &a, &b) >= 0;
+  bool good = dyd_dyadic_set_str(&a, lo, NULL) == DYD_OK && dyd_dyadic_set_str(&b, hi, NULL) == DYD_OK &&
+              dyd_interval_set_ends(out, &a, &b) == DYD_OK;
   dyd_dyadic_clear(&b);
   dyd_dyadic_clear(&a);
   return good;
@@ -94,10 +94,10 @@ static bool get_window(replay *r, const json_t *line) {
   for (int k = 0; k < 4; k++) dyd_dyadic_init(&end[k]);
   for (size_t k = 0; good && k < 4; k++) {
     const char *text = json_string_value(json_array_get(list, k));
-    good = text && dyd_dyadic_set_str(&end[k], text, NULL) >= 0;
+    good = text && dyd_dyadic_set_str(&end[k], text, NULL) == DYD_OK;
   }
-  good = good && dyd_interval_set_ends(&r->window.x, &end[0], &end[1]) >= 0 &&
-         dyd_interval_set_ends(&r->window.y, &end[2], &end[3]) >= 0 && !dyd_interval_is_point(&r->window.x) &&
+  good = good && dyd_interval_set_ends(&r->window.x, &end[0], &end[1]) == DYD_OK &&
+         dyd_interval_set_ends(&r->window.y, &end[2], &end[3]) == DYD_OK && !dyd_interval_is_point(&r->window.x) &&
          !dyd_interval_is_point(&r->window.y);
   for (int k = 0; k < 4; k++) dyd_dyadic_clear(&end[k]);
   r->converge.window = &r->window;
@@ -142,11 +142,11 @@ static dyd_status take_rect(replay *r, size_t i, const dyd_rect *rect, bool call
     p->had = true;
     return DYD_OK;
   }
-  dyd_status status = dyd_sites_narrow(r->sites, i, rect);
-  if (status == DYD_E_NESTING) return bad(r, "this rectangle is not inside the one before");
-  if (status >= 0 && !dyd_reserve((void **)&r->changed, &r->change_cap, r->changes + 1, sizeof *r->changed))
-    status = DYD_E_NOMEM;
-  if (status < 0) return dyd_fail(r->err, status, "%s", dyd_status_text(status));
+  dyd_status st = dyd_sites_narrow(r->sites, i, rect);
+  if (st == DYD_E_NESTING) return bad(r, "this rectangle is not inside the one before");
+  if (st == DYD_OK && !dyd_reserve((void **)&r->changed, &r->change_cap, r->changes + 1, sizeof *r->changed))
+    st = DYD_E_NOMEM;
+  if (st != DYD_OK) return dyd_fail(r->err, st, "%s", dyd_status_text(st));
   if (called) r->changed[r->changes++] = (uint32_t)i;
   return DYD_OK;
 }
@@ -161,22 +161,22 @@ static dyd_status read_step(replay *r, const json_t *line) {
   if (called) r->calls++;
   dyd_rect rect;
   dyd_rect_init(&rect);
-  dyd_status status = get_side(&rect.x, line, "x") && get_side(&rect.y, line, "y")
-                          ? take_rect(r, (size_t)point, &rect, called)
-                          : bad(r, "this is no rectangle");
+  dyd_status st = get_side(&rect.x, line, "x") && get_side(&rect.y, line, "y")
+                      ? take_rect(r, (size_t)point, &rect, called)
+                      : bad(r, "this is no rectangle");
   dyd_rect_clear(&rect);
-  return status;
+  return st;
 }
 
 static dyd_status first_result(replay *r, const dyd_delaunay_options *o) {
-  dyd_status status = dyd_sites_new(&r->sites);
-  for (size_t i = 0; status >= 0 && i < r->points; i++) {
+  dyd_status st = dyd_sites_new(&r->sites);
+  for (size_t i = 0; st == DYD_OK && i < r->points; i++) {
     if (!r->point[i].had) return bad(r, "the first stage ends before every point has a rectangle");
-    status = dyd_sites_add_rect(r->sites, &r->point[i].rect);
+    st = dyd_sites_add_rect(r->sites, &r->point[i].rect);
     dyd_rect_clear(&r->point[i].rect);
     dyd_rect_init(&r->point[i].rect);
   }
-  return status < 0 ? status : dyd_delaunay_new(&r->pd, r->sites, o, r->err);
+  return st == DYD_OK ? dyd_delaunay_new(&r->pd, r->sites, o, r->err) : st;
 }
 
 /* The same figures as the engine's. */
@@ -206,11 +206,12 @@ static bool agrees(const dyd_stage_row *row, const json_t *line) {
 static dyd_status finish_stage(replay *r, const json_t *line) {
   dyd_delaunay_options o = {.max_pairs = r->out->options.max_pairs};
   dyd_stage_row *row;
-  dyd_status status = r->pd ? dyd_delaunay_update(r->pd, r->changed, r->changes, &o, r->err) : first_result(r, &o);
-  if (status < 0) return status;
+  dyd_status st = r->pd ? dyd_delaunay_update(r->pd, r->changed, r->changes, &o, r->err) : first_result(r, &o);
+  if (st == DYD_CAPPED) st = DYD_OK; /* a result as well */
+  if (st != DYD_OK) return st;
   r->changes = 0;
-  status = dyd_convergence_add(&row, r->out, r->pd, &r->converge);
-  if (status < 0) return dyd_fail(r->err, status, "%s", dyd_status_text(status));
+  st = dyd_convergence_add(&row, r->out, r->pd, &r->converge);
+  if (st != DYD_OK) return dyd_fail(r->err, st, "%s", dyd_status_text(st));
   count_bits(row, r);
   if (r->converge.stage) r->converge.stage(row, r->pd, r->converge.stage_user);
   if (agrees(row, line)) return DYD_OK;
@@ -229,21 +230,21 @@ static dyd_status read_outcome(replay *r, const json_t *line) {
 
 static dyd_status read_line(replay *r, const dyd_line *text) {
   json_t *line = json_loadb(text->text, text->length, JSON_REJECT_DUPLICATES, NULL);
-  dyd_status status;
+  dyd_status st;
   if (!json_is_object(line))
-    status = bad(r, "this line is no JSON object");
+    st = bad(r, "this line is no JSON object");
   else if (!r->point)
-    status = read_head(r, line);
+    st = read_head(r, line);
   else if (r->ended)
-    status = bad(r, "the trace goes on behind its outcome");
+    st = bad(r, "the trace goes on behind its outcome");
   else if (json_object_get(line, "outcome"))
-    status = read_outcome(r, line);
+    st = read_outcome(r, line);
   else if (json_object_get(line, "done"))
-    status = finish_stage(r, line);
+    st = finish_stage(r, line);
   else
-    status = read_step(r, line);
+    st = read_step(r, line);
   json_decref(line);
-  return status;
+  return st;
 }
 
 static void replay_clear(replay *r) {
@@ -265,19 +266,19 @@ dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_o
   dyd_line line = {0};
   dyd_error_clear(r.err);
   dyd_text_init(&text, in);
-  dyd_status status;
+  dyd_status st;
   do {
-    status = dyd_text_next(&line, &text, r.err);
-    if (status >= 0 && line.text) status = read_line(&r, &line);
-  } while (status >= 0 && line.text);
-  if (status >= 0 && !r.ended) status = bad(&r, "the trace ends before its outcome");
-  if (status < 0) {
-    r.err->code = status;
+    st = dyd_text_next(&line, &text, r.err);
+    if (st == DYD_OK && line.text) st = read_line(&r, &line);
+  } while (st == DYD_OK && line.text);
+  if (st == DYD_OK && !r.ended) st = bad(&r, "the trace ends before its outcome");
+  if (st != DYD_OK) {
+    r.err->code = st;
     if (!r.err->line) r.err->line = line.text ? line.number : text.line;
     if (!r.err->column) r.err->column = 1;
-    if (!r.err->message[0]) dyd_fail(r.err, status, "%s", dyd_status_text(status));
+    if (!r.err->message[0]) dyd_fail(r.err, st, "%s", dyd_status_text(st));
   }
   dyd_text_clear(&text);
   replay_clear(&r);
-  return status < 0 ? status : DYD_OK;
+  return st;
 }

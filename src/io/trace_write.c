@@ -25,7 +25,7 @@ struct dyd_trace {
 };
 
 static dyd_status write_head(const dyd_trace *t, const dyd_engine_options *o, const dyd_converge_options *c) {
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   fprintf(t->out,
           "{\"format\":\"" DYD_TRACE_FORMAT
           "\",\"points\":%zu,\"schedule\":\"%s\",\"goal\":\"%s\",\"goal_bits\":%" PRId64 ",\"start_bits\":%" PRId64
@@ -35,11 +35,11 @@ static dyd_status write_head(const dyd_trace *t, const dyd_engine_options *o, co
   if (c && c->no_voronoi) fputs(",\"no_voronoi\":true", t->out);
   if (c && c->window) {
     fputs(",\"window\":[", t->out);
-    status = dyd_put_window(t->out, c->window, "\"", ",");
+    st = dyd_put_window(t->out, c->window, "\"", ",");
     fputs("]", t->out);
   }
   fputs("}\n", t->out);
-  return status;
+  return st;
 }
 
 dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dyd_engine_options *options,
@@ -64,23 +64,23 @@ dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dy
 
 static dyd_status write_side(FILE *out, const char *name, const dyd_interval *a) {
   char *lo = dyd_end_text(a, false), *hi = dyd_end_text(a, true);
-  dyd_status status = lo && hi ? DYD_OK : DYD_E_NOMEM;
-  if (status >= 0) fprintf(out, ",\"%s\":[\"%s\",\"%s\"]", name, lo, hi);
+  dyd_status st = lo && hi ? DYD_OK : DYD_E_NOMEM;
+  if (st == DYD_OK) fprintf(out, ",\"%s\":[\"%s\",\"%s\"]", name, lo, hi);
   free(lo);
   free(hi);
-  return status;
+  return st;
 }
 
 static dyd_status write_rect(FILE *out, const dyd_rect *r) {
-  dyd_status status = write_side(out, "x", &r->x);
-  if (status >= 0) status = write_side(out, "y", &r->y);
+  dyd_status st = write_side(out, "x", &r->x);
+  if (st == DYD_OK) st = write_side(out, "y", &r->y);
   fputs("}\n", out);
-  return status;
+  return st;
 }
 
 void dyd_trace_step(const dyd_step *step, void *trace) {
   dyd_trace *t = trace;
-  if (t->failed < 0) return;
+  if (t->failed != DYD_OK) return;
   if (t->seen) t->seen[step->site] = true;
   fprintf(t->out, "{\"stage\":%" PRIu64 ",\"point\":%" PRIu32 ",\"bits\":%" PRId64 ",\"called\":%s,\"why\":\"%s\"",
           step->stage, step->site, step->bits, step->called ? "true" : "false", dyd_reason_text(step->reason));
@@ -90,24 +90,24 @@ void dyd_trace_step(const dyd_step *step, void *trace) {
 
 /* Lines of the points that were not asked: they are fixed. */
 static dyd_status write_fixed(dyd_trace *t, const dyd_delaunay *pd) {
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   dyd_rect rect;
   dyd_rect_init(&rect);
-  for (size_t i = 0; status >= 0 && i < t->points; i++) {
+  for (size_t i = 0; st == DYD_OK && i < t->points; i++) {
     if (t->seen[i]) continue;
-    status = dyd_sites_get(&rect, dyd_delaunay_sites(pd), i);
+    st = dyd_sites_get(&rect, dyd_delaunay_sites(pd), i);
     fprintf(t->out, "{\"stage\":1,\"point\":%zu,\"why\":\"fixed\"", i);
-    if (status >= 0) status = write_rect(t->out, &rect);
+    if (st == DYD_OK) st = write_rect(t->out, &rect);
   }
   dyd_rect_clear(&rect);
   free(t->seen);
   t->seen = NULL;
-  return status;
+  return st;
 }
 
 void dyd_trace_stage(const dyd_stage_row *row, const dyd_delaunay *pd, void *trace) {
   dyd_trace *t = trace;
-  if (t->failed < 0) return;
+  if (t->failed != DYD_OK) return;
   if (t->seen) t->failed = write_fixed(t, pd);
   fprintf(t->out,
           "{\"stage\":%" PRIu64
@@ -116,13 +116,13 @@ void dyd_trace_stage(const dyd_stage_row *row, const dyd_delaunay *pd, void *tra
 }
 
 dyd_status dyd_trace_end(dyd_trace *t, dyd_outcome outcome, dyd_error *err) {
-  dyd_status status = t->failed;
+  dyd_status st = t->failed;
   fprintf(t->out, "{\"outcome\":\"%s\"}\n", dyd_outcome_text(outcome));
-  if (status < 0)
-    dyd_fail(err, status, "%s", dyd_status_text(status));
+  if (st != DYD_OK)
+    dyd_fail(err, st, "%s", dyd_status_text(st));
   else
-    status = dyd_output_end(t->out, err);
+    st = dyd_output_end(t->out, err);
   free(t->seen);
   free(t);
-  return status;
+  return st;
 }

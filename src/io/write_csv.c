@@ -28,7 +28,7 @@ static void csv_pairs(FILE *out, const dyd_pair_list *pairs) {
       end = block;
     }
     end = csv_number(csv_number(end, p->i, ','), p->j, ',');
-    for (const char *status = dyd_pair_status_text(p->status); *status; status++) *end++ = *status;
+    for (const char *st = dyd_pair_status_text(p->status); *st; st++) *end++ = *st;
     *end++ = '\n';
   }
   fwrite(block, 1, (size_t)(end - block), out);

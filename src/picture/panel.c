@@ -23,13 +23,13 @@ bool dyd_panel_fit(dyd_panel *p, const dyd_convergence *c) {
   return any;
 }
 
-double dyd_panel_x(const dyd_panel *p, const dyd_convergence *c, size_t row) {
+static double panel_x(const dyd_panel *p, const dyd_convergence *c, size_t row) {
   double inner = p->width - 40;
   return p->x + 20 + (c->count < 2 ? inner / 2 : inner * (double)row / (double)(c->count - 1));
 }
 
 /* The lowest 18 points belong to zero. */
-double dyd_panel_y(const dyd_panel *p, double value) {
+static double panel_y(const dyd_panel *p, double value) {
   if (value == -INFINITY) return p->y + p->height - 6;
   return p->y + p->height - 18 - (p->height - 26) * (value - p->low) / (p->high - p->low);
 }
@@ -56,7 +56,7 @@ static void draw_levels(cairo_t *cr, const dyd_panel *p, int base) {
   char label[40];
   double step = tick_step(p, base);
   for (double v = ceil(p->low / step) * step; v <= p->high; v += step) {
-    double y = dyd_panel_y(p, v);
+    double y = panel_y(p, v);
     grid_line(cr, p->x, y, p->x + p->width, y);
     if (base == 10 && v < 7)
       snprintf(label, sizeof label, "%.0f", pow(10, v));
@@ -64,7 +64,7 @@ static void draw_levels(cairo_t *cr, const dyd_panel *p, int base) {
       snprintf(label, sizeof label, "%d^%.0f", base, v);
     dyd_picture_text(cr, p->x - 6, y + 3.5, 1, 10, label);
   }
-  double zero = dyd_panel_y(p, -INFINITY);
+  double zero = panel_y(p, -INFINITY);
   dyd_picture_text(cr, p->x - 6, zero + 3.5, 1, 10, "0");
 }
 
@@ -72,7 +72,7 @@ static void draw_stages(cairo_t *cr, const dyd_panel *p, const dyd_convergence *
   size_t step = c->count / 16 + 1;
   char label[40];
   for (size_t k = 0; k < c->count; k += step) {
-    double x = dyd_panel_x(p, c, k), foot = p->y + p->height;
+    double x = panel_x(p, c, k), foot = p->y + p->height;
     grid_line(cr, x, p->y, x, foot);
     snprintf(label, sizeof label, "%" PRIu64, c->row[k].stage);
     dyd_picture_text(cr, x, foot + 13, 0.5, 10, label);
@@ -115,13 +115,13 @@ static void draw_curve(cairo_t *cr, const dyd_panel *p, const dyd_series *s, con
     if (isnan(v))
       cairo_new_sub_path(cr);
     else
-      cairo_line_to(cr, dyd_panel_x(p, c, k), dyd_panel_y(p, v));
+      cairo_line_to(cr, panel_x(p, c, k), panel_y(p, v));
   }
   cairo_stroke(cr);
   cairo_set_dash(cr, NULL, 0, 0);
   for (size_t k = 0; k < c->count; k++) {
     double v = s->value(&c->row[k]);
-    if (!isnan(v)) draw_series_mark(cr, s, dyd_panel_x(p, c, k), dyd_panel_y(p, v));
+    if (!isnan(v)) draw_series_mark(cr, s, panel_x(p, c, k), panel_y(p, v));
   }
 }
 

@@ -27,8 +27,6 @@ typedef struct dyd_panel {
 
 /* Sets low and high from the values; false when no value is positive. */
 bool dyd_panel_fit(dyd_panel *p, const dyd_convergence *c);
-double dyd_panel_x(const dyd_panel *p, const dyd_convergence *c, size_t row);
-double dyd_panel_y(const dyd_panel *p, double value);
 /* Frame, ticks (labels base^k), curves, legend. */
 void dyd_panel_draw(cairo_t *cr, const dyd_panel *p, const dyd_convergence *c, int base);
 

@@ -72,7 +72,7 @@ double dyd_view_spacing(const dyd_delaunay *pd, const double box[4]) {
   double length[SAMPLES];
   dyd_pair_list pairs = {0};
   size_t n = 0, inside = 0, seen = 0;
-  if (dyd_delaunay_pairs(&pairs, pd) < 0) return 0;
+  if (dyd_delaunay_pairs(&pairs, pd) != DYD_OK) return 0;
   for (size_t k = 0; box && k < pairs.count; k++) inside += pair_length(pd, &pairs.item[k], box) >= 0;
   size_t step = (box ? inside : pairs.count) / SAMPLES + 1;
   for (size_t k = 0; k < pairs.count; k++) {

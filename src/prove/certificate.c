@@ -35,40 +35,40 @@ static dyd_status gather_sites(dyd_proof *p) {
   const dyd_sites *sites = dyd_delaunay_sites(p->pd);
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status status = DYD_OK;
-  for (size_t i = 0; i < dyd_sites_count(sites) && status >= 0; i++) {
-    status = dyd_sites_get(&r, sites, i);
-    if (status >= 0) status = dyd_proof_add_site(&p->sites, &r);
-    if (status >= 0) p->sites.site[i].alias = dyd_delaunay_alias(p->pd, (uint32_t)i);
+  dyd_status st = DYD_OK;
+  for (size_t i = 0; i < dyd_sites_count(sites) && st == DYD_OK; i++) {
+    st = dyd_sites_get(&r, sites, i);
+    if (st == DYD_OK) st = dyd_proof_add_site(&p->sites, &r);
+    if (st == DYD_OK) p->sites.site[i].alias = dyd_delaunay_alias(p->pd, (uint32_t)i);
   }
   dyd_rect_clear(&r);
-  if (status >= 0) status = dyd_cert_sites_finish(&p->sites);
-  return status < 0 ? status : dyd_cert_tree_init(&p->tree, &p->sites);
+  if (st == DYD_OK) st = dyd_cert_sites_finish(&p->sites);
+  return st == DYD_OK ? dyd_cert_tree_init(&p->tree, &p->sites) : st;
 }
 
 /* Legal pairs with a witness become edges; the others stay in the list of pairs only. */
 static dyd_status gather_legal(dyd_proof *p) {
   dyd_point c;
   dyd_point_init(&c);
-  dyd_status status = dyd_delaunay_pairs(&p->pairs, p->pd);
-  for (size_t k = 0; k < p->pairs.count && status >= 0; k++) {
+  dyd_status st = dyd_delaunay_pairs(&p->pairs, p->pd);
+  for (size_t k = 0; k < p->pairs.count && st == DYD_OK; k++) {
     const dyd_pair *pair = &p->pairs.item[k];
     bool found = false;
     if (pair->status != DYD_LEGAL) continue;
-    status = dyd_delaunay_witness(&c, p->pd, pair->i, pair->j);
-    if (status >= 0) status = dyd_proof_add_witness(&found, &p->witness, p, pair->i, pair->j, &c, false);
-    if (status == DYD_E_RANGE) status = DYD_OK;
-    if (status >= 0 && found) status = dyd_cert_edges_add(&p->legal, pair->i, pair->j);
+    st = dyd_delaunay_witness(&c, p->pd, pair->i, pair->j);
+    if (st == DYD_OK) st = dyd_proof_add_witness(&found, &p->witness, p, pair->i, pair->j, &c, false);
+    if (st == DYD_E_RANGE) st = DYD_OK;
+    if (st == DYD_OK && found) st = dyd_cert_edges_add(&p->legal, pair->i, pair->j);
   }
   dyd_point_clear(&c);
-  return status;
+  return st;
 }
 
 static dyd_status gather(dyd_proof *p) {
-  dyd_status status = gather_sites(p);
-  if (status >= 0) status = gather_legal(p);
-  if (status >= 0) status = dyd_proof_find_bridges(p);
-  return status < 0 ? status : dyd_proof_find_faces(p);
+  dyd_status st = gather_sites(p);
+  if (st == DYD_OK) st = gather_legal(p);
+  if (st == DYD_OK) st = dyd_proof_find_bridges(p);
+  return st == DYD_OK ? dyd_proof_find_faces(p) : st;
 }
 
 /* ---- sections ---- */
@@ -160,8 +160,8 @@ static dyd_status put_end(FILE *out, const dyd_proof *p) {
   dyd_dyadic_init(&area);
   dyd_dyadic_init(&hausdorff);
   fprintf(out, "triangles %zu\nunproved %" PRIu64 "\n", p->faces.triangles, dyd_cert_faces_left(&p->faces));
-  dyd_status status = dyd_engine_bounds(&area, &hausdorff, p->engine);
-  if (status == DYD_OK) {
+  dyd_status st = dyd_engine_bounds(&area, &hausdorff, p->engine);
+  if (st == DYD_OK) {
     put_bound(out, "area", &area);
     put_bound(out, "hausdorff", &hausdorff);
   } else {
@@ -169,7 +169,7 @@ static dyd_status put_end(FILE *out, const dyd_proof *p) {
   }
   dyd_dyadic_clear(&area);
   dyd_dyadic_clear(&hausdorff);
-  return status == DYD_E_NOMEM ? status : DYD_OK;
+  return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
 /* window: NULL: no section on the diagram. */
@@ -180,19 +180,19 @@ static dyd_status put_all(FILE *out, dyd_proof *p, const dyd_rect *window) {
   put_places(out, p);
   put_edges(out, "bridges", &p->bridges, &p->centre);
   put_corners(out, p);
-  dyd_status status = dyd_proof_put_pairs(out, p);
-  if (status >= 0) status = put_end(out, p);
-  if (status >= 0 && window) status = dyd_proof_put_diagram(out, p, window);
-  return status;
+  dyd_status st = dyd_proof_put_pairs(out, p);
+  if (st == DYD_OK) st = put_end(out, p);
+  if (st == DYD_OK && window) st = dyd_proof_put_diagram(out, p, window);
+  return st;
 }
 
 static dyd_status write_all(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_error *err) {
   dyd_proof p = {.engine = e, .pd = dyd_engine_delaunay(e)};
   dyd_cert_sites_init(&p.sites);
-  dyd_status status = gather(&p);
-  if (status >= 0) status = put_all(out, &p, window);
+  dyd_status st = gather(&p);
+  if (st == DYD_OK) st = put_all(out, &p, window);
   clear(&p);
-  if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
+  if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
   if (fputs("end\n", out) < 0 || fflush(out) != 0 || ferror(out))
     return dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno ? errno : EIO));
   return DYD_OK;
@@ -216,14 +216,14 @@ dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, 
   const dyd_delaunay *pd = dyd_engine_delaunay(e);
   if (!pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
   dyd_rect_init(&own);
-  dyd_status status = DYD_OK;
-  if (!window) status = dyd_voronoi_window(&own, dyd_delaunay_sites(pd));
-  if (status < 0)
-    status = dyd_fail(err, status, "the points span more than doubles hold; give a window");
-  else if (dyd_window_init(&w, window ? window : &own) < 0)
-    status = dyd_fail(err, DYD_E_ARG, "the window has to have positive area and dyadic ends");
+  dyd_status st = DYD_OK;
+  if (!window) st = dyd_voronoi_window(&own, dyd_delaunay_sites(pd));
+  if (st != DYD_OK)
+    st = dyd_fail(err, st, "the points span more than doubles hold; give a window");
+  else if (dyd_window_init(&w, window ? window : &own) != DYD_OK)
+    st = dyd_fail(err, DYD_E_ARG, "the window has to have positive area and dyadic ends");
   else
-    status = write_all(out, e, window ? window : &own, err);
+    st = write_all(out, e, window ? window : &own, err);
   dyd_rect_clear(&own);
-  return status;
+  return st;
 }

@@ -236,7 +236,7 @@ static bool set_double(dyd_exact *out, double v) {
 
 static bool put_point(dyd_cert_chain *out, const curve *c, double t) {
   xy at = point_at(c, t);
-  if (dyd_cert_chain_resize(out, out->points + 1) < 0) return false;
+  if (dyd_cert_chain_resize(out, out->points + 1) != DYD_OK) return false;
   dyd_exact *to = out->point[out->points - 1];
   return set_double(&to[0], at.x * c->unit + c->m.x) && set_double(&to[1], at.y * c->unit + c->m.y);
 }
@@ -278,8 +278,8 @@ static void round_chain(dyd_cert_chain *to, const dyd_cert_chain *from, const cu
 
 static dyd_status keep_shortest(bool *found, dyd_cert_chain *out, const dyd_cert_chain *chain, const curve *c,
                                 uint32_t i, uint32_t j) {
-  dyd_status status = dyd_cert_chain_resize(out, chain->points);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_chain_resize(out, chain->points);
+  if (st != DYD_OK) return st;
   for (size_t q = 0; q <= chain->points; q++) out->blocker[q] = chain->blocker[q];
   for (int bits = 2; bits <= 66 && !*found; bits += 4) {
     round_chain(out, chain, c, bits);
@@ -300,8 +300,8 @@ dyd_status dyd_proof_find_chain(bool *found, dyd_cert_chain *out, const dyd_proo
     xy u = end_direction(&c, k ? 1 : -1);
     good = good && set_double(&chain.u[k][0], u.x) && set_double(&chain.u[k][1], u.y);
   }
-  dyd_status status = DYD_OK;
-  if (good && walk(&chain, &c, i, j, near, count)) status = keep_shortest(found, out, &chain, &c, i, j);
+  dyd_status st = DYD_OK;
+  if (good && walk(&chain, &c, i, j, near, count)) st = keep_shortest(found, out, &chain, &c, i, j);
   dyd_cert_chain_clear(&chain);
-  return status;
+  return st;
 }

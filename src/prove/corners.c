@@ -17,8 +17,8 @@ typedef struct rim {
 } rim;
 
 static dyd_status make_rim(rim *r, const dyd_proof *p) {
-  dyd_status status = dyd_cert_walk(&r->walk, &r->count, &p->graph, dyd_cert_outer(&p->graph));
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_walk(&r->walk, &r->count, &p->graph, dyd_cert_outer(&p->graph));
+  if (st != DYD_OK) return st;
   r->site = dyd_alloc(r->count, sizeof *r->site);
   if (!r->site) return DYD_E_NOMEM;
   for (size_t q = 0; q < r->count; q++) r->site[q] = dyd_cert_origin(&p->graph, r->walk[q]);
@@ -28,15 +28,15 @@ static dyd_status make_rim(rim *r, const dyd_proof *p) {
   if (copy && times && r->corner) {
     for (size_t q = 0; q < r->count; q++)
       if (times[r->site[q]]++ == 0) copy[kept++] = r->site[q];
-    status = dyd_cert_hull(r->corner, &p->sites, copy, kept);
+    st = dyd_cert_hull(r->corner, &p->sites, copy, kept);
     for (size_t q = 0; q < r->count; q++)
       if (times[r->site[q]] > 1) r->corner[r->site[q]] = false;
   } else {
-    status = DYD_E_NOMEM;
+    st = DYD_E_NOMEM;
   }
   free(copy);
   free(times);
-  return status;
+  return st;
 }
 
 /* A cone of directions: all d with first x d >= 0 >= last x d. */
@@ -239,14 +239,14 @@ static dyd_status try_corners(bool *again, dyd_proof *p, rim *r) {
   dyd_exact u[2];
   *again = false;
   drop_corners(p);
-  dyd_status status = dyd_cert_parts_init(&parts, &p->graph, r->walk, r->count, r->corner);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_parts_init(&parts, &p->graph, r->walk, r->count, r->corner);
+  if (st != DYD_OK) return st;
   dyd_exact_init(&u[0]);
   dyd_exact_init(&u[1]);
-  for (size_t q = 0; q < r->count && status >= 0; q++) {
+  for (size_t q = 0; q < r->count && st == DYD_OK; q++) {
     if (!r->corner[r->site[q]]) continue;
     if (find_direction(u, p, r, &parts, q)) {
-      status = keep_corner(p, r->site[q], (const dyd_exact *)u);
+      st = keep_corner(p, r->site[q], (const dyd_exact *)u);
     } else {
       r->corner[r->site[q]] = false;
       *again = true;
@@ -255,7 +255,7 @@ static dyd_status try_corners(bool *again, dyd_proof *p, rim *r) {
   dyd_exact_clear(&u[0]);
   dyd_exact_clear(&u[1]);
   dyd_cert_parts_clear(&parts);
-  return status;
+  return st;
 }
 
 static int compare_corner(const void *a, const void *b) {
@@ -266,11 +266,11 @@ static int compare_corner(const void *a, const void *b) {
 static dyd_status find_corners(dyd_proof *p) {
   if (!p->graph.connected || p->graph.count == 0) return DYD_OK;
   rim r = {0};
-  dyd_status status = make_rim(&r, p);
-  for (bool again = true; again && status >= 0;) {
+  dyd_status st = make_rim(&r, p);
+  for (bool again = true; again && st == DYD_OK;) {
     again = false;
     if (have_corner(&r))
-      status = try_corners(&again, p, &r);
+      st = try_corners(&again, p, &r);
     else
       drop_corners(p);
   }
@@ -278,13 +278,13 @@ static dyd_status find_corners(dyd_proof *p) {
   free(r.walk);
   free(r.site);
   free(r.corner);
-  return status;
+  return st;
 }
 
 dyd_status dyd_proof_find_faces(dyd_proof *p) {
   uint32_t bad = DYD_CERT_NONE;
-  dyd_status status = dyd_cert_graph_init(&p->graph, &p->sites, &p->legal, &p->bridges);
-  if (status >= 0) status = find_corners(p);
-  if (status >= 0) status = dyd_cert_faces_init(&p->faces, &bad, &p->graph, p->corner, p->corners);
-  return status;
+  dyd_status st = dyd_cert_graph_init(&p->graph, &p->sites, &p->legal, &p->bridges);
+  if (st == DYD_OK) st = find_corners(p);
+  if (st == DYD_OK) st = dyd_cert_faces_init(&p->faces, &bad, &p->graph, p->corner, p->corners);
+  return st;
 }

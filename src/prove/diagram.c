@@ -39,14 +39,14 @@ static dyd_status put_polygon(void *context, uint32_t i, const dyd_shape *shape,
   section *s = context;
   dyd_polygon polygon = {0};
   (void)area;
-  dyd_status status = dyd_shape_inner(&polygon, shape);
-  if (status >= 0) status = dyd_cert_chain_resize(&s->polygon, polygon.count);
-  for (size_t k = 0; status >= 0 && k < polygon.count; k++) {
+  dyd_status st = dyd_shape_inner(&polygon, shape);
+  if (st == DYD_OK) st = dyd_cert_chain_resize(&s->polygon, polygon.count);
+  for (size_t k = 0; st == DYD_OK && k < polygon.count; k++) {
     copy(&s->polygon.point[k][0], &polygon.vertex[k].x);
     copy(&s->polygon.point[k][1], &polygon.vertex[k].y);
   }
   dyd_polygon_clear(&polygon);
-  if (status < 0 || !passes(s, i)) return status;
+  if (st != DYD_OK || !passes(s, i)) return st;
   fprintf(s->out, "%" PRIu32, i);
   for (size_t k = 0; k < s->polygon.points; k++) {
     putc(' ', s->out);
@@ -85,19 +85,19 @@ static dyd_status prove_distance(bool *proved, dyd_exact *bound, const section *
   static const unsigned long sixteenths[] = {16, 17, 32, 64};
   dyd_exact try;
   dyd_exact_init(&try);
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   *proved = false;
-  for (int k = 0; k < 4 && status >= 0 && !*proved; k++) {
+  for (int k = 0; k < 4 && st == DYD_OK && !*proved; k++) {
     mpz_mul_ui(try.man, bound->man, sixteenths[k]);
     try.exp = bound->exp - 4;
     bool last = goal && dyd_exact_cmp(&try, goal) > 0;
     if (last) dyd_exact_set(&try, goal);
-    status = dyd_cert_distance_holds(proved, &s->proof->sites, &s->window, &try);
+    st = dyd_cert_distance_holds(proved, &s->proof->sites, &s->window, &try);
     if (last) break;
   }
-  if (status >= 0 && *proved) dyd_exact_set(bound, &try);
+  if (st == DYD_OK && *proved) dyd_exact_set(bound, &try);
   dyd_exact_clear(&try);
-  return status;
+  return st;
 }
 
 static dyd_status put_distance(const section *s, const dyd_voronoi_bounds *b) {
@@ -116,13 +116,13 @@ static dyd_status put_distance(const section *s, const dyd_voronoi_bounds *b) {
   copy(&bound, &b->hausdorff);
   mpz_set_ui(goal.man, 1);
   goal.exp = -bits;
-  dyd_status status = prove_distance(&proved, &bound, s, asked ? &goal : NULL);
+  dyd_status st = prove_distance(&proved, &bound, s, asked ? &goal : NULL);
   fputs("distance ", s->out);
   dyd_proof_put_number(s->out, &bound);
   fputs(proved ? "\n" : " unproved\n", s->out);
   dyd_exact_clear(&bound);
   dyd_exact_clear(&goal);
-  return status;
+  return st;
 }
 
 /* ---- all ---- */
@@ -139,40 +139,40 @@ static dyd_status choose_bits(int64_t *out, const dyd_proof *p, const dyd_rect *
     return DYD_OK;
   dyd_dyadic_init(&goal);
   dyd_voronoi_bounds_init(&b);
-  dyd_status status = dyd_dyadic_set_si_2exp(&goal, 1, -goal_bits);
+  dyd_status st = dyd_dyadic_set_si_2exp(&goal, 1, -goal_bits);
   int64_t least = dyd_metric_flattening(p->pd, window, goal_bits);
   bool holds = false;
-  for (int finer = 0; status >= 0 && !holds && finer <= MOST_FINER; finer += FINER) {
+  for (int finer = 0; st == DYD_OK && !holds && finer <= MOST_FINER; finer += FINER) {
     if (least + finer > *out) *out = least + finer;
-    status = dyd_metric_voronoi(&b, p->pd, window, *out, NULL);
-    holds = status >= 0 && dyd_dyadic_cmp(&b.area, &goal) <= 0;
+    st = dyd_metric_voronoi(&b, p->pd, window, *out, NULL);
+    holds = st == DYD_OK && dyd_dyadic_cmp(&b.area, &goal) <= 0;
   }
   dyd_voronoi_bounds_clear(&b);
   dyd_dyadic_clear(&goal);
-  return status;
+  return st;
 }
 
 static dyd_status put_section(section *s, const dyd_rect *window) {
   dyd_voronoi_sums sums;
   dyd_voronoi_bounds bounds;
   int64_t bits;
-  dyd_status status = choose_bits(&bits, s->proof, window);
-  if (status < 0) return status;
+  dyd_status st = choose_bits(&bits, s->proof, window);
+  if (st != DYD_OK) return st;
   dyd_voronoi_bounds_init(&bounds);
-  status = dyd_voronoi_sums_init(&sums, s->proof->pd, window, bits);
+  st = dyd_voronoi_sums_init(&sums, s->proof->pd, window, bits);
   fputs("window", s->out);
   for (int k = 0; k < 4; k++) {
     putc(' ', s->out);
     dyd_proof_put_number(s->out, &s->window.e[k]);
   }
   fputs("\npolygons\n", s->out);
-  if (status >= 0) status = dyd_voronoi_sums_all(&sums, put_polygon, s, NULL);
-  if (status >= 0) status = dyd_voronoi_sums_bounds(&bounds, &sums);
-  if (status >= 0) put_area(s);
-  if (status >= 0) status = put_distance(s, &bounds);
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, put_polygon, s, NULL);
+  if (st == DYD_OK) st = dyd_voronoi_sums_bounds(&bounds, &sums);
+  if (st == DYD_OK) put_area(s);
+  if (st == DYD_OK) st = put_distance(s, &bounds);
   dyd_voronoi_sums_clear(&sums);
   dyd_voronoi_bounds_clear(&bounds);
-  return status;
+  return st;
 }
 
 dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window) {
@@ -183,9 +183,9 @@ dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window
   dyd_cert_chain_init(&s.polygon);
   dyd_exact_init(&s.area2);
   for (int k = 0; k < 4; k++) copy(&s.window.e[k], end[k]);
-  dyd_status status = put_section(&s, window);
+  dyd_status st = put_section(&s, window);
   dyd_exact_clear(&s.area2);
   dyd_cert_chain_clear(&s.polygon);
   dyd_cert_window_clear(&s.window);
-  return status;
+  return st;
 }

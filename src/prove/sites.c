@@ -20,8 +20,8 @@ static dyd_status add_side(dyd_cert_side *out, const dyd_interval *a) {
 dyd_status dyd_proof_add_site(dyd_cert_sites *out, const dyd_rect *r) {
   dyd_cert_site *site = dyd_cert_sites_add(out);
   if (!site) return DYD_E_NOMEM;
-  dyd_status status = add_side(&site->side[0], &r->x);
-  return status < 0 ? status : add_side(&site->side[1], &r->y);
+  dyd_status st = add_side(&site->side[0], &r->x);
+  return st == DYD_OK ? add_side(&site->side[1], &r->y) : st;
 }
 
 void dyd_proof_points_clear(dyd_proof_points *p) {

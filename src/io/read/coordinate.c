@@ -83,23 +83,23 @@ static dyd_status parse(dyd_real **out, const dyd_span *span, const dyd_manner *
   if (!manner->measured || !looks_decimal(span)) return dyd_real_parse(out, span->text, span->length, err);
   mpq_t lo, hi;
   mpq_inits(lo, hi, NULL);
-  dyd_status status = dyd_parse_measured(lo, hi, span->text, span->length, err);
-  if (status >= 0) status = dyd_real_from_interval(out, lo, hi);
+  dyd_status st = dyd_parse_measured(lo, hi, span->text, span->length, err);
+  if (st == DYD_OK) st = dyd_real_from_interval(out, lo, hi);
   mpq_clears(lo, hi, NULL);
-  return status;
+  return st;
 }
 
 /* Parsed, widened, and told where it stands; *out is changed on success only. */
 static dyd_status read_real(dyd_real **out, const dyd_span *span, const dyd_manner *manner, size_t line, size_t column,
                             dyd_error *err) {
   dyd_real *real = NULL, *wide = NULL;
-  dyd_status status = parse(&real, span, manner, err);
-  if (status >= 0 && manner->widen) {
+  dyd_status st = parse(&real, span, manner, err);
+  if (st == DYD_OK && manner->widen) {
     dyd_real_place(real, line, column);
-    status = dyd_real_widen(&wide, real, manner->radius);
+    st = dyd_real_widen(&wide, real, manner->radius);
     real = wide;
   }
-  if (status < 0) return status;
+  if (st != DYD_OK) return st;
   dyd_real_place(real, line, column);
   *out = real;
   return DYD_OK;
@@ -112,8 +112,8 @@ dyd_status dyd_coordinate_read(dyd_coordinate *out, const dyd_span *span, const 
   dyd_error own;
   dyd_error_clear(&own);
   dyd_span_position(&line, &column, span, 0);
-  dyd_status status = read_real(&real, span, manner, line, column, &own);
-  if (status >= 0) {
+  dyd_status st = read_real(&real, span, manner, line, column, &own);
+  if (st == DYD_OK) {
     *out = (dyd_coordinate){.kind = DYD_COORDINATE_REAL, .real = real};
     return DYD_OK;
   }
@@ -121,7 +121,7 @@ dyd_status dyd_coordinate_read(dyd_coordinate *out, const dyd_span *span, const 
     err->line = line;
     err->column = column + (own.column ? own.column - 1 : 0);
   }
-  return dyd_fail(err, status, "%s", own.message[0] ? own.message : dyd_status_text(status));
+  return dyd_fail(err, st, "%s", own.message[0] ? own.message : dyd_status_text(st));
 }
 
 void dyd_coordinate_clear(dyd_coordinate *c) {
@@ -134,17 +134,17 @@ dyd_status dyd_coordinate_make_real(dyd_coordinate *c) {
   dyd_real *real = NULL;
   mpq_t lo, hi;
   mpq_inits(lo, hi, NULL);
-  dyd_status status;
+  dyd_status st;
   if (c->kind == DYD_COORDINATE_PLAIN) {
     dyd_plain_get_q(lo, c->plain);
-    status = dyd_real_from_q(&real, lo);
+    st = dyd_real_from_q(&real, lo);
   } else {
     mpq_set_d(lo, c->lo);
     mpq_set_d(hi, c->hi);
-    status = dyd_real_from_interval(&real, lo, hi);
+    st = dyd_real_from_interval(&real, lo, hi);
   }
   mpq_clears(lo, hi, NULL);
-  if (status < 0) return status;
+  if (st != DYD_OK) return st;
   *c = (dyd_coordinate){.kind = DYD_COORDINATE_REAL, .real = real};
   return DYD_OK;
 }

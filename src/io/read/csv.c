@@ -39,28 +39,28 @@ static dyd_status append(dyd_csv *csv, size_t *length, const dyd_line *line, dyd
 /* Appends lines until the quotes pair up. */
 static dyd_status join_lines(dyd_line *out, dyd_csv *csv, dyd_error *err) {
   size_t length = 0, first = out->number;
-  dyd_status status = append(csv, &length, out, err);
-  for (bool odd = true; odd && status >= 0;) {
-    status = dyd_text_next(out, csv->text, err);
-    if (status < 0) break;
+  dyd_status st = append(csv, &length, out, err);
+  for (bool odd = true; odd && st == DYD_OK;) {
+    st = dyd_text_next(out, csv->text, err);
+    if (st != DYD_OK) break;
     if (!out->text) {
       dyd_span span = {csv->record, 0, csv->record, csv->record, first};
       return dyd_span_fail(err, &span, (size_t)((char *)memchr(csv->record, '"', length) - csv->record),
                            "the quotes of this record do not pair up; close the quoted field");
     }
     odd = !odd_quotes(out->text, out->length);
-    status = append(csv, &length, out, err);
+    st = append(csv, &length, out, err);
   }
   *out = (dyd_line){csv->record, length, first};
-  return status;
+  return st;
 }
 
 /* The next record that is not an empty line; text = NULL at the end. */
 static dyd_status next_record(dyd_line *out, dyd_csv *csv, dyd_error *err) {
-  dyd_status status;
-  do status = dyd_text_next(out, csv->text, err);
-  while (status >= 0 && out->text && out->length == 0);
-  if (status < 0 || !out->text || !odd_quotes(out->text, out->length)) return status;
+  dyd_status st;
+  do st = dyd_text_next(out, csv->text, err);
+  while (st == DYD_OK && out->text && out->length == 0);
+  if (st != DYD_OK || !out->text || !odd_quotes(out->text, out->length)) return st;
   return join_lines(out, csv, err);
 }
 
@@ -107,8 +107,8 @@ static dyd_status split(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
       return dyd_fail_nomem(err);
     dyd_span *field = &csv->field[csv->fields++];
     *field = (dyd_span){.origin = line->text, .line = line->number};
-    dyd_status status = take_field(field, &at, end, csv, err);
-    if (status < 0 || at == end) return status;
+    dyd_status st = take_field(field, &at, end, csv, err);
+    if (st != DYD_OK || at == end) return st;
     at++;
   }
 }
@@ -179,27 +179,27 @@ static dyd_status find_column(dyd_csv *csv, int which, dyd_error *err) {
 dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const char *columns, dyd_error *err) {
   *csv = (dyd_csv){.text = text};
   dyd_line line;
-  dyd_status status = read_names(csv, columns, err);
-  if (status >= 0) status = next_record(&line, csv, err);
-  if (status < 0) return status;
+  dyd_status st = read_names(csv, columns, err);
+  if (st == DYD_OK) st = next_record(&line, csv, err);
+  if (st != DYD_OK) return st;
   if (!line.text) {
     if (err) err->line = err->column = 1;
     return dyd_fail(err, DYD_E_PARSE, "the file has no header; its first line must name the columns");
   }
-  status = split(csv, &line, err);
-  for (size_t k = 0; k < csv->fields && status >= 0; k++) trim(&csv->field[k]);
-  for (int k = 0; k < 2 && status >= 0; k++) status = find_column(csv, k, err);
+  st = split(csv, &line, err);
+  for (size_t k = 0; k < csv->fields && st == DYD_OK; k++) trim(&csv->field[k]);
+  for (int k = 0; k < 2 && st == DYD_OK; k++) st = find_column(csv, k, err);
   csv->columns = csv->fields;
-  return status;
+  return st;
 }
 
 dyd_status dyd_csv_next(dyd_span coordinate[2], size_t *count, dyd_csv *csv, dyd_error *err) {
   dyd_line line;
   *count = 0;
-  dyd_status status = next_record(&line, csv, err);
-  if (status < 0 || !line.text) return status;
-  status = split(csv, &line, err);
-  if (status < 0) return status;
+  dyd_status st = next_record(&line, csv, err);
+  if (st != DYD_OK || !line.text) return st;
+  st = split(csv, &line, err);
+  if (st != DYD_OK) return st;
   if (csv->fields != csv->columns) {
     if (err) dyd_span_position(&err->line, &err->column, &csv->field[0], 0);
     return dyd_fail(err, DYD_E_PARSE, "this record has %zu fields, the header %zu; quote fields that hold commas",

@@ -8,9 +8,9 @@
 #include <string.h>
 
 static dyd_status read_radius(dyd_manner *m, const char *text, dyd_error *err) {
-  dyd_status status = dyd_real_parse_exact(m->radius, text, strlen(text));
-  if (status == DYD_E_NOMEM) return dyd_fail_nomem(err);
-  if (status < 0 || mpq_sgn(m->radius) < 0)
+  dyd_status st = dyd_real_parse_exact(m->radius, text, strlen(text));
+  if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (st != DYD_OK || mpq_sgn(m->radius) < 0)
     return dyd_fail(err, DYD_E_ARG, "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64",
                     text);
   m->widen = mpq_sgn(m->radius) > 0;
@@ -27,11 +27,11 @@ static dyd_status read_radius(dyd_manner *m, const char *text, dyd_error *err) {
 /* Reads the two coordinates of a point and stages it. */
 static dyd_status stage_point(dyd_stage *stage, const dyd_span span[2], const dyd_manner *manner, dyd_error *err) {
   dyd_coordinate x = {.kind = DYD_COORDINATE_DOUBLE}, y = x;
-  dyd_status status = dyd_coordinate_read(&x, &span[0], manner, err);
-  if (status >= 0) status = dyd_coordinate_read(&y, &span[1], manner, err);
-  if (status >= 0) return dyd_stage_add(stage, &x, &y, err);
+  dyd_status st = dyd_coordinate_read(&x, &span[0], manner, err);
+  if (st == DYD_OK) st = dyd_coordinate_read(&y, &span[1], manner, err);
+  if (st == DYD_OK) return dyd_stage_add(stage, &x, &y, err);
   dyd_coordinate_clear(&x);
-  return status;
+  return st;
 }
 
 /* Is every field of the line a word or quoted, as in the header of a CSV file? */
@@ -50,12 +50,12 @@ static bool is_header(const dyd_line *line) {
 }
 
 /* A first line that is not understood may be a header. */
-static dyd_status hint(dyd_status status, const dyd_line *line, const dyd_stage *stage, dyd_error *err) {
+static dyd_status hint(dyd_status st, const dyd_line *line, const dyd_stage *stage, dyd_error *err) {
   size_t length = strlen(err->message);
-  if (status == DYD_E_PARSE && !stage->count && is_header(line))
+  if (st == DYD_E_PARSE && !stage->count && is_header(line))
     snprintf(err->message + length, sizeof err->message - length,
              "; if this is CSV with a header, name two of its columns: --columns X,Y");
-  return status;
+  return st;
 }
 
 static dyd_status read_points_file(dyd_stage *stage, dyd_text *text, const dyd_manner *manner, dyd_error *err) {
@@ -63,11 +63,11 @@ static dyd_status read_points_file(dyd_stage *stage, dyd_text *text, const dyd_m
     dyd_line line;
     dyd_span span[2];
     size_t count;
-    dyd_status status = dyd_text_next(&line, text, err);
-    if (status < 0 || !line.text) return status;
-    status = dyd_points_split(span, &count, &line, err);
-    if (status >= 0 && count) status = stage_point(stage, span, manner, err);
-    if (status < 0) return hint(status, &line, stage, err);
+    dyd_status st = dyd_text_next(&line, text, err);
+    if (st != DYD_OK || !line.text) return st;
+    st = dyd_points_split(span, &count, &line, err);
+    if (st == DYD_OK && count) st = stage_point(stage, span, manner, err);
+    if (st != DYD_OK) return hint(st, &line, stage, err);
   }
 }
 
@@ -76,13 +76,13 @@ static dyd_status read_csv_file(dyd_stage *stage, dyd_text *text, const dyd_mann
   dyd_csv csv;
   dyd_span span[2];
   size_t count = 1;
-  dyd_status status = dyd_csv_open(&csv, text, columns, err);
-  while (status >= 0 && count) {
-    status = dyd_csv_next(span, &count, &csv, err);
-    if (status >= 0 && count) status = stage_point(stage, span, manner, err);
+  dyd_status st = dyd_csv_open(&csv, text, columns, err);
+  while (st == DYD_OK && count) {
+    st = dyd_csv_next(span, &count, &csv, err);
+    if (st == DYD_OK && count) st = stage_point(stage, span, manner, err);
   }
   dyd_csv_clear(&csv);
-  return status;
+  return st;
 }
 
 dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *options, dyd_error *err) {
@@ -97,13 +97,13 @@ dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *opti
   mpq_init(manner.radius);
   dyd_text_init(&text, in);
   dyd_stage_init(&stage);
-  dyd_status status = options->radius ? read_radius(&manner, options->radius, err) : DYD_OK;
-  if (status >= 0)
-    status = options->columns ? read_csv_file(&stage, &text, &manner, options->columns, err)
-                              : read_points_file(&stage, &text, &manner, err);
-  if (status >= 0) status = dyd_stage_commit(e, &stage, err);
+  dyd_status st = options->radius ? read_radius(&manner, options->radius, err) : DYD_OK;
+  if (st == DYD_OK)
+    st = options->columns ? read_csv_file(&stage, &text, &manner, options->columns, err)
+                          : read_points_file(&stage, &text, &manner, err);
+  if (st == DYD_OK) st = dyd_stage_commit(e, &stage, err);
   dyd_stage_clear(&stage);
   dyd_text_clear(&text);
   mpq_clear(manner.radius);
-  return status;
+  return st;
 }

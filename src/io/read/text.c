@@ -62,8 +62,8 @@ static dyd_status find_end(size_t *length, bool *newline, dyd_text *t, dyd_error
     *length = found ? (size_t)(found - base) : have;
     if (found || t->ended || *length > DYD_TEXT_LINE_MAX) return DYD_OK;
     seen = have;
-    dyd_status status = fill(t, err);
-    if (status < 0) return status;
+    dyd_status st = fill(t, err);
+    if (st != DYD_OK) return st;
     if (t->line == 0 && seen == 0) skip_mark(t);
   }
 }
@@ -80,8 +80,8 @@ static dyd_status check_line(const dyd_line *line, dyd_error *err) {
 dyd_status dyd_text_next(dyd_line *out, dyd_text *t, dyd_error *err) {
   size_t length;
   bool newline;
-  dyd_status status = find_end(&length, &newline, t, err);
-  if (status < 0) return status;
+  dyd_status st = find_end(&length, &newline, t, err);
+  if (st != DYD_OK) return st;
   *out = (dyd_line){0};
   if (!length && !newline) return DYD_OK;
   *out = (dyd_line){t->buffer + t->start, length, ++t->line};
