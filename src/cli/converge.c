@@ -36,7 +36,7 @@ typedef struct run {
   dyd_converge_options converge;
 } run;
 
-static dyd_status run_table(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
+static dyd_status converge_run(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
   run *r = user;
   dyd_engine_options o = *options;
   dyd_converge_options converge = r->converge;
@@ -66,11 +66,11 @@ static int run_traced(run *r, cli_session *s, const dyd_engine_options *options)
     cli_output_drop(&out);
     return cli_complain_memory();
   }
-  int status = cli_session_run_by(s, options, run_table, r), ended = end_trace(r, &out);
+  int status = cli_session_run_by(s, options, converge_run, r), ended = end_trace(r, &out);
   return status ? status : ended;
 }
 
-static int converge(const cli_options *o) {
+static int converge_points(const cli_options *o) {
   cli_session s;
   run r = {.o = o};
   dyd_rect window;
@@ -81,7 +81,7 @@ static int converge(const cli_options *o) {
   if (!o->start_set) options.start_bits = 4;
   int status = cli_session_open(&s, o);
   if (status == 0) {
-    status = o->trace ? run_traced(&r, &s, &options) : cli_session_run_by(&s, &options, run_table, &r);
+    status = o->trace ? run_traced(&r, &s, &options) : cli_session_run_by(&s, &options, converge_run, &r);
     cli_session_settle(&s);
     int written = write_results(&r.table, o);
     if (status == 0) status = written;
@@ -93,7 +93,7 @@ static int converge(const cli_options *o) {
 
 /* ---- a replay ---- */
 
-static int replay(const cli_options *o) {
+static int converge_replay(const cli_options *o) {
   bool standard = strcmp(o->replay, "-") == 0;
   FILE *in = standard ? stdin : fopen(o->replay, "rb");
   if (!in) {
@@ -120,5 +120,5 @@ int cli_converge(const cli_options *o) {
     cli_complain("--plot \"%s\" does not say what kind of picture is wanted; end it in .svg, .pdf or .png", o->plot);
     return CLI_USAGE;
   }
-  return o->replay ? replay(o) : converge(o);
+  return o->replay ? converge_replay(o) : converge_points(o);
 }

@@ -19,7 +19,7 @@ typedef struct scan {
 } scan;
 
 /* Tells getopt_long of all options that exist; its value for option k is FIRST_VALUE + k. */
-static void prepare(scan *s) {
+static void scan_prepare(scan *s) {
   size_t n = 0, m = 0;
   *s = (scan){0};
   s->letters[m++] = '+';
@@ -74,7 +74,7 @@ static bool is_operand(const char *a) {
   return a[0] != '-' || !a[1] || isdigit((unsigned char)a[1]) || a[1] == '.';
 }
 
-static int add_operand(scan *s, const char *text) {
+static int scan_operand(scan *s, const char *text) {
   if (s->operands < MOST_OPERANDS) {
     s->operand[s->operands++] = text;
     return 0;
@@ -92,7 +92,7 @@ static int scan_all(scan *s, cli_options *o, int argc, char **argv) {
       operands_only = true;
       optind++;
     } else if (operands_only || is_operand(a)) {
-      status = add_operand(s, a);
+      status = scan_operand(s, a);
       optind++;
     } else {
       int value = getopt_long(argc, argv, s->letters, s->known, NULL);
@@ -122,7 +122,7 @@ static int unknown_command(const char *name) {
   return CLI_USAGE;
 }
 
-static int check_options(const cli_options *o, uint64_t seen, const cli_command *c) {
+static int options_fit(const cli_options *o, uint64_t seen, const cli_command *c) {
   for (size_t k = 0; k < cli_option_count; k++) {
     if (!(seen >> k & 1) || cli_option_exists(&cli_option_table[k], cli_command_bit(c))) continue;
     cli_complain("%s does not take --%s; see dyadel %s --help", c->name, cli_option_table[k].name, c->name);
@@ -170,7 +170,7 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   scan s;
   *out = (cli_options){.format = DYD_FORMAT_CSV};
   dyd_engine_options_init(&out->engine);
-  prepare(&s);
+  scan_prepare(&s);
   int status = scan_all(&s, out, argc, argv);
   if (status) return status;
   if (s.operands == 0) {
@@ -183,6 +183,6 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   out->command = c->name;
   if (out->help || out->version) return 0;
   while (!out->format_set && dyd_format_name(out->format) && !dyd_format_holds(out->format, c->content)) out->format++;
-  status = check_options(out, s.seen, c);
+  status = options_fit(out, s.seen, c);
   return status ? status : place_operands(out, &s, c);
 }

@@ -2,7 +2,7 @@
 /* --oracle COMMAND: the points come from programs of the user. */
 #include "cli.h"
 
-static int add_oracle(dyd_engine *e, dyd_oracle *oracle) {
+static int oracle_add(dyd_engine *e, dyd_oracle *oracle) {
   dyd_source source = dyd_oracle_source(oracle);
   dyd_status st = dyd_engine_add_source(e, dyd_oracle_count(oracle), &source);
   if (st == DYD_OK) return 0;
@@ -27,7 +27,7 @@ int cli_oracle_read(dyd_engine *e, const cli_options *o) {
     cli_complain("%s", err.message);
     return CLI_FAILED;
   }
-  int status = add_oracle(e, oracle);
+  int status = oracle_add(e, oracle);
   dyd_oracle_free(oracle);
   return status;
 }

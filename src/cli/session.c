@@ -8,7 +8,7 @@
 
 /* ---- reading ---- */
 
-static int read_file(dyd_engine *e, const cli_options *o) {
+static int session_read_file(dyd_engine *e, const cli_options *o) {
   bool standard = strcmp(o->file, "-") == 0;
   FILE *in = standard ? stdin : fopen(o->file, "rb");
   if (!in) {
@@ -34,7 +34,7 @@ static int read_file(dyd_engine *e, const cli_options *o) {
 }
 
 int cli_points_read(dyd_engine *e, const cli_options *o) {
-  return o->oracle ? cli_oracle_read(e, o) : read_file(e, o);
+  return o->oracle ? cli_oracle_read(e, o) : session_read_file(e, o);
 }
 
 int cli_session_open(cli_session *s, const cli_options *o) {
@@ -62,14 +62,14 @@ int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_ru
   return CLI_FAILED;
 }
 
-static dyd_status run_once(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
+static dyd_status session_run_once(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
   (void)user;
   dyd_outcome outcome;
   return dyd_engine_run(&outcome, e, options, err);
 }
 
 int cli_session_run(cli_session *s, const dyd_engine_options *options) {
-  return cli_session_run_by(s, options, run_once, NULL);
+  return cli_session_run_by(s, options, session_run_once, NULL);
 }
 
 int cli_exit_status(dyd_outcome outcome) {
@@ -117,7 +117,7 @@ static const char *outcome_advice(const dyd_engine *e) {
 }
 
 /* One line about a result that leaves something open. */
-static void note_outcome(const cli_session *s) {
+static void session_note_outcome(const cli_session *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
   dyd_outcome outcome = dyd_engine_outcome(s->engine);
   if (!pd || outcome == DYD_OUTCOME_DECIDED || outcome == DYD_OUTCOME_CERTIFIED) return;
@@ -155,12 +155,12 @@ typedef struct result_writer {
   cli_write_fn write;
 } result_writer;
 
-static dyd_status print_result(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+static dyd_status session_print_result(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const result_writer *w = what;
   return w->write(out, w->engine, o, err);
 }
 
-static dyd_status print_certificate(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+static dyd_status session_print_certificate(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const dyd_rect *window = o->engine.window;
   return window ? dyd_write_voronoi_certificate(out, what, window, err) : dyd_write_certificate(out, what, err);
 }
@@ -180,10 +180,10 @@ int cli_session_write(cli_session *s, cli_write_fn write) {
     return 0;
   }
   const char *certificate = s->options->certificate;
-  int status = certificate ? cli_write_file(certificate, s->options, print_certificate, s->engine) : 0;
+  int status = certificate ? cli_write_file(certificate, s->options, session_print_certificate, s->engine) : 0;
   if (status) return status;
   result_writer w = {s->engine, write};
-  return cli_write_file(s->options->output, s->options, print_result, &w);
+  return cli_write_file(s->options->output, s->options, session_print_result, &w);
 }
 
 int cli_session_close(cli_session *s, int status) {
@@ -192,7 +192,7 @@ int cli_session_close(cli_session *s, int status) {
   if (s->engine) {
     dyd_outcome outcome = dyd_engine_outcome(s->engine);
     if (status == 0) status = cli_exit_status(outcome);
-    if (!o->quiet && status != CLI_OK && status != CLI_USAGE) note_outcome(s);
+    if (!o->quiet && status != CLI_OK && status != CLI_USAGE) session_note_outcome(s);
     if (o->stats && outcome != DYD_OUTCOME_NONE) cli_stats(stderr, s->engine, cli_clock() - s->begun);
   }
   dyd_engine_free(s->engine);

@@ -6,24 +6,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool usage(const cli_option *option, const char *value, const char *wanted) {
+static bool value_usage(const cli_option *option, const char *value, const char *wanted) {
   cli_complain("--%s \"%s\" is not understood; give %s", option->name, value, wanted);
   return false;
 }
 
-static bool scan_integer(long long *out, const char *text, long long least, long long most) {
+static bool value_scan_integer(long long *out, const char *text, long long least, long long most) {
   char *end;
   errno = 0;
   *out = strtoll(text, &end, 10);
   return end != text && !*end && errno == 0 && *out >= least && *out <= most;
 }
 
-static bool read_integer(void *place, const cli_option *option, const char *text) {
+static bool value_integer(void *place, const cli_option *option, const char *text) {
   long long value;
-  if (!scan_integer(&value, text, option->least, option->most)) {
+  if (!value_scan_integer(&value, text, option->least, option->most)) {
     char wanted[96];
     snprintf(wanted, sizeof wanted, "a whole number from %lld to %lld", option->least, option->most);
-    return usage(option, text, wanted);
+    return value_usage(option, text, wanted);
   }
   if (option->width == sizeof(unsigned)) {
     *(unsigned *)place = (unsigned)value;
@@ -35,16 +35,16 @@ static bool read_integer(void *place, const cli_option *option, const char *text
   return true;
 }
 
-static bool read_seconds(double *place, const cli_option *option, const char *text) {
+static bool value_seconds(double *place, const cli_option *option, const char *text) {
   char *end;
   double seconds = strtod(text, &end);
   if (end == text || *end || !isfinite(seconds) || seconds <= 0)
-    return usage(option, text, "a number of seconds above 0");
+    return value_usage(option, text, "a number of seconds above 0");
   *place = seconds;
   return true;
 }
 
-static bool read_goal(dyd_engine_options *e, const cli_option *option, const char *text) {
+static bool value_goal(dyd_engine_options *e, const cli_option *option, const char *text) {
   const char *colon = strchr(text, ':');
   size_t length = colon ? (size_t)(colon - text) : strlen(text);
   long long bits = 0;
@@ -52,21 +52,21 @@ static bool read_goal(dyd_engine_options *e, const cli_option *option, const cha
   if (!colon && strcmp(text, "decided") == 0) return true;
   if (length == 4 && strncmp(text, "area", 4) == 0) e->goal = DYD_GOAL_AREA;
   if (length == 9 && strncmp(text, "hausdorff", 9) == 0) e->goal = DYD_GOAL_HAUSDORFF;
-  if (!colon || e->goal == DYD_GOAL_DECIDED || !scan_integer(&bits, colon + 1, -DYD_EXP_LIMIT, DYD_EXP_LIMIT))
-    return usage(option, text, "decided, area:M or hausdorff:M with a whole number M");
+  if (!colon || e->goal == DYD_GOAL_DECIDED || !value_scan_integer(&bits, colon + 1, -DYD_EXP_LIMIT, DYD_EXP_LIMIT))
+    return value_usage(option, text, "decided, area:M or hausdorff:M with a whole number M");
   e->goal_bits = bits;
   return true;
 }
 
-static bool read_schedule(dyd_schedule *place, const cli_option *option, const char *text) {
+static bool value_schedule(dyd_schedule *place, const cli_option *option, const char *text) {
   bool uniform = strcmp(text, "uniform") == 0;
-  if (!uniform && strcmp(text, "adaptive") != 0) return usage(option, text, "adaptive or uniform");
+  if (!uniform && strcmp(text, "adaptive") != 0) return value_usage(option, text, "adaptive or uniform");
   *place = uniform ? DYD_SCHEDULE_UNIFORM : DYD_SCHEDULE_ADAPTIVE;
   return true;
 }
 
 /* Whether the command writes it is seen later, when the command is known. */
-static bool read_format(dyd_format *place, const cli_option *option, const char *text) {
+static bool value_format(dyd_format *place, const cli_option *option, const char *text) {
   if (dyd_format_from_name(place, text)) return true;
   fprintf(stderr, "dyadel: --%s \"%s\" is not understood; give ", option->name, text);
   cli_formats_print(stderr, cli_formats_of(cli_existing()), ", ", false);
@@ -74,7 +74,7 @@ static bool read_format(dyd_format *place, const cli_option *option, const char 
   return false;
 }
 
-static bool check_window(const char *text) {
+static bool is_window(const char *text) {
   dyd_rect window;
   dyd_rect_init(&window);
   bool good = cli_window_read(&window, text);
@@ -84,8 +84,8 @@ static bool check_window(const char *text) {
 
 /* ---- any option ---- */
 
-static bool read_text(const char **place, const cli_option *option, const char *text) {
-  if (!*text) return usage(option, text, option->kind == CLI_FILE ? "the name of a file" : option->argument);
+static bool value_text(const char **place, const cli_option *option, const char *text) {
+  if (!*text) return value_usage(option, text, option->kind == CLI_FILE ? "the name of a file" : option->argument);
   *place = text;
   return true;
 }
@@ -97,20 +97,20 @@ bool cli_value_read(cli_options *o, const cli_option *option, const char *text) 
   case CLI_FLAG:
     return *(bool *)place = true;
   case CLI_WINDOW:
-    return check_window(text) && read_text(place, option, text);
+    return is_window(text) && value_text(place, option, text);
   case CLI_TEXT:
   case CLI_FILE:
-    return read_text(place, option, text);
+    return value_text(place, option, text);
   case CLI_INTEGER:
-    return read_integer(place, option, text);
+    return value_integer(place, option, text);
   case CLI_SECONDS:
-    return read_seconds(place, option, text);
+    return value_seconds(place, option, text);
   case CLI_GOAL:
-    return read_goal(place, option, text);
+    return value_goal(place, option, text);
   case CLI_SCHEDULE:
-    return read_schedule(place, option, text);
+    return value_schedule(place, option, text);
   case CLI_FORMAT:
-    return read_format(place, option, text);
+    return value_format(place, option, text);
   case CLI_HELP:
     *(const char **)place = text ? text : "";
     return true;

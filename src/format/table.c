@@ -8,13 +8,13 @@
 #include "base/error.h"
 #include <string.h>
 
-typedef const dyd_write_fn writers[DYD_CONTENTS];
+typedef dyd_writer *const writers[DYD_CONTENTS];
 extern writers dyd_csv_writers, dyd_json_writers, dyd_wkt_writers, dyd_geojson_writers, dyd_obj_writers,
     dyd_vtk_writers, dyd_picture_writers;
 
 static const struct {
   const char *name, *ending, *about;
-  const dyd_write_fn *write;
+  dyd_writer *const *write;
 } formats[] = {
     [DYD_FORMAT_CSV] = {"csv", "csv",
                         "a table: of delaunay one line for each pair that is possible (i,j,status), of converge one "
@@ -65,7 +65,7 @@ bool dyd_format_holds(dyd_format format, dyd_content content) {
 
 /* ---- writing ---- */
 
-/* "json cannot hold that; give csv, svg or pdf". */
+/* "obj cannot hold this; give csv, svg or pdf". */
 static dyd_status refuse_format(dyd_format format, dyd_content content, dyd_error *err) {
   char names[100] = "";
   size_t used = 0, left = 0;

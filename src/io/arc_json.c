@@ -47,17 +47,17 @@ void dyd_point_texts_clear(dyd_point_texts *t) {
   }
 }
 
-static bool is_same(const dyd_surd_point *p, const dyd_surd_point *q) {
+static bool surd_point_is_same(const dyd_surd_point *p, const dyd_surd_point *q) {
   return !mpz_cmp(p->ax, q->ax) && !mpz_cmp(p->ay, q->ay) && !mpz_cmp(p->d, q->d) && !mpz_cmp(p->bx, q->bx) &&
          !mpz_cmp(p->by, q->by) && !mpz_cmp(p->c, q->c);
 }
 
 /* The text of p, made if need be; borrowed from t until 64 others were made. */
-static dyd_status find_text(const char **out, dyd_point_texts *t, const dyd_surd_point *p) {
+static dyd_status find_point_text(const char **out, dyd_point_texts *t, const dyd_surd_point *p) {
   char *text = NULL;
   size_t size = 0;
   for (size_t k = 0; k < DYD_POINT_TEXTS; k++)
-    if (t->text[k] && is_same(&t->point[k], p)) return *out = t->text[k], DYD_OK;
+    if (t->text[k] && surd_point_is_same(&t->point[k], p)) return *out = t->text[k], DYD_OK;
   FILE *memory = open_memstream(&text, &size);
   if (!memory) return DYD_E_NOMEM;
   dyd_status st = surd_point_json(memory, p);
@@ -83,7 +83,7 @@ static dyd_status arc_end_json(FILE *out, const char *name, const dyd_arc_end *e
   if (end->kind == DYD_END_SITES) fprintf(out, ", \"site\": %u", (unsigned)end->site);
   if (end->kind != DYD_END_INFINITE) {
     const char *text = "";
-    st = find_text(&text, texts, &end->at);
+    st = find_point_text(&text, texts, &end->at);
     fputs(", \"at\": ", out);
     fputs(text, out);
   }

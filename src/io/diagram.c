@@ -16,7 +16,7 @@ static void grow_box(double box[4], double xlo, double xhi, double ylo, double y
   box[3] = fmax(box[3], yhi);
 }
 
-static void find_box(dyd_cell_row *row, const dyd_shape *s, const double window[4]) {
+static void cell_row_box(dyd_cell_row *row, const dyd_shape *s, const double window[4]) {
   double *b = row->box;
   b[0] = b[2] = INFINITY;
   b[1] = b[3] = -INFINITY;
@@ -44,7 +44,7 @@ typedef struct visitor {
 static dyd_status visit_cell(void *context, uint32_t i, const dyd_shape *shape, const double area[2]) {
   const visitor *v = context;
   dyd_cell_row row = {.area = {area[0], area[1]}};
-  find_box(&row, shape, v->window);
+  cell_row_box(&row, shape, v->window);
   return v->visit(v->context, i, shape, &row);
 }
 

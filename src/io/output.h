@@ -17,9 +17,9 @@ typedef struct dyd_output {
   dyd_error *err;
 } dyd_output;
 
-typedef dyd_status (*dyd_write_fn)(const dyd_output *o);
-/* The writers of a format, by content; NULL: it cannot hold that. A format that has some is an array of these, in the
- * file that writes it, named dyd_NAME_writers. */
+typedef dyd_status dyd_writer(const dyd_output *o);
+/* The writers of a format are an array by content, NULL where it cannot hold that: dyd_NAME_writers, in the file that
+ * writes it. */
 enum { DYD_CONTENTS = DYD_CONTENT_NEAREST + 1 };
 
 /* `what` by content: dyd_result (result.h), dyd_diagram (diagram.h), dyd_stage_table, dyd_convergence,
@@ -47,22 +47,10 @@ typedef struct dyd_nearest_output {
   const dyd_nearest_answer *answer;
 } dyd_nearest_output;
 
-/* Writers of csv and json; their files say what they write. */
-dyd_status dyd_voronoi_csv(const dyd_output *o);
-dyd_status dyd_voronoi_json(const dyd_output *o);
-dyd_status dyd_voronoi_wkt(const dyd_output *o);
-dyd_status dyd_voronoi_geojson(const dyd_output *o);
-dyd_status dyd_voronoi_vtk(const dyd_output *o);
-dyd_status dyd_convergence_csv(const dyd_output *o);
-dyd_status dyd_convergence_json(const dyd_output *o);
-dyd_status dyd_check_csv(const dyd_output *o);
-dyd_status dyd_check_json(const dyd_output *o);
-dyd_status dyd_disc_csv(const dyd_output *o);
-dyd_status dyd_disc_json(const dyd_output *o);
-dyd_status dyd_bisector_csv(const dyd_output *o);
-dyd_status dyd_bisector_json(const dyd_output *o);
-dyd_status dyd_nearest_csv(const dyd_output *o);
-dyd_status dyd_nearest_json(const dyd_output *o);
+/* Writers that such arrays take from other files. */
+dyd_writer dyd_voronoi_csv, dyd_voronoi_json, dyd_voronoi_wkt, dyd_voronoi_geojson, dyd_voronoi_vtk;
+dyd_writer dyd_convergence_csv, dyd_convergence_json, dyd_check_csv, dyd_check_json;
+dyd_writer dyd_disc_csv, dyd_disc_json, dyd_bisector_csv, dyd_bisector_json, dyd_nearest_csv, dyd_nearest_json;
 
 /* The end of a file: DYD_E_IO with a message unless everything went out. */
 dyd_status dyd_output_end(FILE *out, dyd_error *err);

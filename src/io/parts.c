@@ -28,6 +28,10 @@ void dyd_json_aliases(FILE *out, const dyd_delaunay *pd, const char *after) {
   fprintf(out, "]%s", after);
 }
 
+const char *dyd_schedule_text(dyd_schedule schedule) {
+  return schedule == DYD_SCHEDULE_UNIFORM ? "uniform" : "adaptive";
+}
+
 void dyd_json_head(FILE *out, const char *format) {
   fprintf(out, "{\"format\": \"%s\",\n\"version\": \"%s\",\n", format, dyd_version());
 }

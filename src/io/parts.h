@@ -11,6 +11,8 @@
 void dyd_csv_aliases(FILE *out, const dyd_delaunay *pd);
 /* "aliases": [[7, 3], ..], and `after` behind it. */
 void dyd_json_aliases(FILE *out, const dyd_delaunay *pd, const char *after);
+/* "adaptive", "uniform". */
+const char *dyd_schedule_text(dyd_schedule schedule);
 /* "format": .., "version": ..: the opening of an object. */
 void dyd_json_head(FILE *out, const char *format);
 /* The same, with the outcome, where pairs of numbers are rounded outward and texts are exact. */

@@ -11,11 +11,6 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-const char *const dyd_trace_goal[DYD_TRACE_GOALS] = {
-    [DYD_GOAL_DECIDED] = "decided", [DYD_GOAL_AREA] = "area", [DYD_GOAL_HAUSDORFF] = "hausdorff"};
-const char *const dyd_trace_schedule[DYD_TRACE_SCHEDULES] = {
-    [DYD_SCHEDULE_ADAPTIVE] = "adaptive", [DYD_SCHEDULE_UNIFORM] = "uniform"};
-
 /* Invariant: seen[i] tells whether point i was narrowed; NULL once the fixed points are written. */
 struct dyd_trace {
   FILE *out;
@@ -24,14 +19,14 @@ struct dyd_trace {
   dyd_status failed;
 };
 
-static dyd_status write_head(const dyd_trace *t, const dyd_engine_options *o, const dyd_converge_options *c) {
+static dyd_status trace_head(const dyd_trace *t, const dyd_engine_options *o, const dyd_converge_options *c) {
   dyd_status st = DYD_OK;
   fprintf(t->out,
           "{\"format\":\"" DYD_TRACE_FORMAT
           "\",\"points\":%zu,\"schedule\":\"%s\",\"goal\":\"%s\",\"goal_bits\":%" PRId64 ",\"start_bits\":%" PRId64
           ",\"step_bits\":%" PRId64 ",\"max_bits\":%" PRId64 ",\"max_pairs\":%zu",
-          t->points, dyd_trace_schedule[o->schedule], dyd_trace_goal[o->goal], o->goal_bits, o->start_bits,
-          o->step_bits, o->max_bits, o->max_pairs);
+          t->points, dyd_schedule_text(o->schedule), dyd_goal_text(o->goal), o->goal_bits, o->start_bits, o->step_bits,
+          o->max_bits, o->max_pairs);
   if (c && c->no_voronoi) fputs(",\"no_voronoi\":true", t->out);
   if (c && c->window) {
     fputs(",\"window\":[", t->out);
@@ -47,7 +42,7 @@ dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dy
   dyd_engine_options o;
   dyd_engine_options_init(&o);
   if (options) o = *options;
-  if ((unsigned)o.goal >= DYD_TRACE_GOALS || (unsigned)o.schedule >= DYD_TRACE_SCHEDULES) return DYD_E_ARG;
+  if ((unsigned)o.goal > DYD_TRACE_GOAL || (unsigned)o.schedule > DYD_TRACE_SCHEDULE) return DYD_E_ARG;
   dyd_trace *t = calloc(1, sizeof *t);
   if (!t) return DYD_E_NOMEM;
   t->out = f;
@@ -57,12 +52,12 @@ dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dy
     free(t);
     return DYD_E_NOMEM;
   }
-  t->failed = write_head(t, &o, converge);
+  t->failed = trace_head(t, &o, converge);
   *out = t;
   return DYD_OK;
 }
 
-static dyd_status write_side(FILE *out, const char *name, const dyd_interval *a) {
+static dyd_status trace_side(FILE *out, const char *name, const dyd_interval *a) {
   char *lo = dyd_end_text(a, false), *hi = dyd_end_text(a, true);
   dyd_status st = lo && hi ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) fprintf(out, ",\"%s\":[\"%s\",\"%s\"]", name, lo, hi);
@@ -71,9 +66,9 @@ static dyd_status write_side(FILE *out, const char *name, const dyd_interval *a)
   return st;
 }
 
-static dyd_status write_rect(FILE *out, const dyd_rect *r) {
-  dyd_status st = write_side(out, "x", &r->x);
-  if (st == DYD_OK) st = write_side(out, "y", &r->y);
+static dyd_status trace_rect(FILE *out, const dyd_rect *r) {
+  dyd_status st = trace_side(out, "x", &r->x);
+  if (st == DYD_OK) st = trace_side(out, "y", &r->y);
   fputs("}\n", out);
   return st;
 }
@@ -85,11 +80,11 @@ void dyd_trace_step(const dyd_step *step, void *trace) {
   fprintf(t->out, "{\"stage\":%" PRIu64 ",\"point\":%" PRIu32 ",\"bits\":%" PRId64 ",\"called\":%s,\"why\":\"%s\"",
           step->stage, step->site, step->bits, step->called ? "true" : "false", dyd_reason_text(step->reason));
   if (step->i != step->j) fprintf(t->out, ",\"pair\":[%" PRIu32 ",%" PRIu32 "]", step->i, step->j);
-  t->failed = write_rect(t->out, step->rect);
+  t->failed = trace_rect(t->out, step->rect);
 }
 
 /* Lines of the points that were not asked: they are fixed. */
-static dyd_status write_fixed(dyd_trace *t, const dyd_delaunay *pd) {
+static dyd_status trace_fixed(dyd_trace *t, const dyd_delaunay *pd) {
   dyd_status st = DYD_OK;
   dyd_rect rect;
   dyd_rect_init(&rect);
@@ -97,7 +92,7 @@ static dyd_status write_fixed(dyd_trace *t, const dyd_delaunay *pd) {
     if (t->seen[i]) continue;
     st = dyd_sites_get(&rect, dyd_delaunay_sites(pd), i);
     fprintf(t->out, "{\"stage\":1,\"point\":%zu,\"why\":\"fixed\"", i);
-    if (st == DYD_OK) st = write_rect(t->out, &rect);
+    if (st == DYD_OK) st = trace_rect(t->out, &rect);
   }
   dyd_rect_clear(&rect);
   free(t->seen);
@@ -108,7 +103,7 @@ static dyd_status write_fixed(dyd_trace *t, const dyd_delaunay *pd) {
 void dyd_trace_stage(const dyd_stage_row *row, const dyd_delaunay *pd, void *trace) {
   dyd_trace *t = trace;
   if (t->failed != DYD_OK) return;
-  if (t->seen) t->failed = write_fixed(t, pd);
+  if (t->seen) t->failed = trace_fixed(t, pd);
   fprintf(t->out,
           "{\"stage\":%" PRIu64
           ",\"done\":true,\"legal\":%zu,\"indeterminate\":%zu,\"tie\":%zu,\"statuses\":\"%016" PRIx64 "\"}\n",

@@ -8,36 +8,32 @@
 
 enum { DIGITS = 6 };
 
-static const char *schedule_text(dyd_schedule s) {
-  return s == DYD_SCHEDULE_UNIFORM ? "uniform" : "adaptive";
-}
-
-static size_t possible(const dyd_stage_row *r) {
+static size_t possible_pairs(const dyd_stage_row *r) {
   return r->count[DYD_LEGAL] + r->count[DYD_INDETERMINATE] + r->count[DYD_TIE];
 }
 
 /* Milliseconds, rounded up. */
-static double seconds_up(const dyd_stage_row *r) {
+static double row_seconds(const dyd_stage_row *r) {
   return ceil(r->seconds * 1000) / 1000;
 }
 
 /* ---- csv ---- */
 
-static void csv_bound(FILE *out, const dyd_dyadic *x, bool known) {
+static void table_csv_bound(FILE *out, const dyd_dyadic *x, bool known) {
   char text[DYD_DECIMAL_SIZE] = "";
   if (known) dyd_decimal_dyadic(text, x, DIGITS, DYD_UP);
   fprintf(out, ",%s", text);
 }
 
-static void csv_goal(FILE *out, const dyd_engine_options *o) {
+static void table_csv_goal(FILE *out, const dyd_engine_options *o) {
   fputs(dyd_goal_text(o->goal), out);
   if (o->goal != DYD_GOAL_DECIDED) fprintf(out, " 2^%" PRId64, -o->goal_bits);
 }
 
 static dyd_status table_csv_head(FILE *out, const dyd_convergence *c, bool times) {
   const dyd_engine_options *o = &c->options;
-  fprintf(out, "# schedule %s; goal ", schedule_text(o->schedule));
-  csv_goal(out, o);
+  fprintf(out, "# schedule %s; goal ", dyd_schedule_text(o->schedule));
+  table_csv_goal(out, o);
   fprintf(out, "; first stage %" PRId64 " bits, then ", o->start_bits);
   if (o->step_bits)
     fprintf(out, "steps of %" PRId64, o->step_bits);
@@ -63,25 +59,25 @@ static dyd_status table_csv_head(FILE *out, const dyd_convergence *c, bool times
   return st;
 }
 
-static void csv_row(FILE *out, const dyd_stage_row *r, bool times) {
+static void table_csv_row(FILE *out, const dyd_stage_row *r, bool times) {
   fprintf(out, "%" PRIu64 ",%" PRId64 ",%" PRId64 ",%" PRIu64, r->stage, r->bits_least, r->bits_most, r->bits_total);
-  csv_bound(out, &r->width_largest, true);
-  csv_bound(out, &r->width_median, true);
-  fprintf(out, ",%zu,%zu,%zu,%zu,%zu", possible(r), r->count[DYD_LEGAL], r->count[DYD_INDETERMINATE], r->count[DYD_TIE],
-          r->undecided_faces);
-  csv_bound(out, &r->area, r->bounded);
-  csv_bound(out, &r->hausdorff, r->bounded);
-  csv_bound(out, &r->v_area, r->voronoi);
-  csv_bound(out, &r->v_hausdorff, r->voronoi);
+  table_csv_bound(out, &r->width_largest, true);
+  table_csv_bound(out, &r->width_median, true);
+  fprintf(out, ",%zu,%zu,%zu,%zu,%zu", possible_pairs(r), r->count[DYD_LEGAL], r->count[DYD_INDETERMINATE],
+          r->count[DYD_TIE], r->undecided_faces);
+  table_csv_bound(out, &r->area, r->bounded);
+  table_csv_bound(out, &r->hausdorff, r->bounded);
+  table_csv_bound(out, &r->v_area, r->voronoi);
+  table_csv_bound(out, &r->v_hausdorff, r->voronoi);
   fprintf(out, ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%016" PRIx64, r->rungs.filter, r->rungs.integer,
           r->rungs.exact, r->calls, r->digest);
-  if (times) fprintf(out, ",%.3f", seconds_up(r));
+  if (times) fprintf(out, ",%.3f", row_seconds(r));
   fputs("\n", out);
 }
 
 /* ---- json ---- */
 
-static dyd_status json_row_bounds(FILE *out, const dyd_stage_row *r) {
+static dyd_status table_json_bounds(FILE *out, const dyd_stage_row *r) {
   const struct {
     const char *name;
     const dyd_dyadic *value;
@@ -106,7 +102,7 @@ static dyd_status table_json_head(FILE *out, const dyd_convergence *c) {
       "beyond the largest double; seconds are rounded up\",\n\"schedule\": \"%s\",\n\"goal\": \"%s\",\n\"goal_bits\": "
       "%" PRId64 ",\n\"start_bits\": %" PRId64 ",\n\"step_bits\": %" PRId64 ",\n\"max_bits\": %" PRId64
       ",\n\"seed\": null,\n\"outcome\": \"%s\",\n\"window\": ",
-      schedule_text(o->schedule), dyd_goal_text(o->goal), o->goal_bits, o->start_bits, o->step_bits, o->max_bits,
+      dyd_schedule_text(o->schedule), dyd_goal_text(o->goal), o->goal_bits, o->start_bits, o->step_bits, o->max_bits,
       dyd_outcome_text(c->outcome));
   fputs(c->window ? "[" : "null,\n", out);
   if (!c->window) return DYD_OK;
@@ -115,18 +111,18 @@ static dyd_status table_json_head(FILE *out, const dyd_convergence *c) {
   return st;
 }
 
-static dyd_status json_row(FILE *out, const dyd_stage_row *r, bool times) {
+static dyd_status table_json_row(FILE *out, const dyd_stage_row *r, bool times) {
   fprintf(out,
           "{\"stage\": %" PRIu64 ", \"bits_least\": %" PRId64 ", \"bits_most\": %" PRId64 ", \"bits_total\": %" PRIu64
           ",\n \"possible\": %zu, \"legal\": %zu, \"indeterminate\": %zu, \"tie\": %zu, \"faces\": %zu",
-          r->stage, r->bits_least, r->bits_most, r->bits_total, possible(r), r->count[DYD_LEGAL],
+          r->stage, r->bits_least, r->bits_most, r->bits_total, possible_pairs(r), r->count[DYD_LEGAL],
           r->count[DYD_INDETERMINATE], r->count[DYD_TIE], r->undecided_faces);
-  dyd_status st = json_row_bounds(out, r);
+  dyd_status st = table_json_bounds(out, r);
   fprintf(out,
           ",\n \"filter\": %" PRIu64 ", \"integer\": %" PRIu64 ", \"exact\": %" PRIu64 ", \"calls\": %" PRIu64
           ", \"statuses\": \"%016" PRIx64 "\"",
           r->rungs.filter, r->rungs.integer, r->rungs.exact, r->calls, r->digest);
-  if (times) fprintf(out, ", \"seconds\": %.3f", seconds_up(r));
+  if (times) fprintf(out, ", \"seconds\": %.3f", row_seconds(r));
   fputs("}", out);
   return st;
 }
@@ -134,7 +130,7 @@ static dyd_status json_row(FILE *out, const dyd_stage_row *r, bool times) {
 dyd_status dyd_convergence_csv(const dyd_output *o) {
   const dyd_stage_table *t = o->what;
   dyd_status st = table_csv_head(o->out, t->stages, t->times);
-  for (size_t k = 0; k < t->stages->count; k++) csv_row(o->out, &t->stages->row[k], t->times);
+  for (size_t k = 0; k < t->stages->count; k++) table_csv_row(o->out, &t->stages->row[k], t->times);
   return st;
 }
 
@@ -144,7 +140,7 @@ dyd_status dyd_convergence_json(const dyd_output *o) {
   fputs("\"stages\": [", o->out);
   for (size_t k = 0; st == DYD_OK && k < t->stages->count; k++) {
     fputs(k ? ",\n" : "\n", o->out);
-    st = json_row(o->out, &t->stages->row[k], t->times);
+    st = table_json_row(o->out, &t->stages->row[k], t->times);
   }
   fputs("\n]}\n", o->out);
   return st;

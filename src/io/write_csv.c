@@ -48,10 +48,10 @@ static dyd_status csv_delaunay(const dyd_output *o) {
   return DYD_OK;
 }
 
-const dyd_write_fn dyd_csv_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = csv_delaunay,
-                                                    [DYD_CONTENT_VORONOI] = dyd_voronoi_csv,
-                                                    [DYD_CONTENT_CONVERGENCE] = dyd_convergence_csv,
-                                                    [DYD_CONTENT_CHECK] = dyd_check_csv,
-                                                    [DYD_CONTENT_DISC] = dyd_disc_csv,
-                                                    [DYD_CONTENT_BISECTOR] = dyd_bisector_csv,
-                                                    [DYD_CONTENT_NEAREST] = dyd_nearest_csv};
+dyd_writer *const dyd_csv_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = csv_delaunay,
+                                                   [DYD_CONTENT_VORONOI] = dyd_voronoi_csv,
+                                                   [DYD_CONTENT_CONVERGENCE] = dyd_convergence_csv,
+                                                   [DYD_CONTENT_CHECK] = dyd_check_csv,
+                                                   [DYD_CONTENT_DISC] = dyd_disc_csv,
+                                                   [DYD_CONTENT_BISECTOR] = dyd_bisector_csv,
+                                                   [DYD_CONTENT_NEAREST] = dyd_nearest_csv};

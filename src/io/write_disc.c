@@ -19,7 +19,7 @@ static const char *orientation_text(dyd_sure s) {
 
 typedef void (*put_circle_fn)(FILE *out, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2);
 
-static void each_circle(FILE *out, const dyd_partial_disc *d, put_circle_fn put) {
+static void disc_each_circle(FILE *out, const dyd_partial_disc *d, put_circle_fn put) {
   dyd_surd_point centre, radius2;
   dyd_surd_point_init(&centre);
   dyd_surd_point_init(&radius2);
@@ -32,7 +32,7 @@ static void each_circle(FILE *out, const dyd_partial_disc *d, put_circle_fn put)
 }
 
 /* The smallest box in doubles around the six centres: it holds the partial centre [CEN-1]. */
-static void enclose_centre(double box[SIDES], const dyd_partial_disc *d) {
+static void disc_centre_box(double box[SIDES], const dyd_partial_disc *d) {
   dyd_surd_point centre, radius2;
   dyd_surd_point_init(&centre);
   dyd_surd_point_init(&radius2);
@@ -51,7 +51,7 @@ static void enclose_centre(double box[SIDES], const dyd_partial_disc *d) {
 
 /* ---- csv ---- */
 
-static void put_circle(FILE *out, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2) {
+static void disc_csv_circle(FILE *out, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2) {
   double lo, hi;
   fprintf(out, "# circle %s x ", circle_names[number]);
   dyd_exact_text(out, centre->ax, centre->bx, centre->c, centre->d);
@@ -79,10 +79,10 @@ dyd_status dyd_disc_csv(const dyd_output *o) {
   fputs(
       "# critical circles: F encloses, C touches the rectangles 0 1 2; x, y, radius^2 exact, lo rounded down, hi up\n",
       out);
-  each_circle(out, d, put_circle);
+  disc_each_circle(out, d, disc_csv_circle);
   if (d->known) {
     double box[SIDES];
-    enclose_centre(box, d);
+    disc_centre_box(box, d);
     fputs("# partial centre within xlo ", out);
     dyd_exact_decimals(out, box[0], box[1], " xhi ");
     fputs(" ylo ", out);
@@ -96,19 +96,19 @@ dyd_status dyd_disc_csv(const dyd_output *o) {
 
 /* ---- json ---- */
 
-static void put_text(FILE *out, const char *name, mpz_srcptr a, mpz_srcptr b, const dyd_surd_point *p) {
+static void disc_json_text(FILE *out, const char *name, mpz_srcptr a, mpz_srcptr b, const dyd_surd_point *p) {
   fprintf(out, ", \"%s\": \"", name);
   dyd_exact_text(out, a, b, p->c, p->d);
   fputs("\"", out);
 }
 
-static void put_circle_json(FILE *out, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2) {
+static void disc_json_circle(FILE *out, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2) {
   static const char *const names[2] = {"x_decimal", "y_decimal"};
   double lo, hi;
   fprintf(out, "%s\n{\"labels\": \"%s\"", number ? "," : "", circle_names[number]);
-  put_text(out, "x", centre->ax, centre->bx, centre);
-  put_text(out, "y", centre->ay, centre->by, centre);
-  put_text(out, "radius_squared", radius2->ax, radius2->bx, radius2);
+  disc_json_text(out, "x", centre->ax, centre->bx, centre);
+  disc_json_text(out, "y", centre->ay, centre->by, centre);
+  disc_json_text(out, "radius_squared", radius2->ax, radius2->bx, radius2);
   for (int axis = 0; axis < 2; axis++) {
     dyd_exact_enclose(&lo, &hi, centre, axis);
     fprintf(out, ", \"%s\": ", names[axis]);
@@ -120,14 +120,14 @@ static void put_circle_json(FILE *out, int number, const dyd_surd_point *centre,
   fputs("}", out);
 }
 
-static void put_centre_json(FILE *out, const dyd_partial_disc *d) {
+static void disc_json_centre(FILE *out, const dyd_partial_disc *d) {
   double box[SIDES];
   fputs("\n],\n\"partial_centre\": ", out);
   if (!d->known) {
     fputs("null", out);
     return;
   }
-  enclose_centre(box, d);
+  disc_centre_box(box, d);
   fputs("{\"x_decimal\": ", out);
   dyd_json_decimals(out, box[0], box[1]);
   fputs(", \"y_decimal\": ", out);
@@ -147,8 +147,8 @@ dyd_status dyd_disc_json(const dyd_output *o) {
   }
   fprintf(out, "],\n\"orientation\": \"%s\",\n\"circles\": [",
           orientation_text(dyd_orientation(c->r[0], c->r[1], c->r[2])));
-  each_circle(out, c->disc, put_circle_json);
-  put_centre_json(out, c->disc);
+  disc_each_circle(out, c->disc, disc_json_circle);
+  disc_json_centre(out, c->disc);
   fputs(",\n\"con\": [", out);
   for (size_t i = 3; i < c->n; i++)
     fprintf(out, "%s\n{\"i\": %zu, \"con\": \"%s\"}", i > 3 ? "," : "", i,

@@ -6,7 +6,7 @@
 #include <math.h>
 
 /* Two digits, rounded up. */
-static void error_text(char out[DYD_DECIMAL_SIZE], double error) {
+static void place_error_text(char out[DYD_DECIMAL_SIZE], double error) {
   dyd_decimal_directed(out, error, 2, DYD_UP);
 }
 
@@ -21,7 +21,7 @@ static dyd_status wkt_delaunay(const dyd_output *o) {
     const dyd_pair *p = &r->pairs.item[k];
     const dyd_place *a = &place[p->i], *b = &place[p->j];
     char bound[DYD_DECIMAL_SIZE];
-    error_text(bound, fmax(a->error, b->error));
+    place_error_text(bound, fmax(a->error, b->error));
     fprintf(r->out, "\"LINESTRING (%s %s, %s %s)\",%u,%u,%s,%s\n", a->x, a->y, b->x, b->y, (unsigned)p->i,
             (unsigned)p->j, dyd_pair_status_text(p->status), bound);
   }
@@ -36,7 +36,7 @@ static dyd_status geojson_delaunay(const dyd_output *o) {
   char bound[DYD_DECIMAL_SIZE];
   dyd_status st = dyd_result_places(&place, &error, r, o->err);
   if (st != DYD_OK) return st;
-  error_text(bound, error);
+  place_error_text(bound, error);
   fprintf(r->out,
           "{\"type\": \"FeatureCollection\",\n\"rounding\": \"a coordinate differs from every point of the "
           "rectangle it stands for by at most max_coordinate_error\",\n\"max_coordinate_error\": %s,\n"
@@ -78,7 +78,7 @@ static dyd_status obj_delaunay(const dyd_output *o) {
   dyd_status st = dyd_result_places(&place, &error, r, o->err);
   if (st == DYD_OK) st = dyd_delaunay_triangles(&triangles, r->pd);
   if (st == DYD_OK) {
-    error_text(bound, error);
+    place_error_text(bound, error);
     dyd_delaunay_count(count, r->pd);
     fprintf(r->out,
             "# dyadel %s, outcome %s\n# a coordinate differs from every point of the rectangle it stands for by at "
@@ -93,8 +93,8 @@ static dyd_status obj_delaunay(const dyd_output *o) {
   return st;
 }
 
-const dyd_write_fn dyd_wkt_writers[DYD_CONTENTS] = {
+dyd_writer *const dyd_wkt_writers[DYD_CONTENTS] = {
     [DYD_CONTENT_DELAUNAY] = wkt_delaunay, [DYD_CONTENT_VORONOI] = dyd_voronoi_wkt};
-const dyd_write_fn dyd_geojson_writers[DYD_CONTENTS] = {
+dyd_writer *const dyd_geojson_writers[DYD_CONTENTS] = {
     [DYD_CONTENT_DELAUNAY] = geojson_delaunay, [DYD_CONTENT_VORONOI] = dyd_voronoi_geojson};
-const dyd_write_fn dyd_obj_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = obj_delaunay};
+dyd_writer *const dyd_obj_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = obj_delaunay};

@@ -155,10 +155,10 @@ static dyd_status json_delaunay(const dyd_output *o) {
   return st;
 }
 
-const dyd_write_fn dyd_json_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = json_delaunay,
-                                                     [DYD_CONTENT_VORONOI] = dyd_voronoi_json,
-                                                     [DYD_CONTENT_CONVERGENCE] = dyd_convergence_json,
-                                                     [DYD_CONTENT_CHECK] = dyd_check_json,
-                                                     [DYD_CONTENT_DISC] = dyd_disc_json,
-                                                     [DYD_CONTENT_BISECTOR] = dyd_bisector_json,
-                                                     [DYD_CONTENT_NEAREST] = dyd_nearest_json};
+dyd_writer *const dyd_json_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = json_delaunay,
+                                                    [DYD_CONTENT_VORONOI] = dyd_voronoi_json,
+                                                    [DYD_CONTENT_CONVERGENCE] = dyd_convergence_json,
+                                                    [DYD_CONTENT_CHECK] = dyd_check_json,
+                                                    [DYD_CONTENT_DISC] = dyd_disc_json,
+                                                    [DYD_CONTENT_BISECTOR] = dyd_bisector_json,
+                                                    [DYD_CONTENT_NEAREST] = dyd_nearest_json};

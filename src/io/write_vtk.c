@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The vtk format of the triangulation: legacy polygon data, edges with their status and sure triangles. */
 #include "io/result.h"
-#include <math.h>
 #include <stdlib.h>
 
-static void vtk_cells(const dyd_result *r, const dyd_triangle_list *triangles) {
+static void vtk_elements(const dyd_result *r, const dyd_triangle_list *triangles) {
   FILE *out = r->out;
   fprintf(out, "LINES %zu %zu\n", r->pairs.count, 3 * r->pairs.count);
   for (size_t k = 0; k < r->pairs.count; k++)
@@ -34,12 +33,12 @@ static dyd_status vtk_delaunay(const dyd_output *o) {
             "coordinates within %s of their rectangles\nASCII\nDATASET POLYDATA\nPOINTS %zu double\n",
             dyd_outcome_text(dyd_engine_outcome(r->engine)), bound, r->count);
     for (size_t i = 0; i < r->count; i++) fprintf(r->out, "%s %s 0\n", place[i].x, place[i].y);
-    vtk_cells(r, &triangles);
+    vtk_elements(r, &triangles);
   }
   dyd_triangle_list_clear(&triangles);
   free(place);
   return st;
 }
 
-const dyd_write_fn dyd_vtk_writers[DYD_CONTENTS] = {
+dyd_writer *const dyd_vtk_writers[DYD_CONTENTS] = {
     [DYD_CONTENT_DELAUNAY] = vtk_delaunay, [DYD_CONTENT_VORONOI] = dyd_voronoi_vtk};

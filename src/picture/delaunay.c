@@ -32,7 +32,7 @@ static double middle_of(double lo, double hi) {
 }
 
 /* On the page. */
-static void page_centre(double z[2], const delaunay_drawing *d, uint32_t i) {
+static void page_middle(double z[2], const delaunay_drawing *d, uint32_t i) {
   double b[4];
   dyd_sites_get_d(b, d->r->sites, i);
   z[0] = dyd_view_x(&d->view, middle_of(b[0], b[1]));
@@ -40,8 +40,8 @@ static void page_centre(double z[2], const delaunay_drawing *d, uint32_t i) {
 }
 
 static bool line_of(double z[2][2], const delaunay_drawing *d, const dyd_pair *pair, const double frame[4]) {
-  page_centre(z[0], d, pair->i);
-  page_centre(z[1], d, pair->j);
+  page_middle(z[0], d, pair->i);
+  page_middle(z[1], d, pair->j);
   return dyd_clip_segment(z, frame);
 }
 
@@ -59,7 +59,7 @@ static void draw_triangles(cairo_t *cr, const delaunay_drawing *d) {
   cairo_new_path(cr);
   for (size_t k = 0; k < d->triangles.count; k++) {
     double z[DYD_CLIP_MOST][2];
-    for (int c = 0; c < 3; c++) page_centre(z[c], d, d->triangles.item[k].v[c]);
+    for (int c = 0; c < 3; c++) page_middle(z[c], d, d->triangles.item[k].v[c]);
     polygon_path(cr, d, z, 3);
   }
   dyd_picture_colour(cr, 0xe6f0f7);
@@ -67,7 +67,7 @@ static void draw_triangles(cairo_t *cr, const delaunay_drawing *d) {
 }
 
 /* Is the rectangle more than a dot? */
-static bool is_wide(const delaunay_drawing *d, const double b[4]) {
+static bool is_wide_box(const delaunay_drawing *d, const double b[4]) {
   return fmax(b[1] - b[0], b[3] - b[2]) * d->view.scale >= 2 * d->view.dot;
 }
 
@@ -82,7 +82,7 @@ static int compare_xy(const void *a, const void *b) {
 }
 
 /* Ed(a,b) as a path: the hull of eight corners, by monotone chains. */
-static void hull_path(cairo_t *cr, const delaunay_drawing *d, const double a[4], const double b[4]) {
+static void pair_path(cairo_t *cr, const delaunay_drawing *d, const double a[4], const double b[4]) {
   double z[8][2], chain[DYD_CLIP_MOST][2];
   int n = 0;
   for (int k = 0; k < 8; k++) {
@@ -111,9 +111,9 @@ static void draw_regions(cairo_t *cr, const delaunay_drawing *d, int k) {
     if (pair->status != style[k].status) continue;
     dyd_sites_get_d(a, d->r->sites, pair->i);
     dyd_sites_get_d(b, d->r->sites, pair->j);
-    if (!is_wide(d, a) && !is_wide(d, b)) continue;
+    if (!is_wide_box(d, a) && !is_wide_box(d, b)) continue;
     cairo_new_path(cr);
-    hull_path(cr, d, a, b);
+    pair_path(cr, d, a, b);
     dyd_picture_colour(cr, style[k].region);
     cairo_fill(cr);
   }
@@ -159,7 +159,7 @@ static void delaunay_legend(cairo_t *cr, const delaunay_drawing *d) {
   dyd_picture_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, text);
 }
 
-static void draw_all(cairo_t *cr, const delaunay_drawing *d) {
+static void delaunay_inside(cairo_t *cr, const delaunay_drawing *d) {
   draw_triangles(cr, d);
   for (int k = 2; k >= 0; k--) draw_regions(cr, d, k);
   for (int k = 0; k < 3; k++) draw_edges(cr, d, k);
@@ -183,7 +183,7 @@ static void delaunay_draw(cairo_t *cr, void *context) {
     frame_path(cr, d);
     cairo_clip(cr);
   }
-  draw_all(cr, d);
+  delaunay_inside(cr, d);
   cairo_restore(cr);
   if (d->r->window) {
     frame_path(cr, d);

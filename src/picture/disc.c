@@ -40,7 +40,7 @@ static void place_circle(double out[3], const dyd_circle *k) {
 
 /* A large disc near the picture: a piece of its edge about the point closest to the middle of the picture, and three
  * more sides deep inside (only for filling). All of the picture, or nothing, when the edge does not come near. */
-static void large_path(cairo_t *cr, const dyd_view *v, double x, double y, double radius, bool closed) {
+static void large_circle_path(cairo_t *cr, const dyd_view *v, double x, double y, double radius, bool closed) {
   enum { STEPS = 64 };
   double mx = dyd_view_x(v, v->left) + v->width / 2, my = dyd_view_y(v, v->top) + v->height / 2;
   double size = v->width + v->height, away = hypot(mx - x, my - y), middle = atan2(my - y, mx - x);
@@ -67,7 +67,7 @@ static void circle_path(cairo_t *cr, const disc_drawing *g, int k, bool closed) 
   if (radius < LARGE)
     cairo_arc(cr, x, y, radius, 0, 2 * acos(-1.0));
   else
-    large_path(cr, &g->view, x, y, radius, closed);
+    large_circle_path(cr, &g->view, x, y, radius, closed);
 }
 
 static void disc_areas(cairo_t *cr, const disc_drawing *g) {
@@ -100,7 +100,7 @@ static void disc_circles(cairo_t *cr, const disc_drawing *g) {
 
 /* ---- the rest ---- */
 
-static unsigned colour_of(dyd_sure con) {
+static unsigned con_colour(dyd_sure con) {
   return con == DYD_SURE_PLUS ? CURVE : con == DYD_SURE_MINUS ? WHITE : 0xd55e00;
 }
 
@@ -108,7 +108,7 @@ static void disc_sites(cairo_t *cr, const disc_drawing *g) {
   for (size_t i = g->n; i-- > 0;) {
     double b[4];
     dyd_rect_get_d(b, g->r[i]);
-    dyd_picture_numbered(cr, &g->view, b, i < 3 ? 0x777777 : colour_of(dyd_partial_disc_con(g->d, g->r[i])), i);
+    dyd_picture_numbered(cr, &g->view, b, i < 3 ? 0x777777 : con_colour(dyd_partial_disc_con(g->d, g->r[i])), i);
   }
 }
 

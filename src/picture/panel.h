@@ -12,7 +12,7 @@ typedef struct dyd_series {
   const char *name;
   double red, green, blue;
   double dash;   /* length; 0: a full line */
-  unsigned mark; /* corners of the marker: 0 (a ring) or 3, 4, 5 */
+  unsigned mark; /* sides of the marker: 0 (a ring) or 3, 4, 5 */
   double (*value)(const dyd_stage_row *r);
 } dyd_series;
 

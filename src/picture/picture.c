@@ -3,12 +3,10 @@
 #include "picture/picture.h"
 
 #include "base/error.h"
-#include "io/decimal.h"
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <errno.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define SCALE_OF_PNG 2

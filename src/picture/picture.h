@@ -14,12 +14,8 @@ typedef void (*dyd_draw_fn)(cairo_t *cr, void *context);
 dyd_status dyd_page_write(const dyd_output *o, double width, double height, dyd_draw_fn draw, void *context);
 
 /* The writers of pictures, which differ by what they show. */
-dyd_status dyd_delaunay_picture(const dyd_output *o);
-dyd_status dyd_voronoi_picture(const dyd_output *o);
-dyd_status dyd_convergence_picture(const dyd_output *o);
-dyd_status dyd_disc_picture(const dyd_output *o);
-dyd_status dyd_bisector_picture(const dyd_output *o);
-dyd_status dyd_nearest_picture(const dyd_output *o);
+dyd_writer dyd_delaunay_picture, dyd_voronoi_picture, dyd_convergence_picture;
+dyd_writer dyd_disc_picture, dyd_bisector_picture, dyd_nearest_picture;
 
 /* ---- views ---- */
 
@@ -54,11 +50,11 @@ void dyd_view_frame_path(cairo_t *cr, const dyd_view *v);
 
 /* ---- clipping ---- */
 
-/* More corners than any polygon has that is cut. */
+/* More vertices than any polygon has that is cut. */
 enum { DYD_CLIP_MOST = 24 };
 /* Cuts the segment z[0], z[1] to the box (x lower, x upper, y lower, y upper); false: nothing is left. */
 bool dyd_clip_segment(double z[2][2], const double box[4]);
-/* The same for a convex polygon of n <= DYD_CLIP_MOST - 4 corners; returns how many there are then. */
+/* The same for a convex polygon of n <= DYD_CLIP_MOST - 4 vertices; returns how many there are then. */
 int dyd_clip_convex(double z[DYD_CLIP_MOST][2], int n, const double box[4]);
 
 /* ---- drawing ---- */

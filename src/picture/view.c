@@ -53,7 +53,7 @@ static int compare_lengths(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* Of the line between the centres; -1 when its middle is not in the box. */
+/* Of the line between the middles of the rectangles; -1 when its middle is not in the box. */
 static double pair_length(const dyd_delaunay *pd, const dyd_pair *pair, const double box[4]) {
   double a[4], b[4], c[2][2];
   dyd_sites_get_d(a, dyd_delaunay_sites(pd), pair->i);

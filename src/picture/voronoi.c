@@ -19,7 +19,7 @@ typedef struct voronoi_drawing {
   double window[4];
 } voronoi_drawing;
 
-static void path_of(cairo_t *cr, const dyd_view *v, const dyd_polygon *p) {
+static void polygon_outline(cairo_t *cr, const dyd_view *v, const dyd_polygon *p) {
   cairo_new_path(cr);
   for (size_t k = 0; k < p->count; k++)
     cairo_line_to(cr, dyd_view_x(v, dyd_dyadic_get_d(&p->vertex[k].x, DYD_DOWN)),
@@ -27,13 +27,13 @@ static void path_of(cairo_t *cr, const dyd_view *v, const dyd_polygon *p) {
   cairo_close_path(cr);
 }
 
-static dyd_status draw_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
+static dyd_status voronoi_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
   voronoi_drawing *g = context;
   dyd_polygon inner = {0};
   (void)row;
   dyd_status st = dyd_shape_inner(&inner, shape);
   if (st == DYD_OK && inner.count) {
-    path_of(g->cr, &g->view, &inner);
+    polygon_outline(g->cr, &g->view, &inner);
     dyd_picture_colour(g->cr, tints[i % 4]);
     cairo_fill_preserve(g->cr);
     dyd_picture_pen(g->cr, 0x0072b2, g->view.line * 0.6, 0, 0);
@@ -48,7 +48,7 @@ static void box_path(cairo_t *cr, const dyd_view *v, const double b[4]) {
   cairo_rectangle(cr, dyd_view_x(v, b[0]), dyd_view_y(v, b[3]), (b[1] - b[0]) * v->scale, (b[3] - b[2]) * v->scale);
 }
 
-static dyd_status draw_region(void *context, size_t face, const double box[4]) {
+static dyd_status voronoi_region(void *context, size_t face, const double box[4]) {
   const voronoi_drawing *g = context;
   (void)face;
   if (!box || (box[1] - box[0] + box[3] - box[2]) * g->view.scale > 60 * g->view.dot)
@@ -61,7 +61,7 @@ static dyd_status draw_region(void *context, size_t face, const double box[4]) {
   return DYD_OK;
 }
 
-static void draw_vertices(const voronoi_drawing *g) {
+static void voronoi_vertices(const voronoi_drawing *g) {
   for (size_t k = 0; k < g->d->triangles.count; k++) {
     const double *b = g->d->vertex[k], *w = g->window;
     if (!(b[0] <= w[1] && w[0] <= b[1] && b[2] <= w[3] && w[2] <= b[3])) continue;
@@ -107,9 +107,9 @@ static void voronoi_draw(cairo_t *cr, void *context) {
   cairo_clip(cr);
   dyd_picture_colour(cr, DYD_PICTURE_BAND);
   cairo_paint(cr);
-  g->st = dyd_diagram_visit(g->d, draw_cell, g);
-  if (g->st == DYD_OK) g->st = dyd_diagram_regions(g->d, draw_region, g);
-  draw_vertices(g);
+  g->st = dyd_diagram_visit(g->d, voronoi_cell, g);
+  if (g->st == DYD_OK) g->st = dyd_diagram_regions(g->d, voronoi_region, g);
+  voronoi_vertices(g);
   for (size_t i = 0; i < g->d->count; i++) {
     double b[4];
     dyd_sites_get_d(b, g->d->sites, i);

@@ -7,8 +7,6 @@
 #include "base/alloc.h"
 #include "prove/proof.h"
 
-#include <string.h>
-
 /* ---- places ---- */
 
 /* The place of a site as an exact point. */
@@ -75,14 +73,14 @@ static dyd_status table_of_places(dyd_sites *out, uint32_t *site, const dyd_proo
 
 /* ---- bridges ---- */
 
-static uint32_t find_root(uint32_t *parent, uint32_t v) {
+static uint32_t bridge_root(uint32_t *parent, uint32_t v) {
   while (parent[v] != v) v = parent[v] = parent[parent[v]];
   return v;
 }
 
-static bool join(uint32_t *parent, uint32_t a, uint32_t b) {
-  a = find_root(parent, a);
-  b = find_root(parent, b);
+static bool bridge_join(uint32_t *parent, uint32_t a, uint32_t b) {
+  a = bridge_root(parent, a);
+  b = bridge_root(parent, b);
   parent[a] = b;
   return a != b;
 }
@@ -95,13 +93,13 @@ static dyd_status add_bridges(dyd_proof *p, uint32_t *parent, const dyd_delaunay
   for (size_t k = 0; k < pairs.count && st == DYD_OK; k++) {
     const dyd_pair *pair = &pairs.item[k];
     uint32_t i = site[pair->i], j = site[pair->j];
-    if (pair->status != DYD_LEGAL || find_root(parent, i) == find_root(parent, j)) continue;
+    if (pair->status != DYD_LEGAL || bridge_root(parent, i) == bridge_root(parent, j)) continue;
     bool found = false;
     st = dyd_delaunay_witness(&c, pd, pair->i, pair->j);
     if (st == DYD_OK) st = dyd_proof_add_witness(&found, &p->centre, p, i, j, &c, true);
     if (st == DYD_E_RANGE) st = DYD_OK; /* no witness: another bridge may do */
     if (st != DYD_OK || !found) continue;
-    join(parent, i, j);
+    bridge_join(parent, i, j);
     st = dyd_cert_edges_add(&p->bridges, i, j);
   }
   dyd_point_clear(&c);
@@ -132,13 +130,13 @@ static dyd_status try_bridges(bool *apart, dyd_proof *p, uint32_t *parent, uint3
 }
 
 /* Unites what the legal edges join; returns how many parts are left. */
-static size_t unite(uint32_t *parent, const dyd_proof *p) {
+static size_t bridge_unite(uint32_t *parent, const dyd_proof *p) {
   size_t parts = 0;
   for (size_t v = 0; v < p->sites.count; v++) {
     parent[v] = (uint32_t)v;
     parts += p->sites.site[v].alias == v;
   }
-  for (size_t e = 0; e < p->legal.count; e++) parts -= join(parent, p->legal.item[e].i, p->legal.item[e].j);
+  for (size_t e = 0; e < p->legal.count; e++) parts -= bridge_join(parent, p->legal.item[e].i, p->legal.item[e].j);
   return parts;
 }
 
@@ -158,7 +156,7 @@ dyd_status dyd_proof_find_bridges(dyd_proof *p) {
   size_t n = p->sites.count;
   uint32_t *parent = dyd_alloc(n, sizeof *parent), *site = dyd_alloc(n, sizeof *site);
   dyd_status st = parent && site ? DYD_OK : DYD_E_NOMEM;
-  if (st == DYD_OK && (unite(parent, p) > 1 || have_joined_places(p))) {
+  if (st == DYD_OK && (bridge_unite(parent, p) > 1 || have_joined_places(p))) {
     bool apart = false;
     for (unsigned round = 0; round < 4 && st == DYD_OK && !apart; round++)
       st = try_bridges(&apart, p, parent, site, round);

@@ -3,7 +3,6 @@
  *
  * The polygons are those of the bounds in metric.h, vertex by vertex, so that no area is lost; a polygon that the
  * checker's own tests do not take is left out. */
-#include "base/alloc.h"
 #include "checker/check.h"
 #include "metric/voronoi_bounds.h"
 #include "prove/proof.h"
@@ -17,14 +16,9 @@ typedef struct section {
   dyd_exact area2; /* twice the area of the polygons written */
 } section;
 
-static void copy(dyd_exact *out, const dyd_dyadic *x) {
-  mpz_set(out->man, x->man);
-  out->exp = x->exp;
-}
-
 /* ---- polygons ---- */
 
-static bool passes(const section *s, uint32_t i) {
+static bool polygon_passes(const section *s, uint32_t i) {
   const dyd_proof *p = s->proof;
   if (!dyd_cert_polygon_is_convex(&s->polygon)) return false;
   for (size_t k = 0; k < s->polygon.points; k++) {
@@ -35,18 +29,18 @@ static bool passes(const section *s, uint32_t i) {
   return true;
 }
 
-static dyd_status put_polygon(void *context, uint32_t i, const dyd_shape *shape, const double area[2]) {
+static dyd_status section_polygon(void *context, uint32_t i, const dyd_shape *shape, const double area[2]) {
   section *s = context;
   dyd_polygon polygon = {0};
   (void)area;
   dyd_status st = dyd_shape_inner(&polygon, shape);
   if (st == DYD_OK) st = dyd_cert_chain_resize(&s->polygon, polygon.count);
   for (size_t k = 0; st == DYD_OK && k < polygon.count; k++) {
-    copy(&s->polygon.point[k][0], &polygon.vertex[k].x);
-    copy(&s->polygon.point[k][1], &polygon.vertex[k].y);
+    dyd_proof_set(&s->polygon.point[k][0], &polygon.vertex[k].x);
+    dyd_proof_set(&s->polygon.point[k][1], &polygon.vertex[k].y);
   }
   dyd_polygon_clear(&polygon);
-  if (st != DYD_OK || !passes(s, i)) return st;
+  if (st != DYD_OK || !polygon_passes(s, i)) return st;
   fprintf(s->out, "%" PRIu32, i);
   for (size_t k = 0; k < s->polygon.points; k++) {
     putc(' ', s->out);
@@ -60,20 +54,20 @@ static dyd_status put_polygon(void *context, uint32_t i, const dyd_shape *shape,
 /* ---- bounds ---- */
 
 /* x is rounded up by at most 2^-60 of itself. */
-static void round_up(dyd_exact *x) {
+static void exact_round_up(dyd_exact *x) {
   int64_t exp = dyd_exact_top(x) - 61;
   if (dyd_exact_sgn(x) == 0 || exp <= x->exp) return;
   dyd_exact_ceil(x->man, x, NULL, exp);
   x->exp = exp;
 }
 
-static void put_area(section *s) {
+static void section_area(section *s) {
   dyd_exact left;
   dyd_exact_init(&left);
   dyd_cert_window_area(&left, &s->window);
   s->area2.exp--;
   dyd_exact_sub(&left, &left, &s->area2);
-  round_up(&left);
+  exact_round_up(&left);
   fputs("undetermined ", s->out);
   dyd_proof_put_number(s->out, &left);
   putc('\n', s->out);
@@ -81,7 +75,7 @@ static void put_area(section *s) {
 }
 
 /* *bound, or up to four times as much, is proved, within the goal if one was reached; else *proved = false. */
-static dyd_status prove_distance(bool *proved, dyd_exact *bound, const section *s, const dyd_exact *goal) {
+static dyd_status section_prove_distance(bool *proved, dyd_exact *bound, const section *s, const dyd_exact *goal) {
   static const unsigned long sixteenths[] = {16, 17, 32, 64};
   dyd_exact try;
   dyd_exact_init(&try);
@@ -100,7 +94,7 @@ static dyd_status prove_distance(bool *proved, dyd_exact *bound, const section *
   return st;
 }
 
-static dyd_status put_distance(const section *s, const dyd_voronoi_bounds *b) {
+static dyd_status section_distance(const section *s, const dyd_voronoi_bounds *b) {
   const dyd_engine *e = s->proof->engine;
   int64_t bits;
   bool asked =
@@ -113,10 +107,10 @@ static dyd_status put_distance(const section *s, const dyd_voronoi_bounds *b) {
   dyd_exact bound, goal;
   dyd_exact_init(&bound);
   dyd_exact_init(&goal);
-  copy(&bound, &b->hausdorff);
+  dyd_proof_set(&bound, &b->hausdorff);
   mpz_set_ui(goal.man, 1);
   goal.exp = -bits;
-  dyd_status st = prove_distance(&proved, &bound, s, asked ? &goal : NULL);
+  dyd_status st = section_prove_distance(&proved, &bound, s, asked ? &goal : NULL);
   fputs("distance ", s->out);
   dyd_proof_put_number(s->out, &bound);
   fputs(proved ? "\n" : " unproved\n", s->out);
@@ -128,7 +122,7 @@ static dyd_status put_distance(const section *s, const dyd_voronoi_bounds *b) {
 /* ---- all ---- */
 
 /* Fine for the eye; where a goal on the area was reached, as fine as that takes. */
-static dyd_status choose_bits(int64_t *out, const dyd_proof *p, const dyd_rect *window) {
+static dyd_status section_bits(int64_t *out, const dyd_proof *p, const dyd_rect *window) {
   enum { FINER = 8, MOST_FINER = 72 };
   int64_t goal_bits;
   dyd_dyadic goal;
@@ -152,11 +146,11 @@ static dyd_status choose_bits(int64_t *out, const dyd_proof *p, const dyd_rect *
   return st;
 }
 
-static dyd_status put_section(section *s, const dyd_rect *window) {
+static dyd_status section_write(section *s, const dyd_rect *window) {
   dyd_voronoi_sums sums;
   dyd_voronoi_bounds bounds;
   int64_t bits;
-  dyd_status st = choose_bits(&bits, s->proof, window);
+  dyd_status st = section_bits(&bits, s->proof, window);
   if (st != DYD_OK) return st;
   dyd_voronoi_bounds_init(&bounds);
   st = dyd_voronoi_sums_init(&sums, s->proof->pd, window, bits);
@@ -166,10 +160,10 @@ static dyd_status put_section(section *s, const dyd_rect *window) {
     dyd_proof_put_number(s->out, &s->window.e[k]);
   }
   fputs("\npolygons\n", s->out);
-  if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, put_polygon, s, NULL);
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, section_polygon, s, NULL);
   if (st == DYD_OK) st = dyd_voronoi_sums_bounds(&bounds, &sums);
-  if (st == DYD_OK) put_area(s);
-  if (st == DYD_OK) st = put_distance(s, &bounds);
+  if (st == DYD_OK) section_area(s);
+  if (st == DYD_OK) st = section_distance(s, &bounds);
   dyd_voronoi_sums_clear(&sums);
   dyd_voronoi_bounds_clear(&bounds);
   return st;
@@ -182,8 +176,8 @@ dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window
   dyd_cert_window_init(&s.window);
   dyd_cert_chain_init(&s.polygon);
   dyd_exact_init(&s.area2);
-  for (int k = 0; k < 4; k++) copy(&s.window.e[k], end[k]);
-  dyd_status st = put_section(&s, window);
+  for (int k = 0; k < 4; k++) dyd_proof_set(&s.window.e[k], end[k]);
+  dyd_status st = section_write(&s, window);
   dyd_exact_clear(&s.area2);
   dyd_cert_chain_clear(&s.polygon);
   dyd_cert_window_clear(&s.window);

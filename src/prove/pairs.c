@@ -47,7 +47,7 @@ static dyd_status open_lines(lines *l, const dyd_proof *p) {
   return st;
 }
 
-static bool is_listed(const lines *l, size_t count, const dyd_proof *p, uint32_t i, uint32_t j) {
+static bool line_is_listed(const lines *l, size_t count, const dyd_proof *p, uint32_t i, uint32_t j) {
   line key = {i, j, 0};
   return dyd_cert_edges_have(&p->legal, i, j) ||
          (count && bsearch(&key, l->item, count, sizeof key, compare_line) != NULL);
@@ -63,7 +63,7 @@ static dyd_status illegal_lines(lines *l, const dyd_proof *p, size_t known) {
     if (m < 3 || p->faces.covered[f] == m * (m - 1) / 2) continue;
     for (size_t a = 0; a < m; a++)
       for (size_t b = a + 1; b < m && st == DYD_OK && effort < CHAIN_EFFORT; b++) {
-        if (is_listed(l, known, p, site[a], site[b])) continue;
+        if (line_is_listed(l, known, p, site[a], site[b])) continue;
         st = add_line(l, site[a], site[b], 'n');
         effort += CHAIN_PAIR;
       }
@@ -133,7 +133,7 @@ static void remember_blockers(blockers *b, const dyd_cert_chain *chain) {
   }
 }
 
-static dyd_status find_chain(bool *found, dyd_cert_chain *chain, blockers *b, const dyd_proof *p, const line *l) {
+static dyd_status pair_chain(bool *found, dyd_cert_chain *chain, blockers *b, const dyd_proof *p, const line *l) {
   dyd_status st = DYD_OK;
   *found = false;
   for (int wider = 0; wider < 3 && st == DYD_OK && !*found && b->effort < CHAIN_EFFORT; wider++) {
@@ -146,9 +146,9 @@ static dyd_status find_chain(bool *found, dyd_cert_chain *chain, blockers *b, co
   return st;
 }
 
-static dyd_status put_chain(FILE *out, dyd_cert_chain *chain, blockers *near, dyd_proof *p, const line *l) {
+static dyd_status pair_put_chain(FILE *out, dyd_cert_chain *chain, blockers *near, dyd_proof *p, const line *l) {
   bool found;
-  dyd_status st = find_chain(&found, chain, near, p, l);
+  dyd_status st = pair_chain(&found, chain, near, p, l);
   if (st != DYD_OK || !found) return st;
   fprintf(out, "n %" PRIu32 " %" PRIu32 " ", l->i, l->j);
   dyd_proof_put_point(out, (const dyd_exact *)chain->u[0]);
@@ -163,7 +163,7 @@ static dyd_status put_chain(FILE *out, dyd_cert_chain *chain, blockers *near, dy
   return DYD_OK;
 }
 
-static dyd_status put_lines(FILE *out, dyd_proof *p, const lines *l) {
+static dyd_status pair_put_lines(FILE *out, dyd_proof *p, const lines *l) {
   dyd_cert_chain chain;
   blockers near = {0};
   dyd_cert_chain_init(&chain);
@@ -172,7 +172,7 @@ static dyd_status put_lines(FILE *out, dyd_proof *p, const lines *l) {
     const line *at = &l->item[k];
     if (k && compare_line(at, at - 1) == 0) continue; /* a pair of two sets */
     if (at->kind == 'n')
-      st = put_chain(out, &chain, &near, p, at);
+      st = pair_put_chain(out, &chain, &near, p, at);
     else
       fprintf(out, "%c %" PRIu32 " %" PRIu32 "\n", at->kind, at->i, at->j);
   }
@@ -189,7 +189,7 @@ dyd_status dyd_proof_put_pairs(FILE *out, dyd_proof *p) {
   for (size_t k = 0; k < known; k++) dyd_cert_faces_cover(&p->faces, l.item[k].i, l.item[k].j);
   if (st == DYD_OK && !dyd_delaunay_is_capped(p->pd)) st = illegal_lines(&l, p, known);
   if (st == DYD_OK && l.count) qsort(l.item, l.count, sizeof *l.item, compare_line);
-  if (st == DYD_OK) st = put_lines(out, p, &l);
+  if (st == DYD_OK) st = pair_put_lines(out, p, &l);
   free(l.item);
   return st;
 }

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static dyd_status read_radius(dyd_manner *m, const char *text, dyd_error *err) {
+static dyd_status manner_radius(dyd_manner *m, const char *text, dyd_error *err) {
   dyd_status st = dyd_real_parse_exact(m->radius, text, strlen(text));
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (st != DYD_OK || mpq_sgn(m->radius) < 0)
@@ -50,7 +50,7 @@ static bool is_header(const dyd_line *line) {
 }
 
 /* A first line that is not understood may be a header. */
-static dyd_status hint(dyd_status st, const dyd_line *line, const dyd_stage *stage, dyd_error *err) {
+static dyd_status hint_header(dyd_status st, const dyd_line *line, const dyd_stage *stage, dyd_error *err) {
   size_t length = strlen(err->message);
   if (st == DYD_E_PARSE && !stage->count && is_header(line))
     snprintf(err->message + length, sizeof err->message - length,
@@ -67,7 +67,7 @@ static dyd_status read_points_file(dyd_stage *stage, dyd_text *text, const dyd_m
     if (st != DYD_OK || !line.text) return st;
     st = dyd_points_split(span, &count, &line, err);
     if (st == DYD_OK && count) st = stage_point(stage, span, manner, err);
-    if (st != DYD_OK) return hint(st, &line, stage, err);
+    if (st != DYD_OK) return hint_header(st, &line, stage, err);
   }
 }
 
@@ -97,7 +97,7 @@ dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *opti
   mpq_init(manner.radius);
   dyd_text_init(&text, in);
   dyd_stage_init(&stage);
-  dyd_status st = options->radius ? read_radius(&manner, options->radius, err) : DYD_OK;
+  dyd_status st = options->radius ? manner_radius(&manner, options->radius, err) : DYD_OK;
   if (st == DYD_OK)
     st = options->columns ? read_csv_file(&stage, &text, &manner, options->columns, err)
                           : read_points_file(&stage, &text, &manner, err);

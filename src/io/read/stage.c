@@ -20,7 +20,7 @@ void dyd_stage_init(dyd_stage *s) {
   *s = (dyd_stage){0};
 }
 
-static void drop(dyd_staged *p) {
+static void staged_drop(dyd_staged *p) {
   if (p->kind != DYD_COORDINATE_REAL) return;
   dyd_real_free(p->u.real[0]);
   dyd_real_free(p->u.real[1]);
@@ -28,13 +28,13 @@ static void drop(dyd_staged *p) {
 }
 
 void dyd_stage_clear(dyd_stage *s) {
-  for (size_t k = 0; k < s->count; k++) drop(&s->item[k]);
+  for (size_t k = 0; k < s->count; k++) staged_drop(&s->item[k]);
   free(s->item);
   dyd_stage_init(s);
 }
 
 /* DOUBLE stands for BINARY, too, but beside a PLAIN coordinate. */
-static dyd_coordinate_kind common_kind(dyd_coordinate_kind a, dyd_coordinate_kind b) {
+static dyd_coordinate_kind staged_kind(dyd_coordinate_kind a, dyd_coordinate_kind b) {
   if (a == DYD_COORDINATE_BINARY && b != DYD_COORDINATE_PLAIN) a = DYD_COORDINATE_DOUBLE;
   if (b == DYD_COORDINATE_BINARY && a != DYD_COORDINATE_PLAIN) b = DYD_COORDINATE_DOUBLE;
   if (a == b) return a;
@@ -43,7 +43,7 @@ static dyd_coordinate_kind common_kind(dyd_coordinate_kind a, dyd_coordinate_kin
   return DYD_COORDINATE_REAL;
 }
 
-static void join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coordinate *x, const dyd_coordinate *y) {
+static void staged_join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coordinate *x, const dyd_coordinate *y) {
   *out = (dyd_staged){.kind = kind};
   switch (kind) {
   case DYD_COORDINATE_DOUBLE:
@@ -65,7 +65,7 @@ static void join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coordinate
 
 dyd_status dyd_stage_add(dyd_stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
   dyd_status st = DYD_OK;
-  dyd_coordinate_kind kind = common_kind(x->kind, y->kind);
+  dyd_coordinate_kind kind = staged_kind(x->kind, y->kind);
   if (!dyd_reserve((void **)&s->item, &s->cap, s->count + 1, sizeof *s->item)) st = DYD_E_NOMEM;
   if (st == DYD_OK && kind == DYD_COORDINATE_REAL) st = dyd_coordinate_make_real(x);
   if (st == DYD_OK && kind == DYD_COORDINATE_REAL) st = dyd_coordinate_make_real(y);
@@ -74,7 +74,7 @@ dyd_status dyd_stage_add(dyd_stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd
     dyd_coordinate_clear(y);
     return dyd_fail(err, st, "%s", dyd_status_text(st));
   }
-  join(&s->item[s->count++], kind, x, y);
+  staged_join(&s->item[s->count++], kind, x, y);
   x->kind = y->kind = DYD_COORDINATE_DOUBLE;
   return DYD_OK;
 }
@@ -153,7 +153,7 @@ static dyd_status commit_fixed(dyd_engine *e, const dyd_staged *p) {
 static dyd_status commit_reals(dyd_engine *e, dyd_staged *p) {
   if (dyd_real_is_final(p->u.real[0]) && dyd_real_is_final(p->u.real[1])) {
     dyd_status st = commit_fixed(e, p);
-    drop(p);
+    staged_drop(p);
     return st;
   }
   dyd_stream *stream = NULL;

@@ -34,7 +34,7 @@ dyd_status dyd_span_fail(dyd_error *err, const dyd_span *span, size_t offset, co
 }
 
 /* Reads one more block behind what is there. */
-static dyd_status fill(dyd_text *t, dyd_error *err) {
+static dyd_status text_fill(dyd_text *t, dyd_error *err) {
   if (t->start) memmove(t->buffer, t->buffer + t->start, t->end - t->start);
   t->end -= t->start;
   t->start = 0;
@@ -48,12 +48,12 @@ static dyd_status fill(dyd_text *t, dyd_error *err) {
   return DYD_OK;
 }
 
-static void skip_mark(dyd_text *t) {
+static void text_skip_mark(dyd_text *t) {
   if (t->end - t->start >= 3 && memcmp(t->buffer + t->start, "\xEF\xBB\xBF", 3) == 0) t->start += 3;
 }
 
 /* Finds the line end in what is read, reading on as needed; *length is up to the LF or the end of the file. */
-static dyd_status find_end(size_t *length, bool *newline, dyd_text *t, dyd_error *err) {
+static dyd_status text_find_end(size_t *length, bool *newline, dyd_text *t, dyd_error *err) {
   for (size_t seen = 0;;) {
     size_t have = t->end - t->start;
     const char *base = have ? t->buffer + t->start : NULL;
@@ -62,13 +62,13 @@ static dyd_status find_end(size_t *length, bool *newline, dyd_text *t, dyd_error
     *length = found ? (size_t)(found - base) : have;
     if (found || t->ended || *length > DYD_TEXT_LINE_MAX) return DYD_OK;
     seen = have;
-    dyd_status st = fill(t, err);
+    dyd_status st = text_fill(t, err);
     if (st != DYD_OK) return st;
-    if (t->line == 0 && seen == 0) skip_mark(t);
+    if (t->line == 0 && seen == 0) text_skip_mark(t);
   }
 }
 
-static dyd_status check_line(const dyd_line *line, dyd_error *err) {
+static dyd_status refuse_line(const dyd_line *line, dyd_error *err) {
   dyd_span span = {line->text, line->length, line->text, line->text, line->number};
   if (line->length > DYD_TEXT_LINE_MAX)
     return dyd_span_fail(err, &span, 0, "this line is longer than 1048576 bytes; give one point per line");
@@ -80,12 +80,12 @@ static dyd_status check_line(const dyd_line *line, dyd_error *err) {
 dyd_status dyd_text_next(dyd_line *out, dyd_text *t, dyd_error *err) {
   size_t length;
   bool newline;
-  dyd_status st = find_end(&length, &newline, t, err);
+  dyd_status st = text_find_end(&length, &newline, t, err);
   if (st != DYD_OK) return st;
   *out = (dyd_line){0};
   if (!length && !newline) return DYD_OK;
   *out = (dyd_line){t->buffer + t->start, length, ++t->line};
   t->start += length + newline;
   if (out->length && out->text[out->length - 1] == '\r') out->length--;
-  return check_line(out, err);
+  return refuse_line(out, err);
 }
