@@ -5,10 +5,10 @@
 
 enum { COLUMN = 24 };
 
-/* How many commands of the set exist. */
+/* How many commands are in the set. */
 static unsigned count_commands(unsigned commands) {
   unsigned n = 0;
-  for (commands &= cli_existing(); commands; commands &= commands - 1) n++;
+  for (; commands; commands &= commands - 1) n++;
   return n;
 }
 
@@ -16,12 +16,8 @@ static unsigned count_commands(unsigned commands) {
 static void help_takers(FILE *out, unsigned commands, unsigned among) {
   unsigned takers = count_commands(commands & among);
   if (takers == count_commands(among) || takers > 2) return;
-  const char *separator = " (";
-  for (unsigned c = 0; c < CLI_COMMANDS; c++) {
-    if (!(commands & among & cli_existing() & 1u << c)) continue;
-    fprintf(out, "%s%s", separator, cli_commands[c].name);
-    separator = ", ";
-  }
+  fputs(" (", out);
+  cli_commands_print(out, commands & among, ", ");
   fputs(")", out);
 }
 
@@ -73,7 +69,6 @@ void cli_help(FILE *out, const cli_command *command) {
   } else {
     fprintf(out, "Usage: dyadel COMMAND [OPTION...] FILE\n%s\n\nCommands\n", cli_summary);
     for (size_t c = 0; c < CLI_COMMANDS; c++) {
-      if (!cli_commands[c].run) continue;
       char usage[64];
       snprintf(usage, sizeof usage, "%s %s", cli_commands[c].name, cli_commands[c].operands);
       fprintf(out, "  %-*s%s\n", COLUMN - 2, usage, cli_commands[c].line);
@@ -81,7 +76,7 @@ void cli_help(FILE *out, const cli_command *command) {
     fputs("\n", out);
   }
   if (!command || strncmp(command->operands, "FILE", 4) == 0) fprintf(out, "%s\n\n", cli_file_text);
-  help_options(out, command ? cli_command_bit(command) : cli_existing());
+  help_options(out, command ? cli_command_bit(command) : CLI_ALL);
   fputs("\nExit status: 0 decided or certified, 1 bad input or failure, 2 bad usage,\n"
         "3 fixpoint (ties or fixed rectangles), 4 budget spent, 5 cancelled.\n"
         "Results are written for 0, 3, 4 and 5.\n",

@@ -56,14 +56,9 @@ static void man_terms(FILE *out, const cli_term *t, const char *macro) {
 }
 
 static void man_takers(FILE *out, const cli_option *o) {
-  unsigned existing = cli_existing(), set = o->commands & existing;
-  if (set == existing) return;
-  const char *separator = "(";
-  for (unsigned c = 0; c < CLI_COMMANDS; c++) {
-    if (!(set >> c & 1)) continue;
-    fprintf(out, "%s%s", separator, cli_commands[c].name);
-    separator = ", ";
-  }
+  if (o->commands == CLI_ALL) return;
+  fputs("(", out);
+  cli_commands_print(out, o->commands, ", ");
   fputs(")\n", out);
 }
 
@@ -90,7 +85,7 @@ static void man_options(FILE *out) {
     bool any = false;
     for (size_t k = 0; k < cli_option_count; k++) {
       const cli_option *o = &cli_option_table[k];
-      if (o->group != (cli_group)g || !cli_option_exists(o, cli_existing())) continue;
+      if (o->group != (cli_group)g) continue;
       if (!any) fprintf(out, ".Ss %s\n.Bl -tag -width Ds\n", cli_group_names[g]);
       any = true;
       man_option(out, o);
@@ -102,7 +97,6 @@ static void man_options(FILE *out) {
 static void man_commands(FILE *out) {
   fputs(".Bl -tag -width Ds\n", out);
   for (size_t c = 0; c < CLI_COMMANDS; c++) {
-    if (!cli_commands[c].run) continue;
     fprintf(out, ".It Cm %s Ar %s\n", cli_commands[c].name, cli_commands[c].operands);
     man_text(out, cli_commands[c].about);
   }
@@ -123,8 +117,7 @@ void cli_help_man(FILE *out) {
         ".Sh NAME\n.Nm dyadel\n.Nd Delaunay and Voronoi of computable points\n.Sh SYNOPSIS\n",
         out);
   for (size_t c = 0; c < CLI_COMMANDS; c++)
-    if (cli_commands[c].run)
-      fprintf(out, ".Nm\n.Cm %s\n.Op Ar option ...\n.Ar %s\n", cli_commands[c].name, cli_commands[c].operands);
+    fprintf(out, ".Nm\n.Cm %s\n.Op Ar option ...\n.Ar %s\n", cli_commands[c].name, cli_commands[c].operands);
   fputs(".Sh DESCRIPTION\n", out);
   man_text(out, cli_summary);
   fputs(".Pp\nThe commands are:\n", out);

@@ -18,7 +18,7 @@ typedef struct scan {
   size_t operands;
 } scan;
 
-/* Tells getopt_long of all options that exist; its value for option k is FIRST_VALUE + k. */
+/* Tells getopt_long of all options; its value for option k is FIRST_VALUE + k. */
 static void scan_prepare(scan *s) {
   size_t n = 0, m = 0;
   *s = (scan){0};
@@ -26,7 +26,6 @@ static void scan_prepare(scan *s) {
   s->letters[m++] = ':';
   for (size_t k = 0; k < cli_option_count && n < MOST_OPTIONS; k++) {
     const cli_option *o = &cli_option_table[k];
-    if (!cli_option_exists(o, cli_existing())) continue;
     int argument = o->kind == CLI_HELP ? optional_argument : o->argument ? required_argument : no_argument;
     s->known[n++] = (struct option){o->name, argument, NULL, FIRST_VALUE + (int)k};
     if (!o->letter) continue;
@@ -48,8 +47,7 @@ static int complain_unknown(const char *argument) {
   name[strcspn(name, "=")] = 0;
   cli_suggestion s;
   cli_suggest_begin(&s, name);
-  for (size_t k = 0; k < cli_option_count; k++)
-    if (cli_option_exists(&cli_option_table[k], cli_existing())) cli_suggest_try(&s, cli_option_table[k].name);
+  for (size_t k = 0; k < cli_option_count; k++) cli_suggest_try(&s, cli_option_table[k].name);
   if (s.best)
     cli_complain("there is no option %s; did you mean --%s?", argument, s.best);
   else
@@ -111,14 +109,13 @@ static int scan_all(scan *s, cli_options *o, int argc, char **argv) {
 static int unknown_command(const char *name) {
   cli_suggestion s;
   cli_suggest_begin(&s, name);
-  for (size_t c = 0; c < CLI_COMMANDS; c++)
-    if (cli_commands[c].run) cli_suggest_try(&s, cli_commands[c].name);
+  for (size_t c = 0; c < CLI_COMMANDS; c++) cli_suggest_try(&s, cli_commands[c].name);
   if (s.best)
     cli_complain("there is no command \"%s\"; did you mean %s?", name, s.best);
   else
     cli_complain("there is no command \"%s\"; the commands are:", name);
   for (size_t c = 0; !s.best && c < CLI_COMMANDS; c++)
-    if (cli_commands[c].run) fprintf(stderr, "  dyadel %s %s\n", cli_commands[c].name, cli_commands[c].operands);
+    fprintf(stderr, "  dyadel %s %s\n", cli_commands[c].name, cli_commands[c].operands);
   return CLI_USAGE;
 }
 

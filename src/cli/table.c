@@ -3,7 +3,7 @@
  *
  * A new command: its row in cli_commands, `int cli_NAME(const cli_options *o)` in NAME.c, its declaration in cli.h.
  * A new option: its row in cli_option_table and its field in cli_options. The rest follows: parsing, messages, help,
- * manual page, completion. Options of commands that do not exist (run = NULL) do not exist either. */
+ * manual page, completion. */
 #include "table.h"
 #include <string.h>
 
@@ -13,8 +13,7 @@
 #define GIVEN(field) .given = offsetof(cli_options, field)
 
 enum {
-  ALL = BIT(CLI_COMMANDS) - 1,
-  READ = ALL & ~BIT(CLI_VERIFY),                                                   /* reads points */
+  READ = CLI_ALL & ~BIT(CLI_VERIFY),                                               /* reads points */
   RUN = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_CHECK), /* runs the engine to a goal */
   PIECES = BIT(CLI_DISC) | BIT(CLI_BISECTOR),
   REFINE = RUN | PIECES | BIT(CLI_NEAREST) /* asks points to narrow */
@@ -114,12 +113,12 @@ const cli_option cli_option_table[] = {
      AT(window)},
     {"flatten", 0, "M", CLI_INTEGER, BIT(CLI_VORONOI), CLI_OUTPUT, "draw arcs by polygons within 2^-M of them",
      AT(flatten_bits), RANGE(-DYD_EXP_LIMIT, DYD_EXP_LIMIT), GIVEN(flatten_set)},
-    {"format", 0, "F", CLI_FORMAT, ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
-    {"output", 'o', "FILE", CLI_FILE, ALL, CLI_OUTPUT, "write to FILE, whole or not at all", AT(output)},
+    {"format", 0, "F", CLI_FORMAT, CLI_ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
+    {"output", 'o', "FILE", CLI_FILE, CLI_ALL, CLI_OUTPUT, "write to FILE, whole or not at all", AT(output)},
     {"certificate", 0, "FILE", CLI_FILE, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_OUTPUT,
      "write what proves the result; see dyadel verify", AT(certificate)},
     {"stats", 0, NULL, CLI_FLAG, RUN, CLI_OUTPUT, "print counters to standard error", AT(stats)},
-    {"quiet", 0, NULL, CLI_FLAG, ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
+    {"quiet", 0, NULL, CLI_FLAG, CLI_ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
 
     {"plot", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "draw the table; FILE ends in .svg, .pdf or .png",
      AT(plot)},
@@ -136,27 +135,20 @@ const cli_option cli_option_table[] = {
     {"schedules", 0, "K", CLI_INTEGER, BIT(CLI_CHECK), CLI_EXPERIMENTS, "random schedules to try", AT(schedules),
      RANGE(1, 1000000)},
 
-    {"help", 'h', "KIND", CLI_HELP, ALL, CLI_OTHER,
+    {"help", 'h', "KIND", CLI_HELP, CLI_ALL, CLI_OTHER,
      "this text; after a command: its options;\n--help=man, bash, zsh: manual page, completion script", AT(help)},
-    {"version", 0, NULL, CLI_FLAG, ALL, CLI_OTHER, "the version", AT(version)},
+    {"version", 0, NULL, CLI_FLAG, CLI_ALL, CLI_OTHER, "the version", AT(version)},
 };
 const size_t cli_option_count = sizeof cli_option_table / sizeof *cli_option_table;
 
-unsigned cli_existing(void) {
-  unsigned set = 0;
-  for (unsigned c = 0; c < CLI_COMMANDS; c++)
-    if (cli_commands[c].run) set |= BIT(c);
-  return set;
-}
-
 bool cli_option_exists(const cli_option *option, unsigned commands) {
   if (option->kind == CLI_FORMAT && !cli_formats_of(option->commands & commands)) return false;
-  return (option->commands & commands & cli_existing()) != 0;
+  return (option->commands & commands) != 0;
 }
 
 const cli_command *cli_command_find(const char *name) {
   for (unsigned c = 0; c < CLI_COMMANDS; c++)
-    if (cli_commands[c].run && strcmp(cli_commands[c].name, name) == 0) return &cli_commands[c];
+    if (strcmp(cli_commands[c].name, name) == 0) return &cli_commands[c];
   return NULL;
 }
 
@@ -164,10 +156,19 @@ unsigned cli_command_bit(const cli_command *c) {
   return BIT((unsigned)(c - cli_commands));
 }
 
+void cli_commands_print(FILE *out, unsigned commands, const char *separator) {
+  const char *before = "";
+  for (unsigned c = 0; c < CLI_COMMANDS; c++) {
+    if (!(commands & BIT(c))) continue;
+    fprintf(out, "%s%s", before, cli_commands[c].name);
+    before = separator;
+  }
+}
+
 unsigned cli_formats_of(unsigned commands) {
   unsigned formats = 0;
   for (unsigned c = 0; c < CLI_COMMANDS; c++)
-    for (unsigned f = 0; commands & cli_existing() & BIT(c) && dyd_format_name((dyd_format)f); f++)
+    for (unsigned f = 0; commands & BIT(c) && dyd_format_name((dyd_format)f); f++)
       if (dyd_format_holds((dyd_format)f, cli_commands[c].content)) formats |= BIT(f);
   return formats;
 }

@@ -6,6 +6,7 @@
 #include "io/decimal.h"
 #include "base/alloc.h"
 #include "io/read/plain.h"
+#include <inttypes.h>
 #include <math.h>
 #include <mpfr.h>
 #include <string.h>
@@ -79,6 +80,22 @@ void dyd_decimal_within(char out[DYD_DECIMAL_SIZE], double *error, double lo, do
   /* |decimal - r| is at most half the gap above |r|, the larger one; then two roundings to nearest. */
   double gap = nextafter(fabs(r), INFINITY) - fabs(r);
   *error = nextafter(nextafter(*error + gap / 2, INFINITY), INFINITY);
+}
+
+/* MPFR rounds decimals correctly, and its exponents reach far beyond DYD_EXP_LIMIT. */
+void dyd_decimal_dyadic(char out[DYD_DECIMAL_SIZE], const dyd_dyadic *x, int digits, dyd_round dir) {
+  strcpy(out, "0");
+  if (dyd_dyadic_sgn(x) == 0) return;
+  char text[DYD_DECIMAL_SIZE];
+  mpfr_t exact;
+  mpfr_exp_t point;
+  size_t bits = mpz_sizeinbase(x->man, 2);
+  mpfr_init2(exact, bits < 2 ? 2 : (mpfr_prec_t)bits);
+  mpfr_set_z_2exp(exact, x->man, (mpfr_exp_t)x->exp, MPFR_RNDN);
+  mpfr_get_str(text, &point, 10, (size_t)digits, exact, dir == DYD_UP ? MPFR_RNDU : MPFR_RNDD);
+  mpfr_clear(exact);
+  const char *digit = text + (*text == '-');
+  snprintf(out, DYD_DECIMAL_SIZE, "%s%c.%se%" PRIdMAX, *text == '-' ? "-" : "", *digit, digit + 1, (intmax_t)point - 1);
 }
 
 void dyd_decimal_json(FILE *out, double x, dyd_round dir) {

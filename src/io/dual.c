@@ -9,23 +9,15 @@
 #include "base/alloc.h"
 #include <math.h>
 
-static int dual_compare(uint32_t i, uint32_t j, const dyd_dual_edge *e) {
-  if (i != e->i) return i < e->i ? -1 : 1;
-  return (j > e->j) - (j < e->j);
+static int dual_compare(const void *a, const void *b) {
+  const dyd_dual_edge *x = a, *y = b;
+  if (x->i != y->i) return x->i < y->i ? -1 : 1;
+  return (x->j > y->j) - (x->j < y->j);
 }
 
 static dyd_dual_edge *dual_find(dyd_dual_edge *edge, size_t count, uint32_t i, uint32_t j) {
-  size_t lo = 0, hi = count;
-  while (lo < hi) {
-    size_t middle = (lo + hi) / 2;
-    int c = dual_compare(i, j, &edge[middle]);
-    if (c == 0) return &edge[middle];
-    if (c < 0)
-      hi = middle;
-    else
-      lo = middle + 1;
-  }
-  return NULL;
+  const dyd_dual_edge key = {.i = i, .j = j};
+  return bsearch(&key, edge, count, sizeof key, dual_compare);
 }
 
 static void dual_join_triangles(dyd_dual_edge *edge, size_t count, const dyd_triangle_list *triangles) {

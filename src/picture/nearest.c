@@ -95,26 +95,16 @@ static bool is_seen(const dyd_view *v, const double b[4]) {
          b[2] <= v->top;
 }
 
-static bool is_found(const nearest_drawing *g, size_t i) {
-  const dyd_index_list *l = g->answer->found;
-  size_t lo = 0, hi = l->count;
-  while (lo < hi) {
-    size_t middle = (lo + hi) / 2;
-    if (l->item[middle] < i)
-      lo = middle + 1;
-    else
-      hi = middle;
-  }
-  return lo < l->count && l->item[lo] == i;
-}
-
 /* The others first, so that those that are possibly nearest lie on top. */
 static void nearest_sites(cairo_t *cr, const nearest_drawing *g, bool found) {
+  const dyd_index_list *l = g->answer->found; /* ascending */
   size_t seen = 0;
   for (int pass = 0; pass < 2; pass++)
-    for (size_t i = 0; i < dyd_sites_count(g->sites); i++) {
+    for (size_t i = 0, at = 0; i < dyd_sites_count(g->sites); i++) {
       double b[4];
-      if (dyd_delaunay_alias(g->pd, (uint32_t)i) != i || is_found(g, i) != found) continue;
+      while (at < l->count && l->item[at] < i) at++;
+      bool is_found = at < l->count && l->item[at] == i;
+      if (dyd_delaunay_alias(g->pd, (uint32_t)i) != i || is_found != found) continue;
       dyd_sites_get_d(b, g->sites, i);
       if (!is_seen(&g->view, b)) continue;
       if (!pass)
