@@ -72,13 +72,13 @@ DYD_API dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const 
 /* Every coordinate form of the points file: decimal, rational, hexadecimal float, dyadic, [lo,hi],
  * value+-radius, expression, root(polynomial,lo,hi). On DYD_E_PARSE err has the column (from 1). */
 DYD_API dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_error *err);
-/* The exact value of a text of these forms, where it is a rational number: DYD_E_PARSE where it is not. */
-DYD_API dyd_status dyd_real_parse_exact(mpq_t out, const char *text, size_t length);
 /* The interval [value - radius, value + radius] around any real, at every precision; takes over x. */
 DYD_API dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius);
 /* The root in [lo,hi] of the polynomial sum coeff[k] x^k, degree = count - 1, that has opposite signs at lo and hi. */
 DYD_API dyd_status dyd_real_root(dyd_real **out, const mpq_t *coeff, size_t count, const mpq_t lo, const mpq_t hi,
                                  dyd_error *err);
+/* The exact value of a text that dyd_real_parse takes, where that is a rational number; else DYD_E_PARSE. */
+DYD_API dyd_status dyd_real_parse_exact(mpq_t out, const char *text, size_t length);
 DYD_API dyd_real *dyd_real_ref(dyd_real *x);
 DYD_API void dyd_real_free(dyd_real *x);
 /* Narrows to about 2^-bits; nestedness is checked. DYD_OK, DYD_FIXED or an error. */

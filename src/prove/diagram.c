@@ -3,6 +3,7 @@
  *
  * The polygons are those of the bounds in metric.h, vertex by vertex, so that no area is lost; a polygon that the
  * checker's own tests do not take is left out. */
+#include "base/alloc.h"
 #include "checker/check.h"
 #include "metric/voronoi_bounds.h"
 #include "prove/proof.h"

@@ -216,6 +216,16 @@ static dyd_status read_coordinate(dyd_real **out, reader *r) {
   return DYD_OK;
 }
 
+dyd_status dyd_real_parse_exact(mpq_t out, const char *text, size_t length) {
+  dyd_real *real = NULL;
+  dyd_status st = dyd_real_parse(&real, text, length, NULL);
+  if (st != DYD_OK) return st;
+  bool exact = dyd_real_is_final(real) && dyd_interval_is_point(dyd_real_interval(real));
+  if (exact) dyd_interval_get_q(out, out, dyd_real_interval(real));
+  dyd_real_free(real);
+  return exact ? DYD_OK : DYD_E_PARSE;
+}
+
 static dyd_status read_plain(dyd_real **out, reader *r) {
   mpq_t q;
   mpq_init(q);
@@ -230,14 +240,4 @@ dyd_status dyd_real_parse(dyd_real **out, const char *text, size_t length, dyd_e
   if (!text && length) return dyd_fail(err, DYD_E_ARG, "no text was given");
   if (dyd_is_plain_number(text, length)) return read_plain(out, &r);
   return read_coordinate(out, &r);
-}
-
-dyd_status dyd_real_parse_exact(mpq_t out, const char *text, size_t length) {
-  dyd_real *real = NULL;
-  dyd_status st = dyd_real_parse(&real, text, length, NULL);
-  if (st != DYD_OK) return st;
-  bool exact = dyd_real_is_final(real) && dyd_interval_is_point(dyd_real_interval(real));
-  if (exact) dyd_interval_get_q(out, out, dyd_real_interval(real));
-  dyd_real_free(real);
-  return exact ? DYD_OK : DYD_E_PARSE;
 }
