@@ -173,6 +173,16 @@ static bool starts_root(reader *r) {
 
 /* ---- the whole coordinate ---- */
 
+dyd_status dyd_real_parse_exact(mpq_t out, const char *text, size_t length) {
+  dyd_real *real = NULL;
+  dyd_status st = dyd_real_parse(&real, text, length, NULL);
+  if (st != DYD_OK) return st;
+  bool exact = dyd_real_is_final(real) && dyd_interval_is_point(dyd_real_interval(real));
+  if (exact) dyd_interval_get_q(out, out, dyd_real_interval(real));
+  dyd_real_free(real);
+  return exact ? DYD_OK : DYD_E_PARSE;
+}
+
 /* Behind "+-". Widens *x, which is released on failure. */
 static dyd_status read_radius(dyd_real **x, reader *r) {
   mpq_t radius;
@@ -214,16 +224,6 @@ static dyd_status read_coordinate(dyd_real **out, reader *r) {
   }
   *out = x;
   return DYD_OK;
-}
-
-dyd_status dyd_real_parse_exact(mpq_t out, const char *text, size_t length) {
-  dyd_real *real = NULL;
-  dyd_status st = dyd_real_parse(&real, text, length, NULL);
-  if (st != DYD_OK) return st;
-  bool exact = dyd_real_is_final(real) && dyd_interval_is_point(dyd_real_interval(real));
-  if (exact) dyd_interval_get_q(out, out, dyd_real_interval(real));
-  dyd_real_free(real);
-  return exact ? DYD_OK : DYD_E_PARSE;
 }
 
 static dyd_status read_plain(dyd_real **out, reader *r) {
