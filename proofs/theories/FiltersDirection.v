@@ -9,9 +9,9 @@ Open Scope R_scope.
 
 (* [FLT-DIR] src/skeleton/tree_filter.c: double r = px + py + {} * (fabs(px) + fabs(py)) *)
 Definition c_reach : const := (1, -50)%Z.
-(* [FLT-DIR] src/skeleton/site_filter.c: double slack = {} * (fabs(ux) * mx *)
+(* [FLT-DIR] src/skeleton/rects_filter.c: double slack = {} * (fabs(ux) * mx *)
 Definition c_height : const := (1, -48)%Z.
-(* [FLT-DIR] src/skeleton/site_filter.c: fabs(uy) * my) + {} * (mx + my) *)
+(* [FLT-DIR] src/skeleton/rects_filter.c: fabs(uy) * my) + {} * (mx + my) *)
 Definition c_height_cut : const := (1, -898)%Z.
 
 (* C src/skeleton/tree_filter.c reach
@@ -24,8 +24,8 @@ Definition reach (b : bbox) (ux uy : double) : double :=
   let px := (ux * farther_end ux (e0 b) (e1 b))%D in let py := (uy * farther_end uy (e2 b) (e3 b))%D in
   let r := (px + py + lit c_reach * (fabs px + fabs py) + lit c_tiny)%D in
   if is_nan 53 1024 r then inf else r.
-(* C src/skeleton/site_filter.c dyd_height_lower
-  const dyd_bbox *all = &pd->tree.node[pd->tree.level[pd->tree.levels - 1]];
+(* C src/skeleton/rects_filter.c dyd_height_lower
+  const dyd_bbox *all = &r->tree.node[r->tree.level[r->tree.levels - 1]];
   double mx = dyd_max(fabs(all->e[0]), fabs(all->e[1])), my = dyd_max(fabs(all->e[2]), fabs(all->e[3]));
   double x = ux > 0 ? p->e[1] : p->e[0], y = uy > 0 ? p->e[3] : p->e[2];
   double slack = 32 * 0x1p-53 * (fabs(ux) * mx + fabs(uy) * my) + 0x1p-898 * (mx + my) + DYD_TINY;

@@ -90,7 +90,7 @@ Proof.
   pose proof (P (- x) ltac:(lra)) as Q. rewrite round_ZR_opp, !Rabs_Ropp in Q. exact Q.
 Qed.
 
-(* C src/skeleton/site_filter.c dyd_direction_d
+(* C src/skeleton/rects_filter.c dyd_direction_d
   long e[2];
   u[0] = mpz_get_d_2exp(&e[0], x);
   u[1] = mpz_get_d_2exp(&e[1], y);

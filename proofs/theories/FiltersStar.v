@@ -57,10 +57,10 @@ Qed.
 
 (** ** Radii *)
 
-(* C src/legal/star_filter.c radius
-  dyd_xy p = pd->reps.xy[v];
+(* C src/legal/star_filter.c star_radius
+  dyd_xy p = sk->reps.xy[v];
   dyd_bbox c = {{p.x, p.x, p.y, p.y}};
-  return sqrt(dyd_dl2_upper(&c, &pd->box[v])) * DYD_UP_FACTOR + DYD_TINY;
+  return sqrt(dyd_dl2_upper(&c, &sk->rects.box[v])) * DYD_UP_FACTOR + DYD_TINY;
 *)
 Definition point_box (x y : double) : bbox := {| e0 := x; e1 := x; e2 := y; e3 := y |}.
 Definition radius (px py : double) (b : bbox) : double :=
@@ -139,7 +139,7 @@ Qed.
 
 (* [FLT-STAR] src/legal/star_filter.c: p->reach = {} * (largest *)
 Notation z_star_two := 2%Z.
-(* [FLT-STAR] src/legal/star_filter.c: (largest + {} * pd->reps.delta); *)
+(* [FLT-STAR] src/legal/star_filter.c: (largest + {} * sk->reps.delta); *)
 Notation z_star_three := 3%Z.
 Definition star_reach (largest delta : double) : double :=
   (lit (z_star_two, 0%Z) * (largest + lit (z_star_three, 0%Z) * delta))%D.
@@ -169,14 +169,11 @@ Qed.
 (** ** The disc of an edge *)
 
 (* Where the centre comes from does not matter: *)
-(* any src/legal/star_filter.c: double want = out > -{} ? *)
-(* any src/legal/star_filter.c: return (dyd_xy){(a.x + b.x) * {}, (a.y *)
-(* any src/legal/star_filter.c: return (dyd_xy){(a.x + b.x) * 0.5, (a.y + b.y) * {}} *)
 (* any src/legal/star_filter.c: dyd_xy c = {(a.x + b.x) * {}, (a.y *)
 (* any src/legal/star_filter.c: dyd_xy c = {(a.x + b.x) * 0.5, (a.y + b.y) * {}} *)
 
 (* C src/legal/star_filter.c certify_edges
-  dyd_xy v = p->pd->reps.xy[s->v];
+  dyd_xy v = p->sk->reps.xy[s->v];
   for (int q = 0; q < s->degree; q++) {
     if (q == s->ghost) continue;
     dyd_xy a = s->centre[q], b = s->centre[q ? q - 1 : s->degree - 1];
@@ -185,9 +182,9 @@ Qed.
     double rho = sqrt(dyd_upper(dyd_max(ix * ix + iy * iy, jx * jx + jy * jy))) * DYD_UP_FACTOR;
     double wide = (rho + p->reach) * DYD_UP_FACTOR;
     if (!others_farther(s, q, c, dyd_upper(wide * wide))) continue;
-    uint32_t h = s->corner[q], j = p->pd->mesh.tri[h >> 2].v[dyd_next(h & 3)];
+    uint32_t j = dyd_edge_target(&p->sk->mesh, s->edge[q]);
     if (p->fat.count && (is_fat(p, j) || fat_near(p, c, wide, s->v, j))) continue;
-    mark(p->pd, h, dyd_prev(h & 3));
+    star_mark(p->sk, s->edge[q]);
   }
 *)
 Definition star_wide (vx vy jx jy cx cy reach : double) : double :=

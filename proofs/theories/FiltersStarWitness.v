@@ -13,7 +13,7 @@ Definition c_star_hull : const := (1, -50)%Z.
 
 (* C src/legal/star_filter.c certify_hull
   int next = (s->ghost + 1) % s->degree, before = (s->ghost + s->degree - 1) % s->degree;
-  dyd_xy v = p->pd->reps.xy[s->v];
+  dyd_xy v = p->sk->reps.xy[s->v];
   double ux = s->y[next] - s->y[before], uy = s->x[before] - s->x[next];
   double need = p->reach * sqrt(dyd_upper(ux * ux + uy * uy)) * DYD_UP_FACTOR;
   if (p->fat.count) return;
@@ -22,10 +22,8 @@ Definition c_star_hull : const := (1, -50)%Z.
     double a = ux * (v.x - s->x[k]), b = uy * (v.y - s->y[k]);
     if (!(a + b > need + 8 * 0x1p-53 * (fabs(a) + fabs(b)) + DYD_TINY)) return;
   }
-  uint32_t h = s->corner[s->ghost];
-  uint32_t twin = p->pd->mesh.tri[h >> 2].n[dyd_prev(h & 3)];
-  mark(p->pd, h, dyd_prev(h & 3));
-  mark(p->pd, twin, twin & 3);
+  star_mark(p->sk, s->edge[s->ghost]);
+  star_mark(p->sk, dyd_edge_twin(&p->sk->mesh, s->edge[s->ghost]));
 *)
 Definition surely_lower (ux uy vx vy kx ky reach : double) : bool :=
   let need := (reach * fsqrt (upper (lift ux uy)) * lit c_up_factor)%D in

@@ -6,9 +6,11 @@
 
 #include "legal/certify.h"
 #include "legal/fat_filter.h"
+#include "legal/near_filter.h"
 #include "support/random.h"
 
 #include <cmocka.h>
+#include <dyadel/delaunay.h>
 #include <math.h>
 #include <string.h>
 
@@ -49,6 +51,21 @@ static dyd_sites *sites_of(const flock *f) {
   return s;
 }
 
+/* true: it has triangles and boxes, and representatives that are doubles. */
+static bool thin_skeleton(dyd_skeleton *sk, const dyd_sites *s) {
+  assert_int_equal(dyd_skeleton_build(sk, s, &(dyd_skeleton_options){.threads = 1}), DYD_OK);
+  return sk->mesh.count && sk->rects.box && !sk->reps.code;
+}
+
+/* Vertices of rectangles that are not thin. */
+static uint32_t fat_ones(uint32_t *fat, const dyd_skeleton *sk, double thin) {
+  const dyd_bbox *box = sk->rects.box;
+  uint32_t count = 0;
+  for (uint32_t v = 0; v < sk->n; v++)
+    if (box[v].e[1] - box[v].e[0] > thin || box[v].e[3] - box[v].e[2] > thin) fat[count++] = v;
+  return count;
+}
+
 /* ---- the flood ---- */
 
 static real outside(real x, real lo, real hi) {
@@ -85,22 +102,20 @@ static bool touches(const dyd_mesh *m, uint32_t t, uint32_t v) {
   return m->tri[t].v[0] == v || m->tri[t].v[1] == v || m->tri[t].v[2] == v;
 }
 
-static void check_flood(tally *sum, const dyd_delaunay *pd, double thin, double reach) {
-  uint32_t fat[MOST], count = 0, *met = NULL;
-  for (uint32_t v = 0; v < pd->n; v++)
-    if (pd->box[v].e[1] - pd->box[v].e[0] > thin || pd->box[v].e[3] - pd->box[v].e[2] > thin) fat[count++] = v;
-  assert_int_equal(dyd_fat_meet(&met, pd, fat, count, reach), DYD_OK);
+static void check_flood(tally *sum, const dyd_skeleton *sk, double thin, double reach) {
+  uint32_t fat[MOST], count = fat_ones(fat, sk, thin), *met = NULL;
+  assert_int_equal(dyd_fat_meet(&met, sk, fat, count, reach), DYD_OK);
   if (!met) return;
   sum->floods++;
-  for (uint32_t t = 0; t < pd->mesh.count; t++) {
+  for (uint32_t t = 0; t < sk->mesh.count; t++) {
     bool must = false, may = false, flat = false;
     for (uint32_t k = 0; k < count; k++) {
-      real gap = apart(&flat, &pd->mesh, t, &pd->box[fat[k]], reach);
-      must = must || gap <= -1e-9L || touches(&pd->mesh, t, fat[k]);
+      real gap = apart(&flat, &sk->mesh, t, &sk->rects.box[fat[k]], reach);
+      must = must || gap <= -1e-9L || touches(&sk->mesh, t, fat[k]);
       may = may || flat || !(gap > 0.01L + 0.01L * reach);
     }
-    if (must && !met[t]) fail_msg("triangle %u of %u vertices is met", t, pd->n);
-    if (!must && !may && met[t]) fail_msg("triangle %u of %u vertices is clear", t, pd->n);
+    if (must && !met[t]) fail_msg("triangle %u of %u vertices is met", t, sk->n);
+    if (!must && !may && met[t]) fail_msg("triangle %u of %u vertices is clear", t, sk->n);
     sum->met += must;
     sum->clear += !met[t];
   }
@@ -117,13 +132,12 @@ static void test_flood(void **state) {
     double thin = ldexp(1, -(int)test_between(&r, 4, 12));
     fill(f, &r, thin, (unsigned)test_between(&r, 20, 150));
     dyd_sites *s = sites_of(f);
-    dyd_delaunay *pd = NULL;
-    assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
-    if (pd->mesh.count && pd->box && !pd->reps.code) {
-      check_flood(&sum, pd, thin, thin);
-      check_flood(&sum, pd, thin, 2);
+    dyd_skeleton sk;
+    if (thin_skeleton(&sk, s)) {
+      check_flood(&sum, &sk, thin, thin);
+      check_flood(&sum, &sk, thin, 2);
     }
-    dyd_delaunay_free(pd);
+    dyd_skeleton_clear(&sk);
     dyd_sites_free(s);
   }
   free(f);
@@ -132,6 +146,30 @@ static void test_flood(void **state) {
 }
 
 /* ---- edges ---- */
+
+/* What the first pass marks is legal. */
+static void check_first_pass(const dyd_sites *s, const dyd_delaunay *plain, double thin, size_t *marked) {
+  dyd_skeleton sk;
+  dyd_work w;
+  bool is_thin = thin_skeleton(&sk, s);
+  dyd_work_init(&w, &sk, NULL);
+  if (is_thin) {
+    uint32_t fat[MOST], count = fat_ones(fat, &sk, thin), *met = NULL;
+    assert_int_equal(dyd_fat_meet(&met, &sk, fat, count, thin), DYD_OK);
+    if (met) assert_int_equal(dyd_certify_near(&sk, &w, thin, met), DYD_OK);
+    for (uint32_t t = 0; met && t < sk.mesh.count; t++)
+      for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++) {
+        if (!dyd_edge_is_certain(&sk, h)) continue;
+        uint32_t a = dyd_edge_origin(&sk.mesh, h), b = dyd_edge_target(&sk.mesh, h);
+        ++*marked;
+        if (dyd_delaunay_status(plain, sk.reps.site[a], sk.reps.site[b]) != DYD_LEGAL)
+          fail_msg("edge %u %u is not legal", a, b);
+      }
+    free(met);
+  }
+  dyd_work_clear(&w);
+  dyd_skeleton_clear(&sk);
+}
 
 /* What the first pass marks is legal; and all statuses are those found without doubles. */
 static void check_marked(const flock *f, double thin, size_t *marked) {
@@ -145,23 +183,7 @@ static void check_marked(const flock *f, double thin, size_t *marked) {
       if (dyd_delaunay_status(pd, i, j) != dyd_delaunay_status(plain, i, j))
         fail_msg("pair %u %u: %d, exactly %d", i, j, (int)dyd_delaunay_status(pd, i, j),
                  (int)dyd_delaunay_status(plain, i, j));
-  if (pd->mesh.count && pd->box && !pd->reps.code) {
-    uint32_t fat[MOST], count = 0, *met = NULL;
-    for (uint32_t v = 0; v < pd->n; v++)
-      if (pd->box[v].e[1] - pd->box[v].e[0] > thin || pd->box[v].e[3] - pd->box[v].e[2] > thin) fat[count++] = v;
-    assert_int_equal(dyd_fat_meet(&met, pd, fat, count, thin), DYD_OK);
-    memset(pd->certain, 0, pd->mesh.count);
-    if (met) assert_int_equal(dyd_certify_near(pd, thin, met), DYD_OK);
-    for (uint32_t t = 0; met && t < pd->mesh.count; t++)
-      for (unsigned k = 0; k < 3; k++) {
-        if (!dyd_edge_is_certain(pd, t, k)) continue;
-        uint32_t a = pd->mesh.tri[t].v[dyd_next(k)], b = pd->mesh.tri[t].v[dyd_prev(k)];
-        ++*marked;
-        if (dyd_delaunay_status(plain, pd->reps.site[a], pd->reps.site[b]) != DYD_LEGAL)
-          fail_msg("edge %u %u is not legal", a, b);
-      }
-    free(met);
-  }
+  check_first_pass(s, plain, thin, marked);
   dyd_delaunay_free(plain);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);

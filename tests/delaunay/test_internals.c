@@ -9,7 +9,7 @@
 #include "possible/pair_map.h"
 #include "skeleton/order.h"
 #include "skeleton/scale_set.h"
-#include "skeleton/tree.h"
+#include "skeleton/skeleton.h"
 #include <cmocka.h>
 #include <math.h>
 #include <string.h>
@@ -344,7 +344,7 @@ static void scaled_exactly(const dyd_scale_set *set, mpz_srcptr out, const mpq_t
 
 static void members_agree(const dyd_scale_set *set, const orc_case *c) {
   for (size_t k = 0; k < set->count; k++) {
-    const mpq_t *e = c->rect[set->pd->reps.site[set->vertex[k]]].e;
+    const mpq_t *e = c->rect[set->rects->site[set->vertex[k]]].e;
     scaled_exactly(set, set->rect[k].x0, e[0]);
     scaled_exactly(set, set->rect[k].x1, e[1]);
     scaled_exactly(set, set->rect[k].y0, e[2]);
@@ -377,10 +377,10 @@ static void comes_back(const dyd_scale_set *set, mpq_t *const c) {
   dyd_rect_clear(&r);
 }
 
-static void add_all(dyd_scale_set *set, orc_case *c) {
+static void add_all(dyd_scale_set *set, uint32_t n, orc_case *c) {
   mpz_t before, was;
   mpz_inits(before, was, NULL);
-  for (uint32_t v = 0; v < set->pd->n; v++) {
+  for (uint32_t v = 0; v < n; v++) {
     size_t place = 99, again = 99;
     bool grown = true;
     if (set->count) mpz_set(before, set->rect[0].x1);
@@ -392,7 +392,7 @@ static void add_all(dyd_scale_set *set, orc_case *c) {
     assert_true(again == place && !grown);
     assert_true(dyd_scale_shift(set) == (set->low == INT64_MAX ? 0 : -set->low));
     members_agree(set, c);
-    comes_back(set, c->rect[set->pd->reps.site[v]].e);
+    comes_back(set, c->rect[set->rects->site[v]].e);
   }
   mpz_clears(before, was, NULL);
 }
@@ -416,19 +416,18 @@ static void test_scale_set(void **state) {
   orc_case c;
   orc_case_init(&c);
   for (size_t k = test_cases(120); k; k--) {
-    char message[MESSAGE_SIZE] = "";
     dyd_scale_set set;
     orc_generate(&c, &shared, test_chance(&shared, 2) ? 8 : test_below(&shared, ORC_KINDS), 9);
     if (test_chance(&shared, 2)) lengthen(&c, (unsigned)test_between(&shared, 20, 300));
     dyd_sites *s = harness_sites(&c);
-    dyd_delaunay *pd = harness_engine(message, s, NULL);
-    if (!pd) fail_msg("%s", message);
-    dyd_scale_set_init(&set, pd);
-    add_all(&set, &c);
+    dyd_skeleton sk;
+    assert_int_equal(dyd_skeleton_build(&sk, s, &(dyd_skeleton_options){.threads = 1}), DYD_OK);
+    dyd_scale_set_init(&set, &sk.rects);
+    add_all(&set, sk.n, &c);
     dyd_scale_set_empty(&set);
-    add_all(&set, &c);
+    add_all(&set, sk.n, &c);
     dyd_scale_set_clear(&set);
-    dyd_delaunay_free(pd);
+    dyd_skeleton_clear(&sk);
     dyd_sites_free(s);
   }
   orc_case_clear(&c);

@@ -5,9 +5,11 @@
 #include <stdarg.h>
 
 #include "skeleton/join.h"
+#include "skeleton/mesh_build.h"
 #include "skeleton/mesh_exact.h"
 #include "skeleton/mesh_invariant.h"
 #include "skeleton/mesh_start.h"
+#include "skeleton/predicates.h"
 #include "support/random.h"
 #include <cmocka.h>
 #include <string.h>
@@ -21,7 +23,6 @@ typedef struct bed {
   dyd_sites *sites;
   dyd_reps reps;
   dyd_mesh m;
-  dyd_delaunay_counters counters;
 } bed;
 
 static void bed_close(bed *b) {
@@ -41,8 +42,7 @@ static void bed_make(bed *b, const double *x, const double *y, size_t n, const d
   for (uint32_t v = 0; v < n; v++) site[v] = v;
   assert_int_equal(dyd_reps_init(&b->reps, b->sites, site, (uint32_t)n, 1), DYD_OK);
   dyd_strips one = {1, {0, (uint32_t)n}};
-  assert_int_equal(
-      dyd_mesh_build_strips(&b->m, &b->reps, strips ? strips : &one, no_filter, &b->counters, NULL, threads), DYD_OK);
+  assert_int_equal(dyd_mesh_build_strips(&b->m, &b->reps, strips ? strips : &one, no_filter, NULL, threads), DYD_OK);
 }
 
 static uint32_t alive(const dyd_mesh *m) {
@@ -59,16 +59,18 @@ static bool has_edge(const dyd_mesh *m, uint32_t v, uint32_t w) {
 }
 
 /* Is there an edge whose two triangles are cocircular, or a hull vertex on the line of its neighbours? */
-static bool has_tie(dyd_mesh *m) {
+static bool has_tie(const dyd_mesh *m) {
+  dyd_tally unused = {0};
   for (uint32_t t = 0; t < m->count; t++)
     for (unsigned k = 0; k < 3; k++) {
-      const uint32_t *v = m->tri[t].v, *w = m->tri[m->tri[t].n[k] >> 2].v;
-      uint32_t p = w[m->tri[t].n[k] & 3];
-      bool here = dyd_mesh_is_ghost(m, t), there = dyd_mesh_is_ghost(m, m->tri[t].n[k] >> 2);
+      const uint32_t *v = m->tri[t].v;
+      dyd_half_edge twin = dyd_edge_twin(m, dyd_edge_of(t, k));
+      uint32_t p = dyd_edge_apex(m, twin);
+      bool here = dyd_is_ghost_triangle(m, t), there = dyd_is_ghost_triangle(m, dyd_edge_triangle(twin));
       if (here != there) continue;
-      if (!here && dyd_mesh_incircle(m, v[0], v[1], v[2], p) == 0) return true;
+      if (!here && dyd_mesh_incircle(&unused, m, v[0], v[1], v[2], p) == 0) return true;
       unsigned g = v[0] == m->n ? 0 : v[1] == m->n ? 1 : 2;
-      if (here && v[k] != m->n && dyd_mesh_orient(m, v[dyd_next(g)], v[dyd_prev(g)], p) == 0) return true;
+      if (here && v[k] != m->n && dyd_mesh_orient(&unused, m, v[dyd_next(g)], v[dyd_prev(g)], p) == 0) return true;
     }
   return false;
 }
@@ -79,14 +81,14 @@ static void compare(bed *joined, bed *whole) {
   if (m->collinear) return;
   assert_int_equal(m->count, 2 * alive(m) - 2);
   assert_int_equal(m->count, w->count);
-  assert_true(dyd_mesh_check(m));
+  assert_true(dyd_mesh_is_valid(m));
   aliases_met += m->n - alive(m);
   for (uint32_t v = 0; v < m->n; v++) /* an alias stands for an equal vertex that is none */
     if (dyd_mesh_alias(m, v) != DYD_NONE) {
       assert_int_equal(dyd_mesh_alias(m, dyd_mesh_alias(m, v)), DYD_NONE);
       assert_true(dyd_mesh_same(m, v, dyd_mesh_alias(m, v)));
     }
-  if (m->ties) {
+  if (m->tally.ties) {
     tied_meshes++;
     return;
   }
@@ -243,10 +245,10 @@ static void test_threads(void **state) {
     assert_int_equal(one.m.count, many.m.count);
     assert_memory_equal(one.m.tri, many.m.tri, one.m.count * sizeof *one.m.tri);
     assert_memory_equal(one.m.alias, many.m.alias, N * sizeof *one.m.alias);
-    assert_int_equal(one.m.ties, many.m.ties);
+    assert_int_equal(one.m.tally.ties, many.m.tally.ties);
     dyd_mesh_trim(&many.m);
     if (threads == 2) dyd_mesh_trim(&one.m);
-    assert_memory_equal(&one.counters, &many.counters, sizeof one.counters);
+    assert_memory_equal(&one.m.tally, &many.m.tally, sizeof one.m.tally);
     bed_close(&many);
   }
   bed_close(&one);

@@ -5,9 +5,9 @@
 #include <stdarg.h>
 
 #include "skeleton/mesh_exact.h"
-#include "skeleton/mesh_filter.h"
 #include "skeleton/mesh_fixed.h"
 #include "skeleton/mesh_start.h"
+#include "skeleton/predicates.h"
 #include "support/random.h"
 #include <cmocka.h>
 #include <math.h>
@@ -20,7 +20,7 @@ typedef struct bed {
   dyd_sites *s;
   dyd_reps reps;
   dyd_mesh m;
-  dyd_delaunay_counters counters;
+  dyd_tally tally;
   mpq_t q[POINTS][2];
 } bed;
 
@@ -47,7 +47,7 @@ static void bed_make(bed *b) {
   }
   dyd_rect_clear(&r);
   assert_int_equal(dyd_reps_init(&b->reps, b->s, site, POINTS, 1), DYD_OK);
-  b->m = (dyd_mesh){.reps = &b->reps, .n = POINTS, .end = POINTS, .counters = &b->counters};
+  b->m = (dyd_mesh){.reps = &b->reps, .n = POINTS, .end = POINTS};
   assert_int_equal(dyd_mesh_coordinates(&b->m), DYD_OK);
 }
 
@@ -129,7 +129,8 @@ static void check_orient(bed *b, const uint32_t *v) {
     tally.fixed++;
   }
   right(b, dyd_mesh_orient_exact(m, v[0], v[1], v[2]), truth, "exact orient");
-  right(b, dyd_mesh_orient(m, v[0], v[1], v[2]), truth, "orient in all");
+  right(b, dyd_mesh_orient(&b->tally, m, v[0], v[1], v[2]), truth, "orient in all");
+  right(b, dyd_build_orient(m, v[0], v[1], v[2]), truth, "orient of a builder");
 }
 
 static void check_incircle(bed *b, const uint32_t *v) {
@@ -150,14 +151,18 @@ static void check_incircle(bed *b, const uint32_t *v) {
     tally.fixed++;
   }
   right(b, dyd_mesh_incircle_exact(m, v[0], v[1], v[2], v[3]), truth, "exact incircle");
-  right(b, dyd_mesh_incircle(m, v[0], v[1], v[2], v[3]), truth, "incircle in all");
+  right(b, dyd_mesh_incircle(&b->tally, m, v[0], v[1], v[2], v[3]), truth, "incircle in all");
+  right(b, dyd_build_incircle(m, v[0], v[1], v[2], v[3]), truth, "incircle of a builder");
 }
 
 /* All the rungs, before and after the common grid is made, and after it is given back. */
 static void check_bed(bed *b) {
   bed_make(b);
   for (int round = 0; round < 3; round++) {
-    if (round == 1) dyd_fixed_prepare(&b->m);
+    if (round == 1) {
+      b->m.no_fixed = false;
+      dyd_fixed_prepare(&b->m);
+    }
     if (round == 2) dyd_mesh_trim(&b->m);
     for (int k = 0; k < 8; k++) {
       uint32_t v[POINTS];

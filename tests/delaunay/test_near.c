@@ -5,12 +5,11 @@
 #include <stdarg.h>
 
 #include "delaunay/read_case.h"
-#include "legal/certify.h"
+#include "legal/hull.h"
 #include "legal/near_filter.h"
-#include "possible/hull.h"
+#include "legal/star_filter.h"
 #include <cmocka.h>
 #include <math.h>
-#include <string.h>
 
 static harness shared;
 
@@ -252,30 +251,30 @@ static void random_thin(orc_case *c, test_random *r) {
 /* Every edge that the pass marks is legal, every ghost edge is on the hull for every choice. */
 static bool stars_hold(char *message, harness *h, const orc_case *c) {
   dyd_sites *s = harness_sites(c);
-  dyd_delaunay *pd = harness_engine(message, s, NULL);
-  bool good = pd;
+  dyd_skeleton sk;
   dyd_work w;
-  if (pd && pd->box) {
-    const dyd_mesh *m = &pd->mesh;
-    dyd_work_init(&w, pd);
-    memset(pd->certain, 0, m->count);
-    good = dyd_certify_stars(pd) == DYD_OK;
+  bool good =
+      dyd_skeleton_build(&sk, s, &(dyd_skeleton_options){.threads = 1}) == DYD_OK || wrong(message, "no skeleton");
+  dyd_work_init(&w, &sk, NULL);
+  if (good && sk.rects.box) {
+    const dyd_mesh *m = &sk.mesh;
+    good = dyd_certify_stars(&sk, &w) == DYD_OK || wrong(message, "the pass fails");
     for (uint32_t t = 0; t < m->count && good; t++)
-      for (unsigned k = 0; k < 3 && good; k++) {
-        uint32_t a = m->tri[t].v[dyd_next(k)], b = m->tri[t].v[dyd_prev(k)];
-        if (!dyd_edge_is_certain(pd, t, k) || m->tri[t].n[k] < 4 * t + k) continue;
+      for (dyd_half_edge e = dyd_edge_of(t, 0); e < dyd_edge_end(t) && good; e++) {
+        uint32_t a = dyd_edge_origin(m, e), b = dyd_edge_target(m, e);
+        if (!dyd_edge_is_certain(&sk, e) || !dyd_edge_is_first(m, e)) continue;
         bool real = a != m->n && b != m->n, sure = false;
         if (real)
-          sure = orc_legal(NULL, NULL, &h->pool, c, pd->reps.site[a], pd->reps.site[b]);
+          sure = orc_legal(NULL, NULL, &h->pool, c, sk.reps.site[a], sk.reps.site[b]);
         else
-          good = dyd_hull_sure(&sure, &w, pd, a == m->n ? b : a) == DYD_OK;
+          good = dyd_hull_sure(&sure, &w, &sk, a == m->n ? b : a) == DYD_OK;
         h->pairs++;
         h->legal += real;
         if (!sure) good = wrong(message, "edge %u %u marked", a, b);
       }
-    dyd_work_clear(&w);
   }
-  dyd_delaunay_free(pd);
+  dyd_work_clear(&w);
+  dyd_skeleton_clear(&sk);
   dyd_sites_free(s);
   return good;
 }

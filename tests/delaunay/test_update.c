@@ -5,6 +5,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
+#include "delaunay/face_table.h"
 #include "delaunay/faces.h"
 #include "delaunay/local_filter.h"
 #include "legal/witness.h"
@@ -133,23 +134,19 @@ static void test_fresh(void **state) {
 static void forget_edges(dyd_delaunay *pd, test_random *g) {
   dyd_work w;
   unsigned one_in = 2 + (unsigned)test_below(g, 6);
-  for (uint32_t t = 0; t < pd->mesh.count; t++)
-    for (unsigned k = 0; k < 3; k++) {
-      uint32_t twin = pd->mesh.tri[t].n[k];
-      if (twin < 4 * t + k || !test_chance(g, one_in)) continue;
-      pd->certain[t] &= (uint8_t) ~(1u << k);
-      pd->certain[twin >> 2] &= (uint8_t) ~(1u << (twin & 3));
-    }
-  dyd_faces_clear(&pd->faces);
-  dyd_work_init(&w, pd);
+  for (uint32_t t = 0; t < pd->sk.mesh.count; t++)
+    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++)
+      if (dyd_edge_is_first(&pd->sk.mesh, h) && test_chance(g, one_in)) dyd_set_certain(&pd->sk, h, false);
+  dyd_table_clear(&pd->open);
+  dyd_work_init(&w, &pd->sk, NULL);
   assert_int_equal(dyd_faces_find(pd, &w, NULL, 0), DYD_OK);
   dyd_work_clear(&w);
 }
 
 /* Looks at centres on both sides of the edge; returns how many are witnesses. */
-static size_t try_centres(dyd_delaunay *pd, test_random *g, uint32_t t, unsigned k) {
-  uint32_t i = pd->mesh.tri[t].v[dyd_next(k)], j = pd->mesh.tri[t].v[dyd_prev(k)];
-  dyd_xy p = pd->reps.xy[i], q = pd->reps.xy[j];
+static size_t try_centres(const dyd_delaunay *pd, dyd_work *w, test_random *g, dyd_half_edge h) {
+  uint32_t i = dyd_edge_origin(&pd->sk.mesh, h), j = dyd_edge_target(&pd->sk.mesh, h);
+  dyd_xy p = pd->sk.reps.xy[i], q = pd->sk.reps.xy[j];
   dyd_point c;
   size_t count = 0;
   dyd_point_init(&c);
@@ -157,14 +154,27 @@ static size_t try_centres(dyd_delaunay *pd, test_random *g, uint32_t t, unsigned
     double a = test_unit(g), b = (test_unit(g) - 0.5) * (test_chance(g, 4) ? 4 : 1);
     dyd_xy at = {p.x + a * (q.x - p.x) - b * (q.y - p.y), p.y + a * (q.y - p.y) + b * (q.x - p.x)};
     bool good = false;
-    if (!dyd_filter_local_witness(pd, t, k, at)) continue;
+    if (!dyd_filter_local_witness(pd, h, at)) continue;
     assert_int_equal(dyd_dyadic_set_d(&c.x, at.x), DYD_OK);
     assert_int_equal(dyd_dyadic_set_d(&c.y, at.y), DYD_OK);
-    assert_int_equal(dyd_witness_check(&good, pd, i, j, &c), DYD_OK);
+    assert_int_equal(dyd_witness_check(&good, w, &pd->sk, i, j, &c), DYD_OK);
     assert_true(good);
     count++;
   }
   dyd_point_clear(&c);
+  return count;
+}
+
+/* The same for all edges that are uncertain when some were forgotten. */
+static size_t try_edges(dyd_delaunay *pd, test_random *g) {
+  dyd_work w;
+  size_t count = 0;
+  forget_edges(pd, g);
+  dyd_work_init(&w, &pd->sk, NULL);
+  for (uint32_t t = 0; t < pd->sk.mesh.count; t++)
+    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++)
+      if (!dyd_edge_is_certain(&pd->sk, h)) count += try_centres(pd, &w, g, h);
+  dyd_work_clear(&w);
   return count;
 }
 
@@ -181,10 +191,7 @@ static void test_local_witness(void **state) {
     assert_int_equal(dyd_sites_new(&s), DYD_OK);
     assert_int_equal(dyd_sites_add_boxes(s, c->n, c->x0, c->x1, c->y0, c->y1), DYD_OK);
     assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
-    if (pd->box) forget_edges(pd, &g);
-    for (uint32_t t = 0; t < pd->mesh.count && pd->box; t++)
-      for (unsigned k = 0; k < 3; k++)
-        if (!dyd_edge_is_certain(pd, t, k)) witnesses += try_centres(pd, &g, t, k);
+    if (pd->sk.rects.box) witnesses += try_edges(pd, &g);
     dyd_delaunay_free(pd);
     dyd_sites_free(s);
   }

@@ -4,8 +4,10 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-#include "delaunay/line.h"
 #include "delaunay/read_case.h"
+#include "delaunay/state.h"
+#include "legal/hull.h"
+#include "possible/cover.h"
 #include "possible/cover_filter.h"
 #include "possible/hull.h"
 #include <cmocka.h>
@@ -117,10 +119,10 @@ static bool from_case(boxes *b, const orc_case *c) {
   return c->n >= 3;
 }
 
-static bool hull_right(char *message, dyd_work *w, const dyd_delaunay *pd, const boxes *b, uint32_t v) {
+static bool hull_right(char *message, dyd_work *w, const dyd_skeleton *sk, const boxes *b, uint32_t v) {
   bool possible = false, sure = false;
-  int i = (int)pd->reps.site[v];
-  if (dyd_hull_possible(&possible, w, pd, v) != DYD_OK || dyd_hull_sure(&sure, w, pd, v) != DYD_OK)
+  int i = (int)sk->reps.site[v];
+  if (dyd_hull_possible(&possible, w, sk, v) != DYD_OK || dyd_hull_sure(&sure, w, sk, v) != DYD_OK)
     return wrong(message, "hull of %d fails", i);
   if (possible != somewhere(b, i, i, may_be_farthest))
     return wrong(message, "%d possible on the hull: %d", i, possible);
@@ -128,17 +130,22 @@ static bool hull_right(char *message, dyd_work *w, const dyd_delaunay *pd, const
   return true;
 }
 
-static bool direction_right(char *message, dyd_work *w, const dyd_delaunay *pd, const boxes *b, uint32_t v,
+static bool direction_right(char *message, dyd_work *w, const dyd_skeleton *sk, const boxes *b, uint32_t v,
                             uint32_t v2) {
   bool found = false;
-  int i = (int)pd->reps.site[v], j = (int)pd->reps.site[v2];
+  int i = (int)sk->reps.site[v], j = (int)sk->reps.site[v2];
   mpz_t x, y;
   mpz_inits(x, y, NULL);
-  bool good = dyd_hull_direction(&found, x, y, w, pd, v, v2) == DYD_OK;
+  bool good = dyd_hull_direction(&found, x, y, w, sk, v, v2) == DYD_OK;
   good = good && found == somewhere(b, i, j, surely_farthest);
   if (good && found) good = surely_farthest(b, i, j, (direction){mpz_get_si(x), mpz_get_si(y)});
   mpz_clears(x, y, NULL);
   return good || wrong(message, "direction of %d %d: %d", i, j, found);
+}
+
+static bool skeleton_of(dyd_skeleton *sk, char *message, const dyd_sites *s, bool no_filter) {
+  dyd_skeleton_options o = {.no_filter = no_filter, .threads = 1};
+  return dyd_skeleton_build(sk, s, &o) == DYD_OK || wrong(message, "no skeleton");
 }
 
 static bool directions(char *message, harness *h, const orc_case *c) {
@@ -147,20 +154,17 @@ static bool directions(char *message, harness *h, const orc_case *c) {
   (void)h;
   if (!from_case(&b, c)) return true;
   for (int exact = 0; exact < 2 && good; exact++) {
-    dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = exact};
     dyd_sites *s = harness_sites(c);
-    dyd_delaunay *pd = harness_engine(message, s, &o);
+    dyd_skeleton sk;
     dyd_work w;
-    good = pd;
-    if (pd && pd->box) {
-      dyd_work_init(&w, pd);
-      for (uint32_t v = 0; v < pd->n && good; v++) {
-        good = hull_right(message, &w, pd, &b, v);
-        for (uint32_t v2 = 0; v2 < v && good; v2++) good = direction_right(message, &w, pd, &b, v, v2);
-      }
-      dyd_work_clear(&w);
+    good = skeleton_of(&sk, message, s, exact);
+    dyd_work_init(&w, &sk, NULL);
+    for (uint32_t v = 0; sk.rects.box && v < sk.n && good; v++) {
+      good = hull_right(message, &w, &sk, &b, v);
+      for (uint32_t v2 = 0; v2 < v && good; v2++) good = direction_right(message, &w, &sk, &b, v, v2);
     }
-    dyd_delaunay_free(pd);
+    dyd_work_clear(&w);
+    dyd_skeleton_clear(&sk);
     dyd_sites_free(s);
   }
   return good;
@@ -184,36 +188,36 @@ static void test_directions(void **state) {
 /* How often doubles alone say FALSE, UNKNOWN, TRUE. */
 static uint64_t quickly[3];
 
-static bool quick_right(char *message, const dyd_delaunay *pd, uint32_t v, uint32_t v2, const uint32_t hint[2],
+static bool quick_right(char *message, const dyd_skeleton *sk, uint32_t v, uint32_t v2, const uint32_t hint[2],
                         bool want) {
-  dyd_truth quick = dyd_filter_cover(pd, v, v2, hint);
+  dyd_truth quick = dyd_filter_cover(sk, v, v2, hint);
   quickly[quick == DYD_TRUE ? 2 : quick == DYD_UNKNOWN]++;
   if (quick == DYD_UNKNOWN || (quick == DYD_TRUE) == want) return true;
-  return wrong(message, "pair %u %u: doubles say %d, oracle %d", pd->reps.site[v], pd->reps.site[v2], quick == DYD_TRUE,
+  return wrong(message, "pair %u %u: doubles say %d, oracle %d", sk->reps.site[v], sk->reps.site[v2], quick == DYD_TRUE,
                want);
 }
 
 /* Every pair, with good, bad and no hints. */
-static bool covers(char *message, harness *h, const orc_case *c, dyd_delaunay *pd) {
+static bool covers(char *message, harness *h, const orc_case *c, const dyd_skeleton *sk) {
   dyd_work w;
   bool good = true;
-  dyd_work_init(&w, pd);
-  for (uint32_t v = 0; v < pd->n && good; v++)
-    for (uint32_t v2 = 0; v2 < pd->n && good; v2++) {
+  dyd_work_init(&w, sk, NULL);
+  for (uint32_t v = 0; v < sk->n && good; v++)
+    for (uint32_t v2 = 0; v2 < sk->n && good; v2++) {
       uint32_t hint[2] = {DYD_NONE, DYD_NONE};
       bool possible = false;
       if (v == v2) continue;
       for (int q = 0; q < 2; q++)
-        if (test_chance(&h->random, 2)) hint[q] = (uint32_t)test_below(&h->random, pd->n);
-      uint32_t i = pd->reps.site[v], j = pd->reps.site[v2];
+        if (test_chance(&h->random, 2)) hint[q] = (uint32_t)test_below(&h->random, sk->n);
+      uint32_t i = sk->reps.site[v], j = sk->reps.site[v2];
       size_t mark = orc_mark(&h->pool);
       bool want = orc_possible(&h->pool, c, i, j);
       orc_release(&h->pool, mark);
-      if (dyd_cover_possible(&possible, &w, pd, v, v2, hint) != DYD_OK)
+      if (dyd_cover_possible(&possible, &w, sk, v, v2, hint) != DYD_OK)
         good = wrong(message, "cover of %u %u fails", i, j);
       else if (possible != want)
         good = wrong(message, "pair %u %u: possible %d, oracle %d", i, j, possible, want);
-      good = good && quick_right(message, pd, v, v2, hint, want);
+      good = good && quick_right(message, sk, v, v2, hint, want);
       h->pairs++;
       h->undecided += !want;
     }
@@ -226,11 +230,10 @@ static bool cover_both(char *message, harness *h, const orc_case *c) {
   for (size_t k = 0; k < c->n; k++)
     if (orc_case_alias(c, k) != k) return true;
   for (int exact = 0; exact < 2 && good; exact++) {
-    dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = exact};
     dyd_sites *s = harness_sites(c);
-    dyd_delaunay *pd = harness_engine(message, s, &o);
-    good = pd && (!pd->box || covers(message, h, c, pd));
-    dyd_delaunay_free(pd);
+    dyd_skeleton sk;
+    good = skeleton_of(&sk, message, s, exact) && (!sk.rects.box || covers(message, h, c, &sk));
+    dyd_skeleton_clear(&sk);
     dyd_sites_free(s);
   }
   return good;
@@ -275,20 +278,22 @@ static bool counts_right(char *message, harness *h, const orc_case *c) {
   (void)h;
   dyd_sites *s = harness_sites(c);
   dyd_delaunay *pd = harness_engine(message, s, NULL);
-  bool good = pd && (pd->mesh.collinear || wrong(message, "no line"));
+  bool good = pd && (pd->sk.mesh.collinear || wrong(message, "no line"));
   size_t open = 0, legal = 0, alive = 0;
   for (uint32_t i = 0; good && i < c->n; i++) {
     if (orc_case_alias(c, i) != i) continue;
     alive++;
     for (uint32_t j = 0; j < i; j++) {
       if (orc_case_alias(c, j) != j) continue;
-      int status = (int)dyd_line_status(&pd->line, pd->vertex[i], pd->vertex[j]);
+      int status = (int)dyd_delaunay_status(pd, i, j);
       legal += status == DYD_LEGAL;
+      if (dyd_line_is_legal(&pd->sk.line, pd->sk.vertex[i], pd->sk.vertex[j]) != (status == DYD_LEGAL))
+        good = wrong(message, "the line says otherwise of %u %u", i, j);
       open += status == DYD_INDETERMINATE || status == DYD_TIE;
     }
   }
-  if (good &&
-      (pd->line.count != alive || dyd_line_open_pairs(&pd->line) != open || dyd_line_legal_pairs(&pd->line) != legal))
+  const dyd_line *l = pd ? &pd->sk.line : NULL;
+  if (good && (l->count != alive || dyd_line_open_pairs(l) != open || dyd_line_legal_pairs(l) != legal))
     good = wrong(message, "%zu alive, %zu open, %zu legal", alive, open, legal);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);

@@ -2,8 +2,6 @@
 /* Questions of users, put to the one loop of the engine. */
 #include "engine/help.h"
 
-#include "support/failing_memory.h"
-
 #include <string.h>
 
 /* A question that compares x of sites 0 and 1, and notes how it was asked. */
@@ -99,13 +97,10 @@ static void test_answered(void **state) {
   assert_int_equal(2048, c.bits_total);
   assert_int_equal(0, c.stages);
   assert_true(c.seconds > 0);
-  /* It is no run: */
   assert_int_equal(DYD_OUTCOME_NONE, dyd_engine_outcome(e));
   assert_null(dyd_engine_delaunay(e));
-  /* but what the question saw must stay. */
   const double x = 1;
   assert_int_equal(DYD_E_ARG, dyd_engine_add_points(e, 1, &x, &x));
-  /* Known now: asked once, and nothing narrowed. */
   q.asked = 0;
   assert_int_equal(DYD_OUTCOME_DECIDED, put(e, &q, NULL, NULL));
   assert_int_equal(1, q.asked);
@@ -260,7 +255,7 @@ static void test_cancel_inside(void **state) {
     dyd_source source = faulty_source(&f);
     dyd_engine *e = engine_new();
     f.cancel = e;
-    assert_int_equal(DYD_OK, dyd_engine_add_source(e, 2, &source));
+    assert_int_equal(DYD_OK, dyd_engine_add_source(e, 2, &source, NULL));
     dyd_engine_options o = options();
     o.start_bits = -2;
     left q = {.bits = DYD_BITS_NEXT};
@@ -353,12 +348,12 @@ static void enter_from_within(dyd_engine *e) {
   assert_int_equal(DYD_E_ARG, dyd_engine_add_points(e, 1, &x, &x));
 }
 
-static void enter_from_progress(const dyd_progress *p, void *user) {
+static void enter_from_progress(void *user, const dyd_progress *p) {
   (void)p;
   enter_from_within(user);
 }
 
-static void enter_from_trace(const dyd_step *step, void *user) {
+static void enter_from_trace(void *user, const dyd_step *step) {
   (void)step;
   enter_from_within(user);
 }
@@ -383,8 +378,8 @@ static void test_entering(void **state) {
   assert_int_equal(6, q.asked);
   dyd_engine_free(e);
   e = engine_new();
-  const dyd_source source = {.narrow = enter_from_source, .user = e};
-  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 3, &source));
+  const dyd_source source = {DYD_SIZED(dyd_source), .narrow = enter_from_source, .user = e};
+  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 3, &source, NULL));
   engine_add_text(e, "sqrt(2)", "sqrt(3)");
   dyd_engine_options o = options();
   o.progress = enter_from_progress;
@@ -400,7 +395,7 @@ static void test_entering(void **state) {
 
 /* ---- guests ---- */
 
-static void count_step(const dyd_step *step, void *user) {
+static void count_step(void *user, const dyd_step *step) {
   unsigned *count = user;
   assert_int_equal(0, step->site);
   assert_int_equal(DYD_REASON_QUESTION, step->reason);
@@ -443,164 +438,13 @@ static void test_guests(void **state) {
   dyd_engine_free(e);
 }
 
-/* ---- questions about the triangulation ---- */
-
-/* Are all pairs decided? Asks for the ends of those that are not, as a user might. */
-static dyd_status ask_pairs(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
-  unsigned *asked = user;
-  dyd_pair_list pairs = {0};
-  (void)err;
-  assert_non_null(dyd_engine_delaunay(e));
-  assert_int_equal(++*asked, engine_counters(e).stages);
-  dyd_status st = dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(e));
-  *answered = true;
-  for (size_t k = 0; st == DYD_OK && k < pairs.count; k++) {
-    if (pairs.item[k].status != DYD_INDETERMINATE) continue;
-    *answered = false;
-    st = dyd_plan_add(plan, pairs.item[k].i, DYD_BITS_NEXT);
-    if (st == DYD_OK) st = dyd_plan_add(plan, pairs.item[k].j, DYD_BITS_NEXT);
-  }
-  dyd_pair_list_clear(&pairs);
-  return st;
-}
-
-static void count_stage(const dyd_progress *p, void *user) {
-  assert_int_equal(++*(uint64_t *)user, p->stage);
-}
-
-/* The same statuses as by a run, and budgets of stages and pairs. */
-static void test_triangulation(void **state) {
-  (void)state;
-  const int weight[12] = {3, 17, 5, 40, 1, 22, 9, 31, 12, 2, 27, 14};
-  dyd_engine *e = engine_new(), *f = engine_new();
-  engine_add_polygon(e, 12, weight, 200);
-  engine_add_polygon(f, 12, weight, 200);
-  engine_run(f, NULL, DYD_OUTCOME_DECIDED);
-  unsigned asked = 0;
-  uint64_t stages = 0;
-  dyd_outcome outcome;
-  dyd_error err;
-  const dyd_question question = {DYD_SIZED(dyd_question), .ask = ask_pairs, .user = &asked, .triangulate = true};
-  dyd_engine_options o = options();
-  o.progress = count_stage;
-  o.progress_user = &stages;
-  o.max_stages = 1;
-  assert_int_equal(DYD_OK, dyd_engine_ask(&outcome, e, &question, &o, &err));
-  assert_int_equal(DYD_OUTCOME_BUDGET, outcome);
-  assert_int_equal(1, asked);
-  assert_int_equal(1, stages);
-  asked = 0; /* what comes next looks at the same result first */
-  o.max_stages = 0;
-  assert_int_equal(DYD_OK, dyd_engine_ask(&outcome, e, &question, &o, &err));
-  assert_int_equal(DYD_OUTCOME_DECIDED, outcome);
-  assert_int_equal(asked, stages);
-  assert_true(stages >= 3);
-  assert_same_statuses(e, f);
-  engine_run(e, NULL, DYD_OUTCOME_DECIDED);
-  assert_int_equal(stages, engine_counters(e).stages);
-  dyd_engine_free(f);
-  dyd_engine_free(e);
-}
-
-static dyd_status ask_nothing(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
-  (void)answered, (void)plan, (void)e, (void)user, (void)err;
-  return DYD_OK;
-}
-
-static void test_pairs(void **state) {
-  (void)state;
-  dyd_engine *e = engine_new();
-  engine_add_polygon(e, 12, NULL, 0);
-  dyd_outcome outcome;
-  dyd_error err;
-  dyd_question question = {DYD_SIZED(dyd_question), .ask = ask_nothing, .triangulate = true};
-  dyd_engine_options o = options();
-  o.max_pairs = 8;
-  assert_int_equal(DYD_OK, dyd_engine_ask(&outcome, e, &question, &o, &err));
-  assert_int_equal(DYD_OUTCOME_BUDGET, outcome);
-  assert_int_equal(DYD_CAPPED, err.code);
-  assert_true(err.message[0] != 0);
-  question.triangulate = false;
-  assert_int_equal(DYD_OK, dyd_engine_ask(&outcome, e, &question, &o, &err));
-  assert_int_equal(DYD_OUTCOME_FIXPOINT, outcome);
-  assert_int_equal(DYD_OK, err.code);
-  dyd_engine_free(e);
-}
-
-/* A question narrows before the first run, and between two: runs go on from there, and end as they would. */
-static void test_before_runs(void **state) {
-  (void)state;
-  test_random r = test_random_start("ask");
-  for (int round = 0; round < 20; round++) {
-    dyd_engine *e = engine_new(), *f = engine_new();
-    test_random copy = r;
-    engine_add_roots(e, &r, 30);
-    engine_add_roots(f, &copy, 30);
-    dyd_engine_options o = options();
-    o.max_bits = 200;
-    left q = {.bits = 150, .boast = false, .also = 7};
-    put(e, &q, &o, NULL);
-    uint64_t calls = engine_counters(e).calls;
-    o.max_bits = 4096;
-    o.max_stages = 1;
-    dyd_outcome outcome;
-    assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &o, NULL));
-    if (calls) assert_int_equal(calls + 27, engine_counters(e).calls);
-    q = (left){.bits = 1000, .also = 8, .boast = round & 1};
-    put(e, &q, &o, NULL);
-    engine_run(e, NULL, DYD_OUTCOME_DECIDED);
-    engine_run(f, NULL, DYD_OUTCOME_DECIDED);
-    assert_same_statuses(e, f);
-    dyd_engine_free(f);
-    dyd_engine_free(e);
-  }
-}
-
-/* ---- exhausted memory ---- */
-
-static dyd_status ask_and_run(dyd_engine *e) {
-  dyd_outcome outcome = DYD_OUTCOME_NONE;
-  left q = {.bits = 100};
-  const dyd_question question = {DYD_SIZED(dyd_question), .ask = ask_left, .user = &q};
-  dyd_engine_options o = options();
-  dyd_status st = dyd_engine_ask(&outcome, e, &question, &o, NULL);
-  if (st == DYD_OK) st = dyd_engine_run(&outcome, e, &o, NULL);
-  assert_int_equal(st != DYD_OK, outcome == DYD_OUTCOME_ERROR);
-  return st;
-}
-
-/* An allocation fails, for every k or so the k-th: an error code, no leak (under a leak checker), and all goes on from
- * there. Eight crossing pairs make scouts go ahead. */
-static void test_memory(void **state) {
-  (void)state;
-  bool over = false;
-  const int weight[12] = {3, 17, 5, 40, 1, 22, 9, 31, 12, 2, 27, 14};
-  dyd_engine *whole = engine_new();
-  engine_add_polygon(whole, 12, weight, 80);
-  assert_int_equal(DYD_OK, ask_and_run(whole));
-  for (size_t k = 1; !over; k += 1 + k / 32) {
-    dyd_engine *e = engine_new();
-    engine_add_polygon(e, 12, weight, 80);
-    countdown = k;
-    dyd_status st = ask_and_run(e);
-    over = countdown > 0;
-    countdown = 0;
-    assert_true(st == DYD_OK || st == DYD_E_NOMEM);
-    engine_run(e, NULL, DYD_OUTCOME_DECIDED);
-    assert_same_statuses(whole, e);
-    dyd_engine_free(e);
-  }
-  dyd_engine_free(whole);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_answered),     cmocka_unit_test(test_fixpoint),      cmocka_unit_test(test_bits),
       cmocka_unit_test(test_steps),        cmocka_unit_test(test_finest_counts), cmocka_unit_test(test_calls),
       cmocka_unit_test(test_seconds),      cmocka_unit_test(test_cancel),        cmocka_unit_test(test_cancel_inside),
       cmocka_unit_test(test_no_such_site), cmocka_unit_test(test_errors),        cmocka_unit_test(test_entering),
-      cmocka_unit_test(test_guests),       cmocka_unit_test(test_triangulation), cmocka_unit_test(test_pairs),
-      cmocka_unit_test(test_before_runs),  cmocka_unit_test(test_memory),
+      cmocka_unit_test(test_guests),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
