@@ -199,7 +199,7 @@ DYD_API size_t dyd_plan_count(const dyd_plan *plan);
 /* Looks whether the answer is known. Either sets *answered = true (false when called), or adds to *plan, empty when
  * called, who has to be narrower. e is borrowed for the call: see dyd_engine_sites, dyd_engine_knows,
  * dyd_engine_delaunay. Returns DYD_OK; DYD_CANCELLED to give up; an error < 0 with *err (clear when called) filled. */
-typedef dyd_status (*dyd_ask_fn)(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err);
+typedef dyd_status (*dyd_ask_fn)(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err);
 
 /* A question, borrowed during the ask. */
 typedef struct dyd_question {
@@ -232,7 +232,7 @@ typedef struct dyd_question {
  *
  * Are points 0 and 1 surely different? (r: two rectangles, initialised.)
  *
- *     static dyd_status differ(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
+ *     static dyd_status differ(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
  *       dyd_rect *r = user;
  *       dyd_status st = DYD_OK;
  *       for (uint32_t i = 0; st == DYD_OK && i < 2; i++) st = dyd_sites_get(&r[i], dyd_engine_sites(e), i);

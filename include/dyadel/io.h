@@ -3,6 +3,7 @@
 #ifndef DYADEL_IO_H
 #define DYADEL_IO_H
 
+#include <dyadel/check.h>
 #include <dyadel/converge.h>
 #include <dyadel/metric.h>
 #include <stdio.h>
@@ -41,10 +42,28 @@ typedef enum dyd_format {
   DYD_FORMAT_PDF,
   DYD_FORMAT_PNG
 } dyd_format;
-/* Finds a format by its name ("csv"); false when there is none. */
+/* What the functions below write. */
+typedef enum dyd_content {
+  DYD_CONTENT_NONE = 0, /* what no format holds */
+  DYD_CONTENT_DELAUNAY,
+  DYD_CONTENT_VORONOI,
+  DYD_CONTENT_CONVERGENCE, /* the table */
+  DYD_CONTENT_PLOT,        /* and its curves */
+  DYD_CONTENT_CHECK,
+  DYD_CONTENT_DISC,
+  DYD_CONTENT_BISECTOR,
+  DYD_CONTENT_NEAREST
+} dyd_content;
+
+/* Finds a format by its name ("csv"), or by the ending of a file's name ("a/map.svg"); false when there is none. */
 DYD_API bool dyd_format_from_name(dyd_format *out, const char *name);
+DYD_API bool dyd_format_from_file(dyd_format *out, const char *file);
 /* The name of a format; NULL behind the last one, so that counting up from 0 lists them all. Static storage. */
 DYD_API const char *dyd_format_name(dyd_format format);
+/* What it is, in words without a full stop; NULL as above. Static storage. */
+DYD_API const char *dyd_format_about(dyd_format format);
+/* Can the format hold it? Where not, the writers below return DYD_E_ARG with a message that names those that can. */
+DYD_API bool dyd_format_holds(dyd_format format, dyd_content content);
 
 /* Writes the current result of e. DYD_E_ARG when e has none; DYD_E_IO when a write fails. */
 DYD_API dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err);
@@ -61,19 +80,17 @@ typedef struct dyd_voronoi_options {
   dyd_voronoi_bounds *bounds; /* initialised by the caller; receives the bounds that were written; may be NULL */
 } dyd_voronoi_options;
 
-/* Writes the Voronoi diagram of the current result of e: every format but obj (else DYD_E_ARG). o may be NULL.
+/* Writes the Voronoi diagram of the current result of e. o may be NULL.
  * DYD_CAPPED when neighbours are missing since the cap on pairs was met. */
 DYD_API dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_options *o, dyd_format format,
                                      dyd_error *err);
 
-/* The partial bisector of the points in a and b (numbered 0, 1): the arcs of both curves with exact ends. csv, json,
- * svg, pdf or png (else DYD_E_ARG). outcome: how narrowing them ended. DYD_E_RANGE when doubles cannot hold the
- * picture. */
+/* The partial bisector of the points in a and b (numbered 0, 1): the arcs of both curves with exact ends. outcome:
+ * how narrowing them ended. DYD_E_RANGE when doubles cannot hold the picture. */
 DYD_API dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_rect *b, dyd_outcome outcome,
                                       dyd_format format, dyd_error *err);
 /* The partial disc of r[0], r[1], r[2]: orientation, the six critical circles exactly and enclosed, the box of the
- * partial centre, and Con of r[3 .. n-1]. csv, json, svg, pdf or png (else DYD_E_ARG, as for n < 3).
- * DYD_E_RANGE when doubles cannot hold the picture. */
+ * partial centre, and Con of r[3 .. n-1]. DYD_E_ARG for n < 3, DYD_E_RANGE when doubles cannot hold the picture. */
 DYD_API dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome, dyd_format format,
                                   dyd_error *err);
 
@@ -85,19 +102,21 @@ typedef struct dyd_nearest_answer {
   bool sure;
   dyd_outcome outcome;
 } dyd_nearest_answer;
-/* The points of e that are possibly, or the one that is surely nearest. csv, json, svg, pdf or png (else DYD_E_ARG, as
- * when e has no result). DYD_E_RANGE when doubles cannot hold the picture. */
+/* The points of e that are possibly, or the one that is surely nearest. DYD_E_ARG when e has no result, DYD_E_RANGE
+ * when doubles cannot hold the picture. */
 DYD_API dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_answer *answer,
                                      dyd_format format, dyd_error *err);
 
-/* Writes the table of a run: DYD_FORMAT_CSV or DYD_FORMAT_JSON (else DYD_E_ARG, as for a table without a run). Bounds
- * and widths are rounded up, and the output says so. times = false leaves the seconds out: then equal runs give equal
- * bytes. */
+/* Writes a table of convergence; DYD_E_ARG when there was no run. Bounds and widths are rounded up, and the output says
+ * so. times = false leaves the seconds out: then equal runs give equal bytes. */
 DYD_API dyd_status dyd_write_convergence(FILE *out, const dyd_convergence *c, dyd_format format, bool times,
                                          dyd_error *err);
 
-/* Draws bounds and counts against stages on logarithmic scales; kind is "svg", "pdf" or "png" (else DYD_E_ARG). */
-DYD_API dyd_status dyd_plot_convergence(FILE *out, const dyd_convergence *c, const char *kind, dyd_error *err);
+/* Draws bounds and counts against stages on logarithmic scales; DYD_E_ARG when there was no run. */
+DYD_API dyd_status dyd_plot_convergence(FILE *out, const dyd_convergence *c, dyd_format format, dyd_error *err);
+
+/* What a run of the harness found, and how much it tried; not its schedule. */
+DYD_API dyd_status dyd_write_check(FILE *out, const dyd_check_report *r, dyd_format format, dyd_error *err);
 
 /* ---- traces ---- */
 

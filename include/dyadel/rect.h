@@ -60,6 +60,8 @@ DYD_API void dyd_rect_set(dyd_rect *out, const dyd_rect *r);
 DYD_API void dyd_rect_swap(dyd_rect *a, dyd_rect *b);
 DYD_API dyd_status dyd_rect_set_d(dyd_rect *out, double x0, double x1, double y0, double y1);
 DYD_API dyd_status dyd_rect_set_q(dyd_rect *out, const mpq_t x, const mpq_t y);
+/* The sides as enclosing doubles: x lower, x upper, y lower, y upper. */
+DYD_API void dyd_rect_get_d(double out[4], const dyd_rect *r);
 DYD_API bool dyd_rect_is_point(const dyd_rect *r);
 DYD_API bool dyd_rect_contains(const dyd_rect *outer, const dyd_rect *inner);
 DYD_API bool dyd_rect_meets(const dyd_rect *a, const dyd_rect *b);

@@ -93,6 +93,8 @@ DYD_API dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radiu
 /* The root in [lo,hi] of the polynomial sum coeff[k] x^k, degree = count - 1, that has opposite signs at lo and hi. */
 DYD_API dyd_status dyd_real_root(dyd_real **out, const mpq_t *coeff, size_t count, const mpq_t lo, const mpq_t hi,
                                  dyd_error *err);
+/* The exact value of a text that dyd_real_parse takes, where that is a rational number; else DYD_E_PARSE. */
+DYD_API dyd_status dyd_real_parse_exact(mpq_t out, const char *text, size_t length);
 DYD_API dyd_real *dyd_real_ref(dyd_real *x);
 DYD_API void dyd_real_free(dyd_real *x);
 /* Narrows to about 2^-bits; nestedness is checked. DYD_OK, DYD_FIXED or an error. */

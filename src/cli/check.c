@@ -12,11 +12,11 @@ typedef struct check_input {
   int status;
 } check_input;
 
-static dyd_status open_points(dyd_engine **out, void *user, dyd_error *err) {
+static dyd_status open_checked_points(dyd_engine **out, void *user, dyd_error *err) {
   check_input *in = user;
   (void)err;
-  dyd_status status = dyd_engine_new(out);
-  if (status < 0) return status;
+  dyd_status st = dyd_engine_new(out);
+  if (st != DYD_OK) return st;
   in->status = cli_points_read(*out, in->options);
   if (!in->status) return DYD_OK;
   dyd_engine_free(*out);
@@ -42,7 +42,7 @@ typedef struct given_moves {
   size_t count, cap;
 } given_moves;
 
-static bool add_move(given_moves *s, dyd_check_move m) {
+static bool add_given_move(given_moves *s, dyd_check_move m) {
   if (s->count == s->cap) {
     size_t cap = 2 * s->cap + 64;
     void *p = realloc(s->move, cap * sizeof *s->move);
@@ -55,7 +55,7 @@ static bool add_move(given_moves *s, dyd_check_move m) {
 }
 
 /* One line; false when it is not understood. */
-static bool read_line(given_moves *s, dyd_check_options *o, const char *line) {
+static bool read_schedule_line(given_moves *s, dyd_check_options *o, const char *line) {
   long long a, b, c;
   char rest;
   if (line[0] == '#' || line[strspn(line, " \t\r\n")] == 0) return true;
@@ -64,10 +64,10 @@ static bool read_line(given_moves *s, dyd_check_options *o, const char *line) {
   if (sscanf(line, "%lld %lld %lld %c", &a, &b, &c, &rest) != 3) return false;
   if (a < 1 || a > UINT32_MAX || b < 0 || b > UINT32_MAX || c < 1 || c > DYD_EXP_LIMIT / 2) return false;
   if (s->count && s->move[s->count - 1].stage > (uint32_t)a) return false;
-  return add_move(s, (dyd_check_move){(uint32_t)a, (uint32_t)b, c});
+  return add_given_move(s, (dyd_check_move){(uint32_t)a, (uint32_t)b, c});
 }
 
-static int read_schedule(given_moves *s, dyd_check_options *o, const char *name) {
+static int read_schedule_file(given_moves *s, dyd_check_options *o, const char *name) {
   FILE *in = fopen(name, "r");
   if (!in) {
     cli_complain("%s: cannot open: %s; give a schedule that check wrote by --trace", name, strerror(errno));
@@ -76,7 +76,7 @@ static int read_schedule(given_moves *s, dyd_check_options *o, const char *name)
   char line[256];
   int status = 0;
   for (size_t number = 1; !status && fgets(line, sizeof line, in); number++)
-    if (!read_line(s, o, line)) {
+    if (!read_schedule_line(s, o, line)) {
       cli_complain("%s:%zu:1: this is no line of a schedule; give STAGE POINT BITS, stages ascending", name, number);
       status = CLI_FAILED;
     }
@@ -86,22 +86,12 @@ static int read_schedule(given_moves *s, dyd_check_options *o, const char *name)
 
 /* ---- the report ---- */
 
-static dyd_status print_report(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  const dyd_check_report *r = what;
-  (void)err;
-  bool json = o->format == DYD_FORMAT_JSON;
-  const char *form = json ? "{\"fault\": \"%s\", \"schedules\": %" PRIu64 ", \"stages\": %" PRIu64
-                            ", \"pairs\": %" PRIu64 ", \"cells\": %" PRIu64 ", \"floors\": %" PRIu64
-                            ", \"seed\": %" PRIu64 ", \"moves\": %zu}\n"
-                          : "fault,schedules,stages,pairs,cells,floors,seed,moves\n%s,%" PRIu64 ",%" PRIu64 ",%" PRIu64
-                            ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%zu\n";
-  fprintf(out, form, dyd_check_fault_text(r->fault), r->schedules, r->stages, r->pairs, r->cells, r->floors, r->seed,
-          r->moves);
-  return DYD_OK;
+static dyd_status print_check(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+  return dyd_write_check(out, what, o->format, err);
 }
 
-static int tell(const dyd_check_report *r, const cli_options *o) {
-  int status = cli_write_file(o->output, o, print_report, r);
+static int tell_check(const dyd_check_report *r, const cli_options *o) {
+  int status = cli_write_file(o->output, o, print_check, r);
   if (r->fault == DYD_CHECK_FINE || status) return status;
   cli_complain("%s: %s", dyd_check_fault_text(r->fault), r->message);
   if (o->trace) {
@@ -125,19 +115,20 @@ int cli_check(const cli_options *o) {
     cli_complain("check reads the points once for each schedule; give a file in place of standard input");
     return CLI_USAGE;
   }
-  int status = o->replay ? read_schedule(&given, &options, o->replay) : 0;
+  int status = o->replay ? read_schedule_file(&given, &options, o->replay) : 0;
   cli_progress *progress = cli_progress_start(o->quiet);
   cli_progress_phase(progress, "checking");
-  dyd_status done = DYD_OK;
+  dyd_status st = DYD_OK;
   if (!status)
-    done = o->replay ? dyd_check_replay(&report, open_points, &in, given.move, given.count, &options, &err)
-                     : dyd_check_run(&report, open_points, &in, &options, &err);
+    st = o->replay ? dyd_check_replay(&report, open_checked_points, &in, given.move, given.count, &options, &err)
+                   : dyd_check_run(&report, open_checked_points, &in, &options, &err);
   cli_progress_stop(progress);
-  if (!status && done < 0) {
-    if (!in.status) cli_complain("%s", err.message[0] ? err.message : dyd_status_text(done));
+  if (st == DYD_CANCELLED) st = DYD_OK; /* the report tells what was done until then */
+  if (!status && st != DYD_OK) {
+    if (!in.status) cli_complain("%s", err.message[0] ? err.message : dyd_status_text(st));
     status = in.status ? in.status : CLI_FAILED;
   }
-  if (!status) status = tell(&report, o);
+  if (!status) status = tell_check(&report, o);
   dyd_check_report_clear(&report);
   free(given.move);
   return status;

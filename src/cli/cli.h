@@ -4,6 +4,7 @@
  *   main.c       finds out what is asked and does it
  *   table.c      all commands and options: parsing, help, manual page and completion come from there
  *   options.c    arguments to cli_options; values.c: the value of one option; suggest.c: "did you mean"
+ *   complain.c   messages
  *   help*.c      --help, the manual page, completion scripts
  *   session.c    what commands share: read points, run the engine, write a result, exit status
  *   COMMAND.c    one file for each command */
@@ -54,10 +55,15 @@ typedef struct cli_options {
 
 /* options.c: 0, or CLI_USAGE after a message. */
 int cli_options_read(cli_options *out, int argc, char **argv);
-/* Prints "dyadel: ..." to standard error. */
-void cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* values.c: --window XLO,XHI,YLO,YHI. Ends that are no dyadics are rounded outward (dyd_real_from_interval).
+/* complain.c: prints "dyadel: ..." to standard error. */
+void cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: left out. */
+void cli_complain_at(const char *file, const dyd_error *err);
+/* Returns CLI_FAILED. */
+int cli_complain_memory(void);
+
+/* window.c: --window XLO,XHI,YLO,YHI. Ends that are no dyadics are rounded outward (dyd_real_from_interval).
  * out is initialised by the caller; false after a message. */
 bool cli_window_read(dyd_rect *out, const char *text);
 
@@ -114,8 +120,6 @@ int cli_exit_status(dyd_outcome outcome);
 /* goal.c: one line that tells which bound was asked for, which is reached, why it is no better (advice), and what to
  * do. false, and nothing said, where no bound was asked for. */
 bool cli_note_goal(const cli_session *s, const char *advice);
-/* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: left out. */
-void cli_complain_at(const char *file, const dyd_error *err);
 
 /* output.c: a result file that appears whole or not at all. */
 typedef struct cli_output {

@@ -8,17 +8,15 @@ static dyd_status print_table(FILE *out, const void *what, const cli_options *o,
   return dyd_write_convergence(out, what, o->format, !o->no_times, err);
 }
 
-/* svg, pdf or png, from the name of the plot's file; NULL when it is none of these. */
-static const char *plot_kind(const char *name) {
-  static const char *const kind[] = {"svg", "pdf", "png"};
-  const char *dot = strrchr(name, '.');
-  for (int k = 0; dot && k < 3; k++)
-    if (strcmp(dot + 1, kind[k]) == 0) return kind[k];
-  return NULL;
+/* By the name of the plot's file; false when no format of that ending holds a plot. */
+static bool plot_format(dyd_format *out, const char *name) {
+  return dyd_format_from_file(out, name) && dyd_format_holds(*out, DYD_CONTENT_PLOT);
 }
 
 static dyd_status print_plot(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  return dyd_plot_convergence(out, what, plot_kind(o->plot), err);
+  dyd_format format = o->format;
+  plot_format(&format, o->plot);
+  return dyd_plot_convergence(out, what, format, err);
 }
 
 /* Table and plot, as far as they were made. */
@@ -38,7 +36,7 @@ typedef struct run {
   dyd_converge_options converge;
 } run;
 
-static dyd_status run_table(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
+static dyd_status converge_run(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
   run *r = user;
   dyd_engine_options o = *options;
   dyd_converge_options converge = r->converge;
@@ -53,9 +51,9 @@ static dyd_status run_table(dyd_engine *e, const dyd_engine_options *options, vo
 static int end_trace(run *r, cli_output *out) {
   dyd_error err;
   dyd_error_clear(&err);
-  dyd_status status = dyd_trace_end(r->trace, r->table.outcome, &err);
+  dyd_status st = dyd_trace_end(r->trace, r->table.outcome, &err);
   r->trace = NULL;
-  if (status >= 0) return cli_output_finish(out) ? 0 : CLI_FAILED;
+  if (st == DYD_OK) return cli_output_finish(out) ? 0 : CLI_FAILED;
   cli_complain_at(r->o->trace, &err);
   cli_output_drop(out);
   return CLI_FAILED;
@@ -65,16 +63,16 @@ static int run_traced(run *r, cli_session *s, const dyd_engine_options *options)
   cli_output out;
   if (!cli_output_open(&out, r->o->trace)) return CLI_FAILED;
   dyd_error err;
-  if (dyd_trace_new(&r->trace, out.stream, s->engine, options, &r->converge, &err) < 0) {
+  if (dyd_trace_new(&r->trace, out.stream, s->engine, options, &r->converge, &err) != DYD_OK) {
     cli_complain("%s", err.message);
     cli_output_drop(&out);
     return CLI_FAILED;
   }
-  int status = cli_session_run_by(s, options, run_table, r), ended = end_trace(r, &out);
+  int status = cli_session_run_by(s, options, converge_run, r), ended = end_trace(r, &out);
   return status ? status : ended;
 }
 
-static int converge(const cli_options *o) {
+static int converge_points(const cli_options *o) {
   cli_session s;
   run r = {o, {DYD_SIZED(dyd_convergence)}, NULL, {DYD_SIZED(dyd_converge_options)}};
   dyd_rect window;
@@ -85,7 +83,7 @@ static int converge(const cli_options *o) {
   if (!o->start_set) options.start_bits = 4;
   int status = cli_session_open(&s, o);
   if (status == 0) {
-    status = o->trace ? run_traced(&r, &s, &options) : cli_session_run_by(&s, &options, run_table, &r);
+    status = o->trace ? run_traced(&r, &s, &options) : cli_session_run_by(&s, &options, converge_run, &r);
     cli_session_settle(&s);
     int written = write_results(&r.table, o);
     if (status == 0) status = written;
@@ -97,7 +95,7 @@ static int converge(const cli_options *o) {
 
 /* ---- a replay ---- */
 
-static int replay(const cli_options *o) {
+static int converge_replay(const cli_options *o) {
   bool standard = strcmp(o->replay, "-") == 0;
   FILE *in = standard ? stdin : fopen(o->replay, "rb");
   if (!in) {
@@ -106,11 +104,11 @@ static int replay(const cli_options *o) {
   }
   dyd_convergence table = {DYD_SIZED(dyd_convergence)};
   dyd_error err;
-  dyd_status done = dyd_trace_replay(&table, in, NULL, &err);
+  dyd_status st = dyd_trace_replay(&table, in, NULL, &err);
   if (!standard) fclose(in);
-  if (done < 0) cli_complain_at(o->replay, &err);
+  if (st != DYD_OK) cli_complain_at(o->replay, &err);
   int status = write_results(&table, o);
-  if (done < 0 || status)
+  if (st != DYD_OK || status)
     status = CLI_FAILED;
   else
     status = cli_exit_status(table.outcome);
@@ -119,9 +117,10 @@ static int replay(const cli_options *o) {
 }
 
 int cli_converge(const cli_options *o) {
-  if (o->plot && !plot_kind(o->plot)) {
+  dyd_format format;
+  if (o->plot && !plot_format(&format, o->plot)) {
     cli_complain("--plot \"%s\" does not say what kind of picture is wanted; end it in .svg, .pdf or .png", o->plot);
     return CLI_USAGE;
   }
-  return o->replay ? replay(o) : converge(o);
+  return o->replay ? converge_replay(o) : converge_points(o);
 }

@@ -2,7 +2,7 @@
 /* dyadel delaunay FILE: read, run, write. A window is what pictures show. */
 #include "cli.h"
 
-static dyd_status write_delaunay(FILE *out, const dyd_engine *e, const cli_options *o, dyd_error *err) {
+static dyd_status delaunay_write(FILE *out, const dyd_engine *e, const cli_options *o, dyd_error *err) {
   return dyd_write_delaunay_window(out, e, o->view, o->format, err);
 }
 
@@ -15,7 +15,7 @@ int cli_delaunay(const cli_options *o) {
     own.view = &window;
     status = cli_window_read(&window, o->window) ? 0 : CLI_USAGE;
   }
-  if (!status) status = cli_session_all(&own, write_delaunay);
+  if (!status) status = cli_session_all(&own, delaunay_write);
   dyd_rect_clear(&window);
   return status;
 }

@@ -6,7 +6,7 @@
 #include "cli.h"
 #include <inttypes.h>
 
-static const char *subject(dyd_goal goal) {
+static const char *goal_subject(dyd_goal goal) {
   switch (goal) {
   case DYD_GOAL_AREA:
     return "the undetermined area of the triangulation";
@@ -19,12 +19,12 @@ static const char *subject(dyd_goal goal) {
   }
 }
 
-static bool is_area(dyd_goal goal) {
+static bool goal_is_area(dyd_goal goal) {
   return goal == DYD_GOAL_AREA || goal == DYD_GOAL_VORONOI_AREA;
 }
 
 /* The bound reached; false when none is known. */
-static bool reached(dyd_dyadic *out, const cli_session *s, dyd_goal goal) {
+static bool goal_reached(dyd_dyadic *out, const cli_session *s, dyd_goal goal) {
   bool known = false;
   dyd_dyadic other;
   dyd_dyadic_init(&other);
@@ -33,7 +33,7 @@ static bool reached(dyd_dyadic *out, const cli_session *s, dyd_goal goal) {
   else if (goal == DYD_GOAL_HAUSDORFF)
     known = dyd_engine_bounds(&other, out, s->engine) == DYD_OK;
   else if (s->bounds)
-    known = is_area(goal) || s->bounds->finite;
+    known = goal_is_area(goal) || s->bounds->finite;
   if (known && goal == DYD_GOAL_VORONOI_AREA) dyd_dyadic_set(out, &s->bounds->area);
   if (known && goal == DYD_GOAL_VORONOI_HAUSDORFF) dyd_dyadic_set(out, &s->bounds->hausdorff);
   dyd_dyadic_clear(&other);
@@ -50,16 +50,17 @@ bool cli_note_goal(const cli_session *s, const char *advice) {
   int64_t bits;
   dyd_goal goal = dyd_engine_goal(&bits, s->engine);
   if (goal == DYD_GOAL_DECIDED) return false;
-  const char *outcome = dyd_outcome_text(dyd_engine_outcome(s->engine)), *name = is_area(goal) ? "area" : "hausdorff";
+  const char *outcome = dyd_outcome_text(dyd_engine_outcome(s->engine)),
+             *name = goal_is_area(goal) ? "area" : "hausdorff";
   dyd_dyadic bound;
   dyd_dyadic_init(&bound);
-  if (reached(&bound, s, goal)) {
+  if (goal_reached(&bound, s, goal)) {
     int64_t power = power_above(&bound);
     cli_complain("%s: %s is at most 2^%" PRId64 ", not 2^%" PRId64 " as asked; %s; --until %s:%" PRId64 " holds",
-                 outcome, subject(goal), power, -bits, advice, name, -power);
+                 outcome, goal_subject(goal), power, -bits, advice, name, -power);
   } else {
     cli_complain("%s: %s is not known to be at most 2^%" PRId64 ", as asked; no bound is known; %s", outcome,
-                 subject(goal), -bits, advice);
+                 goal_subject(goal), -bits, advice);
   }
   dyd_dyadic_clear(&bound);
   return true;

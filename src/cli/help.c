@@ -5,28 +5,24 @@
 
 enum { COLUMN = 24 };
 
-/* How many commands of the set exist. */
-static unsigned count(unsigned commands) {
+/* How many commands are in the set. */
+static unsigned count_commands(unsigned commands) {
   unsigned n = 0;
-  for (commands &= cli_existing(); commands; commands &= commands - 1) n++;
+  for (; commands; commands &= commands - 1) n++;
   return n;
 }
 
 /* " (converge, check)" behind an option that few of the commands take. */
-static void print_takers(FILE *out, unsigned commands, unsigned among) {
-  unsigned takers = count(commands & among);
-  if (takers == count(among) || takers > 2) return;
-  const char *separator = " (";
-  for (unsigned c = 0; c < CLI_COMMANDS; c++) {
-    if (!(commands & among & cli_existing() & 1u << c)) continue;
-    fprintf(out, "%s%s", separator, cli_commands[c].name);
-    separator = ", ";
-  }
+static void help_takers(FILE *out, unsigned commands, unsigned among) {
+  unsigned takers = count_commands(commands & among);
+  if (takers == count_commands(among) || takers > 2) return;
+  fputs(" (", out);
+  cli_commands_print(out, commands & among, ", ");
   fputs(")", out);
 }
 
 /* The first part of the line: "  -o, --output FILE", then blanks up to the column, on a new line where it is long. */
-static void print_names(FILE *out, const cli_option *o) {
+static void help_names(FILE *out, const cli_option *o) {
   char names[80];
   char letter[6] = "";
   if (o->letter) snprintf(letter, sizeof letter, "-%c, ", o->letter);
@@ -41,8 +37,8 @@ static void print_names(FILE *out, const cli_option *o) {
   fprintf(out, "%*s", COLUMN - length, "");
 }
 
-static void print_option(FILE *out, const cli_option *o, unsigned among) {
-  print_names(out, o);
+static void help_option(FILE *out, const cli_option *o, unsigned among) {
+  help_names(out, o);
   if (o->kind == CLI_FORMAT)
     cli_formats_print(out, cli_formats_of(o->commands & among), ", ", true);
   else
@@ -50,11 +46,11 @@ static void print_option(FILE *out, const cli_option *o, unsigned among) {
       fputc(*c, out);
       if (*c == '\n') fprintf(out, "%*s", COLUMN, "");
     }
-  print_takers(out, o->commands, among);
+  help_takers(out, o->commands, among);
   fputs("\n", out);
 }
 
-static void print_options(FILE *out, unsigned among) {
+static void help_options(FILE *out, unsigned among) {
   for (int g = 0; g < CLI_GROUPS; g++) {
     bool any = false;
     for (size_t k = 0; k < cli_option_count; k++) {
@@ -62,7 +58,7 @@ static void print_options(FILE *out, unsigned among) {
       if (o->group != (cli_group)g || !cli_option_exists(o, among)) continue;
       if (!any) fprintf(out, "%s\n", cli_group_names[g]);
       any = true;
-      print_option(out, o, among);
+      help_option(out, o, among);
     }
   }
 }
@@ -73,7 +69,6 @@ void cli_help(FILE *out, const cli_command *command) {
   } else {
     fprintf(out, "Usage: dyadel COMMAND [OPTION...] FILE\n%s\n\nCommands\n", cli_summary);
     for (size_t c = 0; c < CLI_COMMANDS; c++) {
-      if (!cli_commands[c].run) continue;
       char usage[64];
       snprintf(usage, sizeof usage, "%s %s", cli_commands[c].name, cli_commands[c].operands);
       fprintf(out, "  %-*s%s\n", COLUMN - 2, usage, cli_commands[c].line);
@@ -81,7 +76,7 @@ void cli_help(FILE *out, const cli_command *command) {
     fputs("\n", out);
   }
   if (!command || strncmp(command->operands, "FILE", 4) == 0) fprintf(out, "%s\n\n", cli_file_text);
-  print_options(out, command ? cli_command_bit(command) : cli_existing());
+  help_options(out, command ? cli_command_bit(command) : CLI_ALL);
   fputs("\nExit status: 0 decided or certified, 1 bad input or failure, 2 bad usage,\n"
         "3 fixpoint (ties or fixed rectangles), 4 budget spent, 5 cancelled.\n"
         "Results are written for 0, 3, 4 and 5.\n",

@@ -11,15 +11,6 @@ static void option_names(FILE *out, unsigned commands) {
   }
 }
 
-static void command_names(FILE *out, const char *separator) {
-  const char *before = "";
-  for (size_t c = 0; c < CLI_COMMANDS; c++) {
-    if (!cli_commands[c].run) continue;
-    fprintf(out, "%s%s", before, cli_commands[c].name);
-    before = separator;
-  }
-}
-
 /* ---- bash ---- */
 
 /* The pattern of a case for the option: "--output|-o)". */
@@ -35,13 +26,12 @@ static void bash_value(FILE *out, const cli_option *o) {
   if (o->kind == CLI_FORMAT) {
     fputs("case $command in\n", out);
     for (size_t c = 0; c < CLI_COMMANDS; c++) {
-      if (!cli_commands[c].run) continue;
       fprintf(out, "      %s) words='", cli_commands[c].name);
-      cli_formats_print(out, cli_commands[c].formats, " ", false);
+      cli_formats_print(out, cli_formats_of(cli_command_bit(&cli_commands[c])), " ", false);
       fputs("' ;;\n", out);
     }
     fputs("      *) words='", out);
-    cli_formats_print(out, cli_formats_of(cli_existing()), " ", false);
+    cli_formats_print(out, cli_formats_of(CLI_ALL), " ", false);
     fputs("' ;;\n      esac ;;\n", out);
   } else if (o->kind == CLI_SCHEDULE) {
     fputs("words='adaptive uniform' ;;\n", out);
@@ -66,27 +56,25 @@ void cli_help_bash(FILE *out) {
         "    case ${COMP_WORDS[k]} in\n"
         "    ",
         out);
-  command_names(out, "|");
+  cli_commands_print(out, CLI_ALL, "|");
   fputs(") command=${COMP_WORDS[k]}; break ;;\n    esac\n  done\n  case $prev in\n", out);
-  for (size_t k = 0; k < cli_option_count; k++)
-    if (cli_option_exists(&cli_option_table[k], cli_existing())) bash_value(out, &cli_option_table[k]);
+  for (size_t k = 0; k < cli_option_count; k++) bash_value(out, &cli_option_table[k]);
   for (size_t k = 0; k < cli_option_count; k++) {
     const cli_option *o = &cli_option_table[k];
-    if (o->kind != CLI_FILE || !cli_option_exists(o, cli_existing())) continue;
+    if (o->kind != CLI_FILE) continue;
     bash_pattern(out, o);
     fputs("return ;;\n", out);
   }
   fputs("  esac\n  if [[ -z $words && $cur == -* ]]; then\n    case $command in\n", out);
   for (size_t c = 0; c < CLI_COMMANDS; c++) {
-    if (!cli_commands[c].run) continue;
     fprintf(out, "    %s) words='", cli_commands[c].name);
     option_names(out, cli_command_bit(&cli_commands[c]));
     fputs("' ;;\n", out);
   }
   fputs("    *) words='", out);
-  option_names(out, cli_existing());
+  option_names(out, CLI_ALL);
   fputs("' ;;\n    esac\n  elif [[ -z $words && -z $command ]]; then words='", out);
-  command_names(out, " ");
+  cli_commands_print(out, CLI_ALL, " ");
   fputs("'; fi\n"
         "  [[ $words ]] || return # names of files\n"
         "  compopt +o default 2>/dev/null\n"
@@ -112,7 +100,7 @@ static void zsh_text(FILE *out, const char *t) {
   }
 }
 
-static void zsh_option(FILE *out, const cli_option *o, unsigned formats) {
+static void zsh_option(FILE *out, const cli_option *o, const cli_command *c) {
   fputs("      ", out);
   if (o->letter)
     fprintf(out, "'(-%c --%s)'{-%c%s,--%s%s}'", o->letter, o->name, o->letter,
@@ -128,7 +116,7 @@ static void zsh_option(FILE *out, const cli_option *o, unsigned formats) {
   if (o->kind == CLI_GOAL) fputs("(decided area\\: hausdorff\\:)", out);
   if (o->kind == CLI_FORMAT) {
     fputs("(", out);
-    cli_formats_print(out, formats, " ", false);
+    cli_formats_print(out, cli_formats_of(cli_command_bit(c)), " ", false);
     fputs(")", out);
   }
   fputs("'\n", out);
@@ -137,7 +125,7 @@ static void zsh_option(FILE *out, const cli_option *o, unsigned formats) {
 static void zsh_command(FILE *out, const cli_command *c) {
   fprintf(out, "    %s) options=(\n", c->name);
   for (size_t k = 0; k < cli_option_count; k++)
-    if (cli_option_exists(&cli_option_table[k], cli_command_bit(c))) zsh_option(out, &cli_option_table[k], c->formats);
+    if (cli_option_exists(&cli_option_table[k], cli_command_bit(c))) zsh_option(out, &cli_option_table[k], c);
   fputs("      '1:file:_files'\n      '*:number:'\n      ) ;;\n", out);
 }
 
@@ -150,7 +138,6 @@ void cli_help_zsh(FILE *out) {
         "  commands=(\n",
         out);
   for (size_t c = 0; c < CLI_COMMANDS; c++) {
-    if (!cli_commands[c].run) continue;
     fprintf(out, "    '%s:", cli_commands[c].name);
     zsh_text(out, cli_commands[c].line);
     fputs("'\n", out);
@@ -163,8 +150,7 @@ void cli_help_zsh(FILE *out) {
         "  arguments)\n"
         "    case $line[1] in\n",
         out);
-  for (size_t c = 0; c < CLI_COMMANDS; c++)
-    if (cli_commands[c].run) zsh_command(out, &cli_commands[c]);
+  for (size_t c = 0; c < CLI_COMMANDS; c++) zsh_command(out, &cli_commands[c]);
   fputs("    esac\n"
         "    _arguments $options ;;\n"
         "  esac\n"

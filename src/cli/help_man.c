@@ -5,7 +5,7 @@
 
 /* Text between macros. A line must not begin with a control character, a backslash is written \e, and a hyphen that
  * is to be copied from the page as it is typed is written \-. */
-static void letter(FILE *out, char c) {
+static void man_letter(FILE *out, char c) {
   if (c == '\\')
     fputs("\\e", out);
   else if (c == '-')
@@ -15,7 +15,7 @@ static void letter(FILE *out, char c) {
 }
 
 /* Text in lines of moderate length; a sentence begins on a new line. */
-static void text(FILE *out, const char *t) {
+static void man_text(FILE *out, const char *t) {
   int column = 0;
   for (; *t; t++) {
     bool blank = *t == ' ' || *t == '\n';
@@ -26,48 +26,43 @@ static void text(FILE *out, const char *t) {
       continue;
     }
     if (column == 0 && (*t == '.' || *t == '\'')) fputs("\\&", out);
-    letter(out, *t);
+    man_letter(out, *t);
     column++;
   }
   fputs("\n", out);
 }
 
 /* An argument of a macro. */
-static void quoted(FILE *out, const char *t) {
+static void man_quoted(FILE *out, const char *t) {
   fputc('"', out);
   for (; *t; t++) {
     if (*t == '"')
       fputs("\\(dq", out);
     else
-      letter(out, *t);
+      man_letter(out, *t);
   }
   fputc('"', out);
 }
 
-static void terms(FILE *out, const cli_term *t, const char *macro) {
+static void man_terms(FILE *out, const cli_term *t, const char *macro) {
   fputs(".Bl -tag -width Ds\n", out);
   for (; t->term; t++) {
     fprintf(out, ".It %s ", macro);
-    quoted(out, t->term);
+    man_quoted(out, t->term);
     fputs("\n", out);
-    text(out, t->meaning);
+    man_text(out, t->meaning);
   }
   fputs(".El\n", out);
 }
 
-static void takers(FILE *out, const cli_option *o) {
-  unsigned existing = cli_existing(), set = o->commands & existing;
-  if (set == existing) return;
-  const char *separator = "(";
-  for (unsigned c = 0; c < CLI_COMMANDS; c++) {
-    if (!(set >> c & 1)) continue;
-    fprintf(out, "%s%s", separator, cli_commands[c].name);
-    separator = ", ";
-  }
+static void man_takers(FILE *out, const cli_option *o) {
+  if (o->commands == CLI_ALL) return;
+  fputs("(", out);
+  cli_commands_print(out, o->commands, ", ");
   fputs(")\n", out);
 }
 
-static void option(FILE *out, const cli_option *o) {
+static void man_option(FILE *out, const cli_option *o) {
   fputs(".It ", out);
   if (o->letter) fprintf(out, "Fl %c , ", o->letter);
   fprintf(out, "Fl \\-%s", o->name);
@@ -80,43 +75,39 @@ static void option(FILE *out, const cli_option *o) {
     cli_formats_print(out, cli_formats_of(o->commands), ", ", true);
     fputs("\n", out);
   } else {
-    text(out, o->help);
+    man_text(out, o->help);
   }
-  takers(out, o);
+  man_takers(out, o);
 }
 
-static void options(FILE *out) {
+static void man_options(FILE *out) {
   for (int g = 0; g < CLI_GROUPS; g++) {
     bool any = false;
     for (size_t k = 0; k < cli_option_count; k++) {
       const cli_option *o = &cli_option_table[k];
-      if (o->group != (cli_group)g || !cli_option_exists(o, cli_existing())) continue;
+      if (o->group != (cli_group)g) continue;
       if (!any) fprintf(out, ".Ss %s\n.Bl -tag -width Ds\n", cli_group_names[g]);
       any = true;
-      option(out, o);
+      man_option(out, o);
     }
     if (any) fputs(".El\n", out);
   }
 }
 
-static void commands(FILE *out) {
+static void man_commands(FILE *out) {
   fputs(".Bl -tag -width Ds\n", out);
   for (size_t c = 0; c < CLI_COMMANDS; c++) {
-    if (!cli_commands[c].run) continue;
     fprintf(out, ".It Cm %s Ar %s\n", cli_commands[c].name, cli_commands[c].operands);
-    text(out, cli_commands[c].about);
+    man_text(out, cli_commands[c].about);
   }
   fputs(".El\n", out);
 }
 
-/* Notes on the formats that there are. */
-static void formats(FILE *out) {
+static void man_formats(FILE *out) {
   fputs(".Bl -tag -width Ds\n", out);
-  for (const cli_term *t = cli_format_notes; t->term; t++) {
-    dyd_format format;
-    if (!dyd_format_from_name(&format, t->term)) continue;
-    fprintf(out, ".It Cm %s\n", t->term);
-    text(out, t->meaning);
+  for (unsigned f = 0; dyd_format_name((dyd_format)f); f++) {
+    fprintf(out, ".It Cm %s\n", dyd_format_name((dyd_format)f));
+    man_text(out, dyd_format_about((dyd_format)f));
   }
   fputs(".El\n", out);
 }
@@ -126,26 +117,26 @@ void cli_help_man(FILE *out) {
         ".Sh NAME\n.Nm dyadel\n.Nd Delaunay and Voronoi of computable points\n.Sh SYNOPSIS\n",
         out);
   for (size_t c = 0; c < CLI_COMMANDS; c++)
-    if (cli_commands[c].run)
-      fprintf(out, ".Nm\n.Cm %s\n.Op Ar option ...\n.Ar %s\n", cli_commands[c].name, cli_commands[c].operands);
+    fprintf(out, ".Nm\n.Cm %s\n.Op Ar option ...\n.Ar %s\n", cli_commands[c].name, cli_commands[c].operands);
   fputs(".Sh DESCRIPTION\n", out);
-  text(out, cli_summary);
+  man_text(out, cli_summary);
   fputs(".Pp\nThe commands are:\n", out);
-  commands(out);
+  man_commands(out);
   fputs(".Ss The points file\n", out);
-  text(out, cli_file_text);
+  man_text(out, cli_file_text);
   fputs("A coordinate is one of\n", out);
-  terms(out, cli_coordinate_forms, "Li");
+  man_terms(out, cli_coordinate_forms, "Li");
   fputs(".Sh OPTIONS\n", out);
-  text(out, "Commands in parentheses are those that take the option; where none is named, all do.");
-  options(out);
+  man_text(out, "Commands in parentheses are those that take the option; where none is named, all do.");
+  man_options(out);
   fputs(".Sh FORMATS\n", out);
-  text(out, "No format holds a rounded number without saying to which side, or by how much at most, it is rounded.");
-  formats(out);
+  man_text(out,
+           "No format holds a rounded number without saying to which side, or by how much at most, it is rounded.");
+  man_formats(out);
   fputs(".Sh EXIT STATUS\n", out);
-  terms(out, cli_exit_statuses, "Li");
+  man_terms(out, cli_exit_statuses, "Li");
   fputs(".Pp\n", out);
-  text(out, "Results are written for 0, 3, 4 and 5; they are true and complete for the rectangles reached.");
+  man_text(out, "Results are written for 0, 3, 4 and 5; they are true and complete for the rectangles reached.");
   fputs(".Sh EXAMPLES\n", out);
-  terms(out, cli_examples, "Li");
+  man_terms(out, cli_examples, "Li");
 }

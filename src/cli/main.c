@@ -2,17 +2,7 @@
 /* The command dyadel: finds out what is asked and does it. */
 #include "table.h"
 #include <signal.h>
-#include <stdarg.h>
 #include <string.h>
-
-void cli_complain(const char *format, ...) {
-  va_list args;
-  va_start(args, format);
-  fputs("dyadel: ", stderr);
-  vfprintf(stderr, format, args);
-  fputs("\n", stderr);
-  va_end(args);
-}
 
 static int flush_output(void) {
   if (fflush(stdout) == 0 && !ferror(stdout)) return CLI_OK;
@@ -20,7 +10,7 @@ static int flush_output(void) {
   return CLI_FAILED;
 }
 
-static int help(const cli_options *o) {
+static int print_help(const cli_options *o) {
   if (!*o->help) {
     cli_help(stdout, o->command ? cli_command_find(o->command) : NULL);
   } else if (strcmp(o->help, "man") == 0) {
@@ -42,7 +32,7 @@ int main(int argc, char **argv) {
   signal(SIGPIPE, SIG_IGN); /* a reader that went away is a write error like others */
   int status = cli_options_read(&options, argc, argv);
   if (status) return status;
-  if (options.help) return help(&options);
+  if (options.help) return print_help(&options);
   if (options.version) {
     printf("dyadel %s\n", dyd_version());
     return flush_output();

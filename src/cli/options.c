@@ -18,15 +18,14 @@ typedef struct scan {
   size_t operands;
 } scan;
 
-/* Tells getopt_long of all options that exist; its value for option k is FIRST_VALUE + k. */
-static void prepare(scan *s) {
+/* Tells getopt_long of all options; its value for option k is FIRST_VALUE + k. */
+static void scan_prepare(scan *s) {
   size_t n = 0, m = 0;
   *s = (scan){0};
   s->letters[m++] = '+';
   s->letters[m++] = ':';
   for (size_t k = 0; k < cli_option_count && n < MOST_OPTIONS; k++) {
     const cli_option *o = &cli_option_table[k];
-    if (!cli_option_exists(o, cli_existing())) continue;
     int argument = o->kind == CLI_HELP ? optional_argument : o->argument ? required_argument : no_argument;
     s->known[n++] = (struct option){o->name, argument, NULL, FIRST_VALUE + (int)k};
     if (!o->letter) continue;
@@ -48,8 +47,7 @@ static int complain_unknown(const char *argument) {
   name[strcspn(name, "=")] = 0;
   cli_suggestion s;
   cli_suggest_begin(&s, name);
-  for (size_t k = 0; k < cli_option_count; k++)
-    if (cli_option_exists(&cli_option_table[k], cli_existing())) cli_suggest_try(&s, cli_option_table[k].name);
+  for (size_t k = 0; k < cli_option_count; k++) cli_suggest_try(&s, cli_option_table[k].name);
   if (s.best)
     cli_complain("there is no option %s; did you mean --%s?", argument, s.best);
   else
@@ -74,7 +72,7 @@ static bool is_operand(const char *a) {
   return a[0] != '-' || !a[1] || isdigit((unsigned char)a[1]) || a[1] == '.';
 }
 
-static int add_operand(scan *s, const char *text) {
+static int scan_operand(scan *s, const char *text) {
   if (s->operands < MOST_OPERANDS) {
     s->operand[s->operands++] = text;
     return 0;
@@ -92,7 +90,7 @@ static int scan_all(scan *s, cli_options *o, int argc, char **argv) {
       operands_only = true;
       optind++;
     } else if (operands_only || is_operand(a)) {
-      status = add_operand(s, a);
+      status = scan_operand(s, a);
       optind++;
     } else {
       int value = getopt_long(argc, argv, s->letters, s->known, NULL);
@@ -111,18 +109,17 @@ static int scan_all(scan *s, cli_options *o, int argc, char **argv) {
 static int unknown_command(const char *name) {
   cli_suggestion s;
   cli_suggest_begin(&s, name);
-  for (size_t c = 0; c < CLI_COMMANDS; c++)
-    if (cli_commands[c].run) cli_suggest_try(&s, cli_commands[c].name);
+  for (size_t c = 0; c < CLI_COMMANDS; c++) cli_suggest_try(&s, cli_commands[c].name);
   if (s.best)
     cli_complain("there is no command \"%s\"; did you mean %s?", name, s.best);
   else
     cli_complain("there is no command \"%s\"; the commands are:", name);
   for (size_t c = 0; !s.best && c < CLI_COMMANDS; c++)
-    if (cli_commands[c].run) fprintf(stderr, "  dyadel %s %s\n", cli_commands[c].name, cli_commands[c].operands);
+    fprintf(stderr, "  dyadel %s %s\n", cli_commands[c].name, cli_commands[c].operands);
   return CLI_USAGE;
 }
 
-static int check_options(const cli_options *o, uint64_t seen, const cli_command *c) {
+static int options_fit(const cli_options *o, uint64_t seen, const cli_command *c) {
   for (size_t k = 0; k < cli_option_count; k++) {
     if (!(seen >> k & 1) || cli_option_exists(&cli_option_table[k], cli_command_bit(c))) continue;
     cli_complain("%s does not take --%s; see dyadel %s --help", c->name, cli_option_table[k].name, c->name);
@@ -134,9 +131,9 @@ static int check_options(const cli_options *o, uint64_t seen, const cli_command 
     cli_complain("--replay takes points and options from the trace; leave --%s away", cli_option_table[k].name);
     return CLI_USAGE;
   }
-  if (!o->format_set || c->formats >> o->format & 1) return 0;
+  if (!o->format_set || dyd_format_holds(o->format, c->content)) return 0;
   fprintf(stderr, "dyadel: %s does not write %s; give ", c->name, dyd_format_name(o->format));
-  cli_formats_print(stderr, c->formats, ", ", false);
+  cli_formats_print(stderr, cli_formats_of(cli_command_bit(c)), ", ", false);
   fputs("\n", stderr);
   return CLI_USAGE;
 }
@@ -170,7 +167,7 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   scan s;
   *out = (cli_options){.format = DYD_FORMAT_CSV, .read = {DYD_SIZED(dyd_read_options)}};
   dyd_engine_options_init(&out->engine);
-  prepare(&s);
+  scan_prepare(&s);
   int status = scan_all(&s, out, argc, argv);
   if (status) return status;
   if (s.operands == 0) {
@@ -182,10 +179,7 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   if (!c) return unknown_command(s.operand[0]);
   out->command = c->name;
   if (out->help || out->version) return 0;
-  for (unsigned f = 0; !out->format_set && c->formats >> f; f++) {
-    out->format = (dyd_format)f;
-    if (c->formats >> f & 1) break;
-  }
-  status = check_options(out, s.seen, c);
+  while (!out->format_set && dyd_format_name(out->format) && !dyd_format_holds(out->format, c->content)) out->format++;
+  status = options_fit(out, s.seen, c);
   return status ? status : place_operands(out, &s, c);
 }

@@ -2,12 +2,12 @@
 /* --oracle COMMAND: the points come from programs of the user. */
 #include "cli.h"
 
-static int add_oracle(dyd_engine *e, dyd_oracle *oracle) {
+static int oracle_add(dyd_engine *e, dyd_oracle *oracle) {
   dyd_source source = {DYD_SIZED(dyd_source)};
-  dyd_status status = dyd_oracle_source(&source, oracle, NULL);
-  if (status >= 0) status = dyd_engine_add_source(e, dyd_oracle_count(oracle), &source, NULL);
-  if (status >= 0) return 0;
-  cli_complain("the points of the oracle cannot be added: %s", dyd_status_text(status));
+  dyd_status st = dyd_oracle_source(&source, oracle, NULL);
+  if (st == DYD_OK) st = dyd_engine_add_source(e, dyd_oracle_count(oracle), &source, NULL);
+  if (st == DYD_OK) return 0;
+  cli_complain("the points of the oracle cannot be added: %s", dyd_status_text(st));
   return CLI_FAILED;
 }
 
@@ -25,11 +25,11 @@ int cli_oracle_read(dyd_engine *e, const cli_options *o) {
   dyd_error_clear(&err);
   const dyd_oracle_options options = {DYD_SIZED(dyd_oracle_options), .jobs = o->oracle_jobs, .batch = o->oracle_batch,
                                       .seconds = o->oracle_timeout};
-  if (dyd_oracle_new(&oracle, o->oracle, &options, &err) < 0) {
+  if (dyd_oracle_new(&oracle, o->oracle, &options, &err) != DYD_OK) {
     cli_complain("%s", err.message);
     return CLI_FAILED;
   }
-  int status = add_oracle(e, oracle);
+  int status = oracle_add(e, oracle);
   dyd_oracle_free(oracle);
   return status;
 }

@@ -18,13 +18,13 @@ bool cli_guard_descriptors(void) {
   return true;
 }
 
-static bool fail(const char *name) {
+static bool output_fail(const char *name) {
   cli_complain("%s: cannot write: %s; choose another place with -o", name ? name : "standard output", strerror(errno));
   return false;
 }
 
 /* The file the name stands for: a symbolic link is followed, so that it stays. */
-static char *resolve(const char *name) {
+static char *resolve_link(const char *name) {
   char *path = realpath(name, NULL);
   return path ? path : strdup(name);
 }
@@ -38,18 +38,18 @@ static mode_t default_mode(void) {
 static bool open_temporary(cli_output *out, const char *name, mode_t mode) {
   size_t size = strlen(out->target) + sizeof ".XXXXXX";
   out->temporary = malloc(size);
-  if (!out->temporary) return fail(name);
+  if (!out->temporary) return output_fail(name);
   snprintf(out->temporary, size, "%s.XXXXXX", out->target);
   int fd = mkstemp(out->temporary);
   if (fd < 0) {
     free(out->temporary);
     out->temporary = NULL;
-    return fail(name);
+    return output_fail(name);
   }
   cli_signals_remove(out->temporary);
   out->stream = fchmod(fd, mode) == 0 ? fdopen(fd, "w") : NULL;
   if (out->stream) return true;
-  fail(name);
+  output_fail(name);
   close(fd);
   return false;
 }
@@ -61,11 +61,12 @@ bool cli_output_open(cli_output *out, const char *name) {
   bool exists = stat(name, &info) == 0;
   if (exists && !S_ISREG(info.st_mode)) { /* a device or a pipe cannot be replaced */
     out->stream = fopen(name, "w");
-    return out->stream ? true : fail(name);
+    return out->stream ? true : output_fail(name);
   }
   out->stream = NULL;
-  out->target = resolve(name);
-  bool done = out->target ? open_temporary(out, name, exists ? info.st_mode & 0777 : default_mode()) : fail(name);
+  out->target = resolve_link(name);
+  bool done =
+      out->target ? open_temporary(out, name, exists ? info.st_mode & 0777 : default_mode()) : output_fail(name);
   if (!done) cli_output_drop(out);
   return done;
 }
@@ -80,7 +81,7 @@ bool cli_output_finish(cli_output *out) {
   if (done && out->temporary) done = rename(out->temporary, out->target) == 0;
   if (!done) {
     if (!errno) errno = EIO;
-    fail(out->name);
+    output_fail(out->name);
   }
   cli_signals_remove(NULL);
   if (done) {

@@ -28,7 +28,7 @@ static dyd_status pieces_plan(dyd_plan *plan, cli_pieces *p) {
 }
 
 /* Before all points have a rectangle nothing can be said. */
-static dyd_status pieces_ask(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
+static dyd_status pieces_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   cli_pieces *p = user;
   dyd_status st = DYD_OK;
   (void)err;

@@ -26,16 +26,16 @@ double cli_clock(void) {
 }
 
 /* The share of possible pairs that are legal or ties, in steps of the bar. */
-static int share(const dyd_progress *s, int steps) {
+static int bar_share(const dyd_progress *s, int steps) {
   size_t left = s->count[DYD_INDETERMINATE], done = s->count[DYD_LEGAL] + s->count[DYD_TIE];
   if (left + done == 0) return 0;
   return (int)((double)done / (double)(left + done) * steps);
 }
 
-static void draw(cli_progress *p) {
+static void draw_bar(cli_progress *p) {
   enum { STEPS = 24 };
   char bar[STEPS + 1];
-  int full = p->known ? share(&p->stage, STEPS) : 0;
+  int full = p->known ? bar_share(&p->stage, STEPS) : 0;
   for (int k = 0; k < STEPS; k++) bar[k] = k < full ? '#' : '.';
   bar[STEPS] = 0;
   fprintf(stderr, "\r\033[K[%s] %.0f s, %s", bar, cli_clock() - p->begun, p->phase);
@@ -46,7 +46,7 @@ static void draw(cli_progress *p) {
   p->drawn = true;
 }
 
-static void *redraw(void *user) {
+static void *redraw_bar(void *user) {
   cli_progress *p = user;
   pthread_mutex_lock(&p->lock);
   while (!p->ended) {
@@ -55,7 +55,7 @@ static void *redraw(void *user) {
     until.tv_nsec += 250000000;
     if (until.tv_nsec >= 1000000000) until.tv_sec++, until.tv_nsec -= 1000000000;
     pthread_cond_timedwait(&p->wake, &p->lock, &until);
-    if (!p->ended && cli_clock() - p->begun > 1) draw(p);
+    if (!p->ended && cli_clock() - p->begun > 1) draw_bar(p);
   }
   pthread_mutex_unlock(&p->lock);
   return NULL;
@@ -68,7 +68,7 @@ cli_progress *cli_progress_start(bool quiet) {
   p->begun = p->said = cli_clock();
   pthread_mutex_init(&p->lock, NULL);
   pthread_cond_init(&p->wake, NULL);
-  if (isatty(STDERR_FILENO)) p->drawing = pthread_create(&p->thread, NULL, redraw, p) == 0;
+  if (isatty(STDERR_FILENO)) p->drawing = pthread_create(&p->thread, NULL, redraw_bar, p) == 0;
   return p;
 }
 

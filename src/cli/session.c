@@ -6,20 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-void cli_complain_at(const char *file, const dyd_error *err) {
-  char point[40] = "";
-  if (err->point != DYD_NO_POINT) snprintf(point, sizeof point, "point %zu: ", err->point);
-  if (!file)
-    cli_complain("%s%s", point, err->message);
-  else if (err->line)
-    cli_complain("%s:%zu:%zu: %s%s", file, err->line, err->column, point, err->message);
-  else
-    cli_complain("%s: %s%s", file, point, err->message);
-}
-
 /* ---- reading ---- */
 
-static int read_file(dyd_engine *e, const cli_options *o) {
+static int session_read_file(dyd_engine *e, const cli_options *o) {
   bool standard = strcmp(o->file, "-") == 0;
   FILE *in = standard ? stdin : fopen(o->file, "rb");
   if (!in) {
@@ -33,26 +22,24 @@ static int read_file(dyd_engine *e, const cli_options *o) {
     return CLI_FAILED;
   }
   dyd_error err;
-  dyd_status status = dyd_read_points(e, in, &o->read, &err);
+  dyd_status st = dyd_read_points(e, in, &o->read, &err);
   if (!standard) fclose(in);
-  if (status == DYD_E_ARG) {
+  if (st == DYD_E_ARG) {
     cli_complain("%s", err.message);
     return CLI_USAGE;
   }
-  if (status < 0) cli_complain_at(o->file, &err);
-  return status < 0 ? CLI_FAILED : 0;
+  if (st == DYD_OK) return 0;
+  cli_complain_at(o->file, &err);
+  return CLI_FAILED;
 }
 
 int cli_points_read(dyd_engine *e, const cli_options *o) {
-  return o->oracle ? cli_oracle_read(e, o) : read_file(e, o);
+  return o->oracle ? cli_oracle_read(e, o) : session_read_file(e, o);
 }
 
 int cli_session_open(cli_session *s, const cli_options *o) {
   *s = (cli_session){.options = o, .begun = cli_clock()};
-  if (dyd_engine_new(&s->engine) < 0) {
-    cli_complain("memory is exhausted; close other programs");
-    return CLI_FAILED;
-  }
+  if (dyd_engine_new(&s->engine) != DYD_OK) return cli_complain_memory();
   s->progress = cli_progress_start(o->quiet);
   cli_progress_phase(s->progress, "reading");
   return cli_points_read(s->engine, o);
@@ -68,21 +55,21 @@ int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_ru
   dyd_error err;
   dyd_error_clear(&err);
   cli_signals_cancel(s->engine);
-  dyd_status done = run(s->engine, &o, user, &err);
+  dyd_status st = run(s->engine, &o, user, &err);
   cli_signals_remove(NULL);
-  if (done >= 0) return 0;
+  if (st == DYD_OK) return 0;
   cli_complain_at(s->options->file, &err);
   return CLI_FAILED;
 }
 
-static dyd_status run_once(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
+static dyd_status session_run_once(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
   (void)user;
   dyd_outcome outcome;
   return dyd_engine_run(&outcome, e, options, err);
 }
 
 int cli_session_run(cli_session *s, const dyd_engine_options *options) {
-  return cli_session_run_by(s, options, run_once, NULL);
+  return cli_session_run_by(s, options, session_run_once, NULL);
 }
 
 int cli_exit_status(dyd_outcome outcome) {
@@ -130,7 +117,7 @@ static const char *outcome_advice(const dyd_engine *e) {
 }
 
 /* One line about a result that leaves something open. */
-static void note_outcome(const cli_session *s) {
+static void session_note_outcome(const cli_session *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
   dyd_outcome outcome = dyd_engine_outcome(s->engine);
   if (!pd || outcome == DYD_OUTCOME_DECIDED || outcome == DYD_OUTCOME_CERTIFIED) return;
@@ -148,9 +135,9 @@ int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, c
   if (!cli_output_open(&out, name)) return CLI_FAILED;
   dyd_error err;
   dyd_error_clear(&err);
-  dyd_status status = print(out.stream, what, o, &err);
-  bool done = status >= 0;
-  if (!done && status == DYD_E_IO)
+  dyd_status st = print(out.stream, what, o, &err);
+  bool done = st == DYD_OK;
+  if (st == DYD_E_IO)
     cli_complain("%s: %s; choose another place with -o", name ? name : "standard output", err.message);
   else if (!done)
     cli_complain_at(name ? name : "standard output", &err);
@@ -168,12 +155,12 @@ typedef struct result_writer {
   cli_write_fn write;
 } result_writer;
 
-static dyd_status print_result(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+static dyd_status session_print_result(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const result_writer *w = what;
   return w->write(out, w->engine, o, err);
 }
 
-static dyd_status print_certificate(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+static dyd_status session_print_certificate(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const dyd_rect *window = o->engine.window;
   return window ? dyd_write_voronoi_certificate(out, what, window, err) : dyd_write_certificate(out, what, err);
 }
@@ -193,10 +180,10 @@ int cli_session_write(cli_session *s, cli_write_fn write) {
     return 0;
   }
   const char *certificate = s->options->certificate;
-  int status = certificate ? cli_write_file(certificate, s->options, print_certificate, s->engine) : 0;
+  int status = certificate ? cli_write_file(certificate, s->options, session_print_certificate, s->engine) : 0;
   if (status) return status;
   result_writer w = {s->engine, write};
-  return cli_write_file(s->options->output, s->options, print_result, &w);
+  return cli_write_file(s->options->output, s->options, session_print_result, &w);
 }
 
 int cli_session_close(cli_session *s, int status) {
@@ -205,7 +192,7 @@ int cli_session_close(cli_session *s, int status) {
   if (s->engine) {
     dyd_outcome outcome = dyd_engine_outcome(s->engine);
     if (status == 0) status = cli_exit_status(outcome);
-    if (!o->quiet && status != CLI_OK && status != CLI_USAGE) note_outcome(s);
+    if (!o->quiet && status != CLI_OK && status != CLI_USAGE) session_note_outcome(s);
     if (o->stats && outcome != DYD_OUTCOME_NONE) cli_stats(stderr, s->engine, cli_clock() - s->begun);
   }
   dyd_engine_free(s->engine);

@@ -12,7 +12,7 @@ static _Atomic(dyd_engine *) to_cancel;
 static _Atomic(const char *) to_remove;
 static atomic_bool cancelled;
 
-static void handle(int number) {
+static void signal_handle(int number) {
   dyd_engine *e = atomic_exchange(&to_cancel, NULL);
   if (e) {
     atomic_store(&cancelled, true);
@@ -25,8 +25,8 @@ static void handle(int number) {
   raise(number);
 }
 
-static void install(int number) {
-  struct sigaction old, action = {.sa_handler = handle, .sa_flags = SA_RESTART};
+static void signal_install(int number) {
+  struct sigaction old, action = {.sa_handler = signal_handle, .sa_flags = SA_RESTART};
   sigemptyset(&action.sa_mask);
   /* A parent that has us ignore the signal (nohup) means it. */
   if (sigaction(number, NULL, &old) == 0 && old.sa_handler == SIG_IGN) return;
@@ -35,8 +35,8 @@ static void install(int number) {
 
 void cli_signals_cancel(dyd_engine *e) {
   atomic_store(&to_cancel, e);
-  install(SIGINT);
-  install(SIGTERM);
+  signal_install(SIGINT);
+  signal_install(SIGTERM);
 }
 
 bool cli_signals_cancelled(void) {
@@ -46,6 +46,6 @@ bool cli_signals_cancelled(void) {
 void cli_signals_remove(const char *temporary) {
   atomic_store(&to_remove, temporary);
   atomic_store(&to_cancel, NULL);
-  install(SIGINT);
-  install(SIGTERM);
+  signal_install(SIGINT);
+  signal_install(SIGTERM);
 }

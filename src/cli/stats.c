@@ -4,7 +4,7 @@
 #include <inttypes.h>
 #include <sys/resource.h>
 
-static void line(FILE *out, const char *name, uint64_t value) {
+static void stats_line(FILE *out, const char *name, uint64_t value) {
   fprintf(out, "%-26s %" PRIu64 "\n", name, value);
 }
 
@@ -12,13 +12,13 @@ static void result_stats(FILE *out, const dyd_delaunay *pd) {
   size_t count[4], aliases = 0, sites = dyd_sites_count(dyd_delaunay_sites(pd));
   for (size_t i = 0; i < sites; i++) aliases += dyd_delaunay_alias(pd, (uint32_t)i) != i;
   dyd_delaunay_count(count, pd);
-  line(out, "aliases", aliases);
-  line(out, "pairs legal", count[DYD_LEGAL]);
-  line(out, "pairs indeterminate", count[DYD_INDETERMINATE]);
-  line(out, "pairs tie", count[DYD_TIE]);
+  stats_line(out, "aliases", aliases);
+  stats_line(out, "pairs legal", count[DYD_LEGAL]);
+  stats_line(out, "pairs indeterminate", count[DYD_INDETERMINATE]);
+  stats_line(out, "pairs tie", count[DYD_TIE]);
   fprintf(out, "%-26s %s\n", "capped", dyd_delaunay_is_capped(pd) ? "yes" : "no");
-  line(out, "bytes triangulation", dyd_delaunay_memory(pd));
-  line(out, "bytes sites", dyd_sites_memory(dyd_delaunay_sites(pd)));
+  stats_line(out, "bytes triangulation", dyd_delaunay_memory(pd));
+  stats_line(out, "bytes sites", dyd_sites_memory(dyd_delaunay_sites(pd)));
 }
 
 static const char *budget_text(dyd_budget b) {
@@ -33,22 +33,22 @@ void cli_stats(FILE *out, const dyd_engine *e, double seconds) {
   dyd_engine_get_counters(&c, e, NULL);
   fprintf(out, "%-26s %s\n", "outcome", dyd_outcome_text(dyd_engine_outcome(e)));
   fprintf(out, "%-26s %s\n", "budget spent", budget_text(c.spent));
-  line(out, "points", dyd_engine_count(e));
+  stats_line(out, "points", dyd_engine_count(e));
   if (dyd_engine_delaunay(e)) result_stats(out, dyd_engine_delaunay(e));
-  line(out, "undecided faces", c.undecided_faces);
-  line(out, "stages", c.stages);
-  line(out, "stream calls", c.calls);
+  stats_line(out, "undecided faces", c.undecided_faces);
+  stats_line(out, "stages", c.stages);
+  stats_line(out, "stream calls", c.calls);
   fprintf(out, "%-26s %" PRId64 "\n%-26s %" PRId64 "\n", "bits asked, least", c.bits_least, "bits asked, most",
           c.bits_most);
-  line(out, "bits asked, total", c.bits_total);
-  line(out, "decisions in doubles", c.delaunay.filter);
-  line(out, "decisions in integers", c.delaunay.integer);
-  line(out, "decisions in GMP", c.delaunay.exact);
-  line(out, "witnesses guessed", c.delaunay.witness_guess);
-  line(out, "witnesses searched", c.delaunay.witness_search);
-  line(out, "cover walks", c.delaunay.cover_walks);
-  line(out, "faces worked on", c.delaunay.faces);
+  stats_line(out, "bits asked, total", c.bits_total);
+  stats_line(out, "decisions in doubles", c.delaunay.filter);
+  stats_line(out, "decisions in integers", c.delaunay.integer);
+  stats_line(out, "decisions in GMP", c.delaunay.exact);
+  stats_line(out, "witnesses guessed", c.delaunay.witness_guess);
+  stats_line(out, "witnesses searched", c.delaunay.witness_search);
+  stats_line(out, "cover walks", c.delaunay.cover_walks);
+  stats_line(out, "faces worked on", c.delaunay.faces);
   fprintf(out, "%-26s %.3f\n%-26s %.3f\n", "seconds in the engine", c.seconds, "seconds in all", seconds);
   struct rusage usage;
-  if (getrusage(RUSAGE_SELF, &usage) == 0) line(out, "KiB of memory at most", (uint64_t)usage.ru_maxrss);
+  if (getrusage(RUSAGE_SELF, &usage) == 0) stats_line(out, "KiB of memory at most", (uint64_t)usage.ru_maxrss);
 }

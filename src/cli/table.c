@@ -3,20 +3,17 @@
  *
  * A new command: its row in cli_commands, `int cli_NAME(const cli_options *o)` in NAME.c, its declaration in cli.h.
  * A new option: its row in cli_option_table and its field in cli_options. The rest follows: parsing, messages, help,
- * manual page, completion. Options of commands that do not exist (run = NULL) do not exist either. */
+ * manual page, completion. */
 #include "table.h"
 #include <string.h>
 
-#define BIT(command) (1u << (command))
-#define FORMAT(format) (1u << (format))
-#define PICTURES (FORMAT(DYD_FORMAT_SVG) | FORMAT(DYD_FORMAT_PDF) | FORMAT(DYD_FORMAT_PNG))
+#define BIT(number) (1u << (number))
 #define AT(field) .offset = offsetof(cli_options, field), .width = sizeof(((cli_options *)0)->field)
 #define RANGE(low, high) .least = (low), .most = (high)
 #define GIVEN(field) .given = offsetof(cli_options, field)
 
 enum {
-  ALL = BIT(CLI_COMMANDS) - 1,
-  READ = ALL & ~BIT(CLI_VERIFY),                                                   /* reads points */
+  READ = CLI_ALL & ~BIT(CLI_VERIFY),                                               /* reads points */
   RUN = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_CHECK), /* runs the engine to a goal */
   PIECES = BIT(CLI_DISC) | BIT(CLI_BISECTOR),
   REFINE = RUN | PIECES | BIT(CLI_NEAREST) /* asks points to narrow */
@@ -27,48 +24,44 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                       "Delaunay triangulation of the points. A pair is legal (an edge whatever the points\n"
                       "in the rectangles are), indeterminate (an edge for some choice), a tie (as\n"
                       "indeterminate, but no refinement can decide it), or not listed (never an edge).",
-                      FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | FORMAT(DYD_FORMAT_WKT) |
-                          FORMAT(DYD_FORMAT_GEOJSON) | FORMAT(DYD_FORMAT_OBJ) | FORMAT(DYD_FORMAT_VTK) | PICTURES,
-                      cli_delaunay},
+                      DYD_CONTENT_DELAUNAY, cli_delaunay},
     [CLI_VORONOI] = {"voronoi", "FILE", "the cells of the points on a window, with certified bounds",
                      "Voronoi diagram of the points on a window: for each point the part of the window that\n"
                      "is surely and the part that is possibly nearest to it, the vertices that are sure with\n"
                      "enclosures, and bounds of what is undetermined. The goals area:M and hausdorff:M of\n"
                      "--until are those of the diagram.",
-                     FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | FORMAT(DYD_FORMAT_WKT) |
-                         FORMAT(DYD_FORMAT_GEOJSON) | FORMAT(DYD_FORMAT_VTK) | PICTURES,
-                     cli_voronoi},
+                     DYD_CONTENT_VORONOI, cli_voronoi},
     [CLI_CONVERGE] = {"converge", "FILE", "a run stage by stage, as a table",
                       "The run of delaunay, with one line for each stage: precision asked for, widths,\n"
                       "statuses, bounds of what is open, decisions, calls of points, seconds. The first\n"
                       "stage asks for 4 bits, unless told otherwise.",
-                      FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_converge},
+                      DYD_CONTENT_CONVERGENCE, cli_converge},
     [CLI_CHECK] = {"check", "FILE", "try random refinement schedules, and look for broken promises",
                    "Runs random refinement schedules over the points and checks, after each stage, that\n"
                    "rectangles are nested and shrink as asked, that no status is retracted, that cells only\n"
                    "grow, that the way to the rectangles does not matter, and that random choices of points\n"
                    "agree. A fault is shown by the shortest schedule found, which --trace writes and --replay\n"
                    "repeats. Exit status 0: no fault; 1: a fault.",
-                   FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON), cli_check},
+                   DYD_CONTENT_CHECK, cli_check},
     [CLI_VERIFY] = {"verify", "CERT", "check a certificate, in integers, without the engine",
                     "Checks a certificate that --certificate wrote, and says what it checked and what not.\n"
                     "Exit status 0: accepted; 1: rejected, with the line and the reason.",
-                    0, cli_verify},
+                    DYD_CONTENT_NONE, cli_verify},
     [CLI_DISC] = {"disc", "FILE", "the partial disc of the first three points, and where the others are",
                   "The six critical circles of the first three points, exactly, the box of all centres\n"
                   "of circles through them, and for each other point whether it is surely inside or\n"
                   "outside of all these circles. Points are refined until that is known.",
-                  FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | PICTURES, cli_disc},
+                  DYD_CONTENT_DISC, cli_disc},
     [CLI_BISECTOR] = {"bisector", "FILE", "the partial bisector of the first two points",
                       "The two curves that bound what is surely nearer to the one point, and to the other:\n"
                       "each a chain of at most seven arcs of lines and parabolas, with exact ends. The\n"
                       "points are refined until their rectangles are disjoint.",
-                      FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | PICTURES, cli_bisector},
+                      DYD_CONTENT_BISECTOR, cli_bisector},
     [CLI_NEAREST] = {"nearest", "FILE X Y", "which points are surely, which are possibly nearest to a place",
                      "The points that are nearest to the place (X,Y), coordinates of any form: sure when\n"
                      "exactly one is, whatever the points in the rectangles are; possible otherwise. The\n"
                      "place and the points concerned are refined until one is sure.",
-                     FORMAT(DYD_FORMAT_CSV) | FORMAT(DYD_FORMAT_JSON) | PICTURES, cli_nearest},
+                     DYD_CONTENT_NEAREST, cli_nearest},
 };
 
 const char *const cli_group_names[CLI_GROUPS] = {[CLI_INPUT] = "Input",
@@ -120,12 +113,12 @@ const cli_option cli_option_table[] = {
      AT(window)},
     {"flatten", 0, "M", CLI_INTEGER, BIT(CLI_VORONOI), CLI_OUTPUT, "draw arcs by polygons within 2^-M of them",
      AT(flatten_bits), RANGE(-DYD_EXP_LIMIT, DYD_EXP_LIMIT), GIVEN(flatten_set)},
-    {"format", 0, "F", CLI_FORMAT, ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
-    {"output", 'o', "FILE", CLI_FILE, ALL, CLI_OUTPUT, "write to FILE, whole or not at all", AT(output)},
+    {"format", 0, "F", CLI_FORMAT, CLI_ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
+    {"output", 'o', "FILE", CLI_FILE, CLI_ALL, CLI_OUTPUT, "write to FILE, whole or not at all", AT(output)},
     {"certificate", 0, "FILE", CLI_FILE, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_OUTPUT,
      "write what proves the result; see dyadel verify", AT(certificate)},
     {"stats", 0, NULL, CLI_FLAG, RUN, CLI_OUTPUT, "print counters to standard error", AT(stats)},
-    {"quiet", 0, NULL, CLI_FLAG, ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
+    {"quiet", 0, NULL, CLI_FLAG, CLI_ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
 
     {"plot", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "draw the table; FILE ends in .svg, .pdf or .png",
      AT(plot)},
@@ -142,27 +135,20 @@ const cli_option cli_option_table[] = {
     {"schedules", 0, "K", CLI_INTEGER, BIT(CLI_CHECK), CLI_EXPERIMENTS, "random schedules to try", AT(schedules),
      RANGE(1, 1000000)},
 
-    {"help", 'h', "KIND", CLI_HELP, ALL, CLI_OTHER,
+    {"help", 'h', "KIND", CLI_HELP, CLI_ALL, CLI_OTHER,
      "this text; after a command: its options;\n--help=man, bash, zsh: manual page, completion script", AT(help)},
-    {"version", 0, NULL, CLI_FLAG, ALL, CLI_OTHER, "the version", AT(version)},
+    {"version", 0, NULL, CLI_FLAG, CLI_ALL, CLI_OTHER, "the version", AT(version)},
 };
 const size_t cli_option_count = sizeof cli_option_table / sizeof *cli_option_table;
 
-unsigned cli_existing(void) {
-  unsigned set = 0;
-  for (unsigned c = 0; c < CLI_COMMANDS; c++)
-    if (cli_commands[c].run) set |= BIT(c);
-  return set;
-}
-
 bool cli_option_exists(const cli_option *option, unsigned commands) {
   if (option->kind == CLI_FORMAT && !cli_formats_of(option->commands & commands)) return false;
-  return (option->commands & commands & cli_existing()) != 0;
+  return (option->commands & commands) != 0;
 }
 
 const cli_command *cli_command_find(const char *name) {
   for (unsigned c = 0; c < CLI_COMMANDS; c++)
-    if (cli_commands[c].run && strcmp(cli_commands[c].name, name) == 0) return &cli_commands[c];
+    if (strcmp(cli_commands[c].name, name) == 0) return &cli_commands[c];
   return NULL;
 }
 
@@ -170,17 +156,27 @@ unsigned cli_command_bit(const cli_command *c) {
   return BIT((unsigned)(c - cli_commands));
 }
 
+void cli_commands_print(FILE *out, unsigned commands, const char *separator) {
+  const char *before = "";
+  for (unsigned c = 0; c < CLI_COMMANDS; c++) {
+    if (!(commands & BIT(c))) continue;
+    fprintf(out, "%s%s", before, cli_commands[c].name);
+    before = separator;
+  }
+}
+
 unsigned cli_formats_of(unsigned commands) {
   unsigned formats = 0;
   for (unsigned c = 0; c < CLI_COMMANDS; c++)
-    if (commands & BIT(c) && cli_commands[c].run) formats |= cli_commands[c].formats;
+    for (unsigned f = 0; commands & BIT(c) && dyd_format_name((dyd_format)f); f++)
+      if (dyd_format_holds((dyd_format)f, cli_commands[c].content)) formats |= BIT(f);
   return formats;
 }
 
 void cli_formats_print(FILE *out, unsigned formats, const char *separator, bool mark) {
   bool first = true;
   for (unsigned f = 0; dyd_format_name((dyd_format)f); f++) {
-    if (!(formats & FORMAT(f))) continue;
+    if (!(formats & BIT(f))) continue;
     fprintf(out, "%s%s%s", first ? "" : separator, dyd_format_name((dyd_format)f), first && mark ? " (default)" : "");
     first = false;
   }

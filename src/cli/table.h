@@ -48,13 +48,12 @@ typedef struct cli_option {
   size_t given; /* offset of a bool that is set, 0: none */
 } cli_option;
 
-/* Invariant: rows with run = NULL do not exist for the user. */
 typedef struct cli_command {
   const char *name;
   const char *operands; /* "FILE", "FILE X Y", "CERT" */
   const char *line;     /* what it does, in a line without a full stop */
   const char *about;    /* a paragraph or more for its help and the manual page, lines of at most 79 characters */
-  unsigned formats;     /* the set of formats (dyd_format) it writes; the lowest is the default */
+  dyd_content content;  /* what it writes; the first format that holds it is the default */
   int (*run)(const cli_options *o);
 } cli_command;
 
@@ -67,19 +66,21 @@ extern const char *const cli_group_names[CLI_GROUPS];
 typedef struct cli_term {
   const char *term, *meaning;
 } cli_term;
-extern const cli_term cli_exit_statuses[], cli_coordinate_forms[], cli_format_notes[], cli_examples[];
+extern const cli_term cli_exit_statuses[], cli_coordinate_forms[], cli_examples[];
 extern const char cli_summary[], cli_file_text[];
 /* Day of the last change of these texts, as the manual page shows it. */
 #define CLI_MANUAL_DATE "November 21, 2026"
 
-/* The set of commands that exist. */
-unsigned cli_existing(void);
+/* The set of all commands. */
+#define CLI_ALL ((1u << CLI_COMMANDS) - 1)
 /* Does the option exist for one of these commands? */
 bool cli_option_exists(const cli_option *option, unsigned commands);
 /* NULL when there is none of that name. */
 const cli_command *cli_command_find(const char *name);
 /* The set with this command alone. */
 unsigned cli_command_bit(const cli_command *c);
+/* The names of a set of commands, separated. */
+void cli_commands_print(FILE *out, unsigned commands, const char *separator);
 /* The names of a set of formats, separated; the first is marked when `mark` says so ("csv (default), json"). */
 void cli_formats_print(FILE *out, unsigned formats, const char *separator, bool mark);
 /* The formats that some of these commands write. */

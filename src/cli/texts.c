@@ -19,19 +19,6 @@ const cli_term cli_coordinate_forms[] = {
     {"root(x^5-x-1, 1, 2)", "the root of the polynomial between 1 and 2"},
     {NULL, NULL}};
 
-const cli_term cli_format_notes[] = {
-    {"csv",
-     "a table: of delaunay one line for each pair that is possible (i,j,status), of converge one for each stage"},
-    {"json", "everything: rectangles reached, statuses or exact arcs, outcome, bounds, counters"},
-    {"wkt", "a CSV table with a geometry per line, as QGIS and ogr2ogr read it"},
-    {"geojson", "a FeatureCollection"},
-    {"obj", "vertices, legal edges, sure triangles"},
-    {"vtk", "legacy VTK text, as ParaView reads it"},
-    {"svg", "a picture with legend and scale"},
-    {"pdf", "the same picture"},
-    {"png", "the same picture"},
-    {NULL, NULL}};
-
 const cli_term cli_exit_statuses[] = {
     {"0", "decided (no pair is open), or certified (the bound asked for holds)"},
     {"1", "bad input, a failed point, or a failure to read or write; what was known before a point failed is written"},

@@ -4,7 +4,7 @@
 #include <errno.h>
 #include <string.h>
 
-static void print_checked(FILE *out, const dyd_certificate_report *r) {
+static void print_proved(FILE *out, const dyd_certificate_report *r) {
   fprintf(out, "sites: %zu, of which %zu aliases\n", r->sites, r->aliases);
   fprintf(out, "checked: %zu legal pairs, each by its witness against all sites\n", r->legal);
   if (!r->connected) {
@@ -17,7 +17,7 @@ static void print_checked(FILE *out, const dyd_certificate_report *r) {
   if (r->area || r->hausdorff) fputs("checked: the bounds of area and Hausdorff distance, for the pairs listed\n", out);
 }
 
-static void print_diagram(FILE *out, const dyd_certificate_report *r) {
+static void print_proved_diagram(FILE *out, const dyd_certificate_report *r) {
   if (!r->diagram) return;
   fprintf(out, "checked: the undetermined area of the diagram, by %zu polygons inside cells\n", r->polygons);
   if (r->distance_proved)
@@ -29,7 +29,7 @@ static void print_diagram(FILE *out, const dyd_certificate_report *r) {
     fputs("not checked: the outcome, as the goal is about that distance\n", out);
 }
 
-static void print_open(FILE *out, const dyd_certificate_report *r) {
+static void print_unproved(FILE *out, const dyd_certificate_report *r) {
   size_t open = r->indeterminate + r->tie + r->legal_unproved;
   if (r->unproved)
     fprintf(out, "not checked: that %llu pairs within %zu undecided faces are %s\n", (unsigned long long)r->unproved,
@@ -41,15 +41,15 @@ static void print_open(FILE *out, const dyd_certificate_report *r) {
             r->indeterminate, r->tie, r->legal_unproved);
 }
 
-static dyd_status print_report(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+static dyd_status print_verified(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const dyd_certificate_report *r = what;
   (void)o, (void)err;
   fprintf(out, "accepted: outcome %s, goal %s", r->outcome, r->goal);
   if (strcmp(r->goal, "decided") != 0) fprintf(out, " %lld", r->goal_bits);
   fputs(r->capped ? ", capped\n" : "\n", out);
-  print_checked(out, r);
-  print_open(out, r);
-  print_diagram(out, r);
+  print_proved(out, r);
+  print_unproved(out, r);
+  print_proved_diagram(out, r);
   if (strcmp(r->outcome, "decided") != 0 && strcmp(r->outcome, "certified") != 0)
     fprintf(out, "not checked: why the run ended (%s)\n", r->outcome);
   return DYD_OK;
@@ -64,12 +64,12 @@ int cli_verify(const cli_options *o) {
   }
   dyd_error err;
   dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
-  dyd_status status = dyd_verify_certificate(&report, in, &err);
+  dyd_status st = dyd_verify_certificate(&report, in, &err);
   if (!standard) fclose(in);
-  if (status == DYD_E_PARSE)
+  if (st == DYD_E_PARSE)
     cli_complain("%s:%zu: rejected: %s", o->file, err.line, err.message);
-  else if (status < 0)
+  else if (st != DYD_OK)
     cli_complain("%s: %s", o->file, err.message);
-  if (status < 0) return CLI_FAILED;
-  return cli_write_file(o->output, o, print_report, &report);
+  if (st != DYD_OK) return CLI_FAILED;
+  return cli_write_file(o->output, o, print_verified, &report);
 }

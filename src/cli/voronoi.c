@@ -10,34 +10,34 @@ static dyd_goal voronoi_goal(dyd_goal goal) {
 
 /* The window given, or the default one, which needs to know where the points are: *s has to have run a first stage
  * then. 0, or an exit status after a message. */
-static int find_window(dyd_rect *out, const cli_session *s) {
+static int voronoi_window(dyd_rect *out, const cli_session *s) {
   if (s->options->window) return cli_window_read(out, s->options->window) ? 0 : CLI_USAGE;
   const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
-  if (!pd || dyd_voronoi_window(out, dyd_delaunay_sites(pd)) >= 0) return 0;
+  if (!pd || dyd_voronoi_window(out, dyd_delaunay_sites(pd)) == DYD_OK) return 0;
   cli_complain("the points span more than doubles hold; give --window XLO,XHI,YLO,YHI");
   return CLI_FAILED;
 }
 
 /* Does the run go on after the stage that only shows where the points are? */
-static bool goes_on(const dyd_engine *e) {
+static bool voronoi_goes_on(const dyd_engine *e) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
   dyd_engine_get_counters(&c, e, NULL);
   return dyd_engine_outcome(e) != DYD_OUTCOME_CANCELLED && dyd_engine_delaunay(e) &&
          !(dyd_engine_outcome(e) == DYD_OUTCOME_BUDGET && c.spent == DYD_BUDGET_SECONDS);
 }
 
-static int run(cli_session *s, dyd_rect *window, const dyd_engine_options *options) {
+static int voronoi_run(cli_session *s, dyd_rect *window, const dyd_engine_options *options) {
   dyd_engine_options first = *options;
   int status = 0;
   first.goal = DYD_GOAL_DECIDED;
   first.max_stages = 1;
   if (!s->options->window) status = cli_session_run(s, &first);
-  if (!status) status = find_window(window, s);
-  if (status || (!s->options->window && !goes_on(s->engine))) return status;
+  if (!status) status = voronoi_window(window, s);
+  if (status || (!s->options->window && !voronoi_goes_on(s->engine))) return status;
   return cli_session_run(s, options);
 }
 
-static dyd_status write_voronoi(FILE *out, const dyd_engine *e, const cli_options *o, dyd_error *err) {
+static dyd_status voronoi_write(FILE *out, const dyd_engine *e, const cli_options *o, dyd_error *err) {
   dyd_voronoi_options options = {DYD_SIZED(dyd_voronoi_options), .flatten_bits = o->flatten_bits,
                                  .flatten_set = o->flatten_set};
   options.window = o->engine.window;
@@ -46,14 +46,14 @@ static dyd_status write_voronoi(FILE *out, const dyd_engine *e, const cli_option
 }
 
 /* The diagram, where there is one. */
-static int write_result(cli_session *s) {
+static int voronoi_write_result(cli_session *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
   if (pd && dyd_delaunay_is_capped(pd)) {
     cli_complain("neighbours are missing, so no diagram is written: %s",
                  "the cap on stored pairs was met; raise --max-pairs");
     return 0;
   }
-  int status = cli_session_write(s, write_voronoi);
+  int status = cli_session_write(s, voronoi_write);
   if (pd && !status) s->bounds = s->options->bounds;
   return status;
 }
@@ -69,9 +69,9 @@ int cli_voronoi(const cli_options *o) {
   own.engine.goal = voronoi_goal(o->engine.goal);
   own.engine.window = &window;
   int status = cli_session_open(&s, &own);
-  if (!status) status = run(&s, &window, &own.engine);
+  if (!status) status = voronoi_run(&s, &window, &own.engine);
   if (status != CLI_USAGE && dyd_engine_delaunay(s.engine)) {
-    int written = write_result(&s);
+    int written = voronoi_write_result(&s);
     if (!status) status = written;
   }
   status = cli_session_close(&s, status);

@@ -202,7 +202,7 @@ static bool ask_is_stale(const ask *a) {
 static dyd_status ask_question(bool *answered, ask *a) {
   *answered = false;
   dyd_plan_empty(&a->plan);
-  dyd_status st = a->q->ask(answered, &a->plan, a->e, a->q->user, &a->err);
+  dyd_status st = a->q->ask(answered, &a->plan, a->q->user, a->e, &a->err);
   if (a->plan.failed == DYD_E_ARG)
     return dyd_fail(&a->err, DYD_E_ARG, "the question asks for site %lu, and there are %zu: they are numbered from 0",
                     (unsigned long)a->plan.missing, dyd_sites_count(a->e->sites));

@@ -38,7 +38,7 @@ static void nearest_plan(nearest_question *q, dyd_plan *plan) {
   }
 }
 
-static dyd_status nearest_ask(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
+static dyd_status nearest_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   nearest_question *q = user;
   (void)err;
   dyd_status st = dyd_nearest_rect(&q->near, &q->sure, e->pd, dyd_stream_rect(q->at));

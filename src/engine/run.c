@@ -18,7 +18,7 @@ typedef struct goal_question {
 
 /* Scouts go ahead within a stage, and the plan follows when their races are over. A stage that was cut short ends the
  * races as well: there is a new result to be judged. */
-static dyd_status goal_ask(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
+static dyd_status goal_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   goal_question *q = user;
   (void)err;
   if (q->scouts.count == 0 || q->stage != e->stages) {

@@ -3,7 +3,7 @@
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include "io/arc_json.h"
 
-#include "io/decimal.h"
+#include "io/parts.h"
 #include "voronoi/surd_point.h"
 #include <stdlib.h>
 
@@ -11,31 +11,30 @@ const char *const dyd_feature_names[8] = {"x0y0", "x1y0", "x0y1", "x1y1", "x0", 
 const char *const dyd_arc_names[3] = {"line", "parabola", "window"};
 const char *const dyd_end_names[5] = {"infinite", "sites", "axis", "feature", "window"};
 
-static void put_interval(FILE *out, const char *name, const dyd_interval *a) {
+static void decimal_side_json(FILE *out, const char *name, const dyd_interval *a) {
   double lo, hi;
   dyd_interval_get_d(&lo, &hi, a);
-  fprintf(out, ", \"%s_decimal\": [", name);
-  dyd_decimal_json(out, lo, DYD_DOWN);
-  fputs(", ", out);
-  dyd_decimal_json(out, hi, DYD_UP);
-  fputs("]", out);
+  fprintf(out, ", \"%s_decimal\": ", name);
+  dyd_json_decimals(out, lo, hi);
 }
 
-dyd_status dyd_surd_point_json(FILE *out, const dyd_surd_point *p) {
+/* {"x": {"a": "..", "b": "..", "c": "..", "d": ".."}, ...}: the point (a + b sqrt(c)) / d with integers, and its
+ * decimal enclosure. */
+static dyd_status surd_point_json(FILE *out, const dyd_surd_point *p) {
   gmp_fprintf(out,
               "{\"x\": {\"a\": \"%Zd\", \"b\": \"%Zd\"}, \"y\": {\"a\": \"%Zd\", \"b\": \"%Zd\"}, \"c\": \"%Zd\", "
               "\"d\": \"%Zd\"",
               p->ax, p->bx, p->ay, p->by, p->c, p->d);
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status status = dyd_surd_point_enclose(&r, p, 64);
-  if (status >= 0) {
-    put_interval(out, "x", &r.x);
-    put_interval(out, "y", &r.y);
+  dyd_status st = dyd_surd_point_enclose(&r, p, 64);
+  if (st == DYD_OK) {
+    decimal_side_json(out, "x", &r.x);
+    decimal_side_json(out, "y", &r.y);
   }
   fputs("}", out);
   dyd_rect_clear(&r);
-  return status;
+  return st;
 }
 
 /* ---- texts kept ---- */
@@ -48,25 +47,25 @@ void dyd_point_texts_clear(dyd_point_texts *t) {
   }
 }
 
-static bool is_same(const dyd_surd_point *p, const dyd_surd_point *q) {
+static bool surd_point_is_same(const dyd_surd_point *p, const dyd_surd_point *q) {
   return !mpz_cmp(p->ax, q->ax) && !mpz_cmp(p->ay, q->ay) && !mpz_cmp(p->d, q->d) && !mpz_cmp(p->bx, q->bx) &&
          !mpz_cmp(p->by, q->by) && !mpz_cmp(p->c, q->c);
 }
 
 /* The text of p, made if need be; borrowed from t until 64 others were made. */
-static dyd_status find_text(const char **out, dyd_point_texts *t, const dyd_surd_point *p) {
+static dyd_status find_point_text(const char **out, dyd_point_texts *t, const dyd_surd_point *p) {
   char *text = NULL;
   size_t size = 0;
   for (size_t k = 0; k < DYD_POINT_TEXTS; k++)
-    if (t->text[k] && is_same(&t->point[k], p)) return *out = t->text[k], DYD_OK;
+    if (t->text[k] && surd_point_is_same(&t->point[k], p)) return *out = t->text[k], DYD_OK;
   FILE *memory = open_memstream(&text, &size);
   if (!memory) return DYD_E_NOMEM;
-  dyd_status status = dyd_surd_point_json(memory, p);
+  dyd_status st = surd_point_json(memory, p);
   bool good = !ferror(memory);
-  if (fclose(memory) != 0 || !good) status = DYD_E_NOMEM;
-  if (status < 0) {
+  if (fclose(memory) != 0 || !good) st = DYD_E_NOMEM;
+  if (st != DYD_OK) {
     free(text);
-    return status;
+    return st;
   }
   size_t k = t->next++ % DYD_POINT_TEXTS;
   if (!t->text[k]) dyd_surd_point_init(&t->point[k]);
@@ -78,42 +77,42 @@ static dyd_status find_text(const char **out, dyd_point_texts *t, const dyd_surd
 
 /* ---- arcs ---- */
 
-static dyd_status put_end(FILE *out, const char *name, const dyd_arc_end *end, dyd_point_texts *texts) {
+static dyd_status arc_end_json(FILE *out, const char *name, const dyd_arc_end *end, dyd_point_texts *texts) {
   fprintf(out, ",\n  \"%s\": {\"kind\": \"%s\"", name, dyd_end_names[end->kind]);
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   if (end->kind == DYD_END_SITES) fprintf(out, ", \"site\": %u", (unsigned)end->site);
   if (end->kind != DYD_END_INFINITE) {
     const char *text = "";
-    status = find_text(&text, texts, &end->at);
+    st = find_point_text(&text, texts, &end->at);
     fputs(", \"at\": ", out);
     fputs(text, out);
   }
   fputs("}", out);
-  return status;
+  return st;
 }
 
-static dyd_status put_arc(FILE *out, const dyd_arc *arc, dyd_point_texts *texts) {
+static dyd_status arc_json(FILE *out, const dyd_arc *arc, dyd_point_texts *texts) {
   fprintf(out, "\n {\"kind\": \"%s\"", dyd_arc_names[arc->kind]);
   if (arc->kind != DYD_ARC_WINDOW)
     fprintf(out, ", \"far\": %u, \"corner\": \"%s\", \"near\": %u, \"feature\": \"%s\"", (unsigned)arc->far_site,
             dyd_feature_names[arc->corner], (unsigned)arc->near_site, dyd_feature_names[arc->feature]);
-  dyd_status status = put_end(out, "begin", &arc->begin, texts);
-  if (status >= 0) status = put_end(out, "end", &arc->end, texts);
+  dyd_status st = arc_end_json(out, "begin", &arc->begin, texts);
+  if (st == DYD_OK) st = arc_end_json(out, "end", &arc->end, texts);
   fputs("}", out);
-  return status;
+  return st;
 }
 
 dyd_status dyd_boundary_json(FILE *out, const dyd_boundary *b, dyd_point_texts *texts) {
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   fprintf(out, "{\"whole\": %s, \"chains\": [", b->whole ? "true" : "false");
-  for (size_t k = 0; k < b->count && status >= 0; k++) {
+  for (size_t k = 0; k < b->count && st == DYD_OK; k++) {
     fprintf(out, "%s{\"closed\": %s, \"arcs\": [", k ? ", " : "", b->chain[k].closed ? "true" : "false");
-    for (size_t a = 0; a < b->chain[k].count && status >= 0; a++) {
+    for (size_t a = 0; a < b->chain[k].count && st == DYD_OK; a++) {
       if (a) fputs(",", out);
-      status = put_arc(out, &b->chain[k].arc[a], texts);
+      st = arc_json(out, &b->chain[k].arc[a], texts);
     }
     fputs("]}", out);
   }
   fputs("]}", out);
-  return status;
+  return st;
 }

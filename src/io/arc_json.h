@@ -9,10 +9,6 @@
 /* Words for dyd_feature_kind, dyd_arc_kind, dyd_end_kind. */
 extern const char *const dyd_feature_names[8], *const dyd_arc_names[3], *const dyd_end_names[5];
 
-/* {"x": {"a": "..", "b": "..", "c": "..", "d": ".."}, ...}: the point (a + b sqrt(c)) / d with integers, and its
- * decimal enclosure. */
-dyd_status dyd_surd_point_json(FILE *out, const dyd_surd_point *p);
-
 /* Texts of the points written last: an arc begins where the one before it ends, and the boundaries of Int and Pos of
  * exact points have the same ends. Zeroed before the first use.
  * Invariant: text[k] is owned, NULL, or the text of point[k], which is initialised where text[k] is not NULL. */

@@ -6,12 +6,13 @@
 #include "io/decimal.h"
 #include "base/alloc.h"
 #include "io/read/plain.h"
+#include <inttypes.h>
 #include <math.h>
 #include <mpfr.h>
 #include <string.h>
 
 /* 0.DIGITS * 10^exp as a plain decimal, or in scientific form when that needs many zeros. */
-static void layout(char *out, bool negative, const char *digits, int count, int exp) {
+static void decimal_layout(char *out, bool negative, const char *digits, int count, int exp) {
   while (count > 1 && digits[count - 1] == '0') count--;
   char *p = out;
   if (negative) *p++ = '-';
@@ -46,17 +47,17 @@ void dyd_decimal_directed(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd_
   mpfr_get_str(text, &exp, 10, (size_t)digits, value, dir == DYD_UP ? MPFR_RNDU : MPFR_RNDD);
   mpfr_clear(value);
   bool negative = text[0] == '-';
-  layout(out, negative, text + negative, digits, (int)exp);
+  decimal_layout(out, negative, text + negative, digits, (int)exp);
 }
 
 /* Takes apart what printf made of a number with %.*e, whatever the decimal point of the locale. */
-static void layout_printed(char *out, const char *printed) {
+static void decimal_layout_printed(char *out, const char *printed) {
   char digits[24];
   int count = 0;
   const char *p = printed;
   for (; *p && *p != 'e'; p++)
     if (*p >= '0' && *p <= '9') digits[count++] = *p;
-  layout(out, printed[0] == '-', digits, count, (int)strtol(p + 1, NULL, 10) + 1);
+  decimal_layout(out, printed[0] == '-', digits, count, (int)strtol(p + 1, NULL, 10) + 1);
 }
 
 void dyd_decimal_within(char out[DYD_DECIMAL_SIZE], double *error, double lo, double hi) {
@@ -71,7 +72,7 @@ void dyd_decimal_within(char out[DYD_DECIMAL_SIZE], double *error, double lo, do
     r = strtod(printed, NULL);
     if (r >= lo && r <= hi) break;
   }
-  if (r != 0) layout_printed(out, printed);
+  if (r != 0) decimal_layout_printed(out, printed);
   dyd_plain plain;
   *error = fmax(hi - r, r - lo);
   if (*error > 0) *error = nextafter(*error, INFINITY);
@@ -79,6 +80,22 @@ void dyd_decimal_within(char out[DYD_DECIMAL_SIZE], double *error, double lo, do
   /* |decimal - r| is at most half the gap above |r|, the larger one; then two roundings to nearest. */
   double gap = nextafter(fabs(r), INFINITY) - fabs(r);
   *error = nextafter(nextafter(*error + gap / 2, INFINITY), INFINITY);
+}
+
+/* MPFR rounds decimals correctly, and its exponents reach far beyond DYD_EXP_LIMIT. */
+void dyd_decimal_dyadic(char out[DYD_DECIMAL_SIZE], const dyd_dyadic *x, int digits, dyd_round dir) {
+  strcpy(out, "0");
+  if (dyd_dyadic_sgn(x) == 0) return;
+  char text[DYD_DECIMAL_SIZE];
+  mpfr_t exact;
+  mpfr_exp_t point;
+  size_t bits = mpz_sizeinbase(x->man, 2);
+  mpfr_init2(exact, bits < 2 ? 2 : (mpfr_prec_t)bits);
+  mpfr_set_z_2exp(exact, x->man, (mpfr_exp_t)x->exp, MPFR_RNDN);
+  mpfr_get_str(text, &point, 10, (size_t)digits, exact, dir == DYD_UP ? MPFR_RNDU : MPFR_RNDD);
+  mpfr_clear(exact);
+  const char *digit = text + (*text == '-');
+  snprintf(out, DYD_DECIMAL_SIZE, "%s%c.%se%" PRIdMAX, *text == '-' ? "-" : "", *digit, digit + 1, (intmax_t)point - 1);
 }
 
 void dyd_decimal_json(FILE *out, double x, dyd_round dir) {

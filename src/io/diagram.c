@@ -6,40 +6,28 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "voronoi/vertex_filter.h"
-#include <errno.h>
-#include <inttypes.h>
 #include <math.h>
-#include <string.h>
-
-static const struct {
-  dyd_format format;
-  dyd_diagram_write_fn write;
-} formats[] = {{DYD_FORMAT_CSV, dyd_write_voronoi_csv}, {DYD_FORMAT_JSON, dyd_write_voronoi_json},
-               {DYD_FORMAT_WKT, dyd_write_voronoi_wkt}, {DYD_FORMAT_GEOJSON, dyd_write_voronoi_geojson},
-               {DYD_FORMAT_VTK, dyd_write_voronoi_vtk}, {DYD_FORMAT_SVG, dyd_write_voronoi_svg},
-               {DYD_FORMAT_PDF, dyd_write_voronoi_pdf}, {DYD_FORMAT_PNG, dyd_write_voronoi_png}};
-#define FORMATS (sizeof formats / sizeof *formats)
 
 /* ---- cells ---- */
 
-static void grow(double box[4], double xlo, double xhi, double ylo, double yhi) {
+static void grow_box(double box[4], double xlo, double xhi, double ylo, double yhi) {
   box[0] = fmin(box[0], xlo);
   box[1] = fmax(box[1], xhi);
   box[2] = fmin(box[2], ylo);
   box[3] = fmax(box[3], yhi);
 }
 
-static void find_box(dyd_cell_row *row, const dyd_shape *s, const double window[4]) {
+static void cell_row_box(dyd_cell_row *row, const dyd_shape *s, const double window[4]) {
   double *b = row->box;
   b[0] = b[2] = INFINITY;
   b[1] = b[3] = -INFINITY;
   for (uint32_t k = 0; s->in_doubles && k < s->outer_count; k++)
-    grow(b, s->outer[k].x, s->outer[k].x, s->outer[k].y, s->outer[k].y);
+    grow_box(b, s->outer[k].x, s->outer[k].x, s->outer[k].y, s->outer[k].y);
   for (size_t p = 0; !s->in_doubles && p < s->outer_exact.count; p++)
     for (size_t k = 0; k < s->outer_exact.item[p].count; k++) {
       const dyd_point *z = &s->outer_exact.item[p].vertex[k];
-      grow(b, dyd_dyadic_get_d(&z->x, DYD_DOWN), dyd_dyadic_get_d(&z->x, DYD_UP), dyd_dyadic_get_d(&z->y, DYD_DOWN),
-           dyd_dyadic_get_d(&z->y, DYD_UP));
+      grow_box(b, dyd_dyadic_get_d(&z->x, DYD_DOWN), dyd_dyadic_get_d(&z->x, DYD_UP), dyd_dyadic_get_d(&z->y, DYD_DOWN),
+               dyd_dyadic_get_d(&z->y, DYD_UP));
     }
   row->present = b[0] <= b[1];
   b[0] = fmax(b[0], window[0]);
@@ -57,37 +45,34 @@ typedef struct visitor {
 static dyd_status visit_cell(void *context, uint32_t i, const dyd_shape *shape, const double area[2]) {
   const visitor *v = context;
   dyd_cell_row row = {.area = {area[0], area[1]}};
-  find_box(&row, shape, v->window);
+  cell_row_box(&row, shape, v->window);
   return v->visit(v->context, i, shape, &row);
 }
 
-dyd_status dyd_diagram_visit(dyd_diagram *d, dyd_cell_visit visit, void *context) {
+dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *context) {
   dyd_voronoi_sums sums;
   visitor v = {.visit = visit, .context = context};
-  dyd_interval_get_d(&v.window[0], &v.window[1], &d->window.x);
-  dyd_interval_get_d(&v.window[2], &v.window[3], &d->window.y);
-  dyd_status status = dyd_voronoi_sums_init(&sums, d->pd, &d->window, d->bits);
-  if (status >= 0) status = dyd_voronoi_sums_all(&sums, visit_cell, &v, NULL);
-  if (status >= 0) status = dyd_voronoi_sums_bounds(&d->bounds, &sums);
+  dyd_rect_get_d(v.window, &d->window);
+  dyd_status st = dyd_voronoi_sums_init(&sums, d->pd, &d->window, d->bits);
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, visit_cell, &v, NULL);
+  if (st == DYD_OK) st = dyd_voronoi_sums_bounds(d->bounds, &sums);
   dyd_voronoi_sums_clear(&sums);
-  return status;
+  return st;
 }
 
 dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, void *context) {
   dyd_rect r;
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   dyd_rect_init(&r);
-  for (size_t f = 0; f < dyd_delaunay_undecided_faces(d->pd) && status >= 0; f++) {
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(d->pd) && st == DYD_OK; f++) {
     bool any;
     double b[4];
-    status = dyd_voronoi_region(&r, &any, d->pd, f, &d->window);
-    if (status < 0) break;
-    dyd_interval_get_d(&b[0], &b[1], &r.x);
-    dyd_interval_get_d(&b[2], &b[3], &r.y);
-    status = visit(context, f, any ? b : NULL);
+    st = dyd_voronoi_region(&r, &any, d->pd, f, &d->window);
+    dyd_rect_get_d(b, &r);
+    if (st == DYD_OK) st = visit(context, f, any ? b : NULL);
   }
   dyd_rect_clear(&r);
-  return status;
+  return st;
 }
 
 /* ---- vertices ---- */
@@ -103,38 +88,37 @@ static dyd_status find_vertex(double out[4], const dyd_diagram *d, const dyd_tri
   }
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status status = dyd_voronoi_vertex(&r, d->pd, t, bits);
-  dyd_interval_get_d(&out[0], &out[1], &r.x);
-  dyd_interval_get_d(&out[2], &out[3], &r.y);
-  if (status < 0) {
+  dyd_status st = dyd_voronoi_vertex(&r, d->pd, t, bits);
+  dyd_rect_get_d(out, &r);
+  if (st != DYD_OK) {
     out[0] = out[2] = -INFINITY;
     out[1] = out[3] = INFINITY;
   }
   dyd_rect_clear(&r);
-  return status == DYD_E_RANGE ? DYD_OK : status;
+  return st == DYD_E_RANGE ? DYD_OK : st;
 }
 
 static dyd_status find_vertices(dyd_diagram *d) {
-  dyd_status status = dyd_delaunay_triangles(&d->triangles, d->pd);
-  if (status < 0) return status;
+  dyd_status st = dyd_delaunay_triangles(&d->triangles, d->pd);
+  if (st != DYD_OK) return st;
   d->vertex = dyd_alloc(d->triangles.count, sizeof *d->vertex);
   if (!d->vertex) return DYD_E_NOMEM;
-  for (size_t k = 0; k < d->triangles.count && status >= 0; k++)
-    status = find_vertex(d->vertex[k], d, &d->triangles.item[k], d->vertex_bits);
-  return status;
+  for (size_t k = 0; k < d->triangles.count && st == DYD_OK; k++)
+    st = find_vertex(d->vertex[k], d, &d->triangles.item[k], d->vertex_bits);
+  return st;
 }
 
 dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k) {
   dyd_rect r;
   dyd_rect_init(&r);
   for (int m = 0; m < 4; m++) text[m] = NULL;
-  dyd_status status = dyd_voronoi_vertex(&r, d->pd, &d->triangles.item[k], d->vertex_bits);
-  for (int m = 0; m < 4 && status >= 0; m++) {
+  dyd_status st = dyd_voronoi_vertex(&r, d->pd, &d->triangles.item[k], d->vertex_bits);
+  for (int m = 0; m < 4 && st == DYD_OK; m++) {
     text[m] = dyd_end_text(m < 2 ? &r.x : &r.y, m & 1);
-    if (!text[m]) status = DYD_E_NOMEM;
+    if (!text[m]) st = DYD_E_NOMEM;
   }
   dyd_rect_clear(&r);
-  return status;
+  return st;
 }
 
 /* As fine as the goal on the distance asks, and fine enough for doubles. */
@@ -146,101 +130,68 @@ static int64_t vertex_bits(const dyd_diagram *d) {
 
 /* ---- all ---- */
 
-static dyd_status find_window(dyd_diagram *d, const dyd_rect *given, dyd_error *err) {
+static dyd_status diagram_window(dyd_diagram *d, const dyd_rect *given, dyd_error *err) {
   if (given) {
     dyd_window w;
     dyd_rect_set(&d->window, given);
-    if (dyd_window_init(&w, given) >= 0) return DYD_OK;
+    if (dyd_window_init(&w, given) == DYD_OK) return DYD_OK;
     return dyd_fail(err, DYD_E_ARG, "the window has to have positive area and dyadic ends");
   }
-  if (dyd_voronoi_window(&d->window, d->sites) >= 0) return DYD_OK;
+  if (dyd_voronoi_window(&d->window, d->sites) == DYD_OK) return DYD_OK;
   return dyd_fail(err, DYD_E_RANGE, "the points span more than doubles hold; give a window (--window)");
 }
 
 /* Is the bound of the area at bits + step less than half of that at bits: does flattening still matter? */
 static dyd_status finer_helps(bool *out, const dyd_diagram *d, int64_t bits, int64_t step) {
   dyd_voronoi_bounds b[2];
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   for (int k = 0; k < 2; k++) dyd_voronoi_bounds_init(&b[k]);
-  for (int k = 0; k < 2 && status >= 0; k++)
-    status = dyd_metric_voronoi(&b[k], d->pd, &d->window, bits + (k ? step : 0), NULL);
-  if (status >= 0) status = dyd_dyadic_add(&b[1].area, &b[1].area, &b[1].area);
-  *out = status >= 0 && dyd_dyadic_cmp(&b[1].area, &b[0].area) < 0;
+  for (int k = 0; k < 2 && st == DYD_OK; k++)
+    st = dyd_metric_voronoi(&b[k], d->pd, &d->window, bits + (k ? step : 0), NULL);
+  if (st == DYD_OK) st = dyd_dyadic_add(&b[1].area, &b[1].area, &b[1].area);
+  *out = st == DYD_OK && dyd_dyadic_cmp(&b[1].area, &b[0].area) < 0;
   for (int k = 2; k-- > 0;) dyd_voronoi_bounds_clear(&b[k]);
-  return status;
+  return st;
 }
 
 /* Fine enough for the eye, and for the goal on the area where there was one. Where that was not reached, what is
  * undetermined hides the flattening, and polygons as fine as the goal could be endless: only as fine as it helps. */
-static dyd_status choose_bits(dyd_diagram *d) {
+static dyd_status choose_flattening(dyd_diagram *d) {
   enum { STEP = 6 };
   int64_t goal_bits;
   bool helps = true;
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   d->bits = dyd_metric_coarseness(d->pd, &d->window) + 4;
   if (dyd_engine_goal(&goal_bits, d->engine) != DYD_GOAL_VORONOI_AREA) return DYD_OK;
   int64_t fine = dyd_metric_flattening(d->pd, &d->window, goal_bits) + 8;
   bool reached = dyd_engine_outcome(d->engine) == DYD_OUTCOME_CERTIFIED;
-  while (d->bits < fine && !reached && helps && status >= 0) {
-    status = finer_helps(&helps, d, d->bits, STEP);
+  while (d->bits < fine && !reached && helps && st == DYD_OK) {
+    st = finer_helps(&helps, d, d->bits, STEP);
     if (helps) d->bits += STEP;
   }
   if (reached && fine > d->bits) d->bits = fine;
-  return status;
+  return st;
 }
 
-/* Numbers out of range come from polygons that are too fine; pictures tell of their own. */
-static dyd_status told(dyd_status status, const dyd_diagram *d, dyd_error *err) {
-  if (status != DYD_E_RANGE || !err || strcmp(err->message, dyd_status_text(status)) != 0) return status;
-  return dyd_fail(err, status,
-                  "polygons within 2^%" PRId64 " of their cells take more points or digits than can be held; give a "
-                  "smaller M by --flatten",
-                  -d->bits);
-}
-
-static dyd_status write(dyd_diagram *d, const dyd_voronoi_options *o, dyd_format format, dyd_error *err) {
-  dyd_status status = find_window(d, o->window, err);
-  if (status < 0) return status;
+dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, const dyd_voronoi_options *o,
+                            dyd_voronoi_bounds *bounds, dyd_error *err) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(e);
+  *d = (dyd_diagram){.out = out, .engine = e, .pd = pd, .sites = dyd_delaunay_sites(pd), .bounds = bounds};
+  d->count = dyd_sites_count(d->sites);
+  dyd_rect_init(&d->window);
+  dyd_status st = diagram_window(d, o->window, err);
+  if (st != DYD_OK) return st;
   if (o->flatten_set)
     d->bits = o->flatten_bits;
   else
-    status = choose_bits(d);
+    st = choose_flattening(d);
   d->vertex_bits = vertex_bits(d);
-  if (status >= 0) status = find_vertices(d);
-  if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
-  for (size_t k = 0; k < FORMATS; k++)
-    if (formats[k].format == format) return told(formats[k].write(d, err), d, err);
-  return dyd_fail(err, DYD_E_ARG, "the diagram cannot be written as %s",
-                  dyd_format_name(format) ? dyd_format_name(format) : "this format");
+  if (st == DYD_OK) st = find_vertices(d);
+  return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
 }
 
-dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_options *options, dyd_format format,
-                             dyd_error *err) {
-  if (err) dyd_error_clear(err);
-  dyd_voronoi_options o;
-  dyd_status status = dyd_abi_take(&o, sizeof o, options, "dyd_voronoi_options", err);
-  if (status == DYD_OK && o.bounds) status = dyd_abi_check(o.bounds, sizeof *o.bounds, "dyd_voronoi_bounds", err);
-  if (status != DYD_OK) return status;
-  const dyd_delaunay *pd = dyd_engine_delaunay(e);
-  if (!pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
-  if (dyd_delaunay_is_capped(pd))
-    return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise --max-pairs");
-  dyd_diagram d = {.out = out, .engine = e, .pd = pd, .sites = dyd_delaunay_sites(pd)};
-  d.count = dyd_sites_count(d.sites);
-  dyd_rect_init(&d.window);
-  dyd_voronoi_bounds_init(&d.bounds);
-  status = write(&d, &o, format, err);
-  if (status >= 0 && o.bounds) {
-    dyd_dyadic_swap(&o.bounds->area, &d.bounds.area);
-    dyd_dyadic_swap(&o.bounds->hausdorff, &d.bounds.hausdorff);
-    o.bounds->finite = d.bounds.finite;
-  }
-  dyd_voronoi_bounds_clear(&d.bounds);
-  dyd_rect_clear(&d.window);
-  dyd_triangle_list_clear(&d.triangles);
-  free(d.vertex);
-  if (status < 0) return status;
-  if (fflush(out) != 0 || ferror(out))
-    return dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno ? errno : EIO));
-  return DYD_OK;
+void dyd_diagram_clear(dyd_diagram *d) {
+  dyd_rect_clear(&d->window);
+  dyd_triangle_list_clear(&d->triangles);
+  free(d->vertex);
 }

@@ -4,8 +4,8 @@
 #define DYD_IO_DIAGRAM_H
 
 #include "io/decimal.h"
+#include "io/output.h"
 #include "metric/voronoi_bounds.h"
-#include <dyadel/io.h>
 
 /* One cell: bounds of its areas in W and the box of Pos_i n W, all rounded outward. Invariant: present = Pos_i may meet
  * W. */
@@ -14,7 +14,7 @@ typedef struct dyd_cell_row {
   bool present;
 } dyd_cell_row;
 
-/* All borrowed but the lists and bounds. */
+/* All borrowed but the window and the lists. */
 typedef struct dyd_diagram {
   FILE *out;
   const dyd_engine *engine;
@@ -24,15 +24,21 @@ typedef struct dyd_diagram {
   dyd_rect window;
   int64_t bits; /* polygons are within 2^-bits of their cells */
   dyd_triangle_list triangles;
-  double (*vertex)[4]; /* enclosures of their Voronoi vertices; infinite ends: not known in doubles */
-  int64_t vertex_bits; /* exact enclosures are asked for with these bits */
-  dyd_voronoi_bounds bounds;
+  double (*vertex)[4];        /* enclosures of their Voronoi vertices; infinite ends: not known in doubles */
+  int64_t vertex_bits;        /* exact enclosures are asked for with these bits */
+  dyd_voronoi_bounds *bounds; /* found when the cells are visited */
 } dyd_diagram;
+
+/* Makes everything but the bounds. Of e there has to be a result that is not capped. An error is told;
+ * dyd_diagram_clear comes after it in any case. */
+dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, const dyd_voronoi_options *o,
+                            dyd_voronoi_bounds *bounds, dyd_error *err);
+void dyd_diagram_clear(dyd_diagram *d);
 
 /* Called for every site that stands for itself, in order. */
 typedef dyd_status (*dyd_cell_visit)(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row);
 /* Makes the polygons of all cells once, shows them to `visit`, and finds the bounds. */
-dyd_status dyd_diagram_visit(dyd_diagram *d, dyd_cell_visit visit, void *context);
+dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *context);
 
 /* Called for every undecided face in order, with the box of its vertices in the window, rounded outward; NULL: there
  * are none. */
@@ -41,15 +47,5 @@ dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, voi
 
 /* The exact enclosure of vertex k as four texts: x lower, x upper, y lower, y upper; release each with free(). */
 dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k);
-
-typedef dyd_status (*dyd_diagram_write_fn)(dyd_diagram *d, dyd_error *err);
-dyd_status dyd_write_voronoi_csv(dyd_diagram *d, dyd_error *err);
-dyd_status dyd_write_voronoi_json(dyd_diagram *d, dyd_error *err);
-dyd_status dyd_write_voronoi_wkt(dyd_diagram *d, dyd_error *err);
-dyd_status dyd_write_voronoi_geojson(dyd_diagram *d, dyd_error *err);
-dyd_status dyd_write_voronoi_vtk(dyd_diagram *d, dyd_error *err);
-dyd_status dyd_write_voronoi_svg(dyd_diagram *d, dyd_error *err);
-dyd_status dyd_write_voronoi_pdf(dyd_diagram *d, dyd_error *err);
-dyd_status dyd_write_voronoi_png(dyd_diagram *d, dyd_error *err);
 
 #endif

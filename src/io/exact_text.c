@@ -34,12 +34,12 @@ void dyd_exact_text(FILE *out, mpz_srcptr a, mpz_srcptr b, mpz_srcptr c, mpz_src
 }
 
 /* Fine enough for 17 digits of 1 / d. */
-static int64_t choose_bits(const dyd_surd_point *p) {
+static int64_t enclosure_bits(const dyd_surd_point *p) {
   return 64 + dyd_bits(p->d);
 }
 
 void dyd_exact_enclose(double *lo, double *hi, const dyd_surd_point *p, int axis) {
-  int64_t bits = choose_bits(p);
+  int64_t bits = enclosure_bits(p);
   mpz_t floor, ceiling;
   mpz_inits(floor, ceiling, NULL);
   dyd_surd_point_floor(floor, ceiling, p, axis, bits);
@@ -49,7 +49,7 @@ void dyd_exact_enclose(double *lo, double *hi, const dyd_surd_point *p, int axis
 }
 
 void dyd_exact_enclose_root(double *lo, double *hi, const dyd_surd_point *p) {
-  int64_t bits = choose_bits(p);
+  int64_t bits = enclosure_bits(p);
   mpz_t floor, ceiling, rest;
   mpz_inits(floor, ceiling, rest, NULL);
   dyd_surd_point_floor(floor, ceiling, p, 0, 2 * bits);
@@ -61,7 +61,7 @@ void dyd_exact_enclose_root(double *lo, double *hi, const dyd_surd_point *p) {
   mpz_clears(floor, ceiling, rest, NULL);
 }
 
-static void put(FILE *out, double x, dyd_round dir) {
+static void put_directed(FILE *out, double x, dyd_round dir) {
   char text[DYD_DECIMAL_SIZE];
   if (isinf(x)) {
     fputs(x < 0 ? "-inf" : "inf", out);
@@ -72,15 +72,32 @@ static void put(FILE *out, double x, dyd_round dir) {
 }
 
 void dyd_exact_decimals(FILE *out, double lo, double hi, const char *between) {
-  put(out, lo, DYD_DOWN);
+  put_directed(out, lo, DYD_DOWN);
   fputs(between, out);
-  put(out, hi, DYD_UP);
+  put_directed(out, hi, DYD_UP);
 }
 
-void dyd_exact_decimals_json(FILE *out, double lo, double hi) {
-  fputs("[", out);
-  dyd_decimal_json(out, lo, DYD_DOWN);
-  fputs(", ", out);
-  dyd_decimal_json(out, hi, DYD_UP);
-  fputs("]", out);
+void dyd_exact_middle(double out[2], const dyd_surd_point *p) {
+  for (int axis = 0; axis < 2; axis++) {
+    double lo, hi;
+    dyd_exact_enclose(&lo, &hi, p, axis);
+    out[axis] = lo / 2 + hi / 2;
+  }
+}
+
+void dyd_exact_circle(dyd_surd_point *centre, dyd_surd_point *radius2, const dyd_circle *k) {
+  mpz_set(centre->ax, k->ax);
+  mpz_set(centre->bx, k->bx);
+  mpz_set(centre->ay, k->ay);
+  mpz_set(centre->by, k->by);
+  mpz_set(centre->c, k->c);
+  mpz_set(centre->d, k->d);
+  mpz_set(radius2->ax, k->ar);
+  mpz_set(radius2->bx, k->br);
+  mpz_set_ui(radius2->ay, 0);
+  mpz_set_ui(radius2->by, 0);
+  mpz_set(radius2->c, k->c);
+  mpz_set(radius2->d, k->dr);
+  dyd_surd_point_tidy(centre);
+  dyd_surd_point_tidy(radius2);
 }

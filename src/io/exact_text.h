@@ -14,7 +14,9 @@ void dyd_exact_enclose(double *lo, double *hi, const dyd_surd_point *p, int axis
 void dyd_exact_enclose_root(double *lo, double *hi, const dyd_surd_point *p);
 /* "LO<between>HI" as directed decimals. */
 void dyd_exact_decimals(FILE *out, double lo, double hi, const char *between);
-/* "[LO, HI]" as JSON values. */
-void dyd_exact_decimals_json(FILE *out, double lo, double hi);
+/* The middle of the coordinates' decimals, for drawing. */
+void dyd_exact_middle(double out[2], const dyd_surd_point *p);
+/* A circle as points in lowest terms: its centre, and (radius^2, 0). Copied. */
+void dyd_exact_circle(dyd_surd_point *centre, dyd_surd_point *radius2, const dyd_circle *k);
 
 #endif

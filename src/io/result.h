@@ -4,7 +4,7 @@
 #define DYD_IO_RESULT_H
 
 #include "io/decimal.h"
-#include <dyadel/engine.h>
+#include "io/output.h"
 
 /* All borrowed but pairs. */
 typedef struct dyd_result {
@@ -24,22 +24,17 @@ typedef struct dyd_place {
   double error;
 } dyd_place;
 
-typedef dyd_status (*dyd_write_fn)(const dyd_result *r, dyd_error *err);
-dyd_status dyd_write_csv(const dyd_result *r, dyd_error *err);
-dyd_status dyd_write_json(const dyd_result *r, dyd_error *err);
-dyd_status dyd_write_wkt(const dyd_result *r, dyd_error *err);
-dyd_status dyd_write_geojson(const dyd_result *r, dyd_error *err);
-dyd_status dyd_write_obj(const dyd_result *r, dyd_error *err);
-dyd_status dyd_write_svg(const dyd_result *r, dyd_error *err);
-dyd_status dyd_write_pdf(const dyd_result *r, dyd_error *err);
-dyd_status dyd_write_png(const dyd_result *r, dyd_error *err);
-dyd_status dyd_write_vtk(const dyd_result *r, dyd_error *err);
-
 /* "legal", "indeterminate", "tie", "illegal". */
 const char *dyd_pair_status_text(dyd_pair_status status);
 /* The box of site i; DYD_E_RANGE with a message that names the site when it is not finite in doubles. */
 dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_error *err);
 /* The places of all sites; *out is released with free(). *error is the largest bound among them. */
 dyd_status dyd_result_places(dyd_place **out, double *error, const dyd_result *r, dyd_error *err);
+
+/* "3, 7, 9". */
+void dyd_put_indices(FILE *out, const dyd_index_list *list, const char *between);
+/* The sites of each undecided face, behind `first` or `next`, before `end`. */
+dyd_status dyd_result_faces(const dyd_result *r, const char *first, const char *next, const char *between,
+                            const char *end);
 
 #endif

@@ -7,9 +7,7 @@
 
 #define DYD_TRACE_FORMAT "dyadel trace 1"
 
-/* The names of goals and schedules, by value. */
-enum { DYD_TRACE_GOALS = DYD_GOAL_HAUSDORFF + 1, DYD_TRACE_SCHEDULES = DYD_SCHEDULE_UNIFORM + 1 };
-extern const char *const dyd_trace_goal[DYD_TRACE_GOALS];
-extern const char *const dyd_trace_schedule[DYD_TRACE_SCHEDULES];
+/* The last goal and schedule of a trace; their words are dyd_goal_text and dyd_schedule_text. */
+enum { DYD_TRACE_GOAL = DYD_GOAL_HAUSDORFF, DYD_TRACE_SCHEDULE = DYD_SCHEDULE_UNIFORM };
 
 #endif

@@ -4,6 +4,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "io/parts.h"
 #include "io/read/text.h"
 #include "io/trace.h"
 #include <dyadel/io.h>
@@ -34,32 +35,40 @@ typedef struct replay {
   bool ended;
 } replay;
 
-static dyd_status bad(const replay *r, const char *what) {
+static dyd_status replay_fail(const replay *r, const char *what) {
   return dyd_fail(r->err, DYD_E_PARSE, "%s; give a trace as dyadel wrote it", what);
 }
 
 /* ---- values ---- */
 
-static bool get_integer(int64_t *out, const json_t *line, const char *name, int64_t least, int64_t most) {
+static bool json_get_integer(int64_t *out, const json_t *line, const char *name, int64_t least, int64_t most) {
   const json_t *value = json_object_get(line, name);
   if (!json_is_integer(value)) return false;
   *out = json_integer_value(value);
   return *out >= least && *out <= most;
 }
 
-static bool is_text(const json_t *line, const char *name, const char *wanted) {
+static bool json_has_text(const json_t *line, const char *name, const char *wanted) {
   const char *text = json_string_value(json_object_get(line, name));
   return text && strcmp(text, wanted) == 0;
 }
 
-/* The position of a word in a list; false when it is not there. */
-static bool get_word(int *out, const json_t *line, const char *name, const char *const *words, int count) {
-  for (*out = 0; *out < count; ++*out)
-    if (is_text(line, name, words[*out])) return true;
-  return false;
+/* A goal or schedule by its word; false when there is none of that name. */
+static bool json_get_goal(dyd_goal *out, const json_t *line) {
+  int k = 0;
+  while (k <= DYD_TRACE_GOAL && !json_has_text(line, "goal", dyd_goal_text((dyd_goal)k))) k++;
+  *out = (dyd_goal)k;
+  return k <= DYD_TRACE_GOAL;
 }
 
-static bool get_side(dyd_interval *out, const json_t *line, const char *name) {
+static bool json_get_schedule(dyd_schedule *out, const json_t *line) {
+  int k = 0;
+  while (k <= DYD_TRACE_SCHEDULE && !json_has_text(line, "schedule", dyd_schedule_text((dyd_schedule)k))) k++;
+  *out = (dyd_schedule)k;
+  return k <= DYD_TRACE_SCHEDULE;
+}
+
+static bool json_get_side(dyd_interval *out, const json_t *line, const char *name) {
   const json_t *side = json_object_get(line, name);
   const char *lo = json_string_value(json_array_get(side, 0)), *hi = json_string_value(json_array_get(side, 1));
   if (!lo || !hi || json_array_size(side) != 2) return false;
@@ -68,8 +77,8 @@ static bool get_side(dyd_interval *out, const json_t *line, const char *name) {
   dyd_dyadic a, b;
   dyd_dyadic_init(&a);
   dyd_dyadic_init(&b);
-  bool good = dyd_dyadic_set_str(&a, lo, NULL) >= 0 && dyd_dyadic_set_str(&b, hi, NULL) >= 0 &&
-              dyd_interval_set_ends(out, &a, &b) >= 0;
+  bool good = dyd_dyadic_set_str(&a, lo, NULL) == DYD_OK && dyd_dyadic_set_str(&b, hi, NULL) == DYD_OK &&
+              dyd_interval_set_ends(out, &a, &b) == DYD_OK;
   dyd_dyadic_clear(&b);
   dyd_dyadic_clear(&a);
   return good;
@@ -78,7 +87,7 @@ static bool get_side(dyd_interval *out, const json_t *line, const char *name) {
 /* ---- lines ---- */
 
 /* The window of the bounds of V, when one was given. */
-static bool get_window(replay *r, const json_t *line) {
+static bool replay_window(replay *r, const json_t *line) {
   const json_t *list = json_object_get(line, "window");
   dyd_dyadic end[4];
   r->converge.no_voronoi = json_is_true(json_object_get(line, "no_voronoi"));
@@ -87,36 +96,32 @@ static bool get_window(replay *r, const json_t *line) {
   for (int k = 0; k < 4; k++) dyd_dyadic_init(&end[k]);
   for (size_t k = 0; good && k < 4; k++) {
     const char *text = json_string_value(json_array_get(list, k));
-    good = text && dyd_dyadic_set_str(&end[k], text, NULL) >= 0;
+    good = text && dyd_dyadic_set_str(&end[k], text, NULL) == DYD_OK;
   }
-  good = good && dyd_interval_set_ends(&r->window.x, &end[0], &end[1]) >= 0 &&
-         dyd_interval_set_ends(&r->window.y, &end[2], &end[3]) >= 0 && !dyd_interval_is_point(&r->window.x) &&
+  good = good && dyd_interval_set_ends(&r->window.x, &end[0], &end[1]) == DYD_OK &&
+         dyd_interval_set_ends(&r->window.y, &end[2], &end[3]) == DYD_OK && !dyd_interval_is_point(&r->window.x) &&
          !dyd_interval_is_point(&r->window.y);
   for (int k = 0; k < 4; k++) dyd_dyadic_clear(&end[k]);
   r->converge.window = &r->window;
   return good;
 }
 
-static dyd_status read_head(replay *r, const json_t *line) {
+static dyd_status replay_head(replay *r, const json_t *line) {
   int64_t points, max_pairs;
-  int schedule, goal;
   dyd_engine_options *o = r->out->options;
   if (!o) o = r->out->options = malloc(sizeof *o);
   if (!o) return dyd_fail_nomem(r->err);
   dyd_engine_options_init(o);
-  if (!is_text(line, "format", DYD_TRACE_FORMAT))
-    return bad(r, "this is no trace of the format \"" DYD_TRACE_FORMAT "\"");
-  if (!get_integer(&points, line, "points", 0, (int64_t)DYD_MAX_SITES) ||
-      !get_integer(&o->goal_bits, line, "goal_bits", INT64_MIN, INT64_MAX) ||
-      !get_integer(&o->start_bits, line, "start_bits", INT64_MIN, INT64_MAX) ||
-      !get_integer(&o->step_bits, line, "step_bits", 0, INT64_MAX) ||
-      !get_integer(&o->max_bits, line, "max_bits", INT64_MIN, INT64_MAX) ||
-      !get_integer(&max_pairs, line, "max_pairs", 0, INT64_MAX) ||
-      !get_word(&schedule, line, "schedule", dyd_trace_schedule, DYD_TRACE_SCHEDULES) ||
-      !get_word(&goal, line, "goal", dyd_trace_goal, DYD_TRACE_GOALS) || !get_window(r, line))
-    return bad(r, "the first line lacks a field, or has a wrong one");
-  o->schedule = (dyd_schedule)schedule;
-  o->goal = (dyd_goal)goal;
+  if (!json_has_text(line, "format", DYD_TRACE_FORMAT))
+    return replay_fail(r, "this is no trace of the format \"" DYD_TRACE_FORMAT "\"");
+  if (!json_get_integer(&points, line, "points", 0, (int64_t)DYD_MAX_SITES) ||
+      !json_get_integer(&o->goal_bits, line, "goal_bits", INT64_MIN, INT64_MAX) ||
+      !json_get_integer(&o->start_bits, line, "start_bits", INT64_MIN, INT64_MAX) ||
+      !json_get_integer(&o->step_bits, line, "step_bits", 0, INT64_MAX) ||
+      !json_get_integer(&o->max_bits, line, "max_bits", INT64_MIN, INT64_MAX) ||
+      !json_get_integer(&max_pairs, line, "max_pairs", 0, INT64_MAX) || !json_get_schedule(&o->schedule, line) ||
+      !json_get_goal(&o->goal, line) || !replay_window(r, line))
+    return replay_fail(r, "the first line lacks a field, or has a wrong one");
   o->max_pairs = (size_t)max_pairs;
   r->points = (size_t)points;
   r->point = calloc(r->points + 1, sizeof *r->point);
@@ -129,53 +134,56 @@ static dyd_status read_head(replay *r, const json_t *line) {
 }
 
 /* The rectangle of a line goes into the table, or is kept until there is one. */
-static dyd_status take_rect(replay *r, size_t i, const dyd_rect *rect, bool called) {
+static dyd_status replay_rect(replay *r, size_t i, const dyd_rect *rect, bool called) {
   replay_point *p = &r->point[i];
   if (!r->pd) {
-    if (p->had && !dyd_rect_contains(&p->rect, rect)) return bad(r, "this rectangle is not inside the one before");
+    if (p->had && !dyd_rect_contains(&p->rect, rect))
+      return replay_fail(r, "this rectangle is not inside the one before");
     dyd_rect_set(&p->rect, rect);
     p->had = true;
     return DYD_OK;
   }
-  dyd_status status = dyd_sites_narrow(r->sites, i, rect);
-  if (status == DYD_E_NESTING) return bad(r, "this rectangle is not inside the one before");
-  if (status >= 0 && !dyd_reserve((void **)&r->changed, &r->change_cap, r->changes + 1, sizeof *r->changed))
-    status = DYD_E_NOMEM;
-  if (status < 0) return dyd_fail(r->err, status, "%s", dyd_status_text(status));
+  dyd_status st = dyd_sites_narrow(r->sites, i, rect);
+  if (st == DYD_E_NESTING) return replay_fail(r, "this rectangle is not inside the one before");
+  if (st == DYD_OK && !dyd_reserve((void **)&r->changed, &r->change_cap, r->changes + 1, sizeof *r->changed))
+    st = DYD_E_NOMEM;
+  if (st != DYD_OK) return dyd_fail(r->err, st, "%s", dyd_status_text(st));
   if (called) r->changed[r->changes++] = (uint32_t)i;
   return DYD_OK;
 }
 
-static dyd_status read_step(replay *r, const json_t *line) {
+static dyd_status replay_step(replay *r, const json_t *line) {
   int64_t point;
-  if (!get_integer(&point, line, "point", 0, (int64_t)r->points - 1)) return bad(r, "there is no such point");
+  if (!json_get_integer(&point, line, "point", 0, (int64_t)r->points - 1))
+    return replay_fail(r, "there is no such point");
   replay_point *p = &r->point[point];
-  bool fixed = is_text(line, "why", "fixed"), called = json_is_true(json_object_get(line, "called"));
-  if (!fixed && !get_integer(&p->bits, line, "bits", INT64_MIN, INT64_MAX)) return bad(r, "the bits asked are missing");
+  bool fixed = json_has_text(line, "why", "fixed"), called = json_is_true(json_object_get(line, "called"));
+  if (!fixed && !json_get_integer(&p->bits, line, "bits", INT64_MIN, INT64_MAX))
+    return replay_fail(r, "the bits asked are missing");
   if (!fixed) p->asked = true;
   if (called) r->calls++;
   dyd_rect rect;
   dyd_rect_init(&rect);
-  dyd_status status = get_side(&rect.x, line, "x") && get_side(&rect.y, line, "y")
-                          ? take_rect(r, (size_t)point, &rect, called)
-                          : bad(r, "this is no rectangle");
+  dyd_status st = json_get_side(&rect.x, line, "x") && json_get_side(&rect.y, line, "y")
+                      ? replay_rect(r, (size_t)point, &rect, called)
+                      : replay_fail(r, "this is no rectangle");
   dyd_rect_clear(&rect);
-  return status;
+  return st;
 }
 
-static dyd_status first_result(replay *r, const dyd_delaunay_options *o) {
-  dyd_status status = dyd_sites_new(&r->sites);
-  for (size_t i = 0; status >= 0 && i < r->points; i++) {
-    if (!r->point[i].had) return bad(r, "the first stage ends before every point has a rectangle");
-    status = dyd_sites_add_rect(r->sites, &r->point[i].rect);
+static dyd_status replay_first_result(replay *r, const dyd_delaunay_options *o) {
+  dyd_status st = dyd_sites_new(&r->sites);
+  for (size_t i = 0; st == DYD_OK && i < r->points; i++) {
+    if (!r->point[i].had) return replay_fail(r, "the first stage ends before every point has a rectangle");
+    st = dyd_sites_add_rect(r->sites, &r->point[i].rect);
     dyd_rect_clear(&r->point[i].rect);
     dyd_rect_init(&r->point[i].rect);
   }
-  return status < 0 ? status : dyd_delaunay_new(&r->pd, r->sites, o, r->err);
+  return st == DYD_OK ? dyd_delaunay_new(&r->pd, r->sites, o, r->err) : st;
 }
 
 /* The same figures as the engine's. */
-static void count_bits(dyd_stage_row *row, const replay *r) {
+static void replay_count_bits(dyd_stage_row *row, const replay *r) {
   bool any = false;
   for (size_t i = 0; i < r->points; i++) {
     const replay_point *p = &r->point[i];
@@ -188,57 +196,58 @@ static void count_bits(dyd_stage_row *row, const replay *r) {
   row->calls = r->calls;
 }
 
-static bool agrees(const dyd_stage_row *row, const json_t *line) {
+static bool replay_agrees(const dyd_stage_row *row, const json_t *line) {
   int64_t legal, open, tie;
   char digest[17];
   snprintf(digest, sizeof digest, "%016" PRIx64, row->digest);
-  return get_integer(&legal, line, "legal", 0, INT64_MAX) && (size_t)legal == row->count[DYD_LEGAL] &&
-         get_integer(&open, line, "indeterminate", 0, INT64_MAX) && (size_t)open == row->count[DYD_INDETERMINATE] &&
-         get_integer(&tie, line, "tie", 0, INT64_MAX) && (size_t)tie == row->count[DYD_TIE] &&
-         is_text(line, "statuses", digest);
+  return json_get_integer(&legal, line, "legal", 0, INT64_MAX) && (size_t)legal == row->count[DYD_LEGAL] &&
+         json_get_integer(&open, line, "indeterminate", 0, INT64_MAX) &&
+         (size_t)open == row->count[DYD_INDETERMINATE] && json_get_integer(&tie, line, "tie", 0, INT64_MAX) &&
+         (size_t)tie == row->count[DYD_TIE] && json_has_text(line, "statuses", digest);
 }
 
-static dyd_status finish_stage(replay *r, const json_t *line) {
+static dyd_status replay_stage(replay *r, const json_t *line) {
   dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = r->out->options->max_pairs};
   dyd_stage_row *row;
-  dyd_status status = r->pd ? dyd_delaunay_update(r->pd, r->changed, r->changes, &o, r->err) : first_result(r, &o);
-  if (status < 0) return status;
+  dyd_status st = r->pd ? dyd_delaunay_update(r->pd, r->changed, r->changes, &o, r->err) : replay_first_result(r, &o);
+  if (st == DYD_CAPPED) st = DYD_OK; /* a result as well */
+  if (st != DYD_OK) return st;
   r->changes = 0;
-  status = dyd_convergence_add(&row, r->out, r->pd, &r->converge, r->err);
-  if (status < 0) return status;
-  count_bits(row, r);
+  st = dyd_convergence_add(&row, r->out, r->pd, &r->converge, r->err);
+  if (st != DYD_OK) return st;
+  replay_count_bits(row, r);
   if (r->converge.stage) r->converge.stage(r->converge.stage_user, row, r->pd);
-  if (agrees(row, line)) return DYD_OK;
+  if (replay_agrees(row, line)) return DYD_OK;
   return dyd_fail(r->err, DYD_E_PARSE, "the statuses of this stage are not those that the trace tells of");
 }
 
-static dyd_status read_outcome(replay *r, const json_t *line) {
+static dyd_status replay_outcome(replay *r, const json_t *line) {
   for (int k = DYD_OUTCOME_NONE; k <= DYD_OUTCOME_ERROR; k++) {
-    if (!is_text(line, "outcome", dyd_outcome_text((dyd_outcome)k))) continue;
+    if (!json_has_text(line, "outcome", dyd_outcome_text((dyd_outcome)k))) continue;
     r->out->outcome = (dyd_outcome)k;
     r->ended = true;
     return DYD_OK;
   }
-  return bad(r, "there is no such outcome");
+  return replay_fail(r, "there is no such outcome");
 }
 
-static dyd_status read_line(replay *r, const dyd_line *text) {
+static dyd_status replay_line(replay *r, const dyd_line *text) {
   json_t *line = json_loadb(text->text, text->length, JSON_REJECT_DUPLICATES, NULL);
-  dyd_status status;
+  dyd_status st;
   if (!json_is_object(line))
-    status = bad(r, "this line is no JSON object");
+    st = replay_fail(r, "this line is no JSON object");
   else if (!r->point)
-    status = read_head(r, line);
+    st = replay_head(r, line);
   else if (r->ended)
-    status = bad(r, "the trace goes on behind its outcome");
+    st = replay_fail(r, "the trace goes on behind its outcome");
   else if (json_object_get(line, "outcome"))
-    status = read_outcome(r, line);
+    st = replay_outcome(r, line);
   else if (json_object_get(line, "done"))
-    status = finish_stage(r, line);
+    st = replay_stage(r, line);
   else
-    status = read_step(r, line);
+    st = replay_step(r, line);
   json_decref(line);
-  return status;
+  return st;
 }
 
 static void replay_clear(replay *r) {
@@ -253,9 +262,9 @@ static void replay_clear(replay *r) {
 dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_options *converge, dyd_error *err) {
   dyd_error local;
   replay r = {.out = out, .err = err ? err : &local};
-  dyd_status status = dyd_abi_check(out, sizeof *out, "dyd_convergence", err);
-  if (status == DYD_OK) status = dyd_abi_take(&r.converge, sizeof r.converge, converge, "dyd_converge_options", err);
-  if (status != DYD_OK) return status;
+  dyd_status st = dyd_abi_check(out, sizeof *out, "dyd_convergence", err);
+  if (st == DYD_OK) st = dyd_abi_take(&r.converge, sizeof r.converge, converge, "dyd_converge_options", err);
+  if (st != DYD_OK) return st;
   r.converge.window = NULL;
   dyd_rect_init(&r.window);
   dyd_text text;
@@ -263,17 +272,17 @@ dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_o
   dyd_error_clear(r.err);
   dyd_text_init(&text, in);
   do {
-    status = dyd_text_next(&line, &text, r.err);
-    if (status >= 0 && line.text) status = read_line(&r, &line);
-  } while (status >= 0 && line.text);
-  if (status >= 0 && !r.ended) status = bad(&r, "the trace ends before its outcome");
-  if (status < 0) {
-    r.err->code = status;
+    st = dyd_text_next(&line, &text, r.err);
+    if (st == DYD_OK && line.text) st = replay_line(&r, &line);
+  } while (st == DYD_OK && line.text);
+  if (st == DYD_OK && !r.ended) st = replay_fail(&r, "the trace ends before its outcome");
+  if (st != DYD_OK) {
+    r.err->code = st;
     if (!r.err->line) r.err->line = line.text ? line.number : text.line;
     if (!r.err->column) r.err->column = 1;
-    if (!r.err->message[0]) dyd_fail(r.err, status, "%s", dyd_status_text(status));
+    if (!r.err->message[0]) dyd_fail(r.err, st, "%s", dyd_status_text(st));
   }
   dyd_text_clear(&text);
   replay_clear(&r);
-  return status < 0 ? status : DYD_OK;
+  return st;
 }

@@ -5,16 +5,12 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "io/decimal.h"
+#include "io/output.h"
+#include "io/parts.h"
 #include "io/trace.h"
 #include <dyadel/io.h>
-#include <errno.h>
 #include <inttypes.h>
-#include <string.h>
-
-const char *const dyd_trace_goal[DYD_TRACE_GOALS] = {
-    [DYD_GOAL_DECIDED] = "decided", [DYD_GOAL_AREA] = "area", [DYD_GOAL_HAUSDORFF] = "hausdorff"};
-const char *const dyd_trace_schedule[DYD_TRACE_SCHEDULES] = {
-    [DYD_SCHEDULE_ADAPTIVE] = "adaptive", [DYD_SCHEDULE_UNIFORM] = "uniform"};
+#include <stdlib.h>
 
 /* Invariant: seen[i] tells whether point i was narrowed; NULL once the fixed points are written. */
 struct dyd_trace {
@@ -24,31 +20,22 @@ struct dyd_trace {
   dyd_status failed;
 };
 
-static dyd_status write_window(FILE *out, const dyd_rect *w) {
-  fputs(",\"window\":[", out);
-  const dyd_dyadic *end[] = {&w->x.lo, &w->x.hi, &w->y.lo, &w->y.hi};
-  for (int k = 0; k < 4; k++) {
-    char *text = dyd_dyadic_get_str(end[k]);
-    if (!text) return DYD_E_NOMEM;
-    fprintf(out, "%s\"%s\"", k ? "," : "", text);
-    free(text);
-  }
-  fputs("]", out);
-  return DYD_OK;
-}
-
-static dyd_status write_head(const dyd_trace *t, const dyd_engine_options *o, const dyd_converge_options *c) {
-  dyd_status status = DYD_OK;
+static dyd_status trace_head(const dyd_trace *t, const dyd_engine_options *o, const dyd_converge_options *c) {
+  dyd_status st = DYD_OK;
   fprintf(t->out,
           "{\"format\":\"" DYD_TRACE_FORMAT
           "\",\"points\":%zu,\"schedule\":\"%s\",\"goal\":\"%s\",\"goal_bits\":%" PRId64 ",\"start_bits\":%" PRId64
           ",\"step_bits\":%" PRId64 ",\"max_bits\":%" PRId64 ",\"max_pairs\":%zu",
-          t->points, dyd_trace_schedule[o->schedule], dyd_trace_goal[o->goal], o->goal_bits, o->start_bits,
-          o->step_bits, o->max_bits, o->max_pairs);
+          t->points, dyd_schedule_text(o->schedule), dyd_goal_text(o->goal), o->goal_bits, o->start_bits, o->step_bits,
+          o->max_bits, o->max_pairs);
   if (c->no_voronoi) fputs(",\"no_voronoi\":true", t->out);
-  if (c->window) status = write_window(t->out, c->window);
+  if (c->window) {
+    fputs(",\"window\":[", t->out);
+    st = dyd_put_window(t->out, c->window, "\"", ",");
+    fputs("]", t->out);
+  }
   fputs("}\n", t->out);
-  return status;
+  return st;
 }
 
 dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dyd_engine_options *options,
@@ -59,7 +46,7 @@ dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dy
   dyd_status st = dyd_abi_take(&o, sizeof o, options ? options : &defaults, "dyd_engine_options", err);
   if (st == DYD_OK) st = dyd_abi_take(&c, sizeof c, converge, "dyd_converge_options", err);
   if (st != DYD_OK) return st;
-  if ((unsigned)o.goal >= DYD_TRACE_GOALS || (unsigned)o.schedule >= DYD_TRACE_SCHEDULES)
+  if ((unsigned)o.goal > DYD_TRACE_GOAL || (unsigned)o.schedule > DYD_TRACE_SCHEDULE)
     return dyd_fail(err, DYD_E_ARG, "a trace cannot tell of this goal or schedule");
   dyd_trace *t = calloc(1, sizeof *t);
   if (!t) return dyd_fail_nomem(err);
@@ -70,58 +57,58 @@ dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dy
     free(t);
     return dyd_fail_nomem(err);
   }
-  t->failed = write_head(t, &o, &c);
+  t->failed = trace_head(t, &o, &c);
   *out = t;
   return DYD_OK;
 }
 
-static dyd_status write_side(FILE *out, const char *name, const dyd_interval *a) {
+static dyd_status trace_side(FILE *out, const char *name, const dyd_interval *a) {
   char *lo = dyd_end_text(a, false), *hi = dyd_end_text(a, true);
-  dyd_status status = lo && hi ? DYD_OK : DYD_E_NOMEM;
-  if (status >= 0) fprintf(out, ",\"%s\":[\"%s\",\"%s\"]", name, lo, hi);
+  dyd_status st = lo && hi ? DYD_OK : DYD_E_NOMEM;
+  if (st == DYD_OK) fprintf(out, ",\"%s\":[\"%s\",\"%s\"]", name, lo, hi);
   free(lo);
   free(hi);
-  return status;
+  return st;
 }
 
-static dyd_status write_rect(FILE *out, const dyd_rect *r) {
-  dyd_status status = write_side(out, "x", &r->x);
-  if (status >= 0) status = write_side(out, "y", &r->y);
+static dyd_status trace_rect(FILE *out, const dyd_rect *r) {
+  dyd_status st = trace_side(out, "x", &r->x);
+  if (st == DYD_OK) st = trace_side(out, "y", &r->y);
   fputs("}\n", out);
-  return status;
+  return st;
 }
 
 void dyd_trace_step(void *trace, const dyd_step *step) {
   dyd_trace *t = trace;
-  if (t->failed < 0) return;
+  if (t->failed != DYD_OK) return;
   if (t->seen) t->seen[step->site] = true;
   fprintf(t->out, "{\"stage\":%" PRIu64 ",\"point\":%" PRIu32 ",\"bits\":%" PRId64 ",\"called\":%s,\"why\":\"%s\"",
           step->stage, step->site, step->bits, step->called ? "true" : "false", dyd_reason_text(step->reason));
   if (step->i != step->j) fprintf(t->out, ",\"pair\":[%" PRIu32 ",%" PRIu32 "]", step->i, step->j);
-  t->failed = write_rect(t->out, step->rect);
+  t->failed = trace_rect(t->out, step->rect);
 }
 
 /* Lines of the points that were not asked: they are fixed. */
-static dyd_status write_fixed(dyd_trace *t, const dyd_delaunay *pd) {
-  dyd_status status = DYD_OK;
+static dyd_status trace_fixed(dyd_trace *t, const dyd_delaunay *pd) {
+  dyd_status st = DYD_OK;
   dyd_rect rect;
   dyd_rect_init(&rect);
-  for (size_t i = 0; status >= 0 && i < t->points; i++) {
+  for (size_t i = 0; st == DYD_OK && i < t->points; i++) {
     if (t->seen[i]) continue;
-    status = dyd_sites_get(&rect, dyd_delaunay_sites(pd), i);
+    st = dyd_sites_get(&rect, dyd_delaunay_sites(pd), i);
     fprintf(t->out, "{\"stage\":1,\"point\":%zu,\"why\":\"fixed\"", i);
-    if (status >= 0) status = write_rect(t->out, &rect);
+    if (st == DYD_OK) st = trace_rect(t->out, &rect);
   }
   dyd_rect_clear(&rect);
   free(t->seen);
   t->seen = NULL;
-  return status;
+  return st;
 }
 
 void dyd_trace_stage(void *trace, const dyd_stage_row *row, const dyd_delaunay *pd) {
   dyd_trace *t = trace;
-  if (t->failed < 0) return;
-  if (t->seen) t->failed = write_fixed(t, pd);
+  if (t->failed != DYD_OK) return;
+  if (t->seen) t->failed = trace_fixed(t, pd);
   fprintf(t->out,
           "{\"stage\":%" PRIu64
           ",\"done\":true,\"legal\":%zu,\"indeterminate\":%zu,\"tie\":%zu,\"statuses\":\"%016" PRIx64 "\"}\n",
@@ -129,13 +116,13 @@ void dyd_trace_stage(void *trace, const dyd_stage_row *row, const dyd_delaunay *
 }
 
 dyd_status dyd_trace_end(dyd_trace *t, dyd_outcome outcome, dyd_error *err) {
-  dyd_status status = t->failed;
+  dyd_status st = t->failed;
   fprintf(t->out, "{\"outcome\":\"%s\"}\n", dyd_outcome_text(outcome));
-  if (status < 0)
-    dyd_fail(err, status, "%s", dyd_status_text(status));
-  else if (fflush(t->out) != 0 || ferror(t->out))
-    status = dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno ? errno : EIO));
+  if (st != DYD_OK)
+    dyd_fail(err, st, "%s", dyd_status_text(st));
+  else
+    st = dyd_output_end(t->out, err);
   free(t->seen);
   free(t);
-  return status;
+  return st;
 }

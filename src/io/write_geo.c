@@ -6,21 +6,22 @@
 #include <math.h>
 
 /* Two digits, rounded up. */
-static void error_text(char out[DYD_DECIMAL_SIZE], double error) {
+static void place_error_text(char out[DYD_DECIMAL_SIZE], double error) {
   dyd_decimal_directed(out, error, 2, DYD_UP);
 }
 
-dyd_status dyd_write_wkt(const dyd_result *r, dyd_error *err) {
+static dyd_status wkt_delaunay(const dyd_output *o) {
+  const dyd_result *r = o->what;
   dyd_place *place = NULL;
   double error;
-  dyd_status status = dyd_result_places(&place, &error, r, err);
-  if (status < 0) return status;
+  dyd_status st = dyd_result_places(&place, &error, r, o->err);
+  if (st != DYD_OK) return st;
   fputs("WKT,i,j,status,max_coordinate_error\n", r->out);
   for (size_t k = 0; k < r->pairs.count; k++) {
     const dyd_pair *p = &r->pairs.item[k];
     const dyd_place *a = &place[p->i], *b = &place[p->j];
     char bound[DYD_DECIMAL_SIZE];
-    error_text(bound, fmax(a->error, b->error));
+    place_error_text(bound, fmax(a->error, b->error));
     fprintf(r->out, "\"LINESTRING (%s %s, %s %s)\",%u,%u,%s,%s\n", a->x, a->y, b->x, b->y, (unsigned)p->i,
             (unsigned)p->j, dyd_pair_status_text(p->status), bound);
   }
@@ -28,13 +29,14 @@ dyd_status dyd_write_wkt(const dyd_result *r, dyd_error *err) {
   return DYD_OK;
 }
 
-dyd_status dyd_write_geojson(const dyd_result *r, dyd_error *err) {
+static dyd_status geojson_delaunay(const dyd_output *o) {
+  const dyd_result *r = o->what;
   dyd_place *place = NULL;
   double error;
   char bound[DYD_DECIMAL_SIZE];
-  dyd_status status = dyd_result_places(&place, &error, r, err);
-  if (status < 0) return status;
-  error_text(bound, error);
+  dyd_status st = dyd_result_places(&place, &error, r, o->err);
+  if (st != DYD_OK) return st;
+  place_error_text(bound, error);
   fprintf(r->out,
           "{\"type\": \"FeatureCollection\",\n\"rounding\": \"a coordinate differs from every point of the "
           "rectangle it stands for by at most max_coordinate_error\",\n\"max_coordinate_error\": %s,\n"
@@ -53,7 +55,7 @@ dyd_status dyd_write_geojson(const dyd_result *r, dyd_error *err) {
   return DYD_OK;
 }
 
-static void write_obj_elements(const dyd_result *r, const dyd_triangle_list *triangles) {
+static void obj_elements(const dyd_result *r, const dyd_triangle_list *triangles) {
   fputs("g legal_edges\n", r->out);
   for (size_t k = 0; k < r->pairs.count; k++) {
     const dyd_pair *p = &r->pairs.item[k];
@@ -66,16 +68,17 @@ static void write_obj_elements(const dyd_result *r, const dyd_triangle_list *tri
   }
 }
 
-dyd_status dyd_write_obj(const dyd_result *r, dyd_error *err) {
+static dyd_status obj_delaunay(const dyd_output *o) {
+  const dyd_result *r = o->what;
   dyd_place *place = NULL;
   dyd_triangle_list triangles = {0};
   double error;
   char bound[DYD_DECIMAL_SIZE];
   size_t count[4];
-  dyd_status status = dyd_result_places(&place, &error, r, err);
-  if (status >= 0) status = dyd_delaunay_triangles(&triangles, r->pd);
-  if (status >= 0) {
-    error_text(bound, error);
+  dyd_status st = dyd_result_places(&place, &error, r, o->err);
+  if (st == DYD_OK) st = dyd_delaunay_triangles(&triangles, r->pd);
+  if (st == DYD_OK) {
+    place_error_text(bound, error);
     dyd_delaunay_count(count, r->pd);
     fprintf(r->out,
             "# dyadel %s, outcome %s\n# a coordinate differs from every point of the rectangle it stands for by at "
@@ -83,9 +86,15 @@ dyd_status dyd_write_obj(const dyd_result *r, dyd_error *err) {
             dyd_version(), dyd_outcome_text(dyd_engine_outcome(r->engine)), bound, count[DYD_INDETERMINATE],
             count[DYD_TIE]);
     for (size_t i = 0; i < r->count; i++) fprintf(r->out, "v %s %s 0\n", place[i].x, place[i].y);
-    write_obj_elements(r, &triangles);
+    obj_elements(r, &triangles);
   }
   dyd_triangle_list_clear(&triangles);
   free(place);
-  return status;
+  return st;
 }
+
+dyd_writer *const dyd_wkt_writers[DYD_CONTENTS] = {
+    [DYD_CONTENT_DELAUNAY] = wkt_delaunay, [DYD_CONTENT_VORONOI] = dyd_voronoi_wkt};
+dyd_writer *const dyd_geojson_writers[DYD_CONTENTS] = {
+    [DYD_CONTENT_DELAUNAY] = geojson_delaunay, [DYD_CONTENT_VORONOI] = dyd_voronoi_geojson};
+dyd_writer *const dyd_obj_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = obj_delaunay};

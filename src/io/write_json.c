@@ -1,72 +1,53 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The json format: everything the engine states, written piece by piece so that memory stays small.
- *
- * All texts are our own ASCII words and numbers, so nothing needs escaping. */
-#include "base/alloc.h"
-#include "base/error.h"
-#include "io/json_parts.h"
+/* The json format. Of the triangulation everything the engine states, written piece by piece so that memory stays
+ * small. */
+#include "io/parts.h"
 #include "io/result.h"
 #include <dyadel/voronoi.h>
 #include <inttypes.h>
 
-static dyd_status write_interval(FILE *out, const char *name, const dyd_interval *a) {
-  bool point = dyd_interval_is_point(a);
-  char *lo = dyd_end_text(a, false), *hi = point ? NULL : dyd_end_text(a, true);
-  dyd_status status = lo && (hi || point) ? DYD_OK : DYD_E_NOMEM;
-  if (status >= 0) fprintf(out, "\"%s\": [\"%s\", \"%s\"], ", name, lo, point ? lo : hi);
-  free(lo);
-  free(hi);
-  return status;
-}
-
-static void write_outward(FILE *out, const char *name, const double end[2]) {
-  fprintf(out, "\"%s\": [", name);
-  dyd_decimal_json(out, end[0], DYD_DOWN);
-  fputs(", ", out);
-  dyd_decimal_json(out, end[1], DYD_UP);
-  fputs("]", out);
-}
-
-static dyd_status write_site(const dyd_result *r, size_t i, dyd_rect *rect) {
+static dyd_status json_site(const dyd_result *r, size_t i, dyd_rect *rect) {
   double box[4];
   dyd_sites_get_d(box, r->sites, i);
-  dyd_status status = dyd_sites_get(rect, r->sites, i);
-  if (status < 0) return status;
+  dyd_status st = dyd_sites_get(rect, r->sites, i);
+  if (st != DYD_OK) return st;
   fprintf(r->out, "%s\n{\"i\": %zu, ", i ? "," : "", i);
-  status = write_interval(r->out, "x", &rect->x);
-  if (status >= 0) status = write_interval(r->out, "y", &rect->y);
-  write_outward(r->out, "x_decimal", box);
+  st = dyd_json_side(r->out, "x", &rect->x);
   fputs(", ", r->out);
-  write_outward(r->out, "y_decimal", box + 2);
+  if (st == DYD_OK) st = dyd_json_side(r->out, "y", &rect->y);
+  fputs(", \"x_decimal\": ", r->out);
+  dyd_json_decimals(r->out, box[0], box[1]);
+  fputs(", \"y_decimal\": ", r->out);
+  dyd_json_decimals(r->out, box[2], box[3]);
   fputs("}", r->out);
-  return status;
+  return st;
 }
 
-static dyd_status write_sites(const dyd_result *r) {
+static dyd_status json_sites(const dyd_result *r) {
   dyd_rect rect;
   dyd_rect_init(&rect);
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   fputs("\"sites\": [", r->out);
-  for (size_t i = 0; i < r->count && status >= 0; i++) status = write_site(r, i, &rect);
+  for (size_t i = 0; i < r->count && st == DYD_OK; i++) st = json_site(r, i, &rect);
   fputs("\n],\n", r->out);
-  dyd_json_aliases(r->out, r->pd, r->count, ",\n");
+  dyd_json_aliases(r->out, r->pd, ",\n");
   dyd_rect_clear(&rect);
-  return status;
+  return st;
 }
 
-static void write_pairs(const dyd_result *r) {
-  fputs("\"pairs\": [", r->out);
-  for (size_t k = 0; k < r->pairs.count; k++) {
-    const dyd_pair *p = &r->pairs.item[k];
-    fprintf(r->out, "%s\n{\"i\": %u, \"j\": %u, \"status\": \"%s\"}", k ? "," : "", (unsigned)p->i, (unsigned)p->j,
+static void json_pairs(FILE *out, const char *name, const dyd_pair_list *pairs) {
+  fprintf(out, "\"%s\": [", name);
+  for (size_t k = 0; k < pairs->count; k++) {
+    const dyd_pair *p = &pairs->item[k];
+    fprintf(out, "%s\n{\"i\": %u, \"j\": %u, \"status\": \"%s\"}", k ? "," : "", (unsigned)p->i, (unsigned)p->j,
             dyd_pair_status_text(p->status));
   }
-  fputs("\n],\n", r->out);
+  fputs("\n]", out);
 }
 
-static dyd_status write_triangles(const dyd_result *r) {
+static dyd_status json_triangles(const dyd_result *r) {
   dyd_triangle_list list = {0};
-  dyd_status status = dyd_delaunay_triangles(&list, r->pd);
+  dyd_status st = dyd_delaunay_triangles(&list, r->pd);
   fputs("\"triangles\": [", r->out);
   for (size_t k = 0; k < list.count; k++) {
     const uint32_t *v = list.item[k].v;
@@ -78,54 +59,47 @@ static dyd_status write_triangles(const dyd_result *r) {
   }
   fputs("],\n", r->out);
   dyd_triangle_list_clear(&list);
-  return status;
+  return st;
 }
 
 /* The hull: possible pairs as hull edges; "capped" when they are too many to be listed. */
-static dyd_status write_hull(const dyd_result *r) {
+static dyd_status json_hull(const dyd_result *r) {
   dyd_hull hull = {0};
-  dyd_status status = dyd_delaunay_partial_hull(&hull, r->pd);
-  const dyd_index_list *list[2] = {&hull.sure_vertices, &hull.possible_vertices};
-  fprintf(r->out, "\"hull\": {\"capped\": %s", status == DYD_CAPPED ? "true" : "false");
-  for (int n = 0; n < 2; n++) {
-    fprintf(r->out, ",\n\"%s_vertices\": [", n ? "possible" : "sure");
-    for (size_t k = 0; k < list[n]->count; k++) fprintf(r->out, "%s%u", k ? ", " : "", (unsigned)list[n]->item[k]);
-    fputs("]", r->out);
-  }
-  fputs(",\n\"edges\": [", r->out);
-  for (size_t k = 0; k < hull.pairs.count; k++) {
-    const dyd_pair *p = &hull.pairs.item[k];
-    fprintf(r->out, "%s\n{\"i\": %u, \"j\": %u, \"status\": \"%s\"}", k ? "," : "", (unsigned)p->i, (unsigned)p->j,
-            dyd_pair_status_text(p->status));
-  }
-  fputs("\n]},\n", r->out);
+  dyd_status st = dyd_delaunay_partial_hull(&hull, r->pd);
+  bool capped = st == DYD_CAPPED;
+  if (capped) st = DYD_OK;
+  fprintf(r->out, "\"hull\": {\"capped\": %s,\n\"sure_vertices\": [", capped ? "true" : "false");
+  dyd_put_indices(r->out, &hull.sure_vertices, ", ");
+  fputs("],\n\"possible_vertices\": [", r->out);
+  dyd_put_indices(r->out, &hull.possible_vertices, ", ");
+  fputs("],\n", r->out);
+  json_pairs(r->out, "edges", &hull.pairs);
+  fputs("},\n", r->out);
   dyd_hull_clear(&hull);
-  return status;
+  return st;
 }
 
 /* No bounds exist for a capped result: its pairs are not all known. */
-static dyd_status write_bounds(const dyd_result *r) {
+static dyd_status json_bounds(const dyd_result *r) {
   dyd_dyadic area, hausdorff;
   dyd_dyadic_init(&area);
   dyd_dyadic_init(&hausdorff);
-  fputs("\"bounds\": ", r->out);
-  dyd_status status = dyd_engine_bounds(&area, &hausdorff, r->engine);
-  if (status == DYD_OK) {
-    fputs("{", r->out);
-    status = dyd_json_bound(r->out, "area", &area);
+  dyd_status st = dyd_engine_bounds(&area, &hausdorff, r->engine);
+  bool known = st == DYD_OK;
+  if (st != DYD_E_NOMEM) st = DYD_OK;
+  fputs(known ? "\"bounds\": {" : "\"bounds\": null,\n", r->out);
+  if (known) {
+    st = dyd_json_bound(r->out, "area", &area);
     fputs(", ", r->out);
-    if (status >= 0) status = dyd_json_bound(r->out, "hausdorff", &hausdorff);
+    if (st == DYD_OK) st = dyd_json_bound(r->out, "hausdorff", &hausdorff);
     fputs("},\n", r->out);
-  } else if (status != DYD_E_NOMEM) {
-    fputs("null,\n", r->out);
-    status = DYD_OK;
   }
   dyd_dyadic_clear(&area);
   dyd_dyadic_clear(&hausdorff);
-  return status;
+  return st;
 }
 
-static void write_counters(const dyd_result *r) {
+static void json_counters(const dyd_result *r) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
   dyd_engine_get_counters(&c, r->engine, NULL);
   const dyd_delaunay_counters *d = &c.delaunay;
@@ -139,17 +113,17 @@ static void write_counters(const dyd_result *r) {
           d->integer, d->exact, d->witness_guess, d->witness_search, d->cover_walks, (uint64_t)(c.seconds * 1000) + 1);
 }
 
-static void write_head(const dyd_result *r) {
+static void json_head(const dyd_result *r) {
   size_t count[4];
   int64_t bits;
   dyd_goal goal = dyd_engine_goal(&bits, r->engine);
   dyd_delaunay_count(count, r->pd);
+  dyd_json_head(r->out, "dyadel delaunay 1");
   fprintf(r->out,
-          "{\"format\": \"dyadel delaunay 1\",\n\"version\": \"%s\",\n"
           "\"rounding\": \"x, y and exact are exact; x_decimal and y_decimal are rounded outward: the first down, the "
           "second up; decimal is rounded up; null is beyond the largest double\",\n"
           "\"outcome\": \"%s\",\n\"goal\": \"%s\",\n",
-          dyd_version(), dyd_outcome_text(dyd_engine_outcome(r->engine)), dyd_goal_text(goal));
+          dyd_outcome_text(dyd_engine_outcome(r->engine)), dyd_goal_text(goal));
   if (goal != DYD_GOAL_DECIDED) fprintf(r->out, "\"goal_bits\": %" PRId64 ",\n", bits);
   fprintf(r->out,
           "\"capped\": %s,\n\"count\": {\"sites\": %zu, \"legal\": %zu, \"indeterminate\": %zu, \"tie\": %zu},\n",
@@ -158,33 +132,33 @@ static void write_head(const dyd_result *r) {
 }
 
 /* Only for a capped result: pairs within one of these faces may be possible without being listed. */
-static dyd_status write_faces(const dyd_result *r) {
+static dyd_status json_faces(const dyd_result *r) {
   if (!dyd_delaunay_is_capped(r->pd)) return DYD_OK;
-  dyd_index_list face = {0};
-  dyd_status status = DYD_OK;
   fputs("\"faces\": [", r->out);
-  for (size_t f = 0; f < dyd_delaunay_undecided_faces(r->pd) && status >= 0; f++) {
-    bool outer;
-    status = dyd_delaunay_face(&face, &outer, r->pd, f);
-    if (status < 0) break;
-    fputs(f ? ",\n[" : "\n[", r->out);
-    for (size_t k = 0; k < face.count; k++) fprintf(r->out, "%s%u", k ? ", " : "", (unsigned)face.item[k]);
-    fputs("]", r->out);
-  }
+  dyd_status st = dyd_result_faces(r, "\n[", ",\n[", ", ", "]");
   fputs("],\n", r->out);
-  dyd_index_list_clear(&face);
-  return status;
+  return st;
 }
 
-dyd_status dyd_write_json(const dyd_result *r, dyd_error *err) {
-  write_head(r);
-  dyd_status status = write_bounds(r);
-  if (status >= 0) status = write_sites(r);
-  if (status >= 0) write_pairs(r);
-  if (status >= 0) status = write_faces(r);
-  if (status >= 0) status = write_triangles(r);
-  if (status >= 0) status = write_hull(r);
-  if (status >= 0) write_counters(r);
+static dyd_status json_delaunay(const dyd_output *o) {
+  const dyd_result *r = o->what;
+  json_head(r);
+  dyd_status st = json_bounds(r);
+  if (st == DYD_OK) st = json_sites(r);
+  json_pairs(r->out, "pairs", &r->pairs);
+  fputs(",\n", r->out);
+  if (st == DYD_OK) st = json_faces(r);
+  if (st == DYD_OK) st = json_triangles(r);
+  if (st == DYD_OK) st = json_hull(r);
+  json_counters(r);
   fputs("}\n", r->out);
-  return status < 0 ? dyd_fail(err, status, "%s", dyd_status_text(status)) : DYD_OK;
+  return st;
 }
+
+dyd_writer *const dyd_json_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = json_delaunay,
+                                                    [DYD_CONTENT_VORONOI] = dyd_voronoi_json,
+                                                    [DYD_CONTENT_CONVERGENCE] = dyd_convergence_json,
+                                                    [DYD_CONTENT_CHECK] = dyd_check_json,
+                                                    [DYD_CONTENT_DISC] = dyd_disc_json,
+                                                    [DYD_CONTENT_BISECTOR] = dyd_bisector_json,
+                                                    [DYD_CONTENT_NEAREST] = dyd_nearest_json};

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Formats of the Voronoi diagram for geographic programs: wkt, geojson. Polygons and boxes, with how far at most a
  * coordinate is from the exact one. */
-#include "base/error.h"
 #include "io/diagram.h"
+#include "io/parts.h"
 #include <math.h>
 
 /* Rounding of a decimal made of a double, or of the double made of a dyadic, never exceeds this share of the
@@ -10,26 +10,26 @@
 #define ROUNDING 0x1p-51
 
 typedef struct layer {
-  dyd_diagram *d;
+  const dyd_diagram *d;
   bool geojson, any;
 } layer;
 
-static void put_number(FILE *out, double x) {
+static void layer_number(FILE *out, double x) {
   char text[DYD_DECIMAL_SIZE];
   double error;
   dyd_decimal_within(text, &error, x, x);
   fputs(text, out);
 }
 
-static void put_xy(const layer *l, double x, double y) {
+static void layer_xy(const layer *l, double x, double y) {
   if (l->geojson) fputs("[", l->d->out);
-  put_number(l->d->out, x);
+  layer_number(l->d->out, x);
   fputs(l->geojson ? ", " : " ", l->d->out);
-  put_number(l->d->out, y);
+  layer_number(l->d->out, y);
   if (l->geojson) fputs("]", l->d->out);
 }
 
-static void begin(layer *l, const char *kind, const char *geometry) {
+static void begin_feature(layer *l, const char *kind, const char *geometry) {
   if (l->geojson)
     fprintf(l->d->out, "%s\n{\"type\": \"Feature\", \"properties\": {\"kind\": \"%s\"", l->any ? "," : "", kind);
   else
@@ -37,61 +37,59 @@ static void begin(layer *l, const char *kind, const char *geometry) {
   l->any = true;
 }
 
-static void put_ring(const layer *l, const dyd_polygon *p) {
+static void layer_ring(const layer *l, const dyd_polygon *p) {
   FILE *out = l->d->out;
   fputs(l->geojson ? "[" : "(", out);
   for (size_t k = 0; k <= p->count; k++) {
     const dyd_point *z = &p->vertex[k % p->count];
     if (k) fputs(", ", out);
-    put_xy(l, dyd_dyadic_get_d(&z->x, DYD_DOWN), dyd_dyadic_get_d(&z->y, DYD_DOWN));
+    layer_xy(l, dyd_dyadic_get_d(&z->x, DYD_DOWN), dyd_dyadic_get_d(&z->y, DYD_DOWN));
   }
   fputs(l->geojson ? "]" : ")", out);
 }
 
-static void put_polygon(layer *l, const char *kind, uint32_t i, const dyd_polygon *p, const double area[2]) {
+static void layer_polygon(layer *l, const char *kind, uint32_t i, const dyd_polygon *p, const double area[2]) {
   FILE *out = l->d->out;
   if (p->count < 3) return;
-  begin(l, kind, "POLYGON");
+  begin_feature(l, kind, "POLYGON");
   if (l->geojson) {
-    fprintf(out, ", \"i\": %u, \"cell_area\": [", (unsigned)i);
-    dyd_decimal_json(out, area[0], DYD_DOWN);
-    fputs(", ", out);
-    dyd_decimal_json(out, area[1], DYD_UP);
-    fputs("]}, \"geometry\": {\"type\": \"Polygon\", \"coordinates\": [", out);
-    put_ring(l, p);
+    fprintf(out, ", \"i\": %u, \"cell_area\": ", (unsigned)i);
+    dyd_json_decimals(out, area[0], area[1]);
+    fputs("}, \"geometry\": {\"type\": \"Polygon\", \"coordinates\": [", out);
+    layer_ring(l, p);
     fputs("]}}", out);
   } else {
     fputs("(", out);
-    put_ring(l, p);
+    layer_ring(l, p);
     fprintf(out, ")\",%s,%u,,\n", kind, (unsigned)i);
   }
 }
 
-static dyd_status put_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
+static dyd_status layer_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
   layer *l = context;
   dyd_polygon inner = {0};
   dyd_polygon_list outer = {0};
-  dyd_status status = dyd_shape_inner(&inner, shape);
-  if (status >= 0) status = dyd_shape_outer(&outer, shape);
-  if (status >= 0) put_polygon(l, "surely nearest", i, &inner, row->area);
-  for (size_t k = 0; status >= 0 && k < outer.count; k++)
-    put_polygon(l, "possibly nearest", i, &outer.item[k], row->area);
+  dyd_status st = dyd_shape_inner(&inner, shape);
+  if (st == DYD_OK) st = dyd_shape_outer(&outer, shape);
+  if (st == DYD_OK) layer_polygon(l, "surely nearest", i, &inner, row->area);
+  for (size_t k = 0; st == DYD_OK && k < outer.count; k++)
+    layer_polygon(l, "possibly nearest", i, &outer.item[k], row->area);
   dyd_polygon_list_clear(&outer);
   dyd_polygon_clear(&inner);
-  return status;
+  return st;
 }
 
-static void put_box(layer *l, const char *kind, const double b[4], const uint32_t v[3]) {
+static void layer_box(layer *l, const char *kind, const double b[4], const uint32_t v[3]) {
   FILE *out = l->d->out;
   for (int k = 0; k < 4; k++)
     if (!isfinite(b[k])) return;
-  begin(l, kind, "POLYGON");
+  begin_feature(l, kind, "POLYGON");
   if (l->geojson && v) fprintf(out, ", \"sites\": [%u, %u, %u]", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
   if (l->geojson) fputs("}, \"geometry\": {\"type\": \"Polygon\", \"coordinates\": [[", out);
   if (!l->geojson) fputs("((", out);
   for (int k = 0; k < 5; k++) {
     if (k) fputs(", ", out);
-    put_xy(l, b[k == 1 || k == 2], b[2 + (k == 2 || k == 3)]);
+    layer_xy(l, b[k == 1 || k == 2], b[2 + (k == 2 || k == 3)]);
   }
   if (l->geojson)
     fputs("]]}}", out);
@@ -101,26 +99,24 @@ static void put_box(layer *l, const char *kind, const double b[4], const uint32_
     fprintf(out, "))\",%s,,,\n", kind);
 }
 
-static dyd_status put_region(void *context, size_t face, const double box[4]) {
+static dyd_status layer_region(void *context, size_t face, const double box[4]) {
   (void)face;
-  if (box) put_box(context, "undecided region", box, NULL);
+  if (box) layer_box(context, "undecided region", box, NULL);
   return DYD_OK;
 }
 
-static dyd_status put_all(layer *l, dyd_error *err) {
-  dyd_status status = dyd_diagram_visit(l->d, put_cell, l);
-  for (size_t k = 0; status >= 0 && k < l->d->triangles.count; k++)
-    put_box(l, "vertex", l->d->vertex[k], l->d->triangles.item[k].v);
-  if (status >= 0) status = dyd_diagram_regions(l->d, put_region, l);
-  return status < 0 ? dyd_fail(err, status, "%s", dyd_status_text(status)) : DYD_OK;
+static dyd_status layer_all(layer *l) {
+  dyd_status st = dyd_diagram_visit(l->d, layer_cell, l);
+  for (size_t k = 0; st == DYD_OK && k < l->d->triangles.count; k++)
+    layer_box(l, "vertex", l->d->vertex[k], l->d->triangles.item[k].v);
+  return st == DYD_OK ? dyd_diagram_regions(l->d, layer_region, l) : st;
 }
 
 /* An upper bound of the rounding of any coordinate in the window; vertices outside of it are boxes that say less. */
-static void put_rounding(const dyd_diagram *d) {
+static void layer_rounding(const dyd_diagram *d) {
   double w[4], most = 0;
   char text[DYD_DECIMAL_SIZE];
-  dyd_interval_get_d(&w[0], &w[1], &d->window.x);
-  dyd_interval_get_d(&w[2], &w[3], &d->window.y);
+  dyd_rect_get_d(w, &d->window);
   for (int k = 0; k < 4; k++) most = fmax(most, fabs(w[k]));
   for (size_t t = 0; t < d->triangles.count; t++)
     for (int k = 0; k < 4; k++)
@@ -129,20 +125,20 @@ static void put_rounding(const dyd_diagram *d) {
   fputs(text, d->out);
 }
 
-dyd_status dyd_write_voronoi_wkt(dyd_diagram *d, dyd_error *err) {
-  layer l = {.d = d};
-  fputs("WKT,kind,i,j,k\n", d->out);
-  return put_all(&l, err);
+dyd_status dyd_voronoi_wkt(const dyd_output *o) {
+  layer l = {.d = o->what};
+  fputs("WKT,kind,i,j,k\n", o->out);
+  return layer_all(&l);
 }
 
-dyd_status dyd_write_voronoi_geojson(dyd_diagram *d, dyd_error *err) {
-  layer l = {.d = d, .geojson = true};
+dyd_status dyd_voronoi_geojson(const dyd_output *o) {
+  layer l = {.d = o->what, .geojson = true};
   fputs("{\"type\": \"FeatureCollection\",\n\"rounding\": \"coordinates differ from the exact ones by at most "
         "max_coordinate_error; cell_area is rounded outward\",\n\"max_coordinate_error\": ",
-        d->out);
-  put_rounding(d);
-  fprintf(d->out, ",\n\"outcome\": \"%s\",\n\"features\": [", dyd_outcome_text(dyd_engine_outcome(d->engine)));
-  dyd_status status = put_all(&l, err);
-  fputs("\n]}\n", d->out);
-  return status;
+        o->out);
+  layer_rounding(l.d);
+  fprintf(o->out, ",\n\"outcome\": \"%s\",\n\"features\": [", dyd_outcome_text(dyd_engine_outcome(l.d->engine)));
+  dyd_status st = layer_all(&l);
+  fputs("\n]}\n", o->out);
+  return st;
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The vtk format of the Voronoi diagram: legacy polygon data, each polygon with its site and kind. */
 #include "base/alloc.h"
-#include "base/error.h"
 #include "io/diagram.h"
 
 /* Polygons gathered before the sections are written. */
@@ -13,7 +12,7 @@ typedef struct gathered {
 } gathered;
 
 /* Takes over *p. */
-static dyd_status add(gathered *g, dyd_polygon *p, uint32_t site, uint8_t kind) {
+static dyd_status gather_polygon(gathered *g, dyd_polygon *p, uint32_t site, uint8_t kind) {
   if (p->count < 3) return DYD_OK;
   if (!dyd_reserve((void **)&g->polygon, &g->polygon_cap, g->count + 1, sizeof *g->polygon) ||
       !dyd_reserve((void **)&g->site, &g->site_cap, g->count + 1, sizeof *g->site) ||
@@ -27,28 +26,28 @@ static dyd_status add(gathered *g, dyd_polygon *p, uint32_t site, uint8_t kind) 
   return DYD_OK;
 }
 
-static dyd_status gather(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
+static dyd_status gather_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
   (void)row;
   gathered *g = context;
   dyd_polygon inner = {0};
   dyd_polygon_list outer = {0};
-  dyd_status status = dyd_shape_inner(&inner, shape);
-  if (status >= 0) status = add(g, &inner, i, 0);
-  if (status >= 0) status = dyd_shape_outer(&outer, shape);
-  for (size_t k = 0; k < outer.count && status >= 0; k++) status = add(g, &outer.item[k], i, 1);
+  dyd_status st = dyd_shape_inner(&inner, shape);
+  if (st == DYD_OK) st = gather_polygon(g, &inner, i, 0);
+  if (st == DYD_OK) st = dyd_shape_outer(&outer, shape);
+  for (size_t k = 0; k < outer.count && st == DYD_OK; k++) st = gather_polygon(g, &outer.item[k], i, 1);
   dyd_polygon_list_clear(&outer);
   dyd_polygon_clear(&inner);
-  return status;
+  return st;
 }
 
-static void put(FILE *out, double x) {
+static void vtk_decimal(FILE *out, double x) {
   char text[DYD_DECIMAL_SIZE];
   double error;
   dyd_decimal_within(text, &error, x, x);
   fputs(text, out);
 }
 
-static void write_all(const dyd_diagram *d, const gathered *g) {
+static void vtk_polygons(const dyd_diagram *d, const gathered *g) {
   FILE *out = d->out;
   fprintf(out,
           "# vtk DataFile Version 3.0\n"
@@ -57,9 +56,9 @@ static void write_all(const dyd_diagram *d, const gathered *g) {
           dyd_outcome_text(dyd_engine_outcome(d->engine)), g->points);
   for (size_t k = 0; k < g->count; k++)
     for (size_t v = 0; v < g->polygon[k].count; v++) {
-      put(out, dyd_dyadic_get_d(&g->polygon[k].vertex[v].x, DYD_DOWN));
+      vtk_decimal(out, dyd_dyadic_get_d(&g->polygon[k].vertex[v].x, DYD_DOWN));
       fputs(" ", out);
-      put(out, dyd_dyadic_get_d(&g->polygon[k].vertex[v].y, DYD_DOWN));
+      vtk_decimal(out, dyd_dyadic_get_d(&g->polygon[k].vertex[v].y, DYD_DOWN));
       fputs(" 0\n", out);
     }
   fprintf(out, "POLYGONS %zu %zu\n", g->count, g->count + g->points);
@@ -74,13 +73,14 @@ static void write_all(const dyd_diagram *d, const gathered *g) {
   for (size_t k = 0; k < g->count; k++) fprintf(out, "%u\n", (unsigned)g->kind[k]);
 }
 
-dyd_status dyd_write_voronoi_vtk(dyd_diagram *d, dyd_error *err) {
+dyd_status dyd_voronoi_vtk(const dyd_output *o) {
+  const dyd_diagram *d = o->what;
   gathered g = {0};
-  dyd_status status = dyd_diagram_visit(d, gather, &g);
-  if (status >= 0) write_all(d, &g);
+  dyd_status st = dyd_diagram_visit(d, gather_cell, &g);
+  if (st == DYD_OK) vtk_polygons(d, &g);
   for (size_t k = 0; k < g.count; k++) dyd_polygon_clear(&g.polygon[k]);
   free(g.polygon);
   free(g.site);
   free(g.kind);
-  return status < 0 ? dyd_fail(err, status, "%s", dyd_status_text(status)) : DYD_OK;
+  return st;
 }

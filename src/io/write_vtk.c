@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The vtk format of the triangulation: legacy polygon data, edges with their status and sure triangles. */
 #include "io/result.h"
-#include <math.h>
 #include <stdlib.h>
 
-static void write_cells(const dyd_result *r, const dyd_triangle_list *triangles) {
+static void vtk_elements(const dyd_result *r, const dyd_triangle_list *triangles) {
   FILE *out = r->out;
   fprintf(out, "LINES %zu %zu\n", r->pairs.count, 3 * r->pairs.count);
   for (size_t k = 0; k < r->pairs.count; k++)
@@ -19,23 +18,27 @@ static void write_cells(const dyd_result *r, const dyd_triangle_list *triangles)
   for (size_t k = 0; k < triangles->count; k++) fprintf(out, "%d\n", (int)DYD_LEGAL);
 }
 
-dyd_status dyd_write_vtk(const dyd_result *r, dyd_error *err) {
+static dyd_status vtk_delaunay(const dyd_output *o) {
+  const dyd_result *r = o->what;
   dyd_place *place = NULL;
   dyd_triangle_list triangles = {0};
   double error;
   char bound[DYD_DECIMAL_SIZE];
-  dyd_status status = dyd_result_places(&place, &error, r, err);
-  if (status >= 0) status = dyd_delaunay_triangles(&triangles, r->pd);
-  if (status >= 0) {
+  dyd_status st = dyd_result_places(&place, &error, r, o->err);
+  if (st == DYD_OK) st = dyd_delaunay_triangles(&triangles, r->pd);
+  if (st == DYD_OK) {
     dyd_decimal_directed(bound, error, 2, DYD_UP);
     fprintf(r->out,
             "# vtk DataFile Version 3.0\ndyadel delaunay, outcome %s; status 1 tie, 2 indeterminate, 3 legal; "
             "coordinates within %s of their rectangles\nASCII\nDATASET POLYDATA\nPOINTS %zu double\n",
             dyd_outcome_text(dyd_engine_outcome(r->engine)), bound, r->count);
     for (size_t i = 0; i < r->count; i++) fprintf(r->out, "%s %s 0\n", place[i].x, place[i].y);
-    write_cells(r, &triangles);
+    vtk_elements(r, &triangles);
   }
   dyd_triangle_list_clear(&triangles);
   free(place);
-  return status;
+  return st;
 }
+
+dyd_writer *const dyd_vtk_writers[DYD_CONTENTS] = {
+    [DYD_CONTENT_DELAUNAY] = vtk_delaunay, [DYD_CONTENT_VORONOI] = dyd_voronoi_vtk};

@@ -1,20 +1,14 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Pages, views, legends and scales of pictures. */
+/* Pages, and what is drawn on them. */
 #include "picture/picture.h"
 
 #include "base/error.h"
-#include "io/decimal.h"
-#include "picture/plot.h"
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <errno.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#define SIDE 1000.0 /* of the drawing */
-#define EDGE 30.0   /* free space around it */
-#define FOOT 106.0  /* room of the legend */
 #define SCALE_OF_PNG 2
 
 /* ---- pages ---- */
@@ -25,118 +19,37 @@ typedef struct sink {
   int error;
 } sink;
 
-static cairo_status_t put(void *closure, const unsigned char *data, unsigned length) {
+static cairo_status_t sink_put(void *closure, const unsigned char *data, unsigned length) {
   sink *s = closure;
   if (fwrite(data, 1, length, s->out) == length) return CAIRO_STATUS_SUCCESS;
   if (!s->error) s->error = errno ? errno : EIO;
   return CAIRO_STATUS_WRITE_ERROR;
 }
 
-bool dyd_format_is_picture(dyd_format format) {
-  return format == DYD_FORMAT_SVG || format == DYD_FORMAT_PDF || format == DYD_FORMAT_PNG;
-}
-
 static cairo_surface_t *new_surface(sink *out, dyd_format kind, double width, double height) {
-  if (kind == DYD_FORMAT_SVG) return cairo_svg_surface_create_for_stream(put, out, width, height);
-  if (kind == DYD_FORMAT_PDF) return cairo_pdf_surface_create_for_stream(put, out, width, height);
+  if (kind == DYD_FORMAT_SVG) return cairo_svg_surface_create_for_stream(sink_put, out, width, height);
+  if (kind == DYD_FORMAT_PDF) return cairo_pdf_surface_create_for_stream(sink_put, out, width, height);
   return cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)ceil(width * SCALE_OF_PNG),
                                     (int)ceil(height * SCALE_OF_PNG));
 }
 
-dyd_status dyd_page_write(FILE *out, dyd_format kind, double width, double height, dyd_draw_fn draw, void *context,
-                          dyd_error *err) {
-  if (!dyd_format_is_picture(kind)) return dyd_fail(err, DYD_E_ARG, "a picture is svg, pdf or png");
-  sink s = {.out = out};
-  cairo_surface_t *surface = new_surface(&s, kind, width, height);
-  bool png = kind == DYD_FORMAT_PNG;
+dyd_status dyd_page_write(const dyd_output *o, double width, double height, dyd_draw_fn draw, void *context) {
+  sink s = {.out = o->out};
+  cairo_surface_t *surface = new_surface(&s, o->format, width, height);
+  bool png = o->format == DYD_FORMAT_PNG;
   cairo_t *cr = cairo_create(surface);
   if (png) cairo_scale(cr, SCALE_OF_PNG, SCALE_OF_PNG);
   draw(cr, context);
   cairo_status_t status = cairo_status(cr);
   cairo_destroy(cr);
-  if (png && status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png_stream(surface, put, &s);
+  if (png && status == CAIRO_STATUS_SUCCESS) status = cairo_surface_write_to_png_stream(surface, sink_put, &s);
   cairo_surface_finish(surface);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
   cairo_surface_destroy(surface);
-  if (status == CAIRO_STATUS_NO_MEMORY) return dyd_fail_nomem(err);
-  if (s.error) return dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(s.error));
-  if (status != CAIRO_STATUS_SUCCESS)
-    return dyd_fail(err, DYD_E_IO, "cannot write the picture: %s", cairo_status_to_string(status));
-  if (fflush(out) != 0 || ferror(out))
-    return dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno ? errno : EIO));
-  return DYD_OK;
-}
-
-/* ---- views ---- */
-
-dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_error *err) {
-  double w = box[1] - box[0], h = box[3] - box[2], size = fmax(w, h);
-  if (!isfinite(size) || (size > 0 && !isfinite(SIDE / size)))
-    return dyd_fail(err, DYD_E_RANGE, "the points are too far apart or too close for a picture; use csv or json");
-  v->scale = size > 0 ? SIDE / size : 1;
-  v->left = box[0], v->top = box[3];
-  v->width = fmax(w * v->scale, 640);
-  v->height = fmax(h * v->scale, 40);
-  if (w * v->scale < v->width) v->left -= (v->width / v->scale - w) / 2;
-  if (h * v->scale < v->height) v->top += (v->height / v->scale - h) / 2;
-  double apart = spacing > 0 ? spacing * v->scale : SIDE;
-  v->line = fmin(fmax(apart * 0.04, 0.2), 2.2);
-  v->dot = fmin(fmax(apart * 0.09, 0.3), 4);
-  return DYD_OK;
-}
-
-static int compare_doubles(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
-/* Of the line between the centres; -1 when its middle is not in the box. */
-static double pair_length(const dyd_delaunay *pd, const dyd_pair *pair, const double box[4]) {
-  double a[4], b[4], c[2][2];
-  dyd_sites_get_d(a, dyd_delaunay_sites(pd), pair->i);
-  dyd_sites_get_d(b, dyd_delaunay_sites(pd), pair->j);
-  for (int k = 0; k < 2; k++) {
-    c[0][k] = a[2 * k] / 2 + a[2 * k + 1] / 2;
-    c[1][k] = b[2 * k] / 2 + b[2 * k + 1] / 2;
-    double middle = c[0][k] / 2 + c[1][k] / 2;
-    if (box && !(box[2 * k] <= middle && middle <= box[2 * k + 1])) return -1;
-  }
-  return hypot(c[0][0] - c[1][0], c[0][1] - c[1][1]);
-}
-
-double dyd_view_spacing(const dyd_delaunay *pd, const double box[4]) {
-  enum { SAMPLES = 1000 };
-  double length[SAMPLES];
-  dyd_pair_list pairs = {0};
-  size_t n = 0, inside = 0, seen = 0;
-  if (dyd_delaunay_pairs(&pairs, pd) < 0) return 0;
-  for (size_t k = 0; box && k < pairs.count; k++) inside += pair_length(pd, &pairs.item[k], box) >= 0;
-  size_t step = (box ? inside : pairs.count) / SAMPLES + 1;
-  for (size_t k = 0; k < pairs.count; k++) {
-    double one = box || k % step == 0 ? pair_length(pd, &pairs.item[k], box) : -1;
-    if (one >= 0 && (!box || seen++ % step == 0)) length[n++] = one;
-  }
-  qsort(length, n, sizeof *length, compare_doubles);
-  dyd_pair_list_clear(&pairs);
-  return n && isfinite(length[n / 2]) ? length[n / 2] : 0;
-}
-
-double dyd_view_x(const dyd_view *v, double x) {
-  return (x - v->left) * v->scale + EDGE;
-}
-double dyd_view_y(const dyd_view *v, double y) {
-  return (v->top - y) * v->scale + EDGE;
-}
-
-void dyd_view_page(double *width, double *height, double *legend, const dyd_view *v) {
-  *width = v->width + 2 * EDGE;
-  *height = v->height + EDGE + FOOT;
-  *legend = v->height + 2 * EDGE + 4;
-}
-
-void dyd_view_frame_path(cairo_t *cr, const dyd_view *v) {
-  cairo_new_path(cr);
-  cairo_rectangle(cr, EDGE, EDGE, v->width, v->height);
+  if (status == CAIRO_STATUS_NO_MEMORY) return DYD_E_NOMEM;
+  if (s.error) return dyd_fail(o->err, DYD_E_IO, "cannot write: %s", strerror(s.error));
+  if (status == CAIRO_STATUS_SUCCESS) return DYD_OK;
+  return dyd_fail(o->err, DYD_E_IO, "cannot write the picture: %s", cairo_status_to_string(status));
 }
 
 /* ---- drawing ---- */
@@ -147,6 +60,15 @@ void dyd_picture_begin(cairo_t *cr) {
   cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+}
+
+/* align 0: from x on, 0.5: around x, 1: up to x. */
+void dyd_picture_text(cairo_t *cr, double x, double y, double align, double size, const char *text) {
+  cairo_text_extents_t e;
+  cairo_set_font_size(cr, size);
+  cairo_text_extents(cr, text, &e);
+  cairo_move_to(cr, x - align * e.x_advance, y);
+  cairo_show_text(cr, text);
 }
 
 void dyd_picture_colour(cairo_t *cr, unsigned rgb) {
@@ -160,26 +82,6 @@ void dyd_picture_pen(cairo_t *cr, unsigned rgb, double width, double on, double 
   cairo_set_dash(cr, dash, off > 0 ? 2 : 0, 0);
 }
 
-void dyd_picture_site(cairo_t *cr, const dyd_view *v, const double box[4], bool fixed_point, unsigned rgb) {
-  double x0 = dyd_view_x(v, box[0]), x1 = dyd_view_x(v, box[1]), y0 = dyd_view_y(v, box[3]), y1 = dyd_view_y(v, box[2]);
-  bool small = fixed_point || fmax(x1 - x0, y1 - y0) < 2 * v->dot;
-  if (!(x1 >= 0 && x0 <= v->width + 2 * EDGE && y1 >= 0 && y0 <= v->height + 2 * EDGE)) return;
-  x0 = fmax(x0, -EDGE), x1 = fmin(x1, v->width + 3 * EDGE), y0 = fmax(y0, -EDGE), y1 = fmin(y1, v->height + 3 * EDGE);
-  cairo_new_path(cr);
-  if (small) {
-    dyd_picture_colour(cr, 0x222222);
-    cairo_arc(cr, x0 / 2 + x1 / 2, y0 / 2 + y1 / 2, v->dot, 0, 2 * acos(-1.0));
-    cairo_fill(cr);
-    return;
-  }
-  double least = fmax(v->line, 1);
-  cairo_rectangle(cr, x0, y0, fmax(x1 - x0, least), fmax(y1 - y0, least));
-  cairo_set_source_rgba(cr, (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, 0.55);
-  cairo_fill_preserve(cr);
-  dyd_picture_pen(cr, (rgb >> 1 & 0x7f7f7f) + (rgb >> 4 & 0x0f0f0f), fmax(v->line * 0.7, 0.5), 0, 0);
-  cairo_stroke(cr);
-}
-
 void dyd_picture_dot(cairo_t *cr, double x, double y, double radius, unsigned fill, unsigned edge) {
   cairo_new_path(cr);
   cairo_arc(cr, x, y, radius, 0, 2 * acos(-1.0));
@@ -188,35 +90,6 @@ void dyd_picture_dot(cairo_t *cr, double x, double y, double radius, unsigned fi
   dyd_picture_pen(cr, edge, 1.2, 0, 0);
   cairo_stroke(cr);
   dyd_picture_colour(cr, 0);
-}
-
-void dyd_picture_marked(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb) {
-  double w = fmax((box[1] - box[0]) * v->scale, 7), h = fmax((box[3] - box[2]) * v->scale, 7);
-  double x = dyd_view_x(v, box[0] / 2 + box[1] / 2), y = dyd_view_y(v, box[2] / 2 + box[3] / 2);
-  cairo_new_path(cr);
-  cairo_rectangle(cr, x - w / 2, y - h / 2, w, h);
-  dyd_picture_colour(cr, rgb);
-  cairo_fill_preserve(cr);
-  dyd_picture_pen(cr, 0x222222, 1.5, 0, 0);
-  cairo_stroke(cr);
-}
-
-/* Beside the upper right corner, or where the view ends before it. */
-void dyd_picture_numbered(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb, size_t number) {
-  char text[24];
-  cairo_text_extents_t e;
-  dyd_picture_marked(cr, v, box, rgb);
-  snprintf(text, sizeof text, "%zu", number);
-  cairo_set_font_size(cr, 20);
-  cairo_text_extents(cr, text, &e);
-  double x = fmax(dyd_view_x(v, box[1]), dyd_view_x(v, box[0] / 2 + box[1] / 2) + 3.5) + 5,
-         y = fmin(dyd_view_y(v, box[3]), dyd_view_y(v, box[2] / 2 + box[3] / 2) - 3.5) - 4;
-  cairo_move_to(cr, fmin(x, EDGE + v->width - e.x_advance - 4), fmax(y, EDGE + 20));
-  cairo_text_path(cr, text);
-  dyd_picture_pen(cr, 0xffffff, 4, 0, 0);
-  cairo_stroke_preserve(cr);
-  dyd_picture_colour(cr, 0);
-  cairo_fill(cr);
 }
 
 void dyd_picture_entry(cairo_t *cr, double *x, double y, unsigned rgb, bool fill, double on, double off,
@@ -237,28 +110,6 @@ void dyd_picture_entry(cairo_t *cr, double *x, double y, unsigned rgb, bool fill
   dyd_picture_colour(cr, 0);
   cairo_set_font_size(cr, 14);
   cairo_text_extents(cr, text, &e);
-  dyd_plot_text(cr, *x + 36, y + 5, 0, 14, text);
+  dyd_picture_text(cr, *x + 36, y + 5, 0, 14, text);
   *x += 60 + e.x_advance;
-}
-
-void dyd_picture_scale(cairo_t *cr, const dyd_view *v, double y) {
-  double most = 0.2 * v->width / v->scale, length = pow(10, floor(log10(most)));
-  if (5 * length <= most)
-    length *= 5;
-  else if (2 * length <= most)
-    length *= 2;
-  if (!isfinite(length) || length <= 0) return;
-  double right = EDGE + v->width, left = right - length * v->scale, error;
-  char text[DYD_DECIMAL_SIZE];
-  dyd_decimal_within(text, &error, length, length);
-  cairo_new_path(cr);
-  cairo_move_to(cr, left, y - 4);
-  cairo_line_to(cr, left, y + 4);
-  cairo_move_to(cr, left, y);
-  cairo_line_to(cr, right, y);
-  cairo_move_to(cr, right, y - 4);
-  cairo_line_to(cr, right, y + 4);
-  dyd_picture_pen(cr, 0x222222, 1.5, 0, 0);
-  cairo_stroke(cr);
-  dyd_plot_text(cr, right, y + 20, 1, 14, text);
 }

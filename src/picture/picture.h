@@ -6,14 +6,21 @@
 #ifndef DYD_PICTURE_PICTURE_H
 #define DYD_PICTURE_PICTURE_H
 
+#include "io/output.h"
 #include <cairo.h>
-#include <dyadel/io.h>
 
 typedef void (*dyd_draw_fn)(cairo_t *cr, void *context);
-/* Writes a page of width x height points (two pixels a point in png). kind: svg, pdf, png, else DYD_E_ARG. */
-dyd_status dyd_page_write(FILE *out, dyd_format kind, double width, double height, dyd_draw_fn draw, void *context,
-                          dyd_error *err);
-bool dyd_format_is_picture(dyd_format format);
+/* Writes a page of width x height points (two pixels a point in png) in the format of o: svg, pdf or png. */
+dyd_status dyd_page_write(const dyd_output *o, double width, double height, dyd_draw_fn draw, void *context);
+
+/* The writers of pictures, which differ by what they show. */
+dyd_writer dyd_delaunay_picture, dyd_voronoi_picture, dyd_convergence_picture;
+dyd_writer dyd_disc_picture, dyd_bisector_picture, dyd_nearest_picture;
+
+/* ---- views ---- */
+
+/* Free space around the drawing, in points. */
+#define DYD_VIEW_EDGE 30.0
 
 /* Invariant: scale > 0; the drawing fits width x height. */
 typedef struct dyd_view {
@@ -29,17 +36,28 @@ dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_er
 double dyd_view_spacing(const dyd_delaunay *pd, const double box[4]);
 double dyd_view_x(const dyd_view *v, double x);
 double dyd_view_y(const dyd_view *v, double y);
-/* The page around the view: size, and the baseline of the legend. */
-void dyd_view_page(double *width, double *height, double *legend, const dyd_view *v);
-
+/* *box (xlo, xhi, ylo, yhi) grows to hold r; DYD_E_RANGE with a message unless doubles can hold it. */
+dyd_status dyd_view_grow(double box[4], const dyd_rect *r, dyd_error *err);
+/* *box grows by a margin on all sides, and to the shape of a page. */
+void dyd_view_pad(double box[4]);
+/* The baseline of the legend. */
+double dyd_view_legend(const dyd_view *v);
+/* A page around the view. */
+dyd_status dyd_view_write(const dyd_output *o, const dyd_view *v, dyd_draw_fn draw, void *context);
+/* Draws `inside`, cut to the frame of the view, the frame, and the legend below it. */
+void dyd_view_draw(cairo_t *cr, const dyd_view *v, dyd_draw_fn inside, dyd_draw_fn legend, void *context);
 void dyd_view_frame_path(cairo_t *cr, const dyd_view *v);
 
-/* More corners than any polygon has that is cut. */
+/* ---- clipping ---- */
+
+/* More vertices than any polygon has that is cut. */
 enum { DYD_CLIP_MOST = 24 };
 /* Cuts the segment z[0], z[1] to the box (x lower, x upper, y lower, y upper); false: nothing is left. */
 bool dyd_clip_segment(double z[2][2], const double box[4]);
-/* The same for a convex polygon of n <= DYD_CLIP_MOST - 4 corners; returns how many there are then. */
+/* The same for a convex polygon of n <= DYD_CLIP_MOST - 4 vertices; returns how many there are then. */
 int dyd_clip_convex(double z[DYD_CLIP_MOST][2], int n, const double box[4]);
+
+/* ---- drawing ---- */
 
 /* What is undetermined, in all pictures. */
 #define DYD_PICTURE_BAND 0xe69f00
@@ -48,6 +66,8 @@ int dyd_clip_convex(double z[DYD_CLIP_MOST][2], int n, const double box[4]);
 
 /* Paints the page white, sets font and line style. */
 void dyd_picture_begin(cairo_t *cr);
+/* align 0: from x on, 0.5: around x, 1: up to x. */
+void dyd_picture_text(cairo_t *cr, double x, double y, double align, double size, const char *text);
 void dyd_picture_colour(cairo_t *cr, unsigned rgb);
 /* Dash in line widths; off = 0: full. */
 void dyd_picture_pen(cairo_t *cr, unsigned rgb, double width, double on, double off);

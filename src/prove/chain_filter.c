@@ -4,7 +4,7 @@
  * Doubles follow the curve of the centres with ds_i = ds_j from one end to the other: from a blocker's interval to the
  * next one that overlaps it, with a point in each overlap. Rounding errors only make the search fail: what it finds is
  * shortened and kept if the exact checker takes it. */
-#include "prove/certificate.h"
+#include "prove/proof.h"
 #include <math.h>
 
 #define STEPS 16  /* bisections along the curve */
@@ -40,29 +40,29 @@ static void box_at(double out[4], const curve *c, uint32_t v) {
   for (int k = 0; k < 4; k++) out[k] = (out[k] - (k < 2 ? c->m.x : c->m.y)) / c->unit;
 }
 
-static double larger(double a, double b) {
+static double larger_double(double a, double b) {
   return a > b ? a : b;
 }
 
-static double clamp(double v, double lo, double hi) {
+static double clamp_to(double v, double lo, double hi) {
   return v < lo ? lo : v > hi ? hi : v;
 }
 
 static double near_to(const double e[4], xy c) {
-  double x = c.x - clamp(c.x, e[0], e[1]), y = c.y - clamp(c.y, e[2], e[3]);
+  double x = c.x - clamp_to(c.x, e[0], e[1]), y = c.y - clamp_to(c.y, e[2], e[3]);
   return x * x + y * y;
 }
 
 static double far_from(const double e[4], xy c) {
-  double x = larger(c.x - e[0], e[1] - c.x), y = larger(c.y - e[2], e[3] - c.y);
+  double x = larger_double(c.x - e[0], e[1] - c.x), y = larger_double(c.y - e[2], e[3] - c.y);
   return x * x + y * y;
 }
 
 /* max u.x over the box, or the minimum. */
-static double top_of(const double e[4], xy u) {
+static double box_top(const double e[4], xy u) {
   return (u.x > 0 ? e[1] : e[0]) * u.x + (u.y > 0 ? e[3] : e[2]) * u.y;
 }
-static double bottom_of(const double e[4], xy u) {
+static double box_bottom(const double e[4], xy u) {
   return (u.x > 0 ? e[0] : e[1]) * u.x + (u.y > 0 ? e[2] : e[3]) * u.y;
 }
 
@@ -79,8 +79,8 @@ static xy point_at(const curve *c, double t) {
   xy at = {0, 0};
   for (int k = 0; k < ACROSS; k++) {
     at = (xy){along * c->n.x + s * c->d.x, along * c->n.y + s * c->d.y};
-    double px = clamp(at.x, a[0], a[1]), py = clamp(at.y, a[2], a[3]);
-    double qx = clamp(at.x, b[0], b[1]), qy = clamp(at.y, b[2], b[3]);
+    double px = clamp_to(at.x, a[0], a[1]), py = clamp_to(at.y, a[2], a[3]);
+    double qx = clamp_to(at.x, b[0], b[1]), qy = clamp_to(at.y, b[2], b[3]);
     double own = (at.x - px) * (at.x - px) + (at.y - py) * (at.y - py);
     double excess = own - (at.x - qx) * (at.x - qx) - (at.y - qy) * (at.y - qy);
     if (fabs(excess) <= 0x1p-40 * own) break;
@@ -98,7 +98,7 @@ static xy end_direction(const curve *c, int side) {
   for (int k = 0; k < TURNS; k++) {
     double angle = (lo + hi) / 2, x = side * cos(angle), y = sin(angle);
     u = (xy){x * c->n.x + y * c->d.x, x * c->n.y + y * c->d.y};
-    if (top_of(c->box[1], u) > top_of(c->box[0], u))
+    if (box_top(c->box[1], u) > box_top(c->box[0], u))
       hi = angle;
     else
       lo = angle;
@@ -108,7 +108,7 @@ static xy end_direction(const curve *c, int side) {
 
 static spot end_spot(const curve *c, int side) {
   spot s = {.end = true, .at = end_direction(c, side)};
-  s.own = larger(top_of(c->box[0], s.at), top_of(c->box[1], s.at));
+  s.own = larger_double(box_top(c->box[0], s.at), box_top(c->box[1], s.at));
   return s;
 }
 
@@ -143,10 +143,10 @@ static spot spot_at(const curve *c, double t) {
 }
 
 static bool blocks_spot(const double e[4], const spot *s) {
-  return s->end ? bottom_of(e, s->at) > s->own : far_from(e, s->at) < s->own;
+  return s->end ? box_bottom(e, s->at) > s->own : far_from(e, s->at) < s->own;
 }
 
-static bool blocks(const curve *c, const double e[4], double t) {
+static bool blocks_curve(const curve *c, const double e[4], double t) {
   spot s = spot_at(c, t);
   return blocks_spot(e, &s);
 }
@@ -156,7 +156,7 @@ static double last_blocked(const curve *c, const double e[4], double in, double 
   for (int k = 0; k < STEPS; k++) {
     double t = (in + out) / 2;
     if (t == in || t == out) break;
-    if (blocks(c, e, t))
+    if (blocks_curve(c, e, t))
       in = t;
     else
       out = t;
@@ -167,10 +167,10 @@ static double last_blocked(const curve *c, const double e[4], double in, double 
 /* How far on from t the blocker k reaches; looked for at ever smaller steps. */
 static double reach_of(const curve *c, const double e[4], double t) {
   double in = t, step = (1 - t) / 2;
-  if (blocks(c, e, 1) && blocks(c, e, (t + 1) / 2)) return 1;
+  if (blocks_curve(c, e, 1) && blocks_curve(c, e, (t + 1) / 2)) return 1;
   for (int k = 0; k < 6; k++, step /= 2) {
     double out = in + step;
-    if (!blocks(c, e, out)) return last_blocked(c, e, in, out);
+    if (!blocks_curve(c, e, out)) return last_blocked(c, e, in, out);
     in = out;
   }
   return in;
@@ -184,10 +184,10 @@ typedef struct candidates {
 } candidates;
 
 static double margin_of(const double e[4], const spot *s) {
-  return s->end ? bottom_of(e, s->at) - s->own : s->own - far_from(e, s->at);
+  return s->end ? box_bottom(e, s->at) - s->own : s->own - far_from(e, s->at);
 }
 
-static void consider(candidates *c, uint32_t k, double margin) {
+static void candidate_consider(candidates *c, uint32_t k, double margin) {
   size_t at = c->count < CANDIDATES ? c->count++ : CANDIDATES;
   if (at == CANDIDATES) {
     if (margin <= c->margin[--at]) return;
@@ -209,7 +209,7 @@ static bool best_blocker(uint32_t *out, double *reach, const curve *c, double t,
   for (size_t q = 0; q < count; q++) {
     if (near[q] == i || near[q] == j) continue;
     box_at(e, c, near[q]);
-    if (blocks_spot(e, &here)) consider(&found, near[q], margin_of(e, &here));
+    if (blocks_spot(e, &here)) candidate_consider(&found, near[q], margin_of(e, &here));
   }
   *reach = -2;
   for (size_t q = 0; q < found.count; q++) {
@@ -224,7 +224,7 @@ static bool best_blocker(uint32_t *out, double *reach, const curve *c, double t,
 
 /* ---- the chain ---- */
 
-static bool set_double(dyd_exact *out, double v) {
+static bool exact_from_double(dyd_exact *out, double v) {
   if (!isfinite(v)) return false;
   int exp;
   double m = frexp(v, &exp);
@@ -234,14 +234,15 @@ static bool set_double(dyd_exact *out, double v) {
   return true;
 }
 
-static bool put_point(dyd_cert_chain *out, const curve *c, double t) {
+static bool chain_point(dyd_cert_chain *out, const curve *c, double t) {
   xy at = point_at(c, t);
-  if (dyd_cert_chain_resize(out, out->points + 1) < 0) return false;
+  if (dyd_cert_chain_resize(out, out->points + 1) != DYD_OK) return false;
   dyd_exact *to = out->point[out->points - 1];
-  return set_double(&to[0], at.x * c->unit + c->m.x) && set_double(&to[1], at.y * c->unit + c->m.y);
+  return exact_from_double(&to[0], at.x * c->unit + c->m.x) && exact_from_double(&to[1], at.y * c->unit + c->m.y);
 }
 
-static bool walk(dyd_cert_chain *out, const curve *c, uint32_t i, uint32_t j, const uint32_t *near, size_t count) {
+static bool chain_walk(dyd_cert_chain *out, const curve *c, uint32_t i, uint32_t j, const uint32_t *near,
+                       size_t count) {
   double t = -1, reach, e[4];
   uint32_t k, next;
   dyd_cert_chain_resize(out, 0);
@@ -251,8 +252,8 @@ static bool walk(dyd_cert_chain *out, const curve *c, uint32_t i, uint32_t j, co
     /* one that blocks the end of k too; it began earlier */
     if (!best_blocker(&next, &after, c, here, i, j, near, count) || after <= here) return false;
     box_at(e, c, next);
-    double begin = blocks(c, e, t) ? t : last_blocked(c, e, here, t);
-    if (!put_point(out, c, (begin + here) / 2)) return false;
+    double begin = blocks_curve(c, e, t) ? t : last_blocked(c, e, here, t);
+    if (!chain_point(out, c, (begin + here) / 2)) return false;
     out->blocker[out->points - 1] = k;
     t = here;
     k = next;
@@ -260,7 +261,7 @@ static bool walk(dyd_cert_chain *out, const curve *c, uint32_t i, uint32_t j, co
   }
   if (reach < 1) return false;
   if (out->points == 0) {
-    if (!put_point(out, c, 0)) return false;
+    if (!chain_point(out, c, 0)) return false;
     out->blocker[0] = k;
   }
   out->blocker[out->points] = k;
@@ -278,8 +279,8 @@ static void round_chain(dyd_cert_chain *to, const dyd_cert_chain *from, const cu
 
 static dyd_status keep_shortest(bool *found, dyd_cert_chain *out, const dyd_cert_chain *chain, const curve *c,
                                 uint32_t i, uint32_t j) {
-  dyd_status status = dyd_cert_chain_resize(out, chain->points);
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_chain_resize(out, chain->points);
+  if (st != DYD_OK) return st;
   for (size_t q = 0; q <= chain->points; q++) out->blocker[q] = chain->blocker[q];
   for (int bits = 2; bits <= 66 && !*found; bits += 4) {
     round_chain(out, chain, c, bits);
@@ -298,10 +299,10 @@ dyd_status dyd_proof_find_chain(bool *found, dyd_cert_chain *out, const dyd_proo
   bool good = true;
   for (int k = 0; k < 2; k++) {
     xy u = end_direction(&c, k ? 1 : -1);
-    good = good && set_double(&chain.u[k][0], u.x) && set_double(&chain.u[k][1], u.y);
+    good = good && exact_from_double(&chain.u[k][0], u.x) && exact_from_double(&chain.u[k][1], u.y);
   }
-  dyd_status status = DYD_OK;
-  if (good && walk(&chain, &c, i, j, near, count)) status = keep_shortest(found, out, &chain, &c, i, j);
+  dyd_status st = DYD_OK;
+  if (good && chain_walk(&chain, &c, i, j, near, count)) st = keep_shortest(found, out, &chain, &c, i, j);
   dyd_cert_chain_clear(&chain);
-  return status;
+  return st;
 }

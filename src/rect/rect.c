@@ -46,6 +46,11 @@ dyd_status dyd_rect_set_q(dyd_rect *out, const mpq_t x, const mpq_t y) {
   return st;
 }
 
+void dyd_rect_get_d(double out[4], const dyd_rect *r) {
+  dyd_interval_get_d(&out[0], &out[1], &r->x);
+  dyd_interval_get_d(&out[2], &out[3], &r->y);
+}
+
 bool dyd_rect_is_point(const dyd_rect *r) {
   return dyd_interval_is_point(&r->x) && dyd_interval_is_point(&r->y);
 }

@@ -245,3 +245,13 @@ dyd_status dyd_interval_set_text(dyd_interval *out, const char *text, size_t len
   dyd_real_free(x);
   return st;
 }
+
+dyd_status dyd_real_parse_exact(mpq_t out, const char *text, size_t length) {
+  dyd_interval a;
+  dyd_interval_init(&a);
+  dyd_status st = dyd_interval_set_text(&a, text, length, NULL);
+  if (st == DYD_OK && !dyd_interval_is_point(&a)) st = DYD_E_PARSE;
+  if (st == DYD_OK) dyd_interval_get_q(out, out, &a);
+  dyd_interval_clear(&a);
+  return st;
+}

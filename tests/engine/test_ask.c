@@ -22,7 +22,7 @@ typedef struct left {
 
 static void enter_from_within(dyd_engine *e);
 
-static dyd_status ask_left(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
+static dyd_status ask_left(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   left *q = user;
   double a[4], b[4];
   assert_false(*answered);
@@ -166,7 +166,7 @@ static void test_steps(void **state) {
   dyd_engine_free(e);
 }
 
-static dyd_status ask_twice(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
+static dyd_status ask_twice(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   int64_t *bits = user;
   (void)err;
   *answered = dyd_engine_knows(e, 0);

@@ -11,7 +11,7 @@ static dyd_engine_options options(void) {
 }
 
 /* Are all pairs decided? Asks for the ends of those that are not, as a user might. */
-static dyd_status ask_pairs(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
+static dyd_status ask_pairs(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   unsigned *asked = user;
   dyd_pair_list pairs = {0};
   (void)err;
@@ -67,7 +67,7 @@ static void test_triangulation(void **state) {
   dyd_engine_free(e);
 }
 
-static dyd_status ask_nothing(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
+static dyd_status ask_nothing(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   (void)answered, (void)plan, (void)e, (void)user, (void)err;
   return DYD_OK;
 }
@@ -99,7 +99,7 @@ typedef struct want {
   bool asked;
 } want;
 
-static dyd_status ask_once(bool *answered, dyd_plan *plan, const dyd_engine *e, void *user, dyd_error *err) {
+static dyd_status ask_once(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   want *q = user;
   dyd_status st = DYD_OK;
   (void)e, (void)err;

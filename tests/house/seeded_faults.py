@@ -49,7 +49,7 @@ FAULTS = [
     ('tests/engine/test_outcomes.c', 'section 10, case 3', 'mathematics: section 10, case 30', 'citations', 'no item 30'),
     ('src/metric/measure_filter.c', 'Popescu 2017', 'Popescu 2018', 'citations', 'Popescu 2018'),
     ('src/stream/root_step.c', 'Abbott 2006', 'Abbot 2006', 'citations', 'Abbot 2006'),
-    ('src/predicate/cell_filter.c', 'predicate/solve.c', 'predicate/solves.c', 'citations', 'predicate/solves.c'),
+    ('src/predicate/pane_filter.c', 'predicate/solve.c', 'predicate/solves.c', 'citations', 'predicate/solves.c'),
     ('include/dyadel/compose.h', '(stream.h)', '(streams.h)', 'citations', 'streams.h in this folder'),
     ('proofs/mathematics.md', '## 9. Output', '## 8. Output', 'citations', 'used twice'),
     ('proofs/mathematics.md', '(#10-cases', '(#11-cases', 'citations', 'no such heading'),
@@ -65,7 +65,7 @@ FAULTS = [
 ]
 # file, text, its replacement (all occurrences), what renew_quotes.py says
 CHANGES = [
-    ('src/predicate/cell_filter.c', 'det2', 'twice', 'names only (det2 -> twice)'),
+    ('src/predicate/pane_filter.c', 'det2', 'twice', 'names only (det2 -> twice)'),
     ('src/skeleton/mesh_fixed.c', 'product(', 'fixed_product(', 'fixed_product of src/skeleton/mesh_fixed.c: the place only'),
     ('src/skeleton/mesh_fixed.c', 'r.low < a.low', 'r.low <= a.low', 'prove anew: fixed_incircle_correct, sum_correct'),
     ('src/metric/measure_filter.c', 'return two_sum(a, -b);', 'return two_sum(b, -a);', 'compare dd_sub_d'),

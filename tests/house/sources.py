@@ -10,7 +10,7 @@ import sys
 
 # What a layer may include besides itself: everything below it. layers in one bracket are side by side.
 LAYERS = [['base'], ['dyadic'], ['rect', 'checker'], ['stream', 'predicate'], ['skeleton'], ['legal', 'possible'], ['delaunay'],
-          ['voronoi'], ['metric'], ['engine'], ['io'], ['prove', 'picture']]
+          ['voronoi'], ['metric'], ['engine'], ['io'], ['prove', 'picture'], ['format']]
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 # Public headers in the order of the layers; a header may include only those before it.
 PUBLIC = ['status', 'dyadic certificate', 'rect', 'stream sites', 'oracle', 'predicate delaunay', 'arc', 'voronoi', 'compose', 'metric', 'engine', 'converge check', 'io', 'dyadel']

@@ -310,10 +310,13 @@ static void test_kept(void **state) {
   dyd_convergence_clear(&table);
   dyd_check_report_clear(&report);
   assert_true(table.struct_size == 0 && report.struct_size == 0);
+  assert_int_equal(DYD_E_ARG, dyd_write_check(f->sink, &report, DYD_FORMAT_CSV, &err));
+  assert_non_null(strstr(err.message, "dyd_check_report s = {DYD_SIZED(dyd_check_report)}"));
   table.struct_size = sizeof table;
   assert_int_equal(DYD_E_ARG, dyd_write_convergence(f->sink, &table, DYD_FORMAT_CSV, true, &err));
   assert_non_null(strstr(err.message, "no run"));
-  assert_int_equal(DYD_E_ARG, dyd_plot_convergence(f->sink, &table, "svg", &err));
+  assert_int_equal(DYD_E_ARG, dyd_plot_convergence(f->sink, &table, DYD_FORMAT_SVG, &err));
+  assert_non_null(strstr(err.message, "no run"));
   dyd_engine_free(e);
 }
 

@@ -23,7 +23,7 @@ static double sum_towards(double a, double b, dyd_round dir) {
 
 /* ---- the quick way ---- */
 
-static bool box_from_plain(dyd_coordinate *out, dyd_plain v, const dyd_manner *manner) {
+static bool coordinate_box(dyd_coordinate *out, dyd_plain v, const dyd_manner *manner) {
   dyd_plain ends[2] = {v, v};
   if (manner->measured) {
     if (v.man > INT64_MAX / 20 || v.man < -(INT64_MAX / 20)) return false;
@@ -51,18 +51,18 @@ static bool looks_hex(const dyd_span *span) {
   return false;
 }
 
-static bool read_hex(dyd_coordinate *out, const dyd_span *span, const dyd_manner *manner) {
+static bool coordinate_hex(dyd_coordinate *out, const dyd_span *span, const dyd_manner *manner) {
   double value;
   if (manner->measured || manner->widen || !dyd_plain_scan_hex(&value, span->text, span->length)) return false;
   *out = (dyd_coordinate){.kind = DYD_COORDINATE_BINARY, .lo = value, .hi = value};
   return true;
 }
 
-static bool read_plain(dyd_coordinate *out, const dyd_span *span, const dyd_manner *manner) {
+static bool coordinate_plain(dyd_coordinate *out, const dyd_span *span, const dyd_manner *manner) {
   dyd_plain plain;
-  if (looks_hex(span)) return read_hex(out, span, manner);
+  if (looks_hex(span)) return coordinate_hex(out, span, manner);
   if (!dyd_plain_scan(&plain, span->text, span->length)) return false;
-  if (manner->measured || manner->widen) return box_from_plain(out, plain, manner);
+  if (manner->measured || manner->widen) return coordinate_box(out, plain, manner);
   double value;
   if (dyd_plain_get_exact(&value, plain))
     *out = (dyd_coordinate){.kind = DYD_COORDINATE_DOUBLE, .plain = plain, .lo = value, .hi = value};
@@ -79,27 +79,27 @@ static bool looks_decimal(const dyd_span *span) {
   return true;
 }
 
-static dyd_status parse(dyd_real **out, const dyd_span *span, const dyd_manner *manner, dyd_error *err) {
+static dyd_status coordinate_parse(dyd_real **out, const dyd_span *span, const dyd_manner *manner, dyd_error *err) {
   if (!manner->measured || !looks_decimal(span)) return dyd_real_parse(out, span->text, span->length, err);
   mpq_t lo, hi;
   mpq_inits(lo, hi, NULL);
-  dyd_status status = dyd_parse_measured(lo, hi, span->text, span->length, err);
-  if (status >= 0) status = dyd_real_from_interval(out, lo, hi);
+  dyd_status st = dyd_parse_measured(lo, hi, span->text, span->length, err);
+  if (st == DYD_OK) st = dyd_real_from_interval(out, lo, hi);
   mpq_clears(lo, hi, NULL);
-  return status;
+  return st;
 }
 
 /* Parsed, widened, and told where it stands; *out is changed on success only. */
-static dyd_status read_real(dyd_real **out, const dyd_span *span, const dyd_manner *manner, size_t line, size_t column,
-                            dyd_error *err) {
+static dyd_status coordinate_real(dyd_real **out, const dyd_span *span, const dyd_manner *manner, size_t line,
+                                  size_t column, dyd_error *err) {
   dyd_real *real = NULL, *wide = NULL;
-  dyd_status status = parse(&real, span, manner, err);
-  if (status >= 0 && manner->widen) {
+  dyd_status st = coordinate_parse(&real, span, manner, err);
+  if (st == DYD_OK && manner->widen) {
     dyd_real_place(real, line, column);
-    status = dyd_real_widen(&wide, real, manner->radius);
+    st = dyd_real_widen(&wide, real, manner->radius);
     real = wide;
   }
-  if (status < 0) return status;
+  if (st != DYD_OK) return st;
   dyd_real_place(real, line, column);
   *out = real;
   return DYD_OK;
@@ -114,18 +114,18 @@ dyd_status dyd_coordinate_fail(dyd_error *err, dyd_status code, const dyd_span *
 }
 
 dyd_status dyd_coordinate_read(dyd_coordinate *out, const dyd_span *span, const dyd_manner *manner, dyd_error *err) {
-  if (read_plain(out, span, manner)) return DYD_OK;
+  if (coordinate_plain(out, span, manner)) return DYD_OK;
   dyd_real *real = NULL;
   size_t line, column;
   dyd_error own;
   dyd_error_clear(&own);
   dyd_span_position(&line, &column, span, 0);
-  dyd_status status = read_real(&real, span, manner, line, column, &own);
-  if (status >= 0) {
+  dyd_status st = coordinate_real(&real, span, manner, line, column, &own);
+  if (st == DYD_OK) {
     *out = (dyd_coordinate){.kind = DYD_COORDINATE_REAL, .real = real};
     return DYD_OK;
   }
-  return dyd_coordinate_fail(err, status, span, &own);
+  return dyd_coordinate_fail(err, st, span, &own);
 }
 
 void dyd_coordinate_clear(dyd_coordinate *c) {
@@ -138,17 +138,17 @@ dyd_status dyd_coordinate_make_real(dyd_coordinate *c) {
   dyd_real *real = NULL;
   mpq_t lo, hi;
   mpq_inits(lo, hi, NULL);
-  dyd_status status;
+  dyd_status st;
   if (c->kind == DYD_COORDINATE_PLAIN) {
     dyd_plain_get_q(lo, c->plain);
-    status = dyd_real_from_q(&real, lo);
+    st = dyd_real_from_q(&real, lo);
   } else {
     mpq_set_d(lo, c->lo);
     mpq_set_d(hi, c->hi);
-    status = dyd_real_from_interval(&real, lo, hi);
+    st = dyd_real_from_interval(&real, lo, hi);
   }
   mpq_clears(lo, hi, NULL);
-  if (status < 0) return status;
+  if (st != DYD_OK) return st;
   *c = (dyd_coordinate){.kind = DYD_COORDINATE_REAL, .real = real};
   return DYD_OK;
 }

@@ -24,7 +24,7 @@ static bool odd_quotes(const char *text, size_t length) {
   return odd;
 }
 
-static dyd_status append(dyd_csv *csv, size_t *length, const dyd_line *line, dyd_error *err) {
+static dyd_status record_append(dyd_csv *csv, size_t *length, const dyd_line *line, dyd_error *err) {
   if (*length + line->length > DYD_TEXT_LINE_MAX) {
     dyd_span span = {line->text, 0, line->text, line->text, line->number};
     return dyd_span_fail(err, &span, 0, "a quoted field goes on for more than 1048576 bytes; close its quote");
@@ -37,37 +37,37 @@ static dyd_status append(dyd_csv *csv, size_t *length, const dyd_line *line, dyd
 }
 
 /* Appends lines until the quotes pair up. */
-static dyd_status join_lines(dyd_line *out, dyd_csv *csv, dyd_error *err) {
+static dyd_status record_join_lines(dyd_line *out, dyd_csv *csv, dyd_error *err) {
   size_t length = 0, first = out->number;
-  dyd_status status = append(csv, &length, out, err);
-  for (bool odd = true; odd && status >= 0;) {
-    status = dyd_text_next(out, csv->text, err);
-    if (status < 0) break;
+  dyd_status st = record_append(csv, &length, out, err);
+  for (bool odd = true; odd && st == DYD_OK;) {
+    st = dyd_text_next(out, csv->text, err);
+    if (st != DYD_OK) break;
     if (!out->text) {
       dyd_span span = {csv->record, 0, csv->record, csv->record, first};
       return dyd_span_fail(err, &span, (size_t)((char *)memchr(csv->record, '"', length) - csv->record),
                            "the quotes of this record do not pair up; close the quoted field");
     }
     odd = !odd_quotes(out->text, out->length);
-    status = append(csv, &length, out, err);
+    st = record_append(csv, &length, out, err);
   }
   *out = (dyd_line){csv->record, length, first};
-  return status;
+  return st;
 }
 
 /* The next record that is not an empty line; text = NULL at the end. */
-static dyd_status next_record(dyd_line *out, dyd_csv *csv, dyd_error *err) {
-  dyd_status status;
-  do status = dyd_text_next(out, csv->text, err);
-  while (status >= 0 && out->text && out->length == 0);
-  if (status < 0 || !out->text || !odd_quotes(out->text, out->length)) return status;
-  return join_lines(out, csv, err);
+static dyd_status record_next(dyd_line *out, dyd_csv *csv, dyd_error *err) {
+  dyd_status st;
+  do st = dyd_text_next(out, csv->text, err);
+  while (st == DYD_OK && out->text && out->length == 0);
+  if (st != DYD_OK || !out->text || !odd_quotes(out->text, out->length)) return st;
+  return record_join_lines(out, csv, err);
 }
 
 /* ---- fields ---- */
 
 /* Unquotes the field whose opening quote is at *at; *at is moved behind the closing one. */
-static dyd_status take_quoted(dyd_span *field, const char **at, const char *end, dyd_csv *csv, dyd_error *err) {
+static dyd_status record_quoted_field(dyd_span *field, const char **at, const char *end, dyd_csv *csv, dyd_error *err) {
   const char *p = *at + 1;
   field->at = p;
   field->text = csv->plain + csv->used;
@@ -84,9 +84,9 @@ static dyd_status take_quoted(dyd_span *field, const char **at, const char *end,
                        "text behind a closing quote; double the quotes inside a quoted field");
 }
 
-static dyd_status take_field(dyd_span *field, const char **at, const char *end, dyd_csv *csv, dyd_error *err) {
+static dyd_status record_field(dyd_span *field, const char **at, const char *end, dyd_csv *csv, dyd_error *err) {
   field->text = field->at = *at;
-  if (*at < end && **at == '"') return take_quoted(field, at, end, csv, err);
+  if (*at < end && **at == '"') return record_quoted_field(field, at, end, csv, err);
   const char *stop = memchr(*at, ',', (size_t)(end - *at));
   if (!stop) stop = end;
   field->length = (size_t)(stop - *at);
@@ -98,7 +98,7 @@ static dyd_status take_field(dyd_span *field, const char **at, const char *end, 
 }
 
 /* Splits a record into csv->field. */
-static dyd_status split(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
+static dyd_status record_split(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
   const char *at = line->text, *end = line->text + line->length;
   csv->used = csv->fields = 0;
   if (!dyd_reserve((void **)&csv->plain, &csv->plain_cap, line->length, 1)) return dyd_fail_nomem(err);
@@ -107,13 +107,13 @@ static dyd_status split(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
       return dyd_fail_nomem(err);
     dyd_span *field = &csv->field[csv->fields++];
     *field = (dyd_span){.origin = line->text, .line = line->number};
-    dyd_status status = take_field(field, &at, end, csv, err);
-    if (status < 0 || at == end) return status;
+    dyd_status st = record_field(field, &at, end, csv, err);
+    if (st != DYD_OK || at == end) return st;
     at++;
   }
 }
 
-static void trim(dyd_span *s) {
+static void span_trim(dyd_span *s) {
   while (s->length && (*s->text == ' ' || *s->text == '\t')) s->text++, s->at++, s->length--;
   while (s->length && (s->text[s->length - 1] == ' ' || s->text[s->length - 1] == '\t')) s->length--;
 }
@@ -134,10 +134,10 @@ static char *copy_span(const dyd_span *s) {
 
 static dyd_status read_names(dyd_csv *csv, const char *columns, dyd_error *err) {
   dyd_line line = {columns, strlen(columns), 0};
-  if (odd_quotes(columns, line.length) || split(csv, &line, NULL) < 0 || csv->fields != 2)
+  if (odd_quotes(columns, line.length) || record_split(csv, &line, NULL) < 0 || csv->fields != 2)
     return dyd_fail(err, DYD_E_ARG, "\"%.100s\" is not two column names; give NAME,NAME", columns);
   for (int k = 0; k < 2; k++) {
-    trim(&csv->field[k]);
+    span_trim(&csv->field[k]);
     if (!(csv->name[k] = copy_span(&csv->field[k]))) return dyd_fail_nomem(err);
   }
   return DYD_OK;
@@ -179,27 +179,27 @@ static dyd_status find_column(dyd_csv *csv, int which, dyd_error *err) {
 dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const char *columns, dyd_error *err) {
   *csv = (dyd_csv){.text = text};
   dyd_line line;
-  dyd_status status = read_names(csv, columns, err);
-  if (status >= 0) status = next_record(&line, csv, err);
-  if (status < 0) return status;
+  dyd_status st = read_names(csv, columns, err);
+  if (st == DYD_OK) st = record_next(&line, csv, err);
+  if (st != DYD_OK) return st;
   if (!line.text) {
     if (err) err->line = err->column = 1;
     return dyd_fail(err, DYD_E_PARSE, "the file has no header; its first line must name the columns");
   }
-  status = split(csv, &line, err);
-  for (size_t k = 0; k < csv->fields && status >= 0; k++) trim(&csv->field[k]);
-  for (int k = 0; k < 2 && status >= 0; k++) status = find_column(csv, k, err);
+  st = record_split(csv, &line, err);
+  for (size_t k = 0; k < csv->fields && st == DYD_OK; k++) span_trim(&csv->field[k]);
+  for (int k = 0; k < 2 && st == DYD_OK; k++) st = find_column(csv, k, err);
   csv->columns = csv->fields;
-  return status;
+  return st;
 }
 
 dyd_status dyd_csv_next(dyd_span coordinate[2], size_t *count, dyd_csv *csv, dyd_error *err) {
   dyd_line line;
   *count = 0;
-  dyd_status status = next_record(&line, csv, err);
-  if (status < 0 || !line.text) return status;
-  status = split(csv, &line, err);
-  if (status < 0) return status;
+  dyd_status st = record_next(&line, csv, err);
+  if (st != DYD_OK || !line.text) return st;
+  st = record_split(csv, &line, err);
+  if (st != DYD_OK) return st;
   if (csv->fields != csv->columns) {
     if (err) dyd_span_position(&err->line, &err->column, &csv->field[0], 0);
     return dyd_fail(err, DYD_E_PARSE, "this record has %zu fields, the header %zu; quote fields that hold commas",
@@ -207,7 +207,7 @@ dyd_status dyd_csv_next(dyd_span coordinate[2], size_t *count, dyd_csv *csv, dyd
   }
   for (int k = 0; k < 2; k++) {
     coordinate[k] = csv->field[csv->column[k]];
-    trim(&coordinate[k]);
+    span_trim(&coordinate[k]);
     if (!coordinate[k].length)
       return dyd_span_fail(err, &coordinate[k], 0, "the coordinate is empty; remove the record or fill it in");
   }

@@ -15,14 +15,14 @@ typedef struct cursor {
   const char *at, *end;
 } cursor;
 
-static bool take(cursor *c, char wanted) {
+static bool plain_take(cursor *c, char wanted) {
   if (c->at == c->end || *c->at != wanted) return false;
   c->at++;
   return true;
 }
 
 /* Digits appended to *man; the number of digits read, or -1 when there are more than 18 but for zeros in front. */
-static int take_digits(int64_t *man, cursor *c) {
+static int plain_digits(int64_t *man, cursor *c) {
   const char *begin = c->at;
   int64_t m = *man;
   for (; c->at < c->end && *c->at >= '0' && *c->at <= '9'; c->at++) {
@@ -34,12 +34,12 @@ static int take_digits(int64_t *man, cursor *c) {
 }
 
 /* e or E, sign, one to four digits. */
-static bool take_exponent(int *exp, cursor *c) {
-  if (!take(c, 'e') && !take(c, 'E')) return true;
-  bool negative = take(c, '-');
-  if (!negative) take(c, '+');
+static bool plain_exponent(int *exp, cursor *c) {
+  if (!plain_take(c, 'e') && !plain_take(c, 'E')) return true;
+  bool negative = plain_take(c, '-');
+  if (!negative) plain_take(c, '+');
   int64_t value = 0;
-  if (take_digits(&value, c) < 1 || value > 9999) return false;
+  if (plain_digits(&value, c) < 1 || value > 9999) return false;
   *exp += (int)(negative ? -value : value);
   return true;
 }
@@ -47,16 +47,16 @@ static bool take_exponent(int *exp, cursor *c) {
 bool dyd_plain_scan(dyd_plain *out, const char *text, size_t length) {
   cursor c = {text, text + length};
   dyd_plain p = {0, 0};
-  bool negative = take(&c, '-');
-  if (!negative) take(&c, '+');
-  int whole = take_digits(&p.man, &c), fraction = 0;
+  bool negative = plain_take(&c, '-');
+  if (!negative) plain_take(&c, '+');
+  int whole = plain_digits(&p.man, &c), fraction = 0;
   if (whole < 0) return false;
-  if (take(&c, '.')) {
-    fraction = take_digits(&p.man, &c);
+  if (plain_take(&c, '.')) {
+    fraction = plain_digits(&p.man, &c);
     if (fraction < 0) return false;
     p.exp = -fraction;
   }
-  if (whole + fraction == 0 || !take_exponent(&p.exp, &c) || c.at != c.end) return false;
+  if (whole + fraction == 0 || !plain_exponent(&p.exp, &c) || c.at != c.end) return false;
   if (p.exp < -60 || p.exp > 60) return false;
   if (negative) p.man = -p.man;
   *out = p;
@@ -122,7 +122,7 @@ static const unsigned char hex_digit[256] = {
     ['A'] = 11, ['B'] = 12, ['C'] = 13, ['D'] = 14, ['E'] = 15, ['F'] = 16};
 
 /* Digits appended to *man; how many, or -1 when there are more than 15 but for zeros in front. */
-static int take_hex(uint64_t *man, cursor *c) {
+static int plain_hex_digits(uint64_t *man, cursor *c) {
   const char *begin = c->at;
   uint64_t m = *man;
   for (unsigned digit; c->at < c->end && (digit = hex_digit[(unsigned char)*c->at]); c->at++) {
@@ -134,12 +134,12 @@ static int take_hex(uint64_t *man, cursor *c) {
 }
 
 /* p or P, sign, digits; nothing is right, too. */
-static bool take_two(int *exp, cursor *c) {
-  if (!take(c, 'p') && !take(c, 'P')) return true;
-  bool negative = take(c, '-');
-  if (!negative) take(c, '+');
+static bool plain_binary_exponent(int *exp, cursor *c) {
+  if (!plain_take(c, 'p') && !plain_take(c, 'P')) return true;
+  bool negative = plain_take(c, '-');
+  if (!negative) plain_take(c, '+');
   int64_t value = 0;
-  if (take_digits(&value, c) < 1 || value > 9999) return false;
+  if (plain_digits(&value, c) < 1 || value > 9999) return false;
   *exp += (int)(negative ? -value : value);
   return true;
 }
@@ -147,11 +147,13 @@ static bool take_two(int *exp, cursor *c) {
 bool dyd_plain_scan_hex(double *out, const char *text, size_t length) {
   cursor c = {text, text + length};
   uint64_t man = 0;
-  bool negative = take(&c, '-');
-  if (!negative) take(&c, '+');
-  if (!take(&c, '0') || (!take(&c, 'x') && !take(&c, 'X'))) return false;
-  int whole = take_hex(&man, &c), fraction = take(&c, '.') ? take_hex(&man, &c) : 0, exp = -4 * fraction;
-  if (whole < 0 || fraction < 0 || whole + fraction == 0 || !take_two(&exp, &c) || c.at != c.end) return false;
+  bool negative = plain_take(&c, '-');
+  if (!negative) plain_take(&c, '+');
+  if (!plain_take(&c, '0') || (!plain_take(&c, 'x') && !plain_take(&c, 'X'))) return false;
+  int whole = plain_hex_digits(&man, &c), fraction = plain_take(&c, '.') ? plain_hex_digits(&man, &c) : 0,
+      exp = -4 * fraction;
+  if (whole < 0 || fraction < 0 || whole + fraction == 0 || !plain_binary_exponent(&exp, &c) || c.at != c.end)
+    return false;
   if (man == 0) exp = 0;
   int twos = man ? __builtin_ctzll(man) : 0;
   man >>= twos;

@@ -10,19 +10,19 @@ typedef struct cursor {
   const dyd_line *line;
 } cursor;
 
-static dyd_status fail(dyd_error *err, const cursor *c, const char *message) {
+static dyd_status points_fail(dyd_error *err, const cursor *c, const char *message) {
   dyd_span span = {c->at, 0, c->at, c->line->text, c->line->number};
   return dyd_span_fail(err, &span, 0, message);
 }
 
-static bool is_blank(char c) {
+static bool is_points_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
 /* Skips blanks; how many commas stood among them (0, 1, or 2 for "too many"). */
-static int skip_separator(cursor *c, int allowed) {
+static int points_separator(cursor *c, int allowed) {
   int commas = 0;
-  for (; c->at < c->end && (is_blank(*c->at) || *c->at == ','); c->at++)
+  for (; c->at < c->end && (is_points_blank(*c->at) || *c->at == ','); c->at++)
     if (*c->at == ',' && ++commas > allowed) return commas;
   return commas;
 }
@@ -32,14 +32,14 @@ static const bool special[256] = {
     [' '] = true, ['\t'] = true, [','] = true, ['('] = true, [')'] = true, ['['] = true, [']'] = true};
 
 /* From c->at up to a separator outside all parentheses. */
-static dyd_span take_coordinate(cursor *c) {
+static dyd_span points_coordinate(cursor *c) {
   const char *begin = c->at;
   int depth = 0;
   for (; c->at < c->end; c->at++) {
     if (!special[(unsigned char)*c->at]) continue;
     if (*c->at == '(' || *c->at == '[') depth++;
     if ((*c->at == ')' || *c->at == ']') && depth > 0) depth--;
-    if (depth == 0 && (is_blank(*c->at) || *c->at == ',')) break;
+    if (depth == 0 && (is_points_blank(*c->at) || *c->at == ',')) break;
   }
   return (dyd_span){begin, (size_t)(c->at - begin), begin, c->line->text, c->line->number};
 }
@@ -48,18 +48,20 @@ dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_lin
   const char *comment = memchr(line->text, '#', line->length);
   cursor c = {line->text, comment ? comment : line->text + line->length, line};
   *count = 0;
-  if (skip_separator(&c, 0)) return fail(err, &c, "a coordinate is missing before this comma; give two coordinates");
+  if (points_separator(&c, 0))
+    return points_fail(err, &c, "a coordinate is missing before this comma; give two coordinates");
   if (c.at == c.end) return DYD_OK;
-  coordinate[0] = take_coordinate(&c);
-  if (skip_separator(&c, 1) > 1) return fail(err, &c, "two commas in a row; separate the coordinates by one comma");
+  coordinate[0] = points_coordinate(&c);
+  if (points_separator(&c, 1) > 1)
+    return points_fail(err, &c, "two commas in a row; separate the coordinates by one comma");
   if (c.at == c.end)
-    return fail(err, &c, "the line has one coordinate only; give two, separated by a blank or a comma");
-  coordinate[1] = take_coordinate(&c);
-  int commas = skip_separator(&c, 0);
+    return points_fail(err, &c, "the line has one coordinate only; give two, separated by a blank or a comma");
+  coordinate[1] = points_coordinate(&c);
+  int commas = points_separator(&c, 0);
   if (commas || c.at < c.end)
-    return fail(err, &c,
-                "more than two coordinates on this line; give two, and write expressions without blanks "
-                "outside parentheses");
+    return points_fail(err, &c,
+                       "more than two coordinates on this line; give two, and write expressions without blanks "
+                       "outside parentheses");
   *count = 2;
   return DYD_OK;
 }

@@ -8,21 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-/* The exact value of a number or of an expression that is a rational number. */
-static dyd_status parse_exact(mpq_t out, const char *text) {
-  dyd_interval a;
-  dyd_interval_init(&a);
-  dyd_status st = dyd_interval_set_text(&a, text, strlen(text), NULL);
-  if (st == DYD_OK && !dyd_interval_is_point(&a)) st = DYD_E_PARSE;
-  if (st == DYD_OK) dyd_interval_get_q(out, out, &a);
-  dyd_interval_clear(&a);
-  return st;
-}
-
-static dyd_status read_radius(dyd_manner *m, const char *text, dyd_error *err) {
-  dyd_status status = parse_exact(m->radius, text);
-  if (status == DYD_E_NOMEM) return dyd_fail_nomem(err);
-  if (status < 0 || mpq_sgn(m->radius) < 0)
+static dyd_status manner_radius(dyd_manner *m, const char *text, dyd_error *err) {
+  dyd_status st = dyd_real_parse_exact(m->radius, text, strlen(text));
+  if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (st != DYD_OK || mpq_sgn(m->radius) < 0)
     return dyd_fail(err, DYD_E_ARG, "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64",
                     text);
   m->widen = mpq_sgn(m->radius) > 0;
@@ -39,11 +28,11 @@ static dyd_status read_radius(dyd_manner *m, const char *text, dyd_error *err) {
 /* Reads the two coordinates of a point and stages it. */
 static dyd_status stage_point(dyd_stage *stage, const dyd_span span[2], const dyd_manner *manner, dyd_error *err) {
   dyd_coordinate x = {.kind = DYD_COORDINATE_DOUBLE}, y = x;
-  dyd_status status = dyd_coordinate_read(&x, &span[0], manner, err);
-  if (status >= 0) status = dyd_coordinate_read(&y, &span[1], manner, err);
-  if (status >= 0) return dyd_stage_add(stage, &x, &y, err);
+  dyd_status st = dyd_coordinate_read(&x, &span[0], manner, err);
+  if (st == DYD_OK) st = dyd_coordinate_read(&y, &span[1], manner, err);
+  if (st == DYD_OK) return dyd_stage_add(stage, &x, &y, err);
   dyd_coordinate_clear(&x);
-  return status;
+  return st;
 }
 
 /* Is every field of the line a word or quoted, as in the header of a CSV file? */
@@ -62,12 +51,12 @@ static bool is_header(const dyd_line *line) {
 }
 
 /* A first line that is not understood may be a header. */
-static dyd_status hint(dyd_status status, const dyd_line *line, const dyd_stage *stage, dyd_error *err) {
+static dyd_status hint_header(dyd_status st, const dyd_line *line, const dyd_stage *stage, dyd_error *err) {
   size_t length = strlen(err->message);
-  if (status == DYD_E_PARSE && !stage->count && is_header(line))
+  if (st == DYD_E_PARSE && !stage->count && is_header(line))
     snprintf(err->message + length, sizeof err->message - length,
              "; if this is CSV with a header, name two of its columns: --columns X,Y");
-  return status;
+  return st;
 }
 
 static dyd_status read_points_file(dyd_stage *stage, dyd_text *text, const dyd_manner *manner, dyd_error *err) {
@@ -75,11 +64,11 @@ static dyd_status read_points_file(dyd_stage *stage, dyd_text *text, const dyd_m
     dyd_line line;
     dyd_span span[2];
     size_t count;
-    dyd_status status = dyd_text_next(&line, text, err);
-    if (status < 0 || !line.text) return status;
-    status = dyd_points_split(span, &count, &line, err);
-    if (status >= 0 && count) status = stage_point(stage, span, manner, err);
-    if (status < 0) return hint(status, &line, stage, err);
+    dyd_status st = dyd_text_next(&line, text, err);
+    if (st != DYD_OK || !line.text) return st;
+    st = dyd_points_split(span, &count, &line, err);
+    if (st == DYD_OK && count) st = stage_point(stage, span, manner, err);
+    if (st != DYD_OK) return hint_header(st, &line, stage, err);
   }
 }
 
@@ -88,13 +77,13 @@ static dyd_status read_csv_file(dyd_stage *stage, dyd_text *text, const dyd_mann
   dyd_csv csv;
   dyd_span span[2];
   size_t count = 1;
-  dyd_status status = dyd_csv_open(&csv, text, columns, err);
-  while (status >= 0 && count) {
-    status = dyd_csv_next(span, &count, &csv, err);
-    if (status >= 0 && count) status = stage_point(stage, span, manner, err);
+  dyd_status st = dyd_csv_open(&csv, text, columns, err);
+  while (st == DYD_OK && count) {
+    st = dyd_csv_next(span, &count, &csv, err);
+    if (st == DYD_OK && count) st = stage_point(stage, span, manner, err);
   }
   dyd_csv_clear(&csv);
-  return status;
+  return st;
 }
 
 /* Adds the points of text, which is ready to be read; err is not NULL. */
@@ -103,7 +92,7 @@ static dyd_status points_read_text(dyd_engine *e, dyd_text *text, const dyd_read
   dyd_stage stage;
   mpq_init(manner.radius);
   dyd_stage_init(&stage);
-  dyd_status st = o->radius ? read_radius(&manner, o->radius, err) : DYD_OK;
+  dyd_status st = o->radius ? manner_radius(&manner, o->radius, err) : DYD_OK;
   if (st == DYD_OK)
     st = o->columns ? read_csv_file(&stage, text, &manner, o->columns, err)
                     : read_points_file(&stage, text, &manner, err);

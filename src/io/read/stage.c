@@ -20,7 +20,7 @@ void dyd_stage_init(dyd_stage *s) {
   *s = (dyd_stage){0};
 }
 
-static void drop(dyd_staged *p) {
+static void staged_drop(dyd_staged *p) {
   if (p->kind != DYD_COORDINATE_REAL) return;
   dyd_real_free(p->u.real[0]);
   dyd_real_free(p->u.real[1]);
@@ -28,13 +28,13 @@ static void drop(dyd_staged *p) {
 }
 
 void dyd_stage_clear(dyd_stage *s) {
-  for (size_t k = 0; k < s->count; k++) drop(&s->item[k]);
+  for (size_t k = 0; k < s->count; k++) staged_drop(&s->item[k]);
   free(s->item);
   dyd_stage_init(s);
 }
 
 /* DOUBLE stands for BINARY, too, but beside a PLAIN coordinate. */
-static dyd_coordinate_kind common_kind(dyd_coordinate_kind a, dyd_coordinate_kind b) {
+static dyd_coordinate_kind staged_kind(dyd_coordinate_kind a, dyd_coordinate_kind b) {
   if (a == DYD_COORDINATE_BINARY && b != DYD_COORDINATE_PLAIN) a = DYD_COORDINATE_DOUBLE;
   if (b == DYD_COORDINATE_BINARY && a != DYD_COORDINATE_PLAIN) b = DYD_COORDINATE_DOUBLE;
   if (a == b) return a;
@@ -43,7 +43,7 @@ static dyd_coordinate_kind common_kind(dyd_coordinate_kind a, dyd_coordinate_kin
   return DYD_COORDINATE_REAL;
 }
 
-static void join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coordinate *x, const dyd_coordinate *y) {
+static void staged_join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coordinate *x, const dyd_coordinate *y) {
   *out = (dyd_staged){.kind = kind};
   switch (kind) {
   case DYD_COORDINATE_DOUBLE:
@@ -64,17 +64,17 @@ static void join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coordinate
 }
 
 dyd_status dyd_stage_add(dyd_stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
-  dyd_status status = DYD_OK;
-  dyd_coordinate_kind kind = common_kind(x->kind, y->kind);
-  if (!dyd_reserve((void **)&s->item, &s->cap, s->count + 1, sizeof *s->item)) status = DYD_E_NOMEM;
-  if (status >= 0 && kind == DYD_COORDINATE_REAL) status = dyd_coordinate_make_real(x);
-  if (status >= 0 && kind == DYD_COORDINATE_REAL) status = dyd_coordinate_make_real(y);
-  if (status < 0) {
+  dyd_status st = DYD_OK;
+  dyd_coordinate_kind kind = staged_kind(x->kind, y->kind);
+  if (!dyd_reserve((void **)&s->item, &s->cap, s->count + 1, sizeof *s->item)) st = DYD_E_NOMEM;
+  if (st == DYD_OK && kind == DYD_COORDINATE_REAL) st = dyd_coordinate_make_real(x);
+  if (st == DYD_OK && kind == DYD_COORDINATE_REAL) st = dyd_coordinate_make_real(y);
+  if (st != DYD_OK) {
     dyd_coordinate_clear(x);
     dyd_coordinate_clear(y);
-    return dyd_fail(err, status, "%s", dyd_status_text(status));
+    return dyd_fail(err, st, "%s", dyd_status_text(st));
   }
-  join(&s->item[s->count++], kind, x, y);
+  staged_join(&s->item[s->count++], kind, x, y);
   x->kind = y->kind = DYD_COORDINATE_DOUBLE;
   return DYD_OK;
 }
@@ -114,11 +114,11 @@ static dyd_status commit_wide(dyd_engine *e, const dyd_staged *p) {
   mpq_inits(x, y, NULL);
   dyd_plain_get_q(x, plain_of(p, 0));
   dyd_plain_get_q(y, plain_of(p, 1));
-  dyd_status status = dyd_rect_set_q(&r, x, y);
-  if (status >= 0) status = dyd_engine_add_rect(e, &r);
+  dyd_status st = dyd_rect_set_q(&r, x, y);
+  if (st == DYD_OK) st = dyd_engine_add_rect(e, &r);
   mpq_clears(x, y, NULL);
   dyd_rect_clear(&r);
-  return status;
+  return st;
 }
 
 /* The decimals from `first` on that fit single words, at most BULK. */
@@ -134,8 +134,8 @@ static dyd_status commit_words(size_t *count, dyd_engine *e, const dyd_stage *s,
 }
 
 static dyd_status commit_plain(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first) {
-  dyd_status status = commit_words(count, e, s, first);
-  if (status < 0 || *count) return status;
+  dyd_status st = commit_words(count, e, s, first);
+  if (st != DYD_OK || *count) return st;
   *count = 1;
   return commit_wide(e, &s->item[first]);
 }
@@ -145,43 +145,43 @@ static dyd_status commit_fixed(dyd_engine *e, const dyd_staged *p) {
   dyd_rect_init(&r);
   dyd_interval_set(&r.x, dyd_real_interval(p->u.real[0]));
   dyd_interval_set(&r.y, dyd_real_interval(p->u.real[1]));
-  dyd_status status = dyd_engine_add_rect(e, &r);
+  dyd_status st = dyd_engine_add_rect(e, &r);
   dyd_rect_clear(&r);
-  return status;
+  return st;
 }
 
 static dyd_status commit_reals(dyd_engine *e, dyd_staged *p) {
   if (dyd_real_is_final(p->u.real[0]) && dyd_real_is_final(p->u.real[1])) {
-    dyd_status status = commit_fixed(e, p);
-    drop(p);
-    return status;
+    dyd_status st = commit_fixed(e, p);
+    staged_drop(p);
+    return st;
   }
   dyd_stream *stream = NULL;
   p->kind = DYD_COORDINATE_DOUBLE; /* the stream takes both reals over */
-  dyd_status status = dyd_stream_from_reals(&stream, p->u.real[0], p->u.real[1]);
-  return status < 0 ? status : dyd_engine_add_stream(e, stream);
+  dyd_status st = dyd_stream_from_reals(&stream, p->u.real[0], p->u.real[1]);
+  return st != DYD_OK ? st : dyd_engine_add_stream(e, stream);
 }
 
 dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err) {
-  dyd_status status = DYD_OK;
-  for (size_t k = 0, count = 1; k < s->count && status >= 0; k += count) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0, count = 1; k < s->count && st == DYD_OK; k += count) {
     count = 1;
     switch (s->item[k].kind) {
     case DYD_COORDINATE_DOUBLE:
     case DYD_COORDINATE_BINARY:
-      status = commit_points(&count, e, s, k);
+      st = commit_points(&count, e, s, k);
       break;
     case DYD_COORDINATE_BOX:
-      status = commit_boxes(&count, e, s, k);
+      st = commit_boxes(&count, e, s, k);
       break;
     case DYD_COORDINATE_PLAIN:
-      status = commit_plain(&count, e, s, k);
+      st = commit_plain(&count, e, s, k);
       break;
     case DYD_COORDINATE_REAL:
-      status = commit_reals(e, &s->item[k]);
+      st = commit_reals(e, &s->item[k]);
       break;
     }
   }
   dyd_stage_clear(s);
-  return status < 0 ? dyd_fail(err, status, "%s", dyd_status_text(status)) : DYD_OK;
+  return st != DYD_OK ? dyd_fail(err, st, "%s", dyd_status_text(st)) : DYD_OK;
 }

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Lines of a text file, read in blocks, and positions in them for error messages.
- *
- * A character of UTF-8 is counted at the one byte that does not have the form 10xxxxxx. */
+/* Lines of a text file, read in blocks, and positions in them for error messages. */
 #include "io/read/text.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "stream/number.h"
 #include <errno.h>
 #include <string.h>
 
@@ -19,21 +18,6 @@ void dyd_text_clear(dyd_text *t) {
   *t = (dyd_text){0};
 }
 
-size_t dyd_text_characters(const char *text, size_t length) {
-  size_t count = 0;
-  for (size_t k = 0; k < length; k++) count += ((unsigned char)text[k] & 0xC0) != 0x80;
-  return count;
-}
-
-size_t dyd_text_offset(const char *text, size_t length, size_t character) {
-  size_t k = 0;
-  for (; k < length; k++) {
-    if (((unsigned char)text[k] & 0xC0) == 0x80) continue;
-    if (character-- == 0) break;
-  }
-  return k;
-}
-
 void dyd_span_position(size_t *line, size_t *column, const dyd_span *span, size_t offset) {
   const char *end = span->at + offset, *begin = span->origin, *newline;
   *line = span->line;
@@ -41,7 +25,7 @@ void dyd_span_position(size_t *line, size_t *column, const dyd_span *span, size_
     ++*line;
     begin = newline + 1;
   }
-  *column = dyd_text_characters(begin, (size_t)(end - begin)) + 1;
+  *column = dyd_text_column(begin, (size_t)(end - begin));
 }
 
 dyd_status dyd_span_fail(dyd_error *err, const dyd_span *span, size_t offset, const char *message) {
@@ -50,7 +34,7 @@ dyd_status dyd_span_fail(dyd_error *err, const dyd_span *span, size_t offset, co
 }
 
 /* Reads one more block behind what is there. */
-static dyd_status fill(dyd_text *t, dyd_error *err) {
+static dyd_status text_fill(dyd_text *t, dyd_error *err) {
   if (t->start) memmove(t->buffer, t->buffer + t->start, t->end - t->start);
   t->end -= t->start;
   t->start = 0;
@@ -64,7 +48,7 @@ static dyd_status fill(dyd_text *t, dyd_error *err) {
   return DYD_OK;
 }
 
-static void skip_mark(dyd_text *t) {
+static void text_skip_mark(dyd_text *t) {
   if (t->end - t->start >= 3 && memcmp(t->buffer + t->start, "\xEF\xBB\xBF", 3) == 0) t->start += 3;
 }
 
@@ -72,12 +56,12 @@ dyd_status dyd_text_init_copy(dyd_text *t, const char *text, size_t length) {
   *t = (dyd_text){.buffer = dyd_alloc(length, 1), .cap = length, .end = length, .ended = true};
   if (!t->buffer) return DYD_E_NOMEM;
   if (length) memcpy(t->buffer, text, length);
-  skip_mark(t);
+  text_skip_mark(t);
   return DYD_OK;
 }
 
 /* Finds the line end in what is read, reading on as needed; *length is up to the LF or the end of the file. */
-static dyd_status find_end(size_t *length, bool *newline, dyd_text *t, dyd_error *err) {
+static dyd_status text_find_end(size_t *length, bool *newline, dyd_text *t, dyd_error *err) {
   for (size_t seen = 0;;) {
     size_t have = t->end - t->start;
     const char *base = have ? t->buffer + t->start : NULL;
@@ -86,13 +70,13 @@ static dyd_status find_end(size_t *length, bool *newline, dyd_text *t, dyd_error
     *length = found ? (size_t)(found - base) : have;
     if (found || t->ended || *length > DYD_TEXT_LINE_MAX) return DYD_OK;
     seen = have;
-    dyd_status status = fill(t, err);
-    if (status < 0) return status;
-    if (t->line == 0 && seen == 0) skip_mark(t);
+    dyd_status st = text_fill(t, err);
+    if (st != DYD_OK) return st;
+    if (t->line == 0 && seen == 0) text_skip_mark(t);
   }
 }
 
-static dyd_status check_line(const dyd_line *line, dyd_error *err) {
+static dyd_status refuse_line(const dyd_line *line, dyd_error *err) {
   dyd_span span = {line->text, line->length, line->text, line->text, line->number};
   if (line->length > DYD_TEXT_LINE_MAX)
     return dyd_span_fail(err, &span, 0, "this line is longer than 1048576 bytes; give one point per line");
@@ -104,12 +88,12 @@ static dyd_status check_line(const dyd_line *line, dyd_error *err) {
 dyd_status dyd_text_next(dyd_line *out, dyd_text *t, dyd_error *err) {
   size_t length;
   bool newline;
-  dyd_status status = find_end(&length, &newline, t, err);
-  if (status < 0) return status;
+  dyd_status st = text_find_end(&length, &newline, t, err);
+  if (st != DYD_OK) return st;
   *out = (dyd_line){0};
   if (!length && !newline) return DYD_OK;
   *out = (dyd_line){t->buffer + t->start, length, ++t->line};
   t->start += length + newline;
   if (out->length && out->text[out->length - 1] == '\r') out->length--;
-  return check_line(out, err);
+  return refuse_line(out, err);
 }

@@ -47,9 +47,5 @@ dyd_status dyd_text_next(dyd_line *out, dyd_text *t, dyd_error *err);
 void dyd_span_position(size_t *line, size_t *column, const dyd_span *span, size_t offset);
 /* Fails with DYD_E_PARSE and `message` at that byte. */
 dyd_status dyd_span_fail(dyd_error *err, const dyd_span *span, size_t offset, const char *message);
-/* How many of the first `length` bytes begin a character of UTF-8. */
-size_t dyd_text_characters(const char *text, size_t length);
-/* The byte at which character `character` (from 0) begins; length when there are not so many. */
-size_t dyd_text_offset(const char *text, size_t length, size_t character);
 
 #endif

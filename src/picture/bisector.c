@@ -4,22 +4,19 @@
  * A parabola v(t) between t0 and t1 is the quadratic Bezier curve whose middle point has t = (t0 + t1) / 2 and lies on
  * the tangent at the first end: v = v(t0) + v'(t0) (t1 - t0) / 2. Arcs with an end at infinity are lines. What is
  * surely nearer to a point is convex, and goes on to infinity between the ends of its chain. */
-#include "base/error.h"
 #include "io/exact_text.h"
-#include "io/pieces.h"
 #include "picture/picture.h"
-#include "picture/plot.h"
 #include <math.h>
 
 #define CURVE 0x0072b2
 static const unsigned tint[2] = {0xcfe4f3, 0xd9eccf}, body[2] = {0x6aaed6, 0x8cc27a};
 
-typedef struct drawing {
+typedef struct bisector_drawing {
   const dyd_rect *const *r;
   const dyd_boundary *curve;
   dyd_view view;
   double reach; /* arcs are cut off so far from the rectangles: far outside of the picture */
-} drawing;
+} bisector_drawing;
 
 /* Corners and the line of an arc in doubles: focus s; corner q, or line of coordinate q[1 - k] along axis k. */
 typedef struct locus {
@@ -33,16 +30,11 @@ typedef struct piece {
   bool curved;
 } piece;
 
-static void box_of(double b[4], const dyd_rect *r) {
-  dyd_interval_get_d(&b[0], &b[1], &r->x);
-  dyd_interval_get_d(&b[2], &b[3], &r->y);
-}
-
 static locus locus_of(const dyd_arc *a, const dyd_rect *const r[2]) {
   double far[4], near[4];
   locus s = {.k = -1};
-  box_of(far, r[a->far_site]);
-  box_of(near, r[a->near_site]);
+  dyd_rect_get_d(far, r[a->far_site]);
+  dyd_rect_get_d(near, r[a->near_site]);
   s.s[0] = far[a->corner & 1];
   s.s[1] = far[2 + (a->corner >> 1)];
   if (a->kind == DYD_ARC_PARABOLA) {
@@ -53,14 +45,6 @@ static locus locus_of(const dyd_arc *a, const dyd_rect *const r[2]) {
     s.q[1] = near[2 + (a->feature >> 1)];
   }
   return s;
-}
-
-static void place(double out[2], const dyd_surd_point *p) {
-  for (int axis = 0; axis < 2; axis++) {
-    double lo, hi;
-    dyd_exact_enclose(&lo, &hi, p, axis);
-    out[axis] = lo / 2 + hi / 2;
-  }
 }
 
 static double on_parabola(const locus *s, double t) {
@@ -91,13 +75,13 @@ static void line_piece(piece *p, const locus *s, const double *begin, const doub
   }
 }
 
-static piece piece_of(const drawing *d, const dyd_arc *a) {
+static piece piece_of(const bisector_drawing *d, const dyd_arc *a) {
   locus s = locus_of(a, d->r);
   piece p = {.curved = a->kind == DYD_ARC_PARABOLA};
   double begin[2], end[2];
   bool first = a->begin.kind != DYD_END_INFINITE, last = a->end.kind != DYD_END_INFINITE;
-  if (first) place(begin, &a->begin.at);
-  if (last) place(end, &a->end.at);
+  if (first) dyd_exact_middle(begin, &a->begin.at);
+  if (last) dyd_exact_middle(end, &a->end.at);
   if (p.curved)
     parabola_piece(&p, &s, begin, end, d->reach);
   else
@@ -127,7 +111,7 @@ static void piece_path(cairo_t *cr, const dyd_view *v, const piece *p) {
 }
 
 /* What is on the left of the chain, closed far outside of the picture. */
-static void fill_left(cairo_t *cr, const drawing *d, const dyd_chain *chain, unsigned rgb) {
+static void fill_left(cairo_t *cr, const bisector_drawing *d, const dyd_chain *chain, unsigned rgb) {
   piece p = {0};
   double begin[2] = {0}, *end = p.at[2], n[2];
   cairo_new_path(cr);
@@ -146,7 +130,7 @@ static void fill_left(cairo_t *cr, const drawing *d, const dyd_chain *chain, uns
   cairo_fill(cr);
 }
 
-static void draw_arc(cairo_t *cr, const drawing *d, const dyd_arc *a) {
+static void draw_arc(cairo_t *cr, const bisector_drawing *d, const dyd_arc *a) {
   piece p = piece_of(d, a);
   cairo_new_path(cr);
   piece_path(cr, &d->view, &p);
@@ -154,20 +138,20 @@ static void draw_arc(cairo_t *cr, const drawing *d, const dyd_arc *a) {
   cairo_stroke(cr);
 }
 
-static void draw_mark(cairo_t *cr, double x, double y, dyd_end_kind kind) {
+static void bisector_mark(cairo_t *cr, double x, double y, dyd_end_kind kind) {
   dyd_picture_dot(cr, x, y, 3.5, kind == DYD_END_AXIS ? CURVE : 0xffffff, CURVE);
 }
 
-static void draw_ends(cairo_t *cr, const drawing *d, const dyd_chain *chain) {
+static void draw_ends(cairo_t *cr, const bisector_drawing *d, const dyd_chain *chain) {
   double limit = 2 * d->reach, at[2];
   for (size_t k = 1; k < chain->count; k++) {
-    place(at, &chain->arc[k].begin.at);
+    dyd_exact_middle(at, &chain->arc[k].begin.at);
     if (!(fabs(at[0] - d->view.left) < limit && fabs(at[1] - d->view.top) < limit)) continue;
-    draw_mark(cr, dyd_view_x(&d->view, at[0]), dyd_view_y(&d->view, at[1]), chain->arc[k].begin.kind);
+    bisector_mark(cr, dyd_view_x(&d->view, at[0]), dyd_view_y(&d->view, at[1]), chain->arc[k].begin.kind);
   }
 }
 
-static void draw_curves(cairo_t *cr, const drawing *d) {
+static void draw_curves(cairo_t *cr, const bisector_drawing *d) {
   const dyd_chain *chain[2] = {d->curve[0].chain, d->curve[1].chain};
   dyd_picture_colour(cr, DYD_PICTURE_BAND);
   cairo_paint(cr);
@@ -179,9 +163,9 @@ static void draw_curves(cairo_t *cr, const drawing *d) {
     if (d->curve[k].count) draw_ends(cr, d, chain[k]);
 }
 
-static void draw_legend(cairo_t *cr, const drawing *d) {
-  double width, height, y, x = 30;
-  dyd_view_page(&width, &height, &y, &d->view);
+static void bisector_legend(cairo_t *cr, void *context) {
+  const bisector_drawing *d = context;
+  double y = dyd_view_legend(&d->view), x = 30;
   dyd_picture_entry(cr, &x, y, tint[0], true, 0, 0, "surely nearer to 0");
   dyd_picture_entry(cr, &x, y, tint[1], true, 0, 0, "surely nearer to 1");
   dyd_picture_entry(cr, &x, y, DYD_PICTURE_BAND, true, 0, 0, "undetermined");
@@ -189,40 +173,36 @@ static void draw_legend(cairo_t *cr, const drawing *d) {
   dyd_picture_entry(cr, &x, y, CURVE, false, 4, 2.5, "parabola");
   dyd_picture_scale(cr, &d->view, y);
   if (!d->curve[0].count) {
-    dyd_plot_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14,
-                  "the rectangles meet: nothing is surely nearer to one of them");
+    dyd_picture_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14,
+                     "the rectangles meet: nothing is surely nearer to one of them");
     return;
   }
-  draw_mark(cr, 45, y + DYD_PICTURE_ROW, DYD_END_AXIS);
-  dyd_plot_text(cr, 66, y + DYD_PICTURE_ROW + 5, 0, 14, "another corner of the one rectangle is farthest");
-  draw_mark(cr, 425, y + DYD_PICTURE_ROW, DYD_END_FEATURE);
-  dyd_plot_text(cr, 440, y + DYD_PICTURE_ROW + 5, 0, 14, "another corner or side of the other rectangle is closest");
+  bisector_mark(cr, 45, y + DYD_PICTURE_ROW, DYD_END_AXIS);
+  dyd_picture_text(cr, 66, y + DYD_PICTURE_ROW + 5, 0, 14, "another corner of the one rectangle is farthest");
+  bisector_mark(cr, 425, y + DYD_PICTURE_ROW, DYD_END_FEATURE);
+  dyd_picture_text(cr, 440, y + DYD_PICTURE_ROW + 5, 0, 14, "another corner or side of the other rectangle is closest");
 }
 
-static void draw(cairo_t *cr, void *context) {
-  const drawing *d = context;
-  dyd_picture_begin(cr);
-  cairo_save(cr);
-  dyd_view_frame_path(cr, &d->view);
-  cairo_clip(cr);
+static void bisector_inside(cairo_t *cr, void *context) {
+  const bisector_drawing *d = context;
   draw_curves(cr, d);
   for (size_t k = 0; k < 2; k++) {
     double b[4];
-    box_of(b, d->r[k]);
+    dyd_rect_get_d(b, d->r[k]);
     dyd_picture_numbered(cr, &d->view, b, body[k], k);
   }
-  cairo_restore(cr);
-  dyd_view_frame_path(cr, &d->view);
-  dyd_picture_pen(cr, 0x222222, 1, 0, 0);
-  cairo_stroke(cr);
-  draw_legend(cr, d);
+}
+
+static void bisector_draw(cairo_t *cr, void *context) {
+  const bisector_drawing *d = context;
+  dyd_view_draw(cr, &d->view, bisector_inside, bisector_legend, context);
 }
 
 /* *box grows by the ends that are not far out. */
 static void see_ends(double box[4], const dyd_boundary *b, double reach) {
   double most[4] = {box[0] - reach, box[1] + reach, box[2] - reach, box[3] + reach}, at[2];
   for (size_t k = 1; b->count && k < b->chain->count; k++) {
-    place(at, &b->chain->arc[k].begin.at);
+    dyd_exact_middle(at, &b->chain->arc[k].begin.at);
     for (int a = 0; a < 2; a++) {
       box[2 * a] = fmin(box[2 * a], fmax(most[2 * a], at[a]));
       box[2 * a + 1] = fmax(box[2 * a + 1], fmin(most[2 * a + 1], at[a]));
@@ -230,19 +210,18 @@ static void see_ends(double box[4], const dyd_boundary *b, double reach) {
   }
 }
 
-dyd_status dyd_picture_bisector(FILE *out, dyd_format kind, const dyd_rect *const r[2], const dyd_boundary curve[2],
-                                dyd_error *err) {
-  drawing d = {.r = r, .curve = curve};
-  double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY}, see[4], width, height, legend;
-  dyd_status status = DYD_OK;
-  for (int k = 0; k < 2 && status >= 0; k++) status = dyd_pieces_grow(box, r[k], err);
-  if (status < 0) return status;
+dyd_status dyd_bisector_picture(const dyd_output *o) {
+  const dyd_bisector_output *c = o->what;
+  bisector_drawing d = {.r = c->r, .curve = c->curve};
+  double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY}, see[4];
+  dyd_status st = DYD_OK;
+  for (int k = 0; k < 2 && st == DYD_OK; k++) st = dyd_view_grow(box, d.r[k], o->err);
+  if (st != DYD_OK) return st;
   for (int e = 0; e < 4; e++) see[e] = box[e];
-  for (int k = 0; k < 2; k++) see_ends(see, &curve[k], fmax(box[1] - box[0], box[3] - box[2]));
-  dyd_pieces_pad(see);
-  status = dyd_view_fit(&d.view, see, 0, err);
-  if (status < 0) return status;
+  for (int k = 0; k < 2; k++) see_ends(see, &d.curve[k], fmax(box[1] - box[0], box[3] - box[2]));
+  dyd_view_pad(see);
+  st = dyd_view_fit(&d.view, see, 0, o->err);
+  if (st != DYD_OK) return st;
   d.reach = 10 * (d.view.width + d.view.height) / d.view.scale;
-  dyd_view_page(&width, &height, &legend, &d.view);
-  return dyd_page_write(out, kind, width, height, draw, &d, err);
+  return dyd_view_write(o, &d.view, bisector_draw, &d);
 }

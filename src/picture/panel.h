@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Plots of series against stages on logarithmic scales, drawn with cairo. Lengths in points, y downward. */
-#ifndef DYD_PICTURE_PLOT_H
-#define DYD_PICTURE_PLOT_H
+#ifndef DYD_PICTURE_PANEL_H
+#define DYD_PICTURE_PANEL_H
 
 #include <cairo.h>
 #include <dyadel/converge.h>
@@ -12,7 +12,7 @@ typedef struct dyd_series {
   const char *name;
   double red, green, blue;
   double dash;   /* length; 0: a full line */
-  unsigned mark; /* corners of the marker: 0 (a ring) or 3, 4, 5 */
+  unsigned mark; /* sides of the marker: 0 (a ring) or 3, 4, 5 */
   double (*value)(const dyd_stage_row *r);
 } dyd_series;
 
@@ -27,10 +27,7 @@ typedef struct dyd_panel {
 
 /* Sets low and high from the values; false when no value is positive. */
 bool dyd_panel_fit(dyd_panel *p, const dyd_convergence *c);
-double dyd_panel_x(const dyd_panel *p, const dyd_convergence *c, size_t row);
-double dyd_panel_y(const dyd_panel *p, double value);
 /* Frame, ticks (labels base^k), curves, legend. */
 void dyd_panel_draw(cairo_t *cr, const dyd_panel *p, const dyd_convergence *c, int base);
-void dyd_plot_text(cairo_t *cr, double x, double y, double align, double size, const char *text);
 
 #endif

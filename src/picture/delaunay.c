@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The picture of the triangulation: rectangles, edges and partial edges by status, sure triangles. */
-#include "base/alloc.h"
 #include "base/error.h"
 #include "io/result.h"
 #include "picture/picture.h"
-#include "picture/plot.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -21,33 +19,33 @@ static const struct {
 #define FAR 1e13  /* points on the page from where doubles do not tell positions to a hundredth */
 
 /* frame: of the window on the page, infinite without one; wide: the same with some room. */
-typedef struct drawing {
+typedef struct delaunay_drawing {
   const dyd_result *r;
   dyd_view view;
   dyd_triangle_list triangles;
   double frame[4], wide[4];
   size_t shown[4], sites; /* lines of each status, rectangles that meet the frame */
-} drawing;
+} delaunay_drawing;
 
-static double middle(double lo, double hi) {
+static double middle_of(double lo, double hi) {
   return lo / 2 + hi / 2;
 }
 
 /* On the page. */
-static void centre(double z[2], const drawing *d, uint32_t i) {
+static void page_middle(double z[2], const delaunay_drawing *d, uint32_t i) {
   double b[4];
   dyd_sites_get_d(b, d->r->sites, i);
-  z[0] = dyd_view_x(&d->view, middle(b[0], b[1]));
-  z[1] = dyd_view_y(&d->view, middle(b[2], b[3]));
+  z[0] = dyd_view_x(&d->view, middle_of(b[0], b[1]));
+  z[1] = dyd_view_y(&d->view, middle_of(b[2], b[3]));
 }
 
-static bool line_of(double z[2][2], const drawing *d, const dyd_pair *pair, const double frame[4]) {
-  centre(z[0], d, pair->i);
-  centre(z[1], d, pair->j);
+static bool line_of(double z[2][2], const delaunay_drawing *d, const dyd_pair *pair, const double frame[4]) {
+  page_middle(z[0], d, pair->i);
+  page_middle(z[1], d, pair->j);
   return dyd_clip_segment(z, frame);
 }
 
-static void polygon_path(cairo_t *cr, const drawing *d, double z[DYD_CLIP_MOST][2], int n) {
+static void polygon_path(cairo_t *cr, const delaunay_drawing *d, double z[DYD_CLIP_MOST][2], int n) {
   n = dyd_clip_convex(z, n, d->wide);
   for (int k = 0; k < n; k++)
     if (k)
@@ -57,11 +55,11 @@ static void polygon_path(cairo_t *cr, const drawing *d, double z[DYD_CLIP_MOST][
   if (n) cairo_close_path(cr);
 }
 
-static void draw_triangles(cairo_t *cr, const drawing *d) {
+static void draw_triangles(cairo_t *cr, const delaunay_drawing *d) {
   cairo_new_path(cr);
   for (size_t k = 0; k < d->triangles.count; k++) {
     double z[DYD_CLIP_MOST][2];
-    for (int c = 0; c < 3; c++) centre(z[c], d, d->triangles.item[k].v[c]);
+    for (int c = 0; c < 3; c++) page_middle(z[c], d, d->triangles.item[k].v[c]);
     polygon_path(cr, d, z, 3);
   }
   dyd_picture_colour(cr, 0xe6f0f7);
@@ -69,22 +67,22 @@ static void draw_triangles(cairo_t *cr, const drawing *d) {
 }
 
 /* Is the rectangle more than a dot? */
-static bool is_wide(const drawing *d, const double b[4]) {
+static bool is_wide_box(const delaunay_drawing *d, const double b[4]) {
   return fmax(b[1] - b[0], b[3] - b[2]) * d->view.scale >= 2 * d->view.dot;
 }
 
-static double turn(const double p[2], const double q[2], const double r[2]) {
+static double page_turn(const double p[2], const double q[2], const double r[2]) {
   return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
-static int compare(const void *a, const void *b) {
+static int compare_xy(const void *a, const void *b) {
   const double *p = a, *q = b;
   if (p[0] != q[0]) return p[0] < q[0] ? -1 : 1;
   return (p[1] > q[1]) - (p[1] < q[1]);
 }
 
 /* Ed(a,b) as a path: the hull of eight corners, by monotone chains. */
-static void hull_path(cairo_t *cr, const drawing *d, const double a[4], const double b[4]) {
+static void pair_path(cairo_t *cr, const delaunay_drawing *d, const double a[4], const double b[4]) {
   double z[8][2], chain[DYD_CLIP_MOST][2];
   int n = 0;
   for (int k = 0; k < 8; k++) {
@@ -92,12 +90,12 @@ static void hull_path(cairo_t *cr, const drawing *d, const double a[4], const do
     z[k][0] = dyd_view_x(&d->view, r[k & 1]);
     z[k][1] = dyd_view_y(&d->view, r[2 + (k >> 1 & 1)]);
   }
-  qsort(z, 8, sizeof z[0], compare);
+  qsort(z, 8, sizeof z[0], compare_xy);
   for (int pass = 0; pass < 2; pass++) {
     int floor = n;
     for (int k = 0; k < 8; k++) {
       const double *p = z[pass ? 7 - k : k];
-      while (n >= floor + 2 && turn(chain[n - 2], chain[n - 1], p) <= 0) n--;
+      while (n >= floor + 2 && page_turn(chain[n - 2], chain[n - 1], p) <= 0) n--;
       chain[n][0] = p[0], chain[n][1] = p[1];
       n++;
     }
@@ -106,22 +104,22 @@ static void hull_path(cairo_t *cr, const drawing *d, const double a[4], const do
   polygon_path(cr, d, chain, n);
 }
 
-static void draw_regions(cairo_t *cr, const drawing *d, int k) {
+static void draw_regions(cairo_t *cr, const delaunay_drawing *d, int k) {
   for (size_t p = 0; p < d->r->pairs.count; p++) {
     const dyd_pair *pair = &d->r->pairs.item[p];
     double a[4], b[4];
     if (pair->status != style[k].status) continue;
     dyd_sites_get_d(a, d->r->sites, pair->i);
     dyd_sites_get_d(b, d->r->sites, pair->j);
-    if (!is_wide(d, a) && !is_wide(d, b)) continue;
+    if (!is_wide_box(d, a) && !is_wide_box(d, b)) continue;
     cairo_new_path(cr);
-    hull_path(cr, d, a, b);
+    pair_path(cr, d, a, b);
     dyd_picture_colour(cr, style[k].region);
     cairo_fill(cr);
   }
 }
 
-static void draw_edges(cairo_t *cr, const drawing *d, int k) {
+static void draw_edges(cairo_t *cr, const delaunay_drawing *d, int k) {
   cairo_new_path(cr);
   for (size_t p = 0; p < d->r->pairs.count; p++) {
     const dyd_pair *pair = &d->r->pairs.item[p];
@@ -135,17 +133,16 @@ static void draw_edges(cairo_t *cr, const drawing *d, int k) {
 }
 
 /* In words what is shown of how many points. */
-static void points_text(char *out, size_t size, const drawing *d) {
+static void points_text(char *out, size_t size, const delaunay_drawing *d) {
   if (d->r->window)
     snprintf(out, size, "%zu of %zu points (and the lines counted) in this window", d->sites, d->r->count);
   else
     snprintf(out, size, "%zu points", d->r->count);
 }
 
-static void draw_legend(cairo_t *cr, const drawing *d) {
+static void delaunay_legend(cairo_t *cr, const delaunay_drawing *d) {
   char text[240], points[100];
-  double width, height, y, x = 30;
-  dyd_view_page(&width, &height, &y, &d->view);
+  double y = dyd_view_legend(&d->view), x = 30;
   for (int k = 2; k >= 0; k--) {
     snprintf(text, sizeof text, "%s: %zu", style[k].name, d->shown[style[k].status]);
     dyd_picture_entry(cr, &x, y, style[k].rgb, false, style[k].on, style[k].off, text);
@@ -159,10 +156,10 @@ static void draw_legend(cairo_t *cr, const drawing *d) {
   snprintf(text, sizeof text, "%s, outcome %s%s; positions rounded by at most 0.01 point", points,
            dyd_outcome_text(dyd_engine_outcome(d->r->engine)),
            dyd_delaunay_is_capped(d->r->pd) ? ", not all possible pairs are shown" : "");
-  dyd_plot_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, text);
+  dyd_picture_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, text);
 }
 
-static void draw_all(cairo_t *cr, const drawing *d) {
+static void delaunay_inside(cairo_t *cr, const delaunay_drawing *d) {
   draw_triangles(cr, d);
   for (int k = 2; k >= 0; k--) draw_regions(cr, d, k);
   for (int k = 0; k < 3; k++) draw_edges(cr, d, k);
@@ -173,38 +170,38 @@ static void draw_all(cairo_t *cr, const drawing *d) {
   }
 }
 
-static void frame_path(cairo_t *cr, const drawing *d) {
+static void frame_path(cairo_t *cr, const delaunay_drawing *d) {
   cairo_new_path(cr);
   cairo_rectangle(cr, d->frame[0], d->frame[2], d->frame[1] - d->frame[0], d->frame[3] - d->frame[2]);
 }
 
-static void draw(cairo_t *cr, void *context) {
-  const drawing *d = context;
+static void delaunay_draw(cairo_t *cr, void *context) {
+  const delaunay_drawing *d = context;
   dyd_picture_begin(cr);
   cairo_save(cr);
   if (d->r->window) {
     frame_path(cr, d);
     cairo_clip(cr);
   }
-  draw_all(cr, d);
+  delaunay_inside(cr, d);
   cairo_restore(cr);
   if (d->r->window) {
     frame_path(cr, d);
     dyd_picture_pen(cr, 0x222222, 1, 0, 0);
     cairo_stroke(cr);
   }
-  draw_legend(cr, d);
+  delaunay_legend(cr, d);
 }
 
 /* ---- what is shown ---- */
 
-static dyd_status see_all(drawing *d, dyd_error *err) {
+static dyd_status see_all(delaunay_drawing *d, dyd_error *err) {
   const dyd_result *r = d->r;
   double all[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
   for (size_t i = 0; i < r->count; i++) {
     double b[4];
-    dyd_status status = dyd_result_box(b, r, i, err);
-    if (status < 0) return status;
+    dyd_status st = dyd_result_box(b, r, i, err);
+    if (st != DYD_OK) return st;
     all[0] = fmin(all[0], b[0]), all[1] = fmax(all[1], b[1]);
     all[2] = fmin(all[2], b[2]), all[3] = fmax(all[3], b[3]);
   }
@@ -229,27 +226,26 @@ static dyd_status too_near(dyd_error *err) {
   return dyd_fail(err, DYD_E_RANGE, "the window is too small beside the points for a picture; give a larger one");
 }
 
-static void count_shown(drawing *d) {
+static void count_shown(delaunay_drawing *d) {
   for (size_t p = 0; p < d->r->pairs.count; p++) {
     double z[2][2];
     d->shown[d->r->pairs.item[p].status] += line_of(z, d, &d->r->pairs.item[p], d->frame);
   }
 }
 
-static dyd_status see_window(drawing *d, dyd_error *err) {
+static dyd_status see_window(delaunay_drawing *d, dyd_error *err) {
   double box[4];
-  dyd_interval_get_d(&box[0], &box[1], &d->r->window->x);
-  dyd_interval_get_d(&box[2], &box[3], &d->r->window->y);
+  dyd_rect_get_d(box, d->r->window);
   if (!(box[0] < box[1] && box[2] < box[3])) return dyd_fail(err, DYD_E_ARG, "the window has no area");
-  dyd_status status = dyd_view_fit(&d->view, box, dyd_view_spacing(d->r->pd, box), err);
-  if (status < 0) return status;
+  dyd_status st = dyd_view_fit(&d->view, box, dyd_view_spacing(d->r->pd, box), err);
+  if (st != DYD_OK) return st;
   if (!place_box(d->frame, &d->view, box)) return too_near(err);
   for (int k = 0; k < 4; k++) d->wide[k] = d->frame[k] + (k & 1 ? WIDE : -WIDE);
   for (size_t i = 0; i < d->r->count; i++) {
     double b[4], z[4];
     const double *f = d->frame;
-    status = dyd_result_box(b, d->r, i, err);
-    if (status < 0) return status;
+    st = dyd_result_box(b, d->r, i, err);
+    if (st != DYD_OK) return st;
     if (!place_box(z, &d->view, b)) return too_near(err);
     d->sites += z[0] <= f[1] && f[0] <= z[1] && z[2] <= f[3] && f[2] <= z[3];
   }
@@ -257,25 +253,11 @@ static dyd_status see_window(drawing *d, dyd_error *err) {
   return DYD_OK;
 }
 
-static dyd_status write_picture(const dyd_result *r, dyd_format kind, dyd_error *err) {
-  drawing d = {.r = r};
-  double width, height, legend;
-  dyd_status status = r->window ? see_window(&d, err) : see_all(&d, err);
-  if (status < 0) return status;
-  status = dyd_delaunay_triangles(&d.triangles, r->pd);
-  if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
-  dyd_view_page(&width, &height, &legend, &d.view);
-  status = dyd_page_write(r->out, kind, width, height, draw, &d, err);
+dyd_status dyd_delaunay_picture(const dyd_output *o) {
+  delaunay_drawing d = {.r = o->what};
+  dyd_status st = d.r->window ? see_window(&d, o->err) : see_all(&d, o->err);
+  if (st == DYD_OK) st = dyd_delaunay_triangles(&d.triangles, d.r->pd);
+  if (st == DYD_OK) st = dyd_view_write(o, &d.view, delaunay_draw, &d);
   dyd_triangle_list_clear(&d.triangles);
-  return status;
-}
-
-dyd_status dyd_write_svg(const dyd_result *r, dyd_error *err) {
-  return write_picture(r, DYD_FORMAT_SVG, err);
-}
-dyd_status dyd_write_pdf(const dyd_result *r, dyd_error *err) {
-  return write_picture(r, DYD_FORMAT_PDF, err);
-}
-dyd_status dyd_write_png(const dyd_result *r, dyd_error *err) {
-  return write_picture(r, DYD_FORMAT_PNG, err);
+  return st;
 }

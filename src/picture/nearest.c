@@ -5,10 +5,7 @@
  * For a place c in the rectangle Q no point lies nearer than m = min_k ds(Q, R_k), and one lies within M = min_k dl(Q,
  * R_k), where ds and dl are the least and largest distances of points of Q and R_k. So all that is within m of Q is
  * surely free of points, and the nearest point surely is within M of Q. Both are discs where Q is a point. */
-#include "base/error.h"
-#include "io/pieces.h"
 #include "picture/picture.h"
-#include "picture/plot.h"
 #include <math.h>
 
 #define FREE 0xcfe4f3
@@ -18,14 +15,14 @@
 /* More sites than these in the view are not numbered, unless they are possibly nearest. */
 enum { MOST_NUMBERS = 60 };
 
-typedef struct drawing {
+typedef struct nearest_drawing {
   const dyd_delaunay *pd;
   const dyd_sites *sites;
   const dyd_nearest_answer *answer;
   dyd_view view;
   double place[4], near, far; /* Q, m, M */
   size_t count;               /* sites that stand for themselves */
-} drawing;
+} nearest_drawing;
 
 /* ---- distances ---- */
 
@@ -38,7 +35,7 @@ static double largest_distance(const double a[4], const double b[4]) {
   return hypot(fmax(b[1] - a[0], a[1] - b[0]), fmax(b[3] - a[2], a[3] - b[2]));
 }
 
-static void find_distances(drawing *g) {
+static void find_distances(nearest_drawing *g) {
   g->near = g->far = INFINITY;
   for (size_t i = 0; i < dyd_sites_count(g->sites); i++) {
     double b[4];
@@ -51,7 +48,7 @@ static void find_distances(drawing *g) {
 }
 
 /* The larger disc in the middle, with its surroundings: some neighbours, unless that would make it too small. */
-static dyd_status find_view(drawing *g, dyd_error *err) {
+static dyd_status nearest_view(nearest_drawing *g, dyd_error *err) {
   double far = g->count ? g->far : 0, spacing = dyd_view_spacing(g->pd, NULL), box[4];
   double reach = fmax(2.2 * far, fmin(1.5 * spacing, 12 * far));
   if (reach == 0) reach = spacing > 0 ? 1.5 * spacing : 1;
@@ -62,7 +59,7 @@ static dyd_status find_view(drawing *g, dyd_error *err) {
 /* ---- drawing ---- */
 
 /* What is within `reach` of the place: a rectangle with round corners. */
-static void around_path(cairo_t *cr, const drawing *g, double reach) {
+static void around_path(cairo_t *cr, const nearest_drawing *g, double reach) {
   const double quarter = acos(0.0);
   double r = reach * g->view.scale;
   double x[2] = {dyd_view_x(&g->view, g->place[0]), dyd_view_x(&g->view, g->place[1])};
@@ -73,7 +70,7 @@ static void around_path(cairo_t *cr, const drawing *g, double reach) {
   cairo_close_path(cr);
 }
 
-static void draw_areas(cairo_t *cr, const drawing *g) {
+static void nearest_areas(cairo_t *cr, const nearest_drawing *g) {
   around_path(cr, g, g->far);
   dyd_picture_colour(cr, DYD_PICTURE_BAND);
   cairo_fill(cr);
@@ -83,7 +80,7 @@ static void draw_areas(cairo_t *cr, const drawing *g) {
   cairo_fill(cr);
 }
 
-static void draw_circles(cairo_t *cr, const drawing *g) {
+static void nearest_circles(cairo_t *cr, const nearest_drawing *g) {
   around_path(cr, g, g->far);
   dyd_picture_pen(cr, 0x222222, 1.5, 0, 0);
   cairo_stroke(cr);
@@ -98,26 +95,16 @@ static bool is_seen(const dyd_view *v, const double b[4]) {
          b[2] <= v->top;
 }
 
-static bool is_found(const drawing *g, size_t i) {
-  const dyd_index_list *l = g->answer->found;
-  size_t lo = 0, hi = l->count;
-  while (lo < hi) {
-    size_t middle = (lo + hi) / 2;
-    if (l->item[middle] < i)
-      lo = middle + 1;
-    else
-      hi = middle;
-  }
-  return lo < l->count && l->item[lo] == i;
-}
-
 /* The others first, so that those that are possibly nearest lie on top. */
-static void draw_sites(cairo_t *cr, const drawing *g, bool found) {
+static void nearest_sites(cairo_t *cr, const nearest_drawing *g, bool found) {
+  const dyd_index_list *l = g->answer->found; /* ascending */
   size_t seen = 0;
   for (int pass = 0; pass < 2; pass++)
-    for (size_t i = 0; i < dyd_sites_count(g->sites); i++) {
+    for (size_t i = 0, at = 0; i < dyd_sites_count(g->sites); i++) {
       double b[4];
-      if (dyd_delaunay_alias(g->pd, (uint32_t)i) != i || is_found(g, i) != found) continue;
+      while (at < l->count && l->item[at] < i) at++;
+      bool is_found = at < l->count && l->item[at] == i;
+      if (dyd_delaunay_alias(g->pd, (uint32_t)i) != i || is_found != found) continue;
       dyd_sites_get_d(b, g->sites, i);
       if (!is_seen(&g->view, b)) continue;
       if (!pass)
@@ -129,7 +116,7 @@ static void draw_sites(cairo_t *cr, const drawing *g, bool found) {
     }
 }
 
-static void draw_ways(cairo_t *cr, const drawing *g) {
+static void draw_ways(cairo_t *cr, const nearest_drawing *g) {
   double x = dyd_view_x(&g->view, g->place[0] / 2 + g->place[1] / 2),
          y = dyd_view_y(&g->view, g->place[2] / 2 + g->place[3] / 2);
   for (size_t k = 0; k < g->answer->found->count; k++) {
@@ -144,7 +131,7 @@ static void draw_ways(cairo_t *cr, const drawing *g) {
 }
 
 /* A cross; around it the rectangle, where that can be seen. */
-static void draw_place(cairo_t *cr, const drawing *g) {
+static void draw_place(cairo_t *cr, const nearest_drawing *g) {
   const dyd_view *v = &g->view;
   double x0 = dyd_view_x(v, g->place[0]), x1 = dyd_view_x(v, g->place[1]), y0 = dyd_view_y(v, g->place[3]),
          y1 = dyd_view_y(v, g->place[2]), x = x0 / 2 + x1 / 2, y = y0 / 2 + y1 / 2;
@@ -165,10 +152,10 @@ static void draw_place(cairo_t *cr, const drawing *g) {
   }
 }
 
-static void draw_legend(cairo_t *cr, const drawing *g) {
-  double width, height, y, x = 30;
+static void nearest_legend(cairo_t *cr, void *context) {
+  const nearest_drawing *g = context;
+  double y = dyd_view_legend(&g->view), x = 30;
   char text[160];
-  dyd_view_page(&width, &height, &y, &g->view);
   if (g->answer->sure)
     dyd_picture_entry(cr, &x, y, SURE, true, 0, 0, "surely nearest to \303\227");
   else
@@ -183,37 +170,29 @@ static void draw_legend(cairo_t *cr, const drawing *g) {
   else
     snprintf(text, sizeof text, "%zu points, %zu possibly nearest, outcome %s", g->count, g->answer->found->count,
              dyd_outcome_text(g->answer->outcome));
-  dyd_plot_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, g->count ? text : "there are no points");
+  dyd_picture_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, g->count ? text : "there are no points");
 }
 
-static void draw(cairo_t *cr, void *context) {
-  const drawing *g = context;
-  dyd_picture_begin(cr);
-  cairo_save(cr);
-  dyd_view_frame_path(cr, &g->view);
-  cairo_clip(cr);
-  if (g->count) draw_areas(cr, g);
-  draw_sites(cr, g, false);
-  draw_sites(cr, g, true);
-  if (g->count) draw_circles(cr, g);
+static void nearest_inside(cairo_t *cr, void *context) {
+  const nearest_drawing *g = context;
+  if (g->count) nearest_areas(cr, g);
+  nearest_sites(cr, g, false);
+  nearest_sites(cr, g, true);
+  if (g->count) nearest_circles(cr, g);
   draw_ways(cr, g);
   draw_place(cr, g);
-  cairo_restore(cr);
-  dyd_view_frame_path(cr, &g->view);
-  dyd_picture_pen(cr, 0x222222, 1, 0, 0);
-  cairo_stroke(cr);
-  draw_legend(cr, g);
 }
 
-dyd_status dyd_picture_nearest(FILE *out, dyd_format kind, const dyd_delaunay *pd, const dyd_nearest_answer *answer,
-                               dyd_error *err) {
-  drawing g = {.pd = pd, .sites = dyd_delaunay_sites(pd), .answer = answer};
-  double width, height, legend;
-  dyd_interval_get_d(&g.place[0], &g.place[1], &answer->at->x);
-  dyd_interval_get_d(&g.place[2], &g.place[3], &answer->at->y);
+static void nearest_draw(cairo_t *cr, void *context) {
+  const nearest_drawing *g = context;
+  dyd_view_draw(cr, &g->view, nearest_inside, nearest_legend, context);
+}
+
+dyd_status dyd_nearest_picture(const dyd_output *o) {
+  const dyd_nearest_output *n = o->what;
+  nearest_drawing g = {.pd = n->pd, .sites = dyd_delaunay_sites(n->pd), .answer = n->answer};
+  dyd_rect_get_d(g.place, n->answer->at);
   find_distances(&g);
-  dyd_status status = find_view(&g, err);
-  if (status < 0) return status;
-  dyd_view_page(&width, &height, &legend, &g.view);
-  return dyd_page_write(out, kind, width, height, draw, &g, err);
+  dyd_status st = nearest_view(&g, o->err);
+  return st == DYD_OK ? dyd_view_write(o, &g.view, nearest_draw, &g) : st;
 }

@@ -5,18 +5,14 @@
  * unproved. */
 #include "base/alloc.h"
 #include "base/error.h"
-#include "prove/certificate.h"
+#include "io/output.h"
+#include "prove/proof.h"
 #include "voronoi/shape.h"
 #include <dyadel/certificate.h>
-#include <errno.h>
 #include <inttypes.h>
-#include <string.h>
 
-static void clear(dyd_proof *p) {
-  for (size_t q = 0; q < p->corners; q++) {
-    dyd_exact_clear(&p->corner[q].u[0]);
-    dyd_exact_clear(&p->corner[q].u[1]);
-  }
+static void proof_clear(dyd_proof *p) {
+  dyd_proof_drop_corners(p);
   free(p->corner);
   dyd_proof_points_clear(&p->witness);
   dyd_proof_points_clear(&p->centre);
@@ -31,49 +27,49 @@ static void clear(dyd_proof *p) {
 
 /* ---- gathering ---- */
 
-static dyd_status gather_sites(dyd_proof *p) {
+static dyd_status proof_gather_sites(dyd_proof *p) {
   const dyd_sites *sites = dyd_delaunay_sites(p->pd);
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status status = DYD_OK;
-  for (size_t i = 0; i < dyd_sites_count(sites) && status >= 0; i++) {
-    status = dyd_sites_get(&r, sites, i);
-    if (status >= 0) status = dyd_proof_add_site(&p->sites, &r);
-    if (status >= 0) p->sites.site[i].alias = dyd_delaunay_alias(p->pd, (uint32_t)i);
+  dyd_status st = DYD_OK;
+  for (size_t i = 0; i < dyd_sites_count(sites) && st == DYD_OK; i++) {
+    st = dyd_sites_get(&r, sites, i);
+    if (st == DYD_OK) st = dyd_proof_add_site(&p->sites, &r);
+    if (st == DYD_OK) p->sites.site[i].alias = dyd_delaunay_alias(p->pd, (uint32_t)i);
   }
   dyd_rect_clear(&r);
-  if (status >= 0) status = dyd_cert_sites_finish(&p->sites);
-  return status < 0 ? status : dyd_cert_tree_init(&p->tree, &p->sites);
+  if (st == DYD_OK) st = dyd_cert_sites_finish(&p->sites);
+  return st == DYD_OK ? dyd_cert_tree_init(&p->tree, &p->sites) : st;
 }
 
 /* Legal pairs with a witness become edges; the others stay in the list of pairs only. */
-static dyd_status gather_legal(dyd_proof *p) {
+static dyd_status proof_gather_legal(dyd_proof *p) {
   dyd_point c;
   dyd_point_init(&c);
-  dyd_status status = dyd_delaunay_pairs(&p->pairs, p->pd);
-  for (size_t k = 0; k < p->pairs.count && status >= 0; k++) {
+  dyd_status st = dyd_delaunay_pairs(&p->pairs, p->pd);
+  for (size_t k = 0; k < p->pairs.count && st == DYD_OK; k++) {
     const dyd_pair *pair = &p->pairs.item[k];
     bool found = false;
     if (pair->status != DYD_LEGAL) continue;
-    status = dyd_delaunay_witness(&c, p->pd, pair->i, pair->j);
-    if (status >= 0) status = dyd_proof_add_witness(&found, &p->witness, p, pair->i, pair->j, &c, false);
-    if (status == DYD_E_RANGE) status = DYD_OK;
-    if (status >= 0 && found) status = dyd_cert_edges_add(&p->legal, pair->i, pair->j);
+    st = dyd_delaunay_witness(&c, p->pd, pair->i, pair->j);
+    if (st == DYD_OK) st = dyd_proof_add_witness(&found, &p->witness, p, pair->i, pair->j, &c, false);
+    if (st == DYD_E_RANGE) st = DYD_OK;
+    if (st == DYD_OK && found) st = dyd_cert_edges_add(&p->legal, pair->i, pair->j);
   }
   dyd_point_clear(&c);
-  return status;
+  return st;
 }
 
-static dyd_status gather(dyd_proof *p) {
-  dyd_status status = gather_sites(p);
-  if (status >= 0) status = gather_legal(p);
-  if (status >= 0) status = dyd_proof_find_bridges(p);
-  return status < 0 ? status : dyd_proof_find_faces(p);
+static dyd_status proof_gather(dyd_proof *p) {
+  dyd_status st = proof_gather_sites(p);
+  if (st == DYD_OK) st = proof_gather_legal(p);
+  if (st == DYD_OK) st = dyd_proof_find_bridges(p);
+  return st == DYD_OK ? dyd_proof_find_faces(p) : st;
 }
 
 /* ---- sections ---- */
 
-static void put_side(FILE *out, const dyd_cert_side *s) {
+static void certificate_side(FILE *out, const dyd_cert_side *s) {
   dyd_proof_put_number(out, &s->lo);
   if (s->den) {
     putc('/', out);
@@ -88,7 +84,7 @@ static void put_side(FILE *out, const dyd_cert_side *s) {
   dyd_exact_clear(&width);
 }
 
-static void put_head(FILE *out, const dyd_proof *p) {
+static void certificate_head(FILE *out, const dyd_proof *p) {
   int64_t bits;
   dyd_goal goal = dyd_engine_goal(&bits, p->engine);
   fprintf(out, "dyadel certificate 1\noutcome %s\ngoal %s", dyd_outcome_text(dyd_engine_outcome(p->engine)),
@@ -97,7 +93,7 @@ static void put_head(FILE *out, const dyd_proof *p) {
   fprintf(out, "\ncapped %s\n", dyd_delaunay_is_capped(p->pd) ? "yes" : "no");
 }
 
-static void put_sites(FILE *out, const dyd_proof *p) {
+static void certificate_sites(FILE *out, const dyd_proof *p) {
   fprintf(out, "sites %zu\n", p->sites.count);
   for (size_t i = 0; i < p->sites.count; i++) {
     const dyd_cert_site *s = &p->sites.site[i];
@@ -105,14 +101,15 @@ static void put_sites(FILE *out, const dyd_proof *p) {
       fprintf(out, "= %" PRIu32 "\n", s->alias);
       continue;
     }
-    put_side(out, &s->side[0]);
+    certificate_side(out, &s->side[0]);
     putc(' ', out);
-    put_side(out, &s->side[1]);
+    certificate_side(out, &s->side[1]);
     putc('\n', out);
   }
 }
 
-static void put_edges(FILE *out, const char *name, const dyd_cert_edges *edges, const dyd_proof_points *centre) {
+static void certificate_edges(FILE *out, const char *name, const dyd_cert_edges *edges,
+                              const dyd_proof_points *centre) {
   fprintf(out, "%s %zu\n", name, edges->count);
   for (size_t e = 0; e < edges->count; e++) {
     fprintf(out, "%" PRIu32 " %" PRIu32 " ", edges->item[e].i, edges->item[e].j);
@@ -121,7 +118,7 @@ static void put_edges(FILE *out, const char *name, const dyd_cert_edges *edges, 
   }
 }
 
-static void put_places(FILE *out, const dyd_proof *p) {
+static void certificate_places(FILE *out, const dyd_proof *p) {
   size_t count = 0;
   for (size_t i = 0; i < p->sites.count; i++) count += p->sites.site[i].place != NULL;
   fprintf(out, "places %zu\n", count);
@@ -133,7 +130,7 @@ static void put_places(FILE *out, const dyd_proof *p) {
   }
 }
 
-static void put_corners(FILE *out, const dyd_proof *p) {
+static void certificate_corners(FILE *out, const dyd_proof *p) {
   fprintf(out, "corners %zu\n", p->corners);
   for (size_t q = 0; q < p->corners; q++) {
     fprintf(out, "%" PRIu32 " ", p->corner[q].i);
@@ -144,58 +141,56 @@ static void put_corners(FILE *out, const dyd_proof *p) {
 
 /* ---- the end ---- */
 
-static void put_bound(FILE *out, const char *name, const dyd_dyadic *bound) {
+static void certificate_bound(FILE *out, const char *name, const dyd_dyadic *bound) {
   dyd_exact x;
   dyd_exact_init(&x);
-  mpz_set(x.man, bound->man);
-  x.exp = bound->exp;
+  dyd_proof_set(&x, bound);
   fprintf(out, "%s ", name);
   dyd_proof_put_number(out, &x);
   putc('\n', out);
   dyd_exact_clear(&x);
 }
 
-static dyd_status put_end(FILE *out, const dyd_proof *p) {
+static dyd_status certificate_end(FILE *out, const dyd_proof *p) {
   dyd_dyadic area, hausdorff;
   dyd_dyadic_init(&area);
   dyd_dyadic_init(&hausdorff);
   fprintf(out, "triangles %zu\nunproved %" PRIu64 "\n", p->faces.triangles, dyd_cert_faces_left(&p->faces));
-  dyd_status status = dyd_engine_bounds(&area, &hausdorff, p->engine);
-  if (status == DYD_OK) {
-    put_bound(out, "area", &area);
-    put_bound(out, "hausdorff", &hausdorff);
+  dyd_status st = dyd_engine_bounds(&area, &hausdorff, p->engine);
+  if (st == DYD_OK) {
+    certificate_bound(out, "area", &area);
+    certificate_bound(out, "hausdorff", &hausdorff);
   } else {
     fputs("area none\nhausdorff none\n", out);
   }
   dyd_dyadic_clear(&area);
   dyd_dyadic_clear(&hausdorff);
-  return status == DYD_E_NOMEM ? status : DYD_OK;
+  return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
 /* window: NULL: no section on the diagram. */
-static dyd_status put_all(FILE *out, dyd_proof *p, const dyd_rect *window) {
-  put_head(out, p);
-  put_sites(out, p);
-  put_edges(out, "legal", &p->legal, &p->witness);
-  put_places(out, p);
-  put_edges(out, "bridges", &p->bridges, &p->centre);
-  put_corners(out, p);
-  dyd_status status = dyd_proof_put_pairs(out, p);
-  if (status >= 0) status = put_end(out, p);
-  if (status >= 0 && window) status = dyd_proof_put_diagram(out, p, window);
-  return status;
+static dyd_status certificate_sections(FILE *out, dyd_proof *p, const dyd_rect *window) {
+  certificate_head(out, p);
+  certificate_sites(out, p);
+  certificate_edges(out, "legal", &p->legal, &p->witness);
+  certificate_places(out, p);
+  certificate_edges(out, "bridges", &p->bridges, &p->centre);
+  certificate_corners(out, p);
+  dyd_status st = dyd_proof_put_pairs(out, p);
+  if (st == DYD_OK) st = certificate_end(out, p);
+  if (st == DYD_OK && window) st = dyd_proof_put_diagram(out, p, window);
+  return st;
 }
 
-static dyd_status write_all(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_error *err) {
+static dyd_status certificate_write(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_error *err) {
   dyd_proof p = {.engine = e, .pd = dyd_engine_delaunay(e)};
   dyd_cert_sites_init(&p.sites);
-  dyd_status status = gather(&p);
-  if (status >= 0) status = put_all(out, &p, window);
-  clear(&p);
-  if (status < 0) return dyd_fail(err, status, "%s", dyd_status_text(status));
-  if (fputs("end\n", out) < 0 || fflush(out) != 0 || ferror(out))
-    return dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno ? errno : EIO));
-  return DYD_OK;
+  dyd_status st = proof_gather(&p);
+  if (st == DYD_OK) st = certificate_sections(out, &p, window);
+  proof_clear(&p);
+  if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
+  fputs("end\n", out);
+  return dyd_output_end(out, err);
 }
 
 dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, dyd_error *err) {
@@ -205,7 +200,7 @@ dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, dyd_erro
   if (dyd_engine_outcome(e) == DYD_OUTCOME_CERTIFIED &&
       (goal == DYD_GOAL_VORONOI_AREA || goal == DYD_GOAL_VORONOI_HAUSDORFF))
     return dyd_fail(err, DYD_E_ARG, "a goal on the diagram was reached; its certificate needs the window");
-  return write_all(out, e, NULL, err);
+  return certificate_write(out, e, NULL, err);
 }
 
 dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, const struct dyd_rect *window,
@@ -216,14 +211,14 @@ dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, 
   const dyd_delaunay *pd = dyd_engine_delaunay(e);
   if (!pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet");
   dyd_rect_init(&own);
-  dyd_status status = DYD_OK;
-  if (!window) status = dyd_voronoi_window(&own, dyd_delaunay_sites(pd));
-  if (status < 0)
-    status = dyd_fail(err, status, "the points span more than doubles hold; give a window");
-  else if (dyd_window_init(&w, window ? window : &own) < 0)
-    status = dyd_fail(err, DYD_E_ARG, "the window has to have positive area and dyadic ends");
+  dyd_status st = DYD_OK;
+  if (!window) st = dyd_voronoi_window(&own, dyd_delaunay_sites(pd));
+  if (st != DYD_OK)
+    st = dyd_fail(err, st, "the points span more than doubles hold; give a window");
+  else if (dyd_window_init(&w, window ? window : &own) != DYD_OK)
+    st = dyd_fail(err, DYD_E_ARG, "the window has to have positive area and dyadic ends");
   else
-    status = write_all(out, e, window ? window : &own, err);
+    st = certificate_write(out, e, window ? window : &own, err);
   dyd_rect_clear(&own);
-  return status;
+  return st;
 }

@@ -1,11 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The picture of the Voronoi diagram: what is surely nearest to a point, the undetermined rest of the window,
  * rectangles, sure vertices, regions of undecided faces. */
-#include "base/alloc.h"
-#include "base/error.h"
 #include "io/diagram.h"
 #include "picture/picture.h"
-#include "picture/plot.h"
 #include <math.h>
 
 /* Blues that neighbours rarely share; light, so that grey copies show the darker band between them. */
@@ -14,15 +11,15 @@ static const unsigned tints[4] = {0xdcebf5, 0xe8f2e4, 0xeee9f6, 0xe3f3f3};
 /* Of rectangles, so that they are seen on the band. */
 #define SITE 0x444444
 
-typedef struct drawing {
-  dyd_diagram *d;
+typedef struct voronoi_drawing {
+  const dyd_diagram *d;
   cairo_t *cr;
   dyd_view view;
-  dyd_status status;
+  dyd_status st;
   double window[4];
-} drawing;
+} voronoi_drawing;
 
-static void path_of(cairo_t *cr, const dyd_view *v, const dyd_polygon *p) {
+static void polygon_outline(cairo_t *cr, const dyd_view *v, const dyd_polygon *p) {
   cairo_new_path(cr);
   for (size_t k = 0; k < p->count; k++)
     cairo_line_to(cr, dyd_view_x(v, dyd_dyadic_get_d(&p->vertex[k].x, DYD_DOWN)),
@@ -30,20 +27,20 @@ static void path_of(cairo_t *cr, const dyd_view *v, const dyd_polygon *p) {
   cairo_close_path(cr);
 }
 
-static dyd_status draw_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
-  drawing *g = context;
+static dyd_status voronoi_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
+  voronoi_drawing *g = context;
   dyd_polygon inner = {0};
   (void)row;
-  dyd_status status = dyd_shape_inner(&inner, shape);
-  if (status >= 0 && inner.count) {
-    path_of(g->cr, &g->view, &inner);
+  dyd_status st = dyd_shape_inner(&inner, shape);
+  if (st == DYD_OK && inner.count) {
+    polygon_outline(g->cr, &g->view, &inner);
     dyd_picture_colour(g->cr, tints[i % 4]);
     cairo_fill_preserve(g->cr);
     dyd_picture_pen(g->cr, 0x0072b2, g->view.line * 0.6, 0, 0);
     cairo_stroke(g->cr);
   }
   dyd_polygon_clear(&inner);
-  return status;
+  return st;
 }
 
 static void box_path(cairo_t *cr, const dyd_view *v, const double b[4]) {
@@ -51,8 +48,8 @@ static void box_path(cairo_t *cr, const dyd_view *v, const double b[4]) {
   cairo_rectangle(cr, dyd_view_x(v, b[0]), dyd_view_y(v, b[3]), (b[1] - b[0]) * v->scale, (b[3] - b[2]) * v->scale);
 }
 
-static dyd_status draw_region(void *context, size_t face, const double box[4]) {
-  const drawing *g = context;
+static dyd_status voronoi_region(void *context, size_t face, const double box[4]) {
+  const voronoi_drawing *g = context;
   (void)face;
   if (!box || (box[1] - box[0] + box[3] - box[2]) * g->view.scale > 60 * g->view.dot)
     return DYD_OK;                              /* a large one would hide what it is about */
@@ -64,7 +61,7 @@ static dyd_status draw_region(void *context, size_t face, const double box[4]) {
   return DYD_OK;
 }
 
-static void draw_vertices(const drawing *g) {
+static void voronoi_vertices(const voronoi_drawing *g) {
   for (size_t k = 0; k < g->d->triangles.count; k++) {
     const double *b = g->d->vertex[k], *w = g->window;
     if (!(b[0] <= w[1] && w[0] <= b[1] && b[2] <= w[3] && w[2] <= b[3])) continue;
@@ -85,10 +82,9 @@ static void bound_text(char *out, size_t size, const dyd_voronoi_bounds *b) {
   snprintf(out, size, "undetermined area at most %s, within %s of the true diagram", area, far);
 }
 
-static void draw_legend(const drawing *g) {
+static void voronoi_legend(const voronoi_drawing *g) {
   char text[300], bounds[120];
-  double width, height, y, x = 30;
-  dyd_view_page(&width, &height, &y, &g->view);
+  double y = dyd_view_legend(&g->view), x = 30;
   dyd_picture_entry(g->cr, &x, y, tints[0], true, 0, 0, "surely nearest to one point");
   dyd_picture_entry(g->cr, &x, y, DYD_PICTURE_BAND, true, 0, 0, "undetermined");
   dyd_picture_scale(g->cr, &g->view, y);
@@ -96,14 +92,14 @@ static void draw_legend(const drawing *g) {
   dyd_picture_entry(g->cr, &x, y, 0x9b9b9b, true, 0, 0, "rectangle of a point");
   dyd_picture_entry(g->cr, &x, y, 0x0072b2, false, 0, 0, "box: a sure vertex is in it");
   dyd_picture_entry(g->cr, &x, y, 0xd55e00, false, 4, 2.5, "box: undecided vertices");
-  bound_text(bounds, sizeof bounds, &g->d->bounds);
+  bound_text(bounds, sizeof bounds, g->d->bounds);
   snprintf(text, sizeof text, "%zu points, outcome %s; %s", g->d->count,
            dyd_outcome_text(dyd_engine_outcome(g->d->engine)), bounds);
-  dyd_plot_text(g->cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, text);
+  dyd_picture_text(g->cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, text);
 }
 
-static void draw(cairo_t *cr, void *context) {
-  drawing *g = context;
+static void voronoi_draw(cairo_t *cr, void *context) {
+  voronoi_drawing *g = context;
   g->cr = cr;
   dyd_picture_begin(cr);
   cairo_save(cr);
@@ -111,9 +107,9 @@ static void draw(cairo_t *cr, void *context) {
   cairo_clip(cr);
   dyd_picture_colour(cr, DYD_PICTURE_BAND);
   cairo_paint(cr);
-  g->status = dyd_diagram_visit(g->d, draw_cell, g);
-  if (g->status >= 0) g->status = dyd_diagram_regions(g->d, draw_region, g);
-  draw_vertices(g);
+  g->st = dyd_diagram_visit(g->d, voronoi_cell, g);
+  if (g->st == DYD_OK) g->st = dyd_diagram_regions(g->d, voronoi_region, g);
+  voronoi_vertices(g);
   for (size_t i = 0; i < g->d->count; i++) {
     double b[4];
     dyd_sites_get_d(b, g->d->sites, i);
@@ -124,28 +120,13 @@ static void draw(cairo_t *cr, void *context) {
   box_path(cr, &g->view, g->window);
   dyd_picture_pen(cr, 0x222222, 1, 0, 0);
   cairo_stroke(cr);
-  if (g->status >= 0) draw_legend(g);
+  if (g->st == DYD_OK) voronoi_legend(g);
 }
 
-static dyd_status write_picture(dyd_diagram *d, dyd_format kind, dyd_error *err) {
-  drawing g = {.d = d};
-  double width, height, legend;
-  dyd_interval_get_d(&g.window[0], &g.window[1], &d->window.x);
-  dyd_interval_get_d(&g.window[2], &g.window[3], &d->window.y);
-  dyd_status status = dyd_view_fit(&g.view, g.window, dyd_view_spacing(d->pd, g.window), err);
-  if (status < 0) return status;
-  dyd_view_page(&width, &height, &legend, &g.view);
-  status = dyd_page_write(d->out, kind, width, height, draw, &g, err);
-  if (g.status < 0) return dyd_fail(err, g.status, "%s", dyd_status_text(g.status));
-  return status;
-}
-
-dyd_status dyd_write_voronoi_svg(dyd_diagram *d, dyd_error *err) {
-  return write_picture(d, DYD_FORMAT_SVG, err);
-}
-dyd_status dyd_write_voronoi_pdf(dyd_diagram *d, dyd_error *err) {
-  return write_picture(d, DYD_FORMAT_PDF, err);
-}
-dyd_status dyd_write_voronoi_png(dyd_diagram *d, dyd_error *err) {
-  return write_picture(d, DYD_FORMAT_PNG, err);
+dyd_status dyd_voronoi_picture(const dyd_output *o) {
+  voronoi_drawing g = {.d = o->what};
+  dyd_rect_get_d(g.window, &g.d->window);
+  dyd_status st = dyd_view_fit(&g.view, g.window, dyd_view_spacing(g.d->pd, g.window), o->err);
+  if (st == DYD_OK) st = dyd_view_write(o, &g.view, voronoi_draw, &g);
+  return g.st == DYD_OK ? st : g.st;
 }

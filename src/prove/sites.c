@@ -2,26 +2,26 @@
 /* Sites and witnesses in the form that the checker of certificates takes; witnesses shortened; numbers as they are
  * written. */
 #include "base/alloc.h"
-#include "prove/certificate.h"
+#include "prove/proof.h"
 #include <inttypes.h>
 
-static void copy(dyd_exact *out, const dyd_dyadic *x) {
+void dyd_proof_set(dyd_exact *out, const dyd_dyadic *x) {
   mpz_set(out->man, x->man);
   out->exp = x->exp;
 }
 
-static dyd_status add_side(dyd_cert_side *out, const dyd_interval *a) {
-  copy(&out->lo, &a->lo);
+static dyd_status proof_add_side(dyd_cert_side *out, const dyd_interval *a) {
+  dyd_proof_set(&out->lo, &a->lo);
   out->point = dyd_interval_is_point(a);
-  if (!out->point) copy(&out->hi, &a->hi);
+  if (!out->point) dyd_proof_set(&out->hi, &a->hi);
   return mpz_cmp_ui(a->den, 1) == 0 ? DYD_OK : dyd_cert_side_set_den(out, a->den);
 }
 
 dyd_status dyd_proof_add_site(dyd_cert_sites *out, const dyd_rect *r) {
   dyd_cert_site *site = dyd_cert_sites_add(out);
   if (!site) return DYD_E_NOMEM;
-  dyd_status status = add_side(&site->side[0], &r->x);
-  return status < 0 ? status : add_side(&site->side[1], &r->y);
+  dyd_status st = proof_add_side(&site->side[0], &r->x);
+  return st == DYD_OK ? proof_add_side(&site->side[1], &r->y) : st;
 }
 
 void dyd_proof_points_clear(dyd_proof_points *p) {
@@ -77,13 +77,14 @@ static int64_t size_of_distance(const dyd_exact c[2], const dyd_cert_site *s) {
   return top;
 }
 
-static int64_t lower(int64_t a, int64_t b) {
+static int64_t lower_exponent(int64_t a, int64_t b) {
   return a < b ? a : b;
 }
 
 /* Multiples of ever smaller powers of two, from a size like the distance on, until one is a witness. */
-static bool shorten(dyd_exact out[2], const dyd_proof *p, uint32_t i, uint32_t j, const dyd_exact c[2], bool places) {
-  int64_t last = lower(c[0].exp, c[1].exp), exp = size_of_distance(c, &p->sites.site[i]);
+static bool shorten_witness(dyd_exact out[2], const dyd_proof *p, uint32_t i, uint32_t j, const dyd_exact c[2],
+                            bool places) {
+  int64_t last = lower_exponent(c[0].exp, c[1].exp), exp = size_of_distance(c, &p->sites.site[i]);
   for (exp = exp == INT64_MIN ? last : exp - 2; exp > last; exp -= exp - last > 200 ? 32 : 2) {
     dyd_proof_round(&out[0], &c[0], exp);
     dyd_proof_round(&out[1], &c[1], exp);
@@ -101,9 +102,9 @@ dyd_status dyd_proof_add_witness(bool *found, dyd_proof_points *out, const dyd_p
   for (int a = 0; a < 2; a++) {
     dyd_exact_init(&from[a]);
     dyd_exact_init(&to[a]);
-    copy(&from[a], a ? &c->y : &c->x);
+    dyd_proof_set(&from[a], a ? &c->y : &c->x);
   }
-  *found = shorten(to, p, i, j, from, places);
+  *found = shorten_witness(to, p, i, j, from, places);
   if (*found) out->count++;
   for (int a = 0; a < 2; a++) {
     dyd_exact_clear(&from[a]);

@@ -5,9 +5,7 @@
  * span a cone, and a direction at an obtuse angle to both of its sides will do. Integers only. */
 #include "base/alloc.h"
 #include "checker/parts.h"
-#include "prove/certificate.h"
-
-#include <string.h>
+#include "prove/proof.h"
 
 /* The walk of the unbounded face as sites, and which of them may be corners. */
 typedef struct rim {
@@ -17,8 +15,8 @@ typedef struct rim {
 } rim;
 
 static dyd_status make_rim(rim *r, const dyd_proof *p) {
-  dyd_status status = dyd_cert_walk(&r->walk, &r->count, &p->graph, dyd_cert_outer(&p->graph));
-  if (status < 0) return status;
+  dyd_status st = dyd_cert_walk(&r->walk, &r->count, &p->graph, dyd_cert_outer(&p->graph));
+  if (st != DYD_OK) return st;
   r->site = dyd_alloc(r->count, sizeof *r->site);
   if (!r->site) return DYD_E_NOMEM;
   for (size_t q = 0; q < r->count; q++) r->site[q] = dyd_cert_origin(&p->graph, r->walk[q]);
@@ -28,15 +26,15 @@ static dyd_status make_rim(rim *r, const dyd_proof *p) {
   if (copy && times && r->corner) {
     for (size_t q = 0; q < r->count; q++)
       if (times[r->site[q]]++ == 0) copy[kept++] = r->site[q];
-    status = dyd_cert_hull(r->corner, &p->sites, copy, kept);
+    st = dyd_cert_hull(r->corner, &p->sites, copy, kept);
     for (size_t q = 0; q < r->count; q++)
       if (times[r->site[q]] > 1) r->corner[r->site[q]] = false;
   } else {
-    status = DYD_E_NOMEM;
+    st = DYD_E_NOMEM;
   }
   free(copy);
   free(times);
-  return status;
+  return st;
 }
 
 /* A cone of directions: all d with first x d >= 0 >= last x d. */
@@ -46,7 +44,7 @@ typedef struct cone {
 } cone;
 
 /* Sign of the cross product, exactly. */
-static int cross(const dyd_exact a[2], const dyd_exact b[2]) {
+static int cone_cross(const dyd_exact a[2], const dyd_exact b[2]) {
   dyd_exact s, t;
   dyd_exact_init(&s);
   dyd_exact_init(&t);
@@ -58,7 +56,7 @@ static int cross(const dyd_exact a[2], const dyd_exact b[2]) {
   return sign;
 }
 
-static int dot(const dyd_exact a[2], const dyd_exact b[2]) {
+static int cone_dot(const dyd_exact a[2], const dyd_exact b[2]) {
   dyd_exact s, t;
   dyd_exact_init(&s);
   dyd_exact_init(&t);
@@ -76,7 +74,7 @@ static void set_direction(dyd_exact out[2], const dyd_exact d[2]) {
   dyd_exact_set(&out[1], &d[1]);
 }
 
-static void widen(cone *k, const dyd_exact d[2]) {
+static void cone_widen(cone *k, const dyd_exact d[2]) {
   if (k->broken) return;
   if (!dyd_exact_sgn(&d[0]) && !dyd_exact_sgn(&d[1])) {
     k->broken = true;
@@ -85,9 +83,9 @@ static void widen(cone *k, const dyd_exact d[2]) {
     set_direction(k->last, d);
     k->empty = false;
   } else {
-    int a = cross(k->first, d), b = cross(d, k->last);
-    if (a >= 0 && b >= 0 && (a || b || dot(k->first, d) > 0)) return; /* inside */
-    bool before = a < 0 && cross(d, k->last) > 0, after = b < 0 && cross(k->first, d) > 0;
+    int a = cone_cross(k->first, d), b = cone_cross(d, k->last);
+    if (a >= 0 && b >= 0 && (a || b || cone_dot(k->first, d) > 0)) return; /* inside */
+    bool before = a < 0 && cone_cross(d, k->last) > 0, after = b < 0 && cone_cross(k->first, d) > 0;
     if (before)
       set_direction(k->first, d);
     else if (after)
@@ -98,7 +96,7 @@ static void widen(cone *k, const dyd_exact d[2]) {
 }
 
 /* The cone takes in all differences of a point of w and a point of v. */
-static void take_in(cone *k, const dyd_cert_sites *s, uint32_t v, uint32_t w) {
+static void cone_take_in(cone *k, const dyd_cert_sites *s, uint32_t v, uint32_t w) {
   dyd_fraction end[2][2];
   dyd_exact d[2];
   for (int q = 0; q < 4; q++) dyd_fraction_init(&end[q / 2][q % 2]);
@@ -115,7 +113,7 @@ static void take_in(cone *k, const dyd_cert_sites *s, uint32_t v, uint32_t w) {
     dyd_exact_set(&d[1], &y->num);
     if (!y->whole) dyd_exact_mul_z(&d[0], &d[0], y->den);
     if (!x->whole) dyd_exact_mul_z(&d[1], &d[1], x->den);
-    widen(k, (const dyd_exact *)d);
+    cone_widen(k, (const dyd_exact *)d);
   }
   for (int q = 0; q < 4; q++) dyd_fraction_clear(&end[q / 2][q % 2]);
   dyd_exact_clear(&d[0]);
@@ -125,7 +123,7 @@ static void take_in(cone *k, const dyd_cert_sites *s, uint32_t v, uint32_t w) {
 /* ---- a direction ---- */
 
 /* Scales d to about `bits` bits, rounding. */
-static void cut(dyd_exact out[2], const dyd_exact d[2], int64_t bits) {
+static void cut_direction(dyd_exact out[2], const dyd_exact d[2], int64_t bits) {
   int64_t x = dyd_exact_top(&d[0]), y = dyd_exact_top(&d[1]), top = x > y ? x : y;
   for (int a = 0; a < 2; a++) {
     dyd_proof_round(&out[a], &d[a], top - bits);
@@ -134,26 +132,26 @@ static void cut(dyd_exact out[2], const dyd_exact d[2], int64_t bits) {
 }
 
 /* out = d turned a quarter, counter-clockwise for sign = 1. */
-static void turn(dyd_exact out[2], const dyd_exact d[2], int sign) {
+static void turn_quarter(dyd_exact out[2], const dyd_exact d[2], int sign) {
   dyd_exact_set(&out[0], &d[1]);
   dyd_exact_set(&out[1], &d[0]);
   mpz_neg(out[sign > 0 ? 0 : 1].man, out[sign > 0 ? 0 : 1].man);
 }
 
 /* u = a direction at an obtuse angle to the sides of the cone, as far as so many bits allow. */
-static void choose(dyd_exact u[2], const cone *k, int64_t bits) {
+static void cone_choose(dyd_exact u[2], const cone *k, int64_t bits) {
   dyd_exact a[2], b[2], t[2];
   for (int q = 0; q < 2; q++) {
     dyd_exact_init(&a[q]);
     dyd_exact_init(&b[q]);
     dyd_exact_init(&t[q]);
   }
-  bool wide = dot(k->first, k->last) <= 0;
-  cut(a, k->first, bits);
-  cut(b, k->last, bits);
+  bool wide = cone_dot(k->first, k->last) <= 0;
+  cut_direction(a, k->first, bits);
+  cut_direction(b, k->last, bits);
   if (wide) {
-    turn(t, (const dyd_exact *)a, -1);
-    turn(a, (const dyd_exact *)b, 1);
+    turn_quarter(t, (const dyd_exact *)a, -1);
+    turn_quarter(a, (const dyd_exact *)b, 1);
   } else {
     set_direction(t, (const dyd_exact *)b);
   }
@@ -178,7 +176,7 @@ static bool each_beside(cone *k, const dyd_exact *u, const dyd_proof *p, const r
       uint32_t w = parts->site[m];
       if (w == v) continue;
       if (!u)
-        take_in(k, &p->sites, v, w);
+        cone_take_in(k, &p->sites, v, w);
       else if (dyd_cert_compare_heights(&p->sites, u, w, v) >= 0)
         return false;
       if (k->broken) return false;
@@ -196,7 +194,7 @@ static bool find_direction(dyd_exact u[2], const dyd_proof *p, const rim *r, con
   bool found = false;
   if (each_beside(&k, NULL, p, r, parts, q) && !k.empty)
     for (int64_t bits = 3; bits <= (int64_t)1 << 14 && !found; bits += bits / 2 + 1) {
-      choose(u, &k, bits);
+      cone_choose(u, &k, bits);
       found = each_beside(&k, u, p, r, parts, q);
     }
   for (int a = 0; a < 2; a++) {
@@ -225,7 +223,7 @@ static bool have_corner(const rim *r) {
   return false;
 }
 
-static void drop_corners(dyd_proof *p) {
+void dyd_proof_drop_corners(dyd_proof *p) {
   for (size_t q = 0; q < p->corners; q++) {
     dyd_exact_clear(&p->corner[q].u[0]);
     dyd_exact_clear(&p->corner[q].u[1]);
@@ -238,15 +236,15 @@ static dyd_status try_corners(bool *again, dyd_proof *p, rim *r) {
   dyd_cert_parts parts;
   dyd_exact u[2];
   *again = false;
-  drop_corners(p);
-  dyd_status status = dyd_cert_parts_init(&parts, &p->graph, r->walk, r->count, r->corner);
-  if (status < 0) return status;
+  dyd_proof_drop_corners(p);
+  dyd_status st = dyd_cert_parts_init(&parts, &p->graph, r->walk, r->count, r->corner);
+  if (st != DYD_OK) return st;
   dyd_exact_init(&u[0]);
   dyd_exact_init(&u[1]);
-  for (size_t q = 0; q < r->count && status >= 0; q++) {
+  for (size_t q = 0; q < r->count && st == DYD_OK; q++) {
     if (!r->corner[r->site[q]]) continue;
     if (find_direction(u, p, r, &parts, q)) {
-      status = keep_corner(p, r->site[q], (const dyd_exact *)u);
+      st = keep_corner(p, r->site[q], (const dyd_exact *)u);
     } else {
       r->corner[r->site[q]] = false;
       *again = true;
@@ -255,36 +253,36 @@ static dyd_status try_corners(bool *again, dyd_proof *p, rim *r) {
   dyd_exact_clear(&u[0]);
   dyd_exact_clear(&u[1]);
   dyd_cert_parts_clear(&parts);
-  return status;
+  return st;
 }
 
-static int compare_corner(const void *a, const void *b) {
+static int compare_corner_sites(const void *a, const void *b) {
   uint32_t x = ((const dyd_cert_corner *)a)->i, y = ((const dyd_cert_corner *)b)->i;
   return (x > y) - (x < y);
 }
 
-static dyd_status find_corners(dyd_proof *p) {
+static dyd_status rim_corners(dyd_proof *p) {
   if (!p->graph.connected || p->graph.count == 0) return DYD_OK;
   rim r = {0};
-  dyd_status status = make_rim(&r, p);
-  for (bool again = true; again && status >= 0;) {
+  dyd_status st = make_rim(&r, p);
+  for (bool again = true; again && st == DYD_OK;) {
     again = false;
     if (have_corner(&r))
-      status = try_corners(&again, p, &r);
+      st = try_corners(&again, p, &r);
     else
-      drop_corners(p);
+      dyd_proof_drop_corners(p);
   }
-  if (p->corners) qsort(p->corner, p->corners, sizeof *p->corner, compare_corner);
+  if (p->corners) qsort(p->corner, p->corners, sizeof *p->corner, compare_corner_sites);
   free(r.walk);
   free(r.site);
   free(r.corner);
-  return status;
+  return st;
 }
 
 dyd_status dyd_proof_find_faces(dyd_proof *p) {
   uint32_t bad = DYD_CERT_NONE;
-  dyd_status status = dyd_cert_graph_init(&p->graph, &p->sites, &p->legal, &p->bridges);
-  if (status >= 0) status = find_corners(p);
-  if (status >= 0) status = dyd_cert_faces_init(&p->faces, &bad, &p->graph, p->corner, p->corners);
-  return status;
+  dyd_status st = dyd_cert_graph_init(&p->graph, &p->sites, &p->legal, &p->bridges);
+  if (st == DYD_OK) st = rim_corners(p);
+  if (st == DYD_OK) st = dyd_cert_faces_init(&p->faces, &bad, &p->graph, p->corner, p->corners);
+  return st;
 }

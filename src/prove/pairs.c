@@ -4,7 +4,7 @@
  * Blockers are looked for first among those of the pairs just before with the same site i, as a few sites round i block
  * most others; then among the sites of the set and the neighbours of the two; then among all. */
 #include "base/alloc.h"
-#include "prove/certificate.h"
+#include "prove/proof.h"
 #include <inttypes.h>
 #include <string.h>
 
@@ -38,16 +38,16 @@ static int compare_line(const void *a, const void *b) {
 
 static dyd_status open_lines(lines *l, const dyd_proof *p) {
   static const char kind[] = {[DYD_TIE] = 't', [DYD_INDETERMINATE] = 'o', [DYD_LEGAL] = 'l'};
-  dyd_status status = DYD_OK;
-  for (size_t k = 0; k < p->pairs.count && status >= 0; k++) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < p->pairs.count && st == DYD_OK; k++) {
     const dyd_pair *q = &p->pairs.item[k];
     if (q->status == DYD_LEGAL && dyd_cert_edges_have(&p->legal, q->i, q->j)) continue;
-    status = add_line(l, q->i, q->j, kind[q->status]);
+    st = add_line(l, q->i, q->j, kind[q->status]);
   }
-  return status;
+  return st;
 }
 
-static bool is_listed(const lines *l, size_t count, const dyd_proof *p, uint32_t i, uint32_t j) {
+static bool line_is_listed(const lines *l, size_t count, const dyd_proof *p, uint32_t i, uint32_t j) {
   line key = {i, j, 0};
   return dyd_cert_edges_have(&p->legal, i, j) ||
          (count && bsearch(&key, l->item, count, sizeof key, compare_line) != NULL);
@@ -56,19 +56,19 @@ static bool is_listed(const lines *l, size_t count, const dyd_proof *p, uint32_t
 /* The pairs of open sets that are not listed, as far as the effort allows. The first `known` lines are sorted. */
 static dyd_status illegal_lines(lines *l, const dyd_proof *p, size_t known) {
   uint64_t effort = 0;
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   for (size_t f = 0; f < p->faces.sets; f++) {
     const uint32_t *site = p->faces.member + p->faces.start[f];
     uint64_t m = p->faces.start[f + 1] - p->faces.start[f];
     if (m < 3 || p->faces.covered[f] == m * (m - 1) / 2) continue;
     for (size_t a = 0; a < m; a++)
-      for (size_t b = a + 1; b < m && status >= 0 && effort < CHAIN_EFFORT; b++) {
-        if (is_listed(l, known, p, site[a], site[b])) continue;
-        status = add_line(l, site[a], site[b], 'n');
+      for (size_t b = a + 1; b < m && st == DYD_OK && effort < CHAIN_EFFORT; b++) {
+        if (line_is_listed(l, known, p, site[a], site[b])) continue;
+        st = add_line(l, site[a], site[b], 'n');
         effort += CHAIN_PAIR;
       }
   }
-  return status;
+  return st;
 }
 
 /* Where blockers are looked for, owned; what the searches have cost; blockers that were of use for site `of`. */
@@ -88,34 +88,34 @@ static dyd_status add_blockers(blockers *b, const uint32_t *site, size_t count) 
 }
 
 static dyd_status add_neighbours(blockers *b, const dyd_proof *p, uint32_t v) {
-  dyd_status status = DYD_OK;
-  for (size_t q = p->graph.start[v]; q < p->graph.start[v + 1] && status >= 0; q++) {
+  dyd_status st = DYD_OK;
+  for (size_t q = p->graph.start[v]; q < p->graph.start[v + 1] && st == DYD_OK; q++) {
     uint32_t w = dyd_cert_origin(&p->graph, p->graph.around[q] ^ 1);
-    status = add_blockers(b, &w, 1);
+    st = add_blockers(b, &w, 1);
   }
-  return status;
+  return st;
 }
 
 static dyd_status find_blockers(blockers *b, const dyd_proof *p, uint32_t i, uint32_t j) {
   const dyd_cert_faces *f = &p->faces;
   b->count = 0;
-  dyd_status status = add_neighbours(b, p, i);
-  if (status >= 0) status = add_neighbours(b, p, j);
-  for (size_t k = f->first[i]; k < f->first[i + 1] && status >= 0; k++) {
+  dyd_status st = add_neighbours(b, p, i);
+  if (st == DYD_OK) st = add_neighbours(b, p, j);
+  for (size_t k = f->first[i]; k < f->first[i + 1] && st == DYD_OK; k++) {
     bool shared = false;
     for (size_t l = f->first[j]; l < f->first[j + 1]; l++) shared |= f->of[k] == f->of[l];
     size_t start = f->start[f->of[k]];
-    if (shared) status = add_blockers(b, f->member + start, f->start[f->of[k] + 1] - start);
+    if (shared) st = add_blockers(b, f->member + start, f->start[f->of[k] + 1] - start);
   }
-  return status;
+  return st;
 }
 
 static dyd_status all_blockers(blockers *b, const dyd_proof *p) {
-  dyd_status status = DYD_OK;
+  dyd_status st = DYD_OK;
   b->count = 0;
-  for (uint32_t v = 0; v < p->sites.count && status >= 0; v++)
-    if (p->sites.site[v].alias == v) status = add_blockers(b, &v, 1);
-  return status;
+  for (uint32_t v = 0; v < p->sites.count && st == DYD_OK; v++)
+    if (p->sites.site[v].alias == v) st = add_blockers(b, &v, 1);
+  return st;
 }
 
 static dyd_status recent_blockers(blockers *b, uint32_t i) {
@@ -133,23 +133,23 @@ static void remember_blockers(blockers *b, const dyd_cert_chain *chain) {
   }
 }
 
-static dyd_status find_chain(bool *found, dyd_cert_chain *chain, blockers *b, const dyd_proof *p, const line *l) {
-  dyd_status status = DYD_OK;
+static dyd_status pair_chain(bool *found, dyd_cert_chain *chain, blockers *b, const dyd_proof *p, const line *l) {
+  dyd_status st = DYD_OK;
   *found = false;
-  for (int wider = 0; wider < 3 && status >= 0 && !*found && b->effort < CHAIN_EFFORT; wider++) {
-    status = wider == 0 ? recent_blockers(b, l->i) : wider == 1 ? find_blockers(b, p, l->i, l->j) : all_blockers(b, p);
-    if (status < 0 || b->count == 0) continue;
+  for (int wider = 0; wider < 3 && st == DYD_OK && !*found && b->effort < CHAIN_EFFORT; wider++) {
+    st = wider == 0 ? recent_blockers(b, l->i) : wider == 1 ? find_blockers(b, p, l->i, l->j) : all_blockers(b, p);
+    if (st != DYD_OK || b->count == 0) continue;
     b->effort += b->count + CHAIN_PAIR;
-    status = dyd_proof_find_chain(found, chain, p, l->i, l->j, b->site, b->count);
+    st = dyd_proof_find_chain(found, chain, p, l->i, l->j, b->site, b->count);
   }
   if (*found) remember_blockers(b, chain);
-  return status;
+  return st;
 }
 
-static dyd_status put_chain(FILE *out, dyd_cert_chain *chain, blockers *near, dyd_proof *p, const line *l) {
+static dyd_status pair_put_chain(FILE *out, dyd_cert_chain *chain, blockers *near, dyd_proof *p, const line *l) {
   bool found;
-  dyd_status status = find_chain(&found, chain, near, p, l);
-  if (status < 0 || !found) return status;
+  dyd_status st = pair_chain(&found, chain, near, p, l);
+  if (st != DYD_OK || !found) return st;
   fprintf(out, "n %" PRIu32 " %" PRIu32 " ", l->i, l->j);
   dyd_proof_put_point(out, (const dyd_exact *)chain->u[0]);
   for (size_t q = 0; q < chain->points; q++) {
@@ -163,33 +163,33 @@ static dyd_status put_chain(FILE *out, dyd_cert_chain *chain, blockers *near, dy
   return DYD_OK;
 }
 
-static dyd_status put_lines(FILE *out, dyd_proof *p, const lines *l) {
+static dyd_status pair_put_lines(FILE *out, dyd_proof *p, const lines *l) {
   dyd_cert_chain chain;
   blockers near = {0};
   dyd_cert_chain_init(&chain);
-  dyd_status status = DYD_OK;
-  for (size_t k = 0; k < l->count && status >= 0; k++) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < l->count && st == DYD_OK; k++) {
     const line *at = &l->item[k];
     if (k && compare_line(at, at - 1) == 0) continue; /* a pair of two sets */
     if (at->kind == 'n')
-      status = put_chain(out, &chain, &near, p, at);
+      st = pair_put_chain(out, &chain, &near, p, at);
     else
       fprintf(out, "%c %" PRIu32 " %" PRIu32 "\n", at->kind, at->i, at->j);
   }
   dyd_cert_chain_clear(&chain);
   free(near.site);
-  return status;
+  return st;
 }
 
 dyd_status dyd_proof_put_pairs(FILE *out, dyd_proof *p) {
   lines l = {0};
   fputs("pairs\n", out);
-  dyd_status status = open_lines(&l, p);
+  dyd_status st = open_lines(&l, p);
   size_t known = l.count;
   for (size_t k = 0; k < known; k++) dyd_cert_faces_cover(&p->faces, l.item[k].i, l.item[k].j);
-  if (status >= 0 && !dyd_delaunay_is_capped(p->pd)) status = illegal_lines(&l, p, known);
-  if (status >= 0 && l.count) qsort(l.item, l.count, sizeof *l.item, compare_line);
-  if (status >= 0) status = put_lines(out, p, &l);
+  if (st == DYD_OK && !dyd_delaunay_is_capped(p->pd)) st = illegal_lines(&l, p, known);
+  if (st == DYD_OK && l.count) qsort(l.item, l.count, sizeof *l.item, compare_line);
+  if (st == DYD_OK) st = pair_put_lines(out, p, &l);
   free(l.item);
-  return status;
+  return st;
 }

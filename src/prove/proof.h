@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What the writer of certificates gathers: the sites and proofs in the form that the checker takes. */
-#ifndef DYD_PROVE_CERTIFICATE_H
-#define DYD_PROVE_CERTIFICATE_H
+#ifndef DYD_PROVE_PROOF_H
+#define DYD_PROVE_PROOF_H
 
 #include "checker/chain.h"
 #include "checker/faces.h"
@@ -43,6 +43,7 @@ void dyd_proof_points_clear(dyd_proof_points *p);
 dyd_status dyd_proof_find_bridges(dyd_proof *p);
 /* The graph, the corners and the faces. */
 dyd_status dyd_proof_find_faces(dyd_proof *p);
+void dyd_proof_drop_corners(dyd_proof *p);
 /* Looks for a chain that proves the pair of an open set illegal. Sites `near` are tried as blockers. */
 dyd_status dyd_proof_find_chain(bool *found, dyd_cert_chain *out, const dyd_proof *p, uint32_t i, uint32_t j,
                                 const uint32_t *near, size_t count);
@@ -56,6 +57,8 @@ dyd_status dyd_proof_put_pairs(FILE *out, dyd_proof *p);
 /* Writes the section on the diagram; nothing for a result that is capped. DYD_E_ARG for a wrong window. */
 dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window);
 
+/* out = x. */
+void dyd_proof_set(dyd_exact *out, const dyd_dyadic *x);
 /* out = x rounded to the nearest multiple of 2^exp, without trailing zero bits. */
 void dyd_proof_round(dyd_exact *out, const dyd_exact *x, int64_t exp);
 void dyd_proof_trim(dyd_exact *x);

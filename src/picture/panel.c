@@ -1,21 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* One panel of a plot: frame, ticks, curves, legend. */
-#include "picture/plot.h"
+#include "picture/panel.h"
 
+#include "picture/picture.h"
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 
 static const double turn = 6.283185307179586;
-
-/* align 0: from x on, 0.5: around x, 1: up to x. */
-void dyd_plot_text(cairo_t *cr, double x, double y, double align, double size, const char *text) {
-  cairo_text_extents_t e;
-  cairo_set_font_size(cr, size);
-  cairo_text_extents(cr, text, &e);
-  cairo_move_to(cr, x - align * e.x_advance, y);
-  cairo_show_text(cr, text);
-}
 
 bool dyd_panel_fit(dyd_panel *p, const dyd_convergence *c) {
   double low = INFINITY, high = -INFINITY;
@@ -31,13 +23,13 @@ bool dyd_panel_fit(dyd_panel *p, const dyd_convergence *c) {
   return any;
 }
 
-double dyd_panel_x(const dyd_panel *p, const dyd_convergence *c, size_t row) {
+static double panel_x(const dyd_panel *p, const dyd_convergence *c, size_t row) {
   double inner = p->width - 40;
   return p->x + 20 + (c->count < 2 ? inner / 2 : inner * (double)row / (double)(c->count - 1));
 }
 
 /* The lowest 18 points belong to zero. */
-double dyd_panel_y(const dyd_panel *p, double value) {
+static double panel_y(const dyd_panel *p, double value) {
   if (value == -INFINITY) return p->y + p->height - 6;
   return p->y + p->height - 18 - (p->height - 26) * (value - p->low) / (p->high - p->low);
 }
@@ -64,36 +56,36 @@ static void draw_levels(cairo_t *cr, const dyd_panel *p, int base) {
   char label[40];
   double step = tick_step(p, base);
   for (double v = ceil(p->low / step) * step; v <= p->high; v += step) {
-    double y = dyd_panel_y(p, v);
+    double y = panel_y(p, v);
     grid_line(cr, p->x, y, p->x + p->width, y);
     if (base == 10 && v < 7)
       snprintf(label, sizeof label, "%.0f", pow(10, v));
     else
       snprintf(label, sizeof label, "%d^%.0f", base, v);
-    dyd_plot_text(cr, p->x - 6, y + 3.5, 1, 10, label);
+    dyd_picture_text(cr, p->x - 6, y + 3.5, 1, 10, label);
   }
-  double zero = dyd_panel_y(p, -INFINITY);
-  dyd_plot_text(cr, p->x - 6, zero + 3.5, 1, 10, "0");
+  double zero = panel_y(p, -INFINITY);
+  dyd_picture_text(cr, p->x - 6, zero + 3.5, 1, 10, "0");
 }
 
 static void draw_stages(cairo_t *cr, const dyd_panel *p, const dyd_convergence *c) {
   size_t step = c->count / 16 + 1;
   char label[40];
   for (size_t k = 0; k < c->count; k += step) {
-    double x = dyd_panel_x(p, c, k), foot = p->y + p->height;
+    double x = panel_x(p, c, k), foot = p->y + p->height;
     grid_line(cr, x, p->y, x, foot);
     snprintf(label, sizeof label, "%" PRIu64, c->row[k]->stage);
-    dyd_plot_text(cr, x, foot + 13, 0.5, 10, label);
+    dyd_picture_text(cr, x, foot + 13, 0.5, 10, label);
     snprintf(label, sizeof label, "%" PRId64, c->row[k]->bits_most);
-    dyd_plot_text(cr, x, foot + 25, 0.5, 9, label);
+    dyd_picture_text(cr, x, foot + 25, 0.5, 9, label);
   }
-  dyd_plot_text(cr, p->x - 6, p->y + p->height + 13, 1, 10, "stage");
-  dyd_plot_text(cr, p->x - 6, p->y + p->height + 25, 1, 9, "bits");
+  dyd_picture_text(cr, p->x - 6, p->y + p->height + 13, 1, 10, "stage");
+  dyd_picture_text(cr, p->x - 6, p->y + p->height + 25, 1, 9, "bits");
 }
 
 /* ---- curves ---- */
 
-static void draw_mark(cairo_t *cr, const dyd_series *s, double x, double y) {
+static void draw_series_mark(cairo_t *cr, const dyd_series *s, double x, double y) {
   const double radius = 3.4;
   cairo_new_path(cr);
   if (s->mark == 0) cairo_arc(cr, x, y, radius, 0, turn);
@@ -123,13 +115,13 @@ static void draw_curve(cairo_t *cr, const dyd_panel *p, const dyd_series *s, con
     if (isnan(v))
       cairo_new_sub_path(cr);
     else
-      cairo_line_to(cr, dyd_panel_x(p, c, k), dyd_panel_y(p, v));
+      cairo_line_to(cr, panel_x(p, c, k), panel_y(p, v));
   }
   cairo_stroke(cr);
   cairo_set_dash(cr, NULL, 0, 0);
   for (size_t k = 0; k < c->count; k++) {
     double v = s->value(c->row[k]);
-    if (!isnan(v)) draw_mark(cr, s, dyd_panel_x(p, c, k), dyd_panel_y(p, v));
+    if (!isnan(v)) draw_series_mark(cr, s, panel_x(p, c, k), panel_y(p, v));
   }
 }
 
@@ -145,14 +137,14 @@ static void draw_key(cairo_t *cr, const dyd_series *s, double x, double y) {
   cairo_line_to(cr, x + 30, y);
   cairo_stroke(cr);
   cairo_set_dash(cr, NULL, 0, 0);
-  draw_mark(cr, s, x + 15, y);
+  draw_series_mark(cr, s, x + 15, y);
   cairo_set_source_rgb(cr, 0, 0, 0);
-  dyd_plot_text(cr, x + 38, y + 3.5, 0, 10.5, s->name);
+  dyd_picture_text(cr, x + 38, y + 3.5, 0, 10.5, s->name);
 }
 
 void dyd_panel_draw(cairo_t *cr, const dyd_panel *p, const dyd_convergence *c, int base) {
   cairo_set_source_rgb(cr, 0, 0, 0);
-  dyd_plot_text(cr, p->x, p->y - 7, 0, 12, p->title);
+  dyd_picture_text(cr, p->x, p->y - 7, 0, 12, p->title);
   draw_levels(cr, p, base);
   draw_stages(cr, p, c);
   cairo_set_source_rgb(cr, 0.2, 0.2, 0.2);

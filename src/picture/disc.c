@@ -6,9 +6,7 @@
  * the three that enclose two. */
 #include "base/error.h"
 #include "io/exact_text.h"
-#include "io/pieces.h"
 #include "picture/picture.h"
-#include "picture/plot.h"
 #include <math.h>
 
 enum { CIRCLES = 6, ONCE = 3, WHITE = 0xffffff };
@@ -17,41 +15,32 @@ enum { CIRCLES = 6, ONCE = 3, WHITE = 0xffffff };
 #define LARGE 1e5 /* radius in points from where only the part near the picture is drawn */
 #define MOST 1e13 /* radius from where doubles do not tell where the circle is, to hundredths of a point */
 
-typedef struct drawing {
+typedef struct disc_drawing {
   const dyd_partial_disc *d;
   const dyd_rect *const *r;
   size_t n;
   dyd_view view;
   double at[CIRCLES][3]; /* centre, radius */
-} drawing;
+} disc_drawing;
 
-static void place(double out[3], const dyd_circle *k) {
-  dyd_surd_point p;
+static void place_circle(double out[3], const dyd_circle *k) {
+  dyd_surd_point centre, radius2;
   double lo, hi;
-  dyd_surd_point_init(&p);
-  mpz_set(p.ax, k->ax);
-  mpz_set(p.bx, k->bx);
-  mpz_set(p.ay, k->ay);
-  mpz_set(p.by, k->by);
-  mpz_set(p.c, k->c);
-  mpz_set(p.d, k->d);
-  for (int axis = 0; axis < 2; axis++) {
-    dyd_exact_enclose(&lo, &hi, &p, axis);
-    out[axis] = lo / 2 + hi / 2;
-  }
-  mpz_set(p.ax, k->ar);
-  mpz_set(p.bx, k->br);
-  mpz_set(p.d, k->dr);
-  dyd_exact_enclose_root(&lo, &hi, &p);
+  dyd_surd_point_init(&centre);
+  dyd_surd_point_init(&radius2);
+  dyd_exact_circle(&centre, &radius2, k);
+  dyd_exact_middle(out, &centre);
+  dyd_exact_enclose_root(&lo, &hi, &radius2);
   out[2] = lo / 2 + hi / 2;
-  dyd_surd_point_clear(&p);
+  dyd_surd_point_clear(&radius2);
+  dyd_surd_point_clear(&centre);
 }
 
 /* ---- circles ---- */
 
 /* A large disc near the picture: a piece of its edge about the point closest to the middle of the picture, and three
  * more sides deep inside (only for filling). All of the picture, or nothing, when the edge does not come near. */
-static void large_path(cairo_t *cr, const dyd_view *v, double x, double y, double radius, bool closed) {
+static void large_circle_path(cairo_t *cr, const dyd_view *v, double x, double y, double radius, bool closed) {
   enum { STEPS = 64 };
   double mx = dyd_view_x(v, v->left) + v->width / 2, my = dyd_view_y(v, v->top) + v->height / 2;
   double size = v->width + v->height, away = hypot(mx - x, my - y), middle = atan2(my - y, mx - x);
@@ -71,17 +60,17 @@ static void large_path(cairo_t *cr, const dyd_view *v, double x, double y, doubl
   cairo_close_path(cr);
 }
 
-static void circle_path(cairo_t *cr, const drawing *g, int k, bool closed) {
+static void circle_path(cairo_t *cr, const disc_drawing *g, int k, bool closed) {
   double x = dyd_view_x(&g->view, g->at[k][0]), y = dyd_view_y(&g->view, g->at[k][1]);
   double radius = g->at[k][2] * g->view.scale;
   cairo_new_path(cr);
   if (radius < LARGE)
     cairo_arc(cr, x, y, radius, 0, 2 * acos(-1.0));
   else
-    large_path(cr, &g->view, x, y, radius, closed);
+    large_circle_path(cr, &g->view, x, y, radius, closed);
 }
 
-static void draw_areas(cairo_t *cr, const drawing *g) {
+static void disc_areas(cairo_t *cr, const disc_drawing *g) {
   dyd_picture_colour(cr, DYD_PICTURE_BAND);
   for (int k = ONCE; k < CIRCLES; k++) {
     circle_path(cr, g, k, true);
@@ -97,7 +86,7 @@ static void draw_areas(cairo_t *cr, const drawing *g) {
   cairo_restore(cr);
 }
 
-static void draw_circles(cairo_t *cr, const drawing *g) {
+static void disc_circles(cairo_t *cr, const disc_drawing *g) {
   for (int k = 0; k < CIRCLES; k++) {
     circle_path(cr, g, k, false);
     dyd_picture_pen(cr, CURVE, 1.5, k < ONCE ? 0 : 4, k < ONCE ? 0 : 2.5);
@@ -111,29 +100,28 @@ static void draw_circles(cairo_t *cr, const drawing *g) {
 
 /* ---- the rest ---- */
 
-static unsigned colour_of(dyd_sure con) {
+static unsigned con_colour(dyd_sure con) {
   return con == DYD_SURE_PLUS ? CURVE : con == DYD_SURE_MINUS ? WHITE : 0xd55e00;
 }
 
-static void draw_sites(cairo_t *cr, const drawing *g) {
+static void disc_sites(cairo_t *cr, const disc_drawing *g) {
   for (size_t i = g->n; i-- > 0;) {
     double b[4];
-    dyd_interval_get_d(&b[0], &b[1], &g->r[i]->x);
-    dyd_interval_get_d(&b[2], &b[3], &g->r[i]->y);
-    dyd_picture_numbered(cr, &g->view, b, i < 3 ? 0x777777 : colour_of(dyd_partial_disc_con(g->d, g->r[i])), i);
+    dyd_rect_get_d(b, g->r[i]);
+    dyd_picture_numbered(cr, &g->view, b, i < 3 ? 0x777777 : con_colour(dyd_partial_disc_con(g->d, g->r[i])), i);
   }
 }
 
-static void draw_legend(cairo_t *cr, const drawing *g) {
-  double width, height, y, x = 30;
-  dyd_view_page(&width, &height, &y, &g->view);
+static void disc_legend(cairo_t *cr, void *context) {
+  const disc_drawing *g = context;
+  double y = dyd_view_legend(&g->view), x = 30;
   dyd_picture_entry(cr, &x, y, INSIDE, true, 0, 0, "surely inside");
   dyd_picture_entry(cr, &x, y, WHITE, true, 0, 0, "surely outside");
   dyd_picture_entry(cr, &x, y, DYD_PICTURE_BAND, true, 0, 0, "undetermined");
-  if (g->n > 3) dyd_plot_text(cr, x, y + 5, 0, 14, "other points: in darker shades of these");
+  if (g->n > 3) dyd_picture_text(cr, x, y + 5, 0, 14, "other points: in darker shades of these");
   dyd_picture_scale(cr, &g->view, y);
   if (!g->d->known) {
-    dyd_plot_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, "0, 1 and 2 may be on a line: there is no partial disc");
+    dyd_picture_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, "0, 1 and 2 may be on a line: there is no partial disc");
     return;
   }
   x = 30;
@@ -141,28 +129,24 @@ static void draw_legend(cairo_t *cr, const drawing *g) {
   dyd_picture_entry(cr, &x, y + DYD_PICTURE_ROW, CURVE, false, 4, 2.5, "around two, touching one");
   dyd_picture_dot(cr, x, y + DYD_PICTURE_ROW, 3, CURVE, CURVE);
   dyd_picture_dot(cr, x + 12, y + DYD_PICTURE_ROW, 3, WHITE, CURVE);
-  dyd_plot_text(cr, x + 22, y + DYD_PICTURE_ROW + 5, 0, 14, "their centres");
+  dyd_picture_text(cr, x + 22, y + DYD_PICTURE_ROW + 5, 0, 14, "their centres");
 }
 
-static void draw(cairo_t *cr, void *context) {
-  const drawing *g = context;
-  dyd_picture_begin(cr);
-  cairo_save(cr);
-  dyd_view_frame_path(cr, &g->view);
-  cairo_clip(cr);
+static void disc_inside(cairo_t *cr, void *context) {
+  const disc_drawing *g = context;
   if (g->d->known) {
-    draw_areas(cr, g);
-    draw_circles(cr, g);
+    disc_areas(cr, g);
+    disc_circles(cr, g);
   } else {
     dyd_picture_colour(cr, DYD_PICTURE_BAND);
     cairo_paint(cr);
   }
-  draw_sites(cr, g);
-  cairo_restore(cr);
-  dyd_view_frame_path(cr, &g->view);
-  dyd_picture_pen(cr, 0x222222, 1, 0, 0);
-  cairo_stroke(cr);
-  draw_legend(cr, g);
+  disc_sites(cr, g);
+}
+
+static void disc_draw(cairo_t *cr, void *context) {
+  const disc_drawing *g = context;
+  dyd_view_draw(cr, &g->view, disc_inside, disc_legend, context);
 }
 
 /* The circles, cut at the size of the rectangles around them. */
@@ -176,27 +160,24 @@ static void see_circles(double box[4], const double at[CIRCLES][3]) {
     }
 }
 
-static dyd_status find_view(drawing *g, dyd_error *err) {
+static dyd_status disc_view(disc_drawing *g, dyd_error *err) {
   double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
-  dyd_status status = DYD_OK;
-  for (size_t i = 0; i < g->n && status >= 0; i++) status = dyd_pieces_grow(box, g->r[i], err);
-  if (status < 0) return status;
+  dyd_status st = DYD_OK;
+  for (size_t i = 0; i < g->n && st == DYD_OK; i++) st = dyd_view_grow(box, g->r[i], err);
+  if (st != DYD_OK) return st;
   if (g->d->known) see_circles(box, (const double(*)[3])g->at);
-  dyd_pieces_pad(box);
-  status = dyd_view_fit(&g->view, box, 0, err);
-  for (int k = 0; k < CIRCLES && g->d->known && status >= 0; k++)
+  dyd_view_pad(box);
+  st = dyd_view_fit(&g->view, box, 0, err);
+  for (int k = 0; k < CIRCLES && g->d->known && st == DYD_OK; k++)
     if (!(g->at[k][2] * g->view.scale < MOST))
-      status = dyd_fail(err, DYD_E_RANGE, "the circle is too large for a picture; use csv or json");
-  return status;
+      st = dyd_fail(err, DYD_E_RANGE, "the circle is too large for a picture; use csv or json");
+  return st;
 }
 
-dyd_status dyd_picture_disc(FILE *out, dyd_format kind, const dyd_partial_disc *d, const dyd_rect *const *r, size_t n,
-                            dyd_error *err) {
-  drawing g = {.d = d, .r = r, .n = n};
-  double width, height, legend;
-  for (int k = 0; k < CIRCLES && d->known; k++) place(g.at[k], &d->circle[k]);
-  dyd_status status = find_view(&g, err);
-  if (status < 0) return status;
-  dyd_view_page(&width, &height, &legend, &g.view);
-  return dyd_page_write(out, kind, width, height, draw, &g, err);
+dyd_status dyd_disc_picture(const dyd_output *o) {
+  const dyd_disc_output *c = o->what;
+  disc_drawing g = {.d = c->disc, .r = c->r, .n = c->n};
+  for (int k = 0; k < CIRCLES && g.d->known; k++) place_circle(g.at[k], &g.d->circle[k]);
+  dyd_status st = disc_view(&g, o->err);
+  return st == DYD_OK ? dyd_view_write(o, &g.view, disc_draw, &g) : st;
 }

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Messages on standard error. */
+#include "cli.h"
+#include <stdarg.h>
+
+void cli_complain(const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  fputs("dyadel: ", stderr);
+  vfprintf(stderr, format, args);
+  fputs("\n", stderr);
+  va_end(args);
+}
+
+int cli_complain_memory(void) {
+  cli_complain("memory is exhausted; close other programs");
+  return CLI_FAILED;
+}
+
+void cli_complain_at(const char *file, const dyd_error *err) {
+  char point[40] = "";
+  if (err->point != DYD_NO_POINT) snprintf(point, sizeof point, "point %zu: ", err->point);
+  if (!file)
+    cli_complain("%s%s", point, err->message);
+  else if (err->line)
+    cli_complain("%s:%zu:%zu: %s%s", file, err->line, err->column, point, err->message);
+  else
+    cli_complain("%s: %s%s", file, point, err->message);
+}

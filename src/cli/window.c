@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The text of --window to a rectangle. */
+#include "cli.h"
+
+/* Splits at the commas outside parentheses; true when there are exactly four numbers. */
+static bool read_window_ends(mpq_t end[4], const char *text) {
+  size_t k = 0;
+  int depth = 0;
+  for (const char *from = text, *at = text;; at++) {
+    depth += (*at == '(') - (*at == ')');
+    if (*at && (*at != ',' || depth)) continue;
+    if (k == 4 || dyd_real_parse_exact(end[k++], from, (size_t)(at - from)) != DYD_OK) return false;
+    if (!*at) return k == 4;
+    from = at + 1;
+  }
+}
+
+static bool round_window_side(dyd_interval *out, const mpq_t lo, const mpq_t hi) {
+  dyd_real *real = NULL;
+  if (dyd_real_from_interval(&real, lo, hi) != DYD_OK) return false;
+  dyd_interval_set(out, dyd_real_interval(real));
+  dyd_real_free(real);
+  return true;
+}
+
+bool cli_window_read(dyd_rect *out, const char *text) {
+  const char *wrong = NULL;
+  mpq_t end[4];
+  for (int k = 0; k < 4; k++) mpq_init(end[k]);
+  if (!read_window_ends(end, text))
+    wrong = "is not four exact numbers; give XLO,XHI,YLO,YHI such as -1,2.5,0,1/3";
+  else if (mpq_cmp(end[0], end[1]) > 0 || mpq_cmp(end[2], end[3]) > 0)
+    wrong = "has its ends in the wrong order; give the lower end of x, the upper end of x, then those of y";
+  else if (mpq_equal(end[0], end[1]) || mpq_equal(end[2], end[3]))
+    wrong = "has no area; give XLO < XHI and YLO < YHI";
+  else if (!round_window_side(&out->x, end[0], end[1]) || !round_window_side(&out->y, end[2], end[3]))
+    wrong = "lies beyond the range of numbers; give smaller ones";
+  for (int k = 0; k < 4; k++) mpq_clear(end[k]);
+  if (wrong) cli_complain("--window \"%s\" %s", text, wrong);
+  return !wrong;
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The table of formats.
+ *
+ * A new format: its constant in dyadel/io.h; a file of writers, in that folder's meson.build; its row here. The
+ * command's options, help, manual page and completion follow. What it can hold is what it has writers for. */
+#include "format/table.h"
+
+#include "base/error.h"
+#include <string.h>
+
+typedef dyd_writer *const writers[DYD_CONTENTS];
+extern writers dyd_csv_writers, dyd_json_writers, dyd_wkt_writers, dyd_geojson_writers, dyd_obj_writers,
+    dyd_vtk_writers, dyd_picture_writers;
+
+static const struct {
+  const char *name, *ending, *about;
+  dyd_writer *const *write;
+} formats[] = {
+    [DYD_FORMAT_CSV] = {"csv", "csv",
+                        "a table: of delaunay one line for each pair that is possible (i,j,status), of converge one "
+                        "for each stage",
+                        dyd_csv_writers},
+    [DYD_FORMAT_JSON] = {"json", "json",
+                         "everything: rectangles reached, statuses or exact arcs, outcome, bounds, counters",
+                         dyd_json_writers},
+    [DYD_FORMAT_WKT] = {"wkt", "wkt", "a CSV table with a geometry per line, as QGIS and ogr2ogr read it",
+                        dyd_wkt_writers},
+    [DYD_FORMAT_GEOJSON] = {"geojson", "geojson", "a FeatureCollection", dyd_geojson_writers},
+    [DYD_FORMAT_OBJ] = {"obj", "obj", "vertices, legal edges, sure triangles", dyd_obj_writers},
+    [DYD_FORMAT_SVG] = {"svg", "svg", "a picture with legend and scale", dyd_picture_writers},
+    [DYD_FORMAT_VTK] = {"vtk", "vtk", "legacy VTK text, as ParaView reads it", dyd_vtk_writers},
+    [DYD_FORMAT_PDF] = {"pdf", "pdf", "the same picture", dyd_picture_writers},
+    [DYD_FORMAT_PNG] = {"png", "png", "the same picture", dyd_picture_writers},
+};
+enum { FORMATS = sizeof formats / sizeof *formats };
+
+/* ---- what the table says ---- */
+
+bool dyd_format_from_name(dyd_format *out, const char *name) {
+  size_t k = 0;
+  while (k < FORMATS && strcmp(formats[k].name, name) != 0) k++;
+  if (k < FORMATS) *out = (dyd_format)k;
+  return k < FORMATS;
+}
+
+bool dyd_format_from_file(dyd_format *out, const char *file) {
+  const char *dot = strrchr(file, '.');
+  size_t k = 0;
+  while (dot && k < FORMATS && strcmp(formats[k].ending, dot + 1) != 0) k++;
+  if (dot && k < FORMATS) *out = (dyd_format)k;
+  return dot && k < FORMATS;
+}
+
+const char *dyd_format_name(dyd_format format) {
+  return (size_t)format < FORMATS ? formats[format].name : NULL;
+}
+
+const char *dyd_format_about(dyd_format format) {
+  return (size_t)format < FORMATS ? formats[format].about : NULL;
+}
+
+bool dyd_format_holds(dyd_format format, dyd_content content) {
+  return (size_t)format < FORMATS && (size_t)content < DYD_CONTENTS && formats[format].write[content];
+}
+
+/* ---- writing ---- */
+
+/* "obj cannot hold this; give csv, svg or pdf". */
+static dyd_status refuse_format(dyd_format format, dyd_content content, dyd_error *err) {
+  char names[100] = "";
+  size_t used = 0, left = 0;
+  for (size_t k = 0; k < FORMATS; k++) left += dyd_format_holds((dyd_format)k, content);
+  for (size_t k = 0; k < FORMATS && used < sizeof names; k++) {
+    if (!dyd_format_holds((dyd_format)k, content)) continue;
+    const char *before = !used ? "" : left > 1 ? ", " : " or ";
+    used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", before, formats[k].name);
+    left--;
+  }
+  if ((size_t)format >= FORMATS)
+    return dyd_fail(err, DYD_E_ARG, "there is no format number %d; give %s", (int)format, names);
+  return dyd_fail(err, DYD_E_ARG, "%s cannot hold this; give %s", formats[format].name, names);
+}
+
+dyd_status dyd_format_write(FILE *out, dyd_format format, dyd_content content, const void *what, dyd_error *err) {
+  dyd_error own;
+  dyd_output o = {out, format, what, err ? err : &own};
+  dyd_error_clear(o.err);
+  if (!dyd_format_holds(format, content)) return refuse_format(format, content, err);
+  dyd_status st = formats[format].write[content](&o);
+  if (st == DYD_OK) return dyd_output_end(out, err);
+  return o.err->message[0] ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
+}

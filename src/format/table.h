@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The table of formats: the one place that knows which there are. */
+#ifndef DYD_FORMAT_TABLE_H
+#define DYD_FORMAT_TABLE_H
+
+#include "io/output.h"
+
+/* Writes `what`, of the type that output.h says for this content. DYD_E_ARG where the format cannot hold it.
+ * err may be NULL. */
+dyd_status dyd_format_write(FILE *out, dyd_format format, dyd_content content, const void *what, dyd_error *err);
+
+#endif

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The writers of the library: each makes what is to be written ready, and the table of formats does the rest. */
+#include "base/abi.h"
+#include "base/error.h"
+#include "format/table.h"
+#include "io/diagram.h"
+#include "io/result.h"
+#include <inttypes.h>
+#include <string.h>
+
+/* The result of e; NULL with *err filled when there is none. */
+static const dyd_delaunay *result_of(const dyd_engine *e, dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  const dyd_delaunay *pd = dyd_engine_delaunay(e);
+  if (!pd) dyd_fail(err, DYD_E_ARG, "there is no result yet");
+  return pd;
+}
+
+dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err) {
+  return dyd_write_delaunay_window(out, e, NULL, format, err);
+}
+
+dyd_status dyd_write_delaunay_window(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_format format,
+                                     dyd_error *err) {
+  dyd_result r = {.out = out, .engine = e, .pd = result_of(e, err), .window = window};
+  if (!r.pd) return DYD_E_ARG;
+  r.sites = dyd_delaunay_sites(r.pd);
+  r.count = dyd_sites_count(r.sites);
+  dyd_status st = dyd_delaunay_pairs(&r.pairs, r.pd);
+  if (st == DYD_OK)
+    st = dyd_format_write(out, format, DYD_CONTENT_DELAUNAY, &r, err);
+  else
+    dyd_fail(err, st, "%s", dyd_status_text(st));
+  dyd_pair_list_clear(&r.pairs);
+  return st;
+}
+
+/* Numbers out of range come from polygons that are too fine; pictures tell of their own. */
+static dyd_status tell_fineness(dyd_status st, const dyd_diagram *d, dyd_error *err) {
+  if (st != DYD_E_RANGE || !err || strcmp(err->message, dyd_status_text(st)) != 0) return st;
+  return dyd_fail(err, st,
+                  "polygons within 2^%" PRId64 " of their cells take more points or digits than can be held; give a "
+                  "smaller M by --flatten",
+                  -d->bits);
+}
+
+dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_options *options, dyd_format format,
+                             dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  dyd_voronoi_options o;
+  dyd_status st = dyd_abi_take(&o, sizeof o, options, "dyd_voronoi_options", err);
+  if (st == DYD_OK && o.bounds) st = dyd_abi_check(o.bounds, sizeof *o.bounds, "dyd_voronoi_bounds", err);
+  if (st != DYD_OK) return st;
+  const dyd_delaunay *pd = result_of(e, err);
+  if (!pd) return DYD_E_ARG;
+  if (dyd_delaunay_is_capped(pd))
+    return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise --max-pairs");
+  dyd_diagram d;
+  dyd_voronoi_bounds bounds;
+  dyd_voronoi_bounds_init(&bounds);
+  st = dyd_diagram_init(&d, out, e, &o, &bounds, err);
+  if (st == DYD_OK) st = tell_fineness(dyd_format_write(out, format, DYD_CONTENT_VORONOI, &d, err), &d, err);
+  if (st == DYD_OK && o.bounds) {
+    dyd_dyadic_swap(&o.bounds->area, &bounds.area);
+    dyd_dyadic_swap(&o.bounds->hausdorff, &bounds.hausdorff);
+    o.bounds->finite = bounds.finite;
+  }
+  dyd_diagram_clear(&d);
+  dyd_voronoi_bounds_clear(&bounds);
+  return st;
+}
+
+/* A table without a run has nothing to tell. */
+static dyd_status stages_check(const dyd_convergence *c, dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  return c->options ? DYD_OK : dyd_fail(err, DYD_E_ARG, "the table is empty: there was no run");
+}
+
+dyd_status dyd_write_convergence(FILE *out, const dyd_convergence *c, dyd_format format, bool times, dyd_error *err) {
+  if (stages_check(c, err) != DYD_OK) return DYD_E_ARG;
+  return dyd_format_write(out, format, DYD_CONTENT_CONVERGENCE, &(dyd_stage_table){c, times}, err);
+}
+
+dyd_status dyd_plot_convergence(FILE *out, const dyd_convergence *c, dyd_format format, dyd_error *err) {
+  if (stages_check(c, err) != DYD_OK) return DYD_E_ARG;
+  return dyd_format_write(out, format, DYD_CONTENT_PLOT, c, err);
+}
+
+dyd_status dyd_write_check(FILE *out, const dyd_check_report *report, dyd_format format, dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  dyd_check_report r;
+  if (dyd_abi_take(&r, sizeof r, report, "dyd_check_report", err) != DYD_OK) return DYD_E_ARG;
+  return dyd_format_write(out, format, DYD_CONTENT_CHECK, &r, err);
+}
+
+dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome, dyd_format format,
+                          dyd_error *err) {
+  if (n < 3) return dyd_fail(err, DYD_E_ARG, "a disc needs three points");
+  dyd_partial_disc disc;
+  dyd_partial_disc_init(&disc);
+  dyd_partial_disc_set(&disc, r[0], r[1], r[2]);
+  dyd_status st = dyd_format_write(out, format, DYD_CONTENT_DISC, &(dyd_disc_output){&disc, r, n, outcome}, err);
+  dyd_partial_disc_clear(&disc);
+  return st;
+}
+
+/* The curve of (b,a) names its sites 0, 1 for b, a. */
+static void swap_names(dyd_boundary *curve) {
+  for (size_t m = 0; m < curve->count; m++)
+    for (size_t k = 0; k < curve->chain[m].count; k++) {
+      curve->chain[m].arc[k].far_site = 1;
+      curve->chain[m].arc[k].near_site = 0;
+    }
+}
+
+dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_rect *b, dyd_outcome outcome, dyd_format format,
+                              dyd_error *err) {
+  dyd_boundary curve[2] = {{0}, {0}};
+  dyd_status st = dyd_bisector(&curve[0], a, b);
+  if (st == DYD_OK) st = dyd_bisector(&curve[1], b, a);
+  swap_names(&curve[1]);
+  if (st == DYD_OK)
+    st = dyd_format_write(out, format, DYD_CONTENT_BISECTOR, &(dyd_bisector_output){{a, b}, curve, outcome}, err);
+  else
+    dyd_fail(err, st, "%s", dyd_status_text(st));
+  for (int k = 2; k-- > 0;) dyd_boundary_clear(&curve[k]);
+  return st;
+}
+
+dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_answer *answer, dyd_format format,
+                             dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  dyd_nearest_answer a;
+  if (dyd_abi_take(&a, sizeof a, answer, "dyd_nearest_answer", err) != DYD_OK) return DYD_E_ARG;
+  if (!a.at || !a.found) return dyd_fail(err, DYD_E_ARG, "there is no answer to be written");
+  const dyd_delaunay *pd = result_of(e, err);
+  if (!pd) return DYD_E_ARG;
+  return dyd_format_write(out, format, DYD_CONTENT_NEAREST, &(dyd_nearest_output){pd, &a}, err);
+}

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What a writer is given, and the writers of a format.
+ *
+ * The table of formats stands above, in src/format: it calls a writer, fills err where the writer did not, and sees
+ * whether all was written. */
+#ifndef DYD_IO_OUTPUT_H
+#define DYD_IO_OUTPUT_H
+
+#include <dyadel/arc.h>
+#include <dyadel/io.h>
+
+/* All borrowed; err is clear and not NULL. */
+typedef struct dyd_output {
+  FILE *out;
+  dyd_format format;
+  const void *what; /* the type that belongs to the content */
+  dyd_error *err;
+} dyd_output;
+
+typedef dyd_status dyd_writer(const dyd_output *o);
+/* The writers of a format are an array by content, NULL where it cannot hold that: dyd_NAME_writers, in the file that
+ * writes it. */
+enum { DYD_CONTENTS = DYD_CONTENT_NEAREST + 1 };
+
+/* `what` by content: dyd_result (result.h), dyd_diagram (diagram.h), dyd_stage_table, dyd_convergence,
+ * dyd_check_report, dyd_disc_output, dyd_bisector_output, dyd_nearest_output. */
+typedef struct dyd_stage_table {
+  const dyd_convergence *stages;
+  bool times;
+} dyd_stage_table;
+
+typedef struct dyd_disc_output {
+  const dyd_partial_disc *disc; /* of r[0], r[1], r[2] */
+  const dyd_rect *const *r;
+  size_t n;
+  dyd_outcome outcome;
+} dyd_disc_output;
+
+typedef struct dyd_bisector_output {
+  const dyd_rect *r[2];
+  const dyd_boundary *curve; /* of (r[0],r[1]) and (r[1],r[0]), sites named 0 and 1 in both */
+  dyd_outcome outcome;
+} dyd_bisector_output;
+
+typedef struct dyd_nearest_output {
+  const dyd_delaunay *pd;
+  const dyd_nearest_answer *answer;
+} dyd_nearest_output;
+
+/* Writers that such arrays take from other files. */
+dyd_writer dyd_voronoi_csv, dyd_voronoi_json, dyd_voronoi_wkt, dyd_voronoi_geojson, dyd_voronoi_vtk;
+dyd_writer dyd_convergence_csv, dyd_convergence_json, dyd_check_csv, dyd_check_json;
+dyd_writer dyd_disc_csv, dyd_disc_json, dyd_bisector_csv, dyd_bisector_json, dyd_nearest_csv, dyd_nearest_json;
+
+/* The end of a file: DYD_E_IO with a message unless everything went out. */
+dyd_status dyd_output_end(FILE *out, dyd_error *err);
+
+#endif

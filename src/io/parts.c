@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Pieces that several formats or contents share. All texts are our own ASCII words and numbers, so nothing needs
+ * escaping. */
+#include "io/parts.h"
+
+#include "io/decimal.h"
+#include <stdlib.h>
+
+/* The first alias from *i on, and what it is one of. */
+static bool next_alias(size_t *i, uint32_t *of, const dyd_delaunay *pd) {
+  size_t count = dyd_sites_count(dyd_delaunay_sites(pd));
+  for (; *i < count; ++*i)
+    if ((*of = dyd_delaunay_alias(pd, (uint32_t)*i)) != *i) return true;
+  return false;
+}
+
+void dyd_csv_aliases(FILE *out, const dyd_delaunay *pd) {
+  uint32_t of;
+  for (size_t i = 0; next_alias(&i, &of, pd); i++) fprintf(out, "# alias %zu %u\n", i, (unsigned)of);
+}
+
+void dyd_json_aliases(FILE *out, const dyd_delaunay *pd, const char *after) {
+  uint32_t of;
+  const char *between = "";
+  fputs("\"aliases\": [", out);
+  for (size_t i = 0; next_alias(&i, &of, pd); i++, between = ", ")
+    fprintf(out, "%s[%zu, %u]", between, i, (unsigned)of);
+  fprintf(out, "]%s", after);
+}
+
+const char *dyd_schedule_text(dyd_schedule schedule) {
+  return schedule == DYD_SCHEDULE_UNIFORM ? "uniform" : "adaptive";
+}
+
+void dyd_json_head(FILE *out, const char *format) {
+  fprintf(out, "{\"format\": \"%s\",\n\"version\": \"%s\",\n", format, dyd_version());
+}
+
+void dyd_json_head_outward(FILE *out, const char *format, dyd_outcome outcome) {
+  dyd_json_head(out, format);
+  fprintf(out,
+          "\"rounding\": \"texts are exact numbers; pairs of numbers are rounded outward: the first down, the second "
+          "up\",\n\"outcome\": \"%s\",\n",
+          dyd_outcome_text(outcome));
+}
+
+dyd_status dyd_json_bound(FILE *out, const char *name, const dyd_dyadic *value) {
+  fprintf(out, "\"%s\": ", name);
+  if (!value) {
+    fputs("null", out);
+    return DYD_OK;
+  }
+  char *exact = dyd_dyadic_get_str(value);
+  if (!exact) return DYD_E_NOMEM;
+  fprintf(out, "{\"exact\": \"%s\", \"decimal\": ", exact);
+  dyd_decimal_json(out, dyd_dyadic_get_d(value, DYD_UP), DYD_UP);
+  fputs("}", out);
+  free(exact);
+  return DYD_OK;
+}
+
+dyd_status dyd_json_side(FILE *out, const char *name, const dyd_interval *a) {
+  char *lo = dyd_end_text(a, false), *hi = dyd_interval_is_point(a) ? lo : dyd_end_text(a, true);
+  dyd_status st = lo && hi ? DYD_OK : DYD_E_NOMEM;
+  if (st == DYD_OK) fprintf(out, "\"%s\": [\"%s\", \"%s\"]", name, lo, hi);
+  if (hi != lo) free(hi);
+  free(lo);
+  return st;
+}
+
+dyd_status dyd_json_rect(FILE *out, const dyd_rect *r) {
+  fputs("{", out);
+  dyd_status st = dyd_json_side(out, "x", &r->x);
+  fputs(", ", out);
+  if (st == DYD_OK) st = dyd_json_side(out, "y", &r->y);
+  fputs("}", out);
+  return st;
+}
+
+void dyd_json_decimals(FILE *out, double lo, double hi) {
+  fputs("[", out);
+  dyd_decimal_json(out, lo, DYD_DOWN);
+  fputs(", ", out);
+  dyd_decimal_json(out, hi, DYD_UP);
+  fputs("]", out);
+}
+
+dyd_status dyd_put_window(FILE *out, const dyd_rect *w, const char *quote, const char *between) {
+  const dyd_dyadic *end[] = {&w->x.lo, &w->x.hi, &w->y.lo, &w->y.hi};
+  for (int k = 0; k < 4; k++) {
+    char *text = dyd_dyadic_get_str(end[k]);
+    if (!text) return DYD_E_NOMEM;
+    fprintf(out, "%s%s%s%s", k ? between : "", quote, text, quote);
+    free(text);
+  }
+  return DYD_OK;
+}

@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Pieces that several formats or contents share. */
+#ifndef DYD_IO_PARTS_H
+#define DYD_IO_PARTS_H
+
+#include <dyadel/delaunay.h>
+#include <dyadel/engine.h>
+#include <stdio.h>
+
+/* "# alias 7 3" for each alias, a line each. */
+void dyd_csv_aliases(FILE *out, const dyd_delaunay *pd);
+/* "aliases": [[7, 3], ..], and `after` behind it. */
+void dyd_json_aliases(FILE *out, const dyd_delaunay *pd, const char *after);
+/* "adaptive", "uniform". */
+const char *dyd_schedule_text(dyd_schedule schedule);
+/* "format": .., "version": ..: the opening of an object. */
+void dyd_json_head(FILE *out, const char *format);
+/* The same, with the outcome, where pairs of numbers are rounded outward and texts are exact. */
+void dyd_json_head_outward(FILE *out, const char *format, dyd_outcome outcome);
+/* "NAME": {"exact": "m*2^e", "decimal": rounded up}; null where the value is not known (NULL). */
+dyd_status dyd_json_bound(FILE *out, const char *name, const dyd_dyadic *value);
+/* "NAME": [lo, hi], exact texts. */
+dyd_status dyd_json_side(FILE *out, const char *name, const dyd_interval *a);
+/* {"x": [lo, hi], "y": [lo, hi]}, exact texts. */
+dyd_status dyd_json_rect(FILE *out, const dyd_rect *r);
+/* [lo, hi]: decimals rounded outward. */
+void dyd_json_decimals(FILE *out, double lo, double hi);
+/* The four ends of a window with dyadic ends, as exact texts, each between `quote`. */
+dyd_status dyd_put_window(FILE *out, const dyd_rect *w, const char *quote, const char *between);
+
+#endif

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What the writers of the triangulation share, and the end of every file. */
+#include "io/result.h"
+#include "base/alloc.h"
+#include "base/error.h"
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+const char *dyd_pair_status_text(dyd_pair_status status) {
+  static const char *const text[] = {
+      [DYD_ILLEGAL] = "illegal", [DYD_TIE] = "tie", [DYD_INDETERMINATE] = "indeterminate", [DYD_LEGAL] = "legal"};
+  return text[status];
+}
+
+dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_error *err) {
+  dyd_sites_get_d(box, r->sites, i);
+  if (isfinite(box[0]) && isfinite(box[1]) && isfinite(box[2]) && isfinite(box[3])) return DYD_OK;
+  if (err) err->point = i;
+  return dyd_fail(err, DYD_E_RANGE,
+                  "point %zu lies beyond the largest double, which this format cannot show; use csv or json", i);
+}
+
+static dyd_status find_place(dyd_place *out, const dyd_result *r, size_t i, dyd_error *err) {
+  double box[4], error[2];
+  dyd_status st = dyd_result_box(box, r, i, err);
+  if (st != DYD_OK) return st;
+  dyd_decimal_within(out->x, &error[0], box[0], box[1]);
+  dyd_decimal_within(out->y, &error[1], box[2], box[3]);
+  out->error = fmax(error[0], error[1]);
+  return DYD_OK;
+}
+
+dyd_status dyd_result_places(dyd_place **out, double *error, const dyd_result *r, dyd_error *err) {
+  dyd_place *places = dyd_alloc(r->count, sizeof *places);
+  dyd_status st = places ? DYD_OK : DYD_E_NOMEM;
+  *error = 0;
+  for (size_t i = 0; i < r->count && st == DYD_OK; i++) {
+    st = find_place(&places[i], r, i, err);
+    if (st == DYD_OK) *error = fmax(*error, places[i].error);
+  }
+  if (st == DYD_OK)
+    *out = places;
+  else
+    free(places);
+  return st;
+}
+
+void dyd_put_indices(FILE *out, const dyd_index_list *list, const char *between) {
+  for (size_t k = 0; k < list->count; k++) fprintf(out, "%s%u", k ? between : "", (unsigned)list->item[k]);
+}
+
+dyd_status dyd_result_faces(const dyd_result *r, const char *first, const char *next, const char *between,
+                            const char *end) {
+  dyd_index_list face = {0};
+  dyd_status st = DYD_OK;
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(r->pd) && st == DYD_OK; f++) {
+    bool outer;
+    st = dyd_delaunay_face(&face, &outer, r->pd, f);
+    if (st != DYD_OK) break;
+    fputs(f ? next : first, r->out);
+    dyd_put_indices(r->out, &face, between);
+    fputs(end, r->out);
+  }
+  dyd_index_list_clear(&face);
+  return st;
+}
+
+dyd_status dyd_output_end(FILE *out, dyd_error *err) {
+  if (fflush(out) == 0 && !ferror(out)) return DYD_OK;
+  return dyd_fail(err, DYD_E_IO, "cannot write: %s", strerror(errno ? errno : EIO));
+}

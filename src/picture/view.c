@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Views: which part of the plane a picture shows, where it is on the page, and the frame around it. */
+#include "base/error.h"
+#include "picture/picture.h"
+#include <math.h>
+#include <stdlib.h>
+
+#define SIDE 1000.0 /* of the drawing */
+#define EDGE DYD_VIEW_EDGE
+#define FOOT 106.0 /* room of the legend */
+
+/* ---- what is shown ---- */
+
+static dyd_status beyond_doubles(dyd_error *err) {
+  return dyd_fail(err, DYD_E_RANGE, "the points are too far apart or too close for a picture; use csv or json");
+}
+
+dyd_status dyd_view_grow(double box[4], const dyd_rect *r, dyd_error *err) {
+  double b[4];
+  dyd_rect_get_d(b, r);
+  for (int k = 0; k < 4; k++) {
+    if (!isfinite(b[k])) return beyond_doubles(err);
+    box[k] = k & 1 ? fmax(box[k], b[k]) : fmin(box[k], b[k]);
+  }
+  return DYD_OK;
+}
+
+void dyd_view_pad(double box[4]) {
+  double w = box[1] - box[0], h = box[3] - box[2], size = fmax(w, h);
+  if (size == 0) size = 1;
+  double wide = (fmax(w, size) - w) / 2 + 0.1 * size, high = (fmax(h, 0.6 * size) - h) / 2 + 0.1 * size;
+  box[0] -= wide, box[1] += wide;
+  box[2] -= high, box[3] += high;
+}
+
+dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_error *err) {
+  double w = box[1] - box[0], h = box[3] - box[2], size = fmax(w, h);
+  if (!isfinite(size) || (size > 0 && !isfinite(SIDE / size))) return beyond_doubles(err);
+  v->scale = size > 0 ? SIDE / size : 1;
+  v->left = box[0], v->top = box[3];
+  v->width = fmax(w * v->scale, 640);
+  v->height = fmax(h * v->scale, 40);
+  if (w * v->scale < v->width) v->left -= (v->width / v->scale - w) / 2;
+  if (h * v->scale < v->height) v->top += (v->height / v->scale - h) / 2;
+  double apart = spacing > 0 ? spacing * v->scale : SIDE;
+  v->line = fmin(fmax(apart * 0.04, 0.2), 2.2);
+  v->dot = fmin(fmax(apart * 0.09, 0.3), 4);
+  return DYD_OK;
+}
+
+static int compare_lengths(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+/* Of the line between the middles of the rectangles; -1 when its middle is not in the box. */
+static double pair_length(const dyd_delaunay *pd, const dyd_pair *pair, const double box[4]) {
+  double a[4], b[4], c[2][2];
+  dyd_sites_get_d(a, dyd_delaunay_sites(pd), pair->i);
+  dyd_sites_get_d(b, dyd_delaunay_sites(pd), pair->j);
+  for (int k = 0; k < 2; k++) {
+    c[0][k] = a[2 * k] / 2 + a[2 * k + 1] / 2;
+    c[1][k] = b[2 * k] / 2 + b[2 * k + 1] / 2;
+    double middle = c[0][k] / 2 + c[1][k] / 2;
+    if (box && !(box[2 * k] <= middle && middle <= box[2 * k + 1])) return -1;
+  }
+  return hypot(c[0][0] - c[1][0], c[0][1] - c[1][1]);
+}
+
+double dyd_view_spacing(const dyd_delaunay *pd, const double box[4]) {
+  enum { SAMPLES = 1000 };
+  double length[SAMPLES];
+  dyd_pair_list pairs = {0};
+  size_t n = 0, inside = 0, seen = 0;
+  if (dyd_delaunay_pairs(&pairs, pd) != DYD_OK) return 0;
+  for (size_t k = 0; box && k < pairs.count; k++) inside += pair_length(pd, &pairs.item[k], box) >= 0;
+  size_t step = (box ? inside : pairs.count) / SAMPLES + 1;
+  for (size_t k = 0; k < pairs.count; k++) {
+    double one = box || k % step == 0 ? pair_length(pd, &pairs.item[k], box) : -1;
+    if (one >= 0 && (!box || seen++ % step == 0)) length[n++] = one;
+  }
+  qsort(length, n, sizeof *length, compare_lengths);
+  dyd_pair_list_clear(&pairs);
+  return n && isfinite(length[n / 2]) ? length[n / 2] : 0;
+}
+
+double dyd_view_x(const dyd_view *v, double x) {
+  return (x - v->left) * v->scale + EDGE;
+}
+double dyd_view_y(const dyd_view *v, double y) {
+  return (v->top - y) * v->scale + EDGE;
+}
+
+double dyd_view_legend(const dyd_view *v) {
+  return v->height + 2 * EDGE + 4;
+}
+
+dyd_status dyd_view_write(const dyd_output *o, const dyd_view *v, dyd_draw_fn draw, void *context) {
+  return dyd_page_write(o, v->width + 2 * EDGE, v->height + EDGE + FOOT, draw, context);
+}
+
+void dyd_view_frame_path(cairo_t *cr, const dyd_view *v) {
+  cairo_new_path(cr);
+  cairo_rectangle(cr, EDGE, EDGE, v->width, v->height);
+}
+
+void dyd_view_draw(cairo_t *cr, const dyd_view *v, dyd_draw_fn inside, dyd_draw_fn legend, void *context) {
+  dyd_picture_begin(cr);
+  cairo_save(cr);
+  dyd_view_frame_path(cr, v);
+  cairo_clip(cr);
+  inside(cr, context);
+  cairo_restore(cr);
+  dyd_view_frame_path(cr, v);
+  dyd_picture_pen(cr, 0x222222, 1, 0, 0);
+  cairo_stroke(cr);
+  legend(cr, context);
+}
