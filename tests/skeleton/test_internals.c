@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The tools of the triangulation against brute force: tree of boxes, map of pairs, linear programme, spatial order,
- * common scale [FLT-DST] [FLT-DIR] [FLT-SCALE]. */
+/* The tools of the skeleton against brute force: tree of boxes, spatial order, common scale [FLT-DST] [FLT-DIR]
+ * [FLT-SCALE]. */
 #include <setjmp.h>
 #include <stdarg.h>
 
 #include "delaunay/read_case.h"
-#include "legal/lp_filter.h"
-#include "possible/pair_map.h"
 #include "skeleton/order.h"
 #include "skeleton/scale_set.h"
 #include "skeleton/skeleton.h"
@@ -165,125 +163,6 @@ static void test_tree(void **state) {
   }
 }
 
-/* ---- map of pairs ---- */
-
-enum { MEMBERS = 90 };
-
-static void lists_agree(const dyd_pair_map *m, unsigned char want[MEMBERS][MEMBERS]) {
-  for (uint32_t a = 0; a < MEMBERS; a++) {
-    unsigned char seen[MEMBERS] = {0};
-    for (uint32_t l = m->head[a]; l != UINT32_MAX; l = m->link[l].next) {
-      assert_in_range(l, 0, m->links - 1);
-      seen[m->link[l].to]++;
-      assert_int_equal(m->link[l ^ 1].to, a);
-    }
-    for (uint32_t b = 0; b < MEMBERS; b++) {
-      assert_int_equal(seen[b], want[a][b] >= DYD_PAIR_OPEN);
-      if (a != b) assert_int_equal(dyd_pair_map_get(m, a, b), want[a][b]);
-    }
-  }
-}
-
-static void test_pair_map(void **state) {
-  (void)state;
-  for (size_t k = test_cases(20); k; k--) {
-    static unsigned char want[MEMBERS][MEMBERS];
-    dyd_pair_map m;
-    memset(want, 0, sizeof want);
-    assert_int_equal(dyd_pair_map_init(&m, MEMBERS), DYD_OK);
-    for (size_t n = (size_t)test_below(&shared, 5000); n; n--) {
-      uint32_t a = (uint32_t)test_below(&shared, MEMBERS), b = (uint32_t)test_below(&shared, MEMBERS);
-      if (a == b || want[a][b]) continue;
-      want[a][b] = want[b][a] = (unsigned char)test_between(&shared, 1, 3);
-      assert_int_equal(dyd_pair_map_add(&m, a, b, (dyd_pair_state)want[a][b]), DYD_OK);
-    }
-    lists_agree(&m, want);
-    dyd_pair_map_clear(&m);
-  }
-}
-
-/* The longest chain of occupied places. */
-static size_t longest_run(const dyd_pair_map *m) {
-  size_t run = 0, longest = 0;
-  for (size_t q = 0; q <= 2 * m->mask; q++) {
-    run = m->key[q & m->mask] ? run + 1 : 0;
-    if (run > longest) longest = run;
-  }
-  return longest;
-}
-
-/* Once all pairs with the same larger member began at the same place. */
-static void test_hash_uses_both(void **state) {
-  (void)state;
-  for (uint32_t shape = 0; shape < 3; shape++) {
-    dyd_pair_map m;
-    assert_int_equal(dyd_pair_map_init(&m, 5001), DYD_OK);
-    for (uint32_t a = 0; a < 1900; a++) {
-      uint32_t from = shape == 2 ? a / 44 : a, to = shape == 0 ? 5000 : shape == 1 ? a + 1 : 100 + a % 44;
-      assert_int_equal(dyd_pair_map_add(&m, from, to, DYD_PAIR_OPEN), DYD_OK);
-    }
-    assert_in_range(longest_run(&m), 1, 150);
-    dyd_pair_map_clear(&m);
-  }
-}
-
-/* ---- linear programme ---- */
-
-/* The optimum of three cuts, where 0 is in the hull of their normals. */
-static bool triple(double *z, const dyd_cut *a, const dyd_cut *b, const dyd_cut *c) {
-  double la = b->nx * c->ny - b->ny * c->nx, lb = c->nx * a->ny - c->ny * a->nx, lc = a->nx * b->ny - a->ny * b->nx;
-  double sum = la + lb + lc;
-  if (fabs(sum) < 1e-9 || la * sum < 0 || lb * sum < 0 || lc * sum < 0) return false;
-  *z = (la * a->d + lb * b->d + lc * c->d) / sum;
-  return true;
-}
-
-static double least_over_triples(const dyd_cut *cut, size_t count) {
-  double least = INFINITY, z;
-  for (size_t a = 0; a < count; a++)
-    for (size_t b = 0; b < a; b++)
-      for (size_t c = 0; c < b; c++)
-        if (triple(&z, &cut[a], &cut[b], &cut[c]) && z < least) least = z;
-  return least;
-}
-
-/* Normals in general position: antiparallel up to rounding, a guess may go astray. */
-static size_t random_cuts(dyd_cut *cut) {
-  size_t count = (size_t)test_below(&shared, 13);
-  for (size_t q = 0; q < count; q++) {
-    bool regular = test_chance(&shared, 3);
-    double angle = regular ? ((double)test_below(&shared, 24) + test_unit(&shared) * 0x1p-8) * 0.2617993877991494
-                           : test_unit(&shared) * 6.283185307;
-    cut[q] = (dyd_cut){cos(angle), sin(angle), test_unit(&shared) * 4 - 2};
-  }
-  return count;
-}
-
-/* The value is that of the point. Bounded: it is the optimum; else it is as good as the optimum inside the frame. */
-static void test_lp(void **state) {
-  (void)state;
-  size_t bounded = 0;
-  const double h = sqrt(0.75), bound = 100;
-  for (size_t k = test_cases(3000); k; k--) {
-    dyd_cut cut[15];
-    size_t count = random_cuts(cut);
-    dyd_lp_result r = dyd_lp_centre(cut, count, bound);
-    cut[count] = (dyd_cut){0, 1, bound};
-    cut[count + 1] = (dyd_cut){-h, -0.5, bound};
-    cut[count + 2] = (dyd_cut){h, -0.5, bound};
-    double own = least_over_triples(cut, count), framed = least_over_triples(cut, count + 3), value = INFINITY;
-    for (size_t q = 0; q < count; q++) value = fmin(value, cut[q].nx * r.x + cut[q].ny * r.y + cut[q].d);
-    bool good = r.bounded ? fabs(r.z - own) < 1e-5 && fabs(value - own) < 1e-5
-                          : value > r.z - 1e-5 && r.z > framed - 1e-5 && r.z < own + 1e-5;
-    bounded += r.bounded;
-    if (!r.bounded && hypot(r.x, r.y) > 10 * bound) continue; /* an open end: any centre far out will do */
-    if (good && (!r.bounded || r.active <= 2)) continue;
-    for (size_t q = 0; q < count; q++) fprintf(stderr, "%a %a %a\n", cut[q].nx, cut[q].ny, cut[q].d);
-    fail_msg("%zu cuts: %g, at the point %g; best %g, in the frame %g", count, r.z, value, own, framed);
-  }
-  assert_true(bounded > 100);
-}
-
 /* ---- order ---- */
 
 static void add_any(dyd_sites *s) {
@@ -434,9 +313,8 @@ static void test_scale_set(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_tree),           cmocka_unit_test(test_pair_map),
-                                     cmocka_unit_test(test_hash_uses_both), cmocka_unit_test(test_lp),
-                                     cmocka_unit_test(test_order),          cmocka_unit_test(test_scale_set)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_tree), cmocka_unit_test(test_order),
+                                     cmocka_unit_test(test_scale_set)};
   shared = test_random_start("internals");
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
