@@ -68,7 +68,7 @@ static dyd_status closing_gather(closing *c) {
   return DYD_OK;
 }
 
-static uint32_t member_of(const closing *c, uint32_t v) {
+static uint32_t closing_member(const closing *c, uint32_t v) {
   if (v == c->sk->mesh.n) return c->out->vertices;
   const uint32_t *p = bsearch(&v, c->out->vertex, c->out->vertices, sizeof v, dyd_compare_index);
   return (uint32_t)(p - c->out->vertex);
@@ -109,7 +109,7 @@ static dyd_status add_edges(closing *c, bool certain) {
   for (uint32_t q = 0; q < c->tris && st == DYD_OK; q++)
     for (dyd_half_edge h = dyd_edge_of(c->tri[q], 0); h < dyd_edge_end(c->tri[q]) && st == DYD_OK; h++) {
       if (dyd_edge_is_certain(c->sk, h) != certain) continue;
-      uint32_t a = member_of(c, dyd_edge_origin(m, h)), b = member_of(c, dyd_edge_target(m, h));
+      uint32_t a = closing_member(c, dyd_edge_origin(m, h)), b = closing_member(c, dyd_edge_target(m, h));
       if (dyd_pair_map_get(&c->map, a, b) == DYD_PAIR_UNKNOWN)
         st = closing_add(c, a, b, certain ? DYD_PAIR_CERTAIN : DYD_PAIR_OPEN);
     }
@@ -246,7 +246,7 @@ static dyd_status add_all(closing *c, const uint32_t *vertex, size_t count) {
 
 /* Exact walks have found several possible pairs: perhaps the sites are nearly on one circle, whose centre shows many
  * more: the circle through the last three, or, at first, through three sites of the face far apart. */
-static dyd_status try_centre(closing *c, uint32_t k, uint32_t l, uint32_t other) {
+static dyd_status closing_try_centre(closing *c, uint32_t k, uint32_t l, uint32_t other) {
   const uint32_t *v = c->out->vertex, n = c->out->vertices;
   const uint32_t three[2][3] = {{v[0], v[n / 3], v[2 * n / 3]}, {k, l, other}};
   uint32_t *vertex = NULL;
@@ -271,7 +271,7 @@ static dyd_status closing_flip(closing *c, uint32_t i, uint32_t j, uint32_t k, u
   dyd_status st = dyd_cover_possible(&possible, c->w, c->sk, v[k], v[l], hint);
   if (st != DYD_OK) return st;
   st = possible ? add_possible(c, k, l) : closing_add(c, k, l, DYD_PAIR_IMPOSSIBLE);
-  if (st == DYD_OK && possible && c->w->walked) st = try_centre(c, v[k], v[l], hint[0]);
+  if (st == DYD_OK && possible && c->w->walked) st = closing_try_centre(c, v[k], v[l], hint[0]);
   return st;
 }
 

@@ -42,10 +42,10 @@ static int compare_fans(const void *a, const void *b) {
   return compare_directions(&((const fan *)a)->first, &((const fan *)b)->first);
 }
 
-static dyd_hull_corner low(const dyd_extreme *x) {
+static dyd_hull_corner chain_low(const dyd_extreme *x) {
   return (dyd_hull_corner){x, 0};
 }
-static dyd_hull_corner high(const dyd_extreme *x) {
+static dyd_hull_corner chain_high(const dyd_extreme *x) {
   return (dyd_hull_corner){x, 1};
 }
 
@@ -58,8 +58,8 @@ typedef struct chain {
 
 static int compare_low(const void *a, const void *b) {
   const dyd_extreme *x = *(const dyd_extreme *const *)a, *y = *(const dyd_extreme *const *)b;
-  int order = dyd_hull_compare(0, low(x), low(y));
-  return order ? order : dyd_hull_compare(1, low(x), low(y));
+  int order = dyd_hull_compare(0, chain_low(x), chain_low(y));
+  return order ? order : dyd_hull_compare(1, chain_low(x), chain_low(y));
 }
 
 /* The upper hull of the lower left corners, from left to right, cut to what is right of the topmost. */
@@ -71,12 +71,13 @@ static dyd_status build_chain(chain *c, const dyd_extreme *x, size_t count) {
   size_t top = 0, used = 0;
   for (size_t k = 0; k < count; k++) {
     const dyd_extreme *p = c->at[k];
-    while (used > 1 && dyd_hull_cross(low(c->at[used - 2]), low(c->at[used - 1]), low(c->at[used - 2]), low(p)) >= 0)
+    while (used > 1 && dyd_hull_cross(chain_low(c->at[used - 2]), chain_low(c->at[used - 1]),
+                                      chain_low(c->at[used - 2]), chain_low(p)) >= 0)
       used--;
     c->at[used++] = p;
   }
   for (size_t k = 1; k < used; k++)
-    if (dyd_hull_compare(1, low(c->at[k]), low(c->at[top])) >= 0) top = k;
+    if (dyd_hull_compare(1, chain_low(c->at[k]), chain_low(c->at[top])) >= 0) top = k;
   for (size_t k = top; k < used; k++) c->at[k - top] = c->at[k];
   c->count = used - top;
   if (c->count > 1 && !compare_low(&c->at[0], &c->at[1])) c->count = 1; /* equal corners */
@@ -87,9 +88,9 @@ static dyd_status build_chain(chain *c, const dyd_extreme *x, size_t count) {
 
 /* Is u.b >= g(u) for sample s: (0,1) for s = 0, the normal of edge s - 1, (1,0) for the last, s = count? */
 static bool reaches(const chain *c, dyd_hull_corner b, size_t s) {
-  if (s == 0) return dyd_hull_compare(1, b, low(c->at[0])) >= 0;
-  if (s == c->count) return dyd_hull_compare(0, b, low(c->at[s - 1])) >= 0;
-  return dyd_hull_cross(low(c->at[s - 1]), low(c->at[s]), low(c->at[s - 1]), b) >= 0;
+  if (s == 0) return dyd_hull_compare(1, b, chain_low(c->at[0])) >= 0;
+  if (s == c->count) return dyd_hull_compare(0, b, chain_low(c->at[s - 1])) >= 0;
+  return dyd_hull_cross(chain_low(c->at[s - 1]), chain_low(c->at[s]), chain_low(c->at[s - 1]), b) >= 0;
 }
 
 /* The sample of the edge or ray of D above b. */
@@ -97,7 +98,7 @@ static size_t above(const chain *c, dyd_hull_corner b) {
   size_t lo = 0, hi = c->count; /* m_lo-1 is not right of b, m_hi is */
   while (lo < hi) {
     size_t mid = lo + (hi - lo) / 2;
-    if (dyd_hull_compare(0, low(c->at[mid]), b) <= 0)
+    if (dyd_hull_compare(0, chain_low(c->at[mid]), b) <= 0)
       lo = mid + 1;
     else
       hi = mid;
@@ -120,14 +121,14 @@ static size_t last_reached(const chain *c, dyd_hull_corner b, size_t s, size_t e
 }
 
 static bool find_fan(fan *f, const chain *c, const dyd_extreme *x) {
-  dyd_hull_corner b = high(x);
+  dyd_hull_corner b = chain_high(x);
   size_t s = above(c, b);
   if (!reaches(c, b, s)) return false;
   size_t first = last_reached(c, b, s, 0), last = last_reached(c, b, s, c->count);
   f->first = (direction){-1, b, b};
   f->last = (direction){1, b, b};
-  if (first > 0) f->first = (direction){0, low(c->at[first - 1]), b};
-  if (last < c->count) f->last = (direction){0, b, low(c->at[last])};
+  if (first > 0) f->first = (direction){0, chain_low(c->at[first - 1]), b};
+  if (last < c->count) f->last = (direction){0, b, chain_low(c->at[last])};
   return true;
 }
 

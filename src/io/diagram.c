@@ -10,7 +10,7 @@
 
 /* ---- cells ---- */
 
-static void grow_box(double box[4], double xlo, double xhi, double ylo, double yhi) {
+static void diagram_grow_box(double box[4], double xlo, double xhi, double ylo, double yhi) {
   box[0] = fmin(box[0], xlo);
   box[1] = fmax(box[1], xhi);
   box[2] = fmin(box[2], ylo);
@@ -22,12 +22,12 @@ static void cell_row_box(dyd_cell_row *row, const dyd_shape *s, const double win
   b[0] = b[2] = INFINITY;
   b[1] = b[3] = -INFINITY;
   for (uint32_t k = 0; s->in_doubles && k < s->outer_count; k++)
-    grow_box(b, s->outer[k].x, s->outer[k].x, s->outer[k].y, s->outer[k].y);
+    diagram_grow_box(b, s->outer[k].x, s->outer[k].x, s->outer[k].y, s->outer[k].y);
   for (size_t p = 0; !s->in_doubles && p < s->outer_exact.count; p++)
     for (size_t k = 0; k < s->outer_exact.item[p].count; k++) {
       const dyd_point *z = &s->outer_exact.item[p].vertex[k];
-      grow_box(b, dyd_dyadic_get_d(&z->x, DYD_DOWN), dyd_dyadic_get_d(&z->x, DYD_UP), dyd_dyadic_get_d(&z->y, DYD_DOWN),
-               dyd_dyadic_get_d(&z->y, DYD_UP));
+      diagram_grow_box(b, dyd_dyadic_get_d(&z->x, DYD_DOWN), dyd_dyadic_get_d(&z->x, DYD_UP),
+                       dyd_dyadic_get_d(&z->y, DYD_DOWN), dyd_dyadic_get_d(&z->y, DYD_UP));
     }
   row->present = b[0] <= b[1];
   b[0] = fmax(b[0], window[0]);

@@ -276,7 +276,7 @@ static bool is_open(const plane *p, const entry *a, const entry *b) {
 
 /* near[k]: the k-th of the list is surely possibly nearest at the centre of the cell. All of them are possible
  * neighbours of one another. */
-static void try_centre(plane *p, const cell *q) {
+static void cells_try_centre(plane *p, const cell *q) {
   const dyd_rects *r = p->c->rects;
   const entry *e = p->entry + q->first;
   corner v = centre_of(p, q);
@@ -368,7 +368,7 @@ static dyd_status look(plane *p, cell q) {
   bool stuck = q.count <= SHORT || (q.count > before / 4 * 3 && q.depth >= (q.side < 0 ? EARLY : EARLY / 2));
   dyd_status st = DYD_OK;
   if (members >= 2 && (q.listed || stuck)) {
-    try_centre(p, &q);
+    cells_try_centre(p, &q);
     st = q.listed ? consider_wishes(p, &q) : consider_all(p, &q);
   }
   if (members >= 2 && st == DYD_OK && !p->enough) {
@@ -384,7 +384,7 @@ static dyd_status look(plane *p, cell q) {
 
 /* ---- the whole plane ---- */
 
-static uint32_t member_of(const dyd_cells *c, uint32_t v) {
+static uint32_t cells_member(const dyd_cells *c, uint32_t v) {
   const uint32_t *at = bsearch(&v, c->vertex, c->vertices, sizeof v, dyd_compare_index);
   return at ? (uint32_t)(at - c->vertex) : DYD_NONE;
 }
@@ -412,12 +412,12 @@ static dyd_status everybody(plane *p) {
   if (!p->place || !p->near || !p->rival || !p->wanted || !p->value ||
       !dyd_reserve((void **)&p->entry, &p->entry_cap, t->count, sizeof *p->entry))
     return DYD_E_NOMEM;
-  for (uint32_t q = 0; q < t->count; q++) p->entry[q] = (entry){t->item[q], member_of(p->c, t->item[q]), true};
+  for (uint32_t q = 0; q < t->count; q++) p->entry[q] = (entry){t->item[q], cells_member(p->c, t->item[q]), true};
   p->entries = t->count;
   return DYD_OK;
 }
 
-static int compare_pairs(const void *x, const void *y) {
+static int cells_compare_pairs(const void *x, const void *y) {
   const dyd_member_pair *a = x, *b = y;
   if (a->a != b->a) return a->a < b->a ? -1 : 1;
   return (a->b > b->b) - (a->b < b->b);
@@ -426,10 +426,10 @@ static int compare_pairs(const void *x, const void *y) {
 /* Sorts the pairs left over; those that have found a state meanwhile and repeats go. */
 static void tidy(dyd_cells *c) {
   size_t kept = 0;
-  if (c->count) qsort(c->left, c->count, sizeof *c->left, compare_pairs);
+  if (c->count) qsort(c->left, c->count, sizeof *c->left, cells_compare_pairs);
   for (size_t k = 0; k < c->count; k++) {
     dyd_member_pair q = c->left[k];
-    if (kept && compare_pairs(&c->left[kept - 1], &q) == 0) continue;
+    if (kept && cells_compare_pairs(&c->left[kept - 1], &q) == 0) continue;
     if (dyd_pair_map_get(c->map, q.a, q.b) == DYD_PAIR_UNKNOWN) c->left[kept++] = q;
   }
   c->count = kept;

@@ -40,14 +40,14 @@ typedef struct ray {
   double t;
 } ray;
 
-static double low(const dyd_bbox *b, int axis) {
+static double cover_low(const dyd_bbox *b, int axis) {
   return b->e[2 * axis];
 }
-static double high(const dyd_bbox *b, int axis) {
+static double cover_high(const dyd_bbox *b, int axis) {
   return b->e[2 * axis + 1];
 }
-static double middle(const dyd_bbox *b, int axis) {
-  return low(b, axis) / 2 + high(b, axis) / 2;
+static double cover_middle(const dyd_bbox *b, int axis) {
+  return cover_low(b, axis) / 2 + cover_high(b, axis) / 2;
 }
 static double nearest(double c, double lo, double hi) {
   return c < lo ? lo : c > hi ? hi : c;
@@ -59,8 +59,10 @@ static double farthest(double c, double lo, double hi) {
 /* The point of beta at t: dx_i^2 - dx_j^2 = dy_j^2 - dy_i^2, where the left side is a piecewise quadratic function of
  * the coordinate across. */
 static place place_at(const quick *q, double t) {
-  double a0 = low(q->a, q->across), a1 = high(q->a, q->across), b0 = low(q->b, q->across), b1 = high(q->b, q->across);
-  double ta = t - nearest(t, low(q->a, q->t), high(q->a, q->t)), tb = t - nearest(t, low(q->b, q->t), high(q->b, q->t));
+  double a0 = cover_low(q->a, q->across), a1 = cover_high(q->a, q->across), b0 = cover_low(q->b, q->across),
+         b1 = cover_high(q->b, q->across);
+  double ta = t - nearest(t, cover_low(q->a, q->t), cover_high(q->a, q->t)),
+         tb = t - nearest(t, cover_low(q->b, q->t), cover_high(q->b, q->t));
   double k = tb * tb - ta * ta, gap = b0 - a1, x;
   if (fabs(k) <= gap * gap) {
     x = a1 + gap / 2 + k / (2 * gap);
@@ -85,9 +87,9 @@ static double far2(const place *p, const dyd_bbox *b) {
 
 /* -1: below the line from i to j, seen along t; 1: above. */
 static int side_of(const quick *q, const dyd_bbox *b) {
-  double t0 = middle(q->a, q->t), x0 = middle(q->a, q->across);
-  double jt = middle(q->b, q->t) - t0, jx = middle(q->b, q->across) - x0;
-  double kt = middle(b, q->t) - t0, kx = middle(b, q->across) - x0;
+  double t0 = cover_middle(q->a, q->t), x0 = cover_middle(q->a, q->across);
+  double jt = cover_middle(q->b, q->t) - t0, jx = cover_middle(q->b, q->across) - x0;
+  double kt = cover_middle(b, q->t) - t0, kx = cover_middle(b, q->across) - x0;
   return kt * jx < jt * kx ? -1 : 1;
 }
 
@@ -168,7 +170,7 @@ static bool surely_cover(const quick *q, uint32_t k, uint32_t l, double t) {
   const dyd_bbox *box = q->sk->rects.box;
   place p = place_at(q, t);
   dyd_bbox c;
-  double ds = sqrt(p.ds2), x = fabs(p.at[q->across]), gap = low(q->b, q->across) - high(q->a, q->across);
+  double ds = sqrt(p.ds2), x = fabs(p.at[q->across]), gap = cover_low(q->b, q->across) - cover_high(q->a, q->across);
   if (!crosses(&c, q, &p, 0x1p-40 * ds * (1 + ds / gap) + 0x1p-48 * x)) return false;
   double near = dyd_max(dyd_ds2_lower(&c, q->a), dyd_ds2_lower(&c, q->b));
   if (!(dyd_dl2_upper(&c, &box[k]) < near && dyd_dl2_upper(&c, &box[l]) < near)) return false;
@@ -198,7 +200,7 @@ static double next_place(const quick *q, const ray end[2]) {
 
 static dyd_truth walk(quick *q, const uint32_t hint[2]) {
   ray end[2] = {{DYD_NONE, -INFINITY}, {DYD_NONE, INFINITY}};
-  double t = middle(q->a, q->t) / 2 + middle(q->b, q->t) / 2;
+  double t = cover_middle(q->a, q->t) / 2 + cover_middle(q->b, q->t) / 2;
   for (int k = 0; k < 2; k++)
     if (hint[k] != DYD_NONE) take(end, q, hint[k], place_at(q, t));
   for (int step = 0; step < STEPS; step++) {
@@ -221,7 +223,7 @@ dyd_truth dyd_filter_cover(const dyd_skeleton *sk, uint32_t i, uint32_t j, const
   if (!(dyd_max(x, y) > 0)) return DYD_UNKNOWN;
   q.across = y > x;
   q.t = !q.across;
-  if (low(b, q.across) < low(a, q.across)) {
+  if (cover_low(b, q.across) < cover_low(a, q.across)) {
     q.a = b;
     q.b = a;
     q.i = j;

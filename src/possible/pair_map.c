@@ -6,11 +6,11 @@
 
 #include <string.h>
 
-static uint64_t key_of(uint32_t a, uint32_t b) {
+static uint64_t pair_key(uint32_t a, uint32_t b) {
   return a < b ? ((uint64_t)a << 32 | b) + 1 : ((uint64_t)b << 32 | a) + 1;
 }
 
-static size_t place(const dyd_pair_map *m, uint64_t key) {
+static size_t pair_place(const dyd_pair_map *m, uint64_t key) {
   uint64_t mixed = (key ^ key >> 32) * UINT64_C(0x9E3779B97F4A7C15);
   size_t q = (size_t)(mixed >> 24 ^ mixed >> 44) & m->mask;
   while (m->key[q] && m->key[q] != key) q = (q + 1) & m->mask;
@@ -31,7 +31,7 @@ static dyd_status resize(dyd_pair_map *m, size_t size) {
   m->mask = size - 1;
   for (size_t q = 0; old.key && q <= old.mask; q++)
     if (old.key[q]) {
-      size_t p = place(m, old.key[q]);
+      size_t p = pair_place(m, old.key[q]);
       m->key[p] = old.key[q];
       m->state[p] = old.state[q];
     }
@@ -57,7 +57,7 @@ void dyd_pair_map_clear(dyd_pair_map *m) {
 }
 
 dyd_pair_state dyd_pair_map_get(const dyd_pair_map *m, uint32_t a, uint32_t b) {
-  return (dyd_pair_state)m->state[place(m, key_of(a, b))];
+  return (dyd_pair_state)m->state[pair_place(m, pair_key(a, b))];
 }
 
 static void join(dyd_pair_map *m, uint32_t from, uint32_t to) {
@@ -72,8 +72,8 @@ dyd_status dyd_pair_map_add(dyd_pair_map *m, uint32_t a, uint32_t b, dyd_pair_st
   }
   if (dyd_pair_is_possible(state) && !dyd_reserve((void **)&m->link, &m->link_cap, m->links + 2, sizeof *m->link))
     return DYD_E_NOMEM;
-  uint64_t key = key_of(a, b);
-  size_t q = place(m, key);
+  uint64_t key = pair_key(a, b);
+  size_t q = pair_place(m, key);
   if (!m->key[q]) m->used++;
   m->key[q] = key;
   m->state[q] = (uint8_t)state;

@@ -107,12 +107,12 @@ typedef struct keys {
   size_t (*count)[RADIX];
 } keys;
 
-static uint32_t place(const keys *k, int axis, size_t i) {
+static uint32_t order_place(const keys *k, int axis, size_t i) {
   return (uint32_t)((half_middle(k->sites, axis, i) - k->f.origin[axis]) * k->f.scale);
 }
 
-static uint32_t key_of(const keys *k, uint32_t i) {
-  uint32_t x = place(k, 0, i), y = place(k, 1, i), fat = k->mixed && !dyd_sites_is_point(k->sites, i);
+static uint32_t order_key(const keys *k, uint32_t i) {
+  uint32_t x = order_place(k, 0, i), y = order_place(k, 1, i), fat = k->mixed && !dyd_sites_is_point(k->sites, i);
   uint32_t key = (fat << 30 | (uint32_t)level_of(i) << 28 | hilbert_key(&k->h, x, y)) >> k->shift;
   return k->column ? key | k->column[x] << STRIP_BIT : key;
 }
@@ -127,7 +127,7 @@ static unsigned strips_for(size_t n) {
 /* Columns with about the same number of sites, judged by a sample; a column is never divided. */
 static void share_columns(keys *k) {
   size_t n = k->sites->count, step = n / COLUMNS + 1, sample = (n + step - 1) / step, seen = 0;
-  for (size_t i = 0; i < n; i += step) k->column[place(k, 0, i)]++;
+  for (size_t i = 0; i < n; i += step) k->column[order_place(k, 0, i)]++;
   for (size_t c = 0; c < COLUMNS; c++) {
     size_t here = k->column[c], strip = (seen + here / 2) * k->strips / sample;
     k->column[c] = strip < k->strips ? (uint32_t)strip : k->strips - 1;
@@ -162,7 +162,7 @@ static void keys_of_range(void *context, size_t number) {
   const keys *k = context;
   size_t n = k->sites->count;
   for (size_t i = dyd_range_begin(n, number); i < dyd_range_begin(n, number + 1); i++)
-    k->a[i] = (uint64_t)key_of(k, (uint32_t)i) << 32 | i;
+    k->a[i] = (uint64_t)order_key(k, (uint32_t)i) << 32 | i;
 }
 
 static void count_keys(keys *k) {

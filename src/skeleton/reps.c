@@ -58,7 +58,7 @@ dyd_status dyd_reps_get(dyd_rect *out, const dyd_reps *r, uint32_t v) {
 }
 
 /* Middle of two doubles without overflow; lies between them. */
-static double middle(double lo, double hi) {
+static double reps_middle(double lo, double hi) {
   double m = lo / 2 + hi / 2;
   return m < lo ? lo : m > hi ? hi : m;
 }
@@ -131,7 +131,7 @@ dyd_status dyd_reps_choose(dyd_reps *r, uint32_t v, uint32_t k) {
   if (k == 0) {
     double b[4];
     dyd_sites_get_d(b, s, i);
-    dyd_xy p = {middle(b[0], b[1]), middle(b[2], b[3])};
+    dyd_xy p = {reps_middle(b[0], b[1]), reps_middle(b[2], b[3])};
     bool inside = dyd_sites_in_doubles(s, i);
     if (!inside && isfinite(b[0]) && isfinite(b[1]) && isfinite(b[2]) && isfinite(b[3])) {
       dyd_status st = holds(&inside, r, v, p);
