@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "delaunay/face_table.h"
 #include "delaunay/faces.h"
+#include "delaunay/ties.h"
 #include "legal/certify.h"
 #include "skeleton/mesh_start.h"
 #include "skeleton/predicates.h"

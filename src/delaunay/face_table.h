@@ -3,7 +3,10 @@
 #ifndef DYD_DELAUNAY_FACE_TABLE_H
 #define DYD_DELAUNAY_FACE_TABLE_H
 
-#include "delaunay/undecided.h"
+#include "delaunay/state.h"
+#include "skeleton/work.h"
+
+#include <stdlib.h>
 
 void dyd_table_clear(dyd_undecided *f);
 /* Marks all triangles as decided, unless there are marks. */
@@ -29,6 +32,14 @@ void dyd_table_compact(dyd_undecided *f);
 /* A face numbered at least `from` and below `to` that lists p, shown or hidden, and where; NULL: none. */
 dyd_vertex_pair *dyd_table_listed(dyd_face **owner, const dyd_delaunay *pd, dyd_vertex_pair p, size_t from, size_t to);
 void dyd_table_delete(dyd_undecided *f, dyd_face *face, dyd_vertex_pair *at);
+
+/* Where listed face f has the pair, shown or hidden; NULL: nowhere. */
+static inline dyd_vertex_pair *dyd_listed_pair(const dyd_delaunay *pd, size_t f, uint32_t v, uint32_t w) {
+  const dyd_face *face = &pd->open.face[f];
+  dyd_vertex_pair key = {v < w ? v : w, v < w ? w : v, 0};
+  if (!face->pairs) return NULL;
+  return bsearch(&key, pd->open.pair + face->first_pair, face->pairs, sizeof key, dyd_compare_vertex_pair);
+}
 
 /* Says who has too many possible neighbours: the n vertices v, or the sites of a line. */
 void dyd_report_cap(dyd_work *w, const dyd_delaunay *pd, const uint32_t *v, size_t n);

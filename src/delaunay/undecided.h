@@ -7,8 +7,6 @@
 
 #include "delaunay/ties.h"
 
-#include <stdlib.h>
-
 /* v and w in any order. */
 typedef void (*dyd_pair_visit)(void *context, uint32_t v, uint32_t w, dyd_pair_status status);
 
@@ -35,14 +33,6 @@ void dyd_legal_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit visit,
 
 static inline dyd_pair_status dyd_listed_status(const dyd_face *face) {
   return face->tie && !face->capped ? DYD_TIE : DYD_INDETERMINATE;
-}
-
-/* Where listed face f has the pair, shown or hidden; NULL: nowhere. */
-static inline dyd_vertex_pair *dyd_listed_pair(const dyd_delaunay *pd, size_t f, uint32_t v, uint32_t w) {
-  const dyd_face *face = &pd->open.face[f];
-  dyd_vertex_pair key = {v < w ? v : w, v < w ? w : v, 0};
-  if (!face->pairs) return NULL;
-  return bsearch(&key, pd->open.pair + face->first_pair, face->pairs, sizeof key, dyd_compare_vertex_pair);
 }
 
 static inline void dyd_each_listed(const dyd_delaunay *pd, size_t f, dyd_pair_visit visit, void *context) {

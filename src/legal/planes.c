@@ -5,8 +5,10 @@
 #include "rect/irect.h"
 #include "skeleton/circumcentre.h"
 
-/* How far out centres are looked for, in bits above the sites: first, and when there is no room. */
-enum { NEAR_BITS = 64, FAR_BITS = NEAR_BITS + 4096 };
+/* How far out centres are looked for, in bits above the sites: each when there is no room nearer. Far out, doubles no
+ * longer tell the distances of sites apart, and everybody is asked exactly. */
+static const int64_t how_far[] = {3, 24, 64, 4160};
+enum { REACHES = sizeof how_far / sizeof *how_far };
 
 void dyd_planes_init(dyd_plane_list *l) {
   for (l->count = 0; l->count < 4; l->count++) dyd_half_plane_init(&l->h[l->count]);
@@ -127,14 +129,13 @@ static int64_t floor_exponent(const dyd_plane_list *l) {
 }
 
 dyd_status dyd_planes_centre(bool *room, dyd_point *c, dyd_plane_list *l) {
-  static const int64_t beyond[2] = {NEAR_BITS, FAR_BITS};
   dyd_exact_centre p;
   dyd_status st = DYD_OK;
   dyd_exact_centre_init(&p);
   bool good = true;
   *room = false;
-  for (int k = 0; k < 2 && good && !*room; k++) {
-    planes_square(l, l->top + beyond[k]);
+  for (int k = 0; k < REACHES && good && !*room; k++) {
+    planes_square(l, l->top + how_far[k]);
     good = dyd_exact_lp(&p, l->h, l->count);
     *room = good && mpz_sgn(p.z) > 0 && step_within(&p) >= floor_exponent(l);
   }

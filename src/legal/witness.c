@@ -63,30 +63,43 @@ static bool witness_is_outside(const search *s, const dyd_rect *r) {
   return true;
 }
 
-/* Would another violator change nothing? There are enough for one step, and k surely does not touch the pair. */
-static bool witness_is_one_too_many(const search *s, uint32_t k) {
-  const dyd_bbox *box = s->rects->box;
-  return s->rivals >= MAX_RIVALS && !s->no_filter && dyd_boxes_disjoint(&box[k], &box[s->i]) &&
-         dyd_boxes_disjoint(&box[k], &box[s->j]);
-}
-
-/* r violates c: new half-planes, if there are not enough yet. */
+/* r violates c: new half-planes. */
 static void witness_add_rival(search *s, const dyd_rect *r) {
-  s->ended = !s->planes || dyd_rect_meets(r, &s->own[0]) || dyd_rect_meets(r, &s->own[1]);
-  for (int q = 0; q < 2 && !s->ended && s->rivals < MAX_RIVALS; q++)
-    s->ended = !dyd_planes_add(s->planes, &s->c, &s->own[q], r);
+  s->ended = !s->planes;
+  for (int q = 0; q < 2 && !s->ended; q++) s->ended = !dyd_planes_add(s->planes, &s->c, &s->own[q], r);
   s->rivals++;
 }
 
+/* A few violators are enough for one step. */
 static bool witness_examine(void *context, uint32_t k) {
   search *s = context;
-  if (k == s->i || k == s->j || witness_is_one_too_many(s, k)) return true;
+  if (k == s->i || k == s->j) return true;
   dyd_rect r;
   dyd_rect_init(&r);
   s->status = dyd_rects_get(&r, s->rects, k);
   if (s->status == DYD_OK && !witness_is_outside(s, &r)) witness_add_rival(s, &r);
   dyd_rect_clear(&r);
+  return s->status == DYD_OK && !s->ended && s->rivals < MAX_RIVALS;
+}
+
+static bool witness_meets(void *context, uint32_t k) {
+  search *s = context;
+  if (k == s->i || k == s->j) return true;
+  dyd_rect r;
+  dyd_rect_init(&r);
+  s->status = dyd_rects_get(&r, s->rects, k);
+  s->ended = s->status == DYD_OK && (dyd_rect_meets(&r, &s->own[0]) || dyd_rect_meets(&r, &s->own[1]));
+  dyd_rect_clear(&r);
   return s->status == DYD_OK && !s->ended;
+}
+
+/* A rectangle that meets R_i or R_j is never outside of a disc that holds both: then there is no witness. */
+static void witness_look_at_ends(search *s) {
+  const double zero = 0;
+  const uint32_t own[2] = {s->i, s->j};
+  for (int q = 0; q < 2 && s->status == DYD_OK && !s->ended; q++)
+    dyd_tree_near(&s->rects->tree, &s->rects->box[own[q]], &zero, witness_meets, s);
+  if (s->ended) s->rivals = 1;
 }
 
 /* Who violates c? Everybody is asked through the tree; the answer is exact. */
@@ -112,7 +125,8 @@ static int64_t witness_steps(const dyd_plane_list *l) {
 /* Ends with no rivals (a witness), or with some (none, the floor, or too many steps). */
 static void witness_search_run(search *s) {
   bool room = true;
-  witness_evaluate(s);
+  witness_look_at_ends(s);
+  if (s->status == DYD_OK && !s->ended) witness_evaluate(s);
   for (int step = 0; s->status == DYD_OK && s->rivals && !s->ended && room; step++) {
     if (step >= witness_steps(s->planes)) break;
     s->status = dyd_planes_centre(&room, &s->c, s->planes);
