@@ -90,12 +90,15 @@ typedef struct cli_session {
   const dyd_voronoi_bounds *bounds; /* of the diagram written, borrowed; NULL: of none */
 } cli_session;
 
-/* A writer of results; err is clear. Returns an error with *err filled, else DYD_OK. */
-typedef dyd_status (*cli_write_fn)(FILE *out, const dyd_engine *e, const cli_options *o, dyd_error *err);
+/* Prints `what`; err is clear. Returns an error with *err filled, else DYD_OK. */
+typedef dyd_status (*cli_print_fn)(FILE *out, const void *what, const cli_options *o, dyd_error *err);
 
-/* All of a command that reads, runs, and writes one result. Returns the exit status. */
-int cli_session_all(const cli_options *o, cli_write_fn write);
+/* All of a command that reads, runs, and prints one result: `print` gets the engine. Returns the exit status. */
+int cli_session_all(const cli_options *o, cli_print_fn print);
 
+/* The file `name` ("-": standard input), read as bytes; NULL after a message that ends with the advice. */
+FILE *cli_input_open(const char *name, const char *advice);
+void cli_input_close(FILE *in);
 /* Adds the points of the file or oracle to e. 0, or an exit status after a message. */
 int cli_points_read(dyd_engine *e, const cli_options *o);
 /* The same in steps. Each returns 0, or an exit status after a message; cli_session_close comes after any of them. */
@@ -108,10 +111,9 @@ typedef dyd_status (*cli_run_fn)(dyd_engine *e, const dyd_engine_options *option
 int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_run_fn run, void *user);
 /* Comes before a result is written: takes the bar off a terminal that the result goes to. */
 void cli_session_settle(cli_session *s);
-/* Writes the result to --output, when there is one (otherwise says so). */
-int cli_session_write(cli_session *s, cli_write_fn write);
+/* Prints the result, from the engine, to --output, when there is one (otherwise says so). */
+int cli_session_write(cli_session *s, cli_print_fn print);
 /* Writes anything to the file `name` (NULL: standard output), whole or not at all. 0, or CLI_FAILED after a message. */
-typedef dyd_status (*cli_print_fn)(FILE *out, const void *what, const cli_options *o, dyd_error *err);
 int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, const void *what);
 /* Prints notes and --stats as the outcome of the engine and `status` ask for, frees s; returns the exit status: that
  * of the outcome where status is 0. */
@@ -138,8 +140,6 @@ bool cli_guard_descriptors(void);
 
 /* signals.c: the first SIGINT or SIGTERM cancels the engine, the next one ends the process. */
 void cli_signals_cancel(dyd_engine *e);
-/* Has a signal cancelled an engine? */
-bool cli_signals_cancelled(void);
 /* Signals end the process; the file `temporary` (may be NULL, borrowed) is removed before. */
 void cli_signals_remove(const char *temporary);
 

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* dyadel converge FILE: a run stage by stage, as a table and a plot; traces of runs, and replays of these. */
 #include "cli.h"
-#include <errno.h>
-#include <string.h>
 
 static dyd_status print_table(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   return dyd_write_convergence(out, what, o->format, !o->no_times, err);
@@ -96,22 +94,15 @@ static int converge_points(const cli_options *o) {
 /* ---- a replay ---- */
 
 static int converge_replay(const cli_options *o) {
-  bool standard = strcmp(o->replay, "-") == 0;
-  FILE *in = standard ? stdin : fopen(o->replay, "rb");
-  if (!in) {
-    cli_complain("%s: cannot open: %s; check the name of the trace", o->replay, strerror(errno));
-    return CLI_FAILED;
-  }
+  FILE *in = cli_input_open(o->replay, "check the name of the trace");
+  if (!in) return CLI_FAILED;
   dyd_convergence table = {DYD_SIZED(dyd_convergence)};
   dyd_error err;
   dyd_status st = dyd_trace_replay(&table, in, NULL, &err);
-  if (!standard) fclose(in);
+  cli_input_close(in);
   if (st != DYD_OK) cli_complain_at(o->replay, &err);
   int status = write_results(&table, o);
-  if (st != DYD_OK || status)
-    status = CLI_FAILED;
-  else
-    status = cli_exit_status(table.outcome);
+  status = st != DYD_OK || status ? CLI_FAILED : cli_exit_status(table.outcome);
   dyd_convergence_clear(&table);
   return status;
 }

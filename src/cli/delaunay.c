@@ -2,8 +2,8 @@
 /* dyadel delaunay FILE: read, run, write. A window is what pictures show. */
 #include "cli.h"
 
-static dyd_status delaunay_write(FILE *out, const dyd_engine *e, const cli_options *o, dyd_error *err) {
-  return dyd_write_delaunay_window(out, e, o->view, o->format, err);
+static dyd_status delaunay_write(FILE *out, const void *engine, const cli_options *o, dyd_error *err) {
+  return dyd_write_delaunay_window(out, engine, o->view, o->format, err);
 }
 
 int cli_delaunay(const cli_options *o) {

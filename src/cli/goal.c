@@ -7,16 +7,11 @@
 #include <inttypes.h>
 
 static const char *goal_subject(dyd_goal goal) {
-  switch (goal) {
-  case DYD_GOAL_AREA:
-    return "the undetermined area of the triangulation";
-  case DYD_GOAL_HAUSDORFF:
-    return "the distance to the true triangulation";
-  case DYD_GOAL_VORONOI_AREA:
-    return "the undetermined area of the diagram";
-  default:
-    return "the distance to the true diagram";
-  }
+  static const char *const subject[] = {[DYD_GOAL_AREA] = "the undetermined area of the triangulation",
+                                        [DYD_GOAL_HAUSDORFF] = "the distance to the true triangulation",
+                                        [DYD_GOAL_VORONOI_AREA] = "the undetermined area of the diagram",
+                                        [DYD_GOAL_VORONOI_HAUSDORFF] = "the distance to the true diagram"};
+  return subject[goal];
 }
 
 static bool goal_is_area(dyd_goal goal) {

@@ -40,7 +40,7 @@ static void help_names(FILE *out, const cli_option *o) {
 static void help_option(FILE *out, const cli_option *o, unsigned among) {
   help_names(out, o);
   if (o->kind == CLI_FORMAT)
-    cli_formats_print(out, cli_formats_of(o->commands & among), ", ", true);
+    cli_formats_print(out, o->commands & among, ", ", true);
   else
     for (const char *c = o->help; *c; c++) {
       fputc(*c, out);

@@ -20,19 +20,27 @@ static void bash_pattern(FILE *out, const cli_option *o) {
   fputs(") ", out);
 }
 
+static void bash_formats(FILE *out, unsigned commands) {
+  cli_formats_print(out, commands, " ", false);
+}
+
+/* The patterns of a case on the command, with its words, and those of no command. */
+static void bash_words(FILE *out, const char *indent, void (*words)(FILE *out, unsigned commands)) {
+  for (size_t c = 0; c <= CLI_COMMANDS; c++) {
+    bool any = c == CLI_COMMANDS;
+    fprintf(out, "%s%s) words='", indent, any ? "*" : cli_commands[c].name);
+    words(out, any ? CLI_ALL : cli_command_bit(&cli_commands[c]));
+    fputs("' ;;\n", out);
+  }
+}
+
 static void bash_value(FILE *out, const cli_option *o) {
   if (o->kind == CLI_FLAG || o->kind == CLI_FILE) return; /* files are what bash offers by itself */
   bash_pattern(out, o);
   if (o->kind == CLI_FORMAT) {
     fputs("case $command in\n", out);
-    for (size_t c = 0; c < CLI_COMMANDS; c++) {
-      fprintf(out, "      %s) words='", cli_commands[c].name);
-      cli_formats_print(out, cli_formats_of(cli_command_bit(&cli_commands[c])), " ", false);
-      fputs("' ;;\n", out);
-    }
-    fputs("      *) words='", out);
-    cli_formats_print(out, cli_formats_of(CLI_ALL), " ", false);
-    fputs("' ;;\n      esac ;;\n", out);
+    bash_words(out, "      ", bash_formats);
+    fputs("      esac ;;\n", out);
   } else if (o->kind == CLI_SCHEDULE) {
     fputs("words='adaptive uniform' ;;\n", out);
   } else if (o->kind == CLI_GOAL) {
@@ -66,14 +74,8 @@ void cli_help_bash(FILE *out) {
     fputs("return ;;\n", out);
   }
   fputs("  esac\n  if [[ -z $words && $cur == -* ]]; then\n    case $command in\n", out);
-  for (size_t c = 0; c < CLI_COMMANDS; c++) {
-    fprintf(out, "    %s) words='", cli_commands[c].name);
-    option_names(out, cli_command_bit(&cli_commands[c]));
-    fputs("' ;;\n", out);
-  }
-  fputs("    *) words='", out);
-  option_names(out, CLI_ALL);
-  fputs("' ;;\n    esac\n  elif [[ -z $words && -z $command ]]; then words='", out);
+  bash_words(out, "    ", option_names);
+  fputs("    esac\n  elif [[ -z $words && -z $command ]]; then words='", out);
   cli_commands_print(out, CLI_ALL, " ");
   fputs("'; fi\n"
         "  [[ $words ]] || return # names of files\n"
@@ -116,7 +118,7 @@ static void zsh_option(FILE *out, const cli_option *o, const cli_command *c) {
   if (o->kind == CLI_GOAL) fputs("(decided area\\: hausdorff\\:)", out);
   if (o->kind == CLI_FORMAT) {
     fputs("(", out);
-    cli_formats_print(out, cli_formats_of(cli_command_bit(c)), " ", false);
+    cli_formats_print(out, cli_command_bit(c), " ", false);
     fputs(")", out);
   }
   fputs("'\n", out);

@@ -72,7 +72,7 @@ static void man_option(FILE *out, const cli_option *o) {
     fprintf(out, " Ar %s", o->argument);
   fputs("\n", out);
   if (o->kind == CLI_FORMAT) {
-    cli_formats_print(out, cli_formats_of(o->commands), ", ", true);
+    cli_formats_print(out, o->commands, ", ", true);
     fputs("\n", out);
   } else {
     man_text(out, o->help);

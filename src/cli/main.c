@@ -11,19 +11,19 @@ static int flush_output(void) {
 }
 
 static int print_help(const cli_options *o) {
-  if (!*o->help) {
+  static const struct {
+    const char *name;
+    void (*print)(FILE *out);
+  } kind[] = {{"man", cli_help_man}, {"bash", cli_help_bash}, {"zsh", cli_help_zsh}};
+  size_t k = 0, kinds = sizeof kind / sizeof *kind;
+  while (k < kinds && strcmp(o->help, kind[k].name) != 0) k++;
+  if (!*o->help)
     cli_help(stdout, o->command ? cli_command_find(o->command) : NULL);
-  } else if (strcmp(o->help, "man") == 0) {
-    cli_help_man(stdout);
-  } else if (strcmp(o->help, "bash") == 0) {
-    cli_help_bash(stdout);
-  } else if (strcmp(o->help, "zsh") == 0) {
-    cli_help_zsh(stdout);
-  } else {
+  else if (k < kinds)
+    kind[k].print(stdout);
+  else
     cli_complain("--help=%s is not understood; give --help, --help=man, --help=bash or --help=zsh", o->help);
-    return CLI_USAGE;
-  }
-  return flush_output();
+  return *o->help && k == kinds ? CLI_USAGE : flush_output();
 }
 
 int main(int argc, char **argv) {

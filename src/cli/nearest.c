@@ -27,13 +27,9 @@ static int read_place(dyd_stream **out, const cli_options *o) {
   dyd_real *x = NULL, *y = NULL;
   int status = read_real(&x, "X", o->at[0]);
   if (!status) status = read_real(&y, "Y", o->at[1]);
-  if (status) {
-    dyd_real_free(x);
-    return status;
-  }
-  if (dyd_stream_from_reals(out, x, y) >= 0) return 0;
-  cli_complain("memory is exhausted; close other programs");
-  return CLI_FAILED;
+  if (!status) return dyd_stream_from_reals(out, x, y) == DYD_OK ? 0 : cli_complain_memory();
+  dyd_real_free(x);
+  return status;
 }
 
 /* ---- the answer ---- */

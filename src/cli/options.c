@@ -41,15 +41,17 @@ static size_t option_number(int value) {
   return 0;
 }
 
+static const char *option_name(size_t k) {
+  return k < cli_option_count ? cli_option_table[k].name : NULL;
+}
+
 static int complain_unknown(const char *argument) {
   char name[64];
   snprintf(name, sizeof name, "%s", argument + strspn(argument, "-"));
   name[strcspn(name, "=")] = 0;
-  cli_suggestion s;
-  cli_suggest_begin(&s, name);
-  for (size_t k = 0; k < cli_option_count; k++) cli_suggest_try(&s, cli_option_table[k].name);
-  if (s.best)
-    cli_complain("there is no option %s; did you mean --%s?", argument, s.best);
+  const char *best = cli_suggest(name, option_name);
+  if (best)
+    cli_complain("there is no option %s; did you mean --%s?", argument, best);
   else
     cli_complain("there is no option %s; see dyadel --help", argument);
   return CLI_USAGE;
@@ -106,15 +108,17 @@ static int scan_all(scan *s, cli_options *o, int argc, char **argv) {
 
 /* ---- does it fit the command? ---- */
 
+static const char *command_name(size_t k) {
+  return k < CLI_COMMANDS ? cli_commands[k].name : NULL;
+}
+
 static int unknown_command(const char *name) {
-  cli_suggestion s;
-  cli_suggest_begin(&s, name);
-  for (size_t c = 0; c < CLI_COMMANDS; c++) cli_suggest_try(&s, cli_commands[c].name);
-  if (s.best)
-    cli_complain("there is no command \"%s\"; did you mean %s?", name, s.best);
+  const char *best = cli_suggest(name, command_name);
+  if (best)
+    cli_complain("there is no command \"%s\"; did you mean %s?", name, best);
   else
     cli_complain("there is no command \"%s\"; the commands are:", name);
-  for (size_t c = 0; !s.best && c < CLI_COMMANDS; c++)
+  for (size_t c = 0; !best && c < CLI_COMMANDS; c++)
     fprintf(stderr, "  dyadel %s %s\n", cli_commands[c].name, cli_commands[c].operands);
   return CLI_USAGE;
 }
@@ -133,7 +137,7 @@ static int options_fit(const cli_options *o, uint64_t seen, const cli_command *c
   }
   if (!o->format_set || dyd_format_holds(o->format, c->content)) return 0;
   fprintf(stderr, "dyadel: %s does not write %s; give ", c->name, dyd_format_name(o->format));
-  cli_formats_print(stderr, cli_formats_of(cli_command_bit(c)), ", ", false);
+  cli_formats_print(stderr, cli_command_bit(c), ", ", false);
   fputs("\n", stderr);
   return CLI_USAGE;
 }

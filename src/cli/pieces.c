@@ -81,8 +81,7 @@ static int pieces_open(cli_pieces *p, const cli_options *o, size_t least, size_t
     return CLI_FAILED;
   }
   if (pieces_reserve(p, count < most ? count : most)) return 0;
-  cli_complain("memory is exhausted; close other programs");
-  return CLI_FAILED;
+  return cli_complain_memory();
 }
 
 static void pieces_note(const cli_pieces *p) {

@@ -8,29 +8,33 @@
 
 /* ---- reading ---- */
 
+FILE *cli_input_open(const char *name, const char *advice) {
+  FILE *in = strcmp(name, "-") == 0 ? stdin : fopen(name, "rb");
+  if (!in) cli_complain("%s: cannot open: %s; %s", name, strerror(errno), advice);
+  return in;
+}
+
+void cli_input_close(FILE *in) {
+  if (in != stdin) fclose(in);
+}
+
 static int session_read_file(dyd_engine *e, const cli_options *o) {
-  bool standard = strcmp(o->file, "-") == 0;
-  FILE *in = standard ? stdin : fopen(o->file, "rb");
-  if (!in) {
-    cli_complain("%s: cannot open: %s; check the name of the points file", o->file, strerror(errno));
-    return CLI_FAILED;
-  }
+  FILE *in = cli_input_open(o->file, "check the name of the points file");
+  if (!in) return CLI_FAILED;
   struct stat info;
   if (fstat(fileno(in), &info) == 0 && S_ISDIR(info.st_mode)) {
     cli_complain("%s: is a directory; give the name of a points file in it", o->file);
-    if (!standard) fclose(in);
+    cli_input_close(in);
     return CLI_FAILED;
   }
   dyd_error err;
   dyd_status st = dyd_read_points(e, in, &o->read, &err);
-  if (!standard) fclose(in);
-  if (st == DYD_E_ARG) {
+  cli_input_close(in);
+  if (st == DYD_E_ARG)
     cli_complain("%s", err.message);
-    return CLI_USAGE;
-  }
-  if (st == DYD_OK) return 0;
-  cli_complain_at(o->file, &err);
-  return CLI_FAILED;
+  else if (st != DYD_OK)
+    cli_complain_at(o->file, &err);
+  return st == DYD_OK ? 0 : st == DYD_E_ARG ? CLI_USAGE : CLI_FAILED;
 }
 
 int cli_points_read(dyd_engine *e, const cli_options *o) {
@@ -73,19 +77,11 @@ int cli_session_run(cli_session *s, const dyd_engine_options *options) {
 }
 
 int cli_exit_status(dyd_outcome outcome) {
-  switch (outcome) {
-  case DYD_OUTCOME_DECIDED:
-  case DYD_OUTCOME_CERTIFIED:
-    return CLI_OK;
-  case DYD_OUTCOME_FIXPOINT:
-    return CLI_FIXPOINT;
-  case DYD_OUTCOME_BUDGET:
-    return CLI_BUDGET;
-  case DYD_OUTCOME_CANCELLED:
-    return CLI_CANCELLED;
-  default:
-    return CLI_FAILED;
-  }
+  static const int status[] = {
+      [DYD_OUTCOME_NONE] = CLI_FAILED,       [DYD_OUTCOME_DECIDED] = CLI_OK,    [DYD_OUTCOME_CERTIFIED] = CLI_OK,
+      [DYD_OUTCOME_FIXPOINT] = CLI_FIXPOINT, [DYD_OUTCOME_BUDGET] = CLI_BUDGET, [DYD_OUTCOME_CANCELLED] = CLI_CANCELLED,
+      [DYD_OUTCOME_ERROR] = CLI_FAILED};
+  return status[outcome];
 }
 
 static const char *budget_advice(dyd_budget b) {
@@ -149,17 +145,6 @@ int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, c
   return done ? 0 : CLI_FAILED;
 }
 
-/* A writer of results as a printer of anything. */
-typedef struct result_writer {
-  const dyd_engine *engine;
-  cli_write_fn write;
-} result_writer;
-
-static dyd_status session_print_result(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  const result_writer *w = what;
-  return w->write(out, w->engine, o, err);
-}
-
 static dyd_status session_print_certificate(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const dyd_rect *window = o->engine.window;
   return window ? dyd_write_voronoi_certificate(out, what, window, err) : dyd_write_certificate(out, what, err);
@@ -172,7 +157,7 @@ void cli_session_settle(cli_session *s) {
   s->progress = NULL;
 }
 
-int cli_session_write(cli_session *s, cli_write_fn write) {
+int cli_session_write(cli_session *s, cli_print_fn print) {
   cli_session_settle(s);
   if (!dyd_engine_delaunay(s->engine)) {
     cli_complain("%s before the first triangulation was complete: there is no result to write",
@@ -181,9 +166,7 @@ int cli_session_write(cli_session *s, cli_write_fn write) {
   }
   const char *certificate = s->options->certificate;
   int status = certificate ? cli_write_file(certificate, s->options, session_print_certificate, s->engine) : 0;
-  if (status) return status;
-  result_writer w = {s->engine, write};
-  return cli_write_file(s->options->output, s->options, session_print_result, &w);
+  return status ? status : cli_write_file(s->options->output, s->options, print, s->engine);
 }
 
 int cli_session_close(cli_session *s, int status) {
@@ -200,14 +183,14 @@ int cli_session_close(cli_session *s, int status) {
   return status;
 }
 
-int cli_session_all(const cli_options *o, cli_write_fn write) {
+int cli_session_all(const cli_options *o, cli_print_fn print) {
   cli_session s;
   int status = cli_session_open(&s, o);
   if (status == 0) {
     status = cli_session_run(&s, &o->engine);
     /* What was stated before a point failed stays true: it is written, and the exit status tells of the failure. */
     if (status == 0 || dyd_engine_delaunay(s.engine)) {
-      int written = cli_session_write(&s, write);
+      int written = cli_session_write(&s, print);
       if (status == 0) status = written;
     }
   }

@@ -10,12 +10,10 @@
 
 static _Atomic(dyd_engine *) to_cancel;
 static _Atomic(const char *) to_remove;
-static atomic_bool cancelled;
 
 static void signal_handle(int number) {
   dyd_engine *e = atomic_exchange(&to_cancel, NULL);
   if (e) {
-    atomic_store(&cancelled, true);
     dyd_engine_cancel(e);
     return;
   }
@@ -37,10 +35,6 @@ void cli_signals_cancel(dyd_engine *e) {
   atomic_store(&to_cancel, e);
   signal_install(SIGINT);
   signal_install(SIGTERM);
-}
-
-bool cli_signals_cancelled(void) {
-  return atomic_load(&cancelled);
 }
 
 void cli_signals_remove(const char *temporary) {

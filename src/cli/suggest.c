@@ -28,17 +28,14 @@ static size_t edit_distance(const char *a, const char *b) {
   return d[m][n];
 }
 
-void cli_suggest_begin(cli_suggestion *s, const char *name) {
-  /* A third of the letters may be wrong. */
-  *s = (cli_suggestion){.name = name, .distance = 2 + strlen(name) / 3};
-  if (strlen(name) < 3) s->distance = strlen(name);
-}
-
-void cli_suggest_try(cli_suggestion *s, const char *candidate) {
-  size_t length = strlen(s->name);
-  bool begins = length > 1 && strncmp(s->name, candidate, length) == 0;
-  size_t d = begins ? 0 : edit_distance(s->name, candidate);
-  if (d >= s->distance) return;
-  s->distance = d;
-  s->best = candidate;
+const char *cli_suggest(const char *name, const char *(*candidate)(size_t k)) {
+  const char *best = NULL, *one;
+  size_t length = strlen(name), least = length < 3 ? length : 2 + length / 3; /* a third of the letters may be wrong */
+  for (size_t k = 0; (one = candidate(k)); k++) {
+    size_t d = length > 1 && strncmp(name, one, length) == 0 ? 0 : edit_distance(name, one);
+    if (d >= least) continue;
+    least = d;
+    best = one;
+  }
+  return best;
 }

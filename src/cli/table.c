@@ -141,9 +141,18 @@ const cli_option cli_option_table[] = {
 };
 const size_t cli_option_count = sizeof cli_option_table / sizeof *cli_option_table;
 
+/* Does one of the commands write the format? */
+static bool is_format_of(dyd_format format, unsigned commands) {
+  for (unsigned c = 0; c < CLI_COMMANDS; c++)
+    if (commands & BIT(c) && dyd_format_holds(format, cli_commands[c].content)) return true;
+  return false;
+}
+
 bool cli_option_exists(const cli_option *option, unsigned commands) {
-  if (option->kind == CLI_FORMAT && !cli_formats_of(option->commands & commands)) return false;
-  return (option->commands & commands) != 0;
+  unsigned f = 0, takers = option->commands & commands;
+  if (option->kind != CLI_FORMAT) return takers != 0;
+  while (dyd_format_name((dyd_format)f) && !is_format_of((dyd_format)f, takers)) f++;
+  return dyd_format_name((dyd_format)f) != NULL;
 }
 
 const cli_command *cli_command_find(const char *name) {
@@ -165,18 +174,10 @@ void cli_commands_print(FILE *out, unsigned commands, const char *separator) {
   }
 }
 
-unsigned cli_formats_of(unsigned commands) {
-  unsigned formats = 0;
-  for (unsigned c = 0; c < CLI_COMMANDS; c++)
-    for (unsigned f = 0; commands & BIT(c) && dyd_format_name((dyd_format)f); f++)
-      if (dyd_format_holds((dyd_format)f, cli_commands[c].content)) formats |= BIT(f);
-  return formats;
-}
-
-void cli_formats_print(FILE *out, unsigned formats, const char *separator, bool mark) {
+void cli_formats_print(FILE *out, unsigned commands, const char *separator, bool mark) {
   bool first = true;
   for (unsigned f = 0; dyd_format_name((dyd_format)f); f++) {
-    if (!(formats & BIT(f))) continue;
+    if (!is_format_of((dyd_format)f, commands)) continue;
     fprintf(out, "%s%s%s", first ? "" : separator, dyd_format_name((dyd_format)f), first && mark ? " (default)" : "");
     first = false;
   }

@@ -81,22 +81,16 @@ const cli_command *cli_command_find(const char *name);
 unsigned cli_command_bit(const cli_command *c);
 /* The names of a set of commands, separated. */
 void cli_commands_print(FILE *out, unsigned commands, const char *separator);
-/* The names of a set of formats, separated; the first is marked when `mark` says so ("csv (default), json"). */
-void cli_formats_print(FILE *out, unsigned formats, const char *separator, bool mark);
-/* The formats that some of these commands write. */
-unsigned cli_formats_of(unsigned commands);
+/* The names of the formats that some of these commands write, separated; the first is marked when `mark` says so ("csv
+ * (default), json"). */
+void cli_formats_print(FILE *out, unsigned commands, const char *separator, bool mark);
 
 /* values.c: reads the value of an option into *o; false after a message. */
 bool cli_value_read(cli_options *o, const cli_option *option, const char *text);
 
-/* suggest.c: the candidate most like `name`, NULL when none is like it. A name that begins as `name` does, or a few
- * typing errors away. */
-typedef struct cli_suggestion {
-  const char *name, *best;
-  size_t distance;
-} cli_suggestion;
-void cli_suggest_begin(cli_suggestion *s, const char *name);
-void cli_suggest_try(cli_suggestion *s, const char *candidate);
+/* suggest.c: the candidate (0 and on, up to a NULL) most like `name`, NULL when none is like it. A name that begins as
+ * `name` does, or a few typing errors away. */
+const char *cli_suggest(const char *name, const char *(*candidate)(size_t k));
 
 /* help.c, help_man.c, help_complete.c: command NULL: help on everything. */
 void cli_help(FILE *out, const cli_command *command);

@@ -69,7 +69,7 @@ static bool value_schedule(dyd_schedule *place, const cli_option *option, const 
 static bool value_format(dyd_format *place, const cli_option *option, const char *text) {
   if (dyd_format_from_name(place, text)) return true;
   fprintf(stderr, "dyadel: --%s \"%s\" is not understood; give ", option->name, text);
-  cli_formats_print(stderr, cli_formats_of(CLI_ALL), ", ", false);
+  cli_formats_print(stderr, CLI_ALL, ", ", false);
   fputs("\n", stderr);
   return false;
 }

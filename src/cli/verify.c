@@ -1,17 +1,15 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* dyadel verify CERT: checks a certificate and says what was checked and what was not. */
 #include "cli.h"
-#include <errno.h>
 #include <string.h>
 
 static void print_proved(FILE *out, const dyd_certificate_report *r) {
   fprintf(out, "sites: %zu, of which %zu aliases\n", r->sites, r->aliases);
   fprintf(out, "checked: %zu legal pairs, each by its witness against all sites\n", r->legal);
-  if (!r->connected) {
-    fputs("not checked: faces, since legal pairs and bridges do not connect all sites\n", out);
-  } else {
+  if (r->connected)
     fprintf(out, "checked: %zu sure triangles, %zu sure corners of the hull\n", r->triangles, r->corners);
-  }
+  else
+    fputs("not checked: faces, since legal pairs and bridges do not connect all sites\n", out);
   if (r->illegal_chains)
     fprintf(out, "checked: %zu illegal pairs within undecided faces, each by its chain\n", r->illegal_chains);
   if (r->area || r->hausdorff) fputs("checked: the bounds of area and Hausdorff distance, for the pairs listed\n", out);
@@ -56,16 +54,12 @@ static dyd_status print_verified(FILE *out, const void *what, const cli_options 
 }
 
 int cli_verify(const cli_options *o) {
-  bool standard = strcmp(o->file, "-") == 0;
-  FILE *in = standard ? stdin : fopen(o->file, "rb");
-  if (!in) {
-    cli_complain("%s: cannot open: %s; check the name of the certificate", o->file, strerror(errno));
-    return CLI_FAILED;
-  }
+  FILE *in = cli_input_open(o->file, "check the name of the certificate");
+  if (!in) return CLI_FAILED;
   dyd_error err;
   dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
   dyd_status st = dyd_verify_certificate(&report, in, &err);
-  if (!standard) fclose(in);
+  cli_input_close(in);
   if (st == DYD_E_PARSE)
     cli_complain("%s:%zu: rejected: %s", o->file, err.line, err.message);
   else if (st != DYD_OK)

@@ -37,20 +37,18 @@ static int voronoi_run(cli_session *s, dyd_rect *window, const dyd_engine_option
   return cli_session_run(s, options);
 }
 
-static dyd_status voronoi_write(FILE *out, const dyd_engine *e, const cli_options *o, dyd_error *err) {
+static dyd_status voronoi_write(FILE *out, const void *engine, const cli_options *o, dyd_error *err) {
   dyd_voronoi_options options = {DYD_SIZED(dyd_voronoi_options), .flatten_bits = o->flatten_bits,
-                                 .flatten_set = o->flatten_set};
-  options.window = o->engine.window;
-  options.bounds = o->bounds;
-  return dyd_write_voronoi(out, e, &options, o->format, err);
+                                 .flatten_set = o->flatten_set, .window = o->engine.window, .bounds = o->bounds};
+  return dyd_write_voronoi(out, engine, &options, o->format, err);
 }
 
 /* The diagram, where there is one. */
 static int voronoi_write_result(cli_session *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
   if (pd && dyd_delaunay_is_capped(pd)) {
-    cli_complain("neighbours are missing, so no diagram is written: %s",
-                 "the cap on stored pairs was met; raise --max-pairs");
+    cli_complain("neighbours are missing, so no diagram is written: the cap on stored pairs was met; raise "
+                 "--max-pairs");
     return 0;
   }
   int status = cli_session_write(s, voronoi_write);

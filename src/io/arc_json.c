@@ -11,13 +11,6 @@ const char *const dyd_feature_names[8] = {"x0y0", "x1y0", "x0y1", "x1y1", "x0", 
 const char *const dyd_arc_names[3] = {"line", "parabola", "window"};
 const char *const dyd_end_names[5] = {"infinite", "sites", "axis", "feature", "window"};
 
-static void decimal_side_json(FILE *out, const char *name, const dyd_interval *a) {
-  double lo, hi;
-  dyd_interval_get_d(&lo, &hi, a);
-  fprintf(out, ", \"%s_decimal\": ", name);
-  dyd_json_decimals(out, lo, hi);
-}
-
 /* {"x": {"a": "..", "b": "..", "c": "..", "d": ".."}, ...}: the point (a + b sqrt(c)) / d with integers, and its
  * decimal enclosure. */
 static dyd_status surd_point_json(FILE *out, const dyd_surd_point *p) {
@@ -25,12 +18,14 @@ static dyd_status surd_point_json(FILE *out, const dyd_surd_point *p) {
               "{\"x\": {\"a\": \"%Zd\", \"b\": \"%Zd\"}, \"y\": {\"a\": \"%Zd\", \"b\": \"%Zd\"}, \"c\": \"%Zd\", "
               "\"d\": \"%Zd\"",
               p->ax, p->bx, p->ay, p->by, p->c, p->d);
+  double box[4];
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_status st = dyd_surd_point_enclose(&r, p, 64);
   if (st == DYD_OK) {
-    decimal_side_json(out, "x", &r.x);
-    decimal_side_json(out, "y", &r.y);
+    dyd_rect_get_d(box, &r);
+    fputs(", ", out);
+    dyd_json_box(out, "_decimal", box);
   }
   fputs("}", out);
   dyd_rect_clear(&r);

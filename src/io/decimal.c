@@ -98,9 +98,16 @@ void dyd_decimal_dyadic(char out[DYD_DECIMAL_SIZE], const dyd_dyadic *x, int dig
   snprintf(out, DYD_DECIMAL_SIZE, "%s%c.%se%" PRIdMAX, *text == '-' ? "-" : "", *digit, digit + 1, (intmax_t)point - 1);
 }
 
-void dyd_decimal_json(FILE *out, double x, dyd_round dir) {
-  char text[DYD_DECIMAL_SIZE] = "null";
+void dyd_decimal_put(FILE *out, double x, dyd_round dir, const char *otherwise) {
+  char text[DYD_DECIMAL_SIZE];
   if (isfinite(x)) dyd_decimal_directed(text, x, 17, dir);
+  fputs(isfinite(x) ? text : otherwise, out);
+}
+
+void dyd_decimal_put_near(FILE *out, double x) {
+  char text[DYD_DECIMAL_SIZE];
+  double error;
+  dyd_decimal_within(text, &error, x, x);
   fputs(text, out);
 }
 

@@ -17,8 +17,10 @@ void dyd_decimal_directed(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd_
 void dyd_decimal_within(char out[DYD_DECIMAL_SIZE], double *error, double lo, double hi);
 /* The decimal "d.ddde-61" of 2..17 significant digits next to x in direction dir, however small or large x is. */
 void dyd_decimal_dyadic(char out[DYD_DECIMAL_SIZE], const dyd_dyadic *x, int digits, dyd_round dir);
-/* A JSON value: the decimal next to x, or null for infinities and NaN. */
-void dyd_decimal_json(FILE *out, double x, dyd_round dir);
+/* Prints the decimal of 17 digits next to x, or `otherwise` for infinities and NaN. */
+void dyd_decimal_put(FILE *out, double x, dyd_round dir, const char *otherwise);
+/* Prints a short decimal whose nearest double is the finite x. */
+void dyd_decimal_put_near(FILE *out, double x);
 /* The exact lower (upper) end: "m*2^e", an integer, or a rational "p/q"; a coordinate that the reader takes.
  * Release with free(); NULL when memory is exhausted. */
 char *dyd_end_text(const dyd_interval *a, bool upper);

@@ -8,7 +8,6 @@
 #include "dyadic/raw.h"
 #include "io/decimal.h"
 #include "voronoi/surd_point.h"
-#include <math.h>
 
 void dyd_exact_text(FILE *out, mpz_srcptr a, mpz_srcptr b, mpz_srcptr c, mpz_srcptr d) {
   mpz_t gcd, p, q, r;
@@ -38,13 +37,15 @@ static int64_t enclosure_bits(const dyd_surd_point *p) {
   return 64 + dyd_bits(p->d);
 }
 
-void dyd_exact_enclose(double *lo, double *hi, const dyd_surd_point *p, int axis) {
+void dyd_exact_enclose(double box[4], const dyd_surd_point *p) {
   int64_t bits = enclosure_bits(p);
   mpz_t floor, ceiling;
   mpz_inits(floor, ceiling, NULL);
-  dyd_surd_point_floor(floor, ceiling, p, axis, bits);
-  *lo = dyd_raw_get_d(floor, -bits, DYD_DOWN);
-  *hi = dyd_raw_get_d(ceiling, -bits, DYD_UP);
+  for (int axis = 0; axis < 2; axis++) {
+    dyd_surd_point_floor(floor, ceiling, p, axis, bits);
+    box[2 * axis] = dyd_raw_get_d(floor, -bits, DYD_DOWN);
+    box[2 * axis + 1] = dyd_raw_get_d(ceiling, -bits, DYD_UP);
+  }
   mpz_clears(floor, ceiling, NULL);
 }
 
@@ -61,28 +62,16 @@ void dyd_exact_enclose_root(double *lo, double *hi, const dyd_surd_point *p) {
   mpz_clears(floor, ceiling, rest, NULL);
 }
 
-static void put_directed(FILE *out, double x, dyd_round dir) {
-  char text[DYD_DECIMAL_SIZE];
-  if (isinf(x)) {
-    fputs(x < 0 ? "-inf" : "inf", out);
-    return;
-  }
-  dyd_decimal_directed(text, x, 17, dir);
-  fputs(text, out);
-}
-
 void dyd_exact_decimals(FILE *out, double lo, double hi, const char *between) {
-  put_directed(out, lo, DYD_DOWN);
+  dyd_decimal_put(out, lo, DYD_DOWN, "-inf");
   fputs(between, out);
-  put_directed(out, hi, DYD_UP);
+  dyd_decimal_put(out, hi, DYD_UP, "inf");
 }
 
 void dyd_exact_middle(double out[2], const dyd_surd_point *p) {
-  for (int axis = 0; axis < 2; axis++) {
-    double lo, hi;
-    dyd_exact_enclose(&lo, &hi, p, axis);
-    out[axis] = lo / 2 + hi / 2;
-  }
+  double box[4];
+  dyd_exact_enclose(box, p);
+  for (int axis = 0; axis < 2; axis++) out[axis] = box[2 * axis] / 2 + box[2 * axis + 1] / 2;
 }
 
 void dyd_exact_circle(dyd_surd_point *centre, dyd_surd_point *radius2, const dyd_circle *k) {

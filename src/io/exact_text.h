@@ -8,8 +8,8 @@
 
 /* "7", "-3/4", "(3-2*sqrt(5))/7": a coordinate that the reader of points takes. */
 void dyd_exact_text(FILE *out, mpz_srcptr a, mpz_srcptr b, mpz_srcptr c, mpz_srcptr d);
-/* Decimals lo, hi around a coordinate (axis 0: x, 1: y), rounded down and up; -inf, inf beyond the largest double. */
-void dyd_exact_enclose(double *lo, double *hi, const dyd_surd_point *p, int axis);
+/* x lower, x upper, y lower, y upper, rounded down and up; -inf, inf beyond the largest double. */
+void dyd_exact_enclose(double box[4], const dyd_surd_point *p);
 /* The same for the square root of the x coordinate, which is not negative. */
 void dyd_exact_enclose_root(double *lo, double *hi, const dyd_surd_point *p);
 /* "LO<between>HI" as directed decimals. */

@@ -53,13 +53,13 @@ dyd_status dyd_json_bound(FILE *out, const char *name, const dyd_dyadic *value) 
   char *exact = dyd_dyadic_get_str(value);
   if (!exact) return DYD_E_NOMEM;
   fprintf(out, "{\"exact\": \"%s\", \"decimal\": ", exact);
-  dyd_decimal_json(out, dyd_dyadic_get_d(value, DYD_UP), DYD_UP);
+  dyd_decimal_put(out, dyd_dyadic_get_d(value, DYD_UP), DYD_UP, "null");
   fputs("}", out);
   free(exact);
   return DYD_OK;
 }
 
-dyd_status dyd_json_side(FILE *out, const char *name, const dyd_interval *a) {
+static dyd_status json_side(FILE *out, const char *name, const dyd_interval *a) {
   char *lo = dyd_end_text(a, false), *hi = dyd_interval_is_point(a) ? lo : dyd_end_text(a, true);
   dyd_status st = lo && hi ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) fprintf(out, "\"%s\": [\"%s\", \"%s\"]", name, lo, hi);
@@ -68,21 +68,32 @@ dyd_status dyd_json_side(FILE *out, const char *name, const dyd_interval *a) {
   return st;
 }
 
+dyd_status dyd_json_sides(FILE *out, const dyd_rect *r, const char *between) {
+  dyd_status st = json_side(out, "x", &r->x);
+  fputs(between, out);
+  return st == DYD_OK ? json_side(out, "y", &r->y) : st;
+}
+
 dyd_status dyd_json_rect(FILE *out, const dyd_rect *r) {
   fputs("{", out);
-  dyd_status st = dyd_json_side(out, "x", &r->x);
-  fputs(", ", out);
-  if (st == DYD_OK) st = dyd_json_side(out, "y", &r->y);
+  dyd_status st = dyd_json_sides(out, r, ", ");
   fputs("}", out);
   return st;
 }
 
 void dyd_json_decimals(FILE *out, double lo, double hi) {
   fputs("[", out);
-  dyd_decimal_json(out, lo, DYD_DOWN);
+  dyd_decimal_put(out, lo, DYD_DOWN, "null");
   fputs(", ", out);
-  dyd_decimal_json(out, hi, DYD_UP);
+  dyd_decimal_put(out, hi, DYD_UP, "null");
   fputs("]", out);
+}
+
+void dyd_json_box(FILE *out, const char *suffix, const double box[4]) {
+  fprintf(out, "\"x%s\": ", suffix);
+  dyd_json_decimals(out, box[0], box[1]);
+  fprintf(out, ", \"y%s\": ", suffix);
+  dyd_json_decimals(out, box[2], box[3]);
 }
 
 dyd_status dyd_put_window(FILE *out, const dyd_rect *w, const char *quote, const char *between) {

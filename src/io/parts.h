@@ -19,12 +19,14 @@ void dyd_json_head(FILE *out, const char *format);
 void dyd_json_head_outward(FILE *out, const char *format, dyd_outcome outcome);
 /* "NAME": {"exact": "m*2^e", "decimal": rounded up}; null where the value is not known (NULL). */
 dyd_status dyd_json_bound(FILE *out, const char *name, const dyd_dyadic *value);
-/* "NAME": [lo, hi], exact texts. */
-dyd_status dyd_json_side(FILE *out, const char *name, const dyd_interval *a);
-/* {"x": [lo, hi], "y": [lo, hi]}, exact texts. */
+/* "x": [lo, hi]<between>"y": [lo, hi], exact texts. */
+dyd_status dyd_json_sides(FILE *out, const dyd_rect *r, const char *between);
+/* The same as an object. */
 dyd_status dyd_json_rect(FILE *out, const dyd_rect *r);
 /* [lo, hi]: decimals rounded outward. */
 void dyd_json_decimals(FILE *out, double lo, double hi);
+/* "x<suffix>": [lo, hi], "y<suffix>": [lo, hi]: decimals rounded outward. */
+void dyd_json_box(FILE *out, const char *suffix, const double box[4]);
 /* The four ends of a window with dyadic ends, as exact texts, each between `quote`. */
 dyd_status dyd_put_window(FILE *out, const dyd_rect *w, const char *quote, const char *between);
 

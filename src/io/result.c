@@ -21,24 +21,19 @@ dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_erro
                   "point %zu lies beyond the largest double, which this format cannot show; use csv or json", i);
 }
 
-static dyd_status find_place(dyd_place *out, const dyd_result *r, size_t i, dyd_error *err) {
-  double box[4], error[2];
-  dyd_status st = dyd_result_box(box, r, i, err);
-  if (st != DYD_OK) return st;
-  dyd_decimal_within(out->x, &error[0], box[0], box[1]);
-  dyd_decimal_within(out->y, &error[1], box[2], box[3]);
-  out->error = fmax(error[0], error[1]);
-  return DYD_OK;
-}
-
-dyd_status dyd_result_places(dyd_place **out, double *error, const dyd_result *r, dyd_error *err) {
+dyd_status dyd_result_places(dyd_place **out, char bound[DYD_DECIMAL_SIZE], const dyd_result *r, dyd_error *err) {
   dyd_place *places = dyd_alloc(r->count, sizeof *places);
   dyd_status st = places ? DYD_OK : DYD_E_NOMEM;
-  *error = 0;
+  double box[4], error[2], most = 0;
   for (size_t i = 0; i < r->count && st == DYD_OK; i++) {
-    st = find_place(&places[i], r, i, err);
-    if (st == DYD_OK) *error = fmax(*error, places[i].error);
+    st = dyd_result_box(box, r, i, err);
+    if (st != DYD_OK) break;
+    dyd_decimal_within(places[i].x, &error[0], box[0], box[1]);
+    dyd_decimal_within(places[i].y, &error[1], box[2], box[3]);
+    places[i].error = fmax(error[0], error[1]);
+    most = fmax(most, places[i].error);
   }
+  dyd_decimal_directed(bound, most, 2, DYD_UP);
   if (st == DYD_OK)
     *out = places;
   else

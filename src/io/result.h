@@ -28,8 +28,9 @@ typedef struct dyd_place {
 const char *dyd_pair_status_text(dyd_pair_status status);
 /* The box of site i; DYD_E_RANGE with a message that names the site when it is not finite in doubles. */
 dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_error *err);
-/* The places of all sites; *out is released with free(). *error is the largest bound among them. */
-dyd_status dyd_result_places(dyd_place **out, double *error, const dyd_result *r, dyd_error *err);
+/* The places of all sites; *out is released with free(). `bound` is the largest error among them, two digits rounded
+ * up. */
+dyd_status dyd_result_places(dyd_place **out, char bound[DYD_DECIMAL_SIZE], const dyd_result *r, dyd_error *err);
 
 /* "3, 7, 9". */
 void dyd_put_indices(FILE *out, const dyd_index_list *list, const char *between);

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "io/parts.h"
 #include "io/read/text.h"
+#include "io/result.h"
 #include "io/trace.h"
 #include <dyadel/io.h>
 #include <inttypes.h>
@@ -68,20 +69,27 @@ static bool json_get_schedule(dyd_schedule *out, const json_t *line) {
   return k <= DYD_TRACE_SCHEDULE;
 }
 
+/* Dyadic texts at `from` and behind it. */
+static bool json_get_ends(dyd_interval *out, const json_t *list, size_t from) {
+  const char *lo = json_string_value(json_array_get(list, from)),
+             *hi = json_string_value(json_array_get(list, from + 1));
+  dyd_dyadic a, b;
+  dyd_dyadic_init(&a);
+  dyd_dyadic_init(&b);
+  bool good = lo && hi && dyd_dyadic_set_str(&a, lo, NULL) == DYD_OK && dyd_dyadic_set_str(&b, hi, NULL) == DYD_OK &&
+              dyd_interval_set_ends(out, &a, &b) == DYD_OK;
+  dyd_dyadic_clear(&b);
+  dyd_dyadic_clear(&a);
+  return good;
+}
+
 static bool json_get_side(dyd_interval *out, const json_t *line, const char *name) {
   const json_t *side = json_object_get(line, name);
   const char *lo = json_string_value(json_array_get(side, 0)), *hi = json_string_value(json_array_get(side, 1));
   if (!lo || !hi || json_array_size(side) != 2) return false;
   if (strcmp(lo, hi) == 0) /* any form of an exact number */
     return dyd_interval_set_text(out, lo, strlen(lo), NULL) == DYD_OK && dyd_interval_is_point(out);
-  dyd_dyadic a, b;
-  dyd_dyadic_init(&a);
-  dyd_dyadic_init(&b);
-  bool good = dyd_dyadic_set_str(&a, lo, NULL) == DYD_OK && dyd_dyadic_set_str(&b, hi, NULL) == DYD_OK &&
-              dyd_interval_set_ends(out, &a, &b) == DYD_OK;
-  dyd_dyadic_clear(&b);
-  dyd_dyadic_clear(&a);
-  return good;
+  return json_get_ends(out, side, 0);
 }
 
 /* ---- lines ---- */
@@ -89,21 +97,11 @@ static bool json_get_side(dyd_interval *out, const json_t *line, const char *nam
 /* The window of the bounds of V, when one was given. */
 static bool replay_window(replay *r, const json_t *line) {
   const json_t *list = json_object_get(line, "window");
-  dyd_dyadic end[4];
   r->converge.no_voronoi = json_is_true(json_object_get(line, "no_voronoi"));
   if (!list) return true;
-  bool good = json_array_size(list) == 4;
-  for (int k = 0; k < 4; k++) dyd_dyadic_init(&end[k]);
-  for (size_t k = 0; good && k < 4; k++) {
-    const char *text = json_string_value(json_array_get(list, k));
-    good = text && dyd_dyadic_set_str(&end[k], text, NULL) == DYD_OK;
-  }
-  good = good && dyd_interval_set_ends(&r->window.x, &end[0], &end[1]) == DYD_OK &&
-         dyd_interval_set_ends(&r->window.y, &end[2], &end[3]) == DYD_OK && !dyd_interval_is_point(&r->window.x) &&
-         !dyd_interval_is_point(&r->window.y);
-  for (int k = 0; k < 4; k++) dyd_dyadic_clear(&end[k]);
   r->converge.window = &r->window;
-  return good;
+  return json_array_size(list) == 4 && json_get_ends(&r->window.x, list, 0) && json_get_ends(&r->window.y, list, 2) &&
+         !dyd_interval_is_point(&r->window.x) && !dyd_interval_is_point(&r->window.y);
 }
 
 static dyd_status replay_head(replay *r, const json_t *line) {
@@ -197,13 +195,14 @@ static void replay_count_bits(dyd_stage_row *row, const replay *r) {
 }
 
 static bool replay_agrees(const dyd_stage_row *row, const json_t *line) {
-  int64_t legal, open, tie;
+  int64_t count;
   char digest[17];
   snprintf(digest, sizeof digest, "%016" PRIx64, row->digest);
-  return json_get_integer(&legal, line, "legal", 0, INT64_MAX) && (size_t)legal == row->count[DYD_LEGAL] &&
-         json_get_integer(&open, line, "indeterminate", 0, INT64_MAX) &&
-         (size_t)open == row->count[DYD_INDETERMINATE] && json_get_integer(&tie, line, "tie", 0, INT64_MAX) &&
-         (size_t)tie == row->count[DYD_TIE] && json_has_text(line, "statuses", digest);
+  for (int k = DYD_TIE; k <= DYD_LEGAL; k++)
+    if (!json_get_integer(&count, line, dyd_pair_status_text((dyd_pair_status)k), 0, INT64_MAX) ||
+        (size_t)count != row->count[k])
+      return false;
+  return json_has_text(line, "statuses", digest);
 }
 
 static dyd_status replay_stage(replay *r, const json_t *line) {

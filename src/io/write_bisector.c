@@ -9,7 +9,7 @@
 
 static void bisector_end(FILE *out, const dyd_arc_end *end) {
   const dyd_surd_point *p = &end->at;
-  double lo, hi;
+  double box[4];
   fprintf(out, ",%s,", dyd_end_names[end->kind]);
   if (end->kind == DYD_END_INFINITE) {
     fputs(",,,,,", out);
@@ -18,10 +18,10 @@ static void bisector_end(FILE *out, const dyd_arc_end *end) {
   dyd_exact_text(out, p->ax, p->bx, p->c, p->d);
   fputs(",", out);
   dyd_exact_text(out, p->ay, p->by, p->c, p->d);
-  for (int axis = 0; axis < 2; axis++) {
+  dyd_exact_enclose(box, p);
+  for (int k = 0; k < 4; k += 2) {
     fputs(",", out);
-    dyd_exact_enclose(&lo, &hi, p, axis);
-    dyd_exact_decimals(out, lo, hi, ",");
+    dyd_exact_decimals(out, box[k], box[k + 1], ",");
   }
 }
 

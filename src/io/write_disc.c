@@ -3,11 +3,11 @@
 #include "io/exact_text.h"
 #include "io/output.h"
 #include "io/parts.h"
+#include <math.h>
 
-enum { CIRCLES = 6, SIDES = 4 };
+enum { CIRCLES = 6 };
 
 static const char *const circle_names[CIRCLES] = {"FCC", "CFC", "CCF", "CFF", "FCF", "FFC"};
-static const char *const side_names[SIDES] = {"xlo", "xhi", "ylo", "yhi"};
 
 static const char *con_text(dyd_sure con) {
   return con == DYD_SURE_PLUS ? "inside" : con == DYD_SURE_MINUS ? "outside" : "unknown";
@@ -17,54 +17,49 @@ static const char *orientation_text(dyd_sure s) {
   return s == DYD_SURE_PLUS ? "counter-clockwise" : s == DYD_SURE_MINUS ? "clockwise" : "unknown";
 }
 
-typedef void (*put_circle_fn)(FILE *out, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2);
+typedef void circle_visit(void *context, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2);
 
-static void disc_each_circle(FILE *out, const dyd_partial_disc *d, put_circle_fn put) {
+static void disc_each_circle(const dyd_partial_disc *d, circle_visit visit, void *context) {
   dyd_surd_point centre, radius2;
   dyd_surd_point_init(&centre);
   dyd_surd_point_init(&radius2);
   for (int k = 0; k < CIRCLES && d->known; k++) {
     dyd_exact_circle(&centre, &radius2, &d->circle[k]);
-    put(out, k, &centre, &radius2);
+    visit(context, k, &centre, &radius2);
   }
   dyd_surd_point_clear(&radius2);
   dyd_surd_point_clear(&centre);
 }
 
 /* The smallest box in doubles around the six centres: it holds the partial centre [CEN-1]. */
-static void disc_centre_box(double box[SIDES], const dyd_partial_disc *d) {
-  dyd_surd_point centre, radius2;
-  dyd_surd_point_init(&centre);
-  dyd_surd_point_init(&radius2);
-  for (int k = 0; k < CIRCLES; k++) {
-    dyd_exact_circle(&centre, &radius2, &d->circle[k]);
-    for (int axis = 0; axis < 2; axis++) {
-      double lo, hi;
-      dyd_exact_enclose(&lo, &hi, &centre, axis);
-      if (!k || lo < box[2 * axis]) box[2 * axis] = lo;
-      if (!k || hi > box[2 * axis + 1]) box[2 * axis + 1] = hi;
-    }
-  }
-  dyd_surd_point_clear(&radius2);
-  dyd_surd_point_clear(&centre);
+static void disc_grow_box(void *context, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2) {
+  double *box = context, b[4];
+  (void)number, (void)radius2;
+  dyd_exact_enclose(b, centre);
+  for (int k = 0; k < 4; k++) box[k] = k & 1 ? fmax(box[k], b[k]) : fmin(box[k], b[k]);
 }
 
 /* ---- csv ---- */
 
-static void disc_csv_circle(FILE *out, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2) {
-  double lo, hi;
+static void disc_csv_box(FILE *out, const double box[4]) {
+  fputs(" within xlo ", out);
+  dyd_exact_decimals(out, box[0], box[1], " xhi ");
+  fputs(" ylo ", out);
+  dyd_exact_decimals(out, box[2], box[3], " yhi ");
+}
+
+static void disc_csv_circle(void *context, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2) {
+  FILE *out = context;
+  double box[4], lo, hi;
   fprintf(out, "# circle %s x ", circle_names[number]);
   dyd_exact_text(out, centre->ax, centre->bx, centre->c, centre->d);
   fputs(" y ", out);
   dyd_exact_text(out, centre->ay, centre->by, centre->c, centre->d);
   fputs(" radius^2 ", out);
   dyd_exact_text(out, radius2->ax, radius2->bx, radius2->c, radius2->d);
-  fprintf(out, "\n# circle %s within", circle_names[number]);
-  for (int axis = 0; axis < 2; axis++) {
-    dyd_exact_enclose(&lo, &hi, centre, axis);
-    fprintf(out, " %s ", side_names[2 * axis]);
-    dyd_exact_decimals(out, lo, hi, axis ? " yhi " : " xhi ");
-  }
+  fprintf(out, "\n# circle %s", circle_names[number]);
+  dyd_exact_enclose(box, centre);
+  disc_csv_box(out, box);
   fputs(" rlo ", out);
   dyd_exact_enclose_root(&lo, &hi, radius2);
   dyd_exact_decimals(out, lo, hi, " rhi ");
@@ -79,14 +74,12 @@ dyd_status dyd_disc_csv(const dyd_output *o) {
   fputs(
       "# critical circles: F encloses, C touches the rectangles 0 1 2; x, y, radius^2 exact, lo rounded down, hi up\n",
       out);
-  disc_each_circle(out, d, disc_csv_circle);
+  disc_each_circle(d, disc_csv_circle, out);
   if (d->known) {
-    double box[SIDES];
-    disc_centre_box(box, d);
-    fputs("# partial centre within xlo ", out);
-    dyd_exact_decimals(out, box[0], box[1], " xhi ");
-    fputs(" ylo ", out);
-    dyd_exact_decimals(out, box[2], box[3], " yhi ");
+    double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+    disc_each_circle(d, disc_grow_box, box);
+    fputs("# partial centre", out);
+    disc_csv_box(out, box);
     fputs("\n", out);
   }
   fputs("i,con\n", out);
@@ -102,18 +95,16 @@ static void disc_json_text(FILE *out, const char *name, mpz_srcptr a, mpz_srcptr
   fputs("\"", out);
 }
 
-static void disc_json_circle(FILE *out, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2) {
-  static const char *const names[2] = {"x_decimal", "y_decimal"};
-  double lo, hi;
+static void disc_json_circle(void *context, int number, const dyd_surd_point *centre, const dyd_surd_point *radius2) {
+  FILE *out = context;
+  double box[4], lo, hi;
   fprintf(out, "%s\n{\"labels\": \"%s\"", number ? "," : "", circle_names[number]);
   disc_json_text(out, "x", centre->ax, centre->bx, centre);
   disc_json_text(out, "y", centre->ay, centre->by, centre);
   disc_json_text(out, "radius_squared", radius2->ax, radius2->bx, radius2);
-  for (int axis = 0; axis < 2; axis++) {
-    dyd_exact_enclose(&lo, &hi, centre, axis);
-    fprintf(out, ", \"%s\": ", names[axis]);
-    dyd_json_decimals(out, lo, hi);
-  }
+  dyd_exact_enclose(box, centre);
+  fputs(", ", out);
+  dyd_json_box(out, "_decimal", box);
   dyd_exact_enclose_root(&lo, &hi, radius2);
   fputs(", \"radius_decimal\": ", out);
   dyd_json_decimals(out, lo, hi);
@@ -121,17 +112,15 @@ static void disc_json_circle(FILE *out, int number, const dyd_surd_point *centre
 }
 
 static void disc_json_centre(FILE *out, const dyd_partial_disc *d) {
-  double box[SIDES];
+  double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
   fputs("\n],\n\"partial_centre\": ", out);
   if (!d->known) {
     fputs("null", out);
     return;
   }
-  disc_centre_box(box, d);
-  fputs("{\"x_decimal\": ", out);
-  dyd_json_decimals(out, box[0], box[1]);
-  fputs(", \"y_decimal\": ", out);
-  dyd_json_decimals(out, box[2], box[3]);
+  disc_each_circle(d, disc_grow_box, box);
+  fputs("{", out);
+  dyd_json_box(out, "_decimal", box);
   fputs("}", out);
 }
 
@@ -147,7 +136,7 @@ dyd_status dyd_disc_json(const dyd_output *o) {
   }
   fprintf(out, "],\n\"orientation\": \"%s\",\n\"circles\": [",
           orientation_text(dyd_orientation(c->r[0], c->r[1], c->r[2])));
-  disc_each_circle(out, c->disc, disc_json_circle);
+  disc_each_circle(c->disc, disc_json_circle, out);
   disc_json_centre(out, c->disc);
   fputs(",\n\"con\": [", out);
   for (size_t i = 3; i < c->n; i++)

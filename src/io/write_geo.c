@@ -5,23 +5,17 @@
 #include "io/result.h"
 #include <math.h>
 
-/* Two digits, rounded up. */
-static void place_error_text(char out[DYD_DECIMAL_SIZE], double error) {
-  dyd_decimal_directed(out, error, 2, DYD_UP);
-}
-
 static dyd_status wkt_delaunay(const dyd_output *o) {
   const dyd_result *r = o->what;
   dyd_place *place = NULL;
-  double error;
-  dyd_status st = dyd_result_places(&place, &error, r, o->err);
+  char bound[DYD_DECIMAL_SIZE];
+  dyd_status st = dyd_result_places(&place, bound, r, o->err);
   if (st != DYD_OK) return st;
   fputs("WKT,i,j,status,max_coordinate_error\n", r->out);
   for (size_t k = 0; k < r->pairs.count; k++) {
     const dyd_pair *p = &r->pairs.item[k];
     const dyd_place *a = &place[p->i], *b = &place[p->j];
-    char bound[DYD_DECIMAL_SIZE];
-    place_error_text(bound, fmax(a->error, b->error));
+    dyd_decimal_directed(bound, fmax(a->error, b->error), 2, DYD_UP);
     fprintf(r->out, "\"LINESTRING (%s %s, %s %s)\",%u,%u,%s,%s\n", a->x, a->y, b->x, b->y, (unsigned)p->i,
             (unsigned)p->j, dyd_pair_status_text(p->status), bound);
   }
@@ -32,11 +26,9 @@ static dyd_status wkt_delaunay(const dyd_output *o) {
 static dyd_status geojson_delaunay(const dyd_output *o) {
   const dyd_result *r = o->what;
   dyd_place *place = NULL;
-  double error;
   char bound[DYD_DECIMAL_SIZE];
-  dyd_status st = dyd_result_places(&place, &error, r, o->err);
+  dyd_status st = dyd_result_places(&place, bound, r, o->err);
   if (st != DYD_OK) return st;
-  place_error_text(bound, error);
   fprintf(r->out,
           "{\"type\": \"FeatureCollection\",\n\"rounding\": \"a coordinate differs from every point of the "
           "rectangle it stands for by at most max_coordinate_error\",\n\"max_coordinate_error\": %s,\n"
@@ -72,13 +64,11 @@ static dyd_status obj_delaunay(const dyd_output *o) {
   const dyd_result *r = o->what;
   dyd_place *place = NULL;
   dyd_triangle_list triangles = {0};
-  double error;
   char bound[DYD_DECIMAL_SIZE];
   size_t count[4];
-  dyd_status st = dyd_result_places(&place, &error, r, o->err);
+  dyd_status st = dyd_result_places(&place, bound, r, o->err);
   if (st == DYD_OK) st = dyd_delaunay_triangles(&triangles, r->pd);
   if (st == DYD_OK) {
-    place_error_text(bound, error);
     dyd_delaunay_count(count, r->pd);
     fprintf(r->out,
             "# dyadel %s, outcome %s\n# a coordinate differs from every point of the rectangle it stands for by at "

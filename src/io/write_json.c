@@ -12,13 +12,9 @@ static dyd_status json_site(const dyd_result *r, size_t i, dyd_rect *rect) {
   dyd_status st = dyd_sites_get(rect, r->sites, i);
   if (st != DYD_OK) return st;
   fprintf(r->out, "%s\n{\"i\": %zu, ", i ? "," : "", i);
-  st = dyd_json_side(r->out, "x", &rect->x);
+  st = dyd_json_sides(r->out, rect, ", ");
   fputs(", ", r->out);
-  if (st == DYD_OK) st = dyd_json_side(r->out, "y", &rect->y);
-  fputs(", \"x_decimal\": ", r->out);
-  dyd_json_decimals(r->out, box[0], box[1]);
-  fputs(", \"y_decimal\": ", r->out);
-  dyd_json_decimals(r->out, box[2], box[3]);
+  dyd_json_box(r->out, "_decimal", box);
   fputs("}", r->out);
   return st;
 }

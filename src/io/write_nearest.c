@@ -13,9 +13,7 @@ dyd_status dyd_nearest_json(const dyd_output *o) {
   FILE *out = o->out;
   dyd_json_head(out, "dyadel nearest 1");
   fprintf(out, "\"outcome\": \"%s\",\n", dyd_outcome_text(a->outcome));
-  dyd_status st = dyd_json_side(out, "x", &a->at->x);
-  fputs(",\n", out);
-  if (st == DYD_OK) st = dyd_json_side(out, "y", &a->at->y);
+  dyd_status st = dyd_json_sides(out, a->at, ",\n");
   fputs(",\n\"nearest\": [", out);
   for (size_t k = 0; k < a->found->count; k++)
     fprintf(out, "%s\n{\"i\": %u, \"status\": \"%s\"}", k ? "," : "", (unsigned)a->found->item[k], nearest_status(a));

@@ -6,10 +6,8 @@
 #include <stdlib.h>
 
 static void csv_decimal(FILE *out, double x, dyd_round dir) {
-  char text[DYD_DECIMAL_SIZE] = "";
-  if (isfinite(x)) dyd_decimal_directed(text, x, 17, dir);
   fputc(',', out);
-  fputs(text, out);
+  dyd_decimal_put(out, x, dir, "");
 }
 
 static void csv_box(FILE *out, const double b[4]) {

@@ -14,18 +14,11 @@ typedef struct layer {
   bool geojson, any;
 } layer;
 
-static void layer_number(FILE *out, double x) {
-  char text[DYD_DECIMAL_SIZE];
-  double error;
-  dyd_decimal_within(text, &error, x, x);
-  fputs(text, out);
-}
-
 static void layer_xy(const layer *l, double x, double y) {
   if (l->geojson) fputs("[", l->d->out);
-  layer_number(l->d->out, x);
+  dyd_decimal_put_near(l->d->out, x);
   fputs(l->geojson ? ", " : " ", l->d->out);
-  layer_number(l->d->out, y);
+  dyd_decimal_put_near(l->d->out, y);
   if (l->geojson) fputs("]", l->d->out);
 }
 

@@ -77,13 +77,6 @@ static dyd_status cell_json(void *context, uint32_t i, const dyd_shape *shape, c
 
 /* ---- vertices, edges, regions ---- */
 
-static void decimal_box_json(FILE *out, const double b[4]) {
-  fputs("\"x\": ", out);
-  dyd_json_decimals(out, b[0], b[1]);
-  fputs(", \"y\": ", out);
-  dyd_json_decimals(out, b[2], b[3]);
-}
-
 static dyd_status exact_box_json(const dyd_diagram *d, size_t k) {
   char *text[4];
   dyd_status st = dyd_diagram_vertex(text, d, k);
@@ -100,7 +93,7 @@ static dyd_status vertices_json(const dyd_diagram *d) {
   for (size_t k = 0; k < d->triangles.count && st == DYD_OK; k++) {
     const uint32_t *v = d->triangles.item[k].v;
     fprintf(d->out, "%s\n{\"sites\": [%u, %u, %u], ", k ? "," : "", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
-    decimal_box_json(d->out, d->vertex[k]);
+    dyd_json_box(d->out, "", d->vertex[k]);
     st = exact_box_json(d, k);
     fputs("}", d->out);
   }
@@ -114,7 +107,7 @@ static void dual_end_json(FILE *out, const char *name, const dyd_dual_end *end) 
     fprintf(out, "%zu", end->vertex);
   } else if (end->kind == DYD_DUAL_RAY) {
     fputs("{\"ray\": {", out);
-    decimal_box_json(out, end->direction);
+    dyd_json_box(out, "", end->direction);
     fputs("}}", out);
   } else {
     fputs("null", out);
@@ -146,7 +139,7 @@ static dyd_status region_json(void *context, size_t face, const double box[4]) {
   dyd_put_indices(d->out, &sites, ", ");
   fputs("], ", d->out);
   if (box)
-    decimal_box_json(d->out, box);
+    dyd_json_box(d->out, "", box);
   else
     fputs("\"x\": null, \"y\": null", d->out);
   fputs("}", d->out);

@@ -40,13 +40,6 @@ static dyd_status gather_cell(void *context, uint32_t i, const dyd_shape *shape,
   return st;
 }
 
-static void vtk_decimal(FILE *out, double x) {
-  char text[DYD_DECIMAL_SIZE];
-  double error;
-  dyd_decimal_within(text, &error, x, x);
-  fputs(text, out);
-}
-
 static void vtk_polygons(const dyd_diagram *d, const gathered *g) {
   FILE *out = d->out;
   fprintf(out,
@@ -56,9 +49,9 @@ static void vtk_polygons(const dyd_diagram *d, const gathered *g) {
           dyd_outcome_text(dyd_engine_outcome(d->engine)), g->points);
   for (size_t k = 0; k < g->count; k++)
     for (size_t v = 0; v < g->polygon[k].count; v++) {
-      vtk_decimal(out, dyd_dyadic_get_d(&g->polygon[k].vertex[v].x, DYD_DOWN));
+      dyd_decimal_put_near(out, dyd_dyadic_get_d(&g->polygon[k].vertex[v].x, DYD_DOWN));
       fputs(" ", out);
-      vtk_decimal(out, dyd_dyadic_get_d(&g->polygon[k].vertex[v].y, DYD_DOWN));
+      dyd_decimal_put_near(out, dyd_dyadic_get_d(&g->polygon[k].vertex[v].y, DYD_DOWN));
       fputs(" 0\n", out);
     }
   fprintf(out, "POLYGONS %zu %zu\n", g->count, g->count + g->points);

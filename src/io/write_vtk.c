@@ -22,12 +22,10 @@ static dyd_status vtk_delaunay(const dyd_output *o) {
   const dyd_result *r = o->what;
   dyd_place *place = NULL;
   dyd_triangle_list triangles = {0};
-  double error;
   char bound[DYD_DECIMAL_SIZE];
-  dyd_status st = dyd_result_places(&place, &error, r, o->err);
+  dyd_status st = dyd_result_places(&place, bound, r, o->err);
   if (st == DYD_OK) st = dyd_delaunay_triangles(&triangles, r->pd);
   if (st == DYD_OK) {
-    dyd_decimal_directed(bound, error, 2, DYD_UP);
     fprintf(r->out,
             "# vtk DataFile Version 3.0\ndyadel delaunay, outcome %s; status 1 tie, 2 indeterminate, 3 legal; "
             "coordinates within %s of their rectangles\nASCII\nDATASET POLYDATA\nPOINTS %zu double\n",

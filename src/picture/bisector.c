@@ -126,16 +126,14 @@ static void fill_left(cairo_t *cr, const bisector_drawing *d, const dyd_chain *c
   line_to(cr, &d->view, end[0] + n[0], end[1] + n[1]);
   line_to(cr, &d->view, begin[0] + n[0], begin[1] + n[1]);
   cairo_close_path(cr);
-  dyd_picture_colour(cr, rgb);
-  cairo_fill(cr);
+  dyd_picture_fill(cr, rgb);
 }
 
 static void draw_arc(cairo_t *cr, const bisector_drawing *d, const dyd_arc *a) {
   piece p = piece_of(d, a);
   cairo_new_path(cr);
   piece_path(cr, &d->view, &p);
-  dyd_picture_pen(cr, CURVE, 1.8, p.curved ? 4 : 0, p.curved ? 2.5 : 0);
-  cairo_stroke(cr);
+  dyd_picture_stroke(cr, CURVE, 1.8, p.curved ? 4 : 0, p.curved ? 2.5 : 0);
 }
 
 static void bisector_mark(cairo_t *cr, double x, double y, dyd_end_kind kind) {
@@ -193,11 +191,6 @@ static void bisector_inside(cairo_t *cr, void *context) {
   }
 }
 
-static void bisector_draw(cairo_t *cr, void *context) {
-  const bisector_drawing *d = context;
-  dyd_view_draw(cr, &d->view, bisector_inside, bisector_legend, context);
-}
-
 /* *box grows by the ends that are not far out. */
 static void see_ends(double box[4], const dyd_boundary *b, double reach) {
   double most[4] = {box[0] - reach, box[1] + reach, box[2] - reach, box[3] + reach}, at[2];
@@ -223,5 +216,5 @@ dyd_status dyd_bisector_picture(const dyd_output *o) {
   st = dyd_view_fit(&d.view, see, 0, o->err);
   if (st != DYD_OK) return st;
   d.reach = 10 * (d.view.width + d.view.height) / d.view.scale;
-  return dyd_view_write(o, &d.view, bisector_draw, &d);
+  return dyd_view_write(o, &d.view, bisector_inside, bisector_legend, &d);
 }

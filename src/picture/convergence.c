@@ -16,66 +16,32 @@ static double log2_of(const dyd_dyadic *x) {
   return log2(m) + (double)e + (double)x->exp;
 }
 
-static double log10_of(size_t n) {
-  return n ? log10((double)n) : -INFINITY;
+static void plot_bounds(double *out, const dyd_stage_row *r) {
+  const dyd_dyadic *bound[] = {r->bounded ? &r->area : NULL,
+                               r->bounded ? &r->hausdorff : NULL,
+                               r->voronoi ? &r->v_area : NULL,
+                               r->voronoi ? &r->v_hausdorff : NULL,
+                               &r->width_largest,
+                               &r->width_median};
+  for (size_t k = 0; k < sizeof bound / sizeof *bound; k++) out[k] = bound[k] ? log2_of(bound[k]) : (double)NAN;
 }
 
-static double plot_width_largest(const dyd_stage_row *r) {
-  return log2_of(&r->width_largest);
-}
-
-static double plot_width_median(const dyd_stage_row *r) {
-  return log2_of(&r->width_median);
-}
-
-static double plot_area(const dyd_stage_row *r) {
-  return r->bounded ? log2_of(&r->area) : (double)NAN;
-}
-
-static double plot_hausdorff(const dyd_stage_row *r) {
-  return r->bounded ? log2_of(&r->hausdorff) : (double)NAN;
-}
-
-static double plot_v_area(const dyd_stage_row *r) {
-  return r->voronoi ? log2_of(&r->v_area) : (double)NAN;
-}
-
-static double plot_v_hausdorff(const dyd_stage_row *r) {
-  return r->voronoi ? log2_of(&r->v_hausdorff) : (double)NAN;
-}
-
-static double plot_legal(const dyd_stage_row *r) {
-  return log10_of(r->count[DYD_LEGAL]);
-}
-
-static double plot_possible(const dyd_stage_row *r) {
-  return log10_of(r->count[DYD_LEGAL] + r->count[DYD_INDETERMINATE] + r->count[DYD_TIE]);
-}
-
-static double plot_indeterminate(const dyd_stage_row *r) {
-  return log10_of(r->count[DYD_INDETERMINATE]);
-}
-
-static double plot_tie(const dyd_stage_row *r) {
-  return log10_of(r->count[DYD_TIE]);
-}
-
-static double plot_faces(const dyd_stage_row *r) {
-  return log10_of(r->undecided_faces);
+static void plot_counts(double *out, const dyd_stage_row *r) {
+  size_t legal = r->count[DYD_LEGAL], open = r->count[DYD_INDETERMINATE], tie = r->count[DYD_TIE],
+         count[] = {legal + open + tie, legal, open, tie, r->undecided_faces};
+  for (size_t k = 0; k < sizeof count / sizeof *count; k++) out[k] = count[k] ? log10((double)count[k]) : -INFINITY;
 }
 
 /* Colours after Okabe and Ito, told apart by all kinds of sight. */
-static const dyd_series bounds[] = {{"T: area", 0, 0.45, 0.70, 0, 0, plot_area},
-                                    {"T: Hausdorff distance", 0.84, 0.37, 0, 0, 3, plot_hausdorff},
-                                    {"V: area", 0.34, 0.71, 0.91, 6, 0, plot_v_area},
-                                    {"V: Hausdorff distance", 0.90, 0.62, 0, 6, 3, plot_v_hausdorff},
-                                    {"largest width", 0.3, 0.3, 0.3, 2, 4, plot_width_largest},
-                                    {"median width", 0.6, 0.6, 0.6, 2, 5, plot_width_median}};
-static const dyd_series counts[] = {{"possible pairs", 0, 0, 0, 0, 0, plot_possible},
-                                    {"legal", 0, 0.62, 0.45, 0, 4, plot_legal},
-                                    {"indeterminate", 0.84, 0.37, 0, 0, 3, plot_indeterminate},
-                                    {"ties", 0.80, 0.47, 0.65, 6, 5, plot_tie},
-                                    {"faces undecided", 0, 0.45, 0.70, 2, 0, plot_faces}};
+static const dyd_series bounds[] = {
+    {"T: area", 0, 0.45, 0.70, 0, 0},       {"T: Hausdorff distance", 0.84, 0.37, 0, 0, 3},
+    {"V: area", 0.34, 0.71, 0.91, 6, 0},    {"V: Hausdorff distance", 0.90, 0.62, 0, 6, 3},
+    {"largest width", 0.3, 0.3, 0.3, 2, 4}, {"median width", 0.6, 0.6, 0.6, 2, 5}};
+static const dyd_series counts[] = {{"possible pairs", 0, 0, 0, 0, 0},
+                                    {"legal", 0, 0.62, 0.45, 0, 4},
+                                    {"indeterminate", 0.84, 0.37, 0, 0, 3},
+                                    {"ties", 0.80, 0.47, 0.65, 6, 5},
+                                    {"faces undecided", 0, 0.45, 0.70, 2, 0}};
 
 /* ---- the page ---- */
 
@@ -83,8 +49,9 @@ static void plot_draw(cairo_t *cr, void *context) {
   const dyd_output *o = context;
   const dyd_convergence *c = o->what;
   dyd_panel top = {
-      70, 66, 570, 290, 0, 1, "Upper bounds and widths (powers of 2)", bounds, sizeof bounds / sizeof *bounds};
-  dyd_panel bottom = {70, 426, 570, 150, 0, 1, "Pairs and faces", counts, sizeof counts / sizeof *counts};
+      70,         66, 570, 290, 0, 1, "Upper bounds and widths (powers of 2)", bounds, sizeof bounds / sizeof *bounds,
+      plot_bounds};
+  dyd_panel bottom = {70, 426, 570, 150, 0, 1, "Pairs and faces", counts, sizeof counts / sizeof *counts, plot_counts};
   char title[120];
   snprintf(title, sizeof title, "dyadel converge: %s schedule, outcome %s", dyd_schedule_text(c->options->schedule),
            dyd_outcome_text(c->outcome));

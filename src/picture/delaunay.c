@@ -18,25 +18,19 @@ static const struct {
 #define WIDE 50.0 /* room around the frame, in points, for lines and dashes that begin outside */
 #define FAR 1e13  /* points on the page from where doubles do not tell positions to a hundredth */
 
-/* frame: of the window on the page, infinite without one; wide: the same with some room. */
+/* wide: the frame of the view with some room. */
 typedef struct delaunay_drawing {
   const dyd_result *r;
   dyd_view view;
   dyd_triangle_list triangles;
-  double frame[4], wide[4];
+  double wide[4];
   size_t shown[4], sites; /* lines of each status, rectangles that meet the frame */
 } delaunay_drawing;
 
-static double middle_of(double lo, double hi) {
-  return lo / 2 + hi / 2;
-}
-
-/* On the page. */
 static void page_middle(double z[2], const delaunay_drawing *d, uint32_t i) {
   double b[4];
   dyd_sites_get_d(b, d->r->sites, i);
-  z[0] = dyd_view_x(&d->view, middle_of(b[0], b[1]));
-  z[1] = dyd_view_y(&d->view, middle_of(b[2], b[3]));
+  dyd_view_middle(z, &d->view, b);
 }
 
 static bool line_of(double z[2][2], const delaunay_drawing *d, const dyd_pair *pair, const double frame[4]) {
@@ -62,8 +56,7 @@ static void draw_triangles(cairo_t *cr, const delaunay_drawing *d) {
     for (int c = 0; c < 3; c++) page_middle(z[c], d, d->triangles.item[k].v[c]);
     polygon_path(cr, d, z, 3);
   }
-  dyd_picture_colour(cr, 0xe6f0f7);
-  cairo_fill(cr);
+  dyd_picture_fill(cr, 0xe6f0f7);
 }
 
 /* Is the rectangle more than a dot? */
@@ -114,8 +107,7 @@ static void draw_regions(cairo_t *cr, const delaunay_drawing *d, int k) {
     if (!is_wide_box(d, a) && !is_wide_box(d, b)) continue;
     cairo_new_path(cr);
     pair_path(cr, d, a, b);
-    dyd_picture_colour(cr, style[k].region);
-    cairo_fill(cr);
+    dyd_picture_fill(cr, style[k].region);
   }
 }
 
@@ -128,8 +120,7 @@ static void draw_edges(cairo_t *cr, const delaunay_drawing *d, int k) {
     cairo_move_to(cr, z[0][0], z[0][1]);
     cairo_line_to(cr, z[1][0], z[1][1]);
   }
-  dyd_picture_pen(cr, style[k].rgb, d->view.line * style[k].width, style[k].on, style[k].off);
-  cairo_stroke(cr);
+  dyd_picture_stroke(cr, style[k].rgb, d->view.line * style[k].width, style[k].on, style[k].off);
 }
 
 /* In words what is shown of how many points. */
@@ -140,7 +131,8 @@ static void points_text(char *out, size_t size, const delaunay_drawing *d) {
     snprintf(out, size, "%zu points", d->r->count);
 }
 
-static void delaunay_legend(cairo_t *cr, const delaunay_drawing *d) {
+static void delaunay_legend(cairo_t *cr, void *context) {
+  const delaunay_drawing *d = context;
   char text[240], points[100];
   double y = dyd_view_legend(&d->view), x = 30;
   for (int k = 2; k >= 0; k--) {
@@ -159,7 +151,8 @@ static void delaunay_legend(cairo_t *cr, const delaunay_drawing *d) {
   dyd_picture_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, text);
 }
 
-static void delaunay_inside(cairo_t *cr, const delaunay_drawing *d) {
+static void delaunay_inside(cairo_t *cr, void *context) {
+  const delaunay_drawing *d = context;
   draw_triangles(cr, d);
   for (int k = 2; k >= 0; k--) draw_regions(cr, d, k);
   for (int k = 0; k < 3; k++) draw_edges(cr, d, k);
@@ -168,29 +161,6 @@ static void delaunay_inside(cairo_t *cr, const delaunay_drawing *d) {
     dyd_sites_get_d(b, d->r->sites, i);
     dyd_picture_site(cr, &d->view, b, dyd_sites_is_point(d->r->sites, i), DYD_PICTURE_BAND);
   }
-}
-
-static void frame_path(cairo_t *cr, const delaunay_drawing *d) {
-  cairo_new_path(cr);
-  cairo_rectangle(cr, d->frame[0], d->frame[2], d->frame[1] - d->frame[0], d->frame[3] - d->frame[2]);
-}
-
-static void delaunay_draw(cairo_t *cr, void *context) {
-  const delaunay_drawing *d = context;
-  dyd_picture_begin(cr);
-  cairo_save(cr);
-  if (d->r->window) {
-    frame_path(cr, d);
-    cairo_clip(cr);
-  }
-  delaunay_inside(cr, d);
-  cairo_restore(cr);
-  if (d->r->window) {
-    frame_path(cr, d);
-    dyd_picture_pen(cr, 0x222222, 1, 0, 0);
-    cairo_stroke(cr);
-  }
-  delaunay_legend(cr, d);
 }
 
 /* ---- what is shown ---- */
@@ -207,8 +177,9 @@ static dyd_status see_all(delaunay_drawing *d, dyd_error *err) {
   }
   if (r->count == 0) all[0] = all[1] = all[2] = all[3] = 0;
   dyd_delaunay_count(d->shown, r->pd);
-  for (int k = 0; k < 4; k++) d->frame[k] = d->wide[k] = k & 1 ? INFINITY : -INFINITY;
-  return dyd_view_fit(&d->view, all, dyd_view_spacing(r->pd, NULL), err);
+  dyd_status st = dyd_view_fit(&d->view, all, dyd_view_spacing(r->pd, NULL), err);
+  for (int k = 0; k < 4; k++) d->view.frame[k] = d->wide[k] = k & 1 ? INFINITY : -INFINITY;
+  return st;
 }
 
 /* A box on the page; false when it is too far outside. */
@@ -229,7 +200,7 @@ static dyd_status too_near(dyd_error *err) {
 static void count_shown(delaunay_drawing *d) {
   for (size_t p = 0; p < d->r->pairs.count; p++) {
     double z[2][2];
-    d->shown[d->r->pairs.item[p].status] += line_of(z, d, &d->r->pairs.item[p], d->frame);
+    d->shown[d->r->pairs.item[p].status] += line_of(z, d, &d->r->pairs.item[p], d->view.frame);
   }
 }
 
@@ -239,11 +210,11 @@ static dyd_status see_window(delaunay_drawing *d, dyd_error *err) {
   if (!(box[0] < box[1] && box[2] < box[3])) return dyd_fail(err, DYD_E_ARG, "the window has no area");
   dyd_status st = dyd_view_fit(&d->view, box, dyd_view_spacing(d->r->pd, box), err);
   if (st != DYD_OK) return st;
-  if (!place_box(d->frame, &d->view, box)) return too_near(err);
-  for (int k = 0; k < 4; k++) d->wide[k] = d->frame[k] + (k & 1 ? WIDE : -WIDE);
+  double *f = d->view.frame;
+  if (!place_box(f, &d->view, box)) return too_near(err);
+  for (int k = 0; k < 4; k++) d->wide[k] = f[k] + (k & 1 ? WIDE : -WIDE);
   for (size_t i = 0; i < d->r->count; i++) {
     double b[4], z[4];
-    const double *f = d->frame;
     st = dyd_result_box(b, d->r, i, err);
     if (st != DYD_OK) return st;
     if (!place_box(z, &d->view, b)) return too_near(err);
@@ -257,7 +228,7 @@ dyd_status dyd_delaunay_picture(const dyd_output *o) {
   delaunay_drawing d = {.r = o->what};
   dyd_status st = d.r->window ? see_window(&d, o->err) : see_all(&d, o->err);
   if (st == DYD_OK) st = dyd_delaunay_triangles(&d.triangles, d.r->pd);
-  if (st == DYD_OK) st = dyd_view_write(o, &d.view, delaunay_draw, &d);
+  if (st == DYD_OK) st = dyd_view_write(o, &d.view, delaunay_inside, delaunay_legend, &d);
   dyd_triangle_list_clear(&d.triangles);
   return st;
 }

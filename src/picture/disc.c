@@ -89,8 +89,7 @@ static void disc_areas(cairo_t *cr, const disc_drawing *g) {
 static void disc_circles(cairo_t *cr, const disc_drawing *g) {
   for (int k = 0; k < CIRCLES; k++) {
     circle_path(cr, g, k, false);
-    dyd_picture_pen(cr, CURVE, 1.5, k < ONCE ? 0 : 4, k < ONCE ? 0 : 2.5);
-    cairo_stroke(cr);
+    dyd_picture_stroke(cr, CURVE, 1.5, k < ONCE ? 0 : 4, k < ONCE ? 0 : 2.5);
   }
   for (int k = 0; k < CIRCLES; k++) {
     double x = dyd_view_x(&g->view, g->at[k][0]), y = dyd_view_y(&g->view, g->at[k][1]);
@@ -144,11 +143,6 @@ static void disc_inside(cairo_t *cr, void *context) {
   disc_sites(cr, g);
 }
 
-static void disc_draw(cairo_t *cr, void *context) {
-  const disc_drawing *g = context;
-  dyd_view_draw(cr, &g->view, disc_inside, disc_legend, context);
-}
-
 /* The circles, cut at the size of the rectangles around them. */
 static void see_circles(double box[4], const double at[CIRCLES][3]) {
   double reach = fmax(box[1] - box[0], box[3] - box[2]);
@@ -179,5 +173,5 @@ dyd_status dyd_disc_picture(const dyd_output *o) {
   disc_drawing g = {.d = c->disc, .r = c->r, .n = c->n};
   for (int k = 0; k < CIRCLES && g.d->known; k++) place_circle(g.at[k], &g.d->circle[k]);
   dyd_status st = disc_view(&g, o->err);
-  return st == DYD_OK ? dyd_view_write(o, &g.view, disc_draw, &g) : st;
+  return st == DYD_OK ? dyd_view_write(o, &g.view, disc_inside, disc_legend, &g) : st;
 }

@@ -22,37 +22,36 @@ void dyd_picture_site(cairo_t *cr, const dyd_view *v, const double box[4], bool 
   cairo_rectangle(cr, x0, y0, fmax(x1 - x0, least), fmax(y1 - y0, least));
   cairo_set_source_rgba(cr, (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, 0.55);
   cairo_fill_preserve(cr);
-  dyd_picture_pen(cr, (rgb >> 1 & 0x7f7f7f) + (rgb >> 4 & 0x0f0f0f), fmax(v->line * 0.7, 0.5), 0, 0);
-  cairo_stroke(cr);
+  dyd_picture_stroke(cr, (rgb >> 1 & 0x7f7f7f) + (rgb >> 4 & 0x0f0f0f), fmax(v->line * 0.7, 0.5), 0, 0);
 }
 
 void dyd_picture_marked(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb) {
   double w = fmax((box[1] - box[0]) * v->scale, 7), h = fmax((box[3] - box[2]) * v->scale, 7);
-  double x = dyd_view_x(v, box[0] / 2 + box[1] / 2), y = dyd_view_y(v, box[2] / 2 + box[3] / 2);
+  double z[2];
+  dyd_view_middle(z, v, box);
   cairo_new_path(cr);
-  cairo_rectangle(cr, x - w / 2, y - h / 2, w, h);
+  cairo_rectangle(cr, z[0] - w / 2, z[1] - h / 2, w, h);
   dyd_picture_colour(cr, rgb);
   cairo_fill_preserve(cr);
-  dyd_picture_pen(cr, 0x222222, 1.5, 0, 0);
-  cairo_stroke(cr);
+  dyd_picture_stroke(cr, 0x222222, 1.5, 0, 0);
 }
 
-/* Beside the upper right corner, or where the view ends before it. */
+/* The number stands beside the upper right corner, or where the view ends before it. */
 void dyd_picture_numbered(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb, size_t number) {
   char text[24];
+  double z[2];
   cairo_text_extents_t e;
   dyd_picture_marked(cr, v, box, rgb);
   snprintf(text, sizeof text, "%zu", number);
   cairo_set_font_size(cr, 20);
   cairo_text_extents(cr, text, &e);
-  double x = fmax(dyd_view_x(v, box[1]), dyd_view_x(v, box[0] / 2 + box[1] / 2) + 3.5) + 5,
-         y = fmin(dyd_view_y(v, box[3]), dyd_view_y(v, box[2] / 2 + box[3] / 2) - 3.5) - 4;
+  dyd_view_middle(z, v, box);
+  double x = fmax(dyd_view_x(v, box[1]), z[0] + 3.5) + 5, y = fmin(dyd_view_y(v, box[3]), z[1] - 3.5) - 4;
   cairo_move_to(cr, fmin(x, EDGE + v->width - e.x_advance - 4), fmax(y, EDGE + 20));
   cairo_text_path(cr, text);
   dyd_picture_pen(cr, 0xffffff, 4, 0, 0);
   cairo_stroke_preserve(cr);
-  dyd_picture_colour(cr, 0);
-  cairo_fill(cr);
+  dyd_picture_fill(cr, 0);
 }
 
 void dyd_picture_scale(cairo_t *cr, const dyd_view *v, double y) {
@@ -72,7 +71,6 @@ void dyd_picture_scale(cairo_t *cr, const dyd_view *v, double y) {
   cairo_line_to(cr, right, y);
   cairo_move_to(cr, right, y - 4);
   cairo_line_to(cr, right, y + 4);
-  dyd_picture_pen(cr, 0x222222, 1.5, 0, 0);
-  cairo_stroke(cr);
+  dyd_picture_stroke(cr, 0x222222, 1.5, 0, 0);
   dyd_picture_text(cr, right, y + 20, 1, 14, text);
 }

@@ -72,22 +72,18 @@ static void around_path(cairo_t *cr, const nearest_drawing *g, double reach) {
 
 static void nearest_areas(cairo_t *cr, const nearest_drawing *g) {
   around_path(cr, g, g->far);
-  dyd_picture_colour(cr, DYD_PICTURE_BAND);
-  cairo_fill(cr);
+  dyd_picture_fill(cr, DYD_PICTURE_BAND);
   if (!(g->near > 0)) return;
   around_path(cr, g, g->near);
-  dyd_picture_colour(cr, FREE);
-  cairo_fill(cr);
+  dyd_picture_fill(cr, FREE);
 }
 
 static void nearest_circles(cairo_t *cr, const nearest_drawing *g) {
   around_path(cr, g, g->far);
-  dyd_picture_pen(cr, 0x222222, 1.5, 0, 0);
-  cairo_stroke(cr);
+  dyd_picture_stroke(cr, 0x222222, 1.5, 0, 0);
   if (!(g->near > 0)) return;
   around_path(cr, g, g->near);
-  dyd_picture_pen(cr, 0x222222, 1.5, 4, 2.5);
-  cairo_stroke(cr);
+  dyd_picture_stroke(cr, 0x222222, 1.5, 4, 2.5);
 }
 
 static bool is_seen(const dyd_view *v, const double b[4]) {
@@ -117,16 +113,16 @@ static void nearest_sites(cairo_t *cr, const nearest_drawing *g, bool found) {
 }
 
 static void draw_ways(cairo_t *cr, const nearest_drawing *g) {
-  double x = dyd_view_x(&g->view, g->place[0] / 2 + g->place[1] / 2),
-         y = dyd_view_y(&g->view, g->place[2] / 2 + g->place[3] / 2);
+  double place[2], site[2];
+  dyd_view_middle(place, &g->view, g->place);
   for (size_t k = 0; k < g->answer->found->count; k++) {
     double b[4];
     dyd_sites_get_d(b, g->sites, g->answer->found->item[k]);
     cairo_new_path(cr);
-    cairo_move_to(cr, x, y);
-    cairo_line_to(cr, dyd_view_x(&g->view, b[0] / 2 + b[1] / 2), dyd_view_y(&g->view, b[2] / 2 + b[3] / 2));
-    dyd_picture_pen(cr, 0x222222, 1, g->answer->sure ? 0 : 4, g->answer->sure ? 0 : 4);
-    cairo_stroke(cr);
+    dyd_view_middle(site, &g->view, b);
+    cairo_move_to(cr, place[0], place[1]);
+    cairo_line_to(cr, site[0], site[1]);
+    dyd_picture_stroke(cr, 0x222222, 1, g->answer->sure ? 0 : 4, g->answer->sure ? 0 : 4);
   }
 }
 
@@ -138,8 +134,7 @@ static void draw_place(cairo_t *cr, const nearest_drawing *g) {
   if (fmax(x1 - x0, y1 - y0) > 4) {
     cairo_new_path(cr);
     cairo_rectangle(cr, x0, y0, x1 - x0, y1 - y0);
-    dyd_picture_pen(cr, 0, 1.5, 1, 2);
-    cairo_stroke(cr);
+    dyd_picture_stroke(cr, 0, 1.5, 1, 2);
   }
   for (int halo = 1; halo >= 0; halo--) {
     cairo_new_path(cr);
@@ -147,8 +142,7 @@ static void draw_place(cairo_t *cr, const nearest_drawing *g) {
       cairo_move_to(cr, x - 8, y - 8 * k);
       cairo_line_to(cr, x + 8, y + 8 * k);
     }
-    dyd_picture_pen(cr, halo ? 0xffffff : 0, halo ? 5 : 2.5, 0, 0);
-    cairo_stroke(cr);
+    dyd_picture_stroke(cr, halo ? 0xffffff : 0, halo ? 5 : 2.5, 0, 0);
   }
 }
 
@@ -183,16 +177,11 @@ static void nearest_inside(cairo_t *cr, void *context) {
   draw_place(cr, g);
 }
 
-static void nearest_draw(cairo_t *cr, void *context) {
-  const nearest_drawing *g = context;
-  dyd_view_draw(cr, &g->view, nearest_inside, nearest_legend, context);
-}
-
 dyd_status dyd_nearest_picture(const dyd_output *o) {
   const dyd_nearest_output *n = o->what;
   nearest_drawing g = {.pd = n->pd, .sites = dyd_delaunay_sites(n->pd), .answer = n->answer};
   dyd_rect_get_d(g.place, n->answer->at);
   find_distances(&g);
   dyd_status st = nearest_view(&g, o->err);
-  return st == DYD_OK ? dyd_view_write(o, &g.view, nearest_draw, &g) : st;
+  return st == DYD_OK ? dyd_view_write(o, &g.view, nearest_inside, nearest_legend, &g) : st;
 }

@@ -9,18 +9,22 @@
 
 static const double turn = 6.283185307179586;
 
-bool dyd_panel_fit(dyd_panel *p, const dyd_convergence *c) {
+static double panel_value(const dyd_panel *p, size_t series, const dyd_stage_row *r) {
+  double value[DYD_PANEL_MOST];
+  p->values(value, r);
+  return value[series];
+}
+
+void dyd_panel_fit(dyd_panel *p, const dyd_convergence *c) {
   double low = INFINITY, high = -INFINITY;
-  for (size_t s = 0; s < p->count; s++) {
+  for (size_t s = 0; s < p->count; s++)
     for (size_t k = 0; k < c->count; k++) {
-      double v = p->series[s].value(c->row[k]);
+      double v = panel_value(p, s, c->row[k]);
       if (isfinite(v)) low = fmin(low, v), high = fmax(high, v);
     }
-  }
   bool any = low <= high;
   p->low = any ? floor(low) : 0;
   p->high = any ? fmax(ceil(high), p->low + 1) : 1;
-  return any;
 }
 
 static double panel_x(const dyd_panel *p, const dyd_convergence *c, size_t row) {
@@ -107,11 +111,11 @@ static void set_pen(cairo_t *cr, const dyd_series *s) {
   cairo_set_dash(cr, &s->dash, s->dash > 0 ? 1 : 0, 0);
 }
 
-static void draw_curve(cairo_t *cr, const dyd_panel *p, const dyd_series *s, const dyd_convergence *c) {
-  set_pen(cr, s);
+static void draw_curve(cairo_t *cr, const dyd_panel *p, size_t s, const dyd_convergence *c) {
+  set_pen(cr, &p->series[s]);
   cairo_new_path(cr);
   for (size_t k = 0; k < c->count; k++) {
-    double v = s->value(c->row[k]);
+    double v = panel_value(p, s, c->row[k]);
     if (isnan(v))
       cairo_new_sub_path(cr);
     else
@@ -120,14 +124,14 @@ static void draw_curve(cairo_t *cr, const dyd_panel *p, const dyd_series *s, con
   cairo_stroke(cr);
   cairo_set_dash(cr, NULL, 0, 0);
   for (size_t k = 0; k < c->count; k++) {
-    double v = s->value(c->row[k]);
-    if (!isnan(v)) draw_series_mark(cr, s, panel_x(p, c, k), panel_y(p, v));
+    double v = panel_value(p, s, c->row[k]);
+    if (!isnan(v)) draw_series_mark(cr, &p->series[s], panel_x(p, c, k), panel_y(p, v));
   }
 }
 
-static bool has_values(const dyd_series *s, const dyd_convergence *c) {
+static bool has_values(const dyd_panel *p, size_t s, const dyd_convergence *c) {
   for (size_t k = 0; k < c->count; k++)
-    if (!isnan(s->value(c->row[k]))) return true;
+    if (!isnan(panel_value(p, s, c->row[k]))) return true;
   return false;
 }
 
@@ -153,8 +157,8 @@ void dyd_panel_draw(cairo_t *cr, const dyd_panel *p, const dyd_convergence *c, i
   cairo_stroke(cr);
   double key = p->y + 8;
   for (size_t s = 0; s < p->count; s++) {
-    if (!has_values(&p->series[s], c)) continue;
-    draw_curve(cr, p, &p->series[s], c);
+    if (!has_values(p, s, c)) continue;
+    draw_curve(cr, p, s, c);
     draw_key(cr, &p->series[s], p->x + p->width + 14, key);
     key += 19;
   }

@@ -6,27 +6,29 @@
 #include <cairo.h>
 #include <dyadel/converge.h>
 
-/* One curve: a number of a row on the scale of its panel, NAN where it is not known, -INFINITY for zero. Told apart by
- * colour, by dash and by marker, so that grey does as well. */
+/* One curve, told apart by colour, by dash and by marker, so that grey does as well. */
 typedef struct dyd_series {
   const char *name;
   double red, green, blue;
   double dash;   /* length; 0: a full line */
   unsigned mark; /* sides of the marker: 0 (a ring) or 3, 4, 5 */
-  double (*value)(const dyd_stage_row *r);
 } dyd_series;
 
-/* Invariant: low < high; zero is drawn on the bottom line, below low. */
+enum { DYD_PANEL_MOST = 6 }; /* curves */
+
+/* Invariant: low < high, count <= DYD_PANEL_MOST; zero is drawn on the bottom line, below low. */
 typedef struct dyd_panel {
   double x, y, width, height; /* of the frame */
   double low, high;           /* on its scale */
   const char *title;
   const dyd_series *series;
   size_t count;
+  /* A number of the row for each curve, on the panel's scale; NAN where it is not known, -INFINITY for zero. */
+  void (*values)(double *out, const dyd_stage_row *r);
 } dyd_panel;
 
-/* Sets low and high from the values; false when no value is positive. */
-bool dyd_panel_fit(dyd_panel *p, const dyd_convergence *c);
+/* Sets low and high from the values. */
+void dyd_panel_fit(dyd_panel *p, const dyd_convergence *c);
 /* Frame, ticks (labels base^k), curves, legend. */
 void dyd_panel_draw(cairo_t *cr, const dyd_panel *p, const dyd_convergence *c, int base);
 

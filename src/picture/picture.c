@@ -62,7 +62,6 @@ void dyd_picture_begin(cairo_t *cr) {
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
 }
 
-/* align 0: from x on, 0.5: around x, 1: up to x. */
 void dyd_picture_text(cairo_t *cr, double x, double y, double align, double size, const char *text) {
   cairo_text_extents_t e;
   cairo_set_font_size(cr, size);
@@ -82,13 +81,22 @@ void dyd_picture_pen(cairo_t *cr, unsigned rgb, double width, double on, double 
   cairo_set_dash(cr, dash, off > 0 ? 2 : 0, 0);
 }
 
+void dyd_picture_stroke(cairo_t *cr, unsigned rgb, double width, double on, double off) {
+  dyd_picture_pen(cr, rgb, width, on, off);
+  cairo_stroke(cr);
+}
+
+void dyd_picture_fill(cairo_t *cr, unsigned rgb) {
+  dyd_picture_colour(cr, rgb);
+  cairo_fill(cr);
+}
+
 void dyd_picture_dot(cairo_t *cr, double x, double y, double radius, unsigned fill, unsigned edge) {
   cairo_new_path(cr);
   cairo_arc(cr, x, y, radius, 0, 2 * acos(-1.0));
   dyd_picture_colour(cr, fill);
   cairo_fill_preserve(cr);
-  dyd_picture_pen(cr, edge, 1.2, 0, 0);
-  cairo_stroke(cr);
+  dyd_picture_stroke(cr, edge, 1.2, 0, 0);
   dyd_picture_colour(cr, 0);
 }
 
@@ -100,13 +108,12 @@ void dyd_picture_entry(cairo_t *cr, double *x, double y, unsigned rgb, bool fill
     cairo_rectangle(cr, *x, y - 7, 30, 14);
     dyd_picture_colour(cr, rgb);
     cairo_fill_preserve(cr);
-    dyd_picture_pen(cr, 0x555555, 0.6, 0, 0);
+    dyd_picture_stroke(cr, 0x555555, 0.6, 0, 0);
   } else {
     cairo_move_to(cr, *x, y);
     cairo_line_to(cr, *x + 30, y);
-    dyd_picture_pen(cr, rgb, 2, on, off);
+    dyd_picture_stroke(cr, rgb, 2, on, off);
   }
-  cairo_stroke(cr);
   dyd_picture_colour(cr, 0);
   cairo_set_font_size(cr, 14);
   cairo_text_extents(cr, text, &e);

@@ -27,6 +27,7 @@ typedef struct dyd_view {
   double left, top, scale; /* data to points on the page */
   double width, height;    /* of the drawing */
   double line, dot;        /* width of lines, radius of dots */
+  double frame[4];         /* x lower, x upper, y lower, y upper on the page: shown is what is inside; infinite: all */
 } dyd_view;
 
 /* A view of the box (x lower, x upper, y lower, y upper) of something whose neighbours are about `spacing` apart (0:
@@ -36,16 +37,17 @@ dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_er
 double dyd_view_spacing(const dyd_delaunay *pd, const double box[4]);
 double dyd_view_x(const dyd_view *v, double x);
 double dyd_view_y(const dyd_view *v, double y);
+/* The middle of a box, on the page. */
+void dyd_view_middle(double z[2], const dyd_view *v, const double box[4]);
 /* *box (xlo, xhi, ylo, yhi) grows to hold r; DYD_E_RANGE with a message unless doubles can hold it. */
 dyd_status dyd_view_grow(double box[4], const dyd_rect *r, dyd_error *err);
 /* *box grows by a margin on all sides, and to the shape of a page. */
 void dyd_view_pad(double box[4]);
 /* The baseline of the legend. */
 double dyd_view_legend(const dyd_view *v);
-/* A page around the view. */
-dyd_status dyd_view_write(const dyd_output *o, const dyd_view *v, dyd_draw_fn draw, void *context);
-/* Draws `inside`, cut to the frame of the view, the frame, and the legend below it. */
-void dyd_view_draw(cairo_t *cr, const dyd_view *v, dyd_draw_fn inside, dyd_draw_fn legend, void *context);
+/* A page: `inside`, cut to the frame of the view, the frame, and the legend below it. */
+dyd_status dyd_view_write(const dyd_output *o, const dyd_view *v, dyd_draw_fn inside, dyd_draw_fn legend,
+                          void *context);
 void dyd_view_frame_path(cairo_t *cr, const dyd_view *v);
 
 /* ---- clipping ---- */
@@ -71,6 +73,9 @@ void dyd_picture_text(cairo_t *cr, double x, double y, double align, double size
 void dyd_picture_colour(cairo_t *cr, unsigned rgb);
 /* Dash in line widths; off = 0: full. */
 void dyd_picture_pen(cairo_t *cr, unsigned rgb, double width, double on, double off);
+/* The path so far, which is gone then. */
+void dyd_picture_stroke(cairo_t *cr, unsigned rgb, double width, double on, double off);
+void dyd_picture_fill(cairo_t *cr, unsigned rgb);
 /* A rectangle filled with rgb where it is large enough, else a dot; nothing outside of the view. */
 void dyd_picture_site(cairo_t *cr, const dyd_view *v, const double box[4], bool fixed_point, unsigned rgb);
 /* A rectangle, however small it is, filled with rgb; and its number beside it. */

@@ -45,6 +45,8 @@ dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_er
   double apart = spacing > 0 ? spacing * v->scale : SIDE;
   v->line = fmin(fmax(apart * 0.04, 0.2), 2.2);
   v->dot = fmin(fmax(apart * 0.09, 0.3), 4);
+  v->frame[0] = v->frame[2] = EDGE;
+  v->frame[1] = EDGE + v->width, v->frame[3] = EDGE + v->height;
   return DYD_OK;
 }
 
@@ -95,24 +97,42 @@ double dyd_view_legend(const dyd_view *v) {
   return v->height + 2 * EDGE + 4;
 }
 
-dyd_status dyd_view_write(const dyd_output *o, const dyd_view *v, dyd_draw_fn draw, void *context) {
-  return dyd_page_write(o, v->width + 2 * EDGE, v->height + EDGE + FOOT, draw, context);
+void dyd_view_middle(double z[2], const dyd_view *v, const double box[4]) {
+  z[0] = dyd_view_x(v, box[0] / 2 + box[1] / 2);
+  z[1] = dyd_view_y(v, box[2] / 2 + box[3] / 2);
 }
 
 void dyd_view_frame_path(cairo_t *cr, const dyd_view *v) {
   cairo_new_path(cr);
-  cairo_rectangle(cr, EDGE, EDGE, v->width, v->height);
+  cairo_rectangle(cr, v->frame[0], v->frame[2], v->frame[1] - v->frame[0], v->frame[3] - v->frame[2]);
 }
 
-void dyd_view_draw(cairo_t *cr, const dyd_view *v, dyd_draw_fn inside, dyd_draw_fn legend, void *context) {
+typedef struct view_page {
+  const dyd_view *view;
+  dyd_draw_fn inside, legend;
+  void *context;
+} view_page;
+
+static void view_draw(cairo_t *cr, void *context) {
+  const view_page *p = context;
+  bool framed = isfinite(p->view->frame[0]);
   dyd_picture_begin(cr);
   cairo_save(cr);
-  dyd_view_frame_path(cr, v);
-  cairo_clip(cr);
-  inside(cr, context);
+  if (framed) {
+    dyd_view_frame_path(cr, p->view);
+    cairo_clip(cr);
+  }
+  p->inside(cr, p->context);
   cairo_restore(cr);
-  dyd_view_frame_path(cr, v);
-  dyd_picture_pen(cr, 0x222222, 1, 0, 0);
-  cairo_stroke(cr);
-  legend(cr, context);
+  if (framed) {
+    dyd_view_frame_path(cr, p->view);
+    dyd_picture_stroke(cr, 0x222222, 1, 0, 0);
+  }
+  p->legend(cr, p->context);
+}
+
+dyd_status dyd_view_write(const dyd_output *o, const dyd_view *v, dyd_draw_fn inside, dyd_draw_fn legend,
+                          void *context) {
+  view_page page = {v, inside, legend, context};
+  return dyd_page_write(o, v->width + 2 * EDGE, v->height + EDGE + FOOT, view_draw, &page);
 }

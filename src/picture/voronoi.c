@@ -36,8 +36,7 @@ static dyd_status voronoi_cell(void *context, uint32_t i, const dyd_shape *shape
     polygon_outline(g->cr, &g->view, &inner);
     dyd_picture_colour(g->cr, tints[i % 4]);
     cairo_fill_preserve(g->cr);
-    dyd_picture_pen(g->cr, 0x0072b2, g->view.line * 0.6, 0, 0);
-    cairo_stroke(g->cr);
+    dyd_picture_stroke(g->cr, 0x0072b2, g->view.line * 0.6, 0, 0);
   }
   dyd_polygon_clear(&inner);
   return st;
@@ -56,8 +55,7 @@ static dyd_status voronoi_region(void *context, size_t face, const double box[4]
   double pad = 2 * g->view.dot / g->view.scale, /* so that it is seen however small */
       show[4] = {box[0] - pad, box[1] + pad, box[2] - pad, box[3] + pad};
   box_path(g->cr, &g->view, show);
-  dyd_picture_pen(g->cr, 0xd55e00, g->view.line, 4, 2.5);
-  cairo_stroke(g->cr);
+  dyd_picture_stroke(g->cr, 0xd55e00, g->view.line, 4, 2.5);
   return DYD_OK;
 }
 
@@ -70,8 +68,7 @@ static void voronoi_vertices(const voronoi_drawing *g) {
     double wide = fmax(b[1] - b[0], side) / 2, high = fmax(b[3] - b[2], side) / 2,
            show[4] = {x - wide, x + wide, y - high, y + high};
     box_path(g->cr, &g->view, show);
-    dyd_picture_pen(g->cr, 0x0072b2, g->view.line * 0.8, 0, 0);
-    cairo_stroke(g->cr);
+    dyd_picture_stroke(g->cr, 0x0072b2, g->view.line * 0.8, 0, 0);
   }
 }
 
@@ -82,29 +79,27 @@ static void bound_text(char *out, size_t size, const dyd_voronoi_bounds *b) {
   snprintf(out, size, "undetermined area at most %s, within %s of the true diagram", area, far);
 }
 
-static void voronoi_legend(const voronoi_drawing *g) {
+static void voronoi_legend(cairo_t *cr, void *context) {
+  const voronoi_drawing *g = context;
   char text[300], bounds[120];
   double y = dyd_view_legend(&g->view), x = 30;
-  dyd_picture_entry(g->cr, &x, y, tints[0], true, 0, 0, "surely nearest to one point");
-  dyd_picture_entry(g->cr, &x, y, DYD_PICTURE_BAND, true, 0, 0, "undetermined");
-  dyd_picture_scale(g->cr, &g->view, y);
+  if (g->st != DYD_OK) return; /* then there are no bounds */
+  dyd_picture_entry(cr, &x, y, tints[0], true, 0, 0, "surely nearest to one point");
+  dyd_picture_entry(cr, &x, y, DYD_PICTURE_BAND, true, 0, 0, "undetermined");
+  dyd_picture_scale(cr, &g->view, y);
   x = 30, y += DYD_PICTURE_ROW;
-  dyd_picture_entry(g->cr, &x, y, 0x9b9b9b, true, 0, 0, "rectangle of a point");
-  dyd_picture_entry(g->cr, &x, y, 0x0072b2, false, 0, 0, "box: a sure vertex is in it");
-  dyd_picture_entry(g->cr, &x, y, 0xd55e00, false, 4, 2.5, "box: undecided vertices");
+  dyd_picture_entry(cr, &x, y, 0x9b9b9b, true, 0, 0, "rectangle of a point");
+  dyd_picture_entry(cr, &x, y, 0x0072b2, false, 0, 0, "box: a sure vertex is in it");
+  dyd_picture_entry(cr, &x, y, 0xd55e00, false, 4, 2.5, "box: undecided vertices");
   bound_text(bounds, sizeof bounds, g->d->bounds);
   snprintf(text, sizeof text, "%zu points, outcome %s; %s", g->d->count,
            dyd_outcome_text(dyd_engine_outcome(g->d->engine)), bounds);
-  dyd_picture_text(g->cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, text);
+  dyd_picture_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, text);
 }
 
-static void voronoi_draw(cairo_t *cr, void *context) {
+static void voronoi_inside(cairo_t *cr, void *context) {
   voronoi_drawing *g = context;
   g->cr = cr;
-  dyd_picture_begin(cr);
-  cairo_save(cr);
-  box_path(cr, &g->view, g->window);
-  cairo_clip(cr);
   dyd_picture_colour(cr, DYD_PICTURE_BAND);
   cairo_paint(cr);
   g->st = dyd_diagram_visit(g->d, voronoi_cell, g);
@@ -116,17 +111,14 @@ static void voronoi_draw(cairo_t *cr, void *context) {
     if (isfinite(b[0]) && isfinite(b[1]) && isfinite(b[2]) && isfinite(b[3]))
       dyd_picture_site(cr, &g->view, b, dyd_sites_is_point(g->d->sites, i), SITE);
   }
-  cairo_restore(cr);
-  box_path(cr, &g->view, g->window);
-  dyd_picture_pen(cr, 0x222222, 1, 0, 0);
-  cairo_stroke(cr);
-  if (g->st == DYD_OK) voronoi_legend(g);
 }
 
 dyd_status dyd_voronoi_picture(const dyd_output *o) {
   voronoi_drawing g = {.d = o->what};
   dyd_rect_get_d(g.window, &g.d->window);
   dyd_status st = dyd_view_fit(&g.view, g.window, dyd_view_spacing(g.d->pd, g.window), o->err);
-  if (st == DYD_OK) st = dyd_view_write(o, &g.view, voronoi_draw, &g);
+  g.view.frame[0] = dyd_view_x(&g.view, g.window[0]), g.view.frame[1] = dyd_view_x(&g.view, g.window[1]);
+  g.view.frame[2] = dyd_view_y(&g.view, g.window[3]), g.view.frame[3] = dyd_view_y(&g.view, g.window[2]);
+  if (st == DYD_OK) st = dyd_view_write(o, &g.view, voronoi_inside, voronoi_legend, &g);
   return g.st == DYD_OK ? st : g.st;
 }

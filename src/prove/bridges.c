@@ -73,14 +73,9 @@ static dyd_status table_of_places(dyd_sites *out, uint32_t *site, const dyd_proo
 
 /* ---- bridges ---- */
 
-static uint32_t bridge_root(uint32_t *parent, uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
 static bool bridge_join(uint32_t *parent, uint32_t a, uint32_t b) {
-  a = bridge_root(parent, a);
-  b = bridge_root(parent, b);
+  a = dyd_cert_root(parent, a);
+  b = dyd_cert_root(parent, b);
   parent[a] = b;
   return a != b;
 }
@@ -93,7 +88,7 @@ static dyd_status add_bridges(dyd_proof *p, uint32_t *parent, const dyd_delaunay
   for (size_t k = 0; k < pairs.count && st == DYD_OK; k++) {
     const dyd_pair *pair = &pairs.item[k];
     uint32_t i = site[pair->i], j = site[pair->j];
-    if (pair->status != DYD_LEGAL || bridge_root(parent, i) == bridge_root(parent, j)) continue;
+    if (pair->status != DYD_LEGAL || dyd_cert_root(parent, i) == dyd_cert_root(parent, j)) continue;
     bool found = false;
     st = dyd_delaunay_witness(&c, pd, pair->i, pair->j);
     if (st == DYD_OK) st = dyd_proof_add_witness(&found, &p->centre, p, i, j, &c, true);

@@ -33,9 +33,9 @@ static int plain_digits(int64_t *man, cursor *c) {
   return (int)(c->at - begin);
 }
 
-/* e or E, sign, one to four digits. */
-static bool plain_exponent(int *exp, cursor *c) {
-  if (!plain_take(c, 'e') && !plain_take(c, 'E')) return true;
+/* One of the letters, sign, one to four digits; nothing is right, too. */
+static bool plain_exponent(int *exp, cursor *c, char small, char large) {
+  if (!plain_take(c, small) && !plain_take(c, large)) return true;
   bool negative = plain_take(c, '-');
   if (!negative) plain_take(c, '+');
   int64_t value = 0;
@@ -56,7 +56,7 @@ bool dyd_plain_scan(dyd_plain *out, const char *text, size_t length) {
     if (fraction < 0) return false;
     p.exp = -fraction;
   }
-  if (whole + fraction == 0 || !plain_exponent(&p.exp, &c) || c.at != c.end) return false;
+  if (whole + fraction == 0 || !plain_exponent(&p.exp, &c, 'e', 'E') || c.at != c.end) return false;
   if (p.exp < -60 || p.exp > 60) return false;
   if (negative) p.man = -p.man;
   *out = p;
@@ -133,17 +133,6 @@ static int plain_hex_digits(uint64_t *man, cursor *c) {
   return (int)(c->at - begin);
 }
 
-/* p or P, sign, digits; nothing is right, too. */
-static bool plain_binary_exponent(int *exp, cursor *c) {
-  if (!plain_take(c, 'p') && !plain_take(c, 'P')) return true;
-  bool negative = plain_take(c, '-');
-  if (!negative) plain_take(c, '+');
-  int64_t value = 0;
-  if (plain_digits(&value, c) < 1 || value > 9999) return false;
-  *exp += (int)(negative ? -value : value);
-  return true;
-}
-
 bool dyd_plain_scan_hex(double *out, const char *text, size_t length) {
   cursor c = {text, text + length};
   uint64_t man = 0;
@@ -152,7 +141,7 @@ bool dyd_plain_scan_hex(double *out, const char *text, size_t length) {
   if (!plain_take(&c, '0') || (!plain_take(&c, 'x') && !plain_take(&c, 'X'))) return false;
   int whole = plain_hex_digits(&man, &c), fraction = plain_take(&c, '.') ? plain_hex_digits(&man, &c) : 0,
       exp = -4 * fraction;
-  if (whole < 0 || fraction < 0 || whole + fraction == 0 || !plain_binary_exponent(&exp, &c) || c.at != c.end)
+  if (whole < 0 || fraction < 0 || whole + fraction == 0 || !plain_exponent(&exp, &c, 'p', 'P') || c.at != c.end)
     return false;
   if (man == 0) exp = 0;
   int twos = man ? __builtin_ctzll(man) : 0;
