@@ -11,16 +11,23 @@
  * one cocircular polygon, whose dual is a tree that is never walked back. */
 uint32_t dyd_mesh_locate(dyd_mesh *m, uint32_t v) {
   bool ghost = dyd_is_ghost_triangle(m, m->hint);
-  uint32_t t = ghost ? dyd_edge_triangle(dyd_edge_twin(m, dyd_hull_edge(m, m->hint))) : m->hint;
-  dyd_half_edge h = dyd_edge_of(t, 0);
-  for (unsigned left = 3; left;) {
-    if (dyd_build_orient(m, dyd_edge_origin(m, h), dyd_edge_target(m, h), v) < 0) {
-      h = dyd_edge_twin(m, h);
-      if (dyd_edge_apex(m, h) == m->n) break;
-      left = 3;
-    }
-    h = dyd_edge_next(h);
-    left--;
+  uint32_t start = ghost ? dyd_edge_triangle(dyd_edge_twin(m, dyd_hull_edge(m, m->hint))) : m->hint;
+  dyd_half_edge h = dyd_edge_of(start, 0);
+  uint32_t a = dyd_edge_origin(m, h), b = dyd_edge_target(m, h), c = a;
+  if (dyd_build_orient(m, a, b, v) < 0) {
+    h = dyd_edge_twin(m, h);
+    a = b;
+    b = c;
+  }
+  while ((c = dyd_edge_apex(m, h)) != m->n) { /* the triangle a b c, entered over a b */
+    if (dyd_build_orient(m, b, c, v) < 0) {
+      h = dyd_edge_twin(m, dyd_edge_next(h));
+      a = c;
+    } else if (dyd_build_orient(m, c, a, v) < 0) {
+      h = dyd_edge_twin(m, dyd_edge_prev(h));
+      b = c;
+    } else
+      break;
   }
   return dyd_edge_triangle(h);
 }
@@ -40,17 +47,19 @@ static dyd_status insert_at(dyd_mesh *m, uint32_t v, uint32_t t) {
   m->spare[spares++] = t;
   while (stacked) {
     dyd_half_edge h = m->stack[--stacked];
-    uint32_t b = dyd_edge_origin(m, h), a = dyd_edge_target(m, h);
-    if (dyd_build_incircle(m, dyd_edge_apex(m, h), b, a, v) > 0) {
+    dyd_tri *o = &m->tri[dyd_edge_triangle(h)];
+    unsigned k = dyd_edge_corner(h);
+    uint32_t b = o->v[dyd_next(k)], a = o->v[dyd_prev(k)];
+    if (dyd_build_incircle(m, o->v[k], b, a, v) > 0) {
       if (!insert_has_room(m, stacked, spares)) return DYD_E_NOMEM;
-      m->stack[stacked++] = dyd_edge_twin(m, dyd_edge_prev(h));
-      m->stack[stacked++] = dyd_edge_twin(m, dyd_edge_next(h));
+      m->stack[stacked++] = o->n[dyd_prev(k)];
+      m->stack[stacked++] = o->n[dyd_next(k)];
       m->spare[spares++] = dyd_edge_triangle(h);
       continue;
     }
     uint32_t q = spares ? m->spare[--spares] : m->count++;
     m->tri[q] = (dyd_tri){{v, a, b}, {h, DYD_NONE, dyd_edge_of(before, 1)}};
-    m->tri[dyd_edge_triangle(h)].n[dyd_edge_corner(h)] = dyd_edge_of(q, 0);
+    o->n[k] = dyd_edge_of(q, 0);
     if (before == DYD_NONE)
       first = q;
     else

@@ -56,10 +56,7 @@ int dyd_mesh_incircle(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t 
   return sign ? sign : incircle_slow(tally, m, a, b, c, p);
 }
 
-int dyd_build_orient(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
-  m->tally.asked++;
-  int sign = dyd_filter_orient(m, m->xy[a], m->xy[b], m->xy[c]);
-  if (sign) return sign;
+int dyd_build_orient_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
   dyd_fixed_prepare(m);
   return orient_slow(&m->tally, m, a, b, c);
 }

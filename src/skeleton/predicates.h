@@ -12,7 +12,12 @@ int dyd_mesh_orient(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b,
 int dyd_mesh_incircle(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
 
 /* The same for whoever builds m: counts in its tally, and makes its grid of integers at the first need. */
-int dyd_build_orient(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);
+int dyd_build_orient_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);
+static inline int dyd_build_orient(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
+  m->tally.asked++;
+  int sign = dyd_filter_orient(m, m->xy[a], m->xy[b], m->xy[c]);
+  return sign ? sign : dyd_build_orient_slow(m, a, b, c);
+}
 int dyd_build_incircle_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
 static inline int dyd_build_incircle(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
   m->tally.asked++;
