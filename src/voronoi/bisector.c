@@ -152,14 +152,8 @@ static void point_make_positive(dyd_surd_point *p) {
   mpz_neg(p->ay, p->ay);
 }
 
-static void point_make_rational(dyd_surd_point *p) {
-  mpz_set_ui(p->bx, 0);
-  mpz_set_ui(p->by, 0);
-  mpz_set_ui(p->c, 0);
-}
-
 void dyd_elementary_at(dyd_surd_point *out, const dyd_elementary *a, mpz_srcptr num, int64_t bits) {
-  point_make_rational(out);
+  dyd_surd_point_drop_root(out);
   if (a->parabola) {
     point_of_parabola(out, a, num, bits);
   } else {
@@ -171,7 +165,7 @@ void dyd_elementary_at(dyd_surd_point *out, const dyd_elementary *a, mpz_srcptr 
 /* The point where coordinate o = 1 - axis is z. -1, 1: there is none, all of the parabola is below, above z. */
 static int point_across(dyd_surd_point *out, const dyd_elementary *a, mpz_srcptr z) {
   int k = a->axis, o = 1 - k;
-  point_make_rational(out);
+  dyd_surd_point_drop_root(out);
   if (!a->parabola) {
     point_of_line(out, a, o, z, 0);
     point_make_positive(out);
