@@ -7,9 +7,9 @@
 
 #include "base/abi.h"
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "base/error.h"
 #include <dyadel/metric.h>
-#include <time.h>
 
 static void row_init(dyd_stage_row *r) {
   *r = (dyd_stage_row){DYD_SIZED(dyd_stage_row), .rungs = {DYD_SIZED(dyd_delaunay_counters)}};
@@ -246,12 +246,6 @@ typedef struct recorder {
   double spent;                         /* seconds in here */
 } recorder;
 
-static double recorder_clock(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static dyd_status recorder_add_row(recorder *r, const dyd_progress *p) {
   dyd_stage_row *row;
   const dyd_delaunay *pd = dyd_engine_delaunay(r->e);
@@ -273,10 +267,10 @@ static void recorder_stage(void *user, const dyd_progress *p) {
   recorder *r = user;
   if (r->o->progress) r->o->progress(r->o->progress_user, p);
   if (r->failed != DYD_OK) return;
-  double begun = recorder_clock();
+  double begun = dyd_seconds();
   r->failed = recorder_add_row(r, p);
   if (r->failed != DYD_OK) dyd_engine_cancel(r->e);
-  r->spent += recorder_clock() - begun;
+  r->spent += dyd_seconds() - begun;
 }
 
 dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engine_options *options,
