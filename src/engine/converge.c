@@ -11,23 +11,14 @@
 #include "base/error.h"
 #include <dyadel/metric.h>
 
-static void row_init(dyd_stage_row *r) {
-  *r = (dyd_stage_row){DYD_SIZED(dyd_stage_row), .rungs = {DYD_SIZED(dyd_delaunay_counters)}};
-  dyd_dyadic_init(&r->width_largest);
-  dyd_dyadic_init(&r->width_median);
-  dyd_dyadic_init(&r->area);
-  dyd_dyadic_init(&r->hausdorff);
-  dyd_dyadic_init(&r->v_area);
-  dyd_dyadic_init(&r->v_hausdorff);
+/* dyd_dyadic_init, dyd_dyadic_clear for all numbers of a row. */
+static void row_for_each(dyd_stage_row *r, void (*act)(dyd_dyadic *)) {
+  dyd_dyadic *number[] = {&r->width_largest, &r->width_median, &r->area, &r->hausdorff, &r->v_area, &r->v_hausdorff};
+  for (size_t k = 0; k < sizeof number / sizeof *number; k++) act(number[k]);
 }
 
 static void row_free(dyd_stage_row *r) {
-  dyd_dyadic_clear(&r->v_hausdorff);
-  dyd_dyadic_clear(&r->v_area);
-  dyd_dyadic_clear(&r->hausdorff);
-  dyd_dyadic_clear(&r->area);
-  dyd_dyadic_clear(&r->width_median);
-  dyd_dyadic_clear(&r->width_largest);
+  row_for_each(r, dyd_dyadic_clear);
   free(r);
 }
 
@@ -210,7 +201,8 @@ dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const 
   if (!dyd_reserve((void **)&out->row, &out->cap, out->count + 1, sizeof *out->row)) return dyd_fail_nomem(err);
   dyd_stage_row *r = malloc(sizeof *r);
   if (!r) return dyd_fail_nomem(err);
-  row_init(r);
+  *r = (dyd_stage_row){DYD_SIZED(dyd_stage_row), .rungs = {DYD_SIZED(dyd_delaunay_counters)}};
+  row_for_each(r, dyd_dyadic_init);
   r->stage = out->count ? out->row[out->count - 1]->stage + 1 : 1;
   st = row_measure(r, pd);
   if (st == DYD_OK && !o.no_voronoi) st = convergence_set_window(out, pd, o.window);
