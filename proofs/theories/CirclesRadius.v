@@ -44,7 +44,7 @@ Proof.
   repeat rewrite ?mult_IZR, ?plus_IZR, ?minus_IZR. rewrite <- R. field. exact D'.
 Qed.
 
-(* C src/predicate/circle.c circle_add_square
+(* C src/predicate/surd.c surd_add_square
   if (!z) return;
   mpz_mul(t, s->b, s->b);
   mpz_addmul(p, t, s->c);

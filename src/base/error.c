@@ -31,33 +31,20 @@ dyd_status dyd_fail_nomem(dyd_error *err) {
 }
 
 const char *dyd_status_text(dyd_status status) {
-  switch (status) {
-  case DYD_OK:
-    return "done";
-  case DYD_FIXED:
-    return "the rectangle is final";
-  case DYD_CAPPED:
-    return "the cap on stored pairs was met";
-  case DYD_CANCELLED:
-    return "cancelled";
-  case DYD_E_NOMEM:
-    return "out of memory";
-  case DYD_E_ARG:
-    return "an argument breaks its contract";
-  case DYD_E_RANGE:
-    return "a number leaves the exponent range";
-  case DYD_E_PARSE:
-    return "the text is not of the expected form";
-  case DYD_E_DOMAIN:
-    return "an expression is undefined up to the precision allowed";
-  case DYD_E_NESTING:
-    return "a stream gave a rectangle that is not inside its previous one";
-  case DYD_E_STREAM:
-    return "a stream failed";
-  case DYD_E_IO:
-    return "reading or writing failed";
-  }
-  return "unknown status";
+  static const char *const text[] = {
+      [DYD_OK - DYD_E_IO] = "done",
+      [DYD_FIXED - DYD_E_IO] = "the rectangle is final",
+      [DYD_CAPPED - DYD_E_IO] = "the cap on stored pairs was met",
+      [DYD_CANCELLED - DYD_E_IO] = "cancelled",
+      [DYD_E_NOMEM - DYD_E_IO] = "out of memory",
+      [DYD_E_ARG - DYD_E_IO] = "an argument breaks its contract",
+      [DYD_E_RANGE - DYD_E_IO] = "a number leaves the exponent range",
+      [DYD_E_PARSE - DYD_E_IO] = "the text is not of the expected form",
+      [DYD_E_DOMAIN - DYD_E_IO] = "an expression is undefined up to the precision allowed",
+      [DYD_E_NESTING - DYD_E_IO] = "a stream gave a rectangle that is not inside its previous one",
+      [DYD_E_STREAM - DYD_E_IO] = "a stream failed",
+      [DYD_E_IO - DYD_E_IO] = "reading or writing failed"};
+  return status >= DYD_E_IO && status <= DYD_CANCELLED ? text[status - DYD_E_IO] : "unknown status";
 }
 
 const char *dyd_version(void) {

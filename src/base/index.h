@@ -4,6 +4,7 @@
 #define DYD_BASE_INDEX_H
 
 #include <stdint.h>
+#include <stdlib.h>
 
 /* No such thing. */
 #define DYD_NONE UINT32_MAX
@@ -12,6 +13,11 @@
 static inline int dyd_compare_index(const void *a, const void *b) {
   uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
   return (x > y) - (x < y);
+}
+
+/* The place of *index in an array that is sorted by the number each item begins with; NULL: there is none. */
+static inline void *dyd_find_index(const uint32_t *index, const void *item, size_t count, size_t size) {
+  return count ? bsearch(index, item, count, size, dyd_compare_index) : NULL;
 }
 
 #endif

@@ -2,7 +2,6 @@
 /* Tasks are taken from one counter; helper threads live as long as one call. */
 #include "base/parallel.h"
 
-#include <pthread.h>
 #include <signal.h>
 #include <stdbool.h>
 
@@ -23,13 +22,12 @@ static void *work_on_tasks(void *arg) {
   }
 }
 
-/* Handlers stay with the threads of the program. */
-static unsigned start_helpers(pthread_t *helper, unsigned want, crew *c) {
+unsigned dyd_start_helpers(pthread_t *helper, unsigned want, void *(*work)(void *), void *context) {
   sigset_t all, before;
   unsigned started = 0;
   sigfillset(&all);
   if (want == 0 || pthread_sigmask(SIG_SETMASK, &all, &before)) return 0;
-  while (started < want && pthread_create(&helper[started], NULL, work_on_tasks, c) == 0) started++;
+  while (started < want && pthread_create(&helper[started], NULL, work, context) == 0) started++;
   pthread_sigmask(SIG_SETMASK, &before, NULL);
   return started;
 }
@@ -39,7 +37,7 @@ void dyd_parallel(unsigned threads, size_t tasks, dyd_task *task, void *context)
   crew c = {task, context, tasks, 0};
   size_t want = threads < 1 ? 1 : threads > MOST_THREADS ? MOST_THREADS : threads;
   if (want > tasks) want = tasks;
-  unsigned started = start_helpers(helper, want ? (unsigned)want - 1 : 0, &c);
+  unsigned started = dyd_start_helpers(helper, want ? (unsigned)want - 1 : 0, work_on_tasks, &c);
   work_on_tasks(&c);
   while (started) pthread_join(helper[--started], NULL);
 }

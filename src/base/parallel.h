@@ -6,6 +6,7 @@
 #ifndef DYD_BASE_PARALLEL_H
 #define DYD_BASE_PARALLEL_H
 
+#include <pthread.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -15,6 +16,9 @@ typedef void dyd_task(void *context, size_t number);
  * which are started with all signals blocked and have ended when this returns. Where threads cannot be started, those
  * there are do all the work. What tasks wrote is visible to the caller afterwards. */
 void dyd_parallel(unsigned threads, size_t tasks, dyd_task *task, void *context);
+
+/* Starts up to `want` threads, all signals blocked, since handlers stay with the threads of the program; how many. */
+unsigned dyd_start_helpers(pthread_t *helper, unsigned want, void *(*work)(void *), void *context);
 
 /* A long loop over 0 .. count - 1 is cut into at most 64 ranges, which depend on count alone. The armed build cuts
  * short ones, too. */

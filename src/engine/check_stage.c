@@ -4,6 +4,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "rect/interval.h"
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -212,11 +213,6 @@ static dyd_status edge_is_outside(bool *out, const dyd_check_state *s, uint32_t 
   return st;
 }
 
-static bool watched_is_in_window(const dyd_check_state *s, const dyd_point *z) {
-  return dyd_dyadic_cmp(&s->window.x.lo, &z->x) <= 0 && dyd_dyadic_cmp(&z->x, &s->window.x.hi) <= 0 &&
-         dyd_dyadic_cmp(&s->window.y.lo, &z->y) <= 0 && dyd_dyadic_cmp(&z->y, &s->window.y.hi) <= 0;
-}
-
 /* The inner vertices are still in Int_i, the outer ones in the window still in Ext_i. Where the edge of an outer
  * polygon was in Ext_i by a neighbour that is none any more, its ends are at least. */
 static dyd_status check_cell(dyd_check_state *s, const dyd_watched *w) {
@@ -229,7 +225,7 @@ static dyd_status check_cell(dyd_check_state *s, const dyd_watched *w) {
     for (size_t k = 0; k < w->outer.item[p].count && st == DYD_OK && !fault_found(s); k++) {
       const dyd_polygon *g = &w->outer.item[p];
       const dyd_point *a = &g->vertex[k], *b = &g->vertex[(k + 1) % g->count];
-      bool outside = !watched_is_in_window(s, a) || !watched_is_in_window(s, b);
+      bool outside = !dyd_rect_holds(&s->window, a) || !dyd_rect_holds(&s->window, b);
       if (!outside) st = edge_is_outside(&outside, s, w->site, a, b);
       if (!outside)
         outside = dyd_voronoi_side(s->pd, w->site, a) == DYD_FALSE && dyd_voronoi_side(s->pd, w->site, b) == DYD_FALSE;

@@ -9,6 +9,7 @@
 #include "engine/coarse.h"
 
 #include "base/alloc.h"
+#include "base/index.h"
 #include <stdlib.h>
 
 /* How many sites that follow in the order of x are looked at. */
@@ -73,15 +74,8 @@ static dyd_status coarse_meet(dyd_coarse_site *a, dyd_coarse_site *b) {
 /* ---- faces ---- */
 
 static dyd_coarse_site *coarse_find(const dyd_coarse *c, uint32_t site) {
-  size_t lo = 0, hi = c->sites.count;
-  while (lo < hi) {
-    size_t mid = lo + (hi - lo) / 2;
-    if (c->sites.item[mid] < site)
-      lo = mid + 1;
-    else
-      hi = mid;
-  }
-  return lo < c->sites.count && c->sites.item[lo] == site ? &c->item[lo] : NULL;
+  const uint32_t *at = dyd_find_index(&site, c->sites.item, c->sites.count, sizeof site);
+  return at ? &c->item[at - c->sites.item] : NULL;
 }
 
 static dyd_status coarse_fetch(dyd_coarse *c, const dyd_delaunay *pd, size_t f) {

@@ -7,27 +7,18 @@
 
 #include "base/abi.h"
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "base/error.h"
 #include <dyadel/metric.h>
-#include <time.h>
 
-static void row_init(dyd_stage_row *r) {
-  *r = (dyd_stage_row){DYD_SIZED(dyd_stage_row), .rungs = {DYD_SIZED(dyd_delaunay_counters)}};
-  dyd_dyadic_init(&r->width_largest);
-  dyd_dyadic_init(&r->width_median);
-  dyd_dyadic_init(&r->area);
-  dyd_dyadic_init(&r->hausdorff);
-  dyd_dyadic_init(&r->v_area);
-  dyd_dyadic_init(&r->v_hausdorff);
+/* dyd_dyadic_init, dyd_dyadic_clear for all numbers of a row. */
+static void row_for_each(dyd_stage_row *r, void (*act)(dyd_dyadic *)) {
+  dyd_dyadic *number[] = {&r->width_largest, &r->width_median, &r->area, &r->hausdorff, &r->v_area, &r->v_hausdorff};
+  for (size_t k = 0; k < sizeof number / sizeof *number; k++) act(number[k]);
 }
 
 static void row_free(dyd_stage_row *r) {
-  dyd_dyadic_clear(&r->v_hausdorff);
-  dyd_dyadic_clear(&r->v_area);
-  dyd_dyadic_clear(&r->hausdorff);
-  dyd_dyadic_clear(&r->area);
-  dyd_dyadic_clear(&r->width_median);
-  dyd_dyadic_clear(&r->width_largest);
+  row_for_each(r, dyd_dyadic_clear);
   free(r);
 }
 
@@ -210,7 +201,8 @@ dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const 
   if (!dyd_reserve((void **)&out->row, &out->cap, out->count + 1, sizeof *out->row)) return dyd_fail_nomem(err);
   dyd_stage_row *r = malloc(sizeof *r);
   if (!r) return dyd_fail_nomem(err);
-  row_init(r);
+  *r = (dyd_stage_row){DYD_SIZED(dyd_stage_row), .rungs = {DYD_SIZED(dyd_delaunay_counters)}};
+  row_for_each(r, dyd_dyadic_init);
   r->stage = out->count ? out->row[out->count - 1]->stage + 1 : 1;
   st = row_measure(r, pd);
   if (st == DYD_OK && !o.no_voronoi) st = convergence_set_window(out, pd, o.window);
@@ -246,12 +238,6 @@ typedef struct recorder {
   double spent;                         /* seconds in here */
 } recorder;
 
-static double recorder_clock(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static dyd_status recorder_add_row(recorder *r, const dyd_progress *p) {
   dyd_stage_row *row;
   const dyd_delaunay *pd = dyd_engine_delaunay(r->e);
@@ -273,10 +259,10 @@ static void recorder_stage(void *user, const dyd_progress *p) {
   recorder *r = user;
   if (r->o->progress) r->o->progress(r->o->progress_user, p);
   if (r->failed != DYD_OK) return;
-  double begun = recorder_clock();
+  double begun = dyd_seconds();
   r->failed = recorder_add_row(r, p);
   if (r->failed != DYD_OK) dyd_engine_cancel(r->e);
-  r->spent += recorder_clock() - begun;
+  r->spent += dyd_seconds() - begun;
 }
 
 dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engine_options *options,

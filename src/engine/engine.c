@@ -7,23 +7,8 @@
 #include <dyadel/metric.h>
 
 const char *dyd_outcome_text(dyd_outcome outcome) {
-  switch (outcome) {
-  case DYD_OUTCOME_NONE:
-    return "none";
-  case DYD_OUTCOME_DECIDED:
-    return "decided";
-  case DYD_OUTCOME_CERTIFIED:
-    return "certified";
-  case DYD_OUTCOME_FIXPOINT:
-    return "fixpoint";
-  case DYD_OUTCOME_BUDGET:
-    return "budget";
-  case DYD_OUTCOME_CANCELLED:
-    return "cancelled";
-  case DYD_OUTCOME_ERROR:
-    return "error";
-  }
-  return "unknown outcome";
+  static const char *const text[] = {"none", "decided", "certified", "fixpoint", "budget", "cancelled", "error"};
+  return (unsigned)outcome < sizeof text / sizeof *text ? text[outcome] : "unknown outcome";
 }
 
 const char *dyd_goal_text(dyd_goal goal) {
@@ -32,21 +17,8 @@ const char *dyd_goal_text(dyd_goal goal) {
 }
 
 const char *dyd_reason_text(dyd_reason reason) {
-  switch (reason) {
-  case DYD_REASON_FIRST:
-    return "first";
-  case DYD_REASON_END:
-    return "end";
-  case DYD_REASON_BLOCKER:
-    return "blocker";
-  case DYD_REASON_BOUND:
-    return "bound";
-  case DYD_REASON_UNIFORM:
-    return "uniform";
-  case DYD_REASON_QUESTION:
-    return "question";
-  }
-  return "unknown reason";
+  static const char *const text[] = {"first", "end", "blocker", "bound", "uniform", "question"};
+  return (unsigned)reason < sizeof text / sizeof *text ? text[reason] : "unknown reason";
 }
 
 dyd_status dyd_engine_new(dyd_engine **out) {

@@ -10,6 +10,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/index.h"
 #include "rect/interval.h"
 #include "rect/sites_table.h"
 #include "stream/real.h"
@@ -97,15 +98,7 @@ void dyd_engine_clear_points(dyd_engine *e) {
 }
 
 const dyd_refinable *dyd_engine_find(const dyd_engine *e, uint32_t site) {
-  size_t lo = 0, hi = e->points;
-  while (lo < hi) {
-    size_t mid = lo + (hi - lo) / 2;
-    if (e->point[mid].site < site)
-      lo = mid + 1;
-    else
-      hi = mid;
-  }
-  return lo < e->points && e->point[lo].site == site ? &e->point[lo] : NULL;
+  return dyd_find_index(&site, e->point, e->points, sizeof *e->point);
 }
 
 /* ---- asking ---- */

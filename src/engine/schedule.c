@@ -30,6 +30,12 @@
 
 /* ---- undecided faces ---- */
 
+/* The step of a point that lacks `excess` bits: at least as far as the next precision. */
+static int64_t excess_step(const dyd_refinable *p, int64_t excess, const dyd_engine_options *o) {
+  int64_t target = dyd_bits_raised(p->bits, excess < 0 ? 0 : excess, o->max_bits), step = dyd_bits_grown(p->bits, o);
+  return target > step && !o->step_bits ? target : step;
+}
+
 /* Must the pair be refined? m = NULL: always; otherwise when its Hausdorff number is above the goal. */
 static dyd_status pair_matters(bool *out, mpfr_ptr number, dyd_measure *m, const dyd_pair *pair,
                                const dyd_engine_options *o) {
@@ -41,8 +47,10 @@ static dyd_status pair_matters(bool *out, mpfr_ptr number, dyd_measure *m, const
 }
 
 /* Removes the pairs that need not be refined. */
-static dyd_status keep_pairs(dyd_pair_list *pairs, mpfr_ptr number, dyd_measure *m, const dyd_engine_options *o) {
+static dyd_status keep_pairs(dyd_pair_list *pairs, dyd_measure *m, const dyd_engine_options *o) {
   dyd_status st = DYD_OK;
+  mpfr_t number;
+  mpfr_init2(number, DYD_MEASURE_PREC);
   size_t kept = 0;
   for (size_t k = 0; st == DYD_OK && k < pairs->count; k++) {
     bool matters;
@@ -50,6 +58,7 @@ static dyd_status keep_pairs(dyd_pair_list *pairs, mpfr_ptr number, dyd_measure 
     if (st == DYD_OK && matters) pairs->item[kept++] = pairs->item[k];
   }
   pairs->count = kept;
+  mpfr_clear(number);
   return st;
 }
 
@@ -121,13 +130,13 @@ static dyd_status plan_capped(dyd_plan *plan, size_t f) {
   return st;
 }
 
-static dyd_status plan_face(dyd_plan *plan, dyd_scouts *scouts, mpfr_ptr number, size_t f, dyd_measure *m) {
+static dyd_status plan_face(dyd_plan *plan, dyd_scouts *scouts, size_t f, dyd_measure *m) {
   const dyd_delaunay *pd = plan->e->pd;
   if (dyd_delaunay_is_capped(pd)) return plan_capped(plan, f);
   dyd_coarse c = {0};
   dyd_pair_list pairs = {0};
   dyd_status st = dyd_delaunay_face_pairs(&pairs, pd, f);
-  if (st == DYD_OK) st = keep_pairs(&pairs, number, m, plan->o);
+  if (st == DYD_OK) st = keep_pairs(&pairs, m, plan->o);
   if (st == DYD_OK && pairs.count) st = dyd_coarse_set(&c, pd, f, &pairs);
   if (st == DYD_OK && pairs.count) {
     int64_t least;
@@ -143,10 +152,7 @@ static dyd_status plan_face(dyd_plan *plan, dyd_scouts *scouts, mpfr_ptr number,
 static dyd_status plan_faces(dyd_plan *plan, dyd_scouts *scouts, dyd_measure *m) {
   dyd_status st = DYD_OK;
   size_t faces = dyd_delaunay_undecided_faces(plan->e->pd);
-  mpfr_t number;
-  mpfr_init2(number, DYD_MEASURE_PREC);
-  for (size_t f = 0; st == DYD_OK && f < faces; f++) st = plan_face(plan, scouts, number, f, m);
-  mpfr_clear(number);
+  for (size_t f = 0; st == DYD_OK && f < faces; f++) st = plan_face(plan, scouts, f, m);
   return st;
 }
 
@@ -196,10 +202,8 @@ static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_measure *m, c
       const dyd_refinable *p = dyd_engine_find(plan->e, end[a]);
       if (!dyd_plan_can_narrow(plan, p)) continue;
       mpfr_max(largest, largest, value, MPFR_RNDU);
-      int64_t target = dyd_bits_raised(p->bits, excess < 0 ? 0 : excess, o->max_bits),
-              step = dyd_bits_grown(p->bits, plan->o);
       if (mpfr_cmp(value, least) > 0)
-        dyd_plan_mark(plan, p, target > step && !o->step_bits ? target : step, DYD_REASON_BOUND, end[0], end[1]);
+        dyd_plan_mark(plan, p, excess_step(p, excess, o), DYD_REASON_BOUND, end[0], end[1]);
     }
   }
   mpfr_clear(value);
@@ -238,9 +242,8 @@ static dyd_status plan_vertices(dyd_plan *plan) {
     st = dyd_goal_vertex_excess(&excess, plan->e, &list.item[k], o);
     for (int m = 0; m < 3 && st == DYD_OK && excess > 0; m++) {
       const dyd_refinable *p = dyd_engine_find(plan->e, v[m]);
-      if (!dyd_plan_can_narrow(plan, p)) continue;
-      int64_t target = dyd_bits_raised(p->bits, excess, o->max_bits), step = dyd_bits_grown(p->bits, plan->o);
-      dyd_plan_mark(plan, p, target > step && !o->step_bits ? target : step, DYD_REASON_BOUND, v[m], v[(m + 1) % 3]);
+      if (dyd_plan_can_narrow(plan, p))
+        dyd_plan_mark(plan, p, excess_step(p, excess, o), DYD_REASON_BOUND, v[m], v[(m + 1) % 3]);
     }
   }
   dyd_triangle_list_clear(&list);

@@ -2,7 +2,8 @@
 /* The clock of a run, and a helper thread that raises a flag at the deadline. */
 #include "engine/watch.h"
 
-#include <signal.h>
+#include "base/clock.h"
+#include "base/parallel.h"
 
 /* Longer limits than this, about thirty years, are none. */
 #define LONGEST 1e9
@@ -17,16 +18,6 @@ static void *watch_wait(void *arg) {
   return NULL;
 }
 
-/* The helper runs with all signals blocked: handlers stay with the threads of the program. */
-static bool watch_spawn(dyd_watch *w) {
-  sigset_t all, before;
-  sigfillset(&all);
-  if (pthread_sigmask(SIG_SETMASK, &all, &before)) return false;
-  bool done = pthread_create(&w->thread, NULL, watch_wait, w) == 0;
-  pthread_sigmask(SIG_SETMASK, &before, NULL);
-  return done;
-}
-
 static bool watch_init_bell(pthread_cond_t *bell) {
   pthread_condattr_t attr;
   if (pthread_condattr_init(&attr)) return false;
@@ -38,7 +29,7 @@ static bool watch_init_bell(pthread_cond_t *bell) {
 static bool watch_start_helper(dyd_watch *w) {
   if (pthread_mutex_init(&w->lock, NULL)) return false;
   if (watch_init_bell(&w->bell)) {
-    if (watch_spawn(w)) return true;
+    if (dyd_start_helpers(&w->thread, 1, watch_wait, w)) return true;
     pthread_cond_destroy(&w->bell);
   }
   pthread_mutex_destroy(&w->lock);
@@ -46,18 +37,15 @@ static bool watch_start_helper(dyd_watch *w) {
 }
 
 void dyd_watch_start(dyd_watch *w, double seconds, volatile int *flag) {
-  clock_gettime(CLOCK_MONOTONIC, &w->start);
+  w->start = dyd_seconds();
+  w->seconds = seconds;
   w->limited = seconds > 0 && seconds < LONGEST;
   w->running = w->over = false;
   w->flag = flag;
   if (!w->limited) return;
-  time_t whole = (time_t)seconds;
-  w->deadline.tv_sec = w->start.tv_sec + whole;
-  w->deadline.tv_nsec = w->start.tv_nsec + (long)((seconds - (double)whole) * 1e9);
-  if (w->deadline.tv_nsec >= 1000000000L) {
-    w->deadline.tv_nsec -= 1000000000L;
-    w->deadline.tv_sec++;
-  }
+  double end = w->start + seconds;
+  w->deadline.tv_sec = (time_t)end;
+  w->deadline.tv_nsec = (long)((end - (double)w->deadline.tv_sec) * 1e9);
   w->running = watch_start_helper(w);
 }
 
@@ -74,15 +62,9 @@ void dyd_watch_stop(dyd_watch *w) {
 }
 
 bool dyd_watch_is_late(const dyd_watch *w) {
-  if (!w->limited) return false;
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  if (now.tv_sec != w->deadline.tv_sec) return now.tv_sec > w->deadline.tv_sec;
-  return now.tv_nsec >= w->deadline.tv_nsec;
+  return w->limited && dyd_watch_seconds(w) >= w->seconds;
 }
 
 double dyd_watch_seconds(const dyd_watch *w) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)(now.tv_sec - w->start.tv_sec) + 1e-9 * (double)(now.tv_nsec - w->start.tv_nsec);
+  return dyd_seconds() - w->start;
 }

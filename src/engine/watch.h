@@ -9,7 +9,8 @@
 
 /* Invariant: thread, lock and bell are live exactly when running; over is guarded by lock. */
 typedef struct dyd_watch {
-  struct timespec start, deadline;
+  double start, seconds;    /* of dyd_seconds; the limit, where there is one */
+  struct timespec deadline; /* for the helper */
   bool limited, running, over;
   volatile int *flag;
   pthread_t thread;

@@ -81,35 +81,19 @@ static void circle_rescale(dyd_circle *k, dyd_irect *r, mpz_srcptr man, int64_t 
   }
 }
 
-/* p + q sqrt c += d^2 ((a + b sqrt c) / d - z)^2; nothing for z = NULL (the distance along this axis is 0). */
-static void circle_add_square(mpz_ptr p, mpz_ptr q, mpz_ptr t, const dyd_surd *s, mpz_srcptr z) {
-  if (!z) return;
-  mpz_mul(t, s->b, s->b);
-  mpz_addmul(p, t, s->c);
-  mpz_set(t, s->a);
-  mpz_submul(t, z, s->d);
-  mpz_addmul(p, t, t);
-  mpz_mul_2exp(t, t, 1);
-  mpz_addmul(q, t, s->b);
-}
-
 /* Sign of distance^2 - radius^2 = (p + q sqrt c) / d^2 - (ar + br sqrt c) / dr. */
 static int circle_side_scaled(const dyd_circle *k, const dyd_irect *r, dyd_touch touch) {
-  bool far = touch == DYD_FARTHEST;
-  dyd_surd ox = {k->ax, k->bx, k->c, k->d}, oy = {k->ay, k->by, k->c, k->d};
-  mpz_t p, q, s, t;
-  mpz_inits(p, q, s, t, NULL);
-  circle_add_square(p, q, t, &ox,
-                    far ? dyd_surd_farthest(s, t, &ox, r->x0, r->x1) : dyd_surd_closest(t, &ox, r->x0, r->x1));
-  circle_add_square(p, q, t, &oy,
-                    far ? dyd_surd_farthest(s, t, &oy, r->y0, r->y1) : dyd_surd_closest(t, &oy, r->y0, r->y1));
+  const dyd_surd centre[2] = {{k->ax, k->bx, k->c, k->d}, {k->ay, k->by, k->c, k->d}};
+  mpz_t p, q, t;
+  mpz_inits(p, q, t, NULL);
+  dyd_surd_add_distance2(p, q, centre, r, touch);
   mpz_mul(p, p, k->dr);
   mpz_mul(q, q, k->dr);
   mpz_mul(t, k->d, k->d);
   mpz_submul(p, k->ar, t);
   mpz_submul(q, k->br, t);
   int sign = dyd_sqrt_sign(p, q, k->c);
-  mpz_clears(p, q, s, t, NULL);
+  mpz_clears(p, q, t, NULL);
   return sign;
 }
 

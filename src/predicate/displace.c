@@ -28,8 +28,7 @@ static int compare_distance_exact(const dyd_point *c, const dyd_rect *const in[2
     dyd_irect_init(&r[k]);
     mpz_init(distance[k]);
   }
-  mpz_init(cx);
-  mpz_init(cy);
+  mpz_inits(cx, cy, NULL);
   dyd_irects_scale_point(cx, cy, r, c, in, 2);
   for (int k = 0; k < 2; k++) {
     if (touch[k] == DYD_FARTHEST) {
@@ -39,8 +38,7 @@ static int compare_distance_exact(const dyd_point *c, const dyd_rect *const in[2
     }
   }
   int order = mpz_cmp(distance[0], distance[1]);
-  mpz_clear(cy);
-  mpz_clear(cx);
+  mpz_clears(cx, cy, NULL);
   for (int k = 2; k-- > 0;) {
     mpz_clear(distance[k]);
     dyd_irect_clear(&r[k]);

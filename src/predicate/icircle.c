@@ -77,9 +77,7 @@ int dyd_icircle_side(const dyd_icircle *k, const dyd_irect *r, dyd_touch touch) 
   frame f;
   frame_init(&f, k);
   dyd_surd ox = {k->ax, k->bx, k->c, k->d}, oy = {k->ay, k->by, k->c, k->d};
-  bool far = touch == DYD_FARTHEST;
-  mpz_srcptr x = far ? dyd_surd_farthest(f.s, f.t, &ox, r->x0, r->x1) : dyd_surd_closest(f.s, &ox, r->x0, r->x1);
-  mpz_srcptr y = far ? dyd_surd_farthest(f.s, f.t, &oy, r->y0, r->y1) : dyd_surd_closest(f.s, &oy, r->y0, r->y1);
+  mpz_srcptr x = dyd_surd_end(f.s, f.t, &ox, r, 0, touch), y = dyd_surd_end(f.s, f.t, &oy, r, 1, touch);
   int side = -1; /* the centre is within: 0 minus the radius, which is positive */
   if (x) mpz_sub(f.l, x, k->px);
   if (y) mpz_sub(f.m, y, k->py);

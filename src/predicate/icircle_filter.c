@@ -31,8 +31,7 @@ static void centre_quotient(double out[2], mpz_ptr n, unsigned long width, const
 
 static void centre_coordinate(double out[2], mpz_srcptr a, mpz_srcptr b, const dyd_icircle *k, int64_t shift) {
   mpz_t n, t;
-  mpz_init(n);
-  mpz_init(t);
+  mpz_inits(n, t, NULL);
   if (!mpz_sgn(b) || !mpz_sgn(k->c)) {
     mpz_set(n, a);
     centre_quotient(out, n, 0, k, -shift);
@@ -47,8 +46,7 @@ static void centre_coordinate(double out[2], mpz_srcptr a, mpz_srcptr b, const d
     }
     centre_quotient(out, n, 1, k, -g - shift);
   }
-  mpz_clear(t);
-  mpz_clear(n);
+  mpz_clears(n, t, NULL);
 }
 
 void dyd_icircle_centre_d(double out[4], const dyd_icircle *k, int64_t shift) {

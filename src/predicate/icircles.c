@@ -28,13 +28,11 @@ static void circle_search_init(search *q) {
   dyd_feature_init(&q->g);
   dyd_centre_init(&q->centre);
   dyd_icircle_init(&q->circle);
-  mpz_init(q->s);
-  mpz_init(q->t);
+  mpz_inits(q->s, q->t, NULL);
 }
 
 static void circle_search_clear(search *q) {
-  mpz_clear(q->t);
-  mpz_clear(q->s);
+  mpz_clears(q->s, q->t, NULL);
   dyd_icircle_clear(&q->circle);
   dyd_centre_clear(&q->centre);
   dyd_feature_clear(&q->g);

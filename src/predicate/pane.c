@@ -53,8 +53,7 @@ static mpz_srcptr shown_end(const dyd_slab *s, const dyd_irect *r, dyd_touch tou
 void dyd_axis_set(dyd_axis *out, const dyd_irect *const r[3], const dyd_touch touch[3], int axis, mpz_srcptr origin,
                   int64_t shift) {
   mpz_t t, origin2;
-  mpz_init(t);
-  mpz_init(origin2);
+  mpz_inits(t, origin2, NULL);
   mpz_mul_2exp(origin2, origin, 1);
   size_t lines = set_slab_lines(out, r, touch, axis);
   dyd_iv near_end[3][2];
@@ -75,6 +74,5 @@ void dyd_axis_set(dyd_axis *out, const dyd_irect *const r[3], const dyd_touch to
       s->mark[m].near = at == dyd_irect_end(r[m], axis, 1) ? near_end[m][1] : near_end[m][0];
     }
   }
-  mpz_clear(origin2);
-  mpz_clear(t);
+  mpz_clears(t, origin2, NULL);
 }

@@ -6,6 +6,8 @@
 #include <dyadel/rect.h>
 
 bool dyd_interval_is_valid(const dyd_interval *a);
+/* Is the point in the closed rectangle, whose ends are dyadic? */
+bool dyd_rect_holds(const dyd_rect *r, const dyd_point *p);
 /* Both ends as doubles, when they are doubles; else false. */
 bool dyd_interval_get_exact_d(double *lo, double *hi, const dyd_interval *a);
 

@@ -81,8 +81,7 @@ void dyd_irects_scale_with(mpz_ptr cx, mpz_ptr cy, dyd_irect *out, const dyd_poi
   }
   if (scale_man) mpz_set(scale_man, lcm);
   if (scale_exp) *scale_exp = -s.exp;
-  mpz_clear(quotient);
-  mpz_clear(lcm);
+  mpz_clears(lcm, quotient, NULL);
 }
 
 void dyd_irects_scale(dyd_irect *out, const dyd_rect *const *in, size_t n, mpz_ptr scale_man, int64_t *scale_exp) {
@@ -124,12 +123,10 @@ void dyd_irect_ds2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r
 
 void dyd_irect_dl2(mpz_ptr out, mpz_srcptr cx, mpz_srcptr cy, const dyd_irect *r) {
   mpz_t s, t;
-  mpz_init(s);
-  mpz_init(t);
+  mpz_inits(s, t, NULL);
   farthest_on_axis(t, s, cx, r->x0, r->x1);
   mpz_mul(out, t, t);
   farthest_on_axis(t, s, cy, r->y0, r->y1);
   mpz_addmul(out, t, t);
-  mpz_clear(t);
-  mpz_clear(s);
+  mpz_clears(s, t, NULL);
 }

@@ -18,8 +18,7 @@ static mpz_srcptr larger_z(mpz_srcptr a, mpz_srcptr b) {
 
 void dyd_irect_partial_edge_area2(mpz_ptr out, const dyd_irect *a, const dyd_irect *b) {
   mpz_t w, h;
-  mpz_init(w);
-  mpz_init(h);
+  mpz_inits(w, h, NULL);
   mpz_sub(w, larger_z(a->x1, b->x1), lesser_z(a->x0, b->x0));
   mpz_sub(h, larger_z(a->y1, b->y1), lesser_z(a->y0, b->y0));
   mpz_mul(out, w, h);
@@ -34,8 +33,7 @@ void dyd_irect_partial_edge_area2(mpz_ptr out, const dyd_irect *a, const dyd_ire
     mpz_abs(w, w);
     mpz_sub(out, out, w);
   }
-  mpz_clear(h);
-  mpz_clear(w);
+  mpz_clears(w, h, NULL);
 }
 
 /* out = largest value of nx x + ny y over r (side = 1) or smallest (side = 0). */

@@ -4,6 +4,7 @@
  * A rectangle is a product of intervals, and inclusion, meeting and equality are those of its sides. */
 #include <dyadel/rect.h>
 
+#include "rect/interval.h"
 #include "rect/irect.h"
 
 void dyd_rect_init(dyd_rect *r) {
@@ -63,6 +64,11 @@ bool dyd_rect_meets(const dyd_rect *a, const dyd_rect *b) {
   return dyd_interval_meets(&a->x, &b->x) && dyd_interval_meets(&a->y, &b->y);
 }
 
+bool dyd_rect_holds(const dyd_rect *r, const dyd_point *p) {
+  return dyd_dyadic_cmp(&r->x.lo, &p->x) <= 0 && dyd_dyadic_cmp(&p->x, &r->x.hi) <= 0 &&
+         dyd_dyadic_cmp(&r->y.lo, &p->y) <= 0 && dyd_dyadic_cmp(&p->y, &r->y.hi) <= 0;
+}
+
 static bool interval_equal(const dyd_interval *a, const dyd_interval *b) {
   return !dyd_dyadic_cmp(&a->lo, &b->lo) && !dyd_dyadic_cmp(&a->hi, &b->hi) && !mpz_cmp(a->den, b->den);
 }
@@ -106,15 +112,11 @@ static void rect_distance2(mpq_t out, const dyd_point *c, const dyd_rect *r, dis
   mpz_t cx, cy, man;
   int64_t exp;
   dyd_irect_init(&scaled);
-  mpz_init(cx);
-  mpz_init(cy);
-  mpz_init(man);
+  mpz_inits(cx, cy, man, NULL);
   dyd_irects_scale_with(cx, cy, &scaled, c, &r, 1, man, &exp);
   distance(mpq_numref(out), cx, cy, &scaled);
   unscale_square(out, man, exp);
-  mpz_clear(man);
-  mpz_clear(cy);
-  mpz_clear(cx);
+  mpz_clears(cx, cy, man, NULL);
   dyd_irect_clear(&scaled);
 }
 

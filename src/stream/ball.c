@@ -122,9 +122,8 @@ static dyd_defined ball_exponential(arb_ptr x, dyd_op op, slong prec) {
     mag_set_ui_2exp_si(arb_radref(x), 1, -(slong)DYD_EXP_LIMIT);
     return DYD_DEFINED;
   }
-  if (op == DYD_OP_EXP) arb_exp(x, x, prec);
-  if (op == DYD_OP_SINH) arb_sinh(x, x, prec);
-  if (op == DYD_OP_COSH) arb_cosh(x, x, prec);
+  static const ball_fn function[] = {[DYD_OP_EXP] = arb_exp, [DYD_OP_SINH] = arb_sinh, [DYD_OP_COSH] = arb_cosh};
+  function[op](x, x, prec);
   return DYD_DEFINED;
 }
 
@@ -162,34 +161,20 @@ static dyd_defined ball_power(arb_ptr x, long n, slong prec) {
   return DYD_DEFINED;
 }
 
-static dyd_defined ball_plain_function(arb_ptr x, dyd_op op, slong prec) {
-  switch (op) {
-  case DYD_OP_NEG:
+/* Functions that are defined everywhere, or whose poles give a ball that is not finite. */
+static void ball_plain_function(arb_ptr x, dyd_op op, slong prec) {
+  static const ball_fn function[] = {
+      [DYD_OP_SIN] = arb_sin, [DYD_OP_COS] = arb_cos, [DYD_OP_TAN] = arb_tan, [DYD_OP_ATAN] = arb_atan};
+  if (op == DYD_OP_NEG)
     arb_neg(x, x);
-    break;
-  case DYD_OP_SIN:
-    arb_sin(x, x, prec);
-    break;
-  case DYD_OP_COS:
-    arb_cos(x, x, prec);
-    break;
-  case DYD_OP_TAN:
-    arb_tan(x, x, prec);
-    break;
-  case DYD_OP_ATAN:
-    arb_atan(x, x, prec);
-    break;
-  case DYD_OP_TANH:
+  else if (op == DYD_OP_TANH)
     ball_hyperbolic_tangent(x, prec);
-    break;
-  case DYD_OP_CBRT:
+  else if (op == DYD_OP_CBRT)
     ball_monotone(x, ball_cube_root, (dyd_range){-DYD_NO_END, DYD_NO_END}, prec);
-    break;
-  default: /* DYD_OP_ABS */
+  else if (op == DYD_OP_ABS)
     ball_absolute(x, prec);
-    break;
-  }
-  return DYD_DEFINED;
+  else
+    function[op](x, x, prec);
 }
 
 dyd_defined dyd_ball_unary(arb_ptr x, dyd_op op, dyd_range range, long exponent, slong prec) {
@@ -209,32 +194,17 @@ dyd_defined dyd_ball_unary(arb_ptr x, dyd_op op, dyd_range range, long exponent,
   case DYD_OP_POW:
     return ball_power(x, exponent, prec);
   default:
-    return ball_plain_function(x, op, prec);
+    ball_plain_function(x, op, prec);
+    return DYD_DEFINED;
   }
 }
 
 dyd_defined dyd_ball_binary(arb_ptr x, dyd_op op, arb_srcptr y, slong prec) {
-  switch (op) {
-  case DYD_OP_ADD:
-    arb_add(x, x, y, prec);
-    break;
-  case DYD_OP_SUB:
-    arb_sub(x, x, y, prec);
-    break;
-  case DYD_OP_MUL:
-    arb_mul(x, x, y, prec);
-    break;
-  case DYD_OP_DIV:
-    if (arb_contains_zero(y)) return arb_is_zero(y) ? DYD_UNDEFINED : DYD_UNDEFINED_YET;
-    arb_div(x, x, y, prec);
-    break;
-  case DYD_OP_MIN:
-    arb_min(x, x, y, prec);
-    break;
-  default: /* DYD_OP_MAX */
-    arb_max(x, x, y, prec);
-    break;
-  }
+  static void (*const function[])(arb_t, const arb_t, const arb_t,
+                                  slong) = {[DYD_OP_ADD] = arb_add, [DYD_OP_SUB] = arb_sub, [DYD_OP_MUL] = arb_mul,
+                                            [DYD_OP_DIV] = arb_div, [DYD_OP_MIN] = arb_min, [DYD_OP_MAX] = arb_max};
+  if (op == DYD_OP_DIV && arb_contains_zero(y)) return arb_is_zero(y) ? DYD_UNDEFINED : DYD_UNDEFINED_YET;
+  function[op](x, x, y, prec);
   return DYD_DEFINED;
 }
 

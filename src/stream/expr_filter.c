@@ -142,27 +142,23 @@ static bool glance_unary(dyd_double_span *a, const dyd_node *n, dyd_range range)
   }
 }
 
+static dyd_double_span glance_subtract(dyd_double_span a, dyd_double_span b) {
+  return glance_add(a, glance_negated(b));
+}
+
+static dyd_double_span glance_min(dyd_double_span a, dyd_double_span b) {
+  return (dyd_double_span){fmin(a.lo, b.lo), fmin(a.hi, b.hi)};
+}
+
+static dyd_double_span glance_max(dyd_double_span a, dyd_double_span b) {
+  return (dyd_double_span){fmax(a.lo, b.lo), fmax(a.hi, b.hi)};
+}
+
 static bool glance_binary(dyd_double_span *a, dyd_op op, dyd_double_span b) {
-  switch (op) {
-  case DYD_OP_ADD:
-    *a = glance_add(*a, b);
-    break;
-  case DYD_OP_SUB:
-    *a = glance_add(*a, glance_negated(b));
-    break;
-  case DYD_OP_MUL:
-    *a = glance_multiply(*a, b);
-    break;
-  case DYD_OP_DIV:
-    *a = glance_divide(*a, b);
-    break;
-  case DYD_OP_MIN:
-    *a = (dyd_double_span){fmin(a->lo, b.lo), fmin(a->hi, b.hi)};
-    break;
-  default: /* DYD_OP_MAX */
-    *a = (dyd_double_span){fmax(a->lo, b.lo), fmax(a->hi, b.hi)};
-    break;
-  }
+  static dyd_double_span (*const function[])(dyd_double_span, dyd_double_span) = {
+      [DYD_OP_ADD] = glance_add,    [DYD_OP_SUB] = glance_subtract, [DYD_OP_MUL] = glance_multiply,
+      [DYD_OP_DIV] = glance_divide, [DYD_OP_MIN] = glance_min,      [DYD_OP_MAX] = glance_max};
+  *a = function[op](*a, b);
   return glance_is_good(*a);
 }
 

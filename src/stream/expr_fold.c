@@ -57,41 +57,26 @@ static dyd_status fold_unary(mpq_ptr x, bool *done, dyd_op op, long exponent) {
     return DYD_OK;
   case DYD_OP_LOG:
     if (mpq_sgn(x) <= 0) return DYD_E_DOMAIN;
-    *done = fold_special(x, op);
-    return DYD_OK;
+    break;
   case DYD_OP_ASIN:
   case DYD_OP_ACOS:
     if (mpq_cmp_si(x, 1, 1) > 0 || mpq_cmp_si(x, -1, 1) < 0) return DYD_E_DOMAIN;
-    *done = fold_special(x, op);
-    return DYD_OK;
+    break;
   default:
-    *done = fold_special(x, op);
-    return DYD_OK;
+    break;
   }
+  *done = fold_special(x, op);
+  return DYD_OK;
 }
 
 static dyd_status fold_binary(mpq_ptr x, dyd_op op, mpq_srcptr y) {
-  switch (op) {
-  case DYD_OP_ADD:
-    mpq_add(x, x, y);
-    break;
-  case DYD_OP_SUB:
-    mpq_sub(x, x, y);
-    break;
-  case DYD_OP_MUL:
-    mpq_mul(x, x, y);
-    break;
-  case DYD_OP_DIV:
-    if (!mpq_sgn(y)) return DYD_E_DOMAIN;
-    mpq_div(x, x, y);
-    break;
-  case DYD_OP_MIN:
-    if (mpq_cmp(y, x) < 0) mpq_set(x, y);
-    break;
-  default: /* DYD_OP_MAX */
-    if (mpq_cmp(y, x) > 0) mpq_set(x, y);
-    break;
-  }
+  static void (*const function[])(mpq_ptr, mpq_srcptr, mpq_srcptr) = {
+      [DYD_OP_ADD] = mpq_add, [DYD_OP_SUB] = mpq_sub, [DYD_OP_MUL] = mpq_mul, [DYD_OP_DIV] = mpq_div};
+  if (op == DYD_OP_DIV && !mpq_sgn(y)) return DYD_E_DOMAIN;
+  if (op != DYD_OP_MIN && op != DYD_OP_MAX)
+    function[op](x, x, y);
+  else if ((mpq_cmp(y, x) < 0) == (op == DYD_OP_MIN))
+    mpq_set(x, y);
   return dyd_rational_fits(x);
 }
 

@@ -59,13 +59,23 @@ static uint64_t small_digits(const dyd_literal *in) {
   return m;
 }
 
+/* The power of ten that the digits as an integer are multiplied by. */
+static int64_t literal_ten(const dyd_literal *in) {
+  return in->exponent - (int64_t)in->fraction;
+}
+
 static bool literal_is_small(const dyd_literal *in) {
-  int64_t ten = in->exponent - (int64_t)in->fraction;
+  int64_t ten = literal_ten(in);
   return !in->hex && in->digits <= SMALL_DIGITS && ten >= -SMALL_DIGITS && ten <= SMALL_DIGITS;
 }
 
 bool dyd_literal_words(uint64_t *num, uint64_t *den, const dyd_literal *in) {
-  return literal_is_small(in) && decimal_words(num, den, small_digits(in), (int)(in->exponent - (int64_t)in->fraction));
+  return literal_is_small(in) && decimal_words(num, den, small_digits(in), (int)literal_ten(in));
+}
+
+/* By single words, where they do. */
+static bool literal_small_value(mpq_ptr out, const dyd_literal *in) {
+  return literal_is_small(in) && dyd_small_decimal(out, small_digits(in), (int)literal_ten(in));
 }
 
 /* All digits as an integer, whatever their number up to MAX_DIGITS (leading zeros aside). */
@@ -114,12 +124,11 @@ static dyd_status scale_ten(mpq_ptr x, int64_t ten) {
 }
 
 dyd_status dyd_literal_value(mpq_ptr out, const dyd_literal *in) {
-  int64_t fraction = (int64_t)in->fraction;
-  if (literal_is_small(in) && dyd_small_decimal(out, small_digits(in), (int)(in->exponent - fraction))) return DYD_OK;
+  if (literal_small_value(out, in)) return DYD_OK;
   mpz_set_ui(mpq_denref(out), 1);
   dyd_status st = all_digits(mpq_numref(out), in);
   if (st != DYD_OK) return st;
-  return in->hex ? scale_two(out, in->exponent - 4 * fraction) : scale_ten(out, in->exponent - fraction);
+  return in->hex ? scale_two(out, in->exponent - 4 * (int64_t)in->fraction) : scale_ten(out, literal_ten(in));
 }
 
 /* The value of a scanned form; *at is the offset to blame on failure. */
@@ -160,12 +169,9 @@ dyd_status dyd_parse_number(mpq_t out, const char *text, size_t length, dyd_erro
   dyd_number_form f;
   dyd_status st = scan_or_fail(&f, text, length, err);
   if (st != DYD_OK) return st;
-  if (!f.rational && !f.dyadic && literal_is_small(&f.literal)) {
-    int ten = (int)(f.literal.exponent - (int64_t)f.literal.fraction);
-    if (dyd_small_decimal(out, small_digits(&f.literal), ten)) {
-      if (f.negative) mpq_neg(out, out);
-      return DYD_OK;
-    }
+  if (!f.rational && !f.dyadic && literal_small_value(out, &f.literal)) {
+    if (f.negative) mpq_neg(out, out);
+    return DYD_OK;
   }
   mpq_t value;
   size_t at = 0;
@@ -195,7 +201,7 @@ static dyd_status half_unit_around(mpq_ptr lo, mpq_ptr hi, mpq_srcptr x, int64_t
 /* The short way: 10 m -+ 5 units of 10^(ten - 1). */
 static bool small_measured(mpq_ptr lo, mpq_ptr hi, const dyd_number_form *f) {
   if (!literal_is_small(&f->literal) || f->literal.digits >= SMALL_DIGITS) return false;
-  int ten = (int)(f->literal.exponent - (int64_t)f->literal.fraction) - 1;
+  int ten = (int)literal_ten(&f->literal) - 1;
   if (ten < -SMALL_DIGITS) return false;
   uint64_t m = 10 * small_digits(&f->literal);
   if (!dyd_small_decimal(hi, m + 5, ten) || !dyd_small_decimal(lo, m ? m - 5 : 5, ten)) return false;
@@ -219,7 +225,7 @@ dyd_status dyd_parse_measured(mpq_t lo, mpq_t hi, const char *text, size_t lengt
   if (!decimal || !small_measured(value[0], value[1], &f)) {
     st = form_value(value[2], &at, &f);
     if (st == DYD_OK && decimal) {
-      st = half_unit_around(value[0], value[1], value[2], f.literal.exponent - (int64_t)f.literal.fraction);
+      st = half_unit_around(value[0], value[1], value[2], literal_ten(&f.literal));
     } else if (st == DYD_OK) {
       mpq_set(value[0], value[2]);
       mpq_set(value[1], value[2]);

@@ -3,6 +3,7 @@
 #ifndef DYD_STREAM_ORACLE_PROCESS_H
 #define DYD_STREAM_ORACLE_PROCESS_H
 
+#include "base/clock.h"
 #include <dyadel/status.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -38,8 +39,5 @@ void dyd_process_close(dyd_process *p);
 void dyd_process_kill(const dyd_process *p);
 /* Kills and reaps. Nothing to do for a process that never was ({0, 0, -1, -1}). */
 void dyd_process_end(dyd_process *p);
-
-/* Seconds of a clock that only goes forward. */
-double dyd_seconds(void);
 
 #endif

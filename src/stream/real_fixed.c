@@ -6,22 +6,23 @@
 #include "base/error.h"
 #include "stream/number.h"
 
+/* A real of the interval a, just set with status st; a goes. */
+static dyd_status real_take_interval(dyd_real **out, dyd_interval *a, dyd_status st) {
+  if (st == DYD_OK) st = dyd_real_new_fixed(out, a);
+  dyd_interval_clear(a);
+  return st;
+}
+
 dyd_status dyd_real_from_dyadic(dyd_real **out, const dyd_dyadic *x) {
   dyd_interval a;
   dyd_interval_init(&a);
-  dyd_status st = dyd_interval_set_ends(&a, x, x);
-  if (st == DYD_OK) st = dyd_real_new_fixed(out, &a);
-  dyd_interval_clear(&a);
-  return st;
+  return real_take_interval(out, &a, dyd_interval_set_ends(&a, x, x));
 }
 
 dyd_status dyd_real_from_q(dyd_real **out, const mpq_t q) {
   dyd_interval a;
   dyd_interval_init(&a);
-  dyd_status st = dyd_interval_set_q(&a, q);
-  if (st == DYD_OK) st = dyd_real_new_fixed(out, &a);
-  dyd_interval_clear(&a);
-  return st;
+  return real_take_interval(out, &a, dyd_interval_set_q(&a, q));
 }
 
 /* An end of a fixed interval: exact when dyadic, else rounded to a multiple of 2^exp. */
@@ -55,10 +56,7 @@ dyd_status dyd_interval_fix(dyd_interval *out, const mpq_t lo, const mpq_t hi) {
 dyd_status dyd_real_from_interval(dyd_real **out, const mpq_t lo, const mpq_t hi) {
   dyd_interval a;
   dyd_interval_init(&a);
-  dyd_status st = dyd_interval_fix(&a, lo, hi);
-  if (st == DYD_OK) st = dyd_real_new_fixed(out, &a);
-  dyd_interval_clear(&a);
-  return st;
+  return real_take_interval(out, &a, dyd_interval_fix(&a, lo, hi));
 }
 
 /* The interval of radius `radius` around x. */
@@ -77,14 +75,12 @@ static void widened_release(void *user) {
 /* out = the interval of w->x, widened; fixed once and for all when x is final, else on the grid of 2^exp. */
 static dyd_status widened_interval(dyd_interval *out, const widened *w, int64_t exp) {
   mpq_t lo, hi;
-  mpq_init(lo);
-  mpq_init(hi);
+  mpq_inits(lo, hi, NULL);
   dyd_interval_get_q(lo, hi, dyd_real_interval(w->x));
   mpq_sub(lo, lo, w->radius);
   mpq_add(hi, hi, w->radius);
   dyd_status st = dyd_real_is_final(w->x) ? dyd_interval_fix(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
-  mpq_clear(hi);
-  mpq_clear(lo);
+  mpq_clears(lo, hi, NULL);
   return st;
 }
 
@@ -95,16 +91,6 @@ static dyd_status widened_narrow(dyd_interval *out, void *user, const dyd_reques
   st = widened_interval(out, w, -request->bits - 2);
   if (st != DYD_OK) return dyd_fail(err, st, "the interval around a value: %s", dyd_status_text(st));
   return dyd_real_is_final(w->x) ? DYD_FIXED : DYD_OK;
-}
-
-/* A widened real that is final already is one fixed interval. */
-static dyd_status widened_fixed(dyd_real **out, const widened *w) {
-  dyd_interval a;
-  dyd_interval_init(&a);
-  dyd_status st = widened_interval(&a, w, 0);
-  if (st == DYD_OK) st = dyd_real_new_fixed(out, &a);
-  dyd_interval_clear(&a);
-  return st;
 }
 
 dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius) {
@@ -122,7 +108,9 @@ dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius) {
   mpq_init(w->radius);
   mpq_set(w->radius, radius);
   if (!dyd_real_is_final(x)) return dyd_real_new_enclosing(out, widened_narrow, widened_release, w);
-  dyd_status st = widened_fixed(out, w);
+  dyd_interval a; /* final already: one fixed interval */
+  dyd_interval_init(&a);
+  dyd_status st = real_take_interval(out, &a, widened_interval(&a, w, 0));
   widened_release(w);
   return st;
 }

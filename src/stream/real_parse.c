@@ -116,15 +116,13 @@ static dyd_status read_interval_ends(mpq_t lo, mpq_t hi, reader *r, const char *
 static dyd_status read_interval(dyd_real **out, reader *r) {
   size_t at = r->pos;
   mpq_t lo, hi;
-  mpq_init(lo);
-  mpq_init(hi);
+  mpq_inits(lo, hi, NULL);
   dyd_status st = read_interval_ends(lo, hi, r, "]");
   if (st == DYD_OK && mpq_cmp(lo, hi) > 0) {
     st = FAIL(r, at, DYD_E_PARSE, "the lower end of the interval is above the upper end; exchange them");
   }
   if (st == DYD_OK) st = plain_fail(r, at, dyd_real_from_interval(out, lo, hi));
-  mpq_clear(hi);
-  mpq_clear(lo);
+  mpq_clears(lo, hi, NULL);
   return st;
 }
 
@@ -145,8 +143,7 @@ static dyd_status read_root(dyd_real **out, reader *r) {
   dyd_poly p = {0};
   mpq_t lo, hi;
   size_t at = r->pos;
-  mpq_init(lo);
-  mpq_init(hi);
+  mpq_inits(lo, hi, NULL);
   dyd_status st = read_polynomial(&p, r);
   if (st == DYD_OK) {
     skip_blanks(r);
@@ -160,8 +157,7 @@ static dyd_status read_root(dyd_real **out, reader *r) {
     if (st != DYD_OK && r->err) r->err->code = st;
   }
   dyd_poly_clear(&p);
-  mpq_clear(hi);
-  mpq_clear(lo);
+  mpq_clears(lo, hi, NULL);
   return st;
 }
 

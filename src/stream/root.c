@@ -17,8 +17,7 @@ static void root_release(void *user) {
   for (size_t k = 0; k < r->count; k++) mpz_clear(r->coeff[k]);
   free(r->coeff);
   mpz_clear(r->slot);
-  mpq_clear(r->hi);
-  mpq_clear(r->lo);
+  mpq_clears(r->lo, r->hi, NULL);
   free(r);
 }
 
@@ -66,8 +65,7 @@ static void integer_polynomial(fmpz_poly_t p, const mpq_t *coeff, size_t count) 
     fmpz_poly_set_coeff_fmpz(p, (slong)k, f);
   }
   fmpz_clear(f);
-  mpz_clear(c);
-  mpz_clear(scale);
+  mpz_clears(scale, c, NULL);
 }
 
 /* g = the part of p where its sign changes [ROOT-2]. */
@@ -114,8 +112,7 @@ static dyd_status root_new(dyd_real **out, const fmpz_poly_t g, const mpq_t lo, 
   dyd_root *r = dyd_alloc(1, sizeof *r);
   if (!r) return DYD_E_NOMEM;
   *r = (dyd_root){.sign_left = sign_at_q(g, lo), .jump = 2};
-  mpq_init(r->lo);
-  mpq_init(r->hi);
+  mpq_inits(r->lo, r->hi, NULL);
   mpz_init(r->slot);
   mpq_set(r->lo, lo);
   mpq_set(r->hi, hi);

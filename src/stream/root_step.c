@@ -119,8 +119,7 @@ static dyd_status root_enter_grid(dyd_root *r, const fmpz_poly_t p, dyd_error *e
     return dyd_fail(err, DYD_E_RANGE, "the root lies too close to an end of its interval; give another interval");
   }
   mpz_t first, last;
-  mpz_init(first);
-  mpz_init(last);
+  mpz_inits(first, last, NULL);
   to_grid(first, r->lo, s, DYD_UP);
   to_grid(last, r->hi, s, DYD_DOWN);
   int left = root_sign_at(p, first, s), right = root_sign_at(p, last, s);
@@ -132,8 +131,7 @@ static dyd_status root_enter_grid(dyd_root *r, const fmpz_poly_t p, dyd_error *e
   } else if (!done) {
     root_choose_slot(r, p, first, last, s);
   }
-  mpz_clear(last);
-  mpz_clear(first);
+  mpz_clears(first, last, NULL);
   return DYD_OK;
 }
 
@@ -214,9 +212,7 @@ static void root_clamp(mpz_ptr m, unsigned j) {
 /* Phase 3: tries the part beside the proposal. false: refuted, r unchanged. */
 static bool root_quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
   mpz_t m, base, other;
-  mpz_init(m);
-  mpz_init(base);
-  mpz_init(other);
+  mpz_inits(m, base, other, NULL);
   root_propose(m, r, p, j);
   root_clamp(m, j);
   mpz_mul_2exp(base, r->slot, j);
@@ -239,9 +235,7 @@ static bool root_quadratic(dyd_root *r, const fmpz_poly_t p, unsigned j) {
       found = true;
     }
   }
-  mpz_clear(other);
-  mpz_clear(base);
-  mpz_clear(m);
+  mpz_clears(m, base, other, NULL);
   return found;
 }
 

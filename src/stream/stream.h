@@ -15,8 +15,6 @@ dyd_status dyd_stream_new_fixed(dyd_stream **out, dyd_rect *value);
 /* The same with a context of `size` bytes in one block with the stream, as dyd_real_new_inside. */
 dyd_status dyd_stream_new_inside(dyd_stream **out, void **user, size_t size, dyd_narrow_fn narrow,
                                  dyd_release_fn release);
-/* [lo,hi] += c r. */
-void dyd_add_scaled_interval(mpq_t lo, mpq_t hi, const mpq_t c, const dyd_interval *r);
 /* The same as dyd_real_glance for both sides of a point. */
 bool dyd_stream_glance(dyd_double_span out[2], const dyd_stream *s, int64_t bits);
 /* The greatest bits for which dyd_stream_glance succeeds; INT64_MIN when there is none. */

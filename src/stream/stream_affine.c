@@ -1,34 +1,75 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Images of streams under rational affine maps.
+/* Images of streams under rational affine maps: of one stream, or the sum of those of several.
  *
- * [AFF-1] For u = a x + b y + c the image of [x0,x1] x [y0,y1] is the interval whose ends take, in each term, the
- * end chosen by the sign of the coefficient: exact in rationals, of width |a| wx + |b| wy, and rounded outward
- * once. So widths 2^-n with n = bits + 1 + ceil log2(|a| + |b|) give at most 2^-(bits + 1), and the rounding to
- * multiples of 2^-(bits + 2) adds less than twice that unit: 2^-bits in all.
- * The image of an image is the image under the product matrix: chains are short and nothing is rounded between. */
-#include "stream/real.h"
-#include "stream/stream.h"
+ * [AFF-1] [CMB-1] For u = sum (a_k x_k + b_k y_k) + c over rectangles R_k the image is the interval whose ends take, in
+ * each term, the end chosen by the sign of the coefficient: exact in rationals, of width sum (|a_k| wx_k + |b_k| wy_k),
+ * and rounded outward once. So widths 2^-n with n = bits + 1 + ceil log2(sum (|a_k| + |b_k|)) give at most
+ * 2^-(bits + 1), and the rounding to multiples of 2^-(bits + 2) adds less than twice that unit: 2^-bits in all.
+ * The affine image of an affine image is that under the product matrix: chains are short and nothing is rounded
+ * between. */
+#include <dyadel/compose.h>
 
 #include "base/alloc.h"
 #include "base/error.h"
 #include "dyadic/raw.h"
+#include "stream/real.h"
+#include "stream/stream.h"
 
-typedef struct affine {
+/* x becomes m[0] x + m[1] y, y becomes m[2] x + m[3] y. */
+typedef struct term {
   dyd_stream *of;
-  mpq_t m[6];
-  int64_t gain; /* 2^gain >= |m0| + |m1| and |m3| + |m4| */
-} affine;
+  mpq_t m[4];
+} term;
 
-static void affine_release(void *user) {
-  affine *a = user;
-  dyd_stream_free(a->of);
-  for (int i = 0; i < 6; i++) mpq_clear(a->m[i]);
+/* Invariant: 2^gain >= the sum of all |m[0]| + |m[1]|, and of all |m[2]| + |m[3]|. */
+typedef struct image {
+  size_t count;
+  term *term;
+  mpq_t shift[2];
+  int64_t gain;
+} image;
+
+static void image_release(void *user) {
+  image *a = user;
+  for (size_t k = 0; k < a->count; k++) {
+    dyd_stream_free(a->term[k].of);
+    for (int i = 0; i < 4; i++) mpq_clear(a->term[k].m[i]);
+  }
+  free(a->term);
+  mpq_clears(a->shift[0], a->shift[1], NULL);
   free(a);
 }
 
-void dyd_add_scaled_interval(mpq_t lo, mpq_t hi, const mpq_t c, const dyd_interval *r) {
+/* With room for n terms; NULL: memory is exhausted. */
+static image *image_new(size_t n) {
+  image *a = calloc(1, sizeof *a);
+  if (!a) return NULL;
+  mpq_inits(a->shift[0], a->shift[1], NULL);
+  a->term = dyd_alloc(n, sizeof *a->term);
+  if (a->term) return a;
+  image_release(a);
+  return NULL;
+}
+
+/* Appends a term of coefficients 0; takes over the reference. */
+static term *image_add_term(image *a, dyd_stream *of) {
+  term *t = &a->term[a->count++];
+  t->of = of;
+  for (int i = 0; i < 4; i++) mpq_init(t->m[i]);
+  return t;
+}
+
+static bool image_is_final(const image *a) {
+  for (size_t k = 0; k < a->count; k++)
+    if (!dyd_stream_is_final(a->term[k].of)) return false;
+  return true;
+}
+
+/* [lo,hi] += c r. */
+static void image_add_scaled(mpq_t lo, mpq_t hi, const mpq_t c, const dyd_interval *r) {
   mpq_t end[2];
   bool flip = mpq_sgn(c) < 0;
+  if (!mpq_sgn(c)) return;
   mpq_inits(end[0], end[1], NULL);
   dyd_interval_get_q(end[0], end[1], r);
   mpq_mul(end[0], end[0], c);
@@ -38,97 +79,133 @@ void dyd_add_scaled_interval(mpq_t lo, mpq_t hi, const mpq_t c, const dyd_interv
   mpq_clears(end[0], end[1], NULL);
 }
 
-/* out = row[0] x + row[1] y + row[2] over r [AFF-1]. Fixed rectangles are rounded once and for all. */
-static dyd_status affine_image_side(dyd_interval *out, const mpq_t *row, const dyd_rect *r, bool final, int64_t exp) {
+/* One side of the image. Fixed rectangles are rounded once and for all. */
+static dyd_status image_side(dyd_interval *out, const image *a, int axis, int64_t exp) {
   mpq_t lo, hi;
   mpq_inits(lo, hi, NULL);
-  mpq_set(lo, row[2]);
-  mpq_set(hi, row[2]);
-  dyd_add_scaled_interval(lo, hi, row[0], &r->x);
-  dyd_add_scaled_interval(lo, hi, row[1], &r->y);
-  bool exact = final || mpq_equal(lo, hi);
+  mpq_set(lo, a->shift[axis]);
+  mpq_set(hi, a->shift[axis]);
+  for (size_t k = 0; k < a->count; k++) {
+    const dyd_rect *r = dyd_stream_rect(a->term[k].of);
+    image_add_scaled(lo, hi, a->term[k].m[2 * axis], &r->x);
+    image_add_scaled(lo, hi, a->term[k].m[2 * axis + 1], &r->y);
+  }
+  bool exact = image_is_final(a) || mpq_equal(lo, hi);
   dyd_status st = exact ? dyd_interval_fix(out, lo, hi) : dyd_interval_set_outward(out, lo, hi, exp);
   mpq_clears(lo, hi, NULL);
   return st;
 }
 
-static dyd_status affine_image(dyd_rect *out, const affine *a, int64_t exp) {
-  const dyd_rect *r = dyd_stream_rect(a->of);
-  bool final = dyd_stream_is_final(a->of);
-  dyd_status st = affine_image_side(&out->x, a->m, r, final, exp);
-  return st == DYD_OK ? affine_image_side(&out->y, a->m + 3, r, final, exp) : st;
+/* what: for messages. */
+static dyd_status image_narrow(dyd_rect *out, const image *a, const dyd_request *request, const char *what,
+                               dyd_error *err) {
+  int64_t more = a->gain + 1, most = request->max_bits + (more > 0 ? more : 0);
+  for (size_t k = 0; k < a->count; k++) {
+    dyd_status st = dyd_stream_narrow(a->term[k].of, request->bits + more, most, err);
+    if (dyd_failed(st)) return st;
+  }
+  dyd_status st = image_side(&out->x, a, 0, -request->bits - 2);
+  if (st == DYD_OK) st = image_side(&out->y, a, 1, -request->bits - 2);
+  if (st != DYD_OK) return dyd_fail(err, st, "%s: %s", what, dyd_status_text(st));
+  return image_is_final(a) ? DYD_FIXED : DYD_OK;
 }
 
-static dyd_status affine_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
-  affine *a = user;
-  int64_t more = a->gain + 1;
-  dyd_status st = dyd_stream_narrow(a->of, request->bits + more, request->max_bits + (more > 0 ? more : 0), err);
-  if (dyd_failed(st)) return st;
-  st = affine_image(out, a, -request->bits - 2);
-  if (st != DYD_OK) return dyd_fail(err, st, "the affine image of a point: %s", dyd_status_text(st));
-  return dyd_stream_is_final(a->of) ? DYD_FIXED : DYD_OK;
-}
-
-/* A g for which both rows have |row[0]| + |row[1]| <= 2^g; very small for a constant map. */
-static int64_t affine_gain(const mpq_t m[6]) {
+/* The least gain found by lengths of numbers; very small for a constant map. */
+static int64_t image_gain(const image *a) {
   int64_t gain = -DYD_EXP_LIMIT;
   mpq_t sum, t;
-  mpq_init(sum);
-  mpq_init(t);
-  for (int row = 0; row < 2; row++) {
-    mpq_abs(sum, m[3 * row]);
-    mpq_abs(t, m[3 * row + 1]);
-    mpq_add(sum, sum, t);
-    if (!mpq_sgn(sum)) continue;
-    int64_t g = dyd_q_log2_above(sum);
+  mpq_inits(sum, t, NULL);
+  for (int axis = 0; axis < 2; axis++) {
+    mpq_set_ui(sum, 0, 1);
+    for (size_t k = 0; k < 2 * a->count; k++) {
+      mpq_abs(t, a->term[k / 2].m[2 * axis + (int)(k % 2)]);
+      mpq_add(sum, sum, t);
+    }
+    int64_t g = mpq_sgn(sum) ? dyd_q_log2_above(sum) : gain;
     if (g > gain) gain = g;
   }
-  mpq_clear(t);
-  mpq_clear(sum);
+  mpq_clears(sum, t, NULL);
   return gain;
 }
 
-/* out = outer o inner. */
-static void affine_compose(mpq_t out[6], const mpq_t outer[6], const mpq_t inner[6]) {
+/* The image, complete but for its gain, as a stream; it is released on failure. */
+static dyd_status image_stream(dyd_stream **out, image *a, dyd_narrow_fn narrow) {
+  a->gain = image_gain(a);
+  dyd_source source = {DYD_SIZED(dyd_source), .narrow = narrow, .release = image_release, .user = a};
+  return dyd_stream_new_enclosing(out, &source, image_is_final(a));
+}
+
+/* ---- of one stream ---- */
+
+static dyd_status affine_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
+  return image_narrow(out, user, request, "the affine image of a point", err);
+}
+
+/* The only term and the shift of a become those of m, or of m after inner. */
+static void affine_set(image *a, const mpq_t m[6], const image *inner) {
   mpq_t t;
   mpq_init(t);
-  for (int row = 0; row < 2; row++) {
-    for (int column = 0; column < 3; column++) {
-      mpq_ptr entry = out[3 * row + column];
-      mpq_mul(entry, outer[3 * row], inner[column]);
-      mpq_mul(t, outer[3 * row + 1], inner[3 + column]);
-      mpq_add(entry, entry, t);
+  for (int k = 0; k < 6; k++) {
+    int row = k / 3, column = k % 3;
+    mpq_ptr entry = column < 2 ? a->term->m[2 * row + column] : a->shift[row];
+    if (!inner) {
+      mpq_set(entry, m[k]);
+      continue;
     }
-    mpq_add(out[3 * row + 2], out[3 * row + 2], outer[3 * row + 2]);
+    mpq_mul(entry, m[3 * row], column < 2 ? inner->term->m[column] : inner->shift[0]);
+    mpq_mul(t, m[3 * row + 1], column < 2 ? inner->term->m[2 + column] : inner->shift[1]);
+    mpq_add(entry, entry, t);
+    if (column == 2) mpq_add(entry, entry, m[k]);
   }
   mpq_clear(t);
 }
 
-/* A new map; owns `of`, which is released on failure. */
-static affine *affine_make(dyd_stream *of, const mpq_t m[6]) {
-  affine *a = dyd_alloc(1, sizeof *a);
+dyd_status dyd_stream_affine(dyd_stream **out, dyd_stream *of, const mpq_t m[6]) {
+  image *a = of ? image_new(1) : NULL;
   if (!a) {
     dyd_stream_free(of);
-    return NULL;
+    return of ? DYD_E_NOMEM : DYD_E_ARG;
   }
-  const affine *inner = dyd_stream_user(of, affine_narrow);
-  for (int i = 0; i < 6; i++) mpq_init(a->m[i]);
-  a->of = of;
-  if (inner) {
-    affine_compose(a->m, m, inner->m);
-    a->of = dyd_stream_ref(inner->of);
-    dyd_stream_free(of);
-  } else {
-    for (int i = 0; i < 6; i++) mpq_set(a->m[i], m[i]);
-  }
-  a->gain = affine_gain((const mpq_t *)a->m);
-  return a;
+  const image *inner = dyd_stream_user(of, affine_narrow);
+  image_add_term(a, dyd_stream_ref(inner ? inner->term->of : of));
+  affine_set(a, m, inner);
+  dyd_stream_free(of);
+  return image_stream(out, a, affine_narrow);
 }
 
-dyd_status dyd_stream_affine(dyd_stream **out, dyd_stream *of, const mpq_t m[6]) {
-  if (!of) return DYD_E_ARG;
-  affine *a = affine_make(of, m);
-  if (!a) return DYD_E_NOMEM;
-  dyd_source source = {DYD_SIZED(dyd_source), .narrow = affine_narrow, .release = affine_release, .user = a};
-  return dyd_stream_new_enclosing(out, &source, dyd_stream_is_final(a->of));
+/* ---- of several ---- */
+
+static dyd_status combination_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
+  return image_narrow(out, user, request, "a combination of points", err);
+}
+
+dyd_status dyd_stream_combination(dyd_stream **out, size_t n, dyd_stream *const *of, const mpq_t *weight,
+                                  const mpq_t shift[2]) {
+  bool whole = true;
+  for (size_t k = 0; k < n; k++) whole = whole && of[k];
+  image *a = whole ? image_new(n) : NULL;
+  for (size_t k = 0; k < n; k++) {
+    if (!a || !mpq_sgn(weight[k])) {
+      dyd_stream_free(of[k]);
+      continue;
+    }
+    term *t = image_add_term(a, of[k]);
+    mpq_set(t->m[0], weight[k]);
+    mpq_set(t->m[3], weight[k]);
+  }
+  if (!a) return whole ? DYD_E_NOMEM : DYD_E_ARG;
+  for (int axis = 0; shift && axis < 2; axis++) mpq_set(a->shift[axis], shift[axis]);
+  return image_stream(out, a, combination_narrow);
+}
+
+dyd_status dyd_stream_midpoint(dyd_stream **out, dyd_stream *a, dyd_stream *b) {
+  dyd_stream *const of[2] = {a, b};
+  mpq_t half[2];
+  for (int k = 0; k < 2; k++) {
+    mpq_init(half[k]);
+    mpq_set_ui(half[k], 1, 2);
+  }
+  dyd_status st = dyd_stream_combination(out, 2, of, (const mpq_t *)half, NULL);
+  mpq_clears(half[0], half[1], NULL);
+  return st;
 }

@@ -111,8 +111,7 @@ static void point_of_line(dyd_surd_point *out, const dyd_elementary *a, int k, m
   int o = 1 - k;
   mpz_ptr to[2] = {out->ax, out->ay};
   mpz_t n, m;
-  mpz_init(n);
-  mpz_init(m);
+  mpz_inits(n, m, NULL);
   mpz_sub(n, a->q[k], a->s[k]);
   mpz_add(m, a->q[k], a->s[k]);
   mpz_mul(to[o], n, m);
@@ -125,8 +124,7 @@ static void point_of_line(dyd_surd_point *out, const dyd_elementary *a, int k, m
   mpz_mul_2exp(out->d, out->d, 1);
   mpz_mul(to[k], num, out->d);
   mpz_mul_2exp(out->d, out->d, (mp_bitcnt_t)bits);
-  mpz_clear(m);
-  mpz_clear(n);
+  mpz_clears(n, m, NULL);
 }
 
 /* v = ((t - s_k)^2 + h (L + s_o)) / 2h */
@@ -152,14 +150,8 @@ static void point_make_positive(dyd_surd_point *p) {
   mpz_neg(p->ay, p->ay);
 }
 
-static void point_make_rational(dyd_surd_point *p) {
-  mpz_set_ui(p->bx, 0);
-  mpz_set_ui(p->by, 0);
-  mpz_set_ui(p->c, 0);
-}
-
 void dyd_elementary_at(dyd_surd_point *out, const dyd_elementary *a, mpz_srcptr num, int64_t bits) {
-  point_make_rational(out);
+  dyd_surd_point_drop_root(out);
   if (a->parabola) {
     point_of_parabola(out, a, num, bits);
   } else {
@@ -171,7 +163,7 @@ void dyd_elementary_at(dyd_surd_point *out, const dyd_elementary *a, mpz_srcptr 
 /* The point where coordinate o = 1 - axis is z. -1, 1: there is none, all of the parabola is below, above z. */
 static int point_across(dyd_surd_point *out, const dyd_elementary *a, mpz_srcptr z) {
   int k = a->axis, o = 1 - k;
-  point_make_rational(out);
+  dyd_surd_point_drop_root(out);
   if (!a->parabola) {
     point_of_line(out, a, o, z, 0);
     point_make_positive(out);
@@ -217,8 +209,7 @@ static void tighten_end(dyd_spot *end, dyd_surd_point *p, int axis, int e) {
 static bool level_is_inside(const dyd_elementary *a, int side) {
   int o = 1 - a->axis;
   mpz_t m, t;
-  mpz_init(m);
-  mpz_init(t);
+  mpz_inits(m, t, NULL);
   mpz_add(m, a->q[o], a->s[o]);
   bool inside = true;
   for (int e = 0; e < 2 && inside; e++) {
@@ -228,8 +219,7 @@ static bool level_is_inside(const dyd_elementary *a, int side) {
     int beyond = mpz_cmp(m, t) * (e ? 1 : -1), region = side * (mpz_cmp(a->s[o], a->q[o]) > 0 ? 1 : -1);
     inside = beyond < 0 || (beyond == 0 && region == (e ? -1 : 1));
   }
-  mpz_clear(t);
-  mpz_clear(m);
+  mpz_clears(m, t, NULL);
   return inside;
 }
 
@@ -270,13 +260,11 @@ static bool clip_arc(dyd_elementary *a, dyd_surd_point *p, int side) {
 static int arc_choose_axis(const dyd_elementary *a) {
   if (a->parabola) return a->q[0] ? 1 : 0;
   mpz_t x, y;
-  mpz_init(x);
-  mpz_init(y);
+  mpz_inits(x, y, NULL);
   mpz_sub(x, a->q[0], a->s[0]);
   mpz_sub(y, a->q[1], a->s[1]);
   int axis = mpz_cmpabs(x, y) <= 0 ? 0 : 1;
-  mpz_clear(y);
-  mpz_clear(x);
+  mpz_clears(x, y, NULL);
   return axis;
 }
 

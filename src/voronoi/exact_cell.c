@@ -28,9 +28,7 @@ static void sample_make_exact(const dyd_exact_cell *c, dyd_sample *s, const dyd_
   int axis = dyd_window_axis(window_side);
   mpz_set(axis ? p->ay : p->ax, s->num);
   mpz_mul_2exp(axis ? p->ax : p->ay, dyd_window_level(c, window_side), (mp_bitcnt_t)s->bits);
-  mpz_set_ui(p->bx, 0);
-  mpz_set_ui(p->by, 0);
-  mpz_set_ui(p->c, 0);
+  dyd_surd_point_drop_root(p);
   mpz_set_ui(p->d, 1);
   mpz_mul_2exp(p->d, p->d, (mp_bitcnt_t)s->bits);
 }
@@ -63,11 +61,9 @@ void dyd_cell_sample(dyd_exact_cell *c, const dyd_elementary *arc, int window_si
                      const dyd_spot *high) {
   dyd_sample *s = &c->sample;
   int axis = arc ? arc->axis : dyd_window_axis(window_side);
-  if (arc && dyd_filter_sample(s, &arc->shape, axis, low, high, c->shift)) return;
-  if (!arc) {
-    static const int end[4] = {2, 1, 3, 0};
-    if (dyd_filter_sample_segment(s, c->window.box.end[end[window_side]], axis, low, high, c->shift)) return;
-  }
+  static const int end[4] = {2, 1, 3, 0};
+  dyd_iv level = arc ? DYD_IV_UNKNOWN : c->window.box.end[end[window_side]];
+  if (dyd_filter_sample(s, arc ? &arc->shape : NULL, level, axis, low, high, c->shift)) return;
   sample_between(s, low, high, axis);
   s->spot.infinite = false;
   sample_make_exact(c, s, arc, window_side);

@@ -92,11 +92,6 @@ static void sample_set_parameter(dyd_sample *out, double t, int axis, int64_t sh
   out->spot.box[2 * axis] = out->spot.box[2 * axis + 1] = t;
 }
 
-static void sample_set_other(dyd_sample *out, dyd_iv other, int axis) {
-  out->spot.box[2 * (1 - axis)] = other.lo;
-  out->spot.box[2 * (1 - axis) + 1] = other.hi;
-}
-
 /* Lines: with n = q - s, m = q + s the other coordinate is m_o/2 + (n_k/n_o) (m_k/2 - t). Parabolas: with h = s_o - q_o
  * it is ((t - s_k)^2 / h + q_o + s_o) / 2. */
 static dyd_iv arc_other_coordinate(const dyd_filter_arc *arc, int k, double t) {
@@ -111,21 +106,14 @@ static dyd_iv arc_other_coordinate(const dyd_filter_arc *arc, int k, double t) {
   return dyd_iv_add(mo, dyd_iv_mul(slope, dyd_iv_sub(mk, at)));
 }
 
-bool dyd_filter_sample(dyd_sample *out, const dyd_filter_arc *arc, int axis, const dyd_spot *low, const dyd_spot *high,
-                       int64_t shift) {
+bool dyd_filter_sample(dyd_sample *out, const dyd_filter_arc *arc, dyd_iv level, int axis, const dyd_spot *low,
+                       const dyd_spot *high, int64_t shift) {
   double t;
   if (!double_between(&t, low, high, axis)) return false;
   sample_set_parameter(out, t, axis, shift);
-  sample_set_other(out, arc_other_coordinate(arc, axis, t), axis);
-  return true;
-}
-
-bool dyd_filter_sample_segment(dyd_sample *out, dyd_iv other, int axis, const dyd_spot *low, const dyd_spot *high,
-                               int64_t shift) {
-  double t;
-  if (!double_between(&t, low, high, axis)) return false;
-  sample_set_parameter(out, t, axis, shift);
-  sample_set_other(out, other, axis);
+  dyd_iv other = arc ? arc_other_coordinate(arc, axis, t) : level;
+  out->spot.box[2 * (1 - axis)] = other.lo;
+  out->spot.box[2 * (1 - axis) + 1] = other.hi;
   return true;
 }
 

@@ -46,12 +46,10 @@ typedef struct dyd_filter_arc {
 } dyd_filter_arc;
 
 /* A sample whose coordinate `axis` lies strictly between the points (infinite ends allowed), with its box; the other
- * coordinate follows from the arc. false: not found in doubles. */
-bool dyd_filter_sample(dyd_sample *out, const dyd_filter_arc *arc, int axis, const dyd_spot *low, const dyd_spot *high,
-                       int64_t shift);
-/* The same on the axis-parallel segment on which the other coordinate is `other`. */
-bool dyd_filter_sample_segment(dyd_sample *out, dyd_iv other, int axis, const dyd_spot *low, const dyd_spot *high,
-                               int64_t shift);
+ * coordinate follows from the arc, or is `level` on an axis-parallel segment (arc = NULL). false: not found in doubles.
+ */
+bool dyd_filter_sample(dyd_sample *out, const dyd_filter_arc *arc, dyd_iv level, int axis, const dyd_spot *low,
+                       const dyd_spot *high, int64_t shift);
 
 /* Do the conditions |c - s| = distance to q surely have no solution in the closed pane lo .. hi (an infinite interval
  * where there is no bound)? The difference of squares is monotone in each coordinate there [ARC-1], so its extremes are

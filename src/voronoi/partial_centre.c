@@ -80,8 +80,7 @@ dyd_truth dyd_partial_disc_side(const dyd_partial_disc *d, const dyd_point *c) {
 /* Are all corners of q nearer to a than to b, dl_a < ds_b? */
 static bool corners_nearer(const dyd_irect *q, const dyd_irect *a, const dyd_irect *b) {
   mpz_t dl, ds;
-  mpz_init(dl);
-  mpz_init(ds);
+  mpz_inits(dl, ds, NULL);
   bool nearer = true;
   for (int corner = 0; corner < 4 && nearer; corner++) {
     mpz_srcptr x = corner & 1 ? q->x1 : q->x0, y = corner & 2 ? q->y1 : q->y0;
@@ -89,8 +88,7 @@ static bool corners_nearer(const dyd_irect *q, const dyd_irect *a, const dyd_ire
     dyd_irect_ds2(ds, x, y, b);
     nearer = mpz_cmp(dl, ds) < 0;
   }
-  mpz_clear(ds);
-  mpz_clear(dl);
+  mpz_clears(dl, ds, NULL);
   return nearer;
 }
 

@@ -10,6 +10,7 @@
  * Moves are at most 2^-(bits+2), chords are within 2^-(bits+1) of their arcs. [POLY-1] [POLY-2] */
 #include "base/alloc.h"
 #include "dyadic/raw.h"
+#include "rect/interval.h"
 #include "voronoi/polygon.h"
 #include "voronoi/sample.h"
 #include "voronoi/shape.h"
@@ -77,12 +78,6 @@ static dyd_status move_by_step(dyd_point *z, work *w, bool stretch, int64_t fine
 
 /* ---- inward ---- */
 
-static bool inside_window(const work *w, const dyd_point *z) {
-  const dyd_rect *r = w->window;
-  return dyd_dyadic_cmp(&r->x.lo, &z->x) <= 0 && dyd_dyadic_cmp(&z->x, &r->x.hi) <= 0 &&
-         dyd_dyadic_cmp(&r->y.lo, &z->y) <= 0 && dyd_dyadic_cmp(&z->y, &r->y.hi) <= 0;
-}
-
 /* goal = the mean of the samples, rounded: inside when fine is large enough. */
 static dyd_status find_inner_goal(bool *out, work *w, int64_t fine) {
   dyd_point z;
@@ -102,7 +97,7 @@ static dyd_status find_inner_goal(bool *out, work *w, int64_t fine) {
   mpq_div(y, y, w->s);
   if (st == DYD_OK) st = dyd_dyadic_round_q(&w->goal.x, x, -fine, DYD_DOWN);
   if (st == DYD_OK) st = dyd_dyadic_round_q(&w->goal.y, y, -fine, DYD_DOWN);
-  *out = st == DYD_OK && inside_window(w, &w->goal) && dyd_cell_holds(&w->sites, &w->goal);
+  *out = st == DYD_OK && dyd_rect_holds(w->window, &w->goal) && dyd_cell_holds(&w->sites, &w->goal);
   mpq_clears(x, y, NULL);
   dyd_point_clear(&z);
   return st;
@@ -118,7 +113,7 @@ static dyd_status place_inner(bool *out, dyd_point *z, work *w, const dyd_arc_sa
   dyd_dyadic_get_q(w->y, &w->goal.y);
   mpq_sub(w->y, w->y, w->s);
   st = move_by_step(z, w, false, fine);
-  *out = st == DYD_OK && inside_window(w, z) && dyd_cell_holds(&w->sites, z);
+  *out = st == DYD_OK && dyd_rect_holds(w->window, z) && dyd_cell_holds(&w->sites, z);
   return st;
 }
 

@@ -3,6 +3,7 @@
 #include "voronoi/sample.h"
 
 #include "base/alloc.h"
+#include "base/index.h"
 #include "dyadic/raw.h"
 
 #include <string.h>
@@ -36,15 +37,8 @@ void dyd_cell_sites_clear(dyd_cell_sites *s) {
 }
 
 const dyd_rect *dyd_cell_site(const dyd_cell_sites *s, uint32_t site) {
-  size_t lo = 0, hi = s->count;
-  while (lo < hi) {
-    size_t middle = (lo + hi) / 2;
-    if (s->site[middle] < site)
-      lo = middle + 1;
-    else
-      hi = middle;
-  }
-  return lo < s->count && s->site[lo] == site ? &s->other[lo] : &s->own;
+  const uint32_t *at = dyd_find_index(&site, s->site, s->count, sizeof site);
+  return at ? &s->other[at - s->site] : &s->own;
 }
 
 bool dyd_cell_holds(const dyd_cell_sites *s, const dyd_point *c) {

@@ -48,58 +48,30 @@ int dyd_surd_point_cmp(const dyd_surd_point *p, const dyd_surd_point *q, int axi
 
 int dyd_surd_point_cmp_z(const dyd_surd_point *p, int axis, mpz_srcptr z) {
   dyd_surd s = surd_coordinate(p, axis);
-  mpz_t a;
-  mpz_init_set(a, s.a);
-  mpz_submul(a, z, s.d);
-  int sign = dyd_sqrt_sign(a, s.b, s.c);
-  mpz_clear(a);
+  mpz_t t;
+  mpz_init(t);
+  int sign = dyd_surd_compare(t, &s, z);
+  mpz_clear(t);
   return sign;
-}
-
-/* Scratch of one comparison; sum is P + Q sqrt(c). */
-typedef struct frame {
-  mpz_t p, q, s, t;
-} frame;
-
-/* sum += sign * d^2 (s - z)^2; nothing for z = NULL: the distance along this axis is 0. */
-static void surd_add_square(frame *f, const dyd_surd *s, mpz_srcptr z, int sign) {
-  if (!z) return;
-  mpz_set(f->s, s->a);
-  mpz_submul(f->s, z, s->d);
-  mpz_mul(f->t, f->s, s->b);
-  mpz_mul_2exp(f->t, f->t, 1);
-  if (sign > 0) {
-    mpz_add(f->q, f->q, f->t);
-    mpz_addmul(f->p, f->s, f->s);
-  } else {
-    mpz_sub(f->q, f->q, f->t);
-    mpz_submul(f->p, f->s, f->s);
-  }
-  mpz_mul(f->t, s->b, s->b);
-  if (sign > 0) {
-    mpz_addmul(f->p, f->t, s->c);
-  } else {
-    mpz_submul(f->p, f->t, s->c);
-  }
-}
-
-static void surd_add_distance(frame *f, const dyd_surd_point *p, const dyd_irect *r, dyd_touch touch, int sign) {
-  dyd_surd x = surd_coordinate(p, 0), y = surd_coordinate(p, 1);
-  bool far = touch == DYD_FARTHEST;
-  surd_add_square(
-      f, &x, far ? dyd_surd_farthest(f->s, f->t, &x, r->x0, r->x1) : dyd_surd_closest(f->s, &x, r->x0, r->x1), sign);
-  surd_add_square(
-      f, &y, far ? dyd_surd_farthest(f->s, f->t, &y, r->y0, r->y1) : dyd_surd_closest(f->s, &y, r->y0, r->y1), sign);
 }
 
 int dyd_surd_point_side(const dyd_surd_point *p, const dyd_irect *a, dyd_touch ta, const dyd_irect *b, dyd_touch tb) {
-  frame f;
-  mpz_inits(f.p, f.q, f.s, f.t, NULL);
-  surd_add_distance(&f, p, a, ta, 1);
-  surd_add_distance(&f, p, b, tb, -1);
-  int sign = dyd_sqrt_sign(f.p, f.q, p->c);
-  mpz_clears(f.p, f.q, f.s, f.t, NULL);
+  const dyd_surd xy[2] = {surd_coordinate(p, 0), surd_coordinate(p, 1)};
+  mpz_t pa, qa, pb, qb;
+  mpz_inits(pa, qa, pb, qb, NULL);
+  dyd_surd_add_distance2(pa, qa, xy, a, ta);
+  dyd_surd_add_distance2(pb, qb, xy, b, tb);
+  mpz_sub(pa, pa, pb);
+  mpz_sub(qa, qa, qb);
+  int sign = dyd_sqrt_sign(pa, qa, p->c);
+  mpz_clears(pa, qa, pb, qb, NULL);
   return sign;
+}
+
+void dyd_surd_point_drop_root(dyd_surd_point *p) {
+  mpz_set_ui(p->bx, 0);
+  mpz_set_ui(p->by, 0);
+  mpz_set_ui(p->c, 0);
 }
 
 static void surd_make_rational(dyd_surd_point *p) {
@@ -109,9 +81,7 @@ static void surd_make_rational(dyd_surd_point *p) {
     mpz_addmul(p->ax, p->bx, p->c);
     mpz_addmul(p->ay, p->by, p->c);
   }
-  mpz_set_ui(p->bx, 0);
-  mpz_set_ui(p->by, 0);
-  mpz_set_ui(p->c, 0);
+  dyd_surd_point_drop_root(p);
 }
 
 /* Squares of the primes that scales are made of go from under the root before it. */

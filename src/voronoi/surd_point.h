@@ -12,6 +12,8 @@ int dyd_surd_point_cmp(const dyd_surd_point *p, const dyd_surd_point *q, int axi
 int dyd_surd_point_cmp_z(const dyd_surd_point *p, int axis, mpz_srcptr z);
 /* dyd_surd_point_compare on one integer scale. */
 int dyd_surd_point_side(const dyd_surd_point *p, const dyd_irect *a, dyd_touch ta, const dyd_irect *b, dyd_touch tb);
+/* Only the rational parts of the coordinates stay. */
+void dyd_surd_point_drop_root(dyd_surd_point *p);
 /* The same point with c = 0 when it is rational, and without common factors. */
 void dyd_surd_point_tidy(dyd_surd_point *p);
 /* floor = the greatest integer <= 2^bits times the coordinate, ceiling = the least one >=. */
