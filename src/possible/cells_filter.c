@@ -12,6 +12,7 @@
 #include "possible/cells_filter.h"
 
 #include "base/alloc.h"
+#include "possible/plane_filter.h"
 #include "skeleton/rects_filter.h"
 
 #include <math.h>
@@ -70,62 +71,17 @@ typedef struct plane {
   bool enough, lost;
 } plane;
 
-/* A point, or a direction. */
-typedef struct corner {
-  double x, y;
-  bool far;
-} corner;
-
-static corner ray(const plane *p, int side, double w, bool far) {
+static dyd_plane_corner ray(const plane *p, int side, double w, bool far) {
   double one = side & 1 ? -1 : 1;
-  if (far) return side < 2 ? (corner){w, one, true} : (corner){one, w, true};
-  if (side < 2) return (corner){p->cx + p->radius * w, side & 1 ? p->y0 : p->y1, false};
-  return (corner){side & 1 ? p->x0 : p->x1, p->cy + p->radius * w, false};
+  if (far) return side < 2 ? (dyd_plane_corner){w, one, true} : (dyd_plane_corner){one, w, true};
+  if (side < 2) return (dyd_plane_corner){p->cx + p->radius * w, side & 1 ? p->y0 : p->y1, false};
+  return (dyd_plane_corner){side & 1 ? p->x0 : p->x1, p->cy + p->radius * w, false};
 }
 
-static void corners(corner v[4], const plane *p, const cell *q) {
+static void corners(dyd_plane_corner v[4], const plane *p, const cell *q) {
   for (int k = 0; k < 4; k++)
-    v[k] = q->side < 0 ? (corner){k & 1 ? q->x1 : q->x0, k & 2 ? q->y1 : q->y0, false}
+    v[k] = q->side < 0 ? (dyd_plane_corner){k & 1 ? q->x1 : q->x0, k & 2 ? q->y1 : q->y0, false}
                        : ray(p, q->side, k & 1 ? q->x1 : q->x0, k & 2);
-}
-
-/* ---- how far, as a number to compare at one corner: squared distance, or minus height ---- */
-
-static double height_error(double px, double py) {
-  return 8 * 0x1p-53 * (fabs(px) + fabs(py)) + DYD_TINY;
-}
-
-/* Lower bound of -u.x over a box that reaches `slack` farther. */
-static double depth_lower(double ux, double uy, double x, double y, double slack) {
-  double px = ux * x, py = uy * y, s = (fabs(ux) + fabs(uy)) * slack;
-  return -(px + py + s) - height_error(px, py) - 4 * 0x1p-53 * s;
-}
-static double depth_upper(double ux, double uy, double x, double y, double slack) {
-  return -depth_lower(-ux, -uy, x, y, slack);
-}
-
-/* Upper bound of the farthest of a rectangle. */
-static double farthest_upper(const corner *v, const dyd_bbox *b) {
-  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
-  if (!v->far) return dyd_dl2_upper(&c, b);
-  return depth_upper(v->x, v->y, v->x > 0 ? b->e[0] : b->e[1], v->y > 0 ? b->e[2] : b->e[3], 0);
-}
-/* Lower bound of the closest. */
-static double closest_lower(const corner *v, const dyd_bbox *b) {
-  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
-  if (!v->far) return dyd_ds2_lower(&c, b);
-  return depth_lower(v->x, v->y, v->x > 0 ? b->e[1] : b->e[0], v->y > 0 ? b->e[3] : b->e[2], 0);
-}
-/* The bounds from the other side; slack: by how much the box may be wider than the rectangle. */
-static double farthest_lower(const corner *v, const dyd_bbox *b, double slack) {
-  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
-  if (!v->far) return dyd_dl2_lower(&c, b, slack);
-  return depth_lower(v->x, v->y, v->x > 0 ? b->e[0] : b->e[1], v->y > 0 ? b->e[2] : b->e[3], slack);
-}
-static double closest_upper(const corner *v, const dyd_bbox *b, double slack) {
-  dyd_bbox c = {{v->x, v->x, v->y, v->y}};
-  if (!v->far) return dyd_ds2_upper(&c, b, slack);
-  return depth_upper(v->x, v->y, v->x > 0 ? b->e[1] : b->e[0], v->y > 0 ? b->e[3] : b->e[2], slack);
 }
 
 /* ---- the list of a cell ---- */
@@ -136,12 +92,12 @@ typedef struct dominator {
 } dominator;
 
 /* farthest_upper at the corners. Those of a square have two x and two y only: the same steps, but half of them. */
-static void measure(dominator *d, const plane *p, const corner v[4]) {
+static void measure(dominator *d, const plane *p, const dyd_plane_corner v[4]) {
   const dyd_bbox *b = &p->c->rects->box[d->vertex];
   const double c[4] = {v[0].x, v[3].x, v[0].y, v[3].y};
   double s[4];
   if (v[3].far) {
-    for (int k = 0; k < 4; k++) d->at[k] = farthest_upper(&v[k], b);
+    for (int k = 0; k < 4; k++) d->at[k] = dyd_farthest_upper(&v[k], b);
     return;
   }
   for (int k = 0; k < 4; k++) s[k] = dyd_max(b->e[k | 1] - c[k], c[k] - b->e[k & 2]);
@@ -150,12 +106,12 @@ static void measure(dominator *d, const plane *p, const corner v[4]) {
 }
 
 /* closest_lower at the corners, likewise. */
-static void measure_closest(double at[4], const plane *p, uint32_t vertex, const corner v[4]) {
+static void measure_closest(double at[4], const plane *p, uint32_t vertex, const dyd_plane_corner v[4]) {
   const dyd_bbox *b = &p->c->rects->box[vertex];
   const double c[4] = {v[0].x, v[3].x, v[0].y, v[3].y};
   double s[4];
   if (v[3].far) {
-    for (int k = 0; k < 4; k++) at[k] = closest_lower(&v[k], b);
+    for (int k = 0; k < 4; k++) at[k] = dyd_closest_lower(&v[k], b);
     return;
   }
   for (int k = 0; k < 4; k++) s[k] = dyd_max(b->e[k & 2] - c[k], c[k] - b->e[k | 1]);
@@ -165,7 +121,7 @@ static void measure_closest(double at[4], const plane *p, uint32_t vertex, const
 }
 
 /* Who is nearest at the worst corner, and who at each corner. Returns how many. */
-static int choose_dominators(dominator best[DOMINATORS], const plane *p, const cell *q, const corner v[4]) {
+static int choose_dominators(dominator best[DOMINATORS], const plane *p, const cell *q, const dyd_plane_corner v[4]) {
   double least[DOMINATORS] = {INFINITY, INFINITY, INFINITY, INFINITY, INFINITY};
   dominator all[DOMINATORS] = {{DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}};
   for (size_t e = 0; e < q->count; e++) {
@@ -189,7 +145,8 @@ static int choose_dominators(dominator best[DOMINATORS], const plane *p, const c
   return count;
 }
 
-static bool is_dominated(const plane *p, uint32_t vertex, const corner v[4], const dominator *best, int count) {
+static bool is_dominated(const plane *p, uint32_t vertex, const dyd_plane_corner v[4], const dominator *best,
+                         int count) {
   double at[4];
   measure_closest(at, p, vertex, v);
   for (int m = 0; m < count; m++)
@@ -199,14 +156,14 @@ static bool is_dominated(const plane *p, uint32_t vertex, const corner v[4], con
   return false;
 }
 
-static corner centre_of(const plane *p, const cell *q) {
+static dyd_plane_corner centre_of(const plane *p, const cell *q) {
   double x = q->x0 + (q->x1 - q->x0) / 2, y = q->y0 + (q->y1 - q->y0) / 2;
-  return q->side < 0 ? (corner){x, y, false} : ray(p, q->side, x, true);
+  return q->side < 0 ? (dyd_plane_corner){x, y, false} : ray(p, q->side, x, true);
 }
 
 /* An upper bound of dl at the centre for whoever has the least dl anywhere in a square: dl changes by at most the way,
  * so it is at most the least one at the centre, and twice the way to the farthest corner. Infinite for strips. */
-static double rival_limit(const cell *q, const corner *centre, double least2) {
+static double rival_limit(const cell *q, const dyd_plane_corner *centre, double least2) {
   if (q->side >= 0) return INFINITY;
   double dx = dyd_max(q->x1 - centre->x, centre->x - q->x0), dy = dyd_max(q->y1 - centre->y, centre->y - q->y0);
   double limit = sqrt(least2) + 2 * sqrt(dyd_upper(dx * dx + dy * dy));
@@ -219,16 +176,16 @@ static double rival_limit(const cell *q, const corner *centre, double least2) {
 static void find_rivals(plane *p, const cell *q) {
   const entry *e = p->entry + q->first;
   const dyd_bbox *box = p->c->rects->box;
-  corner centre = centre_of(p, q);
+  dyd_plane_corner centre = centre_of(p, q);
   double upper = INFINITY;
   bool good = true;
   p->least = INFINITY;
   for (size_t k = 0; k < q->count; k++) {
     if (!e[k].rival) continue;
-    p->value[k] = farthest_lower(&centre, &box[e[k].vertex], dyd_box_slack(p->c->rects, e[k].vertex));
+    p->value[k] = dyd_farthest_lower(&centre, &box[e[k].vertex], dyd_box_slack(p->c->rects, e[k].vertex));
     good = good && !isnan(p->value[k]);
     p->least = dyd_min(p->value[k], p->least);
-    upper = dyd_min(farthest_upper(&centre, &box[e[k].vertex]), upper);
+    upper = dyd_min(dyd_farthest_upper(&centre, &box[e[k].vertex]), upper);
   }
   if (!good) p->least = -INFINITY;
   double limit = rival_limit(q, &centre, upper);
@@ -247,7 +204,7 @@ static void find_wanted(plane *p, const cell *q) {
 /* Writes the rivals of the parent's list, and its members with open pairs that are not dominated, behind all lists, and
  * makes that q's list. place[] tells where the latter have gone. Returns how many they are. */
 static size_t make_list(plane *p, cell *q) {
-  corner v[4];
+  dyd_plane_corner v[4];
   dominator best[DOMINATORS];
   find_rivals(p, q);
   find_wanted(p, q);
@@ -279,10 +236,10 @@ static bool is_open(const plane *p, const entry *a, const entry *b) {
 static void cells_try_centre(plane *p, const cell *q) {
   const dyd_rects *r = p->c->rects;
   const entry *e = p->entry + q->first;
-  corner v = centre_of(p, q);
+  dyd_plane_corner v = centre_of(p, q);
   for (size_t k = 0; k < q->count; k++)
-    p->near[k] =
-        e[k].member != DYD_NONE && closest_upper(&v, &r->box[e[k].vertex], dyd_box_slack(r, e[k].vertex)) <= p->least;
+    p->near[k] = e[k].member != DYD_NONE &&
+                 dyd_closest_upper(&v, &r->box[e[k].vertex], dyd_box_slack(r, e[k].vertex)) <= p->least;
 }
 
 /* Tells of the pair of the list if it is open and shown, else keeps it if it is open and the cell is listed. */
