@@ -86,24 +86,6 @@ DYD_API dyd_status dyd_nearest(dyd_index_list *out, bool *sure, const dyd_delaun
 /* The same for a point anywhere in the rectangle q: i is listed iff q meets Pos_i; *sure: q lies in Int_i. Exact. */
 DYD_API dyd_status dyd_nearest_rect(dyd_index_list *out, bool *sure, const dyd_delaunay *pd, const dyd_rect *q);
 
-/* ---- convex hull ---- */
-
-/* Status of the convex hull of the sites, since the ghost vertex is one of the vertices of the triangulation. As for
- * pairs, what is possible is closed and what is sure is open: an exact point in the middle of a side of the hull is
- * possible, not sure, and its pairs on that side are ties. Aliases are not listed. */
-typedef struct dyd_hull {
-  dyd_index_list sure_vertices;     /* corners of the hull for every choice; ascending */
-  dyd_index_list possible_vertices; /* on its boundary for some choice, the sure ones included; ascending */
-  /* The pairs ij for which some choice has all points on one closed side of a line through p_i and p_j; sorted. LEGAL:
-   * for every choice all others are strictly on one side (so ij is an edge of the hull). TIE: not LEGAL, and i, j and
-   * all that may be on the line with both are exact. */
-  dyd_pair_list pairs;
-} dyd_hull;
-DYD_API void dyd_hull_clear(dyd_hull *h);
-/* Exact [HST-1] [HST-2]. *out is replaced. DYD_CAPPED: more pairs than the cap of pd; `pairs` is empty then, the rest
- * is complete. O(h log h + pairs), h the sites on the skeleton's hull or in unbounded undecided faces. */
-DYD_API dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd);
-
 #ifdef __cplusplus
 }
 #endif

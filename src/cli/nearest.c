@@ -39,16 +39,16 @@ static dyd_status answer(dyd_engine *e, const dyd_engine_options *options, void 
   query *q = user;
   dyd_engine_options o = *options;
   o.max_stages = 1;
-  dyd_status status = dyd_engine_run(&q->outcome, e, &o, err);
-  if (status < 0 || !dyd_engine_delaunay(e)) return status;
+  dyd_status st = dyd_engine_run(&q->outcome, e, &o, err);
+  if (st != DYD_OK || !dyd_engine_delaunay(e)) return st;
   if (q->outcome == DYD_OUTCOME_CANCELLED) dyd_engine_cancel(e);
   if (o.seconds > 0) {
     o.seconds = q->end - cli_clock();
     if (o.seconds <= 0) o.seconds = 1e-3;
   }
-  status = dyd_engine_nearest(&q->found, &q->sure, &q->outcome, e, q->at, &o, err);
-  q->known = status >= 0;
-  return status;
+  st = dyd_engine_nearest(&q->found, &q->sure, &q->outcome, e, q->at, &o, err);
+  q->known = st == DYD_OK;
+  return st;
 }
 
 /* ---- output ---- */

@@ -35,7 +35,7 @@ dyd_status dyd_delaunay_new(dyd_delaunay **out, const dyd_sites *sites, const dy
   if (!pd) return dyd_fail_nomem(err);
   set_options(pd, &o, dyd_sites_count(sites));
   dyd_status st = finish(pd, dyd_build(pd, sites, (dyd_known){NULL, 0}, err), err);
-  if (st < 0 || st == DYD_CANCELLED)
+  if (dyd_failed(st) || st == DYD_CANCELLED)
     free(pd);
   else
     *out = pd;

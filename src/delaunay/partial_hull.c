@@ -11,6 +11,7 @@
 #include "delaunay/partial_hull.h"
 
 #include "base/alloc.h"
+#include "base/error.h"
 #include "delaunay/undecided.h"
 
 #include <string.h>
@@ -285,7 +286,7 @@ dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd) {
   dyd_hull found = {0};
   dyd_status st = fill(&found, &h);
   hull_clear(&h);
-  if (st < 0) {
+  if (dyd_failed(st)) {
     dyd_hull_clear(&found);
     return st;
   }

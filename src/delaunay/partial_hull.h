@@ -5,7 +5,6 @@
 
 #include "delaunay/state.h"
 #include "predicate/interval_filter.h"
-#include <dyadel/voronoi.h>
 
 /* A vertex that may be on the hull: its rectangle x0 x1 y0 y1 mirrored so that the directions looked at are u >= 0,
  * exactly and in doubles. */

@@ -9,12 +9,14 @@
 /* ---- samples and sides ---- */
 
 int dyd_cell_spot_side(const dyd_exact_cell *c, const dyd_spot *p, size_t k) {
-  int sign = dyd_filter_side(p, &c->other[k].box, c->other_touch, &c->fixed.box, c->fixed_touch);
-  return sign ? sign : dyd_surd_point_side(&p->at, &c->other[k].r, c->other_touch, &c->fixed.r, c->fixed_touch);
+  int sign = dyd_filter_side(p, &c->other[k].box, c->frame->other_touch, &c->frame->fixed.box, c->frame->fixed_touch);
+  return sign ? sign
+              : dyd_surd_point_side(&p->at, &c->other[k].r, c->frame->other_touch, &c->frame->fixed.r,
+                                    c->frame->fixed_touch);
 }
 
 mpz_srcptr dyd_window_level(const dyd_exact_cell *c, int side) {
-  const dyd_irect *w = &c->window.r;
+  const dyd_irect *w = &c->frame->window.r;
   return side == 0 ? w->y0 : side == 1 ? w->x1 : side == 2 ? w->y1 : w->x0;
 }
 
@@ -34,10 +36,12 @@ static void sample_make_exact(const dyd_exact_cell *c, dyd_sample *s, const dyd_
 }
 
 int dyd_cell_side(const dyd_exact_cell *c, dyd_sample *s, const dyd_elementary *arc, int window_side, size_t k) {
-  int sign = dyd_filter_side(&s->spot, &c->other[k].box, c->other_touch, &c->fixed.box, c->fixed_touch);
+  int sign =
+      dyd_filter_side(&s->spot, &c->other[k].box, c->frame->other_touch, &c->frame->fixed.box, c->frame->fixed_touch);
   if (sign) return sign;
   if (!s->known) sample_make_exact(c, s, arc, window_side);
-  return dyd_surd_point_side(&s->spot.at, &c->other[k].r, c->other_touch, &c->fixed.r, c->fixed_touch);
+  return dyd_surd_point_side(&s->spot.at, &c->other[k].r, c->frame->other_touch, &c->frame->fixed.r,
+                             c->frame->fixed_touch);
 }
 
 /* num / 2^bits strictly between two points, by enclosures of growing precision. */
@@ -62,12 +66,12 @@ void dyd_cell_sample(dyd_exact_cell *c, const dyd_elementary *arc, int window_si
   dyd_sample *s = &c->sample;
   int axis = arc ? arc->axis : dyd_window_axis(window_side);
   static const int end[4] = {2, 1, 3, 0};
-  dyd_iv level = arc ? DYD_IV_UNKNOWN : c->window.box.end[end[window_side]];
-  if (dyd_filter_sample(s, arc ? &arc->shape : NULL, level, axis, low, high, c->shift)) return;
+  dyd_iv level = arc ? DYD_IV_UNKNOWN : c->frame->window.box.end[end[window_side]];
+  if (dyd_filter_sample(s, arc ? &arc->shape : NULL, level, axis, low, high, c->frame->shift)) return;
   sample_between(s, low, high, axis);
   s->spot.infinite = false;
   sample_make_exact(c, s, arc, window_side);
-  dyd_filter_spot_box(&s->spot, c->shift);
+  dyd_filter_spot_box(&s->spot, c->frame->shift);
 }
 
 /* ---- cuts ---- */

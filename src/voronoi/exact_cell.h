@@ -34,21 +34,27 @@ typedef struct dyd_meet {
   dyd_spot spot;
 } dyd_meet;
 
+/* What all parts of the work on a cell look at: the rectangles of the site and of the window in one scale. */
+typedef struct dyd_cell_frame {
+  dyd_touch fixed_touch, other_touch;
+  dyd_scaled fixed, window;
+  mpz_t man, ox, oy;
+  int64_t exp, shift;
+  dyd_spot corner[4]; /* of the window: x0 y0, x1 y0, x1 y1, x0 y1 */
+} dyd_cell_frame;
+
 /* Coordinates are F (x - o) for the caller's x: F = man * 2^exp, even on rectangles; o = the centre of `fixed`, about.
  * curve[k]: the boundary of C_ik (Int) or C_ki (Pos), count = 0 if the rectangles meet. kept: the rectangles that do
  * not meet `fixed`, the only ones that matter to Pos; Int is empty when there are others. */
 typedef struct dyd_exact_cell {
   const dyd_cell_task *task;
+  const dyd_cell_frame *frame; /* borrowed */
   size_t count;
   uint32_t *site;
-  dyd_touch fixed_touch, other_touch;
-  dyd_scaled fixed, window, *other;
-  mpz_t man, ox, oy;
-  int64_t exp, shift;
+  dyd_scaled *other;
   dyd_curve *curve;
   dyd_meet *meet;
   size_t meets, meet_cap;
-  dyd_spot corner[4]; /* of the window: x0 y0, x1 y0, x1 y1, x0 y1 */
   dyd_piece *piece;
   size_t pieces, piece_cap;
   dyd_sample sample;
@@ -87,6 +93,9 @@ dyd_status dyd_cell_window_pieces(dyd_exact_cell *c);
 /* Fills curve, meet, piece, empty before; and their release. */
 dyd_status dyd_cell_find_pieces(dyd_exact_cell *c);
 void dyd_cell_forget(dyd_exact_cell *c);
+/* task and frame are borrowed; other and site are owned, but not what other points to. */
+void dyd_cell_init(dyd_exact_cell *c, const dyd_cell_task *task, const dyd_cell_frame *frame);
+void dyd_cell_clear(dyd_exact_cell *c);
 /* Leaves out others that surely do not bound the region, before the pieces are looked for. [PRUNE-1] */
 dyd_status dyd_cell_prune(dyd_exact_cell *c);
 /* Joins the pieces to chains. *out is empty before; on failure the caller clears it. */

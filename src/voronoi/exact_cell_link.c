@@ -92,7 +92,7 @@ static void links_write_end(dyd_arc_end *out, const dyd_exact_cell *c, const dyd
   out->site = e.site;
   if (e.kind == DYD_END_INFINITE) return;
   dyd_surd_point_set(&out->at, &at->at);
-  dyd_surd_point_unscale(&out->at, c->ox, c->oy, c->man, c->exp);
+  dyd_surd_point_unscale(&out->at, c->frame->ox, c->frame->oy, c->frame->man, c->frame->exp);
 }
 
 /* The arc made of the pieces from first to last. */

@@ -14,6 +14,8 @@
 #include "predicate/icircle.h"
 #include "voronoi/exact_cell.h"
 
+#include <string.h>
+
 /* ---- cuts of an arc ---- */
 
 /* Adds s if it is strictly inside the arc. */
@@ -82,7 +84,7 @@ static dyd_status curves_add_meet(dyd_exact_cell *c, size_t j, size_t k, dyd_ici
   mpz_swap(p->by, circle->by);
   mpz_swap(p->c, circle->c);
   mpz_swap(p->d, circle->d);
-  dyd_filter_spot_box(&m->spot, c->shift);
+  dyd_filter_spot_box(&m->spot, c->frame->shift);
   return DYD_OK;
 }
 
@@ -94,12 +96,12 @@ static bool curves_may_meet(const dyd_exact_cell *c, size_t j, size_t k) {
 static dyd_status curves_find_meets(dyd_exact_cell *c) {
   dyd_icircle circle[DYD_CELL_CIRCLES];
   for (int m = 0; m < DYD_CELL_CIRCLES; m++) dyd_icircle_init(&circle[m]);
-  const dyd_touch touch[3] = {c->fixed_touch, c->other_touch, c->other_touch};
+  const dyd_touch touch[3] = {c->frame->fixed_touch, c->frame->other_touch, c->frame->other_touch};
   dyd_status st = DYD_OK;
   for (size_t j = 0; j < c->count; j++)
     for (size_t k = j + 1; k < c->count && st == DYD_OK; k++) {
       if (!curves_may_meet(c, j, k)) continue;
-      const dyd_irect *r[3] = {&c->fixed.r, &c->other[j].r, &c->other[k].r};
+      const dyd_irect *r[3] = {&c->frame->fixed.r, &c->other[j].r, &c->other[k].r};
       size_t found = dyd_icircles(circle, DYD_CELL_CIRCLES, r, touch);
       DYD_INVARIANT(found < DYD_CELL_CIRCLES);
       for (size_t m = 0; m < found && st == DYD_OK; m++) st = curves_add_meet(c, j, k, &circle[m]);
@@ -125,15 +127,31 @@ void dyd_cell_forget(dyd_exact_cell *c) {
   c->cut_cap = c->pieces = c->piece_cap = c->meets = c->meet_cap = 0;
 }
 
+void dyd_cell_init(dyd_exact_cell *c, const dyd_cell_task *task, const dyd_cell_frame *frame) {
+  memset(c, 0, sizeof *c);
+  c->task = task;
+  c->frame = frame;
+  mpz_init(c->sample.num);
+  dyd_surd_point_init(&c->sample.spot.at);
+}
+
+void dyd_cell_clear(dyd_exact_cell *c) {
+  dyd_cell_forget(c);
+  free(c->other);
+  free(c->site);
+  dyd_surd_point_clear(&c->sample.spot.at);
+  mpz_clear(c->sample.num);
+}
+
 static dyd_status cell_set_curves(dyd_exact_cell *c) {
   c->curve = dyd_alloc(c->count, sizeof *c->curve);
   if (!c->curve) return DYD_E_NOMEM;
-  const dyd_scaled *window = c->task->windowed ? &c->window : NULL;
+  const dyd_scaled *window = c->task->windowed ? &c->frame->window : NULL;
   for (size_t k = 0; k < c->count; k++) {
     dyd_curve_init(&c->curve[k]);
-    const dyd_scaled *far = c->task->outer ? &c->other[k] : &c->fixed,
-                     *near = c->task->outer ? &c->fixed : &c->other[k];
-    dyd_curve_set(&c->curve[k], far, near, window, c->task->outer ? -1 : 1, c->shift);
+    const dyd_scaled *far = c->task->outer ? &c->other[k] : &c->frame->fixed,
+                     *near = c->task->outer ? &c->frame->fixed : &c->other[k];
+    dyd_curve_set(&c->curve[k], far, near, window, c->task->outer ? -1 : 1, c->frame->shift);
   }
   return DYD_OK;
 }

@@ -61,7 +61,7 @@ static bool corner_is_farther(const prune *f, const dyd_piece *p, size_t k) {
       if (both_farther(p, &x, &s)) return true;
     }
     for (int b = 0; b < 4 && !p->arc; b++) {
-      dyd_irect y = corner_of_irect(&f->c->fixed.r, b);
+      dyd_irect y = corner_of_irect(&f->c->frame->fixed.r, b);
       if (both_farther(p, &x, &y)) return true;
     }
   }
@@ -70,8 +70,8 @@ static bool corner_is_farther(const prune *f, const dyd_piece *p, size_t k) {
 
 /* Is the centre of no critical circle with k on the piece of an arc? */
 static bool no_circle_on_piece(prune *f, const dyd_piece *p, size_t k) {
-  const dyd_touch touch[3] = {f->c->fixed_touch, f->c->other_touch, f->c->other_touch};
-  const dyd_irect *r[3] = {&f->c->fixed.r, &f->sub.other[p->curve].r, &f->c->other[k].r};
+  const dyd_touch touch[3] = {f->c->frame->fixed_touch, f->c->frame->other_touch, f->c->frame->other_touch};
+  const dyd_irect *r[3] = {&f->c->frame->fixed.r, &f->sub.other[p->curve].r, &f->c->other[k].r};
   size_t found = dyd_icircles(f->circle, DYD_CELL_CIRCLES, r, touch);
   if (found >= DYD_CELL_CIRCLES) return false;
   bool forward = p->begin == &p->arc->end[0] || dyd_cell_spot_cmp(p->begin, p->end, p->arc->axis) < 0;
@@ -79,7 +79,7 @@ static bool no_circle_on_piece(prune *f, const dyd_piece *p, size_t k) {
   for (size_t m = 0; m < found; m++) {
     const dyd_icircle *o = &f->circle[m];
     dyd_spot at = {.at = {{o->ax[0]}, {o->bx[0]}, {o->ay[0]}, {o->by[0]}, {o->c[0]}, {o->d[0]}}}; /* borrowed limbs */
-    dyd_filter_spot_box(&at, f->c->shift);
+    dyd_filter_spot_box(&at, f->c->frame->shift);
     if (dyd_elementary_holds(p->arc, &at) && dyd_cell_spot_cmp(&at, low, p->arc->axis) >= 0 &&
         dyd_cell_spot_cmp(&at, high, p->arc->axis) <= 0)
       return false;
@@ -92,7 +92,8 @@ static relation prune_against_piece(prune *f, const dyd_piece *p, size_t k) {
   bool outer = c->task->outer, straight = !p->arc || !p->arc->parabola;
   dyd_spot hull;
   dyd_filter_spot_span(&hull, p->begin, p->end);
-  if (dyd_filter_side(&hull, &c->other[k].box, c->other_touch, &c->fixed.box, c->fixed_touch) > 0) return CLEAR;
+  if (dyd_filter_side(&hull, &c->other[k].box, c->frame->other_touch, &c->frame->fixed.box, c->frame->fixed_touch) > 0)
+    return CLEAR;
   if (outer && straight && corner_is_farther(f, p, k)) return CLEAR;
   int begin = dyd_cell_spot_side(c, p->begin, k), end = dyd_cell_spot_side(c, p->end, k);
   if (begin < 0 || end < 0) return CUTS;
@@ -187,13 +188,10 @@ static dyd_status prune_init(prune *f, const dyd_exact_cell *c) {
   f->c = c;
   f->task = *c->task;
   f->task.pd = NULL; /* pairs of A may meet on its region though they do not on the cell */
-  f->joined = !c->task->outer || holds_strictly(&c->window.r, &c->fixed.r);
-  f->sub = *c;
-  f->sub.task = &f->task;
+  f->joined = !c->task->outer || holds_strictly(&c->frame->window.r, &c->frame->fixed.r);
+  dyd_cell_init(&f->sub, &f->task, c->frame);
   f->sub.other = dyd_alloc(MOST_PICKS, sizeof *f->sub.other);
   f->sub.site = dyd_alloc(MOST_PICKS, sizeof *f->sub.site);
-  mpz_init(f->sub.sample.num);
-  dyd_surd_point_init(&f->sub.sample.spot.at);
   for (int m = 0; m < DYD_CELL_CIRCLES; m++) dyd_icircle_init(&f->circle[m]);
   f->pick = dyd_alloc(MOST_PICKS, sizeof *f->pick);
   f->state = calloc(c->count, sizeof *f->state);
@@ -201,14 +199,10 @@ static dyd_status prune_init(prune *f, const dyd_exact_cell *c) {
 }
 
 static void prune_clear(prune *f) {
-  dyd_cell_forget(&f->sub);
   free(f->state);
   free(f->pick);
   for (int m = DYD_CELL_CIRCLES; m-- > 0;) dyd_icircle_clear(&f->circle[m]);
-  dyd_surd_point_clear(&f->sub.sample.spot.at);
-  mpz_clear(f->sub.sample.num);
-  free(f->sub.site);
-  free(f->sub.other);
+  dyd_cell_clear(&f->sub);
 }
 
 /* Compares all that are NEW with the pieces; how many cut them. Without pieces the region is empty, whatever comes. */

@@ -25,8 +25,8 @@ static size_t irect_bits(const dyd_irect *r) {
 }
 
 /* Scales all rectangles; the doubled origin is kept for the way back. Products of four doubles stay below 2^1000. */
-static void cell_scale(dyd_exact_cell *c, dyd_irect *r, size_t n) {
-  dyd_irects_scale(r, c->task->rect, n, c->man, &c->exp);
+static void frame_scale(dyd_cell_frame *c, const dyd_cell_task *task, dyd_irect *r, size_t n) {
+  dyd_irects_scale(r, task->rect, n, c->man, &c->exp);
   mpz_set(c->ox, r[0].x0);
   mpz_set(c->oy, r[0].y0);
   size_t bits = 0;
@@ -52,7 +52,7 @@ static void scaled_take(dyd_scaled *out, dyd_irect *r, int64_t shift) {
   dyd_filter_irect_box(&out->box, &out->r, shift);
 }
 
-static void cell_set_corners(dyd_exact_cell *c) {
+static void frame_set_corners(dyd_cell_frame *c) {
   const dyd_irect *w = &c->window.r;
   for (int k = 0; k < 4; k++) {
     mpz_set(c->corner[k].at.ax, k == 1 || k == 2 ? w->x1 : w->x0);
@@ -62,7 +62,7 @@ static void cell_set_corners(dyd_exact_cell *c) {
 }
 
 /* Fills fixed, window, other, site; *blocked: some other meets the fixed rectangle. */
-static dyd_status cell_set_rects(dyd_exact_cell *c, bool *blocked) {
+static dyd_status cell_set_rects(bool *blocked, dyd_exact_cell *c, dyd_cell_frame *frame) {
   const dyd_cell_task *t = c->task;
   size_t n = t->count + 1 + (t->windowed ? 1 : 0);
   dyd_irect *r = dyd_alloc(n, sizeof *r);
@@ -70,21 +70,21 @@ static dyd_status cell_set_rects(dyd_exact_cell *c, bool *blocked) {
   c->site = dyd_alloc(t->count, sizeof *c->site);
   if (!r || !c->other || !c->site) return free(r), DYD_E_NOMEM;
   for (size_t k = 0; k < n; k++) dyd_irect_init(&r[k]);
-  cell_scale(c, r, n);
-  scaled_take(&c->fixed, &r[0], c->shift);
+  frame_scale(frame, t, r, n);
+  scaled_take(&frame->fixed, &r[0], frame->shift);
   if (t->windowed) {
-    scaled_take(&c->window, &r[n - 1], c->shift);
-    cell_set_corners(c);
+    scaled_take(&frame->window, &r[n - 1], frame->shift);
+    frame_set_corners(frame);
   }
   *blocked = false;
   for (size_t k = 0; k < t->count; k++) {
-    if (irects_meet(&c->fixed.r, &r[k + 1])) {
+    if (irects_meet(&frame->fixed.r, &r[k + 1])) {
       *blocked = true;
       continue;
     }
     dyd_irect_init(&c->other[c->count].r);
     c->site[c->count] = t->other[k];
-    scaled_take(&c->other[c->count++], &r[k + 1], c->shift);
+    scaled_take(&c->other[c->count++], &r[k + 1], frame->shift);
   }
   for (size_t k = n; k-- > 0;) dyd_irect_clear(&r[k]);
   free(r);
@@ -93,28 +93,21 @@ static dyd_status cell_set_rects(dyd_exact_cell *c, bool *blocked) {
 
 /* ---- the whole ---- */
 
-static void cell_init(dyd_exact_cell *c, const dyd_cell_task *task) {
-  memset(c, 0, sizeof *c);
-  c->task = task;
-  c->fixed_touch = task->outer ? DYD_CLOSEST : DYD_FARTHEST;
-  c->other_touch = task->outer ? DYD_FARTHEST : DYD_CLOSEST;
-  dyd_irect_init(&c->fixed.r);
-  dyd_irect_init(&c->window.r);
-  mpz_inits(c->man, c->ox, c->oy, c->sample.num, NULL);
-  for (int k = 0; k < 4; k++) dyd_surd_point_init(&c->corner[k].at);
-  dyd_surd_point_init(&c->sample.spot.at);
+static void frame_init(dyd_cell_frame *f, const dyd_cell_task *task) {
+  memset(f, 0, sizeof *f);
+  f->fixed_touch = task->outer ? DYD_CLOSEST : DYD_FARTHEST;
+  f->other_touch = task->outer ? DYD_FARTHEST : DYD_CLOSEST;
+  dyd_irect_init(&f->fixed.r);
+  dyd_irect_init(&f->window.r);
+  mpz_inits(f->man, f->ox, f->oy, NULL);
+  for (int k = 0; k < 4; k++) dyd_surd_point_init(&f->corner[k].at);
 }
 
-static void cell_clear(dyd_exact_cell *c) {
-  dyd_cell_forget(c);
-  for (size_t k = c->count; k-- > 0;) dyd_irect_clear(&c->other[k].r);
-  free(c->other);
-  free(c->site);
-  dyd_surd_point_clear(&c->sample.spot.at);
-  for (int k = 4; k-- > 0;) dyd_surd_point_clear(&c->corner[k].at);
-  mpz_clears(c->man, c->ox, c->oy, c->sample.num, NULL);
-  dyd_irect_clear(&c->window.r);
-  dyd_irect_clear(&c->fixed.r);
+static void frame_clear(dyd_cell_frame *f) {
+  for (int k = 4; k-- > 0;) dyd_surd_point_clear(&f->corner[k].at);
+  mpz_clears(f->man, f->ox, f->oy, NULL);
+  dyd_irect_clear(&f->window.r);
+  dyd_irect_clear(&f->fixed.r);
 }
 
 /* No boundary at all: the plane, or nothing? */
@@ -123,18 +116,22 @@ static bool cell_is_whole(const dyd_exact_cell *c) {
 }
 
 dyd_status dyd_cell_boundary(dyd_boundary *out, const dyd_cell_task *task) {
+  dyd_cell_frame frame;
   dyd_exact_cell c;
   dyd_boundary b = {0};
   bool blocked = false;
-  cell_init(&c, task);
-  dyd_status st = cell_set_rects(&c, &blocked);
+  frame_init(&frame, task);
+  dyd_cell_init(&c, task, &frame);
+  dyd_status st = cell_set_rects(&blocked, &c, &frame);
   if (st == DYD_OK && (task->outer || !blocked)) {
     st = dyd_cell_prune(&c);
     if (st == DYD_OK) st = dyd_cell_find_pieces(&c);
     if (st == DYD_OK && c.pieces) st = dyd_cell_link(&b, &c);
     if (!c.pieces) b.whole = cell_is_whole(&c);
   }
-  cell_clear(&c);
+  for (size_t k = c.count; k-- > 0;) dyd_irect_clear(&c.other[k].r);
+  dyd_cell_clear(&c);
+  frame_clear(&frame);
   if (st != DYD_OK) return dyd_boundary_clear(&b), st;
   dyd_boundary_clear(out);
   *out = b;

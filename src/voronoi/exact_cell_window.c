@@ -11,7 +11,7 @@
 /* Adds s if it lies strictly inside the side. */
 static dyd_status cut_side(dyd_exact_cell *c, size_t *count, int side, const dyd_spot *s) {
   int axis = dyd_window_axis(side);
-  const dyd_irect *w = &c->window.r;
+  const dyd_irect *w = &c->frame->window.r;
   if (s->infinite || dyd_surd_point_cmp_z(&s->at, 1 - axis, dyd_window_level(c, side))) return DYD_OK;
   if (dyd_surd_point_cmp_z(&s->at, axis, dyd_irect_end(w, axis, 0)) <= 0) return DYD_OK;
   if (dyd_surd_point_cmp_z(&s->at, axis, dyd_irect_end(w, axis, 1)) >= 0) return DYD_OK;
@@ -38,7 +38,7 @@ static bool side_is_inside(dyd_exact_cell *c, int side) {
 static dyd_status side_pieces(dyd_exact_cell *c, int side) {
   size_t count;
   bool grows = side < 2;
-  const dyd_spot *first = &c->corner[side], *last = &c->corner[(side + 1) & 3];
+  const dyd_spot *first = &c->frame->corner[side], *last = &c->frame->corner[(side + 1) & 3];
   const dyd_spot *lowest = grows ? first : last, *highest = grows ? last : first;
   dyd_status st = side_find_cuts(c, &count, side);
   if (st != DYD_OK) return st;
