@@ -123,13 +123,18 @@ static int unknown_command(const char *name) {
   return CLI_USAGE;
 }
 
+/* A trace of converge has the points in it; the schedule that check replays has not. */
+static bool trace_has_points(const cli_options *o, const cli_command *c) {
+  return o->replay && c == &cli_commands[CLI_CONVERGE];
+}
+
 static int options_fit(const cli_options *o, uint64_t seen, const cli_command *c) {
   for (size_t k = 0; k < cli_option_count; k++) {
     if (!(seen >> k & 1) || cli_option_exists(&cli_option_table[k], cli_command_bit(c))) continue;
     cli_complain("%s does not take --%s; see dyadel %s --help", c->name, cli_option_table[k].name, c->name);
     return CLI_USAGE;
   }
-  for (size_t k = 0; o->replay && k < cli_option_count; k++) {
+  for (size_t k = 0; trace_has_points(o, c) && k < cli_option_count; k++) {
     cli_group group = cli_option_table[k].group;
     if (!(seen >> k & 1) || (group != CLI_INPUT && group != CLI_REFINEMENT)) continue;
     cli_complain("--replay takes points and options from the trace; leave --%s away", cli_option_table[k].name);
@@ -146,7 +151,7 @@ static int options_fit(const cli_options *o, uint64_t seen, const cli_command *c
 static int place_operands(cli_options *o, const scan *s, const cli_command *c) {
   const char **place[MOST_OPERANDS];
   size_t wanted = 0;
-  bool file = !o->oracle && !o->replay;
+  bool file = !o->oracle && !trace_has_points(o, c);
   if (file) place[wanted++] = &o->file;
   if (strstr(c->operands, " X Y")) {
     place[wanted++] = &o->at[0];

@@ -125,7 +125,7 @@ const cli_option cli_option_table[] = {
     {"trace", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
      "write which point was narrowed to what, and why;\ncheck: the schedule that shows a fault", AT(trace)},
     {"replay", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
-     "repeat a trace, which stands for the points;\ncheck: repeat a schedule", AT(replay)},
+     "repeat a trace, which stands for the points;\ncheck: repeat a schedule on the points of FILE or --oracle", AT(replay)},
     {"no-voronoi", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
      "no bounds of the Voronoi diagram (they take long)", AT(no_voronoi)},
     {"no-times", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,

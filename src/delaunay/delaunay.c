@@ -5,6 +5,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/float_filter.h"
 #include "delaunay/build.h"
 #include "delaunay/update.h"
 
@@ -30,6 +31,7 @@ dyd_status dyd_delaunay_new(dyd_delaunay **out, const dyd_sites *sites, const dy
   dyd_delaunay_options o;
   *out = NULL;
   if (dyd_abi_take(&o, sizeof o, options, "dyd_delaunay_options", err) != DYD_OK) return DYD_E_ARG;
+  if (dyd_float_check(err) != DYD_OK) return DYD_E_ARG;
   if (dyd_sites_count(sites) > DYD_MAX_SITES) return dyd_fail(err, DYD_E_RANGE, "too many sites");
   dyd_delaunay *pd = calloc(1, sizeof *pd);
   if (!pd) return dyd_fail_nomem(err);
@@ -52,6 +54,7 @@ dyd_status dyd_delaunay_update(dyd_delaunay *pd, const uint32_t *changed, size_t
                                const dyd_delaunay_options *options, dyd_error *err) {
   dyd_delaunay_options o;
   if (dyd_abi_take(&o, sizeof o, options, "dyd_delaunay_options", err) != DYD_OK) return DYD_E_ARG;
+  if (dyd_float_check(err) != DYD_OK) return DYD_E_ARG;
   for (size_t q = 0; q < count; q++)
     if (changed[q] >= pd->sk.n) return dyd_fail(err, DYD_E_ARG, "site %u does not exist", changed[q]);
   if (dyd_sites_count(pd->sk.rects.sites) != pd->sk.n)

@@ -19,6 +19,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/float_filter.h"
 #include "engine/points.h"
 #include "engine/watch.h"
 
@@ -333,6 +334,7 @@ dyd_status dyd_ask(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *e, const
   ask a = {.e = e, .q = &q, .bits = INT64_MIN};
   dyd_error_clear(&a.err);
   dyd_status st = dyd_ask_may_begin(e, &a.err);
+  if (st == DYD_OK) st = dyd_float_check(&a.err);
   if (st == DYD_OK) st = dyd_abi_take(&q, sizeof q, question, "dyd_question", &a.err);
   if (st == DYD_OK) st = dyd_abi_take(&a.o, sizeof a.o, options, "dyd_engine_options", &a.err);
   if (st == DYD_OK && (!q.ask || !dyd_ask_options(&a.o)))

@@ -5,9 +5,12 @@
 Usage: test_options.py COMMAND DATA
 """
 import os
+import pathlib
 import re
 import shutil
 import subprocess
+import sys
+import tempfile
 
 from harness import COMMAND, DATA, expect, main, run
 
@@ -189,6 +192,23 @@ def test_help_into_a_full_device():
     with open('/dev/full', 'w', encoding='utf-8') as full:
         for arguments in (['--help'], ['--version'], ['--help=man']):
             assert subprocess.run([COMMAND, *arguments], stdout=full, stderr=subprocess.PIPE, check=False).returncode == 1
+
+
+def test_check_replays():
+    """A schedule is played on the points of a file or of an oracle, whatever other input options say."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder)
+        (path / 'schedule').write_text('# moves\nbase 8\nseed 5\n1 0 16\n1 1 16\n2 0 40\n')
+        (path / 'points').write_text('sqrt(2) 0\n1 pi\n0 0\n')
+        (path / 'table').write_text('x,y\n1,2\n5,pi\nsqrt(3),0\n')
+        oracle = f'{sys.executable} {DATA}/../oracles/polygon.py 7 200'
+        for points in (['points'], ['--oracle', oracle], ['--columns', 'y,x', 'table']):
+            played = run('check', *points, '--replay', 'schedule', cwd=folder)
+            expect(played, 0, r'^fine,1,3,')
+        expect(run('check', '--replay', 'schedule', cwd=folder), 2, err='the points file is missing')
+        expect(run('check', 'points', '--replay', 'none', cwd=folder), 1, err='none: cannot open')
+        (path / 'schedule').write_text('2 0 16\n1 0 16\n')
+        expect(run('check', 'points', '--replay', 'schedule', cwd=folder), 1, err='schedule:2:1: .*STAGE POINT BITS')
 
 
 main(globals())

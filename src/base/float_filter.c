@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Tried by sums and products whose results are known; volatile, so that they are done when the program runs. */
+#include "base/float_filter.h"
+
+#include "base/error.h"
+
+#include <float.h>
+
+static bool float_flushes(void) {
+  volatile double least = DBL_MIN, half = 0.5, tiny = 0x1p-1074, one = 1;
+  volatile double made = least * half, taken = tiny * one;
+  return !(made > 0) || !(tiny > 0) || !(taken > 0);
+}
+
+/* Halfway cases go to the even neighbour, both up and down, for both signs. */
+static bool float_rounds_to_nearest(void) {
+  volatile double one = 1, half = 0x1p-53, more = 0x1.8p-53;
+  volatile double even = one + half, up = one + more, minus = -one - half, down = -one - more;
+  return even == 1 && up > 1 && minus == -1 && down < -1;
+}
+
+dyd_status dyd_float_check(dyd_error *err) {
+  if (float_flushes())
+    return dyd_fail(err, DYD_E_ARG,
+                    "this thread flushes subnormal numbers to zero, so that different points would be taken for one; "
+                    "call fesetenv(FE_DFL_ENV) before, and link no library built with -ffast-math");
+  if (!float_rounds_to_nearest())
+    return dyd_fail(err, DYD_E_ARG,
+                    "this thread does not round to nearest, which all bounds stand on; call fesetround(FE_TONEAREST)");
+  return DYD_OK;
+}
