@@ -87,7 +87,8 @@ def test_second_interrupt_ends():
             process.communicate(timeout=60)
             assert process.returncode in (-signal.SIGINT, 5), (command, process.returncode)
             left = os.listdir(folder)
-            assert left == (['out'] if process.returncode == 5 else []), (command, left)
+            # The second one may come when the file is whole already; nothing else is ever left.
+            assert left == ['out'] or (left == [] and process.returncode != 5), (command, left)
 
 
 def test_interrupt_on_a_terminal():
