@@ -12,11 +12,11 @@
 
 #include "base/alloc.h"
 #include "legal/certify.h"
-#include "possible/cells_filter.h"
 #include "possible/centre.h"
 #include "possible/cover.h"
 #include "possible/hull.h"
 #include "possible/pair_map.h"
+#include "possible/patches_filter.h"
 #include "possible/quad_filter.h"
 #include "skeleton/rects_filter.h"
 
@@ -147,7 +147,7 @@ static dyd_status add_possible(closing *c, uint32_t a, uint32_t b) {
                      dyd_is_legal(c->sk, c->out->vertex[a], c->out->vertex[b]) ? DYD_PAIR_CERTAIN : DYD_PAIR_OPEN);
 }
 
-/* ---- many overlapping rectangles: cells of the plane [PLANE-1] ---- */
+/* ---- many overlapping rectangles: patches of the plane [PLANE-1] ---- */
 
 static dyd_status closing_found(void *context, bool *enough, uint32_t a, uint32_t b) {
   closing *c = context;
@@ -207,24 +207,24 @@ static dyd_status add_meeting(closing *c) {
 }
 
 /* *done: all possible pairs have been found. */
-static dyd_status close_by_cells(bool *done, closing *c) {
+static dyd_status close_by_patches(bool *done, closing *c) {
   static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
   const uint32_t *v = c->out->vertex;
-  dyd_cells cells = {.rects = &c->sk->rects,
-                     .cancel = c->w->cancel,
-                     .vertex = v,
-                     .vertices = c->out->vertices,
-                     .map = &c->map,
-                     .found = closing_found,
-                     .context = c};
-  dyd_status st = dyd_cells_run(done, &cells);
-  for (size_t q = 0; q < cells.count && *done && st == DYD_OK && !c->full; q++) {
-    uint32_t a = cells.left[q].a, b = cells.left[q].b;
+  dyd_patches patches = {.rects = &c->sk->rects,
+                         .cancel = c->w->cancel,
+                         .vertex = v,
+                         .vertices = c->out->vertices,
+                         .map = &c->map,
+                         .found = closing_found,
+                         .context = c};
+  dyd_status st = dyd_patches_run(done, &patches);
+  for (size_t q = 0; q < patches.count && *done && st == DYD_OK && !c->full; q++) {
+    uint32_t a = patches.left[q].a, b = patches.left[q].b;
     bool possible;
     st = dyd_work_cancelled(c->w) ? DYD_CANCELLED : dyd_cover_possible(&possible, c->w, c->sk, v[a], v[b], no_hint);
     if (st == DYD_OK && possible) st = add_possible(c, a, b);
   }
-  dyd_cells_clear(&cells);
+  dyd_patches_clear(&patches);
   return st;
 }
 
@@ -310,7 +310,7 @@ static dyd_status closing_run(closing *c) {
   dyd_status st = add_edges(c, true);
   if (st == DYD_OK) st = add_edges(c, false);
   if (st == DYD_OK && crowded) st = add_meeting(c);
-  if (st == DYD_OK && crowded && !c->full && c->known < all) st = close_by_cells(&done, c);
+  if (st == DYD_OK && crowded && !c->full && c->known < all) st = close_by_patches(&done, c);
   if (done || c->full) return st;
   if (st == DYD_OK) st = start_ghost(c);
   for (size_t q = 0; q < c->map.links && st == DYD_OK && !c->full && c->known < all; q += 2) {

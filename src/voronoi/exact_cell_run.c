@@ -25,7 +25,7 @@ static size_t irect_bits(const dyd_irect *r) {
 }
 
 /* Scales all rectangles; the doubled origin is kept for the way back. Products of four doubles stay below 2^1000. */
-static void frame_scale(dyd_cell_frame *c, const dyd_cell_task *task, dyd_irect *r, size_t n) {
+static void cell_frame_scale(dyd_cell_frame *c, const dyd_cell_task *task, dyd_irect *r, size_t n) {
   dyd_irects_scale(r, task->rect, n, c->man, &c->exp);
   mpz_set(c->ox, r[0].x0);
   mpz_set(c->oy, r[0].y0);
@@ -52,7 +52,7 @@ static void scaled_take(dyd_scaled *out, dyd_irect *r, int64_t shift) {
   dyd_filter_irect_box(&out->box, &out->r, shift);
 }
 
-static void frame_set_corners(dyd_cell_frame *c) {
+static void cell_frame_set_corners(dyd_cell_frame *c) {
   const dyd_irect *w = &c->window.r;
   for (int k = 0; k < 4; k++) {
     mpz_set(c->corner[k].at.ax, k == 1 || k == 2 ? w->x1 : w->x0);
@@ -70,11 +70,11 @@ static dyd_status cell_set_rects(bool *blocked, dyd_exact_cell *c, dyd_cell_fram
   c->site = dyd_alloc(t->count, sizeof *c->site);
   if (!r || !c->other || !c->site) return free(r), DYD_E_NOMEM;
   for (size_t k = 0; k < n; k++) dyd_irect_init(&r[k]);
-  frame_scale(frame, t, r, n);
+  cell_frame_scale(frame, t, r, n);
   scaled_take(&frame->fixed, &r[0], frame->shift);
   if (t->windowed) {
     scaled_take(&frame->window, &r[n - 1], frame->shift);
-    frame_set_corners(frame);
+    cell_frame_set_corners(frame);
   }
   *blocked = false;
   for (size_t k = 0; k < t->count; k++) {
@@ -93,7 +93,7 @@ static dyd_status cell_set_rects(bool *blocked, dyd_exact_cell *c, dyd_cell_fram
 
 /* ---- the whole ---- */
 
-static void frame_init(dyd_cell_frame *f, const dyd_cell_task *task) {
+static void cell_frame_init(dyd_cell_frame *f, const dyd_cell_task *task) {
   memset(f, 0, sizeof *f);
   f->fixed_touch = task->outer ? DYD_CLOSEST : DYD_FARTHEST;
   f->other_touch = task->outer ? DYD_FARTHEST : DYD_CLOSEST;
@@ -103,7 +103,7 @@ static void frame_init(dyd_cell_frame *f, const dyd_cell_task *task) {
   for (int k = 0; k < 4; k++) dyd_surd_point_init(&f->corner[k].at);
 }
 
-static void frame_clear(dyd_cell_frame *f) {
+static void cell_frame_clear(dyd_cell_frame *f) {
   for (int k = 4; k-- > 0;) dyd_surd_point_clear(&f->corner[k].at);
   mpz_clears(f->man, f->ox, f->oy, NULL);
   dyd_irect_clear(&f->window.r);
@@ -120,7 +120,7 @@ dyd_status dyd_cell_boundary(dyd_boundary *out, const dyd_cell_task *task) {
   dyd_exact_cell c;
   dyd_boundary b = {0};
   bool blocked = false;
-  frame_init(&frame, task);
+  cell_frame_init(&frame, task);
   dyd_cell_init(&c, task, &frame);
   dyd_status st = cell_set_rects(&blocked, &c, &frame);
   if (st == DYD_OK && (task->outer || !blocked)) {
@@ -131,7 +131,7 @@ dyd_status dyd_cell_boundary(dyd_boundary *out, const dyd_cell_task *task) {
   }
   for (size_t k = c.count; k-- > 0;) dyd_irect_clear(&c.other[k].r);
   dyd_cell_clear(&c);
-  frame_clear(&frame);
+  cell_frame_clear(&frame);
   if (st != DYD_OK) return dyd_boundary_clear(&b), st;
   dyd_boundary_clear(out);
   *out = b;

@@ -71,15 +71,28 @@ def check_lengths(path, text):
             start = None
 
 
+STATIC = re.compile(r'^static (?!inline)[^;=(]*?\b(\w+)\([^;]*?\)\s*\{', re.M)
+
+
+def check_static_names(root):
+    """A backtrace is readable when a name says which function it is: static functions share none."""
+    seen = {}
+    for path in sorted((root / 'src').rglob('*.c')):
+        for name in STATIC.findall(path.read_text(encoding='utf-8')):
+            if seen.setdefault(name, path) != path:
+                yield f'{path}: the static function {name} has the name of one in {seen[name].relative_to(root)}'
+
+
 def files(root):
     for folder in ('src', 'include', 'tests', 'bench', 'proofs'):
         for path in sorted((root / folder).rglob('*')):
             if path.suffix in ('.c', '.h', '.py', '.sh', '.v', '.cpp') or path.name == 'meson.build':
                 yield path
-    yield from (root / name for name in ('meson.build', '.ci/run'))
+    yield from (root / name for name in ('meson.build', '.ci/run') if (root / name).is_file())
 
 
 def breaches(root):
+    yield from check_static_names(root)
     for path in files(root):
         text = path.read_text(encoding='utf-8')
         if not any('SPDX-License-Identifier: LGPL-3.0-or-later' in line for line in text.splitlines()[:3]):

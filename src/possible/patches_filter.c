@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Cells of the plane, and who is possibly nearest in them.
+/* Patches of the plane, and who is possibly nearest in them.
  *
- * [PLANE-1] C_ki = {c : dl_k(c) < ds_i(c)} is convex. So when the corners of a convex cell are in C_ki, i is nowhere in
- * the cell possibly nearest, and no pair of i has a centre there (ij is possible iff Pos_i and Pos_j meet). A cell is a
- * square, or a strip outside the root square between two rays; the far corners of a strip are the directions u of its
- * rays, and there C_ki means min u.x over R_k > max u.x over R_i, as for centres at infinity. The cells cover the plane
- * with its directions, since neighbours share lines or rays bit by bit. Whoever has the least dl at a point of a cell
- * is possibly nearest there and never leaves its list, so the list alone tells M(c) from below: sites of the list with
- * ds(c) <= M(c) are possible neighbours of one another. Distances are bounded as in skeleton/distance_filter.h
+ * [PLANE-1] C_ki = {c : dl_k(c) < ds_i(c)} is convex. So when the corners of a convex patch are in C_ki, i is nowhere
+ * in the patch possibly nearest, and no pair of i has a centre there (ij is possible iff Pos_i and Pos_j meet). A patch
+ * is a square, or a strip outside the root square between two rays; the far corners of a strip are the directions u of
+ * its rays, and there C_ki means min u.x over R_k > max u.x over R_i, as for centres at infinity. The patches cover the
+ * plane with its directions, since neighbours share lines or rays bit by bit. Whoever has the least dl at a point of a
+ * patch is possibly nearest there and never leaves its list, so the list alone tells M(c) from below: sites of the list
+ * with ds(c) <= M(c) are possible neighbours of one another. Distances are bounded as in skeleton/distance_filter.h
  * [FLT-DST], heights as in skeleton/tree_filter.c [FLT-DIR]; NaN and infinities compare false and prove nothing. */
-#include "possible/cells_filter.h"
+#include "possible/patches_filter.h"
 
 #include "base/alloc.h"
 #include "possible/plane_filter.h"
@@ -18,7 +18,7 @@
 #include <math.h>
 
 /* Lists up to SHORT are looked at pair by pair, longer ones when cutting makes them no shorter, and pairs of lists up
- * to LONG are noted. DEEP: how often a cell is cut for the pairs noted. EARLY: cells are still so large that lists
+ * to LONG are noted. DEEP: how often a patch is cut for the pairs noted. EARLY: patches are still so large that lists
  * can't be short. */
 enum {
   SHORT = 48,
@@ -32,14 +32,14 @@ enum {
   WORK = 1000
 };
 
-/* Somebody in a cell. member: as such possibly nearest there, with open pairs; else DYD_NONE. rival: may have the least
- * dl. */
+/* Somebody in a patch. member: as such possibly nearest there, with open pairs; else DYD_NONE. rival: may have the
+ * least dl. */
 typedef struct entry {
   uint32_t vertex, member;
   bool rival;
 } entry;
 
-/* A pair that is still open, by places in the cell's list. */
+/* A pair that is still open, by places in the patch's list. */
 typedef struct wish {
   uint16_t a, b;
 } wish;
@@ -47,27 +47,27 @@ typedef struct wish {
 /* side < 0: the square [x0,x1] x [y0,y1]. Else the strip at that side of the root square between the rays x0, x1.
  * listed: the open pairs are wish[first_wish .. + wishes) of the plane, else all pairs of the list. levels: how often
  * it was cut since. */
-typedef struct cell {
+typedef struct patch {
   double x0, x1, y0, y1;
   int side, depth, levels;
   size_t first, count, first_wish, wishes;
   bool listed;
-} cell;
+} patch;
 
 typedef struct plane {
-  dyd_cells *c;
+  dyd_patches *c;
   double x0, x1, y0, y1, cx, cy, radius; /* the root square */
   entry *entry;
   size_t entries, entry_cap;
   wish *wish;
   size_t wishes, wish_cap;
-  uint16_t *place; /* by place in the parent's list of a listed cell: place in the cell's list */
+  uint16_t *place; /* by place in the parent's list of a listed patch: place in the patch's list */
   bool *rival, *wanted;
   double *value;
   bool *near; /* by place in the list: possibly nearest at the centre */
   double least;
   size_t work, found;
-  int deep; /* how often a listed cell is cut in this pass */
+  int deep; /* how often a listed patch is cut in this pass */
   bool enough, lost;
 } plane;
 
@@ -78,13 +78,13 @@ static dyd_plane_corner ray(const plane *p, int side, double w, bool far) {
   return (dyd_plane_corner){side & 1 ? p->x0 : p->x1, p->cy + p->radius * w, false};
 }
 
-static void corners(dyd_plane_corner v[4], const plane *p, const cell *q) {
+static void corners(dyd_plane_corner v[4], const plane *p, const patch *q) {
   for (int k = 0; k < 4; k++)
     v[k] = q->side < 0 ? (dyd_plane_corner){k & 1 ? q->x1 : q->x0, k & 2 ? q->y1 : q->y0, false}
                        : ray(p, q->side, k & 1 ? q->x1 : q->x0, k & 2);
 }
 
-/* ---- the list of a cell ---- */
+/* ---- the list of a patch ---- */
 
 typedef struct dominator {
   uint32_t vertex;
@@ -121,7 +121,7 @@ static void measure_closest(double at[4], const plane *p, uint32_t vertex, const
 }
 
 /* Who is nearest at the worst corner, and who at each corner. Returns how many. */
-static int choose_dominators(dominator best[DOMINATORS], const plane *p, const cell *q, const dyd_plane_corner v[4]) {
+static int choose_dominators(dominator best[DOMINATORS], const plane *p, const patch *q, const dyd_plane_corner v[4]) {
   double least[DOMINATORS] = {INFINITY, INFINITY, INFINITY, INFINITY, INFINITY};
   dominator all[DOMINATORS] = {{DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}, {DYD_NONE, {0}}};
   for (size_t e = 0; e < q->count; e++) {
@@ -156,14 +156,14 @@ static bool is_dominated(const plane *p, uint32_t vertex, const dyd_plane_corner
   return false;
 }
 
-static dyd_plane_corner centre_of(const plane *p, const cell *q) {
+static dyd_plane_corner centre_of(const plane *p, const patch *q) {
   double x = q->x0 + (q->x1 - q->x0) / 2, y = q->y0 + (q->y1 - q->y0) / 2;
   return q->side < 0 ? (dyd_plane_corner){x, y, false} : ray(p, q->side, x, true);
 }
 
 /* An upper bound of dl at the centre for whoever has the least dl anywhere in a square: dl changes by at most the way,
  * so it is at most the least one at the centre, and twice the way to the farthest corner. Infinite for strips. */
-static double rival_limit(const cell *q, const dyd_plane_corner *centre, double least2) {
+static double rival_limit(const patch *q, const dyd_plane_corner *centre, double least2) {
   if (q->side >= 0) return INFINITY;
   double dx = dyd_max(q->x1 - centre->x, centre->x - q->x0), dy = dyd_max(q->y1 - centre->y, centre->y - q->y0);
   double limit = sqrt(least2) + 2 * sqrt(dyd_upper(dx * dx + dy * dy));
@@ -173,7 +173,7 @@ static double rival_limit(const cell *q, const dyd_plane_corner *centre, double 
 
 /* rival[k]: whether the k-th of the parent's list may have the least dl somewhere in q. p->least: M at the centre from
  * below. */
-static void find_rivals(plane *p, const cell *q) {
+static void find_rivals(plane *p, const patch *q) {
   const entry *e = p->entry + q->first;
   const dyd_bbox *box = p->c->rects->box;
   dyd_plane_corner centre = centre_of(p, q);
@@ -193,7 +193,7 @@ static void find_rivals(plane *p, const cell *q) {
 }
 
 /* wanted[k]: whether the k-th of the parent's list is a member with open pairs. */
-static void find_wanted(plane *p, const cell *q) {
+static void find_wanted(plane *p, const patch *q) {
   for (size_t k = 0; k < q->count; k++) p->wanted[k] = !q->listed && p->entry[q->first + k].member != DYD_NONE;
   for (size_t k = 0; k < q->wishes && q->listed; k++) {
     p->wanted[p->wish[q->first_wish + k].a] = true;
@@ -203,7 +203,7 @@ static void find_wanted(plane *p, const cell *q) {
 
 /* Writes the rivals of the parent's list, and its members with open pairs that are not dominated, behind all lists, and
  * makes that q's list. place[] tells where the latter have gone. Returns how many they are. */
-static size_t make_list(plane *p, cell *q) {
+static size_t make_list(plane *p, patch *q) {
   dyd_plane_corner v[4];
   dominator best[DOMINATORS];
   find_rivals(p, q);
@@ -231,9 +231,9 @@ static bool is_open(const plane *p, const entry *a, const entry *b) {
   return dyd_pair_map_get(p->c->map, a->member, b->member) == DYD_PAIR_UNKNOWN;
 }
 
-/* near[k]: the k-th of the list is surely possibly nearest at the centre of the cell. All of them are possible
+/* near[k]: the k-th of the list is surely possibly nearest at the centre of the patch. All of them are possible
  * neighbours of one another. */
-static void cells_try_centre(plane *p, const cell *q) {
+static void patches_try_centre(plane *p, const patch *q) {
   const dyd_rects *r = p->c->rects;
   const entry *e = p->entry + q->first;
   dyd_plane_corner v = centre_of(p, q);
@@ -242,8 +242,8 @@ static void cells_try_centre(plane *p, const cell *q) {
                  dyd_closest_upper(&v, &r->box[e[k].vertex], dyd_box_slack(r, e[k].vertex)) <= p->least;
 }
 
-/* Tells of the pair of the list if it is open and shown, else keeps it if it is open and the cell is listed. */
-static dyd_status consider(plane *p, cell *q, size_t a, size_t b) {
+/* Tells of the pair of the list if it is open and shown, else keeps it if it is open and the patch is listed. */
+static dyd_status consider(plane *p, patch *q, size_t a, size_t b) {
   const entry *i = &p->entry[q->first + a], *j = &p->entry[q->first + b];
   if (i->member == DYD_NONE || j->member == DYD_NONE || !is_open(p, i, j)) return DYD_OK;
   if (p->near[a] && p->near[b]) {
@@ -258,7 +258,7 @@ static dyd_status consider(plane *p, cell *q, size_t a, size_t b) {
 }
 
 /* The parent's open pairs. */
-static dyd_status consider_wishes(plane *p, cell *q) {
+static dyd_status consider_wishes(plane *p, patch *q) {
   size_t from = q->first_wish, count = q->wishes;
   dyd_status st = DYD_OK;
   q->first_wish = p->wishes;
@@ -272,7 +272,7 @@ static dyd_status consider_wishes(plane *p, cell *q) {
 }
 
 /* All pairs of the list; if it is not too long, those that stay open are noted. */
-static dyd_status consider_all(plane *p, cell *q) {
+static dyd_status consider_all(plane *p, patch *q) {
   dyd_status st = DYD_OK;
   q->listed = q->count <= LONG;
   q->first_wish = p->wishes;
@@ -281,8 +281,8 @@ static dyd_status consider_all(plane *p, cell *q) {
   return st;
 }
 
-static dyd_status leave(plane *p, const cell *q) {
-  dyd_cells *c = p->c;
+static dyd_status leave(plane *p, const patch *q) {
+  dyd_patches *c = p->c;
   if (!dyd_reserve((void **)&c->left, &c->cap, c->count + q->wishes, sizeof *c->left)) return DYD_E_NOMEM;
   for (size_t k = 0; k < q->wishes; k++) {
     wish w = p->wish[q->first_wish + k];
@@ -294,13 +294,13 @@ static dyd_status leave(plane *p, const cell *q) {
 
 /* ---- the recursion ---- */
 
-static dyd_status look(plane *p, cell q);
+static dyd_status look(plane *p, patch q);
 
-static dyd_status cut(plane *p, const cell *q) {
+static dyd_status cut(plane *p, const patch *q) {
   double x = q->x0 + (q->x1 - q->x0) / 2, y = q->y0 + (q->y1 - q->y0) / 2;
   dyd_status st = DYD_OK;
   for (int k = 0; k < (q->side < 0 ? 4 : 2) && st == DYD_OK; k++) {
-    cell part = *q;
+    patch part = *q;
     part.depth++;
     *(k & 1 ? &part.x0 : &part.x1) = x;
     if (q->side < 0) *(k & 2 ? &part.y0 : &part.y1) = y;
@@ -309,13 +309,13 @@ static dyd_status cut(plane *p, const cell *q) {
   return st;
 }
 
-/* Has the search become hopeless: too much work for what it shows, or cells too small? */
-static bool is_lost(plane *p, const cell *q) {
+/* Has the search become hopeless: too much work for what it shows, or patches too small? */
+static bool is_lost(plane *p, const patch *q) {
   p->lost = p->lost || q->depth > MAX_DEPTH || p->work > WORK * ((size_t)p->c->rects->tree.count + p->found);
   return p->lost;
 }
 
-static dyd_status look(plane *p, cell q) {
+static dyd_status look(plane *p, patch q) {
   size_t entries = p->entries, wishes = p->wishes;
   p->work += q.count;
   if (p->enough || is_lost(p, &q)) return DYD_OK;
@@ -325,7 +325,7 @@ static dyd_status look(plane *p, cell q) {
   bool stuck = q.count <= SHORT || (q.count > before / 4 * 3 && q.depth >= (q.side < 0 ? EARLY : EARLY / 2));
   dyd_status st = DYD_OK;
   if (members >= 2 && (q.listed || stuck)) {
-    cells_try_centre(p, &q);
+    patches_try_centre(p, &q);
     st = q.listed ? consider_wishes(p, &q) : consider_all(p, &q);
   }
   if (members >= 2 && st == DYD_OK && !p->enough) {
@@ -341,7 +341,7 @@ static dyd_status look(plane *p, cell q) {
 
 /* ---- the whole plane ---- */
 
-static uint32_t cells_member(const dyd_cells *c, uint32_t v) {
+static uint32_t patches_member(const dyd_patches *c, uint32_t v) {
   const uint32_t *at = bsearch(&v, c->vertex, c->vertices, sizeof v, dyd_compare_index);
   return at ? (uint32_t)(at - c->vertex) : DYD_NONE;
 }
@@ -369,24 +369,24 @@ static dyd_status everybody(plane *p) {
   if (!p->place || !p->near || !p->rival || !p->wanted || !p->value ||
       !dyd_reserve((void **)&p->entry, &p->entry_cap, t->count, sizeof *p->entry))
     return DYD_E_NOMEM;
-  for (uint32_t q = 0; q < t->count; q++) p->entry[q] = (entry){t->item[q], cells_member(p->c, t->item[q]), true};
+  for (uint32_t q = 0; q < t->count; q++) p->entry[q] = (entry){t->item[q], patches_member(p->c, t->item[q]), true};
   p->entries = t->count;
   return DYD_OK;
 }
 
-static int cells_compare_pairs(const void *x, const void *y) {
+static int patches_compare_pairs(const void *x, const void *y) {
   const dyd_member_pair *a = x, *b = y;
   if (a->a != b->a) return a->a < b->a ? -1 : 1;
   return (a->b > b->b) - (a->b < b->b);
 }
 
 /* Sorts the pairs left over; those that have found a state meanwhile and repeats go. */
-static void tidy(dyd_cells *c) {
+static void tidy(dyd_patches *c) {
   size_t kept = 0;
-  if (c->count) qsort(c->left, c->count, sizeof *c->left, cells_compare_pairs);
+  if (c->count) qsort(c->left, c->count, sizeof *c->left, patches_compare_pairs);
   for (size_t k = 0; k < c->count; k++) {
     dyd_member_pair q = c->left[k];
-    if (kept && cells_compare_pairs(&c->left[kept - 1], &q) == 0) continue;
+    if (kept && patches_compare_pairs(&c->left[kept - 1], &q) == 0) continue;
     if (dyd_pair_map_get(c->map, q.a, q.b) == DYD_PAIR_UNKNOWN) c->left[kept++] = q;
   }
   c->count = kept;
@@ -394,17 +394,17 @@ static void tidy(dyd_cells *c) {
 
 /* Looks at everything; deeper passes find most pairs decided, wherever their centres were met first. */
 static dyd_status pass(plane *p) {
-  cell root = {.x0 = p->x0, .x1 = p->x1, .y0 = p->y0, .y1 = p->y1, .side = -1, .count = p->entries};
+  patch root = {.x0 = p->x0, .x1 = p->x1, .y0 = p->y0, .y1 = p->y1, .side = -1, .count = p->entries};
   p->c->count = 0;
   dyd_status st = look(p, root);
   for (int side = 0; side < 4 && st == DYD_OK; side++) {
-    cell strip = {.x0 = -1, .x1 = 1, .side = side, .count = p->entries};
+    patch strip = {.x0 = -1, .x1 = 1, .side = side, .count = p->entries};
     st = look(p, strip);
   }
   return st;
 }
 
-dyd_status dyd_cells_run(bool *complete, dyd_cells *c) {
+dyd_status dyd_patches_run(bool *complete, dyd_patches *c) {
   plane p = {.c = c};
   set_root(&p);
   bool finite = isfinite(p.x0) && isfinite(p.x1) && isfinite(p.y0) && isfinite(p.y1);
@@ -422,7 +422,7 @@ dyd_status dyd_cells_run(bool *complete, dyd_cells *c) {
   return st;
 }
 
-void dyd_cells_clear(dyd_cells *c) {
+void dyd_patches_clear(dyd_patches *c) {
   free(c->left);
   c->left = NULL;
   c->count = c->cap = 0;
