@@ -58,14 +58,15 @@ int dyd_mesh_incircle(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t 
 
 /* The grid costs O(n), so it is made when the filters have said that they do not know. */
 int dyd_build_orient_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
-  if (!dyd_filter_orient_near(m, m->xy[a], m->xy[b], m->xy[c])) dyd_fixed_prepare(m);
+  bool tried = m->fixed || m->no_fixed;
+  if (!tried && !dyd_filter_orient_near(m, m->xy[a], m->xy[b], m->xy[c])) dyd_fixed_prepare(m);
   return orient_slow(&m->tally, m, a, b, c);
 }
 
 int dyd_build_incircle_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
   uint32_t g = m->n, u = a == g ? b : b == g ? c : a, v = a == g ? c : b == g ? a : b;
-  bool real = a != g && b != g && c != g;
-  if (real || !dyd_filter_orient(m, m->xy[u], m->xy[v], m->xy[p])) dyd_fixed_prepare(m);
+  bool real = a != g && b != g && c != g, tried = m->fixed || m->no_fixed;
+  if (!tried && (real || !dyd_filter_orient(m, m->xy[u], m->xy[v], m->xy[p]))) dyd_fixed_prepare(m);
   return incircle_slow(&m->tally, m, a, b, c, p);
 }
 
