@@ -37,16 +37,17 @@ dyd_status dyd_closures_run(dyd_closure *out, const dyd_delaunay *pd, dyd_work *
   batch b = {.out = out, .pd = pd, .first = first, .count = count, .room = room};
   size_t ranges = dyd_ranges(count);
   dyd_status st = DYD_OK;
-  b.work = dyd_alloc(ranges, sizeof *b.work);
+  bool alone = ranges == 1; /* then w itself serves, with its scratch */
+  b.work = alone ? w : dyd_alloc(ranges, sizeof *b.work);
   if (!b.work) return DYD_E_NOMEM;
   memset(out, 0, count * sizeof *out);
-  for (size_t r = 0; r < ranges; r++) dyd_work_fork(&b.work[r], w, &pd->sk);
+  for (size_t r = 0; r < ranges && !alone; r++) dyd_work_fork(&b.work[r], w, &pd->sk);
   dyd_parallel(w->threads, ranges, close_range, &b);
   for (size_t r = 0; r < ranges; r++) {
     if (st == DYD_OK) st = b.status[r];
-    dyd_work_join(w, &b.work[r]);
+    if (!alone) dyd_work_join(w, &b.work[r]);
   }
-  free(b.work);
+  if (!alone) free(b.work);
   for (size_t k = 0; k < count && st != DYD_OK; k++) dyd_closure_clear(&out[k]);
   return st;
 }

@@ -252,12 +252,6 @@ static dyd_status decide_pairs(dyd_pair_list *out, const hull *h) {
 
 /* ---- the result ---- */
 
-static int hull_compare_pairs(const void *a, const void *b) {
-  const dyd_pair *x = a, *y = b;
-  if (x->i != y->i) return x->i < y->i ? -1 : 1;
-  return (x->j > y->j) - (x->j < y->j);
-}
-
 static dyd_status list_vertices(dyd_index_list *out, const hull *h, bool sure) {
   out->item = dyd_alloc(h->count, sizeof *out->item);
   if (!out->item) return DYD_E_NOMEM;
@@ -277,7 +271,7 @@ static dyd_status fill(dyd_hull *out, hull *h) {
   st = find_neighbours(h);
   if (st == DYD_OK) st = decide_pairs(&out->pairs, h);
   if (st == DYD_OK && out->pairs.count)
-    qsort(out->pairs.item, out->pairs.count, sizeof *out->pairs.item, hull_compare_pairs);
+    qsort(out->pairs.item, out->pairs.count, sizeof *out->pairs.item, dyd_compare_pair);
   return st;
 }
 

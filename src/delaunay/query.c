@@ -124,12 +124,6 @@ dyd_status dyd_delaunay_face(dyd_index_list *out, bool *outer, const dyd_delauna
   return deliver(out, &c);
 }
 
-static int compare_pair(const void *a, const void *b) {
-  const dyd_pair *x = a, *y = b;
-  if (x->i != y->i) return x->i < y->i ? -1 : 1;
-  return (x->j > y->j) - (x->j < y->j);
-}
-
 /* For visits: a list of pairs. */
 typedef struct pair_collector {
   const uint32_t *site;
@@ -156,7 +150,7 @@ dyd_status dyd_delaunay_face_pairs(dyd_pair_list *out, const dyd_delaunay *pd, s
     free(c.item);
     return c.status;
   }
-  if (c.count) qsort(c.item, c.count, sizeof *c.item, compare_pair);
+  if (c.count) qsort(c.item, c.count, sizeof *c.item, dyd_compare_pair);
   dyd_pair_list_clear(out);
   *out = (dyd_pair_list){c.count, c.item};
   return DYD_OK;

@@ -31,11 +31,6 @@ typedef struct walk {
   dyd_status status;
 } walk;
 
-static bool cover_rects_meet(const dyd_irect *a, const dyd_irect *b) {
-  return mpz_cmp(a->x0, b->x1) <= 0 && mpz_cmp(b->x0, a->x1) <= 0 && mpz_cmp(a->y0, b->y1) <= 0 &&
-         mpz_cmp(b->y0, a->y1) <= 0;
-}
-
 static void cover_grow_circle(dyd_icircle *k, const mpz_t factor) {
   mpz_mul(k->ax, k->ax, factor);
   mpz_mul(k->bx, k->bx, factor);
@@ -135,7 +130,7 @@ static bool cover_blocks_circle(void *context, uint32_t v) {
   if (!k->sk->mesh.no_filter && dyd_surely_not_nearer(&k->sk->rects, &k->centre, v, k->bound)) return true;
   if (!cover_member(&q, k, v)) return false;
   const dyd_irect *r = &k->w->set.rect[q];
-  if (cover_rects_meet(r, &k->w->set.rect[0]) || cover_rects_meet(r, &k->w->set.rect[1])) return true;
+  if (dyd_irects_meet(r, &k->w->set.rect[0]) || dyd_irects_meet(r, &k->w->set.rect[1])) return true;
   if (dyd_icircle_side(&k->w->here, r, DYD_FARTHEST) >= 0) return true;
   k->blocker = v;
   return false;
@@ -186,7 +181,7 @@ dyd_status dyd_cover_possible(bool *possible, dyd_work *w, const dyd_skeleton *s
   if (!w->walked) return DYD_OK;
   if (!cover_start(&k)) return k.status;
   const dyd_irect *a = &w->set.rect[0], *b = &w->set.rect[1];
-  if (cover_rects_meet(a, b)) return DYD_OK;
+  if (dyd_irects_meet(a, b)) return DYD_OK;
   k.axis = mpz_cmp(a->x1, b->x0) < 0 || mpz_cmp(b->x1, a->x0) < 0 ? 1 : 0;
   w->counters.cover_walks++;
   cover_ask_end(&k, 1);

@@ -44,4 +44,10 @@ void dyd_irect_partial_edge_area2(mpz_ptr out, const dyd_irect *a, const dyd_ire
 /* Are the convex hulls of a u b and of c u d disjoint? Touching counts as meeting [HULL-1]. */
 bool dyd_irect_partial_edges_disjoint(const dyd_irect *a, const dyd_irect *b, const dyd_irect *c, const dyd_irect *d);
 
+/* Do they have a common point? */
+static inline bool dyd_irects_meet(const dyd_irect *a, const dyd_irect *b) {
+  return mpz_cmp(a->x0, b->x1) <= 0 && mpz_cmp(b->x0, a->x1) <= 0 && mpz_cmp(a->y0, b->y1) <= 0 &&
+         mpz_cmp(b->y0, a->y1) <= 0;
+}
+
 #endif

@@ -40,11 +40,6 @@ static void cell_frame_scale(dyd_cell_frame *c, const dyd_cell_task *task, dyd_i
   c->shift = bits > 200 ? (int64_t)bits - 200 : 0;
 }
 
-static bool irects_meet(const dyd_irect *a, const dyd_irect *b) {
-  return mpz_cmp(a->x0, b->x1) <= 0 && mpz_cmp(b->x0, a->x1) <= 0 && mpz_cmp(a->y0, b->y1) <= 0 &&
-         mpz_cmp(b->y0, a->y1) <= 0;
-}
-
 static void scaled_take(dyd_scaled *out, dyd_irect *r, int64_t shift) {
   dyd_irect t = out->r;
   out->r = *r;
@@ -78,7 +73,7 @@ static dyd_status cell_set_rects(bool *blocked, dyd_exact_cell *c, dyd_cell_fram
   }
   *blocked = false;
   for (size_t k = 0; k < t->count; k++) {
-    if (irects_meet(&frame->fixed.r, &r[k + 1])) {
+    if (dyd_irects_meet(&frame->fixed.r, &r[k + 1])) {
       *blocked = true;
       continue;
     }
