@@ -51,9 +51,8 @@ static int incircle_slow(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32
 }
 
 int dyd_mesh_incircle(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
-  tally->asked++;
-  int sign = m->no_filter ? 0 : dyd_filter_incircle_at(m, m->xy[a], m->xy[b], m->xy[c], m->xy[p]);
-  return sign ? sign : incircle_slow(tally, m, a, b, c, p);
+  int sign;
+  return dyd_incircle_quick(&sign, tally, m, a, b, c, p) ? sign : incircle_slow(tally, m, a, b, c, p);
 }
 
 /* The grid costs O(n), so it is made when the filters have said that they do not know. */

@@ -11,6 +11,18 @@ int dyd_mesh_orient(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b,
  * strictly beyond the hull edge or on it between its ends. p is real; 0 also at ties. */
 int dyd_mesh_incircle(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
 
+/* In doubles alone: true and the sign where they know it. Exact ties of small integers are known here [FLT-SMALL]: on a
+ * grid every other test is one. */
+static inline bool dyd_incircle_quick(int *sign, dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b,
+                                      uint32_t c, uint32_t p) {
+  tally->asked++;
+  if (m->no_filter) return false;
+  if ((*sign = dyd_filter_incircle_at(m, m->xy[a], m->xy[b], m->xy[c], m->xy[p]))) return true;
+  if (!(m->exact_s > 0) || !dyd_filter_incircle_small(sign, m, m->xy[a], m->xy[b], m->xy[c], m->xy[p])) return false;
+  tally->ties += !*sign;
+  return true;
+}
+
 /* The same for whoever builds m: counts in its tally, and makes its grid of integers at the first need. */
 int dyd_build_orient_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c);
 static inline int dyd_build_orient(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c) {
@@ -20,9 +32,8 @@ static inline int dyd_build_orient(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t
 }
 int dyd_build_incircle_slow(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p);
 static inline int dyd_build_incircle(dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
-  m->tally.asked++;
-  int sign = m->no_filter ? 0 : dyd_filter_incircle_at(m, m->xy[a], m->xy[b], m->xy[c], m->xy[p]);
-  return sign ? sign : dyd_build_incircle_slow(m, a, b, c, p);
+  int sign;
+  return dyd_incircle_quick(&sign, &m->tally, m, a, b, c, p) ? sign : dyd_build_incircle_slow(m, a, b, c, p);
 }
 
 /* Adds what was counted to the public counters: tests that were not passed on were answered by a filter. */
