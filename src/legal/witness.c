@@ -20,7 +20,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MAX_RIVALS = 12, LEAST_STEPS = 48, MAX_STEPS = 400, STEP_BITS = 1 << 17 };
+enum { MAX_RIVALS = 12, LEAST_STEPS = 48, MAX_STEPS = 400, STEP_BITS = 1 << 17, SNAP_STEPS = 8 };
 
 /* Invariant: `rivals` counts those seen so far who violate the present c; ended: there is no witness, or no room for
  * more half-planes, or c is only asked about and violated. */
@@ -28,7 +28,7 @@ typedef struct search {
   const dyd_rects *rects;
   bool no_filter;
   uint32_t i, j;
-  dyd_rect own[2];
+  dyd_rect own[2], rival; /* rival: the latest */
   dyd_plane_list *planes; /* NULL: c is only asked about */
   dyd_point c;
   size_t rivals;
@@ -40,6 +40,7 @@ static dyd_status witness_search_init(search *s, const dyd_work *w, const dyd_sk
   *s = (search){.rects = w->rects, .no_filter = sk->mesh.no_filter, .i = i, .j = j};
   dyd_rect_init(&s->own[0]);
   dyd_rect_init(&s->own[1]);
+  dyd_rect_init(&s->rival);
   dyd_point_init(&s->c);
   s->status = dyd_rects_get(&s->own[0], s->rects, i);
   if (s->status == DYD_OK) s->status = dyd_rects_get(&s->own[1], s->rects, j);
@@ -48,6 +49,7 @@ static dyd_status witness_search_init(search *s, const dyd_work *w, const dyd_sk
 
 static void witness_search_clear(search *s) {
   dyd_point_clear(&s->c);
+  dyd_rect_clear(&s->rival);
   dyd_rect_clear(&s->own[1]);
   dyd_rect_clear(&s->own[0]);
 }
@@ -68,6 +70,7 @@ static void witness_add_rival(search *s, const dyd_rect *r) {
   s->ended = !s->planes;
   for (int q = 0; q < 2 && !s->ended; q++) s->ended = !dyd_planes_add(s->planes, &s->c, &s->own[q], r);
   s->rivals++;
+  dyd_rect_set(&s->rival, r);
 }
 
 /* A few violators are enough for one step. */
@@ -122,6 +125,43 @@ static int64_t witness_steps(const dyd_plane_list *l) {
   return span > STEP_BITS / (MAX_STEPS - LEAST_STEPS) ? LEAST_STEPS + STEP_BITS / span : MAX_STEPS;
 }
 
+/* end: the end of the three sides that is nearest to x; gap: how near. */
+static void witness_nearest_end(const dyd_dyadic **end, dyd_dyadic *gap, const dyd_dyadic *x,
+                                const dyd_interval *const side[3]) {
+  dyd_dyadic d;
+  dyd_dyadic_init(&d);
+  *end = NULL;
+  for (int k = 0; k < 6; k++) {
+    const dyd_dyadic *e = k % 2 ? &side[k / 2]->hi : &side[k / 2]->lo;
+    if (dyd_dyadic_sub(&d, x, e) != DYD_OK) continue;
+    if (dyd_dyadic_sgn(&d) < 0) dyd_dyadic_neg(&d, &d);
+    if (*end && dyd_dyadic_cmp(&d, gap) >= 0) continue;
+    *end = e;
+    dyd_dyadic_swap(&d, gap);
+  }
+  dyd_dyadic_clear(&d);
+}
+
+/* Where witnesses have next to no room, the centres come nearer to it by a fixed part in each step: as many steps as
+ * numbers have bits. It often lies beside ends of rectangles: there half-planes are of the right scale at once. In
+ * turns the nearer coordinate moves (the other may be on its way to infinity) and both. */
+static void witness_snap(search *s, bool both) {
+  const dyd_interval *const x[3] = {&s->own[0].x, &s->own[1].x, &s->rival.x};
+  const dyd_interval *const y[3] = {&s->own[0].y, &s->own[1].y, &s->rival.y};
+  const dyd_dyadic *end[2];
+  dyd_dyadic gap[2];
+  for (int k = 0; k < 2; k++) dyd_dyadic_init(&gap[k]);
+  witness_nearest_end(&end[0], &gap[0], &s->c.x, x);
+  witness_nearest_end(&end[1], &gap[1], &s->c.y, y);
+  if (end[0] && end[1]) {
+    int order = dyd_dyadic_cmp(&gap[0], &gap[1]);
+    if (both || order <= 0) dyd_dyadic_set(&s->c.x, end[0]);
+    if (both || order > 0) dyd_dyadic_set(&s->c.y, end[1]);
+    witness_evaluate(s);
+  }
+  for (int k = 0; k < 2; k++) dyd_dyadic_clear(&gap[k]);
+}
+
 /* Ends with no rivals (a witness), or with some (none, the floor, or too many steps). */
 static void witness_search_run(search *s) {
   bool room = true;
@@ -131,6 +171,8 @@ static void witness_search_run(search *s) {
     if (step >= witness_steps(s->planes)) break;
     s->status = dyd_planes_centre(&room, &s->c, s->planes);
     if (s->status == DYD_OK && room) witness_evaluate(s);
+    if (s->status == DYD_OK && room && s->rivals && !s->ended && step % SNAP_STEPS == SNAP_STEPS - 1)
+      witness_snap(s, step / SNAP_STEPS % 2);
   }
 }
 
