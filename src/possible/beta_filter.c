@@ -50,18 +50,10 @@ static void start_tangent(dyd_beta *q, int up) {
   }
 }
 
-/* Do the rectangles surely meet? An end of a box may be outside by the slack. */
-static bool surely_meet(const dyd_rects *r, uint32_t i, uint32_t j) {
-  const dyd_bbox *a = &r->box[i], *b = &r->box[j];
-  double slack = 2 * (dyd_box_slack(r, i) + dyd_box_slack(r, j));
-  return a->e[0] + slack <= b->e[1] && b->e[0] + slack <= a->e[1] && a->e[2] + slack <= b->e[3] &&
-         b->e[2] + slack <= a->e[3];
-}
-
 dyd_truth dyd_beta_start(dyd_beta *q, const dyd_rects *r, uint32_t i, uint32_t j) {
   const dyd_bbox *a = &r->box[i], *b = &r->box[j];
   double x = dyd_max(b->e[0] - a->e[1], a->e[0] - b->e[1]), y = dyd_max(b->e[2] - a->e[3], a->e[2] - b->e[3]);
-  if (!(dyd_max(x, y) > 0)) return surely_meet(r, i, j) ? DYD_FALSE : DYD_UNKNOWN;
+  if (!(dyd_max(x, y) > 0)) return dyd_surely_meet(r, i, j) ? DYD_FALSE : DYD_UNKNOWN;
   int across = y > x;
   bool swap = low(b, across) < low(a, across);
   *q = (dyd_beta){.rects = r, .i = swap ? j : i, .j = swap ? i : j, .across = across, .t = !across};
