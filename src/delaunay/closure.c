@@ -160,7 +160,7 @@ static dyd_status closing_found(void *context, bool *enough, uint32_t a, uint32_
  * the plane, all of whom are looked at. */
 static bool is_crowded(const closing *c) {
   uint32_t vertices = c->out->vertices;
-  bool many = c->tris >= CROWD && c->tris / 3 >= vertices / 2 && c->sk->rects.tree.count / 16 <= vertices;
+  bool many = c->tris >= CROWD && c->tris / 3 >= vertices / 2 && c->sk->rects.tree.count / 64 <= vertices;
   return many && !c->sk->mesh.no_filter;
 }
 

@@ -19,7 +19,8 @@
 
 /* Lists up to SHORT are looked at pair by pair, longer ones when cutting makes them no shorter, and pairs of lists up
  * to LONG are noted. DEEP: how often a patch is cut for the pairs noted in the last pass. COARSE: a patch is, while so
- * many times more may be nearest somewhere in it than at its centre; not those cut more than FINE times: ties. WALK:
+ * many times more may be nearest somewhere in it than at its centre; not those cut more than
+ * FINE times: ties. NARROW: strips cut so often stay coarse, near as they are at one end. WALK:
  * what it costs to decide one pair by itself, in looks at a rectangle; WORK: most of them for each site and each pair
  * found. */
 enum {
@@ -28,6 +29,7 @@ enum {
   DEEP = 2,
   COARSE = 4,
   FINE = 48,
+  NARROW = 4,
   DOMINATORS = 5,
   MAX_DEPTH = 200,
   WALK = 60,
@@ -329,7 +331,8 @@ static dyd_status cut(plane *p, const patch *q) {
 /* Looks at the pairs of q, which was one of `before` sites with `open` pairs, and cuts it where that is of use. */
 static dyd_status go_on(plane *p, patch *q, size_t before, size_t open) {
   patches_try_centre(p, q);
-  bool stuck = q->count <= SHORT || (q->count > before / 4 * 3 && !q->coarse), square = q->side < 0;
+  bool square = q->side < 0, may_shrink = q->coarse && (square || q->depth < NARROW);
+  bool stuck = q->count <= SHORT || (q->count > before / 4 * 3 && !may_shrink);
   dyd_status st = DYD_OK;
   if (q->listed)
     st = consider_wishes(p, q);
