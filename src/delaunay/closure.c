@@ -39,7 +39,7 @@ typedef struct closing {
   const uint32_t *tri;
   uint32_t tris;
   size_t open, room;
-  size_t known;                  /* pairs of sites that have a state */
+  uint64_t known, all;           /* pairs of sites that have a state, of how many */
   size_t walks, patience, tries; /* walks to a possible pair since a centre was tried; after how many the next one is */
   bool full;
 } closing;
@@ -152,7 +152,7 @@ static dyd_status add_possible(closing *c, uint32_t a, uint32_t b) {
 static dyd_status closing_found(void *context, bool *enough, uint32_t a, uint32_t b) {
   closing *c = context;
   dyd_status st = add_possible(c, a, b);
-  *enough = c->full;
+  *enough = c->full || c->known == c->all;
   return st;
 }
 
@@ -160,72 +160,73 @@ static dyd_status closing_found(void *context, bool *enough, uint32_t a, uint32_
  * the plane, all of whom are looked at. */
 static bool is_crowded(const closing *c) {
   uint32_t vertices = c->out->vertices;
-  bool many = c->tris >= CROWD && c->tris / 3 >= vertices / 2 && c->sk->rects.tree.count / 16 <= vertices;
+  bool many = c->tris >= CROWD && c->tris / 3 >= vertices / 2 && c->sk->rects.tree.count / 64 <= vertices;
   return many && !c->sk->mesh.no_filter;
 }
 
-/* A member's box, for a sweep from left to right. */
+/* A member by the left side of its box, for a sweep from left to right. */
 typedef struct sweep_entry {
-  const dyd_bbox *box;
+  double left;
   uint32_t member;
 } sweep_entry;
 
 static int compare_left(const void *a, const void *b) {
   const sweep_entry *x = a, *y = b;
-  double p = x->box->e[0], q = y->box->e[0];
-  if (p != q) return p < q ? -1 : 1;
+  if (x->left != y->left) return x->left < y->left ? -1 : 1;
   return (x->member > y->member) - (x->member < y->member);
 }
 
-/* The members whose boxes are their rectangles, by their left sides. */
-static dyd_status sweep_order(sweep_entry **order, size_t *count, const closing *c) {
-  const dyd_skeleton *sk = c->sk;
-  const uint32_t *v = c->out->vertex;
-  sweep_entry *e = dyd_alloc(c->out->vertices, sizeof *e);
-  if (!e) return DYD_E_NOMEM;
-  for (uint32_t a = 0; a < c->out->vertices; a++)
-    if (dyd_rects_in_doubles(&sk->rects, v[a])) e[(*count)++] = (sweep_entry){&sk->rects.box[v[a]], a};
-  qsort(e, *count, sizeof *e, compare_left);
-  *order = e;
-  return DYD_OK;
+static sweep_entry *sweep_order(const closing *c) {
+  uint32_t count = c->out->vertices;
+  sweep_entry *e = dyd_alloc(count, sizeof *e);
+  if (!e) return NULL;
+  for (uint32_t a = 0; a < count; a++) e[a] = (sweep_entry){c->sk->rects.box[c->out->vertex[a]].e[0], a};
+  qsort(e, count, sizeof *e, compare_left);
+  return e;
 }
 
-/* Rectangles that meet are a possible pair [POS-1]: those that doubles hold are compared at once. */
+/* Rectangles that meet are a possible pair [POS-1]: doubles tell of nearly all. */
 static dyd_status add_meeting(closing *c) {
-  sweep_entry *e = NULL;
-  size_t count = 0;
-  dyd_status st = sweep_order(&e, &count, c);
-  for (size_t q = 0; q < count && st == DYD_OK && !c->full; q++) {
+  const dyd_rects *rects = &c->sk->rects;
+  const uint32_t *v = c->out->vertex, count = c->out->vertices;
+  sweep_entry *e = sweep_order(c);
+  dyd_status st = e ? DYD_OK : DYD_E_NOMEM;
+  for (uint32_t q = 0; q < count && st == DYD_OK && !c->full; q++) {
+    uint32_t a = e[q].member;
+    double right = rects->box[v[a]].e[1];
     if (dyd_work_cancelled(c->w)) st = DYD_CANCELLED;
-    for (size_t r = q + 1; r < count && st == DYD_OK && !c->full && e[r].box->e[0] <= e[q].box->e[1]; r++)
-      if (!dyd_boxes_disjoint(e[q].box, e[r].box) &&
-          dyd_pair_map_get(&c->map, e[q].member, e[r].member) == DYD_PAIR_UNKNOWN)
-        st = closing_add(c, e[q].member, e[r].member, DYD_PAIR_OPEN);
+    for (uint32_t r = q + 1; r < count && st == DYD_OK && !c->full && e[r].left <= right; r++) {
+      uint32_t b = e[r].member;
+      if (dyd_surely_meet(rects, v[a], v[b]) && dyd_pair_map_get(&c->map, a, b) == DYD_PAIR_UNKNOWN)
+        st = closing_add(c, a, b, DYD_PAIR_OPEN);
+    }
   }
   free(e);
   return st;
 }
 
+static dyd_status closing_decide(void *context, bool *enough, uint32_t a, uint32_t b) {
+  static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
+  closing *c = context;
+  const uint32_t *v = c->out->vertex;
+  bool possible;
+  dyd_status st = dyd_cover_possible(&possible, c->w, c->sk, v[a], v[b], no_hint);
+  if (st == DYD_OK) st = possible ? add_possible(c, a, b) : closing_add(c, a, b, DYD_PAIR_IMPOSSIBLE);
+  *enough = c->full || c->known == c->all;
+  return st;
+}
+
 /* *done: all possible pairs have been found. */
 static dyd_status close_by_patches(bool *done, closing *c) {
-  static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
-  const uint32_t *v = c->out->vertex;
   dyd_patches patches = {.rects = &c->sk->rects,
                          .cancel = c->w->cancel,
-                         .vertex = v,
+                         .vertex = c->out->vertex,
                          .vertices = c->out->vertices,
                          .map = &c->map,
                          .found = closing_found,
+                         .decide = closing_decide,
                          .context = c};
-  dyd_status st = dyd_patches_run(done, &patches);
-  for (size_t q = 0; q < patches.count && *done && st == DYD_OK && !c->full; q++) {
-    uint32_t a = patches.left[q].a, b = patches.left[q].b;
-    bool possible;
-    st = dyd_work_cancelled(c->w) ? DYD_CANCELLED : dyd_cover_possible(&possible, c->w, c->sk, v[a], v[b], no_hint);
-    if (st == DYD_OK && possible) st = add_possible(c, a, b);
-  }
-  dyd_patches_clear(&patches);
-  return st;
+  return dyd_patches_run(done, &patches);
 }
 
 /* ---- few: closure under flips ---- */
@@ -305,15 +306,16 @@ static dyd_status closing_settle(closing *c, uint32_t a, uint32_t b) {
 
 static dyd_status closing_run(closing *c) {
   bool done = false;
-  uint64_t m = c->out->vertices, all = m * (m - 1) / 2;
+  uint64_t m = c->out->vertices;
+  c->all = m * (m - 1) / 2;
   bool crowded = is_crowded(c);
   dyd_status st = add_edges(c, true);
   if (st == DYD_OK) st = add_edges(c, false);
   if (st == DYD_OK && crowded) st = add_meeting(c);
-  if (st == DYD_OK && crowded && !c->full && c->known < all) st = close_by_patches(&done, c);
-  if (done || c->full) return st;
+  if (st == DYD_OK && crowded && !c->full && c->known < c->all) st = close_by_patches(&done, c);
+  if (done || c->full || c->known == c->all) return st;
   if (st == DYD_OK) st = start_ghost(c);
-  for (size_t q = 0; q < c->map.links && st == DYD_OK && !c->full && c->known < all; q += 2) {
+  for (size_t q = 0; q < c->map.links && st == DYD_OK && !c->full && c->known < c->all; q += 2) {
     if (dyd_work_cancelled(c->w)) return DYD_CANCELLED;
     st = closing_settle(c, c->map.link[q + 1].to, c->map.link[q].to);
   }

@@ -1,127 +1,55 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The cover walk from both ends, in doubles.
+/* The cover walk from the middle to both ends, in doubles.
  *
- * [COV-2] Let (i,j,k) and (i,j,l) be surely oriented, k and l on opposite sides. Then k blocks exactly a ray of the
- * curve beta = {ds_i = ds_j} and the end of it, l a ray to the other end; so if both block one point of beta, the
- * pair is impossible. That beta passes through a short segment across it is shown by ds_i < ds_j at the one end and
- * ds_j < ds_i at the other [BETA-1]; distances are bounded as in skeleton/distance_filter.h [FLT-DST], orientations as
- * in predicate/predicate_filter.h.
+ * [COV-2] What k blocks of beta = {ds_i = ds_j} is connected if k does not block one of its ends strictly. So a chain
+ * of such k, the first of which blocks the end at -inf, the last the end at inf, and each of which blocks a point of
+ * beta together with the next one, covers beta: the pair is impossible. A centre nearer to which nobody is shows that
+ * it is possible [POS-1].
  *
- * Where to look needs no bound: t runs along beta, lo is the end of the rays from below met so far, hi that of the
- * rays from above. Between them somebody else blocks, or nobody, which the tree confirms. */
+ * Where to look needs no bound: from the blocker of one place go to where its part of beta seems to end. Just behind
+ * somebody else blocks, or nobody, which the tree confirms. */
 #include "possible/cover_filter.h"
 
-#include "predicate/predicate_filter.h"
-#include "skeleton/mesh_filter.h"
-#include "skeleton/rects_filter.h"
+#include "possible/beta_filter.h"
+#include "skeleton/skeleton.h"
 
-enum { STEPS = 10, ROUNDS = 3, MAX_RIVALS = 48 };
+/* MOST_LINKS: of a chain, to each side. BISECTIONS, DOUBLINGS: steps of a search for an end. */
+enum { MOST_LINKS = 48, MAX_RIVALS = 48, BISECTIONS = 40, DOUBLINGS = 40, JOINTS = 5 };
 
-/* a, b: boxes of i and j; a is below b in the coordinate across, t is the other one (0: x, 1: y). rival: neighbours of
- * i and j in the skeleton, once gathered. */
+/* Ends are found up to so much of the distance; chains are joined, and go on, beside them. */
+#define BESIDE 0x1p-22
+
+/* rival: neighbours of i and j in the skeleton, once gathered. */
 typedef struct quick {
   const dyd_skeleton *sk;
-  uint32_t i, j;
-  const dyd_bbox *a, *b;
-  int across, t;
+  dyd_beta beta;
+  const uint32_t *hint;
   bool gathered;
   int rivals;
   uint32_t rival[MAX_RIVALS];
 } quick;
 
-/* About a point of beta: its coordinates and ds^2. */
-typedef struct place {
-  double at[2], ds2;
-} place;
-
-/* The end of a ray that somebody blocks. */
-typedef struct ray {
-  uint32_t v;
-  double t;
-} ray;
-
-static double cover_low(const dyd_bbox *b, int axis) {
-  return b->e[2 * axis];
-}
-static double cover_high(const dyd_bbox *b, int axis) {
-  return b->e[2 * axis + 1];
-}
-static double cover_middle(const dyd_bbox *b, int axis) {
-  return cover_low(b, axis) / 2 + cover_high(b, axis) / 2;
-}
-static double nearest(double c, double lo, double hi) {
-  return c < lo ? lo : c > hi ? hi : c;
-}
-static double farthest(double c, double lo, double hi) {
-  return c - lo > hi - c ? lo : hi;
-}
-
-/* The point of beta at t: dx_i^2 - dx_j^2 = dy_j^2 - dy_i^2, where the left side is a piecewise quadratic function of
- * the coordinate across. */
-static place place_at(const quick *q, double t) {
-  double a0 = cover_low(q->a, q->across), a1 = cover_high(q->a, q->across), b0 = cover_low(q->b, q->across),
-         b1 = cover_high(q->b, q->across);
-  double ta = t - nearest(t, cover_low(q->a, q->t), cover_high(q->a, q->t)),
-         tb = t - nearest(t, cover_low(q->b, q->t), cover_high(q->b, q->t));
-  double k = tb * tb - ta * ta, gap = b0 - a1, x;
-  if (fabs(k) <= gap * gap) {
-    x = a1 + gap / 2 + k / (2 * gap);
-  } else if (k > 0) {
-    x = a1 + sqrt(k);
-    if (x > b1) x = (k / (b1 - a1) + a1 + b1) / 2;
-  } else {
-    x = b0 - sqrt(-k);
-    if (x < a0) x = (k / (b0 - a0) + a0 + b0) / 2;
-  }
-  double dx = x - nearest(x, a0, a1);
-  place p = {.ds2 = dx * dx + ta * ta};
-  p.at[q->across] = x;
-  p.at[q->t] = t;
-  return p;
-}
-
-static double far2(const place *p, const dyd_bbox *b) {
-  double dx = p->at[0] - farthest(p->at[0], b->e[0], b->e[1]), dy = p->at[1] - farthest(p->at[1], b->e[2], b->e[3]);
-  return dx * dx + dy * dy;
-}
-
-/* -1: below the line from i to j, seen along t; 1: above. */
-static int side_of(const quick *q, const dyd_bbox *b) {
-  double t0 = cover_middle(q->a, q->t), x0 = cover_middle(q->a, q->across);
-  double jt = cover_middle(q->b, q->t) - t0, jx = cover_middle(q->b, q->across) - x0;
-  double kt = cover_middle(b, q->t) - t0, kx = cover_middle(b, q->across) - x0;
-  return kt * jx < jt * kx ? -1 : 1;
-}
-
-static dyd_xy nearest_point(const place *p, const dyd_bbox *b) {
-  return (dyd_xy){nearest(p->at[0], b->e[0], b->e[1]), nearest(p->at[1], b->e[2], b->e[3])};
-}
-
-/* About where the ray that k blocks ends: the circle through the features that the three show, some times over. */
-static double ray_end(const quick *q, const dyd_bbox *k, place p) {
-  for (int round = 0; round < ROUNDS; round++) {
-    dyd_xy far = {farthest(p.at[0], k->e[0], k->e[1]), farthest(p.at[1], k->e[2], k->e[3])};
-    dyd_xy o = dyd_circumcentre(nearest_point(&p, q->a), nearest_point(&p, q->b), far);
-    p = place_at(q, q->t ? o.y : o.x);
-  }
-  return p.at[q->t];
-}
-
 /* ---- who blocks a place ---- */
 
-/* About who is nearest among the neighbours, if nearer than i and j. */
-static uint32_t likely_blocker(quick *q, const place *p) {
+static bool seems_blocked(const quick *q, uint32_t k, double t) {
+  dyd_place p = dyd_beta_at(&q->beta, t);
+  return dyd_place_far2(&p, &q->sk->rects.box[k]) < p.ds2;
+}
+
+/* About who is nearest among the hints and neighbours, if nearer than i and j. */
+static uint32_t likely_blocker(quick *q, const dyd_place *p) {
   double least = p->ds2;
   uint32_t best = DYD_NONE;
   if (!q->gathered) {
     q->gathered = true;
-    q->rivals = dyd_neighbours(q->rival, MAX_RIVALS, q->sk, q->i, q->j);
+    q->rivals = dyd_neighbours(q->rival, MAX_RIVALS, q->sk, q->beta.i, q->beta.j);
   }
-  for (int k = 0; k < q->rivals; k++) {
-    double d = far2(p, &q->sk->rects.box[q->rival[k]]);
+  for (int k = 0; k < q->rivals + 2; k++) {
+    uint32_t v = k < 2 ? q->hint[k] : q->rival[k - 2];
+    double d = v == DYD_NONE ? INFINITY : dyd_place_far2(p, &q->sk->rects.box[v]);
     if (!(d < least)) continue;
     least = d;
-    best = q->rival[k];
+    best = v;
   }
   return best;
 }
@@ -135,99 +63,121 @@ typedef struct search {
 
 static bool perhaps_nearer(void *context, uint32_t k) {
   search *s = context;
-  if (k == s->q->i || k == s->q->j || dyd_surely_not_nearer(&s->q->sk->rects, &s->c, k, s->bound)) return true;
+  const dyd_beta *b = &s->q->beta;
+  if (k == b->i || k == b->j || dyd_surely_not_nearer(&s->q->sk->rects, &s->c, k, s->bound)) return true;
   s->found = k;
   return false;
 }
 
 /* Somebody who is perhaps nearer than i or j; DYD_NONE: surely nobody, so the pair is possible [POS-1]. */
-static uint32_t any_blocker(const quick *q, const place *p) {
+static uint32_t any_blocker(const quick *q, const dyd_place *p) {
   search s = {q, {{p->at[0], p->at[0], p->at[1], p->at[1]}}, 0, DYD_NONE};
-  s.bound = dyd_pair_ds2_upper(&q->sk->rects, &s.c, q->i, q->j);
+  s.bound = dyd_pair_ds2_upper(&q->sk->rects, &s.c, q->beta.i, q->beta.j);
   dyd_tree_near(&q->sk->rects.tree, &s.c, &s.bound, perhaps_nearer, &s);
   return s.found;
 }
 
-/* ---- proof that there is no centre ---- */
+static uint32_t blocker_at(quick *q, const dyd_place *p) {
+  uint32_t k = likely_blocker(q, p);
+  return k == DYD_NONE ? any_blocker(q, p) : k;
+}
 
-/* Does beta surely pass between the places x -+ width across, at t? *c: the segment. */
-static bool crosses(dyd_bbox *c, const quick *q, const place *p, double width) {
-  dyd_bbox end[2];
-  for (int k = 0; k < 2; k++) {
-    double x = p->at[q->across] + (k ? width : -width);
-    end[k].e[2 * q->across] = end[k].e[2 * q->across + 1] = x;
-    end[k].e[2 * q->t] = end[k].e[2 * q->t + 1] = p->at[q->t];
-    c->e[2 * q->across + k] = x;
-    c->e[2 * q->t + k] = p->at[q->t];
+/* ---- the chain ---- */
+
+/* Is what k blocks surely connected? */
+static bool is_link(const quick *q, uint32_t k) {
+  return dyd_beta_blocks_end(&q->beta, k, 0) == DYD_SURE_MINUS || dyd_beta_blocks_end(&q->beta, k, 1) == DYD_SURE_MINUS;
+}
+
+static bool is_last_link(const quick *q, uint32_t k, int up) {
+  return dyd_beta_blocks_end(&q->beta, k, up) == DYD_SURE_PLUS &&
+         dyd_beta_blocks_end(&q->beta, k, !up) == DYD_SURE_MINUS;
+}
+
+/* About where the part that k blocks ends, from the blocked place t on; beside: how far from it to look. NaN: not
+ * found. */
+static double find_end(double *beside, const quick *q, uint32_t k, double t, int up) {
+  dyd_place p = dyd_beta_at(&q->beta, t);
+  double way = up ? 1 : -1, guess = dyd_beta_guess_end(&q->beta, k, p), step = 0x1p-4 * sqrt(p.ds2), from = 0, to;
+  int tries = 0;
+  *beside = BESIDE * sqrt(dyd_beta_at(&q->beta, guess).ds2);
+  if ((guess - t) * way > 0 && seems_blocked(q, k, guess - way * *beside) &&
+      !seems_blocked(q, k, guess + way * *beside))
+    return guess;
+  for (to = step; seems_blocked(q, k, t + way * to); to *= 2) {
+    if (tries++ == DOUBLINGS) return NAN;
+    from = to;
   }
-  double slack_a = dyd_box_slack(&q->sk->rects, q->i), slack_b = dyd_box_slack(&q->sk->rects, q->j);
-  return dyd_ds2_upper(&end[0], q->a, slack_a) < dyd_ds2_lower(&end[0], q->b) &&
-         dyd_ds2_upper(&end[1], q->b, slack_b) < dyd_ds2_lower(&end[1], q->a);
+  for (tries = 0; tries < BISECTIONS && to - from > BESIDE / 4 * step; tries++) {
+    double middle = from + (to - from) / 2;
+    *(seems_blocked(q, k, t + way * middle) ? &from : &to) = middle;
+  }
+  *beside = BESIDE * sqrt(dyd_beta_at(&q->beta, t + way * from).ds2);
+  return t + way * from;
 }
 
-/* Do k and l surely block all of beta? */
-static bool surely_cover(const quick *q, uint32_t k, uint32_t l, double t) {
-  const dyd_bbox *box = q->sk->rects.box;
-  place p = place_at(q, t);
-  dyd_bbox c;
-  double ds = sqrt(p.ds2), x = fabs(p.at[q->across]), gap = cover_low(q->b, q->across) - cover_high(q->a, q->across);
-  if (!crosses(&c, q, &p, 0x1p-40 * ds * (1 + ds / gap) + 0x1p-48 * x)) return false;
-  double near = dyd_max(dyd_ds2_lower(&c, q->a), dyd_ds2_lower(&c, q->b));
-  if (!(dyd_dl2_upper(&c, &box[k]) < near && dyd_dl2_upper(&c, &box[l]) < near)) return false;
-  dyd_sure turn = dyd_filter_orientation(q->a->e, q->b->e, box[k].e);
-  return turn != DYD_UNSURE && (int)dyd_filter_orientation(q->a->e, q->b->e, box[l].e) == -(int)turn;
+/* Do k and next surely block one place of beta, a little before what k blocks ends? */
+static bool are_joined(const quick *q, uint32_t k, uint32_t next, double end, double beside) {
+  const uint32_t both[2] = {k, next};
+  for (int tries = 0; tries < JOINTS; tries++, beside *= 0x1p5)
+    if (dyd_beta_surely_blocked(&q->beta, both, 2, end - beside)) return true;
+  return false;
 }
 
-/* ---- the walk ---- */
-
-/* k blocks the place p: its ray counts from now on. false: it tells nothing new. */
-static bool take(ray end[2], const quick *q, uint32_t k, place p) {
-  const dyd_bbox *b = &q->sk->rects.box[k];
-  int up = side_of(q, b) > 0;
-  double t = ray_end(q, b, p);
-  if (!(up ? t < end[1].t : t > end[0].t)) return false;
-  end[up] = (ray){k, t};
-  return true;
-}
-
-/* Where to look next: between the rays; just behind a single one. */
-static double next_place(const quick *q, const ray end[2]) {
-  if (isfinite(end[0].t) && isfinite(end[1].t)) return end[0].t / 2 + end[1].t / 2;
-  int up = isfinite(end[1].t);
-  place p = place_at(q, end[up].t);
-  return end[up].t + (up ? -1 : 1) * 0x1p-4 * sqrt(p.ds2);
-}
-
-static dyd_truth walk(quick *q, const uint32_t hint[2]) {
-  ray end[2] = {{DYD_NONE, -INFINITY}, {DYD_NONE, INFINITY}};
-  double t = cover_middle(q->a, q->t) / 2 + cover_middle(q->b, q->t) / 2;
-  for (int k = 0; k < 2; k++)
-    if (hint[k] != DYD_NONE) take(end, q, hint[k], place_at(q, t));
-  for (int step = 0; step < STEPS; step++) {
-    if (isfinite(end[0].t) || isfinite(end[1].t)) t = next_place(q, end);
-    if (end[0].t > end[1].t) return surely_cover(q, end[0].v, end[1].v, t) ? DYD_FALSE : DYD_UNKNOWN;
-    place p = place_at(q, t);
+/* From the blocked place t towards an end. FALSE: all is blocked there; TRUE: a centre has been found. */
+static dyd_truth extend(quick *q, uint32_t k, double t, int up) {
+  double way = up ? 1 : -1, beside;
+  for (int link = 0; link < MOST_LINKS; link++) {
+    if (is_last_link(q, k, up)) return DYD_FALSE;
+    double end = find_end(&beside, q, k, t, up);
+    t = end + way * beside;
+    dyd_place p = dyd_beta_at(&q->beta, t);
     if (!isfinite(p.ds2)) return DYD_UNKNOWN;
-    uint32_t k = likely_blocker(q, &p);
-    if (k == DYD_NONE) k = any_blocker(q, &p);
-    if (k == DYD_NONE) return DYD_TRUE;
-    if (!take(end, q, k, p)) return DYD_UNKNOWN;
+    uint32_t next = blocker_at(q, &p);
+    if (next == DYD_NONE) return DYD_TRUE;
+    if (next == k || !is_link(q, next) || !are_joined(q, k, next, end, way * beside)) return DYD_UNKNOWN;
+    k = next;
   }
   return DYD_UNKNOWN;
 }
 
-dyd_truth dyd_filter_cover(const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t hint[2]) {
-  const dyd_bbox *a = &sk->rects.box[i], *b = &sk->rects.box[j];
-  quick q = {.sk = sk, .i = i, .j = j, .a = a, .b = b};
-  double x = dyd_max(b->e[0] - a->e[1], a->e[0] - b->e[1]), y = dyd_max(b->e[2] - a->e[3], a->e[2] - b->e[3]);
-  if (!(dyd_max(x, y) > 0)) return DYD_UNKNOWN;
-  q.across = y > x;
-  q.t = !q.across;
-  if (cover_low(b, q.across) < cover_low(a, q.across)) {
-    q.a = b;
-    q.b = a;
-    q.i = j;
-    q.j = i;
+/* Between the ends of what the hints block, or about in the middle. */
+static double first_place(const quick *q) {
+  const dyd_beta *b = &q->beta;
+  double t = b->a->e[2 * b->t] / 4 + b->a->e[2 * b->t + 1] / 4 + b->b->e[2 * b->t] / 4 + b->b->e[2 * b->t + 1] / 4;
+  dyd_place middle = dyd_beta_at(b, t);
+  if (q->hint[0] == DYD_NONE || q->hint[1] == DYD_NONE) return t;
+  double between = dyd_beta_guess_end(b, q->hint[0], middle) / 2 + dyd_beta_guess_end(b, q->hint[1], middle) / 2;
+  return isfinite(between) ? between : t;
+}
+
+/* Do the two hints block everything? */
+static bool hints_cover(const quick *q, double t) {
+  const uint32_t *k = q->hint;
+  if (k[0] == DYD_NONE || k[1] == DYD_NONE || !dyd_beta_surely_blocked(&q->beta, k, 2, t)) return false;
+  return (is_last_link(q, k[0], 0) && is_last_link(q, k[1], 1)) ||
+         (is_last_link(q, k[0], 1) && is_last_link(q, k[1], 0));
+}
+
+static dyd_truth walk_both_ways(quick *q) {
+  double t = first_place(q);
+  if (hints_cover(q, t)) return DYD_FALSE;
+  dyd_place p = dyd_beta_at(&q->beta, t);
+  if (!isfinite(p.ds2)) return DYD_UNKNOWN;
+  uint32_t k = blocker_at(q, &p);
+  if (k == DYD_NONE) return DYD_TRUE;
+  dyd_truth sure = is_link(q, k) && dyd_beta_surely_blocked(&q->beta, &k, 1, t) ? DYD_FALSE : DYD_UNKNOWN;
+  for (int up = 0; up < 2; up++) {
+    dyd_truth side = extend(q, k, t, up);
+    if (side == DYD_TRUE) return side;
+    if (side == DYD_UNKNOWN) sure = side;
   }
-  return walk(&q, hint);
+  return sure;
+}
+
+dyd_truth dyd_filter_cover(const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t hint[2]) {
+  quick q = {.sk = sk, .hint = hint};
+  dyd_truth apart = dyd_beta_start(&q.beta, &sk->rects, i, j);
+  if (apart == DYD_TRUE) return walk_both_ways(&q);
+  return apart == DYD_FALSE ? DYD_TRUE : DYD_UNKNOWN;
 }

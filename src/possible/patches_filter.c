@@ -18,17 +18,21 @@
 #include <math.h>
 
 /* Lists up to SHORT are looked at pair by pair, longer ones when cutting makes them no shorter, and pairs of lists up
- * to LONG are noted. DEEP: how often a patch is cut for the pairs noted. EARLY: patches are still so large that lists
- * can't be short. */
+ * to LONG are noted. DEEP: how often a patch is cut for the pairs noted in the last pass. COARSE: a patch is, while so
+ * many times more may be nearest somewhere in it than at its centre; not those cut more than
+ * FINE times: ties. NARROW: strips cut so often stay coarse, near as they are at one end. WALK:
+ * what it costs to decide one pair by itself, in looks at a rectangle; WORK: most of them for each site and each pair
+ * found. */
 enum {
   SHORT = 48,
   LONG = 4096,
-  FIRST = 3,
-  STEP = 3,
-  DEEP = 6,
-  EARLY = 6,
+  DEEP = 2,
+  COARSE = 4,
+  FINE = 48,
+  NARROW = 4,
   DOMINATORS = 5,
   MAX_DEPTH = 200,
+  WALK = 60,
   WORK = 1000
 };
 
@@ -46,16 +50,16 @@ typedef struct wish {
 
 /* side < 0: the square [x0,x1] x [y0,y1]. Else the strip at that side of the root square between the rays x0, x1.
  * listed: the open pairs are wish[first_wish .. + wishes) of the plane, else all pairs of the list. levels: how often
- * it was cut since. */
+ * it was cut since it was listed and not coarse. */
 typedef struct patch {
   double x0, x1, y0, y1;
   int side, depth, levels;
   size_t first, count, first_wish, wishes;
-  bool listed;
+  bool listed, coarse;
 } patch;
 
 typedef struct plane {
-  dyd_patches *c;
+  const dyd_patches *c;
   double x0, x1, y0, y1, cx, cy, radius; /* the root square */
   entry *entry;
   size_t entries, entry_cap;
@@ -67,7 +71,7 @@ typedef struct plane {
   bool *near; /* by place in the list: possibly nearest at the centre */
   double least;
   size_t work, found;
-  int deep; /* how often a listed patch is cut in this pass */
+  bool last; /* of the passes */
   bool enough, lost;
 } plane;
 
@@ -232,14 +236,18 @@ static bool is_open(const plane *p, const entry *a, const entry *b) {
 }
 
 /* near[k]: the k-th of the list is surely possibly nearest at the centre of the patch. All of them are possible
- * neighbours of one another. */
-static void patches_try_centre(plane *p, const patch *q) {
+ * neighbours of one another. Much longer lists mean that the patch is coarse beside what is open in it, be that by far
+ * outliers, by distance or by density. */
+static void patches_try_centre(plane *p, patch *q) {
   const dyd_rects *r = p->c->rects;
   const entry *e = p->entry + q->first;
   dyd_plane_corner v = centre_of(p, q);
-  for (size_t k = 0; k < q->count; k++)
-    p->near[k] = e[k].member != DYD_NONE &&
-                 dyd_closest_upper(&v, &r->box[e[k].vertex], dyd_box_slack(r, e[k].vertex)) <= p->least;
+  size_t near = 0;
+  for (size_t k = 0; k < q->count; k++) {
+    p->near[k] = dyd_closest_upper(&v, &r->box[e[k].vertex], dyd_box_slack(r, e[k].vertex)) <= p->least;
+    near += p->near[k];
+  }
+  q->coarse = q->depth < FINE && q->count > COARSE * (near ? near : 1);
 }
 
 /* Tells of the pair of the list if it is open and shown, else keeps it if it is open and the patch is listed. */
@@ -281,15 +289,26 @@ static dyd_status consider_all(plane *p, patch *q) {
   return st;
 }
 
+/* Has the search become hopeless: too much work for what it shows? */
+static bool is_lost(plane *p) {
+  p->lost = p->lost || p->work > WORK * ((size_t)p->c->rects->tree.count + p->found);
+  return p->lost;
+}
+
+/* Cutting shows no more: in the last pass, each pair that is still open is decided by itself. */
 static dyd_status leave(plane *p, const patch *q) {
-  dyd_patches *c = p->c;
-  if (!dyd_reserve((void **)&c->left, &c->cap, c->count + q->wishes, sizeof *c->left)) return DYD_E_NOMEM;
-  for (size_t k = 0; k < q->wishes; k++) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < q->wishes && p->last && st == DYD_OK && !p->enough && !is_lost(p); k++) {
     wish w = p->wish[q->first_wish + k];
-    uint32_t a = p->entry[q->first + w.a].member, b = p->entry[q->first + w.b].member;
-    c->left[c->count++] = a < b ? (dyd_member_pair){a, b} : (dyd_member_pair){b, a};
+    const entry *i = &p->entry[q->first + w.a], *j = &p->entry[q->first + w.b];
+    if (!is_open(p, i, j)) continue;
+    st = p->c->decide(p->c->context, &p->enough, i->member, j->member);
+    if (dyd_pair_is_possible(dyd_pair_map_get(p->c->map, i->member, j->member)))
+      p->found++;
+    else
+      p->work += WALK;
   }
-  return DYD_OK;
+  return st;
 }
 
 /* ---- the recursion ---- */
@@ -309,31 +328,30 @@ static dyd_status cut(plane *p, const patch *q) {
   return st;
 }
 
-/* Has the search become hopeless: too much work for what it shows, or patches too small? */
-static bool is_lost(plane *p, const patch *q) {
-  p->lost = p->lost || q->depth > MAX_DEPTH || p->work > WORK * ((size_t)p->c->rects->tree.count + p->found);
-  return p->lost;
+/* Looks at the pairs of q, which was one of `before` sites with `open` pairs, and cuts it where that is of use. */
+static dyd_status go_on(plane *p, patch *q, size_t before, size_t open) {
+  patches_try_centre(p, q);
+  bool square = q->side < 0, may_shrink = q->coarse && (square || q->depth < NARROW);
+  bool stuck = q->count <= SHORT || (q->count > before / 4 * 3 && !may_shrink);
+  dyd_status st = DYD_OK;
+  if (q->listed)
+    st = consider_wishes(p, q);
+  else if (stuck)
+    st = consider_all(p, q);
+  if (st != DYD_OK || p->enough || (q->listed && q->wishes == 0)) return st;
+  if (square && q->coarse && q->wishes > q->count) q->levels = 0;
+  bool pays = q->wishes <= open / 4 * 3;
+  return q->listed && !pays && q->levels >= (p->last ? DEEP : 0) ? leave(p, q) : cut(p, q);
 }
 
 static dyd_status look(plane *p, patch q) {
-  size_t entries = p->entries, wishes = p->wishes;
-  p->work += q.count;
-  if (p->enough || is_lost(p, &q)) return DYD_OK;
+  size_t entries = p->entries, wishes = p->wishes, before = q.count, open = q.wishes;
+  p->work += before;
+  p->lost = p->lost || q.depth > MAX_DEPTH;
+  if (p->enough || is_lost(p)) return DYD_OK;
   if (dyd_flag_is_set(p->c->cancel)) return DYD_CANCELLED;
-  if (!dyd_reserve((void **)&p->entry, &p->entry_cap, p->entries + 2 * q.count, sizeof *p->entry)) return DYD_E_NOMEM;
-  size_t before = q.count, members = make_list(p, &q);
-  bool stuck = q.count <= SHORT || (q.count > before / 4 * 3 && q.depth >= (q.side < 0 ? EARLY : EARLY / 2));
-  dyd_status st = DYD_OK;
-  if (members >= 2 && (q.listed || stuck)) {
-    patches_try_centre(p, &q);
-    st = q.listed ? consider_wishes(p, &q) : consider_all(p, &q);
-  }
-  if (members >= 2 && st == DYD_OK && !p->enough) {
-    if (q.listed && q.levels >= p->deep)
-      st = leave(p, &q);
-    else if (!q.listed || q.wishes)
-      st = cut(p, &q);
-  }
+  if (!dyd_reserve((void **)&p->entry, &p->entry_cap, p->entries + 2 * before, sizeof *p->entry)) return DYD_E_NOMEM;
+  dyd_status st = make_list(p, &q) < 2 ? DYD_OK : go_on(p, &q, before, open);
   p->entries = entries;
   p->wishes = wishes;
   return st;
@@ -374,28 +392,10 @@ static dyd_status everybody(plane *p) {
   return DYD_OK;
 }
 
-static int patches_compare_pairs(const void *x, const void *y) {
-  const dyd_member_pair *a = x, *b = y;
-  if (a->a != b->a) return a->a < b->a ? -1 : 1;
-  return (a->b > b->b) - (a->b < b->b);
-}
-
-/* Sorts the pairs left over; those that have found a state meanwhile and repeats go. */
-static void tidy(dyd_patches *c) {
-  size_t kept = 0;
-  if (c->count) qsort(c->left, c->count, sizeof *c->left, patches_compare_pairs);
-  for (size_t k = 0; k < c->count; k++) {
-    dyd_member_pair q = c->left[k];
-    if (kept && patches_compare_pairs(&c->left[kept - 1], &q) == 0) continue;
-    if (dyd_pair_map_get(c->map, q.a, q.b) == DYD_PAIR_UNKNOWN) c->left[kept++] = q;
-  }
-  c->count = kept;
-}
-
-/* Looks at everything; deeper passes find most pairs decided, wherever their centres were met first. */
+/* Looks at everything. The first pass finds most pairs that are possible at centres, wherever these are met; the last
+ * one decides all. */
 static dyd_status pass(plane *p) {
   patch root = {.x0 = p->x0, .x1 = p->x1, .y0 = p->y0, .y1 = p->y1, .side = -1, .count = p->entries};
-  p->c->count = 0;
   dyd_status st = look(p, root);
   for (int side = 0; side < 4 && st == DYD_OK; side++) {
     patch strip = {.x0 = -1, .x1 = 1, .side = side, .count = p->entries};
@@ -404,14 +404,15 @@ static dyd_status pass(plane *p) {
   return st;
 }
 
-dyd_status dyd_patches_run(bool *complete, dyd_patches *c) {
+dyd_status dyd_patches_run(bool *complete, const dyd_patches *c) {
   plane p = {.c = c};
   set_root(&p);
   bool finite = isfinite(p.x0) && isfinite(p.x1) && isfinite(p.y0) && isfinite(p.y1);
   dyd_status st = finite ? everybody(&p) : DYD_OK;
-  for (p.deep = FIRST; p.deep <= DEEP && finite && st == DYD_OK; p.deep += STEP) st = pass(&p);
+  if (finite && st == DYD_OK) st = pass(&p);
+  p.last = true;
+  if (finite && st == DYD_OK) st = pass(&p);
   *complete = finite && st == DYD_OK && !p.enough && !p.lost;
-  if (*complete) tidy(c);
   free(p.entry);
   free(p.wish);
   free(p.value);
@@ -420,10 +421,4 @@ dyd_status dyd_patches_run(bool *complete, dyd_patches *c) {
   free(p.near);
   free(p.place);
   return st;
-}
-
-void dyd_patches_clear(dyd_patches *c) {
-  free(c->left);
-  c->left = NULL;
-  c->count = c->cap = 0;
 }

@@ -254,6 +254,37 @@ static void test_cover(void **state) {
   assert_true(quickly[0] > 20 && quickly[2] > 20);
 }
 
+/* A small rectangle before a tall one, so that beta is bent, and others around both ends of it and behind the small
+ * one: several block a part of beta each, some two parts. */
+static void bent_case(orc_case *c, test_random *r) {
+  long tall = (long)test_between(r, 2, 12), apart = (long)test_between(r, 2, 5), size = (long)test_below(r, 2);
+  size_t n = (size_t)test_between(r, 4, 8);
+  c->n = 0;
+  snprintf(c->kind, sizeof c->kind, "bent");
+  orc_case_add(c, -size, 0, 0, size, 1);
+  orc_case_add(c, apart, apart, -tall, tall, 1);
+  while (c->n < n) {
+    long x = (long)test_between(r, -6, 4), y = (long)test_between(r, -tall - 4, tall + 4);
+    orc_case_add(c, x, x + (long)test_below(r, 3), y, y + (long)test_below(r, 6), 1);
+  }
+  orc_case_turn(c, (unsigned)test_below(r, 8));
+}
+
+static void test_chains(void **state) {
+  (void)state;
+  orc_case c;
+  orc_case_init(&c);
+  memset(quickly, 0, sizeof quickly);
+  for (size_t k = test_cases(400); k; k--) {
+    bent_case(&c, &shared.random);
+    harness_run(&shared, &c, cover_both);
+  }
+  orc_case_clear(&c);
+  fprintf(stderr, "# in doubles: impossible %llu, unknown %llu, possible %llu\n", (unsigned long long)quickly[0],
+          (unsigned long long)quickly[1], (unsigned long long)quickly[2]);
+  assert_true(quickly[0] > quickly[1]);
+}
+
 /* ---- line ---- */
 
 /* Segments and points on a vertical or horizontal line, or points on a slanted one; rational ones among them. */
@@ -314,7 +345,7 @@ static void test_line(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_directions), cmocka_unit_test(test_cover),
-                                     cmocka_unit_test(test_line)};
+                                     cmocka_unit_test(test_chains), cmocka_unit_test(test_line)};
   harness_init(&shared, "walks");
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   harness_clear(&shared);
