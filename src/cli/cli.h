@@ -29,6 +29,7 @@ enum {
 typedef struct cli_options {
   const char *command;
   const char *file;   /* the points file, or the certificate of verify; NULL with an oracle */
+  const char *points; /* verify: the points file */
   const char *at[2];  /* X Y of nearest */
   const char *output; /* NULL: standard output */
   dyd_read_options read;
