@@ -48,6 +48,7 @@ typedef struct cli_options {
   bool seed_set;
   unsigned schedules; /* 0: default */
   bool start_set;     /* engine.start_bits was given */
+  bool max_bits_set;
   bool no_times, no_voronoi;
   dyd_voronoi_bounds *bounds; /* voronoi: where the bounds of what is written go */
   bool stats, quiet, version;

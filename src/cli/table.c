@@ -98,8 +98,9 @@ const cli_option cli_option_table[] = {
 
     {"until", 0, "GOAL", CLI_GOAL, RUN, CLI_REFINEMENT, "decided (default), area:M or hausdorff:M (bound 2^-M)",
      AT(engine)},
-    {"max-bits", 0, "B", CLI_INTEGER, REFINE, CLI_REFINEMENT, "precision at which to give up (default 4096)",
-     AT(engine.max_bits), RANGE(1, DYD_EXP_LIMIT)},
+    {"max-bits", 0, "B", CLI_INTEGER, REFINE, CLI_REFINEMENT,
+     "precision at which to give up (default 4096; check: 192)", AT(engine.max_bits), RANGE(1, DYD_EXP_LIMIT),
+     GIVEN(max_bits_set)},
     {"max-pairs", 0, "K", CLI_INTEGER, RUN, CLI_REFINEMENT, "cap on stored pairs (default 4000000 + 16 per point)",
      AT(engine.max_pairs), RANGE(1, (long long)1 << 40)},
     {"timeout", 0, "SECONDS", CLI_SECONDS, REFINE, CLI_REFINEMENT, "stop after this time", AT(engine.seconds)},
