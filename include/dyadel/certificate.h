@@ -93,10 +93,13 @@
  * certificate is needed.
  *
  * U counts, over the open sets, the pairs within the set that have no line: nothing proves that they are illegal (0:
- * the certificate proves its list of pairs complete). Nothing is proved by: the words fixpoint, budget, cancelled and
- * error, the lines o and l (they say less than legal and illegal), and that ties cannot be resolved, but both sites of
- * a tie are exact points. decided needs no o, t and l line and capped no; certified needs the goal's bound, if
- * unproved. */
+ * the certificate proves its list of pairs complete). decided needs no o, t and l line and capped no; certified needs
+ * the goal's bound.
+ *
+ * [CERT-8] What is stated need not be proved; the report says what is not (dyd_certificate_gap). A line o states
+ * nothing of its pair, a line t that no refinement changes what it is, which is proved where all sites of its open sets
+ * are exact points; so is fixpoint where nobody can be narrowed who matters. decided and bounds are proved when U = 0.
+ * Nothing proves budget, cancelled and error, and lines l. */
 #ifndef DYADEL_CERTIFICATE_H
 #define DYADEL_CERTIFICATE_H
 
@@ -125,6 +128,17 @@ DYD_API dyd_status dyd_write_certificate(FILE *out, const struct dyd_engine *e, 
 DYD_API dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_engine *e, const struct dyd_rect *window,
                                                  dyd_error *err);
 
+/* What an accepted certificate states without a proof; bits of dyd_certificate_report.gaps. */
+typedef enum dyd_certificate_gap {
+  DYD_GAP_LEGAL = 1,     /* that pairs without a witness are legal */
+  DYD_GAP_ILLEGAL = 2,   /* that pairs which are not listed are illegal */
+  DYD_GAP_TIES = 4,      /* that no refinement decides a tie: a site of its open set is no exact point */
+  DYD_GAP_BOUNDS = 8,    /* area, hausdorff: pairs that are not listed may be possible */
+  DYD_GAP_DISTANCE = 16, /* the distance in the diagram */
+  DYD_GAP_OUTCOME = 32,  /* the outcome */
+  DYD_GAP_POINTS = 64    /* that the points given lie in its rectangles */
+} dyd_certificate_gap;
+
 /* What an accepted certificate states. Texts have static storage. */
 typedef struct dyd_certificate_report {
   size_t struct_size; /* set by DYD_SIZED */
@@ -145,12 +159,25 @@ typedef struct dyd_certificate_report {
   bool diagram;          /* is there a section on the Voronoi diagram? Then its area was checked */
   size_t polygons;
   bool distance, distance_proved; /* is its other bound stated; was it checked? */
+  size_t ties_unproved;
+  unsigned gaps;    /* of dyd_certificate_gap; 0: everything that is stated is proved */
+  bool bound;       /* were the points given, and is it about them? */
+  size_t unlocated; /* of them, those not known to lie in their rectangles */
 } dyd_certificate_report;
 
 /* Checks the certificate in `in` up to its end, in integers. DYD_OK: accepted, *out is what it states. DYD_E_PARSE:
  * rejected; err has the line and the reason. DYD_E_IO, DYD_E_NOMEM: not known. err may be NULL. Memory: linear in the
  * number of sites and legal pairs. Cost: near-linear where each disc meets few rectangles. */
 DYD_API dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_error *err);
+
+struct dyd_engine_options;
+/* The same, and that the certificate is about the points of e, site k about point k: as many; the rectangle of a fixed
+ * point is that of its site; any other point is asked until its rectangle lies in that of its site, so far as options
+ * allow (NULL: as for dyd_engine_ask; a point that is not seen to lie there is a gap, one that lies outside rejects).
+ * Points that turn out final there are known never to be narrowed, which may prove "fixpoint". Besides the errors above
+ * those of dyd_engine_ask; DYD_CANCELLED. */
+DYD_API dyd_status dyd_verify_certificate_of(dyd_certificate_report *out, FILE *in, struct dyd_engine *e,
+                                             const struct dyd_engine_options *options, dyd_error *err);
 
 #ifdef __cplusplus
 }

@@ -5,7 +5,8 @@
  * A schedule is a list of moves: at stage s, point i is asked for b bits. Before stage 1 every point that can be
  * narrowed is asked for base_bits. After each stage the triangulation is brought up to date and these are checked:
  *   nested   every rectangle is inside the one before (a stream's fault);
- *   rate     a point asked for b bits is narrower than 2^-(b - slack_bits), or final (a stream's fault);
+ *   rate     a point asked for b bits is narrower than 2^-(b - slack_bits), or final (a stream's fault); of points made
+ *            of reals, what a fixed coordinate or a radius leaves is not counted;
  *   retract  no pair that was illegal is possible, no legal one is anything else;
  *   cell     proved polygons inside Int and round Pos of some sites, made a stage before, still are that;
  *   path     a triangulation made afresh from the same rectangles has the same statuses (legal against indeterminate
@@ -43,6 +44,7 @@ typedef struct dyd_check_options {
   /* Called before each schedule; may be NULL. */
   void (*progress)(void *user, unsigned schedule, unsigned of);
   void *progress_user;
+  double seconds; /* of all schedules together; 0: no limit */
 } dyd_check_options;
 
 typedef enum dyd_check_fault {
@@ -70,8 +72,8 @@ typedef struct dyd_check_report {
 } dyd_check_report;
 DYD_API void dyd_check_report_clear(dyd_check_report *r);
 
-/* Runs the schedules. DYD_OK also when a fault was found: the report tells; DYD_CANCELLED with what was done until
- * then; errors of `open` and DYD_E_NOMEM. */
+/* Runs the schedules. DYD_OK also when a fault was found: the report tells; DYD_CANCELLED, also when the time is over,
+ * with what was done until then, the shortest schedule found so far among it; errors of `open` and DYD_E_NOMEM. */
 DYD_API dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *user, const dyd_check_options *o,
                                  dyd_error *err);
 /* Runs one schedule, such as a report holds. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The check of a certificate from its first line to its last. */
+/* The check of a certificate from its first line to its last, and what of it is proved. */
 #include "base/abi.h"
 #include "base/error.h"
 #include "checker/checker.h"
@@ -7,7 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void checker_clear(dyd_checker *c) {
+void dyd_checker_init(dyd_checker *c, FILE *in, dyd_error *err) {
+  *c = (dyd_checker){.in = {.in = in, .err = err}};
+  dyd_cert_sites_init(&c->sites);
+  dyd_cert_chain_init(&c->chain);
+  dyd_exact_init(&c->point[0]);
+  dyd_exact_init(&c->point[1]);
+}
+
+void dyd_checker_clear(dyd_checker *c) {
   dyd_cert_reader_clear(&c->in);
   dyd_cert_sites_clear(&c->sites);
   dyd_cert_tree_clear(&c->tree);
@@ -45,23 +53,63 @@ static dyd_status checker_end(dyd_checker *c) {
   return st == DYD_OK ? dyd_cert_expect_end(&c->in) : st;
 }
 
+/* ---- what is stated and not proved [CERT-8] ---- */
+
+static bool is_still(const dyd_checker *c, const bool *still, size_t i) {
+  return still ? still[i] : dyd_cert_is_point(&c->sites.site[i]);
+}
+
+/* Can nothing that is narrowed decide more? Of the triangulation: nobody in an open set is narrowed; of a bound: nobody
+ * at all. */
+static bool is_fixpoint(const dyd_checker *c, const bool *still) {
+  if (strcmp(c->report.goal, "decided") == 0) {
+    for (size_t q = 0; q < c->faces.members; q++)
+      if (!is_still(c, still, c->faces.member[q])) return false;
+  } else {
+    for (size_t i = 0; i < c->sites.count; i++)
+      if (!is_still(c, still, i)) return false;
+  }
+  return true;
+}
+
+static bool outcome_is_proved(const dyd_checker *c, const bool *still) {
+  const dyd_certificate_report *r = &c->report;
+  bool complete = !r->unproved && !r->capped, of_diagram = strncmp(r->goal, "voronoi", 7) == 0;
+  if (strcmp(r->outcome, "decided") == 0) return complete;
+  if (strcmp(r->outcome, "certified") == 0)
+    return strcmp(r->goal, "voronoi hausdorff") == 0 ? r->distance_proved : of_diagram || complete;
+  return strcmp(r->outcome, "fixpoint") == 0 && is_fixpoint(c, still);
+}
+
+void dyd_checker_settle(dyd_checker *c, const bool *still) {
+  dyd_certificate_report *r = &c->report;
+  if (r->legal_unproved) r->gaps |= DYD_GAP_LEGAL;
+  if (r->unproved && !r->capped) r->gaps |= DYD_GAP_ILLEGAL;
+  if (r->ties_unproved) r->gaps |= DYD_GAP_TIES;
+  if (r->unproved && (r->area || r->hausdorff)) r->gaps |= DYD_GAP_BOUNDS;
+  if (r->distance && !r->distance_proved) r->gaps |= DYD_GAP_DISTANCE;
+  if (!outcome_is_proved(c, still)) r->gaps |= DYD_GAP_OUTCOME;
+}
+
+dyd_status dyd_checker_run(dyd_checker *c) {
+  dyd_status st = dyd_checker_head(c);
+  if (st == DYD_OK) st = dyd_checker_sites(c);
+  if (st == DYD_OK) st = dyd_checker_legal(c);
+  if (st == DYD_OK) st = dyd_checker_places(c);
+  if (st == DYD_OK) st = dyd_checker_bridges(c);
+  if (st == DYD_OK) st = dyd_checker_corners(c);
+  if (st == DYD_OK) st = dyd_checker_pairs(c);
+  return st == DYD_OK ? checker_end(c) : st;
+}
+
 dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_error *err) {
-  dyd_checker c = {.in = {.in = in, .err = err}};
+  dyd_checker c;
   if (err) dyd_error_clear(err);
   if (dyd_abi_check(out, 0, "dyd_certificate_report", err) != DYD_OK) return DYD_E_ARG;
-  dyd_cert_sites_init(&c.sites);
-  dyd_cert_chain_init(&c.chain);
-  dyd_exact_init(&c.point[0]);
-  dyd_exact_init(&c.point[1]);
-  dyd_status st = dyd_checker_head(&c);
-  if (st == DYD_OK) st = dyd_checker_sites(&c);
-  if (st == DYD_OK) st = dyd_checker_legal(&c);
-  if (st == DYD_OK) st = dyd_checker_places(&c);
-  if (st == DYD_OK) st = dyd_checker_bridges(&c);
-  if (st == DYD_OK) st = dyd_checker_corners(&c);
-  if (st == DYD_OK) st = dyd_checker_pairs(&c);
-  if (st == DYD_OK) st = checker_end(&c);
+  dyd_checker_init(&c, in, err);
+  dyd_status st = dyd_checker_run(&c);
+  if (st == DYD_OK) dyd_checker_settle(&c, NULL);
   if (st == DYD_OK) dyd_abi_give(out, &c.report, sizeof c.report);
-  checker_clear(&c);
+  dyd_checker_clear(&c);
   return st;
 }

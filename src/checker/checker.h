@@ -31,6 +31,14 @@ typedef struct dyd_checker {
   bool reached; /* a bound that is stated is as small as the goal asks */
 } dyd_checker;
 
+void dyd_checker_init(dyd_checker *c, FILE *in, dyd_error *err);
+void dyd_checker_clear(dyd_checker *c);
+/* From the first line to the last; what is stated without a proof is settled after it. */
+dyd_status dyd_checker_run(dyd_checker *c);
+/* Fills in report.gaps. still[i]: site i is known never to be narrowed; NULL: the exact points. The gap of points is
+ * the caller's, and stays. */
+void dyd_checker_settle(dyd_checker *c, const bool *still);
+
 /* The parts of a certificate, in order; each rejects what does not hold. */
 dyd_status dyd_checker_head(dyd_checker *c);
 dyd_status dyd_checker_sites(dyd_checker *c);

@@ -214,7 +214,6 @@ static bool is_near_bisector(search *s, const grid_site *a, const grid_site *b, 
   dyd_exact_init(&left);
   dyd_exact_init(&right);
   site_gap_below(&right.exp, s, a, b);
-  bool positive = mpz_sgn(s->root) > 0;
   mpz_mul(right.man, s->root, s->bound->man);
   right.exp += s->bound->exp + 1;
   add_diameters(left.man, &left.exp, a, b);
@@ -222,7 +221,7 @@ static bool is_near_bisector(search *s, const grid_site *a, const grid_site *b, 
   mpz_add_ui(s->root, s->root, far_b);
   mpz_mul(left.man, left.man, s->root);
   left.exp += s->unit;
-  bool holds = positive && dyd_exact_cmp(&left, &right) <= 0;
+  bool holds = dyd_exact_cmp(&left, &right) <= 0; /* left > 0, as one of the two is no point */
   dyd_exact_clear(&left);
   dyd_exact_clear(&right);
   return holds;

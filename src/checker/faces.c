@@ -42,13 +42,11 @@ static dyd_status add_bounded_face(dyd_cert_faces *f, bool *seen, const dyd_cert
   size_t count = 0;
   dyd_status st = dyd_cert_walk(&walk, &count, g, h);
   if (st != DYD_OK) return st;
-  bool legal = true;
   for (size_t q = 0; q < count; q++) {
     seen[walk[q]] = true;
-    legal &= walk[q] / 2 < g->legal->count;
     walk[q] = dyd_cert_origin(g, walk[q]);
   }
-  if (count == 3 && legal)
+  if (count == 3) /* legal edges: a bridge is in no cycle */
     f->triangles++;
   else
     st = faces_add_set(f, g, walk, count);
@@ -205,15 +203,20 @@ static dyd_status faces_find_sets(dyd_cert_faces *f, uint32_t *bad, const dyd_ce
   return st;
 }
 
-static dyd_status faces_index_sites(dyd_cert_faces *f, size_t n) {
+static dyd_status faces_index_sites(dyd_cert_faces *f, const dyd_cert_sites *s) {
+  size_t n = s->count;
   f->first = calloc(n + 1, sizeof *f->first);
   f->of = dyd_alloc(f->members, sizeof *f->of);
   f->covered = calloc(f->sets ? f->sets : 1, sizeof *f->covered);
-  if (!f->first || !f->of || !f->covered) return DYD_E_NOMEM;
+  f->inexact = calloc(f->sets ? f->sets : 1, sizeof *f->inexact);
+  if (!f->first || !f->of || !f->covered || !f->inexact) return DYD_E_NOMEM;
   for (size_t q = 0; q < f->members; q++) f->first[f->member[q]]++;
   for (size_t v = 0; v < n; v++) f->first[v + 1] += f->first[v]; /* ends, which filling makes beginnings */
   for (size_t k = f->sets; k-- > 0;)
-    for (size_t q = f->start[k]; q < f->start[k + 1]; q++) f->of[--f->first[f->member[q]]] = (uint32_t)k;
+    for (size_t q = f->start[k]; q < f->start[k + 1]; q++) {
+      f->of[--f->first[f->member[q]]] = (uint32_t)k;
+      f->inexact[k] |= !dyd_cert_is_point(&s->site[f->member[q]]);
+    }
   return DYD_OK;
 }
 
@@ -222,7 +225,7 @@ dyd_status dyd_cert_faces_init(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_
   *f = (dyd_cert_faces){0};
   *bad = DYD_CERT_NONE;
   dyd_status st = faces_find_sets(f, bad, g, corner, corners);
-  if (st == DYD_OK) st = faces_index_sites(f, g->sites->count);
+  if (st == DYD_OK) st = faces_index_sites(f, g->sites);
   if (st == DYD_OK)
     for (size_t e = 0; e < g->legal->count; e++) dyd_cert_faces_cover(f, g->legal->item[e].i, g->legal->item[e].j);
   if (st != DYD_OK) dyd_cert_faces_clear(f);
@@ -233,35 +236,38 @@ void dyd_cert_faces_clear(dyd_cert_faces *f) {
   free(f->start);
   free(f->member);
   free(f->covered);
+  free(f->inexact);
   free(f->first);
   free(f->of);
   *f = (dyd_cert_faces){0};
 }
 
-/* Passes the sets that hold both; returns their number. */
-static size_t common_sets(const dyd_cert_faces *f, uint64_t *covered, uint32_t i, uint32_t j) {
-  size_t a = f->first[i], b = f->first[j], count = 0;
-  while (a < f->first[i + 1] && b < f->first[j + 1]) {
-    if (f->of[a] == f->of[b]) {
-      if (covered) covered[f->of[a]]++;
-      count++;
-      a++;
-      b++;
-    } else if (f->of[a] < f->of[b]) {
-      a++;
-    } else {
-      b++;
-    }
+/* The next set from *a and *b on that holds both sites; DYD_CERT_NONE: no more. */
+static uint32_t next_common_set(const dyd_cert_faces *f, size_t *a, size_t *b, uint32_t i, uint32_t j) {
+  while (*a < f->first[i + 1] && *b < f->first[j + 1]) {
+    uint32_t x = f->of[*a], y = f->of[*b];
+    *a += x <= y;
+    *b += y <= x;
+    if (x == y) return x;
   }
-  return count;
+  return DYD_CERT_NONE;
 }
 
 void dyd_cert_faces_cover(dyd_cert_faces *f, uint32_t i, uint32_t j) {
-  common_sets(f, f->covered, i, j);
+  size_t a = f->first[i], b = f->first[j];
+  for (uint32_t k; (k = next_common_set(f, &a, &b, i, j)) != DYD_CERT_NONE;) f->covered[k]++;
 }
 
 bool dyd_cert_faces_share(const dyd_cert_faces *f, uint32_t i, uint32_t j) {
-  return common_sets(f, NULL, i, j) > 0;
+  size_t a = f->first[i], b = f->first[j];
+  return next_common_set(f, &a, &b, i, j) != DYD_CERT_NONE;
+}
+
+bool dyd_cert_faces_exact(const dyd_cert_faces *f, uint32_t i, uint32_t j) {
+  size_t a = f->first[i], b = f->first[j];
+  for (uint32_t k; (k = next_common_set(f, &a, &b, i, j)) != DYD_CERT_NONE;)
+    if (f->inexact[k]) return false;
+  return true;
 }
 
 uint64_t dyd_cert_faces_left(const dyd_cert_faces *f) {

@@ -23,6 +23,7 @@ typedef struct dyd_cert_faces {
   size_t *start;
   uint32_t *member;
   uint64_t *covered; /* pairs of set f that something is known about */
+  bool *inexact;     /* does set f have a site that is no exact point? */
   /* Site i is in the sets of[first[i] .. first[i+1]), ascending. */
   size_t *first;
   uint32_t *of;
@@ -37,6 +38,9 @@ void dyd_cert_faces_clear(dyd_cert_faces *f);
 void dyd_cert_faces_cover(dyd_cert_faces *f, uint32_t i, uint32_t j);
 /* Are both in one open set? */
 bool dyd_cert_faces_share(const dyd_cert_faces *f, uint32_t i, uint32_t j);
+/* Are all sites of the open sets that hold both exact points? Then nothing that is narrowed changes what the pair is
+ * [CERT-8]. */
+bool dyd_cert_faces_exact(const dyd_cert_faces *f, uint32_t i, uint32_t j);
 /* Pairs within open sets about which nothing is known (a pair of two sets counts twice). */
 uint64_t dyd_cert_faces_left(const dyd_cert_faces *f);
 

@@ -106,7 +106,8 @@ static int tell_check(const dyd_check_report *r, const cli_options *o) {
 int cli_check(const cli_options *o) {
   check_input in = {o, 0};
   dyd_check_options options = {DYD_SIZED(dyd_check_options), .seed = o->seed_set ? o->seed : 1,
-                               .schedules = o->schedules, .max_bits = o->engine.max_bits};
+                               .schedules = o->schedules, .seconds = o->engine.seconds,
+                               .max_bits = o->max_bits_set ? o->engine.max_bits : 0};
   dyd_check_report report = {DYD_SIZED(dyd_check_report)};
   given_moves given = {0};
   dyd_error err;
@@ -123,12 +124,17 @@ int cli_check(const cli_options *o) {
     st = o->replay ? dyd_check_replay(&report, open_checked_points, &in, given.move, given.count, &options, &err)
                    : dyd_check_run(&report, open_checked_points, &in, &options, &err);
   cli_progress_stop(progress);
-  if (st == DYD_CANCELLED) st = DYD_OK; /* the report tells what was done until then */
+  bool late = st == DYD_CANCELLED;
+  if (late) st = DYD_OK; /* the report tells what was done until then */
   if (!status && st != DYD_OK) {
     if (!in.status) cli_complain("%s", err.message[0] ? err.message : dyd_status_text(st));
     status = in.status ? in.status : CLI_FAILED;
   }
   if (!status) status = tell_check(&report, o);
+  if (!status && late) {
+    cli_complain("the time is used up after %" PRIu64 " schedules; raise --timeout", report.schedules);
+    status = CLI_BUDGET;
+  }
   dyd_check_report_clear(&report);
   free(given.move);
   return status;

@@ -29,6 +29,7 @@ enum {
 typedef struct cli_options {
   const char *command;
   const char *file;   /* the points file, or the certificate of verify; NULL with an oracle */
+  const char *points; /* verify: the points file */
   const char *at[2];  /* X Y of nearest */
   const char *output; /* NULL: standard output */
   dyd_read_options read;
@@ -47,6 +48,7 @@ typedef struct cli_options {
   bool seed_set;
   unsigned schedules; /* 0: default */
   bool start_set;     /* engine.start_bits was given */
+  bool max_bits_set;
   bool no_times, no_voronoi;
   dyd_voronoi_bounds *bounds; /* voronoi: where the bounds of what is written go */
   bool stats, quiet, version;

@@ -140,6 +140,11 @@ static int options_fit(const cli_options *o, uint64_t seen, const cli_command *c
     cli_complain("--replay takes points and options from the trace; leave --%s away", cli_option_table[k].name);
     return CLI_USAGE;
   }
+  for (size_t k = 0; c == &cli_commands[CLI_VERIFY] && !o->points && k < cli_option_count; k++) {
+    if (!(seen >> k & 1) || cli_option_table[k].group != CLI_INPUT) continue;
+    cli_complain("--%s says how points are read; give their file with --points", cli_option_table[k].name);
+    return CLI_USAGE;
+  }
   if (!o->format_set || dyd_format_holds(o->format, c->content)) return 0;
   fprintf(stderr, "dyadel: %s does not write %s; give ", c->name, dyd_format_name(o->format));
   cli_formats_print(stderr, cli_command_bit(c), ", ", false);

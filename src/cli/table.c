@@ -15,6 +15,7 @@
 enum {
   READ = CLI_ALL & ~BIT(CLI_VERIFY),                                               /* reads points */
   RUN = BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_CONVERGE) | BIT(CLI_CHECK), /* runs the engine to a goal */
+  TEXT = READ | BIT(CLI_VERIFY),                                                   /* from a file */
   PIECES = BIT(CLI_DISC) | BIT(CLI_BISECTOR),
   REFINE = RUN | PIECES | BIT(CLI_NEAREST) /* asks points to narrow */
 };
@@ -44,8 +45,10 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                    "repeats. Exit status 0: no fault; 1: a fault.",
                    DYD_CONTENT_CHECK, cli_check},
     [CLI_VERIFY] = {"verify", "CERT", "check a certificate, in integers, without the engine",
-                    "Checks a certificate that --certificate wrote, and says what it checked and what not.\n"
-                    "Exit status 0: accepted; 1: rejected, with the line and the reason.",
+                    "Checks a certificate that --certificate wrote. Exit status 0: everything that it states is\n"
+                    "proved; 3: accepted, but something that it states is not proved, and named; 1: rejected,\n"
+                    "with the line and the reason. With --points FILE, and the options that FILE is read by, it\n"
+                    "also has to be about these points.",
                     DYD_CONTENT_NONE, cli_verify},
     [CLI_DISC] = {"disc", "FILE", "the partial disc of the first three points, and where the others are",
                   "The six critical circles of the first three points, exactly, the box of all centres\n"
@@ -71,11 +74,13 @@ const char *const cli_group_names[CLI_GROUPS] = {[CLI_INPUT] = "Input",
                                                  [CLI_OTHER] = "Other"};
 
 const cli_option cli_option_table[] = {
-    {"columns", 0, "NAME,NAME", CLI_TEXT, READ, CLI_INPUT, "FILE is CSV with a header; take these two columns as x,y",
+    {"points", 0, "FILE", CLI_FILE, BIT(CLI_VERIFY), CLI_INPUT, "the certificate has to be about the points of FILE",
+     AT(points)},
+    {"columns", 0, "NAME,NAME", CLI_TEXT, TEXT, CLI_INPUT, "FILE is CSV with a header; take these two columns as x,y",
      AT(read.columns)},
-    {"measured", 0, NULL, CLI_FLAG, READ, CLI_INPUT, "decimals are rounded measurements: 47.61 is [47.605,47.615]",
+    {"measured", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "decimals are rounded measurements: 47.61 is [47.605,47.615]",
      AT(read.measured)},
-    {"radius", 0, "R", CLI_TEXT, READ, CLI_INPUT, "widen every point by R on each side", AT(read.radius)},
+    {"radius", 0, "R", CLI_TEXT, TEXT, CLI_INPUT, "widen every point by R on each side", AT(read.radius)},
     {"oracle", 0, "COMMAND", CLI_TEXT, READ, CLI_INPUT,
      "in place of FILE: ask this program (sh -c) for the points;\nit prints \"points N\", then answers each line "
      "\"refine I B\"\nby \"I XLO XHI YLO YHI\", aiming at widths of 2^-B",
@@ -93,8 +98,9 @@ const cli_option cli_option_table[] = {
 
     {"until", 0, "GOAL", CLI_GOAL, RUN, CLI_REFINEMENT, "decided (default), area:M or hausdorff:M (bound 2^-M)",
      AT(engine)},
-    {"max-bits", 0, "B", CLI_INTEGER, REFINE, CLI_REFINEMENT, "precision at which to give up (default 4096)",
-     AT(engine.max_bits), RANGE(1, DYD_EXP_LIMIT)},
+    {"max-bits", 0, "B", CLI_INTEGER, REFINE, CLI_REFINEMENT,
+     "precision at which to give up (default 4096; check: 192)", AT(engine.max_bits), RANGE(1, DYD_EXP_LIMIT),
+     GIVEN(max_bits_set)},
     {"max-pairs", 0, "K", CLI_INTEGER, RUN, CLI_REFINEMENT, "cap on stored pairs (default 4000000 + 16 per point)",
      AT(engine.max_pairs), RANGE(1, (long long)1 << 40)},
     {"timeout", 0, "SECONDS", CLI_SECONDS, REFINE, CLI_REFINEMENT, "stop after this time", AT(engine.seconds)},

@@ -1,69 +1,114 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* dyadel verify CERT: checks a certificate and says what was checked and what was not. */
+/* dyadel verify CERT: checks a certificate and says what of it is proved and what is not. */
 #include "cli.h"
 #include <string.h>
 
 static void print_proved(FILE *out, const dyd_certificate_report *r) {
   fprintf(out, "sites: %zu, of which %zu aliases\n", r->sites, r->aliases);
+  if (r->bound && !r->unlocated) fputs("checked: the points given lie in its rectangles\n", out);
   fprintf(out, "checked: %zu legal pairs, each by its witness against all sites\n", r->legal);
   if (r->connected)
     fprintf(out, "checked: %zu sure triangles, %zu sure corners of the hull\n", r->triangles, r->corners);
-  else
-    fputs("not checked: faces, since legal pairs and bridges do not connect all sites\n", out);
   if (r->illegal_chains)
     fprintf(out, "checked: %zu illegal pairs within undecided faces, each by its chain\n", r->illegal_chains);
-  if (r->area || r->hausdorff) fputs("checked: the bounds of area and Hausdorff distance, for the pairs listed\n", out);
+  if (!r->unproved && !r->capped) fputs("checked: all pairs that are not listed are illegal\n", out);
+  if ((r->area || r->hausdorff) && !(r->gaps & DYD_GAP_BOUNDS))
+    fputs("checked: the bounds of area and Hausdorff distance\n", out);
+  if (r->diagram)
+    fprintf(out, "checked: the undetermined area of the diagram, by %zu polygons inside cells\n", r->polygons);
+  if (r->distance_proved) fputs("checked: the distance of undetermined points to the diagram\n", out);
+  if (r->tie > r->ties_unproved) fprintf(out, "checked: no refinement decides %zu ties\n", r->tie - r->ties_unproved);
+  if (!(r->gaps & DYD_GAP_OUTCOME)) fprintf(out, "checked: the outcome %s\n", r->outcome);
 }
 
-static void print_proved_diagram(FILE *out, const dyd_certificate_report *r) {
-  if (!r->diagram) return;
-  fprintf(out, "checked: the undetermined area of the diagram, by %zu polygons inside cells\n", r->polygons);
-  if (r->distance_proved)
-    fputs("checked: the distance of undetermined points to the diagram\n", out);
-  else if (r->distance)
-    fputs("not checked: the distance of undetermined points to the diagram, which is stated without a proof\n", out);
-  if (r->distance && !r->distance_proved && strcmp(r->outcome, "certified") == 0 &&
-      strcmp(r->goal, "voronoi hausdorff") == 0)
-    fputs("not checked: the outcome, as the goal is about that distance\n", out);
+/* What is left open, so that there is nothing to prove. */
+static void print_open(FILE *out, const dyd_certificate_report *r) {
+  if (r->indeterminate) fprintf(out, "open: %zu indeterminate pairs, of which nothing is stated\n", r->indeterminate);
+  if (r->capped)
+    fprintf(out, "open: %llu pairs within %zu undecided faces: the cap was met, nothing is stated\n",
+            (unsigned long long)r->unproved, r->undecided_sets);
 }
 
-static void print_unproved(FILE *out, const dyd_certificate_report *r) {
-  size_t open = r->indeterminate + r->tie + r->legal_unproved;
-  if (r->unproved)
-    fprintf(out, "not checked: that %llu pairs within %zu undecided faces are %s\n", (unsigned long long)r->unproved,
-            r->undecided_sets, r->capped ? "possible or not (the cap was met: nothing is stated)" : "illegal");
-  else
-    fputs("checked: all pairs that are not listed are illegal\n", out);
-  if (open)
-    fprintf(out, "nothing to check: %zu indeterminate pairs, %zu ties, %zu legal pairs without a witness\n",
-            r->indeterminate, r->tie, r->legal_unproved);
+/* Why an outcome is no more than a word. */
+static const char *outcome_reason(const dyd_certificate_report *r) {
+  if (strcmp(r->outcome, "fixpoint") == 0)
+    return r->bound ? "some of what is open can be narrowed" : "--points may show who cannot be narrowed";
+  if (strcmp(r->outcome, "decided") == 0 || strcmp(r->outcome, "certified") == 0)
+    return "what it rests on is not proved";
+  return "why the run ended leaves no proof";
+}
+
+static void print_gaps(FILE *out, const dyd_certificate_report *r) {
+  if (r->gaps & DYD_GAP_LEGAL)
+    fprintf(out, "not proved: that %zu pairs without a witness are legal\n", r->legal_unproved);
+  if (r->gaps & DYD_GAP_ILLEGAL)
+    fprintf(out, "not proved: that %llu pairs within %zu undecided faces are illegal\n",
+            (unsigned long long)r->unproved, r->undecided_sets);
+  if (r->gaps & DYD_GAP_TIES)
+    fprintf(out, "not proved: that no refinement decides %zu ties, which share a face with points that are not exact\n",
+            r->ties_unproved);
+  if (r->gaps & DYD_GAP_BOUNDS)
+    fputs("not proved: the bounds of area and Hausdorff distance, as more pairs may be possible\n", out);
+  if (r->gaps & DYD_GAP_DISTANCE) fputs("not proved: the distance of undetermined points to the diagram\n", out);
+  if (r->gaps & DYD_GAP_OUTCOME) fprintf(out, "not proved: the outcome %s (%s)\n", r->outcome, outcome_reason(r));
+  if (r->gaps & DYD_GAP_POINTS)
+    fprintf(out, "not proved: that %zu of the points given lie in its rectangles\n", r->unlocated);
 }
 
 static dyd_status print_verified(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const dyd_certificate_report *r = what;
   (void)o, (void)err;
-  fprintf(out, "accepted: outcome %s, goal %s", r->outcome, r->goal);
+  if (r->gaps)
+    fputs("accepted, not all of it proved: see what is not proved below\n", out);
+  else
+    fputs("accepted, all of it proved\n", out);
+  fprintf(out, "states: outcome %s, goal %s", r->outcome, r->goal);
   if (strcmp(r->goal, "decided") != 0) fprintf(out, " %lld", r->goal_bits);
   fputs(r->capped ? ", capped\n" : "\n", out);
   print_proved(out, r);
-  print_unproved(out, r);
-  print_proved_diagram(out, r);
-  if (strcmp(r->outcome, "decided") != 0 && strcmp(r->outcome, "certified") != 0)
-    fprintf(out, "not checked: why the run ended (%s)\n", r->outcome);
+  print_open(out, r);
+  print_gaps(out, r);
   return DYD_OK;
 }
 
+/* Reads the points of --points into a new engine and checks against them. */
+static dyd_status verify_points(int *status, dyd_certificate_report *report, FILE *in, const cli_options *o,
+                                dyd_error *err) {
+  dyd_engine *e = NULL;
+  cli_options reading = *o;
+  reading.file = o->points;
+  dyd_status st = dyd_engine_new(&e);
+  if (st != DYD_OK) return dyd_error_set(err, st, dyd_status_text(st));
+  *status = cli_points_read(e, &reading);
+  if (*status == 0) st = dyd_verify_certificate_of(report, in, e, &o->engine, err);
+  dyd_engine_free(e);
+  return st;
+}
+
+static int complain_rejected(const cli_options *o, const dyd_error *err) {
+  const char *rejected = err->code == DYD_E_PARSE ? "rejected: " : "";
+  if (err->line)
+    cli_complain("%s:%zu: %s%s", o->file, err->line, rejected, err->message);
+  else
+    cli_complain("%s: %s%s", o->file, rejected, err->message);
+  return CLI_FAILED;
+}
+
 int cli_verify(const cli_options *o) {
+  if (o->points && strcmp(o->points, "-") == 0 && strcmp(o->file, "-") == 0) {
+    cli_complain("standard input cannot be both the certificate and the points; give a file for one of them");
+    return CLI_USAGE;
+  }
   FILE *in = cli_input_open(o->file, "check the name of the certificate");
   if (!in) return CLI_FAILED;
   dyd_error err;
   dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
-  dyd_status st = dyd_verify_certificate(&report, in, &err);
+  int status = 0;
+  dyd_error_clear(&err);
+  dyd_status st = o->points ? verify_points(&status, &report, in, o, &err) : dyd_verify_certificate(&report, in, &err);
   cli_input_close(in);
-  if (st == DYD_E_PARSE)
-    cli_complain("%s:%zu: rejected: %s", o->file, err.line, err.message);
-  else if (st != DYD_OK)
-    cli_complain("%s: %s", o->file, err.message);
-  if (st != DYD_OK) return CLI_FAILED;
-  return cli_write_file(o->output, o, print_verified, &report);
+  if (status) return status;
+  if (st != DYD_OK) return complain_rejected(o, &err);
+  status = cli_write_file(o->output, o, print_verified, &report);
+  return status || !report.gaps ? status : CLI_FIXPOINT;
 }

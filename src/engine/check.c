@@ -4,6 +4,7 @@
 
 #include "base/abi.h"
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "base/error.h"
 #include <string.h>
 
@@ -18,7 +19,7 @@ void dyd_check_report_clear(dyd_check_report *r) {
   dyd_abi_give(r, &none, sizeof none);
 }
 
-/* Fills in *o, and clears the report and the error record. */
+/* Fills in *o, and clears the report and the error record. o->seconds becomes the end, by dyd_seconds. */
 static dyd_status check_begin(dyd_check_options *o, dyd_check_report *out, const dyd_check_options *given,
                               dyd_error *err) {
   dyd_error_clear(err);
@@ -33,6 +34,7 @@ static dyd_status check_begin(dyd_check_options *o, dyd_check_report *out, const
   if (!o->stages) o->stages = 6;
   if (!o->cells) o->cells = 6;
   if (o->base_bits > o->max_bits) o->base_bits = o->max_bits;
+  if (o->seconds > 0) o->seconds += dyd_seconds();
   return DYD_OK;
 }
 
@@ -43,9 +45,12 @@ typedef struct moves {
 
 /* ---- one schedule ---- */
 
-/* Opens the points and asks everybody for base_bits. */
+/* Opens the points, starts the clock and asks everybody for base_bits. */
 static dyd_status schedule_start(dyd_check_state *s, dyd_check_open_fn open, void *user, dyd_error *err) {
   dyd_status st = open(&s->e, user, err);
+  double left = s->o->seconds > 0 ? s->o->seconds - dyd_seconds() : 0;
+  if (st == DYD_OK && left < 0) return DYD_CANCELLED;
+  if (st == DYD_OK) dyd_watch_start(&s->watch, left, &s->e->stop);
   for (size_t k = 0; st == DYD_OK && k < s->e->points && s->report->fault == DYD_CHECK_FINE; k++)
     st = dyd_check_narrow(s, s->e->point[k].site, s->o->base_bits);
   return st;
@@ -65,6 +70,7 @@ static dyd_status schedule_play(dyd_check_report *report, dyd_check_open_fn open
       st = dyd_check_narrow(&s, m->item[k].point, m->item[k].bits);
     if (st == DYD_OK && report->fault == DYD_CHECK_FINE) st = dyd_check_stage(&s, k == m->count);
   }
+  if (s.e) dyd_watch_stop(&s.watch);
   dyd_check_state_clear(&s);
   if (st == DYD_E_NOMEM) dyd_fail_nomem(err);
   return st;
@@ -78,11 +84,38 @@ static dyd_status moves_add(moves *m, uint32_t stage, uint32_t point, int64_t bi
   return DYD_OK;
 }
 
-/* One stage: one point; a few; about a tenth; all at one precision; all unevenly. Repeats happen. */
-static dyd_status schedule_add_stage(moves *m, uint32_t stage, uint64_t *random, const uint32_t *point, size_t n,
+/* The points that can be narrowed, and what each was asked for last. */
+typedef struct askable {
+  uint32_t *point;
+  int64_t *asked;
+  size_t count;
+} askable;
+
+static dyd_status add_step(moves *m, uint32_t stage, const askable *p, size_t at, int64_t bits) {
+  p->asked[at] = bits;
+  return moves_add(m, stage, p->point[at], bits);
+}
+
+/* A few points, each by one bit or two more again and again: what drifts is seen where steps are small. */
+static dyd_status schedule_add_small_steps(moves *m, uint32_t stage, uint64_t *random, const askable *p, int64_t top) {
+  dyd_status st = DYD_OK;
+  size_t count = 1 + (size_t)dyd_check_below(random, 4);
+  for (size_t k = 0; k < count; k++) {
+    size_t at = (size_t)dyd_check_below(random, p->count), steps = 1 + (size_t)dyd_check_below(random, 8);
+    for (size_t q = 0; q < steps && st == DYD_OK && p->asked[at] < top; q++)
+      st = add_step(m, stage, p, at,
+                    p->asked[at] + 1 + (int64_t)dyd_check_below(random, top - p->asked[at] > 1 ? 2 : 1));
+  }
+  return st;
+}
+
+/* One stage: one point; a few; about a tenth; all at one precision; all unevenly; small steps. Repeats happen. */
+static dyd_status schedule_add_stage(moves *m, uint32_t stage, uint64_t *random, const askable *p,
                                      const dyd_check_options *o) {
   dyd_status st = DYD_OK;
-  uint64_t mode = dyd_check_below(random, 5);
+  size_t n = p->count;
+  uint64_t mode = dyd_check_below(random, 6);
+  if (mode == 5) return schedule_add_small_steps(m, stage, random, p, o->max_bits);
   int64_t span = o->max_bits - o->base_bits + 1;
   int64_t top = o->base_bits + span * stage / o->stages,
           level = o->base_bits + (int64_t)dyd_check_below(random, (uint64_t)(top - o->base_bits) + 1);
@@ -91,32 +124,30 @@ static dyd_status schedule_add_stage(moves *m, uint32_t stage, uint64_t *random,
     size_t at = mode >= 3 ? k : (size_t)dyd_check_below(random, n);
     int64_t bits =
         mode == 3 ? level : o->base_bits + (int64_t)dyd_check_below(random, (uint64_t)(top - o->base_bits) + 1);
-    st = moves_add(m, stage, point[at], bits);
-    if (st == DYD_OK && dyd_check_below(random, 16) == 0) st = moves_add(m, stage, point[at], bits);
+    st = add_step(m, stage, p, at, bits);
+    if (st == DYD_OK && dyd_check_below(random, 16) == 0) st = add_step(m, stage, p, at, bits);
   }
   return st;
 }
 
-/* The numbers of the points that can be narrowed. */
-static dyd_status schedule_list_points(uint32_t **out, size_t *count, dyd_check_open_fn open, void *user,
-                                       dyd_error *err) {
+static dyd_status schedule_list_points(askable *out, dyd_check_open_fn open, void *user, dyd_error *err) {
   dyd_engine *e = NULL;
   dyd_status st = open(&e, user, err);
   if (st != DYD_OK) return st;
-  *out = dyd_alloc(e->points, sizeof **out);
-  *count = *out ? e->points : 0;
-  for (size_t k = 0; k < *count; k++) (*out)[k] = e->point[k].site;
-  if (!*out) st = dyd_fail_nomem(err);
+  *out = (askable){dyd_alloc(e->points, sizeof *out->point), dyd_alloc(e->points, sizeof *out->asked), e->points};
+  if (!out->point || !out->asked) st = dyd_fail_nomem(err);
+  for (size_t k = 0; k < e->points && st == DYD_OK; k++) out->point[k] = e->point[k].site;
   dyd_engine_free(e);
   return st;
 }
 
-static dyd_status schedule_make(moves *m, uint64_t seed, const uint32_t *point, size_t n, const dyd_check_options *o) {
+static dyd_status schedule_make(moves *m, uint64_t seed, const askable *p, const dyd_check_options *o) {
   uint64_t random = seed;
   dyd_status st = DYD_OK;
   m->count = 0;
-  for (uint32_t stage = 1; n && stage <= o->stages && st == DYD_OK; stage++)
-    st = schedule_add_stage(m, stage, &random, point, n, o);
+  for (size_t k = 0; k < p->count; k++) p->asked[k] = o->base_bits;
+  for (uint32_t stage = 1; p->count && stage <= o->stages && st == DYD_OK; stage++)
+    st = schedule_add_stage(m, stage, &random, p, o);
   return st;
 }
 
@@ -187,22 +218,22 @@ dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *us
                          dyd_error *err) {
   dyd_check_options o;
   moves m = {0};
-  uint32_t *point = NULL;
-  size_t n = 0;
+  askable points = {0};
   dyd_error unused;
   if (!err) err = &unused;
   dyd_status st = check_begin(&o, out, given, err);
-  if (st == DYD_OK) st = schedule_list_points(&point, &n, open, user, err);
+  if (st == DYD_OK) st = schedule_list_points(&points, open, user, err);
   for (unsigned k = 0; k < o.schedules && st == DYD_OK && out->fault == DYD_CHECK_FINE; k++) {
     uint64_t seed = o.seed + k;
     if (o.progress) o.progress(o.progress_user, k, o.schedules);
-    st = schedule_make(&m, seed, point, n, &o);
+    st = schedule_make(&m, seed, &points, &o);
     if (st == DYD_OK) st = schedule_play(out, open, user, &m, seed, &o, err);
     if (st == DYD_OK) out->schedules++;
     if (st == DYD_OK && out->fault != DYD_CHECK_FINE) st = report_keep_fault(out, &m, seed, open, user, &o);
   }
   free(m.item);
-  free(point);
+  free(points.point);
+  free(points.asked);
   return st;
 }
 

@@ -7,6 +7,7 @@
 #define DYD_ENGINE_CHECK_H
 
 #include "engine/points.h"
+#include "engine/watch.h"
 #include <dyadel/check.h>
 #include <dyadel/metric.h>
 #include <dyadel/voronoi.h>
@@ -28,12 +29,15 @@ typedef struct dyd_check_state {
   dyd_rect window;
   bool windowed;
   uint64_t random;
+  dyd_watch watch;            /* raises e->stop at the deadline */
   const dyd_check_options *o; /* defaults filled in */
   dyd_check_report *report;   /* counters; fault and message when one is found */
   uint32_t *changed;
   size_t changes, change_cap;
 } dyd_check_state;
 
+/* Is the time over, or was it cancelled? */
+bool dyd_check_is_over(const dyd_check_state *s);
 /* Uniform in 0 .. n-1, n > 0. */
 uint64_t dyd_check_below(uint64_t *random, uint64_t n);
 /* Notes a fault; returns DYD_OK. */

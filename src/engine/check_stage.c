@@ -5,8 +5,18 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "rect/interval.h"
+#include "stream/stream.h"
 #include <stdarg.h>
 #include <stdio.h>
+
+/* What stops a triangulation at once: the deadline where there is one. */
+static const volatile int *check_flag(const dyd_check_state *s) {
+  return s->o->cancel && !(s->o->seconds > 0) ? s->o->cancel : &s->e->stop;
+}
+
+bool dyd_check_is_over(const dyd_check_state *s) {
+  return dyd_flag_get(&s->e->stop) || (s->o->cancel && dyd_flag_get(s->o->cancel));
+}
 
 /* splitmix64 */
 uint64_t dyd_check_below(uint64_t *random, uint64_t n) {
@@ -37,6 +47,7 @@ dyd_status dyd_check_narrow(dyd_check_state *s, uint32_t point, int64_t bits) {
   dyd_error err;
   uint64_t calls = 0;
   dyd_error_clear(&err);
+  if (dyd_check_is_over(s)) return DYD_CANCELLED;
   if (!found || found->final) return DYD_OK;
   dyd_refinable *p = &s->e->point[found - s->e->point];
   dyd_status st = dyd_engine_narrow(p, &calls, s->e, bits, s->o->max_bits, &err);
@@ -50,9 +61,10 @@ dyd_status dyd_check_narrow(dyd_check_state *s, uint32_t point, int64_t bits) {
   dyd_rect r;
   dyd_rect_init(&r);
   st = dyd_sites_get(&r, s->e->sites, point);
-  if (st == DYD_OK && dyd_rect_bits(&r) < bits - s->o->slack_bits)
-    dyd_check_found(s, DYD_CHECK_RATE, "point %u, asked for %lld bits, is only within 2^-%lld", (unsigned)point,
-                    (long long)bits, (long long)dyd_rect_bits(&r));
+  int64_t least = bits - s->o->slack_bits;
+  if (st == DYD_OK && !(p->stream ? dyd_stream_reaches(p->stream, &r, least) : dyd_rect_bits(&r) >= least))
+    dyd_check_found(s, DYD_CHECK_RATE, "point %u, asked for %lld bits, is only within 2^%lld", (unsigned)point,
+                    (long long)bits, -(long long)dyd_rect_bits(&r));
   dyd_rect_clear(&r);
   return st;
 }
@@ -108,7 +120,7 @@ static void same_or_floor(dyd_check_state *s, const dyd_pair *p, dyd_pair_status
 static dyd_status check_path(dyd_check_state *s) {
   dyd_delaunay *fresh = NULL;
   dyd_pair_list pairs = {0};
-  dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = s->o->cancel};
+  dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = check_flag(s)};
   dyd_status st = dyd_delaunay_new(&fresh, s->e->sites, &options, NULL);
   if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, fresh);
   if (st == DYD_OK) pairs_compare_lists(s, &s->before, &pairs, same_or_floor);
@@ -175,7 +187,7 @@ static dyd_status check_choice(dyd_check_state *s) {
   dyd_sites *sites = NULL;
   dyd_delaunay *exact = NULL;
   dyd_pair_list pairs = {0};
-  dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = s->o->cancel};
+  dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = check_flag(s)};
   dyd_status st = dyd_sites_new(&sites);
   if (st == DYD_OK) st = choose_all(sites, s);
   if (st == DYD_OK) st = dyd_delaunay_new(&exact, sites, &options, NULL);
@@ -263,7 +275,7 @@ static dyd_status check_cells(dyd_check_state *s, bool last) {
 /* ---- a stage ---- */
 
 static dyd_status check_triangulate(bool *capped, dyd_check_state *s) {
-  dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = s->o->cancel};
+  dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = check_flag(s)};
   dyd_status st = s->pd ? dyd_delaunay_update(s->pd, s->changed, s->changes, &options, NULL)
                         : dyd_delaunay_new(&s->pd, s->e->sites, &options, NULL);
   s->changes = 0;
@@ -274,6 +286,7 @@ static dyd_status check_triangulate(bool *capped, dyd_check_state *s) {
 dyd_status dyd_check_stage(dyd_check_state *s, bool last) {
   bool first = !s->pd, capped;
   dyd_pair_list now = {0};
+  if (dyd_check_is_over(s)) return DYD_CANCELLED;
   dyd_status st = check_triangulate(&capped, s);
   if (st != DYD_OK) return st;
   s->report->stages++;

@@ -61,6 +61,10 @@ void dyd_real_set_span(dyd_real *x, dyd_double_span span) {
   x->span = span;
 }
 
+void *dyd_real_user(const dyd_real *x, dyd_narrow_real_fn narrow) {
+  return x->narrow == narrow ? x->user : NULL;
+}
+
 /* Makes room for an interval. */
 static bool real_hold(dyd_real *x) {
   if (x->now) return true;

@@ -27,6 +27,12 @@ dyd_status dyd_real_new_fixed(dyd_real **out, dyd_interval *value);
  * text that x was parsed from. */
 void dyd_real_place(dyd_real *x, size_t line, size_t column);
 
+/* The context of x if `narrow` is its callback, else NULL. Borrowed. */
+void *dyd_real_user(const dyd_real *x, dyd_narrow_real_fn narrow);
+/* Is `now`, an interval that x gave, at most 2^-bits wider than x can ever be (known for final and for widened reals;
+ * of others: than a point)? */
+bool dyd_real_reaches(const dyd_real *x, const dyd_interval *now, int64_t bits);
+
 /* [lo,hi] with ends that are not dyadic rounded outward by less than 2^-64 of the width; the point when lo = hi. */
 dyd_status dyd_interval_fix(dyd_interval *out, const mpq_t lo, const mpq_t hi);
 

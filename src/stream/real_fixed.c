@@ -114,3 +114,20 @@ dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius) {
   widened_release(w);
   return st;
 }
+
+bool dyd_real_reaches(const dyd_real *x, const dyd_interval *now, int64_t bits) {
+  if (dyd_real_is_final(x)) return true;
+  mpq_t lo, hi, most;
+  mpq_inits(lo, hi, most, NULL);
+  dyd_interval_get_q(lo, hi, now);
+  mpq_set_ui(most, 1, 1);
+  (bits >= 0 ? mpq_div_2exp : mpq_mul_2exp)(most, most, (mp_bitcnt_t)(bits >= 0 ? bits : -bits));
+  for (const widened *w; (w = dyd_real_user(x, widened_narrow)); x = w->x) {
+    mpq_add(most, most, w->radius);
+    mpq_add(most, most, w->radius);
+  }
+  mpq_sub(hi, hi, lo);
+  bool reaches = mpq_cmp(hi, most) <= 0;
+  mpq_clears(lo, hi, most, NULL);
+  return reaches;
+}

@@ -19,6 +19,9 @@ dyd_status dyd_stream_new_inside(dyd_stream **out, void **user, size_t size, dyd
 bool dyd_stream_glance(dyd_double_span out[2], const dyd_stream *s, int64_t bits);
 /* The greatest bits for which dyd_stream_glance succeeds; INT64_MIN when there is none. */
 int64_t dyd_stream_glance_bits(const dyd_stream *s);
+/* Is `now`, a rectangle that s gave, on both sides at most 2^-bits wider than it can ever be, as far as that is known
+ * (dyd_real_reaches)? */
+bool dyd_stream_reaches(const dyd_stream *s, const dyd_rect *now, int64_t bits);
 /* The context of s if `narrow` is its callback, else NULL. Borrowed. */
 void *dyd_stream_user(const dyd_stream *s, dyd_narrow_fn narrow);
 

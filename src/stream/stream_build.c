@@ -68,6 +68,12 @@ dyd_status dyd_stream_from_reals(dyd_stream **out, dyd_real *x, dyd_real *y) {
   return st;
 }
 
+bool dyd_stream_reaches(const dyd_stream *s, const dyd_rect *now, int64_t bits) {
+  const pair *p = dyd_stream_user(s, pair_narrow);
+  if (p) return dyd_real_reaches(p->x, &now->x, bits) && dyd_real_reaches(p->y, &now->y, bits);
+  return dyd_stream_is_final(s) || dyd_rect_bits(now) >= bits;
+}
+
 bool dyd_stream_glance(dyd_double_span out[2], const dyd_stream *s, int64_t bits) {
   const pair *p = dyd_stream_user(s, pair_narrow);
   if (!p || dyd_stream_rect(s)) return false;

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""dyadel delaunay --certificate and dyadel verify: every outcome, exit statuses, whole files, size.
+"""dyadel delaunay --certificate and dyadel verify: every outcome, exit statuses, whole files, size; what is stated and
+not proved is named [CERT-8].
 
 Usage: test_command.py DYADEL DATA   (DYADEL_TEST_SCALE=10 measures the size at 10^5 sites instead of 10^4)
 """
@@ -32,9 +33,13 @@ def certify(folder, points, *options, status=0):
     return certificate
 
 
-def accepted(certificate, *texts):
-    done = run('verify', certificate)
-    assert done.returncode == 0 and not done.stderr, done
+def accepted(certificate, *texts, status=0, options=()):
+    """Exit status 0: all is proved, and nothing in the output says otherwise; 3: what is not proved is named."""
+    done = run('verify', certificate, *options)
+    assert done.returncode == status and not done.stderr, done
+    first = done.stdout.split('\n')[0]
+    assert (first == 'accepted, all of it proved') == (status == 0), done.stdout
+    assert ('not proved: ' in done.stdout) == (status == 3), done.stdout
     for text in texts:
         assert text in done.stdout, (text, done.stdout)
 
@@ -47,9 +52,11 @@ def rejected(certificate, line):
 
 def check_outcomes(folder):
     accepted(certify(folder, '0 0\n1 0\n0 1\n'), 'outcome decided', '3 legal pairs', 'not listed are illegal')
-    accepted(certify(folder, '0 0\n1 0\n0 1\n1 1\n', status=3), 'outcome fixpoint', '2 ties', 'not checked: why')
+    accepted(certify(folder, '0 0\n1 0\n0 1\n1 1\n', status=3), 'outcome fixpoint', 'decides 2 ties',
+             'checked: the outcome fixpoint')
+    accepted(certify(folder, '0 0\n1 0\n0 1\n[1,1.1] 1\n', status=3), 'not proved: the outcome fixpoint', status=3)
     accepted(certify(folder, 'sqrt(2) 0\n0 sqrt(2)\n-sqrt(2) 0\n0 -sqrt(2)\n', '--max-bits', '100', status=4),
-             'outcome budget')
+             'not proved: the outcome budget', status=3)
     accepted(certify(folder, 'sqrt(2) 0\n0 sqrt(2)\n-sqrt(2) 0\n0 -sqrt(2)\n', '--until', 'area:30'),
              'outcome certified, goal area 30', 'bounds of area')
     accepted(certify(folder, ''), '0 legal pairs')
@@ -65,10 +72,14 @@ def check_airports(folder):
         done = run('delaunay', '--quiet', '--columns', 'longitude,latitude', *options, '-o', '/dev/null', '--certificate',
                    certificate, DATA / 'airports.csv')
         assert done.returncode == status, done
-        accepted(certificate, *texts)
+        if status:
+            accepted(certificate, *texts, 'not proved: the outcome fixpoint (--points may', status=3)
+        points = ('--points', DATA / 'airports.csv', '--columns', 'longitude,latitude', *options)
+        accepted(certificate, *texts, f'checked: the outcome {"fixpoint" if status else "decided"}',
+                 'the points given lie in', options=points)
     text = certificate.read_text()
     done = run('verify', '-', stdin=text)
-    assert done.returncode == 0, done
+    assert done.returncode == 3, done
     certificate.write_text(text[:len(text) // 2])
     assert run('verify', certificate).returncode == 1
     line = text[:text.index('\nlegal ')].count('\n') + 2
@@ -84,12 +95,13 @@ def check_crowds(folder):
     done = run('delaunay', '--quiet', '--columns', 'longitude,latitude', '--radius', '0.05', '-o', '/dev/null',
                '--certificate', certificate, DATA / 'airports.csv')
     assert done.returncode == 3, done
-    accepted(certificate, '38570 illegal pairs within undecided faces', 'not listed are illegal')
+    accepted(certificate, '38570 illegal pairs within undecided faces', 'not listed are illegal', status=3)
     rng = random.Random(1)
     count, half = min(120 * SCALE, 400), 0.025 * (400 / min(120 * SCALE, 400)) ** 0.5
     middles = [(rng.random(), rng.random()) for _ in range(count)]
     points = ''.join(f'[{x - half},{x + half}] [{y - half},{y + half}]\n' for x, y in middles)
-    accepted(certify(folder, points, status=3), 'each by its chain', 'not listed are illegal')
+    accepted(certify(folder, points, status=3), 'each by its chain', 'not listed are illegal',
+             options=('--points', folder / 'points.txt'))
 
 
 def check_diagrams(folder):
@@ -112,7 +124,7 @@ def check_diagrams(folder):
         rejected(certificate, len(lines) - 1)  # true, but not what the goal asks
         if goal == 'hausdorff':
             certificate.write_text(text.replace(f'\n{lines[at]}', '').replace('\nend', ' unproved\nend'))
-            accepted(certificate, area, 'not checked: the distance', 'not checked: the outcome')
+            accepted(certificate, area, 'not proved: the distance', 'not proved: the outcome', status=3)
     done = run('voronoi', '--quiet', '--columns', 'longitude,latitude', '--window', '-20,20,40,60', '-o', '/dev/null',
                '--certificate', certificate, DATA / 'airports.csv')
     assert done.returncode == 0, done
@@ -124,6 +136,65 @@ def check_diagrams(folder):
     accepted(certificate, area)
     done = run('voronoi', '--quiet', '--certificate', '/dev/full', '-o', '/dev/null', folder / 'two.txt')
     assert done.returncode == 1 and 'cannot write' in done.stderr, done
+
+
+HEAD = 'dyadel certificate 1\noutcome {}\ngoal {}\ncapped no\nsites 3\n{}\nlegal 0\nplaces 0\nbridges 0\ncorners 0\n'
+TAIL = 'pairs\ntriangles 0\nunproved 3\narea {}\nhausdorff {}\nend\n'
+
+
+def check_claims(folder):
+    """What is stated and not proved is never told as proved."""
+    certificate = folder / 'claims.txt'
+    certificate.write_text((HEAD + TAIL).format('decided', 'decided', '0 0\n1 0\n0 1', 'none', 'none'))
+    accepted(certificate, 'not proved: that 3 pairs', 'not proved: the outcome decided', status=3)
+    wide = '0+3 0+3\n1*2^4+3 0+3\n0+3 1*2^4+3'
+    certificate.write_text((HEAD + TAIL).format('certified', 'area 1000', wide, '0', 'none'))
+    accepted(certificate, 'not proved: that 3 pairs', 'not proved: the bounds', 'not proved: the outcome certified',
+             status=3)
+    # an unknown section, one repeated, one before its time; a pair twice, a pair of one site
+    good = certify(folder, '0 0\n1 0\n0 1\n1 1\n', status=3).read_text()
+    for before, after in [('pairs\n', 'notes 0\npairs\n'), ('corners', 'bridges 0\ncorners'), ('pairs\n', 'pairs\npairs\n'),
+                          ('bridges 0\n', ''), ('t 0 3\n', 't 0 3\nt 0 3\n'), ('t 0 3\n', 't 0 0\nt 0 3\n'),
+                          ('t 0 3\n', 'o 0 1\nt 0 3\n'), ('end\n', 'end\nend\n'), ('end\n', 'hausdorff 9\nend\n')]:
+        assert before in good, before
+        certificate.write_text(good.replace(before, after))
+        assert run('verify', certificate).returncode == 1, (before, after)
+    certificate.write_text(good.replace('0 1*2^0', '0 1').replace('\n1 1\n', '\n= 0\n'))
+    assert run('verify', certificate).returncode == 1  # an alias in pairs
+
+
+def check_points(folder):
+    """--points ties a certificate to an input."""
+    text = 'sqrt(2) 0\n0 sqrt(2)\n-sqrt(2) 0\n1/3 [0.1,0.2]\n1/3 1/7\n1/3 1/7\n'
+    certificate = certify(folder, text, status=4)
+    points = folder / 'points.txt'
+    accepted(certificate, 'checked: the points given lie', status=3, options=('--points', points))
+    for changed, why in [(text + '5 5\n', 'it has 6 sites, and there are 7 points'),
+                         (text.replace('sqrt(2) 0\n0', 'sqrt(3) 0\n0', 1), 'site 0 does not hold'),
+                         (text.replace('-sqrt(2)', '[-2,-1]'), 'site 2 is not that of'),
+                         (text.replace('0.1,0.2', '0.1,0.25'), 'site 3 is not that of'),
+                         (text.replace('0.1,0.2', '0.12,0.18'), 'site 3 is not that of'),
+                         (text[:text.rindex('1/3')] + '1/3 1/8\n', 'site 5 is not that of')]:
+        points.write_text(changed)
+        done = run('verify', certificate, '--points', points)
+        assert done.returncode == 1 and not done.stdout and f'rejected: ' in done.stderr and why in done.stderr, done
+    points.write_text(text)
+    # where a refinable point is stated to be an exact one, nothing shows it
+    exact = certificate.read_text().split('\n')
+    assert exact[4] == 'sites 6', exact[:6]
+    (folder / 'triangle.txt').write_text('1 0\n0 1\n-1 0\n')
+    done = run('delaunay', '--quiet', '-o', '/dev/null', '--certificate', certificate, folder / 'triangle.txt')
+    assert done.returncode == 0, done
+    points.write_text('sin(pi/2) 0\n0 1\n-1 0\n')
+    accepted(certificate, 'not proved: that 1 of the points given lie', status=3, options=('--points', points))
+    points.write_text('name;x\n')
+    done = run('verify', certificate, '--points', points)
+    assert done.returncode == 1 and f'{points}:1:' in done.stderr, done
+    for options in (('--radius', '1'), ('--columns', 'a,b'), ('--measured',)):
+        done = run('verify', certificate, *options)
+        assert done.returncode == 2 and 'give their file with --points' in done.stderr, done
+    done = run('verify', '-', '--points', '-')
+    assert done.returncode == 2 and 'cannot be both' in done.stderr, done
 
 
 def check_files(folder):
@@ -153,7 +224,7 @@ def check_size(folder):
     certificate = folder / 'certificate.txt'
     done = run('delaunay', '--quiet', '-o', '/dev/null', '--certificate', certificate, folder / 'points.txt')
     assert done.returncode in (0, 3), done
-    accepted(certificate)
+    accepted(certificate, options=('--points', folder / 'points.txt'))
     text = certificate.read_bytes()
     legal = int(text[text.index(b'\nlegal '):][7:30].split(b'\n')[0])
     size = len(gzip.compress(text)) / legal
@@ -164,7 +235,8 @@ def check_size(folder):
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for check in (check_outcomes, check_airports, check_crowds, check_diagrams, check_files, check_size):
+        for check in (check_outcomes, check_airports, check_crowds, check_diagrams, check_claims, check_points,
+                      check_files, check_size):
             check(folder)
     return 0
 

@@ -211,4 +211,14 @@ def test_check_replays():
         expect(run('check', 'points', '--replay', 'schedule', cwd=folder), 1, err='schedule:2:1: .*STAGE POINT BITS')
 
 
+def test_check_limits():
+    """check ends in time, and finds no fault in a side that is fixed or as wide as a radius makes it."""
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / 'points').write_text('sqrt(2) [0,1]\n0 sqrt(3)\n-1 0\n1/3 -1\n')
+        for options in ([], ['--radius', '0.1'], ['--max-bits', '40']):
+            expect(run('check', 'points', '--schedules', '6', *options, cwd=folder), 0, r'^fine,6,')
+        expect(run('check', 'points', '--schedules', '1000000', '--timeout', '0.5', cwd=folder), 4, r'^fine,',
+               err='the time is used up after [0-9]+ schedules; raise --timeout')
+
+
 main(globals())

@@ -135,6 +135,16 @@ static void around(dyd_interval *out, long num, int64_t bits) {
   mpq_clears(lo, hi, w, NULL);
 }
 
+/* An interval of width 2^-bits about, moved by a third of that, to the right for odd bits. */
+static void sway(dyd_interval *side, int64_t bits) {
+  dyd_dyadic step;
+  dyd_dyadic_init(&step);
+  assert_int_equal(DYD_OK, dyd_dyadic_set_si_2exp(&step, bits % 2 ? 3 : -3, -bits - 4));
+  assert_int_equal(DYD_OK, dyd_dyadic_add(&side->lo, &side->lo, &step));
+  assert_int_equal(DYD_OK, dyd_dyadic_add(&side->hi, &side->hi, &step));
+  dyd_dyadic_clear(&step);
+}
+
 static dyd_status misbehave(dyd_rect *out, const faulty *f, const dyd_request *q, dyd_error *err) {
   long k = (long)q->point;
   switch (f->kind) {
@@ -143,6 +153,11 @@ static dyd_status misbehave(dyd_rect *out, const faulty *f, const dyd_request *q
     return DYD_OK;
   case FAULT_DRIFT:
     around(&out->x, k * k + 1, q->bits + 2);
+    return DYD_OK;
+  case FAULT_SWAY: /* to the left and to the right, by a third of the width: not nested only from one bit to the next */
+    around(&out->x, k * k, q->bits + 2); /* half a width of 2^-bits */
+    around(&out->y, k * k * k, q->bits + 2);
+    sway(&out->x, q->bits);
     return DYD_OK;
   case FAULT_FAIL:
     err->code = DYD_E_STREAM;

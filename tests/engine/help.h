@@ -40,7 +40,16 @@ void monotone_progress(void *user, const dyd_progress *p);
 void monotone_look(monotone *m);
 
 /* A source of n points near (x, y) = (k^2, k^3) / 7, with a fault. All about one point, from one of its calls on. */
-typedef enum fault { FAULT_NONE, FAULT_WIDEN, FAULT_DRIFT, FAULT_FAIL, FAULT_STALL, FAULT_JUNK, FAULT_UNKNOWN } fault;
+typedef enum fault {
+  FAULT_NONE,
+  FAULT_WIDEN,
+  FAULT_DRIFT,
+  FAULT_SWAY,
+  FAULT_FAIL,
+  FAULT_STALL,
+  FAULT_JUNK,
+  FAULT_UNKNOWN
+} fault;
 typedef struct faulty {
   fault kind;
   size_t point;

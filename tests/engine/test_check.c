@@ -116,6 +116,42 @@ static void bad_streams(void **state) {
   run(&drifts, &o, DYD_CHECK_STREAM);
   run(&stalls, &o, DYD_CHECK_RATE);
   run(&fails, &o, DYD_CHECK_STREAM);
+  points sways = {.seed = 5, .roots = 3, .kind = FAULT_SWAY};
+  run(&sways, NULL, DYD_CHECK_STREAM); /* at the default precision: steps are small now and then */
+}
+
+/* Points with a side that is fixed, or as wide as a radius makes it, narrow as they should. */
+static dyd_status open_half_fixed(dyd_engine **out, void *user, dyd_error *err) {
+  static const char text[] = "sqrt(2) [0,1]\n[0,1] sqrt(3)\n-1 pi\n1/3 -1\nsqrt(5)+-0.25 e\n";
+  dyd_read_options options = {DYD_SIZED(dyd_read_options), .radius = user};
+  *out = engine_new();
+  return dyd_engine_add_text(*out, text, sizeof text - 1, &options, err);
+}
+
+static void half_fixed(void **state) {
+  (void)state;
+  static char radius[] = "0.1";
+  dyd_check_options o = {DYD_SIZED(dyd_check_options), .seed = 4, .schedules = 12};
+  for (int wide = 0; wide < 2; wide++) {
+    dyd_check_report report = {DYD_SIZED(dyd_check_report)};
+    dyd_error err;
+    assert_int_equal(dyd_check_run(&report, open_half_fixed, wide ? radius : NULL, &o, &err), DYD_OK);
+    if (report.fault != DYD_CHECK_FINE) fail_msg("%s", report.message);
+    dyd_check_report_clear(&report);
+  }
+}
+
+/* Out of time, it tells what was done. */
+static void out_of_time(void **state) {
+  (void)state;
+  dyd_check_options o = {DYD_SIZED(dyd_check_options), .seed = 4, .schedules = 1000000, .seconds = 0.25};
+  dyd_check_report report = {DYD_SIZED(dyd_check_report)};
+  dyd_error err;
+  points p = {.seed = 7, .roots = 9};
+  assert_int_equal(dyd_check_run(&report, open_points, &p, &o, &err), DYD_CANCELLED);
+  assert_int_equal(report.fault, DYD_CHECK_FINE);
+  assert_true(report.schedules < 1000000);
+  dyd_check_report_clear(&report);
 }
 
 /* Which check tells depends on where the fault strikes: any but those of streams. */
@@ -145,6 +181,7 @@ static void bad_engine(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(good_points), cmocka_unit_test(bad_streams),
+                                     cmocka_unit_test(half_fixed), cmocka_unit_test(out_of_time),
                                      cmocka_unit_test(bad_engine)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Is a certificate about these points [CERT-8]?
+ *
+ * What it proves of its rectangles is true of the points when these lie in them, site by site. A fixed point is a
+ * rectangle, whose points are all meant: it has to be that of its site. Any other point is narrowed until it is seen
+ * where it lies. */
+#include "engine/points.h"
+#include "base/abi.h"
+#include "base/alloc.h"
+#include "base/error.h"
+#include "checker/checker.h"
+#include "prove/proof.h"
+
+/* The question put to the engine. found[i]: point i lies in the rectangle of its site; wrong: one that does not. */
+typedef struct location {
+  dyd_rect *site; /* of the certificate */
+  bool *found;
+  size_t count, open;
+  uint32_t wrong;
+  const char *why;
+} location;
+
+static dyd_status location_wrong(location *l, uint32_t i, const char *why) {
+  l->wrong = i;
+  l->why = why;
+  return DYD_OK;
+}
+
+/* Looks at point i as it is now. */
+static dyd_status locate_point(location *l, const dyd_engine *e, dyd_rect *r, uint32_t i) {
+  const dyd_refinable *p = dyd_engine_find(e, i);
+  if (!dyd_engine_knows(e, i)) return DYD_OK;
+  dyd_status st = dyd_sites_get(r, dyd_engine_sites(e), i);
+  if (st != DYD_OK) return st;
+  l->found[i] = dyd_rect_contains(&l->site[i], r);
+  if (!p && !dyd_rect_equal(&l->site[i], r)) return location_wrong(l, i, "is not that of the point");
+  if (l->found[i]) return DYD_OK;
+  if (!dyd_rect_meets(&l->site[i], r)) return location_wrong(l, i, "does not hold the point");
+  return p->final ? location_wrong(l, i, "is narrower than the point is known") : DYD_OK;
+}
+
+static dyd_status location_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
+  location *l = user;
+  dyd_rect r;
+  (void)err;
+  dyd_rect_init(&r);
+  dyd_status st = DYD_OK;
+  l->open = 0;
+  for (uint32_t i = 0; i < l->count && st == DYD_OK && !l->why; i++) {
+    if (l->found[i]) continue;
+    st = locate_point(l, e, &r, i);
+    if (st != DYD_OK || l->found[i] || l->why) continue;
+    l->open++;
+    st = dyd_plan_add(plan, i, DYD_BITS_NEXT);
+  }
+  *answered = l->open == 0 || l->why;
+  dyd_rect_clear(&r);
+  return st;
+}
+
+/* ---- rectangles of the certificate ---- */
+
+static dyd_status side_interval(dyd_interval *out, const dyd_cert_side *s) {
+  dyd_dyadic lo, hi;
+  dyd_dyadic_init(&lo);
+  dyd_dyadic_init(&hi);
+  const dyd_exact *top = dyd_cert_high(s);
+  dyd_status st = dyd_dyadic_set_z_2exp(&lo, s->lo.man, s->lo.exp);
+  if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&hi, top->man, top->exp);
+  if (st == DYD_OK && s->den) {
+    mpq_t q;
+    mpq_init(q);
+    dyd_dyadic_get_q(q, &lo);
+    mpz_mul(mpq_denref(q), mpq_denref(q), *s->den);
+    mpq_canonicalize(q);
+    st = dyd_interval_set_q(out, q);
+    mpq_clear(q);
+  } else if (st == DYD_OK) {
+    st = dyd_interval_set_ends(out, &lo, &hi);
+  }
+  dyd_dyadic_clear(&lo);
+  dyd_dyadic_clear(&hi);
+  return st;
+}
+
+static void location_clear(location *l) {
+  for (size_t i = 0; l->site && i < l->count; i++) dyd_rect_clear(&l->site[i]);
+  free(l->site);
+  free(l->found);
+}
+
+static dyd_status location_init(location *l, const dyd_cert_sites *s) {
+  *l = (location){.count = s->count, .site = dyd_alloc(s->count, sizeof *l->site)};
+  l->found = calloc(s->count ? s->count : 1, sizeof *l->found);
+  dyd_status st = l->site && l->found ? DYD_OK : DYD_E_NOMEM;
+  for (size_t i = 0; l->site && i < s->count; i++) dyd_rect_init(&l->site[i]);
+  for (size_t i = 0; st == DYD_OK && i < s->count; i++) {
+    st = side_interval(&l->site[i].x, &s->site[i].side[0]);
+    if (st == DYD_OK) st = side_interval(&l->site[i].y, &s->site[i].side[1]);
+  }
+  return st;
+}
+
+/* ---- all ---- */
+
+/* still[i]: no call narrows point i any more, and its site is no wider. */
+static dyd_status list_still(bool *still, const location *l, const dyd_engine *e) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = DYD_OK;
+  for (uint32_t i = 0; i < l->count && st == DYD_OK; i++) {
+    const dyd_refinable *p = dyd_engine_find(e, i);
+    st = dyd_sites_get(&r, dyd_engine_sites(e), i);
+    still[i] = (!p || p->final) && dyd_rect_equal(&l->site[i], &r);
+  }
+  dyd_rect_clear(&r);
+  return st;
+}
+
+static dyd_status location_settle(dyd_checker *c, const location *l, const dyd_engine *e) {
+  if (l->why) return dyd_fail(c->in.err, DYD_E_PARSE, "the rectangle of site %u %s", (unsigned)l->wrong, l->why);
+  bool *still = dyd_alloc(l->count, sizeof *still);
+  if (!still) return DYD_E_NOMEM;
+  dyd_status st = list_still(still, l, e);
+  c->report.bound = true;
+  c->report.unlocated = l->open;
+  if (l->open) c->report.gaps |= DYD_GAP_POINTS;
+  if (st == DYD_OK) dyd_checker_settle(c, still);
+  free(still);
+  return st;
+}
+
+static dyd_status checker_locate(dyd_checker *c, dyd_engine *e, const dyd_engine_options *options) {
+  location l;
+  dyd_outcome outcome;
+  const dyd_question question = {DYD_SIZED(dyd_question), .ask = location_ask, .user = &l};
+  if (dyd_engine_count(e) != c->sites.count)
+    return dyd_fail(c->in.err, DYD_E_PARSE, "it has %zu sites, and there are %zu points", c->sites.count,
+                    (size_t)dyd_engine_count(e));
+  dyd_status st = location_init(&l, &c->sites);
+  if (st == DYD_OK) st = dyd_engine_ask(&outcome, e, &question, options, c->in.err);
+  if (st == DYD_OK && outcome == DYD_OUTCOME_CANCELLED) st = DYD_CANCELLED;
+  if (st == DYD_OK) st = location_settle(c, &l, e);
+  location_clear(&l);
+  return st == DYD_E_NOMEM ? dyd_fail_nomem(c->in.err) : st;
+}
+
+dyd_status dyd_verify_certificate_of(dyd_certificate_report *out, FILE *in, struct dyd_engine *e,
+                                     const struct dyd_engine_options *options, dyd_error *err) {
+  dyd_checker c;
+  dyd_error unused;
+  if (!err) err = &unused;
+  dyd_error_clear(err);
+  if (dyd_abi_check(out, 0, "dyd_certificate_report", err) != DYD_OK) return DYD_E_ARG;
+  dyd_checker_init(&c, in, err);
+  dyd_status st = dyd_checker_run(&c);
+  if (st == DYD_OK) st = checker_locate(&c, e, options);
+  if (st == DYD_OK) dyd_abi_give(out, &c.report, sizeof c.report);
+  dyd_checker_clear(&c);
+  return st;
+}

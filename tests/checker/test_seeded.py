@@ -1,0 +1,283 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Faults seeded into the checker of certificates are noticed [CERT-1] [CERT-2] [CERT-3] [CERT-4] [CERT-5] [CERT-6]
+[CERT-7] [CERT-8].
+
+Usage: test_seeded.py CC ROOT LIBRARY   (exit status 1 when a fault goes unnoticed)
+
+forgeries.txt has certificates, each with its verdict: what is rejected, and what is accepted with which gaps. Most are one
+step from a good one, counts put right. The checker has to give these verdicts; a copy of one of its sources with a fault
+(a check removed or weakened, a < made <= at a tie), linked with the rest from LIBRARY, must give another one. Each fault
+replaces a text, which must occur once. SURVIVORS change nothing that could be noticed, for the reason given.
+"""
+import concurrent.futures
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+FAULTS = [
+    ('chain.c', 'bool good = dyd_fraction_cmp(&own, &other) < 0;', 'bool good = dyd_fraction_cmp(&own, &other) <= 0;'),
+    ('chain.c', 'bool good = dyd_fraction_cmp(&own, &other) < 0;', 'bool good = true;'),
+    ('chain.c', 'good = good && dyd_fraction_cmp(&own, &other) < 0;',
+     'good = good && dyd_fraction_cmp(&own, &other) <= 0;'),
+    ('chain.c', '  good = good && dyd_fraction_cmp(&own, &other) < 0;\n', ''),
+    ('chain.c', 'return dyd_cert_compare_heights(s, u, i, k) < 0 && ', 'return '),
+    ('chain.c', ' && dyd_cert_compare_heights(s, u, j, k) < 0;', ';'),
+    ('chain.c', 'dyd_cert_compare_heights(s, u, i, k) < 0', 'dyd_cert_compare_heights(s, u, i, k) <= 0'),
+    ('chain.c', 'dyd_cert_compare_heights(s, u, j, k) < 0', 'dyd_cert_compare_heights(s, u, j, k) <= 0'),
+    ('chain.c', '    if (!blocker_is_nearer(s, c->point[q], c->blocker[q], i, j) ||\n        !blocker_is_nearer(s, c->point[q], c->blocker[q + 1], i, j))',
+     '    if (!blocker_is_nearer(s, c->point[q], c->blocker[q], i, j))'),
+    ('chain.c', '    if (!blocker_is_nearer(s, c->point[q], c->blocker[q], i, j) ||\n        !blocker_is_nearer(s, c->point[q], c->blocker[q + 1], i, j))',
+     '    if (!blocker_is_nearer(s, c->point[q], c->blocker[q + 1], i, j))'),
+    ('chain.c', 'for (size_t q = 0; q < c->points; q++)\n    if (!blocker',
+     'for (size_t q = 1; q < c->points; q++)\n    if (!blocker'),
+    ('chain.c', 'for (size_t q = 0; q < c->points; q++)\n    if (!blocker',
+     'for (size_t q = 0; q + 1 < c->points; q++)\n    if (!blocker'),
+    ('chain.c', 'return blocker_is_farther_out(s, c->u[0], c->blocker[0], i, j) &&\n         ', 'return '),
+    ('chain.c', 'return blocker_is_farther_out(s, c->u[0], c->blocker[0], i, j) &&\n         blocker_is_farther_out(s, c->u[1], c->blocker[c->points], i, j);',
+     'return blocker_is_farther_out(s, c->u[0], c->blocker[0], i, j);'),
+    ('chain.c', 'blocker_is_farther_out(s, c->u[1], c->blocker[c->points], i, j)',
+     'blocker_is_farther_out(s, c->u[1], c->blocker[0], i, j)'),
+    ('chain.c', 'bool crosses = end && end != here && segment_is_met(p, q, at, origin, way);',
+     'bool crosses = end && end != here;'),
+    ('chain.c', 'bool crosses = end && end != here && segment', 'bool crosses = end && segment'),
+    ('chain.c', 'return chain_side(p, q, from) != chain_side(p, q, to) && segment', 'return segment'),
+    ('chain.c', 'return c->points > 0 && chain_is_blocked(c, s, i, j) && chain_separates(c, s, i, j);',
+     'return c->points > 0 && chain_is_blocked(c, s, i, j);'),
+    ('chain.c', 'return c->points > 0 && chain_is_blocked(c, s, i, j) && chain_separates(c, s, i, j);',
+     'return c->points > 0 && chain_separates(c, s, i, j);'),
+    ('chain.c', '!= ray_crosses(p, q, c->point[c->points - 1], c->u[1]);', ';'),
+    ('chain.c', 'k + 1 < c->points; k++) odd ^=', 'k + 2 < c->points; k++) odd ^='),
+    ('witness.c', 'if (dyd_fraction_cmp(&s->radius2, &s->here) < 0) return true;',
+     'if (dyd_fraction_cmp(&s->radius2, &s->here) <= 0) return true;'),
+    ('witness.c', '  if (dyd_fraction_cmp(&q.here, &q.radius2) > 0) dyd_fraction_swap(&q.here, &q.radius2);\n', ''),
+    ('witness.c', 'if (k == s->i || k == s->j) return true;', 'if (k == s->i || k == s->j || k == 0) return true;'),
+    ('witness.c', 'limit = a > b ? a : b;', 'limit = a < b ? a : b;'),
+    ('witness.c', 'own = places ? DYD_CERT_PLACE : DYD_CERT_FAR;', 'own = places ? DYD_CERT_PLACE : DYD_CERT_NEAR;'),
+    ('witness.c', '.measure = places ? DYD_CERT_PLACE : DYD_CERT_NEAR}',
+     '.measure = places ? DYD_CERT_PLACE : DYD_CERT_FAR}'),
+    ('faces.c', 'dyd_cert_compare_heights(s, corner->u, p->site[q], corner->i) >= 0) return false;',
+     'dyd_cert_compare_heights(s, corner->u, p->site[q], corner->i) > 0) return false;'),
+    ('faces.c', 'if (!corner_is_beyond(s, c, p, after) || (before != after && !corner_is_beyond(s, c, p, before))) *bad',
+     'if (before != after && !corner_is_beyond(s, c, p, before)) *bad'),
+    ('faces.c', ' || (before != after && !corner_is_beyond(s, c, p, before))) *bad', ') *bad'),
+    ('faces.c', 'if (times[corner[c].i] != 1 || !hull[corner[c].i]) *bad', 'if (times[corner[c].i] != 1) *bad'),
+    ('faces.c', 'if (times[corner[c].i] != 1 || !hull[corner[c].i]) *bad', 'if (!hull[corner[c].i]) *bad'),
+    ('faces.c', 'if (count < 2 || (count == 2 && dyd_cert_edges_have(g->legal, to[0], to[1]))) return DYD_OK;',
+     'if (count <= 2) return DYD_OK;'),
+    ('faces.c', 'if (count == 3)', 'if (count <= 4)'),
+    ('faces.c', '    if (corners) *bad = corner[0].i;\n', ''),
+    ('faces.c', 'f->inexact[k] |= ', 'f->inexact[k] &= '),
+    ('parts.c', 'if (h / 2 >= m->g->legal->count && twin != DYD_CERT_NONE)', 'if (false)'),
+    ('parts.c', 'if (h / 2 >= m->g->legal->count && twin != DYD_CERT_NONE)', 'if (twin != DYD_CERT_NONE)'),
+    ('parts.c', 'if (!end || m->corner[site_on_walk(m, q + 1)]) p->start[p->group[q] + 1]++;',
+     'if (!end) p->start[p->group[q] + 1]++;'),
+    ('graph.c', 'g->redundant |= a == b && e >= g->legal->count;', ''),
+    ('graph.c', 'g->connected = parts <= 1 && have_directions(g);', 'g->connected = have_directions(g);'),
+    ('checker.c', 'if (!dyd_cert_is_point(&c->sites.site[of])) return', 'if (false) return'),
+    ('checker.c', 'if (c->sites.site[*out].alias != *out) return', 'if (false) return'),
+    ('checker.c', 'if (next.i >= next.j) return', 'if (next.i > next.j) return'),
+    ('checker.c', '(next.i == pair->i && next.j <= pair->j))', '(next.i == pair->i && next.j < pair->j))'),
+    ('checker.c', 'if (next.i < pair->i || (next', 'if ((next'),
+    ('checker.c', 'if (st == DYD_OK && !first && *i <= last)', 'if (st == DYD_OK && !first && *i < last)'),
+    ('checker.c', 'c->reached = dyd_exact_cmp(bound, &most) <= 0;', 'c->reached = true;'),
+    ('checker.c', 'c->reached = dyd_exact_cmp(bound, &most) <= 0;', 'c->reached = dyd_exact_cmp(bound, &most) < 0;'),
+    ('checker.c', 'if (!side_holds_value(&site->side[0], &c->point[0]) || !side_holds_value(&site->side[1], &c->point[1]))',
+     'if (!side_holds_value(&site->side[0], &c->point[0]))'),
+    ('checker.c', 'if (!side_holds_value(&site->side[0], &c->point[0]) || !side_holds_value(&site->side[1], &c->point[1]))',
+     'if (!side_holds_value(&site->side[1], &c->point[1]))'),
+    ('checker.c', 'return dyd_exact_cmp(v, &s->lo) >= 0 && dyd_exact_cmp', 'return dyd_exact_cmp'),
+    ('checker.c', 'dyd_exact_cmp(v, dyd_cert_high(s)) <= 0;', 'dyd_exact_cmp(v, &s->hi) <= 0 || s->point;'),
+    ('checker.c', 'if (!dyd_cert_is_witness(&other, &c->sites, &c->tree, pair->i, pair->j, c->point, places))',
+     'if (!places && !dyd_cert_is_witness(&other, &c->sites, &c->tree, pair->i, pair->j, c->point, places))'),
+    ('checker.c', 'if (!dyd_cert_is_witness(&other, &c->sites, &c->tree, pair->i, pair->j, c->point, places))',
+     'if (places && !dyd_cert_is_witness(&other, &c->sites, &c->tree, pair->i, pair->j, c->point, places))'),
+    ('checker.c', 'if (bad != DYD_CERT_NONE) return', 'if (false) return'),
+    ('pairs.c', 'if (dyd_cert_edges_have(&c->legal, pair->i, pair->j)) return', 'if (false) return'),
+    ('pairs.c', "if (kind == 't' && !(dyd_cert_is_point(&c->sites.site[pair->i]) && dyd_cert_is_point(&c->sites.site[pair->j])))",
+     "if (kind == 't' && !dyd_cert_is_point(&c->sites.site[pair->i]))"),
+    ('pairs.c', "if (kind == 't' && !(dyd_cert_is_point(&c->sites.site[pair->i]) && dyd_cert_is_point(&c->sites.site[pair->j])))",
+     "if (kind == 't' && !dyd_cert_is_point(&c->sites.site[pair->j]))"),
+    ('pairs.c', 'if ((uint64_t)triangles != c->faces.triangles)', 'if (false)'),
+    ('pairs.c', 'if ((uint64_t)unproved != c->report.unproved)', 'if (false)'),
+    ('pairs.c', 'if (c->report.capped && (present[0] || present[1])) return', 'if (false) return'),
+    ('pairs.c', 'if (!area) return', 'if (false) return'),
+    ('pairs.c', 'if (exceeded) return', 'if (false) return'),
+    ('pairs.c', 'if (present[1] && dyd_exact_sgn(&bound[1]) < 0) exceeded = true;', ''),
+    ('pairs.c', 'for (size_t e = 0; e < c->open.count; e++)\n', 'for (size_t e = 1; e < c->open.count; e++)\n'),
+    ('pairs.c', 'dyd_cert_bounds_add(b, &c->sites, c->open.item[e].i, c->open.item[e].j, false);',
+     'dyd_cert_bounds_add(b, &c->sites, c->open.item[e].i, c->open.item[e].j, true);'),
+    ('bounds.c', 'if (dyd_fraction_cmp(&t, out) > 0) dyd_fraction_swap(&t, out);\n  dyd_fraction_clear(&t);\n}\n\n/* man',
+     'dyd_fraction_clear(&t);\n}\n\n/* man'),
+    ('bounds.c', 'if (sx * sy < 0) {', 'if (sx * sy != 0) {'),
+    ('bounds.c', 'area.num.exp++;', ''),
+    ('bounds.c', 'fits = dyd_fraction_cmp(&d, &l) <= 0;', 'fits = dyd_fraction_cmp(&d, &l) < 0;'),
+    ('bounds.c', 'dyd_sqrt2_sign(one[0], minus, one[1], twice, one[2]) >= 0;',
+     'dyd_sqrt2_sign(one[0], minus, one[1], twice, one[2]) > 0;'),
+    ('bounds.c', 'mpz_init_set_si(twice, -2);', 'mpz_init_set_si(twice, -1);'),
+    ('bounds.c', 'bool holds = dyd_exact_cmp(&b->area2.num, &twice) <= 0;',
+     'bool holds = dyd_exact_cmp(&b->area2.num, &twice) < 0;'),
+    ('certificate.c', 'if (strcmp(r->outcome, "decided") == 0 && open)', 'if (false)'),
+    ('certificate.c', 'if (strcmp(r->outcome, "certified") == 0 && !c->reached)', 'if (false)'),
+    ('certificate.c', 'bool complete = !r->unproved && !r->capped,', 'bool complete = true,'),
+    ('certificate.c', 'if (r->legal_unproved) r->gaps |= DYD_GAP_LEGAL;', ''),
+    ('certificate.c', 'if (r->unproved && !r->capped) r->gaps |= DYD_GAP_ILLEGAL;', ''),
+    ('certificate.c', 'if (r->ties_unproved) r->gaps |= DYD_GAP_TIES;', ''),
+    ('certificate.c', 'if (r->unproved && (r->area || r->hausdorff)) r->gaps |= DYD_GAP_BOUNDS;', ''),
+    ('certificate.c', 'if (r->distance && !r->distance_proved) r->gaps |= DYD_GAP_DISTANCE;', ''),
+    ('certificate.c', 'if (!is_still(c, still, c->faces.member[q])) return false;',
+     'if (!is_still(c, still, c->faces.member[q])) return true;'),
+    ('certificate.c', 'if (!is_still(c, still, i)) return false;', 'if (!is_still(c, still, i)) return true;'),
+    ('diagram.c', 'if (dyd_cert_cross(polygon_spot(p, k), polygon_spot(p, k + 1), polygon_spot(p, k + 1), polygon_spot(p, k + 2)) <= 0)',
+     'if (dyd_cert_cross(polygon_spot(p, k), polygon_spot(p, k + 1), polygon_spot(p, k + 1), polygon_spot(p, k + 2)) < 0)'),
+    ('diagram.c', 'return begins == 1;', 'return begins > 0;'),
+    ('diagram.c', 'if (!dyd_cert_window_has(w, c->chain.point[k]))', 'if (false)'),
+    ('diagram.c', 'dyd_exact_cmp(&at[a], &w->e[2 * a + 1]) > 0) return false;', 'false) return false;'),
+    ('diagram.c', 'if (!dyd_cert_is_witness(&other, &c->sites, &c->tree, i, i, c->chain.point[k], false))',
+     'if (k && !dyd_cert_is_witness(&other, &c->sites, &c->tree, i, i, c->chain.point[k], false))'),
+    ('diagram.c', 'if (st == DYD_OK && q && i <= last)', 'if (st == DYD_OK && q && i < last)'),
+    ('diagram.c', 'if (dyd_exact_cmp(area2, &all) < 0) st', 'if (false) st'),
+    ('diagram.c', 'area2->exp--;', ''),
+    ('diagram.c', 'if (dyd_exact_cmp(&w->e[0], &w->e[1]) >= 0 || dyd_exact_cmp(&w->e[2], &w->e[3]) >= 0)',
+     'if (dyd_exact_cmp(&w->e[0], &w->e[1]) >= 0)'),
+    ('diagram.c', 'if (!holds) st = ', 'if (false) st = '),
+    ('distance.c', 'if (near[k] && near[l]) continue;', 'if (near[k] || near[l]) continue;'),
+    ('distance.c', 'if (near[k] && near[l]) continue;', 'if (near[k]) continue;'),
+    ('distance.c', 'if (near[k] && near[l]) continue;', 'if (near[l]) continue;'),
+    ('distance.c', 'for (size_t l = 0; l < k; l++) {', 'for (size_t l = 1; l < k; l++) {'),
+    ('distance.c', 'for (int k = 0; k < 4; k++) {\n    grid_box part',
+     'for (int k = 1; k < 4; k++) {\n    grid_box part'),
+    ('distance.c', 'for (int k = 0; k < 4; k++) {\n    grid_box part',
+     'for (int k = 0; k < 3; k++) {\n    grid_box part'),
+    ('distance.c', 'for (int k = 0; k < 4; k++) {\n    grid_box part',
+     'for (int k = 0; k < 4; k += k ? 1 : 2) {\n    grid_box part'),
+    ('distance.c', 'for (int k = 0; k < 4; k++) {\n    grid_box part',
+     'for (int k = 0; k < 4; k += k == 1 ? 2 : 1) {\n    grid_box part'),
+    ('distance.c', 'if (near_on_grid(q, &s->item[s->list[k]].box) <= least)',
+     'if (near_on_grid(q, &s->item[s->list[k]].box) < least)'),
+    ('distance.c', 'if (far < least) least = far;', 'if (k == from || far > least) least = far;'),
+    ('distance.c', 'if (count == 1) return true;', 'if (count <= 2) return true;'),
+    ('distance.c', 'sum += dyd_cert_square(left > right ? left : right);',
+     'sum += dyd_cert_square(left < right ? left : right);'),
+    ('distance.c', ' && are_disjoint(s, a, &s->item[list[k]])) return true;', ') return true;'),
+    ('distance.c', 'if (far_on_grid(q, &s->item[list[k]]) <= most && ', 'if ('),
+    ('distance.c', 'bool holds = dyd_exact_cmp(&left, &right) <= 0;', 'bool holds = true;'),
+    ('distance.c', 'if (a->diameter == 0 && b->diameter == 0) return are_disjoint(s, a, b);',
+     'if (a->diameter == 0 || b->diameter == 0) return are_disjoint(s, a, b);'),
+    ('distance.c', 'right.exp += s->bound->exp + 1;', 'right.exp += s->bound->exp + 3;'),
+    ('distance.c', 'mpz_add_ui(s->root, s->root, far_b);', ''),
+    ('distance.c', 'bool spans = disjoint && dyd_fraction', 'bool spans = dyd_fraction'),
+    ('distance.c', 'bool spans = disjoint && dyd_fraction_cmp(&sum, &s->part) <= 0;', 'bool spans = disjoint;'),
+    ('distance.c', 'if (s.st == DYD_OK && dyd_exact_sgn(bound) >= 0) {', 'if (s.st == DYD_OK) {'),
+    ('measure.c', 'if (dyd_exact_cmp(&twice, &sum) <= 0) at = &side->hi;',
+     'if (dyd_exact_cmp(&twice, &sum) > 0) at = &side->hi;'),
+    ('measure.c', 'at = dyd_exact_cmp(c, &side->hi) < 0 ? c : &side->hi;', 'at = c;'),
+    ('measure.c', 'bool high = (dyd_exact_sgn(&u[axis]) > 0) == upper;', 'bool high = dyd_exact_sgn(&u[axis]) > 0;'),
+    ('measure.c', 'return det > error ? 1 : det < -error ? -1 : 0;', 'return det > 0 ? 1 : det < 0 ? -1 : 0;'),
+    ('tree.c', 'out->far |= mpz_sizeinbase(t, 2) > 60;', 'out->far |= mpz_sizeinbase(t, 2) > 90;'),
+    ('tree.c', 'if (!c->far && near_lower(c, tree_child(t, level, child)) > limit) continue;',
+     'if (near_lower(c, tree_child(t, level, child)) > limit) continue;'),
+    ('tree.c', '> limit) continue;', '>= limit) continue;'),
+    ('tree.c', 'sum += dyd_cert_square(left > right ? left : right);',
+     'sum += dyd_cert_square(left < right ? left : right);'),
+    ('sites.c', 'dyd_exact_ceil(t, dyd_cert_high(side), dyd_cert_den(side), s->unit);',
+     'dyd_exact_floor(t, dyd_cert_high(side), dyd_cert_den(side), s->unit);'),
+    ('sites.c', 'dyd_exact_floor(t, &side->lo, dyd_cert_den(side), s->unit);',
+     'dyd_exact_ceil(t, &side->lo, dyd_cert_den(side), s->unit);'),
+    ('read.c', "if (*digit == '0') return digit == text ? digit + 1 : NULL;", "if (*digit == '0') return digit + 1;"),
+    ('read.c', '|| exp == 0) return false;', ') return false;'),
+    ('read.c', '|| (exp && !mpz_odd_p(out->man))) return false;', ') return false;'),
+    ('read.c', 'return exact_in_range(out);', 'return true;'),
+    ('read.c', '|| dyd_exact_sgn(&width) <= 0)', '|| dyd_exact_sgn(&width) < 0)'),
+    ('read.c', 'good = good && mpz_cmp_ui(g, 1) == 0 && ', 'good = good && '),
+    ('read.c', 'mpz_cmp_ui(den, 1) > 0 && mpz_odd_p(den);', 'mpz_cmp_ui(den, 1) > 0;'),
+    ('read.c', 'if (getc(r->in) != EOF) return', 'if (false) return'),
+    ('read.c', 'return r->at ? dyd_cert_reject', 'return false ? dyd_cert_reject'),
+    ('read.c', 'if (!end || *end || end - text > 18) return false;', 'if (!end || *end) return false;'),
+]
+SURVIVORS = [
+    ('chain.c', 'return dyd_cert_cross(p, q, p, at) >= 0 ? 1 : -1;',
+     'return dyd_cert_cross(p, q, p, at) > 0 ? 1 : -1;',
+     'the chain is moved to the right in place of the left'),
+    ('chain.c', 'dyd_cert_cross(a, b, from, q) < 0;',
+     'dyd_cert_cross(a, b, from, q) <= 0;',
+     'no blocked line meets a place'),
+    ('faces.c', 'stack[top - 1], v) <= 0) top--;',
+     'stack[top - 1], v) < 0) top--;',
+     'nobody is surely beyond two neighbours and on the line between them'),
+    ('graph.c', 'g->connected = parts <= 1 && have_directions(g);',
+     'g->connected = parts <= 1;',
+     'of two sites in one place, only those of two in all are joined'),
+    ('measure.c', 'if (!s->box || s->site[v].place) return false;',
+     'if (!s->box) return false;',
+     'places stay in their rectangles; bridges are no borders, in whatever order they leave a site'),
+]
+
+
+def judged(program, certificates):
+    """The verdicts: the reason of a rejection does not count. A crash, or no end, is a verdict of its own."""
+    try:
+        done = subprocess.run([program, certificates], stdout=subprocess.PIPE, text=True, timeout=60, check=False)
+    except subprocess.TimeoutExpired:
+        return ['no end']
+    return [line.split(':')[0] if line.startswith('rejected') else line for line in done.stdout.splitlines()]
+
+
+class Seeds:
+    """Builds the judge with one source of the checker replaced."""
+
+    def __init__(self, cc, root, library, folder):
+        self.flags = ['-std=c11', '-O0', '-w', '-D_POSIX_C_SOURCE=200809L', '-fvisibility=hidden', '-DDYD_ARMED',
+                      f'-I{root}/include', f'-I{root}/src']
+        self.cc, self.root, self.library, self.folder = cc.split(), root, library, folder
+        self.compile(root / 'tests/checker/judge.c', folder / 'judge.o')
+
+    def compile(self, source, target):
+        subprocess.run([*self.cc, *self.flags, '-c', source, '-o', target], check=True)
+
+    def link(self, name, objects):
+        program = self.folder / name
+        subprocess.run([*self.cc, self.folder / 'judge.o', *objects, self.library, '-lgmp', '-lmpfr', '-lm', '-pthread',
+                        '-o', program], check=True)
+        return program
+
+    def verdicts_with(self, number, fault, certificates):
+        text = (self.root / 'src/checker' / fault[0]).read_text()
+        if text.count(fault[1]) != 1:
+            raise SystemExit(f'{fault[0]} has this {text.count(fault[1])} times, not once: {fault[1]}')
+        source, target = self.folder / f'{number}.c', self.folder / f'{number}.o'
+        source.write_text(text.replace(fault[1], fault[2]))
+        self.compile(source, target)
+        return judged(self.link(f'judge{number}', [target]), certificates)
+
+
+def read_forgeries(path, certificates):
+    """Writes the certificates for the judge; returns the verdicts."""
+    lines = path.read_text().splitlines()
+    certificates.write_text(''.join('----\n' if line.startswith('---- ') else line + '\n' for line in lines))
+    return [line[5:] for line in lines if line.startswith('---- ')]
+
+
+def main():
+    cc, root, library = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+    with tempfile.TemporaryDirectory() as name, concurrent.futures.ThreadPoolExecutor(2) as pool:
+        folder = pathlib.Path(name)
+        seeds, certificates = Seeds(cc, root, library, folder), folder / 'certificates.txt'
+        expected = read_forgeries(root / 'tests/checker/forgeries.txt', certificates)
+        found = judged(seeds.link('judge', []), certificates)
+        wrong = [f'certificate {k + 1} of forgeries.txt: {a} in place of {b}'
+                 for k, (a, b) in enumerate(zip(found, expected)) if a != b]
+        if len(found) != len(expected):
+            wrong.append(f'{len(found)} verdicts for {len(expected)} certificates')
+        faults = FAULTS + SURVIVORS
+        tried = pool.map(lambda k: seeds.verdicts_with(k, faults[k], certificates), range(len(faults)))
+        for fault, verdicts in zip(faults, tried):
+            if (verdicts == expected) != (len(fault) == 4):
+                wrong.append(f'{"noticed after all" if len(fault) == 4 else "unnoticed"}: {fault[0]}: {fault[1]}')
+    print('\n'.join(wrong) or f'{len(FAULTS)} faults noticed by {len(expected)} certificates')
+    return bool(wrong)
+
+
+if __name__ == '__main__':
+    sys.exit(main())
