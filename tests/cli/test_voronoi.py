@@ -14,6 +14,7 @@ import tempfile
 import xml.etree.ElementTree
 from fractions import Fraction
 
+import gps
 from harness import DATA, expect, main, run
 
 POLYGON = ''.join(f'cos({k}*pi/6) sin({k}*pi/6)\n' for k in range(12))
@@ -130,6 +131,35 @@ def test_window_is_stated():
     assert [[number(t) for t in data['window'][k]] for k in 'xy'] == [[Fraction(-1, 4), Fraction(3, 2)], [0, 1024]]
     assert sum(Fraction(c['area'][0]) for c in data['cells']) <= 1792 <= sum(Fraction(c['area'][1])
                                                                             for c in data['cells'])
+
+
+# ---- regions of undecided faces ----
+
+def regions(points, *options):
+    """The window, and the boxes of the regions."""
+    comments, rows = table(run('voronoi', '--quiet', *options, '-', stdin=points).out)
+    window = [float(number(t)) for c in comments if c.startswith('# window ') for t in c.split()[2:]]
+    return window, [[float(r[k]) for k in ('xlo', 'xhi', 'ylo', 'yhi')] for r in rows if r['type'] == 'region']
+
+
+def test_regions_of_tracks_are_small():
+    window, found = regions(gps.points(400, 1))
+    area = (window[1] - window[0]) * (window[3] - window[2])
+    share = sorted((b[1] - b[0]) * (b[3] - b[2]) / area for b in found)
+    assert len(found) > 20 and window not in found, (len(found), found.count(window))
+    assert share[len(share) // 2] < 1e-3 and share[-1] < 0.9, (share[len(share) // 2], share[-1])
+
+
+def test_region_of_a_square():
+    """Corners of half-width w: centres at (+-w, +-w) are possible, those farther off than 3 w are not."""
+    for bits in (3, 20, 45):
+        w = 2.0**-bits
+        square = ''.join(f'{x}+-{w!r} {y}+-{w!r}\n' for x in (-1, 1) for y in (-1, 1))
+        for window in ('-8,8,-8,8', '-1000000,50,-1/3,12345'):
+            _, found = regions(square, '--window=' + window)
+            assert len(found) == 1, found
+            for lo, hi in (found[0][:2], found[0][2:]):
+                assert -3 * w < lo <= -w and w <= hi < 3 * w, (bits, found)
 
 
 # ---- few points, coincident points, points on a line ----
