@@ -2,12 +2,12 @@
 /* Boxes round the undecided part of the diagram that belongs to an undecided face, by bisection in doubles [REGION-1].
  *
  * Every vertex of the diagram, for any choice, that is no vertex of a sure triangle is the circumcentre of a triangle
- * ijl of some face with an edge ij that is not legal, so it lies in Pos_i n Pos_j n Pos_l, and l is a possible neighbour
- * of i. For a box of centres Q, site i is left out when some k blocks it: dl_k < ds_i in all of Q, by ranges over Q or,
- * since C_ki is convex, at its four corners, with the bounds of [FLT-DST]. Who is left out blocks nobody whom k does
- * not block, so the list of sites shrinks from box to part, and with it the list of pairs. Q is dropped when no pair or
- * fewer than three sites are left. What is left after bisection is enclosed, and the enclosure bisected again while
- * that pays. */
+ * ijl of some face with an edge ij that is not legal, so it lies in Pos_i n Pos_j n Pos_l, and l is a possible
+ * neighbour of i. For a box of centres Q, site i is left out when some k blocks it: dl_k < ds_i in all of Q, by ranges
+ * over Q or, since C_ki is convex, at its four corners, with the bounds of [FLT-DST]. Who is left out blocks nobody
+ * whom k does not block, so the list of sites shrinks from box to part, and with it the list of pairs. Q is dropped
+ * when no pair or fewer than three sites are left. What is left after bisection is enclosed, and the enclosure bisected
+ * again while that pays. */
 #include "voronoi/region.h"
 
 #include "base/alloc.h"

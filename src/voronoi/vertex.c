@@ -21,7 +21,7 @@ dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_t
   if (!triangle_is_sure(pd, t, v)) return DYD_E_ARG;
   if (!pd->sk.mesh.no_filter && bits > -1000 && bits < 1000 && dyd_filter_vertex(&box, pd, v)) {
     double limit = ldexp(1, (int)-bits);
-    if (box.e[1] - box.e[0] < limit && box.e[3] - box.e[2] < limit) 
+    if (box.e[1] - box.e[0] < limit && box.e[3] - box.e[2] < limit)
       return dyd_rect_set_d(out, box.e[0], box.e[1], box.e[2], box.e[3]);
   }
   dyd_rect r[3];

@@ -162,6 +162,33 @@ def test_region_of_a_square():
                 assert -3 * w < lo <= -w and w <= hi < 3 * w, (bits, found)
 
 
+# ---- the distance where rectangles crowd ----
+
+def distance(points, *options):
+    """The bound stated, and the one that a certificate proves."""
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, 'proof')
+        result = run('voronoi', '--quiet', '--certificate', name, *options, '-', stdin=points)
+        with open(name, encoding='ascii') as text:
+            proved = re.search('^distance (.*)$', text.read(), re.M)[1]
+        assert run('verify', name).code in (0, 3)
+    return float(re.search('^# distance_to_true_diagram,(.*)$', result.out, re.M)[1]), float(number(proved))
+
+
+def test_distance_in_a_crowd():
+    """No more than the second nearest of the rectangles that are apart: sqrt(148) here, where all that are near meet."""
+    crowd = '[-1,1] [-1,1]\n' * 3 + '10 0\n[30,31] [-1,1]\n[30,32] [-1,1]\n'
+    stated, proved = distance(crowd, '--window=-2,2,-2,2')
+    assert 148 <= stated**2 < 148 * 17 / 16 and proved <= 17 / 16 * stated, (stated, proved)
+
+
+def test_distance_of_airports():
+    with open(os.path.join(DATA, 'airports.csv'), encoding='utf-8') as text:
+        points = text.read()
+    stated, proved = distance(points, '--columns', 'longitude,latitude', '--radius', '0.05', '--window=-90,-85,33,37')
+    assert stated <= 0.64 and proved <= 17 / 16 * stated, (stated, proved)
+
+
 # ---- few points, coincident points, points on a line ----
 
 def test_few_points():
