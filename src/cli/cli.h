@@ -47,7 +47,7 @@ typedef struct cli_options {
   bool seed_set;
   unsigned schedules; /* 0: default */
   bool start_set;     /* engine.start_bits was given */
-  bool no_times, no_voronoi;
+  bool no_times, no_voronoi, of_voronoi;
   dyd_voronoi_bounds *bounds; /* voronoi: where the bounds of what is written go */
   bool stats, quiet, version;
   const char *help; /* "" (--help), or the kind of --help=KIND */
@@ -122,6 +122,8 @@ int cli_exit_status(dyd_outcome outcome);
 /* goal.c: one line that tells which bound was asked for, which is reached, why it is no better (advice), and what to
  * do. false, and nothing said, where no bound was asked for. */
 bool cli_note_goal(const cli_session *s, const char *advice);
+/* The goals of --until, for the diagram in place of the triangulation. */
+dyd_goal cli_voronoi_goal(dyd_goal goal);
 
 /* output.c: a result file that appears whole or not at all. */
 typedef struct cli_output {

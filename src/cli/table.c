@@ -93,6 +93,8 @@ const cli_option cli_option_table[] = {
 
     {"until", 0, "GOAL", CLI_GOAL, RUN, CLI_REFINEMENT, "decided (default), area:M or hausdorff:M (bound 2^-M)",
      AT(engine)},
+    {"of", 0, "WHAT", CLI_SUBJECT, BIT(CLI_CONVERGE), CLI_REFINEMENT,
+     "whose bound --until means: delaunay (default) or voronoi", AT(of_voronoi)},
     {"max-bits", 0, "B", CLI_INTEGER, REFINE, CLI_REFINEMENT, "precision at which to give up (default 4096)",
      AT(engine.max_bits), RANGE(1, DYD_EXP_LIMIT)},
     {"max-pairs", 0, "K", CLI_INTEGER, RUN, CLI_REFINEMENT, "cap on stored pairs (default 4000000 + 16 per point)",

@@ -2,12 +2,6 @@
 /* dyadel voronoi FILE: read, run to the goal on a window, write the diagram. */
 #include "cli.h"
 
-/* The goals of --until, for the diagram in place of the triangulation. */
-static dyd_goal voronoi_goal(dyd_goal goal) {
-  if (goal == DYD_GOAL_AREA) return DYD_GOAL_VORONOI_AREA;
-  return goal == DYD_GOAL_HAUSDORFF ? DYD_GOAL_VORONOI_HAUSDORFF : goal;
-}
-
 /* The window given, or the default one, which needs to know where the points are: *s has to have run a first stage
  * then. 0, or an exit status after a message. */
 static int voronoi_window(dyd_rect *out, const cli_session *s) {
@@ -64,7 +58,7 @@ int cli_voronoi(const cli_options *o) {
   dyd_rect_init(&window);
   dyd_voronoi_bounds_init(&bounds);
   own.bounds = &bounds;
-  own.engine.goal = voronoi_goal(o->engine.goal);
+  own.engine.goal = cli_voronoi_goal(o->engine.goal);
   own.engine.window = &window;
   int status = cli_session_open(&s, &own);
   if (!status) status = voronoi_run(&s, &window, &own.engine);
