@@ -54,7 +54,10 @@ dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *c
   visitor v = {.visit = visit, .context = context};
   dyd_rect_get_d(v.window, &d->window);
   dyd_status st = dyd_voronoi_sums_init(&sums, d->pd, &d->window, d->bits);
-  if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, visit_cell, &v, NULL);
+  *d->cut = 0;
+  sums.cancel = d->cancel;
+  sums.cut = d->cut;
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, visit_cell, &v);
   if (st == DYD_OK) st = dyd_voronoi_sums_bounds(d->bounds, &sums);
   dyd_voronoi_sums_clear(&sums);
   return st;
@@ -65,9 +68,14 @@ dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, voi
   dyd_status st = DYD_OK;
   dyd_rect_init(&r);
   for (size_t f = 0; f < dyd_delaunay_undecided_faces(d->pd) && st == DYD_OK; f++) {
-    bool any;
+    bool any = true;
     double b[4];
-    st = dyd_voronoi_region(&r, &any, d->pd, f, &d->window);
+    if (dyd_flag_is_set(d->cancel)) {
+      ++*d->cut;
+      dyd_rect_set(&r, &d->window);
+    } else {
+      st = dyd_voronoi_region(&r, &any, d->pd, f, &d->window);
+    }
     dyd_rect_get_d(b, &r);
     if (st == DYD_OK) st = visit(context, f, any ? b : NULL);
   }
@@ -88,7 +96,7 @@ static dyd_status find_vertex(double out[4], const dyd_diagram *d, const dyd_tri
   }
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status st = dyd_voronoi_vertex(&r, d->pd, t, bits);
+  dyd_status st = dyd_flag_is_set(d->cancel) ? DYD_E_RANGE : dyd_voronoi_vertex(&r, d->pd, t, bits);
   dyd_rect_get_d(out, &r);
   if (st != DYD_OK) {
     out[0] = out[2] = -INFINITY;
@@ -147,11 +155,11 @@ static dyd_status finer_helps(bool *out, const dyd_diagram *d, int64_t bits, int
   dyd_status st = DYD_OK;
   for (int k = 0; k < 2; k++) dyd_voronoi_bounds_init(&b[k]);
   for (int k = 0; k < 2 && st == DYD_OK; k++)
-    st = dyd_metric_voronoi(&b[k], d->pd, &d->window, bits + (k ? step : 0), NULL);
+    st = dyd_metric_voronoi(&b[k], d->pd, &d->window, bits + (k ? step : 0), d->cancel);
   if (st == DYD_OK) st = dyd_dyadic_add(&b[1].area, &b[1].area, &b[1].area);
   *out = st == DYD_OK && dyd_dyadic_cmp(&b[1].area, &b[0].area) < 0;
   for (int k = 2; k-- > 0;) dyd_voronoi_bounds_clear(&b[k]);
-  return st;
+  return st == DYD_CANCELLED ? DYD_OK : st;
 }
 
 /* Fine enough for the eye, and for the goal on the area where there was one. Where that was not reached, what is
@@ -174,9 +182,15 @@ static dyd_status choose_flattening(dyd_diagram *d) {
 }
 
 dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, const dyd_voronoi_options *o,
-                            dyd_voronoi_bounds *bounds, dyd_error *err) {
+                            dyd_error *err) {
   const dyd_delaunay *pd = dyd_engine_delaunay(e);
-  *d = (dyd_diagram){.out = out, .engine = e, .pd = pd, .sites = dyd_delaunay_sites(pd), .bounds = bounds};
+  *d = (dyd_diagram){.out = out,
+                     .engine = e,
+                     .pd = pd,
+                     .sites = dyd_delaunay_sites(pd),
+                     .bounds = o->bounds,
+                     .cancel = o->cancel,
+                     .cut = o->cut};
   d->count = dyd_sites_count(d->sites);
   dyd_rect_init(&d->window);
   dyd_status st = diagram_window(d, o->window, err);

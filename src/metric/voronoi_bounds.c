@@ -87,17 +87,24 @@ static dyd_status add_shape(double area[2], dyd_voronoi_sums *s, uint32_t i, con
   return DYD_OK;
 }
 
-dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, void *context,
-                                const volatile int *cancel) {
+/* The shape of site i, or what stands for it. */
+static dyd_status find_shape(dyd_shape *shape, dyd_voronoi_sums *s, uint32_t i, const dyd_window *w) {
+  dyd_status st = dyd_shape_find(shape, s->pd, i, w, s->bits);
+  if (st != DYD_CANCELLED || !s->cut) return st;
+  ++*s->cut;
+  return dyd_shape_set_unknown(shape, s->window);
+}
+
+dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, void *context) {
   size_t n = dyd_sites_count(dyd_delaunay_sites(s->pd));
   dyd_shape shape = {0};
   dyd_window w;
   dyd_status st = dyd_window_init(&w, s->window);
+  w.cancel = s->cancel;
   for (size_t i = 0; i < n && st == DYD_OK; i++) {
     double area[2];
     if (dyd_delaunay_alias(s->pd, (uint32_t)i) != i) continue;
-    if (i % 64 == 0 && dyd_flag_is_set(cancel)) st = DYD_CANCELLED;
-    if (st == DYD_OK) st = dyd_shape_find(&shape, s->pd, (uint32_t)i, &w, s->bits);
+    st = find_shape(&shape, s, (uint32_t)i, &w);
     if (st == DYD_OK) st = add_shape(area, s, (uint32_t)i, &shape);
     if (st == DYD_OK && visit) st = visit(context, (uint32_t)i, &shape, area);
   }
@@ -203,6 +210,8 @@ dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, dyd_voronoi_sums *s
   *finite = true;
   for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
     bool known;
+    if (dyd_flag_is_set(s->cancel)) st = DYD_CANCELLED;
+    if (st != DYD_OK) break;
     if (pair_is_small(s, &pairs->item[k], out)) continue;
     st = pair_distance(one, &known, s, &m, &pairs->item[k], out);
     open |= !known;
@@ -234,6 +243,11 @@ dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, dyd_voronoi_sums *s)
   dyd_status st = dyd_delaunay_pairs(&pairs, s->pd);
   dyd_voronoi_area(area, s);
   if (st == DYD_OK) st = dyd_voronoi_hausdorff(hausdorff, &out->finite, s, &pairs);
+  if (st == DYD_CANCELLED && s->cut) { /* not known */
+    st = DYD_OK;
+    out->finite = false;
+    mpfr_set_zero(hausdorff, 1);
+  }
   if (st == DYD_OK) st = dyd_bound_to_dyadic(&out->area, area);
   if (st == DYD_OK) st = dyd_bound_to_dyadic(&out->hausdorff, hausdorff);
   mpfr_clears(area, hausdorff, (mpfr_ptr)0);
@@ -253,7 +267,8 @@ dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, c
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   dyd_voronoi_bounds_init(&b);
   st = dyd_voronoi_sums_init(&s, pd, window, bits);
-  if (st == DYD_OK) st = dyd_voronoi_sums_all(&s, NULL, NULL, cancel);
+  s.cancel = cancel;
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(&s, NULL, NULL);
   if (st == DYD_OK) st = dyd_voronoi_sums_bounds(&b, &s);
   if (st == DYD_OK) {
     dyd_dyadic_swap(&out->area, &b.area);

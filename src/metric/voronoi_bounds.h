@@ -10,12 +10,17 @@
 /* Invariant: inner <= the areas of the inner polygons added; reach[i] >= dl_i over Pos_i n W, -1 where that is
  * empty or i was not added; second[i]: what dyd_filter_second gives for `most`
  * (HUGE_VAL: always what is known), -1 as long as nobody asked. */
+/* cancel: checked by all work on these sums; NULL: never. cut: NULL: a shape that is cancelled ends the walk with
+ * DYD_CANCELLED; else dyd_shape_set_unknown stands for it and those after it, and they are counted here. Both are set
+ * by the caller after dyd_voronoi_sums_init. */
 typedef struct dyd_voronoi_sums {
   const dyd_delaunay *pd;
   const dyd_rect *window;
   mpfr_t inner, term;
   int64_t bits;
   dyd_dyadic area2;
+  const volatile int *cancel;
+  size_t *cut;
   double *reach, *second, most;
 } dyd_voronoi_sums;
 
@@ -42,8 +47,7 @@ dyd_status dyd_voronoi_pair_second(double *out, dyd_voronoi_sums *s, const dyd_p
  * area[1] >= area of Pos_i n W. */
 typedef dyd_status (*dyd_voronoi_visit)(void *context, uint32_t i, const dyd_shape *shape, const double area[2]);
 /* Makes the polygons of all cells once, adds them up and shows them to `visit`, whose status ends the walk unless it is
- * DYD_OK. visit and cancel may be NULL; DYD_CANCELLED once *cancel is set. */
-dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, void *context,
-                                const volatile int *cancel);
+ * DYD_OK. visit may be NULL. */
+dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, void *context);
 
 #endif
