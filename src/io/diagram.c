@@ -17,6 +17,10 @@ static void diagram_grow_box(double box[4], double xlo, double xhi, double ylo, 
   box[3] = fmax(box[3], yhi);
 }
 
+static void clip_box(double box[4], const double window[4]) {
+  for (int k = 0; k < 4; k++) box[k] = k & 1 ? fmin(box[k], window[k]) : fmax(box[k], window[k]);
+}
+
 static void cell_row_box(dyd_cell_row *row, const dyd_shape *s, const double window[4]) {
   double *b = row->box;
   b[0] = b[2] = INFINITY;
@@ -30,10 +34,7 @@ static void cell_row_box(dyd_cell_row *row, const dyd_shape *s, const double win
                        dyd_dyadic_get_d(&z->y, DYD_DOWN), dyd_dyadic_get_d(&z->y, DYD_UP));
     }
   row->present = b[0] <= b[1];
-  b[0] = fmax(b[0], window[0]);
-  b[1] = fmin(b[1], window[1]);
-  b[2] = fmax(b[2], window[2]);
-  b[3] = fmin(b[3], window[3]);
+  clip_box(b, window);
 }
 
 typedef struct visitor {
@@ -114,6 +115,14 @@ static dyd_status find_vertices(dyd_diagram *d) {
   for (size_t k = 0; k < d->triangles.count && st == DYD_OK; k++)
     st = find_vertex(d->vertex[k], d, &d->triangles.item[k], d->vertex_bits);
   return st;
+}
+
+bool dyd_diagram_vertex_in_window(double box[4], const dyd_diagram *d, size_t k) {
+  double window[4];
+  dyd_rect_get_d(window, &d->window);
+  for (int m = 0; m < 4; m++) box[m] = d->vertex[k][m];
+  clip_box(box, window);
+  return box[0] <= box[1] && box[2] <= box[3];
 }
 
 dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k) {

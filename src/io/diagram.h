@@ -48,6 +48,8 @@ dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *c
 typedef dyd_status (*dyd_region_visit)(void *context, size_t face, const double box[4]);
 dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, void *context);
 
+/* The part of the enclosure of vertex k that is in the window; false: there is none. */
+bool dyd_diagram_vertex_in_window(double box[4], const dyd_diagram *d, size_t k);
 /* The exact enclosure of vertex k as four texts: x lower, x upper, y lower, y upper; release each with free(). */
 dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k);
 

@@ -162,6 +162,20 @@ def test_region_of_a_square():
                 assert -3 * w < lo <= -w and w <= hi < 3 * w, (bits, found)
 
 
+def test_boxes_are_clipped():
+    """Enclosures of vertices beyond the window are left out of maps, others end at its sides."""
+    points = ''.join(f'{x}+-0.01 {y}+-0.01\n' for x, y in ((0, 0), (4, 0), (8, 0.25), (2, 3), (6, 3.5), (3, 6)))
+    everywhere, inside = (run('voronoi', '--quiet', '--window', w, '--format', 'geojson', '-', stdin=points).out
+                          for w in ('-99,99,-99,99', '2,6,1,1.875'))
+    count = []
+    for text, (xlo, xhi, ylo, yhi) in ((everywhere, (-99, 99, -99, 99)), (inside, (2, 6, 1, 1.875))):
+        boxes = [f['geometry']['coordinates'][0] for f in json.loads(text)['features']
+                 if f['properties']['kind'] in ('vertex', 'undecided region')]
+        assert all(xlo <= x <= xhi and ylo <= y <= yhi for box in boxes for x, y in box), boxes
+        count.append(len(boxes))
+    assert count[0] > count[1] > 0, count
+
+
 # ---- the distance where rectangles crowd ----
 
 def distance(points, *options):
