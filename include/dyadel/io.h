@@ -78,6 +78,11 @@ typedef struct dyd_voronoi_options {
   int64_t flatten_bits;       /* polygons within 2^-flatten_bits of their cells */
   bool flatten_set;           /* false: a choice that suits the mean size of cells */
   dyd_voronoi_bounds *bounds; /* initialised by the caller; receives the bounds that were written; may be NULL */
+  /* Once *cancel is set the rest is written quickly, and true all the same: nothing of a cell is sure, all of the
+   * window possible; boundaries are null in json; regions are the window, vertices unbounded, the distance is not
+   * known. May be NULL. cut: how many cells and regions that befell; may be NULL. */
+  const volatile int *cancel;
+  size_t *cut;
 } dyd_voronoi_options;
 
 /* Writes the Voronoi diagram of the current result of e. o may be NULL.

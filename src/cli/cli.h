@@ -49,8 +49,9 @@ typedef struct cli_options {
   unsigned schedules; /* 0: default */
   bool start_set;     /* engine.start_bits was given */
   bool max_bits_set;
-  bool no_times, no_voronoi;
+  bool no_times, no_voronoi, of_voronoi;
   dyd_voronoi_bounds *bounds; /* voronoi: where the bounds of what is written go */
+  size_t *cut;                /* voronoi: where the number of cells and regions goes that the deadline cut */
   bool stats, quiet, version;
   const char *help; /* "" (--help), or the kind of --help=KIND */
 } cli_options;
@@ -87,8 +88,8 @@ typedef struct cli_progress cli_progress;
 typedef struct cli_session {
   const cli_options *options; /* borrowed */
   dyd_engine *engine;
-  cli_progress *progress; /* may be NULL */
-  double begun;
+  cli_progress *progress;           /* may be NULL */
+  double begun, share;              /* of the time that is left, the engine's */
   const dyd_voronoi_bounds *bounds; /* of the diagram written, borrowed; NULL: of none */
 } cli_session;
 
@@ -124,6 +125,8 @@ int cli_exit_status(dyd_outcome outcome);
 /* goal.c: one line that tells which bound was asked for, which is reached, why it is no better (advice), and what to
  * do. false, and nothing said, where no bound was asked for. */
 bool cli_note_goal(const cli_session *s, const char *advice);
+/* The goals of --until, for the diagram in place of the triangulation. */
+dyd_goal cli_voronoi_goal(dyd_goal goal);
 
 /* output.c: a result file that appears whole or not at all. */
 typedef struct cli_output {
@@ -144,6 +147,19 @@ bool cli_guard_descriptors(void);
 void cli_signals_cancel(dyd_engine *e);
 /* Signals end the process; the file `temporary` (may be NULL, borrowed) is removed before. */
 void cli_signals_remove(const char *temporary);
+/* Removes that file; async-signal-safe. */
+void cli_signals_unlink(void);
+
+/* deadline.c: what --timeout gives the whole command. seconds <= 0: no limit. */
+void cli_deadline_start(double seconds);
+/* What is being done now, as in "reading"; static text. */
+void cli_deadline_phase(const char *what);
+/* Of the seconds left, such a share, above 0; 0: there is no limit. For options of the engine. */
+double cli_deadline_left(double share);
+/* Set to 1 at the deadline. */
+const volatile int *cli_deadline_flag(void);
+/* Seconds of a clock that only goes forward. */
+double cli_clock(void);
 
 /* progress.c: NULL when quiet or out of memory: all functions take NULL. */
 cli_progress *cli_progress_start(bool quiet);
@@ -156,7 +172,5 @@ void cli_progress_stop(cli_progress *p);
 
 /* stats.c: what --stats prints. `seconds` since the command began. */
 void cli_stats(FILE *out, const dyd_engine *e, double seconds);
-/* Seconds of a clock that only goes forward. */
-double cli_clock(void);
 
 #endif

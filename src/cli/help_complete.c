@@ -43,6 +43,8 @@ static void bash_value(FILE *out, const cli_option *o) {
     fputs("      esac ;;\n", out);
   } else if (o->kind == CLI_SCHEDULE) {
     fputs("words='adaptive uniform' ;;\n", out);
+  } else if (o->kind == CLI_SUBJECT) {
+    fputs("words='delaunay voronoi' ;;\n", out);
   } else if (o->kind == CLI_GOAL) {
     fputs("words='decided area: hausdorff:' ;;\n", out);
   } else if (o->kind == CLI_HELP) {
@@ -115,6 +117,7 @@ static void zsh_option(FILE *out, const cli_option *o, const cli_command *c) {
   if (o->argument && o->kind != CLI_HELP) fprintf(out, ":%s:", o->argument);
   if (o->kind == CLI_FILE) fputs("_files", out);
   if (o->kind == CLI_SCHEDULE) fputs("(adaptive uniform)", out);
+  if (o->kind == CLI_SUBJECT) fputs("(delaunay voronoi)", out);
   if (o->kind == CLI_GOAL) fputs("(decided area\\: hausdorff\\:)", out);
   if (o->kind == CLI_FORMAT) {
     fputs("(", out);

@@ -37,5 +37,6 @@ int main(int argc, char **argv) {
     printf("dyadel %s\n", dyd_version());
     return flush_output();
   }
+  cli_deadline_start(options.engine.seconds);
   return cli_command_find(options.command)->run(&options);
 }

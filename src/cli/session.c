@@ -42,7 +42,7 @@ int cli_points_read(dyd_engine *e, const cli_options *o) {
 }
 
 int cli_session_open(cli_session *s, const cli_options *o) {
-  *s = (cli_session){.options = o, .begun = cli_clock()};
+  *s = (cli_session){.options = o, .begun = cli_clock(), .share = 1};
   if (dyd_engine_new(&s->engine) != DYD_OK) return cli_complain_memory();
   s->progress = cli_progress_start(o->quiet);
   cli_progress_phase(s->progress, "reading");
@@ -56,6 +56,7 @@ int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_ru
   dyd_engine_options o = *options;
   o.progress = cli_progress_stage;
   o.progress_user = s->progress;
+  o.seconds = cli_deadline_left(s->share);
   dyd_error err;
   dyd_error_clear(&err);
   cli_signals_cancel(s->engine);
@@ -136,7 +137,7 @@ int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, c
   if (st == DYD_E_IO)
     cli_complain("%s: %s; choose another place with -o", name ? name : "standard output", err.message);
   else if (!done)
-    cli_complain_at(name ? name : "standard output", &err);
+    cli_complain_at(o->file, &err);
   cli_signals_remove(NULL);
   if (done)
     done = cli_output_finish(&out);
@@ -165,8 +166,14 @@ int cli_session_write(cli_session *s, cli_print_fn print) {
     return 0;
   }
   const char *certificate = s->options->certificate;
-  int status = certificate ? cli_write_file(certificate, s->options, session_print_certificate, s->engine) : 0;
-  return status ? status : cli_write_file(s->options->output, s->options, print, s->engine);
+  int status = cli_write_file(s->options->output, s->options, print, s->engine);
+  if (status || !certificate) return status;
+  if (*cli_deadline_flag()) {
+    cli_complain("budget: the time is used up, so no certificate is written; raise --timeout");
+    return CLI_BUDGET;
+  }
+  cli_progress_phase(s->progress, "the certificate");
+  return cli_write_file(certificate, s->options, session_print_certificate, s->engine);
 }
 
 int cli_session_close(cli_session *s, int status) {

@@ -27,6 +27,7 @@ typedef enum cli_kind {
   CLI_SECONDS,  /* a double above 0 */
   CLI_GOAL,     /* decided, area:M, hausdorff:M */
   CLI_SCHEDULE, /* adaptive or uniform */
+  CLI_SUBJECT,  /* delaunay or voronoi; a bool is set for the latter */
   CLI_FORMAT,   /* a format of the command */
   CLI_WINDOW,   /* XLO,XHI,YLO,YHI */
   CLI_HELP      /* nothing, or =KIND */

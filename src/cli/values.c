@@ -65,6 +65,11 @@ static bool value_schedule(dyd_schedule *place, const cli_option *option, const 
   return true;
 }
 
+static bool value_subject(bool *voronoi, const cli_option *option, const char *text) {
+  *voronoi = strcmp(text, "voronoi") == 0;
+  return *voronoi || strcmp(text, "delaunay") == 0 || value_usage(option, text, "delaunay or voronoi");
+}
+
 /* Whether the command writes it is seen later, when the command is known. */
 static bool value_format(dyd_format *place, const cli_option *option, const char *text) {
   if (dyd_format_from_name(place, text)) return true;
@@ -109,6 +114,8 @@ bool cli_value_read(cli_options *o, const cli_option *option, const char *text) 
     return value_goal(place, option, text);
   case CLI_SCHEDULE:
     return value_schedule(place, option, text);
+  case CLI_SUBJECT:
+    return value_subject(place, option, text);
   case CLI_FORMAT:
     return value_format(place, option, text);
   case CLI_HELP:

@@ -56,14 +56,17 @@ dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_o
   if (dyd_delaunay_is_capped(pd))
     return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise --max-pairs");
   dyd_diagram d;
-  dyd_voronoi_bounds bounds;
+  dyd_voronoi_bounds bounds, *wanted = o.bounds;
+  size_t cut;
   dyd_voronoi_bounds_init(&bounds);
-  st = dyd_diagram_init(&d, out, e, &o, &bounds, err);
+  o.bounds = &bounds;
+  if (!o.cut) o.cut = &cut;
+  st = dyd_diagram_init(&d, out, e, &o, err);
   if (st == DYD_OK) st = tell_fineness(dyd_format_write(out, format, DYD_CONTENT_VORONOI, &d, err), &d, err);
-  if (st == DYD_OK && o.bounds) {
-    dyd_dyadic_swap(&o.bounds->area, &bounds.area);
-    dyd_dyadic_swap(&o.bounds->hausdorff, &bounds.hausdorff);
-    o.bounds->finite = bounds.finite;
+  if (st == DYD_OK && wanted) {
+    dyd_dyadic_swap(&wanted->area, &bounds.area);
+    dyd_dyadic_swap(&wanted->hausdorff, &bounds.hausdorff);
+    wanted->finite = bounds.finite;
   }
   dyd_diagram_clear(&d);
   dyd_voronoi_bounds_clear(&bounds);

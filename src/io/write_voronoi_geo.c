@@ -100,20 +100,19 @@ static dyd_status layer_region(void *context, size_t face, const double box[4]) 
 
 static dyd_status layer_all(layer *l) {
   dyd_status st = dyd_diagram_visit(l->d, layer_cell, l);
-  for (size_t k = 0; st == DYD_OK && k < l->d->triangles.count; k++)
-    layer_box(l, "vertex", l->d->vertex[k], l->d->triangles.item[k].v);
+  for (size_t k = 0; st == DYD_OK && k < l->d->triangles.count; k++) {
+    double box[4];
+    if (dyd_diagram_vertex_in_window(box, l->d, k)) layer_box(l, "vertex", box, l->d->triangles.item[k].v);
+  }
   return st == DYD_OK ? dyd_diagram_regions(l->d, layer_region, l) : st;
 }
 
-/* An upper bound of the rounding of any coordinate in the window; vertices outside of it are boxes that say less. */
+/* An upper bound of the rounding of any coordinate in the window. */
 static void layer_rounding(const dyd_diagram *d) {
   double w[4], most = 0;
   char text[DYD_DECIMAL_SIZE];
   dyd_rect_get_d(w, &d->window);
   for (int k = 0; k < 4; k++) most = fmax(most, fabs(w[k]));
-  for (size_t t = 0; t < d->triangles.count; t++)
-    for (int k = 0; k < 4; k++)
-      if (isfinite(d->vertex[t][k])) most = fmax(most, fabs(d->vertex[t][k]));
   dyd_decimal_directed(text, most * (2 * ROUNDING), 2, DYD_UP);
   fputs(text, d->out);
 }

@@ -6,6 +6,7 @@
 #include "io/dual.h"
 #include "io/parts.h"
 #include "io/result.h"
+#include "voronoi/exact_cell.h"
 #include <inttypes.h>
 #include <stdlib.h>
 
@@ -55,23 +56,32 @@ typedef struct cells {
   dyd_point_texts texts;
 } cells;
 
+static dyd_status region_boundary_json(cells *c, uint32_t i, bool outer) {
+  dyd_boundary boundary = {0};
+  dyd_status st = dyd_cell_region(&boundary, c->d->pd, i, outer, NULL, c->d->cancel);
+  if (st == DYD_CANCELLED) {
+    fputs("null", c->d->out);
+    st = DYD_OK;
+  } else if (st == DYD_OK) {
+    st = dyd_boundary_json(c->d->out, &boundary, &c->texts);
+  }
+  dyd_boundary_clear(&boundary);
+  return st;
+}
+
 static dyd_status cell_json(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
   cells *c = context;
   FILE *out = c->d->out;
-  dyd_boundary boundary = {0};
   fprintf(out, "%s\n{\"i\": %u, \"area\": ", c->any ? "," : "", (unsigned)i);
   c->any = true;
   dyd_json_decimals(out, row->area[0], row->area[1]);
   fputs(",\n", out);
   dyd_status st = polygons_json(out, shape);
   fputs(",\n\"int\": ", out);
-  if (st == DYD_OK) st = dyd_voronoi_int(&boundary, c->d->pd, i);
-  if (st == DYD_OK) st = dyd_boundary_json(out, &boundary, &c->texts);
+  if (st == DYD_OK) st = region_boundary_json(c, i, false);
   fputs(",\n\"pos\": ", out);
-  if (st == DYD_OK) st = dyd_voronoi_pos(&boundary, c->d->pd, i);
-  if (st == DYD_OK) st = dyd_boundary_json(out, &boundary, &c->texts);
+  if (st == DYD_OK) st = region_boundary_json(c, i, true);
   fputs("}", out);
-  dyd_boundary_clear(&boundary);
   return st;
 }
 

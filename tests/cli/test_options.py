@@ -25,13 +25,14 @@ WRONG = {
     '--flatten': WHOLE[2:],
     '--timeout': SECONDS, '--oracle-timeout': SECONDS,
     '--schedule': ('', 'fast', 'Adaptive', 'uniform '),
+    '--of': ('', 'Voronoi', 'both'),
     '--format': ('', 'gif', 'CSV', 'csv,json'),
     '--window': ('', '0,1,0', '0,1,0,1,2', '0,1,0,x', '0,1,0,pi', '0,1,,1', '0,1,0,1,', '1,0,0,1', '0,1,2,1', '1,1,0,1',
                  '0,1,2,2', '[0,1],0,1,2'),
     '--plot': ('', 'plot', 'plot.gif', 'png'),
     '--help': ('fish', 'MAN'),
 }
-RIGHT = {'--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--until': 'decided'}
+RIGHT = {'--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--until': 'decided'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
 TEXTS = {'--columns', '--radius', '--oracle', '--output', '--trace', '--replay', '--certificate'}
 
