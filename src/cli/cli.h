@@ -61,6 +61,8 @@ int cli_options_read(cli_options *out, int argc, char **argv);
 
 /* complain.c: prints "dyadel: ..." to standard error. */
 void cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* The same for what is no failure: --quiet leaves it out. */
+void cli_note(const cli_options *o, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: left out. */
 void cli_complain_at(const char *file, const dyd_error *err);
 /* Returns CLI_FAILED. */
@@ -102,8 +104,10 @@ int cli_session_all(const cli_options *o, cli_print_fn print);
 /* The file `name` ("-": standard input), read as bytes; NULL after a message that ends with the advice. */
 FILE *cli_input_open(const char *name, const char *advice);
 void cli_input_close(FILE *in);
-/* Adds the points of the file or oracle to e. 0, or an exit status after a message. */
+/* Adds the points of the file or oracle to e. 0, or an exit status after a message. noting: notes tell what was left out
+ * or is strange. */
 int cli_points_read(dyd_engine *e, const cli_options *o);
+int cli_points_read_noting(dyd_engine *e, const cli_options *o);
 /* The same in steps. Each returns 0, or an exit status after a message; cli_session_close comes after any of them. */
 int cli_session_open(cli_session *s, const cli_options *o);
 /* Runs with options (progress and signals are added). 0 whatever the outcome, DYD_OUTCOME_ERROR aside: then

@@ -3,12 +3,23 @@
 #include "cli.h"
 #include <stdarg.h>
 
-void cli_complain(const char *format, ...) {
-  va_list args;
-  va_start(args, format);
+static void complain_list(const char *format, va_list args) {
   fputs("dyadel: ", stderr);
   vfprintf(stderr, format, args);
   fputs("\n", stderr);
+}
+
+void cli_complain(const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  complain_list(format, args);
+  va_end(args);
+}
+
+void cli_note(const cli_options *o, const char *format, ...) {
+  va_list args;
+  va_start(args, format);
+  if (!o->quiet) complain_list(format, args);
   va_end(args);
 }
 
