@@ -74,9 +74,13 @@ typedef enum dyd_content {
   DYD_CONTENT_NEAREST
 } dyd_content;
 
-/* Finds a format by its name ("csv"), or by the ending of a file's name ("a/map.svg"); false when there is none. */
+/* Finds a format by its name ("csv"), or by the ending of a file's name ("a/map.svg", in any case); false when there is none. */
 DYD_API bool dyd_format_from_name(dyd_format *out, const char *name);
 DYD_API bool dyd_format_from_file(dyd_format *out, const char *file);
+/* Does the ending of the file's name suit the format? Any does that no other format has; csv suits wkt, json geojson. */
+DYD_API bool dyd_format_suits_file(dyd_format format, const char *file);
+/* Is it other than text? */
+DYD_API bool dyd_format_is_binary(dyd_format format);
 /* The name of a format; NULL behind the last one, so that counting up from 0 lists them all. Static storage. */
 DYD_API const char *dyd_format_name(dyd_format format);
 /* What it is, in words without a full stop; NULL as above. Static storage. */

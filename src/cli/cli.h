@@ -53,6 +53,7 @@ typedef struct cli_options {
   dyd_voronoi_bounds *bounds; /* voronoi: where the bounds of what is written go */
   size_t *cut;                /* voronoi: where the number of cells and regions goes that the deadline cut */
   bool stats, quiet, version;
+  bool accept_fixpoint; /* exit status 0 in place of CLI_FIXPOINT */
   const char *help; /* "" (--help), or the kind of --help=KIND */
 } cli_options;
 
@@ -84,6 +85,10 @@ int cli_bisector(const cli_options *o);
 
 /* oracle.c: adds the points that the programs of --oracle serve. 0, or an exit status after a message. */
 int cli_oracle_read(dyd_engine *e, const cli_options *o);
+
+/* files.c: 0, or CLI_USAGE after a message when an output is an input or another output, or a picture would go to a
+ * terminal. Nothing is read or written. */
+int cli_files_check(const cli_options *o);
 
 /* session.c: an engine with the points of the file (or oracle), and what goes on around it. */
 typedef struct cli_progress cli_progress;
@@ -132,6 +137,9 @@ bool cli_note_goal(const cli_session *s, const char *advice);
 /* The goals of --until, for the diagram in place of the triangulation. */
 dyd_goal cli_voronoi_goal(dyd_goal goal);
 
+/* notes.c: a line when radii were given and most of the rectangles meet another one. pd may be NULL. */
+void cli_note_spacing(const dyd_delaunay *pd, const cli_options *o);
+
 /* output.c: a result file that appears whole or not at all. */
 typedef struct cli_output {
   FILE *stream;
@@ -141,9 +149,17 @@ typedef struct cli_output {
 /* name NULL: standard output. false after a message. */
 bool cli_output_open(cli_output *out, const char *name);
 /* Makes the file appear under its name; false after a message. */
-bool cli_output_finish(cli_output *out);
+bool cli_output_finish(cli_output *out, const cli_options *o);
 /* Removes what was written so far; nothing to do after cli_output_finish. */
 void cli_output_drop(cli_output *out);
+/* Where writing to the file of this name ends up, links followed, also one that leads to no file; release with free().
+ * NULL: memory is exhausted. */
+char *cli_output_target(const char *name);
+/* Did a reader go away from a pipe before all was written to it? */
+bool cli_output_lost_reader(void);
+/* Writing to the stream, opened as `name` (NULL: standard output), failed. Is it as its reader went away? Then that is
+ * noted, and true. */
+bool cli_output_note_reader(FILE *stream, const char *name, const cli_options *o);
 /* Sees to it that the descriptors 0, 1, 2 are taken, so that no file of ours gets one of them. */
 bool cli_guard_descriptors(void);
 

@@ -48,7 +48,7 @@ int cli_points_read_noting(dyd_engine *e, const cli_options *o) {
   dyd_read_report r = {DYD_SIZED(dyd_read_report)};
   int status = session_read_file(e, o, &r);
   if (status) return status;
-  if (!r.rows) cli_note(o, "%s: there are no points in this file; the result is empty", o->file);
+  if (!r.rows) cli_note(o, "%s: there are no points in this file", o->file);
   if (r.missing)
     cli_note(o, "%s: %zu of %zu rows are left out, as a coordinate or radius is missing; the others keep their numbers",
              o->file, r.missing, r.rows);
@@ -154,13 +154,13 @@ int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, c
   dyd_error_clear(&err);
   dyd_status st = print(out.stream, what, o, &err);
   bool done = st == DYD_OK;
-  if (st == DYD_E_IO)
+  if (st == DYD_E_IO && !cli_output_note_reader(out.stream, name, o))
     cli_complain("%s: %s; choose another place with -o", name ? name : "standard output", err.message);
-  else if (!done)
+  else if (!done && st != DYD_E_IO)
     cli_complain_at(o->file, &err);
   cli_signals_remove(NULL);
   if (done)
-    done = cli_output_finish(&out);
+    done = cli_output_finish(&out, o);
   else
     cli_output_drop(&out);
   return done ? 0 : CLI_FAILED;
@@ -203,6 +203,7 @@ int cli_session_close(cli_session *s, int status) {
     dyd_outcome outcome = dyd_engine_outcome(s->engine);
     if (status == 0) status = cli_exit_status(outcome);
     if (!o->quiet && status != CLI_OK && status != CLI_USAGE) session_note_outcome(s);
+    if (status != CLI_OK && status != CLI_USAGE) cli_note_spacing(dyd_engine_delaunay(s->engine), o);
     if (o->stats && outcome != DYD_OUTCOME_NONE) cli_stats(stderr, s->engine, cli_clock() - s->begun);
   }
   dyd_engine_free(s->engine);

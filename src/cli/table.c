@@ -136,17 +136,20 @@ const cli_option cli_option_table[] = {
     {"flatten", 0, "M", CLI_INTEGER, BIT(CLI_VORONOI), CLI_OUTPUT, "draw arcs by polygons within 2^-M of them",
      AT(flatten_bits), RANGE(-DYD_EXP_LIMIT, DYD_EXP_LIMIT), GIVEN(flatten_set)},
     {"format", 0, "F", CLI_FORMAT, CLI_ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
-    {"output", 'o', "FILE", CLI_FILE, CLI_ALL, CLI_OUTPUT, "write to FILE, whole or not at all", AT(output)},
+    {"output", 'o', "FILE", CLI_FILE, CLI_ALL, CLI_OUTPUT,
+     "write to FILE, whole or not at all; its ending, such as\n.svg, chooses the format", AT(output)},
     {"certificate", 0, "FILE", CLI_FILE, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_OUTPUT,
      "write what proves the result; see dyadel verify", AT(certificate)},
     {"stats", 0, NULL, CLI_FLAG, RUN, CLI_OUTPUT, "print counters to standard error", AT(stats)},
-    {"quiet", 0, NULL, CLI_FLAG, CLI_ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
+    {"accept-fixpoint", 0, NULL, CLI_FLAG, REFINE & ~BIT(CLI_CHECK), CLI_OUTPUT,
+     "exit status 0 in place of 3, for scripts that stop at errors", AT(accept_fixpoint)},
+    {"quiet", 'q', NULL, CLI_FLAG, CLI_ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
 
     {"plot", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "draw the table; FILE ends in .svg, .pdf or .png",
      AT(plot)},
     {"trace", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
      "write which point was narrowed to what, and why;\ncheck: the schedule that shows a fault", AT(trace)},
-    {"replay", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
+    {"replay", 0, "FILE", CLI_SOURCE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
      "repeat a trace, which stands for the points;\ncheck: repeat a schedule on the points of FILE or --oracle",
      AT(replay)},
     {"no-voronoi", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
@@ -160,7 +163,7 @@ const cli_option cli_option_table[] = {
 
     {"help", 'h', "KIND", CLI_HELP, CLI_ALL, CLI_OTHER,
      "this text; after a command: its options;\n--help=man, bash, zsh: manual page, completion script", AT(help)},
-    {"version", 0, NULL, CLI_FLAG, CLI_ALL, CLI_OTHER, "the version", AT(version)},
+    {"version", 'V', NULL, CLI_FLAG, CLI_ALL, CLI_OTHER, "the version", AT(version)},
 };
 const size_t cli_option_count = sizeof cli_option_table / sizeof *cli_option_table;
 

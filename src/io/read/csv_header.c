@@ -143,7 +143,7 @@ static dyd_status find_numbered(size_t *out, const dyd_csv *csv, const dyd_csv_w
 }
 
 static dyd_status find_column(size_t *out, const dyd_csv *csv, const dyd_csv_want *want, dyd_error *err) {
-  char names[240], message[DYD_MESSAGE_SIZE];
+  char names[160], message[DYD_MESSAGE_SIZE];
   size_t first = 0, last = 0;
   if (!want->quoted && want->name[0] && !want->name[strspn(want->name, "0123456789")])
     return find_numbered(out, csv, want, err);
