@@ -156,7 +156,7 @@ DYD_API size_t dyd_engine_count(const dyd_engine *e);
 
 /* What point i is called in the file it was read from (dyd_read_options): its row, counted from 0, rows without a point
  * included; other points are rows of their own, in the order of adding. So it is i unless rows were left out or merged.
- * Writers of results name points by their rows; messages, traces and certificates by i. O(1). */
+ * Writers of results name points by their rows; errors, traces and certificates by i. e NULL: i. O(1). */
 DYD_API size_t dyd_engine_row(const dyd_engine *e, size_t i);
 /* Its identifier, "" without one; NULL: no point has one. Terminated, any bytes; borrowed until points are added. */
 DYD_API const char *dyd_engine_id(const dyd_engine *e, size_t i);

@@ -122,6 +122,12 @@ DYD_API dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_re
 DYD_API dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome, dyd_format format,
                                   dyd_error *err);
 
+/* The same of the first two, or the first n, points of e: rows and identifiers name them. */
+DYD_API dyd_status dyd_write_bisector_named(FILE *out, const dyd_engine *e, const dyd_rect *a, const dyd_rect *b,
+                                            dyd_outcome outcome, dyd_format format, dyd_error *err);
+DYD_API dyd_status dyd_write_disc_named(FILE *out, const dyd_engine *e, const dyd_rect *const *r, size_t n,
+                                        dyd_outcome outcome, dyd_format format, dyd_error *err);
+
 /* What dyd_engine_nearest found; all borrowed. Begun with DYD_SIZED. */
 typedef struct dyd_nearest_answer {
   size_t struct_size; /* set by DYD_SIZED */

@@ -66,6 +66,8 @@ void cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)))
 void cli_note(const cli_options *o, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: left out. */
 void cli_complain_at(const char *file, const dyd_error *err);
+/* The same of a point of e, which is named by its row. */
+void cli_complain_of(const dyd_engine *e, const char *file, const dyd_error *err);
 /* Returns CLI_FAILED. */
 int cli_complain_memory(void);
 

@@ -28,6 +28,12 @@ int cli_complain_memory(void) {
   return CLI_FAILED;
 }
 
+void cli_complain_of(const dyd_engine *e, const char *file, const dyd_error *err) {
+  dyd_error own = *err;
+  if (own.point != DYD_NO_POINT) own.point = dyd_engine_row(e, own.point);
+  cli_complain_at(file, &own);
+}
+
 void cli_complain_at(const char *file, const dyd_error *err) {
   char point[40] = "";
   if (err->point != DYD_NO_POINT) snprintf(point, sizeof point, "point %zu: ", err->point);

@@ -83,7 +83,7 @@ int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_ru
   dyd_status st = run(s->engine, &o, user, &err);
   cli_signals_remove(NULL);
   if (st == DYD_OK) return 0;
-  cli_complain_at(s->options->file, &err);
+  cli_complain_of(s->engine, s->options->file, &err);
   return CLI_FAILED;
 }
 

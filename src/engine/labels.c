@@ -77,18 +77,19 @@ void dyd_labels_give(dyd_engine *e, dyd_labels *l) {
 /* ---- what they tell ---- */
 
 size_t dyd_engine_row(const dyd_engine *e, size_t i) {
+  if (!e) return i;
   const dyd_labels *l = &e->labels;
   return i < l->points ? l->row[i] : l->rows + (i - l->points);
 }
 
 const char *dyd_engine_id(const dyd_engine *e, size_t i) {
+  if (!e || !e->labels.has_ids) return NULL;
   const dyd_labels *l = &e->labels;
-  if (!l->has_ids) return NULL;
   return i < l->points ? l->text + l->id[i] : "";
 }
 
 bool dyd_engine_merged(size_t *row, size_t *point, const dyd_engine *e, size_t k) {
-  if (k >= e->labels.merges) return false;
+  if (!e || k >= e->labels.merges) return false;
   *row = e->labels.merged[k].row;
   *point = e->labels.merged[k].point;
   return true;

@@ -23,7 +23,7 @@ static dyd_status keep_row(void *context, uint32_t i, const dyd_shape *shape, co
 
 static dyd_status cells_csv_head(const dyd_diagram *d) {
   FILE *out = d->out;
-  dyd_csv_aliases(out, d->pd);
+  dyd_csv_aliases(out, d->engine);
   fputs("# window ", out);
   dyd_status st = dyd_put_window(out, &d->window, "", " ");
   fputs("\n# undetermined_area", out);
@@ -39,7 +39,7 @@ static dyd_status cells_csv_head(const dyd_diagram *d) {
 static void csv_cells(const dyd_diagram *d, const dyd_cell_row *rows) {
   for (size_t i = 0; i < d->count; i++) {
     if (!rows[i].present) continue;
-    fprintf(d->out, "cell,%zu,,", i);
+    fprintf(d->out, "cell,%zu,,", dyd_engine_row(d->engine, i));
     csv_box(d->out, rows[i].box);
     csv_decimal(d->out, rows[i].area[0], DYD_DOWN);
     csv_decimal(d->out, rows[i].area[1], DYD_UP);
@@ -64,7 +64,8 @@ static dyd_status csv_vertices(const dyd_diagram *d) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < d->triangles.count && st == DYD_OK; k++) {
     const uint32_t *v = d->triangles.item[k].v;
-    fprintf(d->out, "vertex,%u,%u,%u", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
+    fprintf(d->out, "vertex,%zu,%zu,%zu", dyd_engine_row(d->engine, v[0]), dyd_engine_row(d->engine, v[1]),
+            dyd_engine_row(d->engine, v[2]));
     if (exact)
       st = csv_exact_vertex(d, k);
     else
