@@ -24,7 +24,8 @@ typedef enum dyd_outcome {
   DYD_OUTCOME_FIXPOINT,  /* nothing undecided can be refined: exact ties, fixed rectangles */
   DYD_OUTCOME_BUDGET,    /* bits, stages, calls, pairs or seconds spent */
   DYD_OUTCOME_CANCELLED,
-  DYD_OUTCOME_ERROR /* a stream failed or memory ran out; what was stated before stays valid */
+  DYD_OUTCOME_ERROR /* a stream failed or memory ran out; what was stated before stays valid. (GMP, MPFR and FLINT end
+                       the process when they run out of memory: bound max_bits, or set handlers of theirs.) */
 } dyd_outcome;
 /* "decided", "certified", ... Static storage. */
 DYD_API const char *dyd_outcome_text(dyd_outcome outcome);

@@ -26,9 +26,9 @@ typedef struct dyd_read_report {
 typedef struct dyd_read_options {
   size_t struct_size; /* set by DYD_SIZED */
   const char
-      *columns;       /* "NAME,NAME": read separated text with a header (RFC 4180), these are x and y; NULL: points file */
-  bool measured;      /* read every decimal as a rounded measurement: 47.61 becomes [47.605,47.615] */
-  const char *radius; /* an exact number: widen every point by it on each side; NULL: none */
+      *columns;  /* "NAME,NAME": read separated text with a header (RFC 4180), these are x and y; NULL: points file */
+  bool measured; /* read every decimal as a rounded measurement: 47.61 becomes [47.605,47.615] */
+  const char *radius;         /* an exact number: widen every point by it on each side; NULL: none */
   const char *radius_columns; /* "NAME" or "NAME,NAME": widen each point by these columns as well, in x and y */
   const char *id;             /* "NAME": the column of identifiers (dyd_engine_id) */
   const char *delimiter;      /* one character, or "tab"; NULL: of , ; tab and | the one that suits the header */
@@ -74,10 +74,12 @@ typedef enum dyd_content {
   DYD_CONTENT_NEAREST
 } dyd_content;
 
-/* Finds a format by its name ("csv"), or by the ending of a file's name ("a/map.svg", in any case); false when there is none. */
+/* Finds a format by its name ("csv"), or by the ending of a file's name ("a/map.svg", in any case); false when there is
+ * none. */
 DYD_API bool dyd_format_from_name(dyd_format *out, const char *name);
 DYD_API bool dyd_format_from_file(dyd_format *out, const char *file);
-/* Does the ending of the file's name suit the format? Any does that no other format has; csv suits wkt, json geojson. */
+/* Does the ending of the file's name suit the format? Any does that no other format has; csv suits wkt, json geojson.
+ */
 DYD_API bool dyd_format_suits_file(dyd_format format, const char *file);
 /* Is it other than text? */
 DYD_API bool dyd_format_is_binary(dyd_format format);

@@ -54,7 +54,7 @@ typedef struct cli_options {
   size_t *cut;                /* voronoi: where the number of cells and regions goes that the deadline cut */
   bool stats, quiet, version;
   bool accept_fixpoint; /* exit status 0 in place of CLI_FIXPOINT */
-  const char *help; /* "" (--help), or the kind of --help=KIND */
+  const char *help;     /* "" (--help), or the kind of --help=KIND */
 } cli_options;
 
 /* options.c: 0, or CLI_USAGE after a message. */
@@ -111,8 +111,8 @@ int cli_session_all(const cli_options *o, cli_print_fn print);
 /* The file `name` ("-": standard input), read as bytes; NULL after a message that ends with the advice. */
 FILE *cli_input_open(const char *name, const char *advice);
 void cli_input_close(FILE *in);
-/* Adds the points of the file or oracle to e. 0, or an exit status after a message. noting: notes tell what was left out
- * or is strange. */
+/* Adds the points of the file or oracle to e. 0, or an exit status after a message. noting: notes tell what was left
+ * out or is strange. */
 int cli_points_read(dyd_engine *e, const cli_options *o);
 int cli_points_read_noting(dyd_engine *e, const cli_options *o);
 /* The same in steps. Each returns 0, or an exit status after a message; cli_session_close comes after any of them. */

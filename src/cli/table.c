@@ -23,8 +23,9 @@ enum {
 const cli_command cli_commands[CLI_COMMANDS] = {
     [CLI_DELAUNAY] = {"delaunay", "FILE", "which pairs of points are edges: surely, possibly, by a tie",
                       "Delaunay triangulation of the points. A pair is legal (an edge whatever the points\n"
-                      "in the rectangles are), indeterminate (an edge for some choice), a tie (as\n"
-                      "indeterminate, but no refinement can decide it), or not listed (never an edge).",
+                      "in the rectangles are, or one place if the two meet), indeterminate (an edge for some\n"
+                      "choice), a tie (as indeterminate, but no refinement can decide it), or not listed\n"
+                      "(never an edge).",
                       DYD_CONTENT_DELAUNAY, cli_delaunay},
     [CLI_VORONOI] = {"voronoi", "FILE", "the cells of the points on a window, with certified bounds",
                      "Voronoi diagram of the points on a window: for each point the part of the window that\n"
@@ -74,14 +75,16 @@ const char *const cli_group_names[CLI_GROUPS] = {[CLI_INPUT] = "Input",
                                                  [CLI_OTHER] = "Other"};
 
 const cli_option cli_option_table[] = {
-    {"points", 0, "FILE", CLI_FILE, BIT(CLI_VERIFY), CLI_INPUT, "the certificate has to be about the points of FILE",
+    {"points", 0, "FILE", CLI_SOURCE, BIT(CLI_VERIFY), CLI_INPUT, "the certificate has to be about the points of FILE",
      AT(points)},
     {"columns", 0, "NAME,NAME", CLI_TEXT, TEXT, CLI_INPUT,
-     "FILE is CSV with a header; take these two columns as x,y:\nnames (capitals count only where names differ by them\n"
+     "FILE is CSV with a header; take these two columns as x,y:\nnames (capitals count only where names differ by "
+     "them\n"
      "alone), or numbers from 1",
      AT(read.columns)},
     {"delimiter", 0, "C", CLI_TEXT, TEXT, CLI_INPUT,
-     "what separates columns (default: of , ; tab and | the one\nthat suits the header); tab for a tab", AT(read.delimiter)},
+     "what separates columns (default: of , ; tab and | the one\nthat suits the header); tab for a tab",
+     AT(read.delimiter)},
     {"decimal-comma", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "47,61 is 47.61", AT(read.decimal_comma)},
     {"radius-column", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT,
      "widen each point by what stands in this column;\nNAME,NAME for x and y apart", AT(read.radius_columns)},
@@ -89,8 +92,8 @@ const cli_option cli_option_table[] = {
     {"skip-missing", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
      "leave out rows with an empty field, NA, NaN or null for a\ncoordinate; the others keep their row numbers",
      AT(read.skip_missing)},
-    {"merge", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
-     "equal coordinates are one point, with the smallest of their\nradii", AT(read.merge)},
+    {"merge", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "equal coordinates are one point, with the smallest of their\nradii",
+     AT(read.merge)},
     {"measured", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "decimals are rounded measurements: 47.61 is [47.605,47.615]",
      AT(read.measured)},
     {"radius", 0, "R", CLI_TEXT, TEXT, CLI_INPUT, "widen every point by R on each side", AT(read.radius)},

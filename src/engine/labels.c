@@ -59,7 +59,7 @@ static bool labels_append(dyd_labels *out, const dyd_labels *from) {
 dyd_status dyd_labels_join(dyd_labels *out, const dyd_engine *e, const dyd_labels *more) {
   dyd_labels all = {0};
   bool good = labels_append(&all, &e->labels);
-  while (good && all.points < dyd_engine_count(e)) good = dyd_labels_add(&all, NULL, 0);
+  while (good && all.points < dyd_sites_count(e->sites)) good = dyd_labels_add(&all, NULL, 0);
   good = good && labels_append(&all, more);
   if (good)
     *out = all;

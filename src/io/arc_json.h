@@ -17,7 +17,7 @@ enum { DYD_POINT_TEXTS = 64 };
 typedef struct dyd_point_texts {
   dyd_surd_point point[DYD_POINT_TEXTS];
   char *text[DYD_POINT_TEXTS];
-  size_t next; /* to be replaced */
+  size_t next;              /* to be replaced */
   const dyd_engine *engine; /* whose sites the arcs name; NULL: of none */
 } dyd_point_texts;
 void dyd_point_texts_clear(dyd_point_texts *t);

@@ -152,8 +152,7 @@ dyd_status dyd_disc_json(const dyd_output *o) {
   disc_each_circle(c->disc, disc_json_circle, out);
   disc_json_centre(out, c->disc);
   fputs(",\n\"con\": [", out);
-  for (uint32_t i = 3; i < c->n; i++)
-    disc_json_con(out, c, i);
+  for (uint32_t i = 3; i < c->n; i++) disc_json_con(out, c, i);
   fputs("\n]\n}\n", out);
   return st;
 }

@@ -24,8 +24,7 @@ dyd_status dyd_nearest_json(const dyd_output *o) {
   fprintf(out, "\"outcome\": \"%s\",\n", dyd_outcome_text(a->outcome));
   dyd_status st = dyd_json_sides(out, a->at, ",\n");
   fputs(",\n\"nearest\": [", out);
-  for (size_t k = 0; k < a->found->count; k++)
-    nearest_json_site(o->what, out, k);
+  for (size_t k = 0; k < a->found->count; k++) nearest_json_site(o->what, out, k);
   fputs("\n],\n", out);
   dyd_json_aliases(out, n->engine, "}\n");
   return st;

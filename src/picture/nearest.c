@@ -107,7 +107,10 @@ static void nearest_sites(cairo_t *cr, const nearest_drawing *g, bool found) {
       if (!pass)
         seen++;
       else if (found || seen <= MOST_NUMBERS)
-        dyd_picture_numbered(cr, &g->view, b, !found ? NOT : g->answer->sure ? SURE : POSSIBLE,
+        dyd_picture_numbered(cr, &g->view, b,
+                             !found            ? NOT
+                             : g->answer->sure ? SURE
+                                               : POSSIBLE,
                              dyd_engine_row(g->engine, i));
       else
         dyd_picture_marked(cr, &g->view, b, NOT);

@@ -69,7 +69,8 @@ typedef struct dyd_node {
 } dyd_node;
 
 /* Invariant: node[0..count-1] is a complete expression in postfix order, constants and roots are used in order, each
- * once; a rational expression is the single node DYD_OP_CONST. Roots are one reference each; evaluating narrows them. */
+ * once; a rational expression is the single node DYD_OP_CONST. Roots are one reference each; evaluating narrows them.
+ */
 typedef struct dyd_expr {
   dyd_node *node;
   dyd_constant *constant;
@@ -78,7 +79,8 @@ typedef struct dyd_expr {
 } dyd_expr;
 
 /* An expression while it is parsed: short ones without roots need no memory of their own.
- * Invariant: e.node = node or a block of node_cap nodes, the same for constants; roots are a block. Stays where it was initialised. */
+ * Invariant: e.node = node or a block of node_cap nodes, the same for constants; roots are a block. Stays where it was
+ * initialised. */
 typedef struct dyd_draft {
   dyd_expr e;
   size_t node_cap, constant_cap, root_cap;
@@ -101,8 +103,8 @@ dyd_status dyd_expr_parse(dyd_draft *d, size_t *pos, const char *text, size_t le
                           dyd_error *err);
 /* Bytes that follow a dyd_expr into which dyd_expr_take moves e. */
 size_t dyd_expr_size(const dyd_expr *e);
-/* Moves the parsed expression to *out and the dyd_expr_size bytes that follow it in the same block; the constants and roots
- * leave the draft. Release with dyd_expr_clear, which leaves the block. */
+/* Moves the parsed expression to *out and the dyd_expr_size bytes that follow it in the same block; the constants and
+ * roots leave the draft. Release with dyd_expr_clear, which leaves the block. */
 void dyd_expr_take(dyd_expr *out, dyd_draft *d);
 void dyd_expr_clear(dyd_expr *e);
 /* The value when the expression is rational, else NULL. Borrowed. */

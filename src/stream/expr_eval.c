@@ -14,7 +14,7 @@ typedef struct machine {
   arb_ptr ball;
   slong top, capacity;
   slong prec;
-  slong exponent; /* every ball so far is below 2^exponent in magnitude */
+  slong exponent;    /* every ball so far is below 2^exponent in magnitude */
   dyd_status failed; /* what a root could not be narrowed by, told in *err */
   dyd_error *err;
 } machine;

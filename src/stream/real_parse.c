@@ -3,8 +3,8 @@
  *
  *   coordinate = number | sum | sum (+-|±) radius | [ lo , hi ]       root = root ( sum in x , lo , hi )
  *
- * lo, hi and radius are sums whose value is rational by form. A root may stand in a sum; one that stands alone is a real
- * by itself. */
+ * lo, hi and radius are sums whose value is rational by form. A root may stand in a sum; one that stands alone is a
+ * real by itself. */
 #include "stream/expr.h"
 #include "stream/number.h"
 #include "stream/poly.h"

@@ -273,9 +273,9 @@ static void test_within_expressions(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_polynomials), cmocka_unit_test(test_exact),
-                                     cmocka_unit_test(test_many_bits), cmocka_unit_test(test_same_root),
-                                     cmocka_unit_test(test_close_roots),
-                                     cmocka_unit_test(test_within_expressions)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_random_polynomials), cmocka_unit_test(test_exact),
+      cmocka_unit_test(test_many_bits),          cmocka_unit_test(test_same_root),
+      cmocka_unit_test(test_close_roots),        cmocka_unit_test(test_within_expressions)};
   return cmocka_run_group_tests(tests, NULL, release_caches);
 }

@@ -119,6 +119,20 @@ void dyd_span_trim(dyd_span *s) {
 
 /* ---- the next point ---- */
 
+const char *dyd_delimiter_name(char delimiter, bool many) {
+  static const struct {
+    char c;
+    const char *one, *many;
+  } name[] = {{',', "a comma", "commas"},
+              {';', "a semicolon", "semicolons"},
+              {'\t', "a tab", "tabs"},
+              {'|', "a bar", "bars"},
+              {' ', "a blank", "blanks"}};
+  for (size_t k = 0; k < sizeof name / sizeof *name; k++)
+    if (name[k].c == delimiter) return many ? name[k].many : name[k].one;
+  return many ? "delimiters" : "a delimiter";
+}
+
 dyd_status dyd_csv_next(dyd_span field[DYD_CSV_ROLES], size_t *count, dyd_csv *csv, dyd_error *err) {
   dyd_line line;
   *count = 0;

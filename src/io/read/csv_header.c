@@ -10,20 +10,6 @@
 
 static const char delimiters[] = ",;\t|";
 
-const char *dyd_delimiter_name(char delimiter, bool many) {
-  static const struct {
-    char c;
-    const char *one, *many;
-  } name[] = {{',', "a comma", "commas"},
-              {';', "a semicolon", "semicolons"},
-              {'\t', "a tab", "tabs"},
-              {'|', "a bar", "bars"},
-              {' ', "a blank", "blanks"}};
-  for (size_t k = 0; k < sizeof name / sizeof *name; k++)
-    if (name[k].c == delimiter) return many ? name[k].many : name[k].one;
-  return many ? "delimiters" : "a delimiter";
-}
-
 /* ---- what is wanted ---- */
 
 /* The names in `text`, at least `least`, at most `most`, for the roles from `first` on. */
@@ -32,7 +18,8 @@ static dyd_status read_names(dyd_csv *csv, const char *text, const char *option,
   dyd_line line = {text, strlen(text), 0};
   csv->delimiter = ',';
   if (!line.length || dyd_csv_split(csv, &line, NULL) < 0 || csv->fields < least || csv->fields > most) {
-    static const char *const wanted[] = {"one column name; give NAME", "one or two column names; give NAME or NAME,NAME",
+    static const char *const wanted[] = {"one column name; give NAME",
+                                         "one or two column names; give NAME or NAME,NAME",
                                          "two column names; give NAME,NAME"};
     return dyd_fail(err, DYD_E_ARG, "\"%.100s\" is not %s", text, wanted[least + most - 2]);
   }

@@ -43,8 +43,8 @@ static bool plain_of_rational(dyd_plain *out, const mpq_t q) {
   for (; p.exp > -60 && mpz_divisible_ui_p(den, 5); p.exp--) mpz_divexact_ui(den, den, 5), mpz_mul_ui(man, man, 2);
   for (; p.exp > -60 && mpz_divisible_ui_p(den, 2); p.exp--) mpz_divexact_ui(den, den, 2), mpz_mul_ui(man, man, 5);
   for (; mpz_sgn(man) && p.exp < 60 && mpz_divisible_ui_p(man, 10); p.exp++) mpz_divexact_ui(man, man, 10);
-  bool good = mpz_cmp_ui(den, 1) == 0 && p.exp >= -60 && mpz_fits_slong_p(man) &&
-              mpz_cmpabs_ui(man, 1000000000000000000) < 0;
+  bool good =
+      mpz_cmp_ui(den, 1) == 0 && p.exp >= -60 && mpz_fits_slong_p(man) && mpz_cmpabs_ui(man, 1000000000000000000) < 0;
   if (good) *out = (dyd_plain){mpz_get_si(man), p.exp};
   mpz_clear(den);
   mpz_clear(man);
