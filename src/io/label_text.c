@@ -31,6 +31,16 @@ void dyd_csv_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t co
   }
 }
 
+void dyd_csv_row_end(FILE *out, const dyd_engine *e, const uint32_t *site, size_t n) {
+  for (size_t k = 0; k < 3 && dyd_engine_id(e, 0); k++) {
+    if (k < n)
+      dyd_csv_ids(out, e, &site[k], 0);
+    else
+      fputc(',', out);
+  }
+  fputc('\n', out);
+}
+
 /* The length of the character of UTF-8 at p: 1 to 4; 0: it is none (RFC 3629: shortest forms, no surrogates). */
 static size_t utf8_length(const unsigned char *p) {
   size_t n = p[0] < 0x80 ? 1 : p[0] < 0xC2 ? 0 : p[0] < 0xE0 ? 2 : p[0] < 0xF0 ? 3 : p[0] < 0xF5 ? 4 : 0;

@@ -123,7 +123,7 @@ REFUSED = [
     ('--radius-column r', '1 2\n', 2, r'--radius-column is about columns'),
     ('--delimiter ;', '1 2\n', 2, r'--delimiter is about columns'),
     ('', 'id;x;y\na;1;2\n', 1, r'-:1:\d+: .* in place of \';\', or .*, name two of its columns: --columns X,Y; they are: id, x, y$'),
-    ('', 'id\tx\ty\na\t1\t2\n', 1, r'if this is CSV with a header, name two of its columns: --columns X,Y; they are: id, x, y$'),
+    ('', 'id\tx\ty\na\t1\t2\n', 1, r'-:1:6: .*; if this is CSV with a header, name two of its columns: --columns X,Y; they are: id, x, y$'),
     ('', '1 2\nNA 3\n', 1, r'-:2:1: the coordinate is missing \(NA\)'),
 ]
 
@@ -197,6 +197,16 @@ def test_radii_and_names():
     expect(run('bisector', *NAMES, '-', stdin=NAMED), 0, 'id_far,id_near$(.|\n)*^2,0,.*,Käthe,"Anna; ""A"""$')
     cells = json.loads(run('voronoi', *NAMES, '--format', 'json', '-', stdin=NAMED).out)
     assert [(c['i'], c['id']) for c in cells['cells']] == [(0, 'Anna; "A"'), (2, 'Käthe'), (4, 'x,y')]
+    for form, first in (('csv', 'type'), ('wkt', 'WKT')):
+        text = run('voronoi', *NAMES, '--format', form, '-', stdin=NAMED).out
+        table = list(csv.reader(line for line in text.splitlines() if not line.startswith('#')))
+        assert table[0][0] == first and {len(row) for row in table} == {len(table[0])}, form
+        names = {tuple(row[-3:]) for row in table[1:] if row[0 if form == 'csv' else 1] in ('cell', 'surely nearest')}
+        assert names == {('Anna; "A"', '', ''), ('Käthe', '', ''), ('x,y', '', '')}, names
+        assert ['Anna; "A"', 'Käthe', 'x,y'] in [row[-3:] for row in table], form
+    shapes = json.loads(run('voronoi', *NAMES, '--format', 'geojson', '-', stdin=NAMED).out)['features']
+    assert [s['properties'] for s in shapes if s['properties']['kind'] == 'vertex'] == [
+        {'kind': 'vertex', 'sites': [0, 2, 4], 'id_i': 'Anna; "A"', 'id_j': 'Käthe', 'id_k': 'x,y'}]
     far = {a['far'] for c in cells['cells'] for b in c['int']['chains'] for a in b['arcs'] if 'far' in a}
     assert far == {0, 2, 4}, far
     odd = run('delaunay', '--columns', 'x,y', '--id', 'n', '--format', 'json', '-', stdin=b'x,y,n\n1,2,"a\xff""\\\x01"\n')
