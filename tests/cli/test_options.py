@@ -34,7 +34,8 @@ WRONG = {
 }
 RIGHT = {'--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--until': 'decided'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
-TEXTS = {'--columns', '--delimiter', '--id', '--radius', '--radius-column', '--oracle', '--output', '--trace', '--replay', '--certificate'}
+TEXTS = {'--columns', '--delimiter', '--id', '--points', '--radius', '--radius-column', '--oracle', '--output', '--trace',
+         '--replay', '--certificate'}
 
 
 def help_of(*command):
