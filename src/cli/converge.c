@@ -51,7 +51,7 @@ static int end_trace(run *r, cli_output *out) {
   dyd_error_clear(&err);
   dyd_status st = dyd_trace_end(r->trace, r->table.outcome, &err);
   r->trace = NULL;
-  if (st == DYD_OK) return cli_output_finish(out) ? 0 : CLI_FAILED;
+  if (st == DYD_OK) return cli_output_finish(out, r->o) ? 0 : CLI_FAILED;
   cli_complain_at(r->o->trace, &err);
   cli_output_drop(out);
   return CLI_FAILED;

@@ -22,7 +22,8 @@ typedef enum cli_command_number {
 typedef enum cli_kind {
   CLI_FLAG,     /* no value; a bool is set */
   CLI_TEXT,     /* any text */
-  CLI_FILE,     /* the name of a file */
+  CLI_FILE,     /* the name of a file that is written */
+  CLI_SOURCE,   /* the name of a file that is read */
   CLI_INTEGER,  /* least..most, into an integer of `width` bytes */
   CLI_SECONDS,  /* a double above 0 */
   CLI_GOAL,     /* decided, area:M, hausdorff:M */
@@ -32,6 +33,9 @@ typedef enum cli_kind {
   CLI_WINDOW,   /* XLO,XHI,YLO,YHI */
   CLI_HELP      /* nothing, or =KIND */
 } cli_kind;
+static inline bool cli_kind_is_file(cli_kind kind) {
+  return kind == CLI_FILE || kind == CLI_SOURCE;
+}
 
 typedef enum cli_group { CLI_INPUT, CLI_REFINEMENT, CLI_OUTPUT, CLI_EXPERIMENTS, CLI_OTHER, CLI_GROUPS } cli_group;
 

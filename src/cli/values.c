@@ -90,7 +90,7 @@ static bool is_window(const char *text) {
 /* ---- any option ---- */
 
 static bool value_text(const char **place, const cli_option *option, const char *text) {
-  if (!*text) return value_usage(option, text, option->kind == CLI_FILE ? "the name of a file" : option->argument);
+  if (!*text) return value_usage(option, text, option->kind != CLI_TEXT ? "the name of a file" : option->argument);
   *place = text;
   return true;
 }
@@ -105,6 +105,7 @@ bool cli_value_read(cli_options *o, const cli_option *option, const char *text) 
     return is_window(text) && value_text(place, option, text);
   case CLI_TEXT:
   case CLI_FILE:
+  case CLI_SOURCE:
     return value_text(place, option, text);
   case CLI_INTEGER:
     return value_integer(place, option, text);

@@ -98,11 +98,16 @@ dyd_status dyd_write_check(FILE *out, const dyd_check_report *report, dyd_format
 
 dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome, dyd_format format,
                           dyd_error *err) {
+  return dyd_write_disc_named(out, NULL, r, n, outcome, format, err);
+}
+
+dyd_status dyd_write_disc_named(FILE *out, const dyd_engine *e, const dyd_rect *const *r, size_t n, dyd_outcome outcome,
+                                dyd_format format, dyd_error *err) {
   if (n < 3) return dyd_fail(err, DYD_E_ARG, "a disc needs three points");
   dyd_partial_disc disc;
   dyd_partial_disc_init(&disc);
   dyd_partial_disc_set(&disc, r[0], r[1], r[2]);
-  dyd_status st = dyd_format_write(out, format, DYD_CONTENT_DISC, &(dyd_disc_output){&disc, r, n, outcome}, err);
+  dyd_status st = dyd_format_write(out, format, DYD_CONTENT_DISC, &(dyd_disc_output){&disc, r, n, outcome, e}, err);
   dyd_partial_disc_clear(&disc);
   return st;
 }
@@ -118,12 +123,17 @@ static void swap_names(dyd_boundary *curve) {
 
 dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_rect *b, dyd_outcome outcome, dyd_format format,
                               dyd_error *err) {
+  return dyd_write_bisector_named(out, NULL, a, b, outcome, format, err);
+}
+
+dyd_status dyd_write_bisector_named(FILE *out, const dyd_engine *e, const dyd_rect *a, const dyd_rect *b,
+                                    dyd_outcome outcome, dyd_format format, dyd_error *err) {
   dyd_boundary curve[2] = {{0}, {0}};
   dyd_status st = dyd_bisector(&curve[0], a, b);
   if (st == DYD_OK) st = dyd_bisector(&curve[1], b, a);
   swap_names(&curve[1]);
   if (st == DYD_OK)
-    st = dyd_format_write(out, format, DYD_CONTENT_BISECTOR, &(dyd_bisector_output){{a, b}, curve, outcome}, err);
+    st = dyd_format_write(out, format, DYD_CONTENT_BISECTOR, &(dyd_bisector_output){{a, b}, curve, outcome, e}, err);
   else
     dyd_fail(err, st, "%s", dyd_status_text(st));
   for (int k = 2; k-- > 0;) dyd_boundary_clear(&curve[k]);
@@ -138,5 +148,5 @@ dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_a
   if (!a.at || !a.found) return dyd_fail(err, DYD_E_ARG, "there is no answer to be written");
   const dyd_delaunay *pd = result_of(e, err);
   if (!pd) return DYD_E_ARG;
-  return dyd_format_write(out, format, DYD_CONTENT_NEAREST, &(dyd_nearest_output){pd, &a}, err);
+  return dyd_format_write(out, format, DYD_CONTENT_NEAREST, &(dyd_nearest_output){e, pd, &a}, err);
 }

@@ -32,8 +32,8 @@ dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_erro
  * up. */
 dyd_status dyd_result_places(dyd_place **out, char bound[DYD_DECIMAL_SIZE], const dyd_result *r, dyd_error *err);
 
-/* "3, 7, 9". */
-void dyd_put_indices(FILE *out, const dyd_index_list *list, const char *between);
+/* The rows of sites: "3, 7, 9". */
+void dyd_put_rows(FILE *out, const dyd_engine *e, const dyd_index_list *list, const char *between);
 /* The sites of each undecided face, behind `first` or `next`, before `end`. */
 dyd_status dyd_result_faces(const dyd_result *r, const char *first, const char *next, const char *between,
                             const char *end);

@@ -2,6 +2,7 @@
 /* Formats for geographic and mesh programs: wkt, geojson, obj. One place per site stands for its rectangle; each
  * format says how far at most the rectangle reaches from it. */
 #include "base/alloc.h"
+#include "io/label_text.h"
 #include "io/result.h"
 #include <math.h>
 
@@ -11,13 +12,15 @@ static dyd_status wkt_delaunay(const dyd_output *o) {
   char bound[DYD_DECIMAL_SIZE];
   dyd_status st = dyd_result_places(&place, bound, r, o->err);
   if (st != DYD_OK) return st;
-  fputs("WKT,i,j,status,max_coordinate_error\n", r->out);
+  fprintf(r->out, "WKT,i,j,status%s,max_coordinate_error\n", dyd_csv_id_head(r->engine, 2));
   for (size_t k = 0; k < r->pairs.count; k++) {
     const dyd_pair *p = &r->pairs.item[k];
     const dyd_place *a = &place[p->i], *b = &place[p->j];
     dyd_decimal_directed(bound, fmax(a->error, b->error), 2, DYD_UP);
-    fprintf(r->out, "\"LINESTRING (%s %s, %s %s)\",%u,%u,%s,%s\n", a->x, a->y, b->x, b->y, (unsigned)p->i,
-            (unsigned)p->j, dyd_pair_status_text(p->status), bound);
+    fprintf(r->out, "\"LINESTRING (%s %s, %s %s)\",%zu,%zu,%s", a->x, a->y, b->x, b->y, dyd_engine_row(r->engine, p->i),
+            dyd_engine_row(r->engine, p->j), dyd_pair_status_text(p->status));
+    dyd_csv_ids(r->out, r->engine, (const uint32_t[]){p->i, p->j}, 2);
+    fprintf(r->out, ",%s\n", bound);
   }
   free(place);
   return DYD_OK;
@@ -39,8 +42,11 @@ static dyd_status geojson_delaunay(const dyd_output *o) {
     const dyd_place *a = &place[p->i], *b = &place[p->j];
     fprintf(r->out,
             "%s\n{\"type\": \"Feature\", \"geometry\": {\"type\": \"LineString\", \"coordinates\": [[%s, %s], "
-            "[%s, %s]]}, \"properties\": {\"i\": %u, \"j\": %u, \"status\": \"%s\"}}",
-            k ? "," : "", a->x, a->y, b->x, b->y, (unsigned)p->i, (unsigned)p->j, dyd_pair_status_text(p->status));
+            "[%s, %s]]}, \"properties\": {\"i\": %zu, \"j\": %zu, \"status\": \"%s\"",
+            k ? "," : "", a->x, a->y, b->x, b->y, dyd_engine_row(r->engine, p->i), dyd_engine_row(r->engine, p->j),
+            dyd_pair_status_text(p->status));
+    dyd_json_ids(r->out, r->engine, (const uint32_t[]){p->i, p->j}, 2);
+    fputs("}}", r->out);
   }
   fputs("\n]}\n", r->out);
   free(place);
@@ -60,6 +66,15 @@ static void obj_elements(const dyd_result *r, const dyd_triangle_list *triangles
   }
 }
 
+/* What the next vertex is called, where its place in the file does not tell. */
+static void obj_name(const dyd_result *r, uint32_t i) {
+  const char *id = dyd_engine_id(r->engine, i);
+  if (!id && dyd_engine_row(r->engine, i) == i) return;
+  fprintf(r->out, "# row %zu", dyd_engine_row(r->engine, i));
+  dyd_json_ids(r->out, r->engine, &i, 0);
+  fputs("\n", r->out);
+}
+
 static dyd_status obj_delaunay(const dyd_output *o) {
   const dyd_result *r = o->what;
   dyd_place *place = NULL;
@@ -75,7 +90,10 @@ static dyd_status obj_delaunay(const dyd_output *o) {
             "most %s\n# not shown: %zu indeterminate pairs, %zu ties\n",
             dyd_version(), dyd_outcome_text(dyd_engine_outcome(r->engine)), bound, count[DYD_INDETERMINATE],
             count[DYD_TIE]);
-    for (size_t i = 0; i < r->count; i++) fprintf(r->out, "v %s %s 0\n", place[i].x, place[i].y);
+    for (uint32_t i = 0; i < r->count; i++) {
+      obj_name(r, i);
+      fprintf(r->out, "v %s %s 0\n", place[i].x, place[i].y);
+    }
     obj_elements(r, &triangles);
   }
   dyd_triangle_list_clear(&triangles);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The csv format of the Voronoi diagram: cells with areas, vertices with enclosures, undecided regions. */
 #include "io/diagram.h"
+#include "io/label_text.h"
 #include "io/parts.h"
 #include <math.h>
 #include <stdlib.h>
@@ -23,27 +24,28 @@ static dyd_status keep_row(void *context, uint32_t i, const dyd_shape *shape, co
 
 static dyd_status cells_csv_head(const dyd_diagram *d) {
   FILE *out = d->out;
-  dyd_csv_aliases(out, d->pd);
+  dyd_csv_aliases(out, d->engine);
   fputs("# window ", out);
   dyd_status st = dyd_put_window(out, &d->window, "", " ");
   fputs("\n# undetermined_area", out);
   csv_decimal(out, dyd_dyadic_get_d(&d->bounds->area, DYD_UP), DYD_UP);
   fputs("\n# distance_to_true_diagram", out);
   csv_decimal(out, d->bounds->finite ? dyd_dyadic_get_d(&d->bounds->hausdorff, DYD_UP) : INFINITY, DYD_UP);
-  fputs("\n# rounding: lo down, hi up, bounds up; empty: unbounded or beyond doubles; m*2^e is exact\n"
-        "type,i,j,k,xlo,xhi,ylo,yhi,area_lo,area_hi\n",
-        out);
+  fprintf(out,
+          "\n# rounding: lo down, hi up, bounds up; empty: unbounded or beyond doubles; m*2^e is exact\n"
+          "type,i,j,k,xlo,xhi,ylo,yhi,area_lo,area_hi%s\n",
+          dyd_csv_id_head(d->engine, 3));
   return st;
 }
 
 static void csv_cells(const dyd_diagram *d, const dyd_cell_row *rows) {
-  for (size_t i = 0; i < d->count; i++) {
+  for (uint32_t i = 0; i < d->count; i++) {
     if (!rows[i].present) continue;
-    fprintf(d->out, "cell,%zu,,", i);
+    fprintf(d->out, "cell,%zu,,", dyd_engine_row(d->engine, i));
     csv_box(d->out, rows[i].box);
     csv_decimal(d->out, rows[i].area[0], DYD_DOWN);
     csv_decimal(d->out, rows[i].area[1], DYD_UP);
-    fputc('\n', d->out);
+    dyd_csv_row_end(d->out, d->engine, &i, 1);
   }
 }
 
@@ -64,22 +66,25 @@ static dyd_status csv_vertices(const dyd_diagram *d) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < d->triangles.count && st == DYD_OK; k++) {
     const uint32_t *v = d->triangles.item[k].v;
-    fprintf(d->out, "vertex,%u,%u,%u", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
+    fprintf(d->out, "vertex,%zu,%zu,%zu", dyd_engine_row(d->engine, v[0]), dyd_engine_row(d->engine, v[1]),
+            dyd_engine_row(d->engine, v[2]));
     if (exact)
       st = csv_exact_vertex(d, k);
     else
       csv_box(d->out, d->vertex[k]);
-    fputs(",,\n", d->out);
+    fputs(",,", d->out);
+    dyd_csv_row_end(d->out, d->engine, v, 3);
   }
   return st;
 }
 
 static dyd_status csv_region(void *context, size_t face, const double box[4]) {
-  FILE *out = context;
+  const dyd_diagram *d = *(const dyd_diagram *const *)context;
   if (!box) return DYD_OK;
-  fprintf(out, "region,%zu,,", face);
-  csv_box(out, box);
-  fputs(",,\n", out);
+  fprintf(d->out, "region,%zu,,", face);
+  csv_box(d->out, box);
+  fputs(",,", d->out);
+  dyd_csv_row_end(d->out, d->engine, NULL, 0);
   return DYD_OK;
 }
 
@@ -93,7 +98,7 @@ dyd_status dyd_voronoi_csv(const dyd_output *o) {
     csv_cells(d, rows);
     st = csv_vertices(d);
   }
-  if (st == DYD_OK) st = dyd_diagram_regions(d, csv_region, d->out);
+  if (st == DYD_OK) st = dyd_diagram_regions(d, csv_region, &d);
   free(rows);
   return st;
 }

@@ -2,6 +2,7 @@
 /* Formats of the Voronoi diagram for geographic programs: wkt, geojson. Polygons and boxes, with how far at most a
  * coordinate is from the exact one. */
 #include "io/diagram.h"
+#include "io/label_text.h"
 #include "io/parts.h"
 #include <math.h>
 
@@ -46,7 +47,9 @@ static void layer_polygon(layer *l, const char *kind, uint32_t i, const dyd_poly
   if (p->count < 3) return;
   begin_feature(l, kind, "POLYGON");
   if (l->geojson) {
-    fprintf(out, ", \"i\": %u, \"cell_area\": ", (unsigned)i);
+    fprintf(out, ", \"i\": %zu", dyd_engine_row(l->d->engine, i));
+    dyd_json_ids(out, l->d->engine, &i, 0);
+    fputs(", \"cell_area\": ", out);
     dyd_json_decimals(out, area[0], area[1]);
     fputs("}, \"geometry\": {\"type\": \"Polygon\", \"coordinates\": [", out);
     layer_ring(l, p);
@@ -54,7 +57,8 @@ static void layer_polygon(layer *l, const char *kind, uint32_t i, const dyd_poly
   } else {
     fputs("(", out);
     layer_ring(l, p);
-    fprintf(out, ")\",%s,%u,,\n", kind, (unsigned)i);
+    fprintf(out, ")\",%s,%zu,,", kind, dyd_engine_row(l->d->engine, i));
+    dyd_csv_row_end(l->d->out, l->d->engine, &i, 1);
   }
 }
 
@@ -77,7 +81,10 @@ static void layer_box(layer *l, const char *kind, const double b[4], const uint3
   for (int k = 0; k < 4; k++)
     if (!isfinite(b[k])) return;
   begin_feature(l, kind, "POLYGON");
-  if (l->geojson && v) fprintf(out, ", \"sites\": [%u, %u, %u]", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
+  if (l->geojson && v)
+    fprintf(out, ", \"sites\": [%zu, %zu, %zu]", dyd_engine_row(l->d->engine, v[0]), dyd_engine_row(l->d->engine, v[1]),
+            dyd_engine_row(l->d->engine, v[2]));
+  if (l->geojson && v) dyd_json_ids(out, l->d->engine, v, 3);
   if (l->geojson) fputs("}, \"geometry\": {\"type\": \"Polygon\", \"coordinates\": [[", out);
   if (!l->geojson) fputs("((", out);
   for (int k = 0; k < 5; k++) {
@@ -87,9 +94,11 @@ static void layer_box(layer *l, const char *kind, const double b[4], const uint3
   if (l->geojson)
     fputs("]]}}", out);
   else if (v)
-    fprintf(out, "))\",%s,%u,%u,%u\n", kind, (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
+    fprintf(out, "))\",%s,%zu,%zu,%zu", kind, dyd_engine_row(l->d->engine, v[0]), dyd_engine_row(l->d->engine, v[1]),
+            dyd_engine_row(l->d->engine, v[2]));
   else
-    fprintf(out, "))\",%s,,,\n", kind);
+    fprintf(out, "))\",%s,,,", kind);
+  if (!l->geojson) dyd_csv_row_end(l->d->out, l->d->engine, v, v ? 3 : 0);
 }
 
 static dyd_status layer_region(void *context, size_t face, const double box[4]) {
@@ -119,7 +128,7 @@ static void layer_rounding(const dyd_diagram *d) {
 
 dyd_status dyd_voronoi_wkt(const dyd_output *o) {
   layer l = {.d = o->what};
-  fputs("WKT,kind,i,j,k\n", o->out);
+  fprintf(o->out, "WKT,kind,i,j,k%s\n", dyd_csv_id_head(l.d->engine, 3));
   return layer_all(&l);
 }
 

@@ -61,7 +61,7 @@ static void vtk_polygons(const dyd_diagram *d, const gathered *g) {
     fputs("\n", out);
   }
   fprintf(out, "CELL_DATA %zu\nSCALARS site int 1\nLOOKUP_TABLE default\n", g->count);
-  for (size_t k = 0; k < g->count; k++) fprintf(out, "%u\n", (unsigned)g->site[k]);
+  for (size_t k = 0; k < g->count; k++) fprintf(out, "%zu\n", dyd_engine_row(d->engine, g->site[k]));
   fputs("SCALARS possibly int 1\nLOOKUP_TABLE default\n", out);
   for (size_t k = 0; k < g->count; k++) fprintf(out, "%u\n", (unsigned)g->kind[k]);
 }

@@ -18,6 +18,28 @@ static void vtk_elements(const dyd_result *r, const dyd_triangle_list *triangles
   for (size_t k = 0; k < triangles->count; k++) fprintf(out, "%d\n", (int)DYD_LEGAL);
 }
 
+/* vtk decodes %HH in texts, which end with the line. */
+static void vtk_text(FILE *out, const char *text) {
+  for (; *text; text++) {
+    unsigned char c = (unsigned char)*text;
+    if (c <= ' ' || c == '%' || c == '"' || c > '~')
+      fprintf(out, "%%%02X", c);
+    else
+      fputc(c, out);
+  }
+  fputc('\n', out);
+}
+
+/* Rows and identifiers of the points, where their places in the file do not tell. */
+static void vtk_names(const dyd_result *r) {
+  bool rows = r->count && dyd_engine_row(r->engine, r->count - 1) != r->count - 1, ids = dyd_engine_id(r->engine, 0);
+  if (!rows && !ids) return;
+  fprintf(r->out, "POINT_DATA %zu\nFIELD names %d\nrow 1 %zu long\n", r->count, 1 + ids, r->count);
+  for (size_t i = 0; i < r->count; i++) fprintf(r->out, "%zu\n", dyd_engine_row(r->engine, i));
+  if (ids) fprintf(r->out, "id 1 %zu string\n", r->count);
+  for (size_t i = 0; ids && i < r->count; i++) vtk_text(r->out, dyd_engine_id(r->engine, i));
+}
+
 static dyd_status vtk_delaunay(const dyd_output *o) {
   const dyd_result *r = o->what;
   dyd_place *place = NULL;
@@ -32,6 +54,7 @@ static dyd_status vtk_delaunay(const dyd_output *o) {
             dyd_outcome_text(dyd_engine_outcome(r->engine)), bound, r->count);
     for (size_t i = 0; i < r->count; i++) fprintf(r->out, "%s %s 0\n", place[i].x, place[i].y);
     vtk_elements(r, &triangles);
+    vtk_names(r);
   }
   dyd_triangle_list_clear(&triangles);
   free(place);

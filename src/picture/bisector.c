@@ -14,6 +14,7 @@ static const unsigned tint[2] = {0xcfe4f3, 0xd9eccf}, body[2] = {0x6aaed6, 0x8cc
 typedef struct bisector_drawing {
   const dyd_rect *const *r;
   const dyd_boundary *curve;
+  const dyd_engine *engine;
   dyd_view view;
   double reach; /* arcs are cut off so far from the rectangles: far outside of the picture */
 } bisector_drawing;
@@ -187,7 +188,7 @@ static void bisector_inside(cairo_t *cr, void *context) {
   for (size_t k = 0; k < 2; k++) {
     double b[4];
     dyd_rect_get_d(b, d->r[k]);
-    dyd_picture_numbered(cr, &d->view, b, body[k], k);
+    dyd_picture_numbered(cr, &d->view, b, body[k], dyd_engine_row(d->engine, k));
   }
 }
 
@@ -205,7 +206,7 @@ static void see_ends(double box[4], const dyd_boundary *b, double reach) {
 
 dyd_status dyd_bisector_picture(const dyd_output *o) {
   const dyd_bisector_output *c = o->what;
-  bisector_drawing d = {.r = c->r, .curve = c->curve};
+  bisector_drawing d = {.r = c->r, .curve = c->curve, .engine = c->engine};
   double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY}, see[4];
   dyd_status st = DYD_OK;
   for (int k = 0; k < 2 && st == DYD_OK; k++) st = dyd_view_grow(box, d.r[k], o->err);

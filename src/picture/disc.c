@@ -19,6 +19,7 @@ typedef struct disc_drawing {
   const dyd_partial_disc *d;
   const dyd_rect *const *r;
   size_t n;
+  const dyd_engine *engine;
   dyd_view view;
   double at[CIRCLES][3]; /* centre, radius */
 } disc_drawing;
@@ -107,7 +108,8 @@ static void disc_sites(cairo_t *cr, const disc_drawing *g) {
   for (size_t i = g->n; i-- > 0;) {
     double b[4];
     dyd_rect_get_d(b, g->r[i]);
-    dyd_picture_numbered(cr, &g->view, b, i < 3 ? 0x777777 : con_colour(dyd_partial_disc_con(g->d, g->r[i])), i);
+    dyd_picture_numbered(cr, &g->view, b, i < 3 ? 0x777777 : con_colour(dyd_partial_disc_con(g->d, g->r[i])),
+                         dyd_engine_row(g->engine, i));
   }
 }
 
@@ -170,7 +172,7 @@ static dyd_status disc_view(disc_drawing *g, dyd_error *err) {
 
 dyd_status dyd_disc_picture(const dyd_output *o) {
   const dyd_disc_output *c = o->what;
-  disc_drawing g = {.d = c->disc, .r = c->r, .n = c->n};
+  disc_drawing g = {.d = c->disc, .r = c->r, .n = c->n, .engine = c->engine};
   for (int k = 0; k < CIRCLES && g.d->known; k++) place_circle(g.at[k], &g.d->circle[k]);
   dyd_status st = disc_view(&g, o->err);
   return st == DYD_OK ? dyd_view_write(o, &g.view, disc_inside, disc_legend, &g) : st;

@@ -19,6 +19,7 @@ typedef struct nearest_drawing {
   const dyd_delaunay *pd;
   const dyd_sites *sites;
   const dyd_nearest_answer *answer;
+  const dyd_engine *engine;
   dyd_view view;
   double place[4], near, far; /* Q, m, M */
   size_t count;               /* sites that stand for themselves */
@@ -106,7 +107,11 @@ static void nearest_sites(cairo_t *cr, const nearest_drawing *g, bool found) {
       if (!pass)
         seen++;
       else if (found || seen <= MOST_NUMBERS)
-        dyd_picture_numbered(cr, &g->view, b, !found ? NOT : g->answer->sure ? SURE : POSSIBLE, i);
+        dyd_picture_numbered(cr, &g->view, b,
+                             !found            ? NOT
+                             : g->answer->sure ? SURE
+                                               : POSSIBLE,
+                             dyd_engine_row(g->engine, i));
       else
         dyd_picture_marked(cr, &g->view, b, NOT);
     }
@@ -159,8 +164,8 @@ static void nearest_legend(cairo_t *cr, void *context) {
   dyd_picture_entry(cr, &x, y, DYD_PICTURE_BAND, true, 0, 0, "the nearest is in here");
   dyd_picture_scale(cr, &g->view, y);
   if (g->answer->sure)
-    snprintf(text, sizeof text, "%zu points, number %u is surely nearest", g->count,
-             (unsigned)g->answer->found->item[0]);
+    snprintf(text, sizeof text, "%zu points, number %zu is surely nearest", g->count,
+             dyd_engine_row(g->engine, g->answer->found->item[0]));
   else
     snprintf(text, sizeof text, "%zu points, %zu possibly nearest, outcome %s", g->count, g->answer->found->count,
              dyd_outcome_text(g->answer->outcome));
@@ -179,7 +184,7 @@ static void nearest_inside(cairo_t *cr, void *context) {
 
 dyd_status dyd_nearest_picture(const dyd_output *o) {
   const dyd_nearest_output *n = o->what;
-  nearest_drawing g = {.pd = n->pd, .sites = dyd_delaunay_sites(n->pd), .answer = n->answer};
+  nearest_drawing g = {.pd = n->pd, .sites = dyd_delaunay_sites(n->pd), .answer = n->answer, .engine = n->engine};
   dyd_rect_get_d(g.place, n->answer->at);
   find_distances(&g);
   dyd_status st = nearest_view(&g, o->err);

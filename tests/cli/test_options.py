@@ -34,7 +34,8 @@ WRONG = {
 }
 RIGHT = {'--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--until': 'decided'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
-TEXTS = {'--columns', '--radius', '--oracle', '--output', '--trace', '--replay', '--certificate'}
+TEXTS = {'--columns', '--delimiter', '--id', '--points', '--radius', '--radius-column', '--oracle', '--output', '--trace',
+         '--replay', '--certificate'}
 
 
 def help_of(*command):
@@ -175,7 +176,7 @@ def test_zsh_completion():
     expect(script, 0, r'\A#compdef dyadel', r'\A\Z')
     for name, _ in commands():
         part = re.search(rf'^    {name}\) options=\((.*?)^      \) ;;', script.out, re.M | re.S)[1]
-        assert set(re.findall(r'--[\w-]+(?==|\[)', part)) == set(options(help_of(name))), name
+        assert set(re.findall(r'--[\w-]+(?==|\[|\})', part)) == set(options(help_of(name))), name
     if shutil.which('zsh'):
         subprocess.run(['zsh', '-n'], input=script.out.encode(), check=True)
 
