@@ -118,7 +118,7 @@ static int choose_blockers(blocker *b, const search *s, const region *r, const u
   return kinds;
 }
 
-static bool is_blocked(const search *s, const region *r, uint32_t v, const blocker *b, int blockers) {
+static bool boxes_are_blocked(const search *s, const region *r, uint32_t v, const blocker *b, int blockers) {
   dyd_cert_area near[4];
   height top[2] = {0, 0};
   for (int k = 0; k < r->corners; k++) near[k] = near_from_corner(r->corner[k], &s->sites->box[v]);
@@ -143,7 +143,7 @@ static dyd_status keep_sites(size_t *kept, search *s, const region *r, size_t fr
   int blockers = choose_blockers(b, s, r, site, count);
   s->now++;
   for (size_t q = 0; q < count; q++) {
-    if (is_blocked(s, r, site[q], b, blockers)) continue;
+    if (boxes_are_blocked(s, r, site[q], b, blockers)) continue;
     s->site[from + count + (*kept)++] = site[q];
     s->stamp[site[q]] = s->now;
   }
@@ -170,7 +170,7 @@ static dyd_status list_pairs(size_t *pairs, search *s, size_t at, size_t from, s
 }
 
 /* Those of pair[at .. at+count) with both sites possible in the region looked at, put behind them. */
-static dyd_status keep_pairs(size_t *kept, search *s, size_t at, size_t count) {
+static dyd_status boxes_keep_pairs(size_t *kept, search *s, size_t at, size_t count) {
   *kept = 0;
   if (!dyd_reserve((void **)&s->pair, &s->pair_cap, at + 2 * count, sizeof *s->pair)) return DYD_E_NOMEM;
   for (size_t q = at; q < at + count; q++)
@@ -218,7 +218,7 @@ static dyd_status look_at_region(search *s, const region *r, size_t from, size_t
   here.stuck = 8 * sites > 7 * count ? r->stuck + 1 : 0;
   from += count;
   if (listed) {
-    st = keep_pairs(&kept, s, at, pairs);
+    st = boxes_keep_pairs(&kept, s, at, pairs);
     at += pairs;
   } else if (sites <= FEW || (sites <= MANY && here.stuck >= STUCK)) {
     st = list_pairs(&kept, s, at, from, sites);
