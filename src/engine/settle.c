@@ -19,6 +19,7 @@
 #include "delaunay/disc_filter.h"
 #include "engine/points.h"
 #include "engine/settle_filter.h"
+#include "engine/settle_firm.h"
 
 #include <stdlib.h>
 
@@ -74,90 +75,7 @@ static void settled_sort(dyd_settled *s) {
   s->count = kept;
 }
 
-/* ---- firm rectangles ---- */
-
-/* *r becomes its lower left corner. */
-static dyd_status rect_set_corner(dyd_rect *r) {
-  dyd_status st = dyd_interval_is_point(&r->x) ? DYD_OK : dyd_interval_set_ends(&r->x, &r->x.lo, &r->x.lo);
-  return st != DYD_OK || dyd_interval_is_point(&r->y) ? st : dyd_interval_set_ends(&r->y, &r->y.lo, &r->y.lo);
-}
-
-/* *eps: a power of 2 that no diameter of a point exceeds that can be narrowed. */
-static dyd_status eps_find(dyd_dyadic *eps, const dyd_engine *e) {
-  int64_t least = INT64_MAX / 2;
-  dyd_status st = DYD_OK;
-  dyd_rect r;
-  dyd_rect_init(&r);
-  for (size_t k = 0; st == DYD_OK && k < e->points; k++) {
-    if (e->point[k].final) continue;
-    st = dyd_sites_get(&r, e->sites, e->point[k].site);
-    int64_t bits = dyd_rect_bits(&r);
-    if (bits < least) least = bits;
-  }
-  dyd_rect_clear(&r);
-  return st == DYD_OK ? dyd_dyadic_set_si_2exp(eps, 1, 1 - least) : st; /* widths of 2^-b, a diameter below 2^(1-b) */
-}
-
-/* *out, unless it is NULL: a, smaller by eps on each side. *can: is it wide enough? */
-static dyd_status side_shrink(dyd_interval *out, bool *can, const dyd_interval *a, const dyd_dyadic *eps) {
-  dyd_dyadic lo, hi;
-  dyd_dyadic_init(&lo);
-  dyd_dyadic_init(&hi);
-  dyd_status st = dyd_dyadic_add(&lo, &a->lo, eps);
-  if (st == DYD_OK) st = dyd_dyadic_sub(&hi, &a->hi, eps);
-  *can = st == DYD_OK && !dyd_interval_is_point(a) && dyd_dyadic_cmp(&lo, &hi) < 0;
-  if (*can && out) st = dyd_interval_set_ends(out, &lo, &hi);
-  dyd_dyadic_clear(&hi);
-  dyd_dyadic_clear(&lo);
-  return st;
-}
-
-/* *out becomes r, smaller by eps on each side, if r is wide enough. */
-static dyd_status rect_shrink(dyd_rect *out, bool *can, const dyd_rect *r, const dyd_dyadic *eps) {
-  bool wide[2] = {false, false};
-  dyd_rect s;
-  dyd_rect_init(&s);
-  dyd_status st = side_shrink(&s.x, &wide[0], &r->x, eps);
-  if (st == DYD_OK) st = side_shrink(&s.y, &wide[1], &r->y, eps);
-  *can = st == DYD_OK && wide[0] && wide[1];
-  if (*can && out) dyd_rect_swap(out, &s);
-  dyd_rect_clear(&s);
-  return st;
-}
-
-static bool site_is_fixed(const dyd_engine *e, uint32_t site) {
-  const dyd_refinable *p = dyd_engine_find(e, site);
-  return !p || p->final;
-}
-
-static dyd_status pair_is_firm(bool *out, const dyd_engine *e, const dyd_dyadic *eps, const dyd_pair *pair) {
-  const uint32_t end[2] = {pair->i, pair->j};
-  dyd_status st = DYD_OK;
-  dyd_rect r;
-  *out = site_is_fixed(e, pair->i) && site_is_fixed(e, pair->j);
-  dyd_rect_init(&r);
-  for (int k = 0; st == DYD_OK && *out && k < 2; k++) {
-    st = dyd_sites_get(&r, e->sites, end[k]);
-    if (st == DYD_OK) st = rect_shrink(NULL, out, &r, eps);
-  }
-  dyd_rect_clear(&r);
-  return st;
-}
-
-/* Adds site number k of the engine: smaller if it is firm, a point if it can be narrowed, else as it is. */
-static dyd_status add_firm(dyd_sites *sites, const dyd_engine *e, const dyd_dyadic *eps, uint32_t k) {
-  dyd_rect r;
-  bool firm = false;
-  dyd_rect_init(&r);
-  dyd_status st = dyd_sites_get(&r, e->sites, k);
-  if (st == DYD_OK && site_is_fixed(e, k))
-    st = rect_shrink(&r, &firm, &r, eps);
-  else if (st == DYD_OK)
-    st = rect_set_corner(&r);
-  if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
-  dyd_rect_clear(&r);
-  return st;
-}
+/* ---- pairs of firm rectangles ---- */
 
 /* Settles pairs of firm rectangles, by all sites. */
 static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_plan *plan, const dyd_dyadic *eps) {
@@ -167,7 +85,7 @@ static dyd_status settle_firm(dyd_settled_pair *pair, size_t pairs, const dyd_pl
   dyd_sites *sites = NULL;
   dyd_delaunay *pd = NULL;
   dyd_status st = dyd_sites_new(&sites);
-  for (size_t k = 0; st == DYD_OK && k < dyd_sites_count(e->sites); k++) st = add_firm(sites, e, eps, (uint32_t)k);
+  for (size_t k = 0; st == DYD_OK && k < dyd_sites_count(e->sites); k++) st = dyd_firm_add(sites, e, eps, (uint32_t)k);
   if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
   for (size_t k = 0; st == DYD_OK && k < pairs; k++) {
     dyd_pair_status status = dyd_delaunay_status(pd, pair[k].i, pair[k].j);
@@ -219,7 +137,7 @@ static dyd_status take_pairs(dyd_settled_pair **out, size_t *count, const dyd_se
     const dyd_settled_pair *old = settled_find(known, pair->i, pair->j);
     bool both;
     if (pair->status != DYD_INDETERMINATE || (old && pair_is_settled(old))) continue;
-    st = pair_is_firm(&both, e, eps, pair);
+    st = dyd_pair_is_firm(&both, e, eps, pair);
     if (both == firm) (*out)[(*count)++] = old ? *old : (dyd_settled_pair){pair->i, pair->j, false, false};
   }
   dyd_pair_list_clear(&all);
@@ -389,13 +307,13 @@ static dyd_status settling_try_alone(settling *s, size_t k) {
   dyd_delaunay *pd = NULL;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = &s->e->stop};
   dyd_status st = dyd_sites_new(&sites);
-  if (st == DYD_OK) st = add_firm(sites, s->e, s->eps, p->i);
-  if (st == DYD_OK) st = add_firm(sites, s->e, s->eps, p->j);
+  if (st == DYD_OK) st = dyd_firm_add(sites, s->e, s->eps, p->i);
+  if (st == DYD_OK) st = dyd_firm_add(sites, s->e, s->eps, p->j);
   for (size_t q = 0; st == DYD_OK && q < s->site.count; q++) {
     uint32_t site = s->site.item[q];
     bool firm = s->guess[q].fixed && site != p->i && site != p->j;
-    if (firm) st = rect_shrink(NULL, &firm, &s->rect[q], s->eps);
-    if (st == DYD_OK && firm) st = add_firm(sites, s->e, s->eps, site);
+    if (firm) st = dyd_firm_shrink(NULL, &firm, &s->rect[q], s->eps);
+    if (st == DYD_OK && firm) st = dyd_firm_add(sites, s->e, s->eps, site);
   }
   if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
   if (st == DYD_OK) p->unsure = dyd_delaunay_alias(pd, 1) == 1 && dyd_delaunay_status(pd, 0, 1) != DYD_LEGAL;
@@ -489,7 +407,7 @@ static dyd_status settle_pairs(dyd_settled *fresh, dyd_settled *s, const dyd_pla
   size_t work = WORK + WORK_PER_SITE * dyd_sites_count(e->sites);
   dyd_dyadic eps;
   dyd_dyadic_init(&eps);
-  dyd_status st = eps_find(&eps, e);
+  dyd_status st = dyd_firm_eps(&eps, e);
   if (st == DYD_OK) st = settle_all_firm(fresh, s, plan, &eps);
   for (size_t f = 0; st == DYD_OK && work && f < dyd_delaunay_undecided_faces(e->pd); f++)
     st = settle_face(fresh, &s->random, &work, s, e, &eps, f);
