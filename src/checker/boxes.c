@@ -118,7 +118,7 @@ static int choose_blockers(blocker *b, const search *s, const region *r, const u
   return kinds;
 }
 
-static bool boxes_are_blocked(const search *s, const region *r, uint32_t v, const blocker *b, int blockers) {
+static bool is_region_blocked(const search *s, const region *r, uint32_t v, const blocker *b, int blockers) {
   dyd_cert_area near[4];
   height top[2] = {0, 0};
   for (int k = 0; k < r->corners; k++) near[k] = near_from_corner(r->corner[k], &s->sites->box[v]);
@@ -135,7 +135,7 @@ static bool boxes_are_blocked(const search *s, const region *r, uint32_t v, cons
 /* ---- sites and pairs of a region ---- */
 
 /* Puts those of site[from .. from+count) that are possible in r behind them; returns how many. */
-static dyd_status keep_sites(size_t *kept, search *s, const region *r, size_t from, size_t count) {
+static dyd_status keep_region_sites(size_t *kept, search *s, const region *r, size_t from, size_t count) {
   blocker b[6];
   *kept = 0;
   if (!dyd_reserve((void **)&s->site, &s->site_cap, from + 2 * count, sizeof *s->site)) return DYD_E_NOMEM;
@@ -143,7 +143,7 @@ static dyd_status keep_sites(size_t *kept, search *s, const region *r, size_t fr
   int blockers = choose_blockers(b, s, r, site, count);
   s->now++;
   for (size_t q = 0; q < count; q++) {
-    if (boxes_are_blocked(s, r, site[q], b, blockers)) continue;
+    if (is_region_blocked(s, r, site[q], b, blockers)) continue;
     s->site[from + count + (*kept)++] = site[q];
     s->stamp[site[q]] = s->now;
   }
@@ -152,7 +152,7 @@ static dyd_status keep_sites(size_t *kept, search *s, const region *r, size_t fr
 }
 
 /* The pairs of site[from .. from+count), ascending, that are in no list and share an open set, put at pair[at]. */
-static dyd_status list_pairs(size_t *pairs, search *s, size_t at, size_t from, size_t count) {
+static dyd_status list_region_pairs(size_t *pairs, search *s, size_t at, size_t from, size_t count) {
   *pairs = 0;
   for (size_t a = 0; a < count; a++) {
     uint32_t i = s->site[from + a];
@@ -170,7 +170,7 @@ static dyd_status list_pairs(size_t *pairs, search *s, size_t at, size_t from, s
 }
 
 /* Those of pair[at .. at+count) with both sites possible in the region looked at, put behind them. */
-static dyd_status boxes_keep_pairs(size_t *kept, search *s, size_t at, size_t count) {
+static dyd_status keep_region_pairs(size_t *kept, search *s, size_t at, size_t count) {
   *kept = 0;
   if (!dyd_reserve((void **)&s->pair, &s->pair_cap, at + 2 * count, sizeof *s->pair)) return DYD_E_NOMEM;
   for (size_t q = at; q < at + count; q++)
@@ -213,15 +213,15 @@ static dyd_status look_at_region(search *s, const region *r, size_t from, size_t
   region part, here = *r;
   size_t sites = 0, kept = 0;
   if (s->given_up) return DYD_OK;
-  dyd_status st = keep_sites(&sites, s, r, from, count);
+  dyd_status st = keep_region_sites(&sites, s, r, from, count);
   if (st != DYD_OK || sites < 2) return st;
   here.stuck = 8 * sites > 7 * count ? r->stuck + 1 : 0;
   from += count;
   if (listed) {
-    st = boxes_keep_pairs(&kept, s, at, pairs);
+    st = keep_region_pairs(&kept, s, at, pairs);
     at += pairs;
   } else if (sites <= FEW || (sites <= MANY && here.stuck >= STUCK)) {
-    st = list_pairs(&kept, s, at, from, sites);
+    st = list_region_pairs(&kept, s, at, from, sites);
     listed = true;
   }
   if (st != DYD_OK || (listed && kept == 0)) return st;
@@ -260,7 +260,7 @@ static region cone_region(int side, int bits) {
 static dyd_status mark_outer_sites(bool *is_outer, search *s, const region *r, size_t from, size_t count) {
   region part;
   size_t kept;
-  dyd_status st = keep_sites(&kept, s, r, from, count);
+  dyd_status st = keep_region_sites(&kept, s, r, from, count);
   from += count;
   for (size_t q = 0; q < kept && st == DYD_OK && r->depth == OUTER_CUTS; q++) is_outer[s->site[from + q]] = true;
   for (int k = 0; k < 2 && st == DYD_OK && r->depth < OUTER_CUTS; k++) {
