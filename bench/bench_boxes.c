@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Rows over boxes: boxes (thin, every edge certified), boxes2 (two threads, by the clock), thick (a few per cent of the
  * spacing), overlap. */
+#include "answers.h"
 #include "cloud.h"
 #include "ours.h"
 #include "peer.h"
@@ -39,6 +40,7 @@ static void row_boxes(const bench_options *o, const char *name, unsigned threads
     if (peer_points(&cost, r ? NULL : &edges, boxes.n, boxes.x, boxes.y)) bench_series_add(&peer, cost);
   }
   compare(remark, sizeof remark, &first, &edges);
+  bench_check(o, name, boxes.n, first.count);
   bench_report(o, &(bench_row){.name = name,
                                .n = boxes.n,
                                .ours = &ours,
@@ -66,6 +68,7 @@ static double wide(const bench_options *o, const char *name, size_t n, double sh
   cloud_uniform(&boxes, n);
   cloud_widen(&boxes, share / sqrt((double)n));
   for (size_t r = 0; r < runs; r++) bench_series_add(&ours, ours_run(&a, name, &boxes, OURS_STATUSES, 1));
+  bench_check(o, name, n, a.count);
   double seconds = bench_series_median(&ours).seconds;
   size_t pairs = a.count[DYD_LEGAL] + a.count[DYD_INDETERMINATE] + a.count[DYD_TIE];
   snprintf(remark, sizeof remark, "%zu pairs; legal %zu; indeterminate %zu; tied %zu", pairs, a.count[DYD_LEGAL],
@@ -78,6 +81,9 @@ static double wide(const bench_options *o, const char *name, size_t n, double sh
                                .measure = "us a possible pair",
                                .figure = seconds / (double)pairs * 1e6,
                                .figure_goal = goal,
+                               .bytes_each = bench_series_median(&ours).bytes / (double)pairs,
+                               .bytes_each_goal = 200,
+                               .output = pairs,
                                .remark = remark});
   cloud_clear(&boxes);
   return seconds;
@@ -85,6 +91,7 @@ static double wide(const bench_options *o, const char *name, size_t n, double sh
 
 /* The size asked for; or 10^3, 10^4, ... up to n, but no step that looks like taking more than a minute. */
 static void row_wide(const bench_options *o, const char *name, size_t n, double share, double goal) {
+  if (o->part > 1) return;
   if (o->n) {
     wide(o, name, o->n, share, goal, bench_runs(o, 3));
     return;
@@ -101,10 +108,12 @@ static void row_wide(const bench_options *o, const char *name, size_t n, double 
 int main(int argc, char **argv) {
   bench_options o;
   bench_options_read(&o, argc, argv);
-  if (bench_wants(&o, "boxes")) row_boxes(&o, "boxes", 1, 0.9);
-  if (bench_wants(&o, "boxes2")) row_boxes(&o, "boxes2", 2, 0.55);
-  if (bench_wants(&o, "thick")) row_wide(&o, "thick", 100000, 0.03, 5);
-  if (bench_wants(&o, "overlap")) row_wide(&o, "overlap", 10000, 0.5, 10);
+  while (bench_next_part(&o)) {
+    if (bench_wants(&o, "boxes")) row_boxes(&o, "boxes", 1, 0.9);
+    if (bench_wants(&o, "boxes2")) row_boxes(&o, "boxes2", 2, 0.55);
+    if (bench_wants(&o, "thick")) row_wide(&o, "thick", 100000, 0.03, 5);
+    if (bench_wants(&o, "overlap")) row_wide(&o, "overlap", 10000, 0.5, 10);
+  }
   bench_options_close(&o);
   return 0;
 }

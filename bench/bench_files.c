@@ -69,8 +69,10 @@ static void row_files(const bench_options *o, bool hex) {
 int main(int argc, char **argv) {
   bench_options o;
   bench_options_read(&o, argc, argv);
-  if (bench_wants(&o, "read") || bench_wants(&o, "write")) row_files(&o, false);
-  if (bench_wants(&o, "readhex")) row_files(&o, true);
+  while (bench_next_part(&o)) {
+    if (bench_wants(&o, "read") || bench_wants(&o, "write")) row_files(&o, false);
+    if (bench_wants(&o, "readhex")) row_files(&o, true);
+  }
   bench_options_close(&o);
   return 0;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Rows over exact points: uniform, grid, circle, cocircular, capped, growth. */
+#include "answers.h"
 #include "cloud.h"
 #include "ours.h"
 #include "peer.h"
@@ -57,7 +58,9 @@ static void row_of(const bench_options *o, const bench_row *goals, cloud *points
   bench_row row = *goals;
   contest_run(&c, row.name, points, what, bench_runs(o, runs));
   compare(remark, sizeof remark, row.name, &c);
+  bench_check(o, row.name, points->n, c.answer.count);
   row.n = points->n;
+  row.output = c.answer.count[DYD_LEGAL] + c.answer.count[DYD_TIE];
   row.ours = &c.ours;
   row.peer = &c.peer;
   row.peer_name = peer_points_name();
@@ -93,6 +96,7 @@ static void row_circle(const bench_options *o) {
 static void row_cocircular(const bench_options *o) {
   cloud points;
   bench_row goals = {.name = "cocircular", .ratio_goal = 0};
+  if (o->part > 1) return;
   cloud_cocircular(&points, 8);
   row_of(o, &goals, &points, OURS_STATUSES, 3);
 }
@@ -103,6 +107,7 @@ static void row_capped(const bench_options *o) {
   cloud points;
   bench_series ours = {0};
   char remark[300];
+  if (o->part > 1) return;
   cloud_cocircular(&points, 10);
   for (size_t r = 0; r < bench_runs(o, 3); r++) bench_series_add(&ours, ours_capped(remark, sizeof remark, &points));
   bench_report(o, &(bench_row){.name = "capped",
@@ -120,6 +125,7 @@ static void row_capped(const bench_options *o) {
 static void row_growth(const bench_options *o) {
   static const bench_series no_peer;
   double least = 0, greatest = 0;
+  if (o->part > 1) return;
   for (size_t n = 10000; n <= bench_size(o, 10000000); n *= 10) {
     cloud points;
     bench_series ours = {0};
@@ -148,12 +154,14 @@ static void row_growth(const bench_options *o) {
 int main(int argc, char **argv) {
   bench_options o;
   bench_options_read(&o, argc, argv);
-  if (bench_wants(&o, "uniform")) row_uniform(&o);
-  if (bench_wants(&o, "grid")) row_grid(&o);
-  if (bench_wants(&o, "circle")) row_circle(&o);
-  if (bench_wants(&o, "cocircular")) row_cocircular(&o);
-  if (bench_wants(&o, "capped")) row_capped(&o);
-  if (bench_wants(&o, "growth")) row_growth(&o);
+  while (bench_next_part(&o)) {
+    if (bench_wants(&o, "uniform")) row_uniform(&o);
+    if (bench_wants(&o, "grid")) row_grid(&o);
+    if (bench_wants(&o, "circle")) row_circle(&o);
+    if (bench_wants(&o, "cocircular")) row_cocircular(&o);
+    if (bench_wants(&o, "capped")) row_capped(&o);
+    if (bench_wants(&o, "growth")) row_growth(&o);
+  }
   bench_options_close(&o);
   return 0;
 }

@@ -15,7 +15,7 @@ static uint64_t next_random(uint64_t *state) {
   return z ^ (z >> 31);
 }
 
-static double unit(uint64_t *state) {
+double cloud_unit(uint64_t *state) {
   return (double)(next_random(state) >> 11) * 0x1p-53;
 }
 
@@ -36,8 +36,8 @@ void cloud_uniform(cloud *c, size_t n) {
   uint64_t state = 1;
   start(c, n);
   for (size_t i = 0; i < n; i++) {
-    c->x[i] = unit(&state);
-    c->y[i] = unit(&state);
+    c->x[i] = cloud_unit(&state);
+    c->y[i] = cloud_unit(&state);
   }
 }
 
@@ -65,7 +65,7 @@ void cloud_circle(cloud *c, size_t n) {
   uint64_t state = 3;
   start(c, n);
   for (size_t i = 0; i < n; i++) {
-    double angle = ((double)i + 0.5 * unit(&state)) * (6.283185307179586 / (double)n);
+    double angle = ((double)i + 0.5 * cloud_unit(&state)) * (6.283185307179586 / (double)n);
     c->x[i] = cos(angle);
     c->y[i] = sin(angle);
   }

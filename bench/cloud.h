@@ -4,6 +4,7 @@
 #define DYD_BENCH_CLOUD_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 /* n points; boxes [x0,x1] x [y0,y1] around them when they are there (NULL otherwise).
  * Owned: release with cloud_clear. */
@@ -12,6 +13,9 @@ typedef struct cloud {
   double *x, *y;
   double *x0, *x1, *y0, *y1;
 } cloud;
+
+/* The next number of a generator in [0,1), a multiple of 2^-53. */
+double cloud_unit(uint64_t *state);
 
 /* All end the program when memory runs out. */
 /* Coordinates uniform multiples of 2^-53 in [0,1). */

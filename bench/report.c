@@ -9,11 +9,12 @@
 #include "bench_config.h"
 #include "harness.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 static void usage(const char *program) {
-  fprintf(stderr, "usage: %s [ROW ...] [--n POINTS] [--runs R] [--csv FILE]\n", program);
+  fprintf(stderr, "usage: %s [ROW ...] [--n POINTS] [--runs R] [--csv FILE] [--known]\n", program);
   exit(2);
 }
 
@@ -31,6 +32,10 @@ void bench_options_read(bench_options *o, int argc, char **argv) {
     const char *a = argv[i], *next = i + 1 < argc ? argv[i + 1] : NULL;
     if (strncmp(a, "--", 2)) {
       o->argv[o->argc++] = argv[i];
+      continue;
+    }
+    if (!strcmp(a, "--known")) {
+      o->known = true;
       continue;
     }
     if (!strcmp(a, "--n"))
@@ -60,8 +65,16 @@ bool bench_wants(const bench_options *o, const char *row) {
   return o->argc == 0;
 }
 
+enum { PART = 4 };
+
+bool bench_next_part(bench_options *o) {
+  size_t before = o->part;
+  o->part = before == 0 && !o->n && !o->known ? PART : 1;
+  return before != 1;
+}
+
 size_t bench_size(const bench_options *o, size_t otherwise) {
-  return o->n ? o->n : otherwise;
+  return o->n ? o->n : otherwise / (o->part ? o->part : 1);
 }
 size_t bench_runs(const bench_options *o, size_t otherwise) {
   return o->runs ? o->runs : otherwise;
@@ -105,7 +118,8 @@ static void csv_number(FILE *f, double x) {
   fputc(',', f);
 }
 
-static void csv_line(const bench_options *o, const bench_row *row, bench_cost ours, bench_cost peer, double ratio) {
+static void csv_line(const bench_options *o, const bench_row *row, bench_cost ours, bench_cost peer, double ratio,
+                     double exponent) {
   char name[200];
   double n = (double)row->n;
   machine(name, sizeof name);
@@ -124,8 +138,36 @@ static void csv_line(const bench_options *o, const bench_row *row, bench_cost ou
   fprintf(o->out, "%s,", row->measure ? row->measure : "");
   csv_number(o->out, row->figure);
   csv_number(o->out, row->figure_goal);
-  fprintf(o->out, "%s; %s,%s,%s\n", BENCH_FLAGS, row->remark ? row->remark : "", BENCH_COMMIT, name);
+  fprintf(o->out, "%s; %s", BENCH_FLAGS, row->remark ? row->remark : "");
+  if (row->bytes_each > 0) fprintf(o->out, "; %.4g bytes a possible pair", row->bytes_each);
+  if (exponent > 0) fprintf(o->out, "; growth %.3g", exponent);
+  fprintf(o->out, ",%s,%s\n", BENCH_COMMIT, name);
   fflush(o->out);
+}
+
+/* The last report of each row. */
+typedef struct earlier {
+  char name[24];
+  double n, seconds, output;
+} earlier;
+
+/* Has the row been reported with fewer points? *exponent: of its growth since. Keeps it for the next report. */
+static bool grown(double *exponent, const bench_row *row, double seconds) {
+  enum { MOST = 32 };
+  static earlier kept[MOST];
+  static size_t count;
+  earlier now = {.n = (double)row->n, .seconds = seconds, .output = (double)(row->output ? row->output : row->n)};
+  size_t k = 0;
+  snprintf(now.name, sizeof now.name, "%s", row->name);
+  while (k < count && strcmp(kept[k].name, now.name)) k++;
+  if (k == MOST) return false;
+  count += k == count;
+  earlier before = kept[k];
+  kept[k] = now;
+  if (!(before.n > 0 && now.n > before.n)) return false;
+  double points = log(now.n / before.n), output = log(now.output / before.output);
+  *exponent = log(now.seconds / before.seconds) / (output > points ? output : points);
+  return true;
 }
 
 void bench_report(const bench_options *o, const bench_row *row) {
@@ -134,15 +176,20 @@ void bench_report(const bench_options *o, const bench_row *row) {
     ours.seconds = ours.wall;
     peer.seconds = peer.wall;
   }
-  double n = (double)row->n, ratio = row->peer->count ? ours.seconds / peer.seconds : 0;
+  double exponent = 0, n = (double)row->n;
+  bool growth = grown(&exponent, row, ours.seconds);
+  if (o->part > 1) return;
+  double ratio = row->peer->count ? ours.seconds / peer.seconds : 0;
   printf("%-10s n=%-9zu ours %.1f ns/pt", row->name, row->n, ours.seconds / n * 1e9);
   if (row->peer->count) printf("  %s %.1f ns/pt", row->peer_name, peer.seconds / n * 1e9);
   print_figure("ratio", ratio, row->peer->count ? row->ratio_goal : 0, row->peer->count ? row->ratio_bar : 0);
   if (row->measure) print_figure(row->measure, row->figure, row->figure_goal, 0);
+  if (row->bytes_each > 0) print_figure("bytes a possible pair", row->bytes_each, row->bytes_each_goal, 0);
+  if (growth) print_figure("growth", exponent, 1.15, 0);
   print_figure("bytes/pt beyond the input", ours.bytes / n - row->input_bytes, row->beyond_goal, 0);
   print_figure("in all", ours.bytes / n, 0, row->total_bar);
   if (row->peer->count) print_figure("peer's", peer.bytes / n, 0, 0);
   printf("  [%s; %zu runs]\n", row->remark ? row->remark : "", row->ours->count);
   fflush(stdout);
-  if (o->out) csv_line(o, row, ours, peer, ratio);
+  if (o->out) csv_line(o, row, ours, peer, ratio, exponent);
 }

@@ -23,11 +23,12 @@
 #include <string.h>
 
 /* CROWD: least number of triangles of a face worth looking at the plane. PATIENCE: walks before the first centre is
- * tried. In the armed build small faces take part, too. */
+ * tried. MOST_BITS: members of a face that has its pairs as bits, too. In the armed build small faces take part, too.
+ */
 #ifdef DYD_ARMED
-enum { CROWD = 5, PATIENCE = 1 };
+enum { CROWD = 5, PATIENCE = 1, MOST_BITS = 16 };
 #else
-enum { CROWD = 64, PATIENCE = 4 };
+enum { CROWD = 64, PATIENCE = 4, MOST_BITS = 1024 };
 #endif
 
 /* Members 0 .. vertices-1 are the face's vertices, member `vertices` is the ghost (if outer). */
@@ -36,6 +37,8 @@ typedef struct closing {
   dyd_work *w;
   dyd_closure *out;
   dyd_pair_map map;
+  uint64_t *possible, *known_with; /* a row of words bits for each member; NULL: too many members */
+  size_t words;
   const uint32_t *tri;
   uint32_t tris;
   size_t open, room;
@@ -80,6 +83,16 @@ static dyd_status keep_pair(dyd_closure *out, uint32_t a, uint32_t b) {
   return DYD_OK;
 }
 
+/* Bits beside the map while they take little memory: sets of common neighbours are found by words. */
+static dyd_status start_bits(closing *c) {
+  size_t members = (size_t)c->out->vertices + 1;
+  if (members > MOST_BITS) return DYD_OK;
+  c->words = (members + 63) / 64;
+  c->possible = calloc(members * c->words, sizeof *c->possible);
+  c->known_with = calloc(members * c->words, sizeof *c->known_with);
+  return c->possible && c->known_with ? DYD_OK : DYD_E_NOMEM;
+}
+
 /* ---- exact ties ---- */
 
 /* All sites exact, all uncertain edges exact ties, and either no ghost triangle or nothing else? */
@@ -95,8 +108,15 @@ static bool is_polygon(const closing *c) {
   return ghosts == 0 || ghosts == c->tris;
 }
 
+static void set_bit(uint64_t *rows, const closing *c, uint32_t a, uint32_t b) {
+  rows[a * c->words + b / 64] |= UINT64_C(1) << b % 64;
+  rows[b * c->words + a / 64] |= UINT64_C(1) << a % 64;
+}
+
 static dyd_status closing_add(closing *c, uint32_t a, uint32_t b, dyd_pair_state state) {
   uint32_t ghost = c->out->vertices;
+  if (c->possible) set_bit(c->known_with, c, a, b);
+  if (c->possible && dyd_pair_is_possible(state)) set_bit(c->possible, c, a, b);
   c->known += a != ghost && b != ghost;
   if (state == DYD_PAIR_OPEN && a != ghost && b != ghost && c->open++ >= c->room) c->full = true;
   return dyd_pair_map_add(&c->map, a, b, state);
@@ -156,12 +176,16 @@ static dyd_status closing_found(void *context, bool *enough, uint32_t a, uint32_
   return st;
 }
 
-/* Is it worth looking at the plane? Only if most vertices have uncertain edges all around, and are many among those of
- * the plane, all of whom are looked at. */
+/* Do most vertices have uncertain edges all around? */
 static bool is_crowded(const closing *c) {
-  uint32_t vertices = c->out->vertices;
-  bool many = c->tris >= CROWD && c->tris / 3 >= vertices / 2 && c->sk->rects.tree.count / 64 <= vertices;
-  return many && !c->sk->mesh.no_filter;
+  return c->tris >= CROWD && c->tris / 3 >= c->out->vertices / 2 && !c->sk->mesh.no_filter;
+}
+
+/* Is it worth looking at the plane? All sites are looked at: only if many of them are vertices here, or there are many
+ * pairs for each. */
+static bool is_worth_patches(const closing *c) {
+  size_t all = c->sk->rects.tree.count;
+  return all / 16 <= c->out->vertices || all / 2 <= c->known;
 }
 
 /* A member by the left side of its box, for a sweep from left to right. */
@@ -276,30 +300,56 @@ static dyd_status closing_flip(closing *c, uint32_t i, uint32_t j, uint32_t k, u
   return st;
 }
 
-static bool closing_is_possible(const closing *c, uint32_t a, uint32_t b) {
-  return dyd_pair_is_possible(dyd_pair_map_get(&c->map, a, b));
+/* Search for common possible neighbours of i and j, one after another; with k, for those whose pair with k has no
+ * state. Init with .link = the first link of i. */
+typedef struct common {
+  uint32_t i, j, k, link, vertex;
+  size_t word;
+  uint64_t left;
+} common;
+
+static bool next_linked(common *s, const closing *c) {
+  while (s->link != DYD_NONE) {
+    dyd_pair_link l = c->map.link[s->link];
+    s->link = l.next;
+    s->vertex = l.to;
+    if (l.to != s->j && l.to != s->k && dyd_pair_is_possible(dyd_pair_map_get(&c->map, s->j, l.to))) return true;
+  }
+  return false;
+}
+
+static bool next_common(common *s, const closing *c) {
+  if (!c->possible) return next_linked(s, c);
+  const uint64_t *i = c->possible + s->i * c->words, *j = c->possible + s->j * c->words;
+  const uint64_t *known = s->k == DYD_NONE ? NULL : c->known_with + s->k * c->words;
+  while (s->left == 0) {
+    if (s->word == c->words) return false;
+    s->left = i[s->word] & j[s->word] & (known ? ~known[s->word] : UINT64_MAX);
+    s->word++;
+  }
+  s->vertex = (uint32_t)(64 * (s->word - 1)) + (uint32_t)__builtin_ctzll(s->left);
+  s->left &= s->left - 1;
+  return true;
 }
 
 /* ij uncertain with the common neighbour k: every other common neighbour l. */
 static dyd_status flips_with(closing *c, uint32_t i, uint32_t j, uint32_t k) {
+  common s = {.i = i, .j = j, .k = k, .link = c->map.head[i]};
   dyd_status st = DYD_OK;
   if (dyd_pair_map_get(&c->map, i, j) != DYD_PAIR_OPEN) return st;
-  for (uint32_t q = c->map.head[i]; q != DYD_NONE && st == DYD_OK; q = c->map.link[q].next) {
-    uint32_t l = c->map.link[q].to;
-    if (l != j && l != k && closing_is_possible(c, j, l)) st = closing_flip(c, i, j, k, l);
-  }
+  while (st == DYD_OK && next_common(&s, c))
+    if (s.vertex != k) st = closing_flip(c, i, j, k, s.vertex);
   return st;
 }
 
 /* All quads in which the pair ab is the last one: as the pair displaced, or as one of the four sides. */
 static dyd_status closing_settle(closing *c, uint32_t a, uint32_t b) {
+  common s = {.i = a, .j = b, .k = DYD_NONE, .link = c->map.head[a]};
   dyd_status st = DYD_OK;
-  for (uint32_t q = c->map.head[a]; q != DYD_NONE && st == DYD_OK; q = c->map.link[q].next) {
-    uint32_t k = c->map.link[q].to;
-    if (k == b || !closing_is_possible(c, b, k)) continue;
-    st = flips_with(c, a, b, k);
-    if (st == DYD_OK) st = flips_with(c, a, k, b);
-    if (st == DYD_OK) st = flips_with(c, b, k, a);
+  while (st == DYD_OK && next_common(&s, c)) {
+    st = flips_with(c, a, b, s.vertex);
+    if (st == DYD_OK) st = flips_with(c, a, s.vertex, b);
+    if (st == DYD_OK) st = flips_with(c, b, s.vertex, a);
   }
   return st;
 }
@@ -309,10 +359,11 @@ static dyd_status closing_run(closing *c) {
   uint64_t m = c->out->vertices;
   c->all = m * (m - 1) / 2;
   bool crowded = is_crowded(c);
-  dyd_status st = add_edges(c, true);
+  dyd_status st = start_bits(c);
+  if (st == DYD_OK) st = add_edges(c, true);
   if (st == DYD_OK) st = add_edges(c, false);
   if (st == DYD_OK && crowded) st = add_meeting(c);
-  if (st == DYD_OK && crowded && !c->full && c->known < c->all) st = close_by_patches(&done, c);
+  if (st == DYD_OK && crowded && !c->full && c->known < c->all && is_worth_patches(c)) st = close_by_patches(&done, c);
   if (done || c->full || c->known == c->all) return st;
   if (st == DYD_OK) st = start_ghost(c);
   for (size_t q = 0; q < c->map.links && st == DYD_OK && !c->full && c->known < c->all; q += 2) {
@@ -367,6 +418,8 @@ dyd_status dyd_closure_run(dyd_closure *out, dyd_work *w, const dyd_skeleton *sk
   if (st == DYD_OK && (c.full || out->pairs > room)) st = skeleton_pairs(&c);
   bool sorted = out->polygon && !out->capped; /* all_pairs goes in order */
   if (st == DYD_OK && out->pairs && !sorted) qsort(out->pair, out->pairs, sizeof *out->pair, dyd_compare_vertex_pair);
+  free(c.known_with);
+  free(c.possible);
   dyd_pair_map_clear(&c.map);
   if (st != DYD_OK) dyd_closure_clear(out);
   return st;

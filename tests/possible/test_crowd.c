@@ -10,7 +10,7 @@
 #include <cmocka.h>
 #include <math.h>
 
-enum { MOST = 64, KINDS = 7 };
+enum { MOST = 64, KINDS = 10 };
 
 typedef struct crowd {
   size_t n;
@@ -18,7 +18,8 @@ typedef struct crowd {
 } crowd;
 
 /* kind 0: anywhere; 1: integer corners, so that they touch and tie; 2: a flat row; 3: far from the origin; 4: two
- * scales; 5: points among rectangles; 6: sides of the hull on two lines, whose pairs have their centre at infinity. */
+ * scales; 5: points among rectangles; 6: sides of the hull on two lines, whose pairs have their centre at infinity; 7:
+ * a few far outliers; 8: tight clusters far apart; 9: points, thin and thick rectangles mixed. */
 static void fill(crowd *c, test_random *r, unsigned kind, double half) {
   c->n = (size_t)test_between(r, 12, kind == 1 ? 20 : 30);
   for (size_t k = 0; k < c->n; k++) {
@@ -26,6 +27,15 @@ static void fill(crowd *c, test_random *r, unsigned kind, double half) {
     double x = test_unit(r) * shrink, y = test_unit(r) * shrink * (kind == 2 ? 0x1p-9 : 1);
     double w = half * (1 + test_unit(r)), h = half * (1 + test_unit(r));
     if (kind == 5 && k % 2) w = h = 0;
+    if (kind == 7 && k % 7 == 0) x = test_unit(r) * 0x1p20;
+    if (kind == 8) {
+      x = x * 0x1p-6 + (double)(k % 3) * 0x1p10;
+      y = y * 0x1p-6 - (double)(k % 2) * 0x1p8;
+      w *= 0x1p-6;
+      h *= 0x1p-6;
+    }
+    if (kind == 9 && k % 4) w *= k % 4 == 1 ? 0 : 0x1p-30;
+    if (kind == 9 && k % 3) h *= k % 3 == 1 ? 0 : 0x1p-30;
     if (kind == 1) {
       x = (double)test_between(r, 0, 8);
       y = (double)test_between(r, 0, 8);
@@ -109,7 +119,7 @@ static void test_crowds(void **state) {
   (void)state;
   test_random r = test_random_start("crowds");
   uint64_t walks[2] = {0, 0};
-  for (size_t k = 0; k < test_cases(35); k++) {
+  for (size_t k = 0; k < test_cases(50); k++) {
     crowd c;
     fill(&c, &r, (unsigned)(k % KINDS), 0.25 * test_unit(&r));
     if (k / KINDS % 2) turn(&c);
