@@ -39,6 +39,9 @@ typedef struct cli_options {
   dyd_engine_options engine;
   dyd_format format; /* one that the command can write; csv when not given */
   bool format_set;
+  const char *layer;    /* a name */
+  dyd_content content;  /* what is written: the layer, or all that the command says */
+  unsigned epsg;        /* 0: not given */
   const char *window;   /* checked text: see cli_window_read */
   const dyd_rect *view; /* delaunay: the window read, which pictures show */
   int64_t flatten_bits;

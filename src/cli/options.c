@@ -145,7 +145,28 @@ static int options_fit(const cli_options *o, uint64_t seen, const cli_command *c
     cli_complain("--%s says how points are read; give their file with --points", cli_option_table[k].name);
     return CLI_USAGE;
   }
-  if (!o->format_set || dyd_format_holds(o->format, c->content)) return 0;
+  return 0;
+}
+
+/* The layer named, as one of what the command writes. */
+static int layer_fits(cli_options *o, const cli_command *c) {
+  o->content = c->content;
+  if (!o->layer || dyd_layer_from_name(&o->content, c->content, o->layer)) return 0;
+  fprintf(stderr, "dyadel: %s has no layer \"%s\"; give ", c->name, o->layer);
+  cli_layers_print(stderr, cli_command_bit(c), ", ");
+  fputs("\n", stderr);
+  return CLI_USAGE;
+}
+
+/* The format, which has to hold what is written; the first that does where none is given. */
+static int format_fits(cli_options *o, const cli_command *c) {
+  while (!o->format_set && dyd_format_name(o->format) && !dyd_format_holds(o->format, o->content)) o->format++;
+  if (!o->format_set || dyd_format_holds(o->format, o->content)) return 0;
+  if (dyd_format_holds(o->format, c->content)) {
+    cli_complain("%s holds no single layer; give csv, wkt or geojson, or leave --layer %s away",
+                 dyd_format_name(o->format), o->layer);
+    return CLI_USAGE;
+  }
   fprintf(stderr, "dyadel: %s does not write %s; give ", c->name, dyd_format_name(o->format));
   cli_formats_print(stderr, cli_command_bit(c), ", ", false);
   fputs("\n", stderr);
@@ -193,7 +214,8 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   if (!c) return unknown_command(s.operand[0]);
   out->command = c->name;
   if (out->help || out->version) return 0;
-  while (!out->format_set && dyd_format_name(out->format) && !dyd_format_holds(out->format, c->content)) out->format++;
   status = options_fit(out, s.seen, c);
+  if (!status) status = layer_fits(out, c);
+  if (!status) status = format_fits(out, c);
   return status ? status : place_operands(out, &s, c);
 }

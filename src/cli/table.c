@@ -120,6 +120,13 @@ const cli_option cli_option_table[] = {
     {"flatten", 0, "M", CLI_INTEGER, BIT(CLI_VORONOI), CLI_OUTPUT, "draw arcs by polygons within 2^-M of them",
      AT(flatten_bits), RANGE(-DYD_EXP_LIMIT, DYD_EXP_LIMIT), GIVEN(flatten_set)},
     {"format", 0, "F", CLI_FORMAT, CLI_ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
+    {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_OUTPUT,
+     "what csv, wkt and geojson hold; delaunay: pairs (default),\npoints, triangles; voronoi: cells (default), "
+     "vertices,\n"
+     "regions, edges; json and vtk hold all of them",
+     AT(layer)},
+    {"crs", 0, "EPSG:N", CLI_CRS, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_OUTPUT,
+     "the reference system of the coordinates, for geojson and\njson (default: none is claimed)", AT(epsg)},
     {"output", 'o', "FILE", CLI_FILE, CLI_ALL, CLI_OUTPUT, "write to FILE, whole or not at all", AT(output)},
     {"certificate", 0, "FILE", CLI_FILE, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_OUTPUT,
      "write what proves the result; see dyadel verify", AT(certificate)},
@@ -179,6 +186,15 @@ void cli_commands_print(FILE *out, unsigned commands, const char *separator) {
     fprintf(out, "%s%s", before, cli_commands[c].name);
     before = separator;
   }
+}
+
+void cli_layers_print(FILE *out, unsigned commands, const char *separator) {
+  const char *before = "";
+  for (unsigned c = 0; c < CLI_COMMANDS; c++)
+    for (size_t k = 0; commands & BIT(c) && dyd_layer_name(cli_commands[c].content, k); k++) {
+      fprintf(out, "%s%s", before, dyd_layer_name(cli_commands[c].content, k));
+      before = separator;
+    }
 }
 
 void cli_formats_print(FILE *out, unsigned commands, const char *separator, bool mark) {

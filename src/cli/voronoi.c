@@ -38,8 +38,13 @@ static int voronoi_run(cli_session *s, dyd_rect *window, const dyd_engine_option
 }
 
 static dyd_status voronoi_write(FILE *out, const void *engine, const cli_options *o, dyd_error *err) {
-  dyd_voronoi_options options = {DYD_SIZED(dyd_voronoi_options), .flatten_bits = o->flatten_bits,
-                                 .flatten_set = o->flatten_set, .window = o->engine.window, .bounds = o->bounds};
+  dyd_voronoi_options options = {DYD_SIZED(dyd_voronoi_options),
+                                 .flatten_bits = o->flatten_bits,
+                                 .flatten_set = o->flatten_set,
+                                 .window = o->engine.window,
+                                 .bounds = o->bounds,
+                                 .layer = o->content,
+                                 .epsg = o->epsg};
   return dyd_write_voronoi(out, engine, &options, o->format, err);
 }
 

@@ -22,13 +22,35 @@ dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format,
 
 dyd_status dyd_write_delaunay_window(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_format format,
                                      dyd_error *err) {
-  dyd_result r = {.out = out, .engine = e, .pd = result_of(e, err), .window = window};
+  const dyd_delaunay_output o = {DYD_SIZED(dyd_delaunay_output), .window = window};
+  return dyd_write_delaunay_as(out, e, &o, format, err);
+}
+
+/* What is written: the layer asked for, which is one of `of`. */
+static dyd_content layer_of(dyd_content layer, dyd_content of) {
+  return layer == DYD_CONTENT_NONE ? of : layer;
+}
+
+static dyd_status refuse_layer(dyd_content layer, dyd_content of, dyd_error *err) {
+  dyd_content found;
+  for (size_t k = 0; dyd_layer_name(of, k); k++)
+    if (dyd_layer_from_name(&found, of, dyd_layer_name(of, k)) && found == layer_of(layer, of)) return DYD_OK;
+  return dyd_fail(err, DYD_E_ARG, "content number %d is no layer of this", (int)layer);
+}
+
+dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delaunay_output *options, dyd_format format,
+                                 dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  dyd_delaunay_output o;
+  if (dyd_abi_take(&o, sizeof o, options, "dyd_delaunay_output", err) != DYD_OK) return DYD_E_ARG;
+  if (refuse_layer(o.layer, DYD_CONTENT_DELAUNAY, err) != DYD_OK) return DYD_E_ARG;
+  dyd_result r = {.out = out, .engine = e, .pd = result_of(e, err), .window = o.window, .epsg = o.epsg};
   if (!r.pd) return DYD_E_ARG;
   r.sites = dyd_delaunay_sites(r.pd);
   r.count = dyd_sites_count(r.sites);
   dyd_status st = dyd_delaunay_pairs(&r.pairs, r.pd);
   if (st == DYD_OK)
-    st = dyd_format_write(out, format, DYD_CONTENT_DELAUNAY, &r, err);
+    st = dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_DELAUNAY), &r, err);
   else
     dyd_fail(err, st, "%s", dyd_status_text(st));
   dyd_pair_list_clear(&r.pairs);
@@ -52,14 +74,15 @@ dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_o
   if (st == DYD_OK && o.bounds) st = dyd_abi_check(o.bounds, sizeof *o.bounds, "dyd_voronoi_bounds", err);
   if (st != DYD_OK) return st;
   const dyd_delaunay *pd = result_of(e, err);
-  if (!pd) return DYD_E_ARG;
+  if (!pd || refuse_layer(o.layer, DYD_CONTENT_VORONOI, err) != DYD_OK) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd))
     return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise --max-pairs");
   dyd_diagram d;
   dyd_voronoi_bounds bounds;
   dyd_voronoi_bounds_init(&bounds);
   st = dyd_diagram_init(&d, out, e, &o, &bounds, err);
-  if (st == DYD_OK) st = tell_fineness(dyd_format_write(out, format, DYD_CONTENT_VORONOI, &d, err), &d, err);
+  if (st == DYD_OK)
+    st = tell_fineness(dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_VORONOI), &d, err), &d, err);
   if (st == DYD_OK && o.bounds) {
     dyd_dyadic_swap(&o.bounds->area, &bounds.area);
     dyd_dyadic_swap(&o.bounds->hausdorff, &bounds.hausdorff);

@@ -132,10 +132,9 @@ def figure_6():
     points = [(x - h, x + h, y - h, y + h) for x, y in centres]
     legal = {(r['i'], r['j']) for r in rows(dyadel('delaunay', points)) if r['status'] == 'legal'}
     assert {(str(i), '6') for i in range(6)} <= legal and len(legal) >= 12, legal  # a wheel
-    diagram = rows(dyadel('voronoi', points))
-    cells = [r for r in diagram if r['type'] == 'cell']
+    cells = rows(dyadel('voronoi', points))
     assert len(cells) == 7 and all(0 < Fraction(r['area_lo']) < Fraction(r['area_hi']) for r in cells)
-    assert len([r for r in diagram if r['type'] == 'vertex']) == 6
+    assert len(rows(dyadel('voronoi', points, '--layer', 'vertices'))) == 6
     picture('figure6_delaunay', 'delaunay', points)
     picture('figure6_voronoi', 'voronoi', points)
 
