@@ -59,7 +59,8 @@ typedef enum dyd_content {
   DYD_CONTENT_TRIANGLES,
   DYD_CONTENT_VERTICES,
   DYD_CONTENT_REGIONS,
-  DYD_CONTENT_EDGES
+  DYD_CONTENT_EDGES,
+  DYD_CONTENT_PLACES /* the nearest points of many places */
 } dyd_content;
 
 /* Finds a format by its name ("csv"), or by the ending of a file's name ("a/map.svg"); false when there is none. */
@@ -126,10 +127,14 @@ typedef struct dyd_nearest_answer {
   bool sure;
   dyd_outcome outcome;
 } dyd_nearest_answer;
-/* The points of e that are possibly, or the one that is surely nearest. DYD_E_ARG when e has no result, DYD_E_RANGE
- * when doubles cannot hold the picture. */
+/* The points of e that are possibly, or the one that is surely nearest, with bounds of their distances. DYD_E_ARG when
+ * e has no result, DYD_E_RANGE when doubles cannot hold the picture. */
 DYD_API dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_answer *answer,
                                      dyd_format format, dyd_error *err);
+
+/* The same of many places, numbered from 0; outcome: of all of them. */
+DYD_API dyd_status dyd_write_places(FILE *out, const dyd_engine *e, const dyd_nearest_answer *const *answer,
+                                    size_t count, dyd_outcome outcome, dyd_format format, dyd_error *err);
 
 /* Writes a table of convergence; DYD_E_ARG when there was no run. Bounds and widths are rounded up, and the output says
  * so. times = false leaves the seconds out: then equal runs give equal bytes. */

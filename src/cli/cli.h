@@ -28,10 +28,11 @@ enum {
 /* All texts borrowed from argv; NULL where an option was not given, unless said otherwise. */
 typedef struct cli_options {
   const char *command;
-  const char *file;   /* the points file, or the certificate of verify; NULL with an oracle */
-  const char *points; /* verify: the points file */
-  const char *at[2];  /* X Y of nearest */
-  const char *output; /* NULL: standard output */
+  const char *file;    /* the points file, or the certificate of verify; NULL with an oracle */
+  const char *points;  /* verify: the points file */
+  const char *at[2];   /* X Y of nearest */
+  const char *queries; /* or a file of places */
+  const char *output;  /* NULL: standard output */
   dyd_read_options read;
   const char *oracle;
   unsigned oracle_jobs, oracle_batch; /* 0: default */

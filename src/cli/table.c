@@ -62,8 +62,9 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                       DYD_CONTENT_BISECTOR, cli_bisector},
     [CLI_NEAREST] = {"nearest", "FILE X Y", "which points are surely, which are possibly nearest to a place",
                      "The points that are nearest to the place (X,Y), coordinates of any form: sure when\n"
-                     "exactly one is, whatever the points in the rectangles are; possible otherwise. The\n"
-                     "place and the points concerned are refined until one is sure.",
+                     "exactly one is, whatever the points in the rectangles are; possible otherwise; with\n"
+                     "bounds of the distance. The place and the points concerned are refined until one is\n"
+                     "sure. --queries FILE asks of many places at once.",
                      DYD_CONTENT_NEAREST, cli_nearest},
 };
 
@@ -95,6 +96,9 @@ const cli_option cli_option_table[] = {
      AT(oracle_batch), RANGE(1, DYD_ORACLE_MAX_BATCH)},
     {"oracle-timeout", 0, "SECONDS", CLI_SECONDS, READ, CLI_INPUT, "wait so long for a line of a program (default 30)",
      AT(oracle_timeout)},
+
+    {"queries", 0, "FILE", CLI_FILE, BIT(CLI_NEAREST), CLI_INPUT,
+     "in place of X Y: a file of places, in the forms of a points\nfile; one triangulation answers all", AT(queries)},
 
     {"until", 0, "GOAL", CLI_GOAL, RUN, CLI_REFINEMENT, "decided (default), area:M or hausdorff:M (bound 2^-M)",
      AT(engine)},

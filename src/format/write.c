@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The writers of the library: each makes what is to be written ready, and the table of formats does the rest. */
 #include "base/abi.h"
+#include "base/alloc.h"
 #include "base/error.h"
 #include "format/table.h"
 #include "io/diagram.h"
@@ -150,13 +151,40 @@ dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_rect *b, d
   return st;
 }
 
+/* The answers as this library knows them are in own[0 .. count - 1]. */
+static dyd_status write_answers(FILE *out, const dyd_engine *e, dyd_nearest_answer *own, dyd_nearest_output *what,
+                                dyd_content content, dyd_format format, dyd_error *err) {
+  const dyd_nearest_answer *const *given = what->answer;
+  const dyd_nearest_answer **taken = dyd_alloc(what->count, sizeof(const dyd_nearest_answer *));
+  dyd_status st = taken ? DYD_OK : dyd_fail(err, DYD_E_NOMEM, "%s", dyd_status_text(DYD_E_NOMEM));
+  for (size_t q = 0; q < what->count && st == DYD_OK; q++) {
+    st = dyd_abi_take(&own[q], sizeof own[q], given[q], "dyd_nearest_answer", err);
+    if (st == DYD_OK && (!own[q].at || !own[q].found))
+      st = dyd_fail(err, DYD_E_ARG, "there is no answer to be written");
+    if (st == DYD_OK) taken[q] = &own[q];
+  }
+  what->answer = taken;
+  if (st == DYD_OK) what->pd = result_of(e, err);
+  if (st == DYD_OK) st = what->pd ? dyd_format_write(out, format, content, what, err) : DYD_E_ARG;
+  free(taken);
+  return st;
+}
+
 dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_answer *answer, dyd_format format,
                              dyd_error *err) {
   if (err) dyd_error_clear(err);
-  dyd_nearest_answer a;
-  if (dyd_abi_take(&a, sizeof a, answer, "dyd_nearest_answer", err) != DYD_OK) return DYD_E_ARG;
-  if (!a.at || !a.found) return dyd_fail(err, DYD_E_ARG, "there is no answer to be written");
-  const dyd_delaunay *pd = result_of(e, err);
-  if (!pd) return DYD_E_ARG;
-  return dyd_format_write(out, format, DYD_CONTENT_NEAREST, &(dyd_nearest_output){pd, &a}, err);
+  dyd_nearest_answer own;
+  dyd_nearest_output what = {.answer = &answer, .count = 1};
+  return write_answers(out, e, &own, &what, DYD_CONTENT_NEAREST, format, err);
+}
+
+dyd_status dyd_write_places(FILE *out, const dyd_engine *e, const dyd_nearest_answer *const *answer, size_t count,
+                            dyd_outcome outcome, dyd_format format, dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  dyd_nearest_answer *own = dyd_alloc(count, sizeof *own);
+  if (!own) return dyd_fail(err, DYD_E_NOMEM, "%s", dyd_status_text(DYD_E_NOMEM));
+  dyd_nearest_output what = {.answer = answer, .count = count, .outcome = outcome};
+  dyd_status st = write_answers(out, e, own, &what, DYD_CONTENT_PLACES, format, err);
+  free(own);
+  return st;
 }

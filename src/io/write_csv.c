@@ -8,4 +8,5 @@ dyd_writer *const dyd_csv_writers[DYD_CONTENTS] = {
     [DYD_CONTENT_VERTICES] = dyd_layer_vertices,   [DYD_CONTENT_REGIONS] = dyd_layer_regions,
     [DYD_CONTENT_EDGES] = dyd_layer_edges,         [DYD_CONTENT_CONVERGENCE] = dyd_convergence_csv,
     [DYD_CONTENT_CHECK] = dyd_check_csv,           [DYD_CONTENT_DISC] = dyd_disc_csv,
-    [DYD_CONTENT_BISECTOR] = dyd_bisector_csv,     [DYD_CONTENT_NEAREST] = dyd_nearest_csv};
+    [DYD_CONTENT_BISECTOR] = dyd_bisector_csv,     [DYD_CONTENT_NEAREST] = dyd_nearest_csv,
+    [DYD_CONTENT_PLACES] = dyd_places_csv};

@@ -179,8 +179,8 @@ static void nearest_inside(cairo_t *cr, void *context) {
 
 dyd_status dyd_nearest_picture(const dyd_output *o) {
   const dyd_nearest_output *n = o->what;
-  nearest_drawing g = {.pd = n->pd, .sites = dyd_delaunay_sites(n->pd), .answer = n->answer};
-  dyd_rect_get_d(g.place, n->answer->at);
+  nearest_drawing g = {.pd = n->pd, .sites = dyd_delaunay_sites(n->pd), .answer = n->answer[0]};
+  dyd_rect_get_d(g.place, g.answer->at);
   find_distances(&g);
   dyd_status st = nearest_view(&g, o->err);
   return st == DYD_OK ? dyd_view_write(o, &g.view, nearest_inside, nearest_legend, &g) : st;

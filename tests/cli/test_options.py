@@ -35,7 +35,7 @@ WRONG = {
 }
 RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--until': 'decided'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
-TEXTS = {'--columns', '--radius', '--oracle', '--output', '--trace', '--replay', '--certificate'}
+TEXTS = {'--queries', '--columns', '--radius', '--oracle', '--output', '--trace', '--replay', '--certificate'}
 
 
 def help_of(*command):

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-enum { CONTENTS = DYD_CONTENT_EDGES + 1 };
+enum { CONTENTS = DYD_CONTENT_PLACES + 1 };
 
 static void test_names(void **state) {
   (void)state;
@@ -97,6 +97,8 @@ static dyd_status write_content(FILE *out, const example *x, dyd_content content
   case DYD_CONTENT_EDGES:
     return dyd_write_voronoi(out, x->e, &(dyd_voronoi_options){DYD_SIZED(dyd_voronoi_options), .layer = content},
                              format, err);
+  case DYD_CONTENT_PLACES:
+    return dyd_write_places(out, x->e, &(const dyd_nearest_answer *){&answer}, 1, DYD_OUTCOME_DECIDED, format, err);
   default:
     return dyd_write_nearest(out, x->e, &answer, format, err);
   }
