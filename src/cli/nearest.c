@@ -73,7 +73,7 @@ static int places_read(query *q) {
   return status;
 }
 
-static void query_clear(query *q) {
+static void places_clear(query *q) {
   for (size_t k = 0; k < q->count; k++) {
     dyd_index_list_clear(&q->place[k].found);
     dyd_stream_free(q->place[k].at);
@@ -203,6 +203,6 @@ int cli_nearest(const cli_options *o) {
       status = cli_session_close(&s, status);
     }
   }
-  query_clear(&q);
+  places_clear(&q);
   return status;
 }

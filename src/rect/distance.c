@@ -7,7 +7,7 @@
 #include <mpfr.h>
 
 /* *out += d^2 for d = max(p - q, r - s, 0). */
-static void add_gap2(mpq_ptr out, mpq_srcptr p, mpq_srcptr q, mpq_srcptr r, mpq_srcptr s) {
+static void add_apart2(mpq_ptr out, mpq_srcptr p, mpq_srcptr q, mpq_srcptr r, mpq_srcptr s) {
   mpq_t d[2];
   mpq_inits(d[0], d[1], NULL);
   mpq_sub(d[0], p, q);
@@ -36,8 +36,8 @@ void dyd_rect_distance(double *lo, double *hi, const dyd_rect *a, const dyd_rect
   for (int axis = 0; axis < 2; axis++) {
     dyd_interval_get_q(e[0][0], e[0][1], axis ? &a->y : &a->x);
     dyd_interval_get_q(e[1][0], e[1][1], axis ? &b->y : &b->x);
-    add_gap2(least, e[1][0], e[0][1], e[0][0], e[1][1]);
-    add_gap2(largest, e[1][1], e[0][0], e[0][1], e[1][0]);
+    add_apart2(least, e[1][0], e[0][1], e[0][0], e[1][1]);
+    add_apart2(largest, e[1][1], e[0][0], e[0][1], e[1][0]);
   }
   *lo = root_of(least, MPFR_RNDD);
   *hi = root_of(largest, MPFR_RNDU);
