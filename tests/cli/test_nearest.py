@@ -10,9 +10,9 @@ import os
 import random
 import re
 import tempfile
-import xml.etree.ElementTree
 from fractions import Fraction
 
+import svg
 from harness import DATA, expect, main, run
 
 SITES = '0 0\n2*sqrt(2) 0\n0 10\n0 0\n10 10\n'
@@ -74,25 +74,18 @@ def test_json():
 
 def svg_of(*args, stdin):
     result = run('nearest', '--format', 'svg', *args, stdin=stdin)
-    return result, xml.etree.ElementTree.fromstring(result.out)
-
-
-def fills(root):
-    """Whether cairo writes them as attributes or within styles."""
-    text = xml.etree.ElementTree.tostring(root, encoding='unicode')
-    return {rgb.replace(' ', '') for rgb in re.findall(r'fill(?:="|: ?)(rgb\([^)]*\))', text)}
+    return result, {p.look['fill'] for p in svg.paths(result.out)}
 
 
 def test_picture():
     """Sure ones are blue, possible ones vermillion, the band is there when it has an area."""
-    blue, vermillion = 'rgb(0%,44.705882%,69.803922%)', 'rgb(83.529412%,36.862745%,0%)'
-    band = 'rgb(90.196078%,62.352941%,0%)'
-    result, root = svg_of('-', '1', '1', stdin=SITES)
+    blue, vermillion, band = '#0072b2', '#d55e00', '#e69f00'
+    result, fills = svg_of('-', '1', '1', stdin=SITES)
     expect(result, 0, '', r'\A\Z')
-    assert blue in fills(root) and vermillion not in fills(root), fills(root)
-    result, root = svg_of('--radius', '2', '-', '5', '0', stdin='0 0\n10 0\n')
+    assert blue in fills and vermillion not in fills, fills
+    result, fills = svg_of('--radius', '2', '-', '5', '0', stdin='0 0\n10 0\n')
     expect(result, 3, '', 'fixpoint: 2 possibly nearest')
-    assert {vermillion, band} <= fills(root), fills(root)
+    assert {vermillion, band} <= fills, fills
     for text, x, y, code in (('', '0', '0', 3), ('1 1\n', '1', '1', 0), ('[0,9] [0,9]\n1 1\n', '[2,3]', '4', 3),
                              ('1e-300 0\n-1e-300 0\n', '0', '1', 3)):
         result = run('nearest', '--quiet', '--format', 'svg', '-', x, y, stdin=text)

@@ -11,8 +11,10 @@ import csv
 import os
 import subprocess
 import sys
-import xml.etree.ElementTree
 from fractions import Fraction
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, 'cli'))
+import svg  # pylint: disable=wrong-import-position
 
 COMMAND, FOLDER = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 NAME = {'line': 'bisector', 'parabola': 'parabola'}  # of the command, of the paper
@@ -36,19 +38,17 @@ def rows(output):
 
 
 def picture(name, what, points, *options):
-    """Writes the svg; its elements by tag."""
+    """Writes the svg; its paths."""
     path = os.path.join(FOLDER, name + '.svg')
     dyadel(what, points, '--format', 'svg', '-o', path, *options)
-    elements = {}
-    for e in xml.etree.ElementTree.parse(path).getroot().iter():
-        elements.setdefault(e.tag.rsplit('}', 1)[-1], []).append(e)
     print('wrote', path)
-    return elements
+    with open(path, encoding='utf-8') as f:
+        return svg.paths(f.read())
 
 
-def dashed_curves(elements):
+def dashed_curves(paths):
     """Curved strokes drawn dashed (the legend has straight ones)."""
-    return sum('stroke-dasharray' in e.get('style', '') and 'C' in e.get('d') for e in elements['path'])
+    return sum('stroke-dasharray' in p.look and any(c in p.look['d'] for c in 'CA') for p in paths)
 
 
 def is_drawn(elements, table):
