@@ -51,7 +51,7 @@ static const struct {
               {10, 0xe08a4a, "10-29"}, {30, 0xb65f24, "30-99"}, {100, 0x8c3d00, "more"}};
 enum { LEVELS = sizeof levels / sizeof *levels };
 
-static unsigned level_of(uint32_t count) {
+static unsigned density_level(uint32_t count) {
   unsigned k = LEVELS;
   while (k > 0 && count < levels[k - 1].from) k--;
   return k;
@@ -65,8 +65,8 @@ void dyd_density_draw(dyd_canvas *c, const dyd_density *d) {
     for (size_t y = 0; y < d->rows; y++)
       for (size_t x = 0, end; x < d->columns; x = end) {
         const uint32_t *row = d->count + y * d->columns;
-        for (end = x + 1; end < d->columns && level_of(row[end]) == level_of(row[x]);) end++;
-        if (level_of(row[x]) != level) continue;
+        for (end = x + 1; end < d->columns && density_level(row[end]) == density_level(row[x]);) end++;
+        if (density_level(row[x]) != level) continue;
         dyd_canvas_box(c, f[0] + SQUARE * (double)x, f[2] + SQUARE * (double)y, SQUARE * (double)(end - x), SQUARE);
         any = true;
       }
@@ -77,7 +77,7 @@ void dyd_density_draw(dyd_canvas *c, const dyd_density *d) {
 void dyd_density_legend(dyd_legend *l, const dyd_density *d, const char *what) {
   bool seen[LEVELS + 1] = {false};
   char text[120];
-  for (size_t k = 0; k < d->columns * d->rows; k++) seen[level_of(d->count[k])] = true;
+  for (size_t k = 0; k < d->columns * d->rows; k++) seen[density_level(d->count[k])] = true;
   bool first = true;
   for (unsigned level = 1; level <= LEVELS; level++) {
     if (!seen[level]) continue;

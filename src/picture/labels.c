@@ -33,7 +33,7 @@ static squares squares_of(const dyd_labels *l, const double z[4]) {
   return s;
 }
 
-static void take(dyd_labels *l, const double z[4]) {
+static void take_squares(dyd_labels *l, const double z[4]) {
   squares s = squares_of(l, z);
   for (size_t y = s.y0; y < s.y1; y++)
     for (size_t x = s.x0; x < s.x1; x++) l->taken[y * l->columns + x] = 1;
@@ -60,7 +60,7 @@ static void page_box(double z[4], const dyd_view *v, const double box[4]) {
 void dyd_labels_keep_off(dyd_labels *l, const double box[4]) {
   double z[4];
   page_box(z, l->view, box);
-  if (dyd_view_sees(l->view, box)) take(l, z);
+  if (dyd_view_sees(l->view, box)) take_squares(l, z);
 }
 
 void dyd_labels_put(dyd_labels *l, dyd_canvas *c, const double box[4], double size, size_t number) {
@@ -78,7 +78,7 @@ void dyd_labels_put(dyd_labels *l, dyd_canvas *c, const double box[4], double si
     z[2] = down > 0 ? b[3] + gap : down < 0 ? b[2] - gap - high : (b[2] + b[3] - high) / 2;
     z[1] = z[0] + wide, z[3] = z[2] + high;
     if (!is_free(l, z)) continue;
-    take(l, z);
+    take_squares(l, z);
     dyd_canvas_text(c, z[0], z[3], 0, size, true, text);
     return;
   }

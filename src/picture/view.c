@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Views: which part of the plane a picture shows, where it is on the page, and the frame around it. */
+/* Views: which part of the plane a picture shows, where it is on the page. */
 #include "base/error.h"
 #include "picture/picture.h"
 #include <math.h>
@@ -7,7 +7,6 @@
 
 #define SIDE 1000.0 /* of the drawing */
 #define EDGE DYD_VIEW_EDGE
-#define FOOT 140.0 /* room of coordinates and legend */
 
 /* ---- what is shown ---- */
 
@@ -108,17 +107,4 @@ bool dyd_view_sees(const dyd_view *v, const double box[4]) {
 
 void dyd_view_frame_path(dyd_canvas *c, const dyd_view *v) {
   dyd_canvas_box(c, v->frame[0], v->frame[2], v->frame[1] - v->frame[0], v->frame[3] - v->frame[2]);
-}
-
-dyd_status dyd_view_write(const dyd_output *o, const dyd_view *v, const char *title, dyd_draw_fn inside,
-                          dyd_draw_fn legend, void *context) {
-  dyd_canvas *c = dyd_canvas_new(o, ceil(v->width + DYD_VIEW_LEFT + EDGE), ceil(v->height + EDGE + FOOT), title);
-  if (!c) return DYD_E_NOMEM;
-  dyd_view_frame_path(c, v);
-  dyd_canvas_clip(c);
-  inside(c, context);
-  dyd_canvas_unclip(c);
-  dyd_axes_draw(c, v);
-  legend(c, context);
-  return dyd_canvas_end(c, DYD_OK, o->err);
 }
