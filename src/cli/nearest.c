@@ -147,7 +147,7 @@ static dyd_status write_answer(FILE *out, const void *what, const cli_options *o
   return st;
 }
 
-static const char *outcome_reason(dyd_outcome outcome) {
+static const char *nearest_reason(dyd_outcome outcome) {
   if (outcome == DYD_OUTCOME_FIXPOINT) return "no refinement can decide: an exact tie or fixed rectangles";
   if (outcome == DYD_OUTCOME_BUDGET)
     return "the precision or time is used up; raise --max-bits or --timeout, unless the distances are equal";
@@ -157,7 +157,7 @@ static const char *outcome_reason(dyd_outcome outcome) {
 static void note_outcome(const query *q) {
   size_t open = 0;
   if (q->outcome == DYD_OUTCOME_DECIDED) return;
-  const char *outcome = dyd_outcome_text(q->outcome), *why = outcome_reason(q->outcome);
+  const char *outcome = dyd_outcome_text(q->outcome), *why = nearest_reason(q->outcome);
   if (!q->options->queries) {
     cli_complain("%s: %zu possibly nearest; %s", outcome, q->place[0].found.count, why);
     return;

@@ -14,7 +14,7 @@ static const double full_turn = 6.283185307179586;
 
 /* ---- the path ---- */
 
-static void add_step(dyd_canvas *c, dyd_path_step step) {
+static void path_add(dyd_canvas *c, dyd_path_step step) {
   if (!dyd_reserve((void **)&c->step, &c->cap, c->count + 1, sizeof *c->step))
     c->failed = true;
   else
@@ -22,23 +22,23 @@ static void add_step(dyd_canvas *c, dyd_path_step step) {
 }
 
 void dyd_canvas_move(dyd_canvas *c, double x, double y) {
-  add_step(c, (dyd_path_step){DYD_STROKE_MOVE, {x, y}});
+  path_add(c, (dyd_path_step){DYD_STROKE_MOVE, {x, y}});
 }
 
 void dyd_canvas_line(dyd_canvas *c, double x, double y) {
-  add_step(c, (dyd_path_step){c->count ? DYD_STROKE_LINE : DYD_STROKE_MOVE, {x, y}});
+  path_add(c, (dyd_path_step){c->count ? DYD_STROKE_LINE : DYD_STROKE_MOVE, {x, y}});
 }
 
 void dyd_canvas_curve(dyd_canvas *c, double x1, double y1, double x2, double y2, double x, double y) {
-  add_step(c, (dyd_path_step){DYD_STROKE_CURVE, {x1, y1, x2, y2, x, y}});
+  path_add(c, (dyd_path_step){DYD_STROKE_CURVE, {x1, y1, x2, y2, x, y}});
 }
 
 void dyd_canvas_arc(dyd_canvas *c, double x, double y, double radius, double from, double to) {
-  add_step(c, (dyd_path_step){DYD_STROKE_ARC, {x, y, radius, from, to}});
+  path_add(c, (dyd_path_step){DYD_STROKE_ARC, {x, y, radius, from, to}});
 }
 
 void dyd_canvas_close(dyd_canvas *c) {
-  add_step(c, (dyd_path_step){.kind = DYD_STROKE_CLOSE});
+  path_add(c, (dyd_path_step){.kind = DYD_STROKE_CLOSE});
 }
 
 void dyd_canvas_circle(dyd_canvas *c, double x, double y, double radius) {
