@@ -53,7 +53,8 @@ typedef struct dyd_converge_options {
 
 /* Runs e as dyd_engine_run does, callbacks of options included, and notes a row after each stage. *out, given cleared,
  * holds the rows of the stages that were complete, whatever is returned. Returns what dyd_engine_run returns, or
- * DYD_E_NOMEM with outcome cancelled. converge may be NULL. Each row costs O(N log N + pairs). */
+ * DYD_E_NOMEM with outcome cancelled. converge may be NULL. A Voronoi goal without a window in options is about the
+ * window of converge, or about the default one after the first stage. Each row costs O(N log N + pairs). */
 DYD_API dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engine_options *options,
                                     const dyd_converge_options *converge, dyd_error *err);
 

@@ -24,7 +24,8 @@ typedef enum dyd_outcome {
   DYD_OUTCOME_FIXPOINT,  /* nothing undecided can be refined: exact ties, fixed rectangles */
   DYD_OUTCOME_BUDGET,    /* bits, stages, calls, pairs or seconds spent */
   DYD_OUTCOME_CANCELLED,
-  DYD_OUTCOME_ERROR /* a stream failed or memory ran out; what was stated before stays valid */
+  DYD_OUTCOME_ERROR /* a stream failed or memory ran out; what was stated before stays valid. (GMP, MPFR and FLINT end
+                       the process when they run out of memory: bound max_bits, or set handlers of theirs.) */
 } dyd_outcome;
 /* "decided", "certified", ... Static storage. */
 DYD_API const char *dyd_outcome_text(dyd_outcome outcome);
@@ -153,6 +154,16 @@ DYD_API dyd_status dyd_engine_add_stream(dyd_engine *e, dyd_stream *s);
  * when the engine is freed. */
 DYD_API dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err);
 DYD_API size_t dyd_engine_count(const dyd_engine *e);
+
+/* What point i is called in the file it was read from (dyd_read_options): its row, counted from 0, rows without a point
+ * included; other points are rows of their own, in the order of adding. So it is i unless rows were left out or merged.
+ * Writers of results name points by their rows; errors, traces and certificates by i. e NULL: i. O(1). */
+DYD_API size_t dyd_engine_row(const dyd_engine *e, size_t i);
+/* Its identifier, "" without one; NULL: no point has one. Terminated, any bytes; borrowed until points are added. */
+DYD_API const char *dyd_engine_id(const dyd_engine *e, size_t i);
+/* The k-th row, ascending, that was taken as one with an earlier one, and the point that stands for both; false: there
+ * are no more. */
+DYD_API bool dyd_engine_merged(size_t *row, size_t *point, const dyd_engine *e, size_t k);
 
 /* Runs until exactly one outcome holds; may be called again with other options to go on from there: what was
  * stated stays stated. options may be NULL.

@@ -12,15 +12,34 @@
 extern "C" {
 #endif
 
+/* What a file held. Begun with DYD_SIZED. */
+typedef struct dyd_read_report {
+  size_t struct_size;
+  size_t rows;    /* lines with a point, or records behind the header; also those that gave no point */
+  size_t missing; /* rows left out by skip_missing */
+  size_t merged;  /* rows taken as one with an earlier one by merge */
+  size_t shared;  /* rectangles whose centre is that of another one, which leaves their neighbours undecided */
+} dyd_read_report;
+
+/* Columns are named as in the header (quoted as in RFC 4180 when they hold commas; capitals count only where names
+ * differ by them alone), or by their numbers from 1. What was left out or merged: dyd_engine_row, dyd_engine_merged. */
 typedef struct dyd_read_options {
   size_t struct_size; /* set by DYD_SIZED */
   const char
-      *columns;       /* "NAME,NAME": read CSV with a header (RFC 4180) and take these two columns; NULL: points file */
-  bool measured;      /* read every decimal as a rounded measurement: 47.61 becomes [47.605,47.615] */
-  const char *radius; /* an exact number: widen every point by it on each side; NULL: none */
+      *columns;  /* "NAME,NAME": read separated text with a header (RFC 4180), these are x and y; NULL: points file */
+  bool measured; /* read every decimal as a rounded measurement: 47.61 becomes [47.605,47.615] */
+  const char *radius;         /* an exact number: widen every point by it on each side; NULL: none */
+  const char *radius_columns; /* "NAME" or "NAME,NAME": widen each point by these columns as well, in x and y */
+  const char *id;             /* "NAME": the column of identifiers (dyd_engine_id) */
+  const char *delimiter;      /* one character, or "tab"; NULL: of , ; tab and | the one that suits the header */
+  bool decimal_comma;         /* 47,61 is 47.61; commas within parentheses and brackets separate all the same */
+  bool skip_missing;          /* leave out rows with an empty field, NA, NaN or null for a coordinate or radius */
+  bool merge;                 /* equal nominal coordinates are one point: with the smaller radius */
+  dyd_read_report *report;    /* receives what was read; NULL: nowhere */
 } dyd_read_options;
 
-/* Reads points from `in` up to its end and adds them to e (nothing is added on failure). options may be NULL.
+/* Reads points from `in` up to its end and adds them to e (nothing is added on failure). What gzip or zstd packed is
+ * read as it is. options may be NULL.
  * On DYD_E_PARSE err has line, column and a message with the remedy. */
 DYD_API dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *options, dyd_error *err);
 
@@ -63,9 +82,15 @@ typedef enum dyd_content {
   DYD_CONTENT_PLACES /* the nearest points of many places */
 } dyd_content;
 
-/* Finds a format by its name ("csv"), or by the ending of a file's name ("a/map.svg"); false when there is none. */
+/* Finds a format by its name ("csv"), or by the ending of a file's name ("a/map.svg", in any case); false when there is
+ * none. */
 DYD_API bool dyd_format_from_name(dyd_format *out, const char *name);
 DYD_API bool dyd_format_from_file(dyd_format *out, const char *file);
+/* Does the ending of the file's name suit the format? Any does that no other format has; csv suits wkt, json geojson.
+ */
+DYD_API bool dyd_format_suits_file(dyd_format format, const char *file);
+/* Is it other than text? */
+DYD_API bool dyd_format_is_binary(dyd_format format);
 /* The name of a format; NULL behind the last one, so that counting up from 0 lists them all. Static storage. */
 DYD_API const char *dyd_format_name(dyd_format format);
 /* What it is, in words without a full stop; NULL as above. Static storage. */
@@ -100,8 +125,13 @@ typedef struct dyd_voronoi_options {
   int64_t flatten_bits;       /* polygons within 2^-flatten_bits of their cells */
   bool flatten_set;           /* false: a choice that suits the mean size of cells */
   dyd_voronoi_bounds *bounds; /* initialised by the caller; receives the bounds that were written; may be NULL */
-  dyd_content layer;          /* what csv, wkt and geojson hold; DYD_CONTENT_NONE: the cells */
-  unsigned epsg;              /* as in dyd_delaunay_output */
+  /* Once *cancel is set the rest is written quickly, and true all the same: nothing of a cell is sure, all of the
+   * window possible; boundaries are null in json; regions are the window, vertices unbounded, the distance is not
+   * known. May be NULL. cut: how many cells and regions that befell; may be NULL. */
+  const volatile int *cancel;
+  size_t *cut;
+  dyd_content layer; /* what csv, wkt and geojson hold; DYD_CONTENT_NONE: the cells */
+  unsigned epsg;     /* as in dyd_delaunay_output */
 } dyd_voronoi_options;
 
 /* Writes the Voronoi diagram of the current result of e. o may be NULL.
@@ -118,6 +148,12 @@ DYD_API dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_re
  * partial centre, and Con of r[3 .. n-1]. DYD_E_ARG for n < 3, DYD_E_RANGE when doubles cannot hold the picture. */
 DYD_API dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome, dyd_format format,
                                   dyd_error *err);
+
+/* The same of the first two, or the first n, points of e: rows and identifiers name them. */
+DYD_API dyd_status dyd_write_bisector_named(FILE *out, const dyd_engine *e, const dyd_rect *a, const dyd_rect *b,
+                                            dyd_outcome outcome, dyd_format format, dyd_error *err);
+DYD_API dyd_status dyd_write_disc_named(FILE *out, const dyd_engine *e, const dyd_rect *const *r, size_t n,
+                                        dyd_outcome outcome, dyd_format format, dyd_error *err);
 
 /* What dyd_engine_nearest found; all borrowed. Begun with DYD_SIZED. */
 typedef struct dyd_nearest_answer {

@@ -136,3 +136,41 @@ Proof.
   exists (mix t z y). split; [exact G |]. rewrite dist_mix_left by lra. pose proof (dist_nonneg z y).
   assert (t * dist z y <= 1 * dist z y) by (apply Rmult_le_compat_r; lra). lra.
 Qed.
+
+(* ---- where rectangles meet ---- *)
+
+(* A chosen point other than the nearest is not nearer to z than the diagram. *)
+Lemma other_point_near N p i k z h : (i < N)%nat -> (k < N)%nat -> cell N p i z -> p k <> p i -> dist z (p k) <= h ->
+  exists w, diagram N p w /\ dist z w <= h.
+Proof.
+  intros I K C D H.
+  destruct (way_meets_diagram N p i k z (p k) I K D C) as [t [T G]]; [rewrite dist_self; apply dist_nonneg |].
+  exists (mix t z (p k)). split; [exact G |]. rewrite dist_mix_left by lra. pose proof (dist_nonneg z (p k)).
+  assert (t * dist z (p k) <= 1 * dist z (p k)) by (apply Rmult_le_compat_r; lra). lra.
+Qed.
+
+Definition apart (A B : rect) : Prop := forall x, inside x A -> ~ inside x B.
+
+Lemma apart_differ N B p i k : choice N B p -> (i < N)%nat -> (k < N)%nat -> apart (B i) (B k) -> p k <> p i.
+Proof. intros P I K A E. apply (A (p i) (P i I)). rewrite <- E. now apply P. Qed.
+
+(* The true diagram is within h of z if for every site that is possibly nearest to z there is a rectangle apart from its
+   own with dl at most h, or are two such rectangles that are apart from one another. *)
+Theorem voronoi_second N B p z h : (1 <= N)%nat -> choice N B p ->
+  (forall i, (i < N)%nat -> pos N B i z ->
+    (exists k, (k < N)%nat /\ apart (B i) (B k) /\ dl z (B k) <= h) \/
+    (exists k l, (k < N)%nat /\ (l < N)%nat /\ apart (B k) (B l) /\ dl z (B k) <= h /\ dl z (B l) <= h)) ->
+  exists w, diagram N p w /\ dist z w <= h.
+Proof.
+  intros N1 P H.
+  destruct (finite_min (fun _ => True) (fun k => dist z (p k)) N) as [i [I [_ Li]]].
+  { exists 0%nat. split; [lia | exact Logic.I]. }
+  assert (C : cell N p i z) by (intros k K; now apply Li).
+  assert (Near : forall k, (k < N)%nat -> dl z (B k) <= h -> p k <> p i -> exists w, diagram N p w /\ dist z w <= h).
+  { intros k K L D. apply (other_point_near N p i k); auto. pose proof (le_dl z _ _ (P k K)). lra. }
+  destruct (H i I) as [[k [K [A L]]] | [k [l [K [L [A [Dk Dl]]]]]]].
+  - apply pos_exact; [exact I | now exists p].
+  - apply (Near k K L). now apply (apart_differ N B p i k).
+  - destruct (classic (p k = p i)) as [E | E]; [| now apply (Near k)].
+    apply (Near l L Dl). rewrite <- E. now apply (apart_differ N B p k l).
+Qed.

@@ -4,9 +4,11 @@
  * For a box Q let S be the sites that are possibly nearest somewhere in it as far as distances of boxes tell: ds_k(Q)
  * is not above the least dl(Q). A point z of Q that is surely nearest to no site has, for a choice p, a nearest site a
  * and another one j that is possibly nearest at z, both in S [CERT-7]. It is at most dl_k(Q) from the diagram, for each
- * k of S whose rectangle is disjoint from that of a, and, if those of a and j are, (diam R_a + diam R_j) (dl_a(Q) +
- * dl_j(Q)) / (2 dist(R_a, R_j)). A box for which neither gives the bound for all a and j is cut in four; S of a part is
- * within S of the whole. All is done in integers, on a grid of 2^-36 of the window, rounded to the safe side. */
+ * site k whose rectangle is disjoint from that of a; and, if those of a and j are, (diam R_a + diam R_j) (dl_a(Q) +
+ * dl_j(Q)) / (2 dist(R_a, R_j)). Of two sites k that are disjoint from each other one will do for any a. A box for
+ * which none of this gives the bound for all a and j is cut in four. Sites within the bound of Q are of use as k,
+ * others only in S; both of a part are among those of the whole. All is done in integers, on a grid of 2^-36 of the
+ * window, rounded to the safe side. */
 #include "checker/distance.h"
 #include "base/alloc.h"
 #include "checker/tree.h"
@@ -242,8 +244,22 @@ static uint64_t far_root(search *s, const grid_box *q, const grid_site *g) {
   return mpz_get_ui(s->root) + (mpz_sgn(s->rest) != 0);
 }
 
-/* Is every undetermined point of q near the diagram? list has 2 .. MANY sites. */
-static bool box_pairs_hold(search *s, const grid_box *q, const uint32_t *list, size_t count) {
+/* Are there two sites of the list, disjoint from each other, within the bound of all points of q? Tried with the first
+ * few of those within it. */
+static bool has_two_near_sites(search *s, const grid_box *q, const uint32_t *list, size_t count) {
+  dyd_cert_area most = (dyd_cert_area)s->most * s->most;
+  int tried = 0;
+  for (size_t k = 0; k < count && tried < FEW; k++) {
+    if (far_on_grid(q, &s->item[list[k]]) > most) continue;
+    s->effort += count;
+    tried++;
+    if (is_near_site(s, q, &s->item[list[k]], list, count)) return true;
+  }
+  return false;
+}
+
+/* Is every undetermined point of q near the diagram? S is the first `count` of the list, 2 .. MANY. */
+static bool box_pairs_hold(search *s, const grid_box *q, const uint32_t *list, size_t count, size_t all) {
   uint64_t far[MANY];
   bool near[MANY];
   for (size_t k = 0; k < count; k++) {
@@ -251,9 +267,9 @@ static bool box_pairs_hold(search *s, const grid_box *q, const uint32_t *list, s
     if (a->endless) return false;
     far[k] = far_root(s, q, a);
   }
-  s->effort += count * count;
+  s->effort += count * all;
   for (size_t k = 0; k < count; k++) {
-    near[k] = is_near_site(s, q, &s->item[list[k]], list, count);
+    near[k] = is_near_site(s, q, &s->item[list[k]], list, all);
     for (size_t l = 0; l < k; l++) {
       if (near[k] && near[l]) continue;
       s->effort += PAIR_COST;
@@ -265,21 +281,32 @@ static bool box_pairs_hold(search *s, const grid_box *q, const uint32_t *list, s
 
 /* ---- boxes ---- */
 
-/* The sites of list[from .. from+count) that q may belong to, put behind them; returns how many. */
-static size_t box_keep_possible(search *s, const grid_box *q, size_t from, size_t count) {
-  dyd_cert_area least = ~(dyd_cert_area)0;
+/* The sites of list[from .. from+count) of use for q, put behind them: S first, then those within the bound of q.
+ * Returns how many; *possible: of S. */
+static size_t box_keep(size_t *possible, search *s, const grid_box *q, size_t from, size_t count) {
+  dyd_cert_area least = ~(dyd_cert_area)0, most = (dyd_cert_area)s->most * s->most;
   size_t kept = 0;
   s->effort += count;
+  *possible = 0;
   if (!dyd_reserve((void **)&s->list, &s->cap, from + 2 * count, sizeof *s->list)) {
     s->st = DYD_E_NOMEM;
     return 0;
   }
-  for (size_t k = from; k < from + count; k++) {
-    dyd_cert_area far = far_on_grid(q, &s->item[s->list[k]]);
+  uint32_t *in = s->list + from, *out = in + count;
+  for (size_t k = 0; k < count; k++) {
+    dyd_cert_area far = far_on_grid(q, &s->item[in[k]]);
     if (far < least) least = far;
   }
-  for (size_t k = from; k < from + count; k++)
-    if (near_on_grid(q, &s->item[s->list[k]].box) <= least) s->list[from + count + kept++] = s->list[k];
+  for (size_t k = 0; k < count; k++) {
+    dyd_cert_area near = near_on_grid(q, &s->item[in[k]].box);
+    if (near > least && near > most) continue;
+    out[kept] = in[k];
+    if (near <= least) {
+      out[kept] = out[*possible];
+      out[(*possible)++] = in[k];
+    }
+    kept++;
+  }
   return kept;
 }
 
@@ -288,18 +315,18 @@ static bool is_worth_a_look(size_t count, size_t before) {
   return count <= FEW || (count <= SOME && 2 * count > before) || (count <= MANY && 8 * count > 7 * before);
 }
 
-/* before: the sites of the box around q are list[from .. from+before). */
-static bool box_is_covered(search *s, const grid_box *q, size_t from, size_t before) {
-  size_t count = box_keep_possible(s, q, from, before);
+/* around: the sites of the box around q are list[from .. from+around), before of them are of its S. */
+static bool box_is_covered(search *s, const grid_box *q, size_t from, size_t around, size_t before) {
+  size_t possible, count = box_keep(&possible, s, q, from, around);
   if (s->st != DYD_OK || s->effort > s->effort_most) return false;
-  from += before;
-  if (count == 1) return true;
-  if (is_worth_a_look(count, before) && box_pairs_hold(s, q, s->list + from, count)) return true;
+  from += around;
+  if (possible == 1 || has_two_near_sites(s, q, s->list + from, count)) return true;
+  if (is_worth_a_look(possible, before) && box_pairs_hold(s, q, s->list + from, possible, count)) return true;
   if (q->e[1] - q->e[0] < 2 && q->e[3] - q->e[2] < 2) return false;
   int64_t x = q->e[0] + (q->e[1] - q->e[0]) / 2, y = q->e[2] + (q->e[3] - q->e[2]) / 2;
   for (int k = 0; k < 4; k++) {
     grid_box part = {{k & 1 ? x : q->e[0], k & 1 ? q->e[1] : x, k & 2 ? y : q->e[2], k & 2 ? q->e[3] : y}};
-    if (!box_is_covered(s, &part, from, count)) return false;
+    if (!box_is_covered(s, &part, from, count, possible)) return false;
   }
   return true;
 }
@@ -378,7 +405,7 @@ dyd_status dyd_cert_distance_holds(bool *holds, const dyd_cert_sites *sites, con
     s.effort_most = ((uint64_t)s.count + 64) << EFFORT_BITS;
     if (!dyd_reserve((void **)&s.list, &s.cap, s.count, sizeof *s.list)) s.st = DYD_E_NOMEM;
     for (size_t k = 0; s.st == DYD_OK && k < s.count; k++) s.list[k] = (uint32_t)k;
-    *holds = s.st == DYD_OK && s.count && (spans_all(&s, w) || box_is_covered(&s, &window, 0, s.count));
+    *holds = s.st == DYD_OK && s.count && (spans_all(&s, w) || box_is_covered(&s, &window, 0, s.count, s.count));
     *holds &= s.st == DYD_OK;
   }
   distance_search_clear(&s);

@@ -10,6 +10,7 @@
 typedef struct check_input {
   const cli_options *options;
   int status;
+  bool noted; /* points are read for each schedule; notes are told once */
 } check_input;
 
 static dyd_status open_checked_points(dyd_engine **out, void *user, dyd_error *err) {
@@ -17,7 +18,8 @@ static dyd_status open_checked_points(dyd_engine **out, void *user, dyd_error *e
   (void)err;
   dyd_status st = dyd_engine_new(out);
   if (st != DYD_OK) return st;
-  in->status = cli_points_read(*out, in->options);
+  in->status = (in->noted ? cli_points_read : cli_points_read_noting)(*out, in->options);
+  in->noted = true;
   if (!in->status) return DYD_OK;
   dyd_engine_free(*out);
   *out = NULL;
@@ -104,7 +106,7 @@ static int tell_check(const dyd_check_report *r, const cli_options *o) {
 }
 
 int cli_check(const cli_options *o) {
-  check_input in = {o, 0};
+  check_input in = {.options = o};
   dyd_check_options options = {DYD_SIZED(dyd_check_options), .seed = o->seed_set ? o->seed : 1,
                                .schedules = o->schedules, .seconds = o->engine.seconds,
                                .max_bits = o->max_bits_set ? o->engine.max_bits : 0};

@@ -53,10 +53,12 @@ typedef struct cli_options {
   unsigned schedules; /* 0: default */
   bool start_set;     /* engine.start_bits was given */
   bool max_bits_set;
-  bool no_times, no_voronoi;
+  bool no_times, no_voronoi, of_voronoi;
   dyd_voronoi_bounds *bounds; /* voronoi: where the bounds of what is written go */
+  size_t *cut;                /* voronoi: where the number of cells and regions goes that the deadline cut */
   bool stats, quiet, version;
-  const char *help; /* "" (--help), or the kind of --help=KIND */
+  bool accept_fixpoint; /* exit status 0 in place of CLI_FIXPOINT */
+  const char *help;     /* "" (--help), or the kind of --help=KIND */
 } cli_options;
 
 /* options.c: 0, or CLI_USAGE after a message. */
@@ -64,8 +66,12 @@ int cli_options_read(cli_options *out, int argc, char **argv);
 
 /* complain.c: prints "dyadel: ..." to standard error. */
 void cli_complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* The same for what is no failure: --quiet leaves it out. */
+void cli_note(const cli_options *o, const char *format, ...) __attribute__((format(printf, 2, 3)));
 /* "FILE:LINE:COLUMN: point N: message" as far as it is known. file NULL: left out. */
 void cli_complain_at(const char *file, const dyd_error *err);
+/* The same of a point of e, which is named by its row. */
+void cli_complain_of(const dyd_engine *e, const char *file, const dyd_error *err);
 /* Returns CLI_FAILED. */
 int cli_complain_memory(void);
 
@@ -86,13 +92,17 @@ int cli_bisector(const cli_options *o);
 /* oracle.c: adds the points that the programs of --oracle serve. 0, or an exit status after a message. */
 int cli_oracle_read(dyd_engine *e, const cli_options *o);
 
+/* files.c: 0, or CLI_USAGE after a message when an output is an input or another output, or a picture would go to a
+ * terminal. Nothing is read or written. */
+int cli_files_check(const cli_options *o);
+
 /* session.c: an engine with the points of the file (or oracle), and what goes on around it. */
 typedef struct cli_progress cli_progress;
 typedef struct cli_session {
   const cli_options *options; /* borrowed */
   dyd_engine *engine;
-  cli_progress *progress; /* may be NULL */
-  double begun;
+  cli_progress *progress;           /* may be NULL */
+  double begun, share;              /* of the time that is left, the engine's */
   const dyd_voronoi_bounds *bounds; /* of the diagram written, borrowed; NULL: of none */
 } cli_session;
 
@@ -105,8 +115,10 @@ int cli_session_all(const cli_options *o, cli_print_fn print);
 /* The file `name` ("-": standard input), read as bytes; NULL after a message that ends with the advice. */
 FILE *cli_input_open(const char *name, const char *advice);
 void cli_input_close(FILE *in);
-/* Adds the points of the file or oracle to e. 0, or an exit status after a message. */
+/* Adds the points of the file or oracle to e. 0, or an exit status after a message. noting: notes tell what was left
+ * out or is strange. */
 int cli_points_read(dyd_engine *e, const cli_options *o);
+int cli_points_read_noting(dyd_engine *e, const cli_options *o);
 /* The same in steps. Each returns 0, or an exit status after a message; cli_session_close comes after any of them. */
 int cli_session_open(cli_session *s, const cli_options *o);
 /* Runs with options (progress and signals are added). 0 whatever the outcome, DYD_OUTCOME_ERROR aside: then
@@ -128,6 +140,11 @@ int cli_exit_status(dyd_outcome outcome);
 /* goal.c: one line that tells which bound was asked for, which is reached, why it is no better (advice), and what to
  * do. false, and nothing said, where no bound was asked for. */
 bool cli_note_goal(const cli_session *s, const char *advice);
+/* The goals of --until, for the diagram in place of the triangulation. */
+dyd_goal cli_voronoi_goal(dyd_goal goal);
+
+/* notes.c: a line when radii were given and most of the rectangles meet another one. pd may be NULL. */
+void cli_note_spacing(const dyd_delaunay *pd, const cli_options *o);
 
 /* output.c: a result file that appears whole or not at all. */
 typedef struct cli_output {
@@ -138,9 +155,17 @@ typedef struct cli_output {
 /* name NULL: standard output. false after a message. */
 bool cli_output_open(cli_output *out, const char *name);
 /* Makes the file appear under its name; false after a message. */
-bool cli_output_finish(cli_output *out);
+bool cli_output_finish(cli_output *out, const cli_options *o);
 /* Removes what was written so far; nothing to do after cli_output_finish. */
 void cli_output_drop(cli_output *out);
+/* Where writing to the file of this name ends up, links followed, also one that leads to no file; release with free().
+ * NULL: memory is exhausted. */
+char *cli_output_target(const char *name);
+/* Did a reader go away from a pipe before all was written to it? */
+bool cli_output_lost_reader(void);
+/* Writing to the stream, opened as `name` (NULL: standard output), failed. Is it as its reader went away? Then that is
+ * noted, and true. */
+bool cli_output_note_reader(FILE *stream, const char *name, const cli_options *o);
 /* Sees to it that the descriptors 0, 1, 2 are taken, so that no file of ours gets one of them. */
 bool cli_guard_descriptors(void);
 
@@ -148,6 +173,19 @@ bool cli_guard_descriptors(void);
 void cli_signals_cancel(dyd_engine *e);
 /* Signals end the process; the file `temporary` (may be NULL, borrowed) is removed before. */
 void cli_signals_remove(const char *temporary);
+/* Removes that file; async-signal-safe. */
+void cli_signals_unlink(void);
+
+/* deadline.c: what --timeout gives the whole command. seconds <= 0: no limit. */
+void cli_deadline_start(double seconds);
+/* What is being done now, as in "reading"; static text. */
+void cli_deadline_phase(const char *what);
+/* Of the seconds left, such a share, above 0; 0: there is no limit. For options of the engine. */
+double cli_deadline_left(double share);
+/* Set to 1 at the deadline. */
+const volatile int *cli_deadline_flag(void);
+/* Seconds of a clock that only goes forward. */
+double cli_clock(void);
 
 /* progress.c: NULL when quiet or out of memory: all functions take NULL. */
 cli_progress *cli_progress_start(bool quiet);
@@ -160,7 +198,5 @@ void cli_progress_stop(cli_progress *p);
 
 /* stats.c: what --stats prints. `seconds` since the command began. */
 void cli_stats(FILE *out, const dyd_engine *e, double seconds);
-/* Seconds of a clock that only goes forward. */
-double cli_clock(void);
 
 #endif

@@ -51,7 +51,7 @@ static int end_trace(run *r, cli_output *out) {
   dyd_error_clear(&err);
   dyd_status st = dyd_trace_end(r->trace, r->table.outcome, &err);
   r->trace = NULL;
-  if (st == DYD_OK) return cli_output_finish(out) ? 0 : CLI_FAILED;
+  if (st == DYD_OK) return cli_output_finish(out, r->o) ? 0 : CLI_FAILED;
   cli_complain_at(r->o->trace, &err);
   cli_output_drop(out);
   return CLI_FAILED;
@@ -70,25 +70,53 @@ static int run_traced(run *r, cli_session *s, const dyd_engine_options *options)
   return status ? status : ended;
 }
 
+/* The bounds of the diagram in the last row, for the note on the goal. */
+static void take_bounds(dyd_voronoi_bounds *out, cli_session *s, const dyd_convergence *table) {
+  const dyd_stage_row *last = table->count ? table->row[table->count - 1] : NULL;
+  if (!last || !last->voronoi) return;
+  dyd_dyadic_set(&out->area, &last->v_area);
+  dyd_dyadic_set(&out->hausdorff, &last->v_hausdorff);
+  out->finite = true;
+  s->bounds = out;
+}
+
+/* A curve takes more points than geometric growth gives: says which steps do. */
+static void note_steps(const dyd_convergence *table, const cli_options *o) {
+  enum { FEW = 12, ENOUGH = 24 };
+  if (!o->plot || o->quiet || o->engine.step_bits || !table->count || table->count >= FEW) return;
+  int64_t bits = table->row[table->count - 1]->bits_most - table->row[0]->bits_most,
+          step = (bits + ENOUGH - 1) / ENOUGH;
+  if (bits <= 0) return;
+  cli_complain("the plot has %zu stages, in which precision grows geometrically; --step-bits %lld draws up to %lld",
+               table->count, (long long)step, (long long)(bits / step + 1));
+}
+
 static int converge_points(const cli_options *o) {
   cli_session s;
+  dyd_voronoi_bounds bounds;
   run r = {o, {DYD_SIZED(dyd_convergence)}, NULL, {DYD_SIZED(dyd_converge_options)}};
   dyd_rect window;
   dyd_engine_options options = o->engine;
   dyd_rect_init(&window);
   if (o->window && cli_window_read(&window, o->window)) r.converge.window = &window;
   r.converge.no_voronoi = o->no_voronoi;
+  if (o->of_voronoi) options.goal = cli_voronoi_goal(options.goal);
   if (!o->start_set) options.start_bits = 4;
+  dyd_voronoi_bounds_init(&bounds);
   int status = cli_session_open(&s, o);
   if (status == 0) {
     status = o->trace ? run_traced(&r, &s, &options) : cli_session_run_by(&s, &options, converge_run, &r);
     cli_session_settle(&s);
     int written = write_results(&r.table, o);
     if (status == 0) status = written;
+    take_bounds(&bounds, &s, &r.table);
+    note_steps(&r.table, o);
   }
+  status = cli_session_close(&s, status);
+  dyd_voronoi_bounds_clear(&bounds);
   dyd_convergence_clear(&r.table);
   dyd_rect_clear(&window);
-  return cli_session_close(&s, status);
+  return status;
 }
 
 /* ---- a replay ---- */
@@ -111,6 +139,10 @@ int cli_converge(const cli_options *o) {
   dyd_format format;
   if (o->plot && !plot_format(&format, o->plot)) {
     cli_complain("--plot \"%s\" does not say what kind of picture is wanted; end it in .svg, .pdf or .png", o->plot);
+    return CLI_USAGE;
+  }
+  if (o->of_voronoi && o->no_voronoi) {
+    cli_complain("--of voronoi needs the bounds that --no-voronoi leaves out; leave one of the two away");
     return CLI_USAGE;
   }
   return o->replay ? converge_replay(o) : converge_points(o);

@@ -26,7 +26,7 @@ static bool disc_wants(const cli_pieces *p, size_t i) {
 
 static dyd_status disc_print(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const cli_pieces *p = what;
-  return dyd_write_disc(out, p->rect, p->count, p->outcome, o->format, err);
+  return dyd_write_disc_named(out, p->session.engine, p->rect, p->count, p->outcome, o->format, err);
 }
 
 int cli_disc(const cli_options *o) {

@@ -14,6 +14,11 @@ static const char *goal_subject(dyd_goal goal) {
   return subject[goal];
 }
 
+dyd_goal cli_voronoi_goal(dyd_goal goal) {
+  if (goal == DYD_GOAL_AREA) return DYD_GOAL_VORONOI_AREA;
+  return goal == DYD_GOAL_HAUSDORFF ? DYD_GOAL_VORONOI_HAUSDORFF : goal;
+}
+
 static bool goal_is_area(dyd_goal goal) {
   return goal == DYD_GOAL_AREA || goal == DYD_GOAL_VORONOI_AREA;
 }

@@ -39,7 +39,7 @@ static void bash_words(FILE *out, const char *indent, void (*words)(FILE *out, u
 }
 
 static void bash_value(FILE *out, const cli_option *o) {
-  if (o->kind == CLI_FLAG || o->kind == CLI_FILE) return; /* files are what bash offers by itself */
+  if (o->kind == CLI_FLAG || cli_kind_is_file(o->kind)) return; /* files are what bash offers by itself */
   bash_pattern(out, o);
   if (o->kind == CLI_FORMAT || o->kind == CLI_LAYER) {
     fputs("case $command in\n", out);
@@ -47,6 +47,8 @@ static void bash_value(FILE *out, const cli_option *o) {
     fputs("      esac ;;\n", out);
   } else if (o->kind == CLI_SCHEDULE) {
     fputs("words='adaptive uniform' ;;\n", out);
+  } else if (o->kind == CLI_SUBJECT) {
+    fputs("words='delaunay voronoi' ;;\n", out);
   } else if (o->kind == CLI_GOAL) {
     fputs("words='decided area: hausdorff:' ;;\n", out);
   } else if (o->kind == CLI_CRS) {
@@ -75,7 +77,7 @@ void cli_help_bash(FILE *out) {
   for (size_t k = 0; k < cli_option_count; k++) bash_value(out, &cli_option_table[k]);
   for (size_t k = 0; k < cli_option_count; k++) {
     const cli_option *o = &cli_option_table[k];
-    if (o->kind != CLI_FILE) continue;
+    if (!cli_kind_is_file(o->kind)) continue;
     bash_pattern(out, o);
     fputs("return ;;\n", out);
   }
@@ -119,8 +121,9 @@ static void zsh_option(FILE *out, const cli_option *o, const cli_command *c) {
   zsh_text(out, o->help ? o->help : "format of the result");
   fputs("]", out);
   if (o->argument && o->kind != CLI_HELP) fprintf(out, ":%s:", o->argument);
-  if (o->kind == CLI_FILE) fputs("_files", out);
+  if (cli_kind_is_file(o->kind)) fputs("_files", out);
   if (o->kind == CLI_SCHEDULE) fputs("(adaptive uniform)", out);
+  if (o->kind == CLI_SUBJECT) fputs("(delaunay voronoi)", out);
   if (o->kind == CLI_GOAL) fputs("(decided area\\: hausdorff\\:)", out);
   if (o->kind == CLI_CRS) fputs("(EPSG\\:)", out);
   if (o->kind == CLI_FORMAT || o->kind == CLI_LAYER) {

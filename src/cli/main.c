@@ -4,9 +4,9 @@
 #include <signal.h>
 #include <string.h>
 
-static int flush_output(void) {
+static int flush_output(const cli_options *o) {
   if (fflush(stdout) == 0 && !ferror(stdout)) return CLI_OK;
-  cli_complain("cannot write to standard output");
+  if (!cli_output_note_reader(stdout, NULL, o)) cli_complain("cannot write to standard output");
   return CLI_FAILED;
 }
 
@@ -23,19 +23,32 @@ static int print_help(const cli_options *o) {
     kind[k].print(stdout);
   else
     cli_complain("--help=%s is not understood; give --help, --help=man, --help=bash or --help=zsh", o->help);
-  return *o->help && k == kinds ? CLI_USAGE : flush_output();
+  return *o->help && k == kinds ? CLI_USAGE : flush_output(o);
+}
+
+static int run_command(const cli_options *o) {
+  if (o->help) return print_help(o);
+  if (o->version) {
+    printf("dyadel %s\n", dyd_version());
+    return flush_output(o);
+  }
+  int status = cli_files_check(o);
+  cli_deadline_start(o->engine.seconds);
+  if (!status) status = cli_command_find(o->command)->run(o);
+  return status == CLI_FIXPOINT && o->accept_fixpoint ? CLI_OK : status;
 }
 
 int main(int argc, char **argv) {
   cli_options options;
   if (!cli_guard_descriptors()) return CLI_FAILED;
-  signal(SIGPIPE, SIG_IGN); /* a reader that went away is a write error like others */
+  /* A reader that goes away is noticed at the writing, so that other files are finished and all is told. In the end the
+   * process dies of it as others do, unless whoever started it has it ignored. */
+  void (*before)(int) = signal(SIGPIPE, SIG_IGN);
   int status = cli_options_read(&options, argc, argv);
-  if (status) return status;
-  if (options.help) return print_help(&options);
-  if (options.version) {
-    printf("dyadel %s\n", dyd_version());
-    return flush_output();
+  if (!status) status = run_command(&options);
+  if (cli_output_lost_reader() && before == SIG_DFL) {
+    signal(SIGPIPE, SIG_DFL);
+    raise(SIGPIPE);
   }
-  return cli_command_find(options.command)->run(&options);
+  return status;
 }

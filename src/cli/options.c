@@ -177,6 +177,16 @@ static int format_fits(cli_options *o, const cli_command *c) {
   return CLI_USAGE;
 }
 
+/* The ending of the file that is written chooses the format, and does not contradict the one given. */
+static int format_from_output(cli_options *o, const cli_command *c) {
+  if (!o->output || c->content == DYD_CONTENT_NONE) return 0;
+  if (!o->format_set) o->format_set = dyd_format_from_file(&o->format, o->output);
+  if (dyd_format_suits_file(o->format, o->output)) return 0;
+  const char *name = dyd_format_name(o->format);
+  cli_complain("-o %s is no name for %s; leave --format %s away, or end the name in .%s", o->output, name, name, name);
+  return CLI_USAGE;
+}
+
 /* Hands the operands behind the command's name to their fields. With an oracle or a trace there is no file, with a
  * file of places no place. */
 static int place_operands(cli_options *o, const scan *s, const cli_command *c) {
@@ -204,6 +214,19 @@ static int place_operands(cli_options *o, const scan *s, const cli_command *c) {
   return CLI_USAGE;
 }
 
+/* dyadel help [COMMAND] is dyadel [COMMAND] --help. */
+static int options_help(cli_options *o, const scan *s) {
+  if (s->operands > 2) {
+    cli_complain("\"%s\" is one argument too many; give dyadel help COMMAND", s->operand[2]);
+    return CLI_USAGE;
+  }
+  if (!o->help) o->help = "";
+  if (s->operands < 2) return 0;
+  if (!cli_command_find(s->operand[1])) return unknown_command(s->operand[1]);
+  o->command = s->operand[1];
+  return 0;
+}
+
 int cli_options_read(cli_options *out, int argc, char **argv) {
   scan s;
   *out = (cli_options){.format = DYD_FORMAT_CSV, .read = {DYD_SIZED(dyd_read_options)}};
@@ -216,12 +239,14 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
     cli_complain("a command is missing; try: dyadel delaunay FILE, or dyadel --help");
     return CLI_USAGE;
   }
+  if (strcmp(s.operand[0], "help") == 0) return options_help(out, &s);
   const cli_command *c = cli_command_find(s.operand[0]);
   if (!c) return unknown_command(s.operand[0]);
   out->command = c->name;
   if (out->help || out->version) return 0;
   status = options_fit(out, s.seen, c);
   if (!status) status = layer_fits(out, c);
+  if (!status) status = format_from_output(out, c);
   if (!status) status = format_fits(out, c);
   return status ? status : place_operands(out, &s, c);
 }

@@ -12,10 +12,17 @@ static int oracle_add(dyd_engine *e, dyd_oracle *oracle) {
 }
 
 int cli_oracle_read(dyd_engine *e, const cli_options *o) {
-  const char *no = NULL;
-  if (o->read.columns) no = "--columns";
-  if (o->read.measured) no = "--measured";
-  if (o->read.radius) no = "--radius";
+  const dyd_read_options *r = &o->read;
+  const char *no = r->columns          ? "--columns"
+                   : r->measured       ? "--measured"
+                   : r->radius         ? "--radius"
+                   : r->radius_columns ? "--radius-column"
+                   : r->id             ? "--id"
+                   : r->delimiter      ? "--delimiter"
+                   : r->decimal_comma  ? "--decimal-comma"
+                   : r->skip_missing   ? "--skip-missing"
+                   : r->merge          ? "--merge"
+                                       : NULL;
   if (no) {
     cli_complain("%s is for points files; leave it out, and let the oracle answer with what you mean", no);
     return CLI_USAGE;

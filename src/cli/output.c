@@ -5,6 +5,7 @@
 #include "cli.h"
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -23,10 +24,56 @@ static bool output_fail(const char *name) {
   return false;
 }
 
-/* The file the name stands for: a symbolic link is followed, so that it stays. */
-static char *resolve_link(const char *name) {
+/* ---- pipes whose reader went away ---- */
+
+static bool lost_reader;
+
+bool cli_output_lost_reader(void) {
+  return lost_reader;
+}
+
+/* Pipes and sockets tell of it whatever became of errno. */
+static bool is_broken(FILE *stream) {
+  struct pollfd end = {.fd = fileno(stream), .events = POLLOUT};
+  return poll(&end, 1, 0) > 0 && end.revents & POLLERR;
+}
+
+bool cli_output_note_reader(FILE *stream, const char *name, const cli_options *o) {
+  if (!is_broken(stream)) return false;
+  lost_reader = true;
+  cli_note(o, "%s: the reader went away before all was written", name ? name : "standard output");
+  return true;
+}
+
+/* ---- names ---- */
+
+/* The target of the link, as seen from where the link is; NULL: it is none, or memory is exhausted. */
+static char *follow_link(const char *name) {
+  char target[4096];
+  ssize_t length = readlink(name, target, sizeof target - 1);
+  const char *slash = strrchr(name, '/');
+  if (length <= 0 || (size_t)length >= sizeof target - 1) return NULL;
+  target[length] = 0;
+  size_t folder = target[0] == '/' || !slash ? 0 : (size_t)(slash - name) + 1;
+  char *path = malloc(folder + (size_t)length + 1);
+  if (!path) return NULL;
+  memcpy(path, name, folder);
+  memcpy(path + folder, target, (size_t)length + 1);
+  return path;
+}
+
+char *cli_output_target(const char *name) {
   char *path = realpath(name, NULL);
-  return path ? path : strdup(name);
+  if (path) return path;
+  enum { MOST_LINKS = 40 };
+  path = strdup(name);
+  for (int k = 0; path && k < MOST_LINKS; k++) {
+    char *next = follow_link(path);
+    if (!next) break;
+    free(path);
+    path = next;
+  }
+  return path;
 }
 
 static mode_t default_mode(void) {
@@ -64,23 +111,25 @@ bool cli_output_open(cli_output *out, const char *name) {
     return out->stream ? true : output_fail(name);
   }
   out->stream = NULL;
-  out->target = resolve_link(name);
+  out->target = cli_output_target(name);
   bool done =
       out->target ? open_temporary(out, name, exists ? info.st_mode & 0777 : default_mode()) : output_fail(name);
   if (!done) cli_output_drop(out);
   return done;
 }
 
-bool cli_output_finish(cli_output *out) {
+bool cli_output_finish(cli_output *out, const cli_options *o) {
   errno = 0;
   bool done = fflush(out->stream) == 0 && !ferror(out->stream);
   if (done && out->temporary) done = fsync(fileno(out->stream)) == 0;
+  int reason = errno;
+  bool told = !done && cli_output_note_reader(out->stream, out->name, o);
   FILE *stream = out->stream;
   out->stream = NULL;
   if (fclose(stream) != 0) done = false;
   if (done && out->temporary) done = rename(out->temporary, out->target) == 0;
-  if (!done) {
-    if (!errno) errno = EIO;
+  if (!done && !told) {
+    if (reason || !errno) errno = reason ? reason : EIO;
     output_fail(out->name);
   }
   cli_signals_remove(NULL);

@@ -51,7 +51,7 @@ static int pieces_run(cli_pieces *p) {
   dyd_status st = dyd_engine_ask(&p->outcome, p->session.engine, &question, &o->engine, &err);
   cli_signals_remove(NULL);
   if (st != DYD_OK)
-    cli_complain_at(o->file, &err);
+    cli_complain_of(p->session.engine, o->file, &err);
   else if (!pieces_are_known(p))
     cli_complain("%s before the points were known: there is no result to write", dyd_outcome_text(p->outcome));
   if (st != DYD_OK) return CLI_FAILED;

@@ -19,12 +19,6 @@ struct cli_progress {
   double begun, said;
 };
 
-double cli_clock(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 /* The share of possible pairs that are legal or ties, in steps of the bar. */
 static int bar_share(const dyd_progress *s, int steps) {
   size_t left = s->count[DYD_INDETERMINATE], done = s->count[DYD_LEGAL] + s->count[DYD_TIE];
@@ -73,6 +67,7 @@ cli_progress *cli_progress_start(bool quiet) {
 }
 
 void cli_progress_phase(cli_progress *p, const char *phase) {
+  cli_deadline_phase(phase);
   if (!p) return;
   pthread_mutex_lock(&p->lock);
   p->phase = phase;

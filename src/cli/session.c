@@ -18,7 +18,7 @@ void cli_input_close(FILE *in) {
   if (in != stdin) fclose(in);
 }
 
-static int session_read_file(dyd_engine *e, const cli_options *o) {
+static int session_read_file(dyd_engine *e, const cli_options *o, dyd_read_report *report) {
   FILE *in = cli_input_open(o->file, "check the name of the points file");
   if (!in) return CLI_FAILED;
   struct stat info;
@@ -28,7 +28,9 @@ static int session_read_file(dyd_engine *e, const cli_options *o) {
     return CLI_FAILED;
   }
   dyd_error err;
-  dyd_status st = dyd_read_points(e, in, &o->read, &err);
+  dyd_read_options read = o->read;
+  read.report = report;
+  dyd_status st = dyd_read_points(e, in, &read, &err);
   cli_input_close(in);
   if (st == DYD_E_ARG)
     cli_complain("%s", err.message);
@@ -38,15 +40,33 @@ static int session_read_file(dyd_engine *e, const cli_options *o) {
 }
 
 int cli_points_read(dyd_engine *e, const cli_options *o) {
-  return o->oracle ? cli_oracle_read(e, o) : session_read_file(e, o);
+  return o->oracle ? cli_oracle_read(e, o) : session_read_file(e, o, NULL);
+}
+
+int cli_points_read_noting(dyd_engine *e, const cli_options *o) {
+  if (o->oracle) return cli_oracle_read(e, o);
+  dyd_read_report r = {DYD_SIZED(dyd_read_report)};
+  int status = session_read_file(e, o, &r);
+  if (status) return status;
+  if (!r.rows) cli_note(o, "%s: there are no points in this file", o->file);
+  if (r.missing)
+    cli_note(o, "%s: %zu of %zu rows are left out, as a coordinate or radius is missing; the others keep their numbers",
+             o->file, r.missing, r.rows);
+  if (r.merged) cli_note(o, "%s: %zu rows are merged with earlier ones of equal coordinates", o->file, r.merged);
+  if (r.shared)
+    cli_note(o,
+             "%s: %zu rectangles have the centre of another one, so that what is next to them stays undecided; if "
+             "equal coordinates are one point, give --merge",
+             o->file, r.shared);
+  return 0;
 }
 
 int cli_session_open(cli_session *s, const cli_options *o) {
-  *s = (cli_session){.options = o, .begun = cli_clock()};
+  *s = (cli_session){.options = o, .begun = cli_clock(), .share = 1};
   if (dyd_engine_new(&s->engine) != DYD_OK) return cli_complain_memory();
   s->progress = cli_progress_start(o->quiet);
   cli_progress_phase(s->progress, "reading");
-  return cli_points_read(s->engine, o);
+  return cli_points_read_noting(s->engine, o);
 }
 
 /* ---- running ---- */
@@ -56,13 +76,14 @@ int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_ru
   dyd_engine_options o = *options;
   o.progress = cli_progress_stage;
   o.progress_user = s->progress;
+  o.seconds = cli_deadline_left(s->share);
   dyd_error err;
   dyd_error_clear(&err);
   cli_signals_cancel(s->engine);
   dyd_status st = run(s->engine, &o, user, &err);
   cli_signals_remove(NULL);
   if (st == DYD_OK) return 0;
-  cli_complain_at(s->options->file, &err);
+  cli_complain_of(s->engine, s->options->file, &err);
   return CLI_FAILED;
 }
 
@@ -133,13 +154,13 @@ int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, c
   dyd_error_clear(&err);
   dyd_status st = print(out.stream, what, o, &err);
   bool done = st == DYD_OK;
-  if (st == DYD_E_IO)
+  if (st == DYD_E_IO && !cli_output_note_reader(out.stream, name, o))
     cli_complain("%s: %s; choose another place with -o", name ? name : "standard output", err.message);
-  else if (!done)
-    cli_complain_at(name ? name : "standard output", &err);
+  else if (!done && st != DYD_E_IO)
+    cli_complain_at(o->file, &err);
   cli_signals_remove(NULL);
   if (done)
-    done = cli_output_finish(&out);
+    done = cli_output_finish(&out, o);
   else
     cli_output_drop(&out);
   return done ? 0 : CLI_FAILED;
@@ -165,8 +186,14 @@ int cli_session_write(cli_session *s, cli_print_fn print) {
     return 0;
   }
   const char *certificate = s->options->certificate;
-  int status = certificate ? cli_write_file(certificate, s->options, session_print_certificate, s->engine) : 0;
-  return status ? status : cli_write_file(s->options->output, s->options, print, s->engine);
+  int status = cli_write_file(s->options->output, s->options, print, s->engine);
+  if (status || !certificate) return status;
+  if (*cli_deadline_flag()) {
+    cli_complain("budget: the time is used up, so no certificate is written; raise --timeout");
+    return CLI_BUDGET;
+  }
+  cli_progress_phase(s->progress, "the certificate");
+  return cli_write_file(certificate, s->options, session_print_certificate, s->engine);
 }
 
 int cli_session_close(cli_session *s, int status) {
@@ -176,6 +203,7 @@ int cli_session_close(cli_session *s, int status) {
     dyd_outcome outcome = dyd_engine_outcome(s->engine);
     if (status == 0) status = cli_exit_status(outcome);
     if (!o->quiet && status != CLI_OK && status != CLI_USAGE) session_note_outcome(s);
+    if (status != CLI_OK && status != CLI_USAGE) cli_note_spacing(dyd_engine_delaunay(s->engine), o);
     if (o->stats && outcome != DYD_OUTCOME_NONE) cli_stats(stderr, s->engine, cli_clock() - s->begun);
   }
   dyd_engine_free(s->engine);

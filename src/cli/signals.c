@@ -11,14 +11,18 @@
 static _Atomic(dyd_engine *) to_cancel;
 static _Atomic(const char *) to_remove;
 
+void cli_signals_unlink(void) {
+  const char *name = atomic_load(&to_remove);
+  if (name) unlink(name);
+}
+
 static void signal_handle(int number) {
   dyd_engine *e = atomic_exchange(&to_cancel, NULL);
   if (e) {
     dyd_engine_cancel(e);
     return;
   }
-  const char *name = atomic_load(&to_remove);
-  if (name) unlink(name);
+  cli_signals_unlink();
   signal(number, SIG_DFL);
   raise(number);
 }

@@ -23,8 +23,9 @@ enum {
 const cli_command cli_commands[CLI_COMMANDS] = {
     [CLI_DELAUNAY] = {"delaunay", "FILE", "which pairs of points are edges: surely, possibly, by a tie",
                       "Delaunay triangulation of the points. A pair is legal (an edge whatever the points\n"
-                      "in the rectangles are), indeterminate (an edge for some choice), a tie (as\n"
-                      "indeterminate, but no refinement can decide it), or not listed (never an edge).",
+                      "in the rectangles are, or one place if the two meet), indeterminate (an edge for some\n"
+                      "choice), a tie (as indeterminate, but no refinement can decide it), or not listed\n"
+                      "(never an edge).",
                       DYD_CONTENT_DELAUNAY, cli_delaunay},
     [CLI_VORONOI] = {"voronoi", "FILE", "the cells of the points on a window, with certified bounds",
                      "Voronoi diagram of the points on a window: for each point the part of the window that\n"
@@ -75,10 +76,25 @@ const char *const cli_group_names[CLI_GROUPS] = {[CLI_INPUT] = "Input",
                                                  [CLI_OTHER] = "Other"};
 
 const cli_option cli_option_table[] = {
-    {"points", 0, "FILE", CLI_FILE, BIT(CLI_VERIFY), CLI_INPUT, "the certificate has to be about the points of FILE",
+    {"points", 0, "FILE", CLI_SOURCE, BIT(CLI_VERIFY), CLI_INPUT, "the certificate has to be about the points of FILE",
      AT(points)},
-    {"columns", 0, "NAME,NAME", CLI_TEXT, TEXT, CLI_INPUT, "FILE is CSV with a header; take these two columns as x,y",
+    {"columns", 0, "NAME,NAME", CLI_TEXT, TEXT, CLI_INPUT,
+     "FILE is CSV with a header; take these two columns as x,y:\nnames (capitals count only where names differ by "
+     "them\n"
+     "alone), or numbers from 1",
      AT(read.columns)},
+    {"delimiter", 0, "C", CLI_TEXT, TEXT, CLI_INPUT,
+     "what separates columns (default: of , ; tab and | the one\nthat suits the header); tab for a tab",
+     AT(read.delimiter)},
+    {"decimal-comma", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "47,61 is 47.61", AT(read.decimal_comma)},
+    {"radius-column", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT,
+     "widen each point by what stands in this column;\nNAME,NAME for x and y apart", AT(read.radius_columns)},
+    {"id", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT, "write what stands in this column beside row numbers", AT(read.id)},
+    {"skip-missing", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
+     "leave out rows with an empty field, NA, NaN or null for a\ncoordinate; the others keep their row numbers",
+     AT(read.skip_missing)},
+    {"merge", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "equal coordinates are one point, with the smallest of their\nradii",
+     AT(read.merge)},
     {"measured", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "decimals are rounded measurements: 47.61 is [47.605,47.615]",
      AT(read.measured)},
     {"radius", 0, "R", CLI_TEXT, TEXT, CLI_INPUT, "widen every point by R on each side", AT(read.radius)},
@@ -97,17 +113,20 @@ const cli_option cli_option_table[] = {
     {"oracle-timeout", 0, "SECONDS", CLI_SECONDS, READ, CLI_INPUT, "wait so long for a line of a program (default 30)",
      AT(oracle_timeout)},
 
-    {"queries", 0, "FILE", CLI_FILE, BIT(CLI_NEAREST), CLI_INPUT,
+    {"queries", 0, "FILE", CLI_SOURCE, BIT(CLI_NEAREST), CLI_INPUT,
      "in place of X Y: a file of places, in the forms of a points\nfile; one triangulation answers all", AT(queries)},
 
     {"until", 0, "GOAL", CLI_GOAL, RUN, CLI_REFINEMENT, "decided (default), area:M or hausdorff:M (bound 2^-M)",
      AT(engine)},
+    {"of", 0, "WHAT", CLI_SUBJECT, BIT(CLI_CONVERGE), CLI_REFINEMENT,
+     "whose bound --until means: delaunay (default) or voronoi", AT(of_voronoi)},
     {"max-bits", 0, "B", CLI_INTEGER, REFINE, CLI_REFINEMENT,
      "precision at which to give up (default 4096; check: 192)", AT(engine.max_bits), RANGE(1, DYD_EXP_LIMIT),
      GIVEN(max_bits_set)},
     {"max-pairs", 0, "K", CLI_INTEGER, RUN, CLI_REFINEMENT, "cap on stored pairs (default 4000000 + 16 per point)",
      AT(engine.max_pairs), RANGE(1, (long long)1 << 40)},
-    {"timeout", 0, "SECONDS", CLI_SECONDS, REFINE, CLI_REFINEMENT, "stop after this time", AT(engine.seconds)},
+    {"timeout", 0, "SECONDS", CLI_SECONDS, REFINE, CLI_REFINEMENT, "end after this time, reading and writing included",
+     AT(engine.seconds)},
     {"schedule", 0, "WHICH", CLI_SCHEDULE, RUN, CLI_REFINEMENT,
      "adaptive (default): refine what is undecided;\nuniform: refine all points", AT(engine.schedule)},
     {"start-bits", 0, "B", CLI_INTEGER, RUN, CLI_REFINEMENT, "precision of the first stage (default 64; converge: 4)",
@@ -131,17 +150,20 @@ const cli_option cli_option_table[] = {
      AT(layer)},
     {"crs", 0, "EPSG:N", CLI_CRS, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_OUTPUT,
      "the reference system of the coordinates, for geojson and\njson (default: none is claimed)", AT(epsg)},
-    {"output", 'o', "FILE", CLI_FILE, CLI_ALL, CLI_OUTPUT, "write to FILE, whole or not at all", AT(output)},
+    {"output", 'o', "FILE", CLI_FILE, CLI_ALL, CLI_OUTPUT,
+     "write to FILE, whole or not at all; its ending, such as\n.svg, chooses the format", AT(output)},
     {"certificate", 0, "FILE", CLI_FILE, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_OUTPUT,
      "write what proves the result; see dyadel verify", AT(certificate)},
     {"stats", 0, NULL, CLI_FLAG, RUN, CLI_OUTPUT, "print counters to standard error", AT(stats)},
-    {"quiet", 0, NULL, CLI_FLAG, CLI_ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
+    {"accept-fixpoint", 0, NULL, CLI_FLAG, REFINE & ~BIT(CLI_CHECK), CLI_OUTPUT,
+     "exit status 0 in place of 3, for scripts that stop at errors", AT(accept_fixpoint)},
+    {"quiet", 'q', NULL, CLI_FLAG, CLI_ALL, CLI_OUTPUT, "no progress, no notes", AT(quiet)},
 
     {"plot", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "draw the table; FILE ends in .svg, .pdf or .png",
      AT(plot)},
     {"trace", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
      "write which point was narrowed to what, and why;\ncheck: the schedule that shows a fault", AT(trace)},
-    {"replay", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
+    {"replay", 0, "FILE", CLI_SOURCE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
      "repeat a trace, which stands for the points;\ncheck: repeat a schedule on the points of FILE or --oracle",
      AT(replay)},
     {"no-voronoi", 0, NULL, CLI_FLAG, BIT(CLI_CONVERGE), CLI_EXPERIMENTS,
@@ -155,7 +177,7 @@ const cli_option cli_option_table[] = {
 
     {"help", 'h', "KIND", CLI_HELP, CLI_ALL, CLI_OTHER,
      "this text; after a command: its options;\n--help=man, bash, zsh: manual page, completion script", AT(help)},
-    {"version", 0, NULL, CLI_FLAG, CLI_ALL, CLI_OTHER, "the version", AT(version)},
+    {"version", 'V', NULL, CLI_FLAG, CLI_ALL, CLI_OTHER, "the version", AT(version)},
 };
 const size_t cli_option_count = sizeof cli_option_table / sizeof *cli_option_table;
 

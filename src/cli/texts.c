@@ -16,7 +16,7 @@ const cli_term cli_coordinate_forms[] = {
     {"1.25+-0.01", "value with radius: the interval"},
     {"sqrt(2)+pi/4", "expression: a computable real, refined on demand. Known are + - * / ^, pi e, sqrt cbrt exp log "
                      "sin cos tan asin acos atan sinh cosh tanh abs min max; blanks are allowed inside parentheses"},
-    {"root(x^5-x-1, 1, 2)", "the root of the polynomial between 1 and 2"},
+    {"root(x^5-x-1, 1, 2)", "the root of the polynomial between 1 and 2; it may stand in expressions"},
     {NULL, NULL}};
 
 const cli_term cli_exit_statuses[] = {
@@ -32,6 +32,8 @@ const cli_term cli_examples[] = {
     {"dyadel delaunay points.txt", "edges as csv"},
     {"dyadel delaunay --columns longitude,latitude --measured --format svg -o map.svg airports.csv",
      "a picture of columns of measured decimals"},
+    {"dyadel delaunay --columns x,y --radius-column accuracy --id name --skip-missing -o edges.csv survey.csv.gz",
+     "points with their own accuracies; the result names them"},
     {"dyadel delaunay --until hausdorff:40 points.txt", "refine until edges are known to 2^-40"},
     {"dyadel delaunay --certificate c.txt points.txt && dyadel verify c.txt", "edges, and a check of what proves them"},
     {"dyadel converge --schedule uniform --step-bits 8 --plot run.svg points.txt",

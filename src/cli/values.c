@@ -66,6 +66,11 @@ static bool value_schedule(dyd_schedule *place, const cli_option *option, const 
   return true;
 }
 
+static bool value_subject(bool *voronoi, const cli_option *option, const char *text) {
+  *voronoi = strcmp(text, "voronoi") == 0;
+  return *voronoi || strcmp(text, "delaunay") == 0 || value_usage(option, text, "delaunay or voronoi");
+}
+
 /* Whether the command writes it is seen later, when the command is known. */
 static bool value_format(dyd_format *place, const cli_option *option, const char *text) {
   if (dyd_format_from_name(place, text)) return true;
@@ -106,7 +111,7 @@ static bool is_window(const char *text) {
 /* ---- any option ---- */
 
 static bool value_text(const char **place, const cli_option *option, const char *text) {
-  if (!*text) return value_usage(option, text, option->kind == CLI_FILE ? "the name of a file" : option->argument);
+  if (!*text) return value_usage(option, text, option->kind != CLI_TEXT ? "the name of a file" : option->argument);
   *place = text;
   return true;
 }
@@ -121,6 +126,7 @@ bool cli_value_read(cli_options *o, const cli_option *option, const char *text) 
     return is_window(text) && value_text(place, option, text);
   case CLI_TEXT:
   case CLI_FILE:
+  case CLI_SOURCE:
     return value_text(place, option, text);
   case CLI_INTEGER:
     return value_integer(place, option, text);
@@ -130,6 +136,8 @@ bool cli_value_read(cli_options *o, const cli_option *option, const char *text) 
     return value_goal(place, option, text);
   case CLI_SCHEDULE:
     return value_schedule(place, option, text);
+  case CLI_SUBJECT:
+    return value_subject(place, option, text);
   case CLI_FORMAT:
     return value_format(place, option, text);
   case CLI_LAYER:

@@ -2,12 +2,6 @@
 /* dyadel voronoi FILE: read, run to the goal on a window, write the diagram. */
 #include "cli.h"
 
-/* The goals of --until, for the diagram in place of the triangulation. */
-static dyd_goal voronoi_goal(dyd_goal goal) {
-  if (goal == DYD_GOAL_AREA) return DYD_GOAL_VORONOI_AREA;
-  return goal == DYD_GOAL_HAUSDORFF ? DYD_GOAL_VORONOI_HAUSDORFF : goal;
-}
-
 /* The window given, or the default one, which needs to know where the points are: *s has to have run a first stage
  * then. 0, or an exit status after a message. */
 static int voronoi_window(dyd_rect *out, const cli_session *s) {
@@ -26,13 +20,17 @@ static bool voronoi_goes_on(const dyd_engine *e) {
          !(dyd_engine_outcome(e) == DYD_OUTCOME_BUDGET && c.spent == DYD_BUDGET_SECONDS);
 }
 
-static int voronoi_run(cli_session *s, dyd_rect *window, const dyd_engine_options *options) {
+/* *known becomes true with the window. The cells get a share of the time, too. */
+static int voronoi_run(bool *known, cli_session *s, dyd_rect *window, const dyd_engine_options *options) {
   dyd_engine_options first = *options;
-  int status = 0;
+  int status = 0, read;
   first.goal = DYD_GOAL_DECIDED;
   first.max_stages = 1;
+  s->share = 0.75;
   if (!s->options->window) status = cli_session_run(s, &first);
-  if (!status) status = voronoi_window(window, s);
+  read = voronoi_window(window, s);
+  *known = read == 0;
+  if (!status) status = read;
   if (status || (!s->options->window && !voronoi_goes_on(s->engine))) return status;
   return cli_session_run(s, options);
 }
@@ -44,7 +42,9 @@ static dyd_status voronoi_write(FILE *out, const void *engine, const cli_options
                                  .window = o->engine.window,
                                  .bounds = o->bounds,
                                  .layer = o->content,
-                                 .epsg = o->epsg};
+                                 .epsg = o->epsg,
+                                 .cancel = cli_deadline_flag(),
+                                 .cut = o->cut};
   return dyd_write_voronoi(out, engine, &options, o->format, err);
 }
 
@@ -56,9 +56,15 @@ static int voronoi_write_result(cli_session *s) {
                  "--max-pairs");
     return 0;
   }
+  size_t *cut = s->options->cut;
   int status = cli_session_write(s, voronoi_write);
-  if (pd && !status) s->bounds = s->options->bounds;
-  return status;
+  if (pd && (!status || status == CLI_BUDGET)) s->bounds = s->options->bounds;
+  if ((status && status != CLI_BUDGET) || !*cut) return status;
+  if (!s->options->quiet)
+    cli_complain("budget: the time is used up: %zu cells or regions are not worked out, and the window stands for "
+                 "them; raise --timeout",
+                 *cut);
+  return CLI_BUDGET;
 }
 
 int cli_voronoi(const cli_options *o) {
@@ -66,14 +72,17 @@ int cli_voronoi(const cli_options *o) {
   cli_options own = *o; /* with the window read */
   dyd_rect window;
   dyd_voronoi_bounds bounds;
+  size_t cut = 0;
+  bool known = false;
   dyd_rect_init(&window);
   dyd_voronoi_bounds_init(&bounds);
   own.bounds = &bounds;
-  own.engine.goal = voronoi_goal(o->engine.goal);
+  own.cut = &cut;
+  own.engine.goal = cli_voronoi_goal(o->engine.goal);
   own.engine.window = &window;
   int status = cli_session_open(&s, &own);
-  if (!status) status = voronoi_run(&s, &window, &own.engine);
-  if (status != CLI_USAGE && dyd_engine_delaunay(s.engine)) {
+  if (!status) status = voronoi_run(&known, &s, &window, &own.engine);
+  if (known && (!status || dyd_engine_delaunay(s.engine))) {
     int written = voronoi_write_result(&s);
     if (!status) status = written;
   }

@@ -9,7 +9,10 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/error.h"
+#include "engine/goal_voronoi.h"
 #include <dyadel/metric.h>
+
+#include <math.h>
 
 /* dyd_dyadic_init, dyd_dyadic_clear for all numbers of a row. */
 static void row_for_each(dyd_stage_row *r, void (*act)(dyd_dyadic *)) {
@@ -265,6 +268,35 @@ static void recorder_stage(void *user, const dyd_progress *p) {
   r->spent += dyd_seconds() - begun;
 }
 
+/* Did the run end with its stages, or with nothing left to decide, so that one with another goal can go on? */
+static bool converge_goes_on(const dyd_engine *e) {
+  dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
+  dyd_engine_get_counters(&c, e, NULL);
+  return dyd_engine_delaunay(e) && dyd_engine_outcome(e) != DYD_OUTCOME_CANCELLED && c.spent != DYD_BUDGET_SECONDS;
+}
+
+/* A run to a Voronoi goal on the default window, which is known after the first stage. */
+static dyd_status converge_run_on_default(recorder *r, const dyd_engine_options *options, dyd_error *err) {
+  dyd_engine_options o = *options;
+  double begun = dyd_seconds();
+  dyd_rect window;
+  dyd_rect_init(&window);
+  o.goal = DYD_GOAL_DECIDED;
+  o.max_stages = 1;
+  dyd_status st = dyd_engine_run(&r->out->outcome, r->e, &o, err);
+  if (st == DYD_OK && converge_goes_on(r->e)) {
+    st = dyd_voronoi_window(&window, dyd_delaunay_sites(dyd_engine_delaunay(r->e)));
+    if (st != DYD_OK) dyd_fail(err, st, "the points span more than doubles hold; give a window");
+    o = *options;
+    o.window = &window;
+    if (o.seconds > 0) o.seconds = fmax(o.seconds - (dyd_seconds() - begun), 0x1p-20);
+    if (o.max_stages) o.max_stages--;
+    if (st == DYD_OK && options->max_stages != 1) st = dyd_engine_run(&r->out->outcome, r->e, &o, err);
+  }
+  dyd_rect_clear(&window);
+  return st;
+}
+
 dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engine_options *options,
                             const dyd_converge_options *converge, dyd_error *err) {
   dyd_engine_options defaults, given, o;
@@ -279,7 +311,9 @@ dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engin
   o = given;
   o.progress = recorder_stage;
   o.progress_user = &r;
-  st = dyd_engine_run(&out->outcome, e, &o, err);
+  if (!o.window) o.window = c.window;
+  st = dyd_goal_is_voronoi(o.goal) && !o.window ? converge_run_on_default(&r, &o, err)
+                                                : dyd_engine_run(&out->outcome, e, &o, err);
   if (st == DYD_OK && r.failed != DYD_OK) return dyd_fail(err, r.failed, "%s", dyd_status_text(r.failed));
   return st;
 }

@@ -36,6 +36,7 @@ void dyd_engine_free(dyd_engine *e) {
   if (!e) return;
   dyd_delaunay_free(e->pd);
   dyd_engine_clear_points(e);
+  dyd_labels_clear(&e->labels);
   dyd_sites_free(e->sites);
   free(e->changed);
   free(e);

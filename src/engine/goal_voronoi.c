@@ -2,13 +2,14 @@
 /* Goals on the Voronoi diagram: whether they hold, and what each pair contributes.
  *
  * The bounds themselves are certified (metric/voronoi_bounds.c). The numbers of pairs that steer the refinement need no
- * proof: for the Hausdorff bound they are the very terms it is the maximum of; for the area, four times that term (the
- * width of the strip in which the pair is undecided, twice over) times the smaller reach of the two cells (half its
- * length). Where all numbers together stay below the goal and the area does not, it is the flattening of the polygons
- * that costs, and they are made finer. */
+ * proof: for the Hausdorff bound they are widths of strips, or, below the goal, the very terms it is the maximum of;
+ * for the area, four times that term (the width of the strip in which the pair is undecided, twice over) times the
+ * smaller reach of the two cells (half its length). Where all numbers together stay below the goal and the area does
+ * not, it is the flattening of the polygons that costs, and they are made finer. */
 #include "engine/goal_voronoi.h"
 
 #include "base/alloc.h"
+#include <math.h>
 
 enum { FINER = 8, MOST_FINER = 64 };
 
@@ -24,33 +25,45 @@ bool dyd_goal_window_is_good(const dyd_rect *window) {
   return window && dyd_window_init(&w, window) >= 0;
 }
 
+/* At most 2^-M; a second point farther away than the goal is as good as none. */
+static double goal_most(const dyd_engine_options *o) {
+  return o->goal_bits > 1000 ? 0 : o->goal_bits < -1000 ? HUGE_VAL : ldexp(1, (int)-o->goal_bits);
+}
+
 /* Makes *sums with polygons within 2^-bits. Stopped when e->stop is raised: DYD_CANCELLED. */
-static dyd_status goal_find_sums(dyd_voronoi_sums **sums, const dyd_engine *e, const dyd_rect *window, int64_t bits) {
+static dyd_status goal_find_sums(dyd_voronoi_sums **sums, const dyd_engine *e, const dyd_engine_options *o,
+                                 int64_t bits) {
   dyd_goal_sums_free(sums);
   *sums = malloc(sizeof **sums);
   if (!*sums) return DYD_E_NOMEM;
-  dyd_status st = dyd_voronoi_sums_init(*sums, e->pd, window, bits);
-  if (st == DYD_OK) st = dyd_voronoi_sums_all(*sums, NULL, NULL, &e->stop);
+  dyd_status st = dyd_voronoi_sums_init(*sums, e->pd, o->window, bits);
+  (*sums)->most = goal_most(o);
+  (*sums)->cancel = &e->stop;
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(*sums, NULL, NULL);
   return st;
 }
 
-dyd_status dyd_goal_voronoi_number(mpfr_ptr out, const dyd_voronoi_sums *sums, dyd_measure *m, const dyd_pair *pair,
+dyd_status dyd_goal_voronoi_number(mpfr_ptr out, dyd_voronoi_sums *sums, dyd_measure *m, const dyd_pair *pair,
                                    const dyd_engine_options *o) {
   bool finite;
-  dyd_status st = dyd_voronoi_pair_hausdorff(out, &finite, sums, m, pair);
+  double second;
+  dyd_status st = dyd_voronoi_pair_width(out, &finite, sums, m, pair);
   if (st != DYD_OK) return st;
-  if (!finite) {
-    mpfr_set_inf(out, 1);
-  } else if (o->goal == DYD_GOAL_VORONOI_AREA) {
+  if (!finite) mpfr_set_inf(out, 1);
+  if (o->goal == DYD_GOAL_VORONOI_HAUSDORFF) {
+    if (mpfr_cmp_ui_2exp(out, 1, (mpfr_exp_t)-o->goal_bits) <= 0) return DYD_OK;
+    st = dyd_voronoi_pair_second(&second, sums, pair);
+    if (st == DYD_OK && second <= sums->most) mpfr_set_d(out, second, MPFR_RNDU);
+  } else if (finite) {
     double a = sums->reach[pair->i], b = sums->reach[pair->j];
     mpfr_mul_d(out, out, a < b ? a : b, MPFR_RNDU);
     mpfr_mul_2ui(out, out, 2, MPFR_RNDU);
   }
-  return DYD_OK;
+  return st;
 }
 
 /* Do the numbers of all pairs stay below the goal? */
-static dyd_status goal_numbers_are_small(bool *out, const dyd_voronoi_sums *sums, const dyd_engine *e,
+static dyd_status goal_numbers_are_small(bool *out, dyd_voronoi_sums *sums, const dyd_engine *e,
                                          const dyd_engine_options *o, const dyd_pair_list *pairs) {
   dyd_measure m;
   mpfr_t sum, one;
@@ -90,7 +103,7 @@ static dyd_status goal_area_holds(bool *out, mpfr_ptr bound, dyd_voronoi_sums **
   if (bits > fine) bits = fine;
   while (st == DYD_OK && !*out && bits <= fine + MOST_FINER) {
     bool small = false;
-    st = goal_find_sums(sums, e, o->window, bits);
+    st = goal_find_sums(sums, e, o, bits);
     if (st != DYD_OK) break;
     dyd_voronoi_area(bound, *sums);
     *out = mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
@@ -111,7 +124,7 @@ dyd_status dyd_goal_voronoi_holds(bool *out, dyd_voronoi_sums **sums, const dyd_
   if (st == DYD_OK && o->goal == DYD_GOAL_VORONOI_AREA) {
     st = goal_area_holds(out, bound, sums, e, o, &pairs);
   } else if (st == DYD_OK) {
-    st = goal_find_sums(sums, e, o->window, dyd_metric_coarseness(e->pd, o->window));
+    st = goal_find_sums(sums, e, o, dyd_metric_coarseness(e->pd, o->window));
     if (st == DYD_OK) st = dyd_voronoi_hausdorff(bound, &finite, *sums, &pairs);
     *out = st == DYD_OK && finite && mpfr_cmp_ui_2exp(bound, 1, (mpfr_exp_t)-o->goal_bits) <= 0;
   }

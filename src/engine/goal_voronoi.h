@@ -15,8 +15,8 @@ bool dyd_goal_window_is_good(const dyd_rect *window);
  * given back by dyd_goal_sums_free, whatever is returned. */
 dyd_status dyd_goal_voronoi_holds(bool *out, dyd_voronoi_sums **sums, const dyd_engine *e, const dyd_engine_options *o);
 void dyd_goal_sums_free(dyd_voronoi_sums **sums);
-/* What a pair contributes to the bound; infinite when its rectangles meet. */
-dyd_status dyd_goal_voronoi_number(mpfr_ptr out, const dyd_voronoi_sums *sums, dyd_measure *m, const dyd_pair *pair,
+/* What a pair contributes to the bound; infinite when its rectangles meet, unless that does no harm to the goal. */
+dyd_status dyd_goal_voronoi_number(mpfr_ptr out, dyd_voronoi_sums *sums, dyd_measure *m, const dyd_pair *pair,
                                    const dyd_engine_options *o);
 /* By how many bits the enclosure of the Voronoi vertex of a sure triangle is wider than 2^-M; at most 0 when it is not,
  * or lies outside of the window. */

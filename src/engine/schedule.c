@@ -179,14 +179,14 @@ static dyd_status plan_hausdorff(dyd_plan *plan, dyd_scouts *scouts, dyd_measure
 }
 
 /* What a pair contributes to the bound; infinite when it has to be refined before anything is known. */
-static dyd_status pair_number(mpfr_ptr out, dyd_measure *m, const dyd_voronoi_sums *sums, const dyd_pair *pair,
+static dyd_status pair_number(mpfr_ptr out, dyd_measure *m, dyd_voronoi_sums *sums, const dyd_pair *pair,
                               const dyd_engine_options *o) {
   return sums ? dyd_goal_voronoi_number(out, sums, m, pair, o) : dyd_measure_area(out, m, pair->i, pair->j);
 }
 
 /* Marks the ends of pairs with a number above `least`, so that the numbers shrink below `share`;
  * *largest becomes the largest number of a pair with an end that can be narrowed. */
-static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_measure *m, const dyd_voronoi_sums *sums,
+static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_measure *m, dyd_voronoi_sums *sums,
                              const dyd_pair_list *pairs, mpfr_srcptr least, mpfr_srcptr share) {
   const dyd_engine_options *o = plan->o;
   dyd_status st = DYD_OK;
@@ -212,7 +212,7 @@ static dyd_status mark_bound(dyd_plan *plan, mpfr_ptr largest, dyd_measure *m, c
 
 /* The ends of the pairs whose numbers are above 2^-M, or above the share 2^-M / P of P pairs; where none of them can be
  * narrowed, those of at least half the largest number with an end that can. */
-static dyd_status plan_bound(dyd_plan *plan, dyd_measure *m, const dyd_voronoi_sums *sums, bool shared) {
+static dyd_status plan_bound(dyd_plan *plan, dyd_measure *m, dyd_voronoi_sums *sums, bool shared) {
   dyd_pair_list pairs = {0};
   mpfr_t share, largest, unused;
   mpfr_inits2(DYD_MEASURE_PREC, share, largest, unused, (mpfr_ptr)0);
@@ -263,7 +263,7 @@ static void plan_uniform(dyd_plan *plan) {
       dyd_plan_mark_alone(plan, &e->point[k], level, DYD_REASON_UNIFORM);
 }
 
-static dyd_status plan_all(dyd_plan *plan, dyd_scouts *scouts, dyd_measure *m, const dyd_voronoi_sums *sums) {
+static dyd_status plan_all(dyd_plan *plan, dyd_scouts *scouts, dyd_measure *m, dyd_voronoi_sums *sums) {
   const dyd_engine_options *o = plan->o;
   if (o->step_bits || o->schedule != DYD_SCHEDULE_ADAPTIVE) scouts = NULL;
   if (o->goal == DYD_GOAL_DECIDED || dyd_delaunay_is_capped(plan->e->pd)) return plan_faces(plan, scouts, NULL);

@@ -3,6 +3,7 @@
  *
  *   engine.c        life, counters, results
  *   points.c        adding points, asking one point to narrow
+ *   labels.c        what points are called where they were read
  *   compose.c       points of the engine as streams
  *   plan.c          which points to narrow, and how far: a value
  *   ask.c           the one loop: a question, its plan, narrowing, triangulating, until it is answered
@@ -18,7 +19,7 @@
 #ifndef DYD_ENGINE_STATE_H
 #define DYD_ENGINE_STATE_H
 
-#include <dyadel/engine.h>
+#include "engine/labels.h"
 
 /* A point that can be asked to narrow. Everything else about a site is in the table of sites.
  * Invariant: stream is NULL exactly when the site belongs to a source; then `source` is the source's number.
@@ -50,6 +51,7 @@ typedef struct dyd_source_use {
  * Only points.c and ask.c write here once the engine has been started: whoever plans or judges takes it const. */
 struct dyd_engine {
   dyd_sites *sites;
+  dyd_labels labels;
   dyd_refinable *point;
   size_t points, point_cap;
   dyd_source_use *source;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include <string.h>
+#include <strings.h>
 
 typedef dyd_writer *const writers[DYD_CONTENTS];
 extern writers dyd_csv_writers, dyd_json_writers, dyd_wkt_writers, dyd_geojson_writers, dyd_obj_writers,
@@ -15,6 +16,8 @@ extern writers dyd_csv_writers, dyd_json_writers, dyd_wkt_writers, dyd_geojson_w
 static const struct {
   const char *name, *ending, *about;
   dyd_writer *const *write;
+  const char *also; /* another ending that suits it; that of the format that it is a kind of */
+  bool binary;
 } formats[] = {
     [DYD_FORMAT_CSV] = {"csv", "csv",
                         "a table: of delaunay one line for each pair that is possible (i,j,status), of converge one "
@@ -24,13 +27,13 @@ static const struct {
                          "everything: rectangles reached, statuses or exact arcs, outcome, bounds, counters",
                          dyd_json_writers},
     [DYD_FORMAT_WKT] = {"wkt", "wkt", "a CSV table with a geometry per line, as QGIS and ogr2ogr read it",
-                        dyd_wkt_writers},
-    [DYD_FORMAT_GEOJSON] = {"geojson", "geojson", "a FeatureCollection", dyd_geojson_writers},
+                        dyd_wkt_writers, "csv"},
+    [DYD_FORMAT_GEOJSON] = {"geojson", "geojson", "a FeatureCollection", dyd_geojson_writers, "json"},
     [DYD_FORMAT_OBJ] = {"obj", "obj", "vertices, legal edges, sure triangles", dyd_obj_writers},
     [DYD_FORMAT_SVG] = {"svg", "svg", "a picture with legend and scale", dyd_picture_writers},
     [DYD_FORMAT_VTK] = {"vtk", "vtk", "legacy VTK text, as ParaView reads it", dyd_vtk_writers},
-    [DYD_FORMAT_PDF] = {"pdf", "pdf", "the same picture", dyd_picture_writers},
-    [DYD_FORMAT_PNG] = {"png", "png", "the same picture", dyd_picture_writers},
+    [DYD_FORMAT_PDF] = {"pdf", "pdf", "the same picture", dyd_picture_writers, .binary = true},
+    [DYD_FORMAT_PNG] = {"png", "png", "the same picture", dyd_picture_writers, .binary = true},
 };
 enum { FORMATS = sizeof formats / sizeof *formats };
 
@@ -46,9 +49,19 @@ bool dyd_format_from_name(dyd_format *out, const char *name) {
 bool dyd_format_from_file(dyd_format *out, const char *file) {
   const char *dot = strrchr(file, '.');
   size_t k = 0;
-  while (dot && k < FORMATS && strcmp(formats[k].ending, dot + 1) != 0) k++;
+  while (dot && k < FORMATS && strcasecmp(formats[k].ending, dot + 1) != 0) k++;
   if (dot && k < FORMATS) *out = (dyd_format)k;
   return dot && k < FORMATS;
+}
+
+bool dyd_format_suits_file(dyd_format format, const char *file) {
+  dyd_format other;
+  if (!dyd_format_from_file(&other, file) || other == format) return true;
+  return (size_t)format < FORMATS && formats[format].also && strcmp(formats[format].also, formats[other].ending) == 0;
+}
+
+bool dyd_format_is_binary(dyd_format format) {
+  return (size_t)format < FORMATS && formats[format].binary;
 }
 
 const char *dyd_format_name(dyd_format format) {

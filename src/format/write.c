@@ -79,15 +79,18 @@ dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_o
   if (dyd_delaunay_is_capped(pd))
     return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise --max-pairs");
   dyd_diagram d;
-  dyd_voronoi_bounds bounds;
+  dyd_voronoi_bounds bounds, *wanted = o.bounds;
+  size_t cut;
   dyd_voronoi_bounds_init(&bounds);
-  st = dyd_diagram_init(&d, out, e, &o, &bounds, err);
+  o.bounds = &bounds;
+  if (!o.cut) o.cut = &cut;
+  st = dyd_diagram_init(&d, out, e, &o, err);
   if (st == DYD_OK)
     st = tell_fineness(dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_VORONOI), &d, err), &d, err);
-  if (st == DYD_OK && o.bounds) {
-    dyd_dyadic_swap(&o.bounds->area, &bounds.area);
-    dyd_dyadic_swap(&o.bounds->hausdorff, &bounds.hausdorff);
-    o.bounds->finite = bounds.finite;
+  if (st == DYD_OK && wanted) {
+    dyd_dyadic_swap(&wanted->area, &bounds.area);
+    dyd_dyadic_swap(&wanted->hausdorff, &bounds.hausdorff);
+    wanted->finite = bounds.finite;
   }
   dyd_diagram_clear(&d);
   dyd_voronoi_bounds_clear(&bounds);
@@ -119,11 +122,16 @@ dyd_status dyd_write_check(FILE *out, const dyd_check_report *report, dyd_format
 
 dyd_status dyd_write_disc(FILE *out, const dyd_rect *const *r, size_t n, dyd_outcome outcome, dyd_format format,
                           dyd_error *err) {
+  return dyd_write_disc_named(out, NULL, r, n, outcome, format, err);
+}
+
+dyd_status dyd_write_disc_named(FILE *out, const dyd_engine *e, const dyd_rect *const *r, size_t n, dyd_outcome outcome,
+                                dyd_format format, dyd_error *err) {
   if (n < 3) return dyd_fail(err, DYD_E_ARG, "a disc needs three points");
   dyd_partial_disc disc;
   dyd_partial_disc_init(&disc);
   dyd_partial_disc_set(&disc, r[0], r[1], r[2]);
-  dyd_status st = dyd_format_write(out, format, DYD_CONTENT_DISC, &(dyd_disc_output){&disc, r, n, outcome}, err);
+  dyd_status st = dyd_format_write(out, format, DYD_CONTENT_DISC, &(dyd_disc_output){&disc, r, n, outcome, e}, err);
   dyd_partial_disc_clear(&disc);
   return st;
 }
@@ -139,12 +147,17 @@ static void swap_names(dyd_boundary *curve) {
 
 dyd_status dyd_write_bisector(FILE *out, const dyd_rect *a, const dyd_rect *b, dyd_outcome outcome, dyd_format format,
                               dyd_error *err) {
+  return dyd_write_bisector_named(out, NULL, a, b, outcome, format, err);
+}
+
+dyd_status dyd_write_bisector_named(FILE *out, const dyd_engine *e, const dyd_rect *a, const dyd_rect *b,
+                                    dyd_outcome outcome, dyd_format format, dyd_error *err) {
   dyd_boundary curve[2] = {{0}, {0}};
   dyd_status st = dyd_bisector(&curve[0], a, b);
   if (st == DYD_OK) st = dyd_bisector(&curve[1], b, a);
   swap_names(&curve[1]);
   if (st == DYD_OK)
-    st = dyd_format_write(out, format, DYD_CONTENT_BISECTOR, &(dyd_bisector_output){{a, b}, curve, outcome}, err);
+    st = dyd_format_write(out, format, DYD_CONTENT_BISECTOR, &(dyd_bisector_output){{a, b}, curve, outcome, e}, err);
   else
     dyd_fail(err, st, "%s", dyd_status_text(st));
   for (int k = 2; k-- > 0;) dyd_boundary_clear(&curve[k]);
@@ -164,6 +177,7 @@ static dyd_status write_answers(FILE *out, const dyd_engine *e, dyd_nearest_answ
     if (st == DYD_OK) taken[q] = &own[q];
   }
   what->answer = taken;
+  what->engine = e;
   if (st == DYD_OK) what->pd = result_of(e, err);
   if (st == DYD_OK) st = what->pd ? dyd_format_write(out, format, content, what, err) : DYD_E_ARG;
   free(taken);

@@ -75,7 +75,7 @@ static dyd_status find_point_text(const char **out, dyd_point_texts *t, const dy
 static dyd_status arc_end_json(FILE *out, const char *name, const dyd_arc_end *end, dyd_point_texts *texts) {
   fprintf(out, ",\n  \"%s\": {\"kind\": \"%s\"", name, dyd_end_names[end->kind]);
   dyd_status st = DYD_OK;
-  if (end->kind == DYD_END_SITES) fprintf(out, ", \"site\": %u", (unsigned)end->site);
+  if (end->kind == DYD_END_SITES) fprintf(out, ", \"site\": %zu", dyd_engine_row(texts->engine, end->site));
   if (end->kind != DYD_END_INFINITE) {
     const char *text = "";
     st = find_point_text(&text, texts, &end->at);
@@ -89,8 +89,9 @@ static dyd_status arc_end_json(FILE *out, const char *name, const dyd_arc_end *e
 static dyd_status arc_json(FILE *out, const dyd_arc *arc, dyd_point_texts *texts) {
   fprintf(out, "\n {\"kind\": \"%s\"", dyd_arc_names[arc->kind]);
   if (arc->kind != DYD_ARC_WINDOW)
-    fprintf(out, ", \"far\": %u, \"corner\": \"%s\", \"near\": %u, \"feature\": \"%s\"", (unsigned)arc->far_site,
-            dyd_feature_names[arc->corner], (unsigned)arc->near_site, dyd_feature_names[arc->feature]);
+    fprintf(out, ", \"far\": %zu, \"corner\": \"%s\", \"near\": %zu, \"feature\": \"%s\"",
+            dyd_engine_row(texts->engine, arc->far_site), dyd_feature_names[arc->corner],
+            dyd_engine_row(texts->engine, arc->near_site), dyd_feature_names[arc->feature]);
   dyd_status st = arc_end_json(out, "begin", &arc->begin, texts);
   if (st == DYD_OK) st = arc_end_json(out, "end", &arc->end, texts);
   fputs("}", out);

@@ -4,6 +4,7 @@
 #define DYD_IO_ARC_JSON_H
 
 #include <dyadel/arc.h>
+#include <dyadel/engine.h>
 #include <stdio.h>
 
 /* Words for dyd_feature_kind, dyd_arc_kind, dyd_end_kind. */
@@ -16,7 +17,8 @@ enum { DYD_POINT_TEXTS = 64 };
 typedef struct dyd_point_texts {
   dyd_surd_point point[DYD_POINT_TEXTS];
   char *text[DYD_POINT_TEXTS];
-  size_t next; /* to be replaced */
+  size_t next;              /* to be replaced */
+  const dyd_engine *engine; /* whose sites the arcs name; NULL: of none */
 } dyd_point_texts;
 void dyd_point_texts_clear(dyd_point_texts *t);
 

@@ -17,6 +17,10 @@ static void diagram_grow_box(double box[4], double xlo, double xhi, double ylo, 
   box[3] = fmax(box[3], yhi);
 }
 
+static void clip_box(double box[4], const double window[4]) {
+  for (int k = 0; k < 4; k++) box[k] = k & 1 ? fmin(box[k], window[k]) : fmax(box[k], window[k]);
+}
+
 static void cell_row_box(dyd_cell_row *row, const dyd_shape *s, const double window[4]) {
   double *b = row->box;
   b[0] = b[2] = INFINITY;
@@ -30,10 +34,7 @@ static void cell_row_box(dyd_cell_row *row, const dyd_shape *s, const double win
                        dyd_dyadic_get_d(&z->y, DYD_DOWN), dyd_dyadic_get_d(&z->y, DYD_UP));
     }
   row->present = b[0] <= b[1];
-  b[0] = fmax(b[0], window[0]);
-  b[1] = fmin(b[1], window[1]);
-  b[2] = fmax(b[2], window[2]);
-  b[3] = fmin(b[3], window[3]);
+  clip_box(b, window);
 }
 
 double dyd_cell_undetermined(const dyd_cell_row *row) {
@@ -60,7 +61,10 @@ dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *c
   visitor v = {.visit = visit, .context = context};
   dyd_rect_get_d(v.window, &d->window);
   dyd_status st = dyd_voronoi_sums_init(&sums, d->pd, &d->window, d->bits);
-  if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, visit_cell, &v, NULL);
+  *d->cut = 0;
+  sums.cancel = d->cancel;
+  sums.cut = d->cut;
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, visit_cell, &v);
   if (st == DYD_OK) st = dyd_voronoi_sums_bounds(d->bounds, &sums);
   dyd_voronoi_sums_clear(&sums);
   return st;
@@ -71,9 +75,14 @@ dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, voi
   dyd_status st = DYD_OK;
   dyd_rect_init(&r);
   for (size_t f = 0; f < dyd_delaunay_undecided_faces(d->pd) && st == DYD_OK; f++) {
-    bool any;
+    bool any = true;
     double b[4];
-    st = dyd_voronoi_region(&r, &any, d->pd, f, &d->window);
+    if (dyd_flag_is_set(d->cancel)) {
+      ++*d->cut;
+      dyd_rect_set(&r, &d->window);
+    } else {
+      st = dyd_voronoi_region(&r, &any, d->pd, f, &d->window);
+    }
     dyd_rect_get_d(b, &r);
     if (st == DYD_OK) st = visit(context, f, any ? b : NULL);
   }
@@ -94,7 +103,7 @@ static dyd_status find_vertex(double out[4], const dyd_diagram *d, const dyd_tri
   }
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status st = dyd_voronoi_vertex(&r, d->pd, t, bits);
+  dyd_status st = dyd_flag_is_set(d->cancel) ? DYD_E_RANGE : dyd_voronoi_vertex(&r, d->pd, t, bits);
   dyd_rect_get_d(out, &r);
   if (st != DYD_OK) {
     out[0] = out[2] = -INFINITY;
@@ -112,6 +121,14 @@ static dyd_status find_vertices(dyd_diagram *d) {
   for (size_t k = 0; k < d->triangles.count && st == DYD_OK; k++)
     st = find_vertex(d->vertex[k], d, &d->triangles.item[k], d->vertex_bits);
   return st;
+}
+
+bool dyd_diagram_vertex_in_window(double box[4], const dyd_diagram *d, size_t k) {
+  double window[4];
+  dyd_rect_get_d(window, &d->window);
+  for (int m = 0; m < 4; m++) box[m] = d->vertex[k][m];
+  clip_box(box, window);
+  return box[0] <= box[1] && box[2] <= box[3];
 }
 
 dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k) {
@@ -189,11 +206,11 @@ static dyd_status finer_helps(bool *out, const dyd_diagram *d, int64_t bits, int
   dyd_status st = DYD_OK;
   for (int k = 0; k < 2; k++) dyd_voronoi_bounds_init(&b[k]);
   for (int k = 0; k < 2 && st == DYD_OK; k++)
-    st = dyd_metric_voronoi(&b[k], d->pd, &d->window, bits + (k ? step : 0), NULL);
+    st = dyd_metric_voronoi(&b[k], d->pd, &d->window, bits + (k ? step : 0), d->cancel);
   if (st == DYD_OK) st = dyd_dyadic_add(&b[1].area, &b[1].area, &b[1].area);
   *out = st == DYD_OK && dyd_dyadic_cmp(&b[1].area, &b[0].area) < 0;
   for (int k = 2; k-- > 0;) dyd_voronoi_bounds_clear(&b[k]);
-  return st;
+  return st == DYD_CANCELLED ? DYD_OK : st;
 }
 
 /* Fine enough for the eye, and for the goal on the area where there was one. Where that was not reached, what is
@@ -216,9 +233,15 @@ static dyd_status choose_flattening(dyd_diagram *d) {
 }
 
 dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, const dyd_voronoi_options *o,
-                            dyd_voronoi_bounds *bounds, dyd_error *err) {
+                            dyd_error *err) {
   const dyd_delaunay *pd = dyd_engine_delaunay(e);
-  *d = (dyd_diagram){.out = out, .engine = e, .pd = pd, .sites = dyd_delaunay_sites(pd), .bounds = bounds};
+  *d = (dyd_diagram){.out = out,
+                     .engine = e,
+                     .pd = pd,
+                     .sites = dyd_delaunay_sites(pd),
+                     .bounds = o->bounds,
+                     .cancel = o->cancel,
+                     .cut = o->cut};
   d->count = dyd_sites_count(d->sites);
   d->epsg = o->epsg;
   dyd_rect_init(&d->window);

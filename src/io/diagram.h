@@ -32,17 +32,20 @@ typedef struct dyd_diagram {
   double (*vertex)[4];        /* enclosures of their Voronoi vertices; infinite ends: not known in doubles */
   int64_t vertex_bits;        /* exact enclosures are asked for with these bits */
   dyd_voronoi_bounds *bounds; /* found when the cells are visited */
+  const volatile int *cancel; /* see dyd_voronoi_options; NULL: never */
+  size_t *cut;                /* the cells and regions that it cut, counted when they are visited */
 } dyd_diagram;
 
-/* Makes everything but the bounds. Of e there has to be a result that is not capped. An error is told;
- * dyd_diagram_clear comes after it in any case. */
+/* Makes everything but the bounds. o->bounds and o->cut are there. Of e there has to be a result that is not capped. An
+ * error is told; dyd_diagram_clear comes after it in any case. */
 dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, const dyd_voronoi_options *o,
-                            dyd_voronoi_bounds *bounds, dyd_error *err);
+                            dyd_error *err);
 void dyd_diagram_clear(dyd_diagram *d);
 
 /* Called for every site that stands for itself, in order. */
 typedef dyd_status (*dyd_cell_visit)(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row);
-/* Makes the polygons of all cells once, shows them to `visit`, and finds the bounds. */
+/* Makes the polygons of all cells once, shows them to `visit`, and finds the bounds. Once *d->cancel is set the window
+ * stands for cells and regions. */
 dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *context);
 
 /* Called for every undecided face in order, with the box of its vertices in the window, rounded outward; NULL: there
@@ -50,6 +53,8 @@ dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *c
 typedef dyd_status (*dyd_region_visit)(void *context, size_t face, const double box[4]);
 dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, void *context);
 
+/* The part of the enclosure of vertex k that is in the window; false: there is none. */
+bool dyd_diagram_vertex_in_window(double box[4], const dyd_diagram *d, size_t k);
 /* The exact enclosure of vertex k as four texts: x lower, x upper, y lower, y upper; release each with free(). */
 dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k);
 

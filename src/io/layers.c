@@ -7,7 +7,7 @@
 
 static dyd_table_head layer_head(const dyd_output *o, const char *const *column, dyd_geometry geometry) {
   const dyd_result *r = o->what;
-  return (dyd_table_head){o->out, o->format, column, geometry, r->epsg, dyd_engine_outcome(r->engine)};
+  return (dyd_table_head){o->out, o->format, column, geometry, r->epsg, r->engine};
 }
 
 /* The places of all sites; none for csv. */
@@ -20,14 +20,14 @@ static dyd_status layer_places(dyd_place **out, const dyd_output *o) {
 static dyd_status layer_comments(const dyd_output *o) {
   const dyd_result *r = o->what;
   if (o->format != DYD_FORMAT_CSV) return DYD_OK;
-  dyd_csv_aliases(o->out, r->pd);
+  dyd_csv_aliases(o->out, r->engine);
   if (!dyd_delaunay_is_capped(r->pd)) return DYD_OK;
   fputs("# capped: pairs within one of these faces may be possible though they are not listed\n", o->out);
   return dyd_result_faces(r, "# face ", "# face ", " ", "\n");
 }
 
 dyd_status dyd_layer_pairs(const dyd_output *o) {
-  static const char *const column[] = {"i", "j", "status", NULL};
+  static const char *const column[] = {"i", "j", "status", "id_i", "id_j", NULL};
   const dyd_result *r = o->what;
   const dyd_table_head head = layer_head(o, column, DYD_GEOMETRY_LINE);
   dyd_place *place = NULL;
@@ -42,9 +42,11 @@ dyd_status dyd_layer_pairs(const dyd_output *o) {
       dyd_row_place(&t, &place[p->i]);
       dyd_row_place(&t, &place[p->j]);
     }
-    dyd_row_index(&t, p->i);
-    dyd_row_index(&t, p->j);
+    dyd_row_site(&t, p->i);
+    dyd_row_site(&t, p->j);
     dyd_row_text(&t, dyd_pair_status_text(p->status));
+    dyd_row_id(&t, p->i);
+    dyd_row_id(&t, p->j);
     dyd_row_end(&t);
   }
   if (st == DYD_OK) dyd_table_end(&t);
@@ -57,7 +59,8 @@ static void point_row(dyd_table *t, const dyd_result *r, size_t i, const dyd_pla
   dyd_sites_get_d(box, r->sites, i);
   dyd_row_begin(t);
   if (place) dyd_row_place(t, &place[i]);
-  dyd_row_index(t, i);
+  dyd_row_site(t, i);
+  dyd_row_id(t, i);
   dyd_row_box(t, box);
   dyd_row_index(t, row->partners[DYD_LEGAL]);
   dyd_row_index(t, row->partners[DYD_INDETERMINATE]);
@@ -67,7 +70,8 @@ static void point_row(dyd_table *t, const dyd_result *r, size_t i, const dyd_pla
 }
 
 dyd_status dyd_layer_points(const dyd_output *o) {
-  static const char *const column[] = {"i", "xlo", "xhi", "ylo", "yhi", "legal", "indeterminate", "tie", "hull", NULL};
+  static const char *const column[] = {"i",   "id",   "xlo", "xhi", "ylo", "yhi", "legal", "indeterminate",
+                                       "tie", "hull", NULL};
   const dyd_result *r = o->what;
   const dyd_table_head head = layer_head(o, column, DYD_GEOMETRY_POINT);
   dyd_place *place = NULL;
@@ -88,7 +92,7 @@ dyd_status dyd_layer_points(const dyd_output *o) {
 }
 
 dyd_status dyd_layer_triangles(const dyd_output *o) {
-  static const char *const column[] = {"i", "j", "k", NULL};
+  static const char *const column[] = {"i", "j", "k", "id_i", "id_j", "id_k", NULL};
   const dyd_result *r = o->what;
   const dyd_table_head head = layer_head(o, column, DYD_GEOMETRY_POLYGON);
   dyd_triangle_list list = {0};
@@ -96,13 +100,14 @@ dyd_status dyd_layer_triangles(const dyd_output *o) {
   dyd_table t;
   dyd_status st = layer_places(&place, o);
   if (st == DYD_OK) st = dyd_delaunay_triangles(&list, r->pd);
-  if (st == DYD_OK && o->format == DYD_FORMAT_CSV) dyd_csv_aliases(o->out, r->pd);
+  if (st == DYD_OK && o->format == DYD_FORMAT_CSV) dyd_csv_aliases(o->out, r->engine);
   if (st == DYD_OK) dyd_table_begin(&t, &head);
   for (size_t k = 0; k < list.count && st == DYD_OK; k++) {
     const uint32_t *v = list.item[k].v;
     dyd_row_begin(&t);
     for (int c = 0; place && c < 4; c++) dyd_row_place(&t, &place[v[c % 3]]);
-    for (int c = 0; c < 3; c++) dyd_row_index(&t, v[c]);
+    for (int c = 0; c < 3; c++) dyd_row_site(&t, v[c]);
+    for (int c = 0; c < 3; c++) dyd_row_id(&t, v[c]);
     dyd_row_end(&t);
   }
   if (st == DYD_OK) dyd_table_end(&t);

@@ -9,7 +9,7 @@
 
 static dyd_table_head diagram_head(const dyd_output *o, const char *const *column, dyd_geometry geometry) {
   const dyd_diagram *d = o->what;
-  return (dyd_table_head){o->out, o->format, column, geometry, d->epsg, dyd_engine_outcome(d->engine)};
+  return (dyd_table_head){o->out, o->format, column, geometry, d->epsg, d->engine};
 }
 
 /* ---- comments of csv ---- */
@@ -24,7 +24,7 @@ static void put_bound(FILE *out, const char *name, const dyd_dyadic *bound) {
 static dyd_status diagram_comments(const dyd_output *o) {
   const dyd_diagram *d = o->what;
   if (o->format != DYD_FORMAT_CSV) return DYD_OK;
-  dyd_csv_aliases(o->out, d->pd);
+  dyd_csv_aliases(o->out, d->engine);
   fputs("# window ", o->out);
   dyd_status st = dyd_put_window(o->out, &d->window, "", " ");
   fputs("\n", o->out);
@@ -51,7 +51,8 @@ static dyd_status diagram_begin(const dyd_output *o) {
 /* ---- cells ---- */
 
 static void cell_values(dyd_table *t, size_t i, const dyd_cell_row *row) {
-  dyd_row_index(t, i);
+  dyd_row_site(t, i);
+  dyd_row_id(t, i);
   dyd_row_box(t, row->box);
   dyd_row_decimal(t, row->area[0], DYD_DOWN);
   dyd_row_decimal(t, row->area[1], DYD_UP);
@@ -60,7 +61,8 @@ static void cell_values(dyd_table *t, size_t i, const dyd_cell_row *row) {
 }
 
 static dyd_status cells_csv(const dyd_output *o) {
-  static const char *const column[] = {"i", "xlo", "xhi", "ylo", "yhi", "area_lo", "area_hi", "undetermined", NULL};
+  static const char *const column[] = {"i",   "id",      "xlo",     "xhi",          "ylo",
+                                       "yhi", "area_lo", "area_hi", "undetermined", NULL};
   const dyd_diagram *d = o->what;
   const dyd_table_head head = diagram_head(o, column, DYD_GEOMETRY_POLYGON);
   dyd_cell_row *rows = calloc(d->count ? d->count : 1, sizeof *rows);
@@ -108,7 +110,7 @@ static dyd_status cell_polygons(void *context, uint32_t i, const dyd_shape *shap
 
 /* A line for each cell in csv; polygons in wkt and geojson. */
 dyd_status dyd_layer_cells(const dyd_output *o) {
-  static const char *const column[] = {"kind", "i",       "xlo",     "xhi",          "ylo",
+  static const char *const column[] = {"kind", "i",       "id",      "xlo",          "xhi", "ylo",
                                        "yhi",  "area_lo", "area_hi", "undetermined", NULL};
   const dyd_table_head head = diagram_head(o, column, DYD_GEOMETRY_POLYGON);
   dyd_table t;
@@ -131,9 +133,10 @@ static dyd_status exact_vertex(dyd_table *t, const dyd_diagram *d, size_t k) {
   return st;
 }
 
-/* Where a goal asks for more than decimals of 17 digits show, the enclosures are exact numbers in csv. */
+/* wkt and geojson hold what is in the window. Where a goal asks for more than decimals of 17 digits show, the
+ * enclosures are exact numbers in csv. */
 dyd_status dyd_layer_vertices(const dyd_output *o) {
-  static const char *const column[] = {"i", "j", "k", "xlo", "xhi", "ylo", "yhi", NULL};
+  static const char *const column[] = {"i", "j", "k", "xlo", "xhi", "ylo", "yhi", "id_i", "id_j", "id_k", NULL};
   const dyd_diagram *d = o->what;
   const dyd_table_head head = diagram_head(o, column, DYD_GEOMETRY_POINT);
   bool csv = o->format == DYD_FORMAT_CSV;
@@ -143,14 +146,18 @@ dyd_status dyd_layer_vertices(const dyd_output *o) {
   dyd_status st = diagram_begin(o);
   if (st == DYD_OK) dyd_table_begin(&t, &head);
   for (size_t k = 0; k < d->triangles.count && st == DYD_OK; k++) {
-    if (!csv && !dyd_box_is_finite(d->vertex[k])) continue; /* it has no place */
+    const uint32_t *v = d->triangles.item[k].v;
+    double clipped[4];
+    const double *box = csv ? d->vertex[k] : clipped;
+    if (!csv && !dyd_diagram_vertex_in_window(clipped, d, k)) continue;
     dyd_row_begin(&t);
-    dyd_row_at(&t, d->vertex[k]);
-    for (int c = 0; c < 3; c++) dyd_row_index(&t, d->triangles.item[k].v[c]);
+    dyd_row_at(&t, box);
+    for (int c = 0; c < 3; c++) dyd_row_site(&t, v[c]);
     if (exact)
       st = exact_vertex(&t, d, k);
     else
-      dyd_row_box(&t, d->vertex[k]);
+      dyd_row_box(&t, box);
+    for (int c = 0; c < 3; c++) dyd_row_id(&t, v[c]);
     dyd_row_end(&t);
   }
   if (st == DYD_OK) dyd_table_end(&t);
@@ -166,12 +173,12 @@ typedef struct regions {
 
 /* The numbers of the list, separated by blanks. */
 static dyd_status row_sites(dyd_table *t, const dyd_index_list *list) {
-  enum { DIGITS = 11 };
+  enum { DIGITS = 21 };
   char *text = dyd_alloc(list->count * DIGITS + 1, 1), *end = text;
   if (!text) return DYD_E_NOMEM;
   *end = 0;
   for (size_t k = 0; k < list->count; k++)
-    end += snprintf(end, DIGITS + 1, "%s%u", k ? " " : "", (unsigned)list->item[k]);
+    end += snprintf(end, DIGITS + 1, "%s%zu", k ? " " : "", dyd_engine_row(t->head->engine, list->item[k]));
   dyd_row_text(t, text);
   free(text);
   return DYD_OK;
@@ -220,8 +227,9 @@ static uint32_t third_corner(const dyd_triangle *t, uint32_t i, uint32_t j) {
 static void edge_value(dyd_table *t, const dyd_diagram *d, const dyd_dual_edge *e, int end) {
   const dyd_dual_end *to = &e->end[end];
   if (to->kind == DYD_DUAL_VERTEX) {
-    char text[16];
-    snprintf(text, sizeof text, "%u", (unsigned)third_corner(&d->triangles.item[to->vertex], e->i, e->j));
+    char text[24];
+    snprintf(text, sizeof text, "%zu",
+             dyd_engine_row(d->engine, third_corner(&d->triangles.item[to->vertex], e->i, e->j)));
     dyd_row_text(t, text);
   } else {
     dyd_row_text(t, to->kind == DYD_DUAL_RAY ? "ray" : "open");
@@ -230,7 +238,7 @@ static void edge_value(dyd_table *t, const dyd_diagram *d, const dyd_dual_edge *
 
 /* csv lists all; wkt and geojson those with two ends that can be drawn. */
 dyd_status dyd_layer_edges(const dyd_output *o) {
-  static const char *const column[] = {"i", "j", "left", "right", NULL};
+  static const char *const column[] = {"i", "j", "left", "right", "id_i", "id_j", NULL};
   const dyd_diagram *d = o->what;
   const dyd_table_head head = diagram_head(o, column, DYD_GEOMETRY_LINE);
   dyd_dual_edge *edge = NULL;
@@ -246,9 +254,11 @@ dyd_status dyd_layer_edges(const dyd_output *o) {
     if (!drawn && o->format != DYD_FORMAT_CSV) continue;
     dyd_row_begin(&t);
     for (int end = 0; drawn && end < 2; end++) dyd_row_at(&t, box[end]);
-    dyd_row_index(&t, edge[k].i);
-    dyd_row_index(&t, edge[k].j);
+    dyd_row_site(&t, edge[k].i);
+    dyd_row_site(&t, edge[k].j);
     for (int end = 0; end < 2; end++) edge_value(&t, d, &edge[k], end);
+    dyd_row_id(&t, edge[k].i);
+    dyd_row_id(&t, edge[k].j);
     dyd_row_end(&t);
   }
   dyd_table_end(&t);

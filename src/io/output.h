@@ -34,15 +34,18 @@ typedef struct dyd_disc_output {
   const dyd_rect *const *r;
   size_t n;
   dyd_outcome outcome;
+  const dyd_engine *engine; /* of which they are the first points; NULL: of none */
 } dyd_disc_output;
 
 typedef struct dyd_bisector_output {
   const dyd_rect *r[2];
   const dyd_boundary *curve; /* of (r[0],r[1]) and (r[1],r[0]), sites named 0 and 1 in both */
   dyd_outcome outcome;
+  const dyd_engine *engine; /* of which they are the first points; NULL: of none */
 } dyd_bisector_output;
 
 typedef struct dyd_nearest_output {
+  const dyd_engine *engine;
   const dyd_delaunay *pd;
   const dyd_nearest_answer *const *answer;
   size_t count;        /* of places */

@@ -1,30 +1,42 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Pieces that several formats or contents share. All texts are our own ASCII words and numbers, so nothing needs
- * escaping. */
+ * escaping; those of users are in label_text.c. */
 #include "io/parts.h"
 
 #include "io/decimal.h"
 #include <stdlib.h>
 
-/* The first alias from *i on, and what it is one of. */
-static bool next_alias(size_t *i, uint32_t *of, const dyd_delaunay *pd) {
-  size_t count = dyd_sites_count(dyd_delaunay_sites(pd));
-  for (; *i < count; ++*i)
-    if ((*of = dyd_delaunay_alias(pd, (uint32_t)*i)) != *i) return true;
-  return false;
+/* Goes over the rows that have a point in common with an earlier one, ascending: aliases of the triangulation, and rows
+ * that were merged when they were read. */
+typedef struct alias_walk {
+  const dyd_engine *e;
+  size_t i, merged; /* where to look on */
+  size_t row, of;   /* what was found: rows */
+} alias_walk;
+
+static bool next_alias(alias_walk *w) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(w->e);
+  size_t count = dyd_sites_count(dyd_delaunay_sites(pd)), row, point;
+  while (w->i < count && dyd_delaunay_alias(pd, (uint32_t)w->i) == w->i) w->i++;
+  bool alias = w->i < count, merged = dyd_engine_merged(&row, &point, w->e, w->merged);
+  if (!alias && !merged) return false;
+  if (merged && (!alias || row < dyd_engine_row(w->e, w->i)))
+    w->merged++;
+  else
+    row = dyd_engine_row(w->e, point = w->i++);
+  w->row = row;
+  w->of = dyd_engine_row(w->e, dyd_delaunay_alias(pd, (uint32_t)point));
+  return true;
 }
 
-void dyd_csv_aliases(FILE *out, const dyd_delaunay *pd) {
-  uint32_t of;
-  for (size_t i = 0; next_alias(&i, &of, pd); i++) fprintf(out, "# alias %zu %u\n", i, (unsigned)of);
+void dyd_csv_aliases(FILE *out, const dyd_engine *e) {
+  for (alias_walk w = {.e = e}; next_alias(&w);) fprintf(out, "# alias %zu %zu\n", w.row, w.of);
 }
 
-void dyd_json_aliases(FILE *out, const dyd_delaunay *pd, const char *after) {
-  uint32_t of;
+void dyd_json_aliases(FILE *out, const dyd_engine *e, const char *after) {
   const char *between = "";
   fputs("\"aliases\": [", out);
-  for (size_t i = 0; next_alias(&i, &of, pd); i++, between = ", ")
-    fprintf(out, "%s[%zu, %u]", between, i, (unsigned)of);
+  for (alias_walk w = {.e = e}; next_alias(&w); between = ", ") fprintf(out, "%s[%zu, %zu]", between, w.row, w.of);
   fprintf(out, "]%s", after);
 }
 

@@ -7,10 +7,10 @@
 #include <dyadel/engine.h>
 #include <stdio.h>
 
-/* "# alias 7 3" for each alias, a line each. */
-void dyd_csv_aliases(FILE *out, const dyd_delaunay *pd);
+/* "# alias 7 3" for each alias or merged row of the result of e, a line each. */
+void dyd_csv_aliases(FILE *out, const dyd_engine *e);
 /* "aliases": [[7, 3], ..], and `after` behind it. */
-void dyd_json_aliases(FILE *out, const dyd_delaunay *pd, const char *after);
+void dyd_json_aliases(FILE *out, const dyd_engine *e, const char *after);
 /* "adaptive", "uniform". */
 const char *dyd_schedule_text(dyd_schedule schedule);
 /* "format": .., "version": ..: the opening of an object. */

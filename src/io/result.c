@@ -71,8 +71,8 @@ dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r) {
   return DYD_OK;
 }
 
-void dyd_put_indices(FILE *out, const dyd_index_list *list, const char *between) {
-  for (size_t k = 0; k < list->count; k++) fprintf(out, "%s%u", k ? between : "", (unsigned)list->item[k]);
+void dyd_put_rows(FILE *out, const dyd_engine *e, const dyd_index_list *list, const char *between) {
+  for (size_t k = 0; k < list->count; k++) fprintf(out, "%s%zu", k ? between : "", dyd_engine_row(e, list->item[k]));
 }
 
 dyd_status dyd_result_faces(const dyd_result *r, const char *first, const char *next, const char *between,
@@ -84,7 +84,7 @@ dyd_status dyd_result_faces(const dyd_result *r, const char *first, const char *
     st = dyd_delaunay_face(&face, &outer, r->pd, f);
     if (st != DYD_OK) break;
     fputs(f ? next : first, r->out);
-    dyd_put_indices(r->out, &face, between);
+    dyd_put_rows(r->out, r->engine, &face, between);
     fputs(end, r->out);
   }
   dyd_index_list_clear(&face);

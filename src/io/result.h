@@ -35,8 +35,8 @@ dyd_status dyd_result_places(dyd_place **out, char bound[DYD_DECIMAL_SIZE], cons
 /* Of every site; aliases as the site they stand for. *out is released with free(). */
 dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r);
 
-/* "3, 7, 9". */
-void dyd_put_indices(FILE *out, const dyd_index_list *list, const char *between);
+/* The rows of sites: "3, 7, 9". */
+void dyd_put_rows(FILE *out, const dyd_engine *e, const dyd_index_list *list, const char *between);
 /* The sites of each undecided face, behind `first` or `next`, before `end`. */
 dyd_status dyd_result_faces(const dyd_result *r, const char *first, const char *next, const char *between,
                             const char *end);

@@ -2,6 +2,8 @@
 /* Layers: tables with a row for each feature, as csv, as wkt or as geojson. */
 #include "io/table.h"
 
+#include "io/label_text.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -41,6 +43,11 @@ static bool has_geometry(const dyd_table *t) {
   return t->head->format != DYD_FORMAT_CSV;
 }
 
+/* Is there column k? */
+static bool has_column(const dyd_table *t, size_t k) {
+  return strncmp(t->head->column[k], "id", 2) != 0 || dyd_engine_id(t->head->engine, 0);
+}
+
 /* ---- before and after the rows ---- */
 
 static void geojson_head(const dyd_table_head *h) {
@@ -53,7 +60,7 @@ static void geojson_head(const dyd_table_head *h) {
           "\"}},\n\"rounding\": \"a coordinate differs from every point that it stands for by at most "
           "max_coordinate_error; numbers called lo are rounded down, others that are not whole up\",\n"
           "\"outcome\": \"%s\",\n\"features\": [",
-          dyd_outcome_text(h->outcome));
+          dyd_outcome_text(dyd_engine_outcome(h->engine)));
 }
 
 void dyd_table_begin(dyd_table *t, const dyd_table_head *head) {
@@ -67,6 +74,7 @@ void dyd_table_begin(dyd_table *t, const dyd_table_head *head) {
   }
   if (has_geometry(t)) table_put(t, "WKT,");
   for (size_t k = 0; head->column[k]; k++) {
+    if (!has_column(t, k)) continue;
     if (k) table_put(t, ",");
     table_put(t, head->column[k]);
   }
@@ -141,9 +149,11 @@ void dyd_row_outline(dyd_table *t, const double box[4]) {
 
 /* What comes before a value: the end of the geometry before the first, the name of the column in geojson. */
 static void value_begin(dyd_table *t) {
-  const char *name = t->head->column[t->values] ? t->head->column[t->values] : "max_coordinate_error";
+  bool first = t->values == 0;
   int json = is_geojson(t);
-  bool first = t->values++ == 0;
+  while (t->head->column[t->values] && !has_column(t, t->values)) t->values++;
+  const char *name = t->head->column[t->values] ? t->head->column[t->values] : "max_coordinate_error";
+  t->values++;
   if (first && has_geometry(t)) {
     table_put(t, geometries[t->head->geometry].close[json]);
     table_put(t, json ? "}, \"properties\": {" : "\",");
@@ -164,6 +174,21 @@ void dyd_row_index(dyd_table *t, size_t i) {
   while (i /= 10);
   value_begin(t);
   table_put(t, p);
+}
+
+void dyd_row_site(dyd_table *t, size_t i) {
+  dyd_row_index(t, dyd_engine_row(t->head->engine, i));
+}
+
+void dyd_row_id(dyd_table *t, size_t i) {
+  const char *id = dyd_engine_id(t->head->engine, i);
+  if (!id) return;
+  value_begin(t);
+  table_flush(t);
+  if (is_geojson(t))
+    dyd_json_text(t->head->out, id);
+  else
+    dyd_csv_text(t->head->out, id);
 }
 
 void dyd_row_text(dyd_table *t, const char *text) {

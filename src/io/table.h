@@ -9,7 +9,7 @@
  *     for each feature
  *       dyd_row_begin(&t);
  *       dyd_row_place(&t, ..);                            its geometry; csv leaves it out
- *       dyd_row_index(&t, i); dyd_row_text(&t, "legal");  one value for each column
+ *       dyd_row_site(&t, i); dyd_row_text(&t, "legal");  one value for each column
  *       dyd_row_end(&t);
  *     dyd_table_end(&t);
  *
@@ -27,10 +27,10 @@ typedef enum dyd_geometry { DYD_GEOMETRY_POINT, DYD_GEOMETRY_LINE, DYD_GEOMETRY_
 typedef struct dyd_table_head {
   FILE *out;
   dyd_format format;         /* csv, wkt or geojson */
-  const char *const *column; /* names, up to a NULL */
+  const char *const *column; /* names, up to a NULL; those that begin with "id" only where points have identifiers */
   dyd_geometry geometry;
   unsigned epsg; /* the reference system of the coordinates; 0: none is claimed */
-  dyd_outcome outcome;
+  const dyd_engine *engine;
 } dyd_table_head;
 
 enum { DYD_TABLE_BLOCK = 1 << 14 };
@@ -55,6 +55,9 @@ void dyd_row_at(dyd_table *t, const double box[4]);
 /* The four corners of a box, as a polygon. */
 void dyd_row_outline(dyd_table *t, const double box[4]);
 void dyd_row_index(dyd_table *t, size_t i);
+/* The number of a site in its file; its identifier, which is left out where there are none. */
+void dyd_row_site(dyd_table *t, size_t i);
+void dyd_row_id(dyd_table *t, size_t i);
 /* Our own words and numbers: nothing needs quoting in csv. */
 void dyd_row_text(dyd_table *t, const char *text);
 /* A decimal rounded in direction dir; none where x is not finite. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The partial disc of three points, and where the others are: csv, json. */
 #include "io/exact_text.h"
+#include "io/label_text.h"
 #include "io/output.h"
 #include "io/parts.h"
 #include <math.h>
@@ -70,7 +71,8 @@ dyd_status dyd_disc_csv(const dyd_output *o) {
   const dyd_disc_output *c = o->what;
   const dyd_partial_disc *d = c->disc;
   FILE *out = o->out;
-  fprintf(out, "# orientation of 0 1 2: %s\n", orientation_text(dyd_orientation(c->r[0], c->r[1], c->r[2])));
+  fprintf(out, "# orientation of %zu %zu %zu: %s\n", dyd_engine_row(c->engine, 0), dyd_engine_row(c->engine, 1),
+          dyd_engine_row(c->engine, 2), orientation_text(dyd_orientation(c->r[0], c->r[1], c->r[2])));
   fputs(
       "# critical circles: F encloses, C touches the rectangles 0 1 2; x, y, radius^2 exact, lo rounded down, hi up\n",
       out);
@@ -82,8 +84,12 @@ dyd_status dyd_disc_csv(const dyd_output *o) {
     disc_csv_box(out, box);
     fputs("\n", out);
   }
-  fputs("i,con\n", out);
-  for (size_t i = 3; i < c->n; i++) fprintf(out, "%zu,%s\n", i, con_text(dyd_partial_disc_con(d, c->r[i])));
+  fprintf(out, "i,con%s\n", dyd_csv_id_head(c->engine, 0));
+  for (uint32_t i = 3; i < c->n; i++) {
+    fprintf(out, "%zu,%s", dyd_engine_row(c->engine, i), con_text(dyd_partial_disc_con(d, c->r[i])));
+    dyd_csv_ids(out, c->engine, &i, 0);
+    fputs("\n", out);
+  }
   return DYD_OK;
 }
 
@@ -124,6 +130,13 @@ static void disc_json_centre(FILE *out, const dyd_partial_disc *d) {
   fputs("}", out);
 }
 
+static void disc_json_con(FILE *out, const dyd_disc_output *c, uint32_t i) {
+  fprintf(out, "%s\n{\"i\": %zu, \"con\": \"%s\"", i > 3 ? "," : "", dyd_engine_row(c->engine, i),
+          con_text(dyd_partial_disc_con(c->disc, c->r[i])));
+  dyd_json_ids(out, c->engine, &i, 0);
+  fputs("}", out);
+}
+
 dyd_status dyd_disc_json(const dyd_output *o) {
   const dyd_disc_output *c = o->what;
   FILE *out = o->out;
@@ -139,9 +152,7 @@ dyd_status dyd_disc_json(const dyd_output *o) {
   disc_each_circle(c->disc, disc_json_circle, out);
   disc_json_centre(out, c->disc);
   fputs(",\n\"con\": [", out);
-  for (size_t i = 3; i < c->n; i++)
-    fprintf(out, "%s\n{\"i\": %zu, \"con\": \"%s\"}", i > 3 ? "," : "", i,
-            con_text(dyd_partial_disc_con(c->disc, c->r[i])));
+  for (uint32_t i = 3; i < c->n; i++) disc_json_con(out, c, i);
   fputs("\n]\n}\n", out);
   return st;
 }

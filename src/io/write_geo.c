@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Formats for geographic and mesh programs: wkt, geojson, obj. One place per site stands for its rectangle; each
  * format says how far at most the rectangle reaches from it. */
+#include "io/label_text.h"
 #include "io/result.h"
 #include <stdlib.h>
 
@@ -15,6 +16,15 @@ static void obj_elements(const dyd_result *r, const dyd_triangle_list *triangles
     const uint32_t *v = triangles->item[k].v;
     fprintf(r->out, "f %u %u %u\n", (unsigned)v[0] + 1, (unsigned)v[1] + 1, (unsigned)v[2] + 1);
   }
+}
+
+/* What the next vertex is called, where its place in the file does not tell. */
+static void obj_name(const dyd_result *r, uint32_t i) {
+  const char *id = dyd_engine_id(r->engine, i);
+  if (!id && dyd_engine_row(r->engine, i) == i) return;
+  fprintf(r->out, "# row %zu", dyd_engine_row(r->engine, i));
+  dyd_json_ids(r->out, r->engine, &i, 0);
+  fputs("\n", r->out);
 }
 
 static dyd_status obj_delaunay(const dyd_output *o) {
@@ -32,7 +42,10 @@ static dyd_status obj_delaunay(const dyd_output *o) {
             "most %s\n# not shown: %zu indeterminate pairs, %zu ties\n",
             dyd_version(), dyd_outcome_text(dyd_engine_outcome(r->engine)), bound, count[DYD_INDETERMINATE],
             count[DYD_TIE]);
-    for (size_t i = 0; i < r->count; i++) fprintf(r->out, "v %s %s 0\n", place[i].x, place[i].y);
+    for (uint32_t i = 0; i < r->count; i++) {
+      obj_name(r, i);
+      fprintf(r->out, "v %s %s 0\n", place[i].x, place[i].y);
+    }
     obj_elements(r, &triangles);
   }
   dyd_triangle_list_clear(&triangles);

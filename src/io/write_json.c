@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The json format. Of the triangulation everything the engine states, written piece by piece so that memory stays
  * small. */
+#include "io/label_text.h"
 #include "io/parts.h"
 #include "io/result.h"
 #include <dyadel/voronoi.h>
@@ -12,10 +13,11 @@ static dyd_status json_site(const dyd_result *r, size_t i, const dyd_site_row *r
   dyd_sites_get_d(box, r->sites, i);
   dyd_status st = dyd_sites_get(rect, r->sites, i);
   if (st != DYD_OK) return st;
-  fprintf(r->out, "%s\n{\"i\": %zu, ", i ? "," : "", i);
+  fprintf(r->out, "%s\n{\"i\": %zu, ", i ? "," : "", dyd_engine_row(r->engine, i));
   st = dyd_json_sides(r->out, rect, ", ");
   fputs(", ", r->out);
   dyd_json_box(r->out, "_decimal", box);
+  dyd_json_ids(r->out, r->engine, &(const uint32_t){(uint32_t)i}, 0);
   fprintf(r->out, ", \"legal\": %zu, \"indeterminate\": %zu, \"tie\": %zu, \"hull\": \"%s\"}", row->partners[DYD_LEGAL],
           row->partners[DYD_INDETERMINATE], row->partners[DYD_TIE], row->hull);
   return st;
@@ -30,17 +32,18 @@ static dyd_status json_sites(const dyd_result *r) {
   for (size_t i = 0; i < r->count && st == DYD_OK; i++) st = json_site(r, i, &rows[i], &rect);
   free(rows);
   fputs("\n],\n", r->out);
-  dyd_json_aliases(r->out, r->pd, ",\n");
+  dyd_json_aliases(r->out, r->engine, ",\n");
   dyd_rect_clear(&rect);
   return st;
 }
 
-static void json_pairs(FILE *out, const char *name, const dyd_pair_list *pairs) {
+static void json_pairs(const dyd_result *r, const char *name, const dyd_pair_list *pairs) {
+  FILE *out = r->out;
   fprintf(out, "\"%s\": [", name);
   for (size_t k = 0; k < pairs->count; k++) {
     const dyd_pair *p = &pairs->item[k];
-    fprintf(out, "%s\n{\"i\": %u, \"j\": %u, \"status\": \"%s\"}", k ? "," : "", (unsigned)p->i, (unsigned)p->j,
-            dyd_pair_status_text(p->status));
+    fprintf(out, "%s\n{\"i\": %zu, \"j\": %zu, \"status\": \"%s\"}", k ? "," : "", dyd_engine_row(r->engine, p->i),
+            dyd_engine_row(r->engine, p->j), dyd_pair_status_text(p->status));
   }
   fputs("\n]", out);
 }
@@ -51,11 +54,11 @@ static dyd_status json_triangles(const dyd_result *r) {
   fputs("\"triangles\": [", r->out);
   for (size_t k = 0; k < list.count; k++) {
     const uint32_t *v = list.item[k].v;
-    fprintf(r->out, "%s[%u, %u, %u]",
+    fprintf(r->out, "%s[%zu, %zu, %zu]",
             k == 0  ? ""
             : k % 8 ? ", "
                     : ",\n",
-            (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
+            dyd_engine_row(r->engine, v[0]), dyd_engine_row(r->engine, v[1]), dyd_engine_row(r->engine, v[2]));
   }
   fputs("],\n", r->out);
   dyd_triangle_list_clear(&list);
@@ -69,11 +72,11 @@ static dyd_status json_hull(const dyd_result *r) {
   bool capped = st == DYD_CAPPED;
   if (capped) st = DYD_OK;
   fprintf(r->out, "\"hull\": {\"capped\": %s,\n\"sure_vertices\": [", capped ? "true" : "false");
-  dyd_put_indices(r->out, &hull.sure_vertices, ", ");
+  dyd_put_rows(r->out, r->engine, &hull.sure_vertices, ", ");
   fputs("],\n\"possible_vertices\": [", r->out);
-  dyd_put_indices(r->out, &hull.possible_vertices, ", ");
+  dyd_put_rows(r->out, r->engine, &hull.possible_vertices, ", ");
   fputs("],\n", r->out);
-  json_pairs(r->out, "edges", &hull.pairs);
+  json_pairs(r, "edges", &hull.pairs);
   fputs("},\n", r->out);
   dyd_hull_clear(&hull);
   return st;
@@ -146,7 +149,7 @@ static dyd_status json_delaunay(const dyd_output *o) {
   json_head(r);
   dyd_status st = json_bounds(r);
   if (st == DYD_OK) st = json_sites(r);
-  json_pairs(r->out, "pairs", &r->pairs);
+  json_pairs(r, "pairs", &r->pairs);
   fputs(",\n", r->out);
   if (st == DYD_OK) st = json_faces(r);
   if (st == DYD_OK) st = json_triangles(r);

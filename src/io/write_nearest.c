@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The answers to nearest-site queries, of one place or of many: csv, json. */
 #include "io/decimal.h"
+#include "io/label_text.h"
 #include "io/output.h"
 #include "io/parts.h"
 
@@ -24,9 +25,10 @@ static dyd_status nearest_json_list(FILE *out, const dyd_nearest_output *n, cons
     double bounds[2];
     st = nearest_distance(bounds, n, a, a->found->item[k], scratch);
     if (st != DYD_OK) break;
-    fprintf(out, "%s\n{\"i\": %u, \"status\": \"%s\", \"distance\": ", k ? "," : "", (unsigned)a->found->item[k],
-            nearest_status(a));
+    fprintf(out, "%s\n{\"i\": %zu, \"status\": \"%s\", \"distance\": ", k ? "," : "",
+            dyd_engine_row(n->engine, a->found->item[k]), nearest_status(a));
     dyd_json_decimals(out, bounds[0], bounds[1]);
+    dyd_json_ids(out, n->engine, &a->found->item[k], 0);
     fputs("}", out);
   }
   fputs("\n]", out);
@@ -43,7 +45,7 @@ dyd_status dyd_nearest_json(const dyd_output *o) {
   fputs(",\n", o->out);
   if (st == DYD_OK) st = nearest_json_list(o->out, n, a, &scratch);
   fputs(",\n", o->out);
-  dyd_json_aliases(o->out, n->pd, "}\n");
+  dyd_json_aliases(o->out, n->engine, "}\n");
   dyd_rect_clear(&scratch);
   return st;
 }
@@ -63,7 +65,7 @@ dyd_status dyd_places_json(const dyd_output *o) {
     fputs("}", o->out);
   }
   fputs("\n],\n", o->out);
-  dyd_json_aliases(o->out, n->pd, "}\n");
+  dyd_json_aliases(o->out, n->engine, "}\n");
   dyd_rect_clear(&scratch);
   return st;
 }
@@ -74,18 +76,20 @@ static dyd_status nearest_rows(const dyd_output *o, bool many) {
   dyd_rect scratch;
   dyd_status st = DYD_OK;
   dyd_rect_init(&scratch);
-  dyd_csv_aliases(o->out, n->pd);
-  fprintf(o->out, "# rounding: lo down, hi up; empty: beyond doubles\n%si,status,lo,hi\n", many ? "q," : "");
+  dyd_csv_aliases(o->out, n->engine);
+  fprintf(o->out, "# rounding: lo down, hi up; empty: beyond doubles\n%si,status,lo,hi%s\n", many ? "q," : "",
+          dyd_csv_id_head(n->engine, 0));
   for (size_t q = 0; q < n->count; q++) {
     const dyd_nearest_answer *a = n->answer[q];
     for (size_t k = 0; k < a->found->count && st == DYD_OK; k++) {
       double bounds[2];
       st = nearest_distance(bounds, n, a, a->found->item[k], &scratch);
       if (many) fprintf(o->out, "%zu,", q);
-      fprintf(o->out, "%u,%s,", (unsigned)a->found->item[k], nearest_status(a));
+      fprintf(o->out, "%zu,%s,", dyd_engine_row(n->engine, a->found->item[k]), nearest_status(a));
       dyd_decimal_put(o->out, bounds[0], DYD_DOWN, "");
       fputs(",", o->out);
       dyd_decimal_put(o->out, bounds[1], DYD_UP, "");
+      dyd_csv_ids(o->out, n->engine, &a->found->item[k], 0);
       fputs("\n", o->out);
     }
   }

@@ -4,8 +4,10 @@
 #include "io/arc_json.h"
 #include "io/diagram.h"
 #include "io/dual.h"
+#include "io/label_text.h"
 #include "io/parts.h"
 #include "io/result.h"
+#include "voronoi/exact_cell.h"
 #include <inttypes.h>
 #include <stdlib.h>
 
@@ -55,11 +57,25 @@ typedef struct cells {
   dyd_point_texts texts;
 } cells;
 
+static dyd_status region_boundary_json(cells *c, uint32_t i, bool outer) {
+  dyd_boundary boundary = {0};
+  dyd_status st = dyd_cell_region(&boundary, c->d->pd, i, outer, NULL, c->d->cancel);
+  if (st == DYD_CANCELLED) {
+    fputs("null", c->d->out);
+    st = DYD_OK;
+  } else if (st == DYD_OK) {
+    st = dyd_boundary_json(c->d->out, &boundary, &c->texts);
+  }
+  dyd_boundary_clear(&boundary);
+  return st;
+}
+
 static dyd_status cell_json(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
   cells *c = context;
   FILE *out = c->d->out;
-  dyd_boundary boundary = {0};
-  fprintf(out, "%s\n{\"i\": %u, \"area\": ", c->any ? "," : "", (unsigned)i);
+  fprintf(out, "%s\n{\"i\": %zu", c->any ? "," : "", dyd_engine_row(c->d->engine, i));
+  dyd_json_ids(out, c->d->engine, &i, 0);
+  fputs(", \"area\": ", out);
   c->any = true;
   dyd_json_decimals(out, row->area[0], row->area[1]);
   fputs(", \"undetermined\": ", out);
@@ -72,13 +88,10 @@ static dyd_status cell_json(void *context, uint32_t i, const dyd_shape *shape, c
   fputs(",\n", out);
   dyd_status st = polygons_json(out, shape);
   fputs(",\n\"int\": ", out);
-  if (st == DYD_OK) st = dyd_voronoi_int(&boundary, c->d->pd, i);
-  if (st == DYD_OK) st = dyd_boundary_json(out, &boundary, &c->texts);
+  if (st == DYD_OK) st = region_boundary_json(c, i, false);
   fputs(",\n\"pos\": ", out);
-  if (st == DYD_OK) st = dyd_voronoi_pos(&boundary, c->d->pd, i);
-  if (st == DYD_OK) st = dyd_boundary_json(out, &boundary, &c->texts);
+  if (st == DYD_OK) st = region_boundary_json(c, i, true);
   fputs("}", out);
-  dyd_boundary_clear(&boundary);
   return st;
 }
 
@@ -99,7 +112,8 @@ static dyd_status vertices_json(const dyd_diagram *d) {
   fputs("\"vertices\": [", d->out);
   for (size_t k = 0; k < d->triangles.count && st == DYD_OK; k++) {
     const uint32_t *v = d->triangles.item[k].v;
-    fprintf(d->out, "%s\n{\"sites\": [%u, %u, %u], ", k ? "," : "", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
+    fprintf(d->out, "%s\n{\"sites\": [%zu, %zu, %zu], ", k ? "," : "", dyd_engine_row(d->engine, v[0]),
+            dyd_engine_row(d->engine, v[1]), dyd_engine_row(d->engine, v[2]));
     dyd_json_box(d->out, "", d->vertex[k]);
     st = exact_box_json(d, k);
     fputs("}", d->out);
@@ -127,7 +141,8 @@ static dyd_status dual_edges_json(const dyd_diagram *d) {
   dyd_status st = dyd_dual_edges(&edge, &count, d->pd, &d->triangles);
   fputs("\"edges\": [", d->out);
   for (size_t k = 0; k < count; k++) {
-    fprintf(d->out, "%s\n{\"i\": %u, \"j\": %u", k ? "," : "", (unsigned)edge[k].i, (unsigned)edge[k].j);
+    fprintf(d->out, "%s\n{\"i\": %zu, \"j\": %zu", k ? "," : "", dyd_engine_row(d->engine, edge[k].i),
+            dyd_engine_row(d->engine, edge[k].j));
     dual_end_json(d->out, "from", &edge[k].end[0]);
     dual_end_json(d->out, "to", &edge[k].end[1]);
     fputs("}", d->out);
@@ -143,7 +158,7 @@ static dyd_status region_json(void *context, size_t face, const double box[4]) {
   bool outer;
   dyd_status st = dyd_delaunay_face(&sites, &outer, d->pd, face);
   fprintf(d->out, "%s\n{\"sites\": [", face ? "," : "");
-  dyd_put_indices(d->out, &sites, ", ");
+  dyd_put_rows(d->out, d->engine, &sites, ", ");
   fputs("], ", d->out);
   if (box)
     dyd_json_box(d->out, "", box);
@@ -180,7 +195,7 @@ static dyd_status diagram_head_json(const dyd_diagram *d) {
       count[DYD_INDETERMINATE], count[DYD_TIE]);
   dyd_status st = dyd_json_rect(d->out, &d->window);
   fputs(",\n", d->out);
-  dyd_json_aliases(d->out, d->pd, ",\n");
+  dyd_json_aliases(d->out, d->engine, ",\n");
   return st;
 }
 
@@ -196,7 +211,7 @@ static dyd_status diagram_bounds_json(const dyd_diagram *d) {
 
 dyd_status dyd_voronoi_json(const dyd_output *o) {
   const dyd_diagram *d = o->what;
-  cells c = {.d = d};
+  cells c = {.d = d, .texts = {.engine = d->engine}};
   dyd_status st = diagram_head_json(d);
   fputs("\"cells\": [", d->out);
   if (st == DYD_OK) st = dyd_diagram_visit(d, cell_json, &c);

@@ -126,7 +126,7 @@ static void vtk_numbers(const gathered *g, const char *name, bool kind) {
   for (int edges = 1; edges >= 0; edges--)
     for (size_t k = 0; k < g->count; k++)
       if ((g->item[k].kind == FIGURE_EDGE) == edges)
-        fprintf(out, "%u\n", kind ? (unsigned)g->item[k].kind : (unsigned)g->item[k].site);
+        fprintf(out, "%zu\n", kind ? (size_t)g->item[k].kind : dyd_engine_row(g->d->engine, g->item[k].site));
 }
 
 dyd_status dyd_voronoi_vtk(const dyd_output *o) {

@@ -31,6 +31,28 @@ static void vtk_points(const dyd_result *r, const dyd_site_row *rows) {
   for (size_t i = 0; i < r->count; i++) fprintf(r->out, "%d\n", *rows[i].hull == 's' ? 2 : *rows[i].hull == 'p');
 }
 
+/* vtk decodes %HH in texts, which end with the line. */
+static void vtk_text(FILE *out, const char *text) {
+  for (; *text; text++) {
+    unsigned char c = (unsigned char)*text;
+    if (c <= ' ' || c == '%' || c == '"' || c > '~')
+      fprintf(out, "%%%02X", c);
+    else
+      fputc(c, out);
+  }
+  fputc('\n', out);
+}
+
+/* Rows and identifiers of the points, where their places in the file do not tell. */
+static void vtk_names(const dyd_result *r) {
+  bool rows = r->count && dyd_engine_row(r->engine, r->count - 1) != r->count - 1, ids = dyd_engine_id(r->engine, 0);
+  if (!rows && !ids) return;
+  fprintf(r->out, "FIELD names %d\nrow 1 %zu long\n", 1 + ids, r->count);
+  for (size_t i = 0; i < r->count; i++) fprintf(r->out, "%zu\n", dyd_engine_row(r->engine, i));
+  if (ids) fprintf(r->out, "id 1 %zu string\n", r->count);
+  for (size_t i = 0; ids && i < r->count; i++) vtk_text(r->out, dyd_engine_id(r->engine, i));
+}
+
 static dyd_status vtk_delaunay(const dyd_output *o) {
   const dyd_result *r = o->what;
   dyd_place *place = NULL;
@@ -49,6 +71,7 @@ static dyd_status vtk_delaunay(const dyd_output *o) {
     for (size_t i = 0; i < r->count; i++) fprintf(r->out, "%s %s 0\n", place[i].x, place[i].y);
     vtk_elements(r, &triangles);
     vtk_points(r, rows);
+    vtk_names(r);
   }
   free(rows);
   dyd_triangle_list_clear(&triangles);

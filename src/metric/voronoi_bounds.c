@@ -6,20 +6,23 @@
  * [HAUS-V] Let z be in U, p a choice, p_a nearest to z, and j the site with the smallest ds_j(z) among the others.
  * z is not in Int_a, so ds_j(z) <= dl_a(z). Both are possible at z: ds_a <= |z - p_a| <= |z - p_k| <= dl_k for all k,
  * and ds_j <= ds_k <= dl_k for k other than a. So |z - p_j| <= ds_j + diam R_j <= dl_a + diam R_j <= |z - p_a| + diam
- * R_a
- * + diam R_j, and z is at most
+ * R_a + diam R_j, and z is at most
  *   (|z-p_j|^2 - |z-p_a|^2) / (2 |p_a - p_j|) <= (diam R_a + diam R_j)(dl_a(z) + dl_j(z)) / (2 dist(R_a,R_j))
  * away from the bisector of p_a and p_j. On the way there it leaves the cell of p_a, at the latest on the bisector: it
- * meets the true diagram. Also p_j is not in the cell of p_a when they differ, so the segment from z to p_j meets the
- * diagram: z is at most dl_j(z) away. z lies in Pos_a n Pos_j n W, where dl_a, dl_j are at most their largest values at
- * the vertices of the outer polygons (dl is convex). Where R_a meets R_j nothing follows but: p_k for any R_k disjoint
- * from R_a is another point, and z is within the diameter of W and all sites of it. */
+ * meets the true diagram: z is within the width of the strip of a and j. And where p_k is not p_a, it is not in the
+ * cell of p_a, so the segment from z to it meets the diagram: z is at most dl_k(z) away, for each k with R_k disjoint
+ * from R_a, j possibly among them; and at most max(dl_k, dl_l)(z), for any R_k, R_l that are disjoint, since one of
+ * p_k, p_l is not p_a. z lies in Pos_a n Pos_j n W, where dl_a, dl_j are at most their largest values at the vertices
+ * of the outer polygons (dl is convex), and the others are bounded over boxes (second_filter.c). Where nothing of this
+ * is known: if any two rectangles are disjoint, z is within the diameter of W and all sites of a point that is not p_a.
+ */
 #include "metric/voronoi_bounds.h"
 #include "base/abi.h"
 
 #include "base/alloc.h"
 #include "dyadic/raw.h"
 #include "metric/bounds.h"
+#include "metric/second_filter.h"
 #include "metric/voronoi_filter.h"
 
 /* Areas in W are below 2^(2 e), polygons are within 2^-bits: sums need some e + bits more digits than a bound. */
@@ -35,16 +38,19 @@ static mpfr_prec_t sum_precision(const dyd_rect *window, int64_t bits) {
 
 dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits) {
   size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
-  *s = (dyd_voronoi_sums){.pd = pd, .window = window, .bits = bits};
+  *s = (dyd_voronoi_sums){.pd = pd, .window = window, .bits = bits, .most = HUGE_VAL};
   mpfr_inits2(sum_precision(window, bits), s->inner, s->term, (mpfr_ptr)0);
   mpfr_set_zero(s->inner, 1);
   dyd_dyadic_init(&s->area2);
   s->reach = dyd_alloc(n, sizeof *s->reach);
-  for (size_t i = 0; s->reach && i < n; i++) s->reach[i] = -1;
-  return s->reach ? DYD_OK : DYD_E_NOMEM;
+  s->second = dyd_alloc(n, sizeof *s->second);
+  if (!s->reach || !s->second) return DYD_E_NOMEM;
+  for (size_t i = 0; i < n; i++) s->reach[i] = s->second[i] = -1;
+  return DYD_OK;
 }
 
 void dyd_voronoi_sums_clear(dyd_voronoi_sums *s) {
+  free(s->second);
   free(s->reach);
   dyd_dyadic_clear(&s->area2);
   mpfr_clears(s->inner, s->term, (mpfr_ptr)0);
@@ -81,17 +87,24 @@ static dyd_status add_shape(double area[2], dyd_voronoi_sums *s, uint32_t i, con
   return DYD_OK;
 }
 
-dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, void *context,
-                                const volatile int *cancel) {
+/* The shape of site i, or what stands for it. */
+static dyd_status find_shape(dyd_shape *shape, dyd_voronoi_sums *s, uint32_t i, const dyd_window *w) {
+  dyd_status st = dyd_shape_find(shape, s->pd, i, w, s->bits);
+  if (st != DYD_CANCELLED || !s->cut) return st;
+  ++*s->cut;
+  return dyd_shape_set_unknown(shape, s->window);
+}
+
+dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, void *context) {
   size_t n = dyd_sites_count(dyd_delaunay_sites(s->pd));
   dyd_shape shape = {0};
   dyd_window w;
   dyd_status st = dyd_window_init(&w, s->window);
+  w.cancel = s->cancel;
   for (size_t i = 0; i < n && st == DYD_OK; i++) {
     double area[2];
     if (dyd_delaunay_alias(s->pd, (uint32_t)i) != i) continue;
-    if (i % 64 == 0 && dyd_flag_is_set(cancel)) st = DYD_CANCELLED;
-    if (st == DYD_OK) st = dyd_shape_find(&shape, s->pd, (uint32_t)i, &w, s->bits);
+    st = find_shape(&shape, s, (uint32_t)i, &w);
     if (st == DYD_OK) st = add_shape(area, s, (uint32_t)i, &shape);
     if (st == DYD_OK && visit) st = visit(context, (uint32_t)i, &shape, area);
   }
@@ -122,8 +135,8 @@ void dyd_voronoi_area(mpfr_ptr out, const dyd_voronoi_sums *s) {
 
 /* ---- Hausdorff ---- */
 
-dyd_status dyd_voronoi_pair_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, dyd_measure *m,
-                                      const dyd_pair *pair) {
+dyd_status dyd_voronoi_pair_width(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, dyd_measure *m,
+                                  const dyd_pair *pair) {
   double a = s->reach[pair->i], b = s->reach[pair->j];
   *finite = true;
   mpfr_set_zero(out, 1);
@@ -149,6 +162,33 @@ dyd_status dyd_voronoi_pair_hausdorff(mpfr_ptr out, bool *finite, const dyd_voro
   return st;
 }
 
+dyd_status dyd_voronoi_pair_second(double *out, dyd_voronoi_sums *s, const dyd_pair *pair) {
+  const uint32_t end[2] = {pair->i, pair->j};
+  dyd_status st = DYD_OK;
+  *out = 0;
+  for (int k = 0; k < 2 && st == DYD_OK && *out < HUGE_VAL; k++) {
+    double *second = &s->second[end[k]];
+    if (*second < 0) st = dyd_filter_second(second, s->pd, end[k], s->window, s->reach[end[k]], s->most);
+    if (*second > *out) *out = *second;
+  }
+  return st;
+}
+
+/* What one possible pair asks of the bound: the width, or the distance of other points where that is smaller. The
+ * latter is not looked for where the width is at most `enough`. *known = false: there is neither. */
+static dyd_status pair_distance(mpfr_ptr out, bool *known, dyd_voronoi_sums *s, dyd_measure *m, const dyd_pair *pair,
+                                mpfr_srcptr enough) {
+  double second;
+  dyd_status st = dyd_voronoi_pair_width(out, known, s, m, pair);
+  if (st != DYD_OK || (*known && mpfr_cmp(out, enough) <= 0)) return st;
+  st = dyd_voronoi_pair_second(&second, s, pair);
+  if (st == DYD_OK && second < HUGE_VAL && (!*known || mpfr_cmp_d(out, second) > 0)) {
+    mpfr_set_d(out, second, MPFR_RNDU);
+    *known = true;
+  }
+  return st;
+}
+
 /* Can the pair not be above `most`? */
 static bool pair_is_small(const dyd_voronoi_sums *s, const dyd_pair *pair, mpfr_srcptr most) {
   double a[4], b[4], ra = s->reach[pair->i], rb = s->reach[pair->j];
@@ -159,7 +199,7 @@ static bool pair_is_small(const dyd_voronoi_sums *s, const dyd_pair *pair, mpfr_
   return value < HUGE_VAL && mpfr_cmp_d(most, value) >= 0;
 }
 
-dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_sums *s, const dyd_pair_list *pairs) {
+dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, dyd_voronoi_sums *s, const dyd_pair_list *pairs) {
   dyd_measure m;
   mpfr_t one;
   bool open = false;
@@ -170,8 +210,10 @@ dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_s
   *finite = true;
   for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
     bool known;
+    if (dyd_flag_is_set(s->cancel)) st = DYD_CANCELLED;
+    if (st != DYD_OK) break;
     if (pair_is_small(s, &pairs->item[k], out)) continue;
-    st = dyd_voronoi_pair_hausdorff(one, &known, s, &m, &pairs->item[k]);
+    st = pair_distance(one, &known, s, &m, &pairs->item[k], out);
     open |= !known;
     if (known) mpfr_max(out, out, one, MPFR_RNDU);
   }
@@ -194,13 +236,18 @@ dyd_status dyd_voronoi_hausdorff(mpfr_ptr out, bool *finite, const dyd_voronoi_s
 
 /* ---- public ---- */
 
-dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, const dyd_voronoi_sums *s) {
+dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, dyd_voronoi_sums *s) {
   dyd_pair_list pairs = {0};
   mpfr_t area, hausdorff;
   mpfr_inits2(DYD_MEASURE_PREC, area, hausdorff, (mpfr_ptr)0);
   dyd_status st = dyd_delaunay_pairs(&pairs, s->pd);
   dyd_voronoi_area(area, s);
   if (st == DYD_OK) st = dyd_voronoi_hausdorff(hausdorff, &out->finite, s, &pairs);
+  if (st == DYD_CANCELLED && s->cut) { /* not known */
+    st = DYD_OK;
+    out->finite = false;
+    mpfr_set_zero(hausdorff, 1);
+  }
   if (st == DYD_OK) st = dyd_bound_to_dyadic(&out->area, area);
   if (st == DYD_OK) st = dyd_bound_to_dyadic(&out->hausdorff, hausdorff);
   mpfr_clears(area, hausdorff, (mpfr_ptr)0);
@@ -220,7 +267,8 @@ dyd_status dyd_metric_voronoi(dyd_voronoi_bounds *out, const dyd_delaunay *pd, c
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
   dyd_voronoi_bounds_init(&b);
   st = dyd_voronoi_sums_init(&s, pd, window, bits);
-  if (st == DYD_OK) st = dyd_voronoi_sums_all(&s, NULL, NULL, cancel);
+  s.cancel = cancel;
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(&s, NULL, NULL);
   if (st == DYD_OK) st = dyd_voronoi_sums_bounds(&b, &s);
   if (st == DYD_OK) {
     dyd_dyadic_swap(&out->area, &b.area);

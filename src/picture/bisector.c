@@ -14,6 +14,7 @@ static const unsigned tint[2] = {0xcfe4f3, 0xd9eccf}, body[2] = {0x6aaed6, 0x8cc
 typedef struct bisector_drawing {
   const dyd_rect *const *r;
   const dyd_boundary *curve;
+  const dyd_engine *engine;
   dyd_view view;
   double reach; /* arcs are cut off so far from the rectangles: far outside of the picture */
 } bisector_drawing;
@@ -192,20 +193,20 @@ static void bisector_legend(dyd_canvas *c, void *context) {
 
 static void bisector_inside(dyd_canvas *c, void *context) {
   const bisector_drawing *d = context;
-  dyd_labels labels;
+  dyd_numbers labels;
   double b[2][4];
   draw_curves(c, d);
   for (size_t k = 0; k < 2; k++) {
     dyd_rect_get_d(b[k], d->r[k]);
-    dyd_picture_marked(c, &d->view, b[k], k, body[k]);
+    dyd_picture_marked(c, &d->view, b[k], dyd_engine_row(d->engine, k), body[k]);
   }
-  if (!dyd_labels_init(&labels, &d->view)) return;
+  if (!dyd_numbers_init(&labels, &d->view)) return;
   for (size_t k = 0; k < 4; k++)
     if (k < 2)
-      dyd_labels_keep_off(&labels, b[k]);
+      dyd_numbers_keep_off(&labels, b[k]);
     else
-      dyd_labels_put(&labels, c, b[k - 2], 18, k - 2);
-  dyd_labels_clear(&labels);
+      dyd_numbers_put(&labels, c, b[k - 2], 18, dyd_engine_row(d->engine, k - 2));
+  dyd_numbers_clear(&labels);
 }
 
 /* *box grows by the ends that are not far out. */
@@ -222,7 +223,7 @@ static void see_ends(double box[4], const dyd_boundary *b, double reach) {
 
 dyd_status dyd_bisector_picture(const dyd_output *o) {
   const dyd_bisector_output *c = o->what;
-  bisector_drawing d = {.r = c->r, .curve = c->curve};
+  bisector_drawing d = {.r = c->r, .curve = c->curve, .engine = c->engine};
   double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY}, see[4];
   dyd_status st = DYD_OK;
   for (int k = 0; k < 2 && st == DYD_OK; k++) st = dyd_view_grow(box, d.r[k], o->err);

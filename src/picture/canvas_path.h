@@ -30,7 +30,7 @@ struct dyd_canvas {
   bool open;   /* svg: a group with the paint `shared` */
   dyd_paint shared;
   unsigned clips; /* svg: so many so far */
-  char id[48], title[160];
+  char id[80], title[160];
 };
 
 /* ---- canvas_svg.c ---- */

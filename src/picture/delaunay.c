@@ -72,9 +72,11 @@ static void draw_triangles(dyd_canvas *c, delaunay_drawing *d) {
     if (!polygon_path(c, d, z, 3)) continue;
     d->triangle = true;
     if (!names) continue;
-    char id[48], title[80];
-    snprintf(id, sizeof id, "triangle-%u-%u-%u", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
-    snprintf(title, sizeof title, "sure triangle %u, %u, %u", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
+    size_t row[3];
+    for (int corner = 0; corner < 3; corner++) row[corner] = dyd_engine_row(d->r->engine, v[corner]);
+    char id[80], title[80];
+    snprintf(id, sizeof id, "triangle-%zu-%zu-%zu", row[0], row[1], row[2]);
+    snprintf(title, sizeof title, "sure triangle %zu, %zu, %zu", row[0], row[1], row[2]);
     dyd_canvas_name(c, id, title);
     dyd_picture_fill(c, TRIANGLE);
   }
@@ -143,9 +145,10 @@ static void draw_edges(dyd_canvas *c, const delaunay_drawing *d, int k) {
     dyd_canvas_move(c, z[0][0], z[0][1]);
     dyd_canvas_line(c, z[1][0], z[1][1]);
     if (!names) continue;
-    char id[48], title[80];
-    snprintf(id, sizeof id, "pair-%u-%u", (unsigned)pair->i, (unsigned)pair->j);
-    snprintf(title, sizeof title, "%u, %u: %s", (unsigned)pair->i, (unsigned)pair->j, style[k].name);
+    size_t i = dyd_engine_row(d->r->engine, pair->i), j = dyd_engine_row(d->r->engine, pair->j);
+    char id[80], title[80];
+    snprintf(id, sizeof id, "pair-%zu-%zu", i, j);
+    snprintf(title, sizeof title, "%zu, %zu: %s", i, j, style[k].name);
     dyd_canvas_name(c, id, title);
     dyd_picture_stroke(c, style[k].rgb, width, style[k].on, style[k].off);
   }
@@ -157,25 +160,25 @@ static void draw_sites(dyd_canvas *c, delaunay_drawing *d) {
     double b[4];
     if (dyd_delaunay_alias(d->r->pd, (uint32_t)i) != i) continue;
     dyd_sites_get_d(b, d->r->sites, i);
-    d->mark[dyd_picture_site(c, &d->view, b, i, DYD_PICTURE_BAND)] = true;
+    d->mark[dyd_picture_site(c, &d->view, b, dyd_engine_row(d->r->engine, i), DYD_PICTURE_BAND)] = true;
   }
 }
 
 /* Without room for the numbers they are left out. */
 static void draw_numbers(dyd_canvas *c, const delaunay_drawing *d) {
-  dyd_labels labels;
-  if (d->view.apart < ROOMY || !dyd_labels_init(&labels, &d->view)) return;
+  dyd_numbers labels;
+  if (d->view.apart < ROOMY || !dyd_numbers_init(&labels, &d->view)) return;
   for (int pass = 0; pass < 2; pass++)
     for (size_t i = 0; i < d->r->count; i++) {
       double b[4];
       if (dyd_delaunay_alias(d->r->pd, (uint32_t)i) != i) continue;
       dyd_sites_get_d(b, d->r->sites, i);
       if (pass)
-        dyd_labels_put(&labels, c, b, 13, i);
+        dyd_numbers_put(&labels, c, b, 13, dyd_engine_row(d->r->engine, i));
       else
-        dyd_labels_keep_off(&labels, b);
+        dyd_numbers_keep_off(&labels, b);
     }
-  dyd_labels_clear(&labels);
+  dyd_numbers_clear(&labels);
 }
 
 /* In words what is shown of how many points. */

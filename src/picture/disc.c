@@ -20,6 +20,7 @@ typedef struct disc_drawing {
   const dyd_partial_disc *d;
   const dyd_rect *const *r;
   size_t n;
+  const dyd_engine *engine;
   dyd_view view;
   double at[CIRCLES][3]; /* centre, radius */
 } disc_drawing;
@@ -119,19 +120,20 @@ static unsigned con_colour(dyd_sure con) {
 }
 
 static void disc_sites(dyd_canvas *c, const disc_drawing *g) {
-  dyd_labels labels;
-  bool numbers = dyd_labels_init(&labels, &g->view);
+  dyd_numbers labels;
+  bool numbers = dyd_numbers_init(&labels, &g->view);
   for (int pass = 0; pass < 2; pass++)
     for (size_t i = g->n; i-- > 0;) {
       double b[4];
       size_t first_first = g->n - 1 - i; /* numbers 0, 1, 2 have the choice */
       dyd_rect_get_d(b, g->r[pass ? first_first : i]);
       if (!pass)
-        dyd_picture_marked(c, &g->view, b, i, i < 3 ? TRIPLE : con_colour(dyd_partial_disc_con(g->d, g->r[i])));
-      if (numbers && !pass) dyd_labels_keep_off(&labels, b);
-      if (numbers && pass) dyd_labels_put(&labels, c, b, 18, first_first);
+        dyd_picture_marked(c, &g->view, b, dyd_engine_row(g->engine, i),
+                           i < 3 ? TRIPLE : con_colour(dyd_partial_disc_con(g->d, g->r[i])));
+      if (numbers && !pass) dyd_numbers_keep_off(&labels, b);
+      if (numbers && pass) dyd_numbers_put(&labels, c, b, 18, dyd_engine_row(g->engine, first_first));
     }
-  dyd_labels_clear(&labels);
+  dyd_numbers_clear(&labels);
 }
 
 /* Which of the others there are: inside, outside, not known. */
@@ -201,7 +203,7 @@ static dyd_status disc_view(disc_drawing *g, dyd_error *err) {
 
 dyd_status dyd_disc_picture(const dyd_output *o) {
   const dyd_disc_output *c = o->what;
-  disc_drawing g = {.d = c->disc, .r = c->r, .n = c->n};
+  disc_drawing g = {.d = c->disc, .r = c->r, .n = c->n, .engine = c->engine};
   for (int k = 0; k < CIRCLES && g.d->known; k++) place_circle(g.at[k], &g.d->circle[k]);
   dyd_status st = disc_view(&g, o->err);
   return st == DYD_OK ? dyd_view_write(o, &g.view, "partial disc", disc_inside, disc_legend, &g) : st;

@@ -17,6 +17,7 @@ typedef struct nearest_drawing {
   const dyd_delaunay *pd;
   const dyd_sites *sites;
   const dyd_nearest_answer *answer;
+  const dyd_engine *engine;
   dyd_view view;
   double place[4], near, far; /* Q, m, M */
   size_t count;               /* sites that stand for themselves */
@@ -85,10 +86,10 @@ static void nearest_circles(dyd_canvas *c, const nearest_drawing *g) {
 }
 
 /* Calls for every site that is drawn, those that are possibly nearest last (first: the other way round). */
-typedef void (*nearest_visit)(dyd_canvas *c, nearest_drawing *g, dyd_labels *l, const double box[4], size_t i,
+typedef void (*nearest_visit)(dyd_canvas *c, nearest_drawing *g, dyd_numbers *l, const double box[4], size_t i,
                               bool found);
 
-static void nearest_each(dyd_canvas *c, nearest_drawing *g, dyd_labels *l, bool first, nearest_visit visit) {
+static void nearest_each(dyd_canvas *c, nearest_drawing *g, dyd_numbers *l, bool first, nearest_visit visit) {
   const dyd_index_list *list = g->answer->found; /* ascending */
   for (int pass = 0; pass < 2; pass++)
     for (size_t i = 0, at = 0; i < dyd_sites_count(g->sites); i++) {
@@ -101,17 +102,16 @@ static void nearest_each(dyd_canvas *c, nearest_drawing *g, dyd_labels *l, bool 
     }
 }
 
-static void nearest_mark_site(dyd_canvas *c, nearest_drawing *g, dyd_labels *l, const double box[4], size_t i,
+static void nearest_mark_site(dyd_canvas *c, nearest_drawing *g, dyd_numbers *l, const double box[4], size_t i,
                               bool found) {
-  dyd_picture_marked(c, &g->view, box, i, !found ? NOT : g->answer->sure ? SURE : POSSIBLE);
+  dyd_picture_marked(c, &g->view, box, dyd_engine_row(g->engine, i), !found ? NOT : g->answer->sure ? SURE : POSSIBLE);
   g->others = g->others || !found;
-  if (l->taken) dyd_labels_keep_off(l, box);
+  if (l->taken) dyd_numbers_keep_off(l, box);
 }
 
-static void nearest_number(dyd_canvas *c, nearest_drawing *g, dyd_labels *l, const double box[4], size_t i,
+static void nearest_number(dyd_canvas *c, nearest_drawing *g, dyd_numbers *l, const double box[4], size_t i,
                            bool found) {
-  (void)g;
-  dyd_labels_put(l, c, box, found ? 18 : 14, i);
+  dyd_numbers_put(l, c, box, found ? 18 : 14, dyd_engine_row(g->engine, i));
 }
 
 static void draw_ways(dyd_canvas *c, const nearest_drawing *g) {
@@ -164,8 +164,8 @@ static void nearest_legend(dyd_canvas *c, void *context) {
   dyd_decimal_directed(lo, g->near, 6, DYD_DOWN);
   dyd_decimal_directed(hi, g->far, 6, DYD_UP);
   if (g->answer->sure)
-    snprintf(text, sizeof text, "%zu points, number %u is surely nearest, about %s away (at most %s)", g->count,
-             (unsigned)g->answer->found->item[0], lo, hi);
+    snprintf(text, sizeof text, "%zu points, number %zu is surely nearest, about %s away (at most %s)", g->count,
+             dyd_engine_row(g->engine, g->answer->found->item[0]), lo, hi);
   else
     snprintf(text, sizeof text, "%zu points, %zu possibly nearest, outcome %s; the nearest is about %s to %s away",
              g->count, g->answer->found->count, dyd_outcome_text(g->answer->outcome), lo, hi);
@@ -174,21 +174,21 @@ static void nearest_legend(dyd_canvas *c, void *context) {
 
 static void nearest_inside(dyd_canvas *c, void *context) {
   nearest_drawing *g = context;
-  dyd_labels labels = {0};
-  bool numbers = g->view.apart >= 28 && dyd_labels_init(&labels, &g->view);
+  dyd_numbers labels = {0};
+  bool numbers = g->view.apart >= 28 && dyd_numbers_init(&labels, &g->view);
   if (g->count) nearest_areas(c, g);
   nearest_each(c, g, &labels, false, nearest_mark_site);
   if (g->count) nearest_circles(c, g);
   draw_ways(c, g);
   draw_place(c, g);
-  if (numbers) dyd_labels_keep_off(&labels, g->place);
+  if (numbers) dyd_numbers_keep_off(&labels, g->place);
   if (numbers) nearest_each(c, g, &labels, true, nearest_number);
-  dyd_labels_clear(&labels);
+  dyd_numbers_clear(&labels);
 }
 
 dyd_status dyd_nearest_picture(const dyd_output *o) {
   const dyd_nearest_output *n = o->what;
-  nearest_drawing g = {.pd = n->pd, .sites = dyd_delaunay_sites(n->pd), .answer = n->answer[0]};
+  nearest_drawing g = {.pd = n->pd, .sites = dyd_delaunay_sites(n->pd), .answer = n->answer[0], .engine = n->engine};
   dyd_rect_get_d(g.place, g.answer->at);
   find_distances(&g);
   dyd_status st = nearest_view(&g, o->err);

@@ -93,22 +93,22 @@ dyd_site_mark dyd_picture_site(dyd_canvas *c, const dyd_view *v, const double bo
 /* A rectangle, however small it is, filled with rgb. */
 void dyd_picture_marked(dyd_canvas *c, const dyd_view *v, const double box[4], size_t number, unsigned rgb);
 
-/* ---- labels.c ---- */
+/* ---- numbers.c ---- */
 
 /* Numbers of sites where there is room: on no rectangle, on no other number, inside of the frame. */
-typedef struct dyd_labels {
+typedef struct dyd_numbers {
   const dyd_view *view;
   unsigned char *taken; /* squares of the page */
   size_t columns, rows;
-} dyd_labels;
+} dyd_numbers;
 
 /* false: memory is exhausted. */
-bool dyd_labels_init(dyd_labels *l, const dyd_view *v);
-void dyd_labels_clear(dyd_labels *l);
+bool dyd_numbers_init(dyd_numbers *l, const dyd_view *v);
+void dyd_numbers_clear(dyd_numbers *l);
 /* Nothing may stand on this box, or on the dot that stands for it. */
-void dyd_labels_keep_off(dyd_labels *l, const double box[4]);
+void dyd_numbers_keep_off(dyd_numbers *l, const double box[4]);
 /* Writes the number of a site beside its box, if there is room. */
-void dyd_labels_put(dyd_labels *l, dyd_canvas *c, const double box[4], double size, size_t number);
+void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double size, size_t number);
 
 /* ---- legend.c ---- */
 

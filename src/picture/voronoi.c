@@ -28,15 +28,16 @@ static void polygon_outline(dyd_canvas *c, const dyd_view *v, const dyd_polygon 
 }
 
 /* "cell-7", "surely nearest to 7"; or of several sites, separated by minus signs and commas. */
-static void name_of(dyd_canvas *c, const char *id, const char *title, const uint32_t *site, size_t count) {
-  char full_id[48], full_title[160];
+static void name_of(const voronoi_drawing *g, const char *id, const char *title, const uint32_t *site, size_t count) {
+  char full_id[80], full_title[160];
   size_t a = (size_t)snprintf(full_id, sizeof full_id, "%s", id);
   size_t b = (size_t)snprintf(full_title, sizeof full_title, "%s", title);
   for (size_t k = 0; k < count && k < 3; k++) {
-    a += (size_t)snprintf(full_id + a, sizeof full_id - a, "-%u", (unsigned)site[k]);
-    b += (size_t)snprintf(full_title + b, sizeof full_title - b, "%s %u", k ? "," : "", (unsigned)site[k]);
+    a += (size_t)snprintf(full_id + a, sizeof full_id - a, "-%zu", dyd_engine_row(g->d->engine, site[k]));
+    b += (size_t)snprintf(full_title + b, sizeof full_title - b, "%s %zu", k ? "," : "",
+                          dyd_engine_row(g->d->engine, site[k]));
   }
-  dyd_canvas_name(c, full_id, full_title);
+  dyd_canvas_name(g->canvas, full_id, full_title);
 }
 
 static dyd_status voronoi_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
@@ -45,7 +46,7 @@ static dyd_status voronoi_cell(void *context, uint32_t i, const dyd_shape *shape
   (void)row;
   dyd_status st = dyd_shape_inner(&inner, shape);
   if (st == DYD_OK && inner.count) {
-    name_of(g->canvas, "cell", "surely nearest to", &i, 1);
+    name_of(g, "cell", "surely nearest to", &i, 1);
     polygon_outline(g->canvas, &g->view, &inner);
     dyd_picture_shape(g->canvas, tints[i % 4], 1, 0x0072b2, g->view.line * 0.6);
     g->cell = true;
@@ -78,7 +79,7 @@ static void voronoi_vertices(voronoi_drawing *g) {
     double side = 1.6 * g->view.dot / g->view.scale, x = b[0] / 2 + b[1] / 2, y = b[2] / 2 + b[3] / 2;
     double wide = fmax(b[1] - b[0], side) / 2, high = fmax(b[3] - b[2], side) / 2,
            show[4] = {x - wide, x + wide, y - high, y + high};
-    name_of(g->canvas, "vertex", "holds the vertex of", g->d->triangles.item[k].v, 3);
+    name_of(g, "vertex", "holds the vertex of", g->d->triangles.item[k].v, 3);
     dyd_picture_box(g->canvas, &g->view, show);
     dyd_picture_stroke(g->canvas, 0x0072b2, g->view.line * 0.8, 0, 0);
     g->vertex = true;
@@ -112,18 +113,18 @@ static void voronoi_legend(dyd_canvas *c, void *context) {
 }
 
 static void voronoi_sites(voronoi_drawing *g) {
-  dyd_labels labels = {0};
-  bool numbers = g->view.apart >= 28 && dyd_labels_init(&labels, &g->view);
+  dyd_numbers labels = {0};
+  bool numbers = g->view.apart >= 28 && dyd_numbers_init(&labels, &g->view);
   for (int pass = 0; pass < 2; pass++)
     for (size_t i = 0; i < g->d->count; i++) {
       double b[4];
       dyd_sites_get_d(b, g->d->sites, i);
       if (!dyd_box_is_finite(b) || dyd_delaunay_alias(g->d->pd, (uint32_t)i) != i) continue;
-      if (!pass) g->mark[dyd_picture_site(g->canvas, &g->view, b, i, SITE)] = true;
-      if (numbers && !pass) dyd_labels_keep_off(&labels, b);
-      if (numbers && pass) dyd_labels_put(&labels, g->canvas, b, 13, i);
+      if (!pass) g->mark[dyd_picture_site(g->canvas, &g->view, b, dyd_engine_row(g->d->engine, i), SITE)] = true;
+      if (numbers && !pass) dyd_numbers_keep_off(&labels, b);
+      if (numbers && pass) dyd_numbers_put(&labels, g->canvas, b, 13, dyd_engine_row(g->d->engine, i));
     }
-  dyd_labels_clear(&labels);
+  dyd_numbers_clear(&labels);
 }
 
 static void voronoi_inside(dyd_canvas *c, void *context) {

@@ -27,7 +27,7 @@ static double farthest(double c, double lo, double hi) {
 
 /* ---- the tangents at its ends ---- */
 
-static double reach(const dyd_bbox *b, int axis, int up) {
+static double beta_reach(const dyd_bbox *b, int axis, int up) {
   return b->e[2 * axis + up];
 }
 
@@ -41,7 +41,7 @@ static void set_side(dyd_bbox *out, int axis, double lo, double hi, double slack
 static void start_tangent(dyd_beta *q, int up) {
   const dyd_bbox *box[2] = {q->a, q->b};
   const double slack[2] = {dyd_box_slack(q->rects, q->i), dyd_box_slack(q->rects, q->j)};
-  double ta = reach(q->a, q->t, up), tb = reach(q->b, q->t, up), rise = (tb - ta) * (up ? 1 : -1);
+  double ta = beta_reach(q->a, q->t, up), tb = beta_reach(q->b, q->t, up), rise = (tb - ta) * (up ? 1 : -1);
   q->rise[up] = fabs(rise) > 4 * (slack[0] + slack[1]) ? (rise > 0) - (rise < 0) : 0;
   for (int k = 0; k < 2; k++) {
     double o0 = low(box[k], q->across), o1 = high(box[k], q->across), t = k ? tb : ta;
@@ -71,7 +71,7 @@ dyd_sure dyd_beta_blocks_end(const dyd_beta *q, uint32_t k, int up) {
   dyd_bbox least;
   int turn = (int)dyd_filter_orientation(a, b, box->e);
   if (turn) return turn == beyond ? DYD_SURE_PLUS : DYD_SURE_MINUS;
-  double o = q->rise[up] > 0 ? high(box, q->across) : low(box, q->across), t = reach(box, q->t, !up);
+  double o = q->rise[up] > 0 ? high(box, q->across) : low(box, q->across), t = beta_reach(box, q->t, !up);
   set_side(&least, q->across, o, o, slack);
   set_side(&least, q->t, t, t, slack);
   return (int)dyd_filter_orientation(a, b, least.e) == -beyond ? DYD_SURE_MINUS : DYD_UNSURE;

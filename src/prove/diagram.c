@@ -161,7 +161,7 @@ static dyd_status section_write(section *s, const dyd_rect *window) {
     dyd_proof_put_number(s->out, &s->window.e[k]);
   }
   fputs("\npolygons\n", s->out);
-  if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, section_polygon, s, NULL);
+  if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, section_polygon, s);
   if (st == DYD_OK) st = dyd_voronoi_sums_bounds(&bounds, &sums);
   if (st == DYD_OK) section_area(s);
   if (st == DYD_OK) st = section_distance(s, &bounds);

@@ -17,6 +17,7 @@
 #ifndef DYD_SKELETON_MESH_H
 #define DYD_SKELETON_MESH_H
 
+#include "base/flag.h"
 #include "skeleton/order.h"
 #include "skeleton/reps.h"
 #include <dyadel/delaunay.h>
@@ -71,11 +72,6 @@ static inline uint32_t dyd_mesh_rep(const dyd_mesh *m, uint32_t v) {
 }
 static inline uint32_t dyd_mesh_alias(const dyd_mesh *m, uint32_t v) {
   return m->alias ? m->alias[v] : DYD_NONE;
-}
-
-/* Another thread or a signal handler may set the flag at any time. */
-static inline bool dyd_flag_is_set(const volatile int *flag) {
-  return flag && __atomic_load_n(flag, __ATOMIC_RELAXED);
 }
 
 #endif

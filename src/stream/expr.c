@@ -3,7 +3,7 @@
  *
  *   sum     = product { (+|-) product }          product = signed { (*|/) signed }
  *   signed  = { + | - } power                    power   = primary [ ^ signed ]      (so -2^2 = -4, 2^3^2 = 2^9)
- *   primary = literal | pi | e | x | function ( sum {, sum} ) | ( sum )
+ *   primary = literal | pi | e | x | root ( .. ) | function ( sum {, sum} ) | ( sum )
  *
  * "+-" outside parentheses ends an expression: it introduces a radius. */
 #include "stream/expr.h"
@@ -21,7 +21,7 @@ typedef struct parser {
   size_t start, start_column; /* all that is part of an expression is ASCII: columns count on from here */
   unsigned depth, parentheses;
   size_t work; /* bits of rationals computed so far */
-  bool allow_x;
+  dyd_expr_names names;
   dyd_error *err;
 } parser;
 
@@ -39,6 +39,7 @@ const char *dyd_op_name(dyd_op op) {
   for (size_t i = 0; i < NAME_COUNT; i++) {
     if (names[i].op == op) return names[i].name;
   }
+  if (op == DYD_OP_ROOT) return "root";
   return op == DYD_OP_DIV ? "/" : op == DYD_OP_POW ? "^" : op == DYD_OP_MUL ? "*" : op == DYD_OP_ADD ? "+" : "-";
 }
 
@@ -205,12 +206,53 @@ static bool is_letter(int c) {
 static dyd_status name_fail(parser *p, size_t at, size_t n) {
   int shown = n < 32 ? (int)n : 32;
   if (n == 4 && !memcmp(p->text + at, "root", 4)) {
-    return FAIL(p, at, DYD_E_PARSE, "root(polynomial, lo, hi) must stand alone, outside other expressions");
+    return FAIL(p, at, DYD_E_PARSE, "root(polynomial, lo, hi) cannot stand within another root");
   }
   return FAIL(p, at, DYD_E_PARSE,
               "the name '%.*s' is unknown; known are pi e sqrt cbrt exp log sin cos tan asin acos atan "
-              "sinh cosh tanh abs min max",
+              "sinh cosh tanh abs min max root",
               shown, p->text + at);
+}
+
+/* A root that is rational becomes a constant. */
+static dyd_status push_known_root(parser *p, const dyd_real *x, size_t at) {
+  mpq_t lo, hi;
+  dyd_status st = push_node(p, DYD_OP_CONST, at);
+  if (st != DYD_OK) return st;
+  if (!dyd_draft_reserve_constant(p->d)) return dyd_fail_nomem(p->err);
+  last_node(p)->argument = (int32_t)p->e->constants;
+  p->e->constant[p->e->constants++] = (dyd_constant){.den = 1};
+  mpq_inits(lo, hi, NULL);
+  dyd_interval_get_q(lo, hi, dyd_real_interval(x));
+  st = dyd_constant_set(last_constant(p), lo);
+  mpq_clears(lo, hi, NULL);
+  return st == DYD_OK ? charge_constant(p, at) : fold_fail(p, st, DYD_OP_ROOT, at);
+}
+
+/* Takes over x on success. */
+static dyd_status push_root(parser *p, dyd_real *x, size_t at) {
+  if (p->e->roots >= DYD_EXPR_ROOTS)
+    return FAIL(p, at, DYD_E_RANGE, "the expression has more than %zu roots; split it", DYD_EXPR_ROOTS);
+  dyd_status st = push_node(p, DYD_OP_ROOT, at);
+  if (st != DYD_OK) return st;
+  if (!dyd_draft_reserve_root(p->d)) return dyd_fail_nomem(p->err);
+  last_node(p)->argument = (int32_t)p->e->roots;
+  last_node(p)->range = (dyd_range){-DYD_NO_END, DYD_NO_END};
+  p->e->root[p->e->roots++] = x;
+  return DYD_OK;
+}
+
+/* "root" has been read. */
+static dyd_status parse_root(parser *p, size_t at) {
+  dyd_real *x = NULL;
+  if (peek_char(p) != '(') return FAIL(p, p->pos, DYD_E_PARSE, "a '(' is missing after root");
+  p->pos++;
+  dyd_status st = p->names.root(&x, &p->pos, p->text, p->length, p->err);
+  if (st != DYD_OK) return st;
+  bool known = dyd_real_is_final(x);
+  st = known ? push_known_root(p, x, at) : push_root(p, x, at);
+  if (known || st != DYD_OK) dyd_real_free(x);
+  return st;
 }
 
 /* Is the name the n letters of the text? */
@@ -222,10 +264,14 @@ static dyd_status parse_name(parser *p) {
   size_t at = p->pos, n = 0, i = 0;
   while (at + n < p->length && (is_letter(p->text[at + n]) || (p->text[at + n] >= '0' && p->text[at + n] <= '9'))) n++;
   while (i < NAME_COUNT && !text_is_name(names[i].name, p->text + at, n)) i++;
+  if (i == NAME_COUNT && p->names.root && n == 4 && !memcmp(p->text + at, "root", 4)) {
+    p->pos += n;
+    return parse_root(p, at);
+  }
   if (i == NAME_COUNT) return name_fail(p, at, n);
   dyd_op op = names[i].op;
   p->pos += n;
-  if (op == DYD_OP_X && !p->allow_x) {
+  if (op == DYD_OP_X && !p->names.x) {
     return FAIL(p, at, DYD_E_PARSE, "x has a meaning only in root(polynomial, lo, hi)");
   }
   if (dyd_op_is_leaf(op)) {
@@ -303,9 +349,10 @@ static dyd_status parse_sum(parser *p) {
   return st;
 }
 
-dyd_status dyd_expr_parse(dyd_draft *d, size_t *pos, const char *text, size_t length, bool allow_x, dyd_error *err) {
+dyd_status dyd_expr_parse(dyd_draft *d, size_t *pos, const char *text, size_t length, dyd_expr_names known,
+                          dyd_error *err) {
   parser p = {
-      .d = d, .e = &d->e, .text = text, .length = length, .pos = *pos, .start = *pos, .allow_x = allow_x, .err = err};
+      .d = d, .e = &d->e, .text = text, .length = length, .pos = *pos, .start = *pos, .names = known, .err = err};
   p.start_column = dyd_text_column(text, *pos);
   dyd_status st = parse_sum(&p);
   if (st != DYD_OK) return st;

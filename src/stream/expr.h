@@ -9,16 +9,18 @@
 #include "stream/constant.h"
 #include <dyadel/stream.h>
 
-/* Bounds that keep hostile text cheap: nesting, nodes, and bits of all rationals computed while folding. */
+/* Bounds that keep hostile text cheap: nesting, nodes, roots, and bits of all rationals computed while folding. */
 #define DYD_EXPR_DEPTH 200
 #define DYD_EXPR_NODES ((size_t)4096)
 #define DYD_EXPR_WORK ((size_t)1 << 23)
+#define DYD_EXPR_ROOTS ((size_t)64)
 
 typedef enum dyd_op {
   DYD_OP_CONST,
   DYD_OP_X, /* the variable of root(...) */
   DYD_OP_PI,
   DYD_OP_E,
+  DYD_OP_ROOT, /* a root of a polynomial, kept as a real of its own */
   DYD_OP_ADD,
   DYD_OP_SUB,
   DYD_OP_MUL,
@@ -46,7 +48,7 @@ static inline bool dyd_op_is_binary(dyd_op op) {
   return op >= DYD_OP_ADD && op <= DYD_OP_MAX;
 }
 static inline bool dyd_op_is_leaf(dyd_op op) {
-  return op <= DYD_OP_E;
+  return op <= DYD_OP_ROOT;
 }
 /* The name users write, for messages. Static storage. */
 const char *dyd_op_name(dyd_op op);
@@ -62,35 +64,47 @@ typedef struct dyd_node {
   unsigned char op; /* a dyd_op */
   dyd_range range;
   uint32_t column;  /* of the operator or name in the text, from 1; the largest number stands for all beyond */
-  int32_t argument; /* DYD_OP_POW: the exponent, within +- DYD_EXP_LIMIT; DYD_OP_CONST: index of the constant */
+  int32_t argument; /* DYD_OP_POW: the exponent, within +- DYD_EXP_LIMIT; DYD_OP_CONST, DYD_OP_ROOT: index
+                     of the constant or root */
 } dyd_node;
 
-/* Invariant: node[0..count-1] is a complete expression in postfix order, constants are used in order, each once;
- * a rational expression is the single node DYD_OP_CONST. */
+/* Invariant: node[0..count-1] is a complete expression in postfix order, constants and roots are used in order, each
+ * once; a rational expression is the single node DYD_OP_CONST. Roots are one reference each; evaluating narrows them.
+ */
 typedef struct dyd_expr {
   dyd_node *node;
   dyd_constant *constant;
-  size_t count, constants;
+  dyd_real **root;
+  size_t count, constants, roots;
 } dyd_expr;
 
-/* An expression while it is parsed: short ones need no memory of their own.
- * Invariant: e.node = node or a block of node_cap nodes, the same for constants. Stays where it was initialised. */
+/* An expression while it is parsed: short ones without roots need no memory of their own.
+ * Invariant: e.node = node or a block of node_cap nodes, the same for constants; roots are a block. Stays where it was
+ * initialised. */
 typedef struct dyd_draft {
   dyd_expr e;
-  size_t node_cap, constant_cap;
+  size_t node_cap, constant_cap, root_cap;
   dyd_node node[16];
   dyd_constant constant[8];
 } dyd_draft;
 
 void dyd_draft_init(dyd_draft *d);
 void dyd_draft_clear(dyd_draft *d);
+/* Reads a root, *pos being behind its "root(", and moves *pos behind the closing parenthesis. Errors have a column. */
+typedef dyd_status dyd_root_reader(dyd_real **out, size_t *pos, const char *text, size_t length, dyd_error *err);
+/* Which names are known besides those of numbers and functions. */
+typedef struct dyd_expr_names {
+  bool x;
+  dyd_root_reader *root; /* NULL: root is not */
+} dyd_expr_names;
 /* Parses the longest expression at text[*pos] and moves *pos behind it and the blanks that follow. d was just
- * initialised; x is known only when allow_x. Errors have column and message; d can only be cleared then. */
-dyd_status dyd_expr_parse(dyd_draft *d, size_t *pos, const char *text, size_t length, bool allow_x, dyd_error *err);
+ * initialised. Errors have column and message; d can only be cleared then. */
+dyd_status dyd_expr_parse(dyd_draft *d, size_t *pos, const char *text, size_t length, dyd_expr_names names,
+                          dyd_error *err);
 /* Bytes that follow a dyd_expr into which dyd_expr_take moves e. */
 size_t dyd_expr_size(const dyd_expr *e);
-/* Moves the parsed expression to *out and the dyd_expr_size bytes that follow it in the same block; the constants
- * leave the draft. Release with dyd_expr_clear, which leaves the block. */
+/* Moves the parsed expression to *out and the dyd_expr_size bytes that follow it in the same block; the constants and
+ * roots leave the draft. Release with dyd_expr_clear, which leaves the block. */
 void dyd_expr_take(dyd_expr *out, dyd_draft *d);
 void dyd_expr_clear(dyd_expr *e);
 /* The value when the expression is rational, else NULL. Borrowed. */
@@ -99,8 +113,9 @@ const dyd_constant *dyd_expr_rational(const dyd_expr *e);
 dyd_range dyd_range_apply(dyd_op op, dyd_range a, dyd_range b, long exponent);
 dyd_range dyd_range_of_constant(const dyd_constant *c);
 
-/* Room for one more node or constant; false: memory is exhausted. */
+/* Room for one more node, constant or root; false: memory is exhausted. */
 bool dyd_draft_reserve_node(dyd_draft *d);
+bool dyd_draft_reserve_root(dyd_draft *d);
 bool dyd_draft_reserve_constant(dyd_draft *d);
 
 /* Exact folding: x = op(x) or x = op(x, y). *done tells whether the result is rational and now in x.

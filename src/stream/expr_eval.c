@@ -14,7 +14,9 @@ typedef struct machine {
   arb_ptr ball;
   slong top, capacity;
   slong prec;
-  slong exponent; /* every ball so far is below 2^exponent in magnitude */
+  slong exponent;    /* every ball so far is below 2^exponent in magnitude */
+  dyd_status failed; /* what a root could not be narrowed by, told in *err */
+  dyd_error *err;
 } machine;
 
 static slong machine_stack_need(const dyd_expr *e) {
@@ -27,12 +29,34 @@ static slong machine_stack_need(const dyd_expr *e) {
   return need;
 }
 
+/* A root lies in its interval, which is narrowed to about 2^-prec. */
+static void machine_push_root(machine *m, arb_ptr out, dyd_real *root, const dyd_node *n) {
+  mpq_t end[2];
+  arb_t hi;
+  dyd_status st = dyd_real_narrow(root, m->prec, m->prec, m->err);
+  if (dyd_failed(st)) {
+    if (m->err) m->err->column = n->column;
+    m->failed = st;
+    return;
+  }
+  mpq_inits(end[0], end[1], NULL);
+  arb_init(hi);
+  dyd_interval_get_q(end[0], end[1], dyd_real_interval(root));
+  dyd_ball_set_q(out, end[0], m->prec);
+  dyd_ball_set_q(hi, end[1], m->prec);
+  arb_union(out, out, hi, m->prec);
+  arb_clear(hi);
+  mpq_clears(end[0], end[1], NULL);
+}
+
 static void machine_push_leaf(machine *m, const dyd_expr *e, const dyd_node *n) {
   arb_ptr out = m->ball + m->top++;
   if (n->op == DYD_OP_PI) {
     arb_const_pi(out, m->prec);
   } else if (n->op == DYD_OP_E) {
     arb_const_e(out, m->prec);
+  } else if (n->op == DYD_OP_ROOT) {
+    machine_push_root(m, out, e->root[n->argument], n);
   } else {
     dyd_constant_view view;
     dyd_ball_set_q(out, dyd_constant_get(&view, &e->constant[n->argument]), m->prec);
@@ -53,13 +77,14 @@ static dyd_defined machine_apply(machine *m, const dyd_expr *e, const dyd_range 
   return dyd_ball_unary(m->ball + m->top - 1, (dyd_op)n->op, *below, n->argument, m->prec);
 }
 
-/* Runs all nodes; the value is then m->ball[0]. On failure *culprit is the node. */
+/* Runs all nodes; the value is then m->ball[0]. On failure *culprit is the node; m->failed tells of that of a root. */
 static dyd_defined machine_run(machine *m, size_t *culprit, const dyd_expr *e) {
   m->top = 0;
   m->exponent = 0;
   for (size_t i = 0; i < e->count; i++) {
     *culprit = i;
     dyd_defined d = machine_apply(m, e, i ? &e->node[i - 1].range : NULL, i);
+    if (m->failed != DYD_OK) return DYD_UNDEFINED;
     if (d == DYD_DEFINED) d = dyd_ball_check(m->ball + m->top - 1, &m->exponent);
     if (d != DYD_DEFINED) return d;
   }
@@ -112,6 +137,7 @@ static dyd_status machine_refine(machine *m, int64_t *extra, const dyd_expr *e, 
   for (;;) {
     size_t culprit = 0;
     dyd_defined d = machine_run(m, &culprit, e);
+    if (m->failed != DYD_OK) return m->failed;
     if (d == DYD_DEFINED && dyd_ball_radius_exponent(m->ball) <= -(slong)rq->bits - 2) {
       *extra = m->prec - base;
       return DYD_OK;
@@ -124,7 +150,9 @@ static dyd_status machine_refine(machine *m, int64_t *extra, const dyd_expr *e, 
   }
 }
 
-static bool machine_init(machine *m, const dyd_expr *e) {
+static bool machine_init(machine *m, const dyd_expr *e, dyd_error *err) {
+  m->failed = DYD_OK;
+  m->err = err;
   m->capacity = machine_stack_need(e);
   m->ball = dyd_alloc((size_t)m->capacity, sizeof *m->ball);
   if (!m->ball) return false;
@@ -140,7 +168,7 @@ static void machine_clear(machine *m) {
 dyd_status dyd_expr_enclose(dyd_interval *out, int64_t *extra, const dyd_expr *e, const dyd_request *request,
                             dyd_error *err) {
   machine m;
-  if (!machine_init(&m, e)) return dyd_fail_nomem(err);
+  if (!machine_init(&m, e, err)) return dyd_fail_nomem(err);
   dyd_status st = machine_refine(&m, extra, e, request, err);
   if (st == DYD_OK) {
     st = dyd_ball_interval(out, m.ball, -request->bits - 2);
@@ -154,9 +182,10 @@ dyd_status dyd_expr_enclose(dyd_interval *out, int64_t *extra, const dyd_expr *e
 dyd_status dyd_expr_probe(const dyd_expr *e, dyd_error *err) {
   machine m;
   size_t culprit = 0;
-  if (!machine_init(&m, e)) return dyd_fail_nomem(err);
+  if (!machine_init(&m, e, err)) return dyd_fail_nomem(err);
   m.prec = 64;
   dyd_defined d = machine_run(&m, &culprit, e);
   machine_clear(&m);
+  if (m.failed != DYD_OK) return m.failed;
   return d == DYD_UNDEFINED || d == DYD_TOO_BIG ? undefined_fail(err, e, culprit, d, 64) : DYD_OK;
 }

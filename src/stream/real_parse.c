@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Coordinates as text: which of the forms of the points file a text has, and the real it stands for.
  *
- *   coordinate = number | value | value (+-|±) radius | [ lo , hi ]       value = sum | root ( sum in x , lo , hi )
+ *   coordinate = number | sum | sum (+-|±) radius | [ lo , hi ]       root = root ( sum in x , lo , hi )
  *
- * lo, hi and radius are sums whose value is rational by form. */
+ * lo, hi and radius are sums whose value is rational by form. A root may stand in a sum; one that stands alone is a
+ * real by itself. */
 #include "stream/expr.h"
 #include "stream/number.h"
 #include "stream/poly.h"
@@ -76,16 +77,6 @@ static dyd_status real_from_draft(dyd_real **out, reader *r, size_t at, dyd_draf
   return DYD_OK;
 }
 
-static dyd_status read_expr(dyd_real **out, reader *r) {
-  dyd_draft d;
-  size_t at = r->pos;
-  dyd_draft_init(&d);
-  dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, false, r->err);
-  if (st == DYD_OK) st = real_from_draft(out, r, at, &d);
-  dyd_draft_clear(&d);
-  return st;
-}
-
 /* ---- rational parts ---- */
 
 /* An expression that must be rational; what names it in messages. */
@@ -95,7 +86,7 @@ static dyd_status read_rational(mpq_t out, reader *r, const char *what) {
   skip_blanks(r);
   size_t at = r->pos;
   dyd_draft_init(&d);
-  dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, false, r->err);
+  dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, (dyd_expr_names){0}, r->err);
   const dyd_constant *q = st != DYD_OK ? NULL : dyd_expr_rational(&d.e);
   if (st == DYD_OK && !q) st = FAIL(r, at, DYD_E_PARSE, "%s must be rational: numbers and + - * / ^ only", what);
   if (st == DYD_OK) mpq_set(out, dyd_constant_get(&view, q));
@@ -131,7 +122,7 @@ static dyd_status read_interval(dyd_real **out, reader *r) {
 static dyd_status read_polynomial(dyd_poly *out, reader *r) {
   dyd_draft d;
   dyd_draft_init(&d);
-  dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, true, r->err);
+  dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, (dyd_expr_names){.x = true}, r->err);
   if (st == DYD_OK) st = dyd_poly_expand(out, &d.e, r->err);
   if (st == DYD_OK && !take_word(r, ",")) st = FAIL(r, r->pos, DYD_E_PARSE, "a ',' is missing after the polynomial");
   dyd_draft_clear(&d);
@@ -161,11 +152,35 @@ static dyd_status read_root(dyd_real **out, reader *r) {
   return st;
 }
 
+static dyd_status read_root_within(dyd_real **out, size_t *pos, const char *text, size_t length, dyd_error *err) {
+  reader r = {.text = text, .length = length, .pos = *pos, .err = err};
+  dyd_status st = read_root(out, &r);
+  *pos = r.pos;
+  return st;
+}
+
+/* Is it "root(..)" alone, or with a radius? Moves behind "root(" then. */
 static bool starts_root(reader *r) {
-  size_t start = r->pos;
-  if (take_word(r, "root") && take_word(r, "(")) return true;
+  size_t start = r->pos, end;
+  if (take_word(r, "root") && take_word(r, "(")) {
+    int depth = 1;
+    for (end = r->pos; end < r->length && depth; end++) depth += (r->text[end] == '(') - (r->text[end] == ')');
+    while (end < r->length && dyd_is_blank(r->text[end])) end++;
+    if (end == r->length || depth || !memchr("+-*/^", r->text[end], 5)) return true;
+    if (r->length - end > 1 && memcmp(r->text + end, "+-", 2) == 0) return true;
+  }
   r->pos = start;
   return false;
+}
+
+static dyd_status read_expr(dyd_real **out, reader *r) {
+  dyd_draft d;
+  size_t at = r->pos;
+  dyd_draft_init(&d);
+  dyd_status st = dyd_expr_parse(&d, &r->pos, r->text, r->length, (dyd_expr_names){.root = read_root_within}, r->err);
+  if (st == DYD_OK) st = real_from_draft(out, r, at, &d);
+  dyd_draft_clear(&d);
+  return st;
 }
 
 /* ---- the whole coordinate ---- */

@@ -3,13 +3,15 @@
 #ifndef DYD_VORONOI_EXACT_CELL_H
 #define DYD_VORONOI_EXACT_CELL_H
 
+#include "base/flag.h"
 #include "voronoi/bisector.h"
 #include <dyadel/delaunay.h>
 
 /* What is asked: the region of site `site` against `count` others.
  * rect: the rectangle of `site`, of the others, and of the window if there is one; site numbers ascending. outer: Pos,
  * else Int. pd: only pairs of others that it calls possible share a vertex; NULL: all may. keep_all: without
- * dyd_cell_prune, for comparison. All borrowed. */
+ * dyd_cell_prune, for comparison. cancel: the work ends with DYD_CANCELLED once *cancel is set; may be NULL. All
+ * borrowed. */
 typedef struct dyd_cell_task {
   uint32_t site;
   const uint32_t *other;
@@ -18,6 +20,7 @@ typedef struct dyd_cell_task {
   bool outer, windowed;
   const dyd_delaunay *pd;
   bool keep_all;
+  const volatile int *cancel;
 } dyd_cell_task;
 
 /* Part of an arc of curve `curve` (or of side curve - count of the window, arc = NULL), in the direction that has the
@@ -98,6 +101,10 @@ void dyd_cell_init(dyd_exact_cell *c, const dyd_cell_task *task, const dyd_cell_
 void dyd_cell_clear(dyd_exact_cell *c);
 /* Leaves out others that surely do not bound the region, before the pieces are looked for. [PRUNE-1] */
 dyd_status dyd_cell_prune(dyd_exact_cell *c);
+/* The boundary of Int_i or (outer) Pos_i; window NULL: in the whole plane. As dyd_voronoi_int and its kin, and
+ * DYD_CANCELLED once *cancel, which may be NULL, is set. */
+dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer, const dyd_rect *window,
+                           const volatile int *cancel);
 /* Joins the pieces to chains. *out is empty before; on failure the caller clears it. */
 dyd_status dyd_cell_link(dyd_boundary *out, const dyd_exact_cell *c);
 

@@ -25,51 +25,52 @@ static bool window_has_area(const dyd_rect *w) {
 
 /* The region of `site` among the sites s of its cell; window: NULL for the whole plane. */
 static dyd_status cell_region_among(dyd_boundary *out, const dyd_delaunay *pd, const dyd_cell_sites *s, uint32_t site,
-                                    bool outer, const dyd_rect *window) {
+                                    bool outer, const dyd_rect *window, const volatile int *cancel) {
   const dyd_rect **in = dyd_alloc(s->count + 2, sizeof *in);
   if (!in) return DYD_E_NOMEM;
   in[0] = &s->own;
   for (size_t k = 0; k < s->count; k++) in[k + 1] = &s->other[k];
   in[s->count + 1] = window;
-  dyd_cell_task task = {site, s->site, s->count, in, outer, window != NULL, pd, false};
+  dyd_cell_task task = {site, s->site, s->count, in, outer, window != NULL, pd, false, cancel};
   dyd_status st = dyd_cell_boundary(out, &task);
   free(in);
   return st;
 }
 
-static dyd_status cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer,
-                              const dyd_rect *window) {
+dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer, const dyd_rect *window,
+                           const volatile int *cancel) {
   uint32_t site;
   if (window && !window_has_area(window)) return DYD_E_ARG;
+  if (dyd_flag_is_set(cancel)) return DYD_CANCELLED;
   dyd_status st = find_cell_site(&site, pd, i);
   if (st != DYD_OK) return st;
   dyd_cell_sites s;
   st = dyd_cell_sites_init(&s, pd, site);
-  if (st == DYD_OK) st = cell_region_among(out, pd, &s, site, outer, window);
+  if (st == DYD_OK) st = cell_region_among(out, pd, &s, site, outer, window, cancel);
   dyd_cell_sites_clear(&s);
   return st;
 }
 
 dyd_status dyd_voronoi_int(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i) {
-  return cell_region(out, pd, i, false, NULL);
+  return dyd_cell_region(out, pd, i, false, NULL, NULL);
 }
 
 dyd_status dyd_voronoi_pos(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i) {
-  return cell_region(out, pd, i, true, NULL);
+  return dyd_cell_region(out, pd, i, true, NULL, NULL);
 }
 
 dyd_status dyd_voronoi_int_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {
-  return window ? cell_region(out, pd, i, false, window) : DYD_E_ARG;
+  return window ? dyd_cell_region(out, pd, i, false, window, NULL) : DYD_E_ARG;
 }
 
 dyd_status dyd_voronoi_pos_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {
-  return window ? cell_region(out, pd, i, true, window) : DYD_E_ARG;
+  return window ? dyd_cell_region(out, pd, i, true, window, NULL) : DYD_E_ARG;
 }
 
 dyd_status dyd_bisector(dyd_boundary *out, const dyd_rect *a, const dyd_rect *b) {
   const uint32_t other = 1;
   const dyd_rect *in[2] = {a, b};
-  dyd_cell_task task = {0, &other, 1, in, false, false, NULL, false};
+  dyd_cell_task task = {0, &other, 1, in, false, false, NULL, false, NULL};
   return dyd_cell_boundary(out, &task);
 }
 

@@ -62,6 +62,7 @@ static dyd_status arc_pieces(dyd_exact_cell *c, size_t j, const dyd_elementary *
   if (st != DYD_OK) return st;
   count = dyd_cell_sort_cuts(c->cut, count, a->axis);
   bool grows = (a->direction > 0) != c->task->outer;
+  if (dyd_flag_is_set(c->task->cancel)) return DYD_CANCELLED;
   for (size_t k = 0; k <= count && st == DYD_OK; k++) {
     const dyd_spot *low = k ? c->cut[k - 1] : &a->end[0], *high = k < count ? c->cut[k] : &a->end[1];
     dyd_cell_sample(c, a, 0, low, high);
@@ -100,7 +101,8 @@ static dyd_status curves_find_meets(dyd_exact_cell *c) {
   dyd_status st = DYD_OK;
   for (size_t j = 0; j < c->count; j++)
     for (size_t k = j + 1; k < c->count && st == DYD_OK; k++) {
-      if (!curves_may_meet(c, j, k)) continue;
+      if (dyd_flag_is_set(c->task->cancel)) st = DYD_CANCELLED;
+      if (st != DYD_OK || !curves_may_meet(c, j, k)) continue;
       const dyd_irect *r[3] = {&c->frame->fixed.r, &c->other[j].r, &c->other[k].r};
       size_t found = dyd_icircles(circle, DYD_CELL_CIRCLES, r, touch);
       DYD_INVARIANT(found < DYD_CELL_CIRCLES);

@@ -209,7 +209,7 @@ static void prune_clear(prune *f) {
 static size_t prune_compare_all(prune *f) {
   static const uint8_t next[] = {[CLEAR] = OUT, [TOUCHES] = KEPT, [CUTS] = CUTTING};
   size_t cutting = 0;
-  for (size_t k = 0; k < f->c->count; k++) {
+  for (size_t k = 0; k < f->c->count && !dyd_flag_is_set(f->task.cancel); k++) {
     if (f->state[k] != NEW) continue;
     f->state[k] = next[f->sub.pieces ? prune_against(f, k) : CLEAR];
     cutting += f->state[k] == CUTTING;
@@ -223,6 +223,7 @@ static dyd_status prune_decide(prune *f) {
   dyd_status st = prune_rebuild(f);
   for (size_t cutting = 1; st == DYD_OK && cutting;) {
     cutting = prune_compare_all(f);
+    if (dyd_flag_is_set(f->task.cancel)) return DYD_CANCELLED;
     if (cutting) st = prune_take_some(f, cutting);
   }
   return st;

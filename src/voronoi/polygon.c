@@ -3,6 +3,7 @@
 #include "voronoi/polygon.h"
 
 #include "base/alloc.h"
+#include "base/flag.h"
 #include "dyadic/raw.h"
 
 void dyd_polygon_clear(dyd_polygon *p) {
@@ -192,17 +193,19 @@ static bool edge_is_free(const dyd_polygon *p, double (*box)[4], size_t j) {
   return true;
 }
 
-dyd_status dyd_polygon_is_simple(bool *out, dyd_polygon *p) {
+dyd_status dyd_polygon_is_simple(bool *out, dyd_polygon *p, const volatile int *cancel) {
   drop_repeats(p);
   double(*box)[4] = dyd_alloc(p->count, sizeof *box);
   if (!box) return DYD_E_NOMEM;
   *out = p->count >= 3;
-  for (size_t j = 0; *out && j < p->count; j++) {
+  dyd_status st = DYD_OK;
+  for (size_t j = 0; *out && j < p->count && st == DYD_OK; j++) {
     edge_box(box[j], &p->vertex[j], &p->vertex[(j + 1) % p->count]);
     *out = edge_is_free(p, box, j);
+    if (dyd_flag_is_set(cancel)) st = DYD_CANCELLED;
   }
   free(box);
-  return DYD_OK;
+  return st;
 }
 
 /* ---- copies ---- */

@@ -11,6 +11,7 @@
 #include "base/alloc.h"
 #include "dyadic/raw.h"
 #include "rect/interval.h"
+#include "voronoi/exact_cell.h"
 #include "voronoi/polygon.h"
 #include "voronoi/sample.h"
 #include "voronoi/shape.h"
@@ -22,14 +23,16 @@ typedef struct work {
   uint32_t own;
   const dyd_rect *window;
   int64_t bits;
+  const volatile int *cancel;
   dyd_boundary boundary;
   dyd_arc_samples samples;
   dyd_point goal; /* of inward moves: a point inside */
   mpq_t x, y, s, t;
 } work;
 
-static dyd_status polygon_work_init(work *w, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits) {
-  *w = (work){.own = i, .window = window, .bits = bits};
+static dyd_status polygon_work_init(work *w, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits,
+                                    const volatile int *cancel) {
+  *w = (work){.own = i, .window = window, .bits = bits, .cancel = cancel};
   dyd_point_init(&w->goal);
   mpq_inits(w->x, w->y, w->s, w->t, NULL);
   return dyd_cell_sites_init(&w->sites, pd, i);
@@ -86,7 +89,8 @@ static dyd_status find_inner_goal(bool *out, work *w, int64_t fine) {
   mpq_inits(x, y, NULL);
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < w->samples.count && st == DYD_OK; k++) {
-    st = dyd_sample_point(&z, &w->samples.item[k], &w->sites, w->own, fine);
+    if (dyd_flag_is_set(w->cancel)) st = DYD_CANCELLED;
+    if (st == DYD_OK) st = dyd_sample_point(&z, &w->samples.item[k], &w->sites, w->own, fine);
     dyd_dyadic_get_q(w->s, &z.x);
     mpq_add(x, x, w->s);
     dyd_dyadic_get_q(w->s, &z.y);
@@ -168,6 +172,7 @@ static dyd_status place_samples(dyd_polygon *out, work *w, place_fn place, int64
     dyd_point *z = &out->vertex[out->count];
     dyd_point_init(z);
     bool done = false;
+    if (dyd_flag_is_set(w->cancel)) st = DYD_CANCELLED;
     for (int64_t e = extra; !done && st == DYD_OK; e *= 2)
       st = e > MOST_EXTRA ? DYD_E_RANGE : place(&done, z, w, &all->item[out->count], w->bits + e);
   }
@@ -183,11 +188,12 @@ static dyd_status exact_inner(dyd_polygon *out, work *w) {
   return st == DYD_OK ? dyd_polygon_make_convex(out) : st;
 }
 
-dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits) {
+dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_window *window,
+                           int64_t bits) {
   work w;
   dyd_polygon polygon = {0};
-  dyd_status st = polygon_work_init(&w, pd, i, window, bits);
-  if (st == DYD_OK) st = dyd_voronoi_int_on(&w.boundary, pd, i, window);
+  dyd_status st = polygon_work_init(&w, pd, i, window->rect, bits, window->cancel);
+  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, false, window->rect, w.cancel);
   if (st == DYD_OK && w.boundary.count) st = exact_inner(&polygon, &w);
   if (st == DYD_OK) {
     dyd_polygon_clear(out);
@@ -211,7 +217,7 @@ static dyd_status exact_outer_part(dyd_polygon *out, work *w, const dyd_chain *c
     w->bits = bits + extra;
     st = dyd_chain_samples(&w->samples, chain, &w->sites, w->own, w->bits + 1);
     if (st == DYD_OK) st = place_samples(out, w, place_outer, FIRST_EXTRA);
-    if (st == DYD_OK) st = dyd_polygon_is_simple(&simple, out);
+    if (st == DYD_OK) st = dyd_polygon_is_simple(&simple, out, w->cancel);
   }
   w->bits = bits;
   return st;
@@ -253,15 +259,15 @@ static dyd_status enlarge_window(dyd_rect *out, const dyd_rect *window, int64_t 
   return st;
 }
 
-dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
+dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_window *window,
                            int64_t bits) {
   work w;
   dyd_polygon_list list = {0};
   dyd_rect wide;
   dyd_rect_init(&wide);
-  dyd_status st = polygon_work_init(&w, pd, i, &wide, bits);
-  if (st == DYD_OK) st = enlarge_window(&wide, window, bits);
-  if (st == DYD_OK) st = dyd_voronoi_pos_on(&w.boundary, pd, i, &wide);
+  dyd_status st = polygon_work_init(&w, pd, i, &wide, bits, window->cancel);
+  if (st == DYD_OK) st = enlarge_window(&wide, window->rect, bits);
+  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, true, &wide, w.cancel);
   if (st == DYD_OK && w.boundary.count) st = exact_outer(&list, &w);
   if (st == DYD_OK) {
     dyd_polygon_list_clear(out);

@@ -5,8 +5,10 @@
 
 #include "delaunay/state.h"
 
-/* Shrinks *box to a box that still holds all points of it that are possible for both ends of one of the pairs (in
- * Pos_i n Pos_j): false when there are none. sites lists those of the face. [REGION-1] */
-bool dyd_filter_region(dyd_bbox *box, const dyd_delaunay *pd, const dyd_pair_list *pairs, const dyd_index_list *sites);
+/* Shrinks *box, whose ends are finite, to a box that still holds all points of it that are possible for both ends of
+ * one of the pairs and for a third site: *any = false when there are none. sites, ascending: the ends
+ * and all their possible neighbours. [REGION-1] DYD_OK or DYD_E_NOMEM. */
+dyd_status dyd_filter_region(dyd_bbox *box, bool *any, const dyd_delaunay *pd, const dyd_pair_list *pairs,
+                             const dyd_index_list *sites);
 
 #endif

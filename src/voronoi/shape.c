@@ -8,6 +8,7 @@
 dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect) {
   const dyd_interval *side[2] = {&rect->x, &rect->y};
   w->rect = rect;
+  w->cancel = NULL;
   for (int a = 0; a < 2; a++) {
     if (mpz_cmp_ui(side[a]->den, 1) != 0 || dyd_dyadic_cmp(&side[a]->lo, &side[a]->hi) >= 0) return DYD_E_ARG;
     w->d[2 * a] = dyd_dyadic_get_d(&side[a]->lo, DYD_UP);
@@ -26,17 +27,39 @@ void dyd_shape_clear(dyd_shape *s) {
   *s = (dyd_shape){0};
 }
 
-dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w, int64_t bits) {
-  bool done = false;
+static void shape_empty(dyd_shape *s) {
   s->in_doubles = false;
   dyd_polygon_clear(&s->inner_exact);
   dyd_polygon_list_clear(&s->outer_exact);
+}
+
+dyd_status dyd_shape_set_unknown(dyd_shape *s, const dyd_rect *window) {
+  enum { CORNERS = 4 };
+  shape_empty(s);
+  dyd_polygon *p = s->outer_exact.item = calloc(1, sizeof *p);
+  if (!p) return DYD_E_NOMEM;
+  s->outer_exact.count = 1;
+  p->vertex = dyd_alloc(CORNERS, sizeof *p->vertex);
+  if (!p->vertex) return DYD_E_NOMEM;
+  for (; p->count < CORNERS; p->count++) {
+    dyd_point *z = &p->vertex[p->count];
+    dyd_point_init(z);
+    dyd_dyadic_set(&z->x, p->count == 1 || p->count == 2 ? &window->x.hi : &window->x.lo);
+    dyd_dyadic_set(&z->y, p->count >= 2 ? &window->y.hi : &window->y.lo);
+  }
+  return DYD_OK;
+}
+
+dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w, int64_t bits) {
+  bool done = false;
+  shape_empty(s);
+  if (dyd_flag_is_set(w->cancel)) return DYD_CANCELLED;
   if (!pd->sk.mesh.no_filter) {
     dyd_status st = dyd_filter_shape(&done, s, pd, pd->sk.vertex[i], w, bits);
     if (st != DYD_OK || done) return st;
   }
-  dyd_status st = dyd_exact_inner(&s->inner_exact, pd, i, w->rect, bits);
-  if (st == DYD_OK) st = dyd_exact_outer(&s->outer_exact, pd, i, w->rect, bits);
+  dyd_status st = dyd_exact_inner(&s->inner_exact, pd, i, w, bits);
+  if (st == DYD_OK) st = dyd_exact_outer(&s->outer_exact, pd, i, w, bits);
   return st;
 }
 

@@ -8,10 +8,12 @@
 #include "delaunay/state.h"
 #include <dyadel/voronoi.h>
 
-/* The window W. Invariant: dyadic ends, positive area; d[] are doubles within W: xlo, xhi, ylo, yhi. */
+/* The window W. Invariant: dyadic ends, positive area; d[] are doubles within W: xlo, xhi, ylo, yhi. cancel: work on a
+ * shape ends with DYD_CANCELLED once *cancel is set; NULL, as dyd_window_init leaves it: never. */
 typedef struct dyd_window {
   const dyd_rect *rect;
   double d[4];
+  const volatile int *cancel;
 } dyd_window;
 /* DYD_E_ARG unless W is as it has to be. */
 dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect);
@@ -36,6 +38,8 @@ void dyd_shape_clear(dyd_shape *s);
 /* The shape of the cell of site i (not an alias): every point of Int_i n W is within 2^-bits of the inner polygon, the
  * outer ones reach at most 2^-bits beyond Pos_i. pd is not capped. */
 dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w, int64_t bits);
+/* What is true of any cell: nothing is surely in it, all of W possibly. */
+dyd_status dyd_shape_set_unknown(dyd_shape *s, const dyd_rect *window);
 /* Twice the area of the inner polygon, or of all outer ones together. Exact. */
 dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer);
 /* Copies of the polygons as dyadics. */
@@ -47,8 +51,8 @@ dyd_status dyd_filter_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, ui
                             int64_t bits);
 
 /* polygon_exact.c: the rung in dyadics, from the exact boundaries. */
-dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits);
-dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
+dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_window *w, int64_t bits);
+dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_window *w,
                            int64_t bits);
 
 #endif

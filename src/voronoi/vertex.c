@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Voronoi vertices of sure triangles, and default windows. */
-#include "voronoi/region.h"
 #include "voronoi/vertex_filter.h"
 #include <dyadel/voronoi.h>
 
@@ -16,17 +15,14 @@ static bool triangle_is_sure(const dyd_delaunay *pd, const dyd_triangle *t, uint
   return h != DYD_NONE && dyd_edge_apex(&pd->sk.mesh, h) == v[2] && dyd_triangle_is_sure(pd, dyd_edge_triangle(h));
 }
 
-static dyd_status rect_set_box(dyd_rect *out, const dyd_bbox *b) {
-  return dyd_rect_set_d(out, b->e[0], b->e[1], b->e[2], b->e[3]);
-}
-
 dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_triangle *t, int64_t bits) {
   uint32_t v[3];
   dyd_bbox box;
   if (!triangle_is_sure(pd, t, v)) return DYD_E_ARG;
   if (!pd->sk.mesh.no_filter && bits > -1000 && bits < 1000 && dyd_filter_vertex(&box, pd, v)) {
     double limit = ldexp(1, (int)-bits);
-    if (box.e[1] - box.e[0] < limit && box.e[3] - box.e[2] < limit) return rect_set_box(out, &box);
+    if (box.e[1] - box.e[0] < limit && box.e[3] - box.e[2] < limit)
+      return dyd_rect_set_d(out, box.e[0], box.e[1], box.e[2], box.e[3]);
   }
   dyd_rect r[3];
   dyd_status st = DYD_OK;
@@ -36,28 +32,6 @@ dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_t
   }
   if (st == DYD_OK) st = dyd_partial_centre_enclose(out, &r[0], &r[1], &r[2], bits);
   for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
-  return st;
-}
-
-/* ---- undecided faces ---- */
-
-dyd_status dyd_voronoi_region(dyd_rect *out, bool *any, const dyd_delaunay *pd, size_t f, const dyd_rect *window) {
-  dyd_pair_list pairs = {0};
-  dyd_index_list sites = {0};
-  dyd_bbox box;
-  bool outer;
-  if (f >= dyd_delaunay_undecided_faces(pd)) return DYD_E_ARG;
-  if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
-  dyd_interval_get_d(&box.e[0], &box.e[1], &window->x);
-  dyd_interval_get_d(&box.e[2], &box.e[3], &window->y);
-  dyd_status st = dyd_delaunay_face(&sites, &outer, pd, f);
-  if (st == DYD_OK) st = dyd_delaunay_face_pairs(&pairs, pd, f);
-  if (st == DYD_OK) {
-    *any = dyd_filter_region(&box, pd, &pairs, &sites);
-    if (*any) st = rect_set_box(out, &box);
-  }
-  dyd_index_list_clear(&sites);
-  dyd_pair_list_clear(&pairs);
   return st;
 }
 

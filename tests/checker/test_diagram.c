@@ -324,6 +324,38 @@ static void distance_is_tight(void **state) {
   orc_case_clear(&c);
 }
 
+/* Three boxes on one another; everybody possible in the window meets everybody. The distance of a point of the window
+ * to the boxes far right is a bound, as one of two points is another one: sqrt(148) for the nearer two of these. */
+static void boxes_on_one_another(void **state) {
+  (void)state;
+  static diagram d;
+  orc_case c;
+  test_random r = test_random_start("boxes on one another");
+  orc_case_init(&c);
+  diagram_init(&d);
+  for (int k = 0; k < 3; k++) orc_case_add(&c, -1, 1, -1, 1, 1);
+  orc_case_add(&c, 10, 10, 0, 0, 1);
+  for (int k = 0; k < 2; k++) orc_case_add(&c, 30, 31 + k, -1, 1, 1);
+  char *text = certificate_of_case(&c, NULL);
+  static const struct {
+    const char *bound;
+    bool proved;
+  } tried[] = {{"12", false}, {"97*2^-3", false}, {"49*2^-2", true}, {"13", true}, {"35", true}};
+  for (size_t k = 0; k < sizeof tried / sizeof *tried; k++) {
+    char section[300];
+    snprintf(section, sizeof section, "window -1*2^1 1*2^1 -1*2^1 1*2^1\npolygons\nundetermined 1*2^4\ndistance %s\n",
+             tried[k].bound);
+    const char *all = with_section(text, section);
+    assert_int_equal(certificate_check(NULL, all, strlen(all), NULL) == DYD_OK, tried[k].proved);
+    if (!tried[k].proved) continue;
+    diagram_read(&d, all);
+    assert_null(diagram_judge(&d, &c, &r, 400));
+  }
+  free(text);
+  diagram_clear(&d);
+  orc_case_clear(&c);
+}
+
 /* Bounds below those that are written: what is accepted is true. */
 static void smaller_distances(void **state) {
   (void)state;
@@ -374,9 +406,14 @@ static void smaller_distances(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(random_cases),      cmocka_unit_test(windows),          cmocka_unit_test(goals),
-      cmocka_unit_test(forged_sections),   cmocka_unit_test(few_sites),        cmocka_unit_test(touching_rectangles),
-      cmocka_unit_test(distance_is_tight), cmocka_unit_test(smaller_distances)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(random_cases),
+                                     cmocka_unit_test(windows),
+                                     cmocka_unit_test(goals),
+                                     cmocka_unit_test(forged_sections),
+                                     cmocka_unit_test(few_sites),
+                                     cmocka_unit_test(touching_rectangles),
+                                     cmocka_unit_test(distance_is_tight),
+                                     cmocka_unit_test(boxes_on_one_another),
+                                     cmocka_unit_test(smaller_distances)};
   return cmocka_run_group_tests_name("certificates of diagrams", tests, NULL, NULL);
 }

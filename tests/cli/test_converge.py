@@ -233,6 +233,46 @@ def test_bad_traces():
         expect(run('converge', '--replay', '-', option, stdin=trace), 2, r'\A\Z', 'from the trace; leave --')
 
 
+def test_goals_of_the_diagram():
+    """--of says whose bound --until means: each stops as soon as its own column is small enough."""
+    steps = ('--schedule', 'uniform', '--step-bits', '1', '--max-bits', '60')
+    apart = ''.join(NEAR_CIRCLE.splitlines(True)[:8])
+    for of, until, column in ((('--of', 'voronoi'), 'hausdorff', 'v_hausdorff'), (('--of', 'voronoi'), 'area', 'v_area'),
+                              (('--of', 'delaunay'), 'hausdorff', 'hausdorff'), ((), 'area', 'area')):
+        for window in ((), ('--window', '-20,120,-20,120')):
+            rows = table('--until', until + ':12', *of, *steps, *window, text=apart)
+            assert len(rows) > 6 and Fraction(rows[-1][column]) <= Fraction(1, 2 ** 12), (of, until, rows[-1])
+            if until == 'area':  # that of hausdorff also asks for narrow vertices
+                assert Fraction(rows[-2][column]) > Fraction(1, 2 ** 12), (of, until, rows[-2])
+    # Nearly cocircular points: the diagram is known well where the triangulation is not decided.
+    goal = ('--max-bits', '60', '--until', 'hausdorff:30', '--of')
+    assert table(*goal, 'voronoi', text=NEAR_CIRCLE)[-1]['indeterminate'] != '0'
+    last = table(*goal, 'delaunay', text=NEAR_CIRCLE, code=4)[-1]
+    assert 2 * Fraction(last['hausdorff']) > 1 > 2 ** 30 * Fraction(last['v_hausdorff'])
+    result = run('converge', '-', '--of', 'voronoi', '--until', 'area:30', '--max-bits', '9', stdin=NEAR_CIRCLE)
+    expect(result, 4, '^# .*goal voronoi area 2', r'area of the diagram is at most 2\^\d.*; --until area:-?\d+ holds')
+    expect(run('converge', '-', '--of', 'voronoi', '--no-voronoi', stdin=SQUARE), 2, r'\A\Z', 'leave one of the two away')
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'trace')
+        made = run('converge', '-', '--no-times', '--of', 'voronoi', '--until', 'area:9', '--trace', path, stdin=NEAR_CIRCLE)
+        again = run('converge', '--no-times', '--replay', path)
+        assert made.code == again.code == 0 and made.out == again.out, made.err + again.err
+
+
+def test_few_stages_of_a_plot():
+    """The note says which steps make a curve of it, and they do."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'plot.svg')
+        note = re.search(r'the plot has (\d+) stages, .*; --step-bits (\d+) draws up to (\d+)$',
+                         run('converge', '-', '--plot', path, stdin=NEAR_PAIR).err, re.M)
+        assert note and int(note[1]) < 12 <= int(note[3]) <= 30, note
+        stages = run('converge', '-', '--plot', path, '--step-bits', note[2], '--no-times', stdin=NEAR_PAIR)
+        rows = [line for line in stages.out.splitlines() if line[0].isdigit()]
+        assert 12 <= len(rows) <= int(note[3]), (len(rows), note[3])
+        for quiet in (('--quiet', '--plot', path), ()):
+            expect(run('converge', '-', *quiet, stdin=NEAR_PAIR), 0, '', r'\A\Z')
+
+
 def test_plots():
     with tempfile.TemporaryDirectory() as folder:
         for kind, magic in (('svg', b'<?xml'), ('pdf', b'%PDF'), ('png', b'\x89PNG')):

@@ -217,7 +217,7 @@ def test_no_points():
     for command, layer in ALL:
         for form in ('csv', 'wkt', 'geojson'):
             for points in ('', '1 1\n', '0 0\n1 0\n'):
-                expect(run(command, '--layer', layer, '--format', form, '-', stdin=points), 0, '.', r'\A\Z')
+                expect(run(command, '--quiet', '--layer', layer, '--format', form, '-', stdin=points), 0, '.', r'\A\Z')
 
 
 def test_beyond_doubles():

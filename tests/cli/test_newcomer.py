@@ -30,7 +30,7 @@ INPUTS = {
     'no final newline': (b'0 0\n1 0\n0 1', None),
     'large': (b'1e300 0\n0 -1e300\n-1e300 1e-300\n', None),
     'long but good': (b'-' * 100000 + b'1 2\n3 4\n0 9\n', None),
-    'nan': (b'0 0\nnan 1\n', "2:1: the name 'nan' is unknown"),
+    'nan': (b'0 0\nnan 1\n', "2:1: the coordinate is missing .nan.; fill it in, or leave such rows out: --skip-missing"),
     'inf': (b'0 inf\n', "1:3: the name 'inf' is unknown"),
     'too large': (b'1e999999 0\n', '1:1: the number is too large .*; scale the input'),
     'too fine': (b'0 1e-999999\n', '1:3: the number is too large or too fine.*; scale the input'),

@@ -25,6 +25,7 @@ WRONG = {
     '--flatten': WHOLE[2:],
     '--timeout': SECONDS, '--oracle-timeout': SECONDS,
     '--schedule': ('', 'fast', 'Adaptive', 'uniform '),
+    '--of': ('', 'Voronoi', 'both'),
     '--format': ('', 'gif', 'CSV', 'csv,json'),
     '--layer': ('', 'edge', 'Points', 'pairs,points'),
     '--crs': ('', '4326', 'EPSG', 'EPSG:', 'EPSG:0', 'EPSG:x', 'EPSG:1000000', 'epsg 4326'),
@@ -33,9 +34,10 @@ WRONG = {
     '--plot': ('', 'plot', 'plot.gif', 'png'),
     '--help': ('fish', 'MAN'),
 }
-RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--until': 'decided'}
+RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--until': 'decided'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
-TEXTS = {'--queries', '--columns', '--radius', '--oracle', '--output', '--trace', '--replay', '--certificate'}
+TEXTS = {'--queries', '--columns', '--delimiter', '--id', '--points', '--radius', '--radius-column', '--oracle', '--output', '--trace',
+         '--replay', '--certificate'}
 
 
 def help_of(*command):
@@ -176,7 +178,7 @@ def test_zsh_completion():
     expect(script, 0, r'\A#compdef dyadel', r'\A\Z')
     for name, _ in commands():
         part = re.search(rf'^    {name}\) options=\((.*?)^      \) ;;', script.out, re.M | re.S)[1]
-        assert set(re.findall(r'--[\w-]+(?==|\[)', part)) == set(options(help_of(name))), name
+        assert set(re.findall(r'--[\w-]+(?==|\[|\})', part)) == set(options(help_of(name))), name
     if shutil.which('zsh'):
         subprocess.run(['zsh', '-n'], input=script.out.encode(), check=True)
 

@@ -14,6 +14,7 @@ import tempfile
 import xml.etree.ElementTree
 from fractions import Fraction
 
+import gps
 from harness import DATA, expect, main, run
 
 POLYGON = ''.join(f'cos({k}*pi/6) sin({k}*pi/6)\n' for k in range(12))
@@ -130,6 +131,76 @@ def test_window_is_stated():
     assert [[number(t) for t in data['window'][k]] for k in 'xy'] == [[Fraction(-1, 4), Fraction(3, 2)], [0, 1024]]
     assert sum(Fraction(c['area'][0]) for c in data['cells']) <= 1792 <= sum(Fraction(c['area'][1])
                                                                             for c in data['cells'])
+
+
+# ---- regions of undecided faces ----
+
+def regions(points, *options):
+    """The window, and the boxes of the regions."""
+    comments, rows = table(run('voronoi', '--quiet', '--layer', 'regions', *options, '-', stdin=points).out)
+    window = [float(number(t)) for c in comments if c.startswith('# window ') for t in c.split()[2:]]
+    return window, [[float(r[k]) for k in ('xlo', 'xhi', 'ylo', 'yhi')] for r in rows]
+
+
+def test_regions_of_tracks_are_small():
+    window, found = regions(gps.points(400, 1))
+    area = (window[1] - window[0]) * (window[3] - window[2])
+    share = sorted((b[1] - b[0]) * (b[3] - b[2]) / area for b in found)
+    assert len(found) > 20 and window not in found, (len(found), found.count(window))
+    assert share[len(share) // 2] < 1e-3 and share[-1] < 0.9, (share[len(share) // 2], share[-1])
+
+
+def test_region_of_a_square():
+    """Corners of half-width w: centres at (+-w, +-w) are possible, those farther off than 3 w are not."""
+    for bits in (3, 20, 45):
+        w = 2.0**-bits
+        square = ''.join(f'{x}+-{w!r} {y}+-{w!r}\n' for x in (-1, 1) for y in (-1, 1))
+        for window in ('-8,8,-8,8', '-1000000,50,-1/3,12345'):
+            _, found = regions(square, '--window=' + window)
+            assert len(found) == 1, found
+            for lo, hi in (found[0][:2], found[0][2:]):
+                assert -3 * w < lo <= -w and w <= hi < 3 * w, (bits, found)
+
+
+def test_boxes_are_clipped():
+    """Enclosures of vertices beyond the window are left out of maps, others end at its sides."""
+    points = ''.join(f'{x}+-0.01 {y}+-0.01\n' for x, y in ((0, 0), (4, 0), (8, 0.25), (2, 3), (6, 3.5), (3, 6)))
+    for layer in ('vertices', 'regions'):
+        count = []
+        for w, (xlo, xhi, ylo, yhi) in (('-99,99,-99,99', (-99, 99, -99, 99)), ('2,6,1,1.875', (2, 6, 1, 1.875))):
+            text = run('voronoi', '--quiet', '--window', w, '--layer', layer, '--format', 'geojson', '-', stdin=points).out
+            found = [f['properties'] for f in json.loads(text)['features']]
+            assert all(xlo <= b['xlo'] <= b['xhi'] <= xhi and ylo <= b['ylo'] <= b['yhi'] <= yhi for b in found), found
+            count.append(len(found))
+        assert count[0] > count[1] or layer == 'regions', count
+        assert count[1] > 0 or layer == 'regions', count
+
+
+# ---- the distance where rectangles crowd ----
+
+def distance(points, *options):
+    """The bound stated, and the one that a certificate proves."""
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, 'proof')
+        result = run('voronoi', '--quiet', '--certificate', name, *options, '-', stdin=points)
+        with open(name, encoding='ascii') as text:
+            proved = re.search('^distance (.*)$', text.read(), re.M)[1]
+        assert run('verify', name).code in (0, 3)
+    return float(re.search('^# distance_to_true_diagram,(.*)$', result.out, re.M)[1]), float(number(proved))
+
+
+def test_distance_in_a_crowd():
+    """No more than the second nearest of the rectangles that are apart: sqrt(148) here, where all that are near meet."""
+    crowd = '[-1,1] [-1,1]\n' * 3 + '10 0\n[30,31] [-1,1]\n[30,32] [-1,1]\n'
+    stated, proved = distance(crowd, '--window=-2,2,-2,2')
+    assert 148 <= stated**2 < 148 * 17 / 16 and proved <= 17 / 16 * stated, (stated, proved)
+
+
+def test_distance_of_airports():
+    with open(os.path.join(DATA, 'airports.csv'), encoding='utf-8') as text:
+        points = text.read()
+    stated, proved = distance(points, '--columns', 'longitude,latitude', '--radius', '0.05', '--window=-90,-85,33,37')
+    assert stated <= 0.64 and proved <= 17 / 16 * stated, (stated, proved)
 
 
 # ---- few points, coincident points, points on a line ----

@@ -38,6 +38,9 @@ static const exact_row exacts[] = {{"0.1", "1/10"},
                                    {"[0.1,1/10]", "1/10"},
                                    {"0.1+-0", "1/10"},
                                    {"root(3*x-1,0,1)", "1/3"},
+                                   {"1+root(x,-1,1)", "1"},
+                                   {"-root(3*x-1,0,1)*2", "-2/3"},
+                                   {"sqrt( root(x-4, 0, 9) ) + root(x-1,0,2)^2", "3"},
                                    {"root((x-1/3)^3,0,1)", "1/3"},
                                    {"root(x^2-1/9,1/3,1)", "1/3"},
                                    {"root(x^2-1/9,-1,-1/3)", "-1/3"},
@@ -126,7 +129,14 @@ static const bad_row bads[] = {{"", DYD_E_PARSE, 1},
                                {"pi^e", DYD_E_PARSE, 3},
                                {"2^(1/2)", DYD_E_PARSE, 2},
                                {"pi^(sqrt(2))", DYD_E_PARSE, 3},
-                               {"1+root(x,-1,1)", DYD_E_PARSE, 3},
+                               {"1+root(root(x,-1,1)+x,-1,1)", DYD_E_PARSE, 8},
+                               {"root(x-1,root(x,0,1),2)+1", DYD_E_PARSE, 10},
+                               {"root(x-1,0,2)root(x-1,0,2)", DYD_E_PARSE, 14},
+                               {"1+root", DYD_E_PARSE, 7},
+                               {"1+root(x^2+1,0,1)", DYD_E_PARSE, 14},
+                               {"2*root(x^2-2,1,2", DYD_E_PARSE, 17},
+                               {"sqrt(-root(x^2-2,1,2))", DYD_E_DOMAIN, 1},
+                               {"2*root(x^900-2,0,1e300000)", DYD_E_RANGE, 16},
                                {"(1+-2)", DYD_E_PARSE, 3},
                                {"pi+-pi", DYD_E_PARSE, 5},
                                {"1+--2", DYD_E_PARSE, 4},
@@ -253,6 +263,8 @@ static void test_hostile(void **state) {
   assert_int_equal(hostile("root(x", "*(x+1)", 900, "-3,0,1)"), DYD_OK);
   assert_int_equal(hostile("root((x+1)^999-5,0,1)", "", 0, ""), DYD_OK);
   assert_int_equal(hostile("root(x^2-1e-200000,0,1)", "", 0, ""), DYD_OK);
+  assert_int_equal(hostile("0", "+root(x^9-2,0,2)", 64, ""), DYD_OK);
+  assert_int_equal(hostile("0", "+root(x^9-2,0,2)", 65, ""), DYD_E_RANGE);
 }
 
 /* Undefined up to the budget: the column of the culprit, and the message names the bits. */

@@ -237,9 +237,45 @@ static void test_close_roots(void **state) {
   problem_clear(&p);
 }
 
+/* Roots within expressions, against the same with sqrt and cbrt, which come another way: the intervals meet, are as
+ * narrow as asked for, and nested. */
+static void test_within_expressions(void **state) {
+  (void)state;
+  static const char *const forms[] = {"(%s+%s)*%s", "%s/(%s*%s)-7", "sqrt(%s)+exp(-%s)*%s", "min(%s,%s)-max(%s,2)",
+                                      "(%s-3*%s)^3/%s"};
+  test_random r = test_random_start("roots within expressions");
+  for (size_t n = test_cases(300); n > 0; n--) {
+    char root[3][60], other[3][60], text[2][300];
+    for (int k = 0; k < 3; k++) {
+      int a = (int)test_between(&r, 2, 500), cube = (int)test_below(&r, 2);
+      sprintf(root[k], "root(x^%d-%d/7, 0, %d)", cube ? 3 : 2, a, a);
+      sprintf(other[k], cube ? "cbrt(%d/7)" : "sqrt(%d/7)", a);
+    }
+    const char *form = forms[test_below(&r, sizeof forms / sizeof *forms)];
+    sprintf(text[0], form, root[0], root[1], root[2]);
+    sprintf(text[1], form, other[0], other[1], other[2]);
+    dyd_real *x = parsed(text[0]), *y = parsed(text[1]);
+    dyd_interval before;
+    bool begun = false;
+    dyd_interval_init(&before);
+    for (int64_t bits = test_between(&r, 1, 40); bits < 2000; bits *= 3) {
+      const dyd_interval *a = narrowed(x, bits, 4000);
+      if (!dyd_interval_meets(a, narrowed(y, bits, 4000)) || dyd_interval_bits(a) < bits)
+        fail_msg("%s: %d bits", text[0], (int)bits);
+      if (begun && !dyd_interval_contains(&before, a)) fail_msg("%s is not nested", text[0]);
+      dyd_interval_set(&before, a);
+      begun = true;
+    }
+    dyd_interval_clear(&before);
+    dyd_real_free(x);
+    dyd_real_free(y);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_polynomials), cmocka_unit_test(test_exact),
-                                     cmocka_unit_test(test_many_bits), cmocka_unit_test(test_same_root),
-                                     cmocka_unit_test(test_close_roots)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_random_polynomials), cmocka_unit_test(test_exact),
+      cmocka_unit_test(test_many_bits),          cmocka_unit_test(test_same_root),
+      cmocka_unit_test(test_close_roots),        cmocka_unit_test(test_within_expressions)};
   return cmocka_run_group_tests(tests, NULL, release_caches);
 }

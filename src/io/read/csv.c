@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* CSV with a header (RFC 4180): fields may be quoted, quoted fields may hold commas, line ends and doubled quotes.
+/* Records and fields of separated text (RFC 4180, any delimiter): fields may be quoted, quoted fields may hold
+ * delimiters, line ends and doubled quotes.
  *
  * In a well-formed file quotes come in pairs, so a record ends at the first line end before which their number is
  * even. */
@@ -9,7 +10,7 @@
 #include <string.h>
 
 void dyd_csv_clear(dyd_csv *csv) {
-  for (int k = 0; k < 2; k++) free(csv->name[k]);
+  for (int k = 0; k < DYD_CSV_ROLES; k++) free(csv->want[k].name);
   free(csv->record);
   free(csv->plain);
   free(csv->field);
@@ -55,8 +56,7 @@ static dyd_status record_join_lines(dyd_line *out, dyd_csv *csv, dyd_error *err)
   return st;
 }
 
-/* The next record that is not an empty line; text = NULL at the end. */
-static dyd_status record_next(dyd_line *out, dyd_csv *csv, dyd_error *err) {
+dyd_status dyd_csv_record(dyd_line *out, dyd_csv *csv, dyd_error *err) {
   dyd_status st;
   do st = dyd_text_next(out, csv->text, err);
   while (st == DYD_OK && out->text && out->length == 0);
@@ -79,7 +79,7 @@ static dyd_status record_quoted_field(dyd_span *field, const char **at, const ch
   }
   if (p == end) return dyd_span_fail(err, field, 0, "this quoted field is not closed; add a quote");
   *at = p + 1;
-  if (*at == end || **at == ',') return DYD_OK;
+  if (*at == end || **at == csv->delimiter) return DYD_OK;
   return dyd_span_fail(err, field, (size_t)(*at - field->at),
                        "text behind a closing quote; double the quotes inside a quoted field");
 }
@@ -87,7 +87,7 @@ static dyd_status record_quoted_field(dyd_span *field, const char **at, const ch
 static dyd_status record_field(dyd_span *field, const char **at, const char *end, dyd_csv *csv, dyd_error *err) {
   field->text = field->at = *at;
   if (*at < end && **at == '"') return record_quoted_field(field, at, end, csv, err);
-  const char *stop = memchr(*at, ',', (size_t)(end - *at));
+  const char *stop = memchr(*at, csv->delimiter, (size_t)(end - *at));
   if (!stop) stop = end;
   field->length = (size_t)(stop - *at);
   const char *quote = memchr(*at, '"', field->length);
@@ -97,8 +97,7 @@ static dyd_status record_field(dyd_span *field, const char **at, const char *end
                        "a quote inside a field that is not quoted; quote the whole field and double its quotes");
 }
 
-/* Splits a record into csv->field. */
-static dyd_status record_split(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
+dyd_status dyd_csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
   const char *at = line->text, *end = line->text + line->length;
   csv->used = csv->fields = 0;
   if (!dyd_reserve((void **)&csv->plain, &csv->plain_cap, line->length, 1)) return dyd_fail_nomem(err);
@@ -113,104 +112,44 @@ static dyd_status record_split(dyd_csv *csv, const dyd_line *line, dyd_error *er
   }
 }
 
-static void span_trim(dyd_span *s) {
+void dyd_span_trim(dyd_span *s) {
   while (s->length && (*s->text == ' ' || *s->text == '\t')) s->text++, s->at++, s->length--;
   while (s->length && (s->text[s->length - 1] == ' ' || s->text[s->length - 1] == '\t')) s->length--;
 }
 
-/* ---- header ---- */
+/* ---- the next point ---- */
 
-static bool is_named(const dyd_span *field, const char *name) {
-  return field->length == strlen(name) && memcmp(field->text, name, field->length) == 0;
+const char *dyd_delimiter_name(char delimiter, bool many) {
+  static const struct {
+    char c;
+    const char *one, *many;
+  } name[] = {{',', "a comma", "commas"},
+              {';', "a semicolon", "semicolons"},
+              {'\t', "a tab", "tabs"},
+              {'|', "a bar", "bars"},
+              {' ', "a blank", "blanks"}};
+  for (size_t k = 0; k < sizeof name / sizeof *name; k++)
+    if (name[k].c == delimiter) return many ? name[k].many : name[k].one;
+  return many ? "delimiters" : "a delimiter";
 }
 
-static char *copy_span(const dyd_span *s) {
-  char *copy = dyd_alloc(s->length + 1, 1);
-  if (!copy) return NULL;
-  memcpy(copy, s->text, s->length);
-  copy[s->length] = 0;
-  return copy;
-}
-
-static dyd_status read_names(dyd_csv *csv, const char *columns, dyd_error *err) {
-  dyd_line line = {columns, strlen(columns), 0};
-  if (odd_quotes(columns, line.length) || record_split(csv, &line, NULL) < 0 || csv->fields != 2)
-    return dyd_fail(err, DYD_E_ARG, "\"%.100s\" is not two column names; give NAME,NAME", columns);
-  for (int k = 0; k < 2; k++) {
-    span_trim(&csv->field[k]);
-    if (!(csv->name[k] = copy_span(&csv->field[k]))) return dyd_fail_nomem(err);
-  }
-  return DYD_OK;
-}
-
-/* The names of the header, as many as fit. */
-static void list_names(char *out, size_t size, const dyd_csv *csv) {
-  size_t used = 0;
-  for (size_t k = 0; k < csv->fields; k++) {
-    const dyd_span *f = &csv->field[k];
-    if (used + f->length + 8 > size) {
-      snprintf(out + used, size - used, ", ...");
-      return;
-    }
-    used += (size_t)snprintf(out + used, size - used, "%s%.*s", k ? ", " : "", (int)f->length, f->text);
-  }
-}
-
-static dyd_status find_column(dyd_csv *csv, int which, dyd_error *err) {
-  size_t found = 0, second = 0;
-  for (size_t k = 0; k < csv->fields; k++) {
-    if (!is_named(&csv->field[k], csv->name[which])) continue;
-    if (!found++)
-      csv->column[which] = k;
-    else
-      second = k;
-  }
-  if (found == 1) return DYD_OK;
-  char names[240];
-  list_names(names, sizeof names, csv);
-  if (err) dyd_span_position(&err->line, &err->column, &csv->field[second], 0);
-  if (found == 0)
-    return dyd_fail(err, DYD_E_PARSE, "no column is called \"%.60s\"; the header's names are: %s", csv->name[which],
-                    names);
-  return dyd_fail(err, DYD_E_PARSE, "%zu columns are called \"%.60s\"; rename them in the header, whose names are: %s",
-                  found, csv->name[which], names);
-}
-
-dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const char *columns, dyd_error *err) {
-  *csv = (dyd_csv){.text = text};
-  dyd_line line;
-  dyd_status st = read_names(csv, columns, err);
-  if (st == DYD_OK) st = record_next(&line, csv, err);
-  if (st != DYD_OK) return st;
-  if (!line.text) {
-    if (err) err->line = err->column = 1;
-    return dyd_fail(err, DYD_E_PARSE, "the file has no header; its first line must name the columns");
-  }
-  st = record_split(csv, &line, err);
-  for (size_t k = 0; k < csv->fields && st == DYD_OK; k++) span_trim(&csv->field[k]);
-  for (int k = 0; k < 2 && st == DYD_OK; k++) st = find_column(csv, k, err);
-  csv->columns = csv->fields;
-  return st;
-}
-
-dyd_status dyd_csv_next(dyd_span coordinate[2], size_t *count, dyd_csv *csv, dyd_error *err) {
+dyd_status dyd_csv_next(dyd_span field[DYD_CSV_ROLES], size_t *count, dyd_csv *csv, dyd_error *err) {
   dyd_line line;
   *count = 0;
-  dyd_status st = record_next(&line, csv, err);
+  dyd_status st = dyd_csv_record(&line, csv, err);
   if (st != DYD_OK || !line.text) return st;
-  st = record_split(csv, &line, err);
+  st = dyd_csv_split(csv, &line, err);
   if (st != DYD_OK) return st;
   if (csv->fields != csv->columns) {
     if (err) dyd_span_position(&err->line, &err->column, &csv->field[0], 0);
-    return dyd_fail(err, DYD_E_PARSE, "this record has %zu fields, the header %zu; quote fields that hold commas",
-                    csv->fields, csv->columns);
+    return dyd_fail(err, DYD_E_PARSE, "this record has %zu fields, the header %zu; quote fields that hold %s",
+                    csv->fields, csv->columns, dyd_delimiter_name(csv->delimiter, true));
   }
-  for (int k = 0; k < 2; k++) {
-    coordinate[k] = csv->field[csv->column[k]];
-    span_trim(&coordinate[k]);
-    if (!coordinate[k].length)
-      return dyd_span_fail(err, &coordinate[k], 0, "the coordinate is empty; remove the record or fill it in");
+  for (int k = 0; k < DYD_CSV_ROLES; k++) {
+    if (!csv->want[k].name) continue;
+    field[k] = csv->field[csv->column[k]];
+    dyd_span_trim(&field[k]);
   }
-  *count = 2;
+  *count = csv->columns;
   return DYD_OK;
 }

@@ -8,6 +8,7 @@
 typedef struct cursor {
   const char *at, *end;
   const dyd_line *line;
+  char comma; /* what may separate besides blanks */
 } cursor;
 
 static dyd_status points_fail(dyd_error *err, const cursor *c, const char *message) {
@@ -22,8 +23,8 @@ static bool is_points_blank(char c) {
 /* Skips blanks; how many commas stood among them (0, 1, or 2 for "too many"). */
 static int points_separator(cursor *c, int allowed) {
   int commas = 0;
-  for (; c->at < c->end && (is_points_blank(*c->at) || *c->at == ','); c->at++)
-    if (*c->at == ',' && ++commas > allowed) return commas;
+  for (; c->at < c->end && (is_points_blank(*c->at) || *c->at == c->comma); c->at++)
+    if (*c->at == c->comma && ++commas > allowed) return commas;
   return commas;
 }
 
@@ -39,14 +40,14 @@ static dyd_span points_coordinate(cursor *c) {
     if (!special[(unsigned char)*c->at]) continue;
     if (*c->at == '(' || *c->at == '[') depth++;
     if ((*c->at == ')' || *c->at == ']') && depth > 0) depth--;
-    if (depth == 0 && (is_points_blank(*c->at) || *c->at == ',')) break;
+    if (depth == 0 && (is_points_blank(*c->at) || *c->at == c->comma)) break;
   }
   return (dyd_span){begin, (size_t)(c->at - begin), begin, c->line->text, c->line->number};
 }
 
-dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_line *line, dyd_error *err) {
+dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_line *line, char comma, dyd_error *err) {
   const char *comment = memchr(line->text, '#', line->length);
-  cursor c = {line->text, comment ? comment : line->text + line->length, line};
+  cursor c = {line->text, comment ? comment : line->text + line->length, line, comma};
   *count = 0;
   if (points_separator(&c, 0))
     return points_fail(err, &c, "a coordinate is missing before this comma; give two coordinates");
@@ -55,7 +56,11 @@ dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_lin
   if (points_separator(&c, 1) > 1)
     return points_fail(err, &c, "two commas in a row; separate the coordinates by one comma");
   if (c.at == c.end)
-    return points_fail(err, &c, "the line has one coordinate only; give two, separated by a blank or a comma");
+    return points_fail(err, &c,
+                       memchr(line->text, ';', (size_t)(c.end - line->text))
+                           ? "the line has one coordinate only; give two, separated by a blank or a comma in place of "
+                             "';', or a header and --columns X,Y"
+                           : "the line has one coordinate only; give two, separated by a blank or a comma");
   coordinate[1] = points_coordinate(&c);
   int commas = points_separator(&c, 0);
   if (commas || c.at < c.end)

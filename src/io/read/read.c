@@ -2,85 +2,39 @@
 /* Reads points from a file into an engine, in one pass over the text. */
 #include "base/abi.h"
 #include "base/error.h"
-#include "io/read/source.h"
-#include "io/read/stage.h"
+#include "io/read/intake.h"
 #include <dyadel/io.h>
-#include <math.h>
 #include <string.h>
 
-static dyd_status manner_radius(dyd_manner *m, const char *text, dyd_error *err) {
-  dyd_status st = dyd_real_parse_exact(m->radius, text, strlen(text));
-  if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
-  if (st != DYD_OK || mpq_sgn(m->radius) < 0)
-    return dyd_fail(err, DYD_E_ARG, "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64",
-                    text);
-  m->widen = mpq_sgn(m->radius) > 0;
-  /* mpq_get_d rounds towards zero; beyond doubles the radius goes the general way. */
-  double down = mpq_get_d(m->radius);
-  mpq_t back;
-  mpq_init(back);
-  if (isfinite(down)) mpq_set_d(back, down);
-  m->radius_up = mpq_equal(back, m->radius) ? down : nextafter(down, INFINITY);
-  mpq_clear(back);
-  return DYD_OK;
-}
-
-/* Reads the two coordinates of a point and stages it. */
-static dyd_status stage_point(dyd_stage *stage, const dyd_span span[2], const dyd_manner *manner, dyd_error *err) {
-  dyd_coordinate x = {.kind = DYD_COORDINATE_DOUBLE}, y = x;
-  dyd_status st = dyd_coordinate_read(&x, &span[0], manner, err);
-  if (st == DYD_OK) st = dyd_coordinate_read(&y, &span[1], manner, err);
-  if (st == DYD_OK) return dyd_stage_add(stage, &x, &y, err);
-  dyd_coordinate_clear(&x);
-  return st;
-}
-
-/* Is every field of the line a word or quoted, as in the header of a CSV file? */
-static bool is_header(const dyd_line *line) {
-  const char *end = line->text + line->length;
-  if (!memchr(line->text, ',', line->length)) return false;
-  for (const char *at = line->text; at < end; at++) {
-    while (at < end && (*at == ' ' || *at == '\t')) at++;
-    if (at == end || !(*at == '"' || *at == '_' || (*at >= 'A' && *at <= 'Z') || (*at >= 'a' && *at <= 'z')))
-      return false;
-    const char *comma = memchr(at, ',', (size_t)(end - at));
-    if (!comma) return true;
-    at = comma;
-  }
-  return false;
-}
-
-/* A first line that is not understood may be a header. */
-static dyd_status hint_header(dyd_status st, const dyd_line *line, const dyd_stage *stage, dyd_error *err) {
+/* Behind what is wrong with the first line, where that may be a header. */
+static dyd_status hint_header(dyd_status st, const dyd_line *line, const dyd_intake *in, dyd_error *err) {
   size_t length = strlen(err->message);
-  if (st == DYD_E_PARSE && !stage->count && is_header(line))
-    snprintf(err->message + length, sizeof err->message - length,
-             "; if this is CSV with a header, name two of its columns: --columns X,Y");
+  if (st == DYD_E_PARSE && in->report.rows <= 1 && !in->stage.count)
+    dyd_csv_hint(err->message + length, sizeof err->message - length, line);
   return st;
 }
 
-static dyd_status read_points_file(dyd_stage *stage, dyd_text *text, const dyd_manner *manner, dyd_error *err) {
+static dyd_status read_points_file(dyd_intake *in, dyd_text *text, dyd_error *err) {
   for (;;) {
     dyd_line line;
-    dyd_span span[2];
+    dyd_span span[DYD_CSV_ROLES] = {{0}};
     size_t count;
     dyd_status st = dyd_text_next(&line, text, err);
     if (st != DYD_OK || !line.text) return st;
-    st = dyd_points_split(span, &count, &line, err);
-    if (st == DYD_OK && count) st = stage_point(stage, span, manner, err);
-    if (st != DYD_OK) return hint_header(st, &line, stage, err);
+    st = dyd_points_split(span, &count, &line, in->o->decimal_comma ? ' ' : ',', err);
+    if (st == DYD_OK && count) st = dyd_intake_row(in, span, err);
+    if (st != DYD_OK) return hint_header(st, &line, in, err);
   }
 }
 
-static dyd_status read_csv_file(dyd_stage *stage, dyd_text *text, const dyd_manner *manner, const char *columns,
-                                dyd_error *err) {
+static dyd_status read_csv_file(dyd_intake *in, dyd_text *text, dyd_error *err) {
   dyd_csv csv;
-  dyd_span span[2];
   size_t count = 1;
-  dyd_status st = dyd_csv_open(&csv, text, columns, err);
+  dyd_status st = dyd_csv_open(&csv, text, in->o, err);
   while (st == DYD_OK && count) {
+    dyd_span span[DYD_CSV_ROLES] = {{0}};
     st = dyd_csv_next(span, &count, &csv, err);
-    if (st == DYD_OK && count) st = stage_point(stage, span, manner, err);
+    if (st == DYD_OK && count) st = dyd_intake_row(in, span, err);
   }
   dyd_csv_clear(&csv);
   return st;
@@ -88,17 +42,13 @@ static dyd_status read_csv_file(dyd_stage *stage, dyd_text *text, const dyd_mann
 
 /* Adds the points of text, which is ready to be read; err is not NULL. */
 static dyd_status points_read_text(dyd_engine *e, dyd_text *text, const dyd_read_options *o, dyd_error *err) {
-  dyd_manner manner = {.measured = o->measured};
-  dyd_stage stage;
-  mpq_init(manner.radius);
-  dyd_stage_init(&stage);
-  dyd_status st = o->radius ? manner_radius(&manner, o->radius, err) : DYD_OK;
-  if (st == DYD_OK)
-    st = o->columns ? read_csv_file(&stage, text, &manner, o->columns, err)
-                    : read_points_file(&stage, text, &manner, err);
-  if (st == DYD_OK) st = dyd_stage_commit(e, &stage, err);
-  dyd_stage_clear(&stage);
-  mpq_clear(manner.radius);
+  dyd_intake in;
+  dyd_status st = dyd_intake_init(&in, o, err);
+  if (st == DYD_OK && o->report) st = dyd_abi_check(o->report, sizeof o->report->struct_size, "dyd_read_report", err);
+  if (st == DYD_OK) st = o->columns ? read_csv_file(&in, text, err) : read_points_file(&in, text, err);
+  if (st == DYD_OK) st = dyd_intake_commit(e, &in, err);
+  if (st == DYD_OK && o->report) dyd_abi_give(o->report, &in.report, sizeof in.report);
+  dyd_intake_clear(&in);
   return st;
 }
 
@@ -142,7 +92,7 @@ dyd_status dyd_rect_set_text(dyd_rect *out, const char *text, size_t length, dyd
   dyd_rect r;
   size_t count;
   if (err) dyd_error_clear(err);
-  dyd_status st = dyd_points_split(span, &count, &line, err);
+  dyd_status st = dyd_points_split(span, &count, &line, ',', err);
   if (st == DYD_OK && !count) st = dyd_fail(err, DYD_E_PARSE, "there is no point in this text; give two coordinates");
   if (st != DYD_OK) return st;
   dyd_rect_init(&r);

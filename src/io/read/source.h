@@ -1,33 +1,67 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The two layouts of input: the points file and CSV. Both give points as pairs of spans of text. */
+/* The two layouts of input: the points file and separated text with a header. Both give spans of text. */
 #ifndef DYD_IO_READ_SOURCE_H
 #define DYD_IO_READ_SOURCE_H
 
 #include "io/read/text.h"
+#include <dyadel/io.h>
 
-/* Splits one line of a points file. *count is 2, or 0 for a line without a point. */
-dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_line *line, dyd_error *err);
+/* Splits one line of a points file. *count is 2, or 0 for a line without a point. comma separates besides blanks; a
+ * blank: nothing else does. */
+dyd_status dyd_points_split(dyd_span coordinate[2], size_t *count, const dyd_line *line, char comma, dyd_error *err);
 
-/* A CSV file (RFC 4180) being read. */
+/* What a column is wanted for. */
+typedef enum dyd_csv_role {
+  DYD_CSV_X,
+  DYD_CSV_Y,
+  DYD_CSV_RADIUS_X,
+  DYD_CSV_RADIUS_Y,
+  DYD_CSV_ID,
+  DYD_CSV_ROLES
+} dyd_csv_role;
+
+/* A column as the caller names it. name = NULL: none is wanted. quoted: digits are a name, no number. */
+typedef struct dyd_csv_want {
+  char *name;
+  bool quoted;
+  const char *option; /* for messages: "--id" */
+} dyd_csv_want;
+
+/* Separated text (RFC 4180) being read. */
 typedef struct dyd_csv {
-  dyd_text *text;         /* borrowed */
-  char *name[2];          /* the columns wanted */
-  size_t column[2];       /* where they are, from 0 */
-  size_t columns;         /* how many the header has */
-  char *record;           /* the current record, when it spans lines */
-  size_t record_cap;      /* */
-  char *plain;            /* unquoted fields of the current record */
-  size_t plain_cap, used; /* */
+  dyd_text *text; /* borrowed */
+  char delimiter;
+  dyd_csv_want want[DYD_CSV_ROLES];
+  size_t column[DYD_CSV_ROLES]; /* where they are, from 0 */
+  size_t columns;               /* how many the header has */
+  char *record;                 /* the current record, when it spans lines */
+  size_t record_cap;            /* */
+  char *plain;                  /* unquoted fields of the current record */
+  size_t plain_cap, used;       /* */
   dyd_span *field;
   size_t fields, field_cap;
 } dyd_csv;
 
-/* Takes the two names from the text "NAME,NAME" (quoted as in RFC 4180 when they hold commas), then reads the header.
- * DYD_E_ARG when that text is not two names; DYD_E_PARSE when the header has not got each of them once. */
-dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const char *columns, dyd_error *err);
+/* Takes the names of the columns from the options (quoted as in RFC 4180 when they hold commas), then reads the header,
+ * which tells the delimiter unless the options do. DYD_E_ARG when options are not of their form, or none names x and y;
+ * DYD_E_PARSE when the header has not got each column once. */
+dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const dyd_read_options *o, dyd_error *err);
 void dyd_csv_clear(dyd_csv *csv);
-/* The two fields of the next record, blanks around them removed; *count = 0 at the end. Borrowed until the next
- * call. */
-dyd_status dyd_csv_next(dyd_span coordinate[2], size_t *count, dyd_csv *csv, dyd_error *err);
+/* The fields of the next record, blanks around them removed; those that are not wanted are left as they are. *count is
+ * 0 at the end, else above. Borrowed until the next call. */
+dyd_status dyd_csv_next(dyd_span field[DYD_CSV_ROLES], size_t *count, dyd_csv *csv, dyd_error *err);
+
+/* ---- for the header ---- */
+
+/* The next record that is not an empty line; text = NULL at the end. */
+dyd_status dyd_csv_record(dyd_line *out, dyd_csv *csv, dyd_error *err);
+/* Splits it into csv->field. */
+dyd_status dyd_csv_split(dyd_csv *csv, const dyd_line *line, dyd_error *err);
+/* Takes off blanks at both ends. */
+void dyd_span_trim(dyd_span *s);
+/* "commas", "a comma". Static storage. */
+const char *dyd_delimiter_name(char delimiter, bool many);
+/* Where a first line looks like a header, what is to be typed for it: "; if this is ..."; else the empty text. */
+void dyd_csv_hint(char *out, size_t size, const dyd_line *line);
 
 #endif

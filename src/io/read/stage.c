@@ -63,20 +63,65 @@ static void staged_join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coo
   }
 }
 
-dyd_status dyd_stage_add(dyd_stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
+/* *out becomes the point; takes over reals, also on failure, and leaves both coordinates empty. */
+static dyd_status staged_put(dyd_staged *out, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
   dyd_status st = DYD_OK;
   dyd_coordinate_kind kind = staged_kind(x->kind, y->kind);
-  if (!dyd_reserve((void **)&s->item, &s->cap, s->count + 1, sizeof *s->item)) st = DYD_E_NOMEM;
-  if (st == DYD_OK && kind == DYD_COORDINATE_REAL) st = dyd_coordinate_make_real(x);
+  if (kind == DYD_COORDINATE_REAL) st = dyd_coordinate_make_real(x);
   if (st == DYD_OK && kind == DYD_COORDINATE_REAL) st = dyd_coordinate_make_real(y);
   if (st != DYD_OK) {
     dyd_coordinate_clear(x);
     dyd_coordinate_clear(y);
     return dyd_fail(err, st, "%s", dyd_status_text(st));
   }
-  staged_join(&s->item[s->count++], kind, x, y);
+  staged_join(out, kind, x, y);
   x->kind = y->kind = DYD_COORDINATE_DOUBLE;
   return DYD_OK;
+}
+
+dyd_status dyd_stage_add(dyd_stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
+  if (!dyd_reserve((void **)&s->item, &s->cap, s->count + 1, sizeof *s->item)) {
+    dyd_coordinate_clear(x);
+    dyd_coordinate_clear(y);
+    return dyd_fail_nomem(err);
+  }
+  dyd_status st = staged_put(&s->item[s->count], x, y, err);
+  s->count += st == DYD_OK;
+  return st;
+}
+
+/* The coordinates of a point, which is empty afterwards: the inverse of staged_join. */
+static void staged_split(dyd_coordinate *x, dyd_coordinate *y, dyd_staged *p) {
+  dyd_coordinate *c[2] = {x, y};
+  for (int a = 0; a < 2; a++) {
+    *c[a] = (dyd_coordinate){.kind = p->kind};
+    if (p->kind == DYD_COORDINATE_BOX)
+      c[a]->lo = p->u.box[2 * a], c[a]->hi = p->u.box[2 * a + 1];
+    else if (p->kind == DYD_COORDINATE_PLAIN)
+      c[a]->plain = (dyd_plain){p->u.man[a], p->exp[a]};
+    else if (p->kind == DYD_COORDINATE_REAL)
+      c[a]->real = p->u.real[a];
+    else
+      *c[a] = (dyd_coordinate){.kind = DYD_COORDINATE_BINARY, .lo = p->u.box[a], .hi = p->u.box[a]};
+  }
+  p->kind = DYD_COORDINATE_DOUBLE;
+}
+
+static void swap_coordinates(dyd_coordinate *a, dyd_coordinate *b) {
+  dyd_coordinate c = *a;
+  *a = *b;
+  *b = c;
+}
+
+dyd_status dyd_stage_replace(dyd_stage *s, size_t k, dyd_coordinate *x, dyd_coordinate *y, const bool take[2],
+                             dyd_error *err) {
+  dyd_coordinate old[2];
+  staged_split(&old[0], &old[1], &s->item[k]);
+  if (take[0]) swap_coordinates(&old[0], x);
+  if (take[1]) swap_coordinates(&old[1], y);
+  dyd_coordinate_clear(x);
+  dyd_coordinate_clear(y);
+  return staged_put(&s->item[k], &old[0], &old[1], err);
 }
 
 #define BULK 1024

@@ -18,6 +18,9 @@ void dyd_stage_init(dyd_stage *s);
 void dyd_stage_clear(dyd_stage *s);
 /* Appends a point; takes over reals, also on failure, and leaves both coordinates empty. */
 dyd_status dyd_stage_add(dyd_stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err);
+/* Point k gets the coordinates that are to be taken, and keeps the others; reals and coordinates as above. */
+dyd_status dyd_stage_replace(dyd_stage *s, size_t k, dyd_coordinate *x, dyd_coordinate *y, const bool take[2],
+                             dyd_error *err);
 /* Adds all points to e in order, those that are doubles in bulk. The stage is empty afterwards.
  * Fails only when memory is exhausted or e has run already. */
 dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err);

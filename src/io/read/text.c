@@ -4,16 +4,17 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "stream/number.h"
-#include <errno.h>
 #include <string.h>
 
 #define BLOCK ((size_t)1 << 17)
 
 void dyd_text_init(dyd_text *t, FILE *in) {
-  *t = (dyd_text){.in = in};
+  *t = (dyd_text){0};
+  dyd_bytes_init(&t->bytes, in);
 }
 
 void dyd_text_clear(dyd_text *t) {
+  dyd_bytes_clear(&t->bytes);
   free(t->buffer);
   *t = (dyd_text){0};
 }
@@ -39,12 +40,11 @@ static dyd_status text_fill(dyd_text *t, dyd_error *err) {
   t->end -= t->start;
   t->start = 0;
   if (!dyd_reserve((void **)&t->buffer, &t->cap, t->end + BLOCK, 1)) return dyd_fail_nomem(err);
-  errno = 0;
-  size_t got = fread(t->buffer + t->end, 1, BLOCK, t->in);
+  size_t got = 0;
+  dyd_status st = dyd_bytes_read(&got, t->buffer + t->end, BLOCK, &t->bytes, err);
+  if (st != DYD_OK) return st;
   t->end += got;
-  if (got == BLOCK) return DYD_OK;
-  if (ferror(t->in)) return dyd_fail(err, DYD_E_IO, "cannot read: %s", strerror(errno ? errno : EIO));
-  t->ended = true;
+  t->ended = got < BLOCK;
   return DYD_OK;
 }
 

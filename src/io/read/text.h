@@ -1,18 +1,16 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Lines of a text file, read in blocks, and positions in them for error messages. */
+/* Lines of a text file, packed or not, read in blocks, and positions in them for error messages. */
 #ifndef DYD_IO_READ_TEXT_H
 #define DYD_IO_READ_TEXT_H
 
-#include <dyadel/status.h>
-#include <stdbool.h>
-#include <stdio.h>
+#include "io/read/bytes.h"
 
 /* A line (or a record of several lines) longer than this is refused: it is no points file. */
 #define DYD_TEXT_LINE_MAX ((size_t)1 << 20)
 
 /* Invariant: start <= end <= cap; buffer[start .. end) is read and not yet handed out. */
 typedef struct dyd_text {
-  FILE *in; /* borrowed */
+  dyd_bytes bytes;
   char *buffer;
   size_t cap, start, end;
   size_t line; /* number of the last line handed out */

@@ -13,7 +13,7 @@ typedef struct squares {
   size_t x0, x1, y0, y1; /* from, up to */
 } squares;
 
-bool dyd_labels_init(dyd_labels *l, const dyd_view *v) {
+bool dyd_numbers_init(dyd_numbers *l, const dyd_view *v) {
   l->view = v;
   l->columns = (size_t)(v->frame[1] / SQUARE) + 2;
   l->rows = (size_t)(v->frame[3] / SQUARE) + 2;
@@ -21,25 +21,25 @@ bool dyd_labels_init(dyd_labels *l, const dyd_view *v) {
   return l->taken != NULL;
 }
 
-void dyd_labels_clear(dyd_labels *l) {
+void dyd_numbers_clear(dyd_numbers *l) {
   free(l->taken);
 }
 
 /* The squares that a box on the page meets, as far as they are in the frame. */
-static squares squares_of(const dyd_labels *l, const double z[4]) {
+static squares squares_of(const dyd_numbers *l, const double z[4]) {
   const double *f = l->view->frame;
   squares s = {(size_t)(fmax(z[0], f[0]) / SQUARE), (size_t)(fmax(fmin(z[1], f[1]), 0) / SQUARE) + 1,
                (size_t)(fmax(z[2], f[2]) / SQUARE), (size_t)(fmax(fmin(z[3], f[3]), 0) / SQUARE) + 1};
   return s;
 }
 
-static void take_squares(dyd_labels *l, const double z[4]) {
+static void take_squares(dyd_numbers *l, const double z[4]) {
   squares s = squares_of(l, z);
   for (size_t y = s.y0; y < s.y1; y++)
     for (size_t x = s.x0; x < s.x1; x++) l->taken[y * l->columns + x] = 1;
 }
 
-static bool is_free(const dyd_labels *l, const double z[4]) {
+static bool is_free(const dyd_numbers *l, const double z[4]) {
   const double *f = l->view->frame;
   if (!(z[0] > f[0] + 2 && z[1] < f[1] - 2 && z[2] > f[2] + 2 && z[3] < f[3] - 2)) return false;
   squares s = squares_of(l, z);
@@ -57,13 +57,13 @@ static void page_box(double z[4], const dyd_view *v, const double box[4]) {
   z[2] = fmin(dyd_view_y(v, box[3]), at[1] - least), z[3] = fmax(dyd_view_y(v, box[2]), at[1] + least);
 }
 
-void dyd_labels_keep_off(dyd_labels *l, const double box[4]) {
+void dyd_numbers_keep_off(dyd_numbers *l, const double box[4]) {
   double z[4];
   page_box(z, l->view, box);
   if (dyd_view_sees(l->view, box)) take_squares(l, z);
 }
 
-void dyd_labels_put(dyd_labels *l, dyd_canvas *c, const double box[4], double size, size_t number) {
+void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double size, size_t number) {
   /* Steps right and down from the box: -1 before, 0 about the middle, 1 behind. */
   static const int place[8][2] = {{1, -1}, {1, 1}, {-1, -1}, {-1, 1}, {1, 0}, {-1, 0}, {0, -1}, {0, 1}};
   char text[24];

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What points are called where they were read: the number of their row, and the identifier that stands in it. */
+#ifndef DYD_ENGINE_LABELS_H
+#define DYD_ENGINE_LABELS_H
+
+#include <dyadel/engine.h>
+
+/* A row that was taken as one with the row of a point. */
+typedef struct dyd_merged_row {
+  size_t row;
+  size_t point;
+} dyd_merged_row;
+
+/* Invariant: row[0 .. points) and merged[].row ascend and are below rows; id[i] is where the terminated text of point
+ * i begins, all are 0 when there are no identifiers. */
+typedef struct dyd_labels {
+  size_t points, rows;
+  size_t *row, *id;
+  size_t row_cap, id_cap;
+  char *text;
+  size_t used, text_cap;
+  dyd_merged_row *merged;
+  size_t merges, merged_cap;
+  bool has_ids;
+} dyd_labels;
+
+void dyd_labels_clear(dyd_labels *l);
+/* The next point, of row l->rows; id (length bytes, copied) may be NULL. false: memory is exhausted. */
+bool dyd_labels_add(dyd_labels *l, const char *id, size_t length);
+/* The next row, which is that of `point` once more. false: memory is exhausted. */
+bool dyd_labels_merge(dyd_labels *l, size_t point);
+/* The next row, which gives no point. */
+void dyd_labels_skip(dyd_labels *l);
+/* *out becomes the labels of e with those of `more` behind, for the points that come next. DYD_E_NOMEM. */
+dyd_status dyd_labels_join(dyd_labels *out, const dyd_engine *e, const dyd_labels *more);
+/* Hands *l over to e, to be called when the points were added; l is empty afterwards. */
+void dyd_labels_give(dyd_engine *e, dyd_labels *l);
+
+#endif

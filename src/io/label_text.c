@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Identifiers of points in results. They come from files of users: any bytes may be in them. */
+#include "io/label_text.h"
+
+#include <stdbool.h>
+#include <string.h>
+
+const char *dyd_csv_id_head(const dyd_engine *e, size_t count) {
+  static const char *const head[] = {",id", ",id_i", ",id_i,id_j", ",id_i,id_j,id_k"};
+  return dyd_engine_id(e, 0) ? head[count] : "";
+}
+
+void dyd_csv_text(FILE *out, const char *text) {
+  size_t n = strlen(text);
+  if (!text[strcspn(text, ",;\t|\"\r\n")] && text[0] != ' ' && (!n || text[n - 1] != ' ')) {
+    fputs(text, out);
+    return;
+  }
+  fputc('"', out);
+  for (; *text; text++) {
+    if (*text == '"') fputc('"', out);
+    fputc(*text, out);
+  }
+  fputc('"', out);
+}
+
+void dyd_csv_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t count) {
+  for (size_t k = 0; k < (count ? count : 1) && dyd_engine_id(e, site[k]); k++) {
+    fputc(',', out);
+    dyd_csv_text(out, dyd_engine_id(e, site[k]));
+  }
+}
+
+/* The length of the character of UTF-8 at p: 1 to 4; 0: it is none (RFC 3629: shortest forms, no surrogates). */
+static size_t utf8_length(const unsigned char *p) {
+  size_t n = p[0] < 0x80 ? 1 : p[0] < 0xC2 ? 0 : p[0] < 0xE0 ? 2 : p[0] < 0xF0 ? 3 : p[0] < 0xF5 ? 4 : 0;
+  for (size_t k = 1; k < n; k++)
+    if ((p[k] & 0xC0) != 0x80) return 0;
+  if (n == 3 && ((p[0] == 0xE0 && p[1] < 0xA0) || (p[0] == 0xED && p[1] >= 0xA0))) return 0;
+  if (n == 4 && ((p[0] == 0xF0 && p[1] < 0x90) || (p[0] == 0xF4 && p[1] >= 0x90))) return 0;
+  return n;
+}
+
+void dyd_json_text(FILE *out, const char *text) {
+  const unsigned char *p = (const unsigned char *)text;
+  fputc('"', out);
+  for (size_t n; *p; p += n ? n : 1) {
+    n = utf8_length(p);
+    if (!n)
+      fputs("\\ufffd", out);
+    else if (*p == '"' || *p == '\\')
+      fprintf(out, "\\%c", *p);
+    else if (*p < 0x20)
+      fprintf(out, "\\u%04x", *p);
+    else
+      fwrite(p, 1, n, out);
+  }
+  fputc('"', out);
+}
+
+void dyd_json_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t count) {
+  static const char *const name[] = {"id_i", "id_j", "id_k"};
+  for (size_t k = 0; k < (count ? count : 1) && dyd_engine_id(e, site[k]); k++) {
+    fprintf(out, ", \"%s\": ", count ? name[k] : "id");
+    dyd_json_text(out, dyd_engine_id(e, site[k]));
+  }
+}

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Identifiers of points in results: the one place that knows how they are written. Numbers are dyd_engine_row. */
+#ifndef DYD_IO_LABEL_TEXT_H
+#define DYD_IO_LABEL_TEXT_H
+
+#include <dyadel/engine.h>
+#include <stdio.h>
+
+/* Columns behind others: ",id_i,id_j" for count = 2, at most 3; ",id" for count = 0. "" without identifiers. */
+const char *dyd_csv_id_head(const dyd_engine *e, size_t count);
+/* Their values: ",NAME" for each site, quoted where need be (RFC 4180); nothing without identifiers. */
+void dyd_csv_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t count);
+/* A text as csv has it. */
+void dyd_csv_text(FILE *out, const char *text);
+/* Members behind others: , "id_i": "NAME", "id_j": "NAME"; for count = 0 , "id": "NAME" of one site. */
+void dyd_json_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t count);
+/* A text as JSON has it; what is no UTF-8 becomes U+FFFD. */
+void dyd_json_text(FILE *out, const char *text);
+
+#endif

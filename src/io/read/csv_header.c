@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The header of separated text: which delimiter it uses, and where the wanted columns are.
+ *
+ * A column is wanted by its name or, in digits without quotes, by its number from 1. */
+#include "base/alloc.h"
+#include "base/error.h"
+#include "io/read/plain.h"
+#include "io/read/source.h"
+#include <string.h>
+
+static const char delimiters[] = ",;\t|";
+
+/* ---- what is wanted ---- */
+
+/* The names in `text`, at least `least`, at most `most`, for the roles from `first` on. */
+static dyd_status read_names(dyd_csv *csv, const char *text, const char *option, dyd_csv_role first, size_t least,
+                             size_t most, dyd_error *err) {
+  dyd_line line = {text, strlen(text), 0};
+  csv->delimiter = ',';
+  if (!line.length || dyd_csv_split(csv, &line, NULL) < 0 || csv->fields < least || csv->fields > most) {
+    static const char *const wanted[] = {"one column name; give NAME",
+                                         "one or two column names; give NAME or NAME,NAME",
+                                         "two column names; give NAME,NAME"};
+    return dyd_fail(err, DYD_E_ARG, "\"%.100s\" is not %s", text, wanted[least + most - 2]);
+  }
+  for (size_t k = 0; k < most; k++) {
+    dyd_span *field = &csv->field[k < csv->fields ? k : 0];
+    dyd_span_trim(field);
+    dyd_csv_want *want = &csv->want[first + k];
+    *want = (dyd_csv_want){dyd_alloc(field->length + 1, 1), field->text != field->at, option};
+    if (!want->name) return dyd_fail_nomem(err);
+    memcpy(want->name, field->text, field->length);
+    want->name[field->length] = 0;
+  }
+  return DYD_OK;
+}
+
+static dyd_status read_wanted(dyd_csv *csv, const dyd_read_options *o, dyd_error *err) {
+  dyd_status st = read_names(csv, o->columns, "--columns", DYD_CSV_X, 2, 2, err);
+  if (st == DYD_OK && o->radius_columns)
+    st = read_names(csv, o->radius_columns, "--radius-column", DYD_CSV_RADIUS_X, 1, 2, err);
+  if (st == DYD_OK && o->id) st = read_names(csv, o->id, "--id", DYD_CSV_ID, 1, 1, err);
+  return st;
+}
+
+/* 0: the header tells. */
+static dyd_status read_delimiter(char *out, const char *text, dyd_error *err) {
+  *out = 0;
+  if (!text) return DYD_OK;
+  if (strcmp(text, "tab") == 0 || strcmp(text, "\\t") == 0) text = "\t";
+  if (!text[0] || text[1] || text[0] == '"' || text[0] == '\n' || text[0] == '\r' || (unsigned char)text[0] >= 128)
+    return dyd_fail(err, DYD_E_ARG, "\"%.20s\" cannot be a delimiter; give one character such as \";\", or tab", text);
+  *out = text[0];
+  return DYD_OK;
+}
+
+/* ---- finding it ---- */
+
+static char lower_letter(char c) {
+  return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+static bool is_named(const dyd_span *field, const char *name, bool fold) {
+  if (field->length != strlen(name)) return false;
+  for (size_t k = 0; k < field->length; k++)
+    if (field->text[k] != name[k] && (!fold || lower_letter(field->text[k]) != lower_letter(name[k]))) return false;
+  return true;
+}
+
+/* How many columns have the name; *first and *last of them. */
+static size_t count_named(size_t *first, size_t *last, const dyd_csv *csv, const char *name, bool fold) {
+  size_t found = 0;
+  for (size_t k = 0; k < csv->fields; k++) {
+    if (!is_named(&csv->field[k], name, fold)) continue;
+    if (!found++) *first = k;
+    *last = k;
+  }
+  return found;
+}
+
+/* The names of the header, as many as fit. */
+static void list_names(char *out, size_t size, const dyd_csv *csv) {
+  size_t used = 0;
+  for (size_t k = 0; k < csv->fields; k++) {
+    const dyd_span *f = &csv->field[k];
+    if (used + f->length + 8 > size) {
+      snprintf(out + used, size - used, ", ...");
+      return;
+    }
+    used += (size_t)snprintf(out + used, size - used, "%s%.*s", k ? ", " : "", (int)f->length, f->text);
+  }
+}
+
+/* A failure at column k of the header. */
+static dyd_status header_fail(const dyd_csv *csv, size_t k, dyd_error *err, const char *message) {
+  return dyd_span_fail(err, &csv->field[k], 0, message);
+}
+
+static dyd_status fail_missing(const dyd_csv *csv, const dyd_csv_want *want, dyd_error *err) {
+  char names[180], message[DYD_MESSAGE_SIZE];
+  list_names(names, sizeof names, csv);
+  if (csv->fields == 1)
+    snprintf(message, sizeof message,
+             "the header is one column, \"%s\", and \"%.60s\" is not its name; say what separates columns: "
+             "--delimiter C",
+             names, want->name);
+  else
+    snprintf(message, sizeof message,
+             "no column is called \"%.60s\"; the header's names are: %s; give one of these, or its number, to %s",
+             want->name, names, want->option);
+  return header_fail(csv, 0, err, message);
+}
+
+/* By number; a name that is the same digits must not be meant. */
+static dyd_status find_numbered(size_t *out, const dyd_csv *csv, const dyd_csv_want *want, dyd_error *err) {
+  char message[DYD_MESSAGE_SIZE];
+  size_t first, last, number = strlen(want->name) < 9 ? (size_t)atol(want->name) : SIZE_MAX;
+  bool named = count_named(&first, &last, csv, want->name, false);
+  if (named && first + 1 != number) {
+    snprintf(message, sizeof message,
+             "%s is the name of column %zu: for that one, put the name into quotes: %s '\"%s\"'; for column %s, give "
+             "its name",
+             want->name, first + 1, want->option, want->name, want->name);
+    return header_fail(csv, first, err, message);
+  }
+  if (number >= 1 && number <= csv->fields) return *out = number - 1, DYD_OK;
+  snprintf(message, sizeof message, "there is no column %.20s; the header has %zu, counted from 1", want->name,
+           csv->fields);
+  return header_fail(csv, 0, err, message);
+}
+
+static dyd_status find_column(size_t *out, const dyd_csv *csv, const dyd_csv_want *want, dyd_error *err) {
+  char names[160], message[DYD_MESSAGE_SIZE];
+  size_t first = 0, last = 0;
+  if (!want->quoted && want->name[0] && !want->name[strspn(want->name, "0123456789")])
+    return find_numbered(out, csv, want, err);
+  size_t found = count_named(&first, &last, csv, want->name, false), exact = found;
+  if (!found) found = count_named(&first, &last, csv, want->name, true);
+  if (found == 1) return *out = first, DYD_OK;
+  if (!found) return fail_missing(csv, want, err);
+  list_names(names, sizeof names, csv);
+  if (exact)
+    snprintf(message, sizeof message,
+             "%zu columns are called \"%.60s\"; rename them in the header, or give numbers; its names are: %s", found,
+             want->name, names);
+  else
+    snprintf(message, sizeof message,
+             "%zu columns are called \"%.60s\" but for capitals; write the name as the header does, whose names are: "
+             "%s",
+             found, want->name, names);
+  return header_fail(csv, last, err, message);
+}
+
+static dyd_status find_columns(dyd_csv *csv, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  for (int k = 0; k < DYD_CSV_ROLES && st == DYD_OK; k++)
+    if (csv->want[k].name) st = find_column(&csv->column[k], csv, &csv->want[k], err);
+  return st;
+}
+
+/* ---- the delimiter ---- */
+
+static dyd_status header_split(dyd_csv *csv, const dyd_line *line, char delimiter, dyd_error *err) {
+  csv->delimiter = delimiter;
+  dyd_status st = dyd_csv_split(csv, line, err);
+  for (size_t k = 0; k < csv->fields && st == DYD_OK; k++) dyd_span_trim(&csv->field[k]);
+  return st;
+}
+
+/* The delimiter that makes the most columns among those by which all wanted ones are found; when there is none, the one
+ * that makes the most. */
+static char find_delimiter(dyd_csv *csv, const dyd_line *line) {
+  char best = delimiters[0];
+  size_t most = 0;
+  bool found = false;
+  for (const char *d = delimiters; *d; d++) {
+    if (header_split(csv, line, *d, NULL) != DYD_OK) continue;
+    bool finds = find_columns(csv, NULL) == DYD_OK;
+    if (finds < found || (finds == found && csv->fields <= most)) continue;
+    found = finds;
+    most = csv->fields;
+    best = *d;
+  }
+  return best;
+}
+
+/* Columns by number say nothing about a first line that is no header, but a point that would be lost. */
+static dyd_status refuse_numbers(const dyd_csv *csv, dyd_error *err) {
+  dyd_plain p;
+  for (int k = DYD_CSV_X; k <= DYD_CSV_Y; k++) {
+    const dyd_span *f = &csv->field[csv->column[k]];
+    if (csv->want[k].quoted || is_named(f, csv->want[k].name, false)) return DYD_OK;
+    if (!dyd_plain_scan(&p, f->text, f->length)) return DYD_OK;
+  }
+  return header_fail(csv, csv->column[DYD_CSV_X], err,
+                     "the first line must name the columns, but here it holds numbers; put a line of names before it");
+}
+
+dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const dyd_read_options *o, dyd_error *err) {
+  *csv = (dyd_csv){.text = text};
+  dyd_line line;
+  char delimiter;
+  dyd_status st = read_wanted(csv, o, err);
+  if (st == DYD_OK) st = read_delimiter(&delimiter, o->delimiter, err);
+  if (st == DYD_OK) st = dyd_csv_record(&line, csv, err);
+  if (st != DYD_OK) return st;
+  if (!line.text) {
+    if (err) err->line = err->column = 1;
+    return dyd_fail(err, DYD_E_PARSE, "the file has no header; its first line must name the columns");
+  }
+  if (!delimiter) delimiter = find_delimiter(csv, &line);
+  st = header_split(csv, &line, delimiter, err);
+  if (st == DYD_OK) st = find_columns(csv, err);
+  if (st == DYD_OK) st = refuse_numbers(csv, err);
+  csv->columns = csv->fields;
+  return st;
+}
+
+/* ---- a file that is taken for a points file ---- */
+
+/* Is every field a word, or quoted? */
+static bool is_header(const dyd_csv *csv) {
+  bool words = csv->fields > 1;
+  for (size_t k = 0; words && k < csv->fields; k++) {
+    const dyd_span *f = &csv->field[k];
+    char c = f->length ? lower_letter(f->text[0]) : 0;
+    words = f->text != f->at || c == '_' || (c >= 'a' && c <= 'z');
+  }
+  return words;
+}
+
+void dyd_csv_hint(char *out, size_t size, const dyd_line *line) {
+  dyd_csv csv = {0};
+  char names[160];
+  *out = 0;
+  for (const char *d = delimiters; *d && !*out; d++) {
+    if (header_split(&csv, line, *d, NULL) != DYD_OK || !is_header(&csv)) continue;
+    list_names(names, sizeof names, &csv);
+    snprintf(out, size, "; if this is CSV with a header, name two of its columns: --columns X,Y; they are: %s", names);
+  }
+  dyd_csv_clear(&csv);
+}

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The second point of a cell, by boxes that cover it.
+ *
+ * A box is dropped when some C_ki holds its corners, hence all of it, so that i is possible nowhere in it, or when dl_i
+ * is below all other ds there, so that it is in Int_i. In a box that stays, each dl is at most its largest value, which
+ * gives a bound; boxes are cut while they are large for that. Squares are bounded by [FLT-DST]; their root carries
+ * three relative errors more, which SAFE covers. */
+#include "metric/second_filter.h"
+
+#include "base/alloc.h"
+
+#define SAFE (1 + 32 * 0x1p-53)
+enum { DEPTH = 60, FINER = 16 };
+
+/* box[own]: the rectangle of the site; best: the square of the bound so far, most: of those worth looking for. */
+typedef struct second_search {
+  dyd_bbox *box;
+  size_t count, own;
+  double best, most;
+} second_search;
+
+static bool boxes_are_apart(const dyd_bbox *a, const dyd_bbox *b) {
+  return a->e[1] < b->e[0] || b->e[1] < a->e[0] || a->e[3] < b->e[2] || b->e[3] < a->e[2];
+}
+
+static bool second_is_blocked_by(const dyd_bbox corner[4], const double near[4], const dyd_bbox *k) {
+  for (int q = 0; q < 4; q++)
+    if (!(dyd_dl2_upper(&corner[q], k) < near[q])) return false;
+  return true;
+}
+
+/* Does nobody have to be the nearest but another one: is c outside of Pos_i? */
+static bool second_is_outside(const second_search *s, const dyd_bbox *c) {
+  dyd_bbox corner[4];
+  double near[4];
+  for (int q = 0; q < 4; q++) {
+    double x = c->e[q & 1], y = c->e[2 + (q >> 1)];
+    corner[q] = (dyd_bbox){{x, x, y, y}};
+    near[q] = dyd_ds2_lower(&corner[q], &s->box[s->own]);
+  }
+  for (size_t k = 0; k < s->count; k++)
+    if (second_is_blocked_by(corner, near, &s->box[k])) return true;
+  return false;
+}
+
+static bool second_is_inside(const second_search *s, const dyd_bbox *c) {
+  double most = dyd_dl2_upper(c, &s->box[s->own]);
+  for (size_t k = 0; k < s->count; k++)
+    if (k != s->own && !(most < dyd_ds2_lower(c, &s->box[k]))) return false;
+  return true;
+}
+
+/* The least dl^2 over c of a rectangle disjoint from box[from]. */
+static double second_least(const second_search *s, const dyd_bbox *c, size_t from) {
+  double least = HUGE_VAL;
+  for (size_t k = 0; k < s->count; k++) {
+    double far = dyd_dl2_upper(c, &s->box[k]);
+    if (far < least && boxes_are_apart(&s->box[from], &s->box[k])) least = far;
+  }
+  return least;
+}
+
+static size_t second_nearest(const second_search *s, const dyd_bbox *c) {
+  size_t nearest = s->own;
+  double least = HUGE_VAL;
+  for (size_t k = 0; k < s->count; k++) {
+    double far = dyd_dl2_upper(c, &s->box[k]);
+    if (far < least) nearest = k;
+    least = dyd_min(least, far);
+  }
+  return nearest;
+}
+
+/* The nearest one and the next that is disjoint from it: two points that differ, none of them farther. */
+static double second_value(const second_search *s, const dyd_bbox *c) {
+  size_t nearest = second_nearest(s, c);
+  return dyd_min(second_least(s, c, s->own), second_least(s, c, nearest));
+}
+
+static void second_visit(second_search *s, const dyd_bbox *c, int depth) {
+  double value = second_value(s, c), width = c->e[1] - c->e[0], height = c->e[3] - c->e[2];
+  if (s->best > s->most || value <= s->best || second_is_outside(s, c) || second_is_inside(s, c)) return;
+  if (depth == 0 || !(FINER * FINER * (width * width + height * height) > value)) {
+    s->best = value;
+    return;
+  }
+  double x = c->e[0] / 2 + c->e[1] / 2, y = c->e[2] / 2 + c->e[3] / 2;
+  for (int q = 0; q < 4; q++) {
+    dyd_bbox part = {{q & 1 ? x : c->e[0], q & 1 ? c->e[1] : x, q & 2 ? y : c->e[2], q & 2 ? c->e[3] : y}};
+    second_visit(s, &part, depth - 1);
+  }
+}
+
+/* *c = a box round { dl_i <= reach } n W; false: none of finite ends. */
+static bool second_start(dyd_bbox *c, const dyd_bbox *own, const dyd_rect *window, double reach) {
+  dyd_interval_get_d(&c->e[0], &c->e[1], &window->x);
+  dyd_interval_get_d(&c->e[2], &c->e[3], &window->y);
+  for (int k = 0; k < 4; k += 2) {
+    c->e[k] = dyd_max(c->e[k], nextafter(own->e[k + 1] - reach, -HUGE_VAL));
+    c->e[k + 1] = dyd_min(c->e[k + 1], nextafter(own->e[k] + reach, HUGE_VAL));
+    if (!(c->e[k] >= -DBL_MAX && c->e[k + 1] <= DBL_MAX)) return false;
+  }
+  return true;
+}
+
+dyd_status dyd_filter_second(double *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, double reach,
+                             double most) {
+  dyd_index_list near = {0};
+  dyd_bbox c;
+  dyd_status st = dyd_delaunay_neighbours(&near, pd, i, DYD_TIE);
+  if (st != DYD_OK) return st;
+  second_search s = {.count = near.count + 1, .own = near.count, .most = most * most};
+  s.box = dyd_alloc(s.count, sizeof *s.box);
+  if (s.box) {
+    for (size_t k = 0; k < near.count; k++) dyd_sites_get_d(s.box[k].e, dyd_delaunay_sites(pd), near.item[k]);
+    dyd_sites_get_d(s.box[s.own].e, dyd_delaunay_sites(pd), i);
+    *out = HUGE_VAL;
+    if (second_start(&c, &s.box[s.own], window, reach)) {
+      second_visit(&s, &c, DEPTH);
+      if (!(s.best > s.most)) *out = sqrt(s.best) * SAFE;
+    }
+  }
+  dyd_index_list_clear(&near);
+  st = s.box ? DYD_OK : DYD_E_NOMEM;
+  free(s.box);
+  return st;
+}

@@ -1,0 +1,28 @@
+#!/bin/sh
+# SPDX-License-Identifier: LGPL-3.0-or-later
+# What is installed runs where it stands; its pkg-config file gives users no include folders but those of GMP; without
+# tests, nothing but that is built. Usage: install.sh ROOT BUILD
+set -u
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+
+fail() {
+  echo "$1"
+  exit 1
+}
+
+DESTDIR=$work/root meson install -C "$2" --no-rebuild --quiet >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+mv "$work/root" "$work/moved"
+command=$(find "$work/moved" -name dyadel -type f -perm -u+x)
+printed=$(env -u LD_LIBRARY_PATH "$command" --version) || fail "the installed command does not run"
+case $printed in "dyadel "[0-9]*) ;; *) fail "the installed command prints: $printed" ;; esac
+
+PKG_CONFIG_PATH=$(dirname "$(find "$work/moved" -name dyadel.pc)")
+export PKG_CONFIG_PATH
+pkg-config --cflags dyadel | grep -Eq 'cairo|glib|freetype|jansson' && fail "--cflags: $(pkg-config --cflags dyadel)"
+pkg-config --libs dyadel | grep -Eq 'cairo|flint' && fail "--libs: $(pkg-config --libs dyadel)"
+pkg-config --static --libs dyadel | grep -q 'lflint-arb' || fail "--static --libs: $(pkg-config --static --libs dyadel)"
+
+meson setup -Dtests=disabled "$work/bare" "$1" >"$work/log" 2>&1 || { cat "$work/log"; exit 1; }
+ninja -C "$work/bare" -n install | grep -E 'tests/|bench/|armed' && fail "this is built for an installation"
+exit 0
