@@ -36,6 +36,7 @@
  *       n i j x y k x y k ... x y k x y
  *                           illegal, proved by a chain: a direction, then
  *                           blocker and point by turns, a blocker, a direction
+ *     boxes P             (or no such line) of the other pairs boxes prove P illegal
  *     triangles T
  *     unproved U
  *     area A | none         upper bounds, see metric.h
@@ -78,6 +79,9 @@
  * also u.x < u.y for all x of rectangle i or j and y of rectangle k, u the direction; and the chain crosses the segment
  * between the places of i and j an odd number of times. Then no centre, finite or not, is possibly nearest to both.
  *
+ * [CERT-9] Boxes: there is no list to prove them, the checker finds it (src/checker/boxes.c): it cuts the plane into
+ * boxes until none holds the centres of two sites whose pair is not listed.
+ *
  * [CERT-5] The bounds: the sum of the areas of the hulls of R_i and R_j over all pairs listed, chains apart; the
  * greatest diameter of a rectangle of such a pair, for pairs that are not legal plus half their greatest length.
  *
@@ -92,9 +96,9 @@
  * about N log N, is up to the writer, who may write "unproved": then nothing is checked. Nothing else in the
  * certificate is needed.
  *
- * U counts, over the open sets, the pairs within the set that have no line: nothing proves that they are illegal (0:
- * the certificate proves its list of pairs complete). decided needs no o, t and l line and capped no; certified needs
- * the goal's bound.
+ * U counts, over the open sets, the pairs within the set that have no line and are none of the P: nothing proves that
+ * they are illegal (0: the certificate proves its list of pairs complete). decided needs no o, t and l line and capped
+ * no; certified needs the goal's bound.
  *
  * [CERT-8] What is stated need not be proved; the report says what is not (dyd_certificate_gap). A line o states
  * nothing of its pair, a line t that no refinement changes what it is, which is proved where all sites of its open sets
@@ -160,9 +164,10 @@ typedef struct dyd_certificate_report {
   size_t polygons;
   bool distance, distance_proved; /* is its other bound stated; was it checked? */
   size_t ties_unproved;
-  unsigned gaps;    /* of dyd_certificate_gap; 0: everything that is stated is proved */
-  bool bound;       /* were the points given, and is it about them? */
-  size_t unlocated; /* of them, those not known to lie in their rectangles */
+  uint64_t illegal_boxes; /* pairs within undecided faces that boxes prove illegal */
+  unsigned gaps;          /* of dyd_certificate_gap; 0: everything that is stated is proved */
+  bool bound;             /* were the points given, and is it about them? */
+  size_t unlocated;       /* of them, those not known to lie in their rectangles */
 } dyd_certificate_report;
 
 /* Checks the certificate in `in` up to its end, in integers. DYD_OK: accepted, *out is what it states. DYD_E_PARSE:

@@ -107,6 +107,12 @@ DYD_API dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaun
                                            dyd_pair_status least);
 /* Triangles with three legal edges that hold no site for any choice: Delaunay triangles for every choice. Sorted. */
 DYD_API dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, const dyd_delaunay *pd);
+/* The same, and who is next to whom: neighbours->item[t].v[k] is the number in the list of the triangle beyond the side
+ * opposite to corner k of triangle t, DYD_NO_TRIANGLE where there is none that is sure (outside the hull, or in an
+ * undecided face). neighbours may be NULL. Both are replaced, owned by the caller. O(N). */
+#define DYD_NO_TRIANGLE UINT32_MAX
+DYD_API dyd_status dyd_delaunay_triangles_and_neighbours(dyd_triangle_list *out, dyd_triangle_list *neighbours,
+                                                         const dyd_delaunay *pd);
 /* The sites of the undecided faces of the legal graph: face f (0 <= f < dyd_delaunay_undecided_faces). Ascending.
  * *outer tells whether the face is unbounded (the unbounded face may come in parts, between sure corners of the hull).
  * Every non-legal possible pair lies in exactly one of them, up to its end points on the boundary. */

@@ -21,7 +21,7 @@ typedef enum dyd_outcome {
   DYD_OUTCOME_NONE = 0,  /* not run yet */
   DYD_OUTCOME_DECIDED,   /* no indeterminate pair and no tie is left */
   DYD_OUTCOME_CERTIFIED, /* the requested bound holds */
-  DYD_OUTCOME_FIXPOINT,  /* nothing undecided can be refined: exact ties, fixed rectangles */
+  DYD_OUTCOME_FIXPOINT,  /* no refinement can decide what is open: exact ties, fixed rectangles */
   DYD_OUTCOME_BUDGET,    /* bits, stages, calls, pairs or seconds spent */
   DYD_OUTCOME_CANCELLED,
   DYD_OUTCOME_ERROR /* a stream failed or memory ran out; what was stated before stays valid. (GMP, MPFR and FLINT end
@@ -141,8 +141,9 @@ DYD_API dyd_status dyd_engine_new(dyd_engine **out);
 DYD_API void dyd_engine_free(dyd_engine *e);
 
 /* Adding points: numbered from 0 in the order added. Only before the first run or question (DYD_E_ARG
- * afterwards).
- * On failure nothing is added (and for streams and sources: the reference or context is released). */
+ * afterwards: see dyd_engine_append_points).
+ * On failure nothing is added (and for streams and sources: the reference or context is released), and
+ * dyd_engine_add_error says why: DYD_E_ARG for NaN, infinities and lower ends above upper ones, with the point. */
 DYD_API dyd_status dyd_engine_add_points(dyd_engine *e, size_t n, const double *x, const double *y);
 DYD_API dyd_status dyd_engine_add_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1, const double *y0,
                                         const double *y1);
@@ -153,6 +154,30 @@ DYD_API dyd_status dyd_engine_add_stream(dyd_engine *e, dyd_stream *s);
 /* n points served by one callback: it is asked for points 0 .. n-1 of the source. Copied; release is called once,
  * when the engine is freed. */
 DYD_API dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err);
+/* What the last call that adds points failed with; code DYD_OK when it did not. Borrowed until the next such call. */
+DYD_API const dyd_error *dyd_engine_add_error(const dyd_engine *e);
+
+/* The same at any time but from within a callback; err may be NULL. Points added after a run or question are numbered
+ * on, and end the result, which spoke of fewer points: dyd_engine_delaunay is NULL and dyd_engine_outcome
+ * DYD_OUTCOME_NONE until the next stage is complete. Rectangles stay as narrow as they are, nothing is asked twice. The
+ * next run triangulates all points anew, once for all that were added before it, and gives what an engine would give
+ * that had them all from the start, for the rectangles reached. Statements are monotone for fixed points; among more
+ * points a legal pair may become illegal. */
+DYD_API dyd_status dyd_engine_append_points(dyd_engine *e, size_t n, const double *x, const double *y, dyd_error *err);
+DYD_API dyd_status dyd_engine_append_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1,
+                                           const double *y0, const double *y1, dyd_error *err);
+DYD_API dyd_status dyd_engine_append_rect(dyd_engine *e, const dyd_rect *r, dyd_error *err);
+DYD_API dyd_status dyd_engine_append_stream(dyd_engine *e, dyd_stream *s, dyd_error *err);
+DYD_API dyd_status dyd_engine_append_source(dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err);
+
+/* Point i has been measured again, before or between runs: it lies in r, and where it is known to lie. Its rectangle
+ * becomes what both have in common, whatever kind of point it is; what its stream or source gives later is intersected
+ * with that. Statements stay as they are, and the next run brings the result up to date. Returns DYD_OK, also where r
+ * tells nothing new; DYD_E_CONTRADICTION, with err naming the point and both rectangles, when they have nothing in
+ * common (then nothing changes: one of them is wrong; runs end with it when a stream's answer is of that kind);
+ * DYD_E_ARG when there is no point i, when r is not valid, and from within a callback; DYD_E_NOMEM. r is copied. Not in
+ * traces. O(log points); err may be NULL. */
+DYD_API dyd_status dyd_engine_remeasure(dyd_engine *e, uint32_t i, const dyd_rect *r, dyd_error *err);
 DYD_API size_t dyd_engine_count(const dyd_engine *e);
 
 /* What point i is called in the file it was read from (dyd_read_options): its row, counted from 0, rows without a point
@@ -184,9 +209,11 @@ DYD_API dyd_goal dyd_engine_goal(int64_t *bits, const dyd_engine *e);
 /* The rectangles as they are now; borrowed until e is freed, they shrink in place. A point that was never asked holds
  * the whole plane: numbers too large to compute with. */
 DYD_API const dyd_sites *dyd_engine_sites(const dyd_engine *e);
-/* Is there a rectangle for site i: is it fixed, or has it been asked once? false where there is no site i. */
+/* Is there a rectangle for site i: is it fixed, or has it been asked or measured once? false where there is no site i.
+ */
 DYD_API bool dyd_engine_knows(const dyd_engine *e, uint32_t i);
-/* The current result; borrowed until the next call that changes e; NULL before the first complete stage. */
+/* The current result; borrowed until the next call that changes e; NULL before the first complete stage, and
+ * before the next one when points were appended. */
 DYD_API const dyd_delaunay *dyd_engine_delaunay(const dyd_engine *e);
 DYD_API dyd_status dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e, dyd_error *err);
 /* The bounds of the current result (metric.h), DYD_E_ARG before the first complete stage. */

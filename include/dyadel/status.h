@@ -31,17 +31,18 @@ extern "C" {
 /* 0 done; > 0 valid but unfinished; < 0 failed, outputs as they were before the call. */
 typedef enum dyd_status {
   DYD_OK = 0,
-  DYD_FIXED = 1,      /* the rectangle given is final: this point cannot be narrowed further */
-  DYD_CAPPED = 2,     /* the cap on stored pairs was met; the error record names sites */
-  DYD_CANCELLED = 3,  /* the cancel flag was seen; what is stated so far is valid */
-  DYD_E_NOMEM = -1,   /* memory exhausted */
-  DYD_E_ARG = -2,     /* an argument breaks its contract */
-  DYD_E_RANGE = -3,   /* a number leaves the exponent range DYD_EXP_LIMIT */
-  DYD_E_PARSE = -4,   /* text is not of the expected form; the error record has line and column */
-  DYD_E_DOMAIN = -5,  /* an expression stays undefined (log of a negative, division by zero) up to the budget */
-  DYD_E_NESTING = -6, /* a stream gave a rectangle that is not inside its previous one */
-  DYD_E_STREAM = -7,  /* a stream failed for reasons of its own */
-  DYD_E_IO = -8       /* reading or writing failed */
+  DYD_FIXED = 1,           /* the rectangle given is final: this point cannot be narrowed further */
+  DYD_CAPPED = 2,          /* the cap on stored pairs was met; the error record names sites */
+  DYD_CANCELLED = 3,       /* the cancel flag was seen; what is stated so far is valid */
+  DYD_E_NOMEM = -1,        /* memory exhausted */
+  DYD_E_ARG = -2,          /* an argument breaks its contract */
+  DYD_E_RANGE = -3,        /* a number leaves the exponent range DYD_EXP_LIMIT */
+  DYD_E_PARSE = -4,        /* text is not of the expected form; the error record has line and column */
+  DYD_E_DOMAIN = -5,       /* an expression stays undefined (log of a negative, division by zero) up to the budget */
+  DYD_E_NESTING = -6,      /* a stream gave a rectangle that is not inside its previous one */
+  DYD_E_STREAM = -7,       /* a stream failed for reasons of its own */
+  DYD_E_IO = -8,           /* reading or writing failed */
+  DYD_E_CONTRADICTION = -9 /* two measurements of a point have nothing in common */
 } dyd_status;
 
 /* A sign that is known for every choice, or not known. */

@@ -32,19 +32,21 @@ dyd_status dyd_fail_nomem(dyd_error *err) {
 
 const char *dyd_status_text(dyd_status status) {
   static const char *const text[] = {
-      [DYD_OK - DYD_E_IO] = "done",
-      [DYD_FIXED - DYD_E_IO] = "the rectangle is final",
-      [DYD_CAPPED - DYD_E_IO] = "the cap on stored pairs was met",
-      [DYD_CANCELLED - DYD_E_IO] = "cancelled",
-      [DYD_E_NOMEM - DYD_E_IO] = "out of memory",
-      [DYD_E_ARG - DYD_E_IO] = "an argument breaks its contract",
-      [DYD_E_RANGE - DYD_E_IO] = "a number leaves the exponent range",
-      [DYD_E_PARSE - DYD_E_IO] = "the text is not of the expected form",
-      [DYD_E_DOMAIN - DYD_E_IO] = "an expression is undefined up to the precision allowed",
-      [DYD_E_NESTING - DYD_E_IO] = "a stream gave a rectangle that is not inside its previous one",
-      [DYD_E_STREAM - DYD_E_IO] = "a stream failed",
-      [DYD_E_IO - DYD_E_IO] = "reading or writing failed"};
-  return status >= DYD_E_IO && status <= DYD_CANCELLED ? text[status - DYD_E_IO] : "unknown status";
+      [DYD_OK - DYD_E_CONTRADICTION] = "done",
+      [DYD_FIXED - DYD_E_CONTRADICTION] = "the rectangle is final",
+      [DYD_CAPPED - DYD_E_CONTRADICTION] = "the cap on stored pairs was met",
+      [DYD_CANCELLED - DYD_E_CONTRADICTION] = "cancelled",
+      [DYD_E_NOMEM - DYD_E_CONTRADICTION] = "out of memory",
+      [DYD_E_ARG - DYD_E_CONTRADICTION] = "an argument breaks its contract",
+      [DYD_E_RANGE - DYD_E_CONTRADICTION] = "a number leaves the exponent range",
+      [DYD_E_PARSE - DYD_E_CONTRADICTION] = "the text is not of the expected form",
+      [DYD_E_DOMAIN - DYD_E_CONTRADICTION] = "an expression is undefined up to the precision allowed",
+      [DYD_E_NESTING - DYD_E_CONTRADICTION] = "a stream gave a rectangle that is not inside its previous one",
+      [DYD_E_STREAM - DYD_E_CONTRADICTION] = "a stream failed",
+      [DYD_E_IO - DYD_E_CONTRADICTION] = "reading or writing failed",
+      [DYD_E_CONTRADICTION - DYD_E_CONTRADICTION] = "two measurements of a point have nothing in common"};
+  return status >= DYD_E_CONTRADICTION && status <= DYD_CANCELLED ? text[status - DYD_E_CONTRADICTION]
+                                                                  : "unknown status";
 }
 
 const char *dyd_version(void) {

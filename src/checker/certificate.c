@@ -22,6 +22,7 @@ void dyd_checker_clear(dyd_checker *c) {
   free(c->legal.item);
   free(c->bridges.item);
   free(c->open.item);
+  free(c->chained.item);
   dyd_cert_corners_clear(&c->corners);
   dyd_cert_graph_clear(&c->graph);
   dyd_cert_faces_clear(&c->faces);

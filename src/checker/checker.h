@@ -4,6 +4,7 @@
 #define DYD_CHECKER_CHECKER_H
 
 #include "checker/bounds.h"
+#include "checker/boxes.h"
 #include "checker/chain.h"
 #include "checker/distance.h"
 #include "checker/faces.h"
@@ -26,7 +27,8 @@ typedef struct dyd_checker {
   dyd_cert_graph graph;
   dyd_cert_faces faces;
   dyd_cert_chain chain;
-  dyd_cert_edges open; /* pairs o, t, l: kept for the bounds */
+  dyd_cert_edges open;    /* pairs o, t, l: kept for the bounds */
+  dyd_cert_edges chained; /* pairs n */
   dyd_exact point[2];
   bool reached; /* a bound that is stated is as small as the goal asks */
 } dyd_checker;
@@ -48,6 +50,9 @@ dyd_status dyd_checker_bridges(dyd_checker *c);
 dyd_status dyd_checker_corners(dyd_checker *c);
 /* Up to the bounds. */
 dyd_status dyd_checker_pairs(dyd_checker *c);
+/* How many pairs within open sets are proved by nothing, with the boxes' help. */
+dyd_status dyd_cert_boxes_unproved(uint64_t *out, const dyd_cert_sites *s, const dyd_cert_faces *f,
+                                   const dyd_cert_known *known);
 /* The section on the Voronoi diagram, whose first line has been read. */
 dyd_status dyd_checker_diagram(dyd_checker *c);
 /* The bound that the goal `goal` is about is stated to be `bound`. */

@@ -258,6 +258,12 @@ void dyd_cert_faces_cover(dyd_cert_faces *f, uint32_t i, uint32_t j) {
   for (uint32_t k; (k = next_common_set(f, &a, &b, i, j)) != DYD_CERT_NONE;) f->covered[k]++;
 }
 
+size_t dyd_cert_faces_common(const dyd_cert_faces *f, uint32_t i, uint32_t j) {
+  size_t a = f->first[i], b = f->first[j], count = 0;
+  while (next_common_set(f, &a, &b, i, j) != DYD_CERT_NONE) count++;
+  return count;
+}
+
 bool dyd_cert_faces_share(const dyd_cert_faces *f, uint32_t i, uint32_t j) {
   size_t a = f->first[i], b = f->first[j];
   return next_common_set(f, &a, &b, i, j) != DYD_CERT_NONE;

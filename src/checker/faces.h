@@ -36,6 +36,8 @@ dyd_status dyd_cert_faces_init(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_
 void dyd_cert_faces_clear(dyd_cert_faces *f);
 /* Something is known about the pair. Call once a pair. */
 void dyd_cert_faces_cover(dyd_cert_faces *f, uint32_t i, uint32_t j);
+/* How many open sets hold both? */
+size_t dyd_cert_faces_common(const dyd_cert_faces *f, uint32_t i, uint32_t j);
 /* Are both in one open set? */
 bool dyd_cert_faces_share(const dyd_cert_faces *f, uint32_t i, uint32_t j);
 /* Are all sites of the open sets that hold both exact points? Then nothing that is narrowed changes what the pair is

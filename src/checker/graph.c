@@ -29,7 +29,7 @@ void dyd_cert_sort(uint32_t *item, size_t count, dyd_cert_compare *compare, cons
 
 /* ---- edges ---- */
 
-static int compare_edge(const void *a, const void *b) {
+int dyd_cert_compare_edges(const void *a, const void *b) {
   const dyd_cert_edge *x = a, *y = b;
   if (x->i != y->i) return x->i < y->i ? -1 : 1;
   return (x->j > y->j) - (x->j < y->j);
@@ -37,7 +37,7 @@ static int compare_edge(const void *a, const void *b) {
 
 bool dyd_cert_edges_have(const dyd_cert_edges *edges, uint32_t i, uint32_t j) {
   dyd_cert_edge key = {i, j};
-  return edges->count && bsearch(&key, edges->item, edges->count, sizeof key, compare_edge);
+  return edges->count && bsearch(&key, edges->item, edges->count, sizeof key, dyd_cert_compare_edges);
 }
 
 dyd_status dyd_cert_edges_add(dyd_cert_edges *edges, uint32_t i, uint32_t j) {

@@ -60,6 +60,8 @@ static inline uint32_t dyd_cert_root(uint32_t *parent, uint32_t v) {
 typedef int dyd_cert_compare(const void *with, uint32_t a, uint32_t b);
 void dyd_cert_sort(uint32_t *item, size_t count, dyd_cert_compare *compare, const void *with);
 
+/* Of two dyd_cert_edge, for qsort: by i, then by j. */
+int dyd_cert_compare_edges(const void *a, const void *b);
 /* Is the sorted list holding the pair i < j? */
 bool dyd_cert_edges_have(const dyd_cert_edges *edges, uint32_t i, uint32_t j);
 dyd_status dyd_cert_edges_add(dyd_cert_edges *edges, uint32_t i, uint32_t j);

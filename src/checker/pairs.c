@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "checker/checker.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- pairs ---- */
@@ -33,7 +34,7 @@ static dyd_status check_chain(dyd_checker *c, const dyd_cert_edge *pair) {
     return dyd_cert_reject(&c->in, "the chain does not prove that %u %u is illegal", (unsigned)pair->i,
                            (unsigned)pair->j);
   c->report.illegal_chains++;
-  return DYD_OK;
+  return dyd_cert_edges_add(&c->chained, pair->i, pair->j) != DYD_OK ? dyd_fail_nomem(c->in.err) : DYD_OK;
 }
 
 static dyd_status check_open(dyd_checker *c, const dyd_cert_edge *pair, char kind) {
@@ -62,17 +63,51 @@ static dyd_status read_pair_line(dyd_checker *c, dyd_cert_edge *pair) {
   return st;
 }
 
-/* Stops at the line "triangles", which is left to be read on. */
+/* Stops at the line "boxes" or "triangles", which is left to be read on. */
 static dyd_status read_pairs(dyd_checker *c) {
   dyd_cert_edge pair = {0, 0};
   dyd_status st = dyd_cert_expect_line(c, "pairs");
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
   while (st == DYD_OK) {
     st = dyd_cert_next_line(&c->in);
-    if (st != DYD_OK || strncmp(c->in.line, "triangles", 9) == 0) break;
+    if (st != DYD_OK || strncmp(c->in.line, "triangles", 9) == 0 || strncmp(c->in.line, "boxes", 5) == 0) break;
     st = read_pair_line(c, &pair);
   }
   return st;
+}
+
+/* ---- boxes ---- */
+
+dyd_status dyd_cert_boxes_unproved(uint64_t *out, const dyd_cert_sites *s, const dyd_cert_faces *f,
+                                   const dyd_cert_known *known) {
+  dyd_cert_edges left;
+  bool given_up;
+  dyd_status st = dyd_cert_boxes_left(&left, &given_up, s, f, known);
+  if (st != DYD_OK) return st;
+  *out = given_up ? dyd_cert_faces_left(f) : 0;
+  for (size_t e = 0; e < left.count; e++) *out += dyd_cert_faces_common(f, left.item[e].i, left.item[e].j);
+  free(left.item);
+  return DYD_OK;
+}
+
+/* The line "boxes P", when it is there; then the next one is read. */
+static dyd_status check_boxes(dyd_checker *c) {
+  long long stated;
+  const dyd_cert_known known = {{&c->legal, &c->open, &c->chained}};
+  c->report.unproved = dyd_cert_faces_left(&c->faces);
+  if (strncmp(c->in.line, "boxes", 5) != 0) return DYD_OK;
+  uint64_t before = c->report.unproved;
+  dyd_status st = dyd_cert_expect_word(c, "boxes");
+  if (st == DYD_OK) st = dyd_cert_read_integer(&stated, &c->in);
+  if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
+  if (st != DYD_OK) return st;
+  if (c->report.capped) return dyd_cert_reject(&c->in, "a capped result states nothing that boxes prove");
+  if (dyd_cert_boxes_unproved(&c->report.unproved, &c->sites, &c->faces, &known) != DYD_OK)
+    return dyd_fail_nomem(c->in.err);
+  c->report.illegal_boxes = before - c->report.unproved;
+  if ((uint64_t)stated != c->report.illegal_boxes)
+    return dyd_cert_reject(&c->in, "boxes prove %llu pairs", (unsigned long long)c->report.illegal_boxes);
+  return dyd_cert_next_line(&c->in);
 }
 
 /* ---- counts ---- */
@@ -90,7 +125,6 @@ static dyd_status check_counts(dyd_checker *c) {
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
   if (st != DYD_OK) return st;
   c->report.triangles = c->faces.triangles;
-  c->report.unproved = dyd_cert_faces_left(&c->faces);
   if ((uint64_t)unproved != c->report.unproved)
     return dyd_cert_reject(&c->in, "of the pairs that are not listed, %llu are not proved to be illegal",
                            (unsigned long long)c->report.unproved);
@@ -145,6 +179,7 @@ dyd_status dyd_checker_pairs(dyd_checker *c) {
   dyd_exact_init(&bound[0]);
   dyd_exact_init(&bound[1]);
   dyd_status st = read_pairs(c);
+  if (st == DYD_OK) st = check_boxes(c);
   if (st == DYD_OK) st = check_counts(c);
   if (st == DYD_OK) st = check_bounds(c, bound);
   dyd_exact_clear(&bound[0]);

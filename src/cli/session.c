@@ -187,13 +187,14 @@ int cli_session_write(cli_session *s, cli_print_fn print) {
   }
   const char *certificate = s->options->certificate;
   int status = cli_write_file(s->options->output, s->options, print, s->engine);
-  if (status || !certificate) return status;
+  if (!certificate || (status && !cli_output_lost_reader())) return status;
   if (*cli_deadline_flag()) {
     cli_complain("budget: the time is used up, so no certificate is written; raise --timeout");
     return CLI_BUDGET;
   }
   cli_progress_phase(s->progress, "the certificate");
-  return cli_write_file(certificate, s->options, session_print_certificate, s->engine);
+  int written = cli_write_file(certificate, s->options, session_print_certificate, s->engine);
+  return status ? status : written;
 }
 
 int cli_session_close(cli_session *s, int status) {

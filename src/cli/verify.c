@@ -11,6 +11,9 @@ static void print_proved(FILE *out, const dyd_certificate_report *r) {
     fprintf(out, "checked: %zu sure triangles, %zu sure corners of the hull\n", r->triangles, r->corners);
   if (r->illegal_chains)
     fprintf(out, "checked: %zu illegal pairs within undecided faces, each by its chain\n", r->illegal_chains);
+  if (r->illegal_boxes)
+    fprintf(out, "checked: %llu illegal pairs within undecided faces, by boxes that cover the plane\n",
+            (unsigned long long)r->illegal_boxes);
   if (!r->unproved && !r->capped) fputs("checked: all pairs that are not listed are illegal\n", out);
   if ((r->area || r->hausdorff) && !(r->gaps & DYD_GAP_BOUNDS))
     fputs("checked: the bounds of area and Hausdorff distance\n", out);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Reading shapes: sure triangles, the hull, witnesses. */
+/* Reading shapes: the hull, witnesses. */
 
 #include "base/alloc.h"
 #include "delaunay/state.h"
@@ -7,32 +7,6 @@
 #include "skeleton/centre_filter.h"
 
 #include <math.h>
-
-static int compare_triangle(const void *a, const void *b) {
-  const dyd_triangle *x = a, *y = b;
-  for (int k = 0; k < 3; k++)
-    if (x->v[k] != y->v[k]) return x->v[k] < y->v[k] ? -1 : 1;
-  return 0;
-}
-
-dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, const dyd_delaunay *pd) {
-  size_t count = 0;
-  for (uint32_t t = 0; t < pd->sk.mesh.count; t++) count += dyd_triangle_is_sure(pd, t);
-  dyd_triangle *item = dyd_alloc(count, sizeof *item);
-  if (!item) return DYD_E_NOMEM;
-  count = 0;
-  for (uint32_t t = 0; t < pd->sk.mesh.count; t++) {
-    if (!dyd_triangle_is_sure(pd, t)) continue;
-    uint32_t s[3];
-    for (int k = 0; k < 3; k++) s[k] = pd->sk.reps.site[pd->sk.mesh.tri[t].v[k]];
-    unsigned low = s[0] < s[1] ? (s[0] < s[2] ? 0 : 2) : (s[1] < s[2] ? 1 : 2);
-    item[count++] = (dyd_triangle){{s[low], s[dyd_next(low)], s[dyd_prev(low)]}};
-  }
-  if (count) qsort(item, count, sizeof *item, compare_triangle);
-  dyd_triangle_list_clear(out);
-  *out = (dyd_triangle_list){count, item};
-  return DYD_OK;
-}
 
 static dyd_status line_ends(dyd_index_list *out, const dyd_skeleton *sk) {
   const dyd_line *l = &sk->line;

@@ -29,6 +29,7 @@ dyd_status dyd_engine_new(dyd_engine **out) {
     free(e);
   else
     *out = e;
+  if (st == DYD_OK) dyd_error_clear(&e->refused);
   return st;
 }
 
@@ -71,7 +72,26 @@ const dyd_sites *dyd_engine_sites(const dyd_engine *e) {
 
 bool dyd_engine_knows(const dyd_engine *e, uint32_t site) {
   const dyd_refinable *p = dyd_engine_find(e, site);
-  return p ? p->asked : site < dyd_sites_count(e->sites);
+  return p ? p->asked || p->measured : site < dyd_sites_count(e->sites);
+}
+
+static void counters_add_past(dyd_delaunay_counters *out, const dyd_delaunay_counters *past) {
+  out->filter += past->filter;
+  out->integer += past->integer;
+  out->exact += past->exact;
+  out->witness_guess += past->witness_guess;
+  out->witness_search += past->witness_search;
+  out->cover_walks += past->cover_walks;
+  out->faces += past->faces;
+}
+
+void dyd_engine_end_result(dyd_engine *e) {
+  dyd_delaunay_counters c = {DYD_SIZED(dyd_delaunay_counters)};
+  if (e->pd && dyd_delaunay_get_counters(&c, e->pd, NULL) == DYD_OK) counters_add_past(&e->past, &c);
+  dyd_delaunay_free(e->pd);
+  e->pd = NULL;
+  e->changes = 0;
+  e->outcome = DYD_OUTCOME_NONE;
 }
 
 static void counters_add_bits(dyd_engine_counters *out, const dyd_engine *e) {
@@ -92,6 +112,7 @@ dyd_status dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e
   dyd_status st = dyd_abi_check(out, 0, "dyd_engine_counters", err);
   if (st == DYD_OK && e->pd) st = dyd_delaunay_get_counters(&c.delaunay, e->pd, err);
   if (st != DYD_OK) return st;
+  counters_add_past(&c.delaunay, &e->past);
   counters_add_bits(&c, e);
   if (e->pd) c.undecided_faces = dyd_delaunay_undecided_faces(e->pd);
   dyd_abi_give(out, &c, sizeof c);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Adding points to an engine, and asking one point to narrow.
+/* The points of an engine: asking one to narrow, and measuring one again.
  *
  * A fixed site is an entry of the table of sites and nothing else. A site that can be narrowed has a record besides,
  * and holds the whole plane in the table until it is first asked. [NEST-1] is kept by dyd_sites_narrow, for sources and
- * streams alike: the table is the one memory of what was given before. */
+ * streams alike: the table is the one memory of what was given before. What was measured again is narrower than that:
+ * the answers of such a point are intersected with it. */
 #include "engine/points.h"
-#include "engine/words.h"
 
 #include "base/abi.h"
 #include "base/alloc.h"
@@ -15,68 +15,6 @@
 #include "rect/sites_table.h"
 #include "stream/real.h"
 #include "stream/stream.h"
-
-dyd_status dyd_engine_add_points(dyd_engine *e, size_t n, const double *x, const double *y) {
-  return e->started ? DYD_E_ARG : dyd_sites_add_points(e->sites, n, x, y);
-}
-
-dyd_status dyd_engine_add_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1, const double *y0,
-                                const double *y1) {
-  return e->started ? DYD_E_ARG : dyd_sites_add_boxes(e->sites, n, x0, x1, y0, y1);
-}
-
-dyd_status dyd_engine_add_rect(dyd_engine *e, const dyd_rect *r) {
-  return e->started ? DYD_E_ARG : dyd_sites_add_rect(e->sites, r);
-}
-
-dyd_status dyd_engine_add_words(dyd_engine *e, size_t n, const dyd_words *xy) {
-  return e->started ? DYD_E_ARG : dyd_sites_add_words(e->sites, n, xy);
-}
-
-/* Appends n sites with records like p; the site number is filled in. Nothing on failure. */
-static dyd_status points_add_refinable(dyd_engine *e, size_t n, dyd_refinable p) {
-  size_t first = dyd_sites_count(e->sites);
-  if (n > DYD_MAX_SITES) return DYD_E_RANGE;
-  if (!dyd_reserve((void **)&e->point, &e->point_cap, e->points + n, sizeof *e->point)) return DYD_E_NOMEM;
-  dyd_status st = dyd_sites_add_planes(e->sites, n);
-  if (st != DYD_OK) return st;
-  for (size_t k = 0; k < n; k++) {
-    p.site = (uint32_t)(first + k);
-    e->point[e->points++] = p;
-  }
-  return DYD_OK;
-}
-
-dyd_status dyd_engine_add_stream(dyd_engine *e, dyd_stream *s) {
-  dyd_status st;
-  const dyd_rect *fixed = dyd_stream_is_final(s) ? dyd_stream_rect(s) : NULL;
-  if (e->started)
-    st = DYD_E_ARG;
-  else if (fixed)
-    st = dyd_sites_add_rect(e->sites, fixed);
-  else
-    st = points_add_refinable(e, 1, (dyd_refinable){.stream = s});
-  if (fixed || st != DYD_OK) dyd_stream_free(s);
-  return st;
-}
-
-static dyd_status points_add_source(dyd_engine *e, size_t n, const dyd_source *source) {
-  if (e->started || !source->narrow) return DYD_E_ARG;
-  if (!dyd_reserve((void **)&e->source, &e->source_cap, e->sources + 1, sizeof *e->source)) return DYD_E_NOMEM;
-  size_t first = dyd_sites_count(e->sites);
-  dyd_status st = points_add_refinable(e, n, (dyd_refinable){.source = (uint32_t)e->sources});
-  if (st == DYD_OK) e->source[e->sources++] = (dyd_source_use){*source, (uint32_t)first, NULL};
-  return st;
-}
-
-dyd_status dyd_engine_add_source(dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err) {
-  dyd_source s;
-  dyd_status st = dyd_abi_take(&s, sizeof s, source, "dyd_source", err);
-  if (st != DYD_OK) return st;
-  st = points_add_source(e, n, &s);
-  if (st != DYD_OK && s.release) s.release(s.user);
-  return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
-}
 
 void dyd_shared_source_free(dyd_shared_source *s) {
   if (!s || --s->refs) return;
@@ -156,9 +94,43 @@ static dyd_status point_nesting_fail(dyd_error *err, const dyd_engine *e, const 
   return st;
 }
 
+/* DYD_E_CONTRADICTION with both rectangles. */
+static dyd_status site_contradiction(dyd_error *err, uint32_t site, const char *told, const dyd_rect *r,
+                                     const dyd_rect *known) {
+  double a[4], b[4];
+  dyd_rect_get_d(a, r);
+  dyd_rect_get_d(b, known);
+  if (err) err->point = site;
+  return dyd_fail(err, DYD_E_CONTRADICTION,
+                  "%s [%.17g, %.17g] x [%.17g, %.17g] (ends rounded outward) for point %lu, which is known to lie in "
+                  "[%.17g, %.17g] x [%.17g, %.17g]; they have nothing in common, one of them is wrong",
+                  told, a[0], a[1], a[2], a[3], (unsigned long)site, b[0], b[1], b[2], b[3]);
+}
+
+/* *r becomes what it has in common with the rectangle of a site; `told`: how to call r. */
+static dyd_status site_meet(dyd_rect *r, const dyd_engine *e, uint32_t site, const char *told, dyd_error *err) {
+  dyd_rect known, both;
+  dyd_rect_init(&known);
+  dyd_rect_init(&both);
+  dyd_status st = dyd_sites_get(&known, e->sites, site);
+  if (st == DYD_OK) st = dyd_interval_intersect(&both.x, &known.x, &r->x);
+  if (st == DYD_OK) st = dyd_interval_intersect(&both.y, &known.y, &r->y);
+  if (st == DYD_OK)
+    dyd_rect_swap(r, &both);
+  else if (st == DYD_E_ARG)
+    st = site_contradiction(err, site, told, r, &known);
+  else
+    dyd_fail(err, st, "%s", dyd_status_text(st));
+  dyd_rect_clear(&both);
+  dyd_rect_clear(&known);
+  return st;
+}
+
 /* Puts what was given for p into the table, which checks that it is nested. */
-static dyd_status point_put(const dyd_refinable *p, const dyd_engine *e, const dyd_rect *r, dyd_error *err) {
-  dyd_status st = dyd_sites_narrow(e->sites, p->site, r);
+static dyd_status point_put(const dyd_refinable *p, const dyd_engine *e, dyd_rect *r, dyd_error *err) {
+  dyd_status st = p->measured ? site_meet(r, e, p->site, "its stream gives", err) : DYD_OK;
+  if (st != DYD_OK) return st;
+  st = dyd_sites_narrow(e->sites, p->site, r);
   if (st == DYD_E_NESTING && !p->asked) {
     return dyd_fail(err, DYD_E_RANGE, "the rectangle given leaves the exponent range");
   }
@@ -212,8 +184,8 @@ dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, i
     ++*calls;
     st = p->stream ? point_ask_stream(&r, &final, p, bits, max_bits, err)
                    : point_ask_source(&r, &final, p, e, bits, max_bits, err);
-    final |= dyd_rect_is_point(&r);
     if (st == DYD_OK) st = point_put(p, e, &r, err);
+    final |= dyd_rect_is_point(&r);
     if (st == DYD_OK) p->calls++;
   }
   if (st == DYD_OK) {
@@ -223,4 +195,49 @@ dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, i
   }
   dyd_rect_clear(&r);
   return st == DYD_OK || st == DYD_CANCELLED ? st : point_blame(p, st, err);
+}
+
+/* ---- measuring again ---- */
+
+/* Puts *r, what site i and its new measurement have in common, into the table. */
+static dyd_status site_put_measured(dyd_engine *e, uint32_t i, const dyd_rect *r) {
+  dyd_refinable *p = (dyd_refinable *)dyd_find_index(&i, e->point, e->points, sizeof *e->point);
+  dyd_rect before;
+  if (!dyd_reserve((void **)&e->changed, &e->change_cap, e->changes + 1, sizeof *e->changed)) return DYD_E_NOMEM;
+  dyd_rect_init(&before);
+  dyd_status st = dyd_sites_get(&before, e->sites, i);
+  bool news = st == DYD_OK && !dyd_rect_equal(&before, r);
+  dyd_rect_clear(&before);
+  if (!news) return st;
+  st = dyd_sites_narrow(e->sites, i, r);
+  if (st == DYD_OK && p) {
+    p->measured = true;
+    p->final = p->final || dyd_rect_is_point(r);
+  }
+  if (st == DYD_OK && e->pd) e->changed[e->changes++] = i;
+  return st;
+}
+
+static dyd_status site_measure(dyd_engine *e, uint32_t i, const dyd_rect *r, dyd_error *err) {
+  if (e->busy) return dyd_fail(err, DYD_E_ARG, "the engine is at work: no callback of it may measure points");
+  if (i >= dyd_sites_count(e->sites))
+    return dyd_fail(err, DYD_E_ARG, "there is no point %lu: there are %zu, numbered from 0", (unsigned long)i,
+                    dyd_sites_count(e->sites));
+  if (!dyd_interval_is_valid(&r->x) || !dyd_interval_is_valid(&r->y))
+    return dyd_fail(err, DYD_E_ARG, "the rectangle measured is not valid; fill it with dyd_interval_set_ends");
+  dyd_rect both;
+  dyd_rect_init(&both);
+  dyd_rect_set(&both, r);
+  dyd_status st = site_meet(&both, e, i, "a measurement gives", err);
+  if (st == DYD_OK) {
+    st = site_put_measured(e, i, &both);
+    if (st != DYD_OK) dyd_fail(err, st, "%s", dyd_status_text(st));
+  }
+  dyd_rect_clear(&both);
+  return st;
+}
+
+dyd_status dyd_engine_remeasure(dyd_engine *e, uint32_t i, const dyd_rect *r, dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  return site_measure(e, i, r, err);
 }

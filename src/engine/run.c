@@ -12,6 +12,7 @@
  * waits for them. */
 typedef struct goal_question {
   dyd_scouts scouts;
+  dyd_settled settled;
   dyd_plan held;
   uint64_t stage;
 } goal_question;
@@ -24,7 +25,7 @@ static dyd_status goal_ask(bool *answered, dyd_plan *plan, void *user, const dyd
   if (q->scouts.count == 0 || q->stage != e->stages) {
     dyd_scouts_clear(&q->scouts);
     dyd_plan_empty(&q->held);
-    dyd_status st = dyd_schedule_judge(answered, plan, &q->scouts);
+    dyd_status st = dyd_schedule_judge(answered, plan, &q->scouts, &q->settled);
     if (st != DYD_OK || q->scouts.count == 0) return st;
     q->stage = e->stages;
     dyd_plan all = *plan; /* waits */
@@ -56,6 +57,7 @@ static dyd_status goal_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine
   dyd_status st = dyd_ask(outcome, &e->spent, e, &question, o, err);
   dyd_plan_clear(&g.held);
   dyd_scouts_clear(&g.scouts);
+  dyd_settled_clear(&g.settled);
   if (*outcome == DYD_OUTCOME_DECIDED && o->goal != DYD_GOAL_DECIDED) *outcome = DYD_OUTCOME_CERTIFIED;
   return st;
 }

@@ -7,6 +7,8 @@
  * the ends are refined for nothing. In a result that met its cap pairs are missing: all sites of the undecided faces
  * are refined.
  *
+ * Pairs of which it is known that no refinement decides them (settle.c) count for nothing here.
+ *
  * Towards "Hausdorff bound 2^-M": the bound is the largest of one number per pair (metric/bounds.c). For legal pairs it
  * is the larger diameter, so every point with a diameter above 2^-M is narrowed; for the others, as above, but only in
  * faces with an indeterminate pair whose number is above 2^-M.
@@ -46,8 +48,9 @@ static dyd_status pair_matters(bool *out, mpfr_ptr number, dyd_measure *m, const
   return st;
 }
 
-/* Removes the pairs that need not be refined. */
-static dyd_status keep_pairs(dyd_pair_list *pairs, dyd_measure *m, const dyd_engine_options *o) {
+/* Removes the pairs that need not be refined, or for which that is in vain. */
+static dyd_status keep_pairs(dyd_pair_list *pairs, dyd_measure *m, const dyd_settled *settled,
+                             const dyd_engine_options *o) {
   dyd_status st = DYD_OK;
   mpfr_t number;
   mpfr_init2(number, DYD_MEASURE_PREC);
@@ -55,6 +58,7 @@ static dyd_status keep_pairs(dyd_pair_list *pairs, dyd_measure *m, const dyd_eng
   for (size_t k = 0; st == DYD_OK && k < pairs->count; k++) {
     bool matters;
     st = pair_matters(&matters, number, m, &pairs->item[k], o);
+    matters = matters && !dyd_is_settled(settled, &pairs->item[k]);
     if (st == DYD_OK && matters) pairs->item[kept++] = pairs->item[k];
   }
   pairs->count = kept;
@@ -130,13 +134,13 @@ static dyd_status plan_capped(dyd_plan *plan, size_t f) {
   return st;
 }
 
-static dyd_status plan_face(dyd_plan *plan, dyd_scouts *scouts, size_t f, dyd_measure *m) {
+static dyd_status plan_face(dyd_plan *plan, dyd_scouts *scouts, size_t f, dyd_measure *m, const dyd_settled *settled) {
   const dyd_delaunay *pd = plan->e->pd;
   if (dyd_delaunay_is_capped(pd)) return plan_capped(plan, f);
   dyd_coarse c = {0};
   dyd_pair_list pairs = {0};
   dyd_status st = dyd_delaunay_face_pairs(&pairs, pd, f);
-  if (st == DYD_OK) st = keep_pairs(&pairs, m, plan->o);
+  if (st == DYD_OK) st = keep_pairs(&pairs, m, settled, plan->o);
   if (st == DYD_OK && pairs.count) st = dyd_coarse_set(&c, pd, f, &pairs);
   if (st == DYD_OK && pairs.count) {
     int64_t least;
@@ -149,19 +153,20 @@ static dyd_status plan_face(dyd_plan *plan, dyd_scouts *scouts, size_t f, dyd_me
   return st;
 }
 
-static dyd_status plan_faces(dyd_plan *plan, dyd_scouts *scouts, dyd_measure *m) {
+static dyd_status plan_faces(dyd_plan *plan, dyd_scouts *scouts, dyd_measure *m, const dyd_settled *settled) {
   dyd_status st = DYD_OK;
   size_t faces = dyd_delaunay_undecided_faces(plan->e->pd);
-  for (size_t f = 0; st == DYD_OK && f < faces; f++) st = plan_face(plan, scouts, f, m);
+  for (size_t f = 0; st == DYD_OK && f < faces; f++) st = plan_face(plan, scouts, f, m, settled);
   return st;
 }
 
 /* ---- bounds ---- */
 
 static dyd_status plan_hausdorff(dyd_plan *plan, dyd_scouts *scouts, dyd_measure *m) {
+  const dyd_settled none = {0}; /* a pair that stays indeterminate may still come below the bound */
   const dyd_engine *e = plan->e;
   const dyd_engine_options *o = plan->o;
-  dyd_status st = plan_faces(plan, scouts, m);
+  dyd_status st = plan_faces(plan, scouts, m, &none);
   mpfr_t diameter;
   mpfr_init2(diameter, DYD_MEASURE_PREC);
   for (size_t k = 0; st == DYD_OK && k < e->points; k++) {
@@ -263,10 +268,16 @@ static void plan_uniform(dyd_plan *plan) {
       dyd_plan_mark_alone(plan, &e->point[k], level, DYD_REASON_UNIFORM);
 }
 
-static dyd_status plan_all(dyd_plan *plan, dyd_scouts *scouts, dyd_measure *m, dyd_voronoi_sums *sums) {
+static dyd_status plan_decided(dyd_plan *plan, dyd_scouts *scouts, dyd_settled *settled) {
+  dyd_status st = dyd_delaunay_is_capped(plan->e->pd) ? DYD_OK : dyd_settle(settled, plan);
+  return st == DYD_OK ? plan_faces(plan, scouts, NULL, settled) : st;
+}
+
+static dyd_status plan_all(dyd_plan *plan, dyd_scouts *scouts, dyd_settled *settled, dyd_measure *m,
+                           dyd_voronoi_sums *sums) {
   const dyd_engine_options *o = plan->o;
   if (o->step_bits || o->schedule != DYD_SCHEDULE_ADAPTIVE) scouts = NULL;
-  if (o->goal == DYD_GOAL_DECIDED || dyd_delaunay_is_capped(plan->e->pd)) return plan_faces(plan, scouts, NULL);
+  if (o->goal == DYD_GOAL_DECIDED || dyd_delaunay_is_capped(plan->e->pd)) return plan_decided(plan, scouts, settled);
   if (o->goal == DYD_GOAL_HAUSDORFF) return plan_hausdorff(plan, scouts, m);
   if (o->goal == DYD_GOAL_AREA) return plan_bound(plan, m, NULL, true);
   /* Where the bound on the diagram holds already, and sums are not kept, only vertices are left to be narrowed. */
@@ -316,12 +327,12 @@ static dyd_status goal_holds(bool *out, dyd_measure *m, dyd_voronoi_sums **sums,
   return DYD_OK;
 }
 
-dyd_status dyd_schedule_judge(bool *holds, dyd_plan *plan, dyd_scouts *scouts) {
+dyd_status dyd_schedule_judge(bool *holds, dyd_plan *plan, dyd_scouts *scouts, dyd_settled *settled) {
   dyd_measure m;
   dyd_voronoi_sums *sums = NULL;
   dyd_measure_init(&m, plan->e->sites);
   dyd_status st = goal_holds(holds, &m, &sums, plan->e, plan->o);
-  if (st == DYD_OK && !*holds) st = plan_all(plan, scouts, &m, sums);
+  if (st == DYD_OK && !*holds) st = plan_all(plan, scouts, settled, &m, sums);
   if (st == DYD_OK) st = plan->failed;
   if (st == DYD_OK && plan->count && plan->o->schedule == DYD_SCHEDULE_UNIFORM) plan_uniform(plan);
   dyd_goal_sums_free(&sums);

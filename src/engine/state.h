@@ -2,7 +2,8 @@
 /* What an engine holds, for the files of this folder:
  *
  *   engine.c        life, counters, results
- *   points.c        adding points, asking one point to narrow
+ *   add.c           adding points
+ *   points.c        asking one point to narrow, measuring one again
  *   labels.c        what points are called where they were read
  *   compose.c       points of the engine as streams
  *   plan.c          which points to narrow, and how far: a value
@@ -10,6 +11,7 @@
  *   run.c           the question of a run: does the goal hold?
  *   schedule.c      what to narrow where it does not
  *   scout.c         a few points that go ahead of the others
+ *   settle.c        pairs that no refinement decides
  *   coarse.c        which sites of a face are coarse for their distances
  *   goal_voronoi.c  goals on the Voronoi diagram
  *   nearest.c       the question after the nearest sites of a computable point
@@ -31,6 +33,7 @@ typedef struct dyd_refinable {
   uint64_t calls; /* how often the engine has asked it */
   bool final;     /* no call can narrow it further */
   bool asked;     /* has been brought to `bits` once */
+  bool measured;  /* its rectangle has come to be narrower than what its stream or source gave */
 } dyd_refinable;
 
 /* A source that streams taken out of the engine use as well: released by the last of refs. */
@@ -48,7 +51,8 @@ typedef struct dyd_source_use {
 
 /* Invariant: point is sorted by site; changed lists (with repeats) the sites narrowed since pd was last brought up
  * to date; pd = NULL before the first complete stage. Sites of points never asked hold the whole plane.
- * Only points.c and ask.c write here once the engine has been started: whoever plans or judges takes it const. */
+ * Only add.c, points.c and ask.c write here once the engine has been started: whoever plans or judges takes it
+ * const. */
 struct dyd_engine {
   dyd_sites *sites;
   dyd_labels labels;
@@ -59,8 +63,10 @@ struct dyd_engine {
   dyd_delaunay *pd;
   uint32_t *changed;
   size_t changes, change_cap;
-  size_t max_pairs;    /* the cap pd was last worked on with */
-  dyd_error cap_error; /* what it said when the cap was met */
+  size_t max_pairs;           /* the cap pd was last worked on with */
+  dyd_error cap_error;        /* what it said when the cap was met */
+  dyd_error refused;          /* why points were not added */
+  dyd_delaunay_counters past; /* of results that points added later have ended */
   bool started;
   bool busy; /* the loop is at work: callbacks of any kind must not enter it again */
   dyd_outcome outcome;

@@ -303,10 +303,27 @@ int64_t dyd_metric_flattening(const dyd_delaunay *pd, const dyd_rect *window, in
   return bits;
 }
 
-/* With a total perimeter L of N cells, a cell has about the size L / (4 N). */
+/* The e with 2^e <= the shorter side < 2^(e+1). */
+static int64_t log2_short_side(const dyd_rect *window) {
+  const dyd_interval *side[2] = {&window->x, &window->y};
+  dyd_dyadic length;
+  int64_t least = INT64_MAX;
+  dyd_dyadic_init(&length);
+  for (int a = 0; a < 2; a++) {
+    if (dyd_dyadic_sub(&length, &side[a]->hi, &side[a]->lo) != DYD_OK) continue;
+    int64_t log2 = length.exp + dyd_bits(length.man) - 1;
+    if (log2 < least) least = log2;
+  }
+  dyd_dyadic_clear(&length);
+  return least;
+}
+
+/* With a total perimeter L of N cells, a cell has about the size L / (4 N); but it is no wider than the window, which
+ * tells more where one side of that is very short. */
 int64_t dyd_metric_coarseness(const dyd_delaunay *pd, const dyd_rect *window) {
   size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
   int64_t log2_n = 0, log2_length = dyd_metric_flattening(pd, window, 0) - 3;
   while (log2_n < 60 && (size_t)1 << log2_n < n) log2_n++;
-  return log2_n + 6 - log2_length;
+  int64_t bits = log2_n + 6 - log2_length, least = -log2_short_side(window);
+  return bits > least ? bits : least;
 }

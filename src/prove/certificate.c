@@ -22,6 +22,8 @@ static void proof_clear(dyd_proof *p) {
   dyd_cert_faces_clear(&p->faces);
   free(p->legal.item);
   free(p->bridges.item);
+  free(p->open.item);
+  free(p->chained.item);
   dyd_pair_list_clear(&p->pairs);
 }
 
@@ -155,7 +157,7 @@ static dyd_status certificate_end(FILE *out, const dyd_proof *p) {
   dyd_dyadic area, hausdorff;
   dyd_dyadic_init(&area);
   dyd_dyadic_init(&hausdorff);
-  fprintf(out, "triangles %zu\nunproved %" PRIu64 "\n", p->faces.triangles, dyd_cert_faces_left(&p->faces));
+  fprintf(out, "triangles %zu\nunproved %" PRIu64 "\n", p->faces.triangles, p->unproved);
   dyd_status st = dyd_engine_bounds(&area, &hausdorff, p->engine);
   if (st == DYD_OK) {
     certificate_bound(out, "area", &area);

@@ -4,6 +4,7 @@
  * Blockers are looked for first among those of the pairs just before with the same site i, as a few sites round i block
  * most others; then among the sites of the set and the neighbours of the two; then among all. */
 #include "base/alloc.h"
+#include "checker/checker.h"
 #include "prove/proof.h"
 #include <inttypes.h>
 #include <string.h>
@@ -36,25 +37,23 @@ static int compare_line(const void *a, const void *b) {
   return (x->j > y->j) - (x->j < y->j);
 }
 
-static dyd_status open_lines(lines *l, const dyd_proof *p) {
+static dyd_status open_lines(lines *l, dyd_proof *p) {
   static const char kind[] = {[DYD_TIE] = 't', [DYD_INDETERMINATE] = 'o', [DYD_LEGAL] = 'l'};
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < p->pairs.count && st == DYD_OK; k++) {
     const dyd_pair *q = &p->pairs.item[k];
     if (q->status == DYD_LEGAL && dyd_cert_edges_have(&p->legal, q->i, q->j)) continue;
     st = add_line(l, q->i, q->j, kind[q->status]);
+    if (st == DYD_OK) st = dyd_cert_edges_add(&p->open, q->i, q->j);
   }
   return st;
 }
 
-static bool line_is_listed(const lines *l, size_t count, const dyd_proof *p, uint32_t i, uint32_t j) {
-  line key = {i, j, 0};
-  return dyd_cert_edges_have(&p->legal, i, j) ||
-         (count && bsearch(&key, l->item, count, sizeof key, compare_line) != NULL);
+static bool pair_is_listed(const dyd_proof *p, uint32_t i, uint32_t j) {
+  return dyd_cert_edges_have(&p->legal, i, j) || dyd_cert_edges_have(&p->open, i, j);
 }
 
-/* The pairs of open sets that are not listed, as far as the effort allows. The first `known` lines are sorted. */
-static dyd_status illegal_lines(lines *l, const dyd_proof *p, size_t known) {
+static dyd_status unlisted_lines(lines *l, const dyd_proof *p) {
   uint64_t effort = 0;
   dyd_status st = DYD_OK;
   for (size_t f = 0; f < p->faces.sets; f++) {
@@ -63,12 +62,27 @@ static dyd_status illegal_lines(lines *l, const dyd_proof *p, size_t known) {
     if (m < 3 || p->faces.covered[f] == m * (m - 1) / 2) continue;
     for (size_t a = 0; a < m; a++)
       for (size_t b = a + 1; b < m && st == DYD_OK && effort < CHAIN_EFFORT; b++) {
-        if (line_is_listed(l, known, p, site[a], site[b])) continue;
+        if (pair_is_listed(p, site[a], site[b])) continue;
         st = add_line(l, site[a], site[b], 'n');
         effort += CHAIN_PAIR;
       }
   }
   return st;
+}
+
+/* The pairs that boxes leave; all of open sets that are not listed, as far as the effort allows, where boxes give up.
+ */
+static dyd_status illegal_lines(lines *l, dyd_proof *p) {
+  static const dyd_cert_edges none = {0};
+  const dyd_cert_known known = {{&p->legal, &p->open, &none}};
+  dyd_cert_edges left;
+  bool given_up;
+  dyd_status st = dyd_cert_boxes_left(&left, &given_up, &p->sites, &p->faces, &known);
+  if (st != DYD_OK) return st;
+  for (size_t e = 0; e < left.count && e < CHAIN_EFFORT / CHAIN_PAIR && st == DYD_OK; e++)
+    st = add_line(l, left.item[e].i, left.item[e].j, 'n');
+  free(left.item);
+  return st == DYD_OK && given_up ? unlisted_lines(l, p) : st;
 }
 
 /* Where blockers are looked for, owned; what the searches have cost; blockers that were of use for site `of`. */
@@ -160,7 +174,7 @@ static dyd_status pair_put_chain(FILE *out, dyd_cert_chain *chain, blockers *nea
   dyd_proof_put_point(out, (const dyd_exact *)chain->u[1]);
   putc('\n', out);
   dyd_cert_faces_cover(&p->faces, l->i, l->j);
-  return DYD_OK;
+  return dyd_cert_edges_add(&p->chained, l->i, l->j);
 }
 
 static dyd_status pair_put_lines(FILE *out, dyd_proof *p, const lines *l) {
@@ -181,15 +195,26 @@ static dyd_status pair_put_lines(FILE *out, dyd_proof *p, const lines *l) {
   return st;
 }
 
+/* What no line proves, boxes may. */
+static dyd_status pair_put_boxes(FILE *out, dyd_proof *p) {
+  const dyd_cert_known known = {{&p->legal, &p->open, &p->chained}};
+  uint64_t before = dyd_cert_faces_left(&p->faces);
+  p->unproved = before;
+  if (before == 0 || dyd_delaunay_is_capped(p->pd)) return DYD_OK;
+  dyd_status st = dyd_cert_boxes_unproved(&p->unproved, &p->sites, &p->faces, &known);
+  if (st == DYD_OK && p->unproved < before) fprintf(out, "boxes %" PRIu64 "\n", before - p->unproved);
+  return st;
+}
+
 dyd_status dyd_proof_put_pairs(FILE *out, dyd_proof *p) {
   lines l = {0};
   fputs("pairs\n", out);
   dyd_status st = open_lines(&l, p);
-  size_t known = l.count;
-  for (size_t k = 0; k < known; k++) dyd_cert_faces_cover(&p->faces, l.item[k].i, l.item[k].j);
-  if (st == DYD_OK && !dyd_delaunay_is_capped(p->pd)) st = illegal_lines(&l, p, known);
+  for (size_t k = 0; k < l.count; k++) dyd_cert_faces_cover(&p->faces, l.item[k].i, l.item[k].j);
+  if (st == DYD_OK && dyd_cert_faces_left(&p->faces) && !dyd_delaunay_is_capped(p->pd)) st = illegal_lines(&l, p);
   if (st == DYD_OK && l.count) qsort(l.item, l.count, sizeof *l.item, compare_line);
   if (st == DYD_OK) st = pair_put_lines(out, p, &l);
+  if (st == DYD_OK) st = pair_put_boxes(out, p);
   free(l.item);
   return st;
 }

@@ -22,7 +22,8 @@ typedef struct dyd_proof {
   dyd_cert_sites sites;
   dyd_cert_tree tree;
   dyd_pair_list pairs; /* all possible pairs */
-  dyd_cert_edges legal, bridges;
+  dyd_cert_edges legal, bridges, open, chained;
+  uint64_t unproved; /* once the pairs are written */
   dyd_proof_points witness, centre;
   dyd_cert_corner *corner; /* sorted by site */
   size_t corners, corner_cap;

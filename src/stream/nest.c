@@ -61,7 +61,7 @@ dyd_status dyd_nest(dyd_interval *next, const dyd_interval *old, bool encloses, 
 }
 
 dyd_status dyd_callback_fail(dyd_error *err, const dyd_error *own, dyd_status st, size_t point, uint64_t stage) {
-  bool known = dyd_failed(st) && st >= DYD_E_IO;
+  bool known = dyd_failed(st) && st >= DYD_E_CONTRADICTION;
   dyd_status code = known ? st : DYD_E_STREAM;
   if (!err) return code;
   *err = *own;

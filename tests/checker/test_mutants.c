@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Every truncation and every change of one field of a certificate is rejected, or states the same, or something true
- * [CERT-1] [CERT-2] [CERT-3] [CERT-4] [CERT-5] [CERT-6] [CERT-7].
+ * [CERT-1] [CERT-2] [CERT-3] [CERT-4] [CERT-5] [CERT-6] [CERT-7] [CERT-9].
  *
  * What is accepted is read by a reader of its own.
  *   "The same": the same rectangles, the same list of pairs by kind, the same count of triangles and of pairs that are

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Certificates of random cases, biased to trouble, are accepted, and what they state agrees with the engine and the
- * oracle [CERT-1] [CERT-2] [CERT-3] [CERT-4] [CERT-5]. */
+ * oracle [CERT-1] [CERT-2] [CERT-3] [CERT-4] [CERT-5] [CERT-9]. */
 #include "checker/statement.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct totals {
-  size_t cases, chains, unproved, sets, complete, unwitnessed;
+  size_t cases, chains, boxes, unproved, sets, complete, unwitnessed;
 } totals;
 
 static void check_case(totals *t, orc_pool *pool, const orc_case *c, bool judge) {
@@ -30,6 +30,7 @@ static void check_case(totals *t, orc_pool *pool, const orc_case *c, bool judge)
   }
   t->cases++;
   t->chains += report.illegal_chains;
+  t->boxes += report.illegal_boxes;
   t->unproved += report.unproved;
   t->sets += report.undecided_sets;
   t->complete += report.unproved == 0;
@@ -54,9 +55,10 @@ static void random_cases(void **state) {
       check_case(&t, &pool, &c, false);
     }
   fprintf(stderr,
-          "# %zu certificates, %zu complete; %zu chains, %zu pairs unproved in %zu sets, %zu legal pairs "
+          "# %zu certificates, %zu complete; %zu chains, %zu pairs by boxes, %zu unproved in %zu sets, %zu legal pairs "
           "without a witness\n",
-          t.cases, t.complete, t.chains, t.unproved, t.sets, t.unwitnessed);
+          t.cases, t.complete, t.chains, t.boxes, t.unproved, t.sets, t.unwitnessed);
+  assert_true(t.boxes > 0);
   assert_true(t.complete * 10 > t.cases * 8);
   orc_case_clear(&c);
   orc_pool_clear(&pool);

@@ -17,10 +17,11 @@ def run(*args, stdin=b'', binary=False, **options):
     """Runs the command in an empty folder (or options['cwd']). binary: the output is no text, bytes stand as they are."""
     if isinstance(stdin, str):
         stdin = stdin.encode()
+    options.setdefault('timeout', 240)
     with tempfile.TemporaryDirectory() as folder:
         options.setdefault('cwd', folder)
         done = subprocess.run([COMMAND, *args], input=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              timeout=240, check=False, **options)
+                              check=False, **options)
     return Run(done.returncode, done.stdout.decode('latin-1' if binary else 'utf-8'), done.stderr.decode())
 
 

@@ -56,7 +56,7 @@ def packed(text):
 
 def test_dialects():
     rows = airports()
-    plain = run('delaunay', *PLACE, AIRPORTS)
+    plain = run('delaunay', '-q', *PLACE, AIRPORTS)
     expect(plain, 0)
     assert len(plain.out) > 100000
     crlf = {'lineterminator': '\r\n'}
@@ -67,22 +67,22 @@ def test_dialects():
                           (dressed(rows, comma, delimiter=';'), ('--decimal-comma',)),
                           (dressed(rows, comma, delimiter='\t'), ('--decimal-comma',)),
                           (dressed(rows, comma), ('--decimal-comma',)), (b'\xef\xbb\xbf' + dressed(rows, delimiter=';'), ())):
-        assert run('delaunay', *PLACE, *options, '-', stdin=text) == plain, text[:60]
+        assert run('delaunay', '-q', *PLACE, *options, '-', stdin=text) == plain, text[:60]
     for columns in ('LONGITUDE,Latitude', '7,6', ' longitude , 6', '"longitude",latitude'):
-        assert run('delaunay', '--columns', columns, AIRPORTS) == plain, columns
+        assert run('delaunay', '-q', '--columns', columns, AIRPORTS) == plain, columns
     for name, text in packed(dressed(rows)):
-        assert run('delaunay', *PLACE, '-', stdin=text) == plain, name
+        assert run('delaunay', '-q', *PLACE, '-', stdin=text) == plain, name
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, 'points'), 'wb') as f:
                 f.write(text)
-            assert run('delaunay', *PLACE, 'points', cwd=folder) == plain, name
+            assert run('delaunay', '-q', *PLACE, 'points', cwd=folder) == plain, name
 
 
 def test_packed_points_file():
     text = ''.join(f'{k % 17}.{k} {k * k % 101} # {k}\n' for k in range(40000)).encode()
-    plain = run('delaunay', '-', stdin=text)
+    plain = run('delaunay', '-q', '-', stdin=text)
     for name, data in packed(text):
-        assert run('delaunay', '-', stdin=data) == plain, name
+        assert run('delaunay', '-q', '-', stdin=data) == plain, name
         for damaged in (data[:-9], data[:len(data) // 2]):
             if 'zeros' not in name:
                 expect(run('delaunay', '-', stdin=damaged), 1, r'\A\Z', r'data (end early|are damaged).*; fetch or pack')

@@ -2,6 +2,7 @@
 /* Reads points from a file into an engine, in one pass over the text. */
 #include "base/abi.h"
 #include "base/error.h"
+#include "engine/add.h"
 #include "io/read/intake.h"
 #include <dyadel/io.h>
 #include <string.h>
@@ -52,13 +53,18 @@ static dyd_status points_read_text(dyd_engine *e, dyd_text *text, const dyd_read
   return st;
 }
 
-/* The same with what the caller gave; clears text. */
-static dyd_status points_read_given(dyd_engine *e, dyd_text *text, const dyd_read_options *options, dyd_error *err) {
+/* The same with what the caller gave; clears text. later: also after the first run. */
+static dyd_status points_read_given(dyd_engine *e, dyd_text *text, bool later, const dyd_read_options *options,
+                                    dyd_error *err) {
   dyd_read_options o;
   dyd_error own;
   if (!err) err = &own;
   dyd_error_clear(err);
-  dyd_status st = dyd_abi_take(&o, sizeof o, options, "dyd_read_options", err);
+  dyd_status st = dyd_engine_may_add(e, later);
+  if (st != DYD_OK)
+    *err = *dyd_engine_add_error(e);
+  else
+    st = dyd_abi_take(&o, sizeof o, options, "dyd_read_options", err);
   if (st == DYD_OK) st = points_read_text(e, text, &o, err);
   dyd_text_clear(text);
   return st;
@@ -67,14 +73,24 @@ static dyd_status points_read_given(dyd_engine *e, dyd_text *text, const dyd_rea
 dyd_status dyd_read_points(dyd_engine *e, FILE *in, const dyd_read_options *options, dyd_error *err) {
   dyd_text text;
   dyd_text_init(&text, in);
-  return points_read_given(e, &text, options, err);
+  return points_read_given(e, &text, false, options, err);
+}
+
+static dyd_status points_read_copy(dyd_engine *e, const char *text, size_t length, bool later,
+                                   const dyd_read_options *options, dyd_error *err) {
+  dyd_text copy;
+  if (dyd_text_init_copy(&copy, text, length) != DYD_OK) return dyd_fail_nomem(err);
+  return points_read_given(e, &copy, later, options, err);
 }
 
 dyd_status dyd_engine_add_text(dyd_engine *e, const char *text, size_t length, const dyd_read_options *options,
                                dyd_error *err) {
-  dyd_text copy;
-  if (dyd_text_init_copy(&copy, text, length) != DYD_OK) return dyd_fail_nomem(err);
-  return points_read_given(e, &copy, options, err);
+  return points_read_copy(e, text, length, false, options, err);
+}
+
+dyd_status dyd_engine_append_text(dyd_engine *e, const char *text, size_t length, const dyd_read_options *options,
+                                  dyd_error *err) {
+  return points_read_copy(e, text, length, true, options, err);
 }
 
 /* ---- one rectangle ---- */

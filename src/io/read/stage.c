@@ -3,7 +3,7 @@
 #include "io/read/stage.h"
 #include "base/alloc.h"
 #include "base/error.h"
-#include "engine/words.h"
+#include "engine/add.h"
 
 /* A point takes the most special kind of its coordinates; doubles fit all kinds. */
 struct dyd_staged {
@@ -127,7 +127,7 @@ dyd_status dyd_stage_replace(dyd_stage *s, size_t k, dyd_coordinate *x, dyd_coor
 #define BULK 1024
 
 /* The points from `first` on that are of the given kind, at most BULK; *count tells how many were added. */
-static dyd_status commit_points(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first) {
+static dyd_status commit_points(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
   double x[BULK], y[BULK];
   size_t n = 0;
   for (; n < BULK && first + n < s->count && s->item[first + n].kind == DYD_COORDINATE_DOUBLE; n++) {
@@ -135,16 +135,16 @@ static dyd_status commit_points(size_t *count, dyd_engine *e, const dyd_stage *s
     y[n] = s->item[first + n].u.box[1];
   }
   *count = n;
-  return dyd_engine_add_points(e, n, x, y);
+  return dyd_engine_append_points(e, n, x, y, err);
 }
 
-static dyd_status commit_boxes(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first) {
+static dyd_status commit_boxes(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
   double end[4][BULK];
   size_t n = 0;
   for (; n < BULK && first + n < s->count && s->item[first + n].kind == DYD_COORDINATE_BOX; n++)
     for (int k = 0; k < 4; k++) end[k][n] = s->item[first + n].u.box[k];
   *count = n;
-  return dyd_engine_add_boxes(e, n, end[0], end[1], end[2], end[3]);
+  return dyd_engine_append_boxes(e, n, end[0], end[1], end[2], end[3], err);
 }
 
 static dyd_plain plain_of(const dyd_staged *p, int axis) {
@@ -152,7 +152,7 @@ static dyd_plain plain_of(const dyd_staged *p, int axis) {
 }
 
 /* One pair of decimals of any size. */
-static dyd_status commit_wide(dyd_engine *e, const dyd_staged *p) {
+static dyd_status commit_wide(dyd_engine *e, const dyd_staged *p, dyd_error *err) {
   dyd_rect r;
   mpq_t x, y;
   dyd_rect_init(&r);
@@ -160,14 +160,14 @@ static dyd_status commit_wide(dyd_engine *e, const dyd_staged *p) {
   dyd_plain_get_q(x, plain_of(p, 0));
   dyd_plain_get_q(y, plain_of(p, 1));
   dyd_status st = dyd_rect_set_q(&r, x, y);
-  if (st == DYD_OK) st = dyd_engine_add_rect(e, &r);
+  if (st == DYD_OK) st = dyd_engine_append_rect(e, &r, err);
   mpq_clears(x, y, NULL);
   dyd_rect_clear(&r);
   return st;
 }
 
 /* The decimals from `first` on that fit single words, at most BULK. */
-static dyd_status commit_words(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first) {
+static dyd_status commit_words(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
   dyd_words xy[2 * BULK];
   size_t n = 0;
   for (; n < BULK && first + n < s->count && s->item[first + n].kind == DYD_COORDINATE_PLAIN; n++) {
@@ -175,36 +175,36 @@ static dyd_status commit_words(size_t *count, dyd_engine *e, const dyd_stage *s,
     if (!dyd_plain_get_words(&xy[2 * n], plain_of(p, 0)) || !dyd_plain_get_words(&xy[2 * n + 1], plain_of(p, 1))) break;
   }
   *count = n;
-  return dyd_engine_add_words(e, n, xy);
+  return dyd_engine_append_words(e, n, xy, err);
 }
 
-static dyd_status commit_plain(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first) {
-  dyd_status st = commit_words(count, e, s, first);
+static dyd_status commit_plain(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
+  dyd_status st = commit_words(count, e, s, first, err);
   if (st != DYD_OK || *count) return st;
   *count = 1;
-  return commit_wide(e, &s->item[first]);
+  return commit_wide(e, &s->item[first], err);
 }
 
-static dyd_status commit_fixed(dyd_engine *e, const dyd_staged *p) {
+static dyd_status commit_fixed(dyd_engine *e, const dyd_staged *p, dyd_error *err) {
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_interval_set(&r.x, dyd_real_interval(p->u.real[0]));
   dyd_interval_set(&r.y, dyd_real_interval(p->u.real[1]));
-  dyd_status st = dyd_engine_add_rect(e, &r);
+  dyd_status st = dyd_engine_append_rect(e, &r, err);
   dyd_rect_clear(&r);
   return st;
 }
 
-static dyd_status commit_reals(dyd_engine *e, dyd_staged *p) {
+static dyd_status commit_reals(dyd_engine *e, dyd_staged *p, dyd_error *err) {
   if (dyd_real_is_final(p->u.real[0]) && dyd_real_is_final(p->u.real[1])) {
-    dyd_status st = commit_fixed(e, p);
+    dyd_status st = commit_fixed(e, p, err);
     staged_drop(p);
     return st;
   }
   dyd_stream *stream = NULL;
   p->kind = DYD_COORDINATE_DOUBLE; /* the stream takes both reals over */
   dyd_status st = dyd_stream_from_reals(&stream, p->u.real[0], p->u.real[1]);
-  return st != DYD_OK ? st : dyd_engine_add_stream(e, stream);
+  return st != DYD_OK ? st : dyd_engine_append_stream(e, stream, err);
 }
 
 dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err) {
@@ -214,19 +214,19 @@ dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err) {
     switch (s->item[k].kind) {
     case DYD_COORDINATE_DOUBLE:
     case DYD_COORDINATE_BINARY:
-      st = commit_points(&count, e, s, k);
+      st = commit_points(&count, e, s, k, err);
       break;
     case DYD_COORDINATE_BOX:
-      st = commit_boxes(&count, e, s, k);
+      st = commit_boxes(&count, e, s, k, err);
       break;
     case DYD_COORDINATE_PLAIN:
-      st = commit_plain(&count, e, s, k);
+      st = commit_plain(&count, e, s, k, err);
       break;
     case DYD_COORDINATE_REAL:
-      st = commit_reals(e, &s->item[k]);
+      st = commit_reals(e, &s->item[k], err);
       break;
     }
   }
   dyd_stage_clear(s);
-  return st != DYD_OK ? dyd_fail(err, st, "%s", dyd_status_text(st)) : DYD_OK;
+  return st != DYD_OK && !err->message[0] ? dyd_fail(err, st, "%s", dyd_status_text(st)) : st;
 }

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Rows over cells: polygons of all cells and both bounds of the diagram on the unit square; cells of thin boxes, cells
+ * apart (boxes of a tenth of the spacing), cells touch (lightly: of three tenths). Time a site; nobody else computes
+ * these. */
+#include "cloud.h"
+#include "harness.h"
+
+#include <dyadel/metric.h>
+#include <math.h>
+
+static const bench_series no_peer;
+
+static void cells_check(const char *row, dyd_status status) {
+  if (status != DYD_OK) bench_die(row, dyd_status_text(status));
+}
+
+/* One run on a triangulation that is there. The whole square is undetermined at most, and something is wherever boxes
+ * have an extent. */
+static bench_cost cells_run(char *remark, size_t size, const char *row, const dyd_delaunay *pd) {
+  dyd_rect window;
+  dyd_voronoi_bounds b;
+  dyd_rect_init(&window);
+  dyd_voronoi_bounds_init(&b);
+  cells_check(row, dyd_interval_set_d(&window.x, 0, 1));
+  cells_check(row, dyd_interval_set_d(&window.y, 0, 1));
+  bench_meter meter = bench_start();
+  cells_check(row, dyd_metric_voronoi(&b, pd, &window, dyd_metric_coarseness(pd, &window) + 4, NULL));
+  bench_cost cost = bench_stop(&meter);
+  double area = dyd_dyadic_get_d(&b.area, DYD_UP), distance = dyd_dyadic_get_d(&b.hausdorff, DYD_UP);
+  if (!b.finite || !(area > 0 && area <= 1 && distance > 0 && distance < 1)) bench_die(row, "the bounds are wrong");
+  snprintf(remark, size, "undetermined area %.9g; distance %.9g", area, distance);
+  dyd_voronoi_bounds_clear(&b);
+  dyd_rect_clear(&window);
+  return cost;
+}
+
+/* Boxes of half-width share / sqrt(n). goal: microseconds a site. */
+static void row_cells(const bench_options *o, const char *name, size_t n, double share, double goal) {
+  cloud boxes;
+  bench_series ours = {0};
+  dyd_sites *sites = NULL;
+  dyd_delaunay *pd = NULL;
+  char remark[200];
+  if (!bench_wants(o, name)) return;
+  cloud_uniform(&boxes, bench_size(o, n));
+  cloud_widen(&boxes, share / sqrt((double)boxes.n));
+  cells_check(name, dyd_sites_new(&sites));
+  cells_check(name, dyd_sites_add_boxes(sites, boxes.n, boxes.x0, boxes.x1, boxes.y0, boxes.y1));
+  cells_check(name, dyd_delaunay_new(&pd, sites, NULL, NULL));
+  for (size_t r = 0; r < bench_runs(o, 3); r++) bench_series_add(&ours, cells_run(remark, sizeof remark, name, pd));
+  bench_report(o, &(bench_row){.name = name,
+                               .n = boxes.n,
+                               .ours = &ours,
+                               .peer = &no_peer,
+                               .measure = "us a site",
+                               .figure = bench_series_median(&ours).seconds / (double)boxes.n * 1e6,
+                               .figure_goal = goal,
+                               .remark = remark});
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  cloud_clear(&boxes);
+}
+
+int main(int argc, char **argv) {
+  bench_options o;
+  bench_options_read(&o, argc, argv);
+  row_cells(&o, "cells", 100000, 0x1p-20, 10);
+  row_cells(&o, "cells-apart", 1000, 0.1, 100);
+  row_cells(&o, "cells-touch", 1000, 0.3, 100);
+  bench_options_close(&o);
+  return 0;
+}

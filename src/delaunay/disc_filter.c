@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Whose rectangles meet a disc: the tree of boxes visits everybody who might [FLT-DST]; each is then looked at exactly.
+ */
+#include "delaunay/disc_filter.h"
+
+#include "base/alloc.h"
+#include "delaunay/state.h"
+#include "skeleton/rects_filter.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct disc {
+  const dyd_delaunay *pd;
+  const dyd_point *c;
+  mpq_srcptr radius2;
+  mpq_t ds2;
+  dyd_rect rect;
+  uint32_t *item;
+  size_t count, cap;
+  dyd_status status;
+} disc;
+
+static bool disc_visit(void *context, uint32_t v) {
+  disc *d = context;
+  d->status = dyd_rects_get(&d->rect, &d->pd->sk.rects, v);
+  if (d->status != DYD_OK) return false;
+  dyd_rect_ds2(d->ds2, d->c, &d->rect);
+  if (mpq_cmp(d->ds2, d->radius2) > 0) return true;
+  if (!dyd_reserve((void **)&d->item, &d->cap, d->count + 1, sizeof *d->item)) {
+    d->status = DYD_E_NOMEM;
+    return false;
+  }
+  d->item[d->count++] = d->pd->sk.reps.site[v];
+  return true;
+}
+
+static void disc_visit_all(disc *d) {
+  const dyd_skeleton *sk = &d->pd->sk;
+  for (uint32_t i = 0; i < sk->n; i++)
+    if (sk->reps.site[sk->vertex[i]] == i && !disc_visit(d, sk->vertex[i])) return;
+}
+
+dyd_status dyd_delaunay_meet_disc(dyd_index_list *out, const dyd_delaunay *pd, const dyd_point *c,
+                                  const mpq_t radius2) {
+  disc d = {.pd = pd, .c = c, .radius2 = radius2};
+  mpq_init(d.ds2);
+  dyd_rect_init(&d.rect);
+  if (pd->sk.rects.box) {
+    const dyd_bbox centre = dyd_point_box(c);
+    double above = nextafter(mpq_get_d(radius2), HUGE_VAL); /* mpq_get_d cuts off */
+    dyd_tree_near(&pd->sk.rects.tree, &centre, &above, disc_visit, &d);
+  } else {
+    disc_visit_all(&d);
+  }
+  mpq_clear(d.ds2);
+  dyd_rect_clear(&d.rect);
+  if (d.status != DYD_OK) {
+    free(d.item);
+    return d.status;
+  }
+  if (d.count) qsort(d.item, d.count, sizeof *d.item, dyd_compare_index);
+  dyd_index_list_clear(out);
+  *out = (dyd_index_list){d.count, d.item};
+  return DYD_OK;
+}

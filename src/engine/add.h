@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Adding points; for the readers, too. */
+#ifndef DYD_ENGINE_ADD_H
+#define DYD_ENGINE_ADD_H
+
+#include "rect/sites_table.h"
+#include <dyadel/engine.h>
+
+/* Do points come at a good time: not from a callback, and before the first run unless `later`? DYD_E_ARG, and
+ * dyd_engine_add_error says why. */
+dyd_status dyd_engine_may_add(dyd_engine *e, bool later);
+/* Adds n exact points that are rationals of single words, as dyd_sites_add_words, whenever a point may come; nothing on
+ * failure. */
+dyd_status dyd_engine_append_words(dyd_engine *e, size_t n, const dyd_words *xy, dyd_error *err);
+
+#endif
