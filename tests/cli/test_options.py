@@ -27,14 +27,16 @@ WRONG = {
     '--schedule': ('', 'fast', 'Adaptive', 'uniform '),
     '--of': ('', 'Voronoi', 'both'),
     '--format': ('', 'gif', 'CSV', 'csv,json'),
+    '--layer': ('', 'edge', 'Points', 'pairs,points'),
+    '--crs': ('', '4326', 'EPSG', 'EPSG:', 'EPSG:0', 'EPSG:x', 'EPSG:1000000', 'epsg 4326'),
     '--window': ('', '0,1,0', '0,1,0,1,2', '0,1,0,x', '0,1,0,pi', '0,1,,1', '0,1,0,1,', '1,0,0,1', '0,1,2,1', '1,1,0,1',
                  '0,1,2,2', '[0,1],0,1,2'),
     '--plot': ('', 'plot', 'plot.gif', 'png'),
     '--help': ('fish', 'MAN'),
 }
-RIGHT = {'--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--until': 'decided'}
+RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--until': 'decided'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
-TEXTS = {'--columns', '--delimiter', '--id', '--points', '--radius', '--radius-column', '--oracle', '--output', '--trace',
+TEXTS = {'--queries', '--columns', '--delimiter', '--id', '--points', '--radius', '--radius-column', '--oracle', '--output', '--trace',
          '--replay', '--certificate'}
 
 
