@@ -15,6 +15,16 @@
 extern "C" {
 #endif
 
+/* What is known of a pair.
+ *
+ * Exact sites on one line, with nobody strictly beyond it, are possible pairs of one another, by discs that have grown
+ * to half-planes; only neighbours can be legal. The others are ties where all sites of their face (dyd_delaunay_face)
+ * are exact. Where the face also holds a rectangle, one that touches the line say, they are indeterminate, since ties
+ * are told of whole faces; they become ties when the rectangle is narrowed until it leaves the face.
+ *
+ * A legal pair has a witness that was found. The search sees room for a witness down to 2^-128 of the square of the
+ * least unit of the rectangles' ends by their size; where ends span more than about 2^200, it may end before it finds
+ * narrow room, and the pair stays indeterminate: true, but less than could be said. */
 typedef enum dyd_pair_status {
   DYD_ILLEGAL = 0,       /* an edge for no choice */
   DYD_TIE = 1,           /* indeterminate, and no refinement can decide it: all sites concerned are exact */

@@ -55,6 +55,22 @@ static void test_leave_line(void **state) {
   expect_text("leave line", "0 [0,2]\n[1,2] 1\n[1,2] 1\n");
 }
 
+/* Exact points on a line: ties while their face is theirs alone, indeterminate while a rectangle touches the line. */
+static void test_line_of_points(void **state) {
+  (void)state;
+  static const char *const text[] = {"0 0\n1 0\n2 0\n[0,2] [1,2]\n", "0 0\n1 0\n2 0\n[3,4] [0,1]\n"};
+  static const int status[] = {DYD_TIE, DYD_INDETERMINATE};
+  for (int k = 0; k < 2; k++) {
+    orc_case c;
+    orc_case_init(&c);
+    read_case(&c, "line of points", text[k]);
+    assert_int_equal(engine_status(&c, 0, 2, false), status[k]);
+    assert_int_equal(engine_status(&c, 0, 1, false), DYD_LEGAL);
+    orc_case_clear(&c);
+    expect_text("line of points", text[k]);
+  }
+}
+
 /* The doubles of [FLT-SMALL] overflowed, or underflowed, when everything is scaled by 2^e. */
 static void test_scales(void **state) {
   (void)state;
@@ -195,17 +211,12 @@ static void test_boxes_meet(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_boxes_meet),
-                                     cmocka_unit_test(test_pairs_of_faces),
-                                     cmocka_unit_test(test_alias_on_a_line),
-                                     cmocka_unit_test(test_leave_line),
-                                     cmocka_unit_test(test_scales),
-                                     cmocka_unit_test(test_thin_wedge),
-                                     cmocka_unit_test(test_mixed_scales),
-                                     cmocka_unit_test(test_fat_regions),
-                                     cmocka_unit_test(test_overflowing_bound),
-                                     cmocka_unit_test(test_infinite_boxes),
-                                     cmocka_unit_test(test_beyond_doubles)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_boxes_meet),      cmocka_unit_test(test_pairs_of_faces),
+                                     cmocka_unit_test(test_alias_on_a_line), cmocka_unit_test(test_leave_line),
+                                     cmocka_unit_test(test_line_of_points),  cmocka_unit_test(test_scales),
+                                     cmocka_unit_test(test_thin_wedge),      cmocka_unit_test(test_mixed_scales),
+                                     cmocka_unit_test(test_fat_regions),     cmocka_unit_test(test_overflowing_bound),
+                                     cmocka_unit_test(test_infinite_boxes),  cmocka_unit_test(test_beyond_doubles)};
   harness_init(&shared, "regressions");
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   harness_clear(&shared);
