@@ -138,10 +138,19 @@ static void pass_ring(radius_pass *p, const dyd_ring_d *ring, bool others) {
   }
 }
 
-/* What is open may be decided by the least motion of whoever takes part. */
-static void clear_tied(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
-  radius_pass *p = context;
-  if (status != DYD_LEGAL) p->radius[v] = p->radius[w] = 0;
+/* What is tied may be decided by the least motion of whoever is in the face. */
+static dyd_status clear_tied(radius_pass *p) {
+  const dyd_delaunay *pd = p->t->pd;
+  dyd_status st = DYD_OK;
+  for (size_t f = 0; f < pd->open.count && st == DYD_OK; f++) {
+    uint32_t *v;
+    size_t count;
+    st = dyd_open_vertices(&v, &count, pd, f);
+    if (st != DYD_OK) return st;
+    for (size_t q = 0; q < count; q++) p->radius[v[q]] = 0;
+    free(v);
+  }
+  return st;
 }
 
 static dyd_status pass_hull(radius_pass *p) {
@@ -164,8 +173,8 @@ static dyd_status pass_all(radius_pass *p) {
   dyd_tolerance *t = p->t;
   for (uint32_t v = 0; v < t->sk->n; v++) p->radius[v] = HUGE_VAL;
   for (size_t k = 0; k < t->rings; k++) pass_ring(p, &t->ring[k], false);
-  dyd_each_pair(t->pd, clear_tied, p);
-  dyd_status st = dyd_is_line(t->pd) ? DYD_OK : pass_hull(p);
+  dyd_status st = clear_tied(p);
+  if (st == DYD_OK && !dyd_is_line(t->pd)) st = pass_hull(p);
   if (st == DYD_OK) st = dyd_near_index(t);
   if (st != DYD_OK || t->tree.count == 0) return st;
   if (!make_most(p)) return DYD_E_NOMEM;
