@@ -57,7 +57,7 @@ typedef struct stranger {
 static bool meet_stranger(void *context, uint32_t v) {
   stranger *s = context;
   uint32_t k = 0;
-  while (k < s->lines->count && s->lines->item[k].vertex != v) k++;
+  while (k < s->lines->count && s->lines->vertex[k] != v) k++;
   s->found = k == s->lines->count && v != s->lines->i && v != s->lines->j;
   return !s->found;
 }

@@ -12,6 +12,7 @@
  * D = (n_b m_a - n_a m_b) / e there, and w = D / (sqrt(r^2 + D) + r) has no cancellation beyond that of D: its relative
  * error is that of D, plus half the larger of those of r^2 and D, plus 5 u. Bounds are sums of a few terms, each with a
  * few roundings: the factor GENEROUS covers them. */
+#include "tolerance/crossing_filter.h"
 #include "tolerance/lines_filter.h"
 
 #include <float.h>
@@ -24,7 +25,8 @@
 #define U 0x1p-53
 #define TINY 0x1p-900
 #define GENEROUS (1 + 0x1p-20)
-#define WIDTH 0x1p-42 /* half the relative width asked for, with room */
+#define WIDTH 0x1.fep-42 /* half the relative width asked for, 2^-40, with room */
+#define CLOSE 0x1p-42    /* of the height alone; else it is worked out in double-doubles */
 enum { CLIMBS = 40 };
 
 /* ---- lines ---- */
@@ -54,6 +56,7 @@ bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t
   l->jy = d.y;
   l->jj = d.x * d.x + d.y * d.y;
   l->ejj = product_error(l->jj, 2 * (fabs(d.x) + fabs(d.y)), p->slack);
+  l->reach = 0;
   l->i = i;
   l->j = j;
   l->count = 0;
@@ -61,23 +64,32 @@ bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t
 }
 
 bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *at, uint32_t k) {
-  if (l->count == DYD_LINES_D) return false;
-  dyd_line_d *o = &l->item[l->count++];
+  uint32_t c = l->count;
+  if (c == DYD_LINES_D) return false;
   dyd_xy p = point_difference(at, k, l->i), q = point_difference(at, k, l->j);
-  double mx = p.x * q.x, my = p.y * q.y, nx = p.y * l->jx, ny = p.x * l->jy, ax = p.x * l->jx, ay = p.y * l->jy;
-  double sum = fabs(p.x) + fabs(p.y), far = sum + fabs(q.x) + fabs(q.y), near = sum + fabs(l->jx) + fabs(l->jy);
-  o->vertex = k;
-  o->m = mx + my;
-  o->n = nx - ny;
-  o->along = ax + ay;
-  o->hm = fabs(mx) + fabs(my);
-  o->hn = fabs(nx) + fabs(ny);
-  o->em = product_error(o->hm, far, at->slack);
-  o->en = product_error(o->hn, near, at->slack);
-  o->ea = product_error(fabs(ax) + fabs(ay), near, at->slack);
-  o->p2 = p.x * p.x + p.y * p.y;
-  o->q2 = q.x * q.x + q.y * q.y;
+  l->vertex[c] = k;
+  l->px[c] = p.x;
+  l->py[c] = p.y;
+  l->qx[c] = q.x;
+  l->qy[c] = q.y;
+  l->m[c] = p.x * q.x + p.y * q.y;
+  l->n[c] = p.y * l->jx - p.x * l->jy;
+  double far = fabs(p.x) + fabs(p.y) + fabs(q.x) + fabs(q.y);
+  l->reach = dyd_max(far, l->reach);
+  l->count++;
   return true;
+}
+
+dyd_line_d dyd_filter_line(const dyd_lines_d *l, const dyd_points_d *at, uint32_t k) {
+  double px = l->px[k], py = l->py[k], qx = l->qx[k], qy = l->qy[k], ax = px * l->jx, ay = py * l->jy;
+  double sum = fabs(px) + fabs(py), far = sum + fabs(qx) + fabs(qy), near = sum + fabs(l->jx) + fabs(l->jy);
+  dyd_line_d o = {.m = l->m[k], .n = l->n[k], .along = ax + ay, .vertex = l->vertex[k]};
+  o.em = product_error(fabs(px * qx) + fabs(py * qy), far, at->slack);
+  o.en = product_error(fabs(py * l->jx) + fabs(px * l->jy), near, at->slack);
+  o.ea = product_error(fabs(ax) + fabs(ay), near, at->slack);
+  o.hm = o.em / (6 * U);
+  o.hn = o.en / (6 * U);
+  return o;
 }
 
 /* ---- places ---- */
@@ -92,19 +104,16 @@ static double height_d(const dyd_line_d *o, const place_d *at) {
   return at->end ? -at->end * o->n : o->m - 2 * o->n * at->s;
 }
 
+/* Of all lines, by number. */
 static uint32_t lowest_d(const dyd_lines_d *l, const place_d *at) {
   uint32_t best = 0;
-  double low = height_d(&l->item[0], at);
-  for (uint32_t k = 1; k < l->count; k++) {
-    double h = height_d(&l->item[k], at);
-    if (h < low) low = h, best = k;
+  double low = HUGE_VAL, slope = at->end ? -at->end : -2 * at->s;
+  for (uint32_t k = 0; k < l->count; k++) {
+    double h = at->end ? slope * l->n[k] : l->m[k] + slope * l->n[k];
+    best = h < low ? k : best;
+    low = h < low ? h : low;
   }
   return best;
-}
-
-/* e bounds |at - s|. */
-static double height_error(const dyd_line_d *o, double s, double es) {
-  return o->em + 2 * fabs(s) * o->en + 2 * (fabs(o->n) + o->en) * es + 4 * U * (fabs(o->m) + 2 * fabs(o->n * s));
 }
 
 static bool cross_d(place_d *at, const dyd_line_d *a, const dyd_line_d *b) {
@@ -117,23 +126,23 @@ static bool cross_d(place_d *at, const dyd_line_d *a, const dyd_line_d *b) {
 }
 
 static bool summit_d(place_d *at, const dyd_lines_d *l, const dyd_line_d *o) {
-  double q = fmax(-o->along, o->along - l->jj), eq = o->ea + l->ejj + 2 * U * fabs(q);
+  double q = dyd_max(-o->along, o->along - l->jj), eq = o->ea + l->ejj + 2 * U * fabs(q);
   at->end = 0;
   at->s = -o->n / (2 * q);
   at->es = (o->en + 2 * fabs(at->s) * eq + 2 * U * fabs(o->n)) / (2 * (q - eq)) * GENEROUS;
   return q > 2 * eq && at->es <= DBL_MAX;
 }
 
-/* The polynomial of dyd_line_trend over jj^2, with s for p and 1/2 for q; *doubt bounds its error. */
+/* The polynomial of dyd_line_trend, with s for p and 1/2 for q; *doubt bounds its error: each factor is off by at most
+ * 6 u of what stands for its size, s by es. */
 static double trend_polynomial(double *doubt, const dyd_lines_d *l, const dyd_line_d *o, const place_d *at) {
-  double n = o->n / l->jj, m = o->m / l->jj, hn = (o->hn + o->en) / l->jj, hm = (o->hm + o->em) / l->jj;
-  double s = at->s, size = fabs(s) + 0.5;
-  double e = fmax(fmax(o->en / o->hn, o->em / o->hm), fmax(at->es / size, l->ejj / l->jj));
-  *doubt = 8 * (e + 4 * U) * (size * size * (hn * hn + hm) + size * hn + hn * hn);
-  return s * s * (n * n - m) - s * n / 2 + n * n / 4;
+  double n = o->n, s = at->s, size = fabs(s) + 0.5, jj = l->jj + l->ejj / (6 * U);
+  double sum = size * size * (o->hn * o->hn + jj * o->hm) + size * o->hn * jj + o->hn * o->hn;
+  *doubt = 8 * (10 * U + at->es / size) * sum;
+  return s * s * (n * n - l->jj * o->m) - s * n * l->jj / 2 + n * n / 4;
 }
 
-/* 1, -1; 0: not sure (or at a summit). At an end: of the computed numbers, checked by end_is_sure. */
+/* 1, -1; 0: not sure (or at a summit). At an end: of the computed numbers, checked by end_death. */
 static int trend_d(const dyd_lines_d *l, const dyd_line_d *o, const place_d *at) {
   double doubt, a = at->s * l->jj - o->n;
   if (at->end) return (o->n * o->n > l->jj * o->m ? 1 : -1) * at->end;
@@ -148,42 +157,51 @@ static int trend_d(const dyd_lines_d *l, const dyd_line_d *o, const place_d *at)
 
 /* ---- the way up ---- */
 
+/* As in summit.c. one: whose summit or end it is. */
 typedef struct climb_d {
-  const dyd_line_d *rising, *falling;
+  const dyd_points_d *points;
+  const dyd_lines_d *l;
+  dyd_line_d rising, falling, one;
+  bool has_rising, has_falling;
   place_d at;
   enum { ANYWHERE, CROSSING, SUMMIT, END } kind;
-  const dyd_line_d *one; /* whose summit or end it is */
 } climb_d;
 
-static void begin_d(climb_d *c, const dyd_lines_d *l) {
-  const dyd_line_d *left = NULL, *right = NULL;
-  for (uint32_t k = 0; k < l->count; k++) {
-    if (l->item[k].n > 0 && (!left || l->item[k].p2 < left->p2)) left = &l->item[k];
-    if (l->item[k].n < 0 && (!right || l->item[k].p2 < right->p2)) right = &l->item[k];
+/* The last of each side: apexes come last. */
+static void begin_d(climb_d *c) {
+  uint32_t left = DYD_NONE, right = DYD_NONE;
+  for (uint32_t k = 0; k < c->l->count; k++) {
+    left = c->l->n[k] > 0 ? k : left;
+    right = c->l->n[k] < 0 ? k : right;
   }
-  *c = (climb_d){.kind = ANYWHERE};
-  if (left && right)
-    cross_d(&c->at, left, right);
-  else if (left || right)
-    c->at.end = left ? -1 : 1;
+  c->kind = ANYWHERE;
+  c->has_rising = c->has_falling = false;
+  c->at = (place_d){0, 0, 0};
+  if (left != DYD_NONE && right != DYD_NONE) {
+    dyd_line_d a = dyd_filter_line(c->l, c->points, left), b = dyd_filter_line(c->l, c->points, right);
+    cross_d(&c->at, &a, &b);
+  } else if (left != right) {
+    c->at.end = left != DYD_NONE ? -1 : 1;
+  }
 }
 
 /* As climb_next. false: not sure. */
-static bool next_d(climb_d *c, const dyd_lines_d *l) {
-  if (c->rising && c->falling) {
-    if (!cross_d(&c->at, c->rising, c->falling)) return false;
-    int up = trend_d(l, c->rising, &c->at), down = trend_d(l, c->falling, &c->at);
+static bool next_d(climb_d *c) {
+  if (c->has_rising && c->has_falling) {
+    if (!cross_d(&c->at, &c->rising, &c->falling)) return false;
+    int up = trend_d(c->l, &c->rising, &c->at), down = trend_d(c->l, &c->falling, &c->at);
     if (!up || !down) return false;
     c->kind = up > 0 && down < 0 ? CROSSING : SUMMIT;
+    if (c->kind == CROSSING) return true;
     c->one = up < 0 ? c->rising : c->falling;
-    return c->kind == CROSSING || summit_d(&c->at, l, c->one);
+    return summit_d(&c->at, c->l, &c->one);
   }
-  c->one = c->rising ? c->rising : c->falling;
+  c->one = c->has_rising ? c->rising : c->falling;
   c->kind = SUMMIT;
-  if (summit_d(&c->at, l, c->one)) return true;
-  if (fmax(-c->one->along, c->one->along - l->jj) > -2 * (c->one->ea + l->ejj)) return false;
+  if (summit_d(&c->at, c->l, &c->one)) return true;
+  if (!(dyd_max(-c->one.along, c->one.along - c->l->jj) < -2 * (c->one.ea + c->l->ejj))) return false;
   c->kind = END;
-  c->at.end = c->rising ? 1 : -1;
+  c->at.end = c->has_rising ? 1 : -1;
   return true;
 }
 
@@ -193,13 +211,14 @@ static int death_trend_d(const dyd_lines_d *l, const dyd_line_d *o, const place_
 }
 
 /* To where no line lies below what binds. false: not sure. */
-static bool climb_up(climb_d *c, const dyd_lines_d *l) {
-  begin_d(c, l);
+static bool climb_up(climb_d *c) {
+  begin_d(c);
   for (int k = 0; k < CLIMBS; k++) {
-    const dyd_line_d *low = &l->item[lowest_d(l, &c->at)];
-    if (c->kind == CROSSING && (low->vertex == c->rising->vertex || low->vertex == c->falling->vertex)) return true;
-    if (c->kind == SUMMIT && low->vertex == c->one->vertex) return true;
-    int up = death_trend_d(l, low, &c->at);
+    uint32_t number = lowest_d(c->l, &c->at), vertex = c->l->vertex[number];
+    if (c->kind == CROSSING && (vertex == c->rising.vertex || vertex == c->falling.vertex)) return true;
+    if (c->kind == SUMMIT && vertex == c->one.vertex) return true;
+    dyd_line_d low = dyd_filter_line(c->l, c->points, number);
+    int up = death_trend_d(c->l, &low, &c->at);
     if (c->at.end && up == c->at.end) {
       c->kind = END;
       c->one = low;
@@ -207,71 +226,87 @@ static bool climb_up(climb_d *c, const dyd_lines_d *l) {
     }
     if (!up) return false;
     *(up > 0 ? &c->rising : &c->falling) = low;
-    if (!next_d(c, l)) return false;
+    *(up > 0 ? &c->has_rising : &c->has_falling) = true;
+    if (!next_d(c)) return false;
   }
   return false;
 }
 
 /* ---- the value, and the proof ---- */
 
-/* Does every line but those that bind lie above D by more than all errors? */
-static bool others_above(const dyd_lines_d *l, const climb_d *c, uint32_t a, uint32_t b, double D, double eD) {
-  for (uint32_t k = 0; k < l->count; k++) {
-    const dyd_line_d *o = &l->item[k];
-    if (o->vertex == a || o->vertex == b) continue;
-    if (!(height_d(o, &c->at) - D > (height_error(o, c->at.s, c->at.es) + eD) * GENEROUS)) return false;
-  }
-  return true;
+/* Does every line but those that bind lie above D by more than all errors? One bound for all: |m| and the sizes of its
+ * products are at most reach^2, |n| and its own at most reach (|jx| + |jy|). */
+static bool others_above(const climb_d *c, uint32_t a, uint32_t b, double D, double eD) {
+  const dyd_lines_d *l = c->l;
+  double s = c->at.s, size = l->reach + fabs(l->jx) + fabs(l->jy), slack = c->points->slack;
+  double e = product_error(size * size, size, slack), top = D;
+  double doubt = (e * (1 + 2 * fabs(s)) + 2 * (size * size + e) * c->at.es + 4 * U * size * size * (1 + 2 * fabs(s)));
+  top += (doubt + eD) * GENEROUS + 2 * U * fabs(D);
+  bool above = top >= D;
+  for (uint32_t k = 0; k < l->count; k++)
+    above = above & ((l->m[k] - 2 * l->n[k] * s > top) | (l->vertex[k] == a) | (l->vertex[k] == b));
+  return above;
 }
 
 static bool give(dyd_death_d *out, double w, double relative, const climb_d *c) {
   double h = w / 2, e = relative * GENEROUS + 4 * U;
   out->lo = h * (1 - e);
   out->hi = h * (1 + e);
-  out->k = c->kind == CROSSING ? c->rising->vertex : c->one->vertex;
-  out->l = c->kind == CROSSING ? c->falling->vertex : c->one->vertex;
+  out->k = c->kind == CROSSING ? c->rising.vertex : c->one.vertex;
+  out->l = c->kind == CROSSING ? c->falling.vertex : c->one.vertex;
   out->s = c->at.s;
   out->end = c->kind == END ? c->at.end : 0;
   return e < WIDTH && out->lo > 0 && out->hi <= DBL_MAX;
 }
 
-static bool crossing_death(dyd_death_d *out, double *radius2, const dyd_lines_d *l, const climb_d *c) {
-  const dyd_line_d *a = c->rising, *b = c->falling;
-  double s = c->at.s, es = c->at.es, e = b->n - a->n, ee = a->en + b->en + 2 * U * fabs(e);
-  double x = b->n * a->m, y = a->n * b->m, num = x - y;
-  double enum_ = (fabs(b->n) + b->en) * a->em + fabs(a->m) * b->en + (fabs(a->n) + a->en) * b->em + fabs(b->m) * a->en +
-                 4 * U * (fabs(x) + fabs(y));
-  double D = num / e, rD = (enum_ / num + ee / (e - ee) + 4 * U) * GENEROUS;
-  double quarter = 0.25 + s * s, B = l->jj * quarter;
-  double rB = (l->ejj / l->jj + (2 * fabs(s) * es + es * es) / quarter + 6 * U) * GENEROUS;
-  if (!(num > 0 && e > 0 && rD < 0x1p-30 && rB < 0x1p-30)) return false;
-  if (!others_above(l, c, a->vertex, b->vertex, D, rD * D)) return false;
-  *radius2 = (B + D) * (1 + 2 * (rB + rD));
-  return give(out, D / (sqrt(B + D) + sqrt(B)), rD + fmax(rB, rD) / 2 + 6 * U, c);
+/* D and its relative error at the crossing. */
+static double crossing_height(double *relative, const dyd_line_d *a, const dyd_line_d *b) {
+  double e = b->n - a->n, ee = a->en + b->en + 2 * U * fabs(e), x = b->n * a->m, y = a->n * b->m, num = x - y;
+  double error = (fabs(b->n) + b->en) * a->em + fabs(a->m) * b->en + (fabs(a->n) + a->en) * b->em +
+                 fabs(b->m) * a->en + 4 * U * (fabs(x) + fabs(y));
+  *relative = (error / fabs(num) + ee / (fabs(e) - ee) + 4 * U) * GENEROUS;
+  return num / e;
 }
 
-static bool summit_death(dyd_death_d *out, double *radius2, const dyd_points_d *p, const dyd_lines_d *l,
-                         const climb_d *c) {
-  const dyd_line_d *o = c->one;
-  double s = c->at.s, w2 = o->along < 0 ? o->p2 : o->q2;
-  double ew2 = product_error(w2, 4 * sqrt(w2), p->slack);
-  double D = height_d(o, &c->at), eD = height_error(o, s, c->at.es), B = l->jj * (0.25 + s * s);
-  double eB = B * 0x1p-30 + 2 * l->jj * (2 * fabs(s) + c->at.es) * c->at.es;
-  if (!others_above(l, c, o->vertex, o->vertex, D, eD)) return false;
+static bool crossing_death(dyd_death_d *out, double *radius2, climb_d *c) {
+  const dyd_lines_d *l = c->l;
+  double rD, D = crossing_height(&rD, &c->rising, &c->falling);
+  if (!(rD < CLOSE)) D = dyd_filter_crossing(&c->at.s, &c->at.es, &rD, c->points, l, c->rising.vertex, c->falling.vertex);
+  double s = c->at.s, es = c->at.es, quarter = 0.25 + s * s, B = l->jj * quarter;
+  double rB = (l->ejj / l->jj + (2 * fabs(s) * es + es * es) / quarter + 6 * U) * GENEROUS;
+  if (!(D > 0 && rD < 0x1p-30 && rB < 0x1p-30)) return false;
+  if (!others_above(c, c->rising.vertex, c->falling.vertex, D, rD * D)) return false;
+  *radius2 = (B + D) * (1 + 2 * (rB + rD));
+  return give(out, D / (sqrt(B + D) + sqrt(B)), rD + dyd_max(rB, rD) / 2 + 6 * U, c);
+}
+
+static bool summit_death(dyd_death_d *out, double *radius2, const climb_d *c) {
+  const dyd_line_d *o = &c->one;
+  const dyd_lines_d *l = c->l;
+  uint32_t k = 0;
+  while (l->vertex[k] != o->vertex) k++;
+  double x = o->along < 0 ? l->px[k] : l->qx[k], y = o->along < 0 ? l->py[k] : l->qy[k], w2 = x * x + y * y;
+  double ew2 = product_error(w2, 2 * (fabs(x) + fabs(y)), c->points->slack);
+  double s = c->at.s, es = c->at.es, D = height_d(o, &c->at), B = l->jj * (0.25 + s * s);
+  double eD = o->em + 2 * fabs(s) * o->en + 2 * (fabs(o->n) + o->en) * es + 4 * U * (fabs(o->m) + 2 * fabs(o->n * s));
+  double eB = B * 0x1p-30 + 2 * l->jj * (2 * fabs(s) + es) * es;
+  if (!others_above(c, o->vertex, o->vertex, D, eD)) return false;
   *radius2 = (B + eB + D + eD) * GENEROUS;
   return give(out, sqrt(w2), ew2 / w2 + 4 * U, c);
 }
 
 /* At an end: of all lines the one whose |n| is least, and its n^2 > jj m. */
-static bool end_death(dyd_death_d *out, double *radius2, const dyd_lines_d *l, const climb_d *c) {
-  const dyd_line_d *o = c->one;
+static bool end_death(dyd_death_d *out, double *radius2, const climb_d *c) {
+  const dyd_lines_d *l = c->l;
+  const dyd_line_d *o = &c->one;
   double w = -c->at.end * o->n, n2 = o->n * o->n, jm = l->jj * o->m;
   double doubt = (2 * fabs(o->n) + o->en) * o->en + (l->jj + l->ejj) * o->em + l->ejj * fabs(o->m) +
                  4 * U * (n2 + fabs(jm));
   if (!(n2 - jm > doubt * GENEROUS && w > 0)) return false;
   for (uint32_t k = 0; k < l->count; k++) {
-    const dyd_line_d *q = &l->item[k];
-    if (q->vertex != o->vertex && !(-c->at.end * q->n - w > (q->en + o->en) * GENEROUS + 2 * U * w)) return false;
+    if (l->vertex[k] == o->vertex) continue;
+    dyd_line_d q = dyd_filter_line(l, c->points, k);
+    if (!(-c->at.end * q.n - w > (q.en + o->en) * GENEROUS + 2 * U * w)) return false;
   }
   *radius2 = HUGE_VAL;
   return give(out, w / sqrt(l->jj), o->en / w + l->ejj / l->jj + 6 * U, c);
@@ -281,18 +316,20 @@ static bool end_death(dyd_death_d *out, double *radius2, const dyd_lines_d *l, c
 static void centre_box_axis(double *lo, double *hi, double origin, double along, double turn, const place_d *at,
                             double slack) {
   double c = origin + (along / 2 + at->s * turn);
-  double e = 8 * U * (fabs(origin) + fabs(along) + fabs(at->s * turn)) + 2 * slack +
-             at->es * (fabs(turn) + slack) + fabs(at->s) * slack;
+  double e = 8 * U * (fabs(origin) + fabs(along) + fabs(at->s * turn)) + 2 * slack + at->es * (fabs(turn) + slack) +
+             fabs(at->s) * slack;
   *lo = c - e * GENEROUS - TINY;
   *hi = c + e * GENEROUS + TINY;
 }
 
 bool dyd_filter_death(dyd_death_d *out, double box[4], double *radius2, const dyd_points_d *p, const dyd_lines_d *l) {
   climb_d c;
-  if (!l->count || !climb_up(&c, l)) return false;
-  bool sure = c.kind == CROSSING ? crossing_death(out, radius2, l, &c)
-              : c.kind == SUMMIT ? summit_death(out, radius2, p, l, &c)
-                                 : end_death(out, radius2, l, &c);
+  c.points = p;
+  c.l = l;
+  if (!l->count || !climb_up(&c)) return false;
+  bool sure = c.kind == CROSSING ? crossing_death(out, radius2, &c)
+              : c.kind == SUMMIT ? summit_death(out, radius2, &c)
+                                 : end_death(out, radius2, &c);
   if (!sure || !box || c.kind == END) return sure;
   double low[2] = {p->low ? fabs(p->low[l->i].x) : 0, p->low ? fabs(p->low[l->i].y) : 0};
   centre_box_axis(&box[0], &box[1], p->xy[l->i].x, l->jx, -l->jy, &c.at, p->slack + low[0]);

@@ -54,7 +54,8 @@ static void look_at(radius_pass *p, uint32_t k) {
   if (k == l->i || k == l->j) return;
   l->count = 0;
   dyd_filter_add(l, &p->t->points, k);
-  keep_least(&p->radius[k], gap_of(l, &l->item[0], p->ring) - p->ring->half);
+  dyd_line_d line = dyd_filter_line(l, &p->t->points, 0);
+  keep_least(&p->radius[k], gap_of(l, &line, p->ring) - p->ring->half);
 }
 
 /* ---- all points of one circle ---- */
