@@ -68,6 +68,15 @@ DYD_API dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_to
 /* How many deaths doubles decided, and how many integers. */
 DYD_API void dyd_tolerance_rungs(uint64_t *filter, uint64_t *exact, const dyd_tolerance *t);
 
+/* ---- discs ---- */
+
+/* Statuses of the pairs when each point lies in a disc: the one in its square, the site of pd. Discs are in squares, so
+ * only pairs that squares leave indeterminate can change: to legal (a disc holds both and meets no other), to illegal
+ * (a disc that meets both always holds another one), or they stay. Sorted; *out is replaced. Sound for every choice in
+ * the discs; squares are taken as rounded outward, so what hangs on 2^-48 of all sizes may stay indeterminate [DISC-1].
+ * DYD_E_ARG for a site that is no square (err names it); DYD_CAPPED when pd is. A few searches for each such pair. */
+DYD_API dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err);
+
 #ifdef __cplusplus
 }
 #endif

@@ -28,11 +28,15 @@ enum {
 /* All texts borrowed from argv; NULL where an option was not given, unless said otherwise. */
 typedef struct cli_options {
   const char *command;
-  const char *file;    /* the points file, or the certificate of verify; NULL with an oracle */
-  const char *points;  /* verify: the points file */
-  const char *at[2];   /* X Y of nearest */
-  const char *queries; /* or a file of places */
-  const char *output;  /* NULL: standard output */
+  const char *file;             /* the points file, or the certificate of verify; NULL with an oracle */
+  const char *points;           /* verify: the points file */
+  const char *at[2];            /* X Y of nearest */
+  const char *queries;          /* or a file of places */
+  const char *output;           /* NULL: standard output */
+  const char *up_to;            /* of tolerance */
+  const char *accuracy, *pairs; /* of plan */
+  unsigned site;                /* of plan */
+  bool site_set, next;
   dyd_read_options read;
   const char *oracle;
   unsigned oracle_jobs, oracle_batch; /* 0: default */
@@ -54,6 +58,7 @@ typedef struct cli_options {
   bool start_set;     /* engine.start_bits was given */
   bool max_bits_set;
   bool no_times, no_voronoi, of_voronoi;
+  bool discs;                 /* delaunay: radii are discs */
   dyd_voronoi_bounds *bounds; /* voronoi: where the bounds of what is written go */
   size_t *cut;                /* voronoi: where the number of cells and regions goes that the deadline cut */
   bool stats, quiet, version;
@@ -79,12 +84,17 @@ int cli_complain_memory(void);
  * out is initialised by the caller; false after a message. */
 bool cli_window_read(dyd_rect *out, const char *text);
 
+/* window.c: an exact number that is not negative, of the option --name; 0, or CLI_USAGE after a message. */
+int cli_number_read(mpq_ptr out, const char *name, const char *text);
+
 /* One function for each command, in a file of its own; returns the exit status. */
 int cli_delaunay(const cli_options *o);
 int cli_voronoi(const cli_options *o);
 int cli_check(const cli_options *o);
 int cli_converge(const cli_options *o);
 int cli_nearest(const cli_options *o);
+int cli_tolerance(const cli_options *o);
+int cli_plan(const cli_options *o);
 int cli_verify(const cli_options *o);
 int cli_disc(const cli_options *o);
 int cli_bisector(const cli_options *o);

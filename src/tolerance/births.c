@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Births up to a cap. Discs of that radius lie in squares, so who is born is a possible pair of these; each such pair is
- * worked out on few lines, and whoever lies nearer to the best place is added until nobody does [TOL-3]. */
+/* Births up to a cap. Discs of that radius lie in squares, so who is born is a possible pair of these; each such pair
+ * is worked out on few lines, and whoever lies nearer to the best place is added until nobody does [TOL-3]. */
 #include "base/error.h"
 #include "dyadic/raw.h"
 #include "tolerance/roots.h"

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The crossing of two lines in double-doubles.
  *
- * Let u = 2^-53. Sums and products of double-doubles have relative errors below 8 u^2 of the sum of the sizes of what is
- * added, or of the product (Joldes, Muller, Popescu 2017), differences of given coordinates below 4 u^2, beyond slack.
- * Three levels deep (difference, product, sum, product, sum), errors stay below ROUND = 2^-98 of the sum of the sizes of
- * all products; slack s of a difference counts s times the other factors. Products that underflow are off by less than
- * TINY, as in lines_filter.c, which refuses pairs too short for that. */
+ * Let u = 2^-53. Sums and products of double-doubles have relative errors below 8 u^2 of the sum of the sizes of what
+ * is added, or of the product (Joldes, Muller, Popescu 2017), differences of given coordinates below 4 u^2, beyond
+ * slack. Three levels deep (difference, product, sum, product, sum), errors stay below ROUND = 2^-98 of the sum of the
+ * sizes of all products; slack s of a difference counts s times the other factors. Products that underflow are off by
+ * less than TINY, as in lines_filter.c, which refuses pairs too short for that. */
 #include "tolerance/crossing_filter.h"
 
 #include <float.h>

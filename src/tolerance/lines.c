@@ -123,8 +123,9 @@ int dyd_line_height(dyd_lines *l, const dyd_bisector_place *at, size_t k) {
   return mpz_sgn(l->item[k].m);
 }
 
-/* g' = A / R - S / r up to a positive factor, A = p jj - 2 q n, S = p jj; where A and S have one sign, A^2 r^2 - S^2 R^2
- * is p^2 (n^2 - jj m) - p q n jj + q^2 n^2 up to another. At an end q = 0 stands for an infinitely small q > 0: when p^2
+/* g' = A / R - S / r up to a positive factor, A = p jj - 2 q n, S = p jj; where A and S have one sign, A^2 r^2 - S^2
+ * R^2 is p^2 (n^2 - jj m) - p q n jj + q^2 n^2 up to another. At an end q = 0 stands for an infinitely small q > 0:
+ * when p^2
  * (...) is 0, the sign is that of -p n. */
 int dyd_line_trend(dyd_lines *l, const dyd_bisector_place *at, size_t k) {
   const dyd_line_over *o = &l->item[k];

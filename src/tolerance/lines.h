@@ -18,8 +18,8 @@ typedef struct dyd_line_over {
   mpz_t m, n, along;
 } dyd_line_over;
 
-/* Invariant: item, rect and grid are initialised up to made; item[0 .. count-1] are in use, no vertex twice. Coordinates
- * were multiplied by factor > 0; (ix, iy) is p_i then. */
+/* Invariant: item, rect and grid are initialised up to made; item[0 .. count-1] are in use, no vertex twice.
+ * Coordinates were multiplied by factor > 0; (ix, iy) is p_i then. */
 typedef struct dyd_lines {
   mpz_t ix, iy, jx, jy, jj;
   mpq_t factor;

@@ -12,8 +12,8 @@
  * D = (n_b m_a - n_a m_b) / e there, and w = D / (sqrt(r^2 + D) + r) has no cancellation beyond that of D: its relative
  * error is that of D, plus half the larger of those of r^2 and D, plus 5 u. Bounds are sums of a few terms, each with a
  * few roundings: the factor GENEROUS covers them. */
-#include "tolerance/crossing_filter.h"
 #include "tolerance/lines_filter.h"
+#include "tolerance/crossing_filter.h"
 
 #include <float.h>
 #include <math.h>
@@ -56,7 +56,7 @@ bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t
   l->jy = d.y;
   l->jj = d.x * d.x + d.y * d.y;
   l->ejj = product_error(l->jj, 2 * (fabs(d.x) + fabs(d.y)), p->slack);
-  l->reach = 0;
+  l->span = 0;
   l->i = i;
   l->j = j;
   l->count = 0;
@@ -75,7 +75,7 @@ bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *at, uint32_t k) {
   l->m[c] = p.x * q.x + p.y * q.y;
   l->n[c] = p.y * l->jx - p.x * l->jy;
   double far = fabs(p.x) + fabs(p.y) + fabs(q.x) + fabs(q.y);
-  l->reach = dyd_max(far, l->reach);
+  l->span = dyd_max(far, l->span);
   l->count++;
   return true;
 }
@@ -235,10 +235,10 @@ static bool climb_up(climb_d *c) {
 /* ---- the value, and the proof ---- */
 
 /* Does every line but those that bind lie above D by more than all errors? One bound for all: |m| and the sizes of its
- * products are at most reach^2, |n| and its own at most reach (|jx| + |jy|). */
+ * products are at most span^2, |n| and its own at most span (|jx| + |jy|). */
 static bool others_above(const climb_d *c, uint32_t a, uint32_t b, double D, double eD) {
   const dyd_lines_d *l = c->l;
-  double s = c->at.s, size = l->reach + fabs(l->jx) + fabs(l->jy), slack = c->points->slack;
+  double s = c->at.s, size = l->span + fabs(l->jx) + fabs(l->jy), slack = c->points->slack;
   double e = product_error(size * size, size, slack), top = D;
   double doubt = (e * (1 + 2 * fabs(s)) + 2 * (size * size + e) * c->at.es + 4 * U * size * size * (1 + 2 * fabs(s)));
   top += (doubt + eD) * GENEROUS + 2 * U * fabs(D);
@@ -262,8 +262,8 @@ static bool give(dyd_death_d *out, double w, double relative, const climb_d *c) 
 /* D and its relative error at the crossing. */
 static double crossing_height(double *relative, const dyd_line_d *a, const dyd_line_d *b) {
   double e = b->n - a->n, ee = a->en + b->en + 2 * U * fabs(e), x = b->n * a->m, y = a->n * b->m, num = x - y;
-  double error = (fabs(b->n) + b->en) * a->em + fabs(a->m) * b->en + (fabs(a->n) + a->en) * b->em +
-                 fabs(b->m) * a->en + 4 * U * (fabs(x) + fabs(y));
+  double error = (fabs(b->n) + b->en) * a->em + fabs(a->m) * b->en + (fabs(a->n) + a->en) * b->em + fabs(b->m) * a->en +
+                 4 * U * (fabs(x) + fabs(y));
   *relative = (error / fabs(num) + ee / (fabs(e) - ee) + 4 * U) * GENEROUS;
   return num / e;
 }
@@ -271,7 +271,8 @@ static double crossing_height(double *relative, const dyd_line_d *a, const dyd_l
 static bool crossing_death(dyd_death_d *out, double *radius2, climb_d *c) {
   const dyd_lines_d *l = c->l;
   double rD, D = crossing_height(&rD, &c->rising, &c->falling);
-  if (!(rD < CLOSE)) D = dyd_filter_crossing(&c->at.s, &c->at.es, &rD, c->points, l, c->rising.vertex, c->falling.vertex);
+  if (!(rD < CLOSE))
+    D = dyd_filter_crossing(&c->at.s, &c->at.es, &rD, c->points, l, c->rising.vertex, c->falling.vertex);
   double s = c->at.s, es = c->at.es, quarter = 0.25 + s * s, B = l->jj * quarter;
   double rB = (l->ejj / l->jj + (2 * fabs(s) * es + es * es) / quarter + 6 * U) * GENEROUS;
   if (!(D > 0 && rD < 0x1p-30 && rB < 0x1p-30)) return false;
@@ -300,8 +301,8 @@ static bool end_death(dyd_death_d *out, double *radius2, const climb_d *c) {
   const dyd_lines_d *l = c->l;
   const dyd_line_d *o = &c->one;
   double w = -c->at.end * o->n, n2 = o->n * o->n, jm = l->jj * o->m;
-  double doubt = (2 * fabs(o->n) + o->en) * o->en + (l->jj + l->ejj) * o->em + l->ejj * fabs(o->m) +
-                 4 * U * (n2 + fabs(jm));
+  double doubt =
+      (2 * fabs(o->n) + o->en) * o->en + (l->jj + l->ejj) * o->em + l->ejj * fabs(o->m) + 4 * U * (n2 + fabs(jm));
   if (!(n2 - jm > doubt * GENEROUS && w > 0)) return false;
   for (uint32_t k = 0; k < l->count; k++) {
     if (l->vertex[k] == o->vertex) continue;

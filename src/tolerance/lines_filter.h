@@ -14,10 +14,10 @@ typedef struct dyd_points_d {
 } dyd_points_d;
 
 enum { DYD_LINES_D = 48 };
-/* Of one pair: P = p_k - p_i, Q = p_k - p_j, m and n as in lines.h, all rounded. reach: the largest |P| + |Q| (sum
+/* Of one pair: P = p_k - p_i, Q = p_k - p_j, m and n as in lines.h, all rounded. span: the largest |P| + |Q| (sum
  * norms), so that all errors have one bound. Vertices may be named twice. */
 typedef struct dyd_lines_d {
-  double jx, jy, jj, ejj, reach;
+  double jx, jy, jj, ejj, span;
   uint32_t i, j, count;
   double px[DYD_LINES_D], py[DYD_LINES_D], qx[DYD_LINES_D], qy[DYD_LINES_D], m[DYD_LINES_D], n[DYD_LINES_D];
   uint32_t vertex[DYD_LINES_D];

@@ -61,7 +61,7 @@ static void look_at(radius_pass *p, uint32_t k) {
 /* ---- all points of one circle ---- */
 
 /* The circle in plain coordinates; for branches only, so that a generous doubt will do. */
-static void place_circle(radius_pass *p) {
+static void place_ring(radius_pass *p) {
   const dyd_tolerance *t = p->t;
   const dyd_lines_d *l = &t->small;
   dyd_xy i = t->points.xy[l->i];
@@ -94,14 +94,14 @@ static double branch_gap(const radius_pass *p, const dyd_bbox *b) {
   return d - p->middle - p->doubt - 0x1p-40 * far;
 }
 
-static void visit_node(radius_pass *p, int level, size_t node) {
+static void visit_branch(radius_pass *p, int level, size_t node) {
   const dyd_tree *t = &p->t->tree;
   size_t at = t->level[level] + node;
   if (branch_gap(p, &t->node[at]) > p->most[at]) return;
   size_t below = level ? t->level[level] - t->level[level - 1] : t->count, first = node * DYD_TREE_FANOUT;
   for (size_t q = first; q < first + DYD_TREE_FANOUT && q < below; q++)
     if (level)
-      visit_node(p, level - 1, q);
+      visit_branch(p, level - 1, q);
     else if (!(branch_gap(p, &t->box[t->item[q]]) > p->radius[t->item[q]]))
       look_at(p, t->item[q]);
 }
@@ -134,8 +134,8 @@ static void pass_ring(radius_pass *p, const dyd_ring_d *ring, bool others) {
     keep_least(&p->radius[ring->i], ring->half);
     keep_least(&p->radius[ring->j], ring->half);
   } else {
-    place_circle(p);
-    visit_node(p, t->tree.levels - 1, 0);
+    place_ring(p);
+    visit_branch(p, t->tree.levels - 1, 0);
   }
 }
 

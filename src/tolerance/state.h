@@ -64,8 +64,8 @@ bool dyd_others_add(dyd_others *o, uint32_t v);
 /* *o becomes the neighbours of v and w in the skeleton, but v, w and the ghost; of an end of more than `most`
  * neighbours only those that are next to the other end. Repeats are possible. */
 dyd_status dyd_others_around(dyd_others *o, const dyd_tolerance *t, uint32_t v, uint32_t w, uint32_t most);
-/* Adds to *o who may lie as near to the place of t->summit as what binds there (at an end: as far out), and is neither i
- * nor j nor among the lines: at most `most`. *more: some were added. */
+/* Adds to *o who may lie as near to the place of t->summit as what binds there (at an end: as far out), and is neither
+ * i nor j nor among the lines: at most `most`. *more: some were added. */
 dyd_status dyd_others_nearer(bool *more, dyd_others *o, dyd_tolerance *t, uint32_t i, uint32_t j, size_t most);
 
 dyd_status dyd_deaths(dyd_tolerance *t);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Where f is largest: deaths, where the way up is clear, and births, where all corners are looked at [TOL-2] [TOL-3]. */
+/* Where f is largest: deaths, where the way up is clear, and births, where all corners are looked at [TOL-2] [TOL-3].
+ */
 #include "tolerance/lines.h"
 #include "tolerance/roots.h"
 
@@ -131,7 +132,8 @@ void dyd_lines_death(dyd_summit *out, dyd_lines *l) {
     size_t low = dyd_line_lowest(l, &out->at);
     bool end = mpz_sgn(out->at.q) == 0;
     int up = trend_of_death(l, &out->at, low);
-    if (binding == DYD_BINDING_TWO && (same_height(l, &out->at, low, c.rising) || same_height(l, &out->at, low, c.falling))) {
+    if (binding == DYD_BINDING_TWO &&
+        (same_height(l, &out->at, low, c.rising) || same_height(l, &out->at, low, c.falling))) {
       set_value(out, l, DYD_BINDING_TWO, c.rising, c.falling);
       return;
     }
@@ -146,7 +148,8 @@ void dyd_lines_death(dyd_summit *out, dyd_lines *l) {
 
 /* ---- births ---- */
 
-/* The line that is lowest just right of `at`, where line a is: the next corner, the line beyond it in *b. false: none. */
+/* The line that is lowest just right of `at`, where line a is: the next corner, the line beyond it in *b. false: none.
+ */
 static bool next_corner(dyd_bisector_place *at, dyd_bisector_place *spare, size_t *b, dyd_lines *l, size_t a) {
   bool found = false;
   for (size_t k = 0; k < l->count; k++) {
@@ -165,7 +168,8 @@ static bool next_corner(dyd_bisector_place *at, dyd_bisector_place *spare, size_
 }
 
 static void keep_better(dyd_summit *best, dyd_summit *now) {
-  if (best->binding != DYD_BINDING_NONE && dyd_roots_compare(now->plus, now->minus, best->plus, best->minus) <= 0) return;
+  if (best->binding != DYD_BINDING_NONE && dyd_roots_compare(now->plus, now->minus, best->plus, best->minus) <= 0)
+    return;
   dyd_summit t = *best;
   *best = *now;
   *now = t;

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Tolerances against all annuli, adversaries, and statuses: [TOL-1] [TOL-2] [TOL-3] [TOL-4] [TOL-5] [TOL-6] [FLT-TOL]. */
+/* Tolerances against all annuli, adversaries, and statuses: [TOL-1] [TOL-2] [TOL-3] [TOL-4] [TOL-5] [TOL-6] [FLT-TOL].
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+
 #include "support/random.h"
 #include "tolerance/brute.h"
 
+#include <cmocka.h>
 #include <dyadel/tolerance.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <cmocka.h>
 
 /* ---- cases ---- */
 
@@ -224,7 +226,8 @@ static bool same_edges(const brute_points *p, const answer *a) {
   assert_int_equal(dyd_sites_add_points(sites, p->n, p->x, p->y), DYD_OK);
   assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, &err), DYD_OK);
   for (uint32_t i = 0; i < p->n; i++)
-    for (uint32_t j = i + 1; j < p->n; j++) same = same && dyd_delaunay_status(pd, i, j) == dyd_delaunay_status(a->pd, i, j);
+    for (uint32_t j = i + 1; j < p->n; j++)
+      same = same && dyd_delaunay_status(pd, i, j) == dyd_delaunay_status(a->pd, i, j);
   dyd_delaunay_free(pd);
   dyd_sites_free(sites);
   return same;
@@ -338,7 +341,7 @@ static void test_edges_of_use(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_all_annuli), cmocka_unit_test(test_attacks), cmocka_unit_test(test_points_and_whole),
+      cmocka_unit_test(test_all_annuli), cmocka_unit_test(test_attacks),      cmocka_unit_test(test_points_and_whole),
       cmocka_unit_test(test_rungs),      cmocka_unit_test(test_edges_of_use),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
