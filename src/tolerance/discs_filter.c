@@ -139,7 +139,7 @@ static bool place_circle_of(circle_d *c, disc_work *w, dyd_direction u, bool leg
   return c->good;
 }
 
-static void look_around(circle_d *c) {
+static void look_around_circle(circle_d *c) {
   const dyd_bbox at = {{c->x, c->x, c->y, c->y}};
   double radius2 = c->reach * c->reach * (1 + ROOM);
   if (c->reach > 0) dyd_tree_near(&c->w->pd->sk.rects.tree, &at, &radius2, meet_square, c);
@@ -180,7 +180,7 @@ static bool discs_are_legal(disc_work *w) {
     dyd_direction u;
     if (!load_caps(w, true) || !dyd_caps_common(&u, &w->caps)) return false;
     if (!place_circle_of(&c, w, u, true)) return false;
-    look_around(&c);
+    look_around_circle(&c);
     if (c.good) return true;
     if (!c.added) return false;
   }
@@ -194,7 +194,7 @@ static bool large_is_legal(disc_work *w) {
       .w = w, .x = mpq_get_d(j->x), .y = mpq_get_d(j->y), .radius = mpq_get_d(j->r), .legal = true, .good = true};
   c.radius += 2 * room_d(&c, w->j);
   c.reach = c.radius * (1 + ROOM);
-  look_around(&c);
+  look_around_circle(&c);
   return c.good;
 }
 
@@ -205,7 +205,7 @@ static bool discs_are_possible(disc_work *w) {
     if (!load_caps(w, false)) return true;
     if (!dyd_caps_uncovered(&u, &w->caps)) return false;
     if (place_circle_of(&c, w, u, false))
-      look_around(&c);
+      look_around_circle(&c);
     else
       look_beyond(&c, u);
     if (!c.added) return true;
