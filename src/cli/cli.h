@@ -139,6 +139,8 @@ typedef dyd_status (*cli_run_fn)(dyd_engine *e, const dyd_engine_options *option
 int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_run_fn run, void *user);
 /* Comes before a result is written: takes the bar off a terminal that the result goes to. */
 void cli_session_settle(cli_session *s);
+/* Says that there is nothing to write, as the work ended before `what` ("the plan was") known, and how to mend that. */
+int cli_session_stopped(const cli_session *s, const char *what);
 /* Prints the result, from the engine, to --output, when there is one (otherwise says so). */
 int cli_session_write(cli_session *s, cli_print_fn print);
 /* Writes anything to the file `name` (NULL: standard output), whole or not at all. 0, or CLI_FAILED after a message. */
@@ -185,6 +187,10 @@ void cli_signals_cancel(dyd_engine *e);
 void cli_signals_remove(const char *temporary);
 /* Removes that file; async-signal-safe. */
 void cli_signals_unlink(void);
+/* Raises the flag below; async-signal-safe, from any thread. */
+void cli_signals_stop(void);
+/* Set to 1 by the signal that cancels the engine, and at the deadline: for work on what the engine has found. */
+const volatile int *cli_signals_flag(void);
 
 /* deadline.c: what --timeout gives the whole command. seconds <= 0: no limit. */
 void cli_deadline_start(double seconds);

@@ -56,9 +56,12 @@ static int plan_options(plan_run *r, const cli_options *o) {
   if (!status && o->window && !cli_window_read(&r->window, o->window)) status = CLI_USAGE;
   if (!status && o->pairs) status = pairs_read(&r->pairs, o->pairs);
   r->site = o->site;
-  r->options = (dyd_survey_options){DYD_SIZED(dyd_survey_options), .pairs = o->pairs ? &r->pairs : NULL,
-                                    .window = o->window ? &r->window : NULL, .site = o->site_set ? &r->site : NULL,
-                                    .accuracy = o->accuracy ? r->accuracy : NULL};
+  r->options = (dyd_survey_options){DYD_SIZED(dyd_survey_options),
+                                    .pairs = o->pairs ? &r->pairs : NULL,
+                                    .window = o->window ? &r->window : NULL,
+                                    .site = o->site_set ? &r->site : NULL,
+                                    .accuracy = o->accuracy ? r->accuracy : NULL,
+                                    .cancel = cli_signals_flag()};
   return status;
 }
 
@@ -93,7 +96,8 @@ static dyd_status plan_find(dyd_engine *e, const dyd_engine_options *options, vo
     r->pairs.item[k].i = point_of_row(e, r->pairs.item[k].i);
     r->pairs.item[k].j = point_of_row(e, r->pairs.item[k].j);
   }
-  return dyd_survey_new(&r->survey, dyd_engine_delaunay(e), &r->options, err);
+  st = dyd_survey_new(&r->survey, dyd_engine_delaunay(e), &r->options, err);
+  return st == DYD_CANCELLED ? DYD_OK : st;
 }
 
 static int plan_session(cli_session *s, plan_run *r, const cli_options *o) {
@@ -102,10 +106,7 @@ static int plan_session(cli_session *s, plan_run *r, const cli_options *o) {
   int status = cli_session_run_by(s, &o->engine, plan_find, r);
   cli_session_settle(s);
   if (status) return status;
-  if (!r->survey) {
-    cli_complain("stopped before the plan was known: there is no result to write");
-    return CLI_CANCELLED;
-  }
+  if (!r->survey) return cli_session_stopped(s, "the plan was");
   status = cli_write_file(o->output, o, plan_write, r);
   dyd_survey_count(&open, &ties, &left, r->survey);
   if (status || !left) return status;

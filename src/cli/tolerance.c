@@ -21,13 +21,14 @@ static dyd_status tolerance_find(dyd_engine *e, const dyd_engine_options *option
   tolerance_run *r = user;
   dyd_outcome outcome;
   dyd_engine_options once = *options;
-  dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .points = true, .max_pairs = options->max_pairs};
+  dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .points = true, .max_pairs = options->max_pairs,
+                             .cancel = cli_signals_flag()};
   once.max_stages = 1;
   dyd_status st = dyd_engine_run(&outcome, e, &once, err);
   if (st != DYD_OK || !dyd_engine_delaunay(e)) return st;
   if (mpq_sgn(r->up_to)) o.up_to = r->up_to;
   st = dyd_tolerance_new(&r->tolerance, dyd_engine_delaunay(e), &o, err);
-  return st;
+  return st == DYD_CANCELLED ? DYD_OK : st;
 }
 
 static int tolerance_all(cli_session *s, tolerance_run *r, const cli_options *o) {
@@ -35,8 +36,7 @@ static int tolerance_all(cli_session *s, tolerance_run *r, const cli_options *o)
   int status = cli_session_run_by(s, &o->engine, tolerance_find, r);
   cli_session_settle(s);
   if (!status && r->tolerance) return cli_write_file(o->output, o, tolerance_write, r);
-  if (!status) cli_complain("stopped before the tolerances were known: there is no result to write");
-  return status ? status : CLI_CANCELLED;
+  return status ? status : cli_session_stopped(s, "the tolerances were");
 }
 
 int cli_tolerance(const cli_options *o) {

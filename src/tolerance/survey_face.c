@@ -3,6 +3,7 @@
  * triangulation of these: greedily the site that leaves fewest of its targets open, then whoever is not needed goes.
  * Whether the plan is enough is seen on all sites in the end. */
 #include "base/alloc.h"
+#include "base/flag.h"
 #include "base/index.h"
 #include "tolerance/survey.h"
 
@@ -30,13 +31,15 @@ static dyd_status try_face(size_t *open_pairs, size_t *open, const face_try *f) 
   dyd_sites *sites = NULL;
   dyd_delaunay *pd = NULL;
   dyd_rect r;
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = f->s->options.cancel};
+  if (dyd_flag_is_set(o.cancel)) return DYD_CANCELLED;
   dyd_rect_init(&r);
   dyd_status st = dyd_sites_new(&sites);
   for (size_t k = 0; k < f->sites.count && st == DYD_OK; k++) {
     st = dyd_survey_rect(&r, f->s, f->sites.item[k], f->measured[k]);
     if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
   }
-  if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, NULL, NULL);
+  if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
   if (st == DYD_CAPPED) st = DYD_OK;
   *open_pairs = 0;
   if (open) memset(open, 0, f->sites.count * sizeof *open);
@@ -85,7 +88,6 @@ static dyd_status choose_sites(face_try *f, size_t *open) {
   dyd_status st = try_face(&open_pairs, open, f);
   while (st == DYD_OK && open_pairs) {
     size_t best;
-    if (f->s->options.cancel && *f->s->options.cancel) return DYD_CANCELLED;
     st = best_site(&best, f, open_pairs, open);
     if (st != DYD_OK || best == f->sites.count) return st;
     f->measured[best] = true;
