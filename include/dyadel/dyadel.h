@@ -32,6 +32,8 @@
 #include <dyadel/io.h>
 #include <dyadel/metric.h>
 #include <dyadel/oracle.h>
+#include <dyadel/survey.h>
+#include <dyadel/tolerance.h>
 #include <dyadel/voronoi.h>
 
 #endif

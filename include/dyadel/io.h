@@ -6,6 +6,8 @@
 #include <dyadel/check.h>
 #include <dyadel/converge.h>
 #include <dyadel/metric.h>
+#include <dyadel/survey.h>
+#include <dyadel/tolerance.h>
 #include <stdio.h>
 
 #ifdef __cplusplus
@@ -83,7 +85,11 @@ typedef enum dyd_content {
   DYD_CONTENT_VERTICES,
   DYD_CONTENT_REGIONS,
   DYD_CONTENT_EDGES,
-  DYD_CONTENT_PLACES /* the nearest points of many places */
+  DYD_CONTENT_PLACES,    /* the nearest points of many places */
+  DYD_CONTENT_TOLERANCE, /* events of pairs */
+  DYD_CONTENT_RADII,     /* and its other layers: how far each point may be from its place; */
+  DYD_CONTENT_BARCODE,   /* how many edges are certain at which accuracy */
+  DYD_CONTENT_PLAN       /* what to measure next */
 } dyd_content;
 
 /* Finds a format by its name ("csv"), or by the ending of a file's name ("a/map.svg", in any case); false when there is
@@ -99,8 +105,9 @@ DYD_API bool dyd_format_is_binary(dyd_format format);
 DYD_API const char *dyd_format_name(dyd_format format);
 /* What it is, in words without a full stop; NULL as above. Static storage. */
 DYD_API const char *dyd_format_about(dyd_format format);
-/* The layers of DYD_CONTENT_DELAUNAY and DYD_CONTENT_VORONOI: the k-th name, the default first, NULL behind the last
- * one; and the content that a name ("points") stands for, false when there is none. Static storage. */
+/* The layers of DYD_CONTENT_DELAUNAY, DYD_CONTENT_VORONOI and DYD_CONTENT_TOLERANCE: the k-th name, the default first,
+ * NULL behind the last one; and the content that a name ("points") stands for, false when there is none. Static
+ * storage. */
 DYD_API const char *dyd_layer_name(dyd_content of, size_t k);
 DYD_API bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name);
 /* Can the format hold it? Where not, the writers below return DYD_E_ARG with a message that names those that can. */
@@ -117,6 +124,8 @@ typedef struct dyd_delaunay_output {
   size_t struct_size;     /* set by DYD_SIZED */
   const dyd_rect *window; /* what svg, pdf and png show: positive area; NULL: everything */
   dyd_content layer;      /* what csv, wkt and geojson hold; DYD_CONTENT_NONE: the pairs */
+  const dyd_pair_list
+      *pairs;    /* written in place of those of e, as pairs in csv, wkt, geojson and pictures; NULL: none */
   unsigned epsg; /* EPSG number of the coordinates' reference system, for geojson and json; 0: none is claimed */
 } dyd_delaunay_output;
 /* The same as o says; NULL: as dyd_write_delaunay. DYD_E_ARG when the format does not hold the layer. */
@@ -175,6 +184,26 @@ DYD_API dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_n
 /* The same of many places, numbered from 0; outcome: of all of them. */
 DYD_API dyd_status dyd_write_places(FILE *out, const dyd_engine *e, const dyd_nearest_answer *const *answer,
                                     size_t count, dyd_outcome outcome, dyd_format format, dyd_error *err);
+
+typedef struct dyd_tolerance_output {
+  size_t struct_size;     /* set by DYD_SIZED */
+  const dyd_rect *window; /* what svg, pdf and png show: positive area; NULL: everything */
+  dyd_content layer;      /* what csv, wkt and geojson hold; DYD_CONTENT_NONE: the pairs */
+  unsigned epsg;          /* as in dyd_delaunay_output */
+} dyd_tolerance_output;
+/* Writes the tolerances t of the current result of e; o may be NULL. Numbers lo are rounded down, hi up. Pictures
+ * colour edges by the death. DYD_E_ARG when the format does not hold the layer, or radii were not asked for. */
+DYD_API dyd_status dyd_write_tolerance(FILE *out, const dyd_engine *e, const dyd_tolerance *t,
+                                       const dyd_tolerance_output *o, dyd_format format, dyd_error *err);
+
+typedef struct dyd_plan_output {
+  size_t struct_size; /* set by DYD_SIZED */
+  bool next;          /* the first row only */
+  unsigned epsg;      /* as in dyd_delaunay_output */
+} dyd_plan_output;
+/* Writes the plan s for the current result of e; o may be NULL. Widths now are rounded up, those needed down. */
+DYD_API dyd_status dyd_write_plan(FILE *out, const dyd_engine *e, const dyd_survey *s, const dyd_plan_output *o,
+                                  dyd_format format, dyd_error *err);
 
 /* Writes a table of convergence; DYD_E_ARG when there was no run. Bounds and widths are rounded up, and the output says
  * so. times = false leaves the seconds out: then equal runs give equal bytes. */

@@ -28,11 +28,15 @@ enum {
 /* All texts borrowed from argv; NULL where an option was not given, unless said otherwise. */
 typedef struct cli_options {
   const char *command;
-  const char *file;    /* the points file, or the certificate of verify; NULL with an oracle */
-  const char *points;  /* verify: the points file */
-  const char *at[2];   /* X Y of nearest */
-  const char *queries; /* or a file of places */
-  const char *output;  /* NULL: standard output */
+  const char *file;             /* the points file, or the certificate of verify; NULL with an oracle */
+  const char *points;           /* verify: the points file */
+  const char *at[2];            /* X Y of nearest */
+  const char *queries;          /* or a file of places */
+  const char *output;           /* NULL: standard output */
+  const char *up_to;            /* of tolerance */
+  const char *accuracy, *pairs; /* of plan */
+  unsigned site;                /* of plan */
+  bool site_set, next;
   dyd_read_options read;
   const char *oracle;
   unsigned oracle_jobs, oracle_batch; /* 0: default */
@@ -54,6 +58,7 @@ typedef struct cli_options {
   bool start_set;     /* engine.start_bits was given */
   bool max_bits_set;
   bool no_times, no_voronoi, of_voronoi;
+  bool discs;                 /* delaunay: radii are discs */
   dyd_voronoi_bounds *bounds; /* voronoi: where the bounds of what is written go */
   size_t *cut;                /* voronoi: where the number of cells and regions goes that the deadline cut */
   bool stats, quiet, version;
@@ -79,12 +84,17 @@ int cli_complain_memory(void);
  * out is initialised by the caller; false after a message. */
 bool cli_window_read(dyd_rect *out, const char *text);
 
+/* window.c: an exact number that is not negative, of the option --name; 0, or CLI_USAGE after a message. */
+int cli_number_read(mpq_ptr out, const char *name, const char *text);
+
 /* One function for each command, in a file of its own; returns the exit status. */
 int cli_delaunay(const cli_options *o);
 int cli_voronoi(const cli_options *o);
 int cli_check(const cli_options *o);
 int cli_converge(const cli_options *o);
 int cli_nearest(const cli_options *o);
+int cli_tolerance(const cli_options *o);
+int cli_plan(const cli_options *o);
 int cli_verify(const cli_options *o);
 int cli_disc(const cli_options *o);
 int cli_bisector(const cli_options *o);
@@ -129,6 +139,8 @@ typedef dyd_status (*cli_run_fn)(dyd_engine *e, const dyd_engine_options *option
 int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_run_fn run, void *user);
 /* Comes before a result is written: takes the bar off a terminal that the result goes to. */
 void cli_session_settle(cli_session *s);
+/* Says that there is nothing to write, as the work ended before `what` ("the plan was") known, and how to mend that. */
+int cli_session_stopped(const cli_session *s, const char *what);
 /* Prints the result, from the engine, to --output, when there is one (otherwise says so). */
 int cli_session_write(cli_session *s, cli_print_fn print);
 /* Writes anything to the file `name` (NULL: standard output), whole or not at all. 0, or CLI_FAILED after a message. */
@@ -175,6 +187,10 @@ void cli_signals_cancel(dyd_engine *e);
 void cli_signals_remove(const char *temporary);
 /* Removes that file; async-signal-safe. */
 void cli_signals_unlink(void);
+/* Raises the flag below; async-signal-safe, from any thread. */
+void cli_signals_stop(void);
+/* Set to 1 by the signal that cancels the engine, and at the deadline: for work on what the engine has found. */
+const volatile int *cli_signals_flag(void);
 
 /* deadline.c: what --timeout gives the whole command. seconds <= 0: no limit. */
 void cli_deadline_start(double seconds);

@@ -37,6 +37,7 @@ static void *deadline_watch(void *unused) {
   (void)unused;
   deadline_wait(ends);
   __atomic_store_n(&late, 1, __ATOMIC_SEQ_CST);
+  cli_signals_stop();
   deadline_wait(ends + grace);
   cli_complain("budget: the time is used up, and %s does not end: nothing of it is known; raise --timeout",
                atomic_load(&phase));

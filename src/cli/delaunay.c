@@ -2,9 +2,72 @@
 /* dyadel delaunay FILE: read, run, write. A window is what pictures show. */
 #include "cli.h"
 
+/* pairs: of discs; NULL: those of the engine. */
+static dyd_status write_pairs(FILE *out, const dyd_engine *e, const dyd_pair_list *pairs, const cli_options *o,
+                              dyd_error *err) {
+  const dyd_delaunay_output how = {DYD_SIZED(dyd_delaunay_output), o->view, o->content, pairs, o->epsg};
+  return dyd_write_delaunay_as(out, e, &how, o->format, err);
+}
+
 static dyd_status delaunay_write(FILE *out, const void *engine, const cli_options *o, dyd_error *err) {
-  const dyd_delaunay_output how = {DYD_SIZED(dyd_delaunay_output), o->view, o->content, o->epsg};
-  return dyd_write_delaunay_as(out, engine, &how, o->format, err);
+  return write_pairs(out, engine, NULL, o, err);
+}
+
+/* ---- discs ---- */
+
+typedef struct disc_result {
+  const dyd_engine *engine;
+  dyd_pair_list pairs;
+} disc_result;
+
+static dyd_status discs_write(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+  const disc_result *r = what;
+  return write_pairs(out, r->engine, &r->pairs, o, err);
+}
+
+/* What is open among the discs: exit status, and a note. */
+static int discs_outcome(const disc_result *r, const cli_options *o) {
+  size_t count[4] = {0};
+  for (size_t k = 0; k < r->pairs.count; k++) count[r->pairs.item[k].status]++;
+  if (count[DYD_INDETERMINATE] + count[DYD_TIE] == 0) return CLI_OK;
+  dyd_outcome outcome = dyd_engine_outcome(r->engine);
+  if (!o->quiet)
+    cli_complain("%s: %zu legal, %zu indeterminate, %zu tie among the discs", dyd_outcome_text(outcome),
+                 count[DYD_LEGAL], count[DYD_INDETERMINATE], count[DYD_TIE]);
+  return cli_exit_status(outcome);
+}
+
+static int discs_result(cli_session *s, disc_result *r, const cli_options *o) {
+  dyd_error err;
+  r->engine = s->engine;
+  int status = cli_session_run(s, &o->engine);
+  if (status) return status;
+  if (!dyd_engine_delaunay(s->engine)) return cli_session_write(s, delaunay_write);
+  if (dyd_disc_pairs(&r->pairs, dyd_engine_delaunay(s->engine), &err) != DYD_OK) {
+    cli_complain_at(o->file, &err);
+    return CLI_FAILED;
+  }
+  cli_session_settle(s);
+  status = cli_write_file(o->output, o, discs_write, r);
+  return status ? status : discs_outcome(r, o);
+}
+
+static int delaunay_discs(cli_options *o) {
+  const cli_options as_given = *o;
+  disc_result r = {0};
+  cli_session s;
+  if (o->certificate) {
+    cli_complain("a certificate proves statuses of rectangles; leave --discs or --certificate away");
+    return CLI_USAGE;
+  }
+  int status = cli_session_open(&s, o);
+  if (!status) {
+    status = discs_result(&s, &r, &as_given);
+    o->quiet = true; /* the session would tell of the squares */
+  }
+  int end = cli_session_close(&s, status);
+  dyd_pair_list_clear(&r.pairs);
+  return o->quiet && status == CLI_OK ? CLI_OK : end;
 }
 
 int cli_delaunay(const cli_options *o) {
@@ -16,7 +79,7 @@ int cli_delaunay(const cli_options *o) {
     own.view = &window;
     status = cli_window_read(&window, o->window) ? 0 : CLI_USAGE;
   }
-  if (!status) status = cli_session_all(&own, delaunay_write);
+  if (!status) status = o->discs ? delaunay_discs(&own) : cli_session_all(&own, delaunay_write);
   dyd_rect_clear(&window);
   return status;
 }

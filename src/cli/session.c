@@ -197,6 +197,15 @@ int cli_session_write(cli_session *s, cli_print_fn print) {
   return status ? status : written;
 }
 
+/* The engine may see the end of time a little before the flag is raised. */
+int cli_session_stopped(const cli_session *s, const char *what) {
+  const dyd_engine *e = s->engine;
+  bool late = *cli_deadline_flag() || (!dyd_engine_delaunay(e) && dyd_engine_outcome(e) == DYD_OUTCOME_BUDGET);
+  cli_complain("%s before %s known: there is no result to write%s", late ? "budget: the time was used up" : "cancelled",
+               what, late ? "; raise --timeout" : "");
+  return late ? CLI_BUDGET : CLI_CANCELLED;
+}
+
 int cli_session_close(cli_session *s, int status) {
   const cli_options *o = s->options;
   cli_progress_stop(s->progress);

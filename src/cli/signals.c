@@ -10,16 +10,26 @@
 
 static _Atomic(dyd_engine *) to_cancel;
 static _Atomic(const char *) to_remove;
+static volatile int stop;
 
 void cli_signals_unlink(void) {
   const char *name = atomic_load(&to_remove);
   if (name) unlink(name);
 }
 
+void cli_signals_stop(void) {
+  __atomic_store_n(&stop, 1, __ATOMIC_SEQ_CST);
+}
+
+const volatile int *cli_signals_flag(void) {
+  return &stop;
+}
+
 static void signal_handle(int number) {
   dyd_engine *e = atomic_exchange(&to_cancel, NULL);
   if (e) {
     dyd_engine_cancel(e);
+    cli_signals_stop();
     return;
   }
   cli_signals_unlink();

@@ -67,6 +67,19 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                      "bounds of the distance. The place and the points concerned are refined until one is\n"
                      "sure. --queries FILE asks of many places at once.",
                      DYD_CONTENT_NEAREST, cli_nearest},
+    [CLI_TOLERANCE] = {"tolerance", "FILE", "how far the points may move before edges are lost or born",
+                       "For exact points: for every edge the distance up to which all points may move at\n"
+                       "once before it may be lost (death), for other pairs that before which none becomes\n"
+                       "an edge (birth), for every point how far it may be from its place, and the like for\n"
+                       "the whole. Numbers lo are rounded down, hi up, at most 2^-40 of themselves apart;\n"
+                       "empty: never. k and l are the points that bind.",
+                       DYD_CONTENT_TOLERANCE, cli_tolerance},
+    [CLI_PLAN] = {"plan", "FILE", "which points to measure next, and how accurately, so that all is decided",
+                  "For points known as rectangles: a list of points, the most telling first, so that no\n"
+                  "pair is left open if they turn out within half_width_needed of the middles of their\n"
+                  "rectangles. That is proved by one triangulation. Pairs that tie if all points are in\n"
+                  "the middle are left aside. Exit status 3: some pairs stay open all the same.",
+                  DYD_CONTENT_PLAN, cli_plan},
 };
 
 const char *const cli_group_names[CLI_GROUPS] = {[CLI_INPUT] = "Input",
@@ -98,6 +111,8 @@ const cli_option cli_option_table[] = {
     {"measured", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "decimals are rounded measurements: 47.61 is [47.605,47.615]",
      AT(read.measured)},
     {"radius", 0, "R", CLI_TEXT, TEXT, CLI_INPUT, "widen every point by R on each side", AT(read.radius)},
+    {"discs", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY), CLI_INPUT,
+     "radii are those of discs, not of squares around them:\nfewer pairs stay indeterminate", AT(discs)},
     {"oracle", 0, "COMMAND", CLI_TEXT, READ, CLI_INPUT,
      "in place of FILE: ask this program (sh -c) for the points;\nit prints \"points N\", then answers each line "
      "\"refine I B\"\nby \"I XLO XHI YLO YHI\", aiming at widths of 2^-B",
@@ -123,32 +138,44 @@ const cli_option cli_option_table[] = {
     {"max-bits", 0, "B", CLI_INTEGER, REFINE, CLI_REFINEMENT,
      "precision at which to give up (default 4096; check: 192)", AT(engine.max_bits), RANGE(1, DYD_EXP_LIMIT),
      GIVEN(max_bits_set)},
-    {"max-pairs", 0, "K", CLI_INTEGER, RUN, CLI_REFINEMENT, "cap on stored pairs (default 4000000 + 16 per point)",
-     AT(engine.max_pairs), RANGE(1, (long long)1 << 40)},
-    {"timeout", 0, "SECONDS", CLI_SECONDS, REFINE, CLI_REFINEMENT, "end after this time, reading and writing included",
-     AT(engine.seconds)},
+    {"max-pairs", 0, "K", CLI_INTEGER, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_REFINEMENT,
+     "cap on stored pairs (default 4000000 + 16 per point)", AT(engine.max_pairs), RANGE(1, (long long)1 << 40)},
+    {"timeout", 0, "SECONDS", CLI_SECONDS, REFINE | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_REFINEMENT,
+     "end after this time, reading and writing included", AT(engine.seconds)},
     {"schedule", 0, "WHICH", CLI_SCHEDULE, RUN, CLI_REFINEMENT,
      "adaptive (default): refine what is undecided;\nuniform: refine all points", AT(engine.schedule)},
     {"start-bits", 0, "B", CLI_INTEGER, RUN, CLI_REFINEMENT, "precision of the first stage (default 64; converge: 4)",
      AT(engine.start_bits), RANGE(1, DYD_EXP_LIMIT), GIVEN(start_set)},
     {"step-bits", 0, "K", CLI_INTEGER, RUN, CLI_REFINEMENT, "refine in steps of K bits (default: geometric growth)",
      AT(engine.step_bits), RANGE(1, DYD_EXP_LIMIT)},
-    {"threads", 0, "T", CLI_INTEGER, RUN, CLI_REFINEMENT, "threads to use (default 1); results do not depend on it",
-     AT(engine.threads), RANGE(1, 1024)},
+    {"threads", 0, "T", CLI_INTEGER, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_REFINEMENT,
+     "threads to use (default 1); results do not depend on it", AT(engine.threads), RANGE(1, 1024)},
 
-    {"window", 0, "XLO,XHI,YLO,YHI", CLI_WINDOW, RUN, CLI_OUTPUT,
+    {"window", 0, "XLO,XHI,YLO,YHI", CLI_WINDOW, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_OUTPUT,
      "the part of the plane looked at; exact numbers\n(default: the box of the points enlarged by half);\n"
-     "delaunay: what svg, pdf and png show (default: all),\nother formats list everything all the same",
+     "delaunay: what svg, pdf and png show (default: all),\nother formats list everything all the same;\nplan: only "
+     "pairs with an end in it are to be decided",
      AT(window)},
     {"flatten", 0, "M", CLI_INTEGER, BIT(CLI_VORONOI), CLI_OUTPUT, "draw arcs by polygons within 2^-M of them",
      AT(flatten_bits), RANGE(-DYD_EXP_LIMIT, DYD_EXP_LIMIT), GIVEN(flatten_set)},
     {"format", 0, "F", CLI_FORMAT, CLI_ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
-    {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_OUTPUT,
+    {"accuracy", 0, "A", CLI_TEXT, BIT(CLI_PLAN), CLI_REFINEMENT,
+     "measuring gives a point within A, an exact number\n(default: as exactly as it takes)", AT(accuracy)},
+    {"pairs", 0, "FILE", CLI_FILE, BIT(CLI_PLAN), CLI_REFINEMENT,
+     "only these pairs are to be decided: lines i,j,... as\ndelaunay writes them", AT(pairs)},
+    {"site", 0, "K", CLI_INTEGER, BIT(CLI_PLAN), CLI_REFINEMENT, "only pairs of point K are to be decided", AT(site),
+     RANGE(0, UINT32_MAX), GIVEN(site_set)},
+    {"next", 0, NULL, CLI_FLAG, BIT(CLI_PLAN), CLI_OUTPUT, "only the first point to measure", AT(next)},
+    {"up-to", 0, "EPS", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
+     "also births: pairs that may become edges when points\nmove by EPS at most; an exact number", AT(up_to)},
+
+    {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE), CLI_OUTPUT,
      "what csv, wkt and geojson hold; delaunay: pairs (default),\npoints, triangles; voronoi: cells (default), "
-     "vertices,\n"
-     "regions, edges; json and vtk hold all of them",
+     "vertices,\nregions, edges; json and vtk hold all of them;\ntolerance: pairs (default), points, barcode (csv: how "
+     "many\n"
+     "edges are certain at which accuracy)",
      AT(layer)},
-    {"crs", 0, "EPSG:N", CLI_CRS, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_OUTPUT,
+    {"crs", 0, "EPSG:N", CLI_CRS, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_OUTPUT,
      "the reference system of the coordinates, for geojson and\njson (default: none is claimed)", AT(epsg)},
     {"output", 'o', "FILE", CLI_FILE, CLI_ALL, CLI_OUTPUT,
      "write to FILE, whole or not at all; its ending, such as\n.svg, chooses the format", AT(output)},

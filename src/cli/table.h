@@ -15,6 +15,8 @@ typedef enum cli_command_number {
   CLI_DISC,
   CLI_BISECTOR,
   CLI_NEAREST,
+  CLI_TOLERANCE,
+  CLI_PLAN,
   CLI_COMMANDS
 } cli_command_number;
 

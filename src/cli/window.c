@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The text of --window to a rectangle. */
+/* The text of --window to a rectangle; numbers of other options. */
 #include "cli.h"
+#include <string.h>
 
 /* Splits at the commas outside parentheses; true when there are exactly four numbers. */
 static bool read_window_ends(mpq_t end[4], const char *text) {
@@ -38,4 +39,10 @@ bool cli_window_read(dyd_rect *out, const char *text) {
   for (int k = 0; k < 4; k++) mpq_clear(end[k]);
   if (wrong) cli_complain("--window \"%s\" %s", text, wrong);
   return !wrong;
+}
+
+int cli_number_read(mpq_ptr out, const char *name, const char *text) {
+  if (dyd_real_parse_exact(out, text, strlen(text)) == DYD_OK && mpq_sgn(out) >= 0) return 0;
+  cli_complain("--%s \"%s\" is not understood; give an exact number of 0 or more, such as 0.01", name, text);
+  return CLI_USAGE;
 }

@@ -75,11 +75,16 @@ const char *dyd_format_about(dyd_format format) {
 static const struct {
   const char *name;
   dyd_content of, layer;
-} layers[] = {
-    {"pairs", DYD_CONTENT_DELAUNAY, DYD_CONTENT_DELAUNAY},      {"points", DYD_CONTENT_DELAUNAY, DYD_CONTENT_POINTS},
-    {"triangles", DYD_CONTENT_DELAUNAY, DYD_CONTENT_TRIANGLES}, {"cells", DYD_CONTENT_VORONOI, DYD_CONTENT_VORONOI},
-    {"vertices", DYD_CONTENT_VORONOI, DYD_CONTENT_VERTICES},    {"regions", DYD_CONTENT_VORONOI, DYD_CONTENT_REGIONS},
-    {"edges", DYD_CONTENT_VORONOI, DYD_CONTENT_EDGES}};
+} layers[] = {{"pairs", DYD_CONTENT_DELAUNAY, DYD_CONTENT_DELAUNAY},
+              {"points", DYD_CONTENT_DELAUNAY, DYD_CONTENT_POINTS},
+              {"triangles", DYD_CONTENT_DELAUNAY, DYD_CONTENT_TRIANGLES},
+              {"cells", DYD_CONTENT_VORONOI, DYD_CONTENT_VORONOI},
+              {"vertices", DYD_CONTENT_VORONOI, DYD_CONTENT_VERTICES},
+              {"regions", DYD_CONTENT_VORONOI, DYD_CONTENT_REGIONS},
+              {"edges", DYD_CONTENT_VORONOI, DYD_CONTENT_EDGES},
+              {"pairs", DYD_CONTENT_TOLERANCE, DYD_CONTENT_TOLERANCE},
+              {"points", DYD_CONTENT_TOLERANCE, DYD_CONTENT_RADII},
+              {"barcode", DYD_CONTENT_TOLERANCE, DYD_CONTENT_BARCODE}};
 enum { LAYERS = sizeof layers / sizeof *layers };
 
 const char *dyd_layer_name(dyd_content of, size_t k) {

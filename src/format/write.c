@@ -39,6 +39,12 @@ static dyd_status refuse_layer(dyd_content layer, dyd_content of, dyd_error *err
   return dyd_fail(err, DYD_E_ARG, "content number %d is no layer of this", (int)layer);
 }
 
+/* Other formats and layers tell of more than pairs. */
+static bool holds_pairs_alone(dyd_content layer, dyd_format format) {
+  bool pairs = layer == DYD_CONTENT_NONE || layer == DYD_CONTENT_DELAUNAY;
+  return pairs && format != DYD_FORMAT_JSON && format != DYD_FORMAT_OBJ && format != DYD_FORMAT_VTK;
+}
+
 dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delaunay_output *options, dyd_format format,
                                  dyd_error *err) {
   if (err) dyd_error_clear(err);
@@ -49,12 +55,15 @@ dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delau
   if (!r.pd) return DYD_E_ARG;
   r.sites = dyd_delaunay_sites(r.pd);
   r.count = dyd_sites_count(r.sites);
-  dyd_status st = dyd_delaunay_pairs(&r.pairs, r.pd);
+  if (o.pairs && !holds_pairs_alone(o.layer, format))
+    return dyd_fail(err, DYD_E_ARG, "statuses of discs are written as pairs: in csv, wkt, geojson, svg, pdf or png");
+  dyd_status st = o.pairs ? DYD_OK : dyd_delaunay_pairs(&r.pairs, r.pd);
+  if (o.pairs) r.pairs = *o.pairs;
   if (st == DYD_OK)
     st = dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_DELAUNAY), &r, err);
   else
     dyd_fail(err, st, "%s", dyd_status_text(st));
-  dyd_pair_list_clear(&r.pairs);
+  if (!o.pairs) dyd_pair_list_clear(&r.pairs);
   return st;
 }
 
@@ -201,4 +210,31 @@ dyd_status dyd_write_places(FILE *out, const dyd_engine *e, const dyd_nearest_an
   dyd_status st = write_answers(out, e, own, &what, DYD_CONTENT_PLACES, format, err);
   free(own);
   return st;
+}
+
+dyd_status dyd_write_tolerance(FILE *out, const dyd_engine *e, const dyd_tolerance *t,
+                               const dyd_tolerance_output *options, dyd_format format, dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  dyd_tolerance_output o;
+  if (dyd_abi_take(&o, sizeof o, options, "dyd_tolerance_output", err) != DYD_OK) return DYD_E_ARG;
+  if (refuse_layer(o.layer, DYD_CONTENT_TOLERANCE, err) != DYD_OK) return DYD_E_ARG;
+  if (o.layer == DYD_CONTENT_RADII && !dyd_tolerance_points(t))
+    return dyd_fail(err, DYD_E_ARG, "how far points may be from their places was not asked for");
+  dyd_result r = {.out = out, .engine = e, .pd = result_of(e, err), .window = o.window, .epsg = o.epsg};
+  if (!r.pd) return DYD_E_ARG;
+  r.sites = dyd_delaunay_sites(r.pd);
+  r.count = dyd_sites_count(r.sites);
+  return dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_TOLERANCE), &(dyd_tolerance_result){&r, t}, err);
+}
+
+dyd_status dyd_write_plan(FILE *out, const dyd_engine *e, const dyd_survey *s, const dyd_plan_output *options,
+                          dyd_format format, dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  dyd_plan_output o;
+  if (dyd_abi_take(&o, sizeof o, options, "dyd_plan_output", err) != DYD_OK) return DYD_E_ARG;
+  dyd_result r = {.out = out, .engine = e, .pd = result_of(e, err), .epsg = o.epsg};
+  if (!r.pd) return DYD_E_ARG;
+  r.sites = dyd_delaunay_sites(r.pd);
+  r.count = dyd_sites_count(r.sites);
+  return dyd_format_write(out, format, DYD_CONTENT_PLAN, &(dyd_plan_result){&r, s, o.next}, err);
 }

@@ -58,7 +58,8 @@ static void geojson_head(const dyd_table_head *h) {
     fputs(no_system, h->out);
   fprintf(h->out,
           "\"}},\n\"rounding\": \"a coordinate differs from every point that it stands for by at most "
-          "max_coordinate_error; numbers called lo are rounded down, others that are not whole up\",\n"
+          "max_coordinate_error; numbers called lo, rho or half_width_needed are rounded down, others that are not "
+          "whole up\",\n"
           "\"outcome\": \"%s\",\n\"features\": [",
           dyd_outcome_text(dyd_engine_outcome(h->engine)));
 }

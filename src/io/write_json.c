@@ -166,4 +166,5 @@ dyd_writer *const dyd_json_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = jso
                                                     [DYD_CONTENT_DISC] = dyd_disc_json,
                                                     [DYD_CONTENT_BISECTOR] = dyd_bisector_json,
                                                     [DYD_CONTENT_NEAREST] = dyd_nearest_json,
-                                                    [DYD_CONTENT_PLACES] = dyd_places_json};
+                                                    [DYD_CONTENT_PLACES] = dyd_places_json,
+                                                    [DYD_CONTENT_TOLERANCE] = dyd_tolerance_json};

@@ -7,6 +7,7 @@ Usage: test_deadline.py COMMAND DATA
 import csv
 import json
 import os
+import signal
 import subprocess
 import tempfile
 import time
@@ -105,6 +106,41 @@ def test_one_message():
             out.write('[0,1] 0\n5 1\n2 7\n')
         result = run('voronoi', '--quiet', '--flatten', '60', path)
         expect(result, 1, r'\A\Z', r'\Adyadel: [^\n]*far.txt: polygons within [^\n]*--flatten\n\Z')
+
+
+# Work on what the engine found at once: 300,000 births, and faces of hundreds of squares.
+LONG = {'tolerance': (('--up-to', '1e6'), ''.join(f'{k * k % 997} {k * k * k % 991}.{k}\n' for k in range(800))),
+        'plan': ((), ''.join(f'{k * k % 997}+-12 {k * k * k % 991}.{k}+-12\n' for k in range(800)))}
+
+
+def test_tolerances_and_plans_in_time():
+    for command, (extra, text) in LONG.items():
+        expect(timed(1, command, '-', *extra, stdin=text), 4, r'\A\Z',
+               r'^dyadel: budget: the time was used up before the [a-z ]+ known: .*; raise --timeout')
+
+
+def catches_interrupts(process):
+    with open(f'/proc/{process.pid}/status', encoding='ascii') as status:
+        caught = next(int(line.split()[1], 16) for line in status if line.startswith('SigCgt'))
+    return caught >> (signal.SIGINT - 1) & 1
+
+
+def test_tolerances_and_plans_interrupted():
+    for command, (extra, text) in LONG.items():
+        with subprocess.Popen([COMMAND, command, '-', *extra], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True) as process:
+            process.stdin.write(text)
+            process.stdin.close()
+            process.stdin = None
+            while process.poll() is None and not catches_interrupts(process):
+                time.sleep(0.01)
+            time.sleep(1)
+            begun = time.monotonic()
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=60)
+        assert time.monotonic() - begun < SPARE, f'{command}: {time.monotonic() - begun} seconds'
+        assert process.returncode == 5 and not out, (command, process.returncode, err)
+        assert 'cancelled before the ' in err and 'there is no result to write' in err, err
 
 
 main(globals())

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-enum { CONTENTS = DYD_CONTENT_PLACES + 1 };
+enum { CONTENTS = DYD_CONTENT_PLAN + 1 };
 
 static void test_names(void **state) {
   (void)state;
@@ -70,6 +70,31 @@ static void example_clear(example *x) {
   dyd_engine_free(x->e);
 }
 
+/* The points of the example need not be exact for a plan, but for tolerances: three others. */
+static dyd_status write_tolerance(FILE *out, dyd_content content, dyd_format format, dyd_error *err) {
+  const dyd_tolerance_options options = {DYD_SIZED(dyd_tolerance_options), .points = true};
+  const dyd_tolerance_output o = {DYD_SIZED(dyd_tolerance_output), .layer = content};
+  dyd_engine *e;
+  dyd_tolerance *t;
+  dyd_outcome outcome;
+  assert_int_equal(dyd_engine_new(&e), DYD_OK);
+  assert_int_equal(dyd_engine_add_points(e, 3, (const double[]){0, 3, 1}, (const double[]){0, 0, 2}), DYD_OK);
+  assert_int_equal(dyd_engine_run(&outcome, e, NULL, NULL), DYD_OK);
+  assert_int_equal(dyd_tolerance_new(&t, dyd_engine_delaunay(e), &options, NULL), DYD_OK);
+  dyd_status st = dyd_write_tolerance(out, e, t, &o, format, err);
+  dyd_tolerance_free(t);
+  dyd_engine_free(e);
+  return st;
+}
+
+static dyd_status write_plan(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err) {
+  dyd_survey *s;
+  assert_int_equal(dyd_survey_new(&s, dyd_engine_delaunay(e), NULL, NULL), DYD_OK);
+  dyd_status st = dyd_write_plan(out, e, s, NULL, format, err);
+  dyd_survey_free(s);
+  return st;
+}
+
 static dyd_status write_content(FILE *out, const example *x, dyd_content content, dyd_format format, dyd_error *err) {
   const dyd_rect *const r[] = {&x->r[0], &x->r[1], &x->r[2]};
   const dyd_nearest_answer answer = {DYD_SIZED(dyd_nearest_answer), r[0], &x->nearest, true, DYD_OUTCOME_DECIDED};
@@ -97,6 +122,12 @@ static dyd_status write_content(FILE *out, const example *x, dyd_content content
   case DYD_CONTENT_EDGES:
     return dyd_write_voronoi(out, x->e, &(dyd_voronoi_options){DYD_SIZED(dyd_voronoi_options), .layer = content},
                              format, err);
+  case DYD_CONTENT_TOLERANCE:
+  case DYD_CONTENT_RADII:
+  case DYD_CONTENT_BARCODE:
+    return write_tolerance(out, content, format, err);
+  case DYD_CONTENT_PLAN:
+    return write_plan(out, x->e, format, err);
   case DYD_CONTENT_PLACES:
     return dyd_write_places(out, x->e, &(const dyd_nearest_answer *){&answer}, 1, DYD_OUTCOME_DECIDED, format, err);
   default:

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What to measure next: which rectangles have to be smaller, and how small, so that all pairs, or those asked for, are
+ * decided (mathematics: section 14). */
+#ifndef DYADEL_SURVEY_H
+#define DYADEL_SURVEY_H
+
+#include <dyadel/delaunay.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Measure `site` so that it is within `needed` of its nominal place, the centre of its rectangle, in x and in y; half
+ * of its larger side is `now`. Then, with the rows before, `decided` more of the pairs asked for are, and `left` are
+ * not. now is rounded up, needed down. */
+typedef struct dyd_survey_row {
+  uint32_t site;
+  double now, needed;
+  size_t decided, left;
+} dyd_survey_row;
+
+typedef struct dyd_survey_options {
+  size_t struct_size;         /* set by DYD_SIZED */
+  const dyd_pair_list *pairs; /* asked for; NULL: all. Borrowed for the call, as the others */
+  const dyd_rect *window;     /* only pairs with an end whose rectangle meets it; NULL: anywhere */
+  const uint32_t *site;       /* only pairs with this end; NULL: any */
+  mpq_srcptr accuracy;        /* how exactly can be measured, above 0; NULL: as exactly as it takes */
+  const double *cost;         /* of measuring each site, above 0; NULL: the same for all */
+  const volatile int *cancel; /* as in dyd_delaunay_options */
+} dyd_survey_options;
+
+typedef struct dyd_survey dyd_survey;
+
+/* A plan: if the points of the rows turn out where they say, no pair asked for is indeterminate, but for those that tie
+ * at the nominal places: proved by one triangulation of these rectangles. No row can be left out, as far as its
+ * own faces tell (in small plans: at all), and all accuracies are as coarse as one common
+ * factor makes them, then each by itself in powers of 2 [SUR-1].
+ * dyd_survey_left: how many pairs stay open even so (the accuracy is not enough, or rectangles are fixed by their
+ * centres). pd is borrowed for the call; options may be NULL. Returns DYD_OK; DYD_E_ARG; DYD_CAPPED when pd is;
+ * DYD_CANCELLED; DYD_E_NOMEM: *out is NULL then. Cost: for a face of m sites at most m^2 triangulations of m sites,
+ * usually few; some triangulations of all. */
+DYD_API dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_survey_options *options,
+                                  dyd_error *err);
+DYD_API void dyd_survey_free(dyd_survey *s);
+/* In the order to measure them, the most telling first. Borrowed until s is freed. */
+DYD_API size_t dyd_survey_rows(const dyd_survey_row **row, const dyd_survey *s);
+/* Pairs asked for that were open, pairs that tie at the nominal places, pairs that the plan leaves open. */
+DYD_API void dyd_survey_count(size_t *open, size_t *ties, size_t *left, const dyd_survey *s);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* How far points may move before the Delaunay triangulation changes (mathematics: section 12).
+ *
+ * All points move at once, each within a disc of radius t about its nominal place, or t times its weight. A Delaunay
+ * edge dies at the t from which some choice of points may lose it; a pair that is no edge is born at the t from which
+ * some choice makes it one. So each pair has one number, and the statuses for discs of radius t are read off it. */
+#ifndef DYADEL_TOLERANCE_H
+#define DYADEL_TOLERANCE_H
+
+#include <dyadel/delaunay.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DYD_NO_SITE UINT32_MAX
+
+typedef enum dyd_tolerance_event {
+  DYD_EVENT_DEATH = 0, /* an edge: legal for every t below */
+  DYD_EVENT_BIRTH,     /* no edge: illegal for every t below */
+  DYD_EVENT_TIE        /* an edge only weakly: lost and found by the least motion; lo = hi = 0 */
+} dyd_tolerance_event;
+/* "death", "birth", "tie". Static storage. */
+DYD_API const char *dyd_tolerance_event_text(dyd_tolerance_event event);
+
+/* The event of i, j (i < j) is at a t in [lo, hi], hi <= (1 + 2^-40) lo within the range of doubles; both are infinite
+ * where nothing ever happens. k < l: the sites that bind: the largest empty annulus about the pair has them on its
+ * outer circle (birth: on its inner one). l = DYD_NO_SITE: k alone binds, k too: nobody does, or a tie. Where more
+ * sites bind, two of them. */
+typedef struct dyd_tolerance_row {
+  uint32_t i, j;
+  dyd_tolerance_event event;
+  uint32_t k, l;
+  double lo, hi;
+} dyd_tolerance_row;
+
+typedef struct dyd_tolerance_options {
+  size_t struct_size;         /* set by DYD_SIZED */
+  mpq_srcptr up_to;           /* births up to here are found, too; NULL: none. Borrowed for the call */
+  bool points;                /* also how far each point may be from its place */
+  size_t max_pairs;           /* cap on pairs looked at for births; 0: default, see dyd_delaunay_options */
+  const volatile int *cancel; /* as in dyd_delaunay_options */
+  bool no_filter;             /* decide everything on the exact rung (for tests) */
+} dyd_tolerance_options;
+
+typedef struct dyd_tolerance dyd_tolerance;
+
+/* The tolerances of the exact points of pd, which is borrowed until dyd_tolerance_free and must not change. options may
+ * be NULL. Returns DYD_OK; DYD_E_ARG with a message when a site is no exact point, or for a negative up_to; DYD_CAPPED
+ * when there are too many pairs for births; DYD_CANCELLED; DYD_E_NOMEM: *out is NULL then.
+ * Cost: O(N log N) for deaths [TOL-4]; births take the partial triangulation of squares of half-width up_to, and a few
+ * searches for each of its pairs; points a search for each edge. */
+DYD_API dyd_status dyd_tolerance_new(dyd_tolerance **out, const dyd_delaunay *pd, const dyd_tolerance_options *options,
+                                     dyd_error *err);
+DYD_API void dyd_tolerance_free(dyd_tolerance *t);
+
+/* All rows: every possible pair of pd, and the births; sorted by i, then j. Borrowed until t is freed. */
+DYD_API size_t dyd_tolerance_rows(const dyd_tolerance_row **row, const dyd_tolerance *t);
+/* The t in [*lo, *hi] up to which nothing changes at all: no edge is lost, no pair becomes one. 0 where there are ties;
+ * infinite for fewer than three points [TOL-5]. */
+DYD_API void dyd_tolerance_whole(double *lo, double *hi, const dyd_tolerance *t);
+/* For each site a radius, rounded down: if every point is within its radius of its place, legal edges are edges, and
+ * others are none, as at the nominal places [TOL-6]. Borrowed; NULL unless options.points was set. Aliases have 0. */
+DYD_API const double *dyd_tolerance_points(const dyd_tolerance *t);
+/* The exact event of row number `row`: |sqrt(plus) - sqrt(minus)| / 2; both are initialised by the caller. DYD_E_ARG
+ * where lo is infinite, or there is no such row. O(1) */
+DYD_API dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_tolerance *t, size_t row);
+/* How many deaths doubles decided, and how many integers. */
+DYD_API void dyd_tolerance_rungs(uint64_t *filter, uint64_t *exact, const dyd_tolerance *t);
+
+/* ---- discs ---- */
+
+/* Statuses of the pairs when each point lies in a disc: the one in its square, the site of pd. Discs are in squares, so
+ * only pairs that squares leave indeterminate can change: to legal (a disc holds both and meets no other), to illegal
+ * (a disc that meets both always holds another one), or they stay. Sorted; *out is replaced. Sound for every choice in
+ * the discs; squares are taken as rounded outward, so what hangs on 2^-48 of all sizes may stay indeterminate [DISC-1].
+ * DYD_E_ARG for a site that is no square (err names it); DYD_CAPPED when pd is. A few searches for each such pair. */
+DYD_API dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* dyadel plan FILE: what to measure next. */
+#include "cli.h"
+#include <stdlib.h>
+
+typedef struct plan_run {
+  dyd_survey *survey;
+  const dyd_engine *engine;
+  dyd_survey_options options;
+  mpq_t accuracy;
+  dyd_rect window;
+  dyd_pair_list pairs;
+  uint32_t site;
+} plan_run;
+
+/* ---- what is asked ---- */
+
+static bool plan_add_pair(dyd_pair_list *l, uint32_t i, uint32_t j) {
+  if (l->count % 1024 == 0) {
+    dyd_pair *more = realloc(l->item, (l->count + 1024) * sizeof *more);
+    if (!more) return false;
+    l->item = more;
+  }
+  l->item[l->count++] = (dyd_pair){i < j ? i : j, i < j ? j : i, DYD_INDETERMINATE};
+  return true;
+}
+
+/* A line: two numbers and whatever follows. Comments, the header and empty lines are passed over. */
+static int pairs_line(dyd_pair_list *l, const char *file, const char *text, size_t line) {
+  unsigned long i, j;
+  if (*text == '#' || *text == 'i' || *text == '\n' || *text == '\r' || !*text) return 0;
+  if (sscanf(text, "%lu%*1[, \t]%lu", &i, &j) != 2 || i > UINT32_MAX || j > UINT32_MAX || i == j) {
+    cli_complain("%s:%zu: this is no pair of different points; lines begin with i,j, their numbers", file, line);
+    return CLI_FAILED;
+  }
+  return plan_add_pair(l, (uint32_t)i, (uint32_t)j) ? 0 : cli_complain_memory();
+}
+
+static int pairs_read(dyd_pair_list *l, const char *file) {
+  char text[4096];
+  FILE *in = cli_input_open(file, "check the name of the file of pairs");
+  if (!in) return CLI_FAILED;
+  int status = 0;
+  for (size_t line = 1; !status && fgets(text, sizeof text, in); line++) status = pairs_line(l, file, text, line);
+  cli_input_close(in);
+  return status;
+}
+
+static int plan_options(plan_run *r, const cli_options *o) {
+  int status = o->accuracy ? cli_number_read(r->accuracy, "accuracy", o->accuracy) : 0;
+  if (!status && o->accuracy && mpq_sgn(r->accuracy) == 0) {
+    cli_complain("--accuracy \"%s\" is not understood; nothing is measured exactly: give a number above 0",
+                 o->accuracy);
+    status = CLI_USAGE;
+  }
+  if (!status && o->window && !cli_window_read(&r->window, o->window)) status = CLI_USAGE;
+  if (!status && o->pairs) status = pairs_read(&r->pairs, o->pairs);
+  r->site = o->site;
+  r->options = (dyd_survey_options){DYD_SIZED(dyd_survey_options),
+                                    .pairs = o->pairs ? &r->pairs : NULL,
+                                    .window = o->window ? &r->window : NULL,
+                                    .site = o->site_set ? &r->site : NULL,
+                                    .accuracy = o->accuracy ? r->accuracy : NULL,
+                                    .cancel = cli_signals_flag()};
+  return status;
+}
+
+/* ---- the plan ---- */
+
+static dyd_status plan_write(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+  const plan_run *r = what;
+  const dyd_plan_output how = {DYD_SIZED(dyd_plan_output), o->next, o->epsg};
+  return dyd_write_plan(out, r->engine, r->survey, &how, o->format, err);
+}
+
+/* Points are named by their rows in the file; the number of that point, one that does not exist where there is none. */
+static uint32_t point_of_row(const dyd_engine *e, uint32_t row) {
+  size_t lo = 0, hi = dyd_engine_count(e);
+  while (lo < hi) {
+    size_t mid = lo + (hi - lo) / 2;
+    if (dyd_engine_row(e, mid) < row)
+      lo = mid + 1;
+    else
+      hi = mid;
+  }
+  return lo < dyd_engine_count(e) && dyd_engine_row(e, lo) == row ? (uint32_t)lo : UINT32_MAX;
+}
+
+static dyd_status plan_find(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
+  plan_run *r = user;
+  dyd_outcome outcome;
+  dyd_status st = dyd_engine_run(&outcome, e, options, err);
+  if (st != DYD_OK || outcome == DYD_OUTCOME_CANCELLED || !dyd_engine_delaunay(e)) return st;
+  r->site = point_of_row(e, r->site);
+  for (size_t k = 0; k < r->pairs.count; k++) {
+    r->pairs.item[k].i = point_of_row(e, r->pairs.item[k].i);
+    r->pairs.item[k].j = point_of_row(e, r->pairs.item[k].j);
+  }
+  st = dyd_survey_new(&r->survey, dyd_engine_delaunay(e), &r->options, err);
+  return st == DYD_CANCELLED ? DYD_OK : st;
+}
+
+static int plan_session(cli_session *s, plan_run *r, const cli_options *o) {
+  size_t open, ties, left;
+  r->engine = s->engine;
+  int status = cli_session_run_by(s, &o->engine, plan_find, r);
+  cli_session_settle(s);
+  if (status) return status;
+  if (!r->survey) return cli_session_stopped(s, "the plan was");
+  status = cli_write_file(o->output, o, plan_write, r);
+  dyd_survey_count(&open, &ties, &left, r->survey);
+  if (status || !left) return status;
+  if (!o->quiet) cli_complain("%zu of %zu pairs stay open with this plan; give a finer --accuracy", left, open);
+  return CLI_FIXPOINT;
+}
+
+int cli_plan(const cli_options *o) {
+  plan_run r = {0};
+  cli_options own = *o;
+  cli_session s;
+  mpq_init(r.accuracy);
+  dyd_rect_init(&r.window);
+  int status = plan_options(&r, o);
+  if (!status) {
+    status = cli_session_open(&s, &own);
+    if (!status) status = plan_session(&s, &r, o);
+    own.quiet = true; /* what is open now is what the plan is about */
+    dyd_survey_free(r.survey);
+    cli_session_close(&s, status ? status : CLI_USAGE);
+  }
+  dyd_pair_list_clear(&r.pairs);
+  dyd_rect_clear(&r.window);
+  mpq_clear(r.accuracy);
+  return status;
+}

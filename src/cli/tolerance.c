@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* dyadel tolerance FILE: how far the points may move. */
+#include "cli.h"
+
+typedef struct tolerance_run {
+  dyd_tolerance *tolerance;
+  const dyd_engine *engine;
+  mpq_t up_to;
+  dyd_rect window;
+} tolerance_run;
+
+static dyd_status tolerance_write(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
+  const tolerance_run *r = what;
+  const dyd_tolerance_output how = {DYD_SIZED(dyd_tolerance_output), o->window ? &r->window : NULL, o->content,
+                                    o->epsg};
+  return dyd_write_tolerance(out, r->engine, r->tolerance, &how, o->format, err);
+}
+
+/* The triangulation of the points as they are, and what it tolerates. */
+static dyd_status tolerance_find(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
+  tolerance_run *r = user;
+  dyd_outcome outcome;
+  dyd_engine_options once = *options;
+  dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .points = true, .max_pairs = options->max_pairs,
+                             .cancel = cli_signals_flag()};
+  once.max_stages = 1;
+  dyd_status st = dyd_engine_run(&outcome, e, &once, err);
+  if (st != DYD_OK || !dyd_engine_delaunay(e)) return st;
+  if (mpq_sgn(r->up_to)) o.up_to = r->up_to;
+  st = dyd_tolerance_new(&r->tolerance, dyd_engine_delaunay(e), &o, err);
+  return st == DYD_CANCELLED ? DYD_OK : st;
+}
+
+static int tolerance_all(cli_session *s, tolerance_run *r, const cli_options *o) {
+  r->engine = s->engine;
+  int status = cli_session_run_by(s, &o->engine, tolerance_find, r);
+  cli_session_settle(s);
+  if (!status && r->tolerance) return cli_write_file(o->output, o, tolerance_write, r);
+  return status ? status : cli_session_stopped(s, "the tolerances were");
+}
+
+int cli_tolerance(const cli_options *o) {
+  tolerance_run r = {0};
+  cli_options own = *o;
+  cli_session s;
+  mpq_init(r.up_to);
+  dyd_rect_init(&r.window);
+  int status = o->up_to ? cli_number_read(r.up_to, "up-to", o->up_to) : 0;
+  if (!status && o->window && !cli_window_read(&r.window, o->window)) status = CLI_USAGE;
+  if (!status) {
+    status = cli_session_open(&s, &own);
+    if (!status) status = tolerance_all(&s, &r, o);
+    own.quiet = true; /* ties are events here, nothing left open */
+    dyd_tolerance_free(r.tolerance);
+    r.tolerance = NULL;
+    int end = cli_session_close(&s, status ? status : CLI_USAGE);
+    if (status) status = end;
+  }
+  dyd_rect_clear(&r.window);
+  mpq_clear(r.up_to);
+  return status;
+}

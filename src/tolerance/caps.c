@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Caps of directions, exactly. */
+#include "tolerance/caps.h"
+
+#include "base/alloc.h"
+
+#include <string.h>
+
+void dyd_disc_init(dyd_disc *d) {
+  mpq_inits(d->x, d->y, d->r, NULL);
+}
+
+void dyd_disc_clear(dyd_disc *d) {
+  mpq_clears(d->x, d->y, d->r, NULL);
+}
+
+void dyd_caps_init(dyd_caps *c) {
+  memset(c, 0, sizeof *c);
+  mpq_inits(c->qx, c->qy, c->rho, c->a, c->b, c->s, c->t, NULL);
+}
+
+void dyd_caps_clear(dyd_caps *c) {
+  for (size_t k = 0; k < c->made; k++) {
+    dyd_cap *p = &c->item[k];
+    mpq_clears(p->wx, p->wy, p->tau, p->ww, p->c, NULL);
+  }
+  free(c->item);
+  mpq_clears(c->qx, c->qy, c->rho, c->a, c->b, c->s, c->t, NULL);
+}
+
+/* ---- discs ---- */
+
+static void squared_distance(mpq_ptr out, mpq_ptr spare, const dyd_disc *a, const dyd_disc *b) {
+  mpq_sub(out, a->x, b->x);
+  mpq_mul(out, out, out);
+  mpq_sub(spare, a->y, b->y);
+  mpq_mul(spare, spare, spare);
+  mpq_add(out, out, spare);
+}
+
+bool dyd_discs_meet(const dyd_disc *a, const dyd_disc *b) {
+  mpq_t d, s;
+  mpq_inits(d, s, NULL);
+  squared_distance(d, s, a, b);
+  mpq_add(s, a->r, b->r);
+  mpq_mul(s, s, s);
+  bool meet = mpq_cmp(d, s) <= 0;
+  mpq_clears(d, s, NULL);
+  return meet;
+}
+
+bool dyd_disc_is_within(const dyd_disc *small, const dyd_disc *large) {
+  mpq_t d, s;
+  mpq_inits(d, s, NULL);
+  squared_distance(d, s, small, large);
+  mpq_sub(s, large->r, small->r);
+  mpq_mul(s, s, s);
+  bool within = mpq_cmp(d, s) <= 0;
+  mpq_clears(d, s, NULL);
+  return within;
+}
+
+/* (x, y, rho) = ((k - i), r) / (|k - i|^2 - r^2) */
+static void invert(mpq_ptr x, mpq_ptr y, mpq_ptr rho, dyd_caps *c, const dyd_disc *i, const dyd_disc *k, mpq_srcptr r) {
+  squared_distance(c->s, c->t, k, i);
+  mpq_mul(c->t, r, r);
+  mpq_sub(c->s, c->s, c->t);
+  mpq_sub(x, k->x, i->x);
+  mpq_div(x, x, c->s);
+  mpq_sub(y, k->y, i->y);
+  mpq_div(y, y, c->s);
+  mpq_div(rho, r, c->s);
+}
+
+/* ---- loading ---- */
+
+static dyd_cap *next_cap(dyd_caps *c) {
+  if (!dyd_reserve((void **)&c->item, &c->cap, c->count + 1, sizeof *c->item)) return NULL;
+  dyd_cap *p = &c->item[c->count];
+  if (c->count == c->made) {
+    mpq_inits(p->wx, p->wy, p->tau, p->ww, p->c, NULL);
+    c->made++;
+  }
+  c->count++;
+  return p;
+}
+
+static void finish_cap(dyd_caps *c, dyd_cap *p) {
+  mpq_mul(p->ww, p->wx, p->wx);
+  mpq_mul(c->t, p->wy, p->wy);
+  mpq_add(p->ww, p->ww, c->t);
+  mpq_mul(c->t, p->tau, p->tau);
+  mpq_sub(p->c, p->ww, c->t);
+  p->w[0] = mpq_get_d(p->wx);
+  p->w[1] = mpq_get_d(p->wy);
+  p->top = mpq_get_d(p->tau);
+}
+
+/* The bound: u.(-q_j) > rho_j is forbidden where possible is asked, u.q_j > rho_j wanted where legal is. */
+bool dyd_caps_begin(dyd_caps *c, const dyd_disc *i, const dyd_disc *j, bool legal) {
+  c->count = 0;
+  dyd_cap *p = next_cap(c);
+  if (!p) return false;
+  mpq_sub(c->a, j->r, i->r);
+  invert(c->qx, c->qy, c->rho, c, i, j, c->a);
+  p->vertex = UINT32_MAX;
+  mpq_set(p->wx, c->qx);
+  mpq_set(p->wy, c->qy);
+  mpq_set(p->tau, c->rho);
+  if (!legal) {
+    mpq_neg(p->wx, p->wx);
+    mpq_neg(p->wy, p->wy);
+  }
+  finish_cap(c, p);
+  return true;
+}
+
+bool dyd_caps_add(dyd_caps *c, const dyd_disc *i, const dyd_disc *k, uint32_t vertex, bool legal) {
+  dyd_cap *p = next_cap(c);
+  if (!p) return false;
+  mpq_add(c->a, k->r, i->r);
+  invert(p->wx, p->wy, p->tau, c, i, k, c->a);
+  mpq_sub(p->wx, p->wx, c->qx);
+  mpq_sub(p->wy, p->wy, c->qy);
+  if (legal) {
+    mpq_neg(p->wx, p->wx);
+    mpq_neg(p->wy, p->wy);
+  }
+  mpq_add(p->tau, p->tau, c->rho);
+  p->vertex = vertex;
+  finish_cap(c, p);
+  return true;
+}
+
+/* ---- ends ---- */
+
+/* Sign of a + b sqrt(q), q >= 0. */
+static int sign_of_root(dyd_caps *c, mpq_srcptr a, mpq_srcptr b, mpq_srcptr q) {
+  int x = mpq_sgn(a), y = mpq_sgn(q) ? mpq_sgn(b) : 0;
+  if (x == y || !y) return x;
+  if (!x) return y;
+  mpq_mul(c->s, a, a);
+  mpq_mul(c->t, b, b);
+  mpq_mul(c->t, c->t, q);
+  int larger = mpq_cmp(c->s, c->t);
+  return larger > 0 ? x : larger < 0 ? y : 0;
+}
+
+/* The end of cap e on the side `turn` (1: counter-clockwise): u = (tau w + turn sqrt(c) w') / ww, w' the left turn of
+ * w. The sign of u.w_k - tau_k. */
+static int end_against(dyd_caps *c, const dyd_cap *e, int turn, const dyd_direction *u, const dyd_cap *k) {
+  int sure = dyd_filter_cap_side(u, k);
+  if (sure) return sure;
+  mpq_mul(c->a, e->wx, k->wx);
+  mpq_mul(c->b, e->wy, k->wy);
+  mpq_add(c->a, c->a, c->b);
+  mpq_mul(c->a, c->a, e->tau);
+  mpq_mul(c->b, k->tau, e->ww);
+  mpq_sub(c->a, c->a, c->b);
+  mpq_mul(c->b, e->wx, k->wy);
+  mpq_mul(c->s, e->wy, k->wx);
+  mpq_sub(c->b, c->b, c->s);
+  if (turn < 0) mpq_neg(c->b, c->b);
+  return sign_of_root(c, c->a, c->b, e->c);
+}
+
+/* Where both ends are at one place: does cap k lie on the same side of it? Both do when k's own end there is that of
+ * the same turn: the sign of the derivative (u').w_k, u' = the left turn of u. */
+static bool same_side(dyd_caps *c, const dyd_cap *e, int turn, const dyd_cap *k) {
+  /* ww u'.w_k = tau (w'.w_k) - turn sqrt(c) (w.w_k) */
+  mpq_mul(c->a, e->wx, k->wy);
+  mpq_mul(c->s, e->wy, k->wx);
+  mpq_sub(c->a, c->a, c->s);
+  mpq_mul(c->a, c->a, e->tau);
+  mpq_mul(c->b, e->wx, k->wx);
+  mpq_mul(c->s, e->wy, k->wy);
+  mpq_add(c->b, c->b, c->s);
+  if (turn > 0) mpq_neg(c->b, c->b);
+  int rises = sign_of_root(c, c->a, c->b, e->c);
+  return turn > 0 ? rises < 0 : rises > 0;
+}
+
+static bool is_empty(const dyd_cap *k) {
+  return mpq_sgn(k->c) <= 0;
+}
+
+/* ---- answers ---- */
+
+bool dyd_caps_uncovered(dyd_direction *u, dyd_caps *c) {
+  bool any = false;
+  for (size_t e = 0; e < c->count; e++) {
+    if (is_empty(&c->item[e])) continue;
+    any = true;
+    for (int turn = -1; turn <= 1; turn += 2) {
+      size_t k = 0;
+      *u = dyd_filter_cap_end(&c->item[e], turn);
+      while (k < c->count && (is_empty(&c->item[k]) || end_against(c, &c->item[e], turn, u, &c->item[k]) <= 0)) k++;
+      if (k < c->count) continue;
+      return true;
+    }
+  }
+  if (!any) *u = (dyd_direction){1, 0};
+  return !any;
+}
+
+/* The common part begins at the end of one of them. */
+static bool begins_common(dyd_caps *c, size_t e, int turn, const dyd_direction *u) {
+  for (size_t k = 0; k < c->count; k++) {
+    int inside = k == e ? 1 : end_against(c, &c->item[e], turn, u, &c->item[k]);
+    if (inside < 0 || (inside == 0 && !same_side(c, &c->item[e], turn, &c->item[k]))) return false;
+  }
+  return true;
+}
+
+bool dyd_caps_common(dyd_direction *u, dyd_caps *c) {
+  dyd_direction end[2];
+  bool found[2] = {false, false};
+  for (size_t e = 0; e < c->count; e++) {
+    if (is_empty(&c->item[e])) return false;
+    for (int turn = -1; turn <= 1; turn += 2) {
+      bool *have = &found[turn > 0];
+      if (*have) continue;
+      end[turn > 0] = dyd_filter_cap_end(&c->item[e], turn);
+      *have = begins_common(c, e, turn, &end[turn > 0]);
+    }
+  }
+  if (!found[0] || !found[1]) return false;
+  *u = dyd_filter_between(end);
+  return true;
+}

@@ -1,0 +1,267 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Statuses of discs [DISC-1]: what squares leave indeterminate is decided for the discs in them.
+ *
+ * Who has to be looked at for a pair is found by searching the squares about one circle after another. Illegal is
+ * proved by caps of finitely many sites, exactly. Legal is proved by a witness: a centre of doubles, checked against
+ * everybody whose square comes as near as the farther of both discs. |c - p| and the sums with radii are within ROOM =
+ * 2^-48 of all sizes met (a few roundings each); what is closer than that counts as not proved. */
+#include "base/alloc.h"
+#include "base/error.h"
+#include "delaunay/undecided.h"
+#include "tolerance/caps.h"
+#include <dyadel/tolerance.h>
+
+#include <math.h>
+
+#define ROOM 0x1p-48
+enum { FIRST_SEEN = 10, MOST_NEW = 4, MOST_ROUNDS = 400 };
+
+typedef struct disc_work {
+  const dyd_delaunay *pd;
+  dyd_disc *disc; /* by vertex */
+  dyd_caps caps;
+  uint32_t i, j; /* vertices, the smaller disc first */
+  uint32_t *seen;
+  size_t count, cap;
+  bool failed;
+} disc_work;
+
+/* ---- discs ---- */
+
+/* The disc in a square. Its ends may have been rounded outward, by less than 2^-50 of what they are: so is the disc. */
+static bool disc_of_square(dyd_disc *d, const dyd_rect *r) {
+  mpq_t lo, hi, h, room;
+  mpq_inits(lo, hi, h, room, NULL);
+  dyd_interval_get_q(lo, hi, &r->x);
+  mpq_add(d->x, lo, hi);
+  mpq_sub(h, hi, lo);
+  dyd_interval_get_q(lo, hi, &r->y);
+  mpq_add(d->y, lo, hi);
+  mpq_sub(d->r, hi, lo);
+  mpq_abs(lo, d->x);
+  mpq_abs(room, d->y);
+  mpq_add(room, room, lo);
+  mpq_add(room, room, h);
+  mpq_add(room, room, d->r);
+  mpq_div_2exp(room, room, 50);
+  mpq_sub(lo, h, d->r);
+  mpq_abs(lo, lo);
+  bool square = mpq_cmp(lo, room) <= 0;
+  bool point = !mpq_sgn(h) && !mpq_sgn(d->r);
+  if (mpq_cmp(h, d->r) > 0) mpq_set(d->r, h);
+  if (!point) mpq_add(d->r, d->r, room);
+  mpq_div_2exp(d->x, d->x, 1);
+  mpq_div_2exp(d->y, d->y, 1);
+  mpq_div_2exp(d->r, d->r, 1);
+  mpq_clears(lo, hi, h, room, NULL);
+  return square;
+}
+
+static dyd_status make_discs(disc_work *w, dyd_error *err) {
+  const dyd_skeleton *sk = &w->pd->sk;
+  dyd_rect r;
+  dyd_status st = DYD_OK;
+  dyd_rect_init(&r);
+  for (uint32_t v = 0; v < sk->n && st == DYD_OK; v++) {
+    uint32_t site = sk->reps.site[v];
+    st = dyd_sites_get(&r, sk->reps.sites, site);
+    if (st != DYD_OK || disc_of_square(&w->disc[v], &r)) continue;
+    if (err) err->point = site;
+    st = dyd_fail(err, DYD_E_ARG, "a disc needs one radius, the same in x and y");
+  }
+  dyd_rect_clear(&r);
+  return st;
+}
+
+/* ---- who is looked at ---- */
+
+static bool see(disc_work *w, uint32_t v) {
+  if (v == w->i || v == w->j) return false;
+  for (size_t k = 0; k < w->count; k++)
+    if (w->seen[k] == v) return false;
+  if (!dyd_reserve((void **)&w->seen, &w->cap, w->count + 1, sizeof *w->seen)) w->failed = true;
+  if (!w->failed) w->seen[w->count++] = v;
+  return !w->failed;
+}
+
+static void see_neighbour(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
+  (void)v, (void)status;
+  disc_work *d = context;
+  if (d->count < FIRST_SEEN) see(d, w);
+}
+
+/* A circle, about; reach: the squares that come so near are looked at. */
+typedef struct circle_d {
+  disc_work *w;
+  double x, y, radius, reach;
+  bool legal, good;
+  size_t added;
+} circle_d;
+
+static double size_d(const disc_work *w, uint32_t v) {
+  const dyd_disc *d = &w->disc[v];
+  return fabs(mpq_get_d(d->x)) + fabs(mpq_get_d(d->y)) + mpq_get_d(d->r);
+}
+
+static double distance_d(const circle_d *c, uint32_t v) {
+  return hypot(mpq_get_d(c->w->disc[v].x) - c->x, mpq_get_d(c->w->disc[v].y) - c->y);
+}
+
+/* How much all is off by, with v. */
+static double room_d(const circle_d *c, uint32_t v) {
+  return ROOM * (fabs(c->x) + fabs(c->y) + c->radius + size_d(c->w, v));
+}
+
+/* legal: v must be outside for sure; possible: v blocks when its disc is inside, about. */
+static bool meet_square(void *context, uint32_t v) {
+  circle_d *c = context;
+  double r = mpq_get_d(c->w->disc[v].r), d = distance_d(c, v), room = room_d(c, v);
+  if (v == c->w->i || v == c->w->j) return true;
+  if (c->legal ? d - r > c->radius + room : d + r > c->radius + room) return true;
+  c->good = false;
+  c->added += see(c->w, v);
+  return c->added < MOST_NEW && !c->w->failed;
+}
+
+/* The circle of direction u: legal, the discs i and j just inside; possible, just meeting it. */
+static bool place_circle_of(circle_d *c, disc_work *w, dyd_direction u, bool legal) {
+  const dyd_disc *i = &w->disc[w->i], *j = &w->disc[w->j];
+  double jx = mpq_get_d(j->x) - mpq_get_d(i->x), jy = mpq_get_d(j->y) - mpq_get_d(i->y);
+  double delta = mpq_get_d(j->r) - mpq_get_d(i->r), n = jx * jx + jy * jy - delta * delta;
+  double h = (u.x * jx + u.y * jy + (legal ? -delta : delta)) / n;
+  *c = (circle_d){.w = w, .x = mpq_get_d(i->x) + u.x / (2 * h), .y = mpq_get_d(i->y) + u.y / (2 * h), .legal = legal};
+  double a = distance_d(c, w->i), ri = mpq_get_d(i->r), b = distance_d(c, w->j), rj = mpq_get_d(j->r);
+  c->radius = legal ? fmax(a + ri, b + rj) : fmax(a - ri, b - rj);
+  double room = room_d(c, w->i) + room_d(c, w->j);
+  c->radius += legal ? room : 0;
+  c->reach = c->radius + 2 * room;
+  c->good = h > 0 && c->reach < 1e150;
+  return c->good;
+}
+
+static void look_around_circle(circle_d *c) {
+  const dyd_bbox at = {{c->x, c->x, c->y, c->y}};
+  double radius2 = c->reach * c->reach * (1 + ROOM);
+  if (c->reach > 0) dyd_tree_near(&c->w->pd->sk.rects.tree, &at, &radius2, meet_square, c);
+}
+
+/* Far circles: everybody beyond the tangent of i, about. */
+static bool meet_beyond(void *context, uint32_t v) {
+  circle_d *c = context;
+  c->added += see(c->w, v);
+  return c->added < MOST_NEW && !c->w->failed;
+}
+
+static void look_beyond(circle_d *c, dyd_direction u) {
+  const dyd_disc *i = &c->w->disc[c->w->i];
+  double height = u.x * mpq_get_d(i->x) + u.y * mpq_get_d(i->y);
+  dyd_tree_beyond(&c->w->pd->sk.rects.tree, u.x, u.y, &height, meet_beyond, c);
+}
+
+/* ---- one pair ---- */
+
+/* The caps of all that are seen; false: one of them meets i or j, so that there is no witness. Who meets one of them
+ * blocks nothing. */
+static bool load_caps(disc_work *w, bool legal) {
+  const dyd_disc *i = &w->disc[w->i], *j = &w->disc[w->j];
+  w->failed = !dyd_caps_begin(&w->caps, i, j, legal);
+  for (size_t k = 0; k < w->count && !w->failed; k++) {
+    const dyd_disc *d = &w->disc[w->seen[k]];
+    bool meets = dyd_discs_meet(i, d) || dyd_discs_meet(j, d);
+    if (meets && legal) return false;
+    if (!meets) w->failed = !dyd_caps_add(&w->caps, i, d, w->seen[k], legal);
+  }
+  return !w->failed;
+}
+
+static bool discs_are_legal(disc_work *w) {
+  for (int round = 0; round < MOST_ROUNDS; round++) {
+    circle_d c;
+    dyd_direction u;
+    if (!load_caps(w, true) || !dyd_caps_common(&u, &w->caps)) return false;
+    if (!place_circle_of(&c, w, u, true)) return false;
+    look_around_circle(&c);
+    if (c.good) return true;
+    if (!c.added) return false;
+  }
+  return false;
+}
+
+/* The small disc is in the large one, whose own centre is the best one then. */
+static bool large_is_legal(disc_work *w) {
+  const dyd_disc *j = &w->disc[w->j];
+  circle_d c = {
+      .w = w, .x = mpq_get_d(j->x), .y = mpq_get_d(j->y), .radius = mpq_get_d(j->r), .legal = true, .good = true};
+  c.radius += 2 * room_d(&c, w->j);
+  c.reach = c.radius * (1 + ROOM);
+  look_around_circle(&c);
+  return c.good;
+}
+
+static bool discs_are_possible(disc_work *w) {
+  for (int round = 0; round < MOST_ROUNDS; round++) {
+    circle_d c;
+    dyd_direction u;
+    if (!load_caps(w, false)) return true;
+    if (!dyd_caps_uncovered(&u, &w->caps)) return false;
+    if (place_circle_of(&c, w, u, false))
+      look_around_circle(&c);
+    else
+      look_beyond(&c, u);
+    if (!c.added) return true;
+  }
+  return true;
+}
+
+static dyd_pair_status discs_status(disc_work *w, uint32_t i, uint32_t j) {
+  bool swap = mpq_cmp(w->disc[i].r, w->disc[j].r) > 0;
+  w->i = swap ? j : i;
+  w->j = swap ? i : j;
+  w->count = 0;
+  for (int end = 0; end < 2; end++) {
+    dyd_legal_each_at(w->pd, end ? j : i, see_neighbour, w);
+    dyd_open_each_at(w->pd, end ? j : i, see_neighbour, w);
+  }
+  if (dyd_disc_is_within(&w->disc[w->i], &w->disc[w->j]) ? large_is_legal(w) : discs_are_legal(w)) return DYD_LEGAL;
+  bool possible = dyd_discs_meet(&w->disc[i], &w->disc[j]) || discs_are_possible(w);
+  return possible ? DYD_INDETERMINATE : DYD_ILLEGAL;
+}
+
+static dyd_status decide_discs(disc_work *w, dyd_pair_list *list) {
+  const uint32_t *vertex = w->pd->sk.vertex;
+  size_t kept = 0;
+  for (size_t k = 0; k < list->count && !w->failed; k++) {
+    dyd_pair p = list->item[k];
+    if (p.status == DYD_INDETERMINATE) p.status = discs_status(w, vertex[p.i], vertex[p.j]);
+    if (p.status != DYD_ILLEGAL) list->item[kept++] = p;
+  }
+  list->count = kept;
+  return w->failed ? DYD_E_NOMEM : DYD_OK;
+}
+
+dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err) {
+  disc_work w = {.pd = pd};
+  dyd_pair_list list = {0};
+  uint32_t n = pd->sk.n;
+  if (err) dyd_error_clear(err);
+  if (dyd_delaunay_is_capped(pd))
+    return dyd_fail(err, DYD_CAPPED, "there are more pairs than can be stored; raise --max-pairs");
+  w.disc = dyd_alloc(n, sizeof *w.disc);
+  if (!w.disc) return dyd_fail_nomem(err);
+  for (uint32_t v = 0; v < n; v++) dyd_disc_init(&w.disc[v]);
+  dyd_caps_init(&w.caps);
+  dyd_status st = make_discs(&w, err);
+  if (st == DYD_OK) st = dyd_delaunay_pairs(&list, pd);
+  if (st == DYD_OK && pd->sk.rects.tree.count) st = decide_discs(&w, &list);
+  dyd_caps_clear(&w.caps);
+  for (uint32_t v = 0; v < n; v++) dyd_disc_clear(&w.disc[v]);
+  free(w.disc);
+  free(w.seen);
+  if (st != DYD_OK) {
+    dyd_pair_list_clear(&list);
+    return err && err->code == st ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
+  }
+  dyd_pair_list_clear(out);
+  *out = list;
+  return DYD_OK;
+}

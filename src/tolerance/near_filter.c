@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Which sites a pair needs, and who else is near a place. */
+#include "base/alloc.h"
+#include "tolerance/state.h"
+
+#include <fenv.h>
+#include <math.h>
+#include <string.h>
+
+/* ---- preparation ---- */
+
+/* *low = the coordinate minus its double, rounded. */
+static double low_part(dyd_interval *side, double high, mpq_ptr q, mpq_ptr d) {
+  dyd_interval_get_q(q, d, side);
+  mpq_set_d(d, high);
+  mpq_sub(q, q, d);
+  return mpq_get_d(q);
+}
+
+/* Low parts where doubles do not hold the points; one is off by less than 2^-52 of itself, so by 2^-105 of the
+ * coordinate, or by a subnormal number. */
+static dyd_status find_low_parts(dyd_tolerance *t) {
+  const dyd_skeleton *sk = t->sk;
+  double most = 0;
+  if (!sk->reps.sites->exact) return DYD_OK;
+  t->low = dyd_alloc(sk->n + 1, sizeof *t->low);
+  if (!t->low) return DYD_E_NOMEM;
+  dyd_rect r;
+  dyd_status st = DYD_OK;
+  mpq_t q, d;
+  dyd_rect_init(&r);
+  mpq_inits(q, d, NULL);
+  for (uint32_t v = 0; v < sk->n && st == DYD_OK; v++) {
+    dyd_xy at = sk->reps.xy[v];
+    t->low[v] = (dyd_xy){0, 0};
+    most = fmax(most, fmax(fabs(at.x), fabs(at.y)));
+    if (dyd_sites_in_doubles(sk->reps.sites, sk->reps.site[v]) || !isfinite(at.x) || !isfinite(at.y)) continue;
+    st = dyd_sites_get(&r, sk->reps.sites, sk->reps.site[v]);
+    if (st == DYD_OK) t->low[v] = (dyd_xy){low_part(&r.x, at.x, q, d), low_part(&r.y, at.y, q, d)};
+  }
+  mpq_clears(q, d, NULL);
+  dyd_rect_clear(&r);
+  t->points.low = t->low;
+  t->points.slack = most * 0x1p-100 + 0x1p-1000;
+  return st;
+}
+
+static dyd_status count_degrees(dyd_tolerance *t) {
+  const dyd_mesh *m = &t->sk->mesh;
+  if (dyd_is_line(t->pd)) return DYD_OK;
+  t->degree = calloc((size_t)m->n + 1, sizeof *t->degree);
+  if (!t->degree) return DYD_E_NOMEM;
+  for (uint32_t q = 0; q < m->count; q++)
+    for (int k = 0; k < 3; k++) t->degree[m->tri[q].v[k]]++;
+  return DYD_OK;
+}
+
+dyd_status dyd_near_prepare(dyd_tolerance *t) {
+  t->points = (dyd_points_d){.xy = t->sk->reps.xy, .usable = fegetround() == FE_TONEAREST};
+  dyd_status st = find_low_parts(t);
+  return st == DYD_OK ? count_degrees(t) : st;
+}
+
+void dyd_near_clear(dyd_tolerance *t) {
+  if (t->has_tree) dyd_tree_clear(&t->tree);
+  free(t->box);
+  free(t->degree);
+  free(t->low);
+  free(t->others.vertex);
+}
+
+dyd_status dyd_near_index(dyd_tolerance *t) {
+  const dyd_skeleton *sk = t->sk;
+  if (t->has_tree) return DYD_OK;
+  uint32_t *item = dyd_alloc(sk->n, sizeof *item), count = 0;
+  if (!t->box) t->box = dyd_alloc(sk->n, sizeof *t->box);
+  if (!item || !t->box) {
+    free(item);
+    return DYD_E_NOMEM;
+  }
+  for (uint32_t v = 0; v < sk->n; v++) {
+    dyd_sites_get_d(t->box[v].e, sk->reps.sites, sk->reps.site[v]);
+    if (dyd_mesh_alias(&sk->mesh, v) == DYD_NONE) item[count++] = v;
+  }
+  dyd_status st = dyd_tree_init(&t->tree, item, count, t->box);
+  t->has_tree = st == DYD_OK;
+  if (st != DYD_OK) dyd_tree_clear(&t->tree);
+  return st;
+}
+
+/* ---- others ---- */
+
+bool dyd_others_add(dyd_others *o, uint32_t v) {
+  if (!dyd_reserve((void **)&o->vertex, &o->cap, o->count + 1, sizeof *o->vertex)) return false;
+  o->vertex[o->count++] = v;
+  return true;
+}
+
+static bool add_ring(dyd_others *o, const dyd_tolerance *t, uint32_t v, uint32_t w) {
+  const dyd_mesh *m = &t->sk->mesh;
+  dyd_half_edge first = t->sk->leaving[v], h = first;
+  do {
+    uint32_t k = dyd_edge_target(m, h);
+    if (k != w && k != m->n && !dyd_others_add(o, k)) return false;
+    h = dyd_edge_turn(m, h);
+  } while (h != first);
+  return true;
+}
+
+/* On a line: one before, one behind. */
+static bool add_along(dyd_others *o, const dyd_line *l, uint32_t v, uint32_t w) {
+  uint32_t a = l->rank[v] < l->rank[w] ? l->rank[v] : l->rank[w], b = l->rank[v] + l->rank[w] - a;
+  return (a == 0 || dyd_others_add(o, l->order[a - 1])) && (b + 1 == l->count || dyd_others_add(o, l->order[b + 1]));
+}
+
+dyd_status dyd_others_around(dyd_others *o, const dyd_tolerance *t, uint32_t v, uint32_t w, uint32_t most) {
+  bool good = true;
+  o->count = 0;
+  if (dyd_is_line(t->pd)) return add_along(o, &t->sk->line, v, w) ? DYD_OK : DYD_E_NOMEM;
+  if (t->degree[v] <= most) good = add_ring(o, t, v, w);
+  if (t->degree[w] <= most) good = good && add_ring(o, t, w, v);
+  dyd_half_edge h = t->degree[v] <= t->degree[w] ? dyd_find_edge(t->sk, v, w) : dyd_find_edge(t->sk, w, v);
+  if (h == DYD_NONE) return good ? DYD_OK : DYD_E_NOMEM;
+  uint32_t apex[2] = {dyd_edge_apex(&t->sk->mesh, h), dyd_edge_across(&t->sk->mesh, h)};
+  for (int k = 0; k < 2; k++) good = good && (apex[k] == t->sk->mesh.n || dyd_others_add(o, apex[k]));
+  return good ? DYD_OK : DYD_E_NOMEM;
+}
+
+/* ---- who is nearer ---- */
+
+typedef struct gather {
+  dyd_others *others;
+  const dyd_lines *lines;
+  uint32_t i, j;
+  size_t most, added;
+  bool failed;
+} gather;
+
+static bool gather_new(void *context, uint32_t v) {
+  gather *g = context;
+  if (v == g->i || v == g->j) return true;
+  for (size_t k = 0; k < g->lines->count; k++)
+    if (g->lines->item[k].vertex == v) return true;
+  g->failed = !dyd_others_add(g->others, v);
+  return !g->failed && ++g->added < g->most;
+}
+
+/* Towards an end only how far out counts: the direction is p J', in doubles. */
+static void gather_beyond(gather *g, const dyd_tolerance *t) {
+  const dyd_summit *s = &t->summit;
+  const dyd_lines *l = &t->lines;
+  double x = mpz_get_d(l->jy) * -mpz_sgn(s->at.p), y = mpz_get_d(l->jx) * mpz_sgn(s->at.p), size = hypot(x, y);
+  const double *b = t->box[l->item[s->a].vertex].e;
+  if (!isfinite(size)) size = x = y = 0; /* beyond doubles: everybody is asked */
+  double ux = size > 0 ? x / size : 0, uy = size > 0 ? y / size : 0;
+  double height = ux * b[ux > 0 ? 0 : 1] + uy * b[uy > 0 ? 2 : 3];
+  /* u is off by less than 2^-50, which counts by how far along the line somebody else may lie */
+  height -= 0x1p-48 * (t->sk->mesh.extent[0] + t->sk->mesh.extent[1] + fabs(height));
+  dyd_tree_beyond(&t->tree, ux, uy, &height, gather_new, g);
+}
+
+dyd_status dyd_others_nearer(bool *more, dyd_others *o, dyd_tolerance *t, uint32_t i, uint32_t j, size_t most) {
+  gather g = {o, &t->lines, i, j, most, 0, false};
+  dyd_bbox c;
+  double radius2;
+  dyd_status st = dyd_near_index(t);
+  if (st != DYD_OK) return st;
+  o->count = 0;
+  for (size_t k = 0; k < t->lines.count; k++)
+    if (!dyd_others_add(o, t->lines.item[k].vertex)) return DYD_E_NOMEM;
+  if (dyd_summit_disc(c.e, &radius2, &t->summit, &t->lines))
+    dyd_tree_near(&t->tree, &c, &radius2, gather_new, &g);
+  else
+    gather_beyond(&g, t);
+  *more = g.added > 0;
+  return g.failed ? DYD_E_NOMEM : DYD_OK;
+}

@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* How far each point may be from its place, rounded down [TOL-6].
+ *
+ * For every legal edge ij there is a circle about c(s) (lines.h), between i, j and all others: its radius is r + half,
+ * where half is about half of f(s). Any double s will do. While no point comes to that circle, the edge stays. With
+ * D the line of k at s, k is g = D / (sqrt(r^2 + D) + r) - half away from it: nothing cancels that is as large as r, so
+ * errors are a few u of the distances between the points. At an end (half-planes) g is -p n / |J|.
+ *
+ * D has an error e_D (height_bound); g grows with D at most by 1 / (sqrt(r^2 + D) + r); the rest of the formula has a
+ * relative error below 8 u. Everybody is looked for whom the circle may concern more than what is known of them: a
+ * branch of the tree is left out when it is farther from the circle, less errors, than the largest radius in it. */
+#include "base/alloc.h"
+#include "tolerance/state.h"
+
+#include <float.h>
+#include <math.h>
+
+#define U 0x1p-53
+
+typedef struct radius_pass {
+  dyd_tolerance *t;
+  double *radius; /* by vertex */
+  double *most;   /* by node of the tree: the largest radius in it when the tree was made */
+  const dyd_ring_d *ring;
+  double c[2], middle, doubt; /* centre, radius of the circle, bound of their errors; at an end: direction, offset */
+} radius_pass;
+
+/* ---- one point, one circle ---- */
+
+static double height_bound(const dyd_line_d *o, double s) {
+  return o->em + 2 * fabs(s) * o->en + 4 * U * (fabs(o->m) + 2 * fabs(o->n * s));
+}
+
+/* A lower bound of g; what is not a number counts as 0. */
+static double gap_of(const dyd_lines_d *l, const dyd_line_d *o, const dyd_ring_d *ring) {
+  double g;
+  if (ring->end) {
+    g = (-ring->end * o->n - o->en) / sqrt(l->jj) - fabs(o->n / sqrt(l->jj)) * (l->ejj / l->jj + 8 * U);
+  } else {
+    double r = sqrt(l->jj * (0.25 + ring->s * ring->s)) * (1 + l->ejj / l->jj + 8 * U);
+    double D = o->m - 2 * o->n * ring->s - height_bound(o, ring->s) * (1 + 0x1p-20);
+    g = D > 0 ? D / (sqrt(r * r + D) + r) * (1 - 16 * U) : 0;
+  }
+  return g > 0 ? g : 0;
+}
+
+static void keep_least(double *radius, double r) {
+  r = r > 0 ? r * (1 - 4 * U) : 0;
+  if (r < *radius) *radius = r;
+}
+
+static void look_at(radius_pass *p, uint32_t k) {
+  dyd_lines_d *l = &p->t->small;
+  if (k == l->i || k == l->j) return;
+  l->count = 0;
+  dyd_filter_add(l, &p->t->points, k);
+  dyd_line_d line = dyd_filter_line(l, &p->t->points, 0);
+  keep_least(&p->radius[k], gap_of(l, &line, p->ring) - p->ring->half);
+}
+
+/* ---- all points of one circle ---- */
+
+/* The circle in plain coordinates; for branches only, so that a generous doubt will do. */
+static void place_ring(radius_pass *p) {
+  const dyd_tolerance *t = p->t;
+  const dyd_lines_d *l = &t->small;
+  dyd_xy i = t->points.xy[l->i];
+  double size = sqrt(l->jj), s = p->ring->s;
+  if (p->ring->end) {
+    p->c[0] = p->ring->end * l->jy / size; /* towards the others: against end J' */
+    p->c[1] = -p->ring->end * l->jx / size;
+    p->middle = p->c[0] * i.x + p->c[1] * i.y + p->ring->half;
+    p->doubt = 0x1p-40 * (fabs(i.x) + fabs(i.y) + p->ring->half);
+    return;
+  }
+  p->c[0] = i.x + (l->jx / 2 - s * l->jy);
+  p->c[1] = i.y + (l->jy / 2 + s * l->jx);
+  p->middle = size * sqrt(0.25 + s * s) + p->ring->half;
+  p->doubt = 0x1p-40 * (fabs(i.x) + fabs(i.y) + p->middle);
+}
+
+static double branch_gap(const radius_pass *p, const dyd_bbox *b) {
+  const double *e = b->e;
+  double x, y, d, far = fmax(fmax(fabs(e[0]), fabs(e[1])), fmax(fabs(e[2]), fabs(e[3])));
+  if (p->ring->end) {
+    x = p->c[0] * e[p->c[0] > 0 ? 0 : 1];
+    y = p->c[1] * e[p->c[1] > 0 ? 2 : 3];
+    d = x + y;
+  } else {
+    x = fmax(fmax(e[0] - p->c[0], p->c[0] - e[1]), 0);
+    y = fmax(fmax(e[2] - p->c[1], p->c[1] - e[3]), 0);
+    d = sqrt(x * x + y * y);
+  }
+  return d - p->middle - p->doubt - 0x1p-40 * far;
+}
+
+static void visit_branch(radius_pass *p, int level, size_t node) {
+  const dyd_tree *t = &p->t->tree;
+  size_t at = t->level[level] + node;
+  if (branch_gap(p, &t->node[at]) > p->most[at]) return;
+  size_t below = level ? t->level[level] - t->level[level - 1] : t->count, first = node * DYD_TREE_FANOUT;
+  for (size_t q = first; q < first + DYD_TREE_FANOUT && q < below; q++)
+    if (level)
+      visit_branch(p, level - 1, q);
+    else if (!(branch_gap(p, &t->box[t->item[q]]) > p->radius[t->item[q]]))
+      look_at(p, t->item[q]);
+}
+
+/* ---- all circles ---- */
+
+static bool make_most(radius_pass *p) {
+  const dyd_tree *t = &p->t->tree;
+  p->most = dyd_alloc(t->level[t->levels], sizeof *p->most);
+  if (!p->most) return false;
+  for (int k = 0; k < t->levels; k++)
+    for (size_t q = 0; q < t->level[k + 1] - t->level[k]; q++) {
+      size_t below = k ? t->level[k] - t->level[k - 1] : t->count, first = q * DYD_TREE_FANOUT;
+      double most = 0;
+      for (size_t e = first; e < first + DYD_TREE_FANOUT && e < below; e++)
+        most = fmax(most, k ? p->most[t->level[k - 1] + e] : p->radius[t->item[e]]);
+      p->most[t->level[k] + q] = most;
+    }
+  return true;
+}
+
+/* Its ends, or, later, everybody else. Where doubles cannot hold the pair, nothing is known of anybody. */
+static void pass_ring(radius_pass *p, const dyd_ring_d *ring, bool others) {
+  dyd_tolerance *t = p->t;
+  bool good = dyd_filter_pair(&t->small, &t->points, ring->i, ring->j) && ring->half > 0 && ring->half <= DBL_MAX;
+  p->ring = ring;
+  if (!good) {
+    for (uint32_t v = 0; v < t->sk->n; v++) p->radius[v] = 0;
+  } else if (!others) {
+    keep_least(&p->radius[ring->i], ring->half);
+    keep_least(&p->radius[ring->j], ring->half);
+  } else {
+    place_ring(p);
+    visit_branch(p, t->tree.levels - 1, 0);
+  }
+}
+
+/* What is tied may be decided by the least motion of whoever is in the face. */
+static dyd_status clear_tied(radius_pass *p) {
+  const dyd_delaunay *pd = p->t->pd;
+  dyd_status st = DYD_OK;
+  for (size_t f = 0; f < pd->open.count && st == DYD_OK; f++) {
+    uint32_t *v;
+    size_t count;
+    st = dyd_open_vertices(&v, &count, pd, f);
+    if (st != DYD_OK) return st;
+    for (size_t q = 0; q < count; q++) p->radius[v[q]] = 0;
+    free(v);
+  }
+  return st;
+}
+
+static dyd_status pass_hull(radius_pass *p) {
+  const dyd_mesh *m = &p->t->sk->mesh;
+  dyd_half_edge first = dyd_hull_first(m), h = first;
+  dyd_status st = DYD_OK;
+  do {
+    double lo, hi;
+    dyd_half_edge next = dyd_hull_following(m, h);
+    st = dyd_hull_corner(&lo, &hi, p->t, h);
+    keep_least(&p->radius[dyd_hull_origin(m, h)], lo);
+    keep_least(&p->radius[dyd_hull_target(m, h)], lo);
+    keep_least(&p->radius[dyd_hull_target(m, next)], lo);
+    h = next;
+  } while (st == DYD_OK && h != first);
+  return st;
+}
+
+static dyd_status pass_all(radius_pass *p) {
+  dyd_tolerance *t = p->t;
+  for (uint32_t v = 0; v < t->sk->n; v++) p->radius[v] = HUGE_VAL;
+  for (size_t k = 0; k < t->rings; k++) pass_ring(p, &t->ring[k], false);
+  dyd_status st = clear_tied(p);
+  if (st == DYD_OK && !dyd_is_line(t->pd)) st = pass_hull(p);
+  if (st == DYD_OK) st = dyd_near_index(t);
+  if (st != DYD_OK || t->tree.count == 0) return st;
+  if (!make_most(p)) return DYD_E_NOMEM;
+  for (size_t k = 0; k < t->rings && !dyd_flag_is_set(t->options.cancel); k++) pass_ring(p, &t->ring[k], true);
+  return dyd_flag_is_set(t->options.cancel) ? DYD_CANCELLED : DYD_OK;
+}
+
+dyd_status dyd_points_radius(dyd_tolerance *t) {
+  radius_pass p = {.t = t, .radius = dyd_alloc(t->sk->n, sizeof *p.radius)};
+  t->radius = dyd_alloc(t->sk->n, sizeof *t->radius);
+  dyd_status st = p.radius && t->radius ? pass_all(&p) : DYD_E_NOMEM;
+  for (uint32_t i = 0; st == DYD_OK && i < t->sk->n; i++) t->radius[i] = p.radius[t->sk->vertex[i]];
+  free(p.radius);
+  free(p.most);
+  return st;
+}

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Rows: one for each pair, sorted in the end by i, then j. */
+#include "base/alloc.h"
+#include "tolerance/roots.h"
+#include "tolerance/state.h"
+
+#include <string.h>
+
+dyd_status dyd_row_add(dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k, uint32_t l,
+                       double lo, double hi) {
+  const uint32_t *site = t->sk->reps.site;
+  if (!dyd_reserve((void **)&t->row, &t->cap, t->rows + 1, sizeof *t->row)) return DYD_E_NOMEM;
+  uint32_t i = site[v], j = site[w], a = k == DYD_NONE ? DYD_NO_SITE : site[k],
+           b = l == DYD_NONE || l == k ? DYD_NO_SITE : site[l];
+  t->row[t->rows++] = (dyd_tolerance_row){i < j ? i : j, i < j ? j : i, event, a < b ? a : b, a < b ? b : a, lo, hi};
+  return DYD_OK;
+}
+
+dyd_status dyd_row_add_summit(dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event) {
+  const dyd_summit *s = &t->summit;
+  double lo = HUGE_VAL, hi = HUGE_VAL;
+  if (s->binding == DYD_BINDING_NONE) return dyd_row_add(t, v, w, event, DYD_NONE, DYD_NONE, lo, hi);
+  dyd_roots_half(&lo, &hi, s->plus, s->minus);
+  return dyd_row_add(t, v, w, event, t->lines.item[s->a].vertex, t->lines.item[s->b].vertex, lo, hi);
+}
+
+dyd_status dyd_ring_add(dyd_tolerance *t, uint32_t v, uint32_t w, double s, int end, double half) {
+  if (!t->options.points) return DYD_OK;
+  if (!dyd_reserve((void **)&t->ring, &t->ring_cap, t->rings + 1, sizeof *t->ring)) return DYD_E_NOMEM;
+  t->ring[t->rings++] = (dyd_ring_d){v, w, s, half, end};
+  return DYD_OK;
+}
+
+static int compare_rows(const void *a, const void *b) {
+  const dyd_tolerance_row *x = a, *y = b;
+  if (x->i != y->i) return x->i < y->i ? -1 : 1;
+  return (x->j > y->j) - (x->j < y->j);
+}
+
+/* A short run, such as nearly all sites have. */
+static void sort_few_rows(dyd_tolerance_row *row, size_t count) {
+  for (size_t q = 1; q < count; q++) {
+    dyd_tolerance_row r = row[q];
+    size_t at = q;
+    for (; at && row[at - 1].j > r.j; at--) row[at] = row[at - 1];
+    row[at] = r;
+  }
+}
+
+/* Dealt to the sites i, then each site's by j. */
+dyd_status dyd_rows_sort(dyd_tolerance *t) {
+  size_t n = t->sk->n, *start = calloc(n + 2, sizeof *start);
+  dyd_tolerance_row *to = dyd_alloc(t->rows, sizeof *to);
+  if (!start || !to) {
+    free(start);
+    free(to);
+    return DYD_E_NOMEM;
+  }
+  for (size_t k = 0; k < t->rows; k++) start[t->row[k].i + 2]++;
+  for (size_t i = 1; i <= n; i++) start[i + 1] += start[i];
+  for (size_t k = 0; k < t->rows; k++) to[start[t->row[k].i + 1]++] = t->row[k];
+  for (size_t i = 0; i < n; i++) {
+    size_t count = start[i + 1] - start[i];
+    if (count > 32)
+      qsort(to + start[i], count, sizeof *to, compare_rows);
+    else
+      sort_few_rows(to + start[i], count);
+  }
+  free(start);
+  free(t->row);
+  t->row = to;
+  t->cap = t->rows;
+  return DYD_OK;
+}

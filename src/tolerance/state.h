@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What tolerances are worked out with, and what is kept.
+ *
+ *   lines.c, summit.c   one pair: the other sites as lines over its bisector, exactly
+ *   lines_filter.c      the same in doubles
+ *   roots.c             numbers sqrt(p) - sqrt(m)
+ *   near_filter.c       which sites a pair needs; who else is near
+ *   deaths.c, births.c  all pairs
+ *   whole.c             the whole; points_filter.c: each point
+ *   rows.c, tolerance.c the sorted rows; the public calls */
+#ifndef DYD_TOLERANCE_STATE_H
+#define DYD_TOLERANCE_STATE_H
+
+#include "delaunay/undecided.h"
+#include "tolerance/lines.h"
+#include "tolerance/lines_filter.h"
+#include <dyadel/tolerance.h>
+
+/* Vertices that are looked at for one pair. */
+typedef struct dyd_others {
+  uint32_t *vertex;
+  size_t count, cap;
+} dyd_others;
+
+/* A circle between i, j and all others: about the centre at s (or the end) of their bisector, `half` beyond them. */
+typedef struct dyd_ring_d {
+  uint32_t i, j;
+  double s, half;
+  int end;
+} dyd_ring_d;
+
+struct dyd_tolerance {
+  const dyd_delaunay *pd;
+  const dyd_skeleton *sk;
+  dyd_tolerance_options options;
+  dyd_tolerance_row *row;
+  size_t rows, cap;
+  double lo, hi; /* of the whole */
+  double *radius;
+  dyd_ring_d *ring; /* of all edges, where radii are asked for */
+  size_t rings, ring_cap;
+  uint64_t filter, exact;
+  /* scratch */
+  dyd_points_d points;
+  dyd_xy *low;
+  uint32_t *degree; /* of a vertex; NULL: a line */
+  bool has_tree;
+  dyd_bbox *box;
+  dyd_tree tree;
+  dyd_lines lines;
+  dyd_summit summit;
+  dyd_lines_d small;
+  dyd_others others;
+};
+
+/* near_filter.c. Pairs whose ends have more neighbours in all have one end that is a hub. */
+enum { DYD_HUB = 40 };
+/* The doubles, degrees. */
+dyd_status dyd_near_prepare(dyd_tolerance *t);
+void dyd_near_clear(dyd_tolerance *t);
+/* Makes the tree over all vertices, unless there is one. */
+dyd_status dyd_near_index(dyd_tolerance *t);
+bool dyd_others_add(dyd_others *o, uint32_t v);
+/* *o becomes the neighbours of v and w in the skeleton, but v, w and the ghost; of an end of more than `most`
+ * neighbours only those that are next to the other end. Repeats are possible. */
+dyd_status dyd_others_around(dyd_others *o, const dyd_tolerance *t, uint32_t v, uint32_t w, uint32_t most);
+/* Adds to *o who may lie as near to the place of t->summit as what binds there (at an end: as far out), and is neither
+ * i nor j nor among the lines: at most `most`. *more: some were added. */
+dyd_status dyd_others_nearer(bool *more, dyd_others *o, dyd_tolerance *t, uint32_t i, uint32_t j, size_t most);
+
+dyd_status dyd_deaths(dyd_tolerance *t);
+/* t->summit becomes that of the legal pair of vertices v, w, exactly. */
+dyd_status dyd_death_exact(dyd_tolerance *t, uint32_t v, uint32_t w);
+dyd_status dyd_births(dyd_tolerance *t, dyd_error *err);
+/* t->summit becomes that of a pair that is no edge. *late: it is above t->options.up_to for sure. */
+dyd_status dyd_birth_exact(bool *late, dyd_tolerance *t, uint32_t v, uint32_t w);
+dyd_status dyd_whole(dyd_tolerance *t);
+/* Half the distance of a corner v of the hull, at which hull edge h ends, to the line through the corners before and
+ * behind, unless these are an edge: infinite then. */
+dyd_status dyd_hull_corner(double *lo, double *hi, const dyd_tolerance *t, dyd_half_edge h);
+dyd_status dyd_points_radius(dyd_tolerance *t);
+
+/* rows.c: a row for vertices v, w with the value and binding of t->summit; with others. */
+dyd_status dyd_row_add(dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k, uint32_t l,
+                       double lo, double hi);
+dyd_status dyd_row_add_summit(dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event);
+/* Notes the circle of a legal pair, where radii are asked for. */
+dyd_status dyd_ring_add(dyd_tolerance *t, uint32_t v, uint32_t w, double s, int end, double half);
+dyd_status dyd_rows_sort(dyd_tolerance *t);
+
+#endif

@@ -1,0 +1,344 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Plans: targets, face by face, proof by a triangulation of all, accuracies as coarse as can be [SUR-1]. */
+#include "tolerance/survey.h"
+
+#include "base/abi.h"
+#include "base/alloc.h"
+#include "base/error.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* SMALL: rows times sites up to which every row is tried on all. Where no accuracy is given, these shares of each
+ * half-width are tried until one decides; and rounds of the work on faces, of which more than one is needed where what
+ * a face needs shows only beside the others. */
+static const int finer[] = {10, 20, 40};
+enum { FINER = sizeof finer / sizeof *finer, ROUNDS = 8, STEPS = 4, SMALL = 1 << 17 };
+
+/* ---- targets ---- */
+
+static bool is_asked(const dyd_survey_options *o, const dyd_survey *s, const dyd_pair *p) {
+  if (o->site && p->i != *o->site && p->j != *o->site) return false;
+  return !o->window || dyd_rect_meets(&s->site[p->i].rect, o->window) || dyd_rect_meets(&s->site[p->j].rect, o->window);
+}
+
+/* Of the pairs asked for: those open, but for the ties of the nominal places. */
+static dyd_status find_targets(dyd_survey *s, const dyd_delaunay *pd) {
+  dyd_pair_list all = {0};
+  dyd_delaunay *nominal = NULL;
+  dyd_sites *centres = NULL;
+  const dyd_survey_options *o = &s->options;
+  dyd_status st = o->pairs ? DYD_OK : dyd_delaunay_pairs(&all, pd);
+  const dyd_pair_list *asked = o->pairs ? o->pairs : &all;
+  if (st == DYD_OK) st = dyd_survey_triangulate(&nominal, &centres, s, true);
+  if (st == DYD_OK && !(s->target.item = dyd_alloc(asked->count, sizeof *s->target.item))) st = DYD_E_NOMEM;
+  for (size_t k = 0; k < asked->count && st == DYD_OK; k++) {
+    dyd_pair p = asked->item[k];
+    p.i = dyd_delaunay_alias(pd, p.i);
+    p.j = dyd_delaunay_alias(pd, p.j);
+    p.status = dyd_delaunay_status(pd, p.i, p.j);
+    if ((p.status != DYD_INDETERMINATE && p.status != DYD_TIE) || !is_asked(o, s, &p)) continue;
+    if (dyd_delaunay_status(nominal, p.i, p.j) == DYD_TIE ||
+        dyd_delaunay_alias(nominal, p.i) == dyd_delaunay_alias(nominal, p.j))
+      s->ties++;
+    else
+      s->target.item[s->target.count++] = p;
+  }
+  dyd_delaunay_free(nominal);
+  dyd_sites_free(centres);
+  dyd_pair_list_clear(&all);
+  return st;
+}
+
+/* ---- choosing ---- */
+
+static void forget_rows(dyd_survey *s) {
+  for (size_t f = 0; f < s->faces; f++) free(s->face[f].row);
+  s->faces = 0;
+  for (size_t i = 0; i < s->sites; i++) s->site[i].chosen = false;
+}
+
+static dyd_status recount_left(dyd_survey *s) {
+  dyd_delaunay *now = NULL;
+  dyd_sites *sites = NULL;
+  dyd_status st = dyd_survey_triangulate(&now, &sites, s, false);
+  if (st == DYD_OK) s->left = dyd_survey_open(s, now);
+  dyd_delaunay_free(now);
+  dyd_sites_free(sites);
+  return st;
+}
+
+/* All faces of pd; then of the triangulation with what was chosen, as long as that helps. */
+static dyd_status choose_rounds(dyd_survey *s, const dyd_delaunay *pd) {
+  dyd_status st = DYD_OK;
+  s->left = s->target.count;
+  for (int round = 0; round < ROUNDS && s->left && st == DYD_OK; round++) {
+    dyd_delaunay *now = NULL;
+    dyd_sites *sites = NULL;
+    size_t faces = s->faces;
+    if (round) st = dyd_survey_triangulate(&now, &sites, s, false);
+    const dyd_delaunay *at = round ? now : pd;
+    for (size_t f = 0; st == DYD_OK && f < dyd_delaunay_undecided_faces(at); f++) st = dyd_survey_face(s, at, f);
+    dyd_delaunay_free(now);
+    dyd_sites_free(sites);
+    if (st == DYD_OK) st = recount_left(s);
+    if (s->faces == faces) return st;
+  }
+  return st;
+}
+
+/* What one face needed another one may have made needless. */
+static dyd_status unchoose_needless(dyd_survey *s, const dyd_index_list *face, size_t faces) {
+  dyd_status st = DYD_OK;
+  for (size_t f = 0; f < s->faces; f++)
+    for (size_t k = 0; k < s->face[f].count && st == DYD_OK; k++) {
+      uint32_t site = s->face[f].row[k].site;
+      bool needs = false;
+      for (size_t g = 0; g < faces && !needs && st == DYD_OK; g++)
+        st = dyd_survey_face_needs(&needs, s, &face[g], site);
+      if (st == DYD_OK && !needs) s->site[site].chosen = false;
+    }
+  return st;
+}
+
+/* Takes rows out whose sites are not chosen, or takes all sites back that have rows. */
+static void settle_rows(dyd_survey *s, bool out) {
+  for (size_t f = 0; f < s->faces; f++) {
+    dyd_face_rows *r = &s->face[f];
+    size_t kept = 0;
+    for (size_t k = 0; k < r->count; k++) {
+      if (!out) s->site[r->row[k].site].chosen = true;
+      if (s->site[r->row[k].site].chosen) r->row[kept++] = r->row[k];
+    }
+    r->count = kept;
+  }
+}
+
+/* What a face cannot see: one triangulation of all for each row. */
+static dyd_status unchoose_by_all(dyd_survey *s) {
+  size_t before = s->left;
+  dyd_status st = DYD_OK;
+  for (size_t f = 0; f < s->faces; f++)
+    for (size_t k = 0; k < s->face[f].count && st == DYD_OK; k++) {
+      bool *chosen = &s->site[s->face[f].row[k].site].chosen;
+      *chosen = false;
+      st = recount_left(s);
+      *chosen = s->left > before;
+    }
+  s->left = before;
+  settle_rows(s, true);
+  return st;
+}
+
+static size_t count_rows(const dyd_survey *s) {
+  size_t rows = 0;
+  for (size_t f = 0; f < s->faces; f++) rows += s->face[f].count;
+  return rows;
+}
+
+/* Leaves out what is not needed; `face` has the sites of all open faces. */
+static dyd_status prune(dyd_survey *s, const dyd_index_list *face, size_t faces) {
+  size_t before = s->left;
+  dyd_status st = unchoose_needless(s, face, faces);
+  if (st == DYD_OK) st = recount_left(s);
+  if (st == DYD_OK) settle_rows(s, s->left <= before);
+  if (st == DYD_OK && s->left > before) s->left = before;
+  if (st == DYD_OK && count_rows(s) * s->sites <= SMALL) st = unchoose_by_all(s);
+  return st;
+}
+
+static dyd_status choose_finely_enough(dyd_survey *s, const dyd_delaunay *pd) {
+  dyd_status st = DYD_OK;
+  mpq_set_ui(s->scale, 1, 1);
+  if (s->options.accuracy) return choose_rounds(s, pd);
+  for (int k = 0; k < FINER && st == DYD_OK; k++) {
+    forget_rows(s);
+    mpq_set_ui(s->scale, 1, 1);
+    mpq_div_2exp(s->scale, s->scale, (mp_bitcnt_t)finer[k]);
+    st = choose_rounds(s, pd);
+    if (!s->left) break;
+  }
+  return st;
+}
+
+/* ---- the common factor ---- */
+
+/* Is nothing more left open than before at this scale? */
+static dyd_status holds_at(bool *holds, dyd_survey *s, mpq_srcptr scale) {
+  dyd_delaunay *pd = NULL;
+  dyd_sites *sites = NULL;
+  mpq_t old;
+  mpq_init(old);
+  mpq_set(old, s->scale);
+  mpq_set(s->scale, scale);
+  dyd_status st = dyd_survey_triangulate(&pd, &sites, s, false);
+  *holds = st == DYD_OK && dyd_survey_open(s, pd) <= s->left;
+  if (!*holds) mpq_set(s->scale, old);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  mpq_clear(old);
+  return st;
+}
+
+/* Doubling as long as it holds, then halving the step. */
+static dyd_status loosen(dyd_survey *s) {
+  mpq_t next, step;
+  bool holds = s->faces > 0;
+  dyd_status st = DYD_OK;
+  mpq_inits(next, step, NULL);
+  for (int k = 0; k < 64 && holds && st == DYD_OK; k++) {
+    if (!s->options.accuracy && mpq_cmp_ui(s->scale, 1, 2) > 0) break;
+    mpq_mul_2exp(next, s->scale, 1);
+    st = holds_at(&holds, s, next);
+  }
+  mpq_div_2exp(step, s->scale, 1);
+  for (int k = 0; k < STEPS && s->faces && st == DYD_OK; k++) {
+    mpq_add(next, s->scale, step);
+    if (s->options.accuracy || mpq_cmp_ui(next, 1, 1) < 0) st = holds_at(&holds, s, next);
+    mpq_div_2exp(step, step, 1);
+  }
+  mpq_clears(next, step, NULL);
+  return st;
+}
+
+/* ---- each site by itself ---- */
+
+static dyd_status open_around(size_t *open, dyd_survey *s, const dyd_index_list *face, size_t faces, uint32_t site) {
+  dyd_status st = DYD_OK;
+  *open = 0;
+  for (size_t f = 0; f < faces && st == DYD_OK; f++) {
+    size_t now;
+    st = dyd_survey_face_open(&now, s, &face[f], site);
+    *open += now;
+  }
+  return st;
+}
+
+/* Twice as coarse, as long as its faces stay as they are, and it has to be measured at all. */
+static dyd_status loosen_site(dyd_survey *s, const dyd_index_list *face, size_t faces, uint32_t site) {
+  size_t before, now;
+  dyd_status st = open_around(&before, s, face, faces, site);
+  while (st == DYD_OK) {
+    s->site[site].coarser++;
+    bool less = dyd_survey_needed(s, site) * 2 <= dyd_survey_now(s, site);
+    if (less) st = open_around(&now, s, face, faces, site);
+    if (st == DYD_OK && less && now <= before) continue;
+    s->site[site].coarser--;
+    return st;
+  }
+  return st;
+}
+
+/* Faces tell; all together are looked at in the end, and if they should not hold, the common factor alone counts. */
+static dyd_status loosen_each(dyd_survey *s, const dyd_index_list *face, size_t faces) {
+  size_t before = s->left;
+  dyd_status st = DYD_OK;
+  for (size_t f = 0; f < s->faces; f++)
+    for (size_t k = 0; k < s->face[f].count && st == DYD_OK; k++)
+      st = loosen_site(s, face, faces, s->face[f].row[k].site);
+  if (st == DYD_OK) st = recount_left(s);
+  for (size_t i = 0; i < s->sites && s->left > before; i++) s->site[i].coarser = 0;
+  if (s->left > before) s->left = before;
+  return st;
+}
+
+/* ---- the plan ---- */
+
+/* The plan made small, and its accuracies coarse. */
+static dyd_status simplify(dyd_survey *s, const dyd_delaunay *pd) {
+  size_t faces = dyd_delaunay_undecided_faces(pd);
+  dyd_index_list *face = calloc(faces + 1, sizeof *face);
+  dyd_status st = face ? DYD_OK : DYD_E_NOMEM;
+  bool outer;
+  for (size_t f = 0; f < faces && st == DYD_OK; f++) st = dyd_delaunay_face(&face[f], &outer, pd, f);
+  if (st == DYD_OK) st = prune(s, face, faces);
+  if (st == DYD_OK) st = loosen(s);
+  if (st == DYD_OK) st = loosen_each(s, face, faces);
+  for (size_t f = 0; face && f < faces; f++) dyd_index_list_clear(&face[f]);
+  free(face);
+  return st;
+}
+
+/* The rows of all faces, the most telling of those that come next first; each face keeps its own order. */
+static dyd_status merge_rows(dyd_survey *s) {
+  size_t total = 0, left = s->target.count;
+  for (size_t f = 0; f < s->faces; f++) total += s->face[f].count;
+  s->row = dyd_alloc(total, sizeof *s->row);
+  if (!s->row) return DYD_E_NOMEM;
+  while (s->rows < total) {
+    dyd_face_rows *best = NULL;
+    for (size_t f = 0; f < s->faces; f++) {
+      dyd_face_rows *r = &s->face[f];
+      if (r->next < r->count && (!best || r->row[r->next].decided > best->row[best->next].decided)) best = r;
+    }
+    dyd_survey_row row = best->row[best->next++];
+    row.now = dyd_survey_now(s, row.site);
+    row.needed = dyd_survey_needed(s, row.site);
+    left -= row.decided < left ? row.decided : left;
+    row.left = s->rows + 1 == total ? s->left : left > s->left ? left : s->left;
+    s->row[s->rows++] = row;
+  }
+  return DYD_OK;
+}
+
+static dyd_status survey_check(const dyd_survey *s, const dyd_delaunay *pd, dyd_error *err) {
+  const dyd_survey_options *o = &s->options;
+  if (dyd_delaunay_is_capped(pd))
+    return dyd_fail(err, DYD_CAPPED, "there are more open pairs than can be stored; raise --max-pairs");
+  if (o->accuracy && mpq_sgn(o->accuracy) <= 0) return dyd_fail(err, DYD_E_ARG, "an accuracy is above 0");
+  if (o->site && *o->site >= s->sites)
+    return dyd_fail(err, DYD_E_ARG, "there is no such point; give the number of one, from 0");
+  for (size_t k = 0; o->pairs && k < o->pairs->count; k++)
+    if (o->pairs->item[k].i >= s->sites || o->pairs->item[k].j >= s->sites)
+      return dyd_fail(err, DYD_E_ARG, "pair number %zu names a point that does not exist", k);
+  for (size_t i = 0; o->cost && i < s->sites; i++)
+    if (!(o->cost[i] > 0)) return dyd_fail(err, DYD_E_ARG, "the cost of point %zu is not above 0", i);
+  return DYD_OK;
+}
+
+dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_survey_options *options, dyd_error *err) {
+  *out = NULL;
+  if (err) dyd_error_clear(err);
+  dyd_survey *s = calloc(1, sizeof *s);
+  if (!s) return dyd_fail_nomem(err);
+  mpq_init(s->scale);
+  dyd_status st = dyd_abi_take(&s->options, sizeof s->options, options, "dyd_survey_options", err);
+  if (st == DYD_OK) st = dyd_survey_load(s, dyd_delaunay_sites(pd));
+  if (st == DYD_OK) st = survey_check(s, pd, err);
+  if (st == DYD_OK) st = find_targets(s, pd);
+  if (st == DYD_OK) st = choose_finely_enough(s, pd);
+  if (st == DYD_OK) st = simplify(s, pd);
+  if (st == DYD_OK) st = merge_rows(s);
+  if (st == DYD_OK) {
+    *out = s;
+    return DYD_OK;
+  }
+  dyd_survey_free(s);
+  return err && err->code == st ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
+}
+
+void dyd_survey_free(dyd_survey *s) {
+  if (!s) return;
+  forget_rows(s);
+  for (size_t i = 0; i < s->sites; i++) {
+    dyd_rect_clear(&s->site[i].rect);
+    mpq_clears(s->site[i].x, s->site[i].y, s->site[i].half, NULL);
+  }
+  free(s->site);
+  free(s->face);
+  free(s->row);
+  dyd_pair_list_clear(&s->target);
+  mpq_clear(s->scale);
+  free(s);
+}
+
+size_t dyd_survey_rows(const dyd_survey_row **row, const dyd_survey *s) {
+  *row = s->row;
+  return s->rows;
+}
+
+void dyd_survey_count(size_t *open, size_t *ties, size_t *left, const dyd_survey *s) {
+  *open = s->target.count;
+  *ties = s->ties;
+  *left = s->left;
+}

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Working out a plan: rectangles and how they would be after measuring; faces one by one; the whole. */
+#ifndef DYD_TOLERANCE_SURVEY_H
+#define DYD_TOLERANCE_SURVEY_H
+
+#include <dyadel/survey.h>
+
+/* A site as it is, and how small it can be measured. rect: now; centre, half: of it, exactly (half of the larger
+ * side). chosen: is in the plan. */
+typedef struct dyd_survey_site {
+  dyd_rect rect;
+  mpq_t x, y, half;
+  bool chosen;
+  unsigned coarser; /* its accuracy is that of the common factor times 2^coarser */
+} dyd_survey_site;
+
+typedef struct dyd_face_rows {
+  dyd_survey_row *row;
+  size_t count, cap, next;
+} dyd_face_rows;
+
+/* Accuracies are min(scale * 2^coarser * unit, half): unit is the accuracy that was given, or each site's own half
+ * (unit NULL). */
+struct dyd_survey {
+  dyd_survey_options options;
+  size_t sites;
+  dyd_survey_site *site;
+  dyd_pair_list target; /* asked for, open, and no tie */
+  size_t ties, left;
+  mpq_t scale;
+  dyd_face_rows *face; /* of every face worked on, in the order to measure */
+  size_t faces, face_cap;
+  dyd_survey_row *row;
+  size_t rows;
+};
+
+/* survey_rects.c */
+dyd_status dyd_survey_load(dyd_survey *s, const dyd_sites *sites);
+/* The rectangle of site i once measured, if `measured`, else as it is. */
+dyd_status dyd_survey_rect(dyd_rect *out, const dyd_survey *s, uint32_t i, bool measured);
+/* A new triangulation of all sites, the chosen ones measured; of the centres of all. */
+dyd_status dyd_survey_triangulate(dyd_delaunay **pd, dyd_sites **sites, const dyd_survey *s, bool centres);
+/* How many of the targets are open in it. */
+size_t dyd_survey_open(const dyd_survey *s, const dyd_delaunay *pd);
+/* The accuracy of site i, rounded down. */
+double dyd_survey_needed(const dyd_survey *s, uint32_t i);
+double dyd_survey_now(const dyd_survey *s, uint32_t i);
+
+/* survey_face.c: chooses among the sites of face f of pd so that its targets are decided; appends to s->face. */
+dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t f);
+/* How many targets of the face with these sites (ascending) are open as things stand; 0 where `site` is not among them.
+ */
+dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_index_list *sites, uint32_t site);
+/* Would more targets of the face with these sites (ascending) be open, were this one not measured? */
+dyd_status dyd_survey_face_needs(bool *needs, dyd_survey *s, const dyd_index_list *sites, uint32_t site);
+
+#endif

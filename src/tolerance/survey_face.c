@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The plan of one undecided face. What happens in it depends on its own sites alone [LOC-1], so each try is a
+ * triangulation of these: greedily the site that leaves fewest of its targets open, then whoever is not needed goes.
+ * Whether the plan is enough is seen on all sites in the end. */
+#include "base/alloc.h"
+#include "base/flag.h"
+#include "base/index.h"
+#include "tolerance/survey.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Sites and targets by their numbers in the face; measured[k]: how it is tried. */
+typedef struct face_try {
+  dyd_survey *s;
+  dyd_index_list sites;
+  dyd_pair *target;
+  size_t targets;
+  bool *measured;
+  uint32_t *order; /* those chosen here */
+  size_t chosen;
+} face_try;
+
+static uint32_t number_in(const face_try *f, uint32_t site) {
+  const uint32_t *at = bsearch(&site, f->sites.item, f->sites.count, sizeof site, dyd_compare_index);
+  return at ? (uint32_t)(at - f->sites.item) : DYD_NONE;
+}
+
+/* How many targets are open; open[k] (may be NULL): of how many it is an end. */
+static dyd_status try_face(size_t *open_pairs, size_t *open, const face_try *f) {
+  dyd_sites *sites = NULL;
+  dyd_delaunay *pd = NULL;
+  dyd_rect r;
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = f->s->options.cancel};
+  if (dyd_flag_is_set(o.cancel)) return DYD_CANCELLED;
+  dyd_rect_init(&r);
+  dyd_status st = dyd_sites_new(&sites);
+  for (size_t k = 0; k < f->sites.count && st == DYD_OK; k++) {
+    st = dyd_survey_rect(&r, f->s, f->sites.item[k], f->measured[k]);
+    if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
+  }
+  if (st == DYD_OK) st = dyd_delaunay_new(&pd, sites, &o, NULL);
+  if (st == DYD_CAPPED) st = DYD_OK;
+  *open_pairs = 0;
+  if (open) memset(open, 0, f->sites.count * sizeof *open);
+  for (size_t k = 0; k < f->targets && st == DYD_OK; k++) {
+    dyd_pair_status status = dyd_delaunay_status(pd, f->target[k].i, f->target[k].j);
+    if (status != DYD_INDETERMINATE && status != DYD_TIE) continue;
+    ++*open_pairs;
+    if (open) open[f->target[k].i]++, open[f->target[k].j]++;
+  }
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+static bool can_be_measured(const face_try *f, size_t k) {
+  return !f->measured[k] && mpq_sgn(f->s->site[f->sites.item[k]].half) > 0;
+}
+
+static double cost_of(const face_try *f, size_t k) {
+  return f->s->options.cost ? f->s->options.cost[f->sites.item[k]] : 1;
+}
+
+/* The site that decides most for its cost; where no single one decides anything, an end of most open pairs. */
+static dyd_status best_site(size_t *best, const face_try *f, size_t open_pairs, const size_t *open) {
+  double most = 0;
+  size_t fallback = f->sites.count;
+  *best = f->sites.count;
+  for (size_t k = 0; k < f->sites.count; k++) {
+    size_t now;
+    if (!can_be_measured(f, k)) continue;
+    if (fallback == f->sites.count || open[k] > open[fallback]) fallback = k;
+    f->measured[k] = true;
+    dyd_status st = try_face(&now, NULL, f);
+    f->measured[k] = false;
+    if (st != DYD_OK) return st;
+    double gain = ((double)open_pairs - (double)now) / cost_of(f, k);
+    if (gain > most) most = gain, *best = k;
+  }
+  if (*best == f->sites.count) *best = fallback;
+  return DYD_OK;
+}
+
+static dyd_status choose_sites(face_try *f, size_t *open) {
+  size_t open_pairs;
+  dyd_status st = try_face(&open_pairs, open, f);
+  while (st == DYD_OK && open_pairs) {
+    size_t best;
+    st = best_site(&best, f, open_pairs, open);
+    if (st != DYD_OK || best == f->sites.count) return st;
+    f->measured[best] = true;
+    f->order[f->chosen++] = (uint32_t)best;
+    st = try_face(&open_pairs, open, f);
+  }
+  return st;
+}
+
+/* From the first chosen on, which knew least of the others; the dearest first where costs differ. */
+static dyd_status drop_sites(face_try *f) {
+  size_t wanted, open_pairs;
+  dyd_status st = try_face(&wanted, NULL, f);
+  for (size_t q = 0; q < f->chosen && st == DYD_OK;) {
+    uint32_t k = f->order[q];
+    f->measured[k] = false;
+    st = try_face(&open_pairs, NULL, f);
+    bool needed = open_pairs > wanted;
+    f->measured[k] = needed;
+    if (needed)
+      q++;
+    else
+      memmove(&f->order[q], &f->order[q + 1], (--f->chosen - q) * sizeof *f->order);
+  }
+  return st;
+}
+
+/* The rows, in the order chosen, with what each decides. */
+static dyd_status write_rows(face_try *f) {
+  dyd_survey *s = f->s;
+  if (!f->chosen) return DYD_OK;
+  if (!dyd_reserve((void **)&s->face, &s->face_cap, s->faces + 1, sizeof *s->face)) return DYD_E_NOMEM;
+  dyd_face_rows *rows = &s->face[s->faces++];
+  *rows = (dyd_face_rows){.row = dyd_alloc(f->chosen, sizeof *rows->row)};
+  if (!rows->row) return DYD_E_NOMEM;
+  for (size_t q = 0; q < f->chosen; q++) f->measured[f->order[q]] = false;
+  size_t before, after;
+  dyd_status st = try_face(&before, NULL, f);
+  for (size_t q = 0; q < f->chosen && st == DYD_OK; q++) {
+    f->measured[f->order[q]] = true;
+    s->site[f->sites.item[f->order[q]]].chosen = true;
+    st = try_face(&after, NULL, f);
+    rows->row[rows->count++] = (dyd_survey_row){f->sites.item[f->order[q]], 0, 0, before - after, 0};
+    before = after;
+  }
+  return st;
+}
+
+static void take_targets(face_try *f) {
+  for (size_t k = 0; k < f->s->target.count; k++) {
+    const dyd_pair *p = &f->s->target.item[k];
+    uint32_t i = number_in(f, p->i), j = number_in(f, p->j);
+    if (i != DYD_NONE && j != DYD_NONE) f->target[f->targets++] = (dyd_pair){i, j, p->status};
+  }
+}
+
+/* Room for n sites; measured as they are chosen now. *open gets room for n numbers. */
+static dyd_status face_begin(face_try *f, size_t **open) {
+  size_t n = f->sites.count;
+  *open = calloc(n + 1, sizeof **open);
+  f->target = dyd_alloc(f->s->target.count, sizeof *f->target);
+  f->measured = dyd_alloc(n, sizeof *f->measured);
+  f->order = dyd_alloc(n, sizeof *f->order);
+  if (!*open || !f->target || !f->measured || !f->order) return DYD_E_NOMEM;
+  for (size_t k = 0; k < n; k++) f->measured[k] = f->s->site[f->sites.item[k]].chosen;
+  take_targets(f);
+  return DYD_OK;
+}
+
+static void face_end(face_try *f, size_t *open) {
+  free(open);
+  free(f->target);
+  free(f->measured);
+  free(f->order);
+}
+
+dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t face) {
+  face_try f = {.s = s};
+  bool outer;
+  size_t *open = NULL;
+  dyd_status st = dyd_delaunay_face(&f.sites, &outer, pd, face);
+  if (st == DYD_OK) st = face_begin(&f, &open);
+  if (st == DYD_OK && f.targets) st = choose_sites(&f, open);
+  if (st == DYD_OK && f.targets) st = drop_sites(&f);
+  if (st == DYD_OK && f.targets) st = write_rows(&f);
+  face_end(&f, open);
+  dyd_index_list_clear(&f.sites);
+  return st;
+}
+
+dyd_status dyd_survey_face_needs(bool *needs, dyd_survey *s, const dyd_index_list *sites, uint32_t site) {
+  face_try f = {.s = s, .sites = *sites};
+  size_t *open = NULL, with, without;
+  uint32_t k = number_in(&f, site);
+  *needs = false;
+  if (k == DYD_NONE) return DYD_OK;
+  dyd_status st = face_begin(&f, &open);
+  if (st == DYD_OK) st = try_face(&with, NULL, &f);
+  if (st == DYD_OK) {
+    f.measured[k] = false;
+    st = try_face(&without, NULL, &f);
+    *needs = st == DYD_OK && without > with;
+  }
+  face_end(&f, open);
+  return st;
+}
+
+dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_index_list *sites, uint32_t site) {
+  face_try f = {.s = s, .sites = *sites};
+  size_t *open = NULL;
+  *open_pairs = 0;
+  if (number_in(&f, site) == DYD_NONE) return DYD_OK;
+  dyd_status st = face_begin(&f, &open);
+  if (st == DYD_OK && f.targets) st = try_face(open_pairs, NULL, &f);
+  face_end(&f, open);
+  return st;
+}

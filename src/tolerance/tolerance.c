@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Tolerances: the public calls. */
+#include "base/abi.h"
+#include "base/error.h"
+#include "base/float_filter.h"
+#include "tolerance/state.h"
+
+const char *dyd_tolerance_event_text(dyd_tolerance_event event) {
+  static const char *const text[] = {"death", "birth", "tie"};
+  return event <= DYD_EVENT_TIE ? text[event] : NULL;
+}
+
+/* ---- making ---- */
+
+static dyd_status check_points(const dyd_tolerance *t, dyd_error *err) {
+  for (uint32_t i = 0; i < t->sk->n; i++)
+    if (!dyd_sites_is_point(t->sk->reps.sites, i)) {
+      if (err) err->point = i;
+      return dyd_fail(err, DYD_E_ARG, "tolerances are those of exact points; give this one by plain numbers");
+    }
+  if (dyd_delaunay_is_capped(t->pd))
+    return dyd_fail(err, DYD_CAPPED, "there are more ties than can be stored; raise --max-pairs");
+  if (t->options.up_to && mpq_sgn(t->options.up_to) < 0)
+    return dyd_fail(err, DYD_E_ARG, "births up to a negative number: give a positive one");
+  return DYD_OK;
+}
+
+typedef struct tie_rows {
+  dyd_tolerance *t;
+  dyd_status status;
+} tie_rows;
+
+static void add_tie(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
+  tie_rows *r = context;
+  if (status != DYD_LEGAL && r->status == DYD_OK)
+    r->status = dyd_row_add(r->t, v, w, DYD_EVENT_TIE, DYD_NONE, DYD_NONE, 0, 0);
+}
+
+static dyd_status tolerance_work(dyd_tolerance *t, dyd_error *err) {
+  tie_rows ties = {t, DYD_OK};
+  dyd_status st = dyd_near_prepare(t);
+  if (st == DYD_OK) st = dyd_deaths(t);
+  if (st == DYD_OK) dyd_each_pair(t->pd, add_tie, &ties);
+  if (st == DYD_OK) st = ties.status;
+  if (st == DYD_OK) st = dyd_whole(t);
+  if (st == DYD_OK && t->options.points) st = dyd_points_radius(t);
+  if (st == DYD_OK && t->options.up_to && mpq_sgn(t->options.up_to)) st = dyd_births(t, err);
+  return st == DYD_OK ? dyd_rows_sort(t) : st;
+}
+
+dyd_status dyd_tolerance_new(dyd_tolerance **out, const dyd_delaunay *pd, const dyd_tolerance_options *options,
+                             dyd_error *err) {
+  *out = NULL;
+  if (err) dyd_error_clear(err);
+  dyd_status st = dyd_float_check(err);
+  dyd_tolerance *t = st == DYD_OK ? calloc(1, sizeof *t) : NULL;
+  if (!t) return st == DYD_OK ? dyd_fail_nomem(err) : st;
+  t->pd = pd;
+  t->sk = &pd->sk;
+  dyd_lines_init(&t->lines);
+  dyd_summit_init(&t->summit);
+  st = dyd_abi_take(&t->options, sizeof t->options, options, "dyd_tolerance_options", err);
+  if (st == DYD_OK) st = check_points(t, err);
+  if (st == DYD_OK) st = tolerance_work(t, err);
+  t->options.up_to = NULL;
+  if (st == DYD_OK) {
+    *out = t;
+    return DYD_OK;
+  }
+  dyd_tolerance_free(t);
+  return err && err->code == st ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
+}
+
+void dyd_tolerance_free(dyd_tolerance *t) {
+  if (!t) return;
+  dyd_near_clear(t);
+  dyd_summit_clear(&t->summit);
+  dyd_lines_clear(&t->lines);
+  free(t->ring);
+  free(t->radius);
+  free(t->row);
+  free(t);
+}
+
+/* ---- answers ---- */
+
+size_t dyd_tolerance_rows(const dyd_tolerance_row **row, const dyd_tolerance *t) {
+  *row = t->row;
+  return t->rows;
+}
+
+void dyd_tolerance_whole(double *lo, double *hi, const dyd_tolerance *t) {
+  *lo = t->lo;
+  *hi = t->hi;
+}
+
+const double *dyd_tolerance_points(const dyd_tolerance *t) {
+  return t->radius;
+}
+
+void dyd_tolerance_rungs(uint64_t *filter, uint64_t *exact, const dyd_tolerance *t) {
+  *filter = t->filter;
+  *exact = t->exact;
+}
+
+/* What binds is known: the summit of these lines alone is that of all; a birth is where they cross. */
+dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_tolerance *t, size_t row) {
+  if (row >= t->rows || t->row[row].lo == HUGE_VAL) return DYD_E_ARG;
+  const dyd_tolerance_row *r = &t->row[row];
+  const uint32_t *vertex = t->sk->vertex;
+  mpq_set_ui(plus, 0, 1);
+  mpq_set_ui(minus, 0, 1);
+  if (r->event == DYD_EVENT_TIE) return DYD_OK;
+  dyd_lines l;
+  dyd_summit s;
+  dyd_lines_init(&l);
+  dyd_summit_init(&s);
+  uint32_t others[2] = {vertex[r->k], r->l == DYD_NO_SITE ? DYD_NONE : vertex[r->l]};
+  dyd_status st = dyd_lines_load(&l, t->sk, vertex[r->i], vertex[r->j], others, r->l == DYD_NO_SITE ? 1 : 2);
+  if (st == DYD_OK && r->event == DYD_EVENT_DEATH) dyd_lines_death(&s, &l);
+  if (st == DYD_OK && r->event == DYD_EVENT_BIRTH) dyd_lines_birth_by(&s, &l);
+  if (st == DYD_OK) {
+    mpq_swap(plus, s.plus);
+    mpq_swap(minus, s.minus);
+  }
+  dyd_summit_clear(&s);
+  dyd_lines_clear(&l);
+  return st;
+}

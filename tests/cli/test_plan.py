@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""dyadel plan: the statement is proved again by delaunay; parts, accuracies, messages.
+
+Usage: test_plan.py COMMAND DATA
+"""
+import csv
+import os
+import pathlib
+import re
+import tempfile
+
+from harness import DATA, expect, main, run
+
+POINTS = '0 0\n10 0\n5+-0.5 3\n5 -6+-4\n'
+AIRPORTS = os.path.join(DATA, 'airports.csv')
+
+
+def rows(text):
+    return list(csv.DictReader(line for line in text.splitlines() if not line.startswith('#')))
+
+
+def test_small():
+    expect(run('plan', '-', stdin=POINTS), 0,
+           r'\A# plan 1 points: sufficient if they turn out within these accuracies of their nominal places; verified\n'
+           r'rank,i,half_width_now,half_width_needed,pairs_decided,pairs_left\n1,3,4,2\.25,2,0\n\Z', r'\A\Z')
+    expect(run('plan', '-', stdin='0 0\n1 0\n0 1\n'), 0, r'\A# plan 0 points: sufficient.*\nrank,[^\n]*\n\Z', r'\A\Z')
+    expect(run('plan', '-', stdin=''), 0, r'\A# plan 0 points')
+
+
+def test_accuracy_that_is_not_enough():
+    expect(run('plan', '--accuracy', '3.9', '-', stdin=POINTS), 3, r'\A# plan \d points: not sufficient, 2 of 2 pairs stay open\n',
+           'finer --accuracy')
+    expect(run('plan', '--accuracy', '3.9', '--quiet', '-', stdin=POINTS), 3, r'\A# plan', r'\A\Z')
+
+
+def test_ties():
+    """A square: its diagonals tie if all are where they seem to be; nothing helps, and nothing is asked."""
+    square = '0+-0.1 0\n1 0+-0.1\n1 1\n0 1\n'
+    expect(run('plan', '-', stdin=square), 0, r'\A# plan 0 points: sufficient.*\n# ties 2: ')
+
+
+def measured(text, plan):
+    """The points file with the sites of the plan as accurate as it says."""
+    half = {int(r['i']): r['half_width_needed'] for r in plan}
+    out = []
+    for i, line in enumerate(text.splitlines()):
+        out.append(' '.join(f'{c}+-{half[i]}' for c in re.sub(r'\+-\S+', '', line).split()) if i in half else line)
+    return '\n'.join(out) + '\n'
+
+
+def test_proved_again():
+    """Squares of 0.02 around the first airports: what the plan says decides all."""
+    with open(AIRPORTS, encoding='utf-8') as f:
+        table = list(csv.DictReader(f))[:400]
+    text = ''.join(f"{r['longitude']}+-0.02 {r['latitude']}+-0.02\n" for r in table)
+    before = run('delaunay', '-', stdin=text)
+    expect(before, 3)
+    result = run('plan', '-', stdin=text)
+    expect(result, 0, r'\A# plan \d+ points: sufficient')
+    plan = rows(result.out)
+    assert plan[-1]['pairs_left'] == '0' and [int(r['rank']) for r in plan] == list(range(1, len(plan) + 1))
+    left = [int(r['pairs_left']) for r in plan]
+    assert left == sorted(left, reverse=True)
+    with tempfile.TemporaryDirectory() as folder:
+        expect(run('delaunay', '--certificate', 'proof', '-', stdin=measured(text, plan), cwd=folder), 0)
+        expect(run('verify', 'proof', cwd=folder), 0)
+    expect(run('delaunay', '-', stdin=measured(text, plan[:-1])), 3)
+    first = rows(run('plan', '--next', '-', stdin=text).out)
+    assert first == plan[:1]
+
+
+def test_parts():
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder)
+        (path / 'pairs').write_text('# some\ni,j,status\n1,0,indeterminate\n\n')
+        (path / 'wrong').write_text('i,j\n0,1\n0,x\n')
+        (path / 'far').write_text('0,7\n')
+        (path / 'points').write_text(POINTS)
+        expect(run('plan', '--pairs', 'pairs', 'points', cwd=folder), 0, r'\n1,3,4,\S*,1,0\n\Z')
+        expect(run('plan', '--pairs', 'wrong', 'points', cwd=folder), 1, r'\A\Z', r'wrong:3: this is no pair')
+        expect(run('plan', '--pairs', 'none', 'points', cwd=folder), 1, r'\A\Z', 'none: cannot open')
+        expect(run('plan', '--pairs', 'far', 'points', cwd=folder), 1, r'\A\Z', 'point that does not exist')
+    expect(run('plan', '--site', '2', '-', stdin=POINTS), 0, r'\n1,3,4,\S*,1,0\n\Z')
+    expect(run('plan', '--site', '4', '-', stdin=POINTS), 1, r'\A\Z', 'there is no such point')
+    expect(run('plan', '--window', '100,101,0,1', '-', stdin=POINTS), 0, r'\A# plan 0 points')
+    for wrong in ('0', '-1', 'x', '1+-0.5'):
+        expect(run('plan', '--accuracy', wrong, '-', stdin=POINTS), 2, r'\A\Z', '--accuracy ".*" is not understood')
+    assert '"rank": 1' in run('plan', '--format', 'geojson', '-', stdin=POINTS).out
+    assert run('plan', '--format', 'wkt', '-', stdin=POINTS).out.startswith('WKT,rank,i,')
+
+
+main(globals())

@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""dyadel tolerance: layers, formats, exact forms, messages, the airports.
+
+Usage: test_tolerance.py COMMAND DATA
+"""
+import csv
+import fractions
+import json
+import math
+import os
+import re
+import xml.etree.ElementTree
+
+from harness import DATA, expect, main, run
+
+SQUARE = '0 0\n1 0\n1 1\n0 1\n0 0\n3 0.5\n'
+AIRPORTS = ['--columns', 'longitude,latitude', os.path.join(DATA, 'airports.csv')]
+
+
+def rows(text):
+    return list(csv.DictReader(line for line in text.splitlines() if not line.startswith('#')))
+
+
+def test_square():
+    """Ties, touching pairs, births, an alias; a birth beyond the cap is not listed."""
+    result = run('tolerance', '--up-to', '0.1', '-', stdin=SQUARE)
+    expect(result, 0, r'\A# alias 4 0\n# tolerance 0 0\ni,j,event,lo,hi,k,l\n0,1,death,', r'\A\Z')
+    got = {(r['i'], r['j']): r for r in rows(result.out)}
+    assert got['0', '2'] == {'i': '0', 'j': '2', 'event': 'tie', 'lo': '0', 'hi': '0', 'k': '', 'l': ''}, got
+    assert (got['0', '3']['lo'], got['0', '3']['hi'], got['0', '3']['k'], got['0', '3']['l']) == ('0.5', '0.5', '2', '')
+    assert got['0', '5']['event'] == 'birth' and got['0', '5']['k'] == '1', got['0', '5']
+    assert ('0', '5') not in {(r['i'], r['j']) for r in rows(run('tolerance', '--up-to', '0.08', '-', stdin=SQUARE).out)}
+    assert all(r['event'] != 'birth' for r in rows(run('tolerance', '-', stdin=SQUARE).out))
+
+
+def test_few_points():
+    expect(run('tolerance', '--quiet', '-', stdin=''), 0, r'\A# tolerance inf inf\ni,j,event,lo,hi,k,l\n\Z', r'\A\Z')
+    expect(run('tolerance', '-', stdin='1 2\n'), 0, r'\A# tolerance inf inf\ni,j,event,lo,hi,k,l\n\Z', r'\A\Z')
+    expect(run('tolerance', '-', stdin='1 2\n3 4\n'), 0, r'inf inf\ni,j,event,lo,hi,k,l\n0,1,death,,,,\n\Z', r'\A\Z')
+    expect(run('tolerance', '-', stdin='0 0\n2 0\n3 0\n'), 0, r'# tolerance 0 0\n.*\n0,1,death,0\.5,0\.5,2,\n0,2,tie,0,0,,\n')
+    expect(run('tolerance', '--layer', 'points', '-', stdin='0 0\n2 0\n3 0\n'), 0, r'\ni,rho\n0,0\n1,0\n2,0\n\Z')
+
+
+def test_refusals():
+    expect(run('tolerance', '-', stdin='0 0\n1 0\nsqrt(2) 1\n'), 1, r'\A\Z', r'-: point 2: .*plain numbers')
+    expect(run('tolerance', '-', stdin='0 0\n1 0\n[1,2] 1\n'), 1, r'\A\Z', r'-: point 2: .*plain numbers')
+    for wrong in ('-1', 'x', '1+-0.5', 'sqrt(2)'):
+        expect(run('tolerance', '--up-to', wrong, '-', stdin=SQUARE), 2, r'\A\Z', '--up-to ".*" is not understood; give')
+    expect(run('tolerance', '--layer', 'cells', '-', stdin=SQUARE), 2, r'\A\Z', 'give pairs, points, barcode')
+    expect(run('tolerance', '--format', 'obj', '-', stdin=SQUARE), 2, r'\A\Z', 'does not write obj')
+    expect(run('tolerance', '--format', 'wkt', '--layer', 'barcode', '-', stdin=SQUARE), 2, r'\A\Z', 'barcode')
+    expect(run('tolerance', '--up-to', '1', '--max-pairs', '1', '-', stdin=SQUARE), 1, r'\A\Z', '--max-pairs')
+
+
+def test_airports():
+    result = run('tolerance', *AIRPORTS)
+    expect(result, 0, r'\A# tolerance 7\.68043049\d*e-7 7\.68043049\d*e-7\n', r'\A\Z')
+    deaths = [float(r['lo']) for r in rows(result.out)]
+    assert len(deaths) == 10112 and sum(d < 0.005 for d in deaths) == 511 and sum(d < 0.01 for d in deaths) == 964
+    assert all(float(r['hi']) <= float(r['lo']) * (1 + 2 ** -40) for r in rows(result.out))
+    barcode = {r['accuracy']: (int(r['certain']), int(r['open'])) for r in rows(run('tolerance', '--layer', 'barcode', *AIRPORTS).out)}
+    assert barcode['5e-3'] == (9601, 511) and barcode['1e-2'] == (9148, 964), barcode
+
+
+def test_boxes_agree():
+    """Squares of half-width t hold the discs, and lie in those of radius sqrt(2) t: deaths and births against statuses."""
+    half = 0.01
+    wide = rows(run('delaunay', '--radius', str(half), *AIRPORTS).out)
+    legal = {(r['i'], r['j']) for r in wide if r['status'] == 'legal'}
+    possible = {(r['i'], r['j']) for r in wide}
+    events = rows(run('tolerance', '--up-to', '0.015', *AIRPORTS).out)
+    for r in events:
+        pair, lo, hi = (r['i'], r['j']), float(r['lo']), float(r['hi'])
+        if r['event'] == 'death':
+            assert pair not in legal or lo >= half, r
+            assert pair in legal or hi <= half * math.sqrt(2) * (1 + 1e-9), r
+        else:
+            assert pair not in possible or lo <= half * math.sqrt(2) * (1 + 1e-9), r
+            assert pair in possible or hi >= half * (1 - 1e-9), r
+    assert possible <= {(r['i'], r['j']) for r in events}
+
+
+def test_discs():
+    """The same as deaths and births say; fewer open pairs than squares leave; what cannot be written so is refused."""
+    for radius in ('0.01', '0.003'):
+        discs = run('delaunay', '--discs', '--radius', radius, *AIRPORTS)
+        expect(discs, 3, r'\Ai,j,status\n', r'\Adyadel: fixpoint: \d+ legal, \d+ indeterminate, 0 tie among the discs\n\Z')
+        events = rows(run('tolerance', '--up-to', radius, *AIRPORTS).out)
+        wanted = {(r['i'], r['j']): 'legal' if r['event'] == 'death' and float(r['lo']) > float(radius) else 'indeterminate'
+                  for r in events}
+        assert {(r['i'], r['j']): r['status'] for r in rows(discs.out)} == wanted
+    expect(run('delaunay', '--discs', '-', stdin='0 0\n9 0\n4+-1 8+-1\n'), 0, r'\Ai,j,status\n(\d,\d,legal\n){3}\Z', r'\A\Z')
+    expect(run('delaunay', '--discs', '-', stdin='0 0\n9 0\n4+-1 8\n'), 1, r'\A\Z', 'point 2: a disc needs one radius')
+    expect(run('delaunay', '--discs', '--format', 'json', '-', stdin='0 0\n'), 1, r'\A\Z', 'written as pairs')
+    expect(run('delaunay', '--discs', '--certificate', '/dev/null', '-', stdin='0 0\n'), 2, r'\A\Z', '--certificate away')
+    xml.etree.ElementTree.fromstring(run('delaunay', '--discs', '--format', 'svg', '-', stdin='0+-1 0+-1\n9 0\n4 8\n').out)
+
+
+def test_json():
+    """The exact form is inside the bounds."""
+    result = run('tolerance', '--format', 'json', '--up-to', '0.1', '-', stdin=SQUARE + '1/3 0.1\n')
+    expect(result, 0)
+    answer = json.loads(result.out)
+    assert answer['format'] == 'dyadel tolerance 1' and answer['aliases'] == [[4, 0]] and len(answer['rho']) == 7
+    for pair in answer['pairs']:
+        plus, minus = fractions.Fraction(pair['plus']), fractions.Fraction(pair['minus'])
+        lo, hi = map(fractions.Fraction, pair['bounds'])
+        t = abs(math.sqrt(plus) - math.sqrt(minus)) / 2
+        assert lo - fractions.Fraction(1e-12) <= t <= hi + fractions.Fraction(1e-12), pair
+
+
+def test_geometry():
+    answer = json.loads(run('tolerance', '--format', 'geojson', '--layer', 'points', '-', stdin=SQUARE).out)
+    assert answer['features'][5]['geometry'] == {'type': 'Point', 'coordinates': [3, 0.5]}, answer
+    assert set(answer['features'][5]['properties']) == {'i', 'rho', 'max_coordinate_error'}
+    lines = run('tolerance', '--format', 'wkt', '-', stdin=SQUARE).out.splitlines()
+    assert lines[0] == 'WKT,i,j,event,lo,hi,k,l,max_coordinate_error' and lines[1].startswith('"LINESTRING (0 0, 1 0)",0,1,death,')
+
+
+def test_picture():
+    """All classes and ties are drawn, births are not."""
+    with_births = run('tolerance', '--format', 'svg', '--up-to', '1', '-', stdin=SQUARE)
+    expect(with_births, 0)
+    xml.etree.ElementTree.fromstring(with_births.out)
+    assert with_births.out == run('tolerance', '--format', 'svg', '-', stdin=SQUARE).out
+    window = run('tolerance', '--format', 'svg', '--window', '0,1,0,1', '-', stdin=SQUARE)
+    expect(window, 0)
+    assert window.out != with_births.out
+    expect(run('tolerance', '--format', 'svg', '--window', '0,0,0,1', '-', stdin=SQUARE), 2, r'\A\Z', 'window')
+    strokes = set(re.findall(r'stroke="(#\w+)"', with_births.out))
+    assert len(strokes) >= 4, strokes
+
+
+main(globals())

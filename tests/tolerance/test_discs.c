@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Statuses of discs: with equal radii against tolerances, with others against choices of points [DISC-1]. */
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include "support/random.h"
+#include <cmocka.h>
+#include <dyadel/tolerance.h>
+#include <math.h>
+#include <string.h>
+
+enum { MOST = 12 };
+
+typedef struct disc_case {
+  size_t n;
+  double x[MOST], y[MOST], r[MOST];
+} disc_case;
+
+/* Dyadic and coarse, so that squares are exact and discs often touch. */
+static void make_discs_case(disc_case *c, test_random *r, bool equal) {
+  double grid = test_chance(r, 2) ? 16 : 1024, size = grid * 0.25 * test_unit(r);
+  c->n = 3 + test_below(r, MOST - 2);
+  for (size_t k = 0; k < c->n; k++) {
+    c->x[k] = (double)test_below(r, (uint64_t)grid);
+    c->y[k] = (double)test_below(r, (uint64_t)grid);
+    c->r[k] = equal && k ? c->r[0] : nearbyint(size * (equal ? 0.5 : test_unit(r)) * 4) / 4;
+    for (size_t i = 0; i < k; i++) /* places once only: as points they would be one */
+      if (c->x[i] == c->x[k] && c->y[i] == c->y[k]) c->x[k] += 2000 + (double)k;
+  }
+}
+
+static dyd_delaunay *triangulate(dyd_sites **sites, const disc_case *c, bool squares) {
+  dyd_delaunay *pd;
+  dyd_error err;
+  assert_int_equal(dyd_sites_new(sites), DYD_OK);
+  for (size_t k = 0; k < c->n; k++) {
+    double r = squares ? c->r[k] : 0, b[4] = {c->x[k] - r, c->x[k] + r, c->y[k] - r, c->y[k] + r};
+    assert_int_equal(dyd_sites_add_boxes(*sites, 1, &b[0], &b[1], &b[2], &b[3]), DYD_OK);
+  }
+  assert_int_equal(dyd_delaunay_new(&pd, *sites, NULL, &err), DYD_OK);
+  return pd;
+}
+
+static dyd_pair_status status_in(const dyd_pair_list *l, uint32_t i, uint32_t j) {
+  for (size_t k = 0; k < l->count; k++)
+    if (l->item[k].i == i && l->item[k].j == j) return l->item[k].status;
+  return DYD_ILLEGAL;
+}
+
+static dyd_pair_list pairs_of_discs(const disc_case *c) {
+  dyd_sites *sites;
+  dyd_error err;
+  dyd_pair_list l = {0};
+  dyd_delaunay *pd = triangulate(&sites, c, true);
+  assert_int_equal(dyd_disc_pairs(&l, pd, &err), DYD_OK);
+  for (size_t k = 0; k < l.count; k++) { /* only what squares leave open may change */
+    dyd_pair_status square = dyd_delaunay_status(pd, l.item[k].i, l.item[k].j);
+    assert_true(square == l.item[k].status || square == DYD_INDETERMINATE);
+  }
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  return l;
+}
+
+/* ---- equal radii: the same as tolerances say ---- */
+
+static void compare_with_tolerance(const disc_case *c, size_t *decided) {
+  dyd_sites *sites;
+  dyd_error err;
+  const dyd_tolerance_row *row;
+  dyd_tolerance *t;
+  mpq_t up_to;
+  mpq_init(up_to);
+  mpq_set_d(up_to, c->r[0] * (1 + 1e-9)); /* what hangs on roundings may be listed */
+  dyd_delaunay *pd = triangulate(&sites, c, false);
+  dyd_pair_list l = pairs_of_discs(c);
+  assert_int_equal(
+      dyd_tolerance_new(&t, pd, &(dyd_tolerance_options){DYD_SIZED(dyd_tolerance_options), .up_to = up_to}, &err),
+      DYD_OK);
+  size_t events = dyd_tolerance_rows(&row, t), listed = 0;
+  for (; events--; row++) {
+    dyd_pair_status s = status_in(&l, row->i, row->j);
+    bool death = row->event == DYD_EVENT_DEATH;
+    listed += s != DYD_ILLEGAL;
+    if (death && row->lo > c->r[0] * (1 + 1e-9)) assert_int_equal(s, DYD_LEGAL);
+    if (death && row->hi <= c->r[0]) assert_int_equal(s, DYD_INDETERMINATE);
+    if (!death && row->hi <= c->r[0]) assert_true(s == DYD_INDETERMINATE || (s == DYD_TIE && c->r[0] == 0));
+    *decided += s == DYD_LEGAL;
+  }
+  assert_int_equal(l.count, listed);
+  dyd_pair_list_clear(&l);
+  dyd_tolerance_free(t);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  mpq_clear(up_to);
+}
+
+static void test_equal_discs(void **state) {
+  (void)state;
+  test_random r = test_random_start("equal discs");
+  size_t decided = 0;
+  for (size_t k = 0; k < test_cases(400); k++) {
+    disc_case c;
+    make_discs_case(&c, &r, true);
+    compare_with_tolerance(&c, &decided);
+  }
+  assert_true(decided > 500);
+}
+
+/* ---- any radii: choices never refute ---- */
+
+/* In the discs, mostly on their rims; towards or away from one place, or anywhere. */
+static void choose(disc_case *out, const disc_case *c, test_random *r) {
+  double cx = c->x[0] + 40 * (test_unit(r) - 0.5), cy = c->y[0] + 40 * (test_unit(r) - 0.5);
+  uint64_t way = test_u64(r);
+  bool aimed = test_chance(r, 2);
+  *out = *c;
+  for (size_t k = 0; k < c->n; k++) {
+    double a = aimed ? atan2(cy - c->y[k], cx - c->x[k]) : 6.283185307179586 * test_unit(r);
+    double d = c->r[k] * (test_chance(r, 4) ? test_unit(r) : 1) * (1 - 1e-12) * (aimed && way >> k & 1 ? -1 : 1);
+    out->x[k] += d * cos(a);
+    out->y[k] += d * sin(a);
+    out->r[k] = 0;
+  }
+}
+
+static void test_choices(void **state) {
+  (void)state;
+  test_random r = test_random_start("choices in discs");
+  size_t open = 0, shown = 0, changed = 0;
+  for (size_t k = 0; k < test_cases(300); k++) {
+    disc_case c, p;
+    bool edge[MOST][MOST], none[MOST][MOST];
+    make_discs_case(&c, &r, false);
+    memset(edge, 0, sizeof edge);
+    memset(none, 0, sizeof none);
+    dyd_pair_list l = pairs_of_discs(&c);
+    for (int tries = 0; tries < 100; tries++) {
+      dyd_sites *sites;
+      choose(&p, &c, &r);
+      dyd_delaunay *pd = triangulate(&sites, &p, false);
+      for (uint32_t i = 0; i < c.n; i++)
+        for (uint32_t j = i + 1; j < c.n; j++)
+          *(dyd_delaunay_status(pd, i, j) == DYD_LEGAL ? &edge[i][j] : &none[i][j]) = true;
+      dyd_delaunay_free(pd);
+      dyd_sites_free(sites);
+    }
+    for (uint32_t i = 0; i < c.n; i++)
+      for (uint32_t j = i + 1; j < c.n; j++) {
+        dyd_pair_status s = status_in(&l, i, j);
+        if (s == DYD_LEGAL) assert_false(none[i][j]);
+        if (s == DYD_ILLEGAL) assert_false(edge[i][j]);
+        open += s == DYD_INDETERMINATE;
+        shown += s == DYD_INDETERMINATE && edge[i][j] && none[i][j];
+        changed += s == DYD_LEGAL;
+      }
+    dyd_pair_list_clear(&l);
+  }
+  print_message("open %zu, shown to be so by choices %zu, legal %zu\n", open, shown, changed);
+  assert_true(changed > 300 && shown * 10 > open * 6);
+}
+
+static void test_refused(void **state) {
+  (void)state;
+  dyd_sites *sites;
+  dyd_delaunay *pd;
+  dyd_error err;
+  dyd_pair_list l = {0};
+  const double lo[3] = {0, 10, 5}, hi[3] = {1, 11, 6}, top[3] = {1, 1, 9};
+  assert_int_equal(dyd_sites_new(&sites), DYD_OK);
+  assert_int_equal(dyd_sites_add_boxes(sites, 3, lo, hi, (double[]){0, 0, 7}, top), DYD_OK);
+  assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, &err), DYD_OK);
+  assert_int_equal(dyd_disc_pairs(&l, pd, &err), DYD_E_ARG);
+  assert_true(err.point == 2 && l.count == 0);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_equal_discs), cmocka_unit_test(test_choices),
+                                     cmocka_unit_test(test_refused)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
