@@ -17,7 +17,8 @@ extern "C" {
 
 typedef enum dyd_pair_status {
   DYD_ILLEGAL = 0,       /* an edge for no choice */
-  DYD_TIE = 1,           /* indeterminate, and no refinement can decide it: all sites concerned are exact */
+  DYD_TIE = 1,           /* indeterminate, and no refinement can decide it: all sites concerned are exact, or proved
+                            to be on one circle or line */
   DYD_INDETERMINATE = 2, /* possible, no witness */
   DYD_LEGAL = 3          /* an edge for every choice */
 } dyd_pair_status;
@@ -62,12 +63,29 @@ typedef struct dyd_delaunay_counters {
   uint64_t spare[8]; /* 0: for members to come, as other structs hold this one */
 } dyd_delaunay_counters;
 
+/* What true points may have in common. */
+typedef enum dyd_relation {
+  DYD_COINCIDENT = 0, /* two are the same place */
+  DYD_COLLINEAR,      /* all are on one line */
+  DYD_COCIRCULAR      /* all are on one circle */
+} dyd_relation;
+
+/* Knows more about the true points of sites than their rectangles tell: sets *proved (false when called) if they are
+ * proved to be in that relation, which then holds for good. The sites of a polygon or chain come in order. Returns DYD_OK,
+ * or a failure with *err (may be NULL) filled. */
+typedef dyd_status (*dyd_prove_fn)(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
+                                   dyd_error *err);
+
 typedef struct dyd_delaunay_options {
   size_t struct_size;         /* set by DYD_SIZED */
   size_t max_pairs;           /* cap on stored pairs beyond the skeleton; 0: the default, 4e6 + 16 N */
   const volatile int *cancel; /* when it points to a non-zero value, work stops with DYD_CANCELLED; may be NULL */
   unsigned threads;           /* how many may be used, the calling one included; 0: one. Nothing else depends on it */
   bool no_filter;             /* decide everything on the exact rung (for tests; statuses are the same) */
+  /* NULL, or who is asked about polygons and chains that would have to be closed: where they are proved to be on one
+   * circle or line, their pairs are ties [TIE-3]. Called from the calling thread only, during this call. */
+  dyd_prove_fn prove;
+  void *prove_user;
 } dyd_delaunay_options;
 
 typedef struct dyd_delaunay dyd_delaunay;

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "delaunay/face_table.h"
 #include "delaunay/faces.h"
+#include "delaunay/proved.h"
 #include "delaunay/ties.h"
 #include "legal/certify.h"
 #include "skeleton/mesh_start.h"
@@ -39,7 +40,7 @@ static void line_find(dyd_delaunay *pd, dyd_error *err) {
 static dyd_status build_statuses(dyd_delaunay *pd, dyd_work *w, dyd_known known) {
   if (pd->open.kind == DYD_LINE) {
     line_find(pd, w->err);
-    return DYD_OK;
+    return dyd_prove_line(pd, w);
   }
   dyd_status st = dyd_certify_all(&pd->sk, w);
   mark_known(&pd->sk, known);

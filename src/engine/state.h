@@ -15,6 +15,7 @@
  *   coarse.c        which sites of a face are coarse for their distances
  *   goal_voronoi.c  goals on the Voronoi diagram
  *   nearest.c       the question after the nearest sites of a computable point
+ *   ties.c          what is proved about true points, for ties
  *   watch.c         the clock, and stopping work at a deadline
  *   converge.c      tables of runs, stage by stage
  *   check.c, check_stage.c  the harness of monotone refinement */
@@ -49,6 +50,8 @@ typedef struct dyd_source_use {
   dyd_shared_source *shared;
 } dyd_source_use;
 
+typedef struct dyd_ties dyd_ties;
+
 /* Invariant: point is sorted by site; changed lists (with repeats) the sites narrowed since pd was last brought up
  * to date; pd = NULL before the first complete stage. Sites of points never asked hold the whole plane.
  * Only add.c, points.c and ask.c write here once the engine has been started: whoever plans or judges takes it
@@ -75,6 +78,9 @@ struct dyd_engine {
   dyd_budget spent;
   uint64_t stages, calls;
   double seconds;
+  dyd_ties *ties; /* what was asked about true points; NULL: nothing yet */
+  int64_t tie_bits;
+  dyd_tie_counters tie_counters;
   volatile int cancelled; /* set by dyd_engine_cancel; atomic access only, as for stop */
   volatile int stop;      /* set together with cancelled, and at a deadline; read by the triangulation */
 };

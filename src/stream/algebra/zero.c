@@ -80,12 +80,17 @@ static dyd_zero test_by_identity(dyd_algebra *a, uint32_t n) {
   return DYD_ZERO_PROVED;
 }
 
-/* Without a bound a value may still show that it is not 0. */
-static dyd_zero test_further(dyd_algebra *a, uint32_t n) {
-  enum { FURTHER_BITS = 4096 };
-  for (slong prec = 2 * FIRST_BITS; prec <= FURTHER_BITS && prec <= a->most; prec *= 2)
-    if (zero_is_excluded(a, n, prec)) return DYD_ZERO_REFUTED;
-  return DYD_ZERO_UNKNOWN;
+bool dyd_algebra_is_refuted(dyd_algebra *a, uint32_t n) {
+  if (n == DYD_NONE || !zero_is_excluded(a, n, FIRST_BITS)) return false;
+  a->count.tests++;
+  a->count.nonzero++;
+  return true;
+}
+
+bool dyd_algebra_is_nonzero(dyd_algebra *a, uint32_t n) {
+  for (slong prec = FIRST_BITS; n != DYD_NONE && prec <= FEW_BITS && prec <= a->most; prec *= 2)
+    if (zero_is_excluded(a, n, prec)) return true;
+  return false;
 }
 
 dyd_zero dyd_algebra_test(dyd_algebra *a, uint32_t n) {
@@ -96,8 +101,9 @@ dyd_zero dyd_algebra_test(dyd_algebra *a, uint32_t n) {
     if (!zero) zero = test_by_bound(a, n, FEW_BITS);
     if (!zero) zero = test_by_identity(a, n);
     if (!zero) zero = test_by_bound(a, n, a->most);
-    if (!zero) zero = test_further(a, n);
   }
+  /* without a bound the value may still show that it is not 0 */
+  if (!zero && dyd_algebra_is_nonzero(a, n)) zero = DYD_ZERO_REFUTED;
   a->count.nonzero += zero == DYD_ZERO_REFUTED;
   a->count.unknown += zero == DYD_ZERO_UNKNOWN;
   return zero;

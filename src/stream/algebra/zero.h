@@ -29,8 +29,10 @@ void dyd_algebra_close(dyd_algebra *a);
 /* Settles the leaves of the forms given. All forms tested later are sums, differences and products of these. DYD_OK or
  * DYD_E_NOMEM. */
 dyd_status dyd_algebra_settle(dyd_algebra *a, const uint32_t *node, size_t count);
-/* Decides about form n [IDN-1] [SEP-1]. Before the leaves are settled, and where n is DYD_NONE, it can at most be
- * refuted. */
+/* Is n seen not to be 0 at a low precision, or at a moderate one? Leaves need not be settled; DYD_NONE is not. */
+bool dyd_algebra_is_refuted(dyd_algebra *a, uint32_t n);
+bool dyd_algebra_is_nonzero(dyd_algebra *a, uint32_t n);
+/* Decides about form n [IDN-1] [SEP-1], which is refuted at most where n is DYD_NONE or leaves could not be settled. */
 dyd_zero dyd_algebra_test(dyd_algebra *a, uint32_t n);
 
 #endif
