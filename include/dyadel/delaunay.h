@@ -99,7 +99,8 @@ typedef struct dyd_delaunay dyd_delaunay;
 DYD_API dyd_status dyd_delaunay_new(dyd_delaunay **out, const dyd_sites *sites, const dyd_delaunay_options *options,
                                     dyd_error *err);
 DYD_API void dyd_delaunay_free(dyd_delaunay *pd);
-/* Brings *pd up to date after dyd_sites_narrow of the `count` sites listed (any order, repeats allowed): only the
+/* Brings *pd up to date after dyd_sites_narrow of the `count` sites listed (any order, repeats allowed), and after
+ * dyd_sites_join: only the
  * undecided faces that hold one of them are worked on again; legal pairs stay legal, illegal ones illegal.
  * On DYD_CANCELLED and errors *pd keeps its former statements, still valid, and the update can be repeated
  * (with the same or a larger list). */
@@ -114,7 +115,8 @@ DYD_API size_t dyd_delaunay_undecided_faces(const dyd_delaunay *pd);
 DYD_API dyd_status dyd_delaunay_get_counters(dyd_delaunay_counters *out, const dyd_delaunay *pd, dyd_error *err);
 DYD_API size_t dyd_delaunay_memory(const dyd_delaunay *pd);
 
-/* The lowest site with the same exact coordinates: i itself unless i is an alias. Aliases take part in nothing. */
+/* The lowest site at the same place, with the same exact coordinates or joined with i: i itself unless i is an alias.
+ * Aliases take part in nothing. */
 DYD_API uint32_t dyd_delaunay_alias(const dyd_delaunay *pd, uint32_t i);
 /* Status of a pair. Aliases answer for the site they stand for; i = j (or aliases of one another) is ILLEGAL. */
 DYD_API dyd_pair_status dyd_delaunay_status(const dyd_delaunay *pd, uint32_t i, uint32_t j);

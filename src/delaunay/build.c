@@ -52,6 +52,7 @@ dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known known, 
   const dyd_skeleton_options o = {pd->options.no_filter, pd->options.threads, pd->options.cancel};
   dyd_status st = dyd_skeleton_build(&pd->sk, sites, &o);
   if (st != DYD_OK) return st;
+  pd->joins = sites->joins;
   dyd_work w;
   dyd_work_init(&w, &pd->sk, o.cancel);
   w.threads = o.threads;

@@ -73,6 +73,7 @@ struct dyd_delaunay {
   dyd_delaunay_counters counters;
   dyd_delaunay_options options;
   size_t max_pairs;
+  size_t joins; /* of sites, when it was built */
 };
 
 /* Are there no triangles, since the points are collinear for every choice, or are at most two? */

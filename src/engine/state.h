@@ -15,6 +15,7 @@
  *   coarse.c        which sites of a face are coarse for their distances
  *   goal_voronoi.c  goals on the Voronoi diagram
  *   nearest.c       the question after the nearest sites of a computable point
+ *   aliases.c       points that are proved to be the same place
  *   ties.c          what is proved about true points, for ties
  *   watch.c         the clock, and stopping work at a deadline
  *   converge.c      tables of runs, stage by stage
@@ -23,6 +24,9 @@
 #define DYD_ENGINE_STATE_H
 
 #include "engine/labels.h"
+
+/* Bits for a proof that true points are the same, on one line or circle, unless others are asked for. */
+#define DYD_TIE_BITS ((int64_t)1 << 17)
 
 /* A point that can be asked to narrow. Everything else about a site is in the table of sites.
  * Invariant: stream is NULL exactly when the site belongs to a source; then `source` is the source's number.
@@ -34,7 +38,8 @@ typedef struct dyd_refinable {
   uint64_t calls; /* how often the engine has asked it */
   bool final;     /* no call can narrow it further */
   bool asked;     /* has been brought to `bits` once */
-  bool measured;  /* its rectangle has come to be narrower than what its stream or source gave */
+  bool measured;  /* its rectangle has come to be narrower than what its stream or source gave: it was measured, or is
+                     joined with another site */
 } dyd_refinable;
 
 /* A source that streams taken out of the engine use as well: released by the last of refs. */
