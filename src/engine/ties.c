@@ -169,13 +169,15 @@ static void count_question(dyd_engine *e, const dyd_zero_counts *c, double secon
   t->seconds += seconds;
 }
 
-static dyd_status question_answer(dyd_zero *out, dyd_engine *e, dyd_relation relation, const uint32_t *site,
+/* *final: it would be answered in the same way again. */
+static dyd_status question_answer(dyd_zero *out, bool *final, dyd_engine *e, dyd_relation relation, const uint32_t *site,
                                   size_t count) {
   question q = {.e = e, .relation = relation, .site = site, .count = count};
   double begin = dyd_seconds();
   dyd_status st = dyd_algebra_open(&q.algebra, e->tie_bits, &e->stop);
   if (st != DYD_OK) return st;
   st = question_run(out, &q);
+  *final = !q.algebra.forms.opaque && !dyd_flag_get(&e->stop);
   dyd_algebra_close(&q.algebra);
   free(q.zero);
   free(q.at);
@@ -215,8 +217,9 @@ static dyd_status answer_get(answer **out, dyd_engine *e, dyd_relation relation,
   if (!a) return DYD_E_NOMEM;
   *out = a;
   if (a->zero != DYD_ZERO_UNKNOWN || a->most >= e->tie_bits) return DYD_OK;
-  dyd_status st = question_answer(&a->zero, e, relation, site, count);
-  if (st == DYD_OK && !dyd_flag_get(&e->stop)) a->most = e->tie_bits;
+  bool final = false;
+  dyd_status st = question_answer(&a->zero, &final, e, relation, site, count);
+  if (st == DYD_OK && final) a->most = e->tie_bits;
   return st;
 }
 

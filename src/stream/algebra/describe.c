@@ -30,7 +30,7 @@ uint32_t dyd_forms_real(dyd_forms *f, const dyd_real *x) {
   case DYD_REAL_ROOT:
     return dyd_forms_root(f, object);
   case DYD_REAL_OPAQUE:
-    return dyd_forms_opaque(f, x, 0);
+    return dyd_forms_opaque(f, x, 0, now);
   default:
     return DYD_NONE;
   }
@@ -111,8 +111,9 @@ dyd_form_point dyd_forms_rect(dyd_forms *f, const dyd_rect *r) {
 dyd_form_point dyd_forms_stream(dyd_forms *f, const dyd_stream *s) {
   const void *object;
   const dyd_stream_pair *pair;
+  const dyd_rect *r;
   if (dyd_stream_is_final(s)) {
-    const dyd_rect *r = dyd_stream_rect(s);
+    r = dyd_stream_rect(s);
     return dyd_rect_is_point(r) ? dyd_forms_rect(f, r) : NOWHERE;
   }
   dyd_stream_kind kind = dyd_stream_object(&object, s);
@@ -124,7 +125,8 @@ dyd_form_point dyd_forms_stream(dyd_forms *f, const dyd_stream *s) {
   case DYD_STREAM_CENTRE:
     return form_of_composed(f, kind, object);
   default:
-    return (dyd_form_point){dyd_forms_opaque(f, s, 0), dyd_forms_opaque(f, s, 1)};
+    r = dyd_stream_rect(s);
+    return (dyd_form_point){dyd_forms_opaque(f, s, 0, r ? &r->x : NULL), dyd_forms_opaque(f, s, 1, r ? &r->y : NULL)};
   }
 }
 

@@ -105,8 +105,21 @@ uint32_t dyd_forms_root(dyd_forms *f, const dyd_root *r) {
   return DYD_NONE;
 }
 
-uint32_t dyd_forms_opaque(dyd_forms *f, const void *object, uint32_t part) {
-  return forms_find(f, (dyd_form){.op = DYD_FORM_OPAQUE, .object = object, .b = part});
+/* The value stays what it is: a callback is not asked. */
+uint32_t dyd_forms_opaque(dyd_forms *f, const void *object, uint32_t part, const dyd_interval *now) {
+  uint32_t n = forms_find(f, (dyd_form){.op = DYD_FORM_OPAQUE, .object = object, .b = part});
+  if (n == DYD_NONE || f->node[n].prec) return n;
+  f->opaque = true;
+  f->node[n].prec = WORD_MAX;
+  arb_indeterminate(&f->node[n].value);
+  if (!now || mpz_cmp_ui(now->den, 1)) return n;
+  arb_t hi;
+  arb_init(hi);
+  dyd_ball_set_z_2exp(&f->node[n].value, now->lo.man, (slong)now->lo.exp);
+  dyd_ball_set_z_2exp(hi, now->hi.man, (slong)now->hi.exp);
+  arb_union(&f->node[n].value, &f->node[n].value, hi, 256);
+  arb_clear(hi);
+  return n;
 }
 
 /* Postfix order: operands are on a stack. */

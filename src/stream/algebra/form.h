@@ -55,6 +55,7 @@ typedef struct dyd_forms {
   uint32_t head[DYD_FORMS_PLACES];
   dyd_form_seen *seen;
   size_t seen_count, seen_cap;
+  bool opaque; /* one is, of which more may be known later */
   bool failed; /* memory is exhausted: the forms asked for are missing */
 } dyd_forms;
 
@@ -67,7 +68,8 @@ uint32_t dyd_forms_leaf(dyd_forms *f, dyd_op op);
 uint32_t dyd_forms_unary(dyd_forms *f, dyd_op op, uint32_t a, int32_t exponent);
 uint32_t dyd_forms_binary(dyd_forms *f, dyd_op op, uint32_t a, uint32_t b);
 uint32_t dyd_forms_root(dyd_forms *f, const dyd_root *r);
-uint32_t dyd_forms_opaque(dyd_forms *f, const void *object, uint32_t part);
+/* now: where the value lies; NULL: anywhere. */
+uint32_t dyd_forms_opaque(dyd_forms *f, const void *object, uint32_t part, const dyd_interval *now);
 uint32_t dyd_forms_expr(dyd_forms *f, const dyd_expr *e);
 
 static inline bool dyd_form_is_number(const dyd_forms *f, uint32_t n) {
