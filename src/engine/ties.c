@@ -28,8 +28,11 @@ typedef struct answer {
   uint32_t site[];
 } answer;
 
+/* Invariant: proved[0 .. proofs-1] are the answers that are proofs. */
 struct dyd_ties {
   answer *head[TABLE];
+  answer **proved;
+  size_t proofs, proved_cap;
 };
 
 void dyd_ties_free(dyd_ties *t) {
@@ -38,7 +41,17 @@ void dyd_ties_free(dyd_ties *t) {
       next = a->next;
       free(a);
     }
+  if (t) free(t->proved);
   free(t);
+}
+
+bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *count, const dyd_engine *e, size_t k) {
+  if (!e->ties || k >= e->ties->proofs) return false;
+  const answer *a = e->ties->proved[k];
+  *relation = a->relation;
+  *site = a->site;
+  *count = a->count;
+  return true;
 }
 
 /* ---- one question ---- */
@@ -218,8 +231,11 @@ static dyd_status answer_get(answer **out, dyd_engine *e, dyd_relation relation,
   *out = a;
   if (a->zero != DYD_ZERO_UNKNOWN || a->most >= e->tie_bits) return DYD_OK;
   bool final = false;
+  dyd_ties *t = e->ties;
+  if (!dyd_reserve((void **)&t->proved, &t->proved_cap, t->proofs + 1, sizeof(answer *))) return DYD_E_NOMEM;
   dyd_status st = question_answer(&a->zero, &final, e, relation, site, count);
   if (st == DYD_OK && final) a->most = e->tie_bits;
+  if (st == DYD_OK && a->zero == DYD_ZERO_PROVED) e->ties->proved[e->ties->proofs++] = a;
   return st;
 }
 
