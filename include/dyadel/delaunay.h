@@ -71,8 +71,8 @@ typedef enum dyd_relation {
 } dyd_relation;
 
 /* Knows more about the true points of sites than their rectangles tell: sets *proved (false when called) if they are
- * proved to be in that relation, which then holds for good. The sites of a polygon or chain come in order. Returns DYD_OK,
- * or a failure with *err (may be NULL) filled. */
+ * proved to be in that relation, which then holds for good. The sites of a polygon or chain come in order. Returns
+ * DYD_OK, or a failure with *err (may be NULL) filled. */
 typedef dyd_status (*dyd_prove_fn)(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                                    dyd_error *err);
 

@@ -2,10 +2,10 @@
 /* Tied faces of points that are not exact.
  *
  * [TIE-3] A face whose rim is one cycle of certain edges through all its vertices, and whose true points are on one
- * circle: the rim is Delaunay for every choice, so the triangles inside use these vertices only, one of them has an empty
- * disc, and that disc has all of them on its circle. So all pairs that are not on the rim are weakly Delaunay, and never
- * strictly. A rim that passes through the ghost is a chain on the hull: if its true points are on one line, all others
- * are on one side of it, and a half-plane takes the place of the disc. */
+ * circle: the rim is Delaunay for every choice, so the triangles inside use these vertices only, one of them has an
+ * empty disc, and that disc has all of them on its circle. So all pairs that are not on the rim are weakly Delaunay,
+ * and never strictly. A rim that passes through the ghost is a chain on the hull: if its true points are on one line,
+ * all others are on one side of it, and a half-plane takes the place of the disc. */
 #include "delaunay/proved.h"
 
 #include "base/alloc.h"
@@ -30,8 +30,8 @@ static bool has_inexact_vertex(const dyd_delaunay *pd, const rim *r) {
   return false;
 }
 
-/* A half-edge of the rim, if the triangles, which are connected, are joined like a tree: t triangles have t + 2 sides then
- * that nobody shares, and one cycle passes through all of them. A chain begins at the ghost. Else DYD_NONE. */
+/* A half-edge of the rim, if the triangles, which are connected, are joined like a tree: t triangles have t + 2 sides
+ * then that nobody shares, and one cycle passes through all of them. A chain begins at the ghost. Else DYD_NONE. */
 static dyd_half_edge rim_start(bool *chain, const dyd_delaunay *pd, const dyd_face *face) {
   const dyd_skeleton *sk = &pd->sk;
   dyd_half_edge start = DYD_NONE;

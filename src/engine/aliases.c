@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Joining points that are proved to be the same place.
  *
- * Where the rectangles of two sites meet, a disc that holds one of them and avoids the other does not exist: neither has a
- * legal edge but perhaps one to the other. So, unless there are no others, both are in an undecided face together. */
+ * Where the rectangles of two sites meet, a disc that holds one of them and avoids the other does not exist: neither
+ * has a legal edge but perhaps one to the other. So, unless there are no others, both are in an undecided face
+ * together. */
 #include "engine/aliases.h"
 
 #include "base/alloc.h"

@@ -181,15 +181,16 @@ static dyd_status ask_settle(dyd_engine *e, const dyd_delaunay_options *o, dyd_e
   while (joined && st == DYD_OK) {
     joined = false;
     dyd_error_clear(err);
-    st = e->pd ? dyd_delaunay_update(e->pd, e->changed, e->changes, o, err)
-               : dyd_delaunay_new(&e->pd, e->sites, o, err);
+    st =
+        e->pd ? dyd_delaunay_update(e->pd, e->changed, e->changes, o, err) : dyd_delaunay_new(&e->pd, e->sites, o, err);
     if (st == DYD_CAPPED) {
       e->cap_error = *err;
       st = DYD_OK;
     }
     if (st == DYD_OK && o->prove) st = dyd_aliases_find(&joined, e, e->pd, err);
     /* should this be cut short, the next run sees that the result is not up to date */
-    if (st == DYD_OK && joined && !e->changes) st = dyd_reserve((void **)&e->changed, &e->change_cap, 1, sizeof *e->changed) ? DYD_OK : DYD_E_NOMEM;
+    if (st == DYD_OK && joined && !e->changes)
+      st = dyd_reserve((void **)&e->changed, &e->change_cap, 1, sizeof *e->changed) ? DYD_OK : DYD_E_NOMEM;
     if (st == DYD_OK && joined && !e->changes) e->changed[e->changes++] = 0;
   }
   return st;
@@ -198,9 +199,13 @@ static dyd_status ask_settle(dyd_engine *e, const dyd_delaunay_options *o, dyd_e
 /* Makes the result, or brings it up to date, and reports. */
 static dyd_status ask_triangulate(ask *a, dyd_error *err) {
   dyd_engine *e = a->e;
-  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = a->o.max_pairs, .cancel = &e->stop,
-                                  .threads = a->o.threads, .no_filter = a->o.no_filter,
-                                  .prove = a->o.no_ties ? NULL : dyd_ties_prove, .prove_user = e};
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options),
+                                  .max_pairs = a->o.max_pairs,
+                                  .cancel = &e->stop,
+                                  .threads = a->o.threads,
+                                  .no_filter = a->o.no_filter,
+                                  .prove = a->o.no_ties ? NULL : dyd_ties_prove,
+                                  .prove_user = e};
   dyd_status st = ask_settle(e, &o, err);
   if (st == DYD_CANCELLED) return ask_end_interrupted(a);
   if (st != DYD_OK) return st;

@@ -2,9 +2,9 @@
 /* Proving that points of an engine are the same, on one line, or on one circle: by what their coordinates are, whatever
  * their rectangles.
  *
- * The points of one question are described in one algebra, so that they share their leaves. All determinants have points
- * in common: the ends of a chain, three points of a polygon far apart; these are proved to be different, and not on one
- * line, before a determinant that is 0 means anything. A point that is not described proves nothing. */
+ * The points of one question are described in one algebra, so that they share their leaves. All determinants have
+ * points in common: the ends of a chain, three points of a polygon far apart; these are proved to be different, and not
+ * on one line, before a determinant that is 0 means anything. A point that is not described proves nothing. */
 #include "engine/ties.h"
 
 #include "base/alloc.h"
@@ -155,7 +155,8 @@ static dyd_status test_zeros(dyd_zero *out, question *q) {
   _Static_assert(sizeof *q->at == 2 * sizeof(uint32_t), "points are pairs of forms");
   dyd_status st = dyd_algebra_settle(a, &q->at->x, 2 * q->count);
   *out = DYD_ZERO_PROVED;
-  for (size_t k = 0; k < q->zeros && st == DYD_OK && *out == DYD_ZERO_PROVED; k++) *out = dyd_algebra_test(a, q->zero[k]);
+  for (size_t k = 0; k < q->zeros && st == DYD_OK && *out == DYD_ZERO_PROVED; k++)
+    *out = dyd_algebra_test(a, q->zero[k]);
   return a->forms.failed || a->ring.failed ? DYD_E_NOMEM : st;
 }
 
@@ -183,8 +184,8 @@ static void count_question(dyd_engine *e, const dyd_zero_counts *c, double secon
 }
 
 /* *final: it would be answered in the same way again. */
-static dyd_status question_answer(dyd_zero *out, bool *final, dyd_engine *e, dyd_relation relation, const uint32_t *site,
-                                  size_t count) {
+static dyd_status question_answer(dyd_zero *out, bool *final, dyd_engine *e, dyd_relation relation,
+                                  const uint32_t *site, size_t count) {
   question q = {.e = e, .relation = relation, .site = site, .count = count};
   double begin = dyd_seconds();
   dyd_status st = dyd_algebra_open(&q.algebra, e->tie_bits, &e->stop);

@@ -55,7 +55,8 @@ static bool is_exact_tie(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
   return dyd_edge_is_tie(w, sk, h);
 }
 
-/* Is the middle of the two sites a witness? On a straight part of the hull circumcentres are far away and tell nothing. */
+/* Is the middle of the two sites a witness? On a straight part of the hull circumcentres are far away and tell nothing.
+ */
 static dyd_status middle_is_witness(bool *certain, dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
   dyd_xy middle = dyd_edge_middle(sk, h);
   dyd_point c;

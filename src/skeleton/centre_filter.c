@@ -37,6 +37,7 @@ dyd_xy dyd_edge_middle(const dyd_skeleton *sk, dyd_half_edge h) {
 bool dyd_edge_centre_is_far(const dyd_skeleton *sk, dyd_half_edge h) {
   enum { FAR = 64 };
   dyd_xy a = sk->reps.xy[dyd_edge_origin(&sk->mesh, h)], middle = dyd_edge_middle(sk, h), c = dyd_edge_centre(sk, h);
-  double away = fmax(fabs(c.x - middle.x), fabs(c.y - middle.y)), half = fmax(fabs(a.x - middle.x), fabs(a.y - middle.y));
+  double away = fmax(fabs(c.x - middle.x), fabs(c.y - middle.y)),
+         half = fmax(fabs(a.x - middle.x), fabs(a.y - middle.y));
   return !(away <= FAR * half);
 }

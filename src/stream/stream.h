@@ -8,7 +8,12 @@
 
 /* What a stream is made of: object is a dyd_stream_pair, a dyd_stream_image, an array of three streams whose circle has
  * the point as its centre; nothing for those of which no more is known (OPAQUE). */
-typedef enum dyd_stream_kind { DYD_STREAM_OPAQUE, DYD_STREAM_PAIR, DYD_STREAM_IMAGE, DYD_STREAM_CENTRE } dyd_stream_kind;
+typedef enum dyd_stream_kind {
+  DYD_STREAM_OPAQUE,
+  DYD_STREAM_PAIR,
+  DYD_STREAM_IMAGE,
+  DYD_STREAM_CENTRE
+} dyd_stream_kind;
 typedef struct dyd_stream_pair {
   dyd_real *x, *y;
 } dyd_stream_pair;

@@ -66,7 +66,7 @@ dyd_status dyd_stream_from_reals(dyd_stream **out, dyd_real *x, dyd_real *y) {
 }
 
 bool dyd_stream_reaches(const dyd_stream *s, const dyd_rect *now, int64_t bits) {
-  const pair *p = dyd_stream_user(s, pair_narrow);
+  const dyd_stream_pair *p = dyd_stream_user(s, pair_narrow);
   if (p) return dyd_real_reaches(p->x, &now->x, bits) && dyd_real_reaches(p->y, &now->y, bits);
   return dyd_stream_is_final(s) || dyd_rect_bits(now) >= bits;
 }

@@ -19,20 +19,21 @@ SECONDS = ('0', '-1', 'nan', 'inf', 'x', '', '1s')
 # Values that are refused before any file is looked at.
 WRONG = {
     '--until': ('', 'area', 'area:', 'are:3', 'decided:3', 'hausdorff:3x', 'hausdorff:99999999'),
-    '--max-bits': WHOLE, '--max-pairs': WHOLE, '--threads': WHOLE, '--start-bits': WHOLE, '--step-bits': WHOLE,
+    '--max-bits': WHOLE, '--max-pairs': WHOLE, '--threads': WHOLE, '--tie-bits': WHOLE, '--start-bits': WHOLE, '--step-bits': WHOLE,
     '--oracle-jobs': WHOLE, '--oracle-batch': WHOLE, '--schedules': WHOLE,
     '--seed': WHOLE[1:],
     '--flatten': WHOLE[2:],
     '--timeout': SECONDS, '--oracle-timeout': SECONDS,
     '--schedule': ('', 'fast', 'Adaptive', 'uniform '),
     '--of': ('', 'Voronoi', 'both'),
+    '--ties': ('', 'on', 'Prove', 'off '),
     '--format': ('', 'gif', 'CSV', 'csv,json'),
     '--window': ('', '0,1,0', '0,1,0,1,2', '0,1,0,x', '0,1,0,pi', '0,1,,1', '0,1,0,1,', '1,0,0,1', '0,1,2,1', '1,1,0,1',
                  '0,1,2,2', '[0,1],0,1,2'),
     '--plot': ('', 'plot', 'plot.gif', 'png'),
     '--help': ('fish', 'MAN'),
 }
-RIGHT = {'--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--until': 'decided'}
+RIGHT = {'--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--until': 'decided'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
 TEXTS = {'--columns', '--delimiter', '--id', '--points', '--radius', '--radius-column', '--oracle', '--output', '--trace',
          '--replay', '--certificate'}

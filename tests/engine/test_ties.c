@@ -158,7 +158,8 @@ static void test_callbacks(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
   dyd_stream *corner = NULL, *s = NULL;
-  static const char *const side[4][4] = {{"1", "0", "0", "1"}, {"-1", "0", "0", "1"}, {"1", "0", "0", "-1"}, {"-1", "0", "0", "-1"}};
+  static const char *const side[4][4] = {
+      {"1", "0", "0", "1"}, {"-1", "0", "0", "1"}, {"1", "0", "0", "-1"}, {"-1", "0", "0", "-1"}};
   dyd_engine *f = engine_new();
   engine_add_hidden(f, "sqrt(2)", "pi");
   assert_int_equal(dyd_engine_stream(&corner, f, 0), DYD_OK);
@@ -275,7 +276,8 @@ static dyd_status open_tied(dyd_engine **out, void *user, dyd_error *err) {
 static void test_harness(void **state) {
   (void)state;
   for (int more = 0; more < 2; more++) {
-    dyd_check_options o = {DYD_SIZED(dyd_check_options), .seed = 5, .schedules = (unsigned)test_cases(4), .max_bits = 80};
+    dyd_check_options o = {DYD_SIZED(dyd_check_options), .seed = 5, .schedules = (unsigned)test_cases(4),
+                           .max_bits = 80};
     dyd_check_report report = {DYD_SIZED(dyd_check_report)};
     dyd_error err;
     assert_int_equal(dyd_check_run(&report, open_tied, &more, &o, &err), DYD_OK);

@@ -3,6 +3,7 @@
 #include "harness.h"
 
 #include "stream/algebra/describe.h"
+#include "stream/algebra/normal.h"
 #include "stream/algebra/zero.h"
 
 #include <stdio.h>
@@ -111,12 +112,9 @@ static void test_different(void **state) {
 
 static void test_unknown(void **state) {
   static const char *const pair[][2] = {
-      {"pi", "4*atan(1)"},
-      {"exp(sqrt(2))*exp(sqrt(3))", "exp(sqrt(2)+sqrt(3))"},
-      {"log(6)", "log(2)+log(3)"},
-      {"sin(2)", "2*sin(1)*cos(1)"},
-      {"sqrt(pi^2)", "pi"},
-      {"exp(log(2))", "2"},
+      {"pi", "4*atan(1)"},         {"exp(sqrt(2))*exp(sqrt(3))", "exp(sqrt(2)+sqrt(3))"},
+      {"log(6)", "log(2)+log(3)"}, {"sin(2)", "2*sin(1)*cos(1)"},
+      {"sqrt(pi^2)", "pi"},        {"exp(log(2))", "2"},
   };
   (void)state;
   for (size_t k = 0; k < sizeof pair / sizeof *pair; k++) expect(DYD_ZERO_UNKNOWN, pair[k][0], pair[k][1]);
@@ -125,11 +123,11 @@ static void test_unknown(void **state) {
 /* Each cap is met: nothing is claimed, quickly. */
 static void test_caps(void **state) {
   static const char *const unknown[][2] = {
-      {"cos(pi/1000003)^2", "(1+cos(2*pi/1000003))/2"},             /* order */
-      {"root(x^1000-x-1,1,2)^1", "root(x^1000-x^2-1,1,2)"},         /* separation, but they differ */
-      {"sqrt(1+2^20000)*sqrt(3)", "sqrt(3+3*2^20000)"},             /* bits of the base */
+      {"cos(pi/1000003)^2", "(1+cos(2*pi/1000003))/2"},     /* order */
+      {"root(x^1000-x-1,1,2)^1", "root(x^1000-x^2-1,1,2)"}, /* separation, but they differ */
+      {"sqrt(1+2^20000)*sqrt(3)", "sqrt(3+3*2^20000)"},     /* bits of the base */
       {"(1+sqrt(2)+sqrt(3)+sqrt(5)+pi+e)^300", "(e+pi+sqrt(5)+sqrt(3)+sqrt(2)+1)^300"}, /* terms */
-      {"(pi+sqrt(2))^5000", "(pi+sqrt(2))^4999*(sqrt(2)+pi)"},      /* exponent */
+      {"(pi+sqrt(2))^5000", "(pi+sqrt(2))^4999*(sqrt(2)+pi)"},                          /* exponent */
   };
   (void)state;
   for (size_t k = 0; k < sizeof unknown / sizeof *unknown; k++) {
@@ -145,8 +143,9 @@ static void test_caps(void **state) {
 
 /* ---- random expressions ---- */
 
-static const char *const leaf[] = {"sqrt(2)", "sqrt(3)",     "sqrt(6)",       "sqrt(2+sqrt(2))", "cbrt(2)", "cos(pi/5)",
-                                   "1/3",     "sin(2*pi/5)", "cbrt(1+sqrt(3))", "2",             "sqrt(5)", "sqrt(2-sqrt(2))"};
+static const char *const leaf[] = {"sqrt(2)",         "sqrt(3)",   "sqrt(6)", "sqrt(2+sqrt(2))",
+                                   "cbrt(2)",         "cos(pi/5)", "1/3",     "sin(2*pi/5)",
+                                   "cbrt(1+sqrt(3))", "2",         "sqrt(5)", "sqrt(2-sqrt(2))"};
 
 static test_random chance;
 
@@ -258,10 +257,9 @@ static void test_intervals(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_equal),       cmocka_unit_test(test_different),
-      cmocka_unit_test(test_unknown),     cmocka_unit_test(test_caps),
-      cmocka_unit_test(test_callbacks),   cmocka_unit_test(test_intervals),
-      cmocka_unit_test(test_ways_agree),  cmocka_unit_test(test_random_identities),
+      cmocka_unit_test(test_equal),      cmocka_unit_test(test_different),         cmocka_unit_test(test_unknown),
+      cmocka_unit_test(test_caps),       cmocka_unit_test(test_callbacks),         cmocka_unit_test(test_intervals),
+      cmocka_unit_test(test_ways_agree), cmocka_unit_test(test_random_identities),
   };
   return cmocka_run_group_tests(tests, NULL, release_caches);
 }

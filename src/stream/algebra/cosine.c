@@ -3,8 +3,8 @@
  *
  * Of a rational part t = k / N of the full turn: 2 cos(2 pi k / N) = C_k(c) for c = 2 cos(2 pi / N), where C_0 = 2,
  * C_1 = c, C_2k = C_k^2 - 2, C_2k+1 = C_k C_k+1 - c, reduced by the minimal polynomial of c, which is monic; all
- * conjugates of c are cosines doubled, at most 2. sin(2 pi t) = cos(2 pi (t - 1/4)). Of any other angle: two leaves with
- * s^2 + c^2 = 1, the same for the angle and its negative. */
+ * conjugates of c are cosines doubled, at most 2. sin(2 pi t) = cos(2 pi (t - 1/4)). Of any other angle: two leaves
+ * with s^2 + c^2 = 1, the same for the angle and its negative. */
 #include "stream/algebra/leaves.h"
 
 #include <flint/fmpq.h>

@@ -38,20 +38,20 @@ uint32_t dyd_forms_real(dyd_forms *f, const dyd_real *x) {
 
 /* ---- points ---- */
 
-static uint32_t add(dyd_forms *f, uint32_t a, uint32_t b) {
+static uint32_t form_add(dyd_forms *f, uint32_t a, uint32_t b) {
   return dyd_forms_binary(f, DYD_OP_ADD, a, b);
 }
-static uint32_t subtract(dyd_forms *f, uint32_t a, uint32_t b) {
+static uint32_t form_subtract(dyd_forms *f, uint32_t a, uint32_t b) {
   return dyd_forms_binary(f, DYD_OP_SUB, a, b);
 }
-static uint32_t multiply(dyd_forms *f, uint32_t a, uint32_t b) {
+static uint32_t form_multiply(dyd_forms *f, uint32_t a, uint32_t b) {
   return dyd_forms_binary(f, DYD_OP_MUL, a, b);
 }
 
 /* sum += c n. */
 static uint32_t add_multiple(dyd_forms *f, uint32_t sum, mpq_srcptr c, uint32_t n) {
   if (!mpq_sgn(c)) return sum;
-  return add(f, sum, mpq_cmp_ui(c, 1, 1) ? multiply(f, dyd_forms_number(f, c), n) : n);
+  return form_add(f, sum, mpq_cmp_ui(c, 1, 1) ? form_multiply(f, dyd_forms_number(f, c), n) : n);
 }
 
 static dyd_form_point form_of_image(dyd_forms *f, const dyd_stream_image *image) {
@@ -67,28 +67,30 @@ static dyd_form_point form_of_image(dyd_forms *f, const dyd_stream_image *image)
 }
 
 static uint32_t square_of_length(dyd_forms *f, dyd_form_point p) {
-  return add(f, multiply(f, p.x, p.x), multiply(f, p.y, p.y));
+  return form_add(f, form_multiply(f, p.x, p.x), form_multiply(f, p.y, p.y));
 }
 
-static dyd_form_point difference(dyd_forms *f, dyd_form_point p, dyd_form_point q) {
-  return (dyd_form_point){subtract(f, p.x, q.x), subtract(f, p.y, q.y)};
+static dyd_form_point point_difference(dyd_forms *f, dyd_form_point p, dyd_form_point q) {
+  return (dyd_form_point){form_subtract(f, p.x, q.x), form_subtract(f, p.y, q.y)};
 }
 
 /* p.x q.y - p.y q.x. */
-static uint32_t cross(dyd_forms *f, dyd_form_point p, dyd_form_point q) {
-  return subtract(f, multiply(f, p.x, q.y), multiply(f, p.y, q.x));
+static uint32_t point_cross(dyd_forms *f, dyd_form_point p, dyd_form_point q) {
+  return form_subtract(f, form_multiply(f, p.x, q.y), form_multiply(f, p.y, q.x));
 }
 
-/* From a: (c.y b^2 - b.y c^2, b.x c^2 - c.x b^2) / 2 (b x c) for the differences b, c. The divisor is not 0: three points
- * that have a centre are not on one line. */
+/* From a: (c.y b^2 - b.y c^2, b.x c^2 - c.x b^2) / 2 (b x c) for the differences b, c. The divisor is not 0: three
+ * points that have a centre are not on one line. */
 static dyd_form_point form_of_centre(dyd_forms *f, dyd_stream *const of[3]) {
   dyd_form_point a = dyd_forms_stream(f, of[0]);
-  dyd_form_point b = difference(f, dyd_forms_stream(f, of[1]), a), c = difference(f, dyd_forms_stream(f, of[2]), a);
-  uint32_t bb = square_of_length(f, b), cc = square_of_length(f, c), area = cross(f, b, c), twice = add(f, area, area);
-  uint32_t x = subtract(f, multiply(f, c.y, bb), multiply(f, b.y, cc));
-  uint32_t y = subtract(f, multiply(f, b.x, cc), multiply(f, c.x, bb));
-  return (dyd_form_point){add(f, a.x, dyd_forms_binary(f, DYD_OP_DIV, x, twice)),
-                          add(f, a.y, dyd_forms_binary(f, DYD_OP_DIV, y, twice))};
+  dyd_form_point b = point_difference(f, dyd_forms_stream(f, of[1]), a),
+                 c = point_difference(f, dyd_forms_stream(f, of[2]), a);
+  uint32_t bb = square_of_length(f, b), cc = square_of_length(f, c), area = point_cross(f, b, c),
+           twice = form_add(f, area, area);
+  uint32_t x = form_subtract(f, form_multiply(f, c.y, bb), form_multiply(f, b.y, cc));
+  uint32_t y = form_subtract(f, form_multiply(f, b.x, cc), form_multiply(f, c.x, bb));
+  return (dyd_form_point){form_add(f, a.x, dyd_forms_binary(f, DYD_OP_DIV, x, twice)),
+                          form_add(f, a.y, dyd_forms_binary(f, DYD_OP_DIV, y, twice))};
 }
 
 /* The same streams are met again and again where points are made of points. */
@@ -133,15 +135,17 @@ dyd_form_point dyd_forms_stream(dyd_forms *f, const dyd_stream *s) {
 /* ---- determinants ---- */
 
 uint32_t dyd_forms_collinear(dyd_forms *f, const dyd_form_point p[3]) {
-  return cross(f, difference(f, p[1], p[0]), difference(f, p[2], p[0]));
+  return point_cross(f, point_difference(f, p[1], p[0]), point_difference(f, p[2], p[0]));
 }
 
 /* With the differences b, c, d from p[0]: b^2 (c x d) - c^2 (b x d) + d^2 (b x c), as a linear form in d.x, d.y, d^2,
  * whose coefficients many d have in common. */
 uint32_t dyd_forms_cocircular(dyd_forms *f, const dyd_form_point p[4]) {
-  dyd_form_point b = difference(f, p[1], p[0]), c = difference(f, p[2], p[0]), d = difference(f, p[3], p[0]);
+  dyd_form_point b = point_difference(f, p[1], p[0]), c = point_difference(f, p[2], p[0]),
+                 d = point_difference(f, p[3], p[0]);
   uint32_t bb = square_of_length(f, b), cc = square_of_length(f, c), dd = square_of_length(f, d);
-  uint32_t along_x = subtract(f, multiply(f, cc, b.y), multiply(f, bb, c.y));
-  uint32_t along_y = subtract(f, multiply(f, bb, c.x), multiply(f, cc, b.x));
-  return add(f, add(f, multiply(f, along_x, d.x), multiply(f, along_y, d.y)), multiply(f, cross(f, b, c), dd));
+  uint32_t along_x = form_subtract(f, form_multiply(f, cc, b.y), form_multiply(f, bb, c.y));
+  uint32_t along_y = form_subtract(f, form_multiply(f, bb, c.x), form_multiply(f, cc, b.x));
+  return form_add(f, form_add(f, form_multiply(f, along_x, d.x), form_multiply(f, along_y, d.y)),
+                  form_multiply(f, point_cross(f, b, c), dd));
 }

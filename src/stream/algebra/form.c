@@ -211,9 +211,9 @@ static void value_compute(dyd_forms *f, uint32_t k, slong prec) {
     value_compute(f, n->a, prec);
     if (dyd_op_is_binary(op)) value_compute(f, n->b, prec);
     arb_set(&n->value, &f->node[n->a].value);
-    d = !arb_is_finite(&n->value)  ? DYD_UNDEFINED_YET
-        : dyd_op_is_binary(op) ? dyd_ball_binary(&n->value, op, &f->node[n->b].value, prec)
-                               : dyd_ball_unary(&n->value, op, form_domain(op), n->exponent, prec);
+    d = !arb_is_finite(&n->value) ? DYD_UNDEFINED_YET
+        : dyd_op_is_binary(op)    ? dyd_ball_binary(&n->value, op, &f->node[n->b].value, prec)
+                                  : dyd_ball_unary(&n->value, op, form_domain(op), n->exponent, prec);
   }
   if (d == DYD_DEFINED) d = dyd_ball_check(&n->value, &exponent);
   if (d != DYD_DEFINED) arb_indeterminate(&n->value);

@@ -2,27 +2,6 @@
 /* Arithmetic of fractions. Numerators and denominators are reduced; integer factors are divided out, others are not. */
 #include "stream/algebra/fraction.h"
 
-#include "base/alloc.h"
-
-dyd_fraction *dyd_fraction_new(dyd_ring *r) {
-  dyd_fraction *x = dyd_alloc(1, sizeof *x);
-  if (!x) {
-    r->failed = true;
-    return NULL;
-  }
-  fmpz_mpoly_init(x->num, r->ctx);
-  fmpz_mpoly_init(x->den, r->ctx);
-  fmpz_mpoly_one(x->den, r->ctx);
-  return x;
-}
-
-void dyd_fraction_free(dyd_fraction *x, const dyd_ring *r) {
-  if (!x) return;
-  fmpz_mpoly_clear(x->num, r->ctx);
-  fmpz_mpoly_clear(x->den, r->ctx);
-  free(x);
-}
-
 void dyd_fraction_set(dyd_fraction *x, const dyd_fraction *y, const dyd_ring *r) {
   fmpz_mpoly_set(x->num, y->num, r->ctx);
   fmpz_mpoly_set(x->den, y->den, r->ctx);

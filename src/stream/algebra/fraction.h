@@ -5,9 +5,6 @@
 
 #include "stream/algebra/ring.h"
 
-/* 0 / 1; NULL: memory is exhausted, which the ring notes. */
-dyd_fraction *dyd_fraction_new(dyd_ring *r);
-void dyd_fraction_free(dyd_fraction *x, const dyd_ring *r);
 void dyd_fraction_set(dyd_fraction *x, const dyd_fraction *y, const dyd_ring *r);
 /* x = the rational number num / den, den != 0. */
 void dyd_fraction_set_number(dyd_fraction *x, const fmpz_t num, const fmpz_t den, const dyd_ring *r);

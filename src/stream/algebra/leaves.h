@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What is not rational in its operands: radicals, cosines and sines, roots of polynomials, free variables.
  *
- * All set x, an initialised fraction, and return false when the value is beyond the limits, or the ring became stale. */
+ * All set x, an initialised fraction, and return false when the value is beyond the limits, or the ring became stale.
+ */
 #ifndef DYD_STREAM_ALGEBRA_LEAVES_H
 #define DYD_STREAM_ALGEBRA_LEAVES_H
 

@@ -192,9 +192,35 @@ static bool normal_make(dyd_fraction *x, dyd_ring *r, uint32_t self) {
   }
 }
 
-dyd_fraction *dyd_normal_form(dyd_ring *r, uint32_t n) {
+static dyd_fraction *normal_form(dyd_ring *r, uint32_t n) {
   dyd_fraction *x = dyd_fraction_new(r);
   if (!x || normal_make(x, r, n)) return x;
   dyd_fraction_free(x, r);
   return NULL;
+}
+
+const dyd_fraction *dyd_ring_fraction(dyd_ring *r, uint32_t n) {
+  if (!dyd_ring_hold(r)) {
+    r->failed = true;
+    return NULL;
+  }
+  if (!r->frac[n]) {
+    dyd_fraction *made = normal_form(r, n);
+    r->frac[n] = made ? made : r->none;
+  }
+  return r->frac[n] == r->none ? NULL : r->frac[n];
+}
+
+/* Room, base and order grow, each a few times at most. */
+dyd_status dyd_ring_settle(dyd_ring *r, const uint32_t *node, size_t count) {
+  enum { PASSES = 24 };
+  for (int pass = 0; pass < PASSES; pass++) {
+    r->stale = false;
+    for (size_t k = 0; k < count; k++) dyd_ring_fraction(r, node[k]);
+    if (r->failed) return DYD_E_NOMEM;
+    if (!r->stale) return DYD_OK;
+    dyd_status st = dyd_ring_renew(r);
+    if (st != DYD_OK) return st;
+  }
+  return DYD_OK;
 }

@@ -5,8 +5,9 @@
 
 #include "stream/algebra/ring.h"
 
-/* The fraction of form n, from those of its operands; NULL: beyond the limits, or the ring is stale or failed. Owned by
- * the caller. */
-dyd_fraction *dyd_normal_form(dyd_ring *r, uint32_t n);
+/* Makes the fractions of the forms given; until then leaves are not settled. */
+dyd_status dyd_ring_settle(dyd_ring *r, const uint32_t *node, size_t count);
+/* The fraction of form n; NULL: not known, or beyond the limits. Borrowed. */
+const dyd_fraction *dyd_ring_fraction(dyd_ring *r, uint32_t n);
 
 #endif

@@ -132,8 +132,7 @@ static bool radical_of_integer(fmpz_mpoly_t x, dyd_ring *r, dyd_op op, const fmp
 /* The leaf for the k-th root of the polynomial `key`. */
 static slong nested_leaf(dyd_ring *r, dyd_op op, const fmpz_mpoly_t key, slong k) {
   for (slong l = 0; l < r->leaves; l++)
-    if (r->leaf[l].kind == DYD_LEAF_NESTED && r->leaf[l].op == op &&
-        fmpz_mpoly_equal(r->leaf[l].key.num, key, r->ctx))
+    if (r->leaf[l].kind == DYD_LEAF_NESTED && r->leaf[l].op == op && fmpz_mpoly_equal(r->leaf[l].key.num, key, r->ctx))
       return l;
   slong l = dyd_ring_add_leaf(r, DYD_LEAF_NESTED, op);
   if (l < 0) return l;
@@ -195,8 +194,8 @@ bool dyd_leaf_radical(dyd_fraction *x, dyd_ring *r, dyd_op op, const dyd_fractio
   fmpz_mpoly_scalar_mul_fmpz(key, u->num, u->den->coeffs, r->ctx);
   if (k == 3) fmpz_mpoly_scalar_mul_fmpz(key, key, u->den->coeffs, r->ctx);
   fmpz_mpoly_set(x->den, u->den, r->ctx);
-  bool fits = fmpz_mpoly_is_fmpz(key, r->ctx) ? radical_of_number(x, r, op, key, k)
-                                              : radical_of_polynomial(x, r, op, key, k);
+  bool fits =
+      fmpz_mpoly_is_fmpz(key, r->ctx) ? radical_of_number(x, r, op, key, k) : radical_of_polynomial(x, r, op, key, k);
   if (fits) dyd_fraction_lowest(x, r);
   fmpz_mpoly_clear(key, r->ctx);
   return fits;

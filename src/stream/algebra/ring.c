@@ -3,14 +3,31 @@
 #include "stream/algebra/ring.h"
 
 #include "base/alloc.h"
-#include "stream/algebra/fraction.h"
-#include "stream/algebra/normal.h"
 
 #include <string.h>
 
 enum { FIRST_ROOM = 8 };
 
 /* ---- life ---- */
+
+dyd_fraction *dyd_fraction_new(dyd_ring *r) {
+  dyd_fraction *x = dyd_alloc(1, sizeof *x);
+  if (!x) {
+    r->failed = true;
+    return NULL;
+  }
+  fmpz_mpoly_init(x->num, r->ctx);
+  fmpz_mpoly_init(x->den, r->ctx);
+  fmpz_mpoly_one(x->den, r->ctx);
+  return x;
+}
+
+void dyd_fraction_free(dyd_fraction *x, const dyd_ring *r) {
+  if (!x) return;
+  fmpz_mpoly_clear(x->num, r->ctx);
+  fmpz_mpoly_clear(x->den, r->ctx);
+  free(x);
+}
 
 static dyd_status ring_open(dyd_ring *r, slong room) {
   r->room = room;
@@ -68,40 +85,18 @@ void dyd_ring_clear(dyd_ring *r) {
 
 /* ---- fractions of forms ---- */
 
-static bool ring_hold(dyd_ring *r) {
+bool dyd_ring_hold(dyd_ring *r) {
   size_t before = r->frac_cap;
   if (!dyd_reserve((void **)&r->frac, &r->frac_cap, r->forms->count, sizeof *r->frac)) return false;
   if (r->frac_cap > before) memset(r->frac + before, 0, (r->frac_cap - before) * sizeof *r->frac);
   return true;
 }
 
-const dyd_fraction *dyd_ring_fraction(dyd_ring *r, uint32_t n) {
-  if (!ring_hold(r)) {
-    r->failed = true;
-    return NULL;
-  }
-  if (!r->frac[n]) {
-    dyd_fraction *made = dyd_normal_form(r, n);
-    r->frac[n] = made ? made : r->none;
-  }
-  return r->frac[n] == r->none ? NULL : r->frac[n];
-}
-
-/* Room, base and order grow, each a few times at most. */
-dyd_status dyd_ring_settle(dyd_ring *r, const uint32_t *node, size_t count) {
-  enum { PASSES = 24 };
-  for (int pass = 0; pass < PASSES; pass++) {
-    r->stale = false;
-    for (size_t k = 0; k < count; k++) dyd_ring_fraction(r, node[k]);
-    if (r->failed) return DYD_E_NOMEM;
-    if (!r->stale) return DYD_OK;
-    slong room = r->leaves == r->room && r->room < DYD_RING_LEAVES ? 2 * r->room : r->room;
-    ring_close(r);
-    r->order = r->next_order;
-    dyd_status st = ring_open(r, room);
-    if (st != DYD_OK) return st;
-  }
-  return DYD_OK;
+dyd_status dyd_ring_renew(dyd_ring *r) {
+  slong room = r->leaves == r->room && r->room < DYD_RING_LEAVES ? 2 * r->room : r->room;
+  ring_close(r);
+  r->order = r->next_order;
+  return ring_open(r, room);
 }
 
 /* ---- leaves ---- */

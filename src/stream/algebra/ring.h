@@ -65,7 +65,7 @@ typedef struct dyd_ring {
   fmpz *base;
   slong bases, base_cap;
   ulong order, next_order; /* of the cycle: now, and as far as is known */
-  fmpz_poly_t minimal; /* of 2 cos(2 pi / order) */
+  fmpz_poly_t minimal;     /* of 2 cos(2 pi / order) */
   dyd_fraction **frac, *none;
   size_t frac_cap;
   bool stale, failed; /* failed: memory is exhausted */
@@ -73,10 +73,13 @@ typedef struct dyd_ring {
 
 dyd_status dyd_ring_init(dyd_ring *r, dyd_forms *forms);
 void dyd_ring_clear(dyd_ring *r);
-/* Makes the fractions of the forms given; until then leaves are not settled. */
-dyd_status dyd_ring_settle(dyd_ring *r, const uint32_t *node, size_t count);
-/* The fraction of form n; NULL: not known, or beyond the limits. Borrowed. */
-const dyd_fraction *dyd_ring_fraction(dyd_ring *r, uint32_t n);
+/* Drops all leaves and fractions, and gives room for more leaves where these did not suffice. */
+dyd_status dyd_ring_renew(dyd_ring *r);
+/* Room for the fractions of all forms; false: memory is exhausted. */
+bool dyd_ring_hold(dyd_ring *r);
+/* 0 / 1; NULL: memory is exhausted, which the ring notes. */
+dyd_fraction *dyd_fraction_new(dyd_ring *r);
+void dyd_fraction_free(dyd_fraction *x, const dyd_ring *r);
 
 /* Variable of leaf k: later leaves are greater. */
 static inline slong dyd_ring_var(const dyd_ring *r, slong k) {

@@ -82,8 +82,7 @@ static int side_of_middle(dyd_ring *r, const fmpz_poly_t f, uint32_t node) {
 
 /* x = (-b + sign sqrt(b^2 - 4 a c)) / 2 a. */
 static bool root_is_quadratic(dyd_fraction *x, dyd_ring *r, const fmpz_poly_t f, uint32_t node) {
-  const fmpz *a = fmpz_poly_get_coeff_ptr(f, 2), *b = fmpz_poly_get_coeff_ptr(f, 1),
-             *c = fmpz_poly_get_coeff_ptr(f, 0);
+  const fmpz *a = fmpz_poly_get_coeff_ptr(f, 2), *b = fmpz_poly_get_coeff_ptr(f, 1), *c = fmpz_poly_get_coeff_ptr(f, 0);
   int sign = side_of_middle(r, f, node);
   dyd_fraction u;
   fmpz_t t;
@@ -207,7 +206,9 @@ bool dyd_leaf_root(dyd_fraction *x, dyd_ring *r, uint32_t node) {
   keep_own_factor(f, r, node);
   if (fmpz_sgn(fmpz_poly_lead(f)) < 0) fmpz_poly_neg(f, f);
   slong n = fmpz_poly_degree(f);
-  bool fits = n == 1 ? root_is_number(x, r, f) : n == 2 ? root_is_quadratic(x, r, f, node) : root_is_leaf(x, r, f, node);
+  bool fits = n == 1   ? root_is_number(x, r, f)
+              : n == 2 ? root_is_quadratic(x, r, f, node)
+                       : root_is_leaf(x, r, f, node);
   fmpz_poly_clear(f);
   return fits;
 }

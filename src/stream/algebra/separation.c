@@ -1,32 +1,34 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Separation bounds [SEP-1].
  *
- * Leaves are algebraic integers with monic relations of degrees d_k, the coefficients polynomials in leaves before. Let D
- * be the product of the d_k of the leaves that P depends on, and U >= 1 a bound of |P| at all D choices of conjugates.
- * The product of T - P(choice) over all choices has integer coefficients, and the last one that is not 0 is the product
- * of all P(choice) that are not 0, up to sign: at least 1. So P = 0 or |P| >= U^-(D - 1).
+ * Leaves are algebraic integers with monic relations of degrees d_k, the coefficients polynomials in leaves before. Let
+ * D be the product of the d_k of the leaves that P depends on, and U >= 1 a bound of |P| at all D choices of
+ * conjugates. The product of T - P(choice) over all choices has integer coefficients, and the last one that is not 0 is
+ * the product of all P(choice) that are not 0, up to sign: at least 1. So P = 0 or |P| >= U^-(D - 1).
  *
  * P is not multiplied out: U comes from bounds of its parts. Everything is rounded up. */
 #include "stream/algebra/separation.h"
 
+#include "stream/algebra/normal.h"
+
 #include <arb.h>
 
-/* What is known of a form: its value is P / Q; num and den bound P and Q at all choices; whole: Q as an integer where it
- * is one, else 0; uses: the leaves of P and Q. */
+/* What is known of a form: its value is P / Q; num and den bound P and Q at all choices; whole: Q as an integer where
+ * it is one, else 0; uses: the leaves of P and Q. */
 typedef struct part {
   mag_t num, den;
   fmpz_t whole;
   bool uses[DYD_RING_LEAVES];
 } part;
 
-static void part_init(part *p) {
+static void bound_init(part *p) {
   *p = (part){.uses = {false}};
   mag_init(p->num);
   mag_init(p->den);
   fmpz_init(p->whole);
 }
 
-static void part_clear(part *p) {
+static void bound_clear(part *p) {
   fmpz_clear(p->whole);
   mag_clear(p->den);
   mag_clear(p->num);
@@ -85,14 +87,14 @@ static bool part_of_form(part *p, dyd_ring *r, uint32_t n);
 
 static bool part_of_operation(part *p, dyd_ring *r, const dyd_form *n) {
   part q;
-  part_init(&q);
+  bound_init(&q);
   bool known = part_of_form(p, r, n->a) && part_of_form(&q, r, n->b);
   if (known && n->op == DYD_OP_MUL)
     part_multiply(p, &q);
   else if (known)
     part_add(p, &q);
   for (slong k = 0; k < DYD_RING_LEAVES; k++) p->uses[k] = p->uses[k] || q.uses[k];
-  part_clear(&q);
+  bound_clear(&q);
   return known;
 }
 
@@ -143,10 +145,10 @@ static bool bits_of_bound(slong *out, const mag_t u, slong degree, slong most) {
 
 bool dyd_separation_find(dyd_separation *s, dyd_ring *r, uint32_t n, slong most) {
   part p;
-  part_init(&p);
+  bound_init(&p);
   bool known = part_of_form(&p, r, n) && degree_of_tower(&s->degree, &p, r);
   known = known && bits_of_bound(&s->bits, p.num, s->degree, most);
   mag_set(s->den, p.den);
-  part_clear(&p);
+  bound_clear(&p);
   return known;
 }

@@ -4,6 +4,7 @@
 #include "stream/algebra/zero.h"
 
 #include "base/flag.h"
+#include "stream/algebra/normal.h"
 #include "stream/algebra/separation.h"
 
 enum { FIRST_BITS = 128, FEW_BITS = 4096 };
@@ -47,7 +48,7 @@ static bool is_below_separation(dyd_algebra *a, uint32_t n, slong prec, const dy
 
 /* Goes on from `prec` until the bound decides. Digits before the point are computed, too: twice the bits will do, where
  * the operations do not cancel much. */
-static dyd_zero separate(dyd_algebra *a, uint32_t n, const dyd_separation *s) {
+static dyd_zero separate_from_zero(dyd_algebra *a, uint32_t n, const dyd_separation *s) {
   slong last = 2 * s->bits + 8 * FIRST_BITS;
   if (last > a->most + 8 * FIRST_BITS) last = a->most + 8 * FIRST_BITS;
   for (slong prec = FIRST_BITS; prec <= 2 * last; prec *= 2) {
@@ -65,7 +66,7 @@ static dyd_zero test_by_bound(dyd_algebra *a, uint32_t n, slong most) {
   mag_init(s.den);
   if (most > a->most) most = a->most;
   if (dyd_separation_find(&s, &a->ring, n, most)) {
-    zero = separate(a, n, &s);
+    zero = separate_from_zero(a, n, &s);
     if (s.degree > a->count.degree) a->count.degree = s.degree;
     a->count.by_bound += zero == DYD_ZERO_PROVED;
   }
