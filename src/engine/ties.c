@@ -146,18 +146,21 @@ static bool put_zeros(question *q) {
   }
 }
 
-/* Leaves are settled when no form is surely not 0. */
+/* Leaves are settled when no form is surely not 0. *out stays unknown on failure. */
 static dyd_status test_zeros(dyd_zero *out, question *q) {
   dyd_algebra *a = &q->algebra;
-  *out = DYD_ZERO_REFUTED;
+  dyd_zero all = DYD_ZERO_PROVED;
   for (size_t k = 0; k < q->zeros; k++)
-    if (dyd_algebra_is_refuted(a, q->zero[k])) return DYD_OK;
+    if (dyd_algebra_is_refuted(a, q->zero[k])) {
+      *out = DYD_ZERO_REFUTED;
+      return DYD_OK;
+    }
   _Static_assert(sizeof *q->at == 2 * sizeof(uint32_t), "points are pairs of forms");
   dyd_status st = dyd_algebra_settle(a, &q->at->x, 2 * q->count);
-  *out = DYD_ZERO_PROVED;
-  for (size_t k = 0; k < q->zeros && st == DYD_OK && *out == DYD_ZERO_PROVED; k++)
-    *out = dyd_algebra_test(a, q->zero[k]);
-  return a->forms.failed || a->ring.failed ? DYD_E_NOMEM : st;
+  for (size_t k = 0; k < q->zeros && st == DYD_OK && all == DYD_ZERO_PROVED; k++) all = dyd_algebra_test(a, q->zero[k]);
+  if (a->forms.failed || a->ring.failed) st = DYD_E_NOMEM;
+  if (st == DYD_OK) *out = all;
+  return st;
 }
 
 static dyd_status question_run(dyd_zero *out, question *q) {
@@ -232,11 +235,14 @@ static dyd_status answer_get(answer **out, dyd_engine *e, dyd_relation relation,
   *out = a;
   if (a->zero != DYD_ZERO_UNKNOWN || a->most >= e->tie_bits) return DYD_OK;
   bool final = false;
+  dyd_zero zero = DYD_ZERO_UNKNOWN;
   dyd_ties *t = e->ties;
   if (!dyd_reserve((void **)&t->proved, &t->proved_cap, t->proofs + 1, sizeof(answer *))) return DYD_E_NOMEM;
-  dyd_status st = question_answer(&a->zero, &final, e, relation, site, count);
-  if (st == DYD_OK && final) a->most = e->tie_bits;
-  if (st == DYD_OK && a->zero == DYD_ZERO_PROVED) e->ties->proved[e->ties->proofs++] = a;
+  dyd_status st = question_answer(&zero, &final, e, relation, site, count);
+  if (st != DYD_OK) return st;
+  a->zero = zero;
+  if (final) a->most = e->tie_bits;
+  if (zero == DYD_ZERO_PROVED) t->proved[t->proofs++] = a;
   return st;
 }
 
