@@ -166,10 +166,10 @@ typedef struct dyd_certificate_report {
   size_t polygons;
   bool distance, distance_proved; /* is its other bound stated; was it checked? */
   size_t ties_unproved;
-  uint64_t illegal_boxes; /* pairs within undecided faces that boxes prove illegal */
-  unsigned gaps;          /* of dyd_certificate_gap; 0: everything that is stated is proved */
-  bool bound;             /* were the points given, and is it about them? */
-  size_t unlocated;       /* of them, those not known to lie in their rectangles */
+  uint64_t illegal_boxes;  /* pairs within undecided faces that boxes prove illegal */
+  unsigned gaps;           /* of dyd_certificate_gap; 0: everything that is stated is proved */
+  bool bound;              /* were the points given, and is it about them? */
+  size_t unlocated;        /* of them, those not known to lie in their rectangles */
   size_t aliases_unproved; /* of aliases, those of sites that are not exact */
 } dyd_certificate_report;
 
