@@ -75,7 +75,15 @@ typedef enum dyd_content {
   DYD_CONTENT_CHECK,
   DYD_CONTENT_DISC,
   DYD_CONTENT_BISECTOR,
-  DYD_CONTENT_NEAREST
+  DYD_CONTENT_NEAREST,
+  /* One layer of the triangulation or the diagram, in formats that hold a single kind of things. There
+   * DYD_CONTENT_DELAUNAY is the layer of pairs, DYD_CONTENT_VORONOI that of cells. */
+  DYD_CONTENT_POINTS,
+  DYD_CONTENT_TRIANGLES,
+  DYD_CONTENT_VERTICES,
+  DYD_CONTENT_REGIONS,
+  DYD_CONTENT_EDGES,
+  DYD_CONTENT_PLACES /* the nearest points of many places */
 } dyd_content;
 
 /* Finds a format by its name ("csv"), or by the ending of a file's name ("a/map.svg", in any case); false when there is
@@ -91,6 +99,10 @@ DYD_API bool dyd_format_is_binary(dyd_format format);
 DYD_API const char *dyd_format_name(dyd_format format);
 /* What it is, in words without a full stop; NULL as above. Static storage. */
 DYD_API const char *dyd_format_about(dyd_format format);
+/* The layers of DYD_CONTENT_DELAUNAY and DYD_CONTENT_VORONOI: the k-th name, the default first, NULL behind the last
+ * one; and the content that a name ("points") stands for, false when there is none. Static storage. */
+DYD_API const char *dyd_layer_name(dyd_content of, size_t k);
+DYD_API bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name);
 /* Can the format hold it? Where not, the writers below return DYD_E_ARG with a message that names those that can. */
 DYD_API bool dyd_format_holds(dyd_format format, dyd_content content);
 
@@ -100,6 +112,16 @@ DYD_API dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format
  * do not depend on it. DYD_E_RANGE when doubles cannot hold a picture so near. */
 DYD_API dyd_status dyd_write_delaunay_window(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_format format,
                                              dyd_error *err);
+
+typedef struct dyd_delaunay_output {
+  size_t struct_size;     /* set by DYD_SIZED */
+  const dyd_rect *window; /* what svg, pdf and png show: positive area; NULL: everything */
+  dyd_content layer;      /* what csv, wkt and geojson hold; DYD_CONTENT_NONE: the pairs */
+  unsigned epsg; /* EPSG number of the coordinates' reference system, for geojson and json; 0: none is claimed */
+} dyd_delaunay_output;
+/* The same as o says; NULL: as dyd_write_delaunay. DYD_E_ARG when the format does not hold the layer. */
+DYD_API dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delaunay_output *o,
+                                         dyd_format format, dyd_error *err);
 
 typedef struct dyd_voronoi_options {
   size_t struct_size;         /* set by DYD_SIZED */
@@ -112,10 +134,13 @@ typedef struct dyd_voronoi_options {
    * known. May be NULL. cut: how many cells and regions that befell; may be NULL. */
   const volatile int *cancel;
   size_t *cut;
+  dyd_content layer; /* what csv, wkt and geojson hold; DYD_CONTENT_NONE: the cells */
+  unsigned epsg;     /* as in dyd_delaunay_output */
 } dyd_voronoi_options;
 
 /* Writes the Voronoi diagram of the current result of e. o may be NULL.
- * DYD_CAPPED when neighbours are missing since the cap on pairs was met. */
+ * DYD_CAPPED when neighbours are missing since the cap on pairs was met; DYD_E_ARG when the format does not hold the
+ * layer. */
 DYD_API dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_options *o, dyd_format format,
                                      dyd_error *err);
 
@@ -142,10 +167,14 @@ typedef struct dyd_nearest_answer {
   bool sure;
   dyd_outcome outcome;
 } dyd_nearest_answer;
-/* The points of e that are possibly, or the one that is surely nearest. DYD_E_ARG when e has no result, DYD_E_RANGE
- * when doubles cannot hold the picture. */
+/* The points of e that are possibly, or the one that is surely nearest, with bounds of their distances. DYD_E_ARG when
+ * e has no result, DYD_E_RANGE when doubles cannot hold the picture. */
 DYD_API dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_answer *answer,
                                      dyd_format format, dyd_error *err);
+
+/* The same of many places, numbered from 0; outcome: of all of them. */
+DYD_API dyd_status dyd_write_places(FILE *out, const dyd_engine *e, const dyd_nearest_answer *const *answer,
+                                    size_t count, dyd_outcome outcome, dyd_format format, dyd_error *err);
 
 /* Writes a table of convergence; DYD_E_ARG when there was no run. Bounds and widths are rounded up, and the output says
  * so. times = false leaves the seconds out: then equal runs give equal bytes. */

@@ -78,6 +78,10 @@ DYD_API void dyd_point_set(dyd_point *out, const dyd_point *p);
 DYD_API void dyd_rect_ds2(mpq_t out, const dyd_point *c, const dyd_rect *r);
 DYD_API void dyd_rect_dl2(mpq_t out, const dyd_point *c, const dyd_rect *r);
 
+/* Bounds of the distances of a point of a and a point of b: the least one rounded down, the largest one rounded up
+ * (infinite beyond the range of doubles). */
+DYD_API void dyd_rect_distance(double *lo, double *hi, const dyd_rect *a, const dyd_rect *b);
+
 /* Twice the area of the partial edge Ed(a,b), the convex hull of two rectangles. Exact. */
 DYD_API void dyd_partial_edge_area2(mpq_t out, const dyd_rect *a, const dyd_rect *b);
 /* Are Ed(a,b) and Ed(c,d) disjoint as closed sets? Exact, touching counts as meeting [HULL-1]. */

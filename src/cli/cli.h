@@ -28,10 +28,11 @@ enum {
 /* All texts borrowed from argv; NULL where an option was not given, unless said otherwise. */
 typedef struct cli_options {
   const char *command;
-  const char *file;   /* the points file, or the certificate of verify; NULL with an oracle */
-  const char *points; /* verify: the points file */
-  const char *at[2];  /* X Y of nearest */
-  const char *output; /* NULL: standard output */
+  const char *file;    /* the points file, or the certificate of verify; NULL with an oracle */
+  const char *points;  /* verify: the points file */
+  const char *at[2];   /* X Y of nearest */
+  const char *queries; /* or a file of places */
+  const char *output;  /* NULL: standard output */
   dyd_read_options read;
   const char *oracle;
   unsigned oracle_jobs, oracle_batch; /* 0: default */
@@ -39,6 +40,9 @@ typedef struct cli_options {
   dyd_engine_options engine;
   dyd_format format; /* one that the command can write; csv when not given */
   bool format_set;
+  const char *layer;    /* a name */
+  dyd_content content;  /* what is written: the layer, or all that the command says */
+  unsigned epsg;        /* 0: not given */
   const char *window;   /* checked text: see cli_window_read */
   const dyd_rect *view; /* delaunay: the window read, which pictures show */
   int64_t flatten_bits;

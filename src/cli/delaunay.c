@@ -3,7 +3,8 @@
 #include "cli.h"
 
 static dyd_status delaunay_write(FILE *out, const void *engine, const cli_options *o, dyd_error *err) {
-  return dyd_write_delaunay_window(out, engine, o->view, o->format, err);
+  const dyd_delaunay_output how = {DYD_SIZED(dyd_delaunay_output), o->view, o->content, o->epsg};
+  return dyd_write_delaunay_as(out, engine, &how, o->format, err);
 }
 
 int cli_delaunay(const cli_options *o) {

@@ -24,6 +24,10 @@ static void bash_formats(FILE *out, unsigned commands) {
   cli_formats_print(out, commands, " ", false);
 }
 
+static void bash_layers(FILE *out, unsigned commands) {
+  cli_layers_print(out, commands, " ");
+}
+
 /* The patterns of a case on the command, with its words, and those of no command. */
 static void bash_words(FILE *out, const char *indent, void (*words)(FILE *out, unsigned commands)) {
   for (size_t c = 0; c <= CLI_COMMANDS; c++) {
@@ -37,9 +41,9 @@ static void bash_words(FILE *out, const char *indent, void (*words)(FILE *out, u
 static void bash_value(FILE *out, const cli_option *o) {
   if (o->kind == CLI_FLAG || cli_kind_is_file(o->kind)) return; /* files are what bash offers by itself */
   bash_pattern(out, o);
-  if (o->kind == CLI_FORMAT) {
+  if (o->kind == CLI_FORMAT || o->kind == CLI_LAYER) {
     fputs("case $command in\n", out);
-    bash_words(out, "      ", bash_formats);
+    bash_words(out, "      ", o->kind == CLI_FORMAT ? bash_formats : bash_layers);
     fputs("      esac ;;\n", out);
   } else if (o->kind == CLI_SCHEDULE) {
     fputs("words='adaptive uniform' ;;\n", out);
@@ -49,6 +53,8 @@ static void bash_value(FILE *out, const cli_option *o) {
     fputs("words='prove off' ;;\n", out);
   } else if (o->kind == CLI_GOAL) {
     fputs("words='decided area: hausdorff:' ;;\n", out);
+  } else if (o->kind == CLI_CRS) {
+    fputs("words='EPSG:' ;;\n", out);
   } else if (o->kind == CLI_HELP) {
     fputs("[[ $equals ]] && words='man bash zsh' ;;\n", out);
   } else {
@@ -122,9 +128,13 @@ static void zsh_option(FILE *out, const cli_option *o, const cli_command *c) {
   if (o->kind == CLI_SUBJECT) fputs("(delaunay voronoi)", out);
   if (o->kind == CLI_TIES) fputs("(prove off)", out);
   if (o->kind == CLI_GOAL) fputs("(decided area\\: hausdorff\\:)", out);
-  if (o->kind == CLI_FORMAT) {
+  if (o->kind == CLI_CRS) fputs("(EPSG\\:)", out);
+  if (o->kind == CLI_FORMAT || o->kind == CLI_LAYER) {
     fputs("(", out);
-    cli_formats_print(out, cli_command_bit(c), " ", false);
+    if (o->kind == CLI_FORMAT)
+      cli_formats_print(out, cli_command_bit(c), " ", false);
+    else
+      cli_layers_print(out, cli_command_bit(c), " ");
     fputs(")", out);
   }
   fputs("'\n", out);

@@ -145,9 +145,34 @@ static int options_fit(const cli_options *o, uint64_t seen, const cli_command *c
     cli_complain("--%s says how points are read; give their file with --points", cli_option_table[k].name);
     return CLI_USAGE;
   }
-  if (!o->format_set || dyd_format_holds(o->format, c->content)) return 0;
-  fprintf(stderr, "dyadel: %s does not write %s; give ", c->name, dyd_format_name(o->format));
-  cli_formats_print(stderr, cli_command_bit(c), ", ", false);
+  return 0;
+}
+
+/* The layer named, as one of what the command writes. */
+static int layer_fits(cli_options *o, const cli_command *c) {
+  o->content = o->queries ? DYD_CONTENT_PLACES : c->content;
+  if (!o->layer || dyd_layer_from_name(&o->content, c->content, o->layer)) return 0;
+  fprintf(stderr, "dyadel: %s has no layer \"%s\"; give ", c->name, o->layer);
+  cli_layers_print(stderr, cli_command_bit(c), ", ");
+  fputs("\n", stderr);
+  return CLI_USAGE;
+}
+
+/* The format, which has to hold what is written; the first that does where none is given. */
+static int format_fits(cli_options *o, const cli_command *c) {
+  while (!o->format_set && dyd_format_name(o->format) && !dyd_format_holds(o->format, o->content)) o->format++;
+  if (!o->format_set || dyd_format_holds(o->format, o->content)) return 0;
+  fprintf(stderr, "dyadel: %s%s%s does not write %s; give", c->name, o->layer ? " --layer " : "",
+          o->layer     ? o->layer
+          : o->queries ? " --queries"
+                       : "",
+          dyd_format_name(o->format));
+  const char *before = " ";
+  for (unsigned f = 0; dyd_format_name((dyd_format)f); f++) {
+    if (!dyd_format_holds((dyd_format)f, o->content)) continue;
+    fprintf(stderr, "%s%s", before, dyd_format_name((dyd_format)f));
+    before = ", ";
+  }
   fputs("\n", stderr);
   return CLI_USAGE;
 }
@@ -162,28 +187,30 @@ static int format_from_output(cli_options *o, const cli_command *c) {
   return CLI_USAGE;
 }
 
-/* Hands the operands behind the command's name to their fields. With an oracle or a trace there is no file. */
+/* Hands the operands behind the command's name to their fields. With an oracle or a trace there is no file, with a
+ * file of places no place. */
 static int place_operands(cli_options *o, const scan *s, const cli_command *c) {
+  const char *operands = o->queries ? "FILE" : c->operands;
   const char **place[MOST_OPERANDS];
   size_t wanted = 0;
   bool file = !o->oracle && !trace_has_points(o, c);
   if (file) place[wanted++] = &o->file;
-  if (strstr(c->operands, " X Y")) {
+  if (strstr(operands, " X Y")) {
     place[wanted++] = &o->at[0];
     place[wanted++] = &o->at[1];
   }
   size_t given = s->operands - 1;
   if (given > wanted) {
     cli_complain("\"%s\" is one argument too many; give dyadel %s %s", s->operand[wanted + 1], c->name,
-                 file ? c->operands : c->operands + strcspn(c->operands, " "));
+                 file ? operands : operands + strcspn(operands, " "));
     return CLI_USAGE;
   }
   for (size_t k = 0; k < given; k++) *place[k] = s->operand[k + 1];
   if (given == wanted) return 0;
-  if (given == 0 && file && strncmp(c->operands, "FILE", 4) == 0)
+  if (given == 0 && file && strncmp(operands, "FILE", 4) == 0)
     cli_complain("the points file is missing; give its name, or - for standard input");
   else
-    cli_complain("an argument is missing; give dyadel %s %s", c->name, c->operands);
+    cli_complain("an argument is missing; give dyadel %s %s", c->name, operands);
   return CLI_USAGE;
 }
 
@@ -217,8 +244,9 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   if (!c) return unknown_command(s.operand[0]);
   out->command = c->name;
   if (out->help || out->version) return 0;
-  while (!out->format_set && dyd_format_name(out->format) && !dyd_format_holds(out->format, c->content)) out->format++;
-  status = format_from_output(out, c);
-  if (!status) status = options_fit(out, s.seen, c);
+  status = options_fit(out, s.seen, c);
+  if (!status) status = layer_fits(out, c);
+  if (!status) status = format_from_output(out, c);
+  if (!status) status = format_fits(out, c);
   return status ? status : place_operands(out, &s, c);
 }

@@ -63,8 +63,9 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                       DYD_CONTENT_BISECTOR, cli_bisector},
     [CLI_NEAREST] = {"nearest", "FILE X Y", "which points are surely, which are possibly nearest to a place",
                      "The points that are nearest to the place (X,Y), coordinates of any form: sure when\n"
-                     "exactly one is, whatever the points in the rectangles are; possible otherwise. The\n"
-                     "place and the points concerned are refined until one is sure.",
+                     "exactly one is, whatever the points in the rectangles are; possible otherwise; with\n"
+                     "bounds of the distance. The place and the points concerned are refined until one is\n"
+                     "sure. --queries FILE asks of many places at once.",
                      DYD_CONTENT_NEAREST, cli_nearest},
 };
 
@@ -112,6 +113,9 @@ const cli_option cli_option_table[] = {
     {"oracle-timeout", 0, "SECONDS", CLI_SECONDS, READ, CLI_INPUT, "wait so long for a line of a program (default 30)",
      AT(oracle_timeout)},
 
+    {"queries", 0, "FILE", CLI_SOURCE, BIT(CLI_NEAREST), CLI_INPUT,
+     "in place of X Y: a file of places, in the forms of a points\nfile; one triangulation answers all", AT(queries)},
+
     {"until", 0, "GOAL", CLI_GOAL, RUN, CLI_REFINEMENT, "decided (default), area:M or hausdorff:M (bound 2^-M)",
      AT(engine)},
     {"of", 0, "WHAT", CLI_SUBJECT, BIT(CLI_CONVERGE), CLI_REFINEMENT,
@@ -145,6 +149,13 @@ const cli_option cli_option_table[] = {
     {"flatten", 0, "M", CLI_INTEGER, BIT(CLI_VORONOI), CLI_OUTPUT, "draw arcs by polygons within 2^-M of them",
      AT(flatten_bits), RANGE(-DYD_EXP_LIMIT, DYD_EXP_LIMIT), GIVEN(flatten_set)},
     {"format", 0, "F", CLI_FORMAT, CLI_ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
+    {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_OUTPUT,
+     "what csv, wkt and geojson hold; delaunay: pairs (default),\npoints, triangles; voronoi: cells (default), "
+     "vertices,\n"
+     "regions, edges; json and vtk hold all of them",
+     AT(layer)},
+    {"crs", 0, "EPSG:N", CLI_CRS, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_OUTPUT,
+     "the reference system of the coordinates, for geojson and\njson (default: none is claimed)", AT(epsg)},
     {"output", 'o', "FILE", CLI_FILE, CLI_ALL, CLI_OUTPUT,
      "write to FILE, whole or not at all; its ending, such as\n.svg, chooses the format", AT(output)},
     {"certificate", 0, "FILE", CLI_FILE, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_OUTPUT,
@@ -207,6 +218,15 @@ void cli_commands_print(FILE *out, unsigned commands, const char *separator) {
     fprintf(out, "%s%s", before, cli_commands[c].name);
     before = separator;
   }
+}
+
+void cli_layers_print(FILE *out, unsigned commands, const char *separator) {
+  const char *before = "";
+  for (unsigned c = 0; c < CLI_COMMANDS; c++)
+    for (size_t k = 0; commands & BIT(c) && dyd_layer_name(cli_commands[c].content, k); k++) {
+      fprintf(out, "%s%s", before, dyd_layer_name(cli_commands[c].content, k));
+      before = separator;
+    }
 }
 
 void cli_formats_print(FILE *out, unsigned commands, const char *separator, bool mark) {

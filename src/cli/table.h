@@ -31,6 +31,8 @@ typedef enum cli_kind {
   CLI_SUBJECT,  /* delaunay or voronoi; a bool is set for the latter */
   CLI_TIES,     /* prove or off, into a bool: off */
   CLI_FORMAT,   /* a format of the command */
+  CLI_LAYER,    /* a layer of what the command writes */
+  CLI_CRS,      /* EPSG:N */
   CLI_WINDOW,   /* XLO,XHI,YLO,YHI */
   CLI_HELP      /* nothing, or =KIND */
 } cli_kind;
@@ -83,6 +85,8 @@ extern const char cli_summary[], cli_file_text[];
 bool cli_option_exists(const cli_option *option, unsigned commands);
 /* NULL when there is none of that name. */
 const cli_command *cli_command_find(const char *name);
+/* The names of the layers of what these commands write, separated. */
+void cli_layers_print(FILE *out, unsigned commands, const char *separator);
 /* The set with this command alone. */
 unsigned cli_command_bit(const cli_command *c);
 /* The names of a set of commands, separated. */

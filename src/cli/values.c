@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static bool value_usage(const cli_option *option, const char *value, const char *wanted) {
   cli_complain("--%s \"%s\" is not understood; give %s", option->name, value, wanted);
@@ -84,6 +85,26 @@ static bool value_format(dyd_format *place, const cli_option *option, const char
   return false;
 }
 
+/* Whether it is one of the command is seen later. */
+static bool value_layer(const char **place, const cli_option *option, const char *text) {
+  dyd_content layer;
+  *place = text;
+  for (unsigned c = 0; c < CLI_COMMANDS; c++)
+    if (dyd_layer_from_name(&layer, cli_commands[c].content, text)) return true;
+  fprintf(stderr, "dyadel: --%s \"%s\" is not understood; give ", option->name, text);
+  cli_layers_print(stderr, CLI_ALL, ", ");
+  fputs("\n", stderr);
+  return false;
+}
+
+static bool value_crs(unsigned *place, const cli_option *option, const char *text) {
+  long long number;
+  if (strncasecmp(text, "EPSG:", 5) != 0 || !value_scan_integer(&number, text + 5, 1, 999999))
+    return value_usage(option, text, "EPSG: and a number, such as EPSG:32632");
+  *place = (unsigned)number;
+  return true;
+}
+
 static bool is_window(const char *text) {
   dyd_rect window;
   dyd_rect_init(&window);
@@ -126,6 +147,10 @@ bool cli_value_read(cli_options *o, const cli_option *option, const char *text) 
     return value_ties(place, option, text);
   case CLI_FORMAT:
     return value_format(place, option, text);
+  case CLI_LAYER:
+    return value_layer(place, option, text);
+  case CLI_CRS:
+    return value_crs(place, option, text);
   case CLI_HELP:
     *(const char **)place = text ? text : "";
     return true;

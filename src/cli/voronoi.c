@@ -41,6 +41,8 @@ static dyd_status voronoi_write(FILE *out, const void *engine, const cli_options
                                  .flatten_set = o->flatten_set,
                                  .window = o->engine.window,
                                  .bounds = o->bounds,
+                                 .layer = o->content,
+                                 .epsg = o->epsg,
                                  .cancel = cli_deadline_flag(),
                                  .cut = o->cut};
   return dyd_write_voronoi(out, engine, &options, o->format, err);

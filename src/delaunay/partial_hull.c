@@ -95,7 +95,7 @@ static dyd_status find_candidates(hull *h) {
   h->x = st == DYD_OK ? dyd_alloc(count, sizeof *h->x) : NULL;
   for (size_t k = 0; h->x && k < count; k++) {
     if (k && list[k] == list[k - 1]) continue;
-    h->x[h->count].possible = false;
+    h->x[h->count].possible = h->x[h->count].sure = false;
     h->x[h->count++].vertex = list[k];
   }
   free(list);
@@ -125,12 +125,12 @@ static void sort_pairs(dyd_hull_pairs *p) {
   p->count = kept;
 }
 
-/* The four quadrants of directions; the last mirror image is the original. */
-static dyd_status find_possible(hull *h) {
+/* The four quadrants of directions; the last mirror image is the original. pairs: &h->pairs, or NULL. */
+static dyd_status find_possible(hull *h, dyd_hull_pairs *pairs) {
   dyd_status st = DYD_OK;
   for (int quadrant = 0; quadrant < 4 && st == DYD_OK; quadrant++) {
-    st = dyd_hull_quadrant(&h->pairs, h->x, h->count);
-    sort_pairs(&h->pairs);
+    st = dyd_hull_quadrant(pairs, h->x, h->count);
+    if (pairs) sort_pairs(pairs);
     mirror(h, quadrant & 1);
   }
   return st;
@@ -169,22 +169,33 @@ static bool rects_meet(const dyd_extreme *a, const dyd_extreme *b) {
   return true;
 }
 
-/* Sites on a line: a corner is surely before, or surely behind all others. Two sites need not be on a line. */
-static bool is_sure_on_line(const hull *h, size_t k) {
-  if (h->count == 2) return !rects_meet(&h->x[0], &h->x[1]);
-  bool first = true, last = true;
-  for (size_t q = 0; q < h->count && (first || last); q++) {
-    if (q == k) continue;
-    first = first && is_below(&h->x[k], &h->x[q]);
-    last = last && is_below(&h->x[q], &h->x[k]);
-  }
-  return first || last;
+/* Sites on a line: a corner is surely before, or surely behind all others; NULL: there is none. is_below is
+ * transitive, so only who is not known to have anybody before (behind) it when all were looked at can be one. */
+static const dyd_extreme *line_end(const hull *h, bool last) {
+  const dyd_extreme *end = h->x;
+  for (size_t q = 1; q < h->count; q++)
+    if (last ? is_below(end, &h->x[q]) : is_below(&h->x[q], end)) end = &h->x[q];
+  for (size_t q = 0; q < h->count; q++)
+    if (&h->x[q] != end && !(last ? is_below(&h->x[q], end) : is_below(end, &h->x[q]))) return NULL;
+  return end;
 }
 
-static bool is_sure(const hull *h, size_t k) {
+static void find_sure_on_line(hull *h) {
+  if (h->count == 0) return;
+  for (int last = 0; last < 2; last++) {
+    const dyd_extreme *end = line_end(h, last);
+    if (end) h->x[end - h->x].sure = true;
+  }
+}
+
+static void find_sure(hull *h) {
   const dyd_delaunay *pd = h->pd;
-  if (dyd_is_line(pd)) return is_sure_on_line(h, k);
-  return dyd_is_legal(&pd->sk, h->x[k].vertex, pd->sk.mesh.n);
+  if (!dyd_is_line(pd))
+    for (size_t k = 0; k < h->count; k++) h->x[k].sure = dyd_is_legal(&pd->sk, h->x[k].vertex, pd->sk.mesh.n);
+  else if (h->count == 2) /* they need not be on a line */
+    h->x[0].sure = h->x[1].sure = !rects_meet(&h->x[0], &h->x[1]);
+  else
+    find_sure_on_line(h);
 }
 
 /* Is ij an edge of the hull of the representatives, in either direction? */
@@ -256,16 +267,23 @@ static dyd_status list_vertices(dyd_index_list *out, const hull *h, bool sure) {
   out->item = dyd_alloc(h->count, sizeof *out->item);
   if (!out->item) return DYD_E_NOMEM;
   for (size_t k = 0; k < h->count; k++)
-    if (sure ? is_sure(h, k) : h->x[k].possible) out->item[out->count++] = h->pd->sk.reps.site[h->x[k].vertex];
+    if (sure ? h->x[k].sure : h->x[k].possible) out->item[out->count++] = h->pd->sk.reps.site[h->x[k].vertex];
   if (out->count) qsort(out->item, out->count, sizeof *out->item, dyd_compare_index);
   return DYD_OK;
 }
 
-static dyd_status fill(dyd_hull *out, hull *h) {
+/* The vertices; the pairs are found with them, unless NULL. */
+static dyd_status fill_vertices(dyd_hull *out, hull *h, dyd_hull_pairs *pairs) {
   dyd_status st = find_candidates(h);
-  if (st == DYD_OK) st = find_possible(h);
-  if (st == DYD_OK) st = list_vertices(&out->sure_vertices, h, true);
-  if (st == DYD_OK) st = list_vertices(&out->possible_vertices, h, false);
+  if (st == DYD_OK) st = find_possible(h, pairs);
+  if (st != DYD_OK) return st;
+  find_sure(h);
+  st = list_vertices(&out->sure_vertices, h, true);
+  return st == DYD_OK ? list_vertices(&out->possible_vertices, h, false) : st;
+}
+
+static dyd_status fill(dyd_hull *out, hull *h) {
+  dyd_status st = fill_vertices(out, h, &h->pairs);
   if (st != DYD_OK) return st;
   if (h->pairs.capped) return DYD_CAPPED;
   st = find_neighbours(h);
@@ -287,4 +305,20 @@ dyd_status dyd_delaunay_partial_hull(dyd_hull *out, const dyd_delaunay *pd) {
   dyd_hull_clear(out);
   *out = found;
   return st;
+}
+
+dyd_status dyd_delaunay_hull_vertices(dyd_index_list *sure, dyd_index_list *possible, const dyd_delaunay *pd) {
+  hull h = {.pd = pd};
+  dyd_hull found = {0};
+  dyd_status st = fill_vertices(&found, &h, NULL);
+  hull_clear(&h);
+  if (st != DYD_OK) {
+    dyd_hull_clear(&found);
+    return st;
+  }
+  dyd_index_list_clear(sure);
+  dyd_index_list_clear(possible);
+  *sure = found.sure_vertices;
+  *possible = found.possible_vertices;
+  return DYD_OK;
 }

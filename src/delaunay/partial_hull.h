@@ -10,7 +10,7 @@
  * exactly and in doubles. */
 typedef struct dyd_extreme {
   uint32_t vertex;
-  bool possible;
+  bool possible, sure;
   mpq_t e[4];
   dyd_iv d[4];
 } dyd_extreme;
@@ -39,7 +39,7 @@ typedef struct dyd_hull_pairs {
 } dyd_hull_pairs;
 
 /* For the directions u >= 0: marks the extremes that are possible on the hull, and appends the pairs that are possible
- * edges, some of them possibly twice [HST-1]. */
+ * edges, some of them possibly twice [HST-1]. pairs NULL: only marks. */
 dyd_status dyd_hull_quadrant(dyd_hull_pairs *pairs, dyd_extreme *x, size_t count);
 
 #endif

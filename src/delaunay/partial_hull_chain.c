@@ -168,7 +168,7 @@ dyd_status dyd_hull_quadrant(dyd_hull_pairs *pairs, dyd_extreme *x, size_t count
     f[fans++].of = (uint32_t)k;
     x[k].possible = true;
   }
-  if (st == DYD_OK) {
+  if (st == DYD_OK && pairs) {
     qsort(f, fans, sizeof *f, compare_fans);
     st = sweep(pairs, f, fans, active);
   }

@@ -72,6 +72,31 @@ const char *dyd_format_about(dyd_format format) {
   return (size_t)format < FORMATS ? formats[format].about : NULL;
 }
 
+static const struct {
+  const char *name;
+  dyd_content of, layer;
+} layers[] = {
+    {"pairs", DYD_CONTENT_DELAUNAY, DYD_CONTENT_DELAUNAY},      {"points", DYD_CONTENT_DELAUNAY, DYD_CONTENT_POINTS},
+    {"triangles", DYD_CONTENT_DELAUNAY, DYD_CONTENT_TRIANGLES}, {"cells", DYD_CONTENT_VORONOI, DYD_CONTENT_VORONOI},
+    {"vertices", DYD_CONTENT_VORONOI, DYD_CONTENT_VERTICES},    {"regions", DYD_CONTENT_VORONOI, DYD_CONTENT_REGIONS},
+    {"edges", DYD_CONTENT_VORONOI, DYD_CONTENT_EDGES}};
+enum { LAYERS = sizeof layers / sizeof *layers };
+
+const char *dyd_layer_name(dyd_content of, size_t k) {
+  size_t l = 0;
+  for (;; l++) {
+    if (l == LAYERS) return NULL;
+    if (layers[l].of == of && k-- == 0) return layers[l].name;
+  }
+}
+
+bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name) {
+  size_t l = 0;
+  while (l < LAYERS && !(layers[l].of == of && strcmp(layers[l].name, name) == 0)) l++;
+  if (l < LAYERS) *out = layers[l].layer;
+  return l < LAYERS;
+}
+
 bool dyd_format_holds(dyd_format format, dyd_content content) {
   return (size_t)format < FORMATS && (size_t)content < DYD_CONTENTS && formats[format].write[content];
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The writers of the library: each makes what is to be written ready, and the table of formats does the rest. */
 #include "base/abi.h"
+#include "base/alloc.h"
 #include "base/error.h"
 #include "format/table.h"
 #include "io/diagram.h"
@@ -22,13 +23,35 @@ dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format,
 
 dyd_status dyd_write_delaunay_window(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_format format,
                                      dyd_error *err) {
-  dyd_result r = {.out = out, .engine = e, .pd = result_of(e, err), .window = window};
+  const dyd_delaunay_output o = {DYD_SIZED(dyd_delaunay_output), .window = window};
+  return dyd_write_delaunay_as(out, e, &o, format, err);
+}
+
+/* What is written: the layer asked for, which is one of `of`. */
+static dyd_content layer_of(dyd_content layer, dyd_content of) {
+  return layer == DYD_CONTENT_NONE ? of : layer;
+}
+
+static dyd_status refuse_layer(dyd_content layer, dyd_content of, dyd_error *err) {
+  dyd_content found;
+  for (size_t k = 0; dyd_layer_name(of, k); k++)
+    if (dyd_layer_from_name(&found, of, dyd_layer_name(of, k)) && found == layer_of(layer, of)) return DYD_OK;
+  return dyd_fail(err, DYD_E_ARG, "content number %d is no layer of this", (int)layer);
+}
+
+dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delaunay_output *options, dyd_format format,
+                                 dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  dyd_delaunay_output o;
+  if (dyd_abi_take(&o, sizeof o, options, "dyd_delaunay_output", err) != DYD_OK) return DYD_E_ARG;
+  if (refuse_layer(o.layer, DYD_CONTENT_DELAUNAY, err) != DYD_OK) return DYD_E_ARG;
+  dyd_result r = {.out = out, .engine = e, .pd = result_of(e, err), .window = o.window, .epsg = o.epsg};
   if (!r.pd) return DYD_E_ARG;
   r.sites = dyd_delaunay_sites(r.pd);
   r.count = dyd_sites_count(r.sites);
   dyd_status st = dyd_delaunay_pairs(&r.pairs, r.pd);
   if (st == DYD_OK)
-    st = dyd_format_write(out, format, DYD_CONTENT_DELAUNAY, &r, err);
+    st = dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_DELAUNAY), &r, err);
   else
     dyd_fail(err, st, "%s", dyd_status_text(st));
   dyd_pair_list_clear(&r.pairs);
@@ -52,7 +75,7 @@ dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_o
   if (st == DYD_OK && o.bounds) st = dyd_abi_check(o.bounds, sizeof *o.bounds, "dyd_voronoi_bounds", err);
   if (st != DYD_OK) return st;
   const dyd_delaunay *pd = result_of(e, err);
-  if (!pd) return DYD_E_ARG;
+  if (!pd || refuse_layer(o.layer, DYD_CONTENT_VORONOI, err) != DYD_OK) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd))
     return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise --max-pairs");
   dyd_diagram d;
@@ -62,7 +85,8 @@ dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_o
   o.bounds = &bounds;
   if (!o.cut) o.cut = &cut;
   st = dyd_diagram_init(&d, out, e, &o, err);
-  if (st == DYD_OK) st = tell_fineness(dyd_format_write(out, format, DYD_CONTENT_VORONOI, &d, err), &d, err);
+  if (st == DYD_OK)
+    st = tell_fineness(dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_VORONOI), &d, err), &d, err);
   if (st == DYD_OK && wanted) {
     dyd_dyadic_swap(&wanted->area, &bounds.area);
     dyd_dyadic_swap(&wanted->hausdorff, &bounds.hausdorff);
@@ -140,13 +164,41 @@ dyd_status dyd_write_bisector_named(FILE *out, const dyd_engine *e, const dyd_re
   return st;
 }
 
+/* The answers as this library knows them are in own[0 .. count - 1]. */
+static dyd_status write_answers(FILE *out, const dyd_engine *e, dyd_nearest_answer *own, dyd_nearest_output *what,
+                                dyd_content content, dyd_format format, dyd_error *err) {
+  const dyd_nearest_answer *const *given = what->answer;
+  const dyd_nearest_answer **taken = dyd_alloc(what->count, sizeof(const dyd_nearest_answer *));
+  dyd_status st = taken ? DYD_OK : dyd_fail(err, DYD_E_NOMEM, "%s", dyd_status_text(DYD_E_NOMEM));
+  for (size_t q = 0; q < what->count && st == DYD_OK; q++) {
+    st = dyd_abi_take(&own[q], sizeof own[q], given[q], "dyd_nearest_answer", err);
+    if (st == DYD_OK && (!own[q].at || !own[q].found))
+      st = dyd_fail(err, DYD_E_ARG, "there is no answer to be written");
+    if (st == DYD_OK) taken[q] = &own[q];
+  }
+  what->answer = taken;
+  what->engine = e;
+  if (st == DYD_OK) what->pd = result_of(e, err);
+  if (st == DYD_OK) st = what->pd ? dyd_format_write(out, format, content, what, err) : DYD_E_ARG;
+  free(taken);
+  return st;
+}
+
 dyd_status dyd_write_nearest(FILE *out, const dyd_engine *e, const dyd_nearest_answer *answer, dyd_format format,
                              dyd_error *err) {
   if (err) dyd_error_clear(err);
-  dyd_nearest_answer a;
-  if (dyd_abi_take(&a, sizeof a, answer, "dyd_nearest_answer", err) != DYD_OK) return DYD_E_ARG;
-  if (!a.at || !a.found) return dyd_fail(err, DYD_E_ARG, "there is no answer to be written");
-  const dyd_delaunay *pd = result_of(e, err);
-  if (!pd) return DYD_E_ARG;
-  return dyd_format_write(out, format, DYD_CONTENT_NEAREST, &(dyd_nearest_output){e, pd, &a}, err);
+  dyd_nearest_answer own;
+  dyd_nearest_output what = {.answer = &answer, .count = 1};
+  return write_answers(out, e, &own, &what, DYD_CONTENT_NEAREST, format, err);
+}
+
+dyd_status dyd_write_places(FILE *out, const dyd_engine *e, const dyd_nearest_answer *const *answer, size_t count,
+                            dyd_outcome outcome, dyd_format format, dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  dyd_nearest_answer *own = dyd_alloc(count, sizeof *own);
+  if (!own) return dyd_fail(err, DYD_E_NOMEM, "%s", dyd_status_text(DYD_E_NOMEM));
+  dyd_nearest_output what = {.answer = answer, .count = count, .outcome = outcome};
+  dyd_status st = write_answers(out, e, own, &what, DYD_CONTENT_PLACES, format, err);
+  free(own);
+  return st;
 }

@@ -37,6 +37,12 @@ static void cell_row_box(dyd_cell_row *row, const dyd_shape *s, const double win
   clip_box(b, window);
 }
 
+double dyd_cell_undetermined(const dyd_cell_row *row) {
+  const double *area = row->area;
+  if (!(area[1] > 0)) return 0;
+  return fmin(nextafter(nextafter(area[1] - area[0], INFINITY) / area[1], INFINITY), 1);
+}
+
 typedef struct visitor {
   dyd_cell_visit visit;
   void *context;
@@ -145,6 +151,42 @@ static int64_t vertex_bits(const dyd_diagram *d) {
   return hausdorff && goal_bits + 2 > bits ? goal_bits + 2 : bits;
 }
 
+/* ---- edges ---- */
+
+bool dyd_box_is_finite(const double b[4]) {
+  return isfinite(b[0]) && isfinite(b[1]) && isfinite(b[2]) && isfinite(b[3]);
+}
+
+/* lo, hi of begin + [0,1] * length * direction at its far end; two roundings, each a step outward. */
+static void ray_side(double out[2], const double begin[2], const double direction[2], double length) {
+  out[0] = nextafter(begin[0] + nextafter(direction[0] * length, -INFINITY), -INFINITY);
+  out[1] = nextafter(begin[1] + nextafter(direction[1] * length, INFINITY), INFINITY);
+}
+
+/* Where an end of an edge is drawn: at its vertex, or as far out on its ray as the window is wide; false when neither
+ * is known. */
+static bool edge_place(double box[4], const dyd_diagram *d, const dyd_dual_edge *e, int end) {
+  double w[4], from[4];
+  const dyd_dual_end *to = &e->end[end], *other = &e->end[1 - end];
+  if (to->kind == DYD_DUAL_VERTEX) {
+    for (int k = 0; k < 4; k++) box[k] = d->vertex[to->vertex][k];
+    return dyd_box_is_finite(box);
+  }
+  if (to->kind != DYD_DUAL_RAY || other->kind != DYD_DUAL_VERTEX) return false;
+  for (int k = 0; k < 4; k++) from[k] = d->vertex[other->vertex][k];
+  dyd_rect_get_d(w, &d->window);
+  const double *v = to->direction;
+  double size = fmax(fabs(v[0] / 2 + v[1] / 2), fabs(v[2] / 2 + v[3] / 2));
+  double length = (w[1] - w[0] + w[3] - w[2]) / size;
+  ray_side(box, from, v, length);
+  ray_side(box + 2, from + 2, v + 2, length);
+  return dyd_box_is_finite(box);
+}
+
+bool dyd_diagram_edge(double box[2][4], const dyd_diagram *d, const dyd_dual_edge *e) {
+  return edge_place(box[0], d, e, 0) && edge_place(box[1], d, e, 1);
+}
+
 /* ---- all ---- */
 
 static dyd_status diagram_window(dyd_diagram *d, const dyd_rect *given, dyd_error *err) {
@@ -201,6 +243,7 @@ dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, cons
                      .cancel = o->cancel,
                      .cut = o->cut};
   d->count = dyd_sites_count(d->sites);
+  d->epsg = o->epsg;
   dyd_rect_init(&d->window);
   dyd_status st = diagram_window(d, o->window, err);
   if (st != DYD_OK) return st;

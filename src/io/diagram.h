@@ -4,6 +4,7 @@
 #define DYD_IO_DIAGRAM_H
 
 #include "io/decimal.h"
+#include "io/dual.h"
 #include "io/output.h"
 #include "metric/voronoi_bounds.h"
 
@@ -14,6 +15,9 @@ typedef struct dyd_cell_row {
   bool present;
 } dyd_cell_row;
 
+/* Which share of what may be the cell is not surely so, rounded up. */
+double dyd_cell_undetermined(const dyd_cell_row *row);
+
 /* All borrowed but the window and the lists. */
 typedef struct dyd_diagram {
   FILE *out;
@@ -22,7 +26,8 @@ typedef struct dyd_diagram {
   const dyd_sites *sites;
   size_t count;
   dyd_rect window;
-  int64_t bits; /* polygons are within 2^-bits of their cells */
+  unsigned epsg; /* the reference system of the coordinates; 0: not known */
+  int64_t bits;  /* polygons are within 2^-bits of their cells */
   dyd_triangle_list triangles;
   double (*vertex)[4];        /* enclosures of their Voronoi vertices; infinite ends: not known in doubles */
   int64_t vertex_bits;        /* exact enclosures are asked for with these bits */
@@ -52,5 +57,10 @@ dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, voi
 bool dyd_diagram_vertex_in_window(double box[4], const dyd_diagram *d, size_t k);
 /* The exact enclosure of vertex k as four texts: x lower, x upper, y lower, y upper; release each with free(). */
 dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k);
+
+bool dyd_box_is_finite(const double b[4]);
+/* The boxes that hold both ends of an edge: of its vertex, or of a place as far out on its ray as the window is large.
+ * false: an end is not known. */
+bool dyd_diagram_edge(double box[2][4], const dyd_diagram *d, const dyd_dual_edge *e);
 
 #endif

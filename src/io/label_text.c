@@ -10,7 +10,7 @@ const char *dyd_csv_id_head(const dyd_engine *e, size_t count) {
   return dyd_engine_id(e, 0) ? head[count] : "";
 }
 
-static void csv_text(FILE *out, const char *text) {
+void dyd_csv_text(FILE *out, const char *text) {
   size_t n = strlen(text);
   if (!text[strcspn(text, ",;\t|\"\r\n")] && text[0] != ' ' && (!n || text[n - 1] != ' ')) {
     fputs(text, out);
@@ -27,18 +27,8 @@ static void csv_text(FILE *out, const char *text) {
 void dyd_csv_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t count) {
   for (size_t k = 0; k < (count ? count : 1) && dyd_engine_id(e, site[k]); k++) {
     fputc(',', out);
-    csv_text(out, dyd_engine_id(e, site[k]));
+    dyd_csv_text(out, dyd_engine_id(e, site[k]));
   }
-}
-
-void dyd_csv_row_end(FILE *out, const dyd_engine *e, const uint32_t *site, size_t n) {
-  for (size_t k = 0; k < 3 && dyd_engine_id(e, 0); k++) {
-    if (k < n)
-      dyd_csv_ids(out, e, &site[k], 0);
-    else
-      fputc(',', out);
-  }
-  fputc('\n', out);
 }
 
 /* The length of the character of UTF-8 at p: 1 to 4; 0: it is none (RFC 3629: shortest forms, no surrogates). */

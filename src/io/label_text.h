@@ -10,8 +10,8 @@
 const char *dyd_csv_id_head(const dyd_engine *e, size_t count);
 /* Their values: ",NAME" for each site, quoted where need be (RFC 4180); nothing without identifiers. */
 void dyd_csv_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t count);
-/* The end of a line about n sites under a head for three. */
-void dyd_csv_row_end(FILE *out, const dyd_engine *e, const uint32_t *site, size_t n);
+/* A text as csv has it. */
+void dyd_csv_text(FILE *out, const char *text);
 /* Members behind others: , "id_i": "NAME", "id_j": "NAME"; for count = 0 , "id": "NAME" of one site. */
 void dyd_json_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t count);
 /* A text as JSON has it; what is no UTF-8 becomes U+FFFD. */

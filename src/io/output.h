@@ -20,10 +20,10 @@ typedef struct dyd_output {
 typedef dyd_status dyd_writer(const dyd_output *o);
 /* The writers of a format are an array by content, NULL where it cannot hold that: dyd_NAME_writers, in the file that
  * writes it. */
-enum { DYD_CONTENTS = DYD_CONTENT_NEAREST + 1 };
+enum { DYD_CONTENTS = DYD_CONTENT_PLACES + 1 };
 
-/* `what` by content: dyd_result (result.h), dyd_diagram (diagram.h), dyd_stage_table, dyd_convergence,
- * dyd_check_report, dyd_disc_output, dyd_bisector_output, dyd_nearest_output. */
+/* `what` by content: dyd_result (result.h) and dyd_diagram (diagram.h), also of their layers, dyd_stage_table,
+ * dyd_convergence, dyd_check_report, dyd_disc_output, dyd_bisector_output, dyd_nearest_output. */
 typedef struct dyd_stage_table {
   const dyd_convergence *stages;
   bool times;
@@ -47,13 +47,18 @@ typedef struct dyd_bisector_output {
 typedef struct dyd_nearest_output {
   const dyd_engine *engine;
   const dyd_delaunay *pd;
-  const dyd_nearest_answer *answer;
+  const dyd_nearest_answer *const *answer;
+  size_t count;        /* of places */
+  dyd_outcome outcome; /* of all */
 } dyd_nearest_output;
 
 /* Writers that such arrays take from other files. */
-dyd_writer dyd_voronoi_csv, dyd_voronoi_json, dyd_voronoi_wkt, dyd_voronoi_geojson, dyd_voronoi_vtk;
+dyd_writer dyd_layer_pairs, dyd_layer_points, dyd_layer_triangles;
+dyd_writer dyd_layer_cells, dyd_layer_vertices, dyd_layer_regions, dyd_layer_edges;
+dyd_writer dyd_voronoi_json, dyd_voronoi_vtk;
 dyd_writer dyd_convergence_csv, dyd_convergence_json, dyd_check_csv, dyd_check_json;
 dyd_writer dyd_disc_csv, dyd_disc_json, dyd_bisector_csv, dyd_bisector_json, dyd_nearest_csv, dyd_nearest_json;
+dyd_writer dyd_places_csv, dyd_places_json;
 
 /* The end of a file: DYD_E_IO with a message unless everything went out. */
 dyd_status dyd_output_end(FILE *out, dyd_error *err);

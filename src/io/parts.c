@@ -48,6 +48,10 @@ void dyd_json_head(FILE *out, const char *format) {
   fprintf(out, "{\"format\": \"%s\",\n\"version\": \"%s\",\n", format, dyd_version());
 }
 
+void dyd_json_crs(FILE *out, unsigned epsg) {
+  if (epsg) fprintf(out, "\"crs\": \"EPSG:%u\",\n", epsg);
+}
+
 void dyd_json_head_outward(FILE *out, const char *format, dyd_outcome outcome) {
   dyd_json_head(out, format);
   fprintf(out,

@@ -15,7 +15,9 @@ void dyd_json_aliases(FILE *out, const dyd_engine *e, const char *after);
 const char *dyd_schedule_text(dyd_schedule schedule);
 /* "format": .., "version": ..: the opening of an object. */
 void dyd_json_head(FILE *out, const char *format);
-/* The same, with the outcome, where pairs of numbers are rounded outward and texts are exact. */
+/* "crs": "EPSG:32632", where it is known (not 0). */
+void dyd_json_crs(FILE *out, unsigned epsg);
+/* The head, with the outcome, where pairs of numbers are rounded outward and texts are exact. */
 void dyd_json_head_outward(FILE *out, const char *format, dyd_outcome outcome);
 /* "NAME": {"exact": "m*2^e", "decimal": rounded up}; null where the value is not known (NULL). */
 dyd_status dyd_json_bound(FILE *out, const char *name, const dyd_dyadic *value);

@@ -24,13 +24,11 @@ dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_erro
 dyd_status dyd_result_places(dyd_place **out, char bound[DYD_DECIMAL_SIZE], const dyd_result *r, dyd_error *err) {
   dyd_place *places = dyd_alloc(r->count, sizeof *places);
   dyd_status st = places ? DYD_OK : DYD_E_NOMEM;
-  double box[4], error[2], most = 0;
+  double box[4], most = 0;
   for (size_t i = 0; i < r->count && st == DYD_OK; i++) {
     st = dyd_result_box(box, r, i, err);
     if (st != DYD_OK) break;
-    dyd_decimal_within(places[i].x, &error[0], box[0], box[1]);
-    dyd_decimal_within(places[i].y, &error[1], box[2], box[3]);
-    places[i].error = fmax(error[0], error[1]);
+    dyd_place_set(&places[i], box);
     most = fmax(most, places[i].error);
   }
   dyd_decimal_directed(bound, most, 2, DYD_UP);
@@ -39,6 +37,38 @@ dyd_status dyd_result_places(dyd_place **out, char bound[DYD_DECIMAL_SIZE], cons
   else
     free(places);
   return st;
+}
+
+static void mark_hull(dyd_site_row *rows, const dyd_index_list *list, const char *hull) {
+  for (size_t k = 0; k < list->count; k++) rows[list->item[k]].hull = hull;
+}
+
+static dyd_status find_hull(dyd_site_row *rows, const dyd_result *r) {
+  dyd_index_list sure = {0}, possible = {0};
+  dyd_status st = dyd_delaunay_hull_vertices(&sure, &possible, r->pd);
+  for (size_t i = 0; i < r->count; i++) rows[i].hull = "not";
+  mark_hull(rows, &possible, "possibly");
+  mark_hull(rows, &sure, "surely");
+  dyd_index_list_clear(&possible);
+  dyd_index_list_clear(&sure);
+  return st;
+}
+
+dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r) {
+  dyd_site_row *rows = calloc(r->count ? r->count : 1, sizeof *rows);
+  dyd_status st = rows ? find_hull(rows, r) : DYD_E_NOMEM;
+  if (st != DYD_OK) {
+    free(rows);
+    return st;
+  }
+  for (size_t k = 0; k < r->pairs.count; k++) {
+    const dyd_pair *p = &r->pairs.item[k];
+    rows[p->i].partners[p->status]++;
+    rows[p->j].partners[p->status]++;
+  }
+  for (size_t i = 0; i < r->count; i++) rows[i] = rows[dyd_delaunay_alias(r->pd, (uint32_t)i)];
+  *out = rows;
+  return DYD_OK;
 }
 
 void dyd_put_rows(FILE *out, const dyd_engine *e, const dyd_index_list *list, const char *between) {

@@ -3,8 +3,8 @@
 #ifndef DYD_IO_RESULT_H
 #define DYD_IO_RESULT_H
 
-#include "io/decimal.h"
 #include "io/output.h"
+#include "io/place.h"
 
 /* All borrowed but pairs. */
 typedef struct dyd_result {
@@ -15,14 +15,14 @@ typedef struct dyd_result {
   size_t count; /* sites, aliases included */
   dyd_pair_list pairs;
   const dyd_rect *window; /* what pictures show; NULL: everything */
+  unsigned epsg;          /* the reference system of the coordinates; 0: not known */
 } dyd_result;
 
-/* A representative of a site. Invariant: every point of the site's rectangle is within `error` of it in x and
- * in y. */
-typedef struct dyd_place {
-  char x[DYD_DECIMAL_SIZE], y[DYD_DECIMAL_SIZE];
-  double error;
-} dyd_place;
+/* What is known of a site. */
+typedef struct dyd_site_row {
+  size_t partners[4]; /* by dyd_pair_status; entry DYD_ILLEGAL is 0 */
+  const char *hull;   /* is it a corner of the hull: "surely", "possibly" (or on its boundary), "not" */
+} dyd_site_row;
 
 /* "legal", "indeterminate", "tie", "illegal". */
 const char *dyd_pair_status_text(dyd_pair_status status);
@@ -31,6 +31,9 @@ dyd_status dyd_result_box(double box[4], const dyd_result *r, size_t i, dyd_erro
 /* The places of all sites; *out is released with free(). `bound` is the largest error among them, two digits rounded
  * up. */
 dyd_status dyd_result_places(dyd_place **out, char bound[DYD_DECIMAL_SIZE], const dyd_result *r, dyd_error *err);
+
+/* Of every site; aliases as the site they stand for. *out is released with free(). */
+dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r);
 
 /* The rows of sites: "3, 7, 9". */
 void dyd_put_rows(FILE *out, const dyd_engine *e, const dyd_index_list *list, const char *between);

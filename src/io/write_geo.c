@@ -1,57 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Formats for geographic and mesh programs: wkt, geojson, obj. One place per site stands for its rectangle; each
  * format says how far at most the rectangle reaches from it. */
-#include "base/alloc.h"
 #include "io/label_text.h"
 #include "io/result.h"
-#include <math.h>
-
-static dyd_status wkt_delaunay(const dyd_output *o) {
-  const dyd_result *r = o->what;
-  dyd_place *place = NULL;
-  char bound[DYD_DECIMAL_SIZE];
-  dyd_status st = dyd_result_places(&place, bound, r, o->err);
-  if (st != DYD_OK) return st;
-  fprintf(r->out, "WKT,i,j,status%s,max_coordinate_error\n", dyd_csv_id_head(r->engine, 2));
-  for (size_t k = 0; k < r->pairs.count; k++) {
-    const dyd_pair *p = &r->pairs.item[k];
-    const dyd_place *a = &place[p->i], *b = &place[p->j];
-    dyd_decimal_directed(bound, fmax(a->error, b->error), 2, DYD_UP);
-    fprintf(r->out, "\"LINESTRING (%s %s, %s %s)\",%zu,%zu,%s", a->x, a->y, b->x, b->y, dyd_engine_row(r->engine, p->i),
-            dyd_engine_row(r->engine, p->j), dyd_pair_status_text(p->status));
-    dyd_csv_ids(r->out, r->engine, (const uint32_t[]){p->i, p->j}, 2);
-    fprintf(r->out, ",%s\n", bound);
-  }
-  free(place);
-  return DYD_OK;
-}
-
-static dyd_status geojson_delaunay(const dyd_output *o) {
-  const dyd_result *r = o->what;
-  dyd_place *place = NULL;
-  char bound[DYD_DECIMAL_SIZE];
-  dyd_status st = dyd_result_places(&place, bound, r, o->err);
-  if (st != DYD_OK) return st;
-  fprintf(r->out,
-          "{\"type\": \"FeatureCollection\",\n\"rounding\": \"a coordinate differs from every point of the "
-          "rectangle it stands for by at most max_coordinate_error\",\n\"max_coordinate_error\": %s,\n"
-          "\"outcome\": \"%s\",\n\"features\": [",
-          bound, dyd_outcome_text(dyd_engine_outcome(r->engine)));
-  for (size_t k = 0; k < r->pairs.count; k++) {
-    const dyd_pair *p = &r->pairs.item[k];
-    const dyd_place *a = &place[p->i], *b = &place[p->j];
-    fprintf(r->out,
-            "%s\n{\"type\": \"Feature\", \"geometry\": {\"type\": \"LineString\", \"coordinates\": [[%s, %s], "
-            "[%s, %s]]}, \"properties\": {\"i\": %zu, \"j\": %zu, \"status\": \"%s\"",
-            k ? "," : "", a->x, a->y, b->x, b->y, dyd_engine_row(r->engine, p->i), dyd_engine_row(r->engine, p->j),
-            dyd_pair_status_text(p->status));
-    dyd_json_ids(r->out, r->engine, (const uint32_t[]){p->i, p->j}, 2);
-    fputs("}}", r->out);
-  }
-  fputs("\n]}\n", r->out);
-  free(place);
-  return DYD_OK;
-}
+#include <stdlib.h>
 
 static void obj_elements(const dyd_result *r, const dyd_triangle_list *triangles) {
   fputs("g legal_edges\n", r->out);
@@ -101,8 +53,13 @@ static dyd_status obj_delaunay(const dyd_output *o) {
   return st;
 }
 
-dyd_writer *const dyd_wkt_writers[DYD_CONTENTS] = {
-    [DYD_CONTENT_DELAUNAY] = wkt_delaunay, [DYD_CONTENT_VORONOI] = dyd_voronoi_wkt};
-dyd_writer *const dyd_geojson_writers[DYD_CONTENTS] = {
-    [DYD_CONTENT_DELAUNAY] = geojson_delaunay, [DYD_CONTENT_VORONOI] = dyd_voronoi_geojson};
+#define LAYERS                                                                                                         \
+  {                                                                                                                    \
+    [DYD_CONTENT_DELAUNAY] = dyd_layer_pairs, [DYD_CONTENT_POINTS] = dyd_layer_points,                                 \
+    [DYD_CONTENT_TRIANGLES] = dyd_layer_triangles, [DYD_CONTENT_VORONOI] = dyd_layer_cells,                            \
+    [DYD_CONTENT_VERTICES] = dyd_layer_vertices, [DYD_CONTENT_REGIONS] = dyd_layer_regions,                            \
+    [DYD_CONTENT_EDGES] = dyd_layer_edges                                                                              \
+  }
+dyd_writer *const dyd_wkt_writers[DYD_CONTENTS] = LAYERS;
+dyd_writer *const dyd_geojson_writers[DYD_CONTENTS] = LAYERS;
 dyd_writer *const dyd_obj_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = obj_delaunay};

@@ -6,8 +6,9 @@
 #include "io/result.h"
 #include <dyadel/voronoi.h>
 #include <inttypes.h>
+#include <stdlib.h>
 
-static dyd_status json_site(const dyd_result *r, size_t i, dyd_rect *rect) {
+static dyd_status json_site(const dyd_result *r, size_t i, const dyd_site_row *row, dyd_rect *rect) {
   double box[4];
   dyd_sites_get_d(box, r->sites, i);
   dyd_status st = dyd_sites_get(rect, r->sites, i);
@@ -17,16 +18,19 @@ static dyd_status json_site(const dyd_result *r, size_t i, dyd_rect *rect) {
   fputs(", ", r->out);
   dyd_json_box(r->out, "_decimal", box);
   dyd_json_ids(r->out, r->engine, &(const uint32_t){(uint32_t)i}, 0);
-  fputs("}", r->out);
+  fprintf(r->out, ", \"legal\": %zu, \"indeterminate\": %zu, \"tie\": %zu, \"hull\": \"%s\"}", row->partners[DYD_LEGAL],
+          row->partners[DYD_INDETERMINATE], row->partners[DYD_TIE], row->hull);
   return st;
 }
 
 static dyd_status json_sites(const dyd_result *r) {
   dyd_rect rect;
+  dyd_site_row *rows = NULL;
   dyd_rect_init(&rect);
-  dyd_status st = DYD_OK;
+  dyd_status st = dyd_result_sites(&rows, r);
   fputs("\"sites\": [", r->out);
-  for (size_t i = 0; i < r->count && st == DYD_OK; i++) st = json_site(r, i, &rect);
+  for (size_t i = 0; i < r->count && st == DYD_OK; i++) st = json_site(r, i, &rows[i], &rect);
+  free(rows);
   fputs("\n],\n", r->out);
   dyd_json_aliases(r->out, r->engine, ",\n");
   dyd_rect_clear(&rect);
@@ -118,6 +122,7 @@ static void json_head(const dyd_result *r) {
   dyd_goal goal = dyd_engine_goal(&bits, r->engine);
   dyd_delaunay_count(count, r->pd);
   dyd_json_head(r->out, "dyadel delaunay 1");
+  dyd_json_crs(r->out, r->epsg);
   fprintf(r->out,
           "\"rounding\": \"x, y and exact are exact; x_decimal and y_decimal are rounded outward: the first down, the "
           "second up; decimal is rounded up; null is beyond the largest double\",\n"
@@ -160,4 +165,5 @@ dyd_writer *const dyd_json_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = jso
                                                     [DYD_CONTENT_CHECK] = dyd_check_json,
                                                     [DYD_CONTENT_DISC] = dyd_disc_json,
                                                     [DYD_CONTENT_BISECTOR] = dyd_bisector_json,
-                                                    [DYD_CONTENT_NEAREST] = dyd_nearest_json};
+                                                    [DYD_CONTENT_NEAREST] = dyd_nearest_json,
+                                                    [DYD_CONTENT_PLACES] = dyd_places_json};

@@ -78,6 +78,13 @@ static dyd_status cell_json(void *context, uint32_t i, const dyd_shape *shape, c
   fputs(", \"area\": ", out);
   c->any = true;
   dyd_json_decimals(out, row->area[0], row->area[1]);
+  fputs(", \"undetermined\": ", out);
+  dyd_decimal_put(out, dyd_cell_undetermined(row), DYD_UP, "null");
+  fputs(", ", out);
+  if (row->present)
+    dyd_json_box(out, "", row->box);
+  else
+    fputs("\"x\": null, \"y\": null", out);
   fputs(",\n", out);
   dyd_status st = polygons_json(out, shape);
   fputs(",\n\"int\": ", out);
@@ -177,6 +184,7 @@ static dyd_status diagram_head_json(const dyd_diagram *d) {
   dyd_goal goal = dyd_engine_goal(&bits, d->engine);
   dyd_delaunay_count(count, d->pd);
   dyd_json_head(d->out, "dyadel voronoi 1");
+  dyd_json_crs(d->out, d->epsg);
   fprintf(
       d->out,
       "\"rounding\": \"texts are exact numbers; pairs of numbers are rounded outward: the first down, the second up; "

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The vtk format of the triangulation: legacy polygon data, edges with their status and sure triangles. */
+/* The vtk format of the triangulation: legacy polygon data, edges with their status, sure triangles, points with
+ * their partners. */
 #include "io/result.h"
 #include <stdlib.h>
 
@@ -18,6 +19,18 @@ static void vtk_elements(const dyd_result *r, const dyd_triangle_list *triangles
   for (size_t k = 0; k < triangles->count; k++) fprintf(out, "%d\n", (int)DYD_LEGAL);
 }
 
+/* Of each point: how many partners by status, and the hull. */
+static void vtk_points(const dyd_result *r, const dyd_site_row *rows) {
+  static const dyd_pair_status statuses[] = {DYD_LEGAL, DYD_INDETERMINATE, DYD_TIE};
+  fprintf(r->out, "POINT_DATA %zu\n", r->count);
+  for (int s = 0; s < 3; s++) {
+    fprintf(r->out, "SCALARS %s int 1\nLOOKUP_TABLE default\n", dyd_pair_status_text(statuses[s]));
+    for (size_t i = 0; i < r->count; i++) fprintf(r->out, "%zu\n", rows[i].partners[statuses[s]]);
+  }
+  fputs("SCALARS hull int 1\nLOOKUP_TABLE default\n", r->out);
+  for (size_t i = 0; i < r->count; i++) fprintf(r->out, "%d\n", *rows[i].hull == 's' ? 2 : *rows[i].hull == 'p');
+}
+
 /* vtk decodes %HH in texts, which end with the line. */
 static void vtk_text(FILE *out, const char *text) {
   for (; *text; text++) {
@@ -34,7 +47,7 @@ static void vtk_text(FILE *out, const char *text) {
 static void vtk_names(const dyd_result *r) {
   bool rows = r->count && dyd_engine_row(r->engine, r->count - 1) != r->count - 1, ids = dyd_engine_id(r->engine, 0);
   if (!rows && !ids) return;
-  fprintf(r->out, "POINT_DATA %zu\nFIELD names %d\nrow 1 %zu long\n", r->count, 1 + ids, r->count);
+  fprintf(r->out, "FIELD names %d\nrow 1 %zu long\n", 1 + ids, r->count);
   for (size_t i = 0; i < r->count; i++) fprintf(r->out, "%zu\n", dyd_engine_row(r->engine, i));
   if (ids) fprintf(r->out, "id 1 %zu string\n", r->count);
   for (size_t i = 0; ids && i < r->count; i++) vtk_text(r->out, dyd_engine_id(r->engine, i));
@@ -43,19 +56,24 @@ static void vtk_names(const dyd_result *r) {
 static dyd_status vtk_delaunay(const dyd_output *o) {
   const dyd_result *r = o->what;
   dyd_place *place = NULL;
+  dyd_site_row *rows = NULL;
   dyd_triangle_list triangles = {0};
   char bound[DYD_DECIMAL_SIZE];
   dyd_status st = dyd_result_places(&place, bound, r, o->err);
+  if (st == DYD_OK) st = dyd_result_sites(&rows, r);
   if (st == DYD_OK) st = dyd_delaunay_triangles(&triangles, r->pd);
   if (st == DYD_OK) {
     fprintf(r->out,
             "# vtk DataFile Version 3.0\ndyadel delaunay, outcome %s; status 1 tie, 2 indeterminate, 3 legal; "
-            "coordinates within %s of their rectangles\nASCII\nDATASET POLYDATA\nPOINTS %zu double\n",
+            "hull 1 possibly, 2 surely; coordinates within %s of their rectangles\nASCII\nDATASET POLYDATA\nPOINTS %zu "
+            "double\n",
             dyd_outcome_text(dyd_engine_outcome(r->engine)), bound, r->count);
     for (size_t i = 0; i < r->count; i++) fprintf(r->out, "%s %s 0\n", place[i].x, place[i].y);
     vtk_elements(r, &triangles);
+    vtk_points(r, rows);
     vtk_names(r);
   }
+  free(rows);
   dyd_triangle_list_clear(&triangles);
   free(place);
   return st;

@@ -92,104 +92,121 @@ static piece piece_of(const bisector_drawing *d, const dyd_arc *a) {
 
 /* ---- drawing ---- */
 
-static void line_to(cairo_t *cr, const dyd_view *v, double x, double y) {
-  cairo_line_to(cr, dyd_view_x(v, x), dyd_view_y(v, y));
+static void line_to(dyd_canvas *c, const dyd_view *v, double x, double y) {
+  dyd_canvas_line(c, dyd_view_x(v, x), dyd_view_y(v, y));
 }
 
 /* Behind the path so far. The cubic curve of a quadratic one has its inner points two thirds of the way to the middle
  * point. */
-static void piece_path(cairo_t *cr, const dyd_view *v, const piece *p) {
-  double c[2][2];
-  line_to(cr, v, p->at[0][0], p->at[0][1]);
+static void piece_path(dyd_canvas *c, const dyd_view *v, const piece *p) {
+  double inner[2][2];
+  line_to(c, v, p->at[0][0], p->at[0][1]);
   if (!p->curved) {
-    line_to(cr, v, p->at[2][0], p->at[2][1]);
+    line_to(c, v, p->at[2][0], p->at[2][1]);
     return;
   }
   for (int e = 0; e < 2; e++)
-    for (int a = 0; a < 2; a++) c[e][a] = p->at[2 * e][a] / 3 + p->at[1][a] * 2 / 3;
-  cairo_curve_to(cr, dyd_view_x(v, c[0][0]), dyd_view_y(v, c[0][1]), dyd_view_x(v, c[1][0]), dyd_view_y(v, c[1][1]),
-                 dyd_view_x(v, p->at[2][0]), dyd_view_y(v, p->at[2][1]));
+    for (int a = 0; a < 2; a++) inner[e][a] = p->at[2 * e][a] / 3 + p->at[1][a] * 2 / 3;
+  dyd_canvas_curve(c, dyd_view_x(v, inner[0][0]), dyd_view_y(v, inner[0][1]), dyd_view_x(v, inner[1][0]),
+                   dyd_view_y(v, inner[1][1]), dyd_view_x(v, p->at[2][0]), dyd_view_y(v, p->at[2][1]));
 }
 
 /* What is on the left of the chain, closed far outside of the picture. */
-static void fill_left(cairo_t *cr, const bisector_drawing *d, const dyd_chain *chain, unsigned rgb) {
+static void fill_left(dyd_canvas *c, const bisector_drawing *d, const dyd_chain *chain, unsigned rgb) {
   piece p = {0};
   double begin[2] = {0}, *end = p.at[2], n[2];
-  cairo_new_path(cr);
   for (size_t k = 0; k < chain->count; k++) {
     p = piece_of(d, &chain->arc[k]);
     if (k == 0) begin[0] = p.at[0][0], begin[1] = p.at[0][1];
-    piece_path(cr, &d->view, &p);
+    piece_path(c, &d->view, &p);
   }
   double across[2] = {end[0] - begin[0], end[1] - begin[1]}, length = hypot(across[0], across[1]);
   n[0] = length > 0 ? -across[1] / length * d->reach : 0;
   n[1] = length > 0 ? across[0] / length * d->reach : 0;
-  line_to(cr, &d->view, end[0] + n[0], end[1] + n[1]);
-  line_to(cr, &d->view, begin[0] + n[0], begin[1] + n[1]);
-  cairo_close_path(cr);
-  dyd_picture_fill(cr, rgb);
+  line_to(c, &d->view, end[0] + n[0], end[1] + n[1]);
+  line_to(c, &d->view, begin[0] + n[0], begin[1] + n[1]);
+  dyd_canvas_close(c);
+  dyd_picture_fill(c, rgb);
 }
 
-static void draw_arc(cairo_t *cr, const bisector_drawing *d, const dyd_arc *a) {
+static void draw_arc(dyd_canvas *c, const bisector_drawing *d, const dyd_arc *a, int curve, size_t number) {
   piece p = piece_of(d, a);
-  cairo_new_path(cr);
-  piece_path(cr, &d->view, &p);
-  dyd_picture_stroke(cr, CURVE, 1.8, p.curved ? 4 : 0, p.curved ? 2.5 : 0);
+  char id[48], title[120];
+  snprintf(id, sizeof id, "arc-%d-%zu", curve, number);
+  snprintf(title, sizeof title, "%s: the bound of what is surely nearer to %d, piece %zu",
+           p.curved ? "parabola" : "line", curve, number);
+  dyd_canvas_name(c, id, title);
+  piece_path(c, &d->view, &p);
+  dyd_picture_stroke(c, CURVE, 1.8, p.curved ? 4 : 0, p.curved ? 2.5 : 0);
 }
 
-static void bisector_mark(cairo_t *cr, double x, double y, dyd_end_kind kind) {
-  dyd_picture_dot(cr, x, y, 3.5, kind == DYD_END_AXIS ? CURVE : 0xffffff, CURVE);
+static void bisector_mark(dyd_canvas *c, double x, double y, dyd_end_kind kind) {
+  dyd_picture_dot(c, x, y, 3.5, kind == DYD_END_AXIS ? CURVE : 0xffffff, CURVE);
 }
 
-static void draw_ends(cairo_t *cr, const bisector_drawing *d, const dyd_chain *chain) {
+static void draw_ends(dyd_canvas *c, const bisector_drawing *d, const dyd_chain *chain) {
   double limit = 2 * d->reach, at[2];
   for (size_t k = 1; k < chain->count; k++) {
     dyd_exact_middle(at, &chain->arc[k].begin.at);
     if (!(fabs(at[0] - d->view.left) < limit && fabs(at[1] - d->view.top) < limit)) continue;
-    bisector_mark(cr, dyd_view_x(&d->view, at[0]), dyd_view_y(&d->view, at[1]), chain->arc[k].begin.kind);
+    bisector_mark(c, dyd_view_x(&d->view, at[0]), dyd_view_y(&d->view, at[1]), chain->arc[k].begin.kind);
   }
 }
 
-static void draw_curves(cairo_t *cr, const bisector_drawing *d) {
+static void draw_curves(dyd_canvas *c, const bisector_drawing *d) {
   const dyd_chain *chain[2] = {d->curve[0].chain, d->curve[1].chain};
-  dyd_picture_colour(cr, DYD_PICTURE_BAND);
-  cairo_paint(cr);
+  dyd_view_frame_path(c, &d->view);
+  dyd_picture_fill(c, DYD_PICTURE_BAND);
   for (int k = 0; k < 2; k++)
-    if (d->curve[k].count) fill_left(cr, d, chain[k], tint[k]);
+    if (d->curve[k].count) fill_left(c, d, chain[k], tint[k]);
   for (int k = 0; k < 2; k++)
-    for (size_t a = 0; d->curve[k].count && a < chain[k]->count; a++) draw_arc(cr, d, &chain[k]->arc[a]);
+    for (size_t a = 0; d->curve[k].count && a < chain[k]->count; a++) draw_arc(c, d, &chain[k]->arc[a], k, a);
   for (int k = 0; k < 2; k++)
-    if (d->curve[k].count) draw_ends(cr, d, chain[k]);
+    if (d->curve[k].count) draw_ends(c, d, chain[k]);
 }
 
-static void bisector_legend(cairo_t *cr, void *context) {
-  const bisector_drawing *d = context;
-  double y = dyd_view_legend(&d->view), x = 30;
-  dyd_picture_entry(cr, &x, y, tint[0], true, 0, 0, "surely nearer to 0");
-  dyd_picture_entry(cr, &x, y, tint[1], true, 0, 0, "surely nearer to 1");
-  dyd_picture_entry(cr, &x, y, DYD_PICTURE_BAND, true, 0, 0, "undetermined");
-  dyd_picture_entry(cr, &x, y, CURVE, false, 0, 0, "line");
-  dyd_picture_entry(cr, &x, y, CURVE, false, 4, 2.5, "parabola");
-  dyd_picture_scale(cr, &d->view, y);
-  if (!d->curve[0].count) {
-    dyd_picture_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14,
-                     "the rectangles meet: nothing is surely nearer to one of them");
-    return;
-  }
-  bisector_mark(cr, 45, y + DYD_PICTURE_ROW, DYD_END_AXIS);
-  dyd_picture_text(cr, 66, y + DYD_PICTURE_ROW + 5, 0, 14, "another corner of the one rectangle is farthest");
-  bisector_mark(cr, 425, y + DYD_PICTURE_ROW, DYD_END_FEATURE);
-  dyd_picture_text(cr, 440, y + DYD_PICTURE_ROW + 5, 0, 14, "another corner or side of the other rectangle is closest");
+/* Which kinds of arcs, and of joints, there are. */
+static void bisector_kinds(bool arcs[2], bool joints[2], const bisector_drawing *d) {
+  for (int k = 0; k < 2; k++)
+    for (size_t a = 0; d->curve[k].count && a < d->curve[k].chain->count; a++) {
+      const dyd_arc *arc = &d->curve[k].chain->arc[a];
+      arcs[arc->kind == DYD_ARC_PARABOLA] = true;
+      if (a > 0) joints[arc->begin.kind == DYD_END_AXIS] = true;
+    }
 }
 
-static void bisector_inside(cairo_t *cr, void *context) {
+static void bisector_legend(dyd_canvas *c, void *context) {
   const bisector_drawing *d = context;
-  draw_curves(cr, d);
+  bool arcs[2] = {false, false}, joints[2] = {false, false};
+  dyd_legend l;
+  dyd_legend_begin(&l, c, &d->view);
+  bisector_kinds(arcs, joints, d);
+  if (d->curve[0].count) dyd_legend_patch(&l, tint[0], "surely nearer to 0");
+  if (d->curve[1].count) dyd_legend_patch(&l, tint[1], "surely nearer to 1");
+  dyd_legend_patch(&l, DYD_PICTURE_BAND, "undetermined");
+  if (arcs[0]) dyd_legend_line(&l, CURVE, 0, 0, "line");
+  if (arcs[1]) dyd_legend_line(&l, CURVE, 4, 2.5, "parabola");
+  if (joints[1]) dyd_legend_dot(&l, CURVE, CURVE, "from here on another corner of the one rectangle is farthest");
+  if (joints[0]) dyd_legend_dot(&l, 0xffffff, CURVE, "another corner or side of the other is closest");
+  if (!d->curve[0].count) dyd_legend_text(&l, "the rectangles meet: nothing is surely nearer to one of them");
+}
+
+static void bisector_inside(dyd_canvas *c, void *context) {
+  const bisector_drawing *d = context;
+  dyd_numbers labels;
+  double b[2][4];
+  draw_curves(c, d);
   for (size_t k = 0; k < 2; k++) {
-    double b[4];
-    dyd_rect_get_d(b, d->r[k]);
-    dyd_picture_numbered(cr, &d->view, b, body[k], dyd_engine_row(d->engine, k));
+    dyd_rect_get_d(b[k], d->r[k]);
+    dyd_picture_marked(c, &d->view, b[k], dyd_engine_row(d->engine, k), body[k]);
   }
+  if (!dyd_numbers_init(&labels, &d->view)) return;
+  for (size_t k = 0; k < 4; k++)
+    if (k < 2)
+      dyd_numbers_keep_off(&labels, b[k]);
+    else
+      dyd_numbers_put(&labels, c, b[k - 2], 18, dyd_engine_row(d->engine, k - 2));
+  dyd_numbers_clear(&labels);
 }
 
 /* *box grows by the ends that are not far out. */
@@ -217,5 +234,5 @@ dyd_status dyd_bisector_picture(const dyd_output *o) {
   st = dyd_view_fit(&d.view, see, 0, o->err);
   if (st != DYD_OK) return st;
   d.reach = 10 * (d.view.width + d.view.height) / d.view.scale;
-  return dyd_view_write(o, &d.view, bisector_inside, bisector_legend, &d);
+  return dyd_view_write(o, &d.view, "partial bisector", bisector_inside, bisector_legend, &d);
 }

@@ -34,39 +34,38 @@ static void plot_counts(double *out, const dyd_stage_row *r) {
 
 /* Colours after Okabe and Ito, told apart by all kinds of sight. */
 static const dyd_series bounds[] = {
-    {"T: area", 0, 0.45, 0.70, 0, 0},       {"T: Hausdorff distance", 0.84, 0.37, 0, 0, 3},
-    {"V: area", 0.34, 0.71, 0.91, 6, 0},    {"V: Hausdorff distance", 0.90, 0.62, 0, 6, 3},
-    {"largest width", 0.3, 0.3, 0.3, 2, 4}, {"median width", 0.6, 0.6, 0.6, 2, 5}};
-static const dyd_series counts[] = {{"possible pairs", 0, 0, 0, 0, 0},
-                                    {"legal", 0, 0.62, 0.45, 0, 4},
-                                    {"indeterminate", 0.84, 0.37, 0, 0, 3},
-                                    {"ties", 0.80, 0.47, 0.65, 6, 5},
-                                    {"faces undecided", 0, 0.45, 0.70, 2, 0}};
+    {"triangulation: area", 0x0072b2, 0, 0}, {"triangulation: distance", 0xd55e00, 0, 3},
+    {"diagram: area", 0x56b4e9, 6, 0},       {"diagram: distance", 0xe69f00, 6, 3},
+    {"largest width", 0x4d4d4d, 2, 4},       {"median width", 0x999999, 2, 5}};
+static const dyd_series counts[] = {{"possible pairs", 0x000000, 0, 0},
+                                    {"legal", 0x009e73, 0, 4},
+                                    {"indeterminate", 0xd55e00, 0, 3},
+                                    {"ties", 0xcc79a7, 6, 5},
+                                    {"faces undecided", 0x0072b2, 2, 0}};
 
 /* ---- the page ---- */
 
-static void plot_draw(cairo_t *cr, void *context) {
-  const dyd_output *o = context;
-  const dyd_convergence *c = o->what;
-  dyd_panel top = {
-      70,         66, 570, 290, 0, 1, "Upper bounds and widths (powers of 2)", bounds, sizeof bounds / sizeof *bounds,
-      plot_bounds};
-  dyd_panel bottom = {70, 426, 570, 150, 0, 1, "Pairs and faces", counts, sizeof counts / sizeof *counts, plot_counts};
+static void plot_draw(dyd_canvas *on, const dyd_convergence *c) {
+  dyd_panel top = {70,         66,
+                   570,        290,
+                   0,          1,
+                   "bound",    "Upper bounds and widths (powers of 2, in units of the coordinates)",
+                   bounds,     sizeof bounds / sizeof *bounds,
+                   plot_bounds};
+  dyd_panel bottom = {
+      70, 426, 570, 150, 0, 1, "count", "Pairs and faces", counts, sizeof counts / sizeof *counts, plot_counts};
   char title[120];
   snprintf(title, sizeof title, "dyadel converge: %s schedule, outcome %s", dyd_schedule_text(c->options->schedule),
            dyd_outcome_text(c->outcome));
-  cairo_set_source_rgb(cr, 1, 1, 1);
-  cairo_paint(cr);
-  cairo_set_source_rgb(cr, 0, 0, 0);
-  cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  dyd_picture_text(cr, 70, 32, 0, 15, title);
+  dyd_canvas_text(on, 70, 32, 0, 15, false, title);
   dyd_panel_fit(&top, c);
   dyd_panel_fit(&bottom, c);
-  dyd_panel_draw(cr, &top, c, 2);
-  dyd_panel_draw(cr, &bottom, c, 10);
+  dyd_panel_draw(on, &top, c, 2);
+  dyd_panel_draw(on, &bottom, c, 10);
 }
 
 dyd_status dyd_convergence_picture(const dyd_output *o) {
-  dyd_output own = *o;
-  return dyd_page_write(o, WIDTH, HEIGHT, plot_draw, &own);
+  dyd_canvas *on = dyd_canvas_new(o, WIDTH, HEIGHT, "convergence");
+  if (on) plot_draw(on, o->what);
+  return dyd_canvas_end(on, DYD_OK, o->err);
 }

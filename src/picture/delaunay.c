@@ -15,8 +15,14 @@ static const struct {
               {DYD_INDETERMINATE, "indeterminate", 0xd55e00, 0xfbe3d1, 4, 2.5, 1.0},
               {DYD_LEGAL, "legal", 0x0072b2, 0xd3e6f2, 0, 0, 1.2}};
 
-#define WIDE 50.0 /* room around the frame, in points, for lines and dashes that begin outside */
-#define FAR 1e13  /* points on the page from where doubles do not tell positions to a hundredth */
+enum { OPEN = 1 };
+#define TRIANGLE 0xe6f0f7
+#define CLOSE 12.0 /* neighbours so close have rectangles that hide each other */
+#define ROOMY 28.0 /* neighbours so far apart have room for numbers */
+#define WIDE 50.0  /* room around the frame, in points, for lines and dashes that begin outside */
+#define FAR 1e13   /* lengths on the page from where doubles do not tell positions to a hundredth */
+
+enum { MOST_NAMES = 40000 }; /* lines and triangles that have a name each; beyond, a file would be all names */
 
 /* wide: the frame of the view with some room. */
 typedef struct delaunay_drawing {
@@ -24,7 +30,10 @@ typedef struct delaunay_drawing {
   dyd_view view;
   dyd_triangle_list triangles;
   double wide[4];
-  size_t shown[4], sites; /* lines of each status, rectangles that meet the frame */
+  size_t shown[4], sites;                                 /* lines of each status, rectangles that meet the frame */
+  dyd_density open;                                       /* of indeterminate lines */
+  bool crowded;                                           /* it is drawn in place of them */
+  bool triangle, region[4], mark[DYD_MARK_RECTANGLE + 1]; /* was drawn */
 } delaunay_drawing;
 
 static void page_middle(double z[2], const delaunay_drawing *d, uint32_t i) {
@@ -39,24 +48,39 @@ static bool line_of(double z[2][2], const delaunay_drawing *d, const dyd_pair *p
   return dyd_clip_segment(z, frame);
 }
 
-static void polygon_path(cairo_t *cr, const delaunay_drawing *d, double z[DYD_CLIP_MOST][2], int n) {
+static bool polygon_path(dyd_canvas *c, const delaunay_drawing *d, double z[DYD_CLIP_MOST][2], int n) {
   n = dyd_clip_convex(z, n, d->wide);
   for (int k = 0; k < n; k++)
     if (k)
-      cairo_line_to(cr, z[k][0], z[k][1]);
+      dyd_canvas_line(c, z[k][0], z[k][1]);
     else
-      cairo_move_to(cr, z[k][0], z[k][1]);
-  if (n) cairo_close_path(cr);
+      dyd_canvas_move(c, z[k][0], z[k][1]);
+  if (n) dyd_canvas_close(c);
+  return n > 0;
 }
 
-static void draw_triangles(cairo_t *cr, const delaunay_drawing *d) {
-  cairo_new_path(cr);
+static bool has_names(const delaunay_drawing *d) {
+  return d->triangles.count + d->r->pairs.count <= MOST_NAMES;
+}
+
+static void draw_triangles(dyd_canvas *c, delaunay_drawing *d) {
+  bool names = has_names(d);
   for (size_t k = 0; k < d->triangles.count; k++) {
+    const uint32_t *v = d->triangles.item[k].v;
     double z[DYD_CLIP_MOST][2];
-    for (int c = 0; c < 3; c++) page_middle(z[c], d, d->triangles.item[k].v[c]);
-    polygon_path(cr, d, z, 3);
+    for (int corner = 0; corner < 3; corner++) page_middle(z[corner], d, v[corner]);
+    if (!polygon_path(c, d, z, 3)) continue;
+    d->triangle = true;
+    if (!names) continue;
+    size_t row[3];
+    for (int corner = 0; corner < 3; corner++) row[corner] = dyd_engine_row(d->r->engine, v[corner]);
+    char id[80], title[80];
+    snprintf(id, sizeof id, "triangle-%zu-%zu-%zu", row[0], row[1], row[2]);
+    snprintf(title, sizeof title, "sure triangle %zu, %zu, %zu", row[0], row[1], row[2]);
+    dyd_canvas_name(c, id, title);
+    dyd_picture_fill(c, TRIANGLE);
   }
-  dyd_picture_fill(cr, 0xe6f0f7);
+  if (!names) dyd_picture_fill(c, TRIANGLE);
 }
 
 /* Is the rectangle more than a dot? */
@@ -75,7 +99,7 @@ static int compare_xy(const void *a, const void *b) {
 }
 
 /* Ed(a,b) as a path: the hull of eight corners, by monotone chains. */
-static void pair_path(cairo_t *cr, const delaunay_drawing *d, const double a[4], const double b[4]) {
+static bool pair_path(dyd_canvas *c, const delaunay_drawing *d, const double a[4], const double b[4]) {
   double z[8][2], chain[DYD_CLIP_MOST][2];
   int n = 0;
   for (int k = 0; k < 8; k++) {
@@ -94,10 +118,10 @@ static void pair_path(cairo_t *cr, const delaunay_drawing *d, const double a[4],
     }
     n--;
   }
-  polygon_path(cr, d, chain, n);
+  return polygon_path(c, d, chain, n);
 }
 
-static void draw_regions(cairo_t *cr, const delaunay_drawing *d, int k) {
+static void draw_regions(dyd_canvas *c, delaunay_drawing *d, int k) {
   for (size_t p = 0; p < d->r->pairs.count; p++) {
     const dyd_pair *pair = &d->r->pairs.item[p];
     double a[4], b[4];
@@ -105,22 +129,56 @@ static void draw_regions(cairo_t *cr, const delaunay_drawing *d, int k) {
     dyd_sites_get_d(a, d->r->sites, pair->i);
     dyd_sites_get_d(b, d->r->sites, pair->j);
     if (!is_wide_box(d, a) && !is_wide_box(d, b)) continue;
-    cairo_new_path(cr);
-    pair_path(cr, d, a, b);
-    dyd_picture_fill(cr, style[k].region);
+    if (pair_path(c, d, a, b)) d->region[k] = true;
   }
+  if (d->region[k]) dyd_picture_fill(c, style[k].region);
 }
 
-static void draw_edges(cairo_t *cr, const delaunay_drawing *d, int k) {
-  cairo_new_path(cr);
+static void draw_edges(dyd_canvas *c, const delaunay_drawing *d, int k) {
+  double width = d->view.line * style[k].width;
+  bool names = has_names(d), any = false;
   for (size_t p = 0; p < d->r->pairs.count; p++) {
     const dyd_pair *pair = &d->r->pairs.item[p];
     double z[2][2];
     if (pair->status != style[k].status || !line_of(z, d, pair, d->wide)) continue;
-    cairo_move_to(cr, z[0][0], z[0][1]);
-    cairo_line_to(cr, z[1][0], z[1][1]);
+    any = true;
+    dyd_canvas_move(c, z[0][0], z[0][1]);
+    dyd_canvas_line(c, z[1][0], z[1][1]);
+    if (!names) continue;
+    size_t i = dyd_engine_row(d->r->engine, pair->i), j = dyd_engine_row(d->r->engine, pair->j);
+    char id[80], title[80];
+    snprintf(id, sizeof id, "pair-%zu-%zu", i, j);
+    snprintf(title, sizeof title, "%zu, %zu: %s", i, j, style[k].name);
+    dyd_canvas_name(c, id, title);
+    dyd_picture_stroke(c, style[k].rgb, width, style[k].on, style[k].off);
   }
-  dyd_picture_stroke(cr, style[k].rgb, d->view.line * style[k].width, style[k].on, style[k].off);
+  if (!names && any) dyd_picture_stroke(c, style[k].rgb, width, style[k].on, style[k].off);
+}
+
+static void draw_sites(dyd_canvas *c, delaunay_drawing *d) {
+  for (size_t i = 0; i < d->r->count; i++) {
+    double b[4];
+    if (dyd_delaunay_alias(d->r->pd, (uint32_t)i) != i) continue;
+    dyd_sites_get_d(b, d->r->sites, i);
+    d->mark[dyd_picture_site(c, &d->view, b, dyd_engine_row(d->r->engine, i), DYD_PICTURE_BAND)] = true;
+  }
+}
+
+/* Without room for the numbers they are left out. */
+static void draw_numbers(dyd_canvas *c, const delaunay_drawing *d) {
+  dyd_numbers labels;
+  if (d->view.apart < ROOMY || !dyd_numbers_init(&labels, &d->view)) return;
+  for (int pass = 0; pass < 2; pass++)
+    for (size_t i = 0; i < d->r->count; i++) {
+      double b[4];
+      if (dyd_delaunay_alias(d->r->pd, (uint32_t)i) != i) continue;
+      dyd_sites_get_d(b, d->r->sites, i);
+      if (pass)
+        dyd_numbers_put(&labels, c, b, 13, dyd_engine_row(d->r->engine, i));
+      else
+        dyd_numbers_keep_off(&labels, b);
+    }
+  dyd_numbers_clear(&labels);
 }
 
 /* In words what is shown of how many points. */
@@ -131,36 +189,47 @@ static void points_text(char *out, size_t size, const delaunay_drawing *d) {
     snprintf(out, size, "%zu points", d->r->count);
 }
 
-static void delaunay_legend(cairo_t *cr, void *context) {
-  const delaunay_drawing *d = context;
-  char text[240], points[100];
-  double y = dyd_view_legend(&d->view), x = 30;
+static void legend_edges(dyd_legend *l, const delaunay_drawing *d) {
+  char text[80];
   for (int k = 2; k >= 0; k--) {
-    snprintf(text, sizeof text, "%s: %zu", style[k].name, d->shown[style[k].status]);
-    dyd_picture_entry(cr, &x, y, style[k].rgb, false, style[k].on, style[k].off, text);
+    size_t shown = d->shown[style[k].status];
+    if (shown == 0 || (d->crowded && k == OPEN)) continue;
+    snprintf(text, sizeof text, "%s: %zu", style[k].name, shown);
+    dyd_legend_line(l, style[k].rgb, style[k].on, style[k].off, text);
   }
-  dyd_picture_scale(cr, &d->view, y);
-  x = 30, y += DYD_PICTURE_ROW;
-  dyd_picture_entry(cr, &x, y, 0xe6f0f7, true, 0, 0, "sure triangle");
-  dyd_picture_entry(cr, &x, y, 0xf2c766, true, 0, 0, "rectangle of a point");
-  dyd_picture_entry(cr, &x, y, style[1].region, true, 0, 0, "where an indeterminate edge may be");
-  points_text(points, sizeof points, d);
-  snprintf(text, sizeof text, "%s, outcome %s%s; positions rounded by at most 0.01 point", points,
-           dyd_outcome_text(dyd_engine_outcome(d->r->engine)),
-           dyd_delaunay_is_capped(d->r->pd) ? ", not all possible pairs are shown" : "");
-  dyd_picture_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, text);
+  snprintf(text, sizeof text, " of %zu indeterminate pairs across a square", d->shown[DYD_INDETERMINATE]);
+  if (d->crowded) dyd_density_legend(l, &d->open, text);
 }
 
-static void delaunay_inside(cairo_t *cr, void *context) {
+static void delaunay_legend(dyd_canvas *c, void *context) {
   const delaunay_drawing *d = context;
-  draw_triangles(cr, d);
-  for (int k = 2; k >= 0; k--) draw_regions(cr, d, k);
-  for (int k = 0; k < 3; k++) draw_edges(cr, d, k);
-  for (size_t i = 0; i < d->r->count; i++) {
-    double b[4];
-    dyd_sites_get_d(b, d->r->sites, i);
-    dyd_picture_site(cr, &d->view, b, dyd_sites_is_point(d->r->sites, i), DYD_PICTURE_BAND);
-  }
+  char text[300], points[100];
+  dyd_legend l;
+  dyd_legend_begin(&l, c, &d->view);
+  legend_edges(&l, d);
+  if (d->triangle) dyd_legend_patch(&l, TRIANGLE, "sure triangle");
+  if (d->mark[DYD_MARK_RECTANGLE]) dyd_legend_patch(&l, 0xf2c766, "rectangle of a point");
+  if (d->mark[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point, or a rectangle so small");
+  if (d->region[2]) dyd_legend_patch(&l, style[2].region, "where a legal edge is");
+  if (d->region[1]) dyd_legend_patch(&l, style[1].region, "where an indeterminate edge may be");
+  if (d->region[0]) dyd_legend_patch(&l, style[0].region, "where a tie may be");
+  points_text(points, sizeof points, d);
+  snprintf(text, sizeof text, "%s, outcome %s%s; positions rounded by at most 0.01 of a pixel", points,
+           dyd_outcome_text(dyd_engine_outcome(d->r->engine)),
+           dyd_delaunay_is_capped(d->r->pd) ? ", not all possible pairs are shown" : "");
+  dyd_legend_text(&l, text);
+  dyd_legend_crowd(&l, d->r->pd);
+}
+
+static void delaunay_inside(dyd_canvas *c, void *context) {
+  delaunay_drawing *d = context;
+  draw_triangles(c, d);
+  for (int k = 2; k >= 0 && !d->crowded; k--) draw_regions(c, d, k);
+  if (d->crowded) dyd_density_draw(c, &d->open);
+  for (int k = 0; k < 3; k++)
+    if (!(d->crowded && k == OPEN)) draw_edges(c, d, k);
+  draw_sites(c, d);
+  draw_numbers(c, d);
 }
 
 /* ---- what is shown ---- */
@@ -176,9 +245,11 @@ static dyd_status see_all(delaunay_drawing *d, dyd_error *err) {
     all[2] = fmin(all[2], b[2]), all[3] = fmax(all[3], b[3]);
   }
   if (r->count == 0) all[0] = all[1] = all[2] = all[3] = 0;
+  double rim = 0.04 * fmax(all[1] - all[0], all[3] - all[2]);
+  for (int k = 0; k < 4; k++) all[k] += k & 1 ? rim : -rim;
   dyd_delaunay_count(d->shown, r->pd);
   dyd_status st = dyd_view_fit(&d->view, all, dyd_view_spacing(r->pd, NULL), err);
-  for (int k = 0; k < 4; k++) d->view.frame[k] = d->wide[k] = k & 1 ? INFINITY : -INFINITY;
+  for (int k = 0; k < 4; k++) d->wide[k] = d->view.frame[k] + (k & 1 ? WIDE : -WIDE);
   return st;
 }
 
@@ -224,11 +295,26 @@ static dyd_status see_window(delaunay_drawing *d, dyd_error *err) {
   return DYD_OK;
 }
 
+static dyd_status find_density(delaunay_drawing *d) {
+  if (!dyd_density_init(&d->open, &d->view)) return DYD_E_NOMEM;
+  for (size_t p = 0; p < d->r->pairs.count; p++) {
+    double z[2][2];
+    if (d->r->pairs.item[p].status == DYD_INDETERMINATE && line_of(z, d, &d->r->pairs.item[p], d->view.frame))
+      dyd_density_add(&d->open, z);
+  }
+  d->crowded = dyd_density_is_crowded(&d->open);
+  d->view.dots = d->crowded && d->view.apart < CLOSE;
+  return DYD_OK;
+}
+
 dyd_status dyd_delaunay_picture(const dyd_output *o) {
   delaunay_drawing d = {.r = o->what};
   dyd_status st = d.r->window ? see_window(&d, o->err) : see_all(&d, o->err);
+  if (st == DYD_OK) st = find_density(&d);
   if (st == DYD_OK) st = dyd_delaunay_triangles(&d.triangles, d.r->pd);
-  if (st == DYD_OK) st = dyd_view_write(o, &d.view, delaunay_inside, delaunay_legend, &d);
+  if (st == DYD_OK)
+    st = dyd_view_write(o, &d.view, "partial Delaunay triangulation", delaunay_inside, delaunay_legend, &d);
   dyd_triangle_list_clear(&d.triangles);
+  dyd_density_clear(&d.open);
   return st;
 }

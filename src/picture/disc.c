@@ -12,6 +12,7 @@
 enum { CIRCLES = 6, ONCE = 3, WHITE = 0xffffff };
 #define INSIDE 0xcfe4f3
 #define CURVE 0x0072b2
+#define TRIPLE 0x777777
 #define LARGE 1e5 /* radius in points from where only the part near the picture is drawn */
 #define MOST 1e13 /* radius from where doubles do not tell where the circle is, to hundredths of a point */
 
@@ -41,60 +42,74 @@ static void place_circle(double out[3], const dyd_circle *k) {
 
 /* A large disc near the picture: a piece of its edge about the point closest to the middle of the picture, and three
  * more sides deep inside (only for filling). All of the picture, or nothing, when the edge does not come near. */
-static void large_circle_path(cairo_t *cr, const dyd_view *v, double x, double y, double radius, bool closed) {
+static void large_circle_path(dyd_canvas *c, const dyd_view *v, double x, double y, double radius, bool closed) {
   enum { STEPS = 64 };
   double mx = dyd_view_x(v, v->left) + v->width / 2, my = dyd_view_y(v, v->top) + v->height / 2;
   double size = v->width + v->height, away = hypot(mx - x, my - y), middle = atan2(my - y, mx - x);
   if (fabs(away - radius) > size) {
-    if (closed && away < radius) dyd_view_frame_path(cr, v);
+    if (closed && away < radius) dyd_view_frame_path(c, v);
     return;
   }
   for (int k = -STEPS; k <= STEPS; k++) {
     double turn = middle + 4 * size / radius * k / STEPS;
-    cairo_line_to(cr, x + radius * cos(turn), y + radius * sin(turn));
+    dyd_canvas_line(c, x + radius * cos(turn), y + radius * sin(turn));
   }
   if (!closed) return;
   for (int k = 1; k >= -1; k -= 2) {
     double turn = middle + 4 * size / radius * k;
-    cairo_line_to(cr, x + radius * cos(turn) - 4 * size * cos(middle), y + radius * sin(turn) - 4 * size * sin(middle));
+    dyd_canvas_line(c, x + radius * cos(turn) - 4 * size * cos(middle),
+                    y + radius * sin(turn) - 4 * size * sin(middle));
   }
-  cairo_close_path(cr);
+  dyd_canvas_close(c);
 }
 
-static void circle_path(cairo_t *cr, const disc_drawing *g, int k, bool closed) {
+static void circle_path(dyd_canvas *c, const disc_drawing *g, int k, bool closed) {
   double x = dyd_view_x(&g->view, g->at[k][0]), y = dyd_view_y(&g->view, g->at[k][1]);
   double radius = g->at[k][2] * g->view.scale;
-  cairo_new_path(cr);
   if (radius < LARGE)
-    cairo_arc(cr, x, y, radius, 0, 2 * acos(-1.0));
+    dyd_canvas_circle(c, x, y, radius);
   else
-    large_circle_path(cr, &g->view, x, y, radius, closed);
+    large_circle_path(c, &g->view, x, y, radius, closed);
 }
 
-static void disc_areas(cairo_t *cr, const disc_drawing *g) {
-  dyd_picture_colour(cr, DYD_PICTURE_BAND);
+static void disc_areas(dyd_canvas *c, const disc_drawing *g) {
   for (int k = ONCE; k < CIRCLES; k++) {
-    circle_path(cr, g, k, true);
-    cairo_fill(cr);
+    circle_path(c, g, k, true);
+    dyd_picture_fill(c, DYD_PICTURE_BAND);
   }
-  cairo_save(cr);
   for (int k = 0; k < ONCE; k++) {
-    circle_path(cr, g, k, true);
-    cairo_clip(cr);
+    circle_path(c, g, k, true);
+    dyd_canvas_clip(c);
   }
-  dyd_picture_colour(cr, INSIDE);
-  cairo_paint(cr);
-  cairo_restore(cr);
+  dyd_view_frame_path(c, &g->view);
+  dyd_picture_fill(c, INSIDE);
+  for (int k = 0; k < ONCE; k++) dyd_canvas_unclip(c);
 }
 
-static void disc_circles(cairo_t *cr, const disc_drawing *g) {
+/* The rectangles that a circle encloses: number k of three alone, or all but it. */
+static void name_circle(dyd_canvas *c, const char *what, int k) {
+  char id[48], title[80];
+  int a = (k + 1) % 3, b = (k + 2) % 3, one = k % 3;
+  if (a > b) a ^= b, b ^= a, a ^= b;
+  snprintf(id, sizeof id, "%s-%s-%d", what, k < ONCE ? "around" : "touching", one);
+  if (k < ONCE)
+    snprintf(title, sizeof title, "%s: around %d, touching %d and %d", what, one, a, b);
+  else
+    snprintf(title, sizeof title, "%s: around %d and %d, touching %d", what, a, b, one);
+  dyd_canvas_name(c, id, title);
+}
+
+static void disc_circles(dyd_canvas *c, const disc_drawing *g) {
   for (int k = 0; k < CIRCLES; k++) {
-    circle_path(cr, g, k, false);
-    dyd_picture_stroke(cr, CURVE, 1.5, k < ONCE ? 0 : 4, k < ONCE ? 0 : 2.5);
+    name_circle(c, "circle", k);
+    circle_path(c, g, k, false);
+    dyd_picture_stroke(c, CURVE, 1.5, k < ONCE ? 0 : 4, k < ONCE ? 0 : 2.5);
   }
   for (int k = 0; k < CIRCLES; k++) {
     double x = dyd_view_x(&g->view, g->at[k][0]), y = dyd_view_y(&g->view, g->at[k][1]);
-    if (fabs(x) < LARGE && fabs(y) < LARGE) dyd_picture_dot(cr, x, y, 3, k < ONCE ? CURVE : WHITE, CURVE);
+    if (!(fabs(x) < LARGE && fabs(y) < LARGE)) continue;
+    name_circle(c, "centre", k);
+    dyd_picture_dot(c, x, y, 3, k < ONCE ? CURVE : WHITE, CURVE);
   }
 }
 
@@ -104,45 +119,61 @@ static unsigned con_colour(dyd_sure con) {
   return con == DYD_SURE_PLUS ? CURVE : con == DYD_SURE_MINUS ? WHITE : 0xd55e00;
 }
 
-static void disc_sites(cairo_t *cr, const disc_drawing *g) {
-  for (size_t i = g->n; i-- > 0;) {
-    double b[4];
-    dyd_rect_get_d(b, g->r[i]);
-    dyd_picture_numbered(cr, &g->view, b, i < 3 ? 0x777777 : con_colour(dyd_partial_disc_con(g->d, g->r[i])),
-                         dyd_engine_row(g->engine, i));
-  }
+static void disc_sites(dyd_canvas *c, const disc_drawing *g) {
+  dyd_numbers labels;
+  bool numbers = dyd_numbers_init(&labels, &g->view);
+  for (int pass = 0; pass < 2; pass++)
+    for (size_t i = g->n; i-- > 0;) {
+      double b[4];
+      size_t first_first = g->n - 1 - i; /* numbers 0, 1, 2 have the choice */
+      dyd_rect_get_d(b, g->r[pass ? first_first : i]);
+      if (!pass)
+        dyd_picture_marked(c, &g->view, b, dyd_engine_row(g->engine, i),
+                           i < 3 ? TRIPLE : con_colour(dyd_partial_disc_con(g->d, g->r[i])));
+      if (numbers && !pass) dyd_numbers_keep_off(&labels, b);
+      if (numbers && pass) dyd_numbers_put(&labels, c, b, 18, dyd_engine_row(g->engine, first_first));
+    }
+  dyd_numbers_clear(&labels);
 }
 
-static void disc_legend(cairo_t *cr, void *context) {
+/* Which of the others there are: inside, outside, not known. */
+static bool has_con(const disc_drawing *g, dyd_sure con) {
+  for (size_t i = 3; i < g->n; i++)
+    if (dyd_partial_disc_con(g->d, g->r[i]) == con) return true;
+  return false;
+}
+
+static void disc_legend(dyd_canvas *c, void *context) {
   const disc_drawing *g = context;
-  double y = dyd_view_legend(&g->view), x = 30;
-  dyd_picture_entry(cr, &x, y, INSIDE, true, 0, 0, "surely inside");
-  dyd_picture_entry(cr, &x, y, WHITE, true, 0, 0, "surely outside");
-  dyd_picture_entry(cr, &x, y, DYD_PICTURE_BAND, true, 0, 0, "undetermined");
-  if (g->n > 3) dyd_picture_text(cr, x, y + 5, 0, 14, "other points: in darker shades of these");
-  dyd_picture_scale(cr, &g->view, y);
+  dyd_legend l;
+  dyd_legend_begin(&l, c, &g->view);
+  if (g->d->known) dyd_legend_patch(&l, INSIDE, "surely inside");
+  if (g->d->known) dyd_legend_patch(&l, WHITE, "surely outside");
+  dyd_legend_patch(&l, DYD_PICTURE_BAND, "undetermined");
+  dyd_legend_patch(&l, TRIPLE, "the three points");
+  if (has_con(g, DYD_SURE_PLUS)) dyd_legend_patch(&l, con_colour(DYD_SURE_PLUS), "point surely inside");
+  if (has_con(g, DYD_SURE_MINUS)) dyd_legend_patch(&l, con_colour(DYD_SURE_MINUS), "point surely outside");
+  if (has_con(g, DYD_UNSURE)) dyd_legend_patch(&l, con_colour(DYD_UNSURE), "point of which it is not known");
   if (!g->d->known) {
-    dyd_picture_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, "0, 1 and 2 may be on a line: there is no partial disc");
+    dyd_legend_text(&l, "0, 1 and 2 may be on a line: there is no partial disc");
     return;
   }
-  x = 30;
-  dyd_picture_entry(cr, &x, y + DYD_PICTURE_ROW, CURVE, false, 0, 0, "circle around one of 0 1 2, touching two");
-  dyd_picture_entry(cr, &x, y + DYD_PICTURE_ROW, CURVE, false, 4, 2.5, "around two, touching one");
-  dyd_picture_dot(cr, x, y + DYD_PICTURE_ROW, 3, CURVE, CURVE);
-  dyd_picture_dot(cr, x + 12, y + DYD_PICTURE_ROW, 3, WHITE, CURVE);
-  dyd_picture_text(cr, x + 22, y + DYD_PICTURE_ROW + 5, 0, 14, "their centres");
+  dyd_legend_line(&l, CURVE, 0, 0, "circle around one of 0 1 2, touching two");
+  dyd_legend_line(&l, CURVE, 4, 2.5, "around two, touching one");
+  dyd_legend_dot(&l, CURVE, CURVE, "centre of a full circle");
+  dyd_legend_dot(&l, WHITE, CURVE, "of a dashed one");
 }
 
-static void disc_inside(cairo_t *cr, void *context) {
+static void disc_inside(dyd_canvas *c, void *context) {
   const disc_drawing *g = context;
   if (g->d->known) {
-    disc_areas(cr, g);
-    disc_circles(cr, g);
+    disc_areas(c, g);
+    disc_circles(c, g);
   } else {
-    dyd_picture_colour(cr, DYD_PICTURE_BAND);
-    cairo_paint(cr);
+    dyd_view_frame_path(c, &g->view);
+    dyd_picture_fill(c, DYD_PICTURE_BAND);
   }
-  disc_sites(cr, g);
+  disc_sites(c, g);
 }
 
 /* The circles, cut at the size of the rectangles around them. */
@@ -175,5 +206,5 @@ dyd_status dyd_disc_picture(const dyd_output *o) {
   disc_drawing g = {.d = c->disc, .r = c->r, .n = c->n, .engine = c->engine};
   for (int k = 0; k < CIRCLES && g.d->known; k++) place_circle(g.at[k], &g.d->circle[k]);
   dyd_status st = disc_view(&g, o->err);
-  return st == DYD_OK ? dyd_view_write(o, &g.view, disc_inside, disc_legend, &g) : st;
+  return st == DYD_OK ? dyd_view_write(o, &g.view, "partial disc", disc_inside, disc_legend, &g) : st;
 }

@@ -47,85 +47,82 @@ static double tick_step(const dyd_panel *p, int base) {
   return step;
 }
 
-static void grid_line(cairo_t *cr, double x0, double y0, double x1, double y1) {
-  cairo_set_source_rgb(cr, 0.86, 0.86, 0.86);
-  cairo_set_line_width(cr, 0.6);
-  cairo_move_to(cr, x0, y0);
-  cairo_line_to(cr, x1, y1);
-  cairo_stroke(cr);
-  cairo_set_source_rgb(cr, 0.2, 0.2, 0.2);
+static void grid_line(dyd_canvas *on, double x0, double y0, double x1, double y1) {
+  double z[2][2] = {{x0, y0}, {x1, y1}};
+  dyd_picture_line(on, z, 0xdbdbdb, 0.6, 0, 0);
 }
 
-static void draw_levels(cairo_t *cr, const dyd_panel *p, int base) {
+static void draw_levels(dyd_canvas *on, const dyd_panel *p, int base) {
   char label[40];
   double step = tick_step(p, base);
   for (double v = ceil(p->low / step) * step; v <= p->high; v += step) {
     double y = panel_y(p, v);
-    grid_line(cr, p->x, y, p->x + p->width, y);
+    grid_line(on, p->x, y, p->x + p->width, y);
     if (base == 10 && v < 7)
       snprintf(label, sizeof label, "%.0f", pow(10, v));
     else
       snprintf(label, sizeof label, "%d^%.0f", base, v);
-    dyd_picture_text(cr, p->x - 6, y + 3.5, 1, 10, label);
+    dyd_canvas_text(on, p->x - 6, y + 3.5, 1, 10, false, label);
   }
   double zero = panel_y(p, -INFINITY);
-  dyd_picture_text(cr, p->x - 6, zero + 3.5, 1, 10, "0");
+  dyd_canvas_text(on, p->x - 6, zero + 3.5, 1, 10, false, "0");
 }
 
-static void draw_stages(cairo_t *cr, const dyd_panel *p, const dyd_convergence *c) {
+static void draw_stages(dyd_canvas *on, const dyd_panel *p, const dyd_convergence *c) {
   size_t step = c->count / 16 + 1;
   char label[40];
   for (size_t k = 0; k < c->count; k += step) {
     double x = panel_x(p, c, k), foot = p->y + p->height;
-    grid_line(cr, x, p->y, x, foot);
+    grid_line(on, x, p->y, x, foot);
     snprintf(label, sizeof label, "%" PRIu64, c->row[k]->stage);
-    dyd_picture_text(cr, x, foot + 13, 0.5, 10, label);
+    dyd_canvas_text(on, x, foot + 13, 0.5, 10, false, label);
     snprintf(label, sizeof label, "%" PRId64, c->row[k]->bits_most);
-    dyd_picture_text(cr, x, foot + 25, 0.5, 9, label);
+    dyd_canvas_text(on, x, foot + 25, 0.5, 9, false, label);
   }
-  dyd_picture_text(cr, p->x - 6, p->y + p->height + 13, 1, 10, "stage");
-  dyd_picture_text(cr, p->x - 6, p->y + p->height + 25, 1, 9, "bits");
+  dyd_canvas_text(on, p->x - 6, p->y + p->height + 13, 1, 10, false, "stage");
+  dyd_canvas_text(on, p->x - 6, p->y + p->height + 25, 1, 9, false, "bits");
 }
 
 /* ---- curves ---- */
 
-static void draw_series_mark(cairo_t *cr, const dyd_series *s, double x, double y) {
+static void draw_series_mark(dyd_canvas *on, const dyd_series *s, double x, double y) {
   const double radius = 3.4;
-  cairo_new_path(cr);
-  if (s->mark == 0) cairo_arc(cr, x, y, radius, 0, turn);
+  if (s->mark == 0) dyd_canvas_circle(on, x, y, radius);
   for (unsigned k = 0; k < s->mark; k++) {
     double angle = turn * (k / (double)s->mark - 0.25);
-    cairo_line_to(cr, x + radius * cos(angle), y + radius * sin(angle));
+    dyd_canvas_line(on, x + radius * cos(angle), y + radius * sin(angle));
   }
-  cairo_close_path(cr);
-  cairo_set_source_rgb(cr, 1, 1, 1);
-  cairo_fill_preserve(cr);
-  cairo_set_source_rgb(cr, s->red, s->green, s->blue);
-  cairo_set_line_width(cr, 1.2);
-  cairo_stroke(cr);
+  if (s->mark) dyd_canvas_close(on);
+  dyd_picture_shape(on, 0xffffff, 1, s->rgb, 1.2);
 }
 
-static void set_pen(cairo_t *cr, const dyd_series *s) {
-  cairo_set_source_rgb(cr, s->red, s->green, s->blue);
-  cairo_set_line_width(cr, 1.5);
-  cairo_set_dash(cr, &s->dash, s->dash > 0 ? 1 : 0, 0);
+static void stroke_series(dyd_canvas *on, const dyd_series *s) {
+  dyd_canvas_paint(on, &(dyd_paint){DYD_NO_COLOUR, s->rgb, 1, 1.5, s->dash, s->dash});
 }
 
-static void draw_curve(cairo_t *cr, const dyd_panel *p, size_t s, const dyd_convergence *c) {
-  set_pen(cr, &p->series[s]);
-  cairo_new_path(cr);
+static void draw_curve(dyd_canvas *on, const dyd_panel *p, size_t s, const dyd_convergence *c) {
+  char id[48];
+  bool gap = true;
   for (size_t k = 0; k < c->count; k++) {
     double v = panel_value(p, s, c->row[k]);
-    if (isnan(v))
-      cairo_new_sub_path(cr);
-    else
-      cairo_line_to(cr, panel_x(p, c, k), panel_y(p, v));
+    if (!isnan(v) && gap)
+      dyd_canvas_move(on, panel_x(p, c, k), panel_y(p, v));
+    else if (!isnan(v))
+      dyd_canvas_line(on, panel_x(p, c, k), panel_y(p, v));
+    gap = isnan(v);
   }
-  cairo_stroke(cr);
-  cairo_set_dash(cr, NULL, 0, 0);
+  snprintf(id, sizeof id, "%s-%zu", p->id, s);
+  dyd_canvas_name(on, id, p->series[s].name);
+  stroke_series(on, &p->series[s]);
   for (size_t k = 0; k < c->count; k++) {
     double v = panel_value(p, s, c->row[k]);
-    if (!isnan(v)) draw_series_mark(cr, &p->series[s], panel_x(p, c, k), panel_y(p, v));
+    if (isnan(v)) continue;
+    char title[80];
+    snprintf(id, sizeof id, "%s-%zu-%zu", p->id, s, k);
+    snprintf(title, sizeof title, "%s, stage %" PRIu64 ", %" PRId64 " bits", p->series[s].name, c->row[k]->stage,
+             c->row[k]->bits_most);
+    dyd_canvas_name(on, id, title);
+    draw_series_mark(on, &p->series[s], panel_x(p, c, k), panel_y(p, v));
   }
 }
 
@@ -135,31 +132,25 @@ static bool has_values(const dyd_panel *p, size_t s, const dyd_convergence *c) {
   return false;
 }
 
-static void draw_key(cairo_t *cr, const dyd_series *s, double x, double y) {
-  set_pen(cr, s);
-  cairo_move_to(cr, x, y);
-  cairo_line_to(cr, x + 30, y);
-  cairo_stroke(cr);
-  cairo_set_dash(cr, NULL, 0, 0);
-  draw_series_mark(cr, s, x + 15, y);
-  cairo_set_source_rgb(cr, 0, 0, 0);
-  dyd_picture_text(cr, x + 38, y + 3.5, 0, 10.5, s->name);
+static void draw_key(dyd_canvas *on, const dyd_series *s, double x, double y) {
+  dyd_canvas_move(on, x, y);
+  dyd_canvas_line(on, x + 30, y);
+  stroke_series(on, s);
+  draw_series_mark(on, s, x + 15, y);
+  dyd_canvas_text(on, x + 38, y + 3.5, 0, 10.5, false, s->name);
 }
 
-void dyd_panel_draw(cairo_t *cr, const dyd_panel *p, const dyd_convergence *c, int base) {
-  cairo_set_source_rgb(cr, 0, 0, 0);
-  dyd_picture_text(cr, p->x, p->y - 7, 0, 12, p->title);
-  draw_levels(cr, p, base);
-  draw_stages(cr, p, c);
-  cairo_set_source_rgb(cr, 0.2, 0.2, 0.2);
-  cairo_set_line_width(cr, 0.8);
-  cairo_rectangle(cr, p->x, p->y, p->width, p->height);
-  cairo_stroke(cr);
+void dyd_panel_draw(dyd_canvas *on, const dyd_panel *p, const dyd_convergence *c, int base) {
+  dyd_canvas_text(on, p->x, p->y - 7, 0, 12, false, p->title);
+  draw_levels(on, p, base);
+  draw_stages(on, p, c);
+  dyd_canvas_box(on, p->x, p->y, p->width, p->height);
+  dyd_picture_stroke(on, 0x333333, 0.8, 0, 0);
   double key = p->y + 8;
   for (size_t s = 0; s < p->count; s++) {
     if (!has_values(p, s, c)) continue;
-    draw_curve(cr, p, s, c);
-    draw_key(cr, &p->series[s], p->x + p->width + 14, key);
+    draw_curve(on, p, s, c);
+    draw_key(on, &p->series[s], p->x + p->width + 14, key);
     key += 19;
   }
 }

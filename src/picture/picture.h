@@ -1,17 +1,15 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Pictures drawn with cairo, as svg, pdf or png: one page, one view of the plane, legend and scale below it.
+/* Pictures as svg, pdf or png: one page, one view of the plane in a frame with coordinates, legend and scale below it.
  *
- * Positions are doubles shown to hundredths of a point; a picture states nothing. Statuses differ in colour (colours
+ * Positions are doubles shown to hundredths of a pixel; a picture states nothing. Statuses differ in colour (colours
  * that all kinds of sight tell apart), in dash and in lightness, so that a grey copy can be read too. */
 #ifndef DYD_PICTURE_PICTURE_H
 #define DYD_PICTURE_PICTURE_H
 
 #include "io/output.h"
-#include <cairo.h>
+#include "picture/canvas.h"
 
-typedef void (*dyd_draw_fn)(cairo_t *cr, void *context);
-/* Writes a page of width x height points (two pixels a point in png) in the format of o: svg, pdf or png. */
-dyd_status dyd_page_write(const dyd_output *o, double width, double height, dyd_draw_fn draw, void *context);
+typedef void (*dyd_draw_fn)(dyd_canvas *c, void *context);
 
 /* The writers of pictures, which differ by what they show. */
 dyd_writer dyd_delaunay_picture, dyd_voronoi_picture, dyd_convergence_picture;
@@ -19,15 +17,18 @@ dyd_writer dyd_disc_picture, dyd_bisector_picture, dyd_nearest_picture;
 
 /* ---- views ---- */
 
-/* Free space around the drawing, in points. */
+/* Free space around the drawing: on top and right; on the left, where the coordinates stand. */
 #define DYD_VIEW_EDGE 30.0
+#define DYD_VIEW_LEFT 90.0
 
 /* Invariant: scale > 0; the drawing fits width x height. */
 typedef struct dyd_view {
-  double left, top, scale; /* data to points on the page */
+  double left, top, scale; /* data to lengths on the page */
   double width, height;    /* of the drawing */
+  double apart;            /* about the distance of neighbours on the page */
   double line, dot;        /* width of lines, radius of dots */
-  double frame[4];         /* x lower, x upper, y lower, y upper on the page: shown is what is inside; infinite: all */
+  bool dots;               /* all sites are dots, as rectangles would be one mass */
+  double frame[4];         /* x lower, x upper, y lower, y upper on the page: shown is what is inside */
 } dyd_view;
 
 /* A view of the box (x lower, x upper, y lower, y upper) of something whose neighbours are about `spacing` apart (0:
@@ -39,16 +40,26 @@ double dyd_view_x(const dyd_view *v, double x);
 double dyd_view_y(const dyd_view *v, double y);
 /* The middle of a box, on the page. */
 void dyd_view_middle(double z[2], const dyd_view *v, const double box[4]);
+/* Does a box meet the frame? */
+bool dyd_view_sees(const dyd_view *v, const double box[4]);
 /* *box (xlo, xhi, ylo, yhi) grows to hold r; DYD_E_RANGE with a message unless doubles can hold it. */
 dyd_status dyd_view_grow(double box[4], const dyd_rect *r, dyd_error *err);
 /* *box grows by a margin on all sides, and to the shape of a page. */
 void dyd_view_pad(double box[4]);
-/* The baseline of the legend. */
-double dyd_view_legend(const dyd_view *v);
-/* A page: `inside`, cut to the frame of the view, the frame, and the legend below it. */
-dyd_status dyd_view_write(const dyd_output *o, const dyd_view *v, dyd_draw_fn inside, dyd_draw_fn legend,
-                          void *context);
-void dyd_view_frame_path(cairo_t *cr, const dyd_view *v);
+/* A page: `inside`, cut to the frame of the view, the frame with its coordinates, and the legend below it. */
+dyd_status dyd_view_write(const dyd_output *o, const dyd_view *v, const char *title, dyd_draw_fn inside,
+                          dyd_draw_fn legend, void *context);
+void dyd_view_frame_path(dyd_canvas *c, const dyd_view *v);
+
+/* ---- axes.c ---- */
+
+/* Coordinates along the frame. */
+void dyd_axes_draw(dyd_canvas *c, const dyd_view *v);
+/* The greatest of 1, 2, 5 times a power of ten that is at most `most`: digit * 10^exponent. false: there is none that
+ * doubles hold. */
+bool dyd_round_step(int *digit, int *exponent, double most);
+/* "2.5", "-300", "5e-301": n * 10^exponent exactly. */
+void dyd_tick_text(char *out, size_t size, int64_t n, int exponent);
 
 /* ---- clipping ---- */
 
@@ -63,30 +74,79 @@ int dyd_clip_convex(double z[DYD_CLIP_MOST][2], int n, const double box[4]);
 
 /* What is undetermined, in all pictures. */
 #define DYD_PICTURE_BAND 0xe69f00
-/* Lines of the legend below the first one. */
-#define DYD_PICTURE_ROW 22
 
-/* Paints the page white, sets font and line style. */
-void dyd_picture_begin(cairo_t *cr);
-/* align 0: from x on, 0.5: around x, 1: up to x. */
-void dyd_picture_text(cairo_t *cr, double x, double y, double align, double size, const char *text);
-void dyd_picture_colour(cairo_t *cr, unsigned rgb);
-/* Dash in line widths; off = 0: full. */
-void dyd_picture_pen(cairo_t *cr, unsigned rgb, double width, double on, double off);
-/* The path so far, which is gone then. */
-void dyd_picture_stroke(cairo_t *cr, unsigned rgb, double width, double on, double off);
-void dyd_picture_fill(cairo_t *cr, unsigned rgb);
-/* A rectangle filled with rgb where it is large enough, else a dot; nothing outside of the view. */
-void dyd_picture_site(cairo_t *cr, const dyd_view *v, const double box[4], bool fixed_point, unsigned rgb);
-/* A rectangle, however small it is, filled with rgb; and its number beside it. */
-void dyd_picture_marked(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb);
-void dyd_picture_numbered(cairo_t *cr, const dyd_view *v, const double box[4], unsigned rgb, size_t number);
-/* Leaves the pen black, for text. */
-void dyd_picture_dot(cairo_t *cr, double x, double y, double radius, unsigned fill, unsigned edge);
-/* One entry of a legend: a line (fill = 0) or a patch; moves *x behind it. */
-void dyd_picture_entry(cairo_t *cr, double *x, double y, unsigned rgb, bool fill, double on, double off,
-                       const char *text);
-/* A bar of round length, at the right end of the legend. */
-void dyd_picture_scale(cairo_t *cr, const dyd_view *v, double y);
+/* The path so far, which is gone then. Dash in line widths; off = 0: full. */
+void dyd_picture_stroke(dyd_canvas *c, unsigned rgb, double width, double on, double off);
+void dyd_picture_fill(dyd_canvas *c, unsigned rgb);
+/* Filled, with an edge of half the lightness. */
+void dyd_picture_shape(dyd_canvas *c, unsigned fill, double alpha, unsigned edge, double width);
+/* A line of an edge. */
+void dyd_picture_line(dyd_canvas *c, double z[2][2], unsigned rgb, double width, double on, double off);
+void dyd_picture_dot(dyd_canvas *c, double x, double y, double radius, unsigned fill, unsigned edge);
+/* A box on the page. */
+void dyd_picture_box(dyd_canvas *c, const dyd_view *v, const double box[4]);
+
+/* A site as it can be seen: a rectangle filled with rgb where it is large enough, else a dot; nothing outside of the
+ * view. It has the name "point-I" and its coordinates for a title. Returns what was drawn. */
+typedef enum dyd_site_mark { DYD_MARK_NONE, DYD_MARK_DOT, DYD_MARK_RECTANGLE } dyd_site_mark;
+dyd_site_mark dyd_picture_site(dyd_canvas *c, const dyd_view *v, const double box[4], size_t number, unsigned rgb);
+/* A rectangle, however small it is, filled with rgb. */
+void dyd_picture_marked(dyd_canvas *c, const dyd_view *v, const double box[4], size_t number, unsigned rgb);
+
+/* ---- numbers.c ---- */
+
+/* Numbers of sites where there is room: on no rectangle, on no other number, inside of the frame. */
+typedef struct dyd_numbers {
+  const dyd_view *view;
+  unsigned char *taken; /* squares of the page */
+  size_t columns, rows;
+} dyd_numbers;
+
+/* false: memory is exhausted. */
+bool dyd_numbers_init(dyd_numbers *l, const dyd_view *v);
+void dyd_numbers_clear(dyd_numbers *l);
+/* Nothing may stand on this box, or on the dot that stands for it. */
+void dyd_numbers_keep_off(dyd_numbers *l, const double box[4]);
+/* Writes the number of a site beside its box, if there is room. */
+void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double size, size_t number);
+
+/* ---- legend.c ---- */
+
+/* Entries from left to right, then in the next line; beside the first lines a bar of round length. */
+typedef struct dyd_legend {
+  dyd_canvas *canvas;
+  const dyd_view *view;
+  double x, y, bar; /* bar: where the bar begins */
+} dyd_legend;
+
+void dyd_legend_begin(dyd_legend *l, dyd_canvas *c, const dyd_view *v);
+/* A line, a patch, a dot and what it means. */
+void dyd_legend_line(dyd_legend *l, unsigned rgb, double on, double off, const char *text);
+void dyd_legend_patch(dyd_legend *l, unsigned rgb, const char *text);
+void dyd_legend_dot(dyd_legend *l, unsigned fill, unsigned edge, const char *text);
+/* A sentence, on lines of its own. */
+void dyd_legend_text(dyd_legend *l, const char *text);
+/* Where most sites are, when they are in a small part of the view. count: of sites that stand for themselves. */
+void dyd_legend_crowd(dyd_legend *l, const dyd_delaunay *pd);
+
+/* ---- density.c ---- */
+
+/* How many lines cross each small square of the frame. */
+typedef struct dyd_density {
+  const dyd_view *view;
+  uint32_t *count;
+  size_t columns, rows;
+} dyd_density;
+
+/* false: memory is exhausted. */
+bool dyd_density_init(dyd_density *d, const dyd_view *v);
+void dyd_density_clear(dyd_density *d);
+/* A line on the page. */
+void dyd_density_add(dyd_density *d, double z[2][2]);
+/* Would the lines be seen as a mass? */
+bool dyd_density_is_crowded(const dyd_density *d);
+void dyd_density_draw(dyd_canvas *c, const dyd_density *d);
+/* what: behind the first number, " lines of a kind in a square". */
+void dyd_density_legend(dyd_legend *l, const dyd_density *d, const char *what);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Views: which part of the plane a picture shows, where it is on the page, and the frame around it. */
+/* Views: which part of the plane a picture shows, where it is on the page. */
 #include "base/error.h"
 #include "picture/picture.h"
 #include <math.h>
@@ -7,7 +7,6 @@
 
 #define SIDE 1000.0 /* of the drawing */
 #define EDGE DYD_VIEW_EDGE
-#define FOOT 106.0 /* room of the legend */
 
 /* ---- what is shown ---- */
 
@@ -45,8 +44,10 @@ dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_er
   double apart = spacing > 0 ? spacing * v->scale : SIDE;
   v->line = fmin(fmax(apart * 0.04, 0.2), 2.2);
   v->dot = fmin(fmax(apart * 0.09, 0.3), 4);
-  v->frame[0] = v->frame[2] = EDGE;
-  v->frame[1] = EDGE + v->width, v->frame[3] = EDGE + v->height;
+  v->apart = apart;
+  v->dots = false;
+  v->frame[0] = DYD_VIEW_LEFT, v->frame[2] = EDGE;
+  v->frame[1] = DYD_VIEW_LEFT + v->width, v->frame[3] = EDGE + v->height;
   return DYD_OK;
 }
 
@@ -87,14 +88,10 @@ double dyd_view_spacing(const dyd_delaunay *pd, const double box[4]) {
 }
 
 double dyd_view_x(const dyd_view *v, double x) {
-  return (x - v->left) * v->scale + EDGE;
+  return (x - v->left) * v->scale + DYD_VIEW_LEFT;
 }
 double dyd_view_y(const dyd_view *v, double y) {
   return (v->top - y) * v->scale + EDGE;
-}
-
-double dyd_view_legend(const dyd_view *v) {
-  return v->height + 2 * EDGE + 4;
 }
 
 void dyd_view_middle(double z[2], const dyd_view *v, const double box[4]) {
@@ -102,37 +99,12 @@ void dyd_view_middle(double z[2], const dyd_view *v, const double box[4]) {
   z[1] = dyd_view_y(v, box[2] / 2 + box[3] / 2);
 }
 
-void dyd_view_frame_path(cairo_t *cr, const dyd_view *v) {
-  cairo_new_path(cr);
-  cairo_rectangle(cr, v->frame[0], v->frame[2], v->frame[1] - v->frame[0], v->frame[3] - v->frame[2]);
+bool dyd_view_sees(const dyd_view *v, const double box[4]) {
+  const double *f = v->frame;
+  return dyd_view_x(v, box[0]) <= f[1] && f[0] <= dyd_view_x(v, box[1]) && dyd_view_y(v, box[3]) <= f[3] &&
+         f[2] <= dyd_view_y(v, box[2]);
 }
 
-typedef struct view_page {
-  const dyd_view *view;
-  dyd_draw_fn inside, legend;
-  void *context;
-} view_page;
-
-static void view_draw(cairo_t *cr, void *context) {
-  const view_page *p = context;
-  bool framed = isfinite(p->view->frame[0]);
-  dyd_picture_begin(cr);
-  cairo_save(cr);
-  if (framed) {
-    dyd_view_frame_path(cr, p->view);
-    cairo_clip(cr);
-  }
-  p->inside(cr, p->context);
-  cairo_restore(cr);
-  if (framed) {
-    dyd_view_frame_path(cr, p->view);
-    dyd_picture_stroke(cr, 0x222222, 1, 0, 0);
-  }
-  p->legend(cr, p->context);
-}
-
-dyd_status dyd_view_write(const dyd_output *o, const dyd_view *v, dyd_draw_fn inside, dyd_draw_fn legend,
-                          void *context) {
-  view_page page = {v, inside, legend, context};
-  return dyd_page_write(o, v->width + 2 * EDGE, v->height + EDGE + FOOT, view_draw, &page);
+void dyd_view_frame_path(dyd_canvas *c, const dyd_view *v) {
+  dyd_canvas_box(c, v->frame[0], v->frame[2], v->frame[1] - v->frame[0], v->frame[3] - v->frame[2]);
 }

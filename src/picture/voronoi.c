@@ -13,18 +13,31 @@ static const unsigned tints[4] = {0xdcebf5, 0xe8f2e4, 0xeee9f6, 0xe3f3f3};
 
 typedef struct voronoi_drawing {
   const dyd_diagram *d;
-  cairo_t *cr;
+  dyd_canvas *canvas;
   dyd_view view;
   dyd_status st;
   double window[4];
+  bool cell, vertex, region, mark[DYD_MARK_RECTANGLE + 1]; /* was drawn */
 } voronoi_drawing;
 
-static void polygon_outline(cairo_t *cr, const dyd_view *v, const dyd_polygon *p) {
-  cairo_new_path(cr);
+static void polygon_outline(dyd_canvas *c, const dyd_view *v, const dyd_polygon *p) {
   for (size_t k = 0; k < p->count; k++)
-    cairo_line_to(cr, dyd_view_x(v, dyd_dyadic_get_d(&p->vertex[k].x, DYD_DOWN)),
-                  dyd_view_y(v, dyd_dyadic_get_d(&p->vertex[k].y, DYD_DOWN)));
-  cairo_close_path(cr);
+    dyd_canvas_line(c, dyd_view_x(v, dyd_dyadic_get_d(&p->vertex[k].x, DYD_DOWN)),
+                    dyd_view_y(v, dyd_dyadic_get_d(&p->vertex[k].y, DYD_DOWN)));
+  dyd_canvas_close(c);
+}
+
+/* "cell-7", "surely nearest to 7"; or of several sites, separated by minus signs and commas. */
+static void name_of(const voronoi_drawing *g, const char *id, const char *title, const uint32_t *site, size_t count) {
+  char full_id[80], full_title[160];
+  size_t a = (size_t)snprintf(full_id, sizeof full_id, "%s", id);
+  size_t b = (size_t)snprintf(full_title, sizeof full_title, "%s", title);
+  for (size_t k = 0; k < count && k < 3; k++) {
+    a += (size_t)snprintf(full_id + a, sizeof full_id - a, "-%zu", dyd_engine_row(g->d->engine, site[k]));
+    b += (size_t)snprintf(full_title + b, sizeof full_title - b, "%s %zu", k ? "," : "",
+                          dyd_engine_row(g->d->engine, site[k]));
+  }
+  dyd_canvas_name(g->canvas, full_id, full_title);
 }
 
 static dyd_status voronoi_cell(void *context, uint32_t i, const dyd_shape *shape, const dyd_cell_row *row) {
@@ -33,33 +46,32 @@ static dyd_status voronoi_cell(void *context, uint32_t i, const dyd_shape *shape
   (void)row;
   dyd_status st = dyd_shape_inner(&inner, shape);
   if (st == DYD_OK && inner.count) {
-    polygon_outline(g->cr, &g->view, &inner);
-    dyd_picture_colour(g->cr, tints[i % 4]);
-    cairo_fill_preserve(g->cr);
-    dyd_picture_stroke(g->cr, 0x0072b2, g->view.line * 0.6, 0, 0);
+    name_of(g, "cell", "surely nearest to", &i, 1);
+    polygon_outline(g->canvas, &g->view, &inner);
+    dyd_picture_shape(g->canvas, tints[i % 4], 1, 0x0072b2, g->view.line * 0.6);
+    g->cell = true;
   }
   dyd_polygon_clear(&inner);
   return st;
 }
 
-static void box_path(cairo_t *cr, const dyd_view *v, const double b[4]) {
-  cairo_new_path(cr);
-  cairo_rectangle(cr, dyd_view_x(v, b[0]), dyd_view_y(v, b[3]), (b[1] - b[0]) * v->scale, (b[3] - b[2]) * v->scale);
-}
-
 static dyd_status voronoi_region(void *context, size_t face, const double box[4]) {
-  const voronoi_drawing *g = context;
-  (void)face;
+  voronoi_drawing *g = context;
+  char id[48], title[80];
   if (!box || (box[1] - box[0] + box[3] - box[2]) * g->view.scale > 60 * g->view.dot)
     return DYD_OK;                              /* a large one would hide what it is about */
   double pad = 2 * g->view.dot / g->view.scale, /* so that it is seen however small */
       show[4] = {box[0] - pad, box[1] + pad, box[2] - pad, box[3] + pad};
-  box_path(g->cr, &g->view, show);
-  dyd_picture_stroke(g->cr, 0xd55e00, g->view.line, 4, 2.5);
+  snprintf(id, sizeof id, "region-%zu", face);
+  snprintf(title, sizeof title, "undecided vertices of face %zu", face);
+  dyd_canvas_name(g->canvas, id, title);
+  dyd_picture_box(g->canvas, &g->view, show);
+  dyd_picture_stroke(g->canvas, 0xd55e00, g->view.line, 4, 2.5);
+  g->region = true;
   return DYD_OK;
 }
 
-static void voronoi_vertices(const voronoi_drawing *g) {
+static void voronoi_vertices(voronoi_drawing *g) {
   for (size_t k = 0; k < g->d->triangles.count; k++) {
     const double *b = g->d->vertex[k], *w = g->window;
     if (!(b[0] <= w[1] && w[0] <= b[1] && b[2] <= w[3] && w[2] <= b[3])) continue;
@@ -67,8 +79,10 @@ static void voronoi_vertices(const voronoi_drawing *g) {
     double side = 1.6 * g->view.dot / g->view.scale, x = b[0] / 2 + b[1] / 2, y = b[2] / 2 + b[3] / 2;
     double wide = fmax(b[1] - b[0], side) / 2, high = fmax(b[3] - b[2], side) / 2,
            show[4] = {x - wide, x + wide, y - high, y + high};
-    box_path(g->cr, &g->view, show);
-    dyd_picture_stroke(g->cr, 0x0072b2, g->view.line * 0.8, 0, 0);
+    name_of(g, "vertex", "holds the vertex of", g->d->triangles.item[k].v, 3);
+    dyd_picture_box(g->canvas, &g->view, show);
+    dyd_picture_stroke(g->canvas, 0x0072b2, g->view.line * 0.8, 0, 0);
+    g->vertex = true;
   }
 }
 
@@ -79,38 +93,49 @@ static void bound_text(char *out, size_t size, const dyd_voronoi_bounds *b) {
   snprintf(out, size, "undetermined area at most %s, within %s of the true diagram", area, far);
 }
 
-static void voronoi_legend(cairo_t *cr, void *context) {
+static void voronoi_legend(dyd_canvas *c, void *context) {
   const voronoi_drawing *g = context;
   char text[300], bounds[120];
-  double y = dyd_view_legend(&g->view), x = 30;
+  dyd_legend l;
   if (g->st != DYD_OK) return; /* then there are no bounds */
-  dyd_picture_entry(cr, &x, y, tints[0], true, 0, 0, "surely nearest to one point");
-  dyd_picture_entry(cr, &x, y, DYD_PICTURE_BAND, true, 0, 0, "undetermined");
-  dyd_picture_scale(cr, &g->view, y);
-  x = 30, y += DYD_PICTURE_ROW;
-  dyd_picture_entry(cr, &x, y, 0x9b9b9b, true, 0, 0, "rectangle of a point");
-  dyd_picture_entry(cr, &x, y, 0x0072b2, false, 0, 0, "box: a sure vertex is in it");
-  dyd_picture_entry(cr, &x, y, 0xd55e00, false, 4, 2.5, "box: undecided vertices");
+  dyd_legend_begin(&l, c, &g->view);
+  if (g->cell) dyd_legend_patch(&l, tints[0], "surely nearest to one point (any light tint)");
+  if (dyd_dyadic_sgn(&g->d->bounds->area) > 0) dyd_legend_patch(&l, DYD_PICTURE_BAND, "undetermined");
+  if (g->mark[DYD_MARK_RECTANGLE]) dyd_legend_patch(&l, 0x9b9b9b, "rectangle of a point");
+  if (g->mark[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point, or a rectangle so small");
+  if (g->vertex) dyd_legend_line(&l, 0x0072b2, 0, 0, "box: a sure vertex is in it");
+  if (g->region) dyd_legend_line(&l, 0xd55e00, 4, 2.5, "box: undecided vertices");
   bound_text(bounds, sizeof bounds, g->d->bounds);
   snprintf(text, sizeof text, "%zu points, outcome %s; %s", g->d->count,
            dyd_outcome_text(dyd_engine_outcome(g->d->engine)), bounds);
-  dyd_picture_text(cr, 30, y + DYD_PICTURE_ROW + 5, 0, 14, text);
+  dyd_legend_text(&l, text);
+  dyd_legend_crowd(&l, g->d->pd);
 }
 
-static void voronoi_inside(cairo_t *cr, void *context) {
+static void voronoi_sites(voronoi_drawing *g) {
+  dyd_numbers labels = {0};
+  bool numbers = g->view.apart >= 28 && dyd_numbers_init(&labels, &g->view);
+  for (int pass = 0; pass < 2; pass++)
+    for (size_t i = 0; i < g->d->count; i++) {
+      double b[4];
+      dyd_sites_get_d(b, g->d->sites, i);
+      if (!dyd_box_is_finite(b) || dyd_delaunay_alias(g->d->pd, (uint32_t)i) != i) continue;
+      if (!pass) g->mark[dyd_picture_site(g->canvas, &g->view, b, dyd_engine_row(g->d->engine, i), SITE)] = true;
+      if (numbers && !pass) dyd_numbers_keep_off(&labels, b);
+      if (numbers && pass) dyd_numbers_put(&labels, g->canvas, b, 13, dyd_engine_row(g->d->engine, i));
+    }
+  dyd_numbers_clear(&labels);
+}
+
+static void voronoi_inside(dyd_canvas *c, void *context) {
   voronoi_drawing *g = context;
-  g->cr = cr;
-  dyd_picture_colour(cr, DYD_PICTURE_BAND);
-  cairo_paint(cr);
+  g->canvas = c;
+  dyd_view_frame_path(c, &g->view);
+  dyd_picture_fill(c, DYD_PICTURE_BAND);
   g->st = dyd_diagram_visit(g->d, voronoi_cell, g);
   if (g->st == DYD_OK) g->st = dyd_diagram_regions(g->d, voronoi_region, g);
   voronoi_vertices(g);
-  for (size_t i = 0; i < g->d->count; i++) {
-    double b[4];
-    dyd_sites_get_d(b, g->d->sites, i);
-    if (isfinite(b[0]) && isfinite(b[1]) && isfinite(b[2]) && isfinite(b[3]))
-      dyd_picture_site(cr, &g->view, b, dyd_sites_is_point(g->d->sites, i), SITE);
-  }
+  voronoi_sites(g);
 }
 
 dyd_status dyd_voronoi_picture(const dyd_output *o) {
@@ -119,6 +144,6 @@ dyd_status dyd_voronoi_picture(const dyd_output *o) {
   dyd_status st = dyd_view_fit(&g.view, g.window, dyd_view_spacing(g.d->pd, g.window), o->err);
   g.view.frame[0] = dyd_view_x(&g.view, g.window[0]), g.view.frame[1] = dyd_view_x(&g.view, g.window[1]);
   g.view.frame[2] = dyd_view_y(&g.view, g.window[3]), g.view.frame[3] = dyd_view_y(&g.view, g.window[2]);
-  if (st == DYD_OK) st = dyd_view_write(o, &g.view, voronoi_inside, voronoi_legend, &g);
+  if (st == DYD_OK) st = dyd_view_write(o, &g.view, "partial Voronoi diagram", voronoi_inside, voronoi_legend, &g);
   return g.st == DYD_OK ? st : g.st;
 }

@@ -152,7 +152,7 @@ def test_missing():
     assert whole.out.endswith('i,j,status\n' + numbers)
     result = run('delaunay', '--skip-missing', '-', stdin='NA 0\n0 0\n1 nan\n4 0\n0 4\n')
     assert result.out == 'i,j,status\n1,3,legal\n1,4,legal\n3,4,legal\n', result.out
-    expect(run('nearest', '--skip-missing', '-', '3', '0', stdin='NA 0\n0 0\n4 0\n'), 0, '^2,sure$')
+    expect(run('nearest', '--skip-missing', '-', '3', '0', stdin='NA 0\n0 0\n4 0\n'), 0, '^2,sure,1,1$')
     expect(run('disc', '--skip-missing', '-', stdin='0 0\nNA 0\n4 0\n0 4\n1 1\n'), 0,
            r'# orientation of 0 2 3: counter(.|\n)*^4,inside$')
     expect(run('delaunay', '--skip-missing', '-', stdin='NA 0\n0 log(0-pi)\n'), 1, '', r'-:2:3: ')
@@ -191,22 +191,25 @@ def test_radii_and_names():
     assert '# row 2, "id": "Käthe"\nv 8 0 0' in run('delaunay', *NAMES, '--format', 'obj', '-', stdin=NAMED).out
     vtk = run('delaunay', *NAMES, '--format', 'vtk', '-', stdin=NAMED).out
     assert 'row 1 3 long\n0\n2\n4\nid 1 3 string\nAnna;%20%22A%22\nK%C3%A4the\nx,y\n' in vtk
-    expect(run('nearest', *NAMES, '-', '7', '1', stdin=NAMED), 0, r'^i,status,id$\n^2,sure,Käthe$')
+    expect(run('nearest', *NAMES, '-', '7', '1', stdin=NAMED), 0, r'^i,status,lo,hi,id$\n^2,sure,.*,Käthe$')
     near = json.loads(run('nearest', *NAMES, '--format', 'json', '-', '7', '1', stdin=NAMED).out)
-    assert near['nearest'] == [{'i': 2, 'status': 'sure', 'id': 'Käthe'}] and near['aliases'] == [[3, 2]]
+    found, = near['nearest']
+    assert (found['i'], found['status'], found['id']) == (2, 'sure', 'Käthe') and near['aliases'] == [[3, 2]]
     expect(run('bisector', *NAMES, '-', stdin=NAMED), 0, 'id_far,id_near$(.|\n)*^2,0,.*,Käthe,"Anna; ""A"""$')
     cells = json.loads(run('voronoi', *NAMES, '--format', 'json', '-', stdin=NAMED).out)
     assert [(c['i'], c['id']) for c in cells['cells']] == [(0, 'Anna; "A"'), (2, 'Käthe'), (4, 'x,y')]
-    for form, first in (('csv', 'type'), ('wkt', 'WKT')):
-        text = run('voronoi', *NAMES, '--format', form, '-', stdin=NAMED).out
-        table = list(csv.reader(line for line in text.splitlines() if not line.startswith('#')))
-        assert table[0][0] == first and {len(row) for row in table} == {len(table[0])}, form
-        names = {tuple(row[-3:]) for row in table[1:] if row[0 if form == 'csv' else 1] in ('cell', 'surely nearest')}
-        assert names == {('Anna; "A"', '', ''), ('Käthe', '', ''), ('x,y', '', '')}, names
-        assert ['Anna; "A"', 'Käthe', 'x,y'] in [row[-3:] for row in table], form
-    shapes = json.loads(run('voronoi', *NAMES, '--format', 'geojson', '-', stdin=NAMED).out)['features']
-    assert [s['properties'] for s in shapes if s['properties']['kind'] == 'vertex'] == [
-        {'kind': 'vertex', 'sites': [0, 2, 4], 'id_i': 'Anna; "A"', 'id_j': 'Käthe', 'id_k': 'x,y'}]
+    for layer, ids in (('cells', ['id']), ('vertices', ['id_i', 'id_j', 'id_k']), ('edges', ['id_i', 'id_j'])):
+        for form in ('csv', 'wkt'):
+            text = run('voronoi', *NAMES, '--layer', layer, '--format', form, '-', stdin=NAMED).out
+            table = list(csv.DictReader(line for line in text.splitlines() if not line.startswith('#')))
+            names = {tuple(row[k] for k in ids) for row in table}
+            if layer == 'cells':
+                assert names == {('Anna; "A"',), ('Käthe',), ('x,y',)}, names
+            else:
+                assert ('Anna; "A"', 'Käthe', 'x,y')[:len(ids)] in names, names
+    shapes = json.loads(run('voronoi', *NAMES, '--layer', 'vertices', '--format', 'geojson', '-', stdin=NAMED).out)['features']
+    assert [[s['properties'][k] for k in ('i', 'j', 'k', 'id_i', 'id_j', 'id_k')] for s in shapes] == [
+        [0, 2, 4, 'Anna; "A"', 'Käthe', 'x,y']]
     far = {a['far'] for c in cells['cells'] for b in c['int']['chains'] for a in b['arcs'] if 'far' in a}
     assert far == {0, 2, 4}, far
     odd = run('delaunay', '--columns', 'x,y', '--id', 'n', '--format', 'json', '-', stdin=b'x,y,n\n1,2,"a\xff""\\\x01"\n')

@@ -7,25 +7,29 @@ Usage: test_nearest.py COMMAND DATA
 import csv
 import json
 import os
+import random
 import re
-import xml.etree.ElementTree
+import tempfile
+from fractions import Fraction
 
+import svg
 from harness import DATA, expect, main, run
 
 SITES = '0 0\n2*sqrt(2) 0\n0 10\n0 0\n10 10\n'
-ALIAS = r'\A# alias 3 0\ni,status\n'
+HEAD = r'# rounding: lo down, hi up; empty: beyond doubles\ni,status,lo,hi\n'
+ALIAS = r'\A# alias 3 0\n' + HEAD
 
 # (options, X, Y, exit status, standard output, standard error)
 CASES = [
-    ('', '1', '1', 0, ALIAS + r'0,sure\n\Z', r'\A\Z'),
-    ('', '-1', '-22/7', 0, ALIAS + r'0,sure\n\Z', r'\A\Z'),
-    ('', 'sqrt(2)', 'pi', 4, ALIAS + r'0,possible\n1,possible\n\Z', r'\Adyadel: budget: 2 possibly nearest; .*--max-bits'),
-    ('--quiet', 'sqrt(2)', 'pi', 4, ALIAS + r'0,possible\n1,possible\n\Z', r'\A\Z'),
-    ('', 'sqrt(2)+2^-3000', 'pi', 0, ALIAS + r'1,sure\n\Z', r'\A\Z'),
-    ('--max-bits 2000', 'sqrt(2)+2^-3000', 'pi', 4, ALIAS + r'0,possible\n1,possible\n\Z', ''),
-    ('', '5', '123/7', 3, ALIAS + r'2,possible\n4,possible\n\Z', r'\Adyadel: fixpoint: 2 possibly nearest'),
-    ('', '[0,1]', '5', 3, ALIAS + r'0,possible\n2,possible\n\Z', ''),
-    ('', '0.5+-0.25', '1', 0, ALIAS + r'0,sure\n\Z', ''),
+    ('', '1', '1', 0, ALIAS + r'0,sure,\S+\n\Z', r'\A\Z'),
+    ('', '-1', '-22/7', 0, ALIAS + r'0,sure,\S+\n\Z', r'\A\Z'),
+    ('', 'sqrt(2)', 'pi', 4, ALIAS + r'0,possible,\S+\n1,possible,\S+\n\Z', r'\Adyadel: budget: 2 possibly nearest; .*--max-bits'),
+    ('--quiet', 'sqrt(2)', 'pi', 4, ALIAS + r'0,possible,\S+\n1,possible,\S+\n\Z', r'\A\Z'),
+    ('', 'sqrt(2)+2^-3000', 'pi', 0, ALIAS + r'1,sure,\S+\n\Z', r'\A\Z'),
+    ('--max-bits 2000', 'sqrt(2)+2^-3000', 'pi', 4, ALIAS + r'0,possible,\S+\n1,possible,\S+\n\Z', ''),
+    ('', '5', '123/7', 3, ALIAS + r'2,possible,\S+\n4,possible,\S+\n\Z', r'\Adyadel: fixpoint: 2 possibly nearest'),
+    ('', '[0,1]', '5', 3, ALIAS + r'0,possible,\S+\n2,possible,\S+\n\Z', ''),
+    ('', '0.5+-0.25', '1', 0, ALIAS + r'0,sure,\S+\n\Z', ''),
     ('', '1+', '2', 2, r'\A\Z', r'\Adyadel: X "1\+", column 3: '),
     ('', '1', 'log(0)', 2, r'\A\Z', r'\Adyadel: Y "log\(0\)", column 1: '),
     ('', '1', 'log(sqrt(2)-sqrt(2))', 1, r'\A\Z', r'\Adyadel: .*log'),
@@ -46,14 +50,14 @@ def test_arguments():
     expect(run('nearest', '-', '1', stdin=SITES), 2, r'\A\Z', 'an argument is missing')
     expect(run('nearest', '-', '1', '2', '3', stdin=SITES), 2, r'\A\Z', 'one argument too many')
     expect(run('nearest', 'nowhere', '1', '2'), 1, r'\A\Z', 'nowhere: cannot open')
-    expect(run('nearest', '-', '1', '2', stdin=''), 3, r'\Ai,status\n\Z', 'fixpoint: 0 possibly')
+    expect(run('nearest', '-', '1', '2', stdin=''), 3, r'\A' + HEAD + r'\Z', 'fixpoint: 0 possibly')
 
 
 def test_measured():
     """A rectangle at each site: the two are as near as each other to the middle, and not elsewhere."""
-    expect(run('nearest', '--measured', '-', '5', '0', stdin='0 0\n10 0\n'), 3, r'\Ai,status\n0,possible\n1,possible\n\Z')
-    expect(run('nearest', '--measured', '-', '4', '0', stdin='0 0\n10 0\n'), 0, r'\Ai,status\n0,sure\n\Z')
-    expect(run('nearest', '--radius', '2', '-', '4', '0', stdin='0 0\n10 0\n'), 3, r'\Ai,status\n0,possible\n1,')
+    expect(run('nearest', '--measured', '-', '5', '0', stdin='0 0\n10 0\n'), 3, HEAD + r'0,possible,\S+\n1,possible,\S+\n\Z')
+    expect(run('nearest', '--measured', '-', '4', '0', stdin='0 0\n10 0\n'), 0, HEAD + r'0,sure,\S+\n\Z')
+    expect(run('nearest', '--radius', '2', '-', '4', '0', stdin='0 0\n10 0\n'), 3, HEAD + r'0,possible,\S+\n1,')
 
 
 def test_json():
@@ -62,30 +66,26 @@ def test_json():
     answer = json.loads(result.out)
     assert answer['format'] == 'dyadel nearest 1' and answer['outcome'] == 'decided', answer
     assert answer['x'] == ['1/3', '1/3'] and answer['y'] == ['1*2^-1', '1*2^-1'], answer
-    assert answer['nearest'] == [{'i': 0, 'status': 'sure'}] and answer['aliases'] == [[3, 0]], answer
+    nearest, = answer['nearest']
+    assert nearest['i'] == 0 and nearest['status'] == 'sure' and answer['aliases'] == [[3, 0]], answer
+    low, high = nearest['distance']
+    assert Fraction(low)**2 <= Fraction(13, 36) <= Fraction(high)**2 and high - low < 1e-15, nearest
 
 
 def svg_of(*args, stdin):
     result = run('nearest', '--format', 'svg', *args, stdin=stdin)
-    return result, xml.etree.ElementTree.fromstring(result.out)
-
-
-def fills(root):
-    """Whether cairo writes them as attributes or within styles."""
-    text = xml.etree.ElementTree.tostring(root, encoding='unicode')
-    return {rgb.replace(' ', '') for rgb in re.findall(r'fill(?:="|: ?)(rgb\([^)]*\))', text)}
+    return result, {p.look['fill'] for p in svg.paths(result.out)}
 
 
 def test_picture():
     """Sure ones are blue, possible ones vermillion, the band is there when it has an area."""
-    blue, vermillion = 'rgb(0%,44.705882%,69.803922%)', 'rgb(83.529412%,36.862745%,0%)'
-    band = 'rgb(90.196078%,62.352941%,0%)'
-    result, root = svg_of('-', '1', '1', stdin=SITES)
+    blue, vermillion, band = '#0072b2', '#d55e00', '#e69f00'
+    result, fills = svg_of('-', '1', '1', stdin=SITES)
     expect(result, 0, '', r'\A\Z')
-    assert blue in fills(root) and vermillion not in fills(root), fills(root)
-    result, root = svg_of('--radius', '2', '-', '5', '0', stdin='0 0\n10 0\n')
+    assert blue in fills and vermillion not in fills, fills
+    result, fills = svg_of('--radius', '2', '-', '5', '0', stdin='0 0\n10 0\n')
     expect(result, 3, '', 'fixpoint: 2 possibly nearest')
-    assert {vermillion, band} <= fills(root), fills(root)
+    assert {vermillion, band} <= fills, fills
     for text, x, y, code in (('', '0', '0', 3), ('1 1\n', '1', '1', 0), ('[0,9] [0,9]\n1 1\n', '[2,3]', '4', 3),
                              ('1e-300 0\n-1e-300 0\n', '0', '1', 3)):
         result = run('nearest', '--quiet', '--format', 'svg', '-', x, y, stdin=text)
@@ -123,7 +123,102 @@ def test_airports():
     for x, y in [('-75.5', '40.25'), ('-150', '61.2'), ('0', '0'), ('-98.35', '39.5')]:
         away = [(px - whole(x)) ** 2 + (py - whole(y)) ** 2 for px, py in sites]
         nearest = away.index(min(away))
-        expect(run('nearest', '--columns', 'longitude,latitude', path, x, y), 0, rf'^{nearest},sure\n\Z')
+        expect(run('nearest', '--columns', 'longitude,latitude', path, x, y), 0, rf'^{nearest},sure,\S+\n\Z')
+
+
+# ---- many places ----
+
+def rows(text):
+    return list(csv.DictReader(line for line in text.splitlines() if not line.startswith('#')))
+
+
+def ask(places, *options, points, code=0):
+    """One run for all places; standard input has the points."""
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, 'places')
+        with open(name, 'w', encoding='utf-8') as f:
+            f.write(places)
+        result = run('nearest', '--queries', name, *options, '-', stdin=points)
+    expect(result, code)
+    return result
+
+
+def test_places_agree_with_single_questions():
+    """Places of all forms: each answer is that of a run of its own, when points need no refinement."""
+    places = ['1 1', '5 123/7', '[0,1] 5', '0.5+-0.25 1', '[-20,20] [-20,20]', '1e3 -1e3', '1*2^-70 5']
+    points = '0 0\n3 0\n0 10\n0 0\n10 10\n'
+    many = rows(ask('# places\n' + '\n'.join(places) + '\n', points=points, code=3).out)
+    assert {int(r['q']) for r in many} == set(range(len(places)))
+    for q, place in enumerate(places):
+        alone = rows(run('nearest', '--quiet', '-', *place.split(), stdin=points).out)
+        assert alone == [{k: r[k] for k in ('i', 'status', 'lo', 'hi')} for r in many if r['q'] == str(q)], place
+
+
+def test_places_against_all_distances():
+    """Exact points and places: brute force, ties included; bounds of the distance hold and are sharp."""
+    chance = random.Random(5)
+    points = [(chance.randrange(40), chance.randrange(40)) for _ in range(150)]
+    places = [(Fraction(chance.randrange(160), 4), Fraction(chance.randrange(160), 4)) for _ in range(300)]
+    text = ''.join(f'{x} {y}\n' for x, y in places)
+    result = ask(text, points=''.join(f'{x} {y}\n' for x, y in points), code=3)
+    found = {}
+    for r in rows(result.out):
+        found.setdefault(int(r['q']), []).append(r)
+    ties = 0
+    for q, (x, y) in enumerate(places):
+        square = [(x - a)**2 + (y - b)**2 for a, b in points]
+        least = min(square)
+        nearest = {points[i]: i for i in reversed(range(len(points))) if square[i] == least}  # aliases: the lowest
+        assert sorted(nearest.values()) == [int(r['i']) for r in found[q]], (q, x, y)
+        ties += len(nearest) > 1
+        for r in found[q]:
+            assert r['status'] == ('sure' if len(nearest) == 1 else 'possible'), r
+            low, high = Fraction(r['lo']), Fraction(r['hi'])
+            assert low**2 <= least <= high**2 and high - low <= Fraction(1, 10**14), r
+    assert ties and f'fixpoint: {ties} of 300 places have no sure nearest point' in result.err, (ties, result.err)
+
+
+def test_places_as_json():
+    result = ask('1 1\nsqrt(3) 1/3\n', '--format', 'json', points=SITES)
+    answer = json.loads(result.out)
+    assert answer['format'] == 'dyadel nearest places 1' and answer['outcome'] == 'decided', answer
+    assert [p['q'] for p in answer['places']] == [0, 1] and answer['aliases'] == [[3, 0]]
+    assert answer['places'][0]['x'] == ['1', '1'] and answer['places'][1]['nearest'][0]['status'] == 'sure'
+
+
+def test_refined_places():
+    """Points and places narrow until each is sure; a budget leaves the others as they are."""
+    places = 'sqrt(2)+2^-3000 pi\nsqrt(2) pi\n1 1\n'
+    many = rows(ask(places, points=SITES, code=4).out)
+    assert [(r['q'], r['i'], r['status']) for r in many] == [
+        ('0', '1', 'sure'), ('1', '0', 'possible'), ('1', '1', 'possible'), ('2', '0', 'sure')], many
+
+
+def test_wrong_places():
+    expect(run('nearest', '--queries', '-', '-', stdin='1 1\n'), 2, r'\A\Z', 'cannot both come from standard input')
+    expect(run('nearest', '--queries', 'nowhere', '-', stdin='1 1\n'), 1, r'\A\Z', 'nowhere: cannot open')
+    expect(run('nearest', '--queries', 'nowhere', '-', '1', stdin='1 1\n'), 2, r'\A\Z', 'give dyadel nearest FILE$')
+    expect(ask('1 1\n1\n', points='1 1\n', code=1), 1, r'\A\Z', r'places:2:2: ')
+    expect(ask('1 1\nlog(sqrt(2)-sqrt(2)) 0\n', points='1 1\n', code=1), 1, '', 'place 1 of .*places: .*log')
+    expect(ask('', points='1 1\n'), 0, r'\nq,i,status,lo,hi\n\Z', r'\A\Z')
+    expect(ask('1 1\n', points='', code=3), 3, r'\nq,i,status,lo,hi\n\Z', '1 of 1 places have no sure nearest point')
+
+
+def test_hundred_thousand_places():
+    """One triangulation answers them all; each found airport is nearer than its neighbours in the file."""
+    chance = random.Random(1)
+    places = [(round(chance.uniform(-125, -67), 4), round(chance.uniform(25, 49), 4)) for _ in range(100000)]
+    with open(os.path.join(DATA, 'airports.csv'), encoding='utf-8') as f:
+        airports = [(float(r['longitude']), float(r['latitude'])) for r in csv.DictReader(f)]
+        f.seek(0)
+        text = f.read()
+    found = rows(ask(''.join(f'{x} {y}\n' for x, y in places), '--quiet', '--columns', 'longitude,latitude',
+                     points=text).out)
+    assert [int(r['q']) for r in found] == list(range(100000))
+    for q in range(0, 100000, 997):
+        x, y = places[q]
+        least = min((x - a)**2 + (y - b)**2 for a, b in airports)
+        assert float(found[q]['lo'])**2 <= least * (1 + 1e-12) and least <= float(found[q]['hi'])**2 * (1 + 1e-12)
 
 
 main(globals())

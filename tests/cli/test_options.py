@@ -28,14 +28,16 @@ WRONG = {
     '--of': ('', 'Voronoi', 'both'),
     '--ties': ('', 'on', 'Prove', 'off '),
     '--format': ('', 'gif', 'CSV', 'csv,json'),
+    '--layer': ('', 'edge', 'Points', 'pairs,points'),
+    '--crs': ('', '4326', 'EPSG', 'EPSG:', 'EPSG:0', 'EPSG:x', 'EPSG:1000000', 'epsg 4326'),
     '--window': ('', '0,1,0', '0,1,0,1,2', '0,1,0,x', '0,1,0,pi', '0,1,,1', '0,1,0,1,', '1,0,0,1', '0,1,2,1', '1,1,0,1',
                  '0,1,2,2', '[0,1],0,1,2'),
     '--plot': ('', 'plot', 'plot.gif', 'png'),
     '--help': ('fish', 'MAN'),
 }
-RIGHT = {'--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--until': 'decided'}
+RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--until': 'decided'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
-TEXTS = {'--columns', '--delimiter', '--id', '--points', '--radius', '--radius-column', '--oracle', '--output', '--trace',
+TEXTS = {'--queries', '--columns', '--delimiter', '--id', '--points', '--radius', '--radius-column', '--oracle', '--output', '--trace',
          '--replay', '--certificate'}
 
 

@@ -10,9 +10,9 @@ import math
 import os
 import re
 import tempfile
-import xml.etree.ElementTree
 from fractions import Fraction
 
+import svg
 from harness import expect, main, run
 
 FIGURE_4 = '[0,1] [0,2]\n[3,5] [5,6]\n'
@@ -138,25 +138,13 @@ def test_disc_without_orientation():
     assert data['circles'] == [] and data['partial_centre'] is None and data['outcome'] == 'fixpoint'
 
 
-CURVE = (0, 114, 178)  # what lines, parabolas, circles and dots are drawn with
-
-
-def style(element):
-    """Attributes, whether they stand alone or in a style, as versions of cairo differ."""
-    pairs = (p.split(':', 1) for p in element.get('style', '').split(';') if ':' in p)
-    return {**element.attrib, **{k.strip(): v for k, v in pairs}}
+CURVE = '#0072b2'  # what lines, parabolas, circles and dots are drawn with
 
 
 def strokes(text):
     """The curves of a picture, legend included, as (dashed?, path)."""
     assert 'nan' not in text and 'inf' not in text
-    found = []
-    for e in xml.etree.ElementTree.fromstring(text).iter():
-        look = style(e)
-        colour = re.findall(r'[0-9.]+', look.get('stroke', ''))
-        if e.tag.endswith('}path') and tuple(round(float(c) * 2.55) for c in colour) == CURVE:
-            found.append((look.get('stroke-dasharray', 'none') != 'none', e.get('d')))
-    return found
+    return [('stroke-dasharray' in p.look, p.look['d']) for p in svg.paths(text) if p.look.get('stroke') == CURVE]
 
 
 def picture(command, text):
@@ -166,20 +154,20 @@ def picture(command, text):
 
 
 def round_dots(curves):
-    return [d for dashed, d in curves if not dashed and 'C' in d]
+    return [d for dashed, d in curves if not dashed and 'A' in d]
 
 
 def test_svg_of_bisector():
     table = rows(run('bisector', '-', stdin=FIGURE_4).out)
     curves = picture('bisector', FIGURE_4)
     dashed = [d for dash, d in curves if dash]
-    full = [d for dash, d in curves if not dash and 'C' not in d]
+    full = [d for dash, d in curves if not dash and 'A' not in d]
     parabolas = [r for r in table if r['kind'] == 'parabola']
     assert sum('C' in d for d in dashed) == len(parabolas) and len(dashed) == len(parabolas) + 1, dashed
     assert len(full) == len(table) - len(parabolas) + 1, full
     dots = sum(r['begin'] != 'infinite' for r in table)
     assert len(round_dots(curves)) == dots + 2, curves
-    assert len(picture('bisector', '0 0\n0 0\n')) == 2  # the legend
+    assert not picture('bisector', '0 0\n0 0\n')  # nothing, also in the legend
     far = run('bisector', '--format', 'svg', '-', stdin='0 0\n1*2^100000 0\n')
     expect(far, 1, r'\A\Z', 'too far apart')
 
@@ -187,7 +175,7 @@ def test_svg_of_bisector():
 def test_svg_of_disc():
     text = '[0,1] 0\n4 [0,1]\n[0,1] 4\n2 2\n20 20\n'
     curves = picture('disc', text)
-    assert sum(dash and 'C' in d for dash, d in curves) == 3, curves
+    assert sum(dash and 'A' in d for dash, d in curves) == 3, curves
     assert len(round_dots(curves)) == 3 + 6 + 2, curves
     assert not round_dots(picture('disc', '0 0\n1 1\n2 2\n3 0\n'))
     flat = picture('disc', '0 0\n1 0\n2 1*2^-20\n3 0\n')  # large circles: the parts in the picture

@@ -80,7 +80,10 @@ def test_without_proofs():
 
 def test_aliases():
     for one, other in (('sqrt(8)', '2*sqrt(2)'), ('cbrt(2+sqrt(5))+cbrt(2-sqrt(5))', '1'), ('pi+e', 'e+pi'),
-                       ('2*sin(pi/6)', '1'), ('sqrt(2)*sqrt(2)', '2'), ('root(x^4-10*x^2+1,3,4)', 'sqrt(2)+sqrt(3)')):
+                       ('2*sin(pi/6)', '1'), ('sqrt(2)*sqrt(2)', '2'), ('root(x^4-10*x^2+1,3,4)', 'sqrt(2)+sqrt(3)'),
+                       ('root(x^2-2,1,2)+1', 'root(x^2-2,1,2)+1'), ('root(x^2-2,1,2)+1', 'sqrt(2)+1'),
+                       ('root(x^2-2,1,2)+1', '1+root(x^2-2,1,3/2)'), ('root(x^5-x-1,1,2)^5', '1+root(x^5-x-1,0,2)'),
+                       ('root(x^2-2,1,2)*root(x^2-3,1,2)', 'sqrt(6)')):
         points = f'{one} 0\n10 10\n{other} 0\n-9 4\n'
         expect(run('delaunay', '-', stdin=points), 0, r'\A# alias 2 0\ni,j,status\n0,1,legal\n0,3,legal\n1,3,legal\n\Z')
         expect(run('voronoi', '-', stdin=points), 0, '^# alias 2 0$')
@@ -100,7 +103,10 @@ def test_nothing_is_claimed():
     """Equal values, of which nobody knows why; wrong branches; other roots."""
     for one, other, code in (('pi', '4*atan(1)', 4), ('exp(sqrt(2))*exp(sqrt(3))', 'exp(sqrt(2)+sqrt(3))', 4),
                              ('sqrt(6)', '-sqrt(2)*sqrt(3)', 0), ('root((x^2-2)*(x^2-3),1,3/2)', 'sqrt(3)', 0),
-                             ('sqrt(2)', 'sqrt(2+2^-3000)', 0)):
+                             ('root(x^2-2,1,2)+1', 'root(x^2-3,1,2)+1', 0),
+                             ('root(x^2-2,1,2)+1', 'root(x^2-2,-2,-1)+1', 0),
+                             ('root(x^5-x-1,1,2)+1', 'root(x^5-x-2,1,2)+1', 0),
+                             ('root(x^5-x-1,1,2)-root(x^5-x-2,1,2)', '-1/10', 0), ('sqrt(2)', 'sqrt(2+2^-3000)', 0)):
         result = run('delaunay', '-', stdin=f'{one} 0\n{other} 0\n0 10\n0 -11\n')
         expect(result, code)
         assert 'alias' not in result.out and 'tie' not in result.out, (one, other)

@@ -91,7 +91,7 @@ def test_exit_of_goals():
 
 def test_small_budget():
     result = run('voronoi', '--max-bits', '8', '--until', 'hausdorff:60', '-', stdin=ROOTS)
-    expect(result, 4, '^cell,5,', '^dyadel: budget: .*raise --max-bits')
+    expect(result, 4, '^5,', '^dyadel: budget: .*raise --max-bits')
     bound = re.search('^# distance_to_true_diagram,(.*)$', result.out, re.M).group(1)
     assert Fraction(1, 2**60) < Fraction(bound) < 1, bound
 
@@ -142,7 +142,7 @@ def test_windows_of_unequal_sides():
         comments, rows = table(run('voronoi', '--quiet', '-', stdin=text, timeout=60).out)
         ends = [number(t) for c in comments if c.startswith('# window ') for t in c.split()[2:]]
         area = (ends[1] - ends[0]) * (ends[3] - ends[2])
-        cells = [r for r in rows if r['type'] == 'cell']
+        cells = rows
         assert len(cells) == 5 and all(float(r['area_hi']) < 1.5 * area for r in cells), cells
         assert any(float(r['area_lo']) > 0 for r in cells), cells
 
@@ -151,9 +151,9 @@ def test_windows_of_unequal_sides():
 
 def regions(points, *options):
     """The window, and the boxes of the regions."""
-    comments, rows = table(run('voronoi', '--quiet', *options, '-', stdin=points).out)
+    comments, rows = table(run('voronoi', '--quiet', '--layer', 'regions', *options, '-', stdin=points).out)
     window = [float(number(t)) for c in comments if c.startswith('# window ') for t in c.split()[2:]]
-    return window, [[float(r[k]) for k in ('xlo', 'xhi', 'ylo', 'yhi')] for r in rows if r['type'] == 'region']
+    return window, [[float(r[k]) for k in ('xlo', 'xhi', 'ylo', 'yhi')] for r in rows]
 
 
 def test_regions_of_tracks_are_small():
@@ -179,15 +179,15 @@ def test_region_of_a_square():
 def test_boxes_are_clipped():
     """Enclosures of vertices beyond the window are left out of maps, others end at its sides."""
     points = ''.join(f'{x}+-0.01 {y}+-0.01\n' for x, y in ((0, 0), (4, 0), (8, 0.25), (2, 3), (6, 3.5), (3, 6)))
-    everywhere, inside = (run('voronoi', '--quiet', '--window', w, '--format', 'geojson', '-', stdin=points).out
-                          for w in ('-99,99,-99,99', '2,6,1,1.875'))
-    count = []
-    for text, (xlo, xhi, ylo, yhi) in ((everywhere, (-99, 99, -99, 99)), (inside, (2, 6, 1, 1.875))):
-        boxes = [f['geometry']['coordinates'][0] for f in json.loads(text)['features']
-                 if f['properties']['kind'] in ('vertex', 'undecided region')]
-        assert all(xlo <= x <= xhi and ylo <= y <= yhi for box in boxes for x, y in box), boxes
-        count.append(len(boxes))
-    assert count[0] > count[1] > 0, count
+    for layer in ('vertices', 'regions'):
+        count = []
+        for w, (xlo, xhi, ylo, yhi) in (('-99,99,-99,99', (-99, 99, -99, 99)), ('2,6,1,1.875', (2, 6, 1, 1.875))):
+            text = run('voronoi', '--quiet', '--window', w, '--layer', layer, '--format', 'geojson', '-', stdin=points).out
+            found = [f['properties'] for f in json.loads(text)['features']]
+            assert all(xlo <= b['xlo'] <= b['xhi'] <= xhi and ylo <= b['ylo'] <= b['yhi'] <= yhi for b in found), found
+            count.append(len(found))
+        assert count[0] > count[1] or layer == 'regions', count
+        assert count[1] > 0 or layer == 'regions', count
 
 
 # ---- the distance where rectangles crowd ----
@@ -235,7 +235,7 @@ def test_coincident_points():
     assert data['aliases'] == [[2, 0], [4, 1], [5, 0]], data['aliases']
     assert [c['i'] for c in data['cells']] == [0, 1, 3] and len(data['vertices']) == 1
     comments, rows = table(run('voronoi', '-', stdin='0 0\n1 1\n0 0\n').out)
-    assert '# alias 2 0' in comments and [r['i'] for r in rows if r['type'] == 'cell'] == ['0', '1']
+    assert '# alias 2 0' in comments and [r['i'] for r in rows] == ['0', '1']
     result, data = decided('1/3 1/7\n' * 5)
     expect(result, 0)
     assert len(data['cells']) == 1 and len(data['aliases']) == 4
@@ -350,10 +350,11 @@ def outputs(*options):
 
 def check_csv(text):
     _, rows = table(text)
-    assert [r['type'] for r in rows].count('cell') == 12 and [r['type'] for r in rows].count('region') == 1
+    assert [r['i'] for r in rows] == [str(k) for k in range(12)]
     for r in rows:
         assert Fraction(r['xlo']) <= Fraction(r['xhi']) and Fraction(r['ylo']) <= Fraction(r['yhi'])
-        assert r['type'] != 'cell' or Fraction(r['area_lo']) <= Fraction(r['area_hi'])
+        low, high = Fraction(r['area_lo']), Fraction(r['area_hi'])
+        assert low <= high and 1 - low / high - Fraction(1, 10**15) <= Fraction(r['undetermined']) <= 1
 
 
 def check_geojson(text):
@@ -382,6 +383,7 @@ def check_vtk(text):
     assert [next(lines), next(lines)] == ['ASCII', 'DATASET POLYDATA']
     count = int(re.fullmatch(r'POINTS (\d+) double', next(lines)).group(1))
     assert all(len([float(t) for t in next(lines).split()]) == 3 for _ in range(count))
+    # Twelve cells twice and the one undecided region, the centre; no vertex is sure.
     cells, size = map(int, re.fullmatch(r'POLYGONS (\d+) (\d+)', next(lines)).groups())
     for _ in range(cells):
         indices = [int(t) for t in next(lines).split()]
@@ -390,6 +392,8 @@ def check_vtk(text):
     assert size == 0 and next(lines) == f'CELL_DATA {cells}'
     rest = list(lines)
     assert rest.count('LOOKUP_TABLE default') == 2 and len(rest) == 2 * cells + 4
+    kinds = rest[rest.index('SCALARS kind int 1') + 2:]
+    assert sorted(kinds) == ['0'] * 12 + ['1'] * 12 + ['3'], kinds
 
 
 def test_formats():
@@ -458,7 +462,7 @@ def test_airports_on_a_window():
     result = run('voronoi', '--quiet', '--columns', 'longitude,latitude', '--window=-100,-84,30,46',
                  os.path.join(DATA, 'airports.csv'))
     comments, rows = table(result.out)
-    cells = [r for r in rows if r['type'] == 'cell']
+    cells = rows
     low, high = (math.fsum(float(r[k]) for r in cells) for k in ('area_lo', 'area_hi'))
     assert result.code in (0, 3) and len(cells) > 100 and low < 256 < high, (result.code, len(cells), low, high)
     assert [c for c in comments if c.startswith('# window ')] == ['# window -100 -84 30 46'], comments

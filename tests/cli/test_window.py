@@ -7,8 +7,8 @@ Usage: test_window.py COMMAND DATA
 import os
 import re
 import tempfile
-import xml.etree.ElementTree
 
+import svg
 from harness import DATA, count, expect, main, run
 
 AIRPORTS = (os.path.join(DATA, 'airports.csv'), '--columns', 'longitude,latitude', '--radius', '0.05')
@@ -19,30 +19,14 @@ POINTS = '0 0\n10 0\n[4.9,5.1] [7,8]\n5 -30\n'
 def picture(text, *options, command='delaunay', code=(0, 3)):
     result = run(command, '-', '--format', 'svg', '--quiet', *options, stdin=text)
     assert result.code in code, result
-    xml.etree.ElementTree.fromstring(result.out)
+    svg.elements(result.out)
     assert 'nan' not in result.out and 'inf' not in result.out
     return result.out
 
 
-def shapes(svg):
-    """Attributes d of what is drawn, glyphs and clips aside, as lists of numbers."""
-    drawn = re.sub(r'<defs>.*?</defs>|<clipPath.*?</clipPath>', '', svg, flags=re.S)
-    return [[float(t) for t in re.findall(r'-?[\d.]+', d)] for d in re.findall(r'<path[^>]* d="([^"]*)"', drawn)]
-
-
-def clips(svg):
-    """Clipping boxes: x lower, x upper, y lower, y upper."""
-    boxes = []
-    for clip in re.findall(r'<clipPath[^>]*>(.*?)</clipPath>', svg, re.S):
-        path, box = re.search(r' d="([^"]*)"', clip), re.search(r'<rect ([^>]*)>', clip)
-        if path:
-            n = [float(t) for t in re.findall(r'-?[\d.]+', path[1])]
-            boxes.append((min(n[::2]), max(n[::2]), min(n[1::2]), max(n[1::2])))
-        elif box:
-            a = {k: float(v) for k, v in re.findall(r'(\w+)="(-?[\d.]+)"', box[1])}
-            x, y = a.get('x', 0), a.get('y', 0)
-            boxes.append((x, x + a['width'], y, y + a['height']))
-    return boxes
+def shapes(text):
+    """What is drawn, clips aside, as lists of numbers."""
+    return [svg.numbers(path) for path in svg.paths(text)]
 
 
 def near(a, b):
@@ -76,32 +60,32 @@ def test_certificate_does_not_change():
 def test_frame_is_the_window():
     # Two units are 1000 points: the x axis is the middle line, cut a little outside of the frame.
     part = picture(POINTS, '--window', '4,6,-1,1')
-    assert any(near(box, (30, 1030, 30, 1030)) for box in clips(part)), clips(part)
+    assert near(svg.frame(part), (90, 1090, 30, 1030)), svg.frame(part)
     ends = [s for s in shapes(part) if len(s) == 4 and near(s[1::2], (530, 530)) and s[2] - s[0] > 500]
-    assert ends and all(s[0] <= 30 and s[2] >= 1030 for s in ends), shapes(part)
+    assert ends and all(s[0] <= 90 and s[2] >= 1090 for s in ends), shapes(part)
     assert shapes(part) != shapes(picture(POINTS))
     # Half as high as wide: the page is lower, the frame too.
-    assert any(near(box, (30, 1030, 30, 530)) for box in clips(picture(POINTS, '--window', '4,6,-1/2,1/2')))
+    assert near(svg.frame(picture(POINTS, '--window', '4,6,-1/2,1/2')), (90, 1090, 30, 530))
     # Narrow: in the middle of a page that has room for the legend.
-    assert any(near(box, (300, 400, 30, 1030)) for box in clips(picture(POINTS, '--window', '4.9,5.1,-1,1')))
+    assert near(svg.frame(picture(POINTS, '--window', '4.9,5.1,-1,1')), (360, 460, 30, 1030))
 
 
 def test_rectangle_is_where_it_should_be():
     # [4.9,5.1] x [7,8] on a window of 2 x 2 about (5,7.5): 100 x 500 points.
     part = picture(POINTS, '--window', '4,6,6.5,8.5')
     boxes = [(min(s[::2]), max(s[::2]), min(s[1::2]), max(s[1::2])) for s in shapes(part) if len(s) >= 8]
-    assert any(near(box, (480, 580, 280, 780)) for box in boxes), boxes
+    assert any(near(box, (540, 640, 280, 780)) for box in boxes), boxes
 
 
 def test_nothing_is_drawn_far_outside():
-    # Numbers of cairo end at 2^23 points: what lies farther would come back on the other side.
+    # Numbers of cairo end at 2^23 pixels: what lies farther would come back on the other side.
     text = POINTS + '[20000,20001] [-20000,20000]\n1e5 1e5\n'
     windows = ['4,6,-1,1', '4.999,5.001,-0.001,0.001', '5,5+2e-5,0,2e-5', '4.9,4.9+2e-5,7,7+2e-5', '99999,100001,99999,100001']
     for window in windows:
         for shape in shapes(picture(text, '--window', window)):
             assert all(-120 <= t <= 1200 for t in shape), (window, shape)
-    svg = picture('1/2 1/2\n[9000,9001] [-20000,20000]\n', '--window', '0,1,0,1', command='voronoi', code=(0, 3, 4))
-    assert all(-120 <= t <= 1200 for shape in shapes(svg) for t in shape)
+    part = picture('1/2 1/2\n[9000,9001] [-20000,20000]\n', '--window', '0,1,0,1', command='voronoi', code=(0, 3, 4))
+    assert all(-120 <= t <= 1200 for shape in shapes(part) for t in shape)
 
 
 def test_empty_place_and_no_points():

@@ -145,9 +145,22 @@ static bool same_list(char *message, const char *what, const dyd_index_list *l, 
   return at == l->count || wrong(message, "the %s vertices are not ascending", what);
 }
 
+/* The vertices by themselves are those of the whole answer. */
+static void assert_vertices(const dyd_hull *hull, const dyd_delaunay *pd) {
+  dyd_index_list list[2] = {{0}, {0}};
+  const dyd_index_list *should[2] = {&hull->sure_vertices, &hull->possible_vertices};
+  assert_int_equal(dyd_delaunay_hull_vertices(&list[0], &list[1], pd), DYD_OK);
+  for (int k = 0; k < 2; k++) {
+    assert_int_equal(list[k].count, should[k]->count);
+    for (size_t q = 0; q < list[k].count; q++) assert_int_equal(list[k].item[q], should[k]->item[q]);
+    dyd_index_list_clear(&list[k]);
+  }
+}
+
 static bool hull_right(char *message, orc_pool *p, const orc_case *c, const dyd_delaunay *pd) {
   dyd_hull hull = {0};
   assert_int_equal(dyd_delaunay_partial_hull(&hull, pd), DYD_OK);
+  assert_vertices(&hull, pd);
   bool sure[ORC_MAX], possible[ORC_MAX], good = true;
   for (size_t i = 0; i < c->n; i++) {
     visitor v = {p, c, i, i, false};
@@ -306,14 +319,45 @@ static void test_cap(void **state) {
   assert_int_equal(hull.pairs.count, 0);
   assert_int_equal(hull.possible_vertices.count, 61);
   assert_int_equal(hull.sure_vertices.count, 3);
+  assert_vertices(&hull, pd);
   dyd_hull_clear(&hull);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);
 }
 
+/* The vertices do not wait for the pairs: all N^2 / 2 of them on a line, N^2 / 4 of wide boxes. */
+static void run_vertices(size_t n, bool line, size_t sure, size_t possible) {
+  dyd_sites *s = NULL;
+  dyd_delaunay *pd = NULL;
+  dyd_index_list list[2] = {{0}, {0}};
+  assert_int_equal(dyd_sites_new(&s), DYD_OK);
+  for (size_t i = 0; i < n; i++) {
+    double x = (double)(i * 7919 % n), y = line ? 0 : 1e9 * (double)(i % 2), x1 = line ? x : x + (double)n;
+    dyd_sites_add_boxes(s, 1, &x, &x1, &y, &y);
+  }
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = 9};
+  assert_true(dyd_delaunay_new(&pd, s, &o, NULL) >= 0);
+  clock_t begun = clock();
+  assert_int_equal(dyd_delaunay_hull_vertices(&list[0], &list[1], pd), DYD_OK);
+  double seconds = (double)(clock() - begun) / CLOCKS_PER_SEC;
+  fprintf(stderr, "# %zu: %zu sure, %zu possible vertices, %.3f s\n", n, list[0].count, list[1].count, seconds);
+  assert_int_equal(list[0].count, sure);
+  assert_int_equal(list[1].count, possible);
+  for (int k = 0; k < 2; k++) dyd_index_list_clear(&list[k]);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(s);
+}
+
+static void test_vertices(void **state) {
+  (void)state;
+  run_vertices(60000, true, 2, 60000);
+  run_vertices(600, false, 0, 600);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_cases), cmocka_unit_test(test_grid),
-                                     cmocka_unit_test(test_large), cmocka_unit_test(test_cap)};
+                                     cmocka_unit_test(test_large), cmocka_unit_test(test_cap),
+                                     cmocka_unit_test(test_vertices)};
   harness_init(&shared, "hull");
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   harness_clear(&shared);

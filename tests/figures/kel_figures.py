@@ -11,8 +11,10 @@ import csv
 import os
 import subprocess
 import sys
-import xml.etree.ElementTree
 from fractions import Fraction
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, 'cli'))
+import svg  # pylint: disable=wrong-import-position
 
 COMMAND, FOLDER = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 NAME = {'line': 'bisector', 'parabola': 'parabola'}  # of the command, of the paper
@@ -36,19 +38,17 @@ def rows(output):
 
 
 def picture(name, what, points, *options):
-    """Writes the svg; its elements by tag."""
+    """Writes the svg; its paths."""
     path = os.path.join(FOLDER, name + '.svg')
     dyadel(what, points, '--format', 'svg', '-o', path, *options)
-    elements = {}
-    for e in xml.etree.ElementTree.parse(path).getroot().iter():
-        elements.setdefault(e.tag.rsplit('}', 1)[-1], []).append(e)
     print('wrote', path)
-    return elements
+    with open(path, encoding='utf-8') as f:
+        return svg.paths(f.read())
 
 
-def dashed_curves(elements):
+def dashed_curves(paths):
     """Curved strokes drawn dashed (the legend has straight ones)."""
-    return sum('stroke-dasharray' in e.get('style', '') and 'C' in e.get('d') for e in elements['path'])
+    return sum('stroke-dasharray' in p.look and any(c in p.look['d'] for c in 'CA') for p in paths)
 
 
 def is_drawn(elements, table):
@@ -132,10 +132,9 @@ def figure_6():
     points = [(x - h, x + h, y - h, y + h) for x, y in centres]
     legal = {(r['i'], r['j']) for r in rows(dyadel('delaunay', points)) if r['status'] == 'legal'}
     assert {(str(i), '6') for i in range(6)} <= legal and len(legal) >= 12, legal  # a wheel
-    diagram = rows(dyadel('voronoi', points))
-    cells = [r for r in diagram if r['type'] == 'cell']
+    cells = rows(dyadel('voronoi', points))
     assert len(cells) == 7 and all(0 < Fraction(r['area_lo']) < Fraction(r['area_hi']) for r in cells)
-    assert len([r for r in diagram if r['type'] == 'vertex']) == 6
+    assert len(rows(dyadel('voronoi', points, '--layer', 'vertices'))) == 6
     picture('figure6_delaunay', 'delaunay', points)
     picture('figure6_voronoi', 'voronoi', points)
 

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-enum { CONTENTS = DYD_CONTENT_NEAREST + 1 };
+enum { CONTENTS = DYD_CONTENT_PLACES + 1 };
 
 static void test_names(void **state) {
   (void)state;
@@ -88,9 +88,44 @@ static dyd_status write_content(FILE *out, const example *x, dyd_content content
     return dyd_write_disc(out, r, 3, DYD_OUTCOME_DECIDED, format, err);
   case DYD_CONTENT_BISECTOR:
     return dyd_write_bisector(out, r[0], r[1], DYD_OUTCOME_DECIDED, format, err);
+  case DYD_CONTENT_POINTS:
+  case DYD_CONTENT_TRIANGLES:
+    return dyd_write_delaunay_as(out, x->e, &(dyd_delaunay_output){DYD_SIZED(dyd_delaunay_output), .layer = content},
+                                 format, err);
+  case DYD_CONTENT_VERTICES:
+  case DYD_CONTENT_REGIONS:
+  case DYD_CONTENT_EDGES:
+    return dyd_write_voronoi(out, x->e, &(dyd_voronoi_options){DYD_SIZED(dyd_voronoi_options), .layer = content},
+                             format, err);
+  case DYD_CONTENT_PLACES:
+    return dyd_write_places(out, x->e, &(const dyd_nearest_answer *){&answer}, 1, DYD_OUTCOME_DECIDED, format, err);
   default:
     return dyd_write_nearest(out, x->e, &answer, format, err);
   }
+}
+
+/* Names of layers lead back to them; a layer of the one is none of the other. */
+static void test_layers(void **state) {
+  (void)state;
+  static const dyd_content of[2] = {DYD_CONTENT_DELAUNAY, DYD_CONTENT_VORONOI};
+  size_t count = 0;
+  for (int k = 0; k < 2; k++)
+    for (size_t l = 0; dyd_layer_name(of[k], l); l++, count++) {
+      dyd_content found = DYD_CONTENT_NONE;
+      assert_true(dyd_layer_from_name(&found, of[k], dyd_layer_name(of[k], l)));
+      assert_true(l == 0 ? found == of[k] : found != of[k]);
+      assert_true(dyd_format_holds(DYD_FORMAT_CSV, found) && dyd_format_holds(DYD_FORMAT_GEOJSON, found));
+      assert_false(dyd_layer_from_name(&found, of[1 - k], dyd_layer_name(of[k], l)));
+    }
+  assert_int_equal(count, 7);
+  assert_null(dyd_layer_name(DYD_CONTENT_CHECK, 0));
+  example x;
+  dyd_error err;
+  example_init(&x);
+  const dyd_delaunay_output wrong = {DYD_SIZED(dyd_delaunay_output), .layer = DYD_CONTENT_EDGES};
+  assert_int_equal(dyd_write_delaunay_as(stdout, x.e, &wrong, DYD_FORMAT_CSV, &err), DYD_E_ARG);
+  assert_non_null(strstr(err.message, "no layer of this"));
+  example_clear(&x);
 }
 
 /* A refusal writes nothing, and names all formats that hold the content and no other. */
@@ -147,7 +182,7 @@ static void test_full_device(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_names), cmocka_unit_test(test_writers),
-                                     cmocka_unit_test(test_full_device)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_names), cmocka_unit_test(test_layers),
+                                     cmocka_unit_test(test_writers), cmocka_unit_test(test_full_device)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

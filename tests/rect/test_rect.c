@@ -323,10 +323,74 @@ static void test_far_exponents(void **state) {
   dyd_point_clear(&c), dyd_rect_clear(&r);
 }
 
+/* root is the double next to the root of `square` on its side. */
+static void check_root(double root, const mpq_t square, int side) {
+  mpq_t v, w;
+  mpq_inits(v, w, NULL);
+  for (int inner = 0; inner < 2; inner++) {
+    double d = inner ? nextafter(root, side * -HUGE_VAL) : root;
+    if (!isfinite(d) || d < 0) continue;
+    mpq_set_d(v, d);
+    mpq_mul(w, v, v);
+    int order = side * mpq_cmp(w, square);
+    assert_true(inner ? order < 0 : order >= 0);
+  }
+  mpq_clears(v, w, NULL);
+}
+
+/* Rectangles of small integers, at all scales: the least and largest of all distances of points with coordinates among
+ * the ends and each other's ends, where the extremes are. */
+static void test_rect_distances(void **state) {
+  (void)state;
+  test_random r = test_random_start("distances of rectangles");
+  dyd_rect a, b;
+  mpq_t least, largest;
+  dyd_rect_init(&a), dyd_rect_init(&b);
+  mpq_inits(least, largest, NULL);
+  for (size_t n = test_cases(5000); n > 0; n--) {
+    long e[2][4], low = 0, high = 0;
+    int64_t exp = test_chance(&r, 2) ? 0 : test_between(&r, -300, 300);
+    for (int k = 0; k < 2; k++)
+      for (int m = 0; m < 4; m++)
+        e[k][m] = m & 1 ? e[k][m - 1] + (long)test_below(&r, 4) : (long)test_between(&r, -6, 6);
+    for (int axis = 0; axis < 4; axis += 2) {
+      long closest = 1000, farthest = 0;
+      for (long p = e[0][axis]; p <= e[0][axis + 1]; p++)
+        for (long q = e[1][axis]; q <= e[1][axis + 1]; q++) {
+          long d = p < q ? q - p : p - q;
+          closest = d < closest ? d : closest;
+          farthest = d > farthest ? d : farthest;
+        }
+      low += closest * closest, high += farthest * farthest;
+    }
+    dyd_rect *rect[2] = {&a, &b};
+    for (int k = 0; k < 2; k++) {
+      dyd_dyadic *end[4] = {&rect[k]->x.lo, &rect[k]->x.hi, &rect[k]->y.lo, &rect[k]->y.hi};
+      for (int m = 0; m < 4; m++) assert_int_equal(dyd_dyadic_set_si_2exp(end[m], e[k][m], exp), DYD_OK);
+    }
+    mpq_set_si(least, low, 1), mpq_set_si(largest, high, 1);
+    if (exp > 0)
+      mpq_mul_2exp(least, least, 2 * (unsigned long)exp), mpq_mul_2exp(largest, largest, 2 * (unsigned long)exp);
+    if (exp < 0)
+      mpq_div_2exp(least, least, 2 * (unsigned long)-exp), mpq_div_2exp(largest, largest, 2 * (unsigned long)-exp);
+    double lo, hi;
+    dyd_rect_distance(&lo, &hi, &a, &b);
+    check_root(lo, least, -1);
+    check_root(hi, largest, 1);
+  }
+  assert_int_equal(dyd_dyadic_set_si_2exp(&a.x.hi, 1, 100000), DYD_OK);
+  double lo, hi;
+  dyd_rect_distance(&lo, &hi, &a, &b);
+  assert_true(hi == HUGE_VAL && isfinite(lo));
+  mpq_clears(least, largest, NULL);
+  dyd_rect_clear(&b), dyd_rect_clear(&a);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_interval_order),   cmocka_unit_test(test_interval_size),
                                      cmocka_unit_test(test_interval_refused), cmocka_unit_test(test_rect_order),
                                      cmocka_unit_test(test_distances),        cmocka_unit_test(test_hulls_random),
-                                     cmocka_unit_test(test_hulls_exhaustive), cmocka_unit_test(test_far_exponents)};
+                                     cmocka_unit_test(test_hulls_exhaustive), cmocka_unit_test(test_far_exponents),
+                                     cmocka_unit_test(test_rect_distances)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,13 +20,54 @@ static uint32_t form_of_interval(dyd_forms *f, const dyd_interval *a) {
   return n;
 }
 
+/* Each leaf by what its node holds beside the operation; one of another kind would be the same form everywhere, so it is
+ * none. */
+static uint32_t form_of_leaf(dyd_forms *f, const dyd_expr *e, const dyd_node *n) {
+  dyd_constant_view view;
+  switch (n->op) {
+  case DYD_OP_CONST:
+    return dyd_forms_number(f, dyd_constant_get(&view, &e->constant[n->argument]));
+  case DYD_OP_ROOT:
+    return dyd_forms_real(f, e->root[n->argument]);
+  case DYD_OP_PI:
+  case DYD_OP_E:
+    return dyd_forms_leaf(f, (dyd_op)n->op);
+  default:
+    return DYD_NONE;
+  }
+}
+
+/* Postfix order: operands are on a stack. */
+static uint32_t form_of_expr(dyd_forms *f, const dyd_expr *e) {
+  uint32_t *stack = dyd_alloc(e->count, sizeof *stack), top = 0;
+  if (!stack) {
+    f->failed = true;
+    return DYD_NONE;
+  }
+  for (size_t i = 0; i < e->count; i++) {
+    const dyd_node *n = &e->node[i];
+    dyd_op op = (dyd_op)n->op;
+    if (dyd_op_is_leaf(op)) {
+      stack[top++] = form_of_leaf(f, e, n);
+    } else if (dyd_op_is_binary(op)) {
+      top--;
+      stack[top - 1] = dyd_forms_binary(f, op, stack[top - 1], stack[top]);
+    } else {
+      stack[top - 1] = dyd_forms_unary(f, op, stack[top - 1], op == DYD_OP_POW ? n->argument : 0);
+    }
+  }
+  uint32_t out = stack[0];
+  free(stack);
+  return out;
+}
+
 uint32_t dyd_forms_real(dyd_forms *f, const dyd_real *x) {
   const void *object;
   const dyd_interval *now = dyd_real_interval(x);
   if (dyd_real_is_final(x) && dyd_interval_is_point(now)) return form_of_interval(f, now);
   switch (dyd_real_object(&object, x)) {
   case DYD_REAL_EXPR:
-    return dyd_forms_expr(f, object);
+    return form_of_expr(f, object);
   case DYD_REAL_ROOT:
     return dyd_forms_root(f, object);
   case DYD_REAL_OPAQUE:

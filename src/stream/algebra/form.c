@@ -122,33 +122,6 @@ uint32_t dyd_forms_opaque(dyd_forms *f, const void *object, uint32_t part, const
   return n;
 }
 
-/* Postfix order: operands are on a stack. */
-uint32_t dyd_forms_expr(dyd_forms *f, const dyd_expr *e) {
-  uint32_t *stack = dyd_alloc(e->count, sizeof *stack), top = 0;
-  if (!stack) {
-    f->failed = true;
-    return DYD_NONE;
-  }
-  for (size_t i = 0; i < e->count; i++) {
-    const dyd_node *n = &e->node[i];
-    dyd_op op = (dyd_op)n->op;
-    dyd_constant_view view;
-    if (op == DYD_OP_CONST) {
-      stack[top++] = dyd_forms_number(f, dyd_constant_get(&view, &e->constant[n->argument]));
-    } else if (dyd_op_is_leaf(op)) {
-      stack[top++] = dyd_forms_leaf(f, op);
-    } else if (dyd_op_is_binary(op)) {
-      top--;
-      stack[top - 1] = dyd_forms_binary(f, op, stack[top - 1], stack[top]);
-    } else {
-      stack[top - 1] = dyd_forms_unary(f, op, stack[top - 1], op == DYD_OP_POW ? n->argument : 0);
-    }
-  }
-  uint32_t out = stack[0];
-  free(stack);
-  return out;
-}
-
 /* ---- values ---- */
 
 /* Where the operand of op lies, since the operation is defined. */

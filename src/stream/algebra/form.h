@@ -70,7 +70,6 @@ uint32_t dyd_forms_binary(dyd_forms *f, dyd_op op, uint32_t a, uint32_t b);
 uint32_t dyd_forms_root(dyd_forms *f, const dyd_root *r);
 /* now: where the value lies; NULL: anywhere. */
 uint32_t dyd_forms_opaque(dyd_forms *f, const void *object, uint32_t part, const dyd_interval *now);
-uint32_t dyd_forms_expr(dyd_forms *f, const dyd_expr *e);
 
 static inline bool dyd_form_is_number(const dyd_forms *f, uint32_t n) {
   return f->node[n].op == DYD_OP_CONST;

@@ -112,7 +112,8 @@ static bool normal_tangent(dyd_fraction *x, dyd_ring *r, const dyd_fraction *u) 
   return fits;
 }
 
-static bool normal_function(dyd_fraction *x, dyd_ring *r, const dyd_form *n) {
+/* Of an operation that is not listed, no more is known than that each form is one number. */
+static bool normal_function(dyd_fraction *x, dyd_ring *r, const dyd_form *n, uint32_t self) {
   const dyd_fraction *u = dyd_ring_fraction(r, n->a);
   dyd_op op = (dyd_op)n->op;
   if (!u) return false;
@@ -135,8 +136,13 @@ static bool normal_function(dyd_fraction *x, dyd_ring *r, const dyd_form *n) {
   case DYD_OP_COSH:
   case DYD_OP_TANH:
     return normal_hyperbolic(x, r, op, u);
-  default:
+  case DYD_OP_LOG:
+  case DYD_OP_ASIN:
+  case DYD_OP_ACOS:
+  case DYD_OP_ATAN:
     return dyd_leaf_free(x, r, op, u, DYD_NONE);
+  default:
+    return dyd_leaf_free(x, r, DYD_OP_CONST, NULL, self);
   }
 }
 
@@ -188,7 +194,7 @@ static bool normal_make(dyd_fraction *x, dyd_ring *r, uint32_t self) {
   case DYD_OP_DIV:
     return normal_arithmetic(x, r, &n);
   default:
-    return normal_function(x, r, &n);
+    return normal_function(x, r, &n, self);
   }
 }
 

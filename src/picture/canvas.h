@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What pictures are drawn on: paths, text, clips and names, as svg of our own or with cairo (pdf, png).
+ *
+ * Lengths in pixels of svg (points of pdf, half pixels of png), y downward. A path is collected, and gone when it is
+ * painted. In svg text is text, elements can have an id and a title, which viewers show where the pointer is, and
+ * neighbours of the same paint share a group; the others leave names out. */
+#ifndef DYD_PICTURE_CANVAS_H
+#define DYD_PICTURE_CANVAS_H
+
+#include "io/output.h"
+
+typedef struct dyd_canvas dyd_canvas;
+
+/* Neither colour of a paint. */
+#define DYD_NO_COLOUR 0x1000000u
+
+/* rgb, or DYD_NO_COLOUR; dash in lengths, off = 0: a full line. alpha: of the filling. */
+typedef struct dyd_paint {
+  unsigned fill, stroke;
+  double alpha, width, on, off;
+} dyd_paint;
+
+/* Begins a page in the format of o, white; NULL when memory is exhausted. */
+dyd_canvas *dyd_canvas_new(const dyd_output *o, double width, double height, const char *title);
+/* Completes the page (unless st tells of an error) and frees c; returns st, or what went wrong. */
+dyd_status dyd_canvas_end(dyd_canvas *c, dyd_status st, dyd_error *err);
+
+/* ---- the path ---- */
+
+void dyd_canvas_move(dyd_canvas *c, double x, double y);
+/* Moves where there is no path yet. */
+void dyd_canvas_line(dyd_canvas *c, double x, double y);
+void dyd_canvas_curve(dyd_canvas *c, double x1, double y1, double x2, double y2, double x, double y);
+/* A line to the first end, if there is a path, then clockwise on the page from angle `from` to `to`, radians. */
+void dyd_canvas_arc(dyd_canvas *c, double x, double y, double radius, double from, double to);
+void dyd_canvas_close(dyd_canvas *c);
+void dyd_canvas_circle(dyd_canvas *c, double x, double y, double radius);
+void dyd_canvas_box(dyd_canvas *c, double x, double y, double width, double height);
+
+/* ---- what becomes of it ---- */
+
+void dyd_canvas_paint(dyd_canvas *c, const dyd_paint *paint);
+/* Until dyd_canvas_unclip only what is inside of the path is shown; they nest. */
+void dyd_canvas_clip(dyd_canvas *c);
+void dyd_canvas_unclip(dyd_canvas *c);
+/* The next element painted has this id (unique on the page) and this title. Both are copied. */
+void dyd_canvas_name(dyd_canvas *c, const char *id, const char *title);
+
+/* ---- text ---- */
+
+double dyd_canvas_width(dyd_canvas *c, double size, const char *text);
+/* align 0: from x on, 0.5: around x, 1: up to x. halo: a white edge, so that it is read on anything. */
+void dyd_canvas_text(dyd_canvas *c, double x, double y, double align, double size, bool halo, const char *text);
+
+#endif

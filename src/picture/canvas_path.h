@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* A canvas from inside: its path, and what its two kinds do. */
+#ifndef DYD_PICTURE_CANVAS_PATH_H
+#define DYD_PICTURE_CANVAS_PATH_H
+
+#include "picture/canvas.h"
+#include <cairo.h>
+
+typedef enum dyd_stroke {
+  DYD_STROKE_MOVE,
+  DYD_STROKE_LINE,
+  DYD_STROKE_CURVE,
+  DYD_STROKE_ARC,
+  DYD_STROKE_CLOSE
+} dyd_stroke;
+
+typedef struct dyd_path_step {
+  dyd_stroke kind;
+  double z[6]; /* x, y; of a curve both inner points before; of an arc centre, radius, angles */
+} dyd_path_step;
+
+struct dyd_canvas {
+  dyd_format format;
+  FILE *out;
+  int error;   /* errno of the first write that failed, else 0 */
+  cairo_t *cr; /* of svg: to measure texts */
+  dyd_path_step *step;
+  size_t count, cap;
+  bool failed; /* memory ran out */
+  bool open;   /* svg: a group with the paint `shared` */
+  dyd_paint shared;
+  unsigned clips; /* svg: so many so far */
+  char id[80], title[160];
+};
+
+/* ---- canvas_svg.c ---- */
+
+void dyd_svg_begin(dyd_canvas *c, double width, double height, const char *title);
+void dyd_svg_end(dyd_canvas *c);
+void dyd_svg_paint(dyd_canvas *c, const dyd_paint *paint);
+void dyd_svg_clip(dyd_canvas *c);
+void dyd_svg_unclip(dyd_canvas *c);
+void dyd_svg_text(dyd_canvas *c, double x, double y, double align, double size, bool halo, const char *text);
+
+#endif

@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Legends: what colours and lines mean, how long a length is, where the points are when they are too close to see. */
+#include "io/decimal.h"
+#include "picture/picture.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SIZE 14.0
+#define ROW 22.0
+#define AXIS 46.0 /* from the frame to the middle of the first row */
+
+/* A bar of round length, at the right end. */
+static void legend_bar(dyd_legend *l) {
+  const dyd_view *v = l->view;
+  int digit, exponent;
+  double right = DYD_VIEW_LEFT + v->width, y = l->y;
+  l->bar = right;
+  if (!dyd_round_step(&digit, &exponent, 0.2 * v->width / v->scale)) return;
+  char number[48], text[80];
+  dyd_tick_text(number, sizeof number, digit, exponent);
+  snprintf(text, sizeof text, "%s unit%s of the coordinates", number, strcmp(number, "1") == 0 ? "" : "s");
+  double left = right - digit * pow(10, exponent) * v->scale;
+  double line[3][2][2] = {{{left, y - 4}, {left, y + 4}}, {{left, y}, {right, y}}, {{right, y - 4}, {right, y + 4}}};
+  for (int k = 0; k < 3; k++) dyd_picture_line(l->canvas, line[k], 0x222222, 1.5, 0, 0);
+  dyd_canvas_text(l->canvas, right, y + 20, 1, SIZE, false, text);
+  l->bar = fmin(left, right - dyd_canvas_width(l->canvas, SIZE, text));
+}
+
+void dyd_legend_begin(dyd_legend *l, dyd_canvas *c, const dyd_view *v) {
+  l->canvas = c;
+  l->view = v;
+  l->x = DYD_VIEW_LEFT;
+  l->y = DYD_VIEW_EDGE + v->height + AXIS;
+  legend_bar(l);
+}
+
+/* Room for an entry as wide as that. */
+static void legend_room(dyd_legend *l, double wide) {
+  double right =
+      l->y < DYD_VIEW_EDGE + l->view->height + AXIS + 1.5 * ROW ? l->bar - 20 : DYD_VIEW_LEFT + l->view->width;
+  if (l->x == DYD_VIEW_LEFT || l->x + wide <= right) return;
+  l->x = DYD_VIEW_LEFT;
+  l->y += ROW;
+}
+
+/* The text beside what was drawn at l->x, of width `mark`. */
+static void legend_words(dyd_legend *l, double mark, const char *text) {
+  dyd_canvas_text(l->canvas, l->x + mark + 6, l->y + 5, 0, SIZE, false, text);
+  l->x += mark + 30 + dyd_canvas_width(l->canvas, SIZE, text);
+}
+
+static double entry_width(dyd_legend *l, double mark, const char *text) {
+  return mark + 6 + dyd_canvas_width(l->canvas, SIZE, text);
+}
+
+void dyd_legend_line(dyd_legend *l, unsigned rgb, double on, double off, const char *text) {
+  legend_room(l, entry_width(l, 30, text));
+  double z[2][2] = {{l->x, l->y}, {l->x + 30, l->y}};
+  dyd_picture_line(l->canvas, z, rgb, 2, on, off);
+  legend_words(l, 30, text);
+}
+
+void dyd_legend_patch(dyd_legend *l, unsigned rgb, const char *text) {
+  legend_room(l, entry_width(l, 30, text));
+  dyd_canvas_box(l->canvas, l->x, l->y - 7, 30, 14);
+  dyd_picture_shape(l->canvas, rgb, 1, 0x555555, 0.6);
+  legend_words(l, 30, text);
+}
+
+void dyd_legend_dot(dyd_legend *l, unsigned fill, unsigned edge, const char *text) {
+  legend_room(l, entry_width(l, 8, text));
+  dyd_picture_dot(l->canvas, l->x + 4, l->y, 3.5, fill, edge);
+  legend_words(l, 8, text);
+}
+
+/* How many characters of the text fit the line: up to a blank, or the end. `line` receives them. */
+static size_t legend_fit(dyd_legend *l, char *line, size_t size, const char *text) {
+  size_t fits = 0;
+  for (size_t at = 0; at + 1 < size; at++) {
+    line[at] = 0;
+    if ((text[at] == ' ' || !text[at]) && (!fits || dyd_canvas_width(l->canvas, SIZE, line) <= l->view->width))
+      fits = at;
+    if (!text[at]) break;
+    line[at] = text[at];
+  }
+  line[fits] = 0;
+  return fits;
+}
+
+void dyd_legend_text(dyd_legend *l, const char *text) {
+  char line[400];
+  if (l->x > DYD_VIEW_LEFT) l->x = DYD_VIEW_LEFT, l->y += ROW;
+  for (size_t fits = 1; *text && fits > 0; text += *text == ' ') {
+    text += fits = legend_fit(l, line, sizeof line, text);
+    dyd_canvas_text(l->canvas, l->x, l->y + 5, 0, SIZE, false, line);
+    l->y += ROW;
+  }
+}
+
+/* ---- a crowd ---- */
+
+static int legend_compare(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static bool is_in(const double box[4], const double b[4]) {
+  double x = b[0] / 2 + b[1] / 2, y = b[2] / 2 + b[3] / 2;
+  return box[0] <= x && x <= box[1] && box[2] <= y && y <= box[3];
+}
+
+/* The box between the tenths of the coordinates, rounded outward and a little larger, of the sites seen. `each` has
+ * room for all. */
+static bool crowd_box(char text[4][48], double box[4], double *each, const dyd_view *v, const dyd_sites *sites) {
+  size_t count = 0;
+  for (int axis = 0; axis < 2; axis++) {
+    count = 0;
+    for (size_t i = 0; i < dyd_sites_count(sites); i++) {
+      double b[4];
+      dyd_sites_get_d(b, sites, i);
+      if (dyd_view_sees(v, b)) each[count++] = b[2 * axis] / 2 + b[2 * axis + 1] / 2;
+    }
+    if (count < 20) return false;
+    qsort(each, count, sizeof *each, legend_compare);
+    double low = each[count / 10], high = each[count - 1 - count / 10], more = (high - low) / 8;
+    int digit, exponent;
+    if (!dyd_round_step(&digit, &exponent, more)) return false;
+    double step = digit * pow(10, exponent), first = floor((low - more) / step), last = ceil((high + more) / step);
+    if (!(fabs(first) < 1e14 && fabs(last) < 1e14)) return false;
+    dyd_tick_text(text[2 * axis], 48, (int64_t)first * digit, exponent);
+    dyd_tick_text(text[2 * axis + 1], 48, (int64_t)last * digit, exponent);
+    box[2 * axis] = first * step, box[2 * axis + 1] = last * step;
+  }
+  return true;
+}
+
+void dyd_legend_crowd(dyd_legend *l, const dyd_delaunay *pd) {
+  const dyd_view *v = l->view;
+  const dyd_sites *sites = dyd_delaunay_sites(pd);
+  size_t n = dyd_sites_count(sites), inside = 0, seen = 0;
+  double box[4], *each = malloc((n + 1) * sizeof *each);
+  char end[4][48], text[400];
+  bool found = each && crowd_box(end, box, each, v, sites);
+  free(each);
+  double area = (v->frame[1] - v->frame[0]) * (v->frame[3] - v->frame[2]) / v->scale / v->scale;
+  if (!found || !((box[1] - box[0]) * (box[3] - box[2]) < 0.08 * area)) return;
+  for (size_t i = 0; i < n; i++) {
+    double b[4];
+    dyd_sites_get_d(b, sites, i);
+    seen += dyd_view_sees(v, b);
+    inside += is_in(box, b);
+  }
+  snprintf(text, sizeof text,
+           "%zu of these %zu points are in a small part of the picture: --window=%s,%s,%s,%s shows it", inside, seen,
+           end[0], end[1], end[2], end[3]);
+  dyd_legend_text(l, text);
+}

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Numbers beside sites, where there is room.
+ *
+ * The page is divided into small squares; what is drawn takes those that it meets, and a number stands at the first of
+ * eight places around its site whose squares are all free. */
+#include "picture/picture.h"
+#include <math.h>
+#include <stdlib.h>
+
+#define SQUARE 3.0
+
+typedef struct squares {
+  size_t x0, x1, y0, y1; /* from, up to */
+} squares;
+
+bool dyd_numbers_init(dyd_numbers *l, const dyd_view *v) {
+  l->view = v;
+  l->columns = (size_t)(v->frame[1] / SQUARE) + 2;
+  l->rows = (size_t)(v->frame[3] / SQUARE) + 2;
+  l->taken = calloc(l->columns * l->rows, 1);
+  return l->taken != NULL;
+}
+
+void dyd_numbers_clear(dyd_numbers *l) {
+  free(l->taken);
+}
+
+/* The squares that a box on the page meets, as far as they are in the frame. */
+static squares squares_of(const dyd_numbers *l, const double z[4]) {
+  const double *f = l->view->frame;
+  squares s = {(size_t)(fmax(z[0], f[0]) / SQUARE), (size_t)(fmax(fmin(z[1], f[1]), 0) / SQUARE) + 1,
+               (size_t)(fmax(z[2], f[2]) / SQUARE), (size_t)(fmax(fmin(z[3], f[3]), 0) / SQUARE) + 1};
+  return s;
+}
+
+static void take_squares(dyd_numbers *l, const double z[4]) {
+  squares s = squares_of(l, z);
+  for (size_t y = s.y0; y < s.y1; y++)
+    for (size_t x = s.x0; x < s.x1; x++) l->taken[y * l->columns + x] = 1;
+}
+
+static bool is_free(const dyd_numbers *l, const double z[4]) {
+  const double *f = l->view->frame;
+  if (!(z[0] > f[0] + 2 && z[1] < f[1] - 2 && z[2] > f[2] + 2 && z[3] < f[3] - 2)) return false;
+  squares s = squares_of(l, z);
+  for (size_t y = s.y0; y < s.y1; y++)
+    for (size_t x = s.x0; x < s.x1; x++)
+      if (l->taken[y * l->columns + x]) return false;
+  return true;
+}
+
+/* A box on the page, at least as large as a dot. */
+static void page_box(double z[4], const dyd_view *v, const double box[4]) {
+  double at[2], least = fmax(v->dot, 3.5);
+  dyd_view_middle(at, v, box);
+  z[0] = fmin(dyd_view_x(v, box[0]), at[0] - least), z[1] = fmax(dyd_view_x(v, box[1]), at[0] + least);
+  z[2] = fmin(dyd_view_y(v, box[3]), at[1] - least), z[3] = fmax(dyd_view_y(v, box[2]), at[1] + least);
+}
+
+void dyd_numbers_keep_off(dyd_numbers *l, const double box[4]) {
+  double z[4];
+  page_box(z, l->view, box);
+  if (dyd_view_sees(l->view, box)) take_squares(l, z);
+}
+
+void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double size, size_t number) {
+  /* Steps right and down from the box: -1 before, 0 about the middle, 1 behind. */
+  static const int place[8][2] = {{1, -1}, {1, 1}, {-1, -1}, {-1, 1}, {1, 0}, {-1, 0}, {0, -1}, {0, 1}};
+  char text[24];
+  double b[4], z[4];
+  if (!dyd_view_sees(l->view, box)) return;
+  snprintf(text, sizeof text, "%zu", number);
+  double wide = dyd_canvas_width(c, size, text), high = 0.74 * size, gap = 3;
+  page_box(b, l->view, box);
+  for (int k = 0; k < 8; k++) {
+    int across = place[k][0], down = place[k][1];
+    z[0] = across > 0 ? b[1] + gap : across < 0 ? b[0] - gap - wide : (b[0] + b[1] - wide) / 2;
+    z[2] = down > 0 ? b[3] + gap : down < 0 ? b[2] - gap - high : (b[2] + b[3] - high) / 2;
+    z[1] = z[0] + wide, z[3] = z[2] + high;
+    if (!is_free(l, z)) continue;
+    take_squares(l, z);
+    dyd_canvas_text(c, z[0], z[3], 0, size, true, text);
+    return;
+  }
+}

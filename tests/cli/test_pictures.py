@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Pictures: names of what is drawn, text that is text, numbers where there is room, coordinates, honest legends.
+
+Usage: test_pictures.py COMMAND DATA
+"""
+import os
+import random
+import re
+
+import svg
+from harness import DATA, expect, main, run
+
+TWELVE = ''.join(f'{500000 + 17 * k * k % 211}+-{1 + k % 3} {5400000 + 31 * k % 197}+-{1 + k % 2}\n' for k in range(12))
+ALL = [('delaunay', ()), ('voronoi', ()), ('disc', ()), ('bisector', ()), ('nearest', ('500100', '5400100'))]
+NUMBER = re.compile(r'-?\d+(\.\d+)?(e-?\d+)?\Z')
+
+
+def picture(command, points, *options, place=()):
+    result = run(command, '--quiet', '--format', 'svg', *options, '-', *place, stdin=points)
+    assert result.code in (0, 3, 4), result.err
+    return result.out
+
+
+def box_of(path):
+    n = svg.numbers(path)
+    return min(n[::2]), max(n[::2]), min(n[1::2]), max(n[1::2])
+
+
+def texts(text, size):
+    return [e for e in svg.elements(text) if e.tag == 'text' and e.look['font-size'] == size]
+
+
+def label_box(e):
+    """About where a number stands: digits are hardly wider than 0.66 of their size."""
+    size, x, y = (float(e.look[k]) for k in ('font-size', 'x', 'y'))
+    return x, x + 0.64 * size * len(e.text), y - 0.74 * size, y
+
+
+def overlap(a, b):
+    return a[0] < b[1] - 0.5 and b[0] < a[1] - 0.5 and a[2] < b[3] - 0.5 and b[2] < a[3] - 0.5
+
+
+def test_text_is_text():
+    """No glyphs as paths: every word is found; the page has a title."""
+    for command, place in ALL:
+        text = picture(command, TWELVE, place=place)
+        assert '<glyph' not in text and '<use' not in text and svg.words(text), command
+        assert [e for e in svg.elements(text) if e.tag == 'title'][0].text, command
+        assert any('units of the coordinates' in w for w in svg.words(text)), command
+
+
+def test_everything_has_a_name():
+    """What stands for a pair, a triangle, a point has an id and a title; there are as many as there should be."""
+    text = picture('delaunay', TWELVE)
+    ids = {p.look['id']: p.title for p in svg.paths(text) if 'id' in p.look}
+    table = run('delaunay', '--quiet', '-', stdin=TWELVE).out.split('status\n')[1].split()
+    for line in table:
+        i, j, status = line.split(',')
+        assert ids[f'pair-{i}-{j}'] == f'{i}, {j}: {status}', line
+    triangles = run('delaunay', '--quiet', '--layer', 'triangles', '-', stdin=TWELVE).out.split('k\n')[1].split()
+    for line in triangles:
+        assert 'sure triangle' in ids['triangle-' + line.replace(',', '-')], line
+    for k in range(12):
+        assert ids[f'point-{k}'].startswith(f'point {k}: x in ['), ids[f'point-{k}']
+    assert len(ids) == len(table) + len(triangles) + 12
+    cells = {p.look['id'] for p in svg.paths(picture('voronoi', TWELVE)) if p.look.get('id', '').startswith('cell-')}
+    rows = [r for r in run('voronoi', '--quiet', '-', stdin=TWELVE).out.split('undetermined\n')[1].split()]
+    assert cells == {'cell-' + r.split(',')[0] for r in rows if float(r.split(',')[5]) > 0}, cells
+    for command, place in ALL:
+        assert sum(p.title is not None for p in svg.paths(picture(command, TWELVE, place=place))) >= 2, command
+
+
+def check_numbers(text, size, count):
+    """Inside of the frame, on no rectangle, on no other number."""
+    labels = [e for e in texts(text, size) if NUMBER.match(e.text) and 'paint-order' in e.look]
+    assert len({e.text for e in labels}) == len(labels) >= count, [e.text for e in labels]
+    left, right, top, bottom = svg.frame(text)
+    sites = [box_of(p) for p in svg.paths(text) if p.look.get('id', '').startswith('point-')]
+    boxes = [label_box(e) for e in labels]
+    for k, b in enumerate(boxes):
+        assert left < b[0] and b[1] < right + 1 and top < b[2] and b[3] < bottom, labels[k]
+        assert not any(overlap(b, s) for s in sites), labels[k].text
+        assert not any(overlap(b, o) for o in boxes[:k]), labels[k].text
+
+
+def test_numbers():
+    check_numbers(picture('delaunay', TWELVE), '13', 11)
+    check_numbers(picture('voronoi', TWELVE), '13', 11)
+    check_numbers(picture('bisector', TWELVE), '18', 2)
+    check_numbers(picture('nearest', TWELVE, place=('500100', '5400100')), '14', 5)
+    close = ''.join(f'{x / 8} {y / 8}\n' for x in range(40) for y in range(40))
+    assert not texts(picture('delaunay', close), '13'), 'there is no room for 1600 numbers'
+
+
+def test_coordinates():
+    """Ticks stand where the numbers beside them say, on both sides of the frame."""
+    for points, wide in (('0 0\n7 3\n', 7), (TWELVE, 200), ('1e-9 2e-9\n3e-9 1e-9\n', 2e-9), ('-1e12 0\n1e12 5e11\n', 2e12)):
+        text = picture('delaunay', points)
+        ticks = texts(text, '12')
+        along = sorted((float(e.look['x']), float(e.text)) for e in ticks if e.look.get('text-anchor') == 'middle')
+        up = sorted((float(e.look['y']), float(e.text)) for e in ticks if e.look.get('text-anchor') == 'end')
+        assert len(along) >= 2 and len(up) >= 2, points
+        scales = [(b[1] - a[1]) / (b[0] - a[0]) for a, b in zip(along, along[1:])] + [
+            (a[1] - b[1]) / (b[0] - a[0]) for a, b in zip(up, up[1:])]
+        assert max(scales) / min(scales) < 1.001 and 0.5 < scales[0] * 1000 / wide < 2, (points, scales)
+    far = [e.text for e in texts(picture('delaunay', '1e15 1e15\n1e15+8 1e15+4\n'), '12')]
+    assert any(t.startswith('+') for t in far), far  # too long: by how much they differ from the first
+
+
+def test_legend_is_honest():
+    """What is drawn and nothing else: points alone, ties, rectangles."""
+    def legend(points, *options):
+        return ' | '.join(svg.words(picture('delaunay', points, *options)))
+    plain = legend('0 0\n4 0\n1 3\n')
+    assert 'legal: 3' in plain and 'sure triangle' in plain and 'point' in plain
+    for absent in ('indeterminate', 'tie', 'rectangle of a point', 'where', '--window'):
+        assert absent not in plain, (absent, plain)
+    square = legend('0 0\n4 0\n4 4\n0 4\n')
+    assert 'tie: 2' in square and 'indeterminate' not in square and 'sure triangle' not in square, square
+    wide = legend(TWELVE)
+    for present in ('indeterminate: ', 'rectangle of a point', 'where a legal edge is', 'where an indeterminate edge may be'):
+        assert present in wide, wide
+    assert 'of a pixel' in wide and ' point; ' not in wide
+    assert 'possibly' not in ' '.join(svg.words(picture('nearest', '0 0\n9 0\n', place=('1', '1'))))
+    alone = ' | '.join(svg.words(picture('disc', '0 0\n4 0\n1 3\n')))
+    assert 'point surely' not in alone and 'point of which' not in alone, alone
+    exact = ' | '.join(svg.words(picture('voronoi', '0 0\n4 0\n1 3\n')))
+    assert 'box: undecided' not in exact and 'rectangle of' not in exact, exact
+
+
+def test_outliers():
+    """A hint when most points are in a small part, and it shows them; none otherwise."""
+    chance = random.Random(4)
+    crowd = ''.join(f'{chance.random():.4f} {chance.random():.4f}\n' for _ in range(100))
+    for command in ('delaunay', 'voronoi'):
+        assert '--window' not in ' '.join(svg.words(picture(command, crowd)))
+        words = ' '.join(svg.words(picture(command, crowd + '500 300\n')))
+        hint = re.search(r'(\d+) of these 101 points are in a small part of the picture: (--window=\S+) shows it', words)
+        assert hint and int(hint[1]) >= 64, words
+        near = picture(command, crowd + '500 300\n', hint[2])
+        drawn = [p for p in svg.paths(near) if p.look.get('id', '').startswith('point-')]
+        assert len(drawn) >= int(hint[1]) and '--window' not in ' '.join(svg.words(near)), len(drawn)
+
+
+def test_crowds_show_density():
+    """Of a mass of lines their number in each square; of some lines the lines."""
+    airports = ('--columns', 'longitude,latitude', '--radius', '0.3')
+    with open(os.path.join(DATA, 'airports.csv'), encoding='utf-8') as f:
+        text = picture('delaunay', f.read(), *airports)
+    words = ' | '.join(svg.words(text))
+    assert 'of 113350 indeterminate pairs across a square | 2-3 | 4-9 | 10-29 | 30-99 | more' in words, words
+    assert 'rectangle of a point' not in words and len(text) < 3e6, (words, len(text))
+    assert not any(p.look.get('id', '').startswith('pair-') and p.look['stroke'] == '#d55e00' for p in svg.paths(text))
+    assert 'across a square' not in ' '.join(svg.words(picture('delaunay', TWELVE)))
+
+
+def test_kinds_agree():
+    """pdf and png of everything that svg shows."""
+    for command, place in ALL:
+        for kind, magic in (('pdf', r'\A%PDF'), ('png', r'\A.PNG')):
+            result = run(command, '--quiet', '--format', kind, '-', *place, stdin=TWELVE, binary=True)
+            assert result.code in (0, 3) and re.match(magic, result.out) and len(result.out) > 3000, (command, kind)
+
+
+main(globals())
