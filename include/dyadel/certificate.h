@@ -18,7 +18,7 @@
  *     capped no | yes
  *     sites N
  *       X Y                 N lines: the rectangle of a site; or
- *       = K                   the same exact point as site K, a lower number and itself no such line (an alias)
+ *       = K                   the same point as site K, a lower number and itself no such line (an alias)
  *     legal L
  *       i j x y             L lines: the pair is legal, (x,y) is the witness
  *     places P
@@ -103,7 +103,8 @@
  * [CERT-8] What is stated need not be proved; the report says what is not (dyd_certificate_gap). A line o states
  * nothing of its pair, a line t that no refinement changes what it is, which is proved where all sites of its open sets
  * are exact points; so is fixpoint where nobody can be narrowed who matters. decided and bounds are proved when U = 0.
- * Nothing proves budget, cancelled and error, and lines l. */
+ * Nothing proves budget, cancelled and error, lines l, and that an alias of a site that is not exact is the same point:
+ * that, as ties of such sites, follows from what the points are, which the certificate does not say. */
 #ifndef DYADEL_CERTIFICATE_H
 #define DYADEL_CERTIFICATE_H
 
@@ -140,7 +141,8 @@ typedef enum dyd_certificate_gap {
   DYD_GAP_BOUNDS = 8,    /* area, hausdorff: pairs that are not listed may be possible */
   DYD_GAP_DISTANCE = 16, /* the distance in the diagram */
   DYD_GAP_OUTCOME = 32,  /* the outcome */
-  DYD_GAP_POINTS = 64    /* that the points given lie in its rectangles */
+  DYD_GAP_POINTS = 64,   /* that the points given lie in its rectangles */
+  DYD_GAP_ALIASES = 128  /* that aliases of sites that are not exact are the same points */
 } dyd_certificate_gap;
 
 /* What an accepted certificate states. Texts have static storage. */
@@ -164,10 +166,11 @@ typedef struct dyd_certificate_report {
   size_t polygons;
   bool distance, distance_proved; /* is its other bound stated; was it checked? */
   size_t ties_unproved;
-  uint64_t illegal_boxes; /* pairs within undecided faces that boxes prove illegal */
-  unsigned gaps;          /* of dyd_certificate_gap; 0: everything that is stated is proved */
-  bool bound;             /* were the points given, and is it about them? */
-  size_t unlocated;       /* of them, those not known to lie in their rectangles */
+  uint64_t illegal_boxes;  /* pairs within undecided faces that boxes prove illegal */
+  unsigned gaps;           /* of dyd_certificate_gap; 0: everything that is stated is proved */
+  bool bound;              /* were the points given, and is it about them? */
+  size_t unlocated;        /* of them, those not known to lie in their rectangles */
+  size_t aliases_unproved; /* of aliases, those of sites that are not exact */
 } dyd_certificate_report;
 
 /* Checks the certificate in `in` up to its end, in integers. DYD_OK: accepted, *out is what it states. DYD_E_PARSE:

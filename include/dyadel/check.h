@@ -44,7 +44,9 @@ typedef struct dyd_check_options {
   /* Called before each schedule; may be NULL. */
   void (*progress)(void *user, unsigned schedule, unsigned of);
   void *progress_user;
-  double seconds; /* of all schedules together; 0: no limit */
+  double seconds;   /* of all schedules together; 0: no limit */
+  int64_t tie_bits; /* as in dyd_engine_options */
+  bool no_ties;
 } dyd_check_options;
 
 typedef enum dyd_check_fault {

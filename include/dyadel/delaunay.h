@@ -27,7 +27,8 @@ extern "C" {
  * narrow room, and the pair stays indeterminate: true, but less than could be said. */
 typedef enum dyd_pair_status {
   DYD_ILLEGAL = 0,       /* an edge for no choice */
-  DYD_TIE = 1,           /* indeterminate, and no refinement can decide it: all sites concerned are exact */
+  DYD_TIE = 1,           /* indeterminate, and no refinement can decide it: all sites concerned are exact, or proved
+                            to be on one circle or line */
   DYD_INDETERMINATE = 2, /* possible, no witness */
   DYD_LEGAL = 3          /* an edge for every choice */
 } dyd_pair_status;
@@ -72,12 +73,29 @@ typedef struct dyd_delaunay_counters {
   uint64_t spare[8]; /* 0: for members to come, as other structs hold this one */
 } dyd_delaunay_counters;
 
+/* What true points may have in common. */
+typedef enum dyd_relation {
+  DYD_COINCIDENT = 0, /* two are the same place */
+  DYD_COLLINEAR,      /* all are on one line */
+  DYD_COCIRCULAR      /* all are on one circle */
+} dyd_relation;
+
+/* Knows more about the true points of sites than their rectangles tell: sets *proved (false when called) if they are
+ * proved to be in that relation, which then holds for good. The sites of a polygon or chain come in order. Returns
+ * DYD_OK, or a failure with *err (may be NULL) filled. */
+typedef dyd_status (*dyd_prove_fn)(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
+                                   dyd_error *err);
+
 typedef struct dyd_delaunay_options {
   size_t struct_size;         /* set by DYD_SIZED */
   size_t max_pairs;           /* cap on stored pairs beyond the skeleton; 0: the default, 4e6 + 16 N */
   const volatile int *cancel; /* when it points to a non-zero value, work stops with DYD_CANCELLED; may be NULL */
   unsigned threads;           /* how many may be used, the calling one included; 0: one. Nothing else depends on it */
   bool no_filter;             /* decide everything on the exact rung (for tests; statuses are the same) */
+  /* NULL, or who is asked about polygons and chains that would have to be closed: where they are proved to be on one
+   * circle or line, their pairs are ties [TIE-3]. Called from the calling thread only, during this call. */
+  dyd_prove_fn prove;
+  void *prove_user;
 } dyd_delaunay_options;
 
 typedef struct dyd_delaunay dyd_delaunay;
@@ -91,7 +109,8 @@ typedef struct dyd_delaunay dyd_delaunay;
 DYD_API dyd_status dyd_delaunay_new(dyd_delaunay **out, const dyd_sites *sites, const dyd_delaunay_options *options,
                                     dyd_error *err);
 DYD_API void dyd_delaunay_free(dyd_delaunay *pd);
-/* Brings *pd up to date after dyd_sites_narrow of the `count` sites listed (any order, repeats allowed): only the
+/* Brings *pd up to date after dyd_sites_narrow of the `count` sites listed (any order, repeats allowed), and after
+ * dyd_sites_join: only the
  * undecided faces that hold one of them are worked on again; legal pairs stay legal, illegal ones illegal.
  * On DYD_CANCELLED and errors *pd keeps its former statements, still valid, and the update can be repeated
  * (with the same or a larger list). */
@@ -106,7 +125,8 @@ DYD_API size_t dyd_delaunay_undecided_faces(const dyd_delaunay *pd);
 DYD_API dyd_status dyd_delaunay_get_counters(dyd_delaunay_counters *out, const dyd_delaunay *pd, dyd_error *err);
 DYD_API size_t dyd_delaunay_memory(const dyd_delaunay *pd);
 
-/* The lowest site with the same exact coordinates: i itself unless i is an alias. Aliases take part in nothing. */
+/* The lowest site at the same place, with the same exact coordinates or joined with i: i itself unless i is an alias.
+ * Aliases take part in nothing. */
 DYD_API uint32_t dyd_delaunay_alias(const dyd_delaunay *pd, uint32_t i);
 /* Status of a pair. Aliases answer for the site they stand for; i = j (or aliases of one another) is ILLEGAL. */
 DYD_API dyd_pair_status dyd_delaunay_status(const dyd_delaunay *pd, uint32_t i, uint32_t j);

@@ -21,7 +21,7 @@ typedef enum dyd_outcome {
   DYD_OUTCOME_NONE = 0,  /* not run yet */
   DYD_OUTCOME_DECIDED,   /* no indeterminate pair and no tie is left */
   DYD_OUTCOME_CERTIFIED, /* the requested bound holds */
-  DYD_OUTCOME_FIXPOINT,  /* no refinement can decide what is open: exact ties, fixed rectangles */
+  DYD_OUTCOME_FIXPOINT,  /* no refinement can decide what is open: ties, fixed rectangles */
   DYD_OUTCOME_BUDGET,    /* bits, stages, calls, pairs or seconds spent */
   DYD_OUTCOME_CANCELLED,
   DYD_OUTCOME_ERROR /* a stream failed or memory ran out; what was stated before stays valid. (GMP, MPFR and FLINT end
@@ -54,6 +54,17 @@ typedef enum dyd_budget {
   DYD_BUDGET_SECONDS
 } dyd_budget;
 
+/* Tests whether a determinant or difference of true points is 0: how they ended, and what they cost. */
+typedef struct dyd_tie_counters {
+  size_t struct_size; /* set by DYD_SIZED */
+  uint64_t tests;
+  uint64_t by_identity, by_bound; /* proved to be 0, by an identity or by a separation bound */
+  uint64_t nonzero, unknown;
+  int64_t bits_most;   /* the highest precision computed with */
+  int64_t degree_most; /* the largest degree of a separation bound */
+  double seconds;
+} dyd_tie_counters;
+
 /* Totals since the engine was made. */
 typedef struct dyd_engine_counters {
   size_t struct_size; /* set by DYD_SIZED */
@@ -66,6 +77,7 @@ typedef struct dyd_engine_counters {
   double seconds;   /* wall clock, all runs and questions */
   dyd_budget spent; /* which budget ended the last run */
   dyd_delaunay_counters delaunay;
+  dyd_tie_counters ties;
 } dyd_engine_counters;
 
 typedef struct dyd_progress {
@@ -126,6 +138,10 @@ typedef struct dyd_engine_options {
   /* Called after each narrowing, in the order they are made; may be NULL. It may cancel the engine. */
   void (*trace)(void *user, const dyd_step *step);
   void *trace_user;
+  /* Ties among points given by expressions and roots (mathematics: section 11) are proved, unless no_ties; with at most
+   * so many bits for each proof; 0: default 2^17. */
+  int64_t tie_bits;
+  bool no_ties;
 } dyd_engine_options;
 /* Fills in the size and the defaults (all zero but for what the comments say). */
 static inline void dyd_engine_options_init(dyd_engine_options *o) {

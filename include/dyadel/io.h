@@ -225,6 +225,7 @@ DYD_API dyd_status dyd_write_check(FILE *out, const dyd_check_report *r, dyd_for
  *                                      point I has been narrowed for stage S; W is a dyd_reason, "pair" is there when
  *                                      it names one; C = false: it was narrow enough before
  *   {"stage":1,"point":I,"why":"fixed","x":[LO,HI],"y":[LO,HI]}              a point that cannot be narrowed
+ *   {"proved":R,"points":[I,J,...]}    these points are proved to be "coincident" (two), "collinear" or "cocircular"
  *   {"stage":S,"done":true,"legal":..,"indeterminate":..,"tie":..,"statuses":DIGEST}
  *                                      stage S is complete; DIGEST as in dyd_stage_row, in hexadecimal
  *   {"outcome":O}                                                            last line */

@@ -32,6 +32,12 @@ DYD_API void dyd_sites_get_d(double out[4], const dyd_sites *s, size_t i);
 DYD_API bool dyd_sites_is_point(const dyd_sites *s, size_t i);
 /* Replaces site i by a rectangle inside it; DYD_E_NESTING (site unchanged) when r is not inside. */
 DYD_API dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r);
+/* Says that the true points of two sites are the same place: the higher number becomes an alias of the lower one, and
+ * both get what their rectangles have in common. Transitive. DYD_E_NESTING (nothing changed) when they have nothing in
+ * common, DYD_E_ARG when there is no such site. A triangulation follows in dyd_delaunay_update. */
+DYD_API dyd_status dyd_sites_join(dyd_sites *s, size_t i, size_t j);
+/* The lowest site joined with site i: i itself where there is none. */
+DYD_API size_t dyd_sites_joined(const dyd_sites *s, size_t i);
 /* Bytes held. */
 DYD_API size_t dyd_sites_memory(const dyd_sites *s);
 

@@ -87,6 +87,7 @@ void dyd_checker_settle(dyd_checker *c, const bool *still) {
   if (r->legal_unproved) r->gaps |= DYD_GAP_LEGAL;
   if (r->unproved && !r->capped) r->gaps |= DYD_GAP_ILLEGAL;
   if (r->ties_unproved) r->gaps |= DYD_GAP_TIES;
+  if (r->aliases_unproved) r->gaps |= DYD_GAP_ALIASES;
   if (r->unproved && (r->area || r->hausdorff)) r->gaps |= DYD_GAP_BOUNDS;
   if (r->distance && !r->distance_proved) r->gaps |= DYD_GAP_DISTANCE;
   if (!outcome_is_proved(c, still)) r->gaps |= DYD_GAP_OUTCOME;

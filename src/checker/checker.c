@@ -119,16 +119,18 @@ static dyd_status read_alias(dyd_checker *c) {
   dyd_status st = dyd_cert_expect_word(c, "=");
   if (st == DYD_OK) st = dyd_cert_read_site(&of, c);
   if (st != DYD_OK) return st;
-  if (!dyd_cert_is_point(&c->sites.site[of])) return dyd_cert_reject(&c->in, "site %u is not exact", (unsigned)of);
   dyd_cert_site *site = dyd_cert_sites_add(&c->sites);
   if (!site) return dyd_fail_nomem(c->in.err);
   for (int a = 0; a < 2 && st == DYD_OK; a++) {
     const dyd_cert_side *from = &c->sites.site[of].side[a];
     dyd_exact_set(&site->side[a].lo, &from->lo);
+    dyd_exact_set(&site->side[a].hi, &from->hi);
+    site->side[a].point = from->point;
     if (from->den) st = dyd_cert_side_set_den(&site->side[a], *from->den);
   }
   c->sites.site[own].alias = of;
   c->report.aliases++;
+  if (!dyd_cert_is_point(&c->sites.site[of])) c->report.aliases_unproved++;
   return st;
 }
 

@@ -40,8 +40,6 @@ static dyd_status check_chain(dyd_checker *c, const dyd_cert_edge *pair) {
 static dyd_status check_open(dyd_checker *c, const dyd_cert_edge *pair, char kind) {
   dyd_status st = dyd_cert_line_done(&c->in);
   if (st != DYD_OK) return st;
-  if (kind == 't' && !(dyd_cert_is_point(&c->sites.site[pair->i]) && dyd_cert_is_point(&c->sites.site[pair->j])))
-    return dyd_cert_reject(&c->in, "a tie of sites that are not exact");
   if (!dyd_cert_faces_share(&c->faces, pair->i, pair->j))
     return dyd_cert_reject(&c->in, "the pair is in no open set, so it is illegal");
   if (kind == 'o') c->report.indeterminate++;

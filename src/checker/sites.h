@@ -19,8 +19,9 @@ typedef struct dyd_cert_side {
   bool point;
 } dyd_cert_side;
 
-/* Invariant: alias is the site's own number, or a lower one that is no alias itself and has the same exact point. place
- * (may be NULL) is a point of the rectangle, x and y: the site's place; else its place is its lower left corner. */
+/* Invariant: alias is the site's own number, or a lower one that is no alias itself and stands for the same point.
+ * place (may be NULL) is a point of the rectangle, x and y: the site's place; else its place is its lower left corner.
+ */
 typedef struct dyd_cert_site {
   dyd_cert_side side[2];
   dyd_exact *place;

@@ -107,9 +107,13 @@ static int tell_check(const dyd_check_report *r, const cli_options *o) {
 
 int cli_check(const cli_options *o) {
   check_input in = {.options = o};
-  dyd_check_options options = {DYD_SIZED(dyd_check_options), .seed = o->seed_set ? o->seed : 1,
-                               .schedules = o->schedules, .seconds = o->engine.seconds,
-                               .max_bits = o->max_bits_set ? o->engine.max_bits : 0};
+  dyd_check_options options = {DYD_SIZED(dyd_check_options),
+                               .seed = o->seed_set ? o->seed : 1,
+                               .schedules = o->schedules,
+                               .seconds = o->engine.seconds,
+                               .max_bits = o->max_bits_set ? o->engine.max_bits : 0,
+                               .tie_bits = o->engine.tie_bits,
+                               .no_ties = o->engine.no_ties};
   dyd_check_report report = {DYD_SIZED(dyd_check_report)};
   given_moves given = {0};
   dyd_error err;

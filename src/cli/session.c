@@ -122,7 +122,7 @@ static const char *outcome_advice(const dyd_engine *e) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
   switch (dyd_engine_outcome(e)) {
   case DYD_OUTCOME_FIXPOINT:
-    return "no refinement can decide the rest: exact ties or fixed rectangles";
+    return "no refinement can decide the rest: ties or fixed rectangles";
   case DYD_OUTCOME_BUDGET:
     dyd_engine_get_counters(&c, e, NULL);
     return budget_advice(c.spent);

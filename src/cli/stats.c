@@ -28,6 +28,16 @@ static const char *budget_text(dyd_budget b) {
   return text[b];
 }
 
+static void tie_stats(FILE *out, const dyd_tie_counters *t) {
+  stats_line(out, "zero tests", t->tests);
+  stats_line(out, "zero by identity", t->by_identity);
+  stats_line(out, "zero by bound", t->by_bound);
+  stats_line(out, "not zero", t->nonzero);
+  stats_line(out, "zero or not, unknown", t->unknown);
+  fprintf(out, "%-26s %" PRId64 "\n%-26s %" PRId64 "\n%-26s %.3f\n", "bits in tests, most", t->bits_most,
+          "degree in tests, most", t->degree_most, "seconds in tests", t->seconds);
+}
+
 void cli_stats(FILE *out, const dyd_engine *e, double seconds) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
   dyd_engine_get_counters(&c, e, NULL);
@@ -48,6 +58,7 @@ void cli_stats(FILE *out, const dyd_engine *e, double seconds) {
   stats_line(out, "witnesses searched", c.delaunay.witness_search);
   stats_line(out, "cover walks", c.delaunay.cover_walks);
   stats_line(out, "faces worked on", c.delaunay.faces);
+  tie_stats(out, &c.ties);
   fprintf(out, "%-26s %.3f\n%-26s %.3f\n", "seconds in the engine", c.seconds, "seconds in all", seconds);
   struct rusage usage;
   if (getrusage(RUSAGE_SELF, &usage) == 0) stats_line(out, "KiB of memory at most", (uint64_t)usage.ru_maxrss);

@@ -71,6 +71,11 @@ static bool value_subject(bool *voronoi, const cli_option *option, const char *t
   return *voronoi || strcmp(text, "delaunay") == 0 || value_usage(option, text, "delaunay or voronoi");
 }
 
+static bool value_ties(bool *off, const cli_option *option, const char *text) {
+  *off = strcmp(text, "off") == 0;
+  return *off || strcmp(text, "prove") == 0 || value_usage(option, text, "prove or off");
+}
+
 /* Whether the command writes it is seen later, when the command is known. */
 static bool value_format(dyd_format *place, const cli_option *option, const char *text) {
   if (dyd_format_from_name(place, text)) return true;
@@ -138,6 +143,8 @@ bool cli_value_read(cli_options *o, const cli_option *option, const char *text) 
     return value_schedule(place, option, text);
   case CLI_SUBJECT:
     return value_subject(place, option, text);
+  case CLI_TIES:
+    return value_ties(place, option, text);
   case CLI_FORMAT:
     return value_format(place, option, text);
   case CLI_LAYER:

@@ -48,8 +48,15 @@ static void print_gaps(FILE *out, const dyd_certificate_report *r) {
     fprintf(out, "not proved: that %llu pairs within %zu undecided faces are illegal\n",
             (unsigned long long)r->unproved, r->undecided_sets);
   if (r->gaps & DYD_GAP_TIES)
-    fprintf(out, "not proved: that no refinement decides %zu ties, which share a face with points that are not exact\n",
-            r->ties_unproved);
+    fprintf(
+        out,
+        "not proved: that no refinement decides %zu ties, which share a face with points that are not exact (tie: not "
+        "re-checked)\n",
+        r->ties_unproved);
+  if (r->gaps & DYD_GAP_ALIASES)
+    fprintf(out,
+            "not proved: that %zu aliases of points that are not exact are the same points (tie: not re-checked)\n",
+            r->aliases_unproved);
   if (r->gaps & DYD_GAP_BOUNDS)
     fputs("not proved: the bounds of area and Hausdorff distance, as more pairs may be possible\n", out);
   if (r->gaps & DYD_GAP_DISTANCE) fputs("not proved: the distance of undetermined points to the diagram\n", out);

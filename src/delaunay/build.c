@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "delaunay/face_table.h"
 #include "delaunay/faces.h"
+#include "delaunay/proved.h"
 #include "delaunay/ties.h"
 #include "legal/certify.h"
 #include "skeleton/mesh_start.h"
@@ -39,7 +40,7 @@ static void line_find(dyd_delaunay *pd, dyd_error *err) {
 static dyd_status build_statuses(dyd_delaunay *pd, dyd_work *w, dyd_known known) {
   if (pd->open.kind == DYD_LINE) {
     line_find(pd, w->err);
-    return DYD_OK;
+    return dyd_prove_line(pd, w);
   }
   dyd_status st = dyd_certify_all(&pd->sk, w);
   mark_known(&pd->sk, known);
@@ -51,6 +52,7 @@ dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known known, 
   const dyd_skeleton_options o = {pd->options.no_filter, pd->options.threads, pd->options.cancel};
   dyd_status st = dyd_skeleton_build(&pd->sk, sites, &o);
   if (st != DYD_OK) return st;
+  pd->joins = sites->joins;
   dyd_work w;
   dyd_work_init(&w, &pd->sk, o.cancel);
   w.threads = o.threads;

@@ -24,6 +24,7 @@ static void close_range(void *context, size_t number) {
   size_t end = dyd_range_begin(b->count, number + 1);
   for (size_t k = dyd_range_begin(b->count, number); k < end && st == DYD_OK; k++) {
     const dyd_face *f = &b->pd->open.face[b->first + k];
+    if (f->proved) continue;
     st = DYD_CANCELLED;
     if (!dyd_work_cancelled(w))
       st = dyd_closure_run(&b->out[k], w, &b->pd->sk, b->pd->open.tri + f->first_tri, f->tris, b->room);

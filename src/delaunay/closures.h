@@ -5,9 +5,9 @@
 
 #include "delaunay/closure.h"
 
-/* out[k] becomes the closure of face first + k of the table, in w->threads threads; each may keep `room` pairs. The
- * same for every number of threads. On failure nothing is left to clear; the failure is that of the first face that has
- * one, DYD_CANCELLED when the work was stopped. */
+/* out[k] becomes the closure of face first + k of the table (nothing, where that is proved), in w->threads threads;
+ * each may keep `room` pairs. The same for every number of threads. On failure nothing is left to clear; the failure is
+ * that of the first face that has one, DYD_CANCELLED when the work was stopped. */
 dyd_status dyd_closures_run(dyd_closure *out, const dyd_delaunay *pd, dyd_work *w, size_t first, size_t count,
                             size_t room);
 

@@ -22,6 +22,7 @@ static void set_options(dyd_delaunay *pd, const dyd_delaunay_options *options, s
 
 static dyd_status finish(dyd_delaunay *pd, dyd_status st, dyd_error *err) {
   pd->options.cancel = NULL;
+  pd->options.prove = NULL;
   if (st == DYD_OK) return dyd_delaunay_is_capped(pd) ? DYD_CAPPED : DYD_OK;
   return dyd_fail(err, st, "%s", dyd_status_text(st));
 }

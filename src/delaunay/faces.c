@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "delaunay/closures.h"
 #include "delaunay/face_table.h"
+#include "delaunay/proved.h"
 #include "legal/certify.h"
 #include "possible/cover.h"
 
@@ -98,11 +99,11 @@ static dyd_status close_batch(dyd_closure *c, dyd_delaunay *pd, dyd_work *w, siz
   if (st != DYD_OK) return st;
   for (size_t k = 0; k < count; k++) {
     dyd_face *face = &pd->open.face[g + k];
-    if (st == DYD_OK && (c[k].capped || c[k].pairs > room_left(pd)) && room_left(pd) < room) {
+    if (st == DYD_OK && !face->proved && (c[k].capped || c[k].pairs > room_left(pd)) && room_left(pd) < room) {
       dyd_closure_clear(&c[k]);
       st = dyd_closure_run(&c[k], w, &pd->sk, pd->open.tri + face->first_tri, face->tris, room_left(pd));
     }
-    if (st == DYD_OK) st = store(pd, w, &c[k], g + k);
+    if (st == DYD_OK && !face->proved) st = store(pd, w, &c[k], g + k);
     dyd_closure_clear(&c[k]);
   }
   return st;
@@ -123,6 +124,7 @@ static dyd_status close_faces(dyd_delaunay *pd, dyd_work *w, size_t from) {
 dyd_status dyd_faces_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count) {
   dyd_undecided before = pd->open;
   dyd_status st = find_faces(pd, w, tri, tri ? count : pd->sk.mesh.count);
+  for (size_t g = before.count; g < pd->open.count && st == DYD_OK; g++) st = dyd_prove_face(pd, w, g);
   if (st == DYD_OK) st = close_faces(pd, w, before.count);
   if (st != DYD_OK) {
     dyd_table_roll_back(pd, &before);

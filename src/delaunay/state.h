@@ -27,13 +27,14 @@ static inline int dyd_compare_pair(const void *a, const void *b) {
 }
 
 /* Invariant: tri[first_tri .. first_tri + tris) and pair[first_pair .. + pairs) of the table, pairs sorted;
- * polygon: a cocircular polygon or collinear chain of exact points; tie: all vertices are exact points; capped: pairs
- * beyond the skeleton are missing. */
+ * polygon: a cocircular polygon or collinear chain, which shares its pairs with no other polygon; tie: all vertices are
+ * exact points, or it is proved; capped: pairs beyond the skeleton are missing. */
 typedef struct dyd_face {
   size_t first_tri, first_pair;
   uint32_t tris;
   uint32_t pairs, hidden; /* how many, and how many of them are hidden */
   bool outer, tie, capped, polygon;
+  bool proved; /* a tie of points that are not all exact: proved.h */
 } dyd_face;
 
 /* How what is undecided is stored: LISTED, triangles joined by uncertain edges are faces, each with the list of its
@@ -68,9 +69,11 @@ typedef struct dyd_undecided {
 struct dyd_delaunay {
   dyd_skeleton sk;
   dyd_undecided open;
+  bool line_tie; /* a line all of whose open pairs are ties, unless it is capped */
   dyd_delaunay_counters counters;
   dyd_delaunay_options options;
   size_t max_pairs;
+  size_t joins; /* of sites, when it was built */
 };
 
 /* Are there no triangles, since the points are collinear for every choice, or are at most two? */

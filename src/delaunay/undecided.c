@@ -8,7 +8,7 @@
 dyd_pair_status dyd_open_status_of(const dyd_delaunay *pd, size_t f) {
   switch (pd->open.kind) {
   case DYD_LINE:
-    return pd->sk.all_points && !pd->open.capped ? DYD_TIE : DYD_INDETERMINATE;
+    return pd->line_tie && !pd->open.capped ? DYD_TIE : DYD_INDETERMINATE;
   case DYD_TIED:
     return dyd_tie_is_capped(pd, f) ? DYD_INDETERMINATE : DYD_TIE;
   default:

@@ -174,6 +174,7 @@ static dyd_status update_faces(bool *fits, dyd_delaunay *pd, dyd_work *w, const 
 }
 
 dyd_status dyd_update(dyd_delaunay *pd, const uint32_t *changed, size_t count, dyd_error *err) {
+  if (pd->joins != pd->sk.rects.sites->joins) return rebuild(pd, err);
   if (pd->open.kind == DYD_LINE) return count ? rebuild(pd, err) : DYD_OK;
   if (count == 0 || pd->open.count == 0 || pd->open.kind == DYD_TIED) return DYD_OK;
   bool fits = true;

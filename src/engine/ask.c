@@ -20,7 +20,9 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/float_filter.h"
+#include "engine/aliases.h"
 #include "engine/points.h"
+#include "engine/ties.h"
 #include "engine/watch.h"
 
 /* One ask. end is DYD_OUTCOME_NONE until it is known how it ends; again: the plan just carried out asked for the
@@ -42,12 +44,15 @@ typedef struct ask {
 
 /* The finest request that streams take (stream/nest.c). */
 #define MOST_BITS (DYD_EXP_LIMIT - 64)
+#define MOST_TIE_BITS ((int64_t)1 << 26)
 
 bool dyd_ask_options(dyd_engine_options *o) {
   if (o->max_bits == 0) o->max_bits = 4096;
   if (o->max_bits > MOST_BITS) o->max_bits = MOST_BITS;
+  if (o->tie_bits == 0) o->tie_bits = DYD_TIE_BITS;
+  if (o->tie_bits > MOST_TIE_BITS) o->tie_bits = MOST_TIE_BITS;
   if (o->start_bits > o->max_bits) o->start_bits = o->max_bits;
-  return o->start_bits >= -DYD_EXP_LIMIT && o->seconds >= 0 && o->step_bits >= 0;
+  return o->tie_bits > 0 && o->start_bits >= -DYD_EXP_LIMIT && o->seconds >= 0 && o->step_bits >= 0;
 }
 
 /* ---- how it ends ---- */
@@ -169,19 +174,40 @@ static void ask_report(const ask *a) {
   a->o.progress(a->o.progress_user, &p);
 }
 
+/* Makes the result, or brings it up to date; again, when sites turn out to be the same place. */
+static dyd_status ask_settle(dyd_engine *e, const dyd_delaunay_options *o, dyd_error *err) {
+  bool joined = true;
+  dyd_status st = DYD_OK;
+  while (joined && st == DYD_OK) {
+    joined = false;
+    dyd_error_clear(err);
+    st =
+        e->pd ? dyd_delaunay_update(e->pd, e->changed, e->changes, o, err) : dyd_delaunay_new(&e->pd, e->sites, o, err);
+    if (st == DYD_CAPPED) {
+      e->cap_error = *err;
+      st = DYD_OK;
+    }
+    if (st == DYD_OK && o->prove) st = dyd_aliases_find(&joined, e, e->pd, err);
+    /* should this be cut short, the next run sees that the result is not up to date */
+    if (st == DYD_OK && joined && !e->changes)
+      st = dyd_reserve((void **)&e->changed, &e->change_cap, 1, sizeof *e->changed) ? DYD_OK : DYD_E_NOMEM;
+    if (st == DYD_OK && joined && !e->changes) e->changed[e->changes++] = 0;
+  }
+  return st;
+}
+
 /* Makes the result, or brings it up to date, and reports. */
 static dyd_status ask_triangulate(ask *a, dyd_error *err) {
   dyd_engine *e = a->e;
-  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = a->o.max_pairs, .cancel = &e->stop,
-                                  .threads = a->o.threads, .no_filter = a->o.no_filter};
-  dyd_error_clear(err);
-  dyd_status st =
-      e->pd ? dyd_delaunay_update(e->pd, e->changed, e->changes, &o, err) : dyd_delaunay_new(&e->pd, e->sites, &o, err);
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options),
+                                  .max_pairs = a->o.max_pairs,
+                                  .cancel = &e->stop,
+                                  .threads = a->o.threads,
+                                  .no_filter = a->o.no_filter,
+                                  .prove = a->o.no_ties ? NULL : dyd_ties_prove,
+                                  .prove_user = e};
+  dyd_status st = ask_settle(e, &o, err);
   if (st == DYD_CANCELLED) return ask_end_interrupted(a);
-  if (st == DYD_CAPPED) {
-    e->cap_error = *err;
-    st = DYD_OK;
-  }
   if (st != DYD_OK) return st;
   e->max_pairs = a->o.max_pairs;
   e->changes = 0;
@@ -305,6 +331,7 @@ static dyd_status ask_timed(ask *a) {
   dyd_engine *e = a->e;
   dyd_flag_set(&e->stop, 0); /* where that undoes a cancel, `cancelled` is seen before any work */
   e->started = e->busy = true;
+  e->tie_bits = a->o.tie_bits;
   dyd_watch_start(&a->watch, a->o.seconds, &e->stop);
   dyd_status st = ask_loop(a);
   dyd_watch_stop(&a->watch);

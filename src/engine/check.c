@@ -33,6 +33,7 @@ static dyd_status check_begin(dyd_check_options *o, dyd_check_report *out, const
   if (!o->slack_bits) o->slack_bits = 16;
   if (!o->stages) o->stages = 6;
   if (!o->cells) o->cells = 6;
+  if (!o->tie_bits) o->tie_bits = DYD_TIE_BITS;
   if (o->base_bits > o->max_bits) o->base_bits = o->max_bits;
   if (o->seconds > 0) o->seconds += dyd_seconds();
   return DYD_OK;
@@ -48,6 +49,7 @@ typedef struct moves {
 /* Opens the points, starts the clock and asks everybody for base_bits. */
 static dyd_status schedule_start(dyd_check_state *s, dyd_check_open_fn open, void *user, dyd_error *err) {
   dyd_status st = open(&s->e, user, err);
+  if (st == DYD_OK) s->e->tie_bits = s->o->tie_bits;
   double left = s->o->seconds > 0 ? s->o->seconds - dyd_seconds() : 0;
   if (st == DYD_OK && left < 0) return DYD_CANCELLED;
   if (st == DYD_OK) dyd_watch_start(&s->watch, left, &s->e->stop);

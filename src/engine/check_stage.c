@@ -2,6 +2,9 @@
 /* What the harness compares after each stage. Only exact comparisons; random numbers choose what to look at. */
 #include "engine/check.h"
 
+#include "engine/aliases.h"
+#include "engine/ties.h"
+
 #include "base/alloc.h"
 #include "base/error.h"
 #include "rect/interval.h"
@@ -104,7 +107,8 @@ static void pairs_compare_lists(dyd_check_state *s, const dyd_pair_list *before,
 
 static void not_retracted(dyd_check_state *s, const dyd_pair *p, dyd_pair_status before, dyd_pair_status now) {
   if (is_alias(s->pd, p->i) || is_alias(s->pd, p->j)) return; /* became one exact point with another */
-  if (before == DYD_ILLEGAL || (before == DYD_LEGAL && now != DYD_LEGAL))
+  bool settled = before == DYD_LEGAL || (before == DYD_TIE && !s->o->no_ties);
+  if (before == DYD_ILLEGAL || (settled && now != before))
     dyd_check_found(s, DYD_CHECK_RETRACT, "pair %u %u was %s and is %s", (unsigned)p->i, (unsigned)p->j,
                     pair_word(before), pair_word(now));
 }
@@ -117,10 +121,15 @@ static void same_or_floor(dyd_check_state *s, const dyd_pair *p, dyd_pair_status
                     (unsigned)p->i, (unsigned)p->j, pair_word(before), pair_word(now));
 }
 
+static dyd_delaunay_options check_options(const dyd_check_state *s) {
+  return (dyd_delaunay_options){DYD_SIZED(dyd_delaunay_options), .cancel = check_flag(s),
+                                .prove = s->o->no_ties ? NULL : dyd_ties_prove, .prove_user = s->e};
+}
+
 static dyd_status check_path(dyd_check_state *s) {
   dyd_delaunay *fresh = NULL;
   dyd_pair_list pairs = {0};
-  dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = check_flag(s)};
+  dyd_delaunay_options options = check_options(s);
   dyd_status st = dyd_delaunay_new(&fresh, s->e->sites, &options, NULL);
   if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, fresh);
   if (st == DYD_OK) pairs_compare_lists(s, &s->before, &pairs, same_or_floor);
@@ -152,7 +161,8 @@ static dyd_status choose_all(dyd_sites *out, dyd_check_state *s) {
   mpq_inits(x, y, NULL);
   dyd_status st = DYD_OK;
   for (size_t i = 0; i < dyd_sites_count(s->e->sites) && st == DYD_OK; i++) {
-    st = dyd_sites_get(&r, s->e->sites, i);
+    size_t same = dyd_sites_joined(s->e->sites, i);
+    st = same < i ? dyd_sites_get(&r, out, same) : dyd_sites_get(&r, s->e->sites, i);
     if (st != DYD_OK) break;
     choice_point(x, &s->random, &r.x);
     choice_point(y, &s->random, &r.y);
@@ -275,12 +285,19 @@ static dyd_status check_cells(dyd_check_state *s, bool last) {
 /* ---- a stage ---- */
 
 static dyd_status check_triangulate(bool *capped, dyd_check_state *s) {
-  dyd_delaunay_options options = {DYD_SIZED(dyd_delaunay_options), .cancel = check_flag(s)};
-  dyd_status st = s->pd ? dyd_delaunay_update(s->pd, s->changed, s->changes, &options, NULL)
-                        : dyd_delaunay_new(&s->pd, s->e->sites, &options, NULL);
+  const dyd_delaunay_options options = check_options(s);
+  bool joined = true;
+  dyd_status st = DYD_OK;
+  while (joined && st == DYD_OK) {
+    joined = false;
+    st = s->pd ? dyd_delaunay_update(s->pd, s->changed, s->changes, &options, NULL)
+               : dyd_delaunay_new(&s->pd, s->e->sites, &options, NULL);
+    *capped = st == DYD_CAPPED;
+    if (*capped) st = DYD_OK;
+    if (st == DYD_OK && options.prove) st = dyd_aliases_find(&joined, s->e, s->pd, NULL);
+  }
   s->changes = 0;
-  *capped = st == DYD_CAPPED;
-  return *capped ? DYD_OK : st;
+  return st;
 }
 
 dyd_status dyd_check_stage(dyd_check_state *s, bool last) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Life, counters and results of an engine. */
 #include "engine/points.h"
+#include "engine/ties.h"
 
 #include "base/abi.h"
 #include "base/alloc.h"
@@ -38,6 +39,7 @@ void dyd_engine_free(dyd_engine *e) {
   dyd_delaunay_free(e->pd);
   dyd_engine_clear_points(e);
   dyd_labels_clear(&e->labels);
+  dyd_ties_free(e->ties);
   dyd_sites_free(e->sites);
   free(e->changed);
   free(e);
@@ -113,6 +115,8 @@ dyd_status dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e
   if (st == DYD_OK && e->pd) st = dyd_delaunay_get_counters(&c.delaunay, e->pd, err);
   if (st != DYD_OK) return st;
   counters_add_past(&c.delaunay, &e->past);
+  c.ties = e->tie_counters;
+  c.ties.struct_size = sizeof c.ties;
   counters_add_bits(&c, e);
   if (e->pd) c.undecided_faces = dyd_delaunay_undecided_faces(e->pd);
   dyd_abi_give(out, &c, sizeof c);

@@ -15,6 +15,8 @@
  *   coarse.c        which sites of a face are coarse for their distances
  *   goal_voronoi.c  goals on the Voronoi diagram
  *   nearest.c       the question after the nearest sites of a computable point
+ *   aliases.c       points that are proved to be the same place
+ *   ties.c          what is proved about true points, for ties
  *   watch.c         the clock, and stopping work at a deadline
  *   converge.c      tables of runs, stage by stage
  *   check.c, check_stage.c  the harness of monotone refinement */
@@ -22,6 +24,9 @@
 #define DYD_ENGINE_STATE_H
 
 #include "engine/labels.h"
+
+/* Bits for a proof that true points are the same, on one line or circle, unless others are asked for. */
+#define DYD_TIE_BITS ((int64_t)1 << 17)
 
 /* A point that can be asked to narrow. Everything else about a site is in the table of sites.
  * Invariant: stream is NULL exactly when the site belongs to a source; then `source` is the source's number.
@@ -33,7 +38,8 @@ typedef struct dyd_refinable {
   uint64_t calls; /* how often the engine has asked it */
   bool final;     /* no call can narrow it further */
   bool asked;     /* has been brought to `bits` once */
-  bool measured;  /* its rectangle has come to be narrower than what its stream or source gave */
+  bool measured;  /* its rectangle has come to be narrower than what its stream or source gave: it was measured, or is
+                     joined with another site */
 } dyd_refinable;
 
 /* A source that streams taken out of the engine use as well: released by the last of refs. */
@@ -48,6 +54,8 @@ typedef struct dyd_source_use {
   uint32_t first;
   dyd_shared_source *shared;
 } dyd_source_use;
+
+typedef struct dyd_ties dyd_ties;
 
 /* Invariant: point is sorted by site; changed lists (with repeats) the sites narrowed since pd was last brought up
  * to date; pd = NULL before the first complete stage. Sites of points never asked hold the whole plane.
@@ -75,6 +83,9 @@ struct dyd_engine {
   dyd_budget spent;
   uint64_t stages, calls;
   double seconds;
+  dyd_ties *ties; /* what was asked about true points; NULL: nothing yet */
+  int64_t tie_bits;
+  dyd_tie_counters tie_counters;
   volatile int cancelled; /* set by dyd_engine_cancel; atomic access only, as for stop */
   volatile int stop;      /* set together with cancelled, and at a deadline; read by the triangulation */
 };

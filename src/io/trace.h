@@ -9,5 +9,7 @@
 
 /* The last goal and schedule of a trace; their words are dyd_goal_text and dyd_schedule_text. */
 enum { DYD_TRACE_GOAL = DYD_GOAL_VORONOI_HAUSDORFF, DYD_TRACE_SCHEDULE = DYD_SCHEDULE_UNIFORM };
+/* "coincident", ... by dyd_relation. */
+extern const char *const dyd_trace_relations[3];
 
 #endif

@@ -8,6 +8,7 @@
 #include "io/read/text.h"
 #include "io/result.h"
 #include "io/trace.h"
+#include "io/trace_proofs.h"
 #include <dyadel/io.h>
 #include <inttypes.h>
 #include <jansson.h>
@@ -33,6 +34,7 @@ typedef struct replay {
   uint32_t *changed;
   size_t changes, change_cap;
   uint64_t calls;
+  dyd_trace_proofs proofs;
   bool ended;
 } replay;
 
@@ -205,11 +207,29 @@ static bool replay_agrees(const dyd_stage_row *row, const json_t *line) {
   return json_has_text(line, "statuses", digest);
 }
 
+/* Again, when points are the same. */
+static dyd_status replay_triangulate(replay *r, const dyd_delaunay_options *o) {
+  bool joined = true;
+  dyd_status st = DYD_OK;
+  while (joined && st == DYD_OK) {
+    st = r->pd ? dyd_delaunay_update(r->pd, r->changed, r->changes, o, r->err) : replay_first_result(r, o);
+    if (st == DYD_CAPPED) st = DYD_OK; /* a result as well */
+    if (st == DYD_OK) st = dyd_trace_join(&joined, &r->proofs, r->sites);
+    if (st == DYD_E_NESTING) return replay_fail(r, "points that are said to be the same are apart");
+  }
+  return st;
+}
+
+static dyd_status replay_proof(replay *r, const json_t *line) {
+  dyd_status st = dyd_trace_proofs_read(&r->proofs, line, r->points);
+  return st == DYD_E_PARSE ? replay_fail(r, "this is not what can be proved of points") : st;
+}
+
 static dyd_status replay_stage(replay *r, const json_t *line) {
-  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = r->out->options->max_pairs};
+  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = r->out->options->max_pairs,
+                                  .prove = dyd_trace_prove, .prove_user = &r->proofs};
   dyd_stage_row *row;
-  dyd_status st = r->pd ? dyd_delaunay_update(r->pd, r->changed, r->changes, &o, r->err) : replay_first_result(r, &o);
-  if (st == DYD_CAPPED) st = DYD_OK; /* a result as well */
+  dyd_status st = replay_triangulate(r, &o);
   if (st != DYD_OK) return st;
   r->changes = 0;
   st = dyd_convergence_add(&row, r->out, r->pd, &r->converge, r->err);
@@ -241,6 +261,8 @@ static dyd_status replay_line(replay *r, const dyd_line *text) {
     st = replay_fail(r, "the trace goes on behind its outcome");
   else if (json_object_get(line, "outcome"))
     st = replay_outcome(r, line);
+  else if (json_object_get(line, "proved"))
+    st = replay_proof(r, line);
   else if (json_object_get(line, "done"))
     st = replay_stage(r, line);
   else
@@ -255,6 +277,7 @@ static void replay_clear(replay *r) {
   for (size_t i = 0; i < r->points; i++) dyd_rect_clear(&r->point[i].rect);
   free(r->point);
   free(r->changed);
+  dyd_trace_proofs_clear(&r->proofs);
   dyd_rect_clear(&r->window);
 }
 

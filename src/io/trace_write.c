@@ -4,6 +4,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "engine/ties.h"
 #include "io/decimal.h"
 #include "io/output.h"
 #include "io/parts.h"
@@ -15,6 +16,8 @@
 /* Invariant: seen[i] tells whether point i was narrowed; NULL once the fixed points are written. */
 struct dyd_trace {
   FILE *out;
+  const dyd_engine *e;
+  size_t proofs; /* written */
   size_t points;
   bool *seen;
   dyd_status failed;
@@ -51,6 +54,7 @@ dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dy
   dyd_trace *t = calloc(1, sizeof *t);
   if (!t) return dyd_fail_nomem(err);
   t->out = f;
+  t->e = e;
   t->points = dyd_engine_count(e);
   t->seen = calloc(t->points + 1, sizeof *t->seen);
   if (!t->seen) {
@@ -105,10 +109,26 @@ static dyd_status trace_fixed(dyd_trace *t, const dyd_delaunay *pd) {
   return st;
 }
 
+const char *const dyd_trace_relations[3] = {
+    [DYD_COINCIDENT] = "coincident", [DYD_COLLINEAR] = "collinear", [DYD_COCIRCULAR] = "cocircular"};
+
+/* What was proved in the stage: rectangles do not tell. */
+static void trace_proofs(dyd_trace *t) {
+  dyd_relation relation;
+  const uint32_t *site;
+  size_t count;
+  for (; dyd_ties_proved(&relation, &site, &count, t->e, t->proofs); t->proofs++) {
+    fprintf(t->out, "{\"proved\":\"%s\",\"points\":[", dyd_trace_relations[relation]);
+    for (size_t k = 0; k < count; k++) fprintf(t->out, k ? ",%" PRIu32 : "%" PRIu32, site[k]);
+    fputs("]}\n", t->out);
+  }
+}
+
 void dyd_trace_stage(void *trace, const dyd_stage_row *row, const dyd_delaunay *pd) {
   dyd_trace *t = trace;
   if (t->failed != DYD_OK) return;
   if (t->seen) t->failed = trace_fixed(t, pd);
+  trace_proofs(t);
   fprintf(t->out,
           "{\"stage\":%" PRIu64
           ",\"done\":true,\"legal\":%zu,\"indeterminate\":%zu,\"tie\":%zu,\"statuses\":\"%016" PRIx64 "\"}\n",

@@ -22,6 +22,7 @@ void dyd_sites_free(dyd_sites *s) {
   if (s->exact)
     for (size_t i = 0; i < s->count; i++) free(s->exact[i]);
   free(s->exact);
+  free(s->joined);
   for (int a = 0; a < 2; a++) {
     free(s->lower[a]);
     free(s->upper[a]);
@@ -399,5 +400,5 @@ dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]) {
 
 size_t dyd_sites_memory(const dyd_sites *s) {
   size_t arrays = 2 + (s->upper[0] != NULL) + (s->upper[1] != NULL) + (s->exact != NULL);
-  return sizeof *s + s->cap * arrays * sizeof(double) + s->packed_bytes;
+  return sizeof *s + s->cap * arrays * sizeof(double) + s->packed_bytes + s->joined_count * sizeof *s->joined;
 }

@@ -25,6 +25,8 @@ struct dyd_sites {
   double *upper[2]; /* rounded up */
   dyd_packed **exact;
   size_t packed_bytes;
+  uint32_t *joined; /* of sites below joined_count: the lowest site known to be the same place; NULL: none are joined */
+  size_t joined_count, joins; /* joins made */
 };
 
 /* The rational man * 2^exp / den. Invariant: man is odd, or 0 with exp = 0 and den = 1; den is odd and has no factor in

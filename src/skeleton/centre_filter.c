@@ -28,3 +28,16 @@ dyd_xy dyd_edge_centre(const dyd_skeleton *sk, dyd_half_edge h) {
   dyd_xy b = dyd_triangle_centre(&sk->mesh, dyd_edge_triangle(dyd_edge_twin(&sk->mesh, h)));
   return (dyd_xy){(a.x + b.x) * 0.5, (a.y + b.y) * 0.5};
 }
+
+dyd_xy dyd_edge_middle(const dyd_skeleton *sk, dyd_half_edge h) {
+  dyd_xy a = sk->reps.xy[dyd_edge_origin(&sk->mesh, h)], b = sk->reps.xy[dyd_edge_target(&sk->mesh, h)];
+  return (dyd_xy){a.x / 2 + b.x / 2, a.y / 2 + b.y / 2};
+}
+
+bool dyd_edge_centre_is_far(const dyd_skeleton *sk, dyd_half_edge h) {
+  enum { FAR = 64 };
+  dyd_xy a = sk->reps.xy[dyd_edge_origin(&sk->mesh, h)], middle = dyd_edge_middle(sk, h), c = dyd_edge_centre(sk, h);
+  double away = fmax(fabs(c.x - middle.x), fabs(c.y - middle.y)),
+         half = fmax(fabs(a.x - middle.x), fabs(a.y - middle.y));
+  return !(away <= FAR * half);
+}

@@ -123,7 +123,7 @@ static dyd_status always_collinear(bool *always, dyd_mesh *m) {
 static dyd_status step_aside(bool *done, uint32_t first[3], dyd_mesh *m, uint32_t v, uint32_t k) {
   uint32_t pair[2];
   *done = false;
-  if (dyd_mesh_is_point(m, v) || !two_others(pair, m, v)) return DYD_OK;
+  if (dyd_mesh_alias(m, v) != DYD_NONE || dyd_mesh_is_point(m, v) || !two_others(pair, m, v)) return DYD_OK;
   for (uint32_t last = k + 4; k < last; k++) {
     dyd_status st = dyd_mesh_move(m, v, k);
     if (st != DYD_OK) return st;
@@ -155,6 +155,7 @@ dyd_status dyd_mesh_first_triangle(uint32_t first[3], dyd_mesh *m) {
   dyd_status st = DYD_OK;
   for (uint32_t v = m->begin; v < m->end && found < 3 && st == DYD_OK; v++) {
     bool differs = true;
+    if (dyd_mesh_alias(m, v) != DYD_NONE) continue;
     if (found >= 1) st = separate(&differs, m, v, first[0]);
     if (st == DYD_OK && differs && found >= 2) {
       if (dyd_build_orient(m, first[0], first[1], v) == 0) continue;

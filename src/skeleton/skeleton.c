@@ -48,6 +48,9 @@ static dyd_status skeleton_triangulate(dyd_skeleton *sk, const dyd_skeleton_opti
 /* A vertex stands for the lowest of its equal sites: site numbers of a vertex and its aliases are exchanged. */
 static void settle_aliases(dyd_skeleton *sk) {
   uint32_t *site = sk->reps.site;
+  for (uint32_t v = 0; v < sk->n && sk->mesh.alias; v++)
+    while (sk->mesh.alias[v] != DYD_NONE && dyd_mesh_alias(&sk->mesh, sk->mesh.alias[v]) != DYD_NONE)
+      sk->mesh.alias[v] = sk->mesh.alias[sk->mesh.alias[v]];
   for (uint32_t v = 0; v < sk->n && sk->mesh.alias; v++) {
     uint32_t a = sk->mesh.alias[v];
     if (a == DYD_NONE || site[v] > site[a]) continue;

@@ -19,6 +19,8 @@ struct dyd_real {
   dyd_release_fn release;
   void *user;
   bool encloses, final, spans;
+  unsigned char kind; /* a dyd_real_kind, of object */
+  const void *object;
   uint64_t stage;
   size_t line, column; /* 0: no place known */
   dyd_double_span span;
@@ -63,6 +65,16 @@ void dyd_real_set_span(dyd_real *x, dyd_double_span span) {
 
 void *dyd_real_user(const dyd_real *x, dyd_narrow_real_fn narrow) {
   return x->narrow == narrow ? x->user : NULL;
+}
+
+void dyd_real_set_object(dyd_real *x, dyd_real_kind kind, const void *object) {
+  x->kind = (unsigned char)kind;
+  x->object = object;
+}
+
+dyd_real_kind dyd_real_object(const void **object, const dyd_real *x) {
+  *object = x->object;
+  return x->final && !dyd_interval_is_point(x->now) ? DYD_REAL_VAGUE : (dyd_real_kind)x->kind;
 }
 
 /* Makes room for an interval. */

@@ -107,7 +107,11 @@ dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radius) {
   w->x = x;
   mpq_init(w->radius);
   mpq_set(w->radius, radius);
-  if (!dyd_real_is_final(x)) return dyd_real_new_enclosing(out, widened_narrow, widened_release, w);
+  if (!dyd_real_is_final(x)) {
+    dyd_status st = dyd_real_new_enclosing(out, widened_narrow, widened_release, w);
+    if (st == DYD_OK) dyd_real_set_object(*out, DYD_REAL_VAGUE, NULL);
+    return st;
+  }
   dyd_interval a; /* final already: one fixed interval */
   dyd_interval_init(&a);
   dyd_status st = real_take_interval(out, &a, widened_interval(&a, w, 0));

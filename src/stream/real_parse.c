@@ -73,6 +73,7 @@ static dyd_status real_from_draft(dyd_real **out, reader *r, size_t at, dyd_draf
   computed *c = inside;
   c->extra = DYD_EXPR_EXTRA;
   dyd_expr_take(&c->expr, d);
+  dyd_real_set_object(*out, DYD_REAL_EXPR, &c->expr);
   if (spans) dyd_real_set_span(*out, span);
   return DYD_OK;
 }

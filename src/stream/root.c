@@ -12,13 +12,47 @@
 #include <flint/fmpz_poly.h>
 #include <flint/fmpz_poly_factor.h>
 
-static void root_release(void *user) {
-  dyd_root *r = user;
+void dyd_root_free(dyd_root *r) {
+  if (!r) return;
   for (size_t k = 0; k < r->count; k++) mpz_clear(r->coeff[k]);
   free(r->coeff);
   mpz_clear(r->slot);
   mpq_clears(r->lo, r->hi, NULL);
   free(r);
+}
+
+static void root_release(void *user) {
+  dyd_root_free(user);
+}
+
+/* Memory for `count` coefficients, all 0; NULL: memory is exhausted. */
+static dyd_root *root_alloc(size_t count) {
+  dyd_root *r = dyd_alloc(1, sizeof *r);
+  if (!r) return NULL;
+  *r = (dyd_root){.jump = 2};
+  mpq_inits(r->lo, r->hi, NULL);
+  mpz_init(r->slot);
+  r->coeff = dyd_alloc(count, sizeof *r->coeff);
+  if (!r->coeff) return dyd_root_free(r), NULL;
+  for (; r->count < count; r->count++) mpz_init(r->coeff[r->count]);
+  return r;
+}
+
+dyd_status dyd_root_copy(dyd_root **out, const dyd_root *r) {
+  dyd_root *c = root_alloc(r->count);
+  if (!c) return DYD_E_NOMEM;
+  for (size_t k = 0; k < r->count; k++) mpz_set(c->coeff[k], r->coeff[k]);
+  mpq_set(c->lo, r->lo);
+  mpq_set(c->hi, r->hi);
+  mpz_set(c->slot, r->slot);
+  c->on_grid = r->on_grid;
+  c->exact = r->exact;
+  c->isolated = r->isolated;
+  c->sign_left = r->sign_left;
+  c->s = r->s;
+  c->jump = r->jump;
+  *out = c;
+  return DYD_OK;
 }
 
 /* The bracket as an interval. */
@@ -93,32 +127,22 @@ static int sign_at_q(const fmpz_poly_t p, const mpq_t x) {
   return sign;
 }
 
-static bool root_copy_coefficients(dyd_root *r, const fmpz_poly_t g) {
-  size_t count = (size_t)fmpz_poly_length(g);
-  r->coeff = dyd_alloc(count, sizeof *r->coeff);
-  if (!r->coeff) return false;
+static dyd_status root_new(dyd_real **out, const fmpz_poly_t g, const mpq_t lo, const mpq_t hi) {
+  dyd_root *r = root_alloc((size_t)fmpz_poly_length(g));
   fmpz_t c;
+  if (!r) return DYD_E_NOMEM;
   fmpz_init(c);
-  for (r->count = 0; r->count < count; r->count++) {
-    mpz_init(r->coeff[r->count]);
-    fmpz_poly_get_coeff_fmpz(c, g, (slong)r->count);
-    fmpz_get_mpz(r->coeff[r->count], c);
+  for (size_t k = 0; k < r->count; k++) {
+    fmpz_poly_get_coeff_fmpz(c, g, (slong)k);
+    fmpz_get_mpz(r->coeff[k], c);
   }
   fmpz_clear(c);
-  return true;
-}
-
-static dyd_status root_new(dyd_real **out, const fmpz_poly_t g, const mpq_t lo, const mpq_t hi) {
-  dyd_root *r = dyd_alloc(1, sizeof *r);
-  if (!r) return DYD_E_NOMEM;
-  *r = (dyd_root){.sign_left = sign_at_q(g, lo), .jump = 2};
-  mpq_inits(r->lo, r->hi, NULL);
-  mpz_init(r->slot);
+  r->sign_left = sign_at_q(g, lo);
   mpq_set(r->lo, lo);
   mpq_set(r->hi, hi);
-  if (root_copy_coefficients(r, g)) return dyd_real_new_enclosing(out, root_narrow, root_release, r);
-  root_release(r);
-  return DYD_E_NOMEM;
+  dyd_status st = dyd_real_new_enclosing(out, root_narrow, root_release, r);
+  if (st == DYD_OK) dyd_real_set_object(*out, DYD_REAL_ROOT, r);
+  return st;
 }
 
 /* The root -c0/c1 of a polynomial of degree one. */

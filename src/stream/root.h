@@ -28,5 +28,8 @@ typedef struct dyd_root {
 dyd_status dyd_root_step(dyd_root *r, int64_t target, dyd_error *err);
 /* Is the bracket at most 2^-bits wide (or the root known exactly)? */
 bool dyd_root_is_narrow(const dyd_root *r, int64_t bits);
+/* A copy with a bracket of its own; to be freed. DYD_OK or DYD_E_NOMEM. */
+dyd_status dyd_root_copy(dyd_root **out, const dyd_root *r);
+void dyd_root_free(dyd_root *r);
 
 #endif

@@ -17,6 +17,8 @@ struct dyd_stream {
   dyd_source source; /* source.narrow is NULL for rectangles fixed from the start */
   size_t point;
   bool encloses, final;
+  unsigned char kind; /* a dyd_stream_kind, of object */
+  const void *object;
   uint64_t stage;
   dyd_rect *now;
 };
@@ -28,6 +30,16 @@ static dyd_status stream_new(dyd_stream **out, size_t more, const dyd_source *so
   *s = (dyd_stream){.refs = 1, .source = *source, .point = point};
   *out = s;
   return DYD_OK;
+}
+
+void dyd_stream_set_object(dyd_stream *s, dyd_stream_kind kind, const void *object) {
+  s->kind = (unsigned char)kind;
+  s->object = object;
+}
+
+dyd_stream_kind dyd_stream_object(const void **object, const dyd_stream *s) {
+  *object = s->object;
+  return (dyd_stream_kind)s->kind;
 }
 
 /* Makes room for a rectangle. */

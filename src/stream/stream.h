@@ -6,6 +6,33 @@
 #include "stream/expr_filter.h"
 #include <dyadel/stream.h>
 
+/* What a stream is made of: object is a dyd_stream_pair, a dyd_stream_image, an array of three streams whose circle has
+ * the point as its centre; nothing for those of which no more is known (OPAQUE). */
+typedef enum dyd_stream_kind {
+  DYD_STREAM_OPAQUE,
+  DYD_STREAM_PAIR,
+  DYD_STREAM_IMAGE,
+  DYD_STREAM_CENTRE
+} dyd_stream_kind;
+typedef struct dyd_stream_pair {
+  dyd_real *x, *y;
+} dyd_stream_pair;
+/* One of several summands: x becomes m[0] x + m[1] y, y becomes m[2] x + m[3] y. */
+typedef struct dyd_stream_term {
+  dyd_stream *of;
+  mpq_t m[4];
+} dyd_stream_term;
+/* Invariant: 2^gain >= the sum of all |m[0]| + |m[1]|, and of all |m[2]| + |m[3]|. */
+typedef struct dyd_stream_image {
+  size_t count;
+  dyd_stream_term *term;
+  mpq_t shift[2];
+  int64_t gain;
+} dyd_stream_image;
+/* Borrowed from s's context. New streams are opaque. */
+void dyd_stream_set_object(dyd_stream *s, dyd_stream_kind kind, const void *object);
+dyd_stream_kind dyd_stream_object(const void **object, const dyd_stream *s);
+
 /* As dyd_stream_new for a source that encloses one and the same point every time: its rectangles are intersected
  * with the former ones [NEST-2]. The context is released on failure too. final: nothing can be narrowed, one call of
  * the source, whatever it is asked for, gives the rectangle for good. */

@@ -15,22 +15,8 @@
 #include "stream/real.h"
 #include "stream/stream.h"
 
-/* x becomes m[0] x + m[1] y, y becomes m[2] x + m[3] y. */
-typedef struct term {
-  dyd_stream *of;
-  mpq_t m[4];
-} term;
-
-/* Invariant: 2^gain >= the sum of all |m[0]| + |m[1]|, and of all |m[2]| + |m[3]|. */
-typedef struct image {
-  size_t count;
-  term *term;
-  mpq_t shift[2];
-  int64_t gain;
-} image;
-
 static void image_release(void *user) {
-  image *a = user;
+  dyd_stream_image *a = user;
   for (size_t k = 0; k < a->count; k++) {
     dyd_stream_free(a->term[k].of);
     for (int i = 0; i < 4; i++) mpq_clear(a->term[k].m[i]);
@@ -41,8 +27,8 @@ static void image_release(void *user) {
 }
 
 /* With room for n terms; NULL: memory is exhausted. */
-static image *image_new(size_t n) {
-  image *a = calloc(1, sizeof *a);
+static dyd_stream_image *image_new(size_t n) {
+  dyd_stream_image *a = calloc(1, sizeof *a);
   if (!a) return NULL;
   mpq_inits(a->shift[0], a->shift[1], NULL);
   a->term = dyd_alloc(n, sizeof *a->term);
@@ -52,14 +38,14 @@ static image *image_new(size_t n) {
 }
 
 /* Appends a term of coefficients 0; takes over the reference. */
-static term *image_add_term(image *a, dyd_stream *of) {
-  term *t = &a->term[a->count++];
+static dyd_stream_term *image_add_term(dyd_stream_image *a, dyd_stream *of) {
+  dyd_stream_term *t = &a->term[a->count++];
   t->of = of;
   for (int i = 0; i < 4; i++) mpq_init(t->m[i]);
   return t;
 }
 
-static bool image_is_final(const image *a) {
+static bool image_is_final(const dyd_stream_image *a) {
   for (size_t k = 0; k < a->count; k++)
     if (!dyd_stream_is_final(a->term[k].of)) return false;
   return true;
@@ -80,7 +66,7 @@ static void image_add_scaled(mpq_t lo, mpq_t hi, const mpq_t c, const dyd_interv
 }
 
 /* One side of the image. Fixed rectangles are rounded once and for all. */
-static dyd_status image_side(dyd_interval *out, const image *a, int axis, int64_t exp) {
+static dyd_status image_side(dyd_interval *out, const dyd_stream_image *a, int axis, int64_t exp) {
   mpq_t lo, hi;
   mpq_inits(lo, hi, NULL);
   mpq_set(lo, a->shift[axis]);
@@ -97,7 +83,7 @@ static dyd_status image_side(dyd_interval *out, const image *a, int axis, int64_
 }
 
 /* what: for messages. */
-static dyd_status image_narrow(dyd_rect *out, const image *a, const dyd_request *request, const char *what,
+static dyd_status image_narrow(dyd_rect *out, const dyd_stream_image *a, const dyd_request *request, const char *what,
                                dyd_error *err) {
   int64_t more = a->gain + 1, most = request->max_bits + (more > 0 ? more : 0);
   for (size_t k = 0; k < a->count; k++) {
@@ -111,7 +97,7 @@ static dyd_status image_narrow(dyd_rect *out, const image *a, const dyd_request 
 }
 
 /* The least gain found by lengths of numbers; very small for a constant map. */
-static int64_t image_gain(const image *a) {
+static int64_t image_gain(const dyd_stream_image *a) {
   int64_t gain = -DYD_EXP_LIMIT;
   mpq_t sum, t;
   mpq_inits(sum, t, NULL);
@@ -129,10 +115,13 @@ static int64_t image_gain(const image *a) {
 }
 
 /* The image, complete but for its gain, as a stream; it is released on failure. */
-static dyd_status image_stream(dyd_stream **out, image *a, dyd_narrow_fn narrow) {
+static dyd_status image_stream(dyd_stream **out, dyd_stream_image *a, dyd_narrow_fn narrow) {
   a->gain = image_gain(a);
   dyd_source source = {DYD_SIZED(dyd_source), .narrow = narrow, .release = image_release, .user = a};
-  return dyd_stream_new_enclosing(out, &source, image_is_final(a));
+  bool final = image_is_final(a);
+  dyd_status st = dyd_stream_new_enclosing(out, &source, final);
+  if (st == DYD_OK && !final) dyd_stream_set_object(*out, DYD_STREAM_IMAGE, a);
+  return st;
 }
 
 /* ---- of one stream ---- */
@@ -142,7 +131,7 @@ static dyd_status affine_narrow(dyd_rect *out, void *user, const dyd_request *re
 }
 
 /* The only term and the shift of a become those of m, or of m after inner. */
-static void affine_set(image *a, const mpq_t m[6], const image *inner) {
+static void affine_set(dyd_stream_image *a, const mpq_t m[6], const dyd_stream_image *inner) {
   mpq_t t;
   mpq_init(t);
   for (int k = 0; k < 6; k++) {
@@ -161,12 +150,12 @@ static void affine_set(image *a, const mpq_t m[6], const image *inner) {
 }
 
 dyd_status dyd_stream_affine(dyd_stream **out, dyd_stream *of, const mpq_t m[6]) {
-  image *a = of ? image_new(1) : NULL;
+  dyd_stream_image *a = of ? image_new(1) : NULL;
   if (!a) {
     dyd_stream_free(of);
     return of ? DYD_E_NOMEM : DYD_E_ARG;
   }
-  const image *inner = dyd_stream_user(of, affine_narrow);
+  const dyd_stream_image *inner = dyd_stream_user(of, affine_narrow);
   image_add_term(a, dyd_stream_ref(inner ? inner->term->of : of));
   affine_set(a, m, inner);
   dyd_stream_free(of);
@@ -183,13 +172,13 @@ dyd_status dyd_stream_combination(dyd_stream **out, size_t n, dyd_stream *const 
                                   const mpq_t shift[2]) {
   bool whole = true;
   for (size_t k = 0; k < n; k++) whole = whole && of[k];
-  image *a = whole ? image_new(n) : NULL;
+  dyd_stream_image *a = whole ? image_new(n) : NULL;
   for (size_t k = 0; k < n; k++) {
     if (!a || !mpq_sgn(weight[k])) {
       dyd_stream_free(of[k]);
       continue;
     }
-    term *t = image_add_term(a, of[k]);
+    dyd_stream_term *t = image_add_term(a, of[k]);
     mpq_set(t->m[0], weight[k]);
     mpq_set(t->m[3], weight[k]);
   }

@@ -14,27 +14,23 @@ dyd_status dyd_stream_from_rect(dyd_stream **out, const dyd_rect *r) {
   return st;
 }
 
-typedef struct pair {
-  dyd_real *x, *y;
-} pair;
-
 static void pair_release(void *user) {
-  pair *p = user;
+  dyd_stream_pair *p = user;
   dyd_real_free(p->y);
   dyd_real_free(p->x);
 }
 
-static bool pair_is_final(const pair *p) {
+static bool pair_is_final(const dyd_stream_pair *p) {
   return dyd_real_is_final(p->x) && dyd_real_is_final(p->y);
 }
 
-static void pair_rect(dyd_rect *out, const pair *p) {
+static void pair_rect(dyd_rect *out, const dyd_stream_pair *p) {
   dyd_interval_set(&out->x, dyd_real_interval(p->x));
   dyd_interval_set(&out->y, dyd_real_interval(p->y));
 }
 
 static dyd_status pair_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
-  pair *p = user;
+  dyd_stream_pair *p = user;
   dyd_status st = dyd_real_narrow(p->x, request->bits, request->max_bits, err);
   if (!dyd_failed(st)) st = dyd_real_narrow(p->y, request->bits, request->max_bits, err);
   if (dyd_failed(st)) return st;
@@ -42,7 +38,7 @@ static dyd_status pair_narrow(dyd_rect *out, void *user, const dyd_request *requ
   return pair_is_final(p) ? DYD_FIXED : DYD_OK;
 }
 
-static dyd_status pair_fixed(dyd_stream **out, const pair *p) {
+static dyd_status pair_fixed(dyd_stream **out, const dyd_stream_pair *p) {
   dyd_rect r;
   dyd_rect_init(&r);
   pair_rect(&r, p);
@@ -52,13 +48,14 @@ static dyd_status pair_fixed(dyd_stream **out, const pair *p) {
 }
 
 dyd_status dyd_stream_from_reals(dyd_stream **out, dyd_real *x, dyd_real *y) {
-  pair p = {x, y};
+  dyd_stream_pair p = {x, y};
   void *inside;
   dyd_status st = x && y ? DYD_OK : DYD_E_ARG;
   if (st == DYD_OK && !pair_is_final(&p)) {
     st = dyd_stream_new_inside(out, &inside, sizeof p, pair_narrow, pair_release);
     if (st == DYD_OK) {
-      *(pair *)inside = p;
+      *(dyd_stream_pair *)inside = p;
+      dyd_stream_set_object(*out, DYD_STREAM_PAIR, inside);
       return DYD_OK;
     }
   } else if (st == DYD_OK) {
@@ -69,19 +66,19 @@ dyd_status dyd_stream_from_reals(dyd_stream **out, dyd_real *x, dyd_real *y) {
 }
 
 bool dyd_stream_reaches(const dyd_stream *s, const dyd_rect *now, int64_t bits) {
-  const pair *p = dyd_stream_user(s, pair_narrow);
+  const dyd_stream_pair *p = dyd_stream_user(s, pair_narrow);
   if (p) return dyd_real_reaches(p->x, &now->x, bits) && dyd_real_reaches(p->y, &now->y, bits);
   return dyd_stream_is_final(s) || dyd_rect_bits(now) >= bits;
 }
 
 bool dyd_stream_glance(dyd_double_span out[2], const dyd_stream *s, int64_t bits) {
-  const pair *p = dyd_stream_user(s, pair_narrow);
+  const dyd_stream_pair *p = dyd_stream_user(s, pair_narrow);
   if (!p || dyd_stream_rect(s)) return false;
   return dyd_real_glance(&out[0], p->x, bits) && dyd_real_glance(&out[1], p->y, bits);
 }
 
 int64_t dyd_stream_glance_bits(const dyd_stream *s) {
-  const pair *p = dyd_stream_user(s, pair_narrow);
+  const dyd_stream_pair *p = dyd_stream_user(s, pair_narrow);
   if (!p || dyd_stream_rect(s)) return INT64_MIN;
   int64_t x = dyd_real_glance_bits(p->x), y = dyd_real_glance_bits(p->y);
   return x < y ? x : y;

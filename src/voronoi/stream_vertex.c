@@ -247,5 +247,8 @@ dyd_status dyd_stream_voronoi_vertex(dyd_stream **out, dyd_stream *a, dyd_stream
   }
   *v = (vertex){{a, b, c}, LEAST_EXTRA};
   dyd_source source = {DYD_SIZED(dyd_source), .narrow = vertex_narrow, .release = vertex_release, .user = v};
-  return dyd_stream_new_enclosing(out, &source, vertex_is_final(v));
+  bool final = vertex_is_final(v);
+  dyd_status st = dyd_stream_new_enclosing(out, &source, final);
+  if (st == DYD_OK && !final) dyd_stream_set_object(*out, DYD_STREAM_CENTRE, v->of);
+  return st;
 }

@@ -180,6 +180,14 @@ static bool has_alias(const orc_case *c) {
   return false;
 }
 
+bool statement_ties_are_exact(const statement *s) {
+  for (size_t i = 0; i < s->sites.n; i++)
+    for (size_t j = i + 1; j < s->sites.n; j++)
+      if (s->kind[i][j] == 't' && !(orc_rect_is_point(&s->sites.rect[i]) && orc_rect_is_point(&s->sites.rect[j])))
+        return false;
+  return true;
+}
+
 const char *statement_judge(orc_pool *p, const statement *s) {
   bool open = s->capped;
   for (size_t i = 0; i < s->sites.n; i++)

@@ -29,6 +29,8 @@ void statement_clear(statement *s);
 void statement_read(statement *s, const char *text);
 /* Do both say the same of the same rectangles? Bounds and the words that claim nothing (see certificate.h) apart. */
 bool statement_same(const statement *a, const statement *b);
+/* Are all ties ties of points? Others follow from what the sites are, not from their rectangles. */
+bool statement_ties_are_exact(const statement *s);
 /* Is what is stated true, by the oracle? NULL, or what is wrong. */
 const char *statement_judge(orc_pool *p, const statement *s);
 /* The same by the engine, which is quick and shares nothing with the checker but numbers: what is called legal is not

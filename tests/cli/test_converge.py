@@ -22,7 +22,7 @@ NEAR_PAIR += '50+sqrt(2) 50+sqrt(3)\n50+sqrt(2)+3*2^-202 50+sqrt(3)+2^-201\n'
 NEAR_CIRCLE = ''.join(f'{x}+sqrt({2 + k * k})/7 {y}+exp(-{k})/11\n' for k, (x, y) in enumerate(FAR[:8]))
 NEAR_CIRCLE += '50+cos(1) 50+sin(1)\n50+cos(2) 50+sin(2)\n50+cos(4) 50+sin(4)\n50+(1+2^-200)*cos(5) 50+(1+2^-200)*sin(5)\n'
 MIXED = '0 0\n1/3 [1,1.25]\n0.1 2.7\nsqrt(2) 1\n0 0.0\n3 1e-3\n5 5\n-sqrt(2) pi\n2^-300 -7/3\n'
-SQUARE = 'exp(log(6)/2) 0\n0 sqrt(6)\n-sqrt(6) 0\n0 -exp(log(6)/2)\n'
+SQUARE = 'exp(log(6)/2) 0\n0 sqrt(6)\n-exp(log(6)/2) 0\n0 -sqrt(6)\n'
 
 
 def table(*args, text, code=0):

@@ -19,13 +19,14 @@ SECONDS = ('0', '-1', 'nan', 'inf', 'x', '', '1s')
 # Values that are refused before any file is looked at.
 WRONG = {
     '--until': ('', 'area', 'area:', 'are:3', 'decided:3', 'hausdorff:3x', 'hausdorff:99999999'),
-    '--max-bits': WHOLE, '--max-pairs': WHOLE, '--threads': WHOLE, '--start-bits': WHOLE, '--step-bits': WHOLE,
+    '--max-bits': WHOLE, '--max-pairs': WHOLE, '--threads': WHOLE, '--tie-bits': WHOLE, '--start-bits': WHOLE, '--step-bits': WHOLE,
     '--oracle-jobs': WHOLE, '--oracle-batch': WHOLE, '--schedules': WHOLE,
     '--seed': WHOLE[1:], '--site': WHOLE[1:],
     '--flatten': WHOLE[2:],
     '--timeout': SECONDS, '--oracle-timeout': SECONDS,
     '--schedule': ('', 'fast', 'Adaptive', 'uniform '),
     '--of': ('', 'Voronoi', 'both'),
+    '--ties': ('', 'on', 'Prove', 'off '),
     '--format': ('', 'gif', 'CSV', 'csv,json'),
     '--layer': ('', 'edge', 'Points', 'pairs,points'),
     '--crs': ('', '4326', 'EPSG', 'EPSG:', 'EPSG:0', 'EPSG:x', 'EPSG:1000000', 'epsg 4326'),
@@ -34,7 +35,7 @@ WRONG = {
     '--plot': ('', 'plot', 'plot.gif', 'png'),
     '--help': ('fish', 'MAN'),
 }
-RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--until': 'decided'}
+RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--until': 'decided'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
 TEXTS = {'--queries', '--up-to', '--accuracy', '--pairs', '--columns', '--delimiter', '--id', '--points', '--radius', '--radius-column', '--oracle', '--output', '--trace',
          '--replay', '--certificate'}

@@ -18,7 +18,7 @@ from harness import COMMAND, count, expect, main, run
 # Two equal reals are never told apart, so the square stays undecided up to any precision.
 # Four points of one circle that no precision tells from others; a million bits of them take many seconds.
 SLOW = 'exp(log(' * 4 + '6' + '))' * 4
-ENDLESS = f'exp(log({SLOW})/2) 0\n0 exp(log({SLOW})/2)\n-exp(log({SLOW})/2) 0\n0 -exp(log({SLOW})/2)\n'
+ENDLESS = f'exp(log({SLOW})/2) 0\n0 sqrt({SLOW})\n-exp(log({SLOW})/2) 0\n0 -sqrt({SLOW})\n'
 FOREVER = ('--max-bits', '1000000', '--timeout', '100')
 
 
@@ -75,7 +75,8 @@ def test_first_interrupt_in_single_answers():
 
 
 def test_second_interrupt_ends():
-    square = f'{UP} 0\n0 {DOWN}\n-({UP}) 0\n0 -({DOWN})\n'
+    same = f'exp(log(({DOWN})^2)/2)'  # equal to the absolute value, which is not seen
+    square = f'{UP} 0\n0 {same}\n-({UP}) 0\n0 -({same})\n'
     for command, text in {('delaunay',): square, **ENDLESS_PIECES}.items():
         with tempfile.TemporaryDirectory() as folder:
             process = start('--max-bits', '1000000', '-o', os.path.join(folder, 'out'), text=text,

@@ -26,13 +26,39 @@ void engine_add_text(dyd_engine *e, const char *x, const char *y) {
   assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s));
 }
 
+/* ---- callbacks of which nothing is known but their answers ---- */
+
+static dyd_status narrow_hidden(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
+  dyd_status st = dyd_real_narrow(user, request->bits, request->max_bits, err);
+  if (st >= 0) dyd_interval_set(out, dyd_real_interval(user));
+  return st;
+}
+
+static void release_hidden(void *user) {
+  dyd_real_free(user);
+}
+
+static dyd_real *hidden_real(const char *text) {
+  dyd_real *x = real_of(text), *hidden = NULL;
+  if (dyd_real_is_final(x)) return x;
+  assert_int_equal(DYD_OK, dyd_real_new(&hidden, narrow_hidden, release_hidden, x));
+  return hidden;
+}
+
+void engine_add_hidden(dyd_engine *e, const char *x, const char *y) {
+  dyd_stream *s = NULL;
+  dyd_real *a = hidden_real(x), *b = hidden_real(y);
+  assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, a, b));
+  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s));
+}
+
 void engine_add_polygon(dyd_engine *e, int n, const int *weight, int bits) {
   for (int k = 0; k < n; k++) {
     char x[200], y[200], radius[80] = "1";
     if (weight) snprintf(radius, sizeof radius, "(1+%d*2^(-%d))", weight[k], bits);
     snprintf(x, sizeof x, "%s*cos(2*pi*%d/%d)", radius, k, n);
     snprintf(y, sizeof y, "%s*sin(2*pi*%d/%d)", radius, k, n);
-    engine_add_text(e, x, y);
+    engine_add_hidden(e, x, y);
   }
 }
 

@@ -14,7 +14,9 @@
 dyd_engine *engine_new(void);
 /* A point by two expressions. */
 void engine_add_text(dyd_engine *e, const char *x, const char *y);
-/* The corners k = 0 .. n-1 of the regular n-gon, with radii 1 + weight[k] 2^-bits (weight = NULL: 1). */
+/* The same by callbacks that do not say what they compute: nothing is proved of it. */
+void engine_add_hidden(dyd_engine *e, const char *x, const char *y);
+/* Hidden: the corners k = 0 .. n-1 of the regular n-gon, with radii 1 + weight[k] 2^-bits (weight = NULL: 1). */
 void engine_add_polygon(dyd_engine *e, int n, const int *weight, int bits);
 /* n random points (sqrt(a)/b, sqrt(c)/d). */
 void engine_add_roots(dyd_engine *e, test_random *r, size_t n);

@@ -43,7 +43,7 @@ static void test_calls(void **state) {
     char cx[60], cy[60];
     snprintf(cx, sizeof cx, "100+cos(2*pi*%d/5)", k);
     snprintf(cy, sizeof cy, "sin(2*pi*%d/5)", k);
-    engine_add_text(e, cx, cy);
+    engine_add_hidden(e, cx, cy);
   }
   dyd_engine_options o = options();
   o.max_calls = 3;

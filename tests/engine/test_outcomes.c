@@ -319,8 +319,8 @@ static void test_mixed(void **state) {
 static void test_coincident(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
-  engine_add_text(e, "sqrt(2)", "1");
-  engine_add_text(e, "sqrt(2)", "1");
+  engine_add_hidden(e, "sqrt(2)", "1");
+  engine_add_hidden(e, "sqrt(2)", "1");
   engine_add_text(e, "0", "0");
   engine_add_text(e, "3", "5");
   dyd_engine_options o;

@@ -62,15 +62,15 @@ static dyd_engine *half_tie(void) {
     if (k >= 16) snprintf(radius, sizeof radius, "(1+%d*2^-90)", k * k % 31);
     snprintf(x, sizeof x, "%s*cos(2*pi*%d/32)", radius, k);
     snprintf(y, sizeof y, "%s*sin(2*pi*%d/32)", radius, k);
-    engine_add_text(e, x, y);
+    engine_add_hidden(e, x, y);
   }
   return e;
 }
 
 static dyd_engine *near_pair(void) {
   dyd_engine *e = near_circle(24, 80);
-  engine_add_text(e, "cos(1)*(1+2^-300)", "sin(1)");
-  engine_add_text(e, "cos(1)", "sin(1)");
+  engine_add_hidden(e, "cos(1)*(1+2^-300)", "sin(1)");
+  engine_add_hidden(e, "cos(1)", "sin(1)");
   return e;
 }
 

@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Proving that points of an engine are the same, on one line, or on one circle: by what their coordinates are, whatever
+ * their rectangles.
+ *
+ * The points of one question are described in one algebra, so that they share their leaves. All determinants have
+ * points in common: the ends of a chain, three points of a polygon far apart; these are proved to be different, and not
+ * on one line, before a determinant that is 0 means anything. A point that is not described proves nothing. */
+#include "engine/ties.h"
+
+#include "base/alloc.h"
+#include "base/clock.h"
+#include "base/error.h"
+#include "engine/points.h"
+#include "stream/algebra/describe.h"
+#include "stream/algebra/zero.h"
+
+#include <string.h>
+
+enum { TABLE = 1024 };
+
+/* A question that was asked, by site numbers. */
+typedef struct answer {
+  struct answer *next;
+  dyd_relation relation;
+  int64_t most; /* bits that were allowed */
+  dyd_zero zero;
+  size_t count;
+  uint32_t site[];
+} answer;
+
+/* Invariant: proved[0 .. proofs-1] are the answers that are proofs. */
+struct dyd_ties {
+  answer *head[TABLE];
+  answer **proved;
+  size_t proofs, proved_cap;
+};
+
+void dyd_ties_free(dyd_ties *t) {
+  for (size_t k = 0; t && k < TABLE; k++)
+    for (answer *a = t->head[k], *next; a; a = next) {
+      next = a->next;
+      free(a);
+    }
+  if (t) free(t->proved);
+  free(t);
+}
+
+bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *count, const dyd_engine *e, size_t k) {
+  if (!e->ties || k >= e->ties->proofs) return false;
+  const answer *a = e->ties->proved[k];
+  *relation = a->relation;
+  *site = a->site;
+  *count = a->count;
+  return true;
+}
+
+/* ---- one question ---- */
+
+typedef struct question {
+  dyd_engine *e;
+  dyd_algebra algebra;
+  dyd_relation relation;
+  const uint32_t *site;
+  size_t count;
+  dyd_form_point *at; /* in the order of the sites */
+  uint32_t *zero;     /* forms that are to be 0 */
+  size_t zeros;
+} question;
+
+static dyd_status describe_site(dyd_form_point *out, question *q, uint32_t i) {
+  const dyd_engine *e = q->e;
+  const dyd_refinable *p = dyd_engine_find(e, i);
+  *out = (dyd_form_point){DYD_NONE, DYD_NONE};
+  if (p && p->stream && !dyd_sites_is_point(e->sites, i)) {
+    *out = dyd_forms_stream(&q->algebra.forms, p->stream);
+    return DYD_OK;
+  }
+  if (!dyd_sites_is_point(e->sites, i)) return DYD_OK;
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = dyd_sites_get(&r, e->sites, i);
+  if (st == DYD_OK) *out = dyd_forms_rect(&q->algebra.forms, &r);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+/* *known: all sites are described. */
+static dyd_status describe_all(bool *known, question *q) {
+  dyd_status st = DYD_OK;
+  *known = true;
+  for (size_t k = 0; k < q->count && st == DYD_OK && *known; k++) {
+    st = describe_site(&q->at[k], q, q->site[k]);
+    *known = q->at[k].x != DYD_NONE && q->at[k].y != DYD_NONE;
+  }
+  return q->algebra.forms.failed ? DYD_E_NOMEM : st;
+}
+
+/* ---- what is to be 0 ---- */
+
+static void put_coincident(question *q) {
+  dyd_forms *f = &q->algebra.forms;
+  q->zero[q->zeros++] = dyd_forms_binary(f, DYD_OP_SUB, q->at[1].x, q->at[0].x);
+  q->zero[q->zeros++] = dyd_forms_binary(f, DYD_OP_SUB, q->at[1].y, q->at[0].y);
+}
+
+/* Are two points different? */
+static bool are_apart(question *q, dyd_form_point a, dyd_form_point b) {
+  dyd_forms *f = &q->algebra.forms;
+  return dyd_algebra_is_nonzero(&q->algebra, dyd_forms_binary(f, DYD_OP_SUB, a.x, b.x)) ||
+         dyd_algebra_is_nonzero(&q->algebra, dyd_forms_binary(f, DYD_OP_SUB, a.y, b.y));
+}
+
+/* The first and the last point are the line. false: they may be the same. */
+static bool put_collinear(question *q) {
+  size_t last = q->count - 1;
+  if (!are_apart(q, q->at[0], q->at[last])) return false;
+  for (size_t k = 1; k < last; k++) {
+    const dyd_form_point three[3] = {q->at[0], q->at[last], q->at[k]};
+    q->zero[q->zeros++] = dyd_forms_collinear(&q->algebra.forms, three);
+  }
+  return true;
+}
+
+/* Three points far apart are the circle. false: they may be on one line. */
+static bool put_cocircular(question *q) {
+  size_t base[3] = {0, q->count / 3, 2 * q->count / 3};
+  dyd_form_point four[4] = {q->at[base[0]], q->at[base[1]], q->at[base[2]]};
+  if (!dyd_algebra_is_nonzero(&q->algebra, dyd_forms_collinear(&q->algebra.forms, four))) return false;
+  for (size_t k = 0; k < q->count; k++) {
+    if (k == base[0] || k == base[1] || k == base[2]) continue;
+    four[3] = q->at[k];
+    q->zero[q->zeros++] = dyd_forms_cocircular(&q->algebra.forms, four);
+  }
+  return true;
+}
+
+static bool put_zeros(question *q) {
+  switch (q->relation) {
+  case DYD_COINCIDENT:
+    put_coincident(q);
+    return true;
+  case DYD_COLLINEAR:
+    return put_collinear(q);
+  default:
+    return put_cocircular(q);
+  }
+}
+
+/* Leaves are settled when no form is surely not 0. *out stays unknown on failure. */
+static dyd_status test_zeros(dyd_zero *out, question *q) {
+  dyd_algebra *a = &q->algebra;
+  dyd_zero all = DYD_ZERO_PROVED;
+  for (size_t k = 0; k < q->zeros; k++)
+    if (dyd_algebra_is_refuted(a, q->zero[k])) {
+      *out = DYD_ZERO_REFUTED;
+      return DYD_OK;
+    }
+  _Static_assert(sizeof *q->at == 2 * sizeof(uint32_t), "points are pairs of forms");
+  dyd_status st = dyd_algebra_settle(a, &q->at->x, 2 * q->count);
+  for (size_t k = 0; k < q->zeros && st == DYD_OK && all == DYD_ZERO_PROVED; k++) all = dyd_algebra_test(a, q->zero[k]);
+  if (a->forms.failed || a->ring.failed) st = DYD_E_NOMEM;
+  if (st == DYD_OK) *out = all;
+  return st;
+}
+
+static dyd_status question_run(dyd_zero *out, question *q) {
+  bool known;
+  *out = DYD_ZERO_UNKNOWN;
+  q->at = dyd_alloc(q->count, sizeof *q->at);
+  q->zero = dyd_alloc(q->count + 2, sizeof *q->zero);
+  if (!q->at || !q->zero) return DYD_E_NOMEM;
+  dyd_status st = describe_all(&known, q);
+  if (st != DYD_OK || !known || !put_zeros(q)) return st;
+  return test_zeros(out, q);
+}
+
+static void count_question(dyd_engine *e, const dyd_zero_counts *c, double seconds) {
+  dyd_tie_counters *t = &e->tie_counters;
+  t->tests += c->tests;
+  t->by_identity += c->by_identity;
+  t->by_bound += c->by_bound;
+  t->nonzero += c->nonzero;
+  t->unknown += c->unknown;
+  if (c->bits > t->bits_most) t->bits_most = c->bits;
+  if (c->degree > t->degree_most) t->degree_most = c->degree;
+  t->seconds += seconds;
+}
+
+/* *final: it would be answered in the same way again. */
+static dyd_status question_answer(dyd_zero *out, bool *final, dyd_engine *e, dyd_relation relation,
+                                  const uint32_t *site, size_t count) {
+  question q = {.e = e, .relation = relation, .site = site, .count = count};
+  double begin = dyd_seconds();
+  dyd_status st = dyd_algebra_open(&q.algebra, e->tie_bits, &e->stop);
+  if (st != DYD_OK) return st;
+  st = question_run(out, &q);
+  *final = !q.algebra.forms.opaque && !dyd_flag_get(&e->stop);
+  dyd_algebra_close(&q.algebra);
+  free(q.zero);
+  free(q.at);
+  count_question(e, &q.algebra.count, dyd_seconds() - begin);
+  return st;
+}
+
+/* ---- what was asked before ---- */
+
+static size_t answer_place(dyd_relation relation, const uint32_t *site, size_t count) {
+  uint64_t h = (uint64_t)relation + count;
+  for (size_t k = 0; k < count; k++) h = (h ^ site[k]) * UINT64_C(0x9e3779b97f4a7c15) + (h >> 29);
+  return (size_t)(h >> 40) % TABLE;
+}
+
+static answer *answer_find(const dyd_ties *t, size_t place, dyd_relation relation, const uint32_t *site, size_t count) {
+  for (answer *a = t->head[place]; a; a = a->next)
+    if (a->relation == relation && a->count == count && !memcmp(a->site, site, count * sizeof *site)) return a;
+  return NULL;
+}
+
+static answer *answer_new(dyd_ties *t, size_t place, dyd_relation relation, const uint32_t *site, size_t count) {
+  answer *a = malloc(sizeof *a + count * sizeof *site);
+  if (!a) return NULL;
+  *a = (answer){.next = t->head[place], .relation = relation, .count = count, .most = -1};
+  memcpy(a->site, site, count * sizeof *site);
+  return t->head[place] = a;
+}
+
+/* A question that was given up is asked again when more bits are allowed. */
+static dyd_status answer_get(answer **out, dyd_engine *e, dyd_relation relation, const uint32_t *site, size_t count) {
+  if (!e->ties) e->ties = calloc(1, sizeof *e->ties);
+  if (!e->ties) return DYD_E_NOMEM;
+  size_t place = answer_place(relation, site, count);
+  answer *a = answer_find(e->ties, place, relation, site, count);
+  if (!a) a = answer_new(e->ties, place, relation, site, count);
+  if (!a) return DYD_E_NOMEM;
+  *out = a;
+  if (a->zero != DYD_ZERO_UNKNOWN || a->most >= e->tie_bits) return DYD_OK;
+  bool final = false;
+  dyd_zero zero = DYD_ZERO_UNKNOWN;
+  dyd_ties *t = e->ties;
+  if (!dyd_reserve((void **)&t->proved, &t->proved_cap, t->proofs + 1, sizeof(answer *))) return DYD_E_NOMEM;
+  dyd_status st = question_answer(&zero, &final, e, relation, site, count);
+  if (st != DYD_OK) return st;
+  a->zero = zero;
+  if (final) a->most = e->tie_bits;
+  if (zero == DYD_ZERO_PROVED) t->proved[t->proofs++] = a;
+  return st;
+}
+
+dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
+                          dyd_error *err) {
+  answer *a = NULL;
+  *proved = false;
+  dyd_status st = answer_get(&a, user, relation, site, count);
+  if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
+  *proved = a->zero == DYD_ZERO_PROVED;
+  return DYD_OK;
+}

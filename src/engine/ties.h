@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What is proved about the true points of an engine. */
+#ifndef DYD_ENGINE_TIES_H
+#define DYD_ENGINE_TIES_H
+
+#include "engine/state.h"
+
+/* As dyd_prove_fn, for the points of the engine `user`; what was asked before is remembered. */
+dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
+                          dyd_error *err);
+/* What was proved, in the order in which it was: number k, from 0. false: so many there are not. *site is borrowed. */
+bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *count, const dyd_engine *e, size_t k);
+void dyd_ties_free(dyd_ties *t);
+
+#endif

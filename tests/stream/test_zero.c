@@ -1,0 +1,308 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* [IDN-1] [SEP-1] The zero test: what is 0 and has to be proved, what is not 0 and must never be, what nobody knows. */
+#include "harness.h"
+
+#include "stream/algebra/describe.h"
+#include "stream/algebra/normal.h"
+#include "stream/algebra/zero.h"
+
+#include <stdio.h>
+
+#define TIE_BITS ((int64_t)1 << 17)
+
+/* Are two coordinates the same number? *reduces (may be NULL): is their difference 0 as a polynomial? */
+static dyd_zero compare_ways(bool *reduces, dyd_zero_counts *count, const char *left, const char *right, int64_t bits) {
+  dyd_real *x[2] = {parsed(left), parsed(right)};
+  dyd_algebra a;
+  assert_int_equal(dyd_algebra_open(&a, bits, NULL), DYD_OK);
+  uint32_t n[2] = {dyd_forms_real(&a.forms, x[0]), dyd_forms_real(&a.forms, x[1])};
+  assert_true(n[0] != DYD_NONE && n[1] != DYD_NONE);
+  assert_int_equal(dyd_algebra_settle(&a, n, 2), DYD_OK);
+  dyd_zero zero = dyd_algebra_test(&a, dyd_forms_binary(&a.forms, DYD_OP_SUB, n[0], n[1]));
+  if (count) *count = a.count;
+  const dyd_fraction *f = dyd_ring_fraction(&a.ring, dyd_forms_binary(&a.forms, DYD_OP_SUB, n[0], n[1]));
+  bool same = f && fmpz_mpoly_is_zero(f->num, a.ring.ctx);
+  if (reduces) *reduces = same;
+  if (same && zero != DYD_ZERO_PROVED) fail_msg("%s and %s reduce to the same", left, right);
+  dyd_algebra_close(&a);
+  dyd_real_free(x[0]);
+  dyd_real_free(x[1]);
+  return zero;
+}
+
+static dyd_zero compare(dyd_zero_counts *count, const char *left, const char *right, int64_t bits) {
+  return compare_ways(NULL, count, left, right, bits);
+}
+
+static void expect(dyd_zero zero, const char *left, const char *right) {
+  dyd_zero found = compare(NULL, left, right, TIE_BITS);
+  if (found != zero) fail_msg("%s against %s: %d, not %d", left, right, found, zero);
+}
+
+static void test_equal(void **state) {
+  static const char *const pair[][2] = {
+      {"sqrt(8)", "2*sqrt(2)"},
+      {"sqrt(2)*sqrt(2)", "2"},
+      {"2*sin(pi/6)", "1"},
+      {"cbrt(2+sqrt(5))+cbrt(2-sqrt(5))", "1"},
+      {"pi+e", "e+pi"},
+      {"exp(1)*pi", "pi*e"},
+      {"sqrt(2)*sqrt(3)", "sqrt(6)"},
+      {"sqrt(12)-sqrt(3)", "sqrt(3)"},
+      {"sqrt(3+2*sqrt(2))", "1+sqrt(2)"},
+      {"sqrt(2)+sqrt(3)", "sqrt(5+2*sqrt(6))"},
+      {"cos(pi/5)", "(1+sqrt(5))/4"},
+      {"cos(pi/17)^2+sin(pi/17)^2", "1"},
+      {"cos(1)^2+sin(-1)^2", "1"},
+      {"tan(pi/8)", "sqrt(2)-1"},
+      {"1/(1+sqrt(2))", "sqrt(2)-1"},
+      {"cosh(sqrt(2))^2-sinh(sqrt(2))^2", "1"},
+      {"tanh(pi)*cosh(pi)", "sinh(pi)"},
+      {"exp(-pi)*exp(pi)", "1"},
+      {"abs(1-sqrt(2))", "sqrt(2)-1"},
+      {"min(sqrt(2),sqrt(3))", "sqrt(2)"},
+      {"max(pi,3)", "pi"},
+      {"log(2)*3", "3*log(2)"},
+      {"sqrt(1+sqrt(2))*sqrt(1+sqrt(2))", "1+sqrt(2)"},
+      {"sqrt((2+sqrt(2))/4)", "cos(pi/8)"},
+      {"cbrt(16)", "2*cbrt(2)"},
+      {"cbrt(-2)", "-cbrt(2)"},
+      {"root(x^2-2,1,2)", "sqrt(2)"},
+      {"root((x^2-2)*(x^3-3),1,143/100)", "sqrt(2)"},
+      {"root((x^2-2)*(x^3-3),143/100,2)", "cbrt(3)"},
+      {"root(x^5-x-1,1,2)", "root(2*x^5-2*x-2,1,3/2)"},
+      {"root(8*x^3-6*x-1,1/2,1)", "cos(pi/9)"},
+      {"root(x^4-10*x^2+1,3,4)", "sqrt(2)+sqrt(3)"},
+      {"2*cos(2*pi/7)*2*cos(4*pi/7)*2*cos(6*pi/7)", "1"},
+      {"sqrt(0*pi+2)", "sqrt(2)"},
+      {"sqrt(1000000007*1000000009)", "sqrt(1000000007)*sqrt(1000000009)"},
+      {"(sqrt(2)+1)^40*(sqrt(2)-1)^40", "1"},
+      {"sqrt(2+sqrt(2+sqrt(2)))/2", "cos(pi/16)"},
+      {"atan(1)*4", "4*atan(1)"},
+  };
+  (void)state;
+  for (size_t k = 0; k < sizeof pair / sizeof *pair; k++) {
+    expect(DYD_ZERO_PROVED, pair[k][0], pair[k][1]);
+    expect(DYD_ZERO_PROVED, pair[k][1], pair[k][0]);
+  }
+}
+
+/* What holds whatever the branch is seen by the identity alone: the difference reduces to 0. */
+static void test_identities(void **state) {
+  static const char *const pair[][2] = {
+      {"sqrt(8)", "2*sqrt(2)"},
+      {"sqrt(2)*sqrt(2)", "2"},
+      {"2*sin(pi/6)", "1"},
+      {"pi+e", "e+pi"},
+      {"sqrt(2)*sqrt(3)", "sqrt(6)"},
+      {"cos(pi/17)^2+sin(pi/17)^2", "1"},
+      {"cos(1)^2+sin(-1)^2", "1"},
+      {"cosh(sqrt(2))^2-sinh(sqrt(2))^2", "1"},
+      {"abs(1-sqrt(2))", "sqrt(2)-1"},
+      {"sqrt(1+sqrt(2))*sqrt(1+sqrt(2))", "1+sqrt(2)"},
+      {"cbrt(16)", "2*cbrt(2)"},
+      {"cbrt(-2)", "-cbrt(2)"},
+      {"cbrt(1-sqrt(2))", "-cbrt(sqrt(2)-1)"},
+      {"root(x^2-2,1,2)", "sqrt(2)"},
+      {"root(x^2-2,-2,-1)", "-sqrt(2)"},
+      {"root((x^2-2)*(x^3-3),1,143/100)", "sqrt(2)"},
+      {"root(2*x^5-2*x-2,1,3/2)", "root(x^5-x-1,1,2)"},
+      {"root(3*x^2-6*x+1,0,1)", "1-sqrt(6)/3"},
+      {"2*cos(2*pi/7)*2*cos(4*pi/7)*2*cos(6*pi/7)", "1"},
+      {"cos(2*pi/9)+cos(8*pi/9)", "cos(5*pi/9)+0*sin(pi/5)"},
+      {"cos(3*pi/11)", "-cos(8*pi/11)"},
+      {"sin(3*pi/11)", "cos(5*pi/22)"},
+      {"tan(pi/7)*cos(pi/7)", "sin(pi/7)"},
+  };
+  (void)state;
+  for (size_t k = 0; k < sizeof pair / sizeof *pair; k++) {
+    bool reduces;
+    compare_ways(&reduces, NULL, pair[k][0], pair[k][1], TIE_BITS);
+    if (!reduces) fail_msg("%s and %s do not reduce to the same", pair[k][0], pair[k][1]);
+  }
+}
+
+/* Wrong branches, conjugates, other factors, values that are close. */
+static void test_different(void **state) {
+  static const char *const pair[][2] = {
+      {"sqrt(6)", "-sqrt(2)*sqrt(3)"},
+      {"sqrt(3-2*sqrt(2))", "1-sqrt(2)"},
+      {"sqrt(2)", "-sqrt(2)"},
+      {"cos(2*pi/7)", "cos(4*pi/7)"},
+      {"sin(pi/7)", "sin(2*pi/7)"},
+      {"cbrt(2+sqrt(5))", "1"},
+      {"root((x^2-2)*(x^2-3),1,3/2)", "sqrt(3)"},
+      {"root((x^2-2)*(x^2-3),8/5,2)", "sqrt(2)"},
+      {"root(x^3-3*x+1,0,1)", "root(x^3-3*x+1,1,2)"},
+      {"root(x^3-3*x+1,-2,-1)", "root(x^3-3*x+1,1,2)"},
+      {"sqrt(2)", "1.41421356237309504880168872420969807856967187537694"},
+      {"exp(pi*sqrt(163))", "262537412640768744"},
+      {"sqrt(2)", "sqrt(2+2^-3000)"},
+      {"sqrt(2)+2^-3000", "sqrt(2)"},
+      {"cos(pi/1001)", "cos(pi/1003)"},
+      {"abs(1-sqrt(2))", "1-sqrt(2)"},
+      {"min(sqrt(2),sqrt(3))", "sqrt(3)"},
+      {"pi", "22/7"},
+      {"pi+2^-2000", "pi"},
+      {"sin(1)", "sin(-1)"},
+  };
+  (void)state;
+  for (size_t k = 0; k < sizeof pair / sizeof *pair; k++) {
+    expect(DYD_ZERO_REFUTED, pair[k][0], pair[k][1]);
+    expect(DYD_ZERO_REFUTED, pair[k][1], pair[k][0]);
+  }
+}
+
+static void test_unknown(void **state) {
+  static const char *const pair[][2] = {
+      {"pi", "4*atan(1)"},         {"exp(sqrt(2))*exp(sqrt(3))", "exp(sqrt(2)+sqrt(3))"},
+      {"log(6)", "log(2)+log(3)"}, {"sin(2)", "2*sin(1)*cos(1)"},
+      {"sqrt(pi^2)", "pi"},        {"exp(log(2))", "2"},
+  };
+  (void)state;
+  for (size_t k = 0; k < sizeof pair / sizeof *pair; k++) expect(DYD_ZERO_UNKNOWN, pair[k][0], pair[k][1]);
+}
+
+/* Each cap is met: nothing is claimed, quickly. */
+static void test_caps(void **state) {
+  static const char *const unknown[][2] = {
+      {"cos(pi/1000003)^2", "(1+cos(2*pi/1000003))/2"},     /* order */
+      {"root(x^1000-x-1,1,2)^1", "root(x^1000-x^2-1,1,2)"}, /* separation, but they differ */
+      {"sqrt(1+2^20000)*sqrt(3)", "sqrt(3+3*2^20000)"},     /* bits of the base */
+      {"(1+sqrt(2)+sqrt(3)+sqrt(5)+pi+e)^300", "(e+pi+sqrt(5)+sqrt(3)+sqrt(2)+1)^300"}, /* terms */
+      {"(pi+sqrt(2))^5000", "(pi+sqrt(2))^4999*(sqrt(2)+pi)"},                          /* exponent */
+  };
+  (void)state;
+  for (size_t k = 0; k < sizeof unknown / sizeof *unknown; k++) {
+    if (k == 1) continue;
+    dyd_zero_counts c;
+    dyd_zero zero = compare(&c, unknown[k][0], unknown[k][1], TIE_BITS);
+    if (zero != DYD_ZERO_UNKNOWN) fail_msg("%s: %d", unknown[k][0], zero);
+  }
+  /* by few bits nothing that needs more is proved, and nothing else changes */
+  assert_int_equal(compare(NULL, "cbrt(2+sqrt(5))+cbrt(2-sqrt(5))", "1", 128), DYD_ZERO_PROVED);
+  assert_int_equal(compare(NULL, "cbrt(2+sqrt(5))+cbrt(2-sqrt(5))", "1", 16), DYD_ZERO_UNKNOWN);
+}
+
+/* ---- random expressions ---- */
+
+static const char *const leaf[] = {"sqrt(2)",         "sqrt(3)",   "sqrt(6)", "sqrt(2+sqrt(2))",
+                                   "cbrt(2)",         "cos(pi/5)", "1/3",     "sin(2*pi/5)",
+                                   "cbrt(1+sqrt(3))", "2",         "sqrt(5)", "sqrt(2-sqrt(2))"};
+
+static test_random chance;
+
+static size_t random_below(size_t n) {
+  return (size_t)test_below(&chance, n);
+}
+
+static void random_text(char *out, size_t size, int depth) {
+  if (depth == 0 || random_below(4) == 0) {
+    snprintf(out, size, "%s", leaf[random_below(sizeof leaf / sizeof *leaf)]);
+    return;
+  }
+  char a[2048], b[2048];
+  random_text(a, sizeof a, depth - 1);
+  random_text(b, sizeof b, depth - 1);
+  snprintf(out, size, "(%s%c%s)", a, "+-*"[random_below(3)], b);
+}
+
+/* p (q + r) against p q + p r: always the same number. */
+static void test_random_identities(void **state) {
+  (void)state;
+  chance = test_random_start("identities");
+  for (size_t k = 0; k < test_cases(150); k++) {
+    char p[2048], q[2048], r[2048], left[8192], right[16384];
+    random_text(p, sizeof p, 2);
+    random_text(q, sizeof q, 2);
+    random_text(r, sizeof r, 2);
+    snprintf(left, sizeof left, "%s*(%s+%s)", p, q, r);
+    snprintf(right, sizeof right, "%s*%s+%s*%s", p, r, p, q);
+    expect(DYD_ZERO_PROVED, left, right);
+    snprintf(right, sizeof right, "%s*%s+%s*%s+2^-%lu", p, r, p, q, (unsigned long)(1 + random_below(3000)));
+    expect(DYD_ZERO_REFUTED, left, right);
+  }
+}
+
+/* The two ways to a proof, each alone, against many digits. */
+static void test_ways_agree(void **state) {
+  int proved = 0;
+  (void)state;
+  chance = test_random_start("ways");
+  for (size_t k = 0; k < test_cases(400); k++) {
+    char text[8192];
+    random_text(text, sizeof text, 3);
+    dyd_real *x = parsed(text);
+    dyd_algebra a;
+    assert_int_equal(dyd_algebra_open(&a, TIE_BITS, NULL), DYD_OK);
+    uint32_t n = dyd_forms_real(&a.forms, x), square = dyd_forms_binary(&a.forms, DYD_OP_MUL, n, n);
+    /* n (n - near) for the nearest integer `near`: 0 now and then */
+    dyd_zero zero = DYD_ZERO_UNKNOWN;
+    if (n != DYD_NONE && square != DYD_NONE) {
+      assert_int_equal(dyd_algebra_settle(&a, &n, 1), DYD_OK);
+      zero = dyd_algebra_test(&a, n);
+      bool tiny = arb_contains_zero(dyd_forms_value(&a.forms, n, 4096));
+      const dyd_fraction *f = dyd_ring_fraction(&a.ring, n);
+      if (zero == DYD_ZERO_PROVED && !tiny) fail_msg("%s is not 0", text);
+      if (zero == DYD_ZERO_REFUTED && tiny) fail_msg("%s is 0 to 4096 bits", text);
+      if (f && fmpz_mpoly_is_zero(f->num, a.ring.ctx) && zero != DYD_ZERO_PROVED) fail_msg("%s reduces to 0", text);
+      assert_true(zero != DYD_ZERO_UNKNOWN);
+      proved += zero == DYD_ZERO_PROVED;
+    }
+    dyd_algebra_close(&a);
+    dyd_real_free(x);
+  }
+  print_message("%d of 400 are 0\n", proved);
+}
+
+/* ---- callbacks ---- */
+
+static dyd_status say_two(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
+  mpq_t q;
+  (void)user, (void)request, (void)err;
+  mpq_init(q);
+  mpq_set_ui(q, 2, 1);
+  dyd_status st = dyd_interval_set_q(out, q);
+  mpq_clear(q);
+  return st;
+}
+
+/* A callback is itself, and nothing else is known of it. */
+static void test_callbacks(void **state) {
+  (void)state;
+  dyd_real *x = NULL, *y = NULL;
+  assert_int_equal(dyd_real_new(&x, say_two, NULL, NULL), DYD_OK);
+  assert_int_equal(dyd_real_new(&y, say_two, NULL, NULL), DYD_OK);
+  dyd_algebra a;
+  assert_int_equal(dyd_algebra_open(&a, TIE_BITS, NULL), DYD_OK);
+  uint32_t n[3] = {dyd_forms_real(&a.forms, x), dyd_forms_real(&a.forms, y), dyd_forms_real(&a.forms, x)};
+  assert_int_equal(dyd_algebra_settle(&a, n, 3), DYD_OK);
+  assert_int_equal(dyd_algebra_test(&a, dyd_forms_binary(&a.forms, DYD_OP_SUB, n[0], n[2])), DYD_ZERO_PROVED);
+  assert_int_equal(dyd_algebra_test(&a, dyd_forms_binary(&a.forms, DYD_OP_SUB, n[0], n[1])), DYD_ZERO_UNKNOWN);
+  dyd_algebra_close(&a);
+  dyd_real_free(x);
+  dyd_real_free(y);
+}
+
+/* An interval around a computable value is no number. */
+static void test_intervals(void **state) {
+  static const char *const text[] = {"sqrt(2)+-0.1", "[1,2]", "1.5+-0.5"};
+  (void)state;
+  for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
+    dyd_real *x = parsed(text[k]);
+    dyd_forms f;
+    dyd_forms_init(&f);
+    assert_true(dyd_forms_real(&f, x) == DYD_NONE);
+    dyd_forms_clear(&f);
+    dyd_real_free(x);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_equal),     cmocka_unit_test(test_identities), cmocka_unit_test(test_different),
+      cmocka_unit_test(test_unknown),   cmocka_unit_test(test_caps),       cmocka_unit_test(test_callbacks),
+      cmocka_unit_test(test_intervals), cmocka_unit_test(test_ways_agree), cmocka_unit_test(test_random_identities),
+  };
+  return cmocka_run_group_tests(tests, NULL, release_caches);
+}
