@@ -204,7 +204,7 @@ static dyd_status question_answer(dyd_zero *out, bool *final, dyd_engine *e, dyd
 
 /* ---- what was asked before ---- */
 
-static size_t answer_place(dyd_relation relation, const uint32_t *site, size_t count) {
+static size_t ties_answer_place(dyd_relation relation, const uint32_t *site, size_t count) {
   uint64_t h = (uint64_t)relation + count;
   for (size_t k = 0; k < count; k++) h = (h ^ site[k]) * UINT64_C(0x9e3779b97f4a7c15) + (h >> 29);
   return (size_t)(h >> 40) % TABLE;
@@ -228,7 +228,7 @@ static answer *answer_new(dyd_ties *t, size_t place, dyd_relation relation, cons
 static dyd_status answer_get(answer **out, dyd_engine *e, dyd_relation relation, const uint32_t *site, size_t count) {
   if (!e->ties) e->ties = calloc(1, sizeof *e->ties);
   if (!e->ties) return DYD_E_NOMEM;
-  size_t place = answer_place(relation, site, count);
+  size_t place = ties_answer_place(relation, site, count);
   answer *a = answer_find(e->ties, place, relation, site, count);
   if (!a) a = answer_new(e->ties, place, relation, site, count);
   if (!a) return DYD_E_NOMEM;

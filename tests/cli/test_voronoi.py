@@ -78,7 +78,7 @@ def test_cocircular_points_are_certified():
 
 
 def test_decided_goal_of_cocircular_points():
-    expect(run('voronoi', '-', stdin=POLYGON), 3, '^region,0,', '54 tie')
+    expect(run('voronoi', '--layer', 'regions', '-', stdin=POLYGON), 3, '^0,', '54 tie')
     result = run('voronoi', '--max-bits', '64', '--ties', 'off', '-', stdin=POLYGON)
     expect(result, 4, '^# distance_to_true_diagram,', '^dyadel: budget: .*raise --max-bits')
 

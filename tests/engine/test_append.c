@@ -112,6 +112,8 @@ static void test_fixed_points(void **state) {
 
 /* Computable points: what was narrowed stays narrow, and is not asked again. */
 static void test_computable_points(void **state) {
+  const dyd_engine_options by_rectangles = {DYD_SIZED(dyd_engine_options), .no_ties = true};
+  dyd_outcome outcome;
   (void)state;
   test_random r = test_random_start(__func__);
   for (size_t round = 0; round < test_cases(10); round++) {
@@ -134,7 +136,7 @@ static void test_computable_points(void **state) {
       assert_int_equal(DYD_OK, dyd_engine_append_stream(e, s, NULL));
       assert_int_equal(DYD_OK, dyd_engine_append_text(e, "sqrt(3)+1 [2,2.25]", 18, NULL, NULL));
       assert_false(dyd_engine_knows(e, (uint32_t)n));
-      run_any(e);
+      assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &by_rectangles, NULL));
       assert_true(engine_counters(e).calls > calls);
       for (int64_t i = 0; i < n; i++) {
         assert_int_equal(DYD_OK, dyd_sites_get(&rect, dyd_engine_sites(e), (size_t)i));

@@ -20,8 +20,8 @@ static uint32_t form_of_interval(dyd_forms *f, const dyd_interval *a) {
   return n;
 }
 
-/* Each leaf by what its node holds beside the operation; one of another kind would be the same form everywhere, so it is
- * none. */
+/* Each leaf by what its node holds beside the operation; one of another kind would be the same form everywhere, so it
+ * is none. */
 static uint32_t form_of_leaf(dyd_forms *f, const dyd_expr *e, const dyd_node *n) {
   dyd_constant_view view;
   switch (n->op) {
