@@ -51,8 +51,7 @@ static size_t list_files(named_file file[MOST_FILES], const cli_options *o) {
     const cli_option *option = &cli_option_table[k];
     if (!cli_kind_is_file(option->kind)) continue;
     const char *name = *(const char *const *)((const char *)o + option->offset);
-    if (name)
-      file[n++] = (named_file){.option = option->name, .name = name, .written = option->kind == CLI_FILE};
+    if (name) file[n++] = (named_file){.option = option->name, .name = name, .written = option->kind == CLI_FILE};
   }
   if (o->file) file[n++] = (named_file){.name = o->file};
   if (!o->output) file[n++] = (named_file){.name = "standard output", .written = true};
