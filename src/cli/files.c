@@ -49,9 +49,9 @@ static size_t list_files(named_file file[MOST_FILES], const cli_options *o) {
   size_t n = 0;
   for (size_t k = 0; k < cli_option_count && n < MOST_FILES - 2; k++) {
     const cli_option *option = &cli_option_table[k];
+    if (!cli_kind_is_file(option->kind)) continue;
     const char *name = *(const char *const *)((const char *)o + option->offset);
-    if (cli_kind_is_file(option->kind) && name)
-      file[n++] = (named_file){.option = option->name, .name = name, .written = option->kind == CLI_FILE};
+    if (name) file[n++] = (named_file){.option = option->name, .name = name, .written = option->kind == CLI_FILE};
   }
   if (o->file) file[n++] = (named_file){.name = o->file};
   if (!o->output) file[n++] = (named_file){.name = "standard output", .written = true};

@@ -167,7 +167,7 @@ const cli_option cli_option_table[] = {
     {"format", 0, "F", CLI_FORMAT, CLI_ALL, CLI_OUTPUT, NULL, AT(format), GIVEN(format_set)},
     {"accuracy", 0, "A", CLI_TEXT, BIT(CLI_PLAN), CLI_REFINEMENT,
      "measuring gives a point within A, an exact number\n(default: as exactly as it takes)", AT(accuracy)},
-    {"pairs", 0, "FILE", CLI_FILE, BIT(CLI_PLAN), CLI_REFINEMENT,
+    {"pairs", 0, "FILE", CLI_SOURCE, BIT(CLI_PLAN), CLI_REFINEMENT,
      "only these pairs are to be decided: lines i,j,... as\ndelaunay writes them", AT(pairs)},
     {"site", 0, "K", CLI_INTEGER, BIT(CLI_PLAN), CLI_REFINEMENT, "only pairs of point K are to be decided", AT(site),
      RANGE(0, UINT32_MAX), GIVEN(site_set)},
