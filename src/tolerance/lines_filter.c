@@ -37,7 +37,7 @@ static double axis_difference(double a, double b, double low) {
   return s + (((a - (s - t)) - (b + t)) + low);
 }
 
-static dyd_xy point_difference(const dyd_points_d *p, uint32_t a, uint32_t b) {
+static dyd_xy lines_point_difference(const dyd_points_d *p, uint32_t a, uint32_t b) {
   dyd_xy d = {p->xy[a].x - p->xy[b].x, p->xy[a].y - p->xy[b].y};
   if (!p->low) return d;
   d.x = axis_difference(p->xy[a].x, p->xy[b].x, p->low[a].x - p->low[b].x);
@@ -51,7 +51,7 @@ static double product_error(double size, double factors, double slack) {
 }
 
 bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t j) {
-  dyd_xy d = point_difference(p, j, i);
+  dyd_xy d = lines_point_difference(p, j, i);
   l->jx = d.x;
   l->jy = d.y;
   l->jj = d.x * d.x + d.y * d.y;
@@ -66,7 +66,7 @@ bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t
 bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *at, uint32_t k) {
   uint32_t c = l->count;
   if (c == DYD_LINES_D) return false;
-  dyd_xy p = point_difference(at, k, l->i), q = point_difference(at, k, l->j);
+  dyd_xy p = lines_point_difference(at, k, l->i), q = lines_point_difference(at, k, l->j);
   l->vertex[c] = k;
   l->px[c] = p.x;
   l->py[c] = p.y;
