@@ -149,6 +149,36 @@ static void test_computable_points(void **state) {
   }
 }
 
+/* Ties and aliases that are proved, of points that come one by one: as if they had been there from the start. */
+static void test_proved_points(void **state) {
+  (void)state;
+  static const char *const text[] = {"cos(2*pi/5) sin(2*pi/5)",   "1 0",
+                                     "cos(4*pi/5) sin(4*pi/5)",   "sqrt(8) sqrt(2)",
+                                     "2*sqrt(2) root(x^2-2,1,2)", "cos(6*pi/5) sin(6*pi/5)",
+                                     "sqrt(2) sqrt(2)/2",         "-3 0",
+                                     "cos(8*pi/5) sin(8*pi/5)",   "3*sqrt(2) 3/sqrt(2)"};
+  enum { N = sizeof text / sizeof *text };
+  dyd_error err;
+  for (size_t start = 0; start < N; start++) {
+    dyd_engine *e = engine_new(), *all = engine_new();
+    for (size_t k = 0; k < N; k++) {
+      assert_int_equal(DYD_OK, dyd_engine_add_text(all, text[k], strlen(text[k]), NULL, &err));
+      if (k < start) assert_int_equal(DYD_OK, dyd_engine_add_text(e, text[k], strlen(text[k]), NULL, &err));
+    }
+    dyd_outcome want = run_any(all), got = run_any(e);
+    assert_int_equal(DYD_OUTCOME_FIXPOINT, want);
+    for (size_t k = start; k < N; k++) {
+      assert_int_equal(DYD_OK, dyd_engine_append_text(e, text[k], strlen(text[k]), NULL, &err));
+      got = run_any(e);
+    }
+    assert_int_equal(want, got);
+    assert_int_equal(3, dyd_delaunay_alias(dyd_engine_delaunay(e), 4));
+    assert_same_pairs(dyd_engine_delaunay(all), dyd_engine_delaunay(e));
+    dyd_engine_free(e);
+    dyd_engine_free(all);
+  }
+}
+
 static void test_source(void **state) {
   (void)state;
   faulty f = {.kind = FAULT_NONE}, g = {.kind = FAULT_FAIL, .point = 1};
@@ -424,17 +454,12 @@ static void test_readme(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_fixed_points),
-      cmocka_unit_test(test_computable_points),
-      cmocka_unit_test(test_source),
-      cmocka_unit_test(test_refused),
-      cmocka_unit_test(test_callback),
-      cmocka_unit_test(test_counters),
-      cmocka_unit_test(test_remeasure_boxes),
-      cmocka_unit_test(test_contradiction),
-      cmocka_unit_test(test_remeasure_computable),
-      cmocka_unit_test(test_wrong_measurement),
-      cmocka_unit_test(test_readme),
+      cmocka_unit_test(test_fixed_points),      cmocka_unit_test(test_computable_points),
+      cmocka_unit_test(test_proved_points),     cmocka_unit_test(test_source),
+      cmocka_unit_test(test_refused),           cmocka_unit_test(test_callback),
+      cmocka_unit_test(test_counters),          cmocka_unit_test(test_remeasure_boxes),
+      cmocka_unit_test(test_contradiction),     cmocka_unit_test(test_remeasure_computable),
+      cmocka_unit_test(test_wrong_measurement), cmocka_unit_test(test_readme),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
