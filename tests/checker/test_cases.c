@@ -104,7 +104,7 @@ static void outcomes(void **state) {
       assert_int_equal(dyd_stream_from_reals(&s, x, y), DYD_OK);
       assert_int_equal(dyd_engine_add_stream(e, s), DYD_OK);
     }
-    dyd_engine_options o = {DYD_SIZED(dyd_engine_options), .max_bits = 200};
+    dyd_engine_options o = {DYD_SIZED(dyd_engine_options), .max_bits = 200, .no_ties = true};
     if (k == 1) o.goal = DYD_GOAL_AREA, o.goal_bits = 20;
     if (k == 3) o.max_stages = 1;
     char *text = certify(&r, e, &o);
