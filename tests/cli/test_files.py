@@ -208,7 +208,7 @@ def test_accepted_fixpoint():
     for command, text in (('disc', '[0,1] 0\n1 0\n0 1\n[0,1] [0,1]\n'), ('bisector', '[0,2] 0\n[1,3] 0\n')):
         assert run(command, '-', stdin=text).code == 3 and run(command, '--accept-fixpoint', '-', stdin=text).code == 0
     expect(run('delaunay', '-', '--accept-fixpoint', stdin='x y\n'), 1)
-    expect(run('delaunay', '-', '--accept-fixpoint', '--max-bits', '99', stdin='0 0\n1 0\n1 1\n0 sqrt(2)^2/2\n'), 4)
+    expect(run('delaunay', '-', '--accept-fixpoint', '--max-bits', '99', stdin='0 0\n1 0\n1 1\n0 4*atan(1)/pi\n'), 4)
     expect(run('check', '-', '--accept-fixpoint', stdin=SQUARE), 2, '', 'check does not take --accept-fixpoint')
 
 
