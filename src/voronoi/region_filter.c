@@ -115,8 +115,8 @@ static void region_copy_lists(region_lists *out, search *s, const region_lists *
     s->st = DYD_E_NOMEM;
     return;
   }
-  memcpy(s->list + out->sites, s->list + at->sites, at->site_count * sizeof *s->list);
-  memcpy(s->pair + out->pairs, s->pair + at->pairs, at->pair_count * sizeof *s->pair);
+  if (at->site_count) memcpy(s->list + out->sites, s->list + at->sites, at->site_count * sizeof *s->list);
+  if (at->pair_count) memcpy(s->pair + out->pairs, s->pair + at->pairs, at->pair_count * sizeof *s->pair);
 }
 
 /* Bisects both sides, depth first; boxes inside the enclosure found so far add nothing. */
