@@ -5,7 +5,7 @@ From Flocq Require Import Core Binary.
 From Dyadel Require Import FiltersBase FiltersError.
 Open Scope R_scope.
 
-(* C src/stream/expr_filter.c dyd_filter_round
+(* C src/stream/span_filter.c dyd_filter_round
   int64_t most = dyd_filter_bits(a);
   if (bits > most || bits < 0) return false;
   *out = a;

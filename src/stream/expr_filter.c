@@ -6,39 +6,19 @@
  * double up. The value of an operation on intervals lies between its values at corners: a product or quotient (by an
  * interval without 0) at the least and the greatest of four, sums, differences and roots by monotony. Negation,
  * absolute value, minimum and maximum are exact. Whatever is not finite, or may be undefined, gives no answer.
- *
- * [FLT-GRID] Scaling up by 2^k is exact unless it overflows, floor and ceil are exact, and an integer that came from
- * x 2^k times 2^-k is again a double: below 2^53 it has 53 bits and 2^-k is at least 2^-1002; beyond, it is x 2^k.
- * Where scaling overflows, both ends are multiples already. The computed width is at most 2^-(bits + 1), so the width
- * is less than that times 1 + 2^-52, and each end moves by less than one unit 2^-(bits + 2): less than 4 + 2^-51 units,
- * and as a whole number of them at most 4, which is 2^-bits. */
+ */
 #include "stream/expr_filter.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Operands open at one time; deeper expressions are left to the exact rungs. */
 #define OPEN 16
-#define MOST_BITS 1000
-
-/* IEEE doubles of one sign are ordered as their patterns: for x > 0 the next double is the next pattern. Beyond the
- * largest is infinity, before infinity the largest; NaN stays. */
-static double double_of_pattern(uint64_t pattern) {
-  double x;
-  memcpy(&x, &pattern, sizeof x);
-  return x;
-}
-static uint64_t pattern_of(double x) {
-  uint64_t pattern;
-  memcpy(&pattern, &x, sizeof pattern);
-  return pattern;
-}
 
 /* The next double above x; infinite or NaN where there is none. */
 static double next_above(double x) {
-  if (x > 0) return double_of_pattern(pattern_of(x) + (x < INFINITY));
-  if (x < 0) return double_of_pattern(pattern_of(x) - 1);
-  return x == 0 ? double_of_pattern(1) : x;
+  if (x > 0) return dyd_double_of_pattern(dyd_pattern_of(x) + (x < INFINITY));
+  if (x < 0) return dyd_double_of_pattern(dyd_pattern_of(x) - 1);
+  return x == 0 ? dyd_double_of_pattern(1) : x;
 }
 static double next_below(double x) {
   return -next_above(-x);
@@ -178,33 +158,5 @@ bool dyd_filter_expr(dyd_double_span *out, const dyd_expr *e) {
   for (size_t i = 0; i < e->count; i++)
     if (!glance_apply(stack, &top, e, i)) return false;
   *out = (dyd_double_span){stack[0].lo + 0.0, stack[0].hi + 0.0};
-  return true;
-}
-
-/* ---- widths ---- */
-
-int64_t dyd_filter_bits(dyd_double_span a) {
-  double width = a.hi - a.lo;
-  if (width == 0) return INT64_MAX;
-  if (!(width <= 0.5)) return INT64_MIN;
-  /* At most 2^e; subnormal widths are below 2^-1022. */
-  uint64_t pattern = pattern_of(width);
-  int64_t e = (int64_t)(pattern >> 52) - 1023 + (pattern << 12 != 0);
-  return -e - 1 < MOST_BITS ? -e - 1 : MOST_BITS;
-}
-
-/* -1022 <= k <= 1023. */
-static double power_of_two(int64_t k) {
-  return double_of_pattern((uint64_t)(k + 1023) << 52);
-}
-
-bool dyd_filter_round(dyd_double_span *out, dyd_double_span a, int64_t bits) {
-  int64_t most = dyd_filter_bits(a);
-  if (bits > most || bits < 0) return false;
-  *out = a;
-  if (most == INT64_MAX) return true;
-  if (bits > MOST_BITS) return false;
-  double up = power_of_two(bits + 2), down = power_of_two(-bits - 2), lo = a.lo * up, hi = a.hi * up;
-  if (isfinite(lo) && isfinite(hi)) *out = (dyd_double_span){floor(lo) * down + 0.0, ceil(hi) * down + 0.0};
   return true;
 }

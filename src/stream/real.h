@@ -3,7 +3,7 @@
 #ifndef DYD_STREAM_REAL_H
 #define DYD_STREAM_REAL_H
 
-#include "stream/expr_filter.h"
+#include "stream/span_filter.h"
 #include <dyadel/stream.h>
 
 /* As dyd_real_new for a source that encloses one and the same value every time: its intervals are intersected with

@@ -5,7 +5,7 @@
  *
  * lo, hi and radius are sums whose value is rational by form. A root may stand in a sum; one that stands alone is a
  * real by itself. */
-#include "stream/expr.h"
+#include "stream/expr_filter.h"
 #include "stream/number.h"
 #include "stream/poly.h"
 #include "stream/real.h"
