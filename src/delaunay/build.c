@@ -42,10 +42,11 @@ static dyd_status build_statuses(dyd_delaunay *pd, dyd_work *w, dyd_known known)
     line_find(pd, w->err);
     return dyd_prove_line(pd, w);
   }
-  dyd_status st = dyd_certify_all(&pd->sk, w);
+  bool tied = pd->open.kind == DYD_TIED;
+  dyd_status st = tied ? dyd_certify_points(&pd->sk, w) : dyd_certify_all(&pd->sk, w);
   mark_known(&pd->sk, known);
   if (st != DYD_OK) return st;
-  return pd->open.kind == DYD_TIED ? dyd_ties_find(pd, w) : dyd_faces_find(pd, w, NULL, 0);
+  return tied ? dyd_ties_find(pd, w) : dyd_faces_find(pd, w, NULL, 0);
 }
 
 dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known known, dyd_error *err) {

@@ -20,6 +20,7 @@ typedef struct hull {
   const dyd_delaunay *pd;
   dyd_extreme *x; /* by vertex, ascending */
   size_t count, made;
+  bool exact;           /* all are exact points */
   dyd_hull_pairs pairs; /* of indices of x, sorted */
   size_t *start;        /* neighbours of k: next[start[k] .. start[k + 1]), ascending */
   uint32_t *next;
@@ -48,18 +49,11 @@ static dyd_status append(uint32_t **list, size_t *count, size_t *cap, const dyd_
   return DYD_OK;
 }
 
-/* Vertices on the skeleton's hull and in unbounded faces; all vertices where there are no triangles. */
+/* Vertices on the skeleton's hull and in unbounded faces. */
 static dyd_status gather(uint32_t **list, size_t *count, const dyd_delaunay *pd) {
   dyd_index_list some = {0};
   size_t cap = 0;
-  dyd_status st = DYD_OK;
-  if (dyd_is_line(pd)) {
-    if (!dyd_reserve((void **)list, &cap, pd->sk.n, sizeof **list)) return DYD_E_NOMEM;
-    for (uint32_t v = 0; v < pd->sk.n; v++)
-      if (pd->sk.vertex[pd->sk.reps.site[v]] == v) (*list)[(*count)++] = v;
-    return DYD_OK;
-  }
-  st = dyd_delaunay_hull(&some, pd);
+  dyd_status st = dyd_delaunay_hull(&some, pd);
   if (st == DYD_OK) st = append(list, count, &cap, pd, &some);
   for (size_t f = 0; f < pd->open.count && st == DYD_OK; f++) {
     bool outer;
@@ -75,8 +69,10 @@ static dyd_status load(hull *h) {
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_status st = DYD_OK;
+  h->exact = true;
   for (size_t k = 0; k < h->count && st == DYD_OK; k++) {
     dyd_extreme *x = &h->x[h->made++];
+    h->exact = h->exact && dyd_vertex_is_point(&h->pd->sk, x->vertex);
     for (int n = 0; n < 4; n++) mpq_init(x->e[n]);
     st = dyd_rects_get(&r, &h->pd->sk.rects, x->vertex);
     dyd_interval_get_q(x->e[0], x->e[1], &r.x);
@@ -156,55 +152,14 @@ static dyd_status find_neighbours(hull *h) {
 
 /* ---- sure ---- */
 
-/* Is a surely before b on their common line: by x, on a vertical line by y? */
-static bool is_below(const dyd_extreme *a, const dyd_extreme *b) {
-  int order = dyd_hull_compare(0, (dyd_hull_corner){a, 1}, (dyd_hull_corner){b, 0});
-  if (order) return order < 0;
-  return dyd_hull_compare(1, (dyd_hull_corner){a, 1}, (dyd_hull_corner){b, 0}) < 0;
-}
-
 static bool rects_meet(const dyd_extreme *a, const dyd_extreme *b) {
   for (int n = 0; n < 4; n += 2)
     if (mpq_cmp(a->e[n + 1], b->e[n]) < 0 || mpq_cmp(b->e[n + 1], a->e[n]) < 0) return false;
   return true;
 }
 
-/* Sites on a line: a corner is surely before, or surely behind all others; NULL: there is none. is_below is
- * transitive, so only who is not known to have anybody before (behind) it when all were looked at can be one. */
-static const dyd_extreme *line_end(const hull *h, bool last) {
-  const dyd_extreme *end = h->x;
-  for (size_t q = 1; q < h->count; q++)
-    if (last ? is_below(end, &h->x[q]) : is_below(&h->x[q], end)) end = &h->x[q];
-  for (size_t q = 0; q < h->count; q++)
-    if (&h->x[q] != end && !(last ? is_below(&h->x[q], end) : is_below(end, &h->x[q]))) return NULL;
-  return end;
-}
-
-static void find_sure_on_line(hull *h) {
-  if (h->count == 0) return;
-  for (int last = 0; last < 2; last++) {
-    const dyd_extreme *end = line_end(h, last);
-    if (end) h->x[end - h->x].sure = true;
-  }
-}
-
 static void find_sure(hull *h) {
-  const dyd_delaunay *pd = h->pd;
-  if (!dyd_is_line(pd))
-    for (size_t k = 0; k < h->count; k++) h->x[k].sure = dyd_is_legal(&pd->sk, h->x[k].vertex, pd->sk.mesh.n);
-  else if (h->count == 2) /* they need not be on a line */
-    h->x[0].sure = h->x[1].sure = !rects_meet(&h->x[0], &h->x[1]);
-  else
-    find_sure_on_line(h);
-}
-
-/* Is ij an edge of the hull of the representatives, in either direction? */
-static bool is_skeleton_edge(const dyd_delaunay *pd, uint32_t v, uint32_t w) {
-  for (int k = 0; k < 2; k++) {
-    dyd_half_edge h = k ? dyd_find_edge(&pd->sk, w, v) : dyd_find_edge(&pd->sk, v, w);
-    if (h != DYD_NONE && dyd_is_ghost_triangle(&pd->sk.mesh, dyd_edge_triangle(h))) return true;
-  }
-  return false;
+  for (size_t k = 0; k < h->count; k++) h->x[k].sure = dyd_corner_is_sure(h->pd, h->x[k].vertex);
 }
 
 static dyd_sure orientation(const hull *h, size_t i, size_t j, size_t k, dyd_rect r[3], dyd_status *st) {
@@ -219,7 +174,7 @@ static dyd_status decide(dyd_pair_status *out, const hull *h, dyd_vertex_pair p,
   const dyd_delaunay *pd = h->pd;
   bool legal = edge,
        tie = dyd_vertex_is_point(&pd->sk, h->x[p.i].vertex) && dyd_vertex_is_point(&pd->sk, h->x[p.j].vertex);
-  bool settled = pd->sk.all_points && !edge; /* a tie */
+  bool settled = h->exact && !edge; /* a tie */
   dyd_status st = DYD_OK;
   const uint32_t *a = h->next + h->start[p.i], *a_end = h->next + h->start[p.i + 1];
   const uint32_t *b = h->next + h->start[p.j], *b_end = h->next + h->start[p.j + 1];
@@ -252,7 +207,7 @@ static dyd_status decide_pairs(dyd_pair_list *out, const hull *h) {
   for (size_t k = 0; k < h->pairs.count && st == DYD_OK; k++) {
     dyd_vertex_pair p = h->pairs.item[k];
     uint32_t v = h->x[p.i].vertex, w = h->x[p.j].vertex, i = pd->sk.reps.site[v], j = pd->sk.reps.site[w];
-    bool edge = (dyd_is_line(pd) ? h->count == 2 : is_skeleton_edge(pd, v, w)) && !rects_meet(&h->x[p.i], &h->x[p.j]);
+    bool edge = dyd_is_hull_edge(pd, v, w) && !rects_meet(&h->x[p.i], &h->x[p.j]);
     dyd_pair *to = &out->item[out->count++];
     *to = (dyd_pair){i < j ? i : j, i < j ? j : i, DYD_INDETERMINATE};
     st = decide(&to->status, h, p, edge, r);

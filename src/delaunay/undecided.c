@@ -146,6 +146,19 @@ bool dyd_pair_is_legal(const dyd_delaunay *pd, uint32_t v, uint32_t w) {
   return pd->open.kind == DYD_LINE ? dyd_line_is_legal(&pd->sk.line, v, w) : dyd_is_legal(&pd->sk, v, w);
 }
 
+bool dyd_corner_is_sure(const dyd_delaunay *pd, uint32_t v) {
+  return pd->open.kind == DYD_LINE ? dyd_line_is_end(&pd->sk.line, v) : dyd_is_legal(&pd->sk, v, pd->sk.mesh.n);
+}
+
+bool dyd_is_hull_edge(const dyd_delaunay *pd, uint32_t v, uint32_t w) {
+  if (pd->open.kind == DYD_LINE) return pd->sk.line.count == 2;
+  for (int k = 0; k < 2; k++) {
+    dyd_half_edge h = k ? dyd_find_edge(&pd->sk, w, v) : dyd_find_edge(&pd->sk, v, w);
+    if (h != DYD_NONE && dyd_is_ghost_triangle(&pd->sk.mesh, dyd_edge_triangle(h))) return true;
+  }
+  return false;
+}
+
 /* ---- those of one face ---- */
 
 /* The edges of the skeleton inside a tied face, out of the origin of the rim's half-edge h. */

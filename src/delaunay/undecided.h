@@ -28,6 +28,9 @@ void dyd_open_each_in(const dyd_delaunay *pd, size_t f, dyd_pair_visit visit, vo
 /* How many pairs are legal; is this one? */
 uint64_t dyd_legal_count(const dyd_delaunay *pd);
 bool dyd_pair_is_legal(const dyd_delaunay *pd, uint32_t v, uint32_t w);
+/* Is v a corner of the hull for every choice? Is vw an edge of the hull of the representatives (of two sites, too)? */
+bool dyd_corner_is_sure(const dyd_delaunay *pd, uint32_t v);
+bool dyd_is_hull_edge(const dyd_delaunay *pd, uint32_t v, uint32_t w);
 /* The legal pairs of vertex v. */
 void dyd_legal_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit visit, void *context);
 

@@ -119,7 +119,7 @@ static dyd_status certify_pass(dyd_skeleton *sk, dyd_work *w, dyd_task *task) {
   return dyd_mark_tasks_settle(&p, true);
 }
 
-static dyd_status certify_points(dyd_skeleton *sk, dyd_work *w) {
+dyd_status dyd_certify_points(dyd_skeleton *sk, dyd_work *w) {
   dyd_status st = DYD_OK;
   if (sk->mesh.tally.ties == 0)
     memset(sk->certain, 7, sk->mesh.count);
@@ -130,7 +130,6 @@ static dyd_status certify_points(dyd_skeleton *sk, dyd_work *w) {
 }
 
 dyd_status dyd_certify_all(dyd_skeleton *sk, dyd_work *w) {
-  if (sk->all_points) return certify_points(sk, w);
   dyd_status st = sk->mesh.no_filter ? DYD_OK : dyd_certify_stars(sk, w);
   return st == DYD_OK ? certify_pass(sk, w, decide_edges) : st;
 }

@@ -7,6 +7,8 @@
 
 /* Marks every certain edge of a fresh skeleton, in w->threads threads. */
 dyd_status dyd_certify_all(dyd_skeleton *sk, dyd_work *w);
+/* The same where all sites are exact points [TIE-1]. */
+dyd_status dyd_certify_points(dyd_skeleton *sk, dyd_work *w);
 /* Decides an edge, by witness or hull test, and marks it. */
 dyd_status dyd_certify_edge(dyd_skeleton *sk, dyd_work *w, dyd_half_edge h);
 /* An edge in a face (or a whole) of exact points bounded by certain edges: legal iff not cocircular, a hull edge

@@ -85,6 +85,18 @@ static void line_find_legal(dyd_line *l, const entry *e) {
   }
 }
 
+/* The first is surely an end iff it lies before the second, which has the lowest end of the others; the last iff nobody
+ * reaches it. Two sites need not be on a line: both are ends when they are apart. */
+static void line_find_ends(dyd_line *l, const entry *e) {
+  uint32_t last = l->count - 1, reach = 0;
+  if (l->count == 0) return;
+  for (uint32_t q = 1; q < last; q++)
+    if (mpz_cmp(line_high(&e[q]), line_high(&e[reach])) > 0) reach = q;
+  l->is_end[0] = last == 0 || mpz_cmp(line_high(&e[0]), line_low(&e[1])) < 0;
+  l->is_end[1] = last == 0 || mpz_cmp(line_high(&e[reach]), line_low(&e[last])) < 0;
+  if (l->count == 2) l->is_end[0] = l->is_end[1] = !dyd_irects_meet(&e[0].r, &e[1].r);
+}
+
 static dyd_status line_allocate(dyd_line *l, uint32_t n) {
   l->order = dyd_alloc(n, sizeof *l->order);
   l->rank = dyd_alloc(n, sizeof *l->rank);
@@ -119,6 +131,7 @@ static dyd_status line_sort(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, en
     l->rank[e[q].vertex] = q;
   }
   line_find_legal(l, e);
+  line_find_ends(l, e);
   for (uint32_t q = 0; q < l->count; q++) dyd_irect_clear(&e[q].r);
   return st;
 }
@@ -142,6 +155,10 @@ dyd_status dyd_line_build(dyd_line *l, dyd_mesh *m, const dyd_rects *rects, uint
 bool dyd_line_is_legal(const dyd_line *l, uint32_t v, uint32_t w) {
   uint32_t a = l->rank[v], b = l->rank[w];
   return a < b ? b == a + 1 && l->legal[a] : a == b + 1 && l->legal[b];
+}
+
+bool dyd_line_is_end(const dyd_line *l, uint32_t v) {
+  return (l->rank[v] == 0 && l->is_end[0]) || (l->rank[v] == l->count - 1 && l->is_end[1]);
 }
 
 size_t dyd_line_legal_pairs(const dyd_line *l) {
