@@ -265,6 +265,24 @@ static void test_grid(void **state) {
   orc_case_clear(&c);
 }
 
+/* Four intervals with ends in 0 .. 4, on a horizontal or a vertical line (a share of them at scale 1). */
+static void test_lines(void **state) {
+  (void)state;
+  orc_case c;
+  orc_case_init(&c);
+  for (size_t n = test_cases(60); n; n--) {
+    bool vertical = test_chance(&shared.random, 2);
+    c.n = 0;
+    snprintf(c.kind, sizeof c.kind, "line");
+    for (int k = 0; k < 4; k++) {
+      long a = (long)test_below(&shared.random, 5), b = a + (long)test_below(&shared.random, (uint64_t)(5 - a));
+      orc_case_add(&c, vertical ? 0 : a, vertical ? 0 : b, vertical ? a : 0, vertical ? b : 0, 1);
+    }
+    harness_run(&shared, &c, case_right);
+  }
+  orc_case_clear(&c);
+}
+
 /* ---- large ---- */
 
 static void run_large(const char *what, size_t n, bool circle, double width) {
@@ -356,8 +374,8 @@ static void test_vertices(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_cases), cmocka_unit_test(test_grid),
-                                     cmocka_unit_test(test_large), cmocka_unit_test(test_cap),
-                                     cmocka_unit_test(test_vertices)};
+                                     cmocka_unit_test(test_lines),        cmocka_unit_test(test_large),
+                                     cmocka_unit_test(test_cap),          cmocka_unit_test(test_vertices)};
   harness_init(&shared, "hull");
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   harness_clear(&shared);
