@@ -133,6 +133,10 @@ void cli_help_man(FILE *out) {
   man_text(out,
            "No format holds a rounded number without saying to which side, or by how much at most, it is rounded.");
   man_formats(out);
+  fputs(".Ss What is in them\n", out);
+  man_terms(out, cli_results, "Li");
+  fputs(".Sh PROGRAMS THAT SERVE POINTS\n", out);
+  man_text(out, cli_oracle_text);
   fputs(".Sh EXIT STATUS\n", out);
   man_terms(out, cli_exit_statuses, "Li");
   fputs(".Pp\n", out);

@@ -76,8 +76,8 @@ extern const char *const cli_group_names[CLI_GROUPS];
 typedef struct cli_term {
   const char *term, *meaning;
 } cli_term;
-extern const cli_term cli_exit_statuses[], cli_coordinate_forms[], cli_examples[];
-extern const char cli_summary[], cli_file_text[];
+extern const cli_term cli_exit_statuses[], cli_coordinate_forms[], cli_results[], cli_examples[];
+extern const char cli_summary[], cli_file_text[], cli_oracle_text[];
 /* Day of the last change of these texts, as the manual page shows it. */
 #define CLI_MANUAL_DATE "November 21, 2026"
 

@@ -39,3 +39,49 @@ const cli_term cli_examples[] = {
     {"dyadel converge --schedule uniform --step-bits 8 --plot run.svg points.txt",
      "how bounds and statuses develop with the precision"},
     {NULL, NULL}};
+
+const cli_term cli_results[] = {
+    {"csv, wkt, geojson",
+     "one layer each (see --layer), with plain columns and one kind of geometry. A point stands for its rectangle; "
+     "max_coordinate_error bounds, rounded up, how far in x or y any point of the rectangle is from it: 0 for "
+     "coordinates "
+     "printed exactly. Without --crs geojson claims no reference system; programs that see none would take the "
+     "coordinates "
+     "for degrees. csv of delaunay: \"# alias 7 3\" for each point 7 that is the same as point 3, then i,j,status, "
+     "sorted; where the cap on pairs was met, \"# capped\" and \"# face i j k ...\" name the faces within which "
+     "further "
+     "pairs may be possible. csv of voronoi: two bounds in comments, the area that is undetermined, and how far an "
+     "undetermined point can be from the true diagram."},
+    {"json",
+     "delaunay: the rectangles reached (exact, and as decimals rounded outward), aliases, pairs, sure triangles, "
+     "outcome, bounds of area and Hausdorff distance (exact, and rounded up), counters. voronoi: besides these "
+     "the exact boundaries, arc by arc (line or parabola, focus, feature, ends as (a + b sqrt(c)) / d), the "
+     "polygons, edges with their vertices, rays with bounds of their directions. Exact numbers are texts m*2^e "
+     "or p/q."},
+    {"obj", "vertices \"v x y 0\", legal edges l, sure triangles f; how far vertices are off is in a comment."},
+    {"svg, pdf, png",
+     "Lines that would be one mass are shown by their density; a crowd too small to see is told of with "
+     "the --window that shows it. In svg text is text, and what is drawn has an id (pair-3-7) and a "
+     "title. The picture of nearest shows the disc that is surely free of points, the ring that surely "
+     "holds the nearest one, and who reaches into it."},
+    {"polygons of voronoi", "For every point an inner polygon, all of whose points are surely nearest to it, and outer "
+                            "polygons that hold all points possibly nearest; vertices are dyadic, so that anybody can "
+                            "check them by comparing distances in integers."},
+    {"converge", "One line for each stage: bits asked for (least, most, total), largest and median width, pairs by "
+                 "status, undecided faces, bounds of the triangulation and of the diagram on the window, decisions per "
+                 "rung, calls, a digest of all statuses, seconds. Widths and bounds are rounded up."},
+    {"--trace FILE", "one JSON object per line; the format is in dyadel/io.h, that of certificates in "
+                     "dyadel/certificate.h"},
+    {NULL, NULL}};
+
+const char cli_oracle_text[] =
+    "With --oracle, a program (sh -c COMMAND) takes the place of FILE. It prints \"points N\"; then for each line "
+    "\"refine I B\" that it reads, it answers one line \"I XLO XHI YLO YHI\": exact numbers (any plain form of the "
+    "points "
+    "file) between which point I lies, aiming at widths of 2^-B, inside its former answers for I. It may add the word "
+    "\"fixed\" when that can never be narrowed. It flushes after every line, answers in the order of the requests, and "
+    "ends when its input ends. Of K programs, number I modulo K is always asked for point I. Results do not depend on "
+    "--oracle-jobs and --oracle-batch. A program that dies, is silent, or answers what is not an answer ends the run "
+    "with exit status 1 and a message that names the point and the request; what was known before is written all the "
+    "same. No process is left behind, even when dyadel itself is killed. Begin COMMAND with exec when it is a single "
+    "program, so that no shell stands between.";
