@@ -44,14 +44,13 @@ int dyd_cell_side(const dyd_exact_cell *c, dyd_sample *s, const dyd_elementary *
                              c->frame->fixed_touch);
 }
 
-/* num / 2^bits strictly between two points, by enclosures of growing precision. */
+/* num / 2^bits strictly between two points, by enclosures of growing precision; some number when both are infinite. */
 static void sample_between(dyd_sample *s, const dyd_spot *low, const dyd_spot *high, int axis) {
   mpz_t up, down, t;
   mpz_inits(up, down, t, NULL);
   for (s->bits = 4;; s->bits *= 2) {
     if (!low->infinite) dyd_surd_point_floor(t, up, &low->at, axis, s->bits);
     if (!high->infinite) dyd_surd_point_floor(down, t, &high->at, axis, s->bits);
-    if (low->infinite && high->infinite) mpz_set_ui(up, 0);
     if (low->infinite && !high->infinite) mpz_sub_ui(up, down, 2);
     if (high->infinite) mpz_add_ui(down, up, 2);
     if (mpz_cmp(up, down) < 0) break;

@@ -81,6 +81,8 @@ static void test_refused(void **state) {
              {"1e", DYD_E_PARSE, 3},
              {"1e+", DYD_E_PARSE, 4},
              {"5*3^2", DYD_E_PARSE, 3},
+             {"5*", DYD_E_PARSE, 3},
+             {"5*2", DYD_E_PARSE, 4},
              {"5*2^", DYD_E_PARSE, 5},
              {"1.5*2^3", DYD_E_PARSE, 4},
              {"0x", DYD_E_PARSE, 3},
