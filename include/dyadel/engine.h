@@ -113,6 +113,7 @@ typedef struct dyd_step {
   uint32_t i, j;        /* see dyd_reason; the site itself where that names none */
   bool called;          /* false: it was that narrow before, no stream was called */
   const dyd_rect *rect; /* reached; borrowed during the call */
+  bool final;           /* no call can narrow it further */
 } dyd_step;
 
 typedef struct dyd_engine_options {
@@ -194,6 +195,15 @@ DYD_API dyd_status dyd_engine_append_source(dyd_engine *e, size_t n, const dyd_s
  * DYD_E_ARG when there is no point i, when r is not valid, and from within a callback; DYD_E_NOMEM. r is copied. Not in
  * traces. O(log points); err may be NULL. */
 DYD_API dyd_status dyd_engine_remeasure(dyd_engine *e, uint32_t i, const dyd_rect *r, dyd_error *err);
+/* Point i, one of those that can be narrowed, answered r when it was asked for `bits` in an earlier run (a dyd_step
+ * with `called`); `final` as there. Given again in place of asking it, in the order of these calls: a request is
+ * answered by the first answer left that was for at least as many bits. So a run with the same options takes the way of
+ * the earlier one, and asks only from where that ended; answers that come then are intersected with those recalled, and
+ * one that has nothing in common with them ends the run with DYD_E_CONTRADICTION. Before the first run only. DYD_E_ARG
+ * when there is no such point or r is not valid, DYD_E_NOMEM. r is copied; err may be NULL. O(log answers) amortized.
+ */
+DYD_API dyd_status dyd_engine_recall(dyd_engine *e, uint32_t i, int64_t bits, const dyd_rect *r, bool final,
+                                     dyd_error *err);
 DYD_API size_t dyd_engine_count(const dyd_engine *e);
 
 /* What point i is called in the file it was read from (dyd_read_options): its row, counted from 0, rows without a point

@@ -220,10 +220,11 @@ DYD_API dyd_status dyd_write_check(FILE *out, const dyd_check_report *r, dyd_for
 
 /* A trace tells which point was narrowed to what, and why; replaying it gives the same statuses without asking a point.
  * It is one JSON object per line, exact numbers are texts "m*2^e" or "p/q":
- *   {"format":"dyadel trace 1","points":N,"schedule":...}                    first line: what was asked for
- *   {"stage":S,"point":I,"bits":B,"called":C,"why":W,"pair":[I,J],"x":[LO,HI],"y":[LO,HI]}
+ *   {"format":"dyadel trace 1","points":N,"input":..,"schedule":...}         first line: what was asked for, of what
+ *   {"stage":S,"point":I,"bits":B,"called":C,"final":F,"why":W,"pair":[I,J],"x":[LO,HI],"y":[LO,HI]}
  *                                      point I has been narrowed for stage S; W is a dyd_reason, "pair" is there when
- *                                      it names one; C = false: it was narrow enough before
+ *                                      it names one; C = false: it was narrow enough before; "final", there when it is
+ *                                      true: it cannot be narrowed further
  *   {"stage":1,"point":I,"why":"fixed","x":[LO,HI],"y":[LO,HI]}              a point that cannot be narrowed
  *   {"proved":R,"points":[I,J,...]}    these points are proved to be "coincident" (two), "collinear" or "cocircular"
  *   {"stage":S,"done":true,"legal":..,"indeterminate":..,"tie":..,"statuses":DIGEST}
@@ -231,12 +232,15 @@ DYD_API dyd_status dyd_write_check(FILE *out, const dyd_check_report *r, dyd_for
  *   {"outcome":O}                                                            last line */
 typedef struct dyd_trace dyd_trace;
 
-/* Begins a trace of a run of e (not run before) with these options. `out` is borrowed until dyd_trace_end. */
-DYD_API dyd_status dyd_trace_new(dyd_trace **trace, FILE *out, const dyd_engine *e, const dyd_engine_options *options,
-                                 const dyd_converge_options *converge, dyd_error *err);
-/* For dyd_engine_options.trace and dyd_converge_options.stage; user is the dyd_trace. */
+/* Begins a trace of a run of e (not run before) with these options. `input`, a text of letters, digits and blanks, or
+ * NULL, tells inputs apart (a digest). `out` is borrowed until dyd_trace_end; when it is line-buffered, each answer is
+ * in the file before the next is asked for. */
+DYD_API dyd_status dyd_trace_new(dyd_trace **trace, FILE *out, const dyd_engine *e, const char *input,
+                                 const dyd_engine_options *options, const dyd_converge_options *converge,
+                                 dyd_error *err);
+/* For dyd_engine_options.trace and dyd_engine_options.progress; user is the dyd_trace. */
 DYD_API void dyd_trace_step(void *trace, const dyd_step *step);
-DYD_API void dyd_trace_stage(void *trace, const dyd_stage_row *row, const dyd_delaunay *pd);
+DYD_API void dyd_trace_stage(void *trace, const dyd_progress *p);
 /* Writes the last line and frees the trace. DYD_E_IO, DYD_E_NOMEM for whatever failed since it began. */
 DYD_API dyd_status dyd_trace_end(dyd_trace *trace, dyd_outcome outcome, dyd_error *err);
 
@@ -247,6 +251,18 @@ DYD_API dyd_status dyd_trace_end(dyd_trace *trace, dyd_outcome outcome, dyd_erro
  * callback of converge is called. converge and err may be NULL. */
 DYD_API dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_options *converge,
                                     dyd_error *err);
+
+typedef struct dyd_recall_report {
+  size_t struct_size; /* set by DYD_SIZED */
+  size_t answers;     /* taken from the trace */
+  bool cut;           /* its last line was cut short, and left out */
+} dyd_recall_report;
+/* Gives e, not run before, the answers of a trace (dyd_engine_recall), so that a run with the same options goes on from
+ * where the traced one ended, however it did: a trace cut short within a line is taken up to there. `input` as for
+ * dyd_trace_new; NULL: not compared. DYD_E_PARSE with line and message when the trace is not of its form, of another
+ * number of points, of another input, or names a rectangle that is not inside the one before; what was taken until then
+ * stays in e. out and err may be NULL. */
+DYD_API dyd_status dyd_trace_recall(dyd_recall_report *out, dyd_engine *e, FILE *in, const char *input, dyd_error *err);
 
 #ifdef __cplusplus
 }

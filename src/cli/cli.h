@@ -51,7 +51,7 @@ typedef struct cli_options {
   const dyd_rect *view; /* delaunay: the window read, which pictures show */
   int64_t flatten_bits;
   bool flatten_set;
-  const char *certificate, *trace, *replay, *plot;
+  const char *certificate, *trace, *replay, *resume, *plot;
   uint64_t seed;
   bool seed_set;
   unsigned schedules; /* 0: default */
@@ -105,16 +105,29 @@ int cli_oracle_read(dyd_engine *e, const cli_options *o);
 /* files.c: 0, or CLI_USAGE after a message when an output is an input or another output, or a picture would go to a
  * terminal. Nothing is read or written. */
 int cli_files_check(const cli_options *o);
+/* The file `name` ("-": standard input), read as bytes; NULL after a message that ends with the advice. */
+FILE *cli_input_open(const char *name, const char *advice);
+void cli_input_close(FILE *in);
 
 /* session.c: an engine with the points of the file (or oracle), and what goes on around it. */
 typedef struct cli_progress cli_progress;
 typedef struct cli_session {
   const cli_options *options; /* borrowed */
   dyd_engine *engine;
-  cli_progress *progress;           /* may be NULL */
-  double begun, share;              /* of the time that is left, the engine's */
-  const dyd_voronoi_bounds *bounds; /* of the diagram written, borrowed; NULL: of none */
+  cli_progress *progress;               /* may be NULL */
+  double begun, share;                  /* of the time that is left, the engine's */
+  const dyd_voronoi_bounds *bounds;     /* of the diagram written, borrowed; NULL: of none */
+  const dyd_converge_options *converge; /* what a trace tells of them, borrowed; NULL: of none */
+  dyd_trace *trace;                     /* NULL: none is written, or it has not begun */
+  FILE *trace_file;
 } cli_session;
+
+/* trace.c. Gives the engine, not run yet, the answers of --resume. 0, or an exit status after a message. */
+int cli_trace_resume(const cli_session *s);
+/* Makes progress and --trace part of a run's options; the trace begins with the first. Status as above. */
+int cli_trace_attach(dyd_engine_options *options, cli_session *s);
+/* Ends the trace, if there is one. Status as above. */
+int cli_trace_end(cli_session *s, dyd_outcome outcome);
 
 /* Prints `what`; err is clear. Returns an error with *err filled, else DYD_OK. */
 typedef dyd_status (*cli_print_fn)(FILE *out, const void *what, const cli_options *o, dyd_error *err);
@@ -122,9 +135,6 @@ typedef dyd_status (*cli_print_fn)(FILE *out, const void *what, const cli_option
 /* All of a command that reads, runs, and prints one result: `print` gets the engine. Returns the exit status. */
 int cli_session_all(const cli_options *o, cli_print_fn print);
 
-/* The file `name` ("-": standard input), read as bytes; NULL after a message that ends with the advice. */
-FILE *cli_input_open(const char *name, const char *advice);
-void cli_input_close(FILE *in);
 /* Adds the points of the file or oracle to e. 0, or an exit status after a message. noting: notes tell what was left
  * out or is strange. */
 int cli_points_read(dyd_engine *e, const cli_options *o);

@@ -30,44 +30,12 @@ static int write_results(const dyd_convergence *table, const cli_options *o) {
 typedef struct run {
   const cli_options *o;
   dyd_convergence table;
-  dyd_trace *trace;
   dyd_converge_options converge;
 } run;
 
 static dyd_status converge_run(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
   run *r = user;
-  dyd_engine_options o = *options;
-  dyd_converge_options converge = r->converge;
-  if (r->trace) {
-    o.trace = dyd_trace_step;
-    converge.stage = dyd_trace_stage;
-    o.trace_user = converge.stage_user = r->trace;
-  }
-  return dyd_converge_run(&r->table, e, &o, &converge, err);
-}
-
-static int end_trace(run *r, cli_output *out) {
-  dyd_error err;
-  dyd_error_clear(&err);
-  dyd_status st = dyd_trace_end(r->trace, r->table.outcome, &err);
-  r->trace = NULL;
-  if (st == DYD_OK) return cli_output_finish(out, r->o) ? 0 : CLI_FAILED;
-  cli_complain_at(r->o->trace, &err);
-  cli_output_drop(out);
-  return CLI_FAILED;
-}
-
-static int run_traced(run *r, cli_session *s, const dyd_engine_options *options) {
-  cli_output out;
-  if (!cli_output_open(&out, r->o->trace)) return CLI_FAILED;
-  dyd_error err;
-  if (dyd_trace_new(&r->trace, out.stream, s->engine, options, &r->converge, &err) != DYD_OK) {
-    cli_complain("%s", err.message);
-    cli_output_drop(&out);
-    return CLI_FAILED;
-  }
-  int status = cli_session_run_by(s, options, converge_run, r), ended = end_trace(r, &out);
-  return status ? status : ended;
+  return dyd_converge_run(&r->table, e, options, &r->converge, err);
 }
 
 /* The bounds of the diagram in the last row, for the note on the goal. */
@@ -94,7 +62,7 @@ static void note_steps(const dyd_convergence *table, const cli_options *o) {
 static int converge_points(const cli_options *o) {
   cli_session s;
   dyd_voronoi_bounds bounds;
-  run r = {o, {DYD_SIZED(dyd_convergence)}, NULL, {DYD_SIZED(dyd_converge_options)}};
+  run r = {o, {DYD_SIZED(dyd_convergence)}, {DYD_SIZED(dyd_converge_options)}};
   dyd_rect window;
   dyd_engine_options options = o->engine;
   dyd_rect_init(&window);
@@ -105,7 +73,8 @@ static int converge_points(const cli_options *o) {
   dyd_voronoi_bounds_init(&bounds);
   int status = cli_session_open(&s, o);
   if (status == 0) {
-    status = o->trace ? run_traced(&r, &s, &options) : cli_session_run_by(&s, &options, converge_run, &r);
+    s.converge = &r.converge;
+    status = cli_session_run_by(&s, &options, converge_run, &r);
     cli_session_settle(&s);
     int written = write_results(&r.table, o);
     if (status == 0) status = written;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Before anything is read: no output may be an input, or another output; no picture goes to a terminal. */
+/* Files of the command line. Before anything is read: no output may be an input, or another output; no picture goes to
+ * a terminal. */
 #include "table.h"
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -89,4 +91,14 @@ int cli_files_check(const cli_options *o) {
   cli_complain("%s is nothing for a terminal; give a file: -o NAME.%s", dyd_format_name(o->format),
                dyd_format_name(o->format));
   return CLI_USAGE;
+}
+
+FILE *cli_input_open(const char *name, const char *advice) {
+  FILE *in = strcmp(name, "-") == 0 ? stdin : fopen(name, "rb");
+  if (!in) cli_complain("%s: cannot open: %s; %s", name, strerror(errno), advice);
+  return in;
+}
+
+void cli_input_close(FILE *in) {
+  if (in != stdin) fclose(in);
 }

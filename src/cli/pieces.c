@@ -45,16 +45,20 @@ static dyd_status pieces_ask(bool *answered, dyd_plan *plan, void *user, const d
 static int pieces_run(cli_pieces *p) {
   const cli_options *o = p->session.options;
   const dyd_question question = {DYD_SIZED(dyd_question), .ask = pieces_ask, .user = p};
+  dyd_engine_options options = o->engine;
   dyd_error err;
+  int status = cli_trace_attach(&options, &p->session);
+  if (status) return status;
   cli_progress_phase(p->session.progress, "refining");
   cli_signals_cancel(p->session.engine);
-  dyd_status st = dyd_engine_ask(&p->outcome, p->session.engine, &question, &o->engine, &err);
+  dyd_status st = dyd_engine_ask(&p->outcome, p->session.engine, &question, &options, &err);
   cli_signals_remove(NULL);
+  status = cli_trace_end(&p->session, p->outcome);
   if (st != DYD_OK)
     cli_complain_of(p->session.engine, o->file, &err);
   else if (!pieces_are_known(p))
     cli_complain("%s before the points were known: there is no result to write", dyd_outcome_text(p->outcome));
-  if (st != DYD_OK) return CLI_FAILED;
+  if (st != DYD_OK || status) return CLI_FAILED;
   return pieces_are_known(p) ? 0 : cli_exit_status(p->outcome);
 }
 

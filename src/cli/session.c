@@ -8,16 +8,6 @@
 
 /* ---- reading ---- */
 
-FILE *cli_input_open(const char *name, const char *advice) {
-  FILE *in = strcmp(name, "-") == 0 ? stdin : fopen(name, "rb");
-  if (!in) cli_complain("%s: cannot open: %s; %s", name, strerror(errno), advice);
-  return in;
-}
-
-void cli_input_close(FILE *in) {
-  if (in != stdin) fclose(in);
-}
-
 static int session_read_file(dyd_engine *e, const cli_options *o, dyd_read_report *report) {
   FILE *in = cli_input_open(o->file, "check the name of the points file");
   if (!in) return CLI_FAILED;
@@ -66,7 +56,8 @@ int cli_session_open(cli_session *s, const cli_options *o) {
   if (dyd_engine_new(&s->engine) != DYD_OK) return cli_complain_memory();
   s->progress = cli_progress_start(o->quiet);
   cli_progress_phase(s->progress, "reading");
-  return cli_points_read_noting(s->engine, o);
+  int status = cli_points_read_noting(s->engine, o);
+  return status == 0 && o->resume ? cli_trace_resume(s) : status;
 }
 
 /* ---- running ---- */
@@ -74,9 +65,9 @@ int cli_session_open(cli_session *s, const cli_options *o) {
 int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_run_fn run, void *user) {
   cli_progress_phase(s->progress, "triangulating");
   dyd_engine_options o = *options;
-  o.progress = cli_progress_stage;
-  o.progress_user = s->progress;
   o.seconds = cli_deadline_left(s->share);
+  int status = cli_trace_attach(&o, s);
+  if (status) return status;
   dyd_error err;
   dyd_error_clear(&err);
   cli_signals_cancel(s->engine);
@@ -211,7 +202,8 @@ int cli_session_close(cli_session *s, int status) {
   cli_progress_stop(s->progress);
   if (s->engine) {
     dyd_outcome outcome = dyd_engine_outcome(s->engine);
-    if (status == 0) status = cli_exit_status(outcome);
+    int traced = cli_trace_end(s, outcome);
+    if (status == 0) status = traced ? traced : cli_exit_status(outcome);
     if (!o->quiet && status != CLI_OK && status != CLI_USAGE) session_note_outcome(s);
     if (status != CLI_OK && status != CLI_USAGE) cli_note_spacing(dyd_engine_delaunay(s->engine), o);
     if (o->stats && outcome != DYD_OUTCOME_NONE) cli_stats(stderr, s->engine, cli_clock() - s->begun);

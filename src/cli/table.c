@@ -194,8 +194,11 @@ const cli_option cli_option_table[] = {
 
     {"plot", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE), CLI_EXPERIMENTS, "draw the table; FILE ends in .svg, .pdf or .png",
      AT(plot)},
-    {"trace", 0, "FILE", CLI_FILE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
-     "write which point was narrowed to what, and why;\ncheck: the schedule that shows a fault", AT(trace)},
+    {"trace", 0, "FILE", CLI_FILE, REFINE, CLI_EXPERIMENTS,
+     "write which point was narrowed to what, and why, as it\nhappens; check: the schedule that shows a fault",
+     AT(trace)},
+    {"resume", 0, "FILE", CLI_SOURCE, REFINE & ~BIT(CLI_CHECK), CLI_INPUT,
+     "go on from this trace, which may have been cut short: its\nanswers are not asked for again", AT(resume)},
     {"replay", 0, "FILE", CLI_SOURCE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,
      "repeat a trace, which stands for the points;\ncheck: repeat a schedule on the points of FILE or --oracle",
      AT(replay)},

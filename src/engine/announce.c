@@ -4,9 +4,11 @@
 
 #include "base/alloc.h"
 #include "engine/points.h"
+#include "engine/recall.h"
 
-/* Will p be asked for `bits`, or is it that narrow already? */
+/* Will p be asked for `bits`, or is it that narrow already, or its answer known? */
 static bool announce_is_due(dyd_rect *scratch, const dyd_refinable *p, const dyd_engine *e, int64_t bits) {
+  if (dyd_recall_next(e->recall, p->site, bits)) return false;
   if (!p->asked) return true;
   return dyd_sites_get(scratch, e->sites, p->site) != DYD_OK || dyd_rect_bits(scratch) < bits;
 }

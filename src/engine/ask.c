@@ -108,6 +108,7 @@ static dyd_status ask_tell_step(const ask *a, const dyd_refinable *p, const dyd_
   step.i = w->i;
   step.j = w->j;
   step.rect = &rect;
+  step.final = p->final;
   if (st == DYD_OK) a->o.trace(a->o.trace_user, &step);
   dyd_rect_clear(&rect);
   return st;

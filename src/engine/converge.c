@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/error.h"
+#include "engine/digest.h"
 #include "engine/goal_voronoi.h"
 #include <dyadel/metric.h>
 
@@ -117,25 +118,6 @@ static dyd_status measure_widths(dyd_stage_row *row, const dyd_sites *sites) {
 
 /* ---- a row ---- */
 
-static uint64_t digest_word(uint64_t digest, uint32_t word) {
-  for (int k = 0; k < 4; k++) digest = (digest ^ (word >> 8 * k & 255)) * 1099511628211u;
-  return digest;
-}
-
-static dyd_status digest_pairs(uint64_t *out, const dyd_delaunay *pd) {
-  dyd_pair_list pairs = {0};
-  dyd_status st = dyd_delaunay_pairs(&pairs, pd);
-  if (st != DYD_OK) return st;
-  *out = 14695981039346656037u;
-  for (size_t k = 0; k < pairs.count; k++) {
-    *out = digest_word(*out, pairs.item[k].i);
-    *out = digest_word(*out, pairs.item[k].j);
-    *out = digest_word(*out, (uint32_t)pairs.item[k].status);
-  }
-  dyd_pair_list_clear(&pairs);
-  return DYD_OK;
-}
-
 /* A capped result has no bounds, which is no failure. */
 static dyd_status measure_bounds(dyd_stage_row *row, const dyd_delaunay *pd) {
   dyd_status st = dyd_metric_area(&row->area, pd);
@@ -189,7 +171,7 @@ static dyd_status row_measure(dyd_stage_row *row, const dyd_delaunay *pd) {
   dyd_delaunay_count(row->count, pd);
   row->undecided_faces = dyd_delaunay_undecided_faces(pd);
   dyd_status st = dyd_delaunay_get_counters(&row->rungs, pd, NULL);
-  if (st == DYD_OK) st = digest_pairs(&row->digest, pd);
+  if (st == DYD_OK) st = dyd_digest_pairs(&row->digest, pd);
   if (st == DYD_OK) st = measure_widths(row, dyd_delaunay_sites(pd));
   if (st == DYD_OK) st = measure_bounds(row, pd);
   return st;

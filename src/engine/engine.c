@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Life, counters and results of an engine. */
 #include "engine/points.h"
+#include "engine/recall.h"
 #include "engine/ties.h"
 
 #include "base/abi.h"
@@ -40,6 +41,7 @@ void dyd_engine_free(dyd_engine *e) {
   dyd_engine_clear_points(e);
   dyd_labels_clear(&e->labels);
   dyd_ties_free(e->ties);
+  dyd_recall_free(e->recall);
   dyd_sites_free(e->sites);
   free(e->changed);
   free(e);

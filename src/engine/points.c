@@ -11,6 +11,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
+#include "engine/recall.h"
 #include "rect/interval.h"
 #include "rect/sites_table.h"
 #include "stream/real.h"
@@ -150,7 +151,7 @@ static dyd_status point_blame(const dyd_refinable *p, dyd_status st, dyd_error *
 /* The first call of a stream, where doubles hold its answer. */
 static bool point_narrow_in_doubles(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits) {
   dyd_double_span side[2];
-  if (p->asked || !p->stream || !dyd_stream_glance(side, p->stream, bits)) return false;
+  if (p->asked || !p->stream || e->recall || !dyd_stream_glance(side, p->stream, bits)) return false;
   const double box[4] = {side[0].lo, side[0].hi, side[1].lo, side[1].hi};
   if (dyd_sites_narrow_d(e->sites, p->site, box) < 0) return false;
   ++*calls;
@@ -159,6 +160,19 @@ static bool point_narrow_in_doubles(dyd_refinable *p, uint64_t *calls, dyd_engin
   p->final = box[0] == box[1] && box[2] == box[3];
   p->asked = true;
   return true;
+}
+
+/* Asks whoever knows p: an earlier run, its stream, its source. What was recalled is met with what is answered later,
+ * since its stream does not know that it has answered before. */
+static dyd_status point_ask(dyd_rect *r, bool *final, dyd_refinable *p, const dyd_engine *e, int64_t bits,
+                            int64_t max_bits, dyd_error *err) {
+  const dyd_recalled *known = dyd_recall_next(e->recall, p->site, bits);
+  if (!known && p->stream) return point_ask_stream(r, final, p, bits, max_bits, err);
+  if (!known) return point_ask_source(r, final, p, e, bits, max_bits, err);
+  dyd_recalled_get(r, final, known);
+  dyd_recall_use(e->recall, known);
+  p->measured = true;
+  return DYD_OK;
 }
 
 /* A guest has no place in the table, and counts what its stream was asked. */
@@ -182,8 +196,7 @@ dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, i
   dyd_status st = p->asked ? dyd_sites_get(&r, e->sites, p->site) : DYD_OK;
   if (st == DYD_OK && !(p->asked && dyd_rect_bits(&r) >= bits)) {
     ++*calls;
-    st = p->stream ? point_ask_stream(&r, &final, p, bits, max_bits, err)
-                   : point_ask_source(&r, &final, p, e, bits, max_bits, err);
+    st = point_ask(&r, &final, p, e, bits, max_bits, err);
     if (st == DYD_OK) st = point_put(p, e, &r, err);
     final |= dyd_rect_is_point(&r);
     if (st == DYD_OK) p->calls++;

@@ -4,6 +4,7 @@
  *   engine.c        life, counters, results
  *   add.c           adding points
  *   points.c        asking one point to narrow, measuring one again
+ *   recall.c        answers of an earlier run
  *   labels.c        what points are called where they were read
  *   compose.c       points of the engine as streams
  *   plan.c          which points to narrow, and how far: a value
@@ -56,6 +57,8 @@ typedef struct dyd_source_use {
 } dyd_source_use;
 
 typedef struct dyd_ties dyd_ties;
+typedef struct dyd_recall dyd_recall;
+typedef struct dyd_recalled dyd_recalled;
 
 /* Invariant: point is sorted by site; changed lists (with repeats) the sites narrowed since pd was last brought up
  * to date; pd = NULL before the first complete stage. Sites of points never asked hold the whole plane.
@@ -83,7 +86,8 @@ struct dyd_engine {
   dyd_budget spent;
   uint64_t stages, calls;
   double seconds;
-  dyd_ties *ties; /* what was asked about true points; NULL: nothing yet */
+  dyd_recall *recall; /* answers known before the first run; NULL: none */
+  dyd_ties *ties;     /* what was asked about true points; NULL: nothing yet */
   int64_t tie_bits;
   dyd_tie_counters tie_counters;
   volatile int cancelled; /* set by dyd_engine_cancel; atomic access only, as for stop */

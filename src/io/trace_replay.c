@@ -9,9 +9,9 @@
 #include "io/result.h"
 #include "io/trace.h"
 #include "io/trace_proofs.h"
+#include "io/trace_values.h"
 #include <dyadel/io.h>
 #include <inttypes.h>
-#include <jansson.h>
 #include <string.h>
 
 /* A point of the trace. rect holds its first rectangle until the table of sites is made. */
@@ -44,54 +44,19 @@ static dyd_status replay_fail(const replay *r, const char *what) {
 
 /* ---- values ---- */
 
-static bool json_get_integer(int64_t *out, const json_t *line, const char *name, int64_t least, int64_t most) {
-  const json_t *value = json_object_get(line, name);
-  if (!json_is_integer(value)) return false;
-  *out = json_integer_value(value);
-  return *out >= least && *out <= most;
-}
-
-static bool json_has_text(const json_t *line, const char *name, const char *wanted) {
-  const char *text = json_string_value(json_object_get(line, name));
-  return text && strcmp(text, wanted) == 0;
-}
-
 /* A goal or schedule by its word; false when there is none of that name. */
 static bool json_get_goal(dyd_goal *out, const json_t *line) {
   int k = 0;
-  while (k <= DYD_TRACE_GOAL && !json_has_text(line, "goal", dyd_goal_text((dyd_goal)k))) k++;
+  while (k <= DYD_TRACE_GOAL && !dyd_trace_has_text(line, "goal", dyd_goal_text((dyd_goal)k))) k++;
   *out = (dyd_goal)k;
   return k <= DYD_TRACE_GOAL;
 }
 
 static bool json_get_schedule(dyd_schedule *out, const json_t *line) {
   int k = 0;
-  while (k <= DYD_TRACE_SCHEDULE && !json_has_text(line, "schedule", dyd_schedule_text((dyd_schedule)k))) k++;
+  while (k <= DYD_TRACE_SCHEDULE && !dyd_trace_has_text(line, "schedule", dyd_schedule_text((dyd_schedule)k))) k++;
   *out = (dyd_schedule)k;
   return k <= DYD_TRACE_SCHEDULE;
-}
-
-/* Dyadic texts at `from` and behind it. */
-static bool json_get_ends(dyd_interval *out, const json_t *list, size_t from) {
-  const char *lo = json_string_value(json_array_get(list, from)),
-             *hi = json_string_value(json_array_get(list, from + 1));
-  dyd_dyadic a, b;
-  dyd_dyadic_init(&a);
-  dyd_dyadic_init(&b);
-  bool good = lo && hi && dyd_dyadic_set_str(&a, lo, NULL) == DYD_OK && dyd_dyadic_set_str(&b, hi, NULL) == DYD_OK &&
-              dyd_interval_set_ends(out, &a, &b) == DYD_OK;
-  dyd_dyadic_clear(&b);
-  dyd_dyadic_clear(&a);
-  return good;
-}
-
-static bool json_get_side(dyd_interval *out, const json_t *line, const char *name) {
-  const json_t *side = json_object_get(line, name);
-  const char *lo = json_string_value(json_array_get(side, 0)), *hi = json_string_value(json_array_get(side, 1));
-  if (!lo || !hi || json_array_size(side) != 2) return false;
-  if (strcmp(lo, hi) == 0) /* any form of an exact number */
-    return dyd_interval_set_text(out, lo, strlen(lo), NULL) == DYD_OK && dyd_interval_is_point(out);
-  return json_get_ends(out, side, 0);
 }
 
 /* ---- lines ---- */
@@ -102,7 +67,7 @@ static bool replay_window(replay *r, const json_t *line) {
   r->converge.no_voronoi = json_is_true(json_object_get(line, "no_voronoi"));
   if (!list) return true;
   r->converge.window = &r->window;
-  return json_array_size(list) == 4 && json_get_ends(&r->window.x, list, 0) && json_get_ends(&r->window.y, list, 2) &&
+  return json_array_size(list) == 4 && dyd_trace_ends(&r->window.x, list, 0) && dyd_trace_ends(&r->window.y, list, 2) &&
          !dyd_interval_is_point(&r->window.x) && !dyd_interval_is_point(&r->window.y);
 }
 
@@ -112,14 +77,14 @@ static dyd_status replay_head(replay *r, const json_t *line) {
   if (!o) o = r->out->options = malloc(sizeof *o);
   if (!o) return dyd_fail_nomem(r->err);
   dyd_engine_options_init(o);
-  if (!json_has_text(line, "format", DYD_TRACE_FORMAT))
+  if (!dyd_trace_has_text(line, "format", DYD_TRACE_FORMAT))
     return replay_fail(r, "this is no trace of the format \"" DYD_TRACE_FORMAT "\"");
-  if (!json_get_integer(&points, line, "points", 0, (int64_t)DYD_MAX_SITES) ||
-      !json_get_integer(&o->goal_bits, line, "goal_bits", INT64_MIN, INT64_MAX) ||
-      !json_get_integer(&o->start_bits, line, "start_bits", INT64_MIN, INT64_MAX) ||
-      !json_get_integer(&o->step_bits, line, "step_bits", 0, INT64_MAX) ||
-      !json_get_integer(&o->max_bits, line, "max_bits", INT64_MIN, INT64_MAX) ||
-      !json_get_integer(&max_pairs, line, "max_pairs", 0, INT64_MAX) || !json_get_schedule(&o->schedule, line) ||
+  if (!dyd_trace_integer(&points, line, "points", 0, (int64_t)DYD_MAX_SITES) ||
+      !dyd_trace_integer(&o->goal_bits, line, "goal_bits", INT64_MIN, INT64_MAX) ||
+      !dyd_trace_integer(&o->start_bits, line, "start_bits", INT64_MIN, INT64_MAX) ||
+      !dyd_trace_integer(&o->step_bits, line, "step_bits", 0, INT64_MAX) ||
+      !dyd_trace_integer(&o->max_bits, line, "max_bits", INT64_MIN, INT64_MAX) ||
+      !dyd_trace_integer(&max_pairs, line, "max_pairs", 0, INT64_MAX) || !json_get_schedule(&o->schedule, line) ||
       !json_get_goal(&o->goal, line) || !replay_window(r, line))
     return replay_fail(r, "the first line lacks a field, or has a wrong one");
   o->max_pairs = (size_t)max_pairs;
@@ -154,17 +119,17 @@ static dyd_status replay_rect(replay *r, size_t i, const dyd_rect *rect, bool ca
 
 static dyd_status replay_step(replay *r, const json_t *line) {
   int64_t point;
-  if (!json_get_integer(&point, line, "point", 0, (int64_t)r->points - 1))
+  if (!dyd_trace_integer(&point, line, "point", 0, (int64_t)r->points - 1))
     return replay_fail(r, "there is no such point");
   replay_point *p = &r->point[point];
-  bool fixed = json_has_text(line, "why", "fixed"), called = json_is_true(json_object_get(line, "called"));
-  if (!fixed && !json_get_integer(&p->bits, line, "bits", INT64_MIN, INT64_MAX))
+  bool fixed = dyd_trace_has_text(line, "why", "fixed"), called = json_is_true(json_object_get(line, "called"));
+  if (!fixed && !dyd_trace_integer(&p->bits, line, "bits", INT64_MIN, INT64_MAX))
     return replay_fail(r, "the bits asked are missing");
   if (!fixed) p->asked = true;
   if (called) r->calls++;
   dyd_rect rect;
   dyd_rect_init(&rect);
-  dyd_status st = json_get_side(&rect.x, line, "x") && json_get_side(&rect.y, line, "y")
+  dyd_status st = dyd_trace_side(&rect.x, line, "x") && dyd_trace_side(&rect.y, line, "y")
                       ? replay_rect(r, (size_t)point, &rect, called)
                       : replay_fail(r, "this is no rectangle");
   dyd_rect_clear(&rect);
@@ -201,10 +166,10 @@ static bool replay_agrees(const dyd_stage_row *row, const json_t *line) {
   char digest[17];
   snprintf(digest, sizeof digest, "%016" PRIx64, row->digest);
   for (int k = DYD_TIE; k <= DYD_LEGAL; k++)
-    if (!json_get_integer(&count, line, dyd_pair_status_text((dyd_pair_status)k), 0, INT64_MAX) ||
+    if (!dyd_trace_integer(&count, line, dyd_pair_status_text((dyd_pair_status)k), 0, INT64_MAX) ||
         (size_t)count != row->count[k])
       return false;
-  return json_has_text(line, "statuses", digest);
+  return dyd_trace_has_text(line, "statuses", digest);
 }
 
 /* Again, when points are the same. */
@@ -242,7 +207,7 @@ static dyd_status replay_stage(replay *r, const json_t *line) {
 
 static dyd_status replay_outcome(replay *r, const json_t *line) {
   for (int k = DYD_OUTCOME_NONE; k <= DYD_OUTCOME_ERROR; k++) {
-    if (!json_has_text(line, "outcome", dyd_outcome_text((dyd_outcome)k))) continue;
+    if (!dyd_trace_has_text(line, "outcome", dyd_outcome_text((dyd_outcome)k))) continue;
     r->out->outcome = (dyd_outcome)k;
     r->ended = true;
     return DYD_OK;

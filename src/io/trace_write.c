@@ -4,6 +4,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "engine/digest.h"
 #include "engine/ties.h"
 #include "io/decimal.h"
 #include "io/output.h"
@@ -23,13 +24,15 @@ struct dyd_trace {
   dyd_status failed;
 };
 
-static dyd_status trace_head(const dyd_trace *t, const dyd_engine_options *o, const dyd_converge_options *c) {
+static dyd_status trace_head(const dyd_trace *t, const char *input, const dyd_engine_options *o,
+                             const dyd_converge_options *c) {
   dyd_status st = DYD_OK;
+  fprintf(t->out, "{\"format\":\"" DYD_TRACE_FORMAT "\",\"points\":%zu", t->points);
+  if (input) fprintf(t->out, ",\"input\":\"%s\"", input);
   fprintf(t->out,
-          "{\"format\":\"" DYD_TRACE_FORMAT
-          "\",\"points\":%zu,\"schedule\":\"%s\",\"goal\":\"%s\",\"goal_bits\":%" PRId64 ",\"start_bits\":%" PRId64
+          ",\"schedule\":\"%s\",\"goal\":\"%s\",\"goal_bits\":%" PRId64 ",\"start_bits\":%" PRId64
           ",\"step_bits\":%" PRId64 ",\"max_bits\":%" PRId64 ",\"max_pairs\":%zu",
-          t->points, dyd_schedule_text(o->schedule), dyd_goal_text(o->goal), o->goal_bits, o->start_bits, o->step_bits,
+          dyd_schedule_text(o->schedule), dyd_goal_text(o->goal), o->goal_bits, o->start_bits, o->step_bits,
           o->max_bits, o->max_pairs);
   if (c->no_voronoi) fputs(",\"no_voronoi\":true", t->out);
   if (c->window) {
@@ -41,8 +44,8 @@ static dyd_status trace_head(const dyd_trace *t, const dyd_engine_options *o, co
   return st;
 }
 
-dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dyd_engine_options *options,
-                         const dyd_converge_options *converge, dyd_error *err) {
+dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const char *input,
+                         const dyd_engine_options *options, const dyd_converge_options *converge, dyd_error *err) {
   dyd_engine_options defaults, o;
   dyd_converge_options c;
   dyd_engine_options_init(&defaults);
@@ -61,7 +64,7 @@ dyd_status dyd_trace_new(dyd_trace **out, FILE *f, const dyd_engine *e, const dy
     free(t);
     return dyd_fail_nomem(err);
   }
-  t->failed = trace_head(t, &o, &c);
+  t->failed = trace_head(t, input, &o, &c);
   *out = t;
   return DYD_OK;
 }
@@ -88,6 +91,7 @@ void dyd_trace_step(void *trace, const dyd_step *step) {
   if (t->seen) t->seen[step->site] = true;
   fprintf(t->out, "{\"stage\":%" PRIu64 ",\"point\":%" PRIu32 ",\"bits\":%" PRId64 ",\"called\":%s,\"why\":\"%s\"",
           step->stage, step->site, step->bits, step->called ? "true" : "false", dyd_reason_text(step->reason));
+  if (step->final) fputs(",\"final\":true", t->out);
   if (step->i != step->j) fprintf(t->out, ",\"pair\":[%" PRIu32 ",%" PRIu32 "]", step->i, step->j);
   t->failed = trace_rect(t->out, step->rect);
 }
@@ -124,15 +128,18 @@ static void trace_proofs(dyd_trace *t) {
   }
 }
 
-void dyd_trace_stage(void *trace, const dyd_stage_row *row, const dyd_delaunay *pd) {
+void dyd_trace_stage(void *trace, const dyd_progress *p) {
   dyd_trace *t = trace;
+  uint64_t digest;
+  const dyd_delaunay *pd = dyd_engine_delaunay(t->e);
+  if (t->failed == DYD_OK && t->seen) t->failed = trace_fixed(t, pd);
+  if (t->failed == DYD_OK) t->failed = dyd_digest_pairs(&digest, pd);
   if (t->failed != DYD_OK) return;
-  if (t->seen) t->failed = trace_fixed(t, pd);
   trace_proofs(t);
   fprintf(t->out,
           "{\"stage\":%" PRIu64
           ",\"done\":true,\"legal\":%zu,\"indeterminate\":%zu,\"tie\":%zu,\"statuses\":\"%016" PRIx64 "\"}\n",
-          row->stage, row->count[DYD_LEGAL], row->count[DYD_INDETERMINATE], row->count[DYD_TIE], row->digest);
+          p->stage, p->count[DYD_LEGAL], p->count[DYD_INDETERMINATE], p->count[DYD_TIE], digest);
 }
 
 dyd_status dyd_trace_end(dyd_trace *t, dyd_outcome outcome, dyd_error *err) {

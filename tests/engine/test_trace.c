@@ -309,11 +309,11 @@ static void test_replay_of_cut_runs(void **state) {
     engine_add_text(e, "10/3", "2^-300");
     dyd_engine_options_init(&o);
     o.max_calls = calls;
-    assert_int_equal(DYD_OK, dyd_trace_new(&trace, f, e, &o, NULL, NULL));
+    assert_int_equal(DYD_OK, dyd_trace_new(&trace, f, e, NULL, &o, NULL, NULL));
     o.trace = dyd_trace_step;
-    o.trace_user = trace;
-    dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .stage = dyd_trace_stage, .stage_user = trace,
-                              .no_voronoi = true};
+    o.progress = dyd_trace_stage;
+    o.trace_user = o.progress_user = trace;
+    dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .no_voronoi = true};
     assert_int_equal(DYD_OK, dyd_converge_run(&table, e, &o, &c, &err));
     assert_int_equal(DYD_OUTCOME_BUDGET, table.outcome);
     assert_int_equal(DYD_OK, dyd_trace_end(trace, table.outcome, &err));

@@ -99,7 +99,7 @@ static dyd_status convergence_add(fixture *f, const void *s, dyd_error *err) {
 
 static dyd_status trace(fixture *f, const void *options, const void *c, dyd_error *err) {
   dyd_trace *t = NULL;
-  dyd_status st = dyd_trace_new(&t, f->sink, f->e, options, c, err);
+  dyd_status st = dyd_trace_new(&t, f->sink, f->e, NULL, options, c, err);
   if (t) assert_int_equal(DYD_OK, dyd_trace_end(t, DYD_OUTCOME_DECIDED, NULL));
   return st;
 }

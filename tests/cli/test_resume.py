@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""--trace and --resume: wherever a run is cut, the resumed one gives the result of an undisturbed run, and asks no answer
+twice."""
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+from harness import COMMAND, expect, main, run
+
+# Serves 12 points on a circle, by integer square roots, and writes down what it is asked. It dies before answer number
+# DIE, counted over all its requests.
+ORACLE = '''
+import math, os, sys, time
+print('points 12', flush=True)
+for line in sys.stdin:
+    _, i, bits = line.split()
+    i, bits = int(i), int(bits)
+    with open(sys.argv[1], 'a') as log:
+        log.write(line)
+    with open(sys.argv[1]) as log:
+        if len(log.readlines()) > int(os.environ.get('DIE', 10 ** 9)):
+            sys.exit(1)
+    time.sleep(float(os.environ.get('SLOW', 0)))
+    scale = max(bits, 0) + 2
+    x = math.isqrt((i + 2) << 2 * scale)
+    y = math.isqrt((25 - i) << 2 * scale)
+    print(i, f'{x}*2^{-scale} {x + 1}*2^{-scale} {y}*2^{-scale} {y + 1}*2^{-scale}', flush=True)
+'''
+POINTS = ''.join(f'sqrt({2 + i})*cos({i}) sqrt({3 + i * i})/3\n' for i in range(9)) + '[7,7.000000001] 7\n2 -3\n'
+
+
+class Folder:
+    """A folder with an oracle and its log, and a points file."""
+
+    def __enter__(self):
+        self.folder = tempfile.TemporaryDirectory()
+        for name, text in (('oracle.py', ORACLE), ('points.txt', POINTS), ('log', '')):
+            self.write(name, text)
+        return self
+
+    def __exit__(self, *args):
+        self.folder.cleanup()
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def write(self, name, text):
+        with open(self.path(name), 'w', encoding='utf-8') as f:
+            f.write(text)
+
+    def read(self, name):
+        with open(self.path(name), encoding='utf-8') as f:
+            return f.read()
+
+    def asked(self):
+        """What the oracle was asked since the last call."""
+        lines = self.read('log').splitlines()
+        self.write('log', '')
+        return lines
+
+    def run(self, command, *args, **environment):
+        return run(command, *args, cwd=self.folder.name, env={**os.environ, **environment})
+
+    def oracle(self, *args, **environment):
+        return self.run('delaunay', '--oracle', f'exec {sys.executable} oracle.py log', '--max-bits', '300', *args, **environment)
+
+
+def answers(trace):
+    return [line for line in trace.splitlines() if '"called":true' in line]
+
+
+def test_oracle_dies_anywhere():
+    with Folder() as f:
+        whole = f.oracle('--trace', 'whole')
+        assert whole.code in (0, 3, 4), whole.err
+        asked = f.asked()
+        assert len(asked) == len(answers(f.read('whole'))) > 12
+        for die in list(range(0, 16)) + [len(asked) // 2, len(asked) - 1, len(asked)]:
+            cut = f.oracle('--trace', 'cut', DIE=str(die))
+            expect(cut, 1 if die < len(asked) else whole.code, err='died|ended|exit' if die < len(asked) else '')
+            before = f.asked()
+            assert len(answers(f.read('cut'))) == die
+            resumed = f.oracle('--resume', 'cut', '--trace', 'again')
+            assert (resumed.code, resumed.out) == (whole.code, whole.out), die
+            after = f.asked()
+            assert before[:die] + after == asked, die
+            assert f.read('again') == f.read('whole')
+
+
+def test_batches_in_flight():
+    with Folder() as f:
+        whole = f.oracle()
+        asked = f.asked()
+        f.oracle('--trace', 'cut', '--oracle-batch', '5', DIE='9')
+        before = f.asked()
+        resumed = f.oracle('--resume', 'cut', '--oracle-batch', '5')
+        assert (resumed.code, resumed.out) == (whole.code, whole.out)
+        assert len(asked) <= len(before) + len(f.asked()) <= len(asked) + 6
+
+
+def test_killed():
+    with Folder() as f:
+        whole = f.oracle()
+        asked = f.asked()
+        with subprocess.Popen([COMMAND, 'delaunay', '--oracle', f'exec {sys.executable} oracle.py log', '--max-bits', '300',
+                               '--trace', 'cut'], cwd=f.folder.name, env={**os.environ, 'SLOW': '0.02'},
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+            until = time.monotonic() + 60
+            while len(f.read('log').splitlines()) < 9 and time.monotonic() < until:
+                time.sleep(0.01)
+            process.send_signal(signal.SIGKILL)
+        known = len(answers(f.read('cut')))
+        assert known >= 7
+        f.asked()
+        resumed = f.oracle('--resume', 'cut')
+        assert (resumed.code, resumed.out) == (whole.code, whole.out)
+        assert f.asked() == asked[known:]
+
+
+def test_every_command():
+    seed = random.Random(1)
+    commands = [['delaunay'], ['voronoi'], ['voronoi', '--until', 'hausdorff:20'], ['converge', '--no-times'], ['disc'],
+                ['converge', '--no-times', '--of', 'voronoi', '--until', 'area:12'], ['bisector'], ['nearest', 'X', 'Y']]
+    for command in commands:
+        name, options, place = command[0], command[1:], []
+        if name == 'nearest':
+            options, place = [], ['sqrt(2)', 'pi']
+        with Folder() as f:
+            whole = f.run(name, *options, '--trace', 'whole', 'points.txt', *place)
+            trace = f.read('whole')
+            assert answers(trace), command
+            for at in [0, len(trace)] + [seed.randrange(len(trace)) for _ in range(6)]:
+                cut = trace[:at] if at else trace.split('\n', 1)[0] + '\n'
+                if '\n' not in cut:
+                    continue
+                f.write('cut', cut)
+                resumed = f.run(name, *options, '--resume', 'cut', '--trace', 'again', 'points.txt', *place)
+                assert (resumed.code, resumed.out) == (whole.code, whole.out), (command, at, resumed.err)
+                last = cut.rsplit('\n', 1)[1]
+                half = bool(last) and not is_json(last)
+                taken = len(answers(cut)) - (half and '"called":true' in last)
+                note = ' are taken from this trace; its last line is cut short' if half else ''
+                expect(resumed, whole.code, err=f'cut: {taken} answers{note}')
+                assert f.read('again') == trace, (command, at)
+
+
+def is_json(text):
+    try:
+        json.loads(text)
+        return True
+    except ValueError:
+        return False
+
+
+def test_more_bits():
+    with Folder() as f:
+        coarse = f.run('converge', '--no-times', '--max-bits', '2', '--trace', 'cut', 'points.txt')
+        assert coarse.code == 4, coarse.err
+        fine = f.run('delaunay', 'points.txt')
+        resumed = f.run('delaunay', '--resume', 'cut', 'points.txt')
+        assert (resumed.code, resumed.out) == (fine.code, fine.out)
+
+
+def test_refused():
+    with Folder() as f:
+        assert f.run('delaunay', '--trace', 'good', 'points.txt').code in (0, 3)
+        good = f.read('good').splitlines()
+        first = next(k for k, line in enumerate(good) if '"called":true' in line)
+        step = json.loads(good[first])
+
+        def refuse(lines, message, *options, line=None, points='points.txt'):
+            f.write('bad', '\n'.join(lines) + '\n')
+            result = f.run('delaunay', '--resume', 'bad', *options, points)
+            expect(result, 1, err=f'^dyadel: bad:{line or len(lines)}:1: .*{message}')
+            assert not result.out
+
+        def changed(**members):
+            return json.dumps({**step, **members})
+
+        f.write('more.txt', POINTS + '1 1\n')
+        f.write('other.txt', POINTS.replace('sqrt(2)', 'sqrt(5)'))
+        refuse(good, 'a trace of 11 points, and there are 12', line=1, points='more.txt')
+        refuse(good, 'another input', line=1, points='other.txt')
+        refuse(good, 'another input', '--radius', '0.5', line=1)
+        refuse(['{}'], 'no trace of the format')
+        refuse([''], 'no JSON|no trace')
+        refuse(good[:1] + ['nonsense', good[first]], 'no JSON object', line=2)
+        refuse(good[:1] + [changed(point=11)], 'no such point')
+        refuse(good[:1] + [changed(point=10)], 'point 10 is none that can be narrowed')
+        refuse(good[:1] + [changed(x=['1', '0'])], 'no rectangle')
+        refuse(good[:1] + [changed(bits=None)], 'bits')
+        refuse(good[:1] + [good[first], changed(x=['1000', '1001'])], 'not inside the one before')
+        refuse(good[:1] + [good[-1], good[first]], 'behind its outcome')
+        f.write('bad', '\n'.join(good[:1] + [changed(x=['5', '8'], y=['6', '8'])]) + '\n')
+        expect(f.run('delaunay', '--resume', 'bad', 'points.txt'), 1, err='point 0: .*nothing in common')
+        expect(f.run('delaunay', '--resume', 'none', 'points.txt'), 1, err='none: cannot open')
+        expect(f.run('delaunay', '--resume', 'good', '--trace', 'good', 'points.txt'), 2, err='is the file that is read')
+        expect(f.run('delaunay', '--trace', 'no/trace', 'points.txt'), 1, err='cannot write.*choose another place')
+        expect(f.run('check', '--resume', 'good', 'points.txt'), 2, err='check does not take --resume')
+
+
+main(globals())
