@@ -59,7 +59,7 @@ static bool span_alloc(span_work *s) {
          s->depth && s->start && s->edge;
 }
 
-static void span_clear(span_work *s) {
+static void spanning_work_clear(span_work *s) {
   free(s->least);
   free(s->largest);
   free(s->replaced);
@@ -204,6 +204,6 @@ dyd_status dyd_spanning_graph(dyd_graph_work *w) {
   }
   for (uint32_t p = 0; p < w->pairs.count && st == DYD_OK; p++)
     st = w->cancel && *w->cancel ? DYD_CANCELLED : span_pair(&s, p);
-  span_clear(&s);
+  spanning_work_clear(&s);
   return st;
 }
