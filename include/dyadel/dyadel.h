@@ -29,6 +29,7 @@
 #include <dyadel/compose.h>
 #include <dyadel/converge.h>
 #include <dyadel/engine.h>
+#include <dyadel/graph.h>
 #include <dyadel/io.h>
 #include <dyadel/metric.h>
 #include <dyadel/oracle.h>

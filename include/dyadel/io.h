@@ -5,6 +5,7 @@
 
 #include <dyadel/check.h>
 #include <dyadel/converge.h>
+#include <dyadel/graph.h>
 #include <dyadel/metric.h>
 #include <dyadel/survey.h>
 #include <dyadel/tolerance.h>
@@ -89,7 +90,11 @@ typedef enum dyd_content {
   DYD_CONTENT_TOLERANCE, /* events of pairs */
   DYD_CONTENT_RADII,     /* and its other layers: how far each point may be from its place; */
   DYD_CONTENT_BARCODE,   /* how many edges are certain at which accuracy */
-  DYD_CONTENT_PLAN       /* what to measure next */
+  DYD_CONTENT_PLAN,      /* what to measure next */
+  /* Layers of the triangulation, also as pictures: edges of graphs of neighbours (dyadel/graph.h). */
+  DYD_CONTENT_GRAPH_NEAREST,
+  DYD_CONTENT_GRAPH_GABRIEL,
+  DYD_CONTENT_GRAPH_MST
 } dyd_content;
 
 /* Finds a format by its name ("csv"), or by the ending of a file's name ("a/map.svg", in any case); false when there is

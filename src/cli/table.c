@@ -176,8 +176,10 @@ const cli_option cli_option_table[] = {
      "also births: pairs that may become edges when points\nmove by EPS at most; an exact number", AT(up_to)},
 
     {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE), CLI_OUTPUT,
-     "what csv, wkt and geojson hold; delaunay: pairs (default),\npoints, triangles; voronoi: cells (default), "
-     "vertices,\nregions, edges; json and vtk hold all of them;\ntolerance: pairs (default), points, barcode (csv: how "
+     "what csv, wkt and geojson hold; delaunay: pairs (default),\npoints, triangles, graph:nearest, graph:gabriel, "
+     "graph:mst\n(edges that "
+     "are sure or possible; also pictures); voronoi:\ncells (default), vertices, regions, edges; json and vtk hold\n"
+     "all of them but graphs;\ntolerance: pairs (default), points, barcode (csv: how "
      "many\n"
      "edges are certain at which accuracy)",
      AT(layer)},

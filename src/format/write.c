@@ -39,6 +39,48 @@ static dyd_status refuse_layer(dyd_content layer, dyd_content of, dyd_error *err
   return dyd_fail(err, DYD_E_ARG, "content number %d is no layer of this", (int)layer);
 }
 
+static const struct {
+  dyd_content layer;
+  dyd_graph graph;
+  const char *name;
+} graph_layers[] = {{DYD_CONTENT_GRAPH_NEAREST, DYD_GRAPH_NEAREST, "nearest neighbours"},
+                    {DYD_CONTENT_GRAPH_GABRIEL, DYD_GRAPH_GABRIEL, "Gabriel graph"},
+                    {DYD_CONTENT_GRAPH_MST, DYD_GRAPH_MST, "minimum spanning tree"}};
+enum { GRAPH_LAYERS = sizeof graph_layers / sizeof *graph_layers };
+
+static int compare_graph_edges(const void *a, const void *b) {
+  const dyd_graph_edge *x = a, *y = b;
+  if (x->i != y->i) return x->i < y->i ? -1 : 1;
+  return (x->j > y->j) - (x->j < y->j);
+}
+
+/* The edges as pairs, for pictures: each once, legal where it is sure, from one end at least. */
+static dyd_status pairs_of_graph(dyd_result *r) {
+  dyd_pair *item = dyd_alloc(r->graph.count, sizeof *item);
+  if (!item) return DYD_E_NOMEM;
+  r->pairs = (dyd_pair_list){0, item};
+  for (size_t k = 0; k < r->graph.count; k++) {
+    const dyd_graph_edge *e = &r->graph.item[k], back = {e->j, e->i, false};
+    const dyd_graph_edge *same = bsearch(&back, r->graph.item, r->graph.count, sizeof back, compare_graph_edges);
+    if (same && e->i > e->j) continue;
+    bool sure = e->sure || (same && same->sure);
+    item[r->pairs.count++] =
+        (dyd_pair){e->i < e->j ? e->i : e->j, e->i < e->j ? e->j : e->i, sure ? DYD_LEGAL : DYD_INDETERMINATE};
+  }
+  return DYD_OK;
+}
+
+/* What is written in place of the pairs, if the layer is a graph. */
+static dyd_status result_graph(bool *graph, dyd_result *r, dyd_content layer, dyd_error *err) {
+  size_t k = 0;
+  while (k < GRAPH_LAYERS && graph_layers[k].layer != layer) k++;
+  *graph = k < GRAPH_LAYERS;
+  if (!*graph) return DYD_OK;
+  r->graph_name = graph_layers[k].name;
+  dyd_status st = dyd_graph_edges(&r->graph, r->pd, graph_layers[k].graph, NULL, err);
+  return st == DYD_OK ? pairs_of_graph(r) : st;
+}
+
 /* Other formats and layers tell of more than pairs. */
 static bool holds_pairs_alone(dyd_content layer, dyd_format format) {
   bool pairs = layer == DYD_CONTENT_NONE || layer == DYD_CONTENT_DELAUNAY;
@@ -57,13 +99,16 @@ dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delau
   r.count = dyd_sites_count(r.sites);
   if (o.pairs && !holds_pairs_alone(o.layer, format))
     return dyd_fail(err, DYD_E_ARG, "statuses of discs are written as pairs: in csv, wkt, geojson, svg, pdf or png");
-  dyd_status st = o.pairs ? DYD_OK : dyd_delaunay_pairs(&r.pairs, r.pd);
+  bool graph;
+  dyd_status st = result_graph(&graph, &r, o.layer, err);
+  if (st == DYD_OK && !graph && !o.pairs) st = dyd_delaunay_pairs(&r.pairs, r.pd);
   if (o.pairs) r.pairs = *o.pairs;
   if (st == DYD_OK)
     st = dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_DELAUNAY), &r, err);
-  else
+  else if (!err || err->code != st)
     dyd_fail(err, st, "%s", dyd_status_text(st));
   if (!o.pairs) dyd_pair_list_clear(&r.pairs);
+  dyd_graph_list_clear(&r.graph);
   return st;
 }
 

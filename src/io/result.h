@@ -6,7 +6,7 @@
 #include "io/output.h"
 #include "io/place.h"
 
-/* All borrowed but pairs. */
+/* All borrowed but pairs and graph. */
 typedef struct dyd_result {
   FILE *out;
   const dyd_engine *engine;
@@ -14,6 +14,8 @@ typedef struct dyd_result {
   const dyd_sites *sites;
   size_t count; /* sites, aliases included */
   dyd_pair_list pairs;
+  const char *graph_name; /* what is written in place of the triangulation, whose edges `pairs` are; NULL: nothing */
+  dyd_graph_list graph;   /* its edges; owned, too */
   const dyd_rect *window; /* what pictures show; NULL: everything */
   unsigned epsg;          /* the reference system of the coordinates; 0: not known */
 } dyd_result;

@@ -36,6 +36,12 @@ typedef struct delaunay_drawing {
   bool triangle, region[4], mark[DYD_MARK_RECTANGLE + 1]; /* was drawn */
 } delaunay_drawing;
 
+/* What lines of a style are called. */
+static const char *style_name(const delaunay_drawing *d, int k) {
+  if (!d->r->graph_name) return style[k].name;
+  return style[k].status == DYD_LEGAL ? "sure" : "possible";
+}
+
 static void page_middle(double z[2], const delaunay_drawing *d, uint32_t i) {
   double b[4];
   dyd_sites_get_d(b, d->r->sites, i);
@@ -148,7 +154,7 @@ static void draw_edges(dyd_canvas *c, const delaunay_drawing *d, int k) {
     size_t i = dyd_engine_row(d->r->engine, pair->i), j = dyd_engine_row(d->r->engine, pair->j);
     char id[80], title[80];
     snprintf(id, sizeof id, "pair-%zu-%zu", i, j);
-    snprintf(title, sizeof title, "%zu, %zu: %s", i, j, style[k].name);
+    snprintf(title, sizeof title, "%zu, %zu: %s", i, j, style_name(d, k));
     dyd_canvas_name(c, id, title);
     dyd_picture_stroke(c, style[k].rgb, width, style[k].on, style[k].off);
   }
@@ -194,24 +200,27 @@ static void legend_edges(dyd_legend *l, const delaunay_drawing *d) {
   for (int k = 2; k >= 0; k--) {
     size_t shown = d->shown[style[k].status];
     if (shown == 0 || (d->crowded && k == OPEN)) continue;
-    snprintf(text, sizeof text, "%s: %zu", style[k].name, shown);
+    snprintf(text, sizeof text, "%s: %zu", style_name(d, k), shown);
     dyd_legend_line(l, style[k].rgb, style[k].on, style[k].off, text);
   }
-  snprintf(text, sizeof text, " of %zu indeterminate pairs across a square", d->shown[DYD_INDETERMINATE]);
+  snprintf(text, sizeof text, " of %zu %s pairs across a square", d->shown[DYD_INDETERMINATE], style_name(d, OPEN));
   if (d->crowded) dyd_density_legend(l, &d->open, text);
 }
 
 static void delaunay_legend(dyd_canvas *c, void *context) {
   const delaunay_drawing *d = context;
   char text[300], points[100];
+  bool graph = d->r->graph_name;
   dyd_legend l;
   dyd_legend_begin(&l, c, &d->view);
   legend_edges(&l, d);
   if (d->triangle) dyd_legend_patch(&l, TRIANGLE, "sure triangle");
   if (d->mark[DYD_MARK_RECTANGLE]) dyd_legend_patch(&l, 0xf2c766, "rectangle of a point");
   if (d->mark[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point, or a rectangle so small");
-  if (d->region[2]) dyd_legend_patch(&l, style[2].region, "where a legal edge is");
-  if (d->region[1]) dyd_legend_patch(&l, style[1].region, "where an indeterminate edge may be");
+  if (d->region[2]) dyd_legend_patch(&l, style[2].region, graph ? "where a sure edge is" : "where a legal edge is");
+  if (d->region[1])
+    dyd_legend_patch(&l, style[1].region,
+                     graph ? "where a possible edge may be" : "where an indeterminate edge may be");
   if (d->region[0]) dyd_legend_patch(&l, style[0].region, "where a tie may be");
   points_text(points, sizeof points, d);
   snprintf(text, sizeof text, "%s, outcome %s%s; positions rounded by at most 0.01 of a pixel", points,
@@ -247,7 +256,7 @@ static dyd_status see_all(delaunay_drawing *d, dyd_error *err) {
   if (r->count == 0) all[0] = all[1] = all[2] = all[3] = 0;
   double rim = 0.04 * fmax(all[1] - all[0], all[3] - all[2]);
   for (int k = 0; k < 4; k++) all[k] += k & 1 ? rim : -rim;
-  dyd_delaunay_count(d->shown, r->pd);
+  for (size_t p = 0; p < r->pairs.count; p++) d->shown[r->pairs.item[p].status]++;
   dyd_status st = dyd_view_fit(&d->view, all, dyd_view_spacing(r->pd, NULL), err);
   for (int k = 0; k < 4; k++) d->wide[k] = d->view.frame[k] + (k & 1 ? WIDE : -WIDE);
   return st;
@@ -311,9 +320,9 @@ dyd_status dyd_delaunay_picture(const dyd_output *o) {
   delaunay_drawing d = {.r = o->what};
   dyd_status st = d.r->window ? see_window(&d, o->err) : see_all(&d, o->err);
   if (st == DYD_OK) st = find_density(&d);
-  if (st == DYD_OK) st = dyd_delaunay_triangles(&d.triangles, d.r->pd);
-  if (st == DYD_OK)
-    st = dyd_view_write(o, &d.view, "partial Delaunay triangulation", delaunay_inside, delaunay_legend, &d);
+  const char *title = d.r->graph_name ? d.r->graph_name : "partial Delaunay triangulation";
+  if (st == DYD_OK && !d.r->graph_name) st = dyd_delaunay_triangles(&d.triangles, d.r->pd);
+  if (st == DYD_OK) st = dyd_view_write(o, &d.view, title, delaunay_inside, delaunay_legend, &d);
   dyd_triangle_list_clear(&d.triangles);
   dyd_density_clear(&d.open);
   return st;

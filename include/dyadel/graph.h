@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Graphs of near neighbours: the nearest-neighbour graph, the Gabriel graph, the minimum spanning tree. Which of their
+ * edges are sure, and which are possible, for points known as rectangles (mathematics: section 17). */
+#ifndef DYADEL_GRAPH_H
+#define DYADEL_GRAPH_H
+
+#include <dyadel/delaunay.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum dyd_graph {
+  DYD_GRAPH_NEAREST = 0, /* i, j: j is nearest to i. j, i need not be there */
+  DYD_GRAPH_GABRIEL,     /* i, j: nobody is in the disc that has both as ends of a diameter. i < j */
+  DYD_GRAPH_MST          /* i, j: an edge of a minimum spanning tree. i < j */
+} dyd_graph;
+
+/* sure: an edge for every choice of points, and strictly so: nobody else is as near, in the closed disc, or as short a
+ * way round. Not sure: an edge, or one of several equally good ones, for some choice; pairs that are not listed are
+ * edges for no choice [NNG-1] [GAB-1] [MST-1]. */
+typedef struct dyd_graph_edge {
+  uint32_t i, j;
+  bool sure;
+} dyd_graph_edge;
+
+/* Owned by the caller: init with {0}, release with dyd_graph_list_clear. */
+typedef struct dyd_graph_list {
+  size_t count;
+  dyd_graph_edge *item;
+} dyd_graph_list;
+DYD_API void dyd_graph_list_clear(dyd_graph_list *l);
+
+/* The edges of a graph, sorted by i, then j; aliases take part in nothing. *out is replaced. "Sure" and "not listed"
+ * are true for every choice, and narrower rectangles never take them back. Exact for the first two. The spanning tree
+ * goes by the least and the largest length of each pair: an edge that is listed may be one for no choice; for exact
+ * points there is none such. cancel: as in dyd_delaunay_options, may be NULL. Returns DYD_OK; DYD_E_ARG for an unknown
+ * graph; DYD_CAPPED when pd is; DYD_CANCELLED; DYD_E_NOMEM. O(pairs log pairs) where rectangles are small; in crowds
+ * of d rectangles up to d^3 for a pair. */
+DYD_API dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_graph graph,
+                                   const volatile int *cancel, dyd_error *err);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Neighbours in doubles.
+ *
+ * Distances from a box of centres to a box are bounded as [FLT-DST] has it. "Never" and "sure" hold for all places of
+ * the outward boxes; "possible" is shown by one choice of places, which are doubles in boxes that doubles hold. A
+ * middle (a + b) / 2 is rounded once (halving is exact, or off by 2^-1075), so it lies between the doubles next to it;
+ * half of a diameter, squared, is a quarter of its square, up to underflow, which DYD_TINY covers four times over. */
+#include "graph/graph.h"
+#include "rect/sites_table.h"
+
+#include <math.h>
+
+static const dyd_graph_verdict unsure = {false, DYD_GRAPH_POSSIBLE};
+
+static dyd_graph_verdict sure_of(dyd_graph_status status) {
+  return (dyd_graph_verdict){true, status};
+}
+
+void dyd_filter_nearest_few(dyd_graph_work *w, uint32_t i) {
+  const uint32_t *partner = &w->partner[w->start[i]];
+  size_t count = w->start[i + 1] - w->start[i];
+  double least = HUGE_VAL;
+  w->others = 0;
+  for (size_t k = 0; k < count; k++) least = fmin(least, dyd_dl2_upper(&w->box[i], &w->box[partner[k]]));
+  for (size_t k = 0; k < count; k++)
+    if (!(dyd_ds2_lower(&w->box[i], &w->box[partner[k]]) > least)) w->other[w->others++] = partner[k];
+}
+
+/* The place of a box that is nearest to another place. */
+static dyd_bbox nearest_place(const dyd_bbox *b, const dyd_bbox *to) {
+  double x = dyd_max(b->e[0], dyd_min(b->e[1], to->e[0])), y = dyd_max(b->e[2], dyd_min(b->e[3], to->e[2]));
+  return (dyd_bbox){{x, x, y, y}};
+}
+
+/* All k but j are farther than the bound for sure; at least as far for some choice. */
+static bool all_beyond(const dyd_graph_work *w, const dyd_bbox *at, double bound2, const uint32_t *k, size_t count,
+                       uint32_t j) {
+  for (size_t q = 0; q < count; q++)
+    if (k[q] != j && !(dyd_ds2_lower(at, &w->box[k[q]]) > bound2)) return false;
+  return true;
+}
+
+static bool all_may_be_beyond(const dyd_graph_work *w, const dyd_bbox *at, double bound2, const uint32_t *k,
+                              size_t count, uint32_t j) {
+  for (size_t q = 0; q < count; q++)
+    if (k[q] != j && !(dyd_sites_in_doubles(w->sites, k[q]) && dyd_dl2_lower(at, &w->box[k[q]], 0) >= bound2))
+      return false;
+  return true;
+}
+
+static bool both_in_doubles(const dyd_graph_work *w, uint32_t i, uint32_t j) {
+  return dyd_sites_in_doubles(w->sites, i) && dyd_sites_in_doubles(w->sites, j);
+}
+
+dyd_graph_verdict dyd_filter_nearest(const dyd_graph_work *w, uint32_t i, uint32_t j) {
+  const dyd_bbox *a = &w->box[i], *b = &w->box[j];
+  bool known = both_in_doubles(w, i, j);
+  dyd_bbox at = nearest_place(a, b);
+  if (all_beyond(w, a, dyd_dl2_upper(a, b), w->other, w->others, j)) return sure_of(DYD_GRAPH_SURE);
+  for (size_t q = 0; q < w->others; q++)
+    if (w->other[q] != j && dyd_dl2_upper(a, &w->box[w->other[q]]) < dyd_ds2_lower(a, b))
+      return sure_of(DYD_GRAPH_NEVER);
+  bool rival = false;
+  for (size_t q = 0; q < w->others && known && !rival; q++)
+    rival = w->other[q] != j && dyd_sites_in_doubles(w->sites, w->other[q]) &&
+            dyd_ds2_upper(&at, &w->box[w->other[q]], 0) <= dyd_dl2_lower(&at, b, 0);
+  if (rival && all_may_be_beyond(w, &at, dyd_ds2_upper(&at, b, 0), w->other, w->others, j))
+    return sure_of(DYD_GRAPH_POSSIBLE);
+  return unsure;
+}
+
+/* Around all middles of places of a and b. */
+static dyd_bbox middle_box(const dyd_bbox *a, const dyd_bbox *b) {
+  dyd_bbox m;
+  for (int e = 0; e < 4; e++) m.e[e] = nextafter(0.5 * a->e[e] + 0.5 * b->e[e], e & 1 ? HUGE_VAL : -HUGE_VAL);
+  return m;
+}
+
+/* The corner of a box that is farthest from a place. */
+static dyd_bbox farthest_place(const dyd_bbox *b, const dyd_bbox *from) {
+  double x = from->e[0] - b->e[0] > b->e[1] - from->e[0] ? b->e[0] : b->e[1];
+  double y = from->e[2] - b->e[2] > b->e[3] - from->e[2] ? b->e[2] : b->e[3];
+  return (dyd_bbox){{x, x, y, y}};
+}
+
+/* Is somebody in the closed disc for some choice? Tried: i and j far apart. */
+static bool has_gabriel_rival(const dyd_graph_work *w, uint32_t i, uint32_t j) {
+  const uint32_t *k = &w->partner[w->start[i]];
+  dyd_bbox q = farthest_place(&w->box[j], &w->box[i]), p = farthest_place(&w->box[i], &q), m = middle_box(&p, &q);
+  double radius2 = 0.25 * dyd_dl2_lower(&p, &q, 0);
+  for (size_t at = 0; at < w->start[i + 1] - w->start[i]; at++)
+    if (k[at] != j && dyd_sites_in_doubles(w->sites, k[at]) && dyd_ds2_upper(&m, &w->box[k[at]], 0) <= radius2)
+      return true;
+  return false;
+}
+
+/* Possible, with i and j near one another, and not sure? */
+static dyd_graph_verdict open_gabriel(const dyd_graph_work *w, uint32_t i, uint32_t j) {
+  if (!both_in_doubles(w, i, j) || !has_gabriel_rival(w, i, j)) return unsure;
+  dyd_bbox q = nearest_place(&w->box[j], &w->box[i]), p = nearest_place(&w->box[i], &q);
+  q = nearest_place(&w->box[j], &p);
+  dyd_bbox m = middle_box(&p, &q);
+  double radius2 = 0.25 * dyd_dl2_upper(&p, &q);
+  bool may = all_may_be_beyond(w, &m, radius2, &w->partner[w->start[i]], w->start[i + 1] - w->start[i], j);
+  return may ? sure_of(DYD_GRAPH_POSSIBLE) : unsure;
+}
+
+dyd_graph_verdict dyd_filter_gabriel(const dyd_graph_work *w, uint32_t i, uint32_t j) {
+  const dyd_bbox *a = &w->box[i], *b = &w->box[j];
+  const uint32_t *k = &w->partner[w->start[i]];
+  size_t count = w->start[i + 1] - w->start[i];
+  dyd_bbox m = middle_box(a, b);
+  double least = 0.25 * dyd_ds2_lower(a, b), most = 0.25 * dyd_dl2_upper(a, b);
+  if (all_beyond(w, &m, most, k, count, j)) return sure_of(DYD_GRAPH_SURE);
+  for (size_t q = 0; q < count; q++)
+    if (k[q] != j && dyd_dl2_upper(&m, &w->box[k[q]]) < least) return sure_of(DYD_GRAPH_NEVER);
+  return open_gabriel(w, i, j);
+}
