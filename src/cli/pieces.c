@@ -49,7 +49,7 @@ static int pieces_run(cli_pieces *p) {
   cli_progress_phase(p->session.progress, "refining");
   cli_signals_cancel(p->session.engine);
   dyd_status st = dyd_engine_ask(&p->outcome, p->session.engine, &question, &o->engine, &err);
-  cli_signals_remove(NULL);
+  cli_signals_cancel(NULL);
   if (st != DYD_OK)
     cli_complain_of(p->session.engine, o->file, &err);
   else if (!pieces_are_known(p))
