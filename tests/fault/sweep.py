@@ -107,6 +107,7 @@ class Sweep:
         """Runs at most so many faults; returns how many, and a list of what is wrong."""
         reference, files, count = self.reference()
         assert reference.returncode in (0, 3), (self.name, reference)
+        assert count or self.env.get('FAULT_IN') != 'libdyadel', f'{self.name}: the shim sees nothing'
         step = max(1, (count - most // 2) // max(1, most - most // 2))
         places = sorted({*range(1, min(count, most // 2) + 1), *range(most // 2 + 1, count + 1, step), count} - {0})
         with concurrent.futures.ThreadPoolExecutor(workers) as pool:

@@ -49,6 +49,8 @@ def endless(folder, way, **options):
         with open(f'/proc/{process.pid}/stat', encoding='ascii') as stat:
             if int(stat.read().rsplit(')', 1)[1].split()[11]) >= 0.3 * os.sysconf('SC_CLK_TCK'):
                 break
+    begun = set(os.listdir(folder)) - {'o', 'p', 't'}
+    assert len(begun) == (way == 'with a name'), (way, begun)
     return process
 
 
