@@ -28,7 +28,8 @@ DYD_API dyd_status dyd_voronoi_pos(dyd_boundary *out, const dyd_delaunay *pd, ui
 DYD_API dyd_status dyd_voronoi_int_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window);
 DYD_API dyd_status dyd_voronoi_pos_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window);
 
-/* Is c in Int_i (TRUE), in Ext_i (FALSE), undetermined (UNKNOWN)? Exact. O(K). */
+/* Is c in Int_i (TRUE), in Ext_i (FALSE), undetermined (UNKNOWN)? Exact. O(K). UNKNOWN, too, when there is no site i or
+ * memory is exhausted. */
 DYD_API dyd_truth dyd_voronoi_side(const dyd_delaunay *pd, uint32_t i, const dyd_point *c);
 
 /* ---- proved polygons on a window ---- */

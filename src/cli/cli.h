@@ -12,6 +12,7 @@
 #define DYD_CLI_CLI_H
 
 #include <dyadel/dyadel.h>
+#include <pthread.h>
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -81,8 +82,8 @@ void cli_complain_of(const dyd_engine *e, const char *file, const dyd_error *err
 int cli_complain_memory(void);
 
 /* window.c: --window XLO,XHI,YLO,YHI. Ends that are no dyadics are rounded outward (dyd_real_from_interval).
- * out is initialised by the caller; false after a message. */
-bool cli_window_read(dyd_rect *out, const char *text);
+ * out is initialised by the caller; 0, or an exit status after a message. */
+int cli_window_read(dyd_rect *out, const char *text);
 
 /* window.c: an exact number that is not negative, of the option --name; 0, or CLI_USAGE after a message. */
 int cli_number_read(mpq_ptr out, const char *name, const char *text);
@@ -172,7 +173,7 @@ void cli_note_spacing(const dyd_delaunay *pd, const cli_options *o);
 typedef struct cli_output {
   FILE *stream;
   const char *name;         /* as given, borrowed; NULL: standard output */
-  char *target, *temporary; /* NULL when written in place */
+  char *target, *temporary; /* where it is to appear, NULL when written in place; its name till then, NULL: none */
 } cli_output;
 /* name NULL: standard output. false after a message. */
 bool cli_output_open(cli_output *out, const char *name);
@@ -191,16 +192,24 @@ bool cli_output_note_reader(FILE *stream, const char *name, const cli_options *o
 /* Sees to it that the descriptors 0, 1, 2 are taken, so that no file of ours gets one of them. */
 bool cli_guard_descriptors(void);
 
-/* signals.c: the first SIGINT or SIGTERM cancels the engine, the next one ends the process. */
+/* signals.c: from now on the first SIGINT, SIGTERM or SIGHUP cancels the engine, the next one ends the process. NULL:
+ * the first one ends it. */
 void cli_signals_cancel(dyd_engine *e);
-/* Signals end the process; the file `temporary` (may be NULL, borrowed) is removed before. */
+/* The file `temporary` (borrowed) is removed when a signal ends the process; cli_signals_keep takes that back. */
 void cli_signals_remove(const char *temporary);
-/* Removes that file; async-signal-safe. */
+void cli_signals_keep(const char *temporary);
+/* Removes these files; async-signal-safe. */
 void cli_signals_unlink(void);
+/* Starts a thread that takes no signals: those that the main thread holds back stay held back. */
+bool cli_signals_spare(pthread_t *out, void *(*work)(void *), void *user);
 /* Raises the flag below; async-signal-safe, from any thread. */
 void cli_signals_stop(void);
 /* Set to 1 by the signal that cancels the engine, and at the deadline: for work on what the engine has found. */
 const volatile int *cli_signals_flag(void);
+
+/* memory.c: when memory for long numbers is exhausted the process ends with CLI_FAILED after a message. Before anything
+ * else. */
+void cli_memory_guard(void);
 
 /* deadline.c: what --timeout gives the whole command. seconds <= 0: no limit. */
 void cli_deadline_start(double seconds);

@@ -60,18 +60,19 @@ static void note_steps(const dyd_convergence *table, const cli_options *o) {
 }
 
 static int converge_points(const cli_options *o) {
-  cli_session s;
+  cli_session s = {.options = o};
   dyd_voronoi_bounds bounds;
   run r = {o, {DYD_SIZED(dyd_convergence)}, {DYD_SIZED(dyd_converge_options)}};
   dyd_rect window;
   dyd_engine_options options = o->engine;
   dyd_rect_init(&window);
-  if (o->window && cli_window_read(&window, o->window)) r.converge.window = &window;
+  int status = o->window ? cli_window_read(&window, o->window) : 0;
+  if (o->window) r.converge.window = &window;
   r.converge.no_voronoi = o->no_voronoi;
   if (o->of_voronoi) options.goal = cli_voronoi_goal(options.goal);
   if (!o->start_set) options.start_bits = 4;
   dyd_voronoi_bounds_init(&bounds);
-  int status = cli_session_open(&s, o);
+  if (status == 0) status = cli_session_open(&s, o);
   if (status == 0) {
     s.converge = &r.converge;
     status = cli_session_run_by(&s, &options, converge_run, &r);

@@ -7,8 +7,6 @@
 #include "cli.h"
 #include <errno.h>
 #include <math.h>
-#include <pthread.h>
-#include <signal.h>
 #include <stdatomic.h>
 #include <time.h>
 #include <unistd.h>
@@ -47,14 +45,10 @@ static void *deadline_watch(void *unused) {
 
 void cli_deadline_start(double seconds) {
   pthread_t thread;
-  sigset_t all, old;
   if (!(seconds > 0 && seconds < LONGEST)) return;
   ends = cli_clock() + seconds;
   grace = fmax(0.9, 0.09 * seconds);
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &old);
-  if (pthread_create(&thread, NULL, deadline_watch, NULL) == 0) pthread_detach(thread);
-  pthread_sigmask(SIG_SETMASK, &old, NULL);
+  if (cli_signals_spare(&thread, deadline_watch, NULL)) pthread_detach(thread);
 }
 
 void cli_deadline_phase(const char *what) {

@@ -77,7 +77,7 @@ int cli_delaunay(const cli_options *o) {
   int status = 0;
   if (o->window) {
     own.view = &window;
-    status = cli_window_read(&window, o->window) ? 0 : CLI_USAGE;
+    status = cli_window_read(&window, o->window);
   }
   if (!status) status = o->discs ? delaunay_discs(&own) : cli_session_all(&own, delaunay_write);
   dyd_rect_clear(&window);

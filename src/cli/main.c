@@ -41,9 +41,11 @@ static int run_command(const cli_options *o) {
 int main(int argc, char **argv) {
   cli_options options;
   if (!cli_guard_descriptors()) return CLI_FAILED;
+  cli_memory_guard();
   /* A reader that goes away is noticed at the writing, so that other files are finished and all is told. In the end the
    * process dies of it as others do, unless whoever started it has it ignored. */
   void (*before)(int) = signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN); /* a file that may grow no more is noticed at the writing, too */
   int status = cli_options_read(&options, argc, argv);
   if (!status) status = run_command(&options);
   if (cli_output_lost_reader() && before == SIG_DFL) {

@@ -26,7 +26,9 @@ typedef struct query {
 static int read_real(dyd_real **out, const char *name, const char *text) {
   dyd_error err;
   memset(&err, 0, sizeof err);
-  if (dyd_real_parse(out, text, strlen(text), &err) >= 0) return 0;
+  dyd_status st = dyd_real_parse(out, text, strlen(text), &err);
+  if (st >= 0) return 0;
+  if (st == DYD_E_NOMEM) return cli_complain_memory();
   cli_complain("%s \"%s\", column %zu: %s", name, text, err.column, err.message);
   return CLI_USAGE;
 }

@@ -99,7 +99,7 @@ static int scan_all(scan *s, cli_options *o, int argc, char **argv) {
       if (value == '?' || value == ':') return complain_option(value, a);
       size_t k = option_number(value);
       s->seen |= (uint64_t)1 << k;
-      if (!cli_value_read(o, &cli_option_table[k], optarg)) return CLI_USAGE;
+      status = cli_value_read(o, &cli_option_table[k], optarg);
     }
     if (status) return status;
   }

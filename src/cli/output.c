@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Result files: written beside their final place and renamed when complete, so that they appear whole or not at
- * all. */
-#define _XOPEN_SOURCE 700 /* realpath */
+/* Result files: written without a name where the system has such files, else beside their final place, and named when
+ * complete, so that they appear whole or not at all. Of a file without a name nothing is left however the process
+ * ends. */
+#define _GNU_SOURCE /* O_TMPFILE */
 #include "cli.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -82,21 +84,117 @@ static mode_t default_mode(void) {
   return 0666 & ~mask;
 }
 
-static bool open_temporary(cli_output *out, const char *name, mode_t mode) {
+/* The folder of the file, opened so that `flags` say; -1: it cannot be. */
+static int open_folder(const char *target, int flags) {
+  const char *slash = strrchr(target, '/');
+  char *folder = slash ? strndup(target, slash == target ? 1 : (size_t)(slash - target)) : strdup(".");
+  int fd = folder ? open(folder, flags | O_CLOEXEC, 0600) : -1;
+  free(folder);
+  return fd;
+}
+
+/* ---- files without a name ---- */
+
+enum { LINK_SIZE = 40 };
+
+/* By which an open file can be given a name. */
+static void descriptor_path(char path[LINK_SIZE], int fd) {
+  snprintf(path, LINK_SIZE, "/proc/self/fd/%d", fd);
+}
+
+/* -1: here are no such files, or they could not be named. */
+static int open_unnamed(const char *target) {
+#ifdef O_TMPFILE
+  char path[LINK_SIZE];
+  int fd = open_folder(target, O_TMPFILE | O_WRONLY);
+  if (fd < 0) return -1;
+  descriptor_path(path, fd);
+  if (access(path, F_OK) == 0) return fd;
+  close(fd);
+#else
+  (void)target;
+#endif
+  return -1;
+}
+
+/* Links never replace what is there: where the place is taken, the file gets a name beside it, to be renamed. */
+static bool link_beside(cli_output *out, const char *path) {
+  enum { MOST_TRIES = 1000 };
+  size_t size = strlen(out->target) + 32;
+  char *name = malloc(size);
+  bool taken = true;
+  for (long k = 0; name && taken && k < MOST_TRIES; k++) {
+    snprintf(name, size, "%s.%06ld", out->target, ((long)getpid() + k) % 1000000);
+    taken = linkat(AT_FDCWD, path, AT_FDCWD, name, AT_SYMLINK_FOLLOW) != 0;
+    if (taken && errno != EEXIST) break;
+  }
+  if (taken) {
+    free(name);
+    return false;
+  }
+  out->temporary = name;
+  cli_signals_remove(name);
+  return true;
+}
+
+/* Gives the file, which is complete, its name. */
+static bool output_place(cli_output *out, int fd) {
+  if (!out->temporary) {
+    char path[LINK_SIZE];
+    descriptor_path(path, fd);
+    if (linkat(AT_FDCWD, path, AT_FDCWD, out->target, AT_SYMLINK_FOLLOW) == 0) return true;
+    if (errno != EEXIST || !link_beside(out, path)) return false;
+  }
+  if (rename(out->temporary, out->target) != 0) return false;
+  cli_signals_keep(out->temporary);
+  free(out->temporary);
+  out->temporary = NULL;
+  return true;
+}
+
+/* The same with signals held back, so that none comes while the file has a name that nobody knows of; then the folder
+ * goes to the disk as well, where it can. */
+static bool output_appear(cli_output *out, int fd) {
+  sigset_t all, before;
+  sigfillset(&all);
+  sigprocmask(SIG_SETMASK, &all, &before);
+  bool done = output_place(out, fd);
+  int reason = errno;
+  sigprocmask(SIG_SETMASK, &before, NULL);
+  int folder = done ? open_folder(out->target, O_RDONLY) : -1;
+  if (folder >= 0) {
+    fsync(folder);
+    close(folder);
+  }
+  errno = reason;
+  return done;
+}
+
+/* ---- opening and ending ---- */
+
+/* A file with a name of its own, which signals remove. */
+static int open_named(cli_output *out) {
   size_t size = strlen(out->target) + sizeof ".XXXXXX";
   out->temporary = malloc(size);
-  if (!out->temporary) return output_fail(name);
+  if (!out->temporary) return -1;
   snprintf(out->temporary, size, "%s.XXXXXX", out->target);
   int fd = mkstemp(out->temporary);
-  if (fd < 0) {
-    free(out->temporary);
-    out->temporary = NULL;
-    return output_fail(name);
+  if (fd >= 0) {
+    cli_signals_remove(out->temporary);
+    return fd;
   }
-  cli_signals_remove(out->temporary);
+  free(out->temporary);
+  out->temporary = NULL;
+  return -1;
+}
+
+static bool open_temporary(cli_output *out, mode_t mode) {
+  int fd = open_unnamed(out->target);
+  if (fd < 0) fd = open_named(out);
+  if (fd < 0) return output_fail(out->name);
   out->stream = fchmod(fd, mode) == 0 ? fdopen(fd, "w") : NULL;
   if (out->stream) return true;
-  output_fail(name);
+  output_fail(out->name);
   close(fd);
   return false;
 }
@@ -112,30 +210,29 @@ bool cli_output_open(cli_output *out, const char *name) {
   }
   out->stream = NULL;
   out->target = cli_output_target(name);
-  bool done =
-      out->target ? open_temporary(out, name, exists ? info.st_mode & 0777 : default_mode()) : output_fail(name);
+  bool done = out->target ? open_temporary(out, exists ? info.st_mode & 0777 : default_mode()) : output_fail(name);
   if (!done) cli_output_drop(out);
   return done;
 }
 
-bool cli_output_finish(cli_output *out, const cli_options *o) {
+/* Everything is on the disk, under its name; else errno says why not. */
+static bool output_complete(cli_output *out) {
   errno = 0;
-  bool done = fflush(out->stream) == 0 && !ferror(out->stream);
-  if (done && out->temporary) done = fsync(fileno(out->stream)) == 0;
+  if (fflush(out->stream) != 0 || ferror(out->stream)) return false;
+  if (!out->target) return true;
+  return fsync(fileno(out->stream)) == 0 && output_appear(out, fileno(out->stream));
+}
+
+bool cli_output_finish(cli_output *out, const cli_options *o) {
+  bool done = output_complete(out);
   int reason = errno;
   bool told = !done && cli_output_note_reader(out->stream, out->name, o);
   FILE *stream = out->stream;
   out->stream = NULL;
   if (fclose(stream) != 0) done = false;
-  if (done && out->temporary) done = rename(out->temporary, out->target) == 0;
   if (!done && !told) {
     if (reason || !errno) errno = reason ? reason : EIO;
     output_fail(out->name);
-  }
-  cli_signals_remove(NULL);
-  if (done) {
-    free(out->temporary);
-    out->temporary = NULL;
   }
   cli_output_drop(out);
   return done;
@@ -143,8 +240,10 @@ bool cli_output_finish(cli_output *out, const cli_options *o) {
 
 void cli_output_drop(cli_output *out) {
   if (out->stream && out->stream != stdout) fclose(out->stream);
-  if (out->temporary) unlink(out->temporary);
-  cli_signals_remove(NULL);
+  if (out->temporary) {
+    unlink(out->temporary);
+    cli_signals_keep(out->temporary);
+  }
   free(out->temporary);
   free(out->target);
   *out = (cli_output){0};

@@ -52,7 +52,7 @@ static int pieces_run(cli_pieces *p) {
   cli_progress_phase(p->session.progress, "refining");
   cli_signals_cancel(p->session.engine);
   dyd_status st = dyd_engine_ask(&p->outcome, p->session.engine, &question, &options, &err);
-  cli_signals_remove(NULL);
+  cli_signals_cancel(NULL);
   status = cli_trace_end(&p->session, p->outcome);
   if (st != DYD_OK)
     cli_complain_of(p->session.engine, o->file, &err);

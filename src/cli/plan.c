@@ -53,7 +53,7 @@ static int plan_options(plan_run *r, const cli_options *o) {
                  o->accuracy);
     status = CLI_USAGE;
   }
-  if (!status && o->window && !cli_window_read(&r->window, o->window)) status = CLI_USAGE;
+  if (!status && o->window) status = cli_window_read(&r->window, o->window);
   if (!status && o->pairs) status = pairs_read(&r->pairs, o->pairs);
   r->site = o->site;
   r->options = (dyd_survey_options){DYD_SIZED(dyd_survey_options),

@@ -2,7 +2,6 @@
 /* Progress on standard error: on a terminal a bar that a second thread redraws, else one line per stage; nothing
  * during the first second. */
 #include "cli.h"
-#include <pthread.h>
 #include <stdlib.h>
 #include <time.h>
 #include <unistd.h>
@@ -62,7 +61,7 @@ cli_progress *cli_progress_start(bool quiet) {
   p->begun = p->said = cli_clock();
   pthread_mutex_init(&p->lock, NULL);
   pthread_cond_init(&p->wake, NULL);
-  if (isatty(STDERR_FILENO)) p->drawing = pthread_create(&p->thread, NULL, redraw_bar, p) == 0;
+  if (isatty(STDERR_FILENO)) p->drawing = cli_signals_spare(&p->thread, redraw_bar, p);
   return p;
 }
 

@@ -72,7 +72,7 @@ int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_ru
   dyd_error_clear(&err);
   cli_signals_cancel(s->engine);
   dyd_status st = run(s->engine, &o, user, &err);
-  cli_signals_remove(NULL);
+  cli_signals_cancel(NULL);
   if (st == DYD_OK) return 0;
   cli_complain_of(s->engine, s->options->file, &err);
   return CLI_FAILED;
@@ -149,7 +149,6 @@ int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, c
     cli_complain("%s: %s; choose another place with -o", name ? name : "standard output", err.message);
   else if (!done && st != DYD_E_IO)
     cli_complain_at(o->file, &err);
-  cli_signals_remove(NULL);
   if (done)
     done = cli_output_finish(&out, o);
   else

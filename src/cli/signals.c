@@ -1,20 +1,26 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Ctrl-C: the first one cancels the run, so that what is known is written; the next one ends the process.
+/* Ctrl-C, a connection that is lost, a request to end: the first one cancels the run, so that what is known is written;
+ * the next one ends the process. Other signals end it at once. No file begun is left.
  *
  * Handlers touch only lock-free objects, dyd_engine_cancel (async-signal-safe by contract) and unlink. */
 #include "cli.h"
+#include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <unistd.h>
 
 static _Atomic(dyd_engine *) to_cancel;
-static _Atomic(const char *) to_remove;
+/* The results begun: one, and the trace of the run that makes it, and one to spare. */
+enum { MOST_FILES = 4 };
+static _Atomic(const char *) to_remove[MOST_FILES];
 static volatile int stop;
 
 void cli_signals_unlink(void) {
-  const char *name = atomic_load(&to_remove);
-  if (name) unlink(name);
+  for (int k = 0; k < MOST_FILES; k++) {
+    const char *name = atomic_load(&to_remove[k]);
+    if (name) unlink(name);
+  }
 }
 
 void cli_signals_stop(void) {
@@ -25,35 +31,62 @@ const volatile int *cli_signals_flag(void) {
   return &stop;
 }
 
-static void signal_handle(int number) {
-  dyd_engine *e = atomic_exchange(&to_cancel, NULL);
-  if (e) {
-    dyd_engine_cancel(e);
-    cli_signals_stop();
-    return;
-  }
+static void signal_end(int number) {
   cli_signals_unlink();
   signal(number, SIG_DFL);
   raise(number);
 }
 
-static void signal_install(int number) {
-  struct sigaction old, action = {.sa_handler = signal_handle, .sa_flags = SA_RESTART};
+static void signal_cancel(int number) {
+  dyd_engine *e = atomic_exchange(&to_cancel, NULL);
+  if (!e) {
+    signal_end(number);
+    return;
+  }
+  dyd_engine_cancel(e);
+  cli_signals_stop();
+}
+
+static void signal_install(int number, void (*handler)(int)) {
+  struct sigaction old, action = {.sa_handler = handler, .sa_flags = SA_RESTART};
   sigemptyset(&action.sa_mask);
   /* A parent that has us ignore the signal (nohup) means it. */
   if (sigaction(number, NULL, &old) == 0 && old.sa_handler == SIG_IGN) return;
   sigaction(number, &action, NULL);
 }
 
+static void signals_install(void) {
+  static const int cancel[] = {SIGINT, SIGTERM, SIGHUP}, end[] = {SIGQUIT, SIGXCPU, SIGABRT};
+  for (size_t k = 0; k < sizeof cancel / sizeof *cancel; k++) signal_install(cancel[k], signal_cancel);
+  for (size_t k = 0; k < sizeof end / sizeof *end; k++) signal_install(end[k], signal_end);
+}
+
 void cli_signals_cancel(dyd_engine *e) {
   atomic_store(&to_cancel, e);
-  signal_install(SIGINT);
-  signal_install(SIGTERM);
+  signals_install();
+}
+
+static void signals_exchange(const char *before, const char *now) {
+  for (int k = 0; k < MOST_FILES; k++) {
+    const char *expected = before;
+    if (atomic_compare_exchange_strong(&to_remove[k], &expected, now)) return;
+  }
 }
 
 void cli_signals_remove(const char *temporary) {
-  atomic_store(&to_remove, temporary);
-  atomic_store(&to_cancel, NULL);
-  signal_install(SIGINT);
-  signal_install(SIGTERM);
+  signals_exchange(NULL, temporary);
+  signals_install();
+}
+
+void cli_signals_keep(const char *temporary) {
+  signals_exchange(temporary, NULL);
+}
+
+bool cli_signals_spare(pthread_t *out, void *(*work)(void *), void *user) {
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  bool done = pthread_create(out, NULL, work, user) == 0;
+  pthread_sigmask(SIG_SETMASK, &before, NULL);
+  return done;
 }

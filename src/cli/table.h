@@ -97,8 +97,8 @@ void cli_commands_print(FILE *out, unsigned commands, const char *separator);
  * (default), json"). */
 void cli_formats_print(FILE *out, unsigned commands, const char *separator, bool mark);
 
-/* values.c: reads the value of an option into *o; false after a message. */
-bool cli_value_read(cli_options *o, const cli_option *option, const char *text);
+/* values.c: reads the value of an option into *o; 0, or an exit status after a message. */
+int cli_value_read(cli_options *o, const cli_option *option, const char *text);
 
 /* suggest.c: the candidate (0 and on, up to a NULL) most like `name`, NULL when none is like it. A name that begins as
  * `name` does, or a few typing errors away. */

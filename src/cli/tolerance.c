@@ -46,7 +46,7 @@ int cli_tolerance(const cli_options *o) {
   mpq_init(r.up_to);
   dyd_rect_init(&r.window);
   int status = o->up_to ? cli_number_read(r.up_to, "up-to", o->up_to) : 0;
-  if (!status && o->window && !cli_window_read(&r.window, o->window)) status = CLI_USAGE;
+  if (!status && o->window) status = cli_window_read(&r.window, o->window);
   if (!status) {
     status = cli_session_open(&s, &own);
     if (!status) status = tolerance_all(&s, &r, o);

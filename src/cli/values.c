@@ -105,12 +105,12 @@ static bool value_crs(unsigned *place, const cli_option *option, const char *tex
   return true;
 }
 
-static bool is_window(const char *text) {
+static int check_window(const char *text) {
   dyd_rect window;
   dyd_rect_init(&window);
-  bool good = cli_window_read(&window, text);
+  int status = cli_window_read(&window, text);
   dyd_rect_clear(&window);
-  return good;
+  return status;
 }
 
 /* ---- any option ---- */
@@ -121,14 +121,13 @@ static bool value_text(const char **place, const cli_option *option, const char 
   return true;
 }
 
-bool cli_value_read(cli_options *o, const cli_option *option, const char *text) {
+static bool value_any(cli_options *o, const cli_option *option, const char *text) {
   void *place = (char *)o + option->offset;
   if (option->given) *(bool *)((char *)o + option->given) = true;
   switch (option->kind) {
   case CLI_FLAG:
     return *(bool *)place = true;
   case CLI_WINDOW:
-    return is_window(text) && value_text(place, option, text);
   case CLI_TEXT:
   case CLI_FILE:
   case CLI_SOURCE:
@@ -156,4 +155,10 @@ bool cli_value_read(cli_options *o, const cli_option *option, const char *text) 
     return true;
   }
   return false;
+}
+
+int cli_value_read(cli_options *o, const cli_option *option, const char *text) {
+  int status = option->kind == CLI_WINDOW ? check_window(text) : 0;
+  if (status) return status;
+  return value_any(o, option, text) ? 0 : CLI_USAGE;
 }

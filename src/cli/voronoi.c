@@ -5,7 +5,7 @@
 /* The window given, or the default one, which needs to know where the points are: *s has to have run a first stage
  * then. 0, or an exit status after a message. */
 static int voronoi_window(dyd_rect *out, const cli_session *s) {
-  if (s->options->window) return cli_window_read(out, s->options->window) ? 0 : CLI_USAGE;
+  if (s->options->window) return cli_window_read(out, s->options->window);
   const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
   if (!pd || dyd_voronoi_window(out, dyd_delaunay_sites(pd)) == DYD_OK) return 0;
   cli_complain("the points span more than doubles hold; give --window XLO,XHI,YLO,YHI");

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "rect/interval.h"
 #include "stream/stream.h"
+#include "voronoi/exact_cell.h"
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -235,22 +236,41 @@ static dyd_status edge_is_outside(bool *out, const dyd_check_state *s, uint32_t 
   return st;
 }
 
-/* The inner vertices are still in Int_i, the outer ones in the window still in Ext_i. Where the edge of an outer
- * polygon was in Ext_i by a neighbour that is none any more, its ends are at least. */
+static dyd_status point_is_on_side(bool *out, const dyd_check_state *s, uint32_t i, const dyd_point *c,
+                                   dyd_truth side) {
+  dyd_truth truth = DYD_UNKNOWN;
+  dyd_status st = dyd_cell_point_side(&truth, s->pd, i, c);
+  *out = truth == side;
+  return st;
+}
+
+/* Where the edge was in Ext_i by a neighbour that is none any more, its ends are at least; beyond the window nothing is
+ * stated. */
+static dyd_status outer_edge_holds(bool *out, const dyd_check_state *s, uint32_t i, const dyd_point *a,
+                                   const dyd_point *b) {
+  *out = !dyd_rect_holds(&s->window, a) || !dyd_rect_holds(&s->window, b);
+  dyd_status st = *out ? DYD_OK : edge_is_outside(out, s, i, a, b);
+  if (st != DYD_OK || *out) return st;
+  st = point_is_on_side(out, s, i, a, DYD_FALSE);
+  return st == DYD_OK && *out ? point_is_on_side(out, s, i, b, DYD_FALSE) : st;
+}
+
+/* The inner vertices are still in Int_i, the outer ones in the window still in Ext_i. */
 static dyd_status check_cell(dyd_check_state *s, const dyd_watched *w) {
   dyd_status st = DYD_OK;
   if (is_alias(s->pd, w->site)) return DYD_OK;
-  for (size_t k = 0; k < w->inner.count && !fault_found(s); k++)
-    if (dyd_voronoi_side(s->pd, w->site, &w->inner.vertex[k]) != DYD_TRUE)
+  for (size_t k = 0; k < w->inner.count && st == DYD_OK && !fault_found(s); k++) {
+    bool inside;
+    st = point_is_on_side(&inside, s, w->site, &w->inner.vertex[k], DYD_TRUE);
+    if (st == DYD_OK && !inside)
       dyd_check_found(s, DYD_CHECK_CELL, "Int of site %u has lost a point", (unsigned)w->site);
+  }
   for (size_t p = 0; p < w->outer.count; p++)
     for (size_t k = 0; k < w->outer.item[p].count && st == DYD_OK && !fault_found(s); k++) {
       const dyd_polygon *g = &w->outer.item[p];
       const dyd_point *a = &g->vertex[k], *b = &g->vertex[(k + 1) % g->count];
-      bool outside = !dyd_rect_holds(&s->window, a) || !dyd_rect_holds(&s->window, b);
-      if (!outside) st = edge_is_outside(&outside, s, w->site, a, b);
-      if (!outside)
-        outside = dyd_voronoi_side(s->pd, w->site, a) == DYD_FALSE && dyd_voronoi_side(s->pd, w->site, b) == DYD_FALSE;
+      bool outside;
+      st = outer_edge_holds(&outside, s, w->site, a, b);
       if (st == DYD_OK && !outside)
         dyd_check_found(s, DYD_CHECK_CELL, "Ext of site %u has lost a point", (unsigned)w->site);
     }

@@ -164,12 +164,12 @@ static void look_beyond(circle_d *c, dyd_direction u) {
  * blocks nothing. */
 static bool load_caps(disc_work *w, bool legal) {
   const dyd_disc *i = &w->disc[w->i], *j = &w->disc[w->j];
-  w->failed = !dyd_caps_begin(&w->caps, i, j, legal);
+  if (!dyd_caps_begin(&w->caps, i, j, legal)) w->failed = true;
   for (size_t k = 0; k < w->count && !w->failed; k++) {
     const dyd_disc *d = &w->disc[w->seen[k]];
     bool meets = dyd_discs_meet(i, d) || dyd_discs_meet(j, d);
     if (meets && legal) return false;
-    if (!meets) w->failed = !dyd_caps_add(&w->caps, i, d, w->seen[k], legal);
+    if (!meets && !dyd_caps_add(&w->caps, i, d, w->seen[k], legal)) w->failed = true;
   }
   return !w->failed;
 }

@@ -111,4 +111,7 @@ dyd_status dyd_cell_link(dyd_boundary *out, const dyd_exact_cell *c);
 /* *out is replaced. */
 dyd_status dyd_cell_boundary(dyd_boundary *out, const dyd_cell_task *task);
 
+/* dyd_voronoi_side with a status: DYD_E_NOMEM, and DYD_E_ARG when there is no site i, leave *out as it was. */
+dyd_status dyd_cell_point_side(dyd_truth *out, const dyd_delaunay *pd, uint32_t i, const dyd_point *c);
+
 #endif

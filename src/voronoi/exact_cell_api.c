@@ -86,11 +86,18 @@ static dyd_truth side_of_cell(const dyd_cell_sites *s, const dyd_point *c) {
   return answer;
 }
 
-dyd_truth dyd_voronoi_side(const dyd_delaunay *pd, uint32_t i, const dyd_point *c) {
+dyd_status dyd_cell_point_side(dyd_truth *out, const dyd_delaunay *pd, uint32_t i, const dyd_point *c) {
   uint32_t site;
-  if (find_cell_site(&site, pd, i) != DYD_OK) return DYD_UNKNOWN;
+  dyd_status st = find_cell_site(&site, pd, i);
+  if (st != DYD_OK) return st;
   dyd_cell_sites s;
-  dyd_truth answer = dyd_cell_sites_init(&s, pd, site) == DYD_OK ? side_of_cell(&s, c) : DYD_UNKNOWN;
+  st = dyd_cell_sites_init(&s, pd, site);
+  if (st == DYD_OK) *out = side_of_cell(&s, c);
   dyd_cell_sites_clear(&s);
-  return answer;
+  return st;
+}
+
+dyd_truth dyd_voronoi_side(const dyd_delaunay *pd, uint32_t i, const dyd_point *c) {
+  dyd_truth answer = DYD_UNKNOWN;
+  return dyd_cell_point_side(&answer, pd, i, c) == DYD_OK ? answer : DYD_UNKNOWN;
 }

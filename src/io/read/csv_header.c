@@ -17,7 +17,9 @@ static dyd_status read_names(dyd_csv *csv, const char *text, const char *option,
                              size_t most, dyd_error *err) {
   dyd_line line = {text, strlen(text), 0};
   csv->delimiter = ',';
-  if (!line.length || dyd_csv_split(csv, &line, NULL) < 0 || csv->fields < least || csv->fields > most) {
+  dyd_status split = line.length ? dyd_csv_split(csv, &line, NULL) : DYD_E_ARG;
+  if (split == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (split != DYD_OK || csv->fields < least || csv->fields > most) {
     static const char *const wanted[] = {"one column name; give NAME",
                                          "one or two column names; give NAME or NAME,NAME",
                                          "two column names; give NAME,NAME"};
@@ -169,19 +171,21 @@ static dyd_status header_split(dyd_csv *csv, const dyd_line *line, char delimite
 
 /* The delimiter that makes the most columns among those by which all wanted ones are found; when there is none, the one
  * that makes the most. */
-static char find_delimiter(dyd_csv *csv, const dyd_line *line) {
-  char best = delimiters[0];
+static dyd_status find_delimiter(char *best, dyd_csv *csv, const dyd_line *line, dyd_error *err) {
   size_t most = 0;
   bool found = false;
+  *best = delimiters[0];
   for (const char *d = delimiters; *d; d++) {
-    if (header_split(csv, line, *d, NULL) != DYD_OK) continue;
+    dyd_status st = header_split(csv, line, *d, NULL);
+    if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+    if (st != DYD_OK) continue;
     bool finds = find_columns(csv, NULL) == DYD_OK;
     if (finds < found || (finds == found && csv->fields <= most)) continue;
     found = finds;
     most = csv->fields;
-    best = *d;
+    *best = *d;
   }
-  return best;
+  return DYD_OK;
 }
 
 /* Columns by number say nothing about a first line that is no header, but a point that would be lost. */
@@ -208,8 +212,8 @@ dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const dyd_read_options *o,
     if (err) err->line = err->column = 1;
     return dyd_fail(err, DYD_E_PARSE, "the file has no header; its first line must name the columns");
   }
-  if (!delimiter) delimiter = find_delimiter(csv, &line);
-  st = header_split(csv, &line, delimiter, err);
+  if (!delimiter) st = find_delimiter(&delimiter, csv, &line, err);
+  if (st == DYD_OK) st = header_split(csv, &line, delimiter, err);
   if (st == DYD_OK) st = find_columns(csv, err);
   if (st == DYD_OK) st = refuse_numbers(csv, err);
   csv->columns = csv->fields;

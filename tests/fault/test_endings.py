@@ -1,0 +1,191 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""However a command ends, by a signal, at a limit or on a disk that is full, the old output is kept or the new one is
+whole, and nothing else is left: with files that have no name, and where the system has none (the shim sees to that).
+
+Usage: test_endings.py COMMAND SHIM
+"""
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+COMMAND, SHIM = (os.path.abspath(path) for path in sys.argv[1:3])
+WAYS = {'without a name': {}, 'with a name': {'LD_PRELOAD': SHIM, 'FAULT_CALL': 'tmpfile', 'FAULT_AT': '1', 'FAULT_ON': '1'}}
+SQUARE = b'0 0\n1 0\n0 1\n1 1\n'
+OLD = b'old\n'
+# A square of reals that no precision tells from one.
+SLOW = 'exp(log(' * 4 + '6' + '))' * 4
+ENDLESS = f'exp(log({SLOW})/2) 0\n0 sqrt({SLOW})\n-exp(log({SLOW})/2) 0\n0 -sqrt({SLOW})\n'.encode()
+
+
+def put(path, text):
+    with open(path, 'wb') as out:
+        out.write(text)
+
+
+def get(path):
+    with open(path, 'rb') as f:
+        return f.read()
+
+
+def start(folder, *args, way, **options):
+    return subprocess.Popen([COMMAND, *args], cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, env=dict(os.environ, **WAYS[way]), **options)
+
+
+def endless(folder, way, **options):
+    """A run that takes for ever, with a trace begun."""
+    put(os.path.join(folder, 'p'), ENDLESS)
+    for name in 'ot':
+        put(os.path.join(folder, name), OLD)
+    process = start(folder, 'converge', 'p', '-o', 'o', '--trace', 't', '--max-bits', '1000000', way=way, **options)
+    until = time.monotonic() + 60
+    while process.poll() is None and time.monotonic() < until:
+        with open(f'/proc/{process.pid}/stat', encoding='ascii') as stat:
+            if int(stat.read().rsplit(')', 1)[1].split()[11]) >= 0.3 * os.sysconf('SC_CLK_TCK'):
+                break
+    begun = set(os.listdir(folder)) - {'o', 'p', 't'}
+    assert len(begun) == (way == 'with a name'), (way, begun)
+    return process
+
+
+def no_core():
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+def test_signals_that_end():
+    for way in WAYS:
+        for number in (signal.SIGQUIT, signal.SIGXCPU, signal.SIGABRT):
+            with tempfile.TemporaryDirectory() as folder:
+                process = endless(folder, way, preexec_fn=no_core)
+                process.send_signal(number)
+                process.communicate(timeout=60)
+                assert process.returncode == -number, (way, number, process.returncode)
+                left = {name: get(os.path.join(folder, name)) for name in os.listdir(folder)}
+                assert left == {'p': ENDLESS, 'o': OLD, 't': OLD}, (way, number, sorted(left))
+
+
+def test_signals_that_cancel():
+    """The first one cancels: what is known is written. The second one ends; nothing is left of what was begun."""
+    for way in WAYS:
+        for number in (signal.SIGHUP, signal.SIGTERM, signal.SIGINT):
+            for times in (1, 2):
+                with tempfile.TemporaryDirectory() as folder:
+                    process = endless(folder, way)
+                    process.send_signal(number)
+                    if times == 2:
+                        time.sleep(0.001)
+                        process.send_signal(number)
+                    err = process.communicate(timeout=120)[1]
+                    whole = process.returncode == 5
+                    assert whole or (times == 2 and process.returncode == -number), (way, number, process.returncode, err)
+                    assert sorted(os.listdir(folder)) == ['o', 'p', 't'], (way, number, os.listdir(folder))
+                    trace, table = (get(os.path.join(folder, name)) for name in 'to')
+                    assert trace == OLD or trace.endswith(b'}\n'), (way, number, trace[-200:])
+                    assert not whole or (b'\nstage,' in table and trace != OLD), (way, number, table)
+
+
+def test_ignored_signal_stays_ignored():
+    with tempfile.TemporaryDirectory() as folder:
+        process = endless(folder, 'without a name', preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        process.send_signal(signal.SIGHUP)
+        time.sleep(0.5)
+        assert process.poll() is None
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=120)
+        assert process.returncode == 5
+
+
+def limited(size):
+    def limit():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+    return limit
+
+
+def test_full_at_every_byte():
+    """A file may not grow beyond so many bytes: none, some, all but one, all."""
+    for way in WAYS:
+        for command in (('delaunay',), ('voronoi', '--format', 'json'), ('delaunay', '--format', 'svg')):
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, 'o')
+                assert start(folder, *command, '-', '-o', 'o', way=way).communicate(SQUARE) and os.path.exists(path)
+                new = get(path)
+                for size in (0, 1, len(new) // 2, len(new) - 1, len(new)):
+                    put(path, OLD)
+                    process = start(folder, *command, '-', '-o', 'o', way=way, preexec_fn=limited(size))
+                    err = process.communicate(SQUARE)[1]
+                    if size == len(new):
+                        assert process.returncode == 3 and get(path) == new, (way, process.returncode, err)
+                    else:
+                        assert process.returncode == 1 and get(path) == OLD, (way, size, process.returncode, err)
+                        assert err.count(b'cannot write: File too large; choose another place with -o') == 1, (size, err)
+                    assert os.listdir(folder) == ['o'], (way, size, os.listdir(folder))
+
+
+def test_full_standard_output():
+    with tempfile.TemporaryFile() as out:
+        done = subprocess.run([COMMAND, 'delaunay', '-'], input=SQUARE, stdout=out, stderr=subprocess.PIPE, check=False,
+                              preexec_fn=limited(5))
+        assert done.returncode == 1 and b'cannot write: File too large' in done.stderr, done
+
+
+def test_folder_that_vanishes():
+    for way in WAYS:
+        with tempfile.TemporaryDirectory() as folder:
+            sub = os.path.join(folder, 'sub')
+            process = start(folder, 'delaunay', '-', '-o', 'sub/o', way=way)
+            err = process.communicate(SQUARE)[1]
+            assert process.returncode == 1 and b'sub/o: cannot write: No such file or directory; choose' in err, err
+            os.mkdir(sub)
+            put(os.path.join(folder, 'p'), ENDLESS)
+            process = start(folder, 'converge', 'p', '--trace', 'sub/t', '--max-bits', '1000000', way=way)
+            while process.poll() is None and f'{folder}/sub' not in ''.join(
+                    os.readlink(f'/proc/{process.pid}/fd/{fd}') for fd in os.listdir(f'/proc/{process.pid}/fd')):
+                time.sleep(0.01)
+            shutil.rmtree(sub)
+            time.sleep(0.5)
+            process.send_signal(signal.SIGINT)
+            err = process.communicate(timeout=120)[1]
+            assert process.returncode == 1 and b'sub/t: cannot write: No such file or directory; choose' in err, err
+
+
+def test_folder_that_is_no_place():
+    """Neither a folder without permission nor a system without files that can be written."""
+    for place, why in (('/proc/o', b'No such file or directory'), ('p/o', b'Not a directory')):
+        with tempfile.TemporaryDirectory() as folder:
+            put(os.path.join(folder, 'p'), SQUARE)
+            process = start(folder, 'delaunay', 'p', '-o', place, way='without a name')
+            err = process.communicate()[1]
+            assert process.returncode == 1 and b'cannot write: ' + why + b'; choose' in err, err
+    if os.geteuid() == 0:
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        put(os.path.join(folder, 'o'), OLD)
+        os.chmod(folder, 0o500)
+        process = start(folder, 'delaunay', '-', '-o', 'o', way='without a name')
+        err = process.communicate(SQUARE)[1]
+        os.chmod(folder, 0o700)
+        assert process.returncode == 1 and b'cannot write: Permission denied; choose' in err, err
+        assert get(os.path.join(folder, 'o')) == OLD and os.listdir(folder) == ['o']
+
+
+def main():
+    failed = 0
+    for name, test in sorted(globals().items()):
+        if not name.startswith('test_'):
+            continue
+        try:
+            test()
+            print('ok', name, flush=True)
+        except (AssertionError, subprocess.TimeoutExpired) as problem:
+            failed += 1
+            print('FAILED', name, problem, flush=True)
+    sys.exit(1 if failed else 0)
+
+
+main()

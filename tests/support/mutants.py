@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Which small faults in the sources do tests notice?
+
+Usage: mutants.py ROOT BUILD --sources FILE... --tests NAME... [--count K] [--seed S]
+
+ROOT is a copy of the project that may be written to, BUILD a build folder of it. Draws K places in the sources (paths from
+ROOT/src), all kinds of fault alike, and for each: changes the source, builds, runs the tests named, in this order, until one
+fails, and puts the source back. Prints a line for each fault and a sum; those that nobody noticed are what to look at: a
+missing test, a needless check, or a change that cannot be seen. Slow: this is no test of the suite. Results so far, with the
+reasons of survivors: proofs/SOUNDNESS.md.
+"""
+import argparse
+import json
+import os
+import pathlib
+import random
+import re
+import signal
+import subprocess
+import sys
+
+KINDS = [  # name, what is looked for, what takes its place
+    ('strict', r'(?<![-<>=])([<>])(?![<>=])(?= )', r'\1='),
+    ('loose', r'(?<![<>])([<>])=(?= )', r'\1'),
+    ('equal', r'([!=])=(?= )', lambda m: '!=' if m[1] == '=' else '=='),
+    ('and', r'&&', '||'), ('or', r'\|\|', '&&'),
+    ('plus', r' \+ ', ' - '), ('minus', r' - ', ' + '), ('times', r'(?<=\w) \* (?=\w)', ' + '),
+    ('not', r'!(?=[a-z(])', ''),
+    ('truth', r'\b(true|false)\b', lambda m: 'false' if m[1] == 'true' else 'true'),
+    ('number', r'(?<![\w.])([0-3])(?![\w.])', lambda m: str(int(m[1]) + 1)),
+    ('statement', r'(?m)^( +)(?!return|if|for|else|while|do|break|continue|goto|case|const|static|struct|dyd_status |bool |size_t )'
+                  r'[a-z][\w>.\[\]-]*(?:\(|(?: [-+|&]?=|\+\+|--)).*;$', r'\1;'),
+    ('skip', r'\b(continue|break);', ';'),
+    ('outward', r'DYD_(UP|DOWN)\b', lambda m: 'DYD_DOWN' if m[1] == 'UP' else 'DYD_UP'),
+]
+
+
+def places(text):
+    """(kind, start, end, new text) of all faults in a source"""
+    plain = re.sub(r'(?s)/\*.*?\*/|"(?:[^"\\\n]|\\.)*"|(?m:^#[^\n]*)', lambda m: re.sub(r'[^\n]', '\x01', m[0]), text)
+    for kind, pattern, new in KINDS:
+        for m in re.finditer(pattern, plain):
+            yield kind, m.start(), m.end(), m.expand(new) if isinstance(new, str) else new(m)
+
+
+def tests_of(build, names):
+    known = json.loads(subprocess.run(['meson', 'introspect', '--tests', build], capture_output=True, check=True).stdout)
+    found = {t['name']: t for t in known}
+    return [found[name] for name in names]
+
+
+def fails(test, limit):
+    with subprocess.Popen(test['cmd'], env={**os.environ, **test['env']}, cwd=test['workdir'], start_new_session=True,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+        try:
+            return process.wait(limit) != 0
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            return True
+
+
+def noticed(build, tests, limit):
+    targets = [os.path.relpath(t['cmd'][0], build) for t in tests]
+    if subprocess.run(['ninja', '-C', build, *targets], capture_output=True, check=False).returncode:
+        return 'the compiler'
+    return next((t['name'] for t in tests if fails(t, limit)), None)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument('root', type=pathlib.Path)
+    parser.add_argument('build')
+    parser.add_argument('--sources', nargs='+', required=True)
+    parser.add_argument('--tests', nargs='+', required=True)
+    parser.add_argument('--count', type=int, default=50)
+    parser.add_argument('--seed', type=int, default=1)
+    parser.add_argument('--limit', type=float, default=300, help='seconds after which a test has failed')
+    o = parser.parse_args()
+    build = os.path.abspath(o.build)
+    tests = tests_of(build, o.tests)
+    text = {s: (o.root / 'src' / s).read_text(encoding='utf-8') for s in o.sources}
+    by_kind = {}
+    for s in o.sources:
+        for kind, *place in places(text[s]):
+            by_kind.setdefault(kind, []).append((s, kind, *place))
+    print(f'# {sum(map(len, by_kind.values()))} places, seed {o.seed}', flush=True)
+    if noticed(build, tests, o.limit):
+        sys.exit('the tests fail without a fault')
+    chance, survivors, drawn = random.Random(o.seed), 0, 0
+    while drawn < o.count and any(by_kind.values()):
+        kind = chance.choice(sorted(k for k in by_kind if by_kind[k]))
+        source, _, start, end, new = by_kind[kind].pop(chance.randrange(len(by_kind[kind])))
+        old = text[source]
+        path = o.root / 'src' / source
+        path.write_text(old[:start] + new + old[end:], encoding='utf-8')
+        try:
+            by = noticed(build, tests, o.limit)
+        finally:
+            path.write_text(old, encoding='utf-8')
+        if by == 'the compiler':
+            continue
+        drawn += 1
+        survivors += by is None
+        line = old[old.rfind('\n', 0, start) + 1:old.find('\n', end)].strip()
+        print(f'{"noticed by " + by if by else "SURVIVES"}: {source}:{old.count(chr(10), 0, start) + 1} {kind} '
+              f'`{old[start:end].strip()}` -> `{new.strip()}` in `{line}`', flush=True)
+    print(f'{drawn} faults, {drawn - survivors} noticed, {survivors} survive')
+
+
+if __name__ == '__main__':
+    main()
