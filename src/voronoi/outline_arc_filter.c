@@ -9,7 +9,7 @@ enum { WINDOW_LO, WINDOW_HI, MIDDLE, NEAR_LO, NEAR_HI, MARKS };
 /* at: as given; to: relative to the origin. */
 typedef struct ruler {
   dyd_iv at[MARKS], to[MARKS], far_at[2], far_to[2];
-  bool far_thin, near_thin;
+  bool far_thin, near_thin, of_window[2];
 } ruler;
 
 /* A closed strip between two marks, and what the rectangles show in it: q is a mark, or fixed = false. */
@@ -24,8 +24,9 @@ static int marks_order(bool *unsure, const ruler *r, int a, int b) {
 
 static void ruler_set(ruler *r, dyd_outline *o, size_t far, size_t near, int axis) {
   for (int e = 0; e < 2; e++) {
-    r->at[WINDOW_LO + e] = o->window.end[2 * axis + e];
-    r->to[WINDOW_LO + e] = o->frame.end[2 * axis + e];
+    r->at[WINDOW_LO + e] = o->bound[2 * axis + e];
+    r->to[WINDOW_LO + e] = dyd_iv_sub(o->bound[2 * axis + e], dyd_iv_point(o->origin[axis]));
+    r->of_window[e] = o->of_window[2 * axis + e];
     r->at[NEAR_LO + e] = o->box[near].end[2 * axis + e];
     r->to[NEAR_LO + e] = o->near[near].end[2 * axis + e];
     r->far_at[e] = o->box[far].end[2 * axis + e];
@@ -103,13 +104,13 @@ static int arc_across(dyd_iv *t, bool *unsure, const dyd_outline_arc *a, dyd_iv 
 
 /* ---- clipping ---- */
 
-/* The marks of the pane of an arc along both axes, lower and upper. */
-typedef struct pane_marks {
+/* Which end of the window the ends of the pane of an arc are, lower and upper along both axes; else -1. */
+typedef struct pane_sides {
   int end[2][2];
-} pane_marks;
+} pane_sides;
 
-static int window_side(int mark) {
-  return mark == WINDOW_LO ? 0 : mark == WINDOW_HI ? 1 : -1;
+static int window_side(const ruler *r, int mark) {
+  return mark == WINDOW_LO && r->of_window[0] ? 0 : mark == WINDOW_HI && r->of_window[1] ? 1 : -1;
 }
 
 /* Sign of dv/dt. */
@@ -125,7 +126,7 @@ static bool level_in_pane(bool *unsure, const dyd_outline_arc *a) {
   return dyd_outline_order(unsure, level, a->lo[o]) > 0 && dyd_outline_order(unsure, level, a->hi[o]) < 0;
 }
 
-static bool outline_clip_across(dyd_outline_arc *a, bool *unsure, const pane_marks *m) {
+static bool outline_clip_across(dyd_outline_arc *a, bool *unsure, const pane_sides *m) {
   int k = a->axis, o = 1 - k, grows = outline_arc_slope(a);
   if (!grows) return level_in_pane(unsure, a);
   for (int e = 0; e < 2; e++) {
@@ -138,16 +139,16 @@ static bool outline_clip_across(dyd_outline_arc *a, bool *unsure, const pane_mar
     a->end[to].at[k] = t;
     a->end[to].at[o] = level;
     a->end[to].side[k] = -1;
-    a->end[to].side[o] = window_side(m->end[o][e]);
+    a->end[to].side[o] = m->end[o][e];
   }
   return true;
 }
 
-static bool outline_clip(dyd_outline_arc *a, bool *unsure, const pane_marks *m) {
+static bool outline_clip(dyd_outline_arc *a, bool *unsure, const pane_sides *m) {
   int k = a->axis;
   for (int e = 0; e < 2; e++) {
     a->end[e] = dyd_outline_arc_at(a, e ? a->hi[k] : a->lo[k]);
-    a->end[e].side[k] = window_side(m->end[k][e]);
+    a->end[e].side[k] = m->end[k][e];
   }
   if (!outline_clip_across(a, unsure, m)) return false;
   bool closed = false;
@@ -176,7 +177,7 @@ static int outline_feature(const strip s[2]) {
 }
 
 /* As curve_set_arc. */
-static bool outline_set_arc(dyd_outline_arc *a, pane_marks *m, bool *unsure, const ruler r[2], const strip s[2]) {
+static bool outline_set_arc(dyd_outline_arc *a, pane_sides *m, bool *unsure, const ruler r[2], const strip s[2]) {
   if (!s[0].fixed && !s[1].fixed) return false;
   for (int k = 0; k < 2; k++) {
     a->shape.s[k] = r[k].far_to[s[k].far_end];
@@ -185,8 +186,8 @@ static bool outline_set_arc(dyd_outline_arc *a, pane_marks *m, bool *unsure, con
     a->hi[k] = r[k].to[s[k].hi];
     a->tilt[k] = s[k].fixed ? dyd_outline_order(unsure, r[k].at[s[k].q], r[k].far_at[s[k].far_end]) : 0;
     a->near_side[k] = s[k].over ? 1 : -1;
-    m->end[k][0] = s[k].lo;
-    m->end[k][1] = s[k].hi;
+    m->end[k][0] = window_side(&r[k], s[k].lo);
+    m->end[k][1] = window_side(&r[k], s[k].hi);
   }
   a->corner = s[0].far_end + 2 * s[1].far_end;
   a->feature = outline_feature(s);
@@ -214,7 +215,7 @@ static void outline_add_curve(dyd_outline *o, uint32_t other) {
   for (size_t k = 0; k < columns * rows && !o->unsure; k++) {
     const strip s[2] = {x[k / rows], y[k % rows]};
     dyd_outline_arc *a = &o->arc[o->arcs];
-    pane_marks m;
+    pane_sides m;
     if (o->arcs == DYD_OUTLINE_ARCS) {
       o->unsure = true;
     } else if (outline_set_arc(a, &m, &o->unsure, r, s) && outline_clip(a, &o->unsure, &m)) {

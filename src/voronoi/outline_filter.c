@@ -60,16 +60,19 @@ dyd_status dyd_outline_load(bool *done, dyd_outline *o, const dyd_delaunay *pd, 
     }
     o->origin[0] = o->box[list.count].outer[0];
     o->origin[1] = o->box[list.count].outer[2];
+    for (int k = 0; k < 4; k++) o->limit[k] = k & 1 ? INFINITY : -INFINITY;
   }
   dyd_index_list_clear(&list);
   return st;
 }
 
-static void box_place(dyd_box *out, const dyd_box *b, const double origin[2]) {
+static void box_place(dyd_box *out, double *slack, const dyd_box *b, const double origin[2]) {
   *out = *b;
+  *slack = 0;
   for (int k = 0; k < 4; k++) {
     out->end[k] = dyd_iv_sub(b->end[k], dyd_iv_point(origin[k >> 1]));
     out->outer[k] = k & 1 ? out->end[k].hi : out->end[k].lo;
+    *slack = dyd_max(*slack, dyd_up(out->end[k].hi - out->end[k].lo));
   }
 }
 
@@ -88,8 +91,9 @@ static bool outline_rects_meet(bool *unsure, const dyd_box *a, const dyd_box *b)
 static bool outline_place(dyd_outline *o, const dyd_rect *window) {
   bool free = true;
   dyd_filter_box(&o->window, window);
-  box_place(&o->frame, &o->window, o->origin);
-  for (size_t k = 0; k <= o->count; k++) box_place(&o->near[k], &o->box[k], o->origin);
+  double none;
+  box_place(&o->frame, &none, &o->window, o->origin);
+  for (size_t k = 0; k <= o->count; k++) box_place(&o->near[k], &o->slack[k], &o->box[k], o->origin);
   for (size_t k = 0; k < o->count; k++) {
     o->drop[k] = outline_rects_meet(&o->unsure, &o->box[k], &o->box[o->count]);
     free = free && !o->drop[k];
@@ -99,6 +103,74 @@ static bool outline_place(dyd_outline *o, const dyd_rect *window) {
     o->corner[k] = (dyd_outline_spot){{o->frame.end[side[0]], o->frame.end[2 + side[1]]}, {side[0], side[1]}};
   }
   return free;
+}
+
+/* ---- limits ---- */
+
+/* How far the others are from the origin, at most, in one coordinate. */
+static double outline_reach(const dyd_outline *o) {
+  double most = 0;
+  for (size_t k = 0; k < o->count; k++)
+    for (int e = 0; e < 4; e++) most = fmax(most, fabs(o->near[k].outer[e]));
+  return most;
+}
+
+/* Is all of the square ring taken away around the site? Then Pos, which is connected and holds the
+ * site, is inside. */
+static bool ring_is_taken(dyd_outline *o, const double ring[4]) {
+  enum { PARTS = 4 };
+  for (int k = 0; k < 4; k++) {
+    int across = k >> 1, along = 1 - across;
+    dyd_iv at[2];
+    at[across] = dyd_iv_point(ring[k]);
+    double from = ring[2 * along], length = ring[2 * along + 1] - from;
+    for (int part = 0; part < PARTS; part++) {
+      at[along] = (dyd_iv){from + length * part / PARTS, from + length * (part + 1) / PARTS};
+      if (!dyd_outline_taken(&(bool){0}, o, o->count, at)) return false;
+    }
+  }
+  return true;
+}
+
+static void limit_by_ring(dyd_outline *o) {
+  static const double share[] = {0.6, 0.8, 1.25, 2};
+  double reach = outline_reach(o);
+  const dyd_box *own = &o->near[o->count];
+  for (size_t m = 0; m < sizeof share / sizeof *share; m++) {
+    double ring[4];
+    for (int k = 0; k < 4; k++) ring[k] = own->outer[k] + (k & 1 ? reach : -reach) * share[m];
+    if (!(ring[0] < own->outer[0] && own->outer[1] < ring[1] && ring[2] < own->outer[2] && own->outer[3] < ring[3]) ||
+        !ring_is_taken(o, ring))
+      continue;
+    for (int k = 0; k < 4; k++) {
+      double at = o->origin[k >> 1] + ring[k];
+      o->limit[k] = k & 1 ? dyd_up(at) : dyd_down(at);
+    }
+    return;
+  }
+}
+
+/* Int is in Pos, whose arcs are in the boxes of their ends. A little more, so that nothing ends at a limit. */
+static void limit_by_parts(dyd_outline *o) {
+  double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+  for (size_t p = 0; p < o->pieces; p++)
+    for (int e = 0; e < 2; e++)
+      for (int k = 0; k < 4; k++) {
+        dyd_iv at = dyd_outline_coordinate(o, e ? o->piece[p].end : o->piece[p].begin, k >> 1);
+        box[k] = k & 1 ? dyd_max(box[k], at.hi) : dyd_min(box[k], at.lo);
+      }
+  for (int k = 0; k < 4 && o->pieces; k++) {
+    double more = 0x1p-10 * (box[k | 1] - box[k & 2]);
+    o->limit[k] = k & 1 ? fmin(o->limit[k], box[k] + more) : fmax(o->limit[k], box[k] - more);
+  }
+}
+
+static void set_bounds(dyd_outline *o) {
+  for (int k = 0; k < 4; k++) {
+    dyd_iv end = o->window.end[k];
+    o->of_window[k] = !(k & 1 ? o->limit[k] < end.lo : o->limit[k] > end.hi);
+    o->bound[k] = o->of_window[k] ? end : dyd_iv_point(o->limit[k]);
+  }
 }
 
 dyd_iv dyd_outline_coordinate(const dyd_outline *o, const dyd_outline_spot *p, int a) {
@@ -169,6 +241,7 @@ static void outline_side_pieces(dyd_outline *o, int side) {
   int axis = side & 1, end = side == 1 || side == 2;
   bool grows = side < 2;
   size_t count = 2;
+  if (!o->of_window[2 * (1 - axis) + end]) return; /* out of reach */
   o->cut[0] = &o->corner[side];
   o->cut[1] = &o->corner[(side + 1) & 3];
   for (size_t a = 0; a < o->arcs; a++)
@@ -239,10 +312,13 @@ bool dyd_filter_outline(dyd_outline *o, const dyd_rect *window, bool outer) {
   o->arcs = o->meets = o->pieces = o->parts = 0;
   o->taker = o->count;
   if (!outline_place(o, window) && !outer) return !o->unsure;
+  if (outer) limit_by_ring(o);
+  set_bounds(o);
   dyd_outline_find_arcs(o);
   if (!o->unsure) dyd_outline_find_meets(o);
   for (uint32_t a = 0; a < o->arcs && !o->unsure; a++) outline_arc_pieces(o, a);
   for (int side = 0; side < 4 && !o->unsure; side++) outline_side_pieces(o, side);
   if (o->unsure) return false;
+  if (outer) limit_by_parts(o);
   return !o->pieces || outline_link(o);
 }

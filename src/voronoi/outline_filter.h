@@ -54,7 +54,11 @@ typedef struct dyd_outline {
   double origin[2];
   bool outer, unsure;
   dyd_box near[DYD_OUTLINE_OTHERS + 1], frame; /* relative to the origin; frame: the window */
+  double slack[DYD_OUTLINE_OTHERS + 1];        /* by how much `outer` of near may be too far out */
   bool drop[DYD_OUTLINE_OTHERS];               /* meets the site: does not matter to Pos */
+  double limit[4];                             /* lower and upper bounds of all points of Pos, hence of Int */
+  dyd_iv bound[4];                             /* the window cut down to them, */
+  bool of_window[4];                           /* where that is an end of the window */
   dyd_outline_arc arc[DYD_OUTLINE_ARCS];
   dyd_outline_meet meet[DYD_OUTLINE_MEETS];
   dyd_outline_spot corner[4];
@@ -65,7 +69,7 @@ typedef struct dyd_outline {
 
 /* The site and its possible neighbours. *done = false: too many of them, or ends beyond doubles. */
 dyd_status dyd_outline_load(bool *done, dyd_outline *o, const dyd_delaunay *pd, uint32_t i);
-/* false: something is in doubt. */
+/* false: something is in doubt. Pos first: its outline limits that of Int. */
 bool dyd_filter_outline(dyd_outline *o, const dyd_rect *window, bool outer);
 /* Coordinate a of a point, not relative to the origin. */
 dyd_iv dyd_outline_coordinate(const dyd_outline *o, const dyd_outline_spot *p, int a);

@@ -433,18 +433,18 @@ static dyd_status grid_shape(bool *done, dyd_shape *s, grid_work *w, const dyd_w
   dyd_rect wide;
   dyd_status st = DYD_OK;
   for (int k = 0; k < 4; k++) w->window[k] = window->d[k];
-  w->known = dyd_filter_outline(w->o, window->rect, false);
-  for (int k = 0; k < 4; k++) w->known = w->known && w->o->window.end[k].lo == w->o->window.end[k].hi;
-  if (!w->known) return DYD_OK;
-  st = grid_inner(w);
-  if (st == DYD_OK && w->known) st = grid_deliver(&s->grid_area[0], &s->inner, &s->inner_cap, &s->inner_count, w);
-  if (st != DYD_OK || !w->known) return st;
   dyd_rect_init(&wide);
   st = dyd_window_enlarge(&wide, window->rect, w->bits);
   w->known = st == DYD_OK && dyd_filter_outline(w->o, &wide, true);
   dyd_rect_clear(&wide);
   if (st == DYD_OK && w->known) st = grid_outer(w);
   if (st == DYD_OK && w->known) st = grid_deliver(&s->grid_area[1], &s->outer, &s->outer_cap, &s->outer_count, w);
+  if (st != DYD_OK || !w->known) return st;
+  w->known = dyd_filter_outline(w->o, window->rect, false);
+  for (int k = 0; k < 4; k++) w->known = w->known && w->o->window.end[k].lo == w->o->window.end[k].hi;
+  if (!w->known) return DYD_OK;
+  st = grid_inner(w);
+  if (st == DYD_OK && w->known) st = grid_deliver(&s->grid_area[0], &s->inner, &s->inner_cap, &s->inner_count, w);
   *done = st == DYD_OK && w->known;
   return st;
 }
