@@ -121,6 +121,12 @@ static dyd_status tell_fineness(dyd_status st, const dyd_diagram *d, dyd_error *
                   -d->bits);
 }
 
+/* Layers of cells and regions tell nothing of vertices. */
+static bool has_vertices(dyd_content layer, dyd_format format) {
+  bool layered = format == DYD_FORMAT_CSV || format == DYD_FORMAT_WKT || format == DYD_FORMAT_GEOJSON;
+  return !layered || (layer != DYD_CONTENT_VORONOI && layer != DYD_CONTENT_REGIONS);
+}
+
 dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_options *options, dyd_format format,
                              dyd_error *err) {
   if (err) dyd_error_clear(err);
@@ -138,7 +144,7 @@ dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_o
   dyd_voronoi_bounds_init(&bounds);
   o.bounds = &bounds;
   if (!o.cut) o.cut = &cut;
-  st = dyd_diagram_init(&d, out, e, &o, err);
+  st = dyd_diagram_init(&d, out, e, &o, has_vertices(layer_of(o.layer, DYD_CONTENT_VORONOI), format), err);
   if (st == DYD_OK)
     st = tell_fineness(dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_VORONOI), &d, err), &d, err);
   if (st == DYD_OK && wanted) {

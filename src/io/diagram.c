@@ -232,7 +232,7 @@ static dyd_status choose_flattening(dyd_diagram *d) {
   return st;
 }
 
-dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, const dyd_voronoi_options *o,
+dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, const dyd_voronoi_options *o, bool vertices,
                             dyd_error *err) {
   const dyd_delaunay *pd = dyd_engine_delaunay(e);
   *d = (dyd_diagram){.out = out,
@@ -252,7 +252,7 @@ dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, cons
   else
     st = choose_flattening(d);
   d->vertex_bits = vertex_bits(d);
-  if (st == DYD_OK) st = find_vertices(d);
+  if (st == DYD_OK && vertices) st = find_vertices(d);
   return st == DYD_OK ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
 }
 

@@ -36,9 +36,9 @@ typedef struct dyd_diagram {
   size_t *cut;                /* the cells and regions that it cut, counted when they are visited */
 } dyd_diagram;
 
-/* Makes everything but the bounds. o->bounds and o->cut are there. Of e there has to be a result that is not capped. An
- * error is told; dyd_diagram_clear comes after it in any case. */
-dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, const dyd_voronoi_options *o,
+/* Makes everything but the bounds; triangles and their vertices only if `vertices`. o->bounds and o->cut are there. Of
+ * e there has to be a result that is not capped. An error is told; dyd_diagram_clear comes after it in any case. */
+dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, const dyd_voronoi_options *o, bool vertices,
                             dyd_error *err);
 void dyd_diagram_clear(dyd_diagram *d);
 

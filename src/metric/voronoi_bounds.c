@@ -80,7 +80,7 @@ static dyd_status add_shape(double area[2], dyd_voronoi_sums *s, uint32_t i, con
   double box[4];
   dyd_sites_get_d(box, dyd_delaunay_sites(s->pd), i);
   s->reach[i] = dyd_filter_reach_of_shape(shape, box);
-  if (!shape->in_doubles) return add_exact_shape(area, s, shape);
+  if (!shape->in_doubles || shape->on_grid) return add_exact_shape(area, s, shape);
   area[0] = shape->area[0];
   area[1] = shape->area[1];
   mpfr_add_d(s->inner, s->inner, area[0], MPFR_RNDD);

@@ -94,9 +94,9 @@ static void sample_set_parameter(dyd_sample *out, double t, int axis, int64_t sh
 
 /* Lines: with n = q - s, m = q + s the other coordinate is m_o/2 + (n_k/n_o) (m_k/2 - t). Parabolas: with h = s_o - q_o
  * it is ((t - s_k)^2 / h + q_o + s_o) / 2. */
-static dyd_iv arc_other_coordinate(const dyd_filter_arc *arc, int k, double t) {
+dyd_iv dyd_filter_arc_other(const dyd_filter_arc *arc, int k, dyd_iv at) {
   int o = 1 - k;
-  dyd_iv at = dyd_iv_point(t), mo = dyd_iv_scale(dyd_iv_add(arc->q[o], arc->s[o]), 0.5);
+  dyd_iv mo = dyd_iv_scale(dyd_iv_add(arc->q[o], arc->s[o]), 0.5);
   if (arc->parabola) {
     dyd_iv h = dyd_iv_sub(arc->s[o], arc->q[o]);
     return dyd_iv_add(dyd_iv_scale(dyd_iv_div(dyd_iv_sqr(dyd_iv_sub(at, arc->s[k])), h), 0.5), mo);
@@ -111,7 +111,7 @@ bool dyd_filter_sample(dyd_sample *out, const dyd_filter_arc *arc, dyd_iv level,
   double t;
   if (!double_between(&t, low, high, axis)) return false;
   sample_set_parameter(out, t, axis, shift);
-  dyd_iv other = arc ? arc_other_coordinate(arc, axis, t) : level;
+  dyd_iv other = arc ? dyd_filter_arc_other(arc, axis, dyd_iv_point(t)) : level;
   out->spot.box[2 * (1 - axis)] = other.lo;
   out->spot.box[2 * (1 - axis) + 1] = other.hi;
   return true;

@@ -45,6 +45,9 @@ typedef struct dyd_filter_arc {
   bool parabola;
 } dyd_filter_arc;
 
+/* The other coordinate where coordinate k is t. */
+dyd_iv dyd_filter_arc_other(const dyd_filter_arc *arc, int k, dyd_iv t);
+
 /* A sample whose coordinate `axis` lies strictly between the points (infinite ends allowed), with its box; the other
  * coordinate follows from the arc, or is `level` on an axis-parallel segment (arc = NULL). false: not found in doubles.
  */

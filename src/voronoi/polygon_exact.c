@@ -46,24 +46,10 @@ static void polygon_work_clear(work *w) {
   dyd_cell_sites_clear(&w->sites);
 }
 
-/* log2 of the length of (x, y), rounded up by at most 2. */
-static int64_t log2_length(const mpq_t x, const mpq_t y) {
-  mpq_t s;
-  mpq_init(s);
-  mpq_abs(s, x);
-  if (mpq_sgn(y) >= 0)
-    mpq_add(s, s, y);
-  else
-    mpq_sub(s, s, y);
-  int64_t e = mpq_sgn(s) == 0 ? INT64_MIN / 2 : dyd_q_log2_above(s);
-  mpq_clear(s);
-  return e;
-}
-
 /* z += (x, y) 2^-shift with shift such that the move has between 2^-(bits+5) and 2^-(bits+2), or the whole of (x, y) if
  * that is shorter and not `stretch`; rounded to multiples of 2^-fine. */
 static dyd_status move_by_step(dyd_point *z, work *w, bool stretch, int64_t fine) {
-  int64_t shift = log2_length(w->x, w->y) + w->bits + 2;
+  int64_t shift = dyd_log2_length(w->x, w->y) + w->bits + 2;
   if (shift < 1 && !stretch) shift = 1;
   for (int axis = 0; axis < 2; axis++) {
     mpq_ptr d = axis ? w->y : w->x;
@@ -244,8 +230,7 @@ static dyd_status exact_outer(dyd_polygon_list *out, work *w) {
   return st;
 }
 
-/* W enlarged by 2^-(bits+1) on each side, so that its boundary and all within 2^-(bits+2) of it is outside of W. */
-static dyd_status enlarge_window(dyd_rect *out, const dyd_rect *window, int64_t bits) {
+dyd_status dyd_window_enlarge(dyd_rect *out, const dyd_rect *window, int64_t bits) {
   dyd_dyadic margin;
   dyd_dyadic_init(&margin);
   dyd_status st = dyd_dyadic_set_si_2exp(&margin, 1, -(bits + 1));
@@ -266,7 +251,7 @@ dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32
   dyd_rect wide;
   dyd_rect_init(&wide);
   dyd_status st = polygon_work_init(&w, pd, i, &wide, bits, window->cancel);
-  if (st == DYD_OK) st = enlarge_window(&wide, window->rect, bits);
+  if (st == DYD_OK) st = dyd_window_enlarge(&wide, window->rect, bits);
   if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, true, &wide, w.cancel);
   if (st == DYD_OK && w.boundary.count) st = exact_outer(&list, &w);
   if (st == DYD_OK) {

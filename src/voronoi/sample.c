@@ -47,6 +47,19 @@ bool dyd_cell_holds(const dyd_cell_sites *s, const dyd_point *c) {
   return true;
 }
 
+int64_t dyd_log2_length(const mpq_t x, const mpq_t y) {
+  mpq_t s;
+  mpq_init(s);
+  mpq_abs(s, x);
+  if (mpq_sgn(y) >= 0)
+    mpq_add(s, s, y);
+  else
+    mpq_sub(s, s, y);
+  int64_t e = mpq_sgn(s) == 0 ? INT64_MIN / 2 : dyd_q_log2_above(s);
+  mpq_clear(s);
+  return e;
+}
+
 /* ---- parabolas ---- */
 
 /* The parabola of an arc: coordinate `along` runs along the directrix, the other one is
@@ -115,6 +128,42 @@ static dyd_status arc_end_point(dyd_point *out, const dyd_arc_end *end, int64_t 
   return st;
 }
 
+/* n^2 >= (length^2 / |q|) 2^bits / 8; both are destroyed. */
+static dyd_status count_steps(uint32_t *out, mpq_t length, mpq_t q, int64_t bits) {
+  mpq_mul(length, length, length);
+  mpq_abs(q, q);
+  mpq_div(length, length, q);
+  int64_t twice = mpq_sgn(length) ? dyd_q_log2_above(length) + bits - 3 : -1;
+  int64_t shift = twice <= 0 ? 0 : (twice + 1) / 2;
+  if (shift > 24) return DYD_E_RANGE;
+  *out = (uint32_t)1 << shift;
+  return DYD_OK;
+}
+
+dyd_status dyd_parabola_steps(uint32_t *out, const dyd_sites *sites, const uint32_t site[2], const int end[2],
+                              int across, int64_t length, int64_t bits) {
+  dyd_rect r;
+  mpq_t lo, hi, at[2];
+  dyd_rect_init(&r);
+  mpq_inits(lo, hi, at[0], at[1], NULL);
+  dyd_status st = DYD_OK;
+  for (int k = 0; k < 2 && st == DYD_OK; k++) {
+    st = dyd_sites_get(&r, sites, site[k]);
+    dyd_interval_get_q(lo, hi, across ? &r.y : &r.x);
+    mpq_set(at[k], end[k] ? hi : lo);
+  }
+  mpq_sub(at[0], at[0], at[1]);
+  mpq_set_si(lo, length, 1);
+  if (bits + 5 >= 0)
+    mpq_div_2exp(lo, lo, (mp_bitcnt_t)(bits + 5));
+  else
+    mpq_mul_2exp(lo, lo, (mp_bitcnt_t) - (bits + 5));
+  if (st == DYD_OK) st = count_steps(out, lo, at[0], bits);
+  mpq_clears(lo, hi, at[0], at[1], NULL);
+  dyd_rect_clear(&r);
+  return st;
+}
+
 /* Into how many parts the arc has to be cut: n >= length sqrt(2^bits / (8 q)). */
 static dyd_status arc_count_steps(uint32_t *out, const dyd_arc *arc, const dyd_cell_sites *s, uint32_t own,
                                   int64_t bits) {
@@ -134,16 +183,8 @@ static dyd_status arc_count_steps(uint32_t *out, const dyd_arc *arc, const dyd_c
     dyd_dyadic_get_q(length, p.along ? &a.y : &a.x);
     dyd_dyadic_get_q(q, p.along ? &b.y : &b.x);
     mpq_sub(length, length, q);
-    mpq_mul(length, length, length);
     mpq_sub(q, p.focus[1 - p.along], p.directrix);
-    mpq_abs(q, q);
-    mpq_div(length, length, q); /* n^2 >= (length^2 / q) 2^bits / 8 */
-    int64_t twice = mpq_sgn(length) ? dyd_q_log2_above(length) + bits - 3 : -1;
-    int64_t shift = twice <= 0 ? 0 : (twice + 1) / 2;
-    if (shift > 24)
-      st = DYD_E_RANGE;
-    else
-      *out = (uint32_t)1 << shift;
+    st = count_steps(out, length, q, bits);
   }
   mpq_clears(length, q, NULL);
   dyd_point_clear(&b);

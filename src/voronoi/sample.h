@@ -38,6 +38,12 @@ typedef struct dyd_arc_samples {
  * rectangles of sites. Appended to *out. DYD_E_RANGE when more than 2^24 would be needed. */
 dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
                              int64_t bits);
+/* log2 of the length of (x, y), rounded up by at most 2; INT64_MIN / 2 where that is 0. */
+int64_t dyd_log2_length(const mpq_t x, const mpq_t y);
+/* Into how many parts an arc of a parabola is cut whose ends are `length` 2^-(bits+5) apart along its directrix: the
+ * focus is the end far_end of the side across it of site far, the directrix that of site near. */
+dyd_status dyd_parabola_steps(uint32_t *out, const dyd_sites *sites, const uint32_t site[2], const int end[2],
+                              int across, int64_t length, int64_t bits);
 /* A dyadic point within 2^-bits of the sample in each coordinate; a multiple of 2^-(bits+1). */
 dyd_status dyd_sample_point(dyd_point *out, const dyd_arc_sample *at, const dyd_cell_sites *s, uint32_t own,
                             int64_t bits);

@@ -3,6 +3,7 @@
 #include "voronoi/shape.h"
 
 #include "base/alloc.h"
+#include "voronoi/outline_filter.h"
 #include "voronoi/polygon.h"
 
 dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect) {
@@ -24,11 +25,12 @@ void dyd_shape_clear(dyd_shape *s) {
   free(s->outer);
   free(s->fan);
   free(s->fan_box);
+  free(s->outline);
   *s = (dyd_shape){0};
 }
 
 static void shape_empty(dyd_shape *s) {
-  s->in_doubles = false;
+  s->in_doubles = s->on_grid = false;
   dyd_polygon_clear(&s->inner_exact);
   dyd_polygon_list_clear(&s->outer_exact);
 }
@@ -56,6 +58,7 @@ dyd_status dyd_shape_find(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, cons
   if (dyd_flag_is_set(w->cancel)) return DYD_CANCELLED;
   if (!pd->sk.mesh.no_filter) {
     dyd_status st = dyd_filter_shape(&done, s, pd, pd->sk.vertex[i], w, bits);
+    if (st == DYD_OK && !done) st = dyd_filter_polygons(&done, s, pd, i, w, bits);
     if (st != DYD_OK || done) return st;
   }
   dyd_status st = dyd_exact_inner(&s->inner_exact, pd, i, w, bits);
@@ -84,7 +87,7 @@ dyd_status dyd_shape_inner(dyd_polygon *out, const dyd_shape *s) {
 
 dyd_status dyd_shape_outer(dyd_polygon_list *out, const dyd_shape *s) {
   dyd_polygon_list list = {0};
-  size_t parts = s->in_doubles ? 1 : s->outer_exact.count;
+  size_t parts = s->in_doubles ? s->outer_count > 0 : s->outer_exact.count;
   list.item = calloc(parts ? parts : 1, sizeof *list.item);
   if (!list.item) return DYD_E_NOMEM;
   dyd_status st = DYD_OK;
@@ -113,7 +116,21 @@ static dyd_status polygon_list_area2(dyd_dyadic *out, const dyd_polygon_list *l)
   return st;
 }
 
+static dyd_status grid_area_to_dyadic(dyd_dyadic *out, const dyd_grid_area *a) {
+  mpz_t n;
+  bool minus = a->twice < 0;
+  __extension__ unsigned __int128 size = minus ? -(unsigned __int128)a->twice : (unsigned __int128)a->twice;
+  mpz_init_set_ui(n, (uint64_t)(size >> 64));
+  mpz_mul_2exp(n, n, 64);
+  mpz_add_ui(n, n, (uint64_t)size);
+  if (minus) mpz_neg(n, n);
+  dyd_status st = dyd_dyadic_set_z_2exp(out, n, -2 * (int64_t)a->scale);
+  mpz_clear(n);
+  return st;
+}
+
 dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer) {
+  if (s->on_grid) return grid_area_to_dyadic(out, &s->grid_area[outer]);
   if (!s->in_doubles) return outer ? polygon_list_area2(out, &s->outer_exact) : dyd_polygon_area2(out, &s->inner_exact);
   dyd_polygon p = {0};
   dyd_status st = polygon_from_doubles(&p, outer ? s->outer : s->inner, outer ? s->outer_count : s->inner_count);

@@ -18,18 +18,30 @@ typedef struct dyd_window {
 /* DYD_E_ARG unless W is as it has to be. */
 dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect);
 
-/* Invariant: in_doubles: inner[inner_count], outer[outer_count] are the polygons (one outer part), counter-clockwise,
- * and the areas of the polygons lie within area[]: inner from below, outer from above. Otherwise the exact ones. The
- * arrays behind are scratch, kept from cell to cell. */
+__extension__ typedef __int128 dyd_i128;
+/* twice * 2^(-2 scale) */
+typedef struct dyd_grid_area {
+  dyd_i128 twice;
+  int scale;
+} dyd_grid_area;
+
+struct dyd_outline;
+
+/* Invariant: in_doubles: inner[inner_count], outer[outer_count] are the polygons (at most one outer part),
+ * counter-clockwise, and the areas of the polygons lie within area[]: inner from below, outer from above; or on_grid:
+ * they are those of grid_area[], twice. Otherwise the exact ones. The arrays behind are scratch, kept from cell to
+ * cell. */
 typedef struct dyd_shape {
-  bool in_doubles;
+  bool in_doubles, on_grid;
   uint32_t inner_count, outer_count;
   dyd_xy *inner, *outer;
   double area[2];
+  dyd_grid_area grid_area[2];
   dyd_polygon inner_exact;
   dyd_polygon_list outer_exact;
   uint32_t *fan; /* vertices round the site */
   dyd_bbox *fan_box;
+  struct dyd_outline *outline;
   size_t inner_cap, outer_cap, fan_cap, box_cap;
 } dyd_shape;
 /* Release with dyd_shape_clear; init with {0}. */
@@ -50,9 +62,15 @@ dyd_status dyd_shape_outer(dyd_polygon_list *out, const dyd_shape *s);
 dyd_status dyd_filter_shape(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t v, const dyd_window *w,
                             int64_t bits);
 
+/* polygon_filter.c: the polygons of the rung in dyadics, from boundaries in doubles. As dyd_filter_shape. */
+dyd_status dyd_filter_polygons(bool *done, dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w,
+                               int64_t bits);
+
 /* polygon_exact.c: the rung in dyadics, from the exact boundaries. */
 dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i, const dyd_window *w, int64_t bits);
 dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32_t i, const dyd_window *w,
                            int64_t bits);
+/* W enlarged by 2^-(bits+1) on each side, so that its boundary and all within 2^-(bits+2) of it is outside of W. */
+dyd_status dyd_window_enlarge(dyd_rect *out, const dyd_rect *window, int64_t bits);
 
 #endif

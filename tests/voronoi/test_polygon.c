@@ -248,7 +248,7 @@ static bool check_shape(char *message, orc_pool *p, const setting *s, size_t i) 
       dyd_window_init(&w, &s->rect) == DYD_OK && dyd_shape_find(&shape, s->pd, (uint32_t)i, &w, s->bits) == DYD_OK;
   dyd_dyadic_init(&area2);
   *(shape.in_doubles ? &fast_sites : &exact_sites) += 1;
-  for (int outer = 0; outer < 2 && good && shape.in_doubles; outer++) {
+  for (int outer = 0; outer < 2 && good && shape.in_doubles && !shape.on_grid; outer++) {
     size_t mark = orc_mark(p);
     mpq_ptr exact = orc_new(p), stated = orc_new(p);
     good = dyd_shape_area2(&area2, &shape, outer) == DYD_OK;

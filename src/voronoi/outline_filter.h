@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The boundary of a region in a window in doubles: what dyd_cell_boundary finds exactly, with boxes in place of points.
+ *
+ * Each step of the exact work is done in intervals that hold, and each decision is taken only where these leave no
+ * doubt; else nothing is said and the exact rung does the cell [OUTLINE-1]. */
+#ifndef DYD_VORONOI_OUTLINE_FILTER_H
+#define DYD_VORONOI_OUTLINE_FILTER_H
+
+#include "delaunay/state.h"
+#include "voronoi/exact_cell_filter.h"
+
+enum { DYD_OUTLINE_OTHERS = 48, DYD_OUTLINE_ARCS = 256, DYD_OUTLINE_MEETS = 512, DYD_OUTLINE_PIECES = 128 };
+
+/* A point, relative to the origin of the outline. at[a] encloses coordinate a. side[a]: which end of the window (0, 1)
+ * coordinate a is, exactly; else -1. */
+typedef struct dyd_outline_spot {
+  dyd_iv at[2];
+  int side[2];
+} dyd_outline_spot;
+
+/* As dyd_elementary, whose words it uses. tilt[a]: sign of q[a] - s[a]. near_side[a]: 1 beyond the upper side of the
+ * near rectangle, else -1. */
+typedef struct dyd_outline_arc {
+  dyd_filter_arc shape;
+  uint32_t curve;
+  int axis, branch, corner, feature;
+  bool either; /* the exact work may go along the other axis */
+  int tilt[2], near_side[2];
+  dyd_iv lo[2], hi[2];
+  dyd_outline_spot end[2];
+} dyd_outline_arc;
+
+/* As dyd_piece. */
+typedef struct dyd_outline_piece {
+  uint32_t curve;
+  const dyd_outline_arc *arc;
+  const dyd_outline_spot *begin, *end;
+} dyd_outline_piece;
+
+/* A point in which two curves meet: of arcs a and b. */
+typedef struct dyd_outline_meet {
+  uint32_t arc[2];
+  dyd_outline_spot spot;
+} dyd_outline_meet;
+
+/* Loaded once for a site: site, count, box and thin (its own last). The rest is found by dyd_filter_outline: part[0 ..
+ * parts) is the closed boundary, with the region on the left; parts = 0: there is none. curve = count + side: of the
+ * window. */
+typedef struct dyd_outline {
+  uint32_t site[DYD_OUTLINE_OTHERS];
+  size_t count;
+  dyd_box box[DYD_OUTLINE_OTHERS + 1], window;
+  bool thin[DYD_OUTLINE_OTHERS + 1][2]; /* equal ends, though doubles may not hold them */
+  double origin[2];
+  bool outer, unsure;
+  dyd_box near[DYD_OUTLINE_OTHERS + 1], frame; /* relative to the origin; frame: the window */
+  double slack[DYD_OUTLINE_OTHERS + 1];        /* by how much `outer` of near may be too far out */
+  bool drop[DYD_OUTLINE_OTHERS];               /* meets the site: does not matter to Pos */
+  double limit[4];                             /* lower and upper bounds of all points of Pos, hence of Int */
+  dyd_iv bound[4];                             /* the window cut down to them, */
+  bool of_window[4];                           /* where that is an end of the window */
+  dyd_outline_arc arc[DYD_OUTLINE_ARCS];
+  dyd_outline_meet meet[DYD_OUTLINE_MEETS];
+  dyd_outline_spot corner[4];
+  dyd_outline_piece piece[DYD_OUTLINE_PIECES], part[DYD_OUTLINE_PIECES];
+  size_t arcs, meets, pieces, parts, taker;
+  const dyd_outline_spot *cut[DYD_OUTLINE_MEETS + 2];
+} dyd_outline;
+
+/* The site and its possible neighbours. *done = false: too many of them, or ends beyond doubles. */
+dyd_status dyd_outline_load(bool *done, dyd_outline *o, const dyd_delaunay *pd, uint32_t i);
+/* false: something is in doubt. Pos first: its outline limits that of Int. */
+bool dyd_filter_outline(dyd_outline *o, const dyd_rect *window, bool outer);
+/* Coordinate a of a point, not relative to the origin. */
+dyd_iv dyd_outline_coordinate(const dyd_outline *o, const dyd_outline_spot *p, int a);
+
+/* outline_point_filter.c. Order of a and b; equal only as numbers that are known. Sets *unsure where it is not known.
+ */
+int dyd_outline_order(bool *unsure, dyd_iv a, dyd_iv b);
+/* Does someone other than `own` surely take all points of the box away from it? *doubt: someone may take a point. */
+bool dyd_outline_taken(bool *doubt, dyd_outline *o, size_t own, const dyd_iv at[2]);
+
+/* outline_arc_filter.c: the arcs of the curves of all others, but for those that are taken away. What is in doubt sets
+ * o->unsure. */
+void dyd_outline_find_arcs(dyd_outline *o);
+/* The point of an arc at t along its axis. */
+dyd_outline_spot dyd_outline_arc_at(const dyd_outline_arc *a, dyd_iv t);
+/* Encloses coordinate k of all points of an arc. */
+dyd_iv dyd_outline_arc_span(const dyd_outline_arc *a, int k);
+/* outline_meet_filter.c: where the curves cross. */
+void dyd_outline_find_meets(dyd_outline *o);
+
+#endif

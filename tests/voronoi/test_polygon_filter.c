@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* [OUTLINE-1] The polygons found from boundaries in doubles are those of the exact rung, number by number: vertices in
+ * the same order, areas. Rectangles of doubles and of decimals that no double holds, points among them, on a lattice
+ * with ties, apart, touching and overlapping; windows anywhere, some of no doubles. */
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include "support/random.h"
+#include "voronoi/polygon.h"
+#include "voronoi/shape.h"
+#include <cmocka.h>
+#include <dyadel/stream.h>
+#include <math.h>
+#include <stdio.h>
+
+enum { LATTICE, DOUBLES, DECIMALS, MIXED, KINDS, MOST = 60 };
+
+static size_t cells[KINDS], done[KINDS], corners;
+
+/* ---- cases ---- */
+
+static int64_t whole(test_random *r, int64_t most) {
+  return test_between(r, 0, most);
+}
+
+/* [x - w, x + w], in units of 2^-20 or of a millionth. */
+static void set_side(dyd_interval *out, int64_t x, int64_t w, bool decimal) {
+  char text[80];
+  if (!decimal) {
+    assert_int_equal(dyd_interval_set_d(out, ldexp((double)(x - w), -20), ldexp((double)(x + w), -20)), DYD_OK);
+    return;
+  }
+  int length = snprintf(text, sizeof text, "[%llde-6,%llde-6]", (long long)(x - w), (long long)(x + w));
+  assert_int_equal(dyd_interval_set_text(out, text, (size_t)length, NULL), DYD_OK);
+}
+
+/* Half-widths of a share of the spacing: 0, small, touching now and then, overlapping. */
+static void make_rect(dyd_rect *out, test_random *r, size_t kind, int64_t size) {
+  static const double share[] = {0, 0x1p-20, 0.05, 0.1, 0.3, 0.6};
+  int64_t most = kind == LATTICE ? 24 : 1000000007, spacing = most / 6;
+  bool decimal = kind == DECIMALS || kind == MIXED;
+  int64_t w[2];
+  for (int k = 0; k < 2; k++) {
+    int64_t one = kind == MIXED ? (int64_t)test_below(r, 6) : size;
+    w[k] = kind == LATTICE ? (int64_t)test_below(r, (uint64_t)size + 1) : (int64_t)(share[one] * (double)spacing);
+  }
+  if (kind != LATTICE && test_chance(r, 3)) w[1] = w[0];
+  set_side(&out->x, whole(r, most), w[0], decimal);
+  set_side(&out->y, whole(r, most), w[1], decimal);
+}
+
+static void make_window(dyd_rect *out, test_random *r, size_t kind) {
+  double size = kind == LATTICE ? 24 * 0x1p-20 : kind == DOUBLES ? 954 : 1000, x = size / 2, y = size / 2;
+  double half = size * ldexp(1, 1 - (int)test_below(r, 4));
+  if (test_chance(r, 2)) x += size * (test_unit(r) - 0.5), y += size * (test_unit(r) - 0.5);
+  if (test_chance(r, 3)) x = floor(x), y = floor(y), half = ceil(half);
+  assert_int_equal(dyd_rect_set_d(out, x - half, x + half, y - half, y + half), DYD_OK);
+  if (!test_chance(r, 5)) return;
+  dyd_dyadic little; /* an end that is no double */
+  dyd_dyadic_init(&little);
+  assert_int_equal(dyd_dyadic_set_si_2exp(&little, 1, -80), DYD_OK);
+  assert_int_equal(dyd_dyadic_add(&out->x.hi, &out->x.hi, &little), DYD_OK);
+  dyd_dyadic_clear(&little);
+}
+
+/* ---- comparison ---- */
+
+static void same_polygon(const dyd_polygon *a, const dyd_polygon *b) {
+  assert_int_equal(a->count, b->count);
+  for (size_t k = 0; k < a->count; k++) {
+    assert_int_equal(dyd_dyadic_cmp(&a->vertex[k].x, &b->vertex[k].x), 0);
+    assert_int_equal(dyd_dyadic_cmp(&a->vertex[k].y, &b->vertex[k].y), 0);
+    corners++;
+  }
+}
+
+static void same_area(const dyd_shape *s, bool outer, const dyd_polygon *p) {
+  dyd_dyadic a, b;
+  dyd_dyadic_init(&a);
+  dyd_dyadic_init(&b);
+  assert_int_equal(dyd_shape_area2(&a, s, outer), DYD_OK);
+  if (p) assert_int_equal(dyd_polygon_area2(&b, p), DYD_OK);
+  assert_int_equal(dyd_dyadic_cmp(&a, &b), 0);
+  dyd_dyadic_clear(&b);
+  dyd_dyadic_clear(&a);
+}
+
+static void check_cell(size_t kind, dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_window *w, long bits) {
+  dyd_polygon inner = {0}, copy = {0};
+  dyd_polygon_list outer = {0}, copies = {0};
+  bool found;
+  assert_int_equal(dyd_filter_polygons(&found, s, pd, i, w, bits), DYD_OK);
+  cells[kind]++;
+  done[kind] += found;
+  if (!found) return;
+  assert_int_equal(dyd_exact_inner(&inner, pd, i, w, bits), DYD_OK);
+  assert_int_equal(dyd_exact_outer(&outer, pd, i, w, bits), DYD_OK);
+  assert_int_equal(dyd_shape_inner(&copy, s), DYD_OK);
+  assert_int_equal(dyd_shape_outer(&copies, s), DYD_OK);
+  same_polygon(&inner, &copy);
+  same_area(s, false, &inner);
+  assert_int_equal(outer.count, copies.count);
+  assert_true(outer.count <= 1);
+  if (outer.count) same_polygon(&outer.item[0], &copies.item[0]);
+  same_area(s, true, outer.count ? &outer.item[0] : NULL);
+  dyd_polygon_list_clear(&copies);
+  dyd_polygon_list_clear(&outer);
+  dyd_polygon_clear(&copy);
+  dyd_polygon_clear(&inner);
+}
+
+static void check_case(test_random *r, size_t kind) {
+  unsigned n = (unsigned)test_between(r, 3, MOST);
+  int64_t size = (int64_t)test_below(r, kind == LATTICE ? 3 : 6);
+  dyd_rect rect;
+  dyd_sites *sites = NULL;
+  dyd_delaunay *pd = NULL;
+  dyd_shape shape = {0};
+  dyd_window w;
+  dyd_rect_init(&rect);
+  assert_int_equal(dyd_sites_new(&sites), DYD_OK);
+  for (unsigned k = 0; k < n; k++) {
+    make_rect(&rect, r, kind, size);
+    assert_int_equal(dyd_sites_add_rect(sites, &rect), DYD_OK);
+  }
+  assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, NULL), DYD_OK);
+  for (int times = 0; times < 12; times++) {
+    uint32_t i = (uint32_t)test_below(r, n);
+    make_window(&rect, r, kind);
+    assert_int_equal(dyd_window_init(&w, &rect), DYD_OK);
+    long coarse = kind == LATTICE ? 16 : -8;
+    if (dyd_delaunay_alias(pd, i) == i) check_cell(kind, &shape, pd, i, &w, coarse + (long)test_below(r, 10));
+  }
+  dyd_shape_clear(&shape);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  dyd_rect_clear(&rect);
+}
+
+static void same_as_exact(void **state) {
+  (void)state;
+  test_random r = test_random_start("polygon filter");
+  for (size_t k = 0; k < test_cases(160); k++) check_case(&r, k % KINDS);
+  for (size_t k = 0; k < KINDS; k++) fprintf(stderr, "# kind %zu: %zu of %zu cells\n", k, done[k], cells[k]);
+  fprintf(stderr, "# %zu corners\n", corners);
+  assert_true(2 * done[DOUBLES] > cells[DOUBLES] && 2 * done[DECIMALS] > cells[DECIMALS] && done[LATTICE] > 0 &&
+              3 * done[MIXED] > cells[MIXED]);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(same_as_exact)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
