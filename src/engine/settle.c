@@ -41,10 +41,6 @@ static const dyd_settled_pair *settled_find(const dyd_settled *s, uint32_t i, ui
   return s->count ? bsearch(&key, s->item, s->count, sizeof key, settled_compare) : NULL;
 }
 
-bool dyd_pair_is_settled(const dyd_settled_pair *p) {
-  return p->possible && p->unsure;
-}
-
 bool dyd_is_settled(const dyd_settled *s, const dyd_pair *pair) {
   const dyd_settled_pair *p = settled_find(s, pair->i, pair->j);
   return p && dyd_pair_is_settled(p);

@@ -22,7 +22,9 @@ typedef struct dyd_settled {
 } dyd_settled;
 
 void dyd_settled_clear(dyd_settled *s);
-bool dyd_pair_is_settled(const dyd_settled_pair *p);
+static inline bool dyd_pair_is_settled(const dyd_settled_pair *p) {
+  return p->possible && p->unsure;
+}
 /* Is the pair indeterminate for good? */
 bool dyd_is_settled(const dyd_settled *s, const dyd_pair *pair);
 /* Looks at pairs in undecided faces with fixed rectangles and points that can be narrowed, when these are known to more
