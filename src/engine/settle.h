@@ -6,7 +6,7 @@
 #include "engine/plan.h"
 
 /* possible: some choice of the points of fixed rectangles makes the pair an edge wherever the others are; unsure: it is
- * legal wherever they are narrowed to. */
+ * not legal wherever they are narrowed to. */
 typedef struct dyd_settled_pair {
   uint32_t i, j;
   bool possible, unsure;
@@ -22,6 +22,9 @@ typedef struct dyd_settled {
 } dyd_settled;
 
 void dyd_settled_clear(dyd_settled *s);
+static inline bool dyd_pair_is_settled(const dyd_settled_pair *p) {
+  return p->possible && p->unsure;
+}
 /* Is the pair indeterminate for good? */
 bool dyd_is_settled(const dyd_settled *s, const dyd_pair *pair);
 /* Looks at pairs in undecided faces with fixed rectangles and points that can be narrowed, when these are known to more

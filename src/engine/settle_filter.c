@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Choices of the points of fixed rectangles, by a few centres and a descent in doubles.
+/* Centres of discs for some choice of the points of fixed rectangles, by a few of them and a descent in doubles.
  *
  * For a centre c the choice that joins i and j best is clear: theirs nearest to c, all others farthest. There is room
  * when the farther of i and j is then nearer to c than all others, wherever those are that cannot be chosen. */
@@ -11,7 +11,7 @@
 /* First centres lie this often the distance of i and j off the middle, on both sides. From the best of them descents
  * begin: from all, when that matters, with more steps. */
 static const double offset[] = {0, 0.125, 0.25, 0.5, 1, 2, 4, 16, 64, 4096};
-enum { STARTS = 2 * sizeof offset / sizeof *offset, BEST = 3, STEPS = 40, MORE_STEPS = 150 };
+enum { BEST = 20, GAPS = 32, ALONG = 64, STEPS = 40, MORE_STEPS = 150 };
 
 /* A question: sites i and j among `count`. last: who left least room the last time, and is looked at first. */
 typedef struct joining {
@@ -25,15 +25,6 @@ typedef struct centre {
 
 static double clamped(double v, double lo, double hi) {
   return v < lo ? lo : v > hi ? hi : v;
-}
-
-static void site_choose_near(dyd_settle_site *s, const double c[2]) {
-  for (int a = 0; a < 2; a++) s->at[a] = clamped(c[a], s->box[2 * a], s->box[2 * a + 1]);
-}
-
-static void site_choose_far(dyd_settle_site *s, const double c[2]) {
-  for (int a = 0; a < 2; a++)
-    s->at[a] = c[a] - s->box[2 * a] > s->box[2 * a + 1] - c[a] ? s->box[2 * a] : s->box[2 * a + 1];
 }
 
 static double square(double x) {
@@ -94,82 +85,128 @@ static void centre_climb(centre *c, joining *q, int steps) {
   }
 }
 
-static int centre_compare(const void *a, const void *b) {
-  const centre *c = a, *d = b;
-  return (c->room < d->room) - (c->room > d->room);
+/* The best centres met, best first; middle and d: where i and j are, and how far apart. */
+typedef struct centre_list {
+  centre best[BEST];
+  double middle[2], d[2];
+} centre_list;
+
+static void centre_offer(centre_list *l, joining *q, const double at[2]) {
+  double room = centre_room(q, at, l->best[BEST - 1].room);
+  double far = hypot(at[0] - l->middle[0], at[1] - l->middle[1]) / 2, step = fmax(far, hypot(l->d[0], l->d[1]) / 8);
+  size_t n = BEST;
+  for (; n > 0 && room > l->best[n - 1].room; n--)
+    if (n < BEST) l->best[n] = l->best[n - 1];
+  if (n < BEST) l->best[n] = (centre){{at[0], at[1]}, room, step};
 }
 
-/* The first centres, best first. */
-static void centre_starts(centre start[STARTS], joining *q) {
+/* Offers centres between i and j. */
+static void centre_list_start(centre_list *l, joining *q) {
   const dyd_settle_site *a = &q->site[q->i], *b = &q->site[q->j];
-  double middle[2], d[2];
+  for (size_t n = 0; n < BEST; n++) l->best[n].room = -HUGE_VAL;
   for (int x = 0; x < 2; x++) {
-    middle[x] = site_middle(a, x) / 2 + site_middle(b, x) / 2;
-    d[x] = site_middle(b, x) - site_middle(a, x);
+    l->middle[x] = site_middle(a, x) / 2 + site_middle(b, x) / 2;
+    l->d[x] = site_middle(b, x) - site_middle(a, x);
   }
-  for (size_t n = 0; n < STARTS; n++) {
+  for (size_t n = 0; n < 2 * sizeof offset / sizeof *offset; n++) {
     double t = n % 2 ? -offset[n / 2] : offset[n / 2];
-    start[n] = (centre){{middle[0] - t * d[1], middle[1] + t * d[0]}, 0, fmax(fabs(t), 0.25) / 2 * hypot(d[0], d[1])};
-    start[n].room = centre_room(q, start[n].at, -HUGE_VAL);
+    const double at[2] = {l->middle[0] - t * l->d[1], l->middle[1] + t * l->d[0]};
+    centre_offer(l, q, at);
   }
-  qsort(start, STARTS, sizeof *start, centre_compare);
+}
+
+/* Is its box wider than a point? */
+static bool site_is_wide(const dyd_settle_site *s) {
+  return s->fixed && (s->box[0] < s->box[1] || s->box[2] < s->box[3]);
+}
+
+/* Number n of a row of points around the box; false: there is none. */
+static bool site_spot(double out[2], const dyd_settle_site *s, int n) {
+  const double *b = s->box, t = (double)(n % ALONG) / ALONG, w = b[1] - b[0], h = b[3] - b[2];
+  switch (n / ALONG) {
+  case 0:
+    out[0] = b[0] + t * w, out[1] = b[2];
+    break;
+  case 1:
+    out[0] = b[1], out[1] = b[2] + t * h;
+    break;
+  case 2:
+    out[0] = b[1] - t * w, out[1] = b[3];
+    break;
+  default:
+    out[0] = b[0], out[1] = b[3] - t * h;
+  }
+  return n < (site_is_wide(s) ? 4 * ALONG : 1);
+}
+
+/* Centres a + u / 2 + t n of circles through a and a + u, n being u turned to the left. */
+typedef struct pencil {
+  double a[2], u[2], n[2];
+} pencil;
+
+/* Site k is inside the circle, or has no corner outside it, from *lo to *hi: for each corner on one side of some t. */
+static void pencil_blocked(double *lo, double *hi, const pencil *p, const dyd_settle_site *s) {
+  *lo = -HUGE_VAL;
+  *hi = HUGE_VAL;
+  for (int k = 0; k < 4; k++) {
+    const double v[2] = {s->box[k % 2] - p->a[0], s->box[2 + k / 2] - p->a[1]};
+    double free = v[0] * (v[0] - p->u[0]) + v[1] * (v[1] - p->u[1]), slope = 2 * (p->n[0] * v[0] + p->n[1] * v[1]);
+    if (slope > 0) *lo = fmax(*lo, free / slope);
+    if (slope < 0) *hi = fmin(*hi, free / slope);
+  }
+}
+
+/* *t goes up to where nobody is in the way; *end is how far that goes. */
+static void pencil_next_gap(double *t, double *end, const pencil *p, const joining *q) {
+  for (bool moved = true; moved;) {
+    *end = HUGE_VAL;
+    moved = false;
+    for (size_t k = 0; k < q->count; k++) {
+      double lo, hi;
+      if (k == q->i || k == q->j) continue;
+      pencil_blocked(&lo, &hi, p, &q->site[k]);
+      if (lo > *t && lo < hi) *end = fmin(*end, lo);
+      if (lo > *t || !(hi > *t)) continue;
+      *t = hi;
+      moved = true;
+    }
+  }
+}
+
+/* Offers the middles of the gaps where circles through a and b hold too little of all others. */
+static void centre_offer_gaps(centre_list *l, joining *q, const double a[2], const double b[2]) {
+  const pencil p = {{a[0], a[1]}, {b[0] - a[0], b[1] - a[1]}, {a[1] - b[1], b[0] - a[0]}};
+  double t = -1e6, end;
+  for (int n = 0; n < GAPS && t < 1e6; n++, t = end) {
+    pencil_next_gap(&t, &end, &p, q);
+    double m = (t + fmin(end, 1e6)) / 2;
+    const double at[2] = {a[0] + p.u[0] / 2 + m * p.n[0], a[1] + p.u[1] / 2 + m * p.n[1]};
+    if (t < 1e6) centre_offer(l, q, at);
+  }
 }
 
 static centre centre_find(joining *q, bool thorough) {
-  centre start[STARTS];
-  centre_starts(start, q);
-  centre best = start[0];
-  for (size_t n = 0; n < (thorough ? STARTS : BEST); n++) {
-    centre_climb(&start[n], q, thorough ? MORE_STEPS : STEPS);
-    if (start[n].room > best.room) best = start[n];
+  centre_list l;
+  centre_list_start(&l, q);
+  const dyd_settle_site *i = &q->site[q->i], *j = &q->site[q->j];
+  int step = site_is_wide(i) && site_is_wide(j) ? 8 : 1;
+  double a[2], b[2];
+  for (int n = 0; thorough && site_spot(a, i, n); n += step)
+    for (int m = 0; site_spot(b, j, m); m += step) centre_offer_gaps(&l, q, a, b);
+  centre best = l.best[0];
+  for (size_t n = 0; n < (thorough ? BEST : 3); n++) {
+    centre_climb(&l.best[n], q, thorough ? MORE_STEPS : STEPS);
+    if (l.best[n].room > best.room) best = l.best[n];
   }
   return best;
 }
 
-/* Where both ends could be at the centre they are put apart, within its room. */
-static void ends_part(dyd_settle_site *a, const dyd_settle_site *b, const centre *c) {
-  double corner[2], way;
-  if (!a->fixed || a->at[0] != b->at[0] || a->at[1] != b->at[1]) return;
-  for (int q = 0; q < 2; q++) corner[q] = a->at[q];
-  site_choose_far(a, corner);
-  way = hypot(a->at[0] - corner[0], a->at[1] - corner[1]);
-  double part = way > 0 ? fmin(c->room / 2 / way, 0.5) : 0;
-  for (int q = 0; q < 2; q++) a->at[q] = corner[q] + part * (a->at[q] - corner[q]);
-}
-
-bool dyd_filter_choose_joined(dyd_settle_site *site, size_t count, size_t i, size_t j, bool thorough) {
+bool dyd_filter_find_centre(double c[2], const dyd_settle_site *site, size_t count, size_t i, size_t j, bool thorough) {
   joining q = {site, count, i, j, i};
-  centre c = centre_find(&q, thorough);
-  if (!(c.room > 0)) return false;
-  for (size_t k = 0; k < count; k++) {
-    if (k == i || k == j)
-      site_choose_near(&site[k], c.at);
-    else
-      site_choose_far(&site[k], c.at);
-  }
-  ends_part(&site[i], &site[j], &c);
-  return true;
-}
-
-static double side_of(const dyd_settle_site *a, const dyd_settle_site *b, const dyd_settle_site *c) {
-  return (site_middle(b, 0) - site_middle(a, 0)) * (site_middle(c, 1) - site_middle(a, 1)) -
-         (site_middle(b, 1) - site_middle(a, 1)) * (site_middle(c, 0) - site_middle(a, 0));
-}
-
-bool dyd_filter_middles_cross(const dyd_settle_site *site, size_t i, size_t j, size_t k, size_t l) {
-  const dyd_settle_site *a = &site[i], *b = &site[j], *c = &site[k], *d = &site[l];
-  return side_of(a, b, c) * side_of(a, b, d) < 0 && side_of(c, d, a) * side_of(c, d, b) < 0;
-}
-
-void dyd_filter_choose_parted(dyd_settle_site *site, size_t count, size_t i, size_t j) {
-  double c[2];
-  for (int a = 0; a < 2; a++) c[a] = site_middle(&site[i], a) / 2 + site_middle(&site[j], a) / 2;
-  for (size_t k = 0; k < count; k++) {
-    if (k == i || k == j)
-      site_choose_far(&site[k], c);
-    else
-      site_choose_near(&site[k], c);
-  }
+  centre best = centre_find(&q, thorough);
+  c[0] = best.at[0];
+  c[1] = best.at[1];
+  return best.room > 0;
 }
 
 void dyd_filter_choose_middles(dyd_settle_site *site, size_t count) {

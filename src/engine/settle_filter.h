@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Where to put the points of fixed rectangles, so that a pair becomes legal, or illegal. Guesses: nothing that is
- * stated depends on them. */
+/* Where to put the points of fixed rectangles, so that a pair becomes an edge, or cannot be legal. Guesses: nothing
+ * that is stated depends on them. */
 #ifndef DYD_ENGINE_SETTLE_FILTER_H
 #define DYD_ENGINE_SETTLE_FILTER_H
 
@@ -19,13 +19,21 @@ typedef struct dyd_settle_site {
 void dyd_filter_choose_middles(dyd_settle_site *site, size_t count);
 /* Anywhere. */
 void dyd_filter_choose_any(dyd_settle_site *site, size_t count, uint64_t *random);
-/* For sites i and j to be a legal pair: towards a centre, the others away from it, the centre being the one for which
- * that leaves most room. false, and no choice: none with any room was found. thorough: looks about ten times as long.
- */
-bool dyd_filter_choose_joined(dyd_settle_site *site, size_t count, size_t i, size_t j, bool thorough);
-/* Do the pairs ij and kl cross, taken as points in the middles? */
-bool dyd_filter_middles_cross(const dyd_settle_site *site, size_t i, size_t j, size_t k, size_t l);
-/* For them to be no pair: apart, and the others between them. */
-void dyd_filter_choose_parted(dyd_settle_site *site, size_t count, size_t i, size_t j);
+/* The centre of a disc that holds a choice of points of sites i and j, of the others that are not fixed no point, of
+ * the others that are fixed not all; of such centres one with much room. false: none with any room was found.
+ * thorough: looks about ten times as long. */
+bool dyd_filter_find_centre(double c[2], const dyd_settle_site *site, size_t count, size_t i, size_t j, bool thorough);
+
+/* Four points at[k] of site[k]. inside: number 3 is among the three others, all of them of the two ends; else 0 and 1
+ * are of ends, and 2 and 3 of others: the segments 01 and 23 cross, and the circle through 0, 1, 2 goes around 3. Sites
+ * that are not fixed have their middles there. */
+typedef struct dyd_settle_cut {
+  size_t site[4];
+  double at[4][2];
+  bool inside;
+} dyd_settle_cut;
+
+/* Such points for the ends i and j; false: none were found. */
+bool dyd_filter_find_cut(dyd_settle_cut *out, const dyd_settle_site *site, size_t count, size_t i, size_t j);
 
 #endif

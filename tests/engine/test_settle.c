@@ -3,6 +3,7 @@
  * whatever these points are [SET-1] [SET-2]; what can be decided is decided; wide streams are asked no more than that
  * needs. */
 #include "engine/help.h"
+#include "engine/settle_face.h"
 
 #include <math.h>
 
@@ -51,22 +52,28 @@ static double anywhere(test_random *r, double lo, double hi) {
   return kind == 0 ? lo : kind == 1 ? hi : fmin(hi, lo + (hi - lo) * test_unit(r));
 }
 
-/* Every indeterminate pair stays one when the loose points are put anywhere in their rectangles. */
-static void check_settled(const dyd_engine *e, test_random *r, size_t fixed) {
+/* The triangulation when the loose points are anywhere in their rectangles. */
+static dyd_delaunay *narrowed(dyd_sites **then, const dyd_engine *e, test_random *r, size_t fixed) {
   const dyd_sites *now = dyd_engine_sites(e);
-  dyd_sites *then;
   dyd_delaunay *pd;
-  dyd_pair_list pairs = {0};
-  assert_int_equal(DYD_OK, dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(e)));
-  assert_int_equal(DYD_OK, dyd_sites_new(&then));
+  assert_int_equal(DYD_OK, dyd_sites_new(then));
   for (size_t i = 0; i < dyd_sites_count(now); i++) {
     double d[4];
     dyd_sites_get_d(d, now, i); /* doubles hold all of them */
     if (i >= fixed) d[0] = d[1] = anywhere(r, d[0], d[1]);
     if (i >= fixed) d[2] = d[3] = anywhere(r, d[2], d[3]);
-    assert_int_equal(DYD_OK, dyd_sites_add_boxes(then, 1, &d[0], &d[1], &d[2], &d[3]));
+    assert_int_equal(DYD_OK, dyd_sites_add_boxes(*then, 1, &d[0], &d[1], &d[2], &d[3]));
   }
-  assert_int_equal(DYD_OK, dyd_delaunay_new(&pd, then, NULL, NULL));
+  assert_int_equal(DYD_OK, dyd_delaunay_new(&pd, *then, NULL, NULL));
+  return pd;
+}
+
+/* Every indeterminate pair stays one. */
+static void check_settled(const dyd_engine *e, test_random *r, size_t fixed) {
+  dyd_sites *then;
+  dyd_delaunay *pd = narrowed(&then, e, r, fixed);
+  dyd_pair_list pairs = {0};
+  assert_int_equal(DYD_OK, dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(e)));
   for (size_t k = 0; k < pairs.count; k++)
     if (pairs.item[k].status == DYD_INDETERMINATE)
       assert_int_equal(DYD_INDETERMINATE, dyd_delaunay_status(pd, pairs.item[k].i, pairs.item[k].j));
@@ -109,7 +116,80 @@ static void test_settled(void **state) {
     dyd_engine_free(e);
   }
   fprintf(stderr, "# %zu of %zu runs ended early\n", early, rounds);
-  assert_true(early > rounds / 3);
+  assert_true(early > rounds * 3 / 4);
+}
+
+/* A few sites, by what they alone suggest, while there are others around: what is said of their pairs is true wherever
+ * the loose points are. */
+static void check_few(size_t said[2], const dyd_engine *e, test_random *r, size_t fixed) {
+  enum { FEW = 5, PAIRS = FEW * (FEW - 1) / 2 };
+  size_t work = SIZE_MAX, count = 0;
+  uint64_t random = 1;
+  uint32_t few[FEW];
+  dyd_settled_pair pair[PAIRS];
+  for (uint32_t k = 0; k < FEW; k++) few[k] = (uint32_t)(k * dyd_engine_count(e) / FEW);
+  for (uint32_t k = 0; k < FEW * FEW; k++)
+    if (k / FEW < k % FEW) pair[count++] = (dyd_settled_pair){few[k / FEW], few[k % FEW], false, false};
+  const dyd_index_list face = {.item = few, .count = FEW};
+  assert_int_equal(DYD_OK, dyd_settle_face(pair, &random, &work, e, count, &face));
+  for (int n = 0; n < 20; n++) {
+    dyd_sites *then;
+    dyd_delaunay *pd = narrowed(&then, e, r, fixed);
+    for (size_t k = 0; k < count; k++) {
+      dyd_pair_status status = dyd_delaunay_status(pd, pair[k].i, pair[k].j);
+      assert_true(!pair[k].possible || status != DYD_ILLEGAL);
+      assert_true(!pair[k].unsure || status != DYD_LEGAL);
+    }
+    dyd_delaunay_free(pd);
+    dyd_sites_free(then);
+  }
+  for (size_t k = 0; k < count; k++) {
+    said[0] += pair[k].possible;
+    said[1] += pair[k].unsure;
+  }
+}
+
+static void test_few(void **state) {
+  (void)state;
+  test_random r = test_random_start(__func__);
+  size_t said[2] = {0, 0};
+  for (size_t round = 0; round < test_cases(150); round++) {
+    rough f;
+    size_t fixed = (size_t)test_between(&r, 3, 9), loose = (size_t)test_between(&r, 3, 9);
+    dyd_engine_options o;
+    dyd_outcome outcome;
+    dyd_engine *e = engine_new();
+    add_mixed(e, &f, &r, fixed, loose);
+    dyd_engine_options_init(&o);
+    o.start_bits = o.max_bits = test_between(&r, 1, 4);
+    assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &o, NULL));
+    check_few(said, e, &r, fixed);
+    dyd_engine_free(e);
+  }
+  fprintf(stderr, "# %zu possible, %zu never legal\n", said[0], said[1]);
+  assert_true(said[0] > 100 && said[1] > 100);
+}
+
+/* A crowd: boxes 0.05 wide and points that expressions give, anywhere in a unit square. Nothing but the boxes keeps
+ * pairs open, and all of these are found. */
+static void test_crowd(void **state) {
+  (void)state;
+  test_random r = test_random_start(__func__);
+  for (size_t round = 0; round < test_cases(2); round++) {
+    dyd_engine *e = engine_new();
+    char text[2][64];
+    for (int k = 0; k < 60; k++) {
+      double x0 = test_unit(&r), y0 = test_unit(&r), x1 = x0 + 0.05, y1 = y0 + 0.05;
+      assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 1, &x0, &x1, &y0, &y1));
+    }
+    for (int k = 0; k < 200; k++) {
+      for (int a = 0; a < 2; a++) snprintf(text[a], sizeof text[a], "%.6f+sqrt(2)/1000", test_unit(&r));
+      engine_add_text(e, text[0], text[1]);
+    }
+    engine_run(e, NULL, DYD_OUTCOME_FIXPOINT);
+    assert_true(engine_counters(e).bits_most <= 1024);
+    dyd_engine_free(e);
+  }
 }
 
 /* With a bound as the goal points go on to be narrowed. */
@@ -157,9 +237,8 @@ static void test_both(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_settled),
-      cmocka_unit_test(test_bound),
-      cmocka_unit_test(test_both),
+      cmocka_unit_test(test_settled), cmocka_unit_test(test_few),  cmocka_unit_test(test_crowd),
+      cmocka_unit_test(test_bound),   cmocka_unit_test(test_both),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

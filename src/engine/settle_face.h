@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Pairs of one undecided face, looked at one by one [SET-1]. */
+#ifndef DYD_ENGINE_SETTLE_FACE_H
+#define DYD_ENGINE_SETTLE_FACE_H
+
+#include "engine/settle.h"
+#include "engine/settle_firm.h"
+
+/* Looks at open pairs of a face with the given sites, and writes down what is found. *work, in sites looked at, becomes
+ * less; at 0 no more is done. DYD_CANCELLED when e->stop was seen. Nothing is found where no rectangle is fixed. */
+dyd_status dyd_settle_face(dyd_settled_pair *pair, uint64_t *random, size_t *work, const dyd_engine *e, size_t pairs,
+                           const dyd_index_list *face);
+
+#endif
