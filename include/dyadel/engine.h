@@ -183,6 +183,9 @@ DYD_API const dyd_error *dyd_engine_add_error(const dyd_engine *e);
 DYD_API dyd_status dyd_engine_append_points(dyd_engine *e, size_t n, const double *x, const double *y, dyd_error *err);
 DYD_API dyd_status dyd_engine_append_boxes(dyd_engine *e, size_t n, const double *x0, const double *x1,
                                            const double *y0, const double *y1, dyd_error *err);
+/* From columns, as dyd_sites_add_columns: of an array of n pairs, {{a, 16}, {a + 1, 16}}. radius may be NULL. */
+DYD_API dyd_status dyd_engine_append_columns(dyd_engine *e, size_t n, const dyd_column xy[2], const dyd_column *radius,
+                                             dyd_error *err);
 DYD_API dyd_status dyd_engine_append_rect(dyd_engine *e, const dyd_rect *r, dyd_error *err);
 DYD_API dyd_status dyd_engine_append_stream(dyd_engine *e, dyd_stream *s, dyd_error *err);
 DYD_API dyd_status dyd_engine_append_source(dyd_engine *e, size_t n, const dyd_source *source, dyd_error *err);

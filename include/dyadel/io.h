@@ -221,6 +221,22 @@ DYD_API dyd_status dyd_plot_convergence(FILE *out, const dyd_convergence *c, dyd
 /* What a run of the harness found, and how much it tried; not its schedule. */
 DYD_API dyd_status dyd_write_check(FILE *out, const dyd_check_report *r, dyd_format format, dyd_error *err);
 
+/* One line "XLO XHI YLO YHI" for each of `count` sites from `first` on: exact numbers in the forms that
+ * dyd_rect_narrow_text and the reader take. DYD_E_ARG when there are not so many sites; DYD_E_IO, DYD_E_NOMEM. */
+DYD_API dyd_status dyd_write_rects(FILE *out, const dyd_sites *sites, size_t first, size_t count, dyd_error *err);
+
+/* ---- for languages without FILE ---- */
+
+/* Takes `count` bytes; false: it failed, and is not called again. */
+typedef bool (*dyd_put_fn)(void *user, const char *bytes, size_t count);
+/* Gives at most `room` bytes and says how many in *got; 0 at the end. false: it failed. */
+typedef bool (*dyd_get_fn)(size_t *got, void *user, char *bytes, size_t room);
+/* A file for all functions that write (read) one; what is written goes to put, in pieces of any size, the last ones
+ * when the file is closed. Release with fclose, which returns EOF when a call failed. Callbacks come from the thread
+ * that uses the file. DYD_E_NOMEM; DYD_E_IO where the C library cannot do this (it is no part of POSIX). */
+DYD_API dyd_status dyd_file_to_callback(FILE **out, dyd_put_fn put, void *user, dyd_error *err);
+DYD_API dyd_status dyd_file_from_callback(FILE **out, dyd_get_fn get, void *user, dyd_error *err);
+
 /* ---- traces ---- */
 
 /* A trace tells which point was narrowed to what, and why; replaying it gives the same statuses without asking a point.

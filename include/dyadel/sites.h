@@ -7,6 +7,7 @@
 #define DYADEL_SITES_H
 
 #include <dyadel/rect.h>
+#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -23,12 +24,24 @@ DYD_API void dyd_sites_free(dyd_sites *s);
 DYD_API dyd_status dyd_sites_add_points(dyd_sites *s, size_t n, const double *x, const double *y);
 DYD_API dyd_status dyd_sites_add_boxes(dyd_sites *s, size_t n, const double *x0, const double *x1, const double *y0,
                                        const double *y1);
+/* Doubles in a table of the caller's: `first`, and each `step` bytes behind the one before; 0: one number for all. They
+ * need not be aligned. */
+typedef struct dyd_column {
+  const double *first;
+  ptrdiff_t step;
+} dyd_column;
+/* The same from the columns x and y. radius: NULL, or columns of half-widths in x and in y, not negative: then site k
+ * is x - radius, x + radius and so on, rounded outward to the next double where it is none. DYD_E_ARG also for ends
+ * beyond the largest double. */
+DYD_API dyd_status dyd_sites_add_columns(dyd_sites *s, size_t n, const dyd_column xy[2], const dyd_column *radius);
 DYD_API dyd_status dyd_sites_add_rect(dyd_sites *s, const dyd_rect *r);
 DYD_API size_t dyd_sites_count(const dyd_sites *s);
 /* The exact rectangle of site i, copied into *out. */
 DYD_API dyd_status dyd_sites_get(dyd_rect *out, const dyd_sites *s, size_t i);
 /* The outward-rounded rectangle of site i: out[0..3] = x lower, x upper, y lower, y upper. */
 DYD_API void dyd_sites_get_d(double out[4], const dyd_sites *s, size_t i);
+/* The same of `count` sites from `first` on, four numbers each. DYD_E_ARG when there are not so many. */
+DYD_API dyd_status dyd_sites_copy_d(double *out, const dyd_sites *s, size_t first, size_t count);
 DYD_API bool dyd_sites_is_point(const dyd_sites *s, size_t i);
 /* Replaces site i by a rectangle inside it; DYD_E_NESTING (site unchanged) when r is not inside. */
 DYD_API dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r);

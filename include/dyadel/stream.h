@@ -56,6 +56,8 @@ static inline const dyd_request *dyd_request_at(const dyd_request *request, size
  * Where they are not dyadic they are rounded outward, by less than 2^-64 of the width and never beyond what was known.
  * What is returned (DYD_OK, DYD_FIXED, or an error with *r as it was) is for the callback to return. */
 DYD_API dyd_status dyd_rect_narrow_text(dyd_rect *r, const char *text, size_t length, dyd_error *err);
+/* The same from canonical rationals: x lower, x upper, y lower, y upper. */
+DYD_API dyd_status dyd_rect_narrow_q(dyd_rect *r, const mpq_t end[4], dyd_error *err);
 
 /* A callback with its context, begun with DYD_SIZED. release may be NULL; it is called exactly once, when nothing uses
  * user any more: also when the constructor that was given it fails, unless it has no size. announce may be NULL; only

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The sorted list of sure triangles, and who is next to whom.
+/* The sure triangles, sorted or as they stand in the mesh, and who is next to whom.
  *
- * The triangles are dealt to their lowest sites; a site has few. */
+ * To be sorted they are dealt to their lowest sites; a site has few. In the order of the mesh, which is near that of
+ * the Hilbert curve, all that belongs to one triangle is near in memory, too. */
 #include "base/alloc.h"
 #include "delaunay/state.h"
 
@@ -136,4 +137,45 @@ dyd_status dyd_delaunay_triangles_and_neighbours(dyd_triangle_list *out, dyd_tri
 
 dyd_status dyd_delaunay_triangles(dyd_triangle_list *out, const dyd_delaunay *pd) {
   return dyd_delaunay_triangles_and_neighbours(out, NULL, pd);
+}
+
+/* ---- as they stand in the mesh ---- */
+
+/* The number of every triangle of the mesh among the sure ones, and how many these are. */
+static size_t number_as_found(uint32_t *place, const dyd_delaunay *pd) {
+  uint32_t count = 0;
+  for (uint32_t t = 0; t < pd->sk.mesh.count; t++) place[t] = dyd_triangle_is_sure(pd, t) ? count++ : DYD_NO_TRIANGLE;
+  return count;
+}
+
+static void list_as_found(dyd_triangle *triangle, dyd_triangle *beyond, const uint32_t *place, const dyd_delaunay *pd) {
+  const dyd_skeleton *sk = &pd->sk;
+  for (uint32_t t = 0; t < sk->mesh.count; t++) {
+    if (place[t] == DYD_NO_TRIANGLE) continue;
+    unsigned corner = lowest_corner(sk, t);
+    for (int q = 0; q < 3; q++, corner = dyd_next(corner)) {
+      triangle[place[t]].v[q] = sk->reps.site[sk->mesh.tri[t].v[corner]];
+      beyond[place[t]].v[q] = place[dyd_edge_triangle(dyd_edge_twin(&sk->mesh, dyd_edge_of(t, corner)))];
+    }
+  }
+}
+
+dyd_status dyd_delaunay_triangles_as_found(dyd_triangle_list *out, dyd_triangle_list *neighbours,
+                                           const dyd_delaunay *pd) {
+  uint32_t *place = dyd_alloc(pd->sk.mesh.count, sizeof *place);
+  if (!place) return DYD_E_NOMEM;
+  size_t count = number_as_found(place, pd);
+  dyd_triangle *triangle = dyd_alloc(count, sizeof *triangle), *beyond = dyd_alloc(count, sizeof *beyond);
+  if (triangle && beyond) {
+    list_as_found(triangle, beyond, place, pd);
+    dyd_triangle_list_clear(out);
+    dyd_triangle_list_clear(neighbours);
+    *out = (dyd_triangle_list){count, triangle};
+    *neighbours = (dyd_triangle_list){count, beyond};
+  } else {
+    free(triangle);
+    free(beyond);
+  }
+  free(place);
+  return triangle && beyond ? DYD_OK : DYD_E_NOMEM;
 }

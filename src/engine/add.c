@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "engine/points.h"
+#include "rect/columns_filter.h"
 
 #include <math.h>
 
@@ -91,6 +92,36 @@ dyd_status dyd_engine_append_boxes(dyd_engine *e, size_t n, const double *x0, co
                                    const double *y1, dyd_error *err) {
   const double *const lo[2] = {x0, y0}, *const hi[2] = {x1, y1};
   return appended(e, add_boxes(e, true, n, lo, hi), err);
+}
+
+/* Why column a gives no sides, the first of point `first`. */
+static dyd_status column_check(dyd_engine *e, size_t n, const dyd_column *x, const dyd_column *radius,
+                               const char *axis) {
+  size_t first = dyd_sites_count(e->sites);
+  for (size_t k = 0; k < n; k++) {
+    double lo, hi, at = dyd_column_at(x, k), r = radius ? dyd_column_at(radius, k) : 0;
+    if (dyd_widen_d(&lo, &hi, at, r)) continue;
+    e->refused.point = first + k;
+    if (!isfinite(at))
+      return dyd_fail(&e->refused, DYD_E_ARG, "point %zu: %s is %g; coordinates are finite numbers", first + k, axis,
+                      at);
+    return dyd_fail(&e->refused, DYD_E_ARG,
+                    "point %zu: the radius in %s is %.17g; radii are finite, not negative, and small enough for "
+                    "doubles",
+                    first + k, axis, r);
+  }
+  return DYD_OK;
+}
+
+dyd_status dyd_engine_append_columns(dyd_engine *e, size_t n, const dyd_column xy[2], const dyd_column *radius,
+                                     dyd_error *err) {
+  size_t before = dyd_sites_count(e->sites);
+  dyd_status st = dyd_engine_may_add(e, true);
+  if (st != DYD_OK) return appended(e, st, err);
+  st = dyd_sites_add_columns(e->sites, n, xy, radius);
+  if (st == DYD_E_ARG && column_check(e, n, &xy[0], radius, "x") == DYD_OK)
+    column_check(e, n, &xy[1], radius ? radius + 1 : NULL, "y");
+  return appended(e, added(e, before, st), err);
 }
 
 /* ---- exact ones ---- */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The table of sites: outward doubles in arrays, exact rectangles packed beside them where needed. */
+#include "rect/columns_filter.h"
 #include "rect/interval.h"
 #include "rect/sites_table.h"
 
@@ -109,6 +110,31 @@ dyd_status dyd_sites_add_boxes(dyd_sites *s, size_t n, const double *x0, const d
                                const double *y1) {
   const double *const lo[2] = {x0, y0}, *const hi[2] = {x1, y1};
   return sites_add_doubles(s, n, lo, hi);
+}
+
+/* One axis, written behind the last site, where there is room. */
+static bool put_columns(double *lower, double *upper, size_t n, const dyd_column *x, const dyd_column *radius) {
+  bool good = true;
+  for (size_t i = 0; i < n; i++) {
+    double lo = dyd_column_at(x, i) + 0.0, hi = lo;
+    good &= radius ? dyd_widen_d(&lo, &hi, lo, dyd_column_at(radius, i)) : isfinite(lo);
+    lower[i] = lo;
+    if (upper) upper[i] = hi;
+  }
+  return good;
+}
+
+dyd_status dyd_sites_add_columns(dyd_sites *s, size_t n, const dyd_column xy[2], const dyd_column *radius) {
+  dyd_status st = sites_make_room(s, n);
+  if (st == DYD_OK && radius) st = sites_split_ends(s);
+  for (int a = 0; st == DYD_OK && a < 2; a++) {
+    double *upper = s->upper[a] ? s->upper[a] + s->count : NULL;
+    if (!put_columns(s->lower[a] + s->count, upper, n, &xy[a], radius ? &radius[a] : NULL)) st = DYD_E_ARG;
+  }
+  if (st != DYD_OK) return st;
+  if (s->exact) memset(s->exact + s->count, 0, n * sizeof *s->exact);
+  s->count += n;
+  return DYD_OK;
 }
 
 dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n) {
@@ -230,6 +256,12 @@ void dyd_sites_get_d(double out[4], const dyd_sites *s, size_t i) {
     out[2 * a] = dyd_sites_lo(s, a, i);
     out[2 * a + 1] = dyd_sites_hi(s, a, i);
   }
+}
+
+dyd_status dyd_sites_copy_d(double *out, const dyd_sites *s, size_t first, size_t count) {
+  if (first > s->count || count > s->count - first) return DYD_E_ARG;
+  for (size_t k = 0; k < count; k++) dyd_sites_get_d(out + 4 * k, s, first + k);
+  return DYD_OK;
 }
 
 bool dyd_sites_is_point(const dyd_sites *s, size_t i) {

@@ -110,29 +110,34 @@ static dyd_status set_answer_side(dyd_interval *side, bool known, const char *na
   return st;
 }
 
-/* The four ends, each side in order. */
 static dyd_status read_answer_ends(mpq_t end[4], const char *line, const word *w, dyd_error *err) {
   dyd_status st = DYD_OK;
   for (int k = 0; st == DYD_OK && k < 4; k++) st = read_answer_end(end[k], line, w[k], err);
-  for (int k = 0; st == DYD_OK && k < 4; k += 2) {
+  return st;
+}
+
+/* *r comes in as what is known (known) and goes out as the rectangle of the four ends, which are to be in order. */
+static dyd_status take_answer_ends(dyd_rect *r, bool known, const mpq_t end[4], dyd_error *err) {
+  dyd_rect next;
+  for (int k = 0; k < 4; k += 2) {
     if (mpq_cmp(end[k], end[k + 1]) <= 0) continue;
-    st = dyd_fail(err, DYD_E_STREAM, "the lower end of the %c side in its answer is above the upper end; exchange them",
-                  k ? 'y' : 'x');
+    return dyd_fail(err, DYD_E_STREAM,
+                    "the lower end of the %c side in its answer is above the upper end; exchange them", k ? 'y' : 'x');
   }
+  dyd_rect_init(&next);
+  dyd_rect_set(&next, r);
+  dyd_status st = set_answer_side(&next.x, known, "x side", end[0], end[1], err);
+  if (st == DYD_OK) st = set_answer_side(&next.y, known, "y side", end[2], end[3], err);
+  if (st == DYD_OK) dyd_rect_swap(r, &next);
+  dyd_rect_clear(&next);
   return st;
 }
 
 static dyd_status read_answer_rect(dyd_rect *r, bool known, const char *line, const word *w, dyd_error *err) {
   mpq_t end[4];
-  dyd_rect next;
   for (int k = 0; k < 4; k++) mpq_init(end[k]);
-  dyd_rect_init(&next);
-  dyd_rect_set(&next, r);
   dyd_status st = read_answer_ends(end, line, w, err);
-  if (st == DYD_OK) st = set_answer_side(&next.x, known, "x side", end[0], end[1], err);
-  if (st == DYD_OK) st = set_answer_side(&next.y, known, "y side", end[2], end[3], err);
-  if (st == DYD_OK) dyd_rect_swap(r, &next);
-  dyd_rect_clear(&next);
+  if (st == DYD_OK) st = take_answer_ends(r, known, (const mpq_t *)end, err);
   for (int k = 0; k < 4; k++) mpq_clear(end[k]);
   return st;
 }
@@ -159,4 +164,8 @@ dyd_status dyd_oracle_read_answer(dyd_rect *r, bool known, const char *line, siz
 /* A point that is known exactly is not asked for again: then r is what a callback is given at first. */
 dyd_status dyd_rect_narrow_text(dyd_rect *r, const char *text, size_t length, dyd_error *err) {
   return read_answer(r, !dyd_rect_is_point(r), 0, "four words XLO XHI YLO YHI", text, length, err);
+}
+
+dyd_status dyd_rect_narrow_q(dyd_rect *r, const mpq_t end[4], dyd_error *err) {
+  return take_answer_ends(r, !dyd_rect_is_point(r), end, err);
 }

@@ -11,6 +11,8 @@ import sys
 # What a layer may include besides itself: everything below it. layers in one bracket are side by side.
 LAYERS = [['base'], ['dyadic'], ['rect', 'checker'], ['stream', 'predicate'], ['skeleton'], ['legal', 'possible'], ['delaunay'], ['tolerance', 'graph'],
           ['voronoi'], ['metric'], ['engine'], ['io'], ['prove', 'picture'], ['format']]
+# Rooms that see the library as its users do.
+OUTSIDE = {'cli': 'the command', 'python': 'the Python module'}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 # Public headers in the order of the layers; a header may include only those before it.
 PUBLIC = ['status', 'dyadic certificate', 'rect', 'stream sites', 'oracle', 'predicate delaunay', 'tolerance survey graph', 'arc', 'voronoi', 'compose', 'metric', 'engine', 'converge check', 'io', 'dyadel']
@@ -35,9 +37,9 @@ def check_source_includes(path, text, root):
                 yield f'{path}: the checker of certificates must not include <{name}>'
             continue
         parts = name.split('/')
-        if layer == 'cli':
+        if layer in OUTSIDE:
             if len(parts) > 1:
-                yield f'{path}: the command may use public headers only, not "{name}"'
+                yield f'{path}: {OUTSIDE[layer]} may use public headers only, not "{name}"'
         elif len(parts) < 2 or level(parts[0]) is None:
             yield f'{path}: "{name}" is not of the form "layer/file.h"'
         elif parts[0] != layer and level(parts[0]) >= level(layer):

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Files whose bytes come from, or go to, callbacks: what reads or writes a FILE then serves languages without one. */
+#if defined(DYD_HAS_FOPENCOOKIE) && !defined(_GNU_SOURCE)
+#define _GNU_SOURCE 1 /* fopencookie */
+#endif
+#include "base/error.h"
+#include <dyadel/io.h>
+#include <errno.h>
+#include <stdlib.h>
+
+#ifdef DYD_HAS_FOPENCOOKIE
+
+/* Of put and get one is NULL. */
+typedef struct byte_callback {
+  dyd_put_fn put;
+  dyd_get_fn get;
+  void *user;
+  bool failed;
+} byte_callback;
+
+static ssize_t callback_write(void *cookie, const char *bytes, size_t count) {
+  byte_callback *b = cookie;
+  if (!b->failed && b->put(b->user, bytes, count)) return (ssize_t)count;
+  b->failed = true;
+  errno = EIO;
+  return 0;
+}
+
+static ssize_t callback_read(void *cookie, char *bytes, size_t room) {
+  byte_callback *b = cookie;
+  size_t got = 0;
+  if (!b->failed && b->get(&got, b->user, bytes, room) && got <= room) return (ssize_t)got;
+  b->failed = true;
+  errno = EIO;
+  return -1;
+}
+
+static int callback_close(void *cookie) {
+  byte_callback *b = cookie;
+  bool failed = b->failed;
+  free(b);
+  if (failed) errno = EIO;
+  return failed ? -1 : 0;
+}
+
+static dyd_status callback_open(FILE **out, byte_callback with, dyd_error *err) {
+  const cookie_io_functions_t call = {.read = callback_read, .write = callback_write, .close = callback_close};
+  byte_callback *b = malloc(sizeof *b);
+  if (b) *b = with;
+  FILE *f = b ? fopencookie(b, with.put ? "w" : "r", call) : NULL;
+  if (!f) free(b);
+  if (!f) return dyd_fail_nomem(err);
+  *out = f;
+  return DYD_OK;
+}
+
+dyd_status dyd_file_to_callback(FILE **out, dyd_put_fn put, void *user, dyd_error *err) {
+  return callback_open(out, (byte_callback){.put = put, .user = user}, err);
+}
+
+dyd_status dyd_file_from_callback(FILE **out, dyd_get_fn get, void *user, dyd_error *err) {
+  return callback_open(out, (byte_callback){.get = get, .user = user}, err);
+}
+
+#else
+
+static dyd_status callback_refuse(dyd_error *err) {
+  return dyd_fail(err, DYD_E_IO, "the C library of this system has no fopencookie; use a file or a pipe");
+}
+
+dyd_status dyd_file_to_callback(FILE **out, dyd_put_fn put, void *user, dyd_error *err) {
+  (void)out, (void)put, (void)user;
+  return callback_refuse(err);
+}
+
+dyd_status dyd_file_from_callback(FILE **out, dyd_get_fn get, void *user, dyd_error *err) {
+  (void)out, (void)get, (void)user;
+  return callback_refuse(err);
+}
+
+#endif

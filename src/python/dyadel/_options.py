@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""How far a run goes: the keywords that delaunay, refine, append, converge and others share."""
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+GOALS = ('decided', 'area', 'hausdorff', 'voronoi area', 'voronoi hausdorff')
+SCHEDULES = ('adaptive', 'uniform')
+
+
+def engine_options(*, until: str = 'decided', timeout: float | None = None, max_bits: int = 4096,
+                   max_pairs: int | None = None, threads: int = 1, schedule: str = 'adaptive',
+                   start_bits: int | None = None, step_bits: int | None = None, max_stages: int | None = None,
+                   max_calls: int | None = None, window: Sequence[Any] | None = None, ties: bool = True,
+                   tie_bits: int | None = None,
+                   progress: Callable[[dict[str, Any]], object] | None = None) -> dict[str, Any]:
+    """What Engine.run takes.
+
+    until       'decided', 'area:M', 'hausdorff:M', 'voronoi area:M' or 'voronoi hausdorff:M': stop when the bound is at
+                most 2^-M (of areas and distances in the units of the points; the last two: of the diagram in window)
+    timeout     seconds for this run
+    max_bits    the finest request is for rectangles of width 2^-max_bits
+    max_pairs   cap on stored pairs (default 4 million + 16 a point)
+    threads     for the triangulation; results do not depend on it
+    schedule    'adaptive': refine what is undecided; 'uniform': all points
+    start_bits, step_bits  precision of the first stage; steps of so many bits instead of geometric growth
+    max_stages, max_calls  of this run
+    window      (xlo, xhi, ylo, yhi), for bounds of the diagram
+    ties        prove that expressions and roots are the same, on one line or circle, with at most tie_bits bits for each
+    progress    called after each stage with a dict: stage, bits, points, legal, indeterminate, ties, undecided_faces,
+                seconds; what it raises ends the run
+    """
+    goal, _, bits = until.partition(':')
+    if goal not in GOALS or (goal == 'decided') == bool(bits):
+        raise ValueError(f'until={until!r}; give "decided", or a bound such as "hausdorff:40": one of '
+                         f'{", ".join(GOALS[1:])}')
+    if schedule not in SCHEDULES:
+        raise ValueError(f'schedule={schedule!r}; give "adaptive" or "uniform"')
+    given = {'goal': GOALS.index(goal), 'goal_bits': int(bits or 0), 'schedule': SCHEDULES.index(schedule),
+             'seconds': None if timeout is None else max(float(timeout), 1e-9), 'max_bits': max_bits,
+             'max_pairs': max_pairs, 'threads': threads, 'start_bits': start_bits, 'step_bits': step_bits,
+             'max_stages': max_stages, 'max_calls': max_calls, 'window': window, 'no_ties': not ties,
+             'tie_bits': tie_bits, 'progress': progress}
+    return {name: value for name, value in given.items() if value is not None}

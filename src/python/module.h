@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What the files of this folder share: the module dyadel._dyadel, which the package dyadel (Python) stands on.
+ *
+ * Everything here holds the GIL unless it says otherwise; work of the library is done without it. A callback that
+ * raises leaves its exception where Python keeps it, in the thread, and makes the library fail; later callbacks see it
+ * and fail at once, and whoever called the library raises it, unchanged. */
+#ifndef DYD_PYTHON_MODULE_H
+#define DYD_PYTHON_MODULE_H
+
+#define PY_SSIZE_T_CLEAN
+#define Py_LIMITED_API 0x030B0000
+#include <Python.h>
+#include <dyadel/dyadel.h>
+#include <signal.h>
+
+/* ---- use.c: exceptions ---- */
+
+/* A reference to package.name, NULL with an exception set. */
+PyObject *dydpy_import(const char *package, const char *name);
+/* Raises what a call of the library failed with: the exception of a callback if there is one, else dyadel.Error with
+ * all that err tells, or MemoryError. Returns NULL. */
+PyObject *dydpy_raise(const dyd_error *err, dyd_status status);
+/* {"NAME": value} of numbers; steals the values. NULL with an exception set. */
+typedef struct dydpy_entry {
+  const char *name;
+  PyObject *value;
+} dydpy_entry;
+PyObject *dydpy_dict(const dydpy_entry *entry, size_t count);
+
+/* ---- buffer.c: memory of the library as an object that numpy reads without a copy ---- */
+
+/* Takes over `bytes`, released by free(), also on failure. */
+PyObject *dydpy_buffer_new(void *bytes, size_t size);
+
+/* ---- interrupt.c: Ctrl-C ends what the library does in the main thread ---- */
+
+/* Between begin and end SIGINT raises *flag and cancels engine (either may be NULL), then does what it did before. Does
+ * nothing in other threads, and where Python does not handle the signal. They nest. */
+typedef struct dydpy_guard {
+  dyd_engine *engine;
+  volatile int *flag;
+  struct dydpy_guard *outer;
+  volatile sig_atomic_t hit; /* the signal came */
+  bool on;
+} dydpy_guard;
+void dydpy_guard_begin(dydpy_guard *g, dyd_engine *engine, volatile int *flag);
+/* -1 with an exception set: that of a callback, or of Python's handler (KeyboardInterrupt). */
+int dydpy_guard_end(dydpy_guard *g);
+/* Notes the identity of the main thread; -1 with an exception set. */
+int dydpy_guard_prepare(void);
+
+/* ---- values.c: numbers of Python ---- */
+
+/* The exact value of an int, float, fraction or anything that dyadel._values knows: 0, or -1 with an exception set. */
+int dydpy_rational(mpq_t out, PyObject *value);
+/* Any coordinate, intervals and expressions included; the caller's. */
+int dydpy_real(dyd_real **out, PyObject *value);
+/* The answer of a narrow callback: four ends, perhaps "fixed", or two coordinates. *r: as the callback was given it.
+ * DYD_OK, DYD_FIXED, or an error with err filled or an exception set. */
+dyd_status dydpy_answer(dyd_rect *r, PyObject *answer, dyd_error *err);
+/* Four ends, or None: *given = false. r is initialised. 0, or -1 with an exception set. */
+int dydpy_window(dyd_rect *r, bool *given, PyObject *window);
+/* The four ends as (numerator, denominator). */
+PyObject *dydpy_rect_ends(const dyd_rect *r);
+/* (numerator, denominator); None for NULL. */
+PyObject *dydpy_dyadic(const dyd_dyadic *x);
+
+/* ---- callbacks.c ---- */
+
+/* A source over a Python function narrow(point, bits), which is borrowed as long as the source is used. false with an
+ * exception set. */
+bool dydpy_source_new(dyd_source *out, PyObject *narrow);
+/* For dyd_engine_options.progress. */
+typedef struct dydpy_progress_user {
+  PyObject *function; /* NULL: none */
+  dyd_engine *engine; /* cancelled when the function raises */
+} dydpy_progress_user;
+void dydpy_progress(void *user, const dyd_progress *p);
+
+/* ---- engine.c, use.c: the type Engine ---- */
+
+typedef struct dydpy_engine {
+  PyObject_HEAD dyd_engine *engine;
+  bool busy;           /* a call is at work, perhaps without the GIL */
+  bool late;           /* an interrupt came too late for the last run: it cancels the next one, which is begun again */
+  PyObject *functions; /* of its sources: a list that owns them, and that the garbage collector sees */
+} dydpy_engine;
+extern PyType_Spec dydpy_engine_spec;
+
+/* Begins and ends a call that uses the engine: false with RuntimeError when another one is at work. */
+bool dydpy_enter(dydpy_engine *self);
+void dydpy_leave(dydpy_engine *self);
+/* The result, with the engine entered; NULL with an exception set (and not entered) when there is none. */
+const dyd_delaunay *dydpy_enter_result(dydpy_engine *self);
+/* Fills in options from a dict of numbers and a window, which are borrowed until dydpy_options_clear. */
+typedef struct dydpy_options {
+  dyd_engine_options o;
+  dyd_rect window;
+  dydpy_progress_user progress;
+} dydpy_options;
+int dydpy_options_init(dydpy_options *out, dydpy_engine *self, PyObject *dict);
+void dydpy_options_clear(dydpy_options *o);
+
+/* A point from (x, y), widened by a pair of radii (NULL: none), as a stream; the caller's. 0, or -1 with an exception
+ * set.
+ */
+int dydpy_stream(dyd_stream **out, PyObject *point, PyObject *radii);
+/* Ends a call that entered: None, or the failure raised. */
+PyObject *dydpy_done(dydpy_engine *self, dyd_status st, const dyd_error *err);
+
+/* Methods of Engine; the table in engine.c says what they take and give. Those of points.c, run.c, results.c, text.c,
+ * questions.c. */
+PyObject *dydpy_append_array(PyObject *self, PyObject *args);
+PyObject *dydpy_append_boxes(PyObject *self, PyObject *args);
+PyObject *dydpy_append_values(PyObject *self, PyObject *args);
+PyObject *dydpy_append_source(PyObject *self, PyObject *args);
+PyObject *dydpy_append_text(PyObject *self, PyObject *args);
+PyObject *dydpy_remeasure(PyObject *self, PyObject *args);
+PyObject *dydpy_run(PyObject *self, PyObject *options);
+PyObject *dydpy_cancel(PyObject *self, PyObject *none);
+PyObject *dydpy_count(PyObject *self, PyObject *none);
+PyObject *dydpy_outcome(PyObject *self, PyObject *none);
+PyObject *dydpy_counters(PyObject *self, PyObject *none);
+PyObject *dydpy_counts(PyObject *self, PyObject *none);
+PyObject *dydpy_pair_status(PyObject *self, PyObject *args);
+PyObject *dydpy_pairs(PyObject *self, PyObject *discs);
+PyObject *dydpy_triangles(PyObject *self, PyObject *none);
+PyObject *dydpy_aliases(PyObject *self, PyObject *none);
+PyObject *dydpy_hull(PyObject *self, PyObject *none);
+PyObject *dydpy_bounds(PyObject *self, PyObject *none);
+PyObject *dydpy_boxes(PyObject *self, PyObject *none);
+PyObject *dydpy_rect(PyObject *self, PyObject *site);
+PyObject *dydpy_window_of(PyObject *self, PyObject *none);
+PyObject *dydpy_rects(PyObject *self, PyObject *none);
+PyObject *dydpy_write(PyObject *self, PyObject *args);
+PyObject *dydpy_write_voronoi(PyObject *self, PyObject *args);
+PyObject *dydpy_certificate(PyObject *self, PyObject *args);
+PyObject *dydpy_nearest(PyObject *self, PyObject *args);
+PyObject *dydpy_tolerance(PyObject *self, PyObject *args);
+PyObject *dydpy_plan(PyObject *self, PyObject *args);
+PyObject *dydpy_converge(PyObject *self, PyObject *args);
+
+/* ---- text.c ---- */
+
+/* Writes to memory. */
+typedef struct dydpy_text {
+  FILE *file;
+  char *bytes;
+  size_t size;
+} dydpy_text;
+bool dydpy_text_open(dydpy_text *t);
+/* bytes, or NULL with what err and status tell raised. */
+PyObject *dydpy_text_close(dydpy_text *t, const dyd_error *err, dyd_status status);
+/* Of the module. */
+PyObject *dydpy_formats(PyObject *module, PyObject *none);
+PyObject *dydpy_verify(PyObject *module, PyObject *args);
+PyObject *dydpy_check(PyObject *module, PyObject *args);
+
+#endif

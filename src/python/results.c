@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What an engine has found, as numbers and as memory that numpy reads. */
+#include "module.h"
+
+#include <stdlib.h>
+
+/* ---- single answers ---- */
+
+PyObject *dydpy_count(PyObject *self, PyObject *none) {
+  (void)none;
+  dyd_engine *e = ((dydpy_engine *)self)->engine;
+  return PyLong_FromSize_t(e ? dyd_engine_count(e) : 0);
+}
+
+PyObject *dydpy_outcome(PyObject *object, PyObject *none) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  (void)none;
+  if (!dydpy_enter(self)) return NULL;
+  dyd_outcome outcome = dyd_engine_outcome(self->engine);
+  dydpy_leave(self);
+  return PyUnicode_FromString(dyd_outcome_text(outcome));
+}
+
+static PyObject *spent_name(dyd_budget spent) {
+  static const char *const name[] = {"bits", "stages", "calls", "pairs", "seconds"};
+  size_t k = (size_t)spent - 1;
+  if (k >= sizeof name / sizeof *name) Py_RETURN_NONE;
+  return PyUnicode_FromString(name[k]);
+}
+
+PyObject *dydpy_counters(PyObject *object, PyObject *none) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
+  dyd_error err;
+  (void)none;
+  if (!dydpy_enter(self)) return NULL;
+  dyd_status st = dyd_engine_get_counters(&c, self->engine, &err);
+  dydpy_leave(self);
+  if (st != DYD_OK) return dydpy_raise(&err, st);
+  const dydpy_entry entry[] = {
+      {"stages", PyLong_FromUnsignedLongLong(c.stages)},
+      {"calls", PyLong_FromUnsignedLongLong(c.calls)},
+      {"bits_least", PyLong_FromLongLong(c.bits_least)},
+      {"bits_most", PyLong_FromLongLong(c.bits_most)},
+      {"bits_total", PyLong_FromUnsignedLongLong(c.bits_total)},
+      {"undecided_faces", PyLong_FromUnsignedLongLong(c.undecided_faces)},
+      {"seconds", PyFloat_FromDouble(c.seconds)},
+      {"spent", spent_name(c.spent)},
+      {"filter", PyLong_FromUnsignedLongLong(c.delaunay.filter)},
+      {"integer", PyLong_FromUnsignedLongLong(c.delaunay.integer)},
+      {"exact", PyLong_FromUnsignedLongLong(c.delaunay.exact)},
+      {"tie_tests", PyLong_FromUnsignedLongLong(c.ties.tests)},
+  };
+  return dydpy_dict(entry, sizeof entry / sizeof *entry);
+}
+
+PyObject *dydpy_counts(PyObject *object, PyObject *none) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  size_t count[4];
+  (void)none;
+  const dyd_delaunay *pd = dydpy_enter_result(self);
+  if (!pd) return NULL;
+  dyd_delaunay_count(count, pd);
+  dydpy_leave(self);
+  return Py_BuildValue("nnn", (Py_ssize_t)count[DYD_LEGAL], (Py_ssize_t)count[DYD_INDETERMINATE],
+                       (Py_ssize_t)count[DYD_TIE]);
+}
+
+PyObject *dydpy_pair_status(PyObject *object, PyObject *args) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  unsigned i, j;
+  if (!PyArg_ParseTuple(args, "II", &i, &j)) return NULL;
+  const dyd_delaunay *pd = dydpy_enter_result(self);
+  if (!pd) return NULL;
+  size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
+  dyd_pair_status status = i < n && j < n ? dyd_delaunay_status(pd, i, j) : DYD_ILLEGAL;
+  dydpy_leave(self);
+  if (i >= n || j >= n) return PyErr_Format(PyExc_IndexError, "there are %zu points", n);
+  return PyLong_FromLong(status);
+}
+
+PyObject *dydpy_bounds(PyObject *object, PyObject *none) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  dyd_dyadic area, hausdorff;
+  PyObject *both = NULL;
+  (void)none;
+  if (!dydpy_enter_result(self)) return NULL;
+  dyd_dyadic_init(&area);
+  dyd_dyadic_init(&hausdorff);
+  dyd_status st = dyd_engine_bounds(&area, &hausdorff, self->engine);
+  dydpy_leave(self);
+  if (st == DYD_OK)
+    both = Py_BuildValue("NN", dydpy_dyadic(&area), dydpy_dyadic(&hausdorff));
+  else
+    dydpy_raise(NULL, st);
+  dyd_dyadic_clear(&hausdorff);
+  dyd_dyadic_clear(&area);
+  return both;
+}
+
+PyObject *dydpy_rect(PyObject *object, PyObject *site) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  dyd_rect r;
+  PyObject *ends = NULL;
+  size_t i = PyLong_AsSize_t(site);
+  if (PyErr_Occurred() || !dydpy_enter(self)) return NULL;
+  dyd_rect_init(&r);
+  bool known = i < dyd_engine_count(self->engine) && dyd_engine_knows(self->engine, (uint32_t)i);
+  dyd_status st = known ? dyd_sites_get(&r, dyd_engine_sites(self->engine), i) : DYD_E_ARG;
+  dydpy_leave(self);
+  if (st == DYD_OK)
+    ends = dydpy_rect_ends(&r);
+  else
+    PyErr_Format(PyExc_IndexError, "there is no point %zu, or it has not been asked yet", i);
+  dyd_rect_clear(&r);
+  return ends;
+}
+
+PyObject *dydpy_window_of(PyObject *object, PyObject *none) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  dyd_rect r;
+  (void)none;
+  const dyd_delaunay *pd = dydpy_enter_result(self);
+  if (!pd) return NULL;
+  dyd_rect_init(&r);
+  dyd_status st = dyd_voronoi_window(&r, dyd_delaunay_sites(pd));
+  dydpy_leave(self);
+  PyObject *ends = st == DYD_OK ? dydpy_rect_ends(&r) : dydpy_raise(NULL, st);
+  dyd_rect_clear(&r);
+  return ends;
+}
+
+/* ---- arrays ---- */
+
+/* Takes over the array. */
+static PyObject *array_new(void *item, size_t count, size_t size) {
+  return dydpy_buffer_new(item, count * size);
+}
+
+/* pairs(discs) */
+PyObject *dydpy_pairs(PyObject *object, PyObject *discs) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  dyd_pair_list list = {0};
+  dyd_error err;
+  int of_discs = PyObject_IsTrue(discs);
+  const dyd_delaunay *pd = of_discs < 0 ? NULL : dydpy_enter_result(self);
+  if (!pd) return NULL;
+  dyd_error_clear(&err);
+  PyThreadState *thread = PyEval_SaveThread();
+  dyd_status st = of_discs ? dyd_disc_pairs(&list, pd, &err) : dyd_delaunay_pairs(&list, pd);
+  PyEval_RestoreThread(thread);
+  dydpy_leave(self);
+  return st == DYD_OK ? array_new(list.item, list.count, sizeof *list.item) : dydpy_raise(&err, st);
+}
+
+PyObject *dydpy_triangles(PyObject *object, PyObject *none) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  dyd_triangle_list list = {0}, beyond = {0};
+  (void)none;
+  const dyd_delaunay *pd = dydpy_enter_result(self);
+  if (!pd) return NULL;
+  PyThreadState *thread = PyEval_SaveThread();
+  dyd_status st = dyd_delaunay_triangles_as_found(&list, &beyond, pd);
+  PyEval_RestoreThread(thread);
+  dydpy_leave(self);
+  if (st != DYD_OK) return dydpy_raise(NULL, st);
+  return Py_BuildValue("NN", array_new(list.item, list.count, sizeof *list.item),
+                       array_new(beyond.item, beyond.count, sizeof *beyond.item));
+}
+
+PyObject *dydpy_aliases(PyObject *object, PyObject *none) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  (void)none;
+  const dyd_delaunay *pd = dydpy_enter_result(self);
+  if (!pd) return NULL;
+  size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
+  uint32_t *alias = malloc((n + 1) * sizeof *alias);
+  for (size_t i = 0; alias && i < n; i++) alias[i] = dyd_delaunay_alias(pd, (uint32_t)i);
+  dydpy_leave(self);
+  return alias ? array_new(alias, n, sizeof *alias) : PyErr_NoMemory();
+}
+
+PyObject *dydpy_hull(PyObject *object, PyObject *none) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  dyd_index_list sure = {0}, possible = {0};
+  (void)none;
+  const dyd_delaunay *pd = dydpy_enter_result(self);
+  if (!pd) return NULL;
+  dyd_status st = dyd_delaunay_hull_vertices(&sure, &possible, pd);
+  dydpy_leave(self);
+  if (st != DYD_OK) return dydpy_raise(NULL, st);
+  return Py_BuildValue("NN", array_new(sure.item, sure.count, sizeof *sure.item),
+                       array_new(possible.item, possible.count, sizeof *possible.item));
+}
+
+PyObject *dydpy_boxes(PyObject *object, PyObject *none) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  (void)none;
+  if (!dydpy_enter(self)) return NULL;
+  size_t n = dyd_engine_count(self->engine);
+  double *box = malloc((4 * n + 1) * sizeof *box);
+  if (box) dyd_sites_copy_d(box, dyd_engine_sites(self->engine), 0, n);
+  dydpy_leave(self);
+  return box ? array_new(box, 4 * n, sizeof *box) : PyErr_NoMemory();
+}
+
+PyObject *dydpy_rects(PyObject *object, PyObject *none) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  dydpy_text text;
+  dyd_error err;
+  (void)none;
+  dyd_error_clear(&err);
+  if (!dydpy_enter(self)) return NULL;
+  if (!dydpy_text_open(&text)) {
+    dydpy_leave(self);
+    return NULL;
+  }
+  PyThreadState *thread = PyEval_SaveThread();
+  dyd_status st = dyd_write_rects(text.file, dyd_engine_sites(self->engine), 0, dyd_engine_count(self->engine), &err);
+  PyEval_RestoreThread(thread);
+  dydpy_leave(self);
+  return dydpy_text_close(&text, &err, st);
+}

@@ -1,0 +1,299 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Numbers of Python, exactly: int, float, str, and all that has a numerator and denominator or as_integer_ratio().
+ * Others (mpmath, sympy, python-flint) become one of these, a text or a pair of ends in dyadel._values. */
+#include "module.h"
+
+#include <math.h>
+
+/* ---- rational values ---- */
+
+/* An int, or what stands for one (__index__, as numpy's and gmpy2's, or int()). */
+static int integer_of(mpz_t out, PyObject *value) {
+  int overflow;
+  PyObject *whole = PyLong_Check(value) ? Py_NewRef(value) : PyNumber_Index(value);
+  if (!whole) {
+    PyErr_Clear();
+    whole = PyNumber_Long(value);
+  }
+  if (!whole) return -1;
+  long small = PyLong_AsLongAndOverflow(whole, &overflow);
+  if (!overflow) {
+    mpz_set_si(out, small);
+    Py_DECREF(whole);
+    return small == -1 && PyErr_Occurred() ? -1 : 0;
+  }
+  PyObject *digits = PyNumber_ToBase(whole, 16); /* "0x1f", "-0x1f" */
+  const char *text = digits ? PyUnicode_AsUTF8AndSize(digits, NULL) : NULL;
+  if (text) mpz_set_str(out, text + (*text == '-' ? 3 : 2), 16);
+  if (text && *text == '-') mpz_neg(out, out);
+  Py_XDECREF(digits);
+  Py_DECREF(whole);
+  return text ? 0 : -1;
+}
+
+static int quotient_of(mpq_t out, PyObject *numerator, PyObject *denominator) {
+  if (integer_of(mpq_numref(out), numerator) < 0 || integer_of(mpq_denref(out), denominator) < 0) return -1;
+  if (mpz_sgn(mpq_denref(out)) == 0) {
+    PyErr_SetString(PyExc_ZeroDivisionError, "a fraction with denominator 0");
+    return -1;
+  }
+  mpq_canonicalize(out);
+  return 0;
+}
+
+static int double_of(mpq_t out, double value) {
+  if (!isfinite(value)) {
+    PyErr_Format(PyExc_ValueError, "%s is no coordinate; coordinates are finite numbers",
+                 isnan(value) ? "nan"
+                 : value > 0  ? "inf"
+                              : "-inf");
+    return -1;
+  }
+  mpq_set_d(out, value);
+  return 0;
+}
+
+static int exact_text_of(mpq_t out, PyObject *text) {
+  Py_ssize_t length;
+  const char *bytes = PyUnicode_AsUTF8AndSize(text, &length);
+  if (!bytes) return -1;
+  dyd_status st = dyd_real_parse_exact(out, bytes, (size_t)length);
+  if (st == DYD_OK) return 0;
+  PyErr_Format(PyExc_ValueError, "%R is no exact number: %s", text, dyd_status_text(st));
+  return -1;
+}
+
+/* The attribute, NULL without an exception where there is none. */
+static PyObject *attribute_of(PyObject *value, const char *name) {
+  PyObject *found = PyObject_GetAttrString(value, name);
+  if (!found && PyErr_ExceptionMatches(PyExc_AttributeError)) PyErr_Clear();
+  return found;
+}
+
+/* 1: done, 0: it has no such parts, -1: an exception is set. */
+static int parts_of(mpq_t out, PyObject *value) {
+  PyObject *numerator = attribute_of(value, "numerator");
+  PyObject *denominator = numerator ? attribute_of(value, "denominator") : NULL;
+  int found = PyErr_Occurred() ? -1 : 0;
+  if (denominator && !PyCallable_Check(denominator)) found = quotient_of(out, numerator, denominator) < 0 ? -1 : 1;
+  Py_XDECREF(denominator);
+  Py_XDECREF(numerator);
+  return found;
+}
+
+static int ratio_of(mpq_t out, PyObject *value) {
+  PyObject *method = attribute_of(value, "as_integer_ratio");
+  if (!method) return PyErr_Occurred() ? -1 : 0;
+  PyObject *ratio = PyObject_CallNoArgs(method), *numerator = NULL, *denominator = NULL;
+  Py_DECREF(method);
+  if (!ratio) return -1;
+  numerator = PySequence_GetItem(ratio, 0);
+  denominator = numerator ? PySequence_GetItem(ratio, 1) : NULL;
+  int found = denominator && quotient_of(out, numerator, denominator) == 0 ? 1 : -1;
+  Py_XDECREF(denominator);
+  Py_XDECREF(numerator);
+  Py_DECREF(ratio);
+  return found;
+}
+
+/* What needs no other module: 1, 0 or -1 as above. */
+static int plain_rational(mpq_t out, PyObject *value) {
+  if (PyLong_Check(value)) {
+    mpz_set_ui(mpq_denref(out), 1);
+    return integer_of(mpq_numref(out), value) < 0 ? -1 : 1;
+  }
+  if (PyFloat_Check(value)) return double_of(out, PyFloat_AsDouble(value)) < 0 ? -1 : 1;
+  if (PyUnicode_Check(value) || PyTuple_Check(value) || PyList_Check(value)) return 0;
+  int found = parts_of(out, value);
+  return found ? found : ratio_of(out, value);
+}
+
+/* The int, text or pair that dyadel._values makes of it. */
+static PyObject *simplified(PyObject *value) {
+  PyObject *function = dydpy_import("dyadel._values", "simplify");
+  PyObject *simple = function ? PyObject_CallFunctionObjArgs(function, value, NULL) : NULL;
+  Py_XDECREF(function);
+  return simple;
+}
+
+int dydpy_rational(mpq_t out, PyObject *value) {
+  int found = plain_rational(out, value);
+  if (found) return found < 0 ? -1 : 0;
+  PyObject *simple = PyUnicode_Check(value) ? Py_NewRef(value) : simplified(value);
+  if (!simple) return -1;
+  if (PyUnicode_Check(simple)) {
+    found = exact_text_of(out, simple) < 0 ? -1 : 1;
+  } else {
+    found = plain_rational(out, simple);
+    if (!found) PyErr_Format(PyExc_TypeError, "%R is an interval; one exact number is wanted here", value);
+  }
+  Py_DECREF(simple);
+  return found > 0 ? 0 : -1;
+}
+
+/* ---- coordinates ---- */
+
+static int ends_of(mpq_t lo, mpq_t hi, PyObject *pair) {
+  int found = -1;
+  PyObject *low = PySequence_GetItem(pair, 0), *high = low ? PySequence_GetItem(pair, 1) : NULL;
+  if (high) found = dydpy_rational(lo, low) < 0 || dydpy_rational(hi, high) < 0 ? -1 : 0;
+  if (!found && mpq_cmp(lo, hi) > 0) {
+    PyErr_Format(PyExc_ValueError, "the lower end of %R is above the upper one; exchange them", pair);
+    found = -1;
+  }
+  Py_XDECREF(high);
+  Py_XDECREF(low);
+  return found;
+}
+
+static bool is_pair(PyObject *value) {
+  return (PyTuple_Check(value) || PyList_Check(value)) && PySequence_Size(value) == 2;
+}
+
+/* An exact number or an interval: 1, 0 for a text, or -1. */
+static int interval_of(mpq_t lo, mpq_t hi, PyObject *value) {
+  int found = plain_rational(lo, value);
+  if (found > 0) mpq_set(hi, lo);
+  if (found || PyUnicode_Check(value)) return found;
+  if (is_pair(value)) return ends_of(lo, hi, value) < 0 ? -1 : 1;
+  PyObject *simple = simplified(value);
+  if (!simple) return -1;
+  found = is_pair(simple) ? (ends_of(lo, hi, simple) < 0 ? -1 : 1) : plain_rational(lo, simple);
+  if (found > 0 && !is_pair(simple)) mpq_set(hi, lo);
+  Py_DECREF(simple);
+  return found;
+}
+
+static int real_of_text(dyd_real **out, PyObject *value) {
+  Py_ssize_t length;
+  dyd_error err;
+  PyObject *simple = PyUnicode_Check(value) ? Py_NewRef(value) : simplified(value);
+  const char *text = simple ? PyUnicode_AsUTF8AndSize(simple, &length) : NULL;
+  dyd_error_clear(&err);
+  dyd_status st = text ? dyd_real_parse(out, text, (size_t)length, &err) : DYD_OK;
+  if (st != DYD_OK) dydpy_raise(&err, st);
+  Py_XDECREF(simple);
+  return text && st == DYD_OK ? 0 : -1;
+}
+
+int dydpy_real(dyd_real **out, PyObject *value) {
+  mpq_t lo, hi;
+  mpq_inits(lo, hi, NULL);
+  int found = interval_of(lo, hi, value);
+  if (found > 0) {
+    dyd_status st = dyd_real_from_interval(out, lo, hi);
+    if (st != DYD_OK) {
+      dydpy_raise(NULL, st);
+      found = -1;
+    }
+  }
+  mpq_clears(lo, hi, NULL);
+  return found == 0 ? real_of_text(out, value) : found < 0 ? -1 : 0;
+}
+
+/* ---- answers and windows ---- */
+
+/* Two coordinates as four ends; texts are exact numbers. */
+static int sides_of(mpq_t end[4], PyObject *answer) {
+  int found = 0;
+  for (int k = 0; found >= 0 && k < 2; k++) {
+    PyObject *side = PySequence_GetItem(answer, k);
+    found = side ? interval_of(end[2 * k], end[2 * k + 1], side) : -1;
+    if (side && found == 0) {
+      found = dydpy_rational(end[2 * k], side);
+      mpq_set(end[2 * k + 1], end[2 * k]);
+    }
+    Py_XDECREF(side);
+  }
+  return found < 0 ? -1 : 0;
+}
+
+static int numbers_of(mpq_t end[4], PyObject *answer) {
+  int found = 0;
+  for (int k = 0; found >= 0 && k < 4; k++) {
+    PyObject *number = PySequence_GetItem(answer, k);
+    found = number ? dydpy_rational(end[k], number) : -1;
+    Py_XDECREF(number);
+  }
+  return found;
+}
+
+/* Is there a fifth element that is true? -1 with an exception set. */
+static int answer_is_fixed(PyObject *answer) {
+  PyObject *fixed = PySequence_GetItem(answer, 4);
+  int truth = fixed ? PyObject_IsTrue(fixed) : -1;
+  Py_XDECREF(fixed);
+  return truth;
+}
+
+dyd_status dydpy_answer(dyd_rect *r, PyObject *answer, dyd_error *err) {
+  mpq_t end[4];
+  Py_ssize_t count = PyUnicode_Check(answer) ? 0 : PySequence_Size(answer);
+  if (count != 2 && count != 4 && count != 5) {
+    PyErr_Clear();
+    PyErr_Format(PyExc_TypeError,
+                 "a point was answered %R; wanted are four numbers xlo, xhi, ylo, yhi, and True behind "
+                 "them when they are final, or two coordinates",
+                 answer);
+    return DYD_E_STREAM;
+  }
+  for (int k = 0; k < 4; k++) mpq_init(end[k]);
+  int fixed = count == 5 ? answer_is_fixed(answer) : 0;
+  int found = fixed < 0 ? -1 : count == 2 ? sides_of(end, answer) : numbers_of(end, answer);
+  dyd_status st = found < 0 ? DYD_E_STREAM : dyd_rect_narrow_q(r, (const mpq_t *)end, err);
+  for (int k = 0; k < 4; k++) mpq_clear(end[k]);
+  return st == DYD_OK && fixed ? DYD_FIXED : st;
+}
+
+int dydpy_window(dyd_rect *r, bool *given, PyObject *window) {
+  dyd_error err;
+  dyd_error_clear(&err);
+  *given = window != Py_None;
+  if (!*given) return 0;
+  dyd_status st = dydpy_answer(r, window, &err);
+  if (st < 0) dydpy_raise(&err, st);
+  return st < 0 ? -1 : 0;
+}
+
+/* ---- back ---- */
+
+static PyObject *integer_new(const mpz_t z) {
+  char *digits = mpz_get_str(NULL, 16, z);
+  PyObject *value = digits ? PyLong_FromString(digits, NULL, 16) : PyErr_NoMemory();
+  void (*release)(void *, size_t);
+  mp_get_memory_functions(NULL, NULL, &release);
+  if (digits) release(digits, strlen(digits) + 1);
+  return value;
+}
+
+static PyObject *rational_new(const mpq_t q) {
+  PyObject *numerator = integer_new(mpq_numref(q)), *denominator = integer_new(mpq_denref(q));
+  PyObject *pair = numerator && denominator ? PyTuple_Pack(2, numerator, denominator) : NULL;
+  Py_XDECREF(numerator);
+  Py_XDECREF(denominator);
+  return pair;
+}
+
+PyObject *dydpy_rect_ends(const dyd_rect *r) {
+  mpq_t end[4];
+  PyObject *all = PyTuple_New(4);
+  for (int k = 0; k < 4; k++) mpq_init(end[k]);
+  dyd_interval_get_q(end[0], end[1], &r->x);
+  dyd_interval_get_q(end[2], end[3], &r->y);
+  for (int k = 0; all && k < 4; k++) {
+    PyObject *one = rational_new(end[k]);
+    if (!one || PyTuple_SetItem(all, k, one) < 0) Py_CLEAR(all);
+  }
+  for (int k = 0; k < 4; k++) mpq_clear(end[k]);
+  return all;
+}
+
+PyObject *dydpy_dyadic(const dyd_dyadic *x) {
+  if (!x) Py_RETURN_NONE;
+  mpq_t q;
+  mpq_init(q);
+  dyd_dyadic_get_q(q, x);
+  PyObject *value = rational_new(q);
+  mpq_clear(q);
+  return value;
+}
