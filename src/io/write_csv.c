@@ -18,4 +18,7 @@ dyd_writer *const dyd_csv_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = dyd_
                                                    [DYD_CONTENT_TOLERANCE] = dyd_layer_tolerance,
                                                    [DYD_CONTENT_RADII] = dyd_layer_radii,
                                                    [DYD_CONTENT_BARCODE] = dyd_layer_barcode,
-                                                   [DYD_CONTENT_PLAN] = dyd_plan_rows};
+                                                   [DYD_CONTENT_PLAN] = dyd_plan_rows,
+                                                   [DYD_CONTENT_SPHERE] = dyd_sphere_layer_pairs,
+                                                   [DYD_CONTENT_SPHERE_POINTS] = dyd_sphere_layer_points,
+                                                   [DYD_CONTENT_SPHERE_TRIANGLES] = dyd_sphere_layer_triangles};

@@ -37,30 +37,33 @@ static dyd_status json_sites(const dyd_result *r) {
   return st;
 }
 
-static void json_pairs(const dyd_result *r, const char *name, const dyd_pair_list *pairs) {
-  FILE *out = r->out;
+void dyd_json_pairs(FILE *out, const dyd_engine *e, const char *name, const dyd_pair_list *pairs) {
   fprintf(out, "\"%s\": [", name);
   for (size_t k = 0; k < pairs->count; k++) {
     const dyd_pair *p = &pairs->item[k];
-    fprintf(out, "%s\n{\"i\": %zu, \"j\": %zu, \"status\": \"%s\"}", k ? "," : "", dyd_engine_row(r->engine, p->i),
-            dyd_engine_row(r->engine, p->j), dyd_pair_status_text(p->status));
+    fprintf(out, "%s\n{\"i\": %zu, \"j\": %zu, \"status\": \"%s\"}", k ? "," : "", dyd_engine_row(e, p->i),
+            dyd_engine_row(e, p->j), dyd_pair_status_text(p->status));
   }
   fputs("\n]", out);
+}
+
+void dyd_json_triangles(FILE *out, const dyd_engine *e, const dyd_triangle_list *list) {
+  fputs("\"triangles\": [", out);
+  for (size_t k = 0; k < list->count; k++) {
+    const uint32_t *v = list->item[k].v;
+    fprintf(out, "%s[%zu, %zu, %zu]",
+            k == 0  ? ""
+            : k % 8 ? ", "
+                    : ",\n",
+            dyd_engine_row(e, v[0]), dyd_engine_row(e, v[1]), dyd_engine_row(e, v[2]));
+  }
+  fputs("],\n", out);
 }
 
 static dyd_status json_triangles(const dyd_result *r) {
   dyd_triangle_list list = {0};
   dyd_status st = dyd_delaunay_triangles(&list, r->pd);
-  fputs("\"triangles\": [", r->out);
-  for (size_t k = 0; k < list.count; k++) {
-    const uint32_t *v = list.item[k].v;
-    fprintf(r->out, "%s[%zu, %zu, %zu]",
-            k == 0  ? ""
-            : k % 8 ? ", "
-                    : ",\n",
-            dyd_engine_row(r->engine, v[0]), dyd_engine_row(r->engine, v[1]), dyd_engine_row(r->engine, v[2]));
-  }
-  fputs("],\n", r->out);
+  dyd_json_triangles(r->out, r->engine, &list);
   dyd_triangle_list_clear(&list);
   return st;
 }
@@ -76,7 +79,7 @@ static dyd_status json_hull(const dyd_result *r) {
   fputs("],\n\"possible_vertices\": [", r->out);
   dyd_put_rows(r->out, r->engine, &hull.possible_vertices, ", ");
   fputs("],\n", r->out);
-  json_pairs(r, "edges", &hull.pairs);
+  dyd_json_pairs(r->out, r->engine, "edges", &hull.pairs);
   fputs("},\n", r->out);
   dyd_hull_clear(&hull);
   return st;
@@ -102,11 +105,11 @@ static dyd_status json_bounds(const dyd_result *r) {
   return st;
 }
 
-static void json_counters(const dyd_result *r) {
+void dyd_json_counters(FILE *out, const dyd_engine *e) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
-  dyd_engine_get_counters(&c, r->engine, NULL);
+  dyd_engine_get_counters(&c, e, NULL);
   const dyd_delaunay_counters *d = &c.delaunay;
-  fprintf(r->out,
+  fprintf(out,
           "\"counters\": {\"stages\": %" PRIu64 ", \"stream_calls\": %" PRIu64 ", \"bits_least\": %" PRId64
           ", \"bits_most\": %" PRId64 ", \"bits_total\": %" PRIu64 ",\n\"undecided_faces\": %" PRIu64
           ", \"faces_worked_on\": %" PRIu64 ", \"filter\": %" PRIu64 ", \"integer\": %" PRIu64 ", \"exact\": %" PRIu64
@@ -149,12 +152,12 @@ static dyd_status json_delaunay(const dyd_output *o) {
   json_head(r);
   dyd_status st = json_bounds(r);
   if (st == DYD_OK) st = json_sites(r);
-  json_pairs(r, "pairs", &r->pairs);
+  dyd_json_pairs(r->out, r->engine, "pairs", &r->pairs);
   fputs(",\n", r->out);
   if (st == DYD_OK) st = json_faces(r);
   if (st == DYD_OK) st = json_triangles(r);
   if (st == DYD_OK) st = json_hull(r);
-  json_counters(r);
+  dyd_json_counters(r->out, r->engine);
   fputs("}\n", r->out);
   return st;
 }
@@ -167,4 +170,5 @@ dyd_writer *const dyd_json_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = jso
                                                     [DYD_CONTENT_BISECTOR] = dyd_bisector_json,
                                                     [DYD_CONTENT_NEAREST] = dyd_nearest_json,
                                                     [DYD_CONTENT_PLACES] = dyd_places_json,
-                                                    [DYD_CONTENT_TOLERANCE] = dyd_tolerance_json};
+                                                    [DYD_CONTENT_TOLERANCE] = dyd_tolerance_json,
+                                                    [DYD_CONTENT_SPHERE] = dyd_sphere_json};
