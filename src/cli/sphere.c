@@ -91,6 +91,7 @@ int cli_sphere(const cli_options *o) {
   cli_session s;
   int status = refuse_on_sphere(o);
   if (status) return status;
+  read.read.degrees = true;
   read.read.radius = NULL; /* it may have a unit, and widens places */
   status = cli_session_open(&s, &read);
   if (!status) status = sphere_all(&s, o);

@@ -12,6 +12,7 @@
 
 #define DEGREE 0.017453292519943295
 #define STEP (2 * DEGREE)
+#define ROUND 0x1p-32 /* degrees: less than a tenth of a millimetre on the earth */
 enum { MOST_STEPS = 92 }; /* of a way of 180 degrees, roundings included */
 
 typedef struct unit_vector {
@@ -95,8 +96,10 @@ static void strips_of(int strip[2], const dyd_lon_lat *p, size_t n) {
   strip[1] = hi > lo ? -strip_of(-hi) : strip[0];
 }
 
+/* A place on the way, in few digits; on the edge of the map, or at a pole, exactly. */
 static void row_at_place(dyd_table *t, double lon, double lat) {
-  dyd_row_at(t, (const double[]){lon, lon, lat, lat});
+  double x = fabs(lon) == 180 ? 0 : ROUND, y = fabs(lat) == 90 ? 0 : ROUND;
+  dyd_row_at(t, (const double[]){lon - x, lon + x, lat - y, lat + y});
 }
 
 /* Where the way from a to b has this longitude. */
@@ -107,9 +110,10 @@ static dyd_lon_lat way_cut(dyd_lon_lat a, dyd_lon_lat b, double lon) {
 /* A place of the way: its ends are what they stand for. */
 static void arc_put(dyd_table *t, const dyd_lon_lat *p, size_t k, size_t n, double turn, const double *const end[2]) {
   const double *box = k == 0 ? end[0] : k + 1 == n ? end[1] : NULL;
-  double at[4] = {p[k].lon - turn, p[k].lon - turn, p[k].lat, p[k].lat};
-  if (box && dyd_lon_lat_of(box).lon == at[0]) memcpy(at, box, sizeof at);
-  dyd_row_at(t, at);
+  if (box && dyd_lon_lat_of(box).lon == p[k].lon - turn)
+    dyd_row_at(t, box);
+  else
+    row_at_place(t, p[k].lon - turn, p[k].lat);
 }
 
 dyd_status dyd_row_arc(dyd_table *t, const double a[4], const double b[4]) {
