@@ -12,7 +12,7 @@
 
 #define DEGREE 0.017453292519943295
 #define STEP (2 * DEGREE)
-#define ROUND 0x1p-32 /* degrees: less than a tenth of a millimetre on the earth */
+#define ROUND 0x1p-32     /* degrees: less than a tenth of a millimetre on the earth */
 enum { MOST_STEPS = 92 }; /* of a way of 180 degrees, roundings included */
 
 typedef struct unit_vector {

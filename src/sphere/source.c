@@ -92,7 +92,7 @@ static dyd_status image_give(dyd_rect *out, const image *m, bool known, int64_t 
   return st;
 }
 
-static dyd_status image_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
+static dyd_status image_request(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
   dyd_sphere *s = user;
   image m = {.s = s, .i = s->of[request->point]};
   dyd_spot_init(&m.spot);
@@ -108,6 +108,6 @@ static dyd_status image_narrow(dyd_rect *out, void *user, const dyd_request *req
 }
 
 dyd_status dyd_sphere_add_images(dyd_sphere *s, dyd_error *err) {
-  const dyd_source source = {DYD_SIZED(dyd_source), .narrow = image_narrow, .user = s};
+  const dyd_source source = {DYD_SIZED(dyd_source), .narrow = image_request, .user = s};
   return s->with_image ? dyd_engine_add_source(s->images, s->with_image, &source, err) : DYD_OK;
 }

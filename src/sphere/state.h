@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What a sphere holds, for the files of this folder:
  *
- *   sphere.c         life: places read off an engine, who is an alias, the engine of images
+ *   sphere.c         life: places and streams of an engine, the engine of images
+ *   spot.c           where a point may be, in degrees
+ *   places.c         where the places are, and which are the same
  *   choose_filter.c  from which place is projected
  *   source.c         images, as the engine of images asks for them
  *   project.c        enclosures of images
@@ -30,11 +32,14 @@ struct dyd_sphere {
   int64_t eye_bits;
 };
 
-/* The place i, as it is known now. DYD_E_DOMAIN where its latitude is beyond a pole. */
+/* places.c: the place i, as it is known now. DYD_E_DOMAIN where its latitude is beyond a pole. */
 dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
 static inline bool dyd_sphere_is_fixed(const dyd_sphere *s, uint32_t i) {
   return !s->stream || !s->stream[i];
 }
+
+/* Fills in alias; looks at all places, DYD_E_DOMAIN as above. */
+dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err);
 
 /* choose_filter.c: the place to project from, among those that are no aliases. DYD_E_ARG with a message where each may
  * be the same as another one. */

@@ -56,14 +56,14 @@ typedef struct circle_question {
   mpz_t n;
 } circle_question;
 
-static size_t question_places(const circle_question *q) {
+static size_t circle_places(const circle_question *q) {
   return q->count + q->line;
 }
 
 /* Reads places; *exact: all are exact. The unit divides all angles. */
-static dyd_status question_read(bool *exact, circle_question *q, dyd_error *err) {
+static dyd_status circle_read(bool *exact, circle_question *q, dyd_error *err) {
   *exact = true;
-  for (size_t k = 0; k < question_places(q) && *exact; k++) {
+  for (size_t k = 0; k < circle_places(q) && *exact; k++) {
     uint32_t i = k < q->count ? q->s->of[q->site[k]] : q->s->centre;
     dyd_status st = dyd_sphere_spot(&q->spot[k], q->s, i, err);
     if (st != DYD_OK) return st;
@@ -105,8 +105,8 @@ static bool turned_set(turned *out, const dyd_spot *spot, mpz_srcptr n) {
 }
 
 /* Three of the places far apart in the order given are the circle. */
-static dyd_status question_answer(bool *proved, const circle_question *q) {
-  size_t count = question_places(q), base[3] = {0, count / 3, 2 * count / 3};
+static dyd_status circle_answer(bool *proved, const circle_question *q) {
+  size_t count = circle_places(q), base[3] = {0, count / 3, 2 * count / 3};
   turned p[4];
   dyd_turns n;
   dyd_status st = DYD_OK;
@@ -121,10 +121,10 @@ static dyd_status question_answer(bool *proved, const circle_question *q) {
   return st;
 }
 
-static dyd_status question_ask(bool *proved, circle_question *q, dyd_error *err) {
+static dyd_status circle_ask(bool *proved, circle_question *q, dyd_error *err) {
   bool exact;
-  dyd_status st = question_read(&exact, q, err);
-  if (st == DYD_OK && exact) st = question_answer(proved, q);
+  dyd_status st = circle_read(&exact, q, err);
+  if (st == DYD_OK && exact) st = circle_answer(proved, q);
   return st;
 }
 
@@ -134,12 +134,12 @@ dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, con
   circle_question q = {.s = s, .site = site, .count = count, .line = relation == DYD_COLLINEAR};
   *proved = false;
   if (relation == DYD_COINCIDENT || mpq_sgn(s->angle)) return DYD_OK;
-  q.spot = dyd_alloc(question_places(&q), sizeof *q.spot);
+  q.spot = dyd_alloc(circle_places(&q), sizeof *q.spot);
   if (!q.spot) return dyd_fail_nomem(err);
   mpz_init_set_ui(q.n, 1);
-  for (size_t k = 0; k < question_places(&q); k++) dyd_spot_init(&q.spot[k]);
-  dyd_status st = question_ask(proved, &q, err);
-  for (size_t k = 0; k < question_places(&q); k++) dyd_spot_clear(&q.spot[k]);
+  for (size_t k = 0; k < circle_places(&q); k++) dyd_spot_init(&q.spot[k]);
+  dyd_status st = circle_ask(proved, &q, err);
+  for (size_t k = 0; k < circle_places(&q); k++) dyd_spot_clear(&q.spot[k]);
   mpz_clear(q.n);
   free(q.spot);
   return st;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""dyadel delaunay --sphere: against exact convex hulls, forms of degrees and radii, formats, refusals [SPH-1] [SPH-3].
+"""dyadel delaunay --sphere: against exact convex hulls, forms of degrees and radii, formats, refusals [SPH-1] [SPH-2] [SPH-3].
 
 Usage: test_sphere.py COMMAND DATA
 """
