@@ -33,6 +33,7 @@
 #include <dyadel/io.h>
 #include <dyadel/metric.h>
 #include <dyadel/oracle.h>
+#include <dyadel/sphere.h>
 #include <dyadel/survey.h>
 #include <dyadel/tolerance.h>
 #include <dyadel/voronoi.h>

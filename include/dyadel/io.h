@@ -7,6 +7,7 @@
 #include <dyadel/converge.h>
 #include <dyadel/graph.h>
 #include <dyadel/metric.h>
+#include <dyadel/sphere.h>
 #include <dyadel/survey.h>
 #include <dyadel/tolerance.h>
 #include <stdio.h>
@@ -39,6 +40,7 @@ typedef struct dyd_read_options {
   bool skip_missing;          /* leave out rows with an empty field, NA, NaN or null for a coordinate or radius */
   bool merge;                 /* equal nominal coordinates are one point: with the smaller radius */
   dyd_read_report *report;    /* receives what was read; NULL: nowhere */
+  bool degrees;               /* y is a latitude: beyond 90 degrees it is an error with its line and column */
 } dyd_read_options;
 
 /* Reads points from `in` up to its end and adds them to e (nothing is added on failure). What gzip or zstd packed is
@@ -94,7 +96,10 @@ typedef enum dyd_content {
   /* Layers of the triangulation, also as pictures: edges of graphs of neighbours (dyadel/graph.h). */
   DYD_CONTENT_GRAPH_NEAREST,
   DYD_CONTENT_GRAPH_GABRIEL,
-  DYD_CONTENT_GRAPH_MST
+  DYD_CONTENT_GRAPH_MST,
+  DYD_CONTENT_SPHERE, /* the triangulation of a sphere: pairs, and its other layers */
+  DYD_CONTENT_SPHERE_POINTS,
+  DYD_CONTENT_SPHERE_TRIANGLES
 } dyd_content;
 
 /* Finds a format by its name ("csv"), or by the ending of a file's name ("a/map.svg", in any case); false when there is
@@ -110,7 +115,7 @@ DYD_API bool dyd_format_is_binary(dyd_format format);
 DYD_API const char *dyd_format_name(dyd_format format);
 /* What it is, in words without a full stop; NULL as above. Static storage. */
 DYD_API const char *dyd_format_about(dyd_format format);
-/* The layers of DYD_CONTENT_DELAUNAY, DYD_CONTENT_VORONOI and DYD_CONTENT_TOLERANCE: the k-th name, the default first,
+/* The layers of DYD_CONTENT_DELAUNAY, _VORONOI, _TOLERANCE and _SPHERE: the k-th name, the default first,
  * NULL behind the last one; and the content that a name ("points") stands for, false when there is none. Static
  * storage. */
 DYD_API const char *dyd_layer_name(dyd_content of, size_t k);
@@ -200,6 +205,17 @@ typedef struct dyd_tolerance_output {
  * colour edges by the death. DYD_E_ARG when the format does not hold the layer, or radii were not asked for. */
 DYD_API dyd_status dyd_write_tolerance(FILE *out, const dyd_engine *e, const dyd_tolerance *t,
                                        const dyd_tolerance_output *o, dyd_format format, dyd_error *err);
+
+typedef struct dyd_sphere_output {
+  size_t struct_size; /* set by DYD_SIZED */
+  dyd_content layer;  /* what csv, wkt and geojson hold; DYD_CONTENT_NONE: the pairs */
+  unsigned epsg;      /* as in dyd_delaunay_output; 0: longitude and latitude (CRS84) in geojson */
+} dyd_sphere_output;
+/* Writes the current result of s; o may be NULL. In wkt and geojson edges are great circles, a place at every 2 degrees
+ * at most, cut where they cross the meridian of 180 degrees; of triangles that hold more than half of the sphere the
+ * geometry is empty. DYD_E_ARG when there is no result yet, or the format does not hold the layer. */
+DYD_API dyd_status dyd_write_sphere(FILE *out, const dyd_sphere *s, const dyd_sphere_output *o, dyd_format format,
+                                    dyd_error *err);
 
 typedef struct dyd_plan_output {
   size_t struct_size; /* set by DYD_SIZED */

@@ -59,7 +59,8 @@ typedef struct cli_options {
   bool start_set;     /* engine.start_bits was given */
   bool max_bits_set;
   bool no_times, no_voronoi, of_voronoi;
-  bool discs;                 /* delaunay: radii are discs */
+  bool discs;         /* delaunay: radii are discs */
+  bool sphere, plane; /* points are longitude and latitude on a sphere; coordinates of a plane, whatever named */
   dyd_voronoi_bounds *bounds; /* voronoi: where the bounds of what is written go */
   size_t *cut;                /* voronoi: where the number of cells and regions goes that the deadline cut */
   bool stats, quiet, version;
@@ -91,6 +92,8 @@ int cli_number_read(mpq_ptr out, const char *name, const char *text);
 /* One function for each command, in a file of its own; returns the exit status. */
 int cli_delaunay(const cli_options *o);
 int cli_voronoi(const cli_options *o);
+/* sphere.c: delaunay with --sphere. */
+int cli_sphere(const cli_options *o);
 int cli_check(const cli_options *o);
 int cli_converge(const cli_options *o);
 int cli_nearest(const cli_options *o);
@@ -160,6 +163,8 @@ int cli_write_file(const char *name, const cli_options *o, cli_print_fn print, c
  * of the outcome where status is 0. */
 int cli_session_close(cli_session *s, int status);
 int cli_exit_status(dyd_outcome outcome);
+/* Why no more is known, and what to do. Static storage. */
+const char *cli_outcome_advice(const dyd_engine *e);
 /* goal.c: one line that tells which bound was asked for, which is reached, why it is no better (advice), and what to
  * do. false, and nothing said, where no bound was asked for. */
 bool cli_note_goal(const cli_session *s, const char *advice);

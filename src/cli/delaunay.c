@@ -75,6 +75,7 @@ int cli_delaunay(const cli_options *o) {
   dyd_rect window;
   dyd_rect_init(&window);
   int status = 0;
+  if (o->sphere) return cli_sphere(o);
   if (o->window) {
     own.view = &window;
     status = cli_window_read(&window, o->window);

@@ -150,8 +150,9 @@ static int options_fit(const cli_options *o, uint64_t seen, const cli_command *c
 
 /* The layer named, as one of what the command writes. */
 static int layer_fits(cli_options *o, const cli_command *c) {
-  o->content = o->queries ? DYD_CONTENT_PLACES : c->content;
-  if (!o->layer || dyd_layer_from_name(&o->content, c->content, o->layer)) return 0;
+  dyd_content of = o->sphere ? DYD_CONTENT_SPHERE : c->content;
+  o->content = o->queries ? DYD_CONTENT_PLACES : of;
+  if (!o->layer || dyd_layer_from_name(&o->content, of, o->layer)) return 0;
   fprintf(stderr, "dyadel: %s has no layer \"%s\"; give ", c->name, o->layer);
   cli_layers_print(stderr, cli_command_bit(c), ", ");
   fputs("\n", stderr);

@@ -109,7 +109,7 @@ static const char *budget_advice(dyd_budget b) {
   }
 }
 
-static const char *outcome_advice(const dyd_engine *e) {
+const char *cli_outcome_advice(const dyd_engine *e) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
   switch (dyd_engine_outcome(e)) {
   case DYD_OUTCOME_FIXPOINT:
@@ -129,11 +129,11 @@ static void session_note_outcome(const cli_session *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
   dyd_outcome outcome = dyd_engine_outcome(s->engine);
   if (!pd || outcome == DYD_OUTCOME_DECIDED || outcome == DYD_OUTCOME_CERTIFIED) return;
-  if (cli_note_goal(s, outcome_advice(s->engine))) return;
+  if (cli_note_goal(s, cli_outcome_advice(s->engine))) return;
   size_t count[4];
   dyd_delaunay_count(count, pd);
   cli_complain("%s: %zu legal, %zu indeterminate, %zu tie; %s", dyd_outcome_text(outcome), count[DYD_LEGAL],
-               count[DYD_INDETERMINATE], count[DYD_TIE], outcome_advice(s->engine));
+               count[DYD_INDETERMINATE], count[DYD_TIE], cli_outcome_advice(s->engine));
 }
 
 /* ---- writing ---- */

@@ -205,8 +205,10 @@ static dyd_status ask_triangulate(ask *a, dyd_error *err) {
                                   .cancel = &e->stop,
                                   .threads = a->o.threads,
                                   .no_filter = a->o.no_filter,
-                                  .prove = a->o.no_ties ? NULL : dyd_ties_prove,
-                                  .prove_user = e};
+                                  .prove = a->o.no_ties ? NULL
+                                           : e->prover  ? e->prover
+                                                        : dyd_ties_prove,
+                                  .prove_user = e->prover ? e->prover_user : e};
   dyd_status st = ask_settle(e, &o, err);
   if (st == DYD_CANCELLED) return ask_end_interrupted(a);
   if (st != DYD_OK) return st;

@@ -90,6 +90,8 @@ struct dyd_engine {
   dyd_ties *ties;     /* what was asked about true points; NULL: nothing yet */
   int64_t tie_bits;
   dyd_tie_counters tie_counters;
+  dyd_prove_fn prover; /* who is asked about ties in place of ties.c; NULL: nobody */
+  void *prover_user;
   volatile int cancelled; /* set by dyd_engine_cancel; atomic access only, as for stop */
   volatile int stop;      /* set together with cancelled, and at a deadline; read by the triangulation */
 };

@@ -246,6 +246,11 @@ static dyd_status answer_get(answer **out, dyd_engine *e, dyd_relation relation,
   return st;
 }
 
+void dyd_engine_set_prover(dyd_engine *e, dyd_prove_fn fn, void *user) {
+  e->prover = fn;
+  e->prover_user = user;
+}
+
 dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                           dyd_error *err) {
   answer *a = NULL;

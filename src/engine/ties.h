@@ -8,6 +8,9 @@
 /* As dyd_prove_fn, for the points of the engine `user`; what was asked before is remembered. */
 dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                           dyd_error *err);
+/* From now on fn, with user (borrowed), is asked about the true points of e: somebody who knows what they are made of.
+ */
+void dyd_engine_set_prover(dyd_engine *e, dyd_prove_fn fn, void *user);
 /* What was proved, in the order in which it was: number k, from 0. false: so many there are not. *site is borrowed. */
 bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *count, const dyd_engine *e, size_t k);
 void dyd_ties_free(dyd_ties *t);

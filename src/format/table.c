@@ -87,7 +87,10 @@ static const struct {
               {"edges", DYD_CONTENT_VORONOI, DYD_CONTENT_EDGES},
               {"pairs", DYD_CONTENT_TOLERANCE, DYD_CONTENT_TOLERANCE},
               {"points", DYD_CONTENT_TOLERANCE, DYD_CONTENT_RADII},
-              {"barcode", DYD_CONTENT_TOLERANCE, DYD_CONTENT_BARCODE}};
+              {"barcode", DYD_CONTENT_TOLERANCE, DYD_CONTENT_BARCODE},
+              {"pairs", DYD_CONTENT_SPHERE, DYD_CONTENT_SPHERE},
+              {"points", DYD_CONTENT_SPHERE, DYD_CONTENT_SPHERE_POINTS},
+              {"triangles", DYD_CONTENT_SPHERE, DYD_CONTENT_SPHERE_TRIANGLES}};
 enum { LAYERS = sizeof layers / sizeof *layers };
 
 const char *dyd_layer_name(dyd_content of, size_t k) {

@@ -278,6 +278,23 @@ dyd_status dyd_write_tolerance(FILE *out, const dyd_engine *e, const dyd_toleran
   return dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_TOLERANCE), &(dyd_tolerance_result){&r, t}, err);
 }
 
+dyd_status dyd_write_sphere(FILE *out, const dyd_sphere *s, const dyd_sphere_output *options, dyd_format format,
+                            dyd_error *err) {
+  if (err) dyd_error_clear(err);
+  dyd_sphere_output o;
+  if (dyd_abi_take(&o, sizeof o, options, "dyd_sphere_output", err) != DYD_OK) return DYD_E_ARG;
+  if (refuse_layer(o.layer, DYD_CONTENT_SPHERE, err) != DYD_OK || !result_of(dyd_sphere_images(s), err))
+    return DYD_E_ARG;
+  dyd_sphere_result r = {.sphere = s, .epsg = o.epsg};
+  dyd_status st = dyd_sphere_pairs(&r.pairs, s);
+  if (st == DYD_OK)
+    st = dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_SPHERE), &r, err);
+  else
+    dyd_fail(err, st, "%s", dyd_status_text(st));
+  dyd_pair_list_clear(&r.pairs);
+  return st;
+}
+
 dyd_status dyd_write_plan(FILE *out, const dyd_engine *e, const dyd_survey *s, const dyd_plan_output *options,
                           dyd_format format, dyd_error *err) {
   if (err) dyd_error_clear(err);

@@ -7,7 +7,7 @@
 
 static dyd_table_head layer_head(const dyd_output *o, const char *const *column, dyd_geometry geometry) {
   const dyd_result *r = o->what;
-  return (dyd_table_head){o->out, o->format, column, geometry, r->epsg, r->engine};
+  return (dyd_table_head){o->out, o->format, column, geometry, r->epsg, r->engine, NULL};
 }
 
 /* The places of all sites; none for csv. */

@@ -9,7 +9,7 @@
 
 static dyd_table_head diagram_head(const dyd_output *o, const char *const *column, dyd_geometry geometry) {
   const dyd_diagram *d = o->what;
-  return (dyd_table_head){o->out, o->format, column, geometry, d->epsg, d->engine};
+  return (dyd_table_head){o->out, o->format, column, geometry, d->epsg, d->engine, NULL};
 }
 
 /* ---- comments of csv ---- */

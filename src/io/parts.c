@@ -10,14 +10,19 @@
  * that were merged when they were read. */
 typedef struct alias_walk {
   const dyd_engine *e;
-  size_t i, merged; /* where to look on */
-  size_t row, of;   /* what was found: rows */
+  const dyd_sphere *s; /* e is that of its places; NULL: of a plane */
+  size_t i, merged;    /* where to look on */
+  size_t row, of;      /* what was found: rows */
 } alias_walk;
 
+static size_t alias_of(const alias_walk *w, size_t i) {
+  return w->s ? dyd_sphere_alias(w->s, (uint32_t)i) : dyd_delaunay_alias(dyd_engine_delaunay(w->e), (uint32_t)i);
+}
+
 static bool next_alias(alias_walk *w) {
-  const dyd_delaunay *pd = dyd_engine_delaunay(w->e);
-  size_t count = dyd_sites_count(dyd_delaunay_sites(pd)), row, point;
-  while (w->i < count && dyd_delaunay_alias(pd, (uint32_t)w->i) == w->i) w->i++;
+  size_t count = w->s ? dyd_engine_count(w->e) : dyd_sites_count(dyd_delaunay_sites(dyd_engine_delaunay(w->e)));
+  size_t row, point;
+  while (w->i < count && alias_of(w, w->i) == w->i) w->i++;
   bool alias = w->i < count, merged = dyd_engine_merged(&row, &point, w->e, w->merged);
   if (!alias && !merged) return false;
   if (merged && (!alias || row < dyd_engine_row(w->e, w->i)))
@@ -25,19 +30,34 @@ static bool next_alias(alias_walk *w) {
   else
     row = dyd_engine_row(w->e, point = w->i++);
   w->row = row;
-  w->of = dyd_engine_row(w->e, dyd_delaunay_alias(pd, (uint32_t)point));
+  w->of = dyd_engine_row(w->e, alias_of(w, point));
   return true;
 }
 
+static void csv_aliases(FILE *out, alias_walk w) {
+  while (next_alias(&w)) fprintf(out, "# alias %zu %zu\n", w.row, w.of);
+}
+
+static void json_aliases(FILE *out, alias_walk w, const char *after) {
+  fputs("\"aliases\": [", out);
+  for (const char *between = ""; next_alias(&w); between = ", ") fprintf(out, "%s[%zu, %zu]", between, w.row, w.of);
+  fprintf(out, "]%s", after);
+}
+
 void dyd_csv_aliases(FILE *out, const dyd_engine *e) {
-  for (alias_walk w = {.e = e}; next_alias(&w);) fprintf(out, "# alias %zu %zu\n", w.row, w.of);
+  csv_aliases(out, (alias_walk){.e = e});
 }
 
 void dyd_json_aliases(FILE *out, const dyd_engine *e, const char *after) {
-  const char *between = "";
-  fputs("\"aliases\": [", out);
-  for (alias_walk w = {.e = e}; next_alias(&w); between = ", ") fprintf(out, "%s[%zu, %zu]", between, w.row, w.of);
-  fprintf(out, "]%s", after);
+  json_aliases(out, (alias_walk){.e = e}, after);
+}
+
+void dyd_csv_sphere_aliases(FILE *out, const dyd_sphere *s) {
+  csv_aliases(out, (alias_walk){.e = dyd_sphere_places(s), .s = s});
+}
+
+void dyd_json_sphere_aliases(FILE *out, const dyd_sphere *s, const char *after) {
+  json_aliases(out, (alias_walk){.e = dyd_sphere_places(s), .s = s}, after);
 }
 
 const char *dyd_schedule_text(dyd_schedule schedule) {

@@ -4,13 +4,16 @@
 #define DYD_IO_PARTS_H
 
 #include <dyadel/delaunay.h>
-#include <dyadel/engine.h>
+#include <dyadel/sphere.h>
 #include <stdio.h>
 
 /* "# alias 7 3" for each alias or merged row of the result of e, a line each. */
 void dyd_csv_aliases(FILE *out, const dyd_engine *e);
 /* "aliases": [[7, 3], ..], and `after` behind it. */
 void dyd_json_aliases(FILE *out, const dyd_engine *e, const char *after);
+/* The same of a sphere. */
+void dyd_csv_sphere_aliases(FILE *out, const dyd_sphere *s);
+void dyd_json_sphere_aliases(FILE *out, const dyd_sphere *s, const char *after);
 /* "adaptive", "uniform". */
 const char *dyd_schedule_text(dyd_schedule schedule);
 /* "format": .., "version": ..: the opening of an object. */

@@ -37,6 +37,11 @@ dyd_status dyd_result_places(dyd_place **out, char bound[DYD_DECIMAL_SIZE], cons
 /* Of every site; aliases as the site they stand for. *out is released with free(). */
 dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r);
 
+/* "NAME": [{"i": .., "j": .., "status": ..}, ..]; "triangles": [[i, j, k], ..]; "counters": {..}: numbers are rows. */
+void dyd_json_pairs(FILE *out, const dyd_engine *e, const char *name, const dyd_pair_list *pairs);
+void dyd_json_triangles(FILE *out, const dyd_engine *e, const dyd_triangle_list *list);
+void dyd_json_counters(FILE *out, const dyd_engine *e);
+
 /* The rows of sites: "3, 7, 9". */
 void dyd_put_rows(FILE *out, const dyd_engine *e, const dyd_index_list *list, const char *between);
 /* The sites of each undecided face, behind `first` or `next`, before `end`. */

@@ -54,14 +54,17 @@ static void geojson_head(const dyd_table_head *h) {
   fputs("{\"type\": \"FeatureCollection\",\n\"crs\": {\"type\": \"name\", \"properties\": {\"name\": \"", h->out);
   if (h->epsg)
     fprintf(h->out, "urn:ogc:def:crs:EPSG::%u", h->epsg);
+  else if (h->sphere)
+    fputs("urn:ogc:def:crs:OGC:1.3:CRS84", h->out);
   else
     fputs(no_system, h->out);
+  const dyd_engine *ran = h->sphere ? dyd_sphere_images(h->sphere) : h->engine;
   fprintf(h->out,
           "\"}},\n\"rounding\": \"a coordinate differs from every point that it stands for by at most "
           "max_coordinate_error; numbers called lo, rho or half_width_needed are rounded down, others that are not "
           "whole up\",\n"
           "\"outcome\": \"%s\",\n\"features\": [",
-          dyd_outcome_text(dyd_engine_outcome(h->engine)));
+          dyd_outcome_text(dyd_engine_outcome(ran)));
 }
 
 void dyd_table_begin(dyd_table *t, const dyd_table_head *head) {
@@ -95,15 +98,29 @@ void dyd_table_end(dyd_table *t) {
 
 /* ---- geometry ---- */
 
+/* parts: how they begin, and the end when there are none; open is "" for them, as the first part opens. */
 static const struct {
   const char *name[2], *open[2], *close[2]; /* of wkt, of geojson */
-} geometries[] = {[DYD_GEOMETRY_POINT] = {{"POINT", "Point"}, {"(", ""}, {")", ""}},
-                  [DYD_GEOMETRY_LINE] = {{"LINESTRING", "LineString"}, {"(", "["}, {")", "]"}},
-                  [DYD_GEOMETRY_POLYGON] = {{"POLYGON", "Polygon"}, {"((", "[["}, {"))", "]]"}}};
+  const char *first[2], *next[2], *none[2];
+} geometries[] = {[DYD_GEOMETRY_POINT] = {{"POINT", "Point"}, {"(", ""}, {")", ""}, {NULL}, {NULL}, {NULL}},
+                  [DYD_GEOMETRY_LINE] = {{"LINESTRING", "LineString"}, {"(", "["}, {")", "]"}, {NULL}, {NULL}, {NULL}},
+                  [DYD_GEOMETRY_POLYGON] = {{"POLYGON", "Polygon"}, {"((", "[["}, {"))", "]]"}, {NULL}, {NULL}, {NULL}},
+                  [DYD_GEOMETRY_LINES] = {{"MULTILINESTRING", "MultiLineString"},
+                                          {"", ""},
+                                          {"))", "]]"},
+                                          {"((", "[["},
+                                          {"), (", "], ["},
+                                          {"EMPTY", "[]"}},
+                  [DYD_GEOMETRY_POLYGONS] = {{"MULTIPOLYGON", "MultiPolygon"},
+                                             {"", ""},
+                                             {")))", "]]]"},
+                                             {"(((", "[[["},
+                                             {")), ((", "]], [["},
+                                             {"EMPTY", "[]"}}};
 
 void dyd_row_begin(dyd_table *t) {
   const dyd_table_head *h = t->head;
-  t->places = t->values = 0;
+  t->places = t->values = t->parts = 0;
   t->error = 0;
   if (is_geojson(t)) {
     table_put(t, t->rows ? ",\n{\"type\": \"Feature\", \"geometry\": {\"type\": \""
@@ -117,6 +134,18 @@ void dyd_row_begin(dyd_table *t) {
     table_put(t, " ");
     table_put(t, geometries[h->geometry].open[0]);
   }
+}
+
+void dyd_row_part(dyd_table *t) {
+  if (!has_geometry(t)) return;
+  table_put(t, (t->parts++ ? geometries[t->head->geometry].next : geometries[t->head->geometry].first)[is_geojson(t)]);
+  t->places = 0;
+}
+
+/* What ends the geometry. */
+static const char *geometry_end(const dyd_table *t) {
+  dyd_geometry g = t->head->geometry;
+  return (geometries[g].none[0] && !t->parts ? geometries[g].none : geometries[g].close)[is_geojson(t)];
 }
 
 void dyd_row_place(dyd_table *t, const dyd_place *place) {
@@ -156,7 +185,7 @@ static void value_begin(dyd_table *t) {
   const char *name = t->head->column[t->values] ? t->head->column[t->values] : "max_coordinate_error";
   t->values++;
   if (first && has_geometry(t)) {
-    table_put(t, geometries[t->head->geometry].close[json]);
+    table_put(t, geometry_end(t));
     table_put(t, json ? "}, \"properties\": {" : "\",");
   } else if (!first) {
     table_put(t, json ? ", " : ",");

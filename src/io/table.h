@@ -21,7 +21,13 @@
 #include "io/output.h"
 #include "io/place.h"
 
-typedef enum dyd_geometry { DYD_GEOMETRY_POINT, DYD_GEOMETRY_LINE, DYD_GEOMETRY_POLYGON } dyd_geometry;
+typedef enum dyd_geometry {
+  DYD_GEOMETRY_POINT,
+  DYD_GEOMETRY_LINE,
+  DYD_GEOMETRY_POLYGON,
+  DYD_GEOMETRY_LINES, /* any number of parts, see dyd_row_part */
+  DYD_GEOMETRY_POLYGONS
+} dyd_geometry;
 
 /* All borrowed while the table is written. */
 typedef struct dyd_table_head {
@@ -31,6 +37,7 @@ typedef struct dyd_table_head {
   dyd_geometry geometry;
   unsigned epsg; /* the reference system of the coordinates; 0: none is claimed */
   const dyd_engine *engine;
+  const dyd_sphere *sphere; /* coordinates are degrees on it, and `engine` is that of its places; NULL: a plane */
 } dyd_table_head;
 
 enum { DYD_TABLE_BLOCK = 1 << 14 };
@@ -38,7 +45,8 @@ enum { DYD_TABLE_BLOCK = 1 << 14 };
 /* Written in blocks, since there are millions of rows. */
 typedef struct dyd_table {
   const dyd_table_head *head;
-  size_t rows, places, values; /* so far; the latter two of this row */
+  size_t rows, places, values; /* so far; the latter two of this row, places since the part began */
+  size_t parts;                /* of this row */
   double error, most;          /* of the coordinates of this row, of all */
   char *end, block[DYD_TABLE_BLOCK];
 } dyd_table;
@@ -48,6 +56,8 @@ void dyd_table_end(dyd_table *t);
 
 void dyd_row_begin(dyd_table *t);
 void dyd_row_end(dyd_table *t);
+/* Begins the next part of lines or polygons; without any the geometry is empty. */
+void dyd_row_part(dyd_table *t);
 /* The next place of the geometry; a polygon repeats its first. */
 void dyd_row_place(dyd_table *t, const dyd_place *place);
 /* The same for what stands for a box: x lower, x upper, y lower, y upper, finite. */

@@ -21,4 +21,7 @@ dyd_writer *const dyd_csv_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = dyd_
                                                    [DYD_CONTENT_PLAN] = dyd_plan_rows,
                                                    [DYD_CONTENT_GRAPH_NEAREST] = dyd_layer_graph,
                                                    [DYD_CONTENT_GRAPH_GABRIEL] = dyd_layer_graph,
-                                                   [DYD_CONTENT_GRAPH_MST] = dyd_layer_graph};
+                                                   [DYD_CONTENT_GRAPH_MST] = dyd_layer_graph,
+                                                   [DYD_CONTENT_SPHERE] = dyd_sphere_layer_pairs,
+                                                   [DYD_CONTENT_SPHERE_POINTS] = dyd_sphere_layer_points,
+                                                   [DYD_CONTENT_SPHERE_TRIANGLES] = dyd_sphere_layer_triangles};

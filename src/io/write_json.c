@@ -37,30 +37,10 @@ static dyd_status json_sites(const dyd_result *r) {
   return st;
 }
 
-static void json_pairs(const dyd_result *r, const char *name, const dyd_pair_list *pairs) {
-  FILE *out = r->out;
-  fprintf(out, "\"%s\": [", name);
-  for (size_t k = 0; k < pairs->count; k++) {
-    const dyd_pair *p = &pairs->item[k];
-    fprintf(out, "%s\n{\"i\": %zu, \"j\": %zu, \"status\": \"%s\"}", k ? "," : "", dyd_engine_row(r->engine, p->i),
-            dyd_engine_row(r->engine, p->j), dyd_pair_status_text(p->status));
-  }
-  fputs("\n]", out);
-}
-
 static dyd_status json_triangles(const dyd_result *r) {
   dyd_triangle_list list = {0};
   dyd_status st = dyd_delaunay_triangles(&list, r->pd);
-  fputs("\"triangles\": [", r->out);
-  for (size_t k = 0; k < list.count; k++) {
-    const uint32_t *v = list.item[k].v;
-    fprintf(r->out, "%s[%zu, %zu, %zu]",
-            k == 0  ? ""
-            : k % 8 ? ", "
-                    : ",\n",
-            dyd_engine_row(r->engine, v[0]), dyd_engine_row(r->engine, v[1]), dyd_engine_row(r->engine, v[2]));
-  }
-  fputs("],\n", r->out);
+  dyd_json_triangles(r->out, r->engine, &list);
   dyd_triangle_list_clear(&list);
   return st;
 }
@@ -76,7 +56,7 @@ static dyd_status json_hull(const dyd_result *r) {
   fputs("],\n\"possible_vertices\": [", r->out);
   dyd_put_rows(r->out, r->engine, &hull.possible_vertices, ", ");
   fputs("],\n", r->out);
-  json_pairs(r, "edges", &hull.pairs);
+  dyd_json_pairs(r->out, r->engine, "edges", &hull.pairs);
   fputs("},\n", r->out);
   dyd_hull_clear(&hull);
   return st;
@@ -100,20 +80,6 @@ static dyd_status json_bounds(const dyd_result *r) {
   dyd_dyadic_clear(&area);
   dyd_dyadic_clear(&hausdorff);
   return st;
-}
-
-static void json_counters(const dyd_result *r) {
-  dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
-  dyd_engine_get_counters(&c, r->engine, NULL);
-  const dyd_delaunay_counters *d = &c.delaunay;
-  fprintf(r->out,
-          "\"counters\": {\"stages\": %" PRIu64 ", \"stream_calls\": %" PRIu64 ", \"bits_least\": %" PRId64
-          ", \"bits_most\": %" PRId64 ", \"bits_total\": %" PRIu64 ",\n\"undecided_faces\": %" PRIu64
-          ", \"faces_worked_on\": %" PRIu64 ", \"filter\": %" PRIu64 ", \"integer\": %" PRIu64 ", \"exact\": %" PRIu64
-          ",\n\"witness_guess\": %" PRIu64 ", \"witness_search\": %" PRIu64 ", \"cover_walks\": %" PRIu64
-          ", \"milliseconds_rounded_up\": %" PRIu64 "}\n",
-          c.stages, c.calls, c.bits_least, c.bits_most, c.bits_total, c.undecided_faces, d->faces, d->filter,
-          d->integer, d->exact, d->witness_guess, d->witness_search, d->cover_walks, (uint64_t)(c.seconds * 1000) + 1);
 }
 
 static void json_head(const dyd_result *r) {
@@ -149,12 +115,12 @@ static dyd_status json_delaunay(const dyd_output *o) {
   json_head(r);
   dyd_status st = json_bounds(r);
   if (st == DYD_OK) st = json_sites(r);
-  json_pairs(r, "pairs", &r->pairs);
+  dyd_json_pairs(r->out, r->engine, "pairs", &r->pairs);
   fputs(",\n", r->out);
   if (st == DYD_OK) st = json_faces(r);
   if (st == DYD_OK) st = json_triangles(r);
   if (st == DYD_OK) st = json_hull(r);
-  json_counters(r);
+  dyd_json_counters(r->out, r->engine);
   fputs("}\n", r->out);
   return st;
 }
@@ -167,4 +133,5 @@ dyd_writer *const dyd_json_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = jso
                                                     [DYD_CONTENT_BISECTOR] = dyd_bisector_json,
                                                     [DYD_CONTENT_NEAREST] = dyd_nearest_json,
                                                     [DYD_CONTENT_PLACES] = dyd_places_json,
-                                                    [DYD_CONTENT_TOLERANCE] = dyd_tolerance_json};
+                                                    [DYD_CONTENT_TOLERANCE] = dyd_tolerance_json,
+                                                    [DYD_CONTENT_SPHERE] = dyd_sphere_json};

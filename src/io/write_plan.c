@@ -27,7 +27,7 @@ dyd_status dyd_plan_rows(const dyd_output *o) {
   static const char *const column[] = {
       "rank", "i", "half_width_now", "half_width_needed", "pairs_decided", "pairs_left", "id", NULL};
   const dyd_plan_result *p = o->what;
-  const dyd_table_head head = {o->out, o->format, column, DYD_GEOMETRY_POINT, p->result->epsg, p->result->engine};
+  const dyd_table_head head = {o->out, o->format, column, DYD_GEOMETRY_POINT, p->result->epsg, p->result->engine, NULL};
   const dyd_survey_row *row;
   size_t rows = dyd_survey_rows(&row, p->survey);
   char bound[DYD_DECIMAL_SIZE];

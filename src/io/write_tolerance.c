@@ -16,7 +16,7 @@ static const dyd_result *nominal_of(const dyd_output *o) {
 
 static dyd_table_head tolerance_head(const dyd_output *o, const char *const *column, dyd_geometry geometry) {
   const dyd_result *r = nominal_of(o);
-  return (dyd_table_head){o->out, o->format, column, geometry, r->epsg, r->engine};
+  return (dyd_table_head){o->out, o->format, column, geometry, r->epsg, r->engine, NULL};
 }
 
 static dyd_status tolerance_places(dyd_place **out, const dyd_output *o) {

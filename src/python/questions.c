@@ -15,7 +15,7 @@ static PyObject *nearest_found(const dyd_index_list *found, bool sure, dyd_outco
                        dyd_outcome_text(outcome), dydpy_rect_ends(at));
 }
 
-static PyObject *nearest_of(dydpy_engine *self, dyd_stream *at, const dyd_engine_options *o) {
+static PyObject *engine_nearest_of(dydpy_engine *self, dyd_stream *at, const dyd_engine_options *o) {
   dyd_index_list found = {0};
   bool sure = false;
   dyd_outcome outcome;
@@ -43,7 +43,7 @@ PyObject *dydpy_nearest(PyObject *object, PyObject *args) {
   dyd_stream *at = NULL;
   if (!PyArg_ParseTuple(args, "OO!", &point, &PyDict_Type, &dict) || dydpy_stream(&at, point, NULL) < 0) return NULL;
   if (dydpy_options_init(&o, self, dict) == 0) {
-    if (dydpy_enter_result(self)) answer = nearest_of(self, at, &o.o);
+    if (dydpy_enter_result(self)) answer = engine_nearest_of(self, at, &o.o);
     dydpy_options_clear(&o);
   }
   dyd_stream_free(at);

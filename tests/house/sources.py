@@ -10,12 +10,12 @@ import sys
 
 # What a layer may include besides itself: everything below it. layers in one bracket are side by side.
 LAYERS = [['base'], ['dyadic'], ['rect', 'checker'], ['stream', 'predicate'], ['skeleton'], ['legal', 'possible'], ['delaunay'], ['tolerance', 'graph'],
-          ['voronoi'], ['metric'], ['engine'], ['io'], ['prove', 'picture'], ['format']]
+          ['voronoi'], ['metric'], ['engine'], ['sphere'], ['io'], ['prove', 'picture'], ['format']]
 # Rooms that see the library as its users do.
 OUTSIDE = {'cli': 'the command', 'python': 'the Python module'}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 # Public headers in the order of the layers; a header may include only those before it.
-PUBLIC = ['status', 'dyadic certificate', 'rect', 'stream sites', 'oracle', 'predicate delaunay', 'tolerance survey graph', 'arc', 'voronoi', 'compose', 'metric', 'engine', 'converge check', 'io', 'dyadel']
+PUBLIC = ['status', 'dyadic certificate', 'rect', 'stream sites', 'oracle', 'predicate delaunay', 'tolerance survey graph', 'arc', 'voronoi', 'compose', 'metric', 'engine', 'converge check sphere', 'io', 'dyadel']
 # The checker of certificates stands on the number layer alone.
 CHECKER_MAY = ['dyadel/status.h', 'dyadel/dyadic.h', 'dyadel/certificate.h']
 FILE_LINES, FUNCTION_LINES = 500, 60

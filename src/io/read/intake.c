@@ -189,6 +189,15 @@ static dyd_status intake_point(dyd_intake *in, const dyd_span span[DYD_CSV_ROLES
 
 /* ---- rows ---- */
 
+/* Is all of the coordinate beyond 90? Of computable numbers that is not known yet. */
+static bool is_beyond_poles(const dyd_coordinate *c) {
+  double lo = c->lo, hi = c->hi;
+  if (c->kind == DYD_COORDINATE_PLAIN) return dyd_plain_get_rounded(&lo, c->plain, DYD_UP) && fabs(lo) > 90;
+  if (c->kind == DYD_COORDINATE_REAL && !dyd_real_is_final(c->real)) return false;
+  if (c->kind == DYD_COORDINATE_REAL) dyd_interval_get_d(&lo, &hi, dyd_real_interval(c->real));
+  return lo > 90 || hi < -90;
+}
+
 static dyd_status intake_skip(dyd_intake *in, const dyd_span *s, dyd_csv_role role, dyd_error *err) {
   if (!in->o->skip_missing) return fail_missing_field(s, role, err);
   in->report.missing++;
@@ -207,7 +216,10 @@ dyd_status dyd_intake_row(dyd_intake *in, dyd_span span[DYD_CSV_ROLES], dyd_erro
     if (span[DYD_CSV_RADIUS_X + a].text) st = intake_radius(in, a, &span[DYD_CSV_RADIUS_X + a], err);
     if (st == DYD_OK) st = hint_comma(dyd_coordinate_read(&c[a], &span[a], &in->manner[a], err), in, &span[a], err);
   }
+  if (st == DYD_OK && in->o->degrees && is_beyond_poles(&c[1]))
+    st = dyd_span_fail(err, &span[1], 0, "the latitude is beyond 90 degrees; longitude comes first, then latitude");
   if (st == DYD_OK) return intake_point(in, span, c, err);
+  dyd_coordinate_clear(&c[1]);
   dyd_coordinate_clear(&c[0]);
   return st;
 }

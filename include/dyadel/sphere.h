@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Points on a sphere, given by longitude and latitude in degrees (mathematics: section 13).
+ *
+ * Two points are neighbours iff some circle on the sphere passes through both and has no point inside: so are the
+ * edges of the convex hull in space. All is projected stereographically from one of the points, the centre; then the
+ * statuses of the other pairs are those of their images in the plane, and the neighbours of the centre are the images
+ * on the convex hull [SPH-1]. The earth is taken for a sphere, not for an ellipsoid.
+ *
+ * Longitudes count modulo 360, a pole has any longitude, exact points at the same place are one. Ties among points
+ * whose degrees are rational numbers are all proved [SPH-3]. */
+#ifndef DYADEL_SPHERE_H
+#define DYADEL_SPHERE_H
+
+#include <dyadel/engine.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The mean radius of the earth (IUGG) in metres: what metres on the ground are measured by. */
+#define DYD_EARTH_RADIUS "6371008.8"
+
+typedef struct dyd_sphere dyd_sphere;
+
+typedef struct dyd_sphere_options {
+  size_t struct_size; /* set by DYD_SIZED */
+  /* How far points may be from their places: an exact number with a unit behind it. "0.01deg", or without a unit:
+   * longitude and latitude may each be off by so many degrees. "30m", "2km": points lie within this distance on the
+   * ground (DYD_EARTH_RADIUS). NULL: none. Borrowed for the call. */
+  const char *radius;
+  bool centre_set; /* project from point `centre`; else one is chosen: exact, or narrow for its neighbourhood */
+  uint32_t centre;
+} dyd_sphere_options;
+
+/* The sphere with the points of `places`, an engine to which longitudes (x) and latitudes (y) were added, and which is
+ * never run; borrowed until dyd_sphere_free, and not to be changed. options may be NULL. Streams are narrowed to 32
+ * bits. DYD_E_ARG or DYD_E_DOMAIN with a message and the point: a latitude beyond 90 degrees; a radius that is not
+ * understood; points that are all so wide that each may be the same as another. O(N log N). */
+DYD_API dyd_status dyd_sphere_new(dyd_sphere **out, dyd_engine *places, const dyd_sphere_options *options,
+                                  dyd_error *err);
+DYD_API void dyd_sphere_free(dyd_sphere *s);
+/* The engine of the images: to be run, cancelled and asked for counters. Its points are called by the rows of the
+ * places; its statuses are those of images alone. Owned by s. */
+DYD_API dyd_engine *dyd_sphere_engine(dyd_sphere *s);
+DYD_API const dyd_engine *dyd_sphere_places(const dyd_sphere *s);
+DYD_API const dyd_engine *dyd_sphere_images(const dyd_sphere *s);
+/* As dyd_engine_run of the images; start_bits 0: 40, which doubles hold. Decided means that all pairs are. */
+DYD_API dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_options *options,
+                                  dyd_error *err);
+
+/* The point projected from, and the one of which image k is; DYD_NO_PLACE where there is none. */
+#define DYD_NO_PLACE UINT32_MAX
+DYD_API uint32_t dyd_sphere_centre(const dyd_sphere *s);
+DYD_API uint32_t dyd_sphere_place(const dyd_sphere *s, uint32_t k);
+/* The lowest point at the same place; i itself unless i is an alias. */
+DYD_API uint32_t dyd_sphere_alias(const dyd_sphere *s, uint32_t i);
+/* Where point i is known to be: longitude x, latitude y in degrees, the radius included (for "m": the box about the
+ * circle, rounded outward). DYD_E_ARG where there is no point i. */
+DYD_API dyd_status dyd_sphere_rect(dyd_rect *out, const dyd_sphere *s, uint32_t i);
+
+/* The results, by the numbers of the points. DYD_E_ARG before the first run. Pairs as dyd_delaunay_pairs; where images
+ * are no points, indeterminate pairs may be more than necessary, as each image has to hold for all of the centre.
+ * Triangles as dyd_delaunay_triangles, counter-clockwise from outside; of three points both sides. */
+DYD_API dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s);
+DYD_API dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere *s);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* dyadel delaunay --sphere FILE: the points of the file are places, their images are run. */
+#include "cli.h"
+
+static dyd_status sphere_write(FILE *out, const void *sphere, const cli_options *o, dyd_error *err) {
+  const dyd_sphere_output how = {DYD_SIZED(dyd_sphere_output), o->content, o->epsg};
+  return dyd_write_sphere(out, sphere, &how, o->format, err);
+}
+
+static dyd_status sphere_write_certificate(FILE *out, const void *images, const cli_options *o, dyd_error *err) {
+  (void)o;
+  return dyd_write_certificate(out, images, err);
+}
+
+static dyd_status sphere_run(dyd_engine *images, const dyd_engine_options *options, void *user, dyd_error *err) {
+  dyd_outcome outcome;
+  (void)images;
+  return dyd_sphere_run(&outcome, user, options, err);
+}
+
+static int refuse_on_sphere(const cli_options *o) {
+  const char *what = o->discs                             ? "--discs"
+                     : o->window                          ? "--window"
+                     : o->engine.goal != DYD_GOAL_DECIDED ? "--until"
+                                                          : NULL;
+  if (!what) return 0;
+  cli_complain("%s is about the plane; leave %s or --sphere away", what, what);
+  return CLI_USAGE;
+}
+
+/* A line about a result that leaves something open; the exit status. */
+static int sphere_outcome(const dyd_sphere *sphere, const cli_options *o) {
+  dyd_pair_list pairs = {0};
+  size_t count[4] = {0};
+  dyd_outcome outcome = dyd_engine_outcome(dyd_sphere_images(sphere));
+  if (outcome == DYD_OUTCOME_DECIDED) return CLI_OK;
+  if (dyd_sphere_pairs(&pairs, sphere) != DYD_OK) return cli_complain_memory();
+  for (size_t k = 0; k < pairs.count; k++) count[pairs.item[k].status]++;
+  dyd_pair_list_clear(&pairs);
+  if (!o->quiet)
+    cli_complain("%s: %zu legal, %zu indeterminate, %zu tie; %s", dyd_outcome_text(outcome), count[DYD_LEGAL],
+                 count[DYD_INDETERMINATE], count[DYD_TIE], cli_outcome_advice(dyd_sphere_images(sphere)));
+  return cli_exit_status(outcome);
+}
+
+/* The certificate speaks of the images, which are a plane's. */
+static int sphere_certificate(const dyd_sphere *sphere, const cli_options *o) {
+  if (!o->certificate) return 0;
+  cli_note(o,
+           "the certificate is about the images of the points in the plane, projected from point %zu: %zu rectangles, "
+           "in the order of the points that have one",
+           dyd_engine_row(dyd_sphere_places(sphere), dyd_sphere_centre(sphere)),
+           dyd_engine_count(dyd_sphere_images(sphere)));
+  return cli_write_file(o->certificate, o, sphere_write_certificate, dyd_sphere_images(sphere));
+}
+
+static int sphere_result(cli_session *s, const dyd_sphere *sphere, const cli_options *o) {
+  if (!dyd_engine_delaunay(s->engine)) return cli_session_stopped(s, "the triangulation was");
+  cli_session_settle(s);
+  int status = cli_write_file(o->output, o, sphere_write, sphere);
+  if (!status) status = sphere_certificate(sphere, o);
+  if (o->stats) cli_stats(stderr, s->engine, cli_clock() - s->begun);
+  return status ? status : sphere_outcome(sphere, o);
+}
+
+/* s->engine holds the places; while images are run it is theirs. */
+static int sphere_all(cli_session *s, const cli_options *o) {
+  const dyd_sphere_options how = {DYD_SIZED(dyd_sphere_options), .radius = o->read.radius};
+  dyd_engine *places = s->engine;
+  dyd_engine_options run = o->engine;
+  dyd_sphere *sphere = NULL;
+  dyd_error err;
+  if (dyd_sphere_new(&sphere, places, &how, &err) != DYD_OK) {
+    cli_complain_of(places, o->file, &err);
+    return CLI_FAILED;
+  }
+  if (!o->start_set) run.start_bits = 0;
+  s->engine = dyd_sphere_engine(sphere);
+  int status = cli_session_run_by(s, &run, sphere_run, sphere);
+  if (!status || dyd_engine_delaunay(s->engine)) {
+    int written = sphere_result(s, sphere, o);
+    if (!status) status = written;
+  }
+  s->engine = places;
+  dyd_sphere_free(sphere);
+  return status;
+}
+
+int cli_sphere(const cli_options *o) {
+  cli_options read = *o;
+  cli_session s;
+  int status = refuse_on_sphere(o);
+  if (status) return status;
+  read.read.degrees = true;
+  read.read.radius = NULL; /* it may have a unit, and widens places */
+  status = cli_session_open(&s, &read);
+  if (!status) status = sphere_all(&s, o);
+  cli_session_close(&s, CLI_USAGE); /* what is open was told of */
+  return status;
+}

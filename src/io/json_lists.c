@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What the json formats of a plane and of a sphere share: lists of pairs and triangles, counters. */
+#include "io/result.h"
+#include <inttypes.h>
+
+void dyd_json_pairs(FILE *out, const dyd_engine *e, const char *name, const dyd_pair_list *pairs) {
+  fprintf(out, "\"%s\": [", name);
+  for (size_t k = 0; k < pairs->count; k++) {
+    const dyd_pair *p = &pairs->item[k];
+    fprintf(out, "%s\n{\"i\": %zu, \"j\": %zu, \"status\": \"%s\"}", k ? "," : "", dyd_engine_row(e, p->i),
+            dyd_engine_row(e, p->j), dyd_pair_status_text(p->status));
+  }
+  fputs("\n]", out);
+}
+
+void dyd_json_triangles(FILE *out, const dyd_engine *e, const dyd_triangle_list *list) {
+  fputs("\"triangles\": [", out);
+  for (size_t k = 0; k < list->count; k++) {
+    const uint32_t *v = list->item[k].v;
+    fprintf(out, "%s[%zu, %zu, %zu]",
+            k == 0  ? ""
+            : k % 8 ? ", "
+                    : ",\n",
+            dyd_engine_row(e, v[0]), dyd_engine_row(e, v[1]), dyd_engine_row(e, v[2]));
+  }
+  fputs("],\n", out);
+}
+
+void dyd_json_counters(FILE *out, const dyd_engine *e) {
+  dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
+  dyd_engine_get_counters(&c, e, NULL);
+  const dyd_delaunay_counters *d = &c.delaunay;
+  fprintf(out,
+          "\"counters\": {\"stages\": %" PRIu64 ", \"stream_calls\": %" PRIu64 ", \"bits_least\": %" PRId64
+          ", \"bits_most\": %" PRId64 ", \"bits_total\": %" PRIu64 ",\n\"undecided_faces\": %" PRIu64
+          ", \"faces_worked_on\": %" PRIu64 ", \"filter\": %" PRIu64 ", \"integer\": %" PRIu64 ", \"exact\": %" PRIu64
+          ",\n\"witness_guess\": %" PRIu64 ", \"witness_search\": %" PRIu64 ", \"cover_walks\": %" PRIu64
+          ", \"milliseconds_rounded_up\": %" PRIu64 "}\n",
+          c.stages, c.calls, c.bits_least, c.bits_most, c.bits_total, c.undecided_faces, d->faces, d->filter,
+          d->integer, d->exact, d->witness_guess, d->witness_search, d->cover_walks, (uint64_t)(c.seconds * 1000) + 1);
+}

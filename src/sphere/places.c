@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Where the places are, and which are the same. */
+#include "base/alloc.h"
+#include "base/error.h"
+#include "sphere/state.h"
+#include <string.h>
+
+dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err) {
+  dyd_rect r;
+  dyd_status st = DYD_OK;
+  dyd_rect_init(&r);
+  if (dyd_sphere_is_fixed(s, i))
+    st = dyd_sites_get(&r, dyd_engine_sites(s->places), i);
+  else
+    dyd_rect_set(&r, dyd_stream_rect(s->stream[i]));
+  if (st != DYD_OK) {
+    dyd_fail(err, st, "%s", dyd_status_text(st));
+  } else if (!dyd_spot_set(out, &r, s->degrees)) {
+    if (err) err->point = i;
+    st = dyd_fail(err, DYD_E_DOMAIN,
+                  "the latitude is beyond 90 degrees; points are longitude and latitude, in this order");
+  }
+  dyd_rect_clear(&r);
+  return st;
+}
+
+/* ---- aliases ---- */
+
+/* An exact place, by its degrees rounded: equal places have equal ones. */
+typedef struct rounded_place {
+  double at[2];
+  uint32_t place;
+} rounded_place;
+
+static int compare_rounded(const void *a, const void *b) {
+  const rounded_place *x = a, *y = b;
+  for (int k = 0; k < 2; k++)
+    if (x->at[k] != y->at[k]) return x->at[k] < y->at[k] ? -1 : 1;
+  return (x->place > y->place) - (x->place < y->place);
+}
+
+/* Among places with equal rounded degrees: each becomes an alias of the first that is equal to it. */
+static dyd_status aliases_in_run(dyd_sphere *s, const rounded_place *run, size_t count, dyd_error *err) {
+  dyd_spot a, b;
+  dyd_status st = DYD_OK;
+  dyd_spot_init(&a);
+  dyd_spot_init(&b);
+  for (size_t k = 1; k < count && st == DYD_OK; k++) {
+    uint32_t i = run[k].place;
+    st = dyd_sphere_spot(&a, s, i, err);
+    for (size_t l = 0; l < k && s->alias[i] == i && st == DYD_OK; l++) {
+      uint32_t j = run[l].place;
+      if (s->alias[j] != j) continue;
+      st = dyd_sphere_spot(&b, s, j, err);
+      if (mpq_equal(a.mid[0], b.mid[0]) && mpq_equal(a.mid[1], b.mid[1])) s->alias[i] = j;
+    }
+  }
+  dyd_spot_clear(&b);
+  dyd_spot_clear(&a);
+  return st;
+}
+
+/* Looks at all places, which finds latitudes that are none; lists those that are exact. */
+static dyd_status places_round(rounded_place *out, size_t *count, const dyd_sphere *s, dyd_error *err) {
+  dyd_spot spot;
+  dyd_status st = DYD_OK;
+  dyd_spot_init(&spot);
+  for (uint32_t i = 0; i < s->count && st == DYD_OK; i++) {
+    s->alias[i] = i;
+    st = dyd_sphere_spot(&spot, s, i, err);
+    if (st != DYD_OK || !dyd_sphere_is_fixed(s, i) || !dyd_spot_is_exact(&spot) || mpq_sgn(s->angle)) continue;
+    out[(*count)++] = (rounded_place){{mpq_get_d(spot.mid[0]), mpq_get_d(spot.mid[1])}, i};
+  }
+  dyd_spot_clear(&spot);
+  return st;
+}
+
+dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err) {
+  rounded_place *place = dyd_alloc(s->count, sizeof *place);
+  size_t count = 0;
+  dyd_status st = place ? places_round(place, &count, s, err) : dyd_fail_nomem(err);
+  if (st == DYD_OK) qsort(place, count, sizeof *place, compare_rounded);
+  for (size_t k = 0, end; k < count && st == DYD_OK; k = end) {
+    for (end = k + 1; end < count && !memcmp(place[end].at, place[k].at, sizeof place->at);) end++;
+    st = aliases_in_run(s, place + k, end - k, err);
+  }
+  free(place);
+  return st;
+}

@@ -1,0 +1,387 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Stereographic projection from a place q = (l0, f0) on the sphere, in balls.
+ *
+ * With d = l - l0 and u = (f - f0) / 2 a place (l, f) goes to (X, Y) / D,
+ *     D = 2 sin^2 u + 2 cos f0 cos f sin^2(d/2),  X = cos f sin d,  Y = sin 2u + 2 sin f0 cos f sin^2(d/2):
+ * D is a sum of squares, so that nothing is lost near q. The places within an angle a of (l, f) go to the disc with
+ * centre (X, Y) / E and radius sin a / E, E = D - 2 sin^2(a/2), as long as E > 0 [SPH-2].
+ *
+ * Mean value form: F(v) is in F(m) + sum of F_k(box) (v_k - m_k) for v = (d, f, f0) in a box with middle m. Boxes that
+ * are wide, measured by their distance from q, are cut; where pieces are too many, they reach q. */
+#include "sphere/project.h"
+
+#include "stream/ball.h"
+
+enum { VARIABLES = 3, MOST_PIECES = 1 << 13 };
+
+/* ---- one piece ---- */
+
+/* A box of the three variables, in radians: middles, and upper bounds of half-widths. */
+typedef struct piece {
+  arb_struct mid[VARIABLES];
+  mag_struct half[VARIABLES];
+} piece;
+
+/* Values at a middle, or over a box. E instead of D where there is an angle. */
+typedef struct view {
+  arb_struct sd, cd, sf, cf, s0, c0, versine, D, E, X, Y, t;
+} view;
+
+enum { VIEW_BALLS = sizeof(view) / sizeof(arb_struct) };
+
+/* What all pieces share. */
+typedef struct sight {
+  arb_t size, lost; /* sin a, 2 sin^2(a/2) */
+  view at, over;
+  arb_t x[2], y[2]; /* (X - sin a) / E, (X + sin a) / E; y likewise */
+  arb_t slope, number;
+  arf_struct end[4]; /* what is found of x and y: lower and upper ends */
+  arf_t lo, hi;
+  bool wide, any;
+  slong prec;
+  unsigned pieces;
+} sight;
+
+static void view_init(view *v) {
+  for (arb_ptr b = &v->sd; b < &v->sd + VIEW_BALLS; b++) arb_init(b);
+}
+
+static void view_clear(view *v) {
+  for (arb_ptr b = &v->sd; b < &v->sd + VIEW_BALLS; b++) arb_clear(b);
+}
+
+/* d, f and f0 as balls. */
+static void view_set(view *v, arb_srcptr d, arb_srcptr f, arb_srcptr f0, const sight *g) {
+  slong prec = g->prec;
+  arb_sin_cos(&v->sd, &v->cd, d, prec);
+  arb_sin_cos(&v->sf, &v->cf, f, prec);
+  arb_sin_cos(&v->s0, &v->c0, f0, prec);
+  arb_mul_2exp_si(&v->t, d, -1);
+  arb_sin(&v->versine, &v->t, prec);
+  arb_sqr(&v->versine, &v->versine, prec);
+  arb_mul_2exp_si(&v->versine, &v->versine, 1);
+  arb_mul(&v->E, &v->cf, &v->versine, prec); /* cos f (1 - cos d) */
+  arb_sub(&v->t, f, f0, prec);
+  arb_mul_2exp_si(&v->t, &v->t, -1);
+  arb_sin_cos(&v->D, &v->Y, &v->t, prec);
+  arb_mul(&v->Y, &v->Y, &v->D, prec);
+  arb_mul_2exp_si(&v->Y, &v->Y, 1);
+  arb_addmul(&v->Y, &v->s0, &v->E, prec);
+  arb_sqr(&v->D, &v->D, prec);
+  arb_mul_2exp_si(&v->D, &v->D, 1);
+  arb_addmul(&v->D, &v->c0, &v->E, prec);
+  arb_mul(&v->X, &v->cf, &v->sd, prec);
+  arb_sub(&v->E, &v->D, g->lost, prec);
+}
+
+/* out = (N_k E - (N + side sin a) D_k) / E^2: the slope of one image coordinate. */
+static void view_slope(arb_t out, const view *v, arb_srcptr N, arb_srcptr N_k, arb_srcptr D_k, int side, sight *g) {
+  slong prec = g->prec;
+  if (side > 0)
+    arb_add(out, N, g->size, prec);
+  else
+    arb_sub(out, N, g->size, prec);
+  arb_mul(out, out, D_k, prec);
+  arb_neg(out, out);
+  arb_addmul(out, N_k, &v->E, prec);
+  arb_div(out, out, &v->E, prec);
+  arb_div(out, out, &v->E, prec);
+}
+
+/* The derivatives of D, X and Y by variable k. */
+static void view_derive(arb_t D_k, arb_t X_k, arb_t Y_k, const view *v, int k, slong prec) {
+  if (k == 0) {
+    arb_mul(D_k, &v->c0, &v->X, prec);
+    arb_mul(X_k, &v->cf, &v->cd, prec);
+    arb_mul(Y_k, &v->s0, &v->X, prec);
+  } else if (k == 1) {
+    arb_mul(D_k, &v->c0, &v->sf, prec);
+    arb_mul(D_k, D_k, &v->cd, prec);
+    arb_submul(D_k, &v->s0, &v->cf, prec);
+    arb_mul(X_k, &v->sf, &v->sd, prec);
+    arb_neg(X_k, X_k);
+    arb_mul(Y_k, &v->s0, &v->sf, prec);
+    arb_mul(Y_k, Y_k, &v->cd, prec);
+    arb_addmul(Y_k, &v->c0, &v->cf, prec);
+  } else {
+    arb_neg(D_k, &v->Y);
+    arb_zero(X_k);
+    arb_sub_ui(Y_k, &v->D, 1, prec);
+  }
+}
+
+static void arb_widen_by(arb_t x, arb_srcptr slope, const mag_t half) {
+  mag_t m;
+  mag_init(m);
+  arb_get_mag(m, slope);
+  mag_mul(m, m, half);
+  mag_add(arb_radref(x), arb_radref(x), m);
+  mag_clear(m);
+}
+
+/* Adds the slopes over the box times its half-widths. */
+static void piece_widen(sight *g, const piece *p) {
+  arb_t D_k, X_k, Y_k;
+  arb_init(D_k);
+  arb_init(X_k);
+  arb_init(Y_k);
+  for (int k = 0; k < VARIABLES; k++) {
+    if (mag_is_zero(&p->half[k])) continue;
+    view_derive(D_k, X_k, Y_k, &g->over, k, g->prec);
+    for (int side = 0; side < 2; side++) {
+      view_slope(g->slope, &g->over, &g->over.X, X_k, D_k, 2 * side - 1, g);
+      arb_widen_by(g->x[side], g->slope, &p->half[k]);
+      view_slope(g->slope, &g->over, &g->over.Y, Y_k, D_k, 2 * side - 1, g);
+      arb_widen_by(g->y[side], g->slope, &p->half[k]);
+    }
+  }
+  arb_clear(Y_k);
+  arb_clear(X_k);
+  arb_clear(D_k);
+}
+
+/* What is found of a coordinate grows by [least of a, greatest of b]. */
+static void ends_grow(arf_struct *end, sight *g, arb_srcptr a, arb_srcptr b) {
+  arb_get_lbound_arf(g->lo, a, g->prec);
+  arb_get_ubound_arf(g->hi, b, g->prec);
+  if (!g->any || arf_cmp(g->lo, &end[0]) < 0) arf_set(&end[0], g->lo);
+  if (!g->any || arf_cmp(g->hi, &end[1]) > 0) arf_set(&end[1], g->hi);
+}
+
+static void piece_add(sight *g, const piece *p) {
+  const view *v = &g->at;
+  view_set(&g->at, &p->mid[0], &p->mid[1], &p->mid[2], g);
+  for (int side = 0; side < 2; side++) {
+    arb_mul_si(g->number, g->size, 2 * side - 1, g->prec);
+    arb_add(g->x[side], &v->X, g->number, g->prec);
+    arb_add(g->y[side], &v->Y, g->number, g->prec);
+    arb_div(g->x[side], g->x[side], &v->E, g->prec);
+    arb_div(g->y[side], g->y[side], &v->E, g->prec);
+  }
+  if (g->wide) piece_widen(g, p);
+  ends_grow(&g->end[0], g, g->x[0], g->x[1]);
+  ends_grow(&g->end[2], g, g->y[0], g->y[1]);
+  g->any = true;
+}
+
+/* ---- pieces ---- */
+
+/* Sets the view over the box. Is the box narrow for its distance from q, E > 2^8 half^2, and for the sphere? *widest:
+ * the variable to be cut. */
+static bool piece_is_narrow(int *widest, sight *g, const piece *p) {
+  arb_t box[VARIABLES];
+  mag_t least, square;
+  mag_init(least);
+  mag_init(square);
+  *widest = 0;
+  for (int k = 0; k < VARIABLES; k++) {
+    arb_init(box[k]);
+    arb_set(box[k], &p->mid[k]);
+    arb_add_error_mag(box[k], &p->half[k]);
+    if (mag_cmp(&p->half[k], &p->half[*widest]) > 0) *widest = k;
+  }
+  view_set(&g->over, box[0], box[1], box[2], g);
+  arb_get_mag_lower(least, &g->over.E);
+  mag_mul(square, &p->half[*widest], &p->half[*widest]);
+  mag_mul_2exp_si(square, square, 8);
+  bool narrow = arb_is_positive(&g->over.E) && mag_cmp(square, least) <= 0;
+  for (int k = 0; k < VARIABLES; k++) arb_clear(box[k]);
+  mag_clear(square);
+  mag_clear(least);
+  return narrow;
+}
+
+static void piece_init(piece *p) {
+  for (int k = 0; k < VARIABLES; k++) {
+    arb_init(&p->mid[k]);
+    mag_init(&p->half[k]);
+  }
+}
+
+static void piece_clear(piece *p) {
+  for (int k = 0; k < VARIABLES; k++) {
+    arb_clear(&p->mid[k]);
+    mag_clear(&p->half[k]);
+  }
+}
+
+/* *out is one half of p, across variable k. */
+static void piece_cut(piece *out, const piece *p, int k, int side, slong prec) {
+  arb_t move;
+  arb_init(move);
+  for (int j = 0; j < VARIABLES; j++) {
+    arb_set(&out->mid[j], &p->mid[j]);
+    mag_set(&out->half[j], &p->half[j]);
+  }
+  mag_mul_2exp_si(&out->half[k], &out->half[k], -1);
+  arf_set_mag(arb_midref(move), &out->half[k]);
+  arb_mul_si(move, move, side, prec);
+  arb_add(&out->mid[k], &out->mid[k], move, prec);
+  arb_clear(move);
+}
+
+/* Pieces are taken from a stack: cutting the widest variable, 3 * 64 of them are never reached before they are too
+ * many. */
+static bool sight_cover(sight *g, const piece *all) {
+  piece p;
+  int widest;
+  if (!g->wide || piece_is_narrow(&widest, g, all)) {
+    view_set(&g->at, &all->mid[0], &all->mid[1], &all->mid[2], g);
+    if (!arb_is_positive(&g->at.E)) return false;
+    piece_add(g, all);
+    return true;
+  }
+  if (++g->pieces > MOST_PIECES) return false;
+  piece_init(&p);
+  piece_cut(&p, all, widest, -1, g->prec);
+  bool good = sight_cover(g, &p);
+  if (good) piece_cut(&p, all, widest, 1, g->prec);
+  good = good && sight_cover(g, &p);
+  piece_clear(&p);
+  return good;
+}
+
+/* ---- the image ---- */
+
+/* out = q degrees in radians, half: upper bound of h degrees. */
+static void radians(arb_t out, mag_t half, mpq_srcptr q, mpq_srcptr h, slong prec) {
+  arb_t pi, t;
+  arb_init(pi);
+  arb_init(t);
+  arb_const_pi(pi, prec);
+  arb_div_ui(pi, pi, 180, prec);
+  dyd_ball_set_q(out, q, prec);
+  arb_mul(out, out, pi, prec);
+  dyd_ball_set_q(t, h, MAG_BITS + 2);
+  arb_mul(t, t, pi, MAG_BITS + 2);
+  arb_get_mag(half, t);
+  arb_clear(t);
+  arb_clear(pi);
+}
+
+static void sight_init(sight *g, mpq_srcptr angle, slong prec) {
+  arb_init(g->size);
+  arb_init(g->lost);
+  arb_init(g->slope);
+  arb_init(g->number);
+  arf_init(g->lo);
+  arf_init(g->hi);
+  view_init(&g->at);
+  view_init(&g->over);
+  for (int k = 0; k < 2; k++) arb_init(g->x[k]), arb_init(g->y[k]);
+  for (int k = 0; k < 4; k++) arf_init(&g->end[k]);
+  g->prec = prec;
+  g->pieces = 0;
+  g->any = false;
+  if (mpq_sgn(angle) == 0) return;
+  dyd_ball_set_q(g->size, angle, prec);
+  arb_mul_2exp_si(g->lost, g->size, -1);
+  arb_sin(g->size, g->size, prec);
+  arb_sin(g->lost, g->lost, prec);
+  arb_sqr(g->lost, g->lost, prec);
+  arb_mul_2exp_si(g->lost, g->lost, 1);
+}
+
+static void sight_clear(sight *g) {
+  for (int k = 0; k < 4; k++) arf_clear(&g->end[k]);
+  for (int k = 0; k < 2; k++) arb_clear(g->x[k]), arb_clear(g->y[k]);
+  view_clear(&g->over);
+  view_clear(&g->at);
+  arf_clear(g->hi);
+  arf_clear(g->lo);
+  arb_clear(g->number);
+  arb_clear(g->slope);
+  arb_clear(g->lost);
+  arb_clear(g->size);
+}
+
+/* The variables: longitudes enter by their difference, which is taken before anything is rounded. */
+static void piece_set(piece *p, const dyd_spot *s, const dyd_spot *q, slong prec) {
+  mpq_t mid, half;
+  mpq_inits(mid, half, NULL);
+  mpq_sub(mid, s->mid[0], q->mid[0]);
+  mpq_add(half, s->half[0], q->half[0]);
+  radians(&p->mid[0], &p->half[0], mid, half, prec);
+  radians(&p->mid[1], &p->half[1], s->mid[1], s->half[1], prec);
+  radians(&p->mid[2], &p->half[2], q->mid[1], q->half[1], prec);
+  mpq_clears(mid, half, NULL);
+}
+
+/* ---- exact places ---- */
+
+void dyd_eye_init(dyd_eye *e) {
+  dyd_spot_init(&e->spot);
+  for (arb_ptr b = &e->unit; b < &e->unit + DYD_EYE_BALLS; b++) arb_init(b);
+  e->prec = 0;
+}
+
+void dyd_eye_clear(dyd_eye *e) {
+  for (arb_ptr b = &e->unit; b < &e->unit + DYD_EYE_BALLS; b++) arb_clear(b);
+  dyd_spot_clear(&e->spot);
+}
+
+static void eye_prepare(dyd_eye *e, slong prec) {
+  if (e->prec == prec) return;
+  e->prec = prec;
+  arb_const_pi(&e->unit, prec);
+  arb_div_ui(&e->unit, &e->unit, 360, prec);
+  dyd_ball_set_q(&e->lon, e->spot.mid[0], prec);
+  dyd_ball_set_q(&e->lat, e->spot.mid[1], prec);
+  arb_div_ui(&e->sin, &e->lat, 180, prec);
+  arb_sin_cos_pi(&e->sin, &e->cos, &e->sin, prec);
+}
+
+/* The same for an exact place and an exact centre, three sines at half the angles. */
+static bool project_exact(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec) {
+  arb_t f, D, w;
+  arb_init(f);
+  arb_init(D);
+  arb_init(w);
+  eye_prepare(e, prec);
+  dyd_ball_set_q(w, s->mid[0], prec);
+  arb_sub(w, w, &e->lon, prec);
+  arb_mul(w, w, &e->unit, prec);
+  arb_sin_cos(w, x, w, prec);
+  dyd_ball_set_q(f, s->mid[1], prec);
+  arb_sub(D, f, &e->lat, prec);
+  arb_mul(D, D, &e->unit, prec);
+  arb_sin_cos(D, y, D, prec);
+  arb_mul(f, f, &e->unit, prec);
+  arb_mul_2exp_si(f, f, 1);
+  arb_cos(f, f, prec);
+  arb_mul(f, f, w, prec); /* cos f sin(d/2) */
+  arb_mul(x, x, f, prec);
+  arb_mul(w, f, w, prec); /* cos f sin^2(d/2) */
+  arb_mul(y, y, D, prec);
+  arb_addmul(y, &e->sin, w, prec);
+  arb_sqr(D, D, prec);
+  arb_addmul(D, &e->cos, w, prec);
+  bool good = arb_is_positive(D);
+  if (good) arb_div(x, x, D, prec);
+  if (good) arb_div(y, y, D, prec);
+  arb_clear(w);
+  arb_clear(D);
+  arb_clear(f);
+  return good;
+}
+
+bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, mpq_srcptr angle, dyd_eye *e, slong prec) {
+  const dyd_spot *q = &e->spot;
+  sight g;
+  piece p;
+  bool exact = dyd_spot_is_exact(s) && dyd_spot_is_exact(q);
+  if (exact && mpq_sgn(angle) == 0) return project_exact(x, y, s, e, prec);
+  sight_init(&g, angle, prec);
+  piece_init(&p);
+  piece_set(&p, s, q, prec);
+  g.wide = !exact;
+  bool good = sight_cover(&g, &p);
+  if (good) {
+    arb_set_interval_arf(x, &g.end[0], &g.end[1], prec);
+    arb_set_interval_arf(y, &g.end[2], &g.end[3], prec);
+    good = arb_is_finite(x) && arb_is_finite(y);
+  }
+  piece_clear(&p);
+  sight_clear(&g);
+  return good;
+}

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Statuses and triangles, by the numbers of the places.
+ *
+ * [SPH-1] A circle on the sphere without the centre q inside goes to a circle in the plane with the same points inside;
+ * one through q to a line, the side of the plane away from what was inside. So pairs of other places are as their
+ * images are, half-planes included, and a pair with q is possible or sure as the image is a corner of the hull. Where
+ * it is on the hull, but no corner, it is on a line with others: a tie where all that is open there are ties. */
+#include "base/alloc.h"
+#include "base/error.h"
+#include "base/index.h"
+#include "rect/interval.h"
+#include "sphere/state.h"
+
+/* ---- pairs ---- */
+
+/* Marks the images that are in an outer face with a pair that is indeterminate. */
+static dyd_status mark_open(bool *open, const dyd_delaunay *pd) {
+  dyd_status st = DYD_OK;
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd) && st == DYD_OK; f++) {
+    dyd_index_list face = {0};
+    dyd_pair_list pairs = {0};
+    bool outer, ties = !dyd_delaunay_is_capped(pd);
+    st = dyd_delaunay_face(&face, &outer, pd, f);
+    if (st == DYD_OK && outer) st = dyd_delaunay_face_pairs(&pairs, pd, f);
+    for (size_t k = 0; k < pairs.count; k++) ties = ties && pairs.item[k].status == DYD_TIE;
+    for (size_t k = 0; k < face.count && outer && !ties; k++) open[face.item[k]] = true;
+    dyd_pair_list_clear(&pairs);
+    dyd_index_list_clear(&face);
+  }
+  return st;
+}
+
+/* What each image is to the centre. */
+static dyd_status centre_statuses(dyd_pair_status *status, const dyd_sphere *s, const dyd_delaunay *pd) {
+  dyd_index_list sure = {0}, possible = {0};
+  bool *open = calloc(s->with_image + 1, sizeof *open);
+  dyd_status st = open ? mark_open(open, pd) : DYD_E_NOMEM;
+  if (st == DYD_OK) st = dyd_delaunay_hull_vertices(&sure, &possible, pd);
+  for (size_t k = 0; k < s->with_image; k++) status[k] = DYD_ILLEGAL;
+  for (size_t k = 0; k < possible.count; k++)
+    status[possible.item[k]] = open && open[possible.item[k]] ? DYD_INDETERMINATE : DYD_TIE;
+  for (size_t k = 0; k < sure.count; k++) status[sure.item[k]] = DYD_LEGAL;
+  dyd_index_list_clear(&possible);
+  dyd_index_list_clear(&sure);
+  free(open);
+  return st;
+}
+
+static int compare_pairs(const void *a, const void *b) {
+  const dyd_pair *x = a, *y = b;
+  if (x->i != y->i) return x->i < y->i ? -1 : 1;
+  return (x->j > y->j) - (x->j < y->j);
+}
+
+/* The pairs of images by their places, then those of the centre; sorted. */
+static dyd_status pairs_join(dyd_pair_list *out, const dyd_sphere *s, const dyd_pair_list *images,
+                             const dyd_pair_status *status) {
+  dyd_pair *item = dyd_alloc(images->count + s->with_image, sizeof *item);
+  size_t n = 0;
+  if (!item) return DYD_E_NOMEM;
+  for (; n < images->count; n++)
+    item[n] = (dyd_pair){s->of[images->item[n].i], s->of[images->item[n].j], images->item[n].status};
+  for (size_t k = 0; k < s->with_image; k++) {
+    if (status[k] == DYD_ILLEGAL) continue;
+    bool below = s->of[k] < s->centre;
+    item[n++] = (dyd_pair){below ? s->of[k] : s->centre, below ? s->centre : s->of[k], status[k]};
+  }
+  qsort(item, n, sizeof *item, compare_pairs);
+  dyd_pair_list_clear(out);
+  *out = (dyd_pair_list){n, item};
+  return DYD_OK;
+}
+
+dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
+  if (!pd) return DYD_E_ARG;
+  dyd_pair_list images = {0};
+  dyd_pair_status *status = dyd_alloc(s->with_image, sizeof *status);
+  dyd_status st = status ? dyd_delaunay_pairs(&images, pd) : DYD_E_NOMEM;
+  if (st == DYD_OK) st = centre_statuses(status, s, pd);
+  if (st == DYD_OK) st = pairs_join(out, s, &images, status);
+  dyd_pair_list_clear(&images);
+  free(status);
+  return st;
+}
+
+/* ---- triangles ---- */
+
+static int compare_triangles(const void *a, const void *b) {
+  const dyd_triangle *x = a, *y = b;
+  for (int k = 0; k < 3; k++)
+    if (x->v[k] != y->v[k]) return x->v[k] < y->v[k] ? -1 : 1;
+  return 0;
+}
+
+/* The lowest number first. */
+static dyd_triangle triangle_of(uint32_t a, uint32_t b, uint32_t c) {
+  if (a < b && a < c) return (dyd_triangle){{a, b, c}};
+  return b < c ? (dyd_triangle){{b, c, a}} : (dyd_triangle){{c, a, b}};
+}
+
+static bool pair_is_legal(const dyd_pair_list *l, uint32_t i, uint32_t j) {
+  const dyd_pair key = {i < j ? i : j, i < j ? j : i, DYD_LEGAL};
+  const dyd_pair *p = l->count ? bsearch(&key, l->item, l->count, sizeof key, compare_pairs) : NULL;
+  return p && p->status == DYD_LEGAL;
+}
+
+/* Images seen along the way out from q have their orientation from outside turned round twice: once by looking from
+ * below, once by the axes (x east, y north, from the antipode's side); what is counter-clockwise in the plane is
+ * clockwise from outside. Beyond a sure side of the hull is a triangle with q. */
+static dyd_status triangles_join(dyd_triangle_list *out, const dyd_sphere *s, const dyd_triangle_list *images,
+                                 const dyd_index_list *around, const dyd_hull *hull) {
+  dyd_triangle *item = dyd_alloc(images->count + around->count, sizeof *item);
+  size_t n = 0;
+  if (!item) return DYD_E_NOMEM;
+  for (; n < images->count; n++) {
+    const uint32_t *v = images->item[n].v;
+    item[n] = triangle_of(s->of[v[0]], s->of[v[2]], s->of[v[1]]);
+  }
+  for (size_t k = 0; k < around->count && around->count > 1; k++) {
+    uint32_t a = around->item[k], b = around->item[k + 1 < around->count ? k + 1 : 0];
+    if (pair_is_legal(&hull->pairs, a, b)) item[n++] = triangle_of(s->of[a], s->of[b], s->centre);
+  }
+  qsort(item, n, sizeof *item, compare_triangles);
+  dyd_triangle_list_clear(out);
+  *out = (dyd_triangle_list){n, item};
+  return DYD_OK;
+}
+
+dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere *s) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
+  if (!pd) return DYD_E_ARG;
+  dyd_triangle_list images = {0};
+  dyd_index_list around = {0};
+  dyd_hull hull = {0};
+  dyd_status st = dyd_delaunay_triangles(&images, pd);
+  if (st == DYD_OK) st = dyd_delaunay_hull(&around, pd);
+  if (st == DYD_OK) st = dyd_delaunay_partial_hull(&hull, pd);
+  if (st == DYD_CAPPED) st = DYD_OK; /* then no side of the hull is listed */
+  if (st == DYD_OK) st = triangles_join(out, s, &images, &around, &hull);
+  dyd_hull_clear(&hull);
+  dyd_index_list_clear(&around);
+  dyd_triangle_list_clear(&images);
+  return st;
+}
+
+/* ---- places ---- */
+
+static dyd_status spot_side(dyd_interval *out, const dyd_spot *spot, int a) {
+  mpq_t lo, hi;
+  mpq_inits(lo, hi, NULL);
+  mpq_sub(lo, spot->mid[a], spot->half[a]);
+  mpq_add(hi, spot->mid[a], spot->half[a]);
+  dyd_status st = mpq_equal(lo, hi) ? dyd_interval_set_q(out, lo) : dyd_interval_set_outward(out, lo, hi, -64);
+  mpq_clears(lo, hi, NULL);
+  return st;
+}
+
+dyd_status dyd_sphere_rect(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
+  dyd_spot spot;
+  dyd_rect r;
+  if (i >= s->count) return DYD_E_ARG;
+  dyd_spot_init(&spot);
+  dyd_rect_init(&r);
+  dyd_status st = dyd_sphere_spot(&spot, s, i, NULL);
+  if (st == DYD_OK && mpq_sgn(s->angle)) dyd_spot_widen(&spot, s->angle);
+  if (st == DYD_OK) st = spot_side(&r.x, &spot, 0);
+  if (st == DYD_OK) st = spot_side(&r.y, &spot, 1);
+  if (st == DYD_OK) dyd_rect_swap(out, &r);
+  dyd_rect_clear(&r);
+  dyd_spot_clear(&spot);
+  return st;
+}

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* The images of places, as the engine of images asks for them.
+ *
+ * What is asked for is a width of the image; the widths of place and centre that it takes, and the bits of the
+ * computation, are found by trying: what is missing is added. Images of wide places, or seen from a wide centre, or of
+ * circles, stay wide; they are final once their place and centre are, or are narrow beside what is wide. */
+#include "base/error.h"
+#include "rect/interval.h"
+#include "sphere/state.h"
+#include "stream/ball.h"
+
+enum { GUARD = 64, SPARE = 8, TRIES = 12, WIDE_BITS = 128 };
+
+static dyd_status place_narrow(const dyd_sphere *s, uint32_t i, int64_t bits, int64_t max_bits, dyd_error *err) {
+  if (dyd_sphere_is_fixed(s, i)) return DYD_OK;
+  if (max_bits < bits) max_bits = bits;
+  dyd_status st = dyd_stream_narrow(s->stream[i], bits, max_bits, err);
+  return dyd_failed(st) ? st : DYD_OK;
+}
+
+/* The centre, at least so narrow; it holds all that is within the angle of it. */
+static dyd_status centre_narrow(dyd_sphere *s, int64_t bits, int64_t max_bits, dyd_error *err) {
+  if (s->eye_bits >= bits) return DYD_OK;
+  dyd_status st = place_narrow(s, s->centre, bits, max_bits, err);
+  if (st == DYD_OK) st = dyd_sphere_spot(&s->eye.spot, s, s->centre, err);
+  if (st != DYD_OK) return st;
+  if (mpq_sgn(s->angle)) dyd_spot_widen(&s->eye.spot, s->angle);
+  s->eye.prec = 0;
+  s->eye_bits = dyd_sphere_is_fixed(s, s->centre) ? INT64_MAX : bits;
+  return DYD_OK;
+}
+
+/* One image on its way. */
+typedef struct image {
+  dyd_sphere *s;
+  uint32_t i;
+  dyd_spot spot;
+  arb_t x, y;
+  bool moving, wide; /* a stream is concerned; something stays wide whatever is asked */
+} image;
+
+static slong image_width(const image *m) {
+  slong x = dyd_ball_radius_exponent(m->x), y = dyd_ball_radius_exponent(m->y);
+  return x > y ? x : y;
+}
+
+/* One try; *seen: place and centre are apart. */
+static dyd_status image_try(bool *seen, image *m, int64_t bits, int64_t max_bits, dyd_error *err) {
+  dyd_sphere *s = m->s;
+  dyd_status st = place_narrow(s, m->i, bits, max_bits, err);
+  if (st == DYD_OK) st = centre_narrow(s, bits, max_bits, err);
+  if (st == DYD_OK) st = dyd_sphere_spot(&m->spot, s, m->i, err);
+  if (st != DYD_OK) return st;
+  bool centre_wide = dyd_sphere_is_fixed(s, s->centre) && !dyd_spot_is_exact(&s->eye.spot);
+  bool place_wide = dyd_sphere_is_fixed(s, m->i) && !dyd_spot_is_exact(&m->spot);
+  m->wide = centre_wide || place_wide || mpq_sgn(s->angle) || mpq_sgn(s->degrees);
+  m->moving = !dyd_sphere_is_fixed(s, m->i) || !dyd_sphere_is_fixed(s, s->centre);
+  slong prec = (slong)(bits < WIDE_BITS && m->wide ? WIDE_BITS : bits) + SPARE;
+  *seen = dyd_project(m->x, m->y, &m->spot, s->angle, &s->eye, prec < GUARD ? GUARD : prec);
+  return DYD_OK;
+}
+
+/* Tries until the image is as narrow as asked for, or will not be. */
+static dyd_status image_find(image *m, int64_t bits, int64_t max_bits, dyd_error *err) {
+  int64_t more = SPARE;
+  bool seen = false;
+  for (int k = 0; k < TRIES; k++) {
+    dyd_status st = image_try(&seen, m, bits + more, max_bits + more + GUARD, err);
+    if (st != DYD_OK) return st;
+    if (seen && (image_width(m) <= -bits - 2 || (m->wide && (!m->moving || k > 1)))) return DYD_OK;
+    more += seen ? image_width(m) + bits + SPARE : GUARD << k;
+  }
+  if (seen) return DYD_OK;
+  return dyd_fail(err, DYD_E_DOMAIN,
+                  "it cannot be told from point %zu, from which the sphere is projected; narrow one of them, or give "
+                  "--merge where both are one place",
+                  dyd_engine_row(m->s->places, m->s->centre));
+}
+
+/* Rounds outward, keeps to what was known before. */
+static dyd_status image_give(dyd_rect *out, const image *m, bool known, int64_t bits) {
+  dyd_rect now;
+  slong width = image_width(m) - 16;
+  int64_t grid = m->wide && width > -bits - 2 - GUARD ? width : -bits - 2;
+  dyd_rect_init(&now);
+  dyd_status st = dyd_ball_interval(&now.x, m->x, grid);
+  if (st == DYD_OK) st = dyd_ball_interval(&now.y, m->y, grid);
+  if (st == DYD_OK && known) st = dyd_interval_intersect(&now.x, &now.x, &out->x);
+  if (st == DYD_OK && known) st = dyd_interval_intersect(&now.y, &now.y, &out->y);
+  if (st == DYD_OK) dyd_rect_swap(out, &now);
+  dyd_rect_clear(&now);
+  return st;
+}
+
+static dyd_status image_request(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
+  dyd_sphere *s = user;
+  image m = {.s = s, .i = s->of[request->point]};
+  dyd_spot_init(&m.spot);
+  arb_init(m.x);
+  arb_init(m.y);
+  dyd_status st = image_find(&m, request->bits, request->max_bits, err);
+  if (st == DYD_OK) st = image_give(out, &m, dyd_engine_knows(s->images, (uint32_t)request->point), request->bits);
+  if (st == DYD_OK && m.wide && (!m.moving || request->bits >= WIDE_BITS)) st = DYD_FIXED;
+  arb_clear(m.y);
+  arb_clear(m.x);
+  dyd_spot_clear(&m.spot);
+  return st;
+}
+
+dyd_status dyd_sphere_add_images(dyd_sphere *s, dyd_error *err) {
+  const dyd_source source = {DYD_SIZED(dyd_source), .narrow = image_request, .user = s};
+  return s->with_image ? dyd_engine_add_source(s->images, s->with_image, &source, err) : DYD_OK;
+}

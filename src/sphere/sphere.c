@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Life of a sphere: places and streams of an engine, the engine of images. */
+#include "base/abi.h"
+#include "base/alloc.h"
+#include "base/error.h"
+#include "engine/points.h"
+#include "engine/ties.h"
+#include "sphere/state.h"
+#include <string.h>
+
+enum { FIRST_BITS = 32, START_BITS = 40 };
+
+/* ---- places ---- */
+
+static dyd_status streams_take(dyd_sphere *s, dyd_engine *places, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  for (uint32_t i = 0; i < s->count && st == DYD_OK; i++) {
+    if (!dyd_engine_find(places, i)) continue;
+    if (!s->stream) s->stream = calloc(s->count, sizeof(dyd_stream *));
+    st = s->stream ? dyd_engine_stream(&s->stream[i], places, i) : DYD_E_NOMEM;
+    if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
+    st = dyd_stream_narrow(s->stream[i], FIRST_BITS, FIRST_BITS, err);
+    if (dyd_failed(st) && err) err->point = i;
+    if (st == DYD_FIXED) st = DYD_OK;
+  }
+  return st;
+}
+
+/* ---- images ---- */
+
+/* Points of the engine of images are called by the rows of their places. */
+static dyd_status images_label(const dyd_sphere *s) {
+  dyd_labels labels = {0};
+  bool good = true;
+  for (size_t k = 0; k < s->with_image && good; k++) {
+    const char *id = dyd_engine_id(s->places, s->of[k]);
+    labels.rows = dyd_engine_row(s->places, s->of[k]);
+    good = dyd_labels_add(&labels, id, id ? strlen(id) : 0);
+  }
+  if (good)
+    dyd_labels_give(s->images, &labels);
+  else
+    dyd_labels_clear(&labels);
+  return good ? DYD_OK : DYD_E_NOMEM;
+}
+
+static dyd_status images_make(dyd_sphere *s, dyd_error *err) {
+  s->of = dyd_alloc(s->count, sizeof *s->of);
+  if (!s->of) return dyd_fail_nomem(err);
+  for (uint32_t i = 0; i < s->count; i++)
+    if (s->alias[i] == i && i != s->centre) s->of[s->with_image++] = i;
+  dyd_status st = dyd_sphere_add_images(s, err);
+  if (st != DYD_OK) return st;
+  dyd_engine_set_prover(s->images, dyd_sphere_prove, s);
+  return images_label(s) == DYD_OK ? DYD_OK : dyd_fail_nomem(err);
+}
+
+/* ---- life ---- */
+
+static const struct {
+  const char *name;
+  bool ground;
+  unsigned long size;
+} units[] = {{"km", true, 1000}, {"deg", false, 1}, {"m", true, 1}, {"", false, 1}};
+
+/* A number and its unit: metres are an angle, degrees stay degrees. */
+static dyd_status radius_read(dyd_sphere *s, const char *text, dyd_error *err) {
+  mpq_t earth;
+  size_t u = 0, length = strlen(text);
+  while (strlen(units[u].name) > length || strcmp(text + length - strlen(units[u].name), units[u].name) != 0) u++;
+  mpq_ptr to = units[u].ground ? s->angle : s->degrees;
+  if (dyd_real_parse_exact(to, text, length - strlen(units[u].name)) != DYD_OK || mpq_sgn(to) < 0)
+    return dyd_fail(err, DYD_E_ARG,
+                    "the radius \"%.60s\" is not an exact number >= 0 and a unit; give one such as 30m, 2km or 0.01deg",
+                    text);
+  if (!units[u].ground) return DYD_OK;
+  mpq_init(earth);
+  dyd_real_parse_exact(earth, DYD_EARTH_RADIUS, sizeof DYD_EARTH_RADIUS - 1);
+  mpz_mul_ui(mpq_numref(to), mpq_numref(to), units[u].size);
+  mpq_canonicalize(to);
+  mpq_div(to, to, earth);
+  mpq_clear(earth);
+  if (mpq_cmp_si(to, 1, 1) <= 0) return DYD_OK;
+  return dyd_fail(err, DYD_E_ARG, "the radius \"%.60s\" is larger than that of the earth; give a smaller one", text);
+}
+
+static dyd_status centre_take(dyd_sphere *s, const dyd_sphere_options *o, dyd_error *err) {
+  if (!s->count) return DYD_OK;
+  if (!o->centre_set) return dyd_sphere_choose(&s->centre, s, err);
+  if (o->centre >= s->count)
+    return dyd_fail(err, DYD_E_ARG, "there is no point %lu to project from", (unsigned long)o->centre);
+  s->centre = s->alias[o->centre];
+  return DYD_OK;
+}
+
+static dyd_status sphere_make(dyd_sphere *s, dyd_engine *places, const dyd_sphere_options *o, dyd_error *err) {
+  s->alias = dyd_alloc(s->count, sizeof *s->alias);
+  dyd_status st = s->alias ? dyd_engine_new(&s->images) : DYD_E_NOMEM;
+  if (st != DYD_OK) return dyd_fail_nomem(err);
+  if (o->radius) st = radius_read(s, o->radius, err);
+  if (st == DYD_OK) st = streams_take(s, places, err);
+  if (st == DYD_OK) st = dyd_sphere_find_aliases(s, err);
+  if (st == DYD_OK) st = centre_take(s, o, err);
+  return st == DYD_OK ? images_make(s, err) : st;
+}
+
+dyd_status dyd_sphere_new(dyd_sphere **out, dyd_engine *places, const dyd_sphere_options *options, dyd_error *err) {
+  dyd_sphere_options o;
+  if (err) dyd_error_clear(err);
+  if (dyd_abi_take(&o, sizeof o, options, "dyd_sphere_options", err) != DYD_OK) return DYD_E_ARG;
+  dyd_sphere *s = calloc(1, sizeof *s);
+  if (!s) return dyd_fail_nomem(err);
+  s->places = places;
+  s->count = dyd_engine_count(places);
+  s->eye_bits = INT64_MIN;
+  mpq_inits(s->angle, s->degrees, NULL);
+  dyd_eye_init(&s->eye);
+  dyd_status st = sphere_make(s, places, &o, err);
+  if (st == DYD_OK)
+    *out = s;
+  else
+    dyd_sphere_free(s);
+  return st;
+}
+
+void dyd_sphere_free(dyd_sphere *s) {
+  if (!s) return;
+  dyd_engine_free(s->images);
+  for (size_t i = 0; s->stream && i < s->count; i++) dyd_stream_free(s->stream[i]);
+  free(s->stream);
+  free(s->of);
+  free(s->alias);
+  dyd_eye_clear(&s->eye);
+  mpq_clears(s->angle, s->degrees, NULL);
+  free(s);
+}
+
+/* ---- what it is ---- */
+
+dyd_engine *dyd_sphere_engine(dyd_sphere *s) {
+  return s->images;
+}
+
+const dyd_engine *dyd_sphere_places(const dyd_sphere *s) {
+  return s->places;
+}
+
+const dyd_engine *dyd_sphere_images(const dyd_sphere *s) {
+  return s->images;
+}
+
+uint32_t dyd_sphere_centre(const dyd_sphere *s) {
+  return s->count ? s->centre : DYD_NO_PLACE;
+}
+
+uint32_t dyd_sphere_place(const dyd_sphere *s, uint32_t k) {
+  return k < s->with_image ? s->of[k] : DYD_NO_PLACE;
+}
+
+uint32_t dyd_sphere_alias(const dyd_sphere *s, uint32_t i) {
+  return i < s->count ? s->alias[i] : i;
+}
+
+/* ---- running ---- */
+
+dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_options *options, dyd_error *err) {
+  dyd_engine_options o;
+  *outcome = DYD_OUTCOME_ERROR;
+  if (dyd_abi_take(&o, sizeof o, options, "dyd_engine_options", err) != DYD_OK) return DYD_E_ARG;
+  if (!o.start_bits) o.start_bits = START_BITS;
+  return dyd_engine_run(outcome, s->images, &o, err);
+}

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What a sphere holds, for the files of this folder:
+ *
+ *   sphere.c         life: places and streams of an engine, the engine of images
+ *   spot.c           where a point may be, in degrees
+ *   places.c         where the places are, and which are the same
+ *   choose_filter.c  from which place is projected
+ *   source.c         images, as the engine of images asks for them
+ *   project.c        enclosures of images
+ *   ties.c           which places are on one circle
+ *   cyclic.c         sums of roots of unity: are they 0?
+ *   result.c         statuses and triangles, by the numbers of the places */
+#ifndef DYD_SPHERE_STATE_H
+#define DYD_SPHERE_STATE_H
+
+#include "sphere/project.h"
+#include <dyadel/sphere.h>
+
+/* Invariant: of[] ascends: the places that have an image, which are all but the centre and aliases. alias[i] <= i is
+ * the lowest place at the same point as i. stream is NULL, or has an entry for each place, NULL where it is fixed. */
+struct dyd_sphere {
+  const dyd_engine *places;
+  dyd_engine *images;
+  uint32_t centre; /* the place projected from; meaningless when there are no places */
+  size_t count;    /* of places */
+  uint32_t *of, *alias;
+  size_t with_image;
+  dyd_stream **stream;
+  mpq_t angle;   /* radians: the places within this angle of each are meant; 0: the place */
+  mpq_t degrees; /* longitude and latitude may be off by so much */
+  dyd_eye eye;   /* the centre, as it was asked last */
+  int64_t eye_bits;
+};
+
+/* places.c: the place i, as it is known now. DYD_E_DOMAIN where its latitude is beyond a pole. */
+dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
+static inline bool dyd_sphere_is_fixed(const dyd_sphere *s, uint32_t i) {
+  return !s->stream || !s->stream[i];
+}
+
+/* Fills in alias; looks at all places, DYD_E_DOMAIN as above. */
+dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err);
+
+/* choose_filter.c: the place to project from, among those that are no aliases. DYD_E_ARG with a message where each may
+ * be the same as another one. */
+dyd_status dyd_sphere_choose(uint32_t *out, const dyd_sphere *s, dyd_error *err);
+/* source.c: adds the images to s->images. */
+dyd_status dyd_sphere_add_images(dyd_sphere *s, dyd_error *err);
+/* ties.c: as dyd_prove_fn; user is a dyd_sphere, sites are images. */
+dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
+                            dyd_error *err);
+
+#endif

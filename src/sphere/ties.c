@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Which places are on one circle of the sphere: exactly, for degrees that are rational numbers.
+ *
+ * [SPH-3] Four places a, b, c, d are on one circle iff their vectors are in one plane, iff
+ *     det(b,c,d) - det(a,c,d) + det(a,b,d) - det(a,b,c) = 0,
+ * where det(u,v,w) is the sum over the cyclic shifts of sin f_w cos f_u cos f_v sin(l_v - l_u). Written by exponentials
+ * that is, up to a factor, a sum of 4 * 3 * 16 roots of unity with coefficients 1 and -1. Three different places of a
+ * sphere are on one circle only, so a group is when each other one is on the circle of three of them. Images on a line
+ * are places on a circle with the centre. */
+#include "base/alloc.h"
+#include "base/error.h"
+#include "sphere/cyclic.h"
+#include "sphere/state.h"
+
+enum { TERMS = 4 * 3 * 16 };
+
+/* Longitude and latitude in units of 1/n of a turn. */
+typedef struct turned {
+  dyd_turns lon, lat;
+} turned;
+
+/* ---- places ---- */
+
+static bool turns_set_z(dyd_turns *out, mpz_srcptr z) {
+  mpz_t high;
+  if (mpz_sizeinbase(z, 2) > 110) return false;
+  mpz_init(high);
+  mpz_tdiv_q_2exp(high, z, 62);
+  dyd_turns value = (dyd_turns)mpz_get_si(high) << 62;
+  mpz_tdiv_r_2exp(high, z, 62);
+  *out = value + mpz_get_si(high);
+  mpz_clear(high);
+  return true;
+}
+
+/* x degrees, a multiple of 1/n of a turn; reduced to a turn. */
+static bool turns_set_degrees(dyd_turns *out, mpq_srcptr x, mpz_srcptr n) {
+  mpz_t z;
+  mpz_init(z);
+  mpz_mul(z, n, mpq_numref(x));
+  mpz_divexact_ui(z, z, 360);
+  mpz_divexact(z, z, mpq_denref(x));
+  mpz_mod(z, z, n);
+  bool good = turns_set_z(out, z);
+  mpz_clear(z);
+  return good;
+}
+
+/* What is asked about: places, the unit of their angles. */
+typedef struct circle_question {
+  const dyd_sphere *s;
+  const uint32_t *site;
+  size_t count; /* of sites; with the centre, one more */
+  bool line;
+  dyd_spot *spot;
+  mpz_t n;
+} circle_question;
+
+static size_t circle_places(const circle_question *q) {
+  return q->count + q->line;
+}
+
+/* Reads places; *exact: all are exact. The unit divides all angles. */
+static dyd_status circle_read(bool *exact, circle_question *q, dyd_error *err) {
+  *exact = true;
+  for (size_t k = 0; k < circle_places(q) && *exact; k++) {
+    uint32_t i = k < q->count ? q->s->of[q->site[k]] : q->s->centre;
+    dyd_status st = dyd_sphere_spot(&q->spot[k], q->s, i, err);
+    if (st != DYD_OK) return st;
+    *exact = dyd_spot_is_exact(&q->spot[k]);
+    for (int a = 0; a < 2; a++) mpz_lcm(q->n, q->n, mpq_denref(q->spot[k].mid[a]));
+  }
+  mpz_mul_ui(q->n, q->n, 360);
+  return DYD_OK;
+}
+
+/* ---- a sum ---- */
+
+/* sign * sin f_w cos f_u cos f_v sin(l_v - l_u), times -16. */
+static dyd_root_term *put_product(dyd_root_term *t, turned u, turned v, turned w, int sign, dyd_turns n) {
+  for (int k = 0; k < 16; k++) {
+    int a = k & 1 ? -1 : 1, b = k & 2 ? -1 : 1, c = k & 4 ? -1 : 1, d = k & 8 ? -1 : 1;
+    *t++ = (dyd_root_term){(a * w.lat + b * u.lat + c * v.lat + d * (v.lon - u.lon)) % n, sign * a * d};
+  }
+  return t;
+}
+
+static dyd_root_term *put_determinant(dyd_root_term *t, turned u, turned v, turned w, int sign, dyd_turns n) {
+  t = put_product(t, u, v, w, sign, n);
+  t = put_product(t, v, w, u, sign, n);
+  return put_product(t, w, u, v, sign, n);
+}
+
+static dyd_status four_are_cocircular(bool *out, const turned p[4], dyd_turns n) {
+  dyd_root_term term[TERMS], *t = term;
+  t = put_determinant(t, p[1], p[2], p[3], 1, n);
+  t = put_determinant(t, p[0], p[2], p[3], -1, n);
+  t = put_determinant(t, p[0], p[1], p[3], 1, n);
+  t = put_determinant(t, p[0], p[1], p[2], -1, n);
+  return dyd_cyclic_is_zero(out, term, (size_t)(t - term), n);
+}
+
+static bool turned_set(turned *out, const dyd_spot *spot, mpz_srcptr n) {
+  return turns_set_degrees(&out->lon, spot->mid[0], n) && turns_set_degrees(&out->lat, spot->mid[1], n);
+}
+
+/* Three of the places far apart in the order given are the circle. */
+static dyd_status circle_answer(bool *proved, const circle_question *q) {
+  size_t count = circle_places(q), base[3] = {0, count / 3, 2 * count / 3};
+  turned p[4];
+  dyd_turns n;
+  dyd_status st = DYD_OK;
+  bool good = turns_set_z(&n, q->n) && n < DYD_CYCLIC_MOST;
+  for (int b = 0; b < 3 && good; b++) good = turned_set(&p[b], &q->spot[base[b]], q->n);
+  for (size_t k = 0; k < count && good && st == DYD_OK; k++) {
+    if (k == base[0] || k == base[1] || k == base[2]) continue;
+    good = turned_set(&p[3], &q->spot[k], q->n);
+    if (good) st = four_are_cocircular(&good, p, n);
+  }
+  *proved = good && st == DYD_OK;
+  return st;
+}
+
+static dyd_status circle_ask(bool *proved, circle_question *q, dyd_error *err) {
+  bool exact;
+  dyd_status st = circle_read(&exact, q, err);
+  if (st == DYD_OK && exact) st = circle_answer(proved, q);
+  return st;
+}
+
+dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
+                            dyd_error *err) {
+  const dyd_sphere *s = user;
+  circle_question q = {.s = s, .site = site, .count = count, .line = relation == DYD_COLLINEAR};
+  *proved = false;
+  if (relation == DYD_COINCIDENT || mpq_sgn(s->angle)) return DYD_OK;
+  q.spot = dyd_alloc(circle_places(&q), sizeof *q.spot);
+  if (!q.spot) return dyd_fail_nomem(err);
+  mpz_init_set_ui(q.n, 1);
+  for (size_t k = 0; k < circle_places(&q); k++) dyd_spot_init(&q.spot[k]);
+  dyd_status st = circle_ask(proved, &q, err);
+  for (size_t k = 0; k < circle_places(&q); k++) dyd_spot_clear(&q.spot[k]);
+  mpz_clear(q.n);
+  free(q.spot);
+  return st;
+}

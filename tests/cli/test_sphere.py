@@ -1,0 +1,315 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""dyadel delaunay --sphere: against exact convex hulls, forms of degrees and radii, formats, refusals [SPH-1] [SPH-2] [SPH-3].
+
+Usage: test_sphere.py COMMAND DATA
+"""
+import csv
+import json
+import math
+import os
+import random
+import re
+import tempfile
+import time
+
+import globe
+from globe import Q
+from harness import DATA, count, expect, main, run
+
+SEED = int(os.environ.get('DYADEL_TEST_SEED', '1'))
+AIRPORTS = ['--columns', 'longitude,latitude', os.path.join(DATA, 'airports.csv')]
+WHOLE, HALVES, APART = globe.Globe(300, 230), globe.Globe(520, 450), globe.Globe(80, 40)
+OCTAHEDRON = '0 0\n90 0\n180 0\n270 0\n0 90\n0 -90\n'
+
+
+def sphere(places, *options):
+    """Statuses, and the whole answer."""
+    result = run('delaunay', '--sphere', '--quiet', *options, '-', stdin=''.join(f'{x} {y}\n' for x, y in places))
+    rows = [line.split(',') for line in result.out.splitlines() if not line.startswith('#')]
+    return {(int(i), int(j)): s for i, j, s in rows[1:]}, result
+
+
+def some_places(r, kind):
+    """Degrees with ties: anywhere, on few circles, about a pole, across 180 degrees, in half of the globe, prisms."""
+    n = r.randrange(0, 12)
+    if kind == 0:
+        return WHOLE, [(r.randrange(-180, 361), r.randrange(-90, 91)) for _ in range(n)]
+    if kind == 1:
+        return WHOLE, [(r.randrange(-12, 24) * 30, r.choice([-90, -60, -45, -30, 0, 30, 45, 60, 90])) for _ in range(n)]
+    if kind == 2:
+        return WHOLE, [(r.randrange(0, 6) * 60, r.randrange(87, 91) * r.choice([1, 1, 1, -1])) for _ in range(n)]
+    if kind == 3:
+        return HALVES, [(Q(r.randrange(356, 365), 2) - 360 * r.randrange(2), Q(r.randrange(-4, 5), 2)) for _ in range(n)]
+    if kind == 4:
+        sides, lat = r.choice([2, 3, 4, 5, 6, 8]), r.choice([10, 30, 45])
+        twist = r.choice([0, 180 // sides])
+        rings = [(k * 360 // sides + twist * (s > 0), s * lat) for k in range(sides) for s in (-1, 1)]
+        return WHOLE, rings + [(r.randrange(360), 90)] * r.randrange(2) + [(0, -90)] * r.randrange(2)
+    if kind == 5:
+        return APART, [(round(r.uniform(-60, 60), 6), round(r.uniform(-40, 60), 6)) for _ in range(n)]
+    return APART, [(round(r.uniform(-180, 180), 7), round(math.degrees(math.asin(r.uniform(-1, 1))), 7)) for _ in range(n)]
+
+
+def test_random_sets():
+    """1,000 sets: statuses, outcome, aliases; sure triangles of every fourth."""
+    r = random.Random(SEED)
+    for k in range(1000):
+        exact, places = some_places(r, k % 7)
+        want = globe.statuses(exact, places)
+        got, result = sphere(places)
+        assert got == want, (SEED, k, places, got, want)
+        assert result.code == (3 if 'tie' in want.values() else 0), (SEED, k, result)
+        same, _ = globe.first_of_each(places)
+        aliases = [f'# alias {i} {same.index(p)}' for i, p in enumerate(same) if same.index(p) != i]
+        assert [line for line in result.out.splitlines() if line.startswith('#')] == aliases, (SEED, k, places)
+        if k % 4 == 0:
+            text = ''.join(f'{x} {y}\n' for x, y in places)
+            rows = run('delaunay', '--sphere', '-q', '--layer', 'triangles', '-', stdin=text).out.splitlines()
+            got = {tuple(map(int, row.split(','))) for row in rows if row[0] not in '#i'}
+            assert got == globe.triangles(exact, places), (SEED, k, places)
+
+
+def turned(places, r):
+    """Moved by what maps degrees to degrees: along the parallels, to the other half, from east to west."""
+    move, mirror, flip = r.randrange(-360, 361), r.choice([1, -1]), r.choice([1, -1])
+    return [(mirror * x + move, flip * y) for x, y in places]
+
+
+def test_turned():
+    """Rotations and other orders, and so other points to project from, change nothing."""
+    r = random.Random(SEED)
+    for k in range(60):
+        _, places = some_places(r, k % 3)
+        want, _ = sphere(places)
+        got, _ = sphere(turned(places, r))
+        assert got == want, (SEED, k, places)
+        same, _ = globe.first_of_each(places)
+        order = sorted(range(len(places)), key=lambda i: r.random())
+        shuffled, _ = sphere([places[i] for i in order])
+        named = {frozenset((same[i], same[j])): s for (i, j), s in want.items()}
+        assert {frozenset((same[order[i]], same[order[j]])): s for (i, j), s in shuffled.items()} == named, (SEED, k)
+
+
+def test_few_points():
+    expect(run('delaunay', '--sphere', '--quiet', '-'), 0, r'\Ai,j,status\n\Z', r'\A\Z')
+    expect(run('delaunay', '--sphere', '-', stdin='7 8\n'), 0, r'\Ai,j,status\n\Z', r'\A\Z')
+    expect(run('delaunay', '--sphere', '-', stdin='7 8\n187 -8\n'), 0, r'\Ai,j,status\n0,1,legal\n\Z', r'\A\Z')
+    expect(run('delaunay', '--sphere', '-', stdin='7 8\n7 9\n7 10\n'), 0, r'\Ai,j,status\n0,1,legal\n0,2,legal\n1,2,legal\n\Z')
+    expect(run('delaunay', '--sphere', '-', stdin='7 8\n7 9\n7 10\n187 10\n'), 3, '0,2,tie\n(.*\n)*1,3,tie', 'fixpoint: 4 legal, 0 ind.* 2 tie')
+    expect(run('delaunay', '--sphere', '-', stdin='5 90\n77 90\n-180 1\n180 1\n'), 0, r'\A# alias 1 0\n# alias 3 2\ni,j,status\n0,2,legal\n\Z')
+
+
+def test_forms():
+    """Fractions, expressions, roots: the same places; computable ones are refined."""
+    want, _ = sphere([(0, 0), (Q(1, 3), 0), (0, Q(1, 3)), (-20, -30), (40, 80)])
+    for third in ('1/3', '[1/3,1/3]', '(1/6)*2', 'root(3*x-1,0,1)'):
+        got, result = sphere([(0, 0), (third, 0), (0, third), (-20, -30), (40, 80)])
+        assert got == want and result.code == 0, (third, result)
+    cube = [(x, s + 'atan(sqrt(2)/2)*180/pi') for s in ('', '-') for x in (45, 135, 225, 315)]
+    got, result = sphere(cube + [(0, '89.99999999999999999999999')])
+    assert result.code in (0, 3, 4) and 'illegal' not in got.values(), result
+    near, result = sphere([(0, 0), (1, 0), (0, 1), ('1+sqrt(2)/10^30', 1), (50, 50)])
+    assert result.code == 0 and ((0, 3) in near) != ((1, 2) in near), result
+
+
+def test_grid():
+    """64,800 points at every degree: all is tied, which takes no refinement."""
+    text = ''.join(f'{x} {y + 0.5}\n' for y in range(-90, 90) for x in range(-180, 180))
+    begin = time.monotonic()
+    result = run('delaunay', '--sphere', '-', stdin=text)
+    seconds = time.monotonic() - begin
+    expect(result, 3, '', 'fixpoint: 129240 legal, 0 indeterminate, 257400 tie')
+    assert count(result.out) == {'legal': 129240, 'tie': 257400}
+    print('seconds for the grid', round(seconds, 1))
+
+
+def test_airports():
+    """10,122 edges; the triangles are a closed surface, and convex at each edge, in 80 digits."""
+    result = run('delaunay', '--sphere', *AIRPORTS)
+    expect(result, 0, r'\Ai,j,status\n', r'\A\Z')
+    assert count(result.out) == {'legal': 10122}
+    with open(os.path.join(DATA, 'airports.csv'), encoding='utf-8') as file:
+        at = [APART.vector(globe.canonical((r['longitude'], r['latitude']))) for r in csv.DictReader(file)]
+    rows = run('delaunay', '--sphere', '--layer', 'triangles', *AIRPORTS).out.splitlines()[1:]
+    beyond = {}
+    for row in rows:
+        i, j, k = map(int, row.split(','))
+        beyond.update({(i, j): k, (j, k): i, (k, i): j})
+    assert len(rows) == 6748 and len(beyond) == 3 * 6748
+    for (i, j), k in beyond.items():
+        v = [globe.minus(at[l], at[i]) for l in (j, k, beyond[j, i])]
+        assert APART.sign(*v) < 0, (i, j, k)
+    edges = {tuple(line.split(',')[:2]) for line in result.out.splitlines()[1:]}
+    assert edges == {(str(min(e)), str(max(e))) for e in beyond}
+
+
+def test_airports_hull():
+    """The same by another program, where it is there."""
+    try:
+        import numpy
+        import scipy.spatial
+    except ImportError:
+        print('no scipy: left out')
+        return
+    with open(os.path.join(DATA, 'airports.csv'), encoding='utf-8') as file:
+        lon, lat = numpy.radians([[float(r['longitude']), float(r['latitude'])] for r in csv.DictReader(file)]).T
+    hull = scipy.spatial.ConvexHull(numpy.column_stack([numpy.cos(lat) * numpy.cos(lon), numpy.cos(lat) * numpy.sin(lon), numpy.sin(lat)]))
+    edges = {tuple(sorted(map(int, e))) for t in hull.simplices for e in ((t[0], t[1]), (t[1], t[2]), (t[2], t[0]))}
+    rows = run('delaunay', '--sphere', *AIRPORTS).out.splitlines()[1:]
+    assert edges == {tuple(map(int, row.split(',')[:2])) for row in rows}
+
+
+# ---- what is not known exactly ----
+
+def moved(place, angle, r):
+    """A place at most so far away (radians), in degrees; some are as far as possible."""
+    lon, lat = math.radians(place[0]), math.radians(place[1])
+    far, way = angle * r.choice([1, math.sqrt(r.random())]) * (1 - 1e-9), r.uniform(0, 2 * math.pi)
+    z = math.sin(lat) * math.cos(far) + math.cos(lat) * math.sin(far) * math.cos(way)
+    east = math.sin(way) * math.sin(far) * math.cos(lat)
+    return math.degrees(lon + math.atan2(east, math.cos(far) - math.sin(lat) * z)), math.degrees(math.asin(z))
+
+
+def refuted(got, places):
+    """Is there a pair that the choice contradicts?"""
+    want = globe.statuses(APART, [(repr(x), repr(y)) for x, y in places])
+    return any(want.get(p) != 'legal' for p, s in got.items() if s == 'legal') or any(p not in got for p in want)
+
+
+def scattered(r, n, wide):
+    """Some anywhere, some about a pole, some across 180 degrees; apart."""
+    places = []
+    while len(places) < n:
+        lat = r.choice([math.degrees(math.asin(r.uniform(-1, 1))), 90 - 20 * r.random(), r.uniform(-20, 20)])
+        lon = r.choice([r.uniform(-180, 180), r.uniform(170, 190)])
+        p = (round(lon, 3), round(lat, 3))
+        at = APART.vector(globe.canonical(p))
+        if all(math.dist([c / 1e80 for c in at], [c / 1e80 for c in APART.vector(globe.canonical(q))]) > 3 * wide for q in places):
+            places.append(p)
+    return places
+
+
+def test_choices_within_radii():
+    """Random choices never contradict what is stated; choices in a smaller radius are decided no less."""
+    r = random.Random(SEED)
+    for k in range(40):
+        metres = r.choice([1000, 50000, 400000])
+        places = scattered(r, r.randrange(4, 9), 1.2 * metres / 6371008.8)
+        exact = r.randrange(2)  # the first one has no radius of its own
+        got, result = sphere(places, '--radius', r.choice([f'{metres}m', f'{metres / 1000}km']))
+        assert result.code in (0, 3), result
+        for _ in range(6):
+            choice = [moved(p, metres / 6371008.8, r) for p in places]
+            assert not refuted(got, choice), (SEED, k, metres, places, choice)
+        less, _ = sphere(places, '--radius', f'{metres // 4}m')
+        assert all(less.get(p) == 'legal' for p, s in got.items() if s == 'legal') and set(less) <= set(got), (SEED, k)
+
+
+def test_choices_within_boxes():
+    """Boxes of degrees, beyond the poles and across 180 degrees, beside exact places."""
+    r = random.Random(SEED)
+    for k in range(40):
+        half = r.choice([0.01, 0.5, 3])
+        places = scattered(r, r.randrange(4, 9), math.radians(2 * half))
+        wide = [i > 1 or r.random() < 0.5 for i in range(len(places))]
+        text = [(f'{x}+-{half}', f'{y}+-{half}') if w else (x, y) for (x, y), w in zip(places, wide)]
+        got, result = sphere(text)
+        if result.code == 1:
+            assert 'cannot be told from point' in result.err or 'may be at the same place' in result.err, result
+            continue
+        for _ in range(6):
+            choice = []
+            for (x, y), w in zip(places, wide):
+                x, y = x + w * half * r.uniform(-1, 1), y + w * half * r.uniform(-1, 1)
+                choice.append((x + 180, math.copysign(180 - abs(y), y)) if abs(y) > 90 else (x, y))
+            assert not refuted(got, choice), (SEED, k, half, places, choice)
+
+
+def test_radius():
+    """Degrees widen longitude and latitude; metres are a distance on the ground."""
+    square = '0 60\n1 60\n0 60.5\n1 60.5\n50 0\n'
+    assert run('delaunay', '--sphere', '-q', '--radius', '0.01deg', '-', stdin=square).out == \
+        run('delaunay', '--sphere', '-q', '--radius', '0.01', '-', stdin=square).out
+    box = json.loads(run('delaunay', '--sphere', '-q', '--format', 'json', '--radius', '30m', '-', stdin='0 60\n10 0\n').out)['sites']
+    angle = math.degrees(30 / 6371008.8)
+    for site, wide in zip(box, (2, 1)):
+        (x0, x1), (y0, y1) = site['x_decimal'], site['y_decimal']
+        assert angle * 2 * wide <= x1 - x0 <= angle * 2 * wide * 1.001 and 2 * angle * 0.9999 <= y1 - y0 <= 2 * angle * 1.001, site
+    for wrong in ('30 miles', 'm', '-1m', '30kmm', '7000km'):
+        expect(run('delaunay', '--sphere', '--radius', wrong, '-', stdin=square), 1, r'\A\Z', 'the radius .*; give')
+    expect(run('delaunay', '--sphere', '--radius', '500km', '-', stdin=square[:-5]), 1, r'\A\Z', 'may be at the same place')
+
+
+# ---- formats and messages ----
+
+def test_formats():
+    places = '170 20\n-170 10\n180 -45\n0 90\n0 -90\n12 10\n190 10\n'
+    whole = json.loads(run('delaunay', '--sphere', '--format', 'json', '-', stdin=places).out)
+    assert whole['aliases'] == [[6, 1]] and whole['count']['sites'] == 7 and whole['outcome'] == 'decided'
+    assert len(whole['triangles']) == 8 and len(whole['pairs']) == 12
+    lines = json.loads(run('delaunay', '--sphere', '--format', 'geojson', '-', stdin=places).out)
+    assert 'CRS84' in lines['crs']['properties']['name']
+    cut = next(f for f in lines['features'] if (f['properties']['i'], f['properties']['j']) == (0, 1))
+    east, west = cut['geometry']['coordinates']
+    assert east[0] == [170, 20] and east[-1][0] == 180 and west[0] == [-180, east[-1][1]] and west[-1] == [-170, 10]
+    for layer in ('triangles', 'points'):
+        shapes = json.loads(run('delaunay', '--sphere', '--format', 'geojson', '--layer', layer, '-', stdin=places).out)
+        assert len(shapes['features']) == (8 if layer == 'triangles' else 7)
+        flat = re.findall(r'\[(-?[\d.e+-]+), (-?[\d.e+-]+)\]', json.dumps(shapes))
+        assert all(abs(float(x)) <= 180 and abs(float(y)) <= 90 for x, y in flat)
+    expect(run('delaunay', '--sphere', '--format', 'wkt', '--layer', 'triangles', '-', stdin=places), 0, r'^"MULTIPOLYGON \(\(\(')
+    expect(run('delaunay', '--sphere', '--layer', 'points', '-', stdin=places), 0, r'^i,xlo,xhi,ylo,yhi,legal,indeterminate,tie,hull\n0,170,170,20,20,5,0,0,not$')
+    back = run('delaunay', '--sphere', '--format', 'wkt', '--layer', 'triangles', '-', stdin='0 0\n1 0\n0 1\n')
+    expect(back, 0, r'^"MULTIPOLYGON EMPTY",0,2,1')
+
+
+def area(rings):
+    """Of polygons of longitude and latitude, on a cylinder of equal areas, in parts of the globe."""
+    total = 0
+    for (ring,) in rings:
+        for (x, y), (z, w) in zip(ring, ring[1:]):
+            total -= (z - x) * (math.sin(math.radians(y)) + math.sin(math.radians(w))) / 2
+    return total / 720
+
+
+def test_triangles_cover_the_globe():
+    """Poles within, sides across 180 degrees: the parts add up to all of it, none turned inside out."""
+    r = random.Random(SEED)
+    for k in range(12):
+        places = [(r.randrange(-180, 180), r.randrange(-89, 90)) for _ in range(20)]
+        text = OCTAHEDRON + ''.join(f'{x + 0.25} {y}\n' for x, y in places)
+        shapes = json.loads(run('delaunay', '--sphere', '-q', '--format', 'geojson', '--layer', 'triangles', '-', stdin=text).out)
+        areas = [area(f['geometry']['coordinates']) for f in shapes['features']]
+        assert all(a > -1e-5 for a in areas) and abs(sum(areas) - 1) < 1e-3, (SEED, k, sum(areas), min(areas))
+
+
+def test_ids_and_rows():
+    """Names, rows left out, rows merged."""
+    text = 'name,lon,lat\na,0,0\nb,,\nc,10,0\nd,0,10\ne,10,0\n'
+    args = ('delaunay', '--sphere', '-q', '--columns', 'lon,lat', '--id', 'name', '--skip-missing')
+    expect(run(*args, '-', stdin=text), 0, r'\A# alias 4 2\ni,j,status,id_i,id_j\n0,2,legal,a,c\n0,3,legal,a,d\n2,3,legal,c,d\n\Z')
+
+
+def test_certificate():
+    """It is about the images, and says so; what it states is accepted."""
+    with tempfile.TemporaryDirectory() as folder:
+        result = run('delaunay', '--sphere', '--certificate', 'c', '-', stdin=OCTAHEDRON, cwd=folder)
+        expect(result, 0, 'i,j,status', 'about the images .* projected from point 0: 5 rectangles')
+        expect(run('verify', 'c', cwd=folder), 0, 'accepted')
+
+
+def test_refusals():
+    expect(run('delaunay', '--sphere', '-', stdin='0 0\n47 91\n'), 1, r'\A\Z', r'2:4: .*latitude is beyond 90 degrees')
+    expect(run('delaunay', '--sphere', '-', stdin='0 0\n47 50+sqrt(2000)\n'), 1, r'\A\Z', r'point 1: .*latitude is beyond 90 degrees')
+    for args in (['--discs'], ['--until', 'area:3'], ['--window', '0,1,0,1']):
+        expect(run('delaunay', '--sphere', *args, '-', stdin=OCTAHEDRON), 2, r'\A\Z', args[0] + ' is about the plane')
+    for command in ('converge', 'check', 'disc', 'bisector', 'tolerance', 'plan'):
+        expect(run(command, '--sphere', '-', stdin=OCTAHEDRON), 2, r'\A\Z', f'{command} does not take --sphere')
+    expect(run('nearest', '--sphere', '-', '1', '1', stdin=OCTAHEDRON), 2, r'\A\Z', 'nearest does not take --sphere')
+    expect(run('delaunay', '--sphere', '--format', 'obj', '-', stdin=OCTAHEDRON), 2, r'\A\Z', 'does not write obj; give')
+    expect(run('delaunay', '--sphere', '--radius', '1m', '-', stdin='0 0\n0 0\n'), 1, r'\A\Z', 'may be at the same place')
+
+
+if __name__ == '__main__':
+    main(globals())

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* [SPH-2] Images of places, boxes and circles: against the projection in long doubles, and choices within. */
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include "sphere/project.h"
+#include "support/random.h"
+#include <cmocka.h>
+#include <math.h>
+
+static const long double degree = 0.017453292519943295769236907684886L;
+
+/* A place in degrees that doubles hold. */
+typedef struct spot_case {
+  double lon, lat, half[2];
+} spot_case;
+
+static void make_spot(spot_case *s, test_random *r, bool wide) {
+  *s = (spot_case){nearbyint(360 * test_unit(r) - 180), nearbyint(178 * test_unit(r) - 89), {0, 0}};
+  bool pole = test_chance(r, 4); /* as an eye it looks along longitude 0 */
+  if (pole) s->lon = 0, s->lat = test_chance(r, 2) ? 90 : -90;
+  if (!pole && test_chance(r, 2)) s->lon += 0x1p-20, s->lat -= copysign(0x1p-10, s->lat);
+  if (wide && !pole)
+    s->half[0] = 30 * pow(test_unit(r), 6), s->half[1] = fmin(10 * pow(test_unit(r), 6), 90 - fabs(s->lat));
+}
+
+static void set_spot(dyd_spot *out, const spot_case *s) {
+  dyd_rect r;
+  mpq_t none;
+  mpq_init(none);
+  dyd_rect_init(&r);
+  assert_int_equal(
+      dyd_rect_set_d(&r, s->lon - s->half[0], s->lon + s->half[0], s->lat - s->half[1], s->lat + s->half[1]), DYD_OK);
+  assert_true(dyd_spot_set(out, &r, none));
+  dyd_rect_clear(&r);
+  mpq_clear(none);
+}
+
+/* The cosine of their angle subtracted from 1 is at least 1e-4 where this is used. */
+static long double image_of(long double out[2], const spot_case *s, const spot_case *q) {
+  long double d = (s->lon - (long double)q->lon) * degree, f = s->lat * degree, f0 = q->lat * degree;
+  long double D = 1 - sinl(f) * sinl(f0) - cosl(f) * cosl(f0) * cosl(d);
+  out[0] = cosl(f) * sinl(d) / D;
+  out[1] = (sinl(f) * cosl(f0) - cosl(f) * sinl(f0) * cosl(d)) / D;
+  return D;
+}
+
+static bool ball_holds(const arb_t ball, long double x) {
+  arb_t t;
+  arb_init(t);
+  arf_set_d(arb_midref(t), (double)x);
+  mag_set_d(arb_radref(t), 1e-12 * (1 + fabs((double)x)));
+  bool meets = arb_overlaps(ball, t);
+  arb_clear(t);
+  return meets;
+}
+
+static spot_case choose_in(const spot_case *s, test_random *r) {
+  double a = test_chance(r, 3) ? 1 : 2 * test_unit(r) - 1, b = test_chance(r, 3) ? -1 : 2 * test_unit(r) - 1;
+  return (spot_case){s->lon + a * s->half[0], s->lat + b * s->half[1], {0, 0}};
+}
+
+/* A place within an angle of s, where this is no pole. */
+static spot_case move_by(const spot_case *s, long double angle, test_random *r) {
+  long double lat = s->lat * degree, way = 6.283185307L * test_unit(r),
+              far = angle * (test_chance(r, 2) ? 1 : test_unit(r));
+  long double z = sinl(lat) * cosl(far) + cosl(lat) * sinl(far) * cosl(way);
+  long double east = atan2l(sinl(way) * sinl(far) * cosl(lat), cosl(far) - sinl(lat) * z);
+  return (spot_case){(double)(s->lon + east / degree), (double)(asinl(z) / degree), {0, 0}};
+}
+
+static void test_images(void **state) {
+  test_random r;
+  dyd_spot spot;
+  dyd_eye eye;
+  arb_t x, y;
+  mpq_t angle;
+  size_t seen = 0, tight = 0;
+  (void)state;
+  r = test_random_start("images of places");
+  dyd_spot_init(&spot);
+  dyd_eye_init(&eye);
+  arb_init(x);
+  arb_init(y);
+  mpq_init(angle);
+  for (int k = 0; k < 3000; k++) {
+    spot_case s, q;
+    long double want[2];
+    make_spot(&s, &r, test_chance(&r, 2));
+    make_spot(&q, &r, test_chance(&r, 3));
+    mpq_set_d(angle, test_chance(&r, 3) ? ldexp(test_unit(&r), -3) : 0);
+    set_spot(&spot, &s);
+    set_spot(&eye.spot, &q);
+    eye.prec = 0;
+    if (!dyd_project(x, y, &spot, angle, &eye, 128)) continue;
+    seen++;
+    if (dyd_spot_is_exact(&spot) && dyd_spot_is_exact(&eye.spot) && !mpq_sgn(angle))
+      assert_true(arb_rel_accuracy_bits(x) > 60 || arb_rel_accuracy_bits(y) > 60);
+    for (int l = 0; l < 8; l++) {
+      spot_case from = choose_in(&q, &r), at = choose_in(&s, &r);
+      if (mpq_sgn(angle)) at = move_by(&at, mpq_get_d(angle), &r);
+      if (image_of(want, &at, &from) < 1e-4L) continue;
+      assert_true(ball_holds(x, want[0]) && ball_holds(y, want[1]));
+      tight++;
+    }
+  }
+  assert_true(seen > 1500 && tight > 10000);
+  mpq_clear(angle);
+  arb_clear(y);
+  arb_clear(x);
+  dyd_eye_clear(&eye);
+  dyd_spot_clear(&spot);
+}
+
+/* The image of a narrow box is about as wide as the slopes say; that of a circle is the disc about it. */
+static void test_widths(void **state) {
+  dyd_spot spot;
+  dyd_eye eye;
+  arb_t x, y;
+  mpq_t angle;
+  (void)state;
+  dyd_spot_init(&spot);
+  dyd_eye_init(&eye);
+  arb_init(x);
+  arb_init(y);
+  mpq_init(angle);
+  set_spot(&eye.spot, &(spot_case){10, 0, {0, 0}});
+  mpq_set_ui(angle, 1, 1024);
+  set_spot(&spot, &(spot_case){100, 0, {0, 0}}); /* 90 degrees away: the slope is 1 */
+  assert_true(dyd_project(x, y, &spot, angle, &eye, 128));
+  assert_true(fabs(mag_get_d(arb_radref(x)) - 0x1p-10) < 1e-8 && fabs(mag_get_d(arb_radref(y)) - 0x1p-10) < 1e-8);
+  mpq_set_ui(angle, 0, 1);
+  set_spot(&spot, &(spot_case){100, 0, {0x1p-10, 0x1p-12}});
+  assert_true(dyd_project(x, y, &spot, angle, &eye, 128));
+  assert_true(fabs(mag_get_d(arb_radref(x)) / (0x1p-10 * (double)degree) - 1) < 1e-4);
+  assert_true(fabs(mag_get_d(arb_radref(y)) / (0x1p-12 * (double)degree) - 1) < 1e-4);
+  set_spot(&spot, &(spot_case){11, 0, {1, 0}}); /* the centre is at its end */
+  assert_false(dyd_project(x, y, &spot, angle, &eye, 128));
+  mpq_clear(angle);
+  arb_clear(y);
+  arb_clear(x);
+  dyd_eye_clear(&eye);
+  dyd_spot_clear(&spot);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_images), cmocka_unit_test(test_widths)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
