@@ -51,6 +51,7 @@
  *       cycle N               2 cos(2 pi/N), one at most
  *       root LO HI c0,...,cn  the zero of c0 + ... + cn X^n, cn > 0, between the fractions LO and HI
  *       callback              of which nothing is known
+ *       claim a               what a callback gives; its author says that it is a
  *                             sqrt, cbrt and root may be followed by V: the number is V
  *     points G
  *       i a b               G lines: site i is the point (a,b), numbers of the block; sorted by i
@@ -172,7 +173,8 @@ typedef enum dyd_certificate_gap {
   DYD_GAP_DISTANCE = 16, /* the distance in the diagram */
   DYD_GAP_OUTCOME = 32,  /* the outcome */
   DYD_GAP_POINTS = 64,   /* that the points given lie in its rectangles, and are what it describes */
-  DYD_GAP_ALIASES = 128  /* that aliases of sites that are not exact are the same points */
+  DYD_GAP_ALIASES = 128, /* that aliases of sites that are not exact are the same points */
+  DYD_GAP_CLAIMS = 256   /* that callbacks are what their authors say they are */
 } dyd_certificate_gap;
 
 /* What an accepted certificate states. Texts have static storage. */
@@ -202,6 +204,7 @@ typedef struct dyd_certificate_report {
   size_t unlocated;              /* of them, those not known to lie in their rectangles */
   size_t aliases_unproved;       /* of aliases, those of sites that are not exact, and are not proved to be the same */
   size_t undescribed;            /* of the points given, those not known to be what the certificate describes */
+  size_t claims;                 /* that callbacks are the roots that their authors say */
   size_t identities, tie_bounds; /* facts about what points are: proved by an identity, by a bound [CERT-10] */
 } dyd_certificate_report;
 

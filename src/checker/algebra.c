@@ -4,9 +4,10 @@
 
 #include <stdlib.h>
 
-static const char *const op_names[DYD_CERT_OPS] = {
-    "=",   "+",   "-",    "*",    "/",    "min", "max",  "^",    "neg",  "abs", "sqrt", "cbrt",  "cos",  "sin",
-    "tan", "exp", "sinh", "cosh", "tanh", "log", "asin", "acos", "atan", "pi",  "e",    "cycle", "root", "callback"};
+static const char *const op_names[DYD_CERT_OPS] = {"=",   "+",     "-",     "*",    "/",       "min",  "max",  "^",
+                                                   "neg", "claim", "abs",   "sqrt", "cbrt",    "cos",  "sin",  "tan",
+                                                   "exp", "sinh",  "cosh",  "tanh", "log",     "asin", "acos", "atan",
+                                                   "pi",  "e",     "cycle", "root", "callback"};
 
 int dyd_cert_op_operands(dyd_cert_op op) {
   if (op == DYD_CERT_VALUE || op >= DYD_CERT_PI) return 0;

@@ -29,6 +29,7 @@ typedef enum dyd_cert_op {
   DYD_CERT_MAX,
   DYD_CERT_POW, /* ^ a n */
   DYD_CERT_NEG,
+  DYD_CERT_CLAIM, /* what a callback gives is number a, its author says */
   DYD_CERT_ABS,
   DYD_CERT_SQRT, /* may be followed by V */
   DYD_CERT_CBRT,
@@ -86,7 +87,7 @@ typedef struct dyd_cert_algebra {
   dyd_cert_leaf leaf[DYD_CERT_LEAVES];
   long cycle;
   dyd_cert_poly *cosine;
-  size_t cosines;
+  size_t cosines, claims;
 } dyd_cert_algebra;
 
 const char *dyd_cert_op_name(dyd_cert_op op);

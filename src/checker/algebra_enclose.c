@@ -62,6 +62,8 @@ static void enclose_function(dyd_cert_enclosure *x, const dyd_cert_number *n, lo
   case DYD_CERT_NEG:
     dyd_cert_enclosure_neg(x);
     return;
+  case DYD_CERT_CLAIM:
+    return;
   case DYD_CERT_ABS:
     dyd_cert_enclosure_abs(x);
     return;

@@ -56,6 +56,7 @@ static dyd_status checker_ties(dyd_checker *c) {
     c->report.ties_unproved += !dyd_cert_faces_still(&c->faces, c->tie.item[q].i, c->tie.item[q].j);
   c->report.identities = c->ties.identities;
   c->report.tie_bounds = c->ties.bounds;
+  for (size_t k = 0; k < c->ties.blocks; k++) c->report.claims += c->ties.block[k]->algebra.claims;
   st = dyd_cert_ties_aliases(&c->report.aliases_unproved, &c->ties, &c->sites);
   return st == DYD_OK ? DYD_OK : dyd_fail_nomem(c->in.err);
 }
@@ -106,6 +107,7 @@ void dyd_checker_settle(dyd_checker *c, const bool *still) {
   dyd_certificate_report *r = &c->report;
   if (r->legal_unproved) r->gaps |= DYD_GAP_LEGAL;
   if (r->unproved && !r->capped) r->gaps |= DYD_GAP_ILLEGAL;
+  if (r->claims) r->gaps |= DYD_GAP_CLAIMS;
   if (r->ties_unproved) r->gaps |= DYD_GAP_TIES;
   if (r->aliases_unproved) r->gaps |= DYD_GAP_ALIASES;
   if (r->unproved && (r->area || r->hausdorff)) r->gaps |= DYD_GAP_BOUNDS;

@@ -280,6 +280,9 @@ static bool value_function(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_
   size_t leaf;
   int sign;
   switch (n->op) {
+  case DYD_CERT_CLAIM:
+    a->claims++;
+    return dyd_cert_quotient_set(x, u, &a->relations);
   case DYD_CERT_NEG:
   case DYD_CERT_ABS:
     if (!dyd_cert_quotient_set(x, u, &a->relations)) return false;

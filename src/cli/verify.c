@@ -56,6 +56,8 @@ static void print_gaps(FILE *out, const dyd_certificate_report *r) {
         "not proved: that no refinement decides %zu ties, which share a face with points that are not exact (tie: not "
         "re-checked)\n",
         r->ties_unproved);
+  if (r->gaps & DYD_GAP_CLAIMS)
+    fprintf(out, "not proved: that %zu callbacks are the roots that their authors say they are\n", r->claims);
   if (r->gaps & DYD_GAP_ALIASES)
     fprintf(out,
             "not proved: that %zu aliases of points that are not exact are the same points (tie: not re-checked)\n",

@@ -186,6 +186,8 @@ const char *dyd_proof_op_text(unsigned op) {
     return "^";
   case DYD_OP_PI:
     return "pi";
+  case DYD_FORM_CLAIM:
+    return "claim";
   default:
     return op > DYD_OP_X && op <= DYD_OP_ABS && op != DYD_OP_ROOT ? dyd_op_name((dyd_op)op) : NULL;
   }
@@ -283,7 +285,7 @@ static bool put_forms(dyd_proof_block *b, size_t count) {
   for (size_t k = 0; k < b->sites && used; k++) used[b->at[k].x] = used[b->at[k].y] = true;
   for (size_t n = count; n-- > 0 && used;) {
     const dyd_form *f = &b->forms.node[n];
-    if (!used[n] || dyd_op_is_leaf((dyd_op)f->op) || f->op >= DYD_FORM_ROOT) continue;
+    if (!used[n] || dyd_form_is_leaf(f)) continue;
     used[f->a] = true;
     if (dyd_op_is_binary((dyd_op)f->op)) used[f->b] = true;
   }
