@@ -42,6 +42,24 @@
  *     area A | none         upper bounds, see metric.h
  *     hausdorff H | none
  *
+ * then blocks, where ties or aliases follow from what points are,
+ *
+ *     algebra K             K numbers, each made of those before (a, b) in one of these ways:
+ *       = V                   a value, see below
+ *       + a b, - a b, * a b, / a b, min a b, max a b, ^ a n, neg a, abs a
+ *       sqrt a, cbrt a, cos a, sin a, tan a, exp a, sinh a, cosh a, tanh a, log a, asin a, acos a, atan a, pi, e
+ *       cycle N               2 cos(2 pi/N), one at most
+ *       root LO HI c0,...,cn  the zero of c0 + ... + cn X^n, cn > 0, between the fractions LO and HI
+ *       callback              of which nothing is known
+ *       claim a               what a callback gives; its author says that it is a
+ *                             sqrt, cbrt and root may be followed by V: the number is V
+ *     points G
+ *       i a b               G lines: site i is the point (a,b), numbers of the block; sorted by i
+ *     facts F
+ *       same i j M            sites i and j are the same point
+ *       line i j k ... M      all these are on the line of i and j
+ *       circle i j k l ... M  all these are on the circle of i, j and k; M: identity | bound
+ *
  * then, where the certificate says something of the Voronoi diagram,
  *
  *     window XLO XHI YLO YHI
@@ -54,6 +72,13 @@
  * and at last
  *
  *     end
+ *
+ * A number that is not rational in those before is a leaf: x0, x1, ... in their order. An irrational sqrt, cbrt or
+ * root without V makes one (times its denominator: of sqrt a, a = p/q, the leaf is sqrt(p q); of a root cn X), cycle
+ * one unless it is rational, cos, sin and tan two, the cosine and the sine, unless they are of a rational multiple
+ * of pi, or another has the same angle or its negative; exp, e, pi and the others one unless there is one of the
+ * same. V is P or P/Q, polynomials with integer coefficients in leaves before, their terms in descending order of
+ * exponents, later leaves first: 2*x0*x2^3-x1+5.
  *
  * Aliases occur in no pair. Pairs of sites without a line are stated to be illegal, unless capped.
  *
@@ -96,15 +121,20 @@
  * about N log N, is up to the writer, who may write "unproved": then nothing is checked. Nothing else in the
  * certificate is needed.
  *
+ * [CERT-10] Blocks: each point lies in the rectangle of its site; the determinants that a fact is about reduce to 0
+ * modulo the relations of the leaves (identity), or are smaller than any that is not 0 (bound). A circle through all
+ * sites of a bounded face of legal edges, or a line through all sites of a part of the unbounded face, makes its
+ * pairs ties.
+ *
  * U counts, over the open sets, the pairs within the set that have no line and are none of the P: nothing proves that
  * they are illegal (0: the certificate proves its list of pairs complete). decided needs no o, t and l line and capped
  * no; certified needs the goal's bound.
  *
  * [CERT-8] What is stated need not be proved; the report says what is not (dyd_certificate_gap). A line o states
- * nothing of its pair, a line t that no refinement changes what it is, which is proved where all sites of its open sets
- * are exact points; so is fixpoint where nobody can be narrowed who matters. decided and bounds are proved when U = 0.
- * Nothing proves budget, cancelled and error, lines l, and that an alias of a site that is not exact is the same point:
- * that, as ties of such sites, follows from what the points are, which the certificate does not say. */
+ * nothing of its pair, a line t that no refinement changes what it is, which is proved where all sites of its open
+ * sets are exact points, or a fact is about them; so is fixpoint where nobody can be narrowed who matters. That an
+ * alias of a site that is not exact is the same point is proved by facts. decided and bounds are proved when U = 0.
+ * Nothing proves budget, cancelled and error, and lines l. */
 #ifndef DYADEL_CERTIFICATE_H
 #define DYADEL_CERTIFICATE_H
 
@@ -137,12 +167,14 @@ DYD_API dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_eng
 typedef enum dyd_certificate_gap {
   DYD_GAP_LEGAL = 1,     /* that pairs without a witness are legal */
   DYD_GAP_ILLEGAL = 2,   /* that pairs which are not listed are illegal */
-  DYD_GAP_TIES = 4,      /* that no refinement decides a tie: a site of its open set is no exact point */
+  DYD_GAP_TIES = 4,      /* that no refinement decides a tie: a site of its open set is no exact point, and no fact
+                          * is about the set */
   DYD_GAP_BOUNDS = 8,    /* area, hausdorff: pairs that are not listed may be possible */
   DYD_GAP_DISTANCE = 16, /* the distance in the diagram */
   DYD_GAP_OUTCOME = 32,  /* the outcome */
-  DYD_GAP_POINTS = 64,   /* that the points given lie in its rectangles */
-  DYD_GAP_ALIASES = 128  /* that aliases of sites that are not exact are the same points */
+  DYD_GAP_POINTS = 64,   /* that the points given lie in its rectangles, and are what it describes */
+  DYD_GAP_ALIASES = 128, /* that aliases of sites that are not exact are the same points */
+  DYD_GAP_CLAIMS = 256   /* that callbacks are what their authors say they are */
 } dyd_certificate_gap;
 
 /* What an accepted certificate states. Texts have static storage. */
@@ -166,11 +198,14 @@ typedef struct dyd_certificate_report {
   size_t polygons;
   bool distance, distance_proved; /* is its other bound stated; was it checked? */
   size_t ties_unproved;
-  uint64_t illegal_boxes;  /* pairs within undecided faces that boxes prove illegal */
-  unsigned gaps;           /* of dyd_certificate_gap; 0: everything that is stated is proved */
-  bool bound;              /* were the points given, and is it about them? */
-  size_t unlocated;        /* of them, those not known to lie in their rectangles */
-  size_t aliases_unproved; /* of aliases, those of sites that are not exact */
+  uint64_t illegal_boxes;        /* pairs within undecided faces that boxes prove illegal */
+  unsigned gaps;                 /* of dyd_certificate_gap; 0: everything that is stated is proved */
+  bool bound;                    /* were the points given, and is it about them? */
+  size_t unlocated;              /* of them, those not known to lie in their rectangles */
+  size_t aliases_unproved;       /* of aliases, those of sites that are not exact, and are not proved to be the same */
+  size_t undescribed;            /* of the points given, those not known to be what the certificate describes */
+  size_t claims;                 /* that callbacks are the roots that their authors say */
+  size_t identities, tie_bounds; /* facts about what points are: proved by an identity, by a bound [CERT-10] */
 } dyd_certificate_report;
 
 /* Checks the certificate in `in` up to its end, in integers. DYD_OK: accepted, *out is what it states. DYD_E_PARSE:
@@ -182,7 +217,8 @@ struct dyd_engine_options;
 /* The same, and that the certificate is about the points of e, site k about point k: as many; the rectangle of a fixed
  * point is that of its site; any other point is asked until its rectangle lies in that of its site, so far as options
  * allow (NULL: as for dyd_engine_ask; a point that is not seen to lie there is a gap, one that lies outside rejects).
- * Points that turn out final there are known never to be narrowed, which may prove "fixpoint". Besides the errors above
+ * Points that turn out final there are known never to be narrowed, which may prove "fixpoint". A point that blocks
+ * describe has to be made in that way, number by number; else that, too, is a gap. Besides the errors above
  * those of dyd_engine_ask; DYD_CANCELLED. */
 DYD_API dyd_status dyd_verify_certificate_of(dyd_certificate_report *out, FILE *in, struct dyd_engine *e,
                                              const struct dyd_engine_options *options, dyd_error *err);

@@ -95,6 +95,44 @@ DYD_API dyd_status dyd_real_widen(dyd_real **out, dyd_real *x, const mpq_t radiu
 /* The root in [lo,hi] of the polynomial sum coeff[k] x^k, degree = count - 1, that has opposite signs at lo and hi. */
 DYD_API dyd_status dyd_real_root(dyd_real **out, const mpq_t *coeff, size_t count, const mpq_t lo, const mpq_t hi,
                                  dyd_error *err);
+/* Operations on reals. The first six have two operands. */
+typedef enum dyd_real_operation {
+  DYD_REAL_ADD,
+  DYD_REAL_SUB,
+  DYD_REAL_MUL,
+  DYD_REAL_DIV,
+  DYD_REAL_MIN,
+  DYD_REAL_MAX,
+  DYD_REAL_NEG,
+  DYD_REAL_ABS,
+  DYD_REAL_SQRT,
+  DYD_REAL_CBRT,
+  DYD_REAL_EXP,
+  DYD_REAL_LOG,
+  DYD_REAL_SIN,
+  DYD_REAL_COS,
+  DYD_REAL_TAN,
+  DYD_REAL_ASIN,
+  DYD_REAL_ACOS,
+  DYD_REAL_ATAN,
+  DYD_REAL_SINH,
+  DYD_REAL_COSH,
+  DYD_REAL_TANH
+} dyd_real_operation;
+/* x op y, or op of x where y is NULL. Takes over both references, also on failure; x and y may be the same real (two
+ * references). The operands are narrowed as far as the value asks for. What the value is made of is known: where ties
+ * are proved, a real made by dyd_real_new is a variable, the same real the same one, so that (a + b)^2 is a^2 + 2 a b +
+ * b^2 whatever the callbacks a and b give. DYD_E_ARG for a wrong number of operands; DYD_E_DOMAIN, DYD_E_RANGE where
+ * all operands are exact and the value does not exist, or is too large (else the narrowing says so); DYD_E_RANGE for
+ * more than 1,000 operations above one another. */
+DYD_API dyd_status dyd_real_op(dyd_real **out, dyd_real_operation op, dyd_real *x, dyd_real *y, dyd_error *err);
+/* The caller asserts that x, whose callback nobody looks into, is the one root in [lo,hi] of the polynomial sum
+ * coeff[k] x^k, which has opposite signs at lo and hi. Ties are proved on that ground from now on, and certificates
+ * name it. From now on every interval of x has to hold the root: DYD_E_NESTING where one does not, now or when x is
+ * narrowed. DYD_E_ARG for a polynomial without such a root or with several in [lo,hi], for a real that is no
+ * dyd_real_new, and for a second claim. x stays as it was on failure. */
+DYD_API dyd_status dyd_real_claim_root(dyd_real *x, const mpq_t *coeff, size_t count, const mpq_t lo, const mpq_t hi,
+                                       dyd_error *err);
 /* The exact value of a text that dyd_real_parse takes, where that is a rational number; else DYD_E_PARSE. */
 DYD_API dyd_status dyd_real_parse_exact(mpq_t out, const char *text, size_t length);
 DYD_API dyd_real *dyd_real_ref(dyd_real *x);

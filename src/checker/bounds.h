@@ -7,7 +7,7 @@
 
 /* Twice the sum of the areas of the hulls so far, and the greatest terms of the Hausdorff bound. */
 typedef struct dyd_cert_bounds {
-  dyd_fraction area2;
+  dyd_cert_fraction area2;
   const dyd_exact *hausdorff; /* the bound stated, borrowed; NULL: none */
   bool exceeded;              /* a pair's term is greater */
 } dyd_cert_bounds;

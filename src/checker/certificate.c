@@ -22,6 +22,8 @@ void dyd_checker_clear(dyd_checker *c) {
   free(c->legal.item);
   free(c->bridges.item);
   free(c->open.item);
+  free(c->tie.item);
+  dyd_cert_ties_clear(&c->ties);
   free(c->chained.item);
   dyd_cert_corners_clear(&c->corners);
   dyd_cert_graph_clear(&c->graph);
@@ -41,9 +43,27 @@ static dyd_status checker_outcome(const dyd_checker *c) {
   return DYD_OK;
 }
 
+/* What points are, block by block, up to a line that is none; what follows for aliases and ties. */
+static dyd_status checker_ties(dyd_checker *c) {
+  dyd_status st = dyd_cert_next_line(&c->in);
+  while (st == DYD_OK && strncmp(c->in.line, "algebra", 7) == 0) {
+    st = dyd_cert_ties_read(&c->ties, &c->in, &c->sites);
+    if (st == DYD_OK) st = dyd_cert_next_line(&c->in);
+  }
+  if (st != DYD_OK) return st;
+  dyd_cert_ties_mark(&c->faces, &c->ties);
+  for (size_t q = 0; q < c->tie.count; q++)
+    c->report.ties_unproved += !dyd_cert_faces_still(&c->faces, c->tie.item[q].i, c->tie.item[q].j);
+  c->report.identities = c->ties.identities;
+  c->report.tie_bounds = c->ties.bounds;
+  for (size_t k = 0; k < c->ties.blocks; k++) c->report.claims += c->ties.block[k]->algebra.claims;
+  st = dyd_cert_ties_aliases(&c->report.aliases_unproved, &c->ties, &c->sites);
+  return st == DYD_OK ? DYD_OK : dyd_fail_nomem(c->in.err);
+}
+
 /* The section on the diagram, if there is one, the outcome, and the last line. */
 static dyd_status checker_end(dyd_checker *c) {
-  dyd_status st = dyd_cert_next_line(&c->in);
+  dyd_status st = checker_ties(c);
   if (st == DYD_OK && strncmp(c->in.line, "window", 6) == 0) {
     st = dyd_checker_diagram(c);
     if (st == DYD_OK) st = dyd_cert_next_line(&c->in);
@@ -60,12 +80,13 @@ static bool is_still(const dyd_checker *c, const bool *still, size_t i) {
   return still ? still[i] : dyd_cert_is_point(&c->sites.site[i]);
 }
 
-/* Can nothing that is narrowed decide more? Of the triangulation: nobody in an open set is narrowed; of a bound: nobody
- * at all. */
+/* Can nothing that is narrowed decide more? Of the triangulation: nobody in an open set that is not tied is narrowed;
+ * of a bound: nobody at all. */
 static bool is_fixpoint(const dyd_checker *c, const bool *still) {
   if (strcmp(c->report.goal, "decided") == 0) {
-    for (size_t q = 0; q < c->faces.members; q++)
-      if (!is_still(c, still, c->faces.member[q])) return false;
+    for (size_t f = 0; f < c->faces.sets; f++)
+      for (size_t q = c->faces.start[f]; q < c->faces.start[f + 1] && !c->faces.tied[f]; q++)
+        if (!is_still(c, still, c->faces.member[q])) return false;
   } else {
     for (size_t i = 0; i < c->sites.count; i++)
       if (!is_still(c, still, i)) return false;
@@ -86,6 +107,7 @@ void dyd_checker_settle(dyd_checker *c, const bool *still) {
   dyd_certificate_report *r = &c->report;
   if (r->legal_unproved) r->gaps |= DYD_GAP_LEGAL;
   if (r->unproved && !r->capped) r->gaps |= DYD_GAP_ILLEGAL;
+  if (r->claims) r->gaps |= DYD_GAP_CLAIMS;
   if (r->ties_unproved) r->gaps |= DYD_GAP_TIES;
   if (r->aliases_unproved) r->gaps |= DYD_GAP_ALIASES;
   if (r->unproved && (r->area || r->hausdorff)) r->gaps |= DYD_GAP_BOUNDS;

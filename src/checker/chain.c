@@ -42,16 +42,16 @@ dyd_status dyd_cert_chain_resize(dyd_cert_chain *c, size_t points) {
 /* ---- in the blocked region ---- */
 
 static bool blocker_is_nearer(const dyd_cert_sites *s, const dyd_exact at[2], uint32_t k, uint32_t i, uint32_t j) {
-  dyd_fraction own, other;
-  dyd_fraction_init(&own);
-  dyd_fraction_init(&other);
+  dyd_cert_fraction own, other;
+  dyd_cert_fraction_init(&own);
+  dyd_cert_fraction_init(&other);
   dyd_cert_distance2(&own, at, &s->site[k], DYD_CERT_FAR);
   dyd_cert_distance2(&other, at, &s->site[i], DYD_CERT_NEAR);
-  bool good = dyd_fraction_cmp(&own, &other) < 0;
+  bool good = dyd_cert_fraction_cmp(&own, &other) < 0;
   dyd_cert_distance2(&other, at, &s->site[j], DYD_CERT_NEAR);
-  good = good && dyd_fraction_cmp(&own, &other) < 0;
-  dyd_fraction_clear(&own);
-  dyd_fraction_clear(&other);
+  good = good && dyd_cert_fraction_cmp(&own, &other) < 0;
+  dyd_cert_fraction_clear(&own);
+  dyd_cert_fraction_clear(&other);
   return good;
 }
 

@@ -9,6 +9,7 @@
 #include "checker/distance.h"
 #include "checker/faces.h"
 #include "checker/read.h"
+#include "checker/ties.h"
 #include "checker/witness.h"
 #include <dyadel/certificate.h>
 
@@ -28,7 +29,9 @@ typedef struct dyd_checker {
   dyd_cert_faces faces;
   dyd_cert_chain chain;
   dyd_cert_edges open;    /* pairs o, t, l: kept for the bounds */
+  dyd_cert_edges tie;     /* pairs t */
   dyd_cert_edges chained; /* pairs n */
+  dyd_cert_ties ties;
   dyd_exact point[2];
   bool reached; /* a bound that is stated is as small as the goal asks */
 } dyd_checker;

@@ -57,7 +57,7 @@ typedef struct search {
   uint64_t effort, effort_most;
   dyd_status st;
   mpz_t root, rest;
-  dyd_fraction gap, part;
+  dyd_cert_fraction gap, part;
 } search;
 
 /* ---- the grid ---- */
@@ -71,7 +71,7 @@ static int64_t place_end(bool *endless, search *s, const dyd_exact *x, mpz_srcpt
 }
 
 /* An upper bound of the root of f, with 64 bits. */
-static void root_above(uint64_t *man, int64_t *exp, const dyd_fraction *f) {
+static void root_above(uint64_t *man, int64_t *exp, const dyd_cert_fraction *f) {
   *man = 0;
   *exp = 0;
   if (dyd_exact_sgn(&f->num) == 0) return;
@@ -91,12 +91,12 @@ static void root_above(uint64_t *man, int64_t *exp, const dyd_fraction *f) {
 static void find_diameter(search *s, grid_site *g) {
   const dyd_cert_side *side = s->sites->site[g->site].side;
   for (int axis = 0; axis < 2; axis++) {
-    dyd_fraction *f = axis ? &s->part : &s->gap;
-    dyd_fraction_sub(f, dyd_cert_high(&side[axis]), dyd_cert_den(&side[axis]), &side[axis].lo,
-                     dyd_cert_den(&side[axis]));
-    dyd_fraction_mul(f, f, f);
+    dyd_cert_fraction *f = axis ? &s->part : &s->gap;
+    dyd_cert_fraction_sub(f, dyd_cert_high(&side[axis]), dyd_cert_den(&side[axis]), &side[axis].lo,
+                          dyd_cert_den(&side[axis]));
+    dyd_cert_fraction_mul(f, f, f);
   }
-  dyd_fraction_add(&s->gap, &s->gap, &s->part);
+  dyd_cert_fraction_add(&s->gap, &s->gap, &s->part);
   root_above(&g->diameter, &g->diameter_exp, &s->gap);
 }
 
@@ -160,13 +160,14 @@ static void mpz_set_area(mpz_ptr out, dyd_cert_area v) {
 static void find_site_gap(search *s, const grid_site *a, const grid_site *b) {
   for (int axis = 0; axis < 2; axis++) {
     const dyd_cert_side *x = &s->sites->site[a->site].side[axis], *y = &s->sites->site[b->site].side[axis];
-    dyd_fraction *f = axis ? &s->part : &s->gap;
-    dyd_fraction_sub(f, &y->lo, dyd_cert_den(y), dyd_cert_high(x), dyd_cert_den(x));
-    if (dyd_exact_sgn(&f->num) <= 0) dyd_fraction_sub(f, &x->lo, dyd_cert_den(x), dyd_cert_high(y), dyd_cert_den(y));
+    dyd_cert_fraction *f = axis ? &s->part : &s->gap;
+    dyd_cert_fraction_sub(f, &y->lo, dyd_cert_den(y), dyd_cert_high(x), dyd_cert_den(x));
+    if (dyd_exact_sgn(&f->num) <= 0)
+      dyd_cert_fraction_sub(f, &x->lo, dyd_cert_den(x), dyd_cert_high(y), dyd_cert_den(y));
     if (dyd_exact_sgn(&f->num) < 0) mpz_set_ui(f->num.man, 0);
-    dyd_fraction_mul(f, f, f);
+    dyd_cert_fraction_mul(f, f, f);
   }
-  dyd_fraction_add(&s->gap, &s->gap, &s->part);
+  dyd_cert_fraction_add(&s->gap, &s->gap, &s->part);
 }
 
 static bool are_disjoint(search *s, const grid_site *a, const grid_site *b) {
@@ -183,7 +184,7 @@ static void site_gap_below(int64_t *exp, search *s, const grid_site *a, const gr
     *exp = s->unit;
   } else {
     find_site_gap(s, a, b);
-    const dyd_fraction *f = &s->gap;
+    const dyd_cert_fraction *f = &s->gap;
     int64_t top = dyd_exact_sgn(&f->num) == 0 ? 0 : dyd_exact_top(&f->num), least = top - 128;
     if (!f->whole) least -= (int64_t)mpz_sizeinbase(f->den, 2);
     least -= least % 2;
@@ -345,7 +346,7 @@ static void extent_widen(extent *e, search *s, const dyd_cert_side *side) {
     const dyd_exact *end = m % 2 ? dyd_cert_high(side) : &side->lo;
     bool larger = m == 1 || m == 2;
     if (*best[m]) {
-      dyd_fraction_sub(&s->part, end, dyd_cert_den(side), *best[m], e->den[m]);
+      dyd_cert_fraction_sub(&s->part, end, dyd_cert_den(side), *best[m], e->den[m]);
       if (dyd_exact_sgn(&s->part.num) * (larger ? 1 : -1) <= 0) continue;
     }
     *best[m] = end;
@@ -356,21 +357,21 @@ static void extent_widen(extent *e, search *s, const dyd_cert_side *side) {
 /* Does the bound reach across the window and all rectangles, two of which are disjoint? */
 static bool spans_all(search *s, const dyd_cert_window *w) {
   bool disjoint = false;
-  dyd_fraction sum;
-  dyd_fraction_init(&sum);
+  dyd_cert_fraction sum;
+  dyd_cert_fraction_init(&sum);
   for (int axis = 0; axis < 2; axis++) {
     extent e = {.lo = &w->e[2 * axis], .hi = &w->e[2 * axis + 1]};
     for (size_t k = 0; k < s->count; k++) extent_widen(&e, s, &s->sites->site[s->item[k].site].side[axis]);
-    dyd_fraction_sub(&s->part, e.most_lo, e.den[2], e.least_hi, e.den[3]);
+    dyd_cert_fraction_sub(&s->part, e.most_lo, e.den[2], e.least_hi, e.den[3]);
     disjoint |= dyd_exact_sgn(&s->part.num) > 0;
-    dyd_fraction_sub(&s->part, e.hi, e.den[1], e.lo, e.den[0]);
-    dyd_fraction_mul(&s->part, &s->part, &s->part);
-    dyd_fraction_add(&sum, &sum, &s->part);
+    dyd_cert_fraction_sub(&s->part, e.hi, e.den[1], e.lo, e.den[0]);
+    dyd_cert_fraction_mul(&s->part, &s->part, &s->part);
+    dyd_cert_fraction_add(&sum, &sum, &s->part);
   }
   s->part.whole = true;
   dyd_exact_mul(&s->part.num, s->bound, s->bound);
-  bool spans = disjoint && dyd_fraction_cmp(&sum, &s->part) <= 0;
-  dyd_fraction_clear(&sum);
+  bool spans = disjoint && dyd_cert_fraction_cmp(&sum, &s->part) <= 0;
+  dyd_cert_fraction_clear(&sum);
   return spans;
 }
 
@@ -378,14 +379,14 @@ static bool spans_all(search *s, const dyd_cert_window *w) {
 
 static void distance_search_init(search *s) {
   mpz_inits(s->origin[0], s->origin[1], s->root, s->rest, NULL);
-  dyd_fraction_init(&s->gap);
-  dyd_fraction_init(&s->part);
+  dyd_cert_fraction_init(&s->gap);
+  dyd_cert_fraction_init(&s->part);
 }
 
 static void distance_search_clear(search *s) {
   mpz_clears(s->origin[0], s->origin[1], s->root, s->rest, NULL);
-  dyd_fraction_clear(&s->gap);
-  dyd_fraction_clear(&s->part);
+  dyd_cert_fraction_clear(&s->gap);
+  dyd_cert_fraction_clear(&s->part);
   free(s->item);
   free(s->list);
 }

@@ -20,14 +20,18 @@ dyd_status dyd_cert_walk(uint32_t **out, size_t *count, const dyd_cert_graph *g,
 }
 
 /* Appends the sites as an open set, unless they are the two ends of a legal edge or less. */
-static dyd_status faces_add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint32_t *site, size_t count) {
+static dyd_status faces_add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint32_t *site, size_t count,
+                                dyd_cert_shape shape) {
   if (!dyd_reserve((void **)&f->member, &f->member_cap, f->members + count, sizeof *f->member) ||
-      !dyd_reserve((void **)&f->start, &f->set_cap, f->sets + 2, sizeof *f->start))
+      !dyd_reserve((void **)&f->start, &f->set_cap, f->sets + 2, sizeof *f->start) ||
+      !dyd_reserve((void **)&f->shape, &f->shape_cap, f->sets + 1, sizeof *f->shape))
     return DYD_E_NOMEM;
   if (count < 2) return DYD_OK;
   uint32_t *to = f->member + f->members;
   memcpy(to, site, count * sizeof *to);
-  count = dyd_cert_distinct(to, count);
+  size_t distinct = dyd_cert_distinct(to, count);
+  f->shape[f->sets] = distinct == count ? shape : DYD_CERT_ANY;
+  count = distinct;
   if (count < 2 || (count == 2 && dyd_cert_edges_have(g->legal, to[0], to[1]))) return DYD_OK;
   f->start[f->sets++] = f->members;
   f->members += count;
@@ -42,14 +46,16 @@ static dyd_status add_bounded_face(dyd_cert_faces *f, bool *seen, const dyd_cert
   size_t count = 0;
   dyd_status st = dyd_cert_walk(&walk, &count, g, h);
   if (st != DYD_OK) return st;
+  dyd_cert_shape shape = DYD_CERT_POLYGON;
   for (size_t q = 0; q < count; q++) {
     seen[walk[q]] = true;
+    if (!dyd_cert_is_legal(g, walk[q])) shape = DYD_CERT_ANY;
     walk[q] = dyd_cert_origin(g, walk[q]);
   }
   if (count == 3) /* legal edges: a bridge is in no cycle */
     f->triangles++;
   else
-    st = faces_add_set(f, g, walk, count);
+    st = faces_add_set(f, g, walk, count, shape);
   free(walk);
   return st;
 }
@@ -136,17 +142,31 @@ static void check_corners(uint32_t *bad, const dyd_cert_sites *s, const rim *r, 
   }
 }
 
+/* Adds the groups as open sets. A path from corner to corner has one site more than edges; spare[k] counts those of
+ * group k, a bridge as many more. */
+static dyd_status add_groups(dyd_cert_faces *f, const dyd_cert_graph *g, const rim *r, const dyd_cert_parts *p) {
+  size_t *spare = calloc(p->groups, sizeof *spare);
+  dyd_status st = spare ? DYD_OK : DYD_E_NOMEM;
+  for (size_t q = 0; q < r->count && spare; q++)
+    spare[p->group[q]] += dyd_cert_is_legal(g, r->walk[q]) ? 1 : 2 * r->count;
+  for (size_t k = 0; k < p->groups && st == DYD_OK; k++) {
+    size_t count = p->start[k + 1] - p->start[k];
+    st = faces_add_set(f, g, p->site + p->start[k], count, count == spare[k] + 1 ? DYD_CERT_CHAIN : DYD_CERT_ANY);
+  }
+  free(spare);
+  return st;
+}
+
 static dyd_status split_rim(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const rim *r,
                             const dyd_cert_corner *corner, size_t corners) {
-  if (corners == 0) return faces_add_set(f, g, r->site, r->count);
+  if (corners == 0) return faces_add_set(f, g, r->site, r->count, DYD_CERT_ANY);
   dyd_status st = check_places(bad, r, g->sites, corner, corners);
   if (st != DYD_OK || *bad != DYD_CERT_NONE) return st;
   dyd_cert_parts p;
   st = dyd_cert_parts_init(&p, g, r->walk, r->count, r->corner);
   if (st != DYD_OK) return st;
   check_corners(bad, g->sites, r, &p, corner, corners);
-  for (size_t k = 0; k < p.groups && st == DYD_OK; k++)
-    st = faces_add_set(f, g, p.site + p.start[k], p.start[k + 1] - p.start[k]);
+  if (st == DYD_OK) st = add_groups(f, g, r, &p);
   dyd_cert_parts_clear(&p);
   return st;
 }
@@ -182,7 +202,7 @@ static dyd_status faces_add_all_sites(dyd_cert_faces *f, const dyd_cert_graph *g
   size_t count = 0;
   for (size_t v = 0; v < g->sites->count; v++)
     if (g->sites->site[v].alias == v) all[count++] = (uint32_t)v;
-  dyd_status st = faces_add_set(f, g, all, count);
+  dyd_status st = faces_add_set(f, g, all, count, DYD_CERT_ANY);
   free(all);
   return st;
 }
@@ -209,7 +229,8 @@ static dyd_status faces_index_sites(dyd_cert_faces *f, const dyd_cert_sites *s) 
   f->of = dyd_alloc(f->members, sizeof *f->of);
   f->covered = calloc(f->sets ? f->sets : 1, sizeof *f->covered);
   f->inexact = calloc(f->sets ? f->sets : 1, sizeof *f->inexact);
-  if (!f->first || !f->of || !f->covered || !f->inexact) return DYD_E_NOMEM;
+  f->tied = calloc(f->sets ? f->sets : 1, sizeof *f->tied);
+  if (!f->first || !f->of || !f->covered || !f->inexact || !f->tied) return DYD_E_NOMEM;
   for (size_t q = 0; q < f->members; q++) f->first[f->member[q]]++;
   for (size_t v = 0; v < n; v++) f->first[v + 1] += f->first[v]; /* ends, which filling makes beginnings */
   for (size_t k = f->sets; k-- > 0;)
@@ -237,6 +258,8 @@ void dyd_cert_faces_clear(dyd_cert_faces *f) {
   free(f->member);
   free(f->covered);
   free(f->inexact);
+  free(f->tied);
+  free(f->shape);
   free(f->first);
   free(f->of);
   *f = (dyd_cert_faces){0};
@@ -269,10 +292,10 @@ bool dyd_cert_faces_share(const dyd_cert_faces *f, uint32_t i, uint32_t j) {
   return next_common_set(f, &a, &b, i, j) != DYD_CERT_NONE;
 }
 
-bool dyd_cert_faces_exact(const dyd_cert_faces *f, uint32_t i, uint32_t j) {
+bool dyd_cert_faces_still(const dyd_cert_faces *f, uint32_t i, uint32_t j) {
   size_t a = f->first[i], b = f->first[j];
   for (uint32_t k; (k = next_common_set(f, &a, &b, i, j)) != DYD_CERT_NONE;)
-    if (f->inexact[k]) return false;
+    if (f->inexact[k] && !f->tied[k]) return false;
   return true;
 }
 

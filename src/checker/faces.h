@@ -16,6 +16,11 @@ typedef struct dyd_cert_corner {
   dyd_exact u[2];
 } dyd_cert_corner;
 
+/* How the sites of an open set lie: POLYGON: the set is a bounded face whose walk is one cycle of legal edges through
+ * all its sites, each once; CHAIN: a part of the unbounded face from one corner of the hull to the next, a path of
+ * legal edges likewise. */
+typedef enum dyd_cert_shape { DYD_CERT_ANY, DYD_CERT_POLYGON, DYD_CERT_CHAIN } dyd_cert_shape;
+
 typedef struct dyd_cert_faces {
   size_t triangles;
   /* Open set f holds the sites member[start[f] .. start[f+1]), ascending. */
@@ -24,6 +29,9 @@ typedef struct dyd_cert_faces {
   uint32_t *member;
   uint64_t *covered; /* pairs of set f that something is known about */
   bool *inexact;     /* does set f have a site that is no exact point? */
+  bool *tied;        /* is set f a polygon or chain whose points are on one circle or line [CERT-10]? Not, at first */
+  dyd_cert_shape *shape;
+  size_t shape_cap;
   /* Site i is in the sets of[first[i] .. first[i+1]), ascending. */
   size_t *first;
   uint32_t *of;
@@ -40,9 +48,9 @@ void dyd_cert_faces_cover(dyd_cert_faces *f, uint32_t i, uint32_t j);
 size_t dyd_cert_faces_common(const dyd_cert_faces *f, uint32_t i, uint32_t j);
 /* Are both in one open set? */
 bool dyd_cert_faces_share(const dyd_cert_faces *f, uint32_t i, uint32_t j);
-/* Are all sites of the open sets that hold both exact points? Then nothing that is narrowed changes what the pair is
- * [CERT-8]. */
-bool dyd_cert_faces_exact(const dyd_cert_faces *f, uint32_t i, uint32_t j);
+/* Are the open sets that hold both tied, or are all their sites exact points? Then nothing that is narrowed changes
+ * what the pair is [CERT-8]. */
+bool dyd_cert_faces_still(const dyd_cert_faces *f, uint32_t i, uint32_t j);
 /* Pairs within open sets about which nothing is known (a pair of two sets counts twice). */
 uint64_t dyd_cert_faces_left(const dyd_cert_faces *f);
 

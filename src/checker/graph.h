@@ -41,6 +41,9 @@ static inline dyd_cert_edge dyd_cert_edge_of(const dyd_cert_graph *g, uint32_t h
   size_t e = h / 2;
   return e < g->legal->count ? g->legal->item[e] : g->bridges->item[e - g->legal->count];
 }
+static inline bool dyd_cert_is_legal(const dyd_cert_graph *g, uint32_t h) {
+  return h / 2 < g->legal->count;
+}
 static inline uint32_t dyd_cert_origin(const dyd_cert_graph *g, uint32_t h) {
   dyd_cert_edge e = dyd_cert_edge_of(g, h);
   return h & 1 ? e.j : e.i;

@@ -5,25 +5,25 @@
 #include "checker/sites.h"
 #include <stddef.h>
 
-void dyd_fraction_init(dyd_fraction *f) {
+void dyd_cert_fraction_init(dyd_cert_fraction *f) {
   dyd_exact_init(&f->num);
   mpz_init(f->den);
   f->whole = true;
 }
 
-void dyd_fraction_clear(dyd_fraction *f) {
+void dyd_cert_fraction_clear(dyd_cert_fraction *f) {
   dyd_exact_clear(&f->num);
   mpz_clear(f->den);
 }
 
-void dyd_fraction_swap(dyd_fraction *a, dyd_fraction *b) {
-  dyd_fraction t = *a;
+void dyd_cert_fraction_swap(dyd_cert_fraction *a, dyd_cert_fraction *b) {
+  dyd_cert_fraction t = *a;
   *a = *b;
   *b = t;
 }
 
 /* x and y, initialised here: the numerators of two fractions over the product of their denominators. */
-static void init_over_common(dyd_exact *x, dyd_exact *y, const dyd_fraction *a, const dyd_fraction *b) {
+static void init_over_common(dyd_exact *x, dyd_exact *y, const dyd_cert_fraction *a, const dyd_cert_fraction *b) {
   dyd_exact_init(x);
   dyd_exact_init(y);
   dyd_exact_set(x, &a->num);
@@ -33,7 +33,7 @@ static void init_over_common(dyd_exact *x, dyd_exact *y, const dyd_fraction *a, 
 }
 
 /* The denominator of a product, one of the factors not being whole. */
-static void multiply_dens(dyd_fraction *out, const dyd_fraction *a, const dyd_fraction *b) {
+static void multiply_dens(dyd_cert_fraction *out, const dyd_cert_fraction *a, const dyd_cert_fraction *b) {
   if (a->whole)
     mpz_set(out->den, b->den);
   else if (b->whole)
@@ -42,7 +42,7 @@ static void multiply_dens(dyd_fraction *out, const dyd_fraction *a, const dyd_fr
     mpz_mul(out->den, a->den, b->den);
 }
 
-int dyd_fraction_cmp(const dyd_fraction *a, const dyd_fraction *b) {
+int dyd_cert_fraction_cmp(const dyd_cert_fraction *a, const dyd_cert_fraction *b) {
   if (a->whole && b->whole) return dyd_exact_cmp(&a->num, &b->num);
   dyd_exact x, y;
   init_over_common(&x, &y, a, b);
@@ -52,7 +52,8 @@ int dyd_fraction_cmp(const dyd_fraction *a, const dyd_fraction *b) {
   return sign;
 }
 
-void dyd_fraction_sub(dyd_fraction *out, const dyd_exact *a, mpz_srcptr da, const dyd_exact *b, mpz_srcptr db) {
+void dyd_cert_fraction_sub(dyd_cert_fraction *out, const dyd_exact *a, mpz_srcptr da, const dyd_exact *b,
+                           mpz_srcptr db) {
   out->whole = !da && !db;
   if (out->whole) {
     dyd_exact_sub(&out->num, a, b);
@@ -76,14 +77,14 @@ void dyd_fraction_sub(dyd_fraction *out, const dyd_exact *a, mpz_srcptr da, cons
 }
 
 /* out may be a or b. */
-void dyd_fraction_mul(dyd_fraction *out, const dyd_fraction *a, const dyd_fraction *b) {
+void dyd_cert_fraction_mul(dyd_cert_fraction *out, const dyd_cert_fraction *a, const dyd_cert_fraction *b) {
   bool whole = a->whole && b->whole;
   if (!whole) multiply_dens(out, a, b);
   dyd_exact_mul(&out->num, &a->num, &b->num);
   out->whole = whole;
 }
 
-void dyd_fraction_add(dyd_fraction *out, const dyd_fraction *a, const dyd_fraction *b) {
+void dyd_cert_fraction_add(dyd_cert_fraction *out, const dyd_cert_fraction *a, const dyd_cert_fraction *b) {
   if (a->whole && b->whole) {
     dyd_exact_add(&out->num, &a->num, &b->num);
     out->whole = true;
@@ -101,7 +102,7 @@ void dyd_fraction_add(dyd_fraction *out, const dyd_fraction *a, const dyd_fracti
 /* ---- distances ---- */
 
 /* d = c - the number the measure takes on this axis (of either sign). */
-static void axis_distance(dyd_fraction *d, const dyd_exact *c, const dyd_cert_site *s, int axis,
+static void axis_distance(dyd_cert_fraction *d, const dyd_exact *c, const dyd_cert_site *s, int axis,
                           dyd_cert_measure measure) {
   const dyd_cert_side *side = &s->side[axis];
   mpz_srcptr den = dyd_cert_den(side);
@@ -120,18 +121,19 @@ static void axis_distance(dyd_fraction *d, const dyd_exact *c, const dyd_cert_si
     dyd_exact_clear(&twice);
     dyd_exact_clear(&sum);
   }
-  dyd_fraction_sub(d, c, NULL, at, den);
+  dyd_cert_fraction_sub(d, c, NULL, at, den);
 }
 
-void dyd_cert_distance2(dyd_fraction *out, const dyd_exact c[2], const dyd_cert_site *s, dyd_cert_measure measure) {
-  dyd_fraction d;
-  dyd_fraction_init(&d);
+void dyd_cert_distance2(dyd_cert_fraction *out, const dyd_exact c[2], const dyd_cert_site *s,
+                        dyd_cert_measure measure) {
+  dyd_cert_fraction d;
+  dyd_cert_fraction_init(&d);
   axis_distance(&d, &c[0], s, 0, measure);
-  dyd_fraction_mul(out, &d, &d);
+  dyd_cert_fraction_mul(out, &d, &d);
   axis_distance(&d, &c[1], s, 1, measure);
-  dyd_fraction_mul(&d, &d, &d);
-  dyd_fraction_add(out, out, &d);
-  dyd_fraction_clear(&d);
+  dyd_cert_fraction_mul(&d, &d, &d);
+  dyd_cert_fraction_add(out, out, &d);
+  dyd_cert_fraction_clear(&d);
 }
 
 /* ---- places ---- */
@@ -146,21 +148,21 @@ dyd_cert_spot dyd_cert_spot_at(const dyd_exact v[2]) {
   return (dyd_cert_spot){{&v[0], &v[1]}, {NULL, NULL}};
 }
 
-static void spot_difference(dyd_fraction *out, const dyd_cert_spot *a, const dyd_cert_spot *b, int axis) {
-  dyd_fraction_sub(out, b->v[axis], b->den[axis], a->v[axis], a->den[axis]);
+static void spot_difference(dyd_cert_fraction *out, const dyd_cert_spot *a, const dyd_cert_spot *b, int axis) {
+  dyd_cert_fraction_sub(out, b->v[axis], b->den[axis], a->v[axis], a->den[axis]);
 }
 
 int dyd_cert_cross(dyd_cert_spot a, dyd_cert_spot b, dyd_cert_spot c, dyd_cert_spot d) {
-  dyd_fraction t[4];
-  for (int k = 0; k < 4; k++) dyd_fraction_init(&t[k]);
+  dyd_cert_fraction t[4];
+  for (int k = 0; k < 4; k++) dyd_cert_fraction_init(&t[k]);
   spot_difference(&t[0], &a, &b, 0);
   spot_difference(&t[1], &c, &d, 1);
   spot_difference(&t[2], &a, &b, 1);
   spot_difference(&t[3], &c, &d, 0);
-  dyd_fraction_mul(&t[0], &t[0], &t[1]);
-  dyd_fraction_mul(&t[2], &t[2], &t[3]);
-  int sign = dyd_fraction_cmp(&t[0], &t[2]);
-  for (int k = 0; k < 4; k++) dyd_fraction_clear(&t[k]);
+  dyd_cert_fraction_mul(&t[0], &t[0], &t[1]);
+  dyd_cert_fraction_mul(&t[2], &t[2], &t[3]);
+  int sign = dyd_cert_fraction_cmp(&t[0], &t[2]);
+  for (int k = 0; k < 4; k++) dyd_cert_fraction_clear(&t[k]);
   return sign;
 }
 
@@ -198,47 +200,47 @@ int dyd_cert_compare_places(const dyd_cert_sites *s, uint32_t a, uint32_t b) {
   int64_t p[2], q[2];
   if (grid_place(p, s, a) && grid_place(q, s, b) && p[0] != q[0]) return p[0] < q[0] ? -1 : 1;
   dyd_cert_spot at[2] = {dyd_cert_place_of(s, a), dyd_cert_place_of(s, b)};
-  dyd_fraction d;
-  dyd_fraction_init(&d);
+  dyd_cert_fraction d;
+  dyd_cert_fraction_init(&d);
   int sign = 0;
   for (int axis = 0; axis < 2 && sign == 0; axis++) {
     spot_difference(&d, &at[1], &at[0], axis);
     sign = dyd_exact_sgn(&d.num);
   }
-  dyd_fraction_clear(&d);
+  dyd_cert_fraction_clear(&d);
   return sign;
 }
 
 /* ---- heights ---- */
 
 /* out = max (upper) or min of u.x over the rectangle. */
-static void site_height(dyd_fraction *out, const dyd_exact u[2], const dyd_cert_site *s, bool upper) {
-  dyd_fraction t;
+static void site_height(dyd_cert_fraction *out, const dyd_exact u[2], const dyd_cert_site *s, bool upper) {
+  dyd_cert_fraction t;
   dyd_exact zero;
-  dyd_fraction_init(&t);
+  dyd_cert_fraction_init(&t);
   dyd_exact_init(&zero);
   for (int axis = 0; axis < 2; axis++) {
     const dyd_cert_side *side = &s->side[axis];
     bool high = (dyd_exact_sgn(&u[axis]) > 0) == upper;
-    dyd_fraction_sub(&t, high ? dyd_cert_high(side) : &side->lo, dyd_cert_den(side), &zero, NULL);
+    dyd_cert_fraction_sub(&t, high ? dyd_cert_high(side) : &side->lo, dyd_cert_den(side), &zero, NULL);
     dyd_exact_mul(&t.num, &t.num, &u[axis]);
     if (axis == 0)
-      dyd_fraction_swap(out, &t);
+      dyd_cert_fraction_swap(out, &t);
     else
-      dyd_fraction_add(out, out, &t);
+      dyd_cert_fraction_add(out, out, &t);
   }
-  dyd_fraction_clear(&t);
+  dyd_cert_fraction_clear(&t);
   dyd_exact_clear(&zero);
 }
 
 int dyd_cert_compare_heights(const dyd_cert_sites *s, const dyd_exact u[2], uint32_t a, uint32_t b) {
-  dyd_fraction x, y;
-  dyd_fraction_init(&x);
-  dyd_fraction_init(&y);
+  dyd_cert_fraction x, y;
+  dyd_cert_fraction_init(&x);
+  dyd_cert_fraction_init(&y);
   site_height(&x, u, &s->site[a], true);
   site_height(&y, u, &s->site[b], false);
-  int sign = dyd_fraction_cmp(&x, &y);
-  dyd_fraction_clear(&x);
-  dyd_fraction_clear(&y);
+  int sign = dyd_cert_fraction_cmp(&x, &y);
+  dyd_cert_fraction_clear(&x);
+  dyd_cert_fraction_clear(&y);
   return sign;
 }

@@ -44,9 +44,10 @@ static dyd_status check_open(dyd_checker *c, const dyd_cert_edge *pair, char kin
     return dyd_cert_reject(&c->in, "the pair is in no open set, so it is illegal");
   if (kind == 'o') c->report.indeterminate++;
   if (kind == 't') c->report.tie++;
-  if (kind == 't' && !dyd_cert_faces_exact(&c->faces, pair->i, pair->j)) c->report.ties_unproved++;
   if (kind == 'l') c->report.legal_unproved++;
-  return dyd_cert_edges_add(&c->open, pair->i, pair->j) != DYD_OK ? dyd_fail_nomem(c->in.err) : DYD_OK;
+  if (kind == 't') st = dyd_cert_edges_add(&c->tie, pair->i, pair->j);
+  if (st == DYD_OK) st = dyd_cert_edges_add(&c->open, pair->i, pair->j);
+  return st != DYD_OK ? dyd_fail_nomem(c->in.err) : DYD_OK;
 }
 
 static dyd_status read_pair_line(dyd_checker *c, dyd_cert_edge *pair) {

@@ -85,6 +85,11 @@ static const char *scan_decimal(const char *text) {
   return p > digit ? p : NULL;
 }
 
+bool dyd_cert_scan_integer(mpz_ptr out, const char *text) {
+  const char *end = scan_decimal(text);
+  return end && !*end && end - text < DYD_EXP_LIMIT / 4 && mpz_set_str(out, text, 10) == 0;
+}
+
 /* A decimal of at most 18 digits. */
 static bool scan_small(long long *out, const char *text) {
   const char *end = scan_decimal(text);

@@ -33,6 +33,8 @@ dyd_status dyd_cert_read_number(dyd_exact *out, dyd_cert_reader *r);
 /* Two numbers. */
 dyd_status dyd_cert_read_point(dyd_exact out[2], dyd_cert_reader *r);
 dyd_status dyd_cert_read_side(dyd_cert_side *out, dyd_cert_reader *r);
+/* An integer in its only spelling; the whole text. */
+bool dyd_cert_scan_integer(mpz_ptr out, const char *text);
 /* A signed decimal of at most 18 digits. */
 dyd_status dyd_cert_read_integer(long long *out, dyd_cert_reader *r);
 

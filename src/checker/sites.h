@@ -69,25 +69,26 @@ static inline const dyd_exact *dyd_cert_place(mpz_srcptr *den, const dyd_cert_si
 }
 
 /* A fraction num / den, den > 0 (den = NULL: 1); what the exact comparisons hold. */
-typedef struct dyd_fraction {
+typedef struct dyd_cert_fraction {
   dyd_exact num;
   mpz_t den;
   bool whole; /* den = 1 */
-} dyd_fraction;
+} dyd_cert_fraction;
 
-void dyd_fraction_init(dyd_fraction *f);
-void dyd_fraction_clear(dyd_fraction *f);
-int dyd_fraction_cmp(const dyd_fraction *a, const dyd_fraction *b);
+void dyd_cert_fraction_init(dyd_cert_fraction *f);
+void dyd_cert_fraction_clear(dyd_cert_fraction *f);
+int dyd_cert_fraction_cmp(const dyd_cert_fraction *a, const dyd_cert_fraction *b);
 /* out = a / da - b / db; NULL denominators are 1. */
-void dyd_fraction_sub(dyd_fraction *out, const dyd_exact *a, mpz_srcptr da, const dyd_exact *b, mpz_srcptr db);
-void dyd_fraction_mul(dyd_fraction *out, const dyd_fraction *a, const dyd_fraction *b);
-void dyd_fraction_add(dyd_fraction *out, const dyd_fraction *a, const dyd_fraction *b);
-void dyd_fraction_swap(dyd_fraction *a, dyd_fraction *b);
+void dyd_cert_fraction_sub(dyd_cert_fraction *out, const dyd_exact *a, mpz_srcptr da, const dyd_exact *b,
+                           mpz_srcptr db);
+void dyd_cert_fraction_mul(dyd_cert_fraction *out, const dyd_cert_fraction *a, const dyd_cert_fraction *b);
+void dyd_cert_fraction_add(dyd_cert_fraction *out, const dyd_cert_fraction *a, const dyd_cert_fraction *b);
+void dyd_cert_fraction_swap(dyd_cert_fraction *a, dyd_cert_fraction *b);
 
 /* A measure of distance from a centre: ds, dl, or the distance to the place. */
 typedef enum dyd_cert_measure { DYD_CERT_NEAR, DYD_CERT_FAR, DYD_CERT_PLACE } dyd_cert_measure;
 /* out = the squared distance from c (x and y) to the site. */
-void dyd_cert_distance2(dyd_fraction *out, const dyd_exact c[2], const dyd_cert_site *s, dyd_cert_measure measure);
+void dyd_cert_distance2(dyd_cert_fraction *out, const dyd_exact c[2], const dyd_cert_site *s, dyd_cert_measure measure);
 /* A point with rational coordinates v / den (NULL: 1); all borrowed. */
 typedef struct dyd_cert_spot {
   const dyd_exact *v[2];

@@ -20,6 +20,9 @@ static void print_proved(FILE *out, const dyd_certificate_report *r) {
   if (r->diagram)
     fprintf(out, "checked: the undetermined area of the diagram, by %zu polygons inside cells\n", r->polygons);
   if (r->distance_proved) fputs("checked: the distance of undetermined points to the diagram\n", out);
+  if (r->identities || r->tie_bounds)
+    fprintf(out, "checked: what points are described to be: %zu identities, %zu bounds\n", r->identities,
+            r->tie_bounds);
   if (r->tie > r->ties_unproved) fprintf(out, "checked: no refinement decides %zu ties\n", r->tie - r->ties_unproved);
   if (!(r->gaps & DYD_GAP_OUTCOME)) fprintf(out, "checked: the outcome %s\n", r->outcome);
 }
@@ -53,6 +56,8 @@ static void print_gaps(FILE *out, const dyd_certificate_report *r) {
         "not proved: that no refinement decides %zu ties, which share a face with points that are not exact (tie: not "
         "re-checked)\n",
         r->ties_unproved);
+  if (r->gaps & DYD_GAP_CLAIMS)
+    fprintf(out, "not proved: that %zu callbacks are the roots that their authors say they are\n", r->claims);
   if (r->gaps & DYD_GAP_ALIASES)
     fprintf(out,
             "not proved: that %zu aliases of points that are not exact are the same points (tie: not re-checked)\n",
@@ -61,8 +66,9 @@ static void print_gaps(FILE *out, const dyd_certificate_report *r) {
     fputs("not proved: the bounds of area and Hausdorff distance, as more pairs may be possible\n", out);
   if (r->gaps & DYD_GAP_DISTANCE) fputs("not proved: the distance of undetermined points to the diagram\n", out);
   if (r->gaps & DYD_GAP_OUTCOME) fprintf(out, "not proved: the outcome %s (%s)\n", r->outcome, outcome_reason(r));
-  if (r->gaps & DYD_GAP_POINTS)
-    fprintf(out, "not proved: that %zu of the points given lie in its rectangles\n", r->unlocated);
+  if (r->undescribed)
+    fprintf(out, "not proved: that %zu of the points given are what the certificate describes\n", r->undescribed);
+  if (r->unlocated) fprintf(out, "not proved: that %zu of the points given lie in its rectangles\n", r->unlocated);
 }
 
 static dyd_status print_verified(FILE *out, const void *what, const cli_options *o, dyd_error *err) {

@@ -67,19 +67,18 @@ typedef struct question {
   size_t zeros;
 } question;
 
-static dyd_status describe_site(dyd_form_point *out, question *q, uint32_t i) {
-  const dyd_engine *e = q->e;
+dyd_status dyd_ties_describe(dyd_form_point *out, dyd_forms *f, const dyd_engine *e, uint32_t i, bool given) {
   const dyd_refinable *p = dyd_engine_find(e, i);
   *out = (dyd_form_point){DYD_NONE, DYD_NONE};
-  if (p && p->stream && !dyd_sites_is_point(e->sites, i)) {
-    *out = dyd_forms_stream(&q->algebra.forms, p->stream);
+  if (p && p->stream && (given || !dyd_sites_is_point(e->sites, i))) {
+    *out = dyd_forms_stream(f, p->stream);
     return DYD_OK;
   }
   if (!dyd_sites_is_point(e->sites, i)) return DYD_OK;
   dyd_rect r;
   dyd_rect_init(&r);
   dyd_status st = dyd_sites_get(&r, e->sites, i);
-  if (st == DYD_OK) *out = dyd_forms_rect(&q->algebra.forms, &r);
+  if (st == DYD_OK) *out = dyd_forms_rect(f, &r);
   dyd_rect_clear(&r);
   return st;
 }
@@ -89,7 +88,7 @@ static dyd_status describe_all(bool *known, question *q) {
   dyd_status st = DYD_OK;
   *known = true;
   for (size_t k = 0; k < q->count && st == DYD_OK && *known; k++) {
-    st = describe_site(&q->at[k], q, q->site[k]);
+    st = dyd_ties_describe(&q->at[k], &q->algebra.forms, q->e, q->site[k], false);
     *known = q->at[k].x != DYD_NONE && q->at[k].y != DYD_NONE;
   }
   return q->algebra.forms.failed ? DYD_E_NOMEM : st;

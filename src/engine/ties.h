@@ -4,6 +4,7 @@
 #define DYD_ENGINE_TIES_H
 
 #include "engine/state.h"
+#include "stream/algebra/form.h"
 
 /* As dyd_prove_fn, for the points of the engine `user`; what was asked before is remembered. */
 dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
@@ -13,6 +14,9 @@ dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const
 void dyd_engine_set_prover(dyd_engine *e, dyd_prove_fn fn, void *user);
 /* What was proved, in the order in which it was: number k, from 0. false: so many there are not. *site is borrowed. */
 bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *count, const dyd_engine *e, size_t k);
+/* The forms of a site's coordinates; DYD_NONE where nothing is known of what they are. What is exact is a number,
+ * unless the point as it was given is asked for. */
+dyd_status dyd_ties_describe(dyd_form_point *out, dyd_forms *f, const dyd_engine *e, uint32_t i, bool given);
 void dyd_ties_free(dyd_ties *t);
 
 #endif

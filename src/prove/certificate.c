@@ -180,6 +180,7 @@ static dyd_status certificate_sections(FILE *out, dyd_proof *p, const dyd_rect *
   certificate_corners(out, p);
   dyd_status st = dyd_proof_put_pairs(out, p);
   if (st == DYD_OK) st = certificate_end(out, p);
+  if (st == DYD_OK) st = dyd_proof_put_ties(out, p);
   if (st == DYD_OK && window) st = dyd_proof_put_diagram(out, p, window);
   return st;
 }

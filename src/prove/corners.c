@@ -97,25 +97,25 @@ static void cone_widen(cone *k, const dyd_exact d[2]) {
 
 /* The cone takes in all differences of a point of w and a point of v. */
 static void cone_take_in(cone *k, const dyd_cert_sites *s, uint32_t v, uint32_t w) {
-  dyd_fraction end[2][2];
+  dyd_cert_fraction end[2][2];
   dyd_exact d[2];
-  for (int q = 0; q < 4; q++) dyd_fraction_init(&end[q / 2][q % 2]);
+  for (int q = 0; q < 4; q++) dyd_cert_fraction_init(&end[q / 2][q % 2]);
   dyd_exact_init(&d[0]);
   dyd_exact_init(&d[1]);
   for (int a = 0; a < 2; a++) {
     const dyd_cert_side *from = &s->site[v].side[a], *to = &s->site[w].side[a];
-    dyd_fraction_sub(&end[a][0], &to->lo, dyd_cert_den(to), dyd_cert_high(from), dyd_cert_den(from));
-    dyd_fraction_sub(&end[a][1], dyd_cert_high(to), dyd_cert_den(to), &from->lo, dyd_cert_den(from));
+    dyd_cert_fraction_sub(&end[a][0], &to->lo, dyd_cert_den(to), dyd_cert_high(from), dyd_cert_den(from));
+    dyd_cert_fraction_sub(&end[a][1], dyd_cert_high(to), dyd_cert_den(to), &from->lo, dyd_cert_den(from));
   }
   for (int q = 0; q < 4; q++) {
-    const dyd_fraction *x = &end[0][q / 2], *y = &end[1][q % 2];
+    const dyd_cert_fraction *x = &end[0][q / 2], *y = &end[1][q % 2];
     dyd_exact_set(&d[0], &x->num);
     dyd_exact_set(&d[1], &y->num);
     if (!y->whole) dyd_exact_mul_z(&d[0], &d[0], y->den);
     if (!x->whole) dyd_exact_mul_z(&d[1], &d[1], x->den);
     cone_widen(k, (const dyd_exact *)d);
   }
-  for (int q = 0; q < 4; q++) dyd_fraction_clear(&end[q / 2][q % 2]);
+  for (int q = 0; q < 4; q++) dyd_cert_fraction_clear(&end[q / 2][q % 2]);
   dyd_exact_clear(&d[0]);
   dyd_exact_clear(&d[1]);
 }

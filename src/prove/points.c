@@ -3,7 +3,7 @@
  *
  * What it proves of its rectangles is true of the points when these lie in them, site by site. A fixed point is a
  * rectangle, whose points are all meant: it has to be that of its site. Any other point is narrowed until it is seen
- * where it lies. */
+ * where it lies; one that is what the certificate describes, number by number, was seen there by the checker. */
 #include "engine/points.h"
 #include "base/abi.h"
 #include "base/alloc.h"
@@ -124,7 +124,7 @@ static dyd_status location_settle(dyd_checker *c, const location *l, const dyd_e
   dyd_status st = list_still(still, l, e);
   c->report.bound = true;
   c->report.unlocated = l->open;
-  if (l->open) c->report.gaps |= DYD_GAP_POINTS;
+  if (l->open || c->report.undescribed) c->report.gaps |= DYD_GAP_POINTS;
   if (st == DYD_OK) dyd_checker_settle(c, still);
   free(still);
   return st;
@@ -138,8 +138,11 @@ static dyd_status checker_locate(dyd_checker *c, dyd_engine *e, const dyd_engine
     return dyd_fail(c->in.err, DYD_E_PARSE, "it has %zu sites, and there are %zu points", c->sites.count,
                     (size_t)dyd_engine_count(e));
   dyd_status st = location_init(&l, &c->sites);
+  if (st == DYD_OK) st = dyd_proof_compare_points(l.found, &c->report.undescribed, &c->ties, e);
   if (st == DYD_OK) st = dyd_engine_ask(&outcome, e, &question, options, c->in.err);
   if (st == DYD_OK && outcome == DYD_OUTCOME_CANCELLED) st = DYD_CANCELLED;
+  /* once more: some are known to be exact only now */
+  if (st == DYD_OK) st = dyd_proof_compare_points(l.found, &c->report.undescribed, &c->ties, e);
   if (st == DYD_OK) st = location_settle(c, &l, e);
   location_clear(&l);
   return st == DYD_E_NOMEM ? dyd_fail_nomem(c->in.err) : st;

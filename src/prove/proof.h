@@ -5,6 +5,7 @@
 
 #include "checker/chain.h"
 #include "checker/faces.h"
+#include "checker/ties.h"
 #include "checker/witness.h"
 #include <dyadel/engine.h>
 #include <stdio.h>
@@ -54,6 +55,12 @@ void dyd_proof_put_number(FILE *out, const dyd_exact *x);
 void dyd_proof_put_point(FILE *out, const dyd_exact c[2]);
 /* Writes the section of the pairs; counts in the faces what is proved. */
 dyd_status dyd_proof_put_pairs(FILE *out, dyd_proof *p);
+
+/* Writes what points are, where ties or aliases follow from it that the checker sees. */
+dyd_status dyd_proof_put_ties(FILE *out, const dyd_proof *p);
+
+/* Which points of e are what the blocks describe: found[i], others stay as they are; *others: how many are not. */
+dyd_status dyd_proof_compare_points(bool *found, size_t *others, const dyd_cert_ties *t, const dyd_engine *e);
 
 /* Writes the section on the diagram; nothing for a result that is capped. DYD_E_ARG for a wrong window. */
 dyd_status dyd_proof_put_diagram(FILE *out, dyd_proof *p, const dyd_rect *window);

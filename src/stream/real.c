@@ -21,6 +21,7 @@ struct dyd_real {
   bool encloses, final, spans;
   unsigned char kind; /* a dyd_real_kind, of object */
   const void *object;
+  dyd_real *claim; /* NULL, or what the value is, as the caller says */
   uint64_t stage;
   size_t line, column; /* 0: no place known */
   dyd_double_span span;
@@ -108,6 +109,7 @@ dyd_real *dyd_real_ref(dyd_real *x) {
 void dyd_real_free(dyd_real *x) {
   if (!x || --x->refs) return;
   if (x->release) x->release(x->user);
+  dyd_real_free(x->claim);
   if (x->now) dyd_interval_clear(x->now);
   free(x->now);
   free(x);
@@ -148,6 +150,25 @@ static dyd_status real_accept(dyd_real *x, dyd_interval *next, dyd_error *err) {
   return DYD_OK;
 }
 
+static dyd_status real_check_claim(dyd_real *claim, const dyd_interval *now, const dyd_request *request,
+                                   dyd_error *err) {
+  dyd_status st = dyd_real_narrow(claim, request->bits, request->max_bits, err);
+  if (dyd_failed(st)) return st;
+  if (dyd_interval_meets(dyd_real_interval(claim), now)) return DYD_OK;
+  return dyd_fail(err, DYD_E_NESTING, "the interval does not hold the root that the value is claimed to be");
+}
+
+dyd_status dyd_real_set_claim(dyd_real *x, dyd_real *claim, dyd_error *err) {
+  const dyd_request request = {.bits = 64, .max_bits = 64};
+  dyd_status st = DYD_OK;
+  if (x->now) st = real_check_claim(claim, x->now, &request, err);
+  if (st != DYD_OK) return st;
+  x->claim = claim;
+  x->kind = DYD_REAL_CLAIMED;
+  x->object = claim;
+  return DYD_OK;
+}
+
 static dyd_status real_call_source(dyd_real *x, const dyd_request *request, dyd_error *err) {
   dyd_interval next;
   dyd_error own;
@@ -158,6 +179,7 @@ static dyd_status real_call_source(dyd_real *x, const dyd_request *request, dyd_
   bool fixed = st == DYD_FIXED;
   if (fixed) st = DYD_OK;
   if (st == DYD_OK && x->spans) st = real_cut_to_span(&next, x->span, request->bits, &own);
+  if (st == DYD_OK && x->claim) st = real_check_claim(x->claim, &next, request, &own);
   if (st == DYD_OK) st = real_accept(x, &next, &own);
   dyd_interval_clear(&next);
   if (st == DYD_OK) {

@@ -21,12 +21,24 @@ void dyd_real_set_span(dyd_real *x, dyd_double_span span);
 bool dyd_real_glance(dyd_double_span *out, const dyd_real *x, int64_t bits);
 /* The greatest bits for which dyd_real_glance succeeds; INT64_MIN when there is none, INT64_MAX for exact doubles. */
 int64_t dyd_real_glance_bits(const dyd_real *x);
-/* What a real is made of: object is a dyd_expr, a dyd_root; nothing for those of which no more is known than that they
- * are one number each (OPAQUE), or not even that (VAGUE: an interval). */
-typedef enum dyd_real_kind { DYD_REAL_OPAQUE, DYD_REAL_VAGUE, DYD_REAL_EXPR, DYD_REAL_ROOT } dyd_real_kind;
+/* What a real is made of: object is a dyd_expr, a dyd_root, the dyd_real that it is claimed to be; nothing for those of
+ * which no more is known than that they are one number each (OPAQUE), or not even that (VAGUE: an interval). */
+typedef enum dyd_real_kind {
+  DYD_REAL_OPAQUE,
+  DYD_REAL_VAGUE,
+  DYD_REAL_EXPR,
+  DYD_REAL_ROOT,
+  DYD_REAL_CLAIMED
+} dyd_real_kind;
 /* Borrowed from x's context. New reals are opaque, fixed ones that are no points vague. */
 void dyd_real_set_object(dyd_real *x, dyd_real_kind kind, const void *object);
 dyd_real_kind dyd_real_object(const void **object, const dyd_real *x);
+/* x, opaque, is the value of `claim`, as the caller says, which it takes over unless it fails: DYD_E_NESTING where the
+ * interval of x does not hold it. */
+dyd_status dyd_real_set_claim(dyd_real *x, dyd_real *claim, dyd_error *err);
+/* The value of the expression that was parsed into d, which is left without constants and roots. */
+struct dyd_draft;
+dyd_status dyd_real_new_expr(dyd_real **out, struct dyd_draft *d);
 /* A real that is final from the start; swaps *value into it. */
 dyd_status dyd_real_new_fixed(dyd_real **out, dyd_interval *value);
 /* From now on errors of x have this line, and their columns count from `column` on: the place in a file of the

@@ -41,39 +41,17 @@ static bool take_word(reader *r, const char *word) {
 
 /* ---- expressions as reals ---- */
 
-/* The expression comes last: its nodes follow. */
-typedef struct computed {
-  int64_t extra;
-  dyd_expr expr;
-} computed;
-
-static void computed_release(void *user) {
-  computed *c = user;
-  dyd_expr_clear(&c->expr);
-}
-
-static dyd_status computed_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
-  computed *c = user;
-  return dyd_expr_enclose(out, &c->extra, &c->expr, request, err);
-}
-
 /* What is finite in doubles is defined; what they cannot tell is probed. */
 static dyd_status real_from_draft(dyd_real **out, reader *r, size_t at, dyd_draft *d) {
   const dyd_constant *rational = dyd_expr_rational(&d->e);
   dyd_constant_view view;
   dyd_double_span span;
-  void *inside;
   if (rational) return plain_fail(r, at, dyd_real_from_q(out, dyd_constant_get(&view, rational)));
   bool spans = dyd_filter_expr(&span, &d->e);
   dyd_status st = spans ? DYD_OK : dyd_expr_probe(&d->e, r->err);
   if (st != DYD_OK) return st;
-  size_t size = sizeof(computed) + dyd_expr_size(&d->e);
-  st = dyd_real_new_inside(out, &inside, size, computed_narrow, computed_release);
+  st = dyd_real_new_expr(out, d);
   if (st != DYD_OK) return plain_fail(r, at, st);
-  computed *c = inside;
-  c->extra = DYD_EXPR_EXTRA;
-  dyd_expr_take(&c->expr, d);
-  dyd_real_set_object(*out, DYD_REAL_EXPR, &c->expr);
   if (spans) dyd_real_set_span(*out, span);
   return DYD_OK;
 }

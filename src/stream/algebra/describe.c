@@ -70,6 +70,8 @@ uint32_t dyd_forms_real(dyd_forms *f, const dyd_real *x) {
     return form_of_expr(f, object);
   case DYD_REAL_ROOT:
     return dyd_forms_root(f, object);
+  case DYD_REAL_CLAIMED:
+    return dyd_forms_claim(f, x, dyd_forms_real(f, object));
   case DYD_REAL_OPAQUE:
     return dyd_forms_opaque(f, x, 0, now);
   default:

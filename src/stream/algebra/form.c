@@ -105,6 +105,11 @@ uint32_t dyd_forms_root(dyd_forms *f, const dyd_root *r) {
   return DYD_NONE;
 }
 
+uint32_t dyd_forms_claim(dyd_forms *f, const void *object, uint32_t a) {
+  if (a == DYD_NONE) return DYD_NONE;
+  return forms_find(f, (dyd_form){.op = DYD_FORM_CLAIM, .a = a, .object = object, .depth = f->node[a].depth});
+}
+
 /* The value stays what it is: a callback is not asked. */
 uint32_t dyd_forms_opaque(dyd_forms *f, const void *object, uint32_t part, const dyd_interval *now) {
   uint32_t n = forms_find(f, (dyd_form){.op = DYD_FORM_OPAQUE, .object = object, .b = part});
@@ -168,23 +173,20 @@ static dyd_defined value_of_leaf(arb_ptr out, dyd_forms *f, const dyd_form *n, s
   }
 }
 
-static bool form_is_leaf(const dyd_form *n) {
-  return dyd_op_is_leaf((dyd_op)n->op) || n->op >= DYD_FORM_ROOT;
-}
-
 static void value_compute(dyd_forms *f, uint32_t k, slong prec) {
   dyd_form *n = &f->node[k];
   dyd_op op = (dyd_op)n->op;
   dyd_defined d;
   slong exponent = 0;
   if (n->prec >= prec) return;
-  if (form_is_leaf(n)) {
+  if (dyd_form_is_leaf(n)) {
     d = value_of_leaf(&n->value, f, n, prec);
   } else {
     value_compute(f, n->a, prec);
     if (dyd_op_is_binary(op)) value_compute(f, n->b, prec);
     arb_set(&n->value, &f->node[n->a].value);
     d = !arb_is_finite(&n->value) ? DYD_UNDEFINED_YET
+        : n->op == DYD_FORM_CLAIM ? DYD_DEFINED
         : dyd_op_is_binary(op)    ? dyd_ball_binary(&n->value, op, &f->node[n->b].value, prec)
                                   : dyd_ball_unary(&n->value, op, form_domain(op), n->exponent, prec);
   }

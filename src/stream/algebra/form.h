@@ -12,8 +12,9 @@
 #include "stream/root.h"
 #include <arb.h>
 
-/* Operations beside those of expressions. ROOT: object is the dyd_root; OPAQUE: object and b say whose value it is. */
-enum { DYD_FORM_ROOT = DYD_OP_ABS + 1, DYD_FORM_OPAQUE };
+/* Operations beside those of expressions. ROOT: object is the dyd_root; OPAQUE: object and b say whose value it is;
+ * CLAIM: the value of `object` is that of a, as the caller says. */
+enum { DYD_FORM_ROOT = DYD_OP_ABS + 1, DYD_FORM_OPAQUE, DYD_FORM_CLAIM };
 
 /* The greatest number of forms, and the longest path from one to a leaf. */
 #define DYD_FORMS_MOST ((size_t)1 << 18)
@@ -68,9 +69,14 @@ uint32_t dyd_forms_leaf(dyd_forms *f, dyd_op op);
 uint32_t dyd_forms_unary(dyd_forms *f, dyd_op op, uint32_t a, int32_t exponent);
 uint32_t dyd_forms_binary(dyd_forms *f, dyd_op op, uint32_t a, uint32_t b);
 uint32_t dyd_forms_root(dyd_forms *f, const dyd_root *r);
+uint32_t dyd_forms_claim(dyd_forms *f, const void *object, uint32_t a);
 /* now: where the value lies; NULL: anywhere. */
 uint32_t dyd_forms_opaque(dyd_forms *f, const void *object, uint32_t part, const dyd_interval *now);
 
+/* Is it made of no other form? */
+static inline bool dyd_form_is_leaf(const dyd_form *n) {
+  return dyd_op_is_leaf((dyd_op)n->op) || n->op == DYD_FORM_ROOT || n->op == DYD_FORM_OPAQUE;
+}
 static inline bool dyd_form_is_number(const dyd_forms *f, uint32_t n) {
   return f->node[n].op == DYD_OP_CONST;
 }

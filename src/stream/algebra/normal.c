@@ -117,7 +117,10 @@ static bool normal_function(dyd_fraction *x, dyd_ring *r, const dyd_form *n, uin
   const dyd_fraction *u = dyd_ring_fraction(r, n->a);
   dyd_op op = (dyd_op)n->op;
   if (!u) return false;
-  switch (op) {
+  switch (n->op) {
+  case DYD_FORM_CLAIM:
+    dyd_fraction_set(x, u, r);
+    return true;
   case DYD_OP_NEG:
     dyd_fraction_set(x, u, r);
     fmpz_mpoly_neg(x->num, x->num, r->ctx);
