@@ -21,7 +21,9 @@
  *
  * Failures (statuses of narrow, with point and reason in the error record): DYD_E_STREAM when the program ended, was
  * silent for too long, or wrote what is no answer to what was asked; DYD_E_NESTING, DYD_E_RANGE. What was answered
- * before counts. A program that failed is not started again.
+ * before counts. With `retries` a program that ended, was silent, or wrote what is no answer is first started again, so
+ * often for one request, and asked again what it has not answered: it then knows nothing of its former answers, which
+ * its new ones still have to lie in (or say the same).
  *
  * Nothing is left behind: every program and what it starts is one process group, which is killed when the oracle is
  * freed, one second after its input has ended, and also when the process that uses the library dies of whatever cause
@@ -44,6 +46,7 @@ typedef struct dyd_oracle_options {
   size_t struct_size;       /* set by DYD_SIZED */
   unsigned jobs;            /* programs that run side by side; 0: one; never more than there are points */
   unsigned batch;           /* requests a program is sent before its answers are awaited; 0: one */
+  unsigned retries;         /* how often a program is started again for one request before that has failed */
   double seconds;           /* the longest wait for one line; 0: DYD_ORACLE_SECONDS */
   const volatile int *stop; /* not NULL: starting gives up with DYD_CANCELLED when it becomes not 0; borrowed for
                              * the call of dyd_oracle_new only */

@@ -41,7 +41,8 @@ typedef struct cli_options {
   dyd_read_options read;
   const char *oracle;
   unsigned oracle_jobs, oracle_batch; /* 0: default */
-  double oracle_timeout;              /* seconds; 0: default */
+  unsigned oracle_retries;
+  double oracle_timeout; /* seconds; 0: default */
   dyd_engine_options engine;
   dyd_format format; /* one that the command can write; csv when not given */
   bool format_set;

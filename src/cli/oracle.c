@@ -31,7 +31,7 @@ int cli_oracle_read(dyd_engine *e, const cli_options *o) {
   dyd_error err;
   dyd_error_clear(&err);
   const dyd_oracle_options options = {DYD_SIZED(dyd_oracle_options), .jobs = o->oracle_jobs, .batch = o->oracle_batch,
-                                      .seconds = o->oracle_timeout};
+                                      .retries = o->oracle_retries, .seconds = o->oracle_timeout};
   if (dyd_oracle_new(&oracle, o->oracle, &options, &err) != DYD_OK) {
     cli_complain("%s", err.message);
     return CLI_FAILED;

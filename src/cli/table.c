@@ -128,6 +128,9 @@ const cli_option cli_option_table[] = {
      "send a program so many lines before awaiting answers\n"
      "(default 1); higher where lines travel far",
      AT(oracle_batch), RANGE(1, DYD_ORACLE_MAX_BATCH)},
+    {"oracle-retries", 0, "K", CLI_INTEGER, READ, CLI_INPUT,
+     "start a program that died, or is silent, again, at most so\noften for one request (default 0)",
+     AT(oracle_retries), RANGE(0, 1000000)},
     {"oracle-timeout", 0, "SECONDS", CLI_SECONDS, READ, CLI_INPUT, "wait so long for a line of a program (default 30)",
      AT(oracle_timeout)},
 

@@ -21,16 +21,17 @@
 #define GRACE_SECONDS 1.0
 #define SLICE_SECONDS 0.05
 
-/* Invariant: lifeline is the writing end of the pipe the watchers read; worker[0 .. jobs) are initialised; room for two
+/* Invariant: lifeline is the pipe the watchers read, both ends of it; worker[0 .. jobs) are initialised; room for two
  * entries of poll per worker. */
 struct dyd_oracle {
   size_t refs;
+  char *command;
   dyd_worker *worker;
   struct pollfd *poll;
-  unsigned jobs, batch;
+  unsigned jobs, batch, retries;
   double seconds;
-  size_t points;
-  int lifeline;
+  size_t points; /* 0 until the first program has told */
+  int lifeline[2];
 };
 
 /* ---- waiting ---- */
@@ -83,10 +84,62 @@ static dyd_status wait_for_answer(dyd_oracle *o, dyd_worker *w, const volatile i
   return DYD_OK;
 }
 
+/* ---- starting one, and starting it again ---- */
+
+/* Starts the program of w, which is empty, as number k. */
+static dyd_status program_begin(dyd_oracle *o, unsigned k, dyd_error *err) {
+  dyd_worker *w = &o->worker[k];
+  dyd_worker_init(w, o->batch);
+  dyd_status st = dyd_process_start(&w->process, o->command, k, o->lifeline[0], err);
+  if (st == DYD_OK && !dyd_worker_expect_count(w)) st = dyd_fail_nomem(err);
+  return st;
+}
+
+/* Reads its first line, which must agree with what the first program said. */
+static dyd_status program_read_count(size_t *count, dyd_oracle *o, unsigned k, const volatile int *stop,
+                                     dyd_error *err) {
+  dyd_worker *w = &o->worker[k];
+  dyd_status st = wait_for_answer(o, w, stop);
+  if (dyd_failed(st)) {
+    return dyd_fail(err, st, "the oracle program was to print \"points N\", with the number of points: %s", w->why);
+  }
+  if (st != DYD_OK) return st;
+  st = dyd_oracle_read_count(count, w->asked[w->head].answer, w->asked[w->head].length, err);
+  dyd_worker_drop(w);
+  if (st != DYD_OK || !o->points || *count == o->points) return st;
+  return dyd_fail(err, DYD_E_STREAM, "oracle program 0 has %zu points, program %u has %zu; all must serve the same",
+                  o->points, k, *count);
+}
+
+/* Starts program k in place of one that failed. Its requests wait until it has told its count, and are sent again
+ * unless they were answered. On failure it has failed once more. */
+static dyd_status program_restart(dyd_oracle *o, unsigned k, const volatile int *stop) {
+  dyd_worker *w = &o->worker[k], old = *w;
+  size_t count;
+  dyd_error err;
+  dyd_error_clear(&err);
+  dyd_process_end(&old.process);
+  dyd_status st = program_begin(o, k, &err);
+  if (st == DYD_OK) st = program_read_count(&count, o, k, stop, &err);
+  if (dyd_failed(st)) dyd_worker_fail(w, st, "%s", err.message);
+  dyd_worker_adopt(w, &old);
+  return st;
+}
+
+/* As wait_for_answer; a program that fails is started again, as often as one request may. */
+static dyd_status wait_retrying(dyd_oracle *o, unsigned k, const volatile int *stop) {
+  dyd_status st = wait_for_answer(o, &o->worker[k], stop);
+  for (unsigned tries = 0; st == DYD_E_STREAM && tries < o->retries; tries++) {
+    st = program_restart(o, k, stop);
+    if (st == DYD_OK) st = wait_for_answer(o, &o->worker[k], stop);
+  }
+  return st;
+}
+
 /* ---- the source ---- */
 
-static dyd_worker *oracle_worker_of(const dyd_oracle *o, size_t point) {
-  return &o->worker[point % o->jobs];
+static unsigned oracle_job_of(const dyd_oracle *o, size_t point) {
+  return (unsigned)(point % o->jobs);
 }
 
 /* What is already asked stays; a list that does not fit into memory is as good as none. */
@@ -96,7 +149,7 @@ static void oracle_announce(void *user, const dyd_request *request, size_t count
   for (size_t k = 0; k < count; k++) {
     const dyd_request *r = dyd_request_at(request, k);
     if (r->point >= o->points) continue;
-    if (!dyd_worker_ask(oracle_worker_of(o, r->point), r->point, r->bits)) break;
+    if (!dyd_worker_ask(&o->worker[oracle_job_of(o, r->point)], r->point, r->bits)) break;
   }
   exchange_lines(o, 0);
 }
@@ -121,9 +174,10 @@ static dyd_status oracle_narrow(dyd_rect *out, void *user, const dyd_request *re
   if (request->point >= o->points) {
     return dyd_fail(err, DYD_E_ARG, "the oracle program has %zu points only", o->points);
   }
-  dyd_worker *w = oracle_worker_of(o, request->point);
+  unsigned job = oracle_job_of(o, request->point);
+  dyd_worker *w = &o->worker[job];
   if (!ask_first(w, request)) return dyd_fail_nomem(err);
-  dyd_status st = wait_for_answer(o, w, request->stop);
+  dyd_status st = wait_retrying(o, job, request->stop);
   if (dyd_failed(st)) return oracle_fail_request(err, st, request, w->why);
   if (st != DYD_OK) return st;
   dyd_error_clear(&own);
@@ -153,72 +207,49 @@ size_t dyd_oracle_count(const dyd_oracle *o) {
 
 /* ---- starting ---- */
 
-/* Reads the first line of program k. */
-static dyd_status oracle_read_count(size_t *count, dyd_oracle *o, unsigned k, const volatile int *stop,
-                                    dyd_error *err) {
-  dyd_worker *w = &o->worker[k];
-  dyd_status st = wait_for_answer(o, w, stop);
-  if (dyd_failed(st)) {
-    return dyd_fail(err, st, "the oracle program was to print \"points N\", with the number of points: %s", w->why);
-  }
-  if (st != DYD_OK) return st;
-  st = dyd_oracle_read_count(count, w->asked[w->head].answer, w->asked[w->head].length, err);
-  dyd_worker_drop(w);
-  return st;
-}
-
-/* Starts programs jobs .. want-1; they count as soon as they run. */
-static dyd_status start_programs(dyd_oracle *o, const char *command, unsigned want, int lifeline, dyd_error *err) {
+/* Starts programs jobs .. want-1, side by side; they count as soon as they run. Each that fails at once is started
+ * again, as often as one may. */
+static dyd_status start_programs(dyd_oracle *o, unsigned want, const volatile int *stop, dyd_error *err) {
+  unsigned first = o->jobs;
   dyd_status st = DYD_OK;
-  while (st == DYD_OK && o->jobs < want) {
-    dyd_worker *w = &o->worker[o->jobs];
-    dyd_worker_init(w, o->batch);
-    st = dyd_process_start(&w->process, command, o->jobs++, lifeline, err);
-    if (st == DYD_OK && !dyd_worker_expect_count(w)) st = dyd_fail_nomem(err);
+  while (st == DYD_OK && o->jobs < want) st = program_begin(o, o->jobs++, err);
+  for (unsigned k = first; st == DYD_OK && k < o->jobs; k++) {
+    size_t count = 0;
+    st = program_read_count(&count, o, k, stop, err);
+    for (unsigned tries = 0; st == DYD_E_STREAM && tries < o->retries; tries++) {
+      dyd_worker_clear(&o->worker[k]);
+      st = program_begin(o, k, err);
+      if (st == DYD_OK) st = program_read_count(&count, o, k, stop, err);
+    }
+    if (st == DYD_OK) o->points = count;
   }
   return st;
 }
 
 /* The first program says how many points there are; then the others are started, no more than points, and must say the
  * same. */
-static dyd_status start_all_programs(dyd_oracle *o, const char *command, unsigned jobs, int lifeline,
-                                     const volatile int *stop, dyd_error *err) {
-  dyd_status st = start_programs(o, command, 1, lifeline, err);
-  if (st == DYD_OK) st = oracle_read_count(&o->points, o, 0, stop, err);
-  if (st != DYD_OK) return st;
-  if (jobs > o->points) jobs = o->points ? (unsigned)o->points : 1;
-  st = start_programs(o, command, jobs, lifeline, err);
-  for (unsigned k = 1; st == DYD_OK && k < jobs; k++) {
-    size_t count = 0;
-    st = oracle_read_count(&count, o, k, stop, err);
-    if (st == DYD_OK && count != o->points) {
-      return dyd_fail(err, DYD_E_STREAM, "oracle program 0 has %zu points, program %u has %zu; all must serve the same",
-                      o->points, k, count);
-    }
-  }
-  return st;
-}
-
-static dyd_status start_with_lifeline(dyd_oracle *o, const char *command, unsigned jobs, const volatile int *stop,
-                                      dyd_error *err) {
-  int end[2];
-  if (!dyd_pipe(end)) {
+static dyd_status start_all_programs(dyd_oracle *o, unsigned jobs, const volatile int *stop, dyd_error *err) {
+  if (!dyd_pipe(o->lifeline)) {
     return dyd_fail(err, DYD_E_STREAM, "no pipe for the oracle program: %s; close other files", strerror(errno));
   }
-  o->lifeline = end[1];
-  dyd_status st = start_all_programs(o, command, jobs, end[0], stop, err);
-  dyd_close(&end[0]);
-  return st;
+  dyd_status st = start_programs(o, 1, stop, err);
+  if (jobs > o->points) jobs = o->points ? (unsigned)o->points : 1;
+  return st == DYD_OK ? start_programs(o, jobs, stop, err) : st;
 }
 
-/* Room for `jobs` programs, none started. NULL: memory is exhausted. */
-static dyd_oracle *oracle_new(unsigned jobs, unsigned batch, double seconds) {
+/* Room for the programs, none started. NULL: memory is exhausted. */
+static dyd_oracle *oracle_new(const char *command, const dyd_oracle_options *options) {
   dyd_oracle *o = dyd_alloc(1, sizeof *o);
   if (!o) return NULL;
-  *o = (dyd_oracle){.refs = 1, .batch = batch, .seconds = seconds, .lifeline = -1};
-  o->worker = dyd_alloc(jobs, sizeof *o->worker);
-  o->poll = dyd_alloc(2 * (size_t)jobs, sizeof *o->poll);
-  if (o->worker && o->poll) return o;
+  *o = (dyd_oracle){.refs = 1,
+                    .batch = options->batch,
+                    .retries = options->retries,
+                    .seconds = options->seconds,
+                    .lifeline = {-1, -1}};
+  o->command = strdup(command);
+  o->worker = dyd_alloc(options->jobs, sizeof *o->worker);
+  o->poll = dyd_alloc(2 * (size_t)options->jobs, sizeof *o->poll);
+  if (o->command && o->worker && o->poll) return o;
   dyd_oracle_free(o);
   return NULL;
 }
@@ -233,9 +264,9 @@ dyd_status dyd_oracle_new(dyd_oracle **out, const char *command, const dyd_oracl
   if (!command || given.jobs > DYD_ORACLE_MAX_JOBS || given.batch > DYD_ORACLE_MAX_BATCH || !(given.seconds > 0)) {
     return dyd_fail(err, DYD_E_ARG, "an option of the oracle is out of its range");
   }
-  dyd_oracle *o = oracle_new(given.jobs, given.batch, given.seconds);
+  dyd_oracle *o = oracle_new(command, &given);
   if (!o) return dyd_fail_nomem(err);
-  dyd_status st = start_with_lifeline(o, command, given.jobs, given.stop, err);
+  dyd_status st = start_all_programs(o, given.jobs, given.stop, err);
   if (st == DYD_OK)
     *out = o;
   else
@@ -260,7 +291,9 @@ void dyd_oracle_free(dyd_oracle *o) {
   if (!o || --o->refs) return;
   let_programs_end(o);
   for (unsigned k = 0; k < o->jobs; k++) dyd_worker_clear(&o->worker[k]);
-  dyd_close(&o->lifeline);
+  dyd_close(&o->lifeline[0]);
+  dyd_close(&o->lifeline[1]);
+  free(o->command);
   free(o->poll);
   free(o->worker);
   free(o);

@@ -103,6 +103,24 @@ void dyd_worker_forget(dyd_worker *w) {
   DYD_INVARIANT(queue_is_valid(w));
 }
 
+/* Requests that are not wanted any more come first, and are not sent again. */
+void dyd_worker_adopt(dyd_worker *w, dyd_worker *old) {
+  size_t first = old->answered;
+  while (first < old->sent && !old->asked[first].wanted) first++;
+  memmove(old->asked + old->answered, old->asked + first, (old->count - first) * sizeof *old->asked);
+  for (size_t k = w->head; k < w->count; k++) free(w->asked[k].answer);
+  free(w->asked);
+  w->asked = old->asked;
+  w->cap = old->cap;
+  w->held = old->held;
+  w->head = old->head;
+  w->answered = w->sent = old->answered;
+  w->count = old->count - (first - old->answered);
+  free(old->line);
+  free(old->text);
+  DYD_INVARIANT(queue_is_valid(w));
+}
+
 dyd_asked *dyd_worker_first(dyd_worker *w) {
   for (size_t k = w->head; k < w->count; k++)
     if (w->asked[k].wanted) return &w->asked[k];

@@ -44,6 +44,9 @@ void dyd_worker_init(dyd_worker *w, unsigned batch);
 /* Ends the process and releases everything. */
 void dyd_worker_clear(dyd_worker *w);
 
+/* w, new, takes over the requests of `old`, whose process has ended: what was answered stays, what was sent is to be
+ * sent again. Of old nothing is left. */
+void dyd_worker_adopt(dyd_worker *w, dyd_worker *old);
 /* Appends a request; false: memory is exhausted. */
 bool dyd_worker_ask(dyd_worker *w, size_t point, int64_t bits);
 /* Appends the request that is answered by the first line of the program, and that is not sent. */

@@ -104,6 +104,46 @@ def test_batches_in_flight():
         assert len(asked) <= len(before) + len(f.asked()) <= len(asked) + 6
 
 
+def test_retries():
+    """A program that dies every few answers is started again: the same result, and only what was in flight is asked
+    twice; where one request kills it each time, that many times."""
+    every = "int(os.environ.get('DIE', 10 ** 9)) - 1 and len(open(sys.argv[1]).readlines()) % 7 == 0"
+    dying = ORACLE.replace("int(os.environ.get('DIE', 10 ** 9))", every)
+    with Folder() as f:
+        whole = f.oracle()
+        asked = f.asked()
+        f.write('oracle.py', dying)
+        for batch in ('1', '5'):
+            failed = f.oracle('--oracle-batch', batch, DIE='1')
+            expect(failed, 1, err='it ended with exit status 1')
+            f.asked()
+            result = f.oracle('--oracle-batch', batch, '--oracle-retries', '1', DIE='1')
+            assert (result.code, result.out) == (whole.code, whole.out), result.err
+            again = f.asked()
+            assert set(again) == set(asked) and len(asked) < len(again) <= 2 * len(asked) * int(batch)
+        f.write('oracle.py', ORACLE)
+        assert f.oracle('--oracle-retries', '3', DIE='6').code == 1
+        assert f.asked()[6:] == [asked[6]] * 4
+
+
+def test_retries_of_the_silent():
+    with Folder() as f:
+        whole = f.oracle()
+        pause = "if i == 4 and not os.path.exists('begun'):\n        open('begun', 'w')\n        time.sleep(60)\n    "
+        f.write('oracle.py', ORACLE.replace('print(i, f', pause + 'print(i, f'))
+        result = f.oracle('--oracle-timeout', '2', '--oracle-retries', '1', '--oracle-jobs', '3')
+        assert (result.code, result.out) == (whole.code, whole.out), result.err
+
+
+def test_retries_at_the_start():
+    with Folder() as f:
+        once = "import os, sys\nif not os.path.exists('begun'):\n    open('begun', 'w')\n    sys.exit(3)\n"
+        f.write('oracle.py', once + ORACLE)
+        expect(f.oracle('--oracle-retries', '1'), f.oracle().code)
+        os.remove(f.path('begun'))
+        expect(f.oracle(), 1, err='ended with exit status 3')
+
+
 def test_killed():
     with Folder() as f:
         whole = f.oracle()
