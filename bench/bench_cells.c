@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Rows over cells: polygons of all cells and both bounds of the diagram on the unit square; cells of thin boxes, cells
- * apart (boxes of a tenth of the spacing), cells touch (lightly: of three tenths). Time a site; nobody else computes
- * these. */
+ * near (boxes of three hundredths of the spacing), apart (boxes of a tenth of the spacing), cells touch (lightly: of
+ * three tenths). Time a site; nobody else computes these. */
 #include "cloud.h"
 #include "harness.h"
 
@@ -65,6 +65,7 @@ int main(int argc, char **argv) {
   bench_options o;
   bench_options_read(&o, argc, argv);
   row_cells(&o, "cells", 100000, 0x1p-20, 10);
+  row_cells(&o, "cells-near", 2000, 0.03, 100);
   row_cells(&o, "cells-apart", 1000, 0.1, 100);
   row_cells(&o, "cells-touch", 1000, 0.3, 100);
   bench_options_close(&o);

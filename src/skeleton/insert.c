@@ -3,6 +3,7 @@
 #include "skeleton/insert.h"
 
 #include "base/alloc.h"
+#include "base/invariant.h"
 #include "skeleton/mesh_exact.h"
 #include "skeleton/mesh_start.h"
 #include "skeleton/predicates.h"
@@ -85,24 +86,30 @@ static dyd_status insert_vertex(dyd_mesh *m, uint32_t v) {
     uint32_t t = dyd_mesh_locate(m, v);
     uint32_t same = same_vertex(m, v, t);
     if (same == DYD_NONE) return insert_at(m, v, t);
-    if (dyd_mesh_is_point(m, v)) return dyd_mesh_set_alias(m, v, same);
+    if (dyd_mesh_is_point(m, v)) {
+      DYD_INVARIANT(dyd_mesh_is_point(m, same));
+      return dyd_mesh_set_alias(m, v, same);
+    }
     dyd_status st = dyd_mesh_move(m, v, m->moved + 1);
     if (st != DYD_OK) return st;
   }
 }
 
 static dyd_status insert_all(dyd_mesh *m, const uint32_t first[3], const volatile int *cancel) {
-  for (uint32_t v = m->begin; v < m->end; v++) {
-    if (v == first[0] || v == first[1] || v == first[2] || dyd_mesh_alias(m, v) != DYD_NONE) continue;
-    if ((v & 1023) == 0 && dyd_flag_is_set(cancel)) return DYD_CANCELLED;
-    dyd_status st = insert_vertex(m, v);
-    if (st != DYD_OK) return st;
-  }
+  for (unsigned round = 0; round < m->rounds; round++)
+    for (uint32_t v = m->begin; v < m->end; v++) {
+      if (v == first[0] || v == first[1] || v == first[2] || dyd_mesh_alias(m, v) != DYD_NONE) continue;
+      if (!dyd_mesh_has_turn(m, v, round)) continue;
+      if ((v & 1023) == 0 && dyd_flag_is_set(cancel)) return DYD_CANCELLED;
+      dyd_status st = insert_vertex(m, v);
+      if (st != DYD_OK) return st;
+    }
   return DYD_OK;
 }
 
 dyd_status dyd_mesh_fill(dyd_mesh *m, const volatile int *cancel) {
   uint32_t first[3];
+  dyd_mesh_set_rounds(m);
   dyd_status st = dyd_mesh_first_triangle(first, m);
   if (st != DYD_OK || m->collinear) return st;
   if (!m->tri) m->tri = dyd_alloc(2 * (size_t)m->n + 2, sizeof *m->tri);

@@ -150,18 +150,36 @@ static dyd_status leave_line(uint32_t first[3], dyd_mesh *m) {
   return st;
 }
 
+void dyd_mesh_set_rounds(dyd_mesh *m) {
+  bool fat = false;
+  m->rounds = 1;
+  if (m->part) return; /* one strip: points come first */
+  for (uint32_t v = m->begin; v < m->end && m->rounds == 1; v++) {
+    bool point = dyd_mesh_is_point(m, v);
+    if (point && fat) m->rounds = 2;
+    fat = fat || !point;
+  }
+}
+
+bool dyd_mesh_has_turn(const dyd_mesh *m, uint32_t v, unsigned round) {
+  return m->rounds == 1 || dyd_mesh_is_point(m, v) == (round == 0);
+}
+
+/* Takes v into first[found] if it makes a triangle. */
+static dyd_status take_first(unsigned *found, uint32_t first[3], dyd_mesh *m, uint32_t v) {
+  bool differs = true;
+  dyd_status st = *found >= 1 ? separate(&differs, m, v, first[0]) : DYD_OK;
+  if (st != DYD_OK || !differs) return st;
+  if (*found < 2 || dyd_build_orient(m, first[0], first[1], v)) first[(*found)++] = v;
+  return DYD_OK;
+}
+
 dyd_status dyd_mesh_first_triangle(uint32_t first[3], dyd_mesh *m) {
   unsigned found = 0;
   dyd_status st = DYD_OK;
-  for (uint32_t v = m->begin; v < m->end && found < 3 && st == DYD_OK; v++) {
-    bool differs = true;
-    if (dyd_mesh_alias(m, v) != DYD_NONE) continue;
-    if (found >= 1) st = separate(&differs, m, v, first[0]);
-    if (st == DYD_OK && differs && found >= 2) {
-      if (dyd_build_orient(m, first[0], first[1], v) == 0) continue;
-    }
-    if (st == DYD_OK && differs) first[found++] = v;
-  }
+  for (unsigned round = 0; round < m->rounds; round++)
+    for (uint32_t v = m->begin; v < m->end && found < 3 && st == DYD_OK; v++)
+      if (dyd_mesh_has_turn(m, v, round) && dyd_mesh_alias(m, v) == DYD_NONE) st = take_first(&found, first, m, v);
   if (st == DYD_OK && found < 3 && m->part) return m->stuck = true, DYD_CANCELLED;
   if (st == DYD_OK && found < 3) st = leave_line(first, m);
   if (st == DYD_OK && !m->collinear && dyd_build_orient(m, first[0], first[1], first[2]) < 0) {

@@ -8,6 +8,10 @@
 
 /* Sets xy (a copy for a part of the vertices) and the filter constants. */
 dyd_status dyd_mesh_coordinates(dyd_mesh *m);
+/* A point that coincides with a vertex becomes its alias, anything else gives way; so points have to come first. Where
+ * the order is another one, as that of several strips is, vertices are taken in two rounds: is it the turn of v? */
+void dyd_mesh_set_rounds(dyd_mesh *m);
+bool dyd_mesh_has_turn(const dyd_mesh *m, uint32_t v, unsigned round);
 /* Finds three vertices that make a triangle, counter-clockwise; moves representatives where that is needed and
  * possible; sets m->collinear when every choice is collinear (or there are fewer than three distinct sites). */
 dyd_status dyd_mesh_first_triangle(uint32_t first[3], dyd_mesh *m);

@@ -8,6 +8,7 @@
 #include "delaunay/face_table.h"
 #include "delaunay/faces.h"
 #include "delaunay/local_filter.h"
+#include "delaunay/undecided.h"
 #include "legal/witness.h"
 #include "support/random.h"
 #include <cmocka.h>
@@ -16,6 +17,8 @@
 #include <string.h>
 
 enum { MOST = 400 };
+
+static size_t hidden, aliases;
 
 /* Boxes of multiples of `unit`. */
 typedef struct cloud {
@@ -67,6 +70,22 @@ static dyd_pair_list pairs_of(const dyd_delaunay *pd) {
   return l;
 }
 
+/* A pair that several faces list is shown by one and hidden in the others; those have to know, too, when it is no
+ * longer possible: the one that shows it may go. */
+static size_t listed_are_possible(const dyd_delaunay *pd, const dyd_delaunay *fresh) {
+  size_t found = 0;
+  if (pd->open.kind != DYD_LISTED) return 0;
+  for (size_t f = 0; f < pd->open.count; f++)
+    for (uint32_t q = 0; q < pd->open.face[f].pairs; q++) {
+      dyd_vertex_pair p = pd->open.pair[pd->open.face[f].first_pair + q];
+      uint32_t i = pd->sk.reps.site[p.i], j = pd->sk.reps.site[p.j];
+      assert_int_not_equal(dyd_delaunay_status(fresh, i, j), DYD_ILLEGAL);
+      assert_false(dyd_pair_is_legal(pd, p.i, p.j));
+      found += p.hidden;
+    }
+  return found;
+}
+
 static size_t same_as_fresh(const dyd_sites *s, const dyd_delaunay *pd) {
   dyd_delaunay *fresh = NULL;
   size_t carried = 0;
@@ -79,10 +98,22 @@ static size_t same_as_fresh(const dyd_sites *s, const dyd_delaunay *pd) {
     if (is.item[k].status != want.item[k].status)
       assert_true(is.item[k].status == DYD_LEGAL && want.item[k].status == DYD_INDETERMINATE);
   }
+  hidden += listed_are_possible(pd, fresh);
   dyd_pair_list_clear(&is);
   dyd_pair_list_clear(&want);
   dyd_delaunay_free(fresh);
   return carried;
+}
+
+/* Only equal points are one site; a box whose representative falls on a point is none. */
+static void aliases_are_points(const cloud *c, const dyd_delaunay *pd) {
+  for (uint32_t i = 0; i < c->n; i++) {
+    uint32_t a = dyd_delaunay_alias(pd, i);
+    if (a == i) continue;
+    assert_true(c->x0[i] == c->x1[i] && c->x0[a] == c->x1[a] && c->x0[i] == c->x0[a]);
+    assert_true(c->y0[i] == c->y1[i] && c->y0[a] == c->y1[a] && c->y0[i] == c->y0[a]);
+    aliases++;
+  }
 }
 
 static void step(cloud *c, test_random *g, dyd_sites *s, dyd_delaunay *pd) {
@@ -102,6 +133,30 @@ static void step(cloud *c, test_random *g, dyd_sites *s, dyd_delaunay *pd) {
   }
   dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = test_chance(g, 30)};
   assert_int_equal(dyd_delaunay_update(pd, changed, count, &o, NULL), DYD_OK);
+}
+
+/* Boxes and points on a coarse lattice, in an odd number: several strips in the armed build. */
+static void test_aliases(void **state) {
+  (void)state;
+  test_random g = test_random_start("aliases");
+  cloud *c = malloc(sizeof *c);
+  assert_non_null(c);
+  for (size_t q = 0; q < test_cases(300); q++) {
+    dyd_sites *s = NULL;
+    dyd_delaunay *pd = NULL;
+    do {
+      make(c, &g);
+    } while (c->n % 2 == 0 || c->unit < 0x1p-8);
+    assert_int_equal(dyd_sites_new(&s), DYD_OK);
+    assert_int_equal(dyd_sites_add_boxes(s, c->n, c->x0, c->x1, c->y0, c->y1), DYD_OK);
+    assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
+    aliases_are_points(c, pd);
+    dyd_delaunay_free(pd);
+    dyd_sites_free(s);
+  }
+  fprintf(stderr, "# aliases %zu\n", aliases);
+  assert_true(aliases > 0);
+  free(c);
 }
 
 static void test_fresh(void **state) {
@@ -124,7 +179,8 @@ static void test_fresh(void **state) {
     dyd_delaunay_free(pd);
     dyd_sites_free(s);
   }
-  fprintf(stderr, "# carried over: %zu\n", carried);
+  fprintf(stderr, "# carried over: %zu; pairs hidden: %zu\n", carried, hidden);
+  assert_true(hidden > 0);
   free(c);
 }
 
@@ -200,6 +256,7 @@ static void test_local_witness(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_fresh), cmocka_unit_test(test_local_witness)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_aliases), cmocka_unit_test(test_fresh),
+                                     cmocka_unit_test(test_local_witness)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
