@@ -21,7 +21,7 @@ WRONG = {
     '--until': ('', 'area', 'area:', 'are:3', 'decided:3', 'hausdorff:3x', 'hausdorff:99999999'),
     '--max-bits': WHOLE, '--max-pairs': WHOLE, '--threads': WHOLE, '--tie-bits': WHOLE, '--start-bits': WHOLE, '--step-bits': WHOLE,
     '--oracle-jobs': WHOLE, '--oracle-batch': WHOLE, '--schedules': WHOLE,
-    '--seed': WHOLE[1:], '--site': WHOLE[1:],
+    '--seed': WHOLE[1:], '--site': WHOLE[1:], '--oracle-retries': WHOLE[1:],
     '--flatten': WHOLE[2:],
     '--timeout': SECONDS, '--oracle-timeout': SECONDS,
     '--schedule': ('', 'fast', 'Adaptive', 'uniform '),
@@ -38,7 +38,7 @@ WRONG = {
 RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--until': 'decided'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
 TEXTS = {'--queries', '--up-to', '--accuracy', '--pairs', '--columns', '--delimiter', '--id', '--points', '--radius', '--radius-column', '--oracle', '--output', '--trace',
-         '--replay', '--certificate'}
+         '--replay', '--resume', '--certificate'}
 
 
 def help_of(*command):
