@@ -49,6 +49,9 @@ typedef struct dyd_converge_options {
   /* Called after each row is complete; may be NULL. */
   void (*stage)(void *user, const dyd_stage_row *row, const dyd_delaunay *pd);
   void *stage_user;
+  /* when it points to a non-zero value, bounds not known by then are left out of rows; NULL: never. dyd_converge_run
+   * does that at the deadline, and when the engine is cancelled, by itself */
+  const volatile int *cancel;
 } dyd_converge_options;
 
 /* Runs e as dyd_engine_run does, callbacks of options included, and notes a row after each stage. *out, given cleared,

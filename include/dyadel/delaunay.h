@@ -96,6 +96,9 @@ typedef struct dyd_delaunay_options {
    * circle or line, their pairs are ties [TIE-3]. Called from the calling thread only, during this call. */
   dyd_prove_fn prove;
   void *prove_user;
+  /* dyd_delaunay_new: when work is stopped while undecided faces are closed, the others count as met by the cap, and
+   * the result is DYD_CAPPED. */
+  bool keep_cut;
 } dyd_delaunay_options;
 
 typedef struct dyd_delaunay dyd_delaunay;

@@ -48,6 +48,16 @@ static void take_bounds(dyd_voronoi_bounds *out, cli_session *s, const dyd_conve
   s->bounds = out;
 }
 
+/* The last row lacks bounds since no time was left for them: says so. Returns the exit status. */
+static int note_cut(const dyd_convergence *table, const cli_options *o) {
+  const dyd_stage_row *last = table->count ? table->row[table->count - 1] : NULL;
+  if (!last || !*cli_deadline_flag() || (last->bounded && (last->voronoi || !table->window))) return 0;
+  if (!o->quiet)
+    cli_complain("budget: the time is used up: bounds of stage %llu are left out; raise --timeout",
+                 (unsigned long long)last->stage);
+  return CLI_BUDGET;
+}
+
 /* A curve takes more points than geometric growth gives: says which steps do. */
 static void note_steps(const dyd_convergence *table, const cli_options *o) {
   enum { FEW = 12, ENOUGH = 24 };
@@ -81,6 +91,7 @@ static int converge_points(const cli_options *o) {
     if (status == 0) status = written;
     take_bounds(&bounds, &s, &r.table);
     note_steps(&r.table, o);
+    if (status == 0) status = note_cut(&r.table, o);
   }
   status = cli_session_close(&s, status);
   dyd_voronoi_bounds_clear(&bounds);

@@ -52,8 +52,7 @@ static dyd_status voronoi_write(FILE *out, const void *engine, const cli_options
 static int voronoi_write_result(cli_session *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->engine);
   if (pd && dyd_delaunay_is_capped(pd)) {
-    cli_complain("neighbours are missing, so no diagram is written: the cap on stored pairs was met; raise "
-                 "--max-pairs");
+    cli_complain("neighbours are missing, so no diagram is written: %s", cli_outcome_advice(s->engine));
     return 0;
   }
   size_t *cut = s->options->cut;

@@ -58,6 +58,7 @@ dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known known, 
   dyd_work_init(&w, &pd->sk, o.cancel);
   w.threads = o.threads;
   w.err = err;
+  w.keep_cut = pd->options.keep_cut;
   pd->open.kind = pd->sk.mesh.collinear ? DYD_LINE : pd->sk.all_points ? DYD_TIED : DYD_LISTED;
   st = build_statuses(pd, &w, known);
   dyd_tally_add(&pd->counters, &pd->sk.mesh.tally, o.no_filter);

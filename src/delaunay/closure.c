@@ -412,8 +412,12 @@ dyd_status dyd_closure_run(dyd_closure *out, dyd_work *w, const dyd_skeleton *sk
     else
       st = all_pairs(&c);
   } else if (st == DYD_OK) {
-    st = closing_run(&c);
+    st = w->keep_cut && dyd_work_cancelled(w) ? DYD_CANCELLED : closing_run(&c);
     if (st == DYD_OK) st = closing_collect(&c, c.map.links);
+  }
+  if (st == DYD_CANCELLED && w->keep_cut) {
+    c.full = true;
+    st = DYD_OK;
   }
   if (st == DYD_OK && (c.full || out->pairs > room)) st = skeleton_pairs(&c);
   bool sorted = out->polygon && !out->capped; /* all_pairs goes in order */

@@ -26,7 +26,7 @@ static void close_range(void *context, size_t number) {
     const dyd_face *f = &b->pd->open.face[b->first + k];
     if (f->proved) continue;
     st = DYD_CANCELLED;
-    if (!dyd_work_cancelled(w))
+    if (w->keep_cut || !dyd_work_cancelled(w))
       st = dyd_closure_run(&b->out[k], w, &b->pd->sk, b->pd->open.tri + f->first_tri, f->tris, b->room);
     w->counters.faces++;
   }

@@ -230,6 +230,10 @@ void dyd_table_delete(dyd_undecided *f, dyd_face *face, dyd_vertex_pair *at) {
 
 void dyd_report_cap(dyd_work *w, const dyd_delaunay *pd, const uint32_t *v, size_t n) {
   const uint32_t *site = pd->sk.reps.site;
+  if (w->keep_cut && dyd_work_cancelled(w)) {
+    dyd_fail(w->err, DYD_CAPPED, "work was stopped before all undecided faces were closed");
+    return;
+  }
   dyd_fail(
       w->err, DYD_CAPPED,
       "more than %zu undecided pairs to store: %zu sites around sites %u, %u, %u have too many possible neighbours "

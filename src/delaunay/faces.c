@@ -125,6 +125,7 @@ dyd_status dyd_faces_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, si
   dyd_undecided before = pd->open;
   dyd_status st = find_faces(pd, w, tri, tri ? count : pd->sk.mesh.count);
   for (size_t g = before.count; g < pd->open.count && st == DYD_OK; g++) st = dyd_prove_face(pd, w, g);
+  if (st == DYD_CANCELLED && w->keep_cut) st = DYD_OK;
   if (st == DYD_OK) st = close_faces(pd, w, before.count);
   if (st != DYD_OK) {
     dyd_table_roll_back(pd, &before);

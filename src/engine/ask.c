@@ -86,6 +86,7 @@ static bool ask_calls_are_spent(const ask *a) {
 
 /* Nothing is to be narrowed: why? */
 static void ask_end_exhausted(ask *a) {
+  if (a->e->cut && ask_is_stopped(a)) return;
   if (a->q->triangulate && dyd_delaunay_is_capped(a->e->pd)) {
     a->err = a->e->cap_error;
     ask_end_budget(a, DYD_BUDGET_PAIRS);
@@ -175,6 +176,11 @@ static void ask_report(const ask *a) {
   a->o.progress(a->o.progress_user, &p);
 }
 
+/* Did the first result stop before all faces were closed? What there is counts. */
+static bool ask_was_cut(const dyd_engine *e, const dyd_delaunay_options *o) {
+  return o->keep_cut && dyd_flag_get(&e->stop) && dyd_delaunay_is_capped(e->pd);
+}
+
 /* Makes the result, or brings it up to date; again, when sites turn out to be the same place. */
 static dyd_status ask_settle(dyd_engine *e, const dyd_delaunay_options *o, dyd_error *err) {
   bool joined = true;
@@ -188,6 +194,7 @@ static dyd_status ask_settle(dyd_engine *e, const dyd_delaunay_options *o, dyd_e
       e->cap_error = *err;
       st = DYD_OK;
     }
+    if (st == DYD_OK && ask_was_cut(e, o)) return st;
     if (st == DYD_OK && o->prove) st = dyd_aliases_find(&joined, e, e->pd, err);
     /* should this be cut short, the next run sees that the result is not up to date */
     if (st == DYD_OK && joined && !e->changes)
@@ -208,11 +215,13 @@ static dyd_status ask_triangulate(ask *a, dyd_error *err) {
                                   .prove = a->o.no_ties ? NULL
                                            : e->prover  ? e->prover
                                                         : dyd_ties_prove,
-                                  .prove_user = e->prover ? e->prover_user : e};
+                                  .prove_user = e->prover ? e->prover_user : e,
+                                  .keep_cut = !e->pd};
   dyd_status st = ask_settle(e, &o, err);
   if (st == DYD_CANCELLED) return ask_end_interrupted(a);
   if (st != DYD_OK) return st;
   e->max_pairs = a->o.max_pairs;
+  e->cut = ask_was_cut(e, &o);
   e->changes = 0;
   e->stages++;
   a->stages++;
@@ -318,8 +327,9 @@ static dyd_status ask_last(ask *a) {
 
 static dyd_status ask_loop(ask *a) {
   const dyd_engine *e = a->e;
-  /* Does the cap now given allow more than the one the result met? 0 is the default cap. */
-  bool raised = a->q->triangulate && e->pd && dyd_delaunay_is_capped(e->pd) && e->max_pairs != a->o.max_pairs;
+  /* Does the cap now given, or the time, allow more than the one the result met? 0 is the default cap. */
+  bool more = e->cut || e->max_pairs != a->o.max_pairs;
+  bool raised = a->q->triangulate && e->pd && dyd_delaunay_is_capped(e->pd) && more;
   dyd_status st = raised ? ask_list_undecided(a->e) : DYD_OK;
   if (st == DYD_OK) st = ask_guests(a);
   while (st == DYD_OK && a->end == DYD_OUTCOME_NONE) {

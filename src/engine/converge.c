@@ -9,6 +9,7 @@
 #include "base/alloc.h"
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/flag.h"
 #include "engine/digest.h"
 #include "engine/goal_voronoi.h"
 #include <dyadel/metric.h>
@@ -118,12 +119,12 @@ static dyd_status measure_widths(dyd_stage_row *row, const dyd_sites *sites) {
 
 /* ---- a row ---- */
 
-/* A capped result has no bounds, which is no failure. */
-static dyd_status measure_bounds(dyd_stage_row *row, const dyd_delaunay *pd) {
-  dyd_status st = dyd_metric_area(&row->area, pd);
-  if (st == DYD_OK) st = dyd_metric_hausdorff(&row->hausdorff, pd);
+/* A capped result has no bounds, nor has one for which no time is left, which is no failure. */
+static dyd_status measure_bounds(dyd_stage_row *row, const dyd_delaunay *pd, const volatile int *cancel) {
+  dyd_status st = dyd_flag_is_set(cancel) ? DYD_CANCELLED : dyd_metric_area(&row->area, pd);
+  if (st == DYD_OK) st = dyd_flag_is_set(cancel) ? DYD_CANCELLED : dyd_metric_hausdorff(&row->hausdorff, pd);
   row->bounded = st == DYD_OK;
-  return st == DYD_CAPPED ? DYD_OK : st;
+  return st == DYD_CAPPED || st == DYD_CANCELLED ? DYD_OK : st;
 }
 
 /* ---- the Voronoi diagram ---- */
@@ -153,11 +154,12 @@ static int64_t row_flattening(const dyd_stage_row *row) {
   return dyd_dyadic_sgn(w) == 0 ? EXACT : FINER - (w->exp + (int64_t)mpz_sizeinbase(w->man, 2));
 }
 
-/* Bounds that cannot be had (a capped result, rectangles that all meet, numbers out of range) are left out. */
-static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out, const dyd_delaunay *pd) {
+/* Bounds that cannot be had (a capped result, rectangles that all meet, numbers out of range, no time) are left out. */
+static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out, const dyd_delaunay *pd,
+                                  const volatile int *cancel) {
   dyd_voronoi_bounds b;
   dyd_voronoi_bounds_init(&b);
-  dyd_status st = dyd_metric_voronoi(&b, pd, out->window, row_flattening(row), NULL);
+  dyd_status st = dyd_metric_voronoi(&b, pd, out->window, row_flattening(row), cancel);
   row->voronoi = st == DYD_OK && b.finite;
   if (row->voronoi) {
     dyd_dyadic_swap(&row->v_area, &b.area);
@@ -167,13 +169,13 @@ static dyd_status measure_voronoi(dyd_stage_row *row, const dyd_convergence *out
   return st == DYD_E_NOMEM ? st : DYD_OK;
 }
 
-static dyd_status row_measure(dyd_stage_row *row, const dyd_delaunay *pd) {
+static dyd_status row_measure(dyd_stage_row *row, const dyd_delaunay *pd, const volatile int *cancel) {
   dyd_delaunay_count(row->count, pd);
   row->undecided_faces = dyd_delaunay_undecided_faces(pd);
   dyd_status st = dyd_delaunay_get_counters(&row->rungs, pd, NULL);
   if (st == DYD_OK) st = dyd_digest_pairs(&row->digest, pd);
   if (st == DYD_OK) st = measure_widths(row, dyd_delaunay_sites(pd));
-  if (st == DYD_OK) st = measure_bounds(row, pd);
+  if (st == DYD_OK) st = measure_bounds(row, pd, cancel);
   return st;
 }
 
@@ -189,9 +191,9 @@ dyd_status dyd_convergence_add(dyd_stage_row **row, dyd_convergence *out, const 
   *r = (dyd_stage_row){DYD_SIZED(dyd_stage_row), .rungs = {DYD_SIZED(dyd_delaunay_counters)}};
   row_for_each(r, dyd_dyadic_init);
   r->stage = out->count ? out->row[out->count - 1]->stage + 1 : 1;
-  st = row_measure(r, pd);
+  st = row_measure(r, pd, o.cancel);
   if (st == DYD_OK && !o.no_voronoi) st = convergence_set_window(out, pd, o.window);
-  if (st == DYD_OK && out->window) st = measure_voronoi(r, out, pd);
+  if (st == DYD_OK && out->window) st = measure_voronoi(r, out, pd, o.cancel);
   if (st != DYD_OK) {
     row_free(r);
     return dyd_fail(err, st, "%s", dyd_status_text(st));
@@ -290,6 +292,7 @@ dyd_status dyd_converge_run(dyd_convergence *out, dyd_engine *e, const dyd_engin
   if (st == DYD_OK) st = dyd_abi_take(&given, sizeof given, options ? options : &defaults, "dyd_engine_options", err);
   if (st == DYD_OK) st = note_options(out, &given, err);
   if (st != DYD_OK) return st;
+  if (!c.cancel) c.cancel = &e->stop;
   o = given;
   o.progress = recorder_stage;
   o.progress_user = &r;

@@ -75,6 +75,7 @@ struct dyd_engine {
   uint32_t *changed;
   size_t changes, change_cap;
   size_t max_pairs;           /* the cap pd was last worked on with */
+  bool cut;                   /* pd is capped since it was stopped */
   dyd_error cap_error;        /* what it said when the cap was met */
   dyd_error refused;          /* why points were not added */
   dyd_delaunay_counters past; /* of results that points added later have ended */

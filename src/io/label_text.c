@@ -65,3 +65,21 @@ void dyd_json_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t c
     dyd_json_text(out, dyd_engine_id(e, site[k]));
   }
 }
+
+/* Is it worth a place in a picture? */
+static bool label_is_plain(const char *text) {
+  const unsigned char *p = (const unsigned char *)text;
+  if (!*p || strlen(text) >= DYD_LABEL_SIZE) return false;
+  for (size_t n; *p; p += n) {
+    n = utf8_length(p);
+    if (!n || *p < 0x20 || *p == 0x7f) return false;
+  }
+  return true;
+}
+
+const char *dyd_label_text(char spare[DYD_LABEL_SIZE], const dyd_engine *e, size_t site) {
+  const char *id = dyd_engine_id(e, site);
+  if (id && label_is_plain(id)) return id;
+  snprintf(spare, DYD_LABEL_SIZE, "%zu", dyd_engine_row(e, site));
+  return spare;
+}

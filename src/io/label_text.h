@@ -10,6 +10,9 @@
 const char *dyd_csv_id_head(const dyd_engine *e, size_t count);
 /* Their values: ",NAME" for each site, quoted where need be (RFC 4180); nothing without identifiers. */
 void dyd_csv_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t count);
+/* What a picture calls a site: its identifier if it is short and printable, else the number, written to spare. */
+enum { DYD_LABEL_SIZE = 24 };
+const char *dyd_label_text(char spare[DYD_LABEL_SIZE], const dyd_engine *e, size_t site);
 /* A text as csv has it. */
 void dyd_csv_text(FILE *out, const char *text);
 /* Members behind others: , "id_i": "NAME", "id_j": "NAME"; for count = 0 , "id": "NAME" of one site. */

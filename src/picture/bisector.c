@@ -198,14 +198,14 @@ static void bisector_inside(dyd_canvas *c, void *context) {
   draw_curves(c, d);
   for (size_t k = 0; k < 2; k++) {
     dyd_rect_get_d(b[k], d->r[k]);
-    dyd_picture_marked(c, &d->view, b[k], dyd_engine_row(d->engine, k), body[k]);
+    dyd_picture_marked(c, &d->view, b[k], d->engine, k, body[k]);
   }
   if (!dyd_numbers_init(&labels, &d->view)) return;
   for (size_t k = 0; k < 4; k++)
     if (k < 2)
       dyd_numbers_keep_off(&labels, b[k]);
     else
-      dyd_numbers_put(&labels, c, b[k - 2], 18, dyd_engine_row(d->engine, k - 2));
+      dyd_numbers_put(&labels, c, b[k - 2], 18, d->engine, k - 2);
   dyd_numbers_clear(&labels);
 }
 

@@ -166,7 +166,7 @@ static void draw_sites(dyd_canvas *c, delaunay_drawing *d) {
     double b[4];
     if (dyd_delaunay_alias(d->r->pd, (uint32_t)i) != i) continue;
     dyd_sites_get_d(b, d->r->sites, i);
-    d->mark[dyd_picture_site(c, &d->view, b, dyd_engine_row(d->r->engine, i), DYD_PICTURE_BAND)] = true;
+    d->mark[dyd_picture_site(c, &d->view, b, d->r->engine, i, DYD_PICTURE_BAND)] = true;
   }
 }
 
@@ -180,7 +180,7 @@ static void draw_numbers(dyd_canvas *c, const delaunay_drawing *d) {
       if (dyd_delaunay_alias(d->r->pd, (uint32_t)i) != i) continue;
       dyd_sites_get_d(b, d->r->sites, i);
       if (pass)
-        dyd_numbers_put(&labels, c, b, 13, dyd_engine_row(d->r->engine, i));
+        dyd_numbers_put(&labels, c, b, 13, d->r->engine, i);
       else
         dyd_numbers_keep_off(&labels, b);
     }

@@ -128,10 +128,10 @@ static void disc_sites(dyd_canvas *c, const disc_drawing *g) {
       size_t first_first = g->n - 1 - i; /* numbers 0, 1, 2 have the choice */
       dyd_rect_get_d(b, g->r[pass ? first_first : i]);
       if (!pass)
-        dyd_picture_marked(c, &g->view, b, dyd_engine_row(g->engine, i),
+        dyd_picture_marked(c, &g->view, b, g->engine, i,
                            i < 3 ? TRIPLE : con_colour(dyd_partial_disc_con(g->d, g->r[i])));
       if (numbers && !pass) dyd_numbers_keep_off(&labels, b);
-      if (numbers && pass) dyd_numbers_put(&labels, c, b, 18, dyd_engine_row(g->engine, first_first));
+      if (numbers && pass) dyd_numbers_put(&labels, c, b, 18, g->engine, first_first);
     }
   dyd_numbers_clear(&labels);
 }

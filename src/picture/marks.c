@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Sites in a view. */
 #include "io/decimal.h"
+#include "io/label_text.h"
 #include "picture/picture.h"
 #include <math.h>
 
-/* "point 7: x 1.5, y in [2,2.25]" for who points at it. */
-static void name_site(dyd_canvas *c, const double box[4], size_t number) {
-  char id[40], title[160], text[2][2 * DYD_DECIMAL_SIZE + 8];
+/* "point 7 (Alpha): x 1.5, y in [2,2.25]" for who points at it. */
+static void name_site(dyd_canvas *c, const double box[4], const dyd_engine *e, size_t site) {
+  char id[40], title[200], called[DYD_LABEL_SIZE + 8] = "", spare[DYD_LABEL_SIZE], text[2][2 * DYD_DECIMAL_SIZE + 8];
   for (int k = 0; k < 2; k++) {
     char lo[DYD_DECIMAL_SIZE], hi[DYD_DECIMAL_SIZE];
     dyd_decimal_directed(lo, box[2 * k], 10, DYD_DOWN);
@@ -16,16 +17,20 @@ static void name_site(dyd_canvas *c, const double box[4], size_t number) {
     else
       snprintf(text[k], sizeof text[k], "in [%s,%s]", lo, hi);
   }
+  size_t number = dyd_engine_row(e, site);
   snprintf(id, sizeof id, "point-%zu", number);
-  snprintf(title, sizeof title, "point %zu: x %s, y %s", number, text[0], text[1]);
+  const char *label = dyd_label_text(spare, e, site);
+  if (label != spare) snprintf(called, sizeof called, " (%s)", label);
+  snprintf(title, sizeof title, "point %zu%s: x %s, y %s", number, called, text[0], text[1]);
   dyd_canvas_name(c, id, title);
 }
 
-dyd_site_mark dyd_picture_site(dyd_canvas *c, const dyd_view *v, const double box[4], size_t number, unsigned rgb) {
+dyd_site_mark dyd_picture_site(dyd_canvas *c, const dyd_view *v, const double box[4], const dyd_engine *e, size_t site,
+                               unsigned rgb) {
   double x0 = dyd_view_x(v, box[0]), x1 = dyd_view_x(v, box[1]), y0 = dyd_view_y(v, box[3]), y1 = dyd_view_y(v, box[2]);
   const double *f = v->frame;
   if (!dyd_view_sees(v, box)) return DYD_MARK_NONE;
-  name_site(c, box, number);
+  name_site(c, box, e, site);
   if (v->dots || fmax(x1 - x0, y1 - y0) < 2 * v->dot) {
     dyd_canvas_circle(c, x0 / 2 + x1 / 2, y0 / 2 + y1 / 2, v->dot);
     dyd_picture_fill(c, 0x222222);
@@ -39,11 +44,12 @@ dyd_site_mark dyd_picture_site(dyd_canvas *c, const dyd_view *v, const double bo
   return DYD_MARK_RECTANGLE;
 }
 
-void dyd_picture_marked(dyd_canvas *c, const dyd_view *v, const double box[4], size_t number, unsigned rgb) {
+void dyd_picture_marked(dyd_canvas *c, const dyd_view *v, const double box[4], const dyd_engine *e, size_t site,
+                        unsigned rgb) {
   double w = fmax((box[1] - box[0]) * v->scale, 7), h = fmax((box[3] - box[2]) * v->scale, 7);
   double z[2];
   dyd_view_middle(z, v, box);
-  name_site(c, box, number);
+  name_site(c, box, e, site);
   dyd_canvas_box(c, z[0] - w / 2, z[1] - h / 2, w, h);
   dyd_picture_shape(c, rgb, 1, 0x222222, 1.5);
 }

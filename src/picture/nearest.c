@@ -104,14 +104,14 @@ static void nearest_each(dyd_canvas *c, nearest_drawing *g, dyd_numbers *l, bool
 
 static void nearest_mark_site(dyd_canvas *c, nearest_drawing *g, dyd_numbers *l, const double box[4], size_t i,
                               bool found) {
-  dyd_picture_marked(c, &g->view, box, dyd_engine_row(g->engine, i), !found ? NOT : g->answer->sure ? SURE : POSSIBLE);
+  dyd_picture_marked(c, &g->view, box, g->engine, i, !found ? NOT : g->answer->sure ? SURE : POSSIBLE);
   g->others = g->others || !found;
   if (l->taken) dyd_numbers_keep_off(l, box);
 }
 
 static void nearest_number(dyd_canvas *c, nearest_drawing *g, dyd_numbers *l, const double box[4], size_t i,
                            bool found) {
-  dyd_numbers_put(l, c, box, found ? 18 : 14, dyd_engine_row(g->engine, i));
+  dyd_numbers_put(l, c, box, found ? 18 : 14, g->engine, i);
 }
 
 static void draw_ways(dyd_canvas *c, const nearest_drawing *g) {

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Numbers beside sites, where there is room.
+/* Numbers or identifiers beside sites, where there is room.
  *
  * The page is divided into small squares; what is drawn takes those that it meets, and a number stands at the first of
  * eight places around its site whose squares are all free. */
+#include "io/label_text.h"
 #include "picture/picture.h"
 #include <math.h>
 #include <stdlib.h>
@@ -63,13 +64,14 @@ void dyd_numbers_keep_off(dyd_numbers *l, const double box[4]) {
   if (dyd_view_sees(l->view, box)) take_squares(l, z);
 }
 
-void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double size, size_t number) {
+void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double size, const dyd_engine *e,
+                     size_t site) {
   /* Steps right and down from the box: -1 before, 0 about the middle, 1 behind. */
   static const int place[8][2] = {{1, -1}, {1, 1}, {-1, -1}, {-1, 1}, {1, 0}, {-1, 0}, {0, -1}, {0, 1}};
-  char text[24];
+  char spare[DYD_LABEL_SIZE];
   double b[4], z[4];
   if (!dyd_view_sees(l->view, box)) return;
-  snprintf(text, sizeof text, "%zu", number);
+  const char *text = dyd_label_text(spare, e, site);
   double wide = dyd_canvas_width(c, size, text), high = 0.74 * size, gap = 3;
   page_box(b, l->view, box);
   for (int k = 0; k < 8; k++) {

@@ -87,15 +87,17 @@ void dyd_picture_dot(dyd_canvas *c, double x, double y, double radius, unsigned 
 void dyd_picture_box(dyd_canvas *c, const dyd_view *v, const double box[4]);
 
 /* A site as it can be seen: a rectangle filled with rgb where it is large enough, else a dot; nothing outside of the
- * view. It has the name "point-I" and its coordinates for a title. Returns what was drawn. */
+ * view. It has the name "point-I", and its coordinates, with its identifier, for a title. Returns what was drawn. */
 typedef enum dyd_site_mark { DYD_MARK_NONE, DYD_MARK_DOT, DYD_MARK_RECTANGLE } dyd_site_mark;
-dyd_site_mark dyd_picture_site(dyd_canvas *c, const dyd_view *v, const double box[4], size_t number, unsigned rgb);
+dyd_site_mark dyd_picture_site(dyd_canvas *c, const dyd_view *v, const double box[4], const dyd_engine *e, size_t site,
+                               unsigned rgb);
 /* A rectangle, however small it is, filled with rgb. */
-void dyd_picture_marked(dyd_canvas *c, const dyd_view *v, const double box[4], size_t number, unsigned rgb);
+void dyd_picture_marked(dyd_canvas *c, const dyd_view *v, const double box[4], const dyd_engine *e, size_t site,
+                        unsigned rgb);
 
 /* ---- numbers.c ---- */
 
-/* Numbers of sites where there is room: on no rectangle, on no other number, inside of the frame. */
+/* Numbers or identifiers of sites where there is room: on no rectangle, on no other number, inside of the frame. */
 typedef struct dyd_numbers {
   const dyd_view *view;
   unsigned char *taken; /* squares of the page */
@@ -107,8 +109,8 @@ bool dyd_numbers_init(dyd_numbers *l, const dyd_view *v);
 void dyd_numbers_clear(dyd_numbers *l);
 /* Nothing may stand on this box, or on the dot that stands for it. */
 void dyd_numbers_keep_off(dyd_numbers *l, const double box[4]);
-/* Writes the number of a site beside its box, if there is room. */
-void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double size, size_t number);
+/* Writes what a site of e is called beside its box, if there is room. */
+void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double size, const dyd_engine *e, size_t site);
 
 /* ---- legend.c ---- */
 

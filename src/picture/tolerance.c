@@ -72,7 +72,7 @@ static void tolerance_inside(dyd_canvas *c, void *context) {
   for (size_t i = 0; i < g->r->count; i++) {
     double b[4];
     dyd_sites_get_d(b, g->r->sites, i);
-    dyd_picture_site(c, &g->view, b, i, DYD_PICTURE_BAND);
+    dyd_picture_site(c, &g->view, b, g->r->engine, i, DYD_PICTURE_BAND);
   }
 }
 

@@ -120,9 +120,9 @@ static void voronoi_sites(voronoi_drawing *g) {
       double b[4];
       dyd_sites_get_d(b, g->d->sites, i);
       if (!dyd_box_is_finite(b) || dyd_delaunay_alias(g->d->pd, (uint32_t)i) != i) continue;
-      if (!pass) g->mark[dyd_picture_site(g->canvas, &g->view, b, dyd_engine_row(g->d->engine, i), SITE)] = true;
+      if (!pass) g->mark[dyd_picture_site(g->canvas, &g->view, b, g->d->engine, i, SITE)] = true;
       if (numbers && !pass) dyd_numbers_keep_off(&labels, b);
-      if (numbers && pass) dyd_numbers_put(&labels, g->canvas, b, 13, dyd_engine_row(g->d->engine, i));
+      if (numbers && pass) dyd_numbers_put(&labels, g->canvas, b, 13, g->d->engine, i);
     }
   dyd_numbers_clear(&labels);
 }

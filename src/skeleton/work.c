@@ -21,6 +21,7 @@ void dyd_work_clear(dyd_work *w) {
 
 void dyd_work_fork(dyd_work *task, const dyd_work *w, const dyd_skeleton *sk) {
   dyd_work_init(task, sk, w->cancel);
+  task->keep_cut = w->keep_cut;
 }
 
 static void add_counters(dyd_delaunay_counters *sum, const dyd_delaunay_counters *c) {

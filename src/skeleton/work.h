@@ -16,6 +16,7 @@ typedef struct dyd_work {
   const dyd_rects *rects;     /* who is asked: everybody, unless fewer will do; borrowed */
   const volatile int *cancel; /* NULL: nobody can */
   unsigned threads;           /* for passes over everything */
+  bool keep_cut;              /* what is stopped while faces are closed counts as met by the cap */
   dyd_error *err;             /* NULL: nobody asks */
   dyd_tally tally;            /* of the predicates of the mesh */
   dyd_delaunay_counters counters;

@@ -94,6 +94,42 @@ def test_time_enough():
             assert free.out == bounded.out
 
 
+CROWD = ''.join(f'{x}+-5e-3 {y}+-5e-3\n' for x, y in (
+    (round(k * 0.6180339887 % 1, 6), round(k * k * 0.4142135623 % 1, 6)) for k in range(6000)))
+
+
+def test_first_closure_that_is_cut():
+    """What is known before all undecided faces are closed is written: faces that were not are named, as with a cap."""
+    whole = run('delaunay', '-', stdin=CROWD)
+    status = {}
+    for row in csv.DictReader(line for line in whole.out.splitlines() if line[0] != '#'):
+        status[row['i'], row['j']] = row['status']
+    for seconds in (4, 2, 1, 0.5, 0.25, 0.125, 0.06):
+        result = timed(seconds, 'delaunay', '-', stdin=CROWD)
+        if result.out.startswith('# capped:'):
+            break
+    expect(result, 4, '^# capped: .*\n(# face [0-9 ]+\n)+', r'^dyadel: budget: .* the time is used up; raise --timeout')
+    faces = [set(line.split()[2:]) for line in result.out.splitlines() if line.startswith('# face')]
+    listed = {}
+    for row in csv.DictReader(line for line in result.out.splitlines() if line[0] != '#'):
+        listed[row['i'], row['j']] = row['status']
+    assert listed and listed != status
+    for pair, known in listed.items():
+        assert known == 'indeterminate' or status[pair] == known, (pair, known)
+    for pair, truth in status.items():
+        assert listed.get(pair) or any(face.issuperset(pair) for face in faces), (pair, truth)
+        assert truth != 'legal' or listed.get(pair), pair
+
+
+def test_bounds_that_are_cut():
+    """A table whose last bounds took too long is written without these."""
+    result = timed(2, 'converge', '-', stdin=TRACKS)
+    expect(result, 4, '^stage,', r'^dyadel: budget: the time is used up: bounds of stage 1 are left out; raise --timeout')
+    row, = csv.DictReader(line for line in result.out.splitlines() if line[0] != '#')
+    assert row['legal'] and row['area'] and not row['v_area'] and not row['v_hausdorff'], row
+    expect(run('converge', '--no-voronoi', '-', stdin=TRACKS), 3, '^stage,')
+
+
 def test_one_message():
     """Of points beyond doubles, and of polygons, one line tells, and names the points."""
     with tempfile.TemporaryDirectory() as folder:

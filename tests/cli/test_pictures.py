@@ -93,6 +93,27 @@ def test_numbers():
     assert not texts(picture('delaunay', close), '13'), 'there is no room for 1600 numbers'
 
 
+NAMED = 'name,x,y,r\n<a>&b,0,0,0.1\nÄgypten,4,0,0.1\n"longer than there is room for",2,3,0.2\n,5,4,0.1\n'
+
+
+def test_identifiers():
+    """Points are called by their identifiers where these are short and not empty, else by their numbers."""
+    for command, place, titles in (('delaunay', (), True), ('voronoi', (), True), ('nearest', ('2', '1'), True),
+                                   ('disc', (), False), ('bisector', (), False)):
+        text = picture(command, NAMED, '--columns', 'x,y', '--radius-column', 'r', '--id', 'name', place=place)
+        found = svg.words(text)
+        for label in ('<a>&b', 'Ägypten', '2', '3')[:2 if command == 'bisector' else 3 if not titles else 4]:
+            assert label in found, (command, label, found)
+        if titles:
+            title = {e.look['id']: e.title for e in svg.elements(text) if e.look.get('id', '').startswith('point-')}
+            assert title['point-0'].startswith('point 0 (<a>&b): x '), title
+            assert title['point-2'].startswith('point 2: x ') and title['point-3'].startswith('point 3: x '), title
+    for kind in ('png', 'pdf'):
+        odd = run('delaunay', '--quiet', '--format', kind, '--columns', 'x,y', '--id', 'name', '-', binary=True,
+                  stdin=b'name,x,y\nb\xff\xfe,0,0\na\x1b,4,0\nc,2,3\n')
+        assert odd.code == 0 and len(odd.out) > 1000, (kind, odd.err)
+
+
 def test_coordinates():
     """Ticks stand where the numbers beside them say, on both sides of the frame."""
     for points, wide in (('0 0\n7 3\n', 7), (TWELVE, 200), ('1e-9 2e-9\n3e-9 1e-9\n', 2e-9), ('-1e12 0\n1e12 5e11\n', 2e12)):

@@ -2,6 +2,7 @@
 /* Budgets, cancellation, and going on after either. */
 #include "engine/help.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <signal.h>
 #include <string.h>
@@ -196,6 +197,45 @@ static void test_seconds_within(void **state) {
   dyd_engine_free(e);
 }
 
+static dyd_engine *engine_of_crowd(size_t n) {
+  dyd_engine *e = engine_new();
+  for (size_t k = 0; k < n; k++) {
+    double x0 = fmod((double)k * 0.6180339887, 1), y0 = fmod((double)(k * k) * 0.4142135623, 1);
+    double x1 = x0 + 0.25 / sqrt((double)n), y1 = y0 + 0.25 / sqrt((double)n);
+    assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 1, &x0, &x1, &y0, &y1));
+  }
+  return e;
+}
+
+/* Time that ends while the first faces are closed: those done count, the others as met by the cap, and with more time
+ * the result is that of a run which was never stopped. */
+static void test_seconds_first(void **state) {
+  (void)state;
+  size_t count[4], cut[4];
+  const size_t n = 4000;
+  dyd_engine *e = NULL, *whole = engine_of_crowd(n);
+  engine_run(whole, NULL, DYD_OUTCOME_FIXPOINT);
+  engine_count(count, whole);
+  dyd_engine_options o = options();
+  bool was = false;
+  for (o.seconds = 16; !was && o.seconds > 0x1p-8; o.seconds /= 1.25) {
+    dyd_outcome outcome;
+    e = engine_of_crowd(n);
+    assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &o, NULL));
+    was = dyd_engine_delaunay(e) && dyd_delaunay_is_capped(dyd_engine_delaunay(e));
+    if (!was) dyd_engine_free(e);
+  }
+  assert_true(was);
+  assert_int_equal(DYD_BUDGET_SECONDS, engine_counters(e).spent);
+  engine_count(cut, e);
+  assert_int_equal(count[DYD_LEGAL], cut[DYD_LEGAL]);
+  assert_true(cut[DYD_INDETERMINATE] < count[DYD_INDETERMINATE]); /* those of the skeleton are listed */
+  engine_run(e, NULL, DYD_OUTCOME_FIXPOINT);
+  assert_same_statuses(e, whole);
+  dyd_engine_free(e);
+  dyd_engine_free(whole);
+}
+
 static void test_bad_options(void **state) {
   (void)state;
   dyd_engine *e = engine_new();
@@ -321,9 +361,10 @@ int main(void) {
       cmocka_unit_test(test_stages),         cmocka_unit_test(test_calls),
       cmocka_unit_test(test_pairs),          cmocka_unit_test(test_pairs_dissolved),
       cmocka_unit_test(test_pairs_of_ties),  cmocka_unit_test(test_seconds),
-      cmocka_unit_test(test_seconds_within), cmocka_unit_test(test_bad_options),
-      cmocka_unit_test(test_cancel_before),  cmocka_unit_test(test_cancel_inside),
-      cmocka_unit_test(test_cancel_thread),  cmocka_unit_test(test_cancel_signal),
+      cmocka_unit_test(test_seconds_within), cmocka_unit_test(test_seconds_first),
+      cmocka_unit_test(test_bad_options),    cmocka_unit_test(test_cancel_before),
+      cmocka_unit_test(test_cancel_inside),  cmocka_unit_test(test_cancel_thread),
+      cmocka_unit_test(test_cancel_signal),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
