@@ -150,7 +150,8 @@ static int options_fit(const cli_options *o, uint64_t seen, const cli_command *c
 
 /* The layer named, as one of what the command writes. */
 static int layer_fits(cli_options *o, const cli_command *c) {
-  dyd_content of = o->sphere ? DYD_CONTENT_SPHERE : c->content;
+  bool diagram = c == &cli_commands[CLI_VORONOI];
+  dyd_content of = !o->sphere ? c->content : diagram ? DYD_CONTENT_SPHERE_VORONOI : DYD_CONTENT_SPHERE;
   o->content = o->queries ? DYD_CONTENT_PLACES : of;
   if (!o->layer || dyd_layer_from_name(&o->content, of, o->layer)) return 0;
   fprintf(stderr, "dyadel: %s has no layer \"%s\"; give ", c->name, o->layer);

@@ -113,7 +113,7 @@ const cli_option cli_option_table[] = {
     {"radius", 0, "R", CLI_TEXT, TEXT, CLI_INPUT, "widen every point by R on each side", AT(read.radius)},
     {"discs", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY), CLI_INPUT,
      "radii are those of discs, not of squares around them:\nfewer pairs stay indeterminate", AT(discs)},
-    {"sphere", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY), CLI_INPUT,
+    {"sphere", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_INPUT,
      "points are longitude and latitude in degrees, on a sphere;\n--radius may have a unit: 30m, 2km, 0.01deg",
      AT(sphere)},
     {"oracle", 0, "COMMAND", CLI_TEXT, READ, CLI_INPUT,

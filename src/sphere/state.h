@@ -9,6 +9,7 @@
  *   project.c        enclosures of images
  *   ties.c           which places are on one circle
  *   cyclic.c         sums of roots of unity: are they 0?
+ *   vertex.c         Voronoi vertices
  *   result.c         statuses and triangles, by the numbers of the places */
 #ifndef DYD_SPHERE_STATE_H
 #define DYD_SPHERE_STATE_H
