@@ -23,6 +23,7 @@ typedef struct dyd_read_report {
   size_t missing; /* rows left out by skip_missing */
   size_t merged;  /* rows taken as one with an earlier one by merge */
   size_t shared;  /* rectangles whose centre is that of another one, which leaves their neighbours undecided */
+  bool degrees;   /* the columns of x and y are called longitude and latitude (lon.., lng.. and lat.., in any case) */
 } dyd_read_report;
 
 /* Columns are named as in the header (quoted as in RFC 4180 when they hold commas; capitals count only where names

@@ -68,8 +68,11 @@ static dyd_status places_round(rounded_place *out, size_t *count, const dyd_sphe
   for (uint32_t i = 0; i < s->count && st == DYD_OK; i++) {
     s->alias[i] = i;
     st = dyd_sphere_spot(&spot, s, i, err);
-    if (st != DYD_OK || !dyd_sphere_is_fixed(s, i) || !dyd_spot_is_exact(&spot) || mpq_sgn(s->angle)) continue;
-    out[(*count)++] = (rounded_place){{mpq_get_d(spot.mid[0]), mpq_get_d(spot.mid[1])}, i};
+    if (st != DYD_OK) break;
+    dyd_rough_place *r = &s->rough[i];
+    for (int a = 0; a < 2; a++) r->at[a] = mpq_get_d(spot.mid[a]), r->half[a] = mpq_get_d(spot.half[a]);
+    if (!dyd_sphere_is_fixed(s, i) || !dyd_spot_is_exact(&spot) || mpq_sgn(s->angle)) continue;
+    out[(*count)++] = (rounded_place){{r->at[0], r->at[1]}, i};
   }
   dyd_spot_clear(&spot);
   return st;

@@ -378,6 +378,22 @@ def test_ids_and_rows():
     expect(run(*args, '-', stdin=text), 0, r'\A# alias 4 2\ni,j,status,id_i,id_j\n0,2,legal,a,c\n0,3,legal,a,d\n2,3,legal,c,d\n\Z')
 
 
+def test_note():
+    """Degrees by their names, read as a plane, are told of once; not where they are no degrees, or it is meant."""
+    note = r'\Adyadel: -: the columns are longitude and latitude by their names.*--sphere; --plane says'
+    for head in ('lon,lat', 'Longitude,LATITUDE', 'lng;latitude_deg', 'lon_x,lat_y'):
+        names = head.replace(';', ',')
+        text = head + '\n0 1\n-180 90\n3 4\n'.replace(' ', head[3] if head[3] == ';' else ',')
+        expect(run('delaunay', '--columns', names, '-', stdin=text), 0, 'i,j,status', note + r'[^\n]*\n\Z')
+        for quiet in ('--plane', '--quiet', '--sphere'):
+            expect(run('delaunay', quiet, '--columns', names, '-', stdin=text), 0, 'i,j,status', r'\A\Z')
+    expect(run('tolerance', '--columns', '1,2', '-', stdin='lon,lat\n0,1\n'), 0, '', note)
+    for text in ('lon,lat\n181,1\n', 'x,y\n0,1\n', 'lat,lon\n1,2\n', 'lon,lat\n'):
+        got = run('delaunay', '--columns', '1,2', '-', stdin=text)
+        assert got.code == 0 and 'by their names' not in got.err, (text, got)
+    expect(run('delaunay', '--sphere', '--plane', '-', stdin=OCTAHEDRON), 2, r'\A\Z', 'contradict')
+
+
 def test_certificate():
     """It is about the images, and says so; what it states is accepted."""
     with tempfile.TemporaryDirectory() as folder:
