@@ -12,6 +12,7 @@ import random
 import re
 import tempfile
 import time
+import xml.etree.ElementTree
 
 import globe
 from globe import Q
@@ -369,6 +370,20 @@ def test_voronoi_layers():
         assert len(got['cells']) == cells and all(c['complete'] for c in got['cells']) and len(got['vertices']) == 2 * (cells == 3)
     expect(run('voronoi', '--sphere', '--flatten', '3', '-', stdin=OCTAHEDRON), 2, r'\A\Z', '--flatten is about the plane')
     expect(run('voronoi', '--sphere', '--format', 'geojson', '--layer', 'regions', '-', stdin=OCTAHEDRON), 2, r'\A\Z', 'does not write geojson; give csv')
+
+
+def test_pictures():
+    """Well-formed, all marks in it, a graticule, nothing that runs across the map from side to side."""
+    for command in ('delaunay', 'voronoi'):
+        for text in ('', '1 2\n', '10 50\n11 50\n10 51\n', OCTAHEDRON + '170 20\n-170 10\n'):
+            result = run(command, '--sphere', '--format', 'svg', '-', stdin=text)
+            expect(result, 0, '<svg')
+            xml.etree.ElementTree.fromstring(result.out)
+            assert result.out.count('id="point-') == text.count('\n') and 'graticule' in result.out
+        for form, magic in (('pdf', '%PDF'), ('png', '\x89PNG')):
+            assert run(command, '--sphere', '--format', form, '-', stdin=OCTAHEDRON, binary=True).out.startswith(magic)
+    drawn = run('delaunay', '--sphere', '--format', 'svg', *AIRPORTS).out
+    assert 'legal: 10122' in drawn and drawn.count('id="point-') == 3376
 
 
 def test_ids_and_rows():
