@@ -34,7 +34,7 @@ static corner_view *view_find(corner_view *view, size_t count, uint32_t at, uint
 }
 
 /* Lists the chain from `from` on; returns how many, and whether it came back. */
-static size_t chain_walk(bool *cycle, dyd_sphere_cells *c, size_t n, corner_view *view, size_t count,
+static size_t nodes_walk(bool *cycle, dyd_sphere_cells *c, size_t n, corner_view *view, size_t count,
                          corner_view *from) {
   corner_view *v = from;
   size_t begin = n;
@@ -58,7 +58,7 @@ static size_t cell_walk(dyd_sphere_cells *c, size_t n, corner_view *view, size_t
   for (int pass = 0; pass < 2; pass++)
     for (size_t k = 0; k < count; k++) {
       if (view[k].used || (pass == 0 && view[k].has_before)) continue;
-      n = chain_walk(&cycle, c, n, view, count, &view[k]);
+      n = nodes_walk(&cycle, c, n, view, count, &view[k]);
       all = all && cycle;
     }
   if (count) c->closed[view[0].at] = all;

@@ -9,7 +9,7 @@
 #include "io/result.h"
 #include "io/sphere_cells.h"
 
-static dyd_table_head diagram_head(const dyd_output *o, const char *const *column, dyd_geometry geometry) {
+static dyd_table_head sphere_diagram_head(const dyd_output *o, const char *const *column, dyd_geometry geometry) {
   const dyd_sphere_result *r = o->what;
   return (dyd_table_head){o->out, o->format, column, geometry, r->epsg, dyd_sphere_places(r->sphere), r->sphere};
 }
@@ -57,7 +57,7 @@ static dyd_status cell_row(dyd_table *t, const dyd_sphere_cells *c, size_t i) {
 dyd_status dyd_sphere_layer_cells(const dyd_output *o) {
   static const char *const column[] = {"i", "id", "complete", "vertices", NULL};
   const dyd_sphere_result *r = o->what;
-  const dyd_table_head head = diagram_head(o, column, DYD_GEOMETRY_POLYGONS);
+  const dyd_table_head head = sphere_diagram_head(o, column, DYD_GEOMETRY_POLYGONS);
   dyd_sphere_cells c = {0};
   dyd_table t;
   dyd_status st = dyd_sphere_cells_find(&c, r->sphere, o->err);
@@ -75,7 +75,7 @@ dyd_status dyd_sphere_layer_cells(const dyd_output *o) {
 dyd_status dyd_sphere_layer_vertices(const dyd_output *o) {
   static const char *const column[] = {"i", "j", "k", "id_i", "id_j", "id_k", "xlo", "xhi", "ylo", "yhi", NULL};
   const dyd_sphere_result *r = o->what;
-  const dyd_table_head head = diagram_head(o, column, DYD_GEOMETRY_POINT);
+  const dyd_table_head head = sphere_diagram_head(o, column, DYD_GEOMETRY_POINT);
   dyd_sphere_cells c = {0};
   dyd_table t;
   dyd_status st = dyd_sphere_cells_find(&c, r->sphere, o->err);

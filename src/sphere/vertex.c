@@ -12,7 +12,7 @@
 enum { PREC = 128 };
 
 /* v = the vector of all places of the spot. */
-static void vector_set(arb_ptr v, const dyd_spot *spot) {
+static void spot_vector(arb_ptr v, const dyd_spot *spot) {
   arb_t angle[2], sin, cos;
   mag_t half;
   arb_init(sin);
@@ -116,7 +116,7 @@ static dyd_status corner_set(arb_ptr v, const dyd_sphere *s, uint32_t i, dyd_err
   dyd_spot_init(&spot);
   dyd_status st = dyd_sphere_spot(&spot, s, i, err);
   if (st == DYD_OK && mpq_sgn(s->angle)) dyd_spot_widen(&spot, s->angle);
-  if (st == DYD_OK) vector_set(v, &spot);
+  if (st == DYD_OK) spot_vector(v, &spot);
   dyd_spot_clear(&spot);
   return st;
 }
