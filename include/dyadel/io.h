@@ -23,6 +23,7 @@ typedef struct dyd_read_report {
   size_t missing; /* rows left out by skip_missing */
   size_t merged;  /* rows taken as one with an earlier one by merge */
   size_t shared;  /* rectangles whose centre is that of another one, which leaves their neighbours undecided */
+  bool degrees;   /* the columns of x and y are called longitude and latitude (lon.., lng.. and lat.., in any case) */
 } dyd_read_report;
 
 /* Columns are named as in the header (quoted as in RFC 4180 when they hold commas; capitals count only where names
@@ -99,7 +100,10 @@ typedef enum dyd_content {
   DYD_CONTENT_GRAPH_MST,
   DYD_CONTENT_SPHERE, /* the triangulation of a sphere: pairs, and its other layers */
   DYD_CONTENT_SPHERE_POINTS,
-  DYD_CONTENT_SPHERE_TRIANGLES
+  DYD_CONTENT_SPHERE_TRIANGLES,
+  DYD_CONTENT_SPHERE_VORONOI, /* its diagram: cells, and other layers */
+  DYD_CONTENT_SPHERE_VERTICES,
+  DYD_CONTENT_SPHERE_REGIONS
 } dyd_content;
 
 /* Finds a format by its name ("csv"), or by the ending of a file's name ("a/map.svg", in any case); false when there is
@@ -115,8 +119,8 @@ DYD_API bool dyd_format_is_binary(dyd_format format);
 DYD_API const char *dyd_format_name(dyd_format format);
 /* What it is, in words without a full stop; NULL as above. Static storage. */
 DYD_API const char *dyd_format_about(dyd_format format);
-/* The layers of DYD_CONTENT_DELAUNAY, _VORONOI, _TOLERANCE and _SPHERE: the k-th name, the default first,
- * NULL behind the last one; and the content that a name ("points") stands for, false when there is none. Static
+/* The layers of DYD_CONTENT_DELAUNAY, _VORONOI, _TOLERANCE, _SPHERE and _SPHERE_VORONOI: the k-th name, the default
+ * first, NULL behind the last one; and the content that a name ("points") stands for, false when there is none. Static
  * storage. */
 DYD_API const char *dyd_layer_name(dyd_content of, size_t k);
 DYD_API bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name);
@@ -208,8 +212,10 @@ DYD_API dyd_status dyd_write_tolerance(FILE *out, const dyd_engine *e, const dyd
 
 typedef struct dyd_sphere_output {
   size_t struct_size; /* set by DYD_SIZED */
-  dyd_content layer;  /* what csv, wkt and geojson hold; DYD_CONTENT_NONE: the pairs */
-  unsigned epsg;      /* as in dyd_delaunay_output; 0: longitude and latitude (CRS84) in geojson */
+  /* What csv, wkt and geojson hold, of the triangulation or the diagram; json holds all of it. DYD_CONTENT_NONE: the
+   * pairs. */
+  dyd_content layer;
+  unsigned epsg; /* as in dyd_delaunay_output; 0: longitude and latitude (CRS84) in geojson */
 } dyd_sphere_output;
 /* Writes the current result of s; o may be NULL. In wkt and geojson edges are great circles, a place at every 2 degrees
  * at most, cut where they cross the meridian of 180 degrees; of triangles that hold more than half of the sphere the

@@ -63,6 +63,13 @@ DYD_API dyd_status dyd_sphere_rect(dyd_rect *out, const dyd_sphere *s, uint32_t 
  * Triangles as dyd_delaunay_triangles, counter-clockwise from outside; of three points both sides. */
 DYD_API dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s);
 DYD_API dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere *s);
+/* The sites of undecided face f of the images, the centre among them where the face is unbounded; ascending. *tie: all
+ * its pairs are ties, so that its Voronoi region is one point. f < dyd_delaunay_undecided_faces of the images. */
+DYD_API dyd_status dyd_sphere_face(dyd_index_list *out, bool *tie, const dyd_sphere *s, size_t f);
+/* A box of degrees (longitude lower, upper, latitude lower, upper) that holds the Voronoi vertex of t, one of
+ * dyd_sphere_triangles, for every choice of its corners. Longitudes may reach beyond 180; near a pole they may be all.
+ * [SPH-4] */
+DYD_API dyd_status dyd_sphere_vertex(double box[4], const dyd_sphere *s, const dyd_triangle *t, dyd_error *err);
 
 #ifdef __cplusplus
 }

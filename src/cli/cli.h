@@ -93,7 +93,7 @@ int cli_number_read(mpq_ptr out, const char *name, const char *text);
 /* One function for each command, in a file of its own; returns the exit status. */
 int cli_delaunay(const cli_options *o);
 int cli_voronoi(const cli_options *o);
-/* sphere.c: delaunay with --sphere. */
+/* sphere.c: delaunay and voronoi with --sphere. */
 int cli_sphere(const cli_options *o);
 int cli_check(const cli_options *o);
 int cli_converge(const cli_options *o);

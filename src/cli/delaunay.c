@@ -73,9 +73,9 @@ static int delaunay_discs(cli_options *o) {
 int cli_delaunay(const cli_options *o) {
   cli_options own = *o; /* with the window read */
   dyd_rect window;
+  if (o->sphere) return cli_sphere(o);
   dyd_rect_init(&window);
   int status = 0;
-  if (o->sphere) return cli_sphere(o);
   if (o->window) {
     own.view = &window;
     status = cli_window_read(&window, o->window);

@@ -128,6 +128,13 @@ static bool trace_has_points(const cli_options *o, const cli_command *c) {
   return o->replay && c == &cli_commands[CLI_CONVERGE];
 }
 
+/* What contradicts itself. */
+static int sphere_fits(const cli_options *o) {
+  if (!o->sphere || !o->plane) return 0;
+  cli_complain("--sphere and --plane contradict each other; leave one of them away");
+  return CLI_USAGE;
+}
+
 static int options_fit(const cli_options *o, uint64_t seen, const cli_command *c) {
   for (size_t k = 0; k < cli_option_count; k++) {
     if (!(seen >> k & 1) || cli_option_exists(&cli_option_table[k], cli_command_bit(c))) continue;
@@ -150,7 +157,8 @@ static int options_fit(const cli_options *o, uint64_t seen, const cli_command *c
 
 /* The layer named, as one of what the command writes. */
 static int layer_fits(cli_options *o, const cli_command *c) {
-  dyd_content of = o->sphere ? DYD_CONTENT_SPHERE : c->content;
+  bool diagram = c == &cli_commands[CLI_VORONOI];
+  dyd_content of = !o->sphere ? c->content : diagram ? DYD_CONTENT_SPHERE_VORONOI : DYD_CONTENT_SPHERE;
   o->content = o->queries ? DYD_CONTENT_PLACES : of;
   if (!o->layer || dyd_layer_from_name(&o->content, of, o->layer)) return 0;
   fprintf(stderr, "dyadel: %s has no layer \"%s\"; give ", c->name, o->layer);
@@ -246,6 +254,7 @@ int cli_options_read(cli_options *out, int argc, char **argv) {
   out->command = c->name;
   if (out->help || out->version) return 0;
   status = options_fit(out, s.seen, c);
+  if (!status) status = sphere_fits(out);
   if (!status) status = layer_fits(out, c);
   if (!status) status = format_from_output(out, c);
   if (!status) status = format_fits(out, c);

@@ -33,6 +33,18 @@ int cli_points_read(dyd_engine *e, const cli_options *o) {
   return o->oracle ? cli_oracle_read(e, o) : session_read_file(e, o, NULL);
 }
 
+/* Can all points be places on the globe? */
+static bool points_are_degrees(const dyd_engine *e) {
+  double b[4];
+  bool good = dyd_engine_count(e) > 0;
+  for (size_t i = 0; good && i < dyd_engine_count(e); i++) {
+    if (!dyd_engine_knows(e, (uint32_t)i)) continue;
+    dyd_sites_get_d(b, dyd_engine_sites(e), i);
+    good = b[0] >= -180 && b[1] <= 180 && b[2] >= -90 && b[3] <= 90;
+  }
+  return good;
+}
+
 int cli_points_read_noting(dyd_engine *e, const cli_options *o) {
   if (o->oracle) return cli_oracle_read(e, o);
   dyd_read_report r = {DYD_SIZED(dyd_read_report)};
@@ -48,6 +60,11 @@ int cli_points_read_noting(dyd_engine *e, const cli_options *o) {
              "%s: %zu rectangles have the centre of another one, so that what is next to them stays undecided; if "
              "equal coordinates are one point, give --merge",
              o->file, r.shared);
+  if (r.degrees && !o->sphere && !o->plane && points_are_degrees(e))
+    cli_note(o,
+             "%s: the columns are longitude and latitude by their names, and taken as coordinates in a plane; for "
+             "neighbours on the globe give delaunay or voronoi --sphere; --plane says that the plane is meant",
+             o->file);
   return 0;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* dyadel delaunay --sphere FILE: the points of the file are places, their images are run. */
+/* --sphere of delaunay and voronoi: the points of the file are places, their images are run. */
 #include "cli.h"
 
 static dyd_status sphere_write(FILE *out, const void *sphere, const cli_options *o, dyd_error *err) {
@@ -20,6 +20,7 @@ static dyd_status sphere_run(dyd_engine *images, const dyd_engine_options *optio
 
 static int refuse_on_sphere(const cli_options *o) {
   const char *what = o->discs                             ? "--discs"
+                     : o->flatten_set                     ? "--flatten"
                      : o->window                          ? "--window"
                      : o->engine.goal != DYD_GOAL_DECIDED ? "--until"
                                                           : NULL;

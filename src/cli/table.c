@@ -113,9 +113,11 @@ const cli_option cli_option_table[] = {
     {"radius", 0, "R", CLI_TEXT, TEXT, CLI_INPUT, "widen every point by R on each side", AT(read.radius)},
     {"discs", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY), CLI_INPUT,
      "radii are those of discs, not of squares around them:\nfewer pairs stay indeterminate", AT(discs)},
-    {"sphere", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY), CLI_INPUT,
+    {"sphere", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_INPUT,
      "points are longitude and latitude in degrees, on a sphere;\n--radius may have a unit: 30m, 2km, 0.01deg",
      AT(sphere)},
+    {"plane", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
+     "columns called longitude and latitude are meant to be\ncoordinates in a plane: no note about it", AT(plane)},
     {"oracle", 0, "COMMAND", CLI_TEXT, READ, CLI_INPUT,
      "in place of FILE: ask this program (sh -c) for the points;\nit prints \"points N\", then answers each line "
      "\"refine I B\"\nby \"I XLO XHI YLO YHI\", aiming at widths of 2^-B",

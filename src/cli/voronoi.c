@@ -73,6 +73,7 @@ int cli_voronoi(const cli_options *o) {
   dyd_voronoi_bounds bounds;
   size_t cut = 0;
   bool known = false;
+  if (o->sphere) return cli_sphere(o);
   dyd_rect_init(&window);
   dyd_voronoi_bounds_init(&bounds);
   own.bounds = &bounds;

@@ -90,7 +90,10 @@ static const struct {
               {"barcode", DYD_CONTENT_TOLERANCE, DYD_CONTENT_BARCODE},
               {"pairs", DYD_CONTENT_SPHERE, DYD_CONTENT_SPHERE},
               {"points", DYD_CONTENT_SPHERE, DYD_CONTENT_SPHERE_POINTS},
-              {"triangles", DYD_CONTENT_SPHERE, DYD_CONTENT_SPHERE_TRIANGLES}};
+              {"triangles", DYD_CONTENT_SPHERE, DYD_CONTENT_SPHERE_TRIANGLES},
+              {"cells", DYD_CONTENT_SPHERE_VORONOI, DYD_CONTENT_SPHERE_VORONOI},
+              {"vertices", DYD_CONTENT_SPHERE_VORONOI, DYD_CONTENT_SPHERE_VERTICES},
+              {"regions", DYD_CONTENT_SPHERE_VORONOI, DYD_CONTENT_SPHERE_REGIONS}};
 enum { LAYERS = sizeof layers / sizeof *layers };
 
 const char *dyd_layer_name(dyd_content of, size_t k) {

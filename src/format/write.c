@@ -283,8 +283,10 @@ dyd_status dyd_write_sphere(FILE *out, const dyd_sphere *s, const dyd_sphere_out
   if (err) dyd_error_clear(err);
   dyd_sphere_output o;
   if (dyd_abi_take(&o, sizeof o, options, "dyd_sphere_output", err) != DYD_OK) return DYD_E_ARG;
-  if (refuse_layer(o.layer, DYD_CONTENT_SPHERE, err) != DYD_OK || !result_of(dyd_sphere_images(s), err))
+  if (refuse_layer(o.layer, DYD_CONTENT_SPHERE, err) != DYD_OK &&
+      refuse_layer(o.layer, DYD_CONTENT_SPHERE_VORONOI, err) != DYD_OK)
     return DYD_E_ARG;
+  if (!result_of(dyd_sphere_images(s), err)) return DYD_E_ARG;
   dyd_sphere_result r = {.sphere = s, .epsg = o.epsg};
   dyd_status st = dyd_sphere_pairs(&r.pairs, s);
   if (st == DYD_OK)

@@ -20,7 +20,7 @@ typedef struct dyd_output {
 typedef dyd_status dyd_writer(const dyd_output *o);
 /* The writers of a format are an array by content, NULL where it cannot hold that: dyd_NAME_writers, in the file that
  * writes it. */
-enum { DYD_CONTENTS = DYD_CONTENT_SPHERE_TRIANGLES + 1 };
+enum { DYD_CONTENTS = DYD_CONTENT_SPHERE_REGIONS + 1 };
 
 /* `what` by content: dyd_result (result.h) and dyd_diagram (diagram.h), also of their layers, dyd_stage_table,
  * dyd_convergence, dyd_check_report, dyd_disc_output, dyd_bisector_output, dyd_nearest_output, dyd_tolerance_result,
@@ -79,6 +79,7 @@ dyd_writer dyd_layer_tolerance, dyd_layer_radii, dyd_layer_barcode, dyd_toleranc
 dyd_writer dyd_convergence_csv, dyd_convergence_json, dyd_check_csv, dyd_check_json;
 dyd_writer dyd_disc_csv, dyd_disc_json, dyd_bisector_csv, dyd_bisector_json, dyd_nearest_csv, dyd_nearest_json;
 dyd_writer dyd_sphere_layer_pairs, dyd_sphere_layer_points, dyd_sphere_layer_triangles, dyd_sphere_json;
+dyd_writer dyd_sphere_layer_cells, dyd_sphere_layer_vertices, dyd_sphere_layer_regions, dyd_sphere_voronoi_json;
 dyd_writer dyd_places_csv, dyd_places_json;
 
 /* The end of a file: DYD_E_IO with a message unless everything went out. */

@@ -24,4 +24,7 @@ dyd_writer *const dyd_csv_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = dyd_
                                                    [DYD_CONTENT_GRAPH_MST] = dyd_layer_graph,
                                                    [DYD_CONTENT_SPHERE] = dyd_sphere_layer_pairs,
                                                    [DYD_CONTENT_SPHERE_POINTS] = dyd_sphere_layer_points,
-                                                   [DYD_CONTENT_SPHERE_TRIANGLES] = dyd_sphere_layer_triangles};
+                                                   [DYD_CONTENT_SPHERE_TRIANGLES] = dyd_sphere_layer_triangles,
+                                                   [DYD_CONTENT_SPHERE_VORONOI] = dyd_sphere_layer_cells,
+                                                   [DYD_CONTENT_SPHERE_VERTICES] = dyd_sphere_layer_vertices,
+                                                   [DYD_CONTENT_SPHERE_REGIONS] = dyd_sphere_layer_regions};

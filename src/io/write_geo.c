@@ -62,7 +62,9 @@ static dyd_status obj_delaunay(const dyd_output *o) {
     [DYD_CONTENT_RADII] = dyd_layer_radii, [DYD_CONTENT_PLAN] = dyd_plan_rows,                                         \
     [DYD_CONTENT_GRAPH_NEAREST] = dyd_layer_graph, [DYD_CONTENT_GRAPH_GABRIEL] = dyd_layer_graph,                      \
     [DYD_CONTENT_GRAPH_MST] = dyd_layer_graph, [DYD_CONTENT_SPHERE] = dyd_sphere_layer_pairs,                          \
-    [DYD_CONTENT_SPHERE_POINTS] = dyd_sphere_layer_points, [DYD_CONTENT_SPHERE_TRIANGLES] = dyd_sphere_layer_triangles \
+    [DYD_CONTENT_SPHERE_POINTS] = dyd_sphere_layer_points,                                                             \
+    [DYD_CONTENT_SPHERE_TRIANGLES] = dyd_sphere_layer_triangles,                                                       \
+    [DYD_CONTENT_SPHERE_VORONOI] = dyd_sphere_layer_cells, [DYD_CONTENT_SPHERE_VERTICES] = dyd_sphere_layer_vertices   \
   }
 dyd_writer *const dyd_wkt_writers[DYD_CONTENTS] = LAYERS;
 dyd_writer *const dyd_geojson_writers[DYD_CONTENTS] = LAYERS;

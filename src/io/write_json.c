@@ -134,4 +134,5 @@ dyd_writer *const dyd_json_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = jso
                                                     [DYD_CONTENT_NEAREST] = dyd_nearest_json,
                                                     [DYD_CONTENT_PLACES] = dyd_places_json,
                                                     [DYD_CONTENT_TOLERANCE] = dyd_tolerance_json,
-                                                    [DYD_CONTENT_SPHERE] = dyd_sphere_json};
+                                                    [DYD_CONTENT_SPHERE] = dyd_sphere_json,
+                                                    [DYD_CONTENT_SPHERE_VORONOI] = dyd_sphere_voronoi_json};

@@ -13,6 +13,7 @@ typedef void (*dyd_draw_fn)(dyd_canvas *c, void *context);
 
 /* The writers of pictures, which differ by what they show. */
 dyd_writer dyd_delaunay_picture, dyd_voronoi_picture, dyd_convergence_picture;
+dyd_writer dyd_sphere_picture, dyd_sphere_voronoi_picture;
 dyd_writer dyd_disc_picture, dyd_bisector_picture, dyd_nearest_picture, dyd_tolerance_picture;
 
 /* ---- views ---- */

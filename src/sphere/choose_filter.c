@@ -14,17 +14,14 @@ typedef struct ball_guess {
 } ball_guess;
 
 /* How many pairs are looked at, about, and candidates at most. */
-enum { WORK = 1 << 20, CANDIDATES = 64 };
+enum { WORK = 1 << 20, CANDIDATES = 16 };
 
-static dyd_status guess_set(ball_guess *out, dyd_spot *spot, const dyd_sphere *s, uint32_t i, dyd_error *err) {
+static void guess_set(ball_guess *out, const dyd_sphere *s, uint32_t i) {
   static const double degree = 0.017453292519943295;
-  dyd_status st = dyd_sphere_spot(spot, s, i, err);
-  if (st != DYD_OK) return st;
-  double lon = degree * mpq_get_d(spot->mid[0]), lat = degree * mpq_get_d(spot->mid[1]);
-  double dx = degree * mpq_get_d(spot->half[0]), dy = degree * mpq_get_d(spot->half[1]);
+  const dyd_rough_place *r = &s->rough[i];
+  double lon = degree * r->at[0], lat = degree * r->at[1], dx = degree * r->half[0], dy = degree * r->half[1];
   *out = (ball_guess){{cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat)}, .place = i};
   out->reach = dy + fmin(dx * cos(fmax(0, fabs(lat) - dy)), 4) + mpq_get_d(s->angle);
-  return DYD_OK;
 }
 
 static int compare_guesses(const void *a, const void *b) {
@@ -64,19 +61,14 @@ static double guess_best(uint32_t *out, const ball_guess *g, size_t n) {
 dyd_status dyd_sphere_choose(uint32_t *out, const dyd_sphere *s, dyd_error *err) {
   ball_guess *g = dyd_alloc(s->count, sizeof *g);
   size_t n = 0;
-  dyd_spot spot;
-  dyd_status st = g ? DYD_OK : dyd_fail_nomem(err);
-  dyd_spot_init(&spot);
-  for (uint32_t i = 0; i < s->count && st == DYD_OK; i++)
-    if (s->alias[i] == i) st = guess_set(&g[n++], &spot, s, i, err);
-  if (st == DYD_OK) {
-    qsort(g, n, sizeof *g, compare_guesses);
-    if (guess_best(out, g, n) <= 0 && n > 1)
-      st = dyd_fail(err, DYD_E_ARG,
-                    "each point may be at the same place as another one, so that nothing is known of any; give a "
-                    "smaller radius, or --merge where such points are one");
-  }
-  dyd_spot_clear(&spot);
+  if (!g) return dyd_fail_nomem(err);
+  for (uint32_t i = 0; i < s->count; i++)
+    if (s->alias[i] == i) guess_set(&g[n++], s, i);
+  qsort(g, n, sizeof *g, compare_guesses);
+  double best = guess_best(out, g, n);
   free(g);
-  return st;
+  if (best > 0 || n < 2) return DYD_OK;
+  return dyd_fail(err, DYD_E_ARG,
+                  "each point may be at the same place as another one, so that nothing is known of any; give a smaller "
+                  "radius, or --merge where such points are one");
 }

@@ -60,16 +60,35 @@ static dyd_status aliases_in_run(dyd_sphere *s, const rounded_place *run, size_t
   return st;
 }
 
+/* An exact place within the common range of degrees, in doubles rounded towards 0, as mpq_get_d rounds. */
+static bool place_is_plain(double at[2], const dyd_sphere *s, uint32_t i) {
+  const dyd_sites *sites = dyd_engine_sites(s->places);
+  double box[4];
+  if (!dyd_sphere_is_fixed(s, i) || !dyd_sites_is_point(sites, i) || mpq_sgn(s->degrees) || mpq_sgn(s->angle))
+    return false;
+  dyd_sites_get_d(box, sites, i);
+  for (int a = 0; a < 2; a++) at[a] = box[2 * a] >= 0 ? box[2 * a] : box[2 * a + 1];
+  return box[0] > -180 && box[1] < 180 && box[2] > -90 && box[3] < 90;
+}
+
 /* Looks at all places, which finds latitudes that are none; lists those that are exact. */
 static dyd_status places_round(rounded_place *out, size_t *count, const dyd_sphere *s, dyd_error *err) {
   dyd_spot spot;
   dyd_status st = DYD_OK;
   dyd_spot_init(&spot);
   for (uint32_t i = 0; i < s->count && st == DYD_OK; i++) {
+    dyd_rough_place *r = &s->rough[i];
     s->alias[i] = i;
+    *r = (dyd_rough_place){{0, 0}, {0, 0}};
+    if (place_is_plain(r->at, s, i)) {
+      out[(*count)++] = (rounded_place){{r->at[0], r->at[1]}, i};
+      continue;
+    }
     st = dyd_sphere_spot(&spot, s, i, err);
-    if (st != DYD_OK || !dyd_sphere_is_fixed(s, i) || !dyd_spot_is_exact(&spot) || mpq_sgn(s->angle)) continue;
-    out[(*count)++] = (rounded_place){{mpq_get_d(spot.mid[0]), mpq_get_d(spot.mid[1])}, i};
+    if (st != DYD_OK) break;
+    for (int a = 0; a < 2; a++) r->at[a] = mpq_get_d(spot.mid[a]), r->half[a] = mpq_get_d(spot.half[a]);
+    if (!dyd_sphere_is_fixed(s, i) || !dyd_spot_is_exact(&spot) || mpq_sgn(s->angle)) continue;
+    out[(*count)++] = (rounded_place){{r->at[0], r->at[1]}, i};
   }
   dyd_spot_clear(&spot);
   return st;

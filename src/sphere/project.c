@@ -331,22 +331,19 @@ static void eye_prepare(dyd_eye *e, slong prec) {
   arb_sin_cos_pi(&e->sin, &e->cos, &e->sin, prec);
 }
 
-/* The same for an exact place and an exact centre, three sines at half the angles. */
-static bool project_exact(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec) {
+bool dyd_project_degrees(arb_ptr x, arb_ptr y, arb_srcptr lon, arb_srcptr lat, dyd_eye *e, slong prec) {
   arb_t f, D, w;
   arb_init(f);
   arb_init(D);
   arb_init(w);
   eye_prepare(e, prec);
-  dyd_ball_set_q(w, s->mid[0], prec);
-  arb_sub(w, w, &e->lon, prec);
+  arb_sub(w, lon, &e->lon, prec);
   arb_mul(w, w, &e->unit, prec);
   arb_sin_cos(w, x, w, prec);
-  dyd_ball_set_q(f, s->mid[1], prec);
-  arb_sub(D, f, &e->lat, prec);
+  arb_sub(D, lat, &e->lat, prec);
   arb_mul(D, D, &e->unit, prec);
   arb_sin_cos(D, y, D, prec);
-  arb_mul(f, f, &e->unit, prec);
+  arb_mul(f, lat, &e->unit, prec);
   arb_mul_2exp_si(f, f, 1);
   arb_cos(f, f, prec);
   arb_mul(f, f, w, prec); /* cos f sin(d/2) */
@@ -362,6 +359,18 @@ static bool project_exact(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, s
   arb_clear(w);
   arb_clear(D);
   arb_clear(f);
+  return good;
+}
+
+static bool project_exact(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec) {
+  arb_t lon, lat;
+  arb_init(lon);
+  arb_init(lat);
+  dyd_ball_set_q(lon, s->mid[0], prec);
+  dyd_ball_set_q(lat, s->mid[1], prec);
+  bool good = dyd_project_degrees(x, y, lon, lat, e, prec);
+  arb_clear(lat);
+  arb_clear(lon);
   return good;
 }
 

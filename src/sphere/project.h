@@ -23,4 +23,7 @@ void dyd_eye_clear(dyd_eye *e);
  * not tell them apart, false. */
 bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, mpq_srcptr angle, dyd_eye *e, slong prec);
 
+/* The same of one place, in narrow balls of degrees, seen from an exact place: three sines at half the angles. */
+bool dyd_project_degrees(arb_ptr x, arb_ptr y, arb_srcptr lon, arb_srcptr lat, dyd_eye *e, slong prec);
+
 #endif

@@ -13,20 +13,52 @@
 
 /* ---- pairs ---- */
 
+/* The images in face f; *tie: nothing in it is indeterminate. */
+static dyd_status face_look(dyd_index_list *face, bool *outer, bool *tie, const dyd_delaunay *pd, size_t f) {
+  dyd_pair_list pairs = {0};
+  dyd_status st = dyd_delaunay_face(face, outer, pd, f);
+  if (st == DYD_OK) st = dyd_delaunay_face_pairs(&pairs, pd, f);
+  *tie = !dyd_delaunay_is_capped(pd);
+  for (size_t k = 0; k < pairs.count; k++) *tie = *tie && pairs.item[k].status == DYD_TIE;
+  dyd_pair_list_clear(&pairs);
+  return st;
+}
+
 /* Marks the images that are in an outer face with a pair that is indeterminate. */
 static dyd_status mark_open(bool *open, const dyd_delaunay *pd) {
   dyd_status st = DYD_OK;
   for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd) && st == DYD_OK; f++) {
     dyd_index_list face = {0};
-    dyd_pair_list pairs = {0};
-    bool outer, ties = !dyd_delaunay_is_capped(pd);
-    st = dyd_delaunay_face(&face, &outer, pd, f);
-    if (st == DYD_OK && outer) st = dyd_delaunay_face_pairs(&pairs, pd, f);
-    for (size_t k = 0; k < pairs.count; k++) ties = ties && pairs.item[k].status == DYD_TIE;
-    for (size_t k = 0; k < face.count && outer && !ties; k++) open[face.item[k]] = true;
-    dyd_pair_list_clear(&pairs);
+    bool outer, tie;
+    st = face_look(&face, &outer, &tie, pd, f);
+    for (size_t k = 0; k < face.count && outer && !tie; k++) open[face.item[k]] = true;
     dyd_index_list_clear(&face);
   }
+  return st;
+}
+
+static int compare_places(const void *a, const void *b) {
+  const uint32_t *x = a, *y = b;
+  return (*x > *y) - (*x < *y);
+}
+
+dyd_status dyd_sphere_face(dyd_index_list *out, bool *tie, const dyd_sphere *s, size_t f) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
+  dyd_index_list face = {0};
+  bool outer;
+  if (!pd || f >= dyd_delaunay_undecided_faces(pd)) return DYD_E_ARG;
+  dyd_status st = face_look(&face, &outer, tie, pd, f);
+  uint32_t *item = st == DYD_OK ? dyd_alloc(face.count + 1, sizeof *item) : NULL;
+  if (st == DYD_OK && !item) st = DYD_E_NOMEM;
+  if (st == DYD_OK) {
+    for (size_t k = 0; k < face.count; k++) item[k] = s->of[face.item[k]];
+    item[face.count] = s->centre;
+    size_t n = face.count + outer;
+    qsort(item, n, sizeof *item, compare_places);
+    dyd_index_list_clear(out);
+    *out = (dyd_index_list){n, item};
+  }
+  dyd_index_list_clear(&face);
   return st;
 }
 

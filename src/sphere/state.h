@@ -9,12 +9,18 @@
  *   project.c        enclosures of images
  *   ties.c           which places are on one circle
  *   cyclic.c         sums of roots of unity: are they 0?
+ *   vertex.c         Voronoi vertices
  *   result.c         statuses and triangles, by the numbers of the places */
 #ifndef DYD_SPHERE_STATE_H
 #define DYD_SPHERE_STATE_H
 
 #include "sphere/project.h"
 #include <dyadel/sphere.h>
+
+/* A place in doubles, rounded: degrees, and by how much they may be off. */
+typedef struct dyd_rough_place {
+  double at[2], half[2];
+} dyd_rough_place;
 
 /* Invariant: of[] ascends: the places that have an image, which are all but the centre and aliases. alias[i] <= i is
  * the lowest place at the same point as i. stream is NULL, or has an entry for each place, NULL where it is fixed. */
@@ -25,6 +31,7 @@ struct dyd_sphere {
   size_t count;    /* of places */
   uint32_t *of, *alias;
   size_t with_image;
+  dyd_rough_place *rough; /* of each place; NULL but while the sphere is made */
   dyd_stream **stream;
   mpq_t angle;   /* radians: the places within this angle of each are meant; 0: the place */
   mpq_t degrees; /* longitude and latitude may be off by so much */
@@ -38,7 +45,7 @@ static inline bool dyd_sphere_is_fixed(const dyd_sphere *s, uint32_t i) {
   return !s->stream || !s->stream[i];
 }
 
-/* Fills in alias; looks at all places, DYD_E_DOMAIN as above. */
+/* Fills in alias and rough; looks at all places, DYD_E_DOMAIN as above. */
 dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err);
 
 /* choose_filter.c: the place to project from, among those that are no aliases. DYD_E_ARG with a message where each may

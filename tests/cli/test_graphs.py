@@ -13,7 +13,7 @@ from fractions import Fraction as F
 
 from harness import DATA, expect, main, run
 
-AIRPORTS = ['--columns', 'longitude,latitude', os.path.join(DATA, 'airports.csv')]
+AIRPORTS = ['--plane', '--columns', 'longitude,latitude', os.path.join(DATA, 'airports.csv')]
 GPS = ['--columns', 'east,north', '--radius-column', 'accuracy', os.path.join(DATA, 'gps.csv')]
 GRAPHS = ('nearest', 'gabriel', 'mst')
 SEED = int(os.environ.get('DYADEL_TEST_SEED', '1'))

@@ -19,7 +19,7 @@ from fractions import Fraction
 from harness import COMMAND, DATA, count, expect, main, run
 
 AIRPORTS = os.path.join(DATA, 'airports.csv')
-PLACE = ('--columns', 'longitude,latitude')
+PLACE = ('--plane', '--columns', 'longitude,latitude')
 
 
 def airports():

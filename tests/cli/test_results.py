@@ -16,7 +16,7 @@ from fractions import Fraction
 from harness import DATA, count, expect, main, run
 
 AIRPORTS = os.path.join(DATA, 'airports.csv')
-LONLAT = ('--columns', 'longitude,latitude')
+LONLAT = ('--plane', '--columns', 'longitude,latitude')
 
 
 def number(text):

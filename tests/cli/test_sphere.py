@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""dyadel delaunay --sphere: against exact convex hulls, forms of degrees and radii, formats, refusals [SPH-1] [SPH-2] [SPH-3].
+"""dyadel delaunay --sphere: against exact convex hulls, forms of degrees and radii, formats, refusals [SPH-1] [SPH-2] [SPH-3] [SPH-4].
 
 Usage: test_sphere.py COMMAND DATA
 """
@@ -12,6 +12,7 @@ import random
 import re
 import tempfile
 import time
+import xml.etree.ElementTree
 
 import globe
 from globe import Q
@@ -284,11 +285,128 @@ def test_triangles_cover_the_globe():
         assert all(a > -1e-5 for a in areas) and abs(sum(areas) - 1) < 1e-3, (SEED, k, sum(areas), min(areas))
 
 
+# ---- the diagram ----
+
+def diagram(text, *options):
+    return json.loads(run('voronoi', '--sphere', '-q', '--format', 'json', *options, '-', stdin=text).out)
+
+
+def pole_of(places):
+    """Longitude and latitude of the pole of the circle through three places, counter-clockwise from outside."""
+    a, b, c = ([x / 10 ** 80 for x in map(Q, APART.vector(globe.canonical(p)))] for p in places)
+    (p, q, r), (s, t, u) = globe.minus(b, a), globe.minus(c, a)
+    n = [float(10 ** 12 * x) for x in (q * u - r * t, r * s - p * u, p * t - q * s)]
+    return math.degrees(math.atan2(n[1], n[0])), math.degrees(math.atan2(n[2], math.hypot(n[0], n[1])))
+
+
+def check_vertex(vertex, places):
+    lon, lat = pole_of([places[vertex[c]] for c in 'ijk'])
+    (x0, x1), (y0, y1) = vertex['x'], vertex['y']
+    assert y0 - 1e-9 <= lat <= y1 + 1e-9 and any(x0 - 1e-6 <= lon + t <= x1 + 1e-6 for t in (-360, 0, 360)), (vertex, lon, lat)
+
+
+def check_cells(whole):
+    """Neighbours in a list share two sites of their triangles; a vertex is in the three cells that it belongs to."""
+    seen = {}
+    for cell in whole['cells']:
+        ring = cell['vertices']
+        assert None not in ring or not cell['complete'], cell
+        for k, v in enumerate(ring):
+            if v is None:
+                continue
+            seen.setdefault(v, set()).add(cell['i'])
+            w = ring[(k + 1) % len(ring)]
+            if w is not None and (cell['complete'] or k + 1 < len(ring)):
+                a, b = ([whole['vertices'][x][c] for c in 'ijk'] for x in (v, w))
+                at, other = a.index(cell['i']), b.index(cell['i'])
+                assert a[(at + 2) % 3] == b[(other + 1) % 3], (cell, v, w)
+    assert seen == {k: {v[c] for c in 'ijk'} for k, v in enumerate(whole['vertices'])}
+
+
+def test_voronoi_random():
+    """Vertices where they are, cells in order; what is tied is in regions."""
+    r = random.Random(SEED)
+    for k in range(80):
+        exact, places = some_places(r, k % 7)
+        whole = diagram(''.join(f'{x} {y}\n' for x, y in places))
+        for vertex in whole['vertices']:
+            check_vertex(vertex, places)
+        check_cells(whole)
+        ties = {frozenset(p) for p, s in globe.statuses(exact, places).items() if s == 'tie'}
+        inside = {frozenset((i, j)) for g in whole['regions'] for i in g['sites'] for j in g['sites'] if i < j}
+        assert ties <= inside and all(g['status'] == 'tie' for g in whole['regions']), (SEED, k, places)
+        open_cells = {i for g in whole['regions'] for i in g['sites']}
+        assert all(c['complete'] != (c['i'] in open_cells) for c in whole['cells']), (SEED, k, places)
+
+
+def test_voronoi_radius():
+    """Vertices hold for choices within the radius."""
+    r = random.Random(SEED)
+    checked = 0
+    for k in range(20):
+        metres = r.choice([100, 20000])
+        places = scattered(r, 9, 1.2 * metres / 6371008.8)
+        whole = diagram(''.join(f'{x} {y}\n' for x, y in places), '--radius', f'{metres}m')
+        check_cells(whole)
+        for _ in range(4):
+            choice = [tuple(map(repr, moved(p, metres / 6371008.8, r))) for p in places]
+            for vertex in whole['vertices']:
+                check_vertex(vertex, choice)
+                checked += 1
+    assert checked > 300
+
+
+def test_voronoi_layers():
+    expect(run('voronoi', '--sphere', '-', stdin=OCTAHEDRON), 0, r'\Ai,complete,vertices\n0,yes,0 2 1 3\n1,yes,3 5 4 0\n')
+    expect(run('voronoi', '--sphere', '--layer', 'vertices', '-', stdin=OCTAHEDRON), 0, r'^i,j,k,xlo,xhi,ylo,yhi\n0,1,4,4[45]\.\d+,45[.\d]*,35\.26')
+    square = '0 0\n1 0\n0 1\n1 1\n50 50\n-70 -20\n'
+    expect(run('voronoi', '--sphere', '-', stdin=square), 3, r'^0,no,\* 0 1\n', 'fixpoint: 11 legal, 0 indeterminate, 2 tie')
+    expect(run('voronoi', '--sphere', '-q', '--layer', 'regions', '-', stdin=square), 3, r'\Aface,status,sites\n0,tie,0 1 2 3\n\Z')
+    cells = json.loads(run('voronoi', '--sphere', '--format', 'geojson', '-', stdin=OCTAHEDRON).out)
+    areas = [area(f['geometry']['coordinates']) for f in cells['features']]
+    assert len(areas) == 6 and all(abs(a - 1 / 6) < 1e-3 for a in areas), areas
+    for text, cells in (('', 0), ('1 2\n', 1), ('1 2\n3 4\n', 2), ('1 2\n3 4\n5 -6\n', 3)):
+        got = diagram(text)
+        assert len(got['cells']) == cells and all(c['complete'] for c in got['cells']) and len(got['vertices']) == 2 * (cells == 3)
+    expect(run('voronoi', '--sphere', '--flatten', '3', '-', stdin=OCTAHEDRON), 2, r'\A\Z', '--flatten is about the plane')
+    expect(run('voronoi', '--sphere', '--format', 'geojson', '--layer', 'regions', '-', stdin=OCTAHEDRON), 2, r'\A\Z', 'does not write geojson; give csv')
+
+
+def test_pictures():
+    """Well-formed, all marks in it, a graticule, nothing that runs across the map from side to side."""
+    for command in ('delaunay', 'voronoi'):
+        for text in ('', '1 2\n', '10 50\n11 50\n10 51\n', OCTAHEDRON + '170 20\n-170 10\n'):
+            result = run(command, '--sphere', '--format', 'svg', '-', stdin=text)
+            expect(result, 0, '<svg')
+            xml.etree.ElementTree.fromstring(result.out)
+            assert result.out.count('id="point-') == text.count('\n') and 'graticule' in result.out
+        for form, magic in (('pdf', '%PDF'), ('png', '\x89PNG')):
+            assert run(command, '--sphere', '--format', form, '-', stdin=OCTAHEDRON, binary=True).out.startswith(magic)
+    drawn = run('delaunay', '--sphere', '--format', 'svg', *AIRPORTS).out
+    assert 'legal: 10122' in drawn and drawn.count('id="point-') == 3376
+
+
 def test_ids_and_rows():
     """Names, rows left out, rows merged."""
     text = 'name,lon,lat\na,0,0\nb,,\nc,10,0\nd,0,10\ne,10,0\n'
     args = ('delaunay', '--sphere', '-q', '--columns', 'lon,lat', '--id', 'name', '--skip-missing')
     expect(run(*args, '-', stdin=text), 0, r'\A# alias 4 2\ni,j,status,id_i,id_j\n0,2,legal,a,c\n0,3,legal,a,d\n2,3,legal,c,d\n\Z')
+
+
+def test_note():
+    """Degrees by their names, read as a plane, are told of once; not where they are no degrees, or it is meant."""
+    note = r'\Adyadel: -: the columns are longitude and latitude by their names.*--sphere; --plane says'
+    for head in ('lon,lat', 'Longitude,LATITUDE', 'lng;latitude_deg', 'lon_x,lat_y'):
+        names = head.replace(';', ',')
+        text = head + '\n0 1\n-180 90\n3 4\n'.replace(' ', head[3] if head[3] == ';' else ',')
+        expect(run('delaunay', '--columns', names, '-', stdin=text), 0, 'i,j,status', note + r'[^\n]*\n\Z')
+        for quiet in ('--plane', '--quiet', '--sphere'):
+            expect(run('delaunay', quiet, '--columns', names, '-', stdin=text), 0, 'i,j,status', r'\A\Z')
+    expect(run('tolerance', '--columns', '1,2', '-', stdin='lon,lat\n0,1\n'), 0, '', note)
+    for text in ('lon,lat\n181,1\n', 'x,y\n0,1\n', 'lat,lon\n1,2\n', 'lon,lat\n'):
+        got = run('delaunay', '--columns', '1,2', '-', stdin=text)
+        assert got.code == 0 and 'by their names' not in got.err, (text, got)
+    expect(run('delaunay', '--sphere', '--plane', '-', stdin=OCTAHEDRON), 2, r'\A\Z', 'contradict')
 
 
 def test_certificate():

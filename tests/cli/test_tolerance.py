@@ -15,7 +15,7 @@ import xml.etree.ElementTree
 from harness import DATA, expect, main, run
 
 SQUARE = '0 0\n1 0\n1 1\n0 1\n0 0\n3 0.5\n'
-AIRPORTS = ['--columns', 'longitude,latitude', os.path.join(DATA, 'airports.csv')]
+AIRPORTS = ['--plane', '--columns', 'longitude,latitude', os.path.join(DATA, 'airports.csv')]
 
 
 def rows(text):

@@ -200,6 +200,14 @@ static dyd_status refuse_numbers(const dyd_csv *csv, dyd_error *err) {
                      "the first line must name the columns, but here it holds numbers; put a line of names before it");
 }
 
+/* Does the name of column k of the header begin like this, in any case? */
+static bool begins_like(const dyd_csv *csv, dyd_csv_role role, const char *word) {
+  const dyd_span *f = &csv->field[csv->column[role]];
+  size_t k = 0;
+  while (word[k] && k < f->length && lower_letter(f->text[k]) == word[k]) k++;
+  return !word[k];
+}
+
 dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const dyd_read_options *o, dyd_error *err) {
   *csv = (dyd_csv){.text = text};
   dyd_line line;
@@ -217,6 +225,9 @@ dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const dyd_read_options *o,
   if (st == DYD_OK) st = find_columns(csv, err);
   if (st == DYD_OK) st = refuse_numbers(csv, err);
   csv->columns = csv->fields;
+  if (st == DYD_OK)
+    csv->degrees = begins_like(csv, DYD_CSV_Y, "lat") &&
+                   (begins_like(csv, DYD_CSV_X, "lon") || begins_like(csv, DYD_CSV_X, "lng"));
   return st;
 }
 

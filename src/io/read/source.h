@@ -34,6 +34,7 @@ typedef struct dyd_csv {
   dyd_csv_want want[DYD_CSV_ROLES];
   size_t column[DYD_CSV_ROLES]; /* where they are, from 0 */
   size_t columns;               /* how many the header has */
+  bool degrees;                 /* x and y are called longitude and latitude */
   char *record;                 /* the current record, when it spans lines */
   size_t record_cap;            /* */
   char *plain;                  /* unquoted fields of the current record */
