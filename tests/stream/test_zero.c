@@ -275,8 +275,11 @@ static void test_moved_ties(void **state) {
       fail_msg("no tie: %s %s, %s %s ...", point[0][0], point[0][1], point[1][0], point[1][1]);
     snprintf(more, sizeof more, "%c2^-%zu", "+-"[random_below(2)], bits);
     strcat(moved, more);
-    if (tie_zero(point, line) != DYD_ZERO_REFUTED)
-      fail_msg("2^-%zu: %s in %s %s ...", bits, moved, point[0][0], point[0][1]);
+    dyd_zero zero = tie_zero(point, line);
+    /* along its circle a point is off by no more than the square, which may be too little for the bits allowed */
+    bool small = !line && bits > 1500;
+    if (zero == DYD_ZERO_PROVED || (zero == DYD_ZERO_UNKNOWN && !small))
+      fail_msg("%d, 2^-%zu: %s in %s %s ...", zero, bits, moved, point[0][0], point[0][1]);
   }
 }
 
