@@ -68,6 +68,12 @@ DYD_API dyd_status dyd_voronoi_outer_polygon(dyd_polygon_list *out, const dyd_de
  * one. DYD_E_ARG when t is not a sure triangle of pd. */
 DYD_API dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_triangle *t, int64_t bits);
 
+/* The same for undecided face f (dyd_delaunay_face) where its sites are on one circle, which makes its pairs ties: a
+ * rectangle that holds the vertex that they have in common, the centre. *tied = false, and *out is not changed, where
+ * they are not known to be; so for faces that are unbounded. DYD_E_ARG when there is no such face; DYD_E_RANGE when the
+ * rectangles of the sites are so wide that they do not tell. */
+DYD_API dyd_status dyd_voronoi_tied_vertex(dyd_rect *out, bool *tied, const dyd_delaunay *pd, size_t f, int64_t bits);
+
 /* The default window: the bounding box of the sites enlarged by half its size (a quarter of it on each side; by 1 where
  * it has none). DYD_E_RANGE when that leaves the doubles. */
 DYD_API dyd_status dyd_voronoi_window(dyd_rect *out, const dyd_sites *sites);

@@ -15,7 +15,7 @@
  * are looked for. */
 #define DYD_CERT_ORDER 1024
 #define DYD_CERT_DEGREE 1000
-#define DYD_CERT_PRECISION ((long)1 << 16)
+#define DYD_CERT_PRECISION ((long)1 << 14)
 #define DYD_CERT_SIGN_PRECISION ((long)1 << 12)
 
 /* In the order of their names in algebra.c. */

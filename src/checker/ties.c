@@ -55,6 +55,20 @@ static bool side_is_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t
   return fits;
 }
 
+/* Is the number seen to lie outside of the side, which is no point, at precision p? */
+static bool side_lacks_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t number, long p) {
+  const dyd_cert_enclosure *x = dyd_cert_algebra_enclose(a, number, p);
+  mpz_t end;
+  if (s->point || !x->known) return false;
+  mpz_init(end);
+  dyd_exact_floor(end, &s->lo, NULL, -p);
+  bool outside = mpz_cmp(x->hi, end) < 0;
+  dyd_exact_ceil(end, &s->hi, NULL, -p);
+  outside = outside || mpz_cmp(end, x->lo) < 0;
+  mpz_clear(end);
+  return outside;
+}
+
 /* Is the number seen to lie in the side at precision p? */
 static bool side_holds_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t number, long p) {
   if (s->point) return side_is_number(s, a, number);
@@ -71,7 +85,9 @@ static dyd_status check_rectangles(dyd_cert_block *b, dyd_cert_reader *in, const
       const dyd_cert_side *side = s->site[d->site].side;
       bool held = side_holds_number(&side[0], &b->algebra, d->number[0], p) &&
                   side_holds_number(&side[1], &b->algebra, d->number[1], p);
-      if (!held && 2 * p > DYD_CERT_PRECISION)
+      bool lacks = !held && (side_lacks_number(&side[0], &b->algebra, d->number[0], p) ||
+                             side_lacks_number(&side[1], &b->algebra, d->number[1], p));
+      if (lacks || (!held && 2 * p > DYD_CERT_PRECISION))
         return dyd_cert_reject(in, "the point described is not seen to lie in the rectangle of site %u",
                                (unsigned)d->site);
       if (!held) break;

@@ -113,14 +113,46 @@ static dyd_status find_vertex(double out[4], const dyd_diagram *d, const dyd_tri
   return st == DYD_E_RANGE ? DYD_OK : st;
 }
 
+/* Where rectangles do not tell, the enclosure has infinite ends. */
+static dyd_status find_tied_vertex(bool *tied, double out[4], const dyd_diagram *d, size_t f) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = dyd_voronoi_tied_vertex(&r, tied, d->pd, f, d->vertex_bits);
+  dyd_rect_get_d(out, &r);
+  for (int k = 0; k < 4 && st == DYD_E_RANGE; k++) out[k] = k & 1 ? INFINITY : -INFINITY;
+  dyd_rect_clear(&r);
+  return st == DYD_E_RANGE ? DYD_OK : st;
+}
+
+static dyd_status find_tied_vertices(dyd_diagram *d, size_t faces) {
+  dyd_status st = DYD_OK;
+  for (size_t f = 0; f < faces && st == DYD_OK; f++) {
+    bool tied = false;
+    st = find_tied_vertex(&tied, d->vertex[d->triangles.count + d->ties], d, f);
+    if (st == DYD_OK && tied) d->tied[d->ties++] = f;
+  }
+  return st;
+}
+
 static dyd_status find_vertices(dyd_diagram *d) {
   dyd_status st = dyd_delaunay_triangles(&d->triangles, d->pd);
+  size_t faces = dyd_delaunay_undecided_faces(d->pd);
   if (st != DYD_OK) return st;
-  d->vertex = dyd_alloc(d->triangles.count, sizeof *d->vertex);
-  if (!d->vertex) return DYD_E_NOMEM;
+  d->vertex = dyd_alloc(d->triangles.count + faces, sizeof *d->vertex);
+  d->tied = dyd_alloc(faces, sizeof *d->tied);
+  if (!d->vertex || !d->tied) return DYD_E_NOMEM;
   for (size_t k = 0; k < d->triangles.count && st == DYD_OK; k++)
     st = find_vertex(d->vertex[k], d, &d->triangles.item[k], d->vertex_bits);
-  return st;
+  return st == DYD_OK ? find_tied_vertices(d, faces) : st;
+}
+
+dyd_status dyd_diagram_vertex_sites(dyd_index_list *out, const dyd_diagram *d, size_t k) {
+  bool outer;
+  if (k >= d->triangles.count) return dyd_delaunay_face(out, &outer, d->pd, d->tied[k - d->triangles.count]);
+  *out = (dyd_index_list){.item = dyd_alloc(3, sizeof *out->item)};
+  if (!out->item) return DYD_E_NOMEM;
+  for (; out->count < 3; out->count++) out->item[out->count] = d->triangles.item[k].v[out->count];
+  return DYD_OK;
 }
 
 bool dyd_diagram_vertex_in_window(double box[4], const dyd_diagram *d, size_t k) {
@@ -135,7 +167,10 @@ dyd_status dyd_diagram_vertex(char *text[4], const dyd_diagram *d, size_t k) {
   dyd_rect r;
   dyd_rect_init(&r);
   for (int m = 0; m < 4; m++) text[m] = NULL;
-  dyd_status st = dyd_voronoi_vertex(&r, d->pd, &d->triangles.item[k], d->vertex_bits);
+  size_t triangles = d->triangles.count;
+  bool tied;
+  dyd_status st = k < triangles ? dyd_voronoi_vertex(&r, d->pd, &d->triangles.item[k], d->vertex_bits)
+                                : dyd_voronoi_tied_vertex(&r, &tied, d->pd, d->tied[k - triangles], d->vertex_bits);
   for (int m = 0; m < 4 && st == DYD_OK; m++) {
     text[m] = dyd_end_text(m < 2 ? &r.x : &r.y, m & 1);
     if (!text[m]) st = DYD_E_NOMEM;
@@ -260,4 +295,5 @@ void dyd_diagram_clear(dyd_diagram *d) {
   dyd_rect_clear(&d->window);
   dyd_triangle_list_clear(&d->triangles);
   free(d->vertex);
+  free(d->tied);
 }

@@ -29,7 +29,8 @@ typedef struct dyd_diagram {
   unsigned epsg; /* the reference system of the coordinates; 0: not known */
   int64_t bits;  /* polygons are within 2^-bits of their cells */
   dyd_triangle_list triangles;
-  double (*vertex)[4];        /* enclosures of their Voronoi vertices; infinite ends: not known in doubles */
+  size_t *tied, ties;         /* undecided faces whose sites are on one circle */
+  double (*vertex)[4];        /* enclosures of the Voronoi vertices of both; infinite ends: not known in doubles */
   int64_t vertex_bits;        /* exact enclosures are asked for with these bits */
   dyd_voronoi_bounds *bounds; /* found when the cells are visited */
   const volatile int *cancel; /* see dyd_voronoi_options; NULL: never */
@@ -53,6 +54,12 @@ dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *c
 typedef dyd_status (*dyd_region_visit)(void *context, size_t face, const double box[4]);
 dyd_status dyd_diagram_regions(const dyd_diagram *d, dyd_region_visit visit, void *context);
 
+/* Vertices: of sure triangles, then of tied faces. */
+static inline size_t dyd_diagram_vertices(const dyd_diagram *d) {
+  return d->triangles.count + d->ties;
+}
+/* The sites of vertex k; owned by the caller. */
+dyd_status dyd_diagram_vertex_sites(dyd_index_list *out, const dyd_diagram *d, size_t k);
 /* The part of the enclosure of vertex k that is in the window; false: there is none. */
 bool dyd_diagram_vertex_in_window(double box[4], const dyd_diagram *d, size_t k);
 /* The exact enclosure of vertex k as four texts: x lower, x upper, y lower, y upper; release each with free(). */

@@ -30,12 +30,18 @@ void dyd_json_counters(FILE *out, const dyd_engine *e) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
   dyd_engine_get_counters(&c, e, NULL);
   const dyd_delaunay_counters *d = &c.delaunay;
+  const dyd_tie_counters *t = &c.ties;
   fprintf(out,
           "\"counters\": {\"stages\": %" PRIu64 ", \"stream_calls\": %" PRIu64 ", \"bits_least\": %" PRId64
           ", \"bits_most\": %" PRId64 ", \"bits_total\": %" PRIu64 ",\n\"undecided_faces\": %" PRIu64
           ", \"faces_worked_on\": %" PRIu64 ", \"filter\": %" PRIu64 ", \"integer\": %" PRIu64 ", \"exact\": %" PRIu64
           ",\n\"witness_guess\": %" PRIu64 ", \"witness_search\": %" PRIu64 ", \"cover_walks\": %" PRIu64
-          ", \"milliseconds_rounded_up\": %" PRIu64 "}\n",
+          ", \"milliseconds_rounded_up\": %" PRIu64 ",\n\"zero_tests\": %" PRIu64 ", \"zero_by_identity\": %" PRIu64
+          ", \"zero_by_bound\": %" PRIu64 ", \"not_zero\": %" PRIu64 ", \"zero_unknown\": %" PRIu64
+          ", \"zero_bits_most\": %" PRId64 ", \"zero_degree_most\": %" PRId64
+          ", \"zero_milliseconds_rounded_up\": %" PRIu64 "}\n",
           c.stages, c.calls, c.bits_least, c.bits_most, c.bits_total, c.undecided_faces, d->faces, d->filter,
-          d->integer, d->exact, d->witness_guess, d->witness_search, d->cover_walks, (uint64_t)(c.seconds * 1000) + 1);
+          d->integer, d->exact, d->witness_guess, d->witness_search, d->cover_walks, (uint64_t)(c.seconds * 1000) + 1,
+          t->tests, t->by_identity, t->by_bound, t->nonzero, t->unknown, t->bits_most, t->degree_most,
+          (uint64_t)(t->seconds * 1000) + 1);
 }

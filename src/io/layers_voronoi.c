@@ -133,6 +133,40 @@ static dyd_status exact_vertex(dyd_table *t, const dyd_diagram *d, size_t k) {
   return st;
 }
 
+/* In csv: all sites of vertices that have more than three. */
+static dyd_status tied_comments(const dyd_output *o) {
+  const dyd_diagram *d = o->what;
+  dyd_status st = DYD_OK;
+  if (o->format != DYD_FORMAT_CSV) return st;
+  for (size_t k = d->triangles.count; k < dyd_diagram_vertices(d) && st == DYD_OK; k++) {
+    dyd_index_list sites = {0};
+    st = dyd_diagram_vertex_sites(&sites, d, k);
+    if (st == DYD_OK) fputs("# tie", o->out);
+    for (size_t q = 0; q < sites.count; q++) fprintf(o->out, " %zu", dyd_engine_row(d->engine, sites.item[q]));
+    if (st == DYD_OK) fputs("\n", o->out);
+    dyd_index_list_clear(&sites);
+  }
+  return st;
+}
+
+/* The row of vertex k; of a tied one with its first three sites. */
+static dyd_status row_vertex(dyd_table *t, const dyd_diagram *d, size_t k, const double box[4], bool exact) {
+  dyd_index_list sites = {0};
+  dyd_status st = dyd_diagram_vertex_sites(&sites, d, k);
+  if (st != DYD_OK) return st;
+  dyd_row_begin(t);
+  dyd_row_at(t, box);
+  for (int c = 0; c < 3; c++) dyd_row_site(t, sites.item[c]);
+  if (exact)
+    st = exact_vertex(t, d, k);
+  else
+    dyd_row_box(t, box);
+  for (int c = 0; c < 3; c++) dyd_row_id(t, sites.item[c]);
+  dyd_row_end(t);
+  dyd_index_list_clear(&sites);
+  return st;
+}
+
 /* wkt and geojson hold what is in the window. Where a goal asks for more than decimals of 17 digits show, the
  * enclosures are exact numbers in csv. */
 dyd_status dyd_layer_vertices(const dyd_output *o) {
@@ -144,21 +178,13 @@ dyd_status dyd_layer_vertices(const dyd_output *o) {
   bool exact = csv && dyd_engine_goal(&goal_bits, d->engine) == DYD_GOAL_VORONOI_HAUSDORFF && goal_bits > 32;
   dyd_table t;
   dyd_status st = diagram_begin(o);
+  if (st == DYD_OK) st = tied_comments(o);
   if (st == DYD_OK) dyd_table_begin(&t, &head);
-  for (size_t k = 0; k < d->triangles.count && st == DYD_OK; k++) {
-    const uint32_t *v = d->triangles.item[k].v;
+  for (size_t k = 0; k < dyd_diagram_vertices(d) && st == DYD_OK; k++) {
     double clipped[4];
     const double *box = csv ? d->vertex[k] : clipped;
     if (!csv && !dyd_diagram_vertex_in_window(clipped, d, k)) continue;
-    dyd_row_begin(&t);
-    dyd_row_at(&t, box);
-    for (int c = 0; c < 3; c++) dyd_row_site(&t, v[c]);
-    if (exact)
-      st = exact_vertex(&t, d, k);
-    else
-      dyd_row_box(&t, box);
-    for (int c = 0; c < 3; c++) dyd_row_id(&t, v[c]);
-    dyd_row_end(&t);
+    st = row_vertex(&t, d, k, box, exact);
   }
   if (st == DYD_OK) dyd_table_end(&t);
   return st;

@@ -110,12 +110,16 @@ static dyd_status exact_box_json(const dyd_diagram *d, size_t k) {
 static dyd_status vertices_json(const dyd_diagram *d) {
   dyd_status st = DYD_OK;
   fputs("\"vertices\": [", d->out);
-  for (size_t k = 0; k < d->triangles.count && st == DYD_OK; k++) {
-    const uint32_t *v = d->triangles.item[k].v;
-    fprintf(d->out, "%s\n{\"sites\": [%zu, %zu, %zu], ", k ? "," : "", dyd_engine_row(d->engine, v[0]),
-            dyd_engine_row(d->engine, v[1]), dyd_engine_row(d->engine, v[2]));
+  for (size_t k = 0; k < dyd_diagram_vertices(d) && st == DYD_OK; k++) {
+    dyd_index_list sites = {0};
+    st = dyd_diagram_vertex_sites(&sites, d, k);
+    fputs(k ? ",\n{\"sites\": [" : "\n{\"sites\": [", d->out);
+    for (size_t q = 0; q < sites.count; q++)
+      fprintf(d->out, q ? ", %zu" : "%zu", dyd_engine_row(d->engine, sites.item[q]));
+    dyd_index_list_clear(&sites);
+    fputs("], ", d->out);
     dyd_json_box(d->out, "", d->vertex[k]);
-    st = exact_box_json(d, k);
+    if (st == DYD_OK) st = exact_box_json(d, k);
     fputs("}", d->out);
   }
   fputs("\n],\n", d->out);

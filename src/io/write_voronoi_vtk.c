@@ -96,8 +96,12 @@ static dyd_status gather_edges(gathered *g) {
 static dyd_status gather_all(gathered *g) {
   const dyd_diagram *d = g->d;
   dyd_status st = dyd_diagram_visit(d, gather_cell, g);
-  for (size_t k = 0; k < d->triangles.count && st == DYD_OK; k++)
-    st = gather_box(g, FIGURE_VERTEX, d->triangles.item[k].v[0], d->vertex[k]);
+  for (size_t k = 0; k < dyd_diagram_vertices(d) && st == DYD_OK; k++) {
+    dyd_index_list sites = {0};
+    st = dyd_diagram_vertex_sites(&sites, d, k);
+    if (st == DYD_OK) st = gather_box(g, FIGURE_VERTEX, sites.item[0], d->vertex[k]);
+    dyd_index_list_clear(&sites);
+  }
   if (st == DYD_OK) st = dyd_diagram_regions(d, gather_region, g);
   return st == DYD_OK ? gather_edges(g) : st;
 }

@@ -71,19 +71,32 @@ static dyd_status voronoi_region(void *context, size_t face, const double box[4]
   return DYD_OK;
 }
 
-static void voronoi_vertices(voronoi_drawing *g) {
-  for (size_t k = 0; k < g->d->triangles.count; k++) {
+/* A tied one is named by its first sites. */
+static dyd_status name_of_vertex(const voronoi_drawing *g, size_t k) {
+  dyd_index_list sites = {0};
+  dyd_status st = dyd_diagram_vertex_sites(&sites, g->d, k);
+  bool tied = sites.count > 3;
+  if (st == DYD_OK)
+    name_of(g, "vertex", tied ? "holds the vertex of a tie, of" : "holds the vertex of", sites.item, sites.count);
+  dyd_index_list_clear(&sites);
+  return st;
+}
+
+static dyd_status voronoi_vertices(voronoi_drawing *g) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < dyd_diagram_vertices(g->d) && st == DYD_OK; k++) {
     const double *b = g->d->vertex[k], *w = g->window;
     if (!(b[0] <= w[1] && w[0] <= b[1] && b[2] <= w[3] && w[2] <= b[3])) continue;
     if ((b[1] - b[0] + b[3] - b[2]) * g->view.scale > 12 * g->view.dot) continue; /* the band shows it better */
     double side = 1.6 * g->view.dot / g->view.scale, x = b[0] / 2 + b[1] / 2, y = b[2] / 2 + b[3] / 2;
     double wide = fmax(b[1] - b[0], side) / 2, high = fmax(b[3] - b[2], side) / 2,
            show[4] = {x - wide, x + wide, y - high, y + high};
-    name_of(g, "vertex", "holds the vertex of", g->d->triangles.item[k].v, 3);
+    st = name_of_vertex(g, k);
     dyd_picture_box(g->canvas, &g->view, show);
     dyd_picture_stroke(g->canvas, 0x0072b2, g->view.line * 0.8, 0, 0);
     g->vertex = true;
   }
+  return st;
 }
 
 static void bound_text(char *out, size_t size, const dyd_voronoi_bounds *b) {
@@ -134,7 +147,7 @@ static void voronoi_inside(dyd_canvas *c, void *context) {
   dyd_picture_fill(c, DYD_PICTURE_BAND);
   g->st = dyd_diagram_visit(g->d, voronoi_cell, g);
   if (g->st == DYD_OK) g->st = dyd_diagram_regions(g->d, voronoi_region, g);
-  voronoi_vertices(g);
+  if (g->st == DYD_OK) g->st = voronoi_vertices(g);
   voronoi_sites(g);
 }
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Voronoi vertices of sure triangles, and default windows. */
+#include "delaunay/undecided.h"
 #include "voronoi/vertex_filter.h"
+#include <dyadel/predicate.h>
 #include <dyadel/voronoi.h>
 
 #include <math.h>
@@ -32,6 +34,58 @@ dyd_status dyd_voronoi_vertex(dyd_rect *out, const dyd_delaunay *pd, const dyd_t
   }
   if (st == DYD_OK) st = dyd_partial_centre_enclose(out, &r[0], &r[1], &r[2], bits);
   for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
+  return st;
+}
+
+/* ---- vertices of tied faces ---- */
+
+/* corner[0..2]: sites far apart: the first, who is farthest from it, who is farthest from the line of both. */
+static void spread_corners(uint32_t corner[3], const dyd_sites *sites, const dyd_index_list *list) {
+  double at[3][2], e[4], best[3] = {0, -1, -1};
+  for (int k = 0; k < 3; k++) {
+    corner[k] = list->item[0];
+    for (size_t q = 0; q < list->count; q++) {
+      dyd_sites_get_d(e, sites, list->item[q]);
+      double x = e[0] / 2 + e[1] / 2 - (k ? at[0][0] : 0), y = e[2] / 2 + e[3] / 2 - (k ? at[0][1] : 0);
+      double size = k == 0 ? -(double)q : k == 1 ? x * x + y * y : fabs(at[1][0] * y - at[1][1] * x);
+      if (k == 0 ? q > 0 : size <= best[k]) continue;
+      best[k] = size;
+      corner[k] = list->item[q];
+      at[k][0] = x;
+      at[k][1] = y;
+    }
+  }
+}
+
+/* The rectangle of the centre of three sites, which have to be surely oriented. */
+static dyd_status enclose_centre(dyd_rect *out, const dyd_sites *sites, const uint32_t corner[3], int64_t bits) {
+  dyd_rect r[3];
+  dyd_status st = DYD_OK;
+  for (int k = 0; k < 3; k++) {
+    dyd_rect_init(&r[k]);
+    if (st == DYD_OK) st = dyd_sites_get(&r[k], sites, corner[k]);
+  }
+  dyd_sure turn = st == DYD_OK ? dyd_orientation(&r[0], &r[1], &r[2]) : DYD_UNSURE;
+  if (turn == DYD_SURE_MINUS) dyd_rect_swap(&r[1], &r[2]);
+  if (st == DYD_OK && turn == DYD_UNSURE) st = DYD_E_RANGE;
+  if (st == DYD_OK) st = dyd_partial_centre_enclose(out, &r[0], &r[1], &r[2], bits);
+  for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
+  return st;
+}
+
+dyd_status dyd_voronoi_tied_vertex(dyd_rect *out, bool *tied, const dyd_delaunay *pd, size_t f, int64_t bits) {
+  dyd_index_list sites = {0};
+  uint32_t corner[3];
+  bool outer;
+  if (f >= dyd_delaunay_undecided_faces(pd)) return DYD_E_ARG;
+  *tied = !dyd_open_is_outer(pd, f) && dyd_open_status_of(pd, f) == DYD_TIE;
+  if (!*tied) return DYD_OK;
+  dyd_status st = dyd_delaunay_face(&sites, &outer, pd, f);
+  if (st == DYD_OK) {
+    spread_corners(corner, pd->sk.rects.sites, &sites);
+    st = enclose_centre(out, pd->sk.rects.sites, corner, bits);
+  }
+  dyd_index_list_clear(&sites);
   return st;
 }
 

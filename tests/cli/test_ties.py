@@ -4,6 +4,7 @@
 
 Usage: test_ties.py COMMAND DATA
 """
+import json
 import os
 import tempfile
 from fractions import Fraction
@@ -125,6 +126,14 @@ def test_counters():
                  'zero or not, unknown +0', 'bits in tests, most +[1-9][0-9]*', 'degree in tests, most +[0-9]+',
                  r'seconds in tests +0\.[0-9]{3}'):
         expect(result, 3, err=f'^{line}$')
+
+
+def test_counters_in_json():
+    result = run('delaunay', '-', '--format', 'json', stdin=text(gon(12)))
+    counters = json.loads(result.out)['counters']
+    assert counters['zero_tests'] == 9 == counters['zero_by_identity'] + counters['zero_by_bound'], counters
+    assert counters['not_zero'] == counters['zero_unknown'] == 0 < counters['zero_bits_most'], counters
+    assert counters['zero_milliseconds_rounded_up'] > 0 <= counters['zero_degree_most'], counters
 
 
 def test_traces():

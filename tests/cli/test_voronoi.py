@@ -69,7 +69,9 @@ def test_cocircular_points_are_certified():
         bound = data['bounds'][key]
         assert number(bound['exact']) <= Fraction(1, 2**bits), bound
         assert Fraction(bound['decimal']) >= number(bound['exact']), bound
-        assert len(data['cells']) == 12 and not data['vertices']
+        assert len(data['cells']) == 12
+        vertex, = data['vertices']  # all have it in common
+        assert vertex['sites'] == list(range(12)) and all(vertex[a][0] <= 0 <= vertex[a][1] for a in 'xy'), vertex
         region, = data['regions']
         assert region['sites'] == list(range(12))
         for axis in 'xy':  # the centre of the polygon
@@ -304,6 +306,27 @@ def centre(p):
             ay + (bx * (cx * cx + cy * cy) - cx * (bx * bx + by * by)) / d)
 
 
+def test_tied_vertices():
+    """A vertex of four or more sites is one, with all of them, be they exact or proved to be on one circle."""
+    for points, sites, at in (('0 0\n1 0\n0 1\n1 1\n', '0 1 2 3', (Fraction(1, 2), Fraction(1, 2))),
+                              ('sqrt(2) 0\n0 sqrt(2)\n-sqrt(2) 0\n0 -sqrt(2)\n', '0 1 2 3', (0, 0)),
+                              ('0 0\n2 0\n0 2\n2 2\n5 1\n', '0 1 2 3', (1, 1))):
+        out = run('voronoi', '-', '--layer', 'vertices', stdin=points).out.splitlines()
+        assert [line for line in out if line.startswith('# tie')] == ['# tie ' + sites], out
+        row, = [line.split(',') for line in out if line.startswith('0,1,2,')]
+        box = [Fraction(t) for t in row[3:]]
+        assert box[0] <= at[0] <= box[1] and box[2] <= at[1] <= box[3] and box[1] - box[0] < 1e-15, box
+        feature, = [f for f in json.loads(run('voronoi', '-', '--layer', 'vertices', '--format', 'geojson',
+                                              stdin=points).out)['features'] if f['properties']['k'] == 2]
+        assert feature['geometry']['coordinates'] == [float(x) for x in at], feature
+    fine = run('voronoi', '-', '--layer', 'vertices', '--until', 'hausdorff:200', stdin=POLYGON).out.splitlines()[-1]
+    assert fine.startswith('0,1,2,') and number(fine.split(',')[4]) - number(fine.split(',')[3]) <= Fraction(1, 2**200)
+    line = run('voronoi', '-', '--layer', 'vertices', stdin='0 0\n1 1\n2 2\n3 3\n').out
+    assert '# tie' not in line and line.endswith('yhi\n'), line  # of a line there is none
+    undecided = run('voronoi', '-', '--layer', 'vertices', stdin='0 0\n1 0\n0 1\n[1,1.1] 1\n').out
+    assert '# tie' not in undecided and undecided.endswith('yhi\n'), undecided
+
+
 def test_vertices_are_as_narrow_as_the_goal():
     points = [tuple(root(t) for t in p) for p in RADICANDS]
     for bits in (10, 100, 300):
@@ -393,7 +416,7 @@ def check_vtk(text):
     rest = list(lines)
     assert rest.count('LOOKUP_TABLE default') == 2 and len(rest) == 2 * cells + 4
     kinds = rest[rest.index('SCALARS kind int 1') + 2:]
-    assert sorted(kinds) == ['0'] * 12 + ['1'] * 12 + ['3'], kinds
+    assert sorted(kinds) == ['0'] * 12 + ['1'] * 12 + ['2', '3'], kinds
 
 
 def test_formats():

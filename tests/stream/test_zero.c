@@ -224,6 +224,65 @@ static void test_random_identities(void **state) {
   }
 }
 
+/* Four points of a circle, or three of a line, given by random expressions; one of them moved by 2^-k, k to 3000, or
+ * not. */
+static void random_tie(char point[4][2][600], bool line) {
+  char r[200], c[100];
+  snprintf(r, sizeof r, "(%s)", leaf[random_below(sizeof leaf / sizeof *leaf)]);
+  snprintf(c, sizeof c, "%s", leaf[random_below(sizeof leaf / sizeof *leaf)]);
+  size_t n = 5 + random_below(20), first = random_below(n);
+  for (size_t k = 0; k < 4; k++) {
+    size_t at = first + k;
+    if (line) {
+      snprintf(point[k][0], sizeof point[k][0], "%s*%zu+%s", r, at, c);
+      snprintf(point[k][1], sizeof point[k][1], "%s*%zu-%zu/7", c, at, n);
+    } else {
+      snprintf(point[k][0], sizeof point[k][0], "%s*cos(2*pi*%zu/%zu)+%s", r, at, n, c);
+      snprintf(point[k][1], sizeof point[k][1], "%s*sin(2*pi*%zu/%zu)-1/3", r, at, n);
+    }
+  }
+}
+
+/* Are they on one circle, or the first three on one line? */
+static dyd_zero tie_zero(char point[4][2][600], bool line) {
+  dyd_real *x[4][2];
+  dyd_form_point at[4];
+  dyd_algebra a;
+  assert_int_equal(dyd_algebra_open(&a, TIE_BITS, NULL), DYD_OK);
+  for (int k = 0; k < 4; k++) {
+    for (int m = 0; m < 2; m++) x[k][m] = parsed(point[k][m]);
+    at[k] = (dyd_form_point){dyd_forms_real(&a.forms, x[k][0]), dyd_forms_real(&a.forms, x[k][1])};
+  }
+  assert_int_equal(dyd_algebra_settle(&a, &at->x, 8), DYD_OK);
+  uint32_t n = line ? dyd_forms_collinear(&a.forms, at) : dyd_forms_cocircular(&a.forms, at);
+  dyd_zero zero = dyd_algebra_test(&a, n);
+  dyd_algebra_close(&a);
+  for (int k = 0; k < 8; k++) dyd_real_free(x[k / 2][k % 2]);
+  return zero;
+}
+
+/* With DYADEL_TEST_SCALE=100, 10^5 of them. */
+static void test_moved_ties(void **state) {
+  (void)state;
+  chance = test_random_start("moved ties");
+  for (size_t k = 0; k < test_cases(1000); k++) {
+    char point[4][2][600], more[40];
+    bool line = random_below(2);
+    random_tie(point, line);
+    char *moved = point[random_below(3)][random_below(2)];
+    size_t bits = 1 + random_below(k % 10 ? 300 : 3000);
+    if (k % 20 == 0 && tie_zero(point, line) != DYD_ZERO_PROVED)
+      fail_msg("no tie: %s %s, %s %s ...", point[0][0], point[0][1], point[1][0], point[1][1]);
+    snprintf(more, sizeof more, "%c2^-%zu", "+-"[random_below(2)], bits);
+    strcat(moved, more);
+    dyd_zero zero = tie_zero(point, line);
+    /* along its circle a point is off by no more than the square, which may be too little for the bits allowed */
+    bool small = !line && bits > 1500;
+    if (zero == DYD_ZERO_PROVED || (zero == DYD_ZERO_UNKNOWN && !small))
+      fail_msg("%d, 2^-%zu: %s in %s %s ...", zero, bits, moved, point[0][0], point[0][1]);
+  }
+}
+
 /* The two ways to a proof, each alone, against many digits. */
 static void test_ways_agree(void **state) {
   int proved = 0;
@@ -300,9 +359,10 @@ static void test_intervals(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_equal),     cmocka_unit_test(test_identities), cmocka_unit_test(test_different),
-      cmocka_unit_test(test_unknown),   cmocka_unit_test(test_caps),       cmocka_unit_test(test_callbacks),
-      cmocka_unit_test(test_intervals), cmocka_unit_test(test_ways_agree), cmocka_unit_test(test_random_identities),
+      cmocka_unit_test(test_equal),      cmocka_unit_test(test_identities), cmocka_unit_test(test_different),
+      cmocka_unit_test(test_unknown),    cmocka_unit_test(test_caps),       cmocka_unit_test(test_callbacks),
+      cmocka_unit_test(test_intervals),  cmocka_unit_test(test_ways_agree), cmocka_unit_test(test_random_identities),
+      cmocka_unit_test(test_moved_ties),
   };
   return cmocka_run_group_tests(tests, NULL, release_caches);
 }
