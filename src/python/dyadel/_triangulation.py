@@ -328,8 +328,9 @@ class Delaunay:
                 **options: Any) -> Voronoi:
         """The Voronoi diagram on a window (xlo, xhi, ylo, yhi); default: the box of the points enlarged by half.
 
-        flatten: polygons are within 2^-flatten of their cells (default: what suits the mean size of cells); until='area:M' or 'hausdorff:M' refines first, until the bound of the diagram is at most 2^-M; options are those
-        of delaunay.
+        flatten: polygons are within 2^-flatten of their cells (default: what suits the mean size of cells);
+        until='area:M' or 'hausdorff:M' refines first, until the bound of the diagram is at most 2^-M; options are those of
+        delaunay.
         """
         from ._voronoi import Voronoi
         if until is not None:
