@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What the package does with an array, called from C. Usage: arrays N RUNS; prints the user time of each run in seconds.
+/* What the package does with an array, called from C. Usage: arrays N RUNS; prints the user time of each run in
+ * seconds.
  */
 #include <dyadel/dyadel.h>
 #include <stdio.h>
