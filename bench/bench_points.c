@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Rows over exact points: uniform, grid, circle, cocircular, capped, growth. */
+/* Rows over exact points: uniform, arrays, grid, circle, cocircular, capped, growth. */
 #include "answers.h"
 #include "cloud.h"
 #include "ours.h"
@@ -76,6 +76,30 @@ static void row_uniform(const bench_options *o) {
   bench_row goals = {.name = "uniform", .ratio_bar = 2.0, .ratio_goal = 0.6, .total_bar = 400, .beyond_goal = 100};
   cloud_uniform(&points, bench_size(o, 1000000));
   row_of(o, &goals, &points, OURS_STATUSES, 5);
+}
+
+/* What a binding hands over: the triangles of `uniform` and their neighbours; against the time of the run itself. */
+static void row_arrays(const bench_options *o) {
+  static const bench_series no_peer;
+  cloud points;
+  bench_series arrays = {0}, run = {0};
+  ours_answer answer;
+  if (o->part > 1) return;
+  cloud_uniform(&points, bench_size(o, 1000000));
+  for (size_t r = 0; r < bench_runs(o, 5); r++) {
+    bench_series_add(&arrays, ours_run(&answer, "arrays", &points, OURS_ARRAYS, 1));
+    bench_series_add(&run, ours_run(&answer, "arrays", &points, OURS_STATUSES, 1));
+  }
+  bench_check(o, "uniform", points.n, answer.count);
+  bench_report(o, &(bench_row){.name = "arrays",
+                               .n = points.n,
+                               .ours = &arrays,
+                               .peer = &no_peer,
+                               .measure = "of the run",
+                               .figure = bench_series_median(&arrays).seconds / bench_series_median(&run).seconds,
+                               .figure_goal = 0.2,
+                               .remark = "triangles and neighbours as found"});
+  cloud_clear(&points);
 }
 
 static void row_grid(const bench_options *o) {
@@ -156,6 +180,7 @@ int main(int argc, char **argv) {
   bench_options_read(&o, argc, argv);
   while (bench_next_part(&o)) {
     if (bench_wants(&o, "uniform")) row_uniform(&o);
+    if (bench_wants(&o, "arrays")) row_arrays(&o);
     if (bench_wants(&o, "grid")) row_grid(&o);
     if (bench_wants(&o, "circle")) row_circle(&o);
     if (bench_wants(&o, "cocircular")) row_cocircular(&o);

@@ -36,11 +36,18 @@ bench_cost ours_run(ours_answer *out, const char *row, const cloud *c, ours_what
     check(row, dyd_sites_add_points(sites, c->n, c->x, c->y));
   check(row, dyd_delaunay_new(&pd, sites, &options, NULL));
   dyd_delaunay_count(out->count, pd);
+  dyd_triangle_list triangles = {0}, beyond = {0};
+  if (what == OURS_ARRAYS) {
+    meter = bench_start();
+    check(row, dyd_delaunay_triangles_as_found(&triangles, &beyond, pd));
+  }
   if (what == OURS_LISTED) check(row, dyd_delaunay_pairs(&pairs, pd));
   bench_cost cost = bench_stop(&meter);
   out->input_bytes = (double)dyd_sites_memory(sites);
   if (what == OURS_LISTED) take_edges(&out->edges, row, &pairs);
   if (what == OURS_AND_EDGES) ours_edges(&out->edges, row, pd);
+  dyd_triangle_list_clear(&triangles);
+  dyd_triangle_list_clear(&beyond);
   dyd_pair_list_clear(&pairs);
   dyd_delaunay_free(pd);
   dyd_sites_free(sites);

@@ -17,6 +17,7 @@ typedef struct ours_answer {
 
 typedef enum ours_what {
   OURS_STATUSES, /* statuses computed and counted */
+  OURS_ARRAYS,   /* ... and triangles with their neighbours as arrays, alone inside the timed part */
   OURS_LISTED,   /* ... and all possible pairs listed, inside the timed part */
   OURS_AND_EDGES /* like OURS_STATUSES; the pairs are listed after the clock has stopped */
 } ours_what;

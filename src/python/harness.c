@@ -52,11 +52,15 @@ static dyd_check_move *moves_of(size_t *count, PyObject *list) {
   if (!move && size >= 0) PyErr_NoMemory();
   for (Py_ssize_t k = 0; move && k < size; k++) {
     long long bits;
-    if (!PyArg_ParseTuple(PyList_GetItem(list, k), "IIL", &move[k].stage, &move[k].point, &bits)) {
+    Py_ssize_t stage, point;
+    bool good = PyArg_ParseTuple(PyList_GetItem(list, k), "nnL", &stage, &point, &bits);
+    if (good && (stage < 1 || point < 0 || stage > UINT32_MAX || point > UINT32_MAX))
+      PyErr_SetString(PyExc_ValueError, "a move is (stage, point, bits), stages from 1, points from 0");
+    if (PyErr_Occurred()) {
       free(move);
       return NULL;
     }
-    move[k].bits = bits;
+    move[k] = (dyd_check_move){(uint32_t)stage, (uint32_t)point, bits};
   }
   *count = size < 0 ? 0 : (size_t)size;
   return move;

@@ -105,6 +105,8 @@ void dydpy_options_clear(dydpy_options *o);
  * set.
  */
 int dydpy_stream(dyd_stream **out, PyObject *point, PyObject *radii);
+/* The point of that number; false with IndexError when there is none. */
+bool dydpy_site(uint32_t *out, dydpy_engine *self, Py_ssize_t number);
 /* Ends a call that entered: None, or the failure raised. */
 PyObject *dydpy_done(dydpy_engine *self, dyd_status st, const dyd_error *err);
 

@@ -199,12 +199,13 @@ PyObject *dydpy_append_text(PyObject *object, PyObject *args) {
 /* remeasure(i, (xlo, xhi, ylo, yhi)) */
 PyObject *dydpy_remeasure(PyObject *object, PyObject *args) {
   dydpy_engine *self = (dydpy_engine *)object;
-  unsigned site;
+  Py_ssize_t number;
+  uint32_t site;
   PyObject *ends, *done = NULL;
   bool given;
   dyd_rect r;
   dyd_error err;
-  if (!PyArg_ParseTuple(args, "IO", &site, &ends)) return NULL;
+  if (!PyArg_ParseTuple(args, "nO", &number, &ends) || !dydpy_site(&site, self, number)) return NULL;
   dyd_rect_init(&r);
   if (dydpy_window(&r, &given, ends) == 0 && dydpy_enter(self))
     done = dydpy_done(self, dyd_engine_remeasure(self->engine, site, &r, &err), &err);

@@ -139,7 +139,7 @@ PyObject *dydpy_plan(PyObject *object, PyObject *args) {
   uint32_t only = 0;
   mpq_t exact;
   if (!PyArg_ParseTuple(args, "OOO", &accuracy, &window, &site)) return NULL;
-  if (site != Py_None) only = (uint32_t)PyLong_AsUnsignedLong(site);
+  if (site != Py_None && !dydpy_site(&only, self, PyLong_AsSsize_t(site))) return NULL;
   mpq_init(exact);
   dyd_rect_init(&view);
   bool good = !PyErr_Occurred() && (accuracy == Py_None || dydpy_rational(exact, accuracy) == 0) &&

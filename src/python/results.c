@@ -68,14 +68,14 @@ PyObject *dydpy_counts(PyObject *object, PyObject *none) {
 
 PyObject *dydpy_pair_status(PyObject *object, PyObject *args) {
   dydpy_engine *self = (dydpy_engine *)object;
-  unsigned i, j;
-  if (!PyArg_ParseTuple(args, "II", &i, &j)) return NULL;
+  Py_ssize_t i, j;
+  uint32_t first, second;
+  if (!PyArg_ParseTuple(args, "nn", &i, &j) || !dydpy_site(&first, self, i) || !dydpy_site(&second, self, j))
+    return NULL;
   const dyd_delaunay *pd = dydpy_enter_result(self);
   if (!pd) return NULL;
-  size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
-  dyd_pair_status status = i < n && j < n ? dyd_delaunay_status(pd, i, j) : DYD_ILLEGAL;
+  dyd_pair_status status = dyd_delaunay_status(pd, first, second);
   dydpy_leave(self);
-  if (i >= n || j >= n) return PyErr_Format(PyExc_IndexError, "there are %zu points", n);
   return PyLong_FromLong(status);
 }
 
@@ -102,16 +102,17 @@ PyObject *dydpy_rect(PyObject *object, PyObject *site) {
   dydpy_engine *self = (dydpy_engine *)object;
   dyd_rect r;
   PyObject *ends = NULL;
-  size_t i = PyLong_AsSize_t(site);
-  if (PyErr_Occurred() || !dydpy_enter(self)) return NULL;
+  Py_ssize_t number = PyLong_AsSsize_t(site);
+  uint32_t i;
+  if (PyErr_Occurred() || !dydpy_site(&i, self, number) || !dydpy_enter(self)) return NULL;
   dyd_rect_init(&r);
-  bool known = i < dyd_engine_count(self->engine) && dyd_engine_knows(self->engine, (uint32_t)i);
+  bool known = dyd_engine_knows(self->engine, i);
   dyd_status st = known ? dyd_sites_get(&r, dyd_engine_sites(self->engine), i) : DYD_E_ARG;
   dydpy_leave(self);
   if (st == DYD_OK)
     ends = dydpy_rect_ends(&r);
   else
-    PyErr_Format(PyExc_IndexError, "there is no point %zu, or it has not been asked yet", i);
+    PyErr_Format(PyExc_RuntimeError, "point %zd has not been asked yet; call refine()", number);
   dyd_rect_clear(&r);
   return ends;
 }

@@ -54,6 +54,16 @@ PyObject *dydpy_dict(const dydpy_entry *entry, size_t count) {
   return dict;
 }
 
+bool dydpy_site(uint32_t *out, dydpy_engine *self, Py_ssize_t number) {
+  size_t count = self->engine ? dyd_engine_count(self->engine) : 0;
+  bool there = number >= 0 && (size_t)number < count;
+  if (there)
+    *out = (uint32_t)number;
+  else if (!PyErr_Occurred())
+    PyErr_Format(PyExc_IndexError, "there is no point %zd; there are %zu, counted from 0", number, count);
+  return there;
+}
+
 bool dydpy_enter(dydpy_engine *self) {
   if (self->busy || !self->engine) {
     PyErr_SetString(PyExc_RuntimeError,

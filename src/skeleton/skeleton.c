@@ -35,6 +35,7 @@ static dyd_status skeleton_triangulate(dyd_skeleton *sk, const dyd_skeleton_opti
   if (!order) return DYD_E_NOMEM;
   dyd_strips strips;
   dyd_status st = dyd_spatial_order(order, &strips, sk->rects.sites, o->threads);
+  if (st == DYD_OK && dyd_flag_is_set(o->cancel)) st = DYD_CANCELLED;
   if (st != DYD_OK) {
     free(order);
     return st;

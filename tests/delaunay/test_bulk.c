@@ -10,6 +10,8 @@
 #include <dyadel/delaunay.h>
 
 #include <cmocka.h>
+#include <stdlib.h>
+#include <string.h>
 
 #define BULK_MAX 256
 
@@ -172,6 +174,44 @@ static void check_same(const bulk *b, const dyd_sites *s, const dyd_delaunay *pd
   dyd_delaunay_free(other);
 }
 
+static int triangle_compare(const void *a, const void *b) {
+  return memcmp(a, b, sizeof(dyd_triangle));
+}
+
+/* The number of t in a list sorted by the bytes. */
+static uint32_t number_in(const dyd_triangle_list *l, dyd_triangle t) {
+  const dyd_triangle *found = bsearch(&t, l->item, l->count, sizeof t, triangle_compare);
+  assert_non_null(found);
+  return (uint32_t)(found - l->item);
+}
+
+/* Sorted or as found, the triangles and who is beyond their sides are the same. */
+static void check_triangles(const dyd_delaunay *pd) {
+  dyd_triangle_list sorted = {0}, beyond = {0}, found = {0}, behind = {0}, names = {0};
+  assert_int_equal(DYD_OK, dyd_delaunay_triangles_and_neighbours(&sorted, &beyond, pd));
+  assert_int_equal(DYD_OK, dyd_delaunay_triangles_as_found(&found, &behind, pd));
+  assert_int_equal(DYD_OK, dyd_delaunay_triangles(&names, pd));
+  assert_int_equal(sorted.count, found.count);
+  assert_int_equal(sorted.count, behind.count);
+  qsort(names.item, names.count, sizeof *names.item, triangle_compare);
+  uint32_t *place = calloc(sorted.count + 1, sizeof *place); /* by name: in the sorted list */
+  for (uint32_t t = 0; t < sorted.count; t++) place[number_in(&names, sorted.item[t])] = t;
+  for (uint32_t t = 0; t < found.count; t++) {
+    uint32_t same = place[number_in(&names, found.item[t])];
+    for (int k = 0; k < 3; k++) {
+      uint32_t next = behind.item[t].v[k];
+      uint32_t want = next == DYD_NO_TRIANGLE ? next : place[number_in(&names, found.item[next])];
+      assert_int_equal(beyond.item[same].v[k], want);
+    }
+  }
+  free(place);
+  dyd_triangle_list_clear(&names);
+  dyd_triangle_list_clear(&behind);
+  dyd_triangle_list_clear(&found);
+  dyd_triangle_list_clear(&beyond);
+  dyd_triangle_list_clear(&sorted);
+}
+
 static void run_rectangles(test_random *r, size_t n, int64_t grid, int64_t side, unsigned fat) {
   bulk b = bulk_new(n);
   dyd_delaunay *pd = NULL;
@@ -184,9 +224,11 @@ static void run_rectangles(test_random *r, size_t n, int64_t grid, int64_t side,
   }
   check_same(&b, s, pd, true, 1);
   check_same(&b, s, pd, false, 3);
+  check_triangles(pd);
   shrink_to_choice(&b, r, s, pd);
   if (!repeats(&b)) check_choice(&b, pd, true);
   check_same(&b, s, pd, false, 1);
+  check_triangles(pd);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);
   bulk_free(&b);

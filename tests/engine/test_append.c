@@ -238,6 +238,12 @@ static void test_refused(void **state) {
   assert_int_equal(DYD_E_ARG, dyd_engine_append_boxes(e, 3, x, x, bad, x, &err));
   assert_non_null(strstr(err.message, "point 4: y is "));
   assert_int_equal(4, err.point);
+  const dyd_column xy[2] = {{x, 8}, {low, 8}}, off[2] = {{x, 8}, {worse, 8}};
+  assert_int_equal(DYD_E_ARG, dyd_engine_append_columns(e, 3, off, NULL, &err));
+  assert_non_null(strstr(err.message, "point 5: y is -inf"));
+  assert_int_equal(DYD_E_ARG, dyd_engine_append_columns(e, 3, xy, off, &err));
+  assert_non_null(strstr(err.message, "point 5: the radius in y is -inf"));
+  assert_int_equal(5, err.point);
   assert_int_equal(DYD_E_ARG, dyd_engine_add_text(e, "1 2", 3, NULL, &err));
   assert_non_null(strstr(err.message, "dyd_engine_append_"));
   assert_int_equal(DYD_E_PARSE, dyd_engine_append_text(e, "1 2\n1 x", 7, NULL, &err));

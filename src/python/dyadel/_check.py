@@ -31,7 +31,7 @@ def check(points: Any, radius: Any = None, *, moves: Sequence[Move] | None = Non
         engine = _dyadel.Engine()
         append_points(engine, points, radius)
         return engine
-    given = None if moves is None else sorted(tuple(move) for move in moves)
+    given = None if moves is None else sorted((stage, point, bits) for stage, point, bits in moves)
     report = _dyadel.check(make, seed, schedules, stages, base_bits, max_bits, slack_bits, timeout or 0.0, given,
                            progress)
     if report['fault'] == 'fine':

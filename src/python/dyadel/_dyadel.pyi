@@ -9,7 +9,7 @@ Ends = tuple[Ratio, Ratio, Ratio, Ratio]
 version: str
 
 class Buffer:
-    def __buffer__(self, flags: int, /) -> memoryview: ...
+    """Memory of the library, with the buffer protocol."""
 
 class Engine:
     def append_array(self, xy: Any, radius: Any, /) -> None: ...

@@ -21,12 +21,13 @@ class Error(ValueError):
         self.code, self.point, self.stage, self.line, self.column = code, point, stage, line, column
 
     def __reduce__(self) -> tuple[type[Error], tuple[Any, ...]]:
-        return type(self), (str(self), self.code, self.point, self.stage, self.line, self.column)
+        return type(self), (self.args[0], self.code, self.point, self.stage, self.line, self.column)
 
     def __str__(self) -> str:
+        message = str(self.args[0])
         where = [f'{name} {number}' for name in ('point', 'stage', 'line', 'column')
-                 if (number := getattr(self, name)) is not None and f'{name} {number}' not in self.args[0]]
-        return self.args[0] + (f' ({", ".join(where)})' if where else '')
+                 if (number := getattr(self, name)) is not None and f'{name} {number}' not in message]
+        return message + (f' ({", ".join(where)})' if where else '')
 
 
 class BrokenPromise(AssertionError):

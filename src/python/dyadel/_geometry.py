@@ -13,9 +13,22 @@ from . import _dyadel
 if TYPE_CHECKING:
     from ._triangulation import Delaunay
 
+Ints = NDArray[np.int32]
+Floats = NDArray[np.float64]
+
 FORMATS = {name: binary for name, _, binary in _dyadel.formats()}
 #: Larger results are shown in words: notebooks keep every picture in their file.
 MOST_POINTS_SHOWN = 20_000
+
+
+def ints(buffer: Any) -> Ints:
+    """Memory of the library as numbers, without a copy."""
+    return np.frombuffer(buffer, np.int32)
+
+
+def floats(buffer: Any) -> Floats:
+    """Memory of the library as numbers, without a copy."""
+    return np.frombuffer(buffer, np.float64)
 
 
 def text_of(format: str, written: bytes) -> str | bytes:
@@ -23,12 +36,12 @@ def text_of(format: str, written: bytes) -> str | bytes:
     return written if FORMATS[format] else written.decode()
 
 
-def centres(boxes: NDArray[np.float64]) -> NDArray[np.float64]:
+def centres(boxes: Floats) -> Floats:
     """(N, 2): the middle of each box, rounded; exact for points."""
     return boxes[:, 0::2] / 2 + boxes[:, 1::2] / 2 if boxes.size else boxes[:, :2]
 
 
-def _records(head: list[tuple[str, Any]], coordinates: NDArray[np.float64]) -> list[bytes]:
+def _records(head: list[tuple[str, Any]], coordinates: Floats) -> list[bytes]:
     """Little-endian records: numbers of one byte or four, then doubles."""
     count, size = coordinates.shape
     kind = np.dtype([(f'h{k}', form) for k, (form, _) in enumerate(head)] + [('xy', '<f8', (size,))])

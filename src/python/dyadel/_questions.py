@@ -5,17 +5,15 @@ from __future__ import annotations
 import html
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _dyadel
 from ._options import engine_options
-from ._triangulation import Delaunay, Floats, Ints, append_points, delaunay
-
-if TYPE_CHECKING:
-    import numpy.typing
+from ._geometry import Floats, Ints, floats, ints
+from ._triangulation import Delaunay, append_points, delaunay
 
 EVENTS = np.array(['death', 'birth', 'tie'])
 
@@ -49,7 +47,7 @@ def nearest(d: Delaunay, x: Any, y: Any, options: Mapping[str, Any]) -> Nearest:
     """See Delaunay.nearest."""
     found, sure, outcome, ends = d._engine.nearest((x, y), engine_options(**options))
     d._cache = {}
-    points = np.frombuffer(found, np.int32)
+    points = ints(found)
     at = [float(np.nextafter(float(Fraction(*end)), np.inf if k % 2 else -np.inf)) for k, end in enumerate(ends)]
     return Nearest(points, sure, outcome, *_distances(d.boxes[points], at))
 
@@ -87,7 +85,7 @@ class Table(Mapping[str, NDArray[Any]]):
         return '<table>' + line(self, 'th') + ''.join(line(row.values(), 'td') for row in self.rows[:100]) + '</table>'
 
 
-def _fields(buffer: _dyadel.Buffer, form: Mapping[str, tuple[str, int]], size: int) -> Table:
+def _fields(buffer: Any, form: Mapping[str, tuple[str, int]], size: int) -> Table:
     """Columns of records as C lays them out."""
     kind = np.dtype({'names': list(form), 'formats': [f for f, _ in form.values()],
                      'offsets': [at for _, at in form.values()], 'itemsize': size})
@@ -114,7 +112,7 @@ class Tolerance(Table):
                                'lo': ('f8', 24), 'hi': ('f8', 32)}, 40)
         made = cls({**table, 'event': EVENTS[table['event']]})
         made.lo, made.hi = lo, hi
-        made.radii = None if radii is None else np.frombuffer(radii, np.float64)
+        made.radii = None if radii is None else floats(radii)
         return made
 
 

@@ -10,17 +10,15 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import _dyadel, _geometry
+from ._geometry import Floats, Ints, floats, ints
 from ._options import engine_options
 
 if TYPE_CHECKING:
     from ._questions import Nearest, Plan, Tolerance
     from ._voronoi import Voronoi
 
-Ints = NDArray[np.int32]
-Floats = NDArray[np.float64]
 Rect = tuple[Fraction, Fraction, Fraction, Fraction]
 
 STATUS = ('illegal', 'tie', 'indeterminate', 'legal')
@@ -229,7 +227,7 @@ class Delaunay:
     @property
     def pairs(self) -> Ints:
         """All possible pairs, sorted: (M, 3) i, j, status with i < j; LEGAL, INDETERMINATE or TIE."""
-        array: Ints = self._once('pairs', lambda: np.frombuffer(self._engine.pairs(False), np.int32).reshape(-1, 3))
+        array: Ints = self._once('pairs', lambda: ints(self._engine.pairs(False)).reshape(-1, 3))
         return array
 
     def _with(self, name: str, status: int) -> Ints:
@@ -253,7 +251,7 @@ class Delaunay:
 
     def discs(self) -> Ints:
         """Pairs, as `pairs`, when each point lies in the disc inside its square: more are decided than for squares."""
-        return np.frombuffer(self._engine.pairs(True), np.int32).reshape(-1, 3)
+        return ints(self._engine.pairs(True)).reshape(-1, 3)
 
     def status(self, i: int, j: int) -> str:
         """'legal', 'indeterminate', 'tie' or 'illegal'."""
@@ -261,7 +259,7 @@ class Delaunay:
 
     def _triangles(self) -> tuple[Ints, Ints]:
         def make() -> tuple[Ints, ...]:
-            return tuple(np.frombuffer(b, np.int32).reshape(-1, 3) for b in self._engine.triangles())
+            return tuple(ints(b).reshape(-1, 3) for b in self._engine.triangles())
         both: tuple[Ints, Ints] = self._once('triangles', make)
         return both
 
@@ -279,7 +277,7 @@ class Delaunay:
     def aliases(self) -> Ints:
         """(A, 2): point k is the same place as point j < k, which stands for it."""
         def make() -> Ints:
-            alias = np.frombuffer(self._engine.aliases(), np.int32)
+            alias = ints(self._engine.aliases())
             other = np.flatnonzero(alias != np.arange(len(alias)))
             return np.column_stack((other, alias[other])).astype(np.int32)
         array: Ints = self._once('aliases', make)
@@ -289,14 +287,14 @@ class Delaunay:
     def hull(self) -> tuple[Ints, Ints]:
         """Points that are surely corners of the convex hull, and those that possibly are on its boundary."""
         def make() -> tuple[Ints, ...]:
-            return tuple(np.frombuffer(b, np.int32) for b in self._engine.hull())
+            return tuple(ints(b) for b in self._engine.hull())
         both: tuple[Ints, Ints] = self._once('hull', make)
         return both
 
     @property
     def boxes(self) -> Floats:
         """Rectangles reached, rounded outward to doubles: (N, 4) xlo, xhi, ylo, yhi."""
-        array: Floats = self._once('boxes', lambda: np.frombuffer(self._engine.boxes(), np.float64).reshape(-1, 4))
+        array: Floats = self._once('boxes', lambda: floats(self._engine.boxes()).reshape(-1, 4))
         return array
 
     def rect(self, i: int) -> Rect:
@@ -326,18 +324,20 @@ class Delaunay:
         from ._questions import nearest
         return nearest(self, x, y, options)
 
-    def voronoi(self, window: Sequence[Any] | None = None, until: str | None = None, **options: Any) -> Voronoi:
+    def voronoi(self, window: Sequence[Any] | None = None, until: str | None = None, flatten: int | None = None,
+                **options: Any) -> Voronoi:
         """The Voronoi diagram on a window (xlo, xhi, ylo, yhi); default: the box of the points enlarged by half.
 
-        until='area:M' or 'hausdorff:M' refines first, until the bound of the diagram is at most 2^-M; options are those
-        of delaunay.
+        flatten: polygons are within 2^-flatten of their cells (default: what suits the mean size of cells);
+        until='area:M' or 'hausdorff:M' refines first, until the bound of the diagram is at most 2^-M; options are those of
+        delaunay.
         """
         from ._voronoi import Voronoi
         if until is not None:
             usual = self._options
             self.refine(until=until if until == 'decided' else f'voronoi {until}', window=window, **options)
             self._options = usual
-        return Voronoi(self, window)
+        return Voronoi(self, window, flatten)
 
     def tolerance(self, up_to: Any = None, points: bool = False) -> Tolerance:
         """How far the points, which have to be exact, may move: see dyadel.tolerance."""
@@ -394,7 +394,9 @@ class Delaunay:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """What was given, and how far rectangles came: a copy triangulates these, and goes on from there."""
-        boxes, rects, log, narrowed, first = self.boxes, self.rects(), [], {}, 0
+        boxes, rects, first = self.boxes, self.rects(), 0
+        log: list[tuple[Any, Any]] = []
+        narrowed: dict[int, str] = {}
         for count, points, radius in self._log:
             rows = range(first, first + count)
             narrowed.update((i, rects[i]) for i in rows if points is not None or i in self._measured)

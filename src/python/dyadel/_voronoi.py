@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from . import _geometry
-from ._triangulation import Floats, Rect
+from ._geometry import Floats
+from ._triangulation import Rect
 
 if TYPE_CHECKING:
     from ._triangulation import Delaunay
@@ -71,7 +72,8 @@ class Voronoi:
         if not 0 <= i < len(self):
             raise IndexError(f'there are {len(self)} points')
         row = self._cell[i] if i in self._cell else self._cell[dict(self.data['aliases'])[i]]
-        return Cell(_polygon(row['inner']), [_polygon(part) for part in row['outer']], tuple(row['area']))
+        low, high = row['area']
+        return Cell(_polygon(row['inner']), [_polygon(part) for part in row['outer']], (low, high))
 
     @property
     def edges(self) -> list[dict[str, Any]]:

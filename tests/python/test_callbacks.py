@@ -1,0 +1,177 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Points served by functions: that lie, raise, are interrupted, call back; threads; the harness on them."""
+import gc
+import pickle
+import threading
+import time
+import weakref
+from fractions import Fraction
+
+import harness
+import numpy as np
+
+import dyadel
+
+
+def half_line(i, bits):
+    """Point i is (i, i^2 / 3)."""
+    width = Fraction(1, 2**bits)
+    return i, i, Fraction(i * i, 3) - width / 3, Fraction(i * i, 3) + width / 3
+
+
+def test_answers():
+    third = Fraction(1, 3)
+    for answer in ((0, 1, third, third), [0, 1, '1/3', '0.5'], (0, 1, 0.25, 0.5, True), (0, 1, 0, 1, False),
+                   ((0, 1), (third, 1)), (0, third), ('1/3', 5), np.array([0.0, 1.0, 0.25, 0.5])):
+        d = dyadel.delaunay(dyadel.Source(1, lambda i, bits, answer=answer: answer), max_calls=20)
+        low, high, bottom, top = d.rect(0)
+        assert 0 <= low <= high <= 1 and bottom <= top
+    d = dyadel.delaunay(dyadel.Source(5, half_line))
+    assert d.outcome == 'decided' and len(d.legal) == 7
+    assert all(low <= Fraction(i * i, 3) <= high for i in range(5) for low, high in [d.rect(i)[2:]])
+
+
+def test_wrong_answers():
+    for answer, kind in ((None, TypeError), ('0 1 0 1', TypeError), ((1, 2, 3), TypeError), ((1, 2, 3, 4, 5, 6), TypeError),
+                         ((0, 1, 0, float('nan')), ValueError), ((0, 1, 0, 'x'), ValueError), ((0, 1, 0, None), TypeError),
+                         ((0, 1, 0, (0, 1)), TypeError), (5, TypeError)):
+        source = dyadel.Source(3, lambda i, bits, answer=answer: answer if i == 1 else (i, i, 0, 0))
+        error = harness.raised(kind, dyadel.delaunay, source)
+        assert isinstance(error.result, dyadel.Delaunay)
+
+
+def test_lies():
+    """What is not inside the answer before, and ends in the wrong order, are errors that name point and stage."""
+    def drifting(i, bits):
+        shift = bits if i == 2 else 0
+        return i + shift, i + shift + Fraction(1, 2**bits), i * i, i * i + Fraction(1, 2**bits)
+    error = harness.raised(dyadel.Error, dyadel.delaunay, dyadel.Source(4, drifting), start_bits=1, schedule='uniform')
+    assert error.code == 'nesting' and error.point == 2 and error.stage >= 1, (error, error.stage)
+    assert 'point 2' in str(error) and f'{error.stage}' in str(error)
+    assert (pickle.loads(pickle.dumps(error)).code, str(pickle.loads(pickle.dumps(error)))) == ('nesting', str(error))
+    assert error.result.outcome == 'error'
+    error = harness.raised(dyadel.Error, dyadel.delaunay, dyadel.Source(1, lambda i, bits: (1, 0, 0, 0)))
+    assert error.code == 'stream' and error.point == 0
+
+
+class Mine(Exception):
+    pass
+
+
+def test_exceptions_pass_unchanged():
+    mine = Mine('the instrument is off')
+
+    def narrow(i, bits):
+        if i == 3 and bits > 64:
+            raise mine
+        return i % 2, i % 2, i // 2, i // 2 + Fraction(1, 2**bits)
+    error = harness.raised(Mine, dyadel.delaunay, dyadel.Source(4, narrow))
+    assert error is mine and error.__traceback__ is not None
+    d = error.result
+    assert d.outcome == 'error' and len(d.pairs) == 6, 'the last complete result is kept'
+    assert harness.raised(Mine, d.refine) is mine
+    for kind in (SystemExit, KeyboardInterrupt, GeneratorExit, MemoryError):
+        def leave(i, bits, kind=kind):
+            raise kind
+        harness.raised(kind, dyadel.delaunay, dyadel.Source(1, leave))
+
+
+def test_progress():
+    seen = []
+    dyadel.delaunay(dyadel.Source(6, half_line), progress=seen.append, start_bits=4)
+    assert [p['stage'] for p in seen] == list(range(1, len(seen) + 1)) and seen[-1]['points'] == 6
+
+    def stop(p):
+        raise Mine(p['stage'])
+    error = harness.raised(Mine, dyadel.delaunay, dyadel.Source(6, half_line), progress=stop)
+    assert error.args == (1,) and error.result.outcome in ('cancelled', 'decided')
+
+
+def test_never_entered_twice():
+    def again(i, bits):
+        for call in (d.refine, lambda: d.pairs, lambda: d.append([(1, 1)]), lambda: d.rect(0), d.rects, d.certificate,
+                     lambda: d.nearest(0, 0), lambda: d.outcome, d.plan):
+            assert 'at work' in str(harness.raised(RuntimeError, call))
+        assert 'at work' in repr(d) and len(d) == 1
+        return 1, 1
+    d = dyadel.Delaunay()
+    d._append(dyadel.Source(1, again))
+    assert d.refine().outcome == 'decided'
+
+
+def test_many_engines_in_threads():
+    results = []
+
+    def work(k):
+        d = dyadel.delaunay(dyadel.Source(40, half_line))
+        results.append((k, len(d.legal), dyadel.delaunay(np.random.default_rng(k).random((20000, 2))).outcome))
+    threads = [threading.Thread(target=work, args=(k,)) for k in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert sorted(results) == [(k, 2 * 40 - 3, 'decided') for k in range(6)], results
+
+
+def test_gil_is_released():
+    """Python goes on while the library works, and another thread can cancel."""
+    points = np.random.default_rng(1).random((400000, 2))
+    d, ticks, done = dyadel.Delaunay(), 0, threading.Event()
+    d._append(points)
+
+    def work():
+        d.refine()
+        done.set()
+    thread = threading.Thread(target=work)
+    thread.start()
+    time.sleep(0.02)
+    refused = 0
+    while not done.is_set():
+        ticks += 1
+        try:
+            d.status(0, 1)
+        except RuntimeError:
+            refused += 1
+        d.cancel()
+        time.sleep(0.001)
+    thread.join()
+    assert ticks > 1 and d.outcome in ('cancelled', 'decided'), (ticks, d.outcome)
+    assert d.refine().refine().outcome == 'decided'
+
+
+def test_functions_are_freed():
+    """Also in a circle: the function knows the result that owns it."""
+    class Instrument:
+        def __call__(self, i, bits):
+            return i, i * i
+    instrument = Instrument()
+    instrument.result = dyadel.delaunay(dyadel.Source(5, instrument))
+    seen = weakref.ref(instrument)
+    del instrument
+    gc.collect()
+    assert seen() is None
+
+
+def test_check():
+    report = dyadel.check(dyadel.Source(5, half_line), schedules=8)
+    assert report['fault'] == 'fine' and report['schedules'] == 8
+    assert dyadel.check(np.random.default_rng(1).random((8, 2)), radius=0.01, schedules=2)['fault'] == 'fine'
+
+    def drifts(i, bits):
+        return i, i, Fraction(bits, 10**6), Fraction(bits, 10**6) + Fraction(1, 2**bits)
+    broken = harness.raised(dyadel.BrokenPromise, dyadel.check, dyadel.Source(4, drifts), schedules=8)
+    assert isinstance(broken, AssertionError) and broken.fault == 'stream' and broken.moves
+    again = harness.raised(dyadel.BrokenPromise, dyadel.check, dyadel.Source(4, drifts), moves=broken.moves)
+    assert again.fault == 'stream' and len(broken.moves) <= 2, broken.moves
+
+    def lazy(i, bits):
+        return i, i, Fraction(-1, 2**min(bits, 20)), Fraction(1, 2**min(bits, 20))
+    assert harness.raised(dyadel.BrokenPromise, dyadel.check, dyadel.Source(4, lazy), schedules=8).fault == 'rate'
+
+    def raises(i, bits):
+        raise Mine
+    harness.raised(Mine, dyadel.check, dyadel.Source(4, raises))
+
+
+harness.run_all(globals())

@@ -1,0 +1,56 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Memory is flat over 100 runs of everything, those that fail included."""
+import gc
+import pickle
+import sys
+
+import harness
+import numpy as np
+
+import dyadel
+
+RANDOM = np.random.default_rng(5)
+POINTS = RANDOM.random((3000, 2))
+MIXED = [('sqrt(2)', 1), (0.5, (1, 2)), ('[0,1]', '22/7'), (3, 'pi'), (5, 5)]
+
+
+def fails(i, bits):
+    if i == 2:
+        raise ValueError
+    return i, i
+
+
+def once():
+    d = dyadel.delaunay(POINTS, radius=1e-4)
+    d.simplices, d.neighbors, d.legal, d.boxes, d.hull, d.aliases, d.rects(), d.bounds
+    d.append(MIXED).nearest(0.5, 0.5)
+    small = dyadel.delaunay(MIXED)
+    small.voronoi(), small.write('json'), small.plan(), pickle.loads(pickle.dumps(small))
+    dyadel.verify(small.certificate(), MIXED)
+    dyadel.tolerance(POINTS[:50], radii=True)
+    dyadel.converge(MIXED)
+    dyadel.delaunay(dyadel.Source(5, lambda i, bits: (i, i * i)), progress=len)
+    dyadel.check(dyadel.Source(4, lambda i, bits: (i, i * i)), schedules=1)
+    for wrong in (dyadel.Source(5, fails), [(1, 2), ('x', 3)], np.array([[np.nan, 0]])):
+        harness.raised(ValueError, dyadel.delaunay, wrong)
+
+
+def resident():
+    gc.collect()
+    with open('/proc/self/statm', encoding='ascii') as file:
+        return int(file.read().split()[1]) * 4096
+
+
+def test_flat():
+    for _ in range(20):
+        once()
+    before, blocks = resident(), sys.getallocatedblocks()
+    for _ in range(100):
+        once()
+    grown, more = resident() - before, sys.getallocatedblocks() - blocks
+    print(f'{grown} bytes, {more} blocks of Python after 100 runs')
+    assert grown < 2_000_000 and more < 500
+
+
+harness.run_all(globals())

@@ -1,0 +1,251 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What results tell, in all forms: arrays, formats, geometries, pickles; appended and measured points; questions."""
+import copy
+import csv
+import json
+import math
+import pickle
+import struct
+from fractions import Fraction
+
+import harness
+import numpy as np
+
+import dyadel
+
+RANDOM = np.random.default_rng(harness.seeded('results').randrange(2**32))
+SQUARE = [(0, 0), (1, 0), (0, 1), (1, 1)]
+AIRPORTS = dyadel.Text.from_file(f'{harness.DATA}/airports.csv', columns='longitude,latitude')
+GPS = dyadel.Text.from_file(f'{harness.DATA}/gps.csv', columns='east,north', radius_columns='accuracy', id='name')
+
+
+def airports():
+    rows = csv.DictReader(AIRPORTS.text.decode().splitlines())
+    return np.array([[float(row[axis]) for axis in ('longitude', 'latitude')] for row in rows])
+
+
+def test_statuses():
+    d = dyadel.delaunay(SQUARE)
+    assert d.outcome == 'fixpoint' and d.ties.tolist() == [[0, 3], [1, 2]]
+    assert d.legal.tolist() == [[0, 1], [0, 2], [1, 3], [2, 3]] and d.indeterminate.shape == (0, 2)
+    assert d.pairs.tolist() == [[0, 1, dyadel.LEGAL], [0, 2, 3], [0, 3, dyadel.TIE], [1, 2, 1], [1, 3, 3], [2, 3, 3]]
+    assert [d.status(0, j) for j in range(4)] == ['illegal', 'legal', 'legal', 'tie']
+    assert d.simplices.shape == d.neighbors.shape == (0, 3) and [h.tolist() for h in d.hull] == [[0, 1, 2, 3]] * 2
+    harness.raised(IndexError, d.status, 0, 4)
+    harness.raised(IndexError, d.rect, 4)
+    harness.raised(IndexError, d.status, -1, 0)
+    harness.raised(IndexError, d.status, 2**32, 1)
+    d = dyadel.delaunay([(0, 0), (1, 1), ('1/2', 2), ('2/2', '3-2')])
+    assert d.aliases.tolist() == [[3, 1]] and len(d.boxes) == len(d) == 4
+
+
+def test_airports():
+    """README's table; the same from arrays and from the text."""
+    d = dyadel.delaunay(AIRPORTS)
+    assert (d.outcome, len(d.legal)) == ('decided', 10112)
+    assert np.array_equal(dyadel.delaunay(airports()).pairs, d.pairs)
+    wide = dyadel.delaunay(airports(), radius=0.01)
+    assert (wide.outcome, len(wide.legal), len(wide.indeterminate), len(wide.ties)) == ('fixpoint', 8925, 2490, 0)
+    discs = wide.discs()
+    assert [(discs[:, 2] == s).sum() for s in (dyadel.LEGAL, dyadel.INDETERMINATE)] == [9148, 1996]
+    assert np.array_equal(dyadel.delaunay(wide.boxes).pairs, wide.pairs), 'boxes are input again'
+
+
+def test_boxes_and_rects():
+    points = [('sqrt(2)', '1/3'), (0.5, (1, 2)), (Fraction(1, 10), 7)]
+    d = dyadel.delaunay(points)
+    for i, (row, text) in enumerate(zip(d.boxes, d.rects())):
+        for k, (outward, word, end) in enumerate(zip(row, text.split(), d.rect(i))):
+            mantissa, _, exponent = word.partition('*2^')
+            assert end == Fraction(mantissa) * Fraction(2)**int(exponent or 0)
+            assert (outward >= end if k % 2 else outward <= end) and abs(Fraction(outward) - end) <= Fraction(1, 2**48)
+    assert d.rect(2)[:2] == (Fraction(1, 10),) * 2
+    assert d.bounds.area >= 0 and d.bounds.hausdorff >= 0
+    assert d.counters['stages'] >= 1 and d.counters['spent'] is None
+
+
+def test_budgets_and_goals():
+    roots = [(f'sqrt({k})', f'cbrt({k * k})') for k in range(2, 20)]
+    d = dyadel.delaunay(roots, until='hausdorff:100')
+    assert d.outcome == 'certified' and d.bounds.hausdorff <= Fraction(1, 2**100)
+    assert d.refine(until='area:150').outcome == 'certified' and d.bounds.area <= Fraction(1, 2**150)
+    d = dyadel.delaunay([('sqrt(8)', 0), ('2*sqrt(2)', 0), (0, 5)], ties=False, max_bits=100)
+    assert d.outcome == 'budget' and d.counters['spent'] == 'bits'
+    assert d.refine(ties=True, max_bits=400).aliases.tolist() == [[1, 0]]
+    assert dyadel.delaunay(RANDOM.random((200000, 2)), timeout=0.001).outcome == 'budget'
+    for until in ('', 'decided:3', 'area', 'near:5', 'area:x'):
+        harness.raised(ValueError, dyadel.delaunay, SQUARE, until=until)
+    harness.raised(ValueError, dyadel.delaunay, SQUARE, schedule='no')
+    harness.raised(TypeError, dyadel.delaunay, SQUARE, wrong=1)
+
+
+def test_append():
+    points = RANDOM.random((300, 2))
+    d = dyadel.delaunay(points[:100])
+    assert d.append(points[100:200]) is d
+    d.append([tuple(p) for p in points[200:]])
+    assert np.array_equal(d.pairs, dyadel.delaunay(points).pairs) and len(d.simplices) == len(dyadel.delaunay(points).simplices)
+    before = d.pairs
+    harness.raised(ValueError, d.append, [(1, 2, 3)])
+    assert np.array_equal(d.pairs, before)
+
+
+def test_remeasure():
+    d = dyadel.delaunay([(0, 0), (3, 0), (3, 2.75), (0, 2.7), (1, (2.6, 2.8))])
+    assert d.outcome == 'fixpoint'
+    assert d.remeasure(4, (1, 1, 2.709, 2.711)).outcome == 'decided' and d.rect(4)[3] == Fraction(2.711)
+    error = harness.raised(dyadel.Error, d.remeasure, 4, (5, 5))
+    assert error.code == 'contradiction' and error.point == 4 and d.outcome == 'decided'
+
+
+def test_pickling():
+    made = [dyadel.delaunay(RANDOM.random((500, 2)), radius=0.01), dyadel.delaunay(SQUARE), dyadel.delaunay(AIRPORTS),
+            dyadel.delaunay([(f'sqrt({k})', k * k) for k in range(2, 12)]).append(RANDOM.random((5, 2))),
+            dyadel.delaunay([('sqrt(8)', 0), ('2*sqrt(2)', 0), (0, 5), (1, 1)]),
+            dyadel.delaunay(dyadel.Source(6, source)), dyadel.Delaunay(),
+            dyadel.delaunay(RANDOM.random((20, 2)), radius=0.2).remeasure(3, (0, 1, 0, 1))]
+    for d in made:
+        for other in (pickle.loads(pickle.dumps(d)), copy.deepcopy(d)):
+            assert len(other) == len(d) and other.outcome == d.outcome
+            if d.outcome == 'none':
+                continue
+            assert np.array_equal(other.pairs, d.pairs) and np.array_equal(other.aliases, d.aliases)
+            for i in range(len(d)):
+                (a, b, e, f), (p, q, r, s) = d.rect(i), other.rect(i)
+                assert a <= p <= q <= b and e <= r <= s <= f
+            assert other.refine().outcome == d.outcome
+    harness.raised((pickle.PicklingError, AttributeError), pickle.dumps, dyadel.delaunay(dyadel.Source(1, lambda i, bits: (0, 0))))
+
+
+def source(i, bits):
+    return i, i, Fraction(i * i) - Fraction(1, 2**bits), Fraction(i * i) + Fraction(1, 2**bits)
+
+
+def test_formats():
+    d = dyadel.delaunay(GPS)
+    for name, about, binary in dyadel.formats():
+        text = d.write(name)
+        assert isinstance(text, bytes if binary else str) and len(text) > 100 and about
+    lines = [line for line in d.write().splitlines() if not line.startswith('#')]
+    assert lines[0] == 'i,j,status,id_i,id_j' and len(lines) == len(d.pairs) + 1
+    assert '\ni,id,xlo' in d.write(layer='points')
+    assert 'EPSG' in d.write('geojson', epsg=32632)
+    error = harness.raised(ValueError, d.write, 'xls')
+    assert 'xls' in str(error)
+    assert harness.raised(dyadel.Error, d.write, 'obj', 'points').code == 'argument'
+
+
+def test_geometries():
+    d = dyadel.delaunay(RANDOM.random((30, 2)), radius=0.02)
+    features = d.__geo_interface__['features']
+    assert [(f['properties']['i'], f['properties']['j']) for f in features] == [tuple(p) for p in d.pairs[:, :2].tolist()]
+    middle = (d.boxes[:, 0::2] + d.boxes[:, 1::2]) / 2
+    for wkb, (i, j, _) in zip(d.to_wkb(), d.pairs.tolist()):
+        assert struct.unpack('<BII', wkb[:9]) == (1, 2, 2)
+        assert np.allclose(struct.unpack('<4d', wkb[9:]), [*middle[i], *middle[j]], rtol=0, atol=1e-15)
+    for wkb, t in zip(d.to_wkb('triangles'), d.simplices.tolist()):
+        assert struct.unpack('<BIII', wkb[:13]) == (1, 3, 1, 4) and len(wkb) == 13 + 64
+        assert np.allclose(np.reshape(struct.unpack('<8d', wkb[13:]), (4, 2)), middle[t + t[:1]], atol=1e-15)
+    assert [struct.unpack('<BIdd', w)[:2] for w in d.to_wkb('points')] == [(1, 1)] * 30
+    harness.raised(ValueError, d.to_wkb, 'lines')
+    try:
+        import geopandas
+    except ImportError:
+        print('geopandas is not installed: not tried')
+        return
+    frame = geopandas.GeoDataFrame.from_features(d)
+    assert len(frame) == len(d.pairs) and set(frame.status) <= {'legal', 'indeterminate'}
+    assert all(geopandas.GeoSeries.from_wkb(d.to_wkb()).geom_equals_exact(frame.geometry, 1e-9))
+
+
+def test_notebooks():
+    d = dyadel.delaunay(SQUARE)
+    assert d._repr_svg_().startswith('<?xml') or d._repr_svg_().startswith('<svg')
+    assert '<svg' in d._repr_html_() or 'srcdoc' in d._repr_html_()
+    assert repr(d) == '<dyadel.Delaunay: 4 points, fixpoint: 4 legal, 0 indeterminate, 2 ties>'
+    assert dyadel.delaunay(RANDOM.random((30000, 2)))._repr_svg_() is None
+    assert '<svg' in d.voronoi()._repr_html_() or 'srcdoc' in d.voronoi()._repr_html_()
+
+
+def test_voronoi():
+    points = RANDOM.random((12, 2))
+    d = dyadel.delaunay(points, radius=1e-4)
+    v = d.voronoi(window=(0, 1, 0, 1))
+    assert v.window == (0, 1, 0, 1) and len(v) == 12 and 0 < v.area < Fraction(1, 20) and v.hausdorff > 0
+    for i, cell in enumerate(v):
+        for corner in cell.inner:
+            assert np.argmin(np.hypot(*(points - corner).T)) == i
+        assert cell.area[0] <= cell.area[1] and cell.outer
+    assert sum(c.area[0] for c in v) <= 1 <= sum(c.area[1] for c in v)
+    assert json.loads(v.write('json'))['cells'] and v.__geo_interface__['features'] and 'kind' in v.write('wkt')
+    assert 'Voronoi: 12 cells' in repr(v) and len(v.vertices) and len(v.edges)
+    harness.raised(IndexError, lambda: v[12])
+    ring = dyadel.delaunay([(f'cos({k}*pi/6)', f'sin({k}*pi/6)') for k in range(12)], ties=False, max_bits=300)
+    assert ring.voronoi(until='hausdorff:20').hausdorff <= Fraction(1, 2**20), 'certified at a tie'
+    assert dyadel.delaunay([(0, 0), (2, 0), (0, 0), (1, 3)]).voronoi()[2].area[0] > 0, 'an alias has the cell of its point'
+
+
+def test_nearest():
+    points = RANDOM.random((500, 2))
+    d = dyadel.delaunay(points)
+    for at in RANDOM.random((50, 2)):
+        found = d.nearest(*at)
+        distance = np.hypot(*(points - at).T)
+        assert found.sure and found.points.tolist() == [distance.argmin()] and found.outcome == 'decided'
+        assert found.lo[0] <= distance.min() <= found.hi[0] <= found.lo[0] * (1 + 1e-13)
+    tied = dyadel.delaunay(SQUARE).nearest('1/2', '1/2')
+    assert tied.points.tolist() == [0, 1, 2, 3] and not tied.sure and tied.outcome == 'fixpoint'
+    assert all(lo <= math.sqrt(0.5) <= hi for lo, hi in zip(tied.lo, tied.hi))
+    d = dyadel.delaunay([('sqrt(2)', 0), ('sqrt(2)+1e-60', 1), (9, 9)])
+    assert d.nearest('sqrt(2)', '1/2').outcome in ('decided', 'budget')
+
+
+def test_tolerance():
+    points = RANDOM.random((40, 2))
+    t = dyadel.tolerance(points, radii=True)
+    assert set(t['event']) == {'death'} and (t['lo'] <= t['hi']).all() and 0 < t.lo <= t.hi and len(t.radii) == 40
+    moved = points + RANDOM.uniform(-1, 1, (40, 2)) * t.lo / 1.5
+    assert np.array_equal(dyadel.delaunay(moved).legal, dyadel.delaunay(points).legal)
+    assert len(dyadel.tolerance(points, up_to='0.01')['i']) >= len(t['i'])
+    assert harness.raised(dyadel.Error, dyadel.tolerance, [((0, 1), 0), (2, 2)]).point == 0
+    assert t.rows[0]['i'] == t['i'][0] and '<table>' in t._repr_html_() and 'event' in repr(t)
+
+
+def test_plan():
+    d = dyadel.delaunay(GPS)
+    plan = d.plan()
+    assert plan.left == 0 and (np.asarray(plan['needed']) < plan['now']).all() and plan['decided'].sum() > 0
+    for row in plan.rows:
+        low, high, bottom, top = (float(end) for end in d.rect(row['site']))
+        x, y, r = (low + high) / 2, (bottom + top) / 2, row['needed'] * 0.999
+        d.remeasure(row['site'], (x - r, x + r, y - r, y + r))
+    assert d.outcome == 'decided', 'what the plan says is enough'
+    assert len(dyadel.plan(RANDOM.random((20, 2)), 0.05, accuracy='1/1000', site=3)['site']) <= 20
+
+
+def test_converge():
+    points = [(f'sqrt({k})', f'sqrt({k * k + 1})') for k in range(2, 14)]
+    c = dyadel.converge(points, times=False, step_bits=4)
+    assert c.outcome == 'decided' and c['stage'].tolist() == list(range(1, len(c['stage']) + 1))
+    assert (np.diff(c['indeterminate']) <= 0).all() and (np.diff(c['hausdorff']) <= 0).all() and '<svg' in c._repr_svg_()
+    assert c.csv == dyadel.converge(points, times=False, step_bits=4).csv and len(c.rows) == len(c['stage'])
+    assert np.isnan(dyadel.converge(points, diagram=False)['v_area']).all()
+    assert dyadel.converge([(0, 0), (1, 0), (0, 1)], until='hausdorff:3').outcome in ('decided', 'certified')
+
+
+def test_certificates():
+    points = [(f'sqrt({k})', f'cbrt({k})') for k in range(2, 12)]
+    d = dyadel.delaunay(points)
+    verdict = dyadel.verify(d.certificate())
+    assert verdict.proved and verdict.outcome == 'decided' and verdict.report['legal'] == len(d.legal)
+    assert dyadel.verify(d.certificate(), points).report['bound']
+    assert dyadel.verify(d.voronoi(window=(0, 4, 0, 3)).certificate()).report['diagram']
+    text = d.certificate()
+    error = harness.raised(dyadel.Error, dyadel.verify, text[:len(text) // 2])
+    assert error.code == 'parse' and error.line
+    harness.raised(dyadel.Error, dyadel.verify, b'')
+    harness.raised(dyadel.Error, dyadel.verify, text, [(5, 5)] * 10)
+
+
+harness.run_all(globals())

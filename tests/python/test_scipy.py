@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Sets in general position against scipy.spatial.Delaunay: triangles, neighbours, hull. On integers the cases where scipy
+and its rounding differ are none: each of its triangles is checked in integers first."""
+import harness
+
+harness.need('scipy')
+import numpy as np
+from scipy.spatial import Delaunay
+
+import dyadel
+
+
+def turned(triangles):
+    """Each with its lowest number first."""
+    lowest = np.argmin(triangles, axis=1)
+    return np.array([np.roll(t, -k) for t, k in zip(triangles, lowest)]).reshape(-1, 3)
+
+
+def edges(triangles):
+    both = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    return np.unique(both, axis=0)
+
+
+def beyond(triangles, neighbors):
+    """{(triangle, corner): triangle beyond}, by corners."""
+    names = [tuple(sorted(t)) for t in triangles.tolist()]
+    return {(names[t], triangles[t, k]): names[n] if n >= 0 else None
+            for t in range(len(names)) for k, n in enumerate(neighbors[t])}
+
+
+def compare(points):
+    ours, theirs = dyadel.delaunay(points), Delaunay(points)
+    assert ours.outcome == 'decided' and len(ours.ties) == 0
+    assert ours.simplices.dtype == ours.neighbors.dtype == np.int32
+    a, b = (sorted(map(tuple, turned(d.simplices).tolist())) for d in (ours, theirs))
+    assert a == b, (set(a) ^ set(b))
+    assert beyond(ours.simplices, ours.neighbors) == beyond(theirs.simplices, theirs.neighbors)
+    assert np.array_equal(ours.legal, edges(theirs.simplices))
+    assert set(ours.hull[0]) == set(theirs.convex_hull.ravel()) == set(ours.hull[1])
+    x, y = points[ours.simplices].transpose(2, 0, 1)
+    assert ((x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) > (x[:, 2] - x[:, 0]) * (y[:, 1] - y[:, 0])).all()
+
+
+def test_random_sets():
+    random = np.random.default_rng(harness.seeded('scipy').randrange(2**32))
+    for k in range(200):
+        n = int(random.integers(4, 400))
+        points = random.random((n, 2)) if k % 2 else random.normal(size=(n, 2)) * 2.0 ** random.integers(-20, 20)
+        compare(points)
+
+
+def test_strides():
+    random = np.random.default_rng(7)
+    table = random.random((500, 5))
+    plain = dyadel.delaunay(table[:, 1:3].copy())
+    for view in (table[:, 1:3], np.asfortranarray(table[:, 1:3]), table[:, 2:0:-1][:, ::-1], table.T[1:3].T):
+        assert np.array_equal(dyadel.delaunay(view).pairs, plain.pairs)
+    backwards = dyadel.delaunay(table[::-1, 1:3])
+    assert np.array_equal(np.unique(np.sort(499 - backwards.legal, axis=1), axis=0), plain.legal)
+    swapped = dyadel.delaunay(table[:, 1:3].astype('>f8'))
+    assert np.array_equal(swapped.pairs, plain.pairs)
+
+
+def test_other_numbers():
+    whole = np.array([[0, 0], [5, 1], [2, 7], [9, 9]])
+    plain = dyadel.delaunay(whole.astype(float))
+    for kind in (np.int8, np.uint16, np.int64, np.float32, np.float16, object):
+        assert np.array_equal(dyadel.delaunay(whole.astype(kind)).pairs, plain.pairs), kind
+    big = np.array([[2**60 + 1, 0], [2**60, 1], [2**60 - 1, 0]])
+    assert dyadel.delaunay(big).rect(0)[0] == 2**60 + 1
+
+
+def test_shapes():
+    for shape in ((4, 3), (5,), (2, 2, 2), (0,)):
+        error = harness.raised(ValueError, dyadel.delaunay, np.zeros(shape))
+        assert '(N, 2)' in str(error), error
+    assert len(dyadel.delaunay(np.zeros((0, 2)))) == 0
+    one = dyadel.delaunay(np.zeros((1, 2)))
+    assert one.outcome == 'decided' and one.pairs.shape == (0, 3) and one.simplices.shape == (0, 3)
+    error = harness.raised(dyadel.Error, dyadel.delaunay, np.array([[0, 0], [1, np.nan]]))
+    assert error.code == 'argument' and error.point == 1 and 'finite' in str(error)
+
+
+harness.run_all(globals())

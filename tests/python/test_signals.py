@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Ctrl-C ends a run soon, wherever the library is, and what is known is kept; handlers of one's own are obeyed."""
+import os
+import signal
+import threading
+import time
+
+import harness
+import numpy as np
+
+import dyadel
+
+LARGE = 4_000_000
+
+
+def interrupt_after(seconds):
+    """Sends SIGINT to this process later; returns where the time of it will stand: CPU time, since others may be at work
+    on this machine."""
+    sent = []
+
+    def send():
+        time.sleep(seconds)
+        sent.append(time.process_time())
+        os.kill(os.getpid(), signal.SIGINT)
+    threading.Thread(target=send, daemon=True).start()
+    return sent
+
+
+def test_four_million_points():
+    points = np.random.default_rng(1).random((LARGE, 2))
+    for delay in (0.1, 0.4, 0.8, 1.6):
+        d = dyadel.Delaunay()
+        d._append(points)
+        sent = interrupt_after(delay)
+        harness.raised(KeyboardInterrupt, d.refine)
+        late = time.process_time() - sent[0]
+        print(f'{delay} s: back after {late:.3f} s')
+        assert late < 0.5
+        assert d.outcome == 'cancelled' and len(d) == LARGE
+    error = interrupted(points)
+    assert error.result.outcome == 'cancelled'
+
+
+def interrupted(points):
+    interrupt_after(0.5)
+    return harness.raised(KeyboardInterrupt, dyadel.delaunay, points)
+
+
+def test_what_is_known_is_kept():
+    """The second stage of one that never ends."""
+    def slow(i, bits):
+        if bits > 64:
+            time.sleep(0.01)
+        return i % 2, i % 2, i // 2 - 2.0**-bits, i // 2 + 2.0**-bits
+    interrupt_after(0.3)
+    error = harness.raised(KeyboardInterrupt, dyadel.delaunay, dyadel.Source(4, slow), step_bits=1)
+    assert len(error.result.pairs) == 6
+
+
+def test_own_handler():
+    """It is called, and the run goes on when it does not raise."""
+    seen = []
+    before = signal.signal(signal.SIGINT, lambda number, frame: seen.append(number))
+    try:
+        interrupt_after(0.1)
+        d = dyadel.delaunay(np.random.default_rng(2).random((600_000, 2)))
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert d.outcome == 'decided' and seen == [signal.SIGINT]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_ignored():
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        interrupt_after(0.05)
+        assert dyadel.delaunay(np.random.default_rng(2).random((300_000, 2))).outcome == 'decided'
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_other_long_work():
+    d = dyadel.delaunay(np.random.default_rng(3).random((20_000, 2)), radius=1e-3)
+    for call in (lambda: dyadel.check(dyadel.Source(60, lambda i, bits: (i, i * i)), schedules=10**6),
+                 lambda: d.voronoi(window=(0, 1, 0, 1)), lambda: d.plan()):
+        sent = interrupt_after(0.2)
+        harness.raised(KeyboardInterrupt, call)
+        assert time.process_time() - sent[0] < 3
+    assert len(d.legal) > 0
+
+
+def test_main_thread_only():
+    """A run in another thread goes on; the main thread is interrupted as ever."""
+    done = []
+    points = np.random.default_rng(4).random((300_000, 2))
+    thread = threading.Thread(target=lambda: done.append(dyadel.delaunay(points).outcome))
+    thread.start()
+    interrupt_after(0.05)
+    harness.raised(KeyboardInterrupt, time.sleep, 5)
+    thread.join()
+    assert done == ['decided']
+
+
+harness.run_all(globals())

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What numpy's users pay: arrays at most 1.05 times the same calls from C and 0.10 of scipy; a function that answers in
+Fractions at most 15 microseconds a call. User time, in turns, the best of several. Third argument: the program in C."""
+import subprocess
+import sys
+from fractions import Fraction
+
+import harness
+
+harness.need('scipy')
+import numpy as np
+from scipy.spatial import Delaunay
+
+import dyadel
+
+COUNT = 1_000_000
+
+
+def cost(function):
+    begun = harness.user_cpu()
+    function()
+    return harness.user_cpu() - begun
+
+
+def in_c(n):
+    done = subprocess.run([sys.argv[3], str(n), '2'], capture_output=True, text=True, check=True)
+    return min(map(float, done.stdout.split()))
+
+
+def arrays(points):
+    d = dyadel.delaunay(points)
+    return d.simplices, d.neighbors
+
+
+def test_arrays():
+    """More rounds where others at work on this machine have spoilt the first ones."""
+    points = np.random.default_rng(1).random((COUNT, 2))
+    ours, theirs = [], []
+    scipys = cost(lambda: Delaunay(points))
+    for rounds in range(1, 16):
+        ours.append(cost(lambda: arrays(points)))
+        theirs.append(in_c(COUNT))
+        if rounds >= 5 and min(ours) <= 1.05 * min(theirs):
+            break
+    print(f'{COUNT} points: {min(ours):.3f} s, {min(ours) / min(theirs):.3f} of C, {min(ours) / scipys:.3f} of scipy')
+    assert min(ours) <= 1.05 * min(theirs) and min(ours) <= 0.10 * scipys
+
+
+def test_callback():
+    calls = []
+
+    def narrow(i, bits):
+        calls.append(i)
+        return answers[i]
+    thin = Fraction(1, 2**90)
+    places = [(Fraction(x) / 3, Fraction(y) / 7) for x, y in np.random.default_rng(2).random((20000, 2)).tolist()]
+    answers = [(x, x + thin, y, y + thin) for x, y in places]
+    d = dyadel.Delaunay()
+    d._append(dyadel.Source(len(answers), narrow))
+    spent = cost(lambda: d.refine(max_stages=1))  # the triangulation, too
+    print(f'{1e6 * spent / len(calls):.1f} us a call of {len(calls)}')
+    assert spent / len(calls) <= 15e-6
+
+
+harness.run_all(globals())

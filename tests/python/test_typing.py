@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""mypy --strict over the package and over a program that uses it; docstrings and stubs are whole."""
+import ast
+import inspect
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import harness
+
+harness.need('mypy')
+import dyadel
+from dyadel import _dyadel
+
+PROGRAM = '''
+import numpy as np
+import dyadel
+from fractions import Fraction
+
+def narrow(i: int, bits: int) -> tuple[int, int, Fraction, Fraction]:
+    return i, i, Fraction(i * i), Fraction(i * i)
+
+d: dyadel.Delaunay = dyadel.delaunay(np.zeros((3, 2)), radius=0.1, until="hausdorff:40")
+d = dyadel.delaunay(dyadel.Source(4, narrow), timeout=60).refine(until="decided").append([("sqrt(2)", 1)])
+total: int = int(d.legal[:, 0].sum()) + len(d.simplices) + d.status(0, 1).count("l")
+where: np.ndarray[tuple[int, ...], np.dtype[np.int32]] = d.nearest(0, 0).points
+bound: Fraction | None = d.voronoi(window=(0, 1, 0, 1)).area
+'''
+WRONG = 'import dyadel\ndyadel.delaunay([(0, 0)]).status("a", 1)\ndyadel.Source("n", None)\n'
+
+
+def mypy(folder, *arguments):
+    done = subprocess.run([sys.executable, '-m', 'mypy', '--strict', '--no-error-summary', '--cache-dir', f'{folder}/cache',
+                           *arguments], capture_output=True, text=True, check=False, cwd=folder,
+                          env={'MYPYPATH': harness.PACKAGE, 'PATH': '/usr/bin:/bin'})
+    return done.stdout + done.stderr
+
+
+def test_mypy():
+    with tempfile.TemporaryDirectory() as folder:
+        assert mypy(folder, '-p', 'dyadel') == '', mypy(folder, '-p', 'dyadel')
+        for name, text in (('program', PROGRAM), ('wrong', WRONG)):
+            pathlib.Path(folder, f'{name}.py').write_text(text, encoding='utf-8')
+        assert mypy(folder, 'program.py') == '', mypy(folder, 'program.py')
+        assert mypy(folder, 'wrong.py').count('error:') == 3, mypy(folder, 'wrong.py')
+
+
+def test_stub():
+    """The stub has what the module has, no more and no less."""
+    tree = ast.parse(pathlib.Path(harness.PACKAGE, 'dyadel', '_dyadel.pyi').read_text(encoding='utf-8'))
+    functions = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+    engine = next(node for node in tree.body if isinstance(node, ast.ClassDef) and node.name == 'Engine')
+    assert functions == {name for name in dir(_dyadel) if inspect.isbuiltin(getattr(_dyadel, name))}
+    assert {node.name for node in engine.body} == {name for name in dir(_dyadel.Engine) if not name.startswith('_')}
+
+
+def test_docstrings():
+    for name in dyadel.__all__:
+        thing = getattr(dyadel, name)
+        assert not callable(thing) or inspect.getdoc(thing), name
+        for member, value in vars(thing).items() if inspect.isclass(thing) else ():
+            if not member.startswith('_') and (inspect.isfunction(value) or isinstance(value, property)):
+                assert inspect.getdoc(value), f'{name}.{member}'
+
+
+harness.run_all(globals())

@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""The wheel, built without a network and imported in a fresh environment, where nothing of this checkout is seen."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import venv
+import zipfile
+
+import harness
+
+harness.need('mesonpy', 'pip', 'ensurepip')
+
+PROGRAM = '''
+import dyadel, pathlib, sys
+assert pathlib.Path(dyadel.__file__).is_relative_to(sys.prefix), dyadel.__file__
+assert dyadel.delaunay([(0, 0), ("sqrt(2)", 0), (0, "pi")]).outcome == "decided"
+assert pathlib.Path(dyadel.__file__).with_name("py.typed").exists()
+print(dyadel.__version__)
+'''
+
+
+def call(*command, **options):
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, **options)
+    assert done.returncode == 0, done.stdout
+    return done.stdout
+
+
+def test_wheel():
+    source = pathlib.Path(harness.DATA).parents[1] / 'src' / 'python'
+    with tempfile.TemporaryDirectory() as folder:
+        call(sys.executable, '-m', 'pip', 'wheel', '--no-build-isolation', '--no-deps', '--no-index', '-w', folder, source)
+        wheel, = pathlib.Path(folder).glob('*.whl')
+        print(wheel.name)
+        assert '-abi3-' in wheel.name
+        names = zipfile.ZipFile(wheel).namelist()
+        assert 'dyadel/_dyadel.abi3.so' in names and 'dyadel/_dyadel.pyi' in names
+        assert all(name.startswith(('dyadel/', 'dyadel-')) for name in names), names
+        venv.create(f'{folder}/new', system_site_packages=True, with_pip=True)
+        python = f'{folder}/new/bin/python'
+        call(python, '-m', 'pip', 'install', '--no-index', '--no-deps', wheel)
+        assert call(python, '-c', PROGRAM, cwd=folder).strip()
+
+
+harness.run_all(globals())
