@@ -125,7 +125,7 @@ typedef enum dyd_real_operation {
  * b^2 whatever the callbacks a and b give. DYD_E_ARG for a wrong number of operands; DYD_E_DOMAIN, DYD_E_RANGE where
  * all operands are exact and the value does not exist, or is too large (else the narrowing says so); DYD_E_RANGE for
  * more than 1,000 operations above one another. */
-DYD_API dyd_status dyd_real_op(dyd_real **out, dyd_real_operation op, dyd_real *x, dyd_real *y, dyd_error *err);
+DYD_API dyd_status dyd_real_op(dyd_real **out, dyd_real *x, dyd_real *y, dyd_real_operation op, dyd_error *err);
 /* The caller asserts that x, whose callback nobody looks into, is the one root in [lo,hi] of the polynomial sum
  * coeff[k] x^k, which has opposite signs at lo and hi. Ties are proved on that ground from now on, and certificates
  * name it. From now on every interval of x has to hold the root: DYD_E_NESTING where one does not, now or when x is

@@ -105,8 +105,7 @@ static void sphere_inside(dyd_canvas *c, void *context) {
     draw_cells(c, d);
   else
     draw_pairs(c, d);
-  for (size_t i = 0; i < d->count; i++)
-    dyd_picture_site(c, v, d->box[i], dyd_engine_row(dyd_sphere_places(d->r->sphere), i), 0xf2c766);
+  for (size_t i = 0; i < d->count; i++) dyd_picture_site(c, v, d->box[i], dyd_sphere_places(d->r->sphere), i, 0xf2c766);
 }
 
 static void sphere_legend(dyd_canvas *c, void *context) {

@@ -149,7 +149,7 @@ static dyd_status operation_make(dyd_real **out, dyd_real_operation operation, d
   return st;
 }
 
-dyd_status dyd_real_op(dyd_real **out, dyd_real_operation operation, dyd_real *x, dyd_real *y, dyd_error *err) {
+dyd_status dyd_real_op(dyd_real **out, dyd_real *x, dyd_real *y, dyd_real_operation operation, dyd_error *err) {
   bool known = operation >= DYD_REAL_ADD && operation <= DYD_REAL_TANH;
   bool fits = known && out && x && dyd_op_is_binary(op_of_operation[operation]) == (y != NULL);
   dyd_status st = DYD_E_ARG;

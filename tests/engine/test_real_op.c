@@ -40,7 +40,7 @@ static dyd_real *make(dyd_real_operation op, dyd_real *x, dyd_real *y) {
   dyd_real *out = NULL;
   dyd_error err;
   dyd_error_clear(&err);
-  if (dyd_real_op(&out, op, x, y, &err) != DYD_OK) fail_msg("%s", err.message);
+  if (dyd_real_op(&out, x, y, op, &err) != DYD_OK) fail_msg("%s", err.message);
   return out;
 }
 
@@ -115,7 +115,7 @@ static void expect_refused(dyd_status st, dyd_real_operation op, dyd_real *x, dy
   dyd_real *out = NULL;
   dyd_error err;
   dyd_error_clear(&err);
-  assert_int_equal(dyd_real_op(&out, op, x, y, &err), st);
+  assert_int_equal(dyd_real_op(&out, x, y, op, &err), st);
   assert_null(out);
   assert_true(err.message[0]);
 }
