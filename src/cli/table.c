@@ -177,6 +177,9 @@ const cli_option cli_option_table[] = {
     {"next", 0, NULL, CLI_FLAG, BIT(CLI_PLAN), CLI_OUTPUT, "only the first point to measure", AT(next)},
     {"up-to", 0, "EPS", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "also births: pairs that may become edges when points\nmove by EPS at most; an exact number", AT(up_to)},
+    {"sigma", 0, "S", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
+     "also a lower bound of each edge's probability, for normal\nerrors of standard deviation S in x and in y",
+     AT(sigma)},
 
     {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE), CLI_OUTPUT,
      "what csv, wkt and geojson hold; delaunay: pairs (default),\npoints, triangles, graph:nearest, graph:gabriel, "
