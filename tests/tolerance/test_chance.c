@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST = 7, SAMPLES = 1500 };
+enum { MOST = 32, FEW = 7, SAMPLES = 1500 };
 
 typedef struct chance_case {
   uint32_t n;
@@ -71,12 +71,28 @@ static void test_samples(void **state) {
   test_random r = test_random_start("probabilities");
   double sum[2] = {0, 0};
   for (size_t k = 0; k < test_cases(30); k++) {
-    chance_case c = {.n = 2 + (uint32_t)test_below(&r, MOST - 1), .sigma = pow(10, -3 * test_unit(&r)) * 0.3};
+    chance_case c = {.n = 2 + (uint32_t)test_below(&r, FEW - 1), .sigma = pow(10, -3 * test_unit(&r)) * 0.3};
     double far = test_chance(&r, 4) ? 1e6 : 0;
     for (uint32_t i = 0; i < c.n; i++) c.x[i] = far + test_unit(&r), c.y[i] = test_unit(&r);
     compare_chances(sum, &c, &r);
   }
   assert_true(sum[1] > 50 && sum[0] > 0.9 * sum[1]);
+}
+
+/* Many around a circle, each of which may come in. */
+static void test_crowd(void **state) {
+  (void)state;
+  test_random r = test_random_start("a crowd around a circle");
+  double sum[2] = {0, 0};
+  for (int far = 0; far < 2; far++) {
+    chance_case c = {.n = MOST, .sigma = 0.01};
+    for (uint32_t i = 0; i < c.n; i++) {
+      double a = 6.283185307179586 * (i < 2 ? i * 0.5 : test_unit(&r)),
+             radius = i < 2 ? 0.99 : 1.005 + 0.01 * test_unit(&r);
+      c.x[i] = 1e3 * far + radius * cos(a), c.y[i] = radius * sin(a);
+    }
+    compare_chances(sum, &c, &r);
+  }
 }
 
 static void test_sigma_refused(void **state) {
@@ -100,6 +116,7 @@ static void test_sigma_refused(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_samples), cmocka_unit_test(test_sigma_refused)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_samples), cmocka_unit_test(test_crowd),
+                                     cmocka_unit_test(test_sigma_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
