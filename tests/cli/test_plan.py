@@ -53,7 +53,7 @@ def test_costs():
     expect(run(*options, '-', stdin=points('1', '', '1', '1')), 1, r'\A\Z', 'the cost is empty')
     expect(run(*options, '--skip-missing', '-', stdin=points('1', '1', '1', '')), 0, r'\A# plan 0 points')
     expect(run(*options[:-1], 'd', '-', stdin=points('1', '1', '1', '1')), 1, r'\A\Z', '--cost-column')
-    expect(run('plan', '--cost-column', 'c', '-', stdin=POINTS), 1, r'\A\Z', 'name those of x and y, too')
+    expect(run('plan', '--cost-column', 'c', '-', stdin=POINTS), 2, r'\A\Z', 'name those of x and y, too')
     expect(run('delaunay', '--cost-column', 'c', '-', stdin=POINTS), 2, r'\A\Z', 'cost-column')
 
 
