@@ -215,6 +215,8 @@ DYD_API size_t dyd_engine_count(const dyd_engine *e);
 DYD_API size_t dyd_engine_row(const dyd_engine *e, size_t i);
 /* Its identifier, "" without one; NULL: no point has one. Terminated, any bytes; borrowed until points are added. */
 DYD_API const char *dyd_engine_id(const dyd_engine *e, size_t i);
+/* What measuring point i once more costs, as its row said (dyd_read_options.cost_column); 1 where none did. */
+DYD_API double dyd_engine_cost(const dyd_engine *e, size_t i);
 /* The k-th row, ascending, that was taken as one with an earlier one, and the point that stands for both; false: there
  * are no more. */
 DYD_API bool dyd_engine_merged(size_t *row, size_t *point, const dyd_engine *e, size_t k);

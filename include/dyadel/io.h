@@ -42,6 +42,7 @@ typedef struct dyd_read_options {
   bool merge;                 /* equal nominal coordinates are one point: with the smaller radius */
   dyd_read_report *report;    /* receives what was read; NULL: nowhere */
   bool degrees;               /* y is a latitude: beyond 90 degrees it is an error with its line and column */
+  const char *cost_column;    /* "NAME": what measuring a point once more costs (dyd_engine_cost) */
 } dyd_read_options;
 
 /* Reads points from `in` up to its end and adds them to e (nothing is added on failure). What gzip or zstd packed is

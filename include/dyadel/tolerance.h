@@ -41,6 +41,7 @@ typedef struct dyd_tolerance_options {
   size_t max_pairs;           /* cap on pairs looked at for births; 0: default, see dyd_delaunay_options */
   const volatile int *cancel; /* as in dyd_delaunay_options */
   bool no_filter;             /* decide everything on the exact rung (for tests) */
+  double sigma;               /* also probabilities, for normal errors of this standard deviation; 0: none */
 } dyd_tolerance_options;
 
 typedef struct dyd_tolerance dyd_tolerance;
@@ -62,6 +63,10 @@ DYD_API void dyd_tolerance_whole(double *lo, double *hi, const dyd_tolerance *t)
 /* For each site a radius, rounded down: if every point is within its radius of its place, legal edges are edges, and
  * others are none, as at the nominal places [TOL-6]. Borrowed; NULL unless options.points was set. Aliases have 0. */
 DYD_API const double *dyd_tolerance_points(const dyd_tolerance *t);
+/* For each row a lower bound of the probability that the pair is an edge, when every coordinate of every point has a
+ * normal error of standard deviation options.sigma, all independent [TOL-7]. 0 for births and ties. Borrowed; NULL
+ * unless options.sigma was set. */
+DYD_API const double *dyd_tolerance_chances(const dyd_tolerance *t);
 /* The exact event of row number `row`: |sqrt(plus) - sqrt(minus)| / 2; both are initialised by the caller. DYD_E_ARG
  * where lo is infinite, or there is no such row. O(1) */
 DYD_API dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_tolerance *t, size_t row);

@@ -34,7 +34,7 @@ typedef struct cli_options {
   const char *at[2];            /* X Y of nearest */
   const char *queries;          /* or a file of places */
   const char *output;           /* NULL: standard output */
-  const char *up_to;            /* of tolerance */
+  const char *up_to, *sigma;    /* of tolerance */
   const char *accuracy, *pairs; /* of plan */
   unsigned site;                /* of plan */
   bool site_set, next;

@@ -161,8 +161,8 @@ static int layer_fits(cli_options *o, const cli_command *c) {
   dyd_content of = !o->sphere ? c->content : diagram ? DYD_CONTENT_SPHERE_VORONOI : DYD_CONTENT_SPHERE;
   o->content = o->queries ? DYD_CONTENT_PLACES : of;
   if (!o->layer || dyd_layer_from_name(&o->content, of, o->layer)) return 0;
-  fprintf(stderr, "dyadel: %s has no layer \"%s\"; give ", c->name, o->layer);
-  cli_layers_print(stderr, cli_command_bit(c), ", ");
+  fprintf(stderr, "dyadel: %s%s has no layer \"%s\"; give ", c->name, o->sphere ? " --sphere" : "", o->layer);
+  for (size_t k = 0; dyd_layer_name(of, k); k++) fprintf(stderr, "%s%s", k ? ", " : "", dyd_layer_name(of, k));
   fputs("\n", stderr);
   return CLI_USAGE;
 }

@@ -11,6 +11,7 @@ typedef struct plan_run {
   dyd_rect window;
   dyd_pair_list pairs;
   uint32_t site;
+  double *cost;
 } plan_run;
 
 /* ---- what is asked ---- */
@@ -86,6 +87,16 @@ static uint32_t point_of_row(const dyd_engine *e, uint32_t row) {
   return lo < dyd_engine_count(e) && dyd_engine_row(e, lo) == row ? (uint32_t)lo : UINT32_MAX;
 }
 
+/* Of every point, where a column of costs was read. */
+static dyd_status plan_costs(plan_run *r, const dyd_engine *e) {
+  size_t n = dyd_engine_count(e);
+  r->cost = malloc((n + 1) * sizeof *r->cost);
+  if (!r->cost) return DYD_E_NOMEM;
+  for (size_t i = 0; i < n; i++) r->cost[i] = dyd_engine_cost(e, i);
+  r->options.cost = r->cost;
+  return DYD_OK;
+}
+
 static dyd_status plan_find(dyd_engine *e, const dyd_engine_options *options, void *user, dyd_error *err) {
   plan_run *r = user;
   dyd_outcome outcome;
@@ -96,7 +107,8 @@ static dyd_status plan_find(dyd_engine *e, const dyd_engine_options *options, vo
     r->pairs.item[k].i = point_of_row(e, r->pairs.item[k].i);
     r->pairs.item[k].j = point_of_row(e, r->pairs.item[k].j);
   }
-  st = dyd_survey_new(&r->survey, dyd_engine_delaunay(e), &r->options, err);
+  st = plan_costs(r, e);
+  if (st == DYD_OK) st = dyd_survey_new(&r->survey, dyd_engine_delaunay(e), &r->options, err);
   return st == DYD_CANCELLED ? DYD_OK : st;
 }
 
@@ -128,6 +140,7 @@ int cli_plan(const cli_options *o) {
     dyd_survey_free(r.survey);
     cli_session_close(&s, status ? status : CLI_USAGE);
   }
+  free(r.cost);
   dyd_pair_list_clear(&r.pairs);
   dyd_rect_clear(&r.window);
   mpq_clear(r.accuracy);

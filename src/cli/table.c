@@ -102,6 +102,8 @@ const cli_option cli_option_table[] = {
     {"decimal-comma", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "47,61 is 47.61", AT(read.decimal_comma)},
     {"radius-column", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT,
      "widen each point by what stands in this column;\nNAME,NAME for x and y apart", AT(read.radius_columns)},
+    {"cost-column", 0, "NAME", CLI_TEXT, BIT(CLI_PLAN), CLI_INPUT,
+     "what measuring a point costs stands in this column: plans\nare made cheap, not short", AT(read.cost_column)},
     {"id", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT, "write what stands in this column beside row numbers", AT(read.id)},
     {"skip-missing", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
      "leave out rows with an empty field, NA, NaN or null for a\ncoordinate; the others keep their row numbers",
@@ -182,6 +184,9 @@ const cli_option cli_option_table[] = {
     {"next", 0, NULL, CLI_FLAG, BIT(CLI_PLAN), CLI_OUTPUT, "only the first point to measure", AT(next)},
     {"up-to", 0, "EPS", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "also births: pairs that may become edges when points\nmove by EPS at most; an exact number", AT(up_to)},
+    {"sigma", 0, "S", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
+     "also a lower bound of each edge's probability, for normal\nerrors of standard deviation S in x and in y",
+     AT(sigma)},
 
     {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE), CLI_OUTPUT,
      "what csv, wkt and geojson hold; delaunay: pairs (default),\npoints, triangles, graph:nearest, graph:gabriel, "

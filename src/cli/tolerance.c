@@ -5,7 +5,7 @@
 typedef struct tolerance_run {
   dyd_tolerance *tolerance;
   const dyd_engine *engine;
-  mpq_t up_to;
+  mpq_t up_to, sigma;
   dyd_rect window;
 } tolerance_run;
 
@@ -27,6 +27,7 @@ static dyd_status tolerance_find(dyd_engine *e, const dyd_engine_options *option
   dyd_status st = dyd_engine_run(&outcome, e, &once, err);
   if (st != DYD_OK || !dyd_engine_delaunay(e)) return st;
   if (mpq_sgn(r->up_to)) o.up_to = r->up_to;
+  o.sigma = mpq_get_d(r->sigma);
   st = dyd_tolerance_new(&r->tolerance, dyd_engine_delaunay(e), &o, err);
   return st == DYD_CANCELLED ? DYD_OK : st;
 }
@@ -39,13 +40,22 @@ static int tolerance_all(cli_session *s, tolerance_run *r, const cli_options *o)
   return status ? status : cli_session_stopped(s, "the tolerances were");
 }
 
+/* Above 0, and a double that is. */
+static int sigma_read(mpq_ptr out, const char *text) {
+  int status = cli_number_read(out, "sigma", text);
+  if (status || (mpq_get_d(out) >= 1e-300 && mpq_get_d(out) <= 1e300)) return status;
+  cli_complain("--sigma \"%s\" is not understood; give a number above 0, such as 0.01", text);
+  return CLI_USAGE;
+}
+
 int cli_tolerance(const cli_options *o) {
   tolerance_run r = {0};
   cli_options own = *o;
   cli_session s;
-  mpq_init(r.up_to);
+  mpq_inits(r.up_to, r.sigma, NULL);
   dyd_rect_init(&r.window);
   int status = o->up_to ? cli_number_read(r.up_to, "up-to", o->up_to) : 0;
+  if (!status && o->sigma) status = sigma_read(r.sigma, o->sigma);
   if (!status && o->window) status = cli_window_read(&r.window, o->window);
   if (!status) {
     status = cli_session_open(&s, &own);
@@ -57,6 +67,6 @@ int cli_tolerance(const cli_options *o) {
     if (status) status = end;
   }
   dyd_rect_clear(&r.window);
-  mpq_clear(r.up_to);
+  mpq_clears(r.up_to, r.sigma, NULL);
   return status;
 }

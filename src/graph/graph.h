@@ -44,9 +44,6 @@ dyd_graph_verdict dyd_filter_nearest(const dyd_graph_work *w, uint32_t i, uint32
 /* Against the partners of i. */
 dyd_graph_verdict dyd_filter_gabriel(const dyd_graph_work *w, uint32_t i, uint32_t j);
 
-/* The status of the pair i, j; nearest: of j as the nearest one to i, w->other as dyd_filter_nearest_few left it;
- * *loaded: w->reach holds i and these. */
-dyd_status dyd_nearest_status(dyd_graph_status *out, dyd_graph_work *w, bool *loaded, uint32_t i, size_t number);
 dyd_status dyd_gabriel_status(dyd_graph_status *out, dyd_graph_work *w, uint32_t i, uint32_t j);
 
 dyd_status dyd_nearest_graph(dyd_graph_work *w);

@@ -37,6 +37,7 @@ int dyd_length_compare(const dyd_length *a, const dyd_length *b) {
   if (a->hi < b->lo) return -1;
   if (b->hi < a->lo) return 1;
   if (a->lo == a->hi && b->lo == b->hi) return 0;
+  if (a->pair == b->pair && a->largest == b->largest) return 0;
   mpq_t x, y;
   mpq_inits(x, y, NULL);
   exact_length(x, a);

@@ -42,6 +42,7 @@ dyd_length dyd_filter_length(const dyd_graph_work *w, uint32_t pair, bool larges
   uint32_t i = w->pairs.item[pair].i, j = w->pairs.item[pair].j;
   const dyd_bbox *a = &w->box[i], *b = &w->box[j];
   dyd_length l = {w, 0, HUGE_VAL, pair, largest};
+  if (dyd_sites_is_point(w->sites, i) && dyd_sites_is_point(w->sites, j)) largest = l.largest = false;
   bool held = dyd_sites_in_doubles(w->sites, i) && dyd_sites_in_doubles(w->sites, j);
   if (held && exact_length2(&l.lo, a, b, largest)) {
     l.hi = l.lo;

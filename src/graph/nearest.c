@@ -29,7 +29,8 @@ static dyd_status nearest_of_point(dyd_graph_work *w, uint32_t i) {
   return st;
 }
 
-dyd_status dyd_nearest_status(dyd_graph_status *out, dyd_graph_work *w, bool *loaded, uint32_t i, size_t number) {
+/* Of w->other[number] as the nearest one to i. *loaded: w->reach holds i and all others. */
+static dyd_status status_as_nearest(dyd_graph_status *out, dyd_graph_work *w, bool *loaded, uint32_t i, size_t number) {
   dyd_graph_verdict v = dyd_filter_nearest(w, i, w->other[number]);
   *out = v.status;
   if (v.known) return DYD_OK;
@@ -58,7 +59,7 @@ static dyd_status nearest_of(dyd_graph_work *w, uint32_t i) {
   }
   for (size_t k = 0; k < w->others && st == DYD_OK; k++) {
     dyd_graph_status status;
-    st = dyd_nearest_status(&status, w, &loaded, i, k);
+    st = status_as_nearest(&status, w, &loaded, i, k);
     if (st == DYD_OK && status != DYD_GRAPH_NEVER) st = dyd_graph_add(w, i, w->other[k], status == DYD_GRAPH_SURE);
   }
   return st;

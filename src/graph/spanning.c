@@ -28,12 +28,13 @@ static void sets_begin(span_sets *s, size_t n) {
 
 enum { SPAN_NONE = UINT32_MAX };
 
-/* least, largest: of all pairs, sorted. replaced: by pair, the number in least[] of the first pair that closes a circle
- * with it, where it is in the tree; SPAN_NONE: none. tree: is it? */
+/* least, largest: of all pairs, sorted. nearest: who is surely that to each site; SPAN_NONE: nobody. replaced: by pair,
+ * the number in least[] of the first pair that closes a circle with it, where it is in the tree; SPAN_NONE: none. tree:
+ * is it? */
 typedef struct span_work {
   dyd_graph_work *w;
   dyd_length *least, *largest;
-  uint32_t *replaced;
+  uint32_t *replaced, *nearest;
   bool *tree, *never;
   span_sets sets;
   /* the tree by least lengths: towards the root */
@@ -47,6 +48,7 @@ static bool span_alloc(span_work *s) {
   s->least = dyd_alloc(pairs, sizeof *s->least);
   s->largest = dyd_alloc(pairs, sizeof *s->largest);
   s->replaced = dyd_alloc(pairs, sizeof *s->replaced);
+  s->nearest = dyd_alloc(n, sizeof *s->nearest);
   s->tree = calloc(pairs + 1, sizeof *s->tree);
   s->never = calloc(pairs + 1, sizeof *s->never);
   s->sets.up = dyd_alloc(n, sizeof *s->sets.up);
@@ -55,14 +57,15 @@ static bool span_alloc(span_work *s) {
   s->depth = dyd_alloc(n, sizeof *s->depth);
   s->start = calloc(n + 2, sizeof *s->start);
   s->edge = dyd_alloc(2 * n, sizeof *s->edge);
-  return s->least && s->largest && s->replaced && s->tree && s->never && s->sets.up && s->parent && s->link &&
-         s->depth && s->start && s->edge;
+  return s->least && s->largest && s->replaced && s->nearest && s->tree && s->never && s->sets.up && s->parent &&
+         s->link && s->depth && s->start && s->edge;
 }
 
 static void spanning_work_clear(span_work *s) {
   free(s->least);
   free(s->largest);
   free(s->replaced);
+  free(s->nearest);
   free(s->tree);
   free(s->never);
   free(s->sets.up);
@@ -168,14 +171,14 @@ static bool is_surely_shortest(const span_work *s, uint32_t p) {
   return s->replaced[p] == SPAN_NONE || dyd_length_compare(&own, &s->least[s->replaced[p]]) < 0;
 }
 
-static dyd_status is_surely_nearest(bool *out, dyd_graph_work *w, uint32_t i, uint32_t j) {
-  bool loaded = false;
-  dyd_graph_status status = DYD_GRAPH_NEVER;
-  dyd_status st = DYD_OK;
-  dyd_filter_nearest_few(w, i);
-  for (size_t k = 0; k < w->others && st == DYD_OK; k++)
-    if (w->other[k] == j) st = dyd_nearest_status(&status, w, &loaded, i, k);
-  *out = *out || status == DYD_GRAPH_SURE;
+/* Who is surely nearest to each site. */
+static dyd_status find_sure_nearest(span_work *s) {
+  dyd_graph_list *l = &s->w->out;
+  dyd_status st = dyd_nearest_graph(s->w);
+  for (size_t i = 0; i < s->w->n; i++) s->nearest[i] = SPAN_NONE;
+  for (size_t k = 0; k < l->count; k++)
+    if (l->item[k].sure) s->nearest[l->item[k].i] = l->item[k].j;
+  l->count = 0;
   return st;
 }
 
@@ -183,11 +186,8 @@ static dyd_status span_pair(const span_work *s, uint32_t number) {
   dyd_graph_status status;
   uint32_t i = s->w->pairs.item[number].i, j = s->w->pairs.item[number].j;
   if (s->never[number]) return DYD_OK;
-  bool sure = is_surely_shortest(s, number);
-  dyd_status st = sure ? DYD_OK : is_surely_nearest(&sure, s->w, i, j);
-  if (st == DYD_OK && !sure) st = is_surely_nearest(&sure, s->w, j, i);
-  if (st != DYD_OK || sure) return st == DYD_OK ? dyd_graph_add(s->w, i, j, true) : st;
-  st = dyd_gabriel_status(&status, s->w, i, j);
+  if (s->nearest[i] == j || s->nearest[j] == i || is_surely_shortest(s, number)) return dyd_graph_add(s->w, i, j, true);
+  dyd_status st = dyd_gabriel_status(&status, s->w, i, j);
   return st == DYD_OK && status != DYD_GRAPH_NEVER ? dyd_graph_add(s->w, i, j, false) : st;
 }
 
@@ -201,6 +201,7 @@ dyd_status dyd_spanning_graph(dyd_graph_work *w) {
     deal_tree(&s);
     root_trees(&s, s.sets.up);
     find_replacements(&s);
+    st = find_sure_nearest(&s);
   }
   for (uint32_t p = 0; p < w->pairs.count && st == DYD_OK; p++)
     st = w->cancel && *w->cancel ? DYD_CANCELLED : span_pair(&s, p);

@@ -61,7 +61,8 @@ static void geojson_head(const dyd_table_head *h) {
   const dyd_engine *ran = h->sphere ? dyd_sphere_images(h->sphere) : h->engine;
   fprintf(h->out,
           "\"}},\n\"rounding\": \"a coordinate differs from every point that it stands for by at most "
-          "max_coordinate_error; numbers called lo, rho or half_width_needed are rounded down, others that are not "
+          "max_coordinate_error; numbers called lo, rho, probability or half_width_needed are rounded down, others "
+          "that are not "
           "whole up\",\n"
           "\"outcome\": \"%s\",\n\"features\": [",
           dyd_outcome_text(dyd_engine_outcome(ran)));

@@ -49,7 +49,9 @@ static void row_binding(dyd_table *t, uint32_t k) {
 
 dyd_status dyd_layer_tolerance(const dyd_output *o) {
   static const char *const column[] = {"i", "j", "event", "lo", "hi", "k", "l", "id_i", "id_j", NULL};
-  const dyd_table_head head = tolerance_head(o, column, DYD_GEOMETRY_LINE);
+  static const char *const likely[] = {"i", "j", "event", "lo", "hi", "k", "l", "probability", "id_i", "id_j", NULL};
+  const double *chance = dyd_tolerance_chances(tolerance_of(o));
+  const dyd_table_head head = tolerance_head(o, chance ? likely : column, DYD_GEOMETRY_LINE);
   const dyd_tolerance_row *row;
   dyd_place *place = NULL;
   dyd_table t;
@@ -70,6 +72,7 @@ dyd_status dyd_layer_tolerance(const dyd_output *o) {
     dyd_row_decimal(&t, row->hi, DYD_UP);
     row_binding(&t, row->k);
     row_binding(&t, row->l);
+    if (chance) dyd_row_decimal(&t, *chance++, DYD_DOWN);
     dyd_row_id(&t, row->i);
     dyd_row_id(&t, row->j);
     dyd_row_end(&t);
@@ -180,6 +183,10 @@ static dyd_status json_event(FILE *out, const dyd_engine *e, const dyd_tolerance
   dyd_json_decimals(out, row->lo, row->hi);
   json_site_or_null(out, e, "k", row->k);
   json_site_or_null(out, e, "l", row->l);
+  if (dyd_tolerance_chances(t)) {
+    fputs(", \"probability\": ", out);
+    dyd_decimal_put(out, dyd_tolerance_chances(t)[number], DYD_DOWN, "null");
+  }
   dyd_status st = isfinite(row->lo) ? dyd_tolerance_exact(q[0], q[1], t, number) : DYD_OK;
   if (st == DYD_OK && isfinite(row->lo)) {
     fputs(", \"plus\": \"", out);
@@ -214,7 +221,7 @@ dyd_status dyd_tolerance_json(const dyd_output *o) {
   dyd_json_crs(o->out, r->epsg);
   fputs(
       "\"rounding\": \"bounds are rounded outward: the first down, the second up, null is infinite; twice the event is "
-      "exactly |sqrt(plus) - sqrt(minus)|; rho is rounded down\",\n\"tolerance\": ",
+      "exactly |sqrt(plus) - sqrt(minus)|; rho and probability are rounded down\",\n\"tolerance\": ",
       o->out);
   dyd_tolerance_whole(&lo, &hi, t);
   dyd_json_decimals(o->out, lo, hi);

@@ -6,7 +6,7 @@
  *   roots.c             numbers sqrt(p) - sqrt(m)
  *   near_filter.c       which sites a pair needs; who else is near
  *   deaths.c, births.c  all pairs
- *   whole.c             the whole; points_filter.c: each point
+ *   whole.c             the whole; points_filter.c: each point; chance_filter.c: probabilities
  *   rows.c, tolerance.c the sorted rows; the public calls */
 #ifndef DYD_TOLERANCE_STATE_H
 #define DYD_TOLERANCE_STATE_H
@@ -37,7 +37,8 @@ struct dyd_tolerance {
   size_t rows, cap;
   double lo, hi; /* of the whole */
   double *radius;
-  dyd_ring_d *ring; /* of all edges, where radii are asked for */
+  double *chance;   /* of each row, once sorted, where sigma was given */
+  dyd_ring_d *ring; /* of all edges, where radii or probabilities are asked for */
   size_t rings, ring_cap;
   uint64_t filter, exact;
   /* scratch */
@@ -79,12 +80,14 @@ dyd_status dyd_whole(dyd_tolerance *t);
  * behind, unless these are an edge: infinite then. */
 dyd_status dyd_hull_corner(double *lo, double *hi, const dyd_tolerance *t, dyd_half_edge h);
 dyd_status dyd_points_radius(dyd_tolerance *t);
+/* chance_filter.c: after dyd_rows_sort. */
+dyd_status dyd_chances(dyd_tolerance *t);
 
 /* rows.c: a row for vertices v, w with the value and binding of t->summit; with others. */
 dyd_status dyd_row_add(dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k, uint32_t l,
                        double lo, double hi);
 dyd_status dyd_row_add_summit(dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event);
-/* Notes the circle of a legal pair, where radii are asked for. */
+/* Notes the circle of a legal pair, where radii or probabilities are asked for. */
 dyd_status dyd_ring_add(dyd_tolerance *t, uint32_t v, uint32_t w, double s, int end, double half);
 dyd_status dyd_rows_sort(dyd_tolerance *t);
 

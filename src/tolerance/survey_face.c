@@ -71,7 +71,8 @@ static dyd_status best_site(size_t *best, const face_try *f, size_t open_pairs, 
   for (size_t k = 0; k < f->sites.count; k++) {
     size_t now;
     if (!can_be_measured(f, k)) continue;
-    if (fallback == f->sites.count || open[k] > open[fallback]) fallback = k;
+    if (fallback == f->sites.count || (double)open[k] * cost_of(f, fallback) > (double)open[fallback] * cost_of(f, k))
+      fallback = k;
     f->measured[k] = true;
     dyd_status st = try_face(&now, NULL, f);
     f->measured[k] = false;
@@ -97,21 +98,29 @@ static dyd_status choose_sites(face_try *f, size_t *open) {
   return st;
 }
 
-/* From the first chosen on, which knew least of the others; the dearest first where costs differ. */
-static dyd_status drop_sites(face_try *f) {
-  size_t wanted, open_pairs;
-  dyd_status st = try_face(&wanted, NULL, f);
-  for (size_t q = 0; q < f->chosen && st == DYD_OK;) {
-    uint32_t k = f->order[q];
-    f->measured[k] = false;
-    st = try_face(&open_pairs, NULL, f);
-    bool needed = open_pairs > wanted;
-    f->measured[k] = needed;
-    if (needed)
-      q++;
-    else
-      memmove(&f->order[q], &f->order[q + 1], (--f->chosen - q) * sizeof *f->order);
+/* Those chosen, the dearest first, of equal cost the first chosen, which knew least of the others. */
+static void order_to_drop(uint32_t *dear, const face_try *f) {
+  for (size_t q = 0; q < f->chosen; q++) {
+    size_t at = q;
+    for (; at && cost_of(f, dear[at - 1]) < cost_of(f, f->order[q]); at--) dear[at] = dear[at - 1];
+    dear[at] = f->order[q];
   }
+}
+
+static dyd_status drop_sites(face_try *f) {
+  size_t wanted, open_pairs, kept = 0;
+  uint32_t *dear = dyd_alloc(f->chosen, sizeof *dear);
+  dyd_status st = dear ? try_face(&wanted, NULL, f) : DYD_E_NOMEM;
+  if (st == DYD_OK) order_to_drop(dear, f);
+  for (size_t q = 0; q < f->chosen && st == DYD_OK; q++) {
+    f->measured[dear[q]] = false;
+    st = try_face(&open_pairs, NULL, f);
+    f->measured[dear[q]] = open_pairs > wanted;
+  }
+  for (size_t q = 0; q < f->chosen; q++)
+    if (f->measured[f->order[q]]) f->order[kept++] = f->order[q];
+  f->chosen = kept;
+  free(dear);
   return st;
 }
 

@@ -22,6 +22,8 @@ static dyd_status check_points(const dyd_tolerance *t, dyd_error *err) {
     return dyd_fail(err, DYD_CAPPED, "there are more ties than can be stored; raise --max-pairs");
   if (t->options.up_to && mpq_sgn(t->options.up_to) < 0)
     return dyd_fail(err, DYD_E_ARG, "births up to a negative number: give a positive one");
+  if (!(t->options.sigma >= 0 && t->options.sigma < HUGE_VAL))
+    return dyd_fail(err, DYD_E_ARG, "a standard deviation that is no positive number: give one, or 0 for none");
   return DYD_OK;
 }
 
@@ -45,7 +47,8 @@ static dyd_status tolerance_work(dyd_tolerance *t, dyd_error *err) {
   if (st == DYD_OK) st = dyd_whole(t);
   if (st == DYD_OK && t->options.points) st = dyd_points_radius(t);
   if (st == DYD_OK && t->options.up_to && mpq_sgn(t->options.up_to)) st = dyd_births(t, err);
-  return st == DYD_OK ? dyd_rows_sort(t) : st;
+  if (st == DYD_OK) st = dyd_rows_sort(t);
+  return st == DYD_OK && t->options.sigma > 0 ? dyd_chances(t) : st;
 }
 
 dyd_status dyd_tolerance_new(dyd_tolerance **out, const dyd_delaunay *pd, const dyd_tolerance_options *options,
@@ -78,6 +81,7 @@ void dyd_tolerance_free(dyd_tolerance *t) {
   dyd_lines_clear(&t->lines);
   free(t->ring);
   free(t->radius);
+  free(t->chance);
   free(t->row);
   free(t);
 }
@@ -96,6 +100,10 @@ void dyd_tolerance_whole(double *lo, double *hi, const dyd_tolerance *t) {
 
 const double *dyd_tolerance_points(const dyd_tolerance *t) {
   return t->radius;
+}
+
+const double *dyd_tolerance_chances(const dyd_tolerance *t) {
+  return t->chance;
 }
 
 void dyd_tolerance_rungs(uint64_t *filter, uint64_t *exact, const dyd_tolerance *t) {

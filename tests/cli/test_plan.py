@@ -40,6 +40,23 @@ def test_ties():
     expect(run('plan', '-', stdin=square), 0, r'\A# plan 0 points: sufficient.*\n# ties 2: ')
 
 
+def test_costs():
+    """Either of two points would do: the cheap one is chosen, whichever it is; costs that are none are refused."""
+    def points(*cost):
+        return 'x,y,r,c\n' + ''.join(f'{p},{c}\n' for p, c in zip(('0,0,0', '10,0,0', '5,3,1.5', '5,-4,1.5'), cost))
+    options = ['plan', '--columns', 'x,y', '--radius-column', 'r', '--cost-column', 'c']
+    for cost in (('1', '1', '1', '2.5'), ('1', '1', '7', '1/2')):
+        plan = rows(run(*options, '-', stdin=points(*cost)).out)
+        assert [r['i'] for r in plan] == ['2' if cost[2] == '1' else '3'], (cost, plan)
+    for wrong in ('0', '-1', 'much', '1+-0.5'):
+        expect(run(*options, '-', stdin=points('1', '1', wrong, '1')), 1, r'\A\Z', '-:4:9: the cost is not an exact number above 0')
+    expect(run(*options, '-', stdin=points('1', '', '1', '1')), 1, r'\A\Z', 'the cost is empty')
+    expect(run(*options, '--skip-missing', '-', stdin=points('1', '1', '1', '')), 0, r'\A# plan 0 points')
+    expect(run(*options[:-1], 'd', '-', stdin=points('1', '1', '1', '1')), 1, r'\A\Z', '--cost-column')
+    expect(run('plan', '--cost-column', 'c', '-', stdin=POINTS), 2, r'\A\Z', 'name those of x and y, too')
+    expect(run('delaunay', '--cost-column', 'c', '-', stdin=POINTS), 2, r'\A\Z', 'cost-column')
+
+
 def measured(text, plan):
     """The points file with the sites of the plan as accurate as it says."""
     half = {int(r['i']): r['half_width_needed'] for r in plan}

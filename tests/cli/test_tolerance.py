@@ -110,6 +110,20 @@ def test_json():
         assert lo - fractions.Fraction(1e-12) <= t <= hi + fractions.Fraction(1e-12), pair
 
 
+def test_sigma():
+    """A column more, also in json; no edge, no probability; what is surely an edge has 1."""
+    plain, likely = (rows(run('tolerance', '--up-to', '0.1', *more, '-', stdin=SQUARE).out) for more in ([], ['--sigma', '0.05']))
+    assert [{k: v for k, v in r.items() if k != 'probability'} for r in likely] == plain
+    assert all((float(r['probability']) > 0.5) == (r['event'] == 'death') and float(r['probability']) < 1 for r in likely), likely
+    answer = json.loads(run('tolerance', '--format', 'json', '--sigma', '0.05', '-', stdin=SQUARE).out)
+    assert [p['probability'] for p in answer['pairs']] == [float(r['probability']) for r in likely if r['event'] != 'birth']
+    assert rows(run('tolerance', '--sigma', '1', '-', stdin='0 0\n1 1\n').out)[0]['probability'] == '1'
+    less = [[float(r['probability']) for r in rows(run('tolerance', '--sigma', s, *AIRPORTS).out)] for s in ('0.01', '0.001')]
+    assert all(a <= b + 1e-5 for a, b in zip(*less)) and sum(less[0]) < 0.99 * sum(less[1])
+    for wrong in ('0', '-1', 'x', 'nan', '1e-400'):
+        expect(run('tolerance', '--sigma', wrong, '-', stdin=SQUARE), 2, r'\A\Z', '--sigma ".*" is not understood; give')
+
+
 def test_geometry():
     answer = json.loads(run('tolerance', '--format', 'geojson', '--layer', 'points', '-', stdin=SQUARE).out)
     assert answer['features'][5]['geometry'] == {'type': 'Point', 'coordinates': [3, 0.5]}, answer

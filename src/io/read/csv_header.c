@@ -41,6 +41,7 @@ static dyd_status read_wanted(dyd_csv *csv, const dyd_read_options *o, dyd_error
   dyd_status st = read_names(csv, o->columns, "--columns", DYD_CSV_X, 2, 2, err);
   if (st == DYD_OK && o->radius_columns)
     st = read_names(csv, o->radius_columns, "--radius-column", DYD_CSV_RADIUS_X, 1, 2, err);
+  if (st == DYD_OK && o->cost_column) st = read_names(csv, o->cost_column, "--cost-column", DYD_CSV_COST, 1, 1, err);
   if (st == DYD_OK && o->id) st = read_names(csv, o->id, "--id", DYD_CSV_ID, 1, 1, err);
   return st;
 }

@@ -49,10 +49,25 @@ static dyd_status intake_radius_of_all(dyd_intake *in, dyd_error *err) {
   return DYD_OK;
 }
 
+static dyd_status intake_cost(double *out, const dyd_span *span, dyd_error *err) {
+  mpq_t own;
+  mpq_init(own);
+  dyd_status st = dyd_real_parse_exact(own, span->text, span->length);
+  *out = st == DYD_OK ? mpq_get_d(own) : 0;
+  mpq_clear(own);
+  if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (*out > 0 && isfinite(*out)) return DYD_OK;
+  return dyd_span_fail(err, span, 0, "the cost is not an exact number above 0; give one such as 2 or 0.5");
+}
+
 /* ---- life ---- */
 
 static dyd_status intake_check(const dyd_read_options *o, dyd_error *err) {
-  const char *about = o->id ? "--id" : o->radius_columns ? "--radius-column" : o->delimiter ? "--delimiter" : NULL;
+  const char *about = o->id               ? "--id"
+                      : o->radius_columns ? "--radius-column"
+                      : o->cost_column    ? "--cost-column"
+                      : o->delimiter      ? "--delimiter"
+                                          : NULL;
   if (o->columns || !about) return DYD_OK;
   return dyd_fail(err, DYD_E_ARG, "%s is about columns; name those of x and y, too: --columns NAME,NAME", about);
 }
@@ -78,9 +93,9 @@ void dyd_intake_clear(dyd_intake *in) {
   mpq_clear(in->radius);
 }
 
-/* Rows and points may differ, or points have identifiers. */
+/* Rows and points may differ, or points have identifiers or costs. */
 static bool intake_labels(const dyd_intake *in) {
-  return in->o->id || in->o->skip_missing || in->o->merge;
+  return in->o->id || in->o->cost_column || in->o->skip_missing || in->o->merge;
 }
 
 /* ---- fields ---- */
@@ -101,7 +116,7 @@ static bool is_missing(const dyd_span *s) {
 
 static dyd_status fail_missing_field(const dyd_span *s, dyd_csv_role role, dyd_error *err) {
   char message[160];
-  const char *what = role >= DYD_CSV_RADIUS_X ? "radius" : "coordinate";
+  const char *what = role == DYD_CSV_COST ? "cost" : role >= DYD_CSV_RADIUS_X ? "radius" : "coordinate";
   if (s->length)
     snprintf(message, sizeof message, "the %s is missing (%.*s); fill it in, or leave such rows out: --skip-missing",
              what, (int)s->length, s->text);
@@ -171,7 +186,8 @@ static dyd_status intake_point(dyd_intake *in, const dyd_span span[DYD_CSV_ROLES
                                dyd_error *err) {
   const double width[2] = {final_width(&c[0], &in->manner[0]), final_width(&c[1], &in->manner[1])};
   dyd_nominal *place = NULL;
-  const dyd_span *id = &span[DYD_CSV_ID];
+  const dyd_span *id = &span[DYD_CSV_ID], *cost = &span[DYD_CSV_COST];
+  double own = 1;
   if (in->o->merge || width[0] > 0 || width[1] > 0) {
     if (dyd_nominals_find(&place, &in->places, span) != DYD_OK) {
       for (int a = 0; a < 2; a++) dyd_coordinate_clear(&c[a]);
@@ -184,7 +200,9 @@ static dyd_status intake_point(dyd_intake *in, const dyd_span span[DYD_CSV_ROLES
   }
   dyd_status st = dyd_stage_add(&in->stage, &c[0], &c[1], err);
   if (st != DYD_OK || !intake_labels(in)) return st;
-  return dyd_labels_add(&in->labels, id->text, id->length) ? DYD_OK : dyd_fail_nomem(err);
+  if (cost->text) st = intake_cost(&own, cost, err);
+  if (st != DYD_OK) return st;
+  return dyd_labels_add(&in->labels, id->text, id->length, own) ? DYD_OK : dyd_fail_nomem(err);
 }
 
 /* ---- rows ---- */
@@ -227,7 +245,7 @@ dyd_status dyd_intake_row(dyd_intake *in, dyd_span span[DYD_CSV_ROLES], dyd_erro
 dyd_status dyd_intake_commit(dyd_engine *e, dyd_intake *in, dyd_error *err) {
   const dyd_labels *own = &in->labels;
   dyd_labels all = {0};
-  bool labelled = own->has_ids || in->report.missing || in->report.merged;
+  bool labelled = own->has_ids || in->o->cost_column || in->report.missing || in->report.merged;
   if (labelled && dyd_labels_join(&all, e, own) != DYD_OK) return dyd_fail_nomem(err);
   dyd_status st = dyd_stage_commit(e, &in->stage, err);
   if (st == DYD_OK && labelled)
