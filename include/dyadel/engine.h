@@ -5,7 +5,10 @@
  * Threads: one engine is used by one thread at a time, several engines in several threads work; only
  * dyd_engine_cancel may be called from anywhere, a signal handler included. While the engine is at work its callbacks
  * (questions, progress, trace, sources) may call what takes it const, and dyd_engine_cancel; dyd_engine_run,
- * dyd_engine_ask and dyd_engine_nearest answer them DYD_E_ARG. */
+ * dyd_engine_ask, dyd_engine_nearest and what adds or measures points answer them, and other threads, DYD_E_ARG; it
+ * must not be freed. After fork() both processes may use their copies of an engine that was not at work; programs of an
+ * oracle stay those of the process that started them (DYD_E_STREAM in the other one, which does not end them either).
+ * After an error an engine can be used like any other. */
 #ifndef DYADEL_ENGINE_H
 #define DYADEL_ENGINE_H
 

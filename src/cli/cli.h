@@ -221,6 +221,8 @@ void cli_memory_guard(void);
 void cli_deadline_start(double seconds);
 /* What is being done now, as in "reading"; static text. */
 void cli_deadline_phase(const char *what);
+/* All is written and told; what follows (programs of an oracle are given time to end) may be cut, with this status. */
+void cli_deadline_written(int status);
 /* Of the seconds left, such a share, above 0; 0: there is no limit. For options of the engine. */
 double cli_deadline_left(double share);
 /* Set to 1 at the deadline. */

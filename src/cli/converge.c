@@ -110,7 +110,7 @@ static int converge_replay(const cli_options *o) {
   dyd_status st = dyd_trace_replay(&table, in, NULL, &err);
   cli_input_close(in);
   if (st != DYD_OK) cli_complain_at(o->replay, &err);
-  int status = write_results(&table, o);
+  int status = st == DYD_E_NOMEM ? CLI_FAILED : write_results(&table, o);
   status = st != DYD_OK || status ? CLI_FAILED : cli_exit_status(table.outcome);
   dyd_convergence_clear(&table);
   return status;

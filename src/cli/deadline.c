@@ -15,6 +15,7 @@
 static double ends = INFINITY, grace;
 static volatile int late;
 static _Atomic(const char *) phase = "starting";
+static atomic_int written = -1;
 
 double cli_clock(void) {
   struct timespec t;
@@ -37,6 +38,8 @@ static void *deadline_watch(void *unused) {
   __atomic_store_n(&late, 1, __ATOMIC_SEQ_CST);
   cli_signals_stop();
   deadline_wait(ends + grace);
+  int status = atomic_load(&written);
+  if (status >= 0) _exit(status);
   cli_complain("budget: the time is used up, and %s does not end: nothing of it is known; raise --timeout",
                atomic_load(&phase));
   cli_signals_unlink();
@@ -53,6 +56,10 @@ void cli_deadline_start(double seconds) {
 
 void cli_deadline_phase(const char *what) {
   atomic_store(&phase, what);
+}
+
+void cli_deadline_written(int status) {
+  atomic_store(&written, status);
 }
 
 double cli_deadline_left(double share) {

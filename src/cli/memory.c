@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* GMP, MPFR and FLINT, which hold the long numbers, cannot tell their caller that memory is exhausted: they end the
- * process. Here they do so with a message and an exit status of the command, and no file begun is left. */
+ * process. Jansson 2.14 follows a null pointer. Here all of them end it with a message and an exit status of the
+ * command, and no file begun is left. */
 #include "cli.h"
 #include <flint/flint.h>
+#include <jansson.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -46,4 +48,5 @@ void cli_memory_guard(void) {
   mp_set_memory_functions(memory_take, memory_resize, memory_release);
   __flint_set_memory_functions(memory_take, memory_clear, memory_change, free);
   flint_set_abort(memory_abort);
+  json_set_alloc_funcs(memory_take, free);
 }

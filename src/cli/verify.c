@@ -120,6 +120,7 @@ int cli_verify(const cli_options *o) {
   dyd_error err;
   dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
   int status = 0;
+  cli_deadline_phase("checking the certificate");
   dyd_error_clear(&err);
   dyd_status st = o->points ? verify_points(&status, &report, in, o, &err) : dyd_verify_certificate(&report, in, &err);
   cli_input_close(in);

@@ -17,7 +17,9 @@
 
 dyd_status dyd_engine_may_add(dyd_engine *e, bool later) {
   dyd_error_clear(&e->refused);
-  if (e->busy) return dyd_fail(&e->refused, DYD_E_ARG, "the engine is at work: no callback of it may add points");
+  if (dyd_engine_is_busy(e))
+    return dyd_fail(&e->refused, DYD_E_ARG,
+                    "the engine is at work: no callback of it, and no other thread, may add points");
   if (e->started && !later)
     return dyd_fail(&e->refused, DYD_E_ARG,
                     "dyd_engine_add_* is for points that are there before the first run or question; add later ones "

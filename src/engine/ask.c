@@ -342,14 +342,15 @@ static dyd_status ask_loop(ask *a) {
 /* The loop with the clock running and the flags set. */
 static dyd_status ask_timed(ask *a) {
   dyd_engine *e = a->e;
+  if (__atomic_exchange_n(&e->busy, 1, __ATOMIC_SEQ_CST)) return dyd_ask_may_begin(e, &a->err);
   dyd_flag_set(&e->stop, 0); /* where that undoes a cancel, `cancelled` is seen before any work */
-  e->started = e->busy = true;
+  e->started = true;
   e->tie_bits = a->o.tie_bits;
   dyd_watch_start(&a->watch, a->o.seconds, &e->stop);
   dyd_status st = ask_loop(a);
   dyd_watch_stop(&a->watch);
   e->seconds += dyd_watch_seconds(&a->watch);
-  e->busy = false;
+  dyd_flag_set(&e->busy, 0);
   if (st == DYD_OK && a->end == DYD_OUTCOME_CANCELLED) dyd_flag_set(&e->cancelled, 0);
   return st;
 }
@@ -364,8 +365,9 @@ static dyd_status ask_run(ask *a) {
 }
 
 dyd_status dyd_ask_may_begin(const dyd_engine *e, dyd_error *err) {
-  if (!e->busy) return DYD_OK;
-  return dyd_fail(err, DYD_E_ARG, "the engine is at work: no callback of it may start another run or question");
+  if (!dyd_engine_is_busy(e)) return DYD_OK;
+  return dyd_fail(err, DYD_E_ARG,
+                  "the engine is at work: no callback of it, and no other thread, may start another run or question");
 }
 
 dyd_status dyd_ask(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *e, const dyd_question *question,

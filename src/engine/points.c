@@ -232,7 +232,9 @@ static dyd_status site_put_measured(dyd_engine *e, uint32_t i, const dyd_rect *r
 }
 
 static dyd_status site_measure(dyd_engine *e, uint32_t i, const dyd_rect *r, dyd_error *err) {
-  if (e->busy) return dyd_fail(err, DYD_E_ARG, "the engine is at work: no callback of it may measure points");
+  if (dyd_engine_is_busy(e))
+    return dyd_fail(err, DYD_E_ARG,
+                    "the engine is at work: no callback of it, and no other thread, may measure points");
   if (i >= dyd_sites_count(e->sites))
     return dyd_fail(err, DYD_E_ARG, "there is no point %lu: there are %zu, numbered from 0", (unsigned long)i,
                     dyd_sites_count(e->sites));

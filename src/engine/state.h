@@ -80,7 +80,7 @@ struct dyd_engine {
   dyd_error refused;          /* why points were not added */
   dyd_delaunay_counters past; /* of results that points added later have ended */
   bool started;
-  bool busy; /* the loop is at work: callbacks of any kind must not enter it again */
+  int busy; /* 1 while the loop is at work: neither callbacks nor other threads may enter it; only by atomic access */
   dyd_outcome outcome;
   dyd_goal goal; /* of the last run, with goal_bits */
   int64_t goal_bits;
@@ -102,6 +102,10 @@ static inline int dyd_flag_get(const volatile int *flag) {
 }
 static inline void dyd_flag_set(volatile int *flag, int value) {
   __atomic_store_n(flag, value, __ATOMIC_SEQ_CST);
+}
+
+static inline bool dyd_engine_is_busy(const dyd_engine *e) {
+  return dyd_flag_get(&e->busy);
 }
 
 #endif

@@ -216,9 +216,12 @@ static dyd_status replay_outcome(replay *r, const json_t *line) {
 }
 
 static dyd_status replay_line(replay *r, const dyd_line *text) {
-  json_t *line = json_loadb(text->text, text->length, JSON_REJECT_DUPLICATES, NULL);
+  json_error_t error;
+  json_t *line = json_loadb(text->text, text->length, JSON_REJECT_DUPLICATES, &error);
   dyd_status st;
-  if (!json_is_object(line))
+  if (!line && json_error_code(&error) == json_error_out_of_memory)
+    st = dyd_fail_nomem(r->err);
+  else if (!json_is_object(line))
     st = replay_fail(r, "this line is no JSON object");
   else if (!r->point)
     st = replay_head(r, line);

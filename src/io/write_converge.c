@@ -59,6 +59,12 @@ static dyd_status table_csv_head(FILE *out, const dyd_convergence *c, bool times
   return st;
 }
 
+/* With a point, whatever the caller's locale has between units and thousandths. */
+static void table_seconds(FILE *out, const char *before, double seconds) {
+  uint64_t thousandths = (uint64_t)(1000 * seconds + 0.5);
+  fprintf(out, "%s%" PRIu64 ".%03" PRIu64, before, thousandths / 1000, thousandths % 1000);
+}
+
 static void table_csv_row(FILE *out, const dyd_stage_row *r, bool times) {
   fprintf(out, "%" PRIu64 ",%" PRId64 ",%" PRId64 ",%" PRIu64, r->stage, r->bits_least, r->bits_most, r->bits_total);
   table_csv_bound(out, &r->width_largest, true);
@@ -71,7 +77,7 @@ static void table_csv_row(FILE *out, const dyd_stage_row *r, bool times) {
   table_csv_bound(out, &r->v_hausdorff, r->voronoi);
   fprintf(out, ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%016" PRIx64, r->rungs.filter, r->rungs.integer,
           r->rungs.exact, r->calls, r->digest);
-  if (times) fprintf(out, ",%.3f", row_seconds(r));
+  if (times) table_seconds(out, ",", row_seconds(r));
   fputs("\n", out);
 }
 
@@ -122,7 +128,7 @@ static dyd_status table_json_row(FILE *out, const dyd_stage_row *r, bool times) 
           ",\n \"filter\": %" PRIu64 ", \"integer\": %" PRIu64 ", \"exact\": %" PRIu64 ", \"calls\": %" PRIu64
           ", \"statuses\": \"%016" PRIx64 "\"",
           r->rungs.filter, r->rungs.integer, r->rungs.exact, r->calls, r->digest);
-  if (times) fprintf(out, ", \"seconds\": %.3f", row_seconds(r));
+  if (times) table_seconds(out, ", \"seconds\": ", row_seconds(r));
   fputs("}", out);
   return st;
 }

@@ -16,6 +16,7 @@
 #include <poll.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 /* How long programs may take to end by themselves, and how often the stop flag is looked at. */
 #define GRACE_SECONDS 1.0
@@ -26,6 +27,7 @@
 struct dyd_oracle {
   size_t refs;
   char *command;
+  pid_t owner;
   dyd_worker *worker;
   struct pollfd *poll;
   unsigned jobs, batch, retries;
@@ -138,6 +140,11 @@ static dyd_status wait_retrying(dyd_oracle *o, unsigned k, const volatile int *s
 
 /* ---- the source ---- */
 
+/* Not in a process that was forked since: the pipes are those of its parent. */
+static bool oracle_is_ours(const dyd_oracle *o) {
+  return o->owner == getpid();
+}
+
 static unsigned oracle_job_of(const dyd_oracle *o, size_t point) {
   return (unsigned)(point % o->jobs);
 }
@@ -145,6 +152,7 @@ static unsigned oracle_job_of(const dyd_oracle *o, size_t point) {
 /* What is already asked stays; a list that does not fit into memory is as good as none. */
 static void oracle_announce(void *user, const dyd_request *request, size_t count) {
   dyd_oracle *o = user;
+  if (!oracle_is_ours(o)) return;
   for (unsigned k = 0; k < o->jobs; k++) dyd_worker_forget(&o->worker[k]);
   for (size_t k = 0; k < count; k++) {
     const dyd_request *r = dyd_request_at(request, k);
@@ -174,6 +182,9 @@ static dyd_status oracle_narrow(dyd_rect *out, void *user, const dyd_request *re
   if (request->point >= o->points) {
     return dyd_fail(err, DYD_E_ARG, "the oracle program has %zu points only", o->points);
   }
+  if (!oracle_is_ours(o))
+    return dyd_fail(err, DYD_E_STREAM,
+                    "the oracle program belongs to the process that started it; start another one after fork()");
   unsigned job = oracle_job_of(o, request->point);
   dyd_worker *w = &o->worker[job];
   if (!ask_first(w, request)) return dyd_fail_nomem(err);
@@ -242,6 +253,7 @@ static dyd_oracle *oracle_new(const char *command, const dyd_oracle_options *opt
   dyd_oracle *o = dyd_alloc(1, sizeof *o);
   if (!o) return NULL;
   *o = (dyd_oracle){.refs = 1,
+                    .owner = getpid(),
                     .batch = options->batch,
                     .retries = options->retries,
                     .seconds = options->seconds,
@@ -289,6 +301,7 @@ static void let_programs_end(dyd_oracle *o) {
 
 void dyd_oracle_free(dyd_oracle *o) {
   if (!o || --o->refs) return;
+  for (unsigned k = 0; k < o->jobs && !oracle_is_ours(o); k++) dyd_process_disown(&o->worker[k].process);
   let_programs_end(o);
   for (unsigned k = 0; k < o->jobs; k++) dyd_worker_clear(&o->worker[k]);
   dyd_close(&o->lifeline[0]);

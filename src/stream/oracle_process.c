@@ -239,6 +239,11 @@ void dyd_process_kill(const dyd_process *p) {
   if (p->pid > 0) kill(-p->pid, SIGKILL);
 }
 
+void dyd_process_disown(dyd_process *p) {
+  dyd_process_close(p);
+  p->pid = p->watcher = 0;
+}
+
 /* A child of ours that was killed. */
 static void process_reap(pid_t *pid) {
   while (*pid > 0 && waitpid(*pid, NULL, 0) < 0 && errno == EINTR) continue;

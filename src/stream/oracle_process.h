@@ -37,6 +37,8 @@ bool dyd_process_is_deaf(const dyd_process *p);
 void dyd_process_close(dyd_process *p);
 /* Kills the group at once. The processes are still to be reaped. */
 void dyd_process_kill(const dyd_process *p);
+/* Closes both pipes and leaves the program to its owner: for the copy in a forked process. */
+void dyd_process_disown(dyd_process *p);
 /* Kills and reaps. Nothing to do for a process that never was ({0, 0, -1, -1}). */
 void dyd_process_end(dyd_process *p);
 

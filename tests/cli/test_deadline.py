@@ -75,14 +75,31 @@ def test_silent_oracle():
     expect(timed(1, 'voronoi', '--oracle', 'exec sleep 15'), 4, r'\A\Z', '^dyadel: budget: .* reading does not end')
 
 
+def test_oracle_that_is_slow_to_end():
+    """The programs are given a second to end; that is no reason to tell that writing does not end."""
+    result = timed(1, 'delaunay', '--oracle', 'echo points 3; exec sleep 100')
+    expect(result, 4, r'\A\Z', r'\Adyadel: budget before the first [^\n]*\n\Z')
+
+
 def test_input_that_does_not_end():
-    begun = time.monotonic()
-    with subprocess.Popen([COMMAND, 'delaunay', '-', '--timeout', '1'], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE) as process:
-        process.stdin.write(b'0 0\n1 1\n')
-        process.stdin.flush()
-        assert process.wait(timeout=60) == 4 and time.monotonic() - begun < 1 + SPARE
-        assert b'reading does not end' in process.stderr.read() and process.stdout.read() == b''
+    for command, text, phase in (('delaunay', b'0 0\n1 1\n', b'reading'), ('tolerance', b'0 0\n', b'reading'),
+                                 ('verify', b'dyadel certificate 1\n', b'checking the certificate')):
+        begun = time.monotonic()
+        with subprocess.Popen([COMMAND, command, '-', '--timeout', '1'], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE) as process:
+            process.stdin.write(text)
+            process.stdin.flush()
+            assert process.wait(timeout=60) == 4 and time.monotonic() - begun < 1 + SPARE
+            assert phase + b' does not end' in process.stderr.read() and process.stdout.read() == b''
+
+
+def test_long_numbers():
+    """Ten rationals of a million bits, and an argument beyond any table of pi."""
+    number = '7' * 300000
+    rationals = ''.join(f'{number}/3{number[k:]} {k}\n' for k in range(10))
+    for text in (rationals, 'exp(exp(exp(2))) 0\nsin(10^300000) 1\n2 3\n'):
+        for command in ('delaunay', 'bisector'):
+            assert timed(1, command, '-', stdin=text).code in (0, 3, 4)
 
 
 def test_time_enough():

@@ -5,6 +5,7 @@
 #include <flint/flint.h>
 #include <mpfr.h>
 #include <pthread.h>
+#include <semaphore.h>
 
 typedef struct job {
   dyd_engine *e;
@@ -83,7 +84,62 @@ static void test_interrupted(void **state) {
   dyd_engine_free(e);
 }
 
+/* ---- one engine in two threads ---- */
+
+typedef struct gate {
+  sem_t inside, open;
+} gate;
+
+/* The first answer waits at the gate. */
+static dyd_status wait_at_gate(dyd_rect *out, void *user, const dyd_request *q, dyd_error *err) {
+  gate *g = user;
+  (void)q;
+  sem_post(&g->inside);
+  sem_wait(&g->open);
+  sem_post(&g->open);
+  return dyd_rect_set_text(out, "2.5 3.5", 7, err);
+}
+
+/* While one thread is in a run, the other one is refused whatever would change the engine, and the run does not notice;
+ * afterwards both may use it. */
+static void test_entered_twice(void **state) {
+  (void)state;
+  gate g;
+  pthread_t thread;
+  dyd_engine *e = make(3), *calm = make(3);
+  dyd_source source = {DYD_SIZED(dyd_source), .narrow = wait_at_gate, .user = &g};
+  sem_init(&g.inside, 0, 0);
+  sem_init(&g.open, 0, 0);
+  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 1, &source, NULL));
+  assert_int_equal(DYD_OK, dyd_engine_append_text(calm, "2.5 3.5", 7, NULL, NULL));
+  job j = {e, DYD_OUTCOME_NONE, DYD_OK};
+  assert_int_equal(0, pthread_create(&thread, NULL, run_in_thread, &j));
+  sem_wait(&g.inside);
+  dyd_outcome outcome;
+  dyd_error err;
+  dyd_rect r;
+  const double at = 1;
+  dyd_rect_init(&r);
+  for (int k = 0; k < 100; k++) {
+    assert_int_equal(DYD_E_ARG, dyd_engine_run(&outcome, e, NULL, &err));
+    assert_non_null(strstr(err.message, "no other thread"));
+    assert_int_equal(DYD_OUTCOME_ERROR, outcome);
+    assert_int_equal(DYD_E_ARG, dyd_engine_append_points(e, 1, &at, &at, &err));
+    assert_int_equal(DYD_E_ARG, dyd_engine_remeasure(e, 0, &r, &err));
+  }
+  sem_post(&g.open);
+  pthread_join(thread, NULL);
+  assert_int_equal(DYD_OK, j.status);
+  engine_run(calm, NULL, j.outcome);
+  assert_same_statuses(calm, e);
+  engine_run(e, NULL, j.outcome);
+  dyd_rect_clear(&r);
+  dyd_engine_free(calm);
+  dyd_engine_free(e);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_together), cmocka_unit_test(test_interrupted)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_together), cmocka_unit_test(test_interrupted),
+                                     cmocka_unit_test(test_entered_twice)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

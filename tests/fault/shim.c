@@ -6,11 +6,13 @@
  *   FAULT_AT     n, counted from 1; 0: none fails
  *   FAULT_ON     with any value: so do all that follow
  *   FAULT_ERRNO  what errno says of it (EIO)
+ *   FAULT_LOCALE with any value: the locale is that of the environment, as in programs that call setlocale
  *   FAULT_COUNT  a file that is given the number of calls when the process ends in the usual way */
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <link.h>
+#include <locale.h>
 #include <pthread.h>
 #include <spawn.h>
 #include <stdarg.h>
@@ -59,6 +61,7 @@ static void read_number(const char *name, long *out) {
 
 __attribute__((constructor)) static void faults_begin(void) {
   long number = EIO;
+  if (getenv("FAULT_LOCALE")) setlocale(LC_ALL, "");
   inside = getenv("FAULT_IN");
   read_number("FAULT_AT", &at);
   read_number("FAULT_ERRNO", &number);

@@ -439,14 +439,49 @@ static void test_streams(void **state) {
   assert_nothing_left();
 }
 
+/* ---- fork ---- */
+
+/* A forked copy may not use the program, nor does it end it: it says so, frees what it has, and the parent goes on as
+ * if nothing had been. Without a program the copy works. */
+static void test_forked(void **state) {
+  (void)state;
+  dyd_error err;
+  dyd_outcome outcome;
+  dyd_source callback = {DYD_SIZED(dyd_source), .narrow = in_process};
+  dyd_engine *e = engine_with("none", 0, "", NULL), *f = engine_of(&callback);
+  dyd_engine_options once = long_run();
+  once.max_stages = 1;
+  assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &once, &err));
+  assert_int_equal(DYD_OK, dyd_engine_run(&outcome, f, &once, &err));
+  pid_t child = fork();
+  assert_true(child >= 0);
+  if (child == 0) {
+    dyd_engine_options o = long_run();
+    bool good =
+        dyd_engine_run(&outcome, f, &o, &err) == DYD_OK && dyd_engine_run(&outcome, e, &o, &err) == DYD_E_STREAM;
+    good &= strstr(err.message, "the process that started it") != NULL;
+    dyd_engine_free(f);
+    dyd_engine_free(e);
+    _exit(!good);
+  }
+  int status = -1;
+  assert_int_equal(child, waitpid(child, &status, 0));
+  assert_int_equal(0, status);
+  assert_int_equal(run_long(f, &err), run_long(e, &err));
+  assert_same_rects(e, f);
+  dyd_engine_free(f);
+  dyd_engine_free(e);
+}
+
 int main(int argc, char **argv) {
   if (argc > 4 && strcmp(argv[1], "serve") == 0) return oracle_serve(argc, argv);
   self = argv[0];
   leftover_mark();
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_same),    cmocka_unit_test(test_side_by_side),   cmocka_unit_test(test_faults),
-      cmocka_unit_test(test_starts),  cmocka_unit_test(test_no_descriptors), cmocka_unit_test(test_interrupted),
-      cmocka_unit_test(test_resumed), cmocka_unit_test(test_orphans),        cmocka_unit_test(test_streams),
+      cmocka_unit_test(test_same),        cmocka_unit_test(test_forked),  cmocka_unit_test(test_side_by_side),
+      cmocka_unit_test(test_faults),      cmocka_unit_test(test_starts),  cmocka_unit_test(test_no_descriptors),
+      cmocka_unit_test(test_interrupted), cmocka_unit_test(test_resumed), cmocka_unit_test(test_orphans),
+      cmocka_unit_test(test_streams),
   };
   return cmocka_run_group_tests(tests, NULL, release_caches);
 }

@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What is fed with bytes of strangers: see targets.h. A call fails with a code and a message, or does what it says; the
+ * rest is the business of the invariants of the armed library and of the sanitizers. */
+#define _GNU_SOURCE /* fmemopen */
+#include "targets.h"
+
+#include <dyadel/dyadel.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MUST(condition)                                                                                                \
+  do {                                                                                                                 \
+    if (!(condition)) {                                                                                                \
+      fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition);                                                  \
+      abort();                                                                                                         \
+    }                                                                                                                  \
+  } while (0)
+
+/* Failures name their code and say something. */
+static void must_tell(dyd_status st, const dyd_error *err) {
+  MUST(st >= 0 || (err->message[0] && err->code == st && strlen(err->message) < sizeof err->message));
+}
+
+static dyd_engine_options small_run(void) {
+  dyd_engine_options o;
+  dyd_engine_options_init(&o);
+  o.max_bits = 256;
+  o.max_stages = 4;
+  o.max_pairs = 2000;
+  o.tie_bits = 2048;
+  o.seconds = 0.5;
+  return o;
+}
+
+static void run_small(dyd_engine *e) {
+  enum { MOST_POINTS = 60 };
+  const dyd_engine_options o = small_run();
+  dyd_outcome outcome;
+  dyd_error err;
+  dyd_pair_list pairs = {0};
+  if (dyd_engine_count(e) > MOST_POINTS) return;
+  dyd_status st = dyd_engine_run(&outcome, e, &o, &err);
+  must_tell(st, &err);
+  MUST((st < 0) == (outcome == DYD_OUTCOME_ERROR));
+  if (!dyd_engine_delaunay(e)) return;
+  MUST(dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(e)) >= 0);
+  for (size_t k = 0; k < pairs.count; k++)
+    MUST(pairs.item[k].i < pairs.item[k].j && pairs.item[k].j < dyd_engine_count(e));
+  dyd_pair_list_clear(&pairs);
+}
+
+static void read_and_run(const uint8_t *data, size_t size, const dyd_read_options *options) {
+  dyd_engine *e = NULL;
+  dyd_error err;
+  MUST(dyd_engine_new(&e) == DYD_OK);
+  dyd_status st = dyd_engine_add_text(e, (const char *)data, size, options, &err);
+  must_tell(st, &err);
+  MUST(st >= 0 || dyd_engine_count(e) == 0);
+  if (st >= 0) run_small(e);
+  dyd_engine_free(e);
+}
+
+/* ---- the targets ---- */
+
+void fuzz_points(const uint8_t *data, size_t size);
+void fuzz_csv(const uint8_t *data, size_t size);
+void fuzz_expression(const uint8_t *data, size_t size);
+void fuzz_trace(const uint8_t *data, size_t size);
+void fuzz_certificate(const uint8_t *data, size_t size);
+void fuzz_answer(const uint8_t *data, size_t size);
+void fuzz_calls(const uint8_t *data, size_t size);
+
+/* A points file, by itself or measured and widened. */
+void fuzz_points(const uint8_t *data, size_t size) {
+  const dyd_read_options wide = {DYD_SIZED(dyd_read_options), .measured = true, .radius = "1/64", .merge = true};
+  read_and_run(data, size, size % 2 ? &wide : NULL);
+}
+
+/* Separated text; its size chooses how it is read. */
+void fuzz_csv(const uint8_t *data, size_t size) {
+  dyd_read_options o = {DYD_SIZED(dyd_read_options), .columns = "x,y", .skip_missing = true};
+  if (size % 3 == 1) o.columns = "1,2";
+  if (size % 3 == 2) o.radius_columns = "r";
+  o.id = size % 2 ? "name" : NULL;
+  o.decimal_comma = size % 5 == 0;
+  o.merge = size % 7 == 0;
+  read_and_run(data, size, &o);
+}
+
+/* One coordinate: an exact number, an interval, or the ordinate of a point that is narrowed. */
+void fuzz_expression(const uint8_t *data, size_t size) {
+  char text[2000];
+  dyd_interval x;
+  dyd_error err;
+  dyd_interval_init(&x);
+  must_tell(dyd_interval_set_text(&x, (const char *)data, size, &err), &err);
+  dyd_interval_clear(&x);
+  if (size > 1900 || memchr(data, '\n', size) || memchr(data, 0, size)) return;
+  int length = snprintf(text, sizeof text, "%.*s 0\n1 1\n0 2\n3 %.*s\n", (int)size, (const char *)data, (int)size / 2,
+                        (const char *)data);
+  if (length < (int)sizeof text) read_and_run((const uint8_t *)text, (size_t)length, NULL);
+}
+
+static FILE *file_of(uint8_t **copy, const uint8_t *data, size_t size) {
+  *copy = malloc(size + 1);
+  MUST(*copy);
+  memcpy(*copy, data, size);
+  FILE *in = fmemopen(*copy, size + !size, "rb");
+  MUST(in);
+  return in;
+}
+
+void fuzz_trace(const uint8_t *data, size_t size) {
+  uint8_t *copy;
+  dyd_error err;
+  dyd_convergence table = {DYD_SIZED(dyd_convergence)};
+  FILE *in = file_of(&copy, data, size);
+  must_tell(dyd_trace_replay(&table, in, NULL, &err), &err);
+  dyd_convergence_clear(&table);
+  fclose(in);
+  free(copy);
+}
+
+void fuzz_certificate(const uint8_t *data, size_t size) {
+  uint8_t *copy;
+  dyd_error err;
+  dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
+  FILE *in = file_of(&copy, data, size);
+  must_tell(dyd_verify_certificate(&report, in, &err), &err);
+  fclose(in);
+  free(copy);
+}
+
+/* Lines that a callback or an oracle program answers, one after the other. */
+typedef struct answers {
+  const char *text, *end;
+} answers;
+
+static dyd_status next_answer(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
+  answers *a = user;
+  (void)request;
+  const char *line = a->text, *end = memchr(line, '\n', (size_t)(a->end - line));
+  if (!end) end = a->end;
+  a->text = end < a->end ? end + 1 : end;
+  dyd_status st = dyd_rect_narrow_text(out, line, (size_t)(end - line), err);
+  must_tell(st, err);
+  return st;
+}
+
+void fuzz_answer(const uint8_t *data, size_t size) {
+  answers a = {(const char *)data, (const char *)data + size};
+  const dyd_source source = {DYD_SIZED(dyd_source), .narrow = next_answer, .user = &a};
+  const double x[2] = {0, 4}, y[2] = {0, 1};
+  dyd_engine *e = NULL;
+  MUST(dyd_engine_new(&e) == DYD_OK);
+  MUST(dyd_engine_add_points(e, 2, x, y) == DYD_OK);
+  MUST(dyd_engine_add_source(e, 3, &source, NULL) == DYD_OK);
+  run_small(e);
+  dyd_engine_free(e);
+}
+
+/* ---- sequences of calls ---- */
+
+typedef struct bytes {
+  const uint8_t *at, *end;
+} bytes;
+
+static unsigned next_byte(bytes *b) {
+  return b->at < b->end ? *b->at++ : 0;
+}
+
+static double next_number(bytes *b) {
+  static const double odd[] = {0, -0.0, 1e300, -1e-320, 0x1p-1074, 1.0 / 3};
+  unsigned k = next_byte(b);
+  return k < 250 ? (double)k / 8 : odd[k - 250];
+}
+
+static void call_add(dyd_engine *e, bytes *b, dyd_error *err) {
+  double x = next_number(b), y = next_number(b), w = next_number(b), h = next_number(b), x1 = x + w, y1 = y + h;
+  static const char *const text[] = {"sqrt(2) 1", "1/3 [2,3]", "root(x^2-5,2,3) 4", "2 x", "5+-1 pi", "sqrt(8) 1"};
+  unsigned k = next_byte(b);
+  if (k % 3 == 0) must_tell(dyd_engine_append_points(e, 1, &x, &y, err), err);
+  if (k % 3 == 1) must_tell(dyd_engine_append_boxes(e, 1, &x, &x1, &y, &y1, err), err);
+  if (k % 3 == 2) must_tell(dyd_engine_append_text(e, text[k % 6], strlen(text[k % 6]), NULL, err), err);
+}
+
+static void call_measure(dyd_engine *e, bytes *b, dyd_error *err) {
+  dyd_rect r;
+  char text[80];
+  double x = next_number(b), y = next_number(b);
+  dyd_rect_init(&r);
+  snprintf(text, sizeof text, "%a+-%u %a+-%u", x, next_byte(b) % 8, y, next_byte(b) % 8);
+  if (dyd_rect_set_text(&r, text, strlen(text), err) == DYD_OK)
+    must_tell(dyd_engine_remeasure(e, next_byte(b) % 16, &r, err), err);
+  dyd_rect_clear(&r);
+}
+
+/* Adding, measuring, running, asking and cancelling in any order, with options of any kind. */
+void fuzz_calls(const uint8_t *data, size_t size) {
+  bytes b = {data, data + size};
+  dyd_engine *e = NULL;
+  dyd_error err;
+  MUST(dyd_engine_new(&e) == DYD_OK);
+  for (int calls = 0; b.at < b.end && calls < 40; calls++) {
+    unsigned k = next_byte(&b);
+    dyd_engine_options o = small_run();
+    dyd_outcome outcome;
+    o.schedule = (dyd_schedule)(k / 8 % 3);
+    o.start_bits = (int64_t)next_byte(&b) - 8;
+    o.no_ties = k & 64;
+    switch (k % 6) {
+    case 0:
+    case 1:
+      call_add(e, &b, &err);
+      break;
+    case 2:
+      call_measure(e, &b, &err);
+      break;
+    case 3:
+      must_tell(dyd_engine_run(&outcome, e, &o, &err), &err);
+      break;
+    case 4:
+      run_small(e);
+      break;
+    default:
+      dyd_engine_cancel(e);
+    }
+  }
+  dyd_engine_free(e);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  FUZZ_TARGET(data, size);
+  return 0;
+}
