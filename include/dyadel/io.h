@@ -163,8 +163,9 @@ typedef struct dyd_voronoi_options {
    * known. May be NULL. cut: how many cells and regions that befell; may be NULL. */
   const volatile int *cancel;
   size_t *cut;
-  dyd_content layer; /* what csv, wkt and geojson hold; DYD_CONTENT_NONE: the cells */
-  unsigned epsg;     /* as in dyd_delaunay_output */
+  dyd_content layer;          /* what csv, wkt and geojson hold, and html shows first; DYD_CONTENT_NONE: the cells */
+  unsigned epsg;              /* as in dyd_delaunay_output */
+  const dyd_history *history; /* of the run, for html; as in dyd_delaunay_output */
 } dyd_voronoi_options;
 
 /* Writes the Voronoi diagram of the current result of e. o may be NULL.

@@ -102,6 +102,54 @@ def test_boxes():
     assert not any(stages[-1])
 
 
+def test_converge():
+    """The table of json is in the page, and the stages are its rows."""
+    file = pages.points(pages.SLOW)
+    for more in [], ['--no-voronoi', '--window', '0,1,0,2'], ['--of', 'voronoi', '--until', 'hausdorff:8']:
+        args = ['converge', file, *pages.STEPS, '--no-times', *more]
+        content = pages.data(pages.page(*args))
+        assert content['convergence'] == json.loads(harness.run(*args, '--format', 'json', '-q').out)
+        if '--window' not in more:
+            rows = content['convergence']['stages']
+            assert counts(pages.statuses(content)) == [[r[s] for s in ('legal', 'indeterminate', 'tie')] for r in rows]
+    trace = pathlib.Path(file).with_name('trace')
+    harness.run('converge', file, *pages.STEPS, '-q', '--no-voronoi', '--trace', str(trace))
+    harness.expect(harness.run('converge', '--replay', str(trace), '--format', 'html'), 2, err='run converge on them')
+
+
+def places(content, steps):
+    at, out = [0, 0], []
+    for k, step in enumerate(steps):
+        at[k & 1] += step
+        out.append(fractions.Fraction(content['origin'][k & 1]) + at[k & 1] * fractions.Fraction(2) ** content['unit'])
+    return out
+
+
+def same_polygon(content, steps, truth):
+    """Within half a unit, and what doubles are off."""
+    ends = [exact(text) for point in truth for text in point]
+    near = [abs(a - b) for a, b in zip(places(content, steps), ends)]
+    assert len(steps) == len(ends) and max(near, default=0) <= fractions.Fraction(2) ** content['unit'] * fractions.Fraction(501, 1000)
+
+
+def test_diagram():
+    for args in [pages.points(pages.TWELVE)], pages.FIXES, ['--window', '100,200,50,150', *pages.FIXES], [pages.points(pages.SLOW), *pages.STEPS]:
+        content = pages.data(pages.page('voronoi', *args))
+        truth = json.loads(harness.run('voronoi', *args, '--format', 'json', '-q').out)
+        cells = [c for c in truth['cells'] if c['x'] is not None]
+        assert [c['i'] for c in content['cells']] == [c['i'] for c in cells] and cells
+        for found, cell in zip(content['cells'], cells):
+            assert (found['area'], found['undetermined']) == (cell['area'], cell['undetermined'])
+            same_polygon(content, found['inner'], cell['inner'])
+            for one, other in zip(found['outer'], cell['outer'], strict=True):
+                same_polygon(content, one, other)
+        bounds = truth['bounds']
+        assert all(content[k] == bounds[k] for k in ('undetermined_area', 'distance_to_true_diagram'))
+        assert content['regions'] == [r for r in truth['regions'] if r['x'] is not None]
+        assert {tuple(v['sites']) for v in content['vertices']} <= {tuple(v['sites']) for v in truth['vertices']}
+        assert content['outcome'] == truth['outcome'] and len(content['edges']) % 4 == 0
+
+
 def test_window():
     """As many lines as the picture of that window counts."""
     for window in '-80,-70,38,44', '-100,-99,30,30.5':
@@ -128,8 +176,9 @@ def test_limit():
 
 def test_layers():
     file = pages.points(pages.TWELVE)
-    for layer in 'pairs', 'points', 'triangles':
-        assert pages.data(pages.page('delaunay', file, '--layer', layer))['layer'] == layer
+    for command, layers in ('delaunay', ('pairs', 'points', 'triangles')), ('voronoi', ('cells', 'vertices', 'regions', 'edges')):
+        for layer in layers:
+            assert pages.data(pages.page(command, file, '--layer', layer))['layer'] == layer
 
 
 def test_tolerance():

@@ -131,6 +131,17 @@ def test_stages():
         assert page.value('document.querySelector("#stages").hidden')
 
 
+def test_converge():
+    file = pages.points(pages.SLOW)
+    args = ['converge', file, *pages.STEPS, '--no-times']
+    rows = json.loads(harness.run(*args, '--format', 'json', '-q').out)['stages']
+    with opened(pages.page(*args)) as page:
+        for k, row in enumerate(rows):
+            page.value(f'document.querySelectorAll("#chart > div")[{k}].click()')
+            assert shown_counts(page) == {s: row[s] for s in ('legal', 'indeterminate', 'tie')}
+            assert f'{row["bits_least"]} to {row["bits_most"]}, {row["bits_total"]} in all' in page.text('#row')
+
+
 def colours(page):
     """How many pixels of the map have each colour."""
     return page.value('''(() => {
@@ -162,6 +173,25 @@ def test_switches():
         page.value('document.querySelector("#show-boxes").click()')
         page.frames()
         page.until("!/show=[^&]*boxes/.test(location.hash) && location.hash.includes('show=')")
+
+
+def test_diagram():
+    """Cells, the band, their switches; the cell of a point."""
+    args = [pages.points(pages.TWELVE)]
+    truth = json.loads(harness.run('voronoi', *args, '--format', 'json', '-q').out)
+    with opened(pages.page('voronoi', *args)) as page:
+        band = 0xe6, 0x9f, 0
+        assert page.text('#count-cells') == str(len(truth['cells'])) and page.text('#count-regions') == str(len(truth['regions']))
+        assert near(colours(page), band, 8) > 10000 and near(colours(page), (0xdc, 0xeb, 0xf5), 8) > 10000
+        page.key('2')
+        page.frames()
+        assert near(colours(page), band, 8) < 50
+        page.key('/')
+        page.call('Input.insertText', text='7')
+        page.call('Input.dispatchKeyEvent', type='keyDown', key='Enter', code='Enter', windowsVirtualKeyCode=13, text='\r')
+        low, high = map(float, page.text('#area').split(' … '))
+        area = next(c['area'] for c in truth['cells'] if c['i'] == 7)
+        assert low <= area[0] <= low * 1.0001 and high * 0.9999 <= area[1] <= high
 
 
 def test_address():

@@ -27,26 +27,14 @@ static dyd_status html_triangulation(FILE *to, const dyd_output *o, const char *
   return st;
 }
 
-static dyd_status pairs_data(FILE *to, const dyd_output *o) {
-  return html_triangulation(to, o, "pairs");
-}
-
-static dyd_status points_data(FILE *to, const dyd_output *o) {
-  return html_triangulation(to, o, "points");
-}
-
-static dyd_status triangles_data(FILE *to, const dyd_output *o) {
-  return html_triangulation(to, o, "triangles");
-}
-
 dyd_status dyd_html_pairs(const dyd_output *o) {
-  return dyd_html_write(o, pairs_data);
+  return dyd_html_write(o, html_triangulation, "pairs");
 }
 
 dyd_status dyd_html_points(const dyd_output *o) {
-  return dyd_html_write(o, points_data);
+  return dyd_html_write(o, html_triangulation, "points");
 }
 
 dyd_status dyd_html_triangles(const dyd_output *o) {
-  return dyd_html_write(o, triangles_data);
+  return dyd_html_write(o, html_triangulation, "triangles");
 }

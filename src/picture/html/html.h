@@ -6,5 +6,6 @@
 #include "io/output.h"
 
 dyd_writer dyd_html_pairs, dyd_html_points, dyd_html_triangles, dyd_html_convergence;
+dyd_writer dyd_html_cells, dyd_html_vertices, dyd_html_regions, dyd_html_edges;
 
 #endif

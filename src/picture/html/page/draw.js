@@ -216,9 +216,11 @@ function drawMap(ctx, scene, shown) {
   ctx.beginPath();
   ctx.rect(plot.left, plot.top, plot.right - plot.left, plot.bottom - plot.top);
   ctx.clip();
+  drawCells(ctx, scene, shown, seen, frame);
   if (shown.has("triangles")) drawTriangles(ctx, scene, seen, frame);
   if (shown.has("areas")) for (const s of order) drawAreas(ctx, scene, pairs[s], s, frame);
   for (const s of order) drawLines(ctx, scene, pairs[s], s, frame, apart);
+  drawVertices(ctx, scene, shown, seen, frame);
   const points = shown.has("boxes") ? drawPoints(ctx, scene, seen, frame, apart) : [];
   if (shown.has("names") && apart > 12) drawNames(ctx, scene, points);
   ctx.restore();
@@ -227,13 +229,15 @@ function drawMap(ctx, scene, shown) {
 }
 
 // What is marked: a point and its partners, over the map.
-function drawMark(ctx, scene, k) {
+function drawMark(ctx, scene, k, shown) {
   const frame = [plot.left - 20, plot.right + 20, plot.top - 20, plot.bottom + 20], own = partners(scene, k);
   ctx.save();
   ctx.beginPath();
   ctx.rect(plot.left, plot.top, plot.right - plot.left, plot.bottom - plot.top);
   ctx.clip();
+  drawCellMark(ctx, scene, k, frame);
   for (const s of [TIE, INDETERMINATE, LEGAL]) {
+    if (scene.cells.length && !shown.has(STATUS[s])) continue;
     ctx.beginPath();
     for (const p of own[s]) pathLine(ctx, scene, p, frame);
     ctx.strokeStyle = colours[STATUS[s]];

@@ -70,7 +70,7 @@ function drawKept(ctx) {
 function drawMarks() {
   const ctx = marks.getContext("2d"), k = hovered ?? kept;
   ctx.clearRect(0, 0, marks.clientWidth, marks.clientHeight);
-  if (k !== null) drawMark(ctx, scene, k);
+  if (k !== null) drawMark(ctx, scene, k, shown);
   lastView = {...view};
 }
 let lastView = {...view};
@@ -148,7 +148,7 @@ function readAddress() {
   const parts = new URLSearchParams(location.hash.slice(1)), at = (parts.get("at") ?? "").split(",").map(Number);
   if (parts.has("show")) {
     shown = new Set(parts.get("show").split(","));
-    for (const [name] of ENTRIES) if ($("show-" + name)) $("show-" + name).checked = shown.has(name);
+    for (const [name] of [...CELLS, ...PAIRS]) if ($("show-" + name)) $("show-" + name).checked = shown.has(name);
   }
   if (parts.has("theme")) setTheme(parts.get("theme") === "dark" ? "dark" : "light");
   kept = scene.numberOf.get(Number(parts.get("point") ?? -1)) ?? null;
@@ -292,8 +292,9 @@ function wholeBox() {
 async function start() {
   setTheme(null);
   scene = makeScene(await unpack($("data").textContent));
+  makeCells(scene);
   all = wholeBox();
-  shown = new Set(LAYERS[scene.data.layer] ?? ENTRIES.map(([name]) => name));
+  shown = new Set(LAYERS[scene.data.layer]);
   showSummary(scene);
   buildLegend(scene, shown, () => { base = null; redraw(); writeAddressSoon(); });
   buildStages(scene, goStage);

@@ -13,8 +13,15 @@ function element(tag, attributes = {}, ...children) {
   return out;
 }
 
-// What can be shown: name, what it means, whose it is.
-const ENTRIES = [
+// What can be shown: name, what it means; the first ones of diagrams only.
+const CELLS = [
+  ["cells", "surely nearest to a point"],
+  ["bands", "undetermined"],
+  ["vertices", "boxes of sure vertices"],
+  ["regions", "boxes of undecided vertices"],
+  ["edges", "sure Voronoi edges"],
+];
+const PAIRS = [
   ["legal", "legal: for every choice"],
   ["indeterminate", "indeterminate: for some"],
   ["tie", "tie: stays undecided"],
@@ -25,10 +32,14 @@ const ENTRIES = [
 ];
 
 // What a layer shows first.
-const LAYERS = {points: ["boxes", "names"], triangles: ["triangles", "boxes", "names"]};
+const LAYERS = {
+  pairs: PAIRS.map(([name]) => name), points: ["boxes", "names"], triangles: ["triangles", "boxes", "names"],
+  cells: ["cells", "bands", "boxes", "names"], vertices: ["vertices", "cells", "bands", "boxes", "names"],
+  regions: ["regions", "cells", "bands", "boxes", "names"], edges: ["edges", "boxes", "names"],
+};
 
 function buildLegend(scene, shown, onChange) {
-  for (const [name, text] of ENTRIES) {
+  for (const [name, text] of scene.cells.length ? [...CELLS, ...PAIRS] : PAIRS) {
     const box = element("input", {type: "checkbox", id: "show-" + name});
     box.checked = shown.has(name);
     box.addEventListener("change", () => {
@@ -49,6 +60,8 @@ function showCounts(scene) {
   for (let k = 0; k < scene.triangles.length; k += 3) sure += triangleIsSure(scene, k);
   $("count-triangles").textContent = grouped(sure);
   $("count-boxes").textContent = grouped(scene.n);
+  if (!scene.cells.length) return;
+  for (const name of ["cells", "vertices", "regions", "edges"]) $("count-" + name).textContent = grouped(scene[name]?.length ?? scene.data[name].length);
 }
 
 function showSummary({data, n}) {
@@ -56,11 +69,15 @@ function showSummary({data, n}) {
   const part = n === data.sites ? "" : ` of ${grouped(data.sites)}`;
   $("title").textContent = {delaunay: "Delaunay triangulation", voronoi: "Voronoi diagram", converge: "Convergence"}[data.kind];
   document.title = "dyadel " + data.kind;
+  const bound = (value) => (value ? `at most ${directed(value.decimal ?? Infinity, 4, true)}` : "is known");
   $("summary").textContent = `${grouped(n)}${part} points, outcome ${data.outcome}${goal}` +
-    (data.window ? `; the window [${data.window.map((t) => Number(toDouble(t).toPrecision(9))).join(", ")}]` : "") +
     (data.capped ? "; the cap on pairs was met: not all possible pairs are known" : "");
+  $("about").textContent = (data.window ? `The window is [${data.window.join(", ")}]. ` : "") +
+    (data.undetermined_area ? `Undetermined in it: an area of ${bound(data.undetermined_area)}, nothing of it farther from the true diagram than ${bound(data.distance_to_true_diagram)}. ` : "") +
+    (data.tolerance ? `Nothing changes at all while every point stays within ${data.tolerance[0] === null ? "any distance" : directed(data.tolerance[0], 4, false)} of its place. ` : "");
   $("rounding").textContent = "Rectangles are told exactly where they stand as texts m*2^e or p/q" +
     (data.stages.length > 1 ? "; those of earlier stages, and decimals, are rounded outward" : "; decimals are rounded outward") +
+    (data.unit === undefined ? "" : `; polygons are drawn by multiples of 2^${data.unit}`) + (data.unit !== undefined && data.stages.length > 1 ? ", at the last stage" : "") +
     ". What is drawn is rounded to doubles and pixels: drawings prove nothing, statuses are proved.";
 }
 
@@ -153,7 +170,7 @@ function showPoint(scene, k, kept, choose) {
   if (same.length) lines.push(element("dt", {}, "the same as"), element("dd", {}, same.join(", ")));
   lines.push(element("dt", {}, "corner of the hull"), element("dd", {}, point.hull));
   if (point.rho !== undefined) lines.push(element("dt", {}, "tolerance"), element("dd", {id: "rho", title: "every point may be so far from its place, all at once, and nothing changes for this one"}, point.rho === null ? "without bound" : String(point.rho)));
-  lines.push(...partnerLines(scene, k, choose));
+  lines.push(...cellLines(scene, k), ...partnerLines(scene, k, choose));
   const title = "id" in point ? `${point.id} (point ${point.i})` : `Point ${point.i}`;
   $("card").replaceChildren(element("h2", {}, title), element("dl", {}, ...lines), element("p", {}, kept ? "Kept: Esc lets it go." : "Click to keep it."));
 }
