@@ -34,7 +34,7 @@ function toPixels(polygon) {
 
 // Cells in light tints; what is in none of them is undetermined.
 function drawCells(ctx, scene, shown, seen, frame) {
-  if (!scene.cells.length || scene.stage !== scene.stages.length) return;
+  if (!scene.cells.length || !isLast(scene)) return;
   if (shown.has("bands")) {
     const [x0, x1, y0, y1] = scene.data.window.map(toDouble);
     ctx.beginPath();
@@ -71,7 +71,7 @@ function drawOutlines(ctx, polygons, frame) {
 
 // Boxes of sure vertices, of undecided ones, and sure edges.
 function drawVertices(ctx, scene, shown, seen, frame) {
-  if (!scene.cells.length || scene.stage !== scene.stages.length) return;
+  if (!scene.cells.length || !isLast(scene)) return;
   const boxes = (list, colour, dash, least) => {
     ctx.beginPath();
     for (const {x, y} of list) {
@@ -102,7 +102,7 @@ function drawVertices(ctx, scene, shown, seen, frame) {
 
 // The cell of a point that is marked: what is possibly, and what is surely nearest to it.
 function drawCellMark(ctx, scene, k, frame) {
-  if (!scene.cellOf.has(k) || scene.stage !== scene.stages.length) return;
+  if (!scene.cellOf.has(k) || !isLast(scene)) return;
   const {inner, outer} = scene.cells[scene.cellOf.get(k)];
   ctx.strokeStyle = colours.mark;
   ctx.lineWidth = 1.5;

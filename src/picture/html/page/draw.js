@@ -208,8 +208,10 @@ function drawAxes(ctx) {
   ctx.textAlign = "left";
 }
 
-// Everything; returns how many things were drawn. shown: what is switched on.
-function drawMap(ctx, scene, shown) {
+// Everything; returns how many things were drawn. on: what is switched on. Where a diagram is not known, its pairs are
+// shown.
+function drawMap(ctx, scene, on) {
+  const shown = scene.cells.length && !isLast(scene) ? new Set([...on, ...STATUS]) : on;
   const seen = viewBox(), frame = [plot.left - 20, plot.right + 20, plot.top - 20, plot.bottom + 20];
   const pairs = pairsInView(scene, seen), apart = spacing(scene, pairs), order = [TIE, INDETERMINATE, LEGAL].filter((s) => shown.has(STATUS[s]));
   ctx.save();

@@ -69,11 +69,11 @@ function showSummary({data, n}) {
   const part = n === data.sites ? "" : ` of ${grouped(data.sites)}`;
   $("title").textContent = {delaunay: "Delaunay triangulation", voronoi: "Voronoi diagram", converge: "Convergence"}[data.kind];
   document.title = "dyadel " + data.kind;
-  const bound = (value) => (value ? `at most ${directed(value.decimal ?? Infinity, 4, true)}` : "is known");
   $("summary").textContent = `${grouped(n)}${part} points, outcome ${data.outcome}${goal}` +
     (data.capped ? "; the cap on pairs was met: not all possible pairs are known" : "");
   $("about").textContent = (data.window ? `The window is [${data.window.join(", ")}]. ` : "") +
-    (data.undetermined_area ? `Undetermined in it: an area of ${bound(data.undetermined_area)}, nothing of it farther from the true diagram than ${bound(data.distance_to_true_diagram)}. ` : "") +
+    (data.undetermined_area ? `Undetermined in it: an area of at most ${upper(data.undetermined_area)}; ` : "") +
+    (data.distance_to_true_diagram ? `nothing of it is farther than ${upper(data.distance_to_true_diagram)} from the true diagram. ` : data.cells ? "how far it is from the true diagram is not known. " : "") +
     (data.tolerance ? `Nothing changes at all while every point stays within ${data.tolerance[0] === null ? "any distance" : directed(data.tolerance[0], 4, false)} of its place. ` : "");
   $("rounding").textContent = "Rectangles are told exactly where they stand as texts m*2^e or p/q" +
     (data.stages.length > 1 ? "; those of earlier stages, and decimals, are rounded outward" : "; decimals are rounded outward") +
@@ -108,11 +108,12 @@ function showStage(scene) {
   [...$("chart").children].forEach((bar, k) => bar.classList.toggle("now", k + 1 === scene.stage));
   const row = scene.data.convergence?.stages[scene.stage - 1];
   if (row) showRow(row);
+  if (scene.cells.length) $("row").replaceChildren(element("dd", {}, isLast(scene) ? "" : "Cells are those of the last stage; here are the pairs."));
 }
 
 // The line of the table of converge.
 function showRow(row) {
-  const bound = (value) => (value ? "≤ " + (value.decimal === null ? value.exact : directed(value.decimal, 4, true)) : "not known");
+  const bound = (value) => (value ? "≤ " + upper(value) : "not known");
   const lines = [["bits asked for", `${row.bits_least} to ${row.bits_most}, ${grouped(row.bits_total)} in all`],
     ["widths", `largest ${bound(row.width_largest)}, median ${bound(row.width_median)}`],
     ["undecided faces", grouped(row.faces)], ["area open", bound(row.area)], ["Hausdorff distance", bound(row.hausdorff)]];
@@ -130,6 +131,11 @@ function directed(v, digits, up) {
   if (up ? near >= v : near <= v) return String(near);
   const step = 10 ** (Math.floor(Math.log10(Math.abs(v))) - digits + 1);
   return String(Number((v + (up ? step : -step)).toPrecision(digits)));
+}
+
+// A bound, as json has it, rounded up.
+function upper({decimal, exact}) {
+  return decimal === null ? exact : directed(decimal, 4, true);
 }
 
 // A side of a box, rounded outward. Where the ends are exact texts the doubles next to them may be off by a step.

@@ -55,10 +55,12 @@ function setStage(scene, stage) {
     scene.box.set(scene.final);
   }
   while (scene.stage < stage) applyStage(scene, scene.stages[scene.stage++]);
-  if (stage === scene.stages.length) scene.box.set(scene.final);
+  if (isLast(scene)) scene.box.set(scene.final);
   scene.count = [0, 0, 0, 0];
   for (const s of scene.status) scene.count[s]++;
 }
+
+const isLast = (scene) => scene.stage === scene.stages.length;
 
 function applyStage(scene, {pair, status, boxes, final}) {
   pair.forEach((p, k) => { scene.status[p] = status[k]; scene.since[p] = scene.stage; });
