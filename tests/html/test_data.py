@@ -143,6 +143,8 @@ def test_diagram():
             same_polygon(content, found['inner'], cell['inner'])
             for one, other in zip(found['outer'], cell['outer'], strict=True):
                 same_polygon(content, one, other)
+        wide = max(exact(content['window'][k + 1]) - exact(content['window'][k]) for k in (0, 2))
+        assert fractions.Fraction(2) ** content['unit'] <= max(fractions.Fraction(2) ** (-content['flatten_bits'] - 2), wide / 2 ** 43)
         bounds = truth['bounds']
         assert all(content[k] == bounds[k] for k in ('undetermined_area', 'distance_to_true_diagram'))
         assert content['regions'] == [r for r in truth['regions'] if r['x'] is not None]

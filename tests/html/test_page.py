@@ -127,6 +127,13 @@ def test_stages():
         page.key('[')
         assert page.text('#stage-number').startswith('1 of')
         page.until("location.hash.includes('stage=1')")
+    with opened(pages.page('delaunay', file, *pages.STEPS), place='#point=3&stage=1') as page:
+        there, back = [page.text('#card')], []
+        for cards, key in (there, ']'), (back, '['):
+            for _ in rows[1:]:
+                page.key(key)
+                cards.append(page.text('#card'))
+        assert back[::-1] == there[:-1] and len(set(there)) > 2, 'a stage looks otherwise on the way back'
     with opened(pages.page('delaunay', pages.points('0 0\n1 0\n0 1\n'))) as page:
         assert page.value('document.querySelector("#stages").hidden')
 
