@@ -79,18 +79,6 @@ int cli_session_open(cli_session *s, const cli_options *o) {
 
 /* ---- running ---- */
 
-int cli_history_open(cli_options *o) {
-  if (o->format != DYD_FORMAT_HTML || dyd_history_new(&o->history) == DYD_OK) return 0;
-  return cli_complain_memory();
-}
-
-void cli_history_note(cli_session *s) {
-  dyd_history *history = s->options->history;
-  if (!history || s->forgot) return;
-  s->forgot = dyd_history_note(history, dyd_engine_delaunay(s->engine)) != DYD_OK;
-  if (s->forgot) dyd_engine_cancel(s->engine);
-}
-
 int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_run_fn run, void *user) {
   cli_progress_phase(s->progress, "triangulating");
   dyd_engine_options o = *options;
