@@ -139,8 +139,8 @@ int cli_trace_end(cli_session *s, dyd_outcome outcome);
 /* Prints `what`; err is clear. Returns an error with *err filled, else DYD_OK. */
 typedef dyd_status (*cli_print_fn)(FILE *out, const void *what, const cli_options *o, dyd_error *err);
 
-/* history.c: makes o->history where the format shows stages; NULL otherwise. 0, or CLI_FAILED after a message. Release with
- * dyd_history_free. */
+/* history.c: makes o->history where the format shows stages; NULL otherwise. 0, or CLI_FAILED after a message. Release
+ * with dyd_history_free. */
 int cli_history_open(cli_options *o);
 /* Notes the result of a stage there, if it is. Where memory is exhausted the run ends, and with it the command. */
 void cli_history_note(cli_session *s);
