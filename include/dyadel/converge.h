@@ -40,6 +40,18 @@ typedef struct dyd_convergence {
 } dyd_convergence;
 DYD_API void dyd_convergence_clear(dyd_convergence *c);
 
+/* What every stage of a run knew: statuses of pairs, boxes of sites; kept as what changed. Formats with a slider over
+ * the stages (html) take it. Memory: 20 bytes for each pair of the first stage and each status that changed, 40 for
+ * each box.
+ *
+ * Filled by dyd_history_note, called from dyd_engine_options.progress or dyd_converge_options.stage. */
+typedef struct dyd_history dyd_history;
+DYD_API dyd_status dyd_history_new(dyd_history **out);
+DYD_API void dyd_history_free(dyd_history *h);
+/* Adds a stage: what pd, always the result about the same sites, says now. DYD_E_ARG when there are other sites than
+ * before, DYD_E_NOMEM: *h is as before. O(N + pairs). */
+DYD_API dyd_status dyd_history_note(dyd_history *h, const dyd_delaunay *pd);
+
 typedef struct dyd_converge_options {
   size_t struct_size; /* set by DYD_SIZED */
   /* The window of the bounds of V (dyadic ends, positive area), borrowed; NULL: the default window of the sites after

@@ -70,7 +70,8 @@ typedef enum dyd_format {
   DYD_FORMAT_SVG,
   DYD_FORMAT_VTK,
   DYD_FORMAT_PDF,
-  DYD_FORMAT_PNG
+  DYD_FORMAT_PNG,
+  DYD_FORMAT_HTML
 } dyd_format;
 /* What the functions below write. */
 typedef enum dyd_content {
@@ -130,18 +131,22 @@ DYD_API bool dyd_format_holds(dyd_format format, dyd_content content);
 
 /* Writes the current result of e. DYD_E_ARG when e has none; DYD_E_IO when a write fails. */
 DYD_API dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err);
-/* The same; svg, pdf and png show the part of the plane in `window` (positive area; NULL: everything), other formats
- * do not depend on it. DYD_E_RANGE when doubles cannot hold a picture so near. */
+/* The same; svg, pdf, png and html show the part of the plane in `window` (positive area; NULL: everything), other
+ * formats do not depend on it. DYD_E_RANGE when doubles cannot hold a picture so near, and for html when more than
+ * 300000 pairs would be shown. */
 DYD_API dyd_status dyd_write_delaunay_window(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_format format,
                                              dyd_error *err);
 
 typedef struct dyd_delaunay_output {
   size_t struct_size;     /* set by DYD_SIZED */
-  const dyd_rect *window; /* what svg, pdf and png show: positive area; NULL: everything */
-  dyd_content layer;      /* what csv, wkt and geojson hold; DYD_CONTENT_NONE: the pairs */
+  const dyd_rect *window; /* what svg, pdf, png and html show: positive area; NULL: everything */
+  dyd_content layer;      /* what csv, wkt and geojson hold, and html shows first; DYD_CONTENT_NONE: the pairs */
   const dyd_pair_list
       *pairs;    /* written in place of those of e, as pairs in csv, wkt, geojson and pictures; NULL: none */
   unsigned epsg; /* EPSG number of the coordinates' reference system, for geojson and json; 0: none is claimed */
+  const dyd_history *history;     /* of the run, for html; NULL: only the result is shown. DYD_E_ARG with pairs, and
+                                     where it ends with other pairs than the result */
+  const dyd_tolerance *tolerance; /* of the result, with points, for html; NULL: none is told */
 } dyd_delaunay_output;
 /* The same as o says; NULL: as dyd_write_delaunay. DYD_E_ARG when the format does not hold the layer. */
 DYD_API dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delaunay_output *o,
@@ -158,8 +163,9 @@ typedef struct dyd_voronoi_options {
    * known. May be NULL. cut: how many cells and regions that befell; may be NULL. */
   const volatile int *cancel;
   size_t *cut;
-  dyd_content layer; /* what csv, wkt and geojson hold; DYD_CONTENT_NONE: the cells */
-  unsigned epsg;     /* as in dyd_delaunay_output */
+  dyd_content layer;          /* what csv, wkt and geojson hold, and html shows first; DYD_CONTENT_NONE: the cells */
+  unsigned epsg;              /* as in dyd_delaunay_output */
+  const dyd_history *history; /* of the run, for html; as in dyd_delaunay_output */
 } dyd_voronoi_options;
 
 /* Writes the Voronoi diagram of the current result of e. o may be NULL.
@@ -237,6 +243,18 @@ DYD_API dyd_status dyd_write_plan(FILE *out, const dyd_engine *e, const dyd_surv
  * so. times = false leaves the seconds out: then equal runs give equal bytes. */
 DYD_API dyd_status dyd_write_convergence(FILE *out, const dyd_convergence *c, dyd_format format, bool times,
                                          dyd_error *err);
+
+typedef struct dyd_convergence_output {
+  size_t struct_size;         /* set by DYD_SIZED */
+  bool times;                 /* as in dyd_write_convergence */
+  const dyd_engine *engine;   /* that ran, and its history, a stage for each row: html needs both, */
+  const dyd_history *history; /* other formats do not look */
+  const dyd_rect *window;     /* what html shows: positive area; NULL: everything */
+} dyd_convergence_output;
+/* The same as o says, also in html: the result with a slider over the rows. DYD_E_ARG for html without what it needs,
+ * and where stages and rows are not as many. */
+DYD_API dyd_status dyd_write_convergence_as(FILE *out, const dyd_convergence *c, const dyd_convergence_output *o,
+                                            dyd_format format, dyd_error *err);
 
 /* Draws bounds and counts against stages on logarithmic scales; DYD_E_ARG when there was no run. */
 DYD_API dyd_status dyd_plot_convergence(FILE *out, const dyd_convergence *c, dyd_format format, dyd_error *err);

@@ -64,6 +64,7 @@ typedef struct cli_options {
   bool sphere, plane; /* points are longitude and latitude on a sphere; coordinates of a plane, whatever named */
   dyd_voronoi_bounds *bounds; /* voronoi: where the bounds of what is written go */
   size_t *cut;                /* voronoi: where the number of cells and regions goes that the deadline cut */
+  dyd_history *history;       /* where each stage is noted, for html; NULL: nowhere */
   bool stats, quiet, version;
   bool accept_fixpoint; /* exit status 0 in place of CLI_FIXPOINT */
   const char *help;     /* "" (--help), or the kind of --help=KIND */
@@ -121,6 +122,7 @@ typedef struct cli_session {
   dyd_engine *engine;
   cli_progress *progress;               /* may be NULL */
   double begun, share;                  /* of the time that is left, the engine's */
+  bool forgot;                          /* memory was exhausted when a stage was noted */
   const dyd_voronoi_bounds *bounds;     /* of the diagram written, borrowed; NULL: of none */
   const dyd_converge_options *converge; /* what a trace tells of them, borrowed; NULL: of none */
   dyd_trace *trace;                     /* NULL: none is written, or it has not begun */
@@ -136,6 +138,12 @@ int cli_trace_end(cli_session *s, dyd_outcome outcome);
 
 /* Prints `what`; err is clear. Returns an error with *err filled, else DYD_OK. */
 typedef dyd_status (*cli_print_fn)(FILE *out, const void *what, const cli_options *o, dyd_error *err);
+
+/* history.c: makes o->history where the format shows stages; NULL otherwise. 0, or CLI_FAILED after a message. Release
+ * with dyd_history_free. */
+int cli_history_open(cli_options *o);
+/* Notes the result of a stage there, if it is. Where memory is exhausted the run ends, and with it the command. */
+void cli_history_note(cli_session *s);
 
 /* All of a command that reads, runs, and prints one result: `print` gets the engine. Returns the exit status. */
 int cli_session_all(const cli_options *o, cli_print_fn print);

@@ -2,8 +2,16 @@
 /* dyadel converge FILE: a run stage by stage, as a table and a plot; traces of runs, and replays of these. */
 #include "cli.h"
 
+/* engine: that ran; NULL: a trace was replayed. */
+typedef struct result {
+  const dyd_convergence *table;
+  const dyd_engine *engine;
+} result;
+
 static dyd_status print_table(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
-  return dyd_write_convergence(out, what, o->format, !o->no_times, err);
+  const result *r = what;
+  const dyd_convergence_output how = {DYD_SIZED(dyd_convergence_output), !o->no_times, r->engine, o->history, o->view};
+  return dyd_write_convergence_as(out, r->table, &how, o->format, err);
 }
 
 /* By the name of the plot's file; false when no format of that ending holds a plot. */
@@ -14,14 +22,15 @@ static bool plot_format(dyd_format *out, const char *name) {
 static dyd_status print_plot(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   dyd_format format = o->format;
   plot_format(&format, o->plot);
-  return dyd_plot_convergence(out, what, format, err);
+  return dyd_plot_convergence(out, ((const result *)what)->table, format, err);
 }
 
 /* Table and plot, as far as they were made. */
-static int write_results(const dyd_convergence *table, const cli_options *o) {
+static int write_results(const dyd_convergence *table, const dyd_engine *e, const cli_options *o) {
+  const result r = {table, e};
   if (!table->count) return 0;
-  int status = o->plot ? cli_write_file(o->plot, o, print_plot, table) : 0;
-  int written = cli_write_file(o->output, o, print_table, table);
+  int status = o->plot ? cli_write_file(o->plot, o, print_plot, &r) : 0;
+  int written = cli_write_file(o->output, o, print_table, &r);
   return status ? status : written;
 }
 
@@ -69,7 +78,7 @@ static void note_steps(const dyd_convergence *table, const cli_options *o) {
                table->count, (long long)step, (long long)(bits / step + 1));
 }
 
-static int converge_points(const cli_options *o) {
+static int converge_points(cli_options *o) {
   cli_session s = {.options = o};
   dyd_voronoi_bounds bounds;
   run r = {o, {DYD_SIZED(dyd_convergence)}, {DYD_SIZED(dyd_converge_options)}};
@@ -77,17 +86,18 @@ static int converge_points(const cli_options *o) {
   dyd_engine_options options = o->engine;
   dyd_rect_init(&window);
   int status = o->window ? cli_window_read(&window, o->window) : 0;
-  if (o->window) r.converge.window = &window;
+  if (o->window) o->view = r.converge.window = &window;
   r.converge.no_voronoi = o->no_voronoi;
   if (o->of_voronoi) options.goal = cli_voronoi_goal(options.goal);
   if (!o->start_set) options.start_bits = 4;
   dyd_voronoi_bounds_init(&bounds);
   if (status == 0) status = cli_session_open(&s, o);
+  if (status == 0) status = cli_history_open(o);
   if (status == 0) {
     s.converge = &r.converge;
     status = cli_session_run_by(&s, &options, converge_run, &r);
     cli_session_settle(&s);
-    int written = write_results(&r.table, o);
+    int written = write_results(&r.table, s.engine, o);
     if (status == 0) status = written;
     take_bounds(&bounds, &s, &r.table);
     note_steps(&r.table, o);
@@ -96,6 +106,7 @@ static int converge_points(const cli_options *o) {
   status = cli_session_close(&s, status);
   dyd_voronoi_bounds_clear(&bounds);
   dyd_convergence_clear(&r.table);
+  dyd_history_free(o->history);
   dyd_rect_clear(&window);
   return status;
 }
@@ -110,7 +121,7 @@ static int converge_replay(const cli_options *o) {
   dyd_status st = dyd_trace_replay(&table, in, NULL, &err);
   cli_input_close(in);
   if (st != DYD_OK) cli_complain_at(o->replay, &err);
-  int status = st == DYD_E_NOMEM ? CLI_FAILED : write_results(&table, o);
+  int status = st == DYD_E_NOMEM ? CLI_FAILED : write_results(&table, NULL, o);
   status = st != DYD_OK || status ? CLI_FAILED : cli_exit_status(table.outcome);
   dyd_convergence_clear(&table);
   return status;
@@ -126,5 +137,10 @@ int cli_converge(const cli_options *o) {
     cli_complain("--of voronoi needs the bounds that --no-voronoi leaves out; leave one of the two away");
     return CLI_USAGE;
   }
-  return o->replay ? converge_replay(o) : converge_points(o);
+  if (o->replay && o->format == DYD_FORMAT_HTML) {
+    cli_complain("html shows the points, which --replay does without; run converge on them");
+    return CLI_USAGE;
+  }
+  cli_options own = *o; /* with window and history */
+  return o->replay ? converge_replay(o) : converge_points(&own);
 }

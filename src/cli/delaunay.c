@@ -1,12 +1,28 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* dyadel delaunay FILE: read, run, write. A window is what pictures show. */
+/* dyadel delaunay FILE: read, run, write. A window is what pictures and pages show. */
 #include "cli.h"
+
+/* Of points that are all exact, as far as time allows; NULL: not known. */
+static dyd_tolerance *find_tolerance(const dyd_delaunay *pd) {
+  const dyd_tolerance_options options = {DYD_SIZED(dyd_tolerance_options), .points = true,
+                                         .cancel = cli_signals_flag()};
+  const dyd_sites *sites = dyd_delaunay_sites(pd);
+  dyd_tolerance *t = NULL;
+  for (size_t i = 0; i < dyd_sites_count(sites); i++)
+    if (!dyd_sites_is_point(sites, i)) return NULL;
+  return dyd_tolerance_new(&t, pd, &options, NULL) == DYD_OK ? t : NULL;
+}
 
 /* pairs: of discs; NULL: those of the engine. */
 static dyd_status write_pairs(FILE *out, const dyd_engine *e, const dyd_pair_list *pairs, const cli_options *o,
                               dyd_error *err) {
-  const dyd_delaunay_output how = {DYD_SIZED(dyd_delaunay_output), o->view, o->content, pairs, o->epsg};
-  return dyd_write_delaunay_as(out, e, &how, o->format, err);
+  dyd_tolerance *tolerance = NULL;
+  if (!pairs && o->format == DYD_FORMAT_HTML) tolerance = find_tolerance(dyd_engine_delaunay(e));
+  const dyd_delaunay_output how = {DYD_SIZED(dyd_delaunay_output), o->view,  o->content, pairs, o->epsg,
+                                   pairs ? NULL : o->history,      tolerance};
+  dyd_status st = dyd_write_delaunay_as(out, e, &how, o->format, err);
+  dyd_tolerance_free(tolerance);
+  return st;
 }
 
 static dyd_status delaunay_write(FILE *out, const void *engine, const cli_options *o, dyd_error *err) {
@@ -80,7 +96,9 @@ int cli_delaunay(const cli_options *o) {
     own.view = &window;
     status = cli_window_read(&window, o->window);
   }
+  if (!status) status = cli_history_open(&own);
   if (!status) status = o->discs ? delaunay_discs(&own) : cli_session_all(&own, delaunay_write);
+  dyd_history_free(own.history);
   dyd_rect_clear(&window);
   return status;
 }

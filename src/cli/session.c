@@ -90,6 +90,7 @@ int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_ru
   cli_signals_cancel(s->engine);
   dyd_status st = run(s->engine, &o, user, &err);
   cli_signals_cancel(NULL);
+  if (s->forgot) return cli_complain_memory();
   if (st == DYD_OK) return 0;
   cli_complain_of(s->engine, s->options->file, &err);
   return CLI_FAILED;

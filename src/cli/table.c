@@ -169,7 +169,8 @@ const cli_option cli_option_table[] = {
 
     {"window", 0, "XLO,XHI,YLO,YHI", CLI_WINDOW, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_OUTPUT,
      "the part of the plane looked at; exact numbers\n(default: the box of the points enlarged by half);\n"
-     "delaunay: what svg, pdf and png show (default: all),\nother formats list everything all the same;\nplan: only "
+     "delaunay: what svg, pdf, png and html show (default: all),\nother formats list everything all the same;\nplan: "
+     "only "
      "pairs with an end in it are to be decided",
      AT(window)},
     {"flatten", 0, "M", CLI_INTEGER, BIT(CLI_VORONOI), CLI_OUTPUT, "draw arcs by polygons within 2^-M of them",
@@ -189,10 +190,10 @@ const cli_option cli_option_table[] = {
      AT(sigma)},
 
     {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE), CLI_OUTPUT,
-     "what csv, wkt and geojson hold; delaunay: pairs (default),\npoints, triangles, graph:nearest, graph:gabriel, "
-     "graph:mst\n(edges that "
-     "are sure or possible; also pictures); voronoi:\ncells (default), vertices, regions, edges; json and vtk hold\n"
-     "all of them but graphs;\ntolerance: pairs (default), points, barcode (csv: how "
+     "what csv, wkt and geojson hold, and html shows first;\ndelaunay: pairs (default), points, triangles,\n"
+     "graph:nearest, graph:gabriel, graph:mst (edges that are\nsure or possible; not html; also pictures);\n"
+     "voronoi: cells (default), vertices, regions, edges; json\nand vtk hold all of them but graphs;\n"
+     "tolerance: pairs (default), points, barcode (csv: how "
      "many\n"
      "edges are certain at which accuracy)",
      AT(layer)},

@@ -70,8 +70,9 @@ static int trace_begin(cli_session *s, const dyd_engine_options *options) {
 }
 
 static void trace_stage(void *user, const dyd_progress *p) {
-  const cli_session *s = user;
+  cli_session *s = user;
   cli_progress_stage(s->progress, p);
+  cli_history_note(s);
   if (s->trace) dyd_trace_stage(s->trace, p);
 }
 

@@ -44,7 +44,8 @@ static dyd_status voronoi_write(FILE *out, const void *engine, const cli_options
                                  .layer = o->content,
                                  .epsg = o->epsg,
                                  .cancel = cli_deadline_flag(),
-                                 .cut = o->cut};
+                                 .cut = o->cut,
+                                 .history = o->history};
   return dyd_write_voronoi(out, engine, &options, o->format, err);
 }
 
@@ -81,12 +82,14 @@ int cli_voronoi(const cli_options *o) {
   own.engine.goal = cli_voronoi_goal(o->engine.goal);
   own.engine.window = &window;
   int status = cli_session_open(&s, &own);
+  if (!status) status = cli_history_open(&own);
   if (!status) status = voronoi_run(&known, &s, &window, &own.engine);
   if (known && (!status || dyd_engine_delaunay(s.engine))) {
     int written = voronoi_write_result(&s);
     if (!status) status = written;
   }
   status = cli_session_close(&s, status);
+  dyd_history_free(own.history);
   dyd_voronoi_bounds_clear(&bounds);
   dyd_rect_clear(&window);
   return status;

@@ -11,7 +11,7 @@
 
 typedef dyd_writer *const writers[DYD_CONTENTS];
 extern writers dyd_csv_writers, dyd_json_writers, dyd_wkt_writers, dyd_geojson_writers, dyd_obj_writers,
-    dyd_vtk_writers, dyd_picture_writers;
+    dyd_vtk_writers, dyd_picture_writers, dyd_html_writers;
 
 static const struct {
   const char *name, *ending, *about;
@@ -34,6 +34,11 @@ static const struct {
     [DYD_FORMAT_VTK] = {"vtk", "vtk", "legacy VTK text, as ParaView reads it", dyd_vtk_writers},
     [DYD_FORMAT_PDF] = {"pdf", "pdf", "the same picture", dyd_picture_writers, .binary = true},
     [DYD_FORMAT_PNG] = {"png", "png", "the same picture", dyd_picture_writers, .binary = true},
+    [DYD_FORMAT_HTML] =
+        {"html", "html",
+         "a page to move about in, with what is known of each point, stage by stage; one file that asks "
+         "for nothing",
+         dyd_html_writers},
 };
 enum { FORMATS = sizeof formats / sizeof *formats };
 

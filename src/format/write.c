@@ -17,6 +17,11 @@ static const dyd_delaunay *result_of(const dyd_engine *e, dyd_error *err) {
   return pd;
 }
 
+static void result_sites(dyd_result *r) {
+  r->sites = dyd_delaunay_sites(r->pd);
+  r->count = dyd_sites_count(r->sites);
+}
+
 dyd_status dyd_write_delaunay(FILE *out, const dyd_engine *e, dyd_format format, dyd_error *err) {
   return dyd_write_delaunay_window(out, e, NULL, format, err);
 }
@@ -93,13 +98,20 @@ dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delau
   dyd_delaunay_output o;
   if (dyd_abi_take(&o, sizeof o, options, "dyd_delaunay_output", err) != DYD_OK) return DYD_E_ARG;
   if (refuse_layer(o.layer, DYD_CONTENT_DELAUNAY, err) != DYD_OK) return DYD_E_ARG;
-  dyd_result r = {.out = out, .engine = e, .pd = result_of(e, err), .window = o.window, .epsg = o.epsg};
+  dyd_result r = {.out = out,
+                  .engine = e,
+                  .pd = result_of(e, err),
+                  .window = o.window,
+                  .epsg = o.epsg,
+                  .discs = o.pairs,
+                  .history = o.history,
+                  .tolerance = o.tolerance};
   if (!r.pd) return DYD_E_ARG;
-  r.sites = dyd_delaunay_sites(r.pd);
-  r.count = dyd_sites_count(r.sites);
   if (o.pairs && !holds_pairs_alone(o.layer, format))
-    return dyd_fail(err, DYD_E_ARG, "statuses of discs are written as pairs: in csv, wkt, geojson, svg, pdf or png");
+    return dyd_fail(err, DYD_E_ARG,
+                    "statuses of discs are written as pairs: in csv, wkt, geojson, svg, pdf, png or html");
   bool graph;
+  result_sites(&r);
   dyd_status st = result_graph(&graph, &r, o.layer, err);
   if (st == DYD_OK && !graph && !o.pairs) st = dyd_delaunay_pairs(&r.pairs, r.pd);
   if (o.pairs) r.pairs = *o.pairs;
@@ -164,8 +176,30 @@ static dyd_status stages_check(const dyd_convergence *c, dyd_error *err) {
 }
 
 dyd_status dyd_write_convergence(FILE *out, const dyd_convergence *c, dyd_format format, bool times, dyd_error *err) {
+  const dyd_convergence_output o = {DYD_SIZED(dyd_convergence_output), .times = times};
+  return dyd_write_convergence_as(out, c, &o, format, err);
+}
+
+dyd_status dyd_write_convergence_as(FILE *out, const dyd_convergence *c, const dyd_convergence_output *options,
+                                    dyd_format format, dyd_error *err) {
+  dyd_convergence_output o;
   if (stages_check(c, err) != DYD_OK) return DYD_E_ARG;
-  return dyd_format_write(out, format, DYD_CONTENT_CONVERGENCE, &(dyd_stage_table){c, times}, err);
+  if (dyd_abi_take(&o, sizeof o, options, "dyd_convergence_output", err) != DYD_OK) return DYD_E_ARG;
+  dyd_stage_table table = {.stages = c, .times = o.times};
+  if (format != DYD_FORMAT_HTML) return dyd_format_write(out, format, DYD_CONTENT_CONVERGENCE, &table, err);
+  if (!o.engine || !o.history) return dyd_fail(err, DYD_E_ARG, "html shows the points: give engine and history");
+  dyd_result r = {
+      .out = out, .engine = o.engine, .pd = result_of(o.engine, err), .window = o.window, .history = o.history};
+  if (!r.pd) return DYD_E_ARG;
+  result_sites(&r);
+  table.result = &r;
+  dyd_status st = dyd_delaunay_pairs(&r.pairs, r.pd);
+  if (st != DYD_OK)
+    dyd_fail(err, st, "%s", dyd_status_text(st));
+  else
+    st = dyd_format_write(out, format, DYD_CONTENT_CONVERGENCE, &table, err);
+  dyd_pair_list_clear(&r.pairs);
+  return st;
 }
 
 dyd_status dyd_plot_convergence(FILE *out, const dyd_convergence *c, dyd_format format, dyd_error *err) {
@@ -273,8 +307,7 @@ dyd_status dyd_write_tolerance(FILE *out, const dyd_engine *e, const dyd_toleran
     return dyd_fail(err, DYD_E_ARG, "how far points may be from their places was not asked for");
   dyd_result r = {.out = out, .engine = e, .pd = result_of(e, err), .window = o.window, .epsg = o.epsg};
   if (!r.pd) return DYD_E_ARG;
-  r.sites = dyd_delaunay_sites(r.pd);
-  r.count = dyd_sites_count(r.sites);
+  result_sites(&r);
   return dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_TOLERANCE), &(dyd_tolerance_result){&r, t}, err);
 }
 
@@ -304,7 +337,6 @@ dyd_status dyd_write_plan(FILE *out, const dyd_engine *e, const dyd_survey *s, c
   if (dyd_abi_take(&o, sizeof o, options, "dyd_plan_output", err) != DYD_OK) return DYD_E_ARG;
   dyd_result r = {.out = out, .engine = e, .pd = result_of(e, err), .epsg = o.epsg};
   if (!r.pd) return DYD_E_ARG;
-  r.sites = dyd_delaunay_sites(r.pd);
-  r.count = dyd_sites_count(r.sites);
+  result_sites(&r);
   return dyd_format_write(out, format, DYD_CONTENT_PLAN, &(dyd_plan_result){&r, s, o.next}, err);
 }

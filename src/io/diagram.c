@@ -279,6 +279,7 @@ dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, cons
                      .cut = o->cut};
   d->count = dyd_sites_count(d->sites);
   d->epsg = o->epsg;
+  d->history = o->history;
   dyd_rect_init(&d->window);
   dyd_status st = diagram_window(d, o->window, err);
   if (st != DYD_OK) return st;

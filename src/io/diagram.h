@@ -26,8 +26,9 @@ typedef struct dyd_diagram {
   const dyd_sites *sites;
   size_t count;
   dyd_rect window;
-  unsigned epsg; /* the reference system of the coordinates; 0: not known */
-  int64_t bits;  /* polygons are within 2^-bits of their cells */
+  unsigned epsg;              /* the reference system of the coordinates; 0: not known */
+  const dyd_history *history; /* of the run; NULL: not known */
+  int64_t bits;               /* polygons are within 2^-bits of their cells */
   dyd_triangle_list triangles;
   size_t *tied, ties;         /* undecided faces whose sites are on one circle */
   double (*vertex)[4];        /* enclosures of the Voronoi vertices of both; infinite ends: not known in doubles */

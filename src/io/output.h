@@ -28,6 +28,7 @@ enum { DYD_CONTENTS = DYD_CONTENT_SPHERE_REGIONS + 1 };
 typedef struct dyd_stage_table {
   const dyd_convergence *stages;
   bool times;
+  const struct dyd_result *result; /* with its history (result.h), for html; NULL: none */
 } dyd_stage_table;
 
 typedef struct dyd_disc_output {

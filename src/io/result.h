@@ -18,6 +18,9 @@ typedef struct dyd_result {
   dyd_graph_list graph;   /* its edges; owned, too */
   const dyd_rect *window; /* what pictures show; NULL: everything */
   unsigned epsg;          /* the reference system of the coordinates; 0: not known */
+  bool discs;             /* pairs are those of discs */
+  const dyd_history *history;     /* ends with pairs; NULL: not known */
+  const dyd_tolerance *tolerance; /* NULL: not known */
 } dyd_result;
 
 /* What is known of a site. */

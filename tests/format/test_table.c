@@ -41,6 +41,7 @@ static void test_names(void **state) {
 /* Everything that can be written, of four points. */
 typedef struct example {
   dyd_engine *e;
+  dyd_history *history;
   dyd_convergence stages;
   dyd_check_report report;
   dyd_rect r[3];
@@ -53,6 +54,8 @@ static void example_init(example *x) {
   assert_int_equal(dyd_engine_new(&x->e), DYD_OK);
   assert_int_equal(dyd_engine_add_points(x->e, 4, px, py), DYD_OK);
   assert_int_equal(dyd_converge_run(&x->stages, x->e, NULL, NULL, NULL), DYD_OK);
+  assert_int_equal(dyd_history_new(&x->history), DYD_OK);
+  assert_int_equal(dyd_history_note(x->history, dyd_engine_delaunay(x->e)), DYD_OK);
   for (int k = 0; k < 3; k++) {
     dyd_rect_init(&x->r[k]);
     assert_int_equal(dyd_rect_set_d(&x->r[k], px[k], px[k] + 0.25, py[k], py[k] + 0.25), DYD_OK);
@@ -67,6 +70,7 @@ static void example_clear(example *x) {
   for (int k = 3; k-- > 0;) dyd_rect_clear(&x->r[k]);
   dyd_check_report_clear(&x->report);
   dyd_convergence_clear(&x->stages);
+  dyd_history_free(x->history);
   dyd_engine_free(x->e);
 }
 
@@ -104,7 +108,10 @@ static dyd_status write_content(FILE *out, const example *x, dyd_content content
   case DYD_CONTENT_VORONOI:
     return dyd_write_voronoi(out, x->e, NULL, format, err);
   case DYD_CONTENT_CONVERGENCE:
-    return dyd_write_convergence(out, &x->stages, format, false, err);
+    return dyd_write_convergence_as(
+        out, &x->stages,
+        &(dyd_convergence_output){DYD_SIZED(dyd_convergence_output), .engine = x->e, .history = x->history}, format,
+        err);
   case DYD_CONTENT_PLOT:
     return dyd_plot_convergence(out, &x->stages, format, err);
   case DYD_CONTENT_CHECK:

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Makes a page of its parts, as C: what comes before the data, and what comes behind.
+
+Usage: pack.py OUT.c PAGE.html STYLE.css SCRIPT.js...
+
+In the page {style} and {script} stand for the parts, scripts in the order given, {style-digest} and {script-digest} for
+their digests as a Content-Security-Policy names them, {data} for where data go.
+"""
+import base64
+import hashlib
+import pathlib
+import re
+import sys
+
+LICENCE = re.compile(r'(/\*|<!--|//) SPDX-License-Identifier: [\w.-]+ ?(\*/|-->)?\n')
+
+
+def read(path):
+    """A part without its licence line: the page has one."""
+    return LICENCE.sub('', pathlib.Path(path).read_text(encoding='utf-8'), count=1)
+
+
+def digest(text):
+    return 'sha256-' + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
+def array(name, text):
+    data = text.encode()
+    rows = (','.join(map(str, data[k:k + 30])) for k in range(0, len(data), 30))
+    return (f'const unsigned char {name}[] = {{\n' + ',\n'.join(rows) + '};\n' +
+            f'const size_t {name}_size = sizeof {name};\n')
+
+
+def main():
+    out, page, style, *scripts = sys.argv[1:]
+    parts = {'style': '\n' + read(style), 'script': '\n"use strict";\n(() => {\n' + ''.join(map(read, scripts)) + '})();\n'}
+    parts.update({f'{name}-digest': digest(text) for name, text in parts.items()})
+    before, after = pathlib.Path(page).read_text(encoding='utf-8').split('{data}')
+    fill = re.compile(r'\{(' + '|'.join(parts) + r')\}')
+    before, after = (fill.sub(lambda match: parts[match[1]], text) for text in (before, after))
+    names = 'dyd_html_before', 'dyd_html_after'
+    declared = ''.join(f'extern const unsigned char {name}[];\nextern const size_t {name}_size;\n' for name in names)
+    pathlib.Path(out).write_text('/* Made by pack.py. */\n#include <stddef.h>\n' + declared +
+                                 ''.join(map(array, names, (before, after))), encoding='utf-8')
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The page: what is seen, and what the hand does to it.
+
+let scene = null, shown = new Set(), all = [0, 1, 0, 1];
+let hovered = null, kept = null;               // points
+let moving = false, base = null, heavy = false; // while moving, a heavy map is its last picture, moved
+let waiting = 0, resting = 0, dark = null;
+const map = $("map"), marks = $("marks");
+
+// ---- drawing, once a frame ----
+
+function draw() {
+  waiting = 0;
+  const ctx = map.getContext("2d"), begun = performance.now();
+  if (moving && heavy) {
+    base ??= keepPicture();
+    clear(ctx);
+    drawKept(ctx);
+    drawAxes(ctx);
+  } else {
+    base = null;
+    clear(ctx);
+    const things = drawMap(ctx, scene, shown);
+    heavy = things > 12000 || performance.now() - begun > 10;
+  }
+  drawMarks();
+}
+
+function redraw() {
+  waiting ||= requestAnimationFrame(draw);
+}
+
+// After a move: the map as it is, and the place in the address.
+function move() {
+  moving = true;
+  redraw();
+  clearTimeout(resting);
+  resting = setTimeout(() => { moving = false; redraw(); writeAddress(); }, 150);
+}
+
+function clear(ctx) {
+  ctx.fillStyle = colours.paper;
+  ctx.fillRect(0, 0, map.clientWidth, map.clientHeight);
+}
+
+function keepPicture() {
+  const canvas = document.createElement("canvas");
+  canvas.width = map.width;
+  canvas.height = map.height;
+  canvas.getContext("2d").drawImage(map, 0, 0);
+  return {canvas, ...lastView};
+}
+
+function drawKept(ctx) {
+  const factor = view.scale / base.scale, wide = map.clientWidth, high = map.clientHeight;
+  const [cx, cy] = [(plot.left + plot.right) / 2, (plot.top + plot.bottom) / 2];
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(plot.left, plot.top, plot.right - plot.left, plot.bottom - plot.top);
+  ctx.clip();
+  ctx.translate(toX(base.x), toY(base.y));
+  ctx.scale(factor, factor);
+  ctx.beginPath();
+  ctx.rect(plot.left - cx, plot.top - cy, plot.right - plot.left, plot.bottom - plot.top);
+  ctx.clip();
+  ctx.drawImage(base.canvas, -cx, -cy, wide, high);
+  ctx.restore();
+}
+
+function drawMarks() {
+  const ctx = marks.getContext("2d"), k = hovered ?? kept;
+  ctx.clearRect(0, 0, marks.clientWidth, marks.clientHeight);
+  if (k !== null) drawMark(ctx, scene, k, shown);
+  lastView = {...view};
+}
+let lastView = {...view};
+
+function resize(factor = window.devicePixelRatio || 1) {
+  const wide = map.clientWidth, high = map.clientHeight;
+  for (const canvas of [map, marks]) {
+    canvas.width = Math.round(wide * factor);
+    canvas.height = Math.round(high * factor);
+    canvas.getContext("2d").setTransform(factor, 0, 0, factor, 0, 0);
+  }
+  Object.assign(plot, {left: wide < 500 ? 46 : 64, right: wide - 10, top: 10, bottom: high - 24});
+  base = null;
+}
+
+// ---- stage, point, theme ----
+
+function goStage(stage) {
+  setStage(scene, Math.min(Math.max(stage, 1), scene.stages.length));
+  makeGrids(scene);
+  showCounts(scene);
+  showStage(scene);
+  tellPoint();
+  base = null;
+  redraw();
+  writeAddressSoon();
+}
+
+function tellPoint() {
+  showPoint(scene, hovered ?? kept, kept !== null && (hovered === null || hovered === kept), choosePoint);
+}
+
+// Keeps a point, and brings it into view.
+function choosePoint(k) {
+  kept = k;
+  hovered = null;
+  const box = viewBox(), x = middle(scene, k, 0), y = middle(scene, k, 1);
+  if (x < box[0] || x > box[1] || y < box[2] || y > box[3]) {
+    view.x = x;
+    view.y = y;
+  }
+  $("found").hidden = true;
+  tellPoint();
+  redraw();
+  writeAddressSoon();
+}
+
+function setTheme(name) {
+  dark = name;
+  const night = name ? name === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+  document.documentElement.classList.toggle("dark", night);
+  readColours();
+  if (scene) redraw();
+}
+
+// ---- the place in the address ----
+
+function writeAddress() {
+  const round = (v) => Number(v.toPrecision(12)), parts = new URLSearchParams();
+  parts.set("at", [round(view.x), round(view.y), round((plot.right - plot.left) / view.scale)].join(","));
+  if (scene.stages.length > 1) parts.set("stage", scene.stage);
+  if (kept !== null) parts.set("point", scene.data.points[kept].i);
+  parts.set("show", [...shown].join(","));
+  if (dark) parts.set("theme", dark);
+  try { history.replaceState(null, "", "#" + decodeURIComponent(parts)); } catch { /* a frame without an address */ }
+}
+
+let addressWaits = 0;
+function writeAddressSoon() {
+  clearTimeout(addressWaits);
+  addressWaits = setTimeout(writeAddress, 200);
+}
+
+function readAddress() {
+  const parts = new URLSearchParams(location.hash.slice(1)), at = (parts.get("at") ?? "").split(",").map(Number);
+  if (parts.has("show")) {
+    shown = new Set(parts.get("show").split(","));
+    for (const [name] of [...CELLS, ...PAIRS]) if ($("show-" + name)) $("show-" + name).checked = shown.has(name);
+  }
+  if (parts.has("theme")) setTheme(parts.get("theme") === "dark" ? "dark" : "light");
+  kept = scene.numberOf.get(Number(parts.get("point") ?? -1)) ?? null;
+  goStage(Number(parts.get("stage")) || scene.stages.length);
+  if (at.length === 3 && at.every(Number.isFinite) && at[2] > 0) {
+    [view.x, view.y] = at;
+    view.scale = (plot.right - plot.left) / at[2];
+    limitScale(all);
+  }
+}
+
+// ---- the hand ----
+
+// The point at px, py: the smallest box that holds it, else the nearest one within `reach`.
+function pick(px, py, reach) {
+  const [x0, x1, y1, y0] = [fromX(px - reach), fromX(px + reach), fromY(py - reach), fromY(py + reach)];
+  let best = null, least = Infinity;
+  visitGrid(scene.grid.points, [x0, x1, y0, y1], (k) => {
+    const b = 4 * k, dx = Math.max(toX(scene.box[b]) - px, px - toX(scene.box[b + 1]), 0), dy = Math.max(toY(scene.box[b + 3]) - py, py - toY(scene.box[b + 2]), 0);
+    const away = Math.hypot(dx, dy), size = away > 0 ? away : -1 / (1 + boxPixels(scene, k));
+    if (away <= reach && size < least) { least = size; best = k; }
+  });
+  return best;
+}
+
+function hover(k) {
+  if (k === hovered) return;
+  hovered = k;
+  tellPoint();
+  drawMarks();
+}
+
+const pointers = new Map(); // those that are down: where they are
+let travelled = 0;
+
+function pointerDown(event) {
+  map.setPointerCapture(event.pointerId);
+  pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
+  if (pointers.size === 1) travelled = 0;
+}
+
+function pointerMove(event) {
+  const last = pointers.get(event.pointerId), now = [event.offsetX, event.offsetY];
+  if (!last) { hover(pick(...now, 9)); return; }
+  const others = [...pointers].filter(([id]) => id !== event.pointerId).map(([, at]) => at);
+  travelled += Math.hypot(now[0] - last[0], now[1] - last[1]);
+  pointers.set(event.pointerId, now);
+  if (others.length) {
+    const before = Math.hypot(last[0] - others[0][0], last[1] - others[0][1]), after = Math.hypot(now[0] - others[0][0], now[1] - others[0][1]);
+    if (before > 0) zoomAt((now[0] + others[0][0]) / 2, (now[1] + others[0][1]) / 2, after / before, all);
+  }
+  view.x -= (now[0] - last[0]) / view.scale / (others.length + 1);
+  view.y += (now[1] - last[1]) / view.scale / (others.length + 1);
+  move();
+}
+
+function pointerUp(event) {
+  if (!pointers.delete(event.pointerId) || travelled > 5 || event.type === "pointercancel") return;
+  kept = pick(event.offsetX, event.offsetY, event.pointerType === "mouse" ? 9 : 22);
+  hovered = null;
+  tellPoint();
+  redraw();
+  writeAddressSoon();
+}
+
+function step(dx, dy) {
+  view.x += dx * (plot.right - plot.left) / 8 / view.scale;
+  view.y += dy * (plot.bottom - plot.top) / 8 / view.scale;
+  move();
+}
+
+function zoomMiddle(factor) {
+  zoomAt((plot.left + plot.right) / 2, (plot.top + plot.bottom) / 2, factor, all);
+  move();
+}
+
+function showAll() {
+  fitBox(all);
+  move();
+}
+
+const KEYS = {
+  ArrowLeft: () => step(-1, 0), ArrowRight: () => step(1, 0), ArrowUp: () => step(0, 1), ArrowDown: () => step(0, -1),
+  "+": () => zoomMiddle(1.5), "=": () => zoomMiddle(1.5), "-": () => zoomMiddle(1 / 1.5), 0: showAll,
+  "[": () => goStage(scene.stage - 1), "]": () => goStage(scene.stage + 1),
+  "/": () => $("query").focus(), d: () => $("theme").click(),
+  Escape: () => { kept = hovered = null; $("found").hidden = true; tellPoint(); redraw(); writeAddressSoon(); },
+};
+
+function keyDown(event) {
+  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  if (event.target.tagName === "INPUT" && event.target.type !== "checkbox" && event.key !== "Escape") return;
+  const entry = document.querySelectorAll("#legend input")[Number(event.key) - 1], act = KEYS[event.key] ?? (entry && (() => entry.click()));
+  if (!act) return;
+  event.preventDefault();
+  act();
+}
+
+function listen() {
+  map.addEventListener("pointerdown", pointerDown);
+  map.addEventListener("pointermove", pointerMove);
+  map.addEventListener("pointerup", pointerUp);
+  map.addEventListener("pointercancel", pointerUp);
+  map.addEventListener("pointerleave", () => { if (!pointers.size) hover(null); });
+  map.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    zoomAt(event.offsetX, event.offsetY, Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0015)), all);
+    move();
+  }, {passive: false});
+  addEventListener("keydown", keyDown);
+  addEventListener("hashchange", () => { readAddress(); redraw(); });
+  addEventListener("beforeprint", () => { document.documentElement.classList.remove("dark"); readColours(); resize(3); draw(); });
+  addEventListener("afterprint", () => { setTheme(dark); resize(); redraw(); });
+  new ResizeObserver(() => { resize(); draw(); }).observe(map);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => setTheme(dark));
+  $("closer").addEventListener("click", () => zoomMiddle(1.5));
+  $("farther").addEventListener("click", () => zoomMiddle(1 / 1.5));
+  $("all").addEventListener("click", showAll);
+  $("theme").addEventListener("click", () => {
+    setTheme(document.documentElement.classList.contains("dark") ? "light" : "dark");
+    writeAddressSoon();
+  });
+  $("query").addEventListener("input", () => showFound(scene, choosePoint));
+  $("search").addEventListener("submit", (event) => {
+    event.preventDefault();
+    const found = showFound(scene, choosePoint);
+    if (found.length) choosePoint(found[0]);
+  });
+}
+
+// ---- the beginning ----
+
+// What is to be seen at first: the window, or all points.
+function wholeBox() {
+  if (scene.data.window) return scene.data.window.map(toDouble);
+  const out = [Infinity, -Infinity, Infinity, -Infinity];
+  scene.final.forEach((v, k) => { out[k & 3] = k & 1 ? Math.max(out[k & 3], v) : Math.min(out[k & 3], v); });
+  return scene.n ? out : [0, 1, 0, 1];
+}
+
+async function start() {
+  setTheme(null);
+  scene = makeScene(await unpack($("data").textContent));
+  makeCells(scene);
+  all = wholeBox();
+  shown = new Set(LAYERS[scene.data.layer]);
+  showSummary(scene);
+  buildLegend(scene, shown, () => { base = null; redraw(); writeAddressSoon(); });
+  buildStages(scene, goStage);
+  $("message").textContent = scene.n ? "" : "there are no points";
+  resize();
+  fitBox(all);
+  readAddress();
+  draw();
+  performance.mark("first picture");
+  listen();
+}
+
+start().catch((problem) => {
+  const old = typeof DecompressionStream === "undefined";
+  $("message").textContent = old ? "This browser cannot unpack the data (DecompressionStream); take a newer one." : `The page cannot be shown: ${problem.message}`;
+  if (!old) throw problem;
+});

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The panel beside the map: stages, what is shown, the point that is looked at.
+
+const $ = (id) => document.getElementById(id);
+
+function element(tag, attributes = {}, ...children) {
+  const out = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name === "onclick") out.addEventListener("click", value);
+    else out.setAttribute(name, value);
+  }
+  out.append(...children);
+  return out;
+}
+
+// What can be shown: name, what it means; the first ones of diagrams only.
+const CELLS = [
+  ["cells", "surely nearest to a point"],
+  ["bands", "undetermined"],
+  ["vertices", "boxes of sure vertices"],
+  ["regions", "boxes of undecided vertices"],
+  ["edges", "sure Voronoi edges"],
+];
+const PAIRS = [
+  ["legal", "legal: for every choice"],
+  ["indeterminate", "indeterminate: for some"],
+  ["tie", "tie: stays undecided"],
+  ["triangles", "sure triangles"],
+  ["areas", "where these edges may be"],
+  ["boxes", "points, rectangles"],
+  ["names", "numbers or names"],
+];
+
+// What a layer shows first.
+const LAYERS = {
+  pairs: PAIRS.map(([name]) => name), points: ["boxes", "names"], triangles: ["triangles", "boxes", "names"],
+  cells: ["cells", "bands", "boxes", "names"], vertices: ["vertices", "cells", "bands", "boxes", "names"],
+  regions: ["regions", "cells", "bands", "boxes", "names"], edges: ["edges", "boxes", "names"],
+};
+
+function buildLegend(scene, shown, onChange) {
+  for (const [name, text] of scene.cells.length ? [...CELLS, ...PAIRS] : PAIRS) {
+    const box = element("input", {type: "checkbox", id: "show-" + name});
+    box.checked = shown.has(name);
+    box.addEventListener("change", () => {
+      if (box.checked) shown.add(name); else shown.delete(name);
+      onChange();
+    });
+    const count = element("span", {class: "count", id: "count-" + name});
+    $("legend").append(element("label", {}, box, element("i", {class: /s$/.test(name) ? "patch " + name : name}),
+      scene.data.discs ? text.replace("rectangles", "discs") : text, count));
+  }
+}
+
+const grouped = (n) => n.toLocaleString("en");
+
+function showCounts(scene) {
+  for (const s of [TIE, INDETERMINATE, LEGAL]) $("count-" + STATUS[s]).textContent = grouped(scene.count[s]);
+  let sure = 0;
+  for (let k = 0; k < scene.triangles.length; k += 3) sure += triangleIsSure(scene, k);
+  $("count-triangles").textContent = grouped(sure);
+  $("count-boxes").textContent = grouped(scene.n);
+  if (!scene.cells.length) return;
+  for (const name of ["cells", "vertices", "regions", "edges"]) $("count-" + name).textContent = grouped(scene[name]?.length ?? scene.data[name].length);
+}
+
+function showSummary({data, n}) {
+  const goal = data.goal === "decided" ? "" : `, goal ${data.goal} 2^-${data.goal_bits}`;
+  const part = n === data.sites ? "" : ` of ${grouped(data.sites)}`;
+  $("title").textContent = {delaunay: "Delaunay triangulation", voronoi: "Voronoi diagram", converge: "Convergence"}[data.kind];
+  document.title = "dyadel " + data.kind;
+  $("summary").textContent = `${grouped(n)}${part} points, outcome ${data.outcome}${goal}` +
+    (data.capped ? "; the cap on pairs was met: not all possible pairs are known" : "");
+  $("about").textContent = (data.window ? `The window is [${data.window.join(", ")}]. ` : "") +
+    (data.undetermined_area ? `Undetermined in it: an area of at most ${upper(data.undetermined_area)}; ` : "") +
+    (data.distance_to_true_diagram ? `nothing of it is farther than ${upper(data.distance_to_true_diagram)} from the true diagram. ` : data.cells ? "how far it is from the true diagram is not known. " : "") +
+    (data.tolerance ? `Nothing changes at all while every point stays within ${data.tolerance[0] === null ? "any distance" : directed(data.tolerance[0], 4, false)} of its place. ` : "");
+  $("rounding").textContent = "Rectangles are told exactly where they stand as texts m*2^e or p/q" +
+    (data.stages.length > 1 ? "; those of earlier stages, and decimals, are rounded outward" : "; decimals are rounded outward") +
+    (data.unit === undefined ? "" : `; polygons are drawn by multiples of 2^${data.unit}`) + (data.unit !== undefined && data.stages.length > 1 ? ", at the last stage" : "") +
+    ". What is drawn is rounded to doubles and pixels: drawings prove nothing, statuses are proved.";
+}
+
+// ---- stages ----
+
+function buildStages(scene, go) {
+  const last = scene.stages.length;
+  if (last < 2) return;
+  $("stages").hidden = false;
+  $("stage").max = last;
+  $("stage").addEventListener("input", () => go(Number($("stage").value)));
+  const counts = scene.stages.map((_, k) => { setStage(scene, k + 1); return scene.count; });
+  const most = Math.max(...counts.map((c) => c[TIE] + c[INDETERMINATE] + c[LEGAL]), 1);
+  counts.forEach((c, k) => {
+    const bar = element("div", {title: "stage " + (k + 1), onclick: () => go(k + 1)});
+    for (const s of [TIE, INDETERMINATE, LEGAL]) {
+      const part = element("div", {class: STATUS[s]});
+      part.style.height = `${100 * c[s] / most}%`;
+      bar.append(part);
+    }
+    $("chart").append(bar);
+  });
+}
+
+function showStage(scene) {
+  $("stage").value = scene.stage;
+  $("stage-number").textContent = `${scene.stage} of ${scene.stages.length}`;
+  [...$("chart").children].forEach((bar, k) => bar.classList.toggle("now", k + 1 === scene.stage));
+  const row = scene.data.convergence?.stages[scene.stage - 1];
+  if (row) showRow(row);
+  if (scene.cells.length) $("row").replaceChildren(element("dd", {}, isLast(scene) ? "" : "Cells are those of the last stage; here are the pairs."));
+}
+
+// The line of the table of converge.
+function showRow(row) {
+  const bound = (value) => (value ? "≤ " + upper(value) : "not known");
+  const lines = [["bits asked for", `${row.bits_least} to ${row.bits_most}, ${grouped(row.bits_total)} in all`],
+    ["widths", `largest ${bound(row.width_largest)}, median ${bound(row.width_median)}`],
+    ["undecided faces", grouped(row.faces)], ["area open", bound(row.area)], ["Hausdorff distance", bound(row.hausdorff)]];
+  if (row.v_area) lines.push(["Voronoi: area open", bound(row.v_area)], ["Voronoi: distance", bound(row.v_hausdorff)]);
+  lines.push(["stream calls", grouped(row.calls)]);
+  if ("seconds" in row) lines.push(["seconds", row.seconds]);
+  $("row").replaceChildren(...lines.flatMap(([term, value]) => [element("dt", {}, term), element("dd", {}, String(value))]));
+}
+
+// ---- a point ----
+
+// A decimal of so many digits, not above (below) v.
+function directed(v, digits, up) {
+  const near = Number(v.toPrecision(digits));
+  if (up ? near >= v : near <= v) return String(near);
+  const step = 10 ** (Math.floor(Math.log10(Math.abs(v))) - digits + 1);
+  return String(Number((v + (up ? step : -step)).toPrecision(digits)));
+}
+
+// A bound, as json has it, rounded up.
+function upper({decimal, exact}) {
+  return decimal === null ? exact : directed(decimal, 4, true);
+}
+
+// A side of a box, rounded outward. Where the ends are exact texts the doubles next to them may be off by a step.
+function outward(lo, hi, texts) {
+  const off = texts.map((text) => (isDouble(text) ? 0 : 2 ** -52));
+  return `${directed(lo - off[0] * Math.abs(lo), 9, false)} … ${directed(hi + off[1] * Math.abs(hi), 9, true)}`;
+}
+
+function sideLines(scene, k, axis) {
+  const point = scene.data.points[k], name = "xy"[axis], text = point[name];
+  const exact = text[0] === text[1] ? text[0] : `[${text[0]}, ${text[1]}]`, at = 4 * k + 2 * axis;
+  const box = scene.box.subarray(at, at + 2), final = scene.final.subarray(at, at + 2);
+  const now = box[0] === final[0] && box[1] === final[1];
+  const told = element("dd", {class: "exact", id: "exact-" + name}, exact), head = element("dt", {}, name);
+  if (now && exact.length <= 12) return [head, told];
+  const near = text[0] === text[1] ? `about ${Number(box[0].toPrecision(9))}` : outward(...box, now ? text : ["0", "0"]);
+  return [head, element("dd", {}, near), ...(now ? [told] : [])];
+}
+
+const PARTNERS = {[LEGAL]: "legal", [INDETERMINATE]: "open", [TIE]: "tied"};
+
+function partnerLines(scene, k, choose) {
+  const own = partners(scene, k);
+  return [LEGAL, INDETERMINATE, TIE].flatMap((s) => {
+    const others = own[s].map((p) => [otherEnd(scene, p, k), scene.since[p]]).sort((a, b) => a[0] - b[0]);
+    const list = others.map(([other, since]) => element("button", {title: `${STATUS[s]} since stage ${since}`, onclick: () => choose(other)}, nameOf(scene, other)));
+    return [element("dt", {}, `${PARTNERS[s]} (${others.length})`), element("dd", {class: "partners", id: "partners-" + STATUS[s]}, ...list)];
+  });
+}
+
+function showPoint(scene, k, kept, choose) {
+  if (k === null) {
+    $("card").replaceChildren(element("h2", {}, "A point"), element("p", {}, "Point at one, or find it by its number or name: its rectangle and its partners stand here."));
+    return;
+  }
+  const point = scene.data.points[k], lines = [...sideLines(scene, k, 0), ...sideLines(scene, k, 1)];
+  const same = scene.data.aliases.filter(([, of]) => of === point.i).map(([row]) => row);
+  if (same.length) lines.push(element("dt", {}, "the same as"), element("dd", {}, same.join(", ")));
+  lines.push(element("dt", {}, "corner of the hull"), element("dd", {}, point.hull));
+  if (point.rho !== undefined) lines.push(element("dt", {}, "tolerance"), element("dd", {id: "rho", title: "every point may be so far from its place, all at once, and nothing changes for this one"}, point.rho === null ? "without bound" : String(point.rho)));
+  lines.push(...cellLines(scene, k), ...partnerLines(scene, k, choose));
+  const title = "id" in point ? `${point.id} (point ${point.i})` : `Point ${point.i}`;
+  $("card").replaceChildren(element("h2", {}, title), element("dl", {}, ...lines), element("p", {}, kept ? "Kept: Esc lets it go." : "Click to keep it."));
+}
+
+// ---- finding ----
+
+// Points whose number is the text, then those whose name begins with it, then those whose name holds it.
+function findPoints(scene, text) {
+  const MOST = 8, wanted = text.trim().toLowerCase(), best = [], begin = [], hold = [];
+  if (!wanted) return [];
+  const alias = scene.data.aliases.find(([row]) => String(row) === wanted);
+  scene.data.points.forEach((p, k) => {
+    const name = p.id?.toLowerCase() ?? "";
+    if (String(p.i) === wanted || name === wanted || (alias && p.i === alias[1])) best.push(k);
+    else if (name.startsWith(wanted) || (!("id" in p) && String(p.i).startsWith(wanted))) begin.push(k);
+    else if (name.includes(wanted)) hold.push(k);
+  });
+  return [...best, ...begin, ...hold].slice(0, MOST);
+}
+
+function showFound(scene, choose) {
+  const found = findPoints(scene, $("query").value), open = $("query").value.trim() !== "";
+  const title = (k) => ("id" in scene.data.points[k] ? `${scene.data.points[k].id} (${scene.data.points[k].i})` : String(scene.data.points[k].i));
+  $("found").replaceChildren(...found.map((k) => element("li", {}, element("button", {type: "button", onclick: () => choose(k)}, title(k)))));
+  if (open && !found.length) $("found").append(element("li", {}, "no such point"));
+  $("found").hidden = !open;
+  return found;
+}
