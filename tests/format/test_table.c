@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-enum { CONTENTS = DYD_CONTENT_PLAN + 1 };
+enum { CONTENTS = DYD_CONTENT_SPHERE_REGIONS + 1 };
 
 static void test_names(void **state) {
   (void)state;
@@ -99,6 +99,22 @@ static dyd_status write_plan(FILE *out, const dyd_engine *e, dyd_format format, 
   return st;
 }
 
+static dyd_status write_sphere(FILE *out, dyd_content content, dyd_format format, dyd_error *err) {
+  const dyd_sphere_output o = {DYD_SIZED(dyd_sphere_output), .layer = content};
+  dyd_engine *places;
+  dyd_sphere *s;
+  dyd_outcome outcome;
+  assert_int_equal(dyd_engine_new(&places), DYD_OK);
+  assert_int_equal(
+      dyd_engine_add_points(places, 4, (const double[]){0, 90, 10, -120}, (const double[]){0, 10, 80, -45}), DYD_OK);
+  assert_int_equal(dyd_sphere_new(&s, places, NULL, NULL), DYD_OK);
+  assert_int_equal(dyd_sphere_run(&outcome, s, NULL, NULL), DYD_OK);
+  dyd_status st = dyd_write_sphere(out, s, &o, format, err);
+  dyd_sphere_free(s);
+  dyd_engine_free(places);
+  return st;
+}
+
 static dyd_status write_content(FILE *out, const example *x, dyd_content content, dyd_format format, dyd_error *err) {
   const dyd_rect *const r[] = {&x->r[0], &x->r[1], &x->r[2]};
   const dyd_nearest_answer answer = {DYD_SIZED(dyd_nearest_answer), r[0], &x->nearest, true, DYD_OUTCOME_DECIDED};
@@ -122,6 +138,9 @@ static dyd_status write_content(FILE *out, const example *x, dyd_content content
     return dyd_write_bisector(out, r[0], r[1], DYD_OUTCOME_DECIDED, format, err);
   case DYD_CONTENT_POINTS:
   case DYD_CONTENT_TRIANGLES:
+  case DYD_CONTENT_GRAPH_NEAREST:
+  case DYD_CONTENT_GRAPH_GABRIEL:
+  case DYD_CONTENT_GRAPH_MST:
     return dyd_write_delaunay_as(out, x->e, &(dyd_delaunay_output){DYD_SIZED(dyd_delaunay_output), .layer = content},
                                  format, err);
   case DYD_CONTENT_VERTICES:
@@ -135,6 +154,13 @@ static dyd_status write_content(FILE *out, const example *x, dyd_content content
     return write_tolerance(out, content, format, err);
   case DYD_CONTENT_PLAN:
     return write_plan(out, x->e, format, err);
+  case DYD_CONTENT_SPHERE:
+  case DYD_CONTENT_SPHERE_POINTS:
+  case DYD_CONTENT_SPHERE_TRIANGLES:
+  case DYD_CONTENT_SPHERE_VORONOI:
+  case DYD_CONTENT_SPHERE_VERTICES:
+  case DYD_CONTENT_SPHERE_REGIONS:
+    return write_sphere(out, content, format, err);
   case DYD_CONTENT_PLACES:
     return dyd_write_places(out, x->e, &(const dyd_nearest_answer *){&answer}, 1, DYD_OUTCOME_DECIDED, format, err);
   default:
@@ -145,17 +171,19 @@ static dyd_status write_content(FILE *out, const example *x, dyd_content content
 /* Names of layers lead back to them; a layer of the one is none of the other. */
 static void test_layers(void **state) {
   (void)state;
-  static const dyd_content of[2] = {DYD_CONTENT_DELAUNAY, DYD_CONTENT_VORONOI};
+  static const dyd_content of[4] = {DYD_CONTENT_DELAUNAY, DYD_CONTENT_VORONOI, DYD_CONTENT_SPHERE,
+                                    DYD_CONTENT_SPHERE_VORONOI};
   size_t count = 0;
-  for (int k = 0; k < 2; k++)
+  for (int k = 0; k < 4; k++)
     for (size_t l = 0; dyd_layer_name(of[k], l); l++, count++) {
       dyd_content found = DYD_CONTENT_NONE;
       assert_true(dyd_layer_from_name(&found, of[k], dyd_layer_name(of[k], l)));
       assert_true(l == 0 ? found == of[k] : found != of[k]);
-      assert_true(dyd_format_holds(DYD_FORMAT_CSV, found) && dyd_format_holds(DYD_FORMAT_GEOJSON, found));
-      assert_false(dyd_layer_from_name(&found, of[1 - k], dyd_layer_name(of[k], l)));
+      assert_true(dyd_format_holds(DYD_FORMAT_CSV, found));
+      assert_int_equal(dyd_format_holds(DYD_FORMAT_GEOJSON, found), found != DYD_CONTENT_SPHERE_REGIONS);
+      assert_false(dyd_layer_from_name(&found, of[k ^ 1], dyd_layer_name(of[k], l)));
     }
-  assert_int_equal(count, 7);
+  assert_int_equal(count, 16);
   assert_null(dyd_layer_name(DYD_CONTENT_CHECK, 0));
   example x;
   dyd_error err;
