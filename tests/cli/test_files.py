@@ -62,7 +62,7 @@ def test_endings():
         for name, form in (('x.svg', 'csv'), ('x.csv', 'json'), ('x.wkt', 'csv'), ('x.geojson', 'json'), ('x.png', 'svg')):
             expect(f.run('delaunay', 'in.txt', '-o', name, '--format', form), 2, r'\A\Z',
                    rf'\Adyadel: -o {name} is no name for {form}; leave --format {form} away, or end the name in .{form}$')
-        expect(f.run('converge', 'in.txt', '-o', 'x.svg'), 2, '', 'converge does not write svg; give csv, json$')
+        expect(f.run('converge', 'in.txt', '-o', 'x.svg'), 2, '', 'converge does not write svg; give csv, json, html$')
         expect(f.run('voronoi', 'in.txt', '-o', 'x.obj'), 2, '', 'voronoi does not write obj; give ')
         assert f.names() == before
 

@@ -209,7 +209,7 @@ def test_refusals():
            'delaunay has no layer "cells"; give pairs, points, triangles, graph:nearest, graph:gabriel, graph:mst$')
     for form in ('json', 'vtk', 'obj', 'svg'):
         expect(run('delaunay', '--layer', 'points', '--format', form, '-', stdin=POINTS), 2, r'\A\Z',
-               'delaunay --layer points does not write ' + form + '; give csv, wkt, geojson$')
+               'delaunay --layer points does not write ' + form + '; give csv, wkt, geojson, html$')
     expect(run('nearest', '--layer', 'points', '-', '0', '0', stdin=POINTS), 2, r'\A\Z', 'nearest does not take --layer')
 
 

@@ -37,7 +37,7 @@ WRONG = {
 }
 RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--until': 'decided'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
-TEXTS = {'--queries', '--up-to', '--accuracy', '--pairs', '--columns', '--delimiter', '--id', '--points', '--radius', '--radius-column', '--oracle', '--output', '--trace',
+TEXTS = {'--queries', '--up-to', '--sigma', '--cost-column', '--accuracy', '--pairs', '--columns', '--delimiter', '--id', '--points', '--radius', '--radius-column', '--oracle', '--output', '--trace',
          '--replay', '--resume', '--certificate'}
 
 
@@ -167,7 +167,7 @@ def test_bash_completion():
     assert complete('dyadel', 'delaunay', '--schedule', 'u') == ['uniform']
     assert complete('dyadel', 'delaunay', '--format', '=', 'js') == ['json']
     assert complete('dyadel', 'delaunay', '--format', '=') == complete('dyadel', 'delaunay', '--format', '')
-    assert complete('dyadel', 'converge', '--format', '') == ['csv', 'json']
+    assert complete('dyadel', 'converge', '--format', '') == ['csv', 'json', 'html']
     assert complete('dyadel', 'delaunay', '--until', 'a') == ['area:']
     assert complete('dyadel', '--help', '=', '') == ['man', 'bash', 'zsh']
     for words in (('delaunay', '-o', ''), ('delaunay', '--max-bits', ''), ('delaunay', ''), ('delaunay', 'no')):
