@@ -6,20 +6,14 @@
  * neighbours there, and where a point is proved the bounds of [FLT-DST] have to say yes or no. So the polygons are the
  * same ones, or nothing is said [OUTLINE-1]. */
 #include "base/alloc.h"
+#include "voronoi/grid_polygon.h"
 #include "voronoi/outline_filter.h"
 #include "voronoi/sample.h"
 #include "voronoi/shape.h"
 
-#include <limits.h>
 #include <stdlib.h>
 
-enum { GRID = 50, FIRST_EXTRA = 8, SAMPLES = 1 << 14 };
-
-/* A point times 2^scale. */
-typedef struct grid_point {
-  int64_t at[2];
-  int scale;
-} grid_point;
+enum { GRID = DYD_GRID_BITS, FIRST_EXTRA = 8, SAMPLES = 1 << 14 };
 
 /* As dyd_arc_sample. */
 typedef struct grid_sample {
@@ -34,9 +28,9 @@ typedef struct grid_work {
   uint32_t own;
   int bits;
   grid_sample *sample;
-  grid_point *vertex;
-  size_t samples, sample_cap, vertices, vertex_cap;
-  grid_point goal;
+  dyd_grid_polygon polygon;
+  size_t samples, sample_cap;
+  dyd_grid_point goal;
   double window[4];
   dyd_rect rect; /* of the site */
   mpq_t end[2][2], away[2];
@@ -116,8 +110,8 @@ static dyd_status grid_samples(grid_work *w) {
 }
 
 /* As dyd_sample_point: on the grid 2^-(bits+1). */
-static grid_point sample_on_grid(grid_work *w, const grid_sample *s, int bits) {
-  grid_point z = {.scale = bits + 1};
+static dyd_grid_point sample_on_grid(grid_work *w, const grid_sample *s, int bits) {
+  dyd_grid_point z = {.scale = bits + 1};
   const dyd_outline_piece *p = s->part;
   bool whole;
   if (!s->step) {
@@ -137,7 +131,7 @@ static grid_point sample_on_grid(grid_work *w, const grid_sample *s, int bits) {
 
 /* ---- proofs ---- */
 
-static dyd_bbox grid_box(const grid_point *z) {
+static dyd_bbox grid_box(const dyd_grid_point *z) {
   double x = grid_double(z->at[0], z->scale), y = grid_double(z->at[1], z->scale);
   return (dyd_bbox){{x, x, y, y}};
 }
@@ -155,7 +149,7 @@ static bool grid_nearer(grid_work *w, const dyd_bbox *c, const dyd_box *a, const
 }
 
 /* In Int_i n W? */
-static bool grid_inside(grid_work *w, const grid_point *z) {
+static bool grid_inside(grid_work *w, const dyd_grid_point *z) {
   const dyd_outline *o = w->o;
   dyd_bbox c = grid_box(z);
   if (!(w->window[0] <= c.e[0] && c.e[1] <= w->window[1] && w->window[2] <= c.e[2] && c.e[3] <= w->window[3]))
@@ -177,7 +171,7 @@ static int64_t floor_quotient(dyd_i128 n, dyd_i128 d) {
 static bool grid_goal(grid_work *w, int fine) {
   dyd_i128 sum[2] = {0, 0};
   for (size_t k = 0; k < w->samples && w->known; k++) {
-    grid_point z = sample_on_grid(w, &w->sample[k], fine);
+    dyd_grid_point z = sample_on_grid(w, &w->sample[k], fine);
     for (int a = 0; a < 2; a++) sum[a] += z.at[a];
   }
   w->goal.scale = fine;
@@ -186,7 +180,7 @@ static bool grid_goal(grid_work *w, int fine) {
 }
 
 /* As place_inner, with move_by_step in integers. */
-static bool grid_place_inner(grid_point *z, grid_work *w, const grid_sample *s, int fine) {
+static bool grid_place_inner(dyd_grid_point *z, grid_work *w, const grid_sample *s, int fine) {
   *z = sample_on_grid(w, s, fine);
   if (!w->known) return false;
   int scale = z->scale > w->goal.scale ? z->scale : w->goal.scale;
@@ -220,7 +214,7 @@ static dyd_iv coordinate_away(int *end, bool *known, double at, const dyd_iv sid
 
 /* dyd_log2_length of a point's distances to the ends of the site that are not doubles: it depends on their fractions.
  */
-static int64_t grid_log2_exact(grid_work *w, const grid_point *z, const int end[2]) {
+static int64_t grid_log2_exact(grid_work *w, const dyd_grid_point *z, const int end[2]) {
   if (!w->fetched) {
     const dyd_interval *side[2] = {&w->rect.x, &w->rect.y};
     if (dyd_sites_get(&w->rect, dyd_delaunay_sites(w->pd), w->own) != DYD_OK) return w->known = false, 0;
@@ -250,7 +244,7 @@ static bool grid_beyond(grid_work *w, const dyd_outline_piece *p, const dyd_bbox
 }
 
 /* As place_outer. */
-static bool grid_place_outer(grid_point *z, grid_work *w, const grid_sample *s, int fine) {
+static bool grid_place_outer(dyd_grid_point *z, grid_work *w, const grid_sample *s, int fine) {
   *z = sample_on_grid(w, s, fine);
   if (!w->known || (!s->part->arc && !s->before->arc)) return w->known;
   const dyd_box *own = &w->o->box[w->o->count];
@@ -274,138 +268,42 @@ static bool grid_place_outer(grid_point *z, grid_work *w, const grid_sample *s, 
 
 /* ---- both ---- */
 
-typedef bool (*grid_place)(grid_point *z, grid_work *w, const grid_sample *s, int fine);
+typedef bool (*grid_place)(dyd_grid_point *z, grid_work *w, const grid_sample *s, int fine);
 
 static dyd_status grid_place_all(grid_work *w, grid_place place) {
-  if (!dyd_reserve((void **)&w->vertex, &w->vertex_cap, 2 * w->samples + 1, sizeof *w->vertex)) return DYD_E_NOMEM;
-  w->vertices = 0;
+  dyd_grid_polygon *p = &w->polygon;
+  if (!dyd_reserve((void **)&p->vertex, &p->cap, 2 * w->samples + 1, sizeof *p->vertex)) return DYD_E_NOMEM;
+  p->count = 0;
   for (size_t k = 0; k < w->samples && w->known; k++) {
     int extra = FIRST_EXTRA;
-    while (w->known && !place(&w->vertex[k], w, &w->sample[k], w->bits + extra)) extra *= 2;
-    w->vertices++;
+    while (w->known && !place(&p->vertex[k], w, &w->sample[k], w->bits + extra)) extra *= 2;
+    p->count++;
   }
   return DYD_OK;
-}
-
-/* All vertices on the finest of their grids. */
-static void grid_align(grid_work *w) {
-  int scale = INT_MIN;
-  for (size_t k = 0; k < w->vertices; k++)
-    if (w->vertex[k].scale > scale) scale = w->vertex[k].scale;
-  for (size_t k = 0; k < w->vertices; k++) {
-    grid_point *z = &w->vertex[k];
-    int up = scale - z->scale;
-    for (int a = 0; a < 2; a++) {
-      if (up > GRID || llabs(z->at[a]) >> (GRID + 2 - up)) w->known = false;
-      if (w->known) z->at[a] = (int64_t)((uint64_t)z->at[a] << up);
-    }
-    z->scale = scale;
-  }
-}
-
-/* Twice the area of a, b, c, with its sign. */
-static dyd_i128 grid_turn(const grid_point *a, const grid_point *b, const grid_point *c) {
-  return (dyd_i128)(b->at[0] - a->at[0]) * (c->at[1] - a->at[1]) -
-         (dyd_i128)(b->at[1] - a->at[1]) * (c->at[0] - a->at[0]);
-}
-
-static int compare_grid(const void *a, const void *b) {
-  const grid_point *p = a, *q = b;
-  for (int k = 0; k < 2; k++)
-    if (p->at[k] != q->at[k]) return p->at[k] < q->at[k] ? -1 : 1;
-  return 0;
-}
-
-static size_t grid_extend(grid_point *chain, size_t kept, size_t floor, grid_point z) {
-  while (kept >= floor + 2 && grid_turn(&chain[kept - 2], &chain[kept - 1], &z) <= 0) kept--;
-  chain[kept++] = z;
-  return kept;
-}
-
-/* As dyd_polygon_make_convex; the hull is made behind the vertices, where there is room. */
-static dyd_status grid_make_convex(grid_work *w) {
-  size_t n = w->vertices, kept = 0;
-  if (!dyd_reserve((void **)&w->vertex, &w->vertex_cap, 3 * n + 1, sizeof *w->vertex)) return DYD_E_NOMEM;
-  grid_point *z = w->vertex, *chain = z + n;
-  qsort(z, n, sizeof *z, compare_grid);
-  for (size_t k = 0; k < n; k++) kept = grid_extend(chain, kept, 0, z[k]);
-  size_t floor = kept ? kept - 1 : 0;
-  for (size_t k = n; k-- > 1;) kept = grid_extend(chain, kept, floor, z[k - 1]);
-  kept = kept ? kept - 1 : 0;
-  w->vertices = kept >= 3 ? kept : 0;
-  for (size_t k = 0; k < w->vertices; k++) z[k] = chain[k];
-  return DYD_OK;
-}
-
-/* ---- simplicity ---- */
-
-static int64_t min64(int64_t a, int64_t b) {
-  return a < b ? a : b;
-}
-
-/* Do the closed boxes of the edges from a and from c meet? */
-static bool grid_edges_near(const grid_point *a, const grid_point *b, const grid_point *c, const grid_point *d) {
-  for (int k = 0; k < 2; k++)
-    if (-min64(-a->at[k], -b->at[k]) < min64(c->at[k], d->at[k]) ||
-        -min64(-c->at[k], -d->at[k]) < min64(a->at[k], b->at[k]))
-      return false;
-  return true;
-}
-
-/* Does no edge meet another but in the common vertex of neighbours? Edges that only seem to meet, by a turn that is 0,
- * are left to the exact rung. */
-static bool grid_is_simple(grid_work *w) {
-  const grid_point *z = w->vertex;
-  size_t n = w->vertices;
-  for (size_t j = 0; j < n; j++) {
-    const grid_point *c = &z[j], *d = &z[j + 1 == n ? 0 : j + 1];
-    if (!grid_turn(c, d, &z[(j + 2) % n])) w->known = false;
-    for (size_t i = 0; i + 1 < j; i++) {
-      const grid_point *a = &z[i], *b = &z[i + 1];
-      if ((j + 1 == n && i == 0) || !grid_edges_near(a, b, c, d)) continue;
-      dyd_i128 s = grid_turn(a, b, c), t = grid_turn(a, b, d), u = grid_turn(c, d, a), v = grid_turn(c, d, b);
-      if (!s || !t || !u || !v) w->known = false;
-      if ((s < 0) != (t < 0) && (u < 0) != (v < 0)) return false;
-    }
-  }
-  return n >= 3;
-}
-
-/* As dyd_polygon_is_simple takes out repeats. */
-static void grid_drop_repeats(grid_work *w) {
-  size_t kept = 0, n = w->vertices;
-  for (size_t k = 0; k < n; k++)
-    if (n == 1 || compare_grid(&w->vertex[k], &w->vertex[kept ? kept - 1 : n - 1])) w->vertex[kept++] = w->vertex[k];
-  w->vertices = kept;
-}
-
-static dyd_i128 grid_area2(const grid_work *w) {
-  dyd_i128 sum = 0;
-  for (size_t k = 1; k + 1 < w->vertices; k++) sum += grid_turn(&w->vertex[0], &w->vertex[k], &w->vertex[k + 1]);
-  return sum;
 }
 
 /* ---- the polygons ---- */
 
 static dyd_status grid_deliver(dyd_grid_area *area, dyd_xy **out, size_t *cap, uint32_t *count, const grid_work *w) {
-  if (!dyd_reserve((void **)out, cap, w->vertices, sizeof **out)) return DYD_E_NOMEM;
-  for (size_t k = 0; k < w->vertices; k++)
-    (*out)[k] = (dyd_xy){grid_double(w->vertex[k].at[0], w->vertex[k].scale),
-                         grid_double(w->vertex[k].at[1], w->vertex[k].scale)};
-  *count = (uint32_t)w->vertices;
-  *area = (dyd_grid_area){grid_area2(w), w->vertices ? w->vertex[0].scale : 0};
+  const dyd_grid_polygon *p = &w->polygon;
+  if (!dyd_reserve((void **)out, cap, p->count, sizeof **out)) return DYD_E_NOMEM;
+  for (size_t k = 0; k < p->count; k++)
+    (*out)[k] = (dyd_xy){grid_double(p->vertex[k].at[0], p->vertex[k].scale),
+                         grid_double(p->vertex[k].at[1], p->vertex[k].scale)};
+  *count = (uint32_t)p->count;
+  *area = (dyd_grid_area){dyd_grid_area2(p), p->count ? p->vertex[0].scale : 0};
   return DYD_OK;
 }
 
 static dyd_status grid_inner(grid_work *w) {
-  w->vertices = 0;
+  w->polygon.count = 0;
   if (!w->o->parts) return DYD_OK;
   dyd_status st = grid_samples(w);
   int extra = FIRST_EXTRA;
   while (st == DYD_OK && w->known && !grid_goal(w, w->bits + extra)) extra *= 2;
   if (st == DYD_OK && w->known) st = grid_place_all(w, grid_place_inner);
-  if (st == DYD_OK && w->known) grid_align(w);
-  return st == DYD_OK && w->known ? grid_make_convex(w) : st;
+  if (st == DYD_OK && w->known) w->known = dyd_grid_align(&w->polygon);
+  return st == DYD_OK && w->known ? dyd_grid_make_convex(&w->polygon) : st;
 }
 
 /* As exact_outer_part, and drop_if_clockwise. */
@@ -413,18 +311,18 @@ static dyd_status grid_outer(grid_work *w) {
   int bits = w->bits;
   bool simple = false;
   dyd_status st = DYD_OK;
-  w->vertices = 0;
+  w->polygon.count = 0;
   for (int extra = 0; w->o->parts && !simple && w->known && st == DYD_OK; extra += extra + 4) {
     w->bits = bits + extra;
     st = grid_samples(w);
     if (st == DYD_OK && w->known) st = grid_place_all(w, grid_place_outer);
     if (st != DYD_OK || !w->known) break;
-    grid_align(w);
-    grid_drop_repeats(w);
-    simple = w->known && grid_is_simple(w);
+    w->known = dyd_grid_align(&w->polygon);
+    dyd_grid_drop_repeats(&w->polygon);
+    simple = w->known && dyd_grid_is_simple(&w->known, &w->polygon);
   }
   w->bits = bits;
-  if (w->known && grid_area2(w) <= 0) w->vertices = 0;
+  if (w->known && dyd_grid_area2(&w->polygon) <= 0) w->polygon.count = 0;
   return st;
 }
 
@@ -462,7 +360,7 @@ dyd_status dyd_filter_polygons(bool *done, dyd_shape *s, const dyd_delaunay *pd,
   dyd_status st = dyd_outline_load(&loaded, w.o, pd, i);
   if (st == DYD_OK && loaded) st = grid_shape(done, s, &w, window);
   free(w.sample);
-  free(w.vertex);
+  free(w.polygon.vertex);
   mpq_clears(w.end[0][0], w.end[0][1], w.end[1][0], w.end[1][1], w.away[0], w.away[1], NULL);
   dyd_rect_clear(&w.rect);
   s->in_doubles = s->on_grid = *done;

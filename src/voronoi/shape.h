@@ -6,6 +6,7 @@
 #define DYD_VORONOI_SHAPE_H
 
 #include "delaunay/state.h"
+#include "voronoi/grid_polygon.h"
 #include <dyadel/voronoi.h>
 
 /* The window W. Invariant: dyadic ends, positive area; d[] are doubles within W: xlo, xhi, ylo, yhi. cancel: work on a
@@ -17,13 +18,6 @@ typedef struct dyd_window {
 } dyd_window;
 /* DYD_E_ARG unless W is as it has to be. */
 dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect);
-
-__extension__ typedef __int128 dyd_i128;
-/* twice * 2^(-2 scale) */
-typedef struct dyd_grid_area {
-  dyd_i128 twice;
-  int scale;
-} dyd_grid_area;
 
 struct dyd_outline;
 
