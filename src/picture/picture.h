@@ -30,6 +30,7 @@ typedef struct dyd_view {
   double line, dot;        /* width of lines, radius of dots */
   bool dots;               /* all sites are dots, as rectangles would be one mass */
   double frame[4];         /* x lower, x upper, y lower, y upper on the page: shown is what is inside */
+  const char *unit;        /* of the coordinates, for the scale; NULL: not known */
 } dyd_view;
 
 /* A view of the box (x lower, x upper, y lower, y upper) of something whose neighbours are about `spacing` apart (0:
@@ -37,6 +38,8 @@ typedef struct dyd_view {
 dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_error *err);
 /* About the median length of the possible pairs whose middle is in `box` (NULL: of all); 0 when there is none. */
 double dyd_view_spacing(const dyd_delaunay *pd, const double box[4]);
+/* The middle one of n lengths, which are sorted; 0: there is none. */
+double dyd_view_median(double *length, size_t n);
 double dyd_view_x(const dyd_view *v, double x);
 double dyd_view_y(const dyd_view *v, double y);
 /* The middle of a box, on the page. */

@@ -128,6 +128,20 @@ static void sphere_legend(dyd_canvas *c, void *context) {
   dyd_legend_text(&l, text);
 }
 
+/* The usual length of an edge on the page, in degrees. */
+static double sphere_spacing(const sphere_drawing *d) {
+  enum { SAMPLES = 1000 };
+  double length[SAMPLES];
+  const dyd_pair_list *pairs = &d->r->pairs;
+  size_t n = 0, step = pairs->count / SAMPLES + 1;
+  for (size_t k = 0; k < pairs->count; k += step) {
+    const double *a = d->box[pairs->item[k].i], *b = d->box[pairs->item[k].j];
+    double x = fabs(a[0] - b[0]);
+    length[n++] = hypot(fmin(x, fabs(360 - x)), a[2] - b[2]);
+  }
+  return dyd_view_median(length, n);
+}
+
 /* The places, and what is shown: their surroundings, or all. */
 static dyd_status sphere_see(sphere_drawing *d, dyd_error *err) {
   double all[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
@@ -145,8 +159,9 @@ static dyd_status sphere_see(sphere_drawing *d, dyd_error *err) {
   if (d->count && all[1] - all[0] < 180) dyd_view_pad(all);
   if (!d->count || !(all[1] - all[0] < 180)) all[0] = -180, all[1] = 180, all[2] = -90, all[3] = 90;
   for (size_t p = 0; p < d->r->pairs.count; p++) d->shown[d->r->pairs.item[p].status]++;
-  double spacing = sqrt((all[1] - all[0]) * (all[3] - all[2]) / (double)(d->count + 1));
-  return dyd_view_fit(&d->view, all, spacing, err);
+  st = dyd_view_fit(&d->view, all, sphere_spacing(d), err);
+  d->view.unit = "degree";
+  return st;
 }
 
 static dyd_status sphere_draw(const dyd_output *o, const dyd_sphere_cells *cells, const char *title) {

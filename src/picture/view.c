@@ -46,6 +46,7 @@ dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_er
   v->dot = fmin(fmax(apart * 0.09, 0.3), 4);
   v->apart = apart;
   v->dots = false;
+  v->unit = NULL;
   v->frame[0] = DYD_VIEW_LEFT, v->frame[2] = EDGE;
   v->frame[1] = DYD_VIEW_LEFT + v->width, v->frame[3] = EDGE + v->height;
   return DYD_OK;
@@ -70,6 +71,11 @@ static double pair_length(const dyd_delaunay *pd, const dyd_pair *pair, const do
   return hypot(c[0][0] - c[1][0], c[0][1] - c[1][1]);
 }
 
+double dyd_view_median(double *length, size_t n) {
+  qsort(length, n, sizeof *length, compare_lengths);
+  return n && isfinite(length[n / 2]) ? length[n / 2] : 0;
+}
+
 double dyd_view_spacing(const dyd_delaunay *pd, const double box[4]) {
   enum { SAMPLES = 1000 };
   double length[SAMPLES];
@@ -82,9 +88,8 @@ double dyd_view_spacing(const dyd_delaunay *pd, const double box[4]) {
     double one = box || k % step == 0 ? pair_length(pd, &pairs.item[k], box) : -1;
     if (one >= 0 && (!box || seen++ % step == 0)) length[n++] = one;
   }
-  qsort(length, n, sizeof *length, compare_lengths);
   dyd_pair_list_clear(&pairs);
-  return n && isfinite(length[n / 2]) ? length[n / 2] : 0;
+  return dyd_view_median(length, n);
 }
 
 double dyd_view_x(const dyd_view *v, double x) {
