@@ -222,6 +222,7 @@ static dyd_status ask_triangulate(ask *a, dyd_error *err) {
   if (st != DYD_OK) return st;
   e->max_pairs = a->o.max_pairs;
   e->cut = ask_was_cut(e, &o);
+  e->proof_bits = o.prove ? a->o.tie_bits : 0;
   e->changes = 0;
   e->stages++;
   a->stages++;
@@ -327,10 +328,11 @@ static dyd_status ask_last(ask *a) {
 
 static dyd_status ask_loop(ask *a) {
   const dyd_engine *e = a->e;
-  /* Does the cap now given, or the time, allow more than the one the result met? 0 is the default cap. */
-  bool more = e->cut || e->max_pairs != a->o.max_pairs;
-  bool raised = a->q->triangulate && e->pd && dyd_delaunay_is_capped(e->pd) && more;
-  dyd_status st = raised ? ask_list_undecided(a->e) : DYD_OK;
+  /* Does the cap now given, or the time, allow more than the one the result met? 0 is the default cap. Or may more ties
+   * be proved? */
+  bool more = e->pd && dyd_delaunay_is_capped(e->pd) && (e->cut || e->max_pairs != a->o.max_pairs);
+  bool proofs = e->pd && !a->o.no_ties && e->proof_bits < a->o.tie_bits;
+  dyd_status st = a->q->triangulate && (more || proofs) ? ask_list_undecided(a->e) : DYD_OK;
   if (st == DYD_OK) st = ask_guests(a);
   while (st == DYD_OK && a->end == DYD_OUTCOME_NONE) {
     st = ask_prepare(a);

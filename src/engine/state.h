@@ -90,6 +90,7 @@ struct dyd_engine {
   dyd_recall *recall; /* answers known before the first run; NULL: none */
   dyd_ties *ties;     /* what was asked about true points; NULL: nothing yet */
   int64_t tie_bits;
+  int64_t proof_bits; /* the tie_bits pd was last worked on with; 0: no ties were looked for */
   dyd_tie_counters tie_counters;
   dyd_prove_fn prover; /* who is asked about ties in place of ties.c; NULL: nobody */
   void *prover_user;

@@ -260,6 +260,30 @@ static void test_goes_on(void **state) {
   dyd_engine_free(e);
 }
 
+/* Ties that were not looked for, or not with enough bits, are found by the next run. */
+static void test_later(void **state) {
+  (void)state;
+  for (int bits = 0; bits < 2; bits++) {
+    dyd_engine *e = gon("sqrt(3)", 9, -1, "");
+    engine_add_text(e, "cbrt(2+sqrt(5))+cbrt(2-sqrt(5))", "4");
+    engine_add_text(e, "1", "4");
+    dyd_engine_options o;
+    size_t count[4];
+    dyd_engine_options_init(&o);
+    o.max_bits = 100;
+    o.no_ties = !bits;
+    o.tie_bits = 16;
+    engine_run(e, &o, DYD_OUTCOME_BUDGET);
+    o.no_ties = false;
+    o.tie_bits = 0;
+    engine_run(e, &o, DYD_OUTCOME_FIXPOINT);
+    engine_count(count, e);
+    assert_int_equal(count[DYD_TIE], 27);
+    assert_int_equal(count[DYD_INDETERMINATE], 0);
+    dyd_engine_free(e);
+  }
+}
+
 /* ---- the harness ---- */
 
 static dyd_status open_tied(dyd_engine **out, void *user, dyd_error *err) {
@@ -315,8 +339,8 @@ int main(void) {
       cmocka_unit_test(test_polygons),  cmocka_unit_test(test_moved),      cmocka_unit_test(test_nearly_collinear),
       cmocka_unit_test(test_chains),    cmocka_unit_test(test_level_line), cmocka_unit_test(test_undescribed),
       cmocka_unit_test(test_callbacks), cmocka_unit_test(test_centres),    cmocka_unit_test(test_aliases),
-      cmocka_unit_test(test_doubles),   cmocka_unit_test(test_goes_on),    cmocka_unit_test(test_harness),
-      cmocka_unit_test(test_bits),
+      cmocka_unit_test(test_doubles),   cmocka_unit_test(test_goes_on),    cmocka_unit_test(test_later),
+      cmocka_unit_test(test_harness),   cmocka_unit_test(test_bits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
