@@ -250,9 +250,16 @@ typedef struct dyd_convergence_output {
   const dyd_engine *engine;   /* that ran, and its history, a stage for each row: html needs both, */
   const dyd_history *history; /* other formats do not look */
   const dyd_rect *window;     /* what html shows: positive area; NULL: everything */
+  /* "NAME=VALUE,NAME=VALUE": columns before the others in csv, "label" in json; no quotes, backslashes and control
+   * characters. NULL: none. no_header: csv has rows only, so that tables of several runs are one when they are put
+   * behind each other. */
+  const char *label;
+  bool no_header;
 } dyd_convergence_output;
+/* Is this such a label? */
+DYD_API bool dyd_label_fits(const char *label);
 /* The same as o says, also in html: the result with a slider over the rows. DYD_E_ARG for html without what it needs,
- * and where stages and rows are not as many. */
+ * where stages and rows are not as many, and for a label of another form. */
 DYD_API dyd_status dyd_write_convergence_as(FILE *out, const dyd_convergence *c, const dyd_convergence_output *o,
                                             dyd_format format, dyd_error *err);
 

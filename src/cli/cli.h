@@ -59,7 +59,8 @@ typedef struct cli_options {
   unsigned schedules; /* 0: default */
   bool start_set;     /* engine.start_bits was given */
   bool max_bits_set;
-  bool no_times, no_voronoi, of_voronoi;
+  bool no_times, no_voronoi, of_voronoi, no_header;
+  const char *label;
   bool discs;         /* delaunay: radii are discs */
   bool sphere, plane; /* points are longitude and latitude on a sphere; coordinates of a plane, whatever named */
   dyd_voronoi_bounds *bounds; /* voronoi: where the bounds of what is written go */

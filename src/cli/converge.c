@@ -10,7 +10,8 @@ typedef struct result {
 
 static dyd_status print_table(FILE *out, const void *what, const cli_options *o, dyd_error *err) {
   const result *r = what;
-  const dyd_convergence_output how = {DYD_SIZED(dyd_convergence_output), !o->no_times, r->engine, o->history, o->view};
+  const dyd_convergence_output how = {
+      DYD_SIZED(dyd_convergence_output), !o->no_times, r->engine, o->history, o->view, o->label, o->no_header};
   return dyd_write_convergence_as(out, r->table, &how, o->format, err);
 }
 
@@ -131,6 +132,11 @@ int cli_converge(const cli_options *o) {
   dyd_format format;
   if (o->plot && !plot_format(&format, o->plot)) {
     cli_complain("--plot \"%s\" does not say what kind of picture is wanted; end it in .svg, .pdf or .png", o->plot);
+    return CLI_USAGE;
+  }
+  if (o->label && !dyd_label_fits(o->label)) {
+    cli_complain("--label \"%s\" is not understood; give NAME=VALUE,NAME=VALUE without quotes and backslashes",
+                 o->label);
     return CLI_USAGE;
   }
   if (o->of_voronoi && o->no_voronoi) {

@@ -180,12 +180,26 @@ dyd_status dyd_write_convergence(FILE *out, const dyd_convergence *c, dyd_format
   return dyd_write_convergence_as(out, c, &o, format, err);
 }
 
+/* Items with a name and one "=" each, and nothing that csv or json would have to escape. */
+bool dyd_label_fits(const char *label) {
+  for (const char *at = label; *at; at++)
+    if ((unsigned char)*at < ' ' || *at == '"' || *at == '\\' || *at == 127) return false;
+  for (const char *item = label;; item++) {
+    size_t name = strcspn(item, "=,"), length = strcspn(item, ",");
+    if (name == 0 || name == length || memchr(item + name + 1, '=', length - name - 1)) return false;
+    item += length;
+    if (!*item) return true;
+  }
+}
+
 dyd_status dyd_write_convergence_as(FILE *out, const dyd_convergence *c, const dyd_convergence_output *options,
                                     dyd_format format, dyd_error *err) {
   dyd_convergence_output o;
   if (stages_check(c, err) != DYD_OK) return DYD_E_ARG;
   if (dyd_abi_take(&o, sizeof o, options, "dyd_convergence_output", err) != DYD_OK) return DYD_E_ARG;
-  dyd_stage_table table = {.stages = c, .times = o.times};
+  if (o.label && !dyd_label_fits(o.label))
+    return dyd_fail(err, DYD_E_ARG, "the label \"%.60s\" is none; give NAME=VALUE,NAME=VALUE", o.label);
+  dyd_stage_table table = {.stages = c, .times = o.times, .label = o.label, .no_header = o.no_header};
   if (format != DYD_FORMAT_HTML) return dyd_format_write(out, format, DYD_CONTENT_CONVERGENCE, &table, err);
   if (!o.engine || !o.history) return dyd_fail(err, DYD_E_ARG, "html shows the points: give engine and history");
   dyd_result r = {

@@ -29,6 +29,8 @@ typedef struct dyd_stage_table {
   const dyd_convergence *stages;
   bool times;
   const struct dyd_result *result; /* with its history (result.h), for html; NULL: none */
+  const char *label;               /* well-formed, or NULL */
+  bool no_header;
 } dyd_stage_table;
 
 typedef struct dyd_disc_output {

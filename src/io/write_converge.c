@@ -5,6 +5,7 @@
 #include "io/parts.h"
 #include <inttypes.h>
 #include <math.h>
+#include <string.h>
 
 enum { DIGITS = 6 };
 
@@ -15,6 +16,35 @@ static size_t possible_pairs(const dyd_stage_row *r) {
 /* Milliseconds, rounded up. */
 static double row_seconds(const dyd_stage_row *r) {
   return ceil(r->seconds * 1000) / 1000;
+}
+
+/* ---- labels ---- */
+
+/* The name, or the value, of an item; returns the next one. */
+static const char *label_item(FILE *out, const char *item, bool value) {
+  size_t name = strcspn(item, "="), length = strcspn(item, ",");
+  const char *from = value ? item + name + 1 : item;
+  fprintf(out, "%.*s", (int)(value ? length - name - 1 : name), from);
+  return item[length] ? item + length + 1 : NULL;
+}
+
+static void label_csv(FILE *out, const char *label, bool values) {
+  for (const char *item = label; item;) {
+    item = label_item(out, item, values);
+    fputs(",", out);
+  }
+}
+
+static void label_json(FILE *out, const char *label) {
+  fputs("\"label\": {", out);
+  for (const char *item = label; item;) {
+    fputs(item == label ? "\"" : ", \"", out);
+    label_item(out, item, false);
+    fputs("\": \"", out);
+    item = label_item(out, item, true);
+    fputs("\"", out);
+  }
+  fputs("},\n", out);
 }
 
 /* ---- csv ---- */
@@ -30,7 +60,7 @@ static void table_csv_goal(FILE *out, const dyd_engine_options *o) {
   if (o->goal != DYD_GOAL_DECIDED) fprintf(out, " 2^%" PRId64, -o->goal_bits);
 }
 
-static dyd_status table_csv_head(FILE *out, const dyd_convergence *c, bool times) {
+static dyd_status table_csv_head(FILE *out, const dyd_convergence *c, const char *label, bool times) {
   const dyd_engine_options *o = c->options;
   fprintf(out, "# schedule %s; goal ", dyd_schedule_text(o->schedule));
   table_csv_goal(out, o);
@@ -52,6 +82,7 @@ static dyd_status table_csv_head(FILE *out, const dyd_convergence *c, bool times
         out);
   fprintf(out, "# no random choice is made: there is no seed, and every run gives this table%s\n",
           times ? ", seconds (rounded up) aside" : "");
+  label_csv(out, label, false);
   fprintf(out,
           "stage,bits_least,bits_most,bits_total,width_largest,width_median,possible,legal,indeterminate,tie,faces,"
           "area,hausdorff,v_area,v_hausdorff,filter,integer,exact,calls,statuses%s\n",
@@ -135,14 +166,18 @@ static dyd_status table_json_row(FILE *out, const dyd_stage_row *r, bool times) 
 
 dyd_status dyd_convergence_csv(const dyd_output *o) {
   const dyd_stage_table *t = o->what;
-  dyd_status st = table_csv_head(o->out, t->stages, t->times);
-  for (size_t k = 0; k < t->stages->count; k++) table_csv_row(o->out, t->stages->row[k], t->times);
+  dyd_status st = t->no_header ? DYD_OK : table_csv_head(o->out, t->stages, t->label, t->times);
+  for (size_t k = 0; k < t->stages->count; k++) {
+    label_csv(o->out, t->label, true);
+    table_csv_row(o->out, t->stages->row[k], t->times);
+  }
   return st;
 }
 
 dyd_status dyd_convergence_json(const dyd_output *o) {
   const dyd_stage_table *t = o->what;
   dyd_status st = table_json_head(o->out, t->stages);
+  if (t->label) label_json(o->out, t->label);
   fputs("\"stages\": [", o->out);
   for (size_t k = 0; st == DYD_OK && k < t->stages->count; k++) {
     fputs(k ? ",\n" : "\n", o->out);

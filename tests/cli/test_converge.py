@@ -287,4 +287,26 @@ def test_plots():
     expect(run('converge', '-', '--plot', 'nowhere/x.svg', stdin=SQUARE, ), 1, '^stage', 'nowhere/x.svg: cannot write')
 
 
+
+def test_sweep():
+    """Tables of several runs, put behind each other, are one."""
+    table, json_labels = '', []
+    for n in range(3, 6):
+        for seed in 'ab':
+            points = ''.join(f'sqrt({k}) {ord(seed)}*sin({k})\n' for k in range(n))
+            label = f'n={n},name of the seed={seed}'
+            how = ['--no-times', '--label', label, '-']
+            result = run('converge', *how, *(['--no-header'] if table else []), stdin=points)
+            expect(result, 0)
+            table += result.out
+            json_labels.append(json.loads(run('converge', '--format', 'json', *how, stdin=points).out)['label'])
+    rows = list(csv.DictReader(line for line in table.splitlines() if not line.startswith('#')))
+    assert [(row['n'], row['name of the seed']) for row in rows if row['stage'] == '1'] == [
+        (str(n), seed) for n in range(3, 6) for seed in 'ab']
+    assert [(label['n'], label['name of the seed']) for label in json_labels] == [(str(n), s) for n in range(3, 6) for s in 'ab']
+    assert all(len(row) == len(rows[0]) and None not in row and None not in row.values() for row in rows)
+    for wrong in ('n', 'n=1,', '=3', 'a"=3', 'a=1=2', 'a=\\', ',', 'a=1,,b=2'):
+        expect(run('converge', '--label', wrong, 'none'), 2, err='--label .*NAME=VALUE,NAME=VALUE')
+
+
 main(globals())
