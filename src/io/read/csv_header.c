@@ -117,7 +117,7 @@ static dyd_status fail_missing(const dyd_csv *csv, const dyd_csv_want *want, dyd
 /* By number; a name that is the same digits must not be meant. */
 static dyd_status find_numbered(size_t *out, const dyd_csv *csv, const dyd_csv_want *want, dyd_error *err) {
   char message[DYD_MESSAGE_SIZE];
-  size_t first, last, number = strlen(want->name) < 9 ? (size_t)atol(want->name) : SIZE_MAX;
+  size_t first = 0, last = 0, number = strlen(want->name) < 9 ? (size_t)atol(want->name) : SIZE_MAX;
   bool named = count_named(&first, &last, csv, want->name, false);
   if (named && first + 1 != number) {
     snprintf(message, sizeof message,
