@@ -7,8 +7,7 @@ Usage: mutants.py ROOT BUILD --sources FILE... --tests NAME... [--count K] [--se
 ROOT is a copy of the project that may be written to, BUILD a build folder of it. Draws K places in the sources (paths from
 ROOT/src), all kinds of fault alike, and for each: changes the source, builds, runs the tests named, in this order, until one
 fails, and puts the source back. Prints a line for each fault and a sum; those that nobody noticed are what to look at: a
-missing test, a needless check, or a change that cannot be seen. Slow: this is no test of the suite. Results so far, with the
-reasons of survivors: proofs/SOUNDNESS.md.
+missing test, a needless check, or a change that cannot be seen. Slow: this is no test of the suite.
 """
 import argparse
 import json
