@@ -185,8 +185,9 @@ static bool grid_place_inner(dyd_grid_point *z, grid_work *w, const grid_sample 
   if (!w->known) return false;
   int scale = z->scale > w->goal.scale ? z->scale : w->goal.scale;
   dyd_i128 d[2], sum = 0;
+  if (scale - w->goal.scale > 70 || scale - z->scale > 70) return w->known = false;
   for (int a = 0; a < 2; a++) {
-    d[a] = ((dyd_i128)w->goal.at[a] << (scale - w->goal.scale)) - ((dyd_i128)z->at[a] << (scale - z->scale));
+    d[a] = w->goal.at[a] * ((dyd_i128)1 << (scale - w->goal.scale)) - z->at[a] * ((dyd_i128)1 << (scale - z->scale));
     sum += d[a] < 0 ? -d[a] : d[a];
   }
   if (sum >> 62) return w->known = false;
@@ -194,7 +195,7 @@ static bool grid_place_inner(dyd_grid_point *z, grid_work *w, const grid_sample 
   if (shift < 1) shift = 1;
   if (scale + shift - fine > 70) return w->known = false;
   for (int a = 0; a < 2; a++) {
-    dyd_i128 moved = d[a] + ((dyd_i128)z->at[a] << (scale + shift - z->scale));
+    dyd_i128 moved = d[a] + z->at[a] * ((dyd_i128)1 << (scale + shift - z->scale));
     z->at[a] = (int64_t)(moved >> (scale + shift - fine));
   }
   z->scale = fine;
