@@ -12,7 +12,7 @@
 
 #include "stream/ball.h"
 
-enum { VARIABLES = 3, MOST_PIECES = 1 << 13 };
+enum { VARIABLES = 3, MOST_PIECES = 1 << 13, MOST_DEPTH = VARIABLES * 64 };
 
 /* ---- one piece ---- */
 
@@ -220,9 +220,9 @@ static void piece_cut(piece *out, const piece *p, int k, int side, slong prec) {
   arb_clear(move);
 }
 
-/* Pieces are taken from a stack: cutting the widest variable, 3 * 64 of them are never reached before they are too
- * many. */
-static bool sight_cover(sight *g, const piece *all) {
+/* Cut across the widest variable, a piece MOST_DEPTH cuts deep is as thin as 2^-64 of the whole: near the centre none
+ * is narrow. */
+static bool sight_cover(sight *g, const piece *all, int depth) {
   piece p;
   int widest;
   if (!g->wide || piece_is_narrow(&widest, g, all)) {
@@ -231,12 +231,12 @@ static bool sight_cover(sight *g, const piece *all) {
     piece_add(g, all);
     return true;
   }
-  if (++g->pieces > MOST_PIECES) return false;
+  if (++g->pieces > MOST_PIECES || depth == MOST_DEPTH) return false;
   piece_init(&p);
   piece_cut(&p, all, widest, -1, g->prec);
-  bool good = sight_cover(g, &p);
+  bool good = sight_cover(g, &p, depth + 1);
   if (good) piece_cut(&p, all, widest, 1, g->prec);
-  good = good && sight_cover(g, &p);
+  good = good && sight_cover(g, &p, depth + 1);
   piece_clear(&p);
   return good;
 }
@@ -384,7 +384,7 @@ bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, mpq_srcptr angle, dyd_
   piece_init(&p);
   piece_set(&p, s, q, prec);
   g.wide = !exact;
-  bool good = sight_cover(&g, &p);
+  bool good = sight_cover(&g, &p, 0);
   if (good) {
     arb_set_interval_arf(x, &g.end[0], &g.end[1], prec);
     arb_set_interval_arf(y, &g.end[2], &g.end[3], prec);

@@ -94,7 +94,7 @@ static void read_words(const char *path) {
 static void splice(text *t, size_t at, size_t cut, const void *bytes, size_t size) {
   if (t->size - cut + size > MOST) return;
   memmove(t->byte + at + size, t->byte + at + cut, t->size - at - cut);
-  memcpy(t->byte + at, bytes, size);
+  if (size) memcpy(t->byte + at, bytes, size);
   t->size += size - cut;
 }
 
