@@ -10,7 +10,6 @@
 #include "base/alloc.h"
 #include "base/index.h"
 #include "engine/points.h"
-#include "engine/settle_face.h"
 
 #include <stdlib.h>
 

@@ -4,13 +4,7 @@
 #define DYD_ENGINE_SETTLE_H
 
 #include "engine/plan.h"
-
-/* possible: some choice of the points of fixed rectangles makes the pair an edge wherever the others are; unsure: it is
- * not legal wherever they are narrowed to. */
-typedef struct dyd_settled_pair {
-  uint32_t i, j;
-  bool possible, unsure;
-} dyd_settled_pair;
+#include "engine/settle_face.h"
 
 /* What is known about pairs, for ever as long as no rectangle that is fixed changes. Init with {0}. Invariant: item is
  * sorted by i, j, without repeats; next: from so many bits on it is worth trying again. */
@@ -22,9 +16,6 @@ typedef struct dyd_settled {
 } dyd_settled;
 
 void dyd_settled_clear(dyd_settled *s);
-static inline bool dyd_pair_is_settled(const dyd_settled_pair *p) {
-  return p->possible && p->unsure;
-}
 /* Is the pair indeterminate for good? */
 bool dyd_is_settled(const dyd_settled *s, const dyd_pair *pair);
 /* Looks at pairs in undecided faces with fixed rectangles and points that can be narrowed, when these are known to more

@@ -3,8 +3,18 @@
 #ifndef DYD_ENGINE_SETTLE_FACE_H
 #define DYD_ENGINE_SETTLE_FACE_H
 
-#include "engine/settle.h"
 #include "engine/settle_firm.h"
+
+/* possible: some choice of the points of fixed rectangles makes the pair an edge wherever the others are; unsure: it is
+ * not legal wherever they are narrowed to. */
+typedef struct dyd_settled_pair {
+  uint32_t i, j;
+  bool possible, unsure;
+} dyd_settled_pair;
+
+static inline bool dyd_pair_is_settled(const dyd_settled_pair *p) {
+  return p->possible && p->unsure;
+}
 
 /* Looks at open pairs of a face with the given sites, and writes down what is found. *work, in sites looked at, becomes
  * less; at 0 no more is done. DYD_CANCELLED when e->stop was seen. Nothing is found where no rectangle is fixed. */

@@ -26,62 +26,59 @@ static dyd_status layer_comments(const dyd_output *o) {
   return dyd_result_faces(r, "# face ", "# face ", " ", "\n");
 }
 
-/* A line between two sites, its columns i, j before, id_i, id_j behind what it says. */
-static void pair_row_begin(dyd_table *t, const dyd_place *place, uint32_t i, uint32_t j) {
+/* A line between two sites. */
+static void pair_row(dyd_table *t, const dyd_place *place, uint32_t i, uint32_t j, const char *status) {
   dyd_row_begin(t);
   if (place) {
     dyd_row_place(t, &place[i]);
     dyd_row_place(t, &place[j]);
   }
-  dyd_row_site(t, i);
-  dyd_row_site(t, j);
-}
-
-static void pair_row_end(dyd_table *t, uint32_t i, uint32_t j) {
-  dyd_row_id(t, i);
-  dyd_row_id(t, j);
+  dyd_row_pair(t, i, j, status);
   dyd_row_end(t);
 }
 
-dyd_status dyd_layer_pairs(const dyd_output *o) {
-  static const char *const column[] = {"i", "j", "status", "id_i", "id_j", NULL};
-  const dyd_result *r = o->what;
-  const dyd_table_head head = layer_head(o, column, DYD_GEOMETRY_LINE);
+typedef void pair_rows(dyd_table *t, const dyd_result *r, const dyd_place *place);
+
+static void rows_of_triangulation(dyd_table *t, const dyd_result *r, const dyd_place *place) {
+  for (size_t k = 0; k < r->pairs.count; k++) {
+    const dyd_pair *p = &r->pairs.item[k];
+    pair_row(t, place, p->i, p->j, dyd_pair_status_text(p->status));
+  }
+}
+
+static void rows_of_graph(dyd_table *t, const dyd_result *r, const dyd_place *place) {
+  for (size_t k = 0; k < r->graph.count; k++) {
+    const dyd_graph_edge *e = &r->graph.item[k];
+    pair_row(t, place, e->i, e->j, e->sure ? "sure" : "possible");
+  }
+}
+
+static dyd_status layer_of_pairs(const dyd_output *o, pair_rows *rows, dyd_status (*comments)(const dyd_output *)) {
+  const dyd_table_head head = layer_head(o, dyd_columns_of_pairs, DYD_GEOMETRY_LINE);
   dyd_place *place = NULL;
   dyd_table t;
   dyd_status st = layer_places(&place, o);
-  if (st == DYD_OK) st = layer_comments(o);
-  if (st == DYD_OK) dyd_table_begin(&t, &head);
-  for (size_t k = 0; k < r->pairs.count && st == DYD_OK; k++) {
-    const dyd_pair *p = &r->pairs.item[k];
-    pair_row_begin(&t, place, p->i, p->j);
-    dyd_row_text(&t, dyd_pair_status_text(p->status));
-    pair_row_end(&t, p->i, p->j);
+  if (st == DYD_OK) st = comments(o);
+  if (st == DYD_OK) {
+    dyd_table_begin(&t, &head);
+    rows(&t, o->what, place);
+    dyd_table_end(&t);
   }
-  if (st == DYD_OK) dyd_table_end(&t);
   free(place);
   return st;
 }
 
-dyd_status dyd_layer_graph(const dyd_output *o) {
-  static const char *const column[] = {"i", "j", "status", "id_i", "id_j", NULL};
-  const dyd_result *r = o->what;
-  const dyd_table_head head = layer_head(o, column, DYD_GEOMETRY_LINE);
-  dyd_place *place = NULL;
-  dyd_table t;
-  dyd_status st = layer_places(&place, o);
-  if (st != DYD_OK) return st;
-  if (o->format == DYD_FORMAT_CSV) dyd_csv_aliases(o->out, r->engine);
-  dyd_table_begin(&t, &head);
-  for (size_t k = 0; k < r->graph.count; k++) {
-    const dyd_graph_edge *e = &r->graph.item[k];
-    pair_row_begin(&t, place, e->i, e->j);
-    dyd_row_text(&t, e->sure ? "sure" : "possible");
-    pair_row_end(&t, e->i, e->j);
-  }
-  dyd_table_end(&t);
-  free(place);
+dyd_status dyd_layer_pairs(const dyd_output *o) {
+  return layer_of_pairs(o, rows_of_triangulation, layer_comments);
+}
+
+static dyd_status graph_comments(const dyd_output *o) {
+  if (o->format == DYD_FORMAT_CSV) dyd_csv_aliases(o->out, ((const dyd_result *)o->what)->engine);
   return DYD_OK;
+}
+
+dyd_status dyd_layer_graph(const dyd_output *o) {
+  return layer_of_pairs(o, rows_of_graph, graph_comments);
 }
 
 static void point_row(dyd_table *t, const dyd_result *r, size_t i, const dyd_place *place, const dyd_site_row *row) {

@@ -45,9 +45,8 @@ static void sphere_comments(const dyd_output *o) {
 }
 
 dyd_status dyd_sphere_layer_pairs(const dyd_output *o) {
-  static const char *const column[] = {"i", "j", "status", "id_i", "id_j", NULL};
   const dyd_sphere_result *r = o->what;
-  const dyd_table_head head = sphere_head(o, column, DYD_GEOMETRY_LINES);
+  const dyd_table_head head = sphere_head(o, dyd_columns_of_pairs, DYD_GEOMETRY_LINES);
   degree_box *box = NULL;
   dyd_table t;
   dyd_status st = o->format == DYD_FORMAT_CSV ? DYD_OK : sphere_boxes(&box, r->sphere);
@@ -58,11 +57,7 @@ dyd_status dyd_sphere_layer_pairs(const dyd_output *o) {
     const dyd_pair *p = &r->pairs.item[k];
     dyd_row_begin(&t);
     if (box) st = dyd_row_arc(&t, box[p->i].end, box[p->j].end);
-    dyd_row_site(&t, p->i);
-    dyd_row_site(&t, p->j);
-    dyd_row_text(&t, dyd_pair_status_text(p->status));
-    dyd_row_id(&t, p->i);
-    dyd_row_id(&t, p->j);
+    dyd_row_pair(&t, p->i, p->j, dyd_pair_status_text(p->status));
     dyd_row_end(&t);
   }
   dyd_table_end(&t);

@@ -229,6 +229,16 @@ void dyd_row_text(dyd_table *t, const char *text) {
   if (is_geojson(t)) table_put(t, "\"");
 }
 
+const char *const dyd_columns_of_pairs[] = {"i", "j", "status", "id_i", "id_j", NULL};
+
+void dyd_row_pair(dyd_table *t, size_t i, size_t j, const char *status) {
+  dyd_row_site(t, i);
+  dyd_row_site(t, j);
+  dyd_row_text(t, status);
+  dyd_row_id(t, i);
+  dyd_row_id(t, j);
+}
+
 static void row_number(dyd_table *t, double x, int digits, dyd_round dir) {
   char text[DYD_DECIMAL_SIZE];
   value_begin(t);

@@ -68,6 +68,9 @@ void dyd_row_index(dyd_table *t, size_t i);
 /* The number of a site in its file; its identifier, which is left out where there are none. */
 void dyd_row_site(dyd_table *t, size_t i);
 void dyd_row_id(dyd_table *t, size_t i);
+/* The columns of pairs: i, j, status, id_i, id_j; and what they say of one. */
+extern const char *const dyd_columns_of_pairs[];
+void dyd_row_pair(dyd_table *t, size_t i, size_t j, const char *status);
 /* Our own words and numbers: nothing needs quoting in csv. */
 void dyd_row_text(dyd_table *t, const char *text);
 /* A decimal rounded in direction dir; none where x is not finite. */
