@@ -234,8 +234,9 @@ void cli_deadline_phase(const char *what);
 void cli_deadline_written(int status);
 /* Of the seconds left, such a share, above 0; 0: there is no limit. For options of the engine. */
 double cli_deadline_left(double share);
-/* Set to 1 at the deadline. */
+/* Set to 1 at the deadline, by another thread: for those who take a flag to be cancelled by. */
 const volatile int *cli_deadline_flag(void);
+bool cli_deadline_passed(void);
 /* Seconds of a clock that only goes forward. */
 double cli_clock(void);
 

@@ -61,7 +61,7 @@ static void take_bounds(dyd_voronoi_bounds *out, cli_session *s, const dyd_conve
 /* The last row lacks bounds since no time was left for them: says so. Returns the exit status. */
 static int note_cut(const dyd_convergence *table, const cli_options *o) {
   const dyd_stage_row *last = table->count ? table->row[table->count - 1] : NULL;
-  if (!last || !*cli_deadline_flag() || (last->bounded && (last->voronoi || !table->window))) return 0;
+  if (!last || !cli_deadline_passed() || (last->bounded && (last->voronoi || !table->window))) return 0;
   if (!o->quiet)
     cli_complain("budget: the time is used up: bounds of stage %llu are left out; raise --timeout",
                  (unsigned long long)last->stage);

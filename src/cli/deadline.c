@@ -70,3 +70,7 @@ double cli_deadline_left(double share) {
 const volatile int *cli_deadline_flag(void) {
   return &late;
 }
+
+bool cli_deadline_passed(void) {
+  return __atomic_load_n(&late, __ATOMIC_SEQ_CST);
+}

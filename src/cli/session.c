@@ -196,7 +196,7 @@ int cli_session_write(cli_session *s, cli_print_fn print) {
   const char *certificate = s->options->certificate;
   int status = cli_write_file(s->options->output, s->options, print, s->engine);
   if (!certificate || (status && !cli_output_lost_reader())) return status;
-  if (*cli_deadline_flag()) {
+  if (cli_deadline_passed()) {
     cli_complain("budget: the time is used up, so no certificate is written; raise --timeout");
     return CLI_BUDGET;
   }
@@ -208,7 +208,7 @@ int cli_session_write(cli_session *s, cli_print_fn print) {
 /* The engine may see the end of time a little before the flag is raised. */
 int cli_session_stopped(const cli_session *s, const char *what) {
   const dyd_engine *e = s->engine;
-  bool late = *cli_deadline_flag() || (!dyd_engine_delaunay(e) && dyd_engine_outcome(e) == DYD_OUTCOME_BUDGET);
+  bool late = cli_deadline_passed() || (!dyd_engine_delaunay(e) && dyd_engine_outcome(e) == DYD_OUTCOME_BUDGET);
   cli_complain("%s before %s known: there is no result to write%s", late ? "budget: the time was used up" : "cancelled",
                what, late ? "; raise --timeout" : "");
   return late ? CLI_BUDGET : CLI_CANCELLED;

@@ -2,6 +2,8 @@
 /* The Gabriel graph [GAB-1]. */
 #include "graph/graph.h"
 
+#include "base/flag.h"
+
 static size_t degree_of(const dyd_graph_work *w, uint32_t i) {
   return w->start[i + 1] - w->start[i];
 }
@@ -35,7 +37,7 @@ dyd_status dyd_gabriel_graph(dyd_graph_work *w) {
   for (size_t k = 0; k < w->pairs.count && st == DYD_OK; k++) {
     const dyd_pair *p = &w->pairs.item[k];
     dyd_graph_status status;
-    if (w->cancel && *w->cancel) return DYD_CANCELLED;
+    if (dyd_flag_is_set(w->cancel)) return DYD_CANCELLED;
     st = dyd_gabriel_status(&status, w, p->i, p->j);
     if (st == DYD_OK && status != DYD_GRAPH_NEVER) st = dyd_graph_add(w, p->i, p->j, status == DYD_GRAPH_SURE);
   }

@@ -2,6 +2,7 @@
 /* The nearest-neighbour graph [NNG-1]. */
 #include "graph/graph.h"
 
+#include "base/flag.h"
 #include "rect/sites_table.h"
 
 /* Only for exact points i, which have one distance to each: the least of the largest distances of all but one decides
@@ -67,6 +68,7 @@ static dyd_status nearest_of(dyd_graph_work *w, uint32_t i) {
 
 dyd_status dyd_nearest_graph(dyd_graph_work *w) {
   dyd_status st = DYD_OK;
-  for (uint32_t i = 0; i < w->n && st == DYD_OK; i++) st = w->cancel && *w->cancel ? DYD_CANCELLED : nearest_of(w, i);
+  for (uint32_t i = 0; i < w->n && st == DYD_OK; i++)
+    st = dyd_flag_is_set(w->cancel) ? DYD_CANCELLED : nearest_of(w, i);
   return st;
 }

@@ -7,6 +7,7 @@
  *         closes a circle with it; or j is surely the nearest one to i, or i to j
  * Its edges are edges of the Gabriel graph: what is never one of these is none here. */
 #include "base/alloc.h"
+#include "base/flag.h"
 #include "graph/lengths.h"
 
 /* Sets of sites; a set's `at` is its top in the tree. */
@@ -204,7 +205,7 @@ dyd_status dyd_spanning_graph(dyd_graph_work *w) {
     st = find_sure_nearest(&s);
   }
   for (uint32_t p = 0; p < w->pairs.count && st == DYD_OK; p++)
-    st = w->cancel && *w->cancel ? DYD_CANCELLED : span_pair(&s, p);
+    st = dyd_flag_is_set(w->cancel) ? DYD_CANCELLED : span_pair(&s, p);
   spanning_work_clear(&s);
   return st;
 }
