@@ -35,9 +35,10 @@ def get(path):
 
 
 def start(folder, *args, way, prepare=None):
-    """With SIGHUP as it is by default, whether or not the tests run under nohup."""
+    """With signals as they are by default, whether or not the tests run under nohup or in the background of a script."""
     def prepare_all():
-        signal.signal(signal.SIGHUP, signal.SIG_DFL)
+        for number in (signal.SIGHUP, signal.SIGINT, signal.SIGQUIT):
+            signal.signal(number, signal.SIG_DFL)
         if prepare:
             prepare()
     return subprocess.Popen([COMMAND, *args], cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
