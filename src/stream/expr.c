@@ -203,8 +203,20 @@ static bool is_letter(int c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
+/* "inf" or "infinity", in capitals or not, as programs write them. */
+static bool name_is_infinity(const char *name, size_t n) {
+  static const char whole[] = "infinity";
+  if (n != 3 && n != 8) return false;
+  for (size_t k = 0; k < n; k++)
+    if ((name[k] | 0x20) != whole[k]) return false;
+  return true;
+}
+
 static dyd_status name_fail(parser *p, size_t at, size_t n) {
   int shown = n < 32 ? (int)n : 32;
+  if (name_is_infinity(p->text + at, n))
+    return FAIL(p, at, DYD_E_PARSE,
+                "coordinates are finite, and this is infinite; give a number, or leave the point out");
   if (n == 4 && !memcmp(p->text + at, "root", 4)) {
     return FAIL(p, at, DYD_E_PARSE, "root(polynomial, lo, hi) cannot stand within another root");
   }
