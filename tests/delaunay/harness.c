@@ -86,6 +86,24 @@ void harness_run(harness *h, const orc_case *c, case_check check) {
   fail_msg("%s", message);
 }
 
+static void run_kind(harness *h, size_t kind, size_t most, size_t cases, case_check check) {
+  orc_case c;
+  orc_case_init(&c);
+  for (size_t k = 0; k < cases; k++) {
+    orc_generate(&c, &h->random, kind, most);
+    harness_run(h, &c, check);
+  }
+  orc_case_clear(&c);
+}
+
+void harness_run_kinds(harness *h, size_t most, size_t cases, case_check check) {
+  for (size_t kind = 0; kind < ORC_KINDS; kind++) run_kind(h, kind, most, cases, check);
+}
+
+void harness_run_cases(harness *h, size_t most, size_t cases, case_check check) {
+  for (size_t k = 0; k < cases; k++) run_kind(h, k % ORC_KINDS, most, 1, check);
+}
+
 static void set_dyadic(dyd_dyadic *out, mpq_srcptr x) {
   int64_t down = (int64_t)mpz_scan1(mpq_denref(x), 0);
   assert_int_equal(mpz_popcount(mpq_denref(x)), 1);

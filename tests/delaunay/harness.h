@@ -28,6 +28,9 @@ typedef bool (*case_check)(char *message, harness *h, const orc_case *c);
 /* Runs the check; on failure drops rectangles while it still fails, prints the case and fails the test. The
  * check must be deterministic: the generator's state is the same at every call. */
 void harness_run(harness *h, const orc_case *c, case_check check);
+/* Runs the check on random cases of at most so many rectangles: so many of every kind, and so many in all. */
+void harness_run_kinds(harness *h, size_t most, size_t cases, case_check check);
+void harness_run_cases(harness *h, size_t most, size_t cases, case_check check);
 
 /* false, with the formatted message. */
 bool wrong(char *message, const char *format, ...);
@@ -52,6 +55,11 @@ bool same_as_oracle(char *message, harness *h, const orc_case *c, const orc_tabl
 bool same_statuses(char *message, harness *h, const orc_case *c, const dyd_delaunay *a, const dyd_delaunay *b);
 /* Two statuses of one pair of the case: equal, or one is legal, one indeterminate and the pair a hairline. */
 bool same_status(harness *h, const orc_case *c, uint32_t i, uint32_t j, int s, int t);
+/* Statuses of all pairs, to be compared with later ones. */
+typedef unsigned char snapshot[ORC_MAX][ORC_MAX];
+void snapshot_take(snapshot out, const dyd_delaunay *pd, size_t n);
+/* Is what was definite so still? Two sites that have become the same point are no pair any more. */
+bool snapshot_kept(char *message, snapshot was, const orc_case *now, const dyd_delaunay *pd);
 /* Pairs, neighbours, counts, faces, aliases, hull against dyd_delaunay_status. */
 bool queries_agree(char *message, const orc_case *c, const dyd_delaunay *pd);
 /* The sure triangles against the definition. */

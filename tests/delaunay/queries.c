@@ -69,6 +69,22 @@ bool same_statuses(char *message, harness *h, const orc_case *c, const dyd_delau
 }
 
 /* Are the pairs sorted, i < j, without aliases, and right? Counts them by status. */
+void snapshot_take(snapshot out, const dyd_delaunay *pd, size_t n) {
+  for (uint32_t i = 0; i < n; i++)
+    for (uint32_t j = 0; j < n; j++) out[i][j] = (unsigned char)dyd_delaunay_status(pd, i, j);
+}
+
+bool snapshot_kept(char *message, snapshot was, const orc_case *now, const dyd_delaunay *pd) {
+  for (uint32_t i = 0; i < now->n; i++)
+    for (uint32_t j = 0; j < now->n; j++) {
+      if (orc_case_alias(now, i) == orc_case_alias(now, j)) continue;
+      unsigned char is = (unsigned char)dyd_delaunay_status(pd, i, j);
+      if (was[i][j] != DYD_INDETERMINATE && is != was[i][j])
+        return wrong(message, "pair %u %u: retracted from %d to %d", i, j, was[i][j], is);
+    }
+  return true;
+}
+
 static bool list_right(char *message, size_t count[4], const orc_case *c, const dyd_delaunay *pd,
                        const dyd_pair_list *l, const char *name) {
   memset(count, 0, 4 * sizeof *count);

@@ -66,26 +66,15 @@ static bool check(char *message, harness *h, const orc_case *c) {
   return good;
 }
 
-static void run_kinds(size_t most, size_t cases) {
-  orc_case c;
-  orc_case_init(&c);
-  for (size_t kind = 0; kind < ORC_KINDS; kind++)
-    for (size_t k = 0; k < cases; k++) {
-      orc_generate(&c, &shared.random, kind, most);
-      harness_run(&shared, &c, check);
-    }
-  orc_case_clear(&c);
-}
-
 static void test_small(void **state) {
   (void)state;
-  run_kinds(7, test_cases(40));
+  harness_run_kinds(&shared, 7, test_cases(40), check);
 }
 
 /* More sites than the oracle could do. */
 static void test_larger(void **state) {
   (void)state;
-  run_kinds(30, test_cases(3));
+  harness_run_kinds(&shared, 30, test_cases(3), check);
 }
 
 int main(void) {

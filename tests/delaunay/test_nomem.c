@@ -12,25 +12,6 @@
 
 static harness shared;
 
-typedef unsigned char snapshot[ORC_MAX][ORC_MAX];
-
-static void take(snapshot out, const dyd_delaunay *pd, size_t n) {
-  for (uint32_t i = 0; i < n; i++)
-    for (uint32_t j = 0; j < n; j++) out[i][j] = (unsigned char)dyd_delaunay_status(pd, i, j);
-}
-
-/* A face is replaced as a whole or not at all, so after a failure only this is sure: nothing is retracted. */
-static bool not_retracted(char *message, snapshot was, const orc_case *now, const dyd_delaunay *pd) {
-  for (uint32_t i = 0; i < now->n; i++)
-    for (uint32_t j = 0; j < now->n; j++) {
-      if (orc_case_alias(now, i) == orc_case_alias(now, j)) continue;
-      unsigned char is = (unsigned char)dyd_delaunay_status(pd, i, j);
-      if (was[i][j] != DYD_INDETERMINATE && is != was[i][j])
-        return wrong(message, "pair %u %u retracted by an unfinished update", i, j);
-    }
-  return true;
-}
-
 /* dyd_delaunay_new with every allocation failing once. It may do without (a rung of a filter is left out). */
 static bool new_fails_well(char *message, const dyd_sites *s) {
   for (size_t k = 1;; k++) {
@@ -95,7 +76,7 @@ static bool narrow_some(char *message, harness *h, dyd_sites *s, orc_case *now, 
 static bool update_fails_well(char *message, harness *h, const dyd_sites *s, dyd_delaunay *pd, const orc_case *now,
                               const uint32_t *changed, size_t count) {
   snapshot was;
-  take(was, pd, now->n);
+  snapshot_take(was, pd, now->n);
   dyd_status status = DYD_E_NOMEM;
   for (size_t k = 1; status != DYD_OK; k++) {
     dyd_error err;
@@ -106,7 +87,7 @@ static bool update_fails_well(char *message, harness *h, const dyd_sites *s, dyd
     countdown = 0;
     if (over ? status != DYD_OK : status != DYD_E_NOMEM && status != DYD_OK)
       return wrong(message, "update, allocation %zu fails: status %d", k, status);
-    if (!not_retracted(message, was, now, pd)) return false;
+    if (!snapshot_kept(message, was, now, pd)) return false;
   }
   dyd_delaunay *fresh = harness_engine(message, s, NULL);
   bool good = fresh && same_statuses(message, h, now, pd, fresh) && queries_agree(message, now, pd);
@@ -136,20 +117,9 @@ static bool check(char *message, harness *h, const orc_case *c) {
   return good;
 }
 
-static void run_kinds(size_t most, size_t cases, case_check one) {
-  orc_case c;
-  orc_case_init(&c);
-  for (size_t kind = 0; kind < ORC_KINDS; kind++)
-    for (size_t k = 0; k < cases; k++) {
-      orc_generate(&c, &shared.random, kind, most);
-      harness_run(&shared, &c, one);
-    }
-  orc_case_clear(&c);
-}
-
 static void test_memory(void **state) {
   (void)state;
-  run_kinds(9, test_cases(3), check);
+  harness_run_kinds(&shared, 9, test_cases(3), check);
 }
 
 /* ---- cancelling in the middle ---- */
@@ -174,12 +144,12 @@ static bool cancelled_update(char *message, harness *h, const dyd_sites *s, dyd_
   pthread_t thread;
   alarm_clock a = {0, (long)test_below(&h->random, 2000000)};
   dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = &a.flag};
-  take(was, pd, now->n);
+  snapshot_take(was, pd, now->n);
   if (pthread_create(&thread, NULL, ring, &a)) return wrong(message, "no thread");
   dyd_status status = dyd_delaunay_update(pd, changed, count, &o, NULL);
   pthread_join(thread, NULL);
   if (status != DYD_OK && status != DYD_CANCELLED) return wrong(message, "cancelled update gives %d", status);
-  if (!not_retracted(message, was, now, pd)) return false;
+  if (!snapshot_kept(message, was, now, pd)) return false;
   if (status == DYD_CANCELLED) {
     h->carried++;
     status = dyd_delaunay_update(pd, changed, count, NULL, NULL);
@@ -214,7 +184,7 @@ static bool check_cancel(char *message, harness *h, const orc_case *c) {
 
 static void test_cancelling(void **state) {
   (void)state;
-  run_kinds(25, test_cases(4), check_cancel);
+  harness_run_kinds(&shared, 25, test_cases(4), check_cancel);
   fprintf(stderr, "# %zu updates cancelled in the middle\n", shared.carried);
   shared.carried = 0;
 }

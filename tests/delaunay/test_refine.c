@@ -10,25 +10,6 @@
 
 static harness shared;
 
-typedef unsigned char snapshot[ORC_MAX][ORC_MAX];
-
-static void take(snapshot out, const dyd_delaunay *pd, size_t n) {
-  for (uint32_t i = 0; i < n; i++)
-    for (uint32_t j = 0; j < n; j++) out[i][j] = (unsigned char)dyd_delaunay_status(pd, i, j);
-}
-
-/* Two sites that have become the same point are no pair any more. */
-static bool not_retracted(char *message, snapshot was, const orc_case *now, const dyd_delaunay *pd) {
-  for (uint32_t i = 0; i < now->n; i++)
-    for (uint32_t j = 0; j < now->n; j++) {
-      if (orc_case_alias(now, i) == orc_case_alias(now, j)) continue;
-      unsigned char is = (unsigned char)dyd_delaunay_status(pd, i, j);
-      if (was[i][j] != DYD_INDETERMINATE && is != was[i][j])
-        return wrong(message, "pair %u %u: retracted from %d to %d", i, j, was[i][j], is);
-    }
-  return true;
-}
-
 /* A legal status carried over where a fresh run gives up is allowed, and counted. */
 static bool same_as_fresh(char *message, harness *h, const orc_case *now, const dyd_sites *s, const dyd_delaunay *pd) {
   dyd_delaunay *fresh = harness_engine(message, s, NULL);
@@ -95,8 +76,8 @@ static bool run_steps(char *message, harness *h, dyd_delaunay *pd, dyd_sites *s,
   size_t steps = 6;
   for (size_t k = 0; k <= steps; k++) {
     char text[MESSAGE_SIZE] = "";
-    take(was, pd, now->n);
-    if (step(text, h, pd, s, now, target, k == steps) && not_retracted(text, was, now, pd) &&
+    snapshot_take(was, pd, now->n);
+    if (step(text, h, pd, s, now, target, k == steps) && snapshot_kept(text, was, now, pd) &&
         right_now(text, h, now, s, pd))
       continue;
     fprintf(stderr, "at step %zu the rectangles are:\n", k);
@@ -123,25 +104,14 @@ static bool check(char *message, harness *h, const orc_case *c) {
   return good;
 }
 
-static void run_kinds(size_t most, size_t cases) {
-  orc_case c;
-  orc_case_init(&c);
-  for (size_t kind = 0; kind < ORC_KINDS; kind++)
-    for (size_t k = 0; k < cases; k++) {
-      orc_generate(&c, &shared.random, kind, most);
-      harness_run(&shared, &c, check);
-    }
-  orc_case_clear(&c);
-}
-
 static void test_small(void **state) {
   (void)state;
-  run_kinds(7, test_cases(12));
+  harness_run_kinds(&shared, 7, test_cases(12), check);
 }
 
 static void test_larger(void **state) {
   (void)state;
-  run_kinds(24, test_cases(2));
+  harness_run_kinds(&shared, 24, test_cases(2), check);
 }
 
 int main(void) {

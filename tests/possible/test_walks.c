@@ -241,13 +241,7 @@ static bool cover_both(char *message, harness *h, const orc_case *c) {
 
 static void test_cover(void **state) {
   (void)state;
-  orc_case c;
-  orc_case_init(&c);
-  for (size_t k = test_cases(ORC_KINDS * 20); k; k--) {
-    orc_generate(&c, &shared.random, k % ORC_KINDS, 6);
-    harness_run(&shared, &c, cover_both);
-  }
-  orc_case_clear(&c);
+  harness_run_cases(&shared, 6, test_cases(ORC_KINDS * 20), cover_both);
   assert_true(shared.undecided > 20);
   fprintf(stderr, "# in doubles: impossible %llu, unknown %llu, possible %llu\n", (unsigned long long)quickly[0],
           (unsigned long long)quickly[1], (unsigned long long)quickly[2]);

@@ -140,13 +140,7 @@ static void random_bisectors(void **state) {
   (void)state;
   harness h;
   harness_init(&h, "bisectors");
-  orc_case c;
-  orc_case_init(&c);
-  for (size_t k = 0; k < test_cases(1500); k++) {
-    orc_generate(&c, &h.random, k % ORC_KINDS, 3);
-    harness_run(&h, &c, check_bisector);
-  }
-  orc_case_clear(&c);
+  harness_run_cases(&h, 3, test_cases(1500), check_bisector);
   harness_clear(&h);
 }
 

@@ -421,14 +421,8 @@ static void random_cases(void **state) {
   (void)state;
   harness h;
   harness_init(&h, "polygons random");
-  orc_case c;
-  orc_case_init(&c);
-  for (size_t k = 0; k < test_cases(70); k++) {
-    orc_generate(&c, &h.random, k % ORC_KINDS, 7);
-    harness_run(&h, &c, check_case);
-  }
+  harness_run_cases(&h, 7, test_cases(70), check_case);
   fprintf(stderr, "# %zu vertices, %zu probes\n", vertices, probes);
-  orc_case_clear(&c);
   harness_clear(&h);
 }
 

@@ -152,10 +152,7 @@ static void random_cases(void **state) {
   harness_init(&h, "vertices random");
   orc_case c;
   orc_case_init(&c);
-  for (size_t k = 0; k < test_cases(600); k++) {
-    orc_generate(&c, &h.random, k % ORC_KINDS, 8);
-    harness_run(&h, &c, check_case);
-  }
+  harness_run_cases(&h, 8, test_cases(600), check_case);
   for (size_t k = 0; k < test_cases(60); k++) {
     thin_case(&c, &h.random, 9, 6, 50);
     harness_run(&h, &c, check_case);
