@@ -25,6 +25,11 @@ def run(*args, stdin=b'', binary=False, **options):
     return Run(done.returncode, done.stdout.decode('latin-1' if binary else 'utf-8'), done.stderr.decode())
 
 
+def cases(count):
+    """How many random cases are run: so many, and a share of them with sanitizers, which make each many times as slow."""
+    return count // 8 if os.environ.get('DYADEL_TEST_SANITIZED') else count
+
+
 def count(text):
     """Statuses counted in csv output; checks its form: header, i < j, sorted."""
     lines = [line for line in text.splitlines() if not line.startswith('#')]

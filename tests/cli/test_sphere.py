@@ -16,7 +16,7 @@ import xml.etree.ElementTree
 
 import globe
 from globe import Q
-from harness import DATA, count, expect, main, run
+from harness import DATA, cases, count, expect, main, run
 
 SEED = int(os.environ.get('DYADEL_TEST_SEED', '1'))
 AIRPORTS = ['--columns', 'longitude,latitude', os.path.join(DATA, 'airports.csv')]
@@ -55,7 +55,7 @@ def some_places(r, kind):
 def test_random_sets():
     """1,000 sets: statuses, outcome, aliases; sure triangles of every fourth."""
     r = random.Random(SEED)
-    for k in range(1000):
+    for k in range(cases(1000)):
         exact, places = some_places(r, k % 7)
         want = globe.statuses(exact, places)
         got, result = sphere(places)
@@ -80,7 +80,7 @@ def turned(places, r):
 def test_turned():
     """Rotations and other orders, and so other points to project from, change nothing."""
     r = random.Random(SEED)
-    for k in range(60):
+    for k in range(cases(60)):
         _, places = some_places(r, k % 3)
         want, _ = sphere(places)
         got, _ = sphere(turned(places, r))
@@ -194,7 +194,7 @@ def scattered(r, n, wide):
 def test_choices_within_radii():
     """Random choices never contradict what is stated; choices in a smaller radius are decided no less."""
     r = random.Random(SEED)
-    for k in range(40):
+    for k in range(cases(40)):
         metres = r.choice([1000, 50000, 400000])
         places = scattered(r, r.randrange(4, 9), 1.2 * metres / 6371008.8)
         exact = r.randrange(2)  # the first one has no radius of its own
@@ -210,7 +210,7 @@ def test_choices_within_radii():
 def test_choices_within_boxes():
     """Boxes of degrees, beyond the poles and across 180 degrees, beside exact places."""
     r = random.Random(SEED)
-    for k in range(40):
+    for k in range(cases(40)):
         half = r.choice([0.01, 0.5, 3])
         places = scattered(r, r.randrange(4, 9), math.radians(2 * half))
         wide = [i > 1 or r.random() < 0.5 for i in range(len(places))]
@@ -277,7 +277,7 @@ def area(rings):
 def test_triangles_cover_the_globe():
     """Poles within, sides across 180 degrees: the parts add up to all of it, none turned inside out."""
     r = random.Random(SEED)
-    for k in range(12):
+    for k in range(cases(12)):
         places = [(r.randrange(-180, 180), r.randrange(-89, 90)) for _ in range(20)]
         text = OCTAHEDRON + ''.join(f'{x + 0.25} {y}\n' for x, y in places)
         shapes = json.loads(run('delaunay', '--sphere', '-q', '--format', 'geojson', '--layer', 'triangles', '-', stdin=text).out)
@@ -326,7 +326,7 @@ def check_cells(whole):
 def test_voronoi_random():
     """Vertices where they are, cells in order; what is tied is in regions."""
     r = random.Random(SEED)
-    for k in range(80):
+    for k in range(cases(80)):
         exact, places = some_places(r, k % 7)
         whole = diagram(''.join(f'{x} {y}\n' for x, y in places))
         for vertex in whole['vertices']:
@@ -343,7 +343,7 @@ def test_voronoi_radius():
     """Vertices hold for choices within the radius."""
     r = random.Random(SEED)
     checked = 0
-    for k in range(20):
+    for k in range(cases(20)):
         metres = r.choice([100, 20000])
         places = scattered(r, 9, 1.2 * metres / 6371008.8)
         whole = diagram(''.join(f'{x} {y}\n' for x, y in places), '--radius', f'{metres}m')
