@@ -223,6 +223,8 @@ typedef struct dyd_sphere_output {
    * pairs. */
   dyd_content layer;
   unsigned epsg; /* as in dyd_delaunay_output; 0: longitude and latitude (CRS84) in geojson */
+  /* What svg, pdf and png show: degrees, positive area; longitudes modulo 360, as in [170, 200]. NULL: everything. */
+  const dyd_rect *window;
 } dyd_sphere_output;
 /* Writes the current result of s; o may be NULL. In wkt and geojson edges are great circles, a place at every 2 degrees
  * at most, cut where they cross the meridian of 180 degrees; of triangles that hold more than half of the sphere the

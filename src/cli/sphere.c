@@ -3,7 +3,7 @@
 #include "cli.h"
 
 static dyd_status sphere_write(FILE *out, const void *sphere, const cli_options *o, dyd_error *err) {
-  const dyd_sphere_output how = {DYD_SIZED(dyd_sphere_output), o->content, o->epsg};
+  const dyd_sphere_output how = {DYD_SIZED(dyd_sphere_output), o->content, o->epsg, o->view};
   return dyd_write_sphere(out, sphere, &how, o->format, err);
 }
 
@@ -21,11 +21,15 @@ static dyd_status sphere_run(dyd_engine *images, const dyd_engine_options *optio
 static int refuse_on_sphere(const cli_options *o) {
   const char *what = o->discs                             ? "--discs"
                      : o->flatten_set                     ? "--flatten"
-                     : o->window                          ? "--window"
                      : o->engine.goal != DYD_GOAL_DECIDED ? "--until"
                                                           : NULL;
-  if (!what) return 0;
-  cli_complain("%s is about the plane; leave %s or --sphere away", what, what);
+  bool picture = o->format == DYD_FORMAT_SVG || o->format == DYD_FORMAT_PDF || o->format == DYD_FORMAT_PNG;
+  if (what)
+    cli_complain("%s is about the plane; leave %s or --sphere away", what, what);
+  else if (o->window && !picture)
+    cli_complain("on a sphere --window is the part that a picture shows; give svg, pdf or png, or leave it away");
+  else
+    return 0;
   return CLI_USAGE;
 }
 
@@ -87,15 +91,27 @@ static int sphere_all(cli_session *s, const cli_options *o) {
   return status;
 }
 
-int cli_sphere(const cli_options *o) {
+static int sphere_points(const cli_options *o) {
   cli_options read = *o;
   cli_session s;
-  int status = refuse_on_sphere(o);
-  if (status) return status;
   read.read.degrees = true;
   read.read.radius = NULL; /* it may have a unit, and widens places */
-  status = cli_session_open(&s, &read);
+  int status = cli_session_open(&s, &read);
   if (!status) status = sphere_all(&s, o);
   cli_session_close(&s, CLI_USAGE); /* what is open was told of */
+  return status;
+}
+
+int cli_sphere(const cli_options *o) {
+  cli_options own = *o; /* with the window read */
+  dyd_rect window;
+  int status = refuse_on_sphere(o);
+  dyd_rect_init(&window);
+  if (!status && o->window) {
+    own.view = &window;
+    status = cli_window_read(&window, o->window);
+  }
+  if (!status) status = sphere_points(&own);
+  dyd_rect_clear(&window);
   return status;
 }

@@ -169,9 +169,9 @@ const cli_option cli_option_table[] = {
 
     {"window", 0, "XLO,XHI,YLO,YHI", CLI_WINDOW, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_OUTPUT,
      "the part of the plane looked at; exact numbers\n(default: the box of the points enlarged by half);\n"
-     "delaunay: what svg, pdf, png and html show (default: all),\nother formats list everything all the same;\nplan: "
-     "only "
-     "pairs with an end in it are to be decided",
+     "delaunay: what svg, pdf, png and html show (default: all),\nother formats list everything all the same;\nwith "
+     "--sphere: the degrees that svg, pdf and png show;\n"
+     "plan: only pairs with an end in it are to be decided",
      AT(window)},
     {"flatten", 0, "M", CLI_INTEGER, BIT(CLI_VORONOI), CLI_OUTPUT, "draw arcs by polygons within 2^-M of them",
      AT(flatten_bits), RANGE(-DYD_EXP_LIMIT, DYD_EXP_LIMIT), GIVEN(flatten_set)},

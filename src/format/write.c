@@ -334,7 +334,7 @@ dyd_status dyd_write_sphere(FILE *out, const dyd_sphere *s, const dyd_sphere_out
       refuse_layer(o.layer, DYD_CONTENT_SPHERE_VORONOI, err) != DYD_OK)
     return DYD_E_ARG;
   if (!result_of(dyd_sphere_images(s), err)) return DYD_E_ARG;
-  dyd_sphere_result r = {.sphere = s, .epsg = o.epsg};
+  dyd_sphere_result r = {.sphere = s, .epsg = o.epsg, .window = o.window};
   dyd_status st = dyd_sphere_pairs(&r.pairs, s);
   if (st == DYD_OK)
     st = dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_SPHERE), &r, err);

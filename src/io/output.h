@@ -71,6 +71,7 @@ typedef struct dyd_sphere_result {
   const dyd_sphere *sphere;
   dyd_pair_list pairs;
   unsigned epsg;
+  const dyd_rect *window; /* what pictures show, in degrees; NULL: everything */
 } dyd_sphere_result;
 
 /* Writers that such arrays take from other files. */

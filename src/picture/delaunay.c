@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The picture of the triangulation: rectangles, edges and partial edges by status, sure triangles. */
 #include "base/error.h"
-#include "io/result.h"
 #include "picture/picture.h"
 #include <math.h>
 #include <stdlib.h>
@@ -18,11 +17,8 @@ static const struct {
 enum { OPEN = 1 };
 #define TRIANGLE 0xe6f0f7
 #define CLOSE 12.0 /* neighbours so close have rectangles that hide each other */
-#define ROOMY 28.0 /* neighbours so far apart have room for numbers */
 #define WIDE 50.0  /* room around the frame, in points, for lines and dashes that begin outside */
 #define FAR 1e13   /* lengths on the page from where doubles do not tell positions to a hundredth */
-
-enum { MOST_NAMES = 40000 }; /* lines and triangles that have a name each; beyond, a file would be all names */
 
 /* wide: the frame of the view with some room. */
 typedef struct delaunay_drawing {
@@ -30,10 +26,11 @@ typedef struct delaunay_drawing {
   dyd_view view;
   dyd_triangle_list triangles;
   double wide[4];
-  size_t shown[4], sites;                                 /* lines of each status, rectangles that meet the frame */
-  dyd_density open;                                       /* of indeterminate lines */
-  bool crowded;                                           /* it is drawn in place of them */
-  bool triangle, region[4], mark[DYD_MARK_RECTANGLE + 1]; /* was drawn */
+  size_t shown[4], sites;   /* lines of each status, rectangles that meet the frame */
+  dyd_density open;         /* of indeterminate lines */
+  bool crowded;             /* it is drawn in place of them */
+  bool triangle, region[4]; /* was drawn */
+  dyd_site_marks marks;
 } delaunay_drawing;
 
 /* What lines of a style are called. */
@@ -66,7 +63,7 @@ static bool polygon_path(dyd_canvas *c, const delaunay_drawing *d, double z[DYD_
 }
 
 static bool has_names(const delaunay_drawing *d) {
-  return d->triangles.count + d->r->pairs.count <= MOST_NAMES;
+  return d->triangles.count + d->r->pairs.count <= DYD_PICTURE_NAMES;
 }
 
 static void draw_triangles(dyd_canvas *c, delaunay_drawing *d) {
@@ -161,32 +158,6 @@ static void draw_edges(dyd_canvas *c, const delaunay_drawing *d, int k) {
   if (!names && any) dyd_picture_stroke(c, style[k].rgb, width, style[k].on, style[k].off);
 }
 
-static void draw_sites(dyd_canvas *c, delaunay_drawing *d) {
-  for (size_t i = 0; i < d->r->count; i++) {
-    double b[4];
-    if (dyd_delaunay_alias(d->r->pd, (uint32_t)i) != i) continue;
-    dyd_sites_get_d(b, d->r->sites, i);
-    d->mark[dyd_picture_site(c, &d->view, b, d->r->engine, i, DYD_PICTURE_BAND)] = true;
-  }
-}
-
-/* Without room for the numbers they are left out. */
-static void draw_numbers(dyd_canvas *c, const delaunay_drawing *d) {
-  dyd_numbers labels;
-  if (d->view.apart < ROOMY || !dyd_numbers_init(&labels, &d->view)) return;
-  for (int pass = 0; pass < 2; pass++)
-    for (size_t i = 0; i < d->r->count; i++) {
-      double b[4];
-      if (dyd_delaunay_alias(d->r->pd, (uint32_t)i) != i) continue;
-      dyd_sites_get_d(b, d->r->sites, i);
-      if (pass)
-        dyd_numbers_put(&labels, c, b, 13, d->r->engine, i);
-      else
-        dyd_numbers_keep_off(&labels, b);
-    }
-  dyd_numbers_clear(&labels);
-}
-
 /* In words what is shown of how many points. */
 static void points_text(char *out, size_t size, const delaunay_drawing *d) {
   if (d->r->window)
@@ -215,8 +186,8 @@ static void delaunay_legend(dyd_canvas *c, void *context) {
   dyd_legend_begin(&l, c, &d->view);
   legend_edges(&l, d);
   if (d->triangle) dyd_legend_patch(&l, TRIANGLE, "sure triangle");
-  if (d->mark[DYD_MARK_RECTANGLE]) dyd_legend_patch(&l, 0xf2c766, "rectangle of a point");
-  if (d->mark[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point, or a rectangle so small");
+  if (d->marks.drawn[DYD_MARK_RECTANGLE]) dyd_legend_patch(&l, 0xf2c766, "rectangle of a point");
+  if (d->marks.drawn[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point, or a rectangle so small");
   if (d->region[2]) dyd_legend_patch(&l, style[2].region, graph ? "where a sure edge is" : "where a legal edge is");
   if (d->region[1])
     dyd_legend_patch(&l, style[1].region,
@@ -227,7 +198,7 @@ static void delaunay_legend(dyd_canvas *c, void *context) {
            dyd_outcome_text(dyd_engine_outcome(d->r->engine)),
            dyd_delaunay_is_capped(d->r->pd) ? ", not all possible pairs are shown" : "");
   dyd_legend_text(&l, text);
-  dyd_legend_crowd(&l, d->r->pd);
+  dyd_legend_crowd(&l, &d->marks);
 }
 
 static void delaunay_inside(dyd_canvas *c, void *context) {
@@ -237,27 +208,14 @@ static void delaunay_inside(dyd_canvas *c, void *context) {
   if (d->crowded) dyd_density_draw(c, &d->open);
   for (int k = 0; k < 3; k++)
     if (!(d->crowded && k == OPEN)) draw_edges(c, d, k);
-  draw_sites(c, d);
-  draw_numbers(c, d);
+  dyd_site_marks_draw(&d->marks, c, &d->view);
 }
 
 /* ---- what is shown ---- */
 
 static dyd_status see_all(delaunay_drawing *d, dyd_error *err) {
-  const dyd_result *r = d->r;
-  double all[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
-  for (size_t i = 0; i < r->count; i++) {
-    double b[4];
-    dyd_status st = dyd_result_box(b, r, i, err);
-    if (st != DYD_OK) return st;
-    all[0] = fmin(all[0], b[0]), all[1] = fmax(all[1], b[1]);
-    all[2] = fmin(all[2], b[2]), all[3] = fmax(all[3], b[3]);
-  }
-  if (r->count == 0) all[0] = all[1] = all[2] = all[3] = 0;
-  double rim = 0.04 * fmax(all[1] - all[0], all[3] - all[2]);
-  for (int k = 0; k < 4; k++) all[k] += k & 1 ? rim : -rim;
-  for (size_t p = 0; p < r->pairs.count; p++) d->shown[r->pairs.item[p].status]++;
-  dyd_status st = dyd_view_fit(&d->view, all, dyd_view_spacing(r->pd, NULL), err);
+  dyd_status st = dyd_view_all(&d->view, d->r, err);
+  for (size_t p = 0; p < d->r->pairs.count; p++) d->shown[d->r->pairs.item[p].status]++;
   for (int k = 0; k < 4; k++) d->wide[k] = d->view.frame[k] + (k & 1 ? WIDE : -WIDE);
   return st;
 }
@@ -308,8 +266,9 @@ static dyd_status find_density(delaunay_drawing *d) {
   if (!dyd_density_init(&d->open, &d->view)) return DYD_E_NOMEM;
   for (size_t p = 0; p < d->r->pairs.count; p++) {
     double z[2][2];
-    if (d->r->pairs.item[p].status == DYD_INDETERMINATE && line_of(z, d, &d->r->pairs.item[p], d->view.frame))
-      dyd_density_add(&d->open, z);
+    if (d->r->pairs.item[p].status != DYD_INDETERMINATE) continue;
+    dyd_density_begin(&d->open);
+    if (line_of(z, d, &d->r->pairs.item[p], d->view.frame)) dyd_density_add(&d->open, z);
   }
   d->crowded = dyd_density_is_crowded(&d->open);
   d->view.dots = d->crowded && d->view.apart < CLOSE;
@@ -317,7 +276,8 @@ static dyd_status find_density(delaunay_drawing *d) {
 }
 
 dyd_status dyd_delaunay_picture(const dyd_output *o) {
-  delaunay_drawing d = {.r = o->what};
+  const dyd_result *r = o->what;
+  delaunay_drawing d = {.r = r, .marks = dyd_site_marks_of(r->pd, r->engine, DYD_PICTURE_BAND)};
   dyd_status st = d.r->window ? see_window(&d, o->err) : see_all(&d, o->err);
   if (st == DYD_OK) st = find_density(&d);
   const char *title = d.r->graph_name ? d.r->graph_name : "partial Delaunay triangulation";

@@ -19,17 +19,21 @@ void dyd_density_clear(dyd_density *d) {
   free(d->count);
 }
 
+void dyd_density_begin(dyd_density *d) {
+  d->last = SIZE_MAX;
+}
+
 void dyd_density_add(dyd_density *d, double z[2][2]) {
   const double *f = d->view->frame;
-  size_t steps = (size_t)(hypot(z[1][0] - z[0][0], z[1][1] - z[0][1]) / (SQUARE / 3)) + 1, last = SIZE_MAX;
+  size_t steps = (size_t)(hypot(z[1][0] - z[0][0], z[1][1] - z[0][1]) / (SQUARE / 3)) + 1;
   for (size_t k = 0; k <= steps; k++) {
     double t = (double)k / (double)steps;
     double x = (z[0][0] + t * (z[1][0] - z[0][0]) - f[0]) / SQUARE;
     double y = (z[0][1] + t * (z[1][1] - z[0][1]) - f[2]) / SQUARE;
     if (!(x >= 0 && y >= 0 && x < (double)d->columns && y < (double)d->rows)) continue;
     size_t at = (size_t)y * d->columns + (size_t)x;
-    if (at != last) d->count[at]++;
-    last = at;
+    if (at != d->last) d->count[at]++;
+    d->last = at;
   }
 }
 

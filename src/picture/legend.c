@@ -113,14 +113,13 @@ static bool is_in(const double box[4], const double b[4]) {
 
 /* The box between the tenths of the coordinates, rounded outward and a little larger, of the sites seen. `each` has
  * room for all. */
-static bool crowd_box(char text[4][48], double box[4], double *each, const dyd_view *v, const dyd_sites *sites) {
+static bool crowd_box(char text[4][48], double box[4], double *each, const dyd_view *v, const dyd_site_marks *m) {
   size_t count = 0;
   for (int axis = 0; axis < 2; axis++) {
     count = 0;
-    for (size_t i = 0; i < dyd_sites_count(sites); i++) {
+    for (size_t i = 0; i < m->count; i++) {
       double b[4];
-      dyd_sites_get_d(b, sites, i);
-      if (dyd_view_sees(v, b)) each[count++] = b[2 * axis] / 2 + b[2 * axis + 1] / 2;
+      if (m->box(b, m->context, i) && dyd_view_sees(v, b)) each[count++] = b[2 * axis] / 2 + b[2 * axis + 1] / 2;
     }
     if (count < 20) return false;
     qsort(each, count, sizeof *each, legend_compare);
@@ -136,19 +135,18 @@ static bool crowd_box(char text[4][48], double box[4], double *each, const dyd_v
   return true;
 }
 
-void dyd_legend_crowd(dyd_legend *l, const dyd_delaunay *pd) {
+void dyd_legend_crowd(dyd_legend *l, const dyd_site_marks *m) {
   const dyd_view *v = l->view;
-  const dyd_sites *sites = dyd_delaunay_sites(pd);
-  size_t n = dyd_sites_count(sites), inside = 0, seen = 0;
-  double box[4], *each = malloc((n + 1) * sizeof *each);
+  size_t inside = 0, seen = 0;
+  double box[4], *each = malloc((m->count + 1) * sizeof *each);
   char end[4][48], text[400];
-  bool found = each && crowd_box(end, box, each, v, sites);
+  bool found = each && crowd_box(end, box, each, v, m);
   free(each);
   double area = (v->frame[1] - v->frame[0]) * (v->frame[3] - v->frame[2]) / v->scale / v->scale;
   if (!found || !((box[1] - box[0]) * (box[3] - box[2]) < 0.08 * area)) return;
-  for (size_t i = 0; i < n; i++) {
+  for (size_t i = 0; i < m->count; i++) {
     double b[4];
-    dyd_sites_get_d(b, sites, i);
+    if (!m->box(b, m->context, i)) continue;
     seen += dyd_view_sees(v, b);
     inside += is_in(box, b);
   }

@@ -3,12 +3,14 @@
  *
  * The page is divided into small squares; what is drawn takes those that it meets, and a number stands at the first of
  * eight places around its site whose squares are all free. */
+#include "io/diagram.h"
 #include "io/label_text.h"
 #include "picture/picture.h"
 #include <math.h>
 #include <stdlib.h>
 
 #define SQUARE 3.0
+#define ROOMY 28.0 /* neighbours so far apart have room for numbers */
 
 typedef struct squares {
   size_t x0, x1, y0, y1; /* from, up to */
@@ -84,4 +86,32 @@ void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double 
     dyd_canvas_text(c, z[0], z[3], 0, size, true, text);
     return;
   }
+}
+
+/* ---- all sites ---- */
+
+static bool plane_site_box(double out[4], const void *context, size_t i) {
+  const dyd_delaunay *pd = context;
+  if (dyd_delaunay_alias(pd, (uint32_t)i) != i) return false;
+  dyd_sites_get_d(out, dyd_delaunay_sites(pd), i);
+  return dyd_box_is_finite(out);
+}
+
+dyd_site_marks dyd_site_marks_of(const dyd_delaunay *pd, const dyd_engine *e, unsigned rgb) {
+  return (dyd_site_marks){
+      .engine = e, .count = dyd_sites_count(dyd_delaunay_sites(pd)), .box = plane_site_box, .context = pd, .rgb = rgb};
+}
+
+void dyd_site_marks_draw(dyd_site_marks *m, dyd_canvas *c, const dyd_view *v) {
+  dyd_numbers labels = {0};
+  bool numbers = v->apart >= ROOMY && dyd_numbers_init(&labels, v);
+  for (int pass = 0; pass < (numbers ? 2 : 1); pass++)
+    for (size_t i = 0; i < m->count; i++) {
+      double b[4];
+      if (!m->box(b, m->context, i)) continue;
+      if (!pass) m->drawn[dyd_picture_site(c, v, b, m->engine, i, m->rgb)] = true;
+      if (!pass && numbers) dyd_numbers_keep_off(&labels, b);
+      if (pass) dyd_numbers_put(&labels, c, b, 13, m->engine, i);
+    }
+  dyd_numbers_clear(&labels);
 }

@@ -7,6 +7,7 @@
 #define DYD_PICTURE_PICTURE_H
 
 #include "io/output.h"
+#include "io/result.h"
 #include "picture/canvas.h"
 
 typedef void (*dyd_draw_fn)(dyd_canvas *c, void *context);
@@ -15,6 +16,9 @@ typedef void (*dyd_draw_fn)(dyd_canvas *c, void *context);
 dyd_writer dyd_delaunay_picture, dyd_voronoi_picture, dyd_convergence_picture;
 dyd_writer dyd_sphere_picture, dyd_sphere_voronoi_picture;
 dyd_writer dyd_disc_picture, dyd_bisector_picture, dyd_nearest_picture, dyd_tolerance_picture;
+
+/* So many lines and triangles have a name each; beyond, a file would be all names. */
+enum { DYD_PICTURE_NAMES = 40000 };
 
 /* ---- views ---- */
 
@@ -44,6 +48,8 @@ double dyd_view_x(const dyd_view *v, double x);
 double dyd_view_y(const dyd_view *v, double y);
 /* The middle of a box, on the page. */
 void dyd_view_middle(double z[2], const dyd_view *v, const double box[4]);
+/* A view of all rectangles of the result, with a rim. */
+dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, dyd_error *err);
 /* Does a box meet the frame? */
 bool dyd_view_sees(const dyd_view *v, const double box[4]);
 /* *box (xlo, xhi, ylo, yhi) grows to hold r; DYD_E_RANGE with a message unless doubles can hold it. */
@@ -116,6 +122,21 @@ void dyd_numbers_keep_off(dyd_numbers *l, const double box[4]);
 /* Writes what a site of e is called beside its box, if there is room. */
 void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double size, const dyd_engine *e, size_t site);
 
+/* Sites that are drawn; `box` is false for those that are not. */
+typedef struct dyd_site_marks {
+  const dyd_engine *engine; /* names them */
+  size_t count;
+  bool (*box)(double out[4], const void *context, size_t i);
+  const void *context;
+  unsigned rgb;                       /* of rectangles */
+  bool drawn[DYD_MARK_RECTANGLE + 1]; /* which marks were */
+} dyd_site_marks;
+
+/* The sites that stand for themselves; what doubles cannot hold is left out. */
+dyd_site_marks dyd_site_marks_of(const dyd_delaunay *pd, const dyd_engine *e, unsigned rgb);
+/* All of them, with their numbers where neighbours are far enough apart. */
+void dyd_site_marks_draw(dyd_site_marks *m, dyd_canvas *c, const dyd_view *v);
+
 /* ---- legend.c ---- */
 
 /* Entries from left to right, then in the next line; beside the first lines a bar of round length. */
@@ -132,8 +153,8 @@ void dyd_legend_patch(dyd_legend *l, unsigned rgb, const char *text);
 void dyd_legend_dot(dyd_legend *l, unsigned fill, unsigned edge, const char *text);
 /* A sentence, on lines of its own. */
 void dyd_legend_text(dyd_legend *l, const char *text);
-/* Where most sites are, when they are in a small part of the view. count: of sites that stand for themselves. */
-void dyd_legend_crowd(dyd_legend *l, const dyd_delaunay *pd);
+/* Where most sites are, when they are in a small part of the view. */
+void dyd_legend_crowd(dyd_legend *l, const dyd_site_marks *m);
 
 /* ---- density.c ---- */
 
@@ -141,13 +162,15 @@ void dyd_legend_crowd(dyd_legend *l, const dyd_delaunay *pd);
 typedef struct dyd_density {
   const dyd_view *view;
   uint32_t *count;
-  size_t columns, rows;
+  size_t columns, rows, last; /* last: the square that the line at hand is in */
 } dyd_density;
 
 /* false: memory is exhausted. */
 bool dyd_density_init(dyd_density *d, const dyd_view *v);
 void dyd_density_clear(dyd_density *d);
-/* A line on the page. */
+/* A line begins. */
+void dyd_density_begin(dyd_density *d);
+/* The next part of it, on the page. */
 void dyd_density_add(dyd_density *d, double z[2][2]);
 /* Would the lines be seen as a mass? */
 bool dyd_density_is_crowded(const dyd_density *d);

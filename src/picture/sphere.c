@@ -2,12 +2,15 @@
 /* Pictures of a sphere: longitude to the right, latitude upwards, a degree of both alike, with a graticule; sides are
  * great circles. What spans more than half of the globe is shown on all of it. */
 #include "base/alloc.h"
+#include "base/error.h"
 #include "io/geodesic.h"
 #include "io/sphere_cells.h"
 #include "picture/picture.h"
 #include <math.h>
 
 #define GRATICULE 0xd0d0d0
+#define RECTANGLE 0xf2c766
+enum { OPEN = 1 };
 
 static const struct {
   dyd_pair_status status;
@@ -22,67 +25,115 @@ static const struct {
 typedef struct sphere_drawing {
   const dyd_sphere_result *r;
   const dyd_sphere_cells *cells;
-  double (*box)[4]; /* of places */
-  size_t count, shown[4];
+  double (*box)[4];              /* of places, whose middles are on the map */
+  size_t count, sites, shown[4]; /* sites, shown: places and edges in the frame */
+  double seam;                   /* the longitude of the left end of the map, of 360 degrees */
   dyd_view view;
+  dyd_site_marks marks;
+  dyd_density open; /* of indeterminate edges */
+  bool crowded;     /* it is drawn in place of them */
+  dyd_canvas *canvas;
+  /* The line at hand: where it is on the page; is it in the frame, and of an indeterminate edge? */
+  double at[2];
+  bool seen, is_open;
   dyd_status failed;
 } sphere_drawing;
 
-static void page_line(dyd_canvas *c, const dyd_view *v, bool move, double lon, double lat) {
-  double x = dyd_view_x(v, lon), y = dyd_view_y(v, lat);
-  if (move)
-    dyd_canvas_move(c, x, y);
+/* ---- lines ---- */
+
+/* The next place of a line; begin: it begins here. */
+typedef void (*arc_step)(sphere_drawing *d, bool begin, double x, double y);
+
+static void arc_draw(sphere_drawing *d, bool begin, double x, double y) {
+  if (begin)
+    dyd_canvas_move(d->canvas, x, y);
   else
-    dyd_canvas_line(c, x, y);
+    dyd_canvas_line(d->canvas, x, y);
 }
 
-/* Beyond 180 degrees it goes on at the other side of the map. */
-static void arc_path(dyd_canvas *c, sphere_drawing *d, dyd_lon_lat a, dyd_lon_lat b) {
-  const dyd_lon_lat corner[2] = {a, b};
+/* What is in the frame is counted. */
+static void arc_count(sphere_drawing *d, bool begin, double x, double y) {
+  double z[2][2] = {{d->at[0], d->at[1]}, {x, y}};
+  if (begin) dyd_density_begin(&d->open);
+  if (!begin && dyd_clip_segment(z, d->view.frame)) {
+    d->seen = true;
+    if (d->is_open) dyd_density_add(&d->open, z);
+  }
+  d->at[0] = x, d->at[1] = y;
+}
+
+static void arc_to(sphere_drawing *d, arc_step step, bool begin, double lon, double lat) {
+  step(d, begin, dyd_view_x(&d->view, lon), dyd_view_y(&d->view, lat));
+}
+
+static double map_longitude(const sphere_drawing *d, double lon) {
+  return lon - 360 * floor((lon - d->seam) / 360);
+}
+
+/* Beyond the seam it goes on at the other side of the map. */
+static void arc_follow(sphere_drawing *d, const double *from, const double *to, arc_step step) {
+  const dyd_lon_lat corner[2] = {dyd_lon_lat_of(from), dyd_lon_lat_of(to)};
   dyd_lon_lat *p = NULL;
   size_t n = 0;
   dyd_status st = dyd_great_circles(&p, &n, corner, 2);
   for (size_t k = 0; k < n; k++) {
+    p[k].lon = map_longitude(d, p[k].lon);
     double turn = !k ? 0 : p[k].lon - p[k - 1].lon > 180 ? 360 : p[k].lon - p[k - 1].lon < -180 ? -360 : 0;
     if (turn != 0) {
-      page_line(c, &d->view, false, p[k].lon - turn, p[k].lat);
-      page_line(c, &d->view, true, p[k - 1].lon + turn, p[k - 1].lat);
+      arc_to(d, step, false, p[k].lon - turn, p[k].lat);
+      arc_to(d, step, true, p[k - 1].lon + turn, p[k - 1].lat);
     }
-    page_line(c, &d->view, k == 0, p[k].lon, p[k].lat);
+    arc_to(d, step, k == 0, p[k].lon, p[k].lat);
   }
   free(p);
   if (st != DYD_OK) d->failed = st;
 }
 
-static void draw_graticule(dyd_canvas *c, const sphere_drawing *d, const double box[4]) {
+static void draw_graticule(sphere_drawing *d) {
+  const dyd_view *v = &d->view;
+  const double left = v->left, right = left + v->width / v->scale, bottom = v->top - v->height / v->scale;
+  double span = fmax(right - left, v->top - bottom);
   int digit, exponent;
-  double span = fmax(box[1] - box[0], box[3] - box[2]);
   if (!dyd_round_step(&digit, &exponent, span / 6)) return;
   double step = span > 180 ? 30 : digit * pow(10, exponent);
-  for (double x = ceil(box[0] / step) * step; x <= box[1]; x += step) {
-    page_line(c, &d->view, true, x, fmax(box[2], -90));
-    page_line(c, &d->view, false, x, fmin(box[3], 90));
+  for (double x = ceil(left / step) * step; x <= right; x += step) {
+    arc_to(d, arc_draw, true, x, fmax(bottom, -90));
+    arc_to(d, arc_draw, false, x, fmin(v->top, 90));
   }
-  for (double y = ceil(fmax(box[2], -90) / step) * step; y <= fmin(box[3], 90); y += step) {
-    page_line(c, &d->view, true, box[0], y);
-    page_line(c, &d->view, false, box[1], y);
+  for (double y = ceil(fmax(bottom, -90) / step) * step; y <= fmin(v->top, 90); y += step) {
+    arc_to(d, arc_draw, true, left, y);
+    arc_to(d, arc_draw, false, right, y);
   }
-  dyd_picture_stroke(c, GRATICULE, 0.5, 0, 0);
+  dyd_picture_stroke(d->canvas, GRATICULE, 0.5, 0, 0);
 }
 
-static void draw_pairs(dyd_canvas *c, sphere_drawing *d) {
+static void name_pair(const sphere_drawing *d, const dyd_pair *pair, const char *status) {
+  const dyd_engine *e = dyd_sphere_places(d->r->sphere);
+  size_t i = dyd_engine_row(e, pair->i), j = dyd_engine_row(e, pair->j);
+  char id[80], title[80];
+  snprintf(id, sizeof id, "pair-%zu-%zu", i, j);
+  snprintf(title, sizeof title, "%zu, %zu: %s", i, j, status);
+  dyd_canvas_name(d->canvas, id, title);
+}
+
+static void draw_pairs(sphere_drawing *d) {
   const dyd_pair_list *l = &d->r->pairs;
   for (int k = 0; k < 3; k++) {
+    if (d->crowded && k == OPEN) continue;
     for (size_t p = 0; p < l->count; p++) {
       if (l->item[p].status != kind[k].status) continue;
-      arc_path(c, d, dyd_lon_lat_of(d->box[l->item[p].i]), dyd_lon_lat_of(d->box[l->item[p].j]));
+      arc_follow(d, d->box[l->item[p].i], d->box[l->item[p].j], arc_draw);
+      if (l->count > DYD_PICTURE_NAMES) continue;
+      name_pair(d, &l->item[p], kind[k].name);
+      dyd_picture_stroke(d->canvas, kind[k].rgb, d->view.line, kind[k].on, kind[k].off);
     }
-    if (d->shown[kind[k].status]) dyd_picture_stroke(c, kind[k].rgb, d->view.line, kind[k].on, kind[k].off);
+    if (d->shown[kind[k].status] && l->count > DYD_PICTURE_NAMES)
+      dyd_picture_stroke(d->canvas, kind[k].rgb, d->view.line, kind[k].on, kind[k].off);
   }
 }
 
 /* Sides between vertices that follow each other in a cell, each once. */
-static void draw_cells(dyd_canvas *c, sphere_drawing *d) {
+static void draw_cells(sphere_drawing *d) {
   const dyd_sphere_cells *g = d->cells;
   size_t drawn = 0;
   for (size_t i = 0; i < g->places; i++)
@@ -90,86 +141,167 @@ static void draw_cells(dyd_canvas *c, sphere_drawing *d) {
       bool last = k + 1 == g->first[i + 1];
       size_t next = last ? g->first[i] : k + 1;
       if ((last && !g->closed[i]) || g->gap[next] || g->of[k] >= g->of[next]) continue;
-      arc_path(c, d, dyd_lon_lat_of(g->node[g->of[k]].box), dyd_lon_lat_of(g->node[g->of[next]].box));
+      arc_follow(d, g->node[g->of[k]].box, g->node[g->of[next]].box, arc_draw);
       drawn++;
     }
-  if (drawn) dyd_picture_stroke(c, kind[2].rgb, d->view.line, 0, 0);
+  if (drawn) dyd_picture_stroke(d->canvas, kind[2].rgb, d->view.line, 0, 0);
 }
 
 static void sphere_inside(dyd_canvas *c, void *context) {
   sphere_drawing *d = context;
-  const dyd_view *v = &d->view;
-  const double box[4] = {v->left, v->left + v->width / v->scale, v->top - v->height / v->scale, v->top};
-  draw_graticule(c, d, box);
+  d->canvas = c;
+  if (d->crowded) dyd_density_draw(c, &d->open);
+  draw_graticule(d);
   if (d->cells)
-    draw_cells(c, d);
+    draw_cells(d);
   else
-    draw_pairs(c, d);
-  for (size_t i = 0; i < d->count; i++) dyd_picture_site(c, v, d->box[i], dyd_sphere_places(d->r->sphere), i, 0xf2c766);
+    draw_pairs(d);
+  dyd_site_marks_draw(&d->marks, c, &d->view);
 }
 
 static void sphere_legend(dyd_canvas *c, void *context) {
   const sphere_drawing *d = context;
   const dyd_engine *images = dyd_sphere_images(d->r->sphere);
-  char text[200];
+  char text[300], points[100];
   dyd_legend l;
   dyd_legend_begin(&l, c, &d->view);
   for (int k = 2; k >= 0 && !d->cells; k--) {
-    if (!d->shown[kind[k].status]) continue;
+    if (!d->shown[kind[k].status] || (d->crowded && k == OPEN)) continue;
     snprintf(text, sizeof text, "%s: %zu", kind[k].name, d->shown[kind[k].status]);
     dyd_legend_line(&l, kind[k].rgb, kind[k].on, kind[k].off, text);
   }
   if (d->cells) dyd_legend_line(&l, kind[2].rgb, 0, 0, "side of a cell");
-  dyd_legend_dot(&l, 0x222222, 0x222222, "point");
+  snprintf(text, sizeof text, " of %zu indeterminate pairs across a square", d->shown[DYD_INDETERMINATE]);
+  if (d->crowded) dyd_density_legend(&l, &d->open, text);
+  if (d->marks.drawn[DYD_MARK_RECTANGLE]) dyd_legend_patch(&l, RECTANGLE, "rectangle of a point");
+  if (d->marks.drawn[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point, or a rectangle so small");
   dyd_legend_line(&l, GRATICULE, 0, 0, "graticule, degrees");
-  snprintf(text, sizeof text,
-           "%zu points on a sphere, outcome %s, %zu undecided faces; great circles on a plate carr\u00e9e", d->count,
-           dyd_outcome_text(dyd_engine_outcome(images)), dyd_delaunay_undecided_faces(dyd_engine_delaunay(images)));
+  if (d->r->window)
+    snprintf(points, sizeof points, "%zu of %zu points (and the lines counted) in this window", d->sites, d->count);
+  else
+    snprintf(points, sizeof points, "%zu points", d->count);
+  snprintf(text, sizeof text, "%s on a sphere, outcome %s, %zu undecided faces; great circles on a plate carr\u00e9e",
+           points, dyd_outcome_text(dyd_engine_outcome(images)),
+           dyd_delaunay_undecided_faces(dyd_engine_delaunay(images)));
   dyd_legend_text(&l, text);
+  dyd_legend_crowd(&l, &d->marks);
 }
 
-/* The usual length of an edge on the page, in degrees. */
-static double sphere_spacing(const sphere_drawing *d) {
+/* The usual length of an edge on the map, in degrees: of those that begin in the box (NULL: of all). */
+static double sphere_spacing(const sphere_drawing *d, const double box[4]) {
   enum { SAMPLES = 1000 };
   double length[SAMPLES];
   const dyd_pair_list *pairs = &d->r->pairs;
-  size_t n = 0, step = pairs->count / SAMPLES + 1;
-  for (size_t k = 0; k < pairs->count; k += step) {
+  size_t n = 0, step = box ? 1 : pairs->count / SAMPLES + 1;
+  for (size_t k = 0; k < pairs->count && n < SAMPLES; k += step) {
     const double *a = d->box[pairs->item[k].i], *b = d->box[pairs->item[k].j];
     double x = fabs(a[0] - b[0]);
+    if (box && !(box[0] <= a[0] && a[1] <= box[1] && box[2] <= a[2] && a[3] <= box[3])) continue;
     length[n++] = hypot(fmin(x, fabs(360 - x)), a[2] - b[2]);
   }
   return dyd_view_median(length, n);
 }
 
-/* The places, and what is shown: their surroundings, or all. */
-static dyd_status sphere_see(sphere_drawing *d, dyd_error *err) {
-  double all[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+/* ---- what is shown ---- */
+
+static bool sphere_site_box(double out[4], const void *context, size_t i) {
+  const sphere_drawing *d = context;
+  for (int k = 0; k < 4; k++) out[k] = d->box[i][k];
+  return true;
+}
+
+static dyd_status find_places(sphere_drawing *d) {
   dyd_rect rect;
   dyd_status st = DYD_OK;
   dyd_rect_init(&rect);
   for (uint32_t i = 0; i < d->count && st == DYD_OK; i++) {
     st = dyd_sphere_rect(&rect, d->r->sphere, i);
-    if (st != DYD_OK) break;
-    dyd_rect_get_d(d->box[i], &rect);
-    for (int k = 0; k < 4; k++) all[k] = k & 1 ? fmax(all[k], d->box[i][k]) : fmin(all[k], d->box[i][k]);
+    if (st == DYD_OK) dyd_rect_get_d(d->box[i], &rect);
   }
   dyd_rect_clear(&rect);
-  if (st != DYD_OK) return st;
-  if (d->count && all[1] - all[0] < 180) dyd_view_pad(all);
-  if (!d->count || !(all[1] - all[0] < 180)) all[0] = -180, all[1] = 180, all[2] = -90, all[3] = 90;
-  for (size_t p = 0; p < d->r->pairs.count; p++) d->shown[d->r->pairs.item[p].status]++;
-  st = dyd_view_fit(&d->view, all, sphere_spacing(d), err);
-  d->view.unit = "degree";
   return st;
+}
+
+static int compare_longitudes(const void *a, const void *b) {
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+/* In the middle of the widest range of longitudes without a place, where that is more than half of all; else -180. */
+static dyd_status find_seam(sphere_drawing *d) {
+  double *lon = dyd_alloc(d->count + 1, sizeof *lon), widest = 180;
+  if (!lon) return DYD_E_NOMEM;
+  d->seam = -180;
+  for (size_t i = 0; i < d->count; i++) lon[i] = map_longitude(d, dyd_lon_lat_of(d->box[i]).lon);
+  qsort(lon, d->count, sizeof *lon, compare_longitudes);
+  lon[d->count] = d->count ? lon[0] + 360 : 0;
+  for (size_t k = 0; k < d->count; k++)
+    if (lon[k + 1] - lon[k] > widest) widest = lon[k + 1] - lon[k], d->seam = lon[k] + widest / 2;
+  if (d->seam > 0) d->seam -= 360;
+  free(lon);
+  return DYD_OK;
+}
+
+/* The surroundings of the places, or the whole map. */
+static void find_surroundings(double all[4], const sphere_drawing *d) {
+  all[0] = all[2] = INFINITY, all[1] = all[3] = -INFINITY;
+  for (size_t i = 0; i < d->count; i++)
+    for (int k = 0; k < 4; k++) all[k] = k & 1 ? fmax(all[k], d->box[i][k]) : fmin(all[k], d->box[i][k]);
+  if (d->count && all[1] - all[0] < 180)
+    dyd_view_pad(all);
+  else
+    all[0] = d->seam, all[1] = d->seam + 360, all[2] = -90, all[3] = 90;
+}
+
+static dyd_status find_crowd(sphere_drawing *d) {
+  if (!dyd_density_init(&d->open, &d->view)) return DYD_E_NOMEM;
+  for (size_t i = 0; i < d->count; i++) d->sites += dyd_view_sees(&d->view, d->box[i]);
+  for (size_t p = 0; p < d->r->pairs.count && !d->cells; p++) {
+    const dyd_pair *pair = &d->r->pairs.item[p];
+    d->is_open = pair->status == DYD_INDETERMINATE;
+    d->seen = false;
+    arc_follow(d, d->box[pair->i], d->box[pair->j], arc_count);
+    d->shown[pair->status] += d->seen;
+  }
+  d->crowded = dyd_density_is_crowded(&d->open);
+  return d->failed;
+}
+
+static dyd_status find_window(double all[4], sphere_drawing *d, dyd_error *err) {
+  dyd_rect_get_d(all, d->r->window);
+  if (!(all[0] < all[1] && all[2] < all[3])) return dyd_fail(err, DYD_E_ARG, "the window has no area");
+  if (!(all[1] - all[0] <= 360 && fabs(all[0]) <= 720 && all[2] >= -90 && all[3] <= 90))
+    return dyd_fail(err, DYD_E_ARG,
+                    "a window on a sphere is at most 360 degrees of longitude wide, and within -90 and 90 of latitude");
+  d->seam = all[0] / 2 + all[1] / 2 - 180;
+  return DYD_OK;
+}
+
+static dyd_status sphere_see(sphere_drawing *d, dyd_error *err) {
+  double all[4];
+  dyd_status st = find_places(d);
+  if (st == DYD_OK) st = d->r->window ? find_window(all, d, err) : find_seam(d);
+  if (st != DYD_OK) return st;
+  for (size_t i = 0; i < d->count; i++) {
+    double lon = dyd_lon_lat_of(d->box[i]).lon, turn = map_longitude(d, lon) - lon;
+    d->box[i][0] += turn, d->box[i][1] += turn;
+  }
+  if (!d->r->window) find_surroundings(all, d);
+  st = dyd_view_fit(&d->view, all, sphere_spacing(d, d->r->window ? all : NULL), err);
+  d->view.unit = "degree";
+  return st == DYD_OK ? find_crowd(d) : st;
 }
 
 static dyd_status sphere_draw(const dyd_output *o, const dyd_sphere_cells *cells, const char *title) {
   sphere_drawing d = {.r = o->what, .cells = cells};
-  d.count = dyd_engine_count(dyd_sphere_places(d.r->sphere));
+  const dyd_engine *places = dyd_sphere_places(d.r->sphere);
+  d.count = dyd_engine_count(places);
+  d.marks =
+      (dyd_site_marks){.engine = places, .count = d.count, .box = sphere_site_box, .context = &d, .rgb = RECTANGLE};
   d.box = dyd_alloc(d.count, sizeof *d.box);
   dyd_status st = d.box ? sphere_see(&d, o->err) : DYD_E_NOMEM;
   if (st == DYD_OK) st = dyd_view_write(o, &d.view, title, sphere_inside, sphere_legend, &d);
+  dyd_density_clear(&d.open);
   free(d.box);
   return st == DYD_OK ? d.failed : st;
 }

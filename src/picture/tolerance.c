@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The picture of tolerances: edges coloured by how much they bear, from what is lost first to what is lost last. */
 #include "base/error.h"
-#include "io/result.h"
+#include "io/decimal.h"
 #include "picture/picture.h"
 #include <math.h>
 #include <stdlib.h>
@@ -24,7 +24,14 @@ typedef struct tolerance_drawing {
   const dyd_tolerance *t;
   dyd_view view;
   double bound[CLASSES - 1]; /* from where on an edge belongs to the next class */
+  bool seen[CLASSES + 1];    /* was drawn */
+  dyd_site_marks marks;
 } tolerance_drawing;
+
+static const char *rounded(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd_round to) {
+  dyd_decimal_directed(out, x, digits, to);
+  return out;
+}
 
 static int compare_deaths(const void *a, const void *b) {
   double x = *(const double *)a, y = *(const double *)b;
@@ -52,7 +59,22 @@ static int class_of(const tolerance_drawing *g, const dyd_tolerance_row *row) {
   return c;
 }
 
-static void tolerance_edges(dyd_canvas *c, const tolerance_drawing *g, int class) {
+/* "pair-3-7", "3, 7: lost from 0.0123". */
+static void tolerance_name(dyd_canvas *c, const tolerance_drawing *g, const dyd_tolerance_row *row) {
+  char id[80], title[120], number[DYD_DECIMAL_SIZE];
+  size_t i = dyd_engine_row(g->r->engine, row->i), j = dyd_engine_row(g->r->engine, row->j);
+  snprintf(id, sizeof id, "pair-%zu-%zu", i, j);
+  int n = snprintf(title, sizeof title, "%zu, %zu: ", i, j);
+  if (row->event == DYD_EVENT_TIE)
+    snprintf(title + n, sizeof title - (size_t)n, "tie");
+  else if (!isfinite(row->lo))
+    snprintf(title + n, sizeof title - (size_t)n, "not lost by any motion");
+  else
+    snprintf(title + n, sizeof title - (size_t)n, "not lost below %s", rounded(number, row->lo, 3, DYD_DOWN));
+  dyd_canvas_name(c, id, title);
+}
+
+static void tolerance_edges(dyd_canvas *c, tolerance_drawing *g, int class) {
   for (size_t k = 0; k < g->rows; k++) {
     double b[4], z[2][2];
     if (class_of(g, &g->row[k]) != class) continue;
@@ -60,64 +82,66 @@ static void tolerance_edges(dyd_canvas *c, const tolerance_drawing *g, int class
       dyd_sites_get_d(b, g->r->sites, e ? g->row[k].j : g->row[k].i);
       dyd_view_middle(z[e], &g->view, b);
     }
-    if (dyd_clip_segment(z, g->view.frame))
-      dyd_picture_line(c, z, bearing[class].rgb, g->view.line * bearing[class].width, bearing[class].on,
+    if (!dyd_clip_segment(z, g->view.frame)) continue;
+    g->seen[class] = true;
+    dyd_canvas_move(c, z[0][0], z[0][1]);
+    dyd_canvas_line(c, z[1][0], z[1][1]);
+    if (g->rows <= DYD_PICTURE_NAMES) tolerance_name(c, g, &g->row[k]);
+    dyd_picture_stroke(c, bearing[class].rgb, g->view.line * bearing[class].width, bearing[class].on,
                        bearing[class].off);
   }
 }
 
 static void tolerance_inside(dyd_canvas *c, void *context) {
-  const tolerance_drawing *g = context;
+  tolerance_drawing *g = context;
   for (int k = CLASSES; k >= 0; k--) tolerance_edges(c, g, k);
-  for (size_t i = 0; i < g->r->count; i++) {
-    double b[4];
-    dyd_sites_get_d(b, g->r->sites, i);
-    dyd_picture_site(c, &g->view, b, g->r->engine, i, DYD_PICTURE_BAND);
-  }
+  dyd_site_marks_draw(&g->marks, c, &g->view);
+}
+
+/* Rounded to where it stays true. */
+static void class_text(char *out, size_t size, const tolerance_drawing *g, int class) {
+  char number[DYD_DECIMAL_SIZE];
+  if (class < CLASSES - 1 && isfinite(g->bound[class]))
+    snprintf(out, size, "less than %s", rounded(number, g->bound[class], 2, DYD_UP));
+  else if (class && isfinite(g->bound[class - 1]))
+    snprintf(out, size, "%s or more", rounded(number, g->bound[class - 1], 2, DYD_DOWN));
+  else
+    snprintf(out, size, "not lost by any motion");
 }
 
 static void tolerance_legend(dyd_canvas *c, void *context) {
   const tolerance_drawing *g = context;
-  char text[200];
+  char text[200], number[DYD_DECIMAL_SIZE];
   double lo, hi;
   dyd_legend l;
   dyd_legend_begin(&l, c, &g->view);
   for (int k = 0; k < CLASSES; k++) {
-    if (k == CLASSES - 1)
-      snprintf(text, sizeof text, "%.2g or more", g->bound[k - 1]);
-    else
-      snprintf(text, sizeof text, "less than %.2g", g->bound[k]);
+    if (!g->seen[k]) continue;
+    class_text(text, sizeof text, g, k);
     dyd_legend_line(&l, bearing[k].rgb, bearing[k].on, bearing[k].off, text);
   }
-  dyd_legend_line(&l, bearing[CLASSES].rgb, bearing[CLASSES].on, bearing[CLASSES].off, "tie");
+  if (g->seen[CLASSES]) dyd_legend_line(&l, bearing[CLASSES].rgb, bearing[CLASSES].on, bearing[CLASSES].off, "tie");
+  if (g->marks.drawn[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point");
   dyd_tolerance_whole(&lo, &hi, g->t);
-  snprintf(text, sizeof text,
-           "%zu points; edges by how far all may move before they may be lost; nothing changes below %.3g", g->r->count,
-           lo);
+  snprintf(text, sizeof text, "%zu points; edges by how far all may move before they may be lost; %s%s", g->r->count,
+           isfinite(lo) ? "nothing changes below " : "no motion changes anything",
+           isfinite(lo) ? rounded(number, lo, 3, DYD_DOWN) : "");
   dyd_legend_text(&l, text);
+  dyd_legend_crowd(&l, &g->marks);
 }
 
 static dyd_status tolerance_see(tolerance_drawing *g, dyd_error *err) {
-  double all[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
-  if (g->r->window) {
-    dyd_rect_get_d(all, g->r->window);
-    if (!(all[0] < all[1] && all[2] < all[3])) return dyd_fail(err, DYD_E_ARG, "the window has no area");
-  }
-  for (size_t i = 0; i < g->r->count && !g->r->window; i++) {
-    double b[4];
-    dyd_status st = dyd_result_box(b, g->r, i, err);
-    if (st != DYD_OK) return st;
-    all[0] = fmin(all[0], b[0]), all[1] = fmax(all[1], b[1]);
-    all[2] = fmin(all[2], b[2]), all[3] = fmax(all[3], b[3]);
-  }
-  if (g->r->count == 0) all[0] = all[1] = all[2] = all[3] = 0;
-  dyd_status st = dyd_view_fit(&g->view, all, dyd_view_spacing(g->r->pd, g->r->window ? all : NULL), err);
-  return st;
+  double box[4];
+  if (!g->r->window) return dyd_view_all(&g->view, g->r, err);
+  dyd_rect_get_d(box, g->r->window);
+  if (!(box[0] < box[1] && box[2] < box[3])) return dyd_fail(err, DYD_E_ARG, "the window has no area");
+  return dyd_view_fit(&g->view, box, dyd_view_spacing(g->r->pd, box), err);
 }
 
 dyd_status dyd_tolerance_picture(const dyd_output *o) {
   const dyd_tolerance_result *what = o->what;
-  tolerance_drawing g = {.r = what->result, .t = what->tolerance};
+  const dyd_result *r = what->result;
+  tolerance_drawing g = {.r = r, .t = what->tolerance, .marks = dyd_site_marks_of(r->pd, r->engine, DYD_PICTURE_BAND)};
   g.rows = dyd_tolerance_rows(&g.row, g.t);
   dyd_status st = find_classes(&g);
   if (st == DYD_OK) st = tolerance_see(&g, o->err);

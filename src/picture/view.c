@@ -52,6 +52,20 @@ dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_er
   return DYD_OK;
 }
 
+dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, dyd_error *err) {
+  double all[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+  for (size_t i = 0; i < r->count; i++) {
+    double b[4];
+    dyd_status st = dyd_result_box(b, r, i, err);
+    if (st != DYD_OK) return st;
+    for (int k = 0; k < 4; k++) all[k] = k & 1 ? fmax(all[k], b[k]) : fmin(all[k], b[k]);
+  }
+  if (r->count == 0) all[0] = all[1] = all[2] = all[3] = 0;
+  double rim = 0.04 * fmax(all[1] - all[0], all[3] - all[2]);
+  for (int k = 0; k < 4; k++) all[k] += k & 1 ? rim : -rim;
+  return dyd_view_fit(v, all, dyd_view_spacing(r->pd, NULL), err);
+}
+
 static int compare_lengths(const void *a, const void *b) {
   double x = *(const double *)a, y = *(const double *)b;
   return (x > y) - (x < y);

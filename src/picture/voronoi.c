@@ -17,7 +17,8 @@ typedef struct voronoi_drawing {
   dyd_view view;
   dyd_status st;
   double window[4];
-  bool cell, vertex, region, mark[DYD_MARK_RECTANGLE + 1]; /* was drawn */
+  bool cell, vertex, region; /* was drawn */
+  dyd_site_marks marks;
 } voronoi_drawing;
 
 static void polygon_outline(dyd_canvas *c, const dyd_view *v, const dyd_polygon *p) {
@@ -114,30 +115,15 @@ static void voronoi_legend(dyd_canvas *c, void *context) {
   dyd_legend_begin(&l, c, &g->view);
   if (g->cell) dyd_legend_patch(&l, tints[0], "surely nearest to one point (any light tint)");
   if (dyd_dyadic_sgn(&g->d->bounds->area) > 0) dyd_legend_patch(&l, DYD_PICTURE_BAND, "undetermined");
-  if (g->mark[DYD_MARK_RECTANGLE]) dyd_legend_patch(&l, 0x9b9b9b, "rectangle of a point");
-  if (g->mark[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point, or a rectangle so small");
+  if (g->marks.drawn[DYD_MARK_RECTANGLE]) dyd_legend_patch(&l, 0x9b9b9b, "rectangle of a point");
+  if (g->marks.drawn[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point, or a rectangle so small");
   if (g->vertex) dyd_legend_line(&l, 0x0072b2, 0, 0, "box: a sure vertex is in it");
   if (g->region) dyd_legend_line(&l, 0xd55e00, 4, 2.5, "box: undecided vertices");
   bound_text(bounds, sizeof bounds, g->d->bounds);
   snprintf(text, sizeof text, "%zu points, outcome %s; %s", g->d->count,
            dyd_outcome_text(dyd_engine_outcome(g->d->engine)), bounds);
   dyd_legend_text(&l, text);
-  dyd_legend_crowd(&l, g->d->pd);
-}
-
-static void voronoi_sites(voronoi_drawing *g) {
-  dyd_numbers labels = {0};
-  bool numbers = g->view.apart >= 28 && dyd_numbers_init(&labels, &g->view);
-  for (int pass = 0; pass < 2; pass++)
-    for (size_t i = 0; i < g->d->count; i++) {
-      double b[4];
-      dyd_sites_get_d(b, g->d->sites, i);
-      if (!dyd_box_is_finite(b) || dyd_delaunay_alias(g->d->pd, (uint32_t)i) != i) continue;
-      if (!pass) g->mark[dyd_picture_site(g->canvas, &g->view, b, g->d->engine, i, SITE)] = true;
-      if (numbers && !pass) dyd_numbers_keep_off(&labels, b);
-      if (numbers && pass) dyd_numbers_put(&labels, g->canvas, b, 13, g->d->engine, i);
-    }
-  dyd_numbers_clear(&labels);
+  dyd_legend_crowd(&l, &g->marks);
 }
 
 static void voronoi_inside(dyd_canvas *c, void *context) {
@@ -148,11 +134,12 @@ static void voronoi_inside(dyd_canvas *c, void *context) {
   g->st = dyd_diagram_visit(g->d, voronoi_cell, g);
   if (g->st == DYD_OK) g->st = dyd_diagram_regions(g->d, voronoi_region, g);
   if (g->st == DYD_OK) g->st = voronoi_vertices(g);
-  voronoi_sites(g);
+  dyd_site_marks_draw(&g->marks, c, &g->view);
 }
 
 dyd_status dyd_voronoi_picture(const dyd_output *o) {
-  voronoi_drawing g = {.d = o->what};
+  const dyd_diagram *what = o->what;
+  voronoi_drawing g = {.d = what, .marks = dyd_site_marks_of(what->pd, what->engine, SITE)};
   dyd_rect_get_d(g.window, &g.d->window);
   dyd_status st = dyd_view_fit(&g.view, g.window, dyd_view_spacing(g.d->pd, g.window), o->err);
   g.view.frame[0] = dyd_view_x(&g.view, g.window[0]), g.view.frame[1] = dyd_view_x(&g.view, g.window[1]);

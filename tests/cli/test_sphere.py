@@ -386,6 +386,29 @@ def test_pictures():
     assert 'legal: 10122' in drawn and drawn.count('id="point-') == 3376
 
 
+def test_window():
+    """Part of the map, over the seam too; what is in it is counted, and cut to it."""
+    text = '178 -18\n179.5 -17\n-179 -18.5\n-178 -17\n177 -16.5\n10 10\n10 20\n'
+    pairs = [row.split(',') for row in run('delaunay', '--sphere', '-', stdin=text).out.splitlines()[1:]]
+    for window, inside in (('176,183,-20,-15', '01234'), ('-184,-177,-20,-15', '01234'), ('9,11,9,21', '56'), ('-100,-99,80,81', '')):
+        drawn = run('delaunay', '--sphere', '--format', 'svg', f'--window={window}', '-', stdin=text).out
+        assert sorted(re.findall('id="point-([0-9])', drawn)) == list(inside), window
+        assert f'{len(inside)} of 7 points (and the lines counted) in this window' in drawn, window
+        edges = sum(i in inside or j in inside for i, j, _ in pairs)
+        assert re.findall('>legal: ([0-9]+)<', drawn) == [str(edges)] * (edges > 0), (window, edges)
+    near = run('delaunay', '--sphere', '--format', 'svg', '-', stdin=text[:-12]).out  # seen around the date line by itself
+    assert '>182<' in near and '>178<' in near and 'id="pair-1-3"' in near, re.findall('>[0-9]+<', near)
+    crowd = run('delaunay', '--sphere', '--radius', '2km', '-q', '--format', 'svg', *AIRPORTS).out
+    assert 'of 11988 indeterminate pairs across a square' in crowd and re.search('2[0-9]{3} of these 3376 points are in a small part', crowd)
+    assert '5411 indeterminate' not in crowd and 'legal: 5411' in crowd
+    for wrong, why in (('0,361,0,1', '360 degrees'), ('0,1,0,91', 'within -90 and 90'), ('5,1,0,1', 'wrong order')):
+        bad = run('delaunay', '--sphere', '--format', 'svg', '--window', wrong, '-', stdin=text)
+        assert bad.code in (1, 2) and why in bad.err, bad
+    for command in ('delaunay', 'voronoi'):
+        expect(run(command, '--sphere', '--window', '0,1,0,1', '-', stdin=text), 2, r'\A\Z', 'the part that a picture shows')
+        assert '<svg' in run(command, '--sphere', '--window', '0,1,0,1', '--format', 'svg', '-', stdin=text).out
+
+
 def test_ids_and_rows():
     """Names, rows left out, rows merged."""
     text = 'name,lon,lat\na,0,0\nb,,\nc,10,0\nd,0,10\ne,10,0\n'
@@ -420,7 +443,7 @@ def test_certificate():
 def test_refusals():
     expect(run('delaunay', '--sphere', '-', stdin='0 0\n47 91\n'), 1, r'\A\Z', r'2:4: .*latitude is beyond 90 degrees')
     expect(run('delaunay', '--sphere', '-', stdin='0 0\n47 50+sqrt(2000)\n'), 1, r'\A\Z', r'point 1: .*latitude is beyond 90 degrees')
-    for args in (['--discs'], ['--until', 'area:3'], ['--window', '0,1,0,1']):
+    for args in (['--discs'], ['--until', 'area:3']):
         expect(run('delaunay', '--sphere', *args, '-', stdin=OCTAHEDRON), 2, r'\A\Z', args[0] + ' is about the plane')
     for command in ('converge', 'check', 'disc', 'bisector', 'tolerance', 'plan'):
         expect(run(command, '--sphere', '-', stdin=OCTAHEDRON), 2, r'\A\Z', f'{command} does not take --sphere')

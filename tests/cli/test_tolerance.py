@@ -142,6 +142,17 @@ def test_picture():
     expect(window, 0)
     assert window.out != with_births.out
     expect(run('tolerance', '--format', 'svg', '--window', '0,0,0,1', '-', stdin=SQUARE), 2, r'\A\Z', 'window')
+    told = dict(re.findall('id="pair-([0-9]+-[0-9]+)"[^>]*><title>[0-9]+, [0-9]+: not lost below ([0-9.e-]+)<', with_births.out))
+    rows = [row.split(',') for row in run('tolerance', '-', stdin=SQUARE).out.splitlines() if ',death,' in row]
+    assert len(told) == len(rows) > 3
+    for i, j, _, lo, *_ in rows:
+        assert 0.99 * float(lo) < float(told[f'{i}-{j}']) <= float(lo), (i, j, lo, told)
+    assert '>tie<' in with_births.out and with_births.out.count('id="point-') == 5  # and an alias
+    assert run('tolerance', '--format', 'svg', '-', stdin='0 0\n1 0\n').out.count('not lost by any motion') == 2
+    plain = run('tolerance', '--format', 'svg', '-', stdin='0 0\n8 1\n3 7\n5 3\n').out  # no tie, so no word of it
+    assert '>tie<' not in plain and '>point<' in plain
+    marks = [float(x) for x in re.findall('id="point-[0-9]+" d="M([0-9.]+)', plain)]
+    assert marks and min(marks) > 100, marks  # none of them at the rim
     strokes = set(re.findall(r'stroke="(#\w+)"', with_births.out))
     assert len(strokes) >= 4, strokes
 
