@@ -330,7 +330,7 @@ DYD_API dyd_status dyd_engine_voronoi_vertex(dyd_stream **out, dyd_engine *e, co
 
 /* Which points of e are possibly nearest to the point `at`, ascending; *sure: exactly one is, and it is surely nearest.
  * Refines `at` and the points that are possibly nearest until that is sure (decided), until nothing concerned can be
- * refined (fixpoint: exact ties, fixed rectangles), or until options->max_bits, max_calls or seconds are spent
+ * refined (fixpoint: ties, fixed rectangles), or until options->max_bits, max_calls or seconds are spent
  * (budget); dyd_engine_cancel works (cancelled). *out is right for the rectangles reached in every case, and the list
  * only ever shrinks [NEAR-3]. Needs a result (DYD_E_ARG before the first run); points narrowed here are brought into
  * it by the next run. `at` is borrowed. options (may be NULL): goal, schedule, stages, pairs and progress mean nothing
@@ -338,6 +338,10 @@ DYD_API dyd_status dyd_engine_voronoi_vertex(dyd_stream **out, dyd_engine *e, co
  * dyd_engine_outcome and the counter `spent` still tell about the last run. */
 DYD_API dyd_status dyd_engine_nearest(dyd_index_list *out, bool *sure, dyd_outcome *outcome, dyd_engine *e,
                                       dyd_stream *at, const dyd_engine_options *options, dyd_error *err);
+/* Did the last dyd_engine_nearest end with a tie: are all points that it listed, two at least, equally far from `at`,
+ * because all is exact, or proved from what coordinates are (unless options->no_ties)? Then each of them is nearest,
+ * for good, and the outcome is fixpoint. false before the first, and after one that failed. */
+DYD_API bool dyd_engine_nearest_tied(const dyd_engine *e);
 
 #ifdef __cplusplus
 }

@@ -196,6 +196,7 @@ typedef struct dyd_nearest_answer {
   const dyd_index_list *found;
   bool sure;
   dyd_outcome outcome;
+  bool tied; /* dyd_engine_nearest_tied */
 } dyd_nearest_answer;
 /* The points of e that are possibly, or the one that is surely nearest, with bounds of their distances. DYD_E_ARG when
  * e has no result, DYD_E_RANGE when doubles cannot hold the picture. */

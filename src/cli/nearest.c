@@ -106,7 +106,8 @@ static dyd_status answer_place(query *q, size_t k, dyd_engine *e, const dyd_engi
   bool sure;
   dyd_status st = dyd_engine_nearest(&p->found, &sure, &outcome, e, p->at, o, err);
   if (st != DYD_OK) return name_place(st, k, q, err);
-  p->answer = (dyd_nearest_answer){DYD_SIZED(dyd_nearest_answer), dyd_stream_rect(p->at), &p->found, sure, outcome};
+  p->answer = (dyd_nearest_answer){DYD_SIZED(dyd_nearest_answer), dyd_stream_rect(p->at), &p->found, sure, outcome,
+                                   dyd_engine_nearest_tied(e)};
   q->answered++;
   q->outcome = worse_outcome(q->outcome, outcome);
   return DYD_OK;
@@ -150,7 +151,7 @@ static dyd_status write_answer(FILE *out, const void *what, const cli_options *o
 }
 
 static const char *nearest_reason(dyd_outcome outcome) {
-  if (outcome == DYD_OUTCOME_FIXPOINT) return "no refinement can decide: an exact tie or fixed rectangles";
+  if (outcome == DYD_OUTCOME_FIXPOINT) return "no refinement can decide: ties or fixed rectangles";
   if (outcome == DYD_OUTCOME_BUDGET)
     return "the precision or time is used up; raise --max-bits or --timeout, unless the distances are equal";
   return "stopped on request";
@@ -160,6 +161,7 @@ static void note_outcome(const query *q) {
   size_t open = 0;
   if (q->outcome == DYD_OUTCOME_DECIDED) return;
   const char *outcome = dyd_outcome_text(q->outcome), *why = nearest_reason(q->outcome);
+  if (!q->options->queries && q->place[0].answer.tied) why = "no refinement can decide: they are equally far, a tie";
   if (!q->options->queries) {
     cli_complain("%s: %zu possibly nearest; %s", outcome, q->place[0].found.count, why);
     return;

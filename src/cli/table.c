@@ -158,12 +158,12 @@ const cli_option cli_option_table[] = {
      AT(engine.start_bits), RANGE(1, DYD_EXP_LIMIT), GIVEN(start_set)},
     {"step-bits", 0, "K", CLI_INTEGER, RUN, CLI_REFINEMENT, "refine in steps of K bits (default: geometric growth)",
      AT(engine.step_bits), RANGE(1, DYD_EXP_LIMIT)},
-    {"ties", 0, "WHICH", CLI_TIES, RUN, CLI_REFINEMENT,
+    {"ties", 0, "WHICH", CLI_TIES, RUN | BIT(CLI_NEAREST), CLI_REFINEMENT,
      "prove (default): prove that points given by expressions\nand roots are the same, on one line or circle; off: do "
      "not",
      AT(engine.no_ties)},
-    {"tie-bits", 0, "B", CLI_INTEGER, RUN, CLI_REFINEMENT, "precision at which to give up a proof (default 131072)",
-     AT(engine.tie_bits), RANGE(1, 1 << 26)},
+    {"tie-bits", 0, "B", CLI_INTEGER, RUN | BIT(CLI_NEAREST), CLI_REFINEMENT,
+     "precision at which to give up a proof (default 131072)", AT(engine.tie_bits), RANGE(1, 1 << 26)},
     {"threads", 0, "T", CLI_INTEGER, RUN | BIT(CLI_TOLERANCE) | BIT(CLI_PLAN), CLI_REFINEMENT,
      "threads to use (default 1); results do not depend on it", AT(engine.threads), RANGE(1, 1024)},
 

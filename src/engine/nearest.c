@@ -4,18 +4,25 @@
  * Only sites that are possibly nearest matter: where i is not listed, its distance to every point of the query is above
  * the least dl of some other site, and stays so [NEAR-3]. The result pd serves as an index; sites narrowed since it was
  * made only make its boxes wider than they need be. Precision goes up in levels, as in schedule.c: at each level
- * whoever concerned was asked for less is asked for the level. */
+ * whoever concerned was asked for less is asked for the level.
+ *
+ * Whoever is nearest is listed. If all that are listed are equally far from the point, all of them are nearest, and no
+ * refinement changes that: a tie. It is looked for when the list has changed [NEAR-4]. */
 #include "base/error.h"
 #include "engine/plan.h"
 #include "engine/points.h"
+#include "engine/ties.h"
 #include <dyadel/voronoi.h>
 
-/* level: the precision worked towards, INT64_MIN at first; the point asked about is the only guest. */
+/* level: the precision worked towards, INT64_MIN at first; the point asked about is the only guest. tried: how many
+ * were listed when a tie was looked for last. */
 typedef struct nearest_question {
+  dyd_engine *e;
   dyd_stream *at;
   int64_t level;
   dyd_index_list near;
-  bool sure;
+  size_t tried;
+  bool sure, tied;
 } nearest_question;
 
 /* Wants of p what is missing at the level. *open: p can be narrowed still. */
@@ -38,20 +45,40 @@ static void nearest_plan(nearest_question *q, dyd_plan *plan) {
   }
 }
 
+/* Exact points about an exact point are listed when none is nearer. */
+static bool all_are_exact(const nearest_question *q) {
+  bool exact = dyd_rect_is_point(dyd_stream_rect(q->at));
+  for (size_t k = 0; k < q->near.count && exact; k++) exact = dyd_sites_is_point(q->e->sites, q->near.item[k]);
+  return exact;
+}
+
+/* Are those listed equally far, for good? Where it is seen that they are not, the level is raised to where rectangles
+ * show it. */
+static dyd_status nearest_try_tie(nearest_question *q, const dyd_engine_options *o, dyd_error *err) {
+  int64_t needed = 0;
+  q->tied = all_are_exact(q);
+  if (q->tied || o->no_ties || q->tried == q->near.count) return DYD_OK;
+  q->tried = q->near.count;
+  dyd_status st = dyd_ties_equidistant(&q->tied, &needed, q->e, q->at, &q->near, err);
+  if (needed > q->level && !o->step_bits) q->level = needed;
+  return st;
+}
+
 static dyd_status nearest_ask(bool *answered, dyd_plan *plan, void *user, const dyd_engine *e, dyd_error *err) {
   nearest_question *q = user;
-  (void)err;
   dyd_status st = dyd_nearest_rect(&q->near, &q->sure, e->pd, dyd_stream_rect(q->at));
   *answered = st == DYD_OK && q->sure;
-  if (st == DYD_OK && !q->sure && q->near.count) nearest_plan(q, plan);
+  if (st == DYD_OK && q->near.count > 1) st = nearest_try_tie(q, plan->o, err);
+  if (st == DYD_OK && !q->sure && !q->tied && q->near.count) nearest_plan(q, plan);
   return st;
 }
 
 dyd_status dyd_engine_nearest(dyd_index_list *out, bool *sure, dyd_outcome *outcome, dyd_engine *e, dyd_stream *at,
                               const dyd_engine_options *options, dyd_error *err) {
-  nearest_question q = {.at = at, .level = INT64_MIN};
+  nearest_question q = {.e = e, .at = at, .level = INT64_MIN};
   const dyd_question question = {DYD_SIZED(dyd_question), .ask = nearest_ask, .user = &q, .guest = &at, .guests = 1};
   *outcome = DYD_OUTCOME_ERROR;
+  e->nearest_tied = false;
   if (err) dyd_error_clear(err);
   if (!e->pd) return dyd_fail(err, DYD_E_ARG, "there is no result yet: run the engine first");
   dyd_status st = dyd_engine_ask(outcome, e, &question, options, err);
@@ -62,5 +89,10 @@ dyd_status dyd_engine_nearest(dyd_index_list *out, bool *sure, dyd_outcome *outc
   dyd_index_list_clear(out);
   *out = q.near;
   *sure = q.sure;
+  e->nearest_tied = q.tied;
   return DYD_OK;
+}
+
+bool dyd_engine_nearest_tied(const dyd_engine *e) {
+  return e->nearest_tied;
 }

@@ -19,7 +19,8 @@
  *
  * Towards bounds on the Voronoi diagram the same is done with other numbers of the pairs (goal_voronoi.c).
  *
- * In faces of many points a few go ahead of the others, to tell how far these must go (scout.c).
+ * Where a tie was tried and is none, it is known at which bit that showed (ties.c): all its points in the face go there
+ * at once. In faces of many points a few go ahead of the others, to tell how far these must go (scout.c).
  *
  * Every rule marks a point whenever one that matters can be narrowed, and every mark asks for more than before
  * (plan.c): the loop ends. */
@@ -82,6 +83,25 @@ static int64_t relative_step(const dyd_refinable *p, int64_t relative, const dyd
   return dyd_bits_raised(p->bits, relative, o->max_bits);
 }
 
+/* Was a tie tried with the point, and is it known that it takes more bits to see that there is none (ties.c)? */
+static bool lacks_needed(const dyd_refinable *p, const dyd_engine_options *o) {
+  return lesser_bits(p->needed, o->max_bits) > p->bits && !o->step_bits && o->goal == DYD_GOAL_DECIDED;
+}
+
+/* Is that known of a site of the face? Then nobody has to be sent to learn it. */
+static bool any_lacks_needed(const dyd_coarse *c, const dyd_plan *plan) {
+  for (size_t k = 0; k < c->sites.count; k++) {
+    const dyd_refinable *p = dyd_engine_find(plan->e, c->sites.item[k]);
+    if (p && !p->final && lacks_needed(p, plan->o)) return true;
+  }
+  return false;
+}
+
+static int64_t face_step(const dyd_refinable *p, int64_t relative, const dyd_engine_options *o) {
+  int64_t step = relative_step(p, relative, o);
+  return lacks_needed(p, o) && p->needed > step ? p->needed : step;
+}
+
 /* Marks the coarsest of the ends of pairs that can be narrowed; *least becomes their relative precision. false: none
  * can be. */
 static bool mark_ends(int64_t *least, dyd_plan *plan, const dyd_coarse *c, const dyd_pair_list *pairs) {
@@ -96,8 +116,8 @@ static bool mark_ends(int64_t *least, dyd_plan *plan, const dyd_coarse *c, const
       any = true;
       if (pass == 0)
         *least = lesser_bits(*least, relative);
-      else if (relative <= companion_bits(*least))
-        dyd_plan_mark(plan, p, relative_step(p, relative, plan->o), DYD_REASON_END, pair->i, pair->j);
+      else if (relative <= companion_bits(*least) || lacks_needed(p, plan->o))
+        dyd_plan_mark(plan, p, face_step(p, relative, plan->o), DYD_REASON_END, pair->i, pair->j);
     }
   }
   return any;
@@ -113,8 +133,8 @@ static void mark_blockers(dyd_plan *plan, const dyd_coarse *c, bool ends, int64_
       int64_t relative = dyd_coarse_bits(c, p->site);
       if (pass == 0)
         limit = lesser_bits(limit, relative);
-      else if (relative <= limit)
-        dyd_plan_mark_alone(plan, p, relative_step(p, relative, plan->o), DYD_REASON_BLOCKER);
+      else if (relative <= limit || lacks_needed(p, plan->o))
+        dyd_plan_mark_alone(plan, p, face_step(p, relative, plan->o), DYD_REASON_BLOCKER);
     }
     if (pass == 0) limit = companion_bits(limit);
   }
@@ -146,7 +166,7 @@ static dyd_status plan_face(dyd_plan *plan, dyd_scouts *scouts, size_t f, dyd_me
     int64_t least;
     bool ends = mark_ends(&least, plan, &c, &pairs);
     mark_blockers(plan, &c, ends, least);
-    if (ends && scouts) st = dyd_scouts_add(scouts, plan, &pairs);
+    if (ends && scouts && !any_lacks_needed(&c, plan)) st = dyd_scouts_add(scouts, plan, &pairs);
   }
   dyd_coarse_clear(&c);
   dyd_pair_list_clear(&pairs);

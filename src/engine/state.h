@@ -36,6 +36,7 @@ typedef struct dyd_refinable {
   uint32_t site, source; /* guests of a question are numbered on from the sites */
   dyd_stream *stream;
   int64_t bits;
+  int64_t needed; /* bits at which it showed that a tie with others is none (ties.c); 0: none was tried */
   uint64_t calls; /* how often the engine has asked it */
   bool final;     /* no call can narrow it further */
   bool asked;     /* has been brought to `bits` once */
@@ -92,6 +93,7 @@ struct dyd_engine {
   int64_t tie_bits;
   int64_t proof_bits; /* the tie_bits pd was last worked on with; 0: no ties were looked for */
   dyd_tie_counters tie_counters;
+  bool nearest_tied;   /* what the last question after nearest sites listed is a tie */
   dyd_prove_fn prover; /* who is asked about ties in place of ties.c; NULL: nobody */
   void *prover_user;
   volatile int cancelled; /* set by dyd_engine_cancel; atomic access only, as for stop */

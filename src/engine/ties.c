@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Proving that points of an engine are the same, on one line, or on one circle: by what their coordinates are, whatever
- * their rectangles.
+/* Proving that points of an engine are the same, on one line, on one circle, or equally far from a place: by what their
+ * coordinates are, whatever their rectangles.
  *
  * The points of one question are described in one algebra, so that they share their leaves. All determinants have
  * points in common: the ends of a chain, three points of a polygon far apart; these are proved to be different, and not
- * on one line, before a determinant that is 0 means anything. A point that is not described proves nothing. */
+ * on one line, before a determinant that is 0 means anything. A point that is not described proves nothing.
+ *
+ * What is seen not to be 0 tells how far points have to be refined before their rectangles show it, too: this is noted
+ * at them, for the schedule. */
 #include "engine/ties.h"
 
 #include "base/alloc.h"
@@ -56,15 +59,18 @@ bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *coun
 
 /* ---- one question ---- */
 
+/* place: NULL, or the sites are asked to be equally far from it. */
 typedef struct question {
   dyd_engine *e;
   dyd_algebra algebra;
   dyd_relation relation;
+  const dyd_stream *place;
   const uint32_t *site;
   size_t count;
-  dyd_form_point *at; /* in the order of the sites */
+  dyd_form_point *at; /* in the order of the sites; the place comes last */
   uint32_t *zero;     /* forms that are to be 0 */
   size_t zeros;
+  int64_t needed; /* bits of the points at which one is seen not to be; 0: not known */
 } question;
 
 dyd_status dyd_ties_describe(dyd_form_point *out, dyd_forms *f, const dyd_engine *e, uint32_t i, bool given) {
@@ -83,10 +89,16 @@ dyd_status dyd_ties_describe(dyd_form_point *out, dyd_forms *f, const dyd_engine
   return st;
 }
 
-/* *known: all sites are described. */
+static size_t described_points(const question *q) {
+  return q->count + (q->place != NULL);
+}
+
+/* *known: all of them are described. */
 static dyd_status describe_all(bool *known, question *q) {
   dyd_status st = DYD_OK;
-  *known = true;
+  const dyd_form_point none = {DYD_NONE, DYD_NONE};
+  q->at[q->count] = q->place ? dyd_forms_stream(&q->algebra.forms, q->place) : none;
+  *known = !q->place || (q->at[q->count].x != DYD_NONE && q->at[q->count].y != DYD_NONE);
   for (size_t k = 0; k < q->count && st == DYD_OK && *known; k++) {
     st = dyd_ties_describe(&q->at[k], &q->algebra.forms, q->e, q->site[k], false);
     *known = q->at[k].x != DYD_NONE && q->at[k].y != DYD_NONE;
@@ -133,7 +145,19 @@ static bool put_cocircular(question *q) {
   return true;
 }
 
+/* The first is as far as the others. */
+static void put_equidistant(question *q) {
+  dyd_forms *f = &q->algebra.forms;
+  uint32_t first = dyd_forms_distance2(f, q->at[0], q->at[q->count]);
+  for (size_t k = 1; k < q->count; k++)
+    q->zero[q->zeros++] = dyd_forms_binary(f, DYD_OP_SUB, dyd_forms_distance2(f, q->at[k], q->at[q->count]), first);
+}
+
 static bool put_zeros(question *q) {
+  if (q->place) {
+    put_equidistant(q);
+    return true;
+  }
   switch (q->relation) {
   case DYD_COINCIDENT:
     put_coincident(q);
@@ -145,6 +169,54 @@ static bool put_zeros(question *q) {
   }
 }
 
+/* ---- what was tried and is not 0 ---- */
+
+/* Differences of coordinates are below 2^this in absolute value. */
+static int64_t question_scale(question *q) {
+  dyd_forms *f = &q->algebra.forms;
+  arb_t d;
+  arf_t most;
+  int64_t scale = INT64_MIN;
+  arb_init(d);
+  arf_init(most);
+  for (size_t k = 0; k < 2 * described_points(q); k++) {
+    uint32_t of = k & 1 ? q->at[k / 2].y : q->at[k / 2].x, from = k & 1 ? q->at[0].y : q->at[0].x;
+    arb_sub(d, dyd_forms_value(f, of, DYD_ZERO_FIRST_BITS), dyd_forms_value(f, from, DYD_ZERO_FIRST_BITS),
+            DYD_ZERO_FIRST_BITS);
+    arb_get_abs_ubound_arf(most, d, DYD_ZERO_FIRST_BITS);
+    if (!arf_is_finite(most) || arf_is_zero(most)) continue;
+    int64_t size = (int64_t)fmpz_get_si(ARF_EXPREF(most));
+    if (size > scale) scale = size;
+  }
+  arf_clear(most);
+  arb_clear(d);
+  return scale == INT64_MIN ? 0 : scale;
+}
+
+/* The degree of the forms in the coordinates. */
+static int question_degree(const question *q) {
+  return q->place ? 2 : q->relation == DYD_COINCIDENT ? 1 : q->relation == DYD_COLLINEAR ? 2 : 4;
+}
+
+/* A form is seen not to be 0 from the precision `shown` on. Of all the largest one counts: with it alone the question
+ * is answered. Coordinates that are off by 2^-b change a form of degree d, for points within 2^s of one another, by
+ * about 2^(s (d - 1) - b). At the first precision nothing is gained. */
+static void question_need(question *q) {
+  enum { MARGIN = 16 };
+  slong shown = q->algebra.shown;
+  int64_t least = INT64_MAX;
+  if (shown <= DYD_ZERO_FIRST_BITS) return;
+  for (size_t k = 0; k < q->zeros && !dyd_flag_get(&q->e->stop); k++) {
+    int64_t e = dyd_algebra_smallness(&q->algebra, q->zero[k], shown);
+    if (e < least) least = e;
+  }
+  if (least == INT64_MAX) return;
+  int64_t need = least + (question_degree(q) - 1) * question_scale(q);
+  if (need > 0) q->needed = need + need / 64 + MARGIN;
+}
+
+/* ---- answers ---- */
+
 /* Leaves are settled when no form is surely not 0. *out stays unknown on failure. */
 static dyd_status test_zeros(dyd_zero *out, question *q) {
   dyd_algebra *a = &q->algebra;
@@ -155,9 +227,10 @@ static dyd_status test_zeros(dyd_zero *out, question *q) {
       return DYD_OK;
     }
   _Static_assert(sizeof *q->at == 2 * sizeof(uint32_t), "points are pairs of forms");
-  dyd_status st = dyd_algebra_settle(a, &q->at->x, 2 * q->count);
+  dyd_status st = dyd_algebra_settle(a, &q->at->x, 2 * described_points(q));
   for (size_t k = 0; k < q->zeros && st == DYD_OK && all == DYD_ZERO_PROVED; k++) all = dyd_algebra_test(a, q->zero[k]);
   if (a->forms.failed || a->ring.failed) st = DYD_E_NOMEM;
+  if (st == DYD_OK && all == DYD_ZERO_REFUTED) question_need(q);
   if (st == DYD_OK) *out = all;
   return st;
 }
@@ -165,7 +238,7 @@ static dyd_status test_zeros(dyd_zero *out, question *q) {
 static dyd_status question_run(dyd_zero *out, question *q) {
   bool known;
   *out = DYD_ZERO_UNKNOWN;
-  q->at = dyd_alloc(q->count, sizeof *q->at);
+  q->at = dyd_alloc(q->count + 1, sizeof *q->at);
   q->zero = dyd_alloc(q->count + 2, sizeof *q->zero);
   if (!q->at || !q->zero) return DYD_E_NOMEM;
   dyd_status st = describe_all(&known, q);
@@ -186,19 +259,26 @@ static void count_question(dyd_engine *e, const dyd_zero_counts *c, double secon
 }
 
 /* *final: it would be answered in the same way again. */
-static dyd_status question_answer(dyd_zero *out, bool *final, dyd_engine *e, dyd_relation relation,
-                                  const uint32_t *site, size_t count) {
-  question q = {.e = e, .relation = relation, .site = site, .count = count};
+static dyd_status question_answer(dyd_zero *out, bool *final, question *q) {
+  dyd_engine *e = q->e;
   double begin = dyd_seconds();
-  dyd_status st = dyd_algebra_open(&q.algebra, e->tie_bits, &e->stop);
+  dyd_status st = dyd_algebra_open(&q->algebra, e->tie_bits, &e->stop);
   if (st != DYD_OK) return st;
-  st = question_run(out, &q);
-  *final = !q.algebra.forms.opaque && !dyd_flag_get(&e->stop);
-  dyd_algebra_close(&q.algebra);
-  free(q.zero);
-  free(q.at);
-  count_question(e, &q.algebra.count, dyd_seconds() - begin);
+  st = question_run(out, q);
+  *final = !q->algebra.forms.opaque && !dyd_flag_get(&e->stop);
+  dyd_algebra_close(&q->algebra);
+  free(q->zero);
+  free(q->at);
+  count_question(e, &q->algebra.count, dyd_seconds() - begin);
   return st;
+}
+
+/* Notes at the points of a question what they need. */
+static void note_need(const question *q) {
+  for (size_t k = 0; k < q->count && q->needed; k++) {
+    dyd_refinable *p = dyd_find_index(&q->site[k], q->e->point, q->e->points, sizeof *q->e->point);
+    if (p && p->needed < q->needed) p->needed = q->needed;
+  }
 }
 
 /* ---- what was asked before ---- */
@@ -237,8 +317,10 @@ static dyd_status answer_get(answer **out, dyd_engine *e, dyd_relation relation,
   dyd_zero zero = DYD_ZERO_UNKNOWN;
   dyd_ties *t = e->ties;
   if (!dyd_reserve((void **)&t->proved, &t->proved_cap, t->proofs + 1, sizeof(answer *))) return DYD_E_NOMEM;
-  dyd_status st = question_answer(&zero, &final, e, relation, site, count);
+  question q = {.e = e, .relation = relation, .site = site, .count = count};
+  dyd_status st = question_answer(&zero, &final, &q);
   if (st != DYD_OK) return st;
+  note_need(&q);
   a->zero = zero;
   if (final) a->most = e->tie_bits;
   if (zero == DYD_ZERO_PROVED) t->proved[t->proofs++] = a;
@@ -257,5 +339,17 @@ dyd_status dyd_ties_prove(bool *proved, void *user, dyd_relation relation, const
   dyd_status st = answer_get(&a, user, relation, site, count);
   if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
   *proved = a->zero == DYD_ZERO_PROVED;
+  return DYD_OK;
+}
+
+dyd_status dyd_ties_equidistant(bool *tied, int64_t *needed, dyd_engine *e, dyd_stream *at, const dyd_index_list *sites,
+                                dyd_error *err) {
+  question q = {.e = e, .place = at, .site = sites->item, .count = sites->count};
+  dyd_zero zero = DYD_ZERO_UNKNOWN;
+  bool final;
+  dyd_status st = question_answer(&zero, &final, &q);
+  if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
+  *tied = zero == DYD_ZERO_PROVED;
+  *needed = q.needed;
   return DYD_OK;
 }

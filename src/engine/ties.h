@@ -17,6 +17,10 @@ bool dyd_ties_proved(dyd_relation *relation, const uint32_t **site, size_t *coun
 /* The forms of a site's coordinates; DYD_NONE where nothing is known of what they are. What is exact is a number,
  * unless the point as it was given is asked for. */
 dyd_status dyd_ties_describe(dyd_form_point *out, dyd_forms *f, const dyd_engine *e, uint32_t i, bool given);
+/* *tied: the sites (two at least) are proved to be equally far from `at`. Otherwise *needed is the precision at which
+ * it shows that they are not, 0: not known. Nothing is remembered. */
+dyd_status dyd_ties_equidistant(bool *tied, int64_t *needed, dyd_engine *e, dyd_stream *at, const dyd_index_list *sites,
+                                dyd_error *err);
 void dyd_ties_free(dyd_ties *t);
 
 #endif

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The sure edges of the Voronoi diagram.
  *
- * The edge dual to a legal pair ij ends on each side at the vertex of the sure triangle there, or somewhere in the
- * region of an undecided face, or, for pairs that are hull edges for every choice, it is a ray: with all other points
- * to the left of the way from i to j, it goes to infinity along (y_j - y_i, x_i - x_j). */
+ * The edge dual to a legal pair ij ends on each side at the vertex of the sure triangle there; or at that of a polygon
+ * whose sites are on one circle, since its sides are legal and others are not between them; or somewhere in the region
+ * of an undecided face; or, for pairs that are hull edges for every choice, it is a ray: with all other points to the
+ * left of the way from i to j, it goes to infinity along (y_j - y_i, x_i - x_j). */
 #include "io/dual.h"
 
 #include "base/alloc.h"
+#include "delaunay/state.h"
 #include <math.h>
 
 static int dual_compare(const void *a, const void *b) {
@@ -27,6 +29,23 @@ static void dual_join_triangles(dyd_dual_edge *edge, size_t count, const dyd_tri
       dyd_dual_edge *e = dual_find(edge, count, a < b ? a : b, a < b ? b : a);
       if (e) e->end[a < b ? 0 : 1] = (dyd_dual_end){.kind = DYD_DUAL_VERTEX, .vertex = t};
     }
+}
+
+static int tied_compare(const void *a, const void *b) {
+  const size_t *f = a, *g = b;
+  return (*f > *g) - (*f < *g);
+}
+
+/* Ends that are in no triangle may be in a tied polygon. first: the number of its first vertex. */
+static void dual_join_ties(dyd_dual_edge *e, const dyd_delaunay *pd, const size_t *tied, size_t ties, size_t first) {
+  uint32_t v[2] = {pd->sk.vertex[e->i], pd->sk.vertex[e->j]};
+  for (int end = 0; end < 2; end++) {
+    if (e->end[end].kind != DYD_DUAL_OPEN) continue;
+    dyd_half_edge h = dyd_find_edge(&pd->sk, v[end], v[1 - end]);
+    size_t face = h == DYD_NONE ? DYD_NONE : dyd_face_of(pd, dyd_edge_triangle(h));
+    const size_t *found = bsearch(&face, tied, ties, sizeof *tied, tied_compare);
+    if (found) e->end[end] = (dyd_dual_end){.kind = DYD_DUAL_VERTEX, .vertex = first + (size_t)(found - tied)};
+  }
 }
 
 /* Bounds of sign * (b - a) along an axis: an operation in doubles, then one step outward. */
@@ -64,7 +83,7 @@ static dyd_status dual_join_rays(dyd_dual_edge *edge, size_t count, const dyd_de
 }
 
 dyd_status dyd_dual_edges(dyd_dual_edge **out, size_t *count, const dyd_delaunay *pd,
-                          const dyd_triangle_list *triangles) {
+                          const dyd_triangle_list *triangles, const size_t *tied, size_t ties) {
   dyd_pair_list pairs = {0};
   size_t legal = 0;
   dyd_status st = dyd_delaunay_pairs(&pairs, pd);
@@ -78,6 +97,7 @@ dyd_status dyd_dual_edges(dyd_dual_edge **out, size_t *count, const dyd_delaunay
   dyd_pair_list_clear(&pairs);
   if (st == DYD_OK) {
     dual_join_triangles(edge, legal, triangles);
+    for (size_t k = 0; ties && k < legal; k++) dual_join_ties(&edge[k], pd, tied, ties, triangles->count);
     st = dual_join_rays(edge, legal, pd);
   }
   if (st != DYD_OK) {

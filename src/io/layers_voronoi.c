@@ -249,17 +249,29 @@ static uint32_t third_corner(const dyd_triangle *t, uint32_t i, uint32_t j) {
   return t->v[k];
 }
 
-/* The third corner of the sure triangle whose vertex the edge ends at, "ray", or "open": in an undecided region. */
-static void edge_value(dyd_table *t, const dyd_diagram *d, const dyd_dual_edge *e, int end) {
+/* The three sites that name the tied vertex in the layer of vertices. */
+static dyd_status tied_value(dyd_table *t, const dyd_diagram *d, size_t vertex) {
+  dyd_index_list sites = {0};
+  dyd_status st = dyd_diagram_vertex_sites(&sites, d, vertex);
+  if (st == DYD_OK && sites.count > 3) sites.count = 3;
+  if (st == DYD_OK) st = row_sites(t, &sites);
+  dyd_index_list_clear(&sites);
+  return st;
+}
+
+/* The third corner of the sure triangle whose vertex the edge ends at, or what names a tied one; "ray", or "open": in
+ * an undecided region. */
+static dyd_status edge_value(dyd_table *t, const dyd_diagram *d, const dyd_dual_edge *e, int end) {
   const dyd_dual_end *to = &e->end[end];
-  if (to->kind == DYD_DUAL_VERTEX) {
-    char text[24];
+  bool vertex = to->kind == DYD_DUAL_VERTEX;
+  if (vertex && to->vertex >= d->triangles.count) return tied_value(t, d, to->vertex);
+  char text[24] = "open";
+  if (to->kind == DYD_DUAL_RAY) snprintf(text, sizeof text, "ray");
+  if (vertex)
     snprintf(text, sizeof text, "%zu",
              dyd_engine_row(d->engine, third_corner(&d->triangles.item[to->vertex], e->i, e->j)));
-    dyd_row_text(t, text);
-  } else {
-    dyd_row_text(t, to->kind == DYD_DUAL_RAY ? "ray" : "open");
-  }
+  dyd_row_text(t, text);
+  return DYD_OK;
 }
 
 /* csv lists all; wkt and geojson those with two ends that can be drawn. */
@@ -271,10 +283,10 @@ dyd_status dyd_layer_edges(const dyd_output *o) {
   size_t count = 0;
   dyd_table t;
   dyd_status st = diagram_begin(o);
-  if (st == DYD_OK) st = dyd_dual_edges(&edge, &count, d->pd, &d->triangles);
+  if (st == DYD_OK) st = dyd_dual_edges(&edge, &count, d->pd, &d->triangles, d->tied, d->ties);
   if (st != DYD_OK) return st;
   dyd_table_begin(&t, &head);
-  for (size_t k = 0; k < count; k++) {
+  for (size_t k = 0; k < count && st == DYD_OK; k++) {
     double box[2][4];
     bool drawn = dyd_diagram_edge(box, d, &edge[k]);
     if (!drawn && o->format != DYD_FORMAT_CSV) continue;
@@ -282,12 +294,12 @@ dyd_status dyd_layer_edges(const dyd_output *o) {
     for (int end = 0; drawn && end < 2; end++) dyd_row_at(&t, box[end]);
     dyd_row_site(&t, edge[k].i);
     dyd_row_site(&t, edge[k].j);
-    for (int end = 0; end < 2; end++) edge_value(&t, d, &edge[k], end);
+    for (int end = 0; end < 2 && st == DYD_OK; end++) st = edge_value(&t, d, &edge[k], end);
     dyd_row_id(&t, edge[k].i);
     dyd_row_id(&t, edge[k].j);
     dyd_row_end(&t);
   }
   dyd_table_end(&t);
   free(edge);
-  return DYD_OK;
+  return st;
 }

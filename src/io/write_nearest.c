@@ -4,6 +4,7 @@
 #include "io/label_text.h"
 #include "io/output.h"
 #include "io/parts.h"
+#include "io/result.h"
 
 static const char *nearest_status(const dyd_nearest_answer *a) {
   return a->sure ? "sure" : "possible";
@@ -20,7 +21,7 @@ static dyd_status nearest_distance(double bounds[2], const dyd_nearest_output *n
 static dyd_status nearest_json_list(FILE *out, const dyd_nearest_output *n, const dyd_nearest_answer *a,
                                     dyd_rect *scratch) {
   dyd_status st = DYD_OK;
-  fputs("\"nearest\": [", out);
+  fprintf(out, "\"tied\": %s, \"nearest\": [", a->tied ? "true" : "false");
   for (size_t k = 0; k < a->found->count && st == DYD_OK; k++) {
     double bounds[2];
     st = nearest_distance(bounds, n, a, a->found->item[k], scratch);
@@ -70,6 +71,18 @@ dyd_status dyd_places_json(const dyd_output *o) {
   return st;
 }
 
+/* A line for each tie: its points, after the place where there are many. */
+static void nearest_ties(const dyd_output *o, bool many) {
+  const dyd_nearest_output *n = o->what;
+  for (size_t q = 0; q < n->count; q++) {
+    if (!n->answer[q]->tied) continue;
+    fputs("# tie ", o->out);
+    if (many) fprintf(o->out, "%zu: ", q);
+    dyd_put_rows(o->out, n->engine, n->answer[q]->found, " ");
+    fputs("\n", o->out);
+  }
+}
+
 /* Rows, which begin with the number of the place where there are many. */
 static dyd_status nearest_rows(const dyd_output *o, bool many) {
   const dyd_nearest_output *n = o->what;
@@ -77,6 +90,7 @@ static dyd_status nearest_rows(const dyd_output *o, bool many) {
   dyd_status st = DYD_OK;
   dyd_rect_init(&scratch);
   dyd_csv_aliases(o->out, n->engine);
+  nearest_ties(o, many);
   fprintf(o->out, "# rounding: lo down, hi up; empty: beyond doubles\n%si,status,lo,hi%s\n", many ? "q," : "",
           dyd_csv_id_head(n->engine, 0));
   for (size_t q = 0; q < n->count; q++) {

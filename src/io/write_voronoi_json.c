@@ -142,7 +142,7 @@ static void dual_end_json(FILE *out, const char *name, const dyd_dual_end *end) 
 static dyd_status dual_edges_json(const dyd_diagram *d) {
   dyd_dual_edge *edge = NULL;
   size_t count = 0;
-  dyd_status st = dyd_dual_edges(&edge, &count, d->pd, &d->triangles);
+  dyd_status st = dyd_dual_edges(&edge, &count, d->pd, &d->triangles, d->tied, d->ties);
   fputs("\"edges\": [", d->out);
   for (size_t k = 0; k < count; k++) {
     fprintf(d->out, "%s\n{\"i\": %zu, \"j\": %zu", k ? "," : "", dyd_engine_row(d->engine, edge[k].i),

@@ -7,12 +7,13 @@
 
 /* ---- nearest ---- */
 
-static PyObject *nearest_found(const dyd_index_list *found, bool sure, dyd_outcome outcome, const dyd_rect *at) {
+static PyObject *nearest_found(const dyd_index_list *found, bool sure, bool tied, dyd_outcome outcome,
+                               const dyd_rect *at) {
   void *copy = malloc((found->count + 1) * sizeof *found->item);
   if (!copy) return PyErr_NoMemory();
   if (found->count) memcpy(copy, found->item, found->count * sizeof *found->item);
-  return Py_BuildValue("NNsN", dydpy_buffer_new(copy, found->count * sizeof *found->item), PyBool_FromLong(sure),
-                       dyd_outcome_text(outcome), dydpy_rect_ends(at));
+  return Py_BuildValue("NNNsN", dydpy_buffer_new(copy, found->count * sizeof *found->item), PyBool_FromLong(sure),
+                       PyBool_FromLong(tied), dyd_outcome_text(outcome), dydpy_rect_ends(at));
 }
 
 static PyObject *engine_nearest_of(dydpy_engine *self, dyd_stream *at, const dyd_engine_options *o) {
@@ -31,7 +32,7 @@ static PyObject *engine_nearest_of(dydpy_engine *self, dyd_stream *at, const dyd
   if (st != DYD_OK)
     dydpy_raise(&err, st);
   else if (raised == 0)
-    answer = nearest_found(&found, sure, outcome, dyd_stream_rect(at));
+    answer = nearest_found(&found, sure, dyd_engine_nearest_tied(self->engine), outcome, dyd_stream_rect(at));
   dyd_index_list_clear(&found);
   return answer;
 }

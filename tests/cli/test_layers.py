@@ -135,7 +135,9 @@ def test_cells():
 def end_of(data, edge, end):
     """What csv says of an end, from json."""
     if isinstance(edge[end], int):
-        return str(next(k for k in data['vertices'][edge[end]]['sites'] if k not in (edge['i'], edge['j'])))
+        sites = data['vertices'][edge[end]]['sites']
+        others = [k for k in sites if k not in (edge['i'], edge['j'])] if len(sites) == 3 else sites[:3]
+        return ' '.join(map(str, others))
     return 'ray' if edge[end] else 'open'
 
 

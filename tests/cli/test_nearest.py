@@ -18,16 +18,23 @@ from harness import DATA, expect, main, run
 SITES = '0 0\n2*sqrt(2) 0\n0 10\n0 0\n10 10\n'
 HEAD = r'# rounding: lo down, hi up; empty: beyond doubles\ni,status,lo,hi\n'
 ALIAS = r'\A# alias 3 0\n' + HEAD
+TIE = r'\A# alias 3 0\n# tie {}\n' + HEAD
 
 # (options, X, Y, exit status, standard output, standard error)
 CASES = [
     ('', '1', '1', 0, ALIAS + r'0,sure,\S+\n\Z', r'\A\Z'),
     ('', '-1', '-22/7', 0, ALIAS + r'0,sure,\S+\n\Z', r'\A\Z'),
-    ('', 'sqrt(2)', 'pi', 4, ALIAS + r'0,possible,\S+\n1,possible,\S+\n\Z', r'\Adyadel: budget: 2 possibly nearest; .*--max-bits'),
-    ('--quiet', 'sqrt(2)', 'pi', 4, ALIAS + r'0,possible,\S+\n1,possible,\S+\n\Z', r'\A\Z'),
+    ('', 'sqrt(2)', 'pi', 3, TIE.format('0 1') + r'0,possible,\S+\n1,possible,\S+\n\Z',
+     r'\Adyadel: fixpoint: 2 possibly nearest; .*equally far, a tie$'),
+    ('--ties prove', 'sqrt(2)', 'pi', 3, TIE.format('0 1'), ''),
+    ('--ties off', 'sqrt(2)', 'pi', 4, ALIAS + r'0,possible,\S+\n1,possible,\S+\n\Z', r'\Adyadel: budget: 2 possibly nearest; .*--max-bits'),
+    ('--tie-bits 16', 'cbrt(2+sqrt(5))+cbrt(2-sqrt(5))-1+sqrt(2)', 'pi', 4, ALIAS + r'0,possible,\S+\n1,possible,\S+\n\Z', 'budget: 2'),
+    ('--tie-bits 4096', 'cbrt(2+sqrt(5))+cbrt(2-sqrt(5))-1+sqrt(2)', '3', 3, TIE.format('0 1'), 'fixpoint: 2'),
+    ('', 'tan(atan(sqrt(2)))', 'pi', 4, ALIAS + r'0,possible,\S+\n1,possible,\S+\n\Z', 'budget: 2'),
+    ('--quiet --ties off', 'sqrt(2)', 'pi', 4, ALIAS + r'0,possible,\S+\n1,possible,\S+\n\Z', r'\A\Z'),
     ('', 'sqrt(2)+2^-3000', 'pi', 0, ALIAS + r'1,sure,\S+\n\Z', r'\A\Z'),
     ('--max-bits 2000', 'sqrt(2)+2^-3000', 'pi', 4, ALIAS + r'0,possible,\S+\n1,possible,\S+\n\Z', ''),
-    ('', '5', '123/7', 3, ALIAS + r'2,possible,\S+\n4,possible,\S+\n\Z', r'\Adyadel: fixpoint: 2 possibly nearest'),
+    ('', '5', '123/7', 3, TIE.format('2 4') + r'2,possible,\S+\n4,possible,\S+\n\Z', r'\Adyadel: fixpoint: 2 possibly nearest'),
     ('', '[0,1]', '5', 3, ALIAS + r'0,possible,\S+\n2,possible,\S+\n\Z', ''),
     ('', '0.5+-0.25', '1', 0, ALIAS + r'0,sure,\S+\n\Z', ''),
     ('', '1+', '2', 2, r'\A\Z', r'\Adyadel: X "1\+", column 3: '),
@@ -68,8 +75,32 @@ def test_json():
     assert answer['x'] == ['1/3', '1/3'] and answer['y'] == ['1*2^-1', '1*2^-1'], answer
     nearest, = answer['nearest']
     assert nearest['i'] == 0 and nearest['status'] == 'sure' and answer['aliases'] == [[3, 0]], answer
+    assert answer['tied'] is False
     low, high = nearest['distance']
     assert Fraction(low)**2 <= Fraction(13, 36) <= Fraction(high)**2 and high - low < 1e-15, nearest
+
+
+def test_tied():
+    """The centre of regular polygons, at once; in csv and json, of one place and of many, exact or not."""
+    for n in (4, 12, 100):
+        gon = ''.join(f'cos(2*pi*{k}/{n})+1/3 sin(2*pi*{k}/{n})-sqrt(2)\n' for k in range(n)) + '7 8\n'
+        result = run('nearest', '-', '1/3', '0-sqrt(2)', stdin=gon)
+        corners = list(range(n))
+        expect(result, 3, r'\A# tie ' + ' '.join(map(str, corners)) + r'\n# rounding', f'fixpoint: {n} possibly nearest; .* a tie$')
+        assert [(int(r['i']), r['status']) for r in rows(result.out)] == [(k, 'possible') for k in corners]
+        answer = json.loads(run('nearest', '--format', 'json', '-', '1/3', '0-sqrt(2)', stdin=gon).out)
+        assert answer['outcome'] == 'fixpoint' and answer['tied'] is True, answer
+        assert [(p['i'], p['status']) for p in answer['nearest']] == [(k, 'possible') for k in corners]
+    places = '1/3 -sqrt(2)\n1/3 -sqrt(2)+2^-900\n7 0\n[0,1] -sqrt(2)\n'
+    result = ask(places, points=gon, code=4)
+    assert [line for line in result.out.splitlines() if 'tie' in line] == ['# tie 0: ' + ' '.join(map(str, corners))]
+    answer = json.loads(ask(places, '--format', 'json', points=gon, code=4).out)
+    assert [(p['outcome'], p['tied']) for p in answer['places']] == [
+        ('fixpoint', True), ('decided', False), ('decided', False), ('budget', False)], answer['places']
+    named = 'id,x,y\na,0,0\nb,2,0\nc,0,2\nd,2,2\n'
+    expect(run('nearest', '--columns', 'x,y', '--id', 'id', '-', '1', '1', stdin=named), 3, r'\A# tie 0 1 2 3\n.*\n.*\n0,.*,a$')
+    expect(run('nearest', '--measured', '-', '5', '0', stdin='0 0\n10 0\n'), 3, r'\A# rounding')
+    expect(run('nearest', '-', '5', '0', stdin='0 0\n[10,10] 0\n'), 3, r'\A# tie 0 1\n')
 
 
 def svg_of(*args, stdin):
@@ -175,6 +206,8 @@ def test_places_against_all_distances():
             assert r['status'] == ('sure' if len(nearest) == 1 else 'possible'), r
             low, high = Fraction(r['lo']), Fraction(r['hi'])
             assert low**2 <= least <= high**2 and high - low <= Fraction(1, 10**14), r
+    told = [line.split()[2] for line in result.out.splitlines() if line.startswith('# tie ')]
+    assert told == [f'{q}:' for q in sorted(found) if len(found[q]) > 1]
     assert ties and f'fixpoint: {ties} of 300 places have no sure nearest point' in result.err, (ties, result.err)
 
 
@@ -187,11 +220,12 @@ def test_places_as_json():
 
 
 def test_refined_places():
-    """Points and places narrow until each is sure; a budget leaves the others as they are."""
+    """Points and places narrow until each is sure, or a tie; a budget leaves the others as they are."""
     places = 'sqrt(2)+2^-3000 pi\nsqrt(2) pi\n1 1\n'
-    many = rows(ask(places, points=SITES, code=4).out)
-    assert [(r['q'], r['i'], r['status']) for r in many] == [
-        ('0', '1', 'sure'), ('1', '0', 'possible'), ('1', '1', 'possible'), ('2', '0', 'sure')], many
+    for options, code in (((), 3), (('--ties', 'off'), 4)):
+        many = rows(ask(places, *options, points=SITES, code=code).out)
+        assert [(r['q'], r['i'], r['status']) for r in many] == [
+            ('0', '1', 'sure'), ('1', '0', 'possible'), ('1', '1', 'possible'), ('2', '0', 'sure')], many
 
 
 def test_wrong_places():

@@ -136,6 +136,42 @@ def test_counters_in_json():
     assert counters['zero_milliseconds_rounded_up'] > 0 <= counters['zero_degree_most'], counters
 
 
+def test_edges_of_the_diagram():
+    """The sides of a tied polygon end at its vertex, computable or exact: named as in its row, drawn as a line."""
+    for n, more, corners in ((12, '', gon(12)), (5, '', gon(5)),
+                             (4, '7 9\n', [('0', '0'), ('2', '0'), ('2', '2'), ('0', '2')])):
+        points = text(corners) + more
+        table = run('voronoi', '--layer', 'vertices', '-', stdin=points)
+        expect(table, 3, '^# tie ' + ' '.join(map(str, range(n))) + '$')
+        expect(table, 3, '^0,1,2,')
+        result = run('voronoi', '--layer', 'edges', '-', stdin=points)
+        ends = {tuple(map(int, line.split(',')[:2])): line.split(',')[2:]
+                for line in result.out.splitlines() if line[0].isdigit()}
+        for k in range(n):
+            i, j = sorted((k, (k + 1) % n))
+            inside = 0 if j == i + 1 else 1  # the polygon is on the left of k to k + 1
+            assert ends[i, j][inside] == '0 1 2' and ends[i, j][1 - inside] != '0 1 2', (i, j, ends[i, j])
+        assert not any('open' in e for e in ends.values()), ends
+        drawn = json.loads(run('voronoi', '--layer', 'edges', '--format', 'geojson', '-', stdin=points).out)['features']
+        assert len(drawn) == len(ends)
+        data = json.loads(run('voronoi', '--format', 'json', '-', stdin=points).out)
+        tied = next(k for k, v in enumerate(data['vertices']) if v['sites'] == list(range(n)))
+        assert sum(tied in (e['from'], e['to']) for e in data['edges']) == n, data['edges']
+
+
+def test_edges_of_grids():
+    """Every inner side is between two tied vertices, which hold it."""
+    for points, n in ((text(turned(STEPS[:4], 'cos(1)', 'sin(1)')), 4), (''.join(f'{x} {y}\n' for x in range(5) for y in range(5)), 5)):
+        data = json.loads(run('voronoi', '--format', 'json', '-', stdin=points).out)
+        assert len(data['vertices']) == (n - 1)**2 and all(len(v['sites']) == 4 for v in data['vertices'])
+        both = 0
+        for edge in data['edges']:
+            ends = [edge[k] for k in ('from', 'to') if isinstance(edge[k], int)]
+            assert all({edge['i'], edge['j']} <= set(data['vertices'][k]['sites']) for k in ends) and ends, edge
+            both += len(set(ends)) == 2
+        assert both == 2 * (n - 1) * (n - 2), both
+
+
 def test_traces():
     for points in (text(gon(7)), 'sqrt(8) 0\n2*sqrt(2) 0\n5 5\n1 9\n'):
         folder = points_folder(points)

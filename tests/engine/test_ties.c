@@ -96,6 +96,49 @@ static void test_nearly_collinear(void **state) {
   }
 }
 
+/* What is nearly a tie, with all statuses and the most bits asked of a point by a run of so many stages at most: a
+ * chain on the hull, whose middle is off by 10^-900; one corner of a 9-gon; two points next to one another. */
+static dyd_engine *near_tie(int k) {
+  dyd_engine *e = k == 1 ? gon("sqrt(2)", 9, 4, "-2^-2900") : engine_new();
+  if (k == 0) {
+    engine_add_text(e, "sqrt(2)", "2*sqrt(2)+1");
+    engine_add_text(e, "sqrt(3)", "2*sqrt(3)+1+10^-900");
+    engine_add_text(e, "sqrt(5)", "2*sqrt(5)+1");
+    engine_add_text(e, "0", "20");
+  }
+  for (int c = 0; k == 2 && c < 5; c++)
+    engine_add_text(e, (const char *[]){"sqrt(27)/3", "sqrt(3)+2^-2950", "1", "-3", "4"}[c],
+                    c < 2   ? "sqrt(2)"
+                    : c & 1 ? "7"
+                            : "-5");
+  return e;
+}
+
+/* A test for a tie sees at which bit there is none, and the points go there at once: two stages, where doubling takes
+ * seven or more, hardly more bits than that, and the same answers as without a test. */
+static void test_bits_that_show(void **state) {
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    dyd_engine *e = near_tie(k), *plain = near_tie(k);
+    dyd_engine_options o;
+    dyd_engine_options_init(&o);
+    engine_run(e, &o, DYD_OUTCOME_DECIDED);
+    o.no_ties = true;
+    engine_run(plain, &o, DYD_OUTCOME_DECIDED);
+    dyd_engine_counters now = engine_counters(e), before = engine_counters(plain);
+    assert_int_equal(now.stages, 2);
+    assert_in_range(now.bits_most, 2900, 3070);
+    if (k != 1) assert_true(before.stages >= 7 && before.bits_most == 4096); /* there scouts learn it, too */
+    assert_true(now.bits_total < before.bits_total);
+    for (uint32_t i = 0; i < dyd_engine_count(e); i++)
+      for (uint32_t j = 0; j < i; j++)
+        assert_int_equal(dyd_delaunay_status(dyd_engine_delaunay(e), i, j),
+                         dyd_delaunay_status(dyd_engine_delaunay(plain), i, j));
+    dyd_engine_free(plain);
+    dyd_engine_free(e);
+  }
+}
+
 static void test_chains(void **state) {
   static const char *const line[] = {"sqrt(2)", "sqrt(3)", "2", "sqrt(5)", "sqrt(6)", "pi", "e+1"};
   enum { N = sizeof line / sizeof *line };
@@ -336,11 +379,11 @@ static void test_bits(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_polygons),  cmocka_unit_test(test_moved),      cmocka_unit_test(test_nearly_collinear),
-      cmocka_unit_test(test_chains),    cmocka_unit_test(test_level_line), cmocka_unit_test(test_undescribed),
-      cmocka_unit_test(test_callbacks), cmocka_unit_test(test_centres),    cmocka_unit_test(test_aliases),
-      cmocka_unit_test(test_doubles),   cmocka_unit_test(test_goes_on),    cmocka_unit_test(test_later),
-      cmocka_unit_test(test_harness),   cmocka_unit_test(test_bits),
+      cmocka_unit_test(test_polygons),       cmocka_unit_test(test_moved),     cmocka_unit_test(test_nearly_collinear),
+      cmocka_unit_test(test_bits_that_show), cmocka_unit_test(test_chains),    cmocka_unit_test(test_level_line),
+      cmocka_unit_test(test_undescribed),    cmocka_unit_test(test_callbacks), cmocka_unit_test(test_centres),
+      cmocka_unit_test(test_aliases),        cmocka_unit_test(test_doubles),   cmocka_unit_test(test_goes_on),
+      cmocka_unit_test(test_later),          cmocka_unit_test(test_harness),   cmocka_unit_test(test_bits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -195,10 +195,12 @@ def test_nearest():
         assert found.sure and found.points.tolist() == [distance.argmin()] and found.outcome == 'decided'
         assert found.lo[0] <= distance.min() <= found.hi[0] <= found.lo[0] * (1 + 1e-13)
     tied = dyadel.delaunay(SQUARE).nearest('1/2', '1/2')
-    assert tied.points.tolist() == [0, 1, 2, 3] and not tied.sure and tied.outcome == 'fixpoint'
+    assert tied.points.tolist() == [0, 1, 2, 3] and not tied.sure and tied.tied and tied.outcome == 'fixpoint'
     assert all(lo <= math.sqrt(0.5) <= hi for lo, hi in zip(tied.lo, tied.hi))
     d = dyadel.delaunay([('sqrt(2)', 0), ('sqrt(2)+1e-60', 1), (9, 9)])
-    assert d.nearest('sqrt(2)', '1/2').outcome in ('decided', 'budget')
+    near = d.nearest('sqrt(2)', '1/2')
+    assert near.outcome == 'decided' and not near.tied
+    assert dyadel.delaunay([('sqrt(2)', 0), ('sqrt(2)', 1), (9, 9)]).nearest('sqrt(2)', '1/2').tied
 
 
 def test_tolerance():

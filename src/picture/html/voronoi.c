@@ -87,21 +87,26 @@ static dyd_status html_cell(void *context, uint32_t i, const dyd_shape *shape, c
 
 /* ---- vertices, regions, edges ---- */
 
-static void html_vertices(html_diagram *g) {
+static dyd_status html_vertices(html_diagram *g) {
   const dyd_diagram *d = g->d;
   double box[4];
   const char *between = "\n";
+  dyd_status st = DYD_OK;
   fputs("\"vertices\": [", g->out);
-  for (size_t k = 0; k < d->triangles.count; k++) {
-    const uint32_t *v = d->triangles.item[k].v;
+  for (size_t k = 0; k < dyd_diagram_vertices(d) && st == DYD_OK; k++) {
+    dyd_index_list sites = {0};
     if (!dyd_diagram_vertex_in_window(box, d, k)) continue;
-    fprintf(g->out, "%s{\"sites\": [%zu, %zu, %zu], ", between, dyd_engine_row(d->engine, v[0]),
-            dyd_engine_row(d->engine, v[1]), dyd_engine_row(d->engine, v[2]));
+    st = dyd_diagram_vertex_sites(&sites, d, k);
+    fprintf(g->out, "%s{\"sites\": [", between);
+    dyd_put_rows(g->out, d->engine, &sites, ", ");
+    fputs("], ", g->out);
     dyd_json_box(g->out, "", box);
     fputs("}", g->out);
+    dyd_index_list_clear(&sites);
     between = ",\n";
   }
   fputs("],\n", g->out);
+  return st;
 }
 
 static dyd_status html_region(void *context, size_t face, const double box[4]) {
@@ -125,7 +130,7 @@ static dyd_status html_edges(html_diagram *g) {
   dyd_dual_edge *edge = NULL;
   size_t count = 0;
   double box[2][4];
-  dyd_status st = dyd_dual_edges(&edge, &count, g->d->pd, &g->d->triangles);
+  dyd_status st = dyd_dual_edges(&edge, &count, g->d->pd, &g->d->triangles, g->d->tied, g->d->ties);
   const char *between = "";
   fputs("\"edges\": [", g->out);
   for (size_t k = 0; k < count; k++) {
@@ -162,7 +167,7 @@ static dyd_status html_diagram_parts(FILE *to, const dyd_diagram *d) {
   if (st == DYD_OK)
     st = dyd_json_bound(to, "distance_to_true_diagram", d->bounds->finite ? &d->bounds->hausdorff : NULL);
   fputs(",\n", to);
-  html_vertices(&g);
+  if (st == DYD_OK) st = html_vertices(&g);
   g.any = false;
   fputs("\"regions\": [", to);
   if (st == DYD_OK) st = dyd_diagram_regions(d, html_region, &g);

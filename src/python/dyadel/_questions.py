@@ -20,13 +20,15 @@ EVENTS = np.array(['death', 'birth', 'tie'])
 
 class Nearest(NamedTuple):
     """points: those possibly nearest, ascending; sure: there is one, and it is surely nearest; outcome: 'decided',
-    'fixpoint', 'budget' or 'cancelled'; lo, hi: bounds of the distance of each, rounded outward."""
+    'fixpoint', 'budget' or 'cancelled'; lo, hi: bounds of the distance of each, rounded outward; tied: all of them are
+    equally far, so that no refinement makes one sure."""
 
     points: Ints
     sure: bool
     outcome: str
     lo: Floats
     hi: Floats
+    tied: bool
 
 
 def _distances(boxes: Floats, at: Sequence[float]) -> tuple[Floats, Floats]:
@@ -45,11 +47,11 @@ def _distances(boxes: Floats, at: Sequence[float]) -> tuple[Floats, Floats]:
 
 def nearest(d: Delaunay, x: Any, y: Any, options: Mapping[str, Any]) -> Nearest:
     """See Delaunay.nearest."""
-    found, sure, outcome, ends = d._engine.nearest((x, y), engine_options(**options))
+    found, sure, tied, outcome, ends = d._engine.nearest((x, y), engine_options(**options))
     d._cache = {}
     points = ints(found)
     at = [float(np.nextafter(float(Fraction(*end)), np.inf if k % 2 else -np.inf)) for k, end in enumerate(ends)]
-    return Nearest(points, sure, outcome, *_distances(d.boxes[points], at))
+    return Nearest(points, sure, outcome, *_distances(d.boxes[points], at), tied)
 
 
 # ---- tables ----

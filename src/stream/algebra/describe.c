@@ -192,3 +192,7 @@ uint32_t dyd_forms_cocircular(dyd_forms *f, const dyd_form_point p[4]) {
   return form_add(f, form_add(f, form_multiply(f, along_x, d.x), form_multiply(f, along_y, d.y)),
                   form_multiply(f, point_cross(f, b, c), dd));
 }
+
+uint32_t dyd_forms_distance2(dyd_forms *f, dyd_form_point p, dyd_form_point q) {
+  return square_of_length(f, point_difference(f, p, q));
+}

@@ -16,5 +16,7 @@ dyd_form_point dyd_forms_rect(dyd_forms *f, const dyd_rect *r);
 /* Forms that are 0 where three points are on one line, where four are on one circle or line. */
 uint32_t dyd_forms_collinear(dyd_forms *f, const dyd_form_point p[3]);
 uint32_t dyd_forms_cocircular(dyd_forms *f, const dyd_form_point p[4]);
+/* The square of the distance of two points. */
+uint32_t dyd_forms_distance2(dyd_forms *f, dyd_form_point p, dyd_form_point q);
 
 #endif

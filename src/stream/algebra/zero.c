@@ -7,7 +7,7 @@
 #include "stream/algebra/normal.h"
 #include "stream/algebra/separation.h"
 
-enum { FIRST_BITS = 128, FEW_BITS = 4096 };
+enum { FIRST_BITS = DYD_ZERO_FIRST_BITS, FEW_BITS = 4096 };
 
 dyd_status dyd_algebra_open(dyd_algebra *a, int64_t most_bits, const volatile int *cancel) {
   *a = (dyd_algebra){.most = (slong)most_bits, .cancel = cancel};
@@ -92,6 +92,18 @@ bool dyd_algebra_is_nonzero(dyd_algebra *a, uint32_t n) {
   for (slong prec = FIRST_BITS; n != DYD_NONE && prec <= FEW_BITS && prec <= a->most; prec *= 2)
     if (zero_is_excluded(a, n, prec)) return true;
   return false;
+}
+
+int64_t dyd_algebra_smallness(dyd_algebra *a, uint32_t n, slong prec) {
+  int64_t e = INT64_MAX;
+  if (n == DYD_NONE) return e;
+  arf_t least;
+  arf_init(least);
+  arb_get_abs_lbound_arf(least, dyd_forms_value(&a->forms, n, prec), prec);
+  /* balls have exponents of limited size (dyd_ball_check) */
+  if (arf_is_finite(least) && arf_sgn(least) > 0) e = 1 - (int64_t)fmpz_get_si(ARF_EXPREF(least));
+  arf_clear(least);
+  return e;
 }
 
 dyd_zero dyd_algebra_test(dyd_algebra *a, uint32_t n) {

@@ -5,6 +5,9 @@
 
 #include "stream/algebra/ring.h"
 
+/* The precision that tests begin with, in bits. */
+enum { DYD_ZERO_FIRST_BITS = 128 };
+
 typedef enum dyd_zero { DYD_ZERO_UNKNOWN, DYD_ZERO_PROVED, DYD_ZERO_REFUTED } dyd_zero;
 
 /* What tests found, since the start. */
@@ -32,6 +35,8 @@ dyd_status dyd_algebra_settle(dyd_algebra *a, const uint32_t *node, size_t count
 /* Is n seen not to be 0 at a low precision, or at a moderate one? Leaves need not be settled; DYD_NONE is not. */
 bool dyd_algebra_is_refuted(dyd_algebra *a, uint32_t n);
 bool dyd_algebra_is_nonzero(dyd_algebra *a, uint32_t n);
+/* To `prec` bits: the least e such that |value of n| >= 2^-e is seen; INT64_MAX: none is. */
+int64_t dyd_algebra_smallness(dyd_algebra *a, uint32_t n, slong prec);
 /* Decides about form n [IDN-1] [SEP-1], which is refuted at most where n is DYD_NONE or leaves could not be settled. */
 dyd_zero dyd_algebra_test(dyd_algebra *a, uint32_t n);
 
