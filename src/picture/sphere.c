@@ -110,7 +110,6 @@ static void sphere_inside(dyd_canvas *c, void *context) {
 
 static void sphere_legend(dyd_canvas *c, void *context) {
   const sphere_drawing *d = context;
-  const dyd_engine *images = dyd_sphere_images(d->r->sphere);
   char text[200];
   dyd_legend l;
   dyd_legend_begin(&l, c, &d->view);
@@ -124,7 +123,7 @@ static void sphere_legend(dyd_canvas *c, void *context) {
   dyd_legend_line(&l, GRATICULE, 0, 0, "graticule, degrees");
   snprintf(text, sizeof text,
            "%zu points on a sphere, outcome %s, %zu undecided faces; great circles on a plate carr\u00e9e", d->count,
-           dyd_outcome_text(dyd_engine_outcome(images)), dyd_delaunay_undecided_faces(dyd_engine_delaunay(images)));
+           dyd_outcome_text(dyd_sphere_outcome(d->r->sphere)), dyd_sphere_faces(d->r->sphere));
   dyd_legend_text(&l, text);
 }
 
