@@ -220,6 +220,9 @@ DYD_API size_t dyd_engine_row(const dyd_engine *e, size_t i);
 DYD_API const char *dyd_engine_id(const dyd_engine *e, size_t i);
 /* What measuring point i once more costs, as its row said (dyd_read_options.cost_column); 1 where none did. */
 DYD_API double dyd_engine_cost(const dyd_engine *e, size_t i);
+/* The radius in its row that is not in its rectangle (dyd_read_options.degrees, keep_radii), rounded up; 0 where there
+ * is none. */
+DYD_API double dyd_engine_radius(const dyd_engine *e, size_t i);
 /* The k-th row, ascending, that was taken as one with an earlier one, and the point that stands for both; false: there
  * are no more. */
 DYD_API bool dyd_engine_merged(size_t *row, size_t *point, const dyd_engine *e, size_t k);

@@ -41,8 +41,11 @@ typedef struct dyd_read_options {
   bool skip_missing;          /* leave out rows with an empty field, NA, NaN or null for a coordinate or radius */
   bool merge;                 /* equal nominal coordinates are one point: with the smaller radius */
   dyd_read_report *report;    /* receives what was read; NULL: nowhere */
-  bool degrees;               /* y is a latitude: beyond 90 degrees it is an error with its line and column */
-  const char *cost_column;    /* "NAME": what measuring a point once more costs (dyd_engine_cost) */
+  /* x and y are longitude and latitude: a latitude beyond 90 degrees is an error with its line and column, and radii in
+   * a column may have a unit: "30m", "2km" are no part of the rectangle, but kept in metres (dyd_engine_radius). */
+  bool degrees;
+  const char *cost_column; /* "NAME": what measuring a point once more costs (dyd_engine_cost) */
+  bool keep_radii;         /* radii in a column do not widen points, but are kept (dyd_engine_radius) */
 } dyd_read_options;
 
 /* Reads points from `in` up to its end and adds them to e (nothing is added on failure). What gzip or zstd packed is

@@ -34,8 +34,10 @@ typedef struct dyd_sphere_options {
 
 /* The sphere with the points of `places`, an engine to which longitudes (x) and latitudes (y) were added, and which is
  * never run; borrowed until dyd_sphere_free, and not to be changed. options may be NULL. Streams are narrowed to 32
- * bits. DYD_E_ARG or DYD_E_DOMAIN with a message and the point: a latitude beyond 90 degrees; a radius that is not
- * understood; points that are all so wide that each may be the same as another. O(N log N). */
+ * bits. Where each point may be the same as another one, none can be projected from; then a place between them is, if
+ * there is one [SPH-5]. A point whose row has a radius in metres (dyd_engine_radius) lies within it, in addition to
+ * options. DYD_E_ARG or DYD_E_DOMAIN with a message and the point: a latitude beyond 90 degrees; a radius that is not
+ * understood; points that leave no place of the sphere free. O(N log N). */
 DYD_API dyd_status dyd_sphere_new(dyd_sphere **out, dyd_engine *places, const dyd_sphere_options *options,
                                   dyd_error *err);
 DYD_API void dyd_sphere_free(dyd_sphere *s);
@@ -48,6 +50,10 @@ DYD_API const dyd_engine *dyd_sphere_images(const dyd_sphere *s);
 DYD_API dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_options *options,
                                   dyd_error *err);
 
+/* The outcome of the last run: as that of the images, but fixpoint where these are decided and, as no point is
+ * projected from, pairs stay open all the same. */
+DYD_API dyd_outcome dyd_sphere_outcome(const dyd_sphere *s);
+
 /* The point projected from, and the one of which image k is; DYD_NO_PLACE where there is none. */
 #define DYD_NO_PLACE UINT32_MAX
 DYD_API uint32_t dyd_sphere_centre(const dyd_sphere *s);
@@ -58,13 +64,18 @@ DYD_API uint32_t dyd_sphere_alias(const dyd_sphere *s, uint32_t i);
  * circle, rounded outward). DYD_E_ARG where there is no point i. */
 DYD_API dyd_status dyd_sphere_rect(dyd_rect *out, const dyd_sphere *s, uint32_t i);
 
+/* The same as vectors of length 1: a box (x, y, z, each lower and upper) that holds point i. x: longitude and latitude
+ * 0; z: the north pole. DYD_E_ARG where there is no point i. */
+DYD_API dyd_status dyd_sphere_vector(double box[6], const dyd_sphere *s, uint32_t i, dyd_error *err);
+
 /* The results, by the numbers of the points. DYD_E_ARG before the first run. Pairs as dyd_delaunay_pairs; where images
  * are no points, indeterminate pairs may be more than necessary, as each image has to hold for all of the centre.
  * Triangles as dyd_delaunay_triangles, counter-clockwise from outside; of three points both sides. */
 DYD_API dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s);
 DYD_API dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere *s);
-/* The sites of undecided face f of the images, the centre among them where the face is unbounded; ascending. *tie: all
- * its pairs are ties, so that its Voronoi region is one point. f < dyd_delaunay_undecided_faces of the images. */
+/* How many undecided faces there are; and the sites of face f, ascending. *tie: all its pairs are ties, so that its
+ * Voronoi region is one point. */
+DYD_API size_t dyd_sphere_faces(const dyd_sphere *s);
 DYD_API dyd_status dyd_sphere_face(dyd_index_list *out, bool *tie, const dyd_sphere *s, size_t f);
 /* A box of degrees (longitude lower, upper, latitude lower, upper) that holds the Voronoi vertex of t, one of
  * dyd_sphere_triangles, for every choice of its corners. Longitudes may reach beyond 180; near a pole they may be all.

@@ -33,29 +33,37 @@ static int refuse_on_sphere(const cli_options *o) {
   return CLI_USAGE;
 }
 
+static const char *sphere_advice(const dyd_sphere *sphere) {
+  const dyd_engine *images = dyd_sphere_images(sphere);
+  if (dyd_engine_outcome(images) != DYD_OUTCOME_DECIDED) return cli_outcome_advice(images);
+  return "no point is apart from all others; smaller radii decide more";
+}
+
 /* A line about a result that leaves something open; the exit status. */
 static int sphere_outcome(const dyd_sphere *sphere, const cli_options *o) {
   dyd_pair_list pairs = {0};
   size_t count[4] = {0};
-  dyd_outcome outcome = dyd_engine_outcome(dyd_sphere_images(sphere));
+  dyd_outcome outcome = dyd_sphere_outcome(sphere);
   if (outcome == DYD_OUTCOME_DECIDED) return CLI_OK;
   if (dyd_sphere_pairs(&pairs, sphere) != DYD_OK) return cli_complain_memory();
   for (size_t k = 0; k < pairs.count; k++) count[pairs.item[k].status]++;
   dyd_pair_list_clear(&pairs);
   if (!o->quiet)
     cli_complain("%s: %zu legal, %zu indeterminate, %zu tie; %s", dyd_outcome_text(outcome), count[DYD_LEGAL],
-                 count[DYD_INDETERMINATE], count[DYD_TIE], cli_outcome_advice(dyd_sphere_images(sphere)));
+                 count[DYD_INDETERMINATE], count[DYD_TIE], sphere_advice(sphere));
   return cli_exit_status(outcome);
 }
 
 /* The certificate speaks of the images, which are a plane's. */
 static int sphere_certificate(const dyd_sphere *sphere, const cli_options *o) {
   if (!o->certificate) return 0;
+  char from[40] = "a place between them";
+  if (dyd_sphere_centre(sphere) != DYD_NO_PLACE)
+    snprintf(from, sizeof from, "point %zu", dyd_engine_row(dyd_sphere_places(sphere), dyd_sphere_centre(sphere)));
   cli_note(o,
-           "the certificate is about the images of the points in the plane, projected from point %zu: %zu rectangles, "
-           "in the order of the points that have one",
-           dyd_engine_row(dyd_sphere_places(sphere), dyd_sphere_centre(sphere)),
-           dyd_engine_count(dyd_sphere_images(sphere)));
+           "the certificate is about the images of the points in the plane, projected from %s: %zu rectangles, in the "
+           "order of the points that have one",
+           from, dyd_engine_count(dyd_sphere_images(sphere)));
   return cli_write_file(o->certificate, o, sphere_write_certificate, dyd_sphere_images(sphere));
 }
 

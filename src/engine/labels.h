@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* What points are called where they were read: the number of their row, the identifier and the cost that stand in it.
- */
+/* What points are called where they were read: the number of their row, and what stands in it: identifier, cost, and a
+ * radius that is not in the rectangle. */
 #ifndef DYD_ENGINE_LABELS_H
 #define DYD_ENGINE_LABELS_H
 
@@ -17,8 +17,8 @@ typedef struct dyd_merged_row {
 typedef struct dyd_labels {
   size_t points, rows;
   size_t *row, *id;
-  double *cost;
-  size_t row_cap, id_cap, cost_cap;
+  double *cost, *radius;
+  size_t row_cap, id_cap, cost_cap, radius_cap;
   char *text;
   size_t used, text_cap;
   dyd_merged_row *merged;
@@ -28,7 +28,7 @@ typedef struct dyd_labels {
 
 void dyd_labels_clear(dyd_labels *l);
 /* The next point, of row l->rows; id (length bytes, copied) may be NULL. false: memory is exhausted. */
-bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, double cost);
+bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, double cost, double radius);
 /* The next row, which is that of `point` once more. false: memory is exhausted. */
 bool dyd_labels_merge(dyd_labels *l, size_t point);
 /* The next row, which gives no point. */

@@ -29,6 +29,11 @@ typedef struct dyd_site_row {
   const char *hull;   /* is it a corner of the hull: "surely", "possibly" (or on its boundary), "not" */
 } dyd_site_row;
 
+/* The coordinates of a vector in space, rounded. */
+typedef struct dyd_vector_text {
+  char at[3][DYD_DECIMAL_SIZE];
+} dyd_vector_text;
+
 /* "legal", "indeterminate", "tie", "illegal". */
 const char *dyd_pair_status_text(dyd_pair_status status);
 /* The box of site i; DYD_E_RANGE with a message that names the site when it is not finite in doubles. */
@@ -39,6 +44,14 @@ dyd_status dyd_result_places(dyd_place **out, char bound[DYD_DECIMAL_SIZE], cons
 
 /* Of every site; aliases as the site they stand for. *out is released with free(). */
 dyd_status dyd_result_sites(dyd_site_row **out, const dyd_result *r);
+
+/* Of every place of a sphere, on which no point is on the hull; and its vector. Released with free(); bound as above.
+ */
+dyd_status dyd_sphere_sites(dyd_site_row **out, const dyd_sphere_result *r);
+dyd_status dyd_sphere_vectors(dyd_vector_text **out, char bound[DYD_DECIMAL_SIZE], const dyd_sphere_result *r,
+                              dyd_error *err);
+/* What meshes take from it: pairs, borrowed, and the engine of places. */
+dyd_result dyd_sphere_mesh(const dyd_output *o);
 
 /* "NAME": [{"i": .., "j": .., "status": ..}, ..]; "triangles": [[i, j, k], ..]; "counters": {..}: numbers are rows. */
 void dyd_json_pairs(FILE *out, const dyd_engine *e, const char *name, const dyd_pair_list *pairs);

@@ -65,36 +65,34 @@ dyd_status dyd_sphere_layer_pairs(const dyd_output *o) {
   return st;
 }
 
-/* How many partners of each status a point has; aliases as the point that they are. */
-typedef struct partner_count {
-  size_t of[4];
-} partner_count;
-
-static dyd_status partners_count(partner_count **out, const dyd_sphere_result *r) {
+/* On a sphere there is no hull. */
+dyd_status dyd_sphere_sites(dyd_site_row **out, const dyd_sphere_result *r) {
   size_t n = dyd_engine_count(dyd_sphere_places(r->sphere));
-  partner_count *c = calloc(n + 1, sizeof *c);
-  if (!c) return DYD_E_NOMEM;
+  dyd_site_row *rows = calloc(n + 1, sizeof *rows);
+  if (!rows) return DYD_E_NOMEM;
   for (size_t k = 0; k < r->pairs.count; k++) {
     const dyd_pair *p = &r->pairs.item[k];
-    c[p->i].of[p->status]++;
-    c[p->j].of[p->status]++;
+    rows[p->i].partners[p->status]++;
+    rows[p->j].partners[p->status]++;
   }
-  for (uint32_t i = 0; i < n; i++) c[i] = c[dyd_sphere_alias(r->sphere, i)];
-  *out = c;
+  for (uint32_t i = 0; i < n; i++) {
+    rows[i] = rows[dyd_sphere_alias(r->sphere, i)];
+    rows[i].hull = "not";
+  }
+  *out = rows;
   return DYD_OK;
 }
 
-/* On a sphere there is no hull. */
 dyd_status dyd_sphere_layer_points(const dyd_output *o) {
   static const char *const column[] = {"i",   "id",   "xlo", "xhi", "ylo", "yhi", "legal", "indeterminate",
                                        "tie", "hull", NULL};
   const dyd_sphere_result *r = o->what;
   const dyd_table_head head = sphere_head(o, column, DYD_GEOMETRY_POINT);
   degree_box *box = NULL;
-  partner_count *partners = NULL;
+  dyd_site_row *rows = NULL;
   dyd_table t;
   dyd_status st = sphere_boxes(&box, r->sphere);
-  if (st == DYD_OK) st = partners_count(&partners, r);
+  if (st == DYD_OK) st = dyd_sphere_sites(&rows, r);
   if (st == DYD_OK) {
     sphere_comments(o);
     if (o->format == DYD_FORMAT_CSV) fputs("# rounding: lo down, hi up\n", o->out);
@@ -105,18 +103,49 @@ dyd_status dyd_sphere_layer_points(const dyd_output *o) {
       dyd_row_site(&t, i);
       dyd_row_id(&t, i);
       dyd_row_box(&t, box[i].end);
-      dyd_row_index(&t, partners[i].of[DYD_LEGAL]);
-      dyd_row_index(&t, partners[i].of[DYD_INDETERMINATE]);
-      dyd_row_index(&t, partners[i].of[DYD_TIE]);
-      dyd_row_text(&t, "not");
+      dyd_row_index(&t, rows[i].partners[DYD_LEGAL]);
+      dyd_row_index(&t, rows[i].partners[DYD_INDETERMINATE]);
+      dyd_row_index(&t, rows[i].partners[DYD_TIE]);
+      dyd_row_text(&t, rows[i].hull);
       dyd_row_end(&t);
     }
     dyd_table_end(&t);
   }
-  free(partners);
+  free(rows);
   free(box);
   return st;
 }
+
+/* ---- meshes ---- */
+
+dyd_status dyd_sphere_vectors(dyd_vector_text **out, char bound[DYD_DECIMAL_SIZE], const dyd_sphere_result *r,
+                              dyd_error *err) {
+  size_t n = dyd_engine_count(dyd_sphere_places(r->sphere));
+  dyd_vector_text *v = dyd_alloc(n, sizeof *v);
+  dyd_status st = v ? DYD_OK : DYD_E_NOMEM;
+  double box[6], error, most = 0;
+  for (uint32_t i = 0; i < n && st == DYD_OK; i++) {
+    st = dyd_sphere_vector(box, r->sphere, i, err);
+    for (int a = 0; a < 3 && st == DYD_OK; a++) {
+      dyd_decimal_within(v[i].at[a], &error, box[2 * a], box[2 * a + 1]);
+      most = error > most ? error : most;
+    }
+  }
+  dyd_decimal_directed(bound, most, 2, DYD_UP);
+  if (st == DYD_OK)
+    *out = v;
+  else
+    free(v);
+  return st;
+}
+
+dyd_result dyd_sphere_mesh(const dyd_output *o) {
+  const dyd_sphere_result *r = o->what;
+  const dyd_engine *places = dyd_sphere_places(r->sphere);
+  return (dyd_result){.out = o->out, .engine = places, .count = dyd_engine_count(places), .pairs = r->pairs};
+}
+
+/* ---- triangles ---- */
 
 /* A triangle that is no less than half of the sphere has the other side of its corners on its left. */
 static dyd_status triangle_outline(dyd_table *t, const degree_box *box, const uint32_t v[3]) {

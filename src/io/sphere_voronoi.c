@@ -103,7 +103,7 @@ dyd_status dyd_sphere_layer_vertices(const dyd_output *o) {
 static dyd_status put_regions(FILE *out, const dyd_sphere *s, const char *form, const char *between, const char *end) {
   dyd_index_list sites = {0};
   dyd_status st = DYD_OK;
-  size_t faces = dyd_delaunay_undecided_faces(dyd_engine_delaunay(dyd_sphere_images(s)));
+  size_t faces = dyd_sphere_faces(s);
   for (size_t f = 0; f < faces && st == DYD_OK; f++) {
     bool tie;
     st = dyd_sphere_face(&sites, &tie, s, f);
@@ -166,7 +166,7 @@ dyd_status dyd_sphere_voronoi_json(const dyd_output *o) {
             "\"rounding\": \"x (longitude) and y (latitude) are degrees, rounded outward: the first down, the second "
             "up; null among the vertices of a cell: an undecided region is next\",\n\"surface\": \"sphere\",\n"
             "\"outcome\": \"%s\",\n",
-            dyd_outcome_text(dyd_engine_outcome(images)));
+            dyd_outcome_text(dyd_sphere_outcome(r->sphere)));
     json_vertices(r, &c, o->out);
     json_cells(r, &c, o->out);
     fputs("\"regions\": [", o->out);

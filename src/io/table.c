@@ -58,14 +58,14 @@ static void geojson_head(const dyd_table_head *h) {
     fputs("urn:ogc:def:crs:OGC:1.3:CRS84", h->out);
   else
     fputs(no_system, h->out);
-  const dyd_engine *ran = h->sphere ? dyd_sphere_images(h->sphere) : h->engine;
+  dyd_outcome outcome = h->sphere ? dyd_sphere_outcome(h->sphere) : dyd_engine_outcome(h->engine);
   fprintf(h->out,
           "\"}},\n\"rounding\": \"a coordinate differs from every point that it stands for by at most "
           "max_coordinate_error; numbers called lo, rho, probability or half_width_needed are rounded down, others "
           "that are not "
           "whole up\",\n"
           "\"outcome\": \"%s\",\n\"features\": [",
-          dyd_outcome_text(dyd_engine_outcome(ran)));
+          dyd_outcome_text(outcome));
 }
 
 void dyd_table_begin(dyd_table *t, const dyd_table_head *head) {

@@ -27,6 +27,14 @@ static void obj_name(const dyd_result *r, uint32_t i) {
   fputs("\n", r->out);
 }
 
+/* what: "point of the rectangle". */
+static void obj_head(FILE *out, dyd_outcome outcome, const char *what, const char *bound, const size_t count[4]) {
+  fprintf(out,
+          "# dyadel %s, outcome %s\n# a coordinate differs from every %s it stands for by at most %s\n# not shown: %zu "
+          "indeterminate pairs, %zu ties\n",
+          dyd_version(), dyd_outcome_text(outcome), what, bound, count[DYD_INDETERMINATE], count[DYD_TIE]);
+}
+
 static dyd_status obj_delaunay(const dyd_output *o) {
   const dyd_result *r = o->what;
   dyd_place *place = NULL;
@@ -37,11 +45,7 @@ static dyd_status obj_delaunay(const dyd_output *o) {
   if (st == DYD_OK) st = dyd_delaunay_triangles(&triangles, r->pd);
   if (st == DYD_OK) {
     dyd_delaunay_count(count, r->pd);
-    fprintf(r->out,
-            "# dyadel %s, outcome %s\n# a coordinate differs from every point of the rectangle it stands for by at "
-            "most %s\n# not shown: %zu indeterminate pairs, %zu ties\n",
-            dyd_version(), dyd_outcome_text(dyd_engine_outcome(r->engine)), bound, count[DYD_INDETERMINATE],
-            count[DYD_TIE]);
+    obj_head(r->out, dyd_engine_outcome(r->engine), "point of the rectangle", bound, count);
     for (uint32_t i = 0; i < r->count; i++) {
       obj_name(r, i);
       fprintf(r->out, "v %s %s 0\n", place[i].x, place[i].y);
@@ -50,6 +54,30 @@ static dyd_status obj_delaunay(const dyd_output *o) {
   }
   dyd_triangle_list_clear(&triangles);
   free(place);
+  return st;
+}
+
+/* On the sphere of radius 1. */
+static dyd_status obj_sphere(const dyd_output *o) {
+  const dyd_sphere *s = ((const dyd_sphere_result *)o->what)->sphere;
+  const dyd_result mesh = dyd_sphere_mesh(o);
+  dyd_vector_text *v = NULL;
+  dyd_triangle_list triangles = {0};
+  char bound[DYD_DECIMAL_SIZE];
+  size_t count[4] = {0};
+  for (size_t k = 0; k < mesh.pairs.count; k++) count[mesh.pairs.item[k].status]++;
+  dyd_status st = dyd_sphere_vectors(&v, bound, o->what, o->err);
+  if (st == DYD_OK) st = dyd_sphere_triangles(&triangles, s);
+  if (st == DYD_OK) {
+    obj_head(o->out, dyd_sphere_outcome(s), "place on the sphere of radius 1 that", bound, count);
+    for (uint32_t i = 0; i < mesh.count; i++) {
+      obj_name(&mesh, i);
+      fprintf(o->out, "v %s %s %s\n", v[i].at[0], v[i].at[1], v[i].at[2]);
+    }
+    obj_elements(&mesh, &triangles);
+  }
+  dyd_triangle_list_clear(&triangles);
+  free(v);
   return st;
 }
 
@@ -68,4 +96,5 @@ static dyd_status obj_delaunay(const dyd_output *o) {
   }
 dyd_writer *const dyd_wkt_writers[DYD_CONTENTS] = LAYERS;
 dyd_writer *const dyd_geojson_writers[DYD_CONTENTS] = LAYERS;
-dyd_writer *const dyd_obj_writers[DYD_CONTENTS] = {[DYD_CONTENT_DELAUNAY] = obj_delaunay};
+dyd_writer *const dyd_obj_writers[DYD_CONTENTS] = {
+    [DYD_CONTENT_DELAUNAY] = obj_delaunay, [DYD_CONTENT_SPHERE] = obj_sphere};

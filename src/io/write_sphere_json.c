@@ -14,11 +14,11 @@ static void sphere_json_head(const dyd_sphere_result *r, FILE *out) {
           "\"rounding\": \"x (longitude) and y (latitude) are degrees: exact where both ends are equal, else rounded "
           "outward; x_decimal and y_decimal are rounded outward: the first down, the second up\",\n"
           "\"surface\": \"sphere\",\n\"outcome\": \"%s\",\n\"capped\": %s,\n",
-          dyd_outcome_text(dyd_engine_outcome(images)),
+          dyd_outcome_text(dyd_sphere_outcome(r->sphere)),
           dyd_delaunay_is_capped(dyd_engine_delaunay(images)) ? "true" : "false");
   fprintf(out, "\"count\": {\"sites\": %zu, \"legal\": %zu, \"indeterminate\": %zu, \"tie\": %zu},\n",
           dyd_engine_count(places), count[DYD_LEGAL], count[DYD_INDETERMINATE], count[DYD_TIE]);
-  if (dyd_engine_count(places))
+  if (dyd_sphere_centre(r->sphere) != DYD_NO_PLACE)
     fprintf(out, "\"projected_from\": %zu,\n", dyd_engine_row(places, dyd_sphere_centre(r->sphere)));
 }
 

@@ -79,5 +79,33 @@ static dyd_status vtk_delaunay(const dyd_output *o) {
   return st;
 }
 
+/* On the sphere of radius 1. */
+static dyd_status vtk_sphere(const dyd_output *o) {
+  const dyd_sphere *s = ((const dyd_sphere_result *)o->what)->sphere;
+  const dyd_result mesh = dyd_sphere_mesh(o);
+  dyd_vector_text *v = NULL;
+  dyd_site_row *rows = NULL;
+  dyd_triangle_list triangles = {0};
+  char bound[DYD_DECIMAL_SIZE];
+  dyd_status st = dyd_sphere_vectors(&v, bound, o->what, o->err);
+  if (st == DYD_OK) st = dyd_sphere_sites(&rows, o->what);
+  if (st == DYD_OK) st = dyd_sphere_triangles(&triangles, s);
+  if (st == DYD_OK) {
+    fprintf(
+        o->out,
+        "# vtk DataFile Version 3.0\ndyadel delaunay, sphere of radius 1, outcome %s; status 1 tie, 2 indeterminate, "
+        "3 legal; coordinates within %s of their places\nASCII\nDATASET POLYDATA\nPOINTS %zu double\n",
+        dyd_outcome_text(dyd_sphere_outcome(s)), bound, mesh.count);
+    for (size_t i = 0; i < mesh.count; i++) fprintf(o->out, "%s %s %s\n", v[i].at[0], v[i].at[1], v[i].at[2]);
+    vtk_elements(&mesh, &triangles);
+    vtk_points(&mesh, rows);
+    vtk_names(&mesh);
+  }
+  free(rows);
+  dyd_triangle_list_clear(&triangles);
+  free(v);
+  return st;
+}
+
 dyd_writer *const dyd_vtk_writers[DYD_CONTENTS] = {
-    [DYD_CONTENT_DELAUNAY] = vtk_delaunay, [DYD_CONTENT_VORONOI] = dyd_voronoi_vtk};
+    [DYD_CONTENT_DELAUNAY] = vtk_delaunay, [DYD_CONTENT_VORONOI] = dyd_voronoi_vtk, [DYD_CONTENT_SPHERE] = vtk_sphere};

@@ -161,7 +161,6 @@ static void sphere_inside(dyd_canvas *c, void *context) {
 
 static void sphere_legend(dyd_canvas *c, void *context) {
   const sphere_drawing *d = context;
-  const dyd_engine *images = dyd_sphere_images(d->r->sphere);
   char text[300], points[100];
   dyd_legend l;
   dyd_legend_begin(&l, c, &d->view);
@@ -181,8 +180,7 @@ static void sphere_legend(dyd_canvas *c, void *context) {
   else
     snprintf(points, sizeof points, "%zu points", d->count);
   snprintf(text, sizeof text, "%s on a sphere, outcome %s, %zu undecided faces; great circles on a plate carr\u00e9e",
-           points, dyd_outcome_text(dyd_engine_outcome(images)),
-           dyd_delaunay_undecided_faces(dyd_engine_delaunay(images)));
+           points, dyd_outcome_text(dyd_sphere_outcome(d->r->sphere)), dyd_sphere_faces(d->r->sphere));
   dyd_legend_text(&l, text);
   dyd_legend_crowd(&l, &d->marks);
 }

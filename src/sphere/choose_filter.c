@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* From which place to project: one that is exact, or narrow for the distance of its nearest neighbour.
+/* From which place to project: one that is exact, or narrow for the distance of its nearest neighbour; where each may
+ * be the same as another one, from no place, but from the middle of a gap between them [SPH-5].
  *
  * A guess in doubles: on it depends how wide images are, not whether they are right. */
 #include "base/alloc.h"
@@ -13,15 +14,17 @@ typedef struct ball_guess {
   uint32_t place;
 } ball_guess;
 
-/* How many pairs are looked at, about, and candidates at most. */
-enum { WORK = 1 << 20, CANDIDATES = 16 };
+/* How many pairs are looked at, about, and candidates at most; places tried for a gap. */
+enum { WORK = 1 << 20, CANDIDATES = 16, GAPS = 4096 };
+
+static const double degree = 0.017453292519943295;
 
 static void guess_set(ball_guess *out, const dyd_sphere *s, uint32_t i) {
-  static const double degree = 0.017453292519943295;
   const dyd_rough_place *r = &s->rough[i];
   double lon = degree * r->at[0], lat = degree * r->at[1], dx = degree * r->half[0], dy = degree * r->half[1];
   *out = (ball_guess){{cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat)}, .place = i};
   out->reach = dy + fmin(dx * cos(fmax(0, fabs(lat) - dy)), 4) + mpq_get_d(s->angle);
+  out->reach += dyd_engine_radius(s->places, i) * mpq_get_d(s->metre);
 }
 
 static int compare_guesses(const void *a, const void *b) {
@@ -30,15 +33,15 @@ static int compare_guesses(const void *a, const void *b) {
   return (x->place > y->place) - (x->place < y->place);
 }
 
-/* The distance that is left between place k and the others. */
-static double guess_gap(const ball_guess *g, size_t n, size_t k) {
+/* The distance that is left between the ball and the others; what is not above `enough` may be any such number. */
+static double guess_gap(const ball_guess *g, size_t n, const ball_guess *from, double enough) {
   double least = 4;
-  for (size_t j = 0; j < n; j++) {
-    if (j == k) continue;
-    double x = g[j].at[0] - g[k].at[0], y = g[j].at[1] - g[k].at[1], z = g[j].at[2] - g[k].at[2];
+  for (size_t j = 0; j < n && least - from->reach > enough; j++) {
+    if (g[j].place == from->place) continue;
+    double x = g[j].at[0] - from->at[0], y = g[j].at[1] - from->at[1], z = g[j].at[2] - from->at[2];
     least = fmin(least, sqrt(x * x + y * y + z * z) - g[j].reach);
   }
-  return least - g[k].reach;
+  return least - from->reach;
 }
 
 /* Those that are narrowest are looked at, spread among all that are exact; more only while none is apart. */
@@ -49,7 +52,7 @@ static double guess_best(uint32_t *out, const ball_guess *g, size_t n) {
   if (most > CANDIDATES) most = CANDIDATES;
   size_t step = exact > most ? exact / most : 1;
   for (size_t k = 0; k < n && (tried < most || best <= 0); k += k < exact ? step : 1, tried++) {
-    double gap = guess_gap(g, n, k), score = gap <= 0 ? gap : g[k].reach == 0 ? 1e9 + gap : gap / g[k].reach;
+    double gap = guess_gap(g, n, &g[k], 0), score = gap <= 0 ? gap : g[k].reach == 0 ? 1e9 + gap : gap / g[k].reach;
     if (best > 1e9 && g[k].reach > 0) break;
     if (tried && score <= best) continue;
     best = score;
@@ -58,17 +61,43 @@ static double guess_best(uint32_t *out, const ball_guess *g, size_t n) {
   return best;
 }
 
-dyd_status dyd_sphere_choose(uint32_t *out, const dyd_sphere *s, dyd_error *err) {
+/* The place of many, spread evenly over the sphere (a Fibonacci lattice), that has the widest gap about it. */
+static bool gap_best(double at[2], const ball_guess *g, size_t n) {
+  double best = 0;
+  for (size_t k = 0; k < GAPS && (best <= 0 || k * n < 16 * (size_t)WORK); k++) {
+    double z = 1 - (double)(2 * (k * 1597 % GAPS) + 1) / GAPS, lon = fmod((double)k * 222.49223594996215, 360) - 180;
+    double r = sqrt(1 - z * z);
+    const ball_guess here = {{r * cos(degree * lon), r * sin(degree * lon), z}, 0, DYD_NO_PLACE};
+    double gap = guess_gap(g, n, &here, best);
+    if (gap <= best) continue;
+    best = gap;
+    at[0] = ldexp(nearbyint(ldexp(lon, 10)), -10);
+    at[1] = ldexp(nearbyint(ldexp(asin(z) / degree, 10)), -10);
+  }
+  return best > 0;
+}
+
+static dyd_status centre_in_gap(dyd_sphere *s, const ball_guess *g, size_t n, dyd_error *err) {
+  double at[2];
+  if (!gap_best(at, g, n))
+    return dyd_fail(err, DYD_E_ARG,
+                    "points may be at the same place as others, and anywhere on the globe, so that nothing is known of "
+                    "any; give a smaller radius, or --merge where such points are one");
+  for (int a = 0; a < 2; a++) mpq_set_d(s->eye.spot.mid[a], at[a]);
+  s->free = true;
+  s->centre = DYD_NO_PLACE;
+  s->eye_bits = INT64_MAX;
+  return DYD_OK;
+}
+
+dyd_status dyd_sphere_choose(dyd_sphere *s, dyd_error *err) {
   ball_guess *g = dyd_alloc(s->count, sizeof *g);
   size_t n = 0;
   if (!g) return dyd_fail_nomem(err);
   for (uint32_t i = 0; i < s->count; i++)
     if (s->alias[i] == i) guess_set(&g[n++], s, i);
   qsort(g, n, sizeof *g, compare_guesses);
-  double best = guess_best(out, g, n);
+  dyd_status st = guess_best(&s->centre, g, n) > 0 || n < 2 ? DYD_OK : centre_in_gap(s, g, n, err);
   free(g);
-  if (best > 0 || n < 2) return DYD_OK;
-  return dyd_fail(err, DYD_E_ARG,
-                  "each point may be at the same place as another one, so that nothing is known of any; give a smaller "
-                  "radius, or --merge where such points are one");
+  return st;
 }

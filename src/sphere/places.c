@@ -24,6 +24,38 @@ dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_e
   return st;
 }
 
+void dyd_sphere_angle(mpq_ptr out, const dyd_sphere *s, uint32_t i) {
+  double metres = dyd_engine_radius(s->places, i);
+  mpq_set(out, s->angle);
+  if (!(metres > 0)) return;
+  mpq_set_d(out, metres);
+  mpq_mul(out, out, s->metre);
+  mpq_add(out, out, s->angle);
+}
+
+dyd_status dyd_sphere_wide_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err) {
+  mpq_t angle;
+  dyd_status st = dyd_sphere_spot(out, s, i, err);
+  if (st != DYD_OK || !dyd_sphere_is_round(s, i)) return st;
+  mpq_init(angle);
+  dyd_sphere_angle(angle, s, i);
+  dyd_spot_widen(out, angle);
+  mpq_clear(angle);
+  return DYD_OK;
+}
+
+static dyd_status check_angle(const dyd_sphere *s, uint32_t i, dyd_error *err) {
+  mpq_t angle;
+  if (!dyd_sphere_is_round(s, i)) return DYD_OK;
+  mpq_init(angle);
+  dyd_sphere_angle(angle, s, i);
+  bool small = mpq_cmp_si(angle, 1, 1) <= 0;
+  mpq_clear(angle);
+  if (!small && err) err->point = i;
+  return small ? DYD_OK
+               : dyd_fail(err, DYD_E_DOMAIN, "the radius is larger than that of the earth; give a smaller one");
+}
+
 /* ---- aliases ---- */
 
 /* An exact place, by its degrees rounded: equal places have equal ones. */
@@ -64,7 +96,7 @@ static dyd_status aliases_in_run(dyd_sphere *s, const rounded_place *run, size_t
 static bool place_is_plain(double at[2], const dyd_sphere *s, uint32_t i) {
   const dyd_sites *sites = dyd_engine_sites(s->places);
   double box[4];
-  if (!dyd_sphere_is_fixed(s, i) || !dyd_sites_is_point(sites, i) || mpq_sgn(s->degrees) || mpq_sgn(s->angle))
+  if (!dyd_sphere_is_fixed(s, i) || !dyd_sites_is_point(sites, i) || mpq_sgn(s->degrees) || dyd_sphere_is_round(s, i))
     return false;
   dyd_sites_get_d(box, sites, i);
   for (int a = 0; a < 2; a++) at[a] = box[2 * a] >= 0 ? box[2 * a] : box[2 * a + 1];
@@ -85,9 +117,10 @@ static dyd_status places_round(rounded_place *out, size_t *count, const dyd_sphe
       continue;
     }
     st = dyd_sphere_spot(&spot, s, i, err);
+    if (st == DYD_OK) st = check_angle(s, i, err);
     if (st != DYD_OK) break;
     for (int a = 0; a < 2; a++) r->at[a] = mpq_get_d(spot.mid[a]), r->half[a] = mpq_get_d(spot.half[a]);
-    if (!dyd_sphere_is_fixed(s, i) || !dyd_spot_is_exact(&spot) || mpq_sgn(s->angle)) continue;
+    if (!dyd_sphere_is_fixed(s, i) || !dyd_spot_is_exact(&spot) || dyd_sphere_is_round(s, i)) continue;
     out[(*count)++] = (rounded_place){{r->at[0], r->at[1]}, i};
   }
   dyd_spot_clear(&spot);

@@ -4,12 +4,18 @@
  * [SPH-1] A circle on the sphere without the centre q inside goes to a circle in the plane with the same points inside;
  * one through q to a line, the side of the plane away from what was inside. So pairs of other places are as their
  * images are, half-planes included, and a pair with q is possible or sure as the image is a corner of the hull. Where
- * it is on the hull, but no corner, it is on a line with others: a tie where all that is open there are ties. */
+ * it is on the hull, but no corner, it is on a line with others: a tie where all that is open there are ties.
+ *
+ * [SPH-5] A centre that is no place is one point more: what is sure with it is sure without, and what becomes possible
+ * without it are pairs of places that may be its neighbours. */
 #include "base/alloc.h"
 #include "base/error.h"
 #include "base/index.h"
 #include "rect/interval.h"
 #include "sphere/state.h"
+
+/* Neighbours of a centre that is no place, whose pairs are listed. */
+enum { MOST_ABOUT = 4096 };
 
 /* ---- pairs ---- */
 
@@ -42,18 +48,33 @@ static int compare_places(const void *a, const void *b) {
   return (*x > *y) - (*x < *y);
 }
 
+size_t dyd_sphere_faces(const dyd_sphere *s) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
+  return pd ? dyd_delaunay_undecided_faces(pd) + s->free : 0;
+}
+
+/* About a centre that is no place: all that may be its neighbours. */
+static dyd_status face_of_gap(dyd_index_list *face, bool *tie, const dyd_delaunay *pd) {
+  dyd_index_list sure = {0};
+  *tie = false;
+  dyd_status st = dyd_delaunay_hull_vertices(&sure, face, pd);
+  dyd_index_list_clear(&sure);
+  return st;
+}
+
 dyd_status dyd_sphere_face(dyd_index_list *out, bool *tie, const dyd_sphere *s, size_t f) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
   dyd_index_list face = {0};
-  bool outer;
-  if (!pd || f >= dyd_delaunay_undecided_faces(pd)) return DYD_E_ARG;
-  dyd_status st = face_look(&face, &outer, tie, pd, f);
+  bool outer = false;
+  if (!pd || f >= dyd_sphere_faces(s)) return DYD_E_ARG;
+  bool gap = f == dyd_delaunay_undecided_faces(pd);
+  dyd_status st = gap ? face_of_gap(&face, tie, pd) : face_look(&face, &outer, tie, pd, f);
   uint32_t *item = st == DYD_OK ? dyd_alloc(face.count + 1, sizeof *item) : NULL;
   if (st == DYD_OK && !item) st = DYD_E_NOMEM;
   if (st == DYD_OK) {
     for (size_t k = 0; k < face.count; k++) item[k] = s->of[face.item[k]];
     item[face.count] = s->centre;
-    size_t n = face.count + outer;
+    size_t n = face.count + (outer && !s->free);
     qsort(item, n, sizeof *item, compare_places);
     dyd_index_list_clear(out);
     *out = (dyd_index_list){n, item};
@@ -84,19 +105,40 @@ static int compare_pairs(const void *a, const void *b) {
   return (x->j > y->j) - (x->j < y->j);
 }
 
-/* The pairs of images by their places, then those of the centre; sorted. */
+static dyd_pair pair_of(uint32_t i, uint32_t j, dyd_pair_status status) {
+  return i < j ? (dyd_pair){i, j, status} : (dyd_pair){j, i, status};
+}
+
+static const dyd_pair *pair_find(const dyd_pair_list *l, uint32_t i, uint32_t j) {
+  const dyd_pair key = pair_of(i, j, DYD_LEGAL);
+  return l->count ? bsearch(&key, l->item, l->count, sizeof key, compare_pairs) : NULL;
+}
+
+/* The pairs of the centre; about one that is no place, pairs of its neighbours that are not among the others. */
+static size_t pairs_about_centre(dyd_pair *item, const dyd_sphere *s, const dyd_pair_list *images,
+                                 const dyd_pair_status *status) {
+  size_t n = 0;
+  for (uint32_t k = 0; k < s->with_image; k++) {
+    if (status[k] == DYD_ILLEGAL) continue;
+    if (!s->free) item[n++] = pair_of(s->of[k], s->centre, status[k]);
+    for (uint32_t l = 0; s->free && l < k; l++)
+      if (status[l] != DYD_ILLEGAL && !pair_find(images, k, l))
+        item[n++] = pair_of(s->of[k], s->of[l], DYD_INDETERMINATE);
+  }
+  return n;
+}
+
+/* The pairs of images by their places, then those about the centre; sorted. */
 static dyd_status pairs_join(dyd_pair_list *out, const dyd_sphere *s, const dyd_pair_list *images,
                              const dyd_pair_status *status) {
-  dyd_pair *item = dyd_alloc(images->count + s->with_image, sizeof *item);
-  size_t n = 0;
+  size_t n = 0, about = 0;
+  for (size_t k = 0; k < s->with_image; k++) about += status[k] != DYD_ILLEGAL;
+  if (s->free && about > MOST_ABOUT) return DYD_E_RANGE;
+  dyd_pair *item = dyd_alloc(images->count + (s->free ? about * about : about), sizeof *item);
   if (!item) return DYD_E_NOMEM;
   for (; n < images->count; n++)
-    item[n] = (dyd_pair){s->of[images->item[n].i], s->of[images->item[n].j], images->item[n].status};
-  for (size_t k = 0; k < s->with_image; k++) {
-    if (status[k] == DYD_ILLEGAL) continue;
-    bool below = s->of[k] < s->centre;
-    item[n++] = (dyd_pair){below ? s->of[k] : s->centre, below ? s->centre : s->of[k], status[k]};
-  }
+    item[n] = pair_of(s->of[images->item[n].i], s->of[images->item[n].j], images->item[n].status);
+  n += pairs_about_centre(item + n, s, images, status);
   qsort(item, n, sizeof *item, compare_pairs);
   dyd_pair_list_clear(out);
   *out = (dyd_pair_list){n, item};
@@ -116,6 +158,16 @@ dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s) {
   return st;
 }
 
+dyd_outcome dyd_sphere_outcome(const dyd_sphere *s) {
+  dyd_outcome outcome = dyd_engine_outcome(s->images);
+  dyd_pair_list pairs = {0};
+  if (!s->free || outcome != DYD_OUTCOME_DECIDED) return outcome;
+  bool open = dyd_sphere_pairs(&pairs, s) != DYD_OK;
+  for (size_t k = 0; k < pairs.count; k++) open = open || pairs.item[k].status != DYD_LEGAL;
+  dyd_pair_list_clear(&pairs);
+  return open ? DYD_OUTCOME_FIXPOINT : outcome;
+}
+
 /* ---- triangles ---- */
 
 static int compare_triangles(const void *a, const void *b) {
@@ -132,8 +184,7 @@ static dyd_triangle triangle_of(uint32_t a, uint32_t b, uint32_t c) {
 }
 
 static bool pair_is_legal(const dyd_pair_list *l, uint32_t i, uint32_t j) {
-  const dyd_pair key = {i < j ? i : j, i < j ? j : i, DYD_LEGAL};
-  const dyd_pair *p = l->count ? bsearch(&key, l->item, l->count, sizeof key, compare_pairs) : NULL;
+  const dyd_pair *p = pair_find(l, i, j);
   return p && p->status == DYD_LEGAL;
 }
 
@@ -166,8 +217,8 @@ dyd_status dyd_sphere_triangles(dyd_triangle_list *out, const dyd_sphere *s) {
   dyd_index_list around = {0};
   dyd_hull hull = {0};
   dyd_status st = dyd_delaunay_triangles(&images, pd);
-  if (st == DYD_OK) st = dyd_delaunay_hull(&around, pd);
-  if (st == DYD_OK) st = dyd_delaunay_partial_hull(&hull, pd);
+  if (st == DYD_OK && !s->free) st = dyd_delaunay_hull(&around, pd);
+  if (st == DYD_OK && !s->free) st = dyd_delaunay_partial_hull(&hull, pd);
   if (st == DYD_CAPPED) st = DYD_OK; /* then no side of the hull is listed */
   if (st == DYD_OK) st = triangles_join(out, s, &images, &around, &hull);
   dyd_hull_clear(&hull);
@@ -194,8 +245,7 @@ dyd_status dyd_sphere_rect(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
   if (i >= s->count) return DYD_E_ARG;
   dyd_spot_init(&spot);
   dyd_rect_init(&r);
-  dyd_status st = dyd_sphere_spot(&spot, s, i, NULL);
-  if (st == DYD_OK && mpq_sgn(s->angle)) dyd_spot_widen(&spot, s->angle);
+  dyd_status st = dyd_sphere_wide_spot(&spot, s, i, NULL);
   if (st == DYD_OK) st = spot_side(&r.x, &spot, 0);
   if (st == DYD_OK) st = spot_side(&r.y, &spot, 1);
   if (st == DYD_OK) dyd_rect_swap(out, &r);

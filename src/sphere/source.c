@@ -23,9 +23,8 @@ static dyd_status place_narrow(const dyd_sphere *s, uint32_t i, int64_t bits, in
 static dyd_status centre_narrow(dyd_sphere *s, int64_t bits, int64_t max_bits, dyd_error *err) {
   if (s->eye_bits >= bits) return DYD_OK;
   dyd_status st = place_narrow(s, s->centre, bits, max_bits, err);
-  if (st == DYD_OK) st = dyd_sphere_spot(&s->eye.spot, s, s->centre, err);
+  if (st == DYD_OK) st = dyd_sphere_wide_spot(&s->eye.spot, s, s->centre, err);
   if (st != DYD_OK) return st;
-  if (mpq_sgn(s->angle)) dyd_spot_widen(&s->eye.spot, s->angle);
   s->eye.prec = 0;
   s->eye_bits = dyd_sphere_is_fixed(s, s->centre) ? INT64_MAX : bits;
   return DYD_OK;
@@ -36,6 +35,7 @@ typedef struct image {
   dyd_sphere *s;
   uint32_t i;
   dyd_spot spot;
+  mpq_t angle;
   arb_t x, y;
   bool glanced;      /* doubles hold it as well as it was asked for */
   bool moving, wide; /* a stream is concerned; something stays wide whatever is asked */
@@ -53,12 +53,14 @@ static dyd_status image_try(bool *seen, image *m, int64_t bits, int64_t max_bits
   if (st == DYD_OK) st = centre_narrow(s, bits, max_bits, err);
   if (st == DYD_OK) st = dyd_sphere_spot(&m->spot, s, m->i, err);
   if (st != DYD_OK) return st;
-  bool centre_wide = dyd_sphere_is_fixed(s, s->centre) && !dyd_spot_is_exact(&s->eye.spot);
-  bool place_wide = dyd_sphere_is_fixed(s, m->i) && !dyd_spot_is_exact(&m->spot);
-  m->wide = centre_wide || place_wide || mpq_sgn(s->angle) || mpq_sgn(s->degrees);
-  m->moving = !dyd_sphere_is_fixed(s, m->i) || !dyd_sphere_is_fixed(s, s->centre);
+  bool centre_fixed = s->eye_bits == INT64_MAX, place_fixed = dyd_sphere_is_fixed(s, m->i);
+  bool centre_wide = !s->free && dyd_sphere_is_round(s, s->centre);
+  m->wide = mpq_sgn(m->angle) || mpq_sgn(s->degrees) || centre_wide;
+  m->wide = m->wide || (centre_fixed && !dyd_spot_is_exact(&s->eye.spot));
+  m->wide = m->wide || (place_fixed && !dyd_spot_is_exact(&m->spot));
+  m->moving = !place_fixed || !centre_fixed;
   slong prec = (slong)(bits < WIDE_BITS && m->wide ? WIDE_BITS : bits) + SPARE;
-  *seen = dyd_project(m->x, m->y, &m->spot, s->angle, &s->eye, prec < GUARD ? GUARD : prec);
+  *seen = dyd_project(m->x, m->y, &m->spot, m->angle, &s->eye, prec < GUARD ? GUARD : prec);
   return DYD_OK;
 }
 
@@ -68,7 +70,7 @@ static void image_glance(bool *seen, image *m, int64_t bits) {
   double box[4];
   arb_t at[2];
   *seen = false;
-  bool plain = s->eye_bits == INT64_MAX && !mpq_sgn(s->angle) && !mpq_sgn(s->degrees) && dyd_sphere_is_fixed(s, m->i);
+  bool plain = s->eye_bits == INT64_MAX && !mpq_sgn(m->angle) && !mpq_sgn(s->degrees) && dyd_sphere_is_fixed(s, m->i);
   if (!plain || bits > GLANCE_BITS || !dyd_spot_is_exact(&s->eye.spot)) return;
   dyd_sites_get_d(box, dyd_engine_sites(s->places), m->i);
   if (!dyd_sites_is_point(dyd_engine_sites(s->places), m->i) || box[2] <= -90 || box[3] >= 90) return;
@@ -94,6 +96,10 @@ static dyd_status image_find(image *m, int64_t bits, int64_t max_bits, dyd_error
     more += seen ? image_width(m) + bits + SPARE : GUARD << k;
   }
   if (seen) return DYD_OK;
+  if (m->s->free)
+    return dyd_fail(err, DYD_E_DOMAIN,
+                    "it may be nearly anywhere, and no place of the sphere is apart from all points; give a smaller "
+                    "radius, or --merge where points that meet are one place");
   return dyd_fail(err, DYD_E_DOMAIN,
                   "it cannot be told from point %zu, from which the sphere is projected; narrow one of them, or give "
                   "--merge where both are one place",
@@ -130,6 +136,8 @@ static dyd_status image_request(dyd_rect *out, void *user, const dyd_request *re
   dyd_sphere *s = user;
   image m = {.s = s, .i = s->of[request->point]};
   dyd_spot_init(&m.spot);
+  mpq_init(m.angle);
+  dyd_sphere_angle(m.angle, s, m.i);
   arb_init(m.x);
   arb_init(m.y);
   dyd_status st = image_find(&m, request->bits, request->max_bits, err);
@@ -137,6 +145,7 @@ static dyd_status image_request(dyd_rect *out, void *user, const dyd_request *re
   if (st == DYD_OK && m.wide && (!m.moving || request->bits >= WIDE_BITS)) st = DYD_FIXED;
   arb_clear(m.y);
   arb_clear(m.x);
+  mpq_clear(m.angle);
   dyd_spot_clear(&m.spot);
   return st;
 }

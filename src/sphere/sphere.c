@@ -6,6 +6,7 @@
 #include "engine/points.h"
 #include "engine/ties.h"
 #include "sphere/state.h"
+#include "sphere/units.h"
 #include <string.h>
 
 enum { FIRST_BITS = 32, START_BITS = 40 };
@@ -35,7 +36,7 @@ static dyd_status images_label(const dyd_sphere *s) {
   for (size_t k = 0; k < s->with_image && good; k++) {
     const char *id = dyd_engine_id(s->places, s->of[k]);
     labels.rows = dyd_engine_row(s->places, s->of[k]);
-    good = dyd_labels_add(&labels, id, id ? strlen(id) : 0, 1);
+    good = dyd_labels_add(&labels, id, id ? strlen(id) : 0, 1, 0);
   }
   if (good)
     dyd_labels_give(s->images, &labels);
@@ -57,36 +58,35 @@ static dyd_status images_make(dyd_sphere *s, dyd_error *err) {
 
 /* ---- life ---- */
 
-static const struct {
-  const char *name;
-  bool ground;
-  unsigned long size;
-} units[] = {{"km", true, 1000}, {"deg", false, 1}, {"m", true, 1}, {"", false, 1}};
-
 /* A number and its unit: metres are an angle, degrees stay degrees. */
 static dyd_status radius_read(dyd_sphere *s, const char *text, dyd_error *err) {
-  mpq_t earth;
-  size_t u = 0, length = strlen(text);
-  while (strlen(units[u].name) > length || strcmp(text + length - strlen(units[u].name), units[u].name) != 0) u++;
-  mpq_ptr to = units[u].ground ? s->angle : s->degrees;
-  if (dyd_real_parse_exact(to, text, length - strlen(units[u].name)) != DYD_OK || mpq_sgn(to) < 0)
+  mpq_t radius;
+  bool ground = false;
+  mpq_init(radius);
+  dyd_status st = dyd_radius_parse(radius, &ground, text, strlen(text));
+  if (st == DYD_OK && ground)
+    mpq_mul(s->angle, radius, s->metre);
+  else if (st == DYD_OK)
+    mpq_swap(s->degrees, radius);
+  mpq_clear(radius);
+  if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (st != DYD_OK)
     return dyd_fail(err, DYD_E_ARG,
                     "the radius \"%.60s\" is not an exact number >= 0 and a unit; give one such as 30m, 2km or 0.01deg",
                     text);
-  if (!units[u].ground) return DYD_OK;
-  mpq_init(earth);
-  dyd_real_parse_exact(earth, DYD_EARTH_RADIUS, sizeof DYD_EARTH_RADIUS - 1);
-  mpz_mul_ui(mpq_numref(to), mpq_numref(to), units[u].size);
-  mpq_canonicalize(to);
-  mpq_div(to, to, earth);
-  mpq_clear(earth);
-  if (mpq_cmp_si(to, 1, 1) <= 0) return DYD_OK;
+  if (mpq_cmp_si(s->angle, 1, 1) <= 0) return DYD_OK;
   return dyd_fail(err, DYD_E_ARG, "the radius \"%.60s\" is larger than that of the earth; give a smaller one", text);
+}
+
+/* Radians to a metre on the ground. */
+static void metre_set(mpq_ptr out) {
+  dyd_real_parse_exact(out, DYD_EARTH_RADIUS, sizeof DYD_EARTH_RADIUS - 1);
+  mpq_inv(out, out);
 }
 
 static dyd_status centre_take(dyd_sphere *s, const dyd_sphere_options *o, dyd_error *err) {
   if (!s->count) return DYD_OK;
-  if (!o->centre_set) return dyd_sphere_choose(&s->centre, s, err);
+  if (!o->centre_set) return dyd_sphere_choose(s, err);
   if (o->centre >= s->count)
     return dyd_fail(err, DYD_E_ARG, "there is no point %lu to project from", (unsigned long)o->centre);
   s->centre = s->alias[o->centre];
@@ -116,7 +116,8 @@ dyd_status dyd_sphere_new(dyd_sphere **out, dyd_engine *places, const dyd_sphere
   s->places = places;
   s->count = dyd_engine_count(places);
   s->eye_bits = INT64_MIN;
-  mpq_inits(s->angle, s->degrees, NULL);
+  mpq_inits(s->angle, s->degrees, s->metre, NULL);
+  metre_set(s->metre);
   dyd_eye_init(&s->eye);
   dyd_status st = sphere_make(s, places, &o, err);
   if (st == DYD_OK)
@@ -135,7 +136,7 @@ void dyd_sphere_free(dyd_sphere *s) {
   free(s->alias);
   free(s->rough);
   dyd_eye_clear(&s->eye);
-  mpq_clears(s->angle, s->degrees, NULL);
+  mpq_clears(s->angle, s->degrees, s->metre, NULL);
   free(s);
 }
 
@@ -172,5 +173,7 @@ dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_
   *outcome = DYD_OUTCOME_ERROR;
   if (dyd_abi_take(&o, sizeof o, options, "dyd_engine_options", err) != DYD_OK) return DYD_E_ARG;
   if (!o.start_bits) o.start_bits = START_BITS;
-  return dyd_engine_run(outcome, s->images, &o, err);
+  dyd_status st = dyd_engine_run(outcome, s->images, &o, err);
+  if (*outcome == DYD_OUTCOME_DECIDED) *outcome = dyd_sphere_outcome(s);
+  return st;
 }

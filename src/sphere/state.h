@@ -4,6 +4,7 @@
  *   sphere.c         life: places and streams of an engine, the engine of images
  *   spot.c           where a point may be, in degrees
  *   places.c         where the places are, and which are the same
+ *   units.c          radii as text
  *   choose_filter.c  from which place is projected
  *   source.c         images, as the engine of images asks for them
  *   project.c        enclosures of images
@@ -28,12 +29,14 @@ struct dyd_sphere {
   const dyd_engine *places;
   dyd_engine *images;
   uint32_t centre; /* the place projected from; meaningless when there are no places */
+  bool free;       /* no place is, but eye.spot, an exact one: all places have images; centre is DYD_NO_PLACE */
   size_t count;    /* of places */
   uint32_t *of, *alias;
   size_t with_image;
   dyd_rough_place *rough; /* of each place; NULL but while the sphere is made */
   dyd_stream **stream;
-  mpq_t angle;   /* radians: the places within this angle of each are meant; 0: the place */
+  mpq_t metre;   /* radians to a metre */
+  mpq_t angle;   /* radians: the places within this angle of each are meant; 0: the place; and see dyd_sphere_angle */
   mpq_t degrees; /* longitude and latitude may be off by so much */
   dyd_eye eye;   /* the centre, as it was asked last */
   int64_t eye_bits;
@@ -41,16 +44,24 @@ struct dyd_sphere {
 
 /* places.c: the place i, as it is known now. DYD_E_DOMAIN where its latitude is beyond a pole. */
 dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
+/* The same with all that is within its angle, see below. */
+dyd_status dyd_sphere_wide_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
 static inline bool dyd_sphere_is_fixed(const dyd_sphere *s, uint32_t i) {
   return !s->stream || !s->stream[i];
+}
+
+/* All within this angle, in radians, of place i are meant; out is initialised. */
+void dyd_sphere_angle(mpq_ptr out, const dyd_sphere *s, uint32_t i);
+static inline bool dyd_sphere_is_round(const dyd_sphere *s, uint32_t i) {
+  return mpq_sgn(s->angle) || dyd_engine_radius(s->places, i) > 0;
 }
 
 /* Fills in alias and rough; looks at all places, DYD_E_DOMAIN as above. */
 dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err);
 
-/* choose_filter.c: the place to project from, among those that are no aliases. DYD_E_ARG with a message where each may
- * be the same as another one. */
-dyd_status dyd_sphere_choose(uint32_t *out, const dyd_sphere *s, dyd_error *err);
+/* choose_filter.c: the place to project from, among those that are no aliases; where each may be the same as another
+ * one, a place that none of them reaches. DYD_E_ARG with a message where there is none. */
+dyd_status dyd_sphere_choose(dyd_sphere *s, dyd_error *err);
 /* source.c: adds the images to s->images. */
 dyd_status dyd_sphere_add_images(dyd_sphere *s, dyd_error *err);
 /* ties.c: as dyd_prove_fn; user is a dyd_sphere, sites are images. */

@@ -67,7 +67,7 @@ static dyd_status circle_read(bool *exact, circle_question *q, dyd_error *err) {
     uint32_t i = k < q->count ? q->s->of[q->site[k]] : q->s->centre;
     dyd_status st = dyd_sphere_spot(&q->spot[k], q->s, i, err);
     if (st != DYD_OK) return st;
-    *exact = dyd_spot_is_exact(&q->spot[k]);
+    *exact = dyd_spot_is_exact(&q->spot[k]) && !dyd_sphere_is_round(q->s, i);
     for (int a = 0; a < 2; a++) mpz_lcm(q->n, q->n, mpq_denref(q->spot[k].mid[a]));
   }
   mpz_mul_ui(q->n, q->n, 360);
@@ -133,7 +133,7 @@ dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, con
   const dyd_sphere *s = user;
   circle_question q = {.s = s, .site = site, .count = count, .line = relation == DYD_COLLINEAR};
   *proved = false;
-  if (relation == DYD_COINCIDENT || mpq_sgn(s->angle)) return DYD_OK;
+  if (relation == DYD_COINCIDENT || (q.line && s->free)) return DYD_OK;
   q.spot = dyd_alloc(circle_places(&q), sizeof *q.spot);
   if (!q.spot) return dyd_fail_nomem(err);
   mpz_init_set_ui(q.n, 1);

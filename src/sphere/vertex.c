@@ -114,10 +114,49 @@ static void box_of_direction(double box[4], arb_ptr n) {
 static dyd_status corner_set(arb_ptr v, const dyd_sphere *s, uint32_t i, dyd_error *err) {
   dyd_spot spot;
   dyd_spot_init(&spot);
-  dyd_status st = dyd_sphere_spot(&spot, s, i, err);
-  if (st == DYD_OK && mpq_sgn(s->angle)) dyd_spot_widen(&spot, s->angle);
+  dyd_status st = dyd_sphere_wide_spot(&spot, s, i, err);
   if (st == DYD_OK) spot_vector(v, &spot);
   dyd_spot_clear(&spot);
+  return st;
+}
+
+/* Who is within an angle of a place is within it of its vector. */
+static dyd_status place_vector(arb_ptr v, const dyd_sphere *s, uint32_t i, dyd_error *err) {
+  dyd_spot spot;
+  mpq_t angle;
+  arb_t reach;
+  mag_t error;
+  dyd_spot_init(&spot);
+  mpq_init(angle);
+  arb_init(reach);
+  mag_init(error);
+  dyd_status st = dyd_sphere_spot(&spot, s, i, err);
+  dyd_sphere_angle(angle, s, i);
+  dyd_ball_set_q(reach, angle, PREC);
+  arb_get_mag(error, reach);
+  if (st == DYD_OK) spot_vector(v, &spot);
+  for (int a = 0; a < 3; a++) arb_add_error_mag(v + a, error);
+  mag_clear(error);
+  arb_clear(reach);
+  mpq_clear(angle);
+  dyd_spot_clear(&spot);
+  return st;
+}
+
+dyd_status dyd_sphere_vector(double box[6], const dyd_sphere *s, uint32_t i, dyd_error *err) {
+  if (i >= s->count) return dyd_fail(err, DYD_E_ARG, "there is no point %lu", (unsigned long)i);
+  arb_ptr v = _arb_vec_init(3);
+  arf_t end;
+  arf_init(end);
+  dyd_status st = place_vector(v, s, i, err);
+  for (int a = 0; a < 3 && st == DYD_OK; a++) {
+    arb_get_lbound_arf(end, v + a, PREC);
+    box[2 * a] = fmax(arf_get_d(end, ARF_RND_FLOOR), -1);
+    arb_get_ubound_arf(end, v + a, PREC);
+    box[2 * a + 1] = fmin(arf_get_d(end, ARF_RND_CEIL), 1);
+  }
+  arf_clear(end);
+  _arb_vec_clear(v, 3);
   return st;
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""dyadel delaunay --sphere: against exact convex hulls, forms of degrees and radii, formats, refusals [SPH-1] [SPH-2] [SPH-3] [SPH-4].
+"""dyadel delaunay --sphere: against exact convex hulls, forms of degrees and radii, formats, refusals [SPH-1] [SPH-2] [SPH-3] [SPH-4] [SPH-5].
 
 Usage: test_sphere.py COMMAND DATA
 """
@@ -217,7 +217,7 @@ def test_choices_within_boxes():
         text = [(f'{x}+-{half}', f'{y}+-{half}') if w else (x, y) for (x, y), w in zip(places, wide)]
         got, result = sphere(text)
         if result.code == 1:
-            assert 'cannot be told from point' in result.err or 'may be at the same place' in result.err, result
+            assert 'cannot be told from point' in result.err or 'may be nearly anywhere' in result.err, result
             continue
         for _ in range(6):
             choice = []
@@ -239,7 +239,93 @@ def test_radius():
         assert angle * 2 * wide <= x1 - x0 <= angle * 2 * wide * 1.001 and 2 * angle * 0.9999 <= y1 - y0 <= 2 * angle * 1.001, site
     for wrong in ('30 miles', 'm', '-1m', '30kmm', '7000km'):
         expect(run('delaunay', '--sphere', '--radius', wrong, '-', stdin=square), 1, r'\A\Z', 'the radius .*; give')
-    expect(run('delaunay', '--sphere', '--radius', '500km', '-', stdin=square[:-5]), 1, r'\A\Z', 'may be at the same place')
+
+
+def table(places, radii):
+    return 'lon,lat,acc\n' + ''.join(f'{x},{y},{a}\n' for (x, y), a in zip(places, radii))
+
+
+COLUMN = ('--columns', 'lon,lat', '--radius-column', 'acc')
+
+
+def test_radius_column():
+    """Each its own unit; what --radius says is added; the same for all is as --radius."""
+    square = [(0, 60), (1, 60), (0, 60.5), (1, 60.5), (50, 0)]
+    for one in ('30m', '2km', '0.01deg', '0.01', '1/64', '0'):
+        got = run('delaunay', '--sphere', '-q', *COLUMN, '--format', 'json', '-', stdin=table(square, [one] * 5))
+        want = run('delaunay', '--sphere', '-q', '--radius', one, '--format', 'json', '-', stdin=''.join(f'{x} {y}\n' for x, y in square))
+        got, want = json.loads(got.out), json.loads(want.out)
+        assert got['pairs'] == want['pairs'], one
+        for a, b in zip(got['sites'], want['sites']):
+            assert all(abs(p - q) < 1e-12 for axis in ('x_decimal', 'y_decimal') for p, q in zip(a[axis], b[axis])), (one, a, b)
+    both = run('delaunay', '--sphere', '-q', *COLUMN, '--radius', '0.5km', '--layer', 'points', '-', stdin=table(square, ['1500m', '1.5km', '0m', '1deg', '0.1']))
+    rows = [[float(v) for v in line.split(',')[1:5]] for line in both.out.splitlines() if line[0] in '01234']
+    metre = math.degrees(1 / 6371008.8)
+    for (x0, x1, y0, y1), metres, degrees in zip(rows, (2000, 2000, 500, 500, 500), (0, 0, 0, 1, 0.1)):
+        assert math.isclose(y1 - y0, 2 * (metres * metre + degrees), rel_tol=1e-9) and x1 - x0 > y1 - y0 - 1e-9, (metres, degrees)
+    for wrong in ('30 miles', 'm', '-1m', '30kmm', '-0.1', '1e400km'):
+        expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=table(square, ['1', wrong, '1', '1', '1'])), 1, r'\A\Z', r'-:3:\d+: the radius .*; give one such as')
+    expect(run('delaunay', '--sphere', *COLUMN, '-', stdin=table(square, ['1', '7000km', '1', '1', '1'])), 1, r'\A\Z', 'point 1: the radius is larger than that of the earth')
+    expect(run('delaunay', *COLUMN, '-', stdin=table(square, ['30m'] * 5)), 1, r'\A\Z', r'2:6: the radius is not an exact number >= 0; give')
+    apart = ('--columns', 'lon,lat', '--radius-column', 'lon,acc')
+    expect(run('delaunay', '--sphere', *apart, '-', stdin=table(square, ['30m'] * 5)), 1, r'\A\Z', r'2:6: the radii in x and in y differ.*; name one column')
+
+
+def test_radius_column_merged():
+    """Of rows at one place the smallest radius, where it is inside the others; a radius in degrees goes with its box."""
+    def box(*radii):
+        got = run('delaunay', '--sphere', '-q', *COLUMN, '--merge', '--layer', 'points', '-', stdin=table([(5, 0)] * len(radii) + [(60, 20)], radii + ('0',)))
+        low, high = next(line for line in got.out.splitlines() if line.startswith('0,')).split(',')[3:5]
+        return float(high) - float(low)
+    metre = 2 * math.degrees(1 / 6371008.8)
+    assert math.isclose(box('30m', '20m', '40m'), 20 * metre, rel_tol=1e-9)
+    assert math.isclose(box('0.3', '0.1', '0.2'), 0.2, rel_tol=1e-9)
+    assert math.isclose(box('0.1deg', '30m'), 0.2, rel_tol=1e-9)  # neither is inside the other: the first
+    assert math.isclose(box('30m', '0.1deg'), 30 * metre, rel_tol=1e-9)
+    assert math.isclose(box('30m', '0'), 0, abs_tol=1e-12)
+
+
+def test_choices_within_own_radii():
+    r = random.Random(SEED)
+    for k in range(30):
+        metres = [r.choice([0, 1000, 50000, 300000]) for _ in range(r.randrange(4, 9))]
+        places = scattered(r, len(metres), 1.2 * 300000 / 6371008.8)
+        got = run('delaunay', '--sphere', '-q', *COLUMN, '-', stdin=table(places, [f'{m}m' for m in metres]))
+        assert got.code in (0, 3), got
+        rows = [line.split(',') for line in got.out.splitlines()[1:] if line[0] != '#']
+        stated = {(int(i), int(j)): s for i, j, s in rows}
+        for _ in range(6):
+            choice = [moved(p, m / 6371008.8, r) for p, m in zip(places, metres)]
+            assert not refuted(stated, choice), (SEED, k, metres, places, choice)
+
+
+def test_crowds():
+    """No point is apart from all others: pairs are open, some are decided all the same, and no choice contradicts."""
+    r = random.Random(SEED)
+    decided = 0
+    for k in range(40):
+        n, wide = r.randrange(2, 12), r.choice([0.2, 3, 30])
+        middle = r.uniform(-180, 180), math.degrees(math.asin(r.uniform(-1, 1)))
+        near = [moved(middle, math.radians(wide), r) for _ in range(n)]
+        places = [(round(x, 4), round(y, 4)) for p in near for x, y in (p, moved(p, math.radians(wide) / 40, r))]
+        metres = int(6371008.8 * math.radians(wide) / 60)
+        got, result = sphere(places, '--radius', f'{metres}m')
+        assert result.code in (0, 3) and set(got.values()) <= {'legal', 'indeterminate'}, result
+        decided += len(got) < len(places) * (len(places) - 1) / 2
+        for _ in range(8):
+            choice = [moved(p, metres / 6371008.8, r) for p in places]
+            assert not refuted(got, choice), (SEED, k, metres, places, choice)
+        whole = diagram(''.join(f'{x} {y}\n' for x, y in places), '--radius', f'{metres}m')
+        check_cells(whole)
+        about = {frozenset((i, j)) for g in whole['regions'] for i in g['sites'] for j in g['sites'] if i < j}
+        assert {frozenset(p) for p, s in got.items() if s == 'indeterminate'} <= about and whole['outcome'] == 'fixpoint', (SEED, k)
+    assert decided > 10, decided
+    around = '0 60\n90 60\n180 60.5\n-90 60.5\n0 -90\n0 0\n90 0\n180 0\n-90 0\n'
+    expect(run('delaunay', '--sphere', '--radius', '6000km', '-', stdin=around), 1, r'\A\Z', 'anywhere on the globe.*; give a smaller radius')
+    with tempfile.TemporaryDirectory() as folder:
+        result = run('delaunay', '--sphere', '--radius', '500km', '--certificate', 'c', '-', stdin='0 0\n1 0\n0 1\n1 1\n', cwd=folder)
+        expect(result, 3, '1,2,indeterminate', 'projected from a place between them: 4 rectangles')
+        expect(run('verify', 'c', cwd=folder), 3, 'accepted')
 
 
 # ---- formats and messages ----
@@ -263,6 +349,41 @@ def test_formats():
     expect(run('delaunay', '--sphere', '--layer', 'points', '-', stdin=places), 0, r'^i,xlo,xhi,ylo,yhi,legal,indeterminate,tie,hull\n0,170,170,20,20,5,0,0,not$')
     back = run('delaunay', '--sphere', '--format', 'wkt', '--layer', 'triangles', '-', stdin='0 0\n1 0\n0 1\n')
     expect(back, 0, r'^"MULTIPOLYGON EMPTY",0,2,1')
+
+
+def on_the_globe(vectors, places, bound):
+    for v, (lon, lat) in zip(vectors, places, strict=True):
+        x, y = math.radians(lon), math.radians(lat)
+        want = math.cos(y) * math.cos(x), math.cos(y) * math.sin(x), math.sin(y)
+        assert all(abs(a - b) <= bound + 1e-15 for a, b in zip(v, want)), (v, want, bound)
+
+
+def test_meshes():
+    """obj and vtk: on the sphere of radius 1, within the bound that is told; edges and triangles are those of csv."""
+    r = random.Random(SEED)
+    places = [(round(r.uniform(-180, 180), 3), round(math.degrees(math.asin(r.uniform(-1, 1))), 3)) for _ in range(40)]
+    text = ''.join(f'{x} {y}\n' for x, y in places + places[:1])
+    for options in ([], ['--radius', '20km'], ['--radius', '500km']):
+        got, _ = sphere(places + places[:1], *options)
+        faces = {tuple(map(int, row.split(','))) for row in run('delaunay', '--sphere', '-q', *options, '--layer', 'triangles', '-', stdin=text).out.splitlines()
+                 if row[0] not in '#i'}
+        obj = run('delaunay', '--sphere', '-q', *options, '--format', 'obj', '-', stdin=text).out.splitlines()
+        bound = float(re.search(r'at most (\S+)', obj[1])[1])
+        assert bound < (1e-15 if not options else 0.1), bound
+        on_the_globe([tuple(map(float, line.split()[1:])) for line in obj if line[0] == 'v'], places + places[:1], bound)
+        assert {tuple(int(v) - 1 for v in line.split()[1:]) for line in obj if line[0] == 'l'} == {p for p, s in got.items() if s == 'legal'}
+        assert {tuple(int(v) - 1 for v in line.split()[1:]) for line in obj if line[0] == 'f'} == faces
+        vtk = run('delaunay', '--sphere', '-q', *options, '--format', 'vtk', '-', stdin=text).out.splitlines()
+        assert len(vtk[1]) < 256 and float(re.search(r'within (\S+) of', vtk[1])[1]) == bound
+        on_the_globe([tuple(map(float, line.split())) for line in vtk[5:5 + len(places) + 1]], places + places[:1], bound)
+        at = next(k for k, line in enumerate(vtk) if line.startswith('LINES'))
+        assert {tuple(map(int, line.split()[1:])) for line in vtk[at + 1:at + 1 + int(vtk[at].split()[1])]} == set(got)
+        legal = [int(v) for v in vtk[vtk.index('SCALARS legal int 1') + 2:][:len(places)]]
+        assert legal == [sum(s == 'legal' and k in p for p, s in got.items()) for k in range(len(places))]
+    tilted = [(0, 0), (90, 0), (0, 90), (-140, -40)]
+    faces = [line.split()[1:] for line in run('delaunay', '--sphere', '--format', 'obj', '-', stdin=''.join(f'{x} {y}\n' for x, y in tilted)).out.splitlines()
+             if line[0] == 'f']
+    assert ['1', '2', '3'] in faces, faces  # counter-clockwise from outside
 
 
 def area(rings):
@@ -448,8 +569,7 @@ def test_refusals():
     for command in ('converge', 'check', 'disc', 'bisector', 'tolerance', 'plan'):
         expect(run(command, '--sphere', '-', stdin=OCTAHEDRON), 2, r'\A\Z', f'{command} does not take --sphere')
     expect(run('nearest', '--sphere', '-', '1', '1', stdin=OCTAHEDRON), 2, r'\A\Z', 'nearest does not take --sphere')
-    expect(run('delaunay', '--sphere', '--format', 'obj', '-', stdin=OCTAHEDRON), 2, r'\A\Z', 'does not write obj; give')
-    expect(run('delaunay', '--sphere', '--radius', '1m', '-', stdin='0 0\n0 0\n'), 1, r'\A\Z', 'may be at the same place')
+    expect(run('voronoi', '--sphere', '--format', 'obj', '-', stdin=OCTAHEDRON), 2, r'\A\Z', 'does not write obj; give')
 
 
 if __name__ == '__main__':

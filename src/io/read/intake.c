@@ -4,37 +4,59 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "sphere/units.h"
 #include <math.h>
 #include <string.h>
 
 /* ---- radii ---- */
 
-/* mpq_get_d rounds towards zero; beyond doubles the radius goes the general way. */
-static void manner_set_radius(dyd_manner *m, const mpq_t radius) {
+/* mpq_get_d rounds towards zero. */
+static double radius_above(const mpq_t radius) {
   mpq_t back;
   double down = mpq_get_d(radius);
   mpq_init(back);
-  mpq_set(m->radius, radius);
-  m->widen = mpq_sgn(radius) > 0;
   if (isfinite(down)) mpq_set_d(back, down);
-  m->radius_up = mpq_equal(back, radius) ? down : nextafter(down, INFINITY);
+  bool exact = mpq_equal(back, radius);
   mpq_clear(back);
+  return exact ? down : nextafter(down, INFINITY);
 }
 
-/* Each row with columns of radii has its own: what they say is added to the radius of all points. */
+/* Beyond doubles the radius goes the general way. */
+static void manner_set_radius(dyd_manner *m, const mpq_t radius) {
+  mpq_set(m->radius, radius);
+  m->widen = mpq_sgn(radius) > 0;
+  m->radius_up = radius_above(radius);
+}
+
+static dyd_status radius_fail(const dyd_intake *in, const dyd_span *span, dyd_error *err) {
+  return dyd_span_fail(err, span, 0,
+                       in->o->degrees
+                           ? "the radius is not an exact number >= 0 and a unit; give one such as 0.01deg, 30m or 2km"
+                           : "the radius is not an exact number >= 0; give one such as 0.01 or 1/64");
+}
+
+/* Each row with columns of radii has its own: what they say is added to the radius of all points, or kept. */
 static dyd_status intake_radius(dyd_intake *in, int axis, const dyd_span *span, dyd_error *err) {
   mpq_t own;
+  bool ground = false;
   mpq_init(own);
-  dyd_status st = dyd_real_parse_exact(own, span->text, span->length);
+  dyd_status st = in->o->degrees ? dyd_radius_parse(own, &ground, span->text, span->length)
+                                 : dyd_real_parse_exact(own, span->text, span->length);
   if (st == DYD_E_NOMEM)
     st = dyd_fail_nomem(err);
-  else if (st != DYD_OK || mpq_sgn(own) < 0)
-    st = dyd_span_fail(err, span, 0, "the radius is not an exact number >= 0; give one such as 0.01 or 1/64");
+  else if (st != DYD_OK || mpq_sgn(own) < 0 || !isfinite(radius_above(own)))
+    st = radius_fail(in, span, err);
   if (st == DYD_OK) {
+    bool keep = ground || in->o->keep_radii;
+    in->kept[axis] = keep ? radius_above(own) : 0;
+    if (keep) mpq_set_ui(own, 0, 1);
     mpq_add(own, own, in->radius);
     manner_set_radius(&in->manner[axis], own);
   }
   mpq_clear(own);
+  if (st == DYD_OK && axis && in->kept[0] != in->kept[1])
+    st = dyd_span_fail(err, span, 0,
+                       "the radii in x and in y differ, and here a point has one; name one column of them");
   return st;
 }
 
@@ -93,9 +115,15 @@ void dyd_intake_clear(dyd_intake *in) {
   mpq_clear(in->radius);
 }
 
-/* Rows and points may differ, or points have identifiers or costs. */
+/* Do points have what stands beside their rectangles? */
+static bool intake_numbers(const dyd_intake *in) {
+  const dyd_read_options *o = in->o;
+  return o->cost_column || (o->radius_columns && (o->keep_radii || o->degrees));
+}
+
+/* Or rows and points may differ, or points have identifiers. */
 static bool intake_labels(const dyd_intake *in) {
-  return in->o->id || in->o->cost_column || in->o->skip_missing || in->o->merge;
+  return in->o->id || in->o->skip_missing || in->o->merge || intake_numbers(in);
 }
 
 /* ---- fields ---- */
@@ -168,11 +196,17 @@ static double final_width(const dyd_coordinate *c, const dyd_manner *manner) {
   return end[1] - end[0];
 }
 
-/* A rectangle inside both is that of the smaller width in each coordinate, as they have their centre in common. */
+/* A rectangle inside both is that of the smaller width in each coordinate, as they have their centre in common. A
+ * radius that is kept goes with its rectangle: of rows with different ones, one is taken, inside the other if it can
+ * be. */
 static dyd_status intake_merge(dyd_intake *in, dyd_nominal *place, dyd_coordinate c[2], const double width[2],
                                dyd_error *err) {
-  const bool take[2] = {width[0] < place->width[0], width[1] < place->width[1]};
   size_t point = place->point;
+  double *kept = &in->labels.radius[point];
+  bool less = in->kept[0] < *kept && width[0] <= place->width[0] && width[1] <= place->width[1];
+  bool same = in->kept[0] == *kept;
+  const bool take[2] = {(same || less) && width[0] < place->width[0], (same || less) && width[1] < place->width[1]};
+  if (less) *kept = in->kept[0];
   for (int a = 0; a < 2; a++)
     if (take[a]) place->width[a] = width[a];
   dyd_status st = dyd_stage_replace(&in->stage, point, &c[0], &c[1], take, err);
@@ -188,7 +222,7 @@ static dyd_status intake_point(dyd_intake *in, const dyd_span span[DYD_CSV_ROLES
   dyd_nominal *place = NULL;
   const dyd_span *id = &span[DYD_CSV_ID], *cost = &span[DYD_CSV_COST];
   double own = 1;
-  if (in->o->merge || width[0] > 0 || width[1] > 0) {
+  if (in->o->merge || width[0] > 0 || width[1] > 0 || (in->o->degrees && in->kept[0] > 0)) {
     if (dyd_nominals_find(&place, &in->places, span) != DYD_OK) {
       for (int a = 0; a < 2; a++) dyd_coordinate_clear(&c[a]);
       return dyd_fail_nomem(err);
@@ -202,7 +236,7 @@ static dyd_status intake_point(dyd_intake *in, const dyd_span span[DYD_CSV_ROLES
   if (st != DYD_OK || !intake_labels(in)) return st;
   if (cost->text) st = intake_cost(&own, cost, err);
   if (st != DYD_OK) return st;
-  return dyd_labels_add(&in->labels, id->text, id->length, own) ? DYD_OK : dyd_fail_nomem(err);
+  return dyd_labels_add(&in->labels, id->text, id->length, own, in->kept[0]) ? DYD_OK : dyd_fail_nomem(err);
 }
 
 /* ---- rows ---- */
@@ -245,7 +279,7 @@ dyd_status dyd_intake_row(dyd_intake *in, dyd_span span[DYD_CSV_ROLES], dyd_erro
 dyd_status dyd_intake_commit(dyd_engine *e, dyd_intake *in, dyd_error *err) {
   const dyd_labels *own = &in->labels;
   dyd_labels all = {0};
-  bool labelled = own->has_ids || in->o->cost_column || in->report.missing || in->report.merged;
+  bool labelled = own->has_ids || intake_numbers(in) || in->report.missing || in->report.merged;
   if (labelled && dyd_labels_join(&all, e, own) != DYD_OK) return dyd_fail_nomem(err);
   dyd_status st = dyd_stage_commit(e, &in->stage, err);
   if (st == DYD_OK && labelled)

@@ -13,6 +13,7 @@ typedef struct dyd_intake {
   const dyd_read_options *o; /* borrowed */
   mpq_t radius;              /* of all points */
   dyd_manner manner[2];      /* of x and y in the present row */
+  double kept[2];            /* radii of this row that do not widen it, rounded up */
   dyd_stage stage;
   dyd_labels labels;
   dyd_nominals places;
