@@ -29,6 +29,8 @@ bool dydpy_source_new(dyd_source *out, PyObject *narrow) {
 
 void dydpy_progress(void *user, const dyd_progress *p) {
   const dydpy_progress_user *u = user;
+  if (u->trace) dyd_trace_stage(u->trace, p);
+  if (!u->function || u->function == Py_None) return;
   PyGILState_STATE gil = PyGILState_Ensure();
   PyObject *done = NULL;
   if (!PyErr_Occurred())

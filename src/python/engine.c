@@ -15,29 +15,6 @@ static PyObject *engine_new(PyTypeObject *type, PyObject *args, PyObject *kwargs
   return (PyObject *)self;
 }
 
-static int engine_traverse(PyObject *self, visitproc visit, void *arg) {
-  Py_VISIT(Py_TYPE(self));
-  Py_VISIT(((dydpy_engine *)self)->functions);
-  return 0;
-}
-
-/* The engine first: nobody calls the functions then. */
-static int engine_clear(PyObject *object) {
-  dydpy_engine *self = (dydpy_engine *)object;
-  dyd_engine_free(self->engine);
-  self->engine = NULL;
-  Py_CLEAR(self->functions);
-  return 0;
-}
-
-static void engine_dealloc(PyObject *self) {
-  PyTypeObject *type = Py_TYPE(self);
-  PyObject_GC_UnTrack(self);
-  engine_clear(self);
-  PyObject_GC_Del(self);
-  Py_DECREF(type);
-}
-
 /* ---- the type ---- */
 
 static PyMethodDef engine_methods[] = {
@@ -49,8 +26,11 @@ static PyMethodDef engine_methods[] = {
     {"append_source", dydpy_append_source, METH_VARARGS, "append_source(n, narrow)"},
     {"append_text", dydpy_append_text, METH_VARARGS,
      "append_text(bytes, columns, measured, radius, radius_columns, id, delimiter, decimal_comma, skip_missing, "
-     "merge)"},
+     "merge, degrees)"},
     {"remeasure", dydpy_remeasure, METH_VARARGS, "remeasure(i, (xlo, xhi, ylo, yhi))"},
+    {"recall", dydpy_recall, METH_VARARGS, "recall(path) -> int: answers taken from a trace"},
+    {"trace_begin", dydpy_trace_begin, METH_VARARGS, "trace_begin(path, options, (window, no_voronoi) or None)"},
+    {"trace_end", dydpy_trace_end, METH_NOARGS, "trace_end(): nothing where there is no trace"},
     {"run", dydpy_run, METH_O, "run(options)"},
     {"cancel", dydpy_cancel, METH_NOARGS, "cancel(): from any thread"},
     {"count", dydpy_count, METH_NOARGS, "count() -> int: points"},
@@ -58,7 +38,9 @@ static PyMethodDef engine_methods[] = {
     {"counters", dydpy_counters, METH_NOARGS, "counters() -> dict"},
     {"counts", dydpy_counts, METH_NOARGS, "counts() -> (legal, indeterminate, tie)"},
     {"pair_status", dydpy_pair_status, METH_VARARGS, "pair_status(i, j) -> int"},
-    {"pairs", dydpy_pairs, METH_O, "pairs(discs) -> Buffer of (uint32 i, uint32 j, int32 status), sorted"},
+    {"pairs", dydpy_pairs, METH_NOARGS, "pairs() -> Buffer of (uint32 i, uint32 j, int32 status), sorted"},
+    {"discs", dydpy_discs, METH_NOARGS, "discs() -> the same of the discs in the squares"},
+    {"graph", dydpy_graph, METH_VARARGS, "graph(number) -> Buffer of (uint32 i, uint32 j, int32 sure), sorted"},
     {"triangles", dydpy_triangles, METH_NOARGS,
      "triangles() -> (Buffer, Buffer) of uint32 (T, 3): corners, neighbours"},
     {"aliases", dydpy_aliases, METH_NOARGS, "aliases() -> Buffer of uint32 (N,)"},
@@ -74,7 +56,7 @@ static PyMethodDef engine_methods[] = {
     {"certificate", dydpy_certificate, METH_VARARGS, "certificate(diagram, window or None) -> bytes"},
     {"nearest", dydpy_nearest, METH_VARARGS, "nearest((x, y), options) -> (Buffer of uint32, sure, outcome, at)"},
     {"tolerance", dydpy_tolerance, METH_VARARGS,
-     "tolerance(up_to or None, points, max_pairs) -> (rows, (lo, hi), radii or None)"},
+     "tolerance(up_to or None, points, max_pairs, sigma) -> (rows, (lo, hi), radii or None, chances or None)"},
     {"plan", dydpy_plan, METH_VARARGS,
      "plan(accuracy or None, window or None, site or None) -> (rows, (open, ties, left))"},
     {"converge", dydpy_converge, METH_VARARGS,
@@ -84,17 +66,23 @@ static PyMethodDef engine_methods[] = {
 
 static PyType_Slot engine_slots[] = {
     {Py_tp_new, engine_new},
-    {Py_tp_dealloc, engine_dealloc},
-    {Py_tp_traverse, engine_traverse},
-    {Py_tp_clear, engine_clear},
+    {Py_tp_dealloc, dydpy_object_dealloc},
+    {Py_tp_traverse, dydpy_object_traverse},
+    {Py_tp_clear, dydpy_object_clear},
     {Py_tp_methods, engine_methods},
     {Py_tp_doc, "An engine of the library. Use dyadel.delaunay."},
     {0, NULL},
 };
 
-PyType_Spec dydpy_engine_spec = {
+static PyType_Spec engine_spec = {
     .name = "dyadel._dyadel.Engine",
     .basicsize = sizeof(dydpy_engine),
     .flags = Py_TPFLAGS_DEFAULT | Py_TPFLAGS_HAVE_GC | Py_TPFLAGS_IMMUTABLETYPE,
     .slots = engine_slots,
 };
+
+PyTypeObject *dydpy_engine_type(void) {
+  static PyTypeObject *type; /* one for the life of the process, as the module */
+  if (!type) type = (PyTypeObject *)PyType_FromSpec(&engine_spec);
+  return type;
+}

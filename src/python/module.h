@@ -72,20 +72,32 @@ PyObject *dydpy_dyadic(const dyd_dyadic *x);
 bool dydpy_source_new(dyd_source *out, PyObject *narrow);
 /* For dyd_engine_options.progress. */
 typedef struct dydpy_progress_user {
-  PyObject *function; /* NULL: none */
+  PyObject *function; /* NULL or None: none */
   dyd_engine *engine; /* cancelled when the function raises */
+  dyd_trace *trace;   /* told of the stage, too; NULL: none */
 } dydpy_progress_user;
 void dydpy_progress(void *user, const dyd_progress *p);
 
-/* ---- engine.c, use.c: the type Engine ---- */
+/* ---- engine.c, sphere.c, use.c: the types Engine and Sphere ---- */
 
 typedef struct dydpy_engine {
   PyObject_HEAD dyd_engine *engine;
   bool busy;           /* a call is at work, perhaps without the GIL */
   bool late;           /* an interrupt came too late for the last run: it cancels the next one, which is begun again */
   PyObject *functions; /* of its sources: a list that owns them, and that the garbage collector sees */
+  FILE *trace_file;    /* with trace: of the runs to come; NULL: they leave none */
+  dyd_trace *trace;
+  dyd_sphere *sphere; /* whose images the engine holds, and owns it; NULL: a plane */
+  PyObject *places;   /* the Engine of its places */
 } dydpy_engine;
-extern PyType_Spec dydpy_engine_spec;
+/* Borrowed; NULL with an exception set. */
+PyTypeObject *dydpy_engine_type(void);
+extern PyType_Spec dydpy_sphere_spec;
+
+/* object.c: slots of both types. */
+int dydpy_object_traverse(PyObject *self, visitproc visit, void *arg);
+int dydpy_object_clear(PyObject *object);
+void dydpy_object_dealloc(PyObject *self);
 
 /* Begins and ends a call that uses the engine: false with RuntimeError when another one is at work. */
 bool dydpy_enter(dydpy_engine *self);
@@ -105,19 +117,24 @@ void dydpy_options_clear(dydpy_options *o);
  * set.
  */
 int dydpy_stream(dyd_stream **out, PyObject *point, PyObject *radii);
+/* How many points: of a sphere, places. */
+size_t dydpy_points(const dydpy_engine *self);
 /* The point of that number; false with IndexError when there is none. */
 bool dydpy_site(uint32_t *out, dydpy_engine *self, Py_ssize_t number);
 /* Ends a call that entered: None, or the failure raised. */
 PyObject *dydpy_done(dydpy_engine *self, dyd_status st, const dyd_error *err);
 
-/* Methods of Engine; the table in engine.c says what they take and give. Those of points.c, run.c, results.c, text.c,
- * questions.c. */
+/* Methods of Engine; the table in engine.c says what they take and give. Those of points.c, trace.c, run.c, results.c,
+ * text.c, questions.c, converge.c. */
 PyObject *dydpy_append_array(PyObject *self, PyObject *args);
 PyObject *dydpy_append_boxes(PyObject *self, PyObject *args);
 PyObject *dydpy_append_values(PyObject *self, PyObject *args);
 PyObject *dydpy_append_source(PyObject *self, PyObject *args);
 PyObject *dydpy_append_text(PyObject *self, PyObject *args);
 PyObject *dydpy_remeasure(PyObject *self, PyObject *args);
+PyObject *dydpy_recall(PyObject *self, PyObject *args);
+PyObject *dydpy_trace_begin(PyObject *self, PyObject *args);
+PyObject *dydpy_trace_end(PyObject *self, PyObject *none);
 PyObject *dydpy_run(PyObject *self, PyObject *options);
 PyObject *dydpy_cancel(PyObject *self, PyObject *none);
 PyObject *dydpy_count(PyObject *self, PyObject *none);
@@ -125,7 +142,9 @@ PyObject *dydpy_outcome(PyObject *self, PyObject *none);
 PyObject *dydpy_counters(PyObject *self, PyObject *none);
 PyObject *dydpy_counts(PyObject *self, PyObject *none);
 PyObject *dydpy_pair_status(PyObject *self, PyObject *args);
-PyObject *dydpy_pairs(PyObject *self, PyObject *discs);
+PyObject *dydpy_pairs(PyObject *self, PyObject *none);
+PyObject *dydpy_discs(PyObject *self, PyObject *none);
+PyObject *dydpy_graph(PyObject *self, PyObject *number);
 PyObject *dydpy_triangles(PyObject *self, PyObject *none);
 PyObject *dydpy_aliases(PyObject *self, PyObject *none);
 PyObject *dydpy_hull(PyObject *self, PyObject *none);
@@ -142,7 +161,17 @@ PyObject *dydpy_tolerance(PyObject *self, PyObject *args);
 PyObject *dydpy_plan(PyObject *self, PyObject *args);
 PyObject *dydpy_converge(PyObject *self, PyObject *args);
 
+/* ---- trace.c, converge.c ---- */
+
+/* Ends the trace, if there is one; err may be NULL. */
+dyd_status dydpy_trace_close(dydpy_engine *self, dyd_error *err);
+/* (outcome, csv, svg) of a table. */
+PyObject *dydpy_convergence(const dyd_convergence *table, bool times);
+
 /* ---- text.c ---- */
+
+/* A format and a layer of `of`, by their names (layer_name NULL: none); false with ValueError. */
+bool dydpy_form(dyd_format *format, dyd_content *layer, dyd_content of, const char *name, const char *layer_name);
 
 /* Writes to memory. */
 typedef struct dydpy_text {
@@ -155,6 +184,7 @@ bool dydpy_text_open(dydpy_text *t);
 PyObject *dydpy_text_close(dydpy_text *t, const dyd_error *err, dyd_status status);
 /* Of the module. */
 PyObject *dydpy_formats(PyObject *module, PyObject *none);
+PyObject *dydpy_replay(PyObject *module, PyObject *args);
 PyObject *dydpy_verify(PyObject *module, PyObject *args);
 PyObject *dydpy_check(PyObject *module, PyObject *args);
 

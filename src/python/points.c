@@ -180,15 +180,16 @@ PyObject *dydpy_append_text(PyObject *object, PyObject *args) {
   dyd_read_options o = {DYD_SIZED(dyd_read_options)};
   const char *text;
   Py_ssize_t length;
-  int measured, decimal_comma, skip_missing, merge;
+  int measured, decimal_comma, skip_missing, merge, degrees;
   dyd_error err;
-  if (!PyArg_ParseTuple(args, "y#zpzzzzppp", &text, &length, &o.columns, &measured, &o.radius, &o.radius_columns, &o.id,
-                        &o.delimiter, &decimal_comma, &skip_missing, &merge))
+  if (!PyArg_ParseTuple(args, "y#zpzzzzpppp", &text, &length, &o.columns, &measured, &o.radius, &o.radius_columns,
+                        &o.id, &o.delimiter, &decimal_comma, &skip_missing, &merge, &degrees))
     return NULL;
   o.measured = measured;
   o.decimal_comma = decimal_comma;
   o.skip_missing = skip_missing;
   o.merge = merge;
+  o.degrees = degrees;
   if (!dydpy_enter(self)) return NULL;
   PyThreadState *thread = PyEval_SaveThread();
   dyd_status st = dyd_engine_append_text(self->engine, text, (size_t)length, &o, &err);

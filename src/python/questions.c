@@ -1,18 +1,22 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Questions that take a while: nearest points, tolerances, plans, convergence, the harness. */
+/* Questions that take a while: nearest points, graphs, tolerances, plans. */
 #include "module.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+static PyObject *copied(const void *from, size_t size) {
+  void *to = malloc(size + 1);
+  if (!to) return PyErr_NoMemory();
+  if (size) memcpy(to, from, size);
+  return dydpy_buffer_new(to, size);
+}
+
 /* ---- nearest ---- */
 
 static PyObject *nearest_found(const dyd_index_list *found, bool sure, bool tied, dyd_outcome outcome,
                                const dyd_rect *at) {
-  void *copy = malloc((found->count + 1) * sizeof *found->item);
-  if (!copy) return PyErr_NoMemory();
-  if (found->count) memcpy(copy, found->item, found->count * sizeof *found->item);
-  return Py_BuildValue("NNNsN", dydpy_buffer_new(copy, found->count * sizeof *found->item), PyBool_FromLong(sure),
+  return Py_BuildValue("NNNsN", copied(found->item, found->count * sizeof *found->item), PyBool_FromLong(sure),
                        PyBool_FromLong(tied), dyd_outcome_text(outcome), dydpy_rect_ends(at));
 }
 
@@ -51,23 +55,58 @@ PyObject *dydpy_nearest(PyObject *object, PyObject *args) {
   return answer;
 }
 
+/* ---- graphs ---- */
+
+/* As three numbers, which numpy reads as it reads pairs. Takes over the list. */
+static PyObject *graph_found(dyd_graph_list *list) {
+  int32_t *row = malloc((3 * list->count + 1) * sizeof *row);
+  for (size_t k = 0; row && k < list->count; k++) {
+    const dyd_graph_edge *edge = &list->item[k];
+    row[3 * k] = (int32_t)edge->i;
+    row[3 * k + 1] = (int32_t)edge->j;
+    row[3 * k + 2] = edge->sure;
+  }
+  size_t size = 3 * list->count * sizeof *row;
+  dyd_graph_list_clear(list);
+  return row ? dydpy_buffer_new(row, size) : PyErr_NoMemory();
+}
+
+PyObject *dydpy_graph(PyObject *object, PyObject *args) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  dyd_graph_list list = {0};
+  volatile int cancel = 0;
+  int graph;
+  dyd_error err;
+  dydpy_guard guard;
+  if (!PyArg_ParseTuple(args, "i", &graph)) return NULL;
+  const dyd_delaunay *pd = dydpy_enter_result(self);
+  if (!pd) return NULL;
+  dydpy_guard_begin(&guard, NULL, &cancel);
+  PyThreadState *thread = PyEval_SaveThread();
+  dyd_status st = dyd_graph_edges(&list, pd, (dyd_graph)graph, &cancel, &err);
+  PyEval_RestoreThread(thread);
+  dydpy_leave(self);
+  int raised = dydpy_guard_end(&guard);
+  if (raised == 0 && st == DYD_OK) return graph_found(&list);
+  dyd_graph_list_clear(&list);
+  return raised == 0 ? dydpy_raise(&err, st) : NULL;
+}
+
 /* ---- tolerance ---- */
 
-static PyObject *copied(const void *from, size_t size) {
-  void *to = malloc(size + 1);
-  if (!to) return PyErr_NoMemory();
-  memcpy(to, from, size);
-  return dydpy_buffer_new(to, size);
+/* None where they were not asked for. */
+static PyObject *doubles_or_none(const double *value, size_t count) {
+  return value ? copied(value, count * sizeof *value) : Py_NewRef(Py_None);
 }
 
 static PyObject *tolerance_found(const dyd_tolerance *t, size_t points) {
   const dyd_tolerance_row *row;
   double lo, hi;
   size_t rows = dyd_tolerance_rows(&row, t);
-  const double *radius = dyd_tolerance_points(t);
   dyd_tolerance_whole(&lo, &hi, t);
-  return Py_BuildValue("N(dd)N", copied(row, rows * sizeof *row), lo, hi,
-                       radius ? copied(radius, points * sizeof *radius) : Py_NewRef(Py_None));
+  return Py_BuildValue("N(dd)NN", copied(row, rows * sizeof *row), lo, hi,
+                       doubles_or_none(dyd_tolerance_points(t), points),
+                       doubles_or_none(dyd_tolerance_chances(t), rows));
 }
 
 static PyObject *tolerance_asked(dydpy_engine *self, const dyd_delaunay *pd, dyd_tolerance_options *o) {
@@ -92,9 +131,11 @@ PyObject *dydpy_tolerance(PyObject *object, PyObject *args) {
   PyObject *up_to, *found = NULL;
   int points;
   Py_ssize_t max_pairs;
+  double sigma;
   mpq_t most;
-  if (!PyArg_ParseTuple(args, "Opn", &up_to, &points, &max_pairs)) return NULL;
-  dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .points = points, .max_pairs = (size_t)max_pairs};
+  if (!PyArg_ParseTuple(args, "Opnd", &up_to, &points, &max_pairs, &sigma)) return NULL;
+  dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .points = points, .max_pairs = (size_t)max_pairs,
+                             .sigma = sigma};
   mpq_init(most);
   if (up_to != Py_None) o.up_to = most;
   if (up_to == Py_None || dydpy_rational(most, up_to) == 0) {
@@ -154,62 +195,5 @@ PyObject *dydpy_plan(PyObject *object, PyObject *args) {
   }
   dyd_rect_clear(&view);
   mpq_clear(exact);
-  return found;
-}
-
-/* ---- convergence ---- */
-
-/* Writes the table, or draws it, whatever the run returned. */
-static PyObject *table_text(const dyd_convergence *table, const char *name, bool times) {
-  dyd_format format;
-  dydpy_text text;
-  dyd_error err;
-  dyd_error_clear(&err);
-  if (!dyd_format_from_name(&format, name)) return PyErr_Format(PyExc_ValueError, "there is no format \"%s\"", name);
-  if (!dydpy_text_open(&text)) return NULL;
-  dyd_status st = dyd_format_holds(format, DYD_CONTENT_CONVERGENCE)
-                      ? dyd_write_convergence(text.file, table, format, times, &err)
-                      : dyd_plot_convergence(text.file, table, format, &err);
-  return dydpy_text_close(&text, &err, st);
-}
-
-static PyObject *converge_of(dydpy_engine *self, const dyd_engine_options *o, const dyd_converge_options *c,
-                             bool times) {
-  dyd_convergence table = {DYD_SIZED(dyd_convergence)};
-  dyd_error err;
-  dydpy_guard guard;
-  dydpy_guard_begin(&guard, self->engine, NULL);
-  PyThreadState *thread = PyEval_SaveThread();
-  dyd_status st = dyd_converge_run(&table, self->engine, o, c, &err);
-  PyEval_RestoreThread(thread);
-  int raised = dydpy_guard_end(&guard);
-  PyObject *found = NULL;
-  if (st != DYD_OK)
-    dydpy_raise(&err, st);
-  else if (raised == 0)
-    found = Py_BuildValue("sNN", dyd_outcome_text(table.outcome), table_text(&table, "csv", times),
-                          table_text(&table, "svg", times));
-  dyd_convergence_clear(&table);
-  return found;
-}
-
-PyObject *dydpy_converge(PyObject *object, PyObject *args) {
-  dydpy_engine *self = (dydpy_engine *)object;
-  PyObject *dict, *window, *found = NULL;
-  int no_voronoi, times;
-  bool windowed = false;
-  dydpy_options o;
-  dyd_rect view;
-  if (!PyArg_ParseTuple(args, "O!Opp", &PyDict_Type, &dict, &window, &no_voronoi, &times)) return NULL;
-  if (dydpy_options_init(&o, self, dict) < 0) return NULL;
-  dyd_rect_init(&view);
-  if (dydpy_window(&view, &windowed, window) == 0 && dydpy_enter(self)) {
-    const dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .window = windowed ? &view : NULL,
-                                    .no_voronoi = no_voronoi};
-    found = converge_of(self, &o.o, &c, times);
-    dydpy_leave(self);
-  }
-  dyd_rect_clear(&view);
-  dydpy_options_clear(&o);
   return found;
 }

@@ -8,8 +8,7 @@
 
 PyObject *dydpy_count(PyObject *self, PyObject *none) {
   (void)none;
-  dyd_engine *e = ((dydpy_engine *)self)->engine;
-  return PyLong_FromSize_t(e ? dyd_engine_count(e) : 0);
+  return PyLong_FromSize_t(dydpy_points((dydpy_engine *)self));
 }
 
 PyObject *dydpy_outcome(PyObject *object, PyObject *none) {
@@ -138,20 +137,35 @@ static PyObject *array_new(void *item, size_t count, size_t size) {
   return dydpy_buffer_new(item, count * size);
 }
 
-/* pairs(discs) */
-PyObject *dydpy_pairs(PyObject *object, PyObject *discs) {
+typedef dyd_status (*pairs_fn)(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err);
+
+static dyd_status pairs_of_boxes(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err) {
+  (void)err;
+  return dyd_delaunay_pairs(out, pd);
+}
+
+static PyObject *pairs_found(PyObject *object, pairs_fn find) {
   dydpy_engine *self = (dydpy_engine *)object;
   dyd_pair_list list = {0};
   dyd_error err;
-  int of_discs = PyObject_IsTrue(discs);
-  const dyd_delaunay *pd = of_discs < 0 ? NULL : dydpy_enter_result(self);
+  const dyd_delaunay *pd = dydpy_enter_result(self);
   if (!pd) return NULL;
   dyd_error_clear(&err);
   PyThreadState *thread = PyEval_SaveThread();
-  dyd_status st = of_discs ? dyd_disc_pairs(&list, pd, &err) : dyd_delaunay_pairs(&list, pd);
+  dyd_status st = find(&list, pd, &err);
   PyEval_RestoreThread(thread);
   dydpy_leave(self);
   return st == DYD_OK ? array_new(list.item, list.count, sizeof *list.item) : dydpy_raise(&err, st);
+}
+
+PyObject *dydpy_pairs(PyObject *self, PyObject *none) {
+  (void)none;
+  return pairs_found(self, pairs_of_boxes);
+}
+
+PyObject *dydpy_discs(PyObject *self, PyObject *none) {
+  (void)none;
+  return pairs_found(self, dyd_disc_pairs);
 }
 
 PyObject *dydpy_triangles(PyObject *object, PyObject *none) {

@@ -56,10 +56,12 @@ int dydpy_options_init(dydpy_options *out, dydpy_engine *self, PyObject *dict) {
   PyObject *window = PyDict_GetItemString(dict, "window"), *progress = PyDict_GetItemString(dict, "progress");
   if (!PyErr_Occurred() && window) dydpy_window(&out->window, &given, window);
   if (given) out->o.window = &out->window;
-  out->progress = (dydpy_progress_user){progress, self ? self->engine : NULL};
-  if (self && progress && progress != Py_None) {
+  out->progress = (dydpy_progress_user){progress, self ? self->engine : NULL, self ? self->trace : NULL};
+  if (self && (self->trace || (progress && progress != Py_None))) {
     out->o.progress = dydpy_progress;
     out->o.progress_user = &out->progress;
+    out->o.trace = self->trace ? dyd_trace_step : NULL;
+    out->o.trace_user = self->trace;
   }
   if (!PyErr_Occurred()) return 0;
   dydpy_options_clear(out);
@@ -76,7 +78,8 @@ static dyd_status run_once(bool *again, dydpy_engine *self, const dyd_engine_opt
   dydpy_guard guard;
   dydpy_guard_begin(&guard, self->engine, NULL);
   PyThreadState *thread = PyEval_SaveThread();
-  dyd_status st = dyd_engine_run(&outcome, self->engine, o, err);
+  dyd_status st =
+      self->sphere ? dyd_sphere_run(&outcome, self->sphere, o, err) : dyd_engine_run(&outcome, self->engine, o, err);
   PyEval_RestoreThread(thread);
   bool cancelled = outcome == DYD_OUTCOME_CANCELLED, ours = guard.hit || self->late;
   int raised = dydpy_guard_end(&guard);

@@ -36,8 +36,7 @@ PyObject *dydpy_formats(PyObject *module, PyObject *none) {
   return list;
 }
 
-/* A format and a layer of `of`, by their names; false with ValueError. */
-static bool form_of(dyd_format *format, dyd_content *layer, dyd_content of, const char *name, const char *layer_name) {
+bool dydpy_form(dyd_format *format, dyd_content *layer, dyd_content of, const char *name, const char *layer_name) {
   *layer = DYD_CONTENT_NONE;
   if (!dyd_format_from_name(format, name)) {
     PyErr_Format(PyExc_ValueError, "there is no format \"%s\"; see dyadel.formats()", name);
@@ -82,7 +81,8 @@ PyObject *dydpy_write(PyObject *object, PyObject *args) {
   text_order t;
   dyd_error err;
   if (!PyArg_ParseTuple(args, "szOI", &format, &layer, &window, &t.epsg)) return NULL;
-  if (!form_of(&t.format, &t.layer, DYD_CONTENT_DELAUNAY, format, layer) || !order_begin(&t, self, window)) return NULL;
+  if (!dydpy_form(&t.format, &t.layer, DYD_CONTENT_DELAUNAY, format, layer) || !order_begin(&t, self, window))
+    return NULL;
   const dyd_delaunay_output o = {DYD_SIZED(dyd_delaunay_output), .window = t.windowed ? &t.window : NULL,
                                  .layer = t.layer, .epsg = t.epsg};
   PyThreadState *thread = PyEval_SaveThread();
@@ -102,7 +102,7 @@ PyObject *dydpy_write_voronoi(PyObject *object, PyObject *args) {
   if (!PyArg_ParseTuple(args, "szOOI", &format, &layer, &window, &bits, &t.epsg)) return NULL;
   dyd_voronoi_options o = {DYD_SIZED(dyd_voronoi_options), .cancel = &cancel, .flatten_set = bits != Py_None};
   if (o.flatten_set) o.flatten_bits = PyLong_AsLongLong(bits);
-  if (PyErr_Occurred() || !form_of(&t.format, &t.layer, DYD_CONTENT_VORONOI, format, layer) ||
+  if (PyErr_Occurred() || !dydpy_form(&t.format, &t.layer, DYD_CONTENT_VORONOI, format, layer) ||
       !order_begin(&t, self, window))
     return NULL;
   o.window = t.windowed ? &t.window : NULL;

@@ -54,8 +54,13 @@ PyObject *dydpy_dict(const dydpy_entry *entry, size_t count) {
   return dict;
 }
 
+size_t dydpy_points(const dydpy_engine *self) {
+  if (!self->engine) return 0;
+  return dyd_engine_count(self->sphere ? dyd_sphere_places(self->sphere) : self->engine);
+}
+
 bool dydpy_site(uint32_t *out, dydpy_engine *self, Py_ssize_t number) {
-  size_t count = self->engine ? dyd_engine_count(self->engine) : 0;
+  size_t count = dydpy_points(self);
   bool there = number >= 0 && (size_t)number < count;
   if (there)
     *out = (uint32_t)number;
@@ -88,8 +93,12 @@ const dyd_delaunay *dydpy_enter_result(dydpy_engine *self) {
   return NULL;
 }
 
+/* Images are named by their places. */
 PyObject *dydpy_done(dydpy_engine *self, dyd_status st, const dyd_error *err) {
   dydpy_leave(self);
-  if (st != DYD_OK) return dydpy_raise(err, st);
-  Py_RETURN_NONE;
+  if (st == DYD_OK) Py_RETURN_NONE;
+  if (!self->sphere || !err || err->point == DYD_NO_POINT) return dydpy_raise(err, st);
+  dyd_error own = *err;
+  own.point = dyd_sphere_place(self->sphere, (uint32_t)err->point);
+  return dydpy_raise(&own, st);
 }

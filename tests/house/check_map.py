@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The drawing of the folders in src/README.md is true, and neither folders nor files use each other in a circle.
+"""The drawing of the folders in src/README.md is true, and neither folders nor files nor modules use each other in a circle.
 
 Usage: check_map.py ROOT            (prints every breach; exit status 1 when there is one)
        check_map.py ROOT --renew    (writes the drawing anew, then checks)
@@ -11,8 +11,10 @@ functions; not those of its own .c), be it declared in include/dyadel or anywher
 it does. The drawing has an arrow from a folder to each folder that it uses, but for those that it reaches by way of others;
 the lines below it have all.
 Below it each folder's files (a .c and its .h as one) stand in an order in which they can be read: each after what it uses.
+So do the modules of a Python package: one uses another that it imports, be it within a function or for types alone.
 The table of rooms in the same guide has a row for each folder, below those of all that it uses.
 """
+import ast
 import collections
 import pathlib
 import re
@@ -68,6 +70,21 @@ def uses(files):
         for word in WORD.findall(plain if path.endswith('.c') else bodies(plain)):
             if home.get(word, path)[:-2] != path[:-2]:
                 used.setdefault(home[word], f'calls {word}')
+    return graph
+
+
+def imports(root):
+    """{module of a Python package: {module used: why}}, by their paths from src without ending"""
+    paths = {path.relative_to(root / 'src').with_suffix(''): path for path in sorted((root / 'src').rglob('*.py'))
+             if path.with_name('__init__.py').exists()}
+    graph = {str(module): {} for module in paths}
+    for module, path in paths.items():
+        for node in ast.walk(ast.parse(path.read_text(encoding='utf-8'))):
+            if not isinstance(node, ast.ImportFrom) or node.level != 1:
+                continue
+            for name in [node.module] if node.module else [alias.name for alias in node.names]:
+                if module.with_name(name) in paths:
+                    graph[str(module)].setdefault(str(module.with_name(name)), f'imports {name}')
     return graph
 
 
@@ -183,28 +200,37 @@ def reading_order(graph, room):
     return [f.partition('/')[2] for f in levels(inner)]
 
 
-def drawing(graph, files):
-    """The map as it should stand in the guide: of folders, and of the files of each."""
+def packages(graph):
+    """Lines about Python packages: their modules, each after those that it imports."""
+    found = collections.defaultdict(list)
+    for module in levels(graph):
+        package, _, name = module.rpartition('/')
+        found[package].append(name)
+    return [f'* `{package}`, in Python: {", ".join(names)}' for package, names in found.items()]
+
+
+def drawing(graph, files, modules):
+    """The map as it should stand in the guide: of folders, of the files of each, and of Python's modules."""
     order = levels(graph)
     lines = [f'  {f} --> {t}' for f, t in sorted(arrows(graph), key=lambda a: (-order.index(a[0]), -order.index(a[1])))]
     rows = [f'| `{f}` | {", ".join(f"`{t}`" for t in order if t in graph[f]) or "nothing"} |' for f in order]
-    reading = [f'* `{f}`: {", ".join(reading_order(files, f))}' for f in order]
+    reading = [f'* `{f}`: {", ".join(reading_order(files, f))}' for f in order] + packages(modules)
     return '\n'.join(['', '```mermaid', 'flowchart TD'] + lines +
                      ['```', '', '| folder | uses, by include or call |', '|---|---|'] + rows +
                      ['', 'The files of each, in an order to read them: each stands after those that it uses, and files that',
                       'share a header stand together.', ''] + reading + ['', ''])
 
 
-def check_drawing(root, graph, files, renew):
+def check_drawing(root, now, renew):
     path = root / GUIDE
     before, begin, rest = path.read_text(encoding='utf-8').partition(BEGIN)
     old, end, after = rest.partition(END)
     if not begin or not end:
         yield f'{GUIDE}: the lines "{BEGIN.strip()}" and "{END.strip()}" are needed'
     elif renew:
-        path.write_text(before + begin + drawing(graph, files) + end + after, encoding='utf-8')
-    elif old != drawing(graph, files):
-        wrong = sorted(set(old.splitlines()) ^ set(drawing(graph, files).splitlines()))
+        path.write_text(before + begin + now + end + after, encoding='utf-8')
+    elif old != now:
+        wrong = sorted(set(old.splitlines()) ^ set(now.splitlines()))
         yield f'{GUIDE}: the map is not that of the sources; check_map.py ROOT --renew writes it: {"; ".join(wrong[:4]).strip()}'
 
 
@@ -221,10 +247,11 @@ def check_rooms(root, graph):
 
 def breaches(root, options):
     graph = uses(read_files(root))
-    rooms = folders(graph)
+    rooms, modules = folders(graph), imports(root)
+    yield from check_circles('modules', modules)
     yield from check_circles('files', join_pairs(graph) if '--pairs' in options else graph)
     yield from check_circles('folders', rooms)
-    yield from check_drawing(root, rooms, graph, '--renew' in options)
+    yield from check_drawing(root, drawing(rooms, graph, modules), '--renew' in options)
     yield from check_rooms(root, rooms)
 
 

@@ -62,6 +62,10 @@ FAULTS = [
     ('src/dyadic/text.c', '#include "dyadic/raw.h"', '#include "rect/irect.h"', 'map', 'circle of folders: dyadic, rect'),
     ('src/rect/interval.c', '#include "rect/interval.h"\n', '#include "rect/interval.h"\nvoid f(void) {\n  dyd_rect_init(0);\n}\n',
      'map', 'circle of files: rect/interval.c, rect/rect.c'),
+    ('src/python/dyadel/_arrays.py', 'import numpy as np\n', 'import numpy as np\nfrom ._triangulation import Delaunay\n',
+     'map', 'circle of modules: python/dyadel/_arrays'),
+    ('src/python/dyadel/_points.py', '    rows = list(points)\n', '    from . import _voronoi, _calls\n    rows = list(points)\n',
+     'map', 'circle of modules: python/dyadel/_calls'),
     ('src/skeleton/line.c', 'static int line_compare(', 'static int star_compare(', 'sources', 'the name of one in'),
     ('src/skeleton/line.c', '#include "rect/irect.h"', '#include "engine/plan.h"', 'sources', 'must not include'),
 ]

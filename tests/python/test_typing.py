@@ -15,6 +15,7 @@ import dyadel
 from dyadel import _dyadel
 
 PROGRAM = '''
+import pathlib
 import numpy as np
 import dyadel
 from fractions import Fraction
@@ -27,8 +28,15 @@ d = dyadel.delaunay(dyadel.Source(4, narrow), timeout=60).refine(until="decided"
 total: int = int(d.legal[:, 0].sum()) + len(d.simplices) + d.status(0, 1).count("l")
 where: np.ndarray[tuple[int, ...], np.dtype[np.int32]] = d.nearest(0, 0).points
 bound: Fraction | None = d.voronoi(window=(0, 1, 0, 1)).area
+d = dyadel.delaunay([(0, 0)], trace="run.1", resume=pathlib.Path("run.0"), sphere=False)
+edges: np.ndarray[tuple[int, ...], np.dtype[np.int32]] = d.graph("mst").sure
+globe: dyadel.Sphere = dyadel.delaunay(np.zeros((3, 2)), "30m", sphere=True).refine(timeout=3)
+around: list[int | None] = globe.voronoi()[0].vertices
+total += len(globe.neighbors) + len(dyadel.tolerance(np.zeros((3, 2)), sigma=0.5).rows) + len(dyadel.replay("run.1"))
+either: dyadel.Delaunay | dyadel.Sphere = dyadel.delaunay([(0, 0)], sphere=total > 3)
 '''
-WRONG = 'import dyadel\ndyadel.delaunay([(0, 0)]).status("a", 1)\ndyadel.Source("n", None)\n'
+WRONG = 'import dyadel\ndyadel.delaunay([(0, 0)]).status("a", 1)\ndyadel.Source("n", None)\n' \
+    'dyadel.delaunay([(0, 0)], sphere=True).append([(1, 1)])\n'
 
 
 def mypy(folder, *arguments):
@@ -44,16 +52,18 @@ def test_mypy():
         for name, text in (('program', PROGRAM), ('wrong', WRONG)):
             pathlib.Path(folder, f'{name}.py').write_text(text, encoding='utf-8')
         assert mypy(folder, 'program.py') == '', mypy(folder, 'program.py')
-        assert mypy(folder, 'wrong.py').count('error:') == 3, mypy(folder, 'wrong.py')
+        assert mypy(folder, 'wrong.py').count('error:') == 4, mypy(folder, 'wrong.py')
 
 
 def test_stub():
     """The stub has what the module has, no more and no less."""
     tree = ast.parse(pathlib.Path(harness.PACKAGE, 'dyadel', '_dyadel.pyi').read_text(encoding='utf-8'))
     functions = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
-    engine = next(node for node in tree.body if isinstance(node, ast.ClassDef) and node.name == 'Engine')
     assert functions == {name for name in dir(_dyadel) if inspect.isbuiltin(getattr(_dyadel, name))}
-    assert {node.name for node in engine.body} == {name for name in dir(_dyadel.Engine) if not name.startswith('_')}
+    for kind in (_dyadel.Engine, _dyadel.Sphere):
+        body = next(node.body for node in tree.body if isinstance(node, ast.ClassDef) and node.name == kind.__name__)
+        members = {node.name for node in body if not node.name.startswith('_')}
+        assert members == {name for name in dir(kind) if not name.startswith('_')}, kind
 
 
 def test_docstrings():

@@ -6,14 +6,19 @@
     d.outcome, d.legal, d.indeterminate, d.ties      # what is true for every choice of points in the squares
     d.simplices, d.neighbors                         # sure triangles, as scipy.spatial.Delaunay names them
 """
-from ._dyadel import version as __version__
+from ._calls import delaunay, plan, tolerance
 from ._check import check, moves
 from ._dyadel import formats
+from ._dyadel import version as __version__
 from ._errors import BrokenPromise, Error
-from ._questions import (Convergence, Nearest, Plan, Table, Tolerance, Verdict, converge, plan, tolerance, verify)
-from ._triangulation import INDETERMINATE, LEGAL, TIE, Bounds, Delaunay, Source, Text, delaunay
+from ._points import Source, Text
+from ._questions import (Convergence, Graph, Nearest, Plan, Table, Tolerance, Verdict, converge, replay, verify)
+from ._sphere import Sphere, SphereCell, SphereVoronoi
+from ._statuses import INDETERMINATE, LEGAL, TIE
+from ._triangulation import Bounds, Delaunay
 from ._voronoi import Cell, Voronoi
 
-__all__ = ['INDETERMINATE', 'LEGAL', 'TIE', 'Bounds', 'BrokenPromise', 'Cell', 'Convergence', 'Delaunay', 'Error', 'Nearest',
-           'Plan', 'Source', 'Table', 'Text', 'Tolerance', 'Verdict', 'Voronoi', '__version__', 'check', 'converge',
-           'delaunay', 'formats', 'moves', 'plan', 'tolerance', 'verify']
+__all__ = ['INDETERMINATE', 'LEGAL', 'TIE', 'Bounds', 'BrokenPromise', 'Cell', 'Convergence', 'Delaunay', 'Error', 'Graph',
+           'Nearest', 'Plan', 'Source', 'Sphere', 'SphereCell', 'SphereVoronoi', 'Table', 'Text', 'Tolerance', 'Verdict',
+           'Voronoi', '__version__', 'check', 'converge', 'delaunay', 'formats', 'moves', 'plan', 'replay', 'tolerance',
+           'verify']

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _dyadel
 from ._errors import BrokenPromise
-from ._triangulation import append_points
+from ._points import append_points
 
 if TYPE_CHECKING:
     from hypothesis.strategies import SearchStrategy

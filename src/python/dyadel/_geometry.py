@@ -3,32 +3,16 @@
 from __future__ import annotations
 
 import html
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import _dyadel
-
-if TYPE_CHECKING:
-    from ._triangulation import Delaunay
-
-Ints = NDArray[np.int32]
-Floats = NDArray[np.float64]
+from ._arrays import Floats, Ints
 
 FORMATS = {name: binary for name, _, binary in _dyadel.formats()}
 #: Larger results are shown in words: notebooks keep every picture in their file.
 MOST_POINTS_SHOWN = 20_000
-
-
-def ints(buffer: Any) -> Ints:
-    """Memory of the library as numbers, without a copy."""
-    return np.frombuffer(buffer, np.int32)
-
-
-def floats(buffer: Any) -> Floats:
-    """Memory of the library as numbers, without a copy."""
-    return np.frombuffer(buffer, np.float64)
 
 
 def text_of(format: str, written: bytes) -> str | bytes:
@@ -53,31 +37,34 @@ def _records(head: list[tuple[str, Any]], coordinates: Floats) -> list[bytes]:
     return [blob[k:k + kind.itemsize] for k in range(0, len(blob), kind.itemsize)]
 
 
-def to_wkb(d: Delaunay, layer: str) -> list[bytes]:
-    """See Delaunay.to_wkb."""
-    place = centres(d.boxes)
-    if layer == 'points':
-        return _records([('u1', 1), ('<u4', 1)], place)
-    if layer == 'pairs':
-        return _records([('u1', 1), ('<u4', 2), ('<u4', 2)], place[d.pairs[:, :2]].reshape(-1, 4))
-    if layer == 'triangles':
-        ring = d.simplices[:, [0, 1, 2, 0]]
-        return _records([('u1', 1), ('<u4', 3), ('<u4', 1), ('<u4', 4)], place[ring].reshape(-1, 8))
-    raise ValueError(f'layer={layer!r}; give "pairs", "triangles" or "points"')
+def wkb_points(places: Floats) -> list[bytes]:
+    """Well-known binary of places (N, 2)."""
+    return _records([('u1', 1), ('<u4', 1)], places)
+
+
+def wkb_lines(places: Floats, pairs: Ints) -> list[bytes]:
+    """Of the lines between them."""
+    return _records([('u1', 1), ('<u4', 2), ('<u4', 2)], places[pairs[:, :2]].reshape(-1, 4))
+
+
+def wkb_triangles(places: Floats, simplices: Ints) -> list[bytes]:
+    """Of triangles among them."""
+    ring = simplices[:, [0, 1, 2, 0]]
+    return _records([('u1', 1), ('<u4', 3), ('<u4', 1), ('<u4', 4)], places[ring].reshape(-1, 8))
+
+
+def _is_shown(d: Any) -> bool:
+    return len(d) <= MOST_POINTS_SHOWN and getattr(d, 'outcome', '') != 'none'
 
 
 def picture(d: Any) -> str | None:
     """svg; None where a text says more."""
-    if len(d) > MOST_POINTS_SHOWN or getattr(d, 'outcome', '') == 'none':
-        return None
-    return str(d.write('svg'))
+    return str(d.write('svg')) if _is_shown(d) else None
 
 
 def page(d: Any) -> str | None:
-    """html: the page that one can touch, in a frame of its own; where the library has none, the picture."""
-    if len(d) > MOST_POINTS_SHOWN or getattr(d, 'outcome', '') == 'none':
+    """html: the page that one can touch, in a frame of its own."""
+    if not _is_shown(d):
         return None
-    if 'html' in FORMATS:
-        inner = html.escape(str(d.write('html')), quote=True)
-        return f'<iframe srcdoc="{inner}" sandbox="allow-scripts" width="100%" height="600" frameborder="0"></iframe>'
-    return f'<figure>{d.write("svg")}<figcaption>{html.escape(repr(d))}</figcaption></figure>'
+    inner = html.escape(str(d.write('html')), quote=True)
+    return f'<iframe srcdoc="{inner}" sandbox="allow-scripts" width="100%" height="600" frameborder="0"></iframe>'

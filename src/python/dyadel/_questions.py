@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""What is asked of a triangulation besides its statuses: nearest points, tolerances, plans, convergence, proofs."""
+"""What an engine is asked besides statuses: nearest points, graphs, tolerances, plans, convergence, proofs."""
 from __future__ import annotations
 
 import html
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -11,9 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _dyadel
+from ._arrays import Floats, Ints, floats, ints
 from ._options import engine_options
-from ._geometry import Floats, Ints, floats, ints
-from ._triangulation import Delaunay, append_points, delaunay
+from ._points import append_points
+
+Path = str | os.PathLike[str]
 
 EVENTS = np.array(['death', 'birth', 'tie'])
 
@@ -45,13 +48,35 @@ def _distances(boxes: Floats, at: Sequence[float]) -> tuple[Floats, Floats]:
     return np.maximum(lo, 0), hi
 
 
-def nearest(d: Delaunay, x: Any, y: Any, options: Mapping[str, Any]) -> Nearest:
+def nearest_to(engine: _dyadel.Engine, x: Any, y: Any, options: dict[str, Any]) -> Nearest:
     """See Delaunay.nearest."""
-    found, sure, tied, outcome, ends = d._engine.nearest((x, y), engine_options(**options))
-    d._cache = {}
-    points = ints(found)
+    found, sure, tied, outcome, ends = engine.nearest((x, y), options)
+    points, boxes = ints(found), floats(engine.boxes()).reshape(-1, 4)
     at = [float(np.nextafter(float(Fraction(*end)), np.inf if k % 2 else -np.inf)) for k, end in enumerate(ends)]
-    return Nearest(points, sure, outcome, *_distances(d.boxes[points], at), tied)
+    return Nearest(points, sure, outcome, *_distances(boxes[points], at), tied)
+
+
+# ---- graphs ----
+
+GRAPHS = ('nearest', 'gabriel', 'mst')
+
+
+class Graph(NamedTuple):
+    """Edges i, j of a graph of neighbours. sure: edges whatever the points are, and no others are as good: (S, 2);
+    possible: edges for some choice, or one of several that are equally good: (P, 2). Others are edges for no choice; of
+    a spanning tree of rectangles some that are listed may be, too."""
+
+    sure: Ints
+    possible: Ints
+
+
+def graph_of(engine: _dyadel.Engine, name: str) -> Graph:
+    """See Delaunay.graph."""
+    if name not in GRAPHS:
+        raise ValueError(f'graph {name!r}; give one of {", ".join(map(repr, GRAPHS))}')
+    edges = ints(engine.graph(GRAPHS.index(name))).reshape(-1, 3)
+    sure = edges[:, 2] != 0
+    return Graph(edges[sure, :2], edges[~sure, :2])
 
 
 # ---- tables ----
@@ -97,34 +122,30 @@ def _fields(buffer: Any, form: Mapping[str, tuple[str, int]], size: int) -> Tabl
 
 class Tolerance(Table):
     """For each pair how far all points may move at once before it is lost (death) or found (birth): columns i, j, event,
-    k, l, lo, hi; the motion is in [lo, hi] (infinite: never), k and l are the points that bind (-1: none).
+    k, l, lo, hi; the motion is in [lo, hi] (infinite: never), k and l are the points that bind (-1: none). With sigma, a
+    column probability: a lower bound of the probability that the pair is an edge.
 
     lo, hi: up to a motion in [self.lo, self.hi] nothing changes at all. radii: (N,) how far each may be from its place so
-    that nothing changes, rounded down; None unless asked for.
+    that nothing changes, rounded down; None unless asked for. All in units of the points.
     """
 
     lo: float
     hi: float
     radii: Floats | None
 
-    @classmethod
-    def _of(cls, d: Delaunay, up_to: Any, points: bool) -> Tolerance:
-        rows, (lo, hi), radii = d._engine.tolerance(up_to, points, 0)
-        table = _fields(rows, {'i': ('i4', 0), 'j': ('i4', 4), 'event': ('i4', 8), 'k': ('i4', 12), 'l': ('i4', 16),
-                               'lo': ('f8', 24), 'hi': ('f8', 32)}, 40)
-        made = cls({**table, 'event': EVENTS[table['event']]})
-        made.lo, made.hi = lo, hi
-        made.radii = None if radii is None else floats(radii)
-        return made
 
-
-def tolerance(points: Any, up_to: Any = None, radii: bool = False, **options: Any) -> Tolerance:
-    """How far exact points (as delaunay takes them) may move: for every edge, every point, the whole.
-
-    up_to: also births, pairs that may become edges when points move by at most so much (an exact number, in units of the
-    points); radii: also how far each point may be from its place; options: those of delaunay.
-    """
-    return Tolerance._of(delaunay(points, **options), up_to, radii)
+def tolerance_of(engine: _dyadel.Engine, up_to: Any, points: bool, sigma: float | None) -> Tolerance:
+    """See tolerance."""
+    if sigma is not None and not 0 < sigma < np.inf:
+        raise ValueError(f'sigma={sigma!r}; give a standard deviation above 0, in units of the points')
+    rows, (lo, hi), radii, chances = engine.tolerance(up_to, points, 0, sigma or 0.0)
+    table = _fields(rows, {'i': ('i4', 0), 'j': ('i4', 4), 'event': ('i4', 8), 'k': ('i4', 12), 'l': ('i4', 16),
+                           'lo': ('f8', 24), 'hi': ('f8', 32)}, 40)
+    chance = {} if chances is None else {'probability': floats(chances)}
+    made = Tolerance({**table, 'event': EVENTS[table['event']], **chance})
+    made.lo, made.hi = lo, hi
+    made.radii = None if radii is None else floats(radii)
+    return made
 
 
 class Plan(Table):
@@ -139,23 +160,14 @@ class Plan(Table):
     ties: int
     left: int
 
-    @classmethod
-    def _of(cls, d: Delaunay, accuracy: Any, window: Sequence[Any] | None, site: int | None) -> Plan:
-        rows, (open_pairs, ties, left) = d._engine.plan(accuracy, window, site)
-        made = cls(_fields(rows, {'site': ('u4', 0), 'now': ('f8', 8), 'needed': ('f8', 16), 'decided': ('u8', 24),
-                                  'left': ('u8', 32)}, 40))
-        made.open, made.ties, made.left = open_pairs, ties, left
-        return made
 
-
-def plan(points: Any, radius: Any = None, accuracy: Any = None, window: Sequence[Any] | None = None,
-         site: int | None = None, **options: Any) -> Plan:
-    """Which points to measure next, and how accurately, so that all is decided.
-
-    accuracy: what a measurement gives at best, in units of the points; window, site: only pairs that reach into
-    (xlo, xhi, ylo, yhi), or that end at this point; points, radius, options: as for delaunay.
-    """
-    return Plan._of(delaunay(points, radius, **options), accuracy, window, site)
+def plan_of(engine: _dyadel.Engine, accuracy: Any, window: Sequence[Any] | None, site: int | None) -> Plan:
+    """See plan."""
+    rows, (open_pairs, ties, left) = engine.plan(accuracy, window, site)
+    made = Plan(_fields(rows, {'site': ('u4', 0), 'now': ('f8', 8), 'needed': ('f8', 16), 'decided': ('u8', 24),
+                               'left': ('u8', 32)}, 40))
+    made.open, made.ties, made.left = open_pairs, ties, left
+    return made
 
 
 # ---- convergence ----
@@ -169,15 +181,15 @@ class Convergence(Table):
     csv: str
     svg: str
 
-    @classmethod
-    def _of(cls, outcome: str, csv: bytes, svg: bytes) -> Convergence:
-        lines = [line.split(',') for line in csv.decode().splitlines() if not line.startswith('#')]
-        made = cls({name: np.array(cells) if name == 'statuses' else _column(cells) for name, *cells in zip(*lines)})
-        made.outcome, made.csv, made.svg = outcome, csv.decode(), svg.decode()
-        return made
-
     def _repr_svg_(self) -> str:
         return self.svg
+
+
+def _convergence(outcome: str, csv: bytes, svg: bytes) -> Convergence:
+    lines = [line.split(',') for line in csv.decode().splitlines() if not line.startswith('#')]
+    made = Convergence({name: np.array(cells) if name == 'statuses' else _column(cells) for name, *cells in zip(*lines)})
+    made.outcome, made.csv, made.svg = outcome, csv.decode(), svg.decode()
+    return made
 
 
 def _column(cells: Sequence[str]) -> NDArray[Any]:
@@ -187,16 +199,32 @@ def _column(cells: Sequence[str]) -> NDArray[Any]:
 
 
 def converge(points: Any, radius: Any = None, window: Sequence[Any] | None = None, diagram: bool = True,
-             times: bool = True, start_bits: int = 4, **options: Any) -> Convergence:
+             times: bool = True, start_bits: int = 4, trace: Path | None = None, resume: Path | None = None,
+             **options: Any) -> Convergence:
     """Runs the refinement and notes every stage.
 
     window: of the bounds of the Voronoi diagram; diagram=False leaves these out (they cost most); times=False leaves out
-    seconds, so that equal runs give equal tables; points, radius, options: as for delaunay.
+    seconds, so that equal runs give equal tables; points, radius, trace, resume, options: as for delaunay.
     """
     engine = _dyadel.Engine()
     append_points(engine, points, radius)
     ready = engine_options(start_bits=start_bits, **options)
-    return Convergence._of(*engine.converge(ready, window, not diagram, times))
+    if resume is not None:
+        engine.recall(os.fsencode(resume))
+    if trace is not None:
+        engine.trace_begin(os.fsencode(trace), ready, (window, not diagram))
+    try:
+        return _convergence(*engine.converge(ready, window, not diagram, times))
+    finally:
+        engine.trace_end()
+
+
+def replay(trace: Path) -> Convergence:
+    """The table of a run from its trace, a file, without asking a point: what it finds is compared with what was noted.
+
+    Error with code 'parse' and the line where they differ, or the trace is not whole.
+    """
+    return _convergence(*_dyadel.replay(os.fsencode(trace)))
 
 
 # ---- proofs ----

@@ -5,16 +5,24 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from . import _geometry
-from ._geometry import Floats
-from ._triangulation import Rect
+from . import _dyadel, _geometry
+from ._arrays import Floats, Rect, exact
 
-if TYPE_CHECKING:
-    from ._triangulation import Delaunay
+
+class Triangulation(Protocol):
+    """Of what it is the diagram."""
+
+    _engine: _dyadel.Engine
+
+    def __len__(self) -> int:
+        """How many points."""
+
+    def certificate(self, diagram: bool, window: Sequence[Any] | None) -> bytes:
+        """What proves it."""
 
 
 class Cell(NamedTuple):
@@ -27,12 +35,6 @@ class Cell(NamedTuple):
     area: tuple[float, float]
 
 
-def exact(text: str) -> Fraction:
-    """"5*2^-3", "22/7", "4"."""
-    mantissa, _, exponent = text.partition('*2^')
-    return Fraction(mantissa) * Fraction(2) ** int(exponent or 0)
-
-
 def _polygon(vertices: Sequence[Sequence[str]]) -> Floats:
     return np.array([[float(exact(x)), float(exact(y))] for x, y in vertices], np.float64).reshape(-1, 2)
 
@@ -40,7 +42,7 @@ def _polygon(vertices: Sequence[Sequence[str]]) -> Floats:
 class Voronoi:
     """Cells with proved bounds, as they were when it was made. Iterate over it, or index it, for the cell of a point."""
 
-    def __init__(self, d: Delaunay, window: Sequence[Any] | None, flatten_bits: int | None = None) -> None:
+    def __init__(self, d: Triangulation, window: Sequence[Any] | None, flatten_bits: int | None = None) -> None:
         self._of, self._window, self._flatten = d, window, flatten_bits
         self.data: dict[str, Any] = json.loads(d._engine.write_voronoi('json', None, window, flatten_bits, 0))
         self._cell = {row['i']: row for row in self.data['cells']}

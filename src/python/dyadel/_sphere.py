@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Points on a sphere, given by longitude and latitude in degrees: triangulation and diagram."""
+from __future__ import annotations
+
+import dataclasses
+import json
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import _dyadel, _geometry
+from ._arrays import Floats, Ints, floats, ints
+from ._options import engine_options
+from ._points import Text, append_points
+from ._statuses import STATUS, Statuses
+
+#: What is about the plane: runs on a sphere go on until all is decided.
+OF_THE_PLANE = ('until', 'window')
+
+
+class SphereCell(NamedTuple):
+    """vertices: numbers of those around the cell, counter-clockwise from outside (rows of SphereVoronoi.vertices); None
+    stands for an undecided region between its neighbours. complete: all around is known."""
+
+    vertices: list[int | None]
+    complete: bool
+
+
+class SphereVoronoi:
+    """The Voronoi diagram of a sphere, as it was when it was made. Iterate over it, or index it, for the cell of a point."""
+
+    def __init__(self, of: Sphere) -> None:
+        self._of = of
+        self.data: dict[str, Any] = json.loads(of._engine.write_voronoi('json', None, 0))
+        self._cell = {row['i']: row for row in self.data['cells']}
+        self._alias = dict(self.data['aliases'])
+
+    def __len__(self) -> int:
+        return len(self._of)
+
+    def __getitem__(self, i: int) -> SphereCell:
+        if not 0 <= i < len(self):
+            raise IndexError(f'there are {len(self)} points')
+        row = self._cell[self._alias.get(i, i)]
+        return SphereCell(row['vertices'], row['complete'])
+
+    @property
+    def vertices(self) -> Floats:
+        """(V, 4): a box of degrees that holds each vertex for every choice of points: longitude lower, upper, latitude
+        lower, upper. Longitudes may reach beyond 180; near a pole they may be all."""
+        return np.array([row['x'] + row['y'] for row in self.data['vertices']], np.float64).reshape(-1, 4)
+
+    @property
+    def corners(self) -> Ints:
+        """(V, 3): the points of which each vertex is the centre."""
+        return np.array([[row[name] for name in 'ijk'] for row in self.data['vertices']], np.int32).reshape(-1, 3)
+
+    @property
+    def regions(self) -> list[dict[str, Any]]:
+        """Undecided regions: `sites`, the points that may meet there, and `status`: 'tie' (one vertex of them all) or
+        'indeterminate'."""
+        regions: list[dict[str, Any]] = self.data['regions']
+        return regions
+
+    def write(self, format: str = 'csv', layer: str | None = None, epsg: int = 0) -> str | bytes:
+        """The diagram, as the triangulation is now, in a format of the command; layer: 'cells', 'vertices' or 'regions'."""
+        return _geometry.text_of(format, self._of._engine.write_voronoi(format, layer, epsg))
+
+    @property
+    def __geo_interface__(self) -> dict[str, Any]:
+        """Cells that are known all around as a FeatureCollection of polygons, in degrees."""
+        collection: dict[str, Any] = json.loads(self.write('geojson'))
+        return collection
+
+    def _repr_svg_(self) -> str | None:
+        return _geometry.picture(self)
+
+    def __repr__(self) -> str:
+        complete = sum(self[i].complete for i in range(len(self)))
+        return f'<dyadel.SphereVoronoi: {len(self)} cells, {complete} known all around>'
+
+
+class Sphere(Statuses):
+    """Which pairs of points on a sphere are neighbours: edges of their convex hull in space. Made by delaunay(sphere=True).
+
+    As Delaunay, but that places are degrees: boxes and rectangles are longitude lower, upper, latitude lower, upper, the
+    radius included; triangles are counter-clockwise from outside (of three points both sides). The earth is taken for a
+    sphere. Points cannot be added.
+    """
+
+    _engine: _dyadel.Sphere
+
+    def __init__(self, points: Any, radius: Any = None) -> None:
+        super().__init__()
+        if isinstance(points, Text) and radius is None and points.radius is not None:
+            points, radius = dataclasses.replace(points, radius=None), points.radius
+        ground = isinstance(radius, str)
+        self._places = _dyadel.Engine()
+        kept = append_points(self._places, points, None if ground else radius, degrees=True)
+        self._given = points if kept else None, radius if kept or ground else None
+        self._engine = _dyadel.Sphere(self._places, radius if ground else None)
+
+    def refine(self, **options: Any) -> Sphere:
+        """Runs until all is decided, or nothing more can be; options are those of delaunay. Returns itself."""
+        merged = {**self._options, **options}
+        for name in OF_THE_PLANE:
+            if merged.get(name) not in (None, 'decided'):
+                raise ValueError(f'{name}={merged[name]!r} is about the plane; leave it or sphere=True away')
+        ready = engine_options(**merged)
+        self._options = {name: value for name, value in merged.items() if name != 'timeout'}
+        self._cache, self._outcome = {}, None
+        self._engine.run(ready)
+        return self
+
+    def status(self, i: int, j: int) -> str:
+        """'legal', 'indeterminate', 'tie' or 'illegal'."""
+        n, alias = len(self), ints(self._engine.aliases())
+        for k in (i, j):
+            if not 0 <= k < n:
+                raise IndexError(f'there is no point {k}; there are {n}, counted from 0')
+        codes = self._once('codes', lambda: self.pairs[:, 0].astype(np.int64) * n + self.pairs[:, 1])
+        code = int(min(alias[i], alias[j])) * n + int(max(alias[i], alias[j]))
+        at = int(np.searchsorted(codes, code))
+        return STATUS[self.pairs[at, 2]] if at < len(codes) and codes[at] == code else STATUS[0]
+
+    def _repr_html_(self) -> str | None:
+        return None  # notebooks show the picture
+
+    def _triangles(self) -> tuple[Ints, Ints]:
+        corners, _ = super()._triangles()
+        return corners, self._once('neighbors', lambda: beyond_sides(corners, len(self)))
+
+    @property
+    def centre(self) -> int | None:
+        """The point that the others were projected from: what a certificate speaks of are their images."""
+        return self._engine.centre()
+
+    def voronoi(self) -> SphereVoronoi:
+        """The Voronoi diagram."""
+        return SphereVoronoi(self)
+
+    def certificate(self) -> bytes:
+        """What proves the statuses of the images in the plane, for verify()."""
+        return self._engine.certificate(False, None)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """What was given: a copy is triangulated anew."""
+        points, radius = self._given
+        options = {name: value for name, value in self._options.items() if name != 'progress'}
+        boxes = floats(self._places.boxes()).reshape(-1, 4).copy() if points is None else points
+        return _restore_sphere, (boxes, radius, options, self.outcome)
+
+
+def beyond_sides(corners: Ints, n: int) -> Ints:
+    """As Statuses.neighbors: the triangle that has the side of corner k the other way round."""
+    begin, end = np.roll(corners, -1, 1).astype(np.int64).ravel(), np.roll(corners, -2, 1).astype(np.int64).ravel()
+    side, turned = begin * n + end, end * n + begin
+    order = np.argsort(side)
+    at = np.searchsorted(side, turned, sorter=order).clip(max=max(len(side) - 1, 0))
+    found = order[at] if len(side) else order
+    return np.where(side[found] == turned, found // 3, -1).astype(np.int32).reshape(-1, 3)
+
+
+def _restore_sphere(points: Any, radius: Any, options: dict[str, Any], outcome: str) -> Sphere:
+    d = Sphere(points, radius)
+    if outcome not in ('none', 'error'):
+        d.refine(**options)
+    d._options, d._outcome = options, outcome
+    return d

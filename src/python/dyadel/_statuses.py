@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What triangulations of the plane and of a sphere say of pairs of points."""
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import numpy as np
+
+from . import _dyadel, _geometry
+from ._arrays import Floats, Ints, Rect, floats, ints, rect_of
+
+STATUS = ('illegal', 'tie', 'indeterminate', 'legal')
+TIE, INDETERMINATE, LEGAL = 1, 2, 3
+Made = TypeVar('Made')
+
+
+class Statuses:
+    """Statuses of pairs, sure triangles, and the rectangles for which they hold. Points are numbered from 0."""
+
+    _engine: _dyadel.Engine | _dyadel.Sphere
+
+    def __init__(self) -> None:
+        self._options: dict[str, Any] = {}
+        self._outcome: str | None = None  # of what was pickled
+        self._cache: dict[str, Any] = {}
+
+    def _once(self, name: str, make: Callable[[], Made]) -> Made:
+        if name not in self._cache:
+            self._cache[name] = make()
+        found: Made = self._cache[name]
+        return found
+
+    def _counts(self) -> tuple[int, int, int]:
+        return len(self.legal), len(self.indeterminate), len(self.ties)
+
+    def cancel(self) -> None:
+        """Asks a run to end soon, with outcome 'cancelled'; from any thread."""
+        self._engine.cancel()
+
+    def __len__(self) -> int:
+        """How many points."""
+        return self._engine.count()
+
+    @property
+    def outcome(self) -> str:
+        """'decided', 'certified' (the bound asked for holds), 'fixpoint' (no refinement decides what is open), 'budget',
+        'cancelled', 'error', or 'none' before the first run."""
+        return self._outcome or self._engine.outcome()
+
+    @property
+    def pairs(self) -> Ints:
+        """All possible pairs, sorted: (M, 3) i, j, status with i < j; LEGAL, INDETERMINATE or TIE."""
+        return self._once('pairs', lambda: ints(self._engine.pairs()).reshape(-1, 3))
+
+    def _with(self, status: int) -> Ints:
+        return self._once(STATUS[status], lambda: self.pairs[self.pairs[:, 2] == status, :2])
+
+    @property
+    def legal(self) -> Ints:
+        """Pairs that are edges whatever the points are: (L, 2)."""
+        return self._with(LEGAL)
+
+    @property
+    def indeterminate(self) -> Ints:
+        """Pairs that are edges for some choice of points; narrower rectangles may decide them: (K, 2)."""
+        return self._with(INDETERMINATE)
+
+    @property
+    def ties(self) -> Ints:
+        """Pairs that are edges for some choice, which no refinement decides: exact or proved ties: (T, 2)."""
+        return self._with(TIE)
+
+    def _triangles(self) -> tuple[Ints, Ints]:
+        corners, beyond = self._once('triangles', self._engine.triangles)
+        return ints(corners).reshape(-1, 3), ints(beyond).reshape(-1, 3)
+
+    @property
+    def simplices(self) -> Ints:
+        """Triangles that are sure, counter-clockwise, in no particular order: (T, 3)."""
+        return self._triangles()[0]
+
+    @property
+    def neighbors(self) -> Ints:
+        """neighbors[t, k]: the triangle beyond the side opposite to corner k of triangle t; -1 where none is sure: (T, 3)."""
+        return self._triangles()[1]
+
+    @property
+    def aliases(self) -> Ints:
+        """(A, 2): point k is the same place as point j < k, which stands for it."""
+        def make() -> Ints:
+            alias = ints(self._engine.aliases())
+            other = np.flatnonzero(alias != np.arange(len(alias)))
+            return np.column_stack((other, alias[other])).astype(np.int32)
+        return self._once('aliases', make)
+
+    @property
+    def boxes(self) -> Floats:
+        """Rectangles reached, rounded outward to doubles: (N, 4) xlo, xhi, ylo, yhi."""
+        return self._once('boxes', lambda: floats(self._engine.boxes()).reshape(-1, 4))
+
+    def rect(self, i: int) -> Rect:
+        """The rectangle reached of point i, exactly: xlo, xhi, ylo, yhi."""
+        return rect_of(self._engine.rect(i))
+
+    @property
+    def counters(self) -> dict[str, Any]:
+        """What it took: stages, calls, bits_least, bits_most, bits_total, seconds, spent (which budget), decisions by rung."""
+        return self._engine.counters()
+
+    def write(self, format: str = 'csv', layer: str | None = None, window: Any = None, epsg: int = 0) -> str | bytes:
+        """The result in a format of the command ('csv', 'json', 'geojson', 'svg', 'html', ...); bytes of those that are no
+        text.
+
+        layer: as `dyadel delaunay --layer`: 'pairs', 'points', 'triangles', of the plane also 'graph:nearest',
+        'graph:gabriel', 'graph:mst'; window: what pictures of the plane show, (xlo, xhi, ylo, yhi); epsg: number of the
+        reference system.
+        """
+        return _geometry.text_of(format, self._engine.write(format, layer, window, epsg))
+
+    @property
+    def __geo_interface__(self) -> dict[str, Any]:
+        """Pairs as a FeatureCollection of lines with i, j, status and max_coordinate_error."""
+        collection: dict[str, Any] = json.loads(self._engine.write('geojson', None, None, 0))
+        return collection
+
+    def _repr_svg_(self) -> str | None:
+        return _geometry.picture(self)
+
+    def _repr_html_(self) -> str | None:
+        return _geometry.page(self)
+
+    def __repr__(self) -> str:
+        name = f'dyadel.{type(self).__name__}'
+        try:
+            legal, indeterminate, ties = self._counts()
+        except RuntimeError as error:  # no result, or at work
+            return f'<{name}: {len(self)} points, {error}>'
+        return f'<{name}: {len(self)} points, {self.outcome}: {legal} legal, {indeterminate} indeterminate, {ties} ties>'

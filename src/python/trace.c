@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Traces of runs: each answer of a point is in its file before the next one is asked for. */
+#include "module.h"
+
+#include <errno.h>
+
+/* Raises OSError with the name. */
+static FILE *file_open(const char *path, const char *mode) {
+  FILE *file = fopen(path, mode);
+  PyObject *name = file ? NULL : PyUnicode_DecodeFSDefault(path);
+  if (name) PyErr_SetFromErrnoWithFilenameObject(PyExc_OSError, name);
+  Py_XDECREF(name);
+  return file;
+}
+
+/* With the engine entered. converge: None, or a window and whether bounds of the diagram are left out. */
+static dyd_status trace_open(dydpy_engine *self, const char *path, const dyd_engine_options *o,
+                             const dyd_converge_options *converge, dyd_error *err) {
+  self->trace_file = file_open(path, "w");
+  if (!self->trace_file) return DYD_E_IO;
+  setvbuf(self->trace_file, NULL, _IOLBF, BUFSIZ);
+  dyd_status st = dyd_trace_new(&self->trace, self->trace_file, self->engine, NULL, o, converge, err);
+  if (st == DYD_OK) return st;
+  fclose(self->trace_file);
+  self->trace_file = NULL;
+  return st;
+}
+
+/* trace_begin(path, options, (window, no_voronoi) or None) */
+PyObject *dydpy_trace_begin(PyObject *object, PyObject *args) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  const char *path;
+  PyObject *dict, *converge, *window = Py_None, *done = NULL;
+  int no_voronoi = 0;
+  bool windowed = false;
+  dydpy_options o;
+  dyd_rect view;
+  dyd_error err;
+  dyd_error_clear(&err);
+  if (!PyArg_ParseTuple(args, "yO!O", &path, &PyDict_Type, &dict, &converge)) return NULL;
+  if (converge != Py_None && !PyArg_ParseTuple(converge, "Op", &window, &no_voronoi)) return NULL;
+  if (dydpy_options_init(&o, self, dict) < 0) return NULL;
+  dyd_rect_init(&view);
+  if (dydpy_window(&view, &windowed, window) == 0 && dydpy_enter(self)) {
+    const dyd_converge_options c = {DYD_SIZED(dyd_converge_options), .window = windowed ? &view : NULL,
+                                    .no_voronoi = no_voronoi};
+    done = dydpy_done(self, trace_open(self, path, &o.o, converge != Py_None ? &c : NULL, &err), &err);
+  }
+  dyd_rect_clear(&view);
+  dydpy_options_clear(&o);
+  return done;
+}
+
+dyd_status dydpy_trace_close(dydpy_engine *self, dyd_error *err) {
+  FILE *file = self->trace_file;
+  dyd_status st = self->trace ? dyd_trace_end(self->trace, dyd_engine_outcome(self->engine), err) : DYD_OK;
+  self->trace = NULL;
+  self->trace_file = NULL;
+  if (file && fclose(file) != 0 && st == DYD_OK) st = dyd_error_set(err, DYD_E_IO, "the trace cannot be written");
+  return st;
+}
+
+PyObject *dydpy_trace_end(PyObject *object, PyObject *none) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  dyd_error err;
+  (void)none;
+  dyd_error_clear(&err);
+  return dydpy_enter(self) ? dydpy_done(self, dydpy_trace_close(self, &err), &err) : NULL;
+}
+
+/* recall(path) -> answers taken */
+PyObject *dydpy_recall(PyObject *object, PyObject *args) {
+  dydpy_engine *self = (dydpy_engine *)object;
+  dyd_recall_report report = {DYD_SIZED(dyd_recall_report)};
+  const char *path;
+  dyd_error err;
+  if (!PyArg_ParseTuple(args, "y", &path)) return NULL;
+  FILE *in = file_open(path, "r");
+  if (!in) return NULL;
+  dyd_status st = DYD_E_ARG;
+  bool entered = dydpy_enter(self);
+  if (entered) st = dyd_trace_recall(&report, self->engine, in, NULL, &err);
+  fclose(in);
+  if (!entered) return NULL;
+  dydpy_leave(self);
+  return st == DYD_OK ? PyLong_FromSize_t(report.answers) : dydpy_raise(&err, st);
+}
+
+/* replay(path) -> (outcome, csv, svg) */
+PyObject *dydpy_replay(PyObject *module, PyObject *args) {
+  dyd_convergence table = {DYD_SIZED(dyd_convergence)};
+  const char *path;
+  dyd_error err;
+  (void)module;
+  if (!PyArg_ParseTuple(args, "y", &path)) return NULL;
+  FILE *in = file_open(path, "r");
+  if (!in) return NULL;
+  PyThreadState *thread = PyEval_SaveThread();
+  dyd_status st = dyd_trace_replay(&table, in, NULL, &err);
+  PyEval_RestoreThread(thread);
+  fclose(in);
+  PyObject *found = st == DYD_OK ? dydpy_convergence(&table, false) : dydpy_raise(&err, st);
+  dyd_convergence_clear(&table);
+  return found;
+}
