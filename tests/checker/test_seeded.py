@@ -3,12 +3,13 @@
 """Faults seeded into the checker of certificates are noticed [CERT-1] [CERT-2] [CERT-3] [CERT-4] [CERT-5] [CERT-6]
 [CERT-7] [CERT-8].
 
-Usage: test_seeded.py CC ROOT LIBRARY   (exit status 1 when a fault goes unnoticed)
+Usage: test_seeded.py CC ROOT LIBRARY [COUNT SEED FILE...]   (exit status 1 when a fault goes unnoticed)
 
 forgeries.txt has certificates, each with its verdict: what is rejected, and what is accepted with which gaps. Most are one
 step from a good one, counts put right. The checker has to give these verdicts; a copy of one of its sources with a fault
 (a check removed or weakened, a < made <= at a tie), linked with the rest from LIBRARY, must give another one. Each fault
-replaces a text, which must occur once. SURVIVORS change nothing that could be noticed, for the reason given.
+replaces a text, which must occur once. SURVIVORS change nothing that could be noticed, for the reason given. With COUNT,
+so many faults drawn at random in these sources instead, as by tests/support/mutants.py, which goes on with what survives.
 """
 import concurrent.futures
 import pathlib
@@ -215,13 +216,12 @@ SURVIVORS = [
 ]
 
 
-def judged(program, certificates):
-    """The verdicts: the reason of a rejection does not count. A crash, or no end, is a verdict of its own."""
+def notices(program, certificates):
+    """A crash, or no end, is a verdict of its own."""
     try:
-        done = subprocess.run([program, certificates], stdout=subprocess.PIPE, text=True, timeout=60, check=False)
+        return subprocess.run([program, certificates], stdout=subprocess.DEVNULL, timeout=60, check=False).returncode != 0
     except subprocess.TimeoutExpired:
-        return ['no end']
-    return [line.split(':')[0] if line.startswith('rejected') else line for line in done.stdout.splitlines()]
+        return True
 
 
 class Seeds:
@@ -234,7 +234,8 @@ class Seeds:
         self.compile(root / 'tests/checker/judge.c', folder / 'judge.o')
 
     def compile(self, source, target):
-        subprocess.run([*self.cc, *self.flags, '-c', source, '-o', target], check=True)
+        return subprocess.run([*self.cc, *self.flags, '-c', source, '-o', target], stderr=subprocess.DEVNULL,
+                              check=False).returncode == 0
 
     def link(self, name, objects):
         program = self.folder / name
@@ -242,41 +243,67 @@ class Seeds:
                         '-o', program], check=True)
         return program
 
-    def verdicts_with(self, number, fault, certificates):
-        text = (self.root / 'src/checker' / fault[0]).read_text()
-        if text.count(fault[1]) != 1:
-            raise SystemExit(f'{fault[0]} has this {text.count(fault[1])} times, not once: {fault[1]}')
-        source, target = self.folder / f'{number}.c', self.folder / f'{number}.o'
-        source.write_text(text.replace(fault[1], fault[2]))
-        self.compile(source, target)
-        return judged(self.link(f'judge{number}', [target]), certificates)
+    def noticed(self, number, source, text, certificates):
+        """None: that is no program."""
+        changed, target = self.folder / f'{number}.c', self.folder / f'{number}.o'
+        changed.write_text(text)
+        if not self.compile(changed, target):
+            return None
+        program = self.link(f'judge{number}', [target])
+        found = notices(program, certificates)
+        for path in (changed, target, program):
+            path.unlink()
+        return found
 
 
-def read_forgeries(path, certificates):
-    """Writes the certificates for the judge; returns the verdicts."""
-    lines = path.read_text().splitlines()
-    certificates.write_text(''.join('----\n' if line.startswith('---- ') else line + '\n' for line in lines))
-    return [line[5:] for line in lines if line.startswith('---- ')]
+def try_faults(seeds, sources, certificates):
+    """The faults of this list that are not noticed, and the survivors that are."""
+    def noticed(k):
+        source, old, new = faults[k][:3]
+        text = (sources / source).read_text()
+        if text.count(old) != 1:
+            raise SystemExit(f'{source} has this {text.count(old)} times, not once: {old}')
+        return seeds.noticed(k, source, text.replace(old, new), certificates)
+
+    faults = FAULTS + SURVIVORS
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        for fault, found in zip(faults, pool.map(noticed, range(len(faults)))):
+            if found != (len(fault) == 3):
+                yield f'{"noticed after all" if found else "unnoticed"}: {fault[0]}: {fault[1]}'
+
+
+def try_drawn(seeds, sources, certificates, count, seed, names):
+    """The same of faults drawn at random."""
+    sys.path.insert(0, str(seeds.root / 'tests/support'))
+    import mutants  # pylint: disable=import-outside-toplevel,import-error
+    text = {f'checker/{name}': (sources / name).read_text() for name in names}
+    tried = 0
+    for told, source, start, end, new in mutants.drawn(text, seed):
+        found = seeds.noticed(tried, source, text[source][:start] + new + text[source][end:], certificates)
+        tried += found is not None
+        if found is False:
+            yield f'SURVIVES: {told}'
+        if tried == count:
+            break
+    print(f'# {tried} faults')
 
 
 def main():
-    cc, root, library = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-    with tempfile.TemporaryDirectory() as name, concurrent.futures.ThreadPoolExecutor(2) as pool:
-        folder = pathlib.Path(name)
-        seeds, certificates = Seeds(cc, root, library, folder), folder / 'certificates.txt'
-        expected = read_forgeries(root / 'tests/checker/forgeries.txt', certificates)
-        found = judged(seeds.link('judge', []), certificates)
-        wrong = [f'certificate {k + 1} of forgeries.txt: {a} in place of {b}'
-                 for k, (a, b) in enumerate(zip(found, expected)) if a != b]
-        if len(found) != len(expected):
-            wrong.append(f'{len(found)} verdicts for {len(expected)} certificates')
-        faults = FAULTS + SURVIVORS
-        tried = pool.map(lambda k: seeds.verdicts_with(k, faults[k], certificates), range(len(faults)))
-        for fault, verdicts in zip(faults, tried):
-            if (verdicts == expected) != (len(fault) == 4):
-                wrong.append(f'{"noticed after all" if len(fault) == 4 else "unnoticed"}: {fault[0]}: {fault[1]}')
-    print('\n'.join(wrong) or f'{len(FAULTS)} faults noticed by {len(expected)} certificates')
-    return bool(wrong)
+    cc, root, library, *drawn = sys.argv[1:]
+    root = pathlib.Path(root)
+    certificates, sources = root / 'tests/checker/forgeries.txt', root / 'src/checker'
+    with tempfile.TemporaryDirectory() as name:
+        seeds = Seeds(cc, root, library, pathlib.Path(name))
+        if notices(seeds.link('judge', []), certificates):
+            raise SystemExit('noticed without a fault')
+        lines = (try_drawn(seeds, sources, certificates, int(drawn[0]), int(drawn[1]), drawn[2:]) if drawn else
+                 try_faults(seeds, sources, certificates))
+        wrong = 0
+        for line in lines:
+            wrong += 1
+            print(line, flush=True)
+    print(f'{wrong} unnoticed')
+    return wrong > 0
 
 
 if __name__ == '__main__':

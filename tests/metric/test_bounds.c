@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* [AREA-T], [HAUS-T]: the bounds against random choices of points, whose Delaunay graphs come from the oracle. */
+/* [AREA-T], [HAUS-T], [AREA-V]: the bounds against random choices of points, whose Delaunay graphs come from the
+ * oracle. */
+#include "metric/voronoi_bounds.h"
 #include "oracle/oracle.h"
 #include "oracle/oracle_gen.h"
-#include <dyadel/metric.h>
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -226,11 +227,64 @@ static void test_by_hand(void **state) {
   dyd_dyadic_clear(&area);
 }
 
+/* Is an area in doubles on its side of that of the polygons, if they are not doubles themselves? */
+static dyd_status check_shape(void *context, uint32_t i, const dyd_shape *shape, const double area[2]) {
+  mpq_t exact, rounded;
+  dyd_dyadic area2;
+  (void)i;
+  if (shape->in_doubles && !shape->on_grid) return DYD_OK;
+  mpq_inits(exact, rounded, NULL);
+  dyd_dyadic_init(&area2);
+  for (int outer = 0; outer < 2; outer++) {
+    assert_int_equal(DYD_OK, dyd_shape_area2(&area2, shape, outer));
+    dyd_dyadic_get_q(exact, &area2);
+    mpq_div_2exp(exact, exact, 1);
+    mpq_set_d(rounded, area[outer]);
+    int sign = mpq_cmp(rounded, exact);
+    assert_true(outer ? sign >= 0 : sign <= 0);
+    *(size_t *)context += sign != 0;
+  }
+  dyd_dyadic_clear(&area2);
+  mpq_clears(rounded, exact, NULL);
+  return DYD_OK;
+}
+
+/* Areas of cells are rounded outward to the last bit [AREA-V]. */
+static void test_areas_of_cells(void **state) {
+  (void)state;
+  test_random r = test_random_start("areas of cells");
+  orc_case c;
+  dyd_rect window;
+  size_t rounded = 0;
+  dyd_rect_init(&window);
+  assert_int_equal(DYD_OK, dyd_interval_set_d(&window.x, -9, 9));
+  assert_int_equal(DYD_OK, dyd_interval_set_d(&window.y, -0.1, 8));
+  for (size_t k = 0; k < test_cases(2 * ORC_KINDS); k++) {
+    dyd_voronoi_sums s;
+    dyd_delaunay *pd = NULL;
+    orc_case_init(&c);
+    orc_generate(&c, &r, k % ORC_KINDS, 6);
+    dyd_sites *sites = make_sites(&c);
+    assert_int_equal(DYD_OK, dyd_delaunay_new(&pd, sites, NULL, NULL));
+    assert_int_equal(DYD_OK, dyd_voronoi_sums_init(&s, pd, &window, k % 2 ? 90 : 20));
+    dyd_status st = dyd_voronoi_sums_all(&s, check_shape, &rounded);
+    assert_true(st == DYD_OK || st == DYD_E_RANGE);
+    dyd_voronoi_sums_clear(&s);
+    dyd_delaunay_free(pd);
+    dyd_sites_free(sites);
+    orc_case_clear(&c);
+  }
+  fprintf(stderr, "# %zu areas rounded\n", rounded);
+  assert_true(rounded > 0);
+  dyd_rect_clear(&window);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_choices),
       cmocka_unit_test(test_few),
       cmocka_unit_test(test_by_hand),
+      cmocka_unit_test(test_areas_of_cells),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

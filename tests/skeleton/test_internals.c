@@ -6,6 +6,7 @@
 
 #include "delaunay/read_case.h"
 #include "skeleton/order.h"
+#include "skeleton/rects_filter.h"
 #include "skeleton/scale_set.h"
 #include "skeleton/skeleton.h"
 #include <cmocka.h>
@@ -312,9 +313,42 @@ static void test_scale_set(void **state) {
   orc_case_clear(&c);
 }
 
+/* ---- boxes of points ---- */
+
+/* Is [lo, hi] what doubles tell of v: around it, and no wider than to the next double? */
+static bool is_rounded_outward(double lo, double hi, const dyd_dyadic *v) {
+  mpq_t exact, end;
+  mpq_inits(exact, end, NULL);
+  dyd_dyadic_get_q(exact, v);
+  mpq_set_d(end, lo);
+  bool below = mpq_cmp(end, exact) <= 0;
+  mpq_set_d(end, hi);
+  bool above = mpq_cmp(exact, end) <= 0;
+  mpq_clears(exact, end, NULL);
+  return below && above && hi <= nextafter(lo, INFINITY);
+}
+
+/* To the last bit: centres have more digits than doubles. */
+static void test_point_box(void **state) {
+  (void)state;
+  dyd_point c;
+  dyd_point_init(&c);
+  for (size_t n = test_cases(1000); n > 0; n--) {
+    dyd_dyadic *at[2] = {&c.x, &c.y};
+    for (int a = 0; a < 2; a++) {
+      mpz_set_si(at[a]->man, (long)test_u64(&shared) | 1);
+      at[a]->exp = test_between(&shared, -90, 30);
+    }
+    dyd_bbox b = dyd_point_box(&c);
+    assert_true(is_rounded_outward(b.e[0], b.e[1], &c.x));
+    assert_true(is_rounded_outward(b.e[2], b.e[3], &c.y));
+  }
+  dyd_point_clear(&c);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_tree), cmocka_unit_test(test_order),
-                                     cmocka_unit_test(test_scale_set)};
+                                     cmocka_unit_test(test_scale_set), cmocka_unit_test(test_point_box)};
   shared = test_random_start("internals");
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

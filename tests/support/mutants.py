@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Which small faults in the sources do tests notice?
 
-Usage: mutants.py ROOT BUILD --sources FILE... --tests NAME... [--count K] [--seed S]
+Usage: mutants.py ROOT BUILD --sources FILE... --tests NAME... [--count K] [--seed S] [--again OUTPUT]
 
 ROOT is a copy of the project that may be written to, BUILD a build folder of it. Draws K places in the sources (paths from
 ROOT/src), all kinds of fault alike, and for each: changes the source, builds, runs the tests named, in this order, until one
 fails, and puts the source back. Prints a line for each fault and a sum; those that nobody noticed are what to look at: a
-missing test, a needless check, or a change that cannot be seen. Slow: this is no test of the suite.
+missing test, a needless check, or a change that cannot be seen. With --again, only those that survived according to the
+output of an earlier run, with slower tests, say. Slow: this is no test of the suite.
 """
 import argparse
 import json
@@ -43,10 +44,15 @@ def places(text):
             yield kind, m.start(), m.end(), m.expand(new) if isinstance(new, str) else new(m)
 
 
+def introspect(build, what):
+    return json.loads(subprocess.run(['meson', 'introspect', what, build], capture_output=True, check=True).stdout)
+
+
 def tests_of(build, names):
-    known = json.loads(subprocess.run(['meson', 'introspect', '--tests', build], capture_output=True, check=True).stdout)
-    found = {t['name']: t for t in known}
-    return [found[name] for name in names]
+    """Each with the files that have to be built for it."""
+    made = {t['id']: t['filename'][0] for t in introspect(build, '--targets')}
+    found = {t['name']: t for t in introspect(build, '--tests')}
+    return [{**found[name], 'needs': [os.path.relpath(made[t], build) for t in found[name]['depends']]} for name in names]
 
 
 def fails(test, limit):
@@ -60,13 +66,19 @@ def fails(test, limit):
 
 
 def noticed(build, tests, limit):
-    targets = [os.path.relpath(t['cmd'][0], build) for t in tests]
+    targets = [target for t in tests for target in t['needs']]
     if subprocess.run(['ninja', '-C', build, *targets], capture_output=True, check=False).returncode:
         return 'the compiler'
     return next((t['name'] for t in tests if fails(t, limit)), None)
 
 
-def main():
+def described(text, source, kind, start, end, new):
+    line = text[text.rfind('\n', 0, start) + 1:text.find('\n', end)].strip()
+    return (f'{source}:{text.count(chr(10), 0, start) + 1} {kind} `{text[start:end].strip()}` -> `{new.strip()}` '
+            f'in `{line}`')
+
+
+def arguments():
     parser = argparse.ArgumentParser()
     parser.add_argument('root', type=pathlib.Path)
     parser.add_argument('build')
@@ -74,37 +86,49 @@ def main():
     parser.add_argument('--tests', nargs='+', required=True)
     parser.add_argument('--count', type=int, default=50)
     parser.add_argument('--seed', type=int, default=1)
+    parser.add_argument('--again', type=pathlib.Path, help='output of an earlier run: what survived is tried')
     parser.add_argument('--limit', type=float, default=300, help='seconds after which a test has failed')
-    o = parser.parse_args()
+    return parser.parse_args()
+
+
+def drawn(text, seed, again=None):
+    """The faults, each with its description: all kinds alike; `again`: of these descriptions only."""
+    by_kind, chance = {}, random.Random(seed)
+    for s in text:
+        for place in places(text[s]):
+            told = described(text[s], s, *place)
+            if again is None or told in again:
+                by_kind.setdefault(place[0], []).append((told, s, *place[1:]))
+    print(f'# {sum(map(len, by_kind.values()))} places, seed {seed}', flush=True)
+    while any(by_kind.values()):
+        kind = chance.choice(sorted(k for k in by_kind if by_kind[k]))
+        yield by_kind[kind].pop(chance.randrange(len(by_kind[kind])))
+
+
+def main():
+    o = arguments()
     build = os.path.abspath(o.build)
     tests = tests_of(build, o.tests)
     text = {s: (o.root / 'src' / s).read_text(encoding='utf-8') for s in o.sources}
-    by_kind = {}
-    for s in o.sources:
-        for kind, *place in places(text[s]):
-            by_kind.setdefault(kind, []).append((s, kind, *place))
-    print(f'# {sum(map(len, by_kind.values()))} places, seed {o.seed}', flush=True)
     if noticed(build, tests, o.limit):
         sys.exit('the tests fail without a fault')
-    chance, survivors, drawn = random.Random(o.seed), 0, 0
-    while drawn < o.count and any(by_kind.values()):
-        kind = chance.choice(sorted(k for k in by_kind if by_kind[k]))
-        source, _, start, end, new = by_kind[kind].pop(chance.randrange(len(by_kind[kind])))
-        old = text[source]
+    again = o.again and {line[10:] for line in o.again.read_text().splitlines() if line.startswith('SURVIVES: ')}
+    survivors = tried = 0
+    for told, source, start, end, new in drawn(text, o.seed, again):
         path = o.root / 'src' / source
-        path.write_text(old[:start] + new + old[end:], encoding='utf-8')
+        path.write_text(text[source][:start] + new + text[source][end:], encoding='utf-8')
         try:
             by = noticed(build, tests, o.limit)
         finally:
-            path.write_text(old, encoding='utf-8')
+            path.write_text(text[source], encoding='utf-8')
         if by == 'the compiler':
             continue
-        drawn += 1
+        tried += 1
         survivors += by is None
-        line = old[old.rfind('\n', 0, start) + 1:old.find('\n', end)].strip()
-        print(f'{"noticed by " + by if by else "SURVIVES"}: {source}:{old.count(chr(10), 0, start) + 1} {kind} '
-              f'`{old[start:end].strip()}` -> `{new.strip()}` in `{line}`', flush=True)
-    print(f'{drawn} faults, {drawn - survivors} noticed, {survivors} survive')
+        print(f'{"noticed by " + by if by else "SURVIVES"}: {told}', flush=True)
+        if tried == o.count:
+            break
+    print(f'{tried} faults, {tried - survivors} noticed, {survivors} survive')
 
 
 if __name__ == '__main__':
