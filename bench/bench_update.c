@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Row update: thin boxes, k of them wide, so that there are about k undecided faces; then these are narrowed and the
- * faces worked on again, against the first run. */
+ * faces worked on again, against the first run. Row remeasure: tracks of a receiver, one undecided face; points of it
+ * are measured again, one after another, each followed by a run of the engine. */
+#include "answers.h"
 #include "cloud.h"
 #include "ours.h"
+#include "real.h"
 
+#include <dyadel/io.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -69,11 +73,80 @@ static void row_update(const bench_options *o, size_t k) {
   cloud_clear(&boxes);
 }
 
+/* ---- one giant face ---- */
+
+/* A random part of the interval, a quarter to three quarters as wide. */
+static void shrink(dyd_interval *a, uint64_t *state) {
+  double lo = dyd_dyadic_get_d(&a->lo, DYD_UP), hi = dyd_dyadic_get_d(&a->hi, DYD_DOWN);
+  double width = (hi - lo) * (0.25 + 0.5 * cloud_unit(state)), from = lo + (hi - lo - width) * cloud_unit(state);
+  check(dyd_interval_set_d(a, from, from + width));
+}
+
+static void measure(dyd_engine *e, uint32_t i, uint64_t *state) {
+  dyd_outcome outcome;
+  dyd_rect r;
+  dyd_rect_init(&r);
+  check(dyd_sites_get(&r, dyd_engine_sites(e), i));
+  shrink(&r.x, state);
+  shrink(&r.y, state);
+  check(dyd_engine_remeasure(e, i, &r, NULL));
+  check(dyd_engine_run(&outcome, e, NULL, NULL));
+  dyd_rect_clear(&r);
+}
+
+/* The number of pairs of the same places as a new engine has them is looked at by the tests of delaunay. */
+static bench_cost remeasure(size_t count[4], size_t *face, FILE *in, size_t updates) {
+  dyd_engine *e = NULL;
+  dyd_outcome outcome;
+  dyd_index_list sites = {0};
+  uint64_t state = 15;
+  rewind(in);
+  check(dyd_engine_new(&e));
+  check(dyd_read_points(e, in, NULL, NULL));
+  check(dyd_engine_run(&outcome, e, NULL, NULL));
+  *face = 0;
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(dyd_engine_delaunay(e)); f++) {
+    bool outer;
+    check(dyd_delaunay_face(&sites, &outer, dyd_engine_delaunay(e), f));
+    if (sites.count > *face) *face = sites.count;
+    dyd_index_list_clear(&sites);
+  }
+  bench_meter meter = bench_start();
+  for (size_t q = 0; q < updates; q++) measure(e, (uint32_t)(q * 7919 % dyd_engine_count(e)), &state);
+  bench_cost cost = bench_stop(&meter);
+  dyd_delaunay_count(count, dyd_engine_delaunay(e));
+  dyd_engine_free(e);
+  return cost;
+}
+
+static void row_remeasure(const bench_options *o) {
+  enum { UPDATES = 300 };
+  static const bench_series no_peer;
+  bench_series ours = {0};
+  size_t n = bench_size(o, 2000), count[4], face = 0;
+  char remark[200];
+  FILE *in = real_tracks(n);
+  for (size_t r = 0; r < bench_runs(o, 3); r++) bench_series_add(&ours, remeasure(count, &face, in, UPDATES));
+  fclose(in);
+  bench_check(o, "remeasure", n, count);
+  snprintf(remark, sizeof remark, "%d points measured again; %zu in the greatest face at first; indeterminate %zu then",
+           UPDATES, face, count[DYD_INDETERMINATE]);
+  bench_report(o, &(bench_row){.name = "remeasure",
+                               .n = n,
+                               .ours = &ours,
+                               .peer = &no_peer,
+                               .measure = "seconds",
+                               .figure = bench_series_median(&ours).seconds,
+                               .figure_goal = 1,
+                               .remark = remark});
+}
+
 int main(int argc, char **argv) {
   bench_options o;
   bench_options_read(&o, argc, argv);
   if (bench_wants(&o, "update"))
     for (size_t k = 10; k <= 1000; k *= 10) row_update(&o, k);
+  if (bench_wants(&o, "remeasure")) row_remeasure(&o);
   bench_options_close(&o);
   return 0;
 }

@@ -105,6 +105,19 @@ static dyd_vertex_pair *table_find(dyd_face **owner, const dyd_delaunay *pd, dyd
   return NULL;
 }
 
+bool dyd_table_may_list(dyd_table_star *s, const dyd_delaunay *pd, uint32_t v) {
+  if (v == s->v) return s->others;
+  dyd_half_edge first = pd->sk.leaving[v], h = first;
+  s->v = v;
+  s->others = false;
+  do {
+    uint32_t g = pd->open.of[dyd_edge_triangle(h)];
+    s->others = g != DYD_NONE && g != s->self && g >= s->from && g < s->to;
+    h = dyd_edge_turn(&pd->sk.mesh, h);
+  } while (h != first && !s->others);
+  return s->others;
+}
+
 dyd_vertex_pair *dyd_table_listed(dyd_face **owner, const dyd_delaunay *pd, dyd_vertex_pair p, size_t from, size_t to) {
   return table_find(owner, pd, p, from, to, DYD_NONE, -1);
 }
@@ -137,9 +150,11 @@ static bool shares_nothing(const dyd_undecided *f, const dyd_face *face) {
 void dyd_table_share_out(dyd_delaunay *pd, uint32_t self) {
   dyd_undecided *f = &pd->open;
   dyd_face *face = &f->face[self], *other = NULL;
+  dyd_table_star star = {.from = 0, .to = f->count, .self = self, .v = DYD_NONE};
   if (shares_nothing(f, face)) return;
   for (uint32_t q = 0; q < face->pairs; q++) {
     dyd_vertex_pair *p = &f->pair[face->first_pair + q], *there;
+    if (!dyd_table_may_list(&star, pd, p->i)) continue;
     while (!p->hidden && (there = elsewhere(&other, pd, self, *p, false))) {
       uint32_t home = skeleton_face(pd, *p);
       bool mine = home == self || (home == DYD_NONE && face->polygon && !other->polygon);
@@ -155,9 +170,11 @@ void dyd_table_share_out(dyd_delaunay *pd, uint32_t self) {
 static void bequeath(dyd_delaunay *pd, uint32_t self) {
   dyd_undecided *f = &pd->open;
   dyd_face *face = &f->face[self], *other = NULL;
+  dyd_table_star star = {.from = 0, .to = f->count, .self = self, .v = DYD_NONE};
   if (shares_nothing(f, face)) return;
   for (uint32_t q = 0; q < face->pairs; q++) {
     dyd_vertex_pair p = f->pair[face->first_pair + q], *there = NULL;
+    if (!dyd_table_may_list(&star, pd, p.i)) continue;
     if (!p.hidden) there = elsewhere(&other, pd, self, p, true);
     if (there) table_hide(other, there, false);
   }

@@ -29,6 +29,14 @@ void dyd_table_take_out(dyd_delaunay *pd, uint32_t g);
 void dyd_table_put_back(dyd_delaunay *pd, const dyd_face *face);
 /* Drops what replaced faces have left over, once it is more than what is in use. Without memory, later. */
 void dyd_table_compact(dyd_undecided *f);
+/* Do faces but `self`, numbered at least `from` and below `to`, have triangles at v? What is known of the last vertex
+ * asked about is kept: pairs come sorted. Begin with v = DYD_NONE. */
+typedef struct dyd_table_star {
+  size_t from, to;
+  uint32_t self, v;
+  bool others;
+} dyd_table_star;
+bool dyd_table_may_list(dyd_table_star *s, const dyd_delaunay *pd, uint32_t v);
 /* A face numbered at least `from` and below `to` that lists p, shown or hidden, and where; NULL: none. */
 dyd_vertex_pair *dyd_table_listed(dyd_face **owner, const dyd_delaunay *pd, dyd_vertex_pair p, size_t from, size_t to);
 void dyd_table_delete(dyd_undecided *f, dyd_face *face, dyd_vertex_pair *at);

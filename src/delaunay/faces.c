@@ -121,18 +121,36 @@ static dyd_status close_faces(dyd_delaunay *pd, dyd_work *w, size_t from) {
   return st;
 }
 
-dyd_status dyd_faces_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count) {
+/* The faces from `from` on are what is left of an old one. */
+static dyd_status close_parts(dyd_delaunay *pd, dyd_work *w, size_t from, const dyd_narrowed *narrowed) {
+  dyd_closure c;
+  dyd_status st = DYD_OK;
+  for (size_t g = from; g < pd->open.count && st == DYD_OK; g++) {
+    bool closed = pd->open.face[g].proved;
+    if (!closed) st = dyd_narrowed_close(&closed, pd, w, narrowed, g);
+    if (!closed && st == DYD_OK) st = close_batch(&c, pd, w, g, 1);
+  }
+  return st;
+}
+
+/* narrowed: NULL unless they are what is left of an old face. */
+static dyd_status find_and_close(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count,
+                                 const dyd_narrowed *narrowed) {
   dyd_undecided before = pd->open;
   dyd_status st = find_faces(pd, w, tri, tri ? count : pd->sk.mesh.count);
   for (size_t g = before.count; g < pd->open.count && st == DYD_OK; g++) st = dyd_prove_face(pd, w, g);
   if (st == DYD_CANCELLED && w->keep_cut) st = DYD_OK;
-  if (st == DYD_OK) st = close_faces(pd, w, before.count);
+  if (st == DYD_OK) st = narrowed ? close_parts(pd, w, before.count, narrowed) : close_faces(pd, w, before.count);
   if (st != DYD_OK) {
     dyd_table_roll_back(pd, &before);
     return st;
   }
   for (size_t g = before.count; g < pd->open.count; g++) dyd_table_share_out(pd, (uint32_t)g);
   return DYD_OK;
+}
+
+dyd_status dyd_faces_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count) {
+  return find_and_close(pd, w, tri, count, NULL);
 }
 
 /* ---- replacing one face ---- */
@@ -144,10 +162,12 @@ static dyd_status recheck_shared(dyd_delaunay *pd, dyd_work *w, const dyd_face *
   dyd_undecided *f = &pd->open;
   dyd_status st = DYD_OK;
   if (f->count == 0 || (old->polygon && f->others == 0)) return st;
+  dyd_table_star star = {.from = 0, .to = fresh, .self = DYD_NONE, .v = DYD_NONE};
   for (uint32_t q = 0; q < old->pairs && st == DYD_OK; q++) {
     dyd_vertex_pair p = f->pair[old->first_pair + q], *at;
     dyd_face *owner = NULL;
     bool possible = true;
+    if (!dyd_table_may_list(&star, pd, p.i)) continue;
     if (!dyd_table_listed(&owner, pd, p, 0, fresh) || dyd_table_listed(&owner, pd, p, fresh, f->count)) continue;
     bool legal = dyd_is_legal(&pd->sk, p.i, p.j);
     if (!legal) st = dyd_cover_possible(&possible, w, &pd->sk, p.i, p.j, no_hint);
@@ -156,13 +176,14 @@ static dyd_status recheck_shared(dyd_delaunay *pd, dyd_work *w, const dyd_face *
   return st;
 }
 
-dyd_status dyd_faces_replace(bool *replaced, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count) {
+dyd_status dyd_faces_replace(bool *replaced, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count,
+                             const dyd_narrowed *narrowed) {
   dyd_undecided *f = &pd->open;
   uint32_t g = f->of[tri[0]];
   dyd_face old = f->face[g];
   dyd_table_take_out(pd, g);
   size_t fresh = f->count;
-  dyd_status st = dyd_faces_find(pd, w, tri, count);
+  dyd_status st = find_and_close(pd, w, tri, count, narrowed);
   *replaced = st == DYD_OK;
   if (!*replaced) {
     dyd_table_put_back(pd, &old);

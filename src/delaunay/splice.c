@@ -9,13 +9,18 @@
 
 #include <string.h>
 
-/* A certain edge seen from inside the face, from a to b with the face on its left. Vertices of the whole mesh. */
+/* An edge around what is spliced, seen from inside, from a to b with the inside on its left: a certain edge, or one of
+ * a triangle that stays. Vertices of the whole mesh. */
 typedef struct rim {
   uint32_t a, b;
-  dyd_half_edge beyond; /* on the other side; DYD_NONE if that is this face too */
+  bool certain;
+  dyd_half_edge beyond; /* on the other side; DYD_NONE if that is inside, too */
   dyd_half_edge inside; /* the same in the part's mesh */
   dyd_half_edge placed; /* the same in the whole mesh afterwards */
 } rim;
+
+/* Instead of their face, at triangles that are spliced. */
+#define SPLICED (DYD_NONE - 1)
 
 /* place[t]: slot of the part's triangle t in tri[], DYD_NONE if outside the face. taken: triangles of the face found so
  * far. */
@@ -54,11 +59,15 @@ static dyd_status gather_rims(part *p) {
   for (uint32_t q = 0; q < p->tris; q++)
     for (dyd_half_edge h = dyd_edge_of(p->tri[q], 0); h < dyd_edge_end(p->tri[q]); h++) {
       dyd_half_edge beyond = dyd_edge_twin(&sk->mesh, h);
-      if (!dyd_edge_is_certain(sk, h)) continue;
+      bool certain = dyd_edge_is_certain(sk, h), same = dyd_face_of(p->pd, dyd_edge_triangle(beyond)) == face;
+      if (same && !certain) continue;
       if (!dyd_reserve((void **)&p->rims, &p->rim_cap, p->rim_count + 1, sizeof *p->rims)) return DYD_E_NOMEM;
-      bool same = dyd_face_of(p->pd, dyd_edge_triangle(beyond)) == face;
-      p->rims[p->rim_count++] = (rim){dyd_edge_origin(&sk->mesh, h), dyd_edge_target(&sk->mesh, h),
-                                      same ? DYD_NONE : beyond, DYD_NONE, DYD_NONE};
+      p->rims[p->rim_count++] = (rim){dyd_edge_origin(&sk->mesh, h),
+                                      dyd_edge_target(&sk->mesh, h),
+                                      certain,
+                                      same ? DYD_NONE : beyond,
+                                      DYD_NONE,
+                                      DYD_NONE};
     }
   if (p->rim_count) qsort(p->rims, p->rim_count, sizeof *p->rims, compare_rim);
   return DYD_OK;
@@ -172,7 +181,7 @@ static void put_triangle(part *p, uint32_t t) {
     if (to->v[k] != sk->mesh.n) sk->leaving[to->v[k]] = dyd_edge_of(slot, dyd_prev(k));
     if (r) {
       r->placed = dyd_edge_of(slot, k);
-      sk->certain[slot] |= (uint8_t)(1u << k);
+      sk->certain[slot] |= (uint8_t)(r->certain << k);
     } else {
       to->n[k] = dyd_edge_of(p->place[dyd_edge_triangle(from->n[k])], dyd_edge_corner(from->n[k]));
     }
@@ -215,16 +224,50 @@ bool dyd_splice_is_needless(dyd_work *w, const dyd_skeleton *sk, const uint32_t 
   return true;
 }
 
-dyd_status dyd_splice_face(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris) {
+/* moved: a representative may be moved so that it differs from another one. */
+static dyd_status splice(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris, bool moved) {
   part p = {.pd = pd, .w = w, .tri = tri, .tris = tris};
   dyd_status st = gather_rims(&p);
   if (st == DYD_OK) st = gather_vertices(&p);
   if (st == DYD_OK) st = part_triangulate(&p);
-  *fits = st == DYD_OK && !p.mesh.alias && !p.mesh.collinear && part_flood(&p);
+  *fits = st == DYD_OK && !p.mesh.alias && !p.mesh.collinear && (moved || !p.mesh.moved) && part_flood(&p);
   if (*fits) {
     for (uint32_t q = 0; q < p.taken; q++) put_triangle(&p, p.queue[q]);
     link_rims(&p);
   }
   part_clear(&p);
+  return st;
+}
+
+dyd_status dyd_splice_face(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris) {
+  return splice(fits, pd, w, tri, tris, true);
+}
+
+/* ---- a few vertices ---- */
+
+/* Is one of the vertices a corner of t, or in or on its circle? */
+static bool is_upset(dyd_work *w, const dyd_mesh *m, uint32_t t, const uint32_t *vertex, uint32_t count) {
+  const uint32_t *v = m->tri[t].v;
+  bool corner = false, inside = false;
+  for (uint32_t q = 0; q < count; q++) corner = corner || v[0] == vertex[q] || v[1] == vertex[q] || v[2] == vertex[q];
+  for (uint32_t q = 0; q < count && !corner && !inside; q++)
+    inside = dyd_mesh_incircle(&w->tally, m, v[0], v[1], v[2], vertex[q]) >= 0;
+  return corner || inside;
+}
+
+static void mark_upset(dyd_delaunay *pd, const uint32_t *tri, uint32_t tris, uint32_t face) {
+  for (uint32_t q = 0; q < tris; q++) pd->open.of[tri[q]] = face;
+}
+
+dyd_status dyd_splice_near(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris,
+                           const uint32_t *vertex, uint32_t count) {
+  uint32_t face = dyd_face_of(pd, tri[0]), upset = 0, *list = dyd_alloc(tris, sizeof *list);
+  if (!list) return DYD_E_NOMEM;
+  for (uint32_t q = 0; q < tris; q++)
+    if (is_upset(w, &pd->sk.mesh, tri[q], vertex, count)) list[upset++] = tri[q];
+  mark_upset(pd, list, upset, SPLICED);
+  dyd_status st = splice(fits, pd, w, list, upset, false);
+  mark_upset(pd, list, upset, face);
+  free(list);
   return st;
 }

@@ -19,4 +19,9 @@ bool dyd_splice_is_needless(dyd_work *w, const dyd_skeleton *sk, const uint32_t 
  * alone (two sites have become the same exact point); nothing is changed then, nor on failure. */
 dyd_status dyd_splice_face(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris);
 
+/* The same where only a few of the face's vertices, those listed, have new representatives: what is neither at them nor
+ * has one of them in a circle stays [LOC-4]. *fits: false, too, where more has to change; nothing is changed then. */
+dyd_status dyd_splice_near(bool *fits, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris,
+                           const uint32_t *vertex, uint32_t count);
+
 #endif

@@ -121,12 +121,18 @@ static dyd_status recertify(dyd_delaunay *pd, dyd_work *w, dyd_half_edge h) {
   return DYD_OK;
 }
 
-static dyd_status recertify_inside(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris) {
+static dyd_status recertify_inside(dyd_narrowed *narrowed, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri,
+                                   uint32_t tris) {
+  const dyd_mesh *m = &pd->sk.mesh;
   dyd_status st = DYD_OK;
   for (uint32_t q = 0; q < tris && st == DYD_OK; q++) {
     if (dyd_work_cancelled(w)) return DYD_CANCELLED;
-    for (dyd_half_edge h = dyd_edge_of(tri[q], 0); h < dyd_edge_end(tri[q]) && st == DYD_OK; h++)
-      if (dyd_edge_is_first(&pd->sk.mesh, h) && !dyd_edge_is_certain(&pd->sk, h)) st = recertify(pd, w, h);
+    for (dyd_half_edge h = dyd_edge_of(tri[q], 0); h < dyd_edge_end(tri[q]) && st == DYD_OK; h++) {
+      if (!dyd_edge_is_first(m, h) || dyd_edge_is_certain(&pd->sk, h) || !dyd_narrowed_reaches(narrowed, m, h))
+        continue;
+      st = recertify(pd, w, h);
+      narrowed->certain = narrowed->certain || dyd_edge_is_certain(&pd->sk, h);
+    }
   }
   return st;
 }
@@ -136,28 +142,41 @@ static void restore_certain(dyd_delaunay *pd, const uint8_t *certain, const uint
   for (uint32_t q = 0; q < tris; q++) pd->sk.certain[tri[q]] = certain[q];
 }
 
-static dyd_status redo_face(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, uint32_t tris) {
+static dyd_status redo_face(dyd_delaunay *pd, dyd_work *w, dyd_narrowed *narrowed, const uint32_t *tri, uint32_t tris) {
   uint8_t *before = dyd_alloc(tris, 1);
   if (!before) return DYD_E_NOMEM;
   for (uint32_t q = 0; q < tris; q++) before[q] = pd->sk.certain[tri[q]];
-  dyd_status st = recertify_inside(pd, w, tri, tris);
+  dyd_status st = recertify_inside(narrowed, pd, w, tri, tris);
   bool replaced = false;
-  if (st == DYD_OK) st = dyd_faces_replace(&replaced, pd, w, tri, tris);
+  if (st == DYD_OK) st = dyd_faces_replace(&replaced, pd, w, tri, tris, narrowed);
   if (!replaced) restore_certain(pd, before, tri, tris);
   free(before);
   return st;
 }
 
+/* New triangles where they are needed; *fits as for dyd_splice_face. */
+static dyd_status retriangulate(bool *fits, dyd_delaunay *pd, dyd_work *w, const dyd_narrowed *narrowed,
+                                const uint32_t *tri, uint32_t tris) {
+  dyd_status st = DYD_OK;
+  *fits = false;
+  if (narrowed->mark) st = dyd_splice_near(fits, pd, w, tri, tris, narrowed->vertex, narrowed->count);
+  if (st != DYD_OK || *fits) return st;
+  *fits = dyd_splice_is_needless(w, &pd->sk, tri, tris);
+  return *fits ? DYD_OK : dyd_splice_face(fits, pd, w, tri, tris);
+}
+
 /* *fits as for dyd_splice_face. */
-static dyd_status work_on(bool *fits, dyd_delaunay *pd, dyd_work *w, uint32_t seed) {
+static dyd_status work_on(bool *fits, dyd_delaunay *pd, dyd_work *w, uint32_t seed, const uint32_t *changed,
+                          size_t count) {
+  dyd_narrowed narrowed;
   const dyd_face *face = &pd->open.face[pd->open.of[seed]];
   uint32_t tris = face->tris, *tri = dyd_alloc(tris, sizeof *tri);
   if (!tri) return DYD_E_NOMEM;
   memcpy(tri, pd->open.tri + face->first_tri, tris * sizeof *tri);
-  dyd_status st = DYD_OK;
-  *fits = dyd_splice_is_needless(w, &pd->sk, tri, tris);
-  if (!*fits) st = dyd_splice_face(fits, pd, w, tri, tris);
-  if (st == DYD_OK && *fits) st = redo_face(pd, w, tri, tris);
+  dyd_status st = dyd_narrowed_init(&narrowed, pd, pd->open.of[seed], changed, count);
+  if (st == DYD_OK) st = retriangulate(fits, pd, w, &narrowed, tri, tris);
+  if (st == DYD_OK && *fits) st = redo_face(pd, w, &narrowed, tri, tris);
+  dyd_narrowed_clear(&narrowed);
   free(tri);
   return st;
 }
@@ -168,7 +187,7 @@ static dyd_status update_faces(bool *fits, dyd_delaunay *pd, dyd_work *w, const 
   dyd_status st = affected(&seed, &seeds, pd, changed, count);
   dyd_mesh_follow(&pd->sk.mesh);
   for (size_t q = 0; q < seeds && st == DYD_OK && *fits; q++)
-    st = dyd_work_cancelled(w) ? DYD_CANCELLED : work_on(fits, pd, w, seed[q]);
+    st = dyd_work_cancelled(w) ? DYD_CANCELLED : work_on(fits, pd, w, seed[q], changed, count);
   free(seed);
   return st;
 }

@@ -347,12 +347,19 @@ static dyd_status goal_holds(bool *out, dyd_measure *m, dyd_voronoi_sums **sums,
   return DYD_OK;
 }
 
+/* Else a plan is empty, whatever the goal. */
+static bool any_point_is_left(const dyd_engine *e) {
+  for (size_t k = 0; k < e->points; k++)
+    if (!e->point[k].final) return true;
+  return false;
+}
+
 dyd_status dyd_schedule_judge(bool *holds, dyd_plan *plan, dyd_scouts *scouts, dyd_settled *settled) {
   dyd_measure m;
   dyd_voronoi_sums *sums = NULL;
   dyd_measure_init(&m, plan->e->sites);
   dyd_status st = goal_holds(holds, &m, &sums, plan->e, plan->o);
-  if (st == DYD_OK && !*holds) st = plan_all(plan, scouts, settled, &m, sums);
+  if (st == DYD_OK && !*holds && any_point_is_left(plan->e)) st = plan_all(plan, scouts, settled, &m, sums);
   if (st == DYD_OK) st = plan->failed;
   if (st == DYD_OK && plan->count && plan->o->schedule == DYD_SCHEDULE_UNIFORM) plan_uniform(plan);
   dyd_goal_sums_free(&sums);

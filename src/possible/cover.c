@@ -175,7 +175,7 @@ dyd_status dyd_cover_possible(bool *possible, dyd_work *w, const dyd_skeleton *s
                               const uint32_t hint[2]) {
   walk k = {.w = w, .sk = sk, .i = i, .j = j, .hint = hint, .end = -1, .status = DYD_OK};
   k.blocker = k.last = DYD_NONE;
-  dyd_truth quick = sk->mesh.no_filter ? DYD_UNKNOWN : dyd_filter_cover(sk, i, j, hint);
+  dyd_truth quick = sk->mesh.no_filter ? DYD_UNKNOWN : dyd_filter_cover(&w->centre, sk, i, j, hint);
   *possible = quick != DYD_FALSE;
   w->walked = quick == DYD_UNKNOWN;
   if (!w->walked) return DYD_OK;

@@ -124,16 +124,16 @@ static bool are_joined(const quick *q, uint32_t k, uint32_t next, double end, do
   return false;
 }
 
-/* From the blocked place t towards an end. FALSE: all is blocked there; TRUE: a centre has been found. */
-static dyd_truth extend(quick *q, uint32_t k, double t, int up) {
+/* From the blocked place t towards an end. FALSE: all is blocked there; TRUE: *centre has been found. */
+static dyd_truth extend(dyd_place *centre, quick *q, uint32_t k, double t, int up) {
   double way = up ? 1 : -1, beside;
   for (int link = 0; link < MOST_LINKS; link++) {
     if (is_last_link(q, k, up)) return DYD_FALSE;
     double end = find_end(&beside, q, k, t, up);
     t = end + way * beside;
-    dyd_place p = dyd_beta_at(&q->beta, t);
-    if (!isfinite(p.ds2)) return DYD_UNKNOWN;
-    uint32_t next = blocker_at(q, &p);
+    *centre = dyd_beta_at(&q->beta, t);
+    if (!isfinite(centre->ds2)) return DYD_UNKNOWN;
+    uint32_t next = blocker_at(q, centre);
     if (next == DYD_NONE) return DYD_TRUE;
     if (next == k || !is_link(q, next) || !are_joined(q, k, next, end, way * beside)) return DYD_UNKNOWN;
     k = next;
@@ -159,25 +159,35 @@ static bool hints_cover(const quick *q, double t) {
          (is_last_link(q, k[0], 1) && is_last_link(q, k[1], 0));
 }
 
-static dyd_truth walk_both_ways(quick *q) {
+static dyd_truth walk_both_ways(dyd_place *centre, quick *q) {
   double t = first_place(q);
   if (hints_cover(q, t)) return DYD_FALSE;
-  dyd_place p = dyd_beta_at(&q->beta, t);
-  if (!isfinite(p.ds2)) return DYD_UNKNOWN;
-  uint32_t k = blocker_at(q, &p);
+  *centre = dyd_beta_at(&q->beta, t);
+  if (!isfinite(centre->ds2)) return DYD_UNKNOWN;
+  uint32_t k = blocker_at(q, centre);
   if (k == DYD_NONE) return DYD_TRUE;
   dyd_truth sure = is_link(q, k) && dyd_beta_surely_blocked(&q->beta, &k, 1, t) ? DYD_FALSE : DYD_UNKNOWN;
   for (int up = 0; up < 2; up++) {
-    dyd_truth side = extend(q, k, t, up);
+    dyd_truth side = extend(centre, q, k, t, up);
     if (side == DYD_TRUE) return side;
     if (side == DYD_UNKNOWN) sure = side;
   }
   return sure;
 }
 
-dyd_truth dyd_filter_cover(const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t hint[2]) {
+/* Of what both share, or of the gap between them. */
+static dyd_xy cover_middle(const dyd_bbox *a, const dyd_bbox *b) {
+  return (dyd_xy){dyd_max(a->e[0], b->e[0]) / 2 + dyd_min(a->e[1], b->e[1]) / 2,
+                  dyd_max(a->e[2], b->e[2]) / 2 + dyd_min(a->e[3], b->e[3]) / 2};
+}
+
+dyd_truth dyd_filter_cover(dyd_xy *centre, const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t hint[2]) {
   quick q = {.sk = sk, .hint = hint};
-  dyd_truth apart = dyd_beta_start(&q.beta, &sk->rects, i, j);
-  if (apart == DYD_TRUE) return walk_both_ways(&q);
-  return apart == DYD_FALSE ? DYD_TRUE : DYD_UNKNOWN;
+  dyd_truth apart = dyd_beta_start(&q.beta, &sk->rects, i, j), truth = apart == DYD_FALSE ? DYD_TRUE : DYD_UNKNOWN;
+  dyd_place p;
+  *centre = cover_middle(&sk->rects.box[i], &sk->rects.box[j]);
+  if (apart != DYD_TRUE) return truth;
+  truth = walk_both_ways(&p, &q);
+  if (truth == DYD_TRUE) *centre = (dyd_xy){p.at[0], p.at[1]};
+  return truth;
 }

@@ -190,7 +190,8 @@ static uint64_t quickly[3];
 
 static bool quick_right(char *message, const dyd_skeleton *sk, uint32_t v, uint32_t v2, const uint32_t hint[2],
                         bool want) {
-  dyd_truth quick = dyd_filter_cover(sk, v, v2, hint);
+  dyd_xy centre;
+  dyd_truth quick = dyd_filter_cover(&centre, sk, v, v2, hint);
   quickly[quick == DYD_TRUE ? 2 : quick == DYD_UNKNOWN]++;
   if (quick == DYD_UNKNOWN || (quick == DYD_TRUE) == want) return true;
   return wrong(message, "pair %u %u: doubles say %d, oracle %d", sk->reps.site[v], sk->reps.site[v2], quick == DYD_TRUE,
