@@ -14,6 +14,7 @@
 #include "skeleton/centre_filter.h"
 #include "skeleton/mesh_fixed.h"
 #include "skeleton/predicates.h"
+#include "skeleton/rects_filter.h"
 
 #include <string.h>
 
@@ -55,6 +56,15 @@ static bool is_exact_tie(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
   return dyd_edge_is_tie(w, sk, h);
 }
 
+/* A rectangle that meets R_i or R_j is never outside of a disc that holds both: in a crowd that of a vertex across. */
+static bool is_met_across(const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t across[2]) {
+  bool met = false;
+  for (int k = 0; k < 2 && !met && !sk->mesh.no_filter; k++)
+    met = across[k] != sk->mesh.n &&
+          (dyd_surely_meet(&sk->rects, across[k], i) || dyd_surely_meet(&sk->rects, across[k], j));
+  return met;
+}
+
 /* Is the middle of the two sites a witness? On a straight part of the hull circumcentres are far away and tell nothing.
  */
 static dyd_status middle_is_witness(bool *certain, dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
@@ -77,7 +87,7 @@ static dyd_status decide_edge(bool *certain, dyd_work *w, const dyd_skeleton *sk
   bool hull = across[0] == m->n || across[1] == m->n;
   *certain = false;
   if (i == m->n || j == m->n) return dyd_hull_sure(certain, w, sk, i == m->n ? j : i);
-  if (is_exact_tie(w, sk, h)) return DYD_OK;
+  if (is_met_across(sk, i, j, across) || is_exact_tie(w, sk, h)) return DYD_OK;
   dyd_status st = DYD_OK;
   if (hull || dyd_edge_centre_is_far(sk, h)) st = middle_is_witness(certain, w, sk, h);
   if (st != DYD_OK || *certain) return st;
