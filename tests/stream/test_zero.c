@@ -202,15 +202,19 @@ static void test_forms_caps(void **state) {
 
 /* Each cap is met: nothing is claimed, quickly. */
 static void test_caps(void **state) {
+#define X "(1+pi+e+log(2))"
   static const char *const unknown[][2] = {
-      {"cos(pi/1000003)^2", "(1+cos(2*pi/1000003))/2"},                                 /* order */
-      {"sqrt(1+2^20000)*sqrt(3)", "sqrt(3+3*2^20000)"},                                 /* bits of the base */
-      {"(3^4000+pi)^60", "(pi+3^4000)^59*(3^4000+pi)"},                                 /* bits */
-      {"(1+pi+e+log(2))^45*(log(2)+e+pi+1)^45", "(pi+1+e+log(2))^90"},                  /* terms times terms */
-      {"abs(sqrt(2)-sqrt(2+2^-3000))", "sqrt(2+2^-3000)-sqrt(2)"},                      /* a sign */
-      {"(1+sqrt(2)+sqrt(3)+sqrt(5)+pi+e)^300", "(e+pi+sqrt(5)+sqrt(3)+sqrt(2)+1)^300"}, /* terms */
-      {"(pi+sqrt(2))^5000", "(pi+sqrt(2))^4999*(sqrt(2)+pi)"},                          /* exponent */
+      {"cos(pi/1000003)^2", "(1+cos(2*pi/1000003))/2"},                 /* order */
+      {"sqrt(1+2^20000)*sqrt(3)", "sqrt(3+3*2^20000)"},                 /* bits of the base */
+      {"(3^4000+pi)^60", "(pi+3^4000)^59*(3^4000+pi)"},                 /* bits */
+      {X "^45*(log(2)+e+pi+1)^45", X "^90"},                            /* terms */
+      {"sqrt(" X "^38+1)*" X "^13*sqrt(" X "^38+1)", X "^51+" X "^13"}, /* terms times terms of a reduction */
+      {"sqrt(2)^5000", "2^2500"},                                       /* exponent */
+      {"abs(sqrt(2)-sqrt(2+2^-3000))", "sqrt(2+2^-3000)-sqrt(2)"},      /* a sign */
+      {"(1+sqrt(2)+sqrt(3)+sqrt(5)+pi+e)^300", "(e+pi+sqrt(5)+sqrt(3)+sqrt(2)+1)^300"},
+      {"(pi+sqrt(2))^5000", "(pi+sqrt(2))^4999*(sqrt(2)+pi)"},
   };
+#undef X
   (void)state;
   for (size_t k = 0; k < sizeof unknown / sizeof *unknown; k++) {
     dyd_zero_counts c;
