@@ -202,15 +202,20 @@ static void test_forms_caps(void **state) {
 
 /* Each cap is met: nothing is claimed, quickly. */
 static void test_caps(void **state) {
+#define X "(1+pi+e+log(2))"
   static const char *const unknown[][2] = {
-      {"cos(pi/1000003)^2", "(1+cos(2*pi/1000003))/2"},                                 /* order */
-      {"sqrt(1+2^20000)*sqrt(3)", "sqrt(3+3*2^20000)"},                                 /* bits of the base */
-      {"(3^4000+pi)^60", "(pi+3^4000)^59*(3^4000+pi)"},                                 /* bits */
-      {"(1+pi+e+log(2))^45*(log(2)+e+pi+1)^45", "(pi+1+e+log(2))^90"},                  /* terms times terms */
-      {"abs(sqrt(2)-sqrt(2+2^-3000))", "sqrt(2+2^-3000)-sqrt(2)"},                      /* a sign */
-      {"(1+sqrt(2)+sqrt(3)+sqrt(5)+pi+e)^300", "(e+pi+sqrt(5)+sqrt(3)+sqrt(2)+1)^300"}, /* terms */
-      {"(pi+sqrt(2))^5000", "(pi+sqrt(2))^4999*(sqrt(2)+pi)"},                          /* exponent */
+      {"cos(pi/1000003)^2", "(1+cos(2*pi/1000003))/2"}, /* order */
+      {"sqrt(1+2^20000)*sqrt(3)", "sqrt(3+3*2^20000)"}, /* bits of the base */
+      {"(3^4000+pi)^60", "(pi+3^4000)^59*(3^4000+pi)"}, /* bits */
+      {X "^45*(log(2)+e+pi+1)^45", X "^90"},            /* terms */
+      {"sqrt(" X "^38+1)*" X "^13*sqrt(" X "^38+1)",
+       X "^13*sqrt(" X "^38+1)*sqrt(" X "^38+1)"},                 /* terms times terms of a reduction */
+      {"sqrt(2)^5000", "2^2500"},                                  /* exponent */
+      {"abs(sqrt(2)-sqrt(2+2^-3000))", "sqrt(2+2^-3000)-sqrt(2)"}, /* a sign */
+      {"(1+sqrt(2)+sqrt(3)+sqrt(5)+pi+e)^300", "(e+pi+sqrt(5)+sqrt(3)+sqrt(2)+1)^300"},
+      {"(pi+sqrt(2))^5000", "(pi+sqrt(2))^4999*(sqrt(2)+pi)"},
   };
+#undef X
   (void)state;
   for (size_t k = 0; k < sizeof unknown / sizeof *unknown; k++) {
     dyd_zero_counts c;
@@ -251,8 +256,10 @@ static void random_text(char *out, size_t size, int depth) {
   snprintf(out, size, "(%s%c%s)", a, "+-*"[random_below(3)], b);
 }
 
-/* p (q + r) against p q + p r: always the same number. */
+/* p (q + r) against p q + p r: always the same number, which identities prove where there are no bits for a bound, and
+ * bounds where there are. */
 static void test_random_identities(void **state) {
+  size_t by_identity = 0, by_bound = 0;
   (void)state;
   chance = test_random_start("identities");
   for (size_t k = 0; k < test_cases(150); k++) {
@@ -262,10 +269,16 @@ static void test_random_identities(void **state) {
     random_text(r, sizeof r, 2);
     snprintf(left, sizeof left, "%s*(%s+%s)", p, q, r);
     snprintf(right, sizeof right, "%s*%s+%s*%s", p, r, p, q);
-    expect(DYD_ZERO_PROVED, left, right);
+    dyd_zero_counts with, without;
+    assert_int_equal(compare(&without, left, right, 16), DYD_ZERO_PROVED);
+    by_identity += without.by_identity;
+    assert_int_equal(compare(&with, left, right, TIE_BITS), DYD_ZERO_PROVED);
+    by_bound += with.by_bound;
     snprintf(right, sizeof right, "%s*%s+%s*%s+2^-%lu", p, r, p, q, (unsigned long)(1 + random_below(3000)));
     expect(DYD_ZERO_REFUTED, left, right);
   }
+  print_message("of %zu by identity %zu, by bounds %zu\n", test_cases(150), by_identity, by_bound);
+  assert_true(2 * by_identity > test_cases(150) && 3 * by_bound > test_cases(150));
 }
 
 /* Four points of a circle, or three of a line, given by random expressions; one of them moved by 2^-k, k to 3000, or
