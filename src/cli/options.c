@@ -171,7 +171,8 @@ static int layer_fits(cli_options *o, const cli_command *c) {
 static int format_fits(cli_options *o, const cli_command *c) {
   while (!o->format_set && dyd_format_name(o->format) && !dyd_format_holds(o->format, o->content)) o->format++;
   if (!o->format_set || dyd_format_holds(o->format, o->content)) return 0;
-  fprintf(stderr, "dyadel: %s%s%s does not write %s; give", c->name, o->layer ? " --layer " : "",
+  fprintf(stderr, "dyadel: %s%s%s%s does not write %s; give", c->name, o->sphere ? " --sphere" : "",
+          o->layer ? " --layer " : "",
           o->layer     ? o->layer
           : o->queries ? " --queries"
                        : "",

@@ -140,7 +140,7 @@ static dyd_status refuse_format(dyd_format format, dyd_content content, dyd_erro
 
 dyd_status dyd_format_write(FILE *out, dyd_format format, dyd_content content, const void *what, dyd_error *err) {
   dyd_error own;
-  dyd_output o = {out, format, what, err ? err : &own};
+  dyd_output o = {out, format, what, err ? err : &own, content};
   dyd_error_clear(o.err);
   if (!dyd_format_holds(format, content)) return refuse_format(format, content, err);
   dyd_status st = formats[format].write[content](&o);

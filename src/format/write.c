@@ -113,6 +113,7 @@ dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delau
   bool graph;
   result_sites(&r);
   dyd_status st = result_graph(&graph, &r, o.layer, err);
+  if (graph) r.history = NULL, r.tolerance = NULL; /* they tell of the triangulation */
   if (st == DYD_OK && !graph && !o.pairs) st = dyd_delaunay_pairs(&r.pairs, r.pd);
   if (o.pairs) r.pairs = *o.pairs;
   if (st == DYD_OK)

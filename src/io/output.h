@@ -15,6 +15,7 @@ typedef struct dyd_output {
   dyd_format format;
   const void *what; /* the type that belongs to the content */
   dyd_error *err;
+  dyd_content content; /* for writers of several */
 } dyd_output;
 
 typedef dyd_status dyd_writer(const dyd_output *o);

@@ -27,6 +27,15 @@ def test_statuses():
     same_as_csv('--discs', *pages.FIXES)
 
 
+def triangles(content):
+    """By rows."""
+    rows, list_, first, out = [p['i'] for p in content['points']], content['triangles'], 0, []
+    for a, b, c in zip(list_[::3], list_[1::3], list_[2::3]):
+        first += a
+        out.append([rows[first], rows[first + b], rows[first + c]])
+    return out
+
+
 def test_sites():
     for args in [pages.points(pages.TWELVE)], ['--radius', '0.01', *pages.PLACES]:
         content, truth = same_as_csv(*args), json.loads(harness.run('delaunay', *args, '--format', 'json', '-q').out)
@@ -35,11 +44,39 @@ def test_sites():
         keys = 'i', 'x', 'y', 'hull', 'id'
         assert [[p.get(k) for k in keys] for p in content['points']] == [[s.get(k) for k in keys] for s in sites]
         assert content['aliases'] == truth['aliases'] and content['outcome'] == truth['outcome']
-        rows, list_, first, triangles = [p['i'] for p in content['points']], content['triangles'], 0, []
-        for a, b, c in zip(list_[::3], list_[1::3], list_[2::3]):
-            first += a
-            triangles.append([rows[first], rows[first + b], rows[first + c]])
-        assert triangles == truth['triangles']
+        assert triangles(content) == truth['triangles']
+
+
+def test_sphere():
+    """Statuses, places and triangles of csv and json; points at poles and across the meridian of 180 degrees; a tie."""
+    octahedron = '0 0\n90 0\n180 0\n270 0\n0 90\n0 -90\n360 0\n45 30\n1/3 sqrt(2)\n'
+    square = '1 1\n-1 1\n1 -1\n-1 -1\n180 0\n'
+    for args in [pages.points(octahedron)], [pages.points(square)], [pages.points('')], ['--radius', '300m', *pages.PLACES]:
+        content = same_as_csv('--sphere', *args)
+        truth = json.loads(harness.run('delaunay', '--sphere', *args, '--format', 'json', '-q').out)
+        alias = {a for a, _ in truth['aliases']}
+        assert [[p.get(k) for k in ('i', 'x', 'y', 'id')] for p in content['points']] == [
+            [s.get(k) for k in ('i', 'x', 'y', 'id')] for s in truth['sites'] if s['i'] not in alias]
+        assert triangles(content) == truth['triangles'] and content['aliases'] == truth['aliases']
+        assert (content['surface'], content['layer'], len(content['stages'])) == ('sphere', 'pairs', 1)
+    for layer in 'points', 'triangles':
+        assert pages.data(pages.page('delaunay', '--sphere', '--layer', layer, pages.points(square)))['layer'] == layer
+    harness.expect(harness.run('voronoi', '--sphere', '--format', 'html', pages.points(square)), 2,
+                   err='voronoi --sphere does not write html; give csv, json')
+
+
+def test_graphs():
+    """Sure edges are as legal ones, possible ones as indeterminate; each once, whoever is nearest to whom."""
+    as_pairs = {'sure': 'legal', 'possible': 'indeterminate'}
+    for graph in 'nearest', 'gabriel', 'mst':
+        for args in pages.FIXES, [pages.points(pages.TWELVE)], ['--radius', '0.01', *pages.PLACES], [pages.points('')]:
+            edges = {}
+            for (i, j), status in pages.csv_pairs('delaunay', '--layer', 'graph:' + graph, *args).items():
+                pair = min(i, j), max(i, j)
+                edges[pair] = 'legal' if 'legal' in (edges.get(pair), as_pairs[status]) else 'indeterminate'
+            content = pages.data(pages.page('delaunay', '--layer', 'graph:' + graph, *args))
+            assert pages.statuses(content)[-1] == edges and not content['triangles'] and 'tolerance' not in content
+            assert content['graph'] in ('nearest neighbours', 'Gabriel graph', 'minimum spanning tree')
 
 
 def converge_rows(*args):

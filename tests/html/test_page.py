@@ -201,6 +201,33 @@ def test_diagram():
         assert low <= area[0] <= low * 1.0001 and high * 0.9999 <= area[1] <= high
 
 
+def test_sphere():
+    """Sides along great circles, across the meridian of 180 degrees and over the pole; degrees are those of json."""
+    places = '0 0\n90 0\n190 0\n270 0\n0 90\n0 -90\n100 50\n-100 50\n'
+    csv_rows = pages.csv_pairs('delaunay', '--sphere', pages.points(places))
+    with opened(pages.page('delaunay', '--sphere', pages.points(places)), place='#point=2') as page:
+        assert shown_counts(page) == {'legal': len(csv_rows), 'indeterminate': 0, 'tie': 0}
+        assert page.text('#title') == 'Delaunay triangulation of a sphere' and page.text('#exact-x') == '-170'
+        assert page.text('#partners-legal') == ''.join(str(i + j - 2) for i, j in sorted(csv_rows) if 2 in (i, j))
+        assert page.value('document.querySelector("#show-areas")') is None
+    with opened(pages.page('delaunay', '--sphere', pages.points('100 50\n-100 50\n0 -80\n')), place='#at=180,80,40') as page:
+        page.frames()
+        assert near(colours(page), LEGAL) > 100, 'the way between the first two points is the short one, across 180 degrees'
+    with opened(pages.page('delaunay', '--sphere', pages.points('100 50\n-100 50\n0 -80\n')), place='#at=60,65,40') as page:
+        page.frames()
+        assert near(colours(page), LEGAL) < 30, 'no side is there: a straight line would be'
+
+
+def test_graph():
+    args = ['--layer', 'graph:mst', *pages.FIXES]
+    edges = pages.csv_pairs('delaunay', *args)
+    with opened(pages.page('delaunay', *args), place='#point=0') as page:
+        assert page.text('#title') == 'Minimum spanning tree'
+        for name, status in ('legal', 'sure'), ('indeterminate', 'possible'):
+            assert page.text('#count-' + name) == str(list(edges.values()).count(status)) and status in page.text('#card')
+        assert page.value('document.querySelector("#show-tie") ?? document.querySelector("#show-triangles")') is None
+
+
 def test_address():
     """The address brings back place, stage, point, switches and theme."""
     file = pages.page('delaunay', pages.points(pages.SLOW), *pages.STEPS)

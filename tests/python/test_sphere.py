@@ -170,7 +170,7 @@ def test_voronoi():
 
 def test_formats():
     d = dyadel.delaunay(AIRPORTS, sphere=True)
-    assert len(d.__geo_interface__['features']) == len(d.pairs) and '<svg' in d._repr_svg_()
+    assert len(d.__geo_interface__['features']) == len(d.pairs) and '<svg' in d._repr_svg_() and 'srcdoc' in d._repr_html_()
     assert d.write(layer='triangles').count('\n') == len(d.simplices) + 1
     assert dyadel.verify(d.certificate()).proved and d.counters['stages'] >= 1
 

@@ -52,12 +52,12 @@ static dyd_status put_packed(FILE *out, const char *text, size_t size) {
   return DYD_OK;
 }
 
-dyd_status dyd_html_write(const dyd_output *o, dyd_html_data_fn data, const char *layer) {
+dyd_status dyd_html_write(const dyd_output *o, dyd_html_data_fn data) {
   char *text = NULL;
   size_t size = 0;
   FILE *to = open_memstream(&text, &size);
   if (!to) return DYD_E_NOMEM;
-  dyd_status st = data(to, o, layer);
+  dyd_status st = data(to, o);
   if (fclose(to) != 0 && st == DYD_OK) st = DYD_E_NOMEM;
   if (st == DYD_OK) {
     fwrite(dyd_html_before, 1, dyd_html_before_size, o->out);

@@ -9,9 +9,9 @@
 
 #include "io/output.h"
 
-/* Writes JSON to `to`. layer: what is seen first. */
-typedef dyd_status (*dyd_html_data_fn)(FILE *to, const dyd_output *o, const char *layer);
+/* Writes JSON to `to`. */
+typedef dyd_status (*dyd_html_data_fn)(FILE *to, const dyd_output *o);
 /* A page with the data that `data` writes. */
-dyd_status dyd_html_write(const dyd_output *o, dyd_html_data_fn data, const char *layer);
+dyd_status dyd_html_write(const dyd_output *o, dyd_html_data_fn data);
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "io/output.h"
 
-dyd_writer dyd_html_pairs, dyd_html_points, dyd_html_triangles, dyd_html_convergence;
-dyd_writer dyd_html_cells, dyd_html_vertices, dyd_html_regions, dyd_html_edges;
+/* Of all layers; they differ by what is seen first, graphs by their pairs. */
+dyd_writer dyd_html_triangulation, dyd_html_diagram, dyd_html_convergence, dyd_html_sphere;
 
 #endif

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Pages of the diagram: cells as polygons, vertices, regions and edges, beside what all pages tell; its layers differ
- * by what is seen first.
+/* Pages of the diagram: cells as polygons, vertices, regions and edges, beside what all pages tell.
  *
  * Polygons are drawn, so their vertices are rounded to multiples of a unit 2^u, from the lower left corner of the
  * window on: at most a quarter of what the polygons themselves are off their cells, or 2^-44 of the window. The page
@@ -152,7 +151,8 @@ static dyd_status html_edges(html_diagram *g) {
 /* ---- the page ---- */
 
 /* Cells come first, as they give the bounds. */
-static dyd_status html_diagram_parts(FILE *to, const dyd_diagram *d) {
+static dyd_status html_diagram_parts(FILE *to, const void *diagram) {
+  const dyd_diagram *d = diagram;
   html_diagram g = {.out = to, .d = d};
   int unit = diagram_unit(&g);
   fprintf(to, "\"unit\": %d, \"origin\": [", unit);
@@ -175,7 +175,7 @@ static dyd_status html_diagram_parts(FILE *to, const dyd_diagram *d) {
   return st == DYD_OK ? html_edges(&g) : st;
 }
 
-static dyd_status html_cells_page(FILE *to, const dyd_output *o, const char *layer) {
+static dyd_status html_cells_page(FILE *to, const dyd_output *o) {
   const dyd_diagram *d = o->what;
   dyd_result r = {.out = to,
                   .engine = d->engine,
@@ -185,30 +185,12 @@ static dyd_status html_cells_page(FILE *to, const dyd_output *o, const char *lay
                   .window = &d->window,
                   .epsg = d->epsg,
                   .history = d->history};
-  dyd_html_scene s = {0};
   dyd_status st = dyd_delaunay_pairs(&r.pairs, d->pd);
-  if (st == DYD_OK) st = dyd_html_scene_init(&s, to, &r, o->err);
-  if (st == DYD_OK) st = dyd_html_scene_head(&s, "voronoi", layer);
-  if (st == DYD_OK) st = html_diagram_parts(to, d);
-  if (st == DYD_OK) st = dyd_html_scene_body(&s);
-  fputs("}\n", to);
-  dyd_html_scene_clear(&s);
+  if (st == DYD_OK) st = dyd_html_scene_write(o, to, &r, "voronoi", html_diagram_parts, d);
   dyd_pair_list_clear(&r.pairs);
   return st;
 }
 
-dyd_status dyd_html_cells(const dyd_output *o) {
-  return dyd_html_write(o, html_cells_page, "cells");
-}
-
-dyd_status dyd_html_vertices(const dyd_output *o) {
-  return dyd_html_write(o, html_cells_page, "vertices");
-}
-
-dyd_status dyd_html_regions(const dyd_output *o) {
-  return dyd_html_write(o, html_cells_page, "regions");
-}
-
-dyd_status dyd_html_edges(const dyd_output *o) {
-  return dyd_html_write(o, html_cells_page, "edges");
+dyd_status dyd_html_diagram(const dyd_output *o) {
+  return dyd_html_write(o, html_cells_page);
 }

@@ -123,9 +123,6 @@ class Sphere(Statuses):
         at = int(np.searchsorted(codes, code))
         return STATUS[self.pairs[at, 2]] if at < len(codes) and codes[at] == code else STATUS[0]
 
-    def _repr_html_(self) -> str | None:
-        return None  # notebooks show the picture
-
     def _triangles(self) -> tuple[Ints, Ints]:
         corners, _ = super()._triangles()
         return corners, self._once('neighbors', lambda: beyond_sides(corners, len(self)))

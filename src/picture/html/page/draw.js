@@ -18,10 +18,11 @@ function makeGrids(scene) {
     for (const k of list)
       for (let e = 0; e < 4; e++) out[e] = e & 1 ? Math.max(out[e], box[4 * k + e]) : Math.min(out[e], box[4 * k + e]);
   };
+  if (scene.globe && !scene.ways) makeWays(scene);
   scene.grid = {
     points: makeGrid(scene.n, (k, out) => span(out, [k])),
-    pairs: makeGrid(scene.pairs, (p, out) => span(out, [ends[2 * p], ends[2 * p + 1]])),
-    triangles: makeGrid(triangles.length / 3, (t, out) => span(out, triangles.subarray(3 * t, 3 * t + 3))),
+    pairs: makeGrid(scene.pairs, (p, out) => (scene.globe ? spanOf(scene.ways.pairs[p], out) : span(out, [ends[2 * p], ends[2 * p + 1]]))),
+    triangles: makeGrid(triangles.length / 3, (t, out) => (scene.globe ? spanOf(scene.ways.rings[t], out) : span(out, triangles.subarray(3 * t, 3 * t + 3)))),
   };
 }
 
@@ -33,6 +34,7 @@ function pairsInView(scene, seen) {
 }
 
 function pathLine(ctx, scene, p, frame) {
+  if (scene.globe) { pathWay(ctx, scene.ways.pairs[p], mapFrame(frame)); return; }
   const i = scene.ends[2 * p], j = scene.ends[2 * p + 1];
   const x0 = toX(middle(scene, i, 0)), y0 = toY(middle(scene, i, 1)), x1 = toX(middle(scene, j, 0)), y1 = toY(middle(scene, j, 1));
   if (!cutLine(x0, y0, x1, y1, frame)) return;
@@ -117,6 +119,7 @@ function drawAreas(ctx, scene, pairs, status, frame) {
 function drawTriangles(ctx, scene, seen, frame) {
   ctx.beginPath();
   visitGrid(scene.grid.triangles, seen, (t) => {
+    if (scene.globe) { pathRing(ctx, scene.ways.rings[t], mapFrame(frame)); return; }
     if (!triangleIsSure(scene, 3 * t)) return;
     const z = [0, 1, 2].map((c) => scene.triangles[3 * t + c]).map((k) => [toX(middle(scene, k, 0)), toY(middle(scene, k, 1))]);
     pathPolygon(ctx, z, frame);

@@ -286,6 +286,7 @@ function wholeBox() {
   if (scene.data.window) return scene.data.window.map(toDouble);
   const out = [Infinity, -Infinity, Infinity, -Infinity];
   scene.final.forEach((v, k) => { out[k & 3] = k & 1 ? Math.max(out[k & 3], v) : Math.min(out[k & 3], v); });
+  if (scene.globe && !(out[1] - out[0] < 180)) return [...MAP, -90, 90];
   return scene.n ? out : [0, 1, 0, 1];
 }
 

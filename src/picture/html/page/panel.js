@@ -31,6 +31,13 @@ const PAIRS = [
   ["names", "numbers or names"],
 ];
 
+// Of a graph of neighbours there are edges alone, and areas of the plane are none of a sphere.
+const OF_GRAPHS = {legal: "sure: for every choice", indeterminate: "possible: for some"};
+function pairEntries({data}) {
+  if (data.graph) return PAIRS.filter(([name]) => !["tie", "triangles"].includes(name)).map(([name, text]) => [name, OF_GRAPHS[name] ?? text]);
+  return data.surface === "sphere" ? PAIRS.filter(([name]) => name !== "areas") : PAIRS;
+}
+
 // What a layer shows first.
 const LAYERS = {
   pairs: PAIRS.map(([name]) => name), points: ["boxes", "names"], triangles: ["triangles", "boxes", "names"],
@@ -39,7 +46,8 @@ const LAYERS = {
 };
 
 function buildLegend(scene, shown, onChange) {
-  for (const [name, text] of scene.cells.length ? [...CELLS, ...PAIRS] : PAIRS) {
+  const entries = pairEntries(scene);
+  for (const [name, text] of scene.cells.length ? [...CELLS, ...entries] : entries) {
     const box = element("input", {type: "checkbox", id: "show-" + name});
     box.checked = shown.has(name);
     box.addEventListener("change", () => {
@@ -55,10 +63,11 @@ function buildLegend(scene, shown, onChange) {
 const grouped = (n) => n.toLocaleString("en");
 
 function showCounts(scene) {
-  for (const s of [TIE, INDETERMINATE, LEGAL]) $("count-" + STATUS[s]).textContent = grouped(scene.count[s]);
+  const tell = (name, n) => { if ($("count-" + name)) $("count-" + name).textContent = grouped(n); };
+  for (const s of [TIE, INDETERMINATE, LEGAL]) tell(STATUS[s], scene.count[s]);
   let sure = 0;
   for (let k = 0; k < scene.triangles.length; k += 3) sure += triangleIsSure(scene, k);
-  $("count-triangles").textContent = grouped(sure);
+  tell("triangles", sure);
   $("count-boxes").textContent = grouped(scene.n);
   if (!scene.cells.length) return;
   for (const name of ["cells", "vertices", "regions", "edges"]) $("count-" + name).textContent = grouped(scene[name]?.length ?? scene.data[name].length);
@@ -67,7 +76,8 @@ function showCounts(scene) {
 function showSummary({data, n}) {
   const goal = data.goal === "decided" ? "" : `, goal ${data.goal} 2^-${data.goal_bits}`;
   const part = n === data.sites ? "" : ` of ${grouped(data.sites)}`;
-  $("title").textContent = {delaunay: "Delaunay triangulation", voronoi: "Voronoi diagram", converge: "Convergence"}[data.kind];
+  const title = {delaunay: "Delaunay triangulation", voronoi: "Voronoi diagram", converge: "Convergence"}[data.kind];
+  $("title").textContent = data.graph ? data.graph[0].toUpperCase() + data.graph.slice(1) : title + (data.surface ? " of a " + data.surface : "");
   document.title = "dyadel " + data.kind;
   $("summary").textContent = `${grouped(n)}${part} points, outcome ${data.outcome}${goal}` +
     (data.capped ? "; the cap on pairs was met: not all possible pairs are known" : "");
@@ -149,20 +159,21 @@ function sideLines(scene, k, axis) {
   const exact = text[0] === text[1] ? text[0] : `[${text[0]}, ${text[1]}]`, at = 4 * k + 2 * axis;
   const box = scene.box.subarray(at, at + 2), final = scene.final.subarray(at, at + 2);
   const now = box[0] === final[0] && box[1] === final[1];
-  const told = element("dd", {class: "exact", id: "exact-" + name}, exact), head = element("dt", {}, name);
+  const told = element("dd", {class: "exact", id: "exact-" + name}, exact), head = element("dt", {}, scene.globe ? ["longitude", "latitude"][axis] : name);
   if (now && exact.length <= 12) return [head, told];
   const near = text[0] === text[1] ? `about ${Number(box[0].toPrecision(9))}` : outward(...box, now ? text : ["0", "0"]);
   return [head, element("dd", {}, near), ...(now ? [told] : [])];
 }
 
-const PARTNERS = {[LEGAL]: "legal", [INDETERMINATE]: "open", [TIE]: "tied"};
+const PARTNERS = {[LEGAL]: "legal", [INDETERMINATE]: "open", [TIE]: "tied"}, OF_GRAPH = {[LEGAL]: "sure", [INDETERMINATE]: "possible"};
 
 function partnerLines(scene, k, choose) {
   const own = partners(scene, k);
-  return [LEGAL, INDETERMINATE, TIE].flatMap((s) => {
+  const words = scene.data.graph ? OF_GRAPH : PARTNERS;
+  return [LEGAL, INDETERMINATE, TIE].filter((s) => words[s]).flatMap((s) => {
     const others = own[s].map((p) => [otherEnd(scene, p, k), scene.since[p]]).sort((a, b) => a[0] - b[0]);
-    const list = others.map(([other, since]) => element("button", {title: `${STATUS[s]} since stage ${since}`, onclick: () => choose(other)}, nameOf(scene, other)));
-    return [element("dt", {}, `${PARTNERS[s]} (${others.length})`), element("dd", {class: "partners", id: "partners-" + STATUS[s]}, ...list)];
+    const list = others.map(([other, since]) => element("button", {title: `${words[s] === PARTNERS[s] ? STATUS[s] : words[s]} since stage ${since}`, onclick: () => choose(other)}, nameOf(scene, other)));
+    return [element("dt", {}, `${words[s]} (${others.length})`), element("dd", {class: "partners", id: "partners-" + STATUS[s]}, ...list)];
   });
 }
 
@@ -174,7 +185,7 @@ function showPoint(scene, k, kept, choose) {
   const point = scene.data.points[k], lines = [...sideLines(scene, k, 0), ...sideLines(scene, k, 1)];
   const same = scene.data.aliases.filter(([, of]) => of === point.i).map(([row]) => row);
   if (same.length) lines.push(element("dt", {}, "the same as"), element("dd", {}, same.join(", ")));
-  lines.push(element("dt", {}, "corner of the hull"), element("dd", {}, point.hull));
+  if (point.hull) lines.push(element("dt", {}, "corner of the hull"), element("dd", {}, point.hull));
   if (point.rho !== undefined) lines.push(element("dt", {}, "tolerance"), element("dd", {id: "rho", title: "every point may be so far from its place, all at once, and nothing changes for this one"}, point.rho === null ? "without bound" : String(point.rho)));
   lines.push(...cellLines(scene, k), ...partnerLines(scene, k, choose));
   const title = "id" in point ? `${point.id} (point ${point.i})` : `Point ${point.i}`;

@@ -7,7 +7,7 @@ function makeScene(data) {
   const n = data.points.length, final = new Float64Array(4 * n);
   data.points.forEach((p, k) => [...p.x, ...p.y].forEach((text, e) => { final[4 * k + e] = toDouble(text); }));
   const scene = {data, n, final, box: final.slice(), stages: [], stage: 0, triangles: readTriangles(data.triangles),
-    numberOf: new Map(data.points.map((p, k) => [p.i, k]))};
+    globe: data.surface === "sphere", numberOf: new Map(data.points.map((p, k) => [p.i, k]))};
   const known = new Map(), ends = [];
   for (const stage of data.stages) {
     const pair = [], status = [];
