@@ -12,7 +12,7 @@ import sys
 LAYERS = [['base'], ['dyadic'], ['rect', 'checker'], ['stream', 'predicate'], ['skeleton'], ['legal', 'possible'], ['delaunay'], ['tolerance', 'graph'],
           ['voronoi'], ['metric'], ['engine'], ['sphere'], ['io'], ['prove', 'picture'], ['format']]
 # Rooms that see the library as its users do.
-OUTSIDE = {'cli': 'the command', 'python': 'the Python module'}
+OUTSIDE = {'cli': 'the command', 'python': 'the Python module', 'tiles': 'dyadel-tiles'}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.M)
 # Public headers in the order of the layers; a header may include only those before it.
 PUBLIC = ['status', 'dyadic certificate', 'rect', 'stream sites', 'oracle', 'predicate delaunay', 'tolerance survey graph', 'arc', 'voronoi', 'compose', 'metric', 'engine', 'converge check sphere', 'io', 'dyadel']

@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Parts: what one rank states, as a file; and what is told of all. */
+#include "tile.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- records ---- */
+
+static void record_encode(unsigned char *out, const tiles_row *r) {
+  for (unsigned k = 0; k < 8; k++) {
+    out[k] = (unsigned char)(r->i >> 8 * k);
+    out[8 + k] = (unsigned char)(r->j >> 8 * k);
+  }
+  for (unsigned k = 0; k < 4; k++) out[16 + k] = (unsigned char)(r->status >> 8 * k);
+}
+
+tiles_row tiles_row_decode(const unsigned char in[TILES_RECORD]) {
+  tiles_row r = {0};
+  for (unsigned k = 8; k-- > 0;) {
+    r.i = r.i << 8 | in[k];
+    r.j = r.j << 8 | in[8 + k];
+  }
+  for (unsigned k = 4; k-- > 0;) r.status = r.status << 8 | in[16 + k];
+  return r;
+}
+
+static bool put_row(FILE *out, const tiles_row *r) {
+  unsigned char bytes[TILES_RECORD];
+  record_encode(bytes, r);
+  return fwrite(bytes, sizeof bytes, 1, out) == 1;
+}
+
+static bool get_row(tiles_row *r, FILE *in) {
+  unsigned char bytes[TILES_RECORD];
+  if (fread(bytes, sizeof bytes, 1, in) != 1) return false;
+  *r = tiles_row_decode(bytes);
+  return true;
+}
+
+/* ---- the spool ---- */
+
+static dyd_status spool_fail(const tile *t, dyd_error *err) {
+  return tiles_fail(err, DYD_E_IO, "%s: cannot write rows of rank %zu: %s; make room there, then go on with --restart",
+                    t->job->folder, t->rank, strerror(errno));
+}
+
+/* A file without a name: nothing is left of it however the process ends. */
+static dyd_status open_spool(tile *t, dyd_error *err) {
+  char name[40];
+  snprintf(name, sizeof name, ".rows-%05zu", t->rank);
+  char *path = tiles_path(t->job->folder, name);
+  if (!path) return tiles_no_memory(err);
+  t->spool = fopen(path, "w+b");
+  if (t->spool) unlink(path);
+  free(path);
+  return t->spool ? DYD_OK : spool_fail(t, err);
+}
+
+dyd_status tile_spool(tile *t, const tiles_rows *rows, dyd_error *err) {
+  dyd_status st = t->spool ? DYD_OK : open_spool(t, err);
+  for (size_t k = 0; st == DYD_OK && k < rows->count; k++) {
+    t->counters.count[rows->item[k].status]++;
+    if (!put_row(t->spool, &rows->item[k])) st = spool_fail(t, err);
+  }
+  return st;
+}
+
+/* ---- the header ---- */
+
+/* Tells own points apart: a sum over their bytes (Fowler, Noll, Vo). */
+static uint64_t digest_of(const tiles_sites *s) {
+  uint64_t sum = 14695981039346656037u;
+  for (size_t k = 0; k < s->count; k++) {
+    uint64_t word[5] = {s->number[k]};
+    memcpy(word + 1, s->end + k * s->dim, s->dim * sizeof(double));
+    for (unsigned w = 0; w <= s->dim; w++) sum = (sum ^ word[w]) * 1099511628211u;
+  }
+  return sum;
+}
+
+static json_t *header_of(const tile *t) {
+  const tiles_counters *c = &t->counters;
+  char digest[20];
+  snprintf(digest, sizeof digest, "%016" PRIx64, digest_of(&t->own));
+  return json_pack("{sssIsIsIsIsIsIsIsIsIsIsIsbsbsIss}", "format", "dyadel part 1", "rank", (json_int_t)t->rank, "own",
+                   (json_int_t)c->own, "ghosts", (json_int_t)c->ghosts, "rounds", (json_int_t)c->rounds, "pairs",
+                   (json_int_t)(c->count[1] + c->count[2] + c->count[3]), "legal", (json_int_t)c->count[DYD_LEGAL],
+                   "indeterminate", (json_int_t)c->count[DYD_INDETERMINATE], "tie", (json_int_t)c->count[DYD_TIE],
+                   "aliases", (json_int_t)c->aliases, "ranks", (json_int_t)t->job->ranks, "points",
+                   (json_int_t)t->job->points, "boxes", t->job->boxes, "capped", c->capped, "max_pairs",
+                   (json_int_t)t->job->max_pairs, "digest", digest);
+}
+
+static bool put_json_line(FILE *out, json_t *j) {
+  bool fits = j && json_dumpf(j, out, JSON_COMPACT) == 0 && fputc('\n', out) != EOF;
+  json_decref(j);
+  return fits;
+}
+
+/* ---- writing ---- */
+
+/* Both ascending by i, which they have none of in common. */
+static bool join_rows(FILE *out, FILE *spool, const tiles_rows *late) {
+  tiles_row r;
+  size_t k = 0;
+  bool fits = true;
+  if (spool) rewind(spool);
+  while (fits && spool && get_row(&r, spool)) {
+    for (; fits && k < late->count && late->item[k].i < r.i; k++) fits = put_row(out, &late->item[k]);
+    if (fits) fits = put_row(out, &r);
+  }
+  for (; fits && k < late->count; k++) fits = put_row(out, &late->item[k]);
+  return fits && !(spool && ferror(spool));
+}
+
+dyd_status tile_write_part(tile *t, dyd_error *err) {
+  tiles_file f;
+  char name[32];
+  tiles_part_name(name, t->rank);
+  for (size_t k = 0; k < t->rows.count; k++) t->counters.count[t->rows.item[k].status]++;
+  t->counters.aliases = t->aliases.count;
+  if (t->spool && fflush(t->spool) != 0) return spool_fail(t, err);
+  dyd_status st = tiles_file_open(&f, t->job->folder, name, err);
+  if (st != DYD_OK) return st;
+  bool fits = put_json_line(f.stream, header_of(t)) && join_rows(f.stream, t->spool, &t->rows);
+  for (size_t k = 0; fits && k < t->aliases.count; k++) fits = put_row(f.stream, &t->aliases.item[k]);
+  st = tiles_file_close(&f, DYD_OK, err);
+  if (st == DYD_OK && !fits) st = spool_fail(t, err);
+  if (t->spool) fclose(t->spool);
+  t->spool = NULL;
+  return st;
+}
+
+/* ---- finding one that is there ---- */
+
+static uint64_t header_number(const json_t *j, const char *key) {
+  return (uint64_t)json_integer_value(json_object_get(j, key));
+}
+
+/* Is it of this rank in this job? What the run found is left out of the comparison. */
+static bool suits(const json_t *found, json_t *wanted) {
+  static const char *const same[] = {"format", "rank", "own", "ranks", "points", "boxes", "max_pairs", "digest"};
+  bool equal = found && wanted;
+  for (size_t k = 0; equal && k < sizeof same / sizeof *same; k++)
+    equal = json_equal(json_object_get(found, same[k]), json_object_get(wanted, same[k]));
+  json_decref(wanted);
+  return equal;
+}
+
+/* The counters, and the aliases behind the pairs; false: the file is not as long as its header says. */
+static bool take_part(tile *t, FILE *in, const json_t *j) {
+  tiles_counters *c = &t->counters;
+  const off_t body = ftello(in);
+  const uint64_t pairs = header_number(j, "pairs"), aliases = header_number(j, "aliases");
+  if (fseeko(in, 0, SEEK_END) != 0 || (uint64_t)(ftello(in) - body) != (pairs + aliases) * TILES_RECORD) return false;
+  t->alias = calloc(t->own.count + 1, sizeof *t->alias);
+  if (!t->alias || fseeko(in, body + (off_t)(pairs * TILES_RECORD), SEEK_SET) != 0) return false;
+  tiles_row r;
+  size_t at = 0;
+  while (get_row(&r, in)) {
+    while (at < t->own.count && t->own.number[at] < r.i) at++;
+    if (at < t->own.count && t->own.number[at] == r.i) t->alias[at] = true;
+  }
+  c->aliases = aliases;
+  c->ghosts = header_number(j, "ghosts");
+  c->capped = json_is_true(json_object_get(j, "capped"));
+  c->count[DYD_LEGAL] = header_number(j, "legal");
+  c->count[DYD_INDETERMINATE] = header_number(j, "indeterminate");
+  c->count[DYD_TIE] = header_number(j, "tie");
+  return true;
+}
+
+dyd_status tile_find_part(tile *t, dyd_error *err) {
+  char name[32];
+  if (!t->job->restart) return DYD_OK;
+  tiles_part_name(name, t->rank);
+  char *path = tiles_path(t->job->folder, name);
+  if (!path) return tiles_no_memory(err);
+  FILE *in = fopen(path, "rb");
+  json_t *j = in ? json_loadf(in, JSON_DISABLE_EOF_CHECK, NULL) : NULL;
+  if (in && j) {
+    rewind(in);
+    for (int c = 0; c != '\n' && c != EOF;) c = fgetc(in);
+    t->done = suits(j, header_of(t)) && take_part(t, in, j);
+  }
+  json_decref(j);
+  if (in) fclose(in);
+  free(path);
+  return DYD_OK;
+}
+
+/* ---- the manifest ---- */
+
+static json_t *part_names(const tile *t) {
+  json_t *parts = json_array();
+  for (size_t r = 0; r < t->job->ranks; r++) {
+    char name[32];
+    tiles_part_name(name, r);
+    json_array_append_new(parts, json_string(name));
+  }
+  return parts;
+}
+
+static const char *outcome_of(const tiles_counters *all) {
+  dyd_outcome o = all->capped                                            ? DYD_OUTCOME_BUDGET
+                  : all->count[DYD_INDETERMINATE] || all->count[DYD_TIE] ? DYD_OUTCOME_FIXPOINT
+                                                                         : DYD_OUTCOME_DECIDED;
+  return dyd_outcome_text(o);
+}
+
+static void sum_counters(tiles_counters *all, const tiles_counters *c) {
+  for (unsigned k = 0; k < 4; k++) all->count[k] += c->count[k];
+  all->own += c->own;
+  all->ghosts += c->ghosts;
+  all->sent += c->sent;
+  all->late += c->late;
+  all->aliases += c->aliases;
+  all->seconds += c->seconds;
+  all->capped |= c->capped;
+  if (c->rounds > all->rounds) all->rounds = c->rounds;
+  if (c->fringe > all->fringe) all->fringe = c->fringe;
+}
+
+dyd_status tile_write_manifest(tile *t, dyd_error *err) {
+  tiles_counters all = {0}, one;
+  for (size_t r = 0; r < t->job->ranks; r++) {
+    size_t read = 0;
+    if (tiles_mail_take(&one, sizeof one, &t->in[r], &read)) sum_counters(&all, &one);
+  }
+  t->counters = all;
+  tiles_file f;
+  dyd_status st = tiles_file_open(&f, t->job->folder, "manifest.json", err);
+  if (st != DYD_OK) return st;
+  json_t *j =
+      json_pack("{sssssIsIsosss{sbsI}sIsIsIsI}", "format", "dyadel tiles 1", "input", t->job->input, "points",
+                (json_int_t)t->job->points, "ranks", (json_int_t)t->job->ranks, "parts", part_names(t), "outcome",
+                outcome_of(&all), "options", "boxes", t->job->boxes, "max_pairs", (json_int_t)t->job->max_pairs,
+                "legal", (json_int_t)all.count[DYD_LEGAL], "indeterminate", (json_int_t)all.count[DYD_INDETERMINATE],
+                "tie", (json_int_t)all.count[DYD_TIE], "aliases", (json_int_t)all.aliases);
+  bool fits = put_json_line(f.stream, j);
+  if (!fits)
+    st = tiles_fail(err, DYD_E_IO, "%s/manifest.json: cannot write; is the name of the input UTF-8?", t->job->folder);
+  return tiles_file_close(&f, st, err);
+}

@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What one rank states: pairs on which nothing that it has not seen has an influence [REACH-1] [TILE-1].
+ *
+ * The first triangulation, of all own sites and the halo, settles nearly all of them. Those left, their partners and
+ * the ghosts are the fringe: it is triangulated by itself, and grows by what owners (the rank itself is one) answer. */
+#include "tile.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Of a site: its discs are not met; nor are the wide ones; its pairs are not settled. */
+enum { CLOSED = 1, WIDE = 2, LATE = 4 };
+
+/* ---- discs ---- */
+
+dyd_status tile_is_clear(bool *clear, tile *t, const tiles_disc *d, bool self, dyd_error *err) {
+  *clear = true;
+  if (!tiles_disc_is_inside(d, &t->info[t->rank].seen))
+    for (size_t r = 0; *clear && r < t->job->ranks; r++)
+      *clear = r == t->rank || t->info[r].count == 0 || !tiles_disc_may_meet(d, &t->info[r].box);
+  if (!*clear || !self) return DYD_OK;
+  tiles_search *q = &t->search;
+  q->disc = d;
+  q->skip = &t->sent[t->rank];
+  q->alias = t->alias;
+  q->most = 1;
+  if (!tiles_tree_search(q, &t->tree, &t->own)) return tiles_no_memory(err);
+  *clear = q->count == 0;
+  return DYD_OK;
+}
+
+dyd_status tile_is_closed(bool *closed, tile *t, const tiles_view *v, uint32_t i, bool wide, dyd_error *err) {
+  tiles_partners p = tiles_graph_of(&t->graph, i);
+  if (!tiles_reach_find(&t->reach, v, i, &p, wide)) return tiles_no_memory(err);
+  dyd_status st = DYD_OK;
+  *closed = true;
+  for (size_t k = 0; *closed && st == DYD_OK && k < t->reach.count; k++)
+    st = tile_is_clear(closed, t, &t->reach.item[k], false, err);
+  return st;
+}
+
+/* ---- the first triangulation ---- */
+
+static dyd_status note_alias(tile *t, size_t i, uint32_t of, dyd_error *err) {
+  tiles_rows *a = &t->aliases;
+  if (!tiles_reserve((void **)&a->item, &a->room, a->count + 1, sizeof *a->item)) return tiles_no_memory(err);
+  a->item[a->count++] = (tiles_row){t->own.number[i], t->own.number[of], 0};
+  t->alias[i] = true;
+  return DYD_OK;
+}
+
+/* Equal points have one owner, since places have one. */
+static dyd_status first_aliases(tile *t, dyd_error *err) {
+  const dyd_delaunay *pd = dyd_engine_delaunay(t->engine);
+  dyd_status st = DYD_OK;
+  for (size_t i = 0; st == DYD_OK && i < t->own.count; i++) {
+    uint32_t of = dyd_delaunay_alias(pd, (uint32_t)i);
+    if (of != i) st = note_alias(t, i, of, err);
+  }
+  return st;
+}
+
+/* Own sites; where there are rectangles, ghosts, too: they may be ends of legal pairs, and corners of faces. */
+static dyd_status first_marks(tile *t, const tiles_view *v, dyd_error *err) {
+  const bool wide = tile_has_wide(t);
+  const size_t count = wide ? tiles_view_count(v) : t->own.count;
+  dyd_status st = DYD_OK;
+  t->mark = calloc(tiles_view_count(v) + 1, 1);
+  if (!t->mark) return tiles_no_memory(err);
+  for (uint32_t i = 0; st == DYD_OK && i < count; i++) {
+    bool closed = true, far = false;
+    if (i >= t->own.count || !t->alias[i]) st = tile_is_closed(&closed, t, v, i, false, err);
+    if (st == DYD_OK && wide && closed) st = tile_is_closed(&far, t, v, i, true, err);
+    t->mark[i] = (unsigned char)((closed ? CLOSED : LATE) | (far ? WIDE : 0));
+  }
+  return st;
+}
+
+/* A legal pair with a rectangle stays one when both ends have wide discs that are not met. */
+static void first_legal(tile *t, const tiles_view *v) {
+  for (uint32_t i = 0; i < t->own.count; i++) {
+    tiles_partners p = tiles_graph_of(&t->graph, i);
+    for (size_t k = 0; k < p.count && !(t->mark[i] & LATE); k++) {
+      uint32_t j = TILES_SITE(p.item[k]);
+      tiles_box a = tiles_view_box(v, i), b = tiles_view_box(v, j);
+      if (TILES_STATUS(p.item[k]) != DYD_LEGAL || tiles_view_number(v, j) < t->own.number[i]) continue;
+      if (tiles_box_is_point(&a) && tiles_box_is_point(&b)) continue;
+      if (!(t->mark[i] & t->mark[j] & WIDE)) t->mark[i] |= LATE;
+    }
+  }
+}
+
+static dyd_status first_face(tile *t, const tiles_view *v, const dyd_index_list *site, const dyd_pair_list *pairs,
+                             dyd_error *err) {
+  bool closed = true;
+  (void)v, (void)err;
+  for (size_t k = 0; closed && k < site->count; k++) closed = t->mark[site->item[k]] & CLOSED;
+  for (size_t k = 0; !closed && k < pairs->count; k++) {
+    t->mark[pairs->item[k].i] |= LATE;
+    t->mark[pairs->item[k].j] |= LATE;
+  }
+  return DYD_OK;
+}
+
+/* Rows of what is settled go out; the rest becomes the fringe. */
+static dyd_status first_rows(tile *t, const tiles_view *v, dyd_error *err) {
+  enum { AT_ONCE = 1 << 16 };
+  dyd_status st = DYD_OK;
+  for (uint32_t i = 0; st == DYD_OK && i < t->own.count; i++) {
+    if (t->mark[i] & LATE)
+      t->late_count++;
+    else
+      st = tile_rows_of(&t->rows, t, v, i, err);
+    if (st == DYD_OK && (t->rows.count >= AT_ONCE || i + 1 == t->own.count)) {
+      st = tile_spool(t, &t->rows, err);
+      t->rows.count = 0;
+    }
+  }
+  t->counters.late = t->late_count;
+  return st;
+}
+
+/* Late sites and their own partners, ascending; then ghosts that are no aliases. */
+static dyd_status first_fringe(tile *t, const tiles_view *v, dyd_error *err) {
+  enum { PARTNER = 8 };
+  const dyd_delaunay *pd = dyd_engine_delaunay(t->engine);
+  bool fits = true;
+  size_t late = 0;
+  for (uint32_t i = 0; i < t->own.count; i++) {
+    tiles_partners p = tiles_graph_of(&t->graph, i);
+    for (size_t k = 0; t->mark[i] & LATE && k < p.count; k++) t->mark[TILES_SITE(p.item[k])] |= PARTNER;
+  }
+  t->late = calloc(t->late_count + 1, sizeof *t->late);
+  if (!t->late) return tiles_no_memory(err);
+  for (uint32_t i = 0; fits && i < t->own.count; i++) {
+    if (t->mark[i] & LATE) t->late[late++] = t->fringe.count;
+    if (t->mark[i] & (LATE | PARTNER))
+      fits = tiles_set_add(&t->sent[t->rank], i) &&
+             tiles_sites_add(&t->fringe, t->own.number[i], t->own.end + i * (size_t)t->own.dim);
+  }
+  for (uint32_t k = 0; fits && k < t->ghosts.count; k++) {
+    uint32_t i = (uint32_t)t->own.count + k;
+    if (dyd_delaunay_alias(pd, i) == i)
+      fits = tiles_sites_add(&t->fringe, t->ghosts.number[k], t->ghosts.end + k * (size_t)t->ghosts.dim);
+  }
+  (void)v;
+  return fits ? DYD_OK : tiles_no_memory(err);
+}
+
+static dyd_status first_settle(tile *t, const tiles_view *v, dyd_error *err) {
+  dyd_status st = tile_triangulate(t, v, err);
+  if (st == DYD_OK) st = first_aliases(t, err);
+  if (st == DYD_OK) st = first_marks(t, v, err);
+  if (st == DYD_OK && tile_has_wide(t)) first_legal(t, v);
+  if (st == DYD_OK && tile_is_mixed(t)) st = tile_each_face(t, v, t->own.count, first_face, err);
+  if (st == DYD_OK) st = first_rows(t, v, err);
+  return st == DYD_OK ? first_fringe(t, v, err) : st;
+}
+
+dyd_status tile_first(tile *t, dyd_error *err) {
+  for (size_t r = 0; r < t->job->ranks; r++) {
+    size_t read = 0;
+    if (r != t->rank && !tiles_sites_take(&t->ghosts, &t->in[r], &read)) return tiles_no_memory(err);
+    tiles_mail_clear(&t->in[r]);
+  }
+  t->counters.ghosts = t->ghosts.count;
+  if (t->done) return DYD_OK;
+  t->alias = calloc(t->own.count + 1, sizeof *t->alias);
+  if (!t->alias) return tiles_no_memory(err);
+  tiles_view v = {&t->own, &t->ghosts};
+  dyd_status st = t->own.count ? first_settle(t, &v, err) : DYD_OK;
+  tiles_sites_clear(&t->ghosts);
+  return st == DYD_OK ? tile_fringe(t, err) : st;
+}
+
+/* ---- the fringe ---- */
+
+static dyd_status fringe_ask(tile *t, const tiles_disc *d, dyd_error *err) {
+  bool clear;
+  dyd_status st = tile_is_clear(&clear, t, d, true, err);
+  if (st != DYD_OK || clear) return st;
+  const bool inside = tiles_disc_is_inside(d, &t->info[t->rank].seen);
+  for (size_t r = 0; r < t->job->ranks; r++) {
+    if (t->info[r].count == 0 || (inside && r != t->rank) || !tiles_disc_may_meet(d, &t->info[r].box)) continue;
+    if (!tiles_mail_put(&t->out[r], d, sizeof *d)) return tiles_no_memory(err);
+  }
+  t->asked++;
+  return DYD_OK;
+}
+
+static dyd_status fringe_discs(tile *t, const tiles_view *v, uint32_t i, dyd_error *err) {
+  tiles_partners p = tiles_graph_of(&t->graph, i);
+  if (!tiles_reach_find(&t->reach, v, i, &p, false)) return tiles_no_memory(err);
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; st == DYD_OK && k < t->reach.count; k++) st = fringe_ask(t, &t->reach.item[k], err);
+  return st;
+}
+
+/* The disc about the witness of a legal pair with a rectangle. */
+static dyd_status fringe_witness(tile *t, const tiles_view *v, uint32_t i, uint32_t j, dyd_error *err) {
+  tiles_box a = tiles_view_box(v, i), b = tiles_view_box(v, j);
+  dyd_point c;
+  dyd_point_init(&c);
+  dyd_status st = dyd_delaunay_witness(&c, dyd_engine_delaunay(t->engine), i, j);
+  const double centre[2] = {dyd_dyadic_get_d(&c.x, DYD_DOWN), dyd_dyadic_get_d(&c.y, DYD_DOWN)};
+  tiles_disc d = tiles_witness_disc(centre, &a, &b);
+  dyd_point_clear(&c);
+  return st == DYD_OK ? fringe_ask(t, &d, err) : tiles_fail(err, st, "%s", dyd_status_text(st));
+}
+
+static dyd_status fringe_legal(tile *t, const tiles_view *v, uint32_t i, dyd_error *err) {
+  tiles_partners p = tiles_graph_of(&t->graph, i);
+  tiles_box a = tiles_view_box(v, i);
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; st == DYD_OK && k < p.count; k++) {
+    uint32_t j = TILES_SITE(p.item[k]);
+    tiles_box b = tiles_view_box(v, j);
+    if (TILES_STATUS(p.item[k]) != DYD_LEGAL || tiles_view_number(v, j) < tiles_view_number(v, i)) continue;
+    if (!tiles_box_is_point(&a) || !tiles_box_is_point(&b)) st = fringe_witness(t, v, i, j, err);
+  }
+  return st;
+}
+
+static dyd_status fringe_face(tile *t, const tiles_view *v, const dyd_index_list *site, const dyd_pair_list *pairs,
+                              dyd_error *err) {
+  bool late = false;
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; !late && k < pairs->count; k++)
+    late = t->mark[pairs->item[k].i] & LATE || t->mark[pairs->item[k].j] & LATE;
+  for (size_t k = 0; late && st == DYD_OK && k < site->count; k++)
+    if (!(t->mark[site->item[k]] & LATE)) st = fringe_discs(t, v, site->item[k], err);
+  return st;
+}
+
+static dyd_status fringe_check(tile *t, const tiles_view *v, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; st == DYD_OK && k < t->late_count; k++) {
+    st = fringe_discs(t, v, (uint32_t)t->late[k], err);
+    if (st == DYD_OK && tile_has_wide(t)) st = fringe_legal(t, v, (uint32_t)t->late[k], err);
+  }
+  if (st != DYD_OK || !tile_is_mixed(t)) return st;
+  free(t->mark);
+  t->mark = calloc(t->fringe.count + 1, 1);
+  if (!t->mark) return tiles_no_memory(err);
+  for (size_t k = 0; k < t->late_count; k++) t->mark[t->late[k]] = LATE;
+  return tile_each_face(t, v, t->fringe.count, fringe_face, err);
+}
+
+static dyd_status fringe_finish(tile *t, const tiles_view *v, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  t->rows.count = 0;
+  for (size_t k = 0; st == DYD_OK && k < t->late_count; k++)
+    st = tile_rows_of(&t->rows, t, v, (uint32_t)t->late[k], err);
+  if (st == DYD_OK) st = tile_write_part(t, err);
+  tiles_graph_clear(&t->graph);
+  dyd_engine_free(t->engine);
+  t->engine = NULL;
+  t->done = true;
+  return st;
+}
+
+dyd_status tile_fringe(tile *t, dyd_error *err) {
+  static const tiles_sites none = {.dim = 2};
+  tiles_view v = {&t->fringe, &none};
+  dyd_status st = DYD_OK;
+  t->asked = 0;
+  t->counters.fringe = t->fringe.count;
+  if (t->late_count) st = tile_triangulate(t, &v, err);
+  if (st == DYD_OK && t->late_count) st = fringe_check(t, &v, err);
+  if (st == DYD_OK && t->asked == 0) st = fringe_finish(t, &v, err);
+  return st;
+}
+
+/* ---- rounds ---- */
+
+static dyd_status answer_disc(tile *t, size_t r, const tiles_disc *d, dyd_error *err) {
+  tiles_search *q = &t->search;
+  /* Eight; more when that has not been enough for long. */
+  enum { NEAREST = 8, PATIENCE = 4, MOST_DOUBLINGS = 20 };
+  uint64_t doublings = t->counters.rounds / PATIENCE;
+  q->disc = d;
+  q->skip = &t->sent[r];
+  q->alias = t->alias;
+  q->most = (size_t)NEAREST << (doublings < MOST_DOUBLINGS ? doublings : MOST_DOUBLINGS);
+  bool fits = tiles_tree_search(q, &t->tree, &t->own);
+  for (size_t k = 0; fits && k < q->count; k++)
+    fits = tiles_set_add(&t->sent[r], q->site[k]) && tiles_sites_put(&t->out[r], &t->own, q->site[k]);
+  return fits ? DYD_OK : tiles_no_memory(err);
+}
+
+dyd_status tile_answer(tile *t, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  for (size_t r = 0; r < t->job->ranks; r++) {
+    tiles_disc d;
+    for (size_t read = 0; st == DYD_OK && tiles_mail_take(&d, sizeof d, &t->in[r], &read);)
+      st = answer_disc(t, r, &d, err);
+    tiles_mail_clear(&t->in[r]);
+  }
+  t->counters.rounds++;
+  return st;
+}
+
+dyd_status tile_extend(tile *t, dyd_error *err) {
+  const size_t before = t->fringe.count;
+  for (size_t r = 0; r < t->job->ranks; r++) {
+    size_t read = 0;
+    if (!tiles_sites_take(&t->fringe, &t->in[r], &read)) return tiles_no_memory(err);
+    if (r != t->rank) t->counters.ghosts += t->in[r].count / (sizeof(uint64_t) + t->own.dim * sizeof(double));
+    tiles_mail_clear(&t->in[r]);
+  }
+  if (t->done || t->asked == 0) return DYD_OK;
+  if (t->fringe.count > before) return tile_fringe(t, err);
+  t->asked = 0;
+  static const tiles_sites none = {.dim = 2};
+  tiles_view v = {&t->fringe, &none};
+  return fringe_finish(t, &v, err);
+}
+
+dyd_status tile_report(tile *t, dyd_error *err) {
+  return tiles_mail_put(&t->out[0], &t->counters, sizeof t->counters) ? DYD_OK : tiles_no_memory(err);
+}

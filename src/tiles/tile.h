@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* One rank at work: what it does between one delivery of mail and the next. */
+#ifndef TILES_TILE_H
+#define TILES_TILE_H
+
+#include "tree.h"
+#include <stdio.h>
+
+/* What is to be done: the same for all ranks. */
+typedef struct tiles_job {
+  const char *input, *folder;
+  bool boxes; /* the input has four doubles a point */
+  size_t ranks;
+  uint64_t points; /* in the input */
+  size_t max_pairs;
+  bool restart; /* parts that are there already stay */
+} tiles_job;
+
+/* What each rank tells all others of itself. */
+typedef struct tiles_info {
+  uint64_t count;
+  uint64_t wide;  /* how many of its sites are no exact points */
+  tiles_box box;  /* holds them */
+  tiles_box seen; /* it knows every site that meets this box */
+} tiles_info;
+
+typedef struct tiles_counters {
+  uint64_t own, ghosts, rounds, aliases;
+  uint64_t sent;     /* bytes */
+  uint64_t fringe;   /* sites of the last small triangulation */
+  uint64_t late;     /* own sites that were not settled by the first one */
+  uint64_t count[4]; /* pairs written, by status */
+  double seconds;    /* in the library, of the processor */
+  bool capped;
+} tiles_counters;
+
+/* Partners of each site of a view, both ways. */
+typedef struct tiles_graph {
+  size_t count;
+  size_t *start; /* count + 1 */
+  uint32_t *partner;
+} tiles_graph;
+dyd_status tiles_graph_make(tiles_graph *g, const dyd_delaunay *pd, dyd_error *err);
+void tiles_graph_clear(tiles_graph *g);
+static inline tiles_partners tiles_graph_of(const tiles_graph *g, size_t i) {
+  return (tiles_partners){g->partner + g->start[i], g->start[i + 1] - g->start[i]};
+}
+
+typedef struct tiles_row {
+  uint64_t i, j;
+  uint32_t status;
+} tiles_row;
+typedef struct tiles_rows {
+  size_t count, room;
+  tiles_row *item;
+} tiles_rows;
+
+typedef struct tile {
+  const tiles_job *job;
+  size_t rank;
+  tiles_mail *in, *out; /* one from, and for, each rank */
+  tiles_sites own, ghosts, fringe;
+  tiles_tree tree; /* of own */
+  tiles_info *info;
+  tiles_set *sent; /* own sites that each rank has; at its own place those of the fringe */
+  bool *alias;     /* own sites that are no vertices */
+  dyd_engine *engine;
+  tiles_graph graph; /* of the last triangulation */
+  tiles_reach reach;
+  tiles_search search;
+  unsigned char *mark; /* of the sites of the last triangulation */
+  size_t *late;        /* sites of the fringe whose pairs are not settled yet */
+  size_t late_count, asked;
+  FILE *spool; /* rows that are settled, but for those of `late` */
+  tiles_rows rows, aliases;
+  bool done;
+  tiles_counters counters;
+} tile;
+
+dyd_status tile_new(tile *t, const tiles_job *job, size_t rank, dyd_error *err);
+void tile_free(tile *t);
+
+/* The steps, in this order; the last two again while any rank asked something. Each takes the mail in t->in and writes
+ * t->out. *err names the remedy. */
+dyd_status tile_read(tile *t, dyd_error *err);   /* its slice of the input; out: a sample of it */
+dyd_status tile_split(tile *t, dyd_error *err);  /* boxes of the plane; out: points to their owners */
+dyd_status tile_own(tile *t, dyd_error *err);    /* its own sites; out: where they are, and corners of their hull */
+dyd_status tile_halo(tile *t, dyd_error *err);   /* out: sites near the boxes of others */
+dyd_status tile_first(tile *t, dyd_error *err);  /* triangulates; out: discs */
+dyd_status tile_answer(tile *t, dyd_error *err); /* out: the nearest sites in the discs asked for */
+dyd_status tile_extend(tile *t, dyd_error *err); /* triangulates what is not settled; out: discs */
+dyd_status tile_report(tile *t, dyd_error *err); /* at the end; out: counters, to rank 0 */
+
+/* For the steps themselves. */
+dyd_status tile_triangulate(tile *t, const tiles_view *v, dyd_error *err);
+dyd_status tile_fringe(tile *t, dyd_error *err);
+/* Nothing that the rank has not seen meets the disc; own sites outside of the fringe count when `self`. */
+dyd_status tile_is_clear(bool *clear, tile *t, const tiles_disc *d, bool self, dyd_error *err);
+/* Does `all` hold of every disc that the pairs of site i of the view depend on? */
+dyd_status tile_is_closed(bool *closed, tile *t, const tiles_view *v, uint32_t i, bool wide, dyd_error *err);
+/* Where exact points and rectangles are mixed, a tie depends on the whole face: visits the faces of the triangulation
+ * that have a pair of exact points that this rank writes. */
+typedef dyd_status tile_face_fn(tile *t, const tiles_view *v, const dyd_index_list *site, const dyd_pair_list *pairs,
+                                dyd_error *err);
+dyd_status tile_each_face(tile *t, const tiles_view *v, size_t own, tile_face_fn *visit, dyd_error *err);
+/* Adds the rows of site i of the view: pairs with higher numbers. */
+dyd_status tile_rows_of(tiles_rows *rows, const tile *t, const tiles_view *v, uint32_t i, dyd_error *err);
+bool tile_has_wide(const tile *t);
+bool tile_is_mixed(const tile *t);
+
+/* ---- parts ---- */
+
+/* Bytes of a record: i and j of 8, status of 4, little-endian. */
+enum { TILES_RECORD = 20 };
+tiles_row tiles_row_decode(const unsigned char bytes[TILES_RECORD]);
+/* Writes the rows to the spool. */
+dyd_status tile_spool(tile *t, const tiles_rows *rows, dyd_error *err);
+/* The part, whole or not at all: spool and rows, then aliases. */
+dyd_status tile_write_part(tile *t, dyd_error *err);
+/* t->done: there is a part of just this rank, these points, these options; its aliases and counters are taken. */
+dyd_status tile_find_part(tile *t, dyd_error *err);
+/* Rank 0, with the counters of all in its mail: manifest.json. */
+dyd_status tile_write_manifest(tile *t, dyd_error *err);
+/* The rows of all parts in a folder, as `dyadel delaunay` writes them. */
+dyd_status tiles_write_csv(FILE *out, const char *folder, dyd_error *err);
+
+/* Name of a file in the folder; the caller frees it. NULL: memory is exhausted. */
+char *tiles_path(const char *folder, const char *name);
+void tiles_part_name(char name[32], size_t rank);
+/* A file that appears under its name when it is complete. */
+typedef struct tiles_file {
+  FILE *stream;
+  char *name, *temporary;
+} tiles_file;
+dyd_status tiles_file_open(tiles_file *f, const char *folder, const char *name, dyd_error *err);
+/* st, or what writing failed with; the file is there when that is DYD_OK. */
+dyd_status tiles_file_close(tiles_file *f, dyd_status st, dyd_error *err);
+
+#endif

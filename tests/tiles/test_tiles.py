@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""dyadel-tiles against one process: the union of the parts is the same, byte for byte [REACH-1] [TILE-1].
+
+Usage: test_tiles.py TILES DYADEL [MPIRUN]   (MPIRUN: ranks are processes; else one process is all of them)
+"""
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import tiles_cases as cases
+
+TILES, DYADEL = sys.argv[1:3]
+MPIRUN = sys.argv[3:4]
+RANKS = (1, 2, 4, 9)
+
+
+def command(ranks, *words):
+    if MPIRUN:
+        return [*MPIRUN, '--oversubscribe', '--allow-run-as-root', '-n', str(ranks), TILES, 'delaunay', *words]
+    return [TILES, 'delaunay', *words, '--tiles', str(ranks)]
+
+
+class Union(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.at = pathlib.Path(self.folder.name)
+        self.random = random.Random(cases.SEED)
+        self.addCleanup(self.folder.cleanup)
+
+    def run_tiles(self, ranks, *words):
+        return subprocess.run(command(ranks, *words), capture_output=True, text=True, timeout=1200)
+
+    def compare(self, rows, ranks=RANKS, more=()):
+        file, want = self.at / 'in.bin', cases.expected(DYADEL, rows)
+        cases.write(file, rows)
+        more = [*more, *(['--boxes'] if rows and len(rows[0]) == 4 else [])]
+        for count in ranks:
+            out = self.at / f'out{count}'
+            done = self.run_tiles(count, str(file), '-o', str(out), *more)
+            self.assertEqual(done.returncode, want[1], done.stderr)
+            joined = subprocess.run([TILES, 'to-csv', str(out)], capture_output=True)
+            self.assertEqual((joined.returncode, joined.stderr), (0, b''))
+            self.assertTrue(joined.stdout == want[0], f'{count} ranks differ')
+            self.check_parts(out, count, len(rows))
+        return out
+
+    def check_parts(self, out, ranks, points):
+        parts, own, seen = cases.parts_of(out), 0, set()
+        self.assertEqual(len(parts), ranks)
+        for rank, part in enumerate(parts):
+            header, (pairs, aliases) = cases.header_of(part), cases.records_of(part)
+            self.assertEqual(header['rank'], rank)
+            self.assertEqual([r[:2] for r in pairs], sorted({r[:2] for r in pairs}))
+            self.assertTrue(all(i < j and status in (1, 2, 3) for i, j, status in pairs))
+            self.assertTrue(all(i > j and status == 0 for i, j, status in aliases))
+            own += header['own']
+            self.assertFalse(seen & {r[0] for r in pairs})
+            seen |= {r[0] for r in pairs}
+        self.assertEqual(own, points)
+
+    def test_uniform(self):
+        self.compare(cases.uniform(10 ** 5 if cases.SCALE == 1 else 10 ** 6, self.random))
+
+    def test_clusters(self):
+        self.compare(cases.clusters(30000 if cases.SCALE == 1 else 400000, self.random))
+
+    def test_ring_and_square(self):
+        self.compare(cases.ring_and_square(20000 * cases.SCALE, self.random))
+
+    def test_circle(self):
+        self.compare(cases.circle(2000, self.random))
+
+    def test_grid(self):
+        self.compare(cases.grid(10000 if cases.SCALE == 1 else 100000, self.random))
+
+    def test_line(self):
+        self.compare(cases.line(300, self.random))
+
+    def test_equal(self):
+        self.compare(cases.equal(5000, self.random))
+
+    def test_repeated(self):
+        self.compare(cases.repeated(5000, self.random))
+
+    def test_boxes(self):
+        self.compare(cases.boxes(3000 * cases.SCALE, self.random))
+
+    def test_small_boxes(self):
+        self.compare(cases.boxes(20000 * cases.SCALE, self.random, 1e-6))
+
+    def test_long_boxes(self):
+        self.compare(cases.long_boxes(500, self.random), (2, 4))
+
+    def test_mixed(self):
+        """Ties of exact points, of faces that may reach over a border and touch a rectangle."""
+        self.compare(cases.mixed(1000, self.random))
+
+    def test_few_points(self):
+        for count in range(7):
+            for rows in (cases.uniform(count, self.random), cases.grid(count, self.random), cases.line(count, self.random),
+                         cases.boxes(count, self.random, 0.2)):
+                self.compare(rows, (1, 3) if MPIRUN else (1, 2, 3, 9))
+
+    def test_small_grids(self):
+        """Everything is tied, and everybody is at a border."""
+        for _ in range(3 if MPIRUN else 30 * cases.SCALE):
+            places = [(float(self.random.randrange(5)), float(self.random.randrange(5))) for _ in range(30)]
+            halves = [self.random.choice([0, 0, 0.25, 0.5, 1]) for _ in places]
+            self.compare(places, (4,))
+            self.compare([(x - h, x + h, y - h, y + h) for (x, y), h in zip(places, halves)], (4,))
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1], verbosity=2)
