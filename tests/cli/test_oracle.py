@@ -18,6 +18,7 @@ import time
 from harness import COMMAND, count, expect, main, run
 
 FOLDER, IN_C = (os.path.abspath(path) for path in sys.argv[3:5])
+PATIENCE = '3'  # seconds, in which any program is heard that has something to say
 MARK = f'DYADEL_TEST_MARK={os.getpid()}.{time.time()}'
 os.environ.update([MARK.split('=')])
 
@@ -141,14 +142,14 @@ def server(fault='pass', prefix='exec '):
 FAULTS = [
     ('sys.exit(3)', 'it ended with exit status 3; it must go on'),
     ('os.kill(os.getpid(), 9)', 'it was killed by signal 9'),
-    ('time.sleep(1000)', r'silent for 1 s; flush its output .*--oracle-timeout'),
+    ('time.sleep(1000)', r'silent for 3 s; flush its output .*--oracle-timeout'),
     ('print("lorem \x1b[2J ipsum", flush=True); return True', r'it wrote "lorem \?\[2J ipsum", which is no answer for point 3'),
     ('print("3 -9 9 -9 9", flush=True); return True', 'the new x side .* is not inside the old one .*must be a subset'),
     ('print("2 0 1 0 1", flush=True); return True', 'it wrote "2 0 1 0 1", which is no answer for point 3'),
     ('print("3 0 1 0", flush=True); return True', 'has not the five words I XLO XHI YLO YHI'),
     ('os.close(1); time.sleep(1000)', 'it has closed its standard output'),
     ('os.fork() or os.setpgid(0, 0) or time.sleep(3); sys.exit(4)', 'exit status 4'),
-    ('os.fork() and sys.exit(3); time.sleep(1000)', 'exit status 3, and what it left running was silent for 1 s'),
+    ('os.fork() and sys.exit(3); time.sleep(1000)', 'exit status 3, and what it left running was silent for 3 s'),
     ('[os.write(1, b"7" * 65536) for _ in iter(int, 1)]', 'a line of more than 1048576 bytes'),
     ('[os.write(1, b"\\n" * 65536) for _ in iter(int, 1)]', 'it wrote "", which is no answer'),
 ]
@@ -158,7 +159,7 @@ def test_faults():
     for fault, message in FAULTS:
         for jobs, batch in ((1, 1), (4, 3)):
             begun = time.monotonic()
-            result = ask(server(fault), '--oracle-timeout', '1' if 'sleep(1000)' in fault else '60',
+            result = ask(server(fault), '--oracle-timeout', PATIENCE if 'sleep(1000)' in fault else '60',
                          '--oracle-jobs', str(jobs), '--oracle-batch', str(batch))
             expect(result, 1, err=rf'^dyadel: point 3: the oracle program was asked "refine 3 256": .*({message})')
             assert count(result.out) == KNOWN, (fault, result)
@@ -171,9 +172,9 @@ def test_behind_a_shell():
         result = ask(server(prefix=prefix), '--quiet')
         expect(result, 0)
         assert count(result.out) == {'legal': 5}, result.out
-        for fault, message in (('os.close(1); time.sleep(1000)', 'silent for 1 s'), ('sys.exit(3)', 'exit status 3|silent'),
+        for fault, message in (('os.close(1); time.sleep(1000)', 'silent for 3 s'), ('sys.exit(3)', 'exit status 3|silent'),
                                ('os.kill(os.getpid(), 9)', 'exit status 137|silent')):
-            result = ask(server(fault, prefix), '--oracle-timeout', '1')
+            result = ask(server(fault, prefix), '--oracle-timeout', PATIENCE)
             expect(result, 1, err=message)
             assert count(result.out) == KNOWN, (prefix, fault, result)
 
@@ -188,7 +189,7 @@ def test_closes_its_input():
     for jobs in '1', '4':
         # After its good answer for point 3 it is deaf; the next request of the program meets that.
         fault = 'os.dup2(os.open("/dev/null", 0), 0) if point == 3 and bits >= 64 else None'
-        result = ask(server().replace('    print(point', f'    {fault}\n    print(point'), '--oracle-timeout', '1',
+        result = ask(server().replace('    print(point', f'    {fault}\n    print(point'), '--oracle-timeout', PATIENCE,
                      '--oracle-jobs', jobs)
         expect(result, 1, err='^dyadel: point [03]: .*(ended with exit status 0|closed its standard input)')
 
@@ -196,10 +197,10 @@ def test_closes_its_input():
 def test_faults_at_start():
     for command, message in (('exit 7', 'was to print "points N".*exit status 7'), (' ', 'exit status 0'),
                              ('no-such-program-at-all 2>/dev/null', 'exit status 127 .the shell did not find'),
-                             ('sleep 1000', 'silent for 1 s'), ('echo hello; cat', 'is "hello"; print "points N"'),
+                             ('sleep 1000', 'silent for 3 s'), ('echo hello; cat', 'is "hello"; print "points N"'),
                              ('yes', 'is "y"; print'), ('cat /dev/zero', 'more than 1048576 bytes'),
                              ('echo points 1e3; cat', 'is "points 1e3"; print')):
-        result = ask(command, '--oracle-timeout', '1')
+        result = ask(command, '--oracle-timeout', PATIENCE)
         expect(result, 1, r'\A\Z', message)
 
 
