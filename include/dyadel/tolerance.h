@@ -42,6 +42,9 @@ typedef struct dyd_tolerance_options {
   const volatile int *cancel; /* as in dyd_delaunay_options */
   bool no_filter;             /* decide everything on the exact rung (for tests) */
   double sigma;               /* also probabilities, for normal errors of this standard deviation; 0: none */
+  /* Of each site, >= 0: it moves by at most t times its weight, 0: not at all; of aliases the largest counts. Results
+   * hold for these numbers and for all that they are next to as doubles. NULL: 1 each. Borrowed for the call. */
+  const double *weight;
 } dyd_tolerance_options;
 
 typedef struct dyd_tolerance dyd_tolerance;
@@ -49,6 +52,8 @@ typedef struct dyd_tolerance dyd_tolerance;
 /* The tolerances of the exact points of pd, which is borrowed until dyd_tolerance_free and must not change. options may
  * be NULL. Returns DYD_OK; DYD_E_ARG with a message when a site is no exact point, or for a negative up_to; DYD_CAPPED
  * when there are too many pairs for births; DYD_CANCELLED; DYD_E_NOMEM: *out is NULL then.
+ * With weights [TOL-8] hi - lo may be more where doubles do not place a circle: where one disc grows to be all but in
+ * another one; and each pair costs some hundred decisions about discs.
  * Cost: O(N log N) for deaths [TOL-4]; births take the partial triangulation of squares of half-width up_to, and a few
  * searches for each of its pairs; points a search for each edge. */
 DYD_API dyd_status dyd_tolerance_new(dyd_tolerance **out, const dyd_delaunay *pd, const dyd_tolerance_options *options,
@@ -68,7 +73,7 @@ DYD_API const double *dyd_tolerance_points(const dyd_tolerance *t);
  * unless options.sigma was set. */
 DYD_API const double *dyd_tolerance_chances(const dyd_tolerance *t);
 /* The exact event of row number `row`: |sqrt(plus) - sqrt(minus)| / 2; both are initialised by the caller. DYD_E_ARG
- * where lo is infinite, or there is no such row. O(1) */
+ * where lo is infinite, or there is no such row, or there are weights: no such form is known then. O(1) */
 DYD_API dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_tolerance *t, size_t row);
 /* How many deaths doubles decided, and how many integers. */
 DYD_API void dyd_tolerance_rungs(uint64_t *filter, uint64_t *exact, const dyd_tolerance *t);

@@ -102,7 +102,8 @@ const cli_option cli_option_table[] = {
     {"decimal-comma", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "47,61 is 47.61", AT(read.decimal_comma)},
     {"radius-column", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT,
      "widen each point by what stands in this column;\nNAME,NAME for x and y apart; with --sphere values may\nhave a "
-     "unit, as --radius",
+     "unit, "
+     "as --radius; tolerance: each point moves in\nproportion to it, 0: not at all",
      AT(read.radius_columns)},
     {"cost-column", 0, "NAME", CLI_TEXT, BIT(CLI_PLAN), CLI_INPUT,
      "what measuring a point costs stands in this column: plans\nare made cheap, not short", AT(read.cost_column)},

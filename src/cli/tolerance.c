@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* dyadel tolerance FILE: how far the points may move. */
 #include "cli.h"
+#include <stdlib.h>
 
 typedef struct tolerance_run {
   dyd_tolerance *tolerance;
   const dyd_engine *engine;
   mpq_t up_to, sigma;
+  double *weight;
   dyd_rect window;
 } tolerance_run;
 
@@ -14,6 +16,16 @@ static dyd_status tolerance_write(FILE *out, const void *what, const cli_options
   const dyd_tolerance_output how = {DYD_SIZED(dyd_tolerance_output), o->window ? &r->window : NULL, o->content,
                                     o->epsg};
   return dyd_write_tolerance(out, r->engine, r->tolerance, &how, o->format, err);
+}
+
+/* How far points move, each by its own measure, stands in the column of radii. */
+static dyd_status tolerance_weights(tolerance_run *r, const cli_options *o) {
+  size_t n = dyd_engine_count(r->engine);
+  if (!o->read.radius_columns) return DYD_OK;
+  r->weight = malloc((n + 1) * sizeof *r->weight);
+  if (!r->weight) return DYD_E_NOMEM;
+  for (size_t i = 0; i < n; i++) r->weight[i] = dyd_engine_radius(r->engine, i);
+  return DYD_OK;
 }
 
 /* The triangulation of the points as they are, and what it tolerates. */
@@ -28,13 +40,15 @@ static dyd_status tolerance_find(dyd_engine *e, const dyd_engine_options *option
   if (st != DYD_OK || !dyd_engine_delaunay(e)) return st;
   if (mpq_sgn(r->up_to)) o.up_to = r->up_to;
   o.sigma = mpq_get_d(r->sigma);
+  o.weight = r->weight;
   st = dyd_tolerance_new(&r->tolerance, dyd_engine_delaunay(e), &o, err);
   return st == DYD_CANCELLED ? DYD_OK : st;
 }
 
 static int tolerance_all(cli_session *s, tolerance_run *r, const cli_options *o) {
   r->engine = s->engine;
-  int status = cli_session_run_by(s, &o->engine, tolerance_find, r);
+  int status = tolerance_weights(r, o) == DYD_OK ? 0 : cli_complain_memory();
+  if (!status) status = cli_session_run_by(s, &o->engine, tolerance_find, r);
   cli_session_settle(s);
   if (!status && r->tolerance) return cli_write_file(o->output, o, tolerance_write, r);
   return status ? status : cli_session_stopped(s, "the tolerances were");
@@ -52,6 +66,7 @@ int cli_tolerance(const cli_options *o) {
   tolerance_run r = {0};
   cli_options own = *o;
   cli_session s;
+  own.read.keep_radii = true;
   mpq_inits(r.up_to, r.sigma, NULL);
   dyd_rect_init(&r.window);
   int status = o->up_to ? cli_number_read(r.up_to, "up-to", o->up_to) : 0;
@@ -66,6 +81,7 @@ int cli_tolerance(const cli_options *o) {
     int end = cli_session_close(&s, status ? status : CLI_USAGE);
     if (status) status = end;
   }
+  free(r.weight);
   dyd_rect_clear(&r.window);
   mpq_clears(r.up_to, r.sigma, NULL);
   return status;

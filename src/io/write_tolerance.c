@@ -187,8 +187,8 @@ static dyd_status json_event(FILE *out, const dyd_engine *e, const dyd_tolerance
     fputs(", \"probability\": ", out);
     dyd_decimal_put(out, dyd_tolerance_chances(t)[number], DYD_DOWN, "null");
   }
-  dyd_status st = isfinite(row->lo) ? dyd_tolerance_exact(q[0], q[1], t, number) : DYD_OK;
-  if (st == DYD_OK && isfinite(row->lo)) {
+  dyd_status st = dyd_tolerance_exact(q[0], q[1], t, number);
+  if (st == DYD_OK) {
     fputs(", \"plus\": \"", out);
     mpq_out_str(out, 10, q[0]);
     fputs("\", \"minus\": \"", out);
@@ -196,7 +196,7 @@ static dyd_status json_event(FILE *out, const dyd_engine *e, const dyd_tolerance
     fputs("\"", out);
   }
   fputs("}", out);
-  return st;
+  return st == DYD_E_ARG ? DYD_OK : st; /* there is no exact form */
 }
 
 static dyd_status json_events(FILE *out, const dyd_engine *e, const dyd_tolerance *t) {

@@ -60,15 +60,18 @@ static dyd_status make_squares(dyd_sites *squares, const dyd_tolerance *t) {
   const dyd_sites *sites = t->sk->reps.sites;
   int64_t exp = dyd_q_log2_above(t->options.up_to) - 20;
   dyd_rect r;
-  mpq_t end[2];
+  mpq_t end[2], half;
   dyd_rect_init(&r);
-  mpq_inits(end[0], end[1], NULL);
+  mpq_inits(end[0], end[1], half, NULL);
   dyd_status st = DYD_OK;
   for (size_t i = 0; i < dyd_sites_count(sites) && st == DYD_OK; i++) {
     st = dyd_sites_get(&r, sites, i);
-    if (st == DYD_OK) st = add_square(squares, &r, end, t->options.up_to, exp);
+    mpq_set(half, t->options.up_to);
+    if (t->weight) mpq_set_d(half, t->weight[t->sk->vertex[i]]);
+    if (t->weight) mpq_mul(half, half, t->options.up_to);
+    if (st == DYD_OK) st = add_square(squares, &r, end, half, exp);
   }
-  mpq_clears(end[0], end[1], NULL);
+  mpq_clears(end[0], end[1], half, NULL);
   dyd_rect_clear(&r);
   return st;
 }
@@ -82,6 +85,8 @@ static dyd_status births_among(dyd_tolerance *t, const dyd_pair_list *pairs) {
     if (dyd_delaunay_alias(t->pd, p->i) != p->i || dyd_delaunay_alias(t->pd, p->j) != p->j) continue;
     if (p->status == DYD_LEGAL || dyd_delaunay_status(t->pd, p->i, p->j) != DYD_ILLEGAL) continue;
     uint32_t v = t->sk->vertex[p->i], w = t->sk->vertex[p->j];
+    if (t->weight) st = dyd_row_add(t, v, w, DYD_EVENT_BIRTH, DYD_NONE, DYD_NONE, 0, HUGE_VAL);
+    if (t->weight) continue;
     st = dyd_birth_exact(&late, t, v, w);
     if (st == DYD_OK && !late) st = dyd_row_add_summit(t, v, w, DYD_EVENT_BIRTH);
   }

@@ -196,6 +196,7 @@ bool dyd_caps_uncovered(dyd_direction *u, dyd_caps *c) {
       *u = dyd_filter_cap_end(&c->item[e], turn);
       while (k < c->count && (is_empty(&c->item[k]) || end_against(c, &c->item[e], turn, u, &c->item[k]) <= 0)) k++;
       if (k < c->count) continue;
+      c->by[0] = c->by[1] = e;
       return true;
     }
   }
@@ -222,6 +223,7 @@ bool dyd_caps_common(dyd_direction *u, dyd_caps *c) {
       if (*have) continue;
       end[turn > 0] = dyd_filter_cap_end(&c->item[e], turn);
       *have = begins_common(c, e, turn, &end[turn > 0]);
+      c->by[turn > 0] = e;
     }
   }
   if (!found[0] || !found[1]) return false;

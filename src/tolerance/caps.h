@@ -48,6 +48,7 @@ typedef struct dyd_caps {
   mpq_t qx, qy, rho;
   dyd_cap *item;
   size_t count, made, cap;
+  size_t by[2]; /* whose ends the direction found is between, or at */
   mpq_t a, b, s, t;
 } dyd_caps;
 

@@ -8,23 +8,13 @@
 #include "base/alloc.h"
 #include "base/error.h"
 #include "delaunay/undecided.h"
-#include "tolerance/caps.h"
+#include "tolerance/discs.h"
 #include <dyadel/tolerance.h>
 
 #include <math.h>
 
 #define ROOM 0x1p-48
 enum { FIRST_SEEN = 10, MOST_NEW = 4, MOST_ROUNDS = 400 };
-
-typedef struct disc_work {
-  const dyd_delaunay *pd;
-  dyd_disc *disc; /* by vertex */
-  dyd_caps caps;
-  uint32_t i, j; /* vertices, the smaller disc first */
-  uint32_t *seen;
-  size_t count, cap;
-  bool failed;
-} disc_work;
 
 /* ---- discs ---- */
 
@@ -57,7 +47,7 @@ static bool disc_of_square(dyd_disc *d, const dyd_rect *r) {
   return square;
 }
 
-static dyd_status make_discs(disc_work *w, dyd_error *err) {
+static dyd_status make_discs(dyd_disc_work *w, dyd_error *err) {
   const dyd_skeleton *sk = &w->pd->sk;
   dyd_rect r;
   dyd_status st = DYD_OK;
@@ -75,7 +65,7 @@ static dyd_status make_discs(disc_work *w, dyd_error *err) {
 
 /* ---- who is looked at ---- */
 
-static bool see(disc_work *w, uint32_t v) {
+bool dyd_discs_see(dyd_disc_work *w, uint32_t v) {
   if (v == w->i || v == w->j) return false;
   for (size_t k = 0; k < w->count; k++)
     if (w->seen[k] == v) return false;
@@ -86,19 +76,19 @@ static bool see(disc_work *w, uint32_t v) {
 
 static void see_neighbour(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
   (void)v, (void)status;
-  disc_work *d = context;
-  if (d->count < FIRST_SEEN) see(d, w);
+  dyd_disc_work *d = context;
+  if (d->count < FIRST_SEEN) dyd_discs_see(d, w);
 }
 
 /* A circle, about; reach: the squares that come so near are looked at. */
 typedef struct circle_d {
-  disc_work *w;
+  dyd_disc_work *w;
   double x, y, radius, reach;
   bool legal, good;
   size_t added;
 } circle_d;
 
-static double size_d(const disc_work *w, uint32_t v) {
+static double size_d(const dyd_disc_work *w, uint32_t v) {
   const dyd_disc *d = &w->disc[v];
   return fabs(mpq_get_d(d->x)) + fabs(mpq_get_d(d->y)) + mpq_get_d(d->r);
 }
@@ -119,12 +109,12 @@ static bool meet_square(void *context, uint32_t v) {
   if (v == c->w->i || v == c->w->j) return true;
   if (c->legal ? d - r > c->radius + room : d + r > c->radius + room) return true;
   c->good = false;
-  c->added += see(c->w, v);
+  c->added += dyd_discs_see(c->w, v);
   return c->added < MOST_NEW && !c->w->failed;
 }
 
 /* The circle of direction u: legal, the discs i and j just inside; possible, just meeting it. */
-static bool place_circle_of(circle_d *c, disc_work *w, dyd_direction u, bool legal) {
+static bool place_circle_of(circle_d *c, dyd_disc_work *w, dyd_direction u, bool legal) {
   const dyd_disc *i = &w->disc[w->i], *j = &w->disc[w->j];
   double jx = mpq_get_d(j->x) - mpq_get_d(i->x), jy = mpq_get_d(j->y) - mpq_get_d(i->y);
   double delta = mpq_get_d(j->r) - mpq_get_d(i->r), n = jx * jx + jy * jy - delta * delta;
@@ -148,7 +138,7 @@ static void look_around_circle(circle_d *c) {
 /* Far circles: everybody beyond the tangent of i, about. */
 static bool meet_beyond(void *context, uint32_t v) {
   circle_d *c = context;
-  c->added += see(c->w, v);
+  c->added += dyd_discs_see(c->w, v);
   return c->added < MOST_NEW && !c->w->failed;
 }
 
@@ -160,9 +150,7 @@ static void look_beyond(circle_d *c, dyd_direction u) {
 
 /* ---- one pair ---- */
 
-/* The caps of all that are seen; false: one of them meets i or j, so that there is no witness. Who meets one of them
- * blocks nothing. */
-static bool load_caps(disc_work *w, bool legal) {
+bool dyd_discs_load(dyd_disc_work *w, bool legal) {
   const dyd_disc *i = &w->disc[w->i], *j = &w->disc[w->j];
   if (!dyd_caps_begin(&w->caps, i, j, legal)) w->failed = true;
   for (size_t k = 0; k < w->count && !w->failed; k++) {
@@ -174,11 +162,11 @@ static bool load_caps(disc_work *w, bool legal) {
   return !w->failed;
 }
 
-static bool discs_are_legal(disc_work *w) {
+static bool discs_are_legal(dyd_disc_work *w) {
   for (int round = 0; round < MOST_ROUNDS; round++) {
     circle_d c;
     dyd_direction u;
-    if (!load_caps(w, true) || !dyd_caps_common(&u, &w->caps)) return false;
+    if (!dyd_discs_load(w, true) || !dyd_caps_common(&u, &w->caps)) return false;
     if (!place_circle_of(&c, w, u, true)) return false;
     look_around_circle(&c);
     if (c.good) return true;
@@ -188,7 +176,7 @@ static bool discs_are_legal(disc_work *w) {
 }
 
 /* The small disc is in the large one, whose own centre is the best one then. */
-static bool large_is_legal(disc_work *w) {
+static bool large_is_legal(dyd_disc_work *w) {
   const dyd_disc *j = &w->disc[w->j];
   circle_d c = {
       .w = w, .x = mpq_get_d(j->x), .y = mpq_get_d(j->y), .radius = mpq_get_d(j->r), .legal = true, .good = true};
@@ -198,11 +186,11 @@ static bool large_is_legal(disc_work *w) {
   return c.good;
 }
 
-static bool discs_are_possible(disc_work *w) {
+static bool discs_are_possible(dyd_disc_work *w) {
   for (int round = 0; round < MOST_ROUNDS; round++) {
     circle_d c;
     dyd_direction u;
-    if (!load_caps(w, false)) return true;
+    if (!dyd_discs_load(w, false)) return true;
     if (!dyd_caps_uncovered(&u, &w->caps)) return false;
     if (place_circle_of(&c, w, u, false))
       look_around_circle(&c);
@@ -213,7 +201,7 @@ static bool discs_are_possible(disc_work *w) {
   return true;
 }
 
-static dyd_pair_status discs_status(disc_work *w, uint32_t i, uint32_t j) {
+static dyd_pair_status discs_status(dyd_disc_work *w, uint32_t i, uint32_t j) {
   bool swap = mpq_cmp(w->disc[i].r, w->disc[j].r) > 0;
   w->i = swap ? j : i;
   w->j = swap ? i : j;
@@ -227,7 +215,7 @@ static dyd_pair_status discs_status(disc_work *w, uint32_t i, uint32_t j) {
   return possible ? DYD_INDETERMINATE : DYD_ILLEGAL;
 }
 
-static dyd_status decide_discs(disc_work *w, dyd_pair_list *list) {
+static dyd_status decide_discs(dyd_disc_work *w, dyd_pair_list *list) {
   const uint32_t *vertex = w->pd->sk.vertex;
   size_t kept = 0;
   for (size_t k = 0; k < list->count && !w->failed; k++) {
@@ -240,7 +228,7 @@ static dyd_status decide_discs(disc_work *w, dyd_pair_list *list) {
 }
 
 dyd_status dyd_disc_pairs(dyd_pair_list *out, const dyd_delaunay *pd, dyd_error *err) {
-  disc_work w = {.pd = pd};
+  dyd_disc_work w = {.pd = pd};
   dyd_pair_list list = {0};
   uint32_t n = pd->sk.n;
   if (err) dyd_error_clear(err);

@@ -161,7 +161,7 @@ static dyd_status pass_hull(radius_pass *p) {
   do {
     double lo, hi;
     dyd_half_edge next = dyd_hull_following(m, h);
-    st = dyd_hull_corner(&lo, &hi, p->t, h);
+    st = dyd_hull_corner(&lo, &hi, p->t, h, false);
     keep_least(&p->radius[dyd_hull_origin(m, h)], lo);
     keep_least(&p->radius[dyd_hull_target(m, h)], lo);
     keep_least(&p->radius[dyd_hull_target(m, next)], lo);

@@ -7,6 +7,7 @@
  *   near_filter.c       which sites a pair needs; who else is near
  *   deaths.c, births.c  all pairs
  *   whole.c             the whole; points_filter.c: each point; chance_filter.c: probabilities
+ *   weights_filter.c    the same where points have weights
  *   rows.c, tolerance.c the sorted rows; the public calls */
 #ifndef DYD_TOLERANCE_STATE_H
 #define DYD_TOLERANCE_STATE_H
@@ -35,6 +36,8 @@ struct dyd_tolerance {
   dyd_tolerance_options options;
   dyd_tolerance_row *row;
   size_t rows, cap;
+  double *weight; /* of a vertex, the largest of those at its place; NULL: all are 1 */
+  double heaviest;
   double lo, hi; /* of the whole */
   double *radius;
   double *chance;   /* of each row, once sorted, where sigma was given */
@@ -75,10 +78,13 @@ dyd_status dyd_death_exact(dyd_tolerance *t, uint32_t v, uint32_t w);
 dyd_status dyd_births(dyd_tolerance *t, dyd_error *err);
 /* t->summit becomes that of a pair that is no edge. *late: it is above t->options.up_to for sure. */
 dyd_status dyd_birth_exact(bool *late, dyd_tolerance *t, uint32_t v, uint32_t w);
+/* Where points have weights: the deaths and births found so far become those with weights, without births above
+ * up_to. What is given as birth is only listed. */
+dyd_status dyd_weigh(dyd_tolerance *t);
 dyd_status dyd_whole(dyd_tolerance *t);
 /* Half the distance of a corner v of the hull, at which hull edge h ends, to the line through the corners before and
- * behind, unless these are an edge: infinite then. */
-dyd_status dyd_hull_corner(double *lo, double *hi, const dyd_tolerance *t, dyd_half_edge h);
+ * behind, unless these are an edge: infinite then. weighted: from where on their discs let v come between them. */
+dyd_status dyd_hull_corner(double *lo, double *hi, const dyd_tolerance *t, dyd_half_edge h, bool weighted);
 dyd_status dyd_points_radius(dyd_tolerance *t);
 /* chance_filter.c: after dyd_rows_sort. */
 dyd_status dyd_chances(dyd_tolerance *t);

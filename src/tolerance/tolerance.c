@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Tolerances: the public calls. */
 #include "base/abi.h"
+#include "base/alloc.h"
 #include "base/error.h"
 #include "base/float_filter.h"
 #include "tolerance/state.h"
@@ -22,6 +23,12 @@ static dyd_status check_points(const dyd_tolerance *t, dyd_error *err) {
     return dyd_fail(err, DYD_CAPPED, "there are more ties than can be stored; raise --max-pairs");
   if (t->options.up_to && mpq_sgn(t->options.up_to) < 0)
     return dyd_fail(err, DYD_E_ARG, "births up to a negative number: give a positive one");
+  for (uint32_t i = 0; t->options.weight && i < t->sk->n; i++)
+    if (!(t->options.weight[i] >= 0 && t->options.weight[i] <= 0x1p400)) {
+      if (err) err->point = i;
+      return dyd_fail(err, DYD_E_ARG,
+                      "the weight of a point is not a number >= 0, below 2^400; give one such as 0, 1 or 2.5");
+    }
   if (!(t->options.sigma >= 0 && t->options.sigma < HUGE_VAL))
     return dyd_fail(err, DYD_E_ARG, "a standard deviation that is no positive number: give one, or 0 for none");
   return DYD_OK;
@@ -38,15 +45,31 @@ static void add_tie(void *context, uint32_t v, uint32_t w, dyd_pair_status statu
     r->status = dyd_row_add(r->t, v, w, DYD_EVENT_TIE, DYD_NONE, DYD_NONE, 0, 0);
 }
 
+/* By vertex; of points at one place the largest. */
+static dyd_status take_weights(dyd_tolerance *t) {
+  const dyd_skeleton *sk = t->sk;
+  t->weight = dyd_alloc(sk->n, sizeof *t->weight);
+  if (!t->weight) return DYD_E_NOMEM;
+  for (uint32_t v = 0; v < sk->n; v++) t->weight[v] = t->options.weight[sk->reps.site[v]];
+  for (uint32_t v = 0; v < sk->n; v++) {
+    uint32_t of = dyd_mesh_alias(&sk->mesh, v);
+    if (of != DYD_NONE && t->weight[of] < t->weight[v]) t->weight[of] = t->weight[v];
+    if (t->heaviest < t->weight[v]) t->heaviest = t->weight[v];
+  }
+  return DYD_OK;
+}
+
 static dyd_status tolerance_work(dyd_tolerance *t, dyd_error *err) {
   tie_rows ties = {t, DYD_OK};
   dyd_status st = dyd_near_prepare(t);
   if (st == DYD_OK) st = dyd_deaths(t);
   if (st == DYD_OK) dyd_each_pair(t->pd, add_tie, &ties);
   if (st == DYD_OK) st = ties.status;
+  if (st == DYD_OK && t->options.weight) st = take_weights(t);
+  if (st == DYD_OK && t->options.up_to && mpq_sgn(t->options.up_to)) st = dyd_births(t, err);
+  if (st == DYD_OK && t->weight) st = dyd_weigh(t);
   if (st == DYD_OK) st = dyd_whole(t);
   if (st == DYD_OK && t->options.points) st = dyd_points_radius(t);
-  if (st == DYD_OK && t->options.up_to && mpq_sgn(t->options.up_to)) st = dyd_births(t, err);
   if (st == DYD_OK) st = dyd_rows_sort(t);
   return st == DYD_OK && t->options.sigma > 0 ? dyd_chances(t) : st;
 }
@@ -81,6 +104,7 @@ void dyd_tolerance_free(dyd_tolerance *t) {
   dyd_lines_clear(&t->lines);
   free(t->ring);
   free(t->radius);
+  free(t->weight);
   free(t->chance);
   free(t->row);
   free(t);
@@ -113,7 +137,7 @@ void dyd_tolerance_rungs(uint64_t *filter, uint64_t *exact, const dyd_tolerance 
 
 /* What binds is known: the summit of these lines alone is that of all; a birth is where they cross. */
 dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_tolerance *t, size_t row) {
-  if (row >= t->rows || t->row[row].lo == HUGE_VAL) return DYD_E_ARG;
+  if (row >= t->rows || t->row[row].lo == HUGE_VAL || t->weight) return DYD_E_ARG;
   const dyd_tolerance_row *r = &t->row[row];
   const uint32_t *vertex = t->sk->vertex;
   mpq_set_ui(plus, 0, 1);

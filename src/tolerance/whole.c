@@ -3,35 +3,48 @@
 #include "tolerance/roots.h"
 #include "tolerance/state.h"
 
-/* |cross|^2 / |w - u|^2 of three points, in their own units: the squared distance of v to the line uw. */
-static dyd_status distance2(mpq_ptr out, const dyd_tolerance *t, const uint32_t v[3]) {
+/* The vectors a = u - v, b = w - u of three corners u, v, w. */
+static dyd_status corner_vectors(mpq_t a[2], mpq_t b[2], const dyd_tolerance *t, const uint32_t v[3]) {
   dyd_rect r[3];
-  mpq_t p[3][2], other, x, y;
+  mpq_t other, p;
   dyd_status st = DYD_OK;
-  mpq_inits(other, x, y, NULL);
+  mpq_inits(other, p, NULL);
   for (int k = 0; k < 3; k++) {
-    mpq_inits(p[k][0], p[k][1], NULL);
     dyd_rect_init(&r[k]);
     if (st == DYD_OK) st = dyd_sites_get(&r[k], t->sk->reps.sites, t->sk->reps.site[v[k]]);
-    dyd_interval_get_q(p[k][0], other, &r[k].x);
-    dyd_interval_get_q(p[k][1], other, &r[k].y);
   }
-  for (int k = 1; k >= -1; k -= 2) /* relative to u */
-    for (int axis = 0; axis < 2; axis++) mpq_sub(p[k > 0 ? 1 : 2][axis], p[k > 0 ? 1 : 2][axis], p[0][axis]);
-  mpq_mul(x, p[1][0], p[2][1]);
-  mpq_mul(y, p[1][1], p[2][0]);
-  mpq_sub(out, x, y);
-  mpq_mul(out, out, out);
-  mpq_mul(x, p[2][0], p[2][0]);
-  mpq_mul(y, p[2][1], p[2][1]);
-  mpq_add(x, x, y);
-  mpq_div(out, out, x);
-  for (int k = 0; k < 3; k++) {
-    dyd_rect_clear(&r[k]);
-    mpq_clears(p[k][0], p[k][1], NULL);
+  for (int axis = 0; axis < 2; axis++) {
+    dyd_interval_get_q(a[axis], other, axis ? &r[0].y : &r[0].x);
+    dyd_interval_get_q(p, other, axis ? &r[2].y : &r[2].x);
+    mpq_sub(b[axis], p, a[axis]);
+    dyd_interval_get_q(p, other, axis ? &r[1].y : &r[1].x);
+    mpq_sub(a[axis], a[axis], p);
   }
-  mpq_clears(other, x, y, NULL);
+  for (int k = 0; k < 3; k++) dyd_rect_clear(&r[k]);
+  mpq_clears(other, p, NULL);
   return st;
+}
+
+static void inner_product(mpq_ptr out, mpq_t a[2], mpq_t b[2]) {
+  mpq_t x;
+  mpq_init(x);
+  mpq_mul(out, a[0], b[0]);
+  mpq_mul(x, a[1], b[1]);
+  mpq_add(out, out, x);
+  mpq_clear(x);
+}
+
+/* Squared distance of v to the line uw: |a x b|^2 / |b|^2. */
+static void distance2(mpq_ptr out, mpq_t a[2], mpq_t b[2]) {
+  mpq_t x;
+  mpq_init(x);
+  mpq_mul(out, a[0], b[1]);
+  mpq_mul(x, a[1], b[0]);
+  mpq_sub(out, out, x);
+  mpq_mul(out, out, out);
+  inner_product(x, b, b);
+  mpq_div(out, out, x);
+  mpq_clear(x);
 }
 
 static void lower_whole(dyd_tolerance *t, double lo, double hi) {
@@ -39,17 +52,66 @@ static void lower_whole(dyd_tolerance *t, double lo, double hi) {
   if (hi < t->hi) t->hi = hi;
 }
 
-dyd_status dyd_hull_corner(double *lo, double *hi, const dyd_tolerance *t, dyd_half_edge h) {
+/* Discs about u and w, of radius t times their weights, hold between them those about a + s b, 0 <= s <= 1, of radius t
+ * (r_u + s (r_w - r_u)): that of v meets one of these from t^2 = min |a + s b|^2 / L^2 on, L = p + s q, p = r_v + r_u,
+ * q = r_w - r_u. Between the ends that is at s = (q a.a - p a.b) / (p b.b - q a.b); at them v meets u or w, which takes
+ * an edge. */
+static void weighted_corner(double *lo, double *hi, const dyd_tolerance *t, const uint32_t v[3], mpq_t a[2],
+                            mpq_t b[2]) {
+  mpq_t p, q, s, x, y, zero;
+  mpq_inits(p, q, s, x, y, zero, NULL);
+  mpq_set_d(p, t->weight[v[0]]);
+  mpq_set_d(q, t->weight[v[2]]);
+  mpq_sub(q, q, p);
+  mpq_set_d(x, t->weight[v[1]]);
+  mpq_add(p, p, x);
+  inner_product(x, a, b);
+  mpq_mul(y, p, x);
+  mpq_mul(x, q, x);
+  inner_product(zero, a, a);
+  mpq_mul(s, q, zero);
+  mpq_sub(s, s, y);
+  inner_product(zero, b, b);
+  mpq_mul(y, p, zero);
+  mpq_sub(y, y, x);
+  if (mpq_sgn(y)) mpq_div(s, s, y);
+  if (mpq_sgn(y) && mpq_sgn(s) >= 0 && mpq_cmp_si(s, 1, 1) <= 0) {
+    mpq_mul(q, q, s);
+    mpq_add(p, p, q);
+    for (int axis = 0; axis < 2; axis++) {
+      mpq_mul(x, b[axis], s);
+      mpq_add(a[axis], a[axis], x);
+    }
+    inner_product(x, a, a);
+    mpq_mul_2exp(x, x, 2);
+    mpq_mul(p, p, p);
+    mpq_set_ui(zero, 0, 1);
+    if (mpq_sgn(p)) {
+      mpq_div(x, x, p);
+      dyd_roots_half(lo, hi, x, zero);
+      *lo *= 1 - 0x1p-51; /* weights may be the doubles next to what is meant */
+      *hi *= 1 + 0x1p-50;
+    }
+  }
+  mpq_clears(p, q, s, x, y, zero, NULL);
+}
+
+dyd_status dyd_hull_corner(double *lo, double *hi, const dyd_tolerance *t, dyd_half_edge h, bool weighted) {
   const dyd_mesh *m = &t->sk->mesh;
   uint32_t v[3] = {dyd_hull_origin(m, h), dyd_hull_target(m, h), dyd_hull_target(m, dyd_hull_following(m, h))};
-  mpq_t d, zero;
+  mpq_t a[2], b[2], d, zero;
   *lo = *hi = HUGE_VAL;
   /* uw is an edge exactly when v has no other neighbours */
   if (t->degree[v[1]] == 3) return DYD_OK;
-  mpq_inits(d, zero, NULL);
-  dyd_status st = distance2(d, t, v);
-  if (st == DYD_OK) dyd_roots_half(lo, hi, d, zero);
-  mpq_clears(d, zero, NULL);
+  mpq_inits(a[0], a[1], b[0], b[1], d, zero, NULL);
+  dyd_status st = corner_vectors(a, b, t, v);
+  if (st == DYD_OK && weighted)
+    weighted_corner(lo, hi, t, v, a, b);
+  else if (st == DYD_OK) {
+    distance2(d, a, b);
+    dyd_roots_half(lo, hi, d, zero);
+  }
+  mpq_clears(a[0], a[1], b[0], b[1], d, zero, NULL);
   return st;
 }
 
@@ -63,7 +125,7 @@ dyd_status dyd_whole(dyd_tolerance *t) {
   dyd_half_edge first = dyd_hull_first(m), h = first;
   do {
     double lo, hi;
-    st = dyd_hull_corner(&lo, &hi, t, h);
+    st = dyd_hull_corner(&lo, &hi, t, h, t->weight);
     if (st == DYD_OK) lower_whole(t, lo, hi);
     h = dyd_hull_following(m, h);
   } while (st == DYD_OK && h != first);

@@ -124,6 +124,31 @@ def test_sigma():
         expect(run('tolerance', '--sigma', wrong, '-', stdin=SQUARE), 2, r'\A\Z', '--sigma ".*" is not understood; give')
 
 
+def test_weights():
+    """Events in units of the column; 0 is fixed; no exact form; what is wrong is told with its place."""
+    table = 'x,y,w\n' + ''.join(f'{line.replace(" ", ",")},{w}\n' for line, w in zip('0 0\n4 0\n5 3\n1 4\n2 1'.split('\n'), ('1/2', 2, 0, 1, '0.1')))
+    plain = ('tolerance', '--columns', 'x,y', '--up-to', '3', '-')
+    weighed = rows(run('tolerance', '--columns', 'x,y', '--radius-column', 'w', '--up-to', '3', '-', stdin=table).out)
+    for k, w in enumerate(('1', '4', '1/4')):
+        equal = 'x,y,w\n' + ''.join(','.join(line.split(',')[:2] + [w]) + '\n' for line in table.split('\n')[1:-1])
+        up_to = str(3 / fractions.Fraction(w))
+        got = rows(run('tolerance', '--columns', 'x,y', '--radius-column', 'w', '--up-to', up_to, '-', stdin=equal).out)
+        want = rows(run(*plain, stdin=table).out)
+        assert [(r['i'], r['j'], r['event'], r['k'], r['l']) for r in got] == [(r['i'], r['j'], r['event'], r['k'], r['l']) for r in want], w
+        for a, b in zip(got, want):
+            assert float(a['lo']) * float(fractions.Fraction(w)) <= float(b['hi']) and float(b['lo']) <= float(a['hi']) * float(fractions.Fraction(w)), (a, b)
+    assert {(r['i'], r['j']) for r in weighed if r['event'] == 'death'} == {(r['i'], r['j']) for r in want if r['event'] == 'death'}
+    assert all(float(r['hi']) <= float(r['lo']) * (1 + 2 ** -40) for r in weighed), weighed
+    answer = json.loads(run('tolerance', '--columns', 'x,y', '--radius-column', 'w', '--format', 'json', '-', stdin=table).out)
+    assert all('plus' not in p and len(p['bounds']) == 2 for p in answer['pairs'])
+    fixed = rows(run('tolerance', '--columns', 'x,y', '--radius-column', 'w', '-', stdin='x,y,w\n0,0,0\n1,0,0\n0,1,0\n').out)
+    assert [r['lo'] for r in fixed] == ['', '', ''] and [r['hi'] for r in fixed] == ['', '', ''], fixed
+    for wrong in ('-1', 'x', '1+-2', '1e999'):
+        expect(run('tolerance', '--columns', 'x,y', '--radius-column', 'w', '-', stdin=f'x,y,w\n0,0,1\n1,0,{wrong}\n'), 1, r'\A\Z', r'-:3:5: the radius is not an exact number >= 0; give')
+    expect(run('tolerance', '--columns', 'x,y', '--radius-column', 'x,w', '-', stdin='x,y,w\n0,0,1\n'), 1, r'\A\Z', r'-:2:5: the radii in x and in y differ')
+    expect(run('tolerance', '--radius-column', 'w', '-', stdin='0 0\n'), 2, r'\A\Z', '--radius-column is about columns')
+
+
 def test_geometry():
     answer = json.loads(run('tolerance', '--format', 'geojson', '--layer', 'points', '-', stdin=SQUARE).out)
     assert answer['features'][5]['geometry'] == {'type': 'Point', 'coordinates': [3, 0.5]}, answer

@@ -135,6 +135,74 @@ static void test_against_brute_force(void **state) {
   assert_true(cases > 100 && larger * 10 <= cases && idle == 0);
 }
 
+/* ---- one measurement at a time ---- */
+
+/* Point k turns out to be at its place in `truth`, exactly. */
+static void measure(box_case *c, const box_case *truth, size_t k) {
+  c->x[k] = truth->x[k];
+  c->y[k] = truth->y[k];
+  c->h[k] = 0;
+}
+
+/* Measures the first point of a plan, then plans anew; how many it takes. */
+static size_t ask_one_by_one(box_case c, const box_case *truth) {
+  for (size_t asked = 0;; asked++) {
+    dyd_sites *sites;
+    dyd_survey *s;
+    const dyd_survey_row *row;
+    dyd_delaunay *pd = boxes(&sites, &c, c.h);
+    assert_int_equal(dyd_survey_new(&s, pd, NULL, NULL), DYD_OK);
+    size_t rows = dyd_survey_rows(&row, s);
+    assert_true(rows == 0 || c.h[row[0].site] > 0);
+    if (rows) measure(&c, truth, row[0].site);
+    dyd_survey_free(s);
+    dyd_delaunay_free(pd);
+    dyd_sites_free(sites);
+    if (!rows) assert_int_equal(count_open(&c, c.h), 0);
+    if (!rows) return asked;
+  }
+}
+
+/* The least number of points by which, had one known what they turn out to be, all is decided; n + 1: by none. */
+static size_t hindsight(const box_case *c, const box_case *truth) {
+  size_t least = c->n + 1;
+  for (unsigned set = 0; set < 1u << c->n; set++) {
+    box_case known = *c;
+    size_t size = 0;
+    bool useless = false;
+    for (size_t k = 0; k < c->n; k++) {
+      if (!(set >> k & 1)) continue;
+      useless = useless || c->h[k] == 0;
+      measure(&known, truth, k);
+      size++;
+    }
+    if (!useless && size < least && count_open(&known, known.h) == 0) least = size;
+  }
+  return least;
+}
+
+static void test_one_by_one(void **state) {
+  (void)state;
+  test_random r = test_random_start("one by one");
+  size_t cases = 0, asked = 0, least = 0;
+  for (size_t k = 0; k < test_cases(100); k++) {
+    box_case c, truth;
+    make_boxes_case(&c, &r);
+    truth = c;
+    for (size_t i = 0; i < c.n; i++) {
+      truth.x[i] += c.h[i] * (ldexp((double)test_below(&r, 1 << 20), -19) - 1);
+      truth.y[i] += c.h[i] * (ldexp((double)test_below(&r, 1 << 20), -19) - 1);
+    }
+    size_t best = hindsight(&c, &truth);
+    if (best > c.n) continue;
+    least += best;
+    asked += ask_one_by_one(c, &truth);
+    cases++;
+  }
+  print_message("%zu cases, %zu questions, %zu in hindsight\n", cases, asked, least);
+  assert_true(cases > 50 && asked >= least && 4 * asked <= 5 * least);
+}
+
 /* ---- what is asked for ---- */
 
 static void test_parts(void **state) {
@@ -197,6 +265,7 @@ static void test_parts(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_brute_force), cmocka_unit_test(test_parts)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_brute_force), cmocka_unit_test(test_one_by_one),
+                                     cmocka_unit_test(test_parts)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

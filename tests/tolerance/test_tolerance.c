@@ -4,68 +4,10 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
-#include "support/random.h"
-#include "tolerance/brute.h"
+#include "tolerance/cases.h"
 
 #include <cmocka.h>
-#include <dyadel/tolerance.h>
 #include <math.h>
-
-/* ---- cases ---- */
-
-/* Flat, nearly a grid, nearly a circle, small grids with ties, anywhere, on a line. Coordinates are doubles of few
- * bits, so that ties and near ties are met. */
-static void make_case(brute_points *p, test_random *r, size_t kind) {
-  p->n = 2 + test_below(r, 7);
-  for (size_t i = 0; i < p->n; i++) {
-    double a = 6.283185307179586 * test_unit(r), x = test_unit(r), y = test_unit(r);
-    if (kind == 0) y = ldexp(y, -20);
-    if (kind == 1) x = (double)(i % 3) + ldexp(x, -12), y = (double)(i / 3) + ldexp(y, -12);
-    if (kind == 2) x = cos(a) * (1 + ldexp(x, -14)), y = sin(a) * (1 + ldexp(y, -14));
-    if (kind == 3) x = (double)test_below(r, 4), y = (double)test_below(r, 4);
-    if (kind == 5) x = (double)test_below(r, 64), y = 2 * x + 1;
-    p->x[i] = kind == 3 ? x : ldexp(nearbyint(ldexp(x, 30)), -30);
-    p->y[i] = kind == 3 ? y : ldexp(nearbyint(ldexp(y, 36)), -36);
-  }
-  for (size_t i = 0; i < p->n; i++) /* places once only */
-    for (size_t k = 0; k < i; k++)
-      if (p->x[i] == p->x[k] && p->y[i] == p->y[k]) {
-        p->n--;
-        p->x[i] = p->x[p->n], p->y[i] = p->y[p->n];
-        i--;
-        break;
-      }
-}
-
-typedef struct answer {
-  dyd_sites *sites;
-  dyd_delaunay *pd;
-  dyd_tolerance *t;
-} answer;
-
-static void ask(answer *a, const brute_points *p, const dyd_tolerance_options *o) {
-  dyd_error err;
-  assert_int_equal(dyd_sites_new(&a->sites), DYD_OK);
-  assert_int_equal(dyd_sites_add_points(a->sites, p->n, p->x, p->y), DYD_OK);
-  assert_int_equal(dyd_delaunay_new(&a->pd, a->sites, NULL, &err), DYD_OK);
-  assert_int_equal(dyd_tolerance_new(&a->t, a->pd, o, &err), DYD_OK);
-}
-
-static void forget(answer *a) {
-  dyd_tolerance_free(a->t);
-  dyd_delaunay_free(a->pd);
-  dyd_sites_free(a->sites);
-}
-
-static const dyd_tolerance_row *row_of(const dyd_tolerance *t, uint32_t i, uint32_t j) {
-  const dyd_tolerance_row *row;
-  size_t n = dyd_tolerance_rows(&row, t);
-  for (size_t k = 0; k < n; k++) {
-    if (k) assert_true(row[k - 1].i < row[k].i || (row[k - 1].i == row[k].i && row[k - 1].j < row[k].j));
-    if (row[k].i == i && row[k].j == j) return &row[k];
-  }
-  return NULL;
-}
 
 /* ---- every pair against every annulus ---- */
 
@@ -90,8 +32,8 @@ static void check_exact_form(const dyd_tolerance *t, const dyd_tolerance_row *ro
   mpq_clears(plus, minus, NULL);
 }
 
-static void check_pair(const answer *a, const brute_points *p, uint32_t i, uint32_t j, double up_to) {
-  const dyd_tolerance_row *row = row_of(a->t, i, j);
+static void check_pair(const cases_answer *a, const brute_points *p, uint32_t i, uint32_t j, double up_to) {
+  const dyd_tolerance_row *row = cases_row(a->t, i, j);
   mpf_t w, half;
   mpf_init2(w, BRUTE_BITS);
   mpf_init2(half, BRUTE_BITS);
@@ -120,18 +62,19 @@ static void test_all_annuli(void **state) {
   uint64_t filter = 0, exact = 0;
   for (size_t c = 0; c < test_cases(1000); c++) {
     brute_points p;
-    answer a;
+    cases_answer a;
     mpq_t up_to;
-    make_case(&p, &r, c % 6);
+    cases_make(&p, &r, c % 6);
     mpq_init(up_to);
     mpq_set_ui(up_to, 1, 1 + (unsigned long)test_below(&r, 20));
-    ask(&a, &p, &(dyd_tolerance_options){DYD_SIZED(dyd_tolerance_options), .up_to = up_to, .no_filter = c % 7 == 0});
+    cases_ask(&a, &p,
+              &(dyd_tolerance_options){DYD_SIZED(dyd_tolerance_options), .up_to = up_to, .no_filter = c % 7 == 0});
     for (uint32_t i = 0; i < p.n; i++)
       for (uint32_t j = i + 1; j < p.n; j++) check_pair(&a, &p, i, j, mpq_get_d(up_to));
     uint64_t f, e;
     dyd_tolerance_rungs(&f, &e, a.t);
     filter += f, exact += e;
-    forget(&a);
+    cases_forget(&a);
     mpq_clear(up_to);
   }
   assert_true(filter > 1000 && exact > 1000);
@@ -156,28 +99,6 @@ static void attack(brute_points *out, const brute_points *p, const dyd_tolerance
   }
 }
 
-static double side_of(const brute_points *p, uint32_t i, uint32_t j, uint32_t k) {
-  return (p->x[j] - p->x[i]) * (p->y[k] - p->y[i]) - (p->y[j] - p->y[i]) * (p->x[k] - p->x[i]);
-}
-
-/* Are k and l on different sides of ij? */
-static bool parted(const brute_points *p, const dyd_tolerance_row *row) {
-  return (side_of(p, row->i, row->j, row->k) > 0) != (side_of(p, row->i, row->j, row->l) > 0);
-}
-
-static bool is_edge(const brute_points *p, uint32_t i, uint32_t j) {
-  dyd_sites *sites;
-  dyd_delaunay *pd;
-  dyd_error err;
-  assert_int_equal(dyd_sites_new(&sites), DYD_OK);
-  assert_int_equal(dyd_sites_add_points(sites, p->n, p->x, p->y), DYD_OK);
-  assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, &err), DYD_OK);
-  bool edge = dyd_delaunay_status(pd, i, j) == DYD_LEGAL;
-  dyd_delaunay_free(pd);
-  dyd_sites_free(sites);
-  return edge;
-}
-
 /* Where k and l are on different sides, the attack succeeds just beyond the death, and never before. */
 static void test_attacks(void **state) {
   (void)state;
@@ -185,53 +106,26 @@ static void test_attacks(void **state) {
   size_t attacks = 0;
   for (size_t c = 0; c < test_cases(600); c++) {
     brute_points p, q;
-    answer a;
+    cases_answer a;
     const dyd_tolerance_row *row;
-    make_case(&p, &r, c % 5);
-    ask(&a, &p, NULL);
+    cases_make(&p, &r, c % 5);
+    cases_ask(&a, &p, NULL);
     for (size_t n = dyd_tolerance_rows(&row, a.t); n--; row++) {
       if (row->event != DYD_EVENT_DEATH || row->l == DYD_NO_SITE) continue;
-      if (!parted(&p, row) || row->lo < 1e-9) continue; /* steps of doubles count there */
+      if (!cases_parted(&p, row) || row->lo < 1e-9) continue; /* steps of doubles count there */
       attack(&q, &p, row, row->lo * 0.999);
-      assert_true(is_edge(&q, row->i, row->j));
+      assert_true(cases_is_edge(&q, row->i, row->j));
       attack(&q, &p, row, row->hi * 1.001);
-      if (!parted(&q, row)) continue; /* k has gone round i: the pair nearly touches */
-      assert_false(is_edge(&q, row->i, row->j));
+      if (!cases_parted(&q, row)) continue; /* k has gone round i: the pair nearly touches */
+      assert_false(cases_is_edge(&q, row->i, row->j));
       attacks++;
     }
-    forget(&a);
+    cases_forget(&a);
   }
   assert_true(attacks > 1000);
 }
 
 /* ---- each point, and the whole ---- */
-
-/* Moves by up to `share` of the radius, often by all of it. */
-static void move_points(brute_points *out, const brute_points *p, const double *radius, double share, test_random *r) {
-  *out = *p;
-  for (size_t i = 0; i < p->n; i++) {
-    double a = 6.283185307179586 * test_unit(r), d = radius[i] * share * (test_chance(r, 2) ? 1 : test_unit(r));
-    if (!isfinite(d)) continue;
-    out->x[i] += d * cos(a) * (1 - 1e-9); /* roundings of these lines must not carry it outside */
-    out->y[i] += d * sin(a) * (1 - 1e-9);
-  }
-}
-
-static bool same_edges(const brute_points *p, const answer *a) {
-  dyd_sites *sites;
-  dyd_delaunay *pd;
-  dyd_error err;
-  bool same = true;
-  assert_int_equal(dyd_sites_new(&sites), DYD_OK);
-  assert_int_equal(dyd_sites_add_points(sites, p->n, p->x, p->y), DYD_OK);
-  assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, &err), DYD_OK);
-  for (uint32_t i = 0; i < p->n; i++)
-    for (uint32_t j = i + 1; j < p->n; j++)
-      same = same && dyd_delaunay_status(pd, i, j) == dyd_delaunay_status(a->pd, i, j);
-  dyd_delaunay_free(pd);
-  dyd_sites_free(sites);
-  return same;
-}
 
 static void test_points_and_whole(void **state) {
   (void)state;
@@ -239,10 +133,11 @@ static void test_points_and_whole(void **state) {
   size_t moved = 0;
   for (size_t c = 0; c < test_cases(400); c++) {
     brute_points p, q;
-    answer a;
+    cases_answer a;
     double lo, hi, all[BRUTE_MOST], least = HUGE_VAL;
-    make_case(&p, &r, c % 6);
-    ask(&a, &p, &(dyd_tolerance_options){DYD_SIZED(dyd_tolerance_options), .points = true, .no_filter = c % 5 == 0});
+    cases_make(&p, &r, c % 6);
+    cases_ask(&a, &p,
+              &(dyd_tolerance_options){DYD_SIZED(dyd_tolerance_options), .points = true, .no_filter = c % 5 == 0});
     const double *radius = dyd_tolerance_points(a.t);
     dyd_tolerance_whole(&lo, &hi, a.t);
     assert_true(hi <= lo * (1 + 0x1p-40) || lo == hi);
@@ -254,11 +149,11 @@ static void test_points_and_whole(void **state) {
     /* the circles of the edges are those of their deaths, so the points can move no less than the whole */
     assert_true(least <= hi && least >= lo * (1 - 1e-6));
     for (int k = 0; k < 50; k++) {
-      move_points(&q, &p, k % 2 ? radius : all, 1, &r);
-      assert_true(same_edges(&q, &a));
+      cases_move(&q, &p, k % 2 ? radius : all, 1, &r);
+      assert_true(cases_same_edges(&q, &a));
       moved += least > 0;
     }
-    forget(&a);
+    cases_forget(&a);
   }
   assert_true(moved > 1000);
 }
@@ -316,15 +211,15 @@ static void test_edges_of_use(void **state) {
   dyd_error err;
   const dyd_tolerance_row *row;
   for (size_t n = 0; n <= 4; n++) {
-    answer a;
+    cases_answer a;
     brute_points p = {.n = n};
     for (size_t i = 0; i < n; i++) p.x[i] = x[i], p.y[i] = y[i];
-    ask(&a, &p, &(dyd_tolerance_options){DYD_SIZED(dyd_tolerance_options), .points = true});
+    cases_ask(&a, &p, &(dyd_tolerance_options){DYD_SIZED(dyd_tolerance_options), .points = true});
     dyd_tolerance_whole(&lo, &hi, a.t);
     assert_int_equal(dyd_tolerance_rows(&row, a.t), n < 2 ? 0 : n < 4 ? 1 : 3);
     assert_true(n < 4 ? isinf(lo) && isinf(hi) : lo <= sqrt(0.125) && hi >= sqrt(0.125) && hi < 0.36);
     if (n == 4) assert_true(dyd_tolerance_points(a.t)[2] == dyd_tolerance_points(a.t)[0]);
-    forget(&a);
+    cases_forget(&a);
   }
   dyd_sites *sites;
   dyd_delaunay *pd;

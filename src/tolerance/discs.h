@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* A pair of discs, and the others that are looked at for it [DISC-1]. */
+#ifndef DYD_TOLERANCE_DISCS_H
+#define DYD_TOLERANCE_DISCS_H
+
+#include "tolerance/caps.h"
+#include <dyadel/delaunay.h>
+
+/* Invariant: i and j are not among seen[0 .. count-1], and no vertex is twice. */
+typedef struct dyd_disc_work {
+  const dyd_delaunay *pd;
+  dyd_disc *disc; /* by vertex */
+  dyd_caps caps;
+  uint32_t i, j; /* vertices, the smaller disc first */
+  uint32_t *seen;
+  size_t count, cap;
+  bool failed; /* memory is exhausted */
+} dyd_disc_work;
+
+/* Looks at v from now on; false: it is i, j or seen already, or memory is exhausted. */
+bool dyd_discs_see(dyd_disc_work *w, uint32_t v);
+/* The caps of all that are seen; false: one of them meets i or j, so that there is no witness. Who meets one of them
+ * blocks nothing. */
+bool dyd_discs_load(dyd_disc_work *w, bool legal);
+
+#endif

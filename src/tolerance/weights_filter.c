@@ -1,0 +1,356 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Deaths and births where each point has a weight: it moves by at most t times that [TOL-8].
+ *
+ * At any t the discs are given, and whether a pair is legal, or possible, for some of the sites is decided exactly by
+ * caps of directions [DISC-1]. So t is bracketed and halved. For all sites: what some of them refute, all do; what they
+ * allow is allowed by all when everybody else keeps clear of a circle of theirs, which is looked at in doubles: c = p_i
+ * + u / (2 h) with a direction u that is off by at most TURN, so c by `doubt`; distances are off by ROOM of all sizes
+ * (a few roundings each). Who does not keep clear for sure is one of `some` from then on. So nothing is decided by
+ * doubles that is near.
+ *
+ * h = (u.J -+ delta) / n, n = J^2 - delta^2, delta = R_j - R_i: its relative error is at most (TURN |J| + 2^-49 (|J| +
+ * delta)) / |u.J -+ delta| + 2^-48 (J^2 + delta^2) / n, and that of c - p_i twice this, while it is below 1/4, plus
+ * TURN. Where h is that small, the circle is a line but for a bulge of at most J^2 / (8 |c|) between the two discs. */
+#include "base/alloc.h"
+#include "tolerance/discs.h"
+#include "tolerance/roots.h"
+#include "tolerance/state.h"
+
+#include <math.h>
+
+#define ROOM 0x1p-48
+#define TURN 0x1p-38 /* directions between two that are less than 2^-9 from opposite are not used */
+#define WIDTH (1 + 0x1p-41)
+#define SPARE 0x1p-51 /* weights may be the doubles next to what is meant */
+enum { MOST_NEW = 6, MOST_STEPS = 4000 };
+
+typedef struct weight_work {
+  dyd_tolerance *t;
+  dyd_disc_work discs;
+  mpq_t now; /* t, a double */
+} weight_work;
+
+/* ---- discs at t ---- */
+
+static void weigh_disc(weight_work *g, uint32_t v) {
+  mpq_set_d(g->discs.disc[v].r, g->t->weight[v]);
+  mpq_mul(g->discs.disc[v].r, g->discs.disc[v].r, g->now);
+}
+
+/* The smaller disc first, at any t. */
+static void weigh_pair(weight_work *g, uint32_t v, uint32_t w) {
+  bool swap = g->t->weight[v] > g->t->weight[w];
+  g->discs.i = swap ? w : v;
+  g->discs.j = swap ? v : w;
+  g->discs.count = 0;
+}
+
+static void weigh_all(weight_work *g, double t) {
+  mpq_set_d(g->now, t);
+  weigh_disc(g, g->discs.i);
+  weigh_disc(g, g->discs.j);
+  for (size_t k = 0; k < g->discs.count; k++) weigh_disc(g, g->discs.seen[k]);
+}
+
+/* ---- everybody else ---- */
+
+/* A circle, or, with `line`, the half-plane beyond height along (x, y). clear: by how much others have to keep clear of
+ * it, beyond what distances are off by. */
+typedef struct weight_circle {
+  weight_work *g;
+  bool legal, line;
+  double x, y, radius, height, clear;
+  size_t added;
+} weight_circle;
+
+static double at_d(const weight_work *g, uint32_t v, int axis) {
+  const dyd_disc *d = &g->discs.disc[v];
+  return mpq_get_d(axis ? d->y : d->x);
+}
+
+static double radius_d(const weight_work *g, uint32_t v) {
+  return g->t->weight[v] * mpq_get_d(g->now);
+}
+
+static double distance_to(const weight_circle *c, uint32_t v) {
+  return hypot(at_d(c->g, v, 0) - c->x, at_d(c->g, v, 1) - c->y);
+}
+
+static double room_of(const weight_circle *c, uint32_t v) {
+  double size = fabs(at_d(c->g, v, 0)) + fabs(at_d(c->g, v, 1)) + radius_d(c->g, v);
+  return ROOM * (size + (c->line ? fabs(c->height) : fabs(c->x) + fabs(c->y) + c->radius)) + c->clear;
+}
+
+static bool keeps_clear(const weight_circle *c, uint32_t v) {
+  double r = radius_d(c->g, v), room = room_of(c, v);
+  if (c->line) return c->x * at_d(c->g, v, 0) + c->y * at_d(c->g, v, 1) + (c->legal ? r : -r) < c->height - room;
+  return c->legal ? distance_to(c, v) - r > c->radius + room : distance_to(c, v) + r > c->radius + room;
+}
+
+static bool meet_other(void *context, uint32_t v) {
+  weight_circle *c = context;
+  if (keeps_clear(c, v) || !dyd_discs_see(&c->g->discs, v)) return !c->g->discs.failed;
+  weigh_disc(c->g, v);
+  return ++c->added < MOST_NEW;
+}
+
+/* Is everybody else clear of it? Otherwise some are seen now. */
+static bool all_are_clear(weight_circle *c) {
+  const dyd_tolerance *t = c->g->t;
+  double others = c->legal ? mpq_get_d(c->g->now) * t->heaviest : 0, reach = c->radius + others;
+  double size = fabs(c->x) + fabs(c->y) + reach;
+  size += t->sk->mesh.extent[0] + t->sk->mesh.extent[1];
+  const dyd_bbox at = {{c->x, c->x, c->y, c->y}};
+  double height = c->height - others - 16 * ROOM * (size + fabs(c->height)) - c->clear;
+  double radius2 = reach + 16 * ROOM * size + c->clear;
+  radius2 *= radius2 * (1 + ROOM);
+  c->added = 0;
+  if (c->line)
+    dyd_tree_beyond(&t->tree, c->x, c->y, &height, meet_other, c);
+  else
+    dyd_tree_near(&t->tree, &at, &radius2, meet_other, c);
+  return c->added == 0 && !c->g->discs.failed;
+}
+
+/* The circle of direction u; false: doubles cannot place it. */
+static bool circle_of_direction(weight_circle *c, weight_work *g, dyd_direction u, bool legal) {
+  const dyd_disc_work *w = &g->discs;
+  double jx = at_d(g, w->j, 0) - at_d(g, w->i, 0), jy = at_d(g, w->j, 1) - at_d(g, w->i, 1), size = hypot(jx, jy);
+  double ri = radius_d(g, w->i), rj = radius_d(g, w->j), delta = rj - ri, n = size * size - delta * delta;
+  double num = u.x * jx + u.y * jy + (legal ? -delta : delta), from = 1 / (2 * num / n);
+  double coordinates =
+      fabs(at_d(g, w->i, 0)) + fabs(at_d(g, w->i, 1)) + fabs(at_d(g, w->j, 0)) + fabs(at_d(g, w->j, 1));
+  double doubt = (TURN * size + 0x1p-49 * (size + delta + coordinates)) / fabs(num) +
+                 0x1p-48 * (size * size + delta * delta + size * coordinates) / n;
+  *c = (weight_circle){.g = g, .legal = legal};
+  if (!(n > 0x1p-20 * size * size && n > 0x1p-400 && n < 0x1p400)) return false;
+  if (num > 0 && doubt < 0.25) {
+    c->x = at_d(g, w->i, 0) + u.x * from;
+    c->y = at_d(g, w->i, 1) + u.y * from;
+    double a = distance_to(c, w->i), b = distance_to(c, w->j);
+    c->radius = legal ? a + ri : a - ri;
+    c->radius = legal ? fmax(c->radius, b + rj) : fmax(c->radius, b - rj);
+    c->clear = 2 * fabs(from) * (2 * doubt + TURN) + ROOM * coordinates;
+    return c->radius < 1e150 && c->clear < 1e150;
+  }
+  double a = u.x * at_d(g, w->i, 0) + u.y * at_d(g, w->i, 1), b = u.x * at_d(g, w->j, 0) + u.y * at_d(g, w->j, 1);
+  c->line = true;
+  c->x = u.x;
+  c->y = u.y;
+  c->height = legal ? fmin(a - ri, b - rj) : fmin(a + ri, b + rj);
+  c->clear = 8 * (TURN + doubt * fabs(num) / size) * (size + g->t->sk->mesh.extent[0] + g->t->sk->mesh.extent[1]);
+  c->clear *= 1 + size * size / n;
+  return true;
+}
+
+/* ---- at one t ---- */
+
+/* The middle of what the caps have in common, which is at most half of all directions; of nearly half, that of J. */
+static bool is_some_common(dyd_direction *u, weight_work *g) {
+  dyd_disc_work *w = &g->discs;
+  if (!dyd_discs_load(w, true) || !dyd_caps_common(u, &w->caps)) return false;
+  dyd_direction a = dyd_filter_cap_end(&w->caps.item[w->caps.by[0]], -1);
+  dyd_direction b = dyd_filter_cap_end(&w->caps.item[w->caps.by[1]], 1);
+  if (hypot(a.x + b.x, a.y + b.y) > 0x1p-8) return true;
+  double x = at_d(g, w->j, 0) - at_d(g, w->i, 0), y = at_d(g, w->j, 1) - at_d(g, w->i, 1), size = hypot(x, y);
+  *u = (dyd_direction){x / size, y / size};
+  return true;
+}
+
+/* The disc of i is in that of j, which is the best witness then. */
+static dyd_truth is_larger_legal(weight_work *g) {
+  dyd_disc_work *w = &g->discs;
+  for (;;) {
+    for (size_t k = 0; k < w->count; k++)
+      if (dyd_discs_meet(&w->disc[w->j], &w->disc[w->seen[k]])) return DYD_FALSE;
+    weight_circle c = {
+        .g = g, .legal = true, .x = at_d(g, w->j, 0), .y = at_d(g, w->j, 1), .radius = radius_d(g, w->j)};
+    if (all_are_clear(&c)) return DYD_TRUE;
+    if (w->failed) return DYD_UNKNOWN;
+  }
+}
+
+static dyd_truth is_legal_at(weight_work *g, double t) {
+  dyd_disc_work *w = &g->discs;
+  weigh_all(g, t);
+  if (dyd_disc_is_within(&w->disc[w->i], &w->disc[w->j])) return is_larger_legal(g);
+  for (;;) {
+    dyd_direction u;
+    weight_circle c;
+    bool some = is_some_common(&u, g);
+    if (w->failed) return DYD_UNKNOWN;
+    if (!some) return DYD_FALSE;
+    if (!circle_of_direction(&c, g, u, true)) return DYD_UNKNOWN;
+    if (all_are_clear(&c)) return DYD_TRUE;
+  }
+}
+
+static dyd_truth is_illegal_at(weight_work *g, double t) {
+  dyd_disc_work *w = &g->discs;
+  weigh_all(g, t);
+  if (dyd_discs_meet(&w->disc[w->i], &w->disc[w->j])) return DYD_FALSE;
+  for (;;) {
+    dyd_direction u;
+    weight_circle c;
+    bool some = dyd_discs_load(w, false) && dyd_caps_uncovered(&u, &w->caps);
+    if (w->failed) return DYD_UNKNOWN;
+    if (!some) return DYD_TRUE;
+    if (!circle_of_direction(&c, g, u, false)) return DYD_UNKNOWN;
+    if (all_are_clear(&c)) return DYD_FALSE;
+  }
+}
+
+/* ---- where it changes ---- */
+
+typedef dyd_truth weight_question(weight_work *g, double t);
+
+/* The question is true at *lo, or *lo is 0, and false at *hi. Until they are near to each other, or it is not known. */
+static void halve(double *lo, double *hi, weight_work *g, weight_question *is_below) {
+  for (int k = 0; k<MOST_STEPS && * hi> * lo * WIDTH; k++) {
+    double mid = 4 * *lo >= *hi ? *lo + (*hi - *lo) / 2 : *hi / 4;
+    dyd_truth below = mid > 0 ? is_below(g, mid) : DYD_UNKNOWN;
+    if (below == DYD_UNKNOWN || mid <= *lo || mid >= *hi) return;
+    *(below == DYD_TRUE ? lo : hi) = mid;
+  }
+}
+
+/* From *lo on, where it is true, to *hi, where it is false; infinite: nowhere. */
+static void find_above(double *lo, double *hi, weight_work *g, weight_question *is_below) {
+  dyd_truth below = DYD_TRUE;
+  for (*hi = *lo * 2; *hi < 0x1p900; *hi *= 2) {
+    below = is_below(g, *hi);
+    if (below == DYD_FALSE) return;
+    if (below == DYD_TRUE) *lo = *hi;
+  }
+  *hi = HUGE_VAL;
+}
+
+/* The direction found is at the end of one cap: whose end is next to it? */
+static size_t next_cap_to(const dyd_caps *c, size_t one) {
+  size_t best = one;
+  double most = -HUGE_VAL;
+  for (int turn = -1; turn <= 1; turn += 2) {
+    dyd_direction u = dyd_filter_cap_end(&c->item[one], turn);
+    for (size_t k = 0; k < c->count; k++) {
+      const dyd_cap *p = &c->item[k];
+      double over = (u.x * p->w[0] + u.y * p->w[1] - p->top) / (fabs(p->w[0]) + fabs(p->w[1]) + p->top);
+      if (k == one || !(over > most) || over > 0x1p-30) continue;
+      most = over;
+      best = k;
+    }
+  }
+  return best;
+}
+
+static uint32_t site_of_cap(const weight_work *g, size_t k) {
+  uint32_t v = g->discs.caps.item[k].vertex;
+  return v == UINT32_MAX ? DYD_NO_SITE : g->t->sk->reps.site[v];
+}
+
+/* Who binds: the caps about the direction that is still allowed at t. */
+static void find_binding(dyd_tolerance_row *row, weight_work *g, double t, weight_question *ask) {
+  dyd_caps *c = &g->discs.caps;
+  c->count = 0;
+  ask(g, t);
+  row->k = row->l = DYD_NO_SITE;
+  if (!c->count) return;
+  size_t a = c->by[0], b = c->by[0] == c->by[1] ? next_cap_to(c, a) : c->by[1];
+  uint32_t k = site_of_cap(g, a), l = site_of_cap(g, b);
+  row->k = k < l ? k : l;
+  row->l = k == l ? DYD_NO_SITE : k < l ? l : k;
+}
+
+static void row_weigh(weight_work *g, dyd_tolerance_row *row, double lo, double hi, weight_question *ask) {
+  find_binding(row, g, ask == is_legal_at ? lo : hi, ask);
+  row->lo = lo * (1 - SPARE);
+  row->hi = hi * (1 + 2 * SPARE);
+}
+
+static dyd_status see_around(weight_work *g, uint32_t v, uint32_t w) {
+  dyd_tolerance *t = g->t;
+  dyd_status st = dyd_others_around(&t->others, t, v, w, DYD_HUB);
+  for (size_t k = 0; k < t->others.count && st == DYD_OK; k++) dyd_discs_see(&g->discs, t->others.vertex[k]);
+  return st == DYD_OK && g->discs.failed ? DYD_E_NOMEM : st;
+}
+
+/* While discs are below those of equal weights, which the pair survives, it does. */
+static dyd_status weigh_death(weight_work *g, dyd_tolerance_row *row) {
+  const dyd_tolerance *t = g->t;
+  double lo = row->lo / t->heaviest * (1 - 2 * SPARE), hi = HUGE_VAL;
+  if (row->lo == HUGE_VAL) return DYD_OK;
+  if (t->heaviest > 0) {
+    weigh_pair(g, t->sk->vertex[row->i], t->sk->vertex[row->j]);
+    dyd_status st = see_around(g, g->discs.i, g->discs.j);
+    if (st != DYD_OK) return st;
+    if (!(lo > 0x1p-900 && lo < 0x1p900)) lo = 0;
+    if (lo > 0) find_above(&lo, &hi, g, is_legal_at);
+    if (hi < HUGE_VAL) halve(&lo, &hi, g, is_legal_at);
+  }
+  if (hi < HUGE_VAL)
+    row_weigh(g, row, lo, hi, is_legal_at);
+  else
+    *row = (dyd_tolerance_row){row->i, row->j, row->event, DYD_NO_SITE, DYD_NO_SITE, t->heaviest > 0 ? lo : hi, hi};
+  return g->discs.failed ? DYD_E_NOMEM : DYD_OK;
+}
+
+/* *late: it is above t->options.up_to for sure. */
+static dyd_status weigh_birth(bool *late, weight_work *g, dyd_tolerance_row *row) {
+  const dyd_tolerance *t = g->t;
+  double lo = 0, hi = dyd_q_double(t->options.up_to, 1);
+  weigh_pair(g, t->sk->vertex[row->i], t->sk->vertex[row->j]);
+  dyd_status st = see_around(g, g->discs.i, g->discs.j);
+  if (st != DYD_OK) return st;
+  *late = is_illegal_at(g, hi) == DYD_TRUE;
+  if (*late) return DYD_OK;
+  halve(&lo, &hi, g, is_illegal_at);
+  row_weigh(g, row, lo, hi, is_illegal_at);
+  return g->discs.failed ? DYD_E_NOMEM : DYD_OK;
+}
+
+/* ---- all ---- */
+
+static dyd_status weights_begin(weight_work *g) {
+  const dyd_skeleton *sk = g->t->sk;
+  mpq_t other;
+  dyd_rect r;
+  dyd_status st = dyd_near_index(g->t);
+  g->discs.disc = dyd_alloc(sk->n, sizeof *g->discs.disc);
+  if (!g->discs.disc) return DYD_E_NOMEM;
+  for (uint32_t v = 0; v < sk->n; v++) dyd_disc_init(&g->discs.disc[v]);
+  dyd_rect_init(&r);
+  mpq_init(other);
+  for (uint32_t v = 0; v < sk->n && st == DYD_OK; v++) {
+    st = dyd_sites_get(&r, sk->reps.sites, sk->reps.site[v]);
+    dyd_interval_get_q(g->discs.disc[v].x, other, &r.x);
+    dyd_interval_get_q(g->discs.disc[v].y, other, &r.y);
+  }
+  mpq_clear(other);
+  dyd_rect_clear(&r);
+  return st;
+}
+
+static void weights_end(weight_work *g) {
+  for (uint32_t v = 0; g->discs.disc && v < g->t->sk->n; v++) dyd_disc_clear(&g->discs.disc[v]);
+  free(g->discs.disc);
+  free(g->discs.seen);
+  dyd_caps_clear(&g->discs.caps);
+  mpq_clear(g->now);
+}
+
+dyd_status dyd_weigh(dyd_tolerance *t) {
+  weight_work g = {.t = t};
+  dyd_caps_init(&g.discs.caps);
+  mpq_init(g.now);
+  size_t kept = 0;
+  dyd_status st = weights_begin(&g);
+  for (size_t k = 0; k < t->rows && st == DYD_OK; k++) {
+    bool late = false;
+    if (dyd_flag_is_set(t->options.cancel)) st = DYD_CANCELLED;
+    if (st == DYD_OK && t->row[k].event == DYD_EVENT_DEATH) st = weigh_death(&g, &t->row[k]);
+    if (st == DYD_OK && t->row[k].event == DYD_EVENT_BIRTH) st = weigh_birth(&late, &g, &t->row[k]);
+    if (!late) t->row[kept++] = t->row[k];
+  }
+  t->rows = kept;
+  weights_end(&g);
+  return st;
+}
