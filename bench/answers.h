@@ -8,5 +8,7 @@
 /* Ends the program with a message when the row has been recorded with that many points and other pairs by status; when
  * it has not been recorded and --known was given, too. */
 void bench_check(const bench_options *o, const char *row, size_t n, const size_t count[4]);
+/* The same for a row that answers with other numbers: what they are is the row's. */
+void bench_check_numbers(const bench_options *o, const char *row, size_t n, size_t a, size_t b, size_t c);
 
 #endif

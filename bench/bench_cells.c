@@ -2,6 +2,7 @@
 /* Rows over cells: polygons of all cells and both bounds of the diagram on the unit square; cells of thin boxes, cells
  * near (boxes of three hundredths of the spacing), apart (boxes of a tenth of the spacing), cells touch (lightly: of
  * three tenths). Time a site; nobody else computes these. */
+#include "answers.h"
 #include "cloud.h"
 #include "harness.h"
 
@@ -14,9 +15,15 @@ static void cells_check(const char *row, dyd_status status) {
   if (status != DYD_OK) bench_die(row, dyd_status_text(status));
 }
 
+/* area, distance: both bounds, up to rounding, times 10^9. */
+typedef struct cells_answer {
+  size_t area, distance;
+  char remark[200];
+} cells_answer;
+
 /* One run on a triangulation that is there. The whole square is undetermined at most, and something is wherever boxes
  * have an extent. */
-static bench_cost cells_run(char *remark, size_t size, const char *row, const dyd_delaunay *pd) {
+static bench_cost cells_run(cells_answer *answer, const char *row, const dyd_delaunay *pd) {
   dyd_rect window;
   dyd_voronoi_bounds b;
   dyd_rect_init(&window);
@@ -28,7 +35,9 @@ static bench_cost cells_run(char *remark, size_t size, const char *row, const dy
   bench_cost cost = bench_stop(&meter);
   double area = dyd_dyadic_get_d(&b.area, DYD_UP), distance = dyd_dyadic_get_d(&b.hausdorff, DYD_UP);
   if (!b.finite || !(area > 0 && area <= 1 && distance > 0 && distance < 1)) bench_die(row, "the bounds are wrong");
-  snprintf(remark, size, "undetermined area %.9g; distance %.9g", area, distance);
+  answer->area = (size_t)llround(area * 1e9);
+  answer->distance = (size_t)llround(distance * 1e9);
+  snprintf(answer->remark, sizeof answer->remark, "undetermined area %.9g; distance %.9g", area, distance);
   dyd_voronoi_bounds_clear(&b);
   dyd_rect_clear(&window);
   return cost;
@@ -40,14 +49,15 @@ static void row_cells(const bench_options *o, const char *name, size_t n, double
   bench_series ours = {0};
   dyd_sites *sites = NULL;
   dyd_delaunay *pd = NULL;
-  char remark[200];
+  cells_answer answer = {0};
   if (!bench_wants(o, name)) return;
   cloud_uniform(&boxes, bench_size(o, n));
   cloud_widen(&boxes, share / sqrt((double)boxes.n));
   cells_check(name, dyd_sites_new(&sites));
   cells_check(name, dyd_sites_add_boxes(sites, boxes.n, boxes.x0, boxes.x1, boxes.y0, boxes.y1));
   cells_check(name, dyd_delaunay_new(&pd, sites, NULL, NULL));
-  for (size_t r = 0; r < bench_runs(o, 3); r++) bench_series_add(&ours, cells_run(remark, sizeof remark, name, pd));
+  for (size_t r = 0; r < bench_runs(o, 3); r++) bench_series_add(&ours, cells_run(&answer, name, pd));
+  bench_check_numbers(o, name, boxes.n, answer.area, answer.distance, 0);
   bench_report(o, &(bench_row){.name = name,
                                .n = boxes.n,
                                .ours = &ours,
@@ -55,7 +65,7 @@ static void row_cells(const bench_options *o, const char *name, size_t n, double
                                .measure = "us a site",
                                .figure = bench_series_median(&ours).seconds / (double)boxes.n * 1e6,
                                .figure_goal = goal,
-                               .remark = remark});
+                               .remark = answer.remark});
   dyd_delaunay_free(pd);
   dyd_sites_free(sites);
   cloud_clear(&boxes);
@@ -64,10 +74,12 @@ static void row_cells(const bench_options *o, const char *name, size_t n, double
 int main(int argc, char **argv) {
   bench_options o;
   bench_options_read(&o, argc, argv);
-  row_cells(&o, "cells", 100000, 0x1p-20, 10);
-  row_cells(&o, "cells-near", 2000, 0.03, 100);
-  row_cells(&o, "cells-apart", 1000, 0.1, 100);
-  row_cells(&o, "cells-touch", 1000, 0.3, 100);
+  while (bench_next_part(&o)) {
+    row_cells(&o, "cells", 100000, 0x1p-20, 10);
+    row_cells(&o, "cells-near", 2000, 0.03, 100);
+    row_cells(&o, "cells-apart", 1000, 0.1, 100);
+    row_cells(&o, "cells-touch", 1000, 0.3, 100);
+  }
   bench_options_close(&o);
   return 0;
 }

@@ -1,14 +1,23 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Rows read, write, readhex: a points file in, csv out, against the triangulation of the same points by the engine.
+/* Rows read, readhex, write and those of other formats: a points file in, all pairs out, against the triangulation of
+ * the same points by the engine.
  *
  * Decimals of 17 digits are exact rationals that no double holds; hexadecimal floats are exact doubles. */
+#include "answers.h"
 #include "cloud.h"
 #include "harness.h"
 
 #include <dyadel/io.h>
 
+/* Formats, and the rows of them. */
+enum { FORMATS = 4 };
+static const dyd_format format[FORMATS] = {DYD_FORMAT_CSV, DYD_FORMAT_JSON, DYD_FORMAT_SVG, DYD_FORMAT_GEOJSON};
+static const char *const row_of[FORMATS] = {"write", "write-json", "write-svg", "write-geojson"};
+
+/* written: bytes. */
 typedef struct series {
-  bench_series read, run, write;
+  bench_series read, run, write[FORMATS];
+  size_t written[FORMATS], count[4];
 } series;
 
 static void check(dyd_status status, const dyd_error *err) {
@@ -23,12 +32,23 @@ static FILE *points_file(const cloud *c, bool hex) {
   return f;
 }
 
-static void round_trip(series *s, FILE *in, size_t n) {
-  dyd_engine *e = NULL;
-  dyd_outcome outcome;
+static void write_all(series *s, const dyd_engine *e, int k) {
   dyd_error err;
   FILE *out = tmpfile();
   if (!out) bench_die("files", "no temporary file");
+  dyd_error_clear(&err);
+  bench_meter meter = bench_start();
+  check(dyd_write_delaunay(out, e, format[k], &err), &err);
+  if (fflush(out)) bench_die("files", "writing failed");
+  bench_series_add(&s->write[k], bench_stop(&meter));
+  s->written[k] = (size_t)ftell(out);
+  fclose(out);
+}
+
+static void round_trip(series *s, const bench_options *o, FILE *in, size_t n) {
+  dyd_engine *e = NULL;
+  dyd_outcome outcome;
+  dyd_error err;
   dyd_error_clear(&err);
   rewind(in);
   check(dyd_engine_new(&e), &err);
@@ -39,12 +59,10 @@ static void round_trip(series *s, FILE *in, size_t n) {
   meter = bench_start();
   check(dyd_engine_run(&outcome, e, NULL, &err), &err);
   bench_series_add(&s->run, bench_stop(&meter));
-  meter = bench_start();
-  check(dyd_write_delaunay(out, e, DYD_FORMAT_CSV, &err), &err);
-  if (fflush(out)) bench_die("files", "writing failed");
-  bench_series_add(&s->write, bench_stop(&meter));
+  dyd_delaunay_count(s->count, dyd_engine_delaunay(e));
+  for (int k = 0; k < FORMATS; k++)
+    if (bench_wants(o, row_of[k])) write_all(s, e, k);
   dyd_engine_free(e);
-  fclose(out);
 }
 
 static void row_files(const bench_options *o, bool hex) {
@@ -52,16 +70,23 @@ static void row_files(const bench_options *o, bool hex) {
   series s = {0};
   cloud_uniform(&points, bench_size(o, 1000000));
   FILE *in = points_file(&points, hex);
-  for (size_t r = 0; r < bench_runs(o, 3); r++) round_trip(&s, in, points.n);
+  for (size_t r = 0; r < bench_runs(o, 3); r++) round_trip(&s, o, in, points.n);
   bench_row row = {.n = points.n, .peer = &s.run, .peer_name = "own triangulation", .ratio_goal = 1};
   row.name = hex ? "readhex" : "read";
   row.ours = &s.read;
   row.remark = hex ? "hexadecimal floats" : "decimals of 17 digits";
+  bench_check(o, row.name, points.n, s.count);
   bench_report(o, &row);
-  row.name = "write";
-  row.ours = &s.write;
-  row.remark = "csv of all pairs";
-  if (!hex) bench_report(o, &row);
+  for (int k = 0; k < FORMATS && !hex; k++) {
+    char remark[100];
+    if (!bench_wants(o, row_of[k])) continue;
+    row.name = row_of[k];
+    row.ours = &s.write[k];
+    row.remark = remark;
+    snprintf(remark, sizeof remark, "%zu bytes; all pairs", s.written[k]);
+    bench_check_numbers(o, row.name, points.n, s.written[k], 0, 0);
+    bench_report(o, &row);
+  }
   fclose(in);
   cloud_clear(&points);
 }
@@ -70,7 +95,9 @@ int main(int argc, char **argv) {
   bench_options o;
   bench_options_read(&o, argc, argv);
   while (bench_next_part(&o)) {
-    if (bench_wants(&o, "read") || bench_wants(&o, "write")) row_files(&o, false);
+    bool decimals = bench_wants(&o, "read");
+    for (int k = 0; k < FORMATS; k++) decimals = decimals || bench_wants(&o, row_of[k]);
+    if (decimals) row_files(&o, false);
     if (bench_wants(&o, "readhex")) row_files(&o, true);
   }
   bench_options_close(&o);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Rows near, nearbits: 64 computable points next to a circle, their radii apart by multiples of 2^-10000, until
  * decided: the time, and the bits asked for each point, compared with 10000. */
+#include "answers.h"
 #include "harness.h"
 
 #include <dyadel/engine.h>
@@ -25,13 +26,12 @@ static void add_point(dyd_engine *e, int k, dyd_error *err) {
   check(dyd_engine_add_stream(e, s), err);
 }
 
-static bench_cost run(double *bits, char *remark, size_t size) {
+static bench_cost run(size_t count[4], double *bits, char *remark, size_t size) {
   dyd_engine *e = NULL;
   dyd_outcome outcome = DYD_OUTCOME_NONE;
   dyd_engine_options options = {DYD_SIZED(dyd_engine_options), .max_bits = 4 * APART};
   dyd_engine_counters counters = {DYD_SIZED(dyd_engine_counters)};
   dyd_error err;
-  size_t count[4];
   dyd_error_clear(&err);
   bench_meter meter = bench_start();
   check(dyd_engine_new(&e), &err);
@@ -55,7 +55,9 @@ int main(int argc, char **argv) {
     bench_series ours = {0};
     char remark[200];
     double bits = 0;
-    for (size_t r = 0; r < bench_runs(&o, 3); r++) bench_series_add(&ours, run(&bits, remark, sizeof remark));
+    size_t count[4] = {0};
+    for (size_t r = 0; r < bench_runs(&o, 3); r++) bench_series_add(&ours, run(count, &bits, remark, sizeof remark));
+    bench_check(&o, "near", POINTS, count);
     bench_row row = {.name = "near", .n = POINTS, .ours = &ours, .peer = &no_peer, .remark = remark};
     row.measure = "seconds";
     row.figure = bench_series_median(&ours).seconds;

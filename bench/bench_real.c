@@ -18,11 +18,12 @@ static void check(const char *row, dyd_status status, const dyd_error *err) {
   if (status != DYD_OK) bench_die(row, *err->message ? err->message : dyd_status_text(status));
 }
 
-/* One run of the engine; the file has been read before. */
+/* One run of the engine, and the list of its pairs; the file has been read before. */
 static bench_cost run(size_t count[4], const real_row *row, FILE *in, size_t *points) {
   dyd_read_options read = {DYD_SIZED(dyd_read_options), .columns = row->columns, .radius = row->radius};
   dyd_engine *e = NULL;
   dyd_outcome outcome;
+  dyd_pair_list pairs = {0};
   dyd_error err;
   dyd_error_clear(&err);
   rewind(in);
@@ -30,7 +31,9 @@ static bench_cost run(size_t count[4], const real_row *row, FILE *in, size_t *po
   check(row->name, dyd_read_points(e, in, &read, &err), &err);
   bench_meter meter = bench_start();
   check(row->name, dyd_engine_run(&outcome, e, NULL, &err), &err);
+  check(row->name, dyd_delaunay_pairs(&pairs, dyd_engine_delaunay(e)), &err);
   bench_cost cost = bench_stop(&meter);
+  dyd_pair_list_clear(&pairs);
   *points = dyd_engine_count(e);
   dyd_delaunay_count(count, dyd_engine_delaunay(e));
   dyd_engine_free(e);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Row roots: computable points (sqrt(a) + sqrt(b), sqrt(c) + sqrt(d)) as streams through the engine, until decided. */
+#include "answers.h"
 #include "ours.h"
 #include "peer.h"
 
@@ -39,8 +40,8 @@ static void add_point(dyd_engine *e, const uint32_t r[4], dyd_error *err) {
 }
 
 /* Writing the text is part of the cost, as is making the numbers for the peer. */
-static bench_cost run(char *remark, size_t size, bench_edges *edges, size_t *undecided, double *input, size_t n,
-                      const uint32_t *r) {
+static bench_cost run(char *remark, size_t size, bench_edges *edges, size_t *legal, size_t *undecided, double *input,
+                      size_t n, const uint32_t *r) {
   dyd_engine *e = NULL;
   dyd_outcome outcome = DYD_OUTCOME_NONE;
   dyd_error err;
@@ -55,6 +56,7 @@ static bench_cost run(char *remark, size_t size, bench_edges *edges, size_t *und
   bench_cost cost = bench_stop(&meter);
   *input = (double)dyd_sites_memory(dyd_delaunay_sites(pd)) / (double)n;
   if (edges) ours_edges(edges, "roots", pd);
+  *legal = count[DYD_LEGAL];
   *undecided = count[DYD_INDETERMINATE] + count[DYD_TIE];
   snprintf(remark, size, "outcome %s; legal %zu; undecided %zu", dyd_outcome_text(outcome), count[DYD_LEGAL],
            *undecided);
@@ -77,17 +79,18 @@ static void row_roots(const bench_options *o, size_t n) {
   uint32_t *r = radicands(n);
   bench_series ours = {0}, peer = {0};
   bench_edges edges = {0}, peers = {0};
-  size_t undecided = 0;
+  size_t legal = 0, undecided = 0;
   double input = 0;
   char remark[200];
   for (size_t k = 0; k < bench_runs(o, 3); k++) {
     bench_cost cost;
-    bench_series_add(&ours, run(remark, sizeof remark, k ? NULL : &edges, &undecided, &input, n, r));
+    bench_series_add(&ours, run(remark, sizeof remark, k ? NULL : &edges, &legal, &undecided, &input, n, r));
     if (peer_roots(&cost, k ? NULL : &peers, n, r)) bench_series_add(&peer, cost);
   }
   if (bench_edges_missing(&peers, &edges)) bench_die("roots", "the peer has an edge that is not possible here");
   if (peers.count && undecided == 0 && edges.count != peers.count)
     bench_die("roots", "decided, yet not the peer's edges");
+  bench_check_numbers(o, "roots", n, legal, undecided, 0);
   bench_report(o, &(bench_row){.name = "roots",
                                .n = n,
                                .ours = &ours,

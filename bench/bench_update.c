@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Row update: thin boxes, k of them wide, so that there are about k undecided faces; then these are narrowed and the
- * faces worked on again, against the first run. Row remeasure: tracks of a receiver, one undecided face; points of it
- * are measured again, one after another, each followed by a run of the engine. */
+/* Rows update-10, update-100, update-1000, or update for all: thin boxes, k of them wide, so that there are about k
+ * undecided faces; then these are narrowed and the faces worked on again, against the first run. Row remeasure: tracks
+ * of a receiver, one undecided face; points of it are measured again, one after another, each followed by a run of the
+ * engine. */
 #include "answers.h"
 #include "cloud.h"
 #include "ours.h"
@@ -53,15 +54,18 @@ static void row_update(const bench_options *o, size_t k) {
   cloud boxes;
   bench_series first = {0}, again = {0};
   size_t faces = 0, left = 0;
-  char remark[200];
+  char remark[200], name[24];
+  snprintf(name, sizeof name, "update-%zu", k);
+  if (!bench_wants(o, "update") && !bench_wants(o, name)) return;
   cloud_uniform(&boxes, bench_size(o, 1000000));
   cloud_widen(&boxes, 0x1p-30);
   for (size_t q = 0; q < k; q++) cloud_widen_one(&boxes, q * (boxes.n / k), 0.25 / sqrt((double)boxes.n));
   for (size_t r = 0; r < bench_runs(o, 3); r++) run(&first, &again, &faces, &left, &boxes, k);
+  bench_check_numbers(o, name, boxes.n, faces, left, 0);
   double part = bench_series_median(&again).seconds / bench_series_median(&first).seconds;
   snprintf(remark, sizeof remark, "%zu sites narrowed; undecided faces %zu before and %zu after; %.2f us a site", k,
            faces, left, bench_series_median(&again).seconds / (double)k * 1e6);
-  bench_report(o, &(bench_row){.name = "update",
+  bench_report(o, &(bench_row){.name = name,
                                .n = boxes.n,
                                .ours = &again,
                                .peer = &first,
@@ -144,9 +148,10 @@ static void row_remeasure(const bench_options *o) {
 int main(int argc, char **argv) {
   bench_options o;
   bench_options_read(&o, argc, argv);
-  if (bench_wants(&o, "update"))
+  while (bench_next_part(&o)) {
     for (size_t k = 10; k <= 1000; k *= 10) row_update(&o, k);
-  if (bench_wants(&o, "remeasure")) row_remeasure(&o);
+    if (bench_wants(&o, "remeasure")) row_remeasure(&o);
+  }
   bench_options_close(&o);
   return 0;
 }
