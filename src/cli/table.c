@@ -194,7 +194,7 @@ const cli_option cli_option_table[] = {
 
     {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE), CLI_OUTPUT,
      "what csv, wkt and geojson hold, and html shows first;\ndelaunay: pairs (default), points, triangles,\n"
-     "graph:nearest, graph:gabriel, graph:mst (edges that are\nsure or possible; not html; also pictures);\n"
+     "graph:nearest, graph:gabriel, graph:mst (edges that are\nsure or possible; also pictures);\n"
      "voronoi: cells (default), vertices, regions, edges; json\nand vtk hold all of them but graphs;\n"
      "tolerance: pairs (default), points, barcode (csv: how "
      "many\n"

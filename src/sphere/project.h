@@ -4,7 +4,7 @@
 #define DYD_SPHERE_PROJECT_H
 
 #include "sphere/spot.h"
-#include <arb.h>
+#include "stream/arb.h"
 
 /* The place that is projected from, with what many images have in common at one precision. Init, then set spot, and
  * prec to 0 when it changes. */

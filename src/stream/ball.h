@@ -3,8 +3,8 @@
 #ifndef DYD_STREAM_BALL_H
 #define DYD_STREAM_BALL_H
 
+#include "stream/arb.h"
 #include "stream/expr.h"
-#include <arb.h>
 
 /* Is the value of a node defined? The _YET answers may change at a higher precision. */
 typedef enum dyd_defined {

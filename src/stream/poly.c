@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "stream/root.h"
 #include <flint/fmpq_poly.h>
+#include <flint/fmpz_vec.h>
 
 void dyd_poly_clear(dyd_poly *p) {
   for (size_t k = 0; k < p->count; k++) mpq_clear(p->coeff[k]);

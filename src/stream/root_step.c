@@ -13,7 +13,6 @@
 #include "stream/root.h"
 
 #include "base/error.h"
-#include <arb_fmpz_poly.h>
 
 static void root_load(fmpz_poly_t p, const dyd_root *r) {
   fmpz_t c;

@@ -8,9 +8,9 @@
 #define DYD_STREAM_ALGEBRA_FORM_H
 
 #include "base/index.h"
+#include "stream/arb.h"
 #include "stream/expr.h"
 #include "stream/root.h"
-#include <arb.h>
 
 /* Operations beside those of expressions. ROOT: object is the dyd_root; OPAQUE: object and b say whose value it is;
  * CLAIM: the value of `object` is that of a, as the caller says. */

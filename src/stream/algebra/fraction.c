@@ -2,6 +2,8 @@
 /* Arithmetic of fractions. Numerators and denominators are reduced; integer factors are divided out, others are not. */
 #include "stream/algebra/fraction.h"
 
+#include <flint/fmpz_vec.h>
+
 void dyd_fraction_set(dyd_fraction *x, const dyd_fraction *y, const dyd_ring *r) {
   fmpz_mpoly_set(x->num, y->num, r->ctx);
   fmpz_mpoly_set(x->den, y->den, r->ctx);

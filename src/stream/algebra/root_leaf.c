@@ -7,7 +7,7 @@
  * ones are more than n^-(n+2)/2 |f|^-(n-1) apart (Mahler 1964, f without multiple zeros). */
 #include "stream/algebra/leaves.h"
 
-#include <arb_fmpz_poly.h>
+#include "stream/arb.h"
 #include <flint/fmpz_poly_factor.h>
 
 /* Degree and bits up to which factors are looked for; bits of a relation; bits looked at to tell roots apart. */

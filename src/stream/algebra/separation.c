@@ -10,8 +10,7 @@
 #include "stream/algebra/separation.h"
 
 #include "stream/algebra/normal.h"
-
-#include <arb.h>
+#include "stream/arb.h"
 
 /* What is known of a form: its value is P / Q; num and den bound P and Q at all choices; whole: Q as an integer where
  * it is one, else 0; uses: the leaves of P and Q. */
