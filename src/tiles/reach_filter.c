@@ -19,7 +19,7 @@ static const double MARGIN = 0x1p-48, TINY = 0x1p-1000;
  * of the site all centres c with c.m >= p = (|m| + size)^2 / 2 + rho size are surely nearer to it; (x, y) is the pole
  * of this line. */
 typedef struct tiles_spoke {
-  double mx, my, size, p, x, y;
+  double mx, my, size, x, y;
   tiles_box box;
 } tiles_spoke;
 
@@ -36,6 +36,8 @@ typedef struct reach_work {
   double cx, cy; /* the middle of the site */
   double rho;    /* how far its partners are, on the average */
   bool thick;    /* there are rectangles */
+  bool gap;      /* the cell goes on between two spokes, the last and the first one as seen from far out: */
+  tiles_spoke last, first;
 } reach_work;
 
 /* ---- what is checked ---- */
@@ -107,31 +109,59 @@ static bool spoke_end(double u[2], const reach_work *w, const tiles_spoke *s, do
   return false;
 }
 
+/* The p of a spoke at distance rho. */
+static double spoke_line(const tiles_spoke *s, double rho) {
+  double d2 = s->mx * s->mx + s->my * s->my;
+  return (d2 + s->size * (2 * sqrt(d2) + s->size)) / 2 + rho * s->size;
+}
+
 /* Where the lines of two spokes meet, pushed outward until it is surely nearer to both; or, too far away for good
  * bounds, the direction. */
 static bool spokes_meet(tiles_knot *c, const reach_work *w, const tiles_spoke *a, const tiles_spoke *b) {
-  double turn = reach_cross(a->mx, a->my, b->mx, b->my), p = a->p, q = b->p;
+  double turn = reach_cross(a->mx, a->my, b->mx, b->my), rho = w->rho;
   if (!(turn > 0)) return false;
-  double x = (p * b->my - q * a->my) / turn, y = (a->mx * q - b->mx * p) / turn;
-  const bool near = x * x + y * y < 0x1p48 * (p + q);
-  for (double push = 0x1p-44; near && push < 4; push *= push < 0x1p-8 ? 16 : 1.5) {
+  for (double push = 0x1p-44; push < 4; push *= push < 0x1p-8 ? 16 : 1.5, rho *= 1.5) {
+    double p = spoke_line(a, rho), q = spoke_line(b, rho);
+    double x = (p * b->my - q * a->my) / turn, y = (a->mx * q - b->mx * p) / turn;
+    if (!(x * x + y * y < 0x1p48 * (p + q))) {
+      *c = (tiles_knot){x, y, true};
+      return spoke_is_beyond(a, &w->own, x, y) && spoke_is_beyond(b, &w->own, x, y);
+    }
     *c = (tiles_knot){w->cx + x * (1 + push), w->cy + y * (1 + push), false};
     if (spoke_is_nearer(a, &w->own, c->x, c->y) && spoke_is_nearer(b, &w->own, c->x, c->y)) return true;
   }
-  *c = (tiles_knot){x, y, true};
-  return !near && spoke_is_beyond(a, &w->own, x, y) && spoke_is_beyond(b, &w->own, x, y);
+  return false;
 }
 
-/* Knots between the spokes a and b: one place, or the directions into which the cell goes on. *fits = false: none. */
-static bool reach_between(bool *fits, reach_work *w, const tiles_spoke *a, const tiles_spoke *b) {
-  double last[2], first[2];
+static bool spokes_same(const tiles_spoke *a, const tiles_spoke *b) {
+  return a->mx == b->mx && a->my == b->my;
+}
+
+/* One knot where a and b meet. */
+static bool reach_corner(bool *fits, reach_work *w, const tiles_spoke *a, const tiles_spoke *b) {
   tiles_knot c;
-  if (a != b && spokes_meet(&c, w, a, b)) return reach_knot(w, c.x, c.y, c.far);
+  if (spokes_same(a, b)) return true;
+  *fits = spokes_meet(&c, w, a, b);
+  return !*fits || reach_knot(w, c.x, c.y, c.far);
+}
+
+/* The directions into which the cell goes on. */
+static bool reach_ends(bool *fits, reach_work *w, const tiles_spoke *a, const tiles_spoke *b) {
+  double last[2], first[2];
   *fits = spoke_end(last, w, a, 1) && spoke_end(first, w, b, -1);
   if (!*fits) return true;
   tiles_knot l = {last[0], last[1], true}, f = {first[0], first[1], true};
   return reach_knot(w, last[0], last[1], true) && (knots_turn(&l, &f) || reach_knot(w, -last[1], last[0], true)) &&
          reach_knot(w, first[0], first[1], true);
+}
+
+/* Knots between the spokes a and b. *fits = false: none. */
+static bool reach_between(bool *fits, reach_work *w, const tiles_spoke *a, const tiles_spoke *b) {
+  tiles_knot c;
+  if (a != b && spokes_meet(&c, w, a, b)) return reach_knot(w, c.x, c.y, c.far);
+  if (!w->gap) return reach_ends(fits, w, a, b);
+  return reach_corner(fits, w, a, &w->last) && (!*fits || reach_ends(fits, w, &w->last, &w->first)) &&
+         (!*fits || reach_corner(fits, w, &w->first, b));
 }
 
 static int compare_spokes(const void *a, const void *b) {
@@ -195,27 +225,43 @@ static bool reach_spokes(reach_work *w, const tiles_view *v, uint32_t i, const t
   return true;
 }
 
-static void place_poles(const reach_work *w, double rho) {
+/* The spokes of the border of the cell, seen from distance rho, counter-clockwise; the others lose their order. */
+static tiles_spoke *reach_border(size_t *count, const reach_work *w, double rho) {
+  tiles_spoke *all = w->out->spoke, *s = all + w->spokes;
   for (size_t k = 0; k < w->spokes; k++) {
-    tiles_spoke *s = &w->out->spoke[k];
-    double d2 = s->mx * s->mx + s->my * s->my;
-    s->p = (d2 + s->size * (2 * sqrt(d2) + s->size)) / 2 + rho * s->size;
-    s->x = d2 > 0 ? s->mx / s->p : 0;
-    s->y = d2 > 0 ? s->my / s->p : 0;
+    double p = spoke_line(&all[k], rho);
+    all[k].x = p > 0 ? all[k].mx / p : 0;
+    all[k].y = p > 0 ? all[k].my / p : 0;
   }
+  size_t n = hull_of_spokes(all, w->spokes);
+  *count = 0;
+  for (size_t k = 0; k < n; k++) /* 0 leaves: where it was the cell has no end */
+    if (s[k].mx != 0 || s[k].my != 0) s[(*count)++] = s[k];
+  return s;
 }
 
-/* *fits: the chain is one. The spokes are put into order. */
+/* Far out near rectangles, which are seen at wide angles, do not bound the cell: those that do there. */
+static void reach_gap(reach_work *w) {
+  size_t n, gaps = 0;
+  const tiles_spoke *s = reach_border(&n, w, ldexp(w->rho, 20));
+  for (size_t k = 0; k < n; k++) {
+    const tiles_spoke *a = &s[k], *b = &s[(k + 1) % n];
+    if (reach_cross(a->mx, a->my, b->mx, b->my) > 0) continue;
+    w->last = *a;
+    w->first = *b;
+    gaps++;
+  }
+  w->gap = gaps == 1;
+}
+
+/* *fits: the chain is one. */
 static bool reach_chain(bool *fits, reach_work *w, double rho) {
+  size_t n;
+  const tiles_spoke *s = reach_border(&n, w, rho);
   w->knots = 0;
-  place_poles(w, rho);
-  tiles_spoke *s = w->out->spoke + w->spokes;
-  size_t n = hull_of_spokes(w->out->spoke, w->spokes), m = 0;
-  for (size_t k = 0; k < n; k++) /* 0 leaves: where it was the cell has no end */
-    if (s[k].mx != 0 || s[k].my != 0) s[m++] = s[k];
-  *fits = m > 0;
-  for (size_t k = 0; *fits && k < m; k++)
-    if (!reach_between(fits, w, &s[k], &s[(k + 1) % m])) return false;
+  *fits = n > 0;
+  for (size_t k = 0; *fits && k < n; k++)
+    if (!reach_between(fits, w, &s[k], &s[(k + 1) % n])) return false;
   const tiles_knot *e = w->out->knot;
   for (size_t k = 0; *fits && k < w->knots; k++) *fits = knots_turn(&e[k], &e[(k + 1) % w->knots]);
   return true;
@@ -225,8 +271,15 @@ static bool reach_chain(bool *fits, reach_work *w, double rho) {
 static bool reach_chains(bool *fits, reach_work *w) {
   enum { TRIES = 12 };
   *fits = false;
-  for (int k = 0; !*fits && k < (w->thick ? TRIES : 1); k++)
+  if (!w->thick) return reach_chain(fits, w, 0);
+  reach_gap(w);
+  const bool gap = w->gap;
+  for (int k = 0; !*fits && k < TRIES; k++) {
+    w->gap = gap;
     if (!reach_chain(fits, w, ldexp(w->rho, k))) return false;
+    w->gap = false;
+    if (gap && !*fits && !reach_chain(fits, w, ldexp(w->rho, k))) return false;
+  }
   return true;
 }
 
@@ -274,7 +327,7 @@ bool tiles_reach_find(tiles_reach *out, const tiles_view *v, uint32_t i, const t
       !tiles_reserve((void **)&out->item, &out->room, w.knots + 1, sizeof *out->item))
     return false;
   out->count = 0;
-  if (!fits) out->item[out->count++] = (tiles_disc){1, 0, -INFINITY, 1};
+  if (!fits) out->item[out->count++] = (tiles_disc){tiles_view_box(v, i).x0, tiles_view_box(v, i).y0, INFINITY, 0};
   for (size_t k = 0; fits && k < w.knots; k++) out->item[out->count++] = knot_disc(&out->knot[k], v, i, p, wide);
   return true;
 }

@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""What goes wrong with dyadel-tiles is told clearly, and --restart completes the job.
+
+Usage: test_faults.py TILES DYADEL [MPIRUN]
+"""
+import os
+import pathlib
+import random
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import tiles_cases as cases
+
+TILES, DYADEL = sys.argv[1:3]
+MPIRUN = sys.argv[3:4]
+# Rank 1 (in one process: all) may write files of so many blocks only.
+SMALL_DISK = ('if [ "${OMPI_COMM_WORLD_RANK:-1}" = 1 ]; then trap "" XFSZ; ulimit -f 8; fi; exec "$0" "$@"')
+
+
+def command(ranks, *words, before=()):
+    if MPIRUN:
+        return [*MPIRUN, '--oversubscribe', '--allow-run-as-root', '-n', str(ranks), *before, TILES, *words]
+    return [*before, TILES, *words, '--tiles', str(ranks)]
+
+
+def tiles(ranks, *words, before=()):
+    return subprocess.run(command(ranks, *words, before=before), capture_output=True, text=True, timeout=600)
+
+
+class Faults(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.at = pathlib.Path(folder.name)
+        self.file, self.out = str(self.at / 'in.bin'), str(self.at / 'out')
+        self.rows = cases.repeated(20000, random.Random(cases.SEED))
+        cases.write(self.at / 'in.bin', self.rows)
+
+    def complete(self, ranks):
+        """--restart finishes, and the union is right."""
+        done = tiles(ranks, 'delaunay', self.file, '-o', self.out, '--restart')
+        want, status = cases.expected(DYADEL, self.rows)
+        self.assertEqual(done.returncode, status, done.stderr)
+        joined = subprocess.run([TILES, 'to-csv', self.out, '-o', str(self.at / 'all.csv')], capture_output=True)
+        self.assertEqual(joined.returncode, 0, joined.stderr)
+        self.assertTrue((self.at / 'all.csv').read_bytes() == want)
+
+    def test_missing_part(self):
+        """Only what is missing is done again; what belongs to another job counts as missing."""
+        self.assertEqual(tiles(4, 'delaunay', self.file, '-o', self.out).returncode, 0)
+        parts = cases.parts_of(self.out)
+        before = {p: p.stat().st_mtime_ns for p in parts}
+        parts[2].unlink()
+        (self.at / 'out' / 'manifest.json').unlink()
+        joined = subprocess.run([TILES, 'to-csv', self.out], capture_output=True, text=True)
+        self.assertEqual(joined.returncode, 1)
+        self.assertIn('--restart', joined.stderr)
+        self.complete(4)
+        self.assertEqual({p for p in parts if p.stat().st_mtime_ns != before[p]}, {parts[2]})
+        parts[1].write_bytes(parts[1].read_bytes()[:-20])
+        self.rows[0] = (0.123, 0.456)
+        cases.write(self.at / 'in.bin', self.rows)
+        self.complete(4)
+        self.complete(3)
+
+    def test_killed(self):
+        """One rank is killed at any moment."""
+        for wait in (0.05, 0.3, 0.6):
+            job = subprocess.Popen(command(3, 'delaunay', self.file, '-o', self.out), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+            time.sleep(wait)
+            found = subprocess.run(['ps', '-o', 'pid=', '--ppid', str(job.pid)], capture_output=True, text=True).stdout.split()
+            victim = int(found[1]) if MPIRUN and len(found) > 1 else job.pid
+            try:
+                os.kill(victim, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+            told = job.communicate(timeout=100)[1]
+            if job.returncode != 0 and MPIRUN and len(found) > 1:
+                self.assertIn('signal 9', told)
+            if (self.at / 'out' / 'manifest.json').exists():  # it was killed after its work
+                self.assertEqual(subprocess.run([TILES, 'to-csv', self.out], stdout=subprocess.DEVNULL).returncode, 0)
+            self.complete(3)
+            shutil.rmtree(self.out)
+
+    def test_full_disk(self):
+        done = tiles(3, 'delaunay', self.file, '-o', self.out, before=['sh', '-c', SMALL_DISK])
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('cannot write', done.stderr)
+        self.assertIn('--restart', done.stderr)
+        self.assertFalse((self.at / 'out' / 'manifest.json').exists())
+        self.complete(3)
+
+    def refused(self, status, text, *words):
+        done = tiles(3, *words)
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertIn(text, done.stderr)
+        self.assertFalse((self.at / 'out' / 'manifest.json').exists())
+
+    def test_bad_input(self):
+        name = ('delaunay', self.file, '-o', self.out)
+        body = bytearray((self.at / 'in.bin').read_bytes())
+        body[16 * 12345 + 8:16 * 12345 + 16] = struct.pack('<d', float('nan'))
+        (self.at / 'in.bin').write_bytes(body)
+        self.refused(1, f'{self.file}: point 12345 (byte {16 * 12345 + 8}): not a finite number', *name)
+        cases.write(self.at / 'in.bin', [(0.0, 1.0, 3.0, 2.0)])
+        self.refused(1, 'point 0 (byte 0): the lower end is above the upper one', *name, '--boxes')
+        (self.at / 'in.bin').write_bytes(b'1 2\n3 4\n')
+        self.refused(1, '8 bytes are no whole number of points of 16 bytes', *name)
+        (self.at / 'in.bin').unlink()
+        self.refused(1, 'No such file', *name)
+        self.refused(1, 'is no file', 'delaunay', str(self.at), '-o', self.out)
+
+    def test_words(self):
+        self.refused(2, 'unknown option', 'delaunay', self.file, '-o', self.out, '--box')
+        self.refused(2, "the command is 'delaunay' or 'to-csv'", 'voronoi', self.file)
+        self.refused(2, 'give it with -o', 'delaunay', self.file)
+        self.refused(2, 'needs a number', 'delaunay', self.file, '-o', self.out, '--max-pairs', '0')
+        told = subprocess.run([TILES, '--help'], capture_output=True, text=True).stdout
+        for word in ('--boxes', '--tiles', '--restart', '--max-pairs', '--accept-fixpoint', '--stats'):
+            self.assertIn(word, told)
+        self.assertIn('0.', subprocess.run([TILES, '--version'], capture_output=True, text=True).stdout)
+
+    def test_options(self):
+        """A cap on pairs ends in outcome budget, ties in fixpoint, which may be accepted."""
+        cases.write(self.at / 'in.bin', cases.line(300, random.Random(1)))
+        for words, status, outcome in ((('--max-pairs', '10'), 4, 'budget'), ((), 3, 'fixpoint'),
+                                       (('--accept-fixpoint', '--stats'), 0, 'fixpoint')):
+            done = tiles(2, 'delaunay', self.file, '-o', self.out, *words)
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertIn(f'"outcome":"{outcome}"', (self.at / 'out' / 'manifest.json').read_text())
+        self.assertIn('ghosts', done.stderr)
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1], verbosity=2)
