@@ -109,8 +109,8 @@ int main(int argc, char **argv) {
   bench_options o;
   bench_options_read(&o, argc, argv);
   while (bench_next_part(&o)) {
-    if (bench_wants(&o, "boxes")) row_boxes(&o, "boxes", 1, 0.9);
-    if (bench_wants(&o, "boxes2")) row_boxes(&o, "boxes2", 2, 0.55);
+    if (bench_wants(&o, "boxes")) row_boxes(&o, "boxes", 1, 0.65);
+    if (bench_wants(&o, "boxes2")) row_boxes(&o, "boxes2", 2, 0.4);
     if (bench_wants(&o, "thick")) row_wide(&o, "thick", 100000, 0.03, 5);
     if (bench_wants(&o, "overlap")) row_wide(&o, "overlap", 10000, 0.5, 10);
   }

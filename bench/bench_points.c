@@ -73,7 +73,7 @@ static void row_of(const bench_options *o, const bench_row *goals, cloud *points
 
 static void row_uniform(const bench_options *o) {
   cloud points;
-  bench_row goals = {.name = "uniform", .ratio_bar = 2.0, .ratio_goal = 0.6, .total_bar = 400, .beyond_goal = 100};
+  bench_row goals = {.name = "uniform", .ratio_bar = 2.0, .ratio_goal = 0.38, .total_bar = 400, .beyond_goal = 100};
   cloud_uniform(&points, bench_size(o, 1000000));
   row_of(o, &goals, &points, OURS_STATUSES, 5);
 }
@@ -104,7 +104,7 @@ static void row_arrays(const bench_options *o) {
 
 static void row_grid(const bench_options *o) {
   cloud points;
-  bench_row goals = {.name = "grid", .ratio_goal = 1.0};
+  bench_row goals = {.name = "grid", .ratio_goal = 0.8};
   cloud_grid(&points, bench_size(o, 1000000));
   row_of(o, &goals, &points, OURS_LISTED, 3);
 }

@@ -11,6 +11,8 @@
 #include <mpfr.h>
 #include <string.h>
 
+__extension__ typedef unsigned __int128 wide;
+
 /* 0.DIGITS * 10^exp as a plain decimal, or in scientific form when that needs many zeros. */
 static void decimal_layout(char *out, bool negative, const char *digits, int count, int exp) {
   while (count > 1 && digits[count - 1] == '0') count--;
@@ -36,12 +38,38 @@ static void decimal_layout(char *out, bool negative, const char *digits, int cou
   *p = 0;
 }
 
+/* The same without MPFR where 128 bits hold everything, as they do for most numbers that people write: |x| = man
+ * 2^-shift, and man 10^k < 10^digits * 100 * 2^63 < 2^127 for the k that leaves `digits` digits before the point; the
+ * guess of k is off by one at most. */
+static bool decimal_in_integers(char *text, int *exp, double x, int digits, bool up) {
+  int e, spare;
+  uint64_t man = (uint64_t)ldexp(frexp(fabs(x), &e), 53), least = 1;
+  spare = __builtin_ctzll(man);
+  int shift = 53 - e - spare, k = digits - 1 - (int)floor((e - 1) * 0.30103);
+  if (shift < 0 || shift > 63 || k < 1 || digits > 17) return false;
+  for (int q = 1; q < digits; q++) least *= 10;
+  wide product = man >> spare;
+  for (int q = 0; q < k; q++) product *= 10;
+  for (; product >> shift < least; k++) product *= 10;
+  for (; product >> shift >= 10 * (wide)least; k--) product /= 10;
+  uint64_t whole = (uint64_t)(product >> shift);
+  if (up && (wide)whole << shift != product) whole++;
+  *exp = digits - k + (whole == 10 * least);
+  snprintf(text, 24, "%" PRIu64, whole == 10 * least ? least : whole);
+  return true;
+}
+
 void dyd_decimal_directed(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd_round dir) {
+  int quick;
   strcpy(out, "0");
   if (x == 0) return;
   char text[40];
   mpfr_exp_t exp;
   mpfr_t value;
+  if (decimal_in_integers(text, &quick, x, digits, (dir == DYD_UP) == (x > 0))) {
+    decimal_layout(out, x < 0, text, digits, quick);
+    return;
+  }
   mpfr_init2(value, 53);
   mpfr_set_d(value, x, MPFR_RNDN); /* exact */
   mpfr_get_str(text, &exp, 10, (size_t)digits, value, dir == DYD_UP ? MPFR_RNDU : MPFR_RNDD);

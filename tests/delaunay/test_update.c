@@ -227,7 +227,7 @@ static void test_crowd(void **state) {
   cloud *c = malloc(sizeof *c);
   size_t carried = 0, before = hidden;
   assert_non_null(c);
-  for (size_t q = 0; q < test_cases(60); q++) {
+  for (size_t q = 0; q < test_cases(25); q++) {
     dyd_sites *s = NULL;
     dyd_delaunay *pd = NULL;
     make_crowd(c, &g);
