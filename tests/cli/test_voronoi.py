@@ -406,17 +406,21 @@ def check_vtk(text):
     assert [next(lines), next(lines)] == ['ASCII', 'DATASET POLYDATA']
     count = int(re.fullmatch(r'POINTS (\d+) double', next(lines)).group(1))
     assert all(len([float(t) for t in next(lines).split()]) == 3 for _ in range(count))
-    # Twelve cells twice and the one undecided region, the centre; no vertex is sure.
-    cells, size = map(int, re.fullmatch(r'POLYGONS (\d+) (\d+)', next(lines)).groups())
-    for _ in range(cells):
-        indices = [int(t) for t in next(lines).split()]
-        assert indices[0] == len(indices) - 1 and all(0 <= k < count for k in indices[1:])
-        size -= len(indices)
-    assert size == 0 and next(lines) == f'CELL_DATA {cells}'
+    # Twelve edges from the tied vertex; twelve cells twice, this vertex, and its region.
+    cells = 0
+    for name in ('LINES', 'POLYGONS'):
+        some, size = map(int, re.fullmatch(name + r' (\d+) (\d+)', next(lines)).groups())
+        for _ in range(some):
+            indices = [int(t) for t in next(lines).split()]
+            assert indices[0] == len(indices) - 1 and all(0 <= k < count for k in indices[1:])
+            size -= len(indices)
+        cells += some
+        assert size == 0, name
+    assert next(lines) == f'CELL_DATA {cells}'
     rest = list(lines)
     assert rest.count('LOOKUP_TABLE default') == 2 and len(rest) == 2 * cells + 4
     kinds = rest[rest.index('SCALARS kind int 1') + 2:]
-    assert sorted(kinds) == ['0'] * 12 + ['1'] * 12 + ['2', '3'], kinds
+    assert sorted(kinds) == ['0'] * 12 + ['1'] * 12 + ['2', '3'] + ['4'] * 12, kinds
 
 
 def test_formats():

@@ -128,7 +128,7 @@ static void test_blockers(void **state) {
   notes n;
   const double x[4] = {0, 10, 5, 5}, y[4] = {0, 0, 20, -0x1p220};
   assert_int_equal(DYD_OK, dyd_engine_add_points(e, 2, x, y));
-  engine_add_text(e, "5", "exp(log(6)/2)-sqrt(6)+2^-200");
+  engine_add_hidden(e, "5", "exp(log(6)/2)-sqrt(6)+2^-200");
   assert_int_equal(DYD_OK, dyd_engine_add_points(e, 2, x + 2, y + 2));
   notes_init(&n, e);
   dyd_engine_options o = options(&n);
