@@ -19,7 +19,7 @@ static dyd_status tolerance_write(FILE *out, const void *what, const cli_options
 }
 
 /* A number of each point, as its row says. */
-static double *numbers_of(const dyd_engine *e, double (*number)(const dyd_engine *e, size_t i)) {
+static double *of_each_point(const dyd_engine *e, double (*number)(const dyd_engine *e, size_t i)) {
   size_t n = dyd_engine_count(e);
   double *out = malloc((n + 1) * sizeof *out);
   for (size_t i = 0; out && i < n; i++) out[i] = number(e, i);
@@ -28,8 +28,8 @@ static double *numbers_of(const dyd_engine *e, double (*number)(const dyd_engine
 
 /* How far points move, each by its own measure, stands in the column of radii. */
 static int tolerance_columns(tolerance_run *r, const cli_options *o) {
-  if (o->read.radius_columns) r->weight = numbers_of(r->engine, dyd_engine_radius);
-  if (o->read.sigma_column) r->sigmas = numbers_of(r->engine, dyd_engine_sigma);
+  if (o->read.radius_columns) r->weight = of_each_point(r->engine, dyd_engine_radius);
+  if (o->read.sigma_column) r->sigmas = of_each_point(r->engine, dyd_engine_sigma);
   bool good = !r->weight == !o->read.radius_columns && !r->sigmas == !o->read.sigma_column;
   return good ? 0 : cli_complain_memory();
 }
