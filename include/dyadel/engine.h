@@ -223,6 +223,8 @@ DYD_API double dyd_engine_cost(const dyd_engine *e, size_t i);
 /* The radius in its row that is not in its rectangle (dyd_read_options.degrees, keep_radii), rounded up; 0 where there
  * is none. */
 DYD_API double dyd_engine_radius(const dyd_engine *e, size_t i);
+/* The standard deviation of its errors, as its row said (dyd_read_options.sigma_column); 0 where none did. */
+DYD_API double dyd_engine_sigma(const dyd_engine *e, size_t i);
 /* The k-th row, ascending, that was taken as one with an earlier one, and the point that stands for both; false: there
  * are no more. */
 DYD_API bool dyd_engine_merged(size_t *row, size_t *point, const dyd_engine *e, size_t k);

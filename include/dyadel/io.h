@@ -44,8 +44,9 @@ typedef struct dyd_read_options {
   /* x and y are longitude and latitude: a latitude beyond 90 degrees is an error with its line and column, and radii in
    * a column may have a unit: "30m", "2km" are no part of the rectangle, but kept in metres (dyd_engine_radius). */
   bool degrees;
-  const char *cost_column; /* "NAME": what measuring a point once more costs (dyd_engine_cost) */
-  bool keep_radii;         /* radii in a column do not widen points, but are kept (dyd_engine_radius) */
+  const char *cost_column;  /* "NAME": what measuring a point once more costs (dyd_engine_cost) */
+  const char *sigma_column; /* "NAME": the standard deviation of a point's errors (dyd_engine_sigma) */
+  bool keep_radii;          /* radii in a column do not widen points, but are kept (dyd_engine_radius) */
 } dyd_read_options;
 
 /* Reads points from `in` up to its end and adds them to e (nothing is added on failure). What gzip or zstd packed is

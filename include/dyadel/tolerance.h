@@ -45,6 +45,8 @@ typedef struct dyd_tolerance_options {
   /* Of each site, >= 0: it moves by at most t times its weight, 0: not at all; of aliases the largest counts. Results
    * hold for these numbers and for all that they are next to as doubles. NULL: 1 each. Borrowed for the call. */
   const double *weight;
+  const double
+      *sigmas; /* of each site, above 0: standard deviations in place of sigma; NULL: sigma. Borrowed as above */
 } dyd_tolerance_options;
 
 typedef struct dyd_tolerance dyd_tolerance;
@@ -69,8 +71,8 @@ DYD_API void dyd_tolerance_whole(double *lo, double *hi, const dyd_tolerance *t)
  * others are none, as at the nominal places [TOL-6]. Borrowed; NULL unless options.points was set. Aliases have 0. */
 DYD_API const double *dyd_tolerance_points(const dyd_tolerance *t);
 /* For each row a lower bound of the probability that the pair is an edge, when every coordinate of every point has a
- * normal error of standard deviation options.sigma, all independent [TOL-7]. 0 for births and ties. Borrowed; NULL
- * unless options.sigma was set. */
+ * normal error of standard deviation options.sigma, or sigmas, all independent [TOL-7]. 0 for births and ties.
+ * Borrowed; NULL unless options.sigma, or sigmas, was set. */
 DYD_API const double *dyd_tolerance_chances(const dyd_tolerance *t);
 /* The exact event of row number `row`: |sqrt(plus) - sqrt(minus)| / 2; both are initialised by the caller. DYD_E_ARG
  * where lo is infinite, or there is no such row, or there are weights: no such form is known then. O(1) */

@@ -192,6 +192,9 @@ const cli_option cli_option_table[] = {
      "also a lower bound of each edge's probability, for normal\nerrors of standard deviation S in x and in y",
      AT(sigma)},
 
+    {"sigma-column", 0, "NAME", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_INPUT,
+     "as --sigma, of each point what stands in this column", AT(read.sigma_column)},
+
     {"layer", 0, "L", CLI_LAYER, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI) | BIT(CLI_TOLERANCE), CLI_OUTPUT,
      "what csv, wkt and geojson hold, and html shows first;\ndelaunay: pairs (default), points, triangles,\n"
      "graph:nearest, graph:gabriel, graph:mst (edges that are\nsure or possible; also pictures);\n"

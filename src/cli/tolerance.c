@@ -7,7 +7,7 @@ typedef struct tolerance_run {
   dyd_tolerance *tolerance;
   const dyd_engine *engine;
   mpq_t up_to, sigma;
-  double *weight;
+  double *weight, *sigmas;
   dyd_rect window;
 } tolerance_run;
 
@@ -18,14 +18,20 @@ static dyd_status tolerance_write(FILE *out, const void *what, const cli_options
   return dyd_write_tolerance(out, r->engine, r->tolerance, &how, o->format, err);
 }
 
+/* A number of each point, as its row says. */
+static double *of_each_point(const dyd_engine *e, double (*number)(const dyd_engine *e, size_t i)) {
+  size_t n = dyd_engine_count(e);
+  double *out = malloc((n + 1) * sizeof *out);
+  for (size_t i = 0; out && i < n; i++) out[i] = number(e, i);
+  return out;
+}
+
 /* How far points move, each by its own measure, stands in the column of radii. */
-static dyd_status tolerance_weights(tolerance_run *r, const cli_options *o) {
-  size_t n = dyd_engine_count(r->engine);
-  if (!o->read.radius_columns) return DYD_OK;
-  r->weight = malloc((n + 1) * sizeof *r->weight);
-  if (!r->weight) return DYD_E_NOMEM;
-  for (size_t i = 0; i < n; i++) r->weight[i] = dyd_engine_radius(r->engine, i);
-  return DYD_OK;
+static int tolerance_columns(tolerance_run *r, const cli_options *o) {
+  if (o->read.radius_columns) r->weight = of_each_point(r->engine, dyd_engine_radius);
+  if (o->read.sigma_column) r->sigmas = of_each_point(r->engine, dyd_engine_sigma);
+  bool good = !r->weight == !o->read.radius_columns && !r->sigmas == !o->read.sigma_column;
+  return good ? 0 : cli_complain_memory();
 }
 
 /* The triangulation of the points as they are, and what it tolerates. */
@@ -41,13 +47,14 @@ static dyd_status tolerance_find(dyd_engine *e, const dyd_engine_options *option
   if (mpq_sgn(r->up_to)) o.up_to = r->up_to;
   o.sigma = mpq_get_d(r->sigma);
   o.weight = r->weight;
+  o.sigmas = r->sigmas;
   st = dyd_tolerance_new(&r->tolerance, dyd_engine_delaunay(e), &o, err);
   return st == DYD_CANCELLED ? DYD_OK : st;
 }
 
 static int tolerance_all(cli_session *s, tolerance_run *r, const cli_options *o) {
   r->engine = s->engine;
-  int status = tolerance_weights(r, o) == DYD_OK ? 0 : cli_complain_memory();
+  int status = tolerance_columns(r, o);
   if (!status) status = cli_session_run_by(s, &o->engine, tolerance_find, r);
   cli_session_settle(s);
   if (!status && r->tolerance) return cli_write_file(o->output, o, tolerance_write, r);
@@ -62,6 +69,11 @@ static int sigma_read(mpq_ptr out, const char *text) {
   return CLI_USAGE;
 }
 
+static int complain_two_sigmas(void) {
+  cli_complain("--sigma and --sigma-column contradict each other; leave one of them away");
+  return CLI_USAGE;
+}
+
 int cli_tolerance(const cli_options *o) {
   tolerance_run r = {0};
   cli_options own = *o;
@@ -71,6 +83,7 @@ int cli_tolerance(const cli_options *o) {
   dyd_rect_init(&r.window);
   int status = o->up_to ? cli_number_read(r.up_to, "up-to", o->up_to) : 0;
   if (!status && o->sigma) status = sigma_read(r.sigma, o->sigma);
+  if (!status && o->sigma && o->read.sigma_column) status = complain_two_sigmas();
   if (!status && o->window) status = cli_window_read(&r.window, o->window);
   if (!status) {
     status = cli_session_open(&s, &own);
@@ -82,6 +95,7 @@ int cli_tolerance(const cli_options *o) {
     if (status) status = end;
   }
   free(r.weight);
+  free(r.sigmas);
   dyd_rect_clear(&r.window);
   mpq_clears(r.up_to, r.sigma, NULL);
   return status;

@@ -9,24 +9,21 @@
 void dyd_labels_clear(dyd_labels *l) {
   free(l->row);
   free(l->id);
-  free(l->cost);
-  free(l->radius);
+  free(l->number);
   free(l->text);
   free(l->merged);
   *l = (dyd_labels){0};
 }
 
-bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, double cost, double radius) {
+bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, const dyd_row_numbers *number) {
   if (!dyd_reserve((void **)&l->row, &l->row_cap, l->points + 1, sizeof *l->row) ||
       !dyd_reserve((void **)&l->id, &l->id_cap, l->points + 1, sizeof *l->id) ||
-      !dyd_reserve((void **)&l->cost, &l->cost_cap, l->points + 1, sizeof *l->cost) ||
-      !dyd_reserve((void **)&l->radius, &l->radius_cap, l->points + 1, sizeof *l->radius) ||
+      !dyd_reserve((void **)&l->number, &l->number_cap, l->points + 1, sizeof *l->number) ||
       !dyd_reserve((void **)&l->text, &l->text_cap, l->used + length + 2, 1))
     return false;
   if (!l->used) l->text[l->used++] = 0; /* place 0 is the empty text of those without identifier */
   l->row[l->points] = l->rows++;
-  l->cost[l->points] = cost;
-  l->radius[l->points] = radius;
+  l->number[l->points] = *number;
   l->id[l->points++] = id ? l->used : 0;
   if (!id) return true;
   memcpy(l->text + l->used, id, length);
@@ -52,7 +49,7 @@ static bool labels_append(dyd_labels *out, const dyd_labels *from) {
   for (size_t i = 0; good && i < from->points; i++) {
     const char *id = from->has_ids ? from->text + from->id[i] : NULL;
     out->rows = rows + from->row[i];
-    good = dyd_labels_add(out, id, id ? strlen(id) : 0, from->cost[i], from->radius[i]);
+    good = dyd_labels_add(out, id, id ? strlen(id) : 0, &from->number[i]);
   }
   for (size_t k = 0; good && k < from->merges; k++) {
     out->rows = rows + from->merged[k].row;
@@ -65,7 +62,7 @@ static bool labels_append(dyd_labels *out, const dyd_labels *from) {
 dyd_status dyd_labels_join(dyd_labels *out, const dyd_engine *e, const dyd_labels *more) {
   dyd_labels all = {0};
   bool good = labels_append(&all, &e->labels);
-  while (good && all.points < dyd_sites_count(e->sites)) good = dyd_labels_add(&all, NULL, 0, 1, 0);
+  while (good && all.points < dyd_sites_count(e->sites)) good = dyd_labels_add(&all, NULL, 0, &dyd_no_row_numbers);
   good = good && labels_append(&all, more);
   if (good)
     *out = all;
@@ -94,12 +91,20 @@ const char *dyd_engine_id(const dyd_engine *e, size_t i) {
   return i < l->points ? l->text + l->id[i] : "";
 }
 
+static double row_number_of(const dyd_engine *e, size_t i, dyd_row_number which) {
+  return (e && i < e->labels.points ? e->labels.number[i] : dyd_no_row_numbers).of[which];
+}
+
 double dyd_engine_cost(const dyd_engine *e, size_t i) {
-  return e && i < e->labels.points ? e->labels.cost[i] : 1;
+  return row_number_of(e, i, DYD_ROW_COST);
 }
 
 double dyd_engine_radius(const dyd_engine *e, size_t i) {
-  return e && i < e->labels.points ? e->labels.radius[i] : 0;
+  return row_number_of(e, i, DYD_ROW_RADIUS);
+}
+
+double dyd_engine_sigma(const dyd_engine *e, size_t i) {
+  return row_number_of(e, i, DYD_ROW_SIGMA);
 }
 
 bool dyd_engine_merged(size_t *row, size_t *point, const dyd_engine *e, size_t k) {

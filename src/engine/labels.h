@@ -6,6 +6,13 @@
 
 #include <dyadel/engine.h>
 
+/* What stands in a row besides, and what stands for it where it does not. */
+typedef enum dyd_row_number { DYD_ROW_COST, DYD_ROW_RADIUS, DYD_ROW_SIGMA, DYD_ROW_NUMBERS } dyd_row_number;
+typedef struct dyd_row_numbers {
+  double of[DYD_ROW_NUMBERS];
+} dyd_row_numbers;
+static const dyd_row_numbers dyd_no_row_numbers = {{1, 0, 0}};
+
 /* A row that was taken as one with the row of a point. */
 typedef struct dyd_merged_row {
   size_t row;
@@ -17,8 +24,8 @@ typedef struct dyd_merged_row {
 typedef struct dyd_labels {
   size_t points, rows;
   size_t *row, *id;
-  double *cost, *radius;
-  size_t row_cap, id_cap, cost_cap, radius_cap;
+  dyd_row_numbers *number;
+  size_t row_cap, id_cap, number_cap;
   char *text;
   size_t used, text_cap;
   dyd_merged_row *merged;
@@ -28,7 +35,7 @@ typedef struct dyd_labels {
 
 void dyd_labels_clear(dyd_labels *l);
 /* The next point, of row l->rows; id (length bytes, copied) may be NULL. false: memory is exhausted. */
-bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, double cost, double radius);
+bool dyd_labels_add(dyd_labels *l, const char *id, size_t length, const dyd_row_numbers *number);
 /* The next row, which is that of `point` once more. false: memory is exhausted. */
 bool dyd_labels_merge(dyd_labels *l, size_t point);
 /* The next row, which gives no point. */

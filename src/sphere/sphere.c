@@ -36,7 +36,7 @@ static dyd_status images_label(const dyd_sphere *s) {
   for (size_t k = 0; k < s->with_image && good; k++) {
     const char *id = dyd_engine_id(s->places, s->of[k]);
     labels.rows = dyd_engine_row(s->places, s->of[k]);
-    good = dyd_labels_add(&labels, id, id ? strlen(id) : 0, 1, 0);
+    good = dyd_labels_add(&labels, id, id ? strlen(id) : 0, &dyd_no_row_numbers);
   }
   if (good)
     dyd_labels_give(s->images, &labels);

@@ -3,7 +3,7 @@
  *
  * Any disc will do: with i and j in it and all others outside, ij is an edge. About the centre of the largest empty
  * annulus, which is rounded to doubles, and half way between its circles. Errors are independent, sigma in each
- * coordinate, so the probability is at least the product of
+ * coordinate (of each point its own), so the probability is at least the product of
  *
  *   outside   Phi(x), x = (|c - p_k| - m) / sigma: beyond the tangent;
  *   inside    a sum over slabs across the direction from c: what the slab holds, times what of it is in a rectangle
@@ -65,7 +65,7 @@ typedef struct chance_pass {
   const double *phi;
   const dyd_ring_d *ring;
   dyd_bbox at;
-  double middle, sigma, product;
+  double middle, product;
 } chance_pass;
 
 /* In units of sigma: p_i at `d` from the centre of a disc of radius `m`; slabs get thicker from its rim, or from 9, to
@@ -86,7 +86,7 @@ static double chance_inside(const double *phi, double m, double d) {
 static bool chance_outside(void *context, uint32_t k) {
   chance_pass *p = context;
   if (k == p->ring->i || k == p->ring->j) return true;
-  double d = sqrt(fmax(dyd_ds2_lower(&p->at, &p->t->box[k]), 0)) * LESS, x = (d - p->middle) / p->sigma;
+  double d = sqrt(fmax(dyd_ds2_lower(&p->at, &p->t->box[k]), 0)) * LESS, x = (d - p->middle) / p->t->sigma[k];
   p->product *= x > 0 ? phi_lower(p->phi, x * LESS) * LESS : 0;
   return p->product > NEVER;
 }
@@ -109,10 +109,13 @@ static double chance_of_ring(chance_pass *p) {
     most = fmax(most, d[e]);
   }
   p->middle = most + p->ring->half;
-  double reach = p->middle + REACH * p->sigma, radius2 = dyd_upper(reach * reach) * (1 + 0x1p-45);
+  double reach = p->middle + REACH * p->t->widest, radius2 = dyd_upper(reach * reach) * (1 + 0x1p-45);
   if (!(radius2 < 1e300) || !(most > 0)) return 0;
   p->product = 1 - (double)p->t->sk->n * MISS;
-  for (int e = 0; e < 2; e++) p->product *= chance_inside(p->phi, p->middle / p->sigma, d[e] / p->sigma) * LESS;
+  for (int e = 0; e < 2; e++) {
+    double sigma = p->t->sigma[e ? p->ring->j : p->ring->i];
+    p->product *= chance_inside(p->phi, p->middle / sigma, d[e] / sigma) * LESS;
+  }
   if (p->product > NEVER) dyd_tree_near(&p->t->tree, &p->at, &radius2, chance_outside, p);
   return p->product > NEVER ? p->product : 0;
 }
@@ -142,7 +145,7 @@ dyd_status dyd_chances(dyd_tolerance *t) {
   for (int k = 0; k < ENTRIES && st == DYD_OK; k++) phi[k] = phi_rounded((double)k / PER_UNIT) - 1e-13;
   for (size_t r = 0; r < t->rows && st == DYD_OK; r++)
     t->chance[r] = t->row[r].event == DYD_EVENT_DEATH && t->row[r].lo == HUGE_VAL ? 1 : 0;
-  chance_pass p = {.t = t, .phi = phi, .sigma = t->options.sigma};
+  chance_pass p = {.t = t, .phi = phi};
   for (size_t k = 0; k < t->rings && st == DYD_OK; k++) {
     p.ring = &t->ring[k];
     if (dyd_flag_is_set(t->options.cancel)) st = DYD_CANCELLED;

@@ -25,7 +25,7 @@ dyd_status dyd_row_add_summit(dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tole
 }
 
 dyd_status dyd_ring_add(dyd_tolerance *t, uint32_t v, uint32_t w, double s, int end, double half) {
-  if (!t->options.points && !(t->options.sigma > 0)) return DYD_OK;
+  if (!t->options.points && !t->sigma) return DYD_OK;
   if (!dyd_reserve((void **)&t->ring, &t->ring_cap, t->rings + 1, sizeof *t->ring)) return DYD_E_NOMEM;
   t->ring[t->rings++] = (dyd_ring_d){v, w, s, half, end};
   return DYD_OK;

@@ -38,7 +38,8 @@ struct dyd_tolerance {
   size_t rows, cap;
   double *weight; /* of a vertex, the largest of those at its place; NULL: all are 1 */
   double heaviest;
-  double lo, hi; /* of the whole */
+  double *sigma, widest; /* the same of standard deviations; NULL: none are given */
+  double lo, hi;         /* of the whole */
   double *radius;
   double *chance;   /* of each row, once sorted, where sigma was given */
   dyd_ring_d *ring; /* of all edges, where radii or probabilities are asked for */

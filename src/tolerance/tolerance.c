@@ -29,6 +29,12 @@ static dyd_status check_points(const dyd_tolerance *t, dyd_error *err) {
       return dyd_fail(err, DYD_E_ARG,
                       "the weight of a point is not a number >= 0, below 2^400; give one such as 0, 1 or 2.5");
     }
+  for (uint32_t i = 0; t->options.sigmas && i < t->sk->n; i++)
+    if (!(t->options.sigmas[i] > 0 && t->options.sigmas[i] < HUGE_VAL)) {
+      if (err) err->point = i;
+      return dyd_fail(err, DYD_E_ARG,
+                      "the standard deviation of a point is not a number above 0; give one such as 0.01");
+    }
   if (!(t->options.sigma >= 0 && t->options.sigma < HUGE_VAL))
     return dyd_fail(err, DYD_E_ARG, "a standard deviation that is no positive number: give one, or 0 for none");
   return DYD_OK;
@@ -45,33 +51,36 @@ static void add_tie(void *context, uint32_t v, uint32_t w, dyd_pair_status statu
     r->status = dyd_row_add(r->t, v, w, DYD_EVENT_TIE, DYD_NONE, DYD_NONE, 0, 0);
 }
 
-/* By vertex; of points at one place the largest. */
-static dyd_status take_weights(dyd_tolerance *t) {
-  const dyd_skeleton *sk = t->sk;
-  t->weight = dyd_alloc(sk->n, sizeof *t->weight);
-  if (!t->weight) return DYD_E_NOMEM;
-  for (uint32_t v = 0; v < sk->n; v++) t->weight[v] = t->options.weight[sk->reps.site[v]];
+/* From sites to vertices; of points at one place the largest. */
+static dyd_status take_by_vertex(double **out, double *largest, const dyd_skeleton *sk, const double *of_site,
+                                 double all) {
+  double *of = *out = dyd_alloc(sk->n, sizeof *of);
+  if (!of) return DYD_E_NOMEM;
+  for (uint32_t v = 0; v < sk->n; v++) of[v] = of_site ? of_site[sk->reps.site[v]] : all;
   for (uint32_t v = 0; v < sk->n; v++) {
-    uint32_t of = dyd_mesh_alias(&sk->mesh, v);
-    if (of != DYD_NONE && t->weight[of] < t->weight[v]) t->weight[of] = t->weight[v];
-    if (t->heaviest < t->weight[v]) t->heaviest = t->weight[v];
+    uint32_t rep = dyd_mesh_alias(&sk->mesh, v);
+    if (rep != DYD_NONE && of[rep] < of[v]) of[rep] = of[v];
+    if (*largest < of[v]) *largest = of[v];
   }
   return DYD_OK;
 }
 
 static dyd_status tolerance_work(dyd_tolerance *t, dyd_error *err) {
   tie_rows ties = {t, DYD_OK};
+  const dyd_tolerance_options *o = &t->options;
   dyd_status st = dyd_near_prepare(t);
+  if (st == DYD_OK && (o->sigmas || o->sigma > 0))
+    st = take_by_vertex(&t->sigma, &t->widest, t->sk, o->sigmas, o->sigma);
   if (st == DYD_OK) st = dyd_deaths(t);
   if (st == DYD_OK) dyd_each_pair(t->pd, add_tie, &ties);
   if (st == DYD_OK) st = ties.status;
-  if (st == DYD_OK && t->options.weight) st = take_weights(t);
+  if (st == DYD_OK && o->weight) st = take_by_vertex(&t->weight, &t->heaviest, t->sk, o->weight, 1);
   if (st == DYD_OK && t->options.up_to && mpq_sgn(t->options.up_to)) st = dyd_births(t, err);
   if (st == DYD_OK && t->weight) st = dyd_weigh(t);
   if (st == DYD_OK) st = dyd_whole(t);
   if (st == DYD_OK && t->options.points) st = dyd_points_radius(t);
   if (st == DYD_OK) st = dyd_rows_sort(t);
-  return st == DYD_OK && t->options.sigma > 0 ? dyd_chances(t) : st;
+  return st == DYD_OK && t->sigma ? dyd_chances(t) : st;
 }
 
 dyd_status dyd_tolerance_new(dyd_tolerance **out, const dyd_delaunay *pd, const dyd_tolerance_options *options,
@@ -105,6 +114,7 @@ void dyd_tolerance_free(dyd_tolerance *t) {
   free(t->ring);
   free(t->radius);
   free(t->weight);
+  free(t->sigma);
   free(t->chance);
   free(t->row);
   free(t);

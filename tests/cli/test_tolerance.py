@@ -124,6 +124,26 @@ def test_sigma():
         expect(run('tolerance', '--sigma', wrong, '-', stdin=SQUARE), 2, r'\A\Z', '--sigma ".*" is not understood; give')
 
 
+def test_sigma_column():
+    """Equal ones are --sigma; a larger one makes the edges of that point less likely, others no less."""
+    places = [line.replace(' ', ',') for line in SQUARE.split('\n') if line] + ['30,30', '33,30', '31,34']
+    def chances(sigma):
+        text = 'x,y,s\n' + ''.join(f'{p},{s}\n' for p, s in zip(places, sigma))
+        return {(int(r['i']), int(r['j'])): float(r['probability']) for r in rows(run('tolerance', '--columns', 'x,y', '--sigma-column', 's', '-', stdin=text).out)}
+    equal = chances(['0.05'] * len(places))
+    want = rows(run('tolerance', '--sigma', '0.05', '-', stdin='\n'.join(places).replace(',', ' ')).out)
+    assert equal == {(int(r['i']), int(r['j'])): float(r['probability']) for r in want}
+    last = len(places) - 1
+    more = chances(['0.05'] * last + ['1.5'])
+    assert all(more[p] <= equal[p] for p in equal) and any(more[p] < equal[p] - 0.01 for p in equal if last in p), (more, equal)
+    less = chances(['0.05'] * last + ['1e-3'])
+    assert all(less[p] >= equal[p] for p in equal)
+    for wrong in ('0', '-1', 'x'):
+        expect(run('tolerance', '--columns', 'x,y', '--sigma-column', 's', '-', stdin=f'x,y,s\n0,0,1\n1,0,{wrong}\n'), 1, r'\A\Z', r'-:3:5: the standard deviation is not an exact number above 0; give')
+    expect(run('tolerance', '--columns', 'x,y', '--sigma-column', 's', '--sigma', '1', '-', stdin='x,y,s\n'), 2, r'\A\Z', 'contradict each other')
+    expect(run('tolerance', '--sigma-column', 's', '-', stdin='0 0\n'), 2, r'\A\Z', '--sigma-column is about columns')
+
+
 def test_weights():
     """Events in units of the column; 0 is fixed; no exact form; what is wrong is told with its place."""
     table = 'x,y,w\n' + ''.join(f'{line.replace(" ", ",")},{w}\n' for line, w in zip('0 0\n4 0\n5 3\n1 4\n2 1'.split('\n'), ('1/2', 2, 0, 1, '0.1')))

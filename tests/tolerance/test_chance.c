@@ -14,6 +14,7 @@ enum { MOST = 32, FEW = 7, SAMPLES = 1500 };
 typedef struct chance_case {
   uint32_t n;
   double x[MOST], y[MOST], sigma;
+  double own[MOST]; /* of each point; 0: sigma, of all */
 } chance_case;
 
 static dyd_delaunay *chance_triangulation(dyd_sites **s, const chance_case *c) {
@@ -29,12 +30,16 @@ static double normal(test_random *r) {
   return sqrt(-2 * log(1 - test_unit(r))) * cos(6.283185307179586 * test_unit(r));
 }
 
+static double sigma_of(const chance_case *c, uint32_t k) {
+  return c->own[0] > 0 ? c->own[k] : c->sigma;
+}
+
 static void count_edges(size_t seen[MOST][MOST], const chance_case *c, test_random *r) {
   memset(seen, 0, sizeof(size_t[MOST][MOST]));
   for (int q = 0; q < SAMPLES; q++) {
     chance_case p = *c;
     dyd_sites *s;
-    for (uint32_t k = 0; k < c->n; k++) p.x[k] += c->sigma * normal(r), p.y[k] += c->sigma * normal(r);
+    for (uint32_t k = 0; k < c->n; k++) p.x[k] += sigma_of(c, k) * normal(r), p.y[k] += sigma_of(c, k) * normal(r);
     dyd_delaunay *pd = chance_triangulation(&s, &p);
     for (uint32_t i = 0; i < c->n; i++)
       for (uint32_t j = i + 1; j < c->n; j++) seen[i][j] += dyd_delaunay_status(pd, i, j) == DYD_LEGAL;
@@ -49,7 +54,8 @@ static void compare_chances(double sum[2], const chance_case *c, test_random *r)
   dyd_sites *s;
   dyd_tolerance *t;
   const dyd_tolerance_row *row;
-  const dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .sigma = c->sigma};
+  const dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .sigma = c->sigma,
+                                   .sigmas = c->own[0] > 0 ? c->own : NULL};
   dyd_delaunay *pd = chance_triangulation(&s, c);
   count_edges(seen, c, r);
   assert_int_equal(dyd_tolerance_new(&t, pd, &o, NULL), DYD_OK);
@@ -73,7 +79,10 @@ static void test_samples(void **state) {
   for (size_t k = 0; k < test_cases(30); k++) {
     chance_case c = {.n = 2 + (uint32_t)test_below(&r, FEW - 1), .sigma = pow(10, -3 * test_unit(&r)) * 0.3};
     double far = test_chance(&r, 4) ? 1e6 : 0;
-    for (uint32_t i = 0; i < c.n; i++) c.x[i] = far + test_unit(&r), c.y[i] = test_unit(&r);
+    for (uint32_t i = 0; i < c.n; i++) {
+      c.x[i] = far + test_unit(&r), c.y[i] = test_unit(&r);
+      if (k % 2) c.own[i] = c.sigma * (0.1 + test_unit(&r));
+    }
     compare_chances(sum, &c, &r);
   }
   assert_true(sum[1] > 50 && sum[0] > 0.9 * sum[1]);

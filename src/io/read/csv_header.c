@@ -42,6 +42,8 @@ static dyd_status read_wanted(dyd_csv *csv, const dyd_read_options *o, dyd_error
   if (st == DYD_OK && o->radius_columns)
     st = read_names(csv, o->radius_columns, "--radius-column", DYD_CSV_RADIUS_X, 1, 2, err);
   if (st == DYD_OK && o->cost_column) st = read_names(csv, o->cost_column, "--cost-column", DYD_CSV_COST, 1, 1, err);
+  if (st == DYD_OK && o->sigma_column)
+    st = read_names(csv, o->sigma_column, "--sigma-column", DYD_CSV_SIGMA, 1, 1, err);
   if (st == DYD_OK && o->id) st = read_names(csv, o->id, "--id", DYD_CSV_ID, 1, 1, err);
   return st;
 }

@@ -71,7 +71,9 @@ static dyd_status intake_radius_of_all(dyd_intake *in, dyd_error *err) {
   return DYD_OK;
 }
 
-static dyd_status intake_cost(double *out, const dyd_span *span, dyd_error *err) {
+/* what: "the cost". */
+static dyd_status intake_number(double *out, const dyd_span *span, const char *what, dyd_error *err) {
+  char message[160];
   mpq_t own;
   mpq_init(own);
   dyd_status st = dyd_real_parse_exact(own, span->text, span->length);
@@ -79,7 +81,8 @@ static dyd_status intake_cost(double *out, const dyd_span *span, dyd_error *err)
   mpq_clear(own);
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (*out > 0 && isfinite(*out)) return DYD_OK;
-  return dyd_span_fail(err, span, 0, "the cost is not an exact number above 0; give one such as 2 or 0.5");
+  snprintf(message, sizeof message, "%s is not an exact number above 0; give one such as 2 or 0.5", what);
+  return dyd_span_fail(err, span, 0, message);
 }
 
 /* ---- life ---- */
@@ -88,6 +91,7 @@ static dyd_status intake_check(const dyd_read_options *o, dyd_error *err) {
   const char *about = o->id               ? "--id"
                       : o->radius_columns ? "--radius-column"
                       : o->cost_column    ? "--cost-column"
+                      : o->sigma_column   ? "--sigma-column"
                       : o->delimiter      ? "--delimiter"
                                           : NULL;
   if (o->columns || !about) return DYD_OK;
@@ -118,7 +122,7 @@ void dyd_intake_clear(dyd_intake *in) {
 /* Do points have what stands beside their rectangles? */
 static bool intake_numbers(const dyd_intake *in) {
   const dyd_read_options *o = in->o;
-  return o->cost_column || (o->radius_columns && (o->keep_radii || o->degrees));
+  return o->cost_column || o->sigma_column || (o->radius_columns && (o->keep_radii || o->degrees));
 }
 
 /* Or rows and points may differ, or points have identifiers. */
@@ -144,7 +148,10 @@ static bool is_missing(const dyd_span *s) {
 
 static dyd_status fail_missing_field(const dyd_span *s, dyd_csv_role role, dyd_error *err) {
   char message[160];
-  const char *what = role == DYD_CSV_COST ? "cost" : role >= DYD_CSV_RADIUS_X ? "radius" : "coordinate";
+  const char *what = role == DYD_CSV_COST       ? "cost"
+                     : role == DYD_CSV_SIGMA    ? "standard deviation"
+                     : role >= DYD_CSV_RADIUS_X ? "radius"
+                                                : "coordinate";
   if (s->length)
     snprintf(message, sizeof message, "the %s is missing (%.*s); fill it in, or leave such rows out: --skip-missing",
              what, (int)s->length, s->text);
@@ -202,7 +209,7 @@ static double final_width(const dyd_coordinate *c, const dyd_manner *manner) {
 static dyd_status intake_merge(dyd_intake *in, dyd_nominal *place, dyd_coordinate c[2], const double width[2],
                                dyd_error *err) {
   size_t point = place->point;
-  double *kept = &in->labels.radius[point];
+  double *kept = &in->labels.number[point].of[DYD_ROW_RADIUS];
   bool less = in->kept[0] < *kept && width[0] <= place->width[0] && width[1] <= place->width[1];
   bool same = in->kept[0] == *kept;
   const bool take[2] = {(same || less) && width[0] < place->width[0], (same || less) && width[1] < place->width[1]};
@@ -220,8 +227,8 @@ static dyd_status intake_point(dyd_intake *in, const dyd_span span[DYD_CSV_ROLES
                                dyd_error *err) {
   const double width[2] = {final_width(&c[0], &in->manner[0]), final_width(&c[1], &in->manner[1])};
   dyd_nominal *place = NULL;
-  const dyd_span *id = &span[DYD_CSV_ID], *cost = &span[DYD_CSV_COST];
-  double own = 1;
+  const dyd_span *id = &span[DYD_CSV_ID], *cost = &span[DYD_CSV_COST], *sigma = &span[DYD_CSV_SIGMA];
+  dyd_row_numbers own = dyd_no_row_numbers;
   if (in->o->merge || width[0] > 0 || width[1] > 0 || (in->o->degrees && in->kept[0] > 0)) {
     if (dyd_nominals_find(&place, &in->places, span) != DYD_OK) {
       for (int a = 0; a < 2; a++) dyd_coordinate_clear(&c[a]);
@@ -234,9 +241,11 @@ static dyd_status intake_point(dyd_intake *in, const dyd_span span[DYD_CSV_ROLES
   }
   dyd_status st = dyd_stage_add(&in->stage, &c[0], &c[1], err);
   if (st != DYD_OK || !intake_labels(in)) return st;
-  if (cost->text) st = intake_cost(&own, cost, err);
+  own.of[DYD_ROW_RADIUS] = in->kept[0];
+  if (cost->text) st = intake_number(&own.of[DYD_ROW_COST], cost, "the cost", err);
+  if (st == DYD_OK && sigma->text) st = intake_number(&own.of[DYD_ROW_SIGMA], sigma, "the standard deviation", err);
   if (st != DYD_OK) return st;
-  return dyd_labels_add(&in->labels, id->text, id->length, own, in->kept[0]) ? DYD_OK : dyd_fail_nomem(err);
+  return dyd_labels_add(&in->labels, id->text, id->length, &own) ? DYD_OK : dyd_fail_nomem(err);
 }
 
 /* ---- rows ---- */

@@ -17,6 +17,7 @@ typedef enum dyd_csv_role {
   DYD_CSV_RADIUS_X,
   DYD_CSV_RADIUS_Y,
   DYD_CSV_COST,
+  DYD_CSV_SIGMA,
   DYD_CSV_ID,
   DYD_CSV_ROLES
 } dyd_csv_role;
