@@ -6,6 +6,7 @@
 #include "format/table.h"
 
 #include "base/error.h"
+#include "picture/canvas.h"
 #include <string.h>
 #include <strings.h>
 
@@ -18,6 +19,7 @@ static const struct {
   dyd_writer *const *write;
   const char *also; /* another ending that suits it; that of the format that it is a kind of */
   bool binary;
+  bool (*there)(void); /* NULL: always; else it may be missing from this library */
 } formats[] = {
     [DYD_FORMAT_CSV] = {"csv", "csv",
                         "a table: of delaunay one line for each pair that is possible (i,j,status), of converge one "
@@ -32,8 +34,10 @@ static const struct {
     [DYD_FORMAT_OBJ] = {"obj", "obj", "vertices, legal edges, sure triangles", dyd_obj_writers},
     [DYD_FORMAT_SVG] = {"svg", "svg", "a picture with legend and scale", dyd_picture_writers},
     [DYD_FORMAT_VTK] = {"vtk", "vtk", "legacy VTK text, as ParaView reads it", dyd_vtk_writers},
-    [DYD_FORMAT_PDF] = {"pdf", "pdf", "the same picture", dyd_picture_writers, .binary = true},
-    [DYD_FORMAT_PNG] = {"png", "png", "the same picture", dyd_picture_writers, .binary = true},
+    [DYD_FORMAT_PDF] = {"pdf", "pdf", "the same picture", dyd_picture_writers, .binary = true,
+                        .there = dyd_cairo_is_there},
+    [DYD_FORMAT_PNG] = {"png", "png", "the same picture", dyd_picture_writers, .binary = true,
+                        .there = dyd_cairo_is_there},
     [DYD_FORMAT_HTML] =
         {"html", "html",
          "a page to move about in, with what is known of each point, stage by stage; one file that asks "
@@ -116,8 +120,13 @@ bool dyd_layer_from_name(dyd_content *out, dyd_content of, const char *name) {
   return l < LAYERS;
 }
 
+static bool format_is_missing(dyd_format format) {
+  return formats[format].there && !formats[format].there();
+}
+
 bool dyd_format_holds(dyd_format format, dyd_content content) {
-  return (size_t)format < FORMATS && (size_t)content < DYD_CONTENTS && formats[format].write[content];
+  if ((size_t)format >= FORMATS || (size_t)content >= DYD_CONTENTS) return false;
+  return formats[format].write[content] && !format_is_missing(format);
 }
 
 /* ---- writing ---- */
@@ -135,6 +144,9 @@ static dyd_status refuse_format(dyd_format format, dyd_content content, dyd_erro
   }
   if ((size_t)format >= FORMATS)
     return dyd_fail(err, DYD_E_ARG, "there is no format number %d; give %s", (int)format, names);
+  if (format_is_missing(format))
+    return dyd_fail(err, DYD_E_ARG, "%s takes cairo, which this library was built without; give %s",
+                    formats[format].name, names);
   return dyd_fail(err, DYD_E_ARG, "%s cannot hold this; give %s", formats[format].name, names);
 }
 

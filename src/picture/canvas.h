@@ -11,6 +11,10 @@
 
 typedef struct dyd_canvas dyd_canvas;
 
+/* false: the library was built without cairo. Then there are neither pdf nor png, and widths of texts in svg are
+ * estimates. */
+bool dyd_cairo_is_there(void);
+
 /* Neither colour of a paint. */
 #define DYD_NO_COLOUR 0x1000000u
 

@@ -4,7 +4,6 @@
 #define DYD_PICTURE_CANVAS_PATH_H
 
 #include "picture/canvas.h"
-#include <cairo.h>
 
 typedef enum dyd_stroke {
   DYD_STROKE_MOVE,
@@ -22,8 +21,8 @@ typedef struct dyd_path_step {
 struct dyd_canvas {
   dyd_format format;
   FILE *out;
-  int error;   /* errno of the first write that failed, else 0 */
-  cairo_t *cr; /* of svg: to measure texts */
+  int error;         /* errno of the first write that failed, else 0 */
+  struct _cairo *cr; /* of svg: to measure texts; NULL without cairo */
   dyd_path_step *step;
   size_t count, cap;
   bool failed; /* memory ran out */
@@ -32,6 +31,17 @@ struct dyd_canvas {
   unsigned clips; /* svg: so many so far */
   char id[80], title[160];
 };
+
+/* ---- canvas_cairo.c; canvas_plain.c where the library was built without it ---- */
+
+void dyd_cairo_begin(dyd_canvas *c, double width, double height);
+/* Hands over what was drawn; returns st, or what went wrong. */
+dyd_status dyd_cairo_end(dyd_canvas *c, dyd_status st, dyd_error *err);
+void dyd_cairo_paint(dyd_canvas *c, const dyd_paint *p);
+void dyd_cairo_clip(dyd_canvas *c);
+void dyd_cairo_unclip(dyd_canvas *c);
+double dyd_cairo_width(dyd_canvas *c, double size, const char *text);
+void dyd_cairo_text(dyd_canvas *c, double x, double y, bool halo, const char *text);
 
 /* ---- canvas_svg.c ---- */
 

@@ -113,7 +113,7 @@ def test_refused():
     d = dyadel.delaunay(OCTAHEDRON, sphere=True)
     harness.raised(ValueError, d.write, 'svg', window=(0, 1, 0, 1))
     harness.raised(ValueError, d.write, 'csv', 'graph:mst')
-    assert harness.raised(dyadel.Error, d.write, 'obj').code == 'argument'
+    assert harness.raised(dyadel.Error, d.voronoi().write, 'html').code == 'argument'
 
 
 def test_sources():

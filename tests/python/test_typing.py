@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """mypy --strict over the package and over a program that uses it; docstrings and stubs are whole."""
 import ast
+import html
 import inspect
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
+import types
 
 import harness
 
@@ -67,12 +70,19 @@ def test_stub():
 
 
 def test_docstrings():
+    """All that has a public name, inherited members included, says what it is; and the reference tells it."""
+    sys.path.insert(0, str(pathlib.Path(harness.DATA).parents[1] / 'src/python'))
+    import reference
+    text = html.unescape(re.sub('<[^>]*>', '', reference.page(dyadel))).replace('\xa0', ' ')
     for name in dyadel.__all__:
         thing = getattr(dyadel, name)
-        assert not callable(thing) or inspect.getdoc(thing), name
-        for member, value in vars(thing).items() if inspect.isclass(thing) else ():
-            if not member.startswith('_') and (inspect.isfunction(value) or isinstance(value, property)):
+        assert name in text or name == '__version__', f'{name} is not in the reference'
+        assert not callable(thing) or thing.__doc__, name
+        for member in dir(thing) if inspect.isclass(thing) else ():
+            value = inspect.getattr_static(thing, member)
+            if not member.startswith('_') and isinstance(value, (types.FunctionType, property, classmethod)):
                 assert inspect.getdoc(value), f'{name}.{member}'
+                assert inspect.getdoc(value).split()[0] in text and member in text, f'{name}.{member} is not in the reference'
 
 
 harness.run_all(globals())
