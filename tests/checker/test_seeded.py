@@ -161,6 +161,7 @@ FAULTS = [
     ('diagram.c', 'if (dyd_exact_cmp(&w->e[0], &w->e[1]) >= 0 || dyd_exact_cmp(&w->e[2], &w->e[3]) >= 0)',
      'if (dyd_exact_cmp(&w->e[0], &w->e[1]) >= 0)'),
     ('diagram.c', 'if (!holds) st = ', 'if (false) st = '),
+    ('distance.c', 'if (a->endless) return false;', 'if (a->endless) return true;'),
     ('distance.c', 'if (near[k] && near[l]) continue;', 'if (near[k] || near[l]) continue;'),
     ('distance.c', 'if (near[k] && near[l]) continue;', 'if (near[k]) continue;'),
     ('distance.c', 'if (near[k] && near[l]) continue;', 'if (near[l]) continue;'),
