@@ -12,6 +12,7 @@ import random
 import subprocess
 import sys
 import tempfile
+from fractions import Fraction
 
 DYADEL, DATA = sys.argv[1], pathlib.Path(sys.argv[2])
 SCALE = int(os.environ.get('DYADEL_TEST_SCALE', '1'))
@@ -200,6 +201,58 @@ def check_points(folder):
     assert done.returncode == 2 and 'cannot be both' in done.stderr, done
 
 
+def value(text):
+    """The two ends of a coordinate; None: it is none."""
+    ends = text[1:-1].split(',') if text.startswith('[') else [text, text]
+    try:
+        low, high = map(Fraction, ends)
+    except (ValueError, ZeroDivisionError):
+        return None
+    return (low, high) if low <= high else None
+
+
+def points_of(text):
+    return [[value(side) for side in line.split()] for line in text.splitlines()]
+
+
+def altered(rng, text):
+    """One step from the text: a line left out, repeated, moved; a digit changed, added, taken away; a sign."""
+    lines = text.splitlines(keepends=True)
+    a, b, kind = rng.randrange(len(lines)), rng.randrange(len(lines)), rng.randrange(6)
+    if kind == 0:
+        del lines[a]
+    elif kind == 1:
+        lines.insert(b, lines[a])
+    elif kind == 2:
+        lines[a], lines[b] = lines[b], lines[a]
+    else:
+        line = lines[a]
+        k = rng.choice([k for k, c in enumerate(line) if c.isdigit()])
+        by = {3: str(rng.randrange(10)), 4: line[k] + str(rng.randrange(10)), 5: rng.choice(['', '-' + line[k]])}[kind]
+        lines[a] = line[:k] + by + line[k + 1:]
+    return ''.join(lines)
+
+
+def check_altered_points(folder):
+    """Other points are never taken for those of the certificate; 1,000 files with DYADEL_TEST_SCALE=5."""
+    rng = random.Random(1)
+
+    def side():
+        low = rng.randrange(-999, 999)
+        return rng.choice([f'{low / 100}', f'{low}/7', f'[{low / 100},{low / 100 + 0.25}]', f'[{low},{low + 40}]'])
+    text = ''.join(f'{side()} {side()}\n' for _ in range(12))
+    certificate = certify(folder, text, status=3)
+    same = 0
+    for _ in range(200 * SCALE):
+        other = altered(rng, text)
+        (folder / 'points.txt').write_text(other)
+        done = run('verify', certificate, '--points', folder / 'points.txt')
+        equal = points_of(other) == points_of(text)
+        assert done.returncode == (0 if equal else 1), (other, done)
+        same += equal
+    print(f'{200 * SCALE} altered files of points, {same} of which say the same')
+
+
 def check_files(folder):
     assert run('verify', folder / 'nothing').returncode == 1
     assert run('verify').returncode == 2
@@ -239,7 +292,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for check in (check_outcomes, check_airports, check_crowds, check_diagrams, check_claims, check_points,
-                      check_files, check_size):
+                      check_altered_points, check_files, check_size):
             check(folder)
     return 0
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
 """Faults seeded into the checker of certificates are noticed [CERT-1] [CERT-2] [CERT-3] [CERT-4] [CERT-5] [CERT-6]
-[CERT-7] [CERT-8].
+[CERT-7] [CERT-8] [CERT-9].
 
 Usage: test_seeded.py CC ROOT LIBRARY [COUNT SEED FILE...]   (exit status 1 when a fault goes unnoticed)
 
@@ -130,6 +130,24 @@ FAULTS = [
     ('certificate.c', 'if (!is_still(c, still, c->faces.member[q])) return false;',
      'if (!is_still(c, still, c->faces.member[q])) return true;'),
     ('certificate.c', 'if (!is_still(c, still, i)) return false;', 'if (!is_still(c, still, i)) return true;'),
+    ('boxes.c', 'blocked = blocked && b[q].far[k] < near[k];', 'blocked = blocked && b[q].far[k] <= near[k];'),
+    ('boxes.c', 'blocked = blocked && b[q].far[k] < near[k];', 'blocked = blocked && (k || b[q].far[k] < near[k]);'),
+    ('boxes.c', 'if (blocked) return true;', ''),
+    ('boxes.c', 'sum += dyd_cert_square(left > right ? left : right);',
+     'sum += dyd_cert_square(left < right ? left : right);'),
+    ('boxes.c', 'right = c[a] - b->e[2 * a + 1], d =', 'right = c[a] - b->e[2 * a], d ='),
+    ('boxes.c', 'const int64_t h = INT64_C(1) << HALF_BITS;\n  region r = square_region(MIDDLE - h, MIDDLE - h, 2 * h);',
+     'const int64_t h = INT64_C(1) << HALF_BITS;\n  region r = square_region(MIDDLE - h, MIDDLE - h, h);'),
+    ('boxes.c', 'bits < LAST_BITS && st == DYD_OK; bits++)', 'bits < HALF_BITS && st == DYD_OK; bits++)'),
+    ('boxes.c', 'if (st == DYD_OK) st = keep_outer_sites(s, &count);', 'count = 0;'),
+    ('boxes.c', 'for (int k = 0; k < r->corners && st == DYD_OK; k++) {', 'for (int k = 1; k < r->corners && st == DYD_OK; k++) {'),
+    ('boxes.c', 'for (int k = 0; k < r->corners && st == DYD_OK; k++) {',
+     'for (int k = 0; k + 1 < r->corners && st == DYD_OK; k++) {'),
+    ('boxes.c', 'if (!cut || s->given_up) return add_left(s, at, kept);', 'if (!cut || s->given_up) return DYD_OK;'),
+    ('boxes.c', 'if (s->stamp[s->pair[q].i] == s->now && s->stamp[s->pair[q].j] == s->now)', 'if (false)'),
+    ('boxes.c', 's->first[known->list[k]->item[e].i + 2]++;', ';'),
+    ('boxes.c', 'if (x % 3 && y % 3) continue;', 'if (x % 3 || y % 3) continue;'),
+    ('pairs.c', 'if ((uint64_t)stated != c->report.illegal_boxes)', 'if (false)'),
     ('diagram.c', 'if (dyd_cert_cross(polygon_spot(p, k), polygon_spot(p, k + 1), polygon_spot(p, k + 1), polygon_spot(p, k + 2)) <= 0)',
      'if (dyd_cert_cross(polygon_spot(p, k), polygon_spot(p, k + 1), polygon_spot(p, k + 1), polygon_spot(p, k + 2)) < 0)'),
     ('diagram.c', 'return begins == 1;', 'return begins > 0;'),
@@ -143,6 +161,7 @@ FAULTS = [
     ('diagram.c', 'if (dyd_exact_cmp(&w->e[0], &w->e[1]) >= 0 || dyd_exact_cmp(&w->e[2], &w->e[3]) >= 0)',
      'if (dyd_exact_cmp(&w->e[0], &w->e[1]) >= 0)'),
     ('diagram.c', 'if (!holds) st = ', 'if (false) st = '),
+    ('distance.c', 'if (a->endless) return false;', 'if (a->endless) return true;'),
     ('distance.c', 'if (near[k] && near[l]) continue;', 'if (near[k] || near[l]) continue;'),
     ('distance.c', 'if (near[k] && near[l]) continue;', 'if (near[k]) continue;'),
     ('distance.c', 'if (near[k] && near[l]) continue;', 'if (near[l]) continue;'),
@@ -197,7 +216,14 @@ FAULTS = [
     ('read.c', 'return r->at ? dyd_cert_reject', 'return false ? dyd_cert_reject'),
     ('read.c', 'if (!end || *end || end - text > 18) return false;', 'if (!end || *end) return false;'),
 ]
+CONES = 'what a cone holds, squares before it hold as well, and leave unless cut more often than the effort allows'
 SURVIVORS = [
+    ('boxes.c', 'blocked = blocked && top[k] < b[q].bottom[k];', ';', CONES),
+    ('boxes.c', 'b->e[2 * a + ((u > 0) == upper)];', 'b->e[2 * a + (u > 0)];', CONES),
+    ('boxes.c', 'for (int side = 0; side < 4 && st == DYD_OK; side++) {\n    r = ',
+     'for (int side = 0; side < 3 && st == DYD_OK; side++) {\n    r = ', CONES),
+    ('boxes.c', 'bool blocked = b[q].site != v;', 'bool blocked = true;',
+     'the far end of a rectangle is not nearer than its near one'),
     ('chain.c', 'return dyd_cert_cross(p, q, p, at) >= 0 ? 1 : -1;',
      'return dyd_cert_cross(p, q, p, at) > 0 ? 1 : -1;',
      'the chain is moved to the right in place of the left'),
@@ -219,7 +245,7 @@ SURVIVORS = [
 def notices(program, certificates):
     """A crash, or no end, is a verdict of its own."""
     try:
-        return subprocess.run([program, certificates], stdout=subprocess.DEVNULL, timeout=60, check=False).returncode != 0
+        return subprocess.run([program, certificates], stdout=subprocess.DEVNULL, timeout=300, check=False).returncode != 0
     except subprocess.TimeoutExpired:
         return True
 
@@ -228,7 +254,7 @@ class Seeds:
     """Builds the judge with one source of the checker replaced."""
 
     def __init__(self, cc, root, library, folder):
-        self.flags = ['-std=c11', '-O0', '-w', '-D_POSIX_C_SOURCE=200809L', '-fvisibility=hidden', '-DDYD_ARMED',
+        self.flags = ['-std=c11', '-O1', '-w', '-D_POSIX_C_SOURCE=200809L', '-fvisibility=hidden', '-DDYD_ARMED',
                       f'-I{root}/include', f'-I{root}/src']
         self.cc, self.root, self.library, self.folder = cc.split(), root, library, folder
         self.compile(root / 'tests/checker/judge.c', folder / 'judge.o')
