@@ -32,6 +32,7 @@ dyd_status tiles_no_memory(dyd_error *err) {
 }
 
 bool tiles_mail_put(tiles_mail *m, const void *bytes, size_t count) {
+  if (count == 0) return true;
   if (!tiles_reserve((void **)&m->bytes, &m->room, m->count + count, 1)) return false;
   memcpy(m->bytes + m->count, bytes, count);
   m->count += count;
