@@ -89,7 +89,8 @@ static int sphere_all(cli_session *s, const cli_options *o) {
   }
   if (!o->start_set) run.start_bits = 0;
   s->engine = dyd_sphere_engine(sphere);
-  int status = cli_session_run_by(s, &run, sphere_run, sphere);
+  int status = o->resume ? cli_trace_resume(s) : 0;
+  if (!status) status = cli_session_run_by(s, &run, sphere_run, sphere);
   if (!status || dyd_engine_delaunay(s->engine)) {
     int written = sphere_result(s, sphere, o);
     if (!status) status = written;
@@ -104,7 +105,10 @@ static int sphere_points(const cli_options *o) {
   cli_session s;
   read.read.degrees = true;
   read.read.radius = NULL; /* it may have a unit, and widens places */
+  read.resume = NULL;      /* traces hold answers of images */
   int status = cli_session_open(&s, &read);
+  read.read.radius = o->read.radius;
+  read.resume = o->resume;
   if (!status) status = sphere_all(&s, o);
   cli_session_close(&s, CLI_USAGE); /* what is open was told of */
   return status;

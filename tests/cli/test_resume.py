@@ -93,6 +93,24 @@ def test_oracle_dies_anywhere():
             assert f.read('again') == f.read('whole')
 
 
+def test_sphere():
+    """Traces on a sphere are those of images; another radius is another input."""
+    places = ''.join(f'sqrt({200 * i})-90 10*sin({i})+sqrt({3 * i})\n' for i in range(1, 12))
+    with Folder() as f:
+        f.write('places', places)
+        ask = ('delaunay', '--sphere', 'places')
+        whole = f.run(*ask, '--trace', 'whole')
+        expect(whole, 0)
+        lines = f.read('whole').splitlines(keepends=True)
+        assert len(answers(f.read('whole'))) >= 10
+        for kept in (1, 2, 5, len(lines) // 2, len(lines)):
+            f.write('cut', ''.join(lines[:kept]))
+            resumed = f.run(*ask, '--resume', 'cut', '--trace', 'again')
+            assert (resumed.code, resumed.out) == (whole.code, whole.out), (kept, resumed)
+            assert f.read('again') == f.read('whole'), kept
+        expect(f.run(*ask, '--radius', '1m', '--resume', 'whole'), 1, err='whole:1:1: ')
+
+
 def test_batches_in_flight():
     with Folder() as f:
         whole = f.oracle()
