@@ -22,13 +22,14 @@ ENDLESS = f'exp(log({SLOW})/2) 0\n0 sqrt({SLOW})\n-exp(log({SLOW})/2) 0\n0 -sqrt
 FOREVER = ('--max-bits', '1000000', '--timeout', '100')
 
 
-# Equal reals for the commands of single answers; these take the longer the more bits are asked for.
+# Equal reals for the commands of single answers; these take the longer the more bits are asked for. That they are equal
+# would be proved where ties are.
 SINES = [f'sin({k})' for k in range(1, 31)]
 UP, DOWN = '+'.join(SINES), '+'.join(reversed(SINES))
 ENDLESS_PIECES = {
     ('bisector',): f'{UP} 0\n{DOWN} 0\n',
     ('disc',): f'0 0\n1 0\n0 1\n1+({UP})-({DOWN}) 1\n',
-    ('nearest', '0', '0'): f'{UP} 0\n0 {DOWN}\n',
+    ('nearest', '0', '0', '--ties', 'off'): f'{UP} 0\n0 {DOWN}\n',
 }
 
 
