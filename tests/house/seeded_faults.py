@@ -5,7 +5,8 @@
 Usage: seeded_faults.py ROOT   (exit status 1 when a fault goes unnoticed)
 
 Each fault replaces a text, which must occur, by another; check_constants.py, check_claims.py, check_citations.py or
-check_map.py must then fail and say something about it that it does not say without the fault. Each change in CHANGES is
+check_map.py must then fail and say something about it that it does not say without it. Faults in different files are
+seeded together. Each change in CHANGES is
 noticed by check_constants.py as well; renew_quotes.py must say about it what it should, and check_constants.py be content then.
 """
 import pathlib
@@ -89,21 +90,37 @@ def name_of(script):
     return script if script == 'sources' else f'check_{script}'
 
 
+def batches():
+    """Faults that one run of a script can be asked about: in different files, told by different words. Circles may join."""
+    left = list(FAULTS)
+    while left:
+        batch = [left[0]]
+        for fault in left[1:]:
+            path, _, _, script, word = fault
+            alike = script != batch[0][3] or script == 'map' or any(path == other[0] or word == other[4] for other in batch)
+            if not alike:
+                batch.append(fault)
+        left = [fault for fault in left if fault not in batch]
+        yield batch[0][3], batch
+
+
 def unnoticed(root):
     before = {script: run(root, name_of(script))[1] for script in ('constants', 'claims', 'citations', 'map', 'sources')}
-    for path, text, fault, script, word in FAULTS:
-        good = (root / path).read_text(encoding='utf-8')
-        if text not in good:
-            yield f'{path}: "{text}" is not there any more'
-            continue
-        (root / path).write_text(good.replace(text, fault, 1), encoding='utf-8')
+    for script, batch in batches():
+        good = {path: (root / path).read_text(encoding='utf-8') for path, *_ in batch}
+        for path, text, fault, *_ in batch:
+            if text not in good[path]:
+                yield f'{path}: "{text}" is not there any more'
+            (root / path).write_text(good[path].replace(text, fault, 1), encoding='utf-8')
         status, said = run(root, name_of(script))
-        (root / path).write_text(good, encoding='utf-8')
-        new = sorted(line for line in said - before[script] if word in line)
-        if status != 1 or not new:
-            yield f'{path}: "{fault}" for "{text}" goes unnoticed by {name_of(script)}.py'
-        else:
-            print(f'noticed: {new[0]}')
+        for path, text in good.items():
+            (root / path).write_text(text, encoding='utf-8')
+        for path, text, fault, _, word in batch:
+            new = sorted(line for line in said - before[script] if word in line)
+            if status != 1 or not new:
+                yield f'{path}: "{fault}" for "{text}" goes unnoticed by {name_of(script)}.py'
+            else:
+                print(f'noticed: {new[0]}')
 
 
 def unrenewed(root):
