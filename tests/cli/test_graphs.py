@@ -11,7 +11,7 @@ import random
 import xml.etree.ElementTree
 from fractions import Fraction as F
 
-from harness import DATA, expect, main, run
+from harness import DATA, cases, expect, main, run
 
 AIRPORTS = ['--plane', '--columns', 'longitude,latitude', os.path.join(DATA, 'airports.csv')]
 GPS = ['--columns', 'east,north', '--radius-column', 'accuracy', os.path.join(DATA, 'gps.csv')]
@@ -87,7 +87,7 @@ def test_choices_never_refute():
     rng = random.Random(SEED)
     print('seed', SEED)
     open_edges = seen_both = 0
-    for _ in range(50 * SCALE):
+    for _ in range(cases(50 * SCALE)):
         boxes = random_boxes(rng, 6)
         found = {g: edges(g, boxes) for g in GRAPHS}
         if None in found.values():
@@ -113,7 +113,7 @@ def test_choices_never_refute():
 def test_exact_points():
     """All three graphs as they are defined; ties are possible, not sure."""
     rng = random.Random(SEED)
-    for _ in range(30 * SCALE):
+    for _ in range(cases(30 * SCALE)):
         p = list(dict.fromkeys((F(rng.randint(0, 5), rng.choice([1, 3])), F(rng.randint(0, 5))) for _ in range(rng.randint(0, 9))))
         weak, strict = of_points(p)
         for g in GRAPHS:
@@ -191,7 +191,7 @@ def test_possible_is_exact():
     """Against all corners of the arrangement, and three or four rectangles, which may touch or overlap."""
     rng = random.Random(SEED)
     seen = {'nearest': [0, 0], 'gabriel': [0, 0]}
-    for case in range(60 * SCALE):
+    for case in range(cases(60 * SCALE)):
         boxes = [tuple(F(v) for v in b) for b in (gate(rng) if case % 2 else random_boxes(rng, 3, third=False))]
         for g, may, pairs in (('nearest', may_be_nearest, itertools.permutations), ('gabriel', may_be_gabriel, itertools.combinations)):
             found = edges(g, boxes)
@@ -205,7 +205,7 @@ def test_possible_is_exact():
 def test_monotone():
     """Narrower rectangles: sure stays sure, what is not listed stays away."""
     rng = random.Random(SEED)
-    for _ in range(20 * SCALE):
+    for _ in range(cases(20 * SCALE)):
         boxes = random_boxes(rng, 9, third=False)
         before = {g: edges(g, boxes) for g in GRAPHS}
         for _ in range(3):

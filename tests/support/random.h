@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Deterministic random numbers for tests: the seed and the scale come from the environment and are printed.
  *
- * DYADEL_TEST_SEED (default 1) chooses the cases, DYADEL_TEST_SCALE (default 1) multiplies their number. */
+ * DYADEL_TEST_SEED (default 1) chooses the cases, DYADEL_TEST_SCALE (default 1) multiplies their number; with sanitizers,
+ * which make each many times as slow, DYADEL_TEST_SANITIZED asks for a third. */
 #ifndef DYD_TESTS_RANDOM_H
 #define DYD_TESTS_RANDOM_H
 
@@ -22,7 +23,8 @@ static inline uint64_t test_environment(const char *name, uint64_t otherwise) {
 
 /* How many random cases to run when `base` is the number for everyday runs. */
 static inline size_t test_cases(size_t base) {
-  return base * (size_t)test_environment("DYADEL_TEST_SCALE", 1);
+  size_t cases = base * (size_t)test_environment("DYADEL_TEST_SCALE", 1);
+  return test_environment("DYADEL_TEST_SANITIZED", 0) ? (cases + 2) / 3 : cases;
 }
 
 /* splitmix64 */
