@@ -87,7 +87,7 @@ def test_choices_never_refute():
     rng = random.Random(SEED)
     print('seed', SEED)
     open_edges = seen_both = 0
-    for _ in range(cases(50 * SCALE)):
+    for _ in range(50 * SCALE):
         boxes = random_boxes(rng, 6)
         found = {g: edges(g, boxes) for g in GRAPHS}
         if None in found.values():
@@ -191,7 +191,7 @@ def test_possible_is_exact():
     """Against all corners of the arrangement, and three or four rectangles, which may touch or overlap."""
     rng = random.Random(SEED)
     seen = {'nearest': [0, 0], 'gabriel': [0, 0]}
-    for case in range(cases(60 * SCALE)):
+    for case in range(60 * SCALE):
         boxes = [tuple(F(v) for v in b) for b in (gate(rng) if case % 2 else random_boxes(rng, 3, third=False))]
         for g, may, pairs in (('nearest', may_be_nearest, itertools.permutations), ('gabriel', may_be_gabriel, itertools.combinations)):
             found = edges(g, boxes)

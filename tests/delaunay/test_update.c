@@ -146,7 +146,7 @@ static void test_aliases(void **state) {
   test_random g = test_random_start("aliases");
   cloud *c = malloc(sizeof *c);
   assert_non_null(c);
-  for (size_t q = 0; q < test_cases(300); q++) {
+  for (size_t q = 0; q < test_cases_all(300); q++) {
     dyd_sites *s = NULL;
     dyd_delaunay *pd = NULL;
     do {
@@ -170,7 +170,7 @@ static void test_fresh(void **state) {
   cloud *c = malloc(sizeof *c);
   size_t carried = 0;
   assert_non_null(c);
-  for (size_t q = 0; q < test_cases(12); q++) {
+  for (size_t q = 0; q < test_cases_all(12); q++) {
     dyd_sites *s = NULL;
     dyd_delaunay *pd = NULL;
     make(c, &g);
@@ -227,7 +227,7 @@ static void test_crowd(void **state) {
   cloud *c = malloc(sizeof *c);
   size_t carried = 0, before = hidden;
   assert_non_null(c);
-  for (size_t q = 0; q < test_cases(25); q++) {
+  for (size_t q = 0; q < test_cases_all(25); q++) {
     dyd_sites *s = NULL;
     dyd_delaunay *pd = NULL;
     make_crowd(c, &g);
@@ -302,7 +302,7 @@ static void test_local_witness(void **state) {
   cloud *c = malloc(sizeof *c);
   size_t witnesses = 0;
   assert_non_null(c);
-  for (size_t q = 0; q < test_cases(40); q++) {
+  for (size_t q = 0; q < test_cases_all(40); q++) {
     dyd_sites *s = NULL;
     dyd_delaunay *pd = NULL;
     make(c, &g);

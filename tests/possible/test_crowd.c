@@ -119,7 +119,7 @@ static void test_crowds(void **state) {
   (void)state;
   test_random r = test_random_start("crowds");
   uint64_t walks[2] = {0, 0};
-  for (size_t k = 0; k < test_cases(50); k++) {
+  for (size_t k = 0; k < test_cases_all(50); k++) {
     crowd c;
     fill(&c, &r, (unsigned)(k % KINDS), 0.25 * test_unit(&r));
     if (k / KINDS % 2) turn(&c);
@@ -134,7 +134,7 @@ static void test_near_circles(void **state) {
   (void)state;
   test_random r = test_random_start("near circles");
   uint64_t walks[2] = {0, 0};
-  for (size_t k = 0; k < test_cases(5); k++) {
+  for (size_t k = 0; k < test_cases_all(5); k++) {
     crowd c;
     fill_circle(&c, &r);
     check_same(walks, &c);

@@ -94,7 +94,7 @@ static void test_against(void **state) {
   (void)state;
   chance = test_random_start("calcium");
   ca_ctx_init(field);
-  for (size_t k = 0; k < test_cases(300); k++) {
+  for (size_t k = 0; k < test_cases_all(300); k++) {
     char left[TEXT], right[TEXT], text[8 * TEXT];
     ca_t x, y;
     ca_init(x, field);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Deterministic random numbers for tests: the seed and the scale come from the environment and are printed.
  *
- * DYADEL_TEST_SEED (default 1) chooses the cases, DYADEL_TEST_SCALE (default 1) multiplies their number; with sanitizers,
- * which make each many times as slow, DYADEL_TEST_SANITIZED asks for a third. */
+ * DYADEL_TEST_SEED (default 1) chooses the cases, DYADEL_TEST_SCALE (default 1) multiplies their number; with
+ * sanitizers, which make each many times as slow, DYADEL_TEST_SANITIZED asks for a third. */
 #ifndef DYD_TESTS_RANDOM_H
 #define DYD_TESTS_RANDOM_H
 
@@ -21,9 +21,14 @@ static inline uint64_t test_environment(const char *name, uint64_t otherwise) {
   return text && *text ? strtoull(text, NULL, 10) : otherwise;
 }
 
-/* How many random cases to run when `base` is the number for everyday runs. */
+/* How many random cases to run when `base` is the number for everyday runs; where few of them would show nothing. */
+static inline size_t test_cases_all(size_t base) {
+  return base * (size_t)test_environment("DYADEL_TEST_SCALE", 1);
+}
+
+/* The same, with sanitizers fewer. */
 static inline size_t test_cases(size_t base) {
-  size_t cases = base * (size_t)test_environment("DYADEL_TEST_SCALE", 1);
+  size_t cases = test_cases_all(base);
   return test_environment("DYADEL_TEST_SANITIZED", 0) ? (cases + 2) / 3 : cases;
 }
 

@@ -60,7 +60,7 @@ static void test_all_annuli(void **state) {
   (void)state;
   test_random r = test_random_start("all annuli");
   uint64_t filter = 0, exact = 0;
-  for (size_t c = 0; c < test_cases(1000); c++) {
+  for (size_t c = 0; c < test_cases_all(1000); c++) {
     brute_points p;
     cases_answer a;
     mpq_t up_to;
@@ -104,7 +104,7 @@ static void test_attacks(void **state) {
   (void)state;
   test_random r = test_random_start("attacks");
   size_t attacks = 0;
-  for (size_t c = 0; c < test_cases(600); c++) {
+  for (size_t c = 0; c < test_cases_all(600); c++) {
     brute_points p, q;
     cases_answer a;
     const dyd_tolerance_row *row;
@@ -131,7 +131,7 @@ static void test_points_and_whole(void **state) {
   (void)state;
   test_random r = test_random_start("points");
   size_t moved = 0;
-  for (size_t c = 0; c < test_cases(400); c++) {
+  for (size_t c = 0; c < test_cases_all(400); c++) {
     brute_points p, q;
     cases_answer a;
     double lo, hi, all[BRUTE_MOST], least = HUGE_VAL;

@@ -17,7 +17,7 @@ static void test_equal_weights(void **state) {
   (void)state;
   test_random r = test_random_start("equal weights");
   size_t sharp = 0, all = 0;
-  for (size_t c = 0; c < test_cases(300); c++) {
+  for (size_t c = 0; c < test_cases_all(300); c++) {
     brute_points p;
     cases_answer a, b;
     const dyd_tolerance_row *x, *y;
@@ -80,7 +80,7 @@ static void test_weights_against_discs(void **state) {
   (void)state;
   test_random r = test_random_start("weights");
   size_t deaths = 0, births = 0, sharp = 0;
-  for (size_t c = 0; c < test_cases(60); c++) {
+  for (size_t c = 0; c < test_cases_all(60); c++) {
     brute_points p;
     cases_answer a;
     const dyd_tolerance_row *row;
@@ -148,7 +148,7 @@ static void test_weighted_attacks(void **state) {
   (void)state;
   test_random r = test_random_start("weighted attacks");
   size_t attacks = 0;
-  for (size_t c = 0; c < test_cases(300); c++) {
+  for (size_t c = 0; c < test_cases_all(300); c++) {
     brute_points p, q;
     cases_answer a;
     const dyd_tolerance_row *row;
@@ -182,7 +182,7 @@ static void test_weighted_whole(void **state) {
   (void)state;
   test_random r = test_random_start("weighted whole");
   size_t moved = 0;
-  for (size_t c = 0; c < test_cases(200); c++) {
+  for (size_t c = 0; c < test_cases_all(200); c++) {
     brute_points p, q;
     cases_answer a;
     double lo, hi, weight[BRUTE_MOST], reach[BRUTE_MOST];
