@@ -4,7 +4,7 @@
 #ifndef TILES_CARRY_H
 #define TILES_CARRY_H
 
-#include "tile.h"
+#include "state.h"
 
 typedef struct tiles_carrier {
   /* Moves what the `count` ranks of this process wrote to where it goes, and brings what others wrote to them. */

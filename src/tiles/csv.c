@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Parts joined: the csv of `dyadel delaunay`. */
-#include "tile.h"
+#include "state.h"
 
 #include <errno.h>
 #include <inttypes.h>

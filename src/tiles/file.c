@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Files that appear whole or not at all. */
-#include "tile.h"
+#include "state.h"
 
 #include <errno.h>
 #include <stdlib.h>

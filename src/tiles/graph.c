@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The triangulation of a view: who is a partner of whom, which faces matter, which rows follow. */
-#include "tile.h"
+#include "state.h"
 
 #include <stdlib.h>
 #include <time.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Parts: what one rank states, as a file; and what is told of all. */
-#include "tile.h"
+#include "state.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -3,7 +3,7 @@
  *
  * The first triangulation, of all own sites and the halo, settles nearly all of them. Those left, their partners and
  * the ghosts are the fringe: it is triangulated by itself, and grows by what owners (the rank itself is one) answer. */
-#include "tile.h"
+#include "state.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* From the input to sites with owners: samples, boxes of the plane, halos. */
-#include "tile.h"
+#include "state.h"
 
 #include <errno.h>
 #include <math.h>

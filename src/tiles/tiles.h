@@ -3,7 +3,7 @@
  *
  * Each rank owns the sites of its box of the plane. It triangulates them with a halo of others' sites, and asks the
  * owners for what its answer may still depend on, until nothing is left. Ranks are not bound to processes: a rank
- * works in steps (tile.h), and between two steps the mail that it wrote is carried to the other ranks, by MPI or in
+ * works in steps (state.h), and between two steps the mail that it wrote is carried to the other ranks, by MPI or in
  * memory (carry.h). Numbers of points are 64 bits wide in mail and files, 32 within one rank. */
 #ifndef TILES_TILES_H
 #define TILES_TILES_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* One rank at work: what it does between one delivery of mail and the next. */
-#ifndef TILES_TILE_H
-#define TILES_TILE_H
+#ifndef TILES_STATE_H
+#define TILES_STATE_H
 
 #include "tree.h"
 #include <stdio.h>
