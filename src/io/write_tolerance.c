@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Tolerances: their layers as csv, wkt and geojson, and all of them as json. */
+#include "base/sort.h"
 #include "io/parts.h"
 #include "io/result.h"
 #include "io/table.h"
@@ -107,11 +108,6 @@ dyd_status dyd_layer_radii(const dyd_output *o) {
 
 /* ---- how many are certain ---- */
 
-static int compare_doubles(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* The first of the ascending numbers that is above x. */
 static size_t count_up_to(const double *sorted, size_t count, double x) {
   size_t lo = 0, hi = count;
@@ -157,7 +153,7 @@ dyd_status dyd_layer_barcode(const dyd_output *o) {
     edges += row[k].event == DYD_EVENT_DEATH;
     if (row[k].event == DYD_EVENT_DEATH && isfinite(row[k].lo)) death[count++] = row[k].lo;
   }
-  qsort(death, count, sizeof *death, compare_doubles);
+  qsort(death, count, sizeof *death, dyd_compare_double);
   tolerance_comments(o);
   dyd_table_begin(&t, &head);
   barcode_rows(&t, death, count, edges);

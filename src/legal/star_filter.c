@@ -14,6 +14,7 @@
 #include "legal/star_filter.h"
 
 #include "base/alloc.h"
+#include "base/sort.h"
 #include "legal/fat_filter.h"
 #include "legal/marks.h"
 #include "legal/near_filter.h"
@@ -41,17 +42,12 @@ static double star_radius(const dyd_skeleton *sk, uint32_t v) {
   return sqrt(dyd_dl2_upper(&c, &sk->rects.box[v])) * DYD_UP_FACTOR + DYD_TINY;
 }
 
-static int star_compare(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* Four times the median radius of a sample: whoever is larger counts as fat. */
 static double ordinary_radius(const dyd_skeleton *sk) {
   double sample[256];
   size_t count = 0, step = sk->n / 256 + 1;
   for (size_t v = 0; v < sk->n && count < 256; v += step) sample[count++] = star_radius(sk, (uint32_t)v);
-  qsort(sample, count, sizeof *sample, star_compare);
+  qsort(sample, count, sizeof *sample, dyd_compare_double);
   return 4 * sample[count / 2];
 }
 

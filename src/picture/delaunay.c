@@ -148,11 +148,7 @@ static void draw_edges(dyd_canvas *c, const delaunay_drawing *d, int k) {
     dyd_canvas_move(c, z[0][0], z[0][1]);
     dyd_canvas_line(c, z[1][0], z[1][1]);
     if (!names) continue;
-    size_t i = dyd_engine_row(d->r->engine, pair->i), j = dyd_engine_row(d->r->engine, pair->j);
-    char id[80], title[80];
-    snprintf(id, sizeof id, "pair-%zu-%zu", i, j);
-    snprintf(title, sizeof title, "%zu, %zu: %s", i, j, style_name(d, k));
-    dyd_canvas_name(c, id, title);
+    dyd_picture_name_pair(c, d->r->engine, pair->i, pair->j, style_name(d, k));
     dyd_picture_stroke(c, style[k].rgb, width, style[k].on, style[k].off);
   }
   if (!names && any) dyd_picture_stroke(c, style[k].rgb, width, style[k].on, style[k].off);

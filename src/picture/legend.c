@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Legends: what colours and lines mean, how long a length is, where the points are when they are too close to see. */
+#include "base/sort.h"
 #include "io/decimal.h"
 #include "picture/picture.h"
 #include <math.h>
@@ -101,11 +102,6 @@ void dyd_legend_text(dyd_legend *l, const char *text) {
 
 /* ---- a crowd ---- */
 
-static int legend_compare(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static bool is_in(const double box[4], const double b[4]) {
   double x = b[0] / 2 + b[1] / 2, y = b[2] / 2 + b[3] / 2;
   return box[0] <= x && x <= box[1] && box[2] <= y && y <= box[3];
@@ -122,7 +118,7 @@ static bool crowd_box(char text[4][48], double box[4], double *each, const dyd_v
       if (m->box(b, m->context, i) && dyd_view_sees(v, b)) each[count++] = b[2 * axis] / 2 + b[2 * axis + 1] / 2;
     }
     if (count < 20) return false;
-    qsort(each, count, sizeof *each, legend_compare);
+    qsort(each, count, sizeof *each, dyd_compare_double);
     double low = each[count / 10], high = each[count - 1 - count / 10], more = (high - low) / 8;
     int digit, exponent;
     if (!dyd_round_step(&digit, &exponent, more)) return false;

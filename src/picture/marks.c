@@ -25,6 +25,14 @@ static void name_site(dyd_canvas *c, const double box[4], const dyd_engine *e, s
   dyd_canvas_name(c, id, title);
 }
 
+void dyd_picture_name_pair(dyd_canvas *c, const dyd_engine *e, size_t i, size_t j, const char *what) {
+  char id[80], title[120];
+  size_t a = dyd_engine_row(e, i), b = dyd_engine_row(e, j);
+  snprintf(id, sizeof id, "pair-%zu-%zu", a, b);
+  snprintf(title, sizeof title, "%zu, %zu: %s", a, b, what);
+  dyd_canvas_name(c, id, title);
+}
+
 dyd_site_mark dyd_picture_site(dyd_canvas *c, const dyd_view *v, const double box[4], const dyd_engine *e, size_t site,
                                unsigned rgb) {
   double x0 = dyd_view_x(v, box[0]), x1 = dyd_view_x(v, box[1]), y0 = dyd_view_y(v, box[3]), y1 = dyd_view_y(v, box[2]);

@@ -101,6 +101,8 @@ void dyd_picture_box(dyd_canvas *c, const dyd_view *v, const double box[4]);
 typedef enum dyd_site_mark { DYD_MARK_NONE, DYD_MARK_DOT, DYD_MARK_RECTANGLE } dyd_site_mark;
 dyd_site_mark dyd_picture_site(dyd_canvas *c, const dyd_view *v, const double box[4], const dyd_engine *e, size_t site,
                                unsigned rgb);
+/* The next element is of the pair i, j of e: it has the name "pair-I-J", and `what` behind both for a title. */
+void dyd_picture_name_pair(dyd_canvas *c, const dyd_engine *e, size_t i, size_t j, const char *what);
 /* A rectangle, however small it is, filled with rgb. */
 void dyd_picture_marked(dyd_canvas *c, const dyd_view *v, const double box[4], const dyd_engine *e, size_t site,
                         unsigned rgb);

@@ -3,6 +3,7 @@
  * great circles. What spans more than half of the globe is shown on all of it. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/sort.h"
 #include "io/geodesic.h"
 #include "io/sphere_cells.h"
 #include "picture/picture.h"
@@ -107,24 +108,16 @@ static void draw_graticule(sphere_drawing *d) {
   dyd_picture_stroke(d->canvas, GRATICULE, 0.5, 0, 0);
 }
 
-static void name_pair(const sphere_drawing *d, const dyd_pair *pair, const char *status) {
-  const dyd_engine *e = dyd_sphere_places(d->r->sphere);
-  size_t i = dyd_engine_row(e, pair->i), j = dyd_engine_row(e, pair->j);
-  char id[80], title[80];
-  snprintf(id, sizeof id, "pair-%zu-%zu", i, j);
-  snprintf(title, sizeof title, "%zu, %zu: %s", i, j, status);
-  dyd_canvas_name(d->canvas, id, title);
-}
-
 static void draw_pairs(sphere_drawing *d) {
   const dyd_pair_list *l = &d->r->pairs;
+  const dyd_engine *places = dyd_sphere_places(d->r->sphere);
   for (int k = 0; k < 3; k++) {
     if (d->crowded && k == OPEN) continue;
     for (size_t p = 0; p < l->count; p++) {
       if (l->item[p].status != kind[k].status) continue;
       arc_follow(d, d->box[l->item[p].i], d->box[l->item[p].j], arc_draw);
       if (l->count > DYD_PICTURE_NAMES) continue;
-      name_pair(d, &l->item[p], kind[k].name);
+      dyd_picture_name_pair(d->canvas, places, l->item[p].i, l->item[p].j, kind[k].name);
       dyd_picture_stroke(d->canvas, kind[k].rgb, d->view.line, kind[k].on, kind[k].off);
     }
     if (d->shown[kind[k].status] && l->count > DYD_PICTURE_NAMES)
@@ -220,18 +213,13 @@ static dyd_status find_places(sphere_drawing *d) {
   return st;
 }
 
-static int compare_longitudes(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* In the middle of the widest range of longitudes without a place, where that is more than half of all; else -180. */
 static dyd_status find_seam(sphere_drawing *d) {
   double *lon = dyd_alloc(d->count + 1, sizeof *lon), widest = 180;
   if (!lon) return DYD_E_NOMEM;
   d->seam = -180;
   for (size_t i = 0; i < d->count; i++) lon[i] = map_longitude(d, dyd_lon_lat_of(d->box[i]).lon);
-  qsort(lon, d->count, sizeof *lon, compare_longitudes);
+  qsort(lon, d->count, sizeof *lon, dyd_compare_double);
   lon[d->count] = d->count ? lon[0] + 360 : 0;
   for (size_t k = 0; k < d->count; k++)
     if (lon[k + 1] - lon[k] > widest) widest = lon[k + 1] - lon[k], d->seam = lon[k] + widest / 2;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The picture of tolerances: edges coloured by how much they bear, from what is lost first to what is lost last. */
 #include "base/error.h"
+#include "base/sort.h"
 #include "io/decimal.h"
 #include "picture/picture.h"
 #include <math.h>
@@ -33,18 +34,13 @@ static const char *rounded(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd
   return out;
 }
 
-static int compare_deaths(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static dyd_status find_classes(tolerance_drawing *g) {
   double *death = malloc((g->rows + 1) * sizeof *death);
   size_t count = 0;
   if (!death) return DYD_E_NOMEM;
   for (size_t k = 0; k < g->rows; k++)
     if (g->row[k].event == DYD_EVENT_DEATH) death[count++] = g->row[k].lo;
-  qsort(death, count, sizeof *death, compare_deaths);
+  qsort(death, count, sizeof *death, dyd_compare_double);
   for (int c = 0; c < CLASSES - 1; c++) g->bound[c] = count ? death[count * (size_t)(c + 1) / CLASSES] : 0;
   free(death);
   return DYD_OK;
@@ -59,19 +55,15 @@ static int class_of(const tolerance_drawing *g, const dyd_tolerance_row *row) {
   return c;
 }
 
-/* "pair-3-7", "3, 7: lost from 0.0123". */
 static void tolerance_name(dyd_canvas *c, const tolerance_drawing *g, const dyd_tolerance_row *row) {
-  char id[80], title[120], number[DYD_DECIMAL_SIZE];
-  size_t i = dyd_engine_row(g->r->engine, row->i), j = dyd_engine_row(g->r->engine, row->j);
-  snprintf(id, sizeof id, "pair-%zu-%zu", i, j);
-  int n = snprintf(title, sizeof title, "%zu, %zu: ", i, j);
+  char text[80], number[DYD_DECIMAL_SIZE];
   if (row->event == DYD_EVENT_TIE)
-    snprintf(title + n, sizeof title - (size_t)n, "tie");
+    snprintf(text, sizeof text, "tie");
   else if (!isfinite(row->lo))
-    snprintf(title + n, sizeof title - (size_t)n, "not lost by any motion");
+    snprintf(text, sizeof text, "not lost by any motion");
   else
-    snprintf(title + n, sizeof title - (size_t)n, "not lost below %s", rounded(number, row->lo, 3, DYD_DOWN));
-  dyd_canvas_name(c, id, title);
+    snprintf(text, sizeof text, "not lost below %s", rounded(number, row->lo, 3, DYD_DOWN));
+  dyd_picture_name_pair(c, g->r->engine, row->i, row->j, text);
 }
 
 static void tolerance_edges(dyd_canvas *c, tolerance_drawing *g, int class) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Views: which part of the plane a picture shows, where it is on the page. */
 #include "base/error.h"
+#include "base/sort.h"
 #include "picture/picture.h"
 #include <math.h>
 #include <stdlib.h>
@@ -66,11 +67,6 @@ dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, dyd_error *err) {
   return dyd_view_fit(v, all, dyd_view_spacing(r->pd, NULL), err);
 }
 
-static int compare_lengths(const void *a, const void *b) {
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 /* Of the line between the middles of the rectangles; -1 when its middle is not in the box. */
 static double pair_length(const dyd_delaunay *pd, const dyd_pair *pair, const double box[4]) {
   double a[4], b[4], c[2][2];
@@ -86,7 +82,7 @@ static double pair_length(const dyd_delaunay *pd, const dyd_pair *pair, const do
 }
 
 double dyd_view_median(double *length, size_t n) {
-  qsort(length, n, sizeof *length, compare_lengths);
+  qsort(length, n, sizeof *length, dyd_compare_double);
   return n && isfinite(length[n / 2]) ? length[n / 2] : 0;
 }
 
