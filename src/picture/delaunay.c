@@ -183,7 +183,9 @@ static void delaunay_legend(dyd_canvas *c, void *context) {
   legend_edges(&l, d);
   if (d->triangle) dyd_legend_patch(&l, TRIANGLE, "sure triangle");
   if (d->marks.drawn[DYD_MARK_RECTANGLE]) dyd_legend_patch(&l, 0xf2c766, "rectangle of a point");
-  if (d->marks.drawn[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point, or a rectangle so small");
+  if (d->marks.drawn[DYD_MARK_DOT])
+    dyd_legend_dot(&l, 0x222222, 0x222222,
+                   d->view.dots ? "point, or the middle of its rectangle" : "point, or a rectangle so small");
   if (d->region[2]) dyd_legend_patch(&l, style[2].region, graph ? "where a sure edge is" : "where a legal edge is");
   if (d->region[1])
     dyd_legend_patch(&l, style[1].region,
@@ -258,6 +260,18 @@ static dyd_status see_window(delaunay_drawing *d, dyd_error *err) {
   return DYD_OK;
 }
 
+/* Would the rectangles hide most of what is in the frame? */
+static bool are_rectangles_a_mass(const delaunay_drawing *d) {
+  const double *f = d->view.frame;
+  double area = 0, z[4];
+  for (size_t i = 0; i < d->r->count; i++) {
+    if (!d->marks.box(z, d->marks.context, i) || !dyd_view_sees(&d->view, z)) continue;
+    double w = (z[1] - z[0]) * d->view.scale, h = (z[3] - z[2]) * d->view.scale;
+    area += fmin(w, f[1] - f[0]) * fmin(h, f[3] - f[2]);
+  }
+  return area > (f[1] - f[0]) * (f[3] - f[2]) / 4;
+}
+
 static dyd_status find_density(delaunay_drawing *d) {
   if (!dyd_density_init(&d->open, &d->view)) return DYD_E_NOMEM;
   for (size_t p = 0; p < d->r->pairs.count; p++) {
@@ -267,7 +281,7 @@ static dyd_status find_density(delaunay_drawing *d) {
     if (line_of(z, d, &d->r->pairs.item[p], d->view.frame)) dyd_density_add(&d->open, z);
   }
   d->crowded = dyd_density_is_crowded(&d->open);
-  d->view.dots = d->crowded && d->view.apart < CLOSE;
+  d->view.dots = d->crowded && (d->view.apart < CLOSE || are_rectangles_a_mass(d));
   return DYD_OK;
 }
 

@@ -168,12 +168,16 @@ def test_crowds_show_density():
     """Of a mass of lines their number in each square; of some lines the lines."""
     airports = ('--columns', 'longitude,latitude', '--radius', '0.3')
     with open(os.path.join(DATA, 'airports.csv'), encoding='utf-8') as f:
-        text = picture('delaunay', f.read(), *airports)
+        points = f.read()
+    text = picture('delaunay', points, *airports)
     words = ' | '.join(svg.words(text))
     assert 'of 113350 indeterminate pairs across a square | 2-3 | 4-9 | 10-29 | 30-99 | more' in words, words
     assert 'rectangle of a point' not in words and len(text) < 3e6, (words, len(text))
     assert not any(p.look.get('id', '').startswith('pair-') and p.look['stroke'] == '#d55e00' for p in svg.paths(text))
     assert 'across a square' not in ' '.join(svg.words(picture('delaunay', TWELVE)))
+    for radius, window, dots in (('0.3', '-125,-66,24,50', True), ('0.05', '-112,-104,38,44', False)):  # rectangles that hide all
+        words = svg.words(picture('delaunay', points, '--columns', 'longitude,latitude', '--radius', radius, f'--window={window}'))
+        assert ('point, or the middle of its rectangle' in words, 'rectangle of a point' in words) == (dots, not dots), words
 
 
 def test_kinds_agree():
