@@ -165,6 +165,9 @@ static PyObject *globe_write_voronoi(PyObject *self, PyObject *args) {
 /* ---- the type ---- */
 
 static PyMethodDef globe_methods[] = {
+    {"recall", dydpy_recall, METH_VARARGS, "recall(path) -> int: answers of images taken from a trace"},
+    {"trace_begin", dydpy_trace_begin, METH_VARARGS, "trace_begin(path, options, None)"},
+    {"trace_end", dydpy_trace_end, METH_NOARGS, "trace_end()"},
     {"run", dydpy_run, METH_O, "run(options)"},
     {"cancel", dydpy_cancel, METH_NOARGS, "cancel(): from any thread"},
     {"count", dydpy_count, METH_NOARGS, "count() -> int: points"},

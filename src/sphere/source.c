@@ -5,6 +5,7 @@
  * computation, are found by trying: what is missing is added. Images of wide places, or seen from a wide centre, or of
  * circles, stay wide; they are final once their place and centre are, or are narrow beside what is wide. */
 #include "base/error.h"
+#include "engine/points.h"
 #include "rect/interval.h"
 #include "sphere/state.h"
 #include "stream/ball.h"
@@ -132,21 +133,45 @@ static dyd_status image_give(dyd_rect *out, const image *m, bool known, int64_t 
   return st;
 }
 
+static void image_init(image *m, dyd_sphere *s, uint32_t i) {
+  *m = (image){.s = s, .i = i};
+  dyd_spot_init(&m->spot);
+  mpq_init(m->angle);
+  dyd_sphere_angle(m->angle, s, i);
+  arb_init(m->x);
+  arb_init(m->y);
+}
+
+static void image_clear(image *m) {
+  arb_clear(m->y);
+  arb_clear(m->x);
+  mpq_clear(m->angle);
+  dyd_spot_clear(&m->spot);
+}
+
 static dyd_status image_request(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
   dyd_sphere *s = user;
-  image m = {.s = s, .i = s->of[request->point]};
-  dyd_spot_init(&m.spot);
-  mpq_init(m.angle);
-  dyd_sphere_angle(m.angle, s, m.i);
-  arb_init(m.x);
-  arb_init(m.y);
+  image m;
+  image_init(&m, s, s->of[request->point]);
   dyd_status st = image_find(&m, request->bits, request->max_bits, err);
   if (st == DYD_OK) st = image_give(out, &m, dyd_engine_knows(s->images, (uint32_t)request->point), request->bits);
   if (st == DYD_OK && m.wide && (!m.moving || request->bits >= WIDE_BITS)) st = DYD_FIXED;
-  arb_clear(m.y);
-  arb_clear(m.x);
-  mpq_clear(m.angle);
-  dyd_spot_clear(&m.spot);
+  image_clear(&m);
+  return st;
+}
+
+/* An image that is known without its source having been asked may be narrower than its place would have it. */
+dyd_status dyd_sphere_narrow_recalled(dyd_sphere *s, int64_t max_bits, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  image m;
+  for (uint32_t k = 0; k < s->with_image && st == DYD_OK; k++) {
+    const dyd_refinable *p = dyd_engine_find(s->images, k);
+    if (!p || !p->measured || dyd_sphere_is_fixed(s, s->of[k])) continue;
+    image_init(&m, s, s->of[k]);
+    st = image_find(&m, p->bits, max_bits, err);
+    if (st != DYD_OK && err) err->point = k;
+    image_clear(&m);
+  }
   return st;
 }
 

@@ -174,6 +174,7 @@ dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_
   if (dyd_abi_take(&o, sizeof o, options, "dyd_engine_options", err) != DYD_OK) return DYD_E_ARG;
   if (!o.start_bits) o.start_bits = START_BITS;
   dyd_status st = dyd_engine_run(outcome, s->images, &o, err);
+  if (st == DYD_OK) st = dyd_sphere_narrow_recalled(s, o.max_bits, err);
   if (*outcome == DYD_OUTCOME_DECIDED) *outcome = dyd_sphere_outcome(s);
   return st;
 }

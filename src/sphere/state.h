@@ -64,6 +64,9 @@ dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err);
 dyd_status dyd_sphere_choose(dyd_sphere *s, dyd_error *err);
 /* source.c: adds the images to s->images. */
 dyd_status dyd_sphere_add_images(dyd_sphere *s, dyd_error *err);
+/* source.c: narrows places and centre as if images that a trace gave had been asked for, so that what is said of images
+ * holds for all choices in the rectangles of their places. */
+dyd_status dyd_sphere_narrow_recalled(dyd_sphere *s, int64_t max_bits, dyd_error *err);
 /* ties.c: as dyd_prove_fn; user is a dyd_sphere, sites are images. */
 dyd_status dyd_sphere_prove(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
                             dyd_error *err);

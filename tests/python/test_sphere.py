@@ -3,7 +3,10 @@
 """Points on a sphere: against hulls in space, what the command writes, and the limits of degrees [SPH-1]."""
 import copy
 import json
+import os
+import pathlib
 import pickle
+import tempfile
 from fractions import Fraction
 
 import harness
@@ -102,7 +105,7 @@ def test_radius():
 
 def test_refused():
     cases = [(dict(until='hausdorff:3'), 'about the plane'), (dict(window=(0, 1, 0, 1)), 'about the plane'),
-             (dict(trace='t'), 'traces are of the plane'), (dict(radius='3 parsec'), 'is not an exact number'),
+             (dict(radius='3 parsec'), 'is not an exact number'),
              (dict(radius='-1m'), 'is not an exact number'), (dict(radius='7000km'), 'larger than that of the earth')]
     for options, words in cases:
         assert words in str(harness.raised(ValueError, dyadel.delaunay, OCTAHEDRON, sphere=True, **options)), options
@@ -138,6 +141,35 @@ def test_sources():
         harness.raised(RuntimeError, d.refine) if i == 9 else None
         return i, i * i
     assert dyadel.delaunay(dyadel.Source(4, again), sphere=True).outcome == 'decided'
+
+
+def test_traces():
+    """Killed at any line: the resumed run takes those answers, and finds the same; what it asks beyond is for the rectangles."""
+    calls = []
+
+    def narrow(i, bits):
+        calls.append((i, bits))
+        x, y = 40 * i - 170, (60 if i % 2 else -60) - Fraction(i * i, 10**9)
+        return x, x, y - Fraction(1, 2**bits), y + Fraction(1, 2**bits)
+
+    with tempfile.TemporaryDirectory() as folder:
+        trace, cut, again = (os.path.join(folder, name) for name in ('trace', 'cut', 'again'))
+
+        def run(**options):
+            return dyadel.delaunay(dyadel.Source(9, narrow), sphere=True, start_bits=4, step_bits=4, **options)
+        d, alone = run(trace=trace), len(calls)
+        lines = pathlib.Path(trace).read_text().splitlines(keepends=True)
+        answers = [k for k, line in enumerate(lines) if '"called"' in line]
+        assert d.recalled == 0 and len(answers) > 9
+        for kept in (1, answers[0] + 1, answers[4] + 1, len(lines) // 2, len(lines)):
+            pathlib.Path(cut).write_text(''.join(lines[:kept]))
+            calls.clear()
+            e = run(resume=cut, trace=again)
+            assert e.recalled == sum(k < kept for k in answers) and len(calls) <= alone + e.recalled, kept
+            assert pathlib.Path(again).read_text() == ''.join(lines), kept
+            assert np.array_equal(e.pairs, d.pairs) and np.array_equal(e.boxes, d.boxes)
+        error = harness.raised(dyadel.Error, dyadel.delaunay, OCTAHEDRON, sphere=True, resume=trace)
+        assert error.code == 'parse' and error.result.outcome == 'none', error
 
 
 def test_pickling():

@@ -6,8 +6,8 @@ import contextlib
 from collections.abc import Iterator, Sequence
 from typing import Any, Literal, overload
 
-from ._options import engine_options
-from ._questions import Path, Plan, Tolerance
+from ._options import Path, engine_options
+from ._questions import Plan, Tolerance
 from ._sphere import Sphere
 from ._statuses import Statuses
 from ._triangulation import Delaunay
@@ -19,7 +19,8 @@ def delaunay(points: Any, radius: Any = None, *, sphere: Literal[False] = False,
 
 
 @overload
-def delaunay(points: Any, radius: Any = None, *, sphere: Literal[True], **options: Any) -> Sphere: ...
+def delaunay(points: Any, radius: Any = None, *, sphere: Literal[True], trace: Path | None = None,
+             resume: Path | None = None, **options: Any) -> Sphere: ...
 
 
 @overload
@@ -51,10 +52,8 @@ def delaunay(points: Any, radius: Any = None, *, sphere: bool = False, trace: Pa
     """
     if not sphere:
         return _in_plane(points, radius, trace, resume, **options)
-    if trace is not None or resume is not None:
-        raise ValueError('traces are of the plane; leave trace and resume, or sphere=True, away')
     globe = Sphere(points, radius)
-    with _kept_with_errors(globe):
+    with _kept_with_errors(globe), globe._traced(trace, resume, options):
         return globe.refine(**options)
 
 
@@ -66,7 +65,8 @@ def _in_plane(points: Any, radius: Any = None, trace: Path | None = None, resume
     d = Delaunay()
     with _kept_with_errors(d):
         d._append(points, radius)
-        return d._begin(trace, resume, options)
+        with d._traced(trace, resume, options):
+            return d.refine(**options)
 
 
 @contextlib.contextmanager

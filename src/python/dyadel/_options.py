@@ -2,9 +2,11 @@
 """How far a run goes: the keywords that delaunay, refine, append, converge and others share."""
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from typing import Any
 
+Path = str | os.PathLike[str]
 GOALS = ('decided', 'area', 'hausdorff', 'voronoi area', 'voronoi hausdorff')
 SCHEDULES = ('adaptive', 'uniform')
 

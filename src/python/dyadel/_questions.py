@@ -13,10 +13,8 @@ from numpy.typing import NDArray
 
 from . import _dyadel
 from ._arrays import Floats, Ints, floats, ints
-from ._options import engine_options
+from ._options import Path, engine_options
 from ._points import append_points
-
-Path = str | os.PathLike[str]
 
 EVENTS = np.array(['death', 'birth', 'tie'])
 

@@ -2,14 +2,17 @@
 """What triangulations of the plane and of a sphere say of pairs of points."""
 from __future__ import annotations
 
+import contextlib
 import json
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Iterator
 from typing import Any, TypeVar
 
 import numpy as np
 
 from . import _dyadel, _geometry
 from ._arrays import Floats, Ints, Rect, floats, ints, rect_of
+from ._options import Path, engine_options
 
 STATUS = ('illegal', 'tie', 'indeterminate', 'legal')
 TIE, INDETERMINATE, LEGAL = 1, 2, 3
@@ -20,6 +23,8 @@ class Statuses:
     """Statuses of pairs, sure triangles, and the rectangles for which they hold. Points are numbered from 0."""
 
     _engine: _dyadel.Engine | _dyadel.Sphere
+    #: How many answers were taken from the trace given as `resume`: of points, or of their images in the plane.
+    recalled: int = 0
 
     def __init__(self) -> None:
         self._options: dict[str, Any] = {}
@@ -34,6 +39,18 @@ class Statuses:
 
     def _counts(self) -> tuple[int, int, int]:
         return len(self.legal), len(self.indeterminate), len(self.ties)
+
+    @contextlib.contextmanager
+    def _traced(self, trace: Path | None, resume: Path | None, options: dict[str, Any]) -> Iterator[None]:
+        """The first run goes on from one trace, and another tells of it."""
+        if resume is not None:
+            self.recalled = self._engine.recall(os.fsencode(resume))
+        if trace is not None:
+            self._engine.trace_begin(os.fsencode(trace), engine_options(**options), None)
+        try:
+            yield
+        finally:
+            self._engine.trace_end()
 
     def cancel(self) -> None:
         """Asks a run to end soon, with outcome 'cancelled'; from any thread."""

@@ -2,7 +2,6 @@
 """Points in the plane in, statuses out: the triangulation, and what is asked of it."""
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -11,7 +10,7 @@ from . import _dyadel, _geometry
 from ._arrays import Ints, Rect, ints, rect_of
 from ._options import engine_options
 from ._points import append_points
-from ._questions import Graph, Nearest, Path, Plan, Tolerance, graph_of, nearest_to, plan_of, tolerance_of
+from ._questions import Graph, Nearest, Plan, Tolerance, graph_of, nearest_to, plan_of, tolerance_of
 from ._statuses import STATUS, Statuses
 from ._voronoi import Voronoi
 
@@ -31,8 +30,6 @@ class Delaunay(Statuses):
     """
 
     _engine: _dyadel.Engine
-    #: How many answers were taken from the trace given as `resume`.
-    recalled: int = 0
 
     def __init__(self) -> None:
         super().__init__()
@@ -55,17 +52,6 @@ class Delaunay(Statuses):
         self._cache, self._outcome = {}, None
         self._engine.run(ready)
         return self
-
-    def _begin(self, trace: Path | None, resume: Path | None, options: dict[str, Any]) -> Delaunay:
-        """The first run, which a trace tells of."""
-        if resume is not None:
-            self.recalled = self._engine.recall(os.fsencode(resume))
-        if trace is not None:
-            self._engine.trace_begin(os.fsencode(trace), engine_options(**options), None)
-        try:
-            return self.refine(**options)
-        finally:
-            self._engine.trace_end()
 
     def _default_window(self) -> Rect:
         """The one of diagrams, which is around the rectangles: all have to be known."""
