@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // A grid over the plane: what may be seen in a part of it, without looking at the rest.
 
-// boxOf(k, out) gives the box of thing k. Things across many squares are kept apart, and looked at each time.
+// boxOf(k, out) gives the box of thing k. Things across many squares are kept apart, and looked at each time. The squares
+// are filled when a part of the plane is first looked at.
 function makeGrid(count, boxOf) {
-  const MANY = 64, box = new Float64Array(4 * count), all = [Infinity, -Infinity, Infinity, -Infinity], out = [0, 0, 0, 0];
+  const box = new Float64Array(4 * count), all = [Infinity, -Infinity, Infinity, -Infinity], out = [0, 0, 0, 0];
   for (let k = 0; k < count; k++) {
     boxOf(k, out);
     for (let e = 0; e < 4; e++) {
@@ -15,7 +16,12 @@ function makeGrid(count, boxOf) {
   const step = [(all[1] - all[0]) / side || 1, (all[3] - all[2]) / side || 1];
   const square = (value, axis) => Math.max(0, Math.min(side - 1, Math.floor((value - all[2 * axis]) / step[axis])));
   const range = (b, at) => [square(b[at], 0), square(b[at + 1], 0), square(b[at + 2], 1), square(b[at + 3], 1)];
-  const first = new Uint32Array(side * side + 1), wide = [];
+  return {count, box, range, side, first: null, item: null, wide: [], seen: new Uint32Array(count), turn: 0};
+}
+
+function fillGrid(grid) {
+  const {count, box, range, side, wide} = grid, MANY = 64;
+  const first = new Uint32Array(side * side + 1);
   const each = (k, visit) => {
     const [x0, x1, y0, y1] = range(box, 4 * k);
     if ((x1 - x0 + 1) * (y1 - y0 + 1) > MANY) return false;
@@ -24,14 +30,14 @@ function makeGrid(count, boxOf) {
   };
   for (let k = 0; k < count; k++) if (!each(k, (s) => first[s + 1]++)) wide.push(k);
   for (let s = 0; s < side * side; s++) first[s + 1] += first[s];
-  const item = new Uint32Array(first[side * side]), next = first.slice(), seen = new Uint32Array(count);
+  const item = new Uint32Array(first[side * side]), next = first.slice();
   for (let k = 0; k < count; k++) each(k, (s) => { item[next[s]++] = k; });
-  return {count, box, first, item, wide, range, side, seen, turn: 0};
+  Object.assign(grid, {first, item});
 }
 
 // Calls visit(k) once for each thing whose box meets the view.
 function visitGrid(grid, view, visit) {
-  const {box, first, item, seen, side} = grid, turn = ++grid.turn, [x0, x1, y0, y1] = grid.range(view, 0);
+  const {box, seen, side} = grid, turn = ++grid.turn, [x0, x1, y0, y1] = grid.range(view, 0);
   const look = (k) => {
     const b = 4 * k;
     if (seen[k] === turn || box[b] > view[1] || box[b + 1] < view[0] || box[b + 2] > view[3] || box[b + 3] < view[2]) return;
@@ -42,7 +48,9 @@ function visitGrid(grid, view, visit) {
     for (let k = 0; k < grid.count; k++) look(k);
     return;
   }
-  grid.wide.forEach(look);
+  if (!grid.first) fillGrid(grid);
+  const {first, item, wide} = grid;
+  wide.forEach(look);
   for (let y = y0; y <= y1; y++)
     for (let s = first[y * side + x0]; s < first[y * side + x1 + 1]; s++) look(item[s]);
 }

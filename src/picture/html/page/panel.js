@@ -60,7 +60,7 @@ function buildLegend(scene, shown, onChange) {
   }
 }
 
-const grouped = (n) => n.toLocaleString("en");
+const grouped = (n) => String(n).replace(/\B(?=(\d{3})+$)/g, ","); // toLocaleString takes 30 ms at first
 
 function showCounts(scene) {
   const tell = (name, n) => { if ($("count-" + name)) $("count-" + name).textContent = grouped(n); };
