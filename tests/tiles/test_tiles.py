@@ -15,7 +15,8 @@ import tiles_cases as cases
 
 TILES, DYADEL = sys.argv[1:3]
 MPIRUN = sys.argv[3:4]
-RANKS = (1, 2, 4, 9)
+# Processes only carry the mail: what is in it is tried in one process, and by them at a larger scale.
+RANKS = (2, 9) if MPIRUN and cases.SCALE == 1 else (1, 2, 4, 9)
 
 
 def command(ranks, *words):
@@ -103,7 +104,7 @@ class Union(unittest.TestCase):
         for count in range(7):
             for rows in (cases.uniform(count, self.random), cases.grid(count, self.random), cases.line(count, self.random),
                          cases.boxes(count, self.random, 0.2)):
-                self.compare(rows, (1, 3) if MPIRUN else (1, 2, 3, 9))
+                self.compare(rows, (3,) if MPIRUN else (1, 2, 3, 9))
 
     def test_small_grids(self):
         """Everything is tied, and everybody is at a border."""
