@@ -15,11 +15,15 @@
 
 static const double MARGIN = 0x1p-48, TINY = 0x1p-1000;
 
-/* A partner: where its middle is, seen from that of the site; how far both go from their middles. Within a distance rho
- * of the site all centres c with c.m >= p = (|m| + size)^2 / 2 + rho size are surely nearer to it; (x, y) is the pole
- * of this line. */
+/* A partner: where its middle is, seen from that of the site; how far both go from their middles; half the square of
+ * the distance of its farthest point. All centres c with c.m - |c.x| halfx - |c.y| halfy > far are surely nearer to it:
+ * in one quadrant c.n > far, n the corner of their difference for the quadrant, and (x, y) = n / far is the pole of
+ * this line. number 0 is no partner: its pole is 0. */
 typedef struct tiles_spoke {
-  double mx, my, size, x, y;
+  double mx, my, half[2], far;
+  double nx, ny, x, y; /* of the quadrant at work */
+  size_t number;
+  bool gap; /* nobody bounds the cell between the one before and this one */
   tiles_box box;
 } tiles_spoke;
 
@@ -31,13 +35,10 @@ typedef struct tiles_knot {
 
 typedef struct reach_work {
   tiles_reach *out;
-  size_t spokes, knots;
+  size_t spokes, border, knots;
   tiles_box own;
   double cx, cy; /* the middle of the site */
-  double rho;    /* how far its partners are, on the average */
   bool thick;    /* there are rectangles */
-  bool gap;      /* the cell goes on between two spokes, the last and the first one as seen from far out: */
-  tiles_spoke last, first;
 } reach_work;
 
 /* ---- what is checked ---- */
@@ -80,8 +81,11 @@ static bool spoke_is_beyond(const tiles_spoke *s, const tiles_box *own, double u
   return size > TINY && gain > MARGIN * size && size < INFINITY;
 }
 
-static bool knots_turn(const tiles_knot *a, const tiles_knot *b) {
-  double p = a->x * b->y, q = a->y * b->x, size = fabs(p) + fabs(q);
+/* Seen from the middle of the site. */
+static bool knots_turn(const reach_work *w, const tiles_knot *a, const tiles_knot *b) {
+  double ax = a->far ? a->x : a->x - w->cx, ay = a->far ? a->y : a->y - w->cy;
+  double bx = b->far ? b->x : b->x - w->cx, by = b->far ? b->y : b->y - w->cy;
+  double p = ax * by, q = ay * bx, size = fabs(p) + fabs(q);
   return size > TINY && p - q > MARGIN * size && size < INFINITY;
 }
 
@@ -98,51 +102,45 @@ static bool reach_knot(reach_work *w, double x, double y, bool far) {
   return true;
 }
 
-/* The end of the bisector with the spoke, left or right of it as seen from the site, turned towards the spoke as far as
- * is needed. u is as long as the spoke. */
+/* The corner k of what the two rectangles are apart. */
+static void spoke_corner(double at[2], const tiles_spoke *s, int k) {
+  at[0] = s->mx + (k & 1 ? s->half[0] : -s->half[0]);
+  at[1] = s->my + (k & 2 ? s->half[1] : -s->half[1]);
+}
+
+/* The end of the bisector with the spoke, left or right of it as seen from the site: square to the corner that is
+ * farthest on the other side, turned towards the spoke as far as is needed. */
 static bool spoke_end(double u[2], const reach_work *w, const tiles_spoke *s, double side) {
+  double c[2] = {s->mx, s->my}, other[2];
+  for (int k = 0; k < 4; k++) {
+    spoke_corner(other, s, k);
+    if (side * reach_cross(c[0], c[1], other[0], other[1]) >= 0) continue;
+    c[0] = other[0];
+    c[1] = other[1];
+  }
   for (double tilt = 0x1p-40; tilt < 64; tilt *= tilt < 0x1p-8 ? 16 : 1.5) {
-    u[0] = tilt * s->mx - side * s->my;
-    u[1] = tilt * s->my + side * s->mx;
+    u[0] = tilt * s->mx - side * c[1];
+    u[1] = tilt * s->my + side * c[0];
     if (spoke_is_beyond(s, &w->own, u[0], u[1])) return true;
   }
   return false;
 }
 
-/* The p of a spoke at distance rho. */
-static double spoke_line(const tiles_spoke *s, double rho) {
-  double d2 = s->mx * s->mx + s->my * s->my;
-  return (d2 + s->size * (2 * sqrt(d2) + s->size)) / 2 + rho * s->size;
-}
-
 /* Where the lines of two spokes meet, pushed outward until it is surely nearer to both; or, too far away for good
  * bounds, the direction. */
 static bool spokes_meet(tiles_knot *c, const reach_work *w, const tiles_spoke *a, const tiles_spoke *b) {
-  double turn = reach_cross(a->mx, a->my, b->mx, b->my), rho = w->rho;
+  double turn = reach_cross(a->nx, a->ny, b->nx, b->ny);
   if (!(turn > 0)) return false;
-  for (double push = 0x1p-44; push < 4; push *= push < 0x1p-8 ? 16 : 1.5, rho *= 1.5) {
-    double p = spoke_line(a, rho), q = spoke_line(b, rho);
-    double x = (p * b->my - q * a->my) / turn, y = (a->mx * q - b->mx * p) / turn;
-    if (!(x * x + y * y < 0x1p48 * (p + q))) {
-      *c = (tiles_knot){x, y, true};
-      return spoke_is_beyond(a, &w->own, x, y) && spoke_is_beyond(b, &w->own, x, y);
-    }
+  double x = (a->far * b->ny - b->far * a->ny) / turn, y = (a->nx * b->far - b->nx * a->far) / turn;
+  if (!(x * x + y * y < 0x1p48 * (a->far + b->far))) {
+    *c = (tiles_knot){x, y, true};
+    return spoke_is_beyond(a, &w->own, x, y) && spoke_is_beyond(b, &w->own, x, y);
+  }
+  for (double push = 0x1p-44; push < 4; push *= push < 0x1p-8 ? 16 : 1.5) {
     *c = (tiles_knot){w->cx + x * (1 + push), w->cy + y * (1 + push), false};
     if (spoke_is_nearer(a, &w->own, c->x, c->y) && spoke_is_nearer(b, &w->own, c->x, c->y)) return true;
   }
   return false;
-}
-
-static bool spokes_same(const tiles_spoke *a, const tiles_spoke *b) {
-  return a->mx == b->mx && a->my == b->my;
-}
-
-/* One knot where a and b meet. */
-static bool reach_corner(bool *fits, reach_work *w, const tiles_spoke *a, const tiles_spoke *b) {
-  tiles_knot c;
-  if (spokes_same(a, b)) return true;
-  *fits = spokes_meet(&c, w, a, b);
-  return !*fits || reach_knot(w, c.x, c.y, c.far);
 }
 
 /* The directions into which the cell goes on. */
@@ -151,17 +149,16 @@ static bool reach_ends(bool *fits, reach_work *w, const tiles_spoke *a, const ti
   *fits = spoke_end(last, w, a, 1) && spoke_end(first, w, b, -1);
   if (!*fits) return true;
   tiles_knot l = {last[0], last[1], true}, f = {first[0], first[1], true};
-  return reach_knot(w, last[0], last[1], true) && (knots_turn(&l, &f) || reach_knot(w, -last[1], last[0], true)) &&
+  return reach_knot(w, last[0], last[1], true) && (knots_turn(w, &l, &f) || reach_knot(w, -last[1], last[0], true)) &&
          reach_knot(w, first[0], first[1], true);
 }
 
 /* Knots between the spokes a and b. *fits = false: none. */
 static bool reach_between(bool *fits, reach_work *w, const tiles_spoke *a, const tiles_spoke *b) {
   tiles_knot c;
-  if (a != b && spokes_meet(&c, w, a, b)) return reach_knot(w, c.x, c.y, c.far);
-  if (!w->gap) return reach_ends(fits, w, a, b);
-  return reach_corner(fits, w, a, &w->last) && (!*fits || reach_ends(fits, w, &w->last, &w->first)) &&
-         (!*fits || reach_corner(fits, w, &w->first, b));
+  if (a->number == b->number && !b->gap) return true;
+  if (!b->gap && spokes_meet(&c, w, a, b)) return reach_knot(w, c.x, c.y, c.far);
+  return reach_ends(fits, w, a, b);
 }
 
 static int compare_spokes(const void *a, const void *b) {
@@ -192,9 +189,8 @@ static size_t hull_push(tiles_spoke *s, size_t from, size_t at, const tiles_spok
   return at + 1;
 }
 
-/* The bisectors on the border of a cell: their spokes, inverted, are the corners of a convex hull with 0. */
-static size_t hull_of_spokes(tiles_spoke *s, size_t n) {
-  tiles_spoke *out = s + n; /* room for 2 n */
+/* The lines on the border of a cell: their poles are the corners of a convex hull with 0, counter-clockwise. */
+static size_t hull_of_spokes(tiles_spoke *out, tiles_spoke *s, size_t n) {
   size_t at = 0;
   sort_spokes(s, n);
   for (size_t k = 0; k < n; k++) at = hull_push(out, 0, at, &s[k]);
@@ -203,83 +199,91 @@ static size_t hull_of_spokes(tiles_spoke *s, size_t n) {
   return n == 1 ? 1 : at - 1;
 }
 
+/* Spokes; then room for those of a quadrant, for their hull, and for the border. */
 static bool reach_spokes(reach_work *w, const tiles_view *v, uint32_t i, const tiles_partners *p) {
+  enum { PARTS = 8 };
   tiles_reach *r = w->out;
-  if (!tiles_reserve((void **)&r->spoke, &r->room_spoke, 3 * (p->count + 1), sizeof *r->spoke)) return false;
+  if (!tiles_reserve((void **)&r->spoke, &r->room_spoke, PARTS * (p->count + 1), sizeof *r->spoke)) return false;
   tiles_box own = tiles_view_box(v, i);
   w->own = reach_box(&own, own.x0, own.y0);
   w->cx = w->own.x1 / 2;
   w->cy = w->own.y1 / 2;
-  r->spoke[w->spokes++] = (tiles_spoke){0};
+  r->spoke[w->spokes++] = (tiles_spoke){.far = 1};
   for (size_t k = 0; k < p->count; k++) {
     tiles_box far = tiles_view_box(v, TILES_SITE(p->item[k])), box = reach_box(&far, own.x0, own.y0);
     if (tiles_boxes_meet(&box, &w->own)) continue;
-    double mx = (box.x0 + box.x1) / 2 - w->cx, my = (box.y0 + box.y1) / 2 - w->cy;
-    double size = (box.x1 - box.x0 + box.y1 - box.y0 + w->own.x1 + w->own.y1) / 2;
-    if (tiles_box_is_point(&far) && tiles_box_is_point(&own)) size = 0;
-    r->spoke[w->spokes++] = (tiles_spoke){.mx = mx, .my = my, .size = size, .box = box};
-    w->rho += sqrt(mx * mx + my * my) + size;
-    w->thick |= size > 0;
+    const bool points = tiles_box_is_point(&far) && tiles_box_is_point(&own);
+    tiles_spoke s = {.mx = (box.x0 + box.x1) / 2 - w->cx, .my = (box.y0 + box.y1) / 2 - w->cy, .box = box};
+    if (!points) s.half[0] = (box.x1 - box.x0 + w->own.x1) / 2;
+    if (!points) s.half[1] = (box.y1 - box.y0 + w->own.y1) / 2;
+    double x = fabs(s.mx) + s.half[0], y = fabs(s.my) + s.half[1];
+    s.far = (x * x + y * y) / 2;
+    s.number = w->spokes;
+    r->spoke[w->spokes++] = s;
+    w->thick |= !points;
   }
-  w->rho /= (double)w->spokes;
   return true;
 }
 
-/* The spokes of the border of the cell, seen from distance rho, counter-clockwise; the others lose their order. */
-static tiles_spoke *reach_border(size_t *count, const reach_work *w, double rho) {
-  tiles_spoke *all = w->out->spoke, *s = all + w->spokes;
-  for (size_t k = 0; k < w->spokes; k++) {
-    double p = spoke_line(&all[k], rho);
-    all[k].x = p > 0 ? all[k].mx / p : 0;
-    all[k].y = p > 0 ? all[k].my / p : 0;
+/* Which of them goes farthest into direction (ux, uy); the lowest one of equals. */
+static size_t farthest_pole(const tiles_spoke *s, size_t n, double ux, double uy) {
+  size_t best = 0;
+  for (size_t k = 1; k < n; k++) {
+    double more = ux * (s[k].x - s[best].x) + uy * (s[k].y - s[best].y);
+    if (more > 0 || (more == 0 && s[k].number < s[best].number)) best = k;
   }
-  size_t n = hull_of_spokes(all, w->spokes);
-  *count = 0;
-  for (size_t k = 0; k < n; k++) /* 0 leaves: where it was the cell has no end */
-    if (s[k].mx != 0 || s[k].my != 0) s[(*count)++] = s[k];
-  return s;
+  return best;
 }
 
-/* Far out near rectangles, which are seen at wide angles, do not bound the cell: those that do there. */
-static void reach_gap(reach_work *w) {
-  size_t n, gaps = 0;
-  const tiles_spoke *s = reach_border(&n, w, ldexp(w->rho, 20));
+/* Adds the spokes that bound the cell in one quadrant, those of exact points everywhere, counter-clockwise. */
+static void border_add(reach_work *w, tiles_spoke *border, int quadrant) {
+  static const double axis[5][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 0}};
+  const size_t n = w->spokes;
+  tiles_spoke *all = w->out->spoke, *s = all + n, *hull = s + n;
   for (size_t k = 0; k < n; k++) {
-    const tiles_spoke *a = &s[k], *b = &s[(k + 1) % n];
-    if (reach_cross(a->mx, a->my, b->mx, b->my) > 0) continue;
-    w->last = *a;
-    w->first = *b;
-    gaps++;
+    s[k] = all[k];
+    s[k].nx = s[k].mx - (quadrant == 0 || quadrant == 3 ? s[k].half[0] : -s[k].half[0]);
+    s[k].ny = s[k].my - (quadrant < 2 ? s[k].half[1] : -s[k].half[1]);
+    s[k].x = s[k].nx / s[k].far;
+    s[k].y = s[k].ny / s[k].far;
   }
-  w->gap = gaps == 1;
+  const size_t corners = hull_of_spokes(hull, s, n),
+               from = farthest_pole(hull, corners, axis[quadrant][0], axis[quadrant][1]);
+  size_t end = farthest_pole(hull, corners, axis[quadrant + 1][0], axis[quadrant + 1][1]);
+  if (!w->thick) end = (from + corners - 1) % corners;
+  for (size_t k = from;; k = (k + 1) % corners) {
+    border[w->border++] = hull[k];
+    if (k == end) return;
+  }
+}
+
+/* The spokes of the border of the cell, counter-clockwise. */
+static tiles_spoke *reach_border(reach_work *w) {
+  tiles_spoke *border = w->out->spoke + 4 * w->spokes;
+  bool gap = false;
+  size_t kept = 0;
+  for (int quadrant = 0; quadrant < (w->thick ? 4 : 1); quadrant++) border_add(w, border, quadrant);
+  for (size_t k = 0; k < w->border; k++) { /* where 0 was the cell has no end */
+    bool bounds = border[k].number > 0;
+    if (bounds) border[kept] = border[k];
+    if (bounds) border[kept++].gap = gap;
+    gap = !bounds;
+  }
+  if (kept) border[0].gap |= gap;
+  w->border = kept;
+  return border;
 }
 
 /* *fits: the chain is one. */
-static bool reach_chain(bool *fits, reach_work *w, double rho) {
-  size_t n;
-  const tiles_spoke *s = reach_border(&n, w, rho);
-  w->knots = 0;
+static bool reach_chain(bool *fits, reach_work *w) {
+  const tiles_spoke *s = reach_border(w);
+  const size_t n = w->border;
   *fits = n > 0;
   for (size_t k = 0; *fits && k < n; k++)
     if (!reach_between(fits, w, &s[k], &s[(k + 1) % n])) return false;
   const tiles_knot *e = w->out->knot;
-  for (size_t k = 0; *fits && k < w->knots; k++) *fits = knots_turn(&e[k], &e[(k + 1) % w->knots]);
-  return true;
-}
-
-/* Among rectangles the chain may have to be far out; twice as far each time. */
-static bool reach_chains(bool *fits, reach_work *w) {
-  enum { TRIES = 12 };
-  *fits = false;
-  if (!w->thick) return reach_chain(fits, w, 0);
-  reach_gap(w);
-  const bool gap = w->gap;
-  for (int k = 0; !*fits && k < TRIES; k++) {
-    w->gap = gap;
-    if (!reach_chain(fits, w, ldexp(w->rho, k))) return false;
-    w->gap = false;
-    if (gap && !*fits && !reach_chain(fits, w, ldexp(w->rho, k))) return false;
-  }
+  *fits = *fits && w->knots > 0;
+  for (size_t k = 0; *fits && k < w->knots; k++) *fits = knots_turn(w, &e[k], &e[(k + 1) % w->knots]);
   return true;
 }
 
@@ -323,7 +327,7 @@ static tiles_disc knot_disc(const tiles_knot *e, const tiles_view *v, uint32_t i
 bool tiles_reach_find(tiles_reach *out, const tiles_view *v, uint32_t i, const tiles_partners *p, bool wide) {
   reach_work w = {.out = out};
   bool fits;
-  if (!reach_spokes(&w, v, i, p) || !reach_chains(&fits, &w) ||
+  if (!reach_spokes(&w, v, i, p) || !reach_chain(&fits, &w) ||
       !tiles_reserve((void **)&out->item, &out->room, w.knots + 1, sizeof *out->item))
     return false;
   out->count = 0;

@@ -93,6 +93,14 @@ class Union(unittest.TestCase):
     def test_small_boxes(self):
         self.compare(cases.boxes(20000 * cases.SCALE, self.random, 1e-6))
 
+    @unittest.skipIf(MPIRUN, 'the same in one process')
+    def test_boxes_send_little(self):
+        """Cells along the hull end far out, and at whose boxes is known: nobody asks for the whole plane."""
+        parts = cases.parts_of(self.compare(cases.boxes(20000, self.random), (4,)))
+        for header in map(cases.header_of, parts):
+            self.assertLess(header['ghosts'], 0.2 * header['own'])
+            self.assertLess(header['rounds'], 8)
+
     def test_long_boxes(self):
         self.compare(cases.long_boxes(500, self.random), (2, 4))
 
