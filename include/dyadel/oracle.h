@@ -25,9 +25,10 @@
  * often for one request, and asked again what it has not answered: it then knows nothing of its former answers, which
  * its new ones still have to lie in (or say the same).
  *
- * Nothing is left behind: every program and what it starts is one process group, which is killed when the oracle is
- * freed, one second after its input has ended, and also when the process that uses the library dies of whatever cause
- * (a shell beside it watches for that). Only what leaves the group by its own will, such as a daemon, or runs on
+ * Nothing is left behind: every program and what it starts is one process group. When the oracle is freed their inputs
+ * end, half a second later they get SIGTERM (srun and the like free what they hold elsewhere), and are killed after
+ * another half; likewise, within three seconds, when the process that uses the library dies of whatever cause (a shell
+ * beside it watches for that). Only what leaves the group by its own will, such as a daemon, or runs on
  * another machine, must see for itself that its input has ended. SIGPIPE is never raised. */
 #ifndef DYADEL_ORACLE_H
 #define DYADEL_ORACLE_H

@@ -18,8 +18,10 @@
 #include <string.h>
 #include <unistd.h>
 
-/* How long programs may take to end by themselves, and how often the stop flag is looked at. */
+/* How long programs may take to end by themselves, or one that is replaced by a signal; how often the stop flag is
+ * looked at. */
 #define GRACE_SECONDS 1.0
+#define STOP_SECONDS 0.25
 #define SLICE_SECONDS 0.05
 
 /* Invariant: lifeline is the pipe the watchers read, both ends of it; worker[0 .. jobs) are initialised; room for two
@@ -117,9 +119,11 @@ static dyd_status program_read_count(size_t *count, dyd_oracle *o, unsigned k, c
  * unless they were answered. On failure it has failed once more. */
 static dyd_status program_restart(dyd_oracle *o, unsigned k, const volatile int *stop) {
   dyd_worker *w = &o->worker[k], old = *w;
+  char how[100];
   size_t count;
   dyd_error err;
   dyd_error_clear(&err);
+  dyd_process_ended(how, sizeof how, &old.process, STOP_SECONDS);
   dyd_process_end(&old.process);
   dyd_status st = program_begin(o, k, &err);
   if (st == DYD_OK) st = program_read_count(&count, o, k, stop, &err);
@@ -288,15 +292,22 @@ dyd_status dyd_oracle_new(dyd_oracle **out, const char *command, const dyd_oracl
 
 /* ---- ending ---- */
 
-/* Closes all pipes and waits a little, so that programs that read on can end by themselves. */
-static void let_programs_end(dyd_oracle *o) {
-  double until = dyd_seconds() + GRACE_SECONDS;
-  for (unsigned k = 0; k < o->jobs; k++) dyd_process_close(&o->worker[k].process);
+/* Waits so long in all for programs that have been told to end. */
+static void wait_for_programs(const dyd_oracle *o, double seconds) {
+  double until = dyd_seconds() + seconds;
   for (unsigned k = 0; k < o->jobs; k++) {
     char how[100];
     double left = until - dyd_seconds();
-    if (!o->worker[k].failed) dyd_process_ended(how, sizeof how, &o->worker[k].process, left > 0 ? left : 0);
+    dyd_process_ended(how, sizeof how, &o->worker[k].process, left > 0 ? left : 0);
   }
+}
+
+/* Closes all pipes, so that programs that read on can end by themselves; those that are at work are told. */
+static void let_programs_end(dyd_oracle *o) {
+  for (unsigned k = 0; k < o->jobs; k++) dyd_process_close(&o->worker[k].process);
+  wait_for_programs(o, GRACE_SECONDS / 2);
+  for (unsigned k = 0; k < o->jobs; k++) dyd_process_stop(&o->worker[k].process);
+  wait_for_programs(o, GRACE_SECONDS / 2);
 }
 
 void dyd_oracle_free(dyd_oracle *o) {

@@ -119,9 +119,17 @@ static int spawn_command(pid_t *pid, const char *command, unsigned number, int i
   return why;
 }
 
+/* Ends the group when the lifeline does: whoever can ends in an orderly way, as programs that have to tell others do. */
 static int spawn_watcher(pid_t *pid, pid_t group, int lifeline) {
-  char *const argv[] = {shell_word("sh"), shell_word("-c"), shell_word("read _; kill -s KILL 0"),
-                        shell_word("dyadel-watcher"), NULL};
+  char leader[24];
+  snprintf(leader, sizeof leader, "%ld", (long)group);
+  char *const argv[] = {shell_word("sh"),
+                        shell_word("-c"),
+                        shell_word("trap '' TERM; read _; kill -s TERM 0; "
+                                   "for _ in 1 2 3; do kill -s 0 $1 || break; sleep 1; done; kill -s KILL 0"),
+                        shell_word("dyadel-watcher"),
+                        leader,
+                        NULL};
   return spawn_child(pid, group, lifeline, -1, argv, environ);
 }
 
@@ -235,8 +243,8 @@ void dyd_process_close(dyd_process *p) {
   dyd_close(&p->out);
 }
 
-void dyd_process_kill(const dyd_process *p) {
-  if (p->pid > 0) kill(-p->pid, SIGKILL);
+void dyd_process_stop(const dyd_process *p) {
+  if (p->pid > 0) kill(-p->pid, SIGTERM);
 }
 
 void dyd_process_disown(dyd_process *p) {
@@ -252,7 +260,7 @@ static void process_reap(pid_t *pid) {
 
 void dyd_process_end(dyd_process *p) {
   dyd_process_close(p);
-  dyd_process_kill(p);
+  if (p->pid > 0) kill(-p->pid, SIGKILL);
   process_reap(&p->watcher);
   process_reap(&p->pid);
 }

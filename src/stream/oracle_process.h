@@ -25,7 +25,7 @@ bool dyd_pipe(int end[2]);
 void dyd_close(int *fd);
 
 /* Starts `command` with DYADEL_JOB=job. lifeline is the reading end of a pipe: when all its writing ends are closed,
- * the group is killed. On failure *p is as after dyd_process_end. */
+ * the group is asked to end, and killed three seconds later. On failure *p is as after dyd_process_end. */
 dyd_status dyd_process_start(dyd_process *p, const char *command, unsigned job, int lifeline, dyd_error *err);
 /* Says in at most size bytes how the program ended; false when it still runs after `seconds`. */
 bool dyd_process_ended(char *how, size_t size, const dyd_process *p, double seconds);
@@ -35,8 +35,8 @@ dyd_written dyd_process_write(size_t *done, const dyd_process *p, const char *te
 bool dyd_process_is_deaf(const dyd_process *p);
 /* Closes both pipes, so that a program that reads on sees the end of its input. */
 void dyd_process_close(dyd_process *p);
-/* Kills the group at once. The processes are still to be reaped. */
-void dyd_process_kill(const dyd_process *p);
+/* Asks the group to end (SIGTERM). The processes are still to be reaped. */
+void dyd_process_stop(const dyd_process *p);
 /* Closes both pipes and leaves the program to its owner: for the copy in a forked process. */
 void dyd_process_disown(dyd_process *p);
 /* Kills and reaps. Nothing to do for a process that never was ({0, 0, -1, -1}). */

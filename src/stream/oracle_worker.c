@@ -53,7 +53,7 @@ void dyd_worker_fail(dyd_worker *w, dyd_status code, const char *format, ...) {
   w->failed = true;
   w->code = code;
   dyd_process_close(&w->process);
-  dyd_process_kill(&w->process);
+  dyd_process_stop(&w->process);
 }
 
 /* ---- the queue ---- */

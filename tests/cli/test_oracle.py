@@ -13,6 +13,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 from harness import COMMAND, count, expect, main, run
@@ -279,6 +280,30 @@ def test_death():
         process.communicate(timeout=60)
         assert process.returncode == -number, process.returncode
         assert_nothing_left()
+
+
+def test_orderly_end():
+    """A program that is at work and holds something elsewhere, as srun does, is told to end before it is killed: at a
+    limit, when another one takes its place, and when dyadel itself is killed."""
+    with tempfile.TemporaryDirectory() as folder:
+        freed = os.path.join(folder, 'freed')
+        holder = ('import os, signal, sys, time\n'
+                  f'def free(*_): os.open({freed!r}, os.O_CREAT); os._exit(1)\n'
+                  'signal.signal(signal.SIGTERM, free)\n'
+                  'print("points 5", flush=True)\n'
+                  'while True: time.sleep(1)\n')
+        command = f'exec {shlex.quote(sys.executable)} -c {shlex.quote(holder)}'
+        for code, options in ((4, ('--oracle-timeout', '1000', '--timeout', '1')), (1, ('--oracle-timeout', '1')),
+                              (1, ('--oracle-timeout', '1', '--oracle-retries', '1'))):
+            expect(ask(command, *options), code, out=r'.*', err=r'.')
+            assert os.path.exists(freed), options
+            os.unlink(freed)
+        process = start(command, '--oracle-timeout', '1000')
+        wait_for_marked(3)
+        process.kill()
+        process.communicate(timeout=60)
+        assert_nothing_left()
+        assert os.path.exists(freed)
 
 
 main(globals())
