@@ -119,7 +119,8 @@ static int spawn_command(pid_t *pid, const char *command, unsigned number, int i
   return why;
 }
 
-/* Ends the group when the lifeline does: whoever can ends in an orderly way, as programs that have to tell others do. */
+/* Ends the group when the lifeline does: whoever can ends in an orderly way, as programs that have to tell others do.
+ */
 static int spawn_watcher(pid_t *pid, pid_t group, int lifeline) {
   char leader[24];
   snprintf(leader, sizeof leader, "%ld", (long)group);
