@@ -8,11 +8,12 @@ import csv
 import json
 import os
 import re
+import subprocess
 import sys
 import tempfile
 from fractions import Fraction
 
-from harness import expect, main, run
+from harness import COMMAND, expect, main, run
 
 # Twelve points; the last two are 2^-200 apart.
 FAR = [(13, 7), (91, 12), (55, 98), (8, 77), (73, 61), (34, 42), (60, 25), (20, 95), (97, 84), (45, 70)]
@@ -307,6 +308,29 @@ def test_sweep():
     assert all(len(row) == len(rows[0]) and None not in row and None not in row.values() for row in rows)
     for wrong in ('n', 'n=1,', '=3', 'a"=3', 'a=1=2', 'a=\\', ',', 'a=1,,b=2'):
         expect(run('converge', '--label', wrong, 'none'), 2, err='--label .*NAME=VALUE,NAME=VALUE')
+
+
+def test_sweeps_of_readme():
+    """The commands that README hands to GNU parallel and to Slurm, for two seeds, as these run them: braces filled in;
+    by sh, with the number of the task in the environment."""
+    with open(os.path.join(os.path.dirname(__file__), '../../README.md'), encoding='utf-8') as f:
+        (one, array) = re.findall(r"^    (?:parallel|sbatch [^']*) '(dyadel converge [^']*)'", f.read(), re.MULTILINE)
+    with tempfile.TemporaryDirectory() as folder:
+        os.symlink(os.path.abspath(COMMAND), os.path.join(folder, 'dyadel'))
+        where = {**os.environ, 'PATH': f'{folder}:{os.environ["PATH"]}'}
+        for seed in '12':
+            with open(os.path.join(folder, f'points-10-{seed}.txt'), 'w', encoding='utf-8') as f:
+                f.writelines(f'sqrt({k + 2}) {seed}*sin({k})\n' for k in range(10))
+        by_one, by_array = '', ''
+        for seed in '12':
+            by_one += subprocess.run(['sh', '-c', one.replace('{1}', '10').replace('{2}', seed)], cwd=folder, env=where,
+                                     stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, check=True).stdout
+            subprocess.run(['sh', '-c', array], cwd=folder, env={**where, 'SLURM_ARRAY_TASK_ID': seed}, check=True,
+                           stderr=subprocess.DEVNULL)
+            with open(os.path.join(folder, f'row.{seed}'), encoding='utf-8') as f:
+                by_array += f.read()
+    rows = [[line.split(',')[:-1] for line in text.splitlines() if line[0].isdigit()] for text in (by_one, by_array)]
+    assert {tuple(row[:2]) for row in rows[0]} == {('10', '1'), ('10', '2')} and [row[1:] for row in rows[0]] == rows[1]
 
 
 main(globals())
