@@ -49,7 +49,7 @@ static bool anybody_asks(const step_crew *c) {
 }
 
 dyd_status tiles_drive(tile *member, size_t count, const tiles_carrier *by, bool *elsewhere, dyd_error *err) {
-  static step_fn *const begin[] = {tile_read, tile_split, tile_own, tile_halo, tile_first};
+  static step_fn *const begin[] = {tile_survey, tile_read, tile_split, tile_own, tile_halo, tile_first};
   step_crew c = {member, count, by, false, err};
   dyd_status st = DYD_OK;
   bool on = true;

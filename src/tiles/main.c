@@ -25,7 +25,11 @@ static const char usage[] =
     "The statuses of `dyadel delaunay` for points that one process cannot hold. Each of P processes owns a part of "
     "the\n"
     "plane and writes FOLDER/part-RRRRR.bin, the first one at last FOLDER/manifest.json; to-csv joins them.\n"
-    "FILE holds doubles, little-endian: x y, x y, ... Points are numbered from 0.\n"
+    "FILE holds doubles, little-endian: x y, x y, ... Points are numbered from 0. FILE.csv and FILE.txt hold decimals, "
+    "a "
+    "point\n"
+    "a line: exact when all together have at most 15 digits before and behind the point, else the intervals between\n"
+    "doubles next to them.\n"
     "\n"
     "  --boxes            FILE holds xlo xhi ylo yhi for each point\n"
     "  --tiles T          one process does the work of T, one after another\n"
@@ -118,22 +122,29 @@ static int check_words(const main_options *o) {
 
 /* ---- delaunay ---- */
 
+static bool ends_with(const char *name, const char *end) {
+  size_t n = strlen(name), m = strlen(end);
+  return n >= m && strcmp(name + n - m, end) == 0;
+}
+
 static int size_of_input(tiles_job *job) {
   struct stat s;
   const unsigned size = (job->boxes ? 4 : 2) * sizeof(double);
   const uint16_t order = 1;
+  job->text = ends_with(job->input, ".csv") || ends_with(job->input, ".txt");
   if (*(const unsigned char *)&order != 1)
     main_complain("this machine is not little-endian");
   else if (stat(job->input, &s) != 0)
     main_complain("%s: cannot read: %s", job->input, strerror(errno));
   else if (!S_ISREG(s.st_mode))
     main_complain("%s: is no file; ranks read their slices side by side", job->input);
-  else if (s.st_size % size)
-    main_complain("%s: %lld bytes are no whole number of points of %u bytes; doubles in binary are expected%s",
+  else if (!job->text && s.st_size % size)
+    main_complain("%s: %lld bytes are no whole number of points of %u bytes; doubles in binary are expected, or text "
+                  "in a file called .csv or .txt%s",
                   job->input, (long long)s.st_size, size,
                   job->boxes ? "" : ", and --boxes where there are four a point");
   else
-    return job->points = (uint64_t)s.st_size / size, 0;
+    return job->size = (uint64_t)s.st_size, 0;
   return EXIT_FAILED;
 }
 

@@ -92,7 +92,7 @@ static json_t *header_of(const tile *t) {
                    (json_int_t)(c->count[1] + c->count[2] + c->count[3]), "legal", (json_int_t)c->count[DYD_LEGAL],
                    "indeterminate", (json_int_t)c->count[DYD_INDETERMINATE], "tie", (json_int_t)c->count[DYD_TIE],
                    "aliases", (json_int_t)c->aliases, "ranks", (json_int_t)t->job->ranks, "points",
-                   (json_int_t)t->job->points, "boxes", t->job->boxes, "capped", c->capped, "max_pairs",
+                   (json_int_t)t->points, "boxes", t->job->boxes, "capped", c->capped, "max_pairs",
                    (json_int_t)t->job->max_pairs, "digest", digest);
 }
 
@@ -238,7 +238,7 @@ dyd_status tile_write_manifest(tile *t, dyd_error *err) {
   if (st != DYD_OK) return st;
   json_t *j =
       json_pack("{sssssIsIsosss{sbsI}sIsIsIsI}", "format", "dyadel tiles 1", "input", t->job->input, "points",
-                (json_int_t)t->job->points, "ranks", (json_int_t)t->job->ranks, "parts", part_names(t), "outcome",
+                (json_int_t)t->points, "ranks", (json_int_t)t->job->ranks, "parts", part_names(t), "outcome",
                 outcome_of(&all), "options", "boxes", t->job->boxes, "max_pairs", (json_int_t)t->job->max_pairs,
                 "legal", (json_int_t)all.count[DYD_LEGAL], "indeterminate", (json_int_t)all.count[DYD_INDETERMINATE],
                 "tie", (json_int_t)all.count[DYD_TIE], "aliases", (json_int_t)all.aliases);

@@ -9,12 +9,19 @@
 /* What is to be done: the same for all ranks. */
 typedef struct tiles_job {
   const char *input, *folder;
-  bool boxes; /* the input has four doubles a point */
+  bool boxes;    /* the input has four numbers a point */
+  bool text;     /* it is lines of decimals */
+  uint64_t size; /* of the input, in bytes */
   size_t ranks;
-  uint64_t points; /* in the input */
   size_t max_pairs;
   bool restart; /* parts that are there already stay */
 } tiles_job;
+
+/* Lines of a slice: how many points; most digits left and right of a decimal point. */
+typedef struct tiles_survey {
+  uint64_t rows;
+  int64_t before, after;
+} tiles_survey;
 
 /* What each rank tells all others of itself. */
 typedef struct tiles_info {
@@ -58,6 +65,7 @@ typedef struct tiles_rows {
 typedef struct tile {
   const tiles_job *job;
   size_t rank;
+  uint64_t points;      /* in the input */
   tiles_mail *in, *out; /* one from, and for, each rank */
   tiles_sites own, ghosts, fringe;
   tiles_tree tree; /* of own */
@@ -82,6 +90,7 @@ void tile_free(tile *t);
 
 /* The steps, in this order; the last two again while any rank asked something. Each takes the mail in t->in and writes
  * t->out. *err names the remedy. */
+dyd_status tile_survey(tile *t, dyd_error *err); /* counts in its slice of a text; out: the counts */
 dyd_status tile_read(tile *t, dyd_error *err);   /* its slice of the input; out: a sample of it */
 dyd_status tile_split(tile *t, dyd_error *err);  /* boxes of the plane; out: points to their owners */
 dyd_status tile_own(tile *t, dyd_error *err);    /* its own sites; out: where they are, and corners of their hull */
@@ -92,6 +101,7 @@ dyd_status tile_extend(tile *t, dyd_error *err); /* triangulates what is not set
 dyd_status tile_report(tile *t, dyd_error *err); /* at the end; out: counters, to rank 0 */
 
 /* For the steps themselves. */
+dyd_status tile_read_text(tile *t, dyd_error *err);
 dyd_status tile_triangulate(tile *t, const tiles_view *v, dyd_error *err);
 dyd_status tile_fringe(tile *t, dyd_error *err);
 /* Nothing that the rank has not seen meets the disc; own sites outside of the fringe count when `self`. */

@@ -105,7 +105,8 @@ static dyd_status read_rows(tile *t, FILE *in, uint64_t first, uint64_t end, dyd
 }
 
 static dyd_status read_slice(tile *t, dyd_error *err) {
-  const uint64_t n = t->job->points, ranks = t->job->ranks;
+  t->points = t->job->size / (t->own.dim * sizeof(double));
+  const uint64_t n = t->points, ranks = t->job->ranks;
   uint64_t first = n / ranks * t->rank + (t->rank < n % ranks ? t->rank : n % ranks);
   uint64_t end = first + n / ranks + (t->rank < n % ranks);
   FILE *in = fopen(t->job->input, "rb");
@@ -120,7 +121,7 @@ static dyd_status read_slice(tile *t, dyd_error *err) {
 }
 
 dyd_status tile_read(tile *t, dyd_error *err) {
-  dyd_status st = read_slice(t, err);
+  dyd_status st = t->job->text ? tile_read_text(t, err) : read_slice(t, err);
   size_t most = SAMPLES / t->job->ranks < 16 ? 16 : SAMPLES / t->job->ranks, step = t->own.count / most + 1;
   for (size_t k = 0; st == DYD_OK && k < t->own.count; k += step) {
     tiles_box b = tiles_sites_box(&t->own, k);

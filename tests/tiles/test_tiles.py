@@ -122,6 +122,54 @@ class Union(unittest.TestCase):
             self.compare(places, (4,))
             self.compare([(x - h, x + h, y - h, y + h) for (x, y), h in zip(places, halves)], (4,))
 
+    def one_process(self, name):
+        done = subprocess.run([DYADEL, 'delaunay', str(self.at / name), '-q'], capture_output=True)
+        self.assertIn(done.returncode, (0, 3))
+        return done.stdout
+
+    def test_text(self):
+        """Decimals, with ties, are exact; the longest ones are between doubles, and decided all the same."""
+        r, some = self.random, 2000 * cases.SCALE
+        short = [f'{r.randrange(300) / 10} {r.randrange(-200, 100) / 10:+}' for _ in range(some)]
+        forms = [f'{m}e-{k} {r.choice(["", "+", "-"])}0{r.randrange(40)}.{r.randrange(10)}0E1' for k in range(4) for m in range(some // 16)]
+        for rows in (short, forms, [f'{r.random()!r} {r.random()!r}' for _ in range(some)], short[:3], short[:1], []):
+            (self.at / 'in.txt').write_text('\n'.join(rows))
+            (self.at / 'in.csv').write_text('x,y\n' + ''.join(f'{row.replace(" ", ",")}\n# a remark\n\n' for row in rows))
+            want = self.one_process('in.txt')
+            for name in ('in.txt', 'in.csv'):
+                for count in RANKS:
+                    out = self.at / f'out{name}{count}'
+                    done = self.run_tiles(count, str(self.at / name), '-o', str(out), '--accept-fixpoint')
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    joined = subprocess.run([TILES, 'to-csv', str(out)], capture_output=True)
+                    self.assertTrue(joined.stdout == want, f'{name} of {len(rows)}: {count} ranks differ')
+                    self.check_parts(out, count, len(rows))
+
+    def test_text_of_boxes(self):
+        ends = [(x := self.random.randrange(1000), x + self.random.randrange(3), y := self.random.randrange(1000),
+                 y + self.random.randrange(3)) for _ in range(500)]
+        (self.at / 'boxes.csv').write_text(''.join(','.join(f'{e / 100}' for e in row) + '\n' for row in ends))
+        (self.at / 'in.txt').write_text(''.join('[{},{}] [{},{}]\n'.format(*(e / 100 for e in row)) for row in ends))
+        self.run_tiles(4, str(self.at / 'boxes.csv'), '-o', str(self.at / 'out'), '--boxes')
+        joined = subprocess.run([TILES, 'to-csv', str(self.at / 'out')], capture_output=True)
+        self.assertTrue(joined.stdout == self.one_process('in.txt'))
+
+    def test_wrong_text(self):
+        """File, line and column are named, whichever rank finds it."""
+        fine = '0.5 1\n' * 300
+        for line, column, words in (('1 2 3', 5, 'as a point has'), ('1', 1, 'as a point has'), ('1 sqrt(2)', 3, 'decimal'),
+                                    ('1 0x1p3', 3, 'decimal'), ('. 1', 1, 'decimal'), ('1 2e', 3, 'decimal'),
+                                    ('1e400 2', 1, 'beyond doubles')):
+            (self.at / 'in.txt').write_text(f'{fine}{line}\n{fine}')
+            done = self.run_tiles(4, str(self.at / 'in.txt'), '-o', str(self.at / 'out'))
+            self.assertEqual(done.returncode, 1, line)
+            self.assertIn(f'in.txt:301:{column}: ', done.stderr)
+            self.assertIn(words, done.stderr)
+            self.assertFalse((self.at / 'out/manifest.json').exists())
+        (self.at / 'in.txt').write_text('0 1 1 2\n3 2 1 1\n')
+        done = self.run_tiles(1, str(self.at / 'in.txt'), '-o', str(self.at / 'out'), '--boxes')
+        self.assertIn('in.txt:2:1: the lower end is above the upper one', done.stderr)
+
 
 if __name__ == '__main__':
     unittest.main(argv=sys.argv[:1], verbosity=2)
