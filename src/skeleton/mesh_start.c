@@ -38,7 +38,7 @@ static void set_extent(dyd_mesh *m) {
 }
 
 void dyd_mesh_follow(dyd_mesh *m) {
-  m->incircle_delta = m->reps->delta;
+  m->incircle_delta = m->no_filter ? INFINITY : m->reps->delta;
   m->orient_bound = dyd_filter_orient_bound(m->extent[0], m->extent[1], m->reps->delta);
   if (m->no_filter || isnan(m->orient_bound)) m->orient_bound = INFINITY;
 }
@@ -204,13 +204,14 @@ void dyd_mesh_put_first(dyd_mesh *m, const uint32_t first[3]) {
 
 void dyd_mesh_trim(dyd_mesh *m) {
   dyd_fixed_free(m->fixed);
-  free(m->stack);
+  free(m->rim);
   free(m->spare);
   m->fixed = NULL;
   m->exact_s = -1;
   m->no_fixed = true; /* later questions are few, and the grid would cost O(n) */
-  m->stack = m->spare = NULL;
-  m->stack_cap = m->spare_cap = 0;
+  m->rim = NULL;
+  m->spare = NULL;
+  m->rim_cap = m->spare_cap = 0;
 }
 
 void dyd_mesh_clear(dyd_mesh *m) {

@@ -137,12 +137,13 @@ static void check_incircle(bed *b, const uint32_t *v) {
   dyd_mesh *m = &b->m;
   dyd_xy p[4];
   for (int k = 0; k < 4; k++) p[k] = m->xy[v[k]];
+  dyd_incircle at = dyd_incircle_of(p[0], p[1], p[2], p[3]);
   int truth = literal(b, v, 4), sign = 7;
   tally.asked++;
   tally.ties += truth == 0;
-  right_or_unsure(&tally.filter, b, dyd_filter_incircle_at(m, p[0], p[1], p[2], p[3]), truth, "incircle");
+  right_or_unsure(&tally.filter, b, dyd_filter_incircle_at(m, at), truth, "incircle");
   right_or_unsure(&tally.near, b, dyd_filter_incircle_near(m, p[0], p[1], p[2], p[3]), truth, "incircle near");
-  if (dyd_filter_incircle_small(&sign, m, p[0], p[1], p[2], p[3])) {
+  if (dyd_filter_incircle_small(&sign, m, at)) {
     right(b, sign, truth, "incircle small");
     tally.small++;
   }
