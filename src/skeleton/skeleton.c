@@ -103,6 +103,7 @@ static dyd_status build_maps(dyd_skeleton *sk, unsigned threads) {
   settle_aliases(sk);
   find_leaving(sk, threads);
   sk->all_points = true;
+  if (dyd_sites_are_double_points(sk->rects.sites)) return DYD_OK;
   for (uint32_t i = 0; i < sk->n && sk->all_points; i++) sk->all_points = dyd_sites_is_point(sk->rects.sites, i);
   return DYD_OK;
 }
