@@ -109,6 +109,7 @@ static void decide_edges(void *context, size_t number) {
   dyd_marks *range = &p->task[number];
   for (uint32_t t = range->first; t < range->end && range->status == DYD_OK; t++) {
     if (dyd_work_cancelled(&range->work)) range->status = DYD_CANCELLED;
+    if (dyd_triangle_is_certain(p->sk, t)) continue;
     for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t) && range->status == DYD_OK; h++) {
       bool certain = false;
       if (!dyd_edge_is_first(&p->sk->mesh, h) || dyd_edge_is_certain(p->sk, h)) continue;
