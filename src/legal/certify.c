@@ -123,7 +123,7 @@ static void decide_edges(void *context, size_t number) {
 
 static dyd_status certify_pass(dyd_skeleton *sk, dyd_work *w, dyd_task *task) {
   dyd_mark_tasks p;
-  dyd_fixed_prepare(&sk->mesh); /* before several ask for it */
+  if (sk->all_points || sk->reps.code) dyd_fixed_prepare(&sk->mesh); /* before several ask for it; else few will */
   dyd_status st = dyd_mark_tasks_init(&p, sk, w);
   if (st != DYD_OK) return st;
   dyd_parallel(w->threads, p.count, task, &p);
