@@ -16,6 +16,13 @@ Definition incircle (ax ay bx by_ cx cy px py : R) : R :=
 
 (** ** The determinant as the C code computes it, in doubles *)
 
+(* C src/skeleton/mesh_filter.h dyd_see
+  double x = a.x - p.x, y = a.y - p.y;
+  return (dyd_seen){x, y, x * x + y * y};
+*)
+(* C src/skeleton/mesh_filter.h dyd_seen_cross
+  return a.x * b.y - a.y * b.x;
+*)
 (** The parts of d: see dyd_filter_incircle_at. *)
 Definition lift (x y : double) : double := (x * x + y * y)%D.
 Definition cross (bx by_ cx cy : double) : double := (bx * cy - by_ * cx)%D.

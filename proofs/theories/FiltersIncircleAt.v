@@ -6,11 +6,16 @@ From Flocq Require Import Core Binary.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient FiltersIncircle.
 Open Scope R_scope.
 
+(* C src/skeleton/mesh_filter.h dyd_incircle_from
+  double bc = dyd_seen_cross(b, c), ca = dyd_seen_cross(c, a), ab = dyd_seen_cross(a, b);
+  return (dyd_incircle){a.square, b.square, c.square, bc, ca, ab};
+*)
+(* C src/skeleton/mesh_filter.h dyd_incircle_of
+  return dyd_incircle_from(dyd_see(a, p), dyd_see(b, p), dyd_see(c, p));
+*)
 (* C src/skeleton/mesh_filter.h dyd_filter_incircle_at
-  double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y, cx = c.x - p.x, cy = c.y - p.y;
-  double la = ax * ax + ay * ay, lb = bx * bx + by * by, lc = cx * cx + cy * cy;
-  double d = la * (bx * cy - by * cx) + lb * (cx * ay - cy * ax) + lc * (ax * by - ay * bx);
-  double s = la + lb + lc, e = s * s * DYD_INCIRCLE_BOUND + DYD_INCIRCLE_TINY;
+  double d = i.la * i.bc + i.lb * i.ca + i.lc * i.ab;
+  double s = i.la + i.lb + i.lc, e = s * s * DYD_INCIRCLE_BOUND + DYD_INCIRCLE_TINY;
   if (m->incircle_delta > 0) {
     double t = sqrt(s) + 8 * m->incircle_delta;
     e += 60 * m->incircle_delta * t * t * t;

@@ -14,10 +14,12 @@ Definition orient_bound (extent_x extent_y delta : double) : double :=
   (extent_x * extent_y * lit c_orient_bound + lit c_orient_delta * delta * (e + lit c_orient_delta2 * delta)
    + lit c_orient_tiny)%D.
 
-(* C src/skeleton/mesh_filter.h dyd_filter_orient
-  double d = (a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x);
+(* C src/skeleton/mesh_filter.h dyd_filter_turn
   if (d > m->orient_bound) return 1;
   return d < -m->orient_bound ? -1 : 0;
+*)
+(* C src/skeleton/mesh_filter.h dyd_filter_orient
+  return dyd_filter_turn(m, dyd_seen_cross(dyd_see(a, p), dyd_see(b, p)));
 *)
 Definition orient_d (ax ay bx by_ px py : double) : double :=
   ((ax - px) * (by_ - py) - (ay - py) * (bx - px))%D.

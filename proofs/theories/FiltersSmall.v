@@ -6,10 +6,8 @@ From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient F
 Open Scope R_scope.
 
 (* C src/skeleton/mesh_filter.h dyd_filter_incircle_small
-  double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y, cx = c.x - p.x, cy = c.y - p.y;
-  double la = ax * ax + ay * ay, lb = bx * bx + by * by, lc = cx * cx + cy * cy;
-  if (!(la + lb + lc <= m->exact_s)) return false;
-  double d = la * (bx * cy - by * cx) + lb * (cx * ay - cy * ax) + lc * (ax * by - ay * bx);
+  if (!(i.la + i.lb + i.lc <= m->exact_s)) return false;
+  double d = i.la * i.bc + i.lb * i.ca + i.lc * i.ab;
   *sign = (d > 0) - (d < 0);
   return true;
 *)

@@ -89,6 +89,7 @@ static dyd_status tie_find_face(tie_flood *f, dyd_delaunay *pd, dyd_work *w, uin
 dyd_status dyd_ties_find(dyd_delaunay *pd, dyd_work *w) {
   tie_flood f = {0};
   dyd_status st = DYD_OK;
+  if (pd->sk.mesh.tally.ties == 0) return DYD_OK; /* [TIE-1] */
   for (uint32_t t = 0; t < pd->sk.mesh.count && st == DYD_OK; t++) {
     if (dyd_triangle_is_certain(&pd->sk, t)) continue;
     st = dyd_table_mark(pd);

@@ -109,6 +109,7 @@ static void decide_edges(void *context, size_t number) {
   dyd_marks *range = &p->task[number];
   for (uint32_t t = range->first; t < range->end && range->status == DYD_OK; t++) {
     if (dyd_work_cancelled(&range->work)) range->status = DYD_CANCELLED;
+    if (dyd_triangle_is_certain(p->sk, t)) continue;
     for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t) && range->status == DYD_OK; h++) {
       bool certain = false;
       if (!dyd_edge_is_first(&p->sk->mesh, h) || dyd_edge_is_certain(p->sk, h)) continue;
@@ -122,7 +123,7 @@ static void decide_edges(void *context, size_t number) {
 
 static dyd_status certify_pass(dyd_skeleton *sk, dyd_work *w, dyd_task *task) {
   dyd_mark_tasks p;
-  dyd_fixed_prepare(&sk->mesh); /* before several ask for it */
+  if (sk->all_points || sk->reps.code) dyd_fixed_prepare(&sk->mesh); /* before several ask for it; else few will */
   dyd_status st = dyd_mark_tasks_init(&p, sk, w);
   if (st != DYD_OK) return st;
   dyd_parallel(w->threads, p.count, task, &p);

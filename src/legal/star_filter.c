@@ -177,21 +177,14 @@ static void certify_hull(const pass *p, const star *s) {
 
 /* ---- the pass ---- */
 
-/* An edge is certain when both its ends found their stars clear; a half alone is revoked. */
+/* An edge is certain when both its ends found their stars clear; a half alone is revoked, where the other half is. */
 static void join_halves(void *context, size_t number) {
   pass *p = context;
   const dyd_skeleton *sk = p->sk;
   dyd_marks *range = &p->tasks.task[number];
   for (uint32_t t = range->first; t < range->end; t++)
-    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++) {
-      if (!dyd_edge_is_first(&sk->mesh, h)) continue;
-      bool here = dyd_edge_is_certain(sk, h), there = dyd_edge_is_certain(sk, dyd_edge_twin(&sk->mesh, h));
-      if (here && there) {
-        range->work.counters.filter++;
-        range->work.counters.witness_guess += !dyd_edge_meets_ghost(&sk->mesh, h);
-      } else if (here || there)
-        dyd_mark_later(range, h);
-    }
+    for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t) && !dyd_triangle_is_certain(sk, t); h++)
+      if (!dyd_edge_is_certain(sk, h) && dyd_edge_is_certain(sk, dyd_edge_twin(&sk->mesh, h))) dyd_mark_later(range, h);
 }
 
 static void certify_star(const pass *p, star *s, uint32_t v) {
@@ -227,7 +220,11 @@ static dyd_status pass_over_stars(pass *p) {
   dyd_parallel(p->w->threads, p->tasks.count, find_open, p);
   dyd_parallel(p->w->threads, dyd_ranges(p->sk->n), stars_of_range, p);
   dyd_parallel(p->w->threads, p->tasks.count, join_halves, p);
-  return dyd_mark_tasks_settle(&p->tasks, false);
+  st = dyd_mark_tasks_settle(&p->tasks, false);
+  uint64_t edges = dyd_certain_edges(p->sk);
+  p->w->counters.filter += edges + dyd_certain_corners(p->sk);
+  p->w->counters.witness_guess += edges;
+  return st;
 }
 
 /* The first pass, where fat rectangles do not spoil it [WIT-FAT]. */

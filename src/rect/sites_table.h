@@ -57,6 +57,10 @@ static inline void dyd_sites_fetch(const dyd_sites *s, size_t i) {
     if (s->upper[a]) dyd_prefetch(&s->upper[a][i]);
   }
 }
+/* Is every site surely a point that is held by doubles, without a look at each? */
+static inline bool dyd_sites_are_double_points(const dyd_sites *s) {
+  return !s->exact && !s->upper[0] && !s->upper[1];
+}
 /* Do the doubles hold the rectangle of site i exactly? */
 static inline bool dyd_sites_in_doubles(const dyd_sites *s, size_t i) {
   return !s->exact || !s->exact[i];

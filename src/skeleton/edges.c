@@ -17,18 +17,25 @@ bool dyd_is_legal(const dyd_skeleton *sk, uint32_t v, uint32_t w) {
   return h != DYD_NONE && dyd_edge_is_certain(sk, h);
 }
 
-/* Bits of certain[] are halves of edges; edges to the ghost are told apart by a walk around the hull. */
-uint64_t dyd_certain_edges(const dyd_skeleton *sk) {
+uint64_t dyd_certain_corners(const dyd_skeleton *sk) {
   const dyd_mesh *m = &sk->mesh;
-  uint64_t halves = 0, ghosts = 0;
-  if (m->count == 0) return 0;
-  for (uint32_t t = 0; t < m->count; t++) halves += 0x32212110u >> 4 * (sk->certain[t] & 7) & 7;
+  uint64_t corners = 0;
   dyd_half_edge first = dyd_hull_first(m), h = first;
+  if (first == DYD_NONE) return 0;
   do {
-    ghosts += dyd_edge_is_certain(sk, dyd_edge_prev(h));
+    corners += dyd_edge_is_certain(sk, dyd_edge_prev(h));
     h = dyd_hull_following(m, h);
   } while (h != first);
-  return halves / 2 - ghosts;
+  return corners;
+}
+
+/* Bits of certain[] are halves of edges. */
+uint64_t dyd_certain_edges(const dyd_skeleton *sk) {
+  const dyd_mesh *m = &sk->mesh;
+  uint64_t halves = 0;
+  for (uint32_t t = 0; t < m->count; t++)
+    halves += (sk->certain[t] & 1u) + (sk->certain[t] >> 1 & 1u) + (sk->certain[t] >> 2 & 1u);
+  return halves / 2 - dyd_certain_corners(sk);
 }
 
 static bool is_listed(const uint32_t *list, int count, uint32_t v) {

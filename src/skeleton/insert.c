@@ -15,60 +15,107 @@ uint32_t dyd_mesh_locate(dyd_mesh *m, uint32_t v) {
   uint32_t start = ghost ? dyd_edge_triangle(dyd_edge_twin(m, dyd_hull_edge(m, m->hint))) : m->hint;
   dyd_half_edge h = dyd_edge_of(start, 0);
   uint32_t a = dyd_edge_origin(m, h), b = dyd_edge_target(m, h), c = a;
-  if (dyd_build_orient(m, a, b, v) < 0) {
+  dyd_xy p = m->xy[v];
+  dyd_seen sa = dyd_see(m->xy[a], p), sb = dyd_see(m->xy[b], p), sc = sa;
+  if (dyd_build_turn(m, dyd_seen_cross(sa, sb), a, b, v) < 0) {
     h = dyd_edge_twin(m, h);
-    a = b;
-    b = c;
+    a = b, sa = sb;
+    b = c, sb = sc;
   }
   while ((c = dyd_edge_apex(m, h)) != m->n) { /* the triangle a b c, entered over a b */
-    if (dyd_build_orient(m, b, c, v) < 0) {
+    sc = dyd_see(m->xy[c], p);
+    if (dyd_build_turn(m, dyd_seen_cross(sb, sc), b, c, v) < 0) {
       h = dyd_edge_twin(m, dyd_edge_next(h));
-      a = c;
-    } else if (dyd_build_orient(m, c, a, v) < 0) {
+      a = c, sa = sc;
+    } else if (dyd_build_turn(m, dyd_seen_cross(sc, sa), c, a, v) < 0) {
       h = dyd_edge_twin(m, dyd_edge_prev(h));
-      b = c;
+      b = c, sb = sc;
     } else
       break;
   }
   return dyd_edge_triangle(h);
 }
 
-/* Room for one more stack frame (two edges) and one more free triangle. */
-static bool insert_has_room(dyd_mesh *m, size_t stacked, size_t spares) {
-  return dyd_reserve((void **)&m->stack, &m->stack_cap, stacked + 3, sizeof *m->stack) &&
-         dyd_reserve((void **)&m->spare, &m->spare_cap, spares + 1, sizeof *m->spare);
+/* An edge of the rim of the cavity, from a to b, counter-clockwise. The rim is a chain: a is the b of the edge before.
+ */
+struct dyd_rim {
+  dyd_half_edge beyond; /* in the triangle beyond */
+  uint32_t b;
+  dyd_seen seen; /* b from the new vertex */
+  double cross;  /* of a and b */
+};
+
+/* Room for one more edge of the rim and one more free triangle. */
+static inline bool insert_has_room(dyd_mesh *m, size_t edges, size_t spares) {
+  return (edges < m->rim_cap || dyd_reserve((void **)&m->rim, &m->rim_cap, edges + 1, sizeof *m->rim)) &&
+         (spares < m->spare_cap || dyd_reserve((void **)&m->spare, &m->spare_cap, spares + 1, sizeof *m->spare));
 }
 
-/* Joins v to the rim of the cavity that grows from t. Triangles come out counter-clockwise around v, so each is linked
- * to the one before it. */
-static dyd_status insert_at(dyd_mesh *m, uint32_t v, uint32_t t) {
-  size_t stacked = 0, spares = 0;
-  uint32_t first = DYD_NONE, before = DYD_NONE;
-  for (unsigned k = 3; k-- > 0;) m->stack[stacked++] = m->tri[t].n[k];
-  m->spare[spares++] = t;
-  while (stacked) {
-    dyd_half_edge h = m->stack[--stacked];
-    dyd_tri *o = &m->tri[dyd_edge_triangle(h)];
-    unsigned k = dyd_edge_corner(h);
-    uint32_t b = o->v[dyd_next(k)], a = o->v[dyd_prev(k)];
-    if (dyd_build_incircle(m, o->v[k], b, a, v) > 0) {
-      if (!insert_has_room(m, stacked, spares)) return DYD_E_NOMEM;
-      m->stack[stacked++] = o->n[dyd_prev(k)];
-      m->stack[stacked++] = o->n[dyd_next(k)];
-      m->spare[spares++] = dyd_edge_triangle(h);
-      continue;
-    }
-    uint32_t q = spares ? m->spare[--spares] : m->count++;
-    m->tri[q] = (dyd_tri){{v, a, b}, {h, DYD_NONE, dyd_edge_of(before, 1)}};
-    o->n[k] = dyd_edge_of(q, 0);
-    if (before == DYD_NONE)
-      first = q;
-    else
-      m->tri[before].n[1] = dyd_edge_of(q, 2);
-    before = q;
+/* The rim of the triangle t alone; returns where it begins. The edge to be looked at next is the last one. */
+static inline dyd_seen rim_of_triangle(dyd_mesh *m, dyd_xy p, uint32_t t) {
+  const dyd_tri *at = &m->tri[t];
+  dyd_seen seen[3];
+  for (unsigned k = 0; k < 3; k++) seen[k] = dyd_see(m->xy[at->v[k]], p);
+  for (unsigned k = 0; k < 3; k++) {
+    unsigned a = dyd_next(k), b = dyd_prev(k);
+    m->rim[2 - k] = (struct dyd_rim){at->n[k], at->v[b], seen[b], dyd_seen_cross(seen[a], seen[b])};
   }
-  dyd_edge_join(m, dyd_edge_of(first, 2), dyd_edge_of(before, 1));
-  m->hint = before;
+  return seen[1];
+}
+
+/* Triangles around a new vertex, counter-clockwise. */
+typedef struct fan {
+  uint32_t first, last;
+} fan;
+
+/* q becomes the next one: v and the rim's edge from a to b, beyond which is h. */
+static inline void fan_add(fan *f, dyd_mesh *m, uint32_t q, uint32_t v, uint32_t a, uint32_t b, dyd_half_edge h) {
+  uint32_t before = f->first == DYD_NONE ? q : f->last;
+  m->tri[q] = (dyd_tri){{v, a, b}, {h, DYD_NONE, dyd_edge_of(before, 1)}};
+  m->tri[before].n[1] = dyd_edge_of(q, 2);
+  m->tri[dyd_edge_triangle(h)].n[dyd_edge_corner(h)] = dyd_edge_of(q, 0);
+  f->first = f->first == DYD_NONE ? q : f->first;
+  f->last = q;
+}
+
+/* Joins v to the rim of the cavity that grows from t. It takes two triangles more than were there. */
+static dyd_status insert_at(dyd_mesh *m, uint32_t v, uint32_t t) {
+  dyd_xy p = m->xy[v];
+  dyd_seen sa = rim_of_triangle(m, p, t);
+  size_t edges = 3, spares = 3;
+  uint32_t a = m->tri[t].v[1];
+  fan f = {DYD_NONE, DYD_NONE};
+  m->spare[0] = m->count + 1;
+  m->spare[1] = m->count;
+  m->spare[2] = t;
+  while (edges) {
+    struct dyd_rim *r = &m->rim[edges - 1];
+    dyd_half_edge h = r->beyond;
+    const dyd_tri *o = &m->tri[dyd_edge_triangle(h)];
+    unsigned k = dyd_edge_corner(h);
+    uint32_t b = r->b, c = o->v[k];
+    dyd_seen sb = r->seen, sc = dyd_see(m->xy[c], p);
+    double ac = dyd_seen_cross(sa, sc), cb = dyd_seen_cross(sc, sb);
+    dyd_incircle at = {sc.square, sb.square, sa.square, -r->cross, ac, cb}; /* the triangle c b a */
+    int inside;
+    if (!dyd_incircle_known(&inside, &m->tally, m, at)) inside = dyd_build_incircle_slow(m, c, b, a, v);
+    if (inside > 0) { /* a c and c b take the place of a b */
+      if (!insert_has_room(m, edges, spares)) return DYD_E_NOMEM;
+      r = &m->rim[edges - 1];
+      r->beyond = o->n[dyd_prev(k)];
+      r->cross = cb;
+      m->rim[edges++] = (struct dyd_rim){o->n[dyd_next(k)], c, sc, ac};
+      m->spare[spares++] = dyd_edge_triangle(h);
+    } else {
+      fan_add(&f, m, m->spare[--spares], v, a, b, h);
+      a = b;
+      sa = sb;
+      edges--;
+    }
+  }
+  dyd_edge_join(m, dyd_edge_of(f.first, 2), dyd_edge_of(f.last, 1));
+  m->count += 2;
+  m->hint = f.last;
   return DYD_OK;
 }
 

@@ -54,7 +54,7 @@ typedef struct dyd_mesh {
   bool collinear;   /* every choice of points is collinear: no triangles */
   dyd_tally tally;  /* of its construction */
   double extent[2]; /* of all points any representative may be; x, y */
-  double orient_bound, incircle_delta; /* filter constants */
+  double orient_bound, incircle_delta; /* filter constants; infinite: nothing is sure */
   double exact_s; /* in-circle in doubles is exact up to this sum of lifts; -1: never; 0: not known yet */
   bool no_filter;
   bool part, stuck; /* a part cannot move representatives and needs a triangle: where it would have to, it is stuck */
@@ -62,9 +62,9 @@ typedef struct dyd_mesh {
   bool no_fixed;    /* they do not exist */
   uint32_t moved;   /* moves of representatives so far; a coincidence takes the next fraction */
   uint32_t hint;    /* where the next search starts; of a mesh of several strips: a ghost triangle */
-  dyd_half_edge *stack;
+  struct dyd_rim *rim; /* scratch of insert.c */
   uint32_t *spare;
-  size_t stack_cap, spare_cap;
+  size_t rim_cap, spare_cap;
 } dyd_mesh;
 
 /* Vertex of reps behind mesh vertex v. */

@@ -41,18 +41,46 @@ static inline double dyd_filter_orient_bound(double extent_x, double extent_y, d
   return extent_x * extent_y * 1.01e-15 + 10 * delta * (e + 4 * delta) + 0x1p-1000;
 }
 
-/* 1, -1: sure sign; 0: not sure. */
-static inline int dyd_filter_orient(const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy p) {
-  double d = (a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x);
+/* A vertex seen from p: where it is, and its squared distance. Of two, seen from a third, the cross product is their
+ * orientation; of three the squares and the cross products make the in-circle determinant. Whoever looks at many
+ * triangles from one place computes each of them once. */
+typedef struct dyd_seen {
+  double x, y, square;
+} dyd_seen;
+
+static inline dyd_seen dyd_see(dyd_xy a, dyd_xy p) {
+  double x = a.x - p.x, y = a.y - p.y;
+  return (dyd_seen){x, y, x * x + y * y};
+}
+static inline double dyd_seen_cross(dyd_seen a, dyd_seen b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+/* The squares of a, b, c and the cross products of the other two. */
+typedef struct dyd_incircle {
+  double la, lb, lc, bc, ca, ab;
+} dyd_incircle;
+
+static inline dyd_incircle dyd_incircle_from(dyd_seen a, dyd_seen b, dyd_seen c) {
+  double bc = dyd_seen_cross(b, c), ca = dyd_seen_cross(c, a), ab = dyd_seen_cross(a, b);
+  return (dyd_incircle){a.square, b.square, c.square, bc, ca, ab};
+}
+static inline dyd_incircle dyd_incircle_of(dyd_xy a, dyd_xy b, dyd_xy c, dyd_xy p) {
+  return dyd_incircle_from(dyd_see(a, p), dyd_see(b, p), dyd_see(c, p));
+}
+
+/* 1, -1: sure sign of a cross product; 0: not sure. */
+static inline int dyd_filter_turn(const dyd_mesh *m, double d) {
   if (d > m->orient_bound) return 1;
   return d < -m->orient_bound ? -1 : 0;
 }
+static inline int dyd_filter_orient(const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy p) {
+  return dyd_filter_turn(m, dyd_seen_cross(dyd_see(a, p), dyd_see(b, p)));
+}
 
-static inline int dyd_filter_incircle_at(const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy c, dyd_xy p) {
-  double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y, cx = c.x - p.x, cy = c.y - p.y;
-  double la = ax * ax + ay * ay, lb = bx * bx + by * by, lc = cx * cx + cy * cy;
-  double d = la * (bx * cy - by * cx) + lb * (cx * ay - cy * ax) + lc * (ax * by - ay * bx);
-  double s = la + lb + lc, e = s * s * DYD_INCIRCLE_BOUND + DYD_INCIRCLE_TINY;
+static inline int dyd_filter_incircle_at(const dyd_mesh *m, dyd_incircle i) {
+  double d = i.la * i.bc + i.lb * i.ca + i.lc * i.ab;
+  double s = i.la + i.lb + i.lc, e = s * s * DYD_INCIRCLE_BOUND + DYD_INCIRCLE_TINY;
   if (m->incircle_delta > 0) {
     double t = sqrt(s) + 8 * m->incircle_delta;
     e += 60 * m->incircle_delta * t * t * t;
@@ -62,11 +90,9 @@ static inline int dyd_filter_incircle_at(const dyd_mesh *m, dyd_xy a, dyd_xy b, 
 }
 
 /* After the in-circle filter was unsure: true and the exact sign when small integers make doubles exact [FLT-SMALL]. */
-static inline bool dyd_filter_incircle_small(int *sign, const dyd_mesh *m, dyd_xy a, dyd_xy b, dyd_xy c, dyd_xy p) {
-  double ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y, cx = c.x - p.x, cy = c.y - p.y;
-  double la = ax * ax + ay * ay, lb = bx * bx + by * by, lc = cx * cx + cy * cy;
-  if (!(la + lb + lc <= m->exact_s)) return false;
-  double d = la * (bx * cy - by * cx) + lb * (cx * ay - cy * ax) + lc * (ax * by - ay * bx);
+static inline bool dyd_filter_incircle_small(int *sign, const dyd_mesh *m, dyd_incircle i) {
+  if (!(i.la + i.lb + i.lc <= m->exact_s)) return false;
+  double d = i.la * i.bc + i.lb * i.ca + i.lc * i.ab;
   *sign = (d > 0) - (d < 0);
   return true;
 }

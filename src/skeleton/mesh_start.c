@@ -30,15 +30,16 @@ static void set_extent(dyd_mesh *m) {
     double lo = INFINITY, hi = -INFINITY;
     for (uint32_t v = 0; v < m->n; v++) {
       uint32_t i = m->local ? m->reps->site[m->local[v]] : v; /* all sites: in their own order */
-      lo = fmin(lo, dyd_sites_lo(m->reps->sites, a, i));
-      hi = fmax(hi, dyd_sites_hi(m->reps->sites, a, i));
+      double l = dyd_sites_lo(m->reps->sites, a, i), h = dyd_sites_hi(m->reps->sites, a, i);
+      lo = l < lo ? l : lo;
+      hi = h > hi ? h : hi;
     }
     m->extent[a] = m->n ? hi - lo : 0;
   }
 }
 
 void dyd_mesh_follow(dyd_mesh *m) {
-  m->incircle_delta = m->reps->delta;
+  m->incircle_delta = m->no_filter ? INFINITY : m->reps->delta;
   m->orient_bound = dyd_filter_orient_bound(m->extent[0], m->extent[1], m->reps->delta);
   if (m->no_filter || isnan(m->orient_bound)) m->orient_bound = INFINITY;
 }
@@ -153,7 +154,7 @@ static dyd_status leave_line(uint32_t first[3], dyd_mesh *m) {
 void dyd_mesh_set_rounds(dyd_mesh *m) {
   bool fat = false;
   m->rounds = 1;
-  if (m->part) return; /* one strip: points come first */
+  if (m->part || dyd_sites_are_double_points(m->reps->sites)) return; /* one strip: points come first */
   for (uint32_t v = m->begin; v < m->end && m->rounds == 1; v++) {
     bool point = dyd_mesh_is_point(m, v);
     if (point && fat) m->rounds = 2;
@@ -204,13 +205,14 @@ void dyd_mesh_put_first(dyd_mesh *m, const uint32_t first[3]) {
 
 void dyd_mesh_trim(dyd_mesh *m) {
   dyd_fixed_free(m->fixed);
-  free(m->stack);
+  free(m->rim);
   free(m->spare);
   m->fixed = NULL;
   m->exact_s = -1;
   m->no_fixed = true; /* later questions are few, and the grid would cost O(n) */
-  m->stack = m->spare = NULL;
-  m->stack_cap = m->spare_cap = 0;
+  m->rim = NULL;
+  m->spare = NULL;
+  m->rim_cap = m->spare_cap = 0;
 }
 
 void dyd_mesh_clear(dyd_mesh *m) {

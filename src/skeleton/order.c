@@ -183,7 +183,7 @@ dyd_status dyd_spatial_order(uint32_t *order, dyd_strips *strips, const dyd_site
   dyd_status st = k.a && b && k.count && (k.strips == 1 || k.column) ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) {
     k.f = frame_of(s);
-    k.mixed = s->upper[0] || s->upper[1] || s->exact;
+    k.mixed = !dyd_sites_are_double_points(s);
     fill_table(&k.h);
     if (k.column) share_columns(&k);
     dyd_parallel(threads, dyd_ranges(n), keys_of_range, &k);

@@ -24,7 +24,7 @@ int dyd_mesh_orient(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b,
 static int incircle_real(dyd_tally *tally, const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t c, uint32_t p) {
   int sign;
   if (!m->no_filter) {
-    if (dyd_filter_incircle_small(&sign, m, m->xy[a], m->xy[b], m->xy[c], m->xy[p])) return sign;
+    if (dyd_filter_incircle_small(&sign, m, dyd_incircle_of(m->xy[a], m->xy[b], m->xy[c], m->xy[p]))) return sign;
     if ((sign = dyd_filter_incircle_near(m, m->xy[a], m->xy[b], m->xy[c], m->xy[p]))) return sign;
     if (dyd_fixed_incircle(&sign, m, a, b, c, p)) return tally->integer++, sign;
   }

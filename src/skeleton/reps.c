@@ -149,9 +149,15 @@ dyd_status dyd_reps_choose(dyd_reps *r, uint32_t v, uint32_t k) {
 
 enum { FETCH_AHEAD = 24 };
 
+/* box: NULL, or of each vertex. */
+typedef struct choice {
+  dyd_reps *r;
+  const dyd_bbox *box;
+} choice;
+
 static dyd_status choose_range(dyd_reps *r, size_t begin, size_t end) {
   const dyd_sites *s = r->sites;
-  bool plain = !s->exact && !s->upper[0] && !s->upper[1];
+  bool plain = dyd_sites_are_double_points(s);
   dyd_status st = DYD_OK;
   for (size_t v = begin; v < end && st == DYD_OK; v++) {
     if (v + FETCH_AHEAD < end) dyd_sites_fetch(s, r->site[v + FETCH_AHEAD]);
@@ -163,19 +169,29 @@ static dyd_status choose_range(dyd_reps *r, size_t begin, size_t end) {
   return st;
 }
 
-/* Where all rectangles have corners in doubles, their middles lie inside: no codes, nothing can fail. */
-static void choose_doubles(void *context, size_t number) {
-  dyd_reps *r = context;
-  (void)choose_range(r, dyd_range_begin(r->n, number), dyd_range_begin(r->n, number + 1));
+static void choose_middles(dyd_xy *xy, const dyd_bbox *box, size_t begin, size_t end) {
+  for (size_t v = begin; v < end; v++)
+    xy[v] = (dyd_xy){reps_middle(box[v].e[0], box[v].e[1]), reps_middle(box[v].e[2], box[v].e[3])};
 }
 
-dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, uint32_t n, unsigned threads) {
+/* Where all rectangles have corners in doubles, their middles lie inside: no codes, nothing can fail. */
+static void choose_doubles(void *context, size_t number) {
+  const choice *c = context;
+  size_t begin = dyd_range_begin(c->r->n, number), end = dyd_range_begin(c->r->n, number + 1);
+  if (c->box)
+    choose_middles(c->r->xy, c->box, begin, end);
+  else
+    (void)choose_range(c->r, begin, end);
+}
+
+dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, const dyd_bbox *box, uint32_t n,
+                         unsigned threads) {
   *r = (dyd_reps){.sites = sites, .n = n, .site = site};
   r->xy = dyd_alloc((size_t)n + 1, sizeof *r->xy);
   if (!r->xy) return DYD_E_NOMEM;
   r->xy[n] = (dyd_xy){NAN, NAN};
   if (sites->exact) return choose_range(r, 0, n);
-  dyd_parallel(threads, dyd_ranges(n), choose_doubles, r);
+  dyd_parallel(threads, dyd_ranges(n), choose_doubles, &(choice){r, box});
   return DYD_OK;
 }
 

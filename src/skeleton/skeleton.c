@@ -30,6 +30,26 @@ void dyd_skeleton_moved(dyd_skeleton *sk) {
   sk->rects.tree.box = sk->rects.box;
 }
 
+enum { FETCH_AHEAD = 24 };
+
+static void boxes_of_range(void *context, size_t number) {
+  dyd_skeleton *sk = context;
+  size_t end = dyd_range_begin(sk->n, number + 1);
+  for (size_t v = dyd_range_begin(sk->n, number); v < end; v++) {
+    if (v + FETCH_AHEAD < end) dyd_sites_fetch(sk->rects.sites, sk->rects.site[v + FETCH_AHEAD]);
+    dyd_rects_set_box(&sk->rects, (uint32_t)v);
+  }
+}
+
+/* The table of sites in the order of the vertices, read once for whatever is made of it. */
+static dyd_status gather_boxes(dyd_skeleton *sk, unsigned threads) {
+  if (dyd_sites_are_double_points(sk->rects.sites)) return DYD_OK;
+  sk->rects.box = dyd_alloc(sk->n, sizeof *sk->rects.box);
+  if (!sk->rects.box) return DYD_E_NOMEM;
+  dyd_parallel(threads, dyd_ranges(sk->n), boxes_of_range, sk);
+  return DYD_OK;
+}
+
 static dyd_status skeleton_triangulate(dyd_skeleton *sk, const dyd_skeleton_options *o) {
   uint32_t *order = dyd_alloc(sk->n, sizeof *order);
   if (!order) return DYD_E_NOMEM;
@@ -40,8 +60,10 @@ static dyd_status skeleton_triangulate(dyd_skeleton *sk, const dyd_skeleton_opti
     free(order);
     return st;
   }
-  st = dyd_reps_init(&sk->reps, sk->rects.sites, order, sk->n, o->threads);
-  sk->rects.site = sk->reps.site;
+  sk->rects.site = order;
+  st = gather_boxes(sk, o->threads);
+  if (st != DYD_OK) return free(order), st;
+  st = dyd_reps_init(&sk->reps, sk->rects.sites, order, sk->rects.box, sk->n, o->threads);
   if (st == DYD_OK) st = dyd_mesh_build_strips(&sk->mesh, &sk->reps, &strips, o->no_filter, o->cancel, o->threads);
   return st;
 }
@@ -58,6 +80,7 @@ static void settle_aliases(dyd_skeleton *sk) {
     uint32_t t = site[v];
     site[v] = site[a];
     site[a] = t;
+    if (sk->rects.box) dyd_rects_set_box(&sk->rects, v), dyd_rects_set_box(&sk->rects, a);
   }
   for (uint32_t v = 0; v < sk->n; v++) {
     uint32_t a = dyd_mesh_alias(&sk->mesh, v);
@@ -103,27 +126,19 @@ static dyd_status build_maps(dyd_skeleton *sk, unsigned threads) {
   settle_aliases(sk);
   find_leaving(sk, threads);
   sk->all_points = true;
+  if (dyd_sites_are_double_points(sk->rects.sites)) return DYD_OK;
   for (uint32_t i = 0; i < sk->n && sk->all_points; i++) sk->all_points = dyd_sites_is_point(sk->rects.sites, i);
   return DYD_OK;
 }
 
-enum { FETCH_AHEAD = 24 };
-
-static void boxes_of_range(void *context, size_t number) {
-  dyd_skeleton *sk = context;
-  size_t end = dyd_range_begin(sk->n, number + 1);
-  for (size_t v = dyd_range_begin(sk->n, number); v < end; v++) {
-    if (v + FETCH_AHEAD < end) dyd_sites_fetch(sk->rects.sites, sk->reps.site[v + FETCH_AHEAD]);
-    dyd_rects_set_box(&sk->rects, (uint32_t)v);
+static dyd_status build_boxes(dyd_skeleton *sk) {
+  if (sk->all_points || sk->mesh.collinear) {
+    free(sk->rects.box);
+    sk->rects.box = NULL;
+    return dyd_blocks_build(sk);
   }
-}
-
-static dyd_status build_boxes(dyd_skeleton *sk, unsigned threads) {
-  if (sk->all_points || sk->mesh.collinear) return dyd_blocks_build(sk);
-  sk->rects.box = dyd_alloc(sk->n, sizeof *sk->rects.box);
   uint32_t *item = dyd_alloc(sk->n, sizeof *item), count = 0;
-  if (!sk->rects.box || !item) return free(item), DYD_E_NOMEM;
-  dyd_parallel(threads, dyd_ranges(sk->n), boxes_of_range, sk);
+  if (!item) return DYD_E_NOMEM;
   for (uint32_t v = 0; v < sk->n; v++)
     if (sk->leaving[v] != DYD_NONE) item[count++] = v;
   return dyd_tree_init(&sk->rects.tree, item, count, sk->rects.box);
@@ -134,7 +149,7 @@ dyd_status dyd_skeleton_build(dyd_skeleton *sk, const dyd_sites *sites, const dy
   dyd_status st = skeleton_triangulate(sk, o);
   if (st == DYD_OK && sk->mesh.collinear) st = dyd_line_build(&sk->line, &sk->mesh, &sk->rects, sk->n);
   if (st == DYD_OK) st = build_maps(sk, o->threads);
-  if (st == DYD_OK) st = build_boxes(sk, o->threads);
+  if (st == DYD_OK) st = build_boxes(sk);
   if (st == DYD_OK) DYD_INVARIANT(dyd_mesh_is_valid(&sk->mesh));
   if (st != DYD_OK) dyd_skeleton_clear(sk);
   return st;

@@ -64,6 +64,8 @@ dyd_half_edge dyd_find_edge(const dyd_skeleton *sk, uint32_t v, uint32_t w);
 bool dyd_is_legal(const dyd_skeleton *sk, uint32_t v, uint32_t w);
 /* How many pairs are legal, that is certain edges that are real. O(n), a byte for each triangle. */
 uint64_t dyd_certain_edges(const dyd_skeleton *sk);
+/* How many edges to the ghost are certain. A walk around the hull. */
+uint64_t dyd_certain_corners(const dyd_skeleton *sk);
 /* The neighbours of i and of j, without repeats, the ghost, i and j. At most `room`; returns how many. */
 int dyd_neighbours(uint32_t *out, int room, const dyd_skeleton *sk, uint32_t i, uint32_t j);
 

@@ -46,7 +46,7 @@ static void bed_make(bed *b) {
     site[k] = k;
   }
   dyd_rect_clear(&r);
-  assert_int_equal(dyd_reps_init(&b->reps, b->s, site, POINTS, 1), DYD_OK);
+  assert_int_equal(dyd_reps_init(&b->reps, b->s, site, NULL, POINTS, 1), DYD_OK);
   b->m = (dyd_mesh){.reps = &b->reps, .n = POINTS, .end = POINTS};
   assert_int_equal(dyd_mesh_coordinates(&b->m), DYD_OK);
 }
@@ -112,12 +112,27 @@ static void right(const bed *b, int said, int truth, const char *rung) {
   right_or_unsure(&unused, b, said, truth, rung);
 }
 
+/* Of three on a line: the last one is between the others iff they are on opposite sides of it. */
+static void check_between(bed *b, const uint32_t *v) {
+  mpq_t d[3][2], t, dot;
+  for (int k = 0; k < 3; k++) mpq_inits(d[k][0], d[k][1], NULL);
+  mpq_inits(t, dot, NULL);
+  relative(d, b, v, 3);
+  mpq_mul(dot, d[0][0], d[1][0]);
+  mpq_mul(t, d[0][1], d[1][1]);
+  mpq_add(dot, dot, t);
+  assert_int_equal(dyd_mesh_between(&b->m, v[0], v[1], v[2]), mpq_sgn(dot) < 0);
+  mpq_clears(t, dot, NULL);
+  for (int k = 0; k < 3; k++) mpq_clears(d[k][0], d[k][1], NULL);
+}
+
 static void check_orient(bed *b, const uint32_t *v) {
   dyd_mesh *m = &b->m;
   const dyd_xy *xy = m->xy;
   int truth = literal(b, v, 3), sign = 7;
   tally.asked++;
   tally.ties += truth == 0;
+  if (truth == 0) check_between(b, v);
   right_or_unsure(&tally.filter, b, dyd_filter_orient(m, xy[v[0]], xy[v[1]], xy[v[2]]), truth, "orient");
   right_or_unsure(&tally.near, b, dyd_filter_orient_near(m, xy[v[0]], xy[v[1]], xy[v[2]]), truth, "orient near");
   if (dyd_filter_orient_small(&sign, m, xy[v[0]], xy[v[1]], xy[v[2]])) {
@@ -137,12 +152,13 @@ static void check_incircle(bed *b, const uint32_t *v) {
   dyd_mesh *m = &b->m;
   dyd_xy p[4];
   for (int k = 0; k < 4; k++) p[k] = m->xy[v[k]];
+  dyd_incircle at = dyd_incircle_of(p[0], p[1], p[2], p[3]);
   int truth = literal(b, v, 4), sign = 7;
   tally.asked++;
   tally.ties += truth == 0;
-  right_or_unsure(&tally.filter, b, dyd_filter_incircle_at(m, p[0], p[1], p[2], p[3]), truth, "incircle");
+  right_or_unsure(&tally.filter, b, dyd_filter_incircle_at(m, at), truth, "incircle");
   right_or_unsure(&tally.near, b, dyd_filter_incircle_near(m, p[0], p[1], p[2], p[3]), truth, "incircle near");
-  if (dyd_filter_incircle_small(&sign, m, p[0], p[1], p[2], p[3])) {
+  if (dyd_filter_incircle_small(&sign, m, at)) {
     right(b, sign, truth, "incircle small");
     tally.small++;
   }
