@@ -4,6 +4,15 @@ From Coq Require Import Reals Lra Lia Psatz Classical List.
 From Dyadel Require Import Plane Finite Cells Legal Disc TiedFace Path Tolerance.
 Open Scope R_scope.
 
+(* What holds near t for each of finitely many sites holds for all. *)
+Lemma all_near N t (P : nat -> R -> Prop) : (forall k, (k < N)%nat -> near t (P k)) ->
+  near t (fun s => forall k, (k < N)%nat -> P k s).
+Proof.
+  intros H. assert (X : near t (fun s => forall k, In k (seq 0 N) -> P k s)).
+  { apply near_list. intros k K. apply H. apply in_seq in K. lia. }
+  revert X. apply near_weaken. intros s Y k K. apply Y, in_seq. lia.
+Qed.
+
 Section Sites.
 Variables (N : nat) (p : nat -> point).
 Variable different : forall k l, (k < N)%nat -> (l < N)%nat -> k <> l -> p k <> p l.
@@ -114,14 +123,6 @@ Variable neighbours : forall k, (k < N)%nat -> k <> i -> k <> j -> strict_edge N
 Lemma side_continuous a b k l : continuity (fun t => dist (mix t a b) (p k) - dist (mix t a b) (p l)).
 Proof.
   apply (lipschitz_continuous (dist a b + dist a b)). apply lipschitz_minus; apply lipschitz_dist.
-Qed.
-
-Lemma all_near t (P : nat -> R -> Prop) : (forall k, (k < N)%nat -> near t (P k)) ->
-  near t (fun s => forall k, (k < N)%nat -> P k s).
-Proof.
-  intros H. assert (X : near t (fun s => forall k, In k (seq 0 N) -> P k s)).
-  { apply near_list. intros k K. apply H. apply in_seq in K. lia. }
-  revert X. apply near_weaken. intros s Y k K. apply Y, in_seq. lia.
 Qed.
 
 Lemma nearest_other c : (exists k, (k < N)%nat /\ k <> i /\ k <> j) -> exists m, (m < N)%nat /\ m <> i /\ m <> j /\
