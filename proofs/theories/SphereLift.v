@@ -42,8 +42,8 @@ Proof.
   replace ((1 + c) * (1 - c) / (1 - c)) with (1 + c) by (field; lra). ring.
 Qed.
 
-(* The lifting: at each image the circle or line has the sign that the plane has at the point; q is on it iff it is a
-   line, and on the side of those with a positive sign iff inside is in the circle. *)
+(* The lifting: at each image the circle or line has the sign that the plane has at the point. q is on the plane iff it
+   is a line, else outside of the circle (a > 0) means on the side of q. *)
 Theorem circle_lifts g v : on_sphere v -> v <> q ->
   (1 - inner v q) * value g (st v) = plane_height g - inner (plane_normal g) v.
 Proof. intros V D. rewrite lift_value by assumption. rewrite normal_inner. unfold plane_height. ring. Qed.
@@ -84,11 +84,13 @@ Proof.
   pose proof (S v V Dv) as Sv. pose proof (S w W Dw) as Sw. rewrite E in Sv.
   assert (Q : inner v q = inner w q).
   { set (k := dot (st w) (st w) + 1) in *. apply (Rmult_eq_reg_r k); [lra |].
-    unfold k, dot. pose proof (Rle_0_sqr (fst (st w))) as A. pose proof (Rle_0_sqr (snd (st w))) as B. unfold Rsqr in *. lra. }
+    unfold k, dot. pose proof (Rle_0_sqr (fst (st w))) as A. pose proof (Rle_0_sqr (snd (st w))) as B.
+    unfold Rsqr in *. lra. }
   pose proof (f_equal fst E) as X. pose proof (f_equal snd E) as Y. unfold st, image in X, Y. simpl in X, Y.
   rewrite Q in X, Y, Pv.
-  assert (Xe : inner v e = inner w e) by (apply (Rmult_eq_reg_r (/ (1 - inner w q))); [exact X | apply Rinv_neq_0_compat; lra]).
-  assert (Yn : inner v n = inner w n) by (apply (Rmult_eq_reg_r (/ (1 - inner w q))); [exact Y | apply Rinv_neq_0_compat; lra]).
+  assert (I : / (1 - inner w q) <> 0) by (apply Rinv_neq_0_compat; lra).
+  assert (Xe : inner v e = inner w e) by exact (Rmult_eq_reg_r _ _ _ X I).
+  assert (Yn : inner v n = inner w n) by exact (Rmult_eq_reg_r _ _ _ Y I).
   apply minus_zero. rewrite minus_sq, (of_axes _ _ _ frame v v), (of_axes _ _ _ frame w w), (of_axes _ _ _ frame v w).
   rewrite Xe, Yn, Q. ring.
 Qed.
@@ -137,11 +139,15 @@ Definition centre (g : conic) : point := (- cb g / (2 * ca g), - cc g / (2 * ca 
 Lemma value_dist g x z : ca g <> 0 -> value g z - value g x = ca g * (dist2 (centre g) z - dist2 (centre g) x).
 Proof. intros A. unfold value, dist2, centre, dot. simpl. field. exact A. Qed.
 
+(* A line's value is an inner product. *)
+Lemma line_value g z : ca g = 0 -> dot (- cb g, - cc g) z = cd g - value g z.
+Proof. intros A. unfold value, dot. simpl. rewrite A. ring. Qed.
+
 Lemma supported_weak_edge N p i j g : (i < N)%nat -> (j < N)%nat -> p i <> p j -> supports N p i j g -> weak_edge N p i j.
 Proof.
   intros I J D [A [G [Vi [Vj H]]]]. destruct (Req_dec (ca g) 0) as [Z | Z].
   - right. exists (- cb g, - cc g), (cd g).
-    assert (F : forall k, dot (- cb g, - cc g) (p k) = cd g - value g (p k)) by (intros k; unfold value, dot; simpl; rewrite Z; ring).
+    assert (F : forall k, dot (- cb g, - cc g) (p k) = cd g - value g (p k)) by (intros k; now apply line_value).
     split.
     + intros E. injection E as E1 E2. destruct G as [G | [G | G]]; [contradiction | apply G; lra | apply G; lra].
     + split.
@@ -270,9 +276,6 @@ Proof.
 Qed.
 
 (* (b) q and i are a pair as the image of i is on the boundary of the hull of all images. *)
-Lemma line_dot g k : ca g = 0 -> dot (- cb g, - cc g) (p k) = cd g - value g (p k).
-Proof. intros A. unfold value, dot. simpl. rewrite A. ring. Qed.
-
 Lemma line_of_pair h i : (i < N)%nat -> proper h (inner h q) -> inner h (y i) = inner h q ->
   let g := conic_of h (inner h q) in
   ca g = 0 /\ (- cb g, - cc g) <> (0, 0) /\ dot (- cb g, - cc g) (p i) = cd g.
@@ -281,7 +284,7 @@ Proof.
   destruct (site_ok i I) as [Oi Qi]. split.
   - intros Z. assert (Z1 : - cb g = 0) by exact (f_equal fst Z). assert (Z2 : - cc g = 0) by exact (f_equal snd Z).
     destruct (conic_nonzero h _ P) as [G | [G | G]]; fold g in G; apply G; lra.
-  - rewrite line_dot by exact A. assert (value g (p i) = 0) by now apply (plane_value_sign h _ (y i) Oi Qi). lra.
+  - rewrite line_value by exact A. assert (value g (p i) = 0) by now apply (plane_value_sign h _ (y i) Oi Qi). lra.
 Qed.
 
 (* The plane through q that belongs to a line across u through the image of i. *)
@@ -306,7 +309,7 @@ Proof.
   intros I. split.
   - intros [h [m [P [Ei [Eq H]]]]]. rewrite last in Eq. rewrite <- Eq in P, Ei, H.
     destruct (line_of_pair h i I P Ei) as [A [U F]]. set (g := conic_of h (inner h q)) in *.
-    exists (- cb g, - cc g). split; [exact U |]. intros k K. rewrite F, line_dot by exact A.
+    exists (- cb g, - cc g). split; [exact U |]. intros k K. rewrite F, line_value by exact A.
     destruct (site_ok k K) as [Ok Qk].
     assert (0 <= value g (p k)) by (apply (plane_value_sign h _ (y k) Ok Qk), H; lia). lra.
   - intros [u [U H]]. destruct (pair_of_line u i I U) as [P [Ei [Eq V]]].
@@ -324,7 +327,7 @@ Proof.
   intros I. split.
   - intros [h [m [P [Ei [Eq H]]]]]. rewrite last in Eq. rewrite <- Eq in P, Ei, H.
     destruct (line_of_pair h i I P Ei) as [A [U F]]. set (g := conic_of h (inner h q)) in *.
-    exists (- cb g, - cc g). split; [exact U |]. intros k K D. rewrite F, line_dot by exact A.
+    exists (- cb g, - cc g). split; [exact U |]. intros k K D. rewrite F, line_value by exact A.
     destruct (site_ok k K) as [Ok Qk].
     assert (0 < value g (p k)) by (apply (plane_value_sign h _ (y k) Ok Qk), H; [lia | exact D | lia]). lra.
   - intros [u [U H]]. destruct (pair_of_line u i I U) as [P [Ei [Eq V]]].
@@ -334,6 +337,43 @@ Proof.
     + intros k K D _. destruct (site_ok k K) as [Ok Qk]. apply (circle_value_sign g (y k) Ok Qk). fold (p k). rewrite V.
       pose proof (H k K D). lra.
     + intros _ Z. now elim Z.
+Qed.
+
+(* Beyond a side of the hull with no other image on its line there is a triangle with q. *)
+Theorem sphere_hull_triangle i j : (i < N)%nat -> (j < N)%nat ->
+  (sphere_triangle (S N) y i j N <-> exists u, u <> (0, 0) /\ dot u (p i) = dot u (p j) /\
+    forall k, (k < N)%nat -> k <> i -> k <> j -> dot u (p k) < dot u (p i)).
+Proof.
+  intros I J. destruct (site_ok j J) as [Oj Qj]. split.
+  - intros [h [m [P [Ei [Ej [Eq H]]]]]]. rewrite last in Eq. rewrite <- Eq in P, Ei, Ej, H.
+    destruct (line_of_pair h i I P Ei) as [A [U F]]. destruct (line_of_pair h j J P Ej) as [_ [_ G]].
+    set (g := conic_of h (inner h q)) in *. exists (- cb g, - cc g). split; [exact U |]. split; [now rewrite F, G |].
+    intros k K Di Dj. rewrite F, line_value by exact A. destruct (site_ok k K) as [Ok Qk].
+    assert (0 < value g (p k)) by (apply (plane_value_sign h _ (y k) Ok Qk), H; [lia | exact Di | exact Dj | lia]). lra.
+  - intros [u [U [E H]]]. destruct (pair_of_line u i I U) as [P [Ei [Eq V]]].
+    set (g := Conic 0 (- fst u) (- snd u) (dot u (p i))) in *. exists (plane_normal g), (plane_height g).
+    split; [exact P |]. split; [exact Ei |]. split.
+    { apply (circle_value_sign g (y j) Oj Qj). fold (p j). rewrite V. lra. }
+    split; [now rewrite last |].
+    apply (all_sites (fun k => k <> i -> k <> j -> k <> N -> inner (plane_normal g) (y k) < plane_height g)).
+    + intros k K Di Dj _. destruct (site_ok k K) as [Ok Qk]. apply (circle_value_sign g (y k) Ok Qk). fold (p k). rewrite V.
+      pose proof (H k K Di Dj). lra.
+    + intros _ _ Z. now elim Z.
+Qed.
+
+(* (d) Images on one circle or line belong to points on one circle of the sphere; q is on it iff it is a line. *)
+Theorem sphere_circle g i j : (i < N)%nat -> (j < N)%nat -> i <> j -> (ca g <> 0 \/ cb g <> 0 \/ cc g <> 0) ->
+  value g (p i) = 0 -> value g (p j) = 0 ->
+  proper (plane_normal g) (plane_height g) /\
+  (forall k, (k < N)%nat -> value g (p k) = 0 -> inner (plane_normal g) (y k) = plane_height g) /\
+  (ca g = 0 <-> inner (plane_normal g) q = plane_height g).
+Proof.
+  intros I J D G Vi Vj.
+  assert (On : forall k, (k < N)%nat -> value g (p k) = 0 -> inner (plane_normal g) (y k) = plane_height g).
+  { intros k K V. destruct (site_ok k K) as [Ok Qk]. now apply (circle_value_sign g (y k) Ok Qk). }
+  destruct (site_ok i I) as [Oi Qi]. destruct (site_ok j J) as [Oj Qj]. split; [| split; [exact On |]].
+  - apply plane_is_proper with (y i) (y j); auto; [apply different; lia | now apply normal_nonzero with (p i)].
+  - pose proof (circle_at_q g). split; intros; lra.
 Qed.
 
 (* (c) Rectangles that hold the images, for this choice of the sites and of q. *)

@@ -10,6 +10,17 @@ Definition moved (N : nat) (t : R) (p q : nat -> point) : Prop := forall k, (k <
 Lemma between_of_abs x e : Rabs x <= e -> - e <= x <= e.
 Proof. intros H. pose proof (Rle_abs x). pose proof (Rle_abs (- x)). rewrite Rabs_Ropp in *. lra. Qed.
 
+(* A linear form changes by no more than its length times the way. *)
+Lemma dot_moves u y z : Rabs (dot u y - dot u z) <= dist (0, 0) u * dist y z.
+Proof.
+  apply le_of_squares; [apply Rmult_le_pos; apply dist_nonneg |].
+  rewrite <- Rabs_mult, Rabs_pos_eq by apply Rle_0_sqr.
+  replace (dist (0, 0) u * dist y z * (dist (0, 0) u * dist y z))
+    with ((dist (0, 0) u * dist (0, 0) u) * (dist y z * dist y z)) by ring.
+  rewrite !dist_sq. unfold dist2, dot. simpl.
+  pose proof (Rle_0_sqr (fst u * (snd y - snd z) - snd u * (fst y - fst z))) as X. unfold Rsqr in X. lra.
+Qed.
+
 (* A minimum of finitely many continuous functions and a number. *)
 Lemma continuity_min f g : continuity f -> continuity g -> continuity (fun s => Rmin (f s) (g s)).
 Proof.

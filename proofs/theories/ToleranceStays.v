@@ -61,7 +61,8 @@ Qed.
 
 Lemma strict_edge_legal N q i j : strict_edge N q i j -> legal N (fun k => at_point (q k)) i j.
 Proof.
-  intros [o [E H]]. exists o. intros k K Di Dj. rewrite !(exact_dl o _ _ (at_point_exact _)), (exact_ds o _ _ (at_point_exact _)).
+  intros [o [E H]]. exists o. intros k K Di Dj.
+  rewrite !(exact_dl o _ _ (at_point_exact _)), (exact_ds o _ _ (at_point_exact _)).
   pose proof (H k K Di Dj). lra.
 Qed.
 
@@ -170,8 +171,9 @@ Proof.
   apply (open_closed (fun t => ~ in_face t a i j m)).
   - unfold in_face. rewrite !at_0. now apply (face_empty _ _ _ _ _ sk a i j m).
   - intros t T H.
-    destruct (Rle_dec 0 (orient (x t a) (x t i) (x t m))) as [O1 | O1]; [destruct (Rle_dec 0 (orient (x t a) (x t m) (x t j))) as [O2 | O2];
-      [destruct (Rle_dec 0 (orient (x t i) (x t j) (x t m))) as [O3 | O3]; [now elim H |] |] |].
+    destruct (Rle_dec 0 (orient (x t a) (x t i) (x t m))) as [O1 | O1];
+      [destruct (Rle_dec 0 (orient (x t a) (x t m) (x t j))) as [O2 | O2];
+        [destruct (Rle_dec 0 (orient (x t i) (x t j) (x t m))) as [O3 | O3]; [now elim H |] |] |].
     + destruct (near_negative _ t (turn_continuous i j m) (Rnot_le_lt _ _ O3)) as [e [E G]]. exists e. split; [exact E |].
       intros s S _ [_ [_ Y]]. pose proof (G s S). lra.
     + destruct (near_negative _ t (turn_continuous a m j) (Rnot_le_lt _ _ O2)) as [e [E G]]. exists e. split; [exact E |].
@@ -189,8 +191,10 @@ Proof.
     { destruct (Rle_lt_or_eq_dec _ _ O2) as [L | Z]; [exact L | exfalso]. symmetry in Z.
       apply (edge_free t a j m T Ej M Da Dj). destruct (on_side (x t j) (x t a) (x t i) (x t m)) as [s [S E]];
         try (unfold orient in *; lra). exists (1 - s). split; [lra |]. rewrite E. apply mix_swap. }
-    destruct (near_and _ _ _ (near_positive _ t (turn_continuous a i m) P1)
-      (near_and _ _ _ (near_positive _ t (turn_continuous a m j) P2) (near_positive _ t (turn_continuous i j m) P3))) as [e [E G]].
+    pose proof (near_positive _ t (turn_continuous a m j) P2) as Y2.
+    pose proof (near_positive _ t (turn_continuous i j m) P3) as Y3.
+    destruct (near_and _ _ _ (near_positive _ t (turn_continuous a i m) P1) (near_and _ _ _ Y2 Y3)) as [e [E G]].
+    clear Y2 Y3.
     exists e. split; [exact E |]. intros s S _ Ne. apply Ne. destruct (G s S) as [Y1 [Y2 Y3]]. unfold in_face. lra.
 Qed.
 

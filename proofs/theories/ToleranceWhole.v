@@ -10,15 +10,13 @@ Definition height (u w z : point) : R := orient u w z.
 
 Lemma height_moves u w y z : Rabs (height u w y - height u w z) <= dist u w * dist y z.
 Proof.
-  set (a := fst w - fst u). set (b := snd w - snd u). set (c := snd y - snd z). set (d := fst y - fst z).
-  assert (E : height u w y - height u w z = a * c - b * d) by (unfold height, orient, a, b, c, d; ring).
-  assert (U : dist u w * dist u w = a * a + b * b) by (rewrite dist_sq; unfold dist2, a, b; ring).
-  assert (Y : dist y z * dist y z = c * c + d * d) by (rewrite dist_sq; unfold dist2, c, d; ring).
-  pose proof (dist_nonneg u w) as P. pose proof (dist_nonneg y z) as Q.
-  assert (S : (a * c - b * d) * (a * c - b * d) <= (dist u w * dist y z) * (dist u w * dist y z)).
-  { replace ((dist u w * dist y z) * (dist u w * dist y z)) with ((dist u w * dist u w) * (dist y z * dist y z)) by ring.
-    rewrite U, Y. pose proof (Rle_0_sqr (a * d + b * c)) as X. unfold Rsqr in X. nra. }
-  rewrite E. apply le_of_squares; [now apply Rmult_le_pos |]. rewrite <- Rabs_mult, Rabs_pos_eq; [exact S | apply Rle_0_sqr].
+  pose proof (dot_moves (- (snd w - snd u), fst w - fst u) y z) as H.
+  replace (dist (0, 0) (- (snd w - snd u), fst w - fst u)) with (dist u w) in H
+    by (apply dist_eq; unfold dist2; simpl; ring).
+  replace (height u w y - height u w z)
+    with (dot (- (snd w - snd u), fst w - fst u) y - dot (- (snd w - snd u), fst w - fst u) z)
+    by (unfold height, orient, dot; simpl; ring).
+  exact H.
 Qed.
 
 (* Three points that move by less than half the height of v over uw leave v off the segment uw. *)
@@ -83,15 +81,6 @@ Proof.
   apply enclosing_disc_gives_edge with c. intros k K Di Dj. pose proof (In i I Ci). pose proof (In j J Cj).
   pose proof (Ck k K Di Dj). pose proof (H k K) as X. rewrite Rabs_right in X by lra.
   pose proof (path_moves p q t k T). pose proof (dist_triangle_rev c (p k) (path p q t k)). lra.
-Qed.
-
-Lemma dot_moves u y z : Rabs (dot u y - dot u z) <= dist (0, 0) u * dist y z.
-Proof.
-  pose proof (height_moves (0, 0) (snd u, - fst u) y z) as H.
-  replace (height (0, 0) (snd u, - fst u) y - height (0, 0) (snd u, - fst u) z) with (dot u y - dot u z) in H
-    by (unfold height, orient, dot; simpl; ring).
-  replace (dist (0, 0) (snd u, - fst u)) with (dist (0, 0) u) in H; [exact H |].
-  apply dist_eq. unfold dist2. simpl. ring.
 Qed.
 
 Lemma line_edge i j u m t : (i < N)%nat -> (j < N)%nat -> 0 <= t <= 1 -> line_keeps i j u m -> strict_edge N (path p q t) i j.
