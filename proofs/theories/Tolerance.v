@@ -7,6 +7,9 @@ Open Scope R_scope.
 (* Each point is at most t from where it is listed. *)
 Definition moved (N : nat) (t : R) (p q : nat -> point) : Prop := forall k, (k < N)%nat -> dist (p k) (q k) <= t.
 
+Lemma dist2_sym a b : dist2 a b = dist2 b a.
+Proof. unfold dist2. ring. Qed.
+
 Lemma between_of_abs x e : Rabs x <= e -> - e <= x <= e.
 Proof. intros H. pose proof (Rle_abs x). pose proof (Rle_abs (- x)). rewrite Rabs_Ropp in *. lra. Qed.
 
@@ -19,6 +22,20 @@ Proof.
     with ((dist (0, 0) u * dist (0, 0) u) * (dist y z * dist y z)) by ring.
   rewrite !dist_sq. unfold dist2, dot. simpl.
   pose proof (Rle_0_sqr (fst u * (snd y - snd z) - snd u * (fst y - fst z))) as X. unfold Rsqr in X. lra.
+Qed.
+
+(* The distance to a point is convex. *)
+Lemma dist_convex t a b z : 0 <= t <= 1 -> dist (mix t a b) z <= (1 - t) * dist a z + t * dist b z.
+Proof.
+  intros T. pose proof (dist_nonneg a z). pose proof (dist_nonneg b z).
+  apply le_of_squares; [assert (0 <= (1 - t) * dist a z) by (apply Rmult_le_pos; lra);
+    assert (0 <= t * dist b z) by (apply Rmult_le_pos; lra); lra |].
+  rewrite dist_sq, (dist2_sym _ z), dist2_mix, !(dist2_sym z), <- (dist_sq a z), <- (dist_sq b z), <- (dist_sq a b).
+  pose proof (dist_triangle_rev a z b) as U. pose proof (dist_triangle_rev b z a) as V.
+  rewrite (dist_sym z b) in U. rewrite (dist_sym z a), (dist_sym b a) in V.
+  set (d := dist a b) in *. set (x := dist a z) in *. set (y := dist b z) in *.
+  assert (W : (x - y) * (x - y) <= d * d) by nra.
+  apply (Rmult_le_compat_l (t * (1 - t))) in W; [lra | nra].
 Qed.
 
 (* A minimum of finitely many continuous functions and a number. *)
@@ -89,6 +106,21 @@ Proof.
     { apply NNPP. intros H. assert (w <= 2 * t); [| lra]. apply Lub. intros v V. apply Rnot_lt_le. intros Y.
       apply H. now exists v. }
     destruct X as [v [V [c R]]]. exists c. intros k K Di Dj. destruct (R k K Logic.I Di Dj). lra.
+Qed.
+
+(* Where f is at least v >= 0 is convex: f has one way up [TOL-2]. *)
+Theorem room_convex S v a b t : 0 <= v -> 0 <= t <= 1 -> room S v a -> room S v b -> room S v (mix t a b).
+Proof.
+  intros V T A B. assert (C : forall x y, dist a x + v <= dist a y -> dist b x + v <= dist b y ->
+    dist (mix t a b) x + v <= dist (mix t a b) y).
+  { intros x y X Y. pose proof (dist_nonneg a x). pose proof (dist_nonneg b x). pose proof (dist_convex t a b x T) as D.
+    pose proof (nearer_affine t a b x y) as E. rewrite <- !dist_sq in E.
+    assert (A1 : 2 * v * dist a x + v * v <= dist a y * dist a y - dist a x * dist a x) by nra.
+    assert (B1 : 2 * v * dist b x + v * v <= dist b y * dist b y - dist b x * dist b x) by nra.
+    apply (Rmult_le_compat_l (1 - t)) in A1; [| lra]. apply (Rmult_le_compat_l t) in B1; [| lra].
+    apply (Rmult_le_compat_l (2 * v)) in D; [| lra].
+    apply le_of_squares; [apply dist_nonneg | lra]. }
+  intros k K Sk Di Dj. destruct (A k K Sk Di Dj). destruct (B k K Sk Di Dj). split; now apply C.
 Qed.
 
 (* Moving the centre straight to the farther of p i and p j does not lower f: the bisector suffices. *)

@@ -66,9 +66,6 @@ Proof.
     pose proof (L l Hl Da Db Dk) as Z. pose proof (Rle_abs (d * X l)) as W. rewrite Rabs_mult, Ad in W. nra.
 Qed.
 
-Lemma dist2_towards t c x z : dist2 (mix t c x) z = (1 - t) * dist2 c z + t * dist2 x z - t * (1 - t) * dist2 c x.
-Proof. unfold dist2, mix. simpl. ring. Qed.
-
 (* The open disc about c with p k on its circle holds p a and p b alone. It shrinks towards p k; p a is the last to leave. *)
 Lemma last_leaves a b k c t : (a < N)%nat -> (b < N)%nat -> (k < N)%nat -> a <> b -> a <> k -> b <> k ->
   (forall l, (l < N)%nat -> l <> a -> l <> b -> dist c (p k) <= dist c (p l)) ->
@@ -79,7 +76,7 @@ Proof.
   assert (R0 : 0 <= r) by apply dist_nonneg.
   assert (Ek : dist o (p k) = (1 - t) * r) by (unfold o; rewrite dist_mix_right by lra; reflexivity).
   assert (Far : forall l, (l < N)%nat -> l <> a -> l <> b -> l <> k -> dist2 o (p a) < dist2 o (p l)).
-  { intros l L Da Db Dk. rewrite <- (dist_sq o (p a)), Ea. unfold o. rewrite dist2_towards.
+  { intros l L Da Db Dk. rewrite <- (dist_sq o (p a)), Ea. unfold o. rewrite dist2_sym, dist2_mix, !(dist2_sym (p l)).
     rewrite <- (dist_sq c (p k)). fold r. pose proof (H l L Da Db) as X.
     assert (r * r <= dist2 c (p l)) by (rewrite <- dist_sq; nra).
     assert (0 < dist2 (p k) (p l)).
