@@ -62,6 +62,7 @@ def test_everything_is_decided():
             ('12-gon', gon(12), 12, 54), ('100-gon', gon(100), 100, 4850), ('360-gon', gon(360), 360, 64260),
             ('grid, 30 degrees', turned(ROOTS, 'cos(pi/6)', 'sin(pi/6)'), 24, 30),
             ('grid, 3 4 5', turned(ROOTS, '3/5', '4/5'), 24, 30),
+            ('grid, 3 4 5 times roots', turned(ROOTS, '3/5*sqrt(2)', '4/5*sqrt(2)'), 24, 30),
             ('grid, 2 pi / 7', turned(STEPS, 'cos(2*pi/7)', 'sin(2*pi/7)'), 760, 1406),
             ('grid, one radian', turned(STEPS, 'cos(1)', 'sin(1)'), 760, 1406),
             ('circle', on_circle(30), 30, 405),
