@@ -128,7 +128,8 @@ Qed.
 Definition proper (n : nat) : list nat := filter (fun d => Nat.eqb (Nat.modulo n d) 0) (seq 1 n).
 Definition is_prime (p : nat) : bool := Nat.eqb (length (proper p)) 2.
 Definition moebius (n : nat) : Z :=
-  fold_right (fun p s => if is_prime p then (if Nat.eqb (Nat.modulo (Nat.div n p) p) 0 then 0 else - s)%Z else s) 1%Z (proper n).
+  fold_right (fun p s => if is_prime p then (if Nat.eqb (Nat.modulo (Nat.div n p) p) 0 then 0 else - s)%Z else s) 1%Z
+    (proper n).
 Definition totient (n : nat) : nat := length (filter (fun k => Nat.eqb (Nat.gcd k n) 1) (seq 1 n)).
 (* c (1 - x^d), c / (1 - x^d), up to the power x^m; back: the d last ones, the latest first. *)
 Definition shifted (m d : nat) (c : poly) : poly := firstn (S m) (repeat 0%Z d ++ c).

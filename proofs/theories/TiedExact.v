@@ -7,10 +7,10 @@ Open Scope R_scope.
 
 Section Exact.
 Variables (N : nat) (B : sites) (p : nat -> point) (T : list triangle) (H : list (nat * nat)).
-Hypothesis drawn : choice N B p.
-Hypothesis rim : rimmed N B p T H.
-Hypothesis distinct : forall v w, (v < N)%nat -> (w < N)%nat -> v <> w -> p v <> p w.
-Hypothesis points : forall v, face_vertex T H v -> exact (B v) (p v).
+Variable drawn : choice N B p.
+Variable rim : rimmed N B p T H.
+Variable distinct : forall v w, (v < N)%nat -> (w < N)%nat -> v <> w -> p v <> p w.
+Variable points : forall v, face_vertex T H v -> exact (B v) (p v).
 
 Lemma always_good m z : (m < N)%nat -> inside z (B m) -> good p T H z.
 Proof.

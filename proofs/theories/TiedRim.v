@@ -49,7 +49,8 @@ Lemma cap o a b c z : about o a b = 0 -> about o a c = 0 -> 0 < orient a b c -> 
   0 < orient b c z /\ 0 < orient c a z.
 Proof.
   intros Eb Ec D Z P. pose proof (about_barycentric o a b c z Eb Ec) as E. pose proof (orient_sum a b c z) as S.
-  set (x := orient b c z) in *. set (y := orient c a z) in *. set (t := orient a b z) in *. set (d := orient a b c) in *.
+  set (x := orient b c z) in *. set (y := orient c a z) in *. set (t := orient a b z) in *.
+    set (d := orient a b c) in *.
   assert (Q : 0 <= x * y * dist2 a b + y * t * dist2 b c + t * x * dist2 c a).
   { assert (0 <= d * d * - about o a z) by (apply Rmult_le_pos; nra). lra. }
   assert (Pos : forall u v, u <> v -> 0 < dist2 u v)
@@ -103,7 +104,8 @@ Proof.
   assert (Dab : 0 < dist2 a b) by (apply Pos; intros F; unfold orient in D; rewrite F in D; lra).
   assert (Dbc : 0 < dist2 b c) by (apply Pos; intros F; unfold orient in D; rewrite F in D; lra).
   assert (Dca : 0 < dist2 c a) by (apply Pos; intros F; unfold orient in D; rewrite F in D; lra).
-  set (x := orient b c z) in *. set (y := orient c a z) in *. set (t := orient a b z) in *. set (d := orient a b c) in *.
+  set (x := orient b c z) in *. set (y := orient c a z) in *. set (t := orient a b z) in *.
+    set (d := orient a b c) in *.
   assert (G : 0 < x * y * dist2 a b + y * t * dist2 b c + t * x * dist2 c a).
   { assert (Gxy : 0 <= x * y * dist2 a b) by (apply Rmult_le_pos; [now apply Rmult_le_pos | lra]).
     assert (Gyt : 0 <= y * t * dist2 b c) by (apply Rmult_le_pos; [now apply Rmult_le_pos | lra]).
@@ -177,9 +179,9 @@ Definition rimmed (N : nat) (B : sites) (p : nat -> point) (T : list triangle) (
 
 Section Rim.
 Variables (N : nat) (B : sites) (p : nat -> point) (T : list triangle) (H : list (nat * nat)).
-Hypothesis drawn : choice N B p.
-Hypothesis rim : rimmed N B p T H.
-Hypothesis distinct : forall v w, (v < N)%nat -> (w < N)%nat -> v <> w -> p v <> p w.
+Variable drawn : choice N B p.
+Variable rim : rimmed N B p T H.
+Variable distinct : forall v w, (v < N)%nat -> (w < N)%nat -> v <> w -> p v <> p w.
 
 (* Nobody of the choice is in the open disc of a triangle or beyond a hull edge of the face. *)
 Definition good (z : point) : Prop :=
@@ -193,15 +195,16 @@ Lemma corner_of a b c o : In (Tri a b c o) T ->
   face_vertex T H a /\ face_vertex T H b /\ face_vertex T H c /\ In (Tri c a b o) T.
 Proof.
   intros F. destruct rim as [R _]. destruct (R _ _ _ _ F) as [G _]. destruct (R _ _ _ _ G) as [K _].
-  repeat split; [left; now exists (Tri a b c o) | left; now exists (Tri b c a o) | left; now exists (Tri c a b o) | exact K].
+  repeat split; [left; now exists (Tri a b c o) | left; now exists (Tri b c a o) | left;
+    now exists (Tri c a b o) | exact K].
 Qed.
 
 Section Other.
 (* A site that is no vertex of the face, somewhere in its rectangle. *)
 Variables (m : nat) (z : point).
-Hypothesis below : (m < N)%nat.
-Hypothesis foreign : ~ face_vertex T H m.
-Hypothesis place : inside z (B m).
+Variable below : (m < N)%nat.
+Variable foreign : ~ face_vertex T H m.
+Variable place : inside z (B m).
 
 (* A legal edge of the face: a circle through its ends has z outside, and the other vertices. *)
 Lemma legal_disc a b : face_vertex T H a -> face_vertex T H b -> (a < N)%nat -> (b < N)%nat -> legal N B a b ->
@@ -214,11 +217,12 @@ Proof.
   rewrite !set_other in Eq by assumption. exists w. unfold about. split; [apply dist_eq in Eq; lra |]. split.
   - pose proof (Out m below (not_eq_sym Da) (not_eq_sym Db)) as X. rewrite set_same, set_other in X by assumption.
     apply dist_lt in X. lra.
-  - intros c Lc Ca Cb Cm. pose proof (Out c Lc Ca Cb) as X. rewrite !set_other in X by assumption. apply dist_lt in X. lra.
+  - intros c Lc Ca Cb Cm. pose proof (Out c Lc Ca Cb) as X. rewrite !set_other in X by assumption. apply dist_lt in X.
+      lra.
 Qed.
 
 (* The point is at no vertex, either. *)
-Hypothesis away : forall v, face_vertex T H v -> z <> p v.
+Variable away : forall v, face_vertex T H v -> z <> p v.
 
 (* In a disc of the face: in one of its triangles, or beyond its hull. *)
 Lemma walk_in M : M < 0 -> (forall t, In t T -> M <= about (centre t) (p (ta t)) z) ->
@@ -257,7 +261,8 @@ Proof.
       apply Rle_antisym; [| exact K0]. apply Rnot_lt_le. intros C.
       assert (k * orient (p a) (p b) z < 0) by nra. lra. }
     assert (Same : forall x, about w (p a) x = about o (p a) x) by (intros x; rewrite K, Kz; ring).
-    assert (Same_l : forall x, about w (p l) x = about o (p a) x) by (intros x; rewrite <- Same; unfold about in *; lra).
+    assert (Same_l : forall x, about w (p l) x = about o (p a) x) by (intros x; rewrite <- Same; unfold about in *;
+      lra).
     assert (At_l : In l (map ta T)) by (change l with (ta (Tri l b a w)); now apply in_map).
     assert (Inner : forall x, about o (p a) x <= 0 ->
       orient (p a) (p l) x < 0 \/ orient (p l) (p b) x < 0 -> orient (p a) (p b) x < 0).
@@ -267,7 +272,8 @@ Proof.
         unfold orient in *. lra.
       - assert (C : 0 < orient (p b) (p a) x); [| unfold orient in *; lra].
         apply (cap w (p l) (p b) (p a) x); rewrite ?Same_l; try assumption; try (unfold about, orient in *; lra). }
-    assert (Fewer : forall u v, (forall x, about o (p a) x <= 0 -> orient (p u) (p v) x < 0 -> orient (p a) (p b) x < 0) ->
+    assert (Fewer : forall u v, (forall x, about o (p a) x <= 0 -> orient (p u) (p v) x < 0 ->
+      orient (p a) (p b) x < 0) ->
       orient (p u) (p v) (p l) = 0 -> (forall x, about w (p u) x = about o (p a) x) ->
       (length (filter (fun x => if Rlt_dec (orient (p u) (p v) (p x)) 0 then
         if Rle_dec (about w (p u) (p x)) 0 then true else false else false) (map ta T)) < n)%nat).
@@ -294,7 +300,8 @@ Proof.
   - right. exists (a, b). now split.
 Qed.
 
-Lemma in_disc : ~ good z -> (exists t, In t T /\ within t z) \/ exists e, In e H /\ orient (p (fst e)) (p (snd e)) z < 0.
+Lemma in_disc : ~ good z -> (exists t, In t T /\ within t z) \/ exists e,
+  In e H /\ orient (p (fst e)) (p (snd e)) z < 0.
 Proof.
   intros Bad. destruct (classic (exists e, In e H /\ orient (p (fst e)) (p (snd e)) z < 0)) as [Q | Q]; [now right |].
   destruct (classic (exists t, In t T /\ about (centre t) (p (ta t)) z < 0)) as [[t [F L]] | C].
@@ -433,7 +440,8 @@ Proof.
       (fst (p a) - fst (p b), snd (p a) - snd (p b)) _ (Nat.lt_succ_diag_r _)).
     + intros y x K. apply in_map_iff in K as [[x' y'] [E K]]. simpl in E. injection E as -> ->.
       destruct (proj2 rim _ _ K) as [[Lx [Ly Dxy]] [Left [[k [Lk Ok]] [S [Sx _]]]]]. destruct (Vert x y K) as [Vx Vy].
-      split; [now apply not_eq_sym, Away |]. split; [pose proof (proj2 G _ K) as Q; simpl in Q; unfold orient in *; lra |].
+      split; [now apply not_eq_sym, Away |]. split; [pose proof (proj2 G _ K) as Q; simpl in Q; unfold orient in *;
+        lra |].
       split; [| split; [| split]].
       * intros c C. apply in_map_iff in C as [[c' x'] [E C]]. simpl in E. injection E as -> ->.
         destruct (proj2 rim _ _ C) as [[Lc _] _]. specialize (Left c Lc). unfold orient in *. lra.
@@ -467,16 +475,17 @@ Proof.
   apply (in_triangle o (p a) (p b) (p c)); try assumption; now apply Aw.
 Qed.
 
-(* A vertex v that a point reaches has no legal edge: the triangles at it, and what is beyond the hull, are all round. *)
+(* A vertex v that a point reaches has no legal edge: the triangles at it, and what is beyond the hull, are all round.
+  *)
 Section Reached.
 Variables (m v : nat) (y : point).
-Hypothesis below : (m < N)%nat.
-Hypothesis foreign : ~ face_vertex T H m.
-Hypothesis place : inside (p v) (B m).
-Hypothesis vertex : face_vertex T H v.
-Hypothesis beside : y <> p v.
-Hypothesis fine : good y.
-Hypothesis close : forall a b o, In (Tri v a b o) T -> 0 < orient (p a) (p b) y.
+Variable below : (m < N)%nat.
+Variable foreign : ~ face_vertex T H m.
+Variable place : inside (p v) (B m).
+Variable vertex : face_vertex T H v.
+Variable beside : y <> p v.
+Variable fine : good y.
+Variable close : forall a b o, In (Tri v a b o) T -> 0 < orient (p a) (p b) y.
 
 Lemma no_legal a : face_vertex T H a -> (a < N)%nat -> (v < N)%nat -> ~ legal N B v a /\ ~ legal N B a v.
 Proof.
@@ -556,7 +565,8 @@ Proof.
     destruct (proj1 rim _ _ _ _ F) as [_ [_ [[_ [_ O]] _]]]. pose proof (not_on_ray a b o F A) as P.
     pose proof (turned a b) as E. pose proof far as Y. rewrite A in E.
     assert (0 < orient (p v) (p a) (p b) * dist2 y (p v)) by (now apply Rmult_lt_0_compat).
-    assert (C : 0 < cross b) by (apply Rnot_le_lt; intros C; assert (0 <= - ahead a * - cross b) by (apply Rmult_le_pos; lra); nra).
+    assert (C : 0 < cross b) by (apply Rnot_le_lt; intros C;
+      assert (0 <= - ahead a * - cross b) by (apply Rmult_le_pos; lra); nra).
     destruct (counterclockwise a b o F) as [[l [w G]] | G].
     - specialize (All b l w G). lra.
     - pose proof (proj2 fine _ G) as K. simpl in K. unfold cross, orient in *. lra. }
@@ -565,7 +575,8 @@ Proof.
   - destruct (proj1 rim _ _ _ _ G) as [_ [_ [[_ [_ O]] _]]]. pose proof (turned l a) as E. pose proof far as Y.
     assert (Pr : 0 < orient (p v) (p l) (p a) * dist2 y (p v)) by (now apply Rmult_lt_0_compat). rewrite E in Pr.
     pose proof (All l a w G) as L. destruct (Req_dec (cross l) 0) as [Z | Z].
-    + rewrite Z in Pr. pose proof (not_on_ray l a w G Z). assert (0 <= - ahead l * - cross a) by (apply Rmult_le_pos; lra). lra.
+    + rewrite Z in Pr. pose proof (not_on_ray l a w G Z). assert (0 <= - ahead l * - cross a) by (apply Rmult_le_pos;
+      lra). lra.
     + specialize (M (Tri v l a w) G ltac:(split; simpl; [reflexivity | lra])). simpl in M.
       assert (K : 0 < cross l * cross a) by nra.
       assert (D : ahead a / cross a - ahead l / cross l = (cross l * ahead a - ahead l * cross a) / (cross l * cross a))
@@ -603,9 +614,9 @@ Proof. unfold dist2, mix. simpl. reg. Qed.
 
 Section Motion.
 Variables (m : nat) (z : point).
-Hypothesis below : (m < N)%nat.
-Hypothesis foreign : ~ face_vertex T H m.
-Hypothesis place : inside z (B m).
+Variable below : (m < N)%nat.
+Variable foreign : ~ face_vertex T H m.
+Variable place : inside z (B m).
 Let x t := mix t (p m) z.
 Let sound t := good (x t) /\ forall v, face_vertex T H v -> x t <> p v.
 
