@@ -3,12 +3,14 @@
  *
  * The edge dual to a legal pair ij ends on each side at the vertex of the sure triangle there; or at that of a polygon
  * whose sites are on one circle, since its sides are legal and others are not between them; or somewhere in the region
- * of an undecided face; or, for pairs that are hull edges for every choice, it is a ray: with all other points to the
- * left of the way from i to j, it goes to infinity along (y_j - y_i, x_i - x_j). */
+ * of an undecided face; or it is a ray: with all other points to the left of the way from i to j, or on it, it goes to
+ * infinity along (y_j - y_i, x_i - x_j). So it is for pairs that are hull edges for every choice, for neighbours in a
+ * chain of sites on one line that is a tie, whose sites have all others on one side [CLO-2] [TIE-3], and on both sides
+ * where all sites are on one line. */
 #include "io/dual.h"
 
 #include "base/alloc.h"
-#include "delaunay/state.h"
+#include "delaunay/undecided.h"
 #include <math.h>
 
 static int dual_compare(const void *a, const void *b) {
@@ -36,18 +38,6 @@ static int tied_compare(const void *a, const void *b) {
   return (*f > *g) - (*f < *g);
 }
 
-/* Ends that are in no triangle may be in a tied polygon. first: the number of its first vertex. */
-static void dual_join_ties(dyd_dual_edge *e, const dyd_delaunay *pd, const size_t *tied, size_t ties, size_t first) {
-  uint32_t v[2] = {pd->sk.vertex[e->i], pd->sk.vertex[e->j]};
-  for (int end = 0; end < 2; end++) {
-    if (e->end[end].kind != DYD_DUAL_OPEN) continue;
-    dyd_half_edge h = dyd_find_edge(&pd->sk, v[end], v[1 - end]);
-    size_t face = h == DYD_NONE ? DYD_NONE : dyd_face_of(pd, dyd_edge_triangle(h));
-    const size_t *found = bsearch(&face, tied, ties, sizeof *tied, tied_compare);
-    if (found) e->end[end] = (dyd_dual_end){.kind = DYD_DUAL_VERTEX, .vertex = first + (size_t)(found - tied)};
-  }
-}
-
 /* Bounds of sign * (b - a) along an axis: an operation in doubles, then one step outward. */
 static void dual_difference(double out[2], const double a[2], const double b[2], int sign) {
   double lo = sign > 0 ? b[0] - a[1] : a[0] - b[1], hi = sign > 0 ? b[1] - a[0] : a[1] - b[0];
@@ -55,20 +45,46 @@ static void dual_difference(double out[2], const double a[2], const double b[2],
   out[1] = nextafter(hi, INFINITY);
 }
 
-/* All other points are on the left of i to j: the ray is on the right, end[1]; else the other way round. */
-static void dual_set_ray(dyd_dual_edge *e, const dyd_delaunay *pd) {
+/* right: 1 where all other points are on the left of i to j, so that the ray is end[1]; else 0, the other way round. */
+static void dual_set_ray(dyd_dual_edge *e, const dyd_delaunay *pd, int right) {
   double a[4], b[4];
   dyd_sites_get_d(a, dyd_delaunay_sites(pd), e->i);
   dyd_sites_get_d(b, dyd_delaunay_sites(pd), e->j);
-  int right = e->end[0].kind == DYD_DUAL_VERTEX ? 1 : 0;
   dyd_dual_end *end = &e->end[right];
   end->kind = DYD_DUAL_RAY;
   dual_difference(end->direction, a + 2, b + 2, right ? 1 : -1);
   dual_difference(end->direction + 2, a, b, right ? -1 : 1);
 }
 
-/* A sure hull edge with a vertex on one side has its ray on the other. Where both sides are open, or all points are
- * collinear, nothing is said. */
+/* first: the number of the vertex of the first tied polygon. */
+typedef struct dual_ties {
+  const size_t *tied;
+  size_t count, first;
+} dual_ties;
+
+/* An end that is in no triangle may be in a tied polygon, or beyond a tied chain of the hull. */
+static void dual_join_tie(dyd_dual_edge *e, int end, const dyd_delaunay *pd, const dual_ties *ties) {
+  uint32_t v[2] = {pd->sk.vertex[e->i], pd->sk.vertex[e->j]};
+  dyd_half_edge h = dyd_find_edge(&pd->sk, v[end], v[1 - end]);
+  size_t face = h == DYD_NONE ? DYD_NONE : dyd_face_of(pd, dyd_edge_triangle(h));
+  const size_t *found = bsearch(&face, ties->tied, ties->count, sizeof face, tied_compare);
+  if (found)
+    e->end[end] = (dyd_dual_end){.kind = DYD_DUAL_VERTEX, .vertex = ties->first + (size_t)(found - ties->tied)};
+  else if (face != DYD_NONE && dyd_open_is_outer(pd, face) && dyd_open_status_of(pd, face) == DYD_TIE)
+    dual_set_ray(e, pd, end);
+}
+
+static void dual_join_ties(dyd_dual_edge *e, const dyd_delaunay *pd, const dual_ties *ties) {
+  for (int end = 0; end < 2; end++) {
+    if (e->end[end].kind != DYD_DUAL_OPEN) continue;
+    if (pd->open.kind == DYD_LINE)
+      dual_set_ray(e, pd, end);
+    else if (pd->open.count)
+      dual_join_tie(e, end, pd, ties);
+  }
+}
+
+/* A sure hull edge with a vertex on one side has its ray on the other. Where both sides are open, nothing is said. */
 static dyd_status dual_join_rays(dyd_dual_edge *edge, size_t count, const dyd_delaunay *pd) {
   dyd_hull hull = {0};
   dyd_status st = dyd_delaunay_partial_hull(&hull, pd);
@@ -76,7 +92,8 @@ static dyd_status dual_join_rays(dyd_dual_edge *edge, size_t count, const dyd_de
   for (size_t k = 0; st == DYD_OK && k < hull.pairs.count; k++) {
     if (hull.pairs.item[k].status != DYD_LEGAL) continue;
     dyd_dual_edge *e = dual_find(edge, count, hull.pairs.item[k].i, hull.pairs.item[k].j);
-    if (e && (e->end[0].kind == DYD_DUAL_VERTEX) != (e->end[1].kind == DYD_DUAL_VERTEX)) dual_set_ray(e, pd);
+    if (e && (e->end[0].kind == DYD_DUAL_VERTEX) != (e->end[1].kind == DYD_DUAL_VERTEX))
+      dual_set_ray(e, pd, e->end[0].kind == DYD_DUAL_VERTEX);
   }
   dyd_hull_clear(&hull);
   return st;
@@ -97,7 +114,8 @@ dyd_status dyd_dual_edges(dyd_dual_edge **out, size_t *count, const dyd_delaunay
   dyd_pair_list_clear(&pairs);
   if (st == DYD_OK) {
     dual_join_triangles(edge, legal, triangles);
-    for (size_t k = 0; ties && k < legal; k++) dual_join_ties(&edge[k], pd, tied, ties, triangles->count);
+    const dual_ties all = {.tied = tied, .count = ties, .first = triangles->count};
+    for (size_t k = 0; k < legal; k++) dual_join_ties(&edge[k], pd, &all);
     st = dual_join_rays(edge, legal, pd);
   }
   if (st != DYD_OK) {

@@ -8,7 +8,7 @@
 typedef enum dyd_dual_kind {
   DYD_DUAL_OPEN = 0, /* ends in the region of an undecided face */
   DYD_DUAL_VERTEX,   /* at the vertex of a sure triangle, or of a tied face */
-  DYD_DUAL_RAY       /* unbounded, for every choice */
+  DYD_DUAL_RAY       /* unbounded, for every choice; beyond a tied chain, for the true points */
 } dyd_dual_kind;
 
 typedef struct dyd_dual_end {

@@ -4,7 +4,9 @@
 
 Usage: test_ties.py COMMAND DATA
 """
+import itertools
 import json
+import math
 import os
 import tempfile
 from fractions import Fraction
@@ -60,6 +62,7 @@ def test_everything_is_decided():
             ('12-gon', gon(12), 12, 54), ('100-gon', gon(100), 100, 4850), ('360-gon', gon(360), 360, 64260),
             ('grid, 30 degrees', turned(ROOTS, 'cos(pi/6)', 'sin(pi/6)'), 24, 30),
             ('grid, 3 4 5', turned(ROOTS, '3/5', '4/5'), 24, 30),
+            ('grid, 3 4 5 times roots', turned(ROOTS, '3/5*sqrt(2)', '4/5*sqrt(2)'), 24, 30),
             ('grid, 2 pi / 7', turned(STEPS, 'cos(2*pi/7)', 'sin(2*pi/7)'), 760, 1406),
             ('grid, one radian', turned(STEPS, 'cos(1)', 'sin(1)'), 760, 1406),
             ('circle', on_circle(30), 30, 405),
@@ -170,6 +173,44 @@ def test_edges_of_grids():
             assert all({edge['i'], edge['j']} <= set(data['vertices'][k]['sites']) for k in ends) and ends, edge
             both += len(set(ends)) == 2
         assert both == 2 * (n - 1) * (n - 2), both
+
+
+def check_rays(places, typed, true):
+    """An edge of the diagram goes to infinity on a side of i to j where no other point is, straight away from the line
+    ij, and ends in a vertex on others. places: of the points, exactly; true: where a vector between them is turned to."""
+    data = json.loads(run('voronoi', '--format', 'json', '-', stdin=text(typed)).out)
+    for edge in data['edges']:
+        (ax, ay), (bx, by) = places[edge['i']], places[edge['j']]
+        turns = [(bx - ax) * (y - ay) - (by - ay) * (x - ax) for x, y in places]
+        for side, end in ((1, edge['from']), (-1, edge['to'])):
+            if any(side * t > 0 for t in turns):
+                assert isinstance(end, int), (typed, edge)
+                continue
+            for axis, value in zip('xy', true(side * (ay - by), side * (bx - ax))):
+                low, high = end['ray'][axis]
+                assert low <= value + 1e-9 and value - 1e-9 <= high and high - low < 1e-9, (typed, edge)
+    return len(data['edges'])
+
+
+def test_rays():
+    """Beyond tied chains of the hull, too: all sets of 2, 3 and 4 points of a grid, exact and turned, and larger ones."""
+    c, s = math.cos(1), math.sin(1)
+    seen = 0
+    for n in (2, 3, 4):
+        for k, places in enumerate(itertools.combinations(itertools.product(range(3), repeat=2), n)):
+            seen += check_rays(places, places, lambda x, y: (x, y))
+            if k % 5 == 0:
+                typed = [(f'{x}*cos(1)-{y}*sin(1)', f'{x}*sin(1)+{y}*cos(1)') for x, y in places]
+                seen += check_rays(places, typed, lambda x, y: (c * x - s * y, s * x + c * y))
+    assert seen > 800, seen
+    grid = [(x, y) for x in (2, 3, 5, 7) for y in (2, 3, 5, 7)]
+    typed = turned([f'{k}*sqrt(3)' for k in (2, 3, 5, 7)], '3/5', '4/5')
+    assert check_rays(grid, typed, lambda x, y: (3**.5 * (.6 * x - .8 * y), 3**.5 * (.8 * x + .6 * y))) == 24
+    line = [(f'sqrt({k})', f'2*sqrt({k})+1') for k in range(2, 12)]
+    for more, rays in (([], 18), ([('5', '0')], 11)):
+        result = run('voronoi', '--layer', 'edges', '-', stdin=text(line + more))
+        expect(result, 3)
+        assert 'open' not in result.out and result.out.count('ray') == rays, result.out
 
 
 def test_traces():

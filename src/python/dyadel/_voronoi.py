@@ -79,7 +79,7 @@ class Voronoi:
 
     @property
     def edges(self) -> list[dict[str, Any]]:
-        """i, j and the vertices `from`, `to` (numbers in `vertices`, None: open or a ray) of each sure edge."""
+        """i, j and the ends `from`, `to` of each sure edge: numbers in `vertices`, {'ray': bounds of a direction}, None: open."""
         edges: list[dict[str, Any]] = self.data['edges']
         return edges
 
