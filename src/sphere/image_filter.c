@@ -13,6 +13,7 @@
 #define MORE_THAN_DEGREE 0.0175
 #define TURN_ERROR 0x1p-50
 #define MOST_DEGREES 720.0
+#define LEAST 0x1p-64
 
 /* sin t = t + t z g, cos t = 1 - z h: the coefficients, highest first. */
 static const double sine[] = {1. / 355687428096000,  -1. / 1307674368000, 1. / 6227020800, -1. / 39916800, 1. / 362880,
@@ -43,8 +44,11 @@ static bool turn_set(dyd_iv *s, dyd_iv *c, dyd_iv x) {
   return true;
 }
 
-static bool span_is_narrow(dyd_iv x, double most) {
-  return x.lo <= x.hi && x.hi - x.lo <= most;
+/* Ends move outward by up to LEAST, so that none is next to 0, where exact arithmetic on doubles is slow. */
+static bool span_give(double out[2], dyd_iv x, double most) {
+  out[0] = x.lo - LEAST;
+  out[1] = x.hi + LEAST;
+  return out[0] < out[1] && out[1] - out[0] <= most;
 }
 
 bool dyd_filter_image(double box[4], const double place[4], const dyd_eye_d *eye, int64_t bits) {
@@ -56,7 +60,7 @@ bool dyd_filter_image(double box[4], const double place[4], const dyd_eye_d *eye
   dyd_iv D = dyd_iv_add(dyd_iv_sqr(su), dyd_iv_mul(eye->cos, across));
   dyd_iv x = dyd_iv_div(dyd_iv_mul(cf, dyd_iv_mul(sw, cw)), D);
   dyd_iv y = dyd_iv_div(dyd_iv_add(dyd_iv_mul(su, cu), dyd_iv_mul(eye->sin, across)), D);
-  box[0] = x.lo, box[1] = x.hi, box[2] = y.lo, box[3] = y.hi;
-  double most = bits >= 0 && bits <= MOST_BITS ? ldexp(1, -(int)bits - 1) : 0;
-  return span_is_narrow(x, most) && span_is_narrow(y, most);
+  double scale = 1 + x.lo * x.lo + y.lo * y.lo;
+  double most = bits >= 0 && bits <= MOST_BITS ? ldexp(scale, -(int)bits - 1) : 0;
+  return span_give(box, x, most) && span_give(box + 2, y, most);
 }

@@ -162,19 +162,30 @@ static void set_corner(dyd_spot *out, const double p[4], int corner) {
   set_spot(out, &(spot_case){p[corner & 1], p[2 + corner / 2], {0, 0}});
 }
 
+static bool is_between(const arb_t x, const double end[2]) {
+  arb_t side;
+  arb_init(side);
+  arb_set_d(side, end[0]);
+  bool good = arb_le(side, x);
+  arb_set_d(side, end[1]);
+  good = good && arb_ge(side, x);
+  arb_clear(side);
+  return good;
+}
+
 /* The image of every corner of a narrow box is in what doubles say, and that is narrow where the place is far. */
 static void test_doubles(void **state) {
   test_random r;
   dyd_spot spot;
   dyd_eye eye;
-  arb_t x, y, box[2];
+  arb_t x, y;
   mpq_t none;
   size_t seen = 0, fine = 0;
   (void)state;
   r = test_random_start("images in doubles");
   dyd_spot_init(&spot);
   dyd_eye_init(&eye);
-  arb_init(x), arb_init(y), arb_init(box[0]), arb_init(box[1]);
+  arb_init(x), arb_init(y);
   mpq_init(none);
   for (int k = 0; k < 20000; k++) {
     double q[4], p[4], got[4];
@@ -188,22 +199,18 @@ static void test_doubles(void **state) {
     for (int corner = 0; corner < 4 && known; corner++) {
       set_corner(&spot, p, corner);
       assert_true(dyd_project(x, y, &spot, none, &eye, 200));
-      for (int a = 0; a < 2; a++) {
-        arf_set_d(arb_midref(box[a]), got[2 * a] / 2 + got[2 * a + 1] / 2);
-        mag_set_d(arb_radref(box[a]), (got[2 * a + 1] - got[2 * a]) / 2 * (1 + 0x1p-20));
-      }
-      assert_true(arb_contains(box[0], x) && arb_contains(box[1], y));
+      assert_true(is_between(x, got) && is_between(y, got + 2));
     }
     seen += known;
     double far = known ? hypot(got[0], got[2]) : HUGE_VAL;
-    if (far > 8) continue;
+    if (far > 200) continue;
     fine++;
     assert_true(dyd_filter_image(got, p, &in_doubles, 40));
-    assert_true(got[1] - got[0] <= 0x1p-41 && got[3] - got[2] <= 0x1p-41);
+    assert_true(fmax(got[1] - got[0], got[3] - got[2]) <= 0x1p-41 * (1 + 1e-3) * (1 + far * far));
   }
   assert_true(seen > 10000 && fine > 5000);
   mpq_clear(none);
-  arb_clear(box[1]), arb_clear(box[0]), arb_clear(y), arb_clear(x);
+  arb_clear(y), arb_clear(x);
   dyd_eye_clear(&eye);
   dyd_spot_clear(&spot);
 }
