@@ -63,21 +63,20 @@ bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t
   return p->usable && l->jj > 0x1p-400 && l->jj < 0x1p400 && l->ejj < 0x1p-40 * l->jj;
 }
 
-bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *at, uint32_t k) {
-  uint32_t c = l->count;
-  if (c == DYD_LINES_D) return false;
-  dyd_xy p = lines_point_difference(at, k, l->i), q = lines_point_difference(at, k, l->j);
-  l->vertex[c] = k;
-  l->px[c] = p.x;
-  l->py[c] = p.y;
-  l->qx[c] = q.x;
-  l->qy[c] = q.y;
-  l->m[c] = p.x * q.x + p.y * q.y;
-  l->n[c] = p.y * l->jx - p.x * l->jy;
-  double far = fabs(p.x) + fabs(p.y) + fabs(q.x) + fabs(q.y);
-  l->span = dyd_max(far, l->span);
-  l->count++;
-  return true;
+void dyd_filter_lines(dyd_lines_d *l, const dyd_points_d *at, uint32_t from) {
+  const dyd_points_d here = *at;
+  double span = l->span;
+  for (uint32_t c = from; c < l->count; c++) {
+    dyd_xy p = lines_point_difference(&here, l->vertex[c], l->i), q = lines_point_difference(&here, l->vertex[c], l->j);
+    l->px[c] = p.x;
+    l->py[c] = p.y;
+    l->qx[c] = q.x;
+    l->qy[c] = q.y;
+    l->m[c] = p.x * q.x + p.y * q.y;
+    l->n[c] = p.y * l->jx - p.x * l->jy;
+    span = dyd_max(fabs(p.x) + fabs(p.y) + fabs(q.x) + fabs(q.y), span);
+  }
+  l->span = span;
 }
 
 dyd_line_d dyd_filter_line(const dyd_lines_d *l, const dyd_points_d *at, uint32_t k) {
@@ -167,21 +166,26 @@ typedef struct climb_d {
   enum { ANYWHERE, CROSSING, SUMMIT, END } kind;
 } climb_d;
 
-/* The last of each side: apexes come last. */
+/* Where the first of each side cross; most often that is what is sought. */
 static void begin_d(climb_d *c) {
-  uint32_t left = DYD_NONE, right = DYD_NONE;
-  for (uint32_t k = 0; k < c->l->count; k++) {
-    left = c->l->n[k] > 0 ? k : left;
-    right = c->l->n[k] < 0 ? k : right;
-  }
+  const dyd_lines_d *l = c->l;
+  uint32_t left = 0, right = 0;
+  while (left < l->count && !(l->n[left] > 0)) left++;
+  while (right < l->count && !(l->n[right] < 0)) right++;
   c->kind = ANYWHERE;
   c->has_rising = c->has_falling = false;
   c->at = (place_d){0, 0, 0};
-  if (left != DYD_NONE && right != DYD_NONE) {
-    dyd_line_d a = dyd_filter_line(c->l, c->points, left), b = dyd_filter_line(c->l, c->points, right);
-    cross_d(&c->at, &a, &b);
-  } else if (left != right) {
-    c->at.end = left != DYD_NONE ? -1 : 1;
+  if (left < l->count && right < l->count) {
+    dyd_line_d a = dyd_filter_line(l, c->points, left), b = dyd_filter_line(l, c->points, right);
+    if (!cross_d(&c->at, &a, &b)) return;
+    int up = trend_d(l, &a, &c->at), down = trend_d(l, &b, &c->at);
+    if (up * down != -1) return;
+    c->rising = up > 0 ? a : b;
+    c->falling = up > 0 ? b : a;
+    c->has_rising = c->has_falling = true;
+    c->kind = CROSSING;
+  } else if (left < l->count || right < l->count) {
+    c->at.end = left < l->count ? -1 : 1;
   }
 }
 

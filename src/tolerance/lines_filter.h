@@ -40,10 +40,10 @@ typedef struct dyd_death_d {
 
 /* false: doubles cannot hold the pair well. */
 bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t j);
-/* Adds a line; false: there is no room. */
-bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *p, uint32_t k);
+/* Works out the lines of vertex[from .. count-1], which the caller has named. */
+void dyd_filter_lines(dyd_lines_d *l, const dyd_points_d *p, uint32_t from);
 dyd_line_d dyd_filter_line(const dyd_lines_d *l, const dyd_points_d *p, uint32_t number);
-/* The death of a strictly Delaunay pair with these others; false: not sure. `box` (may be NULL) gets a box around the
+/* The death of a strictly Delaunay pair with these others, apexes first if they are known; false: not sure. `box` (may be NULL) gets a box around the
  * centre, *radius2 an upper bound of its squared distance to the sites that bind; infinite for a half-plane. */
 bool dyd_filter_death(dyd_death_d *out, double box[4], double *radius2, const dyd_points_d *p, const dyd_lines_d *l);
 

@@ -52,8 +52,9 @@ static void keep_least(double *radius, double r) {
 static void look_at(radius_pass *p, uint32_t k) {
   dyd_lines_d *l = &p->t->small;
   if (k == l->i || k == l->j) return;
-  l->count = 0;
-  dyd_filter_add(l, &p->t->points, k);
+  l->count = 1;
+  l->vertex[0] = k;
+  dyd_filter_lines(l, &p->t->points, 0);
   dyd_line_d line = dyd_filter_line(l, &p->t->points, 0);
   keep_least(&p->radius[k], gap_of(l, &line, p->ring) - p->ring->half);
 }
