@@ -38,17 +38,19 @@ static dyd_status death_by_integers(dyd_tolerance *t, uint32_t v, uint32_t w) {
 static void name_others_d(dyd_lines_d *l, const dyd_tolerance *t, dyd_half_edge h) {
   const dyd_mesh *m = &t->sk->mesh;
   uint32_t apex[2] = {dyd_edge_apex(m, h), dyd_edge_across(m, h)}, end[2] = {l->i, l->j};
+  uint32_t count = 0;
   bool one = has_hub(t, l->i, l->j), done = false;
   for (int k = 0; k < 2; k++)
-    if (apex[k] != m->n) l->vertex[l->count++] = apex[k];
+    if (apex[k] != m->n) l->vertex[count++] = apex[k];
   for (int k = 0; k < 2 && !(one && done); k++) {
     if (dyd_degree(t, end[k]) > DYD_HUB) continue;
     done = true;
-    for (uint32_t q = t->start[end[k]]; q < t->start[end[k] + 1]; q++) {
-      uint32_t v = l->vertex[l->count] = t->near[q];
-      l->count += v != end[!k] && v != apex[0] && v != apex[1] && v != m->n;
+    for (const uint32_t *q = t->near + t->start[end[k]], *last = t->near + t->start[end[k] + 1]; q < last; q++) {
+      uint32_t v = l->vertex[count] = *q;
+      count += (v != end[!k]) & (v != apex[0]) & (v != apex[1]) & (v != m->n);
     }
   }
+  l->count = count;
 }
 
 /* For the tree: is there anybody whom the lines do not know? */
