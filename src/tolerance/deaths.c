@@ -33,24 +33,15 @@ static dyd_status death_by_integers(dyd_tolerance *t, uint32_t v, uint32_t w) {
 
 /* ---- in doubles ---- */
 
-/* Names the apexes of h, then the neighbours of both ends, each once; with a hub, those of one end that is none: there
- * is room. */
-static void name_others_d(dyd_lines_d *l, const dyd_tolerance *t, dyd_half_edge h) {
-  const dyd_mesh *m = &t->sk->mesh;
-  uint32_t apex[2] = {dyd_edge_apex(m, h), dyd_edge_across(m, h)}, end[2] = {l->i, l->j};
-  uint32_t count = 0;
-  bool one = has_hub(t, l->i, l->j), done = false;
+static void name_apexes_d(dyd_lines_d *l, const dyd_mesh *m, dyd_half_edge h) {
+  const uint32_t apex[2] = {dyd_edge_apex(m, h), dyd_edge_across(m, h)};
+  l->count = 0;
   for (int k = 0; k < 2; k++)
-    if (apex[k] != m->n) l->vertex[count++] = apex[k];
-  for (int k = 0; k < 2 && !(one && done); k++) {
-    if (dyd_degree(t, end[k]) > DYD_HUB) continue;
-    done = true;
-    for (const uint32_t *q = t->near + t->start[end[k]], *last = t->near + t->start[end[k] + 1]; q < last; q++) {
-      uint32_t v = l->vertex[count] = *q;
-      count += (v != end[!k]) & (v != apex[0]) & (v != apex[1]) & (v != m->n);
-    }
-  }
-  l->count = count;
+    if (apex[k] != m->n) l->vertex[l->count++] = apex[k];
+}
+
+static dyd_around around_d(const dyd_tolerance *t, uint32_t v) {
+  return (dyd_around){t->near + t->start[v], t->near + t->start[v + 1]};
 }
 
 /* For the tree: is there anybody whom the lines do not know? */
@@ -67,16 +58,19 @@ static bool meet_stranger(void *context, uint32_t v) {
   return !s->found;
 }
 
-/* An end that is a hub: lines of the other end's neighbours, and nobody else within the disc. */
-static dyd_status hub_in_doubles(bool *sure, dyd_death_d *d, dyd_tolerance *t, dyd_half_edge h) {
-  const dyd_mesh *m = &t->sk->mesh;
+/* An end that is a hub: lines of one end's neighbours that is none, and nobody else within the disc. */
+static dyd_status hub_in_doubles(bool *sure, dyd_death_d *d, dyd_tolerance *t) {
+  dyd_lines_d *l = &t->small;
+  uint32_t end = dyd_degree(t, l->i) <= DYD_HUB ? l->i : l->j;
+  dyd_around near[2] = {{NULL, NULL}, {NULL, NULL}};
   dyd_bbox c;
   double radius2;
   dyd_status st = dyd_near_index(t);
-  *sure = false;
-  if (st != DYD_OK || dyd_edge_apex(m, h) == m->n || dyd_edge_across(m, h) == m->n) return st;
-  if (!dyd_filter_death(d, c.e, &radius2, &t->points, &t->small) || !(radius2 < 1e300)) return st;
-  stranger s = {&t->small, false};
+  if (st != DYD_OK || l->count < 2) return st;
+  if (dyd_degree(t, end) <= DYD_HUB) near[0] = around_d(t, end);
+  dyd_filter_others(l, &t->points, near, t->sk->mesh.n);
+  if (!dyd_filter_death(d, c.e, &radius2, &t->points, l) || !(radius2 < 1e300)) return st;
+  stranger s = {l, false};
   dyd_tree_near(&t->tree, &c, &radius2, meet_stranger, &s);
   *sure = !s.found;
   return st;
@@ -85,16 +79,16 @@ static dyd_status hub_in_doubles(bool *sure, dyd_death_d *d, dyd_tolerance *t, d
 static dyd_status death_of_edge(dyd_tolerance *t, dyd_half_edge h) {
   uint32_t v = dyd_edge_origin(&t->sk->mesh, h), w = dyd_edge_target(&t->sk->mesh, h);
   dyd_death_d d;
-  double radius2;
   bool sure = false;
   dyd_status st = DYD_OK;
   if (!t->options.no_filter && dyd_filter_pair(&t->small, &t->points, v, w)) {
-    name_others_d(&t->small, t, h);
+    name_apexes_d(&t->small, &t->sk->mesh, h);
     dyd_filter_lines(&t->small, &t->points, 0);
+    const dyd_around near[2] = {around_d(t, v), around_d(t, w)};
     if (has_hub(t, v, w))
-      st = hub_in_doubles(&sure, &d, t, h);
+      st = hub_in_doubles(&sure, &d, t);
     else
-      sure = dyd_filter_death(&d, NULL, &radius2, &t->points, &t->small);
+      sure = dyd_filter_edge_death(&d, &t->points, &t->small, near, t->sk->mesh.n);
   }
   if (st != DYD_OK) return st;
   if (!sure) return death_by_integers(t, v, w);
