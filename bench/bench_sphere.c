@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Rows over the sphere: uniform points, and airports, beside the same degrees as a plane; all crossings of parallels and
- * meridians, which are ties. */
+/* Rows over the sphere: uniform points, and airports, beside the same degrees as a plane; all crossings of parallels
+ * and meridians, which are ties. */
 #include "answers.h"
 #include "cloud.h"
 #include "harness.h"
@@ -81,8 +81,8 @@ static void row_globe(const bench_options *o, const globe_input *g, size_t n, si
                                .remark = remark});
 }
 
-static void row_cloud(const bench_options *o, const char *name, void (*make)(cloud *c, size_t n), size_t n,
-                      size_t runs, double ratio, double seconds) {
+static void row_cloud(const bench_options *o, const char *name, void (*make)(cloud *c, size_t n), size_t n, size_t runs,
+                      double ratio, double seconds) {
   cloud points;
   if (!bench_wants(o, name)) return;
   make(&points, bench_size(o, n));

@@ -134,8 +134,8 @@ dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_work *w, const dyd_skeleton *s
 
 /* ---- farther ---- */
 
-/* A lower bound of (q - c)^2 - (p - c)^2 = (q - p) (q + p - 2 c) over p in [s0,s1] and q in [k0,k1]: in p it is concave, in
- * q it is least at the place nearest to c. NaN where it is not known. */
+/* A lower bound of (q - c)^2 - (p - c)^2 = (q - p) (q + p - 2 c) over p in [s0,s1] and q in [k0,k1]: in p it is
+ * concave, in q it is least at the place nearest to c. NaN where it is not known. */
 static double farther_along(dyd_iv c, double s0, double s1, double k0, double k1) {
   dyd_iv q = {dyd_max(k0, dyd_min(c.lo, k1)), dyd_min(k1, dyd_max(c.hi, k0))}, twice = {2 * c.lo, 2 * c.hi};
   double low[2];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Images in doubles [FLT-SPH]: the formula of project.c, halved above and below, in intervals.
  *
- * Let u = 2^-53. An angle of x degrees is 90 k more than r degrees, |r| <= 45, exactly (Sterbenz): t = r pi / 180 is off
- * by 2.01 u t, |t| <= 0.7854, z = t^2 <= 0.617 by 1 u more. sin t = t + t z g with g of 8 terms, off by 0.45 u (the
+ * Let u = 2^-53. An angle of x degrees is 90 k more than r degrees, |r| <= 45, exactly (Sterbenz): t = r pi / 180 is
+ * off by 2.01 u t, |t| <= 0.7854, z = t^2 <= 0.617 by 1 u more. sin t = t + t z g with g of 8 terms, off by 0.45 u (the
  * leading 1/6 by 2 u, the others, 0.0053 in all, by 21 u), so t z g by 0.6 u t, the sum by 1 u t, the series by
  * 10^-19 t: 4 u t in all. cos t = 1 - z h, h = 1/2 - z ..., off by 1 u, so z h by 1.3 u, the difference by u / 2, by t
  * 1.2 u, the series by 10^-17: 3.1 u in all. TURN_ERROR = 8 u is more, also when added to what it is about and rounded.
@@ -16,8 +16,8 @@
 #define LEAST 0x1p-64
 
 /* sin t = t + t z g, cos t = 1 - z h: the coefficients, highest first. */
-static const double sine[] = {1. / 355687428096000,  -1. / 1307674368000, 1. / 6227020800, -1. / 39916800, 1. / 362880,
-                              -1. / 5040,            1. / 120,            -1. / 6};
+static const double sine[] = {1. / 355687428096000, -1. / 1307674368000, 1. / 6227020800, -1. / 39916800,
+                              1. / 362880,          -1. / 5040,          1. / 120,        -1. / 6};
 static const double cosine[] = {-1. / 20922789888000, 1. / 87178291200, -1. / 479001600, 1. / 3628800,
                                 -1. / 40320,          1. / 720,         -1. / 24,        1. / 2};
 enum { TERMS = sizeof sine / sizeof *sine, MOST_BITS = 48 };

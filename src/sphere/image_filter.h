@@ -12,9 +12,9 @@ typedef struct dyd_eye_d {
   dyd_iv lon, lat, sin, cos;
 } dyd_eye_d;
 
-/* box: x lower and upper, y lower and upper end of the image, for all places in a narrow box of degrees and all that the
- * eye encloses [FLT-SPH]; at most about 2^-(bits + 1) (1 + x^2 + y^2) wide, so 2^-bits radians on the sphere. false: not
- * known so well. */
+/* box: x lower and upper, y lower and upper end of the image, for all places in a narrow box of degrees and all that
+ * the eye encloses [FLT-SPH]; at most about 2^-(bits + 1) (1 + x^2 + y^2) wide, so 2^-bits radians on the sphere.
+ * false: not known so well. */
 bool dyd_filter_image(double box[4], const double place[4], const dyd_eye_d *eye, int64_t bits);
 
 #endif

@@ -91,8 +91,8 @@ static dyd_root_term *put_determinant(dyd_root_term *t, turned u, turned v, turn
   return put_product(t, w, u, v, sign, n);
 }
 
-/* Are a and b on one parallel, c and d as well, with the same meridian half way? Each is the other's mirror image in the
- * plane of that meridian, so both lines are across it, and in one plane. */
+/* Are a and b on one parallel, c and d as well, with the same meridian half way? Each is the other's mirror image in
+ * the plane of that meridian, so both lines are across it, and in one plane. */
 static bool are_mirrored(turned a, turned b, turned c, turned d, dyd_turns n) {
   return a.lat == b.lat && c.lat == d.lat && (a.lon + b.lon - c.lon - d.lon) % n == 0;
 }

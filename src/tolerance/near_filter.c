@@ -46,7 +46,7 @@ static dyd_status find_low_parts(dyd_tolerance *t) {
 }
 
 /* Each corner of a triangle has one neighbour more: the next corner. */
-static dyd_status list_neighbours(dyd_tolerance *t) {
+static dyd_status near_list(dyd_tolerance *t) {
   const dyd_mesh *m = &t->sk->mesh;
   if (dyd_is_line(t->pd)) return DYD_OK;
   t->start = calloc((size_t)m->n + 3, sizeof *t->start);
@@ -63,7 +63,7 @@ static dyd_status list_neighbours(dyd_tolerance *t) {
 dyd_status dyd_near_prepare(dyd_tolerance *t) {
   t->points = (dyd_points_d){.xy = t->sk->reps.xy, .usable = fegetround() == FE_TONEAREST};
   dyd_status st = find_low_parts(t);
-  return st == DYD_OK ? list_neighbours(t) : st;
+  return st == DYD_OK ? near_list(t) : st;
 }
 
 void dyd_near_clear(dyd_tolerance *t) {
