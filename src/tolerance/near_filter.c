@@ -103,10 +103,13 @@ bool dyd_others_add(dyd_others *o, uint32_t v) {
 }
 
 static bool add_ring(dyd_others *o, const dyd_tolerance *t, uint32_t v, uint32_t w) {
-  for (uint32_t q = t->start[v]; q < t->start[v + 1]; q++) {
-    uint32_t k = t->near[q];
-    if (k != w && k != t->sk->mesh.n && !dyd_others_add(o, k)) return false;
-  }
+  const dyd_mesh *m = &t->sk->mesh;
+  dyd_half_edge first = t->sk->leaving[v], h = first;
+  do {
+    uint32_t k = dyd_edge_target(m, h);
+    if (k != w && k != m->n && !dyd_others_add(o, k)) return false;
+    h = dyd_edge_turn(m, h);
+  } while (h != first);
   return true;
 }
 
