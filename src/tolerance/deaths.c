@@ -33,15 +33,22 @@ static dyd_status death_by_integers(dyd_tolerance *t, uint32_t v, uint32_t w) {
 
 /* ---- in doubles ---- */
 
-static void name_apexes_d(dyd_lines_d *l, const dyd_mesh *m, dyd_half_edge h) {
-  const uint32_t apex[2] = {dyd_edge_apex(m, h), dyd_edge_across(m, h)};
-  l->count = 0;
-  for (int k = 0; k < 2; k++)
-    if (apex[k] != m->n) l->vertex[l->count++] = apex[k];
+/* v has at most DYD_HUB neighbours. */
+static bool add_ring_d(dyd_lines_d *l, const dyd_tolerance *t, uint32_t v, uint32_t w) {
+  uint32_t k[DYD_HUB], count = 0;
+  for (const uint32_t *q = t->near + t->start[v], *end = t->near + t->start[v + 1]; q < end; q++) {
+    k[count] = *q;
+    count += (*q != w) & (*q != t->sk->mesh.n);
+  }
+  return dyd_filter_add(l, &t->points, k, count);
 }
 
-static dyd_around around_d(const dyd_tolerance *t, uint32_t v) {
-  return (dyd_around){t->near + t->start[v], t->near + t->start[v + 1]};
+static bool add_apexes_d(dyd_lines_d *l, const dyd_tolerance *t, dyd_half_edge h) {
+  const dyd_mesh *m = &t->sk->mesh;
+  uint32_t apex[2] = {dyd_edge_apex(m, h), dyd_edge_across(m, h)};
+  for (int k = 0; k < 2; k++)
+    if (apex[k] == m->n || !dyd_filter_add(l, &t->points, &apex[k], 1)) return false;
+  return true;
 }
 
 /* For the tree: is there anybody whom the lines do not know? */
@@ -58,19 +65,18 @@ static bool meet_stranger(void *context, uint32_t v) {
   return !s->found;
 }
 
-/* An end that is a hub: lines of one end's neighbours that is none, and nobody else within the disc. */
-static dyd_status hub_in_doubles(bool *sure, dyd_death_d *d, dyd_tolerance *t) {
-  dyd_lines_d *l = &t->small;
-  uint32_t end = dyd_degree(t, l->i) <= DYD_HUB ? l->i : l->j;
-  dyd_around near[2] = {{NULL, NULL}, {NULL, NULL}};
+/* An end that is a hub: lines of the other end's neighbours, and nobody else within the disc. */
+static dyd_status hub_in_doubles(bool *sure, dyd_death_d *d, dyd_tolerance *t, dyd_half_edge h) {
+  uint32_t v = t->small.i, w = t->small.j;
   dyd_bbox c;
   double radius2;
   dyd_status st = dyd_near_index(t);
-  if (st != DYD_OK || l->count < 2) return st;
-  if (dyd_degree(t, end) <= DYD_HUB) near[0] = around_d(t, end);
-  dyd_filter_others(l, &t->points, near, t->sk->mesh.n);
-  if (!dyd_filter_death(d, c.e, &radius2, &t->points, l) || !(radius2 < 1e300)) return st;
-  stranger s = {l, false};
+  *sure = false;
+  if (st != DYD_OK || !add_apexes_d(&t->small, t, h)) return st;
+  if (dyd_degree(t, v) <= DYD_HUB && !add_ring_d(&t->small, t, v, w)) return st;
+  if (dyd_degree(t, w) <= DYD_HUB && dyd_degree(t, v) > DYD_HUB && !add_ring_d(&t->small, t, w, v)) return st;
+  if (!dyd_filter_death(d, c.e, &radius2, &t->points, &t->small) || !(radius2 < 1e300)) return st;
+  stranger s = {&t->small, false};
   dyd_tree_near(&t->tree, &c, &radius2, meet_stranger, &s);
   *sure = !s.found;
   return st;
@@ -79,16 +85,15 @@ static dyd_status hub_in_doubles(bool *sure, dyd_death_d *d, dyd_tolerance *t) {
 static dyd_status death_of_edge(dyd_tolerance *t, dyd_half_edge h) {
   uint32_t v = dyd_edge_origin(&t->sk->mesh, h), w = dyd_edge_target(&t->sk->mesh, h);
   dyd_death_d d;
+  double radius2;
   bool sure = false;
   dyd_status st = DYD_OK;
   if (!t->options.no_filter && dyd_filter_pair(&t->small, &t->points, v, w)) {
-    name_apexes_d(&t->small, &t->sk->mesh, h);
-    dyd_filter_lines(&t->small, &t->points, 0);
-    const dyd_around near[2] = {around_d(t, v), around_d(t, w)};
     if (has_hub(t, v, w))
-      st = hub_in_doubles(&sure, &d, t);
+      st = hub_in_doubles(&sure, &d, t, h);
     else
-      sure = dyd_filter_edge_death(&d, &t->points, &t->small, near, t->sk->mesh.n);
+      sure = add_ring_d(&t->small, t, v, w) && add_ring_d(&t->small, t, w, v) &&
+             dyd_filter_death(&d, NULL, &radius2, &t->points, &t->small);
   }
   if (st != DYD_OK) return st;
   if (!sure) return death_by_integers(t, v, w);

@@ -63,11 +63,13 @@ bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t
   return p->usable && l->jj > 0x1p-400 && l->jj < 0x1p400 && l->ejj < 0x1p-40 * l->jj;
 }
 
-void dyd_filter_lines(dyd_lines_d *l, const dyd_points_d *at, uint32_t from) {
+bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *at, const uint32_t *k, uint32_t count) {
   const dyd_points_d here = *at;
   double span = l->span;
-  for (uint32_t c = from; c < l->count; c++) {
-    dyd_xy p = lines_point_difference(&here, l->vertex[c], l->i), q = lines_point_difference(&here, l->vertex[c], l->j);
+  if (count > DYD_LINES_D - l->count) return false;
+  for (uint32_t c = l->count; count; c++, k++, count--) {
+    dyd_xy p = lines_point_difference(&here, *k, l->i), q = lines_point_difference(&here, *k, l->j);
+    l->vertex[c] = *k;
     l->px[c] = p.x;
     l->py[c] = p.y;
     l->qx[c] = q.x;
@@ -75,8 +77,10 @@ void dyd_filter_lines(dyd_lines_d *l, const dyd_points_d *at, uint32_t from) {
     l->m[c] = p.x * q.x + p.y * q.y;
     l->n[c] = p.y * l->jx - p.x * l->jy;
     span = dyd_max(fabs(p.x) + fabs(p.y) + fabs(q.x) + fabs(q.y), span);
+    l->count++;
   }
   l->span = span;
+  return true;
 }
 
 dyd_line_d dyd_filter_line(const dyd_lines_d *l, const dyd_points_d *at, uint32_t k) {
@@ -166,27 +170,21 @@ typedef struct climb_d {
   enum { ANYWHERE, CROSSING, SUMMIT, END } kind;
 } climb_d;
 
-/* Where the first of each side cross; most often that is what is sought. */
-static void begin_d(climb_d *c, const dyd_points_d *p, const dyd_lines_d *l) {
-  uint32_t left = 0, right = 0;
-  while (left < l->count && !(l->n[left] > 0)) left++;
-  while (right < l->count && !(l->n[right] < 0)) right++;
-  c->points = p;
-  c->l = l;
+/* The last of each side: apexes come last. */
+static void begin_d(climb_d *c) {
+  uint32_t left = DYD_NONE, right = DYD_NONE;
+  for (uint32_t k = 0; k < c->l->count; k++) {
+    left = c->l->n[k] > 0 ? k : left;
+    right = c->l->n[k] < 0 ? k : right;
+  }
   c->kind = ANYWHERE;
   c->has_rising = c->has_falling = false;
   c->at = (place_d){0, 0, 0};
-  if (left < l->count && right < l->count) {
-    dyd_line_d a = dyd_filter_line(l, c->points, left), b = dyd_filter_line(l, c->points, right);
-    if (!cross_d(&c->at, &a, &b)) return;
-    int up = trend_d(l, &a, &c->at), down = trend_d(l, &b, &c->at);
-    if (up * down != -1) return;
-    c->rising = up > 0 ? a : b;
-    c->falling = up > 0 ? b : a;
-    c->has_rising = c->has_falling = true;
-    c->kind = CROSSING;
-  } else if (left < l->count || right < l->count) {
-    c->at.end = left < l->count ? -1 : 1;
+  if (left != DYD_NONE && right != DYD_NONE) {
+    dyd_line_d a = dyd_filter_line(c->l, c->points, left), b = dyd_filter_line(c->l, c->points, right);
+    cross_d(&c->at, &a, &b);
+  } else if (left != right) {
+    c->at.end = left != DYD_NONE ? -1 : 1;
   }
 }
 
@@ -217,6 +215,7 @@ static int death_trend_d(const dyd_lines_d *l, const dyd_line_d *o, const place_
 
 /* To where no line lies below what binds. false: not sure. */
 static bool climb_up(climb_d *c) {
+  begin_d(c);
   for (int k = 0; k < CLIMBS; k++) {
     uint32_t number = lowest_d(c->l, &c->at), vertex = c->l->vertex[number];
     if (c->kind == CROSSING && (vertex == c->rising.vertex || vertex == c->falling.vertex)) return true;
@@ -272,8 +271,7 @@ static double crossing_height(double *relative, const dyd_line_d *a, const dyd_l
   return num / e;
 }
 
-/* What the two that cross give, if nobody else is as low. */
-static bool crossing_value(dyd_death_d *out, double *height, double *error, double *radius2, climb_d *c) {
+static bool crossing_death(dyd_death_d *out, double *radius2, climb_d *c) {
   const dyd_lines_d *l = c->l;
   double rD, D = crossing_height(&rD, &c->rising, &c->falling);
   if (!(rD < CLOSE))
@@ -281,15 +279,9 @@ static bool crossing_value(dyd_death_d *out, double *height, double *error, doub
   double s = c->at.s, es = c->at.es, quarter = 0.25 + s * s, B = l->jj * quarter;
   double rB = (l->ejj / l->jj + (2 * fabs(s) * es + es * es) / quarter + 6 * U) * GENEROUS;
   if (!(D > 0 && rD < 0x1p-30 && rB < 0x1p-30)) return false;
-  *height = D;
-  *error = rD * D;
+  if (!others_above(c, c->rising.vertex, c->falling.vertex, D, rD * D)) return false;
   *radius2 = (B + D) * (1 + 2 * (rB + rD));
   return give(out, D / (sqrt(B + D) + sqrt(B)), rD + dyd_max(rB, rD) / 2 + 6 * U, c);
-}
-
-static bool crossing_death(dyd_death_d *out, double *radius2, climb_d *c) {
-  double D, eD;
-  return crossing_value(out, &D, &eD, radius2, c) && others_above(c, c->rising.vertex, c->falling.vertex, D, eD);
 }
 
 static bool summit_death(dyd_death_d *out, double *radius2, const climb_d *c) {
@@ -334,83 +326,17 @@ static void centre_box_axis(double *lo, double *hi, double origin, double along,
   *hi = c + e * GENEROUS + TINY;
 }
 
-static bool climb_death(dyd_death_d *out, double *radius2, climb_d *c) {
-  if (!climb_up(c)) return false;
-  return c->kind == CROSSING ? crossing_death(out, radius2, c)
-         : c->kind == SUMMIT ? summit_death(out, radius2, c)
-                             : end_death(out, radius2, c);
-}
-
 bool dyd_filter_death(dyd_death_d *out, double box[4], double *radius2, const dyd_points_d *p, const dyd_lines_d *l) {
   climb_d c;
-  if (!l->count) return false;
-  begin_d(&c, p, l);
-  bool sure = climb_death(out, radius2, &c);
-  if (!sure || c.kind == END) return sure;
+  c.points = p;
+  c.l = l;
+  if (!l->count || !climb_up(&c)) return false;
+  bool sure = c.kind == CROSSING ? crossing_death(out, radius2, &c)
+              : c.kind == SUMMIT ? summit_death(out, radius2, &c)
+                                 : end_death(out, radius2, &c);
+  if (!sure || !box || c.kind == END) return sure;
   double low[2] = {p->low ? fabs(p->low[l->i].x) : 0, p->low ? fabs(p->low[l->i].y) : 0};
   centre_box_axis(&box[0], &box[1], p->xy[l->i].x, l->jx, -l->jy, &c.at, p->slack + low[0]);
   centre_box_axis(&box[2], &box[3], p->xy[l->i].y, l->jy, l->jx, &c.at, p->slack + low[1]);
   return true;
-}
-
-/* ---- from the apexes ---- */
-
-/* c is off by less than 2^-23 R, each squared distance that is at most FAR R^2 by less than 2^-21 of R^2 or itself:
- * what is beyond WELL R^2 is outside, and i, j and the apexes, in or on the circle, are not. */
-#define WELL (1 + 0x1p-18)
-#define FAR 0x1p20
-enum { AMONG_NEIGHBOURS = 6 }; /* three of those four are neighbours of i, three of j */
-
-/* About the centre; false: it is not so exact, or so far out that others_above would not tell. */
-static bool apex_centre(dyd_xy *out, const climb_d *c) {
-  const dyd_lines_d *l = c->l;
-  dyd_xy i = c->points->xy[l->i];
-  double s = c->at.s, side = fabs(l->jx) + fabs(l->jy), at = fabs(i.x) + fabs(i.y);
-  double error = c->at.es * side + 8 * U * (at + side) * (1 + fabs(s)) + 4 * c->points->slack * (1 + fabs(s));
-  *out = (dyd_xy){i.x + (l->jx / 2 - s * l->jy), i.y + (l->jy / 2 + s * l->jx)};
-  return error < side * 0x1p-26 && c->at.es < 0x1p-46 && fabs(s) < 16; /* side / 4 <= |J| / 2 <= R */
-}
-
-/* Are all neighbours but the apexes well outside of their circle? */
-static bool apexes_bind(dyd_death_d *out, climb_d *c, const dyd_around *near) {
-  dyd_xy at;
-  double D, eD, radius2;
-  unsigned within = 0, far = 0;
-  if (c->kind != CROSSING || !crossing_value(out, &D, &eD, &radius2, c) || !apex_centre(&at, c)) return false;
-  double well = WELL * radius2, most = FAR * radius2;
-  for (int end = 0; end < 2; end++)
-    for (const uint32_t *k = near[end].first; k < near[end].end; k++) {
-      dyd_xy v = c->points->xy[*k]; /* the ghost is at NaN */
-      double x = v.x - at.x, y = v.y - at.y, d = x * x + y * y;
-      within += d <= well;
-      far += d > most;
-    }
-  return within == AMONG_NEIGHBOURS && !far;
-}
-
-/* The neighbours that are neither i, j nor among the lines, which are those of the apexes. */
-static void name_others(dyd_lines_d *l, const dyd_around *near, uint32_t ghost) {
-  uint32_t count = l->count, a = count ? l->vertex[0] : ghost, b = count > 1 ? l->vertex[1] : ghost, i = l->i, j = l->j;
-  for (int end = 0; end < 2; end++)
-    for (const uint32_t *k = near[end].first; k < near[end].end; k++) {
-      uint32_t v = l->vertex[count] = *k;
-      count += (v != i) & (v != j) & (v != a) & (v != b) & (v != ghost);
-    }
-  l->count = count;
-}
-
-void dyd_filter_others(dyd_lines_d *l, const dyd_points_d *p, const dyd_around near[2], uint32_t ghost) {
-  uint32_t apexes = l->count;
-  name_others(l, near, ghost);
-  dyd_filter_lines(l, p, apexes);
-}
-
-bool dyd_filter_edge_death(dyd_death_d *out, const dyd_points_d *p, dyd_lines_d *l, const dyd_around near[2],
-                           uint32_t ghost) {
-  climb_d c;
-  double radius2;
-  begin_d(&c, p, l);
-  if (apexes_bind(out, &c, near)) return true;
-  dyd_filter_others(l, p, near, ghost);
-  return l->count && climb_death(out, &radius2, &c);
 }

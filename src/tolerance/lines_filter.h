@@ -40,24 +40,11 @@ typedef struct dyd_death_d {
 
 /* false: doubles cannot hold the pair well. */
 bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t j);
-/* Works out the lines of vertex[from .. count-1], which the caller has named. */
-void dyd_filter_lines(dyd_lines_d *l, const dyd_points_d *p, uint32_t from);
+/* Adds lines of vertices; false: there is no room. */
+bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *p, const uint32_t *k, uint32_t count);
 dyd_line_d dyd_filter_line(const dyd_lines_d *l, const dyd_points_d *p, uint32_t number);
-/* The death of a strictly Delaunay pair with these others, apexes first if they are known; false: not sure. `box` gets
- * a box around the centre, *radius2 an upper bound of its squared distance to the sites that bind; infinite for a
- * half-plane. */
+/* The death of a strictly Delaunay pair with these others; false: not sure. `box` (may be NULL) gets a box around the
+ * centre, *radius2 an upper bound of its squared distance to the sites that bind; infinite for a half-plane. */
 bool dyd_filter_death(dyd_death_d *out, double box[4], double *radius2, const dyd_points_d *p, const dyd_lines_d *l);
-
-/* Neighbours of one end, the ghost perhaps among them. */
-typedef struct dyd_around {
-  const uint32_t *first, *end;
-} dyd_around;
-
-/* Adds the lines of neighbours that have none; those there are are those of the apexes. There has to be room. */
-void dyd_filter_others(dyd_lines_d *l, const dyd_points_d *p, const dyd_around near[2], uint32_t ghost);
-/* The death of the edge where l has the lines of its apexes only, and near all neighbours of i and of j; lines of
- * others are worked out where it is not the apexes that bind. */
-bool dyd_filter_edge_death(dyd_death_d *out, const dyd_points_d *p, dyd_lines_d *l, const dyd_around near[2],
-                           uint32_t ghost);
 
 #endif
