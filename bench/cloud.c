@@ -72,6 +72,38 @@ void cloud_circle(cloud *c, size_t n) {
   for (size_t i = n; i > 1; i--) swap_points(c, i - 1, next_random(&state) % i);
 }
 
+void cloud_hub(cloud *c, size_t n) {
+  uint64_t state = 6;
+  start(c, n);
+  c->x[0] = 0.01;
+  c->y[0] = 0.02;
+  for (size_t i = 1; i < n; i++) {
+    double angle = (double)i * (6.283185307179586 / (double)(n - 1)), d = 1 + 1e-4 * cloud_unit(&state);
+    c->x[i] = d * cos(angle);
+    c->y[i] = d * sin(angle);
+  }
+}
+
+void cloud_globe(cloud *c, size_t n) {
+  uint64_t state = 7;
+  start(c, n);
+  for (size_t i = 0; i < n; i++) {
+    c->x[i] = 360 * cloud_unit(&state) - 180;
+    c->y[i] = asin(2 * cloud_unit(&state) - 1) * 57.29577951308232;
+  }
+}
+
+/* Latitudes are halves, so that no pole is among them. */
+void cloud_parallels(cloud *c, size_t n) {
+  size_t each = (size_t)sqrt((double)n / 2);
+  double step = 180. / (double)each;
+  start(c, 2 * each * each);
+  for (size_t i = 0; i < c->n; i++) {
+    c->x[i] = (double)(i % (2 * each)) * step - 180;
+    c->y[i] = ((double)(i / (2 * each)) + 0.5) * step - 90;
+  }
+}
+
 /* Products of Gaussian primes: (x + iy)(a +- ib) for all that there are so far, then times the units. */
 void cloud_cocircular(cloud *c, size_t primes) {
   static const int prime[10][2] = {{2, 1}, {3, 2}, {4, 1}, {5, 2}, {6, 1}, {5, 4}, {7, 2}, {6, 5}, {8, 3}, {8, 5}};

@@ -24,6 +24,12 @@ void cloud_uniform(cloud *c, size_t n);
 void cloud_grid(cloud *c, size_t n);
 /* Distinct doubles next to the unit circle. */
 void cloud_circle(cloud *c, size_t n);
+/* One point, and n - 1 in a rough circle around it, all of them its neighbours. */
+void cloud_hub(cloud *c, size_t n);
+/* Longitudes and latitudes in degrees: uniform on the sphere; at all crossings of k parallels and 2 k meridians, c->n =
+ * 2 k^2 is the number there is. */
+void cloud_globe(cloud *c, size_t n);
+void cloud_parallels(cloud *c, size_t n);
 /* All integer points on the circle about the origin whose squared radius is the product of the first `primes` primes of
  * the form 4k + 1: 4 * 2^primes of them, in random order. At most 10 primes. */
 void cloud_cocircular(cloud *c, size_t primes);

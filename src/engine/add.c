@@ -190,7 +190,7 @@ static dyd_status points_add_source(dyd_engine *e, size_t n, const dyd_source *s
   if (!dyd_reserve((void **)&e->source, &e->source_cap, e->sources + 1, sizeof *e->source)) return DYD_E_NOMEM;
   size_t first = dyd_sites_count(e->sites);
   dyd_status st = points_add_refinable(e, n, (dyd_refinable){.source = (uint32_t)e->sources});
-  if (st == DYD_OK) e->source[e->sources++] = (dyd_source_use){*source, (uint32_t)first, NULL};
+  if (st == DYD_OK) e->source[e->sources++] = (dyd_source_use){.source = *source, .first = (uint32_t)first};
   return st;
 }
 

@@ -148,11 +148,23 @@ static dyd_status point_blame(const dyd_refinable *p, dyd_status st, dyd_error *
   return st;
 }
 
-/* The first call of a stream, where doubles hold its answer. */
-static bool point_narrow_in_doubles(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits) {
+void dyd_engine_set_glance(dyd_engine *e, dyd_glance_fn fn) {
+  e->source[e->sources - 1].glance = fn;
+}
+
+static bool point_glance(double box[4], const dyd_refinable *p, const dyd_engine *e, int64_t bits) {
+  const dyd_source_use *use = p->stream ? NULL : &e->source[p->source];
+  if (use) return use->glance && use->glance(box, use->source.user, p->site - use->first, bits);
   dyd_double_span side[2];
-  if (p->asked || !p->stream || e->recall || !dyd_stream_glance(side, p->stream, bits)) return false;
-  const double box[4] = {side[0].lo, side[0].hi, side[1].lo, side[1].hi};
+  if (!dyd_stream_glance(side, p->stream, bits)) return false;
+  box[0] = side[0].lo, box[1] = side[0].hi, box[2] = side[1].lo, box[3] = side[1].hi;
+  return true;
+}
+
+/* The first call, where doubles hold its answer. */
+static bool point_narrow_in_doubles(dyd_refinable *p, uint64_t *calls, dyd_engine *e, int64_t bits) {
+  double box[4];
+  if (p->asked || e->recall || !point_glance(box, p, e, bits)) return false;
   if (dyd_sites_narrow_d(e->sites, p->site, box) < 0) return false;
   ++*calls;
   p->calls++;

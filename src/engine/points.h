@@ -16,6 +16,8 @@ dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, i
 /* The request for a point of a source, with the flag that says that the answer is not wanted any more. */
 dyd_status dyd_engine_request(dyd_request *out, const dyd_refinable *p, const dyd_engine *e, int64_t bits,
                               int64_t max_bits, dyd_error *err);
+/* The source added last gives first answers by fn, with its own user. */
+void dyd_engine_set_glance(dyd_engine *e, dyd_glance_fn fn);
 /* Points have come: there is no result any more, what it has counted is kept (engine.c). */
 void dyd_engine_end_result(dyd_engine *e);
 /* Releases streams and sources. */

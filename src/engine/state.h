@@ -50,9 +50,14 @@ typedef struct dyd_shared_source {
   dyd_source source;
 } dyd_shared_source;
 
-/* A source and the site that is its point 0. shared: NULL until a stream is taken out; then it owns the source. */
+/* A first answer of a source in finite doubles, without -0, about as narrow as asked for; false: ask it as usual. */
+typedef bool (*dyd_glance_fn)(double box[4], void *user, size_t point, int64_t bits);
+
+/* A source and the site that is its point 0. shared: NULL until a stream is taken out; then it owns the source. glance:
+ * may be NULL. */
 typedef struct dyd_source_use {
   dyd_source source;
+  dyd_glance_fn glance;
   uint32_t first;
   dyd_shared_source *shared;
 } dyd_source_use;

@@ -31,6 +31,7 @@ typedef struct search {
   dyd_rect own[2], rival; /* rival: the latest */
   dyd_plane_list *planes; /* NULL: c is only asked about */
   dyd_point c;
+  dyd_bbox at; /* where c is */
   size_t rivals;
   bool ended;
   dyd_status status;
@@ -65,6 +66,13 @@ static bool witness_is_outside(const search *s, const dyd_rect *r) {
   return true;
 }
 
+/* The same in doubles, for nearly all where c is far away [FLT-FAR]. */
+static bool witness_is_surely_outside(const search *s, uint32_t k) {
+  const dyd_bbox *box = s->rects->box;
+  if (s->no_filter) return false;
+  return dyd_filter_is_farther(&s->at, &box[s->i], &box[k]) && dyd_filter_is_farther(&s->at, &box[s->j], &box[k]);
+}
+
 /* r violates c: new half-planes. */
 static void witness_add_rival(search *s, const dyd_rect *r) {
   s->ended = !s->planes;
@@ -76,7 +84,7 @@ static void witness_add_rival(search *s, const dyd_rect *r) {
 /* A few violators are enough for one step. */
 static bool witness_examine(void *context, uint32_t k) {
   search *s = context;
-  if (k == s->i || k == s->j) return true;
+  if (k == s->i || k == s->j || witness_is_surely_outside(s, k)) return true;
   dyd_rect r;
   dyd_rect_init(&r);
   s->status = dyd_rects_get(&r, s->rects, k);
@@ -108,9 +116,9 @@ static void witness_look_at_ends(search *s) {
 /* Who violates c? Everybody is asked through the tree; the answer is exact. */
 static void witness_evaluate(search *s) {
   s->rivals = 0;
-  dyd_bbox box = dyd_point_box(&s->c);
-  double bound = s->no_filter ? INFINITY : dyd_pair_dl2_upper(s->rects, &box, s->i, s->j);
-  dyd_tree_near(&s->rects->tree, &box, &bound, witness_examine, s);
+  s->at = dyd_point_box(&s->c);
+  double bound = s->no_filter ? INFINITY : dyd_pair_dl2_upper(s->rects, &s->at, s->i, s->j);
+  dyd_tree_near(&s->rects->tree, &s->at, &bound, witness_examine, s);
 }
 
 static dyd_status witness_set_start(dyd_point *c, const dyd_skeleton *sk, uint32_t i, dyd_xy guess) {

@@ -7,6 +7,7 @@
 #include "legal/witness_filter.h"
 
 #include "legal/lp_filter.h"
+#include "predicate/interval_filter.h"
 #include "skeleton/rects_filter.h"
 
 #include <math.h>
@@ -129,4 +130,25 @@ dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_work *w, const dyd_skeleton *s
     if (moved != DYD_TRUE) return moved;
   }
   return DYD_UNKNOWN;
+}
+
+/* ---- farther ---- */
+
+/* A lower bound of (q - c)^2 - (p - c)^2 = (q - p) (q + p - 2 c) over p in [s0,s1] and q in [k0,k1]: in p it is
+ * concave, in q it is least at the place nearest to c. NaN where it is not known. */
+static double farther_along(dyd_iv c, double s0, double s1, double k0, double k1) {
+  dyd_iv q = {dyd_max(k0, dyd_min(c.lo, k1)), dyd_min(k1, dyd_max(c.hi, k0))}, twice = {2 * c.lo, 2 * c.hi};
+  double low[2];
+  for (int end = 0; end < 2; end++) {
+    dyd_iv p = dyd_iv_point(end ? s1 : s0);
+    low[end] = dyd_iv_mul(dyd_iv_sub(q, p), dyd_iv_sub(dyd_iv_add(q, p), twice)).lo;
+  }
+  return low[0] < low[1] ? low[0] : low[1] <= low[0] ? low[1] : NAN;
+}
+
+bool dyd_filter_is_farther(const dyd_bbox *c, const dyd_bbox *s, const dyd_bbox *k) {
+  const double *a = c->e, *p = s->e, *q = k->e;
+  double x = farther_along((dyd_iv){a[0], a[1]}, p[0], p[1], q[0], q[1]);
+  double y = farther_along((dyd_iv){a[2], a[3]}, p[2], p[3], q[2], q[3]);
+  return dyd_down(x + y) > 0;
 }

@@ -33,6 +33,13 @@ static int compare_guesses(const void *a, const void *b) {
   return (x->place > y->place) - (x->place < y->place);
 }
 
+/* By reach; often all are exact, and in order as they come. */
+static void guesses_sort(ball_guess *g, size_t n) {
+  size_t k = 1;
+  while (k < n && compare_guesses(&g[k - 1], &g[k]) < 0) k++;
+  if (k < n) qsort(g, n, sizeof *g, compare_guesses);
+}
+
 /* The distance that is left between the ball and the others; what is not above `enough` may be any such number. */
 static double guess_gap(const ball_guess *g, size_t n, const ball_guess *from, double enough) {
   double least = 4;
@@ -96,7 +103,7 @@ dyd_status dyd_sphere_choose(dyd_sphere *s, dyd_error *err) {
   if (!g) return dyd_fail_nomem(err);
   for (uint32_t i = 0; i < s->count; i++)
     if (s->alias[i] == i) guess_set(&g[n++], s, i);
-  qsort(g, n, sizeof *g, compare_guesses);
+  guesses_sort(g, n);
   dyd_status st = guess_best(&s->centre, g, n) > 0 || n < 2 ? DYD_OK : centre_in_gap(s, g, n, err);
   free(g);
   return st;

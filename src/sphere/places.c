@@ -134,7 +134,7 @@ dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err) {
   if (st == DYD_OK) qsort(place, count, sizeof *place, compare_rounded);
   for (size_t k = 0, end; k < count && st == DYD_OK; k = end) {
     for (end = k + 1; end < count && !memcmp(place[end].at, place[k].at, sizeof place->at);) end++;
-    st = aliases_in_run(s, place + k, end - k, err);
+    if (end > k + 1) st = aliases_in_run(s, place + k, end - k, err);
   }
   free(place);
   return st;

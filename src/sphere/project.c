@@ -12,7 +12,7 @@
 
 #include "stream/ball.h"
 
-enum { VARIABLES = 3, MOST_PIECES = 1 << 13, MOST_DEPTH = VARIABLES * 64 };
+enum { EYE_BITS = 64, VARIABLES = 3, MOST_PIECES = 1 << 13, MOST_DEPTH = VARIABLES * 64 };
 
 /* ---- one piece ---- */
 
@@ -331,7 +331,25 @@ static void eye_prepare(dyd_eye *e, slong prec) {
   arb_sin_cos_pi(&e->sin, &e->cos, &e->sin, prec);
 }
 
-bool dyd_project_degrees(arb_ptr x, arb_ptr y, arb_srcptr lon, arb_srcptr lat, dyd_eye *e, slong prec) {
+static dyd_iv ball_in_doubles(const arb_t x) {
+  arf_t end;
+  arf_init(end);
+  arb_get_lbound_arf(end, x, EYE_BITS);
+  double lo = arf_get_d(end, ARF_RND_FLOOR);
+  arb_get_ubound_arf(end, x, EYE_BITS);
+  double hi = arf_get_d(end, ARF_RND_CEIL);
+  arf_clear(end);
+  return (dyd_iv){lo, hi};
+}
+
+void dyd_eye_enclose(dyd_eye_d *out, dyd_eye *e) {
+  eye_prepare(e, EYE_BITS);
+  *out = (dyd_eye_d){ball_in_doubles(&e->lon), ball_in_doubles(&e->lat), ball_in_doubles(&e->sin),
+                     ball_in_doubles(&e->cos)};
+}
+
+/* Of one place in balls of degrees, seen from an exact place: three sines at half the angles. */
+static bool project_degrees(arb_ptr x, arb_ptr y, arb_srcptr lon, arb_srcptr lat, dyd_eye *e, slong prec) {
   arb_t f, D, w;
   arb_init(f);
   arb_init(D);
@@ -368,7 +386,7 @@ static bool project_exact(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, s
   arb_init(lat);
   dyd_ball_set_q(lon, s->mid[0], prec);
   dyd_ball_set_q(lat, s->mid[1], prec);
-  bool good = dyd_project_degrees(x, y, lon, lat, e, prec);
+  bool good = project_degrees(x, y, lon, lat, e, prec);
   arb_clear(lat);
   arb_clear(lon);
   return good;

@@ -3,6 +3,7 @@
 #ifndef DYD_SPHERE_PROJECT_H
 #define DYD_SPHERE_PROJECT_H
 
+#include "sphere/image_filter.h"
 #include "sphere/spot.h"
 #include "stream/arb.h"
 
@@ -23,7 +24,7 @@ void dyd_eye_clear(dyd_eye *e);
  * not tell them apart, false. */
 bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, mpq_srcptr angle, dyd_eye *e, slong prec);
 
-/* The same of one place, in narrow balls of degrees, seen from an exact place: three sines at half the angles. */
-bool dyd_project_degrees(arb_ptr x, arb_ptr y, arb_srcptr lon, arb_srcptr lat, dyd_eye *e, slong prec);
+/* The eye in doubles, where it is an exact place. */
+void dyd_eye_enclose(dyd_eye_d *out, dyd_eye *e);
 
 #endif

@@ -128,7 +128,20 @@ static size_t pairs_about_centre(dyd_pair *item, const dyd_sphere *s, const dyd_
   return n;
 }
 
-/* The pairs of images by their places, then those about the centre; sorted. */
+/* Merges the sorted items from `first` on, fewer, with the sorted ones before. */
+static dyd_status pairs_merge(dyd_pair *item, size_t first, size_t n) {
+  dyd_pair *late = dyd_alloc(n - first, sizeof *late);
+  if (!late) return DYD_E_NOMEM;
+  for (size_t k = first; k < n; k++) late[k - first] = item[k];
+  for (size_t at = n, left = n - first; left;) {
+    bool early = first && compare_pairs(&item[first - 1], &late[left - 1]) > 0;
+    item[--at] = early ? item[--first] : late[--left];
+  }
+  free(late);
+  return DYD_OK;
+}
+
+/* The pairs of images by their places, which keeps their order, and those about the centre; sorted. */
 static dyd_status pairs_join(dyd_pair_list *out, const dyd_sphere *s, const dyd_pair_list *images,
                              const dyd_pair_status *status) {
   size_t n = 0, about = 0;
@@ -139,7 +152,12 @@ static dyd_status pairs_join(dyd_pair_list *out, const dyd_sphere *s, const dyd_
   for (; n < images->count; n++)
     item[n] = pair_of(s->of[images->item[n].i], s->of[images->item[n].j], images->item[n].status);
   n += pairs_about_centre(item + n, s, images, status);
-  qsort(item, n, sizeof *item, compare_pairs);
+  qsort(item + images->count, n - images->count, sizeof *item, compare_pairs);
+  dyd_status st = pairs_merge(item, images->count, n);
+  if (st != DYD_OK) {
+    free(item);
+    return st;
+  }
   dyd_pair_list_clear(out);
   *out = (dyd_pair_list){n, item};
   return DYD_OK;

@@ -9,9 +9,8 @@
 #include "rect/interval.h"
 #include "sphere/state.h"
 #include "stream/ball.h"
-#include <float.h>
 
-enum { GUARD = 64, SPARE = 8, TRIES = 12, WIDE_BITS = 128, GLANCE_BITS = 48 };
+enum { GUARD = 64, SPARE = 8, TRIES = 12, WIDE_BITS = 128 };
 
 static dyd_status place_narrow(const dyd_sphere *s, uint32_t i, int64_t bits, int64_t max_bits, dyd_error *err) {
   if (dyd_sphere_is_fixed(s, i)) return DYD_OK;
@@ -38,7 +37,6 @@ typedef struct image {
   dyd_spot spot;
   mpq_t angle;
   arb_t x, y;
-  bool glanced;      /* doubles hold it as well as it was asked for */
   bool moving, wide; /* a stream is concerned; something stays wide whatever is asked */
 } image;
 
@@ -65,31 +63,10 @@ static dyd_status image_try(bool *seen, image *m, int64_t bits, int64_t max_bits
   return DYD_OK;
 }
 
-/* The doubles about an exact place tell its image to some 45 bits; *seen: to so many as are asked for. */
-static void image_glance(bool *seen, image *m, int64_t bits) {
-  const dyd_sphere *s = m->s;
-  double box[4];
-  arb_t at[2];
-  *seen = false;
-  bool plain = s->eye_bits == INT64_MAX && !mpq_sgn(m->angle) && !mpq_sgn(s->degrees) && dyd_sphere_is_fixed(s, m->i);
-  if (!plain || bits > GLANCE_BITS || !dyd_spot_is_exact(&s->eye.spot)) return;
-  dyd_sites_get_d(box, dyd_engine_sites(s->places), m->i);
-  if (!dyd_sites_is_point(dyd_engine_sites(s->places), m->i) || box[2] <= -90 || box[3] >= 90) return;
-  for (int a = 0; a < 2; a++) {
-    arb_init(at[a]);
-    arb_set_d(at[a], box[2 * a]);
-    mag_set_d(arb_radref(at[a]), box[2 * a + 1] - box[2 * a]);
-  }
-  *seen = dyd_project_degrees(m->x, m->y, at[0], at[1], &m->s->eye, GUARD) && image_width(m) <= -bits - 2;
-  for (int a = 0; a < 2; a++) arb_clear(at[a]);
-}
-
 /* Tries until the image is as narrow as asked for, or will not be. */
 static dyd_status image_find(image *m, int64_t bits, int64_t max_bits, dyd_error *err) {
   int64_t more = SPARE;
   bool seen = false;
-  image_glance(&m->glanced, m, bits);
-  if (m->glanced) return DYD_OK;
   for (int k = 0; k < TRIES; k++) {
     dyd_status st = image_try(&seen, m, bits + more, max_bits + more + GUARD, err);
     if (st != DYD_OK) return st;
@@ -107,25 +84,14 @@ static dyd_status image_find(image *m, int64_t bits, int64_t max_bits, dyd_error
                   dyd_engine_row(m->s->places, m->s->centre));
 }
 
-static dyd_status side_of_doubles(dyd_interval *out, const arb_t x) {
-  arf_t end;
-  arf_init(end);
-  arb_get_lbound_arf(end, x, DBL_MANT_DIG);
-  double lo = arf_get_d(end, ARF_RND_FLOOR);
-  arb_get_ubound_arf(end, x, DBL_MANT_DIG);
-  double hi = arf_get_d(end, ARF_RND_CEIL);
-  arf_clear(end);
-  return dyd_interval_set_d(out, lo, hi);
-}
-
 /* Rounds outward, keeps to what was known before. */
 static dyd_status image_give(dyd_rect *out, const image *m, bool known, int64_t bits) {
   dyd_rect now;
   slong width = image_width(m) - 16;
   int64_t grid = m->wide && width > -bits - 2 - GUARD ? width : -bits - 2;
   dyd_rect_init(&now);
-  dyd_status st = m->glanced ? side_of_doubles(&now.x, m->x) : dyd_ball_interval(&now.x, m->x, grid);
-  if (st == DYD_OK) st = m->glanced ? side_of_doubles(&now.y, m->y) : dyd_ball_interval(&now.y, m->y, grid);
+  dyd_status st = dyd_ball_interval(&now.x, m->x, grid);
+  if (st == DYD_OK) st = dyd_ball_interval(&now.y, m->y, grid);
   if (st == DYD_OK && known) st = dyd_interval_intersect(&now.x, &now.x, &out->x);
   if (st == DYD_OK && known) st = dyd_interval_intersect(&now.y, &now.y, &out->y);
   if (st == DYD_OK) dyd_rect_swap(out, &now);
@@ -175,7 +141,32 @@ dyd_status dyd_sphere_narrow_recalled(dyd_sphere *s, int64_t max_bits, dyd_error
   return st;
 }
 
+/* ---- a first look ---- */
+
+/* The centre in doubles, where it is an exact place. */
+static bool eye_glance(dyd_eye_d *out, dyd_sphere *s) {
+  if (!s->free && !dyd_sphere_is_fixed(s, s->centre)) return false;
+  if (centre_narrow(s, 0, 0, NULL) != DYD_OK || !dyd_spot_is_exact(&s->eye.spot)) return false;
+  dyd_eye_enclose(out, &s->eye);
+  return true;
+}
+
+/* The doubles about an exact place tell its image to some 45 bits: do they to so many as are asked for? */
+static bool image_glance(double box[4], void *user, size_t point, int64_t bits) {
+  dyd_sphere *s = user;
+  const dyd_sites *sites = dyd_engine_sites(s->places);
+  uint32_t i = s->of[point];
+  double place[4];
+  if (dyd_sphere_is_round(s, i) || !dyd_sphere_is_fixed(s, i)) return false;
+  if (!dyd_sites_is_point(sites, i)) return false;
+  dyd_sites_get_d(place, sites, i);
+  return dyd_filter_image(box, place, &s->eye_d, bits);
+}
+
 dyd_status dyd_sphere_add_images(dyd_sphere *s, dyd_error *err) {
   const dyd_source source = {DYD_SIZED(dyd_source), .narrow = image_request, .user = s};
-  return s->with_image ? dyd_engine_add_source(s->images, s->with_image, &source, err) : DYD_OK;
+  if (!s->with_image) return DYD_OK;
+  dyd_status st = dyd_engine_add_source(s->images, s->with_image, &source, err);
+  if (st == DYD_OK && eye_glance(&s->eye_d, s)) dyd_engine_set_glance(s->images, image_glance);
+  return st;
 }

@@ -7,7 +7,7 @@
  *   units.c          radii as text
  *   choose_filter.c  from which place is projected
  *   source.c         images, as the engine of images asks for them
- *   project.c        enclosures of images
+ *   project.c        enclosures of images; image_filter.c: in doubles
  *   ties.c           which places are on one circle
  *   cyclic.c         sums of roots of unity: are they 0?
  *   vertex.c         Voronoi vertices
@@ -40,6 +40,7 @@ struct dyd_sphere {
   mpq_t degrees; /* longitude and latitude may be off by so much */
   dyd_eye eye;   /* the centre, as it was asked last */
   int64_t eye_bits;
+  dyd_eye_d eye_d; /* the same in doubles, where first looks are in doubles */
 };
 
 /* places.c: the place i, as it is known now. DYD_E_DOMAIN where its latitude is beyond a pole. */

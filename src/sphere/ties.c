@@ -91,8 +91,23 @@ static dyd_root_term *put_determinant(dyd_root_term *t, turned u, turned v, turn
   return put_product(t, w, u, v, sign, n);
 }
 
+/* Are a and b on one parallel, c and d as well, with the same meridian half way? Each is the other's mirror image in
+ * the plane of that meridian, so both lines are across it, and in one plane. */
+static bool are_mirrored(turned a, turned b, turned c, turned d, dyd_turns n) {
+  return a.lat == b.lat && c.lat == d.lat && (a.lon + b.lon - c.lon - d.lon) % n == 0;
+}
+
+/* Grids of parallels and meridians, without a sum. */
+static bool circle_shows(const turned p[4], dyd_turns n) {
+  if (p[0].lat == p[1].lat && p[0].lat == p[2].lat && p[0].lat == p[3].lat) return true;
+  return are_mirrored(p[0], p[1], p[2], p[3], n) || are_mirrored(p[0], p[2], p[1], p[3], n) ||
+         are_mirrored(p[0], p[3], p[1], p[2], n);
+}
+
 static dyd_status four_are_cocircular(bool *out, const turned p[4], dyd_turns n) {
   dyd_root_term term[TERMS], *t = term;
+  *out = circle_shows(p, n);
+  if (*out) return DYD_OK;
   t = put_determinant(t, p[1], p[2], p[3], 1, n);
   t = put_determinant(t, p[0], p[2], p[3], -1, n);
   t = put_determinant(t, p[0], p[1], p[3], 1, n);

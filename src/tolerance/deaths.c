@@ -3,10 +3,14 @@
  * neighbours do, and whoever else is near enough is asked for. */
 #include "tolerance/state.h"
 
+static bool has_hub(const dyd_tolerance *t, uint32_t v, uint32_t w) {
+  return dyd_degree(t, v) + dyd_degree(t, w) > DYD_HUB;
+}
+
 /* ---- exactly ---- */
 
 dyd_status dyd_death_exact(dyd_tolerance *t, uint32_t v, uint32_t w) {
-  uint32_t hub = t->degree && t->degree[v] + t->degree[w] > DYD_HUB ? DYD_HUB : UINT32_MAX;
+  uint32_t hub = t->start && has_hub(t, v, w) ? DYD_HUB : UINT32_MAX;
   dyd_status st = dyd_others_around(&t->others, t, v, w, hub);
   for (bool more = true; st == DYD_OK && more;) {
     st = dyd_lines_load(&t->lines, t->sk, v, w, t->others.vertex, t->others.count);
@@ -29,22 +33,21 @@ static dyd_status death_by_integers(dyd_tolerance *t, uint32_t v, uint32_t w) {
 
 /* ---- in doubles ---- */
 
+/* v has at most DYD_HUB neighbours. */
 static bool add_ring_d(dyd_lines_d *l, const dyd_tolerance *t, uint32_t v, uint32_t w) {
-  const dyd_mesh *m = &t->sk->mesh;
-  dyd_half_edge first = t->sk->leaving[v], h = first;
-  do {
-    uint32_t k = dyd_edge_target(m, h);
-    if (k != w && k != m->n && !dyd_filter_add(l, &t->points, k)) return false;
-    h = dyd_edge_turn(m, h);
-  } while (h != first);
-  return true;
+  uint32_t k[DYD_HUB], count = 0;
+  for (const uint32_t *q = t->near + t->start[v], *end = t->near + t->start[v + 1]; q < end; q++) {
+    k[count] = *q;
+    count += (*q != w) & (*q != t->sk->mesh.n);
+  }
+  return dyd_filter_add(l, &t->points, k, count);
 }
 
 static bool add_apexes_d(dyd_lines_d *l, const dyd_tolerance *t, dyd_half_edge h) {
   const dyd_mesh *m = &t->sk->mesh;
   uint32_t apex[2] = {dyd_edge_apex(m, h), dyd_edge_across(m, h)};
   for (int k = 0; k < 2; k++)
-    if (apex[k] == m->n || !dyd_filter_add(l, &t->points, apex[k])) return false;
+    if (apex[k] == m->n || !dyd_filter_add(l, &t->points, &apex[k], 1)) return false;
   return true;
 }
 
@@ -70,8 +73,8 @@ static dyd_status hub_in_doubles(bool *sure, dyd_death_d *d, dyd_tolerance *t, d
   dyd_status st = dyd_near_index(t);
   *sure = false;
   if (st != DYD_OK || !add_apexes_d(&t->small, t, h)) return st;
-  if (t->degree[v] <= DYD_HUB && !add_ring_d(&t->small, t, v, w)) return st;
-  if (t->degree[w] <= DYD_HUB && t->degree[v] > DYD_HUB && !add_ring_d(&t->small, t, w, v)) return st;
+  if (dyd_degree(t, v) <= DYD_HUB && !add_ring_d(&t->small, t, v, w)) return st;
+  if (dyd_degree(t, w) <= DYD_HUB && dyd_degree(t, v) > DYD_HUB && !add_ring_d(&t->small, t, w, v)) return st;
   if (!dyd_filter_death(d, c.e, &radius2, &t->points, &t->small) || !(radius2 < 1e300)) return st;
   stranger s = {&t->small, false};
   dyd_tree_near(&t->tree, &c, &radius2, meet_stranger, &s);
@@ -86,7 +89,7 @@ static dyd_status death_of_edge(dyd_tolerance *t, dyd_half_edge h) {
   bool sure = false;
   dyd_status st = DYD_OK;
   if (!t->options.no_filter && dyd_filter_pair(&t->small, &t->points, v, w)) {
-    if (t->degree[v] + t->degree[w] > DYD_HUB)
+    if (has_hub(t, v, w))
       st = hub_in_doubles(&sure, &d, t, h);
     else
       sure = add_ring_d(&t->small, t, v, w) && add_ring_d(&t->small, t, w, v) &&

@@ -63,20 +63,23 @@ bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t
   return p->usable && l->jj > 0x1p-400 && l->jj < 0x1p400 && l->ejj < 0x1p-40 * l->jj;
 }
 
-bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *at, uint32_t k) {
-  uint32_t c = l->count;
-  if (c == DYD_LINES_D) return false;
-  dyd_xy p = lines_point_difference(at, k, l->i), q = lines_point_difference(at, k, l->j);
-  l->vertex[c] = k;
-  l->px[c] = p.x;
-  l->py[c] = p.y;
-  l->qx[c] = q.x;
-  l->qy[c] = q.y;
-  l->m[c] = p.x * q.x + p.y * q.y;
-  l->n[c] = p.y * l->jx - p.x * l->jy;
-  double far = fabs(p.x) + fabs(p.y) + fabs(q.x) + fabs(q.y);
-  l->span = dyd_max(far, l->span);
-  l->count++;
+bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *at, const uint32_t *k, uint32_t count) {
+  const dyd_points_d here = *at;
+  double span = l->span;
+  if (count > DYD_LINES_D - l->count) return false;
+  for (uint32_t c = l->count; count; c++, k++, count--) {
+    dyd_xy p = lines_point_difference(&here, *k, l->i), q = lines_point_difference(&here, *k, l->j);
+    l->vertex[c] = *k;
+    l->px[c] = p.x;
+    l->py[c] = p.y;
+    l->qx[c] = q.x;
+    l->qy[c] = q.y;
+    l->m[c] = p.x * q.x + p.y * q.y;
+    l->n[c] = p.y * l->jx - p.x * l->jy;
+    span = dyd_max(fabs(p.x) + fabs(p.y) + fabs(q.x) + fabs(q.y), span);
+    l->count++;
+  }
+  l->span = span;
   return true;
 }
 

@@ -40,8 +40,8 @@ typedef struct dyd_death_d {
 
 /* false: doubles cannot hold the pair well. */
 bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t j);
-/* Adds a line; false: there is no room. */
-bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *p, uint32_t k);
+/* Adds lines of vertices; false: there is no room. */
+bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *p, const uint32_t *k, uint32_t count);
 dyd_line_d dyd_filter_line(const dyd_lines_d *l, const dyd_points_d *p, uint32_t number);
 /* The death of a strictly Delaunay pair with these others; false: not sure. `box` (may be NULL) gets a box around the
  * centre, *radius2 an upper bound of its squared distance to the sites that bind; infinite for a half-plane. */

@@ -45,26 +45,43 @@ static dyd_status find_low_parts(dyd_tolerance *t) {
   return st;
 }
 
-static dyd_status count_degrees(dyd_tolerance *t) {
+/* Counter-clockwise, in the order of the vertices. */
+static void fill_near(dyd_tolerance *t) {
+  const dyd_mesh *m = &t->sk->mesh;
+  uint32_t count = 0;
+  for (uint32_t v = 0; v < m->n; v++) {
+    dyd_half_edge first = t->sk->leaving[v], h = first;
+    t->start[v] = count;
+    if (first == DYD_NONE) continue;
+    do {
+      t->near[count++] = dyd_edge_target(m, h);
+      h = dyd_edge_turn(m, h);
+    } while (h != first);
+  }
+  t->start[m->n] = count;
+}
+
+static dyd_status list_near(dyd_tolerance *t) {
   const dyd_mesh *m = &t->sk->mesh;
   if (dyd_is_line(t->pd)) return DYD_OK;
-  t->degree = calloc((size_t)m->n + 1, sizeof *t->degree);
-  if (!t->degree) return DYD_E_NOMEM;
-  for (uint32_t q = 0; q < m->count; q++)
-    for (int k = 0; k < 3; k++) t->degree[m->tri[q].v[k]]++;
+  t->start = dyd_alloc((size_t)m->n + 1, sizeof *t->start);
+  t->near = dyd_alloc(3 * (size_t)m->count, sizeof *t->near); /* a corner of a triangle has one neighbour more */
+  if (!t->start || !t->near) return DYD_E_NOMEM;
+  fill_near(t);
   return DYD_OK;
 }
 
 dyd_status dyd_near_prepare(dyd_tolerance *t) {
   t->points = (dyd_points_d){.xy = t->sk->reps.xy, .usable = fegetround() == FE_TONEAREST};
   dyd_status st = find_low_parts(t);
-  return st == DYD_OK ? count_degrees(t) : st;
+  return st == DYD_OK ? list_near(t) : st;
 }
 
 void dyd_near_clear(dyd_tolerance *t) {
   if (t->has_tree) dyd_tree_clear(&t->tree);
   free(t->box);
-  free(t->degree);
+  free(t->start);
+  free(t->near);
   free(t->low);
   free(t->others.vertex);
 }
@@ -97,13 +114,8 @@ bool dyd_others_add(dyd_others *o, uint32_t v) {
 }
 
 static bool add_ring(dyd_others *o, const dyd_tolerance *t, uint32_t v, uint32_t w) {
-  const dyd_mesh *m = &t->sk->mesh;
-  dyd_half_edge first = t->sk->leaving[v], h = first;
-  do {
-    uint32_t k = dyd_edge_target(m, h);
-    if (k != w && k != m->n && !dyd_others_add(o, k)) return false;
-    h = dyd_edge_turn(m, h);
-  } while (h != first);
+  for (uint32_t q = t->start[v]; q < t->start[v + 1]; q++)
+    if (t->near[q] != w && t->near[q] != t->sk->mesh.n && !dyd_others_add(o, t->near[q])) return false;
   return true;
 }
 
@@ -117,9 +129,9 @@ dyd_status dyd_others_around(dyd_others *o, const dyd_tolerance *t, uint32_t v, 
   bool good = true;
   o->count = 0;
   if (dyd_is_line(t->pd)) return add_along(o, &t->sk->line, v, w) ? DYD_OK : DYD_E_NOMEM;
-  if (t->degree[v] <= most) good = add_ring(o, t, v, w);
-  if (t->degree[w] <= most) good = good && add_ring(o, t, w, v);
-  dyd_half_edge h = t->degree[v] <= t->degree[w] ? dyd_find_edge(t->sk, v, w) : dyd_find_edge(t->sk, w, v);
+  if (dyd_degree(t, v) <= most) good = add_ring(o, t, v, w);
+  if (dyd_degree(t, w) <= most) good = good && add_ring(o, t, w, v);
+  dyd_half_edge h = dyd_degree(t, v) <= dyd_degree(t, w) ? dyd_find_edge(t->sk, v, w) : dyd_find_edge(t->sk, w, v);
   if (h == DYD_NONE) return good ? DYD_OK : DYD_E_NOMEM;
   uint32_t apex[2] = {dyd_edge_apex(&t->sk->mesh, h), dyd_edge_across(&t->sk->mesh, h)};
   for (int k = 0; k < 2; k++) good = good && (apex[k] == t->sk->mesh.n || dyd_others_add(o, apex[k]));

@@ -53,7 +53,7 @@ static void look_at(radius_pass *p, uint32_t k) {
   dyd_lines_d *l = &p->t->small;
   if (k == l->i || k == l->j) return;
   l->count = 0;
-  dyd_filter_add(l, &p->t->points, k);
+  dyd_filter_add(l, &p->t->points, &k, 1);
   dyd_line_d line = dyd_filter_line(l, &p->t->points, 0);
   keep_least(&p->radius[k], gap_of(l, &line, p->ring) - p->ring->half);
 }

@@ -48,7 +48,7 @@ struct dyd_tolerance {
   /* scratch */
   dyd_points_d points;
   dyd_xy *low;
-  uint32_t *degree; /* of a vertex; NULL: a line */
+  uint32_t *start, *near; /* neighbours of v: near[start[v] .. start[v + 1] - 1], the ghost included; NULL: a line */
   bool has_tree;
   dyd_bbox *box;
   dyd_tree tree;
@@ -60,8 +60,11 @@ struct dyd_tolerance {
 
 /* near_filter.c. Pairs whose ends have more neighbours in all have one end that is a hub. */
 enum { DYD_HUB = 40 };
-/* The doubles, degrees. */
+/* The doubles, neighbours. */
 dyd_status dyd_near_prepare(dyd_tolerance *t);
+static inline uint32_t dyd_degree(const dyd_tolerance *t, uint32_t v) {
+  return t->start[v + 1] - t->start[v];
+}
 void dyd_near_clear(dyd_tolerance *t);
 /* Makes the tree over all vertices, unless there is one. */
 dyd_status dyd_near_index(dyd_tolerance *t);

@@ -102,7 +102,7 @@ dyd_status dyd_hull_corner(double *lo, double *hi, const dyd_tolerance *t, dyd_h
   mpq_t a[2], b[2], d, zero;
   *lo = *hi = HUGE_VAL;
   /* uw is an edge exactly when v has no other neighbours */
-  if (t->degree[v[1]] == 3) return DYD_OK;
+  if (dyd_degree(t, v[1]) == 3) return DYD_OK;
   mpq_inits(a[0], a[1], b[0], b[1], d, zero, NULL);
   dyd_status st = corner_vectors(a, b, t, v);
   if (st == DYD_OK && weighted)

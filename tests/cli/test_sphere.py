@@ -92,6 +92,68 @@ def test_turned():
         assert {frozenset((same[order[i]], same[order[j]])): s for (i, j), s in shuffled.items()} == named, (SEED, k)
 
 
+def rotated(places, r):
+    """Turned about an axis anywhere, in doubles."""
+    axis, angle = APART.vector(canonical_somewhere(r)), r.uniform(0, 2 * math.pi)
+    u, out = [c / 1e80 for c in axis], []
+    for place in places:
+        v = [c / 1e80 for c in APART.vector(globe.canonical(place))]
+        cross = [u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3] for k in range(3)]
+        dot = globe.dot(u, v)
+        w = [v[k] * math.cos(angle) + cross[k] * math.sin(angle) + u[k] * dot * (1 - math.cos(angle)) for k in range(3)]
+        out.append((round(math.degrees(math.atan2(w[1], w[0])), 12), round(math.degrees(math.atan2(w[2], math.hypot(w[0], w[1]))), 12)))
+    return out
+
+
+def canonical_somewhere(r):
+    return globe.canonical((round(r.uniform(-180, 180), 7), round(math.degrees(math.asin(r.uniform(-1, 1))), 7)))
+
+
+def test_rotated():
+    """Points that are in no relation have the same neighbours from wherever they are looked at."""
+    r = random.Random(SEED)
+    for k in range(cases(60)):
+        places = [canonical_somewhere(r) for _ in range(r.randrange(4, 12))]
+        want, result = sphere([(float(x), float(y)) for x, y in places])
+        got, _ = sphere(rotated(places, r))
+        assert got == want and result.code == 0, (SEED, k, places)
+
+
+def solids():
+    """The corners of the five regular solids, as expressions; how many faces each corner has, sides of a face."""
+    def ring(sides, first, lat):
+        return [(Q(360 * k, sides) + first, lat) for k in range(sides)]
+    third, half, root = 'asin(1/3)*180/pi', 'atan(1/2)*180/pi', 'atan(sqrt(1/2))*180/pi'
+    high, low = ('asin(sqrt((5' + s + '2*sqrt(5))/15))*180/pi' for s in '+-')
+    yield [(0, 90)] + ring(3, 0, '-' + third), 6, 0
+    yield [(0, 90), (0, -90)] + ring(4, 0, 0), 12, 0
+    yield ring(4, 45, root) + ring(4, 45, '-' + root), 12, 12
+    yield [(0, 90), (0, -90)] + ring(5, 0, half) + ring(5, 36, '-' + half), 30, 0
+    yield ring(5, 36, high) + ring(5, 36, low) + ring(5, 0, '-' + high) + ring(5, 0, '-' + low), 30, 60
+
+
+def by_doubles(lat):
+    return eval(str(lat), {'asin': lambda x: math.asin(x), 'atan': math.atan, 'sqrt': math.sqrt, 'pi': math.pi})
+
+
+def test_regular_solids():
+    """As they are: edges are legal, diagonals of faces stay open, others are none; turned and rounded: against the exact hull."""
+    r = random.Random(SEED)
+    for corners, edges, diagonals in solids():
+        got, result = sphere(corners, '--max-bits', '256')
+        about = [[c / 1e80 for c in APART.vector(globe.canonical((x, by_doubles(y))))] for x, y in corners]
+        far = {(i, j): math.dist(about[i], about[j]) for j in range(len(about)) for i in range(j)}
+        side = min(far.values())
+        short = {p for p, d in far.items() if d < side * 1.0001}
+        assert {p for p, s in got.items() if s == 'legal'} == short and len(short) == edges, (corners, got)
+        beyond = sorted(d for p, d in far.items() if p not in short)[:diagonals]
+        assert len(got) == edges + diagonals and all(far[p] <= beyond[-1] + 1e-9 for p in got if p not in short), (corners, got)
+        assert result.code == (4 if diagonals else 0), result
+        for _ in range(4):
+            places = rotated([(x, by_doubles(y)) for x, y in corners], r)
+            assert sphere(places)[0] == globe.statuses(APART, places), (SEED, places)
+
+
 def test_few_points():
     expect(run('delaunay', '--sphere', '--quiet', '-'), 0, r'\Ai,j,status\n\Z', r'\A\Z')
     expect(run('delaunay', '--sphere', '-', stdin='7 8\n'), 0, r'\Ai,j,status\n\Z', r'\A\Z')

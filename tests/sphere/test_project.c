@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* [SPH-2] Images of places, boxes and circles: against the projection in long doubles, and choices within. */
+/* [SPH-2] [FLT-SPH] Images of places, boxes and circles: against the projection in long doubles, and choices within. */
 #include <setjmp.h>
 #include <stdarg.h>
 
@@ -143,7 +143,80 @@ static void test_widths(void **state) {
   dyd_spot_clear(&spot);
 }
 
+/* ---- in doubles ---- */
+
+/* Anywhere, at whole quarters of a turn, next to a pole; `at`: next to that. */
+static void make_place(double p[4], test_random *r, const double *at) {
+  static const double quarter[] = {-180, -135, -90, -45, 0, 45, 90, 135, 180};
+  double near = ldexp(test_unit(r) - 0.5, -(int)test_below(r, 50));
+  p[0] = test_chance(r, 3) ? quarter[test_below(r, 9)] : 360 * test_unit(r) - 180;
+  p[2] = test_chance(r, 3) ? quarter[2 + test_below(r, 5)] : 180 * test_unit(r) - 90;
+  if (at && test_chance(r, 2)) p[0] = at[0] + near, p[2] = at[2] - near;
+  if (test_chance(r, 2)) p[0] += near, p[2] -= near;
+  p[2] = fmin(fmax(p[2], -90), 90);
+  p[1] = test_chance(r, 2) ? p[0] : nextafter(p[0], HUGE_VAL);
+  p[3] = test_chance(r, 2) ? p[2] : fmin(nextafter(p[2], HUGE_VAL), 90);
+}
+
+static void set_corner(dyd_spot *out, const double p[4], int corner) {
+  set_spot(out, &(spot_case){p[corner & 1], p[2 + corner / 2], {0, 0}});
+}
+
+static bool is_between(const arb_t x, const double end[2]) {
+  arb_t side;
+  arb_init(side);
+  arb_set_d(side, end[0]);
+  bool good = arb_le(side, x);
+  arb_set_d(side, end[1]);
+  good = good && arb_ge(side, x);
+  arb_clear(side);
+  return good;
+}
+
+/* The image of every corner of a narrow box is in what doubles say, and that is narrow where the place is far. */
+static void test_doubles(void **state) {
+  test_random r;
+  dyd_spot spot;
+  dyd_eye eye;
+  arb_t x, y;
+  mpq_t none;
+  size_t seen = 0, fine = 0;
+  (void)state;
+  r = test_random_start("images in doubles");
+  dyd_spot_init(&spot);
+  dyd_eye_init(&eye);
+  arb_init(x), arb_init(y);
+  mpq_init(none);
+  for (int k = 0; k < 20000; k++) {
+    double q[4], p[4], got[4];
+    dyd_eye_d in_doubles;
+    make_place(q, &r, NULL);
+    make_place(p, &r, q);
+    set_corner(&eye.spot, q, 0);
+    eye.prec = 0;
+    dyd_eye_enclose(&in_doubles, &eye);
+    bool known = dyd_filter_image(got, p, &in_doubles, 0);
+    for (int corner = 0; corner < 4 && known; corner++) {
+      set_corner(&spot, p, corner);
+      assert_true(dyd_project(x, y, &spot, none, &eye, 200));
+      assert_true(is_between(x, got) && is_between(y, got + 2));
+    }
+    seen += known;
+    double far = known ? hypot(got[0], got[2]) : HUGE_VAL;
+    if (far > 200) continue;
+    fine++;
+    assert_true(dyd_filter_image(got, p, &in_doubles, 40));
+    assert_true(fmax(got[1] - got[0], got[3] - got[2]) <= 0x1p-41 * (1 + 1e-3) * (1 + far * far));
+  }
+  assert_true(seen > 10000 && fine > 5000);
+  mpq_clear(none);
+  arb_clear(y), arb_clear(x);
+  dyd_eye_clear(&eye);
+  dyd_spot_clear(&spot);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_images), cmocka_unit_test(test_widths)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_images), cmocka_unit_test(test_widths),
+                                     cmocka_unit_test(test_doubles)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

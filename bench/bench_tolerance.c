@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Rows over tolerances: deaths of all edges of uniform points, against their triangulation; of a hub. */
+#include "answers.h"
+#include "cloud.h"
+#include "harness.h"
+
+#include <dyadel/tolerance.h>
+
+static void tolerance_check(const char *row, dyd_status status) {
+  if (status != DYD_OK) bench_die(row, dyd_status_text(status));
+}
+
+typedef struct deaths_answer {
+  uint64_t filter, exact;
+  double least;
+} deaths_answer;
+
+/* The triangulation, then what it tolerates. */
+static void deaths_run(bench_series *before, bench_series *ours, deaths_answer *answer, const char *row,
+                       const cloud *c) {
+  dyd_sites *sites = NULL;
+  dyd_delaunay *pd = NULL;
+  dyd_tolerance *t = NULL;
+  double hi;
+  bench_meter meter = bench_start();
+  tolerance_check(row, dyd_sites_new(&sites));
+  tolerance_check(row, dyd_sites_add_points(sites, c->n, c->x, c->y));
+  tolerance_check(row, dyd_delaunay_new(&pd, sites, NULL, NULL));
+  bench_series_add(before, bench_stop(&meter));
+  meter = bench_start();
+  tolerance_check(row, dyd_tolerance_new(&t, pd, NULL, NULL));
+  bench_series_add(ours, bench_stop(&meter));
+  dyd_tolerance_rungs(&answer->filter, &answer->exact, t);
+  dyd_tolerance_whole(&answer->least, &hi, t);
+  dyd_tolerance_free(t);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+}
+
+static void row_deaths(const bench_options *o, const char *name, void (*make)(cloud *c, size_t n), size_t n,
+                       double goal) {
+  cloud points;
+  bench_series before = {0}, ours = {0};
+  deaths_answer answer = {0};
+  char remark[200];
+  if (!bench_wants(o, name)) return;
+  make(&points, bench_size(o, n));
+  for (size_t r = 0; r < bench_runs(o, 3); r++) deaths_run(&before, &ours, &answer, name, &points);
+  bench_check_numbers(o, name, points.n, (size_t)(answer.filter + answer.exact), (size_t)(answer.least * 1e18), 0);
+  snprintf(remark, sizeof remark, "%llu deaths; %llu by integers; the least %.9g",
+           (unsigned long long)(answer.filter + answer.exact), (unsigned long long)answer.exact, answer.least);
+  bench_report(o, &(bench_row){.name = name,
+                               .n = points.n,
+                               .ours = &ours,
+                               .peer = &before,
+                               .peer_name = "triangulation",
+                               .ratio_goal = goal,
+                               .remark = remark});
+  cloud_clear(&points);
+}
+
+int main(int argc, char **argv) {
+  bench_options o;
+  bench_options_read(&o, argc, argv);
+  while (bench_next_part(&o)) {
+    row_deaths(&o, "deaths", cloud_uniform, 1000000, 1.5);
+    row_deaths(&o, "hub", cloud_hub, 100000, 0);
+  }
+  bench_options_close(&o);
+  return 0;
+}
