@@ -35,6 +35,7 @@ typedef struct cli_options {
   const char *queries;          /* or a file of places */
   const char *output;           /* NULL: standard output */
   const char *up_to, *sigma;    /* of tolerance */
+  dyd_metric metric;
   const char *accuracy, *pairs; /* of plan */
   unsigned site;                /* of plan */
   bool site_set, next;
