@@ -54,8 +54,8 @@ typedef struct dyd_tolerance_options {
   const double
       *sigmas; /* of each site, above 0: standard deviations in place of sigma; NULL: sigma. Borrowed as above */
   /* DYD_METRIC_BOX [TOL-9]: [lo,hi] holds the half-width of all squares from which on an edge is not legal, or another
-   * pair possible; hi <= (1 + 2^-20) lo, but where the search for witnesses gives no answer; k and l are about nearest to
-   * the disc that shows the edge at lo (the birth at hi), one on each side of it; there is no exact form. Radii are
+   * pair possible; hi <= (1 + 2^-20) lo, but where the search for witnesses gives no answer; k and l are about nearest
+   * to the disc that shows the edge at lo (the birth at hi), one on each side of it; there is no exact form. Radii are
    * half-widths of squares, too; probabilities are the same. No weights. */
   dyd_metric metric;
 } dyd_tolerance_options;

@@ -189,7 +189,8 @@ const cli_option cli_option_table[] = {
     {"up-to", 0, "EPS", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "also births: pairs that may become edges when points\nmove by EPS at most; an exact number", AT(up_to)},
     {"metric", 0, "WHICH", CLI_METRIC, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
-     "euclid (default): points move in discs; box: x and y each\nby as much, in squares, bounds 2^-20 of themselves apart",
+     "euclid (default): points move in discs; box: x and y each\nby as much, in squares, bounds 2^-20 of themselves "
+     "apart",
      AT(metric)},
     {"sigma", 0, "S", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "also a lower bound of each edge's probability, for normal\nerrors of standard deviation S in x and in y",

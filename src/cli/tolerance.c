@@ -74,8 +74,7 @@ static int sigma_read(mpq_ptr out, const char *text) {
 static int tolerance_contradictions(const cli_options *o) {
   bool sigmas = o->sigma && o->read.sigma_column, weights = o->metric == DYD_METRIC_BOX && o->read.radius_columns;
   if (sigmas) cli_complain("--sigma and --sigma-column contradict each other; leave one of them away");
-  if (weights)
-    cli_complain("--metric box is about points that move equally far; leave it, or --radius-column, away");
+  if (weights) cli_complain("--metric box is about points that move equally far; leave it, or --radius-column, away");
   return sigmas || weights ? CLI_USAGE : 0;
 }
 

@@ -219,8 +219,7 @@ dyd_status dyd_tolerance_json(const dyd_output *o) {
   fprintf(o->out,
           "%s\"rounding\": \"bounds are rounded outward: the first down, the second up, null is infinite; %srho and "
           "probability are rounded down\",\n\"tolerance\": ",
-          box ? "\"metric\": \"box\",\n" : "",
-          box ? "" : "twice the event is exactly |sqrt(plus) - sqrt(minus)|; ");
+          box ? "\"metric\": \"box\",\n" : "", box ? "" : "twice the event is exactly |sqrt(plus) - sqrt(minus)|; ");
   dyd_tolerance_whole(&lo, &hi, t);
   dyd_json_decimals(o->out, lo, hi);
   fputs(",\n", o->out);

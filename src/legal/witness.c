@@ -178,8 +178,8 @@ static void witness_search_run(search *s) {
   }
 }
 
-static dyd_status witness_search_exactly(dyd_truth *exists, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i,
-                                         uint32_t j, dyd_xy guess) {
+static dyd_status witness_search_exactly(dyd_truth *exists, dyd_point *c, dyd_work *w, const dyd_skeleton *sk,
+                                         uint32_t i, uint32_t j, dyd_xy guess) {
   dyd_plane_list *planes = malloc(sizeof *planes);
   search s;
   if (!planes) return DYD_E_NOMEM;

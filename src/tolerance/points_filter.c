@@ -10,10 +10,10 @@
  * relative error below 8 u. Everybody is looked for whom the circle may concern more than what is known of them: a
  * branch of the tree is left out when it is farther from the circle, less errors, than the largest radius in it.
  *
- * In the max norm, with (a, b) the sizes of the coordinates of c - p, a >= b, and m the radius of the circle, the square
- * of half-width h about p comes to it by a corner, (a -+ h)^2 + (b -+ h)^2 = m^2: h = |a^2 + b^2 - m^2| / (a + b +
- * sqrt(2 m^2 - (a - b)^2)); from outside, where a - b >= m, by a side: h = a - m. That is at least distance / sqrt(2),
- * and a - m is never more than h. a, b, m are off by less than 2^-48 of a + m. */
+ * In the max norm, with (a, b) the sizes of the coordinates of c - p, a >= b, and m the radius of the circle, the
+ * square of half-width h about p comes to it by a corner, (a -+ h)^2 + (b -+ h)^2 = m^2: h = |a^2 + b^2 - m^2| / (a + b
+ * + sqrt(2 m^2 - (a - b)^2)); from outside, where a - b >= m, by a side: h = a - m. That is at least distance /
+ * sqrt(2), and a - m is never more than h. a, b, m are off by less than 2^-48 of a + m. */
 #include "base/alloc.h"
 #include "tolerance/state.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Deaths and births for squares of half-width t, by bisection with statuses [TOL-9].
+/* Deaths and births where points move in squares, by bisection with statuses [TOL-9].
  *
  * At any t, whether some sites leave the pair legal, or possible, is decided exactly. What they refute, all sites do;
  * what they allow all sites allow when nobody else comes to the disc that shows it, and who may come is one of `some`
@@ -9,7 +9,6 @@
  * Squares are rounded outward to multiples of 2^exp: they hold those of half-width t, and lie in those of t + 2^exp. So
  * "yes" at t holds below t, "no" above t + 2^exp. The floor of the search for witnesses is far below another 2^exp. */
 #include "tolerance/squares.h"
-#include "base/alloc.h"
 #include "legal/witness.h"
 #include "possible/cover.h"
 #include "tolerance/roots.h"
@@ -18,60 +17,8 @@
 #include <stdlib.h>
 
 #define WIDTH (1 + 0x1p-20)
-/* Squares are rounded at 2^-FINE of their half-width. Nothing is tried beyond 2^+-RANGE. */
-enum { FINE = 24, RANGE = 900, FIRST_SEEN = 24 };
-
-/* ---- squares at t ---- */
-
-dyd_status dyd_square_of(dyd_rect *out, dyd_squares *q, uint32_t v) {
-  const dyd_sites *nominal = q->t->sk->reps.sites;
-  dyd_status st = dyd_sites_get(out, nominal, q->t->sk->reps.site[v]);
-  for (int axis = 0; axis < 2 && st == DYD_OK; axis++) {
-    dyd_interval *side = axis ? &out->y : &out->x;
-    dyd_interval_get_q(q->end[0], q->end[1], side);
-    mpq_sub(q->end[0], q->end[0], q->half);
-    mpq_add(q->end[1], q->end[1], q->half);
-    st = dyd_interval_set_outward(side, q->end[0], q->end[1], q->exp);
-  }
-  return st;
-}
-
-static void squares_unbuild(dyd_squares *q) {
-  if (!q->sites) return;
-  dyd_work_clear(&q->work);
-  dyd_skeleton_clear(&q->sk);
-  dyd_sites_free(q->sites);
-  q->sites = NULL;
-}
-
-/* A failure leaves nothing built. */
-static dyd_status squares_build(dyd_squares *q) {
-  const dyd_skeleton_options o = {.no_filter = q->t->options.no_filter, .threads = 1};
-  dyd_sites *sites = NULL;
-  dyd_rect r;
-  dyd_rect_init(&r);
-  dyd_status st = dyd_sites_new(&sites);
-  for (size_t k = 0; k < q->seen.count + 2 && st == DYD_OK; k++) {
-    st = dyd_square_of(&r, q, k == 0 ? q->i : k == 1 ? q->j : q->seen.vertex[k - 2]);
-    if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
-  }
-  dyd_rect_clear(&r);
-  if (st == DYD_OK) st = dyd_skeleton_build(&q->sk, sites, &o);
-  if (st != DYD_OK) {
-    dyd_sites_free(sites);
-    return st;
-  }
-  q->sites = sites;
-  dyd_work_init(&q->work, &q->sk, NULL);
-  return DYD_OK;
-}
-
-static dyd_status squares_begin_at(dyd_squares *q, double t) {
-  q->now = t;
-  q->exp = ilogb(t) - FINE;
-  mpq_set_d(q->half, t);
-  return squares_build(q);
-}
+/* Nothing is tried beyond 2^+-RANGE. */
+enum { RANGE = 900, FIRST_SEEN = 24 };
 
 /* ---- at one t ---- */
 
@@ -80,14 +27,14 @@ typedef dyd_status squares_question(dyd_truth *answer, dyd_squares *q, double t)
 static dyd_status squares_are_legal(dyd_truth *answer, dyd_squares *q, double t) {
   dyd_status st = DYD_OK;
   for (bool more = true; more && st == DYD_OK;) {
-    st = squares_begin_at(q, t);
+    st = dyd_squares_build(q, t);
     if (st != DYD_OK) return st;
     const uint32_t *v = q->sk.vertex;
     uint32_t across[2] = {v[2], q->seen.count > 1 ? v[3] : v[2]};
     more = false;
     st = dyd_witness_decide(answer, &q->c, &q->work, &q->sk, v[0], v[1], q->guess, q->seen.count > 1 ? across : NULL);
     if (st == DYD_OK && *answer == DYD_TRUE) st = dyd_squares_see_rivals(&more, q);
-    squares_unbuild(q);
+    dyd_squares_unbuild(q);
   }
   if (st != DYD_OK || *answer != DYD_TRUE) return st;
   uint32_t k, l;
@@ -111,7 +58,7 @@ static dyd_status squares_are_illegal(dyd_truth *answer, dyd_squares *q, double 
   dyd_status st = DYD_OK;
   for (bool more = true; more && st == DYD_OK;) {
     bool meet, possible = true;
-    st = squares_begin_at(q, t);
+    st = dyd_squares_build(q, t);
     if (st != DYD_OK) return st;
     more = false;
     const uint32_t *v = q->sk.vertex;
@@ -119,7 +66,7 @@ static dyd_status squares_are_illegal(dyd_truth *answer, dyd_squares *q, double 
     if (st == DYD_OK && !meet) st = dyd_cover_possible(&possible, &q->work, &q->sk, v[0], v[1], no_hint);
     if (st == DYD_OK && !meet && possible) st = dyd_squares_see_blockers(&more, q);
     *answer = possible ? DYD_FALSE : DYD_TRUE;
-    squares_unbuild(q);
+    dyd_squares_unbuild(q);
   }
   return st;
 }
@@ -130,7 +77,7 @@ static dyd_status squares_are_illegal(dyd_truth *answer, dyd_squares *q, double 
 static dyd_status squares_halve(double *lo, double *hi, dyd_squares *q, squares_question *ask) {
   dyd_status st = DYD_OK;
   while (*hi > *lo * WIDTH && st == DYD_OK) {
-    double mid = 4 * *lo >= *hi ? *lo + (*hi - *lo) / 2 : *hi / 4, over = mid + ldexp(mid, 2 - FINE);
+    double mid = 4 * *lo >= *hi ? *lo + (*hi - *lo) / 2 : *hi / 4, over = mid + ldexp(mid, 2 - DYD_SQUARE_BITS);
     dyd_truth answer = DYD_UNKNOWN;
     if (!(mid > *lo && over < *hi && mid > ldexp(1, -RANGE) && mid < ldexp(1, RANGE))) return DYD_OK;
     st = ask(&answer, q, mid);
@@ -201,7 +148,7 @@ static dyd_status square_birth(bool *late, dyd_squares *q, dyd_tolerance_row *ro
   if (st == DYD_OK) st = squares_are_illegal(&illegal, q, up_to);
   *late = st == DYD_OK && illegal == DYD_TRUE;
   row->lo = 0;
-  row->hi = up_to + ldexp(up_to, 2 - FINE);
+  row->hi = up_to + ldexp(up_to, 2 - DYD_SQUARE_BITS);
   if (st == DYD_OK && !*late) st = squares_halve(&row->lo, &row->hi, q, squares_are_illegal);
   if (st == DYD_OK && !*late) row_bind(row, q, true);
   return st;

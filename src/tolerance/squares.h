@@ -23,14 +23,21 @@ typedef struct dyd_squares {
   dyd_bbox place; /* where a pair is seen to be legal, or possible; NaN: nowhere in the plane */
 } dyd_squares;
 
-/* The square of a vertex of t, exactly but for that rounding. */
+/* Squares are rounded at 2^-DYD_SQUARE_BITS of their half-width. */
+enum { DYD_SQUARE_BITS = 24 };
+
+/* squares_build.c. The square of a vertex of t, exactly but for that rounding. */
 dyd_status dyd_square_of(dyd_rect *out, dyd_squares *q, uint32_t v);
+/* i, j and seen at half-width t. A failure leaves nothing built. */
+dyd_status dyd_squares_build(dyd_squares *q, double t);
+void dyd_squares_unbuild(dyd_squares *q);
 
 /* squares_filter.c. Looks at v from now on; *more: it was not seen before. */
 dyd_status dyd_squares_see(bool *more, dyd_squares *q, uint32_t v);
 /* About where the circle that binds in the plane of exact points is, for a row of these. */
 dyd_xy dyd_squares_guess(const dyd_squares *q, uint32_t k, uint32_t l);
-/* Looks at whose squares do not surely keep out of the witness disc about q->c: a few at most. *more: there are some. */
+/* Looks at whose squares do not surely keep out of the witness disc about q->c: a few at most. *more: there are some.
+ */
 dyd_status dyd_squares_see_rivals(bool *more, dyd_squares *q);
 /* Looks at who is not surely too far to block the place at which the work sees a possible pair: a few at most. */
 dyd_status dyd_squares_see_blockers(bool *more, dyd_squares *q);

@@ -2,7 +2,7 @@
 /* Who else may come to a disc, in doubles: all that is uncertain is looked at [TOL-9].
  *
  * A square about a point in the box b, of half-width h, is in b widened by h and SPARE of all sizes, and holds what b
- * less all that leaves; distances to these are bounded as in distance_filter.h. */
+ * less all that leaves; distances to these are bounded as in skeleton/distance_filter.h. */
 #include "skeleton/rects_filter.h"
 #include "tolerance/squares.h"
 #include <dyadel/predicate.h>
@@ -101,7 +101,8 @@ dyd_status dyd_squares_see_blockers(bool *more, dyd_squares *q) {
   if (s.far) {
     double u[2];
     dyd_direction_d(u, w->u[0], w->u[1]);
-    double height = dyd_min(dyd_height_lower(r, u[0], u[1], &r->box[v[0]]), dyd_height_lower(r, u[0], u[1], &r->box[v[1]]));
+    double height =
+        dyd_min(dyd_height_lower(r, u[0], u[1], &r->box[v[0]]), dyd_height_lower(r, u[0], u[1], &r->box[v[1]]));
     q->place = (dyd_bbox){{NAN, NAN, NAN, NAN}};
     dyd_tree_beyond(&q->t->tree, u[0], u[1], &height, meet_rival, &s);
   } else {
@@ -115,15 +116,15 @@ dyd_status dyd_squares_see_blockers(bool *more, dyd_squares *q) {
 
 /* ---- hints ---- */
 
-static dyd_xy place_of(const dyd_squares *q, uint32_t v) {
+static dyd_xy nominal_place(const dyd_squares *q, uint32_t v) {
   return q->t->sk->reps.xy[v];
 }
 
 /* Where the bisectors of ij and kl cross: the middle of the widest annulus. */
 dyd_xy dyd_squares_guess(const dyd_squares *q, uint32_t k, uint32_t l) {
-  dyd_xy i = place_of(q, q->i), j = place_of(q, q->j), middle = {i.x / 2 + j.x / 2, i.y / 2 + j.y / 2};
+  dyd_xy i = nominal_place(q, q->i), j = nominal_place(q, q->j), middle = {i.x / 2 + j.x / 2, i.y / 2 + j.y / 2};
   if (k == DYD_NO_SITE || l == DYD_NO_SITE) return middle;
-  dyd_xy a = place_of(q, q->t->sk->vertex[k]), b = place_of(q, q->t->sk->vertex[l]);
+  dyd_xy a = nominal_place(q, q->t->sk->vertex[k]), b = nominal_place(q, q->t->sk->vertex[l]);
   double jx = j.x - i.x, jy = j.y - i.y, dx = b.x - a.x, dy = b.y - a.y;
   double ex = a.x / 2 + b.x / 2 - middle.x, ey = a.y / 2 + b.y / 2 - middle.y;
   double s = (ex * dx + ey * dy) / (jx * dy - jy * dx);
@@ -138,14 +139,14 @@ static void bring_forward(dyd_others *o, size_t to, uint32_t v) {
 }
 
 void dyd_squares_bind(uint32_t *k, uint32_t *l, dyd_squares *q, bool far) {
-  dyd_xy i = place_of(q, q->i), j = place_of(q, q->j), c = {q->place.e[0], q->place.e[2]};
+  dyd_xy i = nominal_place(q, q->i), j = nominal_place(q, q->j), c = {q->place.e[0], q->place.e[2]};
   double jx = j.x - i.x, jy = j.y - i.y, cx = c.x - i.x, cy = c.y - i.y, least[2] = {HUGE_VAL, HUGE_VAL};
   size_t best[2] = {SIZE_MAX, SIZE_MAX};
   *k = *l = DYD_NONE;
   if (!(cx * cx + cy * cy < FAR2 * (jx * jx + jy * jy))) return;
   for (size_t s = 0; s < q->seen.count; s++) {
     const dyd_bbox *b = &q->t->box[q->seen.vertex[s]];
-    dyd_xy p = place_of(q, q->seen.vertex[s]);
+    dyd_xy p = nominal_place(q, q->seen.vertex[s]);
     dyd_bbox square = widened(b, q->now);
     double d = far ? dyd_dl2_upper(&q->place, &square) : dyd_ds2_lower(&q->place, &square);
     int side = jx * (p.y - i.y) - jy * (p.x - i.x) > 0;

@@ -29,7 +29,8 @@ static dyd_status check_points(const dyd_tolerance *t, dyd_error *err) {
   if (t->options.up_to && mpq_sgn(t->options.up_to) < 0)
     return dyd_fail(err, DYD_E_ARG, "births up to a negative number: give a positive one");
   if (t->options.weight && t->options.metric == DYD_METRIC_BOX)
-    return dyd_fail(err, DYD_E_ARG, "squares that grow by weights are not looked at; leave weights, or the metric, away");
+    return dyd_fail(err, DYD_E_ARG,
+                    "squares that grow by weights are not looked at; leave weights, or the metric, away");
   for (uint32_t i = 0; t->options.weight && i < t->sk->n; i++)
     if (!(t->options.weight[i] >= 0 && t->options.weight[i] <= 0x1p400)) {
       if (err) err->point = i;
