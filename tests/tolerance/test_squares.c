@@ -251,6 +251,73 @@ static void test_whole_and_radii(void **state) {
   assert_true(wholes > 100 && moved > 10000);
 }
 
+/* ---- many points ---- */
+
+enum { MANY = 70 };
+
+/* Anywhere; a hub within a ring; a ring within which another one is; thin. */
+static void make_many(double xy[2][MANY], test_random *r, size_t kind) {
+  for (size_t i = 0; i < MANY; i++) {
+    double a = 6.283185307179586 * ((double)i + test_unit(r)) / MANY, x = test_unit(r), y = test_unit(r);
+    double far = kind == 1 ? (i ? 1 + ldexp(x, -6) : 0) : i % 2 ? 1 + ldexp(x, -8) : 1.02 + ldexp(y, -8);
+    if (kind == 3) y = ldexp(y, -4);
+    if (kind == 1 || kind == 2) x = far * cos(a), y = far * sin(a);
+    xy[0][i] = ldexp(nearbyint(ldexp(x, 30)), -30);
+    xy[1][i] = ldexp(nearbyint(ldexp(y, 30)), -30);
+  }
+}
+
+static dyd_pair_status status_of_squares(double xy[2][MANY], double t, uint32_t i, uint32_t j) {
+  dyd_sites *sites;
+  dyd_delaunay *pd;
+  dyd_error err;
+  double end[4][MANY];
+  for (size_t k = 0; k < MANY; k++)
+    for (int e = 0; e < 4; e++) end[e][k] = xy[e / 2][k] + (e % 2 ? t : -t);
+  assert_int_equal(dyd_sites_new(&sites), DYD_OK);
+  assert_int_equal(dyd_sites_add_boxes(sites, MANY, end[0], end[1], end[2], end[3]), DYD_OK);
+  assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, &err), DYD_OK);
+  dyd_pair_status status = dyd_delaunay_status(pd, i, j);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  return status;
+}
+
+/* Statuses of all squares, a little below lo and above hi. */
+static void test_many_squares(void **state) {
+  (void)state;
+  test_random r = test_random_start("many squares");
+  size_t births = 0, all = 0;
+  for (size_t c = 0; c < test_cases_all(12); c++) {
+    double xy[2][MANY];
+    cases_answer a;
+    const dyd_tolerance_row *row;
+    dyd_error err;
+    mpq_t up_to;
+    make_many(xy, &r, c % 4);
+    mpq_init(up_to);
+    mpq_set_ui(up_to, 1, 100);
+    assert_int_equal(dyd_sites_new(&a.sites), DYD_OK);
+    assert_int_equal(dyd_sites_add_points(a.sites, MANY, xy[0], xy[1]), DYD_OK);
+    assert_int_equal(dyd_delaunay_new(&a.pd, a.sites, NULL, &err), DYD_OK);
+    const dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .up_to = up_to, .metric = DYD_METRIC_BOX};
+    assert_int_equal(dyd_tolerance_new(&a.t, a.pd, &o, &err), DYD_OK);
+    for (size_t n = dyd_tolerance_rows(&row, a.t); n--; row++) {
+      bool death = row->event == DYD_EVENT_DEATH;
+      if (row->lo < 1e-6 || row->hi > 0.02 || test_below(&r, 4)) continue;
+      dyd_pair_status before = status_of_squares(xy, row->lo * (1 - 1e-6), row->i, row->j);
+      dyd_pair_status after = status_of_squares(xy, row->hi * (1 + 1e-6), row->i, row->j);
+      assert_int_equal(before, death ? DYD_LEGAL : DYD_ILLEGAL);
+      assert_int_equal(after, DYD_INDETERMINATE);
+      births += !death, all++;
+    }
+    cases_forget(&a);
+    mpq_clear(up_to);
+  }
+  print_message("%zu births of %zu\n", births, all);
+  assert_true(births > 100 && all > 200);
+}
+
 /* What is not for squares. */
 static void test_squares_refused(void **state) {
   (void)state;
@@ -275,7 +342,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_squares_against_oracle), cmocka_unit_test(test_corners),
       cmocka_unit_test(test_squares_against_discs),  cmocka_unit_test(test_whole_and_radii),
-      cmocka_unit_test(test_squares_refused),
+      cmocka_unit_test(test_many_squares),           cmocka_unit_test(test_squares_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
