@@ -253,7 +253,7 @@ static void test_whole_and_radii(void **state) {
 
 /* ---- many points ---- */
 
-enum { MANY = 70 };
+enum { MANY = 40 };
 
 /* Anywhere; a hub within a ring; a ring within which another one is; thin. */
 static void make_many(double xy[2][MANY], test_random *r, size_t kind) {
@@ -288,7 +288,7 @@ static void test_many_squares(void **state) {
   (void)state;
   test_random r = test_random_start("many squares");
   size_t births = 0, all = 0;
-  for (size_t c = 0; c < test_cases_all(12); c++) {
+  for (size_t c = 0; c < test_cases_all(8); c++) {
     double xy[2][MANY];
     cases_answer a;
     const dyd_tolerance_row *row;
@@ -296,7 +296,7 @@ static void test_many_squares(void **state) {
     mpq_t up_to;
     make_many(xy, &r, c % 4);
     mpq_init(up_to);
-    mpq_set_ui(up_to, 1, 100);
+    mpq_set_ui(up_to, 1, 400);
     assert_int_equal(dyd_sites_new(&a.sites), DYD_OK);
     assert_int_equal(dyd_sites_add_points(a.sites, MANY, xy[0], xy[1]), DYD_OK);
     assert_int_equal(dyd_delaunay_new(&a.pd, a.sites, NULL, &err), DYD_OK);
@@ -315,7 +315,7 @@ static void test_many_squares(void **state) {
     mpq_clear(up_to);
   }
   print_message("%zu births of %zu\n", births, all);
-  assert_true(births > 100 && all > 200);
+  assert_true(births > 30 && all > 100);
 }
 
 /* What is not for squares. */
