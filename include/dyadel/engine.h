@@ -146,6 +146,10 @@ typedef struct dyd_engine_options {
    * so many bits for each proof; 0: default 2^17. */
   int64_t tie_bits;
   bool no_ties;
+  /* What asking each point once more costs, above 0; NULL: what its row said (dyd_engine_cost). The adaptive schedule
+   * lets points wait that cost more than twice as much as the cheapest of those that a face wants narrower, until as
+   * much was spent beside them. dyd_engine_count(e) numbers, borrowed during the run. */
+  const double *cost;
 } dyd_engine_options;
 /* Fills in the size and the defaults (all zero but for what the comments say). */
 static inline void dyd_engine_options_init(dyd_engine_options *o) {

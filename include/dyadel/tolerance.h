@@ -3,7 +3,8 @@
  *
  * All points move at once, each within a disc of radius t about its nominal place, or t times its weight. A Delaunay
  * edge dies at the t from which some choice of points may lose it; a pair that is no edge is born at the t from which
- * some choice makes it one. So each pair has one number, and the statuses for discs of radius t are read off it. */
+ * some choice makes it one. So each pair has one number, and the statuses for discs of radius t are read off it.
+ * Measured in the max norm, each point moves in a square of half-width t instead. */
 #ifndef DYADEL_TOLERANCE_H
 #define DYADEL_TOLERANCE_H
 
@@ -34,6 +35,11 @@ typedef struct dyd_tolerance_row {
   double lo, hi;
 } dyd_tolerance_row;
 
+/* How far a point moves: by the Euclidean distance, in a disc; or by the larger of x and y, in a square. */
+typedef enum dyd_metric { DYD_METRIC_EUCLID = 0, DYD_METRIC_BOX } dyd_metric;
+/* "euclid", "box"; NULL behind the last one. Static storage. */
+DYD_API const char *dyd_metric_text(dyd_metric metric);
+
 typedef struct dyd_tolerance_options {
   size_t struct_size;         /* set by DYD_SIZED */
   mpq_srcptr up_to;           /* births up to here are found, too; NULL: none. Borrowed for the call */
@@ -47,6 +53,11 @@ typedef struct dyd_tolerance_options {
   const double *weight;
   const double
       *sigmas; /* of each site, above 0: standard deviations in place of sigma; NULL: sigma. Borrowed as above */
+  /* DYD_METRIC_BOX [TOL-9]: [lo,hi] holds the half-width of all squares from which on an edge is not legal, or another
+   * pair possible; hi <= (1 + 2^-20) lo, but where the search for witnesses gives no answer; k and l are about nearest
+   * to the disc that shows the edge at lo (the birth at hi), one on each side of it; there is no exact form. Radii are
+   * half-widths of squares, too; probabilities are the same. No weights. */
+  dyd_metric metric;
 } dyd_tolerance_options;
 
 typedef struct dyd_tolerance dyd_tolerance;
@@ -54,6 +65,7 @@ typedef struct dyd_tolerance dyd_tolerance;
 /* The tolerances of the exact points of pd, which is borrowed until dyd_tolerance_free and must not change. options may
  * be NULL. Returns DYD_OK; DYD_E_ARG with a message when a site is no exact point, or for a negative up_to; DYD_CAPPED
  * when there are too many pairs for births; DYD_CANCELLED; DYD_E_NOMEM: *out is NULL then.
+ * In the max norm each pair takes some twenty triangulations of the sites around it, half a millisecond or more.
  * With weights [TOL-8] hi - lo may be more where doubles do not place a circle: where one disc grows to be all but in
  * another one; and each pair costs some hundred decisions about discs.
  * Cost: O(N log N) for deaths [TOL-4]; births take the partial triangulation of squares of half-width up_to, and a few
@@ -64,6 +76,7 @@ DYD_API void dyd_tolerance_free(dyd_tolerance *t);
 
 /* All rows: every possible pair of pd, and the births; sorted by i, then j. Borrowed until t is freed. */
 DYD_API size_t dyd_tolerance_rows(const dyd_tolerance_row **row, const dyd_tolerance *t);
+DYD_API dyd_metric dyd_tolerance_metric(const dyd_tolerance *t);
 /* The t in [*lo, *hi] up to which nothing changes at all: no edge is lost, no pair becomes one. 0 where there are ties;
  * infinite for fewer than three points [TOL-5]. */
 DYD_API void dyd_tolerance_whole(double *lo, double *hi, const dyd_tolerance *t);

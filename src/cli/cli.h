@@ -29,12 +29,13 @@ enum {
 /* All texts borrowed from argv; NULL where an option was not given, unless said otherwise. */
 typedef struct cli_options {
   const char *command;
-  const char *file;             /* the points file, or the certificate of verify; NULL with an oracle */
-  const char *points;           /* verify: the points file */
-  const char *at[2];            /* X Y of nearest */
-  const char *queries;          /* or a file of places */
-  const char *output;           /* NULL: standard output */
-  const char *up_to, *sigma;    /* of tolerance */
+  const char *file;          /* the points file, or the certificate of verify; NULL with an oracle */
+  const char *points;        /* verify: the points file */
+  const char *at[2];         /* X Y of nearest */
+  const char *queries;       /* or a file of places */
+  const char *output;        /* NULL: standard output */
+  const char *up_to, *sigma; /* of tolerance */
+  dyd_metric metric;
   const char *accuracy, *pairs; /* of plan */
   unsigned site;                /* of plan */
   bool site_set, next;

@@ -49,6 +49,8 @@ static void bash_value(FILE *out, const cli_option *o) {
     fputs("words='adaptive uniform' ;;\n", out);
   } else if (o->kind == CLI_SUBJECT) {
     fputs("words='delaunay voronoi' ;;\n", out);
+  } else if (o->kind == CLI_METRIC) {
+    fputs("words='euclid box' ;;\n", out);
   } else if (o->kind == CLI_TIES) {
     fputs("words='prove off' ;;\n", out);
   } else if (o->kind == CLI_GOAL) {
@@ -126,6 +128,7 @@ static void zsh_option(FILE *out, const cli_option *o, const cli_command *c) {
   if (cli_kind_is_file(o->kind)) fputs("_files", out);
   if (o->kind == CLI_SCHEDULE) fputs("(adaptive uniform)", out);
   if (o->kind == CLI_SUBJECT) fputs("(delaunay voronoi)", out);
+  if (o->kind == CLI_METRIC) fputs("(euclid box)", out);
   if (o->kind == CLI_TIES) fputs("(prove off)", out);
   if (o->kind == CLI_GOAL) fputs("(decided area\\: hausdorff\\:)", out);
   if (o->kind == CLI_CRS) fputs("(EPSG\\:)", out);

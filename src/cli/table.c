@@ -105,8 +105,10 @@ const cli_option cli_option_table[] = {
      "unit, "
      "as --radius; tolerance: each point moves in\nproportion to it, 0: not at all",
      AT(read.radius_columns)},
-    {"cost-column", 0, "NAME", CLI_TEXT, BIT(CLI_PLAN), CLI_INPUT,
-     "what measuring a point costs stands in this column: plans\nare made cheap, not short", AT(read.cost_column)},
+    {"cost-column", 0, "NAME", CLI_TEXT, (RUN & ~BIT(CLI_CHECK)) | BIT(CLI_PLAN), CLI_INPUT,
+     "what asking a point once more costs stands in this column:\ncheap ones are asked before dear ones; plan: plans "
+     "are made\ncheap, not short",
+     AT(read.cost_column)},
     {"id", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT, "write what stands in this column beside row numbers", AT(read.id)},
     {"skip-missing", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
      "leave out rows with an empty field, NA, NaN or null for a\ncoordinate; the others keep their row numbers",
@@ -188,6 +190,10 @@ const cli_option cli_option_table[] = {
     {"next", 0, NULL, CLI_FLAG, BIT(CLI_PLAN), CLI_OUTPUT, "only the first point to measure", AT(next)},
     {"up-to", 0, "EPS", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "also births: pairs that may become edges when points\nmove by EPS at most; an exact number", AT(up_to)},
+    {"metric", 0, "WHICH", CLI_METRIC, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
+     "euclid (default): points move in discs; box: x and y each\nby as much, in squares, bounds 2^-20 of themselves "
+     "apart",
+     AT(metric)},
     {"sigma", 0, "S", CLI_TEXT, BIT(CLI_TOLERANCE), CLI_REFINEMENT,
      "also a lower bound of each edge's probability, for normal\nerrors of standard deviation S in x and in y",
      AT(sigma)},

@@ -31,6 +31,7 @@ typedef enum cli_kind {
   CLI_GOAL,     /* decided, area:M, hausdorff:M */
   CLI_SCHEDULE, /* adaptive or uniform */
   CLI_SUBJECT,  /* delaunay or voronoi; a bool is set for the latter */
+  CLI_METRIC,   /* euclid or box */
   CLI_TIES,     /* prove or off, into a bool: off */
   CLI_FORMAT,   /* a format of the command */
   CLI_LAYER,    /* a layer of what the command writes */

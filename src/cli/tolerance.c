@@ -8,6 +8,7 @@ typedef struct tolerance_run {
   const dyd_engine *engine;
   mpq_t up_to, sigma;
   double *weight, *sigmas;
+  dyd_metric metric;
   dyd_rect window;
 } tolerance_run;
 
@@ -40,7 +41,7 @@ static dyd_status tolerance_find(dyd_engine *e, const dyd_engine_options *option
   dyd_outcome outcome;
   dyd_engine_options once = *options;
   dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .points = true, .max_pairs = options->max_pairs,
-                             .cancel = cli_signals_flag()};
+                             .cancel = cli_signals_flag(), .metric = r->metric};
   once.max_stages = 1;
   dyd_status st = dyd_engine_run(&outcome, e, &once, err);
   if (st != DYD_OK || !dyd_engine_delaunay(e)) return st;
@@ -69,13 +70,16 @@ static int sigma_read(mpq_ptr out, const char *text) {
   return CLI_USAGE;
 }
 
-static int complain_two_sigmas(void) {
-  cli_complain("--sigma and --sigma-column contradict each other; leave one of them away");
-  return CLI_USAGE;
+/* What may not be given together. */
+static int tolerance_contradictions(const cli_options *o) {
+  bool sigmas = o->sigma && o->read.sigma_column, weights = o->metric == DYD_METRIC_BOX && o->read.radius_columns;
+  if (sigmas) cli_complain("--sigma and --sigma-column contradict each other; leave one of them away");
+  if (weights) cli_complain("--metric box is about points that move equally far; leave it, or --radius-column, away");
+  return sigmas || weights ? CLI_USAGE : 0;
 }
 
 int cli_tolerance(const cli_options *o) {
-  tolerance_run r = {0};
+  tolerance_run r = {.metric = o->metric};
   cli_options own = *o;
   cli_session s;
   own.read.keep_radii = true;
@@ -83,7 +87,7 @@ int cli_tolerance(const cli_options *o) {
   dyd_rect_init(&r.window);
   int status = o->up_to ? cli_number_read(r.up_to, "up-to", o->up_to) : 0;
   if (!status && o->sigma) status = sigma_read(r.sigma, o->sigma);
-  if (!status && o->sigma && o->read.sigma_column) status = complain_two_sigmas();
+  if (!status) status = tolerance_contradictions(o);
   if (!status && o->window) status = cli_window_read(&r.window, o->window);
   if (!status) {
     status = cli_session_open(&s, &own);

@@ -71,6 +71,12 @@ static bool value_subject(bool *voronoi, const cli_option *option, const char *t
   return *voronoi || strcmp(text, "delaunay") == 0 || value_usage(option, text, "delaunay or voronoi");
 }
 
+static bool value_metric(dyd_metric *place, const cli_option *option, const char *text) {
+  bool box = strcmp(text, dyd_metric_text(DYD_METRIC_BOX)) == 0;
+  *place = box ? DYD_METRIC_BOX : DYD_METRIC_EUCLID;
+  return box || strcmp(text, dyd_metric_text(DYD_METRIC_EUCLID)) == 0 || value_usage(option, text, "euclid or box");
+}
+
 static bool value_ties(bool *off, const cli_option *option, const char *text) {
   *off = strcmp(text, "off") == 0;
   return *off || strcmp(text, "prove") == 0 || value_usage(option, text, "prove or off");
@@ -142,6 +148,8 @@ static bool value_any(cli_options *o, const cli_option *option, const char *text
     return value_schedule(place, option, text);
   case CLI_SUBJECT:
     return value_subject(place, option, text);
+  case CLI_METRIC:
+    return value_metric(place, option, text);
   case CLI_TIES:
     return value_ties(place, option, text);
   case CLI_FORMAT:

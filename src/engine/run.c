@@ -12,6 +12,7 @@
  * waits for them. */
 typedef struct goal_question {
   dyd_scouts scouts;
+  dyd_thrift thrift;
   dyd_settled settled;
   dyd_plan held;
   uint64_t stage;
@@ -25,7 +26,7 @@ static dyd_status goal_ask(bool *answered, dyd_plan *plan, void *user, const dyd
   if (q->scouts.count == 0 || q->stage != e->stages) {
     dyd_scouts_clear(&q->scouts);
     dyd_plan_empty(&q->held);
-    dyd_status st = dyd_schedule_judge(answered, plan, &q->scouts, &q->settled);
+    dyd_status st = dyd_schedule_judge(answered, plan, &q->scouts, &q->thrift, &q->settled);
     if (st != DYD_OK || q->scouts.count == 0) return st;
     q->stage = e->stages;
     dyd_plan all = *plan; /* waits */
@@ -54,7 +55,9 @@ static dyd_status goal_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine
   e->goal = o->goal;
   e->goal_bits = o->goal_bits;
   dyd_plan_init(&g.held, e, o, NULL, 0);
-  dyd_status st = dyd_ask(outcome, &e->spent, e, &question, o, err);
+  dyd_status st = dyd_thrift_init(&g.thrift, e, o);
+  st = st == DYD_OK ? dyd_ask(outcome, &e->spent, e, &question, o, err) : dyd_fail_nomem(err);
+  dyd_thrift_clear(&g.thrift);
   dyd_plan_clear(&g.held);
   dyd_scouts_clear(&g.scouts);
   dyd_settled_clear(&g.settled);
@@ -70,7 +73,9 @@ dyd_status dyd_engine_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine_
   if (st != DYD_OK) return st;
   e->spent = DYD_BUDGET_NONE;
   st = dyd_abi_take(&o, sizeof o, options, "dyd_engine_options", err);
-  if (st == DYD_OK && dyd_ask_options(&o) && goal_options_are_good(&o))
+  if (st == DYD_OK && !dyd_thrift_costs_are_good(e, &o))
+    st = dyd_fail(err, DYD_E_ARG, "the cost of a point is not above 0");
+  else if (st == DYD_OK && dyd_ask_options(&o) && goal_options_are_good(&o))
     st = goal_run(outcome, e, &o, err);
   else if (st == DYD_OK)
     st = dyd_fail(err, DYD_E_ARG, "an option of the run is out of its range");

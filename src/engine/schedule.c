@@ -20,7 +20,8 @@
  * Towards bounds on the Voronoi diagram the same is done with other numbers of the pairs (goal_voronoi.c).
  *
  * Where a tie was tried and is none, it is known at which bit that showed (ties.c): all its points in the face go there
- * at once. In faces of many points a few go ahead of the others, to tell how far these must go (scout.c).
+ * at once. In faces of many points a few go ahead of the others, to tell how far these must go (scout.c). Where points
+ * have costs, dear ones wait for cheap ones (thrift.c).
  *
  * Every rule marks a point whenever one that matters can be narrowed, and every mark asks for more than before
  * (plan.c): the loop ends. */
@@ -30,6 +31,12 @@
 #include "engine/goal_voronoi.h"
 #include "engine/points.h"
 #include "metric/bounds.h"
+
+/* Who goes ahead, and who waits. scouts NULL: nobody goes ahead. */
+typedef struct dyd_helpers {
+  dyd_scouts *scouts;
+  dyd_thrift *thrift;
+} dyd_helpers;
 
 /* ---- undecided faces ---- */
 
@@ -154,7 +161,7 @@ static dyd_status plan_capped(dyd_plan *plan, size_t f) {
   return st;
 }
 
-static dyd_status plan_face(dyd_plan *plan, dyd_scouts *scouts, size_t f, dyd_measure *m, const dyd_settled *settled) {
+static dyd_status plan_face(dyd_plan *plan, dyd_helpers *h, size_t f, dyd_measure *m, const dyd_settled *settled) {
   const dyd_delaunay *pd = plan->e->pd;
   if (dyd_delaunay_is_capped(pd)) return plan_capped(plan, f);
   dyd_coarse c = {0};
@@ -164,29 +171,31 @@ static dyd_status plan_face(dyd_plan *plan, dyd_scouts *scouts, size_t f, dyd_me
   if (st == DYD_OK && pairs.count) st = dyd_coarse_set(&c, pd, f, &pairs);
   if (st == DYD_OK && pairs.count) {
     int64_t least;
-    bool ends = mark_ends(&least, plan, &c, &pairs);
-    mark_blockers(plan, &c, ends, least);
-    if (ends && scouts && !any_lacks_needed(&c, plan)) st = dyd_scouts_add(scouts, plan, &pairs);
+    dyd_plan *wants = dyd_thrift_face(h->thrift, plan);
+    bool ends = mark_ends(&least, wants, &c, &pairs);
+    mark_blockers(wants, &c, ends, least);
+    dyd_thrift_choose(plan, h->thrift, &c.sites);
+    if (ends && h->scouts && !any_lacks_needed(&c, plan)) st = dyd_scouts_add(h->scouts, plan, &pairs);
   }
   dyd_coarse_clear(&c);
   dyd_pair_list_clear(&pairs);
   return st;
 }
 
-static dyd_status plan_faces(dyd_plan *plan, dyd_scouts *scouts, dyd_measure *m, const dyd_settled *settled) {
+static dyd_status plan_faces(dyd_plan *plan, dyd_helpers *h, dyd_measure *m, const dyd_settled *settled) {
   dyd_status st = DYD_OK;
   size_t faces = dyd_delaunay_undecided_faces(plan->e->pd);
-  for (size_t f = 0; st == DYD_OK && f < faces; f++) st = plan_face(plan, scouts, f, m, settled);
+  for (size_t f = 0; st == DYD_OK && f < faces; f++) st = plan_face(plan, h, f, m, settled);
   return st;
 }
 
 /* ---- bounds ---- */
 
-static dyd_status plan_hausdorff(dyd_plan *plan, dyd_scouts *scouts, dyd_measure *m) {
+static dyd_status plan_hausdorff(dyd_plan *plan, dyd_helpers *h, dyd_measure *m) {
   const dyd_settled none = {0}; /* a pair that stays indeterminate may still come below the bound */
   const dyd_engine *e = plan->e;
   const dyd_engine_options *o = plan->o;
-  dyd_status st = plan_faces(plan, scouts, m, &none);
+  dyd_status st = plan_faces(plan, h, m, &none);
   mpfr_t diameter;
   mpfr_init2(diameter, DYD_MEASURE_PREC);
   for (size_t k = 0; st == DYD_OK && k < e->points; k++) {
@@ -288,17 +297,17 @@ static void plan_uniform(dyd_plan *plan) {
       dyd_plan_mark_alone(plan, &e->point[k], level, DYD_REASON_UNIFORM);
 }
 
-static dyd_status plan_decided(dyd_plan *plan, dyd_scouts *scouts, dyd_settled *settled) {
+static dyd_status plan_decided(dyd_plan *plan, dyd_helpers *h, dyd_settled *settled) {
   dyd_status st = dyd_delaunay_is_capped(plan->e->pd) ? DYD_OK : dyd_settle(settled, plan);
-  return st == DYD_OK ? plan_faces(plan, scouts, NULL, settled) : st;
+  return st == DYD_OK ? plan_faces(plan, h, NULL, settled) : st;
 }
 
-static dyd_status plan_all(dyd_plan *plan, dyd_scouts *scouts, dyd_settled *settled, dyd_measure *m,
+static dyd_status plan_all(dyd_plan *plan, dyd_helpers *h, dyd_settled *settled, dyd_measure *m,
                            dyd_voronoi_sums *sums) {
   const dyd_engine_options *o = plan->o;
-  if (o->step_bits || o->schedule != DYD_SCHEDULE_ADAPTIVE) scouts = NULL;
-  if (o->goal == DYD_GOAL_DECIDED || dyd_delaunay_is_capped(plan->e->pd)) return plan_decided(plan, scouts, settled);
-  if (o->goal == DYD_GOAL_HAUSDORFF) return plan_hausdorff(plan, scouts, m);
+  if (o->step_bits || o->schedule != DYD_SCHEDULE_ADAPTIVE || h->thrift->waited) h->scouts = NULL;
+  if (o->goal == DYD_GOAL_DECIDED || dyd_delaunay_is_capped(plan->e->pd)) return plan_decided(plan, h, settled);
+  if (o->goal == DYD_GOAL_HAUSDORFF) return plan_hausdorff(plan, h, m);
   if (o->goal == DYD_GOAL_AREA) return plan_bound(plan, m, NULL, true);
   /* Where the bound on the diagram holds already, and sums are not kept, only vertices are left to be narrowed. */
   dyd_status st = sums ? plan_bound(plan, m, sums, o->goal == DYD_GOAL_VORONOI_AREA) : DYD_OK;
@@ -354,12 +363,14 @@ static bool any_point_is_left(const dyd_engine *e) {
   return false;
 }
 
-dyd_status dyd_schedule_judge(bool *holds, dyd_plan *plan, dyd_scouts *scouts, dyd_settled *settled) {
+dyd_status dyd_schedule_judge(bool *holds, dyd_plan *plan, dyd_scouts *scouts, dyd_thrift *thrift,
+                              dyd_settled *settled) {
+  dyd_helpers h = {scouts, thrift};
   dyd_measure m;
   dyd_voronoi_sums *sums = NULL;
   dyd_measure_init(&m, plan->e->sites);
   dyd_status st = goal_holds(holds, &m, &sums, plan->e, plan->o);
-  if (st == DYD_OK && !*holds && any_point_is_left(plan->e)) st = plan_all(plan, scouts, settled, &m, sums);
+  if (st == DYD_OK && !*holds && any_point_is_left(plan->e)) st = plan_all(plan, &h, settled, &m, sums);
   if (st == DYD_OK) st = plan->failed;
   if (st == DYD_OK && plan->count && plan->o->schedule == DYD_SCHEDULE_UNIFORM) plan_uniform(plan);
   dyd_goal_sums_free(&sums);

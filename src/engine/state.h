@@ -12,6 +12,7 @@
  *   run.c           the question of a run: does the goal hold?
  *   schedule.c      what to narrow where it does not
  *   scout.c         a few points that go ahead of the others
+ *   thrift.c        dear points that wait for cheap ones
  *   settle.c        pairs that no refinement decides
  *   coarse.c        which sites of a face are coarse for their distances
  *   goal_voronoi.c  goals on the Voronoi diagram

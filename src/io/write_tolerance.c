@@ -215,10 +215,11 @@ dyd_status dyd_tolerance_json(const dyd_output *o) {
   double lo, hi;
   dyd_json_head(o->out, "dyadel tolerance 1");
   dyd_json_crs(o->out, r->epsg);
-  fputs(
-      "\"rounding\": \"bounds are rounded outward: the first down, the second up, null is infinite; twice the event is "
-      "exactly |sqrt(plus) - sqrt(minus)|; rho and probability are rounded down\",\n\"tolerance\": ",
-      o->out);
+  bool box = dyd_tolerance_metric(t) == DYD_METRIC_BOX;
+  fprintf(o->out,
+          "%s\"rounding\": \"bounds are rounded outward: the first down, the second up, null is infinite; %srho and "
+          "probability are rounded down\",\n\"tolerance\": ",
+          box ? "\"metric\": \"box\",\n" : "", box ? "" : "twice the event is exactly |sqrt(plus) - sqrt(minus)|; ");
   dyd_tolerance_whole(&lo, &hi, t);
   dyd_json_decimals(o->out, lo, hi);
   fputs(",\n", o->out);

@@ -128,20 +128,21 @@ static int64_t floor_exponent(const dyd_plane_list *l) {
   return 2 * l->low - l->top - 128;
 }
 
-dyd_status dyd_planes_centre(bool *room, dyd_point *c, dyd_plane_list *l) {
+dyd_status dyd_planes_centre(dyd_truth *room, dyd_point *c, dyd_plane_list *l) {
   dyd_exact_centre p;
   dyd_status st = DYD_OK;
   dyd_exact_centre_init(&p);
-  bool good = true;
-  *room = false;
-  for (int k = 0; k < REACHES && good && !*room; k++) {
+  *room = DYD_FALSE;
+  for (int k = 0; k < REACHES && *room == DYD_FALSE; k++) {
     planes_square(l, l->top + how_far[k]);
-    good = dyd_exact_lp(&p, l->h, l->count);
-    *room = good && mpz_sgn(p.z) > 0 && step_within(&p) >= floor_exponent(l);
+    if (!dyd_exact_lp(&p, l->h, l->count))
+      *room = DYD_UNKNOWN;
+    else if (mpz_sgn(p.z) > 0 && step_within(&p) >= floor_exponent(l))
+      *room = DYD_TRUE;
   }
-  if (*room) st = dyd_centre_round(c, p.x, p.y, p.d, step_within(&p));
+  if (*room == DYD_TRUE) st = dyd_centre_round(c, p.x, p.y, p.d, step_within(&p));
   dyd_exact_centre_clear(&p);
   if (st != DYD_E_RANGE) return st;
-  *room = false; /* beyond the numbers there are */
+  *room = DYD_UNKNOWN; /* beyond the numbers there are */
   return DYD_OK;
 }

@@ -23,7 +23,7 @@
 enum { MAX_RIVALS = 12, LEAST_STEPS = 48, MAX_STEPS = 400, STEP_BITS = 1 << 17, SNAP_STEPS = 8 };
 
 /* Invariant: `rivals` counts those seen so far who violate the present c; ended: there is no witness, or no room for
- * more half-planes, or c is only asked about and violated. */
+ * more half-planes, or c is only asked about and violated; none: there is none, or only below the floor, for sure. */
 typedef struct search {
   const dyd_rects *rects;
   bool no_filter;
@@ -33,7 +33,7 @@ typedef struct search {
   dyd_point c;
   dyd_bbox at; /* where c is */
   size_t rivals;
-  bool ended;
+  bool ended, none;
   dyd_status status;
 } search;
 
@@ -110,6 +110,7 @@ static void witness_look_at_ends(search *s) {
   const uint32_t own[2] = {s->i, s->j};
   for (int q = 0; q < 2 && s->status == DYD_OK && !s->ended; q++)
     dyd_tree_near(&s->rects->tree, &s->rects->box[own[q]], &zero, witness_meets, s);
+  s->none = s->ended;
   if (s->ended) s->rivals = 1;
 }
 
@@ -172,20 +173,21 @@ static void witness_snap(search *s, bool both) {
 
 /* Ends with no rivals (a witness), or with some (none, the floor, or too many steps). */
 static void witness_search_run(search *s) {
-  bool room = true;
+  dyd_truth room = DYD_TRUE;
   witness_look_at_ends(s);
   if (s->status == DYD_OK && !s->ended) witness_evaluate(s);
-  for (int step = 0; s->status == DYD_OK && s->rivals && !s->ended && room; step++) {
+  for (int step = 0; s->status == DYD_OK && s->rivals && !s->ended && room == DYD_TRUE; step++) {
     if (step >= witness_steps(s->planes)) break;
     s->status = dyd_planes_centre(&room, &s->c, s->planes);
-    if (s->status == DYD_OK && room) witness_evaluate(s);
-    if (s->status == DYD_OK && room && s->rivals && !s->ended && step % SNAP_STEPS == SNAP_STEPS - 1)
+    s->none = room == DYD_FALSE;
+    if (s->status == DYD_OK && room == DYD_TRUE) witness_evaluate(s);
+    if (s->status == DYD_OK && room == DYD_TRUE && s->rivals && !s->ended && step % SNAP_STEPS == SNAP_STEPS - 1)
       witness_snap(s, step / SNAP_STEPS % 2);
   }
 }
 
-static dyd_status witness_search_exactly(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i,
-                                         uint32_t j, dyd_xy guess) {
+static dyd_status witness_search_exactly(dyd_truth *exists, dyd_point *c, dyd_work *w, const dyd_skeleton *sk,
+                                         uint32_t i, uint32_t j, dyd_xy guess) {
   dyd_plane_list *planes = malloc(sizeof *planes);
   search s;
   if (!planes) return DYD_E_NOMEM;
@@ -194,8 +196,8 @@ static dyd_status witness_search_exactly(bool *found, dyd_point *c, dyd_work *w,
   s.planes = planes;
   if (st == DYD_OK) s.status = witness_set_start(&s.c, sk, i, guess);
   if (s.status == DYD_OK) witness_search_run(&s);
-  *found = witness_search_found(&s);
-  if (*found && c) dyd_point_set(c, &s.c);
+  *exists = witness_search_found(&s) ? DYD_TRUE : s.none ? DYD_FALSE : DYD_UNKNOWN;
+  if (*exists == DYD_TRUE && c) dyd_point_set(c, &s.c);
   st = s.status;
   witness_search_clear(&s);
   dyd_planes_clear(planes);
@@ -237,23 +239,42 @@ static dyd_status witness_look_between(bool *found, bool *settled, dyd_point *c,
   return st;
 }
 
+/* One search for a pair, whoever is named first. */
+static void witness_order(uint32_t *i, uint32_t *j) {
+  uint32_t t = *i;
+  if (t <= *j) return;
+  *i = *j;
+  *j = t;
+}
+
 dyd_status dyd_witness_search(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
                               dyd_xy guess, const uint32_t across[2]) {
   *found = false;
-  if (i > j) { /* one search for a pair, whoever is named first */
-    uint32_t t = i;
-    i = j;
-    j = t;
-  }
+  witness_order(&i, &j);
   dyd_truth quick = dyd_filter_witness(&guess, w, sk, i, j);
   if (quick == DYD_UNKNOWN || (quick == DYD_TRUE && sk->mesh.no_filter)) {
     bool settled = false;
+    dyd_truth exists = DYD_UNKNOWN;
     dyd_status st =
         across && !sk->mesh.no_filter ? witness_look_between(found, &settled, c, w, sk, i, j, across) : DYD_OK;
-    return st != DYD_OK || settled ? st : witness_search_exactly(found, c, w, sk, i, j, guess);
+    if (st != DYD_OK || settled) return st;
+    st = witness_search_exactly(&exists, c, w, sk, i, j, guess);
+    *found = exists == DYD_TRUE;
+    return st;
   }
   *found = quick == DYD_TRUE;
   return *found && c ? witness_set_start(c, sk, i, guess) : DYD_OK;
+}
+
+dyd_status dyd_witness_decide(dyd_truth *exists, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i,
+                              uint32_t j, dyd_xy guess, const uint32_t across[2]) {
+  bool excluded = false;
+  witness_order(&i, &j);
+  *exists = sk->mesh.no_filter ? DYD_UNKNOWN : dyd_filter_witness(&guess, w, sk, i, j);
+  if (*exists == DYD_TRUE) return witness_set_start(c, sk, i, guess);
+  dyd_status st = across ? witness_is_excluded(&excluded, sk, i, j, across) : DYD_OK;
+  *exists = DYD_FALSE;
+  return st != DYD_OK || excluded ? st : witness_search_exactly(exists, c, w, sk, i, j, guess);
 }
 
 dyd_status dyd_witness_check(bool *good, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,

@@ -15,6 +15,10 @@
  * tell [WIT-QUAD]. */
 dyd_status dyd_witness_search(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
                               dyd_xy guess, const uint32_t across[2]);
+/* The same with a verdict that is proved: TRUE, c is set to it; FALSE: there is none, or the floor is met, in integers
+ * [LP-1] or since one circle meets all four [WIT-QUAD]; UNKNOWN: the exact search gave no answer. */
+dyd_status dyd_witness_decide(dyd_truth *exists, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i,
+                              uint32_t j, dyd_xy guess, const uint32_t across[2]);
 /* A witness far out, for a pair on the hull: found whenever all centres far enough in some direction are witnesses. */
 dyd_status dyd_witness_far(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j);
 /* Is c a witness of i, j? Exact. */

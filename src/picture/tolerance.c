@@ -115,7 +115,8 @@ static void tolerance_legend(dyd_canvas *c, void *context) {
   if (g->seen[CLASSES]) dyd_legend_line(&l, bearing[CLASSES].rgb, bearing[CLASSES].on, bearing[CLASSES].off, "tie");
   if (g->marks.drawn[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, "point");
   dyd_tolerance_whole(&lo, &hi, g->t);
-  snprintf(text, sizeof text, "%zu points; edges by how far all may move before they may be lost; %s%s", g->r->count,
+  snprintf(text, sizeof text, "%zu points; edges by how far all may move%s before they may be lost; %s%s", g->r->count,
+           dyd_tolerance_metric(g->t) == DYD_METRIC_BOX ? ", in x and y each," : "",
            isfinite(lo) ? "nothing changes below " : "no motion changes anything",
            isfinite(lo) ? rounded(number, lo, 3, DYD_DOWN) : "");
   dyd_legend_text(&l, text);

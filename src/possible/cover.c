@@ -185,8 +185,7 @@ dyd_status dyd_cover_possible(bool *possible, dyd_work *w, const dyd_skeleton *s
   k.axis = mpz_cmp(a->x1, b->x0) < 0 || mpz_cmp(b->x1, a->x0) < 0 ? 1 : 0;
   w->counters.cover_walks++;
   cover_ask_end(&k, 1);
-  if (k.status != DYD_OK || k.blocker == DYD_NONE) return k.status;
-  cover_ask_end(&k, -1);
+  if (k.status == DYD_OK && k.blocker != DYD_NONE) cover_ask_end(&k, -1);
   while (k.status == DYD_OK && k.blocker != DYD_NONE) {
     if (!cover_advance(&k)) {
       *possible = k.status != DYD_OK;
@@ -194,5 +193,7 @@ dyd_status dyd_cover_possible(bool *possible, dyd_work *w, const dyd_skeleton *s
     }
     cover_ask_circle(&k);
   }
+  w->far = k.end != 0;
+  w->place = k.centre;
   return k.status;
 }

@@ -56,7 +56,7 @@ static PyMethodDef engine_methods[] = {
     {"certificate", dydpy_certificate, METH_VARARGS, "certificate(diagram, window or None) -> bytes"},
     {"nearest", dydpy_nearest, METH_VARARGS, "nearest((x, y), options) -> (Buffer of uint32, sure, outcome, at)"},
     {"tolerance", dydpy_tolerance, METH_VARARGS,
-     "tolerance(up_to or None, points, max_pairs, sigma) -> (rows, (lo, hi), radii or None, chances or None)"},
+     "tolerance(up_to or None, points, max_pairs, sigma, box) -> (rows, (lo, hi), radii or None, chances or None)"},
     {"plan", dydpy_plan, METH_VARARGS,
      "plan(accuracy or None, window or None, site or None) -> (rows, (open, ties, left))"},
     {"converge", dydpy_converge, METH_VARARGS,

@@ -129,13 +129,13 @@ static PyObject *tolerance_asked(dydpy_engine *self, const dyd_delaunay *pd, dyd
 PyObject *dydpy_tolerance(PyObject *object, PyObject *args) {
   dydpy_engine *self = (dydpy_engine *)object;
   PyObject *up_to, *found = NULL;
-  int points;
+  int points, box;
   Py_ssize_t max_pairs;
   double sigma;
   mpq_t most;
-  if (!PyArg_ParseTuple(args, "Opnd", &up_to, &points, &max_pairs, &sigma)) return NULL;
+  if (!PyArg_ParseTuple(args, "Opndp", &up_to, &points, &max_pairs, &sigma, &box)) return NULL;
   dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .points = points, .max_pairs = (size_t)max_pairs,
-                             .sigma = sigma};
+                             .sigma = sigma, .metric = box ? DYD_METRIC_BOX : DYD_METRIC_EUCLID};
   mpq_init(most);
   if (up_to != Py_None) o.up_to = most;
   if (up_to == Py_None || dydpy_rational(most, up_to) == 0) {

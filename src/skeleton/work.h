@@ -23,8 +23,11 @@ typedef struct dyd_work {
   dyd_scale_set set; /* scratch of the exact walks, reused from question to question */
   dyd_icircle here, next[DYD_CIRCLES];
   mpz_t u[2], h, s, t;
-  bool walked;   /* the last pair was decided by the exact walk */
-  dyd_xy centre; /* else, and if it is possible: where that is seen */
+  /* The last pair was decided by the exact walk; if it is possible, that is seen in `place`, or, far, at infinity in
+   * the direction u. Else it is seen at `centre`. */
+  bool walked, far;
+  dyd_bbox place;
+  dyd_xy centre;
 } dyd_work;
 
 void dyd_work_init(dyd_work *w, const dyd_skeleton *sk, const volatile int *cancel);

@@ -8,7 +8,12 @@
  *
  * D has an error e_D (height_bound); g grows with D at most by 1 / (sqrt(r^2 + D) + r); the rest of the formula has a
  * relative error below 8 u. Everybody is looked for whom the circle may concern more than what is known of them: a
- * branch of the tree is left out when it is farther from the circle, less errors, than the largest radius in it. */
+ * branch of the tree is left out when it is farther from the circle, less errors, than the largest radius in it.
+ *
+ * In the max norm, with (a, b) the sizes of the coordinates of c - p, a >= b, and m the radius of the circle, the
+ * square of half-width h about p comes to it by a corner, (a -+ h)^2 + (b -+ h)^2 = m^2: h = |a^2 + b^2 - m^2| / (a + b
+ * + sqrt(2 m^2 - (a - b)^2)); from outside, where a - b >= m, by a side: h = a - m. That is at least distance /
+ * sqrt(2), and a - m is never more than h. a, b, m are off by less than 2^-48 of a + m. */
 #include "base/alloc.h"
 #include "tolerance/state.h"
 
@@ -44,6 +49,17 @@ static double gap_of(const dyd_lines_d *l, const dyd_line_d *o, const dyd_ring_d
   return g > 0 ? g : 0;
 }
 
+/* Of the point at (x, y) from p_i, which is `gap` away from the circle, or more: how far in the max norm. */
+static double square_gap(const radius_pass *p, double x, double y, double gap, bool inside) {
+  const dyd_lines_d *l = &p->t->small;
+  double s = p->ring->s, size = sqrt(l->jj) * (1 - 0x1p-40);
+  if (p->ring->end) return gap * (size / (fabs(l->jx) + fabs(l->jy)));
+  double c = fabs(l->jx / 2 - s * l->jy - x), d = fabs(l->jy / 2 + s * l->jx - y), a = fmax(c, d), b = fmin(c, d);
+  double m = sqrt(l->jj * (0.25 + s * s)) + p->ring->half, D = gap * (inside ? 2 * m - gap : 2 * m + gap);
+  if (!inside && !(a - b < m * (1 - 0x1p-30))) return fmax(gap * 0.7071, a - m - 0x1p-46 * (a + m));
+  return D / (a + b + sqrt(2 * m * m - (a - b) * (a - b))) * (1 - 0x1p-40);
+}
+
 static void keep_least(double *radius, double r) {
   r = r > 0 ? r * (1 - 4 * U) : 0;
   if (r < *radius) *radius = r;
@@ -55,7 +71,9 @@ static void look_at(radius_pass *p, uint32_t k) {
   l->count = 0;
   dyd_filter_add(l, &p->t->points, &k, 1);
   dyd_line_d line = dyd_filter_line(l, &p->t->points, 0);
-  keep_least(&p->radius[k], gap_of(l, &line, p->ring) - p->ring->half);
+  double gap = gap_of(l, &line, p->ring) - p->ring->half;
+  if (gap > 0 && p->t->options.metric == DYD_METRIC_BOX) gap = square_gap(p, l->px[0], l->py[0], gap, false);
+  keep_least(&p->radius[k], gap);
 }
 
 /* ---- all points of one circle ---- */
@@ -91,7 +109,8 @@ static double branch_gap(const radius_pass *p, const dyd_bbox *b) {
     y = fmax(fmax(e[2] - p->c[1], p->c[1] - e[3]), 0);
     d = sqrt(x * x + y * y);
   }
-  return d - p->middle - p->doubt - 0x1p-40 * far;
+  d -= p->middle + p->doubt + 0x1p-40 * far;
+  return d > 0 && p->t->options.metric == DYD_METRIC_BOX ? d * 0.7071 : d;
 }
 
 static void visit_branch(radius_pass *p, int level, size_t node) {
@@ -131,8 +150,10 @@ static void pass_ring(radius_pass *p, const dyd_ring_d *ring, bool others) {
   if (!good) {
     for (uint32_t v = 0; v < t->sk->n; v++) p->radius[v] = 0;
   } else if (!others) {
-    keep_least(&p->radius[ring->i], ring->half);
-    keep_least(&p->radius[ring->j], ring->half);
+    const dyd_lines_d *l = &t->small;
+    bool box = t->options.metric == DYD_METRIC_BOX;
+    keep_least(&p->radius[ring->i], box ? square_gap(p, 0, 0, ring->half, true) : ring->half);
+    keep_least(&p->radius[ring->j], box ? square_gap(p, l->jx, l->jy, ring->half, true) : ring->half);
   } else {
     place_ring(p);
     visit_branch(p, t->tree.levels - 1, 0);

@@ -11,6 +11,11 @@ const char *dyd_tolerance_event_text(dyd_tolerance_event event) {
   return event <= DYD_EVENT_TIE ? text[event] : NULL;
 }
 
+const char *dyd_metric_text(dyd_metric metric) {
+  static const char *const text[] = {"euclid", "box"};
+  return metric <= DYD_METRIC_BOX ? text[metric] : NULL;
+}
+
 /* ---- making ---- */
 
 static dyd_status check_points(const dyd_tolerance *t, dyd_error *err) {
@@ -23,6 +28,9 @@ static dyd_status check_points(const dyd_tolerance *t, dyd_error *err) {
     return dyd_fail(err, DYD_CAPPED, "there are more ties than can be stored; raise --max-pairs");
   if (t->options.up_to && mpq_sgn(t->options.up_to) < 0)
     return dyd_fail(err, DYD_E_ARG, "births up to a negative number: give a positive one");
+  if (t->options.weight && t->options.metric == DYD_METRIC_BOX)
+    return dyd_fail(err, DYD_E_ARG,
+                    "squares that grow by weights are not looked at; leave weights, or the metric, away");
   for (uint32_t i = 0; t->options.weight && i < t->sk->n; i++)
     if (!(t->options.weight[i] >= 0 && t->options.weight[i] <= 0x1p400)) {
       if (err) err->point = i;
@@ -77,6 +85,7 @@ static dyd_status tolerance_work(dyd_tolerance *t, dyd_error *err) {
   if (st == DYD_OK && o->weight) st = take_by_vertex(&t->weight, &t->heaviest, t->sk, o->weight, 1);
   if (st == DYD_OK && t->options.up_to && mpq_sgn(t->options.up_to)) st = dyd_births(t, err);
   if (st == DYD_OK && t->weight) st = dyd_weigh(t);
+  if (st == DYD_OK && o->metric == DYD_METRIC_BOX) st = dyd_square_rows(t);
   if (st == DYD_OK) st = dyd_whole(t);
   if (st == DYD_OK && t->options.points) st = dyd_points_radius(t);
   if (st == DYD_OK) st = dyd_rows_sort(t);
@@ -127,6 +136,10 @@ size_t dyd_tolerance_rows(const dyd_tolerance_row **row, const dyd_tolerance *t)
   return t->rows;
 }
 
+dyd_metric dyd_tolerance_metric(const dyd_tolerance *t) {
+  return t->options.metric;
+}
+
 void dyd_tolerance_whole(double *lo, double *hi, const dyd_tolerance *t) {
   *lo = t->lo;
   *hi = t->hi;
@@ -148,6 +161,7 @@ void dyd_tolerance_rungs(uint64_t *filter, uint64_t *exact, const dyd_tolerance 
 /* What binds is known: the summit of these lines alone is that of all; a birth is where they cross. */
 dyd_status dyd_tolerance_exact(mpq_ptr plus, mpq_ptr minus, const dyd_tolerance *t, size_t row) {
   if (row >= t->rows || t->row[row].lo == HUGE_VAL || t->weight) return DYD_E_ARG;
+  if (t->options.metric == DYD_METRIC_BOX) return DYD_E_ARG;
   const dyd_tolerance_row *r = &t->row[row];
   const uint32_t *vertex = t->sk->vertex;
   mpq_set_ui(plus, 0, 1);

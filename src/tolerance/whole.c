@@ -34,17 +34,24 @@ static void inner_product(mpq_ptr out, mpq_t a[2], mpq_t b[2]) {
   mpq_clear(x);
 }
 
-/* Squared distance of v to the line uw: |a x b|^2 / |b|^2. */
-static void distance2(mpq_ptr out, mpq_t a[2], mpq_t b[2]) {
-  mpq_t x;
-  mpq_init(x);
+/* Squared distance of v to the line uw: |a x b|^2 / |b|^2; where points move in squares, |b| is the sum norm. */
+static void distance2(mpq_ptr out, mpq_t a[2], mpq_t b[2], dyd_metric metric) {
+  mpq_t x, y;
+  mpq_inits(x, y, NULL);
   mpq_mul(out, a[0], b[1]);
   mpq_mul(x, a[1], b[0]);
   mpq_sub(out, out, x);
   mpq_mul(out, out, out);
-  inner_product(x, b, b);
+  if (metric == DYD_METRIC_BOX) {
+    mpq_abs(x, b[0]);
+    mpq_abs(y, b[1]);
+    mpq_add(x, x, y);
+    mpq_mul(x, x, x);
+  } else {
+    inner_product(x, b, b);
+  }
   mpq_div(out, out, x);
-  mpq_clear(x);
+  mpq_clears(x, y, NULL);
 }
 
 static void lower_whole(dyd_tolerance *t, double lo, double hi) {
@@ -108,7 +115,7 @@ dyd_status dyd_hull_corner(double *lo, double *hi, const dyd_tolerance *t, dyd_h
   if (st == DYD_OK && weighted)
     weighted_corner(lo, hi, t, v, a, b);
   else if (st == DYD_OK) {
-    distance2(d, a, b);
+    distance2(d, a, b, t->options.metric);
     dyd_roots_half(lo, hi, d, zero);
   }
   mpq_clears(a[0], a[1], b[0], b[1], d, zero, NULL);

@@ -26,6 +26,7 @@ WRONG = {
     '--timeout': SECONDS, '--oracle-timeout': SECONDS,
     '--schedule': ('', 'fast', 'Adaptive', 'uniform '),
     '--of': ('', 'Voronoi', 'both'),
+    '--metric': ('', 'max', 'Box', 'box '),
     '--ties': ('', 'on', 'Prove', 'off '),
     '--format': ('', 'gif', 'CSV', 'csv,json'),
     '--layer': ('', 'edge', 'Points', 'pairs,points'),
@@ -35,7 +36,7 @@ WRONG = {
     '--plot': ('', 'plot', 'plot.gif', 'png'),
     '--help': ('fish', 'MAN'),
 }
-RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--until': 'decided'}
+RIGHT = {'--layer': 'points', '--crs': 'EPSG:4326', '--window': '0,1,0,1', '--format': 'csv', '--help': 'man', '--schedule': 'uniform', '--of': 'voronoi', '--ties': 'off', '--metric': 'box', '--until': 'decided'}
 # Any text that is not empty will do for a start; what is wrong is found when it is used.
 TEXTS = {'--queries', '--up-to', '--sigma', '--sigma-column', '--cost-column', '--label', '--accuracy', '--pairs', '--columns', '--delimiter', '--id', '--points', '--radius', '--radius-column', '--oracle', '--output', '--trace',
          '--replay', '--resume', '--certificate'}
@@ -165,6 +166,7 @@ def test_bash_completion():
     assert set(complete('dyadel', '--')) == set(options(help_of()))
     assert complete('dyadel', 'delaunay', '--max') == ['--max-bits', '--max-pairs']
     assert complete('dyadel', 'delaunay', '--schedule', 'u') == ['uniform']
+    assert complete('dyadel', 'tolerance', '--metric', '') == ['euclid', 'box']
     assert complete('dyadel', 'delaunay', '--format', '=', 'js') == ['json']
     assert complete('dyadel', 'delaunay', '--format', '=') == complete('dyadel', 'delaunay', '--format', '')
     assert complete('dyadel', 'converge', '--format', '') == ['csv', 'json', 'html']

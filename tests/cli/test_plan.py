@@ -5,6 +5,8 @@
 Usage: test_plan.py COMMAND DATA
 """
 import csv
+import fractions
+import json
 import os
 import pathlib
 import re
@@ -55,6 +57,30 @@ def test_costs():
     expect(run(*options[:-1], 'd', '-', stdin=points('1', '1', '1', '1')), 1, r'\A\Z', '--cost-column')
     expect(run('plan', '--cost-column', 'c', '-', stdin=POINTS), 2, r'\A\Z', 'name those of x and y, too')
     expect(run('delaunay', '--cost-column', 'c', '-', stdin=POINTS), 2, r'\A\Z', 'cost-column')
+
+
+def test_costs_of_a_run():
+    """With delaunay the cheap points of a face are asked first: less is spent, the result is the same."""
+    circles = [(f'{at}+cos({k})*(1+{w}*2^-{bits})', f'{at * at}+sin({k})*(1+{w}*2^-{bits})') for at, bits in ((0, 300), (10, 500), (20, 900))
+               for k, w in ((1, 1), (2, 3), (4, 7), (6, 0))]
+    costs = ['1', '1', '40', '1', '1', '1', '25', '1/2', '1', '60', '60', '1']
+    text = 'x,y,c\n' + ''.join(f'{x},{y},{c}\n' for (x, y), c in zip(circles, costs))
+    with tempfile.TemporaryDirectory() as folder:
+        trace = os.path.join(folder, 'trace')
+        def spent(*more):
+            result = run('delaunay', '--ties', 'off', '--columns', 'x,y', '--trace', trace, *more, '-', stdin=text)
+            expect(result, 0)
+            steps = [json.loads(line) for line in pathlib.Path(trace).read_text().splitlines()]
+            return result.out, sum(float(fractions.Fraction(costs[s['point']])) for s in steps if s.get('called'))
+        plain, costly = spent()
+        sparing, cheap = spent('--cost-column', 'c')
+        assert sparing == plain and cheap < 0.85 * costly, (cheap, costly)
+        assert spent('--cost-column', 'c') == (sparing, cheap)
+        for more in (['--schedule', 'uniform'], ['--until', 'hausdorff:10'], ['--step-bits', '40']):
+            assert spent('--cost-column', 'c', *more)[0] == spent(*more)[0], more
+    expect(run('voronoi', '--columns', 'x,y', '--cost-column', 'c', '--window', '-2,22,-2,402', '-', stdin=text), 0)
+    expect(run('converge', '--ties', 'off', '--columns', 'x,y', '--cost-column', 'c', '-', stdin=text), 0)
+    expect(run('delaunay', '--columns', 'x,y', '--cost-column', 'c', '-', stdin='x,y,c\n0,0,0\n'), 1, r'\A\Z', 'the cost is not an exact number above 0')
 
 
 def measured(text, plan):

@@ -81,6 +81,51 @@ def test_boxes_agree():
     assert possible <= {(r['i'], r['j']) for r in events}
 
 
+def test_squares():
+    """--metric box: deaths and births are those of statuses, at two values of the radius just beside some of them; within those of discs."""
+    text = run('tolerance', '--metric', 'box', '--up-to', '0.003', *AIRPORTS)
+    expect(text, 0, r'\A# tolerance 6\.0453\d*e-7 6\.0453\d*e-7\ni,j,event,lo,hi,k,l\n', r'\A\Z')
+    events = rows(text.out)
+    discs = {(r['i'], r['j']): r for r in rows(run('tolerance', *AIRPORTS).out)}
+    deaths = [r for r in events if r['event'] == 'death']
+    assert len(deaths) == 10112 and len(events) > 10150
+    for r in deaths:
+        lo, hi = (float(discs[r['i'], r['j']][end]) for end in ('lo', 'hi'))
+        assert float(r['hi']) <= float(r['lo']) * (1 + 2 ** -20) and lo * 0.70710678 <= float(r['hi']) and float(r['lo']) <= hi, r
+    middle = sorted(deaths, key=lambda r: float(r['lo']))[150]
+    for radius in (float(middle['lo']) * (1 - 2 ** -30), float(middle['hi']) * (1 + 2 ** -30)):
+        assert radius < 0.003
+        status = {(r['i'], r['j']): r['status'] for r in rows(run('delaunay', '--radius', repr(radius), *AIRPORTS).out)}
+        for r in events:
+            is_so = (status.get((r['i'], r['j'])) == 'legal') if r['event'] == 'death' else (r['i'], r['j']) not in status
+            assert is_so or float(r['lo']) <= radius, r
+            assert not is_so or float(r['hi']) >= radius, r
+        assert set(status) <= {(r['i'], r['j']) for r in events}
+
+
+def test_squares_few_points():
+    box = ('tolerance', '--metric', 'box', '-')
+    for few in ('', '1 2\n', '1 2\n3 4\n'):
+        assert run(*box, stdin=few).out == run('tolerance', '-', stdin=few).out
+    expect(run(*box, stdin='0 0\n2 0\n3 0\n'), 0, r'# tolerance 0 0\n.*\n0,1,death,0\.49999\d*,0\.5,2,\n0,2,tie,0,0,,\n')
+    expect(run(*box, '--up-to', '0.1', stdin=SQUARE), 0, r'\A# alias 4 0\n# tolerance 0 0\ni,j,event,lo,hi,k,l\n0,1,death,0.449\d*,0.449\d*,2,\n'
+           r'0,2,tie,0,0,,\n(.*\n)*0,5,birth,0\.0714285\d*,0\.0714286\d*,,\n')
+    far = run(*box, stdin='1e100000 0\n0 0\n0 1\n1/3 0.1\n')  # beyond doubles: what is known of discs
+    expect(far, 0)
+    assert all(r['lo'] and float(r['lo']) >= 0 for r in rows(far.out)), far.out
+    assert rows(run(*box, '--layer', 'points', stdin=SQUARE).out)[5]['rho'] != '0'
+    barcode = rows(run(*box, '--layer', 'barcode', stdin=SQUARE).out)
+    assert [r['certain'] for r in barcode][-1] == '0' and barcode[0]['certain'] == '6', barcode
+    answer = json.loads(run(*box, '--format', 'json', stdin=SQUARE).out)
+    assert answer['metric'] == 'box' and 'sqrt' not in answer['rounding'] and all('plus' not in p for p in answer['pairs'])
+    picture = run(*box, '--format', 'svg', stdin=SQUARE).out
+    assert 'may move, in x and y each, before' in picture and picture.count('not lost below') == 6
+    assert 'probability' in run(*box, '--sigma', '0.1', stdin=SQUARE).out
+    expect(run('tolerance', '--metric', 'max', '-', stdin=SQUARE), 2, r'\A\Z', '--metric "max" is not understood; give euclid or box')
+    expect(run('tolerance', '--metric', 'box', '--columns', 'x,y', '--radius-column', 'r', '-', stdin='x,y,r\n'), 2, r'\A\Z', 'leave it, or --radius-column, away')
+    assert run('tolerance', '--metric', 'euclid', '-', stdin=SQUARE).out == run('tolerance', '-', stdin=SQUARE).out
+
+
 def test_discs():
     """The same as deaths and births say; fewer open pairs than squares leave; what cannot be written so is refused."""
     for radius in ('0.01', '0.003'):

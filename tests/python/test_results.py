@@ -211,6 +211,12 @@ def test_tolerance():
     assert np.array_equal(dyadel.delaunay(moved).legal, dyadel.delaunay(points).legal)
     assert len(dyadel.tolerance(points, up_to='0.01')['i']) >= len(t['i'])
     assert harness.raised(dyadel.Error, dyadel.tolerance, [((0, 1), 0), (2, 2)]).point == 0
+    box = dyadel.tolerance(points, radii=True, metric='box')
+    assert (box['hi'] <= box['lo'] * (1 + 2**-20)).all() and (t['lo'] <= box['hi'] * 1.4143).all() and (box['lo'] <= t['hi']).all()
+    moved = points + RANDOM.choice([-1, 1], (40, 2)) * box.lo * (1 - 1e-9)
+    assert 0 < box.lo < t.hi and np.array_equal(dyadel.delaunay(moved).legal, dyadel.delaunay(points).legal)
+    assert (dyadel.delaunay(points).tolerance(metric='box')['lo'] == box['lo']).all() and (box.radii <= t.radii * 1.0001).all()
+    harness.raised(ValueError, dyadel.tolerance, points, metric='max')
     assert t.rows[0]['i'] == t['i'][0] and '<table>' in t._repr_html_() and 'event' in repr(t)
 
 

@@ -81,15 +81,16 @@ def _kept_with_errors(d: Statuses) -> Iterator[None]:
 
 
 def tolerance(points: Any, up_to: Any = None, radii: bool = False, sigma: float | None = None,
-              **options: Any) -> Tolerance:
+              metric: str = 'euclid', **options: Any) -> Tolerance:
     """How far exact points (as delaunay takes them) may move: for every edge, every point, the whole.
 
     up_to: also births, pairs that may become edges when points move by at most so much (an exact number, in units of the
     points); radii: also how far each point may be from its place; sigma: also the probability of each edge when every
-    coordinate has an independent normal error of this standard deviation (a float, in units of the points); options:
-    those of delaunay.
+    coordinate has an independent normal error of this standard deviation (a float, in units of the points); metric: 'euclid', points move
+    in discs, or 'box', in squares: x and y each by as much (lo and hi are 2^-20 of themselves apart); options: those of
+    delaunay.
     """
-    return _in_plane(points, **options).tolerance(up_to, radii, sigma)
+    return _in_plane(points, **options).tolerance(up_to, radii, sigma, metric)
 
 
 def plan(points: Any, radius: Any = None, accuracy: Any = None, window: Sequence[Any] | None = None,

@@ -132,11 +132,13 @@ class Tolerance(Table):
     radii: Floats | None
 
 
-def tolerance_of(engine: _dyadel.Engine, up_to: Any, points: bool, sigma: float | None) -> Tolerance:
+def tolerance_of(engine: _dyadel.Engine, up_to: Any, points: bool, sigma: float | None, metric: str) -> Tolerance:
     """See tolerance."""
     if sigma is not None and not 0 < sigma < np.inf:
         raise ValueError(f'sigma={sigma!r}; give a standard deviation above 0, in units of the points')
-    rows, (lo, hi), radii, chances = engine.tolerance(up_to, points, 0, sigma or 0.0)
+    if metric not in ('euclid', 'box'):
+        raise ValueError(f"metric={metric!r}; give 'euclid' or 'box'")
+    rows, (lo, hi), radii, chances = engine.tolerance(up_to, points, 0, sigma or 0.0, metric == 'box')
     table = _fields(rows, {'i': ('i4', 0), 'j': ('i4', 4), 'event': ('i4', 8), 'k': ('i4', 12), 'l': ('i4', 16),
                            'lo': ('f8', 24), 'hi': ('f8', 32)}, 40)
     chance = {} if chances is None else {'probability': floats(chances)}

@@ -140,9 +140,10 @@ class Delaunay(Statuses):
             self._options = usual
         return Voronoi(self, window, flatten)
 
-    def tolerance(self, up_to: Any = None, points: bool = False, sigma: float | None = None) -> Tolerance:
+    def tolerance(self, up_to: Any = None, points: bool = False, sigma: float | None = None,
+                  metric: str = 'euclid') -> Tolerance:
         """How far the points, which have to be exact, may move: see dyadel.tolerance."""
-        return tolerance_of(self._engine, up_to, points, sigma)
+        return tolerance_of(self._engine, up_to, points, sigma, metric)
 
     def plan(self, accuracy: Any = None, window: Sequence[Any] | None = None, site: int | None = None) -> Plan:
         """Which points to measure next, and how accurately: see dyadel.plan."""
