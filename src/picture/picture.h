@@ -131,6 +131,7 @@ typedef struct dyd_site_marks {
   bool (*box)(double out[4], const void *context, size_t i);
   const void *context;
   unsigned rgb;                       /* of rectangles */
+  const struct dyd_density *under;    /* marks that its squares cover are left out; NULL: none are */
   bool drawn[DYD_MARK_RECTANGLE + 1]; /* which marks were */
 } dyd_site_marks;
 
@@ -160,15 +161,20 @@ void dyd_legend_crowd(dyd_legend *l, const dyd_site_marks *m);
 
 /* ---- density.c ---- */
 
+/* Of how many lines on a square is drawn, and how: from one line on; full squares only, as legal pairs, as ties. */
+typedef struct dyd_density_levels dyd_density_levels;
+extern const dyd_density_levels dyd_density_all, dyd_density_full, dyd_density_full_grey;
+
 /* How many lines cross each small square of the frame. */
 typedef struct dyd_density {
   const dyd_view *view;
-  uint32_t *count;
+  const dyd_density_levels *levels;
+  uint32_t *count;            /* NULL: nothing is counted, and no square is drawn */
   size_t columns, rows, last; /* last: the square that the line at hand is in */
 } dyd_density;
 
 /* false: memory is exhausted. */
-bool dyd_density_init(dyd_density *d, const dyd_view *v);
+bool dyd_density_init(dyd_density *d, const dyd_view *v, const dyd_density_levels *levels);
 void dyd_density_clear(dyd_density *d);
 /* A line begins. */
 void dyd_density_begin(dyd_density *d);
@@ -176,7 +182,11 @@ void dyd_density_begin(dyd_density *d);
 void dyd_density_add(dyd_density *d, double z[2][2]);
 /* Would the lines be seen as a mass? */
 bool dyd_density_is_crowded(const dyd_density *d);
-void dyd_density_draw(dyd_canvas *c, const dyd_density *d);
+/* Is all that the frame shows of a box on the page (x lower, x upper, y lower, y upper) in squares that are drawn? May
+ * say no of a large box. */
+bool dyd_density_covers(const dyd_density *d, const double box[4]);
+/* Squares that are drawn of `under` (NULL: of none), too, are shared by both. false: there were none. */
+bool dyd_density_draw(dyd_canvas *c, const dyd_density *d, const dyd_density *under);
 /* what: behind the first number, " lines of a kind in a square". */
 void dyd_density_legend(dyd_legend *l, const dyd_density *d, const char *what);
 
