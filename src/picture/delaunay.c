@@ -2,6 +2,7 @@
 /* The picture of the triangulation: rectangles, edges and partial edges by status, sure triangles. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/prefetch.h"
 #include "picture/picture.h"
 #include <math.h>
 #include <string.h>
@@ -29,7 +30,7 @@ typedef struct delaunay_drawing {
   double wide[4];
   size_t shown[4], sites; /* lines of each status, rectangles that meet the frame */
   double (*at)[2];        /* the middle of each rectangle on the page; owned */
-  dyd_density dense[3];   /* of lines of each style; of OPEN all squares, of others full ones where there are many */
+  dyd_density dense[3];   /* of lines of each style: all squares of OPEN, where it is crowded; else full ones */
   bool crowded;           /* those of OPEN are drawn in place of its lines */
   bool triangle, region[4], squares; /* was drawn; full squares */
   dyd_site_marks marks;
@@ -53,6 +54,12 @@ static bool find_middles(delaunay_drawing *d) {
     dyd_view_middle(d->at[i], &d->view, b);
   }
   return d->at;
+}
+
+/* Asks memory for the ends of a line to come: those of the second sites lie anywhere. */
+static void fetch_line(const delaunay_drawing *d, size_t p) {
+  enum { AHEAD = 16 };
+  if (p + AHEAD < d->r->pairs.count) dyd_prefetch(d->at[d->r->pairs.item[p + AHEAD].j]);
 }
 
 static bool line_of(double z[2][2], const delaunay_drawing *d, const dyd_pair *pair, const double frame[4]) {
@@ -166,6 +173,7 @@ static void draw_edges(dyd_canvas *c, const delaunay_drawing *d, int k) {
   for (size_t p = 0; p < d->r->pairs.count; p++) {
     const dyd_pair *pair = &d->r->pairs.item[p];
     double z[2][2];
+    fetch_line(d, p);
     if (pair->status != style[k].status || !line_of(z, d, pair, d->wide) || is_covered(&d->dense[k], z, 2)) continue;
     any = true;
     dyd_canvas_move(c, z[0][0], z[0][1]);
@@ -194,7 +202,6 @@ static void legend_edges(dyd_legend *l, const delaunay_drawing *d) {
     dyd_legend_line(l, style[k].rgb, style[k].on, style[k].off, text);
   }
   for (int k = 2; k >= 0; k--) {
-    if (k == OPEN && !d->crowded) continue;
     snprintf(text, sizeof text, " of %zu %s pairs across a square", d->shown[style[k].status], style_name(d, k));
     dyd_density_legend(l, &d->dense[k], text);
   }
@@ -233,7 +240,7 @@ static void delaunay_inside(dyd_canvas *c, void *context) {
   for (int k = 2; k >= 0 && !d->crowded; k--) draw_regions(c, d, k);
   d->squares = dyd_density_draw(c, &d->dense[LEGAL], NULL);
   d->squares |= dyd_density_draw(c, &d->dense[TIED], &d->dense[LEGAL]);
-  if (d->crowded) dyd_density_draw(c, &d->dense[OPEN], &d->dense[LEGAL]);
+  dyd_density_draw(c, &d->dense[OPEN], &d->dense[LEGAL]);
   for (int k = 0; k < 3; k++)
     if (!(d->crowded && k == OPEN)) draw_edges(c, d, k);
   dyd_site_marks_draw(&d->marks, c, &d->view);
@@ -241,8 +248,13 @@ static void delaunay_inside(dyd_canvas *c, void *context) {
 
 /* ---- what is shown ---- */
 
+/* The possible pairs, unless others are shown. */
+static const dyd_pair_list *all_pairs(const dyd_result *r) {
+  return r->graph_name || r->discs ? NULL : &r->pairs;
+}
+
 static dyd_status see_all(delaunay_drawing *d, dyd_error *err) {
-  dyd_status st = dyd_view_all(&d->view, d->r, err);
+  dyd_status st = dyd_view_all(&d->view, d->r, all_pairs(d->r), err);
   for (size_t p = 0; p < d->r->pairs.count; p++) d->shown[d->r->pairs.item[p].status]++;
   for (int k = 0; k < 4; k++) d->wide[k] = d->view.frame[k] + (k & 1 ? WIDE : -WIDE);
   return st == DYD_OK && !find_middles(d) ? DYD_E_NOMEM : st;
@@ -274,7 +286,7 @@ static dyd_status see_window(delaunay_drawing *d, dyd_error *err) {
   double box[4];
   dyd_rect_get_d(box, d->r->window);
   if (!(box[0] < box[1] && box[2] < box[3])) return dyd_fail(err, DYD_E_ARG, "the window has no area");
-  dyd_status st = dyd_view_fit(&d->view, box, dyd_view_spacing(d->r->pd, box), err);
+  dyd_status st = dyd_view_fit(&d->view, box, dyd_view_spacing(d->r->pd, all_pairs(d->r), box), err);
   if (st != DYD_OK) return st;
   double *f = d->view.frame;
   if (!place_box(f, &d->view, box)) return too_near(err);
@@ -311,11 +323,13 @@ static dyd_status find_density(delaunay_drawing *d) {
   for (size_t p = 0; p < d->r->pairs.count; p++) {
     double z[2][2];
     int k = style_of(d->r->pairs.item[p].status);
+    fetch_line(d, p);
     if (!d->dense[k].count) continue;
     dyd_density_begin(&d->dense[k]);
     if (line_of(z, d, &d->r->pairs.item[p], d->view.frame)) dyd_density_add(&d->dense[k], z);
   }
   d->crowded = dyd_density_is_crowded(&d->dense[OPEN]);
+  if (!d->crowded) dyd_density_clear(&d->dense[OPEN]);
   d->view.dots = d->crowded && (d->view.apart < CLOSE || are_rectangles_a_mass(d));
   if (d->dense[LEGAL].count) d->marks.under = &d->dense[LEGAL];
   return DYD_OK;

@@ -48,6 +48,7 @@ bool dyd_density_init(dyd_density *d, const dyd_view *v, const dyd_density_level
 
 void dyd_density_clear(dyd_density *d) {
   free(d->count);
+  d->count = NULL;
 }
 
 void dyd_density_begin(dyd_density *d) {

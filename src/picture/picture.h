@@ -40,16 +40,17 @@ typedef struct dyd_view {
 /* A view of the box (x lower, x upper, y lower, y upper) of something whose neighbours are about `spacing` apart (0:
  * not known); DYD_E_RANGE with a message when doubles cannot scale it. */
 dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_error *err);
-/* About the median length of the possible pairs whose middle is in `box` (NULL: of all); 0 when there is none. */
-double dyd_view_spacing(const dyd_delaunay *pd, const double box[4]);
+/* About the median length of the possible pairs whose middle is in `box` (NULL: of all); 0 when there is none. pairs:
+ * the list of them, NULL where the caller has none. */
+double dyd_view_spacing(const dyd_delaunay *pd, const dyd_pair_list *pairs, const double box[4]);
 /* The middle one of n lengths, which are sorted; 0: there is none. */
 double dyd_view_median(double *length, size_t n);
 double dyd_view_x(const dyd_view *v, double x);
 double dyd_view_y(const dyd_view *v, double y);
 /* The middle of a box, on the page. */
 void dyd_view_middle(double z[2], const dyd_view *v, const double box[4]);
-/* A view of all rectangles of the result, with a rim. */
-dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, dyd_error *err);
+/* A view of all rectangles of the result, with a rim; pairs as above. */
+dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, const dyd_pair_list *pairs, dyd_error *err);
 /* Does a box meet the frame? */
 bool dyd_view_sees(const dyd_view *v, const double box[4]);
 /* *box (xlo, xhi, ylo, yhi) grows to hold r; DYD_E_RANGE with a message unless doubles can hold it. */

@@ -238,6 +238,15 @@ def test_full_squares():
     assert set(away) <= ids and len(ids) < 2 * len(away) < 9000, (len(ids), len(away))
 
 
+def test_few_open_lines_are_all_drawn():
+    """However short they are."""
+    chance = random.Random(5)
+    points = ''.join(f'{chance.uniform(0, 60):.2f}+-0.02 {chance.uniform(0, 60):.2f}+-0.02\n' for _ in range(3000))
+    ids = {p.look['id'] for p in svg.paths(picture('delaunay', points)) if p.look.get('id', '').startswith('pair-')}
+    rows = run('delaunay', '--quiet', '-', stdin=points).out.split()[1:]
+    assert ids == {'pair-{}-{}'.format(*r.split(',')) for r in rows} and sum('indet' in r for r in rows) > 200
+
+
 def test_kinds_agree():
     """pdf and png of everything that svg shows."""
     for command, place in ALL:
