@@ -249,12 +249,12 @@ static void delaunay_inside(dyd_canvas *c, void *context) {
 /* ---- what is shown ---- */
 
 /* The possible pairs, unless others are shown. */
-static const dyd_pair_list *all_pairs(const dyd_result *r) {
+static const dyd_pair_list *picture_pairs(const dyd_result *r) {
   return r->graph_name || r->discs ? NULL : &r->pairs;
 }
 
 static dyd_status see_all(delaunay_drawing *d, dyd_error *err) {
-  dyd_status st = dyd_view_all(&d->view, d->r, all_pairs(d->r), err);
+  dyd_status st = dyd_view_all(&d->view, d->r, picture_pairs(d->r), err);
   for (size_t p = 0; p < d->r->pairs.count; p++) d->shown[d->r->pairs.item[p].status]++;
   for (int k = 0; k < 4; k++) d->wide[k] = d->view.frame[k] + (k & 1 ? WIDE : -WIDE);
   return st == DYD_OK && !find_middles(d) ? DYD_E_NOMEM : st;
@@ -286,7 +286,7 @@ static dyd_status see_window(delaunay_drawing *d, dyd_error *err) {
   double box[4];
   dyd_rect_get_d(box, d->r->window);
   if (!(box[0] < box[1] && box[2] < box[3])) return dyd_fail(err, DYD_E_ARG, "the window has no area");
-  dyd_status st = dyd_view_fit(&d->view, box, dyd_view_spacing(d->r->pd, all_pairs(d->r), box), err);
+  dyd_status st = dyd_view_fit(&d->view, box, dyd_view_spacing(d->r->pd, picture_pairs(d->r), box), err);
   if (st != DYD_OK) return st;
   double *f = d->view.frame;
   if (!place_box(f, &d->view, box)) return too_near(err);

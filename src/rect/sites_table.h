@@ -60,6 +60,11 @@ static inline void dyd_sites_fetch(const dyd_sites *s, size_t i) {
     dyd_prefetch(&s->lower[a][i]);
     if (s->upper[a]) dyd_prefetch(&s->upper[a][i]);
   }
+  if (s->exact) dyd_prefetch(&s->exact[i]);
+}
+/* A while after that: for the exact rectangle, if there is one. */
+static inline void dyd_sites_fetch_exact(const dyd_sites *s, size_t i) {
+  if (s->exact && s->exact[i]) dyd_prefetch(s->exact[i]);
 }
 /* Do the doubles hold the rectangle of site i exactly? */
 static inline bool dyd_sites_in_doubles(const dyd_sites *s, size_t i) {
