@@ -58,16 +58,15 @@ int main(int argc, char **argv) {
     size_t count[4] = {0};
     for (size_t r = 0; r < bench_runs(&o, 3); r++) bench_series_add(&ours, run(count, &bits, remark, sizeof remark));
     bench_check(&o, "near", POINTS, count);
-    bench_row row = {.name = "near", .n = POINTS, .ours = &ours, .peer = &no_peer, .remark = remark};
-    row.measure = "seconds";
-    row.figure = bench_series_median(&ours).seconds;
-    row.figure_goal = 2;
-    bench_report(&o, &row);
-    row.name = "nearbits";
-    row.measure = "bits asked by bits apart";
-    row.figure = bits / APART;
-    row.figure_goal = 1.2;
-    bench_report(&o, &row);
+    bench_report_seconds(&o, "near", POINTS, &ours, 2, remark);
+    bench_report(&o, &(bench_row){.name = "nearbits",
+                                  .n = POINTS,
+                                  .ours = &ours,
+                                  .peer = &no_peer,
+                                  .measure = "bits asked by bits apart",
+                                  .figure = bits / APART,
+                                  .figure_goal = 1.2,
+                                  .remark = remark});
   }
   bench_options_close(&o);
   return 0;

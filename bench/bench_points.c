@@ -127,21 +127,13 @@ static void row_cocircular(const bench_options *o) {
 
 /* So many of them that their pairs are beyond the cap: said with a message, at no great cost. */
 static void row_capped(const bench_options *o) {
-  static const bench_series no_peer;
   cloud points;
   bench_series ours = {0};
   char remark[300];
   if (o->part > 1) return;
   cloud_cocircular(&points, 10);
   for (size_t r = 0; r < bench_runs(o, 3); r++) bench_series_add(&ours, ours_capped(remark, sizeof remark, &points));
-  bench_report(o, &(bench_row){.name = "capped",
-                               .n = points.n,
-                               .ours = &ours,
-                               .peer = &no_peer,
-                               .measure = "seconds",
-                               .figure = bench_series_median(&ours).seconds,
-                               .figure_goal = 1,
-                               .remark = remark});
+  bench_report_seconds(o, "capped", points.n, &ours, 1, remark);
   cloud_clear(&points);
 }
 

@@ -125,7 +125,6 @@ static bench_cost remeasure(size_t count[4], size_t *face, FILE *in, size_t upda
 
 static void row_remeasure(const bench_options *o) {
   enum { UPDATES = 300 };
-  static const bench_series no_peer;
   bench_series ours = {0};
   size_t n = bench_size(o, 2000), count[4], face = 0;
   char remark[200];
@@ -135,14 +134,7 @@ static void row_remeasure(const bench_options *o) {
   bench_check(o, "remeasure", n, count);
   snprintf(remark, sizeof remark, "%d points measured again; %zu in the greatest face at first; indeterminate %zu then",
            UPDATES, face, count[DYD_INDETERMINATE]);
-  bench_report(o, &(bench_row){.name = "remeasure",
-                               .n = n,
-                               .ours = &ours,
-                               .peer = &no_peer,
-                               .measure = "seconds",
-                               .figure = bench_series_median(&ours).seconds,
-                               .figure_goal = 1,
-                               .remark = remark});
+  bench_report_seconds(o, "remeasure", n, &ours, 1, remark);
 }
 
 int main(int argc, char **argv) {

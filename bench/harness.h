@@ -76,6 +76,9 @@ typedef struct bench_row {
 /* Prints the row with its goals, and appends it to the CSV; and with what exponent its time grows since the row of that
  * name reported before, with the points or, if there is more of it, with the output. */
 void bench_report(const bench_options *o, const bench_row *row);
+/* The same of a row of seconds, up to a goal, that nobody else stands beside. */
+void bench_report_seconds(const bench_options *o, const char *name, size_t n, const bench_series *ours, double goal,
+                          const char *remark);
 /* Ends the program with a message: the answer is wrong or the library failed. */
 void bench_die(const char *row, const char *what);
 

@@ -193,3 +193,16 @@ void bench_report(const bench_options *o, const bench_row *row) {
   fflush(stdout);
   if (o->out) csv_line(o, row, ours, peer, ratio, exponent);
 }
+
+void bench_report_seconds(const bench_options *o, const char *name, size_t n, const bench_series *ours, double goal,
+                          const char *remark) {
+  static const bench_series no_peer;
+  bench_report(o, &(bench_row){.name = name,
+                               .n = n,
+                               .ours = ours,
+                               .peer = &no_peer,
+                               .measure = "seconds",
+                               .figure = bench_series_median(ours).seconds,
+                               .figure_goal = goal,
+                               .remark = remark});
+}

@@ -13,101 +13,184 @@
 
 __extension__ typedef unsigned __int128 wide;
 
-/* 0.DIGITS * 10^exp as a plain decimal, or in scientific form when that needs many zeros. */
-static void decimal_layout(char *out, bool negative, const char *digits, int count, int exp) {
+/* 0.DIGITS * 10^exp as a plain decimal, or in scientific form when that needs many zeros; its length. */
+static size_t decimal_layout(char *out, bool negative, const char *digits, int count, int exp) {
   while (count > 1 && digits[count - 1] == '0') count--;
   char *p = out;
   if (negative) *p++ = '-';
   if (exp < -4 || exp > 17) {
-    p += snprintf(p, 8, "%c%s", digits[0], count > 1 ? "." : "");
+    *p++ = digits[0];
+    if (count > 1) *p++ = '.';
     memcpy(p, digits + 1, (size_t)count - 1);
-    snprintf(p + count - 1, 16, "e%d", exp - 1);
-    return;
+    p += count - 1;
+    return (size_t)(p - out) + (size_t)snprintf(p, 8, "e%d", exp - 1);
   }
-  if (exp <= 0) {
-    memcpy(p, "0.00000", 7);
-    p += 2 - exp;
-    memcpy(p, digits, (size_t)count);
-    p[count] = 0;
-    return;
-  }
-  for (int k = 0; k < count || k < exp; k++) {
-    if (k == exp) *p++ = '.';
-    *p++ = k < count ? digits[k] : '0';
-  }
+  int whole = exp < 0 ? 0 : exp < count ? exp : count;
+  memcpy(p, digits, (size_t)whole);
+  p += whole;
+  for (int k = count; k < exp; k++) *p++ = '0';
+  if (exp <= 0) *p++ = '0';
+  if (whole < count) *p++ = '.';
+  for (int k = exp; k < 0; k++) *p++ = '0';
+  memcpy(p, digits + whole, (size_t)(count - whole));
+  p += count - whole;
   *p = 0;
+  return (size_t)(p - out);
 }
 
-/* The same without MPFR where 128 bits hold everything, as they do for most numbers that people write: |x| = man
- * 2^-shift, and man 10^k < 10^digits * 100 * 2^63 < 2^127 for the k that leaves `digits` digits before the point; the
- * guess of k is off by one at most. */
-static bool decimal_in_integers(char *text, int *exp, double x, int digits, bool up) {
-  int e, spare;
-  uint64_t man = (uint64_t)ldexp(frexp(fabs(x), &e), 53), least = 1;
-  spare = __builtin_ctzll(man);
-  int shift = 53 - e - spare, k = digits - 1 - (int)floor((e - 1) * 0.30103);
-  if (shift < 0 || shift > 63 || k < 1 || digits > 17) return false;
-  for (int q = 1; q < digits; q++) least *= 10;
-  wide product = man >> spare;
-  for (int q = 0; q < k; q++) product *= 10;
-  for (; product >> shift < least; k++) product *= 10;
-  for (; product >> shift >= 10 * (wide)least; k--) product /= 10;
-  uint64_t whole = (uint64_t)(product >> shift);
-  if (up && (wide)whole << shift != product) whole++;
-  *exp = digits - k + (whole == 10 * least);
-  snprintf(text, 24, "%" PRIu64, whole == 10 * least ? least : whole);
+static const uint64_t power_of_five[] = {1,
+                                         5,
+                                         25,
+                                         125,
+                                         625,
+                                         3125,
+                                         15625,
+                                         78125,
+                                         390625,
+                                         1953125,
+                                         9765625,
+                                         48828125,
+                                         244140625,
+                                         1220703125,
+                                         6103515625,
+                                         30517578125,
+                                         152587890625,
+                                         762939453125,
+                                         3814697265625,
+                                         19073486328125,
+                                         95367431640625,
+                                         476837158203125,
+                                         2384185791015625,
+                                         11920928955078125,
+                                         59604644775390625,
+                                         298023223876953125,
+                                         1490116119384765625,
+                                         7450580596923828125};
+enum { MOST_TENS = sizeof power_of_five / sizeof *power_of_five - 1, MOST_DIGITS = 17 };
+
+/* |x| 10^tens = whole + rest 2^-shift, 0 <= rest 2^-shift < 1, and whole has `digits` digits. */
+typedef struct decimal_cut {
+  uint64_t man, whole; /* |x| is man times a power of two, and has 53 bits */
+  wide rest;
+  int digits, tens, shift;
+} decimal_cut;
+
+static void cut_at(decimal_cut *c, int exponent, int tens) {
+  wide product = (wide)c->man * power_of_five[tens]; /* 53 and 63 bits */
+  int shift = -exponent - tens;
+  if (shift < 0) product <<= -shift, shift = 0; /* |x| 10^tens < 10^19 */
+  c->tens = tens;
+  c->shift = shift;
+  c->whole = (uint64_t)(product >> shift);
+  c->rest = product - ((wide)c->whole << shift);
+}
+
+/* The first digits of x, 2 to 17 of them; false where 128 bits do not hold everything, as they do for nearly all
+ * numbers that people write: from 10^-11 to 10^16. The guess of `tens` is off by one at most: |x| 10^tens < 10^19, and
+ * not below 1, so that shift < 128. */
+static bool decimal_cut_off(decimal_cut *c, double x, int digits) {
+  uint64_t bits, least = 1;
+  memcpy(&bits, &x, sizeof bits);
+  int exponent = (int)(bits >> 52 & 0x7ff) - 1075, tens = digits - 1 - (int)floor((exponent + 52) * 0.30103);
+  if (tens < 2 || tens >= MOST_TENS || digits > MOST_DIGITS) return false;
+  *c = (decimal_cut){.man = (bits & ((UINT64_C(1) << 52) - 1)) | UINT64_C(1) << 52, .digits = digits};
+  for (int k = 1; k < digits; k++) least *= 10;
+  cut_at(c, exponent, tens);
+  if (c->whole >= 10 * least) cut_at(c, exponent, tens - 1);
+  if (c->whole < least) cut_at(c, exponent, tens + 1);
   return true;
 }
 
-void dyd_decimal_directed(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd_round dir) {
-  int quick;
+/* Away from zero by one in the last digit where `up`. */
+static size_t cut_layout(char *out, const decimal_cut *c, bool negative, bool up) {
+  char text[DYD_INDEX_SIZE];
+  int count = (int)(dyd_put_digits(text, c->whole + up) - text);
+  return decimal_layout(out, negative, text, count, count - c->tens);
+}
+
+size_t dyd_decimal_directed(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd_round dir) {
+  decimal_cut cut;
   strcpy(out, "0");
-  if (x == 0) return;
+  if (x == 0) return 1;
   char text[40];
   mpfr_exp_t exp;
   mpfr_t value;
-  if (decimal_in_integers(text, &quick, x, digits, (dir == DYD_UP) == (x > 0))) {
-    decimal_layout(out, x < 0, text, digits, quick);
-    return;
-  }
+  if (decimal_cut_off(&cut, x, digits)) return cut_layout(out, &cut, x < 0, cut.rest && (dir == DYD_UP) == (x > 0));
   mpfr_init2(value, 53);
   mpfr_set_d(value, x, MPFR_RNDN); /* exact */
   mpfr_get_str(text, &exp, 10, (size_t)digits, value, dir == DYD_UP ? MPFR_RNDU : MPFR_RNDD);
   mpfr_clear(value);
   bool negative = text[0] == '-';
-  decimal_layout(out, negative, text + negative, digits, (int)exp);
+  return decimal_layout(out, negative, text + negative, digits, (int)exp);
 }
 
 /* Takes apart what printf made of a number with %.*e, whatever the decimal point of the locale. */
-static void decimal_layout_printed(char *out, const char *printed) {
+static size_t decimal_layout_printed(char *out, const char *printed) {
   char digits[24];
   int count = 0;
   const char *p = printed;
   for (; *p && *p != 'e'; p++)
     if (*p >= '0' && *p <= '9') digits[count++] = *p;
-  decimal_layout(out, printed[0] == '-', digits, count, (int)strtol(p + 1, NULL, 10) + 1);
+  return decimal_layout(out, printed[0] == '-', digits, count, (int)strtol(p + 1, NULL, 10) + 1);
 }
 
-void dyd_decimal_within(char out[DYD_DECIMAL_SIZE], double *error, double lo, double hi) {
+/* What is known of a decimal. */
+typedef struct near_decimal {
+  double near; /* the double nearest to it; NAN: one that was not asked for */
+  bool told, exact;
+  size_t length;
+} near_decimal;
+
+/* The decimal nearest to x, half to even. x is the double nearest to it unless half the gap to the next double, 5^tens
+ * / 2 in units of rest, is as near, or half of that below a power of two. Another one is found by a division of
+ * doubles, rounded to nearest once, but only where it is wanted. false where this way does not tell. */
+static bool decimal_near(near_decimal *out, char text[DYD_DECIMAL_SIZE], double x, int digits, bool others) {
+  decimal_cut c;
+  if (!decimal_cut_off(&c, x, digits)) return false;
+  wide one = (wide)1 << c.shift, twice = 2 * c.rest;
+  bool up = twice > one || (twice == one && (c.whole & 1));
+  wide away = up ? one - c.rest : c.rest;
+  bool narrow = !up && c.man == UINT64_C(1) << 52, same = (narrow ? 4 : 2) * away < power_of_five[c.tens];
+  if (!same && others && (c.whole >= UINT64_C(1) << 53 || c.tens > 22)) return false;
+  double other = others ? (double)(c.whole + up) / ((double)power_of_five[c.tens] * (double)(1 << c.tens)) : NAN;
+  *out = (near_decimal){same ? x : copysign(other, x), same, !away, cut_layout(text, &c, x < 0, up)};
+  return true;
+}
+
+/* The same by the C library. */
+static void decimal_printed(near_decimal *out, char text[DYD_DECIMAL_SIZE], double x, int digits) {
+  char printed[40];
+  snprintf(printed, sizeof printed, "%.*e", digits - 1, x);
+  *out = (near_decimal){strtod(printed, NULL), false, false, 1};
+  strcpy(text, "0");
+  if (out->near != 0) out->length = decimal_layout_printed(text, printed);
+}
+
+/* Is the decimal the double nearest to it? */
+static bool decimal_is_exact(const near_decimal *d, const char *text) {
+  dyd_plain plain;
+  double exact;
+  if (d->told) return d->exact;
+  return dyd_plain_scan(&plain, text, d->length) && dyd_plain_get_exact(&exact, plain) && exact == d->near;
+}
+
+size_t dyd_decimal_within(char out[DYD_DECIMAL_SIZE], double *error, double lo, double hi) {
   *error = 0;
   strcpy(out, "0");
-  if (lo == 0 && hi == 0) return;
-  double middle = lo / 2 + hi / 2, r = 0, exact;
+  if (lo == 0 && hi == 0) return 1;
+  double middle = lo / 2 + hi / 2;
   if (!(middle >= lo && middle <= hi)) middle = lo;
-  char printed[40];
-  for (int digits = 15; digits <= 17; digits++) {
-    snprintf(printed, sizeof printed, "%.*e", digits - 1, middle);
-    r = strtod(printed, NULL);
-    if (r >= lo && r <= hi) break;
-  }
-  if (r != 0) decimal_layout_printed(out, printed);
-  dyd_plain plain;
+  near_decimal d = {.near = NAN};
+  for (int digits = 15; digits <= MOST_DIGITS && !(d.near >= lo && d.near <= hi); digits++)
+    if (!decimal_near(&d, out, middle, digits, lo < hi)) decimal_printed(&d, out, middle, digits);
+  double r = d.near;
   *error = fmax(hi - r, r - lo);
   if (*error > 0) *error = nextafter(*error, INFINITY);
-  if (dyd_plain_scan(&plain, out, strlen(out)) && dyd_plain_get_exact(&exact, plain) && exact == r) return;
+  if (decimal_is_exact(&d, out)) return d.length;
   /* |decimal - r| is at most half the gap above |r|, the larger one; then two roundings to nearest. */
   double gap = nextafter(fabs(r), INFINITY) - fabs(r);
   *error = nextafter(nextafter(*error + gap / 2, INFINITY), INFINITY);
+  return d.length;
 }
 
 /* MPFR rounds decimals correctly, and its exponents reach far beyond DYD_EXP_LIMIT. */
@@ -126,9 +209,16 @@ void dyd_decimal_dyadic(char out[DYD_DECIMAL_SIZE], const dyd_dyadic *x, int dig
   snprintf(out, DYD_DECIMAL_SIZE, "%s%c.%se%" PRIdMAX, *text == '-' ? "-" : "", *digit, digit + 1, (intmax_t)point - 1);
 }
 
+void dyd_sink_decimal(dyd_sink *s, double x, dyd_round dir, const char *otherwise) {
+  if (isfinite(x))
+    s->end += dyd_decimal_directed(dyd_sink_room(s, DYD_DECIMAL_SIZE), x, MOST_DIGITS, dir);
+  else
+    dyd_sink_text(s, otherwise);
+}
+
 void dyd_decimal_put(FILE *out, double x, dyd_round dir, const char *otherwise) {
   char text[DYD_DECIMAL_SIZE];
-  if (isfinite(x)) dyd_decimal_directed(text, x, 17, dir);
+  if (isfinite(x)) dyd_decimal_directed(text, x, MOST_DIGITS, dir);
   fputs(isfinite(x) ? text : otherwise, out);
 }
 
@@ -163,4 +253,31 @@ static char *rational_text(const dyd_interval *a) {
 char *dyd_end_text(const dyd_interval *a, bool upper) {
   if (mpz_cmp_ui(a->den, 1) != 0) return rational_text(a);
   return dyd_dyadic_get_str(upper ? &a->hi : &a->lo);
+}
+
+static char *put_wide_digits(char *to, wide n) {
+  const uint64_t half = UINT64_C(10000000000000000000);
+  if (n <= UINT64_MAX) return dyd_put_digits(to, (uint64_t)n);
+  char low[DYD_INDEX_SIZE];
+  ptrdiff_t count = dyd_put_digits(low, (uint64_t)(n % half)) - low;
+  to = dyd_put_digits(to, (uint64_t)(n / half));
+  memset(to, '0', (size_t)(19 - count));
+  memcpy(to + 19 - count, low, (size_t)count);
+  return to + 19;
+}
+
+/* n / half < 2^63 for n < 2^126. */
+char *dyd_words_put(char to[DYD_WORDS_SIZE], const dyd_words *w) {
+  uint64_t man = w->man < 0 ? 0 - (uint64_t)w->man : (uint64_t)w->man;
+  int whole = w->exp > 0 ? w->exp : 0, part = w->exp < 0 ? -w->exp : 0;
+  if (whole > __builtin_clzll(man | 1) || part >= __builtin_clzll(w->den) + 63) return NULL;
+  if (w->man < 0) *to++ = '-';
+  to = dyd_put_digits(to, man << whole);
+  if (w->den != 1) {
+    *to++ = '/';
+    return put_wide_digits(to, (wide)w->den << part);
+  }
+  if (!part) return to;
+  memcpy(to, "*2^-", 4);
+  return dyd_put_digits(to + 4, (uint64_t)part);
 }

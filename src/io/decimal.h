@@ -3,26 +3,32 @@
 #ifndef DYD_IO_DECIMAL_H
 #define DYD_IO_DECIMAL_H
 
-#include <dyadel/rect.h>
-#include <stdio.h>
+#include "io/sink.h"
+#include "rect/sites_table.h"
 
 /* Sign, 17 digits, point, exponent or zeros, terminator. */
 #define DYD_DECIMAL_SIZE 32
 
 /* The decimal of at most `digits` (2..17) significant digits next to the finite double x in direction dir. A reader
- * that takes it for a double, in any rounding that is monotone, stays on that side of x. */
-void dyd_decimal_directed(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd_round dir);
+ * that takes it for a double, in any rounding that is monotone, stays on that side of x. Returns its length. */
+size_t dyd_decimal_directed(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd_round dir);
 /* A short decimal for some double r in [lo,hi] (finite): r is the nearest double to the decimal. *error is an upper
- * bound of the distance from the decimal to any number in [lo,hi]. */
-void dyd_decimal_within(char out[DYD_DECIMAL_SIZE], double *error, double lo, double hi);
+ * bound of the distance from the decimal to any number in [lo,hi]. Returns its length. */
+size_t dyd_decimal_within(char out[DYD_DECIMAL_SIZE], double *error, double lo, double hi);
 /* The decimal "d.ddde-61" of 2..17 significant digits next to x in direction dir, however small or large x is. */
 void dyd_decimal_dyadic(char out[DYD_DECIMAL_SIZE], const dyd_dyadic *x, int digits, dyd_round dir);
-/* Prints the decimal of 17 digits next to x, or `otherwise` for infinities and NaN. */
+/* Puts the decimal of 17 digits next to x, or `otherwise` for infinities and NaN. */
+void dyd_sink_decimal(dyd_sink *s, double x, dyd_round dir, const char *otherwise);
+/* The same to a file. */
 void dyd_decimal_put(FILE *out, double x, dyd_round dir, const char *otherwise);
 /* Prints a short decimal whose nearest double is the finite x. */
 void dyd_decimal_put_near(FILE *out, double x);
 /* The exact lower (upper) end: "m*2^e", an integer, or a rational "p/q"; a coordinate that the reader takes.
  * Release with free(); NULL when memory is exhausted. */
 char *dyd_end_text(const dyd_interval *a, bool upper);
+/* The same text of a number of single words, without a terminator; returns its end, NULL where it is too long for this
+ * quick way: where it is an integer above 2^64, or has a denominator above 2^126. */
+enum { DYD_WORDS_SIZE = 64 };
+char *dyd_words_put(char to[DYD_WORDS_SIZE], const dyd_words *w);
 
 #endif

@@ -1,29 +1,44 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What the json formats of a plane and of a sphere share: lists of pairs and triangles, counters. */
 #include "io/result.h"
+#include "io/sink.h"
 #include <inttypes.h>
 
 void dyd_json_pairs(FILE *out, const dyd_engine *e, const char *name, const dyd_pair_list *pairs) {
-  fprintf(out, "\"%s\": [", name);
+  dyd_sink s;
+  dyd_sink_begin(&s, out);
+  dyd_sink_text(&s, "\"");
+  dyd_sink_text(&s, name);
+  dyd_sink_text(&s, "\": [");
   for (size_t k = 0; k < pairs->count; k++) {
     const dyd_pair *p = &pairs->item[k];
-    fprintf(out, "%s\n{\"i\": %zu, \"j\": %zu, \"status\": \"%s\"}", k ? "," : "", dyd_engine_row(e, p->i),
-            dyd_engine_row(e, p->j), dyd_pair_status_text(p->status));
+    dyd_sink_text(&s, k ? ",\n{\"i\": " : "\n{\"i\": ");
+    dyd_sink_index(&s, dyd_engine_row(e, p->i));
+    dyd_sink_text(&s, ", \"j\": ");
+    dyd_sink_index(&s, dyd_engine_row(e, p->j));
+    dyd_sink_text(&s, ", \"status\": \"");
+    dyd_sink_text(&s, dyd_pair_status_text(p->status));
+    dyd_sink_text(&s, "\"}");
   }
-  fputs("\n]", out);
+  dyd_sink_text(&s, "\n]");
+  dyd_sink_flush(&s);
 }
 
 void dyd_json_triangles(FILE *out, const dyd_engine *e, const dyd_triangle_list *list) {
-  fputs("\"triangles\": [", out);
+  dyd_sink s;
+  dyd_sink_begin(&s, out);
+  dyd_sink_text(&s, "\"triangles\": [");
   for (size_t k = 0; k < list->count; k++) {
     const uint32_t *v = list->item[k].v;
-    fprintf(out, "%s[%zu, %zu, %zu]",
-            k == 0  ? ""
-            : k % 8 ? ", "
-                    : ",\n",
-            dyd_engine_row(e, v[0]), dyd_engine_row(e, v[1]), dyd_engine_row(e, v[2]));
+    if (k) dyd_sink_text(&s, k % 8 ? ", " : ",\n");
+    for (int c = 0; c < 3; c++) {
+      dyd_sink_text(&s, c ? ", " : "[");
+      dyd_sink_index(&s, dyd_engine_row(e, v[c]));
+    }
+    dyd_sink_text(&s, "]");
   }
-  fputs("],\n", out);
+  dyd_sink_text(&s, "],\n");
+  dyd_sink_flush(&s);
 }
 
 void dyd_json_counters(FILE *out, const dyd_engine *e) {

@@ -10,25 +10,25 @@ const char *dyd_csv_id_head(const dyd_engine *e, size_t count) {
   return dyd_engine_id(e, 0) ? head[count] : "";
 }
 
-void dyd_csv_text(FILE *out, const char *text) {
+void dyd_sink_csv_text(dyd_sink *s, const char *text) {
   size_t n = strlen(text);
   if (!text[strcspn(text, ",;\t|\"\r\n")] && text[0] != ' ' && (!n || text[n - 1] != ' ')) {
-    fputs(text, out);
+    dyd_sink_put(s, text, n);
     return;
   }
-  fputc('"', out);
-  for (; *text; text++) {
-    if (*text == '"') fputc('"', out);
-    fputc(*text, out);
-  }
-  fputc('"', out);
+  dyd_sink_text(s, "\"");
+  for (; *text; text++) dyd_sink_put(s, *text == '"' ? "\"\"" : text, *text == '"' ? 2 : 1);
+  dyd_sink_text(s, "\"");
 }
 
 void dyd_csv_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t count) {
+  dyd_sink s;
+  dyd_sink_begin(&s, out);
   for (size_t k = 0; k < (count ? count : 1) && dyd_engine_id(e, site[k]); k++) {
-    fputc(',', out);
-    dyd_csv_text(out, dyd_engine_id(e, site[k]));
+    dyd_sink_text(&s, ",");
+    dyd_sink_csv_text(&s, dyd_engine_id(e, site[k]));
   }
+  dyd_sink_flush(&s);
 }
 
 /* The length of the character of UTF-8 at p: 1 to 4; 0: it is none (RFC 3629: shortest forms, no surrogates). */
@@ -41,29 +41,43 @@ static size_t utf8_length(const unsigned char *p) {
   return n;
 }
 
-void dyd_json_text(FILE *out, const char *text) {
+void dyd_sink_json_text(dyd_sink *s, const char *text) {
   const unsigned char *p = (const unsigned char *)text;
-  fputc('"', out);
+  dyd_sink_text(s, "\"");
   for (size_t n; *p; p += n ? n : 1) {
     n = utf8_length(p);
     if (!n)
-      fputs("\\ufffd", out);
+      dyd_sink_text(s, "\\ufffd");
     else if (*p == '"' || *p == '\\')
-      fprintf(out, "\\%c", *p);
+      dyd_sink_put(s, (const char[]){'\\', (char)*p}, 2);
     else if (*p < 0x20)
-      fprintf(out, "\\u%04x", *p);
+      s->end += sprintf(dyd_sink_room(s, sizeof "\\u001f"), "\\u%04x", *p);
     else
-      fwrite(p, 1, n, out);
+      dyd_sink_put(s, (const char *)p, n);
   }
-  fputc('"', out);
+  dyd_sink_text(s, "\"");
+}
+
+void dyd_json_text(FILE *out, const char *text) {
+  dyd_sink s;
+  dyd_sink_begin(&s, out);
+  dyd_sink_json_text(&s, text);
+  dyd_sink_flush(&s);
+}
+
+void dyd_sink_json_ids(dyd_sink *s, const dyd_engine *e, const uint32_t *site, size_t count) {
+  static const char *const name[] = {", \"id_i\": ", ", \"id_j\": ", ", \"id_k\": "};
+  for (size_t k = 0; k < (count ? count : 1) && dyd_engine_id(e, site[k]); k++) {
+    dyd_sink_text(s, count ? name[k] : ", \"id\": ");
+    dyd_sink_json_text(s, dyd_engine_id(e, site[k]));
+  }
 }
 
 void dyd_json_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t count) {
-  static const char *const name[] = {"id_i", "id_j", "id_k"};
-  for (size_t k = 0; k < (count ? count : 1) && dyd_engine_id(e, site[k]); k++) {
-    fprintf(out, ", \"%s\": ", count ? name[k] : "id");
-    dyd_json_text(out, dyd_engine_id(e, site[k]));
-  }
+  dyd_sink s;
+  dyd_sink_begin(&s, out);
+  dyd_sink_json_ids(&s, e, site, count);
+  dyd_sink_flush(&s);
 }
 
 /* Is it worth a place in a picture? */

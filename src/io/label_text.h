@@ -3,8 +3,8 @@
 #ifndef DYD_IO_LABEL_TEXT_H
 #define DYD_IO_LABEL_TEXT_H
 
+#include "io/sink.h"
 #include <dyadel/engine.h>
-#include <stdio.h>
 
 /* Columns behind others: ",id_i,id_j" for count = 2, at most 3; ",id" for count = 0. "" without identifiers. */
 const char *dyd_csv_id_head(const dyd_engine *e, size_t count);
@@ -14,10 +14,12 @@ void dyd_csv_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t co
 enum { DYD_LABEL_SIZE = 24 };
 const char *dyd_label_text(char spare[DYD_LABEL_SIZE], const dyd_engine *e, size_t site);
 /* A text as csv has it. */
-void dyd_csv_text(FILE *out, const char *text);
+void dyd_sink_csv_text(dyd_sink *s, const char *text);
 /* Members behind others: , "id_i": "NAME", "id_j": "NAME"; for count = 0 , "id": "NAME" of one site. */
+void dyd_sink_json_ids(dyd_sink *s, const dyd_engine *e, const uint32_t *site, size_t count);
 void dyd_json_ids(FILE *out, const dyd_engine *e, const uint32_t *site, size_t count);
 /* A text as JSON has it; what is no UTF-8 becomes U+FFFD. */
+void dyd_sink_json_text(dyd_sink *s, const char *text);
 void dyd_json_text(FILE *out, const char *text);
 
 #endif

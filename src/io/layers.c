@@ -39,9 +39,12 @@ static void pair_row(dyd_table *t, const dyd_place *place, uint32_t i, uint32_t 
 
 typedef void pair_rows(dyd_table *t, const dyd_result *r, const dyd_place *place);
 
+/* Places are asked for ahead: those of the second sites lie anywhere. */
 static void rows_of_triangulation(dyd_table *t, const dyd_result *r, const dyd_place *place) {
+  enum { AHEAD = 12 };
   for (size_t k = 0; k < r->pairs.count; k++) {
     const dyd_pair *p = &r->pairs.item[k];
+    if (place && k + AHEAD < r->pairs.count) dyd_place_fetch(&place[p[AHEAD].j]);
     pair_row(t, place, p->i, p->j, dyd_pair_status_text(p->status));
   }
 }

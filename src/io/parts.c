@@ -117,19 +117,35 @@ dyd_status dyd_json_rect(FILE *out, const dyd_rect *r) {
   return st;
 }
 
+static void sink_decimals(dyd_sink *s, double lo, double hi) {
+  dyd_sink_text(s, "[");
+  dyd_sink_decimal(s, lo, DYD_DOWN, "null");
+  dyd_sink_text(s, ", ");
+  dyd_sink_decimal(s, hi, DYD_UP, "null");
+  dyd_sink_text(s, "]");
+}
+
 void dyd_json_decimals(FILE *out, double lo, double hi) {
-  fputs("[", out);
-  dyd_decimal_put(out, lo, DYD_DOWN, "null");
-  fputs(", ", out);
-  dyd_decimal_put(out, hi, DYD_UP, "null");
-  fputs("]", out);
+  dyd_sink s;
+  dyd_sink_begin(&s, out);
+  sink_decimals(&s, lo, hi);
+  dyd_sink_flush(&s);
+}
+
+void dyd_sink_json_box(dyd_sink *s, const char *suffix, const double box[4]) {
+  for (int a = 0; a < 2; a++) {
+    dyd_sink_text(s, a ? ", \"y" : "\"x");
+    dyd_sink_text(s, suffix);
+    dyd_sink_text(s, "\": ");
+    sink_decimals(s, box[2 * a], box[2 * a + 1]);
+  }
 }
 
 void dyd_json_box(FILE *out, const char *suffix, const double box[4]) {
-  fprintf(out, "\"x%s\": ", suffix);
-  dyd_json_decimals(out, box[0], box[1]);
-  fprintf(out, ", \"y%s\": ", suffix);
-  dyd_json_decimals(out, box[2], box[3]);
+  dyd_sink s;
+  dyd_sink_begin(&s, out);
+  dyd_sink_json_box(&s, suffix, box);
+  dyd_sink_flush(&s);
 }
 
 dyd_status dyd_put_window(FILE *out, const dyd_rect *w, const char *quote, const char *between) {

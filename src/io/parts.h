@@ -3,9 +3,9 @@
 #ifndef DYD_IO_PARTS_H
 #define DYD_IO_PARTS_H
 
+#include "io/sink.h"
 #include <dyadel/delaunay.h>
 #include <dyadel/sphere.h>
-#include <stdio.h>
 
 /* "# alias 7 3" for each alias or merged row of the result of e, a line each. */
 void dyd_csv_aliases(FILE *out, const dyd_engine *e);
@@ -31,6 +31,7 @@ dyd_status dyd_json_rect(FILE *out, const dyd_rect *r);
 /* [lo, hi]: decimals rounded outward. */
 void dyd_json_decimals(FILE *out, double lo, double hi);
 /* "x<suffix>": [lo, hi], "y<suffix>": [lo, hi]: decimals rounded outward. */
+void dyd_sink_json_box(dyd_sink *s, const char *suffix, const double box[4]);
 void dyd_json_box(FILE *out, const char *suffix, const double box[4]);
 /* The four ends of a window with dyadic ends, as exact texts, each between `quote`. */
 dyd_status dyd_put_window(FILE *out, const dyd_rect *w, const char *quote, const char *between);

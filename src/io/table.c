@@ -14,87 +14,13 @@ static const char no_system[] =
 
 void dyd_place_set(dyd_place *out, const double box[4]) {
   double error[2];
-  dyd_decimal_within(out->x, &error[0], box[0], box[1]);
-  dyd_decimal_within(out->y, &error[1], box[2], box[3]);
+  out->length[0] = (unsigned char)dyd_decimal_within(out->x, &error[0], box[0], box[1]);
+  out->length[1] = (unsigned char)dyd_decimal_within(out->y, &error[1], box[2], box[3]);
   out->error = fmax(error[0], error[1]);
 }
 
-/* ---- text, in blocks ---- */
-
-static void table_flush(dyd_table *t) {
-  fwrite(t->block, 1, (size_t)(t->end - t->block), t->head->out);
-  t->end = t->block;
-}
-
 static void table_put(dyd_table *t, const char *text) {
-  for (size_t left = strlen(text); left;) {
-    size_t room = (size_t)(t->block + DYD_TABLE_BLOCK - t->end), some = left < room ? left : room;
-    memcpy(t->end, text, some);
-    t->end += some, text += some, left -= some;
-    if (some == room) table_flush(t);
-  }
-}
-
-static bool is_geojson(const dyd_table *t) {
-  return t->head->format == DYD_FORMAT_GEOJSON;
-}
-
-static bool has_geometry(const dyd_table *t) {
-  return t->head->format != DYD_FORMAT_CSV;
-}
-
-/* Is there column k? */
-static bool has_column(const dyd_table *t, size_t k) {
-  return strncmp(t->head->column[k], "id", 2) != 0 || dyd_engine_id(t->head->engine, 0);
-}
-
-/* ---- before and after the rows ---- */
-
-static void geojson_head(const dyd_table_head *h) {
-  fputs("{\"type\": \"FeatureCollection\",\n\"crs\": {\"type\": \"name\", \"properties\": {\"name\": \"", h->out);
-  if (h->epsg)
-    fprintf(h->out, "urn:ogc:def:crs:EPSG::%u", h->epsg);
-  else if (h->sphere)
-    fputs("urn:ogc:def:crs:OGC:1.3:CRS84", h->out);
-  else
-    fputs(no_system, h->out);
-  dyd_outcome outcome = h->sphere ? dyd_sphere_outcome(h->sphere) : dyd_engine_outcome(h->engine);
-  fprintf(h->out,
-          "\"}},\n\"rounding\": \"a coordinate differs from every point that it stands for by at most "
-          "max_coordinate_error; numbers called lo, rho, probability or half_width_needed are rounded down, others "
-          "that are not "
-          "whole up\",\n"
-          "\"outcome\": \"%s\",\n\"features\": [",
-          dyd_outcome_text(outcome));
-}
-
-void dyd_table_begin(dyd_table *t, const dyd_table_head *head) {
-  t->head = head;
-  t->rows = 0;
-  t->most = 0;
-  t->end = t->block;
-  if (is_geojson(t)) {
-    geojson_head(head);
-    return;
-  }
-  if (has_geometry(t)) table_put(t, "WKT,");
-  for (size_t k = 0; head->column[k]; k++) {
-    if (!has_column(t, k)) continue;
-    if (k) table_put(t, ",");
-    table_put(t, head->column[k]);
-  }
-  table_put(t, has_geometry(t) ? ",max_coordinate_error\n" : "\n");
-}
-
-void dyd_table_end(dyd_table *t) {
-  char most[DYD_DECIMAL_SIZE];
-  if (is_geojson(t)) {
-    dyd_decimal_directed(most, t->most, 2, DYD_UP);
-    table_put(t, "\n],\n\"max_coordinate_error\": ");
-    table_put(t, most);
-    table_put(t, "}\n");
-  }
-  table_flush(t);
+  dyd_sink_text(&t->to, text);
 }
 
 /* ---- geometry ---- */
@@ -119,51 +45,129 @@ static const struct {
                                              {")), ((", "]], [["},
                                              {"EMPTY", "[]"}}};
 
-void dyd_row_begin(dyd_table *t) {
+/* ---- before and after the rows ---- */
+
+static void geojson_head(const dyd_table_head *h) {
+  fputs("{\"type\": \"FeatureCollection\",\n\"crs\": {\"type\": \"name\", \"properties\": {\"name\": \"", h->out);
+  if (h->epsg)
+    fprintf(h->out, "urn:ogc:def:crs:EPSG::%u", h->epsg);
+  else if (h->sphere)
+    fputs("urn:ogc:def:crs:OGC:1.3:CRS84", h->out);
+  else
+    fputs(no_system, h->out);
+  dyd_outcome outcome = h->sphere ? dyd_sphere_outcome(h->sphere) : dyd_engine_outcome(h->engine);
+  fprintf(h->out,
+          "\"}},\n\"rounding\": \"a coordinate differs from every point that it stands for by at most "
+          "max_coordinate_error; numbers called lo, rho, probability or half_width_needed are rounded down, others "
+          "that are not "
+          "whole up\",\n"
+          "\"outcome\": \"%s\",\n\"features\": [",
+          dyd_outcome_text(outcome));
+}
+
+/* Is there a column of that name? */
+static bool has_column(const dyd_table_head *h, const char *name) {
+  return strncmp(name, "id", 2) != 0 || dyd_engine_id(h->engine, 0);
+}
+
+/* name NULL: of the last column. */
+static void table_lead(dyd_table *t, const char *name) {
+  dyd_table_lead *l = &t->lead[t->columns];
+  const char *between = t->columns ? ", " : "}, \"properties\": {";
+  if (t->json)
+    l->length = (size_t)snprintf(l->text, sizeof l->text, "%s\"%s\": ", between, name ? name : "max_coordinate_error");
+  else
+    l->length = (size_t)snprintf(l->text, sizeof l->text, "%s", t->columns ? "," : t->bare ? "" : "\",");
+  t->columns++;
+}
+
+/* What rows begin with, and what comes before their values, behind the end of the geometry. */
+static void table_leads(dyd_table *t) {
   const dyd_table_head *h = t->head;
+  const char *name = geometries[h->geometry].name[t->json], *open = geometries[h->geometry].open[t->json];
+  t->columns = 0;
+  for (size_t k = 0; h->column[k]; k++)
+    if (has_column(h, h->column[k])) table_lead(t, h->column[k]);
+  table_lead(t, NULL);
+  t->begin.length = (size_t)snprintf(t->begin.text, sizeof t->begin.text,
+                                     t->json ? ",\n{\"type\": \"Feature\", \"geometry\": {\"type\": \"%s\", "
+                                               "\"coordinates\": %s"
+                                             : "\"%s %s",
+                                     name, open);
+}
+
+void dyd_table_begin(dyd_table *t, const dyd_table_head *head) {
+  t->head = head;
+  t->json = head->format == DYD_FORMAT_GEOJSON;
+  t->bare = head->format == DYD_FORMAT_CSV;
+  t->rows = 0;
+  t->most = 0;
+  table_leads(t);
+  dyd_sink_begin(&t->to, head->out);
+  if (t->json) {
+    geojson_head(head);
+    return;
+  }
+  if (!t->bare) table_put(t, "WKT,");
+  for (size_t k = 0; head->column[k]; k++) {
+    if (!has_column(head, head->column[k])) continue;
+    if (k) table_put(t, ",");
+    table_put(t, head->column[k]);
+  }
+  table_put(t, t->bare ? "\n" : ",max_coordinate_error\n");
+}
+
+void dyd_table_end(dyd_table *t) {
+  char most[DYD_DECIMAL_SIZE];
+  if (t->json) {
+    dyd_decimal_directed(most, t->most, 2, DYD_UP);
+    table_put(t, "\n],\n\"max_coordinate_error\": ");
+    table_put(t, most);
+    table_put(t, "}\n");
+  }
+  dyd_sink_flush(&t->to);
+}
+
+/* ---- rows ---- */
+
+void dyd_row_begin(dyd_table *t) {
+  size_t comma = t->json && !t->rows; /* there is none before the first */
   t->places = t->values = t->parts = 0;
   t->error = 0;
-  if (is_geojson(t)) {
-    table_put(t, t->rows ? ",\n{\"type\": \"Feature\", \"geometry\": {\"type\": \""
-                         : "\n{\"type\": \"Feature\", \"geometry\": {\"type\": \"");
-    table_put(t, geometries[h->geometry].name[1]);
-    table_put(t, "\", \"coordinates\": ");
-    table_put(t, geometries[h->geometry].open[1]);
-  } else if (has_geometry(t)) {
-    table_put(t, "\"");
-    table_put(t, geometries[h->geometry].name[0]);
-    table_put(t, " ");
-    table_put(t, geometries[h->geometry].open[0]);
-  }
+  if (!t->bare) dyd_sink_put(&t->to, t->begin.text + comma, t->begin.length - comma);
 }
 
 void dyd_row_part(dyd_table *t) {
-  if (!has_geometry(t)) return;
-  table_put(t, (t->parts++ ? geometries[t->head->geometry].next : geometries[t->head->geometry].first)[is_geojson(t)]);
+  if (t->bare) return;
+  table_put(t, (t->parts++ ? geometries[t->head->geometry].next : geometries[t->head->geometry].first)[t->json]);
   t->places = 0;
 }
 
 /* What ends the geometry. */
 static const char *geometry_end(const dyd_table *t) {
   dyd_geometry g = t->head->geometry;
-  return (geometries[g].none[0] && !t->parts ? geometries[g].none : geometries[g].close)[is_geojson(t)];
+  return (geometries[g].none[0] && !t->parts ? geometries[g].none : geometries[g].close)[t->json];
 }
 
 void dyd_row_place(dyd_table *t, const dyd_place *place) {
-  if (!has_geometry(t)) return;
-  bool json = is_geojson(t);
-  if (t->places++) table_put(t, ", ");
-  if (json) table_put(t, "[");
-  table_put(t, place->x);
-  table_put(t, json ? ", " : " ");
-  table_put(t, place->y);
-  if (json) table_put(t, "]");
+  if (t->bare) return;
+  char *p = dyd_sink_room(&t->to, 2 * DYD_DECIMAL_SIZE + 8);
+  if (t->places++) memcpy(p, ", ", 2), p += 2;
+  if (t->json) *p++ = '[';
+  memcpy(p, place->x, sizeof place->x);
+  p += place->length[0];
+  if (t->json) *p++ = ',';
+  *p++ = ' ';
+  memcpy(p, place->y, sizeof place->y);
+  p += place->length[1];
+  if (t->json) *p++ = ']';
+  t->to.end = p;
   t->error = fmax(t->error, place->error);
 }
 
 void dyd_row_at(dyd_table *t, const double box[4]) {
   dyd_place place;
-  if (!has_geometry(t)) return;
+  if (t->bare) return;
   dyd_place_set(&place, box);
   dyd_row_place(t, &place);
 }
@@ -178,33 +182,16 @@ void dyd_row_outline(dyd_table *t, const double box[4]) {
 
 /* ---- values ---- */
 
-/* What comes before a value: the end of the geometry before the first, the name of the column in geojson. */
+/* What comes before a value. */
 static void value_begin(dyd_table *t) {
-  bool first = t->values == 0;
-  int json = is_geojson(t);
-  while (t->head->column[t->values] && !has_column(t, t->values)) t->values++;
-  const char *name = t->head->column[t->values] ? t->head->column[t->values] : "max_coordinate_error";
-  t->values++;
-  if (first && has_geometry(t)) {
-    table_put(t, geometry_end(t));
-    table_put(t, json ? "}, \"properties\": {" : "\",");
-  } else if (!first) {
-    table_put(t, json ? ", " : ",");
-  }
-  if (!json) return;
-  table_put(t, "\"");
-  table_put(t, name);
-  table_put(t, "\": ");
+  const dyd_table_lead *l = &t->lead[t->values];
+  if (!t->values++ && !t->bare) table_put(t, geometry_end(t));
+  dyd_sink_put(&t->to, l->text, l->length);
 }
 
-/* By hand: most of the bytes are these. */
 void dyd_row_index(dyd_table *t, size_t i) {
-  char digits[24], *p = digits + sizeof digits;
-  *--p = 0;
-  do *--p = (char)('0' + i % 10);
-  while (i /= 10);
   value_begin(t);
-  table_put(t, p);
+  dyd_sink_index(&t->to, i);
 }
 
 void dyd_row_site(dyd_table *t, size_t i) {
@@ -215,18 +202,17 @@ void dyd_row_id(dyd_table *t, size_t i) {
   const char *id = dyd_engine_id(t->head->engine, i);
   if (!id) return;
   value_begin(t);
-  table_flush(t);
-  if (is_geojson(t))
-    dyd_json_text(t->head->out, id);
+  if (t->json)
+    dyd_sink_json_text(&t->to, id);
   else
-    dyd_csv_text(t->head->out, id);
+    dyd_sink_csv_text(&t->to, id);
 }
 
 void dyd_row_text(dyd_table *t, const char *text) {
   value_begin(t);
-  if (is_geojson(t)) table_put(t, "\"");
+  if (t->json) table_put(t, "\"");
   table_put(t, text);
-  if (is_geojson(t)) table_put(t, "\"");
+  if (t->json) table_put(t, "\"");
 }
 
 const char *const dyd_columns_of_pairs[] = {"i", "j", "status", "id_i", "id_j", NULL};
@@ -240,10 +226,11 @@ void dyd_row_pair(dyd_table *t, size_t i, size_t j, const char *status) {
 }
 
 static void row_number(dyd_table *t, double x, int digits, dyd_round dir) {
-  char text[DYD_DECIMAL_SIZE];
   value_begin(t);
-  if (isfinite(x)) dyd_decimal_directed(text, x, digits, dir);
-  table_put(t, isfinite(x) ? text : is_geojson(t) ? "null" : "");
+  if (isfinite(x))
+    t->to.end += dyd_decimal_directed(dyd_sink_room(&t->to, DYD_DECIMAL_SIZE), x, digits, dir);
+  else
+    table_put(t, t->json ? "null" : "");
 }
 
 void dyd_row_decimal(dyd_table *t, double x, dyd_round dir) {
@@ -255,8 +242,8 @@ void dyd_row_box(dyd_table *t, const double box[4]) {
 }
 
 void dyd_row_end(dyd_table *t) {
-  if (has_geometry(t)) row_number(t, t->error, 2, DYD_UP);
-  table_put(t, is_geojson(t) ? "}}" : "\n");
+  if (!t->bare) row_number(t, t->error, 2, DYD_UP);
+  table_put(t, t->json ? "}}" : "\n");
   t->most = fmax(t->most, t->error);
   t->rows++;
 }

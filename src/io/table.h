@@ -40,15 +40,23 @@ typedef struct dyd_table_head {
   const dyd_sphere *sphere; /* coordinates are degrees on it, and `engine` is that of its places; NULL: a plane */
 } dyd_table_head;
 
-enum { DYD_TABLE_BLOCK = 1 << 14 };
+/* A piece that all rows have, put together once. */
+typedef struct dyd_table_lead {
+  size_t length;
+  char text[80];
+} dyd_table_lead;
+enum { DYD_TABLE_COLUMNS = 16 };
 
-/* Written in blocks, since there are millions of rows. */
+/* Invariant: lead[0 .. columns) are before the values of those columns that there are, and before that of the error. */
 typedef struct dyd_table {
   const dyd_table_head *head;
+  bool json, bare; /* geojson; csv, without geometry */
+  dyd_table_lead begin, lead[DYD_TABLE_COLUMNS];
+  size_t columns;
   size_t rows, places, values; /* so far; the latter two of this row, places since the part began */
   size_t parts;                /* of this row */
   double error, most;          /* of the coordinates of this row, of all */
-  char *end, block[DYD_TABLE_BLOCK];
+  dyd_sink to;
 } dyd_table;
 
 void dyd_table_begin(dyd_table *t, const dyd_table_head *head);

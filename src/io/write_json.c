@@ -8,30 +8,71 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-static dyd_status json_site(const dyd_result *r, size_t i, const dyd_site_row *row, dyd_rect *rect) {
+static bool same_words(const dyd_words *a, const dyd_words *b) {
+  return a->man == b->man && a->den == b->den && a->exp == b->exp;
+}
+
+/* What dyd_json_sides writes, where the rectangle is of single words; else false, and nothing. */
+static bool json_short_sides(dyd_sink *s, const dyd_result *r, size_t i) {
+  static const char *const before[4] = {"\"x\": [\"", "\", \"", "\"], \"y\": [\"", "\", \""};
+  dyd_words end[4];
+  char text[4][DYD_WORDS_SIZE], *stop[4];
+  if (!dyd_sites_get_words(end, r->sites, i)) return false;
+  for (int k = 0; k < 4; k++) {
+    bool again = k & 1 && same_words(&end[k], &end[k - 1]);
+    stop[k] = again ? stop[k - 1] - text[k - 1] + text[k] : dyd_words_put(text[k], &end[k]);
+    if (!stop[k]) return false;
+    if (again) memcpy(text[k], text[k - 1], DYD_WORDS_SIZE);
+  }
+  for (int k = 0; k < 4; k++) {
+    dyd_sink_text(s, before[k]);
+    dyd_sink_put(s, text[k], (size_t)(stop[k] - text[k]));
+  }
+  dyd_sink_text(s, "\"]");
+  return true;
+}
+
+static dyd_status json_sides_of(dyd_sink *s, const dyd_result *r, size_t i, dyd_rect *rect) {
+  if (json_short_sides(s, r, i)) return DYD_OK;
+  dyd_status st = dyd_sites_get(rect, r->sites, i);
+  dyd_sink_flush(s);
+  return st == DYD_OK ? dyd_json_sides(r->out, rect, ", ") : st;
+}
+
+static dyd_status json_site(dyd_sink *s, const dyd_result *r, size_t i, const dyd_site_row *row, dyd_rect *rect) {
   double box[4];
   dyd_sites_get_d(box, r->sites, i);
-  dyd_status st = dyd_sites_get(rect, r->sites, i);
-  if (st != DYD_OK) return st;
-  fprintf(r->out, "%s\n{\"i\": %zu, ", i ? "," : "", dyd_engine_row(r->engine, i));
-  st = dyd_json_sides(r->out, rect, ", ");
-  fputs(", ", r->out);
-  dyd_json_box(r->out, "_decimal", box);
-  dyd_json_ids(r->out, r->engine, &(const uint32_t){(uint32_t)i}, 0);
-  fprintf(r->out, ", \"legal\": %zu, \"indeterminate\": %zu, \"tie\": %zu, \"hull\": \"%s\"}", row->partners[DYD_LEGAL],
-          row->partners[DYD_INDETERMINATE], row->partners[DYD_TIE], row->hull);
+  dyd_sink_text(s, i ? ",\n{\"i\": " : "\n{\"i\": ");
+  dyd_sink_index(s, dyd_engine_row(r->engine, i));
+  dyd_sink_text(s, ", ");
+  dyd_status st = json_sides_of(s, r, i, rect);
+  dyd_sink_text(s, ", ");
+  dyd_sink_json_box(s, "_decimal", box);
+  dyd_sink_json_ids(s, r->engine, &(const uint32_t){(uint32_t)i}, 0);
+  dyd_sink_text(s, ", \"legal\": ");
+  dyd_sink_index(s, row->partners[DYD_LEGAL]);
+  dyd_sink_text(s, ", \"indeterminate\": ");
+  dyd_sink_index(s, row->partners[DYD_INDETERMINATE]);
+  dyd_sink_text(s, ", \"tie\": ");
+  dyd_sink_index(s, row->partners[DYD_TIE]);
+  dyd_sink_text(s, ", \"hull\": \"");
+  dyd_sink_text(s, row->hull);
+  dyd_sink_text(s, "\"}");
   return st;
 }
 
 static dyd_status json_sites(const dyd_result *r) {
+  dyd_sink s;
   dyd_rect rect;
   dyd_site_row *rows = NULL;
   dyd_rect_init(&rect);
   dyd_status st = dyd_result_sites(&rows, r);
-  fputs("\"sites\": [", r->out);
-  for (size_t i = 0; i < r->count && st == DYD_OK; i++) st = json_site(r, i, &rows[i], &rect);
+  dyd_sink_begin(&s, r->out);
+  dyd_sink_text(&s, "\"sites\": [");
+  for (size_t i = 0; i < r->count && st == DYD_OK; i++) st = json_site(&s, r, i, &rows[i], &rect);
   free(rows);
-  fputs("\n],\n", r->out);
+  dyd_sink_text(&s, "\n],\n");
+  dyd_sink_flush(&s);
   dyd_json_aliases(r->out, r->engine, ",\n");
   dyd_rect_clear(&rect);
   return st;

@@ -83,10 +83,21 @@ dyd_status dyd_bound_to_dyadic(dyd_dyadic *out, mpfr_srcptr x) {
   return st;
 }
 
+/* Where all are exact points and nothing is open every term of both bounds is zero. */
+static bool bounds_are_zero(const dyd_delaunay *pd) {
+  const dyd_sites *sites = dyd_delaunay_sites(pd);
+  size_t count[4];
+  dyd_delaunay_count(count, pd);
+  bool zero = count[DYD_INDETERMINATE] == 0 && count[DYD_TIE] == 0;
+  for (size_t i = 0; zero && i < dyd_sites_count(sites); i++) zero = dyd_sites_is_point(sites, i);
+  return zero;
+}
+
 typedef dyd_status (*bound_fn)(mpfr_ptr out, dyd_measure *m, const dyd_pair_list *pairs);
 
 static dyd_status metric_bound(dyd_dyadic *out, const dyd_delaunay *pd, bound_fn f) {
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
+  if (bounds_are_zero(pd)) return dyd_dyadic_set_si_2exp(out, 0, 0);
   dyd_pair_list pairs = {0};
   dyd_measure m;
   mpfr_t x;

@@ -3,6 +3,7 @@
 #ifndef DYD_PICTURE_CANVAS_PATH_H
 #define DYD_PICTURE_CANVAS_PATH_H
 
+#include "io/sink.h"
 #include "picture/canvas.h"
 
 typedef enum dyd_stroke {
@@ -21,6 +22,7 @@ typedef struct dyd_path_step {
 struct dyd_canvas {
   dyd_format format;
   FILE *out;
+  dyd_sink to;       /* of svg: to it */
   int error;         /* errno of the first write that failed, else 0 */
   struct _cairo *cr; /* of svg: to measure texts; NULL without cairo */
   dyd_path_step *step;

@@ -9,82 +9,88 @@
 /* ---- pieces ---- */
 
 /* To hundredths, with a point in every locale; what is beyond any page is brought near. */
-static void put_length(FILE *out, double x) {
-  int64_t n = llround(fmin(fmax(x, -1e12), 1e12) * 100), whole = (n < 0 ? -n : n) / 100, rest = (n < 0 ? -n : n) % 100;
-  fprintf(out, "%s%" PRId64, n < 0 ? "-" : "", whole);
-  if (rest) fprintf(out, rest % 10 ? ".%02d" : ".%d", (int)(rest % 10 ? rest : rest / 10));
+static void put_length(dyd_sink *to, double x) {
+  int64_t n = llround(fmin(fmax(x, -1e12), 1e12) * 100);
+  uint64_t size = (uint64_t)(n < 0 ? -n : n), rest = size % 100;
+  char *p = dyd_sink_room(to, DYD_INDEX_SIZE + sizeof "-.25");
+  if (n < 0) *p++ = '-';
+  p = dyd_put_digits(p, size / 100);
+  if (rest) *p++ = '.', *p++ = (char)('0' + rest / 10);
+  if (rest % 10) *p++ = (char)('0' + rest % 10);
+  to->end = p;
 }
 
-static void put_lengths(FILE *out, const char *before, const double *x, int count) {
-  fputs(before, out);
+static void put_lengths(dyd_sink *to, const char *before, const double *x, int count) {
+  dyd_sink_text(to, before);
   for (int k = 0; k < count; k++) {
-    if (k) fputc(' ', out);
-    put_length(out, x[k]);
+    if (k) dyd_sink_text(to, " ");
+    put_length(to, x[k]);
   }
 }
 
-static void put_attribute(FILE *out, const char *name, double x) {
-  fprintf(out, " %s=\"", name);
-  put_length(out, x);
-  fputc('"', out);
+static void put_attribute(dyd_sink *to, const char *name, double x) {
+  dyd_sink_text(to, " ");
+  dyd_sink_text(to, name);
+  dyd_sink_text(to, "=\"");
+  put_length(to, x);
+  dyd_sink_text(to, "\"");
 }
 
-static void put_escaped(FILE *out, const char *text) {
+static void put_escaped(dyd_sink *to, const char *text) {
   for (; *text; text++) {
     const char *entity = *text == '<' ? "&lt;" : *text == '>' ? "&gt;" : *text == '&' ? "&amp;" : NULL;
     if (*text == '"') entity = "&quot;";
-    if (entity)
-      fputs(entity, out);
-    else
-      fputc(*text, out);
+    dyd_sink_put(to, entity ? entity : text, entity ? strlen(entity) : 1);
   }
 }
 
 /* An arc to its end; a full circle needs two. */
-static void put_arc(FILE *out, const double z[6]) {
+static void put_arc(dyd_sink *to, const double z[6]) {
   double sweep = z[4] - z[3];
   int parts = sweep > 6 ? 2 : 1;
   for (int k = 1; k <= parts; k++) {
     double turn = z[3] + sweep * k / parts, end[2] = {z[0] + z[2] * cos(turn), z[1] + z[2] * sin(turn)};
-    put_lengths(out, "A", (const double[]){z[2], z[2]}, 2);
-    put_lengths(out, sweep / parts > 3.1416 ? " 0 1 1 " : " 0 0 1 ", end, 2);
+    put_lengths(to, "A", (const double[]){z[2], z[2]}, 2);
+    put_lengths(to, sweep / parts > 3.1416 ? " 0 1 1 " : " 0 0 1 ", end, 2);
   }
 }
 
-static void put_path(const dyd_canvas *c) {
-  FILE *out = c->out;
-  fputs(" d=\"", out);
+static void put_path(dyd_canvas *c) {
+  dyd_sink *to = &c->to;
+  dyd_sink_text(to, " d=\"");
   for (size_t k = 0; k < c->count; k++) {
     const double *z = c->step[k].z;
-    const double begin[2] = {z[0] + z[2] * cos(z[3]), z[1] + z[2] * sin(z[3])};
     switch (c->step[k].kind) {
     case DYD_STROKE_MOVE:
-      put_lengths(out, "M", z, 2);
+      put_lengths(to, "M", z, 2);
       break;
     case DYD_STROKE_LINE:
-      put_lengths(out, "L", z, 2);
+      put_lengths(to, "L", z, 2);
       break;
     case DYD_STROKE_CURVE:
-      put_lengths(out, "C", z, 6);
+      put_lengths(to, "C", z, 6);
       break;
     case DYD_STROKE_ARC:
-      put_lengths(out, k ? "L" : "M", begin, 2);
-      put_arc(out, z);
+      put_lengths(to, k ? "L" : "M", (const double[]){z[0] + z[2] * cos(z[3]), z[1] + z[2] * sin(z[3])}, 2);
+      put_arc(to, z);
       break;
     case DYD_STROKE_CLOSE:
-      fputs("Z", out);
+      dyd_sink_text(to, "Z");
     }
   }
-  fputs("\"", out);
+  dyd_sink_text(to, "\"");
 }
 
 /* ---- groups of one paint ---- */
 
-static void put_colour(FILE *out, const char *name, unsigned rgb) {
-  if (rgb == DYD_NO_COLOUR)
-    fprintf(out, " %s=\"none\"", name);
-  else
-    fprintf(out, " %s=\"#%06x\"", name, rgb);
+static void put_colour(dyd_sink *to, const char *name, unsigned rgb) {
+  char text[] = "#rrggbb";
+  snprintf(text + 1, sizeof text - 1, "%06x", rgb & 0xffffff);
+  dyd_sink_text(to, " ");
+  dyd_sink_text(to, name);
+  dyd_sink_text(to, "=\"");
+  dyd_sink_text(to, rgb == DYD_NO_COLOUR ? "none" : text);
+  dyd_sink_text(to, "\"");
 }
 
 static bool same_paint(const dyd_paint *a, const dyd_paint *b) {
@@ -93,25 +99,25 @@ static bool same_paint(const dyd_paint *a, const dyd_paint *b) {
 }
 
 static void close_group(dyd_canvas *c) {
-  if (c->open) fputs("</g>\n", c->out);
+  if (c->open) dyd_sink_text(&c->to, "</g>\n");
   c->open = false;
 }
 
 static void open_group(dyd_canvas *c, const dyd_paint *p) {
   if (c->open && same_paint(p, &c->shared)) return;
   close_group(c);
-  fputs("<g", c->out);
-  put_colour(c->out, "fill", p->fill);
-  if (p->fill != DYD_NO_COLOUR && p->alpha < 1) put_attribute(c->out, "fill-opacity", p->alpha);
+  dyd_sink_text(&c->to, "<g");
+  put_colour(&c->to, "fill", p->fill);
+  if (p->fill != DYD_NO_COLOUR && p->alpha < 1) put_attribute(&c->to, "fill-opacity", p->alpha);
   if (p->stroke != DYD_NO_COLOUR) {
-    put_colour(c->out, "stroke", p->stroke);
-    put_attribute(c->out, "stroke-width", p->width);
+    put_colour(&c->to, "stroke", p->stroke);
+    put_attribute(&c->to, "stroke-width", p->width);
     if (p->off > 0) {
-      put_lengths(c->out, " stroke-dasharray=\"", (const double[]){p->on, p->off}, 2);
-      fputs("\"", c->out);
+      put_lengths(&c->to, " stroke-dasharray=\"", (const double[]){p->on, p->off}, 2);
+      dyd_sink_text(&c->to, "\"");
     }
   }
-  fputs(">\n", c->out);
+  dyd_sink_text(&c->to, ">\n");
   c->open = true;
   c->shared = *p;
 }
@@ -119,56 +125,66 @@ static void open_group(dyd_canvas *c, const dyd_paint *p) {
 /* ---- the page ---- */
 
 void dyd_svg_begin(dyd_canvas *c, double width, double height, const char *title) {
-  fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"", c->out);
-  put_attribute(c->out, "width", width);
-  put_attribute(c->out, "height", height);
-  put_lengths(c->out, " viewBox=\"0 0 ", (const double[]){width, height}, 2);
-  fputs("\" font-family=\"sans-serif\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>", c->out);
-  put_escaped(c->out, title);
-  fputs("</title>\n", c->out);
+  dyd_sink_begin(&c->to, c->out);
+  dyd_sink_text(&c->to, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"");
+  put_attribute(&c->to, "width", width);
+  put_attribute(&c->to, "height", height);
+  put_lengths(&c->to, " viewBox=\"0 0 ", (const double[]){width, height}, 2);
+  dyd_sink_text(&c->to, "\" font-family=\"sans-serif\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n<title>");
+  put_escaped(&c->to, title);
+  dyd_sink_text(&c->to, "</title>\n");
 }
 
 void dyd_svg_end(dyd_canvas *c) {
   close_group(c);
-  fputs("</svg>\n", c->out);
+  dyd_sink_text(&c->to, "</svg>\n");
+  dyd_sink_flush(&c->to);
 }
 
 void dyd_svg_paint(dyd_canvas *c, const dyd_paint *paint) {
   if (c->count == 0) return;
   open_group(c, paint);
-  fputs("<path", c->out);
-  if (c->id[0]) fprintf(c->out, " id=\"%s\"", c->id);
+  dyd_sink_text(&c->to, "<path");
+  if (c->id[0]) {
+    dyd_sink_text(&c->to, " id=\"");
+    dyd_sink_text(&c->to, c->id);
+    dyd_sink_text(&c->to, "\"");
+  }
   put_path(c);
   if (!c->title[0]) {
-    fputs("/>\n", c->out);
+    dyd_sink_text(&c->to, "/>\n");
     return;
   }
-  fputs("><title>", c->out);
-  put_escaped(c->out, c->title);
-  fputs("</title></path>\n", c->out);
+  dyd_sink_text(&c->to, "><title>");
+  put_escaped(&c->to, c->title);
+  dyd_sink_text(&c->to, "</title></path>\n");
 }
 
 void dyd_svg_clip(dyd_canvas *c) {
   close_group(c);
-  fprintf(c->out, "<clipPath id=\"clip%u\"><path", ++c->clips);
+  dyd_sink_text(&c->to, "<clipPath id=\"clip");
+  dyd_sink_index(&c->to, ++c->clips);
+  dyd_sink_text(&c->to, "\"><path");
   put_path(c);
-  fprintf(c->out, "/></clipPath>\n<g clip-path=\"url(#clip%u)\">\n", c->clips);
+  dyd_sink_text(&c->to, "/></clipPath>\n<g clip-path=\"url(#clip");
+  dyd_sink_index(&c->to, c->clips);
+  dyd_sink_text(&c->to, ")\">\n");
 }
 
 void dyd_svg_unclip(dyd_canvas *c) {
   close_group(c);
-  fputs("</g>\n", c->out);
+  dyd_sink_text(&c->to, "</g>\n");
 }
 
 void dyd_svg_text(dyd_canvas *c, double x, double y, double align, double size, bool halo, const char *text) {
   close_group(c);
-  fputs("<text", c->out);
-  put_attribute(c->out, "x", x);
-  put_attribute(c->out, "y", y);
-  put_attribute(c->out, "font-size", size);
-  if (align > 0) fprintf(c->out, " text-anchor=\"%s\"", align < 1 ? "middle" : "end");
-  if (halo) fputs(" stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\"", c->out);
-  fputs(">", c->out);
-  put_escaped(c->out, text);
-  fputs("</text>\n", c->out);
+  dyd_sink_text(&c->to, "<text");
+  put_attribute(&c->to, "x", x);
+  put_attribute(&c->to, "y", y);
+  put_attribute(&c->to, "font-size", size);
+  if (align > 0) dyd_sink_text(&c->to, align < 1 ? " text-anchor=\"middle\"" : " text-anchor=\"end\"");
+  if (halo) dyd_sink_text(&c->to, " stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\"");
+  dyd_sink_text(&c->to, ">");
+  put_escaped(&c->to, text);
+  dyd_sink_text(&c->to, "</text>\n");
 }

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The picture of the triangulation: rectangles, edges and partial edges by status, sure triangles. */
+#include "base/alloc.h"
 #include "base/error.h"
+#include "base/prefetch.h"
 #include "picture/picture.h"
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 static const struct {
   dyd_pair_status status;
@@ -14,7 +16,7 @@ static const struct {
               {DYD_INDETERMINATE, "indeterminate", 0xd55e00, 0xfbe3d1, 4, 2.5, 1.0},
               {DYD_LEGAL, "legal", 0x0072b2, 0xd3e6f2, 0, 0, 1.2}};
 
-enum { OPEN = 1 };
+enum { TIED, OPEN, LEGAL };
 #define TRIANGLE 0xe6f0f7
 #define CLOSE 12.0 /* neighbours so close have rectangles that hide each other */
 #define WIDE 50.0  /* room around the frame, in points, for lines and dashes that begin outside */
@@ -26,12 +28,17 @@ typedef struct delaunay_drawing {
   dyd_view view;
   dyd_triangle_list triangles;
   double wide[4];
-  size_t shown[4], sites;   /* lines of each status, rectangles that meet the frame */
-  dyd_density open;         /* of indeterminate lines */
-  bool crowded;             /* it is drawn in place of them */
-  bool triangle, region[4]; /* was drawn */
+  size_t shown[4], sites; /* lines of each status, rectangles that meet the frame */
+  double (*at)[2];        /* the middle of each rectangle on the page; owned */
+  dyd_density dense[3];   /* of lines of each style: all squares of OPEN, where it is crowded; else full ones */
+  bool crowded;           /* those of OPEN are drawn in place of its lines */
+  bool triangle, region[4], squares; /* was drawn; full squares */
   dyd_site_marks marks;
 } delaunay_drawing;
+
+static int style_of(dyd_pair_status status) {
+  return status == DYD_LEGAL ? LEGAL : status == DYD_TIE ? TIED : OPEN;
+}
 
 /* What lines of a style are called. */
 static const char *style_name(const delaunay_drawing *d, int k) {
@@ -39,16 +46,37 @@ static const char *style_name(const delaunay_drawing *d, int k) {
   return style[k].status == DYD_LEGAL ? "sure" : "possible";
 }
 
-static void page_middle(double z[2], const delaunay_drawing *d, uint32_t i) {
-  double b[4];
-  dyd_sites_get_d(b, d->r->sites, i);
-  dyd_view_middle(z, &d->view, b);
+static bool find_middles(delaunay_drawing *d) {
+  d->at = dyd_alloc(d->r->count, sizeof *d->at);
+  for (size_t i = 0; d->at && i < d->r->count; i++) {
+    double b[4];
+    dyd_sites_get_d(b, d->r->sites, i);
+    dyd_view_middle(d->at[i], &d->view, b);
+  }
+  return d->at;
+}
+
+/* Asks memory for the ends of a line to come: those of the second sites lie anywhere. */
+static void fetch_line(const delaunay_drawing *d, size_t p) {
+  enum { AHEAD = 16 };
+  if (p + AHEAD < d->r->pairs.count) dyd_prefetch(d->at[d->r->pairs.item[p + AHEAD].j]);
 }
 
 static bool line_of(double z[2][2], const delaunay_drawing *d, const dyd_pair *pair, const double frame[4]) {
-  page_middle(z[0], d, pair->i);
-  page_middle(z[1], d, pair->j);
+  memcpy(z[0], d->at[pair->i], sizeof z[0]);
+  memcpy(z[1], d->at[pair->j], sizeof z[1]);
   return dyd_clip_segment(z, frame);
+}
+
+/* Do full squares stand for all that would be seen of n places and what is between them? */
+static bool is_covered(const dyd_density *by, double z[][2], int n) {
+  double box[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+  if (!by->count) return false;
+  for (int k = 0; k < 2 * n; k++) {
+    double at = z[k / 2][k & 1], *side = box + 2 * (k & 1);
+    side[0] = fmin(side[0], at), side[1] = fmax(side[1], at);
+  }
+  return dyd_density_covers(by, box);
 }
 
 static bool polygon_path(dyd_canvas *c, const delaunay_drawing *d, double z[DYD_CLIP_MOST][2], int n) {
@@ -71,8 +99,8 @@ static void draw_triangles(dyd_canvas *c, delaunay_drawing *d) {
   for (size_t k = 0; k < d->triangles.count; k++) {
     const uint32_t *v = d->triangles.item[k].v;
     double z[DYD_CLIP_MOST][2];
-    for (int corner = 0; corner < 3; corner++) page_middle(z[corner], d, v[corner]);
-    if (!polygon_path(c, d, z, 3)) continue;
+    for (int corner = 0; corner < 3; corner++) memcpy(z[corner], d->at[v[corner]], sizeof z[corner]);
+    if (is_covered(&d->dense[LEGAL], z, 3) || !polygon_path(c, d, z, 3)) continue;
     d->triangle = true;
     if (!names) continue;
     size_t row[3];
@@ -102,7 +130,8 @@ static int compare_xy(const void *a, const void *b) {
 }
 
 /* Ed(a,b) as a path: the hull of eight corners, by monotone chains. */
-static bool pair_path(dyd_canvas *c, const delaunay_drawing *d, const double a[4], const double b[4]) {
+static bool pair_path(dyd_canvas *c, const delaunay_drawing *d, const double a[4], const double b[4],
+                      const dyd_density *by) {
   double z[8][2], chain[DYD_CLIP_MOST][2];
   int n = 0;
   for (int k = 0; k < 8; k++) {
@@ -110,6 +139,7 @@ static bool pair_path(dyd_canvas *c, const delaunay_drawing *d, const double a[4
     z[k][0] = dyd_view_x(&d->view, r[k & 1]);
     z[k][1] = dyd_view_y(&d->view, r[2 + (k >> 1 & 1)]);
   }
+  if (is_covered(by, z, 8)) return false;
   qsort(z, 8, sizeof z[0], compare_xy);
   for (int pass = 0; pass < 2; pass++) {
     int floor = n;
@@ -132,7 +162,7 @@ static void draw_regions(dyd_canvas *c, delaunay_drawing *d, int k) {
     dyd_sites_get_d(a, d->r->sites, pair->i);
     dyd_sites_get_d(b, d->r->sites, pair->j);
     if (!is_wide_box(d, a) && !is_wide_box(d, b)) continue;
-    if (pair_path(c, d, a, b)) d->region[k] = true;
+    if (pair_path(c, d, a, b, &d->dense[k])) d->region[k] = true;
   }
   if (d->region[k]) dyd_picture_fill(c, style[k].region);
 }
@@ -143,7 +173,8 @@ static void draw_edges(dyd_canvas *c, const delaunay_drawing *d, int k) {
   for (size_t p = 0; p < d->r->pairs.count; p++) {
     const dyd_pair *pair = &d->r->pairs.item[p];
     double z[2][2];
-    if (pair->status != style[k].status || !line_of(z, d, pair, d->wide)) continue;
+    fetch_line(d, p);
+    if (pair->status != style[k].status || !line_of(z, d, pair, d->wide) || is_covered(&d->dense[k], z, 2)) continue;
     any = true;
     dyd_canvas_move(c, z[0][0], z[0][1]);
     dyd_canvas_line(c, z[1][0], z[1][1]);
@@ -170,8 +201,10 @@ static void legend_edges(dyd_legend *l, const delaunay_drawing *d) {
     snprintf(text, sizeof text, "%s: %zu", style_name(d, k), shown);
     dyd_legend_line(l, style[k].rgb, style[k].on, style[k].off, text);
   }
-  snprintf(text, sizeof text, " of %zu %s pairs across a square", d->shown[DYD_INDETERMINATE], style_name(d, OPEN));
-  if (d->crowded) dyd_density_legend(l, &d->open, text);
+  for (int k = 2; k >= 0; k--) {
+    snprintf(text, sizeof text, " of %zu %s pairs across a square", d->shown[style[k].status], style_name(d, k));
+    dyd_density_legend(l, &d->dense[k], text);
+  }
 }
 
 static void delaunay_legend(dyd_canvas *c, void *context) {
@@ -196,6 +229,8 @@ static void delaunay_legend(dyd_canvas *c, void *context) {
            dyd_outcome_text(dyd_engine_outcome(d->r->engine)),
            dyd_delaunay_is_capped(d->r->pd) ? ", not all possible pairs are shown" : "");
   dyd_legend_text(&l, text);
+  if (d->squares)
+    dyd_legend_text(&l, "squares of legal pairs and ties hide the lines, triangles and points that are in them");
   dyd_legend_crowd(&l, &d->marks);
 }
 
@@ -203,7 +238,9 @@ static void delaunay_inside(dyd_canvas *c, void *context) {
   delaunay_drawing *d = context;
   draw_triangles(c, d);
   for (int k = 2; k >= 0 && !d->crowded; k--) draw_regions(c, d, k);
-  if (d->crowded) dyd_density_draw(c, &d->open);
+  d->squares = dyd_density_draw(c, &d->dense[LEGAL], NULL);
+  d->squares |= dyd_density_draw(c, &d->dense[TIED], &d->dense[LEGAL]);
+  dyd_density_draw(c, &d->dense[OPEN], &d->dense[LEGAL]);
   for (int k = 0; k < 3; k++)
     if (!(d->crowded && k == OPEN)) draw_edges(c, d, k);
   dyd_site_marks_draw(&d->marks, c, &d->view);
@@ -211,11 +248,16 @@ static void delaunay_inside(dyd_canvas *c, void *context) {
 
 /* ---- what is shown ---- */
 
+/* The possible pairs, unless others are shown. */
+static const dyd_pair_list *picture_pairs(const dyd_result *r) {
+  return r->graph_name || r->discs ? NULL : &r->pairs;
+}
+
 static dyd_status see_all(delaunay_drawing *d, dyd_error *err) {
-  dyd_status st = dyd_view_all(&d->view, d->r, err);
+  dyd_status st = dyd_view_all(&d->view, d->r, picture_pairs(d->r), err);
   for (size_t p = 0; p < d->r->pairs.count; p++) d->shown[d->r->pairs.item[p].status]++;
   for (int k = 0; k < 4; k++) d->wide[k] = d->view.frame[k] + (k & 1 ? WIDE : -WIDE);
-  return st;
+  return st == DYD_OK && !find_middles(d) ? DYD_E_NOMEM : st;
 }
 
 /* A box on the page; false when it is too far outside. */
@@ -244,7 +286,7 @@ static dyd_status see_window(delaunay_drawing *d, dyd_error *err) {
   double box[4];
   dyd_rect_get_d(box, d->r->window);
   if (!(box[0] < box[1] && box[2] < box[3])) return dyd_fail(err, DYD_E_ARG, "the window has no area");
-  dyd_status st = dyd_view_fit(&d->view, box, dyd_view_spacing(d->r->pd, box), err);
+  dyd_status st = dyd_view_fit(&d->view, box, dyd_view_spacing(d->r->pd, picture_pairs(d->r), box), err);
   if (st != DYD_OK) return st;
   double *f = d->view.frame;
   if (!place_box(f, &d->view, box)) return too_near(err);
@@ -256,6 +298,7 @@ static dyd_status see_window(delaunay_drawing *d, dyd_error *err) {
     if (!place_box(z, &d->view, b)) return too_near(err);
     d->sites += z[0] <= f[1] && f[0] <= z[1] && z[2] <= f[3] && f[2] <= z[3];
   }
+  if (!find_middles(d)) return DYD_E_NOMEM;
   count_shown(d);
   return DYD_OK;
 }
@@ -272,16 +315,23 @@ static bool are_rectangles_a_mass(const delaunay_drawing *d) {
   return area > (f[1] - f[0]) * (f[3] - f[2]) / 4;
 }
 
+/* Of lines that are too many to be named, full squares are drawn in place of what is in them. */
 static dyd_status find_density(delaunay_drawing *d) {
-  if (!dyd_density_init(&d->open, &d->view)) return DYD_E_NOMEM;
+  static const dyd_density_levels *const levels[3] = {&dyd_density_full_grey, &dyd_density_all, &dyd_density_full};
+  for (int k = 0; k < 3; k++)
+    if ((k == OPEN || !has_names(d)) && !dyd_density_init(&d->dense[k], &d->view, levels[k])) return DYD_E_NOMEM;
   for (size_t p = 0; p < d->r->pairs.count; p++) {
     double z[2][2];
-    if (d->r->pairs.item[p].status != DYD_INDETERMINATE) continue;
-    dyd_density_begin(&d->open);
-    if (line_of(z, d, &d->r->pairs.item[p], d->view.frame)) dyd_density_add(&d->open, z);
+    int k = style_of(d->r->pairs.item[p].status);
+    fetch_line(d, p);
+    if (!d->dense[k].count) continue;
+    dyd_density_begin(&d->dense[k]);
+    if (line_of(z, d, &d->r->pairs.item[p], d->view.frame)) dyd_density_add(&d->dense[k], z);
   }
-  d->crowded = dyd_density_is_crowded(&d->open);
+  d->crowded = dyd_density_is_crowded(&d->dense[OPEN]);
+  if (!d->crowded) dyd_density_clear(&d->dense[OPEN]);
   d->view.dots = d->crowded && (d->view.apart < CLOSE || are_rectangles_a_mass(d));
+  if (d->dense[LEGAL].count) d->marks.under = &d->dense[LEGAL];
   return DYD_OK;
 }
 
@@ -289,11 +339,12 @@ dyd_status dyd_delaunay_picture(const dyd_output *o) {
   const dyd_result *r = o->what;
   delaunay_drawing d = {.r = r, .marks = dyd_site_marks_of(r->pd, r->engine, DYD_PICTURE_BAND)};
   dyd_status st = d.r->window ? see_window(&d, o->err) : see_all(&d, o->err);
-  if (st == DYD_OK) st = find_density(&d);
   const char *title = d.r->graph_name ? d.r->graph_name : "partial Delaunay triangulation";
   if (st == DYD_OK && !d.r->graph_name) st = dyd_delaunay_triangles(&d.triangles, d.r->pd);
+  if (st == DYD_OK) st = find_density(&d);
   if (st == DYD_OK) st = dyd_view_write(o, &d.view, title, delaunay_inside, delaunay_legend, &d);
   dyd_triangle_list_clear(&d.triangles);
-  dyd_density_clear(&d.open);
+  for (int k = 0; k < 3; k++) dyd_density_clear(&d.dense[k]);
+  free(d.at);
   return st;
 }

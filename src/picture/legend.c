@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Legends: what colours and lines mean, how long a length is, where the points are when they are too close to see. */
-#include "base/sort.h"
 #include "io/decimal.h"
 #include "picture/picture.h"
 #include <math.h>
@@ -107,6 +106,27 @@ static bool is_in(const double box[4], const double b[4]) {
   return box[0] <= x && x <= box[1] && box[2] <= y && y <= box[3];
 }
 
+/* The k-th of n doubles, which are moved: those before are not greater, those behind not less. */
+static double legend_select(double *x, size_t n, size_t k) {
+  for (size_t low = 0, high = n - 1; low < high;) {
+    double pivot = x[low + (high - low) / 2];
+    size_t i = low, j = high;
+    for (;;) {
+      while (x[i] < pivot) i++;
+      while (pivot < x[j]) j--;
+      if (i >= j) break;
+      double swap = x[i];
+      x[i++] = x[j];
+      x[j--] = swap;
+    }
+    if (k <= j)
+      high = j;
+    else
+      low = j + 1;
+  }
+  return x[k];
+}
+
 /* The box between the tenths of the coordinates, rounded outward and a little larger, of the sites seen. `each` has
  * room for all. */
 static bool crowd_box(char text[4][48], double box[4], double *each, const dyd_view *v, const dyd_site_marks *m) {
@@ -118,8 +138,8 @@ static bool crowd_box(char text[4][48], double box[4], double *each, const dyd_v
       if (m->box(b, m->context, i) && dyd_view_sees(v, b)) each[count++] = b[2 * axis] / 2 + b[2 * axis + 1] / 2;
     }
     if (count < 20) return false;
-    qsort(each, count, sizeof *each, dyd_compare_double);
-    double low = each[count / 10], high = each[count - 1 - count / 10], more = (high - low) / 8;
+    double low = legend_select(each, count, count / 10), high = legend_select(each, count, count - 1 - count / 10);
+    double more = (high - low) / 8;
     int digit, exponent;
     if (!dyd_round_step(&digit, &exponent, more)) return false;
     double step = digit * pow(10, exponent), first = floor((low - more) / step), last = ceil((high + more) / step);

@@ -49,7 +49,7 @@ static void find_distances(nearest_drawing *g) {
 
 /* The larger disc in the middle, with its surroundings: some neighbours, unless that would make it too small. */
 static dyd_status nearest_view(nearest_drawing *g, dyd_error *err) {
-  double far = g->count ? g->far : 0, spacing = dyd_view_spacing(g->pd, NULL), box[4];
+  double far = g->count ? g->far : 0, spacing = dyd_view_spacing(g->pd, NULL, NULL), box[4];
   double reach = fmax(2.2 * far, fmin(1.5 * spacing, 12 * far));
   if (reach == 0) reach = spacing > 0 ? 1.5 * spacing : 1;
   for (int k = 0; k < 4; k++) box[k] = g->place[k] + (k & 1 ? reach : -reach);

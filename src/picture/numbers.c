@@ -52,9 +52,9 @@ static bool is_free(const dyd_numbers *l, const double z[4]) {
   return true;
 }
 
-/* A box on the page, at least as large as a dot. */
-static void page_box(double z[4], const dyd_view *v, const double box[4]) {
-  double at[2], least = fmax(v->dot, 3.5);
+/* A box on the page, reaching `least` from its middle. */
+static void page_box(double z[4], const dyd_view *v, const double box[4], double least) {
+  double at[2];
   dyd_view_middle(at, v, box);
   z[0] = fmin(dyd_view_x(v, box[0]), at[0] - least), z[1] = fmax(dyd_view_x(v, box[1]), at[0] + least);
   z[2] = fmin(dyd_view_y(v, box[3]), at[1] - least), z[3] = fmax(dyd_view_y(v, box[2]), at[1] + least);
@@ -62,7 +62,7 @@ static void page_box(double z[4], const dyd_view *v, const double box[4]) {
 
 void dyd_numbers_keep_off(dyd_numbers *l, const double box[4]) {
   double z[4];
-  page_box(z, l->view, box);
+  page_box(z, l->view, box, fmax(l->view->dot, 3.5));
   if (dyd_view_sees(l->view, box)) take_squares(l, z);
 }
 
@@ -75,7 +75,7 @@ void dyd_numbers_put(dyd_numbers *l, dyd_canvas *c, const double box[4], double 
   if (!dyd_view_sees(l->view, box)) return;
   const char *text = dyd_label_text(spare, e, site);
   double wide = dyd_canvas_width(c, size, text), high = 0.74 * size, gap = 3;
-  page_box(b, l->view, box);
+  page_box(b, l->view, box, fmax(l->view->dot, 3.5));
   for (int k = 0; k < 8; k++) {
     int across = place[k][0], down = place[k][1];
     z[0] = across > 0 ? b[1] + gap : across < 0 ? b[0] - gap - wide : (b[0] + b[1] - wide) / 2;
@@ -102,6 +102,14 @@ dyd_site_marks dyd_site_marks_of(const dyd_delaunay *pd, const dyd_engine *e, un
       .engine = e, .count = dyd_sites_count(dyd_delaunay_sites(pd)), .box = plane_site_box, .context = pd, .rgb = rgb};
 }
 
+/* Is nothing of the mark beside the squares that are drawn in its place? */
+static bool is_mark_covered(const dyd_site_marks *m, const dyd_view *v, const double box[4]) {
+  double z[4];
+  if (!m->under) return false;
+  page_box(z, v, box, v->dot);
+  return dyd_density_covers(m->under, z);
+}
+
 void dyd_site_marks_draw(dyd_site_marks *m, dyd_canvas *c, const dyd_view *v) {
   dyd_numbers labels = {0};
   bool numbers = v->apart >= ROOMY && dyd_numbers_init(&labels, v);
@@ -109,6 +117,7 @@ void dyd_site_marks_draw(dyd_site_marks *m, dyd_canvas *c, const dyd_view *v) {
     for (size_t i = 0; i < m->count; i++) {
       double b[4];
       if (!m->box(b, m->context, i)) continue;
+      if (is_mark_covered(m, v, b)) continue;
       if (!pass) m->drawn[dyd_picture_site(c, v, b, m->engine, i, m->rgb)] = true;
       if (!pass && numbers) dyd_numbers_keep_off(&labels, b);
       if (pass) dyd_numbers_put(&labels, c, b, 13, m->engine, i);

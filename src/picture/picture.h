@@ -40,16 +40,17 @@ typedef struct dyd_view {
 /* A view of the box (x lower, x upper, y lower, y upper) of something whose neighbours are about `spacing` apart (0:
  * not known); DYD_E_RANGE with a message when doubles cannot scale it. */
 dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_error *err);
-/* About the median length of the possible pairs whose middle is in `box` (NULL: of all); 0 when there is none. */
-double dyd_view_spacing(const dyd_delaunay *pd, const double box[4]);
+/* About the median length of the possible pairs whose middle is in `box` (NULL: of all); 0 when there is none. pairs:
+ * the list of them, NULL where the caller has none. */
+double dyd_view_spacing(const dyd_delaunay *pd, const dyd_pair_list *pairs, const double box[4]);
 /* The middle one of n lengths, which are sorted; 0: there is none. */
 double dyd_view_median(double *length, size_t n);
 double dyd_view_x(const dyd_view *v, double x);
 double dyd_view_y(const dyd_view *v, double y);
 /* The middle of a box, on the page. */
 void dyd_view_middle(double z[2], const dyd_view *v, const double box[4]);
-/* A view of all rectangles of the result, with a rim. */
-dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, dyd_error *err);
+/* A view of all rectangles of the result, with a rim; pairs as above. */
+dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, const dyd_pair_list *pairs, dyd_error *err);
 /* Does a box meet the frame? */
 bool dyd_view_sees(const dyd_view *v, const double box[4]);
 /* *box (xlo, xhi, ylo, yhi) grows to hold r; DYD_E_RANGE with a message unless doubles can hold it. */
@@ -131,6 +132,7 @@ typedef struct dyd_site_marks {
   bool (*box)(double out[4], const void *context, size_t i);
   const void *context;
   unsigned rgb;                       /* of rectangles */
+  const struct dyd_density *under;    /* marks that its squares cover are left out; NULL: none are */
   bool drawn[DYD_MARK_RECTANGLE + 1]; /* which marks were */
 } dyd_site_marks;
 
@@ -160,15 +162,20 @@ void dyd_legend_crowd(dyd_legend *l, const dyd_site_marks *m);
 
 /* ---- density.c ---- */
 
+/* Of how many lines on a square is drawn, and how: from one line on; full squares only, as legal pairs, as ties. */
+typedef struct dyd_density_levels dyd_density_levels;
+extern const dyd_density_levels dyd_density_all, dyd_density_full, dyd_density_full_grey;
+
 /* How many lines cross each small square of the frame. */
 typedef struct dyd_density {
   const dyd_view *view;
-  uint32_t *count;
+  const dyd_density_levels *levels;
+  uint32_t *count;            /* NULL: nothing is counted, and no square is drawn */
   size_t columns, rows, last; /* last: the square that the line at hand is in */
 } dyd_density;
 
 /* false: memory is exhausted. */
-bool dyd_density_init(dyd_density *d, const dyd_view *v);
+bool dyd_density_init(dyd_density *d, const dyd_view *v, const dyd_density_levels *levels);
 void dyd_density_clear(dyd_density *d);
 /* A line begins. */
 void dyd_density_begin(dyd_density *d);
@@ -176,7 +183,11 @@ void dyd_density_begin(dyd_density *d);
 void dyd_density_add(dyd_density *d, double z[2][2]);
 /* Would the lines be seen as a mass? */
 bool dyd_density_is_crowded(const dyd_density *d);
-void dyd_density_draw(dyd_canvas *c, const dyd_density *d);
+/* Is all that the frame shows of a box on the page (x lower, x upper, y lower, y upper) in squares that are drawn? May
+ * say no of a large box. */
+bool dyd_density_covers(const dyd_density *d, const double box[4]);
+/* Squares that are drawn of `under` (NULL: of none), too, are shared by both. false: there were none. */
+bool dyd_density_draw(dyd_canvas *c, const dyd_density *d, const dyd_density *under);
 /* what: behind the first number, " lines of a kind in a square". */
 void dyd_density_legend(dyd_legend *l, const dyd_density *d, const char *what);
 

@@ -143,7 +143,7 @@ static void draw_cells(sphere_drawing *d) {
 static void sphere_inside(dyd_canvas *c, void *context) {
   sphere_drawing *d = context;
   d->canvas = c;
-  if (d->crowded) dyd_density_draw(c, &d->open);
+  if (d->crowded) dyd_density_draw(c, &d->open, NULL);
   draw_graticule(d);
   if (d->cells)
     draw_cells(d);
@@ -240,7 +240,7 @@ static void find_surroundings(double all[4], const sphere_drawing *d) {
 }
 
 static dyd_status find_crowd(sphere_drawing *d) {
-  if (!dyd_density_init(&d->open, &d->view)) return DYD_E_NOMEM;
+  if (!dyd_density_init(&d->open, &d->view, &dyd_density_all)) return DYD_E_NOMEM;
   for (size_t i = 0; i < d->count; i++) d->sites += dyd_view_sees(&d->view, d->box[i]);
   for (size_t p = 0; p < d->r->pairs.count && !d->cells; p++) {
     const dyd_pair *pair = &d->r->pairs.item[p];

@@ -125,10 +125,10 @@ static void tolerance_legend(dyd_canvas *c, void *context) {
 
 static dyd_status tolerance_see(tolerance_drawing *g, dyd_error *err) {
   double box[4];
-  if (!g->r->window) return dyd_view_all(&g->view, g->r, err);
+  if (!g->r->window) return dyd_view_all(&g->view, g->r, NULL, err);
   dyd_rect_get_d(box, g->r->window);
   if (!(box[0] < box[1] && box[2] < box[3])) return dyd_fail(err, DYD_E_ARG, "the window has no area");
-  return dyd_view_fit(&g->view, box, dyd_view_spacing(g->r->pd, box), err);
+  return dyd_view_fit(&g->view, box, dyd_view_spacing(g->r->pd, NULL, box), err);
 }
 
 dyd_status dyd_tolerance_picture(const dyd_output *o) {

@@ -53,7 +53,7 @@ dyd_status dyd_view_fit(dyd_view *v, const double box[4], double spacing, dyd_er
   return DYD_OK;
 }
 
-dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, dyd_error *err) {
+dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, const dyd_pair_list *pairs, dyd_error *err) {
   double all[4] = {INFINITY, -INFINITY, INFINITY, -INFINITY};
   for (size_t i = 0; i < r->count; i++) {
     double b[4];
@@ -64,7 +64,7 @@ dyd_status dyd_view_all(dyd_view *v, const dyd_result *r, dyd_error *err) {
   if (r->count == 0) all[0] = all[1] = all[2] = all[3] = 0;
   double rim = 0.04 * fmax(all[1] - all[0], all[3] - all[2]);
   for (int k = 0; k < 4; k++) all[k] += k & 1 ? rim : -rim;
-  return dyd_view_fit(v, all, dyd_view_spacing(r->pd, NULL), err);
+  return dyd_view_fit(v, all, dyd_view_spacing(r->pd, pairs, NULL), err);
 }
 
 /* Of the line between the middles of the rectangles; -1 when its middle is not in the box. */
@@ -86,20 +86,26 @@ double dyd_view_median(double *length, size_t n) {
   return n && isfinite(length[n / 2]) ? length[n / 2] : 0;
 }
 
-double dyd_view_spacing(const dyd_delaunay *pd, const double box[4]) {
+static double spacing_of(const dyd_delaunay *pd, const dyd_pair_list *pairs, const double box[4]) {
   enum { SAMPLES = 1000 };
   double length[SAMPLES];
-  dyd_pair_list pairs = {0};
   size_t n = 0, inside = 0, seen = 0;
-  if (dyd_delaunay_pairs(&pairs, pd) != DYD_OK) return 0;
-  for (size_t k = 0; box && k < pairs.count; k++) inside += pair_length(pd, &pairs.item[k], box) >= 0;
-  size_t step = (box ? inside : pairs.count) / SAMPLES + 1;
-  for (size_t k = 0; k < pairs.count; k++) {
-    double one = box || k % step == 0 ? pair_length(pd, &pairs.item[k], box) : -1;
+  for (size_t k = 0; box && k < pairs->count; k++) inside += pair_length(pd, &pairs->item[k], box) >= 0;
+  size_t step = (box ? inside : pairs->count) / SAMPLES + 1;
+  for (size_t k = 0; k < pairs->count; k += box ? 1 : step) {
+    double one = pair_length(pd, &pairs->item[k], box);
     if (one >= 0 && (!box || seen++ % step == 0)) length[n++] = one;
   }
-  dyd_pair_list_clear(&pairs);
   return dyd_view_median(length, n);
+}
+
+double dyd_view_spacing(const dyd_delaunay *pd, const dyd_pair_list *pairs, const double box[4]) {
+  dyd_pair_list own = {0};
+  if (pairs) return spacing_of(pd, pairs, box);
+  if (dyd_delaunay_pairs(&own, pd) != DYD_OK) return 0;
+  double spacing = spacing_of(pd, &own, box);
+  dyd_pair_list_clear(&own);
+  return spacing;
 }
 
 double dyd_view_x(const dyd_view *v, double x) {

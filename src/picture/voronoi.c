@@ -141,7 +141,7 @@ dyd_status dyd_voronoi_picture(const dyd_output *o) {
   const dyd_diagram *what = o->what;
   voronoi_drawing g = {.d = what, .marks = dyd_site_marks_of(what->pd, what->engine, SITE)};
   dyd_rect_get_d(g.window, &g.d->window);
-  dyd_status st = dyd_view_fit(&g.view, g.window, dyd_view_spacing(g.d->pd, g.window), o->err);
+  dyd_status st = dyd_view_fit(&g.view, g.window, dyd_view_spacing(g.d->pd, NULL, g.window), o->err);
   g.view.frame[0] = dyd_view_x(&g.view, g.window[0]), g.view.frame[1] = dyd_view_x(&g.view, g.window[1]);
   g.view.frame[2] = dyd_view_y(&g.view, g.window[3]), g.view.frame[3] = dyd_view_y(&g.view, g.window[2]);
   if (st == DYD_OK) st = dyd_view_write(o, &g.view, "partial Voronoi diagram", voronoi_inside, voronoi_legend, &g);

@@ -9,8 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-#define SAME_AS_LOWER INT32_MIN
-
 dyd_status dyd_sites_new(dyd_sites **out) {
   dyd_sites *s = calloc(1, sizeof *s);
   if (!s) return DYD_E_NOMEM;
@@ -155,7 +153,7 @@ dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n) {
 /* ---- packing ---- */
 
 static size_t limbs_of(int32_t size) {
-  return size == SAME_AS_LOWER ? 0 : (size_t)(size < 0 ? -size : size);
+  return size == DYD_SAME_AS_LOWER ? 0 : (size_t)(size < 0 ? -size : size);
 }
 
 static size_t packed_size(const dyd_packed *p) {
@@ -169,7 +167,7 @@ static void interval_sizes(int32_t size[3], int64_t exp[2], const dyd_interval *
   exp[0] = a->lo.exp;
   exp[1] = a->hi.exp;
   size[0] = a->lo.man->_mp_size;
-  size[1] = point ? SAME_AS_LOWER : a->hi.man->_mp_size;
+  size[1] = point ? DYD_SAME_AS_LOWER : a->hi.man->_mp_size;
   size[2] = mpz_cmp_ui(a->den, 1) == 0 ? 0 : a->den->_mp_size;
 }
 
@@ -206,7 +204,7 @@ static const mp_limb_t *unpack_interval(dyd_interval *out, const mp_limb_t *from
                                         const int64_t exp[2]) {
   from = take_limbs(out->lo.man, from, size[0]);
   out->lo.exp = exp[0];
-  if (size[1] == SAME_AS_LOWER) {
+  if (size[1] == DYD_SAME_AS_LOWER) {
     dyd_dyadic_set(&out->hi, &out->lo);
   } else {
     from = take_limbs(out->hi.man, from, size[1]);
@@ -267,7 +265,7 @@ dyd_status dyd_sites_copy_d(double *out, const dyd_sites *s, size_t first, size_
 bool dyd_sites_is_point(const dyd_sites *s, size_t i) {
   if (dyd_sites_in_doubles(s, i))
     return dyd_sites_lo(s, 0, i) == dyd_sites_hi(s, 0, i) && dyd_sites_lo(s, 1, i) == dyd_sites_hi(s, 1, i);
-  return s->exact[i]->size[1] == SAME_AS_LOWER && s->exact[i]->size[4] == SAME_AS_LOWER;
+  return s->exact[i]->size[1] == DYD_SAME_AS_LOWER && s->exact[i]->size[4] == DYD_SAME_AS_LOWER;
 }
 
 /* Writes r over entry i, which has room in every array it needs. */
@@ -348,7 +346,7 @@ static dyd_packed *pack_words(const dyd_words xy[2]) {
   for (int a = 0; a < 2; a++) {
     head.exp[2 * a] = head.exp[2 * a + 1] = xy[a].exp;
     head.size[3 * a] = (xy[a].man > 0) - (xy[a].man < 0);
-    head.size[3 * a + 1] = SAME_AS_LOWER;
+    head.size[3 * a + 1] = DYD_SAME_AS_LOWER;
     head.size[3 * a + 2] = xy[a].den != 1;
   }
   dyd_packed *p = malloc(packed_size(&head));

@@ -8,7 +8,8 @@
 #include <dyadel/sites.h>
 
 /* An exact rectangle packed into one block: the limbs of xlo, xhi, xden, ylo, yhi, yden one after the other.
- * A size of INT32_MIN for an upper end says "the same as the lower end". */
+ * A size of DYD_SAME_AS_LOWER for an upper end says "the same as the lower end". */
+#define DYD_SAME_AS_LOWER INT32_MIN
 typedef struct dyd_packed {
   int64_t exp[4];
   int32_t size[6];
@@ -30,7 +31,8 @@ struct dyd_sites {
 };
 
 /* The rational man * 2^exp / den. Invariant: man is odd, or 0 with exp = 0 and den = 1; den is odd and has no factor in
- * common with man; |exp| <= 200. */
+ * common with man; |exp| <= DYD_WORDS_MOST_EXP. */
+enum { DYD_WORDS_MOST_EXP = 200 };
 typedef struct dyd_words {
   int64_t man;
   uint64_t den;
@@ -39,6 +41,8 @@ typedef struct dyd_words {
 
 /* Appends n exact points, number k being (xy[2 k], xy[2 k + 1]); none on failure. */
 dyd_status dyd_sites_add_words(dyd_sites *s, size_t n, const dyd_words *xy);
+/* The ends x lower, x upper, y lower, y upper of site i; false where one of them is not of single words. */
+bool dyd_sites_get_words(dyd_words end[4], const dyd_sites *s, size_t i);
 /* Appends n sites that hold the whole plane; none on failure. */
 dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n);
 /* As dyd_sites_narrow, for the rectangle [box[0],box[1]] x [box[2],box[3]] of finite doubles, without -0. */
@@ -56,6 +60,11 @@ static inline void dyd_sites_fetch(const dyd_sites *s, size_t i) {
     dyd_prefetch(&s->lower[a][i]);
     if (s->upper[a]) dyd_prefetch(&s->upper[a][i]);
   }
+  if (s->exact) dyd_prefetch(&s->exact[i]);
+}
+/* A while after that: for the exact rectangle, if there is one. */
+static inline void dyd_sites_fetch_exact(const dyd_sites *s, size_t i) {
+  if (s->exact && s->exact[i]) dyd_prefetch(s->exact[i]);
 }
 /* Is every site surely a point that is held by doubles, without a look at each? */
 static inline bool dyd_sites_are_double_points(const dyd_sites *s) {

@@ -152,10 +152,14 @@ static dyd_status leave_line(uint32_t first[3], dyd_mesh *m) {
 }
 
 void dyd_mesh_set_rounds(dyd_mesh *m) {
+  enum { FETCH_AHEAD = 24 };
+  const dyd_sites *s = m->reps->sites;
   bool fat = false;
   m->rounds = 1;
   if (m->part || dyd_sites_are_double_points(m->reps->sites)) return; /* one strip: points come first */
   for (uint32_t v = m->begin; v < m->end && m->rounds == 1; v++) {
+    if (m->end - v > FETCH_AHEAD) dyd_sites_fetch(s, m->reps->site[dyd_mesh_rep(m, v + FETCH_AHEAD)]);
+    if (m->end - v > FETCH_AHEAD / 2) dyd_sites_fetch_exact(s, m->reps->site[dyd_mesh_rep(m, v + FETCH_AHEAD / 2)]);
     bool point = dyd_mesh_is_point(m, v);
     if (point && fat) m->rounds = 2;
     fat = fat || !point;

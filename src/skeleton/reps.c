@@ -161,6 +161,7 @@ static dyd_status choose_range(dyd_reps *r, size_t begin, size_t end) {
   dyd_status st = DYD_OK;
   for (size_t v = begin; v < end && st == DYD_OK; v++) {
     if (v + FETCH_AHEAD < end) dyd_sites_fetch(s, r->site[v + FETCH_AHEAD]);
+    if (v + FETCH_AHEAD / 2 < end) dyd_sites_fetch_exact(s, r->site[v + FETCH_AHEAD / 2]);
     if (plain)
       r->xy[v] = (dyd_xy){s->lower[0][r->site[v]], s->lower[1][r->site[v]]};
     else

@@ -180,6 +180,73 @@ def test_crowds_show_density():
         assert ('point, or the middle of its rectangle' in words, 'rectangle of a point' in words) == (dots, not dots), words
 
 
+def crossed(frame, lines):
+    """How many lines cross each square of 4 pixels."""
+    count = {}
+    for (x0, y0), (x1, y1) in lines:
+        steps = int(((x1 - x0)**2 + (y1 - y0)**2)**0.5 / (4 / 3)) + 1
+        way = [(int((x0 + k / steps * (x1 - x0) - frame[0]) / 4), int((y0 + k / steps * (y1 - y0) - frame[2]) / 4))
+               for k in range(steps + 1)]
+        for k, square in enumerate(way):
+            if k == 0 or square != way[k - 1]:
+                count[square] = count.get(square, 0) + 1
+    return count
+
+
+def covered(frame, full, z):
+    """Is the box around these places in full squares?"""
+    n = [[int((v - frame[2 * a]) / 4) for v in c] for a, c in enumerate(zip(*z))]
+    return all((x, y) in full for x in range(min(n[0]), max(n[0]) + 1) for y in range(min(n[1]), max(n[1]) + 1))
+
+
+def test_full_squares():
+    """Of lines that are too many to be named full squares are drawn, and nothing that they hide; all else is there."""
+    chance = random.Random(8)
+    places = [(chance.gauss(0, 1), chance.gauss(0, 1)) for _ in range(9000)]
+    places += [(40 * chance.random() - 20, 40 * chance.random() - 20) for _ in range(60)]
+    points = ''.join(f'{x:.6f} {y:.6f}\n' for x, y in places)
+    text = picture('delaunay', points)
+    pairs = [tuple(map(int, r.split(',')[:2])) for r in run('delaunay', '--quiet', '-', stdin=points).out.split()[1:]]
+    words = ' | '.join(svg.words(text))
+    assert f'legal: {len(pairs)} | 10-29 of {len(pairs)} legal pairs across a square | 30-99 | ' in words, words
+    assert 'squares of legal pairs and ties hide the lines, triangles and points' in words and len(text) < 400000, words
+    frame, low, high = svg.frame(text), [min(c) for c in zip(*places)], [max(c) for c in zip(*places)]
+    rim = 0.04 * max(high[0] - low[0], high[1] - low[1])
+    scale = (frame[1] - frame[0]) / (high[0] - low[0] + 2 * rim)
+    page = [(frame[0] + (x - low[0] + rim) * scale, frame[2] + (high[1] + rim - y) * scale) for x, y in places]
+    lines = [(page[i], page[j]) for i, j in pairs]
+    count, drawn = crossed(frame, lines), {}
+    for colour, least in (('#9cc8e2', 10), ('#5aa5d0', 30), ('#0072b2', 100), ('#004f7d', 300), ('#002c46', 1000)):
+        for path in svg.paths(text):
+            n = svg.numbers(path)
+            if path.look.get('fill') == colour and 'stroke' not in path.look:
+                for k in range(0, len(n), 8):
+                    for x in range(round((n[k] - frame[0]) / 4), round((n[k + 2] - frame[0]) / 4)):
+                        drawn[x, round((n[k + 1] - frame[2]) / 4)] = least
+    full = {s: [e for e in (10, 30, 100, 300, 1000) if e <= n][-1] for s, n in count.items() if n >= 10}
+    assert len(set(full.items()) ^ set(drawn.items())) <= len(full) / 50 and len(full) > 100, (len(full), len(drawn))
+    ends = {tuple(round(v) for v in n[k:k + 4]) for p in svg.paths(text) if p.look.get('stroke') == '#0072b2'
+            for n in [svg.numbers(p)] if len(n) > 4 for k in range(0, len(n), 4)}
+    hidden = [covered(frame, drawn, z) for z in lines]
+    for z, is_hidden in zip(lines, hidden):
+        assert is_hidden or tuple(round(v) for p in z for v in p) in ends or any(
+            abs(v % 1 - 0.5) < 0.02 for p in z for v in p), z
+    shown = sum(p.look['d'].count('M') for p in svg.paths(text) if p.look.get('stroke') == '#0072b2' and 'id' not in p.look)
+    assert abs(shown - 1 - hidden.count(False)) < 20 and hidden.count(True) > len(lines) / 2, (shown, hidden.count(False))
+    ids = {p.look['id'] for p in svg.paths(text) if p.look.get('id', '').startswith('point-')}
+    away = [f'point-{k}' for k, z in enumerate(page) if not covered(frame, drawn, [z])]
+    assert set(away) <= ids and len(ids) < 2 * len(away) < 9000, (len(ids), len(away))
+
+
+def test_few_open_lines_are_all_drawn():
+    """However short they are."""
+    chance = random.Random(5)
+    points = ''.join(f'{chance.uniform(0, 60):.2f}+-0.02 {chance.uniform(0, 60):.2f}+-0.02\n' for _ in range(3000))
+    ids = {p.look['id'] for p in svg.paths(picture('delaunay', points)) if p.look.get('id', '').startswith('pair-')}
+    rows = run('delaunay', '--quiet', '-', stdin=points).out.split()[1:]
+    assert ids == {'pair-{}-{}'.format(*r.split(',')) for r in rows} and sum('indet' in r for r in rows) > 200
+
+
 def test_kinds_agree():
     """pdf and png of everything that svg shows."""
     for command, place in ALL:

@@ -4,6 +4,7 @@
 #include "io/read/plain.h"
 #include "stream/number.h"
 #include "support/random.h"
+#include <inttypes.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -214,9 +215,133 @@ static void test_within(void **state) {
   mpq_clears(end, place, bound, NULL);
 }
 
+/* The fewest digits, 15 to 17, whose nearest double is in [lo,hi], as the C library rounds and reads them. */
+static void read_fewest_digits(mpq_t out, double lo, double hi) {
+  double middle = lo / 2 + hi / 2;
+  char printed[40];
+  if (!(middle >= lo && middle <= hi)) middle = lo;
+  for (int digits = 15; digits <= 17; digits++) {
+    snprintf(printed, sizeof printed, "%.*e", digits - 1, middle);
+    double r = strtod(printed, NULL);
+    if (r >= lo && r <= hi) break;
+  }
+  read_decimal(out, printed);
+}
+
+/* Doubles about which one digit less or a tie of roundings is likely: few digits, few bits, next to powers. */
+static double random_likely(test_random *r) {
+  switch (test_below(r, 4)) {
+  case 0:
+    return (double)test_below(r, 1000000000) / pow(10, (double)test_below(r, 16));
+  case 1:
+    return ldexp((double)(2 * test_below(r, 1 << 20) + 1), -(int)test_below(r, 60));
+  case 2:
+    return nextafter(pow(10, (double)test_between(r, -12, 18)), test_chance(r, 2) ? 0 : INFINITY);
+  default:
+    return nextafter(ldexp(1, (int)test_between(r, -40, 60)), test_chance(r, 3) ? INFINITY : 0);
+  }
+}
+
+static void test_fewest_digits(void **state) {
+  (void)state;
+  test_random r = test_random_start("fewest digits");
+  mpq_t want, got;
+  mpq_inits(want, got, NULL);
+  for (size_t k = 0; k < test_cases(60000); k++) {
+    double lo = (test_chance(&r, 2) ? 1 : -1) * (test_chance(&r, 3) ? random_double(&r) : random_likely(&r)), error;
+    double hi = test_chance(&r, 2)   ? lo
+                : test_chance(&r, 2) ? nextafter(lo, INFINITY)
+                                     : lo + fabs(lo) * ldexp(test_unit(&r), -(int)test_below(&r, 60));
+    if (!(lo <= hi && isfinite(hi)) || lo / 2 + hi / 2 == 0) continue;
+    char text[DYD_DECIMAL_SIZE];
+    size_t length = dyd_decimal_within(text, &error, lo, hi);
+    assert_int_equal(length, strlen(text));
+    read_decimal(got, text);
+    read_fewest_digits(want, lo, hi);
+    assert_true(mpq_equal(want, got));
+  }
+  mpq_clears(want, got, NULL);
+}
+
+/* How many ends of site i have a quick text; it is the one that others have. */
+static size_t check_quick_ends(const dyd_sites *s, size_t i) {
+  dyd_words end[4];
+  dyd_rect rect;
+  size_t quick = 0;
+  bool words = dyd_sites_get_words(end, s, i);
+  dyd_rect_init(&rect);
+  assert_int_equal(dyd_sites_get(&rect, s, i), DYD_OK);
+  for (int k = 0; words && k < 4; k++) {
+    char text[DYD_WORDS_SIZE], *stop = dyd_words_put(text, &end[k]), *full;
+    if (!stop) continue;
+    full = dyd_end_text(k < 2 ? &rect.x : &rect.y, k & 1);
+    assert_int_equal(stop - text, strlen(full));
+    assert_memory_equal(text, full, strlen(full));
+    free(full);
+    quick++;
+  }
+  dyd_rect_clear(&rect);
+  return quick;
+}
+
+static void random_words(dyd_words *w, test_random *r) {
+  dyd_plain p = {0, 0};
+  p.man = test_between(r, -1000000000, 1000000000) * (test_chance(r, 2) ? 1 : test_between(r, 1, 999999999));
+  p.exp = (int)test_between(r, -19, 9);
+  if (test_chance(r, 20)) p.man = 0;
+  while (!dyd_plain_get_words(w, p)) p.exp /= 2;
+  if (w->man && test_chance(r, 4)) w->exp += (int)test_between(r, -150, 150);
+}
+
+static void test_ends(void **state) {
+  (void)state;
+  test_random r = test_random_start("ends");
+  dyd_sites *s = NULL;
+  size_t cases = test_cases(5000), quick = 0;
+  mpq_t x, y;
+  dyd_rect rect;
+  mpq_inits(x, y, NULL);
+  dyd_rect_init(&rect);
+  assert_int_equal(dyd_sites_new(&s), DYD_OK);
+  for (size_t k = 0; k < cases; k++) {
+    dyd_words xy[2];
+    double lo[2] = {random_double(&r), random_likely(&r)}, hi[2] = {lo[0], lo[1] + fabs(lo[1])};
+    for (int a = 0; a < 2; a++) random_words(&xy[a], &r);
+    assert_int_equal(dyd_sites_add_words(s, 1, xy), DYD_OK);
+    assert_int_equal(dyd_sites_add_boxes(s, 1, &lo[0], &hi[0], &lo[1], &hi[1]), DYD_OK);
+    mpq_set_si(x, (long)test_between(&r, -99, 1), (unsigned long)test_between(&r, 1, 99));
+    mpq_set_si(y, (long)test_between(&r, 100, 199), (unsigned long)test_between(&r, 1, 99));
+    mpq_canonicalize(x);
+    mpq_canonicalize(y);
+    assert_int_equal(dyd_interval_set_outward(&rect.x, x, y, -(int64_t)test_below(&r, 80)), DYD_OK);
+    mpz_ui_pow_ui(mpq_denref(y), 3, (unsigned long)test_below(&r, 80)); /* up to two limbs */
+    mpq_canonicalize(y);
+    assert_int_equal(dyd_interval_set_q(&rect.y, y), DYD_OK);
+    assert_int_equal(dyd_sites_add_rect(s, &rect), DYD_OK);
+  }
+  for (size_t i = 0; i < dyd_sites_count(s); i++) quick += check_quick_ends(s, i);
+  assert_true(quick > 5 * cases && quick < 12 * cases);
+  dyd_sites_free(s);
+  dyd_rect_clear(&rect);
+  mpq_clears(x, y, NULL);
+}
+
+static void test_digits(void **state) {
+  (void)state;
+  for (uint64_t n = 0, power = 1; power; power = power > UINT64_MAX / 10 ? 0 : 10 * power)
+    for (int k = -2; k <= 2; k++) {
+      char quick[DYD_INDEX_SIZE], slow[DYD_INDEX_SIZE + 1];
+      n = power == 1 ? (uint64_t)(k + 2) : power * (k == 2 ? UINT64_MAX / power : 1) + (uint64_t)(k == 2 ? 0 : k);
+      int length = snprintf(slow, sizeof slow, "%" PRIu64, n);
+      assert_int_equal(dyd_put_digits(quick, n) - quick, length);
+      assert_memory_equal(quick, slow, (size_t)length);
+    }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_plain), cmocka_unit_test(test_hex),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_plain),         cmocka_unit_test(test_hex),
                                      cmocka_unit_test(test_plain_refuses), cmocka_unit_test(test_directed),
-                                     cmocka_unit_test(test_within)};
+                                     cmocka_unit_test(test_within),        cmocka_unit_test(test_fewest_digits),
+                                     cmocka_unit_test(test_ends),          cmocka_unit_test(test_digits)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Text on its way to a file, and the digits of whole numbers. */
+#include "io/sink.h"
+
+void dyd_sink_flush(dyd_sink *s) {
+  fwrite(s->block, 1, (size_t)(s->end - s->block), s->out);
+  s->end = s->block;
+}
+
+void dyd_sink_put_long(dyd_sink *s, const char *text, size_t length) {
+  dyd_sink_flush(s);
+  fwrite(text, 1, length, s->out);
+}
+
+static const char two_digits[] =
+    "0001020304050607080910111213141516171819202122232425262728293031323334353637383940414243"
+    "4445464748495051525354555657585960616263646566676869707172737475767778798081828384858687"
+    "888990919293949596979899";
+
+static int digits_of(uint64_t n) {
+  int count = 1;
+  for (; n >= 10000; n /= 10000) count += 4;
+  return count + (n >= 10) + (n >= 100) + (n >= 1000);
+}
+
+char *dyd_put_digits(char *to, uint64_t n) {
+  char *end = to + digits_of(n), *p = end;
+  for (; n >= 100; n /= 100) memcpy(p -= 2, two_digits + 2 * (n % 100), 2);
+  if (n >= 10)
+    memcpy(to, two_digits + 2 * n, 2);
+  else
+    *to = (char)('0' + n);
+  return end;
+}
