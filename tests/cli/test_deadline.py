@@ -71,13 +71,6 @@ def test_one_huge_root():
             assert not os.listdir(folder), os.listdir(folder)
 
 
-def test_long_narrowing_keeps_what_is_known():
-    """Digits of a root of degree 100 do not come in time: the stage before is written."""
-    root = 'root(' + '+'.join(f'{k * k % 97 + 1}*x^{k}' for k in range(1, 101)) + '-10^11,0,2)'
-    result = timed(2, 'delaunay', '-', '--until', 'area:900000', '--max-bits', '1000000', stdin=f'{root} 0\n0 1\n2 3\n')
-    expect(result, 4, '^0,1,legal', r'the time is used up; raise --timeout; --until area:\d+ holds')
-
-
 def test_silent_oracle():
     expect(timed(1, 'voronoi', '--oracle', 'exec sleep 15'), 4, r'\A\Z', '^dyadel: budget: .* reading does not end')
 
