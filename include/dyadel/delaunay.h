@@ -69,8 +69,9 @@ typedef struct dyd_delaunay_counters {
   uint64_t exact;                         /* decided in GMP integers */
   uint64_t witness_guess, witness_search; /* legal edges by the first guess / by search */
   uint64_t cover_walks;
-  uint64_t faces;    /* undecided faces worked on */
-  uint64_t spare[8]; /* 0: for members to come, as other structs hold this one */
+  uint64_t faces;      /* undecided faces worked on */
+  uint64_t bytes_most; /* the most that it was estimated to hold at once; 0: max_bytes was never set */
+  uint64_t spare[7];   /* 0: for members to come, as other structs hold this one */
 } dyd_delaunay_counters;
 
 /* What true points may have in common. */
@@ -99,6 +100,8 @@ typedef struct dyd_delaunay_options {
   /* dyd_delaunay_new: when work is stopped while undecided faces are closed, the others count as met by the cap, and
    * the result is DYD_CAPPED. */
   bool keep_cut;
+  uint64_t max_bytes; /* memory for it, without the sites, by its own estimate: DYD_E_NOMEM before more is asked for,
+                         with what took too much in *err; 0: no bound */
 } dyd_delaunay_options;
 
 typedef struct dyd_delaunay dyd_delaunay;

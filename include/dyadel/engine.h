@@ -28,7 +28,7 @@ typedef enum dyd_outcome {
   DYD_OUTCOME_BUDGET,    /* bits, stages, calls, pairs or seconds spent */
   DYD_OUTCOME_CANCELLED,
   DYD_OUTCOME_ERROR /* a stream failed or memory ran out; what was stated before stays valid. (GMP, MPFR and FLINT end
-                       the process when they run out of memory: bound max_bits, or set handlers of theirs.) */
+                       the process when they run out of memory: set max_bytes, or handlers of theirs.) */
 } dyd_outcome;
 /* "decided", "certified", ... Static storage. */
 DYD_API const char *dyd_outcome_text(dyd_outcome outcome);
@@ -81,6 +81,7 @@ typedef struct dyd_engine_counters {
   dyd_budget spent; /* which budget ended the last run */
   dyd_delaunay_counters delaunay;
   dyd_tie_counters ties;
+  uint64_t bytes_most; /* the most that was estimated to be held at once by runs and questions with max_bytes */
 } dyd_engine_counters;
 
 typedef struct dyd_progress {
@@ -150,6 +151,13 @@ typedef struct dyd_engine_options {
    * lets points wait that cost more than twice as much as the cheapest of those that a face wants narrower, until as
    * much was spent beside them. dyd_engine_count(e) numbers, borrowed during the run. */
   const double *cost;
+  /* Memory that the engine may hold while it works, points included, by its own estimate; 0: no bound. Before more is
+   * asked for (half-edges, faces, pairs, sums of the bounds, digits of the points, proofs of ties) the run ends with
+   * DYD_E_NOMEM and says what was too much; the engine and its last result stay as they are, and a run with a larger
+   * bound goes on. The remedy for GMP, MPFR and FLINT, which end the process when memory is exhausted: half of the
+   * memory there is, say. Estimates are within a factor of 2 of what the engine holds, or a megabyte where that is
+   * more; of callbacks only the answers count, and what other calls make (lists, cells, certificates) comes on top. */
+  uint64_t max_bytes;
 } dyd_engine_options;
 /* Fills in the size and the defaults (all zero but for what the comments say). */
 static inline void dyd_engine_options_init(dyd_engine_options *o) {

@@ -3,6 +3,7 @@
 #ifndef DYD_BASE_ERROR_H
 #define DYD_BASE_ERROR_H
 
+#include "base/room.h"
 #include <dyadel/status.h>
 #include <stdbool.h>
 
@@ -21,5 +22,7 @@ static inline bool dyd_failed(dyd_status st) {
 
 /* DYD_E_NOMEM with its standard sentence. */
 dyd_status dyd_fail_nomem(dyd_error *err);
+/* DYD_E_NOMEM with what the room, which has refused something, was asked for. */
+dyd_status dyd_fail_room(dyd_error *err, const dyd_room *room);
 
 #endif

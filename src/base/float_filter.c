@@ -6,6 +6,13 @@
 
 #include <float.h>
 
+#if FLT_EVAL_METHOD != 0
+#error "the error bounds of filters need doubles that are rounded to double after each operation: on x86, -mfpmath=sse"
+#endif
+#ifndef __SIZEOF_INT128__
+#error "products of 64-bit numbers need 128-bit integers, which compilers have on 64-bit machines"
+#endif
+
 static bool float_flushes(void) {
   volatile double least = DBL_MIN, half = 0.5, tiny = 0x1p-1074, one = 1;
   volatile double made = least * half, taken = tiny * one;

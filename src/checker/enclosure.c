@@ -91,12 +91,6 @@ void dyd_cert_enclosure_mul(dyd_cert_enclosure *x, const dyd_cert_enclosure *y, 
   mpz_clears(lo, hi, NULL);
 }
 
-void dyd_cert_enclosure_mul_z(dyd_cert_enclosure *x, mpz_srcptr z) {
-  mpz_mul(x->lo, x->lo, z);
-  mpz_mul(x->hi, x->hi, z);
-  if (mpz_sgn(z) < 0) mpz_swap(x->lo, x->hi);
-}
-
 void dyd_cert_enclosure_div(dyd_cert_enclosure *x, const dyd_cert_enclosure *y, long p) {
   dyd_cert_enclosure inverse;
   dyd_cert_enclosure_init(&inverse);

@@ -27,7 +27,6 @@ void dyd_cert_enclosure_add(dyd_cert_enclosure *x, const dyd_cert_enclosure *y);
 void dyd_cert_enclosure_sub(dyd_cert_enclosure *x, const dyd_cert_enclosure *y);
 void dyd_cert_enclosure_neg(dyd_cert_enclosure *x);
 void dyd_cert_enclosure_mul(dyd_cert_enclosure *x, const dyd_cert_enclosure *y, long p);
-void dyd_cert_enclosure_mul_z(dyd_cert_enclosure *x, mpz_srcptr z);
 void dyd_cert_enclosure_div(dyd_cert_enclosure *x, const dyd_cert_enclosure *y, long p);
 void dyd_cert_enclosure_pow(dyd_cert_enclosure *x, long n, long p);
 /* The real k-th root, k = 2 or 3. */

@@ -98,6 +98,9 @@ static int converge_points(cli_options *o) {
     s.converge = &r.converge;
     status = cli_session_run_by(&s, &options, converge_run, &r);
     cli_session_settle(&s);
+    if (status == 0 && !r.table.count)
+      cli_complain("%s before the first stage was complete: there is no result to write",
+                   dyd_outcome_text(r.table.outcome));
     int written = write_results(&r.table, s.engine, o);
     if (status == 0) status = written;
     take_bounds(&bounds, &s, &r.table);

@@ -51,6 +51,7 @@ static dyd_status build_statuses(dyd_delaunay *pd, dyd_work *w, dyd_known known)
 
 dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known known, dyd_error *err) {
   const dyd_skeleton_options o = {pd->options.no_filter, pd->options.threads, pd->options.cancel};
+  if (!dyd_room_has(&pd->room, dyd_skeleton_bytes(sites), "the triangulation")) return DYD_E_NOMEM;
   dyd_status st = dyd_skeleton_build(&pd->sk, sites, &o);
   if (st != DYD_OK) return st;
   pd->joins = sites->joins;
@@ -59,10 +60,12 @@ dyd_status dyd_build(dyd_delaunay *pd, const dyd_sites *sites, dyd_known known, 
   w.threads = o.threads;
   w.err = err;
   w.keep_cut = pd->options.keep_cut;
+  w.room = pd->room;
   pd->open.kind = pd->sk.mesh.collinear ? DYD_LINE : pd->sk.all_points ? DYD_TIED : DYD_LISTED;
   st = build_statuses(pd, &w, known);
   dyd_tally_add(&pd->counters, &pd->sk.mesh.tally, o.no_filter);
   dyd_work_count(&pd->counters, &w, &pd->sk);
+  dyd_room_join(&pd->room, &w.room);
   dyd_work_clear(&w);
   if (st != DYD_OK)
     dyd_build_clear(pd);

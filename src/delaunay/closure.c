@@ -113,8 +113,16 @@ static void set_bit(uint64_t *rows, const closing *c, uint32_t a, uint32_t b) {
   rows[b * c->words + a / 64] |= UINT64_C(1) << a % 64;
 }
 
+/* One more pair: the map grows by leaps, and what is open is copied from it in the end. */
+static bool closing_has_room(closing *c) {
+  uint64_t pairs = dyd_bytes_times(c->open + c->open / 2, sizeof *c->out->pair);
+  return !dyd_pair_map_is_full(&c->map) ||
+         dyd_room_has(&c->w->room, dyd_bytes_add(dyd_pair_map_bytes(&c->map), pairs), "the possible pairs of a face");
+}
+
 static dyd_status closing_add(closing *c, uint32_t a, uint32_t b, dyd_pair_state state) {
   uint32_t ghost = c->out->vertices;
+  if (!closing_has_room(c)) return DYD_E_NOMEM;
   if (c->possible) set_bit(c->known_with, c, a, b);
   if (c->possible && dyd_pair_is_possible(state)) set_bit(c->possible, c, a, b);
   c->known += a != ghost && b != ghost;
@@ -137,7 +145,9 @@ static dyd_status add_edges(closing *c, bool certain) {
 }
 
 static dyd_status all_pairs(closing *c) {
-  uint32_t m = c->out->vertices;
+  uint64_t m = c->out->vertices;
+  uint64_t bytes = dyd_bytes_times(m * (m - 1) / 2, sizeof *c->out->pair);
+  if (!dyd_room_has(&c->w->room, dyd_bytes_add(bytes, bytes / 2), "the pairs of a tie")) return DYD_E_NOMEM;
   dyd_status st = add_edges(c, true);
   for (uint32_t a = 0; a < m && st == DYD_OK; a++)
     for (uint32_t b = a + 1; b < m && st == DYD_OK; b++)

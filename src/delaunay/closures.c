@@ -42,7 +42,10 @@ dyd_status dyd_closures_run(dyd_closure *out, const dyd_delaunay *pd, dyd_work *
   b.work = alone ? w : dyd_alloc(ranges, sizeof *b.work);
   if (!b.work) return DYD_E_NOMEM;
   memset(out, 0, count * sizeof *out);
-  for (size_t r = 0; r < ranges && !alone; r++) dyd_work_fork(&b.work[r], w, &pd->sk);
+  for (size_t r = 0; r < ranges && !alone; r++) {
+    dyd_work_fork(&b.work[r], w, &pd->sk);
+    dyd_room_share(&b.work[r].room, w->threads);
+  }
   dyd_parallel(w->threads, ranges, close_range, &b);
   for (size_t r = 0; r < ranges; r++) {
     if (st == DYD_OK) st = b.status[r];

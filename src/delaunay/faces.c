@@ -65,11 +65,20 @@ static dyd_status find_face(dyd_delaunay *pd, dyd_work *w, uint32_t t) {
   return st == DYD_OK ? dyd_table_add(pd, first) : st;
 }
 
+/* For marks, and for triangles in faces of several each. */
+static bool table_has_room(const dyd_delaunay *pd, dyd_work *w) {
+  enum { A_FACE = 4 };
+  uint64_t each = sizeof *pd->open.of + sizeof *pd->open.tri + sizeof *pd->open.face / A_FACE;
+  w->room.held = dyd_delaunay_memory(pd);
+  return dyd_room_has(&w->room, pd->sk.mesh.count * each, "the undecided faces");
+}
+
 static dyd_status find_faces(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t all) {
   dyd_status st = DYD_OK;
   for (size_t q = 0; q < all && st == DYD_OK; q++) {
     uint32_t t = tri ? tri[q] : (uint32_t)q;
     if (dyd_triangle_is_certain(&pd->sk, t)) continue;
+    if (!pd->open.of && !table_has_room(pd, w)) return DYD_E_NOMEM;
     st = dyd_table_mark(pd);
     if (st == DYD_OK && pd->open.of[t] == DYD_NONE) st = find_face(pd, w, t);
   }
@@ -81,6 +90,8 @@ static dyd_status find_faces(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri,
 static dyd_status store(dyd_delaunay *pd, dyd_work *w, const dyd_closure *c, size_t g) {
   dyd_face as = {
       .pairs = (uint32_t)c->pairs, .outer = c->outer, .tie = c->all_points, .capped = c->capped, .polygon = c->polygon};
+  uint64_t pairs = dyd_bytes_times(pd->open.pair_count + as.pairs, sizeof *c->pair);
+  if (!dyd_room_has(&w->room, pairs / 2 * 3, "the possible pairs")) return DYD_E_NOMEM;
   dyd_status st = dyd_table_store(pd, g, as, c->pair);
   if (st == DYD_OK && c->capped) dyd_report_cap(w, pd, c->vertex, c->vertices);
   return st;
@@ -95,6 +106,7 @@ static size_t room_left(const dyd_delaunay *pd) {
  * again, with that room. */
 static dyd_status close_batch(dyd_closure *c, dyd_delaunay *pd, dyd_work *w, size_t g, size_t count) {
   size_t room = room_left(pd);
+  w->room.held = dyd_delaunay_memory(pd);
   dyd_status st = dyd_closures_run(c, pd, w, g, count, room);
   if (st != DYD_OK) return st;
   for (size_t k = 0; k < count; k++) {

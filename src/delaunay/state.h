@@ -4,6 +4,7 @@
 #ifndef DYD_DELAUNAY_STATE_H
 #define DYD_DELAUNAY_STATE_H
 
+#include "base/room.h"
 #include "skeleton/skeleton.h"
 
 /* Two vertices, i < j. Two sites on the rims of two faces may make a pair that both closures find; it stays in both
@@ -73,7 +74,8 @@ struct dyd_delaunay {
   dyd_delaunay_counters counters;
   dyd_delaunay_options options;
   size_t max_pairs;
-  size_t joins; /* of sites, when it was built */
+  dyd_room room; /* of the call at work */
+  size_t joins;  /* of sites, when it was built */
 };
 
 /* Are there no triangles, since the points are collinear for every choice, or are at most two? */

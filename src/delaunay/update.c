@@ -23,15 +23,27 @@
 
 /* ---- everything again ---- */
 
+/* What stays beside the new one while it is made: all there is, and the list of its pairs. */
+static uint64_t rebuild_bytes(const dyd_delaunay *pd) {
+  size_t count[4];
+  dyd_delaunay_count(count, pd);
+  return dyd_delaunay_memory(pd) + (count[DYD_LEGAL] + count[DYD_INDETERMINATE] + count[DYD_TIE]) * sizeof(dyd_pair);
+}
+
 static dyd_status rebuild(dyd_delaunay *pd, dyd_error *err) {
   dyd_pair_list all = {0};
+  if (pd->room.most) pd->room.beside = rebuild_bytes(pd);
+  if (!dyd_room_has(&pd->room, dyd_skeleton_bytes(pd->sk.rects.sites), "the triangulation made anew"))
+    return DYD_E_NOMEM;
   dyd_status st = dyd_delaunay_pairs(&all, pd);
   if (st != DYD_OK) return st;
   size_t kept = 0;
   for (size_t q = 0; q < all.count; q++)
     if (all.item[q].status == DYD_LEGAL) all.item[kept++] = all.item[q];
-  dyd_delaunay next = {.counters = pd->counters, .options = pd->options, .max_pairs = pd->max_pairs};
+  dyd_delaunay next = {.counters = pd->counters, .options = pd->options, .max_pairs = pd->max_pairs, .room = pd->room};
+  next.room.held = 0;
   st = dyd_build(&next, pd->sk.rects.sites, (dyd_known){all.item, kept}, err);
+  pd->room = next.room;
   if (st == DYD_OK) {
     dyd_build_clear(pd);
     *pd = next;
@@ -201,7 +213,10 @@ dyd_status dyd_update(dyd_delaunay *pd, const uint32_t *changed, size_t count, d
   dyd_work_init(&w, &pd->sk, pd->options.cancel);
   w.threads = pd->options.threads;
   w.err = err;
+  w.room = pd->room;
+  w.room.held = dyd_delaunay_memory(pd);
   dyd_status st = update_faces(&fits, pd, &w, changed, count);
+  dyd_room_join(&pd->room, &w.room);
   dyd_work_count(&pd->counters, &w, &pd->sk);
   dyd_work_clear(&w);
   if (st == DYD_OK && !fits) return rebuild(pd, err);

@@ -21,6 +21,7 @@
 #include "base/error.h"
 #include "base/float_filter.h"
 #include "engine/aliases.h"
+#include "engine/bytes.h"
 #include "engine/points.h"
 #include "engine/ties.h"
 #include "engine/watch.h"
@@ -34,6 +35,7 @@ typedef struct ask {
   dyd_refinable *guest;
   dyd_plan plan;
   dyd_watch watch;
+  dyd_room room;
   uint64_t stages, calls;
   int64_t bits;
   bool again;
@@ -97,6 +99,38 @@ static void ask_end_exhausted(ask *a) {
   }
 }
 
+/* ---- memory ---- */
+
+/* Is there room to carry out the plan? */
+static dyd_status ask_room_to_narrow(ask *a) {
+  if (!a->room.most) return DYD_OK;
+  a->room.beside = dyd_engine_point_bytes(a->e);
+  a->room.held = a->e->pd ? dyd_delaunay_memory(a->e->pd) : 0;
+  return dyd_room_has(&a->room, dyd_plan_bytes(&a->plan), "narrowing the points") ? DYD_OK : DYD_E_NOMEM;
+}
+
+/* What the points leave for the triangulation; 0: no bound. */
+static dyd_status ask_room_to_triangulate(uint64_t *left, ask *a) {
+  *left = 0;
+  if (!a->room.most) return DYD_OK;
+  a->room.beside = dyd_engine_point_bytes(a->e);
+  a->room.held = a->e->pd ? dyd_delaunay_memory(a->e->pd) : 0;
+  *left = a->room.most > a->room.beside ? a->room.most - a->room.beside : 1;
+  return dyd_room_has(&a->room, 1, "the points") ? DYD_OK : DYD_E_NOMEM;
+}
+
+/* The result is there, with what it took at most; it is going to be judged. */
+static dyd_status ask_room_to_judge(ask *a) {
+  dyd_delaunay_counters c = {DYD_SIZED(dyd_delaunay_counters)};
+  if (!a->room.most) return DYD_OK;
+  dyd_status st = dyd_delaunay_get_counters(&c, a->e->pd, &a->err);
+  if (st != DYD_OK) return st;
+  uint64_t peak = a->room.beside + c.bytes_most;
+  if (peak > a->room.peak) a->room.peak = peak;
+  a->room.held = dyd_delaunay_memory(a->e->pd);
+  return dyd_room_has(&a->room, dyd_goal_bytes(a->e, &a->o), "the bound") ? DYD_OK : DYD_E_NOMEM;
+}
+
 /* ---- narrowing ---- */
 
 /* Tells of p, just brought to what w wants. */
@@ -137,12 +171,14 @@ static dyd_status ask_narrow_all(bool *cut, ask *a) {
   size_t need = e->pd ? e->changes + a->plan.count : 0;
   if (!dyd_reserve((void **)&e->changed, &e->change_cap, need, sizeof *e->changed)) return DYD_E_NOMEM;
   dyd_plan_sort(&a->plan);
+  dyd_status st = ask_room_to_narrow(a);
+  if (st != DYD_OK) return st;
   dyd_plan_announce(&a->plan, a->o.max_calls ? a->o.max_calls - a->calls : UINT64_MAX);
   for (size_t k = 0; k < a->plan.count; k++) {
     if (ask_is_stopped(a)) return DYD_OK;
     *cut = ask_calls_are_spent(a);
     if (*cut) return DYD_OK;
-    dyd_status st = ask_narrow(a, &a->plan.item[k]);
+    st = ask_narrow(a, &a->plan.item[k]);
     if (st != DYD_OK || a->end != DYD_OUTCOME_NONE) return st;
   }
   return DYD_OK;
@@ -207,6 +243,9 @@ static dyd_status ask_settle(dyd_engine *e, const dyd_delaunay_options *o, dyd_e
 /* Makes the result, or brings it up to date, and reports. */
 static dyd_status ask_triangulate(ask *a, dyd_error *err) {
   dyd_engine *e = a->e;
+  uint64_t max_bytes;
+  dyd_status st = ask_room_to_triangulate(&max_bytes, a);
+  if (st != DYD_OK) return st;
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options),
                                   .max_pairs = a->o.max_pairs,
                                   .cancel = &e->stop,
@@ -216,8 +255,9 @@ static dyd_status ask_triangulate(ask *a, dyd_error *err) {
                                            : e->prover  ? e->prover
                                                         : dyd_ties_prove,
                                   .prove_user = e->prover ? e->prover_user : e,
-                                  .keep_cut = !e->pd};
-  dyd_status st = ask_settle(e, &o, err);
+                                  .keep_cut = !e->pd,
+                                  .max_bytes = max_bytes};
+  st = ask_settle(e, &o, err);
   if (st == DYD_CANCELLED) return ask_end_interrupted(a);
   if (st != DYD_OK) return st;
   e->max_pairs = a->o.max_pairs;
@@ -228,7 +268,7 @@ static dyd_status ask_triangulate(ask *a, dyd_error *err) {
   a->stages++;
   if (a->o.progress) ask_report(a);
   a->bits = INT64_MIN;
-  return DYD_OK;
+  return ask_room_to_judge(a);
 }
 
 /* ---- the loop ---- */
@@ -348,9 +388,13 @@ static dyd_status ask_timed(ask *a) {
   dyd_flag_set(&e->stop, 0); /* where that undoes a cancel, `cancelled` is seen before any work */
   e->started = true;
   e->tie_bits = a->o.tie_bits;
+  a->room = (dyd_room){.most = a->o.max_bytes};
+  e->room = &a->room;
   dyd_watch_start(&a->watch, a->o.seconds, &e->stop);
   dyd_status st = ask_loop(a);
   dyd_watch_stop(&a->watch);
+  e->room = NULL;
+  if (a->room.peak > e->bytes_most) e->bytes_most = a->room.peak;
   e->seconds += dyd_watch_seconds(&a->watch);
   dyd_flag_set(&e->busy, 0);
   if (st == DYD_OK && a->end == DYD_OUTCOME_CANCELLED) dyd_flag_set(&e->cancelled, 0);
@@ -384,6 +428,7 @@ dyd_status dyd_ask(dyd_outcome *outcome, dyd_budget *spent, dyd_engine *e, const
   if (st == DYD_OK && (!q.ask || !dyd_ask_options(&a.o)))
     st = dyd_fail(&a.err, DYD_E_ARG, "%s", q.ask ? "an option is out of its range" : "the question is empty");
   if (st == DYD_OK) st = ask_run(&a);
+  if (st == DYD_E_NOMEM && a.room.refused) dyd_fail_room(&a.err, &a.room);
   if (st != DYD_OK && !a.err.message[0]) dyd_fail(&a.err, st, "%s", dyd_status_text(st));
   if (st != DYD_OK) a.err.code = st;
   if (st == DYD_OK && a.spent != DYD_BUDGET_PAIRS) dyd_error_clear(&a.err);

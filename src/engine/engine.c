@@ -87,6 +87,7 @@ static void counters_add_past(dyd_delaunay_counters *out, const dyd_delaunay_cou
   out->witness_search += past->witness_search;
   out->cover_walks += past->cover_walks;
   out->faces += past->faces;
+  if (past->bytes_most > out->bytes_most) out->bytes_most = past->bytes_most;
 }
 
 void dyd_engine_end_result(dyd_engine *e) {
@@ -119,6 +120,7 @@ dyd_status dyd_engine_get_counters(dyd_engine_counters *out, const dyd_engine *e
   counters_add_past(&c.delaunay, &e->past);
   c.ties = e->tie_counters;
   c.ties.struct_size = sizeof c.ties;
+  c.bytes_most = e->bytes_most;
   counters_add_bits(&c, e);
   if (e->pd) c.undecided_faces = dyd_delaunay_undecided_faces(e->pd);
   dyd_abi_give(out, &c, sizeof c);

@@ -69,10 +69,11 @@ static dyd_status point_ask_source(dyd_rect *r, bool *final, const dyd_refinable
   return DYD_OK;
 }
 
+/* stop: NULL, or when to give up. */
 static dyd_status point_ask_stream(dyd_rect *r, bool *final, const dyd_refinable *p, int64_t bits, int64_t max_bits,
-                                   dyd_error *err) {
-  dyd_status st = dyd_stream_narrow(p->stream, bits, max_bits, err);
-  if (dyd_failed(st)) return st;
+                                   const volatile int *stop, dyd_error *err) {
+  dyd_status st = dyd_stream_narrow_until(p->stream, bits, max_bits, stop, err);
+  if (dyd_narrow_ended(st)) return st;
   const dyd_rect *now = dyd_stream_rect(p->stream);
   if (!now) return dyd_fail(err, DYD_E_STREAM, "the stream has no rectangle after it was narrowed");
   if (r) dyd_rect_set(r, now);
@@ -179,7 +180,7 @@ static bool point_narrow_in_doubles(dyd_refinable *p, uint64_t *calls, dyd_engin
 static dyd_status point_ask(dyd_rect *r, bool *final, dyd_refinable *p, const dyd_engine *e, int64_t bits,
                             int64_t max_bits, dyd_error *err) {
   const dyd_recalled *known = dyd_recall_next(e->recall, p->site, bits);
-  if (!known && p->stream) return point_ask_stream(r, final, p, bits, max_bits, err);
+  if (!known && p->stream) return point_ask_stream(r, final, p, bits, max_bits, &e->stop, err);
   if (!known) return point_ask_source(r, final, p, e, bits, max_bits, err);
   dyd_recalled_get(r, final, known);
   dyd_recall_use(e->recall, known);
@@ -187,10 +188,13 @@ static dyd_status point_ask(dyd_rect *r, bool *final, dyd_refinable *p, const dy
   return DYD_OK;
 }
 
-/* A guest has no place in the table, and counts what its stream was asked. */
-static dyd_status guest_narrow(dyd_refinable *p, uint64_t *calls, int64_t bits, int64_t max_bits, dyd_error *err) {
+/* A guest has no place in the table, and counts what its stream was asked. Its first answer is waited for: no question
+ * about it can be asked before. */
+static dyd_status guest_narrow(dyd_refinable *p, uint64_t *calls, const dyd_engine *e, int64_t bits, int64_t max_bits,
+                               dyd_error *err) {
   uint64_t before = dyd_stream_stage(p->stream);
-  dyd_status st = point_ask_stream(NULL, &p->final, p, bits, max_bits, err);
+  dyd_status st = point_ask_stream(NULL, &p->final, p, bits, max_bits, p->asked ? &e->stop : NULL, err);
+  if (st == DYD_CANCELLED) return st;
   *calls += dyd_stream_stage(p->stream) - before;
   p->bits = bits;
   p->asked = true;
@@ -201,7 +205,7 @@ dyd_status dyd_engine_narrow(dyd_refinable *p, uint64_t *calls, dyd_engine *e, i
                              dyd_error *err) {
   dyd_rect r;
   bool final = p->final;
-  if (p->site >= dyd_sites_count(e->sites)) return guest_narrow(p, calls, bits, max_bits, err);
+  if (p->site >= dyd_sites_count(e->sites)) return guest_narrow(p, calls, e, bits, max_bits, err);
   if (point_narrow_in_doubles(p, calls, e, bits)) return DYD_OK;
   dyd_error_clear(err);
   dyd_rect_init(&r);

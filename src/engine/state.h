@@ -19,12 +19,14 @@
  *   nearest.c       the question after the nearest sites of a computable point
  *   aliases.c       points that are proved to be the same place
  *   ties.c          what is proved about true points, for ties
+ *   bytes.c         what is held, and what a plan will take
  *   watch.c         the clock, and stopping work at a deadline
  *   converge.c      tables of runs, stage by stage
  *   check.c, check_stage.c  the harness of monotone refinement */
 #ifndef DYD_ENGINE_STATE_H
 #define DYD_ENGINE_STATE_H
 
+#include "base/room.h"
 #include "engine/labels.h"
 
 /* Bits for a proof that true points are the same, on one line or circle, unless others are asked for. */
@@ -102,6 +104,8 @@ struct dyd_engine {
   bool nearest_tied;   /* what the last question after nearest sites listed is a tie */
   dyd_prove_fn prover; /* who is asked about ties in place of ties.c; NULL: nobody */
   void *prover_user;
+  dyd_room *room;         /* of the question at work; NULL: none is */
+  uint64_t bytes_most;    /* what rooms have seen */
   volatile int cancelled; /* set by dyd_engine_cancel; atomic access only, as for stop */
   volatile int stop;      /* set together with cancelled, and at a deadline; read by the triangulation */
 };

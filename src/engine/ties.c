@@ -264,7 +264,9 @@ static dyd_status question_answer(dyd_zero *out, bool *final, question *q) {
   double begin = dyd_seconds();
   dyd_status st = dyd_algebra_open(&q->algebra, e->tie_bits, &e->stop);
   if (st != DYD_OK) return st;
+  q->algebra.room = e->room;
   st = question_run(out, q);
+  if (st == DYD_OK && e->room && e->room->refused) st = DYD_E_NOMEM;
   *final = !q->algebra.forms.opaque && !dyd_flag_get(&e->stop);
   dyd_algebra_close(&q->algebra);
   free(q->zero);

@@ -8,6 +8,8 @@
  * point comes by Cramer's rule. */
 #include "legal/exact_lp.h"
 
+#include "base/flag.h"
+
 enum { PIVOTS = 400 };
 
 void dyd_half_plane_init(dyd_half_plane *h) {
@@ -83,10 +85,12 @@ static int slack_sign(mpz_t t, const dyd_half_plane *h, const dyd_exact_centre *
   return mpz_sgn(t);
 }
 
-/* Newest first: they were added since they are violated. */
-static size_t violated(mpz_t t, const dyd_half_plane *h, size_t count, const dyd_exact_centre *p) {
+/* Newest first: they were added since they are violated. Where numbers have a million bits each takes its time: any
+ * one will do when work is stopped. */
+static size_t violated(mpz_t t, const dyd_half_plane *h, size_t count, const dyd_exact_centre *p,
+                       const volatile int *cancel) {
   for (size_t k = count; k-- > 0;)
-    if (slack_sign(t, &h[k], p) < 0) return k;
+    if (dyd_flag_is_set(cancel) || slack_sign(t, &h[k], p) < 0) return k;
   return count;
 }
 
@@ -111,7 +115,7 @@ static bool exact_lp_exchange(const dyd_half_plane *basis[3], dyd_exact_centre *
   return leaves >= 0;
 }
 
-bool dyd_exact_lp(dyd_exact_centre *out, const dyd_half_plane *h, size_t count) {
+bool dyd_exact_lp(dyd_exact_centre *out, const dyd_half_plane *h, size_t count, const volatile int *cancel) {
   const dyd_half_plane *basis[3] = {&h[0], &h[1], &h[2]};
   dyd_exact_centre trial, next;
   mpz_t scratch[5];
@@ -120,9 +124,9 @@ bool dyd_exact_lp(dyd_exact_centre *out, const dyd_half_plane *h, size_t count) 
   for (int k = 0; k < 5; k++) mpz_init(scratch[k]);
   bool good = common_value(out, scratch, scratch[3], basis), done = false;
   for (int step = 0; good && !done && step < PIVOTS; step++) {
-    size_t k = violated(scratch[3], h, count, out);
+    size_t k = violated(scratch[3], h, count, out, cancel);
     done = k == count;
-    if (done) break;
+    if (done || dyd_flag_is_set(cancel)) break;
     good = exact_lp_exchange(basis, &next, &trial, scratch, &h[k]);
     if (good) swap_centres(out, &next);
   }

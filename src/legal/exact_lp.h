@@ -24,8 +24,8 @@ void dyd_exact_centre_init(dyd_exact_centre *p);
 void dyd_exact_centre_clear(dyd_exact_centre *p);
 
 /* The half-planes h[0..3] must be the sides x > -m, x < m, y > -m, y < m of a square (w = |a| or |b|). z <= 0
- * afterwards says that the open half-planes have no common point [LP-1]. false: no end after many steps, or no memory.
- */
-bool dyd_exact_lp(dyd_exact_centre *out, const dyd_half_plane *h, size_t count);
+ * afterwards says that the open half-planes have no common point [LP-1]. false: no end after many steps, or no memory,
+ * or *cancel (NULL: nobody can) is set. */
+bool dyd_exact_lp(dyd_exact_centre *out, const dyd_half_plane *h, size_t count, const volatile int *cancel);
 
 #endif

@@ -10,7 +10,8 @@
 static const int64_t how_far[] = {3, 24, 64, 4160};
 enum { REACHES = sizeof how_far / sizeof *how_far };
 
-void dyd_planes_init(dyd_plane_list *l) {
+void dyd_planes_init(dyd_plane_list *l, const volatile int *cancel) {
+  l->cancel = cancel;
   for (l->count = 0; l->count < 4; l->count++) dyd_half_plane_init(&l->h[l->count]);
   l->made = l->count;
   l->low = DYD_EXP_LIMIT;
@@ -135,12 +136,13 @@ dyd_status dyd_planes_centre(dyd_truth *room, dyd_point *c, dyd_plane_list *l) {
   *room = DYD_FALSE;
   for (int k = 0; k < REACHES && *room == DYD_FALSE; k++) {
     planes_square(l, l->top + how_far[k]);
-    if (!dyd_exact_lp(&p, l->h, l->count))
+    if (!dyd_exact_lp(&p, l->h, l->count, l->cancel))
       *room = DYD_UNKNOWN;
     else if (mpz_sgn(p.z) > 0 && step_within(&p) >= floor_exponent(l))
       *room = DYD_TRUE;
   }
-  if (*room == DYD_TRUE) st = dyd_centre_round(c, p.x, p.y, p.d, step_within(&p));
+  if (dyd_flag_is_set(l->cancel)) st = DYD_CANCELLED;
+  if (*room == DYD_TRUE && st == DYD_OK) st = dyd_centre_round(c, p.x, p.y, p.d, step_within(&p));
   dyd_exact_centre_clear(&p);
   if (st != DYD_E_RANGE) return st;
   *room = DYD_UNKNOWN; /* beyond the numbers there are */

@@ -191,7 +191,7 @@ static dyd_status witness_search_exactly(dyd_truth *exists, dyd_point *c, dyd_wo
   dyd_plane_list *planes = malloc(sizeof *planes);
   search s;
   if (!planes) return DYD_E_NOMEM;
-  dyd_planes_init(planes);
+  dyd_planes_init(planes, w->cancel);
   dyd_status st = witness_search_init(&s, w, sk, i, j);
   s.planes = planes;
   if (st == DYD_OK) s.status = witness_set_start(&s.c, sk, i, guess);

@@ -23,12 +23,7 @@
 #include "metric/measure_filter.h"
 
 #include <fenv.h>
-#include <float.h>
 #include <math.h>
-
-#if FLT_EVAL_METHOD != 0
-#error "the error bounds of this file need doubles that are rounded to double after each operation"
-#endif
 
 bool dyd_filter_measure_usable(void) {
   return fegetround() == FE_TONEAREST;

@@ -65,8 +65,23 @@ static void join(dyd_pair_map *m, uint32_t from, uint32_t to) {
   m->head[from] = (uint32_t)m->links++;
 }
 
+static bool table_is_full(const dyd_pair_map *m) {
+  return 2 * (m->used + 1) > m->mask + 1;
+}
+
+bool dyd_pair_map_is_full(const dyd_pair_map *m) {
+  return table_is_full(m) || m->links + 2 > m->link_cap;
+}
+
+uint64_t dyd_pair_map_bytes(const dyd_pair_map *m) {
+  uint64_t tables = table_is_full(m) ? 3 : 1,
+           links = m->links + 2 > m->link_cap ? m->link_cap / 2 * 3 + 16 : m->link_cap;
+  return tables * (m->mask + 1) * (sizeof *m->key + sizeof *m->state) + links * sizeof *m->link +
+         m->members * sizeof *m->head;
+}
+
 dyd_status dyd_pair_map_add(dyd_pair_map *m, uint32_t a, uint32_t b, dyd_pair_state state) {
-  if (2 * (m->used + 1) > m->mask + 1) {
+  if (table_is_full(m)) {
     dyd_status st = resize(m, 2 * (m->mask + 1));
     if (st != DYD_OK) return st;
   }

@@ -32,6 +32,7 @@ static const struct {
     {"threads", OPTION_UNSIGNED, offsetof(dyd_engine_options, threads)},
     {"tie_bits", OPTION_BITS, offsetof(dyd_engine_options, tie_bits)},
     {"no_ties", OPTION_BOOL, offsetof(dyd_engine_options, no_ties)},
+    {"max_bytes", OPTION_U64, offsetof(dyd_engine_options, max_bytes)},
 };
 
 static void option_set(void *at, option_kind kind, PyObject *value) {

@@ -38,7 +38,8 @@ static PyObject *error_new(const dyd_error *err, dyd_status status) {
 
 PyObject *dydpy_raise(const dyd_error *err, dyd_status status) {
   if (PyErr_Occurred()) return NULL;
-  if (status == DYD_E_NOMEM) return PyErr_NoMemory();
+  if (status == DYD_E_NOMEM && !(err && err->message[0])) return PyErr_NoMemory();
+  if (status == DYD_E_NOMEM) return PyErr_Format(PyExc_MemoryError, "%s", err->message);
   PyObject *error = error_new(err, status);
   if (error) PyErr_SetObject((PyObject *)Py_TYPE(error), error);
   Py_XDECREF(error);

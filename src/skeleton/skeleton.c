@@ -172,3 +172,11 @@ size_t dyd_skeleton_memory(const dyd_skeleton *sk) {
   return bytes +
          (tree->level[tree->levels] + sk->blocks.level[sk->blocks.levels] + sk->blocks.count) * sizeof(dyd_bbox);
 }
+
+/* As above, and coordinates scaled to integers for the mesh. Boxes come with sites that are no points. */
+uint64_t dyd_skeleton_bytes(const dyd_sites *sites) {
+  enum { TREE = sizeof(dyd_bbox) / (DYD_TREE_FANOUT - 1) + sizeof(uint32_t) };
+  uint64_t n = dyd_sites_count(sites), each = 3 * sizeof(uint32_t) + 2 * sizeof(dyd_xy) + 2 * sizeof(dyd_tri) + 2;
+  if (sites->upper[0] || sites->upper[1] || sites->exact) each += sizeof(uint32_t) + sizeof(dyd_bbox) + TREE;
+  return n * each;
+}

@@ -38,8 +38,10 @@ void dyd_skeleton_clear(dyd_skeleton *sk);
 void dyd_skeleton_moved(dyd_skeleton *sk);
 /* Box, tree and representative of a vertex follow its rectangle. */
 dyd_status dyd_skeleton_refresh(dyd_skeleton *sk, uint32_t v);
-/* Bytes allocated, of everything that stays. */
+/* Bytes allocated, of everything that stays; an estimate of what a skeleton of these sites will take while it is made.
+ */
 size_t dyd_skeleton_memory(const dyd_skeleton *sk);
+uint64_t dyd_skeleton_bytes(const dyd_sites *sites);
 
 static inline bool dyd_vertex_is_point(const dyd_skeleton *sk, uint32_t v) {
   return sk->all_points || dyd_rects_is_point(&sk->rects, v);

@@ -22,6 +22,7 @@ void dyd_work_clear(dyd_work *w) {
 void dyd_work_fork(dyd_work *task, const dyd_work *w, const dyd_skeleton *sk) {
   dyd_work_init(task, sk, w->cancel);
   task->keep_cut = w->keep_cut;
+  task->room = w->room;
 }
 
 static void add_counters(dyd_delaunay_counters *sum, const dyd_delaunay_counters *c) {
@@ -40,6 +41,7 @@ void dyd_work_join(dyd_work *w, dyd_work *task) {
   w->tally.exact += task->tally.exact;
   w->tally.ties += task->tally.ties;
   add_counters(&w->counters, &task->counters);
+  dyd_room_join(&w->room, &task->room);
   dyd_work_clear(task);
 }
 

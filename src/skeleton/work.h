@@ -5,6 +5,7 @@
 #ifndef DYD_SKELETON_WORK_H
 #define DYD_SKELETON_WORK_H
 
+#include "base/room.h"
 #include "predicate/icircle.h"
 #include "skeleton/scale_set.h"
 #include "skeleton/skeleton.h"
@@ -18,6 +19,7 @@ typedef struct dyd_work {
   unsigned threads;           /* for passes over everything */
   bool keep_cut;              /* what is stopped while faces are closed counts as met by the cap */
   dyd_error *err;             /* NULL: nobody asks */
+  dyd_room room;              /* for what is large */
   dyd_tally tally;            /* of the predicates of the mesh */
   dyd_delaunay_counters counters;
   dyd_scale_set set; /* scratch of the exact walks, reused from question to question */

@@ -9,6 +9,8 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/flag.h"
+#include "stream/real.h"
 
 typedef struct machine {
   arb_ptr ball;
@@ -17,6 +19,7 @@ typedef struct machine {
   slong exponent;    /* every ball so far is below 2^exponent in magnitude */
   dyd_status failed; /* what a root could not be narrowed by, told in *err */
   dyd_error *err;
+  const volatile int *stop; /* NULL: nobody can */
 } machine;
 
 static slong machine_stack_need(const dyd_expr *e) {
@@ -33,8 +36,8 @@ static slong machine_stack_need(const dyd_expr *e) {
 static void machine_push_root(machine *m, arb_ptr out, dyd_real *root, const dyd_node *n) {
   mpq_t end[2];
   arb_t hi;
-  dyd_status st = dyd_real_narrow(root, m->prec, m->prec, m->err);
-  if (dyd_failed(st)) {
+  dyd_status st = dyd_real_narrow_until(root, m->prec, m->prec, m->stop, m->err);
+  if (dyd_narrow_ended(st)) {
     if (m->err) m->err->column = n->column;
     m->failed = st;
     return;
@@ -84,6 +87,7 @@ static dyd_defined machine_run(machine *m, size_t *culprit, const dyd_expr *e) {
   for (size_t i = 0; i < e->count; i++) {
     *culprit = i;
     dyd_defined d = machine_apply(m, e, i ? &e->node[i - 1].range : NULL, i);
+    if (dyd_flag_is_set(m->stop)) m->failed = DYD_CANCELLED;
     if (m->failed != DYD_OK) return DYD_UNDEFINED;
     if (d == DYD_DEFINED) d = dyd_ball_check(m->ball + m->top - 1, &m->exponent);
     if (d != DYD_DEFINED) return d;
@@ -153,6 +157,7 @@ static dyd_status machine_refine(machine *m, int64_t *extra, const dyd_expr *e, 
 static bool machine_init(machine *m, const dyd_expr *e, dyd_error *err) {
   m->failed = DYD_OK;
   m->err = err;
+  m->stop = NULL;
   m->capacity = machine_stack_need(e);
   m->ball = dyd_alloc((size_t)m->capacity, sizeof *m->ball);
   if (!m->ball) return false;
@@ -169,6 +174,7 @@ dyd_status dyd_expr_enclose(dyd_interval *out, int64_t *extra, const dyd_expr *e
                             dyd_error *err) {
   machine m;
   if (!machine_init(&m, e, err)) return dyd_fail_nomem(err);
+  m.stop = request->stop;
   dyd_status st = machine_refine(&m, extra, e, request, err);
   if (st == DYD_OK) {
     st = dyd_ball_interval(out, m.ball, -request->bits - 2);

@@ -8,6 +8,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/flag.h"
 #include "base/invariant.h"
 #include "rect/interval.h"
 
@@ -152,8 +153,8 @@ static dyd_status real_accept(dyd_real *x, dyd_interval *next, dyd_error *err) {
 
 static dyd_status real_check_claim(dyd_real *claim, const dyd_interval *now, const dyd_request *request,
                                    dyd_error *err) {
-  dyd_status st = dyd_real_narrow(claim, request->bits, request->max_bits, err);
-  if (dyd_failed(st)) return st;
+  dyd_status st = dyd_real_narrow_until(claim, request->bits, request->max_bits, request->stop, err);
+  if (dyd_narrow_ended(st)) return st;
   if (dyd_interval_meets(dyd_real_interval(claim), now)) return DYD_OK;
   return dyd_fail(err, DYD_E_NESTING, "the interval does not hold the root that the value is claimed to be");
 }
@@ -182,6 +183,7 @@ static dyd_status real_call_source(dyd_real *x, const dyd_request *request, dyd_
   if (st == DYD_OK && x->claim) st = real_check_claim(x->claim, &next, request, &own);
   if (st == DYD_OK) st = real_accept(x, &next, &own);
   dyd_interval_clear(&next);
+  if (st == DYD_CANCELLED && dyd_flag_is_set(request->stop)) return st;
   if (st == DYD_OK) {
     x->final = fixed || dyd_interval_is_point(x->now);
   } else {
@@ -229,11 +231,17 @@ static dyd_status real_take_span(dyd_real *x, dyd_double_span span, dyd_error *e
 }
 
 dyd_status dyd_real_narrow(dyd_real *x, int64_t bits, int64_t max_bits, dyd_error *err) {
+  return dyd_real_narrow_until(x, bits, max_bits, NULL, err);
+}
+
+dyd_status dyd_real_narrow_until(dyd_real *x, int64_t bits, int64_t max_bits, const volatile int *stop,
+                                 dyd_error *err) {
   dyd_request request;
   dyd_double_span span;
   if (x->final) return DYD_FIXED;
   if (x->now && dyd_interval_bits(x->now) >= bits) return DYD_OK;
   dyd_status st = dyd_request_make(&request, 0, bits, max_bits, err);
+  request.stop = stop;
   if (st == DYD_OK && x->spans && span_is_short(x, request.bits) && dyd_filter_round(&span, x->span, request.bits))
     st = real_take_span(x, span, err);
   else if (st == DYD_OK)

@@ -45,6 +45,13 @@ dyd_status dyd_real_new_fixed(dyd_real **out, dyd_interval *value);
  * text that x was parsed from. */
 void dyd_real_place(dyd_real *x, size_t line, size_t column);
 
+/* As dyd_real_narrow, with a flag that callbacks find in their requests (NULL: none): DYD_CANCELLED where one has seen
+ * it; x stays as it was then. */
+dyd_status dyd_real_narrow_until(dyd_real *x, int64_t bits, int64_t max_bits, const volatile int *stop, dyd_error *err);
+/* Did a narrowing end without an interval or rectangle? */
+static inline bool dyd_narrow_ended(dyd_status st) {
+  return st < 0 || st == DYD_CANCELLED;
+}
 /* The context of x if `narrow` is its callback, else NULL. Borrowed. */
 void *dyd_real_user(const dyd_real *x, dyd_narrow_real_fn narrow);
 /* Is `now`, an interval that x gave, at most 2^-bits wider than x can ever be (known for final and for widened reals;

@@ -86,8 +86,8 @@ static dyd_status widened_interval(dyd_interval *out, const widened *w, int64_t 
 
 static dyd_status widened_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
   widened *w = user;
-  dyd_status st = dyd_real_narrow(w->x, request->bits + 2, request->max_bits + 2, err);
-  if (dyd_failed(st)) return st;
+  dyd_status st = dyd_real_narrow_until(w->x, request->bits + 2, request->max_bits + 2, request->stop, err);
+  if (dyd_narrow_ended(st)) return st;
   st = widened_interval(out, w, -request->bits - 2);
   if (st != DYD_OK) return dyd_fail(err, st, "the interval around a value: %s", dyd_status_text(st));
   return dyd_real_is_final(w->x) ? DYD_FIXED : DYD_OK;

@@ -8,6 +8,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/flag.h"
 #include <flint/fmpq.h>
 #include <flint/fmpz_poly.h>
 #include <flint/fmpz_poly_factor.h>
@@ -76,6 +77,7 @@ static dyd_status root_interval(dyd_interval *out, const dyd_root *r, int64_t bi
 static dyd_status root_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
   dyd_root *r = user;
   while (!dyd_root_is_narrow(r, request->bits)) {
+    if (dyd_flag_is_set(request->stop)) return DYD_CANCELLED;
     dyd_status st = dyd_root_step(r, request->bits, err);
     if (st != DYD_OK) return st;
   }

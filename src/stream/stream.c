@@ -8,6 +8,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/flag.h"
 #include "rect/interval.h"
 #include "stream/real.h"
 
@@ -151,6 +152,7 @@ static dyd_status stream_call_source(dyd_stream *s, const dyd_request *request, 
   if (fixed) st = DYD_OK;
   if (st == DYD_OK) st = stream_accept(s, &next, &own);
   dyd_rect_clear(&next);
+  if (st == DYD_CANCELLED && dyd_flag_is_set(request->stop)) return st;
   if (st == DYD_OK) {
     s->final = fixed || dyd_rect_is_point(s->now);
   } else {
@@ -161,10 +163,16 @@ static dyd_status stream_call_source(dyd_stream *s, const dyd_request *request, 
 }
 
 dyd_status dyd_stream_narrow(dyd_stream *s, int64_t bits, int64_t max_bits, dyd_error *err) {
+  return dyd_stream_narrow_until(s, bits, max_bits, NULL, err);
+}
+
+dyd_status dyd_stream_narrow_until(dyd_stream *s, int64_t bits, int64_t max_bits, const volatile int *stop,
+                                   dyd_error *err) {
   dyd_request request;
   if (s->final) return DYD_FIXED;
   if (s->now && dyd_rect_bits(s->now) >= bits) return DYD_OK;
   dyd_status st = dyd_request_make(&request, s->point == DYD_NO_POINT ? 0 : s->point, bits, max_bits, err);
+  request.stop = stop;
   if (st == DYD_OK) st = stream_call_source(s, &request, err);
   if (st != DYD_OK) return st;
   return s->final ? DYD_FIXED : DYD_OK;

@@ -49,6 +49,13 @@ int64_t dyd_stream_glance_bits(const dyd_stream *s);
 /* Is `now`, a rectangle that s gave, on both sides at most 2^-bits wider than it can ever be, as far as that is known
  * (dyd_real_reaches)? */
 bool dyd_stream_reaches(const dyd_stream *s, const dyd_rect *now, int64_t bits);
+/* As dyd_stream_narrow; stop as for dyd_real_narrow_until. */
+dyd_status dyd_stream_narrow_until(dyd_stream *s, int64_t bits, int64_t max_bits, const volatile int *stop,
+                                   dyd_error *err);
+/* What s (NULL: none) takes in memory, and what narrowing it to 2^-bits takes for a while, by estimate. O(1), but for
+ * polynomials. */
+uint64_t dyd_stream_bytes(const dyd_stream *s);
+uint64_t dyd_stream_work_bytes(const dyd_stream *s, int64_t bits);
 /* The context of s if `narrow` is its callback, else NULL. Borrowed. */
 void *dyd_stream_user(const dyd_stream *s, dyd_narrow_fn narrow);
 

@@ -87,8 +87,8 @@ static dyd_status image_narrow(dyd_rect *out, const dyd_stream_image *a, const d
                                dyd_error *err) {
   int64_t more = a->gain + 1, most = request->max_bits + (more > 0 ? more : 0);
   for (size_t k = 0; k < a->count; k++) {
-    dyd_status st = dyd_stream_narrow(a->term[k].of, request->bits + more, most, err);
-    if (dyd_failed(st)) return st;
+    dyd_status st = dyd_stream_narrow_until(a->term[k].of, request->bits + more, most, request->stop, err);
+    if (dyd_narrow_ended(st)) return st;
   }
   dyd_status st = image_side(&out->x, a, 0, -request->bits - 2);
   if (st == DYD_OK) st = image_side(&out->y, a, 1, -request->bits - 2);

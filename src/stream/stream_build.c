@@ -31,9 +31,10 @@ static void pair_rect(dyd_rect *out, const dyd_stream_pair *p) {
 
 static dyd_status pair_narrow(dyd_rect *out, void *user, const dyd_request *request, dyd_error *err) {
   dyd_stream_pair *p = user;
-  dyd_status st = dyd_real_narrow(p->x, request->bits, request->max_bits, err);
-  if (!dyd_failed(st)) st = dyd_real_narrow(p->y, request->bits, request->max_bits, err);
-  if (dyd_failed(st)) return st;
+  dyd_status st = dyd_real_narrow_until(p->x, request->bits, request->max_bits, request->stop, err);
+  if (dyd_narrow_ended(st)) return st;
+  st = dyd_real_narrow_until(p->y, request->bits, request->max_bits, request->stop, err);
+  if (dyd_narrow_ended(st)) return st;
   pair_rect(out, p);
   return pair_is_final(p) ? DYD_FIXED : DYD_OK;
 }

@@ -30,21 +30,29 @@ static bool new_fails_well(char *message, const dyd_sites *s) {
 }
 
 static bool queries_fail_well(char *message, const dyd_delaunay *pd) {
-  for (size_t which = 0; which < 5; which++) {
+  for (size_t which = 0; which < 8; which++) {
     dyd_status status = DYD_E_NOMEM;
     for (size_t k = 1; status == DYD_E_NOMEM; k++) {
       dyd_pair_list pairs = {0};
       dyd_triangle_list triangles = {0};
-      dyd_index_list list = {0};
+      dyd_triangle_list beyond = {0};
+      dyd_index_list list = {0}, sure = {0};
+      dyd_hull corners = {.pairs = {0}};
       countdown = k;
+      if (which == 5) status = dyd_delaunay_partial_hull(&corners, pd);
+      if (which == 6) status = dyd_delaunay_hull_vertices(&sure, &list, pd);
+      if (which == 7) status = dyd_delaunay_triangles_and_neighbours(&triangles, &beyond, pd);
       if (which == 0) status = dyd_delaunay_pairs(&pairs, pd);
       if (which == 1) status = dyd_delaunay_triangles(&triangles, pd);
       if (which == 2) status = dyd_delaunay_hull(&list, pd);
       if (which == 3) status = dyd_delaunay_neighbours(&list, pd, 0, DYD_TIE);
       bool outer = false;
       if (which == 4) status = dyd_delaunay_undecided_faces(pd) ? dyd_delaunay_face(&list, &outer, pd, 0) : DYD_OK;
-      bool failed = countdown == 0, empty = !pairs.item && !triangles.item && !list.item;
+      bool failed = countdown == 0, empty = !pairs.item && !triangles.item && !list.item && !beyond.item;
       countdown = 0;
+      dyd_hull_clear(&corners);
+      dyd_index_list_clear(&sure);
+      dyd_triangle_list_clear(&beyond);
       dyd_pair_list_clear(&pairs);
       dyd_triangle_list_clear(&triangles);
       dyd_index_list_clear(&list);

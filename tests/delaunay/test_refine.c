@@ -5,6 +5,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 
+#include "base/clock.h"
 #include "delaunay/harness.h"
 #include <cmocka.h>
 
@@ -114,8 +115,22 @@ static void test_larger(void **state) {
   harness_run_kinds(&shared, 24, test_cases(2), check);
 }
 
+/* For DYADEL_SOAK seconds, one seed after the other from DYADEL_TEST_SEED on: what fails fails at once with its seed.
+ */
+static void test_soak(void **state) {
+  (void)state;
+  uint64_t seed = test_environment("DYADEL_TEST_SEED", 1);
+  double until = dyd_seconds() + (double)test_environment("DYADEL_SOAK", 3);
+  do {
+    shared.random = test_random_of("soak", seed++);
+    harness_run_cases(&shared, 7, 4 * ORC_KINDS, check);
+    harness_run_cases(&shared, 16, ORC_KINDS, check);
+  } while (dyd_seconds() < until);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_small), cmocka_unit_test(test_larger)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_small), cmocka_unit_test(test_larger),
+                                     cmocka_unit_test(test_soak)};
   harness_init(&shared, "refine");
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   harness_clear(&shared);

@@ -356,14 +356,83 @@ static void test_cancel_signal(void **state) {
   dyd_engine_free(signalled);
 }
 
+/* sqrt(3); its call number `at` cancels the engine, and answers all the same. */
+typedef struct canceller {
+  dyd_engine *e;
+  dyd_real *of;
+  uint64_t calls, at;
+} canceller;
+
+static dyd_status narrow_and_cancel(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
+  canceller *c = user;
+  dyd_status st = dyd_real_narrow(c->of, request->bits, request->max_bits, err);
+  if (st >= 0) dyd_interval_set(out, dyd_real_interval(c->of));
+  if (++c->calls == c->at) dyd_engine_cancel(c->e);
+  return st;
+}
+
+static dyd_real *parsed(const char *text) {
+  dyd_real *x = NULL;
+  assert_int_equal(DYD_OK, dyd_real_parse(&x, text, strlen(text), NULL));
+  return x;
+}
+
+/* A cancel within an expression is seen before the next of its nodes: the point stays as it was, so does the result,
+ * and the next run asks again. */
+static void test_cancel_within_an_expression(void **state) {
+  (void)state;
+  dyd_engine *e = engine_new();
+  canceller c = {.e = e, .of = parsed("sqrt(3)"), .at = 2};
+  dyd_real *opaque = NULL, *sum = NULL;
+  dyd_stream *s = NULL;
+  assert_int_equal(DYD_OK, dyd_real_new(&opaque, narrow_and_cancel, NULL, &c));
+  assert_int_equal(DYD_OK, dyd_real_op(&sum, opaque, parsed("log(2)"), DYD_REAL_ADD, NULL));
+  assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, sum, parsed("1")));
+  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s));
+  engine_add_hidden(e, "1", "0");
+  engine_add_hidden(e, "cos(2*pi/5)", "sin(2*pi/5)");
+  engine_add_hidden(e, "cos(4*pi/5)", "sin(4*pi/5)");
+  engine_add_hidden(e, "cos(6*pi/5)", "sin(6*pi/5)");
+  dyd_engine_options o = options();
+  o.schedule = DYD_SCHEDULE_UNIFORM;
+  o.max_stages = 1;
+  engine_run(e, &o, DYD_OUTCOME_BUDGET);
+  const dyd_delaunay *result = dyd_engine_delaunay(e);
+  dyd_rect before, after;
+  dyd_rect_init(&before);
+  dyd_rect_init(&after);
+  assert_int_equal(DYD_OK, dyd_sites_get(&before, dyd_engine_sites(e), 0));
+  assert_int_equal(1, c.calls);
+  engine_run(e, &o, DYD_OUTCOME_CANCELLED);
+  assert_int_equal(DYD_OK, dyd_sites_get(&after, dyd_engine_sites(e), 0));
+  assert_int_equal(2, c.calls);
+  assert_true(dyd_rect_equal(&before, &after));
+  assert_ptr_equal(result, dyd_engine_delaunay(e));
+  assert_int_equal(1, engine_counters(e).stages);
+  engine_run(e, &o, DYD_OUTCOME_BUDGET);
+  assert_int_equal(2, engine_counters(e).stages);
+  assert_int_equal(128, engine_counters(e).bits_most);
+  dyd_rect_clear(&after);
+  dyd_rect_clear(&before);
+  dyd_engine_free(e);
+  dyd_real_free(c.of);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_stages),         cmocka_unit_test(test_calls),
-      cmocka_unit_test(test_pairs),          cmocka_unit_test(test_pairs_dissolved),
-      cmocka_unit_test(test_pairs_of_ties),  cmocka_unit_test(test_seconds),
-      cmocka_unit_test(test_seconds_within), cmocka_unit_test(test_seconds_first),
-      cmocka_unit_test(test_bad_options),    cmocka_unit_test(test_cancel_before),
-      cmocka_unit_test(test_cancel_inside),  cmocka_unit_test(test_cancel_thread),
+      cmocka_unit_test(test_stages),
+      cmocka_unit_test(test_calls),
+      cmocka_unit_test(test_pairs),
+      cmocka_unit_test(test_pairs_dissolved),
+      cmocka_unit_test(test_pairs_of_ties),
+      cmocka_unit_test(test_seconds),
+      cmocka_unit_test(test_seconds_within),
+      cmocka_unit_test(test_seconds_first),
+      cmocka_unit_test(test_bad_options),
+      cmocka_unit_test(test_cancel_before),
+      cmocka_unit_test(test_cancel_inside),
+      cmocka_unit_test(test_cancel_thread),
+      cmocka_unit_test(test_cancel_within_an_expression),
       cmocka_unit_test(test_cancel_signal),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

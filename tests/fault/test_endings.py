@@ -6,6 +6,7 @@ whole, and nothing else is left: with files that have no name, and where the sys
 Usage: test_endings.py COMMAND SHIM
 """
 import os
+import pwd
 import random
 import resource
 import shutil
@@ -34,7 +35,7 @@ def get(path):
         return f.read()
 
 
-def start(folder, *args, way, prepare=None):
+def start(folder, *args, way, prepare=None, **who):
     """With signals as they are by default, whether or not the tests run under nohup or in the background of a script."""
     def prepare_all():
         for number in (signal.SIGHUP, signal.SIGINT, signal.SIGQUIT):
@@ -42,7 +43,7 @@ def start(folder, *args, way, prepare=None):
         if prepare:
             prepare()
     return subprocess.Popen([COMMAND, *args], cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE, env=dict(os.environ, **WAYS[way]), preexec_fn=prepare_all)
+                            stderr=subprocess.PIPE, env=dict(os.environ, **WAYS[way]), preexec_fn=prepare_all, **who)
 
 
 def endless(folder, way, **options):
@@ -192,16 +193,46 @@ def test_folder_that_is_no_place():
             process = start(folder, 'delaunay', 'p', '-o', place, way='without a name')
             err = process.communicate()[1]
             assert process.returncode == 1 and b'cannot write: ' + why + b'; choose' in err, err
-    if os.geteuid() == 0:
+
+
+def nobody():
+    """Who asks for permission: root has all, so that root runs the command as somebody else."""
+    return {} if os.geteuid() else {'user': 'nobody', 'group': pwd.getpwnam('nobody').pw_gid, 'extra_groups': []}
+
+
+def refused(folder, *args, way, why=b'Permission denied'):
+    """The command ends with status 1 and says so; nothing in the folder has changed."""
+    before = {name: get(os.path.join(folder, name)) for name in os.listdir(folder)}
+    process = start(folder, *args, way=way, **nobody())
+    err = process.communicate(SQUARE, timeout=60)[1]
+    assert process.returncode == 1 and why in err, (args, process.returncode, err)
+    assert {name: get(os.path.join(folder, name)) for name in os.listdir(folder)} == before, (args, os.listdir(folder))
+
+
+def test_without_permission():
+    """Folders that may not be written, or not even be looked into, and inputs that may not be read."""
+    if subprocess.run([COMMAND, '--version'], stdout=subprocess.DEVNULL, check=False, **nobody()).returncode:
+        print('the command cannot be run by others')
         return
-    with tempfile.TemporaryDirectory() as folder:
-        put(os.path.join(folder, 'o'), OLD)
-        os.chmod(folder, 0o500)
-        process = start(folder, 'delaunay', '-', '-o', 'o', way='without a name')
-        err = process.communicate(SQUARE)[1]
-        os.chmod(folder, 0o700)
-        assert process.returncode == 1 and b'cannot write: Permission denied; choose' in err, err
-        assert get(os.path.join(folder, 'o')) == OLD and os.listdir(folder) == ['o']
+    for way in WAYS:
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.chown(folder, *(('nobody',) if os.geteuid() == 0 else (os.geteuid(),)))
+            for name in ('o', 'secret'):
+                put(os.path.join(folder, name), OLD if name == 'o' else SQUARE)
+            os.chmod(os.path.join(folder, 'secret'), 0)
+            if os.geteuid() == 0:
+                refused(folder, 'delaunay', 'secret', '-o', 'o', way=way)
+            os.chmod(folder, 0o555)
+            for more in ((), ('--certificate', 'c'), ('--trace', 't')):
+                refused(folder, 'delaunay', '-', '-o', 'o', *more, way=way)
+            for option, command in (('--certificate', 'voronoi'), ('--trace', 'converge'), ('--plot', 'converge')):
+                refused(folder, command, '-', option, 'new.svg', way=way)
+            os.chmod(folder, 0o700)
+            os.mkdir(os.path.join(folder, 'closed'), 0)
+            process = start(folder, 'delaunay', '-', '-o', 'closed/o', way=way, **nobody())
+            err = process.communicate(SQUARE)[1]
+            if os.geteuid() == 0:  # it is root's folder, and closed to the command
+                assert process.returncode == 1 and b'closed/o: cannot write: Permission denied; choose' in err, err
 
 
 def main():

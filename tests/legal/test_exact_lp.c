@@ -98,7 +98,7 @@ static void check(const plane *p, int count) {
     mpz_set_si(h[k].c, p[k].c);
     mpz_set_si(h[k].w, p[k].w);
   }
-  assert_true(dyd_exact_lp(&c, h, (size_t)count));
+  assert_true(dyd_exact_lp(&c, h, (size_t)count, NULL));
   assert_true(mpz_sgn(c.d) > 0);
   mpz_srcptr part[3] = {c.x, c.y, c.z};
   for (int k = 0; k < 3; k++) {

@@ -36,6 +36,16 @@ def once():
         harness.raised(ValueError, dyadel.delaunay, wrong)
 
 
+def test_bound():
+    """What would take too much is refused before it is taken, with what it was; a result stays, and can be refined on."""
+    error = harness.raised(MemoryError, dyadel.delaunay, POINTS, max_bytes=100000)
+    assert 'max_bytes' in str(error) and 'the triangulation' in str(error), error
+    d = dyadel.delaunay(POINTS, max_bytes=10**8)
+    before = d.legal.tolist()
+    harness.raised(MemoryError, d.append, POINTS + 2, max_bytes=100000)
+    assert d.refine(max_bytes=10**8).outcome == 'decided' and len(d.legal) > len(before)
+
+
 def resident():
     gc.collect()
     with open('/proc/self/statm', encoding='ascii') as file:

@@ -41,11 +41,13 @@ static inline uint64_t test_u64(test_random *r) {
 }
 
 /* A generator for the test called `name`; prints the seed so that a failure can be run again. */
-static inline test_random test_random_start(const char *name) {
-  uint64_t seed = test_environment("DYADEL_TEST_SEED", 1);
+static inline test_random test_random_of(const char *name, uint64_t seed) {
   fprintf(stderr, "# %s: DYADEL_TEST_SEED=%llu\n", name, (unsigned long long)seed);
   test_random mix = {seed};
   return (test_random){test_u64(&mix)}; /* neighbouring seeds start far apart */
+}
+static inline test_random test_random_start(const char *name) {
+  return test_random_of(name, test_environment("DYADEL_TEST_SEED", 1));
 }
 
 /* Uniform in 0 .. n-1. */

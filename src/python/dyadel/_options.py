@@ -15,7 +15,7 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
                    max_pairs: int | None = None, threads: int = 1, schedule: str = 'adaptive',
                    start_bits: int | None = None, step_bits: int | None = None, max_stages: int | None = None,
                    max_calls: int | None = None, window: Sequence[Any] | None = None, ties: bool = True,
-                   tie_bits: int | None = None,
+                   tie_bits: int | None = None, max_bytes: int | None = None,
                    progress: Callable[[dict[str, Any]], object] | None = None) -> dict[str, Any]:
     """What Engine.run takes.
 
@@ -30,6 +30,8 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
     max_stages, max_calls  of this run
     window      (xlo, xhi, ylo, yhi), for bounds of the diagram
     ties        prove that expressions and roots are the same, on one line or circle, with at most tie_bits bits for each
+    max_bytes   memory that the engine may hold, by its own estimate: MemoryError before it asks for more; points and
+                results stay
     progress    called after each stage with a dict: stage, bits, points, legal, indeterminate, ties, undecided_faces,
                 seconds; what it raises ends the run
     """
@@ -43,5 +45,5 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
              'seconds': None if timeout is None else max(float(timeout), 1e-9), 'max_bits': max_bits,
              'max_pairs': max_pairs, 'threads': threads, 'start_bits': start_bits, 'step_bits': step_bits,
              'max_stages': max_stages, 'max_calls': max_calls, 'window': window, 'no_ties': not ties,
-             'tie_bits': tie_bits, 'progress': progress}
+             'tie_bits': tie_bits, 'max_bytes': max_bytes, 'progress': progress}
     return {name: value for name, value in given.items() if value is not None}

@@ -46,14 +46,21 @@ static bool is_below_separation(dyd_algebra *a, uint32_t n, slong prec, const dy
   return below;
 }
 
+/* Room for the values of all forms to `prec` bits, and for what functions compute with. */
+static bool zero_has_room(const dyd_algebra *a, slong prec) {
+  enum { FUNCTION = 32 };
+  uint64_t bytes = dyd_bytes_times(a->forms.count + FUNCTION, (uint64_t)prec / 8);
+  return !a->room || dyd_room_has(a->room, bytes, "the proof of a tie");
+}
+
 /* Goes on from `prec` until the bound decides. Digits before the point are computed, too: twice the bits will do, where
  * the operations do not cancel much. */
 static dyd_zero separate_from_zero(dyd_algebra *a, uint32_t n, const dyd_separation *s) {
   slong last = 2 * s->bits + 8 * FIRST_BITS;
   if (last > a->most + 8 * FIRST_BITS) last = a->most + 8 * FIRST_BITS;
   for (slong prec = FIRST_BITS; prec <= 2 * last; prec *= 2) {
-    if (dyd_flag_is_set(a->cancel)) return DYD_ZERO_UNKNOWN;
     slong now = prec < last ? prec : last;
+    if (dyd_flag_is_set(a->cancel) || !zero_has_room(a, now)) return DYD_ZERO_UNKNOWN;
     if (zero_is_excluded(a, n, now)) return DYD_ZERO_REFUTED;
     if (is_below_separation(a, n, now, s)) return DYD_ZERO_PROVED;
   }

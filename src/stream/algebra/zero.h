@@ -3,6 +3,7 @@
 #ifndef DYD_STREAM_ALGEBRA_ZERO_H
 #define DYD_STREAM_ALGEBRA_ZERO_H
 
+#include "base/room.h"
 #include "stream/algebra/ring.h"
 
 /* The precision that tests begin with, in bits. */
@@ -23,6 +24,7 @@ typedef struct dyd_algebra {
   bool settled;
   slong most;                 /* bits computed with at most */
   const volatile int *cancel; /* NULL: nobody can */
+  dyd_room *room;             /* NULL: no bound; what it refuses stays unknown */
   dyd_zero_counts count;
   slong shown; /* bits at which the last value refuted was seen not to be 0 */
 } dyd_algebra;

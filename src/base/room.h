@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Memory that a run may hold, by estimates that are asked for before what is large is made.
+ *
+ * An estimate counts what the arrays to come will take when they are full; what stays is `held`. So a run is refused
+ * while there still is memory, which GMP, MPFR and FLINT, which end the process without it, cannot do. */
+#ifndef DYD_BASE_ROOM_H
+#define DYD_BASE_ROOM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* All in bytes. Invariant: refused is NULL, or static and says for what `wanted`, more than `most`, was asked. */
+typedef struct dyd_room {
+  uint64_t most;         /* 0: no bound, and nothing is counted */
+  uint64_t beside, held; /* by others, all along; by what is at work, now */
+  uint64_t peak;         /* the most that was asked for at once and granted, with what was held */
+  uint64_t wanted;
+  const char *refused;
+} dyd_room;
+
+static inline uint64_t dyd_bytes_add(uint64_t a, uint64_t b) {
+  return a > UINT64_MAX - b ? UINT64_MAX : a + b;
+}
+static inline uint64_t dyd_bytes_times(uint64_t count, uint64_t size) {
+  return size && count > UINT64_MAX / size ? UINT64_MAX : count * size;
+}
+
+/* Is there room for `more` beside what is held? `what` is static. */
+static inline bool dyd_room_has(dyd_room *r, uint64_t more, const char *what) {
+  uint64_t all = dyd_bytes_add(dyd_bytes_add(r->beside, r->held), more);
+  if (!r->most) return true;
+  if (all > r->most) {
+    r->wanted = all;
+    r->refused = what;
+    return false;
+  }
+  if (all > r->peak) r->peak = all;
+  return true;
+}
+
+/* A part of what is left, for one of so many (0: one) at work side by side. */
+static inline void dyd_room_share(dyd_room *r, unsigned parts) {
+  uint64_t taken = dyd_bytes_add(r->beside, r->held);
+  if (parts > 1 && r->most > taken) r->most = taken + (r->most - taken) / parts;
+}
+/* Takes over what another room, of the same run, has seen. */
+static inline void dyd_room_join(dyd_room *r, const dyd_room *other) {
+  if (other->peak > r->peak) r->peak = other->peak;
+  if (!other->refused) return;
+  r->wanted = other->wanted;
+  r->refused = other->refused;
+}
+
+#endif

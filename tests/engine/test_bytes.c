@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* max_bytes: estimates against what is really held, that of GMP, MPFR and FLINT included, since the allocator of this
+ * program is the one below; and refusals, which come in time and leave everything as it was. */
+#include "engine/help.h"
+
+#include <malloc.h>
+#include <math.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *old, size_t size);
+void __libc_free(void *block);
+
+static atomic_llong held, most;
+
+static void *held_more(void *block, size_t before) {
+  long long now = atomic_fetch_add(&held, (long long)malloc_usable_size(block) - (long long)before) +
+                  (long long)malloc_usable_size(block) - (long long)before;
+  if (now > atomic_load(&most)) atomic_store(&most, now);
+  return block;
+}
+void *malloc(size_t size) {
+  return held_more(__libc_malloc(size), 0);
+}
+void *calloc(size_t count, size_t size) {
+  return held_more(__libc_calloc(count, size), 0);
+}
+void *realloc(void *old, size_t size) {
+  size_t before = malloc_usable_size(old);
+  void *block = __libc_realloc(old, size);
+  return block ? held_more(block, before) : NULL;
+}
+void free(void *block) {
+  atomic_fetch_sub(&held, (long long)malloc_usable_size(block));
+  __libc_free(block);
+}
+
+#define MEGABYTE 1e6
+
+/* ---- cases ---- */
+
+static test_random random_numbers;
+
+static double unit(void) {
+  return (double)(test_u64(&random_numbers) >> 11) * 0x1p-53;
+}
+
+static void add_boxes(dyd_engine *e, size_t n, double half) {
+  for (size_t k = 0; k < n; k++) {
+    double x = unit(), y = unit(), x1 = x + half, y1 = y + half;
+    x -= half;
+    y -= half;
+    assert_int_equal(DYD_OK,
+                     half > 0 ? dyd_engine_add_boxes(e, 1, &x, &x1, &y, &y1) : dyd_engine_add_points(e, 1, &x, &y));
+  }
+}
+
+static void uniform(dyd_engine *e, dyd_engine_options *o) {
+  (void)o;
+  add_boxes(e, 30000, 0);
+}
+static void boxes(dyd_engine *e, dyd_engine_options *o) {
+  (void)o;
+  add_boxes(e, 30000, 1e-9);
+}
+static void open_boxes(dyd_engine *e, dyd_engine_options *o) {
+  (void)o;
+  add_boxes(e, 10000, 0.001);
+}
+static void crowd(dyd_engine *e, dyd_engine_options *o) {
+  (void)o;
+  add_boxes(e, 600, 0.3);
+}
+static void overlapping(dyd_engine *e, dyd_engine_options *o) {
+  o->threads = 2;
+  add_boxes(e, 3000, 0.5 / sqrt(3000));
+}
+static void grid(dyd_engine *e, dyd_engine_options *o) {
+  (void)o;
+  for (int k = 0; k < 20000; k++) {
+    double x = k % 141, y = k / 141;
+    assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &y));
+  }
+}
+static void line(dyd_engine *e, dyd_engine_options *o) {
+  o->goal = DYD_GOAL_AREA;
+  for (int k = 0; k < 500; k++) {
+    double x = k, y = -40;
+    assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &y));
+  }
+}
+static void roots_of_numbers(dyd_engine *e, dyd_engine_options *o) {
+  o->start_bits = 20000;
+  o->max_bits = 20000;
+  engine_add_roots(e, &random_numbers, 300);
+}
+static void long_expressions(dyd_engine *e, dyd_engine_options *o) {
+  o->start_bits = o->max_bits = 400000;
+  o->no_ties = true;
+  engine_add_text(e, "exp(sqrt(2))+log(3)*sin(pi/7)", "atan(sqrt(3)/5)");
+  engine_add_text(e, "cos(1)^3+sqrt(1+sqrt(2+sqrt(3)))", "exp(1/3)-e");
+  engine_add_text(e, "root(x^5-x-1,1,2)", "root(x^40-7*x^3-1,1,2)");
+}
+static void tie(dyd_engine *e, dyd_engine_options *o) {
+  o->max_bits = 300;
+  engine_add_text(e, "cbrt(2+sqrt(5))+cbrt(2-sqrt(5))", "0");
+  engine_add_text(e, "1", "0");
+  engine_add_text(e, "3", "4");
+}
+static dyd_rect square;
+static void diagram(dyd_engine *e, dyd_engine_options *o) {
+  o->goal = DYD_GOAL_VORONOI_HAUSDORFF;
+  o->goal_bits = 4;
+  o->window = &square;
+  add_boxes(e, 20000, 1e-9);
+}
+
+static const struct {
+  const char *name;
+  void (*make)(dyd_engine *e, dyd_engine_options *o);
+} CASES[] = {{"uniform", uniform},
+             {"boxes", boxes},
+             {"open boxes", open_boxes},
+             {"crowd", crowd},
+             {"overlapping", overlapping},
+             {"grid", grid},
+             {"line", line},
+             {"roots", roots_of_numbers},
+             {"long expressions", long_expressions},
+             {"tie", tie},
+             {"diagram", diagram}};
+enum { ALL_CASES = sizeof CASES / sizeof *CASES };
+
+static dyd_engine *case_engine(size_t k, dyd_engine_options *o) {
+  dyd_engine *e = engine_new();
+  dyd_engine_options_init(o);
+  random_numbers.state = 12345 + k;
+  CASES[k].make(e, o);
+  return e;
+}
+
+/* Runs with so many bytes allowed; *real: what was held at most, the points included. */
+static dyd_status run_within(double *real, dyd_engine *e, dyd_engine_options o, uint64_t bytes, long long before,
+                             dyd_error *err) {
+  dyd_outcome outcome;
+  o.max_bytes = bytes;
+  atomic_store(&most, atomic_load(&held));
+  dyd_status st = dyd_engine_run(&outcome, e, &o, err);
+  *real = (double)(atomic_load(&most) - before);
+  return st;
+}
+
+static void test_estimates(void **state) {
+  (void)state;
+  for (size_t k = 0; k < ALL_CASES; k++) {
+    dyd_engine_options o;
+    dyd_error err;
+    double real;
+    long long before = atomic_load(&held);
+    dyd_engine *e = case_engine(k, &o);
+    assert_int_equal(0, engine_counters(e).bytes_most);
+    assert_true(run_within(&real, e, o, UINT64_MAX, before, &err) >= 0);
+    double guess = (double)engine_counters(e).bytes_most;
+    print_message("%s: %.0f held, %.0f estimated, ratio %.2f\n", CASES[k].name, real, guess, guess / real);
+    assert_true(guess > 0 && guess < 2 * real + MEGABYTE && 2 * guess + MEGABYTE > real);
+    assert_true(real < MEGABYTE || (guess < 2 * real && 2 * guess > real));
+    dyd_engine_free(e);
+  }
+}
+
+/* A bound below what is needed ends the run before it is passed, and another run goes on. */
+static void test_refusals(void **state) {
+  (void)state;
+  for (size_t k = 0; k < ALL_CASES; k++) {
+    dyd_engine_options o;
+    dyd_error err;
+    double real;
+    size_t want[4], got[4];
+    dyd_engine *whole = case_engine(k, &o);
+    assert_true(run_within(&real, whole, o, UINT64_MAX, 0, &err) >= 0);
+    uint64_t peak = engine_counters(whole).bytes_most;
+    const uint64_t bounds[] = {1, peak / 3, peak - 1};
+    engine_count(want, whole);
+    dyd_engine_free(whole);
+    for (size_t b = 0; b < sizeof bounds / sizeof *bounds; b++) {
+      long long before = atomic_load(&held);
+      dyd_engine *e = case_engine(k, &o);
+      double points = (double)(atomic_load(&held) - before);
+      dyd_status st = run_within(&real, e, o, bounds[b], before, &err);
+      if (st != DYD_E_NOMEM || !strstr(err.message, "max_bytes"))
+        fail_msg("%s: %d, %s", CASES[k].name, st, err.message);
+      assert_int_equal(DYD_E_NOMEM, err.code);
+      assert_true(real < points + 2 * (double)bounds[b] + MEGABYTE);
+      assert_true(run_within(&real, e, o, 0, 0, &err) >= 0);
+      engine_count(got, e);
+      assert_memory_equal(want, got, sizeof want);
+      dyd_engine_free(e);
+    }
+  }
+}
+
+/* What was known before a refusal is known after it. */
+static void test_results_are_kept(void **state) {
+  (void)state;
+  const int weight[6] = {0, 1, 3, 7, 2, 5};
+  dyd_engine *e = engine_new();
+  dyd_engine_options o;
+  dyd_error err;
+  double real;
+  monotone m;
+  engine_add_polygon(e, 6, weight, 3000);
+  dyd_engine_options_init(&o);
+  o.max_stages = 1;
+  assert_true(run_within(&real, e, o, UINT64_MAX, 0, &err) >= 0);
+  const dyd_delaunay *result = dyd_engine_delaunay(e);
+  uint64_t calls = engine_counters(e).calls;
+  monotone_init(&m, e);
+  monotone_look(&m);
+  assert_int_equal(DYD_E_NOMEM, run_within(&real, e, o, engine_counters(e).bytes_most / 2, 0, &err));
+  assert_ptr_equal(result, dyd_engine_delaunay(e));
+  assert_int_equal(calls, engine_counters(e).calls);
+  monotone_look(&m);
+  o.max_stages = 0;
+  o.max_bits = 20000;
+  o.max_bytes = (uint64_t)1 << 30;
+  engine_run(e, &o, DYD_OUTCOME_DECIDED);
+  monotone_look(&m);
+  monotone_clear(&m);
+  dyd_engine_free(e);
+}
+
+int main(void) {
+  random_numbers = test_random_start("bytes");
+  dyd_rect_init(&square);
+  assert_int_equal(DYD_OK, dyd_rect_set_d(&square, 0, 1, 0, 1));
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_estimates), cmocka_unit_test(test_refusals),
+                                     cmocka_unit_test(test_results_are_kept)};
+  int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  dyd_rect_clear(&square);
+  return failed;
+}
