@@ -7,16 +7,10 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* Where the system has huge pages, arrays from DYD_LARGE bytes on are in them: most of the time that memory takes when
- * it is first touched goes away, and most misses of the cache of page addresses. */
-#define DYD_LARGE ((size_t)1 << 22)
-void *dyd_alloc_large(size_t bytes);
-
 /* count * size bytes, not cleared; never NULL for count = 0 unless memory is exhausted. Release with free(). */
 static inline void *dyd_alloc(size_t count, size_t size) {
   if (size && count > SIZE_MAX / size) return NULL;
-  size_t bytes = count * size;
-  return bytes >= DYD_LARGE ? dyd_alloc_large(bytes) : malloc(bytes ? bytes : 1);
+  return malloc(count && size ? count * size : 1);
 }
 
 /* Makes room for at least `need` items in *array (capacity *cap), growing by half. false: memory exhausted,
