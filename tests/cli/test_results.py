@@ -240,6 +240,10 @@ def test_picture_of_readme():
     expect(picture, 3)
     with open(os.path.join(DATA, 'picture.svg'), encoding='utf-8') as f:
         assert f.read() == picture.out, 'tests/data/picture.svg is out of date'
+    discs = run('delaunay', '--discs', '--columns', 'east,north', '--radius-column', 'accuracy', os.path.join(DATA, 'gps.csv'),
+                '--format', 'svg')
+    with open(os.path.join(DATA, 'gps.svg'), encoding='utf-8') as f:
+        assert f.read() == discs.out, 'tests/data/gps.svg is out of date'
 
 
 def test_no_points_in_all_formats():
