@@ -129,22 +129,32 @@ static int compare_xy(const void *a, const void *b) {
   return (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-/* Ed(a,b) as a path: the hull of eight corners, by monotone chains. */
+/* The corners of a rectangle, or of the octagon around the disc in it, on the page. */
+static int site_corners(double z[8][2], const dyd_view *v, const double box[4]) {
+  const double x[2] = {dyd_view_x(v, box[0]), dyd_view_x(v, box[1])};
+  const double y[2] = {dyd_view_y(v, box[2]), dyd_view_y(v, box[3])};
+  const double cut = v->discs ? 1 - sqrt(0.5) : 0; /* of a side, at each end */
+  int n = 0;
+  for (int k = 0; k < 4; k++) {
+    int right = k & 1, top = k >> 1;
+    z[n][0] = x[right] + (x[!right] - x[right]) * cut, z[n++][1] = y[top];
+    if (cut > 0) z[n][0] = x[right], z[n++][1] = y[top] + (y[!top] - y[top]) * cut;
+  }
+  return n;
+}
+
+/* Ed(a,b) as a path: the hull of all corners, by monotone chains. */
 static bool pair_path(dyd_canvas *c, const delaunay_drawing *d, const double a[4], const double b[4],
                       const dyd_density *by) {
-  double z[8][2], chain[DYD_CLIP_MOST][2];
-  int n = 0;
-  for (int k = 0; k < 8; k++) {
-    const double *r = k < 4 ? a : b;
-    z[k][0] = dyd_view_x(&d->view, r[k & 1]);
-    z[k][1] = dyd_view_y(&d->view, r[2 + (k >> 1 & 1)]);
-  }
-  if (is_covered(by, z, 8)) return false;
-  qsort(z, 8, sizeof z[0], compare_xy);
+  double z[16][2], chain[DYD_CLIP_MOST][2];
+  int corners = site_corners(z, &d->view, a), n = 0;
+  corners += site_corners(z + corners, &d->view, b);
+  if (is_covered(by, z, corners)) return false;
+  qsort(z, (size_t)corners, sizeof z[0], compare_xy);
   for (int pass = 0; pass < 2; pass++) {
     int floor = n;
-    for (int k = 0; k < 8; k++) {
-      const double *p = z[pass ? 7 - k : k];
+    for (int k = 0; k < corners; k++) {
+      const double *p = z[pass ? corners - 1 - k : k];
       while (n >= floor + 2 && page_turn(chain[n - 2], chain[n - 1], p) <= 0) n--;
       chain[n][0] = p[0], chain[n][1] = p[1];
       n++;
@@ -215,10 +225,11 @@ static void delaunay_legend(dyd_canvas *c, void *context) {
   dyd_legend_begin(&l, c, &d->view);
   legend_edges(&l, d);
   if (d->triangle) dyd_legend_patch(&l, TRIANGLE, "sure triangle");
-  if (d->marks.drawn[DYD_MARK_RECTANGLE]) dyd_legend_patch(&l, 0xf2c766, "rectangle of a point");
-  if (d->marks.drawn[DYD_MARK_DOT])
-    dyd_legend_dot(&l, 0x222222, 0x222222,
-                   d->view.dots ? "point, or the middle of its rectangle" : "point, or a rectangle so small");
+  const char *shape = d->view.discs ? "disc" : "rectangle";
+  snprintf(text, sizeof text, "%s of a point", shape);
+  if (d->marks.drawn[DYD_MARK_RECTANGLE]) dyd_legend_patch(&l, 0xf2c766, text);
+  snprintf(text, sizeof text, d->view.dots ? "point, or the middle of its %s" : "point, or a %s so small", shape);
+  if (d->marks.drawn[DYD_MARK_DOT]) dyd_legend_dot(&l, 0x222222, 0x222222, text);
   if (d->region[2]) dyd_legend_patch(&l, style[2].region, graph ? "where a sure edge is" : "where a legal edge is");
   if (d->region[1])
     dyd_legend_patch(&l, style[1].region,
@@ -339,6 +350,7 @@ dyd_status dyd_delaunay_picture(const dyd_output *o) {
   const dyd_result *r = o->what;
   delaunay_drawing d = {.r = r, .marks = dyd_site_marks_of(r->pd, r->engine, DYD_PICTURE_BAND)};
   dyd_status st = d.r->window ? see_window(&d, o->err) : see_all(&d, o->err);
+  d.view.discs = r->discs;
   const char *title = d.r->graph_name ? d.r->graph_name : "partial Delaunay triangulation";
   if (st == DYD_OK && !d.r->graph_name) st = dyd_delaunay_triangles(&d.triangles, d.r->pd);
   if (st == DYD_OK) st = find_density(&d);

@@ -5,6 +5,8 @@
 #include "picture/picture.h"
 #include <math.h>
 
+#define LARGEST_DISC 1e6 /* across, on the page: larger ones are drawn as their squares */
+
 /* "point 7 (Alpha): x 1.5, y in [2,2.25]" for who points at it. */
 static void name_site(dyd_canvas *c, const double box[4], const dyd_engine *e, size_t site) {
   char id[40], title[200], called[DYD_LABEL_SIZE + 8] = "", spare[DYD_LABEL_SIZE], text[2][2 * DYD_DECIMAL_SIZE + 8];
@@ -45,9 +47,13 @@ dyd_site_mark dyd_picture_site(dyd_canvas *c, const dyd_view *v, const double bo
     return DYD_MARK_DOT;
   }
   /* What is far outside does not fit the numbers of a page. */
-  x0 = fmax(x0, f[0] - 60), x1 = fmin(x1, f[1] + 60), y0 = fmax(y0, f[2] - 60), y1 = fmin(y1, f[3] + 60);
-  double least = fmax(v->line, 1);
-  dyd_canvas_box(c, x0, y0, fmax(x1 - x0, least), fmax(y1 - y0, least));
+  if (v->discs && x1 - x0 < LARGEST_DISC) {
+    dyd_canvas_circle(c, x0 / 2 + x1 / 2, y0 / 2 + y1 / 2, (x1 - x0) / 2);
+  } else {
+    x0 = fmax(x0, f[0] - 60), x1 = fmin(x1, f[1] + 60), y0 = fmax(y0, f[2] - 60), y1 = fmin(y1, f[3] + 60);
+    double least = fmax(v->line, 1);
+    dyd_canvas_box(c, x0, y0, fmax(x1 - x0, least), fmax(y1 - y0, least));
+  }
   dyd_picture_shape(c, rgb, 0.55, (rgb >> 1 & 0x7f7f7f) + (rgb >> 4 & 0x0f0f0f), fmax(v->line * 0.7, 0.5));
   return DYD_MARK_RECTANGLE;
 }
