@@ -20,7 +20,7 @@
 #define MOST_CONE_CUTS 12 /* of a cone */
 #define FEW 64            /* sites of a box whose pairs are listed: at once; when a cut does not help much */
 #define MANY 4096
-#define EFFORT_BITS 14
+#define EFFORT_BITS 16
 #define STUCK 3 /* cuts, one after the other, that left more than seven eighths of the sites */
 #define OUTER_CUTS 5
 #define MOST_LEFT ((size_t)1 << 22)
