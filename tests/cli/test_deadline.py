@@ -7,7 +7,6 @@ Usage: test_deadline.py COMMAND DATA
 import csv
 import json
 import os
-import re
 import signal
 import subprocess
 import tempfile
@@ -141,12 +140,12 @@ def test_first_closure_that_is_cut():
 
 def test_bounds_that_are_cut():
     """A table whose last bounds took too long is written without these."""
-    for seconds in (2, 4, 8, 16):  # what a slow machine needs for the first of them
+    for seconds in (2, 4, 8, 16):  # as much as a slow machine needs for the first of them
         result = timed(seconds, 'converge', '-', stdin=TRACKS)
-        if result.out.startswith('stage,') and not re.search(r'^1,.*,,,,', result.out, re.MULTILINE):
+        row = next(csv.DictReader(line for line in result.out.splitlines() if line[0] != '#'), None)
+        if row and row['area']:
             break
     expect(result, 4, '^stage,', r'^dyadel: budget: the time is used up: bounds of stage 1 are left out; raise --timeout')
-    row, = csv.DictReader(line for line in result.out.splitlines() if line[0] != '#')
     assert row['legal'] and row['area'] and not row['v_area'] and not row['v_hausdorff'], row
     expect(run('converge', '--no-voronoi', '-', stdin=TRACKS), 3, '^stage,')
 
