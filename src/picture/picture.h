@@ -98,8 +98,9 @@ void dyd_picture_dot(dyd_canvas *c, double x, double y, double radius, unsigned 
 /* A box on the page. */
 void dyd_picture_box(dyd_canvas *c, const dyd_view *v, const double box[4]);
 
-/* A site as it can be seen: a rectangle, or disc, filled with rgb where it is large enough, else a dot; nothing outside of the
- * view. It has the name "point-I", and its coordinates, with its identifier, for a title. Returns what was drawn. */
+/* A site as it can be seen: a rectangle, or disc, filled with rgb where it is large enough, else a dot; nothing outside
+ * of the view. It has the name "point-I", and its coordinates, with its identifier, for a title. Returns what was
+ * drawn. */
 typedef enum dyd_site_mark { DYD_MARK_NONE, DYD_MARK_DOT, DYD_MARK_RECTANGLE } dyd_site_mark;
 dyd_site_mark dyd_picture_site(dyd_canvas *c, const dyd_view *v, const double box[4], const dyd_engine *e, size_t site,
                                unsigned rgb);
