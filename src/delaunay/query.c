@@ -43,7 +43,7 @@ size_t dyd_delaunay_memory(const dyd_delaunay *pd) {
 }
 
 uint32_t dyd_delaunay_alias(const dyd_delaunay *pd, uint32_t i) {
-  return pd->sk.reps.site[pd->sk.vertex[i]];
+  return pd->sk.mesh.alias ? pd->sk.reps.site[pd->sk.vertex[i]] : i;
 }
 
 dyd_pair_status dyd_delaunay_status(const dyd_delaunay *pd, uint32_t i, uint32_t j) {

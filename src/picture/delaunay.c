@@ -30,6 +30,8 @@ typedef struct delaunay_drawing {
   double wide[4];
   size_t shown[4], sites; /* lines of each status, rectangles that meet the frame */
   double (*at)[2];        /* the middle of each rectangle on the page; owned */
+  bool any_wide;          /* some rectangle is more than a dot */
+  bool there[3];          /* some pair has this style */
   dyd_density dense[3];   /* of lines of each style: all squares of OPEN, where it is crowded; else full ones */
   bool crowded;           /* those of OPEN are drawn in place of its lines */
   bool triangle, region[4], squares; /* was drawn; full squares */
@@ -46,12 +48,18 @@ static const char *style_name(const delaunay_drawing *d, int k) {
   return style[k].status == DYD_LEGAL ? "sure" : "possible";
 }
 
+/* Is the rectangle more than a dot? */
+static bool is_wide_box(const delaunay_drawing *d, const double b[4]) {
+  return fmax(b[1] - b[0], b[3] - b[2]) * d->view.scale >= 2 * d->view.dot;
+}
+
 static bool find_middles(delaunay_drawing *d) {
   d->at = dyd_alloc(d->r->count, sizeof *d->at);
   for (size_t i = 0; d->at && i < d->r->count; i++) {
     double b[4];
     dyd_sites_get_d(b, d->r->sites, i);
     dyd_view_middle(d->at[i], &d->view, b);
+    d->any_wide = d->any_wide || is_wide_box(d, b);
   }
   return d->at;
 }
@@ -114,11 +122,6 @@ static void draw_triangles(dyd_canvas *c, delaunay_drawing *d) {
   if (!names) dyd_picture_fill(c, TRIANGLE);
 }
 
-/* Is the rectangle more than a dot? */
-static bool is_wide_box(const delaunay_drawing *d, const double b[4]) {
-  return fmax(b[1] - b[0], b[3] - b[2]) * d->view.scale >= 2 * d->view.dot;
-}
-
 static double page_turn(const double p[2], const double q[2], const double r[2]) {
   return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
@@ -165,6 +168,7 @@ static bool pair_path(dyd_canvas *c, const delaunay_drawing *d, const double a[4
 }
 
 static void draw_regions(dyd_canvas *c, delaunay_drawing *d, int k) {
+  if (!d->any_wide || !d->there[k]) return;
   for (size_t p = 0; p < d->r->pairs.count; p++) {
     const dyd_pair *pair = &d->r->pairs.item[p];
     double a[4], b[4];
@@ -180,6 +184,7 @@ static void draw_regions(dyd_canvas *c, delaunay_drawing *d, int k) {
 static void draw_edges(dyd_canvas *c, const delaunay_drawing *d, int k) {
   double width = d->view.line * style[k].width;
   bool names = has_names(d), any = false;
+  if (!d->there[k]) return;
   for (size_t p = 0; p < d->r->pairs.count; p++) {
     const dyd_pair *pair = &d->r->pairs.item[p];
     double z[2][2];
@@ -335,6 +340,7 @@ static dyd_status find_density(delaunay_drawing *d) {
     double z[2][2];
     int k = style_of(d->r->pairs.item[p].status);
     fetch_line(d, p);
+    d->there[k] = true;
     if (!d->dense[k].count) continue;
     dyd_density_begin(&d->dense[k]);
     if (line_of(z, d, &d->r->pairs.item[p], d->view.frame)) dyd_density_add(&d->dense[k], z);

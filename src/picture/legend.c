@@ -127,36 +127,39 @@ static double legend_select(double *x, size_t n, size_t k) {
   return x[k];
 }
 
-/* The box between the tenths of the coordinates, rounded outward and a little larger, of the sites seen. `each` has
- * room for all. */
-static bool crowd_box(char text[4][48], double box[4], double *each, const dyd_view *v, const dyd_site_marks *m) {
+/* The middles of the sites seen, x first, then y, of room for all: how many. */
+static size_t crowd_middles(double *x, double *y, const dyd_view *v, const dyd_site_marks *m) {
   size_t count = 0;
-  for (int axis = 0; axis < 2; axis++) {
-    count = 0;
-    for (size_t i = 0; i < m->count; i++) {
-      double b[4];
-      if (m->box(b, m->context, i) && dyd_view_sees(v, b)) each[count++] = b[2 * axis] / 2 + b[2 * axis + 1] / 2;
-    }
-    if (count < 20) return false;
-    double low = legend_select(each, count, count / 10), high = legend_select(each, count, count - 1 - count / 10);
-    double more = (high - low) / 8;
-    int digit, exponent;
-    if (!dyd_round_step(&digit, &exponent, more)) return false;
-    double step = digit * pow(10, exponent), first = floor((low - more) / step), last = ceil((high + more) / step);
-    if (!(fabs(first) < 1e14 && fabs(last) < 1e14)) return false;
-    dyd_tick_text(text[2 * axis], 48, (int64_t)first * digit, exponent);
-    dyd_tick_text(text[2 * axis + 1], 48, (int64_t)last * digit, exponent);
-    box[2 * axis] = first * step, box[2 * axis + 1] = last * step;
+  for (size_t i = 0; i < m->count; i++) {
+    double b[4];
+    if (!m->box(b, m->context, i) || !dyd_view_sees(v, b)) continue;
+    x[count] = b[0] / 2 + b[1] / 2;
+    y[count++] = b[2] / 2 + b[3] / 2;
   }
+  return count;
+}
+
+/* The interval between the tenths of n coordinates, rounded outward and a little larger. `each` is sorted in part. */
+static bool crowd_side(char text[2][48], double side[2], double *each, size_t n) {
+  double low = legend_select(each, n, n / 10), high = legend_select(each, n, n - 1 - n / 10);
+  double more = (high - low) / 8;
+  int digit, exponent;
+  if (!dyd_round_step(&digit, &exponent, more)) return false;
+  double step = digit * pow(10, exponent), first = floor((low - more) / step), last = ceil((high + more) / step);
+  if (!(fabs(first) < 1e14 && fabs(last) < 1e14)) return false;
+  dyd_tick_text(text[0], 48, (int64_t)first * digit, exponent);
+  dyd_tick_text(text[1], 48, (int64_t)last * digit, exponent);
+  side[0] = first * step, side[1] = last * step;
   return true;
 }
 
 void dyd_legend_crowd(dyd_legend *l, const dyd_site_marks *m) {
   const dyd_view *v = l->view;
   size_t inside = 0, seen = 0;
-  double box[4], *each = malloc((m->count + 1) * sizeof *each);
+  double box[4], *each = malloc((m->count + 1) * 2 * sizeof *each);
   char end[4][48], text[400];
-  bool found = each && crowd_box(end, box, each, v, m);
+  size_t n = each ? crowd_middles(each, each + m->count, v, m) : 0;
+  bool found = n >= 20 && crowd_side(end, box, each, n) && crowd_side(end + 2, box + 2, each + m->count, n);
   free(each);
   double area = (v->frame[1] - v->frame[0]) * (v->frame[3] - v->frame[2]) / v->scale / v->scale;
   if (!found || !((box[1] - box[0]) * (box[3] - box[2]) < 0.08 * area)) return;

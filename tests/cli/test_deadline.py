@@ -21,12 +21,19 @@ TRACKS = gps.points(1000)
 SPARE = 1.5  # a second, and what starting and collecting a process takes here
 
 
+def in_time(seconds, what):
+    """The result of what(), which takes so long at most; tried again where others at work on this machine stood in its way."""
+    for _ in range(3):
+        begun = time.monotonic()
+        result = what()
+        took = time.monotonic() - begun
+        if took < seconds:
+            return result
+    raise AssertionError(f'{took} seconds, not {seconds}: {result}')
+
+
 def timed(seconds, *args, **options):
-    begun = time.monotonic()
-    result = run(*args, '--timeout', str(seconds), **options)
-    took = time.monotonic() - begun
-    assert took < seconds * 1.1 + SPARE, f'{took} seconds, not {seconds}: {result.err}'
-    return result
+    return in_time(seconds * 1.1 + SPARE, lambda: run(*args, '--timeout', str(seconds), **options))
 
 
 def number(text):
@@ -84,13 +91,14 @@ def test_oracle_that_is_slow_to_end():
 def test_input_that_does_not_end():
     for command, text, phase in (('delaunay', b'0 0\n1 1\n', b'reading'), ('tolerance', b'0 0\n', b'reading'),
                                  ('verify', b'dyadel certificate 1\n', b'checking the certificate')):
-        begun = time.monotonic()
-        with subprocess.Popen([COMMAND, command, '-', '--timeout', '1'], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE) as process:
-            process.stdin.write(text)
-            process.stdin.flush()
-            assert process.wait(timeout=60) == 4 and time.monotonic() - begun < 1 + SPARE
-            assert phase + b' does not end' in process.stderr.read() and process.stdout.read() == b''
+        def fed(command=command, text=text):
+            with subprocess.Popen([COMMAND, command, '-', '--timeout', '1'], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE) as process:
+                process.stdin.write(text)
+                process.stdin.flush()
+                return process.wait(timeout=60), process.stdout.read(), process.stderr.read()
+        code, out, err = in_time(1 + SPARE, fed)
+        assert code == 4 and phase + b' does not end' in err and out == b'', (code, out, err)
 
 
 def test_long_numbers():
@@ -181,21 +189,25 @@ def catches_interrupts(process):
     return caught >> (signal.SIGINT - 1) & 1
 
 
+def interrupted_after(seconds, command, *args, text):
+    """Code and output of a run that is sent SIGINT so long after it listens."""
+    with subprocess.Popen([COMMAND, command, '-', *args], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True) as process:
+        process.stdin.write(text)
+        process.stdin.close()
+        process.stdin = None
+        while process.poll() is None and not catches_interrupts(process):
+            time.sleep(0.01)
+        time.sleep(seconds)
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+        return process.returncode, out, err
+
+
 def test_tolerances_and_plans_interrupted():
     for command, (extra, text) in LONG.items():
-        with subprocess.Popen([COMMAND, command, '-', *extra], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True) as process:
-            process.stdin.write(text)
-            process.stdin.close()
-            process.stdin = None
-            while process.poll() is None and not catches_interrupts(process):
-                time.sleep(0.01)
-            time.sleep(1)
-            begun = time.monotonic()
-            process.send_signal(signal.SIGINT)
-            out, err = process.communicate(timeout=60)
-        assert time.monotonic() - begun < SPARE, f'{command}: {time.monotonic() - begun} seconds'
-        assert process.returncode == 5 and not out, (command, process.returncode, err)
+        code, out, err = in_time(1 + SPARE, lambda: interrupted_after(1, command, *extra, text=text))
+        assert code == 5 and not out, (command, code, err)
         assert 'cancelled before the ' in err and 'there is no result to write' in err, err
 
 

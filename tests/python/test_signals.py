@@ -52,9 +52,12 @@ def test_four_million_points():
             made.append(dyadel.Delaunay())
             made[-1]._append(points)
             return made[-1].refine
-        late = interrupted(prepare, delay)[1]
-        print(f'{delay} s: back after {late:.3f} s')
-        assert late < 1
+        for _ in range(3):  # others at work on this machine slow its memory down, too
+            late = interrupted(prepare, delay)[1]
+            print(f'{delay} s: back after {late:.3f} s')
+            if late < 0.5:
+                break
+        assert late < 0.5
         assert made[-1].outcome == 'cancelled' and len(made[-1]) == LARGE
     assert interrupted(lambda: lambda: dyadel.delaunay(points), 0.5)[0].result.outcome == 'cancelled'
 
