@@ -54,15 +54,19 @@ static inline double dyd_sites_lo(const dyd_sites *s, int axis, size_t i) {
 static inline double dyd_sites_hi(const dyd_sites *s, int axis, size_t i) {
   return s->upper[axis] ? s->upper[axis][i] : s->lower[axis][i];
 }
-/* Asks memory for the doubles of site i, for loops that visit the sites in another order. */
+/* Asks memory for where the exact rectangle of site i is, for loops that visit the sites in another order. */
+static inline void dyd_sites_fetch_entry(const dyd_sites *s, size_t i) {
+  if (s->exact) dyd_prefetch(&s->exact[i]);
+}
+/* For that and its doubles. */
 static inline void dyd_sites_fetch(const dyd_sites *s, size_t i) {
   for (int a = 0; a < 2; a++) {
     dyd_prefetch(&s->lower[a][i]);
     if (s->upper[a]) dyd_prefetch(&s->upper[a][i]);
   }
-  if (s->exact) dyd_prefetch(&s->exact[i]);
+  dyd_sites_fetch_entry(s, i);
 }
-/* A while after that: for the exact rectangle, if there is one. */
+/* A while after either: for the exact rectangle, if there is one. */
 static inline void dyd_sites_fetch_exact(const dyd_sites *s, size_t i) {
   if (s->exact && s->exact[i]) dyd_prefetch(s->exact[i]);
 }

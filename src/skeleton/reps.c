@@ -77,7 +77,7 @@ static dyd_status keep_code(dyd_reps *r, uint32_t v, uint32_t code) {
     r->code = calloc(r->n ? r->n : 1, sizeof *r->code);
     if (!r->code) return DYD_E_NOMEM;
   }
-  if (r->code) r->code[v] = code;
+  if (r->code && r->code[v] != code) r->code[v] = code;
   return DYD_OK;
 }
 
@@ -120,19 +120,13 @@ static dyd_status choose_point(dyd_reps *r, uint32_t v, uint32_t k, const double
   return DYD_OK;
 }
 
-dyd_status dyd_reps_choose(dyd_reps *r, uint32_t v, uint32_t k) {
+/* b: the outward box of the site. */
+static dyd_status choose_in(dyd_reps *r, uint32_t v, uint32_t k, const double b[4]) {
   const dyd_sites *s = r->sites;
-  uint32_t i = r->site[v];
-  if (!dyd_sites_in_doubles(s, i) && dyd_sites_is_point(s, i)) {
-    double b[4];
-    dyd_sites_get_d(b, s, i);
-    if (b[0] < b[1] || b[2] < b[3]) return choose_point(r, v, k, b);
-  }
+  bool inside = dyd_sites_in_doubles(s, r->site[v]);
+  if (!inside && (b[0] < b[1] || b[2] < b[3]) && dyd_sites_is_point(s, r->site[v])) return choose_point(r, v, k, b);
   if (k == 0) {
-    double b[4];
-    dyd_sites_get_d(b, s, i);
     dyd_xy p = {reps_middle(b[0], b[1]), reps_middle(b[2], b[3])};
-    bool inside = dyd_sites_in_doubles(s, i);
     if (!inside && isfinite(b[0]) && isfinite(b[1]) && isfinite(b[2]) && isfinite(b[3])) {
       dyd_status st = holds(&inside, r, v, p);
       if (st != DYD_OK) return st;
@@ -145,29 +139,30 @@ dyd_status dyd_reps_choose(dyd_reps *r, uint32_t v, uint32_t k) {
   return choose_exact(r, v, k);
 }
 
+dyd_status dyd_reps_choose(dyd_reps *r, uint32_t v, uint32_t k) {
+  double b[4];
+  dyd_sites_get_d(b, r->sites, r->site[v]);
+  return choose_in(r, v, k, b);
+}
+
 /* ---- all of them ---- */
 
 enum { FETCH_AHEAD = 24 };
 
-/* box: NULL, or of each vertex. */
+/* box: NULL, or of each vertex. Of each range: delta, status. */
 typedef struct choice {
   dyd_reps *r;
   const dyd_bbox *box;
+  double delta[DYD_RANGES_MOST];
+  dyd_status status[DYD_RANGES_MOST];
 } choice;
 
-static dyd_status choose_range(dyd_reps *r, size_t begin, size_t end) {
+static void choose_points(dyd_reps *r, size_t begin, size_t end) {
   const dyd_sites *s = r->sites;
-  bool plain = dyd_sites_are_double_points(s);
-  dyd_status st = DYD_OK;
-  for (size_t v = begin; v < end && st == DYD_OK; v++) {
+  for (size_t v = begin; v < end; v++) {
     if (v + FETCH_AHEAD < end) dyd_sites_fetch(s, r->site[v + FETCH_AHEAD]);
-    if (v + FETCH_AHEAD / 2 < end) dyd_sites_fetch_exact(s, r->site[v + FETCH_AHEAD / 2]);
-    if (plain)
-      r->xy[v] = (dyd_xy){s->lower[0][r->site[v]], s->lower[1][r->site[v]]};
-    else
-      st = dyd_reps_choose(r, (uint32_t)v, 0);
+    r->xy[v] = (dyd_xy){s->lower[0][r->site[v]], s->lower[1][r->site[v]]};
   }
-  return st;
 }
 
 static void choose_middles(dyd_xy *xy, const dyd_bbox *box, size_t begin, size_t end) {
@@ -175,14 +170,48 @@ static void choose_middles(dyd_xy *xy, const dyd_bbox *box, size_t begin, size_t
     xy[v] = (dyd_xy){reps_middle(box[v].e[0], box[v].e[1]), reps_middle(box[v].e[2], box[v].e[3])};
 }
 
-/* Where all rectangles have corners in doubles, their middles lie inside: no codes, nothing can fail. */
-static void choose_doubles(void *context, size_t number) {
-  const choice *c = context;
+static dyd_status choose_any(dyd_reps *r, const dyd_bbox *box, size_t begin, size_t end) {
+  dyd_status st = DYD_OK;
+  for (size_t v = begin; v < end && st == DYD_OK; v++) {
+    if (v + FETCH_AHEAD < end) dyd_sites_fetch_entry(r->sites, r->site[v + FETCH_AHEAD]);
+    if (v + FETCH_AHEAD / 2 < end) dyd_sites_fetch_exact(r->sites, r->site[v + FETCH_AHEAD / 2]);
+    st = box ? choose_in(r, (uint32_t)v, 0, box[v].e) : dyd_reps_choose(r, (uint32_t)v, 0);
+  }
+  return st;
+}
+
+static void choose_part(void *context, size_t number) {
+  choice *c = context;
   size_t begin = dyd_range_begin(c->r->n, number), end = dyd_range_begin(c->r->n, number + 1);
-  if (c->box)
-    choose_middles(c->r->xy, c->box, begin, end);
+  dyd_reps part = *c->r; /* the same arrays */
+  if (dyd_sites_are_double_points(part.sites))
+    choose_points(&part, begin, end);
+  else if (c->box && !part.sites->exact)
+    choose_middles(part.xy, c->box, begin, end);
   else
-    (void)choose_range(c->r, begin, end);
+    c->status[number] = choose_any(&part, c->box, begin, end);
+  c->delta[number] = part.delta;
+}
+
+/* Without codes, every representative is its double point. */
+static void drop_codes(dyd_reps *r) {
+  for (uint32_t v = 0; v < r->n; v++)
+    if (r->code[v]) return;
+  free(r->code);
+  r->code = NULL;
+}
+
+static dyd_status choose_all(dyd_reps *r, const dyd_bbox *box, unsigned threads) {
+  choice c = {.r = r, .box = box};
+  dyd_status st = DYD_OK;
+  if (r->sites->exact && !(r->code = calloc((size_t)r->n + 1, sizeof *r->code))) return DYD_E_NOMEM;
+  dyd_parallel(threads, dyd_ranges(r->n), choose_part, &c);
+  for (size_t k = 0; k < dyd_ranges(r->n); k++) {
+    r->delta = fmax(r->delta, c.delta[k]);
+    if (st == DYD_OK) st = c.status[k];
+  }
+  if (r->code) drop_codes(r);
+  return st;
 }
 
 dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, const dyd_bbox *box, uint32_t n,
@@ -191,9 +220,7 @@ dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, co
   r->xy = dyd_alloc((size_t)n + 1, sizeof *r->xy);
   if (!r->xy) return DYD_E_NOMEM;
   r->xy[n] = (dyd_xy){NAN, NAN};
-  if (sites->exact) return choose_range(r, 0, n);
-  dyd_parallel(threads, dyd_ranges(n), choose_doubles, &(choice){r, box});
-  return DYD_OK;
+  return choose_all(r, box, threads);
 }
 
 void dyd_reps_clear(dyd_reps *r) {

@@ -133,9 +133,10 @@ static dyd_status build_maps(dyd_skeleton *sk, unsigned threads) {
 
 static dyd_status build_boxes(dyd_skeleton *sk) {
   if (sk->all_points || sk->mesh.collinear) {
+    dyd_status st = dyd_blocks_build(sk); /* while the boxes are at hand in this order */
     free(sk->rects.box);
     sk->rects.box = NULL;
-    return dyd_blocks_build(sk);
+    return st;
   }
   uint32_t *item = dyd_alloc(sk->n, sizeof *item), count = 0;
   if (!item) return DYD_E_NOMEM;
