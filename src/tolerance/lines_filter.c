@@ -166,7 +166,7 @@ typedef struct climb_d {
   enum { ANYWHERE, CROSSING, SUMMIT, END } kind;
 } climb_d;
 
-/* The last of each side: apexes come last. */
+/* From the last line of each side on: apexes come last, and often bind. */
 static void begin_d(climb_d *c) {
   uint32_t left = DYD_NONE, right = DYD_NONE;
   for (uint32_t k = 0; k < c->l->count; k++) {
@@ -177,8 +177,11 @@ static void begin_d(climb_d *c) {
   c->has_rising = c->has_falling = false;
   c->at = (place_d){0, 0, 0};
   if (left != DYD_NONE && right != DYD_NONE) {
-    dyd_line_d a = dyd_filter_line(c->l, c->points, left), b = dyd_filter_line(c->l, c->points, right);
-    cross_d(&c->at, &a, &b);
+    c->rising = dyd_filter_line(c->l, c->points, right);
+    c->falling = dyd_filter_line(c->l, c->points, left);
+    if (!cross_d(&c->at, &c->rising, &c->falling) || !(height_d(&c->rising, &c->at) > 0)) return;
+    bool between = trend_d(c->l, &c->rising, &c->at) > 0 && trend_d(c->l, &c->falling, &c->at) < 0;
+    if (between) c->kind = CROSSING, c->has_rising = c->has_falling = true;
   } else if (left != right) {
     c->at.end = left != DYD_NONE ? -1 : 1;
   }
