@@ -32,6 +32,11 @@ static inline size_t test_cases(size_t base) {
   return test_environment("DYADEL_TEST_SANITIZED", 0) ? (cases + 2) / 3 : cases;
 }
 
+/* Of what is tried place by place: every one, with sanitizers every fifth. */
+static inline size_t test_stride(void) {
+  return test_environment("DYADEL_TEST_SANITIZED", 0) ? 5 : 1;
+}
+
 /* splitmix64 */
 static inline uint64_t test_u64(test_random *r) {
   uint64_t z = r->state += UINT64_C(0x9E3779B97F4A7C15);

@@ -76,7 +76,7 @@ static void test_samples(void **state) {
   (void)state;
   test_random r = test_random_start("probabilities");
   double sum[2] = {0, 0};
-  for (size_t k = 0; k < test_cases_all(30); k++) {
+  for (size_t k = 0; k < test_cases(30); k++) {
     chance_case c = {.n = 2 + (uint32_t)test_below(&r, FEW - 1), .sigma = pow(10, -3 * test_unit(&r)) * 0.3};
     double far = test_chance(&r, 4) ? 1e6 : 0;
     for (uint32_t i = 0; i < c.n; i++) {
@@ -85,7 +85,7 @@ static void test_samples(void **state) {
     }
     compare_chances(sum, &c, &r);
   }
-  assert_true(sum[1] > 50 && sum[0] > 0.9 * sum[1]);
+  assert_true(sum[1] > 15 && sum[0] > 0.9 * sum[1]);
 }
 
 /* Many around a circle, each of which may come in. */

@@ -61,7 +61,7 @@ static void test_squares_against_oracle(void **state) {
   (void)state;
   test_random r = test_random_start("squares against the oracle");
   size_t deaths = 0, births = 0, sharp = 0, all = 0;
-  for (size_t c = 0; c < test_cases_all(60); c++) {
+  for (size_t c = 0; c < test_cases(60); c++) {
     brute_points p;
     cases_answer a;
     mpq_t up_to;
@@ -85,7 +85,7 @@ static void test_squares_against_oracle(void **state) {
     mpq_clear(up_to);
   }
   print_message("%zu deaths, %zu births, %zu of %zu sharp\n", deaths, births, sharp, all);
-  assert_true(deaths > 80 && births > 15 && sharp * 100 > all * 99);
+  assert_true(deaths > 25 && births > 5 && sharp * 100 > all * 99);
 }
 
 /* ---- all choices of corners ---- */
@@ -131,7 +131,7 @@ static void test_corners(void **state) {
   (void)state;
   test_random r = test_random_start("corners");
   size_t changed = 0, all = 0;
-  for (size_t c = 0; c < test_cases_all(80); c++) {
+  for (size_t c = 0; c < test_cases(80); c++) {
     brute_points p;
     cases_answer a;
     const dyd_tolerance_row *row;
@@ -152,7 +152,7 @@ static void test_corners(void **state) {
     mpq_clear(up_to);
   }
   print_message("%zu of %zu changed by corners\n", changed, all);
-  assert_true(all > 60 && changed * 5 > all * 2); /* others are lost by points on sides */
+  assert_true(all > 20 && changed * 5 > all * 2); /* others are lost by points on sides */
 }
 
 /* ---- discs, both rungs ---- */
@@ -167,7 +167,7 @@ static void test_squares_against_discs(void **state) {
   (void)state;
   test_random r = test_random_start("squares against discs");
   size_t less = 0;
-  for (size_t c = 0; c < test_cases_all(80); c++) {
+  for (size_t c = 0; c < test_cases(80); c++) {
     brute_points p;
     cases_answer a, b, e;
     const dyd_tolerance_row *row;
@@ -222,7 +222,7 @@ static void test_whole_and_radii(void **state) {
   (void)state;
   test_random r = test_random_start("whole and radii of squares");
   size_t wholes = 0, moved = 0;
-  for (size_t c = 0; c < test_cases_all(120); c++) {
+  for (size_t c = 0; c < test_cases(120); c++) {
     brute_points p, q;
     cases_answer a, at;
     double lo, hi;

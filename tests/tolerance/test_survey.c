@@ -105,7 +105,7 @@ static void test_against_brute_force(void **state) {
   (void)state;
   test_random r = test_random_start("plans");
   size_t cases = 0, larger = 0, sum = 0, least_sum = 0, idle = 0;
-  for (size_t k = 0; k < test_cases_all(200); k++) {
+  for (size_t k = 0; k < test_cases(200); k++) {
     box_case c;
     dyd_sites *sites;
     dyd_survey *s;
@@ -132,7 +132,7 @@ static void test_against_brute_force(void **state) {
     dyd_sites_free(sites);
   }
   print_message("%zu cases, %zu larger, %zu points against %zu, %zu idle\n", cases, larger, sum, least_sum, idle);
-  assert_true(cases > 100 && larger * 10 <= cases && idle == 0);
+  assert_true(cases > 30 && larger * 10 <= cases && idle == 0);
 }
 
 /* ---- one measurement at a time ---- */
@@ -185,7 +185,7 @@ static void test_one_by_one(void **state) {
   (void)state;
   test_random r = test_random_start("one by one");
   size_t cases = 0, asked = 0, least = 0;
-  for (size_t k = 0; k < test_cases_all(100); k++) {
+  for (size_t k = 0; k < test_cases(100); k++) {
     box_case c, truth;
     make_boxes_case(&c, &r);
     truth = c;
@@ -200,7 +200,7 @@ static void test_one_by_one(void **state) {
     cases++;
   }
   print_message("%zu cases, %zu questions, %zu in hindsight\n", cases, asked, least);
-  assert_true(cases > 50 && asked >= least && 4 * asked <= 5 * least);
+  assert_true(cases > 15 && asked >= least && 4 * asked <= 5 * least);
 }
 
 /* ---- what is asked for ---- */

@@ -17,7 +17,7 @@ static void test_equal_weights(void **state) {
   (void)state;
   test_random r = test_random_start("equal weights");
   size_t sharp = 0, all = 0;
-  for (size_t c = 0; c < test_cases_all(300); c++) {
+  for (size_t c = 0; c < test_cases(300); c++) {
     brute_points p;
     cases_answer a, b;
     const dyd_tolerance_row *x, *y;
@@ -48,7 +48,7 @@ static void test_equal_weights(void **state) {
     cases_forget(&b);
     mpq_clears(up_to, scaled, NULL);
   }
-  assert_true(all > 1000 && sharp * 100 > all * 99);
+  assert_true(all > 300 && sharp * 100 > all * 99);
 }
 
 /* Statuses of discs with these radii [DISC-1]. */
@@ -80,7 +80,7 @@ static void test_weights_against_discs(void **state) {
   (void)state;
   test_random r = test_random_start("weights");
   size_t deaths = 0, births = 0, sharp = 0;
-  for (size_t c = 0; c < test_cases_all(60); c++) {
+  for (size_t c = 0; c < test_cases(60); c++) {
     brute_points p;
     cases_answer a;
     const dyd_tolerance_row *row;
@@ -114,7 +114,7 @@ static void test_weights_against_discs(void **state) {
     cases_forget(&a);
     mpq_clear(up_to);
   }
-  assert_true(deaths > 300 && births > 100 && sharp * 100 > (deaths + births) * 99);
+  assert_true(deaths > 100 && births > 30 && sharp * 100 > (deaths + births) * 99);
 }
 
 /* The circle (x, y, radius) that touches the discs of the four: those of i and j from outside, of k and l from within;
@@ -148,7 +148,7 @@ static void test_weighted_attacks(void **state) {
   (void)state;
   test_random r = test_random_start("weighted attacks");
   size_t attacks = 0;
-  for (size_t c = 0; c < test_cases_all(300); c++) {
+  for (size_t c = 0; c < test_cases(300); c++) {
     brute_points p, q;
     cases_answer a;
     const dyd_tolerance_row *row;
@@ -174,7 +174,7 @@ static void test_weighted_attacks(void **state) {
     }
     cases_forget(&a);
   }
-  assert_true(attacks > 300);
+  assert_true(attacks > 100);
 }
 
 /* Nothing changes while all move within the tolerance of the whole, each by its weight. */
@@ -182,7 +182,7 @@ static void test_weighted_whole(void **state) {
   (void)state;
   test_random r = test_random_start("weighted whole");
   size_t moved = 0;
-  for (size_t c = 0; c < test_cases_all(200); c++) {
+  for (size_t c = 0; c < test_cases(200); c++) {
     brute_points p, q;
     cases_answer a;
     double lo, hi, weight[BRUTE_MOST], reach[BRUTE_MOST];
@@ -198,7 +198,7 @@ static void test_weighted_whole(void **state) {
     }
     cases_forget(&a);
   }
-  assert_true(moved > 500);
+  assert_true(moved > 150);
 }
 
 static void test_weights_of_use(void **state) {
