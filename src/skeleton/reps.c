@@ -180,7 +180,7 @@ static dyd_status choose_any(dyd_reps *r, const dyd_bbox *box, size_t begin, siz
   return st;
 }
 
-static void choose_part(void *context, size_t number) {
+static void choose_part_of_reps(void *context, size_t number) {
   choice *c = context;
   size_t begin = dyd_range_begin(c->r->n, number), end = dyd_range_begin(c->r->n, number + 1);
   dyd_reps part = *c->r; /* the same arrays */
@@ -201,11 +201,11 @@ static void drop_codes(dyd_reps *r) {
   r->code = NULL;
 }
 
-static dyd_status choose_all(dyd_reps *r, const dyd_bbox *box, unsigned threads) {
+static dyd_status choose_reps(dyd_reps *r, const dyd_bbox *box, unsigned threads) {
   choice c = {.r = r, .box = box};
   dyd_status st = DYD_OK;
   if (r->sites->exact && !(r->code = calloc((size_t)r->n + 1, sizeof *r->code))) return DYD_E_NOMEM;
-  dyd_parallel(threads, dyd_ranges(r->n), choose_part, &c);
+  dyd_parallel(threads, dyd_ranges(r->n), choose_part_of_reps, &c);
   for (size_t k = 0; k < dyd_ranges(r->n); k++) {
     r->delta = fmax(r->delta, c.delta[k]);
     if (st == DYD_OK) st = c.status[k];
@@ -220,7 +220,7 @@ dyd_status dyd_reps_init(dyd_reps *r, const dyd_sites *sites, uint32_t *site, co
   r->xy = dyd_alloc((size_t)n + 1, sizeof *r->xy);
   if (!r->xy) return DYD_E_NOMEM;
   r->xy[n] = (dyd_xy){NAN, NAN};
-  return choose_all(r, box, threads);
+  return choose_reps(r, box, threads);
 }
 
 void dyd_reps_clear(dyd_reps *r) {
