@@ -104,10 +104,11 @@ bool dydpy_enter(dydpy_engine *self);
 void dydpy_leave(dydpy_engine *self);
 /* The result, with the engine entered; NULL with an exception set (and not entered) when there is none. */
 const dyd_delaunay *dydpy_enter_result(dydpy_engine *self);
-/* Fills in options from a dict of numbers and a window, which are borrowed until dydpy_options_clear. */
+/* Fills in options from a dict of numbers, a window and costs, which are borrowed until dydpy_options_clear. */
 typedef struct dydpy_options {
   dyd_engine_options o;
   dyd_rect window;
+  Py_buffer cost;
   dydpy_progress_user progress;
 } dydpy_options;
 int dydpy_options_init(dydpy_options *out, dydpy_engine *self, PyObject *dict);

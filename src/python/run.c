@@ -45,9 +45,18 @@ static void option_set(void *at, option_kind kind, PyObject *value) {
   if (kind == OPTION_BOOL) *(bool *)at = PyObject_IsTrue(value) > 0;
 }
 
+/* Doubles, one for each point. */
+static void option_costs(dydpy_options *out, dydpy_engine *self, PyObject *cost) {
+  if (PyObject_GetBuffer(cost, &out->cost, PyBUF_SIMPLE) < 0) return;
+  size_t given = (size_t)out->cost.len / sizeof(double), count = self ? dydpy_points(self) : 0;
+  out->o.cost = out->cost.buf;
+  if (given != count) PyErr_Format(PyExc_ValueError, "%zu costs of %zu points; give one for each", given, count);
+}
+
 int dydpy_options_init(dydpy_options *out, dydpy_engine *self, PyObject *dict) {
   bool given = false;
   dyd_rect_init(&out->window);
+  out->cost = (Py_buffer){0};
   dyd_engine_options_init(&out->o);
   out->o.start_bits = 0;
   for (size_t k = 0; k < sizeof option_table / sizeof *option_table; k++) {
@@ -55,6 +64,8 @@ int dydpy_options_init(dydpy_options *out, dydpy_engine *self, PyObject *dict) {
     if (value) option_set((char *)&out->o + option_table[k].at, option_table[k].kind, value);
   }
   PyObject *window = PyDict_GetItemString(dict, "window"), *progress = PyDict_GetItemString(dict, "progress");
+  PyObject *cost = PyDict_GetItemString(dict, "cost");
+  if (!PyErr_Occurred() && cost) option_costs(out, self, cost);
   if (!PyErr_Occurred() && window) dydpy_window(&out->window, &given, window);
   if (given) out->o.window = &out->window;
   out->progress = (dydpy_progress_user){progress, self ? self->engine : NULL, self ? self->trace : NULL};
@@ -70,6 +81,7 @@ int dydpy_options_init(dydpy_options *out, dydpy_engine *self, PyObject *dict) {
 }
 
 void dydpy_options_clear(dydpy_options *o) {
+  PyBuffer_Release(&o->cost);
   dyd_rect_clear(&o->window);
 }
 

@@ -55,6 +55,23 @@ def test_lies():
     assert error.code == 'stream' and error.point == 0
 
 
+def test_costs():
+    """What is asked costs less where costs are known; as many costs as points, all above 0."""
+    random = harness.seeded('costs')
+    spent = {None: 0.0, 50: 0.0}
+    for _ in range(20):
+        at = [(Fraction(i % 2) + Fraction(random.randrange(99), 100 * 2**random.randrange(8, 60)), i // 2) for i in range(4)]
+        for dear in spent:
+            def narrow(i, bits, dear=dear, at=at):
+                spent[dear] += 1 if i else 50
+                return [end + sign * Fraction(1, 2**bits) for end in at[i] for sign in (-1, 1)]
+            dyadel.delaunay(dyadel.Source(4, narrow), start_bits=2, cost=dear and [dear, 1, 1, 1])
+    assert 0 < spent[50] < 0.95 * spent[None], spent
+    for cost, text in (([1, 2], '2 costs of 4 points'), ([1, 0, 1, 1], 'not above 0'), ([1, 1, float('nan'), 1], 'not above 0')):
+        error = harness.raised(ValueError, dyadel.delaunay, dyadel.Source(4, half_line), cost=cost)
+        assert text in str(error), error
+
+
 class Mine(Exception):
     pass
 

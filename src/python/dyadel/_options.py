@@ -6,6 +6,9 @@ import os
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 Path = str | os.PathLike[str]
 GOALS = ('decided', 'area', 'hausdorff', 'voronoi area', 'voronoi hausdorff')
 SCHEDULES = ('adaptive', 'uniform')
@@ -15,7 +18,7 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
                    max_pairs: int | None = None, threads: int = 1, schedule: str = 'adaptive',
                    start_bits: int | None = None, step_bits: int | None = None, max_stages: int | None = None,
                    max_calls: int | None = None, window: Sequence[Any] | None = None, ties: bool = True,
-                   tie_bits: int | None = None, max_bytes: int | None = None,
+                   tie_bits: int | None = None, max_bytes: int | None = None, cost: ArrayLike | None = None,
                    progress: Callable[[dict[str, Any]], object] | None = None) -> dict[str, Any]:
     """What Engine.run takes.
 
@@ -32,6 +35,7 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
     ties        prove that expressions and roots are the same, on one line or circle, with at most tie_bits bits for each
     max_bytes   memory that the engine may hold, by its own estimate: MemoryError before it asks for more; points and
                 results stay
+    cost        what asking each point once more costs, above 0: the schedule prefers cheap ones. One for each point
     progress    called after each stage with a dict: stage, bits, points, legal, indeterminate, ties, undecided_faces,
                 seconds; what it raises ends the run
     """
@@ -45,5 +49,6 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
              'seconds': None if timeout is None else max(float(timeout), 1e-9), 'max_bits': max_bits,
              'max_pairs': max_pairs, 'threads': threads, 'start_bits': start_bits, 'step_bits': step_bits,
              'max_stages': max_stages, 'max_calls': max_calls, 'window': window, 'no_ties': not ties,
-             'tie_bits': tie_bits, 'max_bytes': max_bytes, 'progress': progress}
+             'tie_bits': tie_bits, 'max_bytes': max_bytes, 'progress': progress,
+             'cost': None if cost is None else np.ascontiguousarray(cost, dtype=np.float64)}
     return {name: value for name, value in given.items() if value is not None}
