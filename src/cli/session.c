@@ -205,10 +205,19 @@ int cli_session_write(cli_session *s, cli_print_fn print) {
   return status ? status : written;
 }
 
+static bool session_is_late(const dyd_engine *e) {
+  dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
+  dyd_engine_get_counters(&c, e, NULL);
+  return dyd_engine_outcome(e) == DYD_OUTCOME_BUDGET && c.spent == DYD_BUDGET_SECONDS;
+}
+
+bool cli_run_was_free(const dyd_engine *e) {
+  return dyd_engine_delaunay(e) && dyd_engine_outcome(e) != DYD_OUTCOME_CANCELLED && !session_is_late(e);
+}
+
 /* The engine may see the end of time a little before the flag is raised. */
 int cli_session_stopped(const cli_session *s, const char *what) {
-  const dyd_engine *e = s->engine;
-  bool late = cli_deadline_passed() || (!dyd_engine_delaunay(e) && dyd_engine_outcome(e) == DYD_OUTCOME_BUDGET);
+  bool late = cli_deadline_passed() || session_is_late(s->engine);
   cli_complain("%s before %s known: there is no result to write%s", late ? "budget: the time was used up" : "cancelled",
                what, late ? "; raise --timeout" : "");
   return late ? CLI_BUDGET : CLI_CANCELLED;

@@ -12,14 +12,6 @@ static int voronoi_window(dyd_rect *out, const cli_session *s) {
   return CLI_FAILED;
 }
 
-/* Does the run go on after the stage that only shows where the points are? */
-static bool voronoi_goes_on(const dyd_engine *e) {
-  dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
-  dyd_engine_get_counters(&c, e, NULL);
-  return dyd_engine_outcome(e) != DYD_OUTCOME_CANCELLED && dyd_engine_delaunay(e) &&
-         !(dyd_engine_outcome(e) == DYD_OUTCOME_BUDGET && c.spent == DYD_BUDGET_SECONDS);
-}
-
 /* *known becomes true with the window. The cells get a share of the time, too. */
 static int voronoi_run(bool *known, cli_session *s, dyd_rect *window, const dyd_engine_options *options) {
   dyd_engine_options first = *options;
@@ -31,7 +23,7 @@ static int voronoi_run(bool *known, cli_session *s, dyd_rect *window, const dyd_
   read = voronoi_window(window, s);
   *known = read == 0;
   if (!status) status = read;
-  if (status || (!s->options->window && !voronoi_goes_on(s->engine))) return status;
+  if (status || (!s->options->window && !cli_run_was_free(s->engine))) return status;
   return cli_session_run(s, options);
 }
 
