@@ -96,32 +96,6 @@ dyd_status tiles_graph_make(tiles_graph *g, const dyd_delaunay *pd, dyd_error *e
   return st;
 }
 
-/* ---- faces ---- */
-
-static bool is_written_tie(const tiles_view *v, size_t own, const dyd_pair *p) {
-  tiles_box a = tiles_view_box(v, p->i), b = tiles_view_box(v, p->j);
-  uint32_t lower = tiles_view_number(v, p->i) < tiles_view_number(v, p->j) ? p->i : p->j;
-  return lower < own && tiles_box_is_point(&a) && tiles_box_is_point(&b);
-}
-
-dyd_status tile_each_face(tile *t, const tiles_view *v, size_t own, tile_face_fn *visit, dyd_error *err) {
-  const dyd_delaunay *pd = dyd_engine_delaunay(t->engine);
-  dyd_index_list site = {0};
-  dyd_pair_list pairs = {0};
-  dyd_status st = DYD_OK;
-  for (size_t f = 0; st == DYD_OK && f < dyd_delaunay_undecided_faces(pd); f++) {
-    bool outer, matters = false;
-    st = dyd_delaunay_face_pairs(&pairs, pd, f);
-    for (size_t k = 0; st == DYD_OK && !matters && k < pairs.count; k++)
-      matters = is_written_tie(v, own, &pairs.item[k]);
-    if (st == DYD_OK && matters) st = dyd_delaunay_face(&site, &outer, pd, f);
-    if (st == DYD_OK && matters) st = visit(t, v, &site, &pairs, err);
-  }
-  dyd_index_list_clear(&site);
-  dyd_pair_list_clear(&pairs);
-  return st == DYD_E_NOMEM ? tiles_no_memory(err) : st;
-}
-
 /* ---- rows ---- */
 
 static int compare_tile_rows(const void *a, const void *b) {

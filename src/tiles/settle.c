@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of a site: its discs are not met; nor are the wide ones; its pairs are not settled. */
-enum { CLOSED = 1, WIDE = 2, LATE = 4 };
+/* Of a site: its wide discs are not met; its pairs are not settled. */
+enum { WIDE = 1, LATE = 2 };
 
 /* ---- discs ---- */
 
@@ -60,7 +60,7 @@ static dyd_status first_aliases(tile *t, dyd_error *err) {
   return st;
 }
 
-/* Own sites; where there are rectangles, ghosts, too: they may be ends of legal pairs, and corners of faces. */
+/* Own sites; where there are rectangles, ghosts, too: they may be ends of legal pairs. */
 static dyd_status first_marks(tile *t, const tiles_view *v, dyd_error *err) {
   const bool wide = tile_has_wide(t);
   const size_t count = wide ? tiles_view_count(v) : t->own.count;
@@ -71,7 +71,7 @@ static dyd_status first_marks(tile *t, const tiles_view *v, dyd_error *err) {
     bool closed = true, far = false;
     if (i >= t->own.count || !t->alias[i]) st = tile_is_closed(&closed, t, v, i, false, err);
     if (st == DYD_OK && wide && closed) st = tile_is_closed(&far, t, v, i, true, err);
-    t->mark[i] = (unsigned char)((closed ? CLOSED : LATE) | (far ? WIDE : 0));
+    t->mark[i] = (unsigned char)((closed ? 0 : LATE) | (far ? WIDE : 0));
   }
   return st;
 }
@@ -88,18 +88,6 @@ static void first_legal(tile *t, const tiles_view *v) {
       if (!(t->mark[i] & t->mark[j] & WIDE)) t->mark[i] |= LATE;
     }
   }
-}
-
-static dyd_status first_face(tile *t, const tiles_view *v, const dyd_index_list *site, const dyd_pair_list *pairs,
-                             dyd_error *err) {
-  bool closed = true;
-  (void)v, (void)err;
-  for (size_t k = 0; closed && k < site->count; k++) closed = t->mark[site->item[k]] & CLOSED;
-  for (size_t k = 0; !closed && k < pairs->count; k++) {
-    t->mark[pairs->item[k].i] |= LATE;
-    t->mark[pairs->item[k].j] |= LATE;
-  }
-  return DYD_OK;
 }
 
 /* Rows of what is settled go out; the rest becomes the fringe. */
@@ -122,7 +110,7 @@ static dyd_status first_rows(tile *t, const tiles_view *v, dyd_error *err) {
 
 /* Late sites and their own partners, ascending; then ghosts that are no aliases. */
 static dyd_status first_fringe(tile *t, const tiles_view *v, dyd_error *err) {
-  enum { PARTNER = 8 };
+  enum { PARTNER = 4 };
   const dyd_delaunay *pd = dyd_engine_delaunay(t->engine);
   bool fits = true;
   size_t late = 0;
@@ -152,7 +140,6 @@ static dyd_status first_settle(tile *t, const tiles_view *v, dyd_error *err) {
   if (st == DYD_OK) st = first_aliases(t, err);
   if (st == DYD_OK) st = first_marks(t, v, err);
   if (st == DYD_OK && tile_has_wide(t)) first_legal(t, v);
-  if (st == DYD_OK && tile_is_mixed(t)) st = tile_each_face(t, v, t->own.count, first_face, err);
   if (st == DYD_OK) st = first_rows(t, v, err);
   return st == DYD_OK ? first_fringe(t, v, err) : st;
 }
@@ -221,29 +208,13 @@ static dyd_status fringe_legal(tile *t, const tiles_view *v, uint32_t i, dyd_err
   return st;
 }
 
-static dyd_status fringe_face(tile *t, const tiles_view *v, const dyd_index_list *site, const dyd_pair_list *pairs,
-                              dyd_error *err) {
-  bool late = false;
-  dyd_status st = DYD_OK;
-  for (size_t k = 0; !late && k < pairs->count; k++)
-    late = t->mark[pairs->item[k].i] & LATE || t->mark[pairs->item[k].j] & LATE;
-  for (size_t k = 0; late && st == DYD_OK && k < site->count; k++)
-    if (!(t->mark[site->item[k]] & LATE)) st = fringe_discs(t, v, site->item[k], err);
-  return st;
-}
-
 static dyd_status fringe_check(tile *t, const tiles_view *v, dyd_error *err) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; st == DYD_OK && k < t->late_count; k++) {
     st = fringe_discs(t, v, (uint32_t)t->late[k], err);
     if (st == DYD_OK && tile_has_wide(t)) st = fringe_legal(t, v, (uint32_t)t->late[k], err);
   }
-  if (st != DYD_OK || !tile_is_mixed(t)) return st;
-  free(t->mark);
-  t->mark = calloc(t->fringe.count + 1, 1);
-  if (!t->mark) return tiles_no_memory(err);
-  for (size_t k = 0; k < t->late_count; k++) t->mark[t->late[k]] = LATE;
-  return tile_each_face(t, v, t->fringe.count, fringe_face, err);
+  return st;
 }
 
 static dyd_status fringe_finish(tile *t, const tiles_view *v, dyd_error *err) {

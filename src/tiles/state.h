@@ -76,7 +76,7 @@ typedef struct tile {
   tiles_graph graph; /* of the last triangulation */
   tiles_reach reach;
   tiles_search search;
-  unsigned char *mark; /* of the sites of the last triangulation */
+  unsigned char *mark; /* of the sites of the first triangulation */
   size_t *late;        /* sites of the fringe whose pairs are not settled yet */
   size_t late_count, asked;
   FILE *spool; /* rows that are settled, but for those of `late` */
@@ -108,15 +108,9 @@ dyd_status tile_fringe(tile *t, dyd_error *err);
 dyd_status tile_is_clear(bool *clear, tile *t, const tiles_disc *d, bool self, dyd_error *err);
 /* Does `all` hold of every disc that the pairs of site i of the view depend on? */
 dyd_status tile_is_closed(bool *closed, tile *t, const tiles_view *v, uint32_t i, bool wide, dyd_error *err);
-/* Where exact points and rectangles are mixed, a tie depends on the whole face: visits the faces of the triangulation
- * that have a pair of exact points that this rank writes. */
-typedef dyd_status tile_face_fn(tile *t, const tiles_view *v, const dyd_index_list *site, const dyd_pair_list *pairs,
-                                dyd_error *err);
-dyd_status tile_each_face(tile *t, const tiles_view *v, size_t own, tile_face_fn *visit, dyd_error *err);
 /* Adds the rows of site i of the view: pairs with higher numbers. */
 dyd_status tile_rows_of(tiles_rows *rows, const tile *t, const tiles_view *v, uint32_t i, dyd_error *err);
 bool tile_has_wide(const tile *t);
-bool tile_is_mixed(const tile *t);
 
 /* ---- parts ---- */
 
