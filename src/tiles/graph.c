@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The triangulation of a view: who is a partner of whom, which faces matter, which rows follow. */
+/* The triangulation of a view: who is a partner of whom, which rows follow. */
 #include "state.h"
 
 #include <stdlib.h>
@@ -45,16 +45,20 @@ static dyd_status run_engine(tile *t, const tiles_view *v, dyd_error *err) {
   return st;
 }
 
-dyd_status tile_triangulate(tile *t, const tiles_view *v, dyd_error *err) {
-  struct timespec from, to;
+void tile_end_engine(tile *t) {
   dyd_engine_free(t->engine);
   t->engine = NULL;
+}
+
+dyd_status tile_triangulate(tile *t, const tiles_view *v, dyd_error *err) {
+  struct timespec from, to;
+  tile_end_engine(t);
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &from);
   dyd_status st = run_engine(t, v, err);
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &to);
   t->counters.seconds += difftime(to.tv_sec, from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec);
   if (st == DYD_E_NOMEM) return tiles_no_memory(err);
-  return st == DYD_OK ? tiles_graph_make(&t->graph, dyd_engine_delaunay(t->engine), err) : st;
+  return st;
 }
 
 /* ---- partners ---- */
@@ -80,12 +84,14 @@ static void graph_fill(tiles_graph *g, const dyd_pair_list *l) {
   }
 }
 
-dyd_status tiles_graph_make(tiles_graph *g, const dyd_delaunay *pd, dyd_error *err) {
+dyd_status tile_list_partners(tile *t, bool last, dyd_error *err) {
+  tiles_graph *g = &t->graph;
   dyd_pair_list l = {0};
   tiles_graph_clear(g);
-  dyd_status st = dyd_delaunay_pairs(&l, pd);
+  g->count = dyd_engine_count(t->engine);
+  dyd_status st = dyd_delaunay_pairs(&l, dyd_engine_delaunay(t->engine));
   if (st != DYD_OK) return tiles_no_memory(err);
-  g->count = dyd_sites_count(dyd_delaunay_sites(pd));
+  if (last) tile_end_engine(t);
   g->start = calloc(g->count + 2, sizeof *g->start);
   g->partner = malloc((2 * l.count + 1) * sizeof *g->partner);
   if (g->start && g->partner)

@@ -45,17 +45,17 @@ static dyd_status note_alias(tile *t, size_t i, uint32_t of, dyd_error *err) {
   tiles_rows *a = &t->aliases;
   if (!tiles_reserve((void **)&a->item, &a->room, a->count + 1, sizeof *a->item)) return tiles_no_memory(err);
   a->item[a->count++] = (tiles_row){t->own.number[i], t->own.number[of], 0};
-  t->alias[i] = true;
   return DYD_OK;
 }
 
 /* Equal points have one owner, since places have one. */
-static dyd_status first_aliases(tile *t, dyd_error *err) {
+static dyd_status first_aliases(tile *t, const tiles_view *v, dyd_error *err) {
   const dyd_delaunay *pd = dyd_engine_delaunay(t->engine);
   dyd_status st = DYD_OK;
-  for (size_t i = 0; st == DYD_OK && i < t->own.count; i++) {
+  for (size_t i = 0; st == DYD_OK && i < tiles_view_count(v); i++) {
     uint32_t of = dyd_delaunay_alias(pd, (uint32_t)i);
-    if (of != i) st = note_alias(t, i, of, err);
+    t->alias[i] = of != i;
+    if (of != i && i < t->own.count) st = note_alias(t, i, of, err);
   }
   return st;
 }
@@ -69,7 +69,7 @@ static dyd_status first_marks(tile *t, const tiles_view *v, dyd_error *err) {
   if (!t->mark) return tiles_no_memory(err);
   for (uint32_t i = 0; st == DYD_OK && i < count; i++) {
     bool closed = true, far = false;
-    if (i >= t->own.count || !t->alias[i]) st = tile_is_closed(&closed, t, v, i, false, err);
+    if (!t->alias[i]) st = tile_is_closed(&closed, t, v, i, false, err);
     if (st == DYD_OK && wide && closed) st = tile_is_closed(&far, t, v, i, true, err);
     t->mark[i] = (unsigned char)((closed ? 0 : LATE) | (far ? WIDE : 0));
   }
@@ -111,7 +111,6 @@ static dyd_status first_rows(tile *t, const tiles_view *v, dyd_error *err) {
 /* Late sites and their own partners, ascending; then ghosts that are no aliases. */
 static dyd_status first_fringe(tile *t, const tiles_view *v, dyd_error *err) {
   enum { PARTNER = 4 };
-  const dyd_delaunay *pd = dyd_engine_delaunay(t->engine);
   bool fits = true;
   size_t late = 0;
   for (uint32_t i = 0; i < t->own.count; i++) {
@@ -128,7 +127,7 @@ static dyd_status first_fringe(tile *t, const tiles_view *v, dyd_error *err) {
   }
   for (uint32_t k = 0; fits && k < t->ghosts.count; k++) {
     uint32_t i = (uint32_t)t->own.count + k;
-    if (dyd_delaunay_alias(pd, i) == i)
+    if (!t->alias[i])
       fits = tiles_sites_add(&t->fringe, t->ghosts.number[k], t->ghosts.end + k * (size_t)t->ghosts.dim);
   }
   (void)v;
@@ -137,7 +136,8 @@ static dyd_status first_fringe(tile *t, const tiles_view *v, dyd_error *err) {
 
 static dyd_status first_settle(tile *t, const tiles_view *v, dyd_error *err) {
   dyd_status st = tile_triangulate(t, v, err);
-  if (st == DYD_OK) st = first_aliases(t, err);
+  if (st == DYD_OK) st = first_aliases(t, v, err);
+  if (st == DYD_OK) st = tile_list_partners(t, true, err);
   if (st == DYD_OK) st = first_marks(t, v, err);
   if (st == DYD_OK && tile_has_wide(t)) first_legal(t, v);
   if (st == DYD_OK) st = first_rows(t, v, err);
@@ -152,9 +152,9 @@ dyd_status tile_first(tile *t, dyd_error *err) {
   }
   t->counters.ghosts = t->ghosts.count;
   if (t->done) return DYD_OK;
-  t->alias = calloc(t->own.count + 1, sizeof *t->alias);
-  if (!t->alias) return tiles_no_memory(err);
   tiles_view v = {&t->own, &t->ghosts};
+  t->alias = calloc(tiles_view_count(&v) + 1, sizeof *t->alias);
+  if (!t->alias) return tiles_no_memory(err);
   dyd_status st = t->own.count ? first_settle(t, &v, err) : DYD_OK;
   tiles_sites_clear(&t->ghosts);
   return st == DYD_OK ? tile_fringe(t, err) : st;
@@ -224,8 +224,7 @@ static dyd_status fringe_finish(tile *t, const tiles_view *v, dyd_error *err) {
     st = tile_rows_of(&t->rows, t, v, (uint32_t)t->late[k], err);
   if (st == DYD_OK) st = tile_write_part(t, err);
   tiles_graph_clear(&t->graph);
-  dyd_engine_free(t->engine);
-  t->engine = NULL;
+  tile_end_engine(t);
   t->done = true;
   return st;
 }
@@ -237,6 +236,7 @@ dyd_status tile_fringe(tile *t, dyd_error *err) {
   t->asked = 0;
   t->counters.fringe = t->fringe.count;
   if (t->late_count) st = tile_triangulate(t, &v, err);
+  if (st == DYD_OK && t->late_count) st = tile_list_partners(t, false, err);
   if (st == DYD_OK && t->late_count) st = fringe_check(t, &v, err);
   if (st == DYD_OK && t->asked == 0) st = fringe_finish(t, &v, err);
   return st;

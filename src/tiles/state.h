@@ -47,7 +47,6 @@ typedef struct tiles_graph {
   size_t *start; /* count + 1 */
   uint32_t *partner;
 } tiles_graph;
-dyd_status tiles_graph_make(tiles_graph *g, const dyd_delaunay *pd, dyd_error *err);
 void tiles_graph_clear(tiles_graph *g);
 static inline tiles_partners tiles_graph_of(const tiles_graph *g, size_t i) {
   return (tiles_partners){g->partner + g->start[i], g->start[i + 1] - g->start[i]};
@@ -71,7 +70,7 @@ typedef struct tile {
   tiles_tree tree; /* of own */
   tiles_info *info;
   tiles_set *sent; /* own sites that each rank has; at its own place those of the fringe */
-  bool *alias;     /* own sites that are no vertices */
+  bool *alias;     /* sites of the first triangulation that are no vertices */
   dyd_engine *engine;
   tiles_graph graph; /* of the last triangulation */
   tiles_reach reach;
@@ -103,6 +102,9 @@ dyd_status tile_report(tile *t, dyd_error *err); /* at the end; out: counters, t
 /* For the steps themselves. */
 dyd_status tile_read_text(tile *t, dyd_error *err);
 dyd_status tile_triangulate(tile *t, const tiles_view *v, dyd_error *err);
+/* Fills t->graph. last: nothing more is asked of the engine, which is freed before that much is allocated. */
+dyd_status tile_list_partners(tile *t, bool last, dyd_error *err);
+void tile_end_engine(tile *t);
 dyd_status tile_fringe(tile *t, dyd_error *err);
 /* Nothing that the rank has not seen meets the disc; own sites outside of the fringe count when `self`. */
 dyd_status tile_is_clear(bool *clear, tile *t, const tiles_disc *d, bool self, dyd_error *err);
