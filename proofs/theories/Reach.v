@@ -132,8 +132,9 @@ Definition chain : Prop := inside o (B i) /\ closed E /\ E <> nil /\
   forall a b, In (a, b) E -> 0 < turn (seen_from (q a)) (seen_from (q b)) /\
     ((exists k, (k < M)%nat /\ in_region k (q a) /\ in_region k (q b)) \/ exists u w, q a = Far u /\ q b = Far w).
 
-Definition in_reach (x : point) : Prop := exists v, vertex E v /\
-  match q v with At c => dist c x <= dl c (B i) | Far u => dot u (lowest u (B i)) <= dot u x end.
+(* j = i: the reach of i; the wide one has those of some j, too. *)
+Definition in_reach (j : nat) (x : point) : Prop := exists v, vertex E v /\
+  match q v with At c => dist c x <= dl c (B j) | Far u => dot u (lowest u (B j)) <= dot u x end.
 
 (* The polygon at the time t: directions are points far away. *)
 Definition place (t : R) (v : nat) : point := match q v with At c => c | Far u => ahead_by o u t end.
@@ -223,21 +224,20 @@ Proof.
     intros z W; apply Off; [now left | now right].
 Qed.
 
-(* What is as near to a centre of the possible cell as the farthest point of R_i is in the reach. *)
-Theorem reach_holds c x : pos M B i c -> dist c x <= dl c (B i) -> in_reach x.
+(* What is as near to a centre of the possible cell as some point s: so it is to a point of the chain, or as far into a
+   direction of it. *)
+Theorem chain_holds c s x : pos M B i c -> dist c x <= dist c s ->
+  exists v, vertex E v /\ match q v with At d => dist d x <= dist d s | Far u => dot u s <= dot u x end.
 Proof.
-  intros P X. apply NNPP. intros No. set (s := farthest c (B i)). set (g := fun z => dist2 z x - dist2 z s).
-  assert (Gc : g c <= 0).
-  { unfold g. change (dl c (B i)) with (dist c s) in X. apply dist_le in X. lra. }
+  intros P X. apply NNPP. intros No. set (g := fun z => dist2 z x - dist2 z s).
+  assert (Gc : g c <= 0) by (unfold g; apply dist_le in X; lra).
   destruct (late_vertex E (fun v t => 0 < g (place t v))) as [T L].
   { intros v V. unfold place. destruct (q v) as [d | u] eqn:Q.
-    - exists 0. intros t _. assert (N : dl d (B i) < dist d x).
-      { apply Rnot_le_lt. intros N. apply No. exists v. split; [exact V | now rewrite Q]. }
-      pose proof (le_dl d (B i) s (farthest_inside c (B i))) as Ls.
-      assert (K : dist d s < dist d x) by lra. apply dist_lt in K. unfold g. lra.
-    - assert (N : dot u x < dot u (lowest u (B i))).
-      { apply Rnot_le_lt. intros N. apply No. exists v. split; [exact V | now rewrite Q]. }
-      destruct (lowest_spec u (B i)) as [_ Ls]. specialize (Ls s (farthest_inside c (B i))).
+    - exists 0. intros t _. assert (K : dist d s < dist d x).
+      { apply Rnot_le_lt. intros K. apply No. exists v. split; [exact V | now rewrite Q]. }
+      apply dist_lt in K. unfold g. lra.
+    - assert (K : dot u x < dot u s).
+      { apply Rnot_le_lt. intros K. apply No. exists v. split; [exact V | now rewrite Q]. }
       destruct (late_positive (g o) (2 * (dot u s - dot u x))) as [T L]; [lra |]. exists T. intros t Lt.
       specialize (L t Lt).
       replace (g (ahead_by o u t)) with (g o + t * (2 * (dot u s - dot u x)))
@@ -247,6 +247,14 @@ Proof.
   destruct (hull_affine E (place t) g c) as [v [V G]]; [| apply H; lra | exact Gc |].
   - intros r a b. unfold g. apply nearer_affine.
   - pose proof (L t (proj1 Lt) v V). lra.
+Qed.
+
+Theorem reach_holds j c x : pos M B i c -> dist c x <= dl c (B j) -> in_reach j x.
+Proof.
+  intros P X. destruct (chain_holds c (farthest c (B j)) x P X) as [v [V H]]. exists v. split; [exact V |].
+  destruct (q v) as [d | u].
+  - pose proof (le_dl d (B j) _ (farthest_inside c (B j))). lra.
+  - destruct (lowest_spec u (B j)) as [_ L]. specialize (L _ (farthest_inside c (B j))). lra.
 Qed.
 
 (* Where the possible cell goes on for ever, its direction is between those of the chain. *)
@@ -292,12 +300,12 @@ Qed.
 Variable N : nat.
 Variable seen_own : (i < M)%nat.
 Variable more : (M <= N)%nat.
-Variable not_met : forall k x, (M <= k < N)%nat -> inside x (B k) -> ~ in_reach x.
+Variable not_met : forall k x, (M <= k < N)%nat -> inside x (B k) -> ~ in_reach i x.
 
 Lemma unseen_far c k : pos M B i c -> (M <= k < N)%nat -> dl c (B i) < ds c (B k).
 Proof.
   intros P K. apply Rnot_le_lt. intros L. apply (not_met k (nearest c (B k)) K (nearest_inside c (B k))).
-  now apply reach_holds with c.
+  now apply (reach_holds i c).
 Qed.
 
 Lemma unseen_below u k x : u <> (0, 0) -> (forall l, (l < M)%nat -> dot u (lowest u (B l)) <= dot u (highest u (B i))) ->
@@ -388,5 +396,20 @@ Proof.
   destruct (Nat.lt_ge_cases k M) as [L | L].
   - pose proof (H k L Di Dj). split; lra.
   - pose proof (unseen_far z k P ltac:(lia)) as U. rewrite (proj1 (Li z)) in U. split; lra.
+Qed.
+
+(* A witness c among the sites seen, at which R_j goes as far as R_i: nobody whom the reach of i by j does not meet is in
+   its way. *)
+Theorem wide_reach_legal j c : witness M B i j c -> dl c (B i) <= dl c (B j) ->
+  (forall k x, (M <= k < N)%nat -> inside x (B k) -> ~ in_reach j x) -> witness N B i j c.
+Proof.
+  intros W L Wide k K Di Dj. destruct (Nat.lt_ge_cases k M) as [S | S]; [now apply W |].
+  assert (P : pos M B i c).
+  { intros l Hl. pose proof (ds_le_dl c (B i)). pose proof (ds_le_dl c (B l)).
+    destruct (Nat.eq_dec l i) as [-> | Li]; [lra |]. destruct (Nat.eq_dec l j) as [-> | Lj]; [lra |].
+    pose proof (W l Hl Li Lj). lra. }
+  assert (D : dl c (B j) < ds c (B k)); [| split; lra].
+  apply Rnot_le_lt. intros Q. apply (Wide k (nearest c (B k))); [lia | apply nearest_inside |].
+  now apply (reach_holds j c).
 Qed.
 End Chain.
