@@ -312,7 +312,8 @@ Lemma unseen_below u k x : u <> (0, 0) -> (forall l, (l < M)%nat -> dot u (lowes
   (M <= k < N)%nat -> inside x (B k) -> dot u x < dot u (lowest u (B i)).
 Proof.
   intros U H K X. set (s := lowest u (B i)).
-  assert (D : dot u (fst x - fst s, snd x - snd s) < 0); [| unfold dot in *; simpl in D; lra].
+  assert (D : dot u (fst x - fst s, snd x - snd s) < 0);
+    [| unfold dot in D |- *; clearbody s; simpl in D; lra].
   apply (ray_between (highest u (B i)) u); [exact U | |].
   - intros t T l L. destruct (highest_spec u (B i)) as [I _]. set (e := highest u (B i)) in *.
     pose proof (ds_le (ahead_by e u t) _ _ I). set (y := lowest u (B l)).
@@ -326,7 +327,7 @@ Proof.
   - intros v w V Q. destruct (lowest_spec w (B i)) as [_ Lw]. specialize (Lw s (proj1 (lowest_spec u (B i)))).
     assert (dot w x < dot w (lowest w (B i))).
     { apply Rnot_le_lt. intros L. apply (not_met k x K X). exists v. split; [exact V |]. now rewrite Q. }
-    unfold dot in *. simpl. lra.
+    clearbody s. unfold dot in *. simpl. lra.
 Qed.
 
 (* The possible pairs of i among all sites are those among the sites seen. *)

@@ -24,6 +24,7 @@ int cli_oracle_read(dyd_engine *e, const cli_options *o) {
                    : r->decimal_comma  ? "--decimal-comma"
                    : r->skip_missing   ? "--skip-missing"
                    : r->merge          ? "--merge"
+                   : r->cost_column    ? "--cost-column"
                                        : NULL;
   if (no) {
     cli_complain("%s is for points files; leave it out, and let the oracle %s", no,
