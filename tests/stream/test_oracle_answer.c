@@ -138,7 +138,7 @@ static const struct {
     {" points\t0 ", DYD_OK, 0, {0}, ""},
     {"points 3 cost 1 1/2\t6e1 ", DYD_OK, 3, {1, 0.5, 60}, ""},
     {"points 0 cost", DYD_OK, 0, {0}, ""},
-    {"points 1 cost 1e-300", DYD_OK, 1, {1e-300}, ""},
+    {"points 1 cost 5*2^-20", DYD_OK, 1, {0x5p-20}, ""},
     {"points", DYD_E_STREAM, 0, {0}, "print \"points N\""},
     {"points 3 4", DYD_E_STREAM, 0, {0}, "print \"points N\""},
     {"points 3 costs 1 1 1", DYD_E_STREAM, 0, {0}, "print \"points N\""},
