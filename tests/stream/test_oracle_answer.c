@@ -145,7 +145,7 @@ static const struct {
     {"points 3 cost", DYD_E_STREAM, 0, {0}, "3 points and 0 costs"},
     {"points 3 cost 1 2", DYD_E_STREAM, 0, {0}, "3 points and 2 costs"},
     {"points 3 cost 1 2 3 4", DYD_E_STREAM, 0, {0}, "3 points and 4 costs; print one for each point"},
-    {"points 999999999 cost 1", DYD_E_STREAM, 0, {0}, "999999999 points and 1 costs"},
+    {"points 99999999 cost 1", DYD_E_STREAM, 0, {0}, "99999999 points and 1 costs"},
     {"points 2 cost 1 0", DYD_E_STREAM, 0, {0}, "the cost of point 1, \"0\", is no exact number above 0"},
     {"points 2 cost -1 1", DYD_E_STREAM, 0, {0}, "the cost of point 0, \"-1\","},
     {"points 2 cost 1 inf", DYD_E_STREAM, 0, {0}, "\"inf\""},
