@@ -2,14 +2,17 @@
 /* Points served by a program of the user, in any language, over its standard input and output.
  *
  * The program is started as `sh -c COMMAND`. All is lines of text, at most 2^20 bytes long:
- *   it first prints          points N
+ *   it first prints          points N                         or, with a number above 0 for each point,
+ *                            points N cost C ... C
  *   then for each line       refine I B                       (0 <= I < N)
  *   it answers one line      I XLO XHI YLO YHI                or, when that can never be narrowed,
  *                            I XLO XHI YLO YHI fixed
  * where [XLO,XHI] x [YLO,YHI] encloses point I, lies inside every earlier answer for I, and aims at widths of 2^-B. The
  * ends are plain exact numbers: -3.25, 1e-3, 22/7, 0x1.8p-3, 5*2^-20. Answers come in the order of the requests,
  * without waiting for further ones, and the output is flushed after each. The program ends when its input does. What it
- * answers should depend on I, B and its former answers for I only. Standard error is that of the caller.
+ * answers should depend on I, B and its former answers for I only. Standard error is that of the caller. C says what
+ * asking a point once more costs, such as minutes, with regard to the others: the adaptive schedule asks cheap points
+ * of a face before dear ones. Of several programs, what the first one says counts.
  *
  * A COMMAND that is one program should begin with exec: else a shell stands between, which keeps the pipes open when
  * the program closes them, so that this is seen only as silence.

@@ -61,7 +61,7 @@ DYD_API dyd_status dyd_rect_narrow_q(dyd_rect *r, const mpq_t end[4], dyd_error 
 
 /* A callback with its context, begun with DYD_SIZED. release may be NULL; it is called exactly once, when nothing uses
  * user any more: also when the constructor that was given it fails, unless it has no size. announce may be NULL; only
- * engines call it, for sources added to them.
+ * engines call it, for sources added to them. cost may be NULL: all cost 1.
  */
 typedef struct dyd_source {
   size_t struct_size; /* set by DYD_SIZED */
@@ -69,6 +69,9 @@ typedef struct dyd_source {
   dyd_release_fn release;
   void *user;
   dyd_announce_fn announce;
+  /* What asking each of its points once more costs, above 0 (dyd_engine_cost): the adaptive schedule asks cheap ones
+   * before dear ones. Borrowed, and read by the call that adds the source to an engine only. */
+  const double *cost;
 } dyd_source;
 
 /* ---- reals ---- */

@@ -2,6 +2,8 @@
 /* --oracle COMMAND: the points come from programs of the user. */
 #include "cli.h"
 
+#include <string.h>
+
 static int oracle_add(dyd_engine *e, dyd_oracle *oracle) {
   dyd_source source = {DYD_SIZED(dyd_source)};
   dyd_status st = dyd_oracle_source(&source, oracle, NULL);
@@ -22,9 +24,11 @@ int cli_oracle_read(dyd_engine *e, const cli_options *o) {
                    : r->decimal_comma  ? "--decimal-comma"
                    : r->skip_missing   ? "--skip-missing"
                    : r->merge          ? "--merge"
+                   : r->cost_column    ? "--cost-column"
                                        : NULL;
   if (no) {
-    cli_complain("%s is for points files; leave it out, and let the oracle answer with what you mean", no);
+    cli_complain("%s is for points files; leave it out, and let the oracle %s", no,
+                 strcmp(no, "--cost-column") ? "answer with what you mean" : "begin with \"points N cost C ... C\"");
     return CLI_USAGE;
   }
   dyd_oracle *oracle = NULL;

@@ -194,6 +194,30 @@ static dyd_status points_add_source(dyd_engine *e, size_t n, const dyd_source *s
   return st;
 }
 
+static dyd_status costs_check(dyd_engine *e, size_t n, const double *cost) {
+  size_t first = dyd_sites_count(e->sites);
+  for (size_t k = 0; k < n; k++) {
+    if (cost[k] > 0 && isfinite(cost[k])) continue;
+    e->refused.point = first + k;
+    return dyd_fail(&e->refused, DYD_E_ARG, "point %zu: its cost is %g; costs are finite numbers above 0", first + k,
+                    cost[k]);
+  }
+  return DYD_OK;
+}
+
+static dyd_status points_add_source_at_cost(dyd_engine *e, size_t n, const dyd_source *source) {
+  dyd_labels labels;
+  if (!source->cost) return points_add_source(e, n, source);
+  dyd_status st = costs_check(e, n, source->cost);
+  if (st != DYD_OK) return st;
+  st = dyd_labels_cost(&labels, e, n, source->cost);
+  if (st != DYD_OK) return st;
+  st = points_add_source(e, n, source);
+  if (st == DYD_OK) dyd_labels_give(e, &labels);
+  dyd_labels_clear(&labels);
+  return st;
+}
+
 static dyd_status add_source(dyd_engine *e, bool later, size_t n, const dyd_source *source) {
   dyd_source s;
   size_t before = dyd_sites_count(e->sites);
@@ -201,7 +225,7 @@ static dyd_status add_source(dyd_engine *e, bool later, size_t n, const dyd_sour
   dyd_status st = dyd_abi_take(&s, sizeof s, source, "dyd_source", &e->refused);
   if (st != DYD_OK) return st;
   st = dyd_engine_may_add(e, later);
-  if (st == DYD_OK) st = added(e, before, points_add_source(e, n, &s));
+  if (st == DYD_OK) st = added(e, before, points_add_source_at_cost(e, n, &s));
   if (st != DYD_OK && s.release) s.release(s.user);
   return st;
 }

@@ -71,6 +71,19 @@ dyd_status dyd_labels_join(dyd_labels *out, const dyd_engine *e, const dyd_label
   return good ? DYD_OK : DYD_E_NOMEM;
 }
 
+dyd_status dyd_labels_cost(dyd_labels *out, const dyd_engine *e, size_t n, const double *cost) {
+  dyd_labels more = {0};
+  dyd_row_numbers own = dyd_no_row_numbers;
+  bool good = true;
+  for (size_t k = 0; good && k < n; k++) {
+    own.of[DYD_ROW_COST] = cost[k];
+    good = dyd_labels_add(&more, NULL, 0, &own);
+  }
+  dyd_status st = good ? dyd_labels_join(out, e, &more) : DYD_E_NOMEM;
+  dyd_labels_clear(&more);
+  return st;
+}
+
 void dyd_labels_give(dyd_engine *e, dyd_labels *l) {
   dyd_labels_clear(&e->labels);
   e->labels = *l;

@@ -35,8 +35,10 @@ static dyd_status images_label(const dyd_sphere *s) {
   bool good = true;
   for (size_t k = 0; k < s->with_image && good; k++) {
     const char *id = dyd_engine_id(s->places, s->of[k]);
+    dyd_row_numbers own = dyd_no_row_numbers;
+    own.of[DYD_ROW_COST] = dyd_engine_cost(s->places, s->of[k]);
     labels.rows = dyd_engine_row(s->places, s->of[k]);
-    good = dyd_labels_add(&labels, id, id ? strlen(id) : 0, &dyd_no_row_numbers);
+    good = dyd_labels_add(&labels, id, id ? strlen(id) : 0, &own);
   }
   if (good)
     dyd_labels_give(s->images, &labels);

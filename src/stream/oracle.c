@@ -15,6 +15,7 @@
 #include <inttypes.h>
 #include <poll.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -35,6 +36,7 @@ struct dyd_oracle {
   unsigned jobs, batch, retries;
   double seconds;
   size_t points; /* 0 until the first program has told */
+  double *cost;  /* of each, as it told; NULL: it did not */
   int lifeline[2];
 };
 
@@ -99,7 +101,7 @@ static dyd_status program_begin(dyd_oracle *o, unsigned k, dyd_error *err) {
   return st;
 }
 
-/* Reads its first line, which must agree with what the first program said. */
+/* Reads its first line, which must agree with what the first program said; its costs count where it is the first. */
 static dyd_status program_read_count(size_t *count, dyd_oracle *o, unsigned k, const volatile int *stop,
                                      dyd_error *err) {
   dyd_worker *w = &o->worker[k];
@@ -108,8 +110,14 @@ static dyd_status program_read_count(size_t *count, dyd_oracle *o, unsigned k, c
     return dyd_fail(err, st, "the oracle program was to print \"points N\", with the number of points: %s", w->why);
   }
   if (st != DYD_OK) return st;
-  st = dyd_oracle_read_count(count, w->asked[w->head].answer, w->asked[w->head].length, err);
+  double *cost = NULL;
+  st = dyd_oracle_read_count(count, &cost, w->asked[w->head].answer, w->asked[w->head].length, err);
   dyd_worker_drop(w);
+  if (!o->points && !o->cost) {
+    o->cost = cost;
+    cost = NULL;
+  }
+  free(cost);
   if (st != DYD_OK || !o->points || *count == o->points) return st;
   return dyd_fail(err, DYD_E_STREAM, "oracle program 0 has %zu points, program %u has %zu; all must serve the same",
                   o->points, k, *count);
@@ -208,7 +216,7 @@ static void oracle_release(void *user) {
 
 dyd_status dyd_oracle_source(dyd_source *out, dyd_oracle *o, dyd_error *err) {
   const dyd_source source = {
-      .narrow = oracle_narrow, .release = oracle_release, .user = o, .announce = oracle_announce};
+      .narrow = oracle_narrow, .release = oracle_release, .user = o, .announce = oracle_announce, .cost = o->cost};
   dyd_status st = dyd_abi_check(out, 0, "dyd_source", err);
   if (st != DYD_OK) return st;
   o->refs++;
@@ -318,6 +326,7 @@ void dyd_oracle_free(dyd_oracle *o) {
   dyd_close(&o->lifeline[0]);
   dyd_close(&o->lifeline[1]);
   free(o->command);
+  free(o->cost);
   free(o->poll);
   free(o->worker);
   free(o);

@@ -6,12 +6,15 @@
  * whatever the two roundings were [ORA-1]. */
 #include "stream/oracle_answer.h"
 
+#include "base/alloc.h"
 #include "base/error.h"
 #include "stream/number.h"
 #include "stream/oracle_worker.h"
 #include "stream/real.h"
 #include <dyadel/sites.h>
 #include <dyadel/stream.h>
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A word of a line: text[begin, end). */
@@ -23,16 +26,22 @@ static bool answer_is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
+/* *w becomes the first word behind it; false: there is none. */
+static bool next_answer_word(word *w, const char *line, size_t length) {
+  size_t k = w->end;
+  while (k < length && answer_is_blank(line[k])) k++;
+  w->begin = k;
+  while (k < length && !answer_is_blank(line[k])) k++;
+  w->end = k;
+  return w->begin < w->end;
+}
+
 /* The words of a line; returns their number, at most `most` + 1. */
 static size_t split_answer(word *out, size_t most, const char *line, size_t length) {
   size_t n = 0;
-  for (size_t k = 0; k < length;) {
-    while (k < length && answer_is_blank(line[k])) k++;
-    size_t begin = k;
-    while (k < length && !answer_is_blank(line[k])) k++;
-    if (k == begin) continue;
+  for (word w = {0, 0}; next_answer_word(&w, line, length);) {
     if (n == most) return most + 1;
-    out[n++] = (word){begin, k};
+    out[n++] = w;
   }
   return n;
 }
@@ -53,18 +62,56 @@ static bool read_answer_count(size_t *out, const char *line, word w) {
   return true;
 }
 
-dyd_status dyd_oracle_read_count(size_t *out, const char *line, size_t length, dyd_error *err) {
-  word w[2];
-  size_t count;
+static dyd_status read_cost(double *out, const char *line, word w, size_t point, dyd_error *err) {
   char shown[80];
-  if (split_answer(w, 2, line, length) != 2 || !answer_word_is(line, w[0], "points") ||
-      !read_answer_count(&count, line, w[1]) || count > DYD_MAX_SITES) {
+  mpq_t own;
+  mpq_init(own);
+  dyd_status st = dyd_parse_number(own, line + w.begin, w.end - w.begin, NULL);
+  *out = st == DYD_OK ? mpq_get_d(own) : 0;
+  mpq_clear(own);
+  if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (*out > 0 && isfinite(*out)) return DYD_OK;
+  return dyd_fail(err, DYD_E_STREAM,
+                  "the first line of the oracle program: the cost of point %zu, %s, is no exact number above 0; print "
+                  "one such as 2 or 0.5",
+                  point, dyd_quoted(shown, sizeof shown, line + w.begin, w.end - w.begin));
+}
+
+/* Those behind w. */
+static dyd_status read_costs(double *cost, size_t count, const char *line, size_t length, word w, dyd_error *err) {
+  size_t n = 0;
+  for (; next_answer_word(&w, line, length); n++) {
+    dyd_status st = n < count ? read_cost(&cost[n], line, w, n, err) : DYD_OK;
+    if (st != DYD_OK) return st;
+  }
+  if (n == count) return DYD_OK;
+  return dyd_fail(err, DYD_E_STREAM,
+                  "the first line of the oracle program has %zu points and %zu costs; print one for each point, or "
+                  "\"points %zu\" alone",
+                  count, n, count);
+}
+
+dyd_status dyd_oracle_read_count(size_t *out, double **cost, const char *line, size_t length, dyd_error *err) {
+  word w[3];
+  size_t count, words = split_answer(w, 3, line, length);
+  char shown[80];
+  const bool costs = words > 2 && answer_word_is(line, w[2], "cost");
+  if ((words != 2 && !costs) || !answer_word_is(line, w[0], "points") || !read_answer_count(&count, line, w[1]) ||
+      count > DYD_MAX_SITES) {
     return dyd_fail(err, DYD_E_STREAM,
                     "the first line of the oracle program is %s; print \"points N\", with the number "
                     "of points",
                     dyd_quoted(shown, sizeof shown, line, length));
   }
+  double *own = costs ? dyd_alloc(count < length ? count : length, sizeof *own) : NULL;
+  if (costs && !own) return dyd_fail_nomem(err);
+  dyd_status st = costs ? read_costs(own, count, line, length, w[2], err) : DYD_OK;
+  if (st != DYD_OK) {
+    free(own);
+    return st;
+  }
   *out = count;
+  *cost = own;
   return DYD_OK;
 }
 

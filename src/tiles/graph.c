@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The triangulation of a view: who is a partner of whom, which faces matter, which rows follow. */
+/* The triangulation of a view: who is a partner of whom, which rows follow. */
 #include "state.h"
 
 #include <stdlib.h>
@@ -45,16 +45,20 @@ static dyd_status run_engine(tile *t, const tiles_view *v, dyd_error *err) {
   return st;
 }
 
-dyd_status tile_triangulate(tile *t, const tiles_view *v, dyd_error *err) {
-  struct timespec from, to;
+void tile_end_engine(tile *t) {
   dyd_engine_free(t->engine);
   t->engine = NULL;
+}
+
+dyd_status tile_triangulate(tile *t, const tiles_view *v, dyd_error *err) {
+  struct timespec from, to;
+  tile_end_engine(t);
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &from);
   dyd_status st = run_engine(t, v, err);
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &to);
   t->counters.seconds += difftime(to.tv_sec, from.tv_sec) + 1e-9 * (double)(to.tv_nsec - from.tv_nsec);
   if (st == DYD_E_NOMEM) return tiles_no_memory(err);
-  return st == DYD_OK ? tiles_graph_make(&t->graph, dyd_engine_delaunay(t->engine), err) : st;
+  return st;
 }
 
 /* ---- partners ---- */
@@ -80,12 +84,14 @@ static void graph_fill(tiles_graph *g, const dyd_pair_list *l) {
   }
 }
 
-dyd_status tiles_graph_make(tiles_graph *g, const dyd_delaunay *pd, dyd_error *err) {
+dyd_status tile_list_partners(tile *t, bool last, dyd_error *err) {
+  tiles_graph *g = &t->graph;
   dyd_pair_list l = {0};
   tiles_graph_clear(g);
-  dyd_status st = dyd_delaunay_pairs(&l, pd);
+  g->count = dyd_engine_count(t->engine);
+  dyd_status st = dyd_delaunay_pairs(&l, dyd_engine_delaunay(t->engine));
   if (st != DYD_OK) return tiles_no_memory(err);
-  g->count = dyd_sites_count(dyd_delaunay_sites(pd));
+  if (last) tile_end_engine(t);
   g->start = calloc(g->count + 2, sizeof *g->start);
   g->partner = malloc((2 * l.count + 1) * sizeof *g->partner);
   if (g->start && g->partner)
@@ -94,32 +100,6 @@ dyd_status tiles_graph_make(tiles_graph *g, const dyd_delaunay *pd, dyd_error *e
     st = tiles_no_memory(err);
   dyd_pair_list_clear(&l);
   return st;
-}
-
-/* ---- faces ---- */
-
-static bool is_written_tie(const tiles_view *v, size_t own, const dyd_pair *p) {
-  tiles_box a = tiles_view_box(v, p->i), b = tiles_view_box(v, p->j);
-  uint32_t lower = tiles_view_number(v, p->i) < tiles_view_number(v, p->j) ? p->i : p->j;
-  return lower < own && tiles_box_is_point(&a) && tiles_box_is_point(&b);
-}
-
-dyd_status tile_each_face(tile *t, const tiles_view *v, size_t own, tile_face_fn *visit, dyd_error *err) {
-  const dyd_delaunay *pd = dyd_engine_delaunay(t->engine);
-  dyd_index_list site = {0};
-  dyd_pair_list pairs = {0};
-  dyd_status st = DYD_OK;
-  for (size_t f = 0; st == DYD_OK && f < dyd_delaunay_undecided_faces(pd); f++) {
-    bool outer, matters = false;
-    st = dyd_delaunay_face_pairs(&pairs, pd, f);
-    for (size_t k = 0; st == DYD_OK && !matters && k < pairs.count; k++)
-      matters = is_written_tie(v, own, &pairs.item[k]);
-    if (st == DYD_OK && matters) st = dyd_delaunay_face(&site, &outer, pd, f);
-    if (st == DYD_OK && matters) st = visit(t, v, &site, &pairs, err);
-  }
-  dyd_index_list_clear(&site);
-  dyd_pair_list_clear(&pairs);
-  return st == DYD_E_NOMEM ? tiles_no_memory(err) : st;
 }
 
 /* ---- rows ---- */

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of a site: its discs are not met; nor are the wide ones; its pairs are not settled. */
-enum { CLOSED = 1, WIDE = 2, LATE = 4 };
+/* Of a site: its wide discs are not met; its pairs are not settled. */
+enum { WIDE = 1, LATE = 2 };
 
 /* ---- discs ---- */
 
@@ -45,22 +45,22 @@ static dyd_status note_alias(tile *t, size_t i, uint32_t of, dyd_error *err) {
   tiles_rows *a = &t->aliases;
   if (!tiles_reserve((void **)&a->item, &a->room, a->count + 1, sizeof *a->item)) return tiles_no_memory(err);
   a->item[a->count++] = (tiles_row){t->own.number[i], t->own.number[of], 0};
-  t->alias[i] = true;
   return DYD_OK;
 }
 
 /* Equal points have one owner, since places have one. */
-static dyd_status first_aliases(tile *t, dyd_error *err) {
+static dyd_status first_aliases(tile *t, const tiles_view *v, dyd_error *err) {
   const dyd_delaunay *pd = dyd_engine_delaunay(t->engine);
   dyd_status st = DYD_OK;
-  for (size_t i = 0; st == DYD_OK && i < t->own.count; i++) {
+  for (size_t i = 0; st == DYD_OK && i < tiles_view_count(v); i++) {
     uint32_t of = dyd_delaunay_alias(pd, (uint32_t)i);
-    if (of != i) st = note_alias(t, i, of, err);
+    t->alias[i] = of != i;
+    if (of != i && i < t->own.count) st = note_alias(t, i, of, err);
   }
   return st;
 }
 
-/* Own sites; where there are rectangles, ghosts, too: they may be ends of legal pairs, and corners of faces. */
+/* Own sites; where there are rectangles, ghosts, too: they may be ends of legal pairs. */
 static dyd_status first_marks(tile *t, const tiles_view *v, dyd_error *err) {
   const bool wide = tile_has_wide(t);
   const size_t count = wide ? tiles_view_count(v) : t->own.count;
@@ -69,9 +69,9 @@ static dyd_status first_marks(tile *t, const tiles_view *v, dyd_error *err) {
   if (!t->mark) return tiles_no_memory(err);
   for (uint32_t i = 0; st == DYD_OK && i < count; i++) {
     bool closed = true, far = false;
-    if (i >= t->own.count || !t->alias[i]) st = tile_is_closed(&closed, t, v, i, false, err);
+    if (!t->alias[i]) st = tile_is_closed(&closed, t, v, i, false, err);
     if (st == DYD_OK && wide && closed) st = tile_is_closed(&far, t, v, i, true, err);
-    t->mark[i] = (unsigned char)((closed ? CLOSED : LATE) | (far ? WIDE : 0));
+    t->mark[i] = (unsigned char)((closed ? 0 : LATE) | (far ? WIDE : 0));
   }
   return st;
 }
@@ -88,18 +88,6 @@ static void first_legal(tile *t, const tiles_view *v) {
       if (!(t->mark[i] & t->mark[j] & WIDE)) t->mark[i] |= LATE;
     }
   }
-}
-
-static dyd_status first_face(tile *t, const tiles_view *v, const dyd_index_list *site, const dyd_pair_list *pairs,
-                             dyd_error *err) {
-  bool closed = true;
-  (void)v, (void)err;
-  for (size_t k = 0; closed && k < site->count; k++) closed = t->mark[site->item[k]] & CLOSED;
-  for (size_t k = 0; !closed && k < pairs->count; k++) {
-    t->mark[pairs->item[k].i] |= LATE;
-    t->mark[pairs->item[k].j] |= LATE;
-  }
-  return DYD_OK;
 }
 
 /* Rows of what is settled go out; the rest becomes the fringe. */
@@ -122,8 +110,7 @@ static dyd_status first_rows(tile *t, const tiles_view *v, dyd_error *err) {
 
 /* Late sites and their own partners, ascending; then ghosts that are no aliases. */
 static dyd_status first_fringe(tile *t, const tiles_view *v, dyd_error *err) {
-  enum { PARTNER = 8 };
-  const dyd_delaunay *pd = dyd_engine_delaunay(t->engine);
+  enum { PARTNER = 4 };
   bool fits = true;
   size_t late = 0;
   for (uint32_t i = 0; i < t->own.count; i++) {
@@ -140,7 +127,7 @@ static dyd_status first_fringe(tile *t, const tiles_view *v, dyd_error *err) {
   }
   for (uint32_t k = 0; fits && k < t->ghosts.count; k++) {
     uint32_t i = (uint32_t)t->own.count + k;
-    if (dyd_delaunay_alias(pd, i) == i)
+    if (!t->alias[i])
       fits = tiles_sites_add(&t->fringe, t->ghosts.number[k], t->ghosts.end + k * (size_t)t->ghosts.dim);
   }
   (void)v;
@@ -149,10 +136,10 @@ static dyd_status first_fringe(tile *t, const tiles_view *v, dyd_error *err) {
 
 static dyd_status first_settle(tile *t, const tiles_view *v, dyd_error *err) {
   dyd_status st = tile_triangulate(t, v, err);
-  if (st == DYD_OK) st = first_aliases(t, err);
+  if (st == DYD_OK) st = first_aliases(t, v, err);
+  if (st == DYD_OK) st = tile_list_partners(t, true, err);
   if (st == DYD_OK) st = first_marks(t, v, err);
   if (st == DYD_OK && tile_has_wide(t)) first_legal(t, v);
-  if (st == DYD_OK && tile_is_mixed(t)) st = tile_each_face(t, v, t->own.count, first_face, err);
   if (st == DYD_OK) st = first_rows(t, v, err);
   return st == DYD_OK ? first_fringe(t, v, err) : st;
 }
@@ -165,9 +152,9 @@ dyd_status tile_first(tile *t, dyd_error *err) {
   }
   t->counters.ghosts = t->ghosts.count;
   if (t->done) return DYD_OK;
-  t->alias = calloc(t->own.count + 1, sizeof *t->alias);
-  if (!t->alias) return tiles_no_memory(err);
   tiles_view v = {&t->own, &t->ghosts};
+  t->alias = calloc(tiles_view_count(&v) + 1, sizeof *t->alias);
+  if (!t->alias) return tiles_no_memory(err);
   dyd_status st = t->own.count ? first_settle(t, &v, err) : DYD_OK;
   tiles_sites_clear(&t->ghosts);
   return st == DYD_OK ? tile_fringe(t, err) : st;
@@ -221,29 +208,13 @@ static dyd_status fringe_legal(tile *t, const tiles_view *v, uint32_t i, dyd_err
   return st;
 }
 
-static dyd_status fringe_face(tile *t, const tiles_view *v, const dyd_index_list *site, const dyd_pair_list *pairs,
-                              dyd_error *err) {
-  bool late = false;
-  dyd_status st = DYD_OK;
-  for (size_t k = 0; !late && k < pairs->count; k++)
-    late = t->mark[pairs->item[k].i] & LATE || t->mark[pairs->item[k].j] & LATE;
-  for (size_t k = 0; late && st == DYD_OK && k < site->count; k++)
-    if (!(t->mark[site->item[k]] & LATE)) st = fringe_discs(t, v, site->item[k], err);
-  return st;
-}
-
 static dyd_status fringe_check(tile *t, const tiles_view *v, dyd_error *err) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; st == DYD_OK && k < t->late_count; k++) {
     st = fringe_discs(t, v, (uint32_t)t->late[k], err);
     if (st == DYD_OK && tile_has_wide(t)) st = fringe_legal(t, v, (uint32_t)t->late[k], err);
   }
-  if (st != DYD_OK || !tile_is_mixed(t)) return st;
-  free(t->mark);
-  t->mark = calloc(t->fringe.count + 1, 1);
-  if (!t->mark) return tiles_no_memory(err);
-  for (size_t k = 0; k < t->late_count; k++) t->mark[t->late[k]] = LATE;
-  return tile_each_face(t, v, t->fringe.count, fringe_face, err);
+  return st;
 }
 
 static dyd_status fringe_finish(tile *t, const tiles_view *v, dyd_error *err) {
@@ -253,8 +224,7 @@ static dyd_status fringe_finish(tile *t, const tiles_view *v, dyd_error *err) {
     st = tile_rows_of(&t->rows, t, v, (uint32_t)t->late[k], err);
   if (st == DYD_OK) st = tile_write_part(t, err);
   tiles_graph_clear(&t->graph);
-  dyd_engine_free(t->engine);
-  t->engine = NULL;
+  tile_end_engine(t);
   t->done = true;
   return st;
 }
@@ -266,6 +236,7 @@ dyd_status tile_fringe(tile *t, dyd_error *err) {
   t->asked = 0;
   t->counters.fringe = t->fringe.count;
   if (t->late_count) st = tile_triangulate(t, &v, err);
+  if (st == DYD_OK && t->late_count) st = tile_list_partners(t, false, err);
   if (st == DYD_OK && t->late_count) st = fringe_check(t, &v, err);
   if (st == DYD_OK && t->asked == 0) st = fringe_finish(t, &v, err);
   return st;

@@ -47,7 +47,6 @@ typedef struct tiles_graph {
   size_t *start; /* count + 1 */
   uint32_t *partner;
 } tiles_graph;
-dyd_status tiles_graph_make(tiles_graph *g, const dyd_delaunay *pd, dyd_error *err);
 void tiles_graph_clear(tiles_graph *g);
 static inline tiles_partners tiles_graph_of(const tiles_graph *g, size_t i) {
   return (tiles_partners){g->partner + g->start[i], g->start[i + 1] - g->start[i]};
@@ -71,12 +70,12 @@ typedef struct tile {
   tiles_tree tree; /* of own */
   tiles_info *info;
   tiles_set *sent; /* own sites that each rank has; at its own place those of the fringe */
-  bool *alias;     /* own sites that are no vertices */
+  bool *alias;     /* sites of the first triangulation that are no vertices */
   dyd_engine *engine;
   tiles_graph graph; /* of the last triangulation */
   tiles_reach reach;
   tiles_search search;
-  unsigned char *mark; /* of the sites of the last triangulation */
+  unsigned char *mark; /* of the sites of the first triangulation */
   size_t *late;        /* sites of the fringe whose pairs are not settled yet */
   size_t late_count, asked;
   FILE *spool; /* rows that are settled, but for those of `late` */
@@ -103,20 +102,17 @@ dyd_status tile_report(tile *t, dyd_error *err); /* at the end; out: counters, t
 /* For the steps themselves. */
 dyd_status tile_read_text(tile *t, dyd_error *err);
 dyd_status tile_triangulate(tile *t, const tiles_view *v, dyd_error *err);
+/* Fills t->graph. last: nothing more is asked of the engine, which is freed before that much is allocated. */
+dyd_status tile_list_partners(tile *t, bool last, dyd_error *err);
+void tile_end_engine(tile *t);
 dyd_status tile_fringe(tile *t, dyd_error *err);
 /* Nothing that the rank has not seen meets the disc; own sites outside of the fringe count when `self`. */
 dyd_status tile_is_clear(bool *clear, tile *t, const tiles_disc *d, bool self, dyd_error *err);
 /* Does `all` hold of every disc that the pairs of site i of the view depend on? */
 dyd_status tile_is_closed(bool *closed, tile *t, const tiles_view *v, uint32_t i, bool wide, dyd_error *err);
-/* Where exact points and rectangles are mixed, a tie depends on the whole face: visits the faces of the triangulation
- * that have a pair of exact points that this rank writes. */
-typedef dyd_status tile_face_fn(tile *t, const tiles_view *v, const dyd_index_list *site, const dyd_pair_list *pairs,
-                                dyd_error *err);
-dyd_status tile_each_face(tile *t, const tiles_view *v, size_t own, tile_face_fn *visit, dyd_error *err);
 /* Adds the rows of site i of the view: pairs with higher numbers. */
 dyd_status tile_rows_of(tiles_rows *rows, const tile *t, const tiles_view *v, uint32_t i, dyd_error *err);
 bool tile_has_wide(const tile *t);
-bool tile_is_mixed(const tile *t);
 
 /* ---- parts ---- */
 

@@ -53,15 +53,6 @@ bool tile_has_wide(const tile *t) {
   return wide > 0;
 }
 
-bool tile_is_mixed(const tile *t) {
-  uint64_t wide = 0, all = 0;
-  for (size_t r = 0; r < t->job->ranks; r++) {
-    wide += t->info[r].wide;
-    all += t->info[r].count;
-  }
-  return wide > 0 && wide < all;
-}
-
 static bool mail_to_all(tile *t, const void *bytes, size_t count) {
   bool fits = true;
   for (size_t r = 0; fits && r < t->job->ranks; r++) fits = tiles_mail_put(&t->out[r], bytes, count);

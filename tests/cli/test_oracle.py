@@ -218,6 +218,7 @@ def test_usage():
     for args, message in ((('--measured',), '--measured is for points files; leave it out'),
                           (('--radius', '1'), '--radius is for points files'),
                           (('--columns', 'x,y'), '--columns is for points files'),
+                          (('--cost-column', 'c'), 'let the oracle begin with "points N cost C ... C"'),
                           (('file.txt',), 'one argument too many'), (('--oracle-jobs', '0'), '--oracle-jobs "0"'),
                           (('--oracle-batch', '-1'), '--oracle-batch "-1"'),
                           (('--oracle-timeout', 'soon'), '--oracle-timeout "soon"')):
@@ -233,6 +234,81 @@ def test_small():
     for jobs, alias in ('1', '# alias 1 0'), ('2', r'\Ai,j,status\n0,1,legal\n\Z'):
         expect(ask('echo points 2; while read -r _ i b; do echo $i $DYADEL_JOB $DYADEL_JOB 0 0; done',
                    '--oracle-jobs', jobs, env={**os.environ, 'DYADEL_JOB': '7'}), 0, alias)
+
+
+# ---- costs ----
+
+# Points at the ends of crosses, sqrt(2) from their middles, but for one end of each, which is 2^-E farther away.
+CROSSES = r'''
+import math, os, sys
+SIGNS = (1, 0), (0, 1), (-1, 0), (0, -1)
+FINE = 1500
+def ends(middle, sign, more, bits):
+    if not sign: return f'{middle} {middle}'
+    low = math.isqrt(2 << 2 * FINE) + (more and 1 << FINE - more) >> FINE - bits
+    low, high = sorted((middle << bits) + sign * end for end in (low, low + 1))
+    return f'{low}*2^-{bits} {high}*2^-{bits}'
+print('points', 24, *os.environ.get('COSTS', '').split(), flush=True)
+for line in sys.stdin:
+    i, bits = map(int, line.split()[1:])
+    with open('log.' + os.environ['DYADEL_JOB'], 'a') as log: log.write(line)
+    cross, end = divmod(i, 4)
+    more = 100 + 97 * cross if end == cross % 4 else 0
+    print(i, *(ends(m, s, more, bits + 2) for m, s in zip((10 * cross, cross ** 2), SIGNS[end])), flush=True)
+'''
+
+
+def ask_crosses(folder, costs, *args):
+    """The result, and what was asked, by each program."""
+    for name in os.listdir(folder):
+        if name.startswith('log.'):
+            os.unlink(os.path.join(folder, name))
+    result = run('delaunay', '--oracle', 'exec ' + shlex.join([sys.executable, '-c', CROSSES]), *args, cwd=folder,
+                 env={**os.environ, 'COSTS': costs})
+    expect(result, 0, err=r'')
+    asked = []
+    for name in sorted(os.listdir(folder)):
+        if name.startswith('log.'):
+            with open(os.path.join(folder, name), encoding='utf-8') as f:
+                asked += f.read().splitlines()
+    return result.out, asked
+
+
+def test_costs():
+    """Programs that say what points cost: dear ones are asked less often and after cheap ones, by one program or more,
+    resumed or not, and the result is the same."""
+    cost = [50 if i % 4 == i // 4 % 3 else 1 for i in range(24)]
+    told = 'cost ' + ' '.join(map(str, cost))
+    dear = [i for i in range(24) if cost[i] > 1]
+
+    def calls(asked, points):
+        return sum(int(line.split()[1]) in points for line in asked)
+
+    with tempfile.TemporaryDirectory() as folder:
+        plain, before = ask_crosses(folder, '')
+        for equal in 'cost ' + '2 ' * 24, 'cost ' + '1e-3\t' * 24:
+            assert ask_crosses(folder, equal) == (plain, before)
+        out, after = ask_crosses(folder, told, '--trace', 'whole')
+        assert out == plain
+        for i in dear:
+            assert 1 <= calls(after, [i]) <= calls(before, [i])
+        assert calls(after, dear) * 5 < calls(before, dear) * 4, (calls(after, dear), calls(before, dear))
+        spent = [sum(cost[int(line.split()[1])] for line in asked) for asked in (before, after)]
+        assert spent[1] < spent[0], spent
+        # Behind the first answers cheap points are asked, and dear ones only when as much was spent on these.
+        assert cost[int(after[24].split()[1])] == 1
+        assert sorted(ask_crosses(folder, told, '--oracle-jobs', '3')[1]) == sorted(after)
+        with open(os.path.join(folder, 'whole'), encoding='utf-8') as f:
+            lines = f.readlines()
+        for kept in 1, 30, len(lines) // 2:
+            with open(os.path.join(folder, 'cut'), 'w', encoding='utf-8') as f:
+                f.writelines(lines[:kept])
+            again, rest = ask_crosses(folder, told, '--resume', 'cut', '--quiet')
+            known = sum('"called":true' in line for line in lines[:kept])
+            assert (again, rest) == (plain, after[known:]), kept
+    for first, message in (('3 cost 1 1', '3 points and 2 costs; print one for each point'),
+                           ('2 cost 1 0', 'the cost of point 1, "0", is no exact number above 0; print one such as')):
+        expect(ask(f'echo points {first}; cat'), 1, r'\A\Z', message)
 
 
 # ---- ends ----

@@ -137,12 +137,41 @@ static void test_costs_that_are_none(void **state) {
   }
 }
 
+/* A source may say what its points cost; others cost 1, and rows are counted as before. */
+static void test_costs_of_sources(void **state) {
+  (void)state;
+  faulty f = {.kind = FAULT_NONE}, g = f;
+  dyd_source dear = faulty_source(&f), plain = faulty_source(&g), wrong = faulty_source(&g);
+  const double x = 9, y = 1, cost[] = {3, 0.5, 1e9}, told[] = {1, 3, 0.5, 1e9, 1, 1}, bad[] = {0, -2, HUGE_VAL, NAN};
+  dyd_engine *e = engine_new();
+  dyd_error err;
+  assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &y));
+  dear.cost = cost;
+  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 3, &dear, &err));
+  assert_int_equal(DYD_OK, dyd_engine_add_source(e, 2, &plain, &err));
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+    const double costs[2] = {1, bad[k]};
+    wrong.cost = costs;
+    assert_int_equal(DYD_E_ARG, dyd_engine_append_source(e, 2, &wrong, &err));
+    assert_non_null(strstr(err.message, "point 7: its cost is "));
+    assert_int_equal(7, err.point);
+    assert_int_equal((int)k + 1, g.released);
+  }
+  assert_int_equal(6, dyd_engine_count(e));
+  for (size_t k = 0; k < 6; k++) {
+    assert_true(dyd_engine_cost(e, k) == told[k]);
+    assert_int_equal(k, dyd_engine_row(e, k));
+    assert_null(dyd_engine_id(e, k));
+  }
+  dyd_engine_free(e);
+  assert_int_equal(1, f.released);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_costs_are_spared),
-      cmocka_unit_test(test_equal_costs),
-      cmocka_unit_test(test_dear_one_is_spared),
-      cmocka_unit_test(test_costs_that_are_none),
+      cmocka_unit_test(test_costs_are_spared),   cmocka_unit_test(test_equal_costs),
+      cmocka_unit_test(test_dear_one_is_spared), cmocka_unit_test(test_costs_that_are_none),
+      cmocka_unit_test(test_costs_of_sources),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -127,7 +127,52 @@ static void test_random_answers(void **state) {
   mpq_clears(lo, hi, NULL);
 }
 
+static const struct {
+  const char *line;
+  dyd_status status;
+  size_t count;
+  double cost[3];
+  const char *says;
+} firsts[] = {
+    {"points 3", DYD_OK, 3, {0}, ""},
+    {" points\t0 ", DYD_OK, 0, {0}, ""},
+    {"points 3 cost 1 1/2\t6e1 ", DYD_OK, 3, {1, 0.5, 60}, ""},
+    {"points 0 cost", DYD_OK, 0, {0}, ""},
+    {"points 1 cost 5*2^-20", DYD_OK, 1, {0x5p-20}, ""},
+    {"points", DYD_E_STREAM, 0, {0}, "print \"points N\""},
+    {"points 3 4", DYD_E_STREAM, 0, {0}, "print \"points N\""},
+    {"points 3 costs 1 1 1", DYD_E_STREAM, 0, {0}, "print \"points N\""},
+    {"points 3 cost", DYD_E_STREAM, 0, {0}, "3 points and 0 costs"},
+    {"points 3 cost 1 2", DYD_E_STREAM, 0, {0}, "3 points and 2 costs"},
+    {"points 3 cost 1 2 3 4", DYD_E_STREAM, 0, {0}, "3 points and 4 costs; print one for each point"},
+    {"points 99999999 cost 1", DYD_E_STREAM, 0, {0}, "99999999 points and 1 costs"},
+    {"points 2 cost 1 0", DYD_E_STREAM, 0, {0}, "the cost of point 1, \"0\", is no exact number above 0"},
+    {"points 2 cost -1 1", DYD_E_STREAM, 0, {0}, "the cost of point 0, \"-1\","},
+    {"points 2 cost 1 inf", DYD_E_STREAM, 0, {0}, "\"inf\""},
+    {"points 2 cost 1 1e999", DYD_E_STREAM, 0, {0}, "\"1e999\""},
+    {"points 2 cost 1 1e-999", DYD_E_STREAM, 0, {0}, "\"1e-999\""},
+    {"points 2 cost 1 2s", DYD_E_STREAM, 0, {0}, "\"2s\""},
+};
+
+static void test_first_lines(void **state) {
+  (void)state;
+  for (size_t k = 0; k < sizeof firsts / sizeof *firsts; k++) {
+    size_t count = 77;
+    double *cost = NULL;
+    dyd_error err;
+    dyd_error_clear(&err);
+    dyd_status status = dyd_oracle_read_count(&count, &cost, firsts[k].line, strlen(firsts[k].line), &err);
+    if (status != firsts[k].status) fail_msg("%s: status %d: %s", firsts[k].line, status, err.message);
+    assert_says(&err, firsts[k].says);
+    assert_int_equal(status == DYD_OK ? firsts[k].count : 77, count);
+    assert_true((cost != NULL) == (status == DYD_OK && strstr(firsts[k].line, "cost")));
+    for (size_t i = 0; cost && i < count; i++) assert_true(cost[i] == firsts[k].cost[i]);
+    free(cost);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_answers), cmocka_unit_test(test_random_answers)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_answers), cmocka_unit_test(test_random_answers),
+                                     cmocka_unit_test(test_first_lines)};
   return cmocka_run_group_tests(tests, NULL, release_caches);
 }

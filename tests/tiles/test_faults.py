@@ -20,6 +20,8 @@ import tiles_cases as cases
 
 TILES, DYADEL = sys.argv[1:3]
 MPIRUN = sys.argv[3:4]
+# 4,096 bytes by its size, of which a few can be read.
+UNREADABLE = pathlib.Path('/sys/devices/system/cpu/online')
 # Rank 1 (in one process: all) may write files of so many blocks only.
 SMALL_DISK = ('if [ "${OMPI_COMM_WORLD_RANK:-1}" = 1 ]; then trap "" XFSZ; ulimit -f 8; fi; exec "$0" "$@"')
 
@@ -117,6 +119,11 @@ class Faults(unittest.TestCase):
         (self.at / 'in.bin').unlink()
         self.refused(1, 'No such file', *name)
         self.refused(1, 'is no file', 'delaunay', str(self.at), '-o', self.out)
+
+    @unittest.skipUnless(UNREADABLE.is_file(), f'there is no {UNREADABLE}')
+    def test_unreadable_slice(self):
+        """A file that ends before its size: who meets the end tells which points, and all end."""
+        self.refused(1, f'{UNREADABLE}: cannot read points ', 'delaunay', str(UNREADABLE), '-o', self.out)
 
     def test_words(self):
         self.refused(2, 'unknown option', 'delaunay', self.file, '-o', self.out, '--box')

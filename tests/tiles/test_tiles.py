@@ -4,6 +4,7 @@
 
 Usage: test_tiles.py TILES DYADEL [MPIRUN]   (MPIRUN: ranks are processes; else one process is all of them)
 """
+import math
 import pathlib
 import random
 import subprocess
@@ -64,7 +65,11 @@ class Union(unittest.TestCase):
         self.assertEqual(own, points)
 
     def test_uniform(self):
+        """Ghosts grow as borders do: of 250,000 own points they are 4 % at most."""
         self.compare(cases.uniform(10 ** 5 if cases.SCALE == 1 else 10 ** 6, self.random))
+        for count in RANKS:
+            for header in map(cases.header_of, cases.parts_of(self.at / f'out{count}')):
+                self.assertLessEqual(header['ghosts'], 0.04 * math.sqrt(250000 * header['own']))
 
     def test_clusters(self):
         self.compare(cases.clusters(30000 if cases.SCALE == 1 else 400000, self.random))
