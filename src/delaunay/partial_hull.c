@@ -5,8 +5,8 @@
  * on one closed side of a line through both [HST-1]. A vertex is sure iff it is a corner of the hull for every choice:
  * the certain edges to the ghost say so [HUL-2]. A pair is legal iff for every choice all others are strictly on one
  * side of the line through both: iff it is an edge of the hull of the representatives, the rectangles do not meet, and
- * it is surely oriented with every common neighbour among the possible pairs [HST-2]. Pairs of a chain whose true points
- * are proved to be on one line, a side of the hull, are ties, whatever their rectangles [TIE-3].
+ * it is surely oriented with every common neighbour among the possible pairs [HST-2]. Pairs of a chain whose true
+ * points are proved to be on one line, a side of the hull, are ties, whatever their rectangles [TIE-3].
  *
  * Who is possible on the hull is on the hull of the representatives or in an unbounded undecided face [CLO-1]. */
 #include "delaunay/partial_hull.h"
