@@ -14,6 +14,7 @@ import sys
 import tempfile
 from fractions import Fraction
 
+import svg
 from harness import count, expect, main, run
 
 
@@ -194,6 +195,15 @@ def test_edges_of_the_diagram():
         assert sum(tied in (e['from'], e['to']) for e in data['edges']) == n, data['edges']
 
 
+def test_tied_vertex_in_pictures():
+    """It is drawn once, as what it is."""
+    for points in text(gon(12)), '0 0\n2 0\n2 2\n0 2\n':
+        picture = run('voronoi', '--quiet', '--format', 'svg', '-', stdin=points).out
+        titles = [e.title for e in svg.elements(picture) if e.title and 'vert' in e.title]
+        assert len(titles) == 1 and titles[0].startswith('holds the vertex of a tie, of 0, 1, 2'), titles
+        assert 'box: a sure vertex is in it' in svg.words(picture) and 'box: undecided vertices' not in svg.words(picture)
+
+
 def test_edges_of_grids():
     """Every inner side is between two tied vertices, which hold it."""
     for points, n in ((text(turned(STEPS[:4], 'cos(1)', 'sin(1)')), 4), (''.join(f'{x} {y}\n' for x in range(5) for y in range(5)), 5)):
@@ -276,6 +286,8 @@ def all_answers(points, place):
     yield 'vertices', sorted(v['sites'] for v in two['vertices'])
     yield 'edges', [[e['i'], e['j']] + [two['vertices'][e[k]]['sites'] if isinstance(e[k], int) else list(e[k])
                                         for k in ('from', 'to')] for e in two['edges']]
+    drawn = svg.elements(run('delaunay', '--quiet', '--format', 'svg', '-', stdin=points).out)
+    yield 'picture', sorted(e.title for e in drawn if e.title and e.title[:5] != 'point')
     yield 'nearest', near['tied'], near['outcome'], [(p['i'], p['status']) for p in near['nearest']]
 
 
