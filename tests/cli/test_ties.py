@@ -98,6 +98,14 @@ def test_aliases():
         expect(run('check', 'points', '--schedules', '2', cwd=points_folder(points)), 0, '^fine,2,')
 
 
+def test_roots_of_large_degree():
+    """Of degree 1000, and no more: products of two are the same by identity, at once."""
+    one, two = 'root(x^1000-x-1,1,2)*root(x^999-x-1,1,2)', 'root(x^999-x-1,1,3/2)*root(x^1000-x-1,1,3/2)'
+    expect(run('delaunay', '-', stdin=f'{one} 0\n10 10\n{two} 0\n-9 4\n', timeout=60), 0, r'\A# alias 2 0$')
+    expect(run('delaunay', '-', '--max-bits', '100', stdin=f'{one} 0\n10 10\n{one}+2^-80 0\n', timeout=60), 0, r'\Ai,j')
+    expect(run('delaunay', '-', stdin='root(x^1001-x-1,1,2) 0\n'), 1, r'\A\Z', ':1:7: .*: degree at most 1000, ')
+
+
 def points_folder(points, keep=[]):
     """A folder with the file `points`; it stays for the life of the process."""
     folder = tempfile.TemporaryDirectory()
