@@ -175,7 +175,8 @@ typedef struct dyd_hull {
   dyd_index_list possible_vertices; /* on its boundary for some choice, the sure ones included; ascending */
   /* The pairs ij for which some choice has all points on one closed side of a line through p_i and p_j; sorted. LEGAL:
    * for every choice all others are strictly on one side (so ij is an edge of the hull). TIE: not LEGAL, and i, j and
-   * all that may be on the line with both are exact. */
+   * all that may be on the line with both are exact, or i and j are on one side of the hull with sites that are proved
+   * to be on one line. */
   dyd_pair_list pairs;
 } dyd_hull;
 DYD_API void dyd_hull_clear(dyd_hull *h);

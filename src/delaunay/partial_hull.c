@@ -5,7 +5,8 @@
  * on one closed side of a line through both [HST-1]. A vertex is sure iff it is a corner of the hull for every choice:
  * the certain edges to the ghost say so [HUL-2]. A pair is legal iff for every choice all others are strictly on one
  * side of the line through both: iff it is an edge of the hull of the representatives, the rectangles do not meet, and
- * it is surely oriented with every common neighbour among the possible pairs [HST-2].
+ * it is surely oriented with every common neighbour among the possible pairs [HST-2]. Pairs of a chain whose true
+ * points are proved to be on one line, a side of the hull, are ties, whatever their rectangles [TIE-3].
  *
  * Who is possible on the hull is on the hull of the representatives or in an unbounded undecided face [CLO-1]. */
 #include "delaunay/partial_hull.h"
@@ -91,12 +92,38 @@ static dyd_status find_candidates(hull *h) {
   h->x = st == DYD_OK ? dyd_alloc(count, sizeof *h->x) : NULL;
   for (size_t k = 0; h->x && k < count; k++) {
     if (k && list[k] == list[k - 1]) continue;
-    h->x[h->count].possible = h->x[h->count].sure = false;
-    h->x[h->count++].vertex = list[k];
+    h->x[h->count++] = (dyd_extreme){.vertex = list[k], .chain = {DYD_NONE, DYD_NONE}};
   }
   free(list);
   if (st == DYD_OK && !h->x) st = DYD_E_NOMEM;
   return st == DYD_OK ? load(h) : st;
+}
+
+static bool is_proved_chain(const dyd_delaunay *pd, size_t f) {
+  if (pd->open.kind == DYD_LISTED) return pd->open.face[f].outer && pd->open.face[f].proved;
+  return pd->open.kind == DYD_LINE && dyd_open_status_of(pd, f) == DYD_TIE;
+}
+
+static dyd_status find_chains(hull *h) {
+  for (size_t f = 0; f < h->pd->open.count && !h->exact; f++) {
+    uint32_t *vertex = NULL;
+    size_t count = 0;
+    if (!is_proved_chain(h->pd, f)) continue;
+    dyd_status st = dyd_open_vertices(&vertex, &count, h->pd, f);
+    if (st != DYD_OK) return st;
+    for (size_t k = 0; k < count; k++) {
+      dyd_extreme *x = dyd_find_index(&vertex[k], h->x, h->count, sizeof *h->x);
+      if (x) x->chain[x->chain[0] != DYD_NONE] = (uint32_t)f;
+    }
+    free(vertex);
+  }
+  return DYD_OK;
+}
+
+static bool share_chain(const dyd_extreme *a, const dyd_extreme *b) {
+  for (int k = 0; k < 2; k++)
+    if (a->chain[k] != DYD_NONE && (a->chain[k] == b->chain[0] || a->chain[k] == b->chain[1])) return true;
+  return false;
 }
 
 /* ---- possible ---- */
@@ -209,8 +236,8 @@ static dyd_status decide_pairs(dyd_pair_list *out, const hull *h) {
     uint32_t v = h->x[p.i].vertex, w = h->x[p.j].vertex, i = pd->sk.reps.site[v], j = pd->sk.reps.site[w];
     bool edge = dyd_is_hull_edge(pd, v, w) && !rects_meet(&h->x[p.i], &h->x[p.j]);
     dyd_pair *to = &out->item[out->count++];
-    *to = (dyd_pair){i < j ? i : j, i < j ? j : i, DYD_INDETERMINATE};
-    st = decide(&to->status, h, p, edge, r);
+    *to = (dyd_pair){i < j ? i : j, i < j ? j : i, DYD_TIE};
+    if (!share_chain(&h->x[p.i], &h->x[p.j])) st = decide(&to->status, h, p, edge, r);
   }
   for (int n = 3; n-- > 0;) dyd_rect_clear(&r[n]);
   return st;
@@ -242,6 +269,7 @@ static dyd_status fill(dyd_hull *out, hull *h) {
   if (st != DYD_OK) return st;
   if (h->pairs.capped) return DYD_CAPPED;
   st = find_neighbours(h);
+  if (st == DYD_OK) st = find_chains(h);
   if (st == DYD_OK) st = decide_pairs(&out->pairs, h);
   if (st == DYD_OK && out->pairs.count)
     qsort(out->pairs.item, out->pairs.count, sizeof *out->pairs.item, dyd_compare_pair);

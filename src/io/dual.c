@@ -38,6 +38,10 @@ static int tied_compare(const void *a, const void *b) {
   return (*f > *g) - (*f < *g);
 }
 
+const size_t *dyd_dual_tied(const size_t *tied, size_t ties, size_t face) {
+  return ties ? bsearch(&face, tied, ties, sizeof face, tied_compare) : NULL;
+}
+
 /* Bounds of sign * (b - a) along an axis: an operation in doubles, then one step outward. */
 static void dual_difference(double out[2], const double a[2], const double b[2], int sign) {
   double lo = sign > 0 ? b[0] - a[1] : a[0] - b[1], hi = sign > 0 ? b[1] - a[0] : a[1] - b[0];
@@ -67,7 +71,7 @@ static void dual_join_tie(dyd_dual_edge *e, int end, const dyd_delaunay *pd, con
   uint32_t v[2] = {pd->sk.vertex[e->i], pd->sk.vertex[e->j]};
   dyd_half_edge h = dyd_find_edge(&pd->sk, v[end], v[1 - end]);
   size_t face = h == DYD_NONE ? DYD_NONE : dyd_face_of(pd, dyd_edge_triangle(h));
-  const size_t *found = bsearch(&face, ties->tied, ties->count, sizeof face, tied_compare);
+  const size_t *found = dyd_dual_tied(ties->tied, ties->count, face);
   if (found)
     e->end[end] = (dyd_dual_end){.kind = DYD_DUAL_VERTEX, .vertex = ties->first + (size_t)(found - ties->tied)};
   else if (face != DYD_NONE && dyd_open_is_outer(pd, face) && dyd_open_status_of(pd, face) == DYD_TIE)

@@ -23,6 +23,9 @@ typedef struct dyd_dual_edge {
   dyd_dual_end end[2];
 } dyd_dual_edge;
 
+/* Where the face is among those that are tied, ascending; NULL: it is none of them. */
+const size_t *dyd_dual_tied(const size_t *tied, size_t ties, size_t face);
+
 /* tied: faces of pd whose sites are on one circle, ascending. *out is new, sorted by i and j; release with free(). */
 dyd_status dyd_dual_edges(dyd_dual_edge **out, size_t *count, const dyd_delaunay *pd,
                           const dyd_triangle_list *triangles, const size_t *tied, size_t ties);

@@ -56,9 +56,11 @@ static dyd_status voronoi_cell(void *context, uint32_t i, const dyd_shape *shape
   return st;
 }
 
+/* A tied face has one vertex, which is drawn as such. */
 static dyd_status voronoi_region(void *context, size_t face, const double box[4]) {
   voronoi_drawing *g = context;
   char id[48], title[80];
+  if (dyd_dual_tied(g->d->tied, g->d->ties, face)) return DYD_OK;
   if (!box || (box[1] - box[0] + box[3] - box[2]) * g->view.scale > 60 * g->view.dot)
     return DYD_OK;                              /* a large one would hide what it is about */
   double pad = 2 * g->view.dot / g->view.scale, /* so that it is seen however small */

@@ -73,7 +73,10 @@ static dyd_status poly_raise_power(fmpq_poly_t x, const dyd_node *n, dyd_error *
 
 /* x = x op y. */
 static dyd_status poly_combine(fmpq_poly_t x, const dyd_node *n, const fmpq_poly_t y, dyd_error *err) {
-  if (!poly_product_fits(poly_degree(x), poly_height(x), poly_degree(y), poly_height(y))) return poly_too_large(err, n);
+  size_t a = poly_degree(x), b = poly_degree(y);
+  bool sum = n->op == DYD_OP_ADD || n->op == DYD_OP_SUB;
+  if (!poly_product_fits(sum && b > a ? b : a, poly_height(x), sum ? 0 : b, poly_height(y)))
+    return poly_too_large(err, n);
   switch (n->op) {
   case DYD_OP_ADD:
     fmpq_poly_add(x, x, y);

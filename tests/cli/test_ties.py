@@ -8,9 +8,13 @@ import itertools
 import json
 import math
 import os
+import random
+import shlex
+import sys
 import tempfile
 from fractions import Fraction
 
+import svg
 from harness import count, expect, main, run
 
 
@@ -94,6 +98,14 @@ def test_aliases():
         expect(run('check', 'points', '--schedules', '2', cwd=points_folder(points)), 0, '^fine,2,')
 
 
+def test_roots_of_large_degree():
+    """Of degree 1000, and no more: products of two are the same by identity, at once."""
+    one, two = 'root(x^1000-x-1,1,2)*root(x^999-x-1,1,2)', 'root(x^999-x-1,1,3/2)*root(x^1000-x-1,1,3/2)'
+    expect(run('delaunay', '-', stdin=f'{one} 0\n10 10\n{two} 0\n-9 4\n', timeout=60), 0, r'\A# alias 2 0$')
+    expect(run('delaunay', '-', '--max-bits', '100', stdin=f'{one} 0\n10 10\n{one}+2^-80 0\n', timeout=60), 0, r'\Ai,j')
+    expect(run('delaunay', '-', stdin='root(x^1001-x-1,1,2) 0\n'), 1, r'\A\Z', ':1:7: .*: degree at most 1000, ')
+
+
 def points_folder(points, keep=[]):
     """A folder with the file `points`; it stays for the life of the process."""
     folder = tempfile.TemporaryDirectory()
@@ -121,6 +133,35 @@ def test_one_corner_is_not_described():
         points = corner + '\n' + text(gon(12)[1:])
         result = run('delaunay', '-', '--max-bits', '200', stdin=points)
         assert result.code in (3, 4) and 'tie' not in count(result.out), corner
+
+
+ORACLE = '''import math, sys
+def cosine(part, bits):  # times 2^(bits + 2), of so many twelfths of a turn: between these
+    unit = 4 << bits
+    twice = {0: 2, 2: 1, 3: 0, 4: -1, 6: -2, 8: -1, 9: 0, 10: 1}.get(part % 12)
+    if twice is not None:
+        return twice * unit // 2 - 1, twice * unit // 2 + 1
+    low = math.isqrt(3 * unit * unit // 4)
+    return (low, low + 1) if part % 12 in (1, 11) else (-low - 1, -low)
+print('points 12', flush=True)
+for line in sys.stdin:
+    point, bits = map(int, line.split()[1:])
+    bits = max(bits, 0)
+    print(point, *(f'{end}*2^-{bits + 2}' for k in (point, point - 3) for end in cosine(k, bits)), flush=True)
+'''
+
+
+def test_corners_from_a_program():
+    """Nobody knows what a program's points are: of the 12-gon it gives the sides, and the rest stays open."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'corners.py')
+        with open(path, 'w', encoding='utf-8') as f:
+            f.write(ORACLE)
+        command = 'exec ' + shlex.join([sys.executable, path])
+        result = run('delaunay', '--oracle', command, '--max-bits', '200')
+        expect(result, 4, err='budget: 12 legal, 54 indeterminate, 0 tie')
+        assert count(result.out) == {'legal': 12, 'indeterminate': 54}
+        assert 'tied' not in run('nearest', '--oracle', command, '--max-bits', '200', '0', '0').out
 
 
 def test_counters():
@@ -160,6 +201,15 @@ def test_edges_of_the_diagram():
         data = json.loads(run('voronoi', '--format', 'json', '-', stdin=points).out)
         tied = next(k for k, v in enumerate(data['vertices']) if v['sites'] == list(range(n)))
         assert sum(tied in (e['from'], e['to']) for e in data['edges']) == n, data['edges']
+
+
+def test_tied_vertex_in_pictures():
+    """It is drawn once, as what it is."""
+    for points in text(gon(12)), '0 0\n2 0\n2 2\n0 2\n':
+        picture = run('voronoi', '--quiet', '--format', 'svg', '-', stdin=points).out
+        titles = [e.title for e in svg.elements(picture) if e.title and 'vert' in e.title]
+        assert len(titles) == 1 and titles[0].startswith('holds the vertex of a tie, of 0, 1, 2'), titles
+        assert 'box: a sure vertex is in it' in svg.words(picture) and 'box: undecided vertices' not in svg.words(picture)
 
 
 def test_edges_of_grids():
@@ -211,6 +261,53 @@ def test_rays():
         result = run('voronoi', '--layer', 'edges', '-', stdin=text(line + more))
         expect(result, 3)
         assert 'open' not in result.out and result.out.count('ray') == rays, result.out
+
+
+def sets_of_points():
+    """Points of the integers with many ties: a chain on the hull with points inside, a grid, and others at random."""
+    yield [(0, 0), (1, 0), (3, 0), (4, 0), (1, 1), (2, 2), (3, 1)]
+    yield list(itertools.product(range(4), repeat=2))
+    yield [(k, 0) for k in range(5)]
+    choose = random.Random(14)
+    for n in range(4, 16):
+        yield choose.sample(list(itertools.product(range(5), repeat=2)), n)
+
+
+def turned_text(x, y):
+    return f'sqrt(2)*({x}*cos(1)-{y}*sin(1))', f'sqrt(2)*({x}*sin(1)+{y}*cos(1))'
+
+
+def all_answers(points, place):
+    """What is said of points, but for where they are."""
+    data = {command: json.loads(run(command, '--quiet', '--format', 'json', '-', stdin=points).out)
+            for command in ('delaunay', 'voronoi')}
+    one, two = data['delaunay'], data['voronoi']
+    near = json.loads(run('nearest', '--format', 'json', '-', *place, stdin=points).out)
+    layer = run('delaunay', '--quiet', '--layer', 'points', '-', stdin=points).out.splitlines()
+    yield 'pairs', run('delaunay', '--quiet', '-', stdin=points).out
+    yield 'count', one['count'], two['count'], one['outcome'], two['outcome']
+    yield 'hull', one['hull']
+    yield 'aliases', one['aliases'], two['aliases']
+    yield 'sites', [[s[k] for k in ('i', 'legal', 'indeterminate', 'tie', 'hull')] for s in one['sites']]
+    yield 'layer', [[k for q, k in enumerate(line.split(',')) if not 1 <= q <= 4] for line in layer if line[0] != '#']
+    yield 'triangles', one['triangles']
+    yield 'vertices', sorted(v['sites'] for v in two['vertices'])
+    yield 'edges', [[e['i'], e['j']] + [two['vertices'][e[k]]['sites'] if isinstance(e[k], int) else list(e[k])
+                                        for k in ('from', 'to')] for e in two['edges']]
+    drawn = svg.elements(run('delaunay', '--quiet', '--format', 'svg', '-', stdin=points).out)
+    yield 'picture', sorted(e.title for e in drawn if e.title and e.title[:5] != 'point')
+    yield 'nearest', near['tied'], near['outcome'], [(p['i'], p['status']) for p in near['nearest']]
+
+
+def test_turned_points_answer_as_exact_ones():
+    """In all formats: what is proved of points turned by one radian is what is so of the exact ones; with an alias, too."""
+    for points in sets_of_points():
+        alias = points[-1]
+        exact = list(all_answers(text(points + [alias]), ('3/2', '1/2')))
+        turned_ones = [turned_text(x, y) for x, y in points]
+        turned_ones.append([f'{t}+sqrt(8)-2*sqrt(2)' for t in turned_ones[-1]])
+        for should, found in zip(exact, all_answers(text(turned_ones), turned_text('3/2', '1/2'))):
+            assert should == found, (points, should, found)
 
 
 def test_traces():
