@@ -8,7 +8,9 @@
  * dyd_engine_ask, dyd_engine_nearest and what adds or measures points answer them, and other threads, DYD_E_ARG; it
  * must not be freed. After fork() both processes may use their copies of an engine that was not at work; programs of an
  * oracle stay those of the process that started them (DYD_E_STREAM in the other one, which does not end them either).
- * After an error an engine can be used like any other. */
+ * After an error an engine can be used like any other. A function of 2^18 bits or more that is cut by a cancel or the
+ * end of time goes on in a thread of its own until it is done: nobody waits for that, it holds nothing of the engine.
+ */
 #ifndef DYADEL_ENGINE_H
 #define DYADEL_ENGINE_H
 
@@ -156,7 +158,9 @@ typedef struct dyd_engine_options {
    * DYD_E_NOMEM and says what was too much; the engine and its last result stay as they are, and a run with a larger
    * bound goes on. The remedy for GMP, MPFR and FLINT, which end the process when memory is exhausted: half of the
    * memory there is, say. Estimates are within a factor of 2 of what the engine holds, or a megabyte where that is
-   * more; of callbacks only the answers count, and what other calls make (lists, cells, certificates) comes on top. */
+   * more; of callbacks only the answers count. Calls that make something of the result later (cells, polygons, diagrams
+   * and their bounds, graphs, tolerances, plans) fail with DYD_E_NOMEM where that would take more beside points and
+   * result; lists of pairs and triangles, other outputs and certificates come on top. */
   uint64_t max_bytes;
 } dyd_engine_options;
 /* Fills in the size and the defaults (all zero but for what the comments say). */

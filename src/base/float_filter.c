@@ -6,8 +6,12 @@
 
 #include <float.h>
 
-#if FLT_EVAL_METHOD != 0
+/* 1, as on s390x, widens floats only. */
+#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1
 #error "the error bounds of filters need doubles that are rounded to double after each operation: on x86, -mfpmath=sse"
+#endif
+#if defined __FAST_MATH__ || __FINITE_MATH_ONLY__
+#error "the error bounds of filters need sums in the order written, infinities and NaN: no -ffast-math"
 #endif
 #ifndef __SIZEOF_INT128__
 #error "products of 64-bit numbers need 128-bit integers, which compilers have on 64-bit machines"

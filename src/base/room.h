@@ -39,6 +39,12 @@ static inline bool dyd_room_has(dyd_room *r, uint64_t more, const char *what) {
   return true;
 }
 
+/* What is left for somebody else; 0: no bound. */
+static inline uint64_t dyd_room_left(const dyd_room *r) {
+  uint64_t taken = dyd_bytes_add(r->beside, r->held);
+  return !r->most ? 0 : r->most > taken ? r->most - taken : 1;
+}
+
 /* A part of what is left, for one of so many (0: one) at work side by side. */
 static inline void dyd_room_share(dyd_room *r, unsigned parts) {
   uint64_t taken = dyd_bytes_add(r->beside, r->held);

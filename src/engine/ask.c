@@ -394,6 +394,7 @@ static dyd_status ask_timed(ask *a) {
   dyd_status st = ask_loop(a);
   dyd_watch_stop(&a->watch);
   e->room = NULL;
+  if (a->q->triangulate) dyd_engine_allow(e, a->o.max_bytes);
   if (a->room.peak > e->bytes_most) e->bytes_most = a->room.peak;
   e->seconds += dyd_watch_seconds(&a->watch);
   dyd_flag_set(&e->busy, 0);

@@ -2,6 +2,7 @@
 /* What points take in memory, now and when they are narrower. */
 #include "engine/bytes.h"
 
+#include "delaunay/room.h"
 #include "engine/goal_voronoi.h"
 #include "stream/stream.h"
 
@@ -21,6 +22,11 @@ uint64_t dyd_engine_point_bytes(const dyd_engine *e) {
   return bytes;
 }
 
+void dyd_engine_allow(dyd_engine *e, uint64_t most) {
+  const dyd_room room = {.most = most, .beside = most ? dyd_engine_point_bytes(e) : 0};
+  if (e->pd) dyd_delaunay_allow(e->pd, dyd_room_left(&room));
+}
+
 uint64_t dyd_plan_bytes(const dyd_plan *p) {
   uint64_t stays = dyd_bytes_times(p->count, sizeof *p->item), most = 0;
   for (size_t k = 0; k < p->count; k++) {
@@ -33,9 +39,6 @@ uint64_t dyd_plan_bytes(const dyd_plan *p) {
 }
 
 uint64_t dyd_goal_bytes(const dyd_engine *e, const dyd_engine_options *o) {
-  size_t count[4];
   if (o->goal == DYD_GOAL_DECIDED) return 0;
-  dyd_delaunay_count(count, e->pd);
-  uint64_t pairs = dyd_bytes_times(count[DYD_LEGAL] + count[DYD_INDETERMINATE] + count[DYD_TIE], sizeof(dyd_pair));
-  return pairs + (dyd_goal_is_voronoi(o->goal) ? 2 * sizeof(double) * dyd_sites_count(e->sites) : 0);
+  return dyd_pairs_bytes(e->pd) + (dyd_goal_is_voronoi(o->goal) ? 2 * sizeof(double) * dyd_sites_count(e->sites) : 0);
 }

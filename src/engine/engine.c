@@ -6,6 +6,7 @@
 
 #include "base/abi.h"
 #include "base/alloc.h"
+#include "base/invariant.h"
 #include <dyadel/metric.h>
 
 const char *dyd_outcome_text(dyd_outcome outcome) {
@@ -37,6 +38,7 @@ dyd_status dyd_engine_new(dyd_engine **out) {
 
 void dyd_engine_free(dyd_engine *e) {
   if (!e) return;
+  DYD_INVARIANT(!dyd_engine_is_busy(e)); /* its owner waits for the run */
   dyd_delaunay_free(e->pd);
   dyd_engine_clear_points(e);
   dyd_labels_clear(&e->labels);

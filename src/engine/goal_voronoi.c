@@ -40,6 +40,10 @@ static dyd_status goal_find_sums(dyd_voronoi_sums **sums, const dyd_engine *e, c
   (*sums)->most = goal_most(o);
   (*sums)->cancel = &e->stop;
   if (st == DYD_OK) st = dyd_voronoi_sums_all(*sums, NULL, NULL);
+  if (e->room && (*sums)->room.refused) {
+    dyd_room_join(e->room, &(*sums)->room);
+    e->room->wanted += e->room->beside;
+  }
   return st;
 }
 

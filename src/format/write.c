@@ -152,14 +152,16 @@ dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_o
   if (dyd_delaunay_is_capped(pd))
     return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise --max-pairs");
   dyd_diagram d;
+  dyd_room room = dyd_delaunay_room(pd);
   dyd_voronoi_bounds bounds, *wanted = o.bounds;
   size_t cut;
   dyd_voronoi_bounds_init(&bounds);
   o.bounds = &bounds;
   if (!o.cut) o.cut = &cut;
-  st = dyd_diagram_init(&d, out, e, &o, has_vertices(layer_of(o.layer, DYD_CONTENT_VORONOI), format), err);
+  st = dyd_diagram_init(&d, out, e, &o, has_vertices(layer_of(o.layer, DYD_CONTENT_VORONOI), format), &room, err);
   if (st == DYD_OK)
     st = tell_fineness(dyd_format_write(out, format, layer_of(o.layer, DYD_CONTENT_VORONOI), &d, err), &d, err);
+  if (st == DYD_E_NOMEM && room.refused) dyd_fail_room(err, &room);
   if (st == DYD_OK && wanted) {
     dyd_dyadic_swap(&wanted->area, &bounds.area);
     dyd_dyadic_swap(&wanted->hausdorff, &bounds.hausdorff);

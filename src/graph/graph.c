@@ -20,7 +20,25 @@ static void deal_partners(dyd_graph_work *w) {
   }
 }
 
+/* The partners and boxes, and a list of edges that grows. */
+static bool graph_has_room(dyd_graph_work *w) {
+  uint64_t pairs = dyd_pairs_bytes(w->pd) / sizeof(dyd_pair);
+  uint64_t each = sizeof(dyd_pair) + 2 * sizeof *w->partner + 2 * sizeof *w->out.item;
+  uint64_t bytes = dyd_bytes_times(pairs, each) + dyd_bytes_times(w->n, sizeof *w->start + sizeof *w->box);
+  if (!dyd_room_has(&w->room, bytes, "the graph")) return false;
+  w->room.held += bytes;
+  return true;
+}
+
+/* What is looked at exactly: rectangles of so many partners. */
+static bool partners_have_room(dyd_graph_work *w, size_t most) {
+  enum { NUMBERS = 10, BLOCK = 40 };
+  uint64_t each = sizeof *w->other + sizeof *w->reach.rect + sizeof *w->reach.grid + NUMBERS * BLOCK;
+  return dyd_room_has(&w->room, dyd_bytes_times(most, each), "the partners of a point");
+}
+
 static dyd_status graph_prepare(dyd_graph_work *w) {
+  if (!graph_has_room(w)) return DYD_E_NOMEM;
   dyd_status st = dyd_delaunay_pairs(&w->pairs, w->pd);
   if (st != DYD_OK) return st;
   size_t most = 0;
@@ -33,6 +51,7 @@ static dyd_status graph_prepare(dyd_graph_work *w) {
     dyd_sites_get_d(w->box[i].e, w->sites, i);
     if (w->start[i + 1] - w->start[i] > most) most = w->start[i + 1] - w->start[i];
   }
+  if (!partners_have_room(w, most)) return DYD_E_NOMEM;
   w->other = dyd_alloc(most, sizeof *w->other);
   return w->other ? DYD_OK : DYD_E_NOMEM;
 }
@@ -55,7 +74,7 @@ dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_grap
     return dyd_fail(err, DYD_E_ARG, "there is no graph number %d", (int)graph);
   if (dyd_delaunay_is_capped(pd))
     return dyd_fail(err, DYD_CAPPED, "there are more pairs than can be stored; raise --max-pairs");
-  dyd_graph_work w = {.pd = pd, .sites = dyd_delaunay_sites(pd), .cancel = cancel};
+  dyd_graph_work w = {.pd = pd, .sites = dyd_delaunay_sites(pd), .cancel = cancel, .room = dyd_delaunay_room(pd)};
   w.n = dyd_sites_count(w.sites);
   dyd_reach_init(&w.reach);
   dyd_status st = graph_prepare(&w);
@@ -63,6 +82,7 @@ dyd_status dyd_graph_edges(dyd_graph_list *out, const dyd_delaunay *pd, dyd_grap
   graph_work_clear(&w);
   if (st != DYD_OK) {
     dyd_graph_list_clear(&w.out);
+    if (st == DYD_E_NOMEM && w.room.refused) return dyd_fail_room(err, &w.room);
     return dyd_fail(err, st, "%s", dyd_status_text(st));
   }
   dyd_graph_list_clear(out);

@@ -8,6 +8,7 @@
 #ifndef DYD_GRAPH_GRAPH_H
 #define DYD_GRAPH_GRAPH_H
 
+#include "delaunay/room.h"
 #include "graph/reach.h"
 #include "skeleton/distance_filter.h"
 #include <dyadel/graph.h>
@@ -23,6 +24,7 @@ typedef struct dyd_graph_work {
   uint32_t *partner;
   dyd_bbox *box; /* outward; of each site */
   dyd_reach reach;
+  dyd_room room;   /* what max_bytes leaves beside the triangulation */
   uint32_t *other; /* scratch, as long as the longest list of partners */
   size_t others;
   dyd_graph_list out;

@@ -44,6 +44,14 @@ typedef struct span_work {
   uint32_t *edge; /* pairs of the tree at each site */
 } span_work;
 
+/* Sorting lengths may take as much again as one list of them. */
+static bool span_has_room(const span_work *s) {
+  uint64_t pair = 3 * sizeof *s->least + sizeof *s->replaced + sizeof *s->tree + sizeof *s->never;
+  uint64_t site = 7 * sizeof(uint32_t) + sizeof *s->start;
+  uint64_t bytes = dyd_bytes_times(s->w->pairs.count, pair) + dyd_bytes_times(s->w->n, site);
+  return dyd_room_has(&s->w->room, bytes, "the spanning tree");
+}
+
 static bool span_alloc(span_work *s) {
   size_t n = s->w->n, pairs = s->w->pairs.count;
   s->least = dyd_alloc(pairs, sizeof *s->least);
@@ -194,7 +202,7 @@ static dyd_status span_pair(const span_work *s, uint32_t number) {
 
 dyd_status dyd_spanning_graph(dyd_graph_work *w) {
   span_work s = {.w = w};
-  dyd_status st = span_alloc(&s) ? DYD_OK : DYD_E_NOMEM;
+  dyd_status st = span_has_room(&s) && span_alloc(&s) ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) {
     sort_lengths(&s);
     find_never(&s);

@@ -64,8 +64,10 @@ dyd_status dyd_diagram_visit(const dyd_diagram *d, dyd_cell_visit visit, void *c
   *d->cut = 0;
   sums.cancel = d->cancel;
   sums.cut = d->cut;
+  sums.room.beside = d->room->beside;
   if (st == DYD_OK) st = dyd_voronoi_sums_all(&sums, visit_cell, &v);
   if (st == DYD_OK) st = dyd_voronoi_sums_bounds(d->bounds, &sums);
+  dyd_room_join(d->room, &sums.room);
   dyd_voronoi_sums_clear(&sums);
   return st;
 }
@@ -135,8 +137,11 @@ static dyd_status find_tied_vertices(dyd_diagram *d, size_t faces) {
 }
 
 static dyd_status find_vertices(dyd_diagram *d) {
+  size_t faces = dyd_delaunay_undecided_faces(d->pd), most = 2 * d->count + faces;
+  uint64_t bytes = dyd_bytes_times(most, sizeof *d->triangles.item + sizeof *d->vertex);
+  if (!dyd_room_has(d->room, bytes, "the vertices of the diagram")) return DYD_E_NOMEM;
+  d->room->beside += bytes;
   dyd_status st = dyd_delaunay_triangles(&d->triangles, d->pd);
-  size_t faces = dyd_delaunay_undecided_faces(d->pd);
   if (st != DYD_OK) return st;
   d->vertex = dyd_alloc(d->triangles.count + faces, sizeof *d->vertex);
   d->tied = dyd_alloc(faces, sizeof *d->tied);
@@ -268,7 +273,7 @@ static dyd_status choose_flattening(dyd_diagram *d) {
 }
 
 dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, const dyd_voronoi_options *o, bool vertices,
-                            dyd_error *err) {
+                            dyd_room *room, dyd_error *err) {
   const dyd_delaunay *pd = dyd_engine_delaunay(e);
   *d = (dyd_diagram){.out = out,
                      .engine = e,
@@ -276,6 +281,7 @@ dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, cons
                      .sites = dyd_delaunay_sites(pd),
                      .bounds = o->bounds,
                      .cancel = o->cancel,
+                     .room = room,
                      .cut = o->cut};
   d->count = dyd_sites_count(d->sites);
   d->epsg = o->epsg;

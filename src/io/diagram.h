@@ -35,13 +35,15 @@ typedef struct dyd_diagram {
   int64_t vertex_bits;        /* exact enclosures are asked for with these bits */
   dyd_voronoi_bounds *bounds; /* found when the cells are visited */
   const volatile int *cancel; /* see dyd_voronoi_options; NULL: never */
+  dyd_room *room;             /* what max_bytes leaves beside the triangulation */
   size_t *cut;                /* the cells and regions that it cut, counted when they are visited */
 } dyd_diagram;
 
-/* Makes everything but the bounds; triangles and their vertices only if `vertices`. o->bounds and o->cut are there. Of
- * e there has to be a result that is not capped. An error is told; dyd_diagram_clear comes after it in any case. */
+/* Makes everything but the bounds; triangles and their vertices only if `vertices`. o->bounds and o->cut are there;
+ * room is borrowed as long as *d is used. Of e there has to be a result that is not capped. An error is told;
+ * dyd_diagram_clear comes after it in any case. */
 dyd_status dyd_diagram_init(dyd_diagram *d, FILE *out, const dyd_engine *e, const dyd_voronoi_options *o, bool vertices,
-                            dyd_error *err);
+                            dyd_room *room, dyd_error *err);
 void dyd_diagram_clear(dyd_diagram *d);
 
 /* Called for every site that stands for itself, in order. */

@@ -10,6 +10,7 @@
 #include "io/dual.h"
 
 #include "base/alloc.h"
+#include "delaunay/room.h"
 #include "delaunay/undecided.h"
 #include <math.h>
 
@@ -104,9 +105,11 @@ static dyd_status dual_join_rays(dyd_dual_edge *edge, size_t count, const dyd_de
 }
 
 dyd_status dyd_dual_edges(dyd_dual_edge **out, size_t *count, const dyd_delaunay *pd,
-                          const dyd_triangle_list *triangles, const size_t *tied, size_t ties) {
+                          const dyd_triangle_list *triangles, const size_t *tied, size_t ties, dyd_room *room) {
   dyd_pair_list pairs = {0};
   size_t legal = 0;
+  uint64_t bytes = dyd_pairs_bytes(pd), edges = dyd_bytes_times(bytes / sizeof(dyd_pair), sizeof(dyd_dual_edge));
+  if (!dyd_room_has(room, dyd_bytes_add(bytes, edges), "the edges of the diagram")) return DYD_E_NOMEM;
   dyd_status st = dyd_delaunay_pairs(&pairs, pd);
   dyd_dual_edge *edge = st == DYD_OK ? calloc(pairs.count ? pairs.count : 1, sizeof *edge) : NULL;
   if (st == DYD_OK && !edge) st = DYD_E_NOMEM;

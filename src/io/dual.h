@@ -3,6 +3,7 @@
 #ifndef DYD_IO_DUAL_H
 #define DYD_IO_DUAL_H
 
+#include "base/room.h"
 #include <dyadel/voronoi.h>
 
 typedef enum dyd_dual_kind {
@@ -26,8 +27,9 @@ typedef struct dyd_dual_edge {
 /* Where the face is among those that are tied, ascending; NULL: it is none of them. */
 const size_t *dyd_dual_tied(const size_t *tied, size_t ties, size_t face);
 
-/* tied: faces of pd whose sites are on one circle, ascending. *out is new, sorted by i and j; release with free(). */
+/* tied: faces of pd whose sites are on one circle, ascending. *out is new, sorted by i and j; release with free().
+ * DYD_E_NOMEM, too, when *room has none. */
 dyd_status dyd_dual_edges(dyd_dual_edge **out, size_t *count, const dyd_delaunay *pd,
-                          const dyd_triangle_list *triangles, const size_t *tied, size_t ties);
+                          const dyd_triangle_list *triangles, const size_t *tied, size_t ties, dyd_room *room);
 
 #endif

@@ -65,7 +65,10 @@ static dyd_status cells_csv(const dyd_output *o) {
                                        "yhi", "area_lo", "area_hi", "undetermined", NULL};
   const dyd_diagram *d = o->what;
   const dyd_table_head head = diagram_head(o, column, DYD_GEOMETRY_POLYGON);
-  dyd_cell_row *rows = calloc(d->count ? d->count : 1, sizeof *rows);
+  uint64_t bytes = dyd_bytes_times(d->count, sizeof(dyd_cell_row));
+  dyd_cell_row *rows = NULL;
+  if (dyd_room_has(d->room, bytes, "the rows of the cells")) rows = calloc(d->count ? d->count : 1, sizeof *rows);
+  d->room->beside += bytes;
   dyd_table t;
   dyd_status st = rows ? dyd_diagram_visit(d, keep_row, rows) : DYD_E_NOMEM;
   if (st == DYD_OK) st = diagram_comments(o);
@@ -283,7 +286,7 @@ dyd_status dyd_layer_edges(const dyd_output *o) {
   size_t count = 0;
   dyd_table t;
   dyd_status st = diagram_begin(o);
-  if (st == DYD_OK) st = dyd_dual_edges(&edge, &count, d->pd, &d->triangles, d->tied, d->ties);
+  if (st == DYD_OK) st = dyd_dual_edges(&edge, &count, d->pd, &d->triangles, d->tied, d->ties, d->room);
   if (st != DYD_OK) return st;
   dyd_table_begin(&t, &head);
   for (size_t k = 0; k < count && st == DYD_OK; k++) {

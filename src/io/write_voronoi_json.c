@@ -59,7 +59,7 @@ typedef struct cells {
 
 static dyd_status region_boundary_json(cells *c, uint32_t i, bool outer) {
   dyd_boundary boundary = {0};
-  dyd_status st = dyd_cell_region(&boundary, c->d->pd, i, outer, NULL, c->d->cancel);
+  dyd_status st = dyd_cell_region(&boundary, c->d->pd, i, outer, NULL, c->d->room, c->d->cancel);
   if (st == DYD_CANCELLED) {
     fputs("null", c->d->out);
     st = DYD_OK;
@@ -142,7 +142,7 @@ static void dual_end_json(FILE *out, const char *name, const dyd_dual_end *end) 
 static dyd_status dual_edges_json(const dyd_diagram *d) {
   dyd_dual_edge *edge = NULL;
   size_t count = 0;
-  dyd_status st = dyd_dual_edges(&edge, &count, d->pd, &d->triangles, d->tied, d->ties);
+  dyd_status st = dyd_dual_edges(&edge, &count, d->pd, &d->triangles, d->tied, d->ties, d->room);
   fputs("\"edges\": [", d->out);
   for (size_t k = 0; k < count; k++) {
     fprintf(d->out, "%s\n{\"i\": %zu, \"j\": %zu", k ? "," : "", dyd_engine_row(d->engine, edge[k].i),

@@ -22,7 +22,15 @@ typedef struct gathered {
   size_t points, points_cap, count, cap;
 } gathered;
 
+/* With what reserving takes while it copies. */
+static bool figures_have_room(const gathered *g, size_t corners) {
+  uint64_t points = dyd_bytes_times(g->points + corners, 5 * sizeof *g->at / 2);
+  uint64_t items = dyd_bytes_times(g->count + 1, 5 * sizeof *g->item / 2);
+  return dyd_room_has(g->d->room, dyd_bytes_add(points, items), "the figures of the diagram");
+}
+
 static dyd_status gather_figure(gathered *g, figure_kind kind, uint32_t site, size_t corners) {
+  if (!figures_have_room(g, corners)) return DYD_E_NOMEM;
   if (!dyd_reserve((void **)&g->item, &g->cap, g->count + 1, sizeof *g->item) ||
       !dyd_reserve((void **)&g->at, &g->points_cap, g->points + corners, sizeof *g->at))
     return DYD_E_NOMEM;
@@ -81,7 +89,7 @@ static dyd_status gather_region(void *context, size_t face, const double box[4])
 static dyd_status gather_edges(gathered *g) {
   dyd_dual_edge *edge = NULL;
   size_t count = 0;
-  dyd_status st = dyd_dual_edges(&edge, &count, g->d->pd, &g->d->triangles, g->d->tied, g->d->ties);
+  dyd_status st = dyd_dual_edges(&edge, &count, g->d->pd, &g->d->triangles, g->d->tied, g->d->ties, g->d->room);
   for (size_t k = 0; k < count && st == DYD_OK; k++) {
     double box[2][4];
     if (!dyd_diagram_edge(box, g->d, &edge[k])) continue;

@@ -34,11 +34,12 @@ typedef struct search {
   dyd_bbox at; /* where c is */
   size_t rivals;
   bool ended, none;
+  const volatile int *cancel;
   dyd_status status;
 } search;
 
 static dyd_status witness_search_init(search *s, const dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j) {
-  *s = (search){.rects = w->rects, .no_filter = sk->mesh.no_filter, .i = i, .j = j};
+  *s = (search){.rects = w->rects, .no_filter = sk->mesh.no_filter, .i = i, .j = j, .cancel = w->cancel};
   dyd_rect_init(&s->own[0]);
   dyd_rect_init(&s->own[1]);
   dyd_rect_init(&s->rival);
@@ -85,6 +86,8 @@ static void witness_add_rival(search *s, const dyd_rect *r) {
 static bool witness_examine(void *context, uint32_t k) {
   search *s = context;
   if (k == s->i || k == s->j || witness_is_surely_outside(s, k)) return true;
+  if (dyd_flag_is_set(s->cancel)) s->status = DYD_CANCELLED; /* each that follows may take long */
+  if (s->status != DYD_OK) return false;
   dyd_rect r;
   dyd_rect_init(&r);
   s->status = dyd_rects_get(&r, s->rects, k);

@@ -38,10 +38,13 @@ static mpfr_prec_t sum_precision(const dyd_rect *window, int64_t bits) {
 
 dyd_status dyd_voronoi_sums_init(dyd_voronoi_sums *s, const dyd_delaunay *pd, const dyd_rect *window, int64_t bits) {
   size_t n = dyd_sites_count(dyd_delaunay_sites(pd));
-  *s = (dyd_voronoi_sums){.pd = pd, .window = window, .bits = bits, .most = HUGE_VAL};
+  *s = (dyd_voronoi_sums){.pd = pd, .window = window, .bits = bits, .most = HUGE_VAL, .room = dyd_delaunay_room(pd)};
   mpfr_inits2(sum_precision(window, bits), s->inner, s->term, (mpfr_ptr)0);
   mpfr_set_zero(s->inner, 1);
   dyd_dyadic_init(&s->area2);
+  uint64_t bytes = dyd_bytes_times(n, sizeof *s->reach + sizeof *s->second);
+  if (!dyd_room_has(&s->room, bytes, "the diagram")) return DYD_E_NOMEM;
+  s->room.held += bytes;
   s->reach = dyd_alloc(n, sizeof *s->reach);
   s->second = dyd_alloc(n, sizeof *s->second);
   if (!s->reach || !s->second) return DYD_E_NOMEM;
@@ -101,6 +104,7 @@ dyd_status dyd_voronoi_sums_all(dyd_voronoi_sums *s, dyd_voronoi_visit visit, vo
   dyd_window w;
   dyd_status st = dyd_window_init(&w, s->window);
   w.cancel = s->cancel;
+  w.room = &s->room;
   for (size_t i = 0; i < n && st == DYD_OK; i++) {
     double area[2];
     if (dyd_delaunay_alias(s->pd, (uint32_t)i) != i) continue;
@@ -240,7 +244,8 @@ dyd_status dyd_voronoi_sums_bounds(dyd_voronoi_bounds *out, dyd_voronoi_sums *s)
   dyd_pair_list pairs = {0};
   mpfr_t area, hausdorff;
   mpfr_inits2(DYD_MEASURE_PREC, area, hausdorff, (mpfr_ptr)0);
-  dyd_status st = dyd_delaunay_pairs(&pairs, s->pd);
+  dyd_status st = dyd_room_has(&s->room, dyd_pairs_bytes(s->pd), "the bounds of the diagram") ? DYD_OK : DYD_E_NOMEM;
+  if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, s->pd);
   dyd_voronoi_area(area, s);
   if (st == DYD_OK) st = dyd_voronoi_hausdorff(hausdorff, &out->finite, s, &pairs);
   if (st == DYD_CANCELLED && s->cut) { /* not known */

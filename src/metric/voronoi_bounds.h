@@ -21,6 +21,7 @@ typedef struct dyd_voronoi_sums {
   dyd_dyadic area2;
   const volatile int *cancel;
   size_t *cut;
+  dyd_room room; /* what max_bytes leaves beside the triangulation */
   double *reach, *second, most;
 } dyd_voronoi_sums;
 

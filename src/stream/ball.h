@@ -23,6 +23,17 @@ void dyd_ball_set_q(arb_ptr out, mpq_srcptr q, slong prec);
 dyd_defined dyd_ball_unary(arb_ptr x, dyd_op op, dyd_range range, long exponent, slong prec);
 /* x = op(x, y). */
 dyd_defined dyd_ball_binary(arb_ptr x, dyd_op op, arb_srcptr y, slong prec);
+/* One step: a function of x, an operation on x and y, or pi or e, to `prec` bits; range and exponent as above. */
+typedef struct dyd_ball_step {
+  dyd_op op;
+  dyd_range range;
+  long exponent;
+  arb_srcptr y; /* NULL: there is none */
+  slong prec;
+} dyd_ball_step;
+/* x = the result. A step that may take long ends early once *stop is set (NULL: nobody can): DYD_UNDEFINED_YET, and x
+ * is as it was. */
+dyd_defined dyd_ball_apply(arb_ptr x, const dyd_ball_step *s, const volatile int *stop);
 /* Is |x| surely beyond 2^e? */
 bool dyd_ball_exceeds(arb_srcptr x, slong e);
 /* Finite and not too big? Raises *exponent to a bound of its binary exponent. */

@@ -54,10 +54,9 @@ static void machine_push_root(machine *m, arb_ptr out, dyd_real *root, const dyd
 
 static void machine_push_leaf(machine *m, const dyd_expr *e, const dyd_node *n) {
   arb_ptr out = m->ball + m->top++;
-  if (n->op == DYD_OP_PI) {
-    arb_const_pi(out, m->prec);
-  } else if (n->op == DYD_OP_E) {
-    arb_const_e(out, m->prec);
+  if (n->op == DYD_OP_PI || n->op == DYD_OP_E) {
+    const dyd_ball_step constant = {.op = (dyd_op)n->op, .prec = m->prec};
+    dyd_ball_apply(out, &constant, m->stop);
   } else if (n->op == DYD_OP_ROOT) {
     machine_push_root(m, out, e->root[n->argument], n);
   } else {
@@ -73,11 +72,9 @@ static dyd_defined machine_apply(machine *m, const dyd_expr *e, const dyd_range 
     machine_push_leaf(m, e, n);
     return DYD_DEFINED;
   }
-  if (dyd_op_is_binary((dyd_op)n->op)) {
-    m->top--;
-    return dyd_ball_binary(m->ball + m->top - 1, (dyd_op)n->op, m->ball + m->top, m->prec);
-  }
-  return dyd_ball_unary(m->ball + m->top - 1, (dyd_op)n->op, *below, n->argument, m->prec);
+  dyd_ball_step step = {.op = (dyd_op)n->op, .range = *below, .exponent = n->argument, .prec = m->prec};
+  if (dyd_op_is_binary(step.op)) step.y = m->ball + --m->top;
+  return dyd_ball_apply(m->ball + m->top - 1, &step, m->stop);
 }
 
 /* Runs all nodes; the value is then m->ball[0]. On failure *culprit is the node; m->failed tells of that of a root. */

@@ -6,54 +6,13 @@
 #include "stream/root.h"
 #include "stream/real.h"
 
-#include "base/alloc.h"
 #include "base/error.h"
-#include "base/flag.h"
 #include <flint/fmpq.h>
 #include <flint/fmpz_poly.h>
 #include <flint/fmpz_poly_factor.h>
 
-void dyd_root_free(dyd_root *r) {
-  if (!r) return;
-  for (size_t k = 0; k < r->count; k++) mpz_clear(r->coeff[k]);
-  free(r->coeff);
-  mpz_clear(r->slot);
-  mpq_clears(r->lo, r->hi, NULL);
-  free(r);
-}
-
 static void root_release(void *user) {
   dyd_root_free(user);
-}
-
-/* Memory for `count` coefficients, all 0; NULL: memory is exhausted. */
-static dyd_root *root_alloc(size_t count) {
-  dyd_root *r = dyd_alloc(1, sizeof *r);
-  if (!r) return NULL;
-  *r = (dyd_root){.jump = 2};
-  mpq_inits(r->lo, r->hi, NULL);
-  mpz_init(r->slot);
-  r->coeff = dyd_alloc(count, sizeof *r->coeff);
-  if (!r->coeff) return dyd_root_free(r), NULL;
-  for (; r->count < count; r->count++) mpz_init(r->coeff[r->count]);
-  return r;
-}
-
-dyd_status dyd_root_copy(dyd_root **out, const dyd_root *r) {
-  dyd_root *c = root_alloc(r->count);
-  if (!c) return DYD_E_NOMEM;
-  for (size_t k = 0; k < r->count; k++) mpz_set(c->coeff[k], r->coeff[k]);
-  mpq_set(c->lo, r->lo);
-  mpq_set(c->hi, r->hi);
-  mpz_set(c->slot, r->slot);
-  c->on_grid = r->on_grid;
-  c->exact = r->exact;
-  c->isolated = r->isolated;
-  c->sign_left = r->sign_left;
-  c->s = r->s;
-  c->jump = r->jump;
-  *out = c;
-  return DYD_OK;
 }
 
 /* The bracket as an interval. */
@@ -77,8 +36,7 @@ static dyd_status root_interval(dyd_interval *out, const dyd_root *r, int64_t bi
 static dyd_status root_narrow(dyd_interval *out, void *user, const dyd_request *request, dyd_error *err) {
   dyd_root *r = user;
   while (!dyd_root_is_narrow(r, request->bits)) {
-    if (dyd_flag_is_set(request->stop)) return DYD_CANCELLED;
-    dyd_status st = dyd_root_step(r, request->bits, err);
+    dyd_status st = dyd_root_step(r, request->bits, request->stop, err);
     if (st != DYD_OK) return st;
   }
   dyd_status st = root_interval(out, r, request->bits);
@@ -130,7 +88,7 @@ static int sign_at_q(const fmpz_poly_t p, const mpq_t x) {
 }
 
 static dyd_status root_new(dyd_real **out, const fmpz_poly_t g, const mpq_t lo, const mpq_t hi) {
-  dyd_root *r = root_alloc((size_t)fmpz_poly_length(g));
+  dyd_root *r = dyd_root_alloc((size_t)fmpz_poly_length(g));
   fmpz_t c;
   if (!r) return DYD_E_NOMEM;
   fmpz_init(c);

@@ -24,10 +24,13 @@ typedef struct dyd_root {
   unsigned jump; /* places to be gained by the next quadratic step */
 } dyd_root;
 
-/* One step of narrowing towards a slot of side 2^-target; each step halves the bracket at least [ROOT-1]. */
-dyd_status dyd_root_step(dyd_root *r, int64_t target, dyd_error *err);
+/* One step of narrowing towards a slot of side 2^-target; each step halves the bracket at least [ROOT-1].
+ * DYD_CANCELLED, and the bracket as it was, once *stop is set (NULL: nobody can). */
+dyd_status dyd_root_step(dyd_root *r, int64_t target, const volatile int *stop, dyd_error *err);
 /* Is the bracket at most 2^-bits wide (or the root known exactly)? */
 bool dyd_root_is_narrow(const dyd_root *r, int64_t bits);
+/* With `count` coefficients, all 0; to be freed. NULL: memory is exhausted. */
+dyd_root *dyd_root_alloc(size_t count);
 /* A copy with a bracket of its own; to be freed. DYD_OK or DYD_E_NOMEM. */
 dyd_status dyd_root_copy(dyd_root **out, const dyd_root *r);
 void dyd_root_free(dyd_root *r);

@@ -12,7 +12,10 @@
 #include "stream/ball.h"
 #include "stream/root.h"
 
+#include "base/apart.h"
 #include "base/error.h"
+#include "base/flag.h"
+#include <stdlib.h>
 
 static void root_load(fmpz_poly_t p, const dyd_root *r) {
   fmpz_t c;
@@ -261,7 +264,7 @@ bool dyd_root_is_narrow(const dyd_root *r, int64_t bits) {
   return grid_for(r) >= bits + 5;
 }
 
-dyd_status dyd_root_step(dyd_root *r, int64_t target, dyd_error *err) {
+static dyd_status root_step_now(dyd_root *r, int64_t target, dyd_error *err) {
   fmpz_poly_t p;
   dyd_status st = DYD_OK;
   fmpz_poly_init(p);
@@ -272,5 +275,53 @@ dyd_status dyd_root_step(dyd_root *r, int64_t target, dyd_error *err) {
     grid_step(r, p, target);
   }
   fmpz_poly_clear(p);
+  return st;
+}
+
+/* ---- steps that may take long ---- */
+
+/* Such a step is made on a copy, by a thread of its own. */
+typedef struct root_errand {
+  dyd_root *root;
+  int64_t target;
+  dyd_error err;
+  dyd_status status;
+} root_errand;
+
+static void root_errand_run(void *job) {
+  root_errand *e = job;
+  e->status = root_step_now(e->root, e->target, &e->err);
+  flint_cleanup(); /* the caches of this thread */
+}
+
+static void root_errand_drop(void *job) {
+  root_errand *e = job;
+  dyd_root_free(e->root);
+  free(e);
+}
+
+/* Signs are found with at most so many bits as the degree times those of the place: from a million on, a step may take
+ * a tenth of a second. */
+static bool root_step_is_long(const dyd_root *r) {
+  enum { LONG = 1 << 20 };
+  size_t bits = r->jump + mpz_sizeinbase(r->slot, 2);
+  if (!r->on_grid) bits = mpz_sizeinbase(mpq_numref(r->hi), 2) + mpz_sizeinbase(mpq_denref(r->hi), 2);
+  return r->count > LONG / bits;
+}
+
+dyd_status dyd_root_step(dyd_root *r, int64_t target, const volatile int *stop, dyd_error *err) {
+  if (dyd_flag_is_set(stop)) return DYD_CANCELLED;
+  root_errand *e = stop && root_step_is_long(r) ? malloc(sizeof *e) : NULL;
+  if (!e) return root_step_now(r, target, err);
+  *e = (root_errand){.target = target, .status = DYD_E_NOMEM};
+  dyd_error_clear(&e->err);
+  if (dyd_root_copy(&e->root, r) != DYD_OK) return free(e), dyd_fail_nomem(err);
+  if (!dyd_apart(root_errand_run, root_errand_drop, e, stop)) return DYD_CANCELLED;
+  dyd_root before = *r;
+  dyd_status st = e->status;
+  if (st != DYD_OK && err) *err = e->err;
+  *r = *e->root;
+  *e->root = before;
+  root_errand_drop(e);
   return st;
 }

@@ -46,7 +46,7 @@ uint64_t dyd_stream_bytes(const dyd_stream *s) {
 /* Numbers of as many digits as the value has: those of all nodes, and what a function computes with: powers, constants,
  * sums by splitting. */
 static uint64_t numbers_at_work(const dyd_real *x) {
-  enum { OTHERS = 8, FUNCTION = 48 };
+  enum { OTHERS = 8, FUNCTION = 36 };
   const void *object;
   switch (dyd_real_object(&object, x)) {
   case DYD_REAL_EXPR:

@@ -95,6 +95,13 @@ static dyd_status births_among(dyd_tolerance *t, const dyd_pair_list *pairs) {
   return st;
 }
 
+/* For the list of candidates beside their triangulation, and for rows of all of them. */
+static dyd_status births_have_room(dyd_tolerance *t, const dyd_delaunay *wide) {
+  if (!t->room.most) return DYD_OK;
+  t->room.beside += dyd_delaunay_memory(wide) + dyd_pairs_bytes(wide);
+  return dyd_rows_have_room(t, dyd_pairs_bytes(wide) / sizeof(dyd_pair), "the births") ? DYD_OK : DYD_E_NOMEM;
+}
+
 dyd_status dyd_births(dyd_tolerance *t, dyd_error *err) {
   dyd_sites *squares = NULL;
   dyd_delaunay *wide = NULL;
@@ -103,11 +110,15 @@ dyd_status dyd_births(dyd_tolerance *t, dyd_error *err) {
                             .max_pairs = t->options.max_pairs};
   dyd_status st = dyd_sites_new(&squares);
   if (st == DYD_OK) st = make_squares(squares, t);
+  t->room.beside = squares ? dyd_sites_memory(squares) : 0;
+  o.max_bytes = dyd_room_left(&t->room);
   if (st == DYD_OK) st = dyd_delaunay_new(&wide, squares, &o, err);
   if (st == DYD_CAPPED)
     dyd_fail(err, st, "there are too many pairs that may be born up to there; ask for less, or raise --max-pairs");
+  if (st == DYD_OK) st = births_have_room(t, wide);
   if (st == DYD_OK) st = dyd_delaunay_pairs(&pairs, wide);
   if (st == DYD_OK) st = births_among(t, &pairs);
+  t->room.beside = 0;
   dyd_pair_list_clear(&pairs);
   dyd_delaunay_free(wide);
   dyd_sites_free(squares);

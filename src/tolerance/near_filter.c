@@ -71,7 +71,17 @@ static dyd_status list_near(dyd_tolerance *t) {
   return DYD_OK;
 }
 
+/* Of each site: the low parts, its neighbours twice over, where its rows begin, its radius and its weight. */
+static bool near_has_room(dyd_tolerance *t) {
+  uint64_t each = sizeof *t->low + sizeof *t->start + 6 * sizeof *t->near + sizeof(size_t) + 3 * sizeof(double);
+  uint64_t bytes = dyd_bytes_times(t->sk->n, each);
+  if (!dyd_room_has(&t->room, bytes, "the neighbours of the points")) return false;
+  t->room.held += bytes;
+  return true;
+}
+
 dyd_status dyd_near_prepare(dyd_tolerance *t) {
+  if (!near_has_room(t)) return DYD_E_NOMEM;
   t->points = (dyd_points_d){.xy = t->sk->reps.xy, .usable = fegetround() == FE_TONEAREST};
   dyd_status st = find_low_parts(t);
   return st == DYD_OK ? list_near(t) : st;

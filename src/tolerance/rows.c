@@ -6,6 +6,15 @@
 
 #include <string.h>
 
+bool dyd_rows_have_room(dyd_tolerance *t, uint64_t pairs, const char *what) {
+  bool rings = t->options.points || t->sigma;
+  uint64_t each = 2 * sizeof *t->row + (rings ? sizeof *t->ring + sizeof *t->chance : 0);
+  uint64_t bytes = dyd_bytes_times(pairs, each);
+  if (!dyd_room_has(&t->room, bytes, what)) return false;
+  t->room.held = dyd_bytes_add(t->room.held, t->room.most ? bytes : 0);
+  return true;
+}
+
 dyd_status dyd_row_add(dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k, uint32_t l,
                        double lo, double hi) {
   const uint32_t *site = t->sk->reps.site;

@@ -12,6 +12,7 @@
 #ifndef DYD_TOLERANCE_STATE_H
 #define DYD_TOLERANCE_STATE_H
 
+#include "delaunay/room.h"
 #include "delaunay/undecided.h"
 #include "tolerance/lines.h"
 #include "tolerance/lines_filter.h"
@@ -34,6 +35,7 @@ struct dyd_tolerance {
   const dyd_delaunay *pd;
   const dyd_skeleton *sk;
   dyd_tolerance_options options;
+  dyd_room room; /* what max_bytes leaves beside the triangulation */
   dyd_tolerance_row *row;
   size_t rows, cap;
   double *weight; /* of a vertex, the largest of those at its place; NULL: all are 1 */
@@ -68,6 +70,9 @@ static inline uint32_t dyd_degree(const dyd_tolerance *t, uint32_t v) {
 void dyd_near_clear(dyd_tolerance *t);
 /* Makes the tree over all vertices, unless there is one. */
 dyd_status dyd_near_index(dyd_tolerance *t);
+/* rows.c: is there room for the rows of so many pairs, with what is kept of each and what sorting takes? They are held
+ * from then on. */
+bool dyd_rows_have_room(dyd_tolerance *t, uint64_t pairs, const char *what);
 bool dyd_others_add(dyd_others *o, uint32_t v);
 /* *o becomes the neighbours of v and w in the skeleton, but v, w and the ghost; of an end of more than `most`
  * neighbours only those that are next to the other end. Repeats are possible. */

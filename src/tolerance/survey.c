@@ -302,6 +302,8 @@ dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_su
   dyd_survey *s = calloc(1, sizeof *s);
   if (!s) return dyd_fail_nomem(err);
   mpq_init(s->scale);
+  s->room = dyd_delaunay_room(pd);
+  s->err = err;
   dyd_status st = dyd_abi_take(&s->options, sizeof s->options, options, "dyd_survey_options", err);
   if (st == DYD_OK) st = dyd_survey_load(s, dyd_delaunay_sites(pd));
   if (st == DYD_OK) st = survey_check(s, pd, err);
@@ -309,10 +311,12 @@ dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_su
   if (st == DYD_OK) st = choose_finely_enough(s, pd);
   if (st == DYD_OK) st = simplify(s, pd);
   if (st == DYD_OK) st = merge_rows(s);
+  s->err = NULL;
   if (st == DYD_OK) {
     *out = s;
     return DYD_OK;
   }
+  if (st == DYD_E_NOMEM && s->room.refused) dyd_fail_room(err, &s->room);
   dyd_survey_free(s);
   return err && err->code == st ? st : dyd_fail(err, st, "%s", dyd_status_text(st));
 }

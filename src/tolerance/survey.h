@@ -3,6 +3,7 @@
 #ifndef DYD_TOLERANCE_SURVEY_H
 #define DYD_TOLERANCE_SURVEY_H
 
+#include "delaunay/room.h"
 #include <dyadel/survey.h>
 
 /* A site as it is, and how small it can be measured. rect: now; centre, half: of it, exactly (half of the larger
@@ -23,6 +24,8 @@ typedef struct dyd_face_rows {
  * (unit NULL). */
 struct dyd_survey {
   dyd_survey_options options;
+  dyd_room room;  /* what max_bytes leaves beside the triangulation */
+  dyd_error *err; /* of the call that makes it; borrowed, may be NULL */
   size_t sites;
   dyd_survey_site *site;
   dyd_pair_list target; /* asked for, open, and no tie */

@@ -20,7 +20,17 @@ static void load_site(dyd_survey_site *p) {
   mpq_clears(lo, hi, NULL);
 }
 
+/* Of each site its rectangle, centre and half-width, twelve numbers: with their digits, and what allocators add. */
+static bool survey_has_room(dyd_survey *s, size_t sites) {
+  enum { NUMBERS = 12, BLOCK = 32 };
+  uint64_t bytes = dyd_bytes_times(sites, sizeof *s->site + NUMBERS * BLOCK);
+  if (!dyd_room_has(&s->room, bytes, "the plan")) return false;
+  s->room.held += bytes;
+  return true;
+}
+
 dyd_status dyd_survey_load(dyd_survey *s, const dyd_sites *sites) {
+  if (!survey_has_room(s, dyd_sites_count(sites))) return DYD_E_NOMEM;
   s->site = dyd_alloc(dyd_sites_count(sites), sizeof *s->site);
   if (!s->site) return DYD_E_NOMEM;
   dyd_status st = DYD_OK;
@@ -72,7 +82,9 @@ dyd_status dyd_survey_rect(dyd_rect *out, const dyd_survey *s, uint32_t i, bool 
 }
 
 dyd_status dyd_survey_triangulate(dyd_delaunay **pd, dyd_sites **sites, const dyd_survey *s, bool centres) {
-  const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = s->options.cancel};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .cancel = s->options.cancel};
+  dyd_room room = s->room;
+  dyd_error err = {0};
   dyd_rect r;
   dyd_rect_init(&r);
   *pd = NULL;
@@ -81,8 +93,11 @@ dyd_status dyd_survey_triangulate(dyd_delaunay **pd, dyd_sites **sites, const dy
     st = centres ? dyd_rect_set_q(&r, s->site[i].x, s->site[i].y) : dyd_survey_rect(&r, s, i, s->site[i].chosen);
     if (st == DYD_OK) st = dyd_sites_add_rect(*sites, &r);
   }
-  if (st == DYD_OK) st = dyd_delaunay_new(pd, *sites, &o, NULL);
+  if (room.most && st == DYD_OK) room.beside = dyd_sites_memory(*sites);
+  o.max_bytes = dyd_room_left(&room);
+  if (st == DYD_OK) st = dyd_delaunay_new(pd, *sites, &o, &err);
   dyd_rect_clear(&r);
+  if (s->err && st < 0 && err.code == st) *s->err = err;
   return st == DYD_CAPPED ? DYD_OK : st;
 }
 

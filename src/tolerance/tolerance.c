@@ -79,6 +79,8 @@ static dyd_status tolerance_work(dyd_tolerance *t, dyd_error *err) {
   dyd_status st = dyd_near_prepare(t);
   if (st == DYD_OK && (o->sigmas || o->sigma > 0))
     st = take_by_vertex(&t->sigma, &t->widest, t->sk, o->sigmas, o->sigma);
+  uint64_t pairs = dyd_pairs_bytes(t->pd) / sizeof(dyd_pair);
+  if (st == DYD_OK && !dyd_rows_have_room(t, pairs, "the tolerances of the edges")) st = DYD_E_NOMEM;
   if (st == DYD_OK) st = dyd_deaths(t);
   if (st == DYD_OK) dyd_each_pair(t->pd, add_tie, &ties);
   if (st == DYD_OK) st = ties.status;
@@ -101,12 +103,14 @@ dyd_status dyd_tolerance_new(dyd_tolerance **out, const dyd_delaunay *pd, const 
   if (!t) return st == DYD_OK ? dyd_fail_nomem(err) : st;
   t->pd = pd;
   t->sk = &pd->sk;
+  t->room = dyd_delaunay_room(pd);
   dyd_lines_init(&t->lines);
   dyd_summit_init(&t->summit);
   st = dyd_abi_take(&t->options, sizeof t->options, options, "dyd_tolerance_options", err);
   if (st == DYD_OK) st = check_points(t, err);
   if (st == DYD_OK) st = tolerance_work(t, err);
   t->options.up_to = NULL;
+  if (st == DYD_E_NOMEM && t->room.refused) dyd_fail_room(err, &t->room);
   if (st == DYD_OK) {
     *out = t;
     return DYD_OK;

@@ -4,14 +4,15 @@
 #define DYD_VORONOI_EXACT_CELL_H
 
 #include "base/flag.h"
+#include "base/room.h"
 #include "voronoi/bisector.h"
 #include <dyadel/delaunay.h>
 
 /* What is asked: the region of site `site` against `count` others.
  * rect: the rectangle of `site`, of the others, and of the window if there is one; site numbers ascending. outer: Pos,
  * else Int. pd: only pairs of others that it calls possible share a vertex; NULL: all may. keep_all: without
- * dyd_cell_prune, for comparison. cancel: the work ends with DYD_CANCELLED once *cancel is set; may be NULL. All
- * borrowed. */
+ * dyd_cell_prune, for comparison. cancel: the work ends with DYD_CANCELLED once *cancel is set; may be NULL. room: for
+ * what is large; NULL: no bound. All borrowed. */
 typedef struct dyd_cell_task {
   uint32_t site;
   const uint32_t *other;
@@ -21,6 +22,7 @@ typedef struct dyd_cell_task {
   const dyd_delaunay *pd;
   bool keep_all;
   const volatile int *cancel;
+  dyd_room *room;
 } dyd_cell_task;
 
 /* Part of an arc of curve `curve` (or of side curve - count of the window, arc = NULL), in the direction that has the
@@ -58,6 +60,7 @@ typedef struct dyd_exact_cell {
   dyd_curve *curve;
   dyd_meet *meet;
   size_t meets, meet_cap;
+  uint64_t bytes; /* of the curves, and of the digits of the meets */
   dyd_piece *piece;
   size_t pieces, piece_cap;
   dyd_sample sample;
@@ -102,9 +105,9 @@ void dyd_cell_clear(dyd_exact_cell *c);
 /* Leaves out others that surely do not bound the region, before the pieces are looked for. [PRUNE-1] */
 dyd_status dyd_cell_prune(dyd_exact_cell *c);
 /* The boundary of Int_i or (outer) Pos_i; window NULL: in the whole plane. As dyd_voronoi_int and its kin, and
- * DYD_CANCELLED once *cancel, which may be NULL, is set. */
+ * DYD_CANCELLED once *cancel, which may be NULL, is set; room may be NULL. */
 dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer, const dyd_rect *window,
-                           const volatile int *cancel);
+                           dyd_room *room, const volatile int *cancel);
 /* Joins the pieces to chains. *out is empty before; on failure the caller clears it. */
 dyd_status dyd_cell_link(dyd_boundary *out, const dyd_exact_cell *c);
 

@@ -6,6 +6,7 @@
  * under the choice with p_i closest to it and all others farthest, is nearer to some Delaunay neighbour of i, hence in
  * C_ji for a possible neighbour j. Nobody else needs to be looked at. */
 #include "base/alloc.h"
+#include "delaunay/room.h"
 #include "predicate/predicate_filter.h"
 #include "voronoi/exact_cell.h"
 #include "voronoi/sample.h"
@@ -25,20 +26,20 @@ static bool window_has_area(const dyd_rect *w) {
 
 /* The region of `site` among the sites s of its cell; window: NULL for the whole plane. */
 static dyd_status cell_region_among(dyd_boundary *out, const dyd_delaunay *pd, const dyd_cell_sites *s, uint32_t site,
-                                    bool outer, const dyd_rect *window, const volatile int *cancel) {
+                                    bool outer, const dyd_rect *window, dyd_room *room, const volatile int *cancel) {
   const dyd_rect **in = dyd_alloc(s->count + 2, sizeof *in);
   if (!in) return DYD_E_NOMEM;
   in[0] = &s->own;
   for (size_t k = 0; k < s->count; k++) in[k + 1] = &s->other[k];
   in[s->count + 1] = window;
-  dyd_cell_task task = {site, s->site, s->count, in, outer, window != NULL, pd, false, cancel};
+  dyd_cell_task task = {site, s->site, s->count, in, outer, window != NULL, pd, false, cancel, room};
   dyd_status st = dyd_cell_boundary(out, &task);
   free(in);
   return st;
 }
 
 dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer, const dyd_rect *window,
-                           const volatile int *cancel) {
+                           dyd_room *room, const volatile int *cancel) {
   uint32_t site;
   if (window && !window_has_area(window)) return DYD_E_ARG;
   if (dyd_flag_is_set(cancel)) return DYD_CANCELLED;
@@ -46,31 +47,38 @@ dyd_status dyd_cell_region(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i
   if (st != DYD_OK) return st;
   dyd_cell_sites s;
   st = dyd_cell_sites_init(&s, pd, site);
-  if (st == DYD_OK) st = cell_region_among(out, pd, &s, site, outer, window, cancel);
+  if (st == DYD_OK) st = cell_region_among(out, pd, &s, site, outer, window, room, cancel);
   dyd_cell_sites_clear(&s);
   return st;
 }
 
+/* As the public calls want it. */
+static dyd_status cell_of_caller(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, bool outer,
+                                 const dyd_rect *window) {
+  dyd_room room = dyd_delaunay_room(pd);
+  return dyd_cell_region(out, pd, i, outer, window, &room, NULL);
+}
+
 dyd_status dyd_voronoi_int(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i) {
-  return dyd_cell_region(out, pd, i, false, NULL, NULL);
+  return cell_of_caller(out, pd, i, false, NULL);
 }
 
 dyd_status dyd_voronoi_pos(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i) {
-  return dyd_cell_region(out, pd, i, true, NULL, NULL);
+  return cell_of_caller(out, pd, i, true, NULL);
 }
 
 dyd_status dyd_voronoi_int_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {
-  return window ? dyd_cell_region(out, pd, i, false, window, NULL) : DYD_E_ARG;
+  return window ? cell_of_caller(out, pd, i, false, window) : DYD_E_ARG;
 }
 
 dyd_status dyd_voronoi_pos_on(dyd_boundary *out, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window) {
-  return window ? dyd_cell_region(out, pd, i, true, window, NULL) : DYD_E_ARG;
+  return window ? cell_of_caller(out, pd, i, true, window) : DYD_E_ARG;
 }
 
 dyd_status dyd_bisector(dyd_boundary *out, const dyd_rect *a, const dyd_rect *b) {
   const uint32_t other = 1;
   const dyd_rect *in[2] = {a, b};
-  dyd_cell_task task = {0, &other, 1, in, false, false, NULL, false, NULL};
+  dyd_cell_task task = {0, &other, 1, in, false, false, NULL, false, NULL, NULL};
   return dyd_cell_boundary(out, &task);
 }
 

@@ -73,7 +73,20 @@ static dyd_status arc_pieces(dyd_exact_cell *c, size_t j, const dyd_elementary *
 
 /* ---- meets ---- */
 
+static bool cell_has_room(const dyd_exact_cell *c, uint64_t bytes) {
+  return !c->task->room || dyd_room_has(c->task->room, dyd_bytes_add(c->bytes, bytes), "the boundary of a cell");
+}
+
+/* For one meet more, with what reserving takes while it copies. */
+static bool meets_have_room(dyd_exact_cell *c, const dyd_icircle *circle) {
+  enum { NUMBERS = 6, BLOCK = 16 };
+  mpz_srcptr widest = mpz_size(circle->ax) > mpz_size(circle->ay) ? circle->ax : circle->ay;
+  c->bytes += NUMBERS * (BLOCK + sizeof(mp_limb_t) * mpz_size(widest));
+  return c->meets < c->meet_cap || cell_has_room(c, dyd_bytes_times(3 * c->meets + 16, sizeof *c->meet));
+}
+
 static dyd_status curves_add_meet(dyd_exact_cell *c, size_t j, size_t k, dyd_icircle *circle) {
+  if (!meets_have_room(c, circle)) return DYD_E_NOMEM;
   if (!dyd_reserve((void **)&c->meet, &c->meet_cap, c->meets + 1, sizeof *c->meet)) return DYD_E_NOMEM;
   dyd_meet *m = &c->meet[c->meets++];
   *m = (dyd_meet){.curve = {(uint32_t)j, (uint32_t)k}};
@@ -146,6 +159,8 @@ void dyd_cell_clear(dyd_exact_cell *c) {
 }
 
 static dyd_status cell_set_curves(dyd_exact_cell *c) {
+  c->bytes = dyd_bytes_times(c->count, sizeof *c->curve);
+  if (!cell_has_room(c, 0)) return DYD_E_NOMEM;
   c->curve = dyd_alloc(c->count, sizeof *c->curve);
   if (!c->curve) return DYD_E_NOMEM;
   const dyd_scaled *window = c->task->windowed ? &c->frame->window : NULL;

@@ -24,15 +24,17 @@ typedef struct work {
   const dyd_rect *window;
   int64_t bits;
   const volatile int *cancel;
+  dyd_room *room;
   dyd_boundary boundary;
   dyd_arc_samples samples;
   dyd_point goal; /* of inward moves: a point inside */
   mpq_t x, y, s, t;
 } work;
 
-static dyd_status polygon_work_init(work *w, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window, int64_t bits,
-                                    const volatile int *cancel) {
-  *w = (work){.own = i, .window = window, .bits = bits, .cancel = cancel};
+/* On a window, or one as wide as that. */
+static dyd_status polygon_work_init(work *w, const dyd_delaunay *pd, uint32_t i, const dyd_rect *rect,
+                                    const dyd_window *window, int64_t bits) {
+  *w = (work){.own = i, .window = rect, .bits = bits, .cancel = window->cancel, .room = window->room};
   dyd_point_init(&w->goal);
   mpq_inits(w->x, w->y, w->s, w->t, NULL);
   return dyd_cell_sites_init(&w->sites, pd, i);
@@ -167,7 +169,7 @@ static dyd_status place_samples(dyd_polygon *out, work *w, place_fn place, int64
 
 static dyd_status exact_inner(dyd_polygon *out, work *w) {
   bool found = false;
-  dyd_status st = dyd_chain_samples(&w->samples, &w->boundary.chain[0], &w->sites, w->own, w->bits + 1);
+  dyd_status st = dyd_chain_samples(&w->samples, &w->boundary.chain[0], &w->sites, w->own, w->bits + 1, w->room);
   for (int64_t extra = FIRST_EXTRA; !found && st == DYD_OK; extra *= 2)
     st = extra > MOST_EXTRA ? DYD_E_RANGE : find_inner_goal(&found, w, w->bits + extra);
   if (st == DYD_OK) st = place_samples(out, w, place_inner, FIRST_EXTRA);
@@ -178,8 +180,8 @@ dyd_status dyd_exact_inner(dyd_polygon *out, const dyd_delaunay *pd, uint32_t i,
                            int64_t bits) {
   work w;
   dyd_polygon polygon = {0};
-  dyd_status st = polygon_work_init(&w, pd, i, window->rect, bits, window->cancel);
-  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, false, window->rect, w.cancel);
+  dyd_status st = polygon_work_init(&w, pd, i, window->rect, window, bits);
+  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, false, window->rect, w.room, w.cancel);
   if (st == DYD_OK && w.boundary.count) st = exact_inner(&polygon, &w);
   if (st == DYD_OK) {
     dyd_polygon_clear(out);
@@ -201,7 +203,7 @@ static dyd_status exact_outer_part(dyd_polygon *out, work *w, const dyd_chain *c
     dyd_polygon_clear(out);
     w->samples.count = 0;
     w->bits = bits + extra;
-    st = dyd_chain_samples(&w->samples, chain, &w->sites, w->own, w->bits + 1);
+    st = dyd_chain_samples(&w->samples, chain, &w->sites, w->own, w->bits + 1, w->room);
     if (st == DYD_OK) st = place_samples(out, w, place_outer, FIRST_EXTRA);
     if (st == DYD_OK) st = dyd_polygon_is_simple(&simple, out, w->cancel);
   }
@@ -250,9 +252,9 @@ dyd_status dyd_exact_outer(dyd_polygon_list *out, const dyd_delaunay *pd, uint32
   dyd_polygon_list list = {0};
   dyd_rect wide;
   dyd_rect_init(&wide);
-  dyd_status st = polygon_work_init(&w, pd, i, &wide, bits, window->cancel);
+  dyd_status st = polygon_work_init(&w, pd, i, &wide, window, bits);
   if (st == DYD_OK) st = dyd_window_enlarge(&wide, window->rect, bits);
-  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, true, &wide, w.cancel);
+  if (st == DYD_OK) st = dyd_cell_region(&w.boundary, pd, i, true, &wide, w.room, w.cancel);
   if (st == DYD_OK && w.boundary.count) st = exact_outer(&list, &w);
   if (st == DYD_OK) {
     dyd_polygon_list_clear(out);

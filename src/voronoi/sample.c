@@ -193,14 +193,24 @@ static dyd_status arc_count_steps(uint32_t *out, const dyd_arc *arc, const dyd_c
   return st;
 }
 
+/* Of a sample, of the polygons that it is a corner of (one at work, its hull or its copy, the inner one while the outer
+ * one is made), and of the box of its edge: coordinates of so many bits, and some more. */
+static uint64_t bytes_of_sample(int64_t bits) {
+  enum { POLYGONS = 3, BLOCK = 24, MORE = 96 };
+  uint64_t digits = (uint64_t)(bits > 0 ? bits + MORE : MORE) / 8 + BLOCK;
+  return 2 * sizeof(dyd_arc_sample) + 4 * sizeof(double) + POLYGONS * (sizeof(dyd_point) + 2 * digits);
+}
+
 dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
-                             int64_t bits) {
+                             int64_t bits, dyd_room *room) {
   for (size_t k = 0; k < chain->count; k++) {
     const dyd_arc *arc = &chain->arc[k], *before = &chain->arc[k ? k - 1 : chain->count - 1];
     uint32_t steps;
     dyd_status st = arc_count_steps(&steps, arc, s, own, bits);
     if (st != DYD_OK) return st;
     if (out->count + steps > MOST_STEPS) return DYD_E_RANGE;
+    uint64_t bytes = dyd_bytes_times(out->count + steps, bytes_of_sample(bits));
+    if (room && !dyd_room_has(room, bytes, "the corners of a polygon")) return DYD_E_NOMEM;
     if (!dyd_reserve((void **)&out->item, &out->cap, out->count + steps, sizeof *out->item)) return DYD_E_NOMEM;
     for (uint32_t step = 0; step < steps; step++)
       out->item[out->count++] = (dyd_arc_sample){arc, step ? arc : before, step, steps};

@@ -6,6 +6,7 @@
 #ifndef DYD_VORONOI_SAMPLE_H
 #define DYD_VORONOI_SAMPLE_H
 
+#include "base/room.h"
 #include <dyadel/voronoi.h>
 
 /* The cell's own rectangle and those of its possible neighbours, fetched once. */
@@ -35,9 +36,10 @@ typedef struct dyd_arc_samples {
 } dyd_arc_samples;
 
 /* The samples of a closed chain, so close that every chord is within 2^-bits of its arc. far and near give the
- * rectangles of sites. Appended to *out. DYD_E_RANGE when more than 2^24 would be needed. */
+ * rectangles of sites. Appended to *out. DYD_E_RANGE when more than 2^24 would be needed; DYD_E_NOMEM when *room (NULL:
+ * no bound) has none for polygons with corners there. */
 dyd_status dyd_chain_samples(dyd_arc_samples *out, const dyd_chain *chain, const dyd_cell_sites *s, uint32_t own,
-                             int64_t bits);
+                             int64_t bits, dyd_room *room);
 /* log2 of the length of (x, y), rounded up by at most 2; INT64_MIN / 2 where that is 0. */
 int64_t dyd_log2_length(const mpq_t x, const mpq_t y);
 /* Into how many parts an arc of a parabola is cut whose ends are `length` 2^-(bits+5) apart along its directrix: the

@@ -10,6 +10,7 @@ dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect) {
   const dyd_interval *side[2] = {&rect->x, &rect->y};
   w->rect = rect;
   w->cancel = NULL;
+  w->room = NULL;
   for (int a = 0; a < 2; a++) {
     if (mpz_cmp_ui(side[a]->den, 1) != 0 || dyd_dyadic_cmp(&side[a]->lo, &side[a]->hi) >= 0) return DYD_E_ARG;
     w->d[2 * a] = dyd_dyadic_get_d(&side[a]->lo, DYD_UP);
@@ -144,10 +145,12 @@ dyd_status dyd_shape_area2(dyd_dyadic *out, const dyd_shape *s, bool outer) {
 static dyd_status shape_find_public(dyd_shape *s, const dyd_delaunay *pd, uint32_t i, const dyd_rect *window,
                                     int64_t bits) {
   dyd_window w;
+  dyd_room room = dyd_delaunay_room(pd);
   if (i >= pd->sk.n || bits < -DYD_EXP_LIMIT / 4 || bits > DYD_EXP_LIMIT / 4) return DYD_E_ARG;
   dyd_status st = dyd_window_init(&w, window);
   if (st != DYD_OK) return st;
   if (dyd_delaunay_is_capped(pd)) return DYD_CAPPED;
+  w.room = &room;
   return dyd_shape_find(s, pd, dyd_delaunay_alias(pd, i), &w, bits);
 }
 

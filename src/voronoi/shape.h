@@ -5,16 +5,19 @@
 #ifndef DYD_VORONOI_SHAPE_H
 #define DYD_VORONOI_SHAPE_H
 
+#include "delaunay/room.h"
 #include "delaunay/state.h"
 #include "voronoi/grid_polygon.h"
 #include <dyadel/voronoi.h>
 
 /* The window W. Invariant: dyadic ends, positive area; d[] are doubles within W: xlo, xhi, ylo, yhi. cancel: work on a
- * shape ends with DYD_CANCELLED once *cancel is set; NULL, as dyd_window_init leaves it: never. */
+ * shape ends with DYD_CANCELLED once *cancel is set; NULL, as dyd_window_init leaves it: never. room: for what is
+ * large; NULL, as above: no bound. */
 typedef struct dyd_window {
   const dyd_rect *rect;
   double d[4];
   const volatile int *cancel;
+  dyd_room *room;
 } dyd_window;
 /* DYD_E_ARG unless W is as it has to be. */
 dyd_status dyd_window_init(dyd_window *w, const dyd_rect *rect);

@@ -14,7 +14,7 @@ import time
 from fractions import Fraction
 
 import gps
-from harness import COMMAND, expect, main, run
+from harness import COMMAND, count, expect, main, run
 
 ROOT = 'root(x^3-1e300000,0,1e300000) 0\n1 1\n2 3\n'
 TRACKS = gps.points(1000)
@@ -156,6 +156,22 @@ def test_bounds_that_are_cut():
     expect(result, 4, '^stage,', r'^dyadel: budget: the time is used up: bounds of stage 1 are left out; raise --timeout')
     assert row['legal'] and row['area'] and not row['v_area'] and not row['v_hausdorff'], row
     expect(run('converge', '--no-voronoi', '-', stdin=TRACKS), 3, '^stage,')
+
+
+# A circle of 57 corners of polygons, of order far beyond what is worked out; a power of nine roots, once multiplied out.
+ROOTS = '+'.join(f'sqrt({p})' for p in (2, 3, 5, 7, 11, 13, 17, 19, 23))
+PROOFS = (''.join(f'cos(2*pi/{k}) sin(2*pi/{k})\n' for k in range(3, 60)),
+          f'({ROOTS})^200 0\n({ROOTS})^199*({ROOTS}) 0\n1 1\n0 5\n')
+
+
+def test_proofs_that_are_cut():
+    """What was known before a proof that takes too long is written."""
+    for text in PROOFS:
+        for seconds in (1, 2, 4, 8):  # as much as a slow machine needs for the first triangulation
+            result = timed(seconds, 'delaunay', '-', stdin=text)
+            if result.out:
+                break
+        assert result.code in (0, 3, 4) and count(result.out) and 'does not end' not in result.err, result
 
 
 def test_one_message():

@@ -232,12 +232,149 @@ static void test_results_are_kept(void **state) {
   dyd_engine_free(e);
 }
 
+/* ---- what is made of a result ---- */
+
+static void write_diagram(dyd_status *st, const dyd_engine *e, int64_t bits, dyd_format format, dyd_error *err) {
+  const dyd_voronoi_options o = {DYD_SIZED(dyd_voronoi_options), .window = &square, .flatten_set = true,
+                                 .flatten_bits = bits};
+  FILE *out = fopen("/dev/null", "w");
+  assert_non_null(out);
+  *st = dyd_write_voronoi(out, e, &o, format, err);
+  fclose(out);
+}
+static void use_vertices(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  write_diagram(st, e, 10, DYD_FORMAT_VTK, err);
+}
+static void use_polygons(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  write_diagram(st, e, 22, DYD_FORMAT_CSV, err);
+}
+/* Calls without an error tell less. */
+static void use_cells(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  dyd_boundary b = {0};
+  *st = DYD_OK;
+  for (uint32_t i = 0; *st == DYD_OK && i < dyd_engine_count(e); i += 100)
+    *st = dyd_voronoi_pos(&b, dyd_engine_delaunay(e), i);
+  snprintf(err->message, sizeof err->message, "max_bytes");
+  err->code = *st;
+  dyd_boundary_clear(&b);
+}
+static void use_graph(dyd_status *st, const dyd_engine *e, dyd_graph graph, dyd_error *err) {
+  dyd_graph_list l = {0};
+  *st = dyd_graph_edges(&l, dyd_engine_delaunay(e), graph, NULL, err);
+  dyd_graph_list_clear(&l);
+}
+static void use_gabriel(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  use_graph(st, e, DYD_GRAPH_GABRIEL, err);
+}
+static void use_tree(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  use_graph(st, e, DYD_GRAPH_MST, err);
+}
+static void use_tolerance(dyd_status *st, const dyd_engine *e, const char *up_to, dyd_error *err) {
+  mpq_t cap;
+  dyd_tolerance *t;
+  mpq_init(cap);
+  mpq_set_str(cap, up_to, 10);
+  const dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .up_to = mpq_sgn(cap) ? cap : NULL, .points = true,
+                                   .sigma = 0.001};
+  *st = dyd_tolerance_new(&t, dyd_engine_delaunay(e), &o, err);
+  dyd_tolerance_free(t);
+  mpq_clear(cap);
+}
+static void use_deaths(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  use_tolerance(st, e, "0", err);
+}
+static void use_births(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  use_tolerance(st, e, "1/500", err);
+}
+static void use_plan(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  dyd_survey *s;
+  *st = dyd_survey_new(&s, dyd_engine_delaunay(e), NULL, err);
+  dyd_survey_free(s);
+}
+
+/* Without filters, whose polygons have limited arrays. */
+static void few_wide(dyd_engine *e, dyd_engine_options *o) {
+  o->no_filter = true;
+  add_boxes(e, 5, 0.03);
+}
+static void few_points(dyd_engine *e, dyd_engine_options *o) {
+  (void)o;
+  add_boxes(e, 3000, 0);
+}
+/* Exact points round one that is wide: all of them bound its cell. */
+static void hub(dyd_engine *e, dyd_engine_options *o) {
+  enum { RIM = 120 };
+  (void)o;
+  double lo = 0.25, hi = 0.75;
+  assert_int_equal(DYD_OK, dyd_engine_add_boxes(e, 1, &lo, &hi, &lo, &hi));
+  for (int k = 0; k < RIM; k++) {
+    double x = 0.5 + 2 * cos(6.28318 * k / RIM), y = 0.5 + 2 * sin(6.28318 * k / RIM);
+    assert_int_equal(DYD_OK, dyd_engine_add_points(e, 1, &x, &y));
+  }
+}
+static void thin(dyd_engine *e, dyd_engine_options *o) {
+  (void)o;
+  add_boxes(e, 2000, 3e-4);
+}
+
+static const struct {
+  const char *name;
+  void (*make)(dyd_engine *e, dyd_engine_options *o);
+  void (*use)(dyd_status *st, const dyd_engine *e, dyd_error *err);
+} USES[] = {{"vertices", boxes, use_vertices},  {"polygons", few_wide, use_polygons},
+            {"cells", hub, use_cells},          {"Gabriel", open_boxes, use_gabriel},
+            {"tree", uniform, use_tree},        {"deaths", uniform, use_deaths},
+            {"births", few_points, use_births}, {"plan", thin, use_plan}};
+enum { ALL_USES = sizeof USES / sizeof *USES };
+
+/* Allows so many bytes: a run that has nothing to do. */
+static void allow_bytes(dyd_engine *e, dyd_engine_options o, uint64_t bytes) {
+  dyd_error err;
+  double real;
+  assert_true(run_within(&real, e, o, bytes, 0, &err) >= 0);
+}
+
+/* The least bound that a use passes with is what it holds, up to a factor of 2; below it is refused in time. */
+static void test_uses(void **state) {
+  (void)state;
+  for (size_t k = 0; k < ALL_USES; k++) {
+    dyd_engine_options o;
+    dyd_error err;
+    dyd_status st;
+    dyd_engine_options_init(&o);
+    random_numbers.state = 54321 + k;
+    long long before = atomic_load(&held);
+    dyd_engine *e = engine_new();
+    USES[k].make(e, &o);
+    allow_bytes(e, o, 0);
+    double start = (double)(atomic_load(&held) - before), bound = start / 2;
+    atomic_store(&most, atomic_load(&held));
+    USES[k].use(&st, e, &err);
+    double real = (double)(atomic_load(&most) - before);
+    assert_true(st >= 0 && real > start);
+    for (st = DYD_E_NOMEM; st < 0; bound *= st < 0 ? 1.2 : 1) {
+      allow_bytes(e, o, (uint64_t)bound);
+      atomic_store(&most, atomic_load(&held));
+      USES[k].use(&st, e, &err);
+      if (st < 0 && (st != DYD_E_NOMEM || err.code != st || !strstr(err.message, "max_bytes")))
+        fail_msg("%s: %d, %s", USES[k].name, st, err.message);
+      double now = (double)(atomic_load(&most) - before);
+      if (now > start + 2 * bound + MEGABYTE) fail_msg("%s: %.0f held with %.0f allowed", USES[k].name, now, bound);
+    }
+    print_message("%s: %.0f held, %.0f before, granted from %.0f on, ratio %.2f\n", USES[k].name, real, start, bound,
+                  bound / real);
+    assert_true(bound < 2 * real + MEGABYTE && 2 * bound + MEGABYTE > real);
+    assert_true(bound > start / 2);
+    dyd_engine_free(e);
+  }
+}
+
 int main(void) {
   random_numbers = test_random_start("bytes");
   dyd_rect_init(&square);
   assert_int_equal(DYD_OK, dyd_rect_set_d(&square, 0, 1, 0, 1));
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_estimates), cmocka_unit_test(test_refusals),
-                                     cmocka_unit_test(test_results_are_kept)};
+                                     cmocka_unit_test(test_results_are_kept), cmocka_unit_test(test_uses)};
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   dyd_rect_clear(&square);
   return failed;

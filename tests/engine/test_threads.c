@@ -6,6 +6,10 @@
 #include <mpfr.h>
 #include <pthread.h>
 #include <semaphore.h>
+#include <signal.h>
+#include <stdio.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 typedef struct job {
   dyd_engine *e;
@@ -138,8 +142,36 @@ static void test_entered_twice(void **state) {
   dyd_engine_free(e);
 }
 
+/* ---- ownership ---- */
+
+static void free_at_work(void *user, const dyd_progress *p) {
+  (void)p;
+  dyd_engine_free(user);
+}
+
+/* The armed library says so at once; what else is used after it was freed, the address sanitizer finds. */
+static void test_freed_at_work(void **state) {
+  (void)state;
+  int status = 0;
+  fflush(NULL);
+  pid_t child = fork();
+  assert_true(child >= 0);
+  if (child == 0) {
+    dyd_engine *e = make(5);
+    dyd_engine_options o;
+    dyd_engine_options_init(&o);
+    o.progress = free_at_work;
+    o.progress_user = e;
+    signal(SIGABRT, SIG_DFL);
+    dyd_engine_run(&(dyd_outcome){DYD_OUTCOME_NONE}, e, &o, NULL);
+    _exit(0);
+  }
+  assert_int_equal(child, waitpid(child, &status, 0));
+  assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_together), cmocka_unit_test(test_interrupted),
-                                     cmocka_unit_test(test_entered_twice)};
+                                     cmocka_unit_test(test_entered_twice), cmocka_unit_test(test_freed_at_work)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

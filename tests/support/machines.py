@@ -4,9 +4,12 @@
 
 Usage: machines.py [--only NAME...] [--suites SUITE...] [--jobs N] [--keep FOLDER]
 
-DYADEL_TEST_SANITIZED=1 asks for a third of the random cases. Takes many minutes for each: no test of a suite.
+Needs clang; for s390x gcc-s390x-linux-gnu and qemu-user: the libraries of that machine come by apt-get, on Debian, into
+FOLDER, and leave the system as it is; so does what -m32 takes. DYADEL_TEST_SANITIZED=1 asks for a third of the random
+cases. Takes many minutes for each: no test of a suite.
 """
 import argparse
+import json
 import os
 import pathlib
 import shutil
@@ -16,14 +19,20 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SUITES = ('base', 'dyadic', 'rect', 'stream', 'predicate', 'skeleton', 'legal', 'possible', 'delaunay', 'checker')
-# Debian: gcc-s390x-linux-gnu, qemu-user, and of s390x libgmp-dev libmpfr-dev libflint-dev libflint-arb-dev libjansson-dev
-# zlib1g-dev libzstd-dev libcmocka-dev.
+LIBRARIES = ('libgmp-dev', 'libmpfr-dev', 'libflint-dev', 'libflint-arb-dev', 'libjansson-dev', 'zlib1g-dev',
+             'libzstd-dev', 'libcmocka-dev')
 CROSS = """[binaries]
 c = 's390x-linux-gnu-gcc'
 ar = 's390x-linux-gnu-ar'
 strip = 's390x-linux-gnu-strip'
-pkgconfig = 's390x-linux-gnu-pkg-config'
-exe_wrapper = ['qemu-s390x', '-L', '/usr/s390x-linux-gnu']
+pkgconfig = 'pkg-config'
+exe_wrapper = ['qemu-s390x', '-L', '{root}']
+[built-in options]
+c_args = ['--sysroot={root}']
+c_link_args = ['--sysroot={root}']
+[properties]
+sys_root = '{root}'
+pkg_config_libdir = '{root}/usr/lib/s390x-linux-gnu/pkgconfig'
 [host_machine]
 system = 'linux'
 cpu_family = 's390x'
@@ -38,22 +47,72 @@ def builds():
         for level in ('0', '3'):
             yield f'{compiler} -O{level}', compiler, ('-Dbuildtype=plain', f'-Doptimization={level}')
         yield f'{compiler} -march=native', compiler, ('-Dbuildtype=release', '-Dc_args=-march=native')
-    yield 's390x', 's390x-linux-gnu-gcc', ('--cross-file', '@cross@', '-Dcairo=disabled')
+    yield 's390x', 's390x-linux-gnu-gcc', ('-Dbuildtype=release', '-Dcairo=disabled')
+
+
+def unpacked(folder, machine, *packages):
+    """Where Debian packages of a machine are unpacked with all that they need; None: there are none to be had."""
+    root, state = folder / f'root-{machine}', folder / f'apt-{machine}'
+    if root.exists():
+        return root
+    for part in ('lists/partial', 'archives/partial'):
+        (state / part).mkdir(parents=True, exist_ok=True)
+    (state / 'status').touch()
+    options = {'APT::Architecture': machine, 'APT::Architectures': machine, 'Dir::State': state, 'Dir::Cache': state,
+               'Dir::State::status': state / 'status', 'Debug::NoLocking': 1, 'APT::Sandbox::User': 'root'}
+    apt = ['apt-get', '-qq', *(word for name, value in options.items() for word in ('-o', f'{name}={value}'))]
+    try:
+        subprocess.run([*apt, 'update'], check=False)
+        subprocess.run([*apt, 'install', '-y', '--download-only', '--no-install-recommends', *packages], check=True)
+        for package in (state / 'archives').glob('*.deb'):
+            subprocess.run(['dpkg-deb', '-x', package, root], check=True)
+    except (OSError, subprocess.CalledProcessError):
+        return None
+    return root
+
+
+def cross_options(folder):
+    """For meson; None: the libraries are not to be had."""
+    root = unpacked(folder, 's390x', *LIBRARIES)
+    if not root:
+        return None
+    (folder / 'cross.ini').write_text(CROSS.format(root=root), encoding='ascii')
+    return '--cross-file', str(folder / 'cross.ini')
+
+
+def chosen(build, suites, foreign):
+    """The names of the tests of these suites, and the programs that they need; without those that start the command where
+    that is a foreign one."""
+    tests, targets = (json.loads(subprocess.run(['meson', 'introspect', what, build], stdout=subprocess.PIPE, check=True).stdout)
+                      for what in ('--tests', '--targets'))
+    command = next(target['id'] for target in targets if target['name'] == 'dyadel' and target['type'] == 'executable')
+    tests = [test for test in tests if any(suite.split(':')[-1] in suites for suite in test['suite'])
+             and not (foreign and command in test['depends'])]
+    wanted = {name for test in tests for name in test['depends']}
+    return ([test['name'] for test in tests],
+            [os.path.relpath(name, build) for target in targets if target['id'] in wanted for name in target['filename']])
 
 
 def run_build(name, compiler, options, args, folder):
-    build = pathlib.Path(folder) / name.replace(' ', '')
-    cross = pathlib.Path(folder) / 'cross.ini'
-    cross.write_text(CROSS, encoding='ascii')
-    options = [str(cross) if option == '@cross@' else option for option in options]
-    env = dict(os.environ) if str(cross) in options else dict(os.environ, CC=compiler)
-    setup = subprocess.run(['meson', 'setup', build, ROOT, *options, '-Dproofs=disabled', '-Dpython=disabled'], env=env,
-                           stdout=subprocess.PIPE, text=True, check=False)
-    if setup.returncode:
-        return f'skipped: {setup.stdout.strip().splitlines()[-1]}' if str(cross) in options else setup.stdout[-2000:]
-    suites = [word for suite in args.suites for word in ('--suite', suite)]
-    done = subprocess.run(['meson', 'test', '-C', build, '--num-processes', str(args.jobs), '--timeout-multiplier', '10',
-                           '--print-errorlogs', *suites], check=False)
+    build = folder / name.replace(' ', '')
+    env = dict(os.environ)
+    if name == 's390x':
+        cross = cross_options(folder)
+        if not cross or not shutil.which('qemu-s390x'):
+            return 'skipped: no libraries of s390x' if not cross else 'skipped: no qemu-s390x'
+        options += cross
+    else:
+        env['CC'] = compiler
+    if not build.exists():
+        setup = subprocess.run(['meson', 'setup', build, ROOT, *options, '-Dproofs=disabled', '-Dpython=disabled'],
+                               env=env, stdout=subprocess.PIPE, text=True, check=False)
+        if setup.returncode:
+            return f'FAILED: {setup.stdout[-2000:]}'
+    tests, programs = chosen(build, args.suites, name == 's390x')
+    if subprocess.run(['ninja', '-C', build, f'-j{args.jobs}', *programs], check=False).returncode:
+        return 'FAILED: it does not compile'
+    done = subprocess.run(['meson', 'test', '-C', build, '--no-rebuild', '--num-processes', str(args.jobs),
+                           '--timeout-multiplier', '20', '--print-errorlogs', *tests], check=False)
     return 'passed' if done.returncode == 0 else 'FAILED'
 
 
@@ -66,6 +125,16 @@ def refusal(flags, word):
     return 'refused, as it has to be' if done.returncode and word in done.stderr else 'FAILED: not refused'
 
 
+def refusal_of_32_bits(folder):
+    root = unpacked(folder, 'i386', 'libc6-dev', 'libgmp-dev')
+    headers = [f'-I{root}/usr/include', f'-I{root}/usr/include/i386-linux-gnu'] if root else []
+    return refusal(('-m32', '-msse2', '-mfpmath=sse', *headers), '128-bit')
+
+
+REFUSALS = {'x87': lambda folder: refusal(('-mfpmath=387',), 'rounded to double'),
+            'fast-math': lambda folder: refusal(('-ffast-math',), 'fast-math'), '32 bit': refusal_of_32_bits}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--only', nargs='+')
@@ -73,12 +142,15 @@ def main():
     parser.add_argument('--jobs', type=int, default=os.cpu_count())
     parser.add_argument('--keep')
     args = parser.parse_args()
-    result = {'x87': refusal(('-mfpmath=387',), 'rounded to double'), '32 bit': refusal(('-m32', '-msse2', '-mfpmath=sse'), '128-bit')}
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as own:
+        folder = pathlib.Path(args.keep or own).resolve()
+        folder.mkdir(exist_ok=True)
+        result = {name: refuse(folder) for name, refuse in REFUSALS.items() if not args.only or name in args.only}
         for name, compiler, options in builds():
             if not args.only or name in args.only:
                 found = shutil.which(compiler)
-                result[name] = run_build(name, compiler, options, args, args.keep or folder) if found else f'skipped: no {compiler}'
+                result[name] = run_build(name, compiler, options, args, folder) if found else f'skipped: no {compiler}'
+                print(f'{name:20} {result[name]}', flush=True)
     for name, text in result.items():
         print(f'{name:20} {text}')
     sys.exit(any(not text.startswith(('passed', 'skipped', 'refused')) for text in result.values()))

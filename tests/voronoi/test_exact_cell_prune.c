@@ -125,7 +125,7 @@ static void check_site(const dyd_rect *rect, uint32_t n, uint32_t i, const dyd_d
   for (size_t k = 0; k < count; k++) in[k + 1] = &rect[other[k]];
   in[count + 1] = window;
   for (int outer = 0; outer < 2; outer++) {
-    dyd_cell_task task = {i, other, count, in, outer, true, pd, false, NULL};
+    dyd_cell_task task = {i, other, count, in, outer, true, pd, false, NULL, NULL};
     check_task(&task);
   }
   dyd_index_list_clear(&list);

@@ -3,6 +3,7 @@
 #include "stream/algebra/form.h"
 
 #include "base/alloc.h"
+#include "base/flag.h"
 #include "stream/ball.h"
 
 #include <string.h>
@@ -136,10 +137,10 @@ static dyd_range form_domain(dyd_op op) {
   return (dyd_range){-DYD_NO_END, DYD_NO_END};
 }
 
-static void value_of_root(arb_ptr out, dyd_root *r, slong prec) {
+static void value_of_root(arb_ptr out, dyd_root *r, slong prec, const volatile int *stop) {
   arb_t hi;
   dyd_status st = DYD_OK;
-  while (st == DYD_OK && !dyd_root_is_narrow(r, prec)) st = dyd_root_step(r, prec, NULL);
+  while (st == DYD_OK && !dyd_root_is_narrow(r, prec)) st = dyd_root_step(r, prec, stop, NULL);
   arb_init(hi);
   if (r->on_grid) {
     dyd_ball_set_z_2exp(out, r->slot, 0);
@@ -155,44 +156,49 @@ static void value_of_root(arb_ptr out, dyd_root *r, slong prec) {
 }
 
 static dyd_defined value_of_leaf(arb_ptr out, dyd_forms *f, const dyd_form *n, slong prec) {
+  const dyd_ball_step constant = {.op = (dyd_op)n->op, .prec = prec};
   switch (n->op) {
   case DYD_OP_CONST:
     dyd_ball_set_q(out, f->constant[n->a], prec);
     return DYD_DEFINED;
   case DYD_OP_PI:
-    arb_const_pi(out, prec);
-    return DYD_DEFINED;
   case DYD_OP_E:
-    arb_const_e(out, prec);
-    return DYD_DEFINED;
+    return dyd_ball_apply(out, &constant, f->stop);
   case DYD_FORM_ROOT:
-    value_of_root(out, n->root, prec);
+    value_of_root(out, n->root, prec, f->stop);
     return DYD_DEFINED;
   default:
     return DYD_UNDEFINED_YET;
   }
 }
 
+static void value_compute(dyd_forms *f, uint32_t k, slong prec);
+
+/* By way of the operands. */
+static dyd_defined value_of_operation(dyd_forms *f, dyd_form *n, slong prec) {
+  dyd_ball_step s = {.op = (dyd_op)n->op, .range = form_domain((dyd_op)n->op), .exponent = n->exponent, .prec = prec};
+  value_compute(f, n->a, prec);
+  if (dyd_op_is_binary(s.op)) {
+    value_compute(f, n->b, prec);
+    s.y = &f->node[n->b].value;
+  }
+  arb_set(&n->value, &f->node[n->a].value);
+  if (!arb_is_finite(&n->value)) return DYD_UNDEFINED_YET;
+  return n->op == DYD_FORM_CLAIM ? DYD_DEFINED : dyd_ball_apply(&n->value, &s, f->stop);
+}
+
+/* What is stopped counts as not computed. */
 static void value_compute(dyd_forms *f, uint32_t k, slong prec) {
   dyd_form *n = &f->node[k];
-  dyd_op op = (dyd_op)n->op;
-  dyd_defined d;
+  dyd_defined d = DYD_UNDEFINED_YET;
   slong exponent = 0;
   if (n->prec >= prec) return;
-  if (dyd_form_is_leaf(n)) {
-    d = value_of_leaf(&n->value, f, n, prec);
-  } else {
-    value_compute(f, n->a, prec);
-    if (dyd_op_is_binary(op)) value_compute(f, n->b, prec);
-    arb_set(&n->value, &f->node[n->a].value);
-    d = !arb_is_finite(&n->value) ? DYD_UNDEFINED_YET
-        : n->op == DYD_FORM_CLAIM ? DYD_DEFINED
-        : dyd_op_is_binary(op)    ? dyd_ball_binary(&n->value, op, &f->node[n->b].value, prec)
-                                  : dyd_ball_unary(&n->value, op, form_domain(op), n->exponent, prec);
-  }
-  if (d == DYD_DEFINED) d = dyd_ball_check(&n->value, &exponent);
-  if (d != DYD_DEFINED) arb_indeterminate(&n->value);
-  n->prec = prec;
+  if (!dyd_flag_is_set(f->stop))
+    d = dyd_form_is_leaf(n) ? value_of_leaf(&n->value, f, n, prec) : value_of_operation(f, n, prec);
+  bool stopped = dyd_flag_is_set(f->stop);
+  if (d == DYD_DEFINED && !stopped) d = dyd_ball_check(&n->value, &exponent);
+  if (d != DYD_DEFINED || stopped) arb_indeterminate(&n->value);
+  n->prec = stopped ? 0 : prec;
 }
 
 arb_srcptr dyd_forms_value(dyd_forms *f, uint32_t n, slong prec) {

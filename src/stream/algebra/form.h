@@ -56,8 +56,9 @@ typedef struct dyd_forms {
   uint32_t head[DYD_FORMS_PLACES];
   dyd_form_seen *seen;
   size_t seen_count, seen_cap;
-  bool opaque; /* one is, of which more may be known later */
-  bool failed; /* memory is exhausted: the forms asked for are missing */
+  bool opaque;              /* one is, of which more may be known later */
+  const volatile int *stop; /* NULL, or once it is set values end as not known */
+  bool failed;              /* memory is exhausted: the forms asked for are missing */
 } dyd_forms;
 
 void dyd_forms_init(dyd_forms *f);

@@ -5,6 +5,7 @@
  * ball; a function whose sign stays open is a free variable. */
 #include "stream/algebra/normal.h"
 
+#include "base/flag.h"
 #include "stream/algebra/leaves.h"
 
 /* Greatest exponent; bits looked at for a sign. */
@@ -209,6 +210,10 @@ static dyd_fraction *normal_form(dyd_ring *r, uint32_t n) {
 }
 
 const dyd_fraction *dyd_ring_fraction(dyd_ring *r, uint32_t n) {
+  if (dyd_flag_is_set(r->forms->stop)) {
+    r->stale = true;
+    return NULL;
+  }
   if (!dyd_ring_hold(r)) {
     r->failed = true;
     return NULL;
@@ -227,7 +232,7 @@ dyd_status dyd_ring_settle(dyd_ring *r, const uint32_t *node, size_t count) {
     r->stale = false;
     for (size_t k = 0; k < count; k++) dyd_ring_fraction(r, node[k]);
     if (r->failed) return DYD_E_NOMEM;
-    if (!r->stale) return DYD_OK;
+    if (!r->stale || dyd_flag_is_set(r->forms->stop)) return DYD_OK;
     dyd_status st = dyd_ring_renew(r);
     if (st != DYD_OK) return st;
   }

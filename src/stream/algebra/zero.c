@@ -12,6 +12,7 @@ enum { FIRST_BITS = DYD_ZERO_FIRST_BITS, FEW_BITS = 4096 };
 dyd_status dyd_algebra_open(dyd_algebra *a, int64_t most_bits, const volatile int *cancel) {
   *a = (dyd_algebra){.most = (slong)most_bits, .cancel = cancel};
   dyd_forms_init(&a->forms);
+  a->forms.stop = cancel;
   return dyd_ring_init(&a->ring, &a->forms);
 }
 

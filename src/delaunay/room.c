@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Memory for what is made of a result. */
+#include "delaunay/room.h"
+
+#include "delaunay/state.h"
+
+dyd_room dyd_delaunay_room(const dyd_delaunay *pd) {
+  uint64_t most = pd->options.max_bytes;
+  return (dyd_room){.most = most, .held = most ? dyd_delaunay_memory(pd) : 0};
+}
+
+void dyd_delaunay_allow(dyd_delaunay *pd, uint64_t max_bytes) {
+  pd->options.max_bytes = max_bytes;
+}
+
+uint64_t dyd_pairs_bytes(const dyd_delaunay *pd) {
+  size_t count[4];
+  dyd_delaunay_count(count, pd);
+  return dyd_bytes_times(count[DYD_LEGAL] + count[DYD_INDETERMINATE] + count[DYD_TIE], sizeof(dyd_pair));
+}
