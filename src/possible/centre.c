@@ -48,8 +48,7 @@ static void centre_choose(meeting *m, const dyd_skeleton *sk, const dyd_point *c
   }
   for (size_t k = 0; k < m->count; k++) {
     dyd_rects_get(&r, &sk->rects, m->vertex[k]);
-    if (dyd_compare_distance(c, &r, DYD_CLOSEST, &best, DYD_FARTHEST) <= 0)
-      m->vertex[kept++] = m->vertex[k];
+    if (dyd_compare_distance(c, &r, DYD_CLOSEST, &best, DYD_FARTHEST) <= 0) m->vertex[kept++] = m->vertex[k];
   }
   m->count = kept;
   dyd_rect_clear(&r);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The checker with every allocation failing once, for each certificate of a file as judge.c reads it: what memory fails for
- * is neither accepted nor rejected for it. Run under a leak checker. */
+/* The checker with every allocation failing once, for each certificate of a file as judge.c reads it: what memory fails
+ * for is neither accepted nor rejected for it. Run under a leak checker. */
 #include "checker/exhaust.h"
 
 #include <stdlib.h>

@@ -152,7 +152,8 @@ static void test_query_arguments(void **state) {
   dyd_sites_free(s);
 }
 
-/* Structs without their size, doubles that round elsewhere: nothing is done. More pairs than there are numbers for: as many. */
+/* Structs without their size, doubles that round elsewhere: nothing is done. More pairs than there are numbers for: as
+ * many. */
 static void test_refused(void **state) {
   (void)state;
   dyd_sites *s = grid(3);
@@ -407,14 +408,13 @@ static void test_witness_out_of_range(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_nothing),       cmocka_unit_test(test_site_arguments),
-                                     cmocka_unit_test(test_exact_sites),   cmocka_unit_test(test_query_arguments),
-                                     cmocka_unit_test(test_refused),
-                                     cmocka_unit_test(test_faces_of_grid), cmocka_unit_test(test_hull),
-                                     cmocka_unit_test(test_aliases),       cmocka_unit_test(test_cap),
-                                     cmocka_unit_test(test_cap_dissolves), cmocka_unit_test(test_cancel),
-                                     cmocka_unit_test(test_counters),      cmocka_unit_test(test_pure),
-                                     cmocka_unit_test(test_witness_out_of_range)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_nothing),     cmocka_unit_test(test_site_arguments),
+                                     cmocka_unit_test(test_exact_sites), cmocka_unit_test(test_query_arguments),
+                                     cmocka_unit_test(test_refused),     cmocka_unit_test(test_faces_of_grid),
+                                     cmocka_unit_test(test_hull),        cmocka_unit_test(test_aliases),
+                                     cmocka_unit_test(test_cap),         cmocka_unit_test(test_cap_dissolves),
+                                     cmocka_unit_test(test_cancel),      cmocka_unit_test(test_counters),
+                                     cmocka_unit_test(test_pure),        cmocka_unit_test(test_witness_out_of_range)};
   harness_init(&shared, "api");
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   harness_clear(&shared);

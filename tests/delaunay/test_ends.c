@@ -85,7 +85,8 @@ static bool on_circle(const world *w, const uint32_t *s, uint32_t d) {
   return det == 0;
 }
 
-static dyd_status tell(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count, dyd_error *err) {
+static dyd_status tell(bool *proved, void *user, dyd_relation relation, const uint32_t *site, size_t count,
+                       dyd_error *err) {
   world *w = user;
   if (++w->asked == w->fails_at) return dyd_error_set(err, DYD_E_STREAM, "asked too often");
   *proved = true;
@@ -129,10 +130,14 @@ static void crowd_and_points(world *w) {
 static const struct {
   const char *name;
   void (*make)(world *w);
-} worlds[] = {{"points in a grid", points_in_a_grid},   {"boxes in a grid", boxes_in_a_grid},
-              {"points on circles", points_on_circles}, {"boxes on a circle", boxes_on_a_circle},
-              {"boxes on a line", boxes_on_a_line},     {"points on a line", points_on_a_line},
-              {"crowd", crowd},                         {"crowd and points", crowd_and_points}};
+} worlds[] = {{"points in a grid", points_in_a_grid},
+              {"boxes in a grid", boxes_in_a_grid},
+              {"points on circles", points_on_circles},
+              {"boxes on a circle", boxes_on_a_circle},
+              {"boxes on a line", boxes_on_a_line},
+              {"points on a line", points_on_a_line},
+              {"crowd", crowd},
+              {"crowd and points", crowd_and_points}};
 
 /* ---- statuses ---- */
 
@@ -319,7 +324,8 @@ static void questions(void **state) {
           over = countdown > 0;
           countdown = 0;
           if (st == DYD_E_NOMEM ? over || items : st != good || items != all)
-            fail_msg("%s, question %zu, allocation %zu fails: %d, %zu items of %zu", w.name, question, at, st, items, all);
+            fail_msg("%s, question %zu, allocation %zu fails: %d, %zu items of %zu", w.name, question, at, st, items,
+                     all);
         }
       }
       dyd_delaunay_free(pd);

@@ -338,8 +338,8 @@ static void test_line(void **state) {
   orc_case_clear(&c);
 }
 
-/* Two long sides of a street, 100 apart, and points in its middle, 90 apart: each blocks 50 to both sides, so more of them
- * than the filter follows block all of it; without one there is a gap. */
+/* Two long sides of a street, 100 apart, and points in its middle, 90 apart: each blocks 50 to both sides, so more of
+ * them than the filter follows block all of it; without one there is a gap. */
 static void test_street(void **state) {
   (void)state;
   const double lo = -10000, hi = 10000, side[2] = {0, 100}, middle = 50;
