@@ -28,7 +28,7 @@ static dyd_cert_term *terms_alloc(size_t count, dyd_cert_relations *r) {
 }
 
 bool dyd_cert_poly_set(dyd_cert_poly *p, const dyd_cert_poly *q, dyd_cert_relations *r) {
-  if (p == q) return true;
+  DYD_INVARIANT(p != q);
   dyd_cert_term *term = terms_alloc(q->count, r);
   if (!term) return false;
   dyd_cert_poly_clear(p);
@@ -113,19 +113,15 @@ static bool terms_merge(dyd_cert_poly *sum, dyd_cert_poly *p, const dyd_cert_pol
 
 bool dyd_cert_poly_add_scaled(dyd_cert_poly *p, const dyd_cert_poly *q, mpz_srcptr c, const uint16_t *m,
                               dyd_cert_relations *r) {
-  dyd_cert_poly sum = {0}, copy = {0};
+  dyd_cert_poly sum = {0};
+  DYD_INVARIANT(p != q);
   if (!mpz_sgn(c) || !q->count) return true;
-  if (p == q) {
-    if (!dyd_cert_poly_set(&copy, q, r)) return false;
-    q = &copy;
-  }
   sum.term = terms_alloc(p->count + q->count, r);
   bool fits = sum.term && terms_merge(&sum, p, q, c, m);
   if (sum.term) {
     free(p->term);
     *p = sum;
   }
-  dyd_cert_poly_clear(&copy);
   return fits;
 }
 
