@@ -404,9 +404,26 @@ static void too_much_work(void **state) {
   mpz_clear(root);
 }
 
+/* Facts of each kind, by either method, of points around a square and on its diagonal, one of them twice. */
+static void facts(void **state) {
+  (void)state;
+  static const char text[] =
+      "dyadel certificate 1\noutcome budget\ngoal decided\ncapped no\nsites 6\n0 0\n1+1 0\n1+1 1+1\n0 1+1\n"
+      "1*2^1+1 1*2^1+1\n0 0\nlegal 0\nplaces 0\nbridges 0\ncorners 0\npairs\ntriangles 0\nunproved 15\narea none\n"
+      "hausdorff none\nalgebra 4\n= 0\n= 2\nsqrt 1\n+ 2 2\npoints 6\n0 0 0\n1 2 0\n2 2 2\n3 0 2\n4 3 3\n5 0 0\n"
+      "facts 6\nline 0 2 4 identity\nline 4 2 5 bound\ncircle 0 1 2 3 identity\ncircle 3 5 1 2 bound\n"
+      "same 0 5 identity\nsame 5 0 bound\nend\n";
+  char message[1400], verdict[600];
+  bool over;
+  size_t faults = 0;
+  assert_int_equal(verdict_of(verdict, sizeof verdict, &over, text, strlen(text), 0), DYD_OK);
+  assert_non_null(strstr(verdict, "facts 3 and 3"));
+  if (!every_allocation_fails_well(message, sizeof message, &faults, text, strlen(text))) fail_msg("%s", message);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(known_values), cmocka_unit_test(exact_values),
-                                     cmocka_unit_test(refusals), cmocka_unit_test(limits),
-                                     cmocka_unit_test(too_much_work)};
+                                     cmocka_unit_test(refusals),     cmocka_unit_test(limits),
+                                     cmocka_unit_test(facts),        cmocka_unit_test(too_much_work)};
   return cmocka_run_group_tests_name("numbers of certificates", tests, NULL, NULL);
 }

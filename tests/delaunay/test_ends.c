@@ -109,6 +109,10 @@ static void points_on_circles(world *w) {
     for (long y = -25; y <= 25; y++)
       if (x * x + y * y == 625 || x * x + y * y == 5) put(w, x, y, 0, 0);
 }
+static void circles_and_a_box(world *w) {
+  points_on_circles(w);
+  put(w, 60, 60, 1, 1);
+}
 static void boxes_on_a_circle(world *w) {
   for (long x = -65; x <= 65; x++)
     for (long y = -65; y <= 65; y++)
@@ -130,13 +134,10 @@ static void crowd_and_points(world *w) {
 static const struct {
   const char *name;
   void (*make)(world *w);
-} worlds[] = {{"points in a grid", points_in_a_grid},
-              {"boxes in a grid", boxes_in_a_grid},
-              {"points on circles", points_on_circles},
-              {"boxes on a circle", boxes_on_a_circle},
-              {"boxes on a line", boxes_on_a_line},
-              {"points on a line", points_on_a_line},
-              {"crowd", crowd},
+} worlds[] = {{"points in a grid", points_in_a_grid},   {"boxes in a grid", boxes_in_a_grid},
+              {"points on circles", points_on_circles}, {"circles and a box", circles_and_a_box},
+              {"boxes on a circle", boxes_on_a_circle}, {"boxes on a line", boxes_on_a_line},
+              {"points on a line", points_on_a_line},   {"crowd", crowd},
               {"crowd and points", crowd_and_points}};
 
 /* ---- statuses ---- */
