@@ -408,8 +408,9 @@ static void too_much_work(void **state) {
 static void facts(void **state) {
   (void)state;
   static const char text[] =
-      "dyadel certificate 1\noutcome budget\ngoal decided\ncapped no\nsites 6\n0 0\n1+1 0\n1+1 1+1\n0 1+1\n"
-      "1*2^1+1 1*2^1+1\n0 0\nlegal 0\nplaces 0\nbridges 0\ncorners 0\npairs\ntriangles 0\nunproved 15\narea none\n"
+      "dyadel certificate 1\noutcome budget\ngoal decided\ncapped no\nsites 8\n0 0\n1+1 0\n1+1 1+1\n0 1+1\n"
+      "1*2^1+1 1*2^1+1\n0 0\n1/3 1/7\n= 6\nlegal 0\nplaces 0\nbridges 0\ncorners 0\npairs\ntriangles 0\nunproved "
+      "21\narea none\n"
       "hausdorff none\nalgebra 4\n= 0\n= 2\nsqrt 1\n+ 2 2\npoints 6\n0 0 0\n1 2 0\n2 2 2\n3 0 2\n4 3 3\n5 0 0\n"
       "facts 6\nline 0 2 4 identity\nline 4 2 5 bound\ncircle 0 1 2 3 identity\ncircle 3 5 1 2 bound\n"
       "same 0 5 identity\nsame 5 0 bound\nend\n";
