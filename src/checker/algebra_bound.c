@@ -42,8 +42,7 @@ static unsigned long tower_degree(const dyd_cert_algebra *a, const dyd_cert_poly
 /* |x| < 2^-bits. */
 static bool enclosure_is_below(const dyd_cert_enclosure *x, long bits, long p) {
   long most = p - bits;
-  return x->known && most > 0 && (long)mpz_sizeinbase(x->lo, 2) <= most && (long)mpz_sizeinbase(x->hi, 2) <= most &&
-         mpz_sgn(x->lo) <= 0 && mpz_sgn(x->hi) >= 0;
+  return x->known && most > 0 && (long)mpz_sizeinbase(x->lo, 2) <= most && (long)mpz_sizeinbase(x->hi, 2) <= most;
 }
 
 bool dyd_cert_poly_is_null(dyd_cert_algebra *a, const dyd_cert_poly *q) {
@@ -57,8 +56,8 @@ bool dyd_cert_poly_is_null(dyd_cert_algebra *a, const dyd_cert_poly *q) {
   dyd_cert_enclosure_init(&x);
   for (long p = 128; whole && bits < (size_t)DYD_CERT_PRECISION / 2 && p <= DYD_CERT_PRECISION && !null; p *= 2) {
     dyd_cert_poly_enclose(&x, a, q, p);
-    null = enclosure_is_below(&x, (long)bits, p);
     if (dyd_cert_enclosure_sign(&x)) break;
+    null = enclosure_is_below(&x, (long)bits, p);
   }
   dyd_cert_enclosure_clear(&x);
   mpz_clear(most);

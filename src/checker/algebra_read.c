@@ -28,7 +28,6 @@ static dyd_status read_value(dyd_cert_quotient *out, dyd_cert_algebra *a, dyd_ce
   good = good && *end == 0 && dyd_cert_poly_reduce(&out->num, &a->relations) &&
          dyd_cert_poly_reduce(&out->den, &a->relations);
   mpz_clear(one);
-  if (a->relations.nomem) return dyd_fail_nomem(in->err);
   if (!good) return dyd_cert_reject(in, "\"%.40s\" is no quotient of polynomials in leaves before", word);
   if (!dyd_cert_poly_sign(a, &out->den)) return dyd_cert_reject(in, "a denominator is not seen not to be 0");
   return DYD_OK;
@@ -50,12 +49,13 @@ static bool scan_fraction(mpz_ptr num, mpz_ptr den, char *text) {
 }
 
 /* c0,c1,...,cn with cn > 0, n >= 1. */
-static bool scan_coefficients(dyd_cert_bracket *r, char *text) {
+static bool scan_coefficients(dyd_cert_bracket *r, char *text, dyd_cert_relations *relations) {
   size_t count = 1;
   bool good = true;
   for (const char *c = text; *c; c++) count += *c == ',';
   if (count < 2 || count > DYD_CERT_DEGREE + 1) return false;
   r->coeff = dyd_alloc(count, sizeof *r->coeff);
+  relations->nomem = !r->coeff;
   if (!r->coeff) return false;
   for (char *next; r->count < count; text = next) {
     next = strchr(text, ',');
@@ -66,7 +66,7 @@ static bool scan_coefficients(dyd_cert_bracket *r, char *text) {
   return good && mpz_sgn(r->coeff[count - 1]) > 0;
 }
 
-static dyd_status read_bracket(dyd_cert_bracket **out, dyd_cert_reader *in) {
+static dyd_status read_bracket(dyd_cert_bracket **out, dyd_cert_relations *relations, dyd_cert_reader *in) {
   dyd_cert_bracket *r = dyd_alloc(1, sizeof *r);
   if (!r) return dyd_fail_nomem(in->err);
   *r = (dyd_cert_bracket){0};
@@ -76,7 +76,8 @@ static dyd_status read_bracket(dyd_cert_bracket **out, dyd_cert_reader *in) {
   dyd_status st = DYD_OK;
   for (int k = 0; k < 3 && st == DYD_OK; k++) {
     st = dyd_cert_word(&word, in);
-    if (st == DYD_OK && !(k < 2 ? scan_fraction(r->end[2 * k], r->end[2 * k + 1], word) : scan_coefficients(r, word)))
+    if (st != DYD_OK) break;
+    if (!(k < 2 ? scan_fraction(r->end[2 * k], r->end[2 * k + 1], word) : scan_coefficients(r, word, relations)))
       st = dyd_cert_reject(in, "\"%.40s\" is no end of a bracket, or no polynomial", word);
   }
   if (st == DYD_OK && !dyd_cert_root_is_single(r))
@@ -95,13 +96,13 @@ static dyd_status read_op(dyd_cert_op *op, dyd_cert_reader *in) {
 }
 
 /* Everything of the line but V. */
-static dyd_status read_operation(dyd_cert_number *n, const dyd_cert_algebra *a, dyd_cert_reader *in) {
+static dyd_status read_operation(dyd_cert_number *n, dyd_cert_algebra *a, dyd_cert_reader *in) {
   long long exponent = 0;
   dyd_status st = read_op(&n->op, in);
   if (st == DYD_OK && dyd_cert_op_operands(n->op) > 0) st = read_operand(&n->a, a, in);
   if (st == DYD_OK && dyd_cert_op_operands(n->op) > 1) st = read_operand(&n->b, a, in);
   if (st == DYD_OK && (n->op == DYD_CERT_POW || n->op == DYD_CERT_CYCLE)) st = dyd_cert_read_integer(&exponent, in);
-  if (st == DYD_OK && n->op == DYD_CERT_ROOT) st = read_bracket(&n->root, in);
+  if (st == DYD_OK && n->op == DYD_CERT_ROOT) st = read_bracket(&n->root, &a->relations, in);
   if (exponent > DYD_CERT_EXPONENT || exponent < -DYD_CERT_EXPONENT)
     st = dyd_cert_reject(in, "%lld is too large", exponent);
   n->exponent = (long)exponent;
@@ -116,12 +117,11 @@ static bool has_value(const dyd_cert_number *n, const dyd_cert_reader *in) {
 
 static dyd_status read_number(dyd_cert_number *n, dyd_cert_algebra *a, dyd_cert_reader *in) {
   dyd_status st = read_operation(n, a, in);
-  if (st != DYD_OK) return st;
-  if (has_value(n, in)) {
+  if (st == DYD_OK && has_value(n, in)) {
     st = read_value(&n->value, a, in);
     if (st == DYD_OK && n->op != DYD_CERT_VALUE && !dyd_cert_number_check(n, a))
       st = dyd_cert_reject(in, "the number is not seen to be what the line says");
-  } else if (!dyd_cert_number_value(n, a)) {
+  } else if (st == DYD_OK && !dyd_cert_number_value(n, a)) {
     st = dyd_cert_reject(in, "the number is not seen to be defined, or beyond the limits");
   }
   if (a->relations.nomem) return dyd_fail_nomem(in->err);

@@ -56,13 +56,14 @@ bool dyd_cert_root_is_single(const dyd_cert_bracket *r) {
   return p <= DYD_CERT_PRECISION && sign_of_derivative(r, p);
 }
 
-#define ROOT_WORK ((uint64_t)1 << 33)
+/* Words multiplied are about a 2^13th of n^2 p^3: a second or two. */
+#define ROOT_WORK ((uint64_t)1 << 46)
 
 /* Bisection on multiples of 2^-p within the bracket; signs are exact. */
 void dyd_cert_root_enclose(dyd_cert_enclosure *out, const dyd_cert_bracket *r, long p) {
   dyd_cert_enclosure end;
   mpz_t middle, den;
-  out->known = (uint64_t)r->count * (uint64_t)p * (uint64_t)p <= ROOT_WORK;
+  out->known = (uint64_t)r->count * r->count * (uint64_t)p * (uint64_t)p * (uint64_t)p <= ROOT_WORK;
   if (!out->known) return;
   dyd_cert_enclosure_init(&end);
   mpz_init(middle);

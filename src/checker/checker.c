@@ -120,7 +120,7 @@ static dyd_status read_alias(dyd_checker *c) {
   if (st == DYD_OK) st = dyd_cert_read_site(&of, c);
   if (st != DYD_OK) return st;
   dyd_cert_site *site = dyd_cert_sites_add(&c->sites);
-  if (!site) return dyd_fail_nomem(c->in.err);
+  if (!site) return DYD_E_NOMEM;
   for (int a = 0; a < 2 && st == DYD_OK; a++) {
     const dyd_cert_side *from = &c->sites.site[of].side[a];
     dyd_exact_set(&site->side[a].lo, &from->lo);
@@ -135,25 +135,24 @@ static dyd_status read_alias(dyd_checker *c) {
 
 static dyd_status read_rectangle(dyd_checker *c) {
   dyd_cert_site *site = dyd_cert_sites_add(&c->sites);
-  if (!site) return dyd_fail_nomem(c->in.err);
+  if (!site) return DYD_E_NOMEM;
   dyd_status st = dyd_cert_read_side(&site->side[0], &c->in);
   if (st == DYD_OK) st = dyd_cert_read_side(&site->side[1], &c->in);
   return st;
 }
 
 dyd_status dyd_checker_sites(dyd_checker *c) {
-  uint32_t count;
+  uint32_t count = 0;
   dyd_status st = read_heading(&count, c, "sites", (uint64_t)1 << 28);
   for (uint32_t i = 0; i < count && st == DYD_OK; i++) {
     st = dyd_cert_next_line(&c->in);
     if (st == DYD_OK) st = c->in.line[0] == '=' ? read_alias(c) : read_rectangle(c);
     if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
   }
-  if (st != DYD_OK) return st;
   c->report.sites = count;
-  st = dyd_cert_sites_finish(&c->sites);
+  if (st == DYD_OK) st = dyd_cert_sites_finish(&c->sites);
   if (st == DYD_OK) st = dyd_cert_tree_init(&c->tree, &c->sites);
-  return st != DYD_OK ? dyd_fail_nomem(c->in.err) : DYD_OK;
+  return st == DYD_E_NOMEM ? dyd_fail_nomem(c->in.err) : st;
 }
 
 /* ---- legal pairs and bridges ---- */

@@ -7,6 +7,7 @@
 #include "checker/algebra.h"
 
 #include "base/alloc.h"
+#include "base/invariant.h"
 
 #include <string.h>
 
@@ -36,7 +37,7 @@ static long totient(long n) {
 /* c[0 .. m]: the lower half of the coefficients of Phi_n, n > 1: the product of (1 - x^d)^moebius(n / d). */
 static void cyclotomic(long *c, long m, long n) {
   for (long k = 0; k <= m; k++) c[k] = k == 0;
-  for (long d = 1; d <= n && d <= m; d++) {
+  for (long d = 1; d <= m; d++) {
     int sign = n % d ? 0 : moebius(n / d);
     for (long k = m; sign > 0 && k >= d; k--) c[k] -= c[k - d];
     for (long k = d; sign < 0 && k <= m; k++) c[k] += c[k - d];
@@ -65,7 +66,8 @@ static bool psi_rest(dyd_cert_poly *rest, dyd_cert_algebra *a, size_t leaf, cons
     now = next;
     next = spare;
   }
-  if (fits && rest->count && rest->term->e[leaf] == m) { /* the power itself, -1 */
+  if (fits) { /* the power itself, -1 */
+    DYD_INVARIANT(rest->count && rest->term->e[leaf] == m && mpz_cmp_si(rest->term->c, -1) == 0);
     mpz_clear(rest->term->c);
     memmove(rest->term, rest->term + 1, --rest->count * sizeof *rest->term);
   }

@@ -2,6 +2,8 @@
 /* Intervals of fixed point numbers: arithmetic, roots, exp, cos, sin, pi. */
 #include "checker/enclosure.h"
 
+#include "base/invariant.h"
+
 /* Bits before the point that numbers may have; bits of the arguments of exp, cos, sin. */
 enum { MOST_WHOLE = 1 << 15, MOST_ARGUMENT = 24 };
 
@@ -134,10 +136,7 @@ static void root_of_end(mpz_ptr out, mpz_srcptr x, unsigned long k, bool up, lon
 }
 
 void dyd_cert_enclosure_root(dyd_cert_enclosure *x, unsigned long k, long p) {
-  if (!x->known || (k == 2 && mpz_sgn(x->hi) < 0)) {
-    x->known = false;
-    return;
-  }
+  DYD_INVARIANT(x->known && (k != 2 || mpz_sgn(x->hi) >= 0));
   if (k == 2 && mpz_sgn(x->lo) < 0) mpz_set_ui(x->lo, 0); /* the root is defined */
   root_of_end(x->lo, x->lo, k, false, p);
   root_of_end(x->hi, x->hi, k, true, p);
@@ -228,7 +227,8 @@ static void add_remainder(dyd_cert_enclosure *sum) {
 void dyd_cert_enclosure_exp(dyd_cert_enclosure *x, long p) {
   long halved = halvings(x, p), more = 2 * halved + 64, q = p + more;
   dyd_cert_enclosure sum, term;
-  x->known = x->known && halved <= MOST_ARGUMENT - 8;
+  DYD_INVARIANT(x->known);
+  x->known = halved <= MOST_ARGUMENT - 8;
   if (!x->known) return;
   dyd_cert_enclosure_init(&sum);
   dyd_cert_enclosure_init(&term);
@@ -282,7 +282,8 @@ static void taylor_cos_sin(dyd_cert_enclosure *c, dyd_cert_enclosure *s, const d
 void dyd_cert_enclosure_cos_sin(dyd_cert_enclosure *c, dyd_cert_enclosure *s, const dyd_cert_enclosure *x, long p) {
   long halved = halvings(x, p), more = 2 * halved + 64;
   dyd_cert_enclosure r;
-  c->known = s->known = x->known && halved <= MOST_ARGUMENT + 8;
+  DYD_INVARIANT(x->known);
+  c->known = s->known = halved <= MOST_ARGUMENT + 8;
   if (!c->known) return;
   dyd_cert_enclosure_init(&r);
   dyd_cert_enclosure_set(&r, x);

@@ -29,12 +29,13 @@ void dyd_cert_enclosure_neg(dyd_cert_enclosure *x);
 void dyd_cert_enclosure_mul(dyd_cert_enclosure *x, const dyd_cert_enclosure *y, long p);
 void dyd_cert_enclosure_div(dyd_cert_enclosure *x, const dyd_cert_enclosure *y, long p);
 void dyd_cert_enclosure_pow(dyd_cert_enclosure *x, long n, long p);
-/* The real k-th root, k = 2 or 3. */
+/* The real k-th root, k = 2 or 3, of what is known; the number of which it is the square root is at least 0. */
 void dyd_cert_enclosure_root(dyd_cert_enclosure *x, unsigned long k, long p);
 void dyd_cert_enclosure_abs(dyd_cert_enclosure *x);
 /* The lesser (sign < 0) or the greater. */
 void dyd_cert_enclosure_extreme(dyd_cert_enclosure *x, int sign, const dyd_cert_enclosure *y);
 void dyd_cert_enclosure_pi(dyd_cert_enclosure *x, long p);
+/* Of what is known. */
 void dyd_cert_enclosure_exp(dyd_cert_enclosure *x, long p);
 /* c = cos x, s = sin x. */
 void dyd_cert_enclosure_cos_sin(dyd_cert_enclosure *c, dyd_cert_enclosure *s, const dyd_cert_enclosure *x, long p);

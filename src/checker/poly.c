@@ -3,6 +3,7 @@
 #include "checker/poly.h"
 
 #include "base/alloc.h"
+#include "base/invariant.h"
 
 #include <string.h>
 
@@ -18,16 +19,16 @@ static int terms_compare(const uint16_t *a, const uint16_t *b) {
   return 0;
 }
 
-/* Memory for `count` terms. */
+/* Memory for `count` terms, of a polynomial or of two. */
 static dyd_cert_term *terms_alloc(size_t count, dyd_cert_relations *r) {
-  if (count > 2 * DYD_CERT_TERMS) return NULL;
+  DYD_INVARIANT(count <= 2 * DYD_CERT_TERMS);
   dyd_cert_term *term = dyd_alloc(count, sizeof *term);
   r->nomem = r->nomem || !term;
   return term;
 }
 
 bool dyd_cert_poly_set(dyd_cert_poly *p, const dyd_cert_poly *q, dyd_cert_relations *r) {
-  if (p == q) return true;
+  DYD_INVARIANT(p != q);
   dyd_cert_term *term = terms_alloc(q->count, r);
   if (!term) return false;
   dyd_cert_poly_clear(p);
@@ -112,19 +113,15 @@ static bool terms_merge(dyd_cert_poly *sum, dyd_cert_poly *p, const dyd_cert_pol
 
 bool dyd_cert_poly_add_scaled(dyd_cert_poly *p, const dyd_cert_poly *q, mpz_srcptr c, const uint16_t *m,
                               dyd_cert_relations *r) {
-  dyd_cert_poly sum = {0}, copy = {0};
+  dyd_cert_poly sum = {0};
+  DYD_INVARIANT(p != q);
   if (!mpz_sgn(c) || !q->count) return true;
-  if (p == q) {
-    if (!dyd_cert_poly_set(&copy, q, r)) return false;
-    q = &copy;
-  }
   sum.term = terms_alloc(p->count + q->count, r);
   bool fits = sum.term && terms_merge(&sum, p, q, c, m);
   if (sum.term) {
     free(p->term);
     *p = sum;
   }
-  dyd_cert_poly_clear(&copy);
   return fits;
 }
 
@@ -254,22 +251,26 @@ static bool scan_power(dyd_cert_term *t, const char **text, const dyd_cert_relat
 }
 
 /* The number of a term: 1 is left out before leaves. */
-static bool scan_coefficient(mpz_ptr c, const char **text) {
+static bool scan_coefficient(mpz_ptr c, const char **text, dyd_cert_relations *r) {
   size_t length = strspn(*text, "0123456789");
   mpz_set_ui(c, 1);
   if (!length) return **text == 'x';
   if (**text == '0' || length > DYD_CERT_BITS / 4) return false;
-  char *digits = strndup(*text, length);
-  bool good = digits && !mpz_set_str(c, digits, 10);
+  char *digits = dyd_alloc(length + 1, 1);
+  r->nomem = r->nomem || !digits;
+  if (!digits) return false;
+  memcpy(digits, *text, length);
+  digits[length] = 0;
+  mpz_set_str(c, digits, 10);
   free(digits);
   *text += length;
-  return good && **text != 'x' && (**text != '*' || mpz_cmp_ui(c, 1));
+  return **text != 'x' && (**text != '*' || mpz_cmp_ui(c, 1));
 }
 
 /* A term without its sign; its number is initialised. */
-static bool scan_term(dyd_cert_term *t, const char **text, const dyd_cert_relations *r) {
+static bool scan_term(dyd_cert_term *t, const char **text, dyd_cert_relations *r) {
   memset(t->e, 0, sizeof t->e);
-  bool good = scan_coefficient(t->c, text);
+  bool good = scan_coefficient(t->c, text, r);
   if (good && **text == 'x') good = scan_power(t, text, r);
   while (good && **text == '*') {
     ++*text;

@@ -42,7 +42,7 @@ typedef struct dyd_cert_relations {
 } dyd_cert_relations;
 
 /* Where something is beyond the limits, or memory is exhausted, these return false, and the polynomial that they were
- * to change is unspecified. Outputs may be operands. */
+ * to change is unspecified. p is not q, but for products. */
 void dyd_cert_poly_clear(dyd_cert_poly *p);
 bool dyd_cert_poly_set(dyd_cert_poly *p, const dyd_cert_poly *q, dyd_cert_relations *r);
 bool dyd_cert_poly_set_z(dyd_cert_poly *p, mpz_srcptr z, dyd_cert_relations *r);

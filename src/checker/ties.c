@@ -57,9 +57,10 @@ static bool side_is_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t
 
 /* Is the number seen to lie outside of the side, which is no point, at precision p? */
 static bool side_lacks_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t number, long p) {
-  const dyd_cert_enclosure *x = dyd_cert_algebra_enclose(a, number, p);
   mpz_t end;
-  if (s->point || !x->known) return false;
+  if (s->point) return false;
+  const dyd_cert_enclosure *x = dyd_cert_algebra_enclose(a, number, p);
+  if (!x->known) return false;
   mpz_init(end);
   dyd_exact_floor(end, &s->lo, NULL, -p);
   bool outside = mpz_cmp(x->hi, end) < 0;

@@ -23,8 +23,7 @@ typedef struct disc {
 
 static bool disc_visit(void *context, uint32_t v) {
   disc *d = context;
-  d->status = dyd_rects_get(&d->rect, &d->pd->sk.rects, v);
-  if (d->status != DYD_OK) return false;
+  dyd_rects_get(&d->rect, &d->pd->sk.rects, v);
   dyd_rect_ds2(d->ds2, d->c, &d->rect);
   if (mpq_cmp(d->ds2, d->radius2) > 0) return true;
   if (!dyd_reserve((void **)&d->item, &d->cap, d->count + 1, sizeof *d->item)) {

@@ -210,8 +210,15 @@ void dyd_table_put_back(dyd_delaunay *pd, const dyd_face *face) {
   dyd_table_share_out(pd, (uint32_t)(f->count - 1));
 }
 
+/* LEFT_OVER: entries that are not worth it. In the armed build tables of small faces are compacted, too. */
+#ifdef DYD_ARMED
+enum { LEFT_OVER = 64 };
+#else
+enum { LEFT_OVER = 4096 };
+#endif
+
 void dyd_table_compact(dyd_undecided *f) {
-  if (f->tri_count + f->pair_count < 2 * (f->live_tris + f->live_pairs) + 4096) return;
+  if (f->tri_count + f->pair_count < 2 * (f->live_tris + f->live_pairs) + LEFT_OVER) return;
   uint32_t *tri = dyd_alloc(f->live_tris, sizeof *tri);
   dyd_vertex_pair *pair = dyd_alloc(f->live_pairs, sizeof *pair);
   if (!tri || !pair) {

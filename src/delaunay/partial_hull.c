@@ -66,22 +66,20 @@ static dyd_status gather(uint32_t **list, size_t *count, const dyd_delaunay *pd)
   return st;
 }
 
-static dyd_status load(hull *h) {
+static void load(hull *h) {
   dyd_rect r;
   dyd_rect_init(&r);
-  dyd_status st = DYD_OK;
   h->exact = true;
-  for (size_t k = 0; k < h->count && st == DYD_OK; k++) {
+  for (size_t k = 0; k < h->count; k++) {
     dyd_extreme *x = &h->x[h->made++];
     h->exact = h->exact && dyd_vertex_is_point(&h->pd->sk, x->vertex);
     for (int n = 0; n < 4; n++) mpq_init(x->e[n]);
-    st = dyd_rects_get(&r, &h->pd->sk.rects, x->vertex);
+    dyd_rects_get(&r, &h->pd->sk.rects, x->vertex);
     dyd_interval_get_q(x->e[0], x->e[1], &r.x);
     dyd_interval_get_q(x->e[2], x->e[3], &r.y);
     dyd_extreme_enclose(x);
   }
   dyd_rect_clear(&r);
-  return st;
 }
 
 static dyd_status find_candidates(hull *h) {
@@ -96,7 +94,8 @@ static dyd_status find_candidates(hull *h) {
   }
   free(list);
   if (st == DYD_OK && !h->x) st = DYD_E_NOMEM;
-  return st == DYD_OK ? load(h) : st;
+  if (st == DYD_OK) load(h);
+  return st;
 }
 
 static bool is_proved_chain(const dyd_delaunay *pd, size_t f) {
@@ -189,23 +188,22 @@ static void find_sure(hull *h) {
   for (size_t k = 0; k < h->count; k++) h->x[k].sure = dyd_corner_is_sure(h->pd, h->x[k].vertex);
 }
 
-static dyd_sure orientation(const hull *h, size_t i, size_t j, size_t k, dyd_rect r[3], dyd_status *st) {
+static dyd_sure orientation(const hull *h, size_t i, size_t j, size_t k, dyd_rect r[3]) {
   const size_t at[3] = {i, j, k};
-  for (int n = 0; n < 3 && *st == DYD_OK; n++) *st = dyd_rects_get(&r[n], &h->pd->sk.rects, h->x[at[n]].vertex);
-  return *st == DYD_OK ? dyd_orientation(&r[0], &r[1], &r[2]) : DYD_UNSURE;
+  for (int n = 0; n < 3; n++) dyd_rects_get(&r[n], &h->pd->sk.rects, h->x[at[n]].vertex);
+  return dyd_orientation(&r[0], &r[1], &r[2]);
 }
 
 /* The status of pair p: legal when `edge` and no common neighbour is unsure; a tie when i, j and all unsure ones are
  * exact points. r: scratch. */
-static dyd_status decide(dyd_pair_status *out, const hull *h, dyd_vertex_pair p, bool edge, dyd_rect r[3]) {
+static dyd_pair_status decide(const hull *h, dyd_vertex_pair p, bool edge, dyd_rect r[3]) {
   const dyd_delaunay *pd = h->pd;
   bool legal = edge,
        tie = dyd_vertex_is_point(&pd->sk, h->x[p.i].vertex) && dyd_vertex_is_point(&pd->sk, h->x[p.j].vertex);
   bool settled = h->exact && !edge; /* a tie */
-  dyd_status st = DYD_OK;
   const uint32_t *a = h->next + h->start[p.i], *a_end = h->next + h->start[p.i + 1];
   const uint32_t *b = h->next + h->start[p.j], *b_end = h->next + h->start[p.j + 1];
-  while (!settled && a < a_end && b < b_end && (legal || tie) && st == DYD_OK) {
+  while (!settled && a < a_end && b < b_end && (legal || tie)) {
     if (*a != *b) {
       if (*a < *b)
         a++;
@@ -214,33 +212,31 @@ static dyd_status decide(dyd_pair_status *out, const hull *h, dyd_vertex_pair p,
       continue;
     }
     bool point = dyd_vertex_is_point(&pd->sk, h->x[*a].vertex);
-    if ((legal || !point) && orientation(h, p.i, p.j, *a, r, &st) == DYD_UNSURE) {
+    if ((legal || !point) && orientation(h, p.i, p.j, *a, r) == DYD_UNSURE) {
       legal = false;
       tie = tie && point;
     }
     a++, b++;
   }
-  *out = legal ? DYD_LEGAL : tie ? DYD_TIE : DYD_INDETERMINATE;
-  return st;
+  return legal ? DYD_LEGAL : tie ? DYD_TIE : DYD_INDETERMINATE;
 }
 
 static dyd_status decide_pairs(dyd_pair_list *out, const hull *h) {
   const dyd_delaunay *pd = h->pd;
   dyd_rect r[3];
-  dyd_status st = DYD_OK;
   out->item = dyd_alloc(h->pairs.count, sizeof *out->item);
   if (!out->item) return DYD_E_NOMEM;
   for (int n = 0; n < 3; n++) dyd_rect_init(&r[n]);
-  for (size_t k = 0; k < h->pairs.count && st == DYD_OK; k++) {
+  for (size_t k = 0; k < h->pairs.count; k++) {
     dyd_vertex_pair p = h->pairs.item[k];
     uint32_t v = h->x[p.i].vertex, w = h->x[p.j].vertex, i = pd->sk.reps.site[v], j = pd->sk.reps.site[w];
     bool edge = dyd_is_hull_edge(pd, v, w) && !rects_meet(&h->x[p.i], &h->x[p.j]);
     dyd_pair *to = &out->item[out->count++];
-    *to = (dyd_pair){i < j ? i : j, i < j ? j : i, DYD_TIE};
-    if (!share_chain(&h->x[p.i], &h->x[p.j])) st = decide(&to->status, h, p, edge, r);
+    const bool tied = share_chain(&h->x[p.i], &h->x[p.j]);
+    *to = (dyd_pair){i < j ? i : j, i < j ? j : i, tied ? DYD_TIE : decide(h, p, edge, r)};
   }
   for (int n = 3; n-- > 0;) dyd_rect_clear(&r[n]);
-  return st;
+  return DYD_OK;
 }
 
 /* ---- the result ---- */

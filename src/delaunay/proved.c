@@ -50,14 +50,15 @@ static dyd_half_edge rim_start(bool *chain, const dyd_delaunay *pd, const dyd_fa
   return sides == face->tris + 2 ? start : DYD_NONE;
 }
 
-static bool are_distinct(const uint32_t *v, uint32_t count) {
+static dyd_status are_distinct(bool *distinct, const uint32_t *v, uint32_t count) {
   uint32_t *sorted = dyd_alloc(count, sizeof *sorted);
-  bool distinct = sorted;
-  for (uint32_t q = 0; q < count && sorted; q++) sorted[q] = v[q];
-  if (sorted) qsort(sorted, count, sizeof *sorted, dyd_compare_index);
-  for (uint32_t q = 1; q < count && distinct; q++) distinct = sorted[q] != sorted[q - 1];
+  if (!sorted) return DYD_E_NOMEM;
+  *distinct = true;
+  for (uint32_t q = 0; q < count; q++) sorted[q] = v[q];
+  qsort(sorted, count, sizeof *sorted, dyd_compare_index);
+  for (uint32_t q = 1; q < count && *distinct; q++) *distinct = sorted[q] != sorted[q - 1];
   free(sorted);
-  return distinct;
+  return DYD_OK;
 }
 
 /* Walks around the face. *found: it is a polygon, or a chain, in which something is open. */
@@ -77,8 +78,7 @@ static dyd_status rim_find(bool *found, rim *r, const dyd_delaunay *pd, const dy
     r->site[r->count] = sk->reps.site[v];
     r->vertex[r->count++] = v;
   }
-  *found = ghosts == r->chain && are_distinct(r->vertex, r->count);
-  return DYD_OK;
+  return ghosts == r->chain ? are_distinct(found, r->vertex, r->count) : DYD_OK;
 }
 
 /* ---- pairs ---- */

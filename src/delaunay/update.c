@@ -16,6 +16,7 @@
 #include "legal/certify.h"
 #include "legal/witness.h"
 #include "skeleton/centre_filter.h"
+#include "skeleton/circumcentre.h"
 #include "skeleton/mesh_invariant.h"
 #include "skeleton/mesh_start.h"
 
@@ -107,18 +108,14 @@ static dyd_status affected(uint32_t **seed, size_t *seeds, dyd_delaunay *pd, con
 /* ---- one face ---- */
 
 #ifdef DYD_ARMED
-/* Is the first guess a witness for an edge among all sites? Exact; true where memory is exhausted. */
+/* Is the first guess a witness for an edge among all sites? Exact. */
 static bool guess_is_witness(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
-  const dyd_mesh *m = &sk->mesh;
-  dyd_xy guess = dyd_edge_centre(sk, h);
   dyd_point c;
-  bool good = false;
   dyd_point_init(&c);
-  dyd_status st = dyd_dyadic_set_d(&c.x, guess.x);
-  if (st == DYD_OK) st = dyd_dyadic_set_d(&c.y, guess.y);
-  if (st == DYD_OK) st = dyd_witness_check(&good, w, sk, dyd_edge_origin(m, h), dyd_edge_target(m, h), &c);
+  dyd_point_set_xy(&c, dyd_edge_centre(sk, h));
+  bool good = dyd_witness_check(w, sk, dyd_edge_origin(&sk->mesh, h), dyd_edge_target(&sk->mesh, h), &c);
   dyd_point_clear(&c);
-  return good || st == DYD_E_NOMEM;
+  return good;
 }
 #endif
 

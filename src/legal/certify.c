@@ -12,6 +12,7 @@
 #include "legal/star_filter.h"
 #include "legal/witness.h"
 #include "skeleton/centre_filter.h"
+#include "skeleton/circumcentre.h"
 #include "skeleton/mesh_fixed.h"
 #include "skeleton/predicates.h"
 #include "skeleton/rects_filter.h"
@@ -67,17 +68,14 @@ static bool is_met_across(const dyd_skeleton *sk, uint32_t i, uint32_t j, const 
 
 /* Is the middle of the two sites a witness? On a straight part of the hull circumcentres are far away and tell nothing.
  */
-static dyd_status middle_is_witness(bool *certain, dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
-  dyd_xy middle = dyd_edge_middle(sk, h);
+static bool middle_is_witness(dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
   dyd_point c;
   dyd_point_init(&c);
-  dyd_status st = dyd_dyadic_set_d(&c.x, middle.x);
-  if (st == DYD_OK) st = dyd_dyadic_set_d(&c.y, middle.y);
-  if (st == DYD_OK)
-    st = dyd_witness_check(certain, w, sk, dyd_edge_origin(&sk->mesh, h), dyd_edge_target(&sk->mesh, h), &c);
-  if (*certain) w->counters.witness_guess++;
+  dyd_point_set_xy(&c, dyd_edge_middle(sk, h));
+  bool good = dyd_witness_check(w, sk, dyd_edge_origin(&sk->mesh, h), dyd_edge_target(&sk->mesh, h), &c);
+  w->counters.witness_guess += good;
   dyd_point_clear(&c);
-  return st;
+  return good;
 }
 
 static dyd_status decide_edge(bool *certain, dyd_work *w, const dyd_skeleton *sk, dyd_half_edge h) {
@@ -88,10 +86,9 @@ static dyd_status decide_edge(bool *certain, dyd_work *w, const dyd_skeleton *sk
   *certain = false;
   if (i == m->n || j == m->n) return dyd_hull_sure(certain, w, sk, i == m->n ? j : i);
   if (is_met_across(sk, i, j, across) || is_exact_tie(w, sk, h)) return DYD_OK;
-  dyd_status st = DYD_OK;
-  if (hull || dyd_edge_centre_is_far(sk, h)) st = middle_is_witness(certain, w, sk, h);
-  if (st != DYD_OK || *certain) return st;
-  st = dyd_witness_search(certain, NULL, w, sk, i, j, dyd_edge_centre(sk, h), hull ? NULL : across);
+  *certain = (hull || dyd_edge_centre_is_far(sk, h)) && middle_is_witness(w, sk, h);
+  if (*certain) return DYD_OK;
+  dyd_status st = dyd_witness_search(certain, NULL, w, sk, i, j, dyd_edge_centre(sk, h), hull ? NULL : across);
   if (st == DYD_OK && !*certain && hull) st = dyd_witness_far(certain, NULL, w, sk, i, j);
   if (*certain) w->counters.witness_search++;
   return st;

@@ -9,6 +9,7 @@
 #include "legal/exact_lp.h"
 
 #include "base/flag.h"
+#include "base/invariant.h"
 
 enum { PIVOTS = 400 };
 
@@ -100,8 +101,9 @@ static bool is_less(mpz_t s, mpz_t t, const dyd_exact_centre *p, const dyd_exact
   return mpz_cmp(s, t) < 0;
 }
 
-/* The best exchange for half-plane k: true if there is one; *best is its centre, basis is updated. */
-static bool exact_lp_exchange(const dyd_half_plane *basis[3], dyd_exact_centre *best, dyd_exact_centre *trial,
+/* The best exchange for half-plane k; *best is its centre, basis is updated. There always is one: 0 stays in the convex
+ * hull of any normal and two of the three, the one opposite to it being between these [LP-1]. */
+static void exact_lp_exchange(const dyd_half_plane *basis[3], dyd_exact_centre *best, dyd_exact_centre *trial,
                               mpz_t scratch[5], const dyd_half_plane *k) {
   int leaves = -1;
   for (int out = 0; out < 3; out++) {
@@ -111,8 +113,8 @@ static bool exact_lp_exchange(const dyd_half_plane *basis[3], dyd_exact_centre *
     swap_centres(trial, best);
     leaves = out;
   }
-  if (leaves >= 0) basis[leaves] = k;
-  return leaves >= 0;
+  DYD_INVARIANT(leaves >= 0);
+  basis[leaves] = k;
 }
 
 bool dyd_exact_lp(dyd_exact_centre *out, const dyd_half_plane *h, size_t count, const volatile int *cancel) {
@@ -122,13 +124,15 @@ bool dyd_exact_lp(dyd_exact_centre *out, const dyd_half_plane *h, size_t count, 
   dyd_exact_centre_init(&trial);
   dyd_exact_centre_init(&next);
   for (int k = 0; k < 5; k++) mpz_init(scratch[k]);
-  bool good = common_value(out, scratch, scratch[3], basis), done = false;
-  for (int step = 0; good && !done && step < PIVOTS; step++) {
+  bool bounded = common_value(out, scratch, scratch[3], basis), done = false;
+  DYD_INVARIANT(bounded);
+  (void)bounded;
+  for (int step = 0; step < PIVOTS; step++) {
     size_t k = violated(scratch[3], h, count, out, cancel);
     done = k == count;
     if (done || dyd_flag_is_set(cancel)) break;
-    good = exact_lp_exchange(basis, &next, &trial, scratch, &h[k]);
-    if (good) swap_centres(out, &next);
+    exact_lp_exchange(basis, &next, &trial, scratch, &h[k]);
+    swap_centres(out, &next);
   }
   for (int k = 0; k < 5; k++) mpz_clear(scratch[k]);
   dyd_exact_centre_clear(&next);

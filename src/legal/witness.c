@@ -38,15 +38,14 @@ typedef struct search {
   dyd_status status;
 } search;
 
-static dyd_status witness_search_init(search *s, const dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j) {
+static void witness_search_init(search *s, const dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j) {
   *s = (search){.rects = w->rects, .no_filter = sk->mesh.no_filter, .i = i, .j = j, .cancel = w->cancel};
   dyd_rect_init(&s->own[0]);
   dyd_rect_init(&s->own[1]);
   dyd_rect_init(&s->rival);
   dyd_point_init(&s->c);
-  s->status = dyd_rects_get(&s->own[0], s->rects, i);
-  if (s->status == DYD_OK) s->status = dyd_rects_get(&s->own[1], s->rects, j);
-  return s->status;
+  dyd_rects_get(&s->own[0], s->rects, i);
+  dyd_rects_get(&s->own[1], s->rects, j);
 }
 
 static void witness_search_clear(search *s) {
@@ -90,10 +89,10 @@ static bool witness_examine(void *context, uint32_t k) {
   if (s->status != DYD_OK) return false;
   dyd_rect r;
   dyd_rect_init(&r);
-  s->status = dyd_rects_get(&r, s->rects, k);
-  if (s->status == DYD_OK && !witness_is_outside(s, &r)) witness_add_rival(s, &r);
+  dyd_rects_get(&r, s->rects, k);
+  if (!witness_is_outside(s, &r)) witness_add_rival(s, &r);
   dyd_rect_clear(&r);
-  return s->status == DYD_OK && !s->ended && s->rivals < MAX_RIVALS;
+  return !s->ended && s->rivals < MAX_RIVALS;
 }
 
 static bool witness_meets(void *context, uint32_t k) {
@@ -101,17 +100,17 @@ static bool witness_meets(void *context, uint32_t k) {
   if (k == s->i || k == s->j) return true;
   dyd_rect r;
   dyd_rect_init(&r);
-  s->status = dyd_rects_get(&r, s->rects, k);
-  s->ended = s->status == DYD_OK && (dyd_rect_meets(&r, &s->own[0]) || dyd_rect_meets(&r, &s->own[1]));
+  dyd_rects_get(&r, s->rects, k);
+  s->ended = dyd_rect_meets(&r, &s->own[0]) || dyd_rect_meets(&r, &s->own[1]);
   dyd_rect_clear(&r);
-  return s->status == DYD_OK && !s->ended;
+  return !s->ended;
 }
 
 /* A rectangle that meets R_i or R_j is never outside of a disc that holds both: then there is no witness. */
 static void witness_look_at_ends(search *s) {
   const double zero = 0;
   const uint32_t own[2] = {s->i, s->j};
-  for (int q = 0; q < 2 && s->status == DYD_OK && !s->ended; q++)
+  for (int q = 0; q < 2 && !s->ended; q++)
     dyd_tree_near(&s->rects->tree, &s->rects->box[own[q]], &zero, witness_meets, s);
   s->none = s->ended;
   if (s->ended) s->rivals = 1;
@@ -125,10 +124,10 @@ static void witness_evaluate(search *s) {
   dyd_tree_near(&s->rects->tree, &s->at, &bound, witness_examine, s);
 }
 
-static dyd_status witness_set_start(dyd_point *c, const dyd_skeleton *sk, uint32_t i, dyd_xy guess) {
+/* Representatives are finite doubles. */
+static void witness_set_start(dyd_point *c, const dyd_skeleton *sk, uint32_t i, dyd_xy guess) {
   if (!isfinite(guess.x) || !isfinite(guess.y)) guess = sk->reps.xy[i];
-  dyd_status st = dyd_dyadic_set_d(&c->x, guess.x);
-  return st == DYD_OK ? dyd_dyadic_set_d(&c->y, guess.y) : st;
+  dyd_point_set_xy(c, guess);
 }
 
 /* How many steps are made: fewer where the ends of rectangles span many bits, since each then takes longer. */
@@ -178,7 +177,7 @@ static void witness_snap(search *s, bool both) {
 static void witness_search_run(search *s) {
   dyd_truth room = DYD_TRUE;
   witness_look_at_ends(s);
-  if (s->status == DYD_OK && !s->ended) witness_evaluate(s);
+  if (!s->ended) witness_evaluate(s);
   for (int step = 0; s->status == DYD_OK && s->rivals && !s->ended && room == DYD_TRUE; step++) {
     if (step >= witness_steps(s->planes)) break;
     s->status = dyd_planes_centre(&room, &s->c, s->planes);
@@ -195,51 +194,45 @@ static dyd_status witness_search_exactly(dyd_truth *exists, dyd_point *c, dyd_wo
   search s;
   if (!planes) return DYD_E_NOMEM;
   dyd_planes_init(planes, w->cancel);
-  dyd_status st = witness_search_init(&s, w, sk, i, j);
+  witness_search_init(&s, w, sk, i, j);
   s.planes = planes;
-  if (st == DYD_OK) s.status = witness_set_start(&s.c, sk, i, guess);
-  if (s.status == DYD_OK) witness_search_run(&s);
+  witness_set_start(&s.c, sk, i, guess);
+  witness_search_run(&s);
   *exists = witness_search_found(&s) ? DYD_TRUE : s.none ? DYD_FALSE : DYD_UNKNOWN;
   if (*exists == DYD_TRUE && c) dyd_point_set(c, &s.c);
-  st = s.status;
   witness_search_clear(&s);
   dyd_planes_clear(planes);
   free(planes);
-  return st;
+  return s.status;
 }
 
 /* Does some circle meet the rectangles of i, j and of both vertices across, these surely on opposite sides of ij? Then
  * there is no witness [WIT-QUAD]. */
-static dyd_status witness_is_excluded(bool *excluded, const dyd_skeleton *sk, uint32_t i, uint32_t j,
-                                      const uint32_t across[2]) {
+static bool witness_is_excluded(const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t across[2]) {
   const uint32_t v[4] = {i, j, across[0], across[1]};
   dyd_rect r[4];
-  dyd_status st = DYD_OK;
-  for (int k = 0; k < 4; k++) dyd_rect_init(&r[k]);
-  for (int k = 0; k < 4 && st == DYD_OK; k++) st = dyd_rects_get(&r[k], &sk->rects, v[k]);
-  if (st == DYD_OK) {
-    dyd_sure a = dyd_orientation(&r[0], &r[1], &r[2]), b = dyd_orientation(&r[0], &r[1], &r[3]);
-    bool opposite = a != DYD_UNSURE && (int)a == -(int)b;
-    *excluded = opposite && dyd_con(&r[3], &r[0], &r[1], &r[2]) == DYD_UNSURE;
+  for (int k = 0; k < 4; k++) {
+    dyd_rect_init(&r[k]);
+    dyd_rects_get(&r[k], &sk->rects, v[k]);
   }
+  dyd_sure a = dyd_orientation(&r[0], &r[1], &r[2]), b = dyd_orientation(&r[0], &r[1], &r[3]);
+  bool opposite = a != DYD_UNSURE && (int)a == -(int)b;
+  bool excluded = opposite && dyd_con(&r[3], &r[0], &r[1], &r[2]) == DYD_UNSURE;
   for (int k = 0; k < 4; k++) dyd_rect_clear(&r[k]);
-  return st;
+  return excluded;
 }
 
 /* Before a search with big numbers: is there surely none, or one between the centres of the triangles beside the edge?
  */
-static dyd_status witness_look_between(bool *found, bool *settled, dyd_point *c, dyd_work *w, const dyd_skeleton *sk,
-                                       uint32_t i, uint32_t j, const uint32_t across[2]) {
+static bool witness_look_between(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
+                                 const uint32_t across[2]) {
   dyd_point middle;
+  if (witness_is_excluded(sk, i, j, across)) return true;
   dyd_point_init(&middle);
-  bool exists = false;
-  dyd_status st = witness_is_excluded(settled, sk, i, j, across);
-  if (st == DYD_OK && !*settled) st = dyd_circumcentre_between(&exists, &middle, sk, i, j, across);
-  if (st == DYD_OK && exists) st = dyd_witness_check(found, w, sk, i, j, &middle);
-  if (st == DYD_OK && *found && c) dyd_point_set(c, &middle);
-  *settled = *settled || *found;
+  *found = dyd_circumcentre_between(&middle, sk, i, j, across) && dyd_witness_check(w, sk, i, j, &middle);
+  if (*found && c) dyd_point_set(c, &middle);
   dyd_point_clear(&middle);
-  return st;
+  return *found;
 }
 
 /* One search for a pair, whoever is named first. */
@@ -256,42 +249,38 @@ dyd_status dyd_witness_search(bool *found, dyd_point *c, dyd_work *w, const dyd_
   witness_order(&i, &j);
   dyd_truth quick = dyd_filter_witness(&guess, w, sk, i, j);
   if (quick == DYD_UNKNOWN || (quick == DYD_TRUE && sk->mesh.no_filter)) {
-    bool settled = false;
     dyd_truth exists = DYD_UNKNOWN;
-    dyd_status st =
-        across && !sk->mesh.no_filter ? witness_look_between(found, &settled, c, w, sk, i, j, across) : DYD_OK;
-    if (st != DYD_OK || settled) return st;
-    st = witness_search_exactly(&exists, c, w, sk, i, j, guess);
+    if (across && !sk->mesh.no_filter && witness_look_between(found, c, w, sk, i, j, across)) return DYD_OK;
+    dyd_status st = witness_search_exactly(&exists, c, w, sk, i, j, guess);
     *found = exists == DYD_TRUE;
     return st;
   }
   *found = quick == DYD_TRUE;
-  return *found && c ? witness_set_start(c, sk, i, guess) : DYD_OK;
+  if (*found && c) witness_set_start(c, sk, i, guess);
+  return DYD_OK;
 }
 
 dyd_status dyd_witness_decide(dyd_truth *exists, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i,
                               uint32_t j, dyd_xy guess, const uint32_t across[2]) {
-  bool excluded = false;
   witness_order(&i, &j);
   *exists = sk->mesh.no_filter ? DYD_UNKNOWN : dyd_filter_witness(&guess, w, sk, i, j);
-  if (*exists == DYD_TRUE) return witness_set_start(c, sk, i, guess);
-  dyd_status st = across ? witness_is_excluded(&excluded, sk, i, j, across) : DYD_OK;
+  if (*exists == DYD_TRUE) {
+    witness_set_start(c, sk, i, guess);
+    return DYD_OK;
+  }
   *exists = DYD_FALSE;
-  return st != DYD_OK || excluded ? st : witness_search_exactly(exists, c, w, sk, i, j, guess);
+  if (across && witness_is_excluded(sk, i, j, across)) return DYD_OK;
+  return witness_search_exactly(exists, c, w, sk, i, j, guess);
 }
 
-dyd_status dyd_witness_check(bool *good, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
-                             const dyd_point *c) {
+bool dyd_witness_check(dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j, const dyd_point *c) {
   search s;
-  dyd_status st = witness_search_init(&s, w, sk, i, j);
-  if (st == DYD_OK) {
-    dyd_point_set(&s.c, c);
-    witness_evaluate(&s);
-    *good = witness_search_found(&s);
-  }
-  st = s.status;
+  witness_search_init(&s, w, sk, i, j);
+  dyd_point_set(&s.c, c);
+  witness_evaluate(&s);
+  bool good = witness_search_found(&s);
   witness_search_clear(&s);
-  return st;
+  return good;
 }
 
 /* c = p + 2^m u for a vertex's double p. */
@@ -299,8 +288,8 @@ static dyd_status witness_far_centre(dyd_point *c, const dyd_skeleton *sk, uint3
                                      int64_t m) {
   dyd_dyadic d;
   dyd_dyadic_init(&d);
-  dyd_status st = witness_set_start(c, sk, i, (dyd_xy){NAN, NAN});
-  if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&d, ux, m);
+  witness_set_start(c, sk, i, (dyd_xy){NAN, NAN});
+  dyd_status st = dyd_dyadic_set_z_2exp(&d, ux, m);
   if (st == DYD_OK) st = dyd_dyadic_add(&c->x, &c->x, &d);
   if (st == DYD_OK) st = dyd_dyadic_set_z_2exp(&d, uy, m);
   if (st == DYD_OK) st = dyd_dyadic_add(&c->y, &c->y, &d);
@@ -318,10 +307,10 @@ dyd_status dyd_witness_far(bool *found, dyd_point *c, dyd_work *w, const dyd_ske
   *found = false;
   for (int64_t step = 16, m = -64; direction && st == DYD_OK && !*found; m += step, step += step / 4) {
     st = witness_far_centre(&far, sk, i, ux, uy, m);
-    if (st == DYD_OK) st = dyd_witness_check(found, w, sk, i, j, &far);
+    *found = st == DYD_OK && dyd_witness_check(w, sk, i, j, &far);
   }
   if (st == DYD_E_RANGE) st = DYD_OK; /* farther than numbers go: the floor */
-  if (st == DYD_OK && *found && c) dyd_point_set(c, &far);
+  if (*found && c) dyd_point_set(c, &far);
   dyd_point_clear(&far);
   mpz_clears(ux, uy, NULL);
   return st;

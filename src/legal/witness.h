@@ -22,7 +22,6 @@ dyd_status dyd_witness_decide(dyd_truth *exists, dyd_point *c, dyd_work *w, cons
 /* A witness far out, for a pair on the hull: found whenever all centres far enough in some direction are witnesses. */
 dyd_status dyd_witness_far(bool *found, dyd_point *c, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j);
 /* Is c a witness of i, j? Exact. */
-dyd_status dyd_witness_check(bool *good, dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j,
-                             const dyd_point *c);
+bool dyd_witness_check(dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j, const dyd_point *c);
 
 #endif

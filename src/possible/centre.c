@@ -37,37 +37,31 @@ static dyd_status centre_gather(meeting *m, const dyd_skeleton *sk, const dyd_po
 }
 
 /* Leaves those with ds <= least dl. */
-static dyd_status centre_choose(meeting *m, const dyd_skeleton *sk, const dyd_point *c) {
+static void centre_choose(meeting *m, const dyd_skeleton *sk, const dyd_point *c) {
   dyd_rect best, r;
-  dyd_status st = DYD_OK;
   size_t kept = 0;
   dyd_rect_init(&best);
   dyd_rect_init(&r);
-  for (size_t k = 0; k < m->count && st == DYD_OK; k++) {
-    st = dyd_rects_get(&r, &sk->rects, m->vertex[k]);
-    if (st == DYD_OK && (k == 0 || dyd_compare_distance(c, &r, DYD_FARTHEST, &best, DYD_FARTHEST) < 0))
-      dyd_rect_swap(&best, &r);
+  for (size_t k = 0; k < m->count; k++) {
+    dyd_rects_get(&r, &sk->rects, m->vertex[k]);
+    if (k == 0 || dyd_compare_distance(c, &r, DYD_FARTHEST, &best, DYD_FARTHEST) < 0) dyd_rect_swap(&best, &r);
   }
-  for (size_t k = 0; k < m->count && st == DYD_OK; k++) {
-    st = dyd_rects_get(&r, &sk->rects, m->vertex[k]);
-    if (st == DYD_OK && dyd_compare_distance(c, &r, DYD_CLOSEST, &best, DYD_FARTHEST) <= 0)
-      m->vertex[kept++] = m->vertex[k];
+  for (size_t k = 0; k < m->count; k++) {
+    dyd_rects_get(&r, &sk->rects, m->vertex[k]);
+    if (dyd_compare_distance(c, &r, DYD_CLOSEST, &best, DYD_FARTHEST) <= 0) m->vertex[kept++] = m->vertex[k];
   }
   m->count = kept;
   dyd_rect_clear(&r);
   dyd_rect_clear(&best);
-  return st;
 }
 
 dyd_status dyd_centre_shows(uint32_t **vertex, size_t *count, const dyd_skeleton *sk, const uint32_t v[3],
                             size_t most) {
   meeting m = {.most = most};
   dyd_point c;
-  bool found;
   dyd_point_init(&c);
-  dyd_status st = dyd_circumcentre_round(&found, &c, sk, v);
-  if (st == DYD_OK && found) st = centre_gather(&m, sk, &c, v[0]);
-  if (st == DYD_OK) st = centre_choose(&m, sk, &c);
+  dyd_status st = dyd_circumcentre_round(&c, sk, v) ? centre_gather(&m, sk, &c, v[0]) : DYD_OK;
+  if (st == DYD_OK) centre_choose(&m, sk, &c);
   dyd_point_clear(&c);
   if (st != DYD_OK || m.count == 0) {
     free(m.vertex);

@@ -3,6 +3,7 @@
  * they are points. */
 #include "skeleton/circumcentre.h"
 
+#include "base/invariant.h"
 #include <dyadel/predicate.h>
 
 enum { FINER = 8 };
@@ -35,46 +36,43 @@ dyd_status dyd_centre_round(dyd_point *c, const mpz_t x, const mpz_t y, const mp
   return st;
 }
 
-dyd_status dyd_circumcentre_round(bool *found, dyd_point *c, const dyd_skeleton *sk, const uint32_t v[3]) {
+bool dyd_circumcentre_round(dyd_point *c, const dyd_skeleton *sk, const uint32_t v[3]) {
   static const dyd_touch touch[3] = {DYD_FARTHEST, DYD_CLOSEST, DYD_CLOSEST};
   dyd_rect point[3], r;
   const dyd_rect *const at[3] = {&point[0], &point[1], &point[2]};
   dyd_circle circle;
   int64_t e = INT64_MAX;
-  dyd_status st = DYD_OK;
+  bool found = true;
   dyd_rect_init(&r);
   dyd_circle_init(&circle);
-  for (int k = 0; k < 3; k++) dyd_rect_init(&point[k]);
-  for (int k = 0; k < 3 && st == DYD_OK; k++) {
-    st = dyd_reps_get(&point[k], &sk->reps, v[k]);
-    if (st == DYD_OK) st = dyd_rects_get(&r, &sk->rects, v[k]);
-    if (st == DYD_OK) e = centre_least(e, centre_least(centre_step(&r.x), centre_step(&r.y)));
+  for (int k = 0; k < 3; k++) {
+    dyd_rect_init(&point[k]);
+    found = found && dyd_reps_get(&point[k], &sk->reps, v[k]) == DYD_OK;
+    dyd_rects_get(&r, &sk->rects, v[k]);
+    e = centre_least(e, centre_least(centre_step(&r.x), centre_step(&r.y)));
   }
-  *found = st == DYD_OK && dyd_critical_circle(&circle, at, touch) == DYD_OK && mpz_sgn(circle.c) == 0;
-  if (*found) st = dyd_centre_round(c, circle.ax, circle.ay, circle.d, e);
-  if (st == DYD_E_RANGE) {
-    st = DYD_OK;
-    *found = false;
-  }
+  found = found && dyd_critical_circle(&circle, at, touch) == DYD_OK && mpz_sgn(circle.c) == 0 &&
+          dyd_centre_round(c, circle.ax, circle.ay, circle.d, e) == DYD_OK;
   for (int k = 0; k < 3; k++) dyd_rect_clear(&point[k]);
   dyd_circle_clear(&circle);
   dyd_rect_clear(&r);
-  return st;
+  return found;
 }
 
-dyd_status dyd_circumcentre_between(bool *found, dyd_point *c, const dyd_skeleton *sk, uint32_t i, uint32_t j,
-                                    const uint32_t across[2]) {
+bool dyd_circumcentre_between(dyd_point *c, const dyd_skeleton *sk, uint32_t i, uint32_t j, const uint32_t across[2]) {
   dyd_point other;
   dyd_point_init(&other);
   const uint32_t v[2][3] = {{i, j, across[0]}, {i, j, across[1]}};
-  dyd_status st = dyd_circumcentre_round(found, c, sk, v[0]);
-  if (st == DYD_OK && *found) st = dyd_circumcentre_round(found, &other, sk, v[1]);
-  if (st == DYD_OK && *found) st = dyd_dyadic_add(&c->x, &c->x, &other.x);
-  if (st == DYD_OK && *found) st = dyd_dyadic_add(&c->y, &c->y, &other.y);
-  if (st == DYD_OK && *found) st = dyd_dyadic_mul_2exp(&c->x, &c->x, -1);
-  if (st == DYD_OK && *found) st = dyd_dyadic_mul_2exp(&c->y, &c->y, -1);
+  bool found = dyd_circumcentre_round(c, sk, v[0]) && dyd_circumcentre_round(&other, sk, v[1]) &&
+               dyd_dyadic_add(&c->x, &c->x, &other.x) == DYD_OK && dyd_dyadic_add(&c->y, &c->y, &other.y) == DYD_OK &&
+               dyd_dyadic_mul_2exp(&c->x, &c->x, -1) == DYD_OK && dyd_dyadic_mul_2exp(&c->y, &c->y, -1) == DYD_OK;
   dyd_point_clear(&other);
-  if (st != DYD_E_RANGE) return st;
-  *found = false;
-  return DYD_OK;
+  return found;
+}
+
+void dyd_point_set_xy(dyd_point *c, dyd_xy p) {
+  dyd_status x = dyd_dyadic_set_d(&c->x, p.x), y = dyd_dyadic_set_d(&c->y, p.y);
+  DYD_INVARIANT(x == DYD_OK && y == DYD_OK);
+  (void)x;
+  (void)y;
 }

@@ -49,7 +49,7 @@ static dyd_status line_load(entry *e, const dyd_rects *rects, uint32_t count, co
   for (uint32_t q = 0; q < count && st == DYD_OK; q++) {
     dyd_rect_init(&r[q]);
     dyd_irect_init(&out[q]);
-    (void)dyd_rects_get(&r[q], rects, vertex[q]);
+    dyd_rects_get(&r[q], rects, vertex[q]);
     in[q] = &r[q];
   }
   if (st == DYD_OK) {

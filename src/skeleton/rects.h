@@ -6,6 +6,7 @@
 #define DYD_SKELETON_RECTS_H
 
 #include "base/index.h"
+#include "base/invariant.h"
 #include "rect/sites_table.h"
 #include "skeleton/tree.h"
 
@@ -18,8 +19,10 @@ typedef struct dyd_rects {
 } dyd_rects;
 
 /* The rectangle of vertex v, exactly. */
-static inline dyd_status dyd_rects_get(dyd_rect *out, const dyd_rects *r, uint32_t v) {
-  return dyd_sites_get(out, r->sites, r->site[v]);
+static inline void dyd_rects_get(dyd_rect *out, const dyd_rects *r, uint32_t v) {
+  dyd_status st = dyd_sites_get(out, r->sites, r->site[v]); /* fails for sites that do not exist */
+  DYD_INVARIANT(st == DYD_OK);
+  (void)st;
 }
 static inline bool dyd_rects_is_point(const dyd_rects *r, uint32_t v) {
   return dyd_sites_is_point(r->sites, r->site[v]);

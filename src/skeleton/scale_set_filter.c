@@ -85,8 +85,7 @@ dyd_status dyd_scale_add(size_t *index, bool *grown, dyd_scale_set *s, uint32_t 
   if (scale_find(index, s, v)) return DYD_OK;
   if (!dyd_reserve((void **)&s->vertex, &s->vertex_cap, s->count + 1, sizeof *s->vertex)) return DYD_E_NOMEM;
   if (!dyd_reserve((void **)&s->rect, &s->rect_cap, s->count + 1, sizeof *s->rect)) return DYD_E_NOMEM;
-  dyd_status st = dyd_rects_get(&s->load, s->rects, v);
-  if (st != DYD_OK) return st;
+  dyd_rects_get(&s->load, s->rects, v);
   if (s->made == s->count) dyd_irect_init(&s->rect[s->made++]);
   *grown = scale_refine(s);
   if (*grown) grow_members(s);

@@ -277,6 +277,8 @@ static void bridge_across_a_face(void **state) {
 /* Texts that are no certificates, or whose numbers are out of bounds. */
 static void rubbish(void **state) {
   (void)state;
+  dyd_certificate_report without_size = {.sites = 0};
+  assert_int_equal(certificate_check(&without_size, "", 0, NULL), DYD_E_ARG);
   static const char *const text[] = {
       "",
       "\n",

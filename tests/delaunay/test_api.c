@@ -5,6 +5,7 @@
 
 #include "delaunay/harness.h"
 #include <cmocka.h>
+#include <fenv.h>
 #include <string.h>
 
 static harness shared;
@@ -143,8 +144,36 @@ static void test_query_arguments(void **state) {
   assert_int_equal(dyd_delaunay_neighbours(&l, pd, outside, DYD_TIE), DYD_E_ARG);
   assert_int_equal(dyd_delaunay_update(pd, &outside, 1, NULL, NULL), DYD_E_ARG);
   assert_true(dyd_delaunay_memory(pd) > 0);
+  assert_int_equal(dyd_delaunay_status(pd, 0, outside), DYD_ILLEGAL);
+  assert_int_equal(dyd_delaunay_status(pd, outside, 0), DYD_ILLEGAL);
   dyd_point_clear(&w);
   dyd_index_list_clear(&l);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(s);
+}
+
+/* Structs without their size, doubles that round elsewhere: nothing is done. More pairs than there are numbers for: as
+ * many. */
+static void test_refused(void **state) {
+  (void)state;
+  dyd_sites *s = grid(3);
+  dyd_delaunay *pd = NULL;
+  dyd_delaunay_options o = {.threads = 2};
+  dyd_delaunay_counters c = {.filter = 0};
+  dyd_error err;
+  assert_int_equal(dyd_delaunay_new(&pd, s, &o, &err), DYD_E_ARG);
+  o = (dyd_delaunay_options){DYD_SIZED(dyd_delaunay_options), .max_pairs = SIZE_MAX};
+  fesetround(FE_UPWARD);
+  assert_int_equal(dyd_delaunay_new(&pd, s, &o, &err), DYD_E_ARG);
+  fesetround(FE_TONEAREST);
+  assert_null(pd);
+  assert_int_equal(dyd_delaunay_new(&pd, s, &o, &err), DYD_OK);
+  assert_int_equal(dyd_delaunay_get_counters(&c, pd, &err), DYD_E_ARG);
+  fesetround(FE_DOWNWARD);
+  assert_int_equal(dyd_delaunay_update(pd, NULL, 0, &o, &err), DYD_E_ARG);
+  fesetround(FE_TONEAREST);
+  o.struct_size = 0;
+  assert_int_equal(dyd_delaunay_update(pd, NULL, 0, &o, &err), DYD_E_ARG);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);
 }
@@ -347,13 +376,46 @@ static void test_pure(void **state) {
   orc_case_clear(&c);
 }
 
+/* Beside a point that is nearly on it, a long edge is legal, and its witnesses are farther than numbers go. */
+static void test_witness_out_of_range(void **state) {
+  (void)state;
+  dyd_dyadic x, y;
+  dyd_rect r;
+  dyd_point c;
+  dyd_dyadic_init(&x);
+  dyd_dyadic_init(&y);
+  dyd_rect_init(&r);
+  dyd_point_init(&c);
+  for (int64_t height = 0; height < DYD_EXP_LIMIT; height += DYD_EXP_LIMIT - 3016) {
+    dyd_sites *s = NULL;
+    assert_int_equal(dyd_sites_new(&s), DYD_OK);
+    for (int k = 0; k < 3; k++) {
+      assert_int_equal(dyd_dyadic_set_si_2exp(&x, k, DYD_EXP_LIMIT - 16), DYD_OK);
+      assert_int_equal(dyd_dyadic_set_si_2exp(&y, k == 1, height), DYD_OK);
+      assert_int_equal(dyd_interval_set_ends(&r.x, &x, &x), DYD_OK);
+      assert_int_equal(dyd_interval_set_ends(&r.y, &y, &y), DYD_OK);
+      assert_int_equal(dyd_sites_add_rect(s, &r), DYD_OK);
+    }
+    dyd_delaunay *pd = engine(s);
+    assert_int_equal(dyd_delaunay_status(pd, 0, 2), DYD_LEGAL);
+    assert_int_equal(dyd_delaunay_witness(&c, pd, 0, 2), DYD_E_RANGE);
+    dyd_delaunay_free(pd);
+    dyd_sites_free(s);
+  }
+  dyd_dyadic_clear(&x);
+  dyd_dyadic_clear(&y);
+  dyd_point_clear(&c);
+  dyd_rect_clear(&r);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_nothing),       cmocka_unit_test(test_site_arguments),
-                                     cmocka_unit_test(test_exact_sites),   cmocka_unit_test(test_query_arguments),
-                                     cmocka_unit_test(test_faces_of_grid), cmocka_unit_test(test_hull),
-                                     cmocka_unit_test(test_aliases),       cmocka_unit_test(test_cap),
-                                     cmocka_unit_test(test_cap_dissolves), cmocka_unit_test(test_cancel),
-                                     cmocka_unit_test(test_counters),      cmocka_unit_test(test_pure)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_nothing),     cmocka_unit_test(test_site_arguments),
+                                     cmocka_unit_test(test_exact_sites), cmocka_unit_test(test_query_arguments),
+                                     cmocka_unit_test(test_refused),     cmocka_unit_test(test_faces_of_grid),
+                                     cmocka_unit_test(test_hull),        cmocka_unit_test(test_aliases),
+                                     cmocka_unit_test(test_cap),         cmocka_unit_test(test_cap_dissolves),
+                                     cmocka_unit_test(test_cancel),      cmocka_unit_test(test_counters),
+                                     cmocka_unit_test(test_pure),        cmocka_unit_test(test_witness_out_of_range)};
   harness_init(&shared, "api");
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   harness_clear(&shared);

@@ -338,9 +338,38 @@ static void test_line(void **state) {
   orc_case_clear(&c);
 }
 
+/* Two long sides of a street, 100 apart, and points in its middle, 90 apart: each blocks 50 to both sides, so more of
+ * them than the filter follows block all of it; without one there is a gap. */
+static void test_street(void **state) {
+  (void)state;
+  const double lo = -10000, hi = 10000, side[2] = {0, 100}, middle = 50;
+  const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
+  char message[MESSAGE_SIZE] = "";
+  for (int left_out = -112; left_out <= 113; left_out += 45) {
+    dyd_sites *s = NULL;
+    dyd_work w;
+    bool possible;
+    assert_int_equal(dyd_sites_new(&s), DYD_OK);
+    for (int k = 0; k < 2; k++) assert_int_equal(dyd_sites_add_boxes(s, 1, &lo, &hi, &side[k], &side[k]), DYD_OK);
+    for (int k = -112; k <= 112; k++) {
+      double x = 90 * k;
+      if (k != left_out) assert_int_equal(dyd_sites_add_points(s, 1, &x, &middle), DYD_OK);
+    }
+    dyd_delaunay *pd = harness_engine(message, s, NULL);
+    assert_non_null(pd);
+    dyd_work_init(&w, &pd->sk, NULL);
+    assert_int_equal(dyd_cover_possible(&possible, &w, &pd->sk, pd->sk.vertex[0], pd->sk.vertex[1], no_hint), DYD_OK);
+    if (possible != (left_out < 112)) fail_msg("without %d: %d", left_out, possible);
+    dyd_work_clear(&w);
+    dyd_delaunay_free(pd);
+    dyd_sites_free(s);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_directions), cmocka_unit_test(test_cover),
-                                     cmocka_unit_test(test_chains), cmocka_unit_test(test_line)};
+                                     cmocka_unit_test(test_chains), cmocka_unit_test(test_line),
+                                     cmocka_unit_test(test_street)};
   harness_init(&shared, "walks");
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   harness_clear(&shared);

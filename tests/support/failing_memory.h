@@ -14,11 +14,15 @@ void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
 void *__wrap_realloc(void *old, size_t size);
 
-/* 0: none fails; k > 0: the k-th allocation from now fails, once; it is 0 when that has happened. */
+/* 0: none fails; k > 0: the k-th allocation from now fails, once; it is 0 when that has happened. With a bell, it is
+ * set instead: a deterministic way to stop work in its middle. */
 static size_t countdown;
+static volatile int *bell;
 
 static bool allocation_fails(void) {
-  return countdown && --countdown == 0;
+  if (!countdown || --countdown) return false;
+  if (bell) *bell = 1;
+  return !bell;
 }
 
 void *__wrap_malloc(size_t size) {
