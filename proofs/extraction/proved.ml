@@ -21,12 +21,13 @@ let line_at_fault c d e =
     let rec first k = function [] -> c.first_edge - 1 | edge :: rest -> if good edge then first (k + 1) rest else k in
     first c.first_edge c.edges
 
-(* Sites that are not surrounded. *)
+(* How many sites are not surrounded, 0 when no pair is left over; how many triangles there are to surround them. *)
 let left_over c d e =
   let boxes = Option.get (Checker.scaled_sites d e c.sites) in
   let triangles, fans = Hints.triangles_and_fans boxes c.edges in
   let found = Checker.surrounded d e c.sites c.edges triangles c.corners fans in
-  if Checker.all_surrounded c.sites c.edges found then 0 else List.length c.sites - List.length found
+  let left = if Checker.all_surrounded c.sites c.edges found then 0 else List.length c.sites - List.length found in
+  (left, List.length triangles)
 
 (* Does the bound that the goal is about reach it? *)
 let is_reached c =
@@ -51,12 +52,13 @@ let outcome_is_proved c left =
   | _ -> false
 
 (* What a certificate says that cannot be. *)
-let contradiction c d e left =
+let contradiction c d e left faces =
   let opened = c.ties + c.opened > 0 || c.capped in
   if c.outcome = "decided" && opened then Some "the outcome is not decided: pairs are open"
   else if c.outcome = "certified" && List.hd c.goal <> "voronoi" && not (is_reached c) then
     Some "the outcome is not certified: no bound reaches the goal"
   else if left = 0 && opened then Some "pairs are listed as open that are illegal"
+  else if left = 0 && (c.faces <> faces || c.unproved > 0) then Some (Printf.sprintf "there are %d sure triangles" faces)
   else if left = 0 && not (bounds_hold c d e) then Some "a bound is too small"
   else None
 
@@ -92,8 +94,8 @@ let verdict name =
   let d, e = Hints.unit_of c.sites c.edges in
   if not (Checker.check d e c.sites c.edges) then
     raise (Bad (line_at_fault c d e, "a point is no witness of its pair, or sites are not rectangles"));
-  let left = left_over c d e in
-  Option.iter (fun wrong -> raise (Bad (2, wrong))) (contradiction c d e left);
+  let left, faces = left_over c d e in
+  Option.iter (fun wrong -> raise (Bad (2, wrong))) (contradiction c d e left faces);
   let found = gaps c left in
   report c left found;
   if found = [] then 0 else 3

@@ -19,6 +19,8 @@ type certificate = {
   corners : Checker.corner list;
   ties : int;
   opened : int;  (* lines o and l *)
+  faces : int;  (* sure triangles *)
+  unproved : int;
   area : Checker.number option;
   hausdorff : Checker.number option;
   blocks : bool;
@@ -57,6 +59,10 @@ let integer s text =
 let small s text =
   let n = integer s text in
   if Z.fits_int n then Z.to_int n else bad s "%s is too large" text
+
+let count s text =
+  let n = small s text in
+  if n < 0 then bad s "%s is no count" text else n
 
 let limit = 1 lsl 20
 
@@ -101,7 +107,7 @@ let side s text =
 (* The line "NAME count", and as many rows. *)
 let rows s name row =
   match words s with
-  | [ word; count ] when word = name -> List.init (small s count) row
+  | [ word; number ] when word = name -> List.init (count s number) row
   | _ -> bad s "%S is missing" name
 
 let in_order s last here =
@@ -188,13 +194,13 @@ let rec read_chain s known least = function
   | [] when least <= 0 -> ()
   | _ -> bad s "the chain is too short"
 
-(* How many are ties, and how many are open in other ways; up to the counts, and with them. *)
+(* How many are ties, how many are open in other ways, and the counts that follow. *)
 let read_pairs s known legal =
   let last = ref (-1, -1) and ties = ref 0 and opened = ref 0 in
   let listed i j = if Hashtbl.mem legal (pair s known last i j) then bad s "the pair is legal already" in
   let rec counts = function
-    | [ "boxes"; p ] -> ignore (small s p); counts (words s)
-    | [ "triangles"; t ] -> ignore (small s t)
+    | [ "boxes"; p ] -> ignore (count s p); counts (words s)
+    | [ "triangles"; t ] -> count s t
     | _ -> bad s "\"triangles\" is missing"
   and lines () =
     match words s with
@@ -210,9 +216,10 @@ let read_pairs s known legal =
     | line -> counts line
   in
   if next s <> "pairs" then bad s "\"pairs\" is missing";
-  lines ();
-  (match words s with [ "unproved"; u ] -> ignore (small s u) | _ -> bad s "\"unproved\" is missing");
-  (!ties, !opened)
+  let faces = lines () in
+  match words s with
+  | [ "unproved"; u ] -> (!ties, !opened, faces, count s u)
+  | _ -> bad s "\"unproved\" is missing"
 
 let read_bound s name =
   match words s with
@@ -244,11 +251,11 @@ let certificate text =
   ignore (read_points s known "places");
   ignore (read_edges s known "bridges");
   let corners = List.map direction (read_points s known "corners") in
-  let ties, opened = read_pairs s known legal in
+  let ties, opened, faces, unproved = read_pairs s known legal in
   let area = read_bound s "area" in
   let hausdorff = read_bound s "hausdorff" in
   let blocks, diagram = read_rest s in
   let exact = Hashtbl.fold (fun _ point all -> point && all) known true in
   let loose = List.length (List.filter not aliases) in
   { outcome; goal; capped; sites; exact; aliases = List.length aliases; loose; edges; first_edge; corners; ties; opened;
-    area; hausdorff; blocks; diagram }
+    faces; unproved; area; hausdorff; blocks; diagram }
