@@ -43,14 +43,20 @@ Definition ds2 (x y : Z) (b : box) : Z :=
 Definition dl2 (x y : Z) (b : box) : Z :=
   let u := reach (x0 b) (x1 b) x in let v := reach (y0 b) (y1 b) y in u * u + v * v.
 
-(* Is the box off the disc about (x,y) with squared radius r2? *)
-Definition off_disc (x y r2 : Z) (b : box) : bool := r2 <? ds2 x y b.
+(* Is the box off the disc about (x,y) with squared radius r2, r2 <= s^2? Most boxes are off the square around it, which
+   costs no product: with many denominators numbers are long. *)
+Definition off_disc (x y r2 s : Z) (b : box) : bool :=
+  let u := gap (x0 b) (x1 b) x in let v := gap (y0 b) (y1 b) y in (s <? u) || (s <? v) || (r2 <? u * u + v * v).
+
+Definition reaches (x y : Z) (b : box) : Z := reach (x0 b) (x1 b) x + reach (y0 b) (y1 b) y.
 
 (* Boxes by name, and the tree of all of them. *)
 Definition check_witness (m : Map.t box) (t : tree) (i j x y : Z) : bool :=
   match Map.find i m, Map.find j m with
   | Some a, Some b =>
-    let off := off_disc x y (Z.max (dl2 x y a) (dl2 x y b)) in
+    let r2 := Z.max (dl2 x y a) (dl2 x y b) in let s := Z.max (reaches x y a) (reaches x y b) in
+    let off := off_disc x y r2 s in
+    (0 <=? s) && (r2 <=? s * s) &&
     all_in off (fun k => off k || (box_name k =? i) || (box_name k =? j)) t
   | _, _ => false
   end.

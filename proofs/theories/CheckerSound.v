@@ -106,10 +106,16 @@ Proof.
   destruct (Z.ltb_spec t lo); destruct (Z.ltb_spec t l); try destruct (Z.ltb_spec hi t); try destruct (Z.ltb_spec h t); lia.
 Qed.
 
-Lemma off_disc_covers x y r2 h b : covers h b -> ordered b -> off_disc x y r2 h = true -> off_disc x y r2 b = true.
+Lemma off_disc_covers x y r2 s h b : covers h b -> ordered b -> off_disc x y r2 s h = true -> off_disc x y r2 s b = true.
 Proof.
-  intros (X0 & X1 & Y0 & Y1) [Ox Oy]. unfold off_disc, ds2. rewrite !Z.ltb_lt.
-  pose proof (gap_covers _ _ _ _ x X0 Ox X1). pose proof (gap_covers _ _ _ _ y Y0 Oy Y1). nia.
+  intros (X0 & X1 & Y0 & Y1) [Ox Oy]. unfold off_disc. cbv zeta. rewrite !orb_true_iff, !Z.ltb_lt.
+  pose proof (gap_covers _ _ _ _ x X0 Ox X1) as U. pose proof (gap_covers _ _ _ _ y Y0 Oy Y1) as V.
+  intros [[H | H] | H]; [left; left; lia | left; right; lia | right; nia].
+Qed.
+
+Lemma off_disc_sound x y r2 s b : (0 <= s)%Z -> (r2 <= s * s)%Z -> off_disc x y r2 s b = true -> (r2 < ds2 x y b)%Z.
+Proof.
+  intros S R0. unfold off_disc, ds2. cbv zeta. rewrite !orb_true_iff, !Z.ltb_lt. intros [[H | H] | H]; nia.
 Qed.
 
 (* ---- lists ---- *)
@@ -228,12 +234,13 @@ Proof.
   apply (found_box_is (-1)) in Ma, Mb; try assumption.
   rewrite (find_box_nth (-1) bs a (from e) ba R0 A2) in Ma by congruence. injection Ma as <-.
   rewrite (find_box_nth (-1) bs b (to e) bb R0 B2) in Mb by congruence. injection Mb as <-. cbv zeta in C.
+  apply andb_true_iff in C. destruct C as [S0 C]. apply andb_true_iff in S0. destruct S0 as [S0 S1]. apply Z.leb_le in S0, S1.
   apply all_in_each with (b := bk) in C; [| | now split | exact (nth_error_In _ _ K2)].
-  2: { intros h k0 Ch Ok H0. now rewrite (off_disc_covers x y _ h k0 Ch Ok H0). }
+  2: { intros h k0 Ch Ok H0. now rewrite (off_disc_covers x y _ _ h k0 Ch Ok H0). }
   rewrite !orb_true_iff, !Z.eqb_eq in C.
   assert (G : (Z.max (dl2 x y ba) (dl2 x y bb) < ds2 x y bk)%Z).
   { destruct C as [[C | C] | C].
-    - now apply Z.ltb_lt.
+    - now apply off_disc_sound in C.
     - exfalso. apply Da. apply (rising_names (-1) bs k a bk ba R0 K2 A2). congruence.
     - exfalso. apply Db. apply (rising_names (-1) bs k b bk bb R0 K2 B2). congruence. }
   assert (G1 : (dl2 x y ba < ds2 x y bk)%Z) by lia. assert (G2 : (dl2 x y bb < ds2 x y bk)%Z) by lia.
