@@ -1,56 +1,58 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The checker of certificates that is proved in Coq accepts what the command writes, and rejects mutants.
+"""dyadel-proved, the checker of certificates that is proved in Coq, against `dyadel verify`.
 
-Usage: checker.py ROOT FOLDER DYADEL [COUNT]
+Usage: checker.py ROOT DYADEL_PROVED DYADEL [COUNT]
 
-Compiles the theories in FOLDER as compile.py does, and the extracted checker; runs it on certificates of the airports and
-of COUNT random inputs (default 100), and on mutants of these. On every mutant it is compared with `dyadel verify`, which
-checks more: what the extracted checker rejects, verify must reject too.
+On certificates of the airports and of COUNT random inputs (default 100), on mutants of these, on forgeries and on texts in
+another spelling: what verify accepts is accepted, and of what is all proved verify says so too; what is accepted and
+rejected as it has to be. The time grows little faster than the number of sites.
 """
+import os
 import pathlib
 import random
-import shutil
+import resource
 import subprocess
 import sys
-
-sys.dont_write_bytecode = True
-import compile as theories  # noqa: E402
+import tempfile
 
 SEED = 1
+ALL, NOT_ALL, REJECTED = 0, 3, 1
 
 
-def build(root, folder):
-    """The program."""
-    built = theories.compile_theories(root, folder)
-    target = folder / 'checker'
-    target.mkdir(exist_ok=True)
-    for name in ('checker.ml', 'checker.mli'):
-        shutil.copy(built / name, target / name)
-    shutil.copy(root / 'proofs/extraction/reader.ml', target / 'reader.ml')
-    subprocess.run(['ocamlopt', '-w', '-a', '-unsafe', '-inline', '100', '-o', 'checker', 'checker.mli', 'checker.ml',
-                    'reader.ml'], cwd=target, check=True)
-    return target / 'checker'
+class Checkers:
+    def __init__(self, proved, dyadel, folder):
+        self.proved, self.dyadel, self.folder = proved, dyadel, folder
+        self.tried = self.rejected = self.all = 0
 
+    def certificate(self, points, *options, command='delaunay'):
+        """The text of a certificate; every outcome with a result has one."""
+        source, target = self.folder / 'points.txt', self.folder / 'certified.txt'
+        source.write_text(points)
+        done = subprocess.run([self.dyadel, command, '--quiet', '-o', '/dev/null', '--certificate', target, *options,
+                               source], check=False)
+        assert done.returncode in (0, 3, 4), done
+        return target.read_text()
 
-def certify(dyadel, points, certificate, *options):
-    """Writes a certificate; every outcome with a result has one."""
-    done = subprocess.run([dyadel, 'delaunay', '--quiet', '-o', '/dev/null', '--certificate', certificate, *options,
-                           points], check=False)
-    assert done.returncode in (0, 3, 4), done
+    def ask(self, *command, text):
+        file = self.folder / 'asked.txt'
+        file.write_text(text)
+        return subprocess.run([*command, file], check=False, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
-
-def certify_diagram(dyadel, points, certificate):
-    """The same with a section on the Voronoi diagram."""
-    done = subprocess.run([dyadel, 'voronoi', '--quiet', '-o', '/dev/null', '--certificate', certificate, points],
-                          check=False)
-    assert done.returncode in (0, 3, 4), done
-
-
-def accepts(program, *files):
-    """Which of the certificates the program accepts."""
-    return [subprocess.run([*program, file], check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            .returncode == 0 for file in files]
+    def faults(self, text, name):
+        """Where the two differ that must not; counts."""
+        here, there = self.ask(self.proved, text=text), self.ask(self.dyadel, 'verify', text=text)
+        self.tried += 1
+        self.all += here.returncode == ALL
+        self.rejected += here.returncode == REJECTED
+        if here.returncode not in (ALL, NOT_ALL, REJECTED):
+            yield f'{name}: exit status {here.returncode}: {here.stderr}'
+        elif here.returncode == ALL and there.returncode != ALL:
+            yield f'{name}: all proved, but verify says: {there.stdout.splitlines()[:1]}{there.stderr}\n{text}'
+        elif here.returncode == REJECTED and there.returncode != REJECTED:
+            yield f'{name}: {here.stderr}but verify accepts:\n{text}'
+        elif here.returncode == REJECTED and (here.stdout or ': rejected: ' not in here.stderr):
+            yield f'{name}: rejected without a word: {here}'
 
 
 def coordinate(rng, kind):
@@ -67,78 +69,175 @@ def coordinate(rng, kind):
 def points(rng):
     """A points file: exact, tied, rational, boxes, reals, mixed."""
     kind = rng.randrange(7)
-    count = rng.randrange(1, 40)
+    count = rng.randrange(40)
     return ''.join(f'{coordinate(rng, kind if kind < 6 else rng.randrange(6))} '
                    f'{coordinate(rng, kind if kind < 6 else rng.randrange(6))}\n' for _ in range(count))
 
 
-def mutants(rng, text):
-    """Texts with one number of a site or of a legal pair changed, or two lines exchanged."""
+def section(lines, name):
+    """Numbers of the first line of a section and of the one behind the last."""
+    first = next(k for k, line in enumerate(lines) if line.startswith(f'{name} ')) + 1
+    return first, first + int(lines[first - 1].split(' ')[1])
+
+
+def moved_into_disc(rng, text):
+    """The text with one site put where the witness of a pair of others is; None when there are not enough."""
     lines = text.split('\n')
-    first = next(k for k, line in enumerate(lines) if line.startswith('sites ')) + 1
-    last = next(k for k, line in enumerate(lines) if line.startswith('places '))
-    for _ in range(6):
+    first, last = section(lines, 'legal')
+    sites, end = section(lines, 'sites')
+    if first == last or end - sites < 3:
+        return None
+    i, j, x, y = lines[rng.randrange(first, last)].split(' ')
+    others = [k for k in range(sites, end) if k - sites not in (int(i), int(j)) and not lines[k].startswith('=')]
+    if not others:
+        return None
+    lines[rng.choice(others)] = f'{x} {y}'
+    return '\n'.join(lines)
+
+
+def mutants(rng, text):
+    """Texts with one number of a site, of a pair or of another line changed, two lines exchanged, one doubled or lost."""
+    lines = text.split('\n')
+    first, last = section(lines, 'sites')[0], section(lines, 'legal')[1]
+    for _ in range(7):
         if last - first < 3:
             return
-        changed, k = list(lines), rng.randrange(first, last)
-        words = changed[k].split(' ')
-        w = rng.randrange(len(words))
-        if rng.randrange(3) == 0:
-            other = rng.randrange(first, last)
+        k, other = rng.randrange(first, last), rng.randrange(first, last)
+        if rng.randrange(5) == 0:
+            k = rng.randrange(len(lines) - 1)
+        changed, words, way = list(lines), lines[k].split(' '), rng.randrange(8)
+        if way == 0:
             changed[k], changed[other] = changed[other], changed[k]
+        elif way == 1:
+            changed[k:k + 1] = rng.choice(([], [lines[k], lines[k]]))
         else:
+            w = rng.randrange(len(words))
             words[w] = rng.choice(('0', '1', '-3*2^1', words[-1], words[0], words[w] + '1', '7*2^40'))
             changed[k] = ' '.join(words)
         if changed != lines:
             yield '\n'.join(changed)
 
 
-def try_random(program, dyadel, folder, count):
-    """What goes wrong; counts in the last line."""
+def spellings(text):
+    """The same or nearly, in words that the format does not have."""
+    yield text[:-1]
+    yield text + '\n'
+    yield text.replace('\n', '\r\n')
+    yield text.replace('capped no', 'capped no ')
+    yield text.replace('outcome decided', 'outcome  decided')
+    yield text.replace('goal decided', 'goal decided 3')
+    yield text.replace('\nend\n', '\n')
+    yield text.replace('\n0 0\n', '\n3/9 0\n', 1)
+    yield text.replace('\n0 0\n', '\n0+0 0\n', 1)
+    first = section(text.split('\n'), 'legal')[0]
+    for wrong in ('+1', '01', '-0', '1.0', '0x1', '2*2^1', '1*2^0', '1*2^1048577', '1*2^99999999999999999999', '1_0', '', '1*3^1'):
+        lines = text.split('\n')
+        lines[first] = ' '.join(lines[first].split(' ')[:3] + [wrong])
+        yield '\n'.join(lines)
+
+
+def try_random(both, count):
     rng = random.Random(SEED)
-    tried = rejected = complete = 0
     for number in range(count):
-        source, certificate = folder / 'points.txt', folder / 'certificate.txt'
-        source.write_text(points(rng))
-        certify(dyadel, source, certificate, '--max-bits', '200')
-        text = certificate.read_text()
-        answer = subprocess.run([program, certificate], check=False, stdout=subprocess.PIPE, text=True)
-        complete += answer.stdout.endswith(', complete\n')
-        if answer.returncode != 0:
-            yield f'rejected, input {number}:\n{source.read_text()}'
-        elif answer.stdout.endswith(', complete\n') and 'outcome decided\n' not in text:
-            yield f'complete, but not decided, input {number}:\n{source.read_text()}'
+        text = both.certificate(points(rng), '--max-bits', '200')
+        if both.ask(both.proved, text=text).returncode == REJECTED:
+            yield f'input {number}: rejected:\n{text}'
+        yield from both.faults(text, f'input {number}')
         for mutant in mutants(rng, text):
-            certificate.write_text(mutant)
-            tried += 1
-            if not accepts([program], certificate)[0]:
-                rejected += 1
-                if accepts([dyadel, 'verify'], certificate)[0]:
-                    yield f'a mutant that only verify accepts, input {number}:\n{mutant}'
-    print(f'seed {SEED}: {count} certificates accepted, {complete} of them proved complete; '
-          f'{tried} mutants, {rejected} of them rejected')
-    if rejected * 3 < tried:
-        yield 'most mutants are accepted'
+            yield from both.faults(mutant, f'mutant of input {number}')
+        moved = moved_into_disc(rng, text)
+        if moved and both.ask(both.proved, text=moved).returncode != REJECTED:
+            yield f'input {number}: accepted with a site in the disc of a witness:\n{moved}'
+    print(f'seed {SEED}: {count} inputs, {both.tried} certificates and mutants: {both.all} all proved, {both.rejected} rejected')
+    if both.rejected * 4 < both.tried or both.all * 16 < both.tried:
+        yield 'hardly anything is rejected, or hardly anything proved'
+
+
+def try_forgeries(both, path):
+    text = []
+    for line in path.read_text().splitlines(keepends=True):
+        if line.startswith('---- '):
+            yield from both.faults(''.join(text), f'forgery before {line.strip()}')
+            text = []
+        else:
+            text.append(line)
+
+
+# A witness of 0 3 whose circle also goes through 1 and 2.
+TOUCHED = ('dyadel certificate 1\noutcome fixpoint\ngoal decided\ncapped no\nsites 4\n0 0\n1 0\n0 1\n1 1\nlegal 1\n'
+           '0 3 1*2^-1 1*2^-1\nplaces 0\nbridges 0\ncorners 0\npairs\ntriangles 0\nunproved 5\narea none\nhausdorff none\nend\n')
+
+
+def try_cases(both, root):
+    """Certificates whose verdict is known."""
+    table = (root / 'tests/data/airports.csv').read_text()
+    columns = ('--columns', 'longitude,latitude')
+    triangle, square = '0 0\n5 0\n0 4\n', '0 0\n5 0\n0 4\n6 [5,6]\n'
+    for status, said, text in [
+            (ALL, '10112 legal pairs', both.certificate(table, *columns)),
+            (NOT_ALL, '10109 legal pairs', both.certificate(table, *columns, '--measured')),
+            (NOT_ALL, 'not proved: that pairs among', both.certificate(table, *columns, '--radius', '0.05')),
+            (NOT_ALL, 'the section on the Voronoi diagram', both.certificate(square, command='voronoi')),
+            (ALL, 'bounds of area', both.certificate(square)),
+            (ALL, 'the outcome certified', both.certificate('sqrt(2) 0\n1 [5,6]\n-4 pi\n7 -2\n', '--until', 'hausdorff:-4')),
+            (ALL, 'the outcome decided', both.certificate(triangle)),
+            (ALL, '0 legal pairs', both.certificate('1 1/3\n')),
+            (ALL, '1 legal pairs', both.certificate('1 1/3\n[1,2] 2\n')),
+            (NOT_ALL, 'no refinement decides 2 ties', both.certificate('sqrt(2) 0\n0 sqrt(2)\n-sqrt(2) 0\n0 -sqrt(2)\n')),
+            (REJECTED, '', both.certificate(square).replace('\narea ', '\narea -')),
+            (REJECTED, '', TOUCHED)]:
+        answer = both.ask(both.proved, text=text)
+        print(answer.stdout.split('\n')[0] or answer.stderr.strip())
+        if answer.returncode != status or said not in answer.stdout:
+            yield f'exit status {answer.returncode}, not {status}, or not "{said}":\n{answer.stdout}{answer.stderr}'
+        yield from both.faults(text, said)
+    for text in spellings(both.certificate(triangle)):
+        yield from both.faults(text, 'a spelling')
+        if both.ask(both.proved, text=text).returncode != REJECTED:
+            yield f'accepted:\n{text}'
+
+
+def try_command(both):
+    """verify --proved says what the program says; -o; nothing is left where it is rejected."""
+    text, target = both.certificate('0 0\n5 0\n0 4\n'), both.folder / 'answer.txt'
+    os.environ['PATH'] = f'{both.proved.parent}:{os.environ["PATH"]}'
+    for certificate in (text, text.replace('goal decided', 'goal area 5'), text[:-1]):
+        alone, by = both.ask(both.proved, text=certificate), both.ask(both.dyadel, 'verify', '--proved', text=certificate)
+        if (alone.returncode, alone.stdout, alone.stderr) != (by.returncode, by.stdout, by.stderr):
+            yield f'verify --proved differs: {alone} {by}'
+        target.unlink(missing_ok=True)
+        filed = both.ask(both.dyadel, 'verify', '--proved', '-o', target, text=certificate)
+        if filed.returncode != alone.returncode or filed.stdout or target.exists() != (filed.returncode != REJECTED):
+            yield f'verify --proved -o: {filed}'
+        if target.exists() and target.read_text() != alone.stdout:
+            yield 'verify --proved -o writes something else'
+
+
+def seconds(both, count):
+    """Of the processor, for so many boxes."""
+    rng = random.Random(count)
+    text = both.certificate(''.join(f'{rng.random()}+-1e-9 {rng.random()}+-1e-9\n' for _ in range(count)))
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    assert both.ask(both.proved, text=text).returncode == ALL
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+
+def try_growth(both):
+    few, many = seconds(both, 1500), seconds(both, 12000)
+    print(f'8 times as many sites: {many / few:.1f} times as long')
+    if many > 24 * few:
+        yield 'the time grows with the square of the number of sites'
 
 
 def main():
-    root, folder = (pathlib.Path(arg).resolve() for arg in sys.argv[1:3])
-    dyadel, count = sys.argv[3], int(sys.argv[4]) if len(sys.argv) > 4 else 100
-    program = build(root, folder)
-    airports = folder / 'checker/airports.txt'
-    certify(dyadel, root / 'tests/data/airports.csv', airports, '--columns', 'longitude,latitude')
-    found = list(try_random(program, dyadel, folder / 'checker', count))
-    answer = subprocess.run([program, airports], check=False, stdout=subprocess.PIPE, text=True).stdout
-    print(answer, end='')
-    if ': accepted, 3376 sites, 10112 legal pairs' not in answer or not answer.endswith(', complete\n'):
-        found.append('the certificate of the airports is rejected, or not proved to be complete')
-    square, diagram = folder / 'checker/square.txt', folder / 'checker/diagram.txt'
-    square.write_text('0 0\n5 0\n0 4\n6 [5,6]\n')
-    certify_diagram(dyadel, square, diagram)
-    answer = subprocess.run([program, diagram], check=False, stdout=subprocess.PIPE, text=True).stdout
-    print(answer, end='')
-    if ': accepted, 4 sites' not in answer or ', diagram not checked, ' not in answer:
-        found.append('the certificate with a diagram is rejected, or its diagram is said to be checked')
+    root, proved, dyadel = (pathlib.Path(arg).resolve() for arg in sys.argv[1:4])
+    with tempfile.TemporaryDirectory() as folder:
+        both = Checkers(proved, dyadel, pathlib.Path(folder))
+        found = list(try_random(both, int(sys.argv[4]) if len(sys.argv) > 4 else 100))
+        found += try_forgeries(both, root / 'tests/checker/forgeries.txt')
+        found += try_cases(both, root)
+        found += try_command(both)
+        found += try_growth(both)
     print('\n'.join(found) or 'no fault')
     return 1 if found else 0
 

@@ -1,197 +1,261 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Reads certificates (include/dyadel/certificate.h) and hands them to the extracted checker. Nothing proves this file:
-   it turns text into the numbers written there. It also chooses the unit and finds triangles, corners and fans; wrong
-   ones cannot make a wrong answer.
-   Usage: checker FILE...   (exit status 1 when a certificate is rejected)
-   "complete": every pair that is not listed as legal is proved to be illegal.
-   "diagram not checked": the certificate has a section on the Voronoi diagram; this checker does not know it, and reads
-   no line of what follows the corners. *)
-open Checker
+(* Reads a certificate (include/dyadel/certificate.h) into what the extracted checker is about. Nothing proves this file:
+   it turns text into the numbers written there, each in its only spelling, and takes nothing else. Of sections that the
+   checker does not know it says that they are there. *)
 
-exception Bad of string
+(* Number of the line, and what is wrong. *)
+exception Bad of int * string
+
+type certificate = {
+  outcome : string;
+  goal : string list;  (* its words *)
+  capped : bool;
+  sites : Checker.site list;
+  exact : bool;  (* is every site a point? *)
+  aliases : int;
+  loose : int;  (* aliases of sites that are not exact *)
+  edges : Checker.edge list;
+  first_edge : int;  (* its line *)
+  corners : Checker.corner list;
+  ties : int;
+  opened : int;  (* lines o and l *)
+  faces : int;  (* sure triangles *)
+  unproved : int;
+  area : Checker.number option;
+  hausdorff : Checker.number option;
+  blocks : bool;
+  diagram : bool;
+}
+
+type source = { text : string; mutable at : int; mutable line : int }
+
+let bad s = Printf.ksprintf (fun message -> raise (Bad (s.line, message)))
+
+let next s =
+  s.line <- s.line + 1;
+  match String.index_from_opt s.text s.at '\n' with
+  | None when s.at < String.length s.text -> bad s "the line does not end"
+  | None -> bad s "the certificate ends before the line \"end\""
+  | Some k ->
+    let line = String.sub s.text s.at (k - s.at) in
+    s.at <- k + 1;
+    line
+
+let words s =
+  let found = String.split_on_char ' ' (next s) in
+  if List.mem "" found then bad s "two blanks, or a blank at the end or the beginning" else found
 
 (* ---- numbers ---- *)
 
-let rec positive_of_int n = if n = 1 then XH else if n land 1 = 1 then XI (positive_of_int (n / 2)) else XO (positive_of_int (n / 2))
-let of_int n = if n = 0 then Z0 else if n > 0 then Zpos (positive_of_int n) else Zneg (positive_of_int (-n))
+let after text k = String.sub text k (String.length text - k)
 
-(* Fifteen digits at a time. *)
-let of_digits text =
-  let chunk = 15 in
-  let rec power k = if k = 0 then 1 else 10 * power (k - 1) in
-  let rec go acc from =
-    if from >= String.length text then acc
-    else
-      let n = min chunk (String.length text - from) in
-      let part = String.sub text from n in
-      String.iter (fun c -> if c < '0' || c > '9' then raise (Bad ("digits: " ^ text))) part;
-      go (Z.add (Z.mul acc (of_int (power n))) (of_int (int_of_string ("0u" ^ part)))) (from + n)
-  in
-  if text = "" then raise (Bad "no digits") else go Z0 0
+let integer s text =
+  let digits = if String.starts_with ~prefix:"-" text then after text 1 else text in
+  let wrong c = c < '0' || c > '9' in
+  if digits = "" || (digits.[0] = '0' && text <> "0") || String.exists wrong digits then bad s "%S is no integer" text
+  else Z.of_string text
 
-let of_text text =
-  if text <> "" && text.[0] = '-' then Z.opp (of_digits (String.sub text 1 (String.length text - 1))) else of_digits text
+(* An integer below 2^62 in absolute value. *)
+let small s text =
+  let n = integer s text in
+  if Z.fits_int n then Z.to_int n else bad s "%s is too large" text
+
+let count s text =
+  let n = small s text in
+  if n < 0 then bad s "%s is no count" text else n
+
+let limit = 1 lsl 20
 
 (* m or m*2^e *)
-let number text =
+let number s text : Checker.number =
   match String.index_opt text '*' with
-  | None -> { man = of_text text; expo = Z0; den = Zpos XH }
+  | None -> { man = integer s text; expo = Z.zero; den = Z.one }
   | Some k ->
-    let e = String.sub text (k + 3) (String.length text - k - 3) in
-    { man = of_text (String.sub text 0 k); expo = of_int (int_of_string e); den = Zpos XH }
+    if not (String.starts_with ~prefix:"*2^" (after text k)) then bad s "%S is not a number m or m*2^e" text;
+    let man = integer s (String.sub text 0 k) and expo = small s (after text (k + 3)) in
+    if Z.is_even man || expo = 0 || abs expo > limit then bad s "%S is not a number m or m*2^e" text;
+    { man; expo = Z.of_int expo; den = Z.one }
 
-let split_at text k = (String.sub text 0 k, String.sub text (k + 1) (String.length text - k - 1))
+(* man 2^(expo - e) *)
+let whole (n : Checker.number) e = Z.shift_left n.man (Z.to_int (Z.sub n.expo e))
 
-(* man 2^expo of the sum of two numbers *)
-let sum a b =
+let sum (a : Checker.number) (b : Checker.number) : Checker.number =
   let e = Z.min a.expo b.expo in
-  let shifted n = Z.shiftl n.man (Z.add n.expo (Z.opp e)) in
-  { man = Z.add (shifted a) (shifted b); expo = e; den = Zpos XH }
+  { man = Z.add (whole a e) (whole b e); expo = e; den = Z.one }
 
 (* The two ends of a side: lo, lo/d or lo+w. *)
-let side text =
+let side s text =
+  let cut k = (number s (String.sub text 0 k), after text (k + 1)) in
   match (String.index_opt text '/', String.index_opt text '+') with
   | Some k, _ ->
-    let lo, d = split_at text k in
-    let n = { (number lo) with den = of_text d } in
-    (n, n)
+    let lo, d = cut k in
+    let den = integer s d in
+    if Z.leq den Z.one || Z.is_even den || Z.gcd den lo.man <> Z.one then bad s "%S is no denominator in lowest terms" d;
+    let point = { lo with den } in
+    (point, point)
   | None, Some k ->
-    let lo, w = split_at text k in
-    (number lo, sum (number lo) (number w))
-  | None, None -> (number text, number text)
+    let lo, w = cut k in
+    let width = number s w in
+    if Z.sign width.man <= 0 then bad s "%S is not a width" w;
+    (lo, sum lo width)
+  | None, None ->
+    let point = number s text in
+    (point, point)
 
-(* ---- lines ---- *)
+(* ---- sections ---- *)
 
-let words line = String.split_on_char ' ' line
+(* The line "NAME count", and as many rows. *)
+let rows s name row =
+  match words s with
+  | [ word; number ] when word = name -> List.init (count s number) row
+  | _ -> bad s "%S is missing" name
 
-let read_certificate channel =
-  let line () = try input_line channel with End_of_file -> raise (Bad "too short") in
-  let rec heading name =
-    match words (line ()) with [ w; count ] when w = name -> int_of_string count | _ -> heading name
+let in_order s last here =
+  if compare here !last <= 0 then bad s "lines are not in order";
+  last := here
+
+let read_head s =
+  if next s <> "dyadel certificate 1" then bad s "this is no \"dyadel certificate 1\"";
+  let outcome =
+    match words s with
+    | [ "outcome"; (("decided" | "certified" | "fixpoint" | "budget" | "cancelled" | "error") as outcome) ] -> outcome
+    | _ -> bad s "\"outcome\" is missing"
   in
-  let sites =
-    List.init (heading "sites") (fun k -> (k, words (line ())))
-    |> List.filter_map (function
-         | _, "=" :: _ -> None
-         | k, [ x; y ] ->
-           let left, right = side x and low, high = side y in
-           Some { name = of_int k; left; right; low; high }
-         | _ -> raise (Bad "site"))
+  let goal =
+    match words s with
+    | "goal" :: ([ "decided" ] as goal) -> goal
+    | "goal" :: ([ ("area" | "hausdorff"); m ] as goal) | "goal" :: ([ "voronoi"; ("area" | "hausdorff"); m ] as goal) ->
+      ignore (small s m);
+      goal
+    | _ -> bad s "\"goal\" is missing"
   in
-  let edges =
-    List.init (heading "legal") (fun _ ->
-        match words (line ()) with
-        | [ i; j; x; y ] -> { from = of_text i; to0 = of_text j; at_x = number x; at_y = number y }
-        | _ -> raise (Bad "legal pair"))
+  match words s with
+  | [ "capped"; (("no" | "yes") as capped) ] -> (outcome, goal, capped = "yes")
+  | _ -> bad s "\"capped\" is missing"
+
+(* The sites, and of each alias whether its site is exact. `known` gets the numbers of sites, and whether they are exact. *)
+let read_sites s known =
+  let exact k = match Hashtbl.find_opt known k with Some e -> e | None -> bad s "%d is no site, or an alias" k in
+  let row k =
+    match words s with
+    | [ "="; other ] -> Either.Right (exact (small s other))
+    | [ x; y ] ->
+      let left, right = side s x and low, high = side s y in
+      Hashtbl.add known k (left = right && low = high);
+      Either.Left { Checker.name = Z.of_int k; left; right; low; high }
+    | _ -> bad s "a site has two sides"
   in
-  let corners =
-    List.init (heading "corners") (fun _ ->
-        match words (line ()) with
-        | [ i; x; y ] ->
-          let x = number x and y = number y in
-          let e = Z.min x.expo y.expo in
-          let whole n = Z.shiftl n.man (Z.add n.expo (Z.opp e)) in
-          { vertex = of_text i; ux = whole x; uy = whole y }
-        | _ -> raise (Bad "corner"))
+  List.partition_map Fun.id (rows s "sites" row)
+
+let site s known text =
+  let k = small s text in
+  if Hashtbl.mem known k then k else bad s "%s is no site, or an alias" text
+
+let pair s known last i j =
+  let i = site s known i and j = site s known j in
+  if i >= j then bad s "the second site must have the larger number";
+  in_order s last (i, j);
+  (i, j)
+
+(* The rows "i j x y" of a section. *)
+let read_edges s known name =
+  let last = ref (-1, -1) in
+  let row _ =
+    match words s with
+    | [ i; j; x; y ] ->
+      let i, j = pair s known last i j in
+      { Checker.from = Z.of_int i; to0 = Z.of_int j; at_x = number s x; at_y = number s y }
+    | _ -> bad s "a pair has two sites and a point"
   in
-  let rec has_diagram () =
-    match input_line channel with
-    | line -> List.hd (words line) = "window" || has_diagram ()
-    | exception End_of_file -> false
+  rows s name row
+
+(* The rows "i x y" of a section. *)
+let read_points s known name =
+  let last = ref (-1) in
+  let row _ =
+    match words s with
+    | [ i; x; y ] ->
+      let i = site s known i in
+      in_order s last i;
+      (Z.of_int i, number s x, number s y)
+    | _ -> bad s "a site and a point are missing"
   in
-  (sites, edges, corners, has_diagram ())
+  rows s name row
 
-(* ---- the unit ---- *)
+let direction (vertex, (x : Checker.number), (y : Checker.number)) =
+  let e = Z.min x.expo y.expo in
+  { Checker.vertex; ux = whole x e; uy = whole y e }
 
-let numbers sites edges =
-  List.concat_map (fun s -> [ s.left; s.right; s.low; s.high ]) sites
-  @ List.concat_map (fun e -> [ e.at_x; e.at_y ]) edges
+(* Direction, then blocker and point by turns, a blocker, a direction. *)
+let rec read_chain s known least = function
+  | k :: x :: y :: rest ->
+    ignore (site s known k, number s x, number s y);
+    read_chain s known (least - 1) rest
+  | [] when least <= 0 -> ()
+  | _ -> bad s "the chain is too short"
 
-let unit_of sites edges =
-  let all = numbers sites edges in
-  ( List.fold_left (fun d n -> if n.den = Zpos XH then d else Z.lcm d n.den) (Zpos XH) all,
-    List.fold_left (fun e n -> Z.max e (Z.opp n.expo)) Z0 all )
-
-(* ---- hints: triangles and fans ---- *)
-
-let rec int_of_positive = function XH -> 1 | XO p -> 2 * int_of_positive p | XI p -> (2 * int_of_positive p) + 1
-let to_int = function Z0 -> 0 | Zpos p -> int_of_positive p | Zneg p -> -int_of_positive p
-
-(* The neighbours of every site, counterclockwise around its lower left corner. *)
-let rotation boxes edges =
-  let near = Hashtbl.create 1000 in
-  let add a b = Hashtbl.replace near a (b :: Option.value ~default:[] (Hashtbl.find_opt near a)) in
-  List.iter (fun e -> let i = to_int e.from and j = to_int e.to0 in add i j; add j i) edges;
-  let right a b = Z.ltb a.x0 b.x0 || (a.x0 = b.x0 && Z.ltb a.y0 b.y0) in
-  let compare_around a b c =
-    match (right a b, right a c) with
-    | true, false -> -1
-    | false, true -> 1
-    | _ -> ( match turn a b c with Zpos _ -> -1 | Z0 -> 0 | Zneg _ -> 1)
+(* How many are ties, how many are open in other ways, and the counts that follow. *)
+let read_pairs s known legal =
+  let last = ref (-1, -1) and ties = ref 0 and opened = ref 0 in
+  let listed i j = if Hashtbl.mem legal (pair s known last i j) then bad s "the pair is legal already" in
+  let rec counts = function
+    | [ "boxes"; p ] -> ignore (count s p); counts (words s)
+    | [ "triangles"; t ] -> count s t
+    | _ -> bad s "\"triangles\" is missing"
+  and lines () =
+    match words s with
+    | [ (("o" | "t" | "l") as kind); i; j ] ->
+      listed i j;
+      incr (if kind = "t" then ties else opened);
+      lines ()
+    | "n" :: i :: j :: x :: y :: chain ->
+      listed i j;
+      ignore (number s x, number s y);
+      read_chain s known 2 chain;
+      lines ()
+    | line -> counts line
   in
-  let sorted = Hashtbl.create 1000 in
-  Hashtbl.iter
-    (fun a l ->
-      let box = Hashtbl.find boxes in
-      Hashtbl.replace sorted a
-        (Array.of_list (List.sort (fun b c -> compare_around (box a) (box b) (box c)) l)))
-    near;
-  sorted
+  if next s <> "pairs" then bad s "\"pairs\" is missing";
+  let faces = lines () in
+  match words s with
+  | [ "unproved"; u ] -> (!ties, !opened, faces, count s u)
+  | _ -> bad s "\"unproved\" is missing"
 
-(* Round each site: where two neighbours that follow one another are neighbours, a triangle; a site without a gap, or with
-   one, gives a fan. *)
-let hints boxes edges =
-  let around = rotation boxes edges and is_edge = Hashtbl.create 1000 in
-  List.iter (fun e -> Hashtbl.replace is_edge (to_int e.from, to_int e.to0) ()) edges;
-  let closes a i j =
-    Hashtbl.mem is_edge (min i j, max i j)
-    && match turn (Hashtbl.find boxes a) (Hashtbl.find boxes i) (Hashtbl.find boxes j) with Zpos _ -> true | _ -> false
+let read_bound s name =
+  match words s with
+  | [ word; "none" ] when word = name -> None
+  | [ word; bound ] when word = name -> Some (number s bound)
+  | _ -> bad s "%S is missing" name
+
+(* Which sections follow that are not read: what points are, the diagram. *)
+let read_rest s =
+  let blocks = ref false and diagram = ref false in
+  let rec lines () =
+    let line = next s in
+    if String.starts_with ~prefix:"algebra " line then blocks := true;
+    if String.starts_with ~prefix:"window " line then diagram := true;
+    if line <> "end" then lines ()
   in
-  let triangles = ref [] and fans = ref [] in
-  Hashtbl.iter
-    (fun a near ->
-      let n = Array.length near in
-      let follow k = closes a near.(k) near.((k + 1) mod n) in
-      let gaps = List.filter (fun k -> not (follow k)) (List.init n Fun.id) in
-      for k = 0 to n - 1 do
-        let i = near.(k) and j = near.((k + 1) mod n) in
-        if a < i && a < j && follow k then triangles := { ta = of_int a; tb = of_int i; tc = of_int j } :: !triangles
-      done;
-      let from first = List.init n (fun k -> of_int near.((first + k) mod n)) in
-      match gaps with
-      | [] -> fans := { centre = of_int a; spokes = from 0; whole = true } :: !fans
-      | [ k ] -> fans := { centre = of_int a; spokes = from (k + 1); whole = false } :: !fans
-      | _ -> ())
-    around;
-  (!triangles, !fans)
+  lines ();
+  s.line <- s.line + 1;
+  if s.at < String.length s.text then bad s "something follows the line \"end\"";
+  (!blocks, !diagram)
 
-let completeness d e sites edges corners =
-  let boxes = Hashtbl.create 1000 in
-  Option.iter (List.iter (fun b -> Hashtbl.replace boxes (to_int b.box_name) b)) (scaled_sites d e sites);
-  let triangles, fans = hints boxes edges in
-  let found = surrounded d e sites edges triangles corners fans in
-  Printf.sprintf "%d surrounded%s" (List.length found) (if all_surrounded sites found then ", complete" else "")
-
-(* ---- all ---- *)
-
-let verdict name =
-  let channel = open_in_bin name in
-  let answer =
-    try
-      let sites, edges, corners, diagram = read_certificate channel in
-      let d, e = unit_of sites edges in
-      let good = check d e sites edges in
-      Printf.printf "%s: %s, %d sites, %d legal pairs%s\n%!" name
-        (if good then "accepted" else "rejected")
-        (List.length sites) (List.length edges)
-        ((if good then (if diagram then ", diagram not checked, " else ", ") ^ completeness d e sites edges corners
-          else ""));
-      good
-    with Bad _ | Failure _ | Invalid_argument _ | Not_found | Sys_error _ ->
-      Printf.printf "%s: rejected, no certificate\n" name;
-      false
-  in
-  close_in channel;
-  answer
-
-let () = exit (if List.for_all Fun.id (List.map verdict (List.tl (Array.to_list Sys.argv))) then 0 else 1)
+let certificate text =
+  let s = { text; at = 0; line = 0 } and known = Hashtbl.create 1000 and legal = Hashtbl.create 1000 in
+  let outcome, goal, capped = read_head s in
+  let sites, aliases = read_sites s known in
+  let first_edge = s.line + 2 in
+  let edges = read_edges s known "legal" in
+  List.iter (fun (e : Checker.edge) -> Hashtbl.replace legal (Z.to_int e.from, Z.to_int e.to0) ()) edges;
+  ignore (read_points s known "places");
+  ignore (read_edges s known "bridges");
+  let corners = List.map direction (read_points s known "corners") in
+  let ties, opened, faces, unproved = read_pairs s known legal in
+  let area = read_bound s "area" in
+  let hausdorff = read_bound s "hausdorff" in
+  let blocks, diagram = read_rest s in
+  let exact = Hashtbl.fold (fun _ point all -> point && all) known true in
+  let loose = List.length (List.filter not aliases) in
+  { outcome; goal; capped; sites; exact; aliases = List.length aliases; loose; edges; first_edge; corners; ties; opened;
+    faces; unproved; area; hausdorff; blocks; diagram }

@@ -2,6 +2,7 @@
 (* A checker for the legal pairs of a certificate (include/dyadel/certificate.h), over Z, written to be extracted.
    CheckerSound.v says what its answer means. *)
 From Coq Require Import ZArith List Bool.
+From Dyadel Require Export CheckerTree.
 Import ListNotations.
 Open Scope Z_scope.
 
@@ -15,8 +16,6 @@ Record site : Type := Site { name : Z; left : number; right : number; low : numb
 Record edge : Type := Edge { from : Z; to : Z; at_x : number; at_y : number }.
 
 (* The same in units of 1 / (D 2^E): integers. *)
-Record box : Type := Box { box_name : Z; x0 : Z; x1 : Z; y0 : Z; y1 : Z }.
-
 Definition scaled (D E : Z) (n : number) : option Z :=
   if (0 <? den n) && (0 <=? expo n + E) && (D mod den n =? 0)
   then Some (Z.shiftl (man n * (D / den n)) (expo n + E)) else None.
@@ -27,12 +26,13 @@ Definition scaled_site (D E : Z) (s : site) : option box :=
   | _, _, _, _ => None
   end.
 
-Fixpoint scaled_sites (D E : Z) (l : list site) : option (list box) :=
+Fixpoint scaled_onto (D E : Z) (l : list site) (before : list box) : option (list box) :=
   match l with
-  | [] => Some []
-  | s :: rest =>
-    match scaled_site D E s, scaled_sites D E rest with Some b, Some bs => Some (b :: bs) | _, _ => None end
+  | [] => Some (rev_append before [])
+  | s :: rest => match scaled_site D E s with Some b => scaled_onto D E rest (b :: before) | None => None end
   end.
+
+Definition scaled_sites (D E : Z) (l : list site) : option (list box) := scaled_onto D E l [].
 
 (* Distances along one axis: to the nearest point of [lo,hi], and to the farthest one. *)
 Definition gap (lo hi t : Z) : Z := if t <? lo then lo - t else if hi <? t then t - hi else 0.
@@ -43,26 +43,27 @@ Definition ds2 (x y : Z) (b : box) : Z :=
 Definition dl2 (x y : Z) (b : box) : Z :=
   let u := reach (x0 b) (x1 b) x in let v := reach (y0 b) (y1 b) y in u * u + v * v.
 
-(* Is the box off the disc about (x,y) with squared radius r2? [xa,xb] x [ya,yb] is a square around the disc: most boxes
-   are off it, which costs a comparison or two. *)
-Definition off_disc (x y r2 xa xb ya yb : Z) (b : box) : bool :=
-  (xb <? x0 b) || (x1 b <? xa) || (yb <? y0 b) || (y1 b <? ya) || (r2 <? ds2 x y b).
+(* Is the box off the disc about (x,y) with squared radius r2, r2 <= s^2? Most boxes are off the square around it, which
+   costs no product: with many denominators numbers are long. *)
+Definition off_disc (x y r2 s : Z) (b : box) : bool :=
+  let u := gap (x0 b) (x1 b) x in let v := gap (y0 b) (y1 b) y in (s <? u) || (s <? v) || (r2 <? u * u + v * v).
 
-Definition find_box (boxes : list box) (i : Z) : option box := find (fun b => box_name b =? i) boxes.
+Definition reaches (x y : Z) (b : box) : Z := reach (x0 b) (x1 b) x + reach (y0 b) (y1 b) y.
 
-Definition check_witness (boxes : list box) (i j x y : Z) : bool :=
-  match find_box boxes i, find_box boxes j with
+(* Boxes by name, and the tree of all of them. *)
+Definition check_witness (m : Map.t box) (t : tree) (i j x y : Z) : bool :=
+  match Map.find i m, Map.find j m with
   | Some a, Some b =>
-    let r2 := Z.max (dl2 x y a) (dl2 x y b) in
-    let r := Z.sqrt r2 + 1 in
-    let xa := x - r in let xb := x + r in let ya := y - r in let yb := y + r in
-    forallb (fun k => off_disc x y r2 xa xb ya yb k || (box_name k =? i) || (box_name k =? j)) boxes
+    let r2 := Z.max (dl2 x y a) (dl2 x y b) in let s := Z.max (reaches x y a) (reaches x y b) in
+    let off := off_disc x y r2 s in
+    (0 <=? s) && (r2 <=? s * s) &&
+    all_in off (fun k => off k || (box_name k =? i) || (box_name k =? j)) t
   | _, _ => false
   end.
 
-Definition check_edge (D E : Z) (boxes : list box) (e : edge) : bool :=
+Definition check_edge (D E : Z) (m : Map.t box) (t : tree) (e : edge) : bool :=
   match scaled D E (at_x e), scaled D E (at_y e) with
-  | Some x, Some y => check_witness boxes (from e) (to e) x y
+  | Some x, Some y => check_witness m t (from e) (to e) x y
   | _, _ => false
   end.
 
@@ -76,6 +77,7 @@ Fixpoint rising (last : Z) (boxes : list box) : bool :=
 (* D and E only choose the unit; a wrong choice makes the answer false, never wrong. *)
 Definition check (D E : Z) (sites : list site) (edges : list edge) : bool :=
   match scaled_sites D E sites with
-  | Some boxes => (0 <? D) && rising (-1) boxes && forallb (check_edge D E boxes) edges
+  | Some boxes =>
+    (0 <? D) && rising (-1) boxes && forallb (check_edge D E (index box_name boxes) (build deepest boxes)) edges
   | None => false
   end.

@@ -1,7 +1,7 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (* What the faces found by the checker prove: a site that is surrounded has no possible pairs but its spokes, which are
    legal. If all sites are surrounded, the legal pairs listed are all possible pairs. *)
-From Coq Require Import Reals Lra Lia Psatz ZArith List Bool FMapPositive.
+From Coq Require Import Reals Lra Lia Psatz ZArith List Bool.
 From Dyadel Require Import Plane Finite Distance Cells Legal Nerve Orientation Crossing Path Fan Checker CheckerSound CheckerFaces.
 Import ListNotations.
 Open Scope R_scope.
@@ -115,31 +115,17 @@ Qed.
 
 (* ---- maps hold only what was put in ---- *)
 
-Lemma map_edges_in edges k e : PositiveMap.find k (map_edges edges) = Some e -> In e edges.
+Lemma map_triangles_in l k t : Map.find k (map_triangles l) = Some t -> In t l.
 Proof.
-  induction edges as [| f l IH]; simpl; [now rewrite PositiveMap.gempty |].
-  destruct (Pos.eq_dec k (code (from f) (to f))) as [-> | N].
-  - rewrite PositiveMap.gss. intros H. injection H as ->. now left.
-  - rewrite PositiveMap.gso by exact N. intros H. right. now apply IH.
-Qed.
-
-Lemma map_triangles_in l k t : PositiveMap.find k (map_triangles l) = Some t -> In t l.
-Proof.
-  induction l as [| f l IH]; simpl; [now rewrite PositiveMap.gempty |].
-  destruct (Pos.eq_dec k (code (ta f) (tb f))) as [-> | N1];
-    [rewrite PositiveMap.gss; intros H; injection H as ->; now left | rewrite PositiveMap.gso by exact N1].
-  destruct (Pos.eq_dec k (code (tb f) (tc f))) as [-> | N2];
-    [rewrite PositiveMap.gss; intros H; injection H as ->; now left | rewrite PositiveMap.gso by exact N2].
-  destruct (Pos.eq_dec k (code (tc f) (ta f))) as [-> | N3];
-    [rewrite PositiveMap.gss; intros H; injection H as ->; now left | rewrite PositiveMap.gso by exact N3].
-  intros H. right. now apply IH.
+  intros H. apply add_all_in in H. destruct H as [[I _] | H]; [exact I |].
+  apply add_all_in in H. destruct H as [[I _] | H]; [exact I |]. now apply index_in in H.
 Qed.
 
 Lemma is_legal_sound edges i j : is_legal (map_edges edges) i j = true ->
   i <> j /\ exists e, In e edges /\ ((from e = i /\ to e = j) \/ (from e = j /\ to e = i)).
 Proof.
   unfold is_legal. rewrite andb_true_iff, negb_true_iff, Z.eqb_neq. intros [N H]. split; [exact N |].
-  destruct (PositiveMap.find _ _) as [e |] eqn:F; [| discriminate]. exists e. split; [now apply map_edges_in in F |].
+  destruct (Map.find _ _) as [e |] eqn:F; [| discriminate]. exists e. split; [now apply index_in in F |].
   rewrite orb_true_iff, !andb_true_iff, !Z.eqb_eq in H. exact H.
 Qed.
 
@@ -184,9 +170,39 @@ Proof. lia. Qed.
 Lemma min_three a b c : (Z.min a (Z.min b c) <= a /\ Z.min a (Z.min b c) <= b /\ Z.min a (Z.min b c) <= c)%Z.
 Proof. lia. Qed.
 
+Lemma turn_corner a b k : turn_most a b (corner_of k) = turn a b k /\ turn_least a b (corner_of k) = turn a b k.
+Proof.
+  unfold turn_most, turn_least, turn, top, bottom, corner_of. simpl.
+  split; destruct (0 <=? y0 a - y0 b)%Z; destruct (0 <=? x0 b - x0 a)%Z; ring.
+Qed.
+
+Lemma end_covers u p q r s : (p <= q)%Z -> (r <= s)%Z ->
+  ((if 0 <=? u then u * r else u * q) <= (if 0 <=? u then u * s else u * p) /\
+   (if 0 <=? u then u * p else u * s) <= (if 0 <=? u then u * q else u * r))%Z.
+Proof. intros P R0. destruct (Z.leb_spec 0 u); nia. Qed.
+
+Lemma heights_cover u v h b : covers h b -> (top u v b <= top u v h /\ bottom u v h <= bottom u v b)%Z.
+Proof.
+  intros (X0 & X1 & Y0 & Y1). destruct (end_covers u _ _ _ _ X0 X1). destruct (end_covers v _ _ _ _ Y0 Y1).
+  unfold top, bottom. lia.
+Qed.
+
+Lemma turns_cover a b h k : covers h k -> (turn_most a b k <= turn_most a b h /\ turn_least a b h <= turn_least a b k)%Z.
+Proof.
+  intros C. destruct (heights_cover (y0 a - y0 b) (x0 b - x0 a) h k C). unfold turn_most, turn_least. cbv zeta. lia.
+Qed.
+
+Lemma off_triangle_covers a b c xa xb ya yb h k : covers h k ->
+  off_triangle a b c xa xb ya yb h = true -> off_triangle a b c xa xb ya yb k = true.
+Proof.
+  intros C. destruct (turns_cover a b h k C) as [T1 _]. destruct (turns_cover b c h k C) as [T2 _].
+  destruct (turns_cover c a h k C) as [T3 _]. destruct C as (X0 & X1 & Y0 & Y1).
+  unfold off_triangle. rewrite !orb_true_iff, !Z.ltb_lt. lia.
+Qed.
+
 Lemma off_triangle_sound a b c k : (0 < turn a b c)%Z ->
   off_triangle a b c (Z.min (x0 a) (Z.min (x0 b) (x0 c))) (Z.max (x0 a) (Z.max (x0 b) (x0 c)))
-    (Z.min (y0 a) (Z.min (y0 b) (y0 c))) (Z.max (y0 a) (Z.max (y0 b) (y0 c))) k = true ->
+    (Z.min (y0 a) (Z.min (y0 b) (y0 c))) (Z.max (y0 a) (Z.max (y0 b) (y0 c))) (corner_of k) = true ->
   (turn a b k < 0 \/ turn b c k < 0 \/ turn c a k < 0)%Z.
 Proof.
   intros P H. destruct (Z_lt_ge_dec (turn a b k) 0) as [T1 | T1]; [now left |].
@@ -200,7 +216,8 @@ Proof.
   pose proof (weighted_below _ _ _ _ _ _ _ _ _ S X P T2 T3 T1 B1 B2 B3) as U2.
   pose proof (weighted_above _ _ _ _ _ _ _ _ _ S Y P T2 T3 T1 C1 C2 C3) as U3.
   pose proof (weighted_below _ _ _ _ _ _ _ _ _ S Y P T2 T3 T1 D1 D2 D3) as U4.
-  unfold off_triangle in H. rewrite !orb_true_iff, !Z.ltb_lt in H.
+  unfold off_triangle in H. rewrite !(proj1 (turn_corner _ _ k)) in H. cbn [corner_of x0 x1 y0 y1] in H.
+  rewrite !orb_true_iff, !Z.ltb_lt in H.
   destruct H as [[[[[[H | H] | H] | H] | H] | H] | H]; [exact (Zlt_not_le _ _ H U1) | exact (Zlt_not_le _ _ H U2) |
     exact (Zlt_not_le _ _ H U3) | exact (Zlt_not_le _ _ H U4) | exact (Zlt_not_le _ _ H T1) |
     exact (Zlt_not_le _ _ H T2) | exact (Zlt_not_le _ _ H T3)].
@@ -277,6 +294,19 @@ Proof.
   rewrite <- Q'. now apply position_named.
 Qed.
 
+Lemma sought_box i b : Map.find i (index box_name bs) = Some b -> find_box bs i = Some b.
+Proof. exact (found_box_is (-1) bs i b names_rise). Qed.
+
+(* What the tree answers holds of all boxes. *)
+Lemma everywhere passes test : (forall h b, covers h b -> ordered b -> passes h = true -> test b = true) ->
+  all_in passes test (build deepest bs) = true -> forall k, In k bs -> test k = true.
+Proof.
+  intros M H k I. refine (all_in_each passes test k M _ deepest bs H I). apply In_nth_error in I. destruct I as [n I].
+  assert (K : (n < N)%nat) by (rewrite <- (scaled_sites_length D E l bs scale); apply nth_error_Some; congruence).
+  destruct (box_of D E l B described n K bs scale positive_scale) as (s & b & _ & T & _ & _ & O).
+  assert (b = k) by congruence. now subst b.
+Qed.
+
 (* The choice of the lower left corners. *)
 Definition places (k : nat) : point := (xlo (B k), ylo (B k)).
 
@@ -332,7 +362,7 @@ Definition good_face (a i j : Z) : Prop :=
 Lemma is_legal_sym m i j : is_legal m i j = true -> is_legal m j i = true.
 Proof.
   unfold is_legal. rewrite (Z.min_comm j i), (Z.max_comm j i), (Z.eqb_sym j i).
-  destruct (PositiveMap.find _ _) as [e |]; [| easy]. now rewrite orb_comm.
+  destruct (Map.find _ _) as [e |]; [| easy]. now rewrite orb_comm.
 Qed.
 
 Lemma good_face_turn a i j : good_face a i j -> good_face i j a.
@@ -343,27 +373,32 @@ Proof.
   intros k K Ni Nj Na. destruct (H k K Na Ni Nj) as [X | [X | X]]; tauto.
 Qed.
 
-Lemma check_triangle_sound t : check_triangle bs (map_edges edges) t = true -> good_face (ta t) (tb t) (tc t).
+Notation by_name := (index box_name bs).
+Notation check_triangles := (check_triangle by_name (build deepest bs) (map_edges edges)).
+
+Lemma check_triangle_sound t : check_triangles t = true -> good_face (ta t) (tb t) (tc t).
 Proof.
   unfold check_triangle. rewrite !andb_true_iff. intros [[[L1 L2] L3] H].
-  destruct (find_box bs (ta t)) as [a |] eqn:A; [| discriminate].
-  destruct (find_box bs (tb t)) as [b |] eqn:F; [| discriminate].
-  destruct (find_box bs (tc t)) as [c |] eqn:C; [| discriminate].
+  destruct (Map.find (ta t) _) as [a |] eqn:A; [| discriminate].
+  destruct (Map.find (tb t) _) as [b |] eqn:F; [| discriminate].
+  destruct (Map.find (tc t) _) as [c |] eqn:C; [| discriminate]. apply sought_box in A, F, C.
   apply andb_true_iff in H. destruct H as [T H]. apply Z.ltb_lt in T. unfold empty_triangle in H. cbv zeta in H.
-  rewrite forallb_forall in H.
+  pose proof (fun M => everywhere _ _ M H) as G. clear H.
   split; [exact L1 |]. split; [now apply is_legal_sym |]. split; [exact L2 |]. exists a, b, c.
-  repeat (split; [assumption |]). intros k K Na Nb Nc. specialize (H k K).
+  repeat (split; [assumption |]). intros k K Na Nb Nc.
   destruct (position_found _ _ A) as [_ Qa]. destruct (position_found _ _ F) as [_ Qb].
   destruct (position_found _ _ C) as [_ Qc].
+  assert (H := G (fun h b0 Ch Ob Off => proj2 (orb_true_iff _ _)
+    (or_intror (off_triangle_covers a b c _ _ _ _ h (corner_of b0) (covers_corner h b0 Ch Ob) Off))) k K).
   rewrite !orb_true_iff, !Z.eqb_eq in H. destruct H as [[[H | H] | H] | H]; try congruence.
   now apply off_triangle_sound.
 Qed.
 
 Lemma has_triangle_sound triangles a i j :
-  has_triangle (map_triangles (filter (check_triangle bs (map_edges edges)) triangles)) a i j = true -> good_face a i j.
+  has_triangle (map_triangles (kept check_triangles triangles)) a i j = true -> good_face a i j.
 Proof.
-  unfold has_triangle. destruct (PositiveMap.find _ _) as [t |] eqn:F; [| discriminate].
-  apply map_triangles_in, filter_In in F. destruct F as [_ F]. apply check_triangle_sound in F.
+  unfold has_triangle. destruct (Map.find _ _) as [t |] eqn:F; [| discriminate].
+  apply map_triangles_in, kept_in in F. destruct F as [_ F]. apply check_triangle_sound in F.
   rewrite !orb_true_iff, !andb_true_iff, !Z.eqb_eq. intros [[[[<- <-] <-] | [[<- <-] <-]] | [[<- <-] <-]].
   - exact F.
   - now apply good_face_turn.
@@ -390,11 +425,16 @@ Proof.
   pose proof (end_value S u _ _ _ _ _ P X0 X1 X). pose proof (end_value S v _ _ _ _ _ P Y0 Y1 Y). lra.
 Qed.
 
-Lemma corner_sound corners v : is_corner (filter (check_corner bs) corners) v = true -> sure_hull N B (position bs v).
+Lemma corner_sound corners v : is_corner (index vertex (kept (check_corner by_name (build deepest bs)) corners)) v = true -> sure_hull N B (position bs v).
 Proof.
-  unfold is_corner. rewrite existsb_exists. intros [c [I Q]]. apply Z.eqb_eq in Q. subst v.
-  apply filter_In in I. destruct I as [_ H]. unfold check_corner in H.
-  destruct (find_box bs (vertex c)) as [b |] eqn:F; [| discriminate]. cbv zeta in H. rewrite forallb_forall in H.
+  unfold is_corner. destruct (Map.find v _) as [c |] eqn:I; [| discriminate]. intros _.
+  apply index_in in I. destruct I as [I <-]. apply kept_in in I. destruct I as [_ H]. unfold check_corner in H.
+  destruct (Map.find (vertex c) _) as [b |] eqn:F; [| discriminate]. apply sought_box in F. cbv zeta in H.
+  assert (M : forall h k, covers h k -> ordered k -> (top (ux c) (uy c) h <? bottom (ux c) (uy c) b)%Z = true ->
+    ((top (ux c) (uy c) k <? bottom (ux c) (uy c) b)%Z || (box_name k =? vertex c)%Z)%bool = true).
+  { intros h k Ch _ G. apply orb_true_iff. left. apply Z.ltb_lt in G. apply Z.ltb_lt.
+    destruct (heights_cover (ux c) (uy c) h k Ch). lia. }
+  pose proof (everywhere _ _ M H) as H'. clear H M. rename H' into H.
   exists (IZR (ux c), IZR (uy c)). intros k x y K Nk X Y.
   destruct (box_of D E l B described k K bs scale positive_scale) as (s & bk & S & T & M & Ik & _).
   destruct (found_box _ _ F) as [Ib _]. pose proof positive_unit as U.
@@ -409,11 +449,11 @@ Qed.
 Variables (triangles : list triangle) (corners : list corner) (fans : list fan) (f : fan).
 Variable surround : In f (surrounded D E l edges triangles corners fans).
 
-Notation good := (map_triangles (filter (check_triangle bs (map_edges edges)) triangles)).
-Notation sure := (filter (check_corner bs) corners).
+Notation good := (map_triangles (kept check_triangles triangles)).
+Notation sure := (index vertex (kept (check_corner by_name (build deepest bs)) corners)).
 
-Lemma fan_checked : check_fan bs good sure f = true.
-Proof. unfold surrounded in surround. rewrite scale in surround. now apply filter_In in surround. Qed.
+Lemma fan_checked : check_fan by_name (build deepest bs) good sure f = true.
+Proof. unfold surrounded in surround. rewrite scale in surround. exact (proj2 (kept_in _ _ _ surround)). Qed.
 
 Lemma fan_faces i j : In (i, j) (pairs (ring f)) -> good_face (centre f) i j.
 Proof.
@@ -474,7 +514,7 @@ Proof.
 Qed.
 
 Lemma open_ring : whole f = false -> exists x m y, ring f = x :: m ++ [y] /\ is_corner sure x = true /\
-  is_corner sure y = true /\ within bs f x y = true.
+  is_corner sure y = true /\ within by_name (build deepest bs) f x y = true.
 Proof.
   intros W. pose proof fan_checked as C. unfold check_fan in C. apply andb_true_iff in C. destruct C as [_ C].
   rewrite W in C. destruct (ring f) as [| x r]; [discriminate |]. destruct r as [| z r]; [discriminate |].
@@ -538,10 +578,17 @@ Proof.
     + intros i j I. rewrite <- R0 in I. destruct (fan_faces i j I) as (_ & _ & _ & p & q & r & X & Y & Z0 & T & _).
       unfold box_at. rewrite Y, Z0. congruence.
   - destruct (open_ring W) as (x & m & y & R0 & _ & _ & C). rewrite R0.
-    unfold within in C. rewrite Pa in C. destruct (find_box bs x) as [bx |] eqn:X; [| discriminate].
-    destruct (find_box bs y) as [by_ |] eqn:Y; [| discriminate]. rewrite forallb_forall in C.
-    destruct (position_found _ _ Pb) as [Q _]. specialize (C bb (nth_error_In _ _ Q)).
-    apply andb_true_iff in C. destruct C as [C1 C2]. apply Z.leb_le in C1, C2.
+    unfold within in C. destruct (Map.find (centre f) _) as [bc |] eqn:Fc; [| discriminate].
+    destruct (Map.find x _) as [bx |] eqn:X; [| discriminate]. destruct (Map.find y _) as [by_ |] eqn:Y; [| discriminate].
+    apply sought_box in Fc, X, Y. assert (bc = ba) by congruence. subst bc.
+    assert (M : forall h k, covers h k -> ordered k ->
+      ((0 <=? turn_least ba bx h)%Z && (turn_most ba by_ h <=? 0)%Z)%bool = true ->
+      ((0 <=? turn ba bx k)%Z && (turn ba by_ k <=? 0)%Z)%bool = true).
+    { intros h k Ch Ok. rewrite !andb_true_iff, !Z.leb_le. pose proof (covers_corner h k Ch Ok) as Cc.
+      destruct (turns_cover ba bx h _ Cc) as [_ G1]. destruct (turns_cover ba by_ h _ Cc) as [G2 _].
+      rewrite (proj2 (turn_corner ba bx k)) in G1. rewrite (proj1 (turn_corner ba by_ k)) in G2. lia. }
+    destruct (position_found _ _ Pb) as [Q _]. pose proof (everywhere _ _ M C bb (nth_error_In _ _ Q)) as G.
+    apply andb_true_iff in G. destruct G as [C1 C2]. apply Z.leb_le in C1, C2.
     apply (sign_change (fun i => turn ba (box_at i) bb)); unfold box_at; [now rewrite X | now rewrite Y].
 Qed.
 
@@ -600,29 +647,54 @@ Proof.
     apply andb_true_iff in G. destruct G as [_ G]. destruct (ring f) as [| x [| y r]]; [discriminate | discriminate |].
     simpl in Q. subst x. exists i, y. split; [now left | now left]. }
   destruct K as (u & v & P & Q).
-  destruct (fan_faces D E l edges bs H triangles corners fans f I u v P) as (L1 & L2 & _).
+  destruct (fan_faces D E l edges B C F bs H triangles corners fans f I u v P) as (L1 & L2 & _).
   destruct Q as [-> | ->]; [apply is_legal_sound in L1; now destruct L1 | apply is_legal_sound in L2; now destruct L2].
+Qed.
+
+Lemma possible_sym N B i j : possible N B i j -> possible N B j i.
+Proof.
+  intros [[c H] | [u [U H]]]; [left; exists c | right; exists u].
+  - intros k K J I. destruct (H k K I J). now split.
+  - split; [exact U |]. intros a k A S K. apply (H a k A); [unfold pair in *; tauto | exact K].
+Qed.
+
+(* A site that is surrounded has its possible pairs listed. *)
+Lemma surrounded_listed D E l edges B triangles corners fans f a b j :
+  check D E l edges = true -> describes l B -> In f (surrounded D E l edges triangles corners fans) ->
+  named l a (centre f) -> named l b j -> a <> b -> possible (length l) B a b ->
+  exists e, In e edges /\ ((from e = centre f /\ to e = j) \/ (from e = j /\ to e = centre f)).
+Proof.
+  intros C F I A G M P. destruct (in_dec Z.eq_dec j (spokes f)) as [X | X].
+  - exact (surrounded_spokes D E l edges B triangles corners fans f j C F I X).
+  - destruct (surrounded_illegal D E l edges B triangles corners fans f a b j C F I A G M X P).
 Qed.
 
 (* The whole certificate of a decided triangulation: all possible pairs are listed, and all listed pairs are legal. *)
 Theorem decided_exact D E l edges B triangles corners fans a b i j :
   check D E l edges = true -> describes l B ->
-  all_surrounded l (surrounded D E l edges triangles corners fans) = true ->
+  all_surrounded l edges (surrounded D E l edges triangles corners fans) = true ->
   named l a i -> named l b j -> a <> b ->
   (possible (length l) B a b <->
    exists e, In e edges /\ ((from e = i /\ to e = j) \/ (from e = j /\ to e = i))).
 Proof.
-  intros C F All' A G M.
-  assert (All : forall k, In k l -> exists f, In f (surrounded D E l edges triangles corners fans) /\ centre f = name k).
-  { intros k K. unfold all_surrounded in All'. rewrite forallb_forall in All'. specialize (All' k K).
-    apply existsb_exists in All'. destruct All' as [f [I Q]]. exists f. split; [exact I | now apply Z.eqb_eq]. }
-  split.
-  - intros P. destruct A as [s [S Q]]. destruct (All s (nth_error_In _ _ S)) as [f [I K]]. subst i.
-    destruct (in_dec Z.eq_dec j (spokes f)) as [X | X].
-    + destruct (surrounded_spokes D E l edges B triangles corners fans f j C F I X) as [e [Y Z0]].
-      exists e. split; [exact Y |]. now rewrite <- K.
-    + exfalso. apply (surrounded_illegal D E l edges B triangles corners fans f a b j C F I); try assumption.
-      exists s. now rewrite K.
+  intros C F All A G M. set (found := surrounded D E l edges triangles corners fans) in *. split.
+  - intros P. unfold all_surrounded in All. cbv zeta in All. set (rest := kept _ l) in All.
+    assert (Sort : forall k s, nth_error l k = Some s -> (exists f, In f found /\ centre f = name s) \/ In s rest).
+    { intros k s S. destruct (Map.find (name s) (index centre found)) as [f |] eqn:Q.
+      - left. apply index_in in Q. now exists f.
+      - right. apply in_kept; [exact (nth_error_In _ _ S) | now rewrite Q]. }
+    pose proof A as [sa [Sa Na]]. pose proof G as [sb [Sb Nb]].
+    destruct (Sort a sa Sa) as [[f [I K]] | Ra].
+    { rewrite Na in K. clear Sa Na. subst i. exact (surrounded_listed D E l edges B _ _ _ f a b j C F I A G M P). }
+    destruct (Sort b sb Sb) as [[f [I K]] | Rb].
+    { rewrite Nb in K. clear Sb Nb. subst j. apply possible_sym in P.
+      destruct (surrounded_listed D E l edges B _ _ _ f b a i C F I G A (not_eq_sym M) P) as [e [Y Q]].
+      exists e. tauto. }
+    rewrite forallb_forall in All. specialize (All sa Ra). rewrite forallb_forall in All. specialize (All sb Rb).
+    rewrite Na, Nb in All. apply orb_true_iff in All. destruct All as [Q | Q]; [| now apply is_legal_sound in Q].
+    apply Z.eqb_eq in Q. subst j. exfalso. destruct (accepted_parts D E l edges C) as (bs & H & _).
+    destruct (named_box D E l edges B C F bs H a i A) as (_ & _ & _ & _ & Pa).
+    destruct (named_box D E l edges B C F bs H b i G) as (_ & _ & _ & _ & Pb). congruence.
   - intros [e [I Q]]. assert (La : (a < length l)%nat) by (destruct A as [s [A _]]; apply nth_error_Some; congruence).
     assert (Lb : (b < length l)%nat) by (destruct G as [s [G _]]; apply nth_error_Some; congruence).
     assert (W : legal (length l) B a b).

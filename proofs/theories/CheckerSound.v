@@ -99,38 +99,48 @@ Proof.
   unfold dl. rewrite dist_sq. unfold dist2, farthest. simpl. ring.
 Qed.
 
-Lemma square_above r u : (0 <= r)%Z -> (r < u)%Z -> (r * r < u * u)%Z.
-Proof. intros. nia. Qed.
-
-Lemma off_disc_sound x y r2 r b : (0 <= r2)%Z -> (r = Z.sqrt r2 + 1)%Z -> (x0 b <= x1 b)%Z -> (y0 b <= y1 b)%Z ->
-  off_disc x y r2 (x - r) (x + r) (y - r) (y + r) b = true -> (r2 < ds2 x y b)%Z.
+(* A box that covers another one is not farther away. *)
+Lemma gap_covers lo hi l h t : (lo <= l)%Z -> (l <= h)%Z -> (h <= hi)%Z -> (0 <= gap lo hi t <= gap l h t)%Z.
 Proof.
-  intros P -> Ox Oy. pose proof (Z.sqrt_spec r2 P) as [_ S]. pose proof (Z.sqrt_nonneg r2) as N.
-  set (r := Z.sqrt r2) in *. unfold off_disc, ds2, gap. rewrite !orb_true_iff, !Z.ltb_lt.
-  destruct (Z.ltb_spec x (x0 b)); [| destruct (Z.ltb_spec (x1 b) x)];
-    (destruct (Z.ltb_spec y (y0 b)); [| destruct (Z.ltb_spec (y1 b) y)]);
-    intros [[[[C | C] | C] | C] | C]; try lia; nia.
+  intros L O H. unfold gap.
+  destruct (Z.ltb_spec t lo); destruct (Z.ltb_spec t l); try destruct (Z.ltb_spec hi t); try destruct (Z.ltb_spec h t); lia.
+Qed.
+
+Lemma off_disc_covers x y r2 s h b : covers h b -> ordered b -> off_disc x y r2 s h = true -> off_disc x y r2 s b = true.
+Proof.
+  intros (X0 & X1 & Y0 & Y1) [Ox Oy]. unfold off_disc. cbv zeta. rewrite !orb_true_iff, !Z.ltb_lt.
+  pose proof (gap_covers _ _ _ _ x X0 Ox X1) as U. pose proof (gap_covers _ _ _ _ y Y0 Oy Y1) as V.
+  intros [[H | H] | H]; [left; left; lia | left; right; lia | right; nia].
+Qed.
+
+Lemma off_disc_sound x y r2 s b : (0 <= s)%Z -> (r2 <= s * s)%Z -> off_disc x y r2 s b = true -> (r2 < ds2 x y b)%Z.
+Proof.
+  intros S R0. unfold off_disc, ds2. cbv zeta. rewrite !orb_true_iff, !Z.ltb_lt. intros [[H | H] | H]; nia.
 Qed.
 
 (* ---- lists ---- *)
 
+Lemma scaled_onto_all D E l before bs : scaled_onto D E l before = Some bs ->
+  exists cs, bs = rev_append before cs /\ Forall2 (fun s b => scaled_site D E s = Some b) l cs.
+Proof.
+  revert before. induction l as [| s l IH]; intros before H; simpl in H.
+  - injection H as <-. now exists [].
+  - destruct (scaled_site D E s) as [b |] eqn:S; [| discriminate]. destruct (IH (b :: before) H) as (cs & -> & F).
+    exists (b :: cs). split; [reflexivity | now constructor].
+Qed.
+
+Lemma scaled_sites_all D E l bs : scaled_sites D E l = Some bs -> Forall2 (fun s b => scaled_site D E s = Some b) l bs.
+Proof. intros H. destruct (scaled_onto_all D E l [] bs H) as (cs & -> & F). exact F. Qed.
+
 Lemma scaled_sites_nth D E l bs k s : scaled_sites D E l = Some bs -> nth_error l k = Some s ->
   exists b, nth_error bs k = Some b /\ scaled_site D E s = Some b.
 Proof.
-  revert bs k. induction l as [| t l IH]; intros bs k H K; [now destruct k |]. simpl in H.
-  destruct (scaled_site D E t) as [b |] eqn:S; [| discriminate].
-  destruct (scaled_sites D E l) as [rest |]; [| discriminate]. injection H as <-.
-  destruct k as [| k]; simpl in *.
-  - injection K as <-. exists b. now split.
-  - exact (IH rest k eq_refl K).
+  intros H. apply scaled_sites_all in H. revert k. induction H as [| t b l bs T H IH]; intros k K; [now destruct k |].
+  destruct k as [| k]; simpl in *; [injection K as <-; now exists b | exact (IH k K)].
 Qed.
 
 Lemma scaled_sites_length D E l bs : scaled_sites D E l = Some bs -> length bs = length l.
-Proof.
-  revert bs. induction l as [| t l IH]; intros bs H; simpl in H; [now injection H as <- |].
-  destruct (scaled_site D E t); [| discriminate]. destruct (scaled_sites D E l); [| discriminate].
-  injection H as <-. simpl. now rewrite (IH l0 eq_refl).
-Qed.
+Proof. intros H. apply scaled_sites_all in H. induction H as [| s b l bs S H IH]; simpl; congruence. Qed.
 
 Lemma scaled_site_box D E s b R0 : (0 < D)%Z -> scaled_site D E s = Some b ->
   xlo R0 = value (left s) -> xhi R0 = value (right s) -> ylo R0 = value (low s) -> yhi R0 = value (high s) ->
@@ -162,6 +172,9 @@ Proof.
   - f_equal. exact (IH _ k l H K L N).
 Qed.
 
+(* The box of a name. *)
+Definition find_box (boxes : list box) (i : Z) : option box := find (fun b => (box_name b =? i)%Z) boxes.
+
 Lemma find_box_nth last bs k i b : rising last bs = true -> nth_error bs k = Some b -> box_name b = i ->
   find_box bs i = Some b.
 Proof.
@@ -169,6 +182,12 @@ Proof.
   - apply find_some in F. destruct F as [I Q]. apply Z.eqb_eq in Q. apply In_nth_error in I. destruct I as [l L].
     assert (k = l) by (apply (rising_names last bs k l b a); congruence). congruence.
   - apply nth_error_In in K. pose proof (find_none _ _ F b K) as Q. simpl in Q. apply Z.eqb_neq in Q. congruence.
+Qed.
+
+Lemma found_box_is last bs i b : rising last bs = true -> Map.find i (index box_name bs) = Some b -> find_box bs i = Some b.
+Proof.
+  intros H F. apply index_in in F. destruct F as [I N]. apply In_nth_error in I. destruct I as [k K].
+  exact (find_box_nth last bs k i b H K N).
 Qed.
 
 (* ---- soundness ---- *)
@@ -179,7 +198,7 @@ Variable accepted : check D E l edges = true.
 Variable described : describes l B.
 
 Lemma accepted_parts : exists bs, scaled_sites D E l = Some bs /\ (0 < D)%Z /\ rising (-1) bs = true /\
-  forall e, In e edges -> check_edge D E bs e = true.
+  forall e, In e edges -> check_edge D E (index box_name bs) (build deepest bs) e = true.
 Proof.
   unfold check in accepted. destruct (scaled_sites D E l) as [bs |]; [| discriminate]. exists bs.
   apply andb_true_iff in accepted. destruct accepted as [A F]. apply andb_true_iff in A. destruct A as [P R0].
@@ -211,14 +230,17 @@ Proof.
   destruct (box_of k K bs H P) as (sk & bk & K1 & K2 & K3 & K4 & Ox & Oy).
   assert (sa' = sa) by congruence. assert (sb' = sb) by congruence. subst sa' sb'.
   unfold check_witness in C.
-  rewrite (find_box_nth (-1) bs a (from e) ba R0 A2) in C by congruence.
-  rewrite (find_box_nth (-1) bs b (to e) bb R0 B2) in C by congruence. cbv zeta in C.
-  rewrite forallb_forall in C. specialize (C bk (nth_error_In _ _ K2)).
+  destruct (Map.find (from e) _) as [ma |] eqn:Ma; [| discriminate]. destruct (Map.find (to e) _) as [mb |] eqn:Mb; [| discriminate].
+  apply (found_box_is (-1)) in Ma, Mb; try assumption.
+  rewrite (find_box_nth (-1) bs a (from e) ba R0 A2) in Ma by congruence. injection Ma as <-.
+  rewrite (find_box_nth (-1) bs b (to e) bb R0 B2) in Mb by congruence. injection Mb as <-. cbv zeta in C.
+  apply andb_true_iff in C. destruct C as [S0 C]. apply andb_true_iff in S0. destruct S0 as [S0 S1]. apply Z.leb_le in S0, S1.
+  apply all_in_each with (b := bk) in C; [| | now split | exact (nth_error_In _ _ K2)].
+  2: { intros h k0 Ch Ok H0. now rewrite (off_disc_covers x y _ _ h k0 Ch Ok H0). }
   rewrite !orb_true_iff, !Z.eqb_eq in C.
   assert (G : (Z.max (dl2 x y ba) (dl2 x y bb) < ds2 x y bk)%Z).
   { destruct C as [[C | C] | C].
-    - apply off_disc_sound with (r := (Z.sqrt (Z.max (dl2 x y ba) (dl2 x y bb)) + 1)%Z); try assumption; [| reflexivity].
-      unfold dl2. nia.
+    - now apply off_disc_sound in C.
     - exfalso. apply Da. apply (rising_names (-1) bs k a bk ba R0 K2 A2). congruence.
     - exfalso. apply Db. apply (rising_names (-1) bs k b bk bb R0 K2 B2). congruence. }
   assert (G1 : (dl2 x y ba < ds2 x y bk)%Z) by lia. assert (G2 : (dl2 x y bb < ds2 x y bk)%Z) by lia.
@@ -245,8 +267,8 @@ Theorem accepted_names e : In e edges -> (exists a, named l a (from e)) /\ (exis
 Proof.
   intros I. destruct accepted_parts as (bs & H & P & R0 & C). specialize (C e I). unfold check_edge in C.
   destruct (scaled D E (at_x e)); [| discriminate]. destruct (scaled D E (at_y e)); [| discriminate].
-  unfold check_witness in C. destruct (find_box bs (from e)) as [ba |] eqn:A; [| discriminate].
-  destruct (find_box bs (to e)) as [bb |] eqn:F; [| discriminate].
+  unfold check_witness in C. destruct (Map.find (from e) _) as [ba |] eqn:A; [| discriminate].
+  destruct (Map.find (to e) _) as [bb |] eqn:F; [| discriminate]. apply (found_box_is (-1)) in A, F; try assumption.
   assert (G : forall i b, find_box bs i = Some b -> exists a, named l a i).
   { intros i b0 Q. apply find_some in Q. destruct Q as [Q N]. apply Z.eqb_eq in N. apply In_nth_error in Q.
     destruct Q as [k K]. assert (L : (k < length l)%nat).

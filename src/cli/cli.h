@@ -67,6 +67,7 @@ typedef struct cli_options {
   dyd_voronoi_bounds *bounds; /* voronoi: where the bounds of what is written go */
   size_t *cut;                /* voronoi: where the number of cells and regions goes that the deadline cut */
   dyd_history *history;       /* where each stage is noted, for html; NULL: nowhere */
+  bool proved;                /* verify: by the checker that is proved */
   bool stats, quiet, version;
   bool accept_fixpoint; /* exit status 0 in place of CLI_FIXPOINT */
   const char *help;     /* "" (--help), or the kind of --help=KIND */
@@ -104,6 +105,8 @@ int cli_nearest(const cli_options *o);
 int cli_tolerance(const cli_options *o);
 int cli_plan(const cli_options *o);
 int cli_verify(const cli_options *o);
+/* proved.c: verify with --proved. */
+int cli_verify_proved(const cli_options *o);
 int cli_disc(const cli_options *o);
 int cli_bisector(const cli_options *o);
 

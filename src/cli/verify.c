@@ -111,6 +111,7 @@ static int complain_rejected(const cli_options *o, const dyd_error *err) {
 }
 
 int cli_verify(const cli_options *o) {
+  if (o->proved) return cli_verify_proved(o);
   if (o->points && strcmp(o->points, "-") == 0 && strcmp(o->file, "-") == 0) {
     cli_complain("standard input cannot be both the certificate and the points; give a file for one of them");
     return CLI_USAGE;

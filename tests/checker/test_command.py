@@ -12,6 +12,7 @@ import random
 import subprocess
 import sys
 import tempfile
+import time
 from fractions import Fraction
 
 DYADEL, DATA = sys.argv[1], pathlib.Path(sys.argv[2])
@@ -269,6 +270,33 @@ def check_files(folder):
     assert done.returncode == 0 and 'accepted' in (folder / 'report.txt').read_text()
 
 
+def check_proved(folder):
+    """--proved is what dyadel-proved says: here scripts of that name in PATH (proofs/checker.py has the real one)."""
+    certificate, tools, path = certify(folder, '0 0\n1 0\n0 1\n'), folder / 'tools', os.environ['PATH']
+    tools.mkdir()
+    program, answer = tools / 'dyadel-proved', folder / 'answer.txt'
+    os.environ['PATH'] = str(tools)
+    done = run('verify', '--proved', certificate)
+    assert done.returncode == 1 and 'there is no dyadel-proved' in done.stderr and not done.stdout, done
+    program.touch(0o755)
+    for script, status, error in (('exit 0', 0, ''), ('exit 3', 3, ''), ('echo no >&2; exit 1', 1, 'no\n'),
+                                  ('kill -9 $$', 1, f'dyadel: {certificate}: not judged: dyadel-proved was ended by signal 9\n')):
+        program.write_text(f'#!/bin/sh\necho of "$@"\n{script}\n')
+        done = run('verify', '--proved', certificate)
+        assert (done.returncode, done.stdout, done.stderr) == (status, f'of {certificate}\n', error), done
+        answer.unlink(missing_ok=True)
+        done = run('verify', '--proved', '-o', answer, certificate)
+        assert done.returncode == status and answer.exists() == (status != 1) and not done.stdout, done
+    done = run('verify', '--proved', '--points', folder / 'points.txt', certificate)
+    assert done.returncode == 2 and 'leave --points or --proved out' in done.stderr, done
+    program.write_text('#!/bin/sh\nexec /bin/sleep 100\n')
+    begun = time.monotonic()
+    done = run('verify', '--proved', '--timeout', '0.5', certificate)
+    assert done.returncode == 4 and 'the time is used up' in done.stderr, done
+    assert sys.platform != 'linux' or time.monotonic() - begun < 50, 'the program goes on after its command'
+    os.environ['PATH'] = path
+
+
 def check_size(folder):
     rng = random.Random(1)
     count, half = 10**4 * SCALE, 2.0**-30
@@ -292,7 +320,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for check in (check_outcomes, check_airports, check_crowds, check_diagrams, check_claims, check_points,
-                      check_altered_points, check_files, check_size):
+                      check_altered_points, check_files, check_proved, check_size):
             check(folder)
     return 0
 
