@@ -109,6 +109,14 @@ class Union(unittest.TestCase):
     def test_long_boxes(self):
         self.compare(cases.long_boxes(500, self.random), (2, 4))
 
+    @unittest.skipIf(MPIRUN, 'the same in one process')
+    def test_hidden_witness(self):
+        """The possible pairs of one end tell nothing of a witness."""
+        rows = cases.hidden_witness(4000, self.random)
+        alone, both = (cases.expected(DYADEL, some)[0].splitlines() for some in (rows[:2000], rows))
+        self.assertTrue(b'0,1,legal' in alone and b'0,1,indeterminate' in both)
+        self.compare(rows, (2,))
+
     def test_mixed(self):
         """Ties of exact points, of faces that may reach over a border and touch a rectangle."""
         self.compare(cases.mixed(1000, self.random))

@@ -87,6 +87,23 @@ def mixed(n, r):
             if side]
 
 
+def hidden_witness(n, r):
+    """A segment 0, a point 1, and exact points about every disc that holds both, but for one inside of it: this one is far
+    from all that the pairs of the segment depend on, and in the other of two tiles. So 0,1 is a legal pair of the first
+    tile, and none of both."""
+    half, middle, side = 0.25, 1.55, 16
+    radius = 1.002 * math.hypot(middle, half)
+    least, most = math.asin(half / radius) + 0.12, math.pi - 1
+    points = [(-1.02 * (math.hypot(middle, half) - middle), 0.0)] + [(-1.0, 0.4 * k) for k in range(-5, 6)]
+    for k in range(side):
+        a = least + (most - least) * k / (side - 1)
+        points += [(middle - radius * math.cos(a), s * radius * math.sin(a)) for s in (1, -1)]
+    left = [(middle - 0.9 * radius + 0.01 * r.random(), -0.9 * radius + 0.01 * r.random()) for _ in range(n // 2 - 2 - len(points))]
+    right = [(2.95, 0.0), (2.9, 30.0), (2.9, -30.0)]
+    right += [(100 + 0.01 * r.random(), 0.01 * r.random()) for _ in range(n // 2 - len(right))]
+    return [(0.0, 0.0, -half, half)] + [(x, x, y, y) for x, y in [(1.5, 0.0)] + points + left + right]
+
+
 def write(path, rows):
     path.write_bytes(array.array('d', [c for row in rows for c in row]).tobytes())
 
