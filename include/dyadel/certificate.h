@@ -75,7 +75,7 @@
  *
  * A number that is not rational in those before is a leaf: x0, x1, ... in their order. An irrational sqrt, cbrt or
  * root without V makes one (times its denominator: of sqrt a, a = p/q, the leaf is sqrt(p q); of a root cn X), cycle
- * one unless it is rational, cos, sin and tan two, the cosine and the sine, unless they are of a rational multiple
+ * one, cos, sin and tan two, the cosine and the sine, unless they are of a rational multiple
  * of pi, or another has the same angle or its negative; exp, e, pi and the others one unless there is one of the
  * same. V is P or P/Q, polynomials with integer coefficients in leaves before, their terms in descending order of
  * exponents, later leaves first: 2*x0*x2^3-x1+5.

@@ -126,6 +126,7 @@ static const char *const of_exact_value[][2] = {{"= 3\nlog 1\nlog 1\n- 2 3", "0"
                                                 {"= 1/2\nacos 1\nacos 1\n- 2 3", "0"},
                                                 {"= 3\natan 1\natan 1\n- 2 3", "0"},
                                                 {"callback\n- 1 1", "0"},
+                                                {"= 1\ncos 1\nsin 1\nmax 2 3\n- 4 3", "0"},
                                                 {"callback\nclaim 1\n- 2 1", "0"},
                                                 {"callback\n* 1 0", "0"},
                                                 {"= 1/3", "1/3"},
@@ -420,6 +421,15 @@ static void facts(void **state) {
   assert_int_equal(verdict_of(verdict, sizeof verdict, &over, text, strlen(text), 0), DYD_OK);
   assert_non_null(strstr(verdict, "facts 3 and 3"));
   if (!every_allocation_fails_well(message, sizeof message, &faults, text, strlen(text))) fail_msg("%s", message);
+  static const char *const wrong[][2] = {{"2 4 identity", "1 4 identity"}, {"2 5 bound", "1 5 bound"},
+                                         {"2 3 identity", "2 4 identity"}, {"1 2 bound", "1 4 bound"},
+                                         {"0 5 identity", "0 2 identity"}, {"5 0 bound", "5 1 bound"}};
+  for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+    char other[sizeof text];
+    strcpy(other, text);
+    memcpy(strstr(other, wrong[k][0]), wrong[k][1], strlen(wrong[k][1]));
+    assert_int_equal(verdict_of(verdict, sizeof verdict, &over, other, strlen(other), 0), DYD_E_PARSE);
+  }
 }
 
 int main(void) {

@@ -11,6 +11,7 @@
 #include "delaunay/local_filter.h"
 #include "delaunay/undecided.h"
 #include "legal/witness.h"
+#include "skeleton/circumcentre.h"
 #include "support/random.h"
 #include <cmocka.h>
 #include <dyadel/delaunay.h>
