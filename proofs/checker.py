@@ -225,7 +225,7 @@ def seconds(both, count):
 def try_growth(both):
     few, many = seconds(both, 1500), seconds(both, 12000)
     print(f'8 times as many sites: {many / few:.1f} times as long')
-    if many > 24 * few:
+    if many > 40 * few:  # 64 when quadratic; 8 to 18 on a busy machine
         yield 'the time grows with the square of the number of sites'
 
 
