@@ -15,7 +15,7 @@ import tempfile
 from sweep import Case, Sweep
 
 COMMAND, SHIM = (os.path.abspath(path) for path in sys.argv[1:3])
-MOST = 8 * int(os.environ.get('DYADEL_TEST_SCALE', '1'))
+MOST = 5 * int(os.environ.get('DYADEL_TEST_SCALE', '1'))
 
 POINTS = b'sqrt(2) 0\n4 [0.5,0.75]\n0 4\n5+-0.01 5\nroot(x^3-2,1,2) 7\n1e300 1\n2 2\n2 2\n'
 EXACT = b'0 0\n4 0.5\n0 4\n5 5.25\n7 1\n2 2.125\n'

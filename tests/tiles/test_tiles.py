@@ -17,7 +17,7 @@ import tiles_cases as cases
 TILES, DYADEL = sys.argv[1:3]
 MPIRUN = sys.argv[3:4]
 # Processes only carry the mail: what is in it is tried in one process, and by them at a larger scale.
-RANKS = (5,) if MPIRUN and cases.SCALE == 1 else (1, 2, 4, 9)
+RANKS = (3,) if MPIRUN and cases.SCALE == 1 else (1, 2, 4, 9)
 
 
 def command(ranks, *words):
