@@ -23,7 +23,7 @@ typedef struct mutants {
   statement original, mutant;
   diagram drawn, drawn_mutant;
   const char *text;
-  size_t tried, same, judged;
+  size_t replaced, tried, same, judged;
   size_t judge_every; /* of statements about other rectangles the oracle sees one in so many */
 } mutants;
 
@@ -58,6 +58,7 @@ static void try_text(mutants *m, const char *text, size_t length) {
 
 /* The text with [from, from + length) replaced. */
 static void try_replaced(mutants *m, size_t from, size_t length, const char *by) {
+  if (m->replaced++ % test_stride()) return;
   size_t all = strlen(m->text), put = strlen(by);
   char *text = malloc(all + put + 1);
   memcpy(text, m->text, from);
