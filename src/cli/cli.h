@@ -168,7 +168,7 @@ int cli_session_run_by(cli_session *s, const dyd_engine_options *options, cli_ru
 /* Comes before a result is written: takes the bar off a terminal that the result goes to. */
 void cli_session_settle(cli_session *s);
 /* Was the last run neither cancelled nor cut by the end of time, and is there a result? */
-bool cli_run_was_free(const dyd_engine *e);
+bool cli_run_was_whole(const dyd_engine *e);
 /* Says that there is nothing to write, as the work ended before `what` ("the plan was") known, and how to mend that. */
 int cli_session_stopped(const cli_session *s, const char *what);
 /* Prints the result, from the engine, to --output, when there is one (otherwise says so). */

@@ -101,7 +101,7 @@ static dyd_status plan_find(dyd_engine *e, const dyd_engine_options *options, vo
   plan_run *r = user;
   dyd_outcome outcome;
   dyd_status st = dyd_engine_run(&outcome, e, options, err);
-  if (st != DYD_OK || !cli_run_was_free(e)) return st;
+  if (st != DYD_OK || !cli_run_was_whole(e)) return st;
   r->site = point_of_row(e, r->site);
   for (size_t k = 0; k < r->pairs.count; k++) {
     r->pairs.item[k].i = point_of_row(e, r->pairs.item[k].i);

@@ -205,13 +205,14 @@ int cli_session_write(cli_session *s, cli_print_fn print) {
   return status ? status : written;
 }
 
+/* Without a result, no budget but that of time was there. */
 static bool session_is_late(const dyd_engine *e) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
   dyd_engine_get_counters(&c, e, NULL);
-  return dyd_engine_outcome(e) == DYD_OUTCOME_BUDGET && c.spent == DYD_BUDGET_SECONDS;
+  return dyd_engine_outcome(e) == DYD_OUTCOME_BUDGET && (!dyd_engine_delaunay(e) || c.spent == DYD_BUDGET_SECONDS);
 }
 
-bool cli_run_was_free(const dyd_engine *e) {
+bool cli_run_was_whole(const dyd_engine *e) {
   return dyd_engine_delaunay(e) && dyd_engine_outcome(e) != DYD_OUTCOME_CANCELLED && !session_is_late(e);
 }
 

@@ -44,7 +44,7 @@ static dyd_status tolerance_find(dyd_engine *e, const dyd_engine_options *option
                              .cancel = cli_signals_flag(), .metric = r->metric};
   once.max_stages = 1;
   dyd_status st = dyd_engine_run(&outcome, e, &once, err);
-  if (st != DYD_OK || !cli_run_was_free(e)) return st;
+  if (st != DYD_OK || !cli_run_was_whole(e)) return st;
   if (mpq_sgn(r->up_to)) o.up_to = r->up_to;
   o.sigma = mpq_get_d(r->sigma);
   o.weight = r->weight;

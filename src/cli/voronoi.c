@@ -23,7 +23,7 @@ static int voronoi_run(bool *known, cli_session *s, dyd_rect *window, const dyd_
   read = voronoi_window(window, s);
   *known = read == 0;
   if (!status) status = read;
-  if (status || (!s->options->window && !cli_run_was_free(s->engine))) return status;
+  if (status || (!s->options->window && !cli_run_was_whole(s->engine))) return status;
   return cli_session_run(s, options);
 }
 

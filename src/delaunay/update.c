@@ -12,6 +12,7 @@
 #include "delaunay/build.h"
 #include "delaunay/faces.h"
 #include "delaunay/local_filter.h"
+#include "delaunay/memory.h"
 #include "delaunay/splice.h"
 #include "legal/certify.h"
 #include "legal/witness.h"
@@ -26,9 +27,7 @@
 
 /* What stays beside the new one while it is made: all there is, and the list of its pairs. */
 static uint64_t rebuild_bytes(const dyd_delaunay *pd) {
-  size_t count[4];
-  dyd_delaunay_count(count, pd);
-  return dyd_delaunay_memory(pd) + (count[DYD_LEGAL] + count[DYD_INDETERMINATE] + count[DYD_TIE]) * sizeof(dyd_pair);
+  return dyd_bytes_add(dyd_delaunay_memory(pd), dyd_pairs_bytes(pd));
 }
 
 static dyd_status rebuild(dyd_delaunay *pd, dyd_error *err) {

@@ -2,7 +2,7 @@
 /* What points take in memory, now and when they are narrower. */
 #include "engine/bytes.h"
 
-#include "delaunay/room.h"
+#include "delaunay/memory.h"
 #include "engine/goal_voronoi.h"
 #include "stream/stream.h"
 

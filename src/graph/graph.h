@@ -8,7 +8,7 @@
 #ifndef DYD_GRAPH_GRAPH_H
 #define DYD_GRAPH_GRAPH_H
 
-#include "delaunay/room.h"
+#include "delaunay/memory.h"
 #include "graph/reach.h"
 #include "skeleton/distance_filter.h"
 #include <dyadel/graph.h>

@@ -10,7 +10,7 @@
 #include "io/dual.h"
 
 #include "base/alloc.h"
-#include "delaunay/room.h"
+#include "delaunay/memory.h"
 #include "delaunay/undecided.h"
 #include <math.h>
 

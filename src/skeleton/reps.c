@@ -77,7 +77,7 @@ static dyd_status keep_code(dyd_reps *r, uint32_t v, uint32_t code) {
     r->code = calloc(r->n ? r->n : 1, sizeof *r->code);
     if (!r->code) return DYD_E_NOMEM;
   }
-  if (r->code && r->code[v] != code) r->code[v] = code;
+  if (r->code && r->code[v] != code) r->code[v] = code; /* most stay 0: their pages are never there */
   return DYD_OK;
 }
 

@@ -170,12 +170,22 @@ uint32_t dyd_sphere_alias(const dyd_sphere *s, uint32_t i) {
 
 /* ---- running ---- */
 
+/* Those of places become those of their images. */
+static double *costs_of_images(const dyd_sphere *s, const double *cost) {
+  double *out = dyd_alloc(s->with_image, sizeof *out);
+  for (size_t k = 0; out && k < s->with_image; k++) out[k] = cost[s->of[k]];
+  return out;
+}
+
 dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_options *options, dyd_error *err) {
   dyd_engine_options o;
+  double *cost = NULL;
   *outcome = DYD_OUTCOME_ERROR;
   if (dyd_abi_take(&o, sizeof o, options, "dyd_engine_options", err) != DYD_OK) return DYD_E_ARG;
+  if (o.cost && !(o.cost = cost = costs_of_images(s, o.cost))) return dyd_fail_nomem(err);
   if (!o.start_bits) o.start_bits = START_BITS;
   dyd_status st = dyd_engine_run(outcome, s->images, &o, err);
+  free(cost);
   if (st == DYD_OK) st = dyd_sphere_narrow_recalled(s, o.max_bits, err);
   if (*outcome == DYD_OUTCOME_DECIDED) *outcome = dyd_sphere_outcome(s);
   return st;

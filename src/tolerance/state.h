@@ -12,7 +12,7 @@
 #ifndef DYD_TOLERANCE_STATE_H
 #define DYD_TOLERANCE_STATE_H
 
-#include "delaunay/room.h"
+#include "delaunay/memory.h"
 #include "delaunay/undecided.h"
 #include "tolerance/lines.h"
 #include "tolerance/lines_filter.h"

@@ -3,7 +3,7 @@
 #ifndef DYD_TOLERANCE_SURVEY_H
 #define DYD_TOLERANCE_SURVEY_H
 
-#include "delaunay/room.h"
+#include "delaunay/memory.h"
 #include <dyadel/survey.h>
 
 /* A site as it is, and how small it can be measured. rect: now; centre, half: of it, exactly (half of the larger

@@ -6,7 +6,7 @@
  * under the choice with p_i closest to it and all others farthest, is nearer to some Delaunay neighbour of i, hence in
  * C_ji for a possible neighbour j. Nobody else needs to be looked at. */
 #include "base/alloc.h"
-#include "delaunay/room.h"
+#include "delaunay/memory.h"
 #include "predicate/predicate_filter.h"
 #include "voronoi/exact_cell.h"
 #include "voronoi/sample.h"

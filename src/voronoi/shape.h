@@ -5,7 +5,7 @@
 #ifndef DYD_VORONOI_SHAPE_H
 #define DYD_VORONOI_SHAPE_H
 
-#include "delaunay/room.h"
+#include "delaunay/memory.h"
 #include "delaunay/state.h"
 #include "voronoi/grid_polygon.h"
 #include <dyadel/voronoi.h>

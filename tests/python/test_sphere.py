@@ -37,6 +37,21 @@ def test_airports():
     assert len(d.simplices) == 2 * len(d) - 4 and (d.neighbors >= 0).all()
 
 
+def test_costs():
+    """Costs are of places, though one of them, the centre, has no image."""
+    random = harness.seeded('sphere costs')
+    spent = {0: 0.0, 50: 0.0}
+    for _ in range(20):
+        at = [(Fraction(90 * i), Fraction(0)) for i in (-2, -1)] + [
+            (Fraction(i % 2) + Fraction(random.randrange(99), 100 * 2**random.randrange(8, 60)), Fraction(i // 2)) for i in range(4)]
+        for dear in spent:
+            def narrow(i, bits, dear=dear, at=at):
+                spent[dear] += 50 if i == 5 else 1
+                return [end + sign * Fraction(1, 2**bits) for end in at[i] for sign in (-1, 1)]
+            dyadel.delaunay(dyadel.Source(6, narrow), sphere=True, start_bits=2, cost=[1, 1, 1, 1, 1, dear or 1])
+    assert 0 < spent[50] < 0.95 * spent[0], spent
+
+
 def test_hulls_in_space():
     """Edges and triangles are those of the hull, and neighbours share a side."""
     try:

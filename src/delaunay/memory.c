@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Memory for what is made of a result. */
-#include "delaunay/room.h"
+#include "delaunay/memory.h"
 
 #include "delaunay/state.h"
 

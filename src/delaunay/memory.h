@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Memory for what is made of a result. */
-#ifndef DYD_DELAUNAY_ROOM_H
-#define DYD_DELAUNAY_ROOM_H
+#ifndef DYD_DELAUNAY_MEMORY_H
+#define DYD_DELAUNAY_MEMORY_H
 
 #include "base/room.h"
 #include <dyadel/delaunay.h>
