@@ -7,10 +7,15 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+/* A hint: what is large (4 MiB) and belongs to p is asked of the system in large pages. Triangulations jump through
+ * memory, and small pages cost them a fifth of their time. Without such pages, nothing happens. Returns p. */
+void *dyd_alloc_in_large_pages(void *p, size_t bytes);
+
 /* count * size bytes, not cleared; never NULL for count = 0 unless memory is exhausted. Release with free(). */
 static inline void *dyd_alloc(size_t count, size_t size) {
   if (size && count > SIZE_MAX / size) return NULL;
-  return malloc(count && size ? count * size : 1);
+  size_t bytes = count && size ? count * size : 1;
+  return dyd_alloc_in_large_pages(malloc(bytes), bytes);
 }
 
 /* Makes room for at least `need` items in *array (capacity *cap), growing by half. false: memory exhausted,
@@ -20,7 +25,7 @@ static inline bool dyd_reserve(void **array, size_t *cap, size_t need, size_t si
   size_t want = *cap + *cap / 2 + 16;
   if (want < need) want = need;
   if (want > SIZE_MAX / size) return false;
-  void *p = realloc(*array, want * size);
+  void *p = dyd_alloc_in_large_pages(realloc(*array, want * size), want * size);
   if (!p) return false;
   *array = p;
   *cap = want;

@@ -34,7 +34,7 @@ size_t dyd_sites_count(const dyd_sites *s) {
 }
 
 static bool resize_array(void *array, size_t cap, size_t size) {
-  void *p = realloc(*(void **)array, cap * size);
+  void *p = dyd_alloc_in_large_pages(realloc(*(void **)array, cap * size), cap * size);
   if (p) *(void **)array = p;
   return p != NULL;
 }

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Error records: what is filled in, what is left alone, what is cut. */
+/* Error records: what is filled in, what is left alone, what is cut. Memory: too much, none, in large pages. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 
 #include <cmocka.h>
+#include <inttypes.h>
+#include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -66,8 +69,40 @@ static void test_allocation(void **state) {
   free(array);
 }
 
+/* Whether the system was asked for large pages where p is: 1, 0, or -1 when it does not tell. */
+static int large_pages_at(const void *p) {
+  FILE *maps = fopen("/proc/self/smaps", "r"), *offered = fopen("/sys/kernel/mm/transparent_hugepage/enabled", "r");
+  char line[4096];
+  bool there = false;
+  int asked = -1;
+  while (maps && offered && asked < 0 && fgets(line, sizeof line, maps)) {
+    uintmax_t begin, end;
+    if (sscanf(line, "%jx-%jx ", &begin, &end) == 2) there = begin <= (uintptr_t)p && (uintptr_t)p < end;
+    if (there && !strncmp(line, "VmFlags:", 8)) asked = strstr(line, " hg") != NULL;
+  }
+  if (maps) fclose(maps);
+  if (offered) fclose(offered);
+  return asked;
+}
+
+static void test_large_pages(void **state) {
+  (void)state;
+  enum { LARGE = 1 << 26 };
+  char *large = dyd_alloc(LARGE, 1), *grown = NULL, small;
+  size_t cap = 0;
+  assert_true(large && dyd_reserve((void **)&grown, &cap, LARGE, 1));
+  int asked[] = {large_pages_at(large + LARGE / 2), large_pages_at(grown + LARGE / 2), large_pages_at(&small)};
+  free(large);
+  free(grown);
+  if (asked[2] < 0) skip();
+  assert_int_equal(asked[0], 1);
+  assert_int_equal(asked[1], 1);
+  assert_int_equal(asked[2], 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_fill), cmocka_unit_test(test_cut),
-                                     cmocka_unit_test(test_texts), cmocka_unit_test(test_allocation)};
+                                     cmocka_unit_test(test_texts), cmocka_unit_test(test_allocation),
+                                     cmocka_unit_test(test_large_pages)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
