@@ -201,7 +201,7 @@ static bool outline_set_arc(dyd_outline_arc *a, pane_sides *m, bool *unsure, con
 /* All of it? Its boundary points are boundary of nothing then, and cuts there decide nothing. */
 static bool arc_is_taken(dyd_outline *o, const dyd_outline_arc *a) {
   const dyd_iv box[2] = {dyd_outline_arc_span(a, 0), dyd_outline_arc_span(a, 1)};
-  return dyd_outline_taken(&(bool){0}, o, a->curve, box);
+  return dyd_outline_taken(NULL, o, a->curve, box);
 }
 
 static void outline_add_curve(dyd_outline *o, uint32_t other) {

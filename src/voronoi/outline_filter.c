@@ -126,7 +126,7 @@ static bool ring_is_taken(dyd_outline *o, const double ring[4]) {
     double from = ring[2 * along], length = ring[2 * along + 1] - from;
     for (int part = 0; part < PARTS; part++) {
       at[along] = (dyd_iv){from + length * part / PARTS, from + length * (part + 1) / PARTS};
-      if (!dyd_outline_taken(&(bool){0}, o, o->count, at)) return false;
+      if (!dyd_outline_taken(NULL, o, o->count, at)) return false;
     }
   }
   return true;

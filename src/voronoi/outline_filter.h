@@ -77,7 +77,8 @@ dyd_iv dyd_outline_coordinate(const dyd_outline *o, const dyd_outline_spot *p, i
 /* outline_point_filter.c. Order of a and b; equal only as numbers that are known. Sets *unsure where it is not known.
  */
 int dyd_outline_order(bool *unsure, dyd_iv a, dyd_iv b);
-/* Does someone other than `own` surely take all points of the box away from it? *doubt: someone may take a point. */
+/* Does someone other than `own` surely take all points of the box away from it? *doubt (or NULL): someone may take a
+ * point. */
 bool dyd_outline_taken(bool *doubt, dyd_outline *o, size_t own, const dyd_iv at[2]);
 
 /* outline_arc_filter.c: the arcs of the curves of all others, but for those that are taken away. What is in doubt sets
