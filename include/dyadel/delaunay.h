@@ -139,7 +139,8 @@ DYD_API uint32_t dyd_delaunay_alias(const dyd_delaunay *pd, uint32_t i);
 DYD_API dyd_pair_status dyd_delaunay_status(const dyd_delaunay *pd, uint32_t i, uint32_t j);
 /* All possible pairs, sorted by i, then j. O(N + pairs). *out is replaced, owned by the caller. */
 DYD_API dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd);
-/* The sites whose pair with i has at least the status `least` (TIE or INDETERMINATE: all possible ones). Ascending. */
+/* The sites whose pair with i has at least the status `least` (TIE or INDETERMINATE: all possible ones). Ascending.
+ * O(log pairs + degree); where all points are on one line, O(N). */
 DYD_API dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaunay *pd, uint32_t i,
                                            dyd_pair_status least);
 /* Triangles with three legal edges that hold no site for any choice: Delaunay triangles for every choice. Sorted. */

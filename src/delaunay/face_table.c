@@ -12,6 +12,7 @@ void dyd_table_clear(dyd_undecided *f) {
   free(f->seed);
   free(f->tri);
   free(f->pair);
+  free(f->turned);
   free(f->of);
   *f = (dyd_undecided){.kind = f->kind};
 }
@@ -59,9 +60,32 @@ void dyd_table_take_back(dyd_delaunay *pd, size_t first_tri) {
   f->tri_count = first_tri;
 }
 
+static int compare_turned(const void *a, const void *b) {
+  uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+  return (x > y) - (x < y);
+}
+
+/* The numbers of the pairs by j, then i: they are sorted by i. */
+static dyd_status turn_pairs(uint32_t *turned, const dyd_vertex_pair *pair, uint32_t pairs) {
+  if (pairs <= DYD_FEW_PAIRS) return DYD_OK;
+  uint64_t *key = dyd_alloc(pairs, sizeof *key);
+  if (!key) return DYD_E_NOMEM;
+  for (uint32_t q = 0; q < pairs; q++) key[q] = (uint64_t)pair[q].j << 32 | q;
+  qsort(key, pairs, sizeof *key, compare_turned);
+  for (uint32_t q = 0; q < pairs; q++) turned[q] = (uint32_t)key[q];
+  free(key);
+  return DYD_OK;
+}
+
+static bool make_room_for_pairs(dyd_undecided *f, size_t pairs) {
+  return dyd_reserve((void **)&f->pair, &f->pair_cap, f->pair_count + pairs, sizeof *f->pair) &&
+         dyd_reserve((void **)&f->turned, &f->turned_cap, f->pair_count + pairs, sizeof *f->turned);
+}
+
 dyd_status dyd_table_store(dyd_delaunay *pd, size_t g, dyd_face as, const dyd_vertex_pair *pair) {
   dyd_undecided *f = &pd->open;
-  if (!dyd_reserve((void **)&f->pair, &f->pair_cap, f->pair_count + as.pairs, sizeof *f->pair)) return DYD_E_NOMEM;
+  if (!make_room_for_pairs(f, as.pairs)) return DYD_E_NOMEM;
+  if (turn_pairs(f->turned + f->pair_count, pair, as.pairs) != DYD_OK) return DYD_E_NOMEM;
   if (as.pairs) memcpy(f->pair + f->pair_count, pair, as.pairs * sizeof *pair);
   as.first_tri = f->face[g].first_tri;
   as.tris = f->face[g].tris;
@@ -220,9 +244,11 @@ enum { LEFT_OVER = 4096 };
 void dyd_table_compact(dyd_undecided *f) {
   if (f->tri_count + f->pair_count < 2 * (f->live_tris + f->live_pairs) + LEFT_OVER) return;
   uint32_t *tri = dyd_alloc(f->live_tris, sizeof *tri);
+  uint32_t *turned = dyd_alloc(f->live_pairs, sizeof *turned);
   dyd_vertex_pair *pair = dyd_alloc(f->live_pairs, sizeof *pair);
-  if (!tri || !pair) {
+  if (!tri || !turned || !pair) {
     free(tri);
+    free(turned);
     free(pair);
     return;
   }
@@ -231,22 +257,35 @@ void dyd_table_compact(dyd_undecided *f) {
     dyd_face *face = &f->face[g];
     memcpy(tri + f->tri_count, f->tri + face->first_tri, face->tris * sizeof *tri);
     memcpy(pair + f->pair_count, f->pair + face->first_pair, face->pairs * sizeof *pair);
+    if (face->pairs > DYD_FEW_PAIRS)
+      memcpy(turned + f->pair_count, f->turned + face->first_pair, face->pairs * sizeof *turned);
     face->first_tri = f->tri_count;
     face->first_pair = f->pair_count;
     f->tri_count += face->tris;
     f->pair_count += face->pairs;
   }
   free(f->tri);
+  free(f->turned);
   free(f->pair);
   f->tri = tri;
+  f->turned = turned;
   f->pair = pair;
   f->tri_cap = f->live_tris;
-  f->pair_cap = f->live_pairs;
+  f->turned_cap = f->pair_cap = f->live_pairs;
+}
+
+/* Drops number `gone` of so many. */
+static void turned_delete(uint32_t *turned, uint32_t pairs, uint32_t gone) {
+  uint32_t kept = 0;
+  for (uint32_t q = 0; q < pairs; q++)
+    if (turned[q] != gone) turned[kept++] = turned[q] - (turned[q] > gone);
 }
 
 void dyd_table_delete(dyd_undecided *f, dyd_face *face, dyd_vertex_pair *at) {
-  dyd_vertex_pair *end = f->pair + face->first_pair + face->pairs;
+  dyd_vertex_pair *first = f->pair + face->first_pair;
+  dyd_vertex_pair *end = first + face->pairs;
   table_hide(face, at, false);
+  if (face->pairs > DYD_FEW_PAIRS) turned_delete(f->turned + face->first_pair, face->pairs, (uint32_t)(at - first));
   memmove(at, at + 1, (size_t)(end - at - 1) * sizeof *at);
   face->pairs--;
   f->live_pairs--;

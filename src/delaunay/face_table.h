@@ -49,6 +49,14 @@ static inline dyd_vertex_pair *dyd_listed_pair(const dyd_delaunay *pd, size_t f,
   return bsearch(&key, pd->open.pair + face->first_pair, face->pairs, sizeof key, dyd_compare_vertex_pair);
 }
 
+/* The pairs of faces with more are found by both vertices in O(log pairs), so that going through the neighbours of each
+ * vertex stays linear in what is found. In the armed build small faces are, too. */
+#ifdef DYD_ARMED
+enum { DYD_FEW_PAIRS = 4 };
+#else
+enum { DYD_FEW_PAIRS = 64 };
+#endif
+
 /* Says who has too many possible neighbours: the n vertices v, or the sites of a line. */
 void dyd_report_cap(dyd_work *w, const dyd_delaunay *pd, const uint32_t *v, size_t n);
 

@@ -222,12 +222,37 @@ static void each_tied_at(const dyd_delaunay *pd, dyd_half_edge h, dyd_pair_visit
   }
 }
 
+/* Of the pairs of a face, in the order of turned or their own (NULL): how many begin with less than v. */
+static uint32_t listed_below(const dyd_vertex_pair *pair, const uint32_t *turned, uint32_t pairs, uint32_t v) {
+  uint32_t low = 0, high = pairs;
+  while (low < high) {
+    uint32_t mid = low + (high - low) / 2;
+    if ((turned ? pair[turned[mid]].j : pair[mid].i) < v)
+      low = mid + 1;
+    else
+      high = mid;
+  }
+  return low;
+}
+
+static void visit_listed(const dyd_face *face, dyd_vertex_pair p, uint32_t v, dyd_pair_visit visit, void *context) {
+  if (!p.hidden) visit(context, v, p.i == v ? p.j : p.i, dyd_listed_status(face));
+}
+
 static void each_listed_at(const dyd_delaunay *pd, uint32_t f, uint32_t v, dyd_pair_visit visit, void *context) {
   const dyd_face *face = &pd->open.face[f];
-  for (uint32_t q = 0; q < face->pairs; q++) {
-    dyd_vertex_pair p = pd->open.pair[face->first_pair + q];
-    if (!p.hidden && (p.i == v || p.j == v)) visit(context, v, p.i == v ? p.j : p.i, dyd_listed_status(face));
+  const dyd_vertex_pair *pair = pd->open.pair + face->first_pair;
+  uint32_t pairs = face->pairs, q = 0;
+  if (pairs <= DYD_FEW_PAIRS) {
+    for (; q < pairs; q++)
+      if (pair[q].i == v || pair[q].j == v) visit_listed(face, pair[q], v, visit, context);
+    return;
   }
+  const uint32_t *turned = pd->open.turned + face->first_pair;
+  for (q = listed_below(pair, turned, pairs, v); q < pairs && pair[turned[q]].j == v; q++)
+    visit_listed(face, pair[turned[q]], v, visit, context);
+  for (q = listed_below(pair, NULL, pairs, v); q < pairs && pair[q].i == v; q++)
+    visit_listed(face, pair[q], v, visit, context);
 }
 
 void dyd_open_each_at(const dyd_delaunay *pd, uint32_t v, dyd_pair_visit visit, void *context) {

@@ -12,11 +12,12 @@
 #define SAFE (1 + 32 * 0x1p-53)
 enum { DEPTH = 60, FINER = 16 };
 
-/* box[own]: the rectangle of the site; best: the square of the bound so far, most: of those worth looking for. */
+/* box[own]: the rectangle of the site; best: the square of the bound so far, most: of those worth looking for;
+ * far: room for one number a box. */
 typedef struct second_search {
   dyd_bbox *box;
   size_t count, own;
-  double best, most;
+  double best, most, *far;
 } second_search;
 
 static bool boxes_are_apart(const dyd_bbox *a, const dyd_bbox *b) {
@@ -50,31 +51,23 @@ static bool second_is_inside(const second_search *s, const dyd_bbox *c) {
   return true;
 }
 
-/* The least dl^2 over c of a rectangle disjoint from box[from]. */
-static double second_least(const second_search *s, const dyd_bbox *c, size_t from) {
+/* The least far[] of a rectangle disjoint from box[from]. */
+static double second_least(const second_search *s, size_t from) {
   double least = HUGE_VAL;
-  for (size_t k = 0; k < s->count; k++) {
-    double far = dyd_dl2_upper(c, &s->box[k]);
-    if (far < least && boxes_are_apart(&s->box[from], &s->box[k])) least = far;
-  }
+  for (size_t k = 0; k < s->count; k++)
+    if (s->far[k] < least && boxes_are_apart(&s->box[from], &s->box[k])) least = s->far[k];
   return least;
 }
 
-static size_t second_nearest(const second_search *s, const dyd_bbox *c) {
-  size_t nearest = s->own;
-  double least = HUGE_VAL;
-  for (size_t k = 0; k < s->count; k++) {
-    double far = dyd_dl2_upper(c, &s->box[k]);
-    if (far < least) nearest = k;
-    least = dyd_min(least, far);
-  }
-  return nearest;
-}
-
-/* The nearest one and the next that is disjoint from it: two points that differ, none of them farther. */
+/* Of the largest dl^2 over c: of the nearest one and the next that is disjoint from it; two points that differ, none of
+ * them farther. */
 static double second_value(const second_search *s, const dyd_bbox *c) {
-  size_t nearest = second_nearest(s, c);
-  return dyd_min(second_least(s, c, s->own), second_least(s, c, nearest));
+  size_t nearest = 0;
+  for (size_t k = 0; k < s->count; k++) {
+    s->far[k] = dyd_dl2_upper(c, &s->box[k]);
+    if (s->far[k] < s->far[nearest]) nearest = k;
+  }
+  return dyd_min(second_least(s, s->own), second_least(s, nearest));
 }
 
 static void second_visit(second_search *s, const dyd_bbox *c, int depth) {
@@ -111,7 +104,8 @@ dyd_status dyd_filter_second(double *out, const dyd_delaunay *pd, uint32_t i, co
   if (st != DYD_OK) return st;
   second_search s = {.count = near.count + 1, .own = near.count, .most = most * most};
   s.box = dyd_alloc(s.count, sizeof *s.box);
-  if (s.box) {
+  s.far = dyd_alloc(s.count, sizeof *s.far);
+  if (s.box && s.far) {
     for (size_t k = 0; k < near.count; k++) dyd_sites_get_d(s.box[k].e, dyd_delaunay_sites(pd), near.item[k]);
     dyd_sites_get_d(s.box[s.own].e, dyd_delaunay_sites(pd), i);
     *out = HUGE_VAL;
@@ -121,7 +115,8 @@ dyd_status dyd_filter_second(double *out, const dyd_delaunay *pd, uint32_t i, co
     }
   }
   dyd_index_list_clear(&near);
-  st = s.box ? DYD_OK : DYD_E_NOMEM;
+  st = s.box && s.far ? DYD_OK : DYD_E_NOMEM;
   free(s.box);
+  free(s.far);
   return st;
 }
