@@ -101,8 +101,8 @@ typedef struct dyd_delaunay_options {
    * the result is DYD_CAPPED. */
   bool keep_cut;
   uint64_t max_bytes; /* memory for it, without the sites, by its own estimate: DYD_E_NOMEM before more is asked for,
-                         with what took too much in *err; 0: no bound. Calls that make more of it later (voronoi.h,
-                         metric.h, graph.h, tolerance.h, survey.h) have what is left */
+                         with what took too much in *err; 0: no bound. Calls that make more of it later (lists of
+                         pairs and triangles, voronoi.h, metric.h, graph.h, tolerance.h, survey.h) have what is left */
 } dyd_delaunay_options;
 
 typedef struct dyd_delaunay dyd_delaunay;

@@ -158,9 +158,10 @@ typedef struct dyd_engine_options {
    * DYD_E_NOMEM and says what was too much; the engine and its last result stay as they are, and a run with a larger
    * bound goes on. The remedy for GMP, MPFR and FLINT, which end the process when memory is exhausted: half of the
    * memory there is, say. Estimates are within a factor of 2 of what the engine holds, or a megabyte where that is
-   * more; of callbacks only the answers count. Calls that make something of the result later (cells, polygons, diagrams
-   * and their bounds, graphs, tolerances, plans) fail with DYD_E_NOMEM where that would take more beside points and
-   * result; lists of pairs and triangles, other outputs and certificates come on top. */
+   * more; of callbacks only the answers count. Calls that make something of the result later (lists of pairs and
+   * triangles, outputs, pictures, certificates, cells, polygons, diagrams and their bounds, graphs, tolerances, plans)
+   * fail with DYD_E_NOMEM where that would take more beside points and result, which stay: smaller ones can be had.
+   * Pictures of diagrams are estimated roughly; the spheres' own lists come on top. */
   uint64_t max_bytes;
 } dyd_engine_options;
 /* Fills in the size and the defaults (all zero but for what the comments say). */

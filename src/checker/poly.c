@@ -182,7 +182,7 @@ bool dyd_cert_poly_reduce(dyd_cert_poly *p, dyd_cert_relations *r) {
 bool dyd_cert_poly_mul(dyd_cert_poly *p, const dyd_cert_poly *q, dyd_cert_relations *r) {
   dyd_cert_poly product = {0};
   bool fits = true;
-  if (p->count > q->count && p != q) { /* the shorter one is gone through */
+  if (p->count > q->count) { /* the shorter one is gone through */
     for (size_t t = 0; t < q->count && fits; t++)
       fits = dyd_cert_poly_add_scaled(&product, p, q->term[t].c, q->term[t].e, r);
   } else {

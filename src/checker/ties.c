@@ -77,10 +77,10 @@ static bool side_holds_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint3
   return x->known && side_holds_enclosure(s, x, p);
 }
 
-/* All points at one precision after the other, as enclosures are kept. */
+/* All points at one precision after the other, as enclosures are kept; at the last one all is decided. */
 static dyd_status check_rectangles(dyd_cert_block *b, dyd_cert_reader *in, const dyd_cert_sites *s) {
   size_t first = 0;
-  for (long p = 128; p <= DYD_CERT_PRECISION && first < b->points; p *= 2)
+  for (long p = 128; first < b->points; p *= 2)
     for (size_t k = first; k < b->points; k++) {
       const dyd_cert_described *d = &b->point[k];
       const dyd_cert_side *side = s->site[d->site].side;

@@ -2,6 +2,7 @@
 /* Memory for what is made of a result. */
 #include "delaunay/memory.h"
 
+#include "base/error.h"
 #include "delaunay/state.h"
 
 dyd_room dyd_delaunay_room(const dyd_delaunay *pd) {
@@ -13,8 +14,19 @@ void dyd_delaunay_allow(dyd_delaunay *pd, uint64_t max_bytes) {
   pd->options.max_bytes = max_bytes;
 }
 
+dyd_status dyd_delaunay_grant(const dyd_delaunay *pd, uint64_t bytes, const char *what, dyd_error *err) {
+  dyd_room room = dyd_delaunay_room(pd);
+  return dyd_room_has(&room, bytes, what) ? DYD_OK : dyd_fail_room(err, &room);
+}
+
 uint64_t dyd_pairs_bytes(const dyd_delaunay *pd) {
   size_t count[4];
   dyd_delaunay_count(count, pd);
   return dyd_bytes_times(count[DYD_LEGAL] + count[DYD_INDETERMINATE] + count[DYD_TIE], sizeof(dyd_pair));
+}
+
+/* Sorted with their numbers in the mesh, then listed. */
+uint64_t dyd_triangles_bytes(const dyd_delaunay *pd) {
+  return dyd_bytes_times(pd->sk.mesh.count, 2 * sizeof(dyd_triangle) + sizeof(uint32_t)) +
+         dyd_bytes_times((uint64_t)pd->sk.n + 1, sizeof(uint32_t));
 }

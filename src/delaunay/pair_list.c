@@ -5,6 +5,7 @@
  * written side by side; a block is small enough for the nearer caches, and is sorted there: dealt to its sites, and
  * each site's pairs by j. */
 #include "base/alloc.h"
+#include "delaunay/memory.h"
 #include "delaunay/undecided.h"
 
 #include <string.h>
@@ -115,7 +116,7 @@ static dyd_status sort_blocks(pair_sort *s) {
   return st;
 }
 
-dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd) {
+dyd_status dyd_pairs_list(dyd_pair_list *out, const dyd_delaunay *pd) {
   pair_sort s = {.site = pd->sk.reps.site, .n = pd->sk.n};
   while (pd->sk.n && (pd->sk.n - 1) >> s.shift >= MOST_BLOCKS) s.shift++;
   dyd_each_pair(pd, count_pair, &s);
@@ -131,4 +132,9 @@ dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd) {
   dyd_pair_list_clear(out);
   *out = (dyd_pair_list){total, s.to};
   return DYD_OK;
+}
+
+dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd) {
+  dyd_status st = dyd_delaunay_grant(pd, dyd_pairs_bytes(pd), "the list of pairs", NULL);
+  return st == DYD_OK ? dyd_pairs_list(out, pd) : st;
 }

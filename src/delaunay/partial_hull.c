@@ -98,9 +98,10 @@ static dyd_status find_candidates(hull *h) {
   return st;
 }
 
+/* Not all sites are exact points. */
 static bool is_proved_chain(const dyd_delaunay *pd, size_t f) {
   if (pd->open.kind == DYD_LISTED) return pd->open.face[f].outer && pd->open.face[f].proved;
-  return pd->open.kind == DYD_LINE && dyd_open_status_of(pd, f) == DYD_TIE;
+  return dyd_open_status_of(pd, f) == DYD_TIE; /* a line */
 }
 
 static dyd_status find_chains(hull *h) {

@@ -131,11 +131,11 @@ static dyd_status part_triangulate(part *p) {
 /* The half-edge from a to b of the part, or DYD_NONE. */
 static dyd_half_edge part_find_edge(const part *p, uint32_t a, uint32_t b) {
   dyd_half_edge first = p->leaving[a], h = first;
-  do {
-    if (dyd_edge_target(&p->mesh, h) == b) return h;
+  while (dyd_edge_target(&p->mesh, h) != b) {
     h = dyd_edge_turn(&p->mesh, h);
-  } while (h != first);
-  return DYD_NONE;
+    if (h == first) return DYD_NONE;
+  }
+  return h;
 }
 
 /* Gives the part's triangle t the next slot; false when the face is full. */

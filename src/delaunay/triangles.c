@@ -4,6 +4,7 @@
  * To be sorted they are dealt to their lowest sites; a site has few. In the order of the mesh, which is near that of
  * the Hilbert curve, all that belongs to one triangle is near in memory, too. */
 #include "base/alloc.h"
+#include "delaunay/memory.h"
 #include "delaunay/state.h"
 
 #include <string.h>
@@ -113,12 +114,18 @@ static dyd_status list_neighbours(dyd_triangle_list *out, const dyd_skeleton *sk
   return item ? DYD_OK : DYD_E_NOMEM;
 }
 
+static uint64_t triangles_bytes(const dyd_delaunay *pd, bool neighbours) {
+  uint64_t beyond = dyd_bytes_times(pd->sk.mesh.count, sizeof(dyd_triangle) + sizeof(uint32_t));
+  return dyd_bytes_add(dyd_triangles_bytes(pd), neighbours ? beyond : 0);
+}
+
 dyd_status dyd_delaunay_triangles_and_neighbours(dyd_triangle_list *out, dyd_triangle_list *neighbours,
                                                  const dyd_delaunay *pd) {
   dealt *all = NULL;
   size_t count = 0;
   dyd_triangle_list triangles = {0}, beyond = {0};
-  dyd_status st = deal_triangles(&all, &count, pd);
+  dyd_status st = dyd_delaunay_grant(pd, triangles_bytes(pd, neighbours), "the list of triangles", NULL);
+  if (st == DYD_OK) st = deal_triangles(&all, &count, pd);
   if (st == DYD_OK) st = list_triangles(&triangles, all, count);
   if (st == DYD_OK && neighbours) st = list_neighbours(&beyond, &pd->sk, all, count);
   free(all);

@@ -89,7 +89,7 @@ static bool is_in_face(const dyd_delaunay *pd, uint32_t v, uint32_t face) {
 static dyd_pair_status status_in_face(const dyd_delaunay *pd, uint32_t f, uint32_t v, uint32_t w) {
   if (pd->open.kind == DYD_TIED) return is_in_face(pd, w, f) ? dyd_open_status_of(pd, f) : DYD_ILLEGAL;
   const dyd_vertex_pair *p = dyd_listed_pair(pd, f, v, w);
-  return p && !p->hidden ? dyd_listed_status(&pd->open.face[f]) : DYD_ILLEGAL;
+  return p && !p->hidden ? dyd_open_status_of(pd, f) : DYD_ILLEGAL;
 }
 
 /* In a capped face any pair may be possible. */

@@ -35,7 +35,7 @@ static dyd_status rebuild(dyd_delaunay *pd, dyd_error *err) {
   if (pd->room.most) pd->room.beside = rebuild_bytes(pd);
   if (!dyd_room_has(&pd->room, dyd_skeleton_bytes(pd->sk.rects.sites), "the triangulation made anew"))
     return DYD_E_NOMEM;
-  dyd_status st = dyd_delaunay_pairs(&all, pd);
+  dyd_status st = dyd_pairs_list(&all, pd);
   if (st != DYD_OK) return st;
   size_t kept = 0;
   for (size_t q = 0; q < all.count; q++)

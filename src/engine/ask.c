@@ -390,6 +390,7 @@ static dyd_status ask_timed(ask *a) {
   e->tie_bits = a->o.tie_bits;
   a->room = (dyd_room){.most = a->o.max_bytes};
   e->room = &a->room;
+  if (a->q->triangulate) dyd_engine_allow(e, a->o.max_bytes);
   dyd_watch_start(&a->watch, a->o.seconds, &e->stop);
   dyd_status st = ask_loop(a);
   dyd_watch_stop(&a->watch);

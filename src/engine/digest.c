@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 #include "engine/digest.h"
+#include "delaunay/memory.h"
 
 static uint64_t digest_word(uint64_t digest, uint32_t word) {
   for (int k = 0; k < 4; k++) digest = (digest ^ (word >> 8 * k & 255)) * 1099511628211u;
@@ -8,7 +9,7 @@ static uint64_t digest_word(uint64_t digest, uint32_t word) {
 
 dyd_status dyd_digest_pairs(uint64_t *out, const dyd_delaunay *pd) {
   dyd_pair_list pairs = {0};
-  dyd_status st = dyd_delaunay_pairs(&pairs, pd);
+  dyd_status st = dyd_pairs_list(&pairs, pd);
   if (st != DYD_OK) return st;
   *out = 14695981039346656037u;
   for (size_t k = 0; k < pairs.count; k++) {

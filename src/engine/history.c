@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* What every stage of a run knew. Possible pairs come sorted, so that changes are found by going along two lists. */
 #include "engine/history.h"
+#include "delaunay/memory.h"
 
 #include "base/alloc.h"
 #include <string.h>
@@ -105,7 +106,7 @@ dyd_status dyd_history_add(dyd_history *h, const dyd_delaunay *pd, dyd_pair_list
 
 dyd_status dyd_history_note(dyd_history *h, const dyd_delaunay *pd) {
   dyd_pair_list pairs = {0};
-  dyd_status st = dyd_delaunay_pairs(&pairs, pd);
+  dyd_status st = dyd_pairs_list(&pairs, pd);
   if (st == DYD_OK) st = dyd_history_add(h, pd, &pairs);
   dyd_pair_list_clear(&pairs);
   return st;

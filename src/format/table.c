@@ -6,6 +6,7 @@
 #include "format/table.h"
 
 #include "base/error.h"
+#include "base/room.h"
 #include "picture/canvas.h"
 #include <string.h>
 #include <strings.h>
@@ -20,29 +21,34 @@ static const struct {
   const char *also; /* another ending that suits it; that of the format that it is a kind of */
   bool binary;
   bool (*there)(void); /* NULL: always; else it may be missing from this library */
+  struct bytes {
+    uint32_t page, site, pair;
+  } plain, diagram; /* what writing takes, as measured; of the diagram, beside what its writers ask for */
 } formats[] = {
     [DYD_FORMAT_CSV] = {"csv", "csv",
                         "a table: of delaunay one line for each pair that is possible (i,j,status), of converge one "
                         "for each stage",
-                        dyd_csv_writers},
+                        dyd_csv_writers, .plain = {0, 0, 20}},
     [DYD_FORMAT_JSON] = {"json", "json",
                          "everything: rectangles reached, statuses or exact arcs, outcome, bounds, counters",
-                         dyd_json_writers},
+                         dyd_json_writers, .plain = {0, 0, 48}},
     [DYD_FORMAT_WKT] = {"wkt", "wkt", "a CSV table with a geometry per line, as QGIS and ogr2ogr read it",
-                        dyd_wkt_writers, "csv"},
-    [DYD_FORMAT_GEOJSON] = {"geojson", "geojson", "a FeatureCollection", dyd_geojson_writers, "json"},
-    [DYD_FORMAT_OBJ] = {"obj", "obj", "vertices, legal edges, sure triangles", dyd_obj_writers},
-    [DYD_FORMAT_SVG] = {"svg", "svg", "a picture with legend and scale", dyd_picture_writers},
-    [DYD_FORMAT_VTK] = {"vtk", "vtk", "legacy VTK text, as ParaView reads it", dyd_vtk_writers},
+                        dyd_wkt_writers, "csv", .plain = {0, 55, 20}},
+    [DYD_FORMAT_GEOJSON] = {"geojson", "geojson", "a FeatureCollection", dyd_geojson_writers, "json",
+                            .plain = {0, 55, 20}},
+    [DYD_FORMAT_OBJ] = {"obj", "obj", "vertices, legal edges, sure triangles", dyd_obj_writers, .plain = {0, 110, 20}},
+    [DYD_FORMAT_SVG] = {"svg", "svg", "a picture with legend and scale", dyd_picture_writers, .plain = {0, 630, 36},
+                        .diagram = {0, 150, 0}},
+    [DYD_FORMAT_VTK] = {"vtk", "vtk", "legacy VTK text, as ParaView reads it", dyd_vtk_writers, .plain = {0, 200, 25}},
     [DYD_FORMAT_PDF] = {"pdf", "pdf", "the same picture", dyd_picture_writers, .binary = true,
-                        .there = dyd_cairo_is_there},
+                        .there = dyd_cairo_is_there, .plain = {0, 2900, 36}, .diagram = {0, 5000, 0}},
     [DYD_FORMAT_PNG] = {"png", "png", "the same picture", dyd_picture_writers, .binary = true,
-                        .there = dyd_cairo_is_there},
+                        .there = dyd_cairo_is_there, .plain = {20000000, 5500, 36}, .diagram = {20000000, 300, 0}},
     [DYD_FORMAT_HTML] =
         {"html", "html",
          "a page to move about in, with what is known of each point, stage by stage; one file that asks "
          "for nothing",
-         dyd_html_writers},
+         dyd_html_writers, .plain = {0, 400, 50}, .diagram = {0, 1500, 0}},
 };
 enum { FORMATS = sizeof formats / sizeof *formats };
 
@@ -127,6 +133,12 @@ static bool format_is_missing(dyd_format format) {
 bool dyd_format_holds(dyd_format format, dyd_content content) {
   if ((size_t)format >= FORMATS || (size_t)content >= DYD_CONTENTS) return false;
   return formats[format].write[content] && !format_is_missing(format);
+}
+
+uint64_t dyd_format_bytes(dyd_format format, bool diagram, uint64_t sites, uint64_t pairs) {
+  if ((size_t)format >= FORMATS) return 0;
+  const struct bytes *b = diagram ? &formats[format].diagram : &formats[format].plain;
+  return dyd_bytes_add(b->page, dyd_bytes_add(dyd_bytes_times(sites, b->site), dyd_bytes_times(pairs, b->pair)));
 }
 
 /* ---- writing ---- */

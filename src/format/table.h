@@ -9,4 +9,8 @@
  * err may be NULL. */
 dyd_status dyd_format_write(FILE *out, dyd_format format, dyd_content content, const void *what, dyd_error *err);
 
+/* What writing a result of so many sites and pairs takes in memory beside it, by estimate; or its diagram, beside what
+ * the writers of that ask for. */
+uint64_t dyd_format_bytes(dyd_format format, bool diagram, uint64_t sites, uint64_t pairs);
+
 #endif

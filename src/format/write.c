@@ -3,6 +3,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "delaunay/memory.h"
 #include "format/table.h"
 #include "io/diagram.h"
 #include "io/result.h"
@@ -86,6 +87,14 @@ static dyd_status result_graph(bool *graph, dyd_result *r, dyd_content layer, dy
   return st == DYD_OK ? pairs_of_graph(r) : st;
 }
 
+/* May what an output takes be made? pairs: those to be written; NULL: all. */
+static dyd_status grant_output(const dyd_delaunay *pd, dyd_format format, bool diagram, const dyd_pair_list *pairs,
+                               dyd_error *err) {
+  uint64_t count = pairs ? pairs->count : dyd_pairs_bytes(pd) / sizeof(dyd_pair);
+  uint64_t bytes = dyd_format_bytes(format, diagram, dyd_sites_count(dyd_delaunay_sites(pd)), count);
+  return dyd_delaunay_grant(pd, bytes, "this output", err);
+}
+
 /* Other formats and layers tell of more than pairs. */
 static bool holds_pairs_alone(dyd_content layer, dyd_format format) {
   bool pairs = layer == DYD_CONTENT_NONE || layer == DYD_CONTENT_DELAUNAY;
@@ -112,7 +121,9 @@ dyd_status dyd_write_delaunay_as(FILE *out, const dyd_engine *e, const dyd_delau
                     "statuses of discs are written as pairs: in csv, wkt, geojson, svg, pdf, png or html");
   bool graph;
   result_sites(&r);
-  dyd_status st = result_graph(&graph, &r, o.layer, err);
+  dyd_status st = grant_output(r.pd, format, false, o.pairs, err);
+  if (st != DYD_OK) return st;
+  st = result_graph(&graph, &r, o.layer, err);
   if (graph) r.history = NULL, r.tolerance = NULL; /* they tell of the triangulation */
   if (st == DYD_OK && !graph && !o.pairs) st = dyd_delaunay_pairs(&r.pairs, r.pd);
   if (o.pairs) r.pairs = *o.pairs;
@@ -151,6 +162,8 @@ dyd_status dyd_write_voronoi(FILE *out, const dyd_engine *e, const dyd_voronoi_o
   if (!pd || refuse_layer(o.layer, DYD_CONTENT_VORONOI, err) != DYD_OK) return DYD_E_ARG;
   if (dyd_delaunay_is_capped(pd))
     return dyd_fail(err, DYD_CAPPED, "the cap on stored pairs was met, so neighbours are missing; raise --max-pairs");
+  st = grant_output(pd, format, true, NULL, err);
+  if (st != DYD_OK) return st;
   dyd_diagram d;
   dyd_room room = dyd_delaunay_room(pd);
   dyd_voronoi_bounds bounds, *wanted = o.bounds;

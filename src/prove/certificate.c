@@ -5,6 +5,7 @@
  * unproved. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "delaunay/memory.h"
 #include "io/output.h"
 #include "prove/proof.h"
 #include "voronoi/shape.h"
@@ -185,10 +186,38 @@ static dyd_status certificate_sections(FILE *out, dyd_proof *p, const dyd_rect *
   return st;
 }
 
+/* The pairs of sites of one undecided face each. */
+static dyd_status pairs_of_faces(uint64_t *out, const dyd_delaunay *pd) {
+  dyd_index_list sites = {0};
+  dyd_status st = DYD_OK;
+  *out = 0;
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd) && st == DYD_OK; f++) {
+    bool outer;
+    st = dyd_delaunay_face(&sites, &outer, pd, f);
+    if (st == DYD_OK && sites.count) *out += (uint64_t)sites.count * (sites.count - 1) / 2;
+  }
+  dyd_index_list_clear(&sites);
+  return st;
+}
+
+/* Sites, pairs, witnesses and the graph, as the checker holds them; illegal pairs of faces, of which boxes leave so
+ * many at most before they give up. */
+static dyd_status certificate_grant(const dyd_delaunay *pd, dyd_error *err) {
+  enum { SITE = 650, PAIR = 40, LEFT = 16, MOST_LEFT = 1 << 22 };
+  uint64_t of_faces, pairs = dyd_pairs_bytes(pd) / sizeof(dyd_pair);
+  dyd_status st = pairs_of_faces(&of_faces, pd);
+  if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
+  uint64_t left = of_faces > pairs ? of_faces - pairs : 0, bytes = (left < MOST_LEFT ? left : MOST_LEFT) * LEFT;
+  bytes = dyd_bytes_add(bytes, dyd_bytes_times(dyd_sites_count(dyd_delaunay_sites(pd)), SITE));
+  return dyd_delaunay_grant(pd, dyd_bytes_add(bytes, dyd_bytes_times(pairs, PAIR)), "the certificate", err);
+}
+
 static dyd_status certificate_write(FILE *out, const dyd_engine *e, const dyd_rect *window, dyd_error *err) {
   dyd_proof p = {.engine = e, .pd = dyd_engine_delaunay(e)};
+  dyd_status st = certificate_grant(p.pd, err);
+  if (st != DYD_OK) return st;
   dyd_cert_sites_init(&p.sites);
-  dyd_status st = proof_gather(&p);
+  st = proof_gather(&p);
   if (st == DYD_OK) st = certificate_sections(out, &p, window);
   proof_clear(&p);
   if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));

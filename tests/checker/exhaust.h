@@ -30,15 +30,16 @@ static dyd_status verdict_of(char *verdict, size_t size, bool *over, const char 
   return status;
 }
 
-/* Every allocation fails once, of many of them later ones less densely. false: something else is told, in `message`.
- * *faults counts them. */
+/* Every allocation fails once, of many of them later ones less densely, and others for each certificate. false:
+ * something else is told, in `message`. *faults counts them. */
 static bool every_allocation_fails_well(char *message, size_t size, size_t *faults, const char *text, size_t length) {
   char with[600], without[600], exhausted[600];
   bool over;
   snprintf(exhausted, sizeof exhausted, "%d, line 0: %s; gaps 0, unproved 0, boxes 0, triangles 0, facts 0 and 0",
            DYD_E_NOMEM, dyd_status_text(DYD_E_NOMEM));
   verdict_of(with, sizeof with, &over, text, length, 0);
-  for (size_t k = 1;; k += 1 + k / 32) {
+  size_t phase = *faults % 32;
+  for (size_t k = 1;; k += 1 + (k + phase) / 32) {
     dyd_status status = verdict_of(without, sizeof without, &over, text, length, k);
     if (over) return true;
     ++*faults;

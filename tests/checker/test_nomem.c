@@ -31,11 +31,18 @@ static ssize_t broken_read(void *cookie, char *out, size_t size) {
   return count ? (ssize_t)count : -1;
 }
 
+/* Every line ends there once, and every 40th byte of long ones. */
+static size_t next_end(const char *text, size_t end, size_t length) {
+  const char *line = end < length ? memchr(text + end, '\n', length - end) : NULL;
+  size_t next = line ? (size_t)(line - text) + 1 : length;
+  return end == length ? length + 1 : next - end > 40 ? end + 40 : next;
+}
+
 /* What cannot be read to its end is neither accepted nor rejected, however much of it could be. */
 static bool breaks_well(const char *text, size_t length) {
   dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
   dyd_error err;
-  for (size_t end = 0; end <= length; end = end < length && end + 40 > length ? length : end + 40) {
+  for (size_t end = 0; end <= length; end = next_end(text, end, length)) {
     broken b = {text, 0, end};
     FILE *in = fopencookie(&b, "r", (cookie_io_functions_t){.read = broken_read});
     dyd_status status = dyd_verify_certificate(&r, in, &err);

@@ -63,6 +63,7 @@ FORGERIES = [
     (SQUARE, 'circle 2 3 0 1', 'circle 2 2 0 1', 'not seen to hold'),
     (SQUARE, 'circle 2 3 0 1', 'line 2 3 0 1', 'not seen to hold'),
     (SQUARE, 'circle 2 3 0 1', 'same 2 3', 'not seen to hold'),
+    (SQUARE, 'circle 2 3 0 1', 'same 1 3', 'not seen to hold'),                   # of one x
     (SQUARE, 'circle 2 3 0 1', 'circle 2 3 0 9', 'not described'),
     (SQUARE, 'identity\n', 'faith\n', 'no method'),
     (SQUARE, 'algebra 6', 'algebra 5', 'no operation|is missing'),

@@ -6,6 +6,7 @@ Usage: test_deadline.py COMMAND DATA
 """
 import csv
 import json
+import math
 import os
 import signal
 import subprocess
@@ -36,6 +37,27 @@ def timed(seconds, *args, **options):
     return in_time(seconds * 1.1 + SPARE, lambda: run(*args, '--timeout', str(seconds), **options))
 
 
+def cut_between(attempt, place, first):
+    """What attempt(seconds) gives where place(result) is 0: cut neither too early (-1) nor too late (1); the last one if
+    there is none. Seconds are doubled and halved until both sides are known, then bisected; sides that others at work on
+    this machine have brought together move apart again."""
+    early, late, seconds = 0, math.inf, first
+    for _ in range(12):
+        result = attempt(seconds)
+        where = place(result)
+        if where == 0 or seconds > 32:
+            break
+        early, late = (seconds, late) if where < 0 else (early, seconds)
+        if late < 1.1 * early:
+            early, late = early / 2, late * 2
+        seconds = 2 * early if late == math.inf else late / 2 if early == 0 else math.sqrt(early * late)
+    return result
+
+
+def rows_of(result):
+    return list(csv.DictReader(line for line in result.out.splitlines() if line[0] != '#'))
+
+
 def number(text):
     if '*2^' in text:
         m, e = text.split('*2^')
@@ -45,11 +67,14 @@ def number(text):
 
 def test_cells_that_are_cut():
     """Every cell has its row; the window stands for those that were not worked out, and true bounds for all."""
-    result = timed(3, 'voronoi', '-', stdin=TRACKS)
+    def place(result):
+        return 1 if result.code != 4 else 0 if 'cells or regions' in result.err else -1
+
+    result = cut_between(lambda seconds: timed(seconds, 'voronoi', '-', stdin=TRACKS), place, 2)
     expect(result, 4, '^i,xlo,', r'^dyadel: budget: the time is used up: [1-9]\d* cells or regions .*; raise --timeout')
     comments = [line for line in result.out.splitlines() if line.startswith('#')]
     window = [float(number(t)) for line in comments if line.startswith('# window ') for t in line.split()[2:]]
-    cells = [r for r in csv.DictReader(line for line in result.out.splitlines() if line[0] != '#')]
+    cells = rows_of(result)
     unknown = [r for r in cells if float(r['area_lo']) == 0 and
                [float(r[k]) for k in ('xlo', 'xhi', 'ylo', 'yhi')] == window]
     assert len(cells) > 900 and unknown, (len(cells), len(unknown))
@@ -58,16 +83,26 @@ def test_cells_that_are_cut():
     left, = (float(c.split(',')[1]) for c in comments if c.startswith('# undetermined_area'))
     assert area - sum(float(r['area_lo']) for r in cells) <= left * 1.000001 and left <= area * 1.000001
     assert all(float(r['area_hi']) >= area * 0.999999 for r in unknown)
-    result = timed(3, 'voronoi', '--quiet', '--format', 'json', '-', stdin=TRACKS)
+
+    def unknown_cells(result):
+        return [c for c in json.loads(result.out or '{"cells":[]}')['cells'] if c['int'] is None and c['inner'] == []]
+
+    result = cut_between(lambda seconds: timed(seconds, 'voronoi', '--quiet', '--format', 'json', '-', stdin=TRACKS),
+                         lambda result: 1 if result.code != 4 else 0 if unknown_cells(result) else -1, 2)
+    assert unknown_cells(result), result
     expect(result, 4, '', r'\A\Z')
-    assert any(c['int'] is None and c['inner'] == [] for c in json.loads(result.out)['cells'])
 
 
 def test_certificate_that_is_cut():
-    with tempfile.TemporaryDirectory() as folder:
-        result = timed(3, 'voronoi', '-', '-o', 'out', '--certificate', 'proof', stdin=TRACKS, cwd=folder)
-        expect(result, 4, r'\A\Z', '^dyadel: budget: the time is used up')
-        assert os.listdir(folder) == ['out'], os.listdir(folder)
+    """The diagram is there, and its certificate is not."""
+    def attempt(seconds):
+        with tempfile.TemporaryDirectory() as folder:
+            result = timed(seconds, 'voronoi', '-', '-o', 'out', '--certificate', 'proof', stdin=TRACKS, cwd=folder)
+            return result, os.listdir(folder)
+
+    result, files = cut_between(attempt, lambda got: 1 if 'proof' in got[1] else 0 if got[1] else -1, 2)
+    expect(result, 4, r'\A\Z', '^dyadel: budget: the time is used up')
+    assert files == ['out'], files
 
 
 def test_one_huge_root():
@@ -126,18 +161,15 @@ CROWD = ''.join(f'{x}+-5e-3 {y}+-5e-3\n' for x, y in (
 def test_first_closure_that_is_cut():
     """What is known before all undecided faces are closed is written: faces that were not are named, as with a cap."""
     whole = run('delaunay', '-', stdin=CROWD)
-    status = {}
-    for row in csv.DictReader(line for line in whole.out.splitlines() if line[0] != '#'):
-        status[row['i'], row['j']] = row['status']
-    for seconds in (4, 2, 1, 0.5, 0.25, 0.125, 0.06):
-        result = timed(seconds, 'delaunay', '-', stdin=CROWD)
-        if result.out.startswith('# capped:'):
-            break
+    status = {(row['i'], row['j']): row['status'] for row in rows_of(whole)}
+
+    def place(result):
+        return 0 if result.out.startswith('# capped:') else 1 if result.out else -1
+
+    result = cut_between(lambda seconds: timed(seconds, 'delaunay', '-', stdin=CROWD), place, 0.5)
     expect(result, 4, '^# capped: .*\n(# face [0-9 ]+\n)+', r'^dyadel: budget: .* the time is used up; raise --timeout')
     faces = [set(line.split()[2:]) for line in result.out.splitlines() if line.startswith('# face')]
-    listed = {}
-    for row in csv.DictReader(line for line in result.out.splitlines() if line[0] != '#'):
-        listed[row['i'], row['j']] = row['status']
+    listed = {(row['i'], row['j']): row['status'] for row in rows_of(result)}
     assert listed and listed != status
     for pair, known in listed.items():
         assert known == 'indeterminate' or status[pair] == known, (pair, known)
@@ -148,12 +180,13 @@ def test_first_closure_that_is_cut():
 
 def test_bounds_that_are_cut():
     """A table whose last bounds took too long is written without these."""
-    for seconds in (2, 4, 8, 16):  # as much as a slow machine needs for the first of them
-        result = timed(seconds, 'converge', '-', stdin=TRACKS)
-        row = next(csv.DictReader(line for line in result.out.splitlines() if line[0] != '#'), None)
-        if row and row['area']:
-            break
+    def place(result):
+        row = next(iter(rows_of(result)), None)
+        return -1 if not row or not row['area'] else 1 if row['v_area'] else 0
+
+    result = cut_between(lambda seconds: timed(seconds, 'converge', '-', stdin=TRACKS), place, 1)
     expect(result, 4, '^stage,', r'^dyadel: budget: the time is used up: bounds of stage 1 are left out; raise --timeout')
+    row = rows_of(result)[0]
     assert row['legal'] and row['area'] and not row['v_area'] and not row['v_hausdorff'], row
     expect(run('converge', '--no-voronoi', '-', stdin=TRACKS), 3, '^stage,')
 
@@ -167,10 +200,8 @@ PROOFS = (''.join(f'cos(2*pi/{k}) sin(2*pi/{k})\n' for k in range(3, 60)),
 def test_proofs_that_are_cut():
     """What was known before a proof that takes too long is written."""
     for text in PROOFS:
-        for seconds in (1, 2, 4, 8):  # as much as a slow machine needs for the first triangulation
-            result = timed(seconds, 'delaunay', '-', stdin=text)
-            if result.out:
-                break
+        result = cut_between(lambda seconds, text=text: timed(seconds, 'delaunay', '-', stdin=text),
+                             lambda result: 0 if result.out else -1, 1)
         assert result.code in (0, 3, 4) and count(result.out) and 'does not end' not in result.err, result
 
 

@@ -3,6 +3,7 @@
  * program is the one below; and refusals, which come in time and leave everything as it was. */
 #include "engine/help.h"
 
+#include <dyadel/certificate.h>
 #include <malloc.h>
 #include <math.h>
 #include <stdatomic.h>
@@ -286,6 +287,46 @@ static void use_deaths(dyd_status *st, const dyd_engine *e, dyd_error *err) {
 static void use_births(dyd_status *st, const dyd_engine *e, dyd_error *err) {
   use_tolerance(st, e, "1/500", err);
 }
+/* Lists that are handed out; these calls know no error. */
+static void use_pairs(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  dyd_pair_list l = {0};
+  *st = dyd_delaunay_pairs(&l, dyd_engine_delaunay(e));
+  snprintf(err->message, sizeof err->message, "max_bytes");
+  err->code = *st;
+  dyd_pair_list_clear(&l);
+}
+static void use_triangles(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  dyd_triangle_list l = {0}, beyond = {0};
+  *st = dyd_delaunay_triangles_and_neighbours(&l, &beyond, dyd_engine_delaunay(e));
+  snprintf(err->message, sizeof err->message, "max_bytes");
+  err->code = *st;
+  dyd_triangle_list_clear(&l);
+  dyd_triangle_list_clear(&beyond);
+}
+static void write_format(dyd_status *st, const dyd_engine *e, dyd_format format, dyd_error *err) {
+  FILE *out = fopen("/dev/null", "w");
+  assert_non_null(out);
+  *st = dyd_write_delaunay(out, e, format, err);
+  fclose(out);
+}
+static void use_csv(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  write_format(st, e, DYD_FORMAT_CSV, err);
+}
+static void use_vtk(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  write_format(st, e, DYD_FORMAT_VTK, err);
+}
+static void use_svg(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  write_format(st, e, DYD_FORMAT_SVG, err);
+}
+static void use_html(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  write_format(st, e, DYD_FORMAT_HTML, err);
+}
+static void use_certificate(dyd_status *st, const dyd_engine *e, dyd_error *err) {
+  FILE *out = fopen("/dev/null", "w");
+  assert_non_null(out);
+  *st = dyd_write_certificate(out, e, err);
+  fclose(out);
+}
 static void use_plan(dyd_status *st, const dyd_engine *e, dyd_error *err) {
   dyd_survey *s;
   *st = dyd_survey_new(&s, dyd_engine_delaunay(e), NULL, err);
@@ -321,10 +362,22 @@ static const struct {
   const char *name;
   void (*make)(dyd_engine *e, dyd_engine_options *o);
   void (*use)(dyd_status *st, const dyd_engine *e, dyd_error *err);
-} USES[] = {{"vertices", boxes, use_vertices},  {"polygons", few_wide, use_polygons},
-            {"cells", hub, use_cells},          {"Gabriel", open_boxes, use_gabriel},
-            {"tree", uniform, use_tree},        {"deaths", uniform, use_deaths},
-            {"births", few_points, use_births}, {"plan", thin, use_plan}};
+} USES[] = {{"vertices", boxes, use_vertices},
+            {"polygons", few_wide, use_polygons},
+            {"cells", hub, use_cells},
+            {"Gabriel", open_boxes, use_gabriel},
+            {"tree", uniform, use_tree},
+            {"deaths", uniform, use_deaths},
+            {"births", few_points, use_births},
+            {"plan", thin, use_plan},
+            {"pairs", uniform, use_pairs},
+            {"triangles", boxes, use_triangles},
+            {"csv", crowd, use_csv},
+            {"vtk", boxes, use_vtk},
+            {"svg", open_boxes, use_svg},
+            {"html", few_points, use_html},
+            {"proofs", few_points, use_certificate},
+            {"proofs of faces", overlapping, use_certificate}};
 enum { ALL_USES = sizeof USES / sizeof *USES };
 
 /* Allows so many bytes: a run that has nothing to do. */

@@ -83,40 +83,67 @@ static void test_expression(void **state) {
   dyd_real_free(x);
 }
 
-/* (2^B x - m) (x^D + ... + x + 1): the sign at the root is known after B D bits only. */
+/* x^900 - 2: at 2^17 bits the next step, which doubles them, takes some three seconds. */
 static void test_root(void **state) {
-  enum { DEGREE = 900, BITS = 2000 };
+  enum { DEGREE = 900, BITS = 1 << 17 };
   (void)state;
-  mpq_t coeff[DEGREE + 2], lo, hi;
-  mpz_t m, power;
+  mpq_t coeff[DEGREE + 1], lo, hi;
   alarm a;
   dyd_error err;
   dyd_real *x;
-  mpz_inits(m, power, NULL);
+  for (int k = 0; k <= DEGREE; k++) mpq_init(coeff[k]);
   mpq_inits(lo, hi, NULL);
-  mpz_ui_pow_ui(m, 3, 1260); /* about 2^1997: the root is near 1/8 */
-  mpz_setbit(power, BITS);
-  for (int k = 0; k <= DEGREE + 1; k++) {
-    mpq_init(coeff[k]);
-    if (k) mpz_add(mpq_numref(coeff[k]), mpq_numref(coeff[k]), power);
-    if (k <= DEGREE) mpz_sub(mpq_numref(coeff[k]), mpq_numref(coeff[k]), m);
-  }
-  mpq_set_ui(hi, 1, 1);
-  assert_int_equal(DYD_OK, dyd_real_root(&x, (const mpq_t *)coeff, DEGREE + 2, lo, hi, &err));
-  alarm_start(&a, 0.5);
-  dyd_status st = dyd_real_narrow_until(x, 100000, 100000, &a.stop, &err);
+  mpq_set_si(coeff[0], -2, 1);
+  mpq_set_si(coeff[DEGREE], 1, 1);
+  mpq_set_ui(lo, 1, 1);
+  mpq_set_ui(hi, 2, 1);
+  assert_int_equal(DYD_OK, dyd_real_root(&x, (const mpq_t *)coeff, DEGREE + 1, lo, hi, &err));
+  narrowed(x, BITS, BITS);
+  int64_t before = dyd_interval_bits(dyd_real_interval(x));
+  alarm_start(&a, 0.1);
+  dyd_status st = dyd_real_narrow_until(x, 2 * BITS, 2 * BITS, &a.stop, &err);
   double late = alarm_late(&a);
   if (late > SPARE) fail_msg("ended %.1f s late", late);
-  assert_true(late < 0 ? st >= 0 : st == DYD_CANCELLED);
+  assert_int_equal(DYD_CANCELLED, st);
+  assert_int_equal(before, dyd_interval_bits(dyd_real_interval(x)));
+  dyd_real_free(x);
+  for (int k = 0; k <= DEGREE; k++) mpq_clear(coeff[k]);
+  mpq_clears(lo, hi, NULL);
+}
+
+/* x^40 - 2 (2^3000 x - 1)^2: its two roots near 2^-3000 are 2^-63000 apart, so that thousands of bits take as
+ * many steps, each of them short, and made at once. */
+static void test_close_roots(void **state) {
+  enum { DEGREE = 40, POWER = 3000, BITS = 6000 };
+  (void)state;
+  mpq_t coeff[DEGREE + 1], lo, hi;
+  alarm a;
+  dyd_error err;
+  dyd_real *x;
+  for (int k = 0; k <= DEGREE; k++) mpq_init(coeff[k]);
+  mpq_inits(lo, hi, NULL);
+  mpq_set_si(coeff[0], -2, 1);
+  mpq_set_si(coeff[1], 4, 1);
+  mpq_mul_2exp(coeff[1], coeff[1], POWER);
+  mpq_set_si(coeff[2], -2, 1);
+  mpq_mul_2exp(coeff[2], coeff[2], 2 * POWER);
+  mpq_set_si(coeff[DEGREE], 1, 1);
+  mpq_set_ui(hi, 1, 1);
+  mpq_div_2exp(hi, hi, POWER);
+  assert_int_equal(DYD_OK, dyd_real_root(&x, (const mpq_t *)coeff, DEGREE + 1, lo, hi, &err));
+  alarm_start(&a, 0.2);
+  dyd_status st = dyd_real_narrow_until(x, BITS, BITS, &a.stop, &err);
+  double late = alarm_late(&a);
+  if (late > SPARE) fail_msg("ended %.1f s late", late);
+  assert_int_equal(DYD_CANCELLED, st);
   narrowed(x, 100, 4096);
   dyd_real_free(x);
-  for (int k = 0; k <= DEGREE + 1; k++) mpq_clear(coeff[k]);
+  for (int k = 0; k <= DEGREE; k++) mpq_clear(coeff[k]);
   mpq_clears(lo, hi, NULL);
-  mpz_clears(m, power, NULL);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_functions), cmocka_unit_test(test_expression),
-                                     cmocka_unit_test(test_root)};
+                                     cmocka_unit_test(test_root), cmocka_unit_test(test_close_roots)};
   return cmocka_run_group_tests(tests, NULL, release_caches);
 }

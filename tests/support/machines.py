@@ -81,13 +81,13 @@ def cross_options(folder):
 
 
 def chosen(build, suites, foreign):
-    """The names of the tests of these suites, and the programs that they need; without those that start the command where
-    that is a foreign one."""
+    """The names of the tests of these suites, and the programs that they need; where these are foreign without those that
+    start the command, or link programs of their own."""
     tests, targets = (json.loads(subprocess.run(['meson', 'introspect', what, build], stdout=subprocess.PIPE, check=True).stdout)
                       for what in ('--tests', '--targets'))
     command = next(target['id'] for target in targets if target['name'] == 'dyadel' and target['type'] == 'executable')
     tests = [test for test in tests if any(suite.split(':')[-1] in suites for suite in test['suite'])
-             and not (foreign and command in test['depends'])]
+             and not (foreign and (command in test['depends'] or 'seeded' in test['name']))]
     wanted = {name for test in tests for name in test['depends']}
     return ([test['name'] for test in tests],
             [os.path.relpath(name, build) for target in targets if target['id'] in wanted for name in target['filename']])
