@@ -178,12 +178,20 @@ static void compare_ways(const dyd_tolerance *const t[WAYS], size_t n) {
     assert_true(a->lo == c->lo && a->hi == c->hi);
     assert_true(k == 0 || a[-1].i < a->i || (a[-1].i == a->i && a[-1].j < a->j));
   }
-  const double *radius = dyd_tolerance_points(t[BY_DOUBLES]), *again = dyd_tolerance_points(t[BY_THREADS]);
+  const double *radius = dyd_tolerance_points(t[BY_DOUBLES]), *again = dyd_tolerance_points(t[BY_THREADS]),
+               *exact = dyd_tolerance_points(t[BY_INTEGERS]);
+  double lo, hi;
   assert_int_equal(!radius, !again);
-  for (size_t i = 0; radius && i < n; i++) assert_true(radius[i] == again[i]);
+  dyd_tolerance_whole(&lo, &hi, t[BY_DOUBLES]);
+  assert_true(lo > 0);
+  for (size_t i = 0; radius && i < n; i++) {
+    assert_true(radius[i] == again[i]);
+    assert_true(fabs(radius[i] - exact[i]) <= 1e-9 && radius[i] >= lo / 2);
+  }
 }
 
-static void compare_rungs(size_t n, const double *x, const double *y, bool points) {
+/* share: of the deaths that doubles decide, at least. */
+static void compare_rungs(size_t n, const double *x, const double *y, bool points, double share) {
   dyd_sites *sites;
   dyd_delaunay *pd[WAYS];
   dyd_tolerance *t[WAYS];
@@ -197,6 +205,9 @@ static void compare_rungs(size_t n, const double *x, const double *y, bool point
     assert_int_equal(dyd_tolerance_new(&t[k], pd[k], &o, &err), DYD_OK);
   }
   compare_ways((const dyd_tolerance *const *)t, n);
+  uint64_t filter, exact;
+  dyd_tolerance_rungs(&filter, &exact, t[BY_DOUBLES]);
+  assert_true((double)filter >= share * (double)(filter + exact));
   for (int k = 0; k < WAYS; k++) dyd_tolerance_free(t[k]);
   for (int k = 0; k < WAYS; k++) dyd_delaunay_free(pd[k]);
   dyd_sites_free(sites);
@@ -208,15 +219,15 @@ static void test_rungs(void **state) {
   static double x[MANY], y[MANY];
   test_random r = test_random_start("rungs");
   for (size_t i = 0; i < MANY; i++) x[i] = test_unit(&r), y[i] = test_unit(&r);
-  compare_rungs(MANY, x, y, true);
+  compare_rungs(MANY, x, y, true, 0.99);
   for (size_t i = 1; i < MANY; i++) { /* a hub in a rough circle: rims bind at places of their own */
     double a = 6.283185307179586 * (double)i / (MANY - 1), d = 1 + test_unit(&r) * 1e-4;
     x[i] = d * cos(a), y[i] = d * sin(a);
   }
   x[0] = 0.01, y[0] = 0.02;
-  compare_rungs(MANY, x, y, true);
+  compare_rungs(MANY, x, y, true, 0.9);
   for (size_t i = 0; i < MANY; i++) x[i] = ldexp(x[i], 300), y[i] = ldexp(y[i], 300); /* beyond the filter */
-  compare_rungs(200, x, y, false);
+  compare_rungs(200, x, y, false, 0);
 }
 
 /* ---- what is refused, few points, aliases ---- */
