@@ -86,11 +86,11 @@ static dyd_status births_among(dyd_tolerance *t, const dyd_pair_list *pairs) {
     if (p->status == DYD_LEGAL || dyd_delaunay_status(t->pd, p->i, p->j) != DYD_ILLEGAL) continue;
     uint32_t v = t->sk->vertex[p->i], w = t->sk->vertex[p->j];
     if (t->weight || t->options.metric == DYD_METRIC_BOX) {
-      st = dyd_row_add(t, v, w, DYD_EVENT_BIRTH, DYD_NONE, DYD_NONE, 0, HUGE_VAL);
+      st = dyd_row_add(t, dyd_row_of(t, v, w, DYD_EVENT_BIRTH, DYD_NONE, DYD_NONE, 0, HUGE_VAL));
       continue;
     }
     st = dyd_birth_exact(&late, t, v, w);
-    if (st == DYD_OK && !late) st = dyd_row_add_summit(t, v, w, DYD_EVENT_BIRTH);
+    if (st == DYD_OK && !late) st = dyd_row_add(t, dyd_row_of_summit(t, v, w, DYD_EVENT_BIRTH));
   }
   return st;
 }

@@ -122,21 +122,6 @@ static double chance_of_ring(chance_pass *p) {
 
 /* ---- all ---- */
 
-/* The row of a pair; they are sorted. */
-static size_t row_of_ring(const dyd_tolerance *t, const dyd_ring_d *ring) {
-  uint32_t a = t->sk->reps.site[ring->i], b = t->sk->reps.site[ring->j], i = a < b ? a : b, j = a < b ? b : a;
-  size_t lo = 0, hi = t->rows;
-  while (lo < hi) {
-    size_t mid = lo + (hi - lo) / 2;
-    const dyd_tolerance_row *r = &t->row[mid];
-    if (r->i < i || (r->i == i && r->j < j))
-      lo = mid + 1;
-    else
-      hi = mid;
-  }
-  return lo;
-}
-
 dyd_status dyd_chances(dyd_tolerance *t) {
   dyd_status st = dyd_near_index(t);
   double *phi = dyd_alloc(ENTRIES, sizeof *phi);
@@ -149,7 +134,7 @@ dyd_status dyd_chances(dyd_tolerance *t) {
   for (size_t k = 0; k < t->rings && st == DYD_OK; k++) {
     p.ring = &t->ring[k];
     if (dyd_flag_is_set(t->options.cancel)) st = DYD_CANCELLED;
-    if (st == DYD_OK) t->chance[row_of_ring(t, p.ring)] = chance_of_ring(&p);
+    if (st == DYD_OK) t->chance[dyd_row_find(t, p.ring->i, p.ring->j)] = chance_of_ring(&p);
   }
   free(phi);
   return st;

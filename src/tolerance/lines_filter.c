@@ -11,7 +11,14 @@
  * The place s = d / (2 e) of a crossing: with computed d, e, s, |s - true| <= (ed + 2 |s| ee + 2 u |d|) / (2 (e - ee)).
  * D = (n_b m_a - n_a m_b) / e there, and w = D / (sqrt(r^2 + D) + r) has no cancellation beyond that of D: its relative
  * error is that of D, plus half the larger of those of r^2 and D, plus 5 u. Bounds are sums of a few terms, each with a
- * few roundings: the factor GENEROUS covers them. */
+ * few roundings: the factor GENEROUS covers them.
+ *
+ * Who else is how low is told by distances from the centre, without lines. Let c = c(s) for the s computed, P any of
+ * the points, M the larger of |c|^2 and |P - c|^2, R = ejj / jj >= 6 u + 4 slack / |J|. The vector P - c is off by less
+ * than 7.2 u sqrt(M), as |J| / 2 and |s J| are at most |c|, and by 5 slack / |J| sqrt(M); its computed square by less
+ * than 4 R M. With es |J| <= K |c|, K < 2^-12, the line at the true place is off from that at s by 2 |n| es <= 4 K M.
+ * So with M of one that binds (the others being farther from c than i), whoever has a computed square above (1 + 12 K +
+ * 12 R) times its own is higher at the true place; and i and j never do. */
 #include "tolerance/lines_filter.h"
 #include "tolerance/crossing_filter.h"
 
@@ -30,10 +37,10 @@ enum { CLIMBS = 40 };
 /* A difference of coordinates: the double parts exactly, then the low ones. */
 static double axis_difference(double a, double b, double low) {
   double s = a - b, t = s - a;
-  return s + (((a - (s - t)) - (b + t)) + low);
+  return fabs(s) <= DBL_MAX ? s + (((a - (s - t)) - (b + t)) + low) : s;
 }
 
-static dyd_xy lines_point_difference(const dyd_points_d *p, uint32_t a, uint32_t b) {
+static inline dyd_xy lines_point_difference(const dyd_points_d *p, uint32_t a, uint32_t b) {
   dyd_xy d = {p->xy[a].x - p->xy[b].x, p->xy[a].y - p->xy[b].y};
   if (!p->low) return d;
   d.x = axis_difference(p->xy[a].x, p->xy[b].x, p->low[a].x - p->low[b].x);
@@ -52,175 +59,235 @@ bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t
   l->jy = d.y;
   l->jj = d.x * d.x + d.y * d.y;
   l->ejj = product_error(l->jj, 2 * (fabs(d.x) + fabs(d.y)), p->slack);
-  l->span = 0;
+  l->rjj = l->ejj / l->jj;
   l->i = i;
   l->j = j;
   l->count = 0;
   return p->usable && l->jj > 0x1p-400 && l->jj < 0x1p400 && l->ejj < 0x1p-40 * l->jj;
 }
 
-bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *at, const uint32_t *k, uint32_t count) {
+bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *at, const uint32_t *k, uint32_t count, uint32_t nobody) {
   const dyd_points_d here = *at;
-  double span = l->span;
-  if (count > DYD_LINES_D - l->count) return false;
-  for (uint32_t c = l->count; count; c++, k++, count--) {
-    dyd_xy p = lines_point_difference(&here, *k, l->i), q = lines_point_difference(&here, *k, l->j);
-    l->vertex[c] = *k;
-    l->px[c] = p.x;
-    l->py[c] = p.y;
-    l->qx[c] = q.x;
-    l->qy[c] = q.y;
-    l->m[c] = p.x * q.x + p.y * q.y;
-    l->n[c] = p.y * l->jx - p.x * l->jy;
-    span = dyd_max(fabs(p.x) + fabs(p.y) + fabs(q.x) + fabs(q.y), span);
-    l->count++;
+  const uint32_t i = l->i, padded = (count + DYD_LINES_BLOCK - 1) / DYD_LINES_BLOCK * DYD_LINES_BLOCK;
+  double *px = l->px + l->count, *py = l->py + l->count;
+  uint32_t *vertex = l->vertex + l->count;
+  if (padded > DYD_LINES_D - l->count) return false;
+  for (uint32_t q = 0; q < padded; q++) vertex[q] = q < count ? k[q] : nobody;
+  for (uint32_t q = 0; q < padded; q++) {
+    dyd_xy p = lines_point_difference(&here, vertex[q], i);
+    px[q] = p.x;
+    py[q] = p.y;
   }
-  l->span = span;
+  l->count += padded;
   return true;
 }
 
-dyd_line_d dyd_filter_line(const dyd_lines_d *l, const dyd_points_d *at, uint32_t k) {
-  double px = l->px[k], py = l->py[k], qx = l->qx[k], qy = l->qy[k], ax = px * l->jx, ay = py * l->jy;
-  double sum = fabs(px) + fabs(py), far = sum + fabs(qx) + fabs(qy), near = sum + fabs(l->jx) + fabs(l->jy);
-  dyd_line_d o = {.m = l->m[k], .n = l->n[k], .along = ax + ay, .vertex = l->vertex[k]};
-  o.em = product_error(fabs(px * qx) + fabs(py * qy), far, at->slack);
-  o.en = product_error(fabs(py * l->jx) + fabs(px * l->jy), near, at->slack);
-  o.ea = product_error(fabs(ax) + fabs(ay), near, at->slack);
-  o.hm = o.em / (6 * U);
-  o.hn = o.en / (6 * U);
-  return o;
+static inline void line_of_vertex(dyd_line_d *o, const dyd_lines_d *l, const dyd_points_d *at, uint32_t vertex) {
+  dyd_xy p = lines_point_difference(at, vertex, l->i), q = lines_point_difference(at, vertex, l->j);
+  double x = p.x * q.x, y = p.y * q.y, ax = p.x * l->jx, ay = p.y * l->jy, nx = p.y * l->jx, ny = p.x * l->jy;
+  double sum = fabs(p.x) + fabs(p.y), far = sum + fabs(q.x) + fabs(q.y), near = sum + fabs(l->jx) + fabs(l->jy);
+  o->px = p.x;
+  o->py = p.y;
+  o->qx = q.x;
+  o->qy = q.y;
+  o->m = x + y;
+  o->n = nx - ny;
+  o->along = ax + ay;
+  o->em = product_error(fabs(x) + fabs(y), far, at->slack);
+  o->en = product_error(fabs(nx) + fabs(ny), near, at->slack);
+  o->ea = product_error(fabs(ax) + fabs(ay), near, at->slack);
+  o->vertex = vertex;
+}
+
+void dyd_filter_line(dyd_line_d *o, const dyd_lines_d *l, const dyd_points_d *at, uint32_t vertex) {
+  line_of_vertex(o, l, at, vertex);
 }
 
 /* ---- places ---- */
 
-/* s, with a bound of its error; end: -1 or 1 for an end of the bisector. */
+/* s, with a bound of its error, and the centre c(s) from p_i, cc = |c|^2; es |J| is at most near |c|. end: -1 or 1 for
+ * an end of the bisector. */
 typedef struct place_d {
-  double s, es;
+  double s, es, near, x, y, cc;
   int end;
 } place_d;
 
-static double height_d(const dyd_line_d *o, const place_d *at) {
-  return at->end ? -at->end * o->n : o->m - 2 * o->n * at->s;
+/* The place s, if it is well known. */
+static bool place_at(place_d *at, const dyd_lines_d *l, double s, double es) {
+  double x = l->jx / 2 - s * l->jy, y = l->jy / 2 + s * l->jx, near = es * 1.5 / (0.5 + fabs(s));
+  *at = (place_d){s, es, near, x, y, x * x + y * y, 0};
+  return near < 0x1p-12;
 }
 
-/* Of all lines, by number. */
-static uint32_t lowest_d(const dyd_lines_d *l, const place_d *at) {
-  uint32_t best = 0;
-  double low = HUGE_VAL, slope = at->end ? -at->end : -2 * at->s;
-  for (uint32_t k = 0; k < l->count; k++) {
-    double h = at->end ? slope * l->n[k] : l->m[k] + slope * l->n[k];
-    best = h < low ? k : best;
-    low = h < low ? h : low;
-  }
-  return best;
+static double from_centre(const dyd_line_d *o, const place_d *at) {
+  double x = o->px - at->x, y = o->py - at->y;
+  return x * x + y * y;
 }
 
-static bool cross_d(place_d *at, const dyd_line_d *a, const dyd_line_d *b) {
+static bool cross_d(place_d *at, const dyd_lines_d *l, const dyd_line_d *a, const dyd_line_d *b) {
   double d = b->m - a->m, e = b->n - a->n, ee = a->en + b->en + 2 * U * fabs(e);
-  double ed = a->em + b->em + 2 * U * fabs(d);
-  at->end = 0;
-  at->s = d / (2 * e);
-  at->es = (ed + 2 * fabs(at->s) * ee + 2 * U * fabs(d)) / (2 * (fabs(e) - ee)) * GENEROUS;
-  return fabs(e) > 2 * ee && at->es <= DBL_MAX;
+  double ed = a->em + b->em + 2 * U * fabs(d), s = d / (2 * e);
+  double es = (ed + 2 * fabs(s) * ee + 2 * U * fabs(d)) / (2 * (fabs(e) - ee)) * GENEROUS;
+  return place_at(at, l, s, es) && fabs(e) > 2 * ee;
 }
 
 static bool summit_d(place_d *at, const dyd_lines_d *l, const dyd_line_d *o) {
-  double q = dyd_max(-o->along, o->along - l->jj), eq = o->ea + l->ejj + 2 * U * fabs(q);
-  at->end = 0;
-  at->s = -o->n / (2 * q);
-  at->es = (o->en + 2 * fabs(at->s) * eq + 2 * U * fabs(o->n)) / (2 * (q - eq)) * GENEROUS;
-  return q > 2 * eq && at->es <= DBL_MAX;
+  double q = dyd_max(-o->along, o->along - l->jj), eq = o->ea + l->ejj + 2 * U * fabs(q), s = -o->n / (2 * q);
+  double es = (o->en + 2 * fabs(s) * eq + 2 * U * fabs(o->n)) / (2 * (q - eq)) * GENEROUS;
+  return place_at(at, l, s, es) && q > 2 * eq;
 }
 
-/* The polynomial of dyd_line_trend, with s for p and 1/2 for q; *doubt bounds its error: each factor is off by at most
- * 6 u of what stands for its size, s by es. */
-static double trend_polynomial(double *doubt, const dyd_lines_d *l, const dyd_line_d *o, const place_d *at) {
-  double n = o->n, s = at->s, size = fabs(s) + 0.5, jj = l->jj + l->ejj / (6 * U);
-  double sum = size * size * (o->hn * o->hn + jj * o->hm) + size * o->hn * jj + o->hn * o->hn;
-  *doubt = 8 * (10 * U + at->es / size) * sum;
-  return s * s * (n * n - l->jj * o->m) - s * n * l->jj / 2 + n * n / 4;
-}
-
-/* 1, -1; 0: not sure (or at a summit). At an end: of the computed numbers, checked by end_death. */
+/* 1, -1; 0: not sure (or at a summit). At an end: of the computed numbers, checked by end_death. Else the sign of
+ * g' |J| = a / |c - P| - s |J|^2 / r, a = s |J|^2 - n: of a |a| r^2 - s |s| |J|^4 |c - P|^2, over |J|^2. */
 static int trend_d(const dyd_lines_d *l, const dyd_line_d *o, const place_d *at) {
-  double doubt, a = at->s * l->jj - o->n;
+  double s = at->s, size = fabs(s), a = s * l->jj - o->n;
   if (at->end) return (o->n * o->n > l->jj * o->m ? 1 : -1) * at->end;
-  double ea = at->es * l->jj + fabs(at->s) * l->ejj + o->en + 4 * U * (fabs(at->s) * l->jj + fabs(o->n));
-  if (at->s <= -at->es && a > ea) return 1;
-  if (at->s >= at->es && a < -ea) return -1;
-  double q = trend_polynomial(&doubt, l, o, at);
-  bool both_up = at->s > at->es && a > ea, both_down = at->s < -at->es && a < -ea;
-  if (!(fabs(q) > doubt) || (!both_up && !both_down)) return 0;
-  return (q > 0) == both_up ? 1 : -1;
+  double ea = at->es * l->jj + size * l->ejj + o->en + 4 * U * (size * l->jj + fabs(o->n));
+  double e = from_centre(o, at), far = l->jj * dyd_max(e, at->cc), quarter = 0.25 + s * s;
+  double x = a * fabs(a) * quarter, y = s * size * l->jj * e;
+  double doubt = quarter * (2 * fabs(a) + ea) * ea + far * (2 * size + at->es) * at->es +
+                 (fabs(x) + s * s * far) * (10 * at->near + 8 * l->rjj);
+  return x - y > doubt * GENEROUS ? 1 : y - x > doubt * GENEROUS ? -1 : 0;
 }
 
 /* ---- the way up ---- */
 
-/* As in summit.c. one: whose summit or end it is. */
+/* As in summit.c. one: whose summit or end it is. There are at most two lines at a time, and place for the next. */
 typedef struct climb_d {
   const dyd_points_d *points;
   const dyd_lines_d *l;
-  dyd_line_d rising, falling, one;
-  bool has_rising, has_falling;
+  dyd_line_d line[3];
+  const dyd_line_d *rising, *falling, *one; /* NULL: none */
   place_d at;
   enum { ANYWHERE, CROSSING, SUMMIT, END } kind;
+  uint32_t known[2]; /* the vertices that bind so far */
 } climb_d;
 
-/* From the last line of each side on: apexes come last, and often bind. */
+/* The line of a vertex, in a place that is free. */
+static const dyd_line_d *climb_line(climb_d *c, uint32_t vertex) {
+  dyd_line_d *o = c->line;
+  while (o == c->rising || o == c->falling) o++;
+  line_of_vertex(o, c->l, c->points, vertex);
+  return o;
+}
+
+/* Do both bind where they cross, as far as trends go? up, down: of the two. */
+static bool cross_both(int *up, int *down, climb_d *c) {
+  if (!cross_d(&c->at, c->l, c->rising, c->falling)) return false;
+  *up = trend_d(c->l, c->rising, &c->at);
+  *down = trend_d(c->l, c->falling, &c->at);
+  return *up && *down;
+}
+
+/* Where the lines of the apexes cross, on most edges; where all lie on one side, at the end beyond them. */
 static void begin_d(climb_d *c) {
-  uint32_t left = DYD_NONE, right = DYD_NONE;
-  for (uint32_t k = 0; k < c->l->count; k++) {
-    left = c->l->n[k] > 0 ? k : left;
-    right = c->l->n[k] < 0 ? k : right;
+  const dyd_line_d *first = NULL, *second = NULL;
+  int up, down;
+  c->rising = c->falling = NULL;
+  c->rising = first = climb_line(c, c->l->apex[0]);
+  if (c->l->apex[1] != DYD_NONE) c->falling = second = climb_line(c, c->l->apex[1]);
+  bool across = second && (first->n < 0 ? second->n > 0 : second->n < 0);
+  if (across) {
+    if (first->n > 0) c->rising = second, c->falling = first;
+    c->kind = CROSSING;
+    if (cross_both(&up, &down, c) && up > 0 && down < 0 && from_centre(c->rising, &c->at) > c->at.cc) return;
   }
   c->kind = ANYWHERE;
-  c->has_rising = c->has_falling = false;
-  c->at = (place_d){0, 0, 0};
-  if (left != DYD_NONE && right != DYD_NONE) {
-    c->rising = dyd_filter_line(c->l, c->points, right);
-    c->falling = dyd_filter_line(c->l, c->points, left);
-    if (!cross_d(&c->at, &c->rising, &c->falling) || !(height_d(&c->rising, &c->at) > 0)) return;
-    bool between = trend_d(c->l, &c->rising, &c->at) > 0 && trend_d(c->l, &c->falling, &c->at) < 0;
-    if (between) c->kind = CROSSING, c->has_rising = c->has_falling = true;
-  } else if (left != right) {
-    c->at.end = left != DYD_NONE ? -1 : 1;
-  }
+  c->rising = c->falling = NULL;
+  place_at(&c->at, c->l, 0, 0);
+  if (!across) c->at.end = first->n > 0 ? -1 : 1;
 }
 
 /* As climb_next. false: not sure. */
 static bool next_d(climb_d *c) {
-  if (c->has_rising && c->has_falling) {
-    if (!cross_d(&c->at, &c->rising, &c->falling)) return false;
-    int up = trend_d(c->l, &c->rising, &c->at), down = trend_d(c->l, &c->falling, &c->at);
-    if (!up || !down) return false;
+  if (c->rising && c->falling) {
+    int up, down;
+    if (!cross_both(&up, &down, c)) return false;
     c->kind = up > 0 && down < 0 ? CROSSING : SUMMIT;
     if (c->kind == CROSSING) return true;
     c->one = up < 0 ? c->rising : c->falling;
-    return summit_d(&c->at, c->l, &c->one);
+    return summit_d(&c->at, c->l, c->one);
   }
-  c->one = c->has_rising ? c->rising : c->falling;
+  c->one = c->rising ? c->rising : c->falling;
   c->kind = SUMMIT;
-  if (summit_d(&c->at, c->l, &c->one)) return true;
-  if (!(dyd_max(-c->one.along, c->one.along - c->l->jj) < -2 * (c->one.ea + c->l->ejj))) return false;
+  if (summit_d(&c->at, c->l, c->one)) return true;
+  if (!(dyd_max(-c->one->along, c->one->along - c->l->jj) < -2 * (c->one->ea + c->l->ejj))) return false;
   c->kind = END;
-  c->at.end = c->has_rising ? 1 : -1;
+  c->at.end = c->rising ? 1 : -1;
   return true;
 }
 
-static int death_trend_d(const dyd_lines_d *l, const dyd_line_d *o, const place_d *at) {
-  if (height_d(o, at) > 0) return trend_d(l, o, at);
-  return o->n > 0 ? -1 : 1;
+/* Those who may be as near to the centre as what binds, if anything does: all whose distance, squared, is at most the
+ * top; at an end, how far out they are. NaN is nobody. */
+typedef struct near_d {
+  double e[DYD_LINES_D], top;
+  uint32_t number[DYD_LINES_D], count;
+} near_d;
+
+static void measure_d(near_d *o, const climb_d *c) {
+  const dyd_lines_d *l = c->l;
+  const double cx = c->at.x, cy = c->at.y, end = -c->at.end, top = o->top;
+  for (uint32_t k = 0; k < l->count; k += DYD_LINES_BLOCK)
+    for (uint32_t q = k; q < k + DYD_LINES_BLOCK; q++) {
+      double x = l->px[q] - cx, y = l->py[q] - cy;
+      o->e[q] = x * x + y * y;
+    }
+  for (uint32_t k = 0; end != 0 && k < l->count; k++) o->e[k] = end * (l->py[k] * l->jx - l->px[k] * l->jy);
+  o->count = 0;
+  for (uint32_t k = 0; k < l->count; k++) {
+    o->number[o->count] = k;
+    o->count += o->e[k] <= top;
+  }
+}
+
+/* How often i, j and those that bind are among the lines, at least. */
+static uint32_t known_d(const climb_d *c) {
+  const dyd_lines_d *l = c->l;
+  uint32_t count = l->ends;
+  for (int k = 0; k < (c->known[0] == c->known[1] ? 1 : 2); k++)
+    count += c->known[k] == l->apex[0] || c->known[k] == l->apex[1] ? l->apex_times : 1;
+  return count;
+}
+
+/* Is nobody as near as those that bind, for sure? i, j and these are. */
+static bool bind_alone(near_d *near, climb_d *c) {
+  const dyd_line_d *a = c->kind == SUMMIT ? c->one : c->rising, *b = c->kind == SUMMIT ? c->one : c->falling;
+  bool binds = !c->at.end && (c->kind == CROSSING || c->kind == SUMMIT);
+  c->known[0] = binds ? a->vertex : DYD_NONE;
+  c->known[1] = binds ? b->vertex : DYD_NONE;
+  near->top = HUGE_VAL;
+  if (binds) near->top = dyd_max(from_centre(a, &c->at), c->at.cc) * (1 + (12 * c->at.near + 12 * c->l->rjj));
+  measure_d(near, c);
+  return binds && near->count == known_d(c) && from_centre(b, &c->at) <= near->top;
+}
+
+/* Who of the others has the lowest line there. DYD_NONE: nobody. */
+static uint32_t lowest_d(double *distance, const climb_d *c, const near_d *near) {
+  uint32_t best = DYD_NONE;
+  *distance = HUGE_VAL;
+  for (uint32_t k = 0; k < near->count; k++) {
+    uint32_t vertex = c->l->vertex[near->number[k]];
+    double e = near->e[near->number[k]];
+    if (!(e < *distance) || vertex == c->l->i || vertex == c->l->j || vertex == c->known[0] || vertex == c->known[1])
+      continue;
+    best = vertex;
+    *distance = e;
+  }
+  return best;
 }
 
 /* To where no line lies below what binds. false: not sure. */
 static bool climb_up(climb_d *c) {
   begin_d(c);
   for (int k = 0; k < CLIMBS; k++) {
-    uint32_t number = lowest_d(c->l, &c->at), vertex = c->l->vertex[number];
-    if (c->kind == CROSSING && (vertex == c->rising.vertex || vertex == c->falling.vertex)) return true;
-    if (c->kind == SUMMIT && vertex == c->one.vertex) return true;
-    dyd_line_d low = dyd_filter_line(c->l, c->points, number);
-    int up = death_trend_d(c->l, &low, &c->at);
+    near_d near;
+    double distance;
+    if (bind_alone(&near, c)) return true;
+    uint32_t vertex = lowest_d(&distance, c, &near);
+    if (vertex == DYD_NONE) return false;
+    const dyd_line_d *low = climb_line(c, vertex);
+    bool high = c->at.end ? -c->at.end * low->n > 0 : distance > c->at.cc;
+    int up = high ? trend_d(c->l, low, &c->at) : low->n > 0 ? -1 : 1;
     if (c->at.end && up == c->at.end) {
       c->kind = END;
       c->one = low;
@@ -228,7 +295,6 @@ static bool climb_up(climb_d *c) {
     }
     if (!up) return false;
     *(up > 0 ? &c->rising : &c->falling) = low;
-    *(up > 0 ? &c->has_rising : &c->has_falling) = true;
     if (!next_d(c)) return false;
   }
   return false;
@@ -236,26 +302,12 @@ static bool climb_up(climb_d *c) {
 
 /* ---- the value, and the proof ---- */
 
-/* Does every line but those that bind lie above D by more than all errors? One bound for all: |m| and the sizes of its
- * products are at most span^2, |n| and its own at most span (|jx| + |jy|). */
-static bool others_above(const climb_d *c, uint32_t a, uint32_t b, double D, double eD) {
-  const dyd_lines_d *l = c->l;
-  double s = c->at.s, size = l->span + fabs(l->jx) + fabs(l->jy), slack = c->points->slack;
-  double e = product_error(size * size, size, slack), top = D;
-  double doubt = (e * (1 + 2 * fabs(s)) + 2 * (size * size + e) * c->at.es + 4 * U * size * size * (1 + 2 * fabs(s)));
-  top += (doubt + eD) * GENEROUS + 2 * U * fabs(D);
-  bool above = top >= D;
-  for (uint32_t k = 0; k < l->count; k++)
-    above = above & ((l->m[k] - 2 * l->n[k] * s > top) | (l->vertex[k] == a) | (l->vertex[k] == b));
-  return above;
-}
-
 static bool give(dyd_death_d *out, double w, double relative, const climb_d *c) {
   double h = w / 2, e = relative * GENEROUS + 4 * U;
   out->lo = h * (1 - e);
   out->hi = h * (1 + e);
-  out->k = c->kind == CROSSING ? c->rising.vertex : c->one.vertex;
-  out->l = c->kind == CROSSING ? c->falling.vertex : c->one.vertex;
+  out->k = c->kind == CROSSING ? c->rising->vertex : c->one->vertex;
+  out->l = c->kind == CROSSING ? c->falling->vertex : c->one->vertex;
   out->s = c->at.s;
   out->end = c->kind == END ? c->at.end : 0;
   return e < WIDTH && out->lo > 0 && out->hi <= DBL_MAX;
@@ -272,28 +324,24 @@ static double crossing_height(double *relative, const dyd_line_d *a, const dyd_l
 
 static bool crossing_death(dyd_death_d *out, double *radius2, climb_d *c) {
   const dyd_lines_d *l = c->l;
-  double rD, D = crossing_height(&rD, &c->rising, &c->falling);
+  double rD, D = crossing_height(&rD, c->rising, c->falling);
   if (!(rD < CLOSE))
-    D = dyd_filter_crossing(&c->at.s, &c->at.es, &rD, c->points, l, c->rising.vertex, c->falling.vertex);
+    D = dyd_filter_crossing(&c->at.s, &c->at.es, &rD, c->points, l, c->rising->vertex, c->falling->vertex);
   double s = c->at.s, es = c->at.es, quarter = 0.25 + s * s, B = l->jj * quarter;
-  double rB = (l->ejj / l->jj + (2 * fabs(s) * es + es * es) / quarter + 6 * U) * GENEROUS;
+  double rB = (l->rjj + (2 * fabs(s) * es + es * es) / quarter + 6 * U) * GENEROUS;
   if (!(D > 0 && rD < 0x1p-30 && rB < 0x1p-30)) return false;
-  if (!others_above(c, c->rising.vertex, c->falling.vertex, D, rD * D)) return false;
   *radius2 = (B + D) * (1 + 2 * (rB + rD));
   return give(out, D / (sqrt(B + D) + sqrt(B)), rD + dyd_max(rB, rD) / 2 + 6 * U, c);
 }
 
 static bool summit_death(dyd_death_d *out, double *radius2, const climb_d *c) {
-  const dyd_line_d *o = &c->one;
+  const dyd_line_d *o = c->one;
   const dyd_lines_d *l = c->l;
-  uint32_t k = 0;
-  while (l->vertex[k] != o->vertex) k++;
-  double x = o->along < 0 ? l->px[k] : l->qx[k], y = o->along < 0 ? l->py[k] : l->qy[k], w2 = x * x + y * y;
+  double x = o->along < 0 ? o->px : o->qx, y = o->along < 0 ? o->py : o->qy, w2 = x * x + y * y;
   double ew2 = product_error(w2, 2 * (fabs(x) + fabs(y)), c->points->slack);
-  double s = c->at.s, es = c->at.es, D = height_d(o, &c->at), B = l->jj * (0.25 + s * s);
+  double s = c->at.s, es = c->at.es, D = o->m - 2 * o->n * s, B = l->jj * (0.25 + s * s);
   double eD = o->em + 2 * fabs(s) * o->en + 2 * (fabs(o->n) + o->en) * es + 4 * U * (fabs(o->m) + 2 * fabs(o->n * s));
   double eB = B * 0x1p-30 + 2 * l->jj * (2 * fabs(s) + es) * es;
-  if (!others_above(c, o->vertex, o->vertex, D, eD)) return false;
   *radius2 = (B + eB + D + eD) * GENEROUS;
   return give(out, sqrt(w2), ew2 / w2 + 4 * U, c);
 }
@@ -301,18 +349,19 @@ static bool summit_death(dyd_death_d *out, double *radius2, const climb_d *c) {
 /* At an end: of all lines the one whose |n| is least, and its n^2 > jj m. */
 static bool end_death(dyd_death_d *out, double *radius2, const climb_d *c) {
   const dyd_lines_d *l = c->l;
-  const dyd_line_d *o = &c->one;
+  const dyd_line_d *o = c->one;
   double w = -c->at.end * o->n, n2 = o->n * o->n, jm = l->jj * o->m;
   double doubt =
       (2 * fabs(o->n) + o->en) * o->en + (l->jj + l->ejj) * o->em + l->ejj * fabs(o->m) + 4 * U * (n2 + fabs(jm));
   if (!(n2 - jm > doubt * GENEROUS && w > 0)) return false;
   for (uint32_t k = 0; k < l->count; k++) {
-    if (l->vertex[k] == o->vertex) continue;
-    dyd_line_d q = dyd_filter_line(l, c->points, k);
+    dyd_line_d q;
+    if (l->vertex[k] == o->vertex || l->vertex[k] == l->i || l->vertex[k] == l->j || isnan(l->px[k])) continue;
+    line_of_vertex(&q, l, c->points, l->vertex[k]);
     if (!(-c->at.end * q.n - w > (q.en + o->en) * GENEROUS + 2 * U * w)) return false;
   }
   *radius2 = HUGE_VAL;
-  return give(out, w / sqrt(l->jj), o->en / w + l->ejj / l->jj + 6 * U, c);
+  return give(out, w / sqrt(l->jj), o->en / w + l->rjj + 6 * U, c);
 }
 
 /* The centre, one axis: origin + (along + 2 s turn) / 2. */
@@ -329,7 +378,7 @@ bool dyd_filter_death(dyd_death_d *out, double box[4], double *radius2, const dy
   climb_d c;
   c.points = p;
   c.l = l;
-  if (!l->count || !climb_up(&c)) return false;
+  if (l->apex[0] == DYD_NONE || !climb_up(&c)) return false;
   bool sure = c.kind == CROSSING ? crossing_death(out, radius2, &c)
               : c.kind == SUMMIT ? summit_death(out, radius2, &c)
                                  : end_death(out, radius2, &c);

@@ -13,20 +13,21 @@ typedef struct dyd_points_d {
   bool usable;
 } dyd_points_d;
 
-enum { DYD_LINES_D = 48 };
-/* Of one pair: P = p_k - p_i, Q = p_k - p_j, m and n as in lines.h, all rounded. span: the largest |P| + |Q| (sum
- * norms), so that all errors have one bound. Vertices may be named twice. */
+/* Loops over lines run to a multiple of a block, since few branches depend on that. */
+enum { DYD_LINES_BLOCK = 8, DYD_LINES_D = 56 };
+/* Of one pair: J, and P = p_k - p_i of the vertices added: i and j may be among them, others more than once, and
+ * nobody, whose coordinates are NaN. apex: next to the pair, one on each side, or DYD_NONE the second; each is among
+ * them apex_times, at least, and i and j together `ends`. */
 typedef struct dyd_lines_d {
-  double jx, jy, jj, ejj, span;
-  uint32_t i, j, count;
-  double px[DYD_LINES_D], py[DYD_LINES_D], qx[DYD_LINES_D], qy[DYD_LINES_D], m[DYD_LINES_D], n[DYD_LINES_D];
+  double jx, jy, jj, ejj, rjj; /* rjj: ejj / jj */
+  uint32_t i, j, count, apex[2], apex_times, ends;
+  double px[DYD_LINES_D], py[DYD_LINES_D];
   uint32_t vertex[DYD_LINES_D];
 } dyd_lines_d;
 
-/* One of them: em, en, ea bound the errors of m, n and along = P.J; hm, hn those of m and n in units of 6 * 2^-53, so
- * they are at least the sums of the sizes of the products. */
+/* One of them, with Q = p_k - p_j: em, en, ea bound the errors of m, n and along = P.J. */
 typedef struct dyd_line_d {
-  double m, n, along, em, en, ea, hm, hn;
+  double px, py, qx, qy, m, n, along, em, en, ea;
   uint32_t vertex;
 } dyd_line_d;
 
@@ -38,11 +39,11 @@ typedef struct dyd_death_d {
   int end;
 } dyd_death_d;
 
-/* false: doubles cannot hold the pair well. */
+/* Begins with no vertex. false: doubles cannot hold the pair well. */
 bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t j);
-/* Adds lines of vertices; false: there is no room. */
-bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *p, const uint32_t *k, uint32_t count);
-dyd_line_d dyd_filter_line(const dyd_lines_d *l, const dyd_points_d *p, uint32_t number);
+/* Adds vertices; false: there is no room. nobody: a vertex whose coordinates are NaN. */
+bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *p, const uint32_t *k, uint32_t count, uint32_t nobody);
+void dyd_filter_line(dyd_line_d *o, const dyd_lines_d *l, const dyd_points_d *p, uint32_t vertex);
 /* The death of a strictly Delaunay pair with these others; false: not sure. `box` (may be NULL) gets a box around the
  * centre, *radius2 an upper bound of its squared distance to the sites that bind; infinite for a half-plane. */
 bool dyd_filter_death(dyd_death_d *out, double box[4], double *radius2, const dyd_points_d *p, const dyd_lines_d *l);

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Which sites a pair needs, and who else is near a place. */
 #include "base/alloc.h"
+#include "base/prefetch.h"
 #include "tolerance/state.h"
 
 #include <fenv.h>
 #include <math.h>
 #include <string.h>
+
+enum { AHEAD = 8 };
 
 /* ---- preparation ---- */
 
@@ -38,6 +41,7 @@ static dyd_status find_low_parts(dyd_tolerance *t) {
     st = dyd_sites_get(&r, sk->reps.sites, sk->reps.site[v]);
     if (st == DYD_OK) t->low[v] = (dyd_xy){low_part(&r.x, at.x, q, d), low_part(&r.y, at.y, q, d)};
   }
+  t->low[sk->n] = (dyd_xy){0, 0};
   mpq_clears(q, d, NULL);
   dyd_rect_clear(&r);
   t->points.low = t->low;
@@ -52,9 +56,12 @@ static void fill_near(dyd_tolerance *t) {
   for (uint32_t v = 0; v < m->n; v++) {
     dyd_half_edge first = t->sk->leaving[v], h = first;
     t->start[v] = count;
+    if (v + AHEAD < m->n && t->sk->leaving[v + AHEAD] != DYD_NONE)
+      dyd_prefetch(&m->tri[dyd_edge_triangle(t->sk->leaving[v + AHEAD])]);
     if (first == DYD_NONE) continue;
     do {
-      t->near[count++] = dyd_edge_target(m, h);
+      uint32_t w = t->near[count] = dyd_edge_target(m, h);
+      t->legal[count++] = w != m->n && dyd_edge_is_certain(t->sk, h);
       h = dyd_edge_turn(m, h);
     } while (h != first);
   }
@@ -66,14 +73,16 @@ static dyd_status list_near(dyd_tolerance *t) {
   if (dyd_is_line(t->pd)) return DYD_OK;
   t->start = dyd_alloc((size_t)m->n + 1, sizeof *t->start);
   t->near = dyd_alloc(3 * (size_t)m->count, sizeof *t->near); /* a corner of a triangle has one neighbour more */
-  if (!t->start || !t->near) return DYD_E_NOMEM;
+  t->legal = dyd_alloc(3 * (size_t)m->count, sizeof *t->legal);
+  if (!t->start || !t->near || !t->legal) return DYD_E_NOMEM;
   fill_near(t);
   return DYD_OK;
 }
 
 /* Of each site: the low parts, its neighbours twice over, where its rows begin, its radius and its weight. */
 static bool near_has_room(dyd_tolerance *t) {
-  uint64_t each = sizeof *t->low + sizeof *t->start + 6 * sizeof *t->near + sizeof(size_t) + 3 * sizeof(double);
+  uint64_t each = sizeof *t->low + sizeof *t->start + 6 * (sizeof *t->near + sizeof *t->legal) + sizeof(size_t) +
+                  3 * sizeof(double);
   uint64_t bytes = dyd_bytes_times(t->sk->n, each);
   if (!dyd_room_has(&t->room, bytes, "the neighbours of the points")) return false;
   t->room.held += bytes;
@@ -92,6 +101,7 @@ void dyd_near_clear(dyd_tolerance *t) {
   free(t->box);
   free(t->start);
   free(t->near);
+  free(t->legal);
   free(t->low);
   free(t->others.vertex);
 }

@@ -66,13 +66,12 @@ static void keep_least(double *radius, double r) {
 }
 
 static void look_at(radius_pass *p, uint32_t k) {
-  dyd_lines_d *l = &p->t->small;
+  const dyd_lines_d *l = &p->t->small;
   if (k == l->i || k == l->j) return;
-  l->count = 0;
-  dyd_filter_add(l, &p->t->points, &k, 1);
-  dyd_line_d line = dyd_filter_line(l, &p->t->points, 0);
+  dyd_line_d line;
+  dyd_filter_line(&line, l, &p->t->points, k);
   double gap = gap_of(l, &line, p->ring) - p->ring->half;
-  if (gap > 0 && p->t->options.metric == DYD_METRIC_BOX) gap = square_gap(p, l->px[0], l->py[0], gap, false);
+  if (gap > 0 && p->t->options.metric == DYD_METRIC_BOX) gap = square_gap(p, line.px, line.py, gap, false);
   keep_least(&p->radius[k], gap);
 }
 

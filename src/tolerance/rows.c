@@ -15,28 +15,25 @@ bool dyd_rows_have_room(dyd_tolerance *t, uint64_t pairs, const char *what) {
   return true;
 }
 
-dyd_status dyd_row_add(dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k, uint32_t l,
-                       double lo, double hi) {
+dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k,
+                             uint32_t l, double lo, double hi) {
   const uint32_t *site = t->sk->reps.site;
-  if (!dyd_reserve((void **)&t->row, &t->cap, t->rows + 1, sizeof *t->row)) return DYD_E_NOMEM;
   uint32_t i = site[v], j = site[w], a = k == DYD_NONE ? DYD_NO_SITE : site[k],
            b = l == DYD_NONE || l == k ? DYD_NO_SITE : site[l];
-  t->row[t->rows++] = (dyd_tolerance_row){i < j ? i : j, i < j ? j : i, event, a < b ? a : b, a < b ? b : a, lo, hi};
-  return DYD_OK;
+  return (dyd_tolerance_row){i < j ? i : j, i < j ? j : i, event, a < b ? a : b, a < b ? b : a, lo, hi};
 }
 
-dyd_status dyd_row_add_summit(dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event) {
+dyd_tolerance_row dyd_row_of_summit(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event) {
   const dyd_summit *s = &t->summit;
   double lo = HUGE_VAL, hi = HUGE_VAL;
-  if (s->binding == DYD_BINDING_NONE) return dyd_row_add(t, v, w, event, DYD_NONE, DYD_NONE, lo, hi);
+  if (s->binding == DYD_BINDING_NONE) return dyd_row_of(t, v, w, event, DYD_NONE, DYD_NONE, lo, hi);
   dyd_roots_half(&lo, &hi, s->plus, s->minus);
-  return dyd_row_add(t, v, w, event, t->lines.item[s->a].vertex, t->lines.item[s->b].vertex, lo, hi);
+  return dyd_row_of(t, v, w, event, t->lines.item[s->a].vertex, t->lines.item[s->b].vertex, lo, hi);
 }
 
-dyd_status dyd_ring_add(dyd_tolerance *t, uint32_t v, uint32_t w, double s, int end, double half) {
-  if (!t->options.points && !t->sigma) return DYD_OK;
-  if (!dyd_reserve((void **)&t->ring, &t->ring_cap, t->rings + 1, sizeof *t->ring)) return DYD_E_NOMEM;
-  t->ring[t->rings++] = (dyd_ring_d){v, w, s, half, end};
+dyd_status dyd_row_add(dyd_tolerance *t, dyd_tolerance_row row) {
+  if (!dyd_reserve((void **)&t->row, &t->cap, t->rows + 1, sizeof *t->row)) return DYD_E_NOMEM;
+  t->row[t->rows++] = row;
   return DYD_OK;
 }
 
@@ -56,8 +53,30 @@ static void sort_few_rows(dyd_tolerance_row *row, size_t count) {
   }
 }
 
-/* Dealt to the sites i, then each site's by j. */
+void dyd_rows_sort_site(dyd_tolerance_row *row, size_t count) {
+  if (count > 32)
+    qsort(row, count, sizeof *row, compare_rows);
+  else
+    sort_few_rows(row, count);
+}
+
+size_t dyd_row_find(const dyd_tolerance *t, uint32_t v, uint32_t w) {
+  uint32_t a = t->sk->reps.site[v], b = t->sk->reps.site[w];
+  const dyd_tolerance_row pair = {.i = a < b ? a : b, .j = a < b ? b : a};
+  size_t lo = 0, hi = t->rows;
+  while (lo < hi) {
+    size_t mid = lo + (hi - lo) / 2;
+    if (compare_rows(&t->row[mid], &pair) < 0)
+      lo = mid + 1;
+    else
+      hi = mid;
+  }
+  return lo;
+}
+
+/* Dealt to the sites i, then each site's by j. Deaths alone are sorted as they come. */
 dyd_status dyd_rows_sort(dyd_tolerance *t) {
+  if (t->rows == t->sorted) return DYD_OK;
   size_t n = t->sk->n, *start = calloc(n + 2, sizeof *start);
   dyd_tolerance_row *to = dyd_alloc(t->rows, sizeof *to);
   if (!start || !to) {
@@ -68,13 +87,7 @@ dyd_status dyd_rows_sort(dyd_tolerance *t) {
   for (size_t k = 0; k < t->rows; k++) start[t->row[k].i + 2]++;
   for (size_t i = 1; i <= n; i++) start[i + 1] += start[i];
   for (size_t k = 0; k < t->rows; k++) to[start[t->row[k].i + 1]++] = t->row[k];
-  for (size_t i = 0; i < n; i++) {
-    size_t count = start[i + 1] - start[i];
-    if (count > 32)
-      qsort(to + start[i], count, sizeof *to, compare_rows);
-    else
-      sort_few_rows(to + start[i], count);
-  }
+  for (size_t i = 0; i < n; i++) dyd_rows_sort_site(to + start[i], start[i + 1] - start[i]);
   free(start);
   free(t->row);
   t->row = to;

@@ -37,20 +37,21 @@ struct dyd_tolerance {
   dyd_tolerance_options options;
   dyd_room room; /* what max_bytes leaves beside the triangulation */
   dyd_tolerance_row *row;
-  size_t rows, cap;
-  double *weight; /* of a vertex, the largest of those at its place; NULL: all are 1 */
+  size_t rows, cap, sorted; /* sorted: rows of deaths that are */
+  double *weight;           /* of a vertex, the largest of those at its place; NULL: all are 1 */
   double heaviest;
   double *sigma, widest; /* the same of standard deviations; NULL: none are given */
   double lo, hi;         /* of the whole */
   double *radius;
   double *chance;   /* of each row, once sorted, where sigma was given */
   dyd_ring_d *ring; /* of all edges, where radii or probabilities are asked for */
-  size_t rings, ring_cap;
+  size_t rings;
   uint64_t filter, exact;
   /* scratch */
   dyd_points_d points;
   dyd_xy *low;
   uint32_t *start, *near; /* neighbours of v: near[start[v] .. start[v + 1] - 1], the ghost included; NULL: a line */
+  uint8_t *legal;         /* of each of them: is the pair legal? */
   bool has_tree;
   dyd_bbox *box;
   dyd_tree tree;
@@ -102,12 +103,15 @@ dyd_status dyd_points_radius(dyd_tolerance *t);
 /* chance_filter.c: after dyd_rows_sort. */
 dyd_status dyd_chances(dyd_tolerance *t);
 
-/* rows.c: a row for vertices v, w with the value and binding of t->summit; with others. */
-dyd_status dyd_row_add(dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k, uint32_t l,
-                       double lo, double hi);
-dyd_status dyd_row_add_summit(dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event);
-/* Notes the circle of a legal pair, where radii or probabilities are asked for. */
-dyd_status dyd_ring_add(dyd_tolerance *t, uint32_t v, uint32_t w, double s, int end, double half);
+/* rows.c: the row of vertices v, w; with the value and binding of t->summit. */
+dyd_tolerance_row dyd_row_of(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event, uint32_t k,
+                             uint32_t l, double lo, double hi);
+dyd_tolerance_row dyd_row_of_summit(const dyd_tolerance *t, uint32_t v, uint32_t w, dyd_tolerance_event event);
+dyd_status dyd_row_add(dyd_tolerance *t, dyd_tolerance_row row);
+/* Rows of one i, by j. */
+void dyd_rows_sort_site(dyd_tolerance_row *row, size_t count);
+/* The number of the row of v, w; all are sorted. */
+size_t dyd_row_find(const dyd_tolerance *t, uint32_t v, uint32_t w);
 dyd_status dyd_rows_sort(dyd_tolerance *t);
 
 #endif

@@ -56,7 +56,7 @@ typedef struct tie_rows {
 static void add_tie(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
   tie_rows *r = context;
   if (status != DYD_LEGAL && r->status == DYD_OK)
-    r->status = dyd_row_add(r->t, v, w, DYD_EVENT_TIE, DYD_NONE, DYD_NONE, 0, 0);
+    r->status = dyd_row_add(r->t, dyd_row_of(r->t, v, w, DYD_EVENT_TIE, DYD_NONE, DYD_NONE, 0, 0));
 }
 
 /* From sites to vertices; of points at one place the largest. */

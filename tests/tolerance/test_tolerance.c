@@ -160,28 +160,56 @@ static void test_points_and_whole(void **state) {
 
 /* ---- large cases: the rungs agree; a hub ---- */
 
-static void compare_rungs(size_t n, const double *x, const double *y, bool points) {
-  dyd_sites *sites;
-  dyd_delaunay *pd;
-  dyd_tolerance *t[2];
-  dyd_error err;
-  const dyd_tolerance_row *row[2];
-  assert_int_equal(dyd_sites_new(&sites), DYD_OK);
-  assert_int_equal(dyd_sites_add_points(sites, n, x, y), DYD_OK);
-  assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, &err), DYD_OK);
-  for (int k = 0; k < 2; k++) {
-    dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .no_filter = k, .points = points};
-    assert_int_equal(dyd_tolerance_new(&t[k], pd, &o, &err), DYD_OK);
+enum { BY_DOUBLES, BY_INTEGERS, BY_THREADS, WAYS };
+
+static void compare_ways(const dyd_tolerance *const t[WAYS], size_t n) {
+  const dyd_tolerance_row *row[WAYS];
+  size_t count = 0;
+  for (int k = 0; k < WAYS; k++) {
+    size_t rows = dyd_tolerance_rows(&row[k], t[k]);
+    assert_true(k == 0 || rows == count);
+    count = rows;
   }
-  size_t count = dyd_tolerance_rows(&row[0], t[0]);
-  assert_int_equal(count, dyd_tolerance_rows(&row[1], t[1]));
   for (size_t k = 0; k < count; k++) {
-    const dyd_tolerance_row *a = &row[0][k], *b = &row[1][k];
+    const dyd_tolerance_row *a = &row[BY_DOUBLES][k], *b = &row[BY_INTEGERS][k], *c = &row[BY_THREADS][k];
     assert_true(a->i == b->i && a->j == b->j && a->event == b->event && a->k == b->k && a->l == b->l);
     assert_true(a->lo <= b->hi && b->lo <= a->hi && a->hi <= a->lo * (1 + 0x1p-40));
+    assert_true(a->i == c->i && a->j == c->j && a->event == c->event && a->k == c->k && a->l == c->l);
+    assert_true(a->lo == c->lo && a->hi == c->hi);
+    assert_true(k == 0 || a[-1].i < a->i || (a[-1].i == a->i && a[-1].j < a->j));
   }
-  for (int k = 0; k < 2; k++) dyd_tolerance_free(t[k]);
-  dyd_delaunay_free(pd);
+  const double *radius = dyd_tolerance_points(t[BY_DOUBLES]), *again = dyd_tolerance_points(t[BY_THREADS]),
+               *exact = dyd_tolerance_points(t[BY_INTEGERS]);
+  double lo, hi;
+  assert_int_equal(!radius, !again);
+  dyd_tolerance_whole(&lo, &hi, t[BY_DOUBLES]);
+  assert_true(lo > 0);
+  for (size_t i = 0; radius && i < n; i++) {
+    assert_true(radius[i] == again[i]);
+    assert_true(fabs(radius[i] - exact[i]) <= 1e-9 && radius[i] >= lo / 2);
+  }
+}
+
+/* share: of the deaths that doubles decide, at least. */
+static void compare_rungs(size_t n, const double *x, const double *y, bool points, double share) {
+  dyd_sites *sites;
+  dyd_delaunay *pd[WAYS];
+  dyd_tolerance *t[WAYS];
+  dyd_error err;
+  assert_int_equal(dyd_sites_new(&sites), DYD_OK);
+  assert_int_equal(dyd_sites_add_points(sites, n, x, y), DYD_OK);
+  for (int k = 0; k < WAYS; k++) {
+    dyd_delaunay_options threads = {DYD_SIZED(dyd_delaunay_options), .threads = k == BY_THREADS ? 3 : 1};
+    dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .no_filter = k == BY_INTEGERS, .points = points};
+    assert_int_equal(dyd_delaunay_new(&pd[k], sites, &threads, &err), DYD_OK);
+    assert_int_equal(dyd_tolerance_new(&t[k], pd[k], &o, &err), DYD_OK);
+  }
+  compare_ways((const dyd_tolerance *const *)t, n);
+  uint64_t filter, exact;
+  dyd_tolerance_rungs(&filter, &exact, t[BY_DOUBLES]);
+  assert_true((double)filter >= share * (double)(filter + exact));
+  for (int k = 0; k < WAYS; k++) dyd_tolerance_free(t[k]);
+  for (int k = 0; k < WAYS; k++) dyd_delaunay_free(pd[k]);
   dyd_sites_free(sites);
 }
 
@@ -191,15 +219,15 @@ static void test_rungs(void **state) {
   static double x[MANY], y[MANY];
   test_random r = test_random_start("rungs");
   for (size_t i = 0; i < MANY; i++) x[i] = test_unit(&r), y[i] = test_unit(&r);
-  compare_rungs(MANY, x, y, true);
+  compare_rungs(MANY, x, y, true, 0.99);
   for (size_t i = 1; i < MANY; i++) { /* a hub in a rough circle: rims bind at places of their own */
     double a = 6.283185307179586 * (double)i / (MANY - 1), d = 1 + test_unit(&r) * 1e-4;
     x[i] = d * cos(a), y[i] = d * sin(a);
   }
   x[0] = 0.01, y[0] = 0.02;
-  compare_rungs(MANY, x, y, true);
+  compare_rungs(MANY, x, y, true, 0.9);
   for (size_t i = 0; i < MANY; i++) x[i] = ldexp(x[i], 300), y[i] = ldexp(y[i], 300); /* beyond the filter */
-  compare_rungs(200, x, y, false);
+  compare_rungs(200, x, y, false, 0);
 }
 
 /* ---- what is refused, few points, aliases ---- */
