@@ -80,7 +80,8 @@ dyd_status tile_unpark(tile *t, dyd_error *err) {
   fclose(t->parked);
   t->parked = NULL;
   return got == count ? DYD_OK
-                      : tiles_fail(err, DYD_E_IO, "%s: cannot read what rank %zu wrote", t->job->folder, t->rank);
+                      : tiles_fail(err, DYD_E_IO, "%s: cannot read what rank %zu wrote there; go on with --restart",
+                                   t->job->folder, t->rank);
 }
 
 dyd_status tile_spool(tile *t, const tiles_rows *rows, dyd_error *err) {
@@ -94,8 +95,9 @@ dyd_status tile_spool(tile *t, const tiles_rows *rows, dyd_error *err) {
 
 /* ---- the header ---- */
 
-/* Tells own points apart: a sum over their bytes (Fowler, Noll, Vo). */
-static uint64_t digest_of(const tiles_sites *s) {
+/* A sum over their bytes (Fowler, Noll, Vo). */
+uint64_t tile_digest(const tile *t) {
+  const tiles_sites *s = &t->own;
   uint64_t sum = 14695981039346656037u;
   for (size_t k = 0; k < s->count; k++) {
     uint64_t word[5] = {s->number[k]};
@@ -108,7 +110,9 @@ static uint64_t digest_of(const tiles_sites *s) {
 static json_t *header_of(const tile *t) {
   const tiles_counters *c = &t->counters;
   char digest[20];
-  snprintf(digest, sizeof digest, "%016" PRIx64, digest_of(&t->own));
+  uint64_t all = 0; /* a part depends on the points of others, too */
+  for (size_t r = 0; r < t->job->ranks; r++) all += t->info[r].digest;
+  snprintf(digest, sizeof digest, "%016" PRIx64, all);
   return json_pack("{sssIsIsIsIsIsIsIsIsIsIsIsbsbsIss}", "format", "dyadel part 1", "rank", (json_int_t)t->rank, "own",
                    (json_int_t)c->own, "ghosts", (json_int_t)c->ghosts, "rounds", (json_int_t)c->rounds, "pairs",
                    (json_int_t)(c->count[1] + c->count[2] + c->count[3]), "legal", (json_int_t)c->count[DYD_LEGAL],

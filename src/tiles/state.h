@@ -26,7 +26,8 @@ typedef struct tiles_survey {
 /* What each rank tells all others of itself. */
 typedef struct tiles_info {
   uint64_t count;
-  uint64_t wide;  /* how many of its sites are no exact points */
+  uint64_t wide; /* how many of its sites are no exact points */
+  uint64_t digest;
   tiles_box box;  /* holds them */
   tiles_box seen; /* it knows every site that meets this box */
 } tiles_info;
@@ -124,6 +125,8 @@ dyd_status tile_unpark(tile *t, dyd_error *err);
 dyd_status tile_spool(tile *t, const tiles_rows *rows, dyd_error *err);
 /* The part, whole or not at all: spool and rows, then aliases. */
 dyd_status tile_write_part(tile *t, dyd_error *err);
+/* Tells own points apart. */
+uint64_t tile_digest(const tile *t);
 /* t->done: there is a part of just this rank, these points, these options; its aliases and counters are taken. */
 dyd_status tile_find_part(tile *t, dyd_error *err);
 /* Rank 0, with the counters of all in its mail: manifest.json. */

@@ -205,6 +205,7 @@ static void describe_own(tile *t) {
     tiles_box_join(&own->box, &b);
     own->wide += !tiles_box_is_point(&b);
   }
+  own->digest = tile_digest(t);
   own->seen = tiles_box_wider(&own->box, t->own.count, HALO);
 }
 
@@ -238,7 +239,7 @@ dyd_status tile_own(tile *t, dyd_error *err) {
   describe_own(t);
   if (!mail_to_all(t, &t->info[t->rank], sizeof *t->info) || !tell_corners(t)) return tiles_no_memory(err);
   tiles_set_clear(&t->sent[t->rank]);
-  return tile_find_part(t, err);
+  return DYD_OK;
 }
 
 /* Ascending: of equal points the lowest comes first, and stands for the others there, too. */
@@ -263,5 +264,5 @@ dyd_status tile_halo(tile *t, dyd_error *err) {
   }
   for (size_t r = 0; st == DYD_OK && r < t->job->ranks; r++)
     if (r != t->rank && t->info[r].count) st = halo_for(t, r, err);
-  return st;
+  return st == DYD_OK ? tile_find_part(t, err) : st;
 }
