@@ -139,6 +139,11 @@ DYD_API uint32_t dyd_delaunay_alias(const dyd_delaunay *pd, uint32_t i);
 DYD_API dyd_pair_status dyd_delaunay_status(const dyd_delaunay *pd, uint32_t i, uint32_t j);
 /* All possible pairs, sorted by i, then j. O(N + pairs). *out is replaced, owned by the caller. */
 DYD_API dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd);
+/* Told of a pair, i < j. */
+typedef void (*dyd_pair_fn)(void *user, uint32_t i, uint32_t j, dyd_pair_status status);
+/* The same pairs, each once, without the memory of a list, in an order that may change with the number of threads and
+ * with releases. */
+DYD_API void dyd_delaunay_each_pair(const dyd_delaunay *pd, dyd_pair_fn visit, void *user);
 /* The sites whose pair with i has at least the status `least` (TIE or INDETERMINATE: all possible ones). Ascending.
  * O(log pairs + degree); where all points are on one line, O(N). */
 DYD_API dyd_status dyd_delaunay_neighbours(dyd_index_list *out, const dyd_delaunay *pd, uint32_t i,

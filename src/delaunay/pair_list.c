@@ -1,14 +1,32 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* The sorted list of all possible pairs.
+/* All possible pairs: as they are met, and as a sorted list.
  *
- * The pairs are met in the skeleton's order. They are dealt into blocks of consecutive sites i, few enough to be
- * written side by side; a block is small enough for the nearer caches, and is sorted there: dealt to its sites, and
+ * For the list, pairs are met in the skeleton's order. They are dealt into blocks of consecutive sites i, few enough to
+ * be written side by side; a block is small enough for the nearer caches, and is sorted there: dealt to its sites, and
  * each site's pairs by j. */
 #include "base/alloc.h"
 #include "delaunay/memory.h"
 #include "delaunay/undecided.h"
 
 #include <string.h>
+
+/* A visit by vertices, passed on by sites. */
+typedef struct site_visit {
+  const uint32_t *site;
+  dyd_pair_fn visit;
+  void *user;
+} site_visit;
+
+static void visit_sites(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
+  const site_visit *s = context;
+  uint32_t i = s->site[v], j = s->site[w];
+  s->visit(s->user, i < j ? i : j, i < j ? j : i, status);
+}
+
+void dyd_delaunay_each_pair(const dyd_delaunay *pd, dyd_pair_fn visit, void *user) {
+  site_visit s = {pd->sk.reps.site, visit, user};
+  dyd_each_pair(pd, visit_sites, &s);
+}
 
 /* At most MOST_BLOCKS blocks; up to SHORT_RUN pairs are sorted by insertion. In the armed build few sites need all. */
 #ifdef DYD_ARMED

@@ -3,6 +3,9 @@
 #include "carry.h"
 
 #include <errno.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -248,6 +251,9 @@ static int run_words(main_options *o) {
 
 int main(int count, char **arg) {
   main_options o = {0};
+#ifdef M_MMAP_THRESHOLD
+  mallopt(M_MMAP_THRESHOLD, 1 << 18); /* what is freed is gone, whatever else has been freed before */
+#endif
   for (int k = 1; k < count; k++) {
     if (strcmp(arg[k], "--help") == 0 || strcmp(arg[k], "--version") == 0) {
       if (arg[k][2] == 'h')

@@ -42,27 +42,50 @@ static bool get_row(tiles_row *r, FILE *in) {
   return true;
 }
 
-/* ---- the spool ---- */
+/* ---- the spool, and what is parked ---- */
 
 static dyd_status spool_fail(const tile *t, dyd_error *err) {
-  return tiles_fail(err, DYD_E_IO, "%s: cannot write rows of rank %zu: %s; make room there, then go on with --restart",
+  return tiles_fail(err, DYD_E_IO,
+                    "%s: cannot write the working files of rank %zu: %s; make room there, then go on with --restart",
                     t->job->folder, t->rank, strerror(errno));
 }
 
 /* A file without a name: nothing is left of it however the process ends. */
-static dyd_status open_spool(tile *t, dyd_error *err) {
+static dyd_status open_working_file(FILE **out, const tile *t, dyd_error *err) {
   char name[40];
   snprintf(name, sizeof name, ".rows-%05zu", t->rank);
   char *path = tiles_path(t->job->folder, name);
   if (!path) return tiles_no_memory(err);
-  t->spool = fopen(path, "w+b");
-  if (t->spool) unlink(path);
+  *out = fopen(path, "w+b");
+  if (*out) unlink(path);
   free(path);
-  return t->spool ? DYD_OK : spool_fail(t, err);
+  return *out ? DYD_OK : spool_fail(t, err);
+}
+
+dyd_status tile_park(tile *t, dyd_error *err) {
+  const size_t count = t->own.count * t->own.dim;
+  dyd_status st = open_working_file(&t->parked, t, err);
+  if (st != DYD_OK) return st;
+  if (fwrite(t->own.end, sizeof *t->own.end, count, t->parked) != count || fflush(t->parked) != 0)
+    return spool_fail(t, err);
+  tiles_sites_end(&t->own);
+  return DYD_OK;
+}
+
+dyd_status tile_unpark(tile *t, dyd_error *err) {
+  const size_t count = t->own.count * t->own.dim;
+  if (!tiles_sites_reserve(&t->own, t->own.count)) return tiles_no_memory(err);
+  rewind(t->parked);
+  size_t got = fread(t->own.end, sizeof *t->own.end, count, t->parked);
+  fclose(t->parked);
+  t->parked = NULL;
+  return got == count ? DYD_OK
+                      : tiles_fail(err, DYD_E_IO, "%s: cannot read what rank %zu wrote there; go on with --restart",
+                                   t->job->folder, t->rank);
 }
 
 dyd_status tile_spool(tile *t, const tiles_rows *rows, dyd_error *err) {
-  dyd_status st = t->spool ? DYD_OK : open_spool(t, err);
+  dyd_status st = t->spool ? DYD_OK : open_working_file(&t->spool, t, err);
   for (size_t k = 0; st == DYD_OK && k < rows->count; k++) {
     t->counters.count[rows->item[k].status]++;
     if (!put_row(t->spool, &rows->item[k])) st = spool_fail(t, err);
@@ -72,8 +95,9 @@ dyd_status tile_spool(tile *t, const tiles_rows *rows, dyd_error *err) {
 
 /* ---- the header ---- */
 
-/* Tells own points apart: a sum over their bytes (Fowler, Noll, Vo). */
-static uint64_t digest_of(const tiles_sites *s) {
+/* A sum over their bytes (Fowler, Noll, Vo). */
+uint64_t tile_digest(const tile *t) {
+  const tiles_sites *s = &t->own;
   uint64_t sum = 14695981039346656037u;
   for (size_t k = 0; k < s->count; k++) {
     uint64_t word[5] = {s->number[k]};
@@ -86,7 +110,9 @@ static uint64_t digest_of(const tiles_sites *s) {
 static json_t *header_of(const tile *t) {
   const tiles_counters *c = &t->counters;
   char digest[20];
-  snprintf(digest, sizeof digest, "%016" PRIx64, digest_of(&t->own));
+  uint64_t all = 0; /* a part depends on the points of others, too */
+  for (size_t r = 0; r < t->job->ranks; r++) all += t->info[r].digest;
+  snprintf(digest, sizeof digest, "%016" PRIx64, all);
   return json_pack("{sssIsIsIsIsIsIsIsIsIsIsIsbsbsIss}", "format", "dyadel part 1", "rank", (json_int_t)t->rank, "own",
                    (json_int_t)c->own, "ghosts", (json_int_t)c->ghosts, "rounds", (json_int_t)c->rounds, "pairs",
                    (json_int_t)(c->count[1] + c->count[2] + c->count[3]), "legal", (json_int_t)c->count[DYD_LEGAL],

@@ -13,7 +13,8 @@ enum { WIDE = 1, LATE = 2 };
 
 /* ---- discs ---- */
 
-dyd_status tile_is_clear(bool *clear, tile *t, const tiles_disc *d, bool self, dyd_error *err) {
+/* Nothing that the rank has not seen meets the disc; own sites outside of the fringe count when `self`. */
+static dyd_status disc_is_unmet(bool *clear, tile *t, const tiles_disc *d, bool self, dyd_error *err) {
   *clear = true;
   if (!tiles_disc_is_inside(d, &t->info[t->rank].seen))
     for (size_t r = 0; *clear && r < t->job->ranks; r++)
@@ -29,13 +30,14 @@ dyd_status tile_is_clear(bool *clear, tile *t, const tiles_disc *d, bool self, d
   return DYD_OK;
 }
 
-dyd_status tile_is_closed(bool *closed, tile *t, const tiles_view *v, uint32_t i, bool wide, dyd_error *err) {
-  tiles_partners p = tiles_graph_of(&t->graph, i);
-  if (!tiles_reach_find(&t->reach, v, i, &p, wide)) return tiles_no_memory(err);
+/* Is it so of every disc that the pairs of site i of the view depend on? */
+static dyd_status reach_is_unmet(bool *clear, tile *t, const tiles_view *v, uint32_t i, const tiles_partners *p,
+                                 bool wide, dyd_error *err) {
+  if (!tiles_reach_find(&t->reach, v, i, p, wide)) return tiles_no_memory(err);
   dyd_status st = DYD_OK;
-  *closed = true;
-  for (size_t k = 0; *closed && st == DYD_OK && k < t->reach.count; k++)
-    st = tile_is_clear(closed, t, &t->reach.item[k], false, err);
+  *clear = true;
+  for (size_t k = 0; *clear && st == DYD_OK && k < t->reach.count; k++)
+    st = disc_is_unmet(clear, t, &t->reach.item[k], false, err);
   return st;
 }
 
@@ -52,6 +54,8 @@ static dyd_status note_alias(tile *t, size_t i, uint32_t of, dyd_error *err) {
 static dyd_status first_aliases(tile *t, const tiles_view *v, dyd_error *err) {
   const dyd_delaunay *pd = dyd_engine_delaunay(t->engine);
   dyd_status st = DYD_OK;
+  t->alias = calloc(tiles_view_count(v) + 1, sizeof *t->alias);
+  if (!t->alias) return tiles_no_memory(err);
   for (size_t i = 0; st == DYD_OK && i < tiles_view_count(v); i++) {
     uint32_t of = dyd_delaunay_alias(pd, (uint32_t)i);
     t->alias[i] = of != i;
@@ -60,26 +64,22 @@ static dyd_status first_aliases(tile *t, const tiles_view *v, dyd_error *err) {
   return st;
 }
 
-/* Own sites; where there are rectangles, ghosts, too: they may be ends of legal pairs. */
-static dyd_status first_marks(tile *t, const tiles_view *v, dyd_error *err) {
-  const bool wide = tile_has_wide(t);
-  const size_t count = wide ? tiles_view_count(v) : t->own.count;
-  dyd_status st = DYD_OK;
-  t->mark = calloc(tiles_view_count(v) + 1, 1);
-  if (!t->mark) return tiles_no_memory(err);
-  for (uint32_t i = 0; st == DYD_OK && i < count; i++) {
-    bool closed = true, far = false;
-    if (!t->alias[i]) st = tile_is_closed(&closed, t, v, i, false, err);
-    if (st == DYD_OK && wide && closed) st = tile_is_closed(&far, t, v, i, true, err);
-    t->mark[i] = (unsigned char)((closed ? 0 : LATE) | (far ? WIDE : 0));
-  }
+static dyd_status mark_site(tile *t, const tiles_view *v, uint32_t i, bool wide, dyd_error *err) {
+  bool closed = true, far = false;
+  tiles_partners p;
+  dyd_status st = tile_partners(&p, t, i, err);
+  if (st == DYD_OK && !t->alias[i]) st = reach_is_unmet(&closed, t, v, i, &p, false, err);
+  if (st == DYD_OK && wide && closed) st = reach_is_unmet(&far, t, v, i, &p, true, err);
+  t->mark[i] = (unsigned char)((closed ? 0 : LATE) | (far ? WIDE : 0));
   return st;
 }
 
 /* A legal pair with a rectangle stays one when both ends have wide discs that are not met. */
-static void first_legal(tile *t, const tiles_view *v) {
-  for (uint32_t i = 0; i < t->own.count; i++) {
-    tiles_partners p = tiles_graph_of(&t->graph, i);
+static dyd_status legal_marks(tile *t, const tiles_view *v, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  for (uint32_t i = 0; st == DYD_OK && i < t->own.count; i++) {
+    tiles_partners p = {0};
+    if (!(t->mark[i] & LATE)) st = tile_partners(&p, t, i, err);
     for (size_t k = 0; k < p.count && !(t->mark[i] & LATE); k++) {
       uint32_t j = TILES_SITE(p.item[k]);
       tiles_box a = tiles_view_box(v, i), b = tiles_view_box(v, j);
@@ -88,16 +88,29 @@ static void first_legal(tile *t, const tiles_view *v) {
       if (!(t->mark[i] & t->mark[j] & WIDE)) t->mark[i] |= LATE;
     }
   }
+  return st;
+}
+
+/* Where there are rectangles, own sites and ghosts: both may be ends of legal pairs. */
+static dyd_status wide_marks(tile *t, const tiles_view *v, dyd_error *err) {
+  dyd_status st = DYD_OK;
+  for (uint32_t i = 0; st == DYD_OK && i < tiles_view_count(v); i++) st = mark_site(t, v, i, true, err);
+  return st == DYD_OK ? legal_marks(t, v, err) : st;
 }
 
 /* Rows of what is settled go out; the rest becomes the fringe. */
 static dyd_status first_rows(tile *t, const tiles_view *v, dyd_error *err) {
-  enum { AT_ONCE = 1 << 16 };
+  enum { AT_ONCE = 1 << 12 };
+  const bool wide = tile_has_wide(t);
   dyd_status st = DYD_OK;
+  t->mark = calloc(tiles_view_count(v) + 1, 1);
+  if (!t->mark) return tiles_no_memory(err);
+  if (wide) st = wide_marks(t, v, err);
   for (uint32_t i = 0; st == DYD_OK && i < t->own.count; i++) {
+    if (!wide) st = mark_site(t, v, i, false, err);
     if (t->mark[i] & LATE)
       t->late_count++;
-    else
+    else if (st == DYD_OK)
       st = tile_rows_of(&t->rows, t, v, i, err);
     if (st == DYD_OK && (t->rows.count >= AT_ONCE || i + 1 == t->own.count)) {
       st = tile_spool(t, &t->rows, err);
@@ -113,35 +126,38 @@ static dyd_status first_fringe(tile *t, const tiles_view *v, dyd_error *err) {
   enum { PARTNER = 4 };
   bool fits = true;
   size_t late = 0;
-  for (uint32_t i = 0; i < t->own.count; i++) {
-    tiles_partners p = tiles_graph_of(&t->graph, i);
-    for (size_t k = 0; t->mark[i] & LATE && k < p.count; k++) t->mark[TILES_SITE(p.item[k])] |= PARTNER;
+  dyd_status st = DYD_OK;
+  for (uint32_t i = 0; st == DYD_OK && i < t->own.count; i++) {
+    tiles_partners p = {0};
+    if (t->mark[i] & LATE) st = tile_partners(&p, t, i, err);
+    for (size_t k = 0; k < p.count; k++) t->mark[TILES_SITE(p.item[k])] |= PARTNER;
   }
+  if (st != DYD_OK) return st;
   t->late = calloc(t->late_count + 1, sizeof *t->late);
   if (!t->late) return tiles_no_memory(err);
   for (uint32_t i = 0; fits && i < t->own.count; i++) {
     if (t->mark[i] & LATE) t->late[late++] = t->fringe.count;
-    if (t->mark[i] & (LATE | PARTNER))
-      fits = tiles_set_add(&t->sent[t->rank], i) &&
-             tiles_sites_add(&t->fringe, t->own.number[i], t->own.end + i * (size_t)t->own.dim);
+    if (t->mark[i] & (LATE | PARTNER)) fits = tiles_set_add(&t->sent[t->rank], i) && tiles_sites_copy(&t->fringe, v, i);
   }
-  for (uint32_t k = 0; fits && k < t->ghosts.count; k++) {
-    uint32_t i = (uint32_t)t->own.count + k;
-    if (!t->alias[i])
-      fits = tiles_sites_add(&t->fringe, t->ghosts.number[k], t->ghosts.end + k * (size_t)t->ghosts.dim);
-  }
-  (void)v;
+  for (size_t i = t->own.count; fits && i < tiles_view_count(v); i++)
+    if (!t->alias[i]) fits = tiles_sites_copy(&t->fringe, v, i);
   return fits ? DYD_OK : tiles_no_memory(err);
 }
 
-static dyd_status first_settle(tile *t, const tiles_view *v, dyd_error *err) {
-  dyd_status st = tile_triangulate(t, v, err);
-  if (st == DYD_OK) st = first_aliases(t, v, err);
-  if (st == DYD_OK) st = tile_list_partners(t, true, err);
-  if (st == DYD_OK) st = first_marks(t, v, err);
-  if (st == DYD_OK && tile_has_wide(t)) first_legal(t, v);
-  if (st == DYD_OK) st = first_rows(t, v, err);
-  return st == DYD_OK ? first_fringe(t, v, err) : st;
+/* While the engine has the places of all, nobody else has: this is when a rank needs the most memory. */
+static dyd_status first_settle(tile *t, dyd_error *err) {
+  tiles_view v;
+  dyd_status st = tile_load(&v, t, &t->own, &t->ghosts, err);
+  if (st == DYD_OK) st = tile_park(t, err);
+  tiles_sites_end(&t->ghosts);
+  if (st == DYD_OK) st = tile_triangulate(t, err);
+  if (st == DYD_OK) st = first_aliases(t, &v, err);
+  if (st == DYD_OK) st = first_rows(t, &v, err);
+  if (st == DYD_OK) st = first_fringe(t, &v, err);
+  free(t->mark);
+  t->mark = NULL;
+  tile_end_engine(t);
+  return st == DYD_OK ? tile_unpark(t, err) : st;
 }
 
 dyd_status tile_first(tile *t, dyd_error *err) {
@@ -151,20 +167,17 @@ dyd_status tile_first(tile *t, dyd_error *err) {
     tiles_mail_clear(&t->in[r]);
   }
   t->counters.ghosts = t->ghosts.count;
-  if (t->done) return DYD_OK;
-  tiles_view v = {&t->own, &t->ghosts};
-  t->alias = calloc(tiles_view_count(&v) + 1, sizeof *t->alias);
-  if (!t->alias) return tiles_no_memory(err);
-  dyd_status st = t->own.count ? first_settle(t, &v, err) : DYD_OK;
+  dyd_status st = !t->done && t->own.count ? first_settle(t, err) : DYD_OK;
   tiles_sites_clear(&t->ghosts);
-  return st == DYD_OK ? tile_fringe(t, err) : st;
+  if (st == DYD_OK && !tiles_tree_make(&t->tree, &t->own)) st = tiles_no_memory(err);
+  return st == DYD_OK && !t->done ? tile_fringe(t, err) : st;
 }
 
 /* ---- the fringe ---- */
 
 static dyd_status fringe_ask(tile *t, const tiles_disc *d, dyd_error *err) {
   bool clear;
-  dyd_status st = tile_is_clear(&clear, t, d, true, err);
+  dyd_status st = disc_is_unmet(&clear, t, d, true, err);
   if (st != DYD_OK || clear) return st;
   const bool inside = tiles_disc_is_inside(d, &t->info[t->rank].seen);
   for (size_t r = 0; r < t->job->ranks; r++) {
@@ -176,9 +189,9 @@ static dyd_status fringe_ask(tile *t, const tiles_disc *d, dyd_error *err) {
 }
 
 static dyd_status fringe_discs(tile *t, const tiles_view *v, uint32_t i, dyd_error *err) {
-  tiles_partners p = tiles_graph_of(&t->graph, i);
-  if (!tiles_reach_find(&t->reach, v, i, &p, false)) return tiles_no_memory(err);
-  dyd_status st = DYD_OK;
+  tiles_partners p;
+  dyd_status st = tile_partners(&p, t, i, err);
+  if (st == DYD_OK && !tiles_reach_find(&t->reach, v, i, &p, false)) st = tiles_no_memory(err);
   for (size_t k = 0; st == DYD_OK && k < t->reach.count; k++) st = fringe_ask(t, &t->reach.item[k], err);
   return st;
 }
@@ -196,9 +209,9 @@ static dyd_status fringe_witness(tile *t, const tiles_view *v, uint32_t i, uint3
 }
 
 static dyd_status fringe_legal(tile *t, const tiles_view *v, uint32_t i, dyd_error *err) {
-  tiles_partners p = tiles_graph_of(&t->graph, i);
+  tiles_partners p;
   tiles_box a = tiles_view_box(v, i);
-  dyd_status st = DYD_OK;
+  dyd_status st = tile_partners(&p, t, i, err);
   for (size_t k = 0; st == DYD_OK && k < p.count; k++) {
     uint32_t j = TILES_SITE(p.item[k]);
     tiles_box b = tiles_view_box(v, j);
@@ -223,7 +236,6 @@ static dyd_status fringe_finish(tile *t, const tiles_view *v, dyd_error *err) {
   for (size_t k = 0; st == DYD_OK && k < t->late_count; k++)
     st = tile_rows_of(&t->rows, t, v, (uint32_t)t->late[k], err);
   if (st == DYD_OK) st = tile_write_part(t, err);
-  tiles_graph_clear(&t->graph);
   tile_end_engine(t);
   t->done = true;
   return st;
@@ -231,12 +243,12 @@ static dyd_status fringe_finish(tile *t, const tiles_view *v, dyd_error *err) {
 
 dyd_status tile_fringe(tile *t, dyd_error *err) {
   static const tiles_sites none = {.dim = 2};
-  tiles_view v = {&t->fringe, &none};
+  tiles_view v = {&t->fringe, &none, NULL};
   dyd_status st = DYD_OK;
   t->asked = 0;
   t->counters.fringe = t->fringe.count;
-  if (t->late_count) st = tile_triangulate(t, &v, err);
-  if (st == DYD_OK && t->late_count) st = tile_list_partners(t, false, err);
+  if (t->late_count) st = tile_load(&v, t, &t->fringe, &none, err);
+  if (st == DYD_OK && t->late_count) st = tile_triangulate(t, err);
   if (st == DYD_OK && t->late_count) st = fringe_check(t, &v, err);
   if (st == DYD_OK && t->asked == 0) st = fringe_finish(t, &v, err);
   return st;
@@ -276,14 +288,14 @@ dyd_status tile_extend(tile *t, dyd_error *err) {
   for (size_t r = 0; r < t->job->ranks; r++) {
     size_t read = 0;
     if (!tiles_sites_take(&t->fringe, &t->in[r], &read)) return tiles_no_memory(err);
-    if (r != t->rank) t->counters.ghosts += t->in[r].count / (sizeof(uint64_t) + t->own.dim * sizeof(double));
+    if (r != t->rank) t->counters.ghosts += t->in[r].count / tiles_sites_bytes(&t->own);
     tiles_mail_clear(&t->in[r]);
   }
   if (t->done || t->asked == 0) return DYD_OK;
   if (t->fringe.count > before) return tile_fringe(t, err);
   t->asked = 0;
   static const tiles_sites none = {.dim = 2};
-  tiles_view v = {&t->fringe, &none};
+  tiles_view v = {&t->fringe, &none, dyd_engine_sites(t->engine)};
   return fringe_finish(t, &v, err);
 }
 

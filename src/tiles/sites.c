@@ -51,9 +51,13 @@ void tiles_mail_clear(tiles_mail *m) {
   *m = (tiles_mail){0};
 }
 
+bool tiles_sites_reserve(tiles_sites *s, size_t count) {
+  return tiles_reserve((void **)&s->number, &s->room_number, count, sizeof *s->number) &&
+         tiles_reserve((void **)&s->end, &s->room_end, count * s->dim, sizeof *s->end);
+}
+
 bool tiles_sites_add(tiles_sites *s, uint64_t number, const double *end) {
-  if (!tiles_reserve((void **)&s->number, &s->room_number, s->count + 1, sizeof *s->number)) return false;
-  if (!tiles_reserve((void **)&s->end, &s->room_end, (s->count + 1) * s->dim, sizeof *s->end)) return false;
+  if (!tiles_sites_reserve(s, s->count + 1)) return false;
   s->number[s->count] = number;
   memcpy(s->end + s->count * s->dim, end, s->dim * sizeof *end);
   s->count++;
@@ -87,12 +91,26 @@ void tiles_sites_clear(tiles_sites *s) {
   *s = (tiles_sites){.dim = s->dim};
 }
 
+void tiles_sites_end(tiles_sites *s) {
+  free(s->end);
+  s->end = NULL;
+  s->room_end = 0;
+}
+
 tiles_box tiles_view_box(const tiles_view *v, size_t k) {
-  return k < v->first->count ? tiles_sites_box(v->first, k) : tiles_sites_box(v->second, k - v->first->count);
+  double end[4];
+  dyd_sites_get_d(end, v->place, k);
+  return (tiles_box){end[0], end[1], end[2], end[3]};
 }
 
 uint64_t tiles_view_number(const tiles_view *v, size_t k) {
   return k < v->first->count ? v->first->number[k] : v->second->number[k - v->first->count];
+}
+
+bool tiles_sites_copy(tiles_sites *s, const tiles_view *v, size_t k) {
+  tiles_box b = tiles_view_box(v, k);
+  const double end[4] = {b.x0, s->dim == 2 ? b.y0 : b.x1, b.y0, b.y1};
+  return tiles_sites_add(s, tiles_view_number(v, k), end);
 }
 
 /* ---- sets ---- */

@@ -26,7 +26,8 @@ typedef struct tiles_survey {
 /* What each rank tells all others of itself. */
 typedef struct tiles_info {
   uint64_t count;
-  uint64_t wide;  /* how many of its sites are no exact points */
+  uint64_t wide; /* how many of its sites are no exact points */
+  uint64_t digest;
   tiles_box box;  /* holds them */
   tiles_box seen; /* it knows every site that meets this box */
 } tiles_info;
@@ -41,16 +42,14 @@ typedef struct tiles_counters {
   bool capped;
 } tiles_counters;
 
-/* Partners of each site of a view, both ways. */
+/* Partners of `count` sites of a view, from `first` on. */
 typedef struct tiles_graph {
-  size_t count;
-  size_t *start; /* count + 1 */
+  uint32_t first, count;
+  size_t *start; /* count + 2 */
   uint32_t *partner;
+  size_t room_start, room_partner;
 } tiles_graph;
 void tiles_graph_clear(tiles_graph *g);
-static inline tiles_partners tiles_graph_of(const tiles_graph *g, size_t i) {
-  return (tiles_partners){g->partner + g->start[i], g->start[i + 1] - g->start[i]};
-}
 
 typedef struct tiles_row {
   uint64_t i, j;
@@ -67,18 +66,19 @@ typedef struct tile {
   uint64_t points;      /* in the input */
   tiles_mail *in, *out; /* one from, and for, each rank */
   tiles_sites own, ghosts, fringe;
-  tiles_tree tree; /* of own */
+  tiles_tree tree; /* of own, once the first triangulation is over */
   tiles_info *info;
   tiles_set *sent; /* own sites that each rank has; at its own place those of the fringe */
   bool *alias;     /* sites of the first triangulation that are no vertices */
   dyd_engine *engine;
-  tiles_graph graph; /* of the last triangulation */
+  tiles_graph graph; /* of its result, as far as it was asked for last */
   tiles_reach reach;
   tiles_search search;
   unsigned char *mark; /* of the sites of the first triangulation */
   size_t *late;        /* sites of the fringe whose pairs are not settled yet */
   size_t late_count, asked;
-  FILE *spool; /* rows that are settled, but for those of `late` */
+  FILE *spool;  /* rows that are settled, but for those of `late` */
+  FILE *parked; /* places of own sites, while the first triangulation needs the memory */
   tiles_rows rows, aliases;
   bool done;
   tiles_counters counters;
@@ -101,17 +101,16 @@ dyd_status tile_report(tile *t, dyd_error *err); /* at the end; out: counters, t
 
 /* For the steps themselves. */
 dyd_status tile_read_text(tile *t, dyd_error *err);
-dyd_status tile_triangulate(tile *t, const tiles_view *v, dyd_error *err);
-/* Fills t->graph. last: nothing more is asked of the engine, which is freed before that much is allocated. */
-dyd_status tile_list_partners(tile *t, bool last, dyd_error *err);
+/* A new engine gets the sites of both tables, which may forget the places then. */
+dyd_status tile_load(tiles_view *v, tile *t, const tiles_sites *first, const tiles_sites *second, dyd_error *err);
+/* Triangulates them. */
+dyd_status tile_triangulate(tile *t, dyd_error *err);
+/* The possible pairs of site i of the view; they last until the next call. Quick when i ascends. */
+dyd_status tile_partners(tiles_partners *p, tile *t, uint32_t i, dyd_error *err);
 void tile_end_engine(tile *t);
 dyd_status tile_fringe(tile *t, dyd_error *err);
-/* Nothing that the rank has not seen meets the disc; own sites outside of the fringe count when `self`. */
-dyd_status tile_is_clear(bool *clear, tile *t, const tiles_disc *d, bool self, dyd_error *err);
-/* Does `all` hold of every disc that the pairs of site i of the view depend on? */
-dyd_status tile_is_closed(bool *closed, tile *t, const tiles_view *v, uint32_t i, bool wide, dyd_error *err);
 /* Adds the rows of site i of the view: pairs with higher numbers. */
-dyd_status tile_rows_of(tiles_rows *rows, const tile *t, const tiles_view *v, uint32_t i, dyd_error *err);
+dyd_status tile_rows_of(tiles_rows *rows, tile *t, const tiles_view *v, uint32_t i, dyd_error *err);
 bool tile_has_wide(const tile *t);
 
 /* ---- parts ---- */
@@ -119,10 +118,15 @@ bool tile_has_wide(const tile *t);
 /* Bytes of a record: i and j of 8, status of 4, little-endian. */
 enum { TILES_RECORD = 20 };
 tiles_row tiles_row_decode(const unsigned char bytes[TILES_RECORD]);
+/* Puts the places of own sites on the disk, and gets them back. */
+dyd_status tile_park(tile *t, dyd_error *err);
+dyd_status tile_unpark(tile *t, dyd_error *err);
 /* Writes the rows to the spool. */
 dyd_status tile_spool(tile *t, const tiles_rows *rows, dyd_error *err);
 /* The part, whole or not at all: spool and rows, then aliases. */
 dyd_status tile_write_part(tile *t, dyd_error *err);
+/* Tells own points apart. */
+uint64_t tile_digest(const tile *t);
 /* t->done: there is a part of just this rank, these points, these options; its aliases and counters are taken. */
 dyd_status tile_find_part(tile *t, dyd_error *err);
 /* Rank 0, with the counters of all in its mail: manifest.json. */

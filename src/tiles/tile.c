@@ -45,6 +45,7 @@ void tile_free(tile *t) {
   free(t->rows.item);
   free(t->aliases.item);
   if (t->spool) fclose(t->spool);
+  if (t->parked) fclose(t->parked);
 }
 
 bool tile_has_wide(const tile *t) {
@@ -100,6 +101,7 @@ static dyd_status read_slice(tile *t, dyd_error *err) {
   const uint64_t n = t->points, ranks = t->job->ranks;
   uint64_t first = n / ranks * t->rank + (t->rank < n % ranks ? t->rank : n % ranks);
   uint64_t end = first + n / ranks + (t->rank < n % ranks);
+  if (!tiles_sites_reserve(&t->own, (size_t)(end - first))) return tiles_no_memory(err);
   FILE *in = fopen(t->job->input, "rb");
   if (!in || fseeko(in, (off_t)(first * t->own.dim * sizeof(double)), SEEK_SET) != 0) {
     if (in) fclose(in);
@@ -203,6 +205,7 @@ static void describe_own(tile *t) {
     tiles_box_join(&own->box, &b);
     own->wide += !tiles_box_is_point(&b);
   }
+  own->digest = tile_digest(t);
   own->seen = tiles_box_wider(&own->box, t->own.count, HALO);
 }
 
@@ -221,7 +224,9 @@ static bool tell_corners(tile *t) {
 }
 
 dyd_status tile_own(tile *t, dyd_error *err) {
-  bool fits = true;
+  size_t count = 0;
+  for (size_t r = 0; r < t->job->ranks; r++) count += t->in[r].count / tiles_sites_bytes(&t->own);
+  bool fits = tiles_sites_reserve(&t->own, count);
   for (size_t r = 0; fits && r < t->job->ranks; r++) {
     size_t read = 0;
     fits = tiles_sites_take(&t->own, &t->in[r], &read);
@@ -231,29 +236,21 @@ dyd_status tile_own(tile *t, dyd_error *err) {
   if (t->own.count >= DYD_MAX_SITES)
     return tiles_fail(err, DYD_E_RANGE, "rank %zu: %zu points are too many for one; use more ranks", t->rank,
                       t->own.count);
-  if (!tiles_tree_make(&t->tree, &t->own)) return tiles_no_memory(err);
   describe_own(t);
   if (!mail_to_all(t, &t->info[t->rank], sizeof *t->info) || !tell_corners(t)) return tiles_no_memory(err);
   tiles_set_clear(&t->sent[t->rank]);
-  return tile_find_part(t, err);
-}
-
-static int compare_sites(const void *a, const void *b) {
-  const uint32_t *p = a, *q = b;
-  return (*p > *q) - (*p < *q);
+  return DYD_OK;
 }
 
 /* Ascending: of equal points the lowest comes first, and stands for the others there, too. */
 static dyd_status halo_for(tile *t, size_t r, dyd_error *err) {
-  tiles_search *q = &t->search;
-  q->box = &t->info[r].seen;
-  q->skip = &t->sent[r];
-  q->most = SIZE_MAX;
-  bool fits = tiles_tree_search(q, &t->tree, &t->own);
-  if (fits && q->count) qsort(q->site, q->count, sizeof *q->site, compare_sites);
-  for (size_t k = 0; fits && k < q->count; k++)
-    fits = tiles_set_add(&t->sent[r], q->site[k]) && tiles_sites_put(&t->out[r], &t->own, q->site[k]);
-  q->box = NULL;
+  bool fits = true;
+  if (!tiles_boxes_meet(&t->info[r].seen, &t->info[t->rank].box)) return DYD_OK;
+  for (uint32_t k = 0; fits && k < t->own.count; k++) {
+    tiles_box b = tiles_sites_box(&t->own, k);
+    if (tiles_boxes_meet(&t->info[r].seen, &b) && !tiles_set_has(&t->sent[r], k))
+      fits = tiles_set_add(&t->sent[r], k) && tiles_sites_put(&t->out[r], &t->own, k);
+  }
   return fits ? DYD_OK : tiles_no_memory(err);
 }
 
@@ -267,5 +264,5 @@ dyd_status tile_halo(tile *t, dyd_error *err) {
   }
   for (size_t r = 0; st == DYD_OK && r < t->job->ranks; r++)
     if (r != t->rank && t->info[r].count) st = halo_for(t, r, err);
-  return st;
+  return st == DYD_OK ? tile_find_part(t, err) : st;
 }

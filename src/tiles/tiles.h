@@ -46,20 +46,30 @@ typedef struct tiles_sites {
 } tiles_sites;
 bool tiles_sites_add(tiles_sites *s, uint64_t number, const double *end);
 tiles_box tiles_sites_box(const tiles_sites *s, size_t k);
+bool tiles_sites_reserve(tiles_sites *s, size_t count);
+/* Of one of them in mail. */
+static inline size_t tiles_sites_bytes(const tiles_sites *s) {
+  return sizeof *s->number + s->dim * sizeof *s->end;
+}
 bool tiles_sites_put(tiles_mail *m, const tiles_sites *s, size_t k);
 /* Takes all that is left in the mail. false: memory is exhausted. */
 bool tiles_sites_take(tiles_sites *s, const tiles_mail *m, size_t *read);
 void tiles_sites_clear(tiles_sites *s);
+/* Their places alone. */
+void tiles_sites_end(tiles_sites *s);
 
-/* Two tables one behind the other: what a triangulation is about, by its numbers. */
+/* What a triangulation is about: numbers of two tables one behind the other, places as the engine has them. */
 typedef struct tiles_view {
   const tiles_sites *first, *second;
+  const dyd_sites *place;
 } tiles_view;
 static inline size_t tiles_view_count(const tiles_view *v) {
   return v->first->count + v->second->count;
 }
 tiles_box tiles_view_box(const tiles_view *v, size_t k);
 uint64_t tiles_view_number(const tiles_view *v, size_t k);
+/* Adds site k of the view to a table. */
+bool tiles_sites_copy(tiles_sites *s, const tiles_view *v, size_t k);
 
 /* A set of own sites, those that somebody else has. */
 typedef struct tiles_set {

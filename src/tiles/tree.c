@@ -82,11 +82,6 @@ void tiles_tree_clear(tiles_tree *t) {
 
 /* ---- searching ---- */
 
-static double score_of(const tiles_search *q, const tiles_box *b) {
-  if (q->box) return tiles_boxes_meet(q->box, b) ? 0 : INFINITY;
-  return tiles_disc_score(q->disc, b);
-}
-
 static bool is_too_late(const tiles_search *q, double score) {
   return score == INFINITY || (q->count == q->most && score >= q->score[q->count - 1]);
 }
@@ -108,7 +103,7 @@ static bool search_take(tiles_search *q, uint32_t site, double score) {
 }
 
 static bool search_node(tiles_search *q, const tiles_tree *t, const tiles_sites *s, size_t node, size_t lo, size_t hi) {
-  if (is_too_late(q, score_of(q, &t->box[node]))) return true;
+  if (is_too_late(q, tiles_disc_score(q->disc, &t->box[node]))) return true;
   if (hi - lo > LEAF) {
     size_t middle = lo + (hi - lo) / 2;
     return search_node(q, t, s, 2 * node, lo, middle) && search_node(q, t, s, 2 * node + 1, middle, hi);
@@ -116,7 +111,7 @@ static bool search_node(tiles_search *q, const tiles_tree *t, const tiles_sites 
   for (size_t k = lo; k < hi; k++) {
     if (tiles_set_has(q->skip, t->order[k]) || (q->alias && q->alias[t->order[k]])) continue;
     tiles_box b = tiles_sites_box(s, t->order[k]);
-    double score = score_of(q, &b);
+    double score = tiles_disc_score(q->disc, &b);
     if (!is_too_late(q, score) && !search_take(q, t->order[k], score)) return false;
   }
   return true;
@@ -130,5 +125,5 @@ bool tiles_tree_search(tiles_search *q, const tiles_tree *t, const tiles_sites *
 void tiles_search_clear(tiles_search *q) {
   free(q->site);
   free(q->score);
-  *q = (tiles_search){.disc = q->disc, .box = q->box};
+  *q = (tiles_search){.disc = q->disc};
 }

@@ -16,15 +16,13 @@ typedef struct tiles_tree {
 bool tiles_tree_make(tiles_tree *t, const tiles_sites *s);
 void tiles_tree_clear(tiles_tree *t);
 
-/* The sites that may meet `disc`, or `box` where that is not NULL, without those of `skip`; no
- * more than `most` of them, those with the least scores. */
+/* The sites that may meet `disc`, without those of `skip`; no more than `most` of them, those with the least scores. */
 typedef struct tiles_search {
   const tiles_disc *disc;
-  const tiles_box *box;
   const tiles_set *skip;
   const bool *alias; /* which others to leave out; NULL: none */
   size_t most;
-  /* The answer, ascending by score (of a box, in no order); cleared by the caller. */
+  /* The answer, ascending by score; cleared by the caller. */
   size_t count, room_site, room_score;
   uint32_t *site;
   double *score;

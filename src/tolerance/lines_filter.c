@@ -113,7 +113,7 @@ typedef struct place_d {
 } place_d;
 
 /* The place s, if it is well known. */
-static bool place_at(place_d *at, const dyd_lines_d *l, double s, double es) {
+static bool place_on_bisector(place_d *at, const dyd_lines_d *l, double s, double es) {
   double x = l->jx / 2 - s * l->jy, y = l->jy / 2 + s * l->jx, near = es * 1.5 / (0.5 + fabs(s));
   *at = (place_d){s, es, near, x, y, x * x + y * y, 0};
   return near < 0x1p-12;
@@ -128,13 +128,13 @@ static bool cross_d(place_d *at, const dyd_lines_d *l, const dyd_line_d *a, cons
   double d = b->m - a->m, e = b->n - a->n, ee = a->en + b->en + 2 * U * fabs(e);
   double ed = a->em + b->em + 2 * U * fabs(d), s = d / (2 * e);
   double es = (ed + 2 * fabs(s) * ee + 2 * U * fabs(d)) / (2 * (fabs(e) - ee)) * GENEROUS;
-  return place_at(at, l, s, es) && fabs(e) > 2 * ee;
+  return place_on_bisector(at, l, s, es) && fabs(e) > 2 * ee;
 }
 
 static bool summit_d(place_d *at, const dyd_lines_d *l, const dyd_line_d *o) {
   double q = dyd_max(-o->along, o->along - l->jj), eq = o->ea + l->ejj + 2 * U * fabs(q), s = -o->n / (2 * q);
   double es = (o->en + 2 * fabs(s) * eq + 2 * U * fabs(o->n)) / (2 * (q - eq)) * GENEROUS;
-  return place_at(at, l, s, es) && q > 2 * eq;
+  return place_on_bisector(at, l, s, es) && q > 2 * eq;
 }
 
 /* 1, -1; 0: not sure (or at a summit). At an end: of the computed numbers, checked by end_death. Else the sign of
@@ -194,7 +194,7 @@ static void begin_d(climb_d *c) {
   }
   c->kind = ANYWHERE;
   c->rising = c->falling = NULL;
-  place_at(&c->at, c->l, 0, 0);
+  place_on_bisector(&c->at, c->l, 0, 0);
   if (!across) c->at.end = first->n > 0 ? -1 : 1;
 }
 

@@ -102,6 +102,30 @@ static bool list_right(char *message, size_t count[4], const orc_case *c, const 
   return true;
 }
 
+typedef struct pair_visits {
+  const dyd_pair_list *list;
+  unsigned char *met;
+  size_t count, wrong;
+} pair_visits;
+
+static void visit_pair(void *user, uint32_t i, uint32_t j, dyd_pair_status status) {
+  pair_visits *v = user;
+  size_t k = 0;
+  while (k < v->list->count && (v->list->item[k].i != i || v->list->item[k].j != j)) k++;
+  v->count++;
+  if (k == v->list->count || v->list->item[k].status != status || v->met[k]++) v->wrong++;
+}
+
+/* Is each pair of the list met once, and no other? */
+static bool visits_agree(char *message, const dyd_delaunay *pd, const dyd_pair_list *l) {
+  pair_visits v = {.list = l, .met = calloc(l->count + 1, 1)};
+  if (!v.met) return wrong(message, "no memory");
+  dyd_delaunay_each_pair(pd, visit_pair, &v);
+  free(v.met);
+  if (v.count == l->count && v.wrong == 0) return true;
+  return wrong(message, "%zu pairs met, %zu wrong ones, of %zu", v.count, v.wrong, l->count);
+}
+
 static bool pairs_agree(char *message, const orc_case *c, const dyd_delaunay *pd) {
   dyd_pair_list l = {0};
   size_t listed[4], count[4] = {9, 9, 9, 9}, possible = 0;
@@ -112,6 +136,7 @@ static bool pairs_agree(char *message, const orc_case *c, const dyd_delaunay *pd
       if (orc_case_alias(c, i) == i && orc_case_alias(c, j) == j)
         possible += dyd_delaunay_status(pd, i, j) != DYD_ILLEGAL;
   if (good && possible != l.count) good = wrong(message, "%zu pairs listed of %zu", l.count, possible);
+  if (good) good = visits_agree(message, pd, &l);
   dyd_delaunay_count(count, pd);
   for (size_t s = 0; s < 4 && good; s++)
     if (count[s] != listed[s]) good = wrong(message, "count[%zu] is %zu, not %zu", s, count[s], listed[s]);

@@ -72,6 +72,31 @@ class Faults(unittest.TestCase):
         self.complete(4)
         self.complete(3)
 
+    def test_changed_input(self):
+        """Two points of one rank change places: parts of its neighbours name them, and are not of the same job any more."""
+        self.assertEqual(tiles(4, 'delaunay', self.file, '-o', self.out).returncode, 0)
+        cut = cases.parts_of(self.out)[1]
+        cut.write_bytes(cut.read_bytes()[:-20])
+        self.complete(4)
+        records = [cases.records_of(part)[0] for part in cases.parts_of(self.out)]
+        own = {i for i, _, _ in records[0]}
+        one, two = sorted({j for _, j, _ in records[1] + records[2] if j in own})[:2]
+        self.rows[one], self.rows[two] = self.rows[two], self.rows[one]
+        cases.write(self.at / 'in.bin', self.rows)
+        self.complete(4)
+
+    def test_found_parts(self):
+        """What the manifest says does not depend on which parts were there; a cap is another job."""
+        cases.write(self.at / 'in.bin', cases.line(300, random.Random(1)))
+        name = ('delaunay', self.file, '-o', self.out)
+        for words, status in ((('--max-pairs', '10'), 4), ((), 3)):
+            told = []
+            for restart in ((), ('--restart',)):
+                again = (*words, '--restart') if words == () else (*words, *restart)
+                self.assertEqual(tiles(2, *name, *again).returncode, status)
+                told.append((self.at / 'out' / 'manifest.json').read_text())
+            self.assertEqual(*told)
+
     def test_killed(self):
         """One rank is killed at any moment."""
         for wait in (0.05, 0.3, 0.6):

@@ -86,6 +86,11 @@ class Union(unittest.TestCase):
     def test_line(self):
         self.compare(cases.line(300, self.random))
 
+    def test_parabola(self):
+        """Discs of 10^6 distances with exact points on their rims; half-planes."""
+        for height in (2.0 ** -20, 2.0 ** -30):
+            self.compare(cases.parabola(80, self.random, height), RANKS[:2])
+
     def test_equal(self):
         self.compare(cases.equal(5000, self.random))
 
@@ -111,11 +116,13 @@ class Union(unittest.TestCase):
 
     @unittest.skipIf(MPIRUN, 'the same in one process')
     def test_hidden_witness(self):
-        """The possible pairs of one end tell nothing of a witness."""
-        rows = cases.hidden_witness(4000, self.random)
-        alone, both = (cases.expected(DYADEL, some)[0].splitlines() for some in (rows[:2000], rows))
-        self.assertTrue(b'0,1,legal' in alone and b'0,1,indeterminate' in both)
-        self.compare(rows, (2,))
+        """The possible pairs of one end tell nothing of a witness; where the other end is a ghost, those of nobody do."""
+        for n, cut in ((4000, 2.85), (90, 1.4)):
+            rows = cases.hidden_witness(n, self.random, cut)
+            others = [row for row in rows if row[0] != cases.HIDDEN[0]]
+            without, both = (cases.expected(DYADEL, some)[0].splitlines() for some in (others, rows))
+            self.assertTrue(b'0,1,legal' in without and b'0,1,indeterminate' in both)
+            self.compare(rows, (2,))
 
     def test_mixed(self):
         """Ties of exact points, of faces that may reach over a border and touch a rectangle."""

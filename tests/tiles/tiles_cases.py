@@ -48,6 +48,14 @@ def line(n, r):
     return [(float(x), 2.0 * x) for x in r.sample(range(10 * n), n)]
 
 
+def parabola(n, r, height):
+    """So flat that circles are far larger than distances. (-a, -b, b, a) are on one circle, and for neighbours a, b nobody is
+    inside: ties across the middle, that end on the rims of large discs."""
+    points = [(float(k), height * k * k) for k in range(-n // 2, n // 2 + 1) if k]
+    r.shuffle(points)
+    return points
+
+
 def equal(n, r):
     return [(0.5, 0.25)] * n
 
@@ -87,10 +95,13 @@ def mixed(n, r):
             if side]
 
 
-def hidden_witness(n, r):
-    """A segment 0, a point 1, and exact points about every disc that holds both, but for one inside of it: this one is far
-    from all that the pairs of the segment depend on, and in the other of two tiles. So 0,1 is a legal pair of the first
-    tile, and none of both."""
+HIDDEN = (2.95, 0.0)
+
+
+def hidden_witness(n, r, cut):
+    """A segment 0, a point 1, and exact points about every disc that holds both, but for HIDDEN, inside of it: this one is far
+    from all that the pairs of the segment depend on, and in the other of two tiles, which meet at x = cut. So 0,1 is a legal
+    pair for the first tile, and not for both. Where 1 belongs to the other tile, too, nothing but the witness tells."""
     half, middle, side = 0.25, 1.55, 16
     radius = 1.002 * math.hypot(middle, half)
     least, most = math.asin(half / radius) + 0.12, math.pi - 1
@@ -98,10 +109,13 @@ def hidden_witness(n, r):
     for k in range(side):
         a = least + (most - least) * k / (side - 1)
         points += [(middle - radius * math.cos(a), s * radius * math.sin(a)) for s in (1, -1)]
-    left = [(middle - 0.9 * radius + 0.01 * r.random(), -0.9 * radius + 0.01 * r.random()) for _ in range(n // 2 - 2 - len(points))]
-    right = [(2.95, 0.0), (2.9, 30.0), (2.9, -30.0)]
-    right += [(100 + 0.01 * r.random(), 0.01 * r.random()) for _ in range(n // 2 - len(right))]
-    return [(0.0, 0.0, -half, half)] + [(x, x, y, y) for x, y in [(1.5, 0.0)] + points + left + right]
+    points += [HIDDEN, (2.9, 30.0), (2.9, -30.0)]
+    left, right = ([p for p in points if (p[0] < cut) == first] for first in (True, False))
+    first, second = (2, 0) if cut > 1.5 else (1, 1)  # of the segment and point 1
+    left += [(middle - 0.9 * radius + 0.01 * r.random(), -0.9 * radius + 0.01 * r.random())
+             for _ in range(n // 2 - first - len(left))]
+    right += [(100 + 0.01 * r.random(), 0.01 * r.random()) for _ in range(n // 2 - second - len(right))]
+    return [(0.0, 0.0, -half, half)] + [(x, x, y, y) for x, y in [(1.5, 0.0)] + left + right]
 
 
 def write(path, rows):
