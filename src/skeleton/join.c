@@ -47,8 +47,7 @@ static void lower_tangent(dyd_half_edge *at_a, dyd_half_edge *at_b, dyd_mesh *m)
   dyd_half_edge a = *at_a, b = *at_b;
   for (bool moved = true; moved;) {
     moved = false;
-    for (; seam_side(m, dyd_hull_origin(m, a), dyd_hull_origin(m, b), dyd_hull_origin(m, dyd_hull_preceding(m, a))) < 0;
-         moved = true)
+    while (seam_side(m, dyd_hull_origin(m, a), dyd_hull_origin(m, b), dyd_hull_origin(m, dyd_hull_preceding(m, a))) < 0)
       a = dyd_hull_preceding(m, a);
     for (; seam_side(m, dyd_hull_origin(m, a), dyd_hull_origin(m, b), dyd_hull_target(m, b)) < 0; moved = true)
       b = dyd_hull_following(m, b);
@@ -115,15 +114,14 @@ static bool right_candidate(uint32_t *p, dyd_mesh *m, dyd_half_edge top) {
   }
 }
 
-/* One edge across; *top follows. false: the base is the upper tangent. */
+/* One edge across; *top follows. false: the base is the upper tangent. Were the triangle below on one circle with the
+ * new one, a zero would have been met when it was made [JOIN-1]. */
 static bool zip_one(dyd_half_edge *top, dyd_mesh *m) {
   uint32_t a = dyd_hull_target(m, *top), b = dyd_hull_origin(m, *top), p = DYD_NONE, q = DYD_NONE;
   bool left = left_candidate(&q, m, *top), right = right_candidate(&p, m, *top);
   if (!left && !right) return false;
   if (left && right) left = dyd_build_incircle(m, a, b, q, p) <= 0;
-  uint32_t below = dyd_edge_across(m, *top);
   dyd_half_edge at = left ? dyd_edge_prev(*top) : dyd_edge_next(*top), beyond = dyd_edge_twin(m, at);
-  if (below != m->n) (void)dyd_build_incircle(m, a, b, left ? q : p, below); /* <= 0; counts a tie */
   seam_flip(m, at); /* left: its triangle becomes (b, ghost, q); else the one beyond becomes (p, ghost, a) */
   *top = dyd_edge_of(dyd_edge_triangle(left ? at : beyond), 1);
   return true;

@@ -155,6 +155,16 @@ def check_use(texts):
                 yield f'{name}: {constant} is not used'
 
 
+def check_filters(root, texts):
+    """Each filter is tied to a theory, or SOUNDNESS.md lists it as one that is not."""
+    tied = {path.removesuffix(path[-2:]) for text in texts.values() for path in re.findall(r'\(\* (?:C|any|\[[\w-]+\]) (src/[\w/]+\.[ch])', text)}
+    section = (root / 'proofs/SOUNDNESS.md').read_text(encoding='utf-8').split('### Filters, by file')[-1].split('\n## ')[0]
+    listed = set(re.findall(r'`([\w/]+)`', ''.join(re.findall(r'^\* .*', section, re.M))))
+    for path in sorted({p.with_suffix('').relative_to(root).as_posix() for p in root.glob('src/**/*_filter.[ch]')}):
+        if (path in tied) == (path.removeprefix('src/') in listed):
+            yield f'{path}: tied to a theory, or in the list of SOUNDNESS.md, but not both'
+
+
 def breaches(root):
     texts = {p.name: p.read_text(encoding='utf-8') for p in sorted((root / 'proofs/theories').glob('*.v'))}
     sources, count = Sources(root), 0
@@ -164,6 +174,7 @@ def breaches(root):
         count += len(CONSTANT.findall(text)) + len(BODY.findall(text))
     yield from check_literals(sources)
     yield from check_use(texts)
+    yield from check_filters(root, texts)
     if not count:
         yield 'proofs/theories: no constant and no function is tied to the C source'
 

@@ -42,6 +42,7 @@ FAULTS = [
     ('src/predicate/solve.c', 'mpz_submul(out->a[k], out->b[k], out->t);', 'mpz_addmul(out->a[k], out->b[k], out->t);',
      'constants', 'point_and_line'),
     ('proofs/theories/FiltersConst.v', '(2281771080410813, -102)%Z', '(2281771080410812, -102)%Z', 'constants', 'c_incircle_bound'),
+    ('proofs/SOUNDNESS.md', '`legal/lp_filter`, ', '', 'constants', 'legal/lp_filter'),
     ('proofs/claims/filters.md', '`filter_incircle_at_correct`', '`filter_incircle_correct`', 'claims', 'filter_incircle_correct'),
     ('proofs/README.md', 'filter_orient_correct, ', '', 'claims', 'filter_orient_correct'),
     ('src/predicate/icircle.h', '(mathematics: section 4)', '(mathematics: section 40)', 'citations', 'section 40'),
