@@ -253,7 +253,7 @@ static void test_whole_and_radii(void **state) {
 
 /* ---- many points ---- */
 
-enum { MANY = 40 };
+enum { MANY = 40, RING = 82 };
 
 /* Anywhere; a hub within a ring; a ring within which another one is; thin. */
 static void make_many(double xy[2][MANY], test_random *r, size_t kind) {
@@ -267,15 +267,15 @@ static void make_many(double xy[2][MANY], test_random *r, size_t kind) {
   }
 }
 
-static dyd_pair_status status_of_squares(double xy[2][MANY], double t, uint32_t i, uint32_t j) {
+static dyd_pair_status status_of_squares(size_t n, const double *x, const double *y, double t, uint32_t i, uint32_t j) {
   dyd_sites *sites;
   dyd_delaunay *pd;
   dyd_error err;
-  double end[4][MANY];
-  for (size_t k = 0; k < MANY; k++)
-    for (int e = 0; e < 4; e++) end[e][k] = xy[e / 2][k] + (e % 2 ? t : -t);
+  double end[4][RING + 2];
+  for (size_t k = 0; k < n; k++)
+    for (int e = 0; e < 4; e++) end[e][k] = (e / 2 ? y : x)[k] + (e % 2 ? t : -t);
   assert_int_equal(dyd_sites_new(&sites), DYD_OK);
-  assert_int_equal(dyd_sites_add_boxes(sites, MANY, end[0], end[1], end[2], end[3]), DYD_OK);
+  assert_int_equal(dyd_sites_add_boxes(sites, n, end[0], end[1], end[2], end[3]), DYD_OK);
   assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, &err), DYD_OK);
   dyd_pair_status status = dyd_delaunay_status(pd, i, j);
   dyd_delaunay_free(pd);
@@ -305,8 +305,8 @@ static void test_many_squares(void **state) {
     for (size_t n = dyd_tolerance_rows(&row, a.t); n--; row++) {
       bool death = row->event == DYD_EVENT_DEATH;
       if (row->lo < 1e-6 || row->hi > 0.02 || test_below(&r, 4)) continue;
-      dyd_pair_status before = status_of_squares(xy, row->lo * (1 - 1e-6), row->i, row->j);
-      dyd_pair_status after = status_of_squares(xy, row->hi * (1 + 1e-6), row->i, row->j);
+      dyd_pair_status before = status_of_squares(MANY, xy[0], xy[1], row->lo * (1 - 1e-6), row->i, row->j);
+      dyd_pair_status after = status_of_squares(MANY, xy[0], xy[1], row->hi * (1 + 1e-6), row->i, row->j);
       assert_int_equal(before, death ? DYD_LEGAL : DYD_ILLEGAL);
       assert_int_equal(after, DYD_INDETERMINATE);
       births += !death, all++;
@@ -316,6 +316,40 @@ static void test_many_squares(void **state) {
   }
   print_message("%zu births of %zu\n", births, all);
   assert_true(births > 30 && all > 100);
+}
+
+/* Two near points amid a ring that is a little wider at its diagonals: those of the ring that bind for discs are at the
+ * axes, for squares at the diagonals, and are not listed at first, as both points have many neighbours. */
+static void test_two_hubs(void **state) {
+  (void)state;
+  test_random r = test_random_start("two hubs");
+  for (int c = 0; c < 3; c++) {
+    double x[RING + 2] = {-0x1p-8, 0x1p-8}, y[RING + 2] = {0};
+    cases_answer a;
+    dyd_error err;
+    for (size_t k = 0; k < RING; k++) {
+      double angle = 6.283185307179586 * ((double)k + test_unit(&r) / 4) / RING,
+             far = 1 + 0x1p-9 * fabs(sin(2 * angle));
+      x[k + 2] = far * cos(angle);
+      y[k + 2] = far * sin(angle);
+    }
+    assert_int_equal(dyd_sites_new(&a.sites), DYD_OK);
+    assert_int_equal(dyd_sites_add_points(a.sites, RING + 2, x, y), DYD_OK);
+    assert_int_equal(dyd_delaunay_new(&a.pd, a.sites, NULL, &err), DYD_OK);
+    for (uint32_t i = 0; i < 2; i++) {
+      dyd_index_list near = {0};
+      assert_int_equal(dyd_delaunay_neighbours(&near, a.pd, i, DYD_LEGAL), DYD_OK);
+      assert_true(near.count > 30);
+      dyd_index_list_clear(&near);
+    }
+    const dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .metric = DYD_METRIC_BOX};
+    assert_int_equal(dyd_tolerance_new(&a.t, a.pd, &o, &err), DYD_OK);
+    const dyd_tolerance_row *row = cases_row(a.t, 0, 1);
+    assert_true(row && row->event == DYD_EVENT_DEATH && row->lo > 0.3 && row->hi < row->lo * width);
+    assert_int_equal(status_of_squares(RING + 2, x, y, row->lo * (1 - 1e-6), 0, 1), DYD_LEGAL);
+    assert_int_equal(status_of_squares(RING + 2, x, y, row->hi * (1 + 1e-6), 0, 1), DYD_INDETERMINATE);
+    cases_forget(&a);
+  }
 }
 
 /* What is not for squares. */
@@ -342,7 +376,8 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_squares_against_oracle), cmocka_unit_test(test_corners),
       cmocka_unit_test(test_squares_against_discs),  cmocka_unit_test(test_whole_and_radii),
-      cmocka_unit_test(test_many_squares),           cmocka_unit_test(test_squares_refused),
+      cmocka_unit_test(test_many_squares),           cmocka_unit_test(test_two_hubs),
+      cmocka_unit_test(test_squares_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
