@@ -14,6 +14,10 @@ void dyd_delaunay_allow(dyd_delaunay *pd, uint64_t max_bytes) {
   pd->options.max_bytes = max_bytes;
 }
 
+bool dyd_delaunay_is_bounded(const dyd_delaunay *pd) {
+  return pd->options.max_bytes != 0;
+}
+
 dyd_status dyd_delaunay_grant(const dyd_delaunay *pd, uint64_t bytes, const char *what, dyd_error *err) {
   dyd_room room = dyd_delaunay_room(pd);
   return dyd_room_has(&room, bytes, what) ? DYD_OK : dyd_fail_room(err, &room);

@@ -153,6 +153,7 @@ dyd_status dyd_pairs_list(dyd_pair_list *out, const dyd_delaunay *pd) {
 }
 
 dyd_status dyd_delaunay_pairs(dyd_pair_list *out, const dyd_delaunay *pd) {
-  dyd_status st = dyd_delaunay_grant(pd, dyd_pairs_bytes(pd), "the list of pairs", NULL);
+  dyd_status st = DYD_OK;
+  if (dyd_delaunay_is_bounded(pd)) st = dyd_delaunay_grant(pd, dyd_pairs_bytes(pd), "the list of pairs", NULL);
   return st == DYD_OK ? dyd_pairs_list(out, pd) : st;
 }

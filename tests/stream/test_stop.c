@@ -83,32 +83,56 @@ static void test_expression(void **state) {
   dyd_real_free(x);
 }
 
+/* A polynomial whose coefficients are 0, and the interval of a root of it. */
+enum { MOST = 900 };
+typedef struct polynomial {
+  size_t degree;
+  mpq_t coeff[MOST + 1], lo, hi;
+} polynomial;
+
+static void polynomial_init(polynomial *p, size_t degree) {
+  p->degree = degree;
+  for (size_t k = 0; k <= degree; k++) mpq_init(p->coeff[k]);
+  mpq_inits(p->lo, p->hi, NULL);
+}
+
+/* The root; the polynomial is cleared. */
+static dyd_real *polynomial_root(polynomial *p) {
+  dyd_error err;
+  dyd_real *x;
+  assert_int_equal(DYD_OK, dyd_real_root(&x, (const mpq_t *)p->coeff, p->degree + 1, p->lo, p->hi, &err));
+  for (size_t k = 0; k <= p->degree; k++) mpq_clear(p->coeff[k]);
+  mpq_clears(p->lo, p->hi, NULL);
+  return x;
+}
+
+/* So many bits take longer than that many seconds, after which the flag is set, and soon seen. */
+static void is_stopped(dyd_real *x, int64_t bits, double seconds) {
+  alarm a;
+  dyd_error err;
+  alarm_start(&a, seconds);
+  dyd_status st = dyd_real_narrow_until(x, bits, bits, &a.stop, &err);
+  double late = alarm_late(&a);
+  if (late > SPARE) fail_msg("ended %.1f s late", late);
+  assert_int_equal(DYD_CANCELLED, st);
+}
+
 /* x^900 - 2: at 2^17 bits the next step, which doubles them, takes some three seconds. */
 static void test_root(void **state) {
   enum { DEGREE = 900, BITS = 1 << 17 };
   (void)state;
-  mpq_t coeff[DEGREE + 1], lo, hi;
-  alarm a;
-  dyd_error err;
-  dyd_real *x;
-  for (int k = 0; k <= DEGREE; k++) mpq_init(coeff[k]);
-  mpq_inits(lo, hi, NULL);
-  mpq_set_si(coeff[0], -2, 1);
-  mpq_set_si(coeff[DEGREE], 1, 1);
-  mpq_set_ui(lo, 1, 1);
-  mpq_set_ui(hi, 2, 1);
-  assert_int_equal(DYD_OK, dyd_real_root(&x, (const mpq_t *)coeff, DEGREE + 1, lo, hi, &err));
+  polynomial p;
+  polynomial_init(&p, DEGREE);
+  mpq_set_si(p.coeff[0], -2, 1);
+  mpq_set_si(p.coeff[DEGREE], 1, 1);
+  mpq_set_ui(p.lo, 1, 1);
+  mpq_set_ui(p.hi, 2, 1);
+  dyd_real *x = polynomial_root(&p);
   narrowed(x, BITS, BITS);
   int64_t before = dyd_interval_bits(dyd_real_interval(x));
-  alarm_start(&a, 0.1);
-  dyd_status st = dyd_real_narrow_until(x, 2 * BITS, 2 * BITS, &a.stop, &err);
-  double late = alarm_late(&a);
-  if (late > SPARE) fail_msg("ended %.1f s late", late);
-  assert_int_equal(DYD_CANCELLED, st);
+  is_stopped(x, 2 * BITS, 0.1);
   assert_int_equal(before, dyd_interval_bits(dyd_real_interval(x)));
   dyd_real_free(x);
-  for (int k = 0; k <= DEGREE; k++) mpq_clear(coeff[k]);
-  mpq_clears(lo, hi, NULL);
 }
 
 /* x^40 - 2 (2^3000 x - 1)^2: its two roots near 2^-3000 are 2^-63000 apart, so that thousands of bits take as
@@ -116,30 +140,20 @@ static void test_root(void **state) {
 static void test_close_roots(void **state) {
   enum { DEGREE = 40, POWER = 3000, BITS = 6000 };
   (void)state;
-  mpq_t coeff[DEGREE + 1], lo, hi;
-  alarm a;
-  dyd_error err;
-  dyd_real *x;
-  for (int k = 0; k <= DEGREE; k++) mpq_init(coeff[k]);
-  mpq_inits(lo, hi, NULL);
-  mpq_set_si(coeff[0], -2, 1);
-  mpq_set_si(coeff[1], 4, 1);
-  mpq_mul_2exp(coeff[1], coeff[1], POWER);
-  mpq_set_si(coeff[2], -2, 1);
-  mpq_mul_2exp(coeff[2], coeff[2], 2 * POWER);
-  mpq_set_si(coeff[DEGREE], 1, 1);
-  mpq_set_ui(hi, 1, 1);
-  mpq_div_2exp(hi, hi, POWER);
-  assert_int_equal(DYD_OK, dyd_real_root(&x, (const mpq_t *)coeff, DEGREE + 1, lo, hi, &err));
-  alarm_start(&a, 0.2);
-  dyd_status st = dyd_real_narrow_until(x, BITS, BITS, &a.stop, &err);
-  double late = alarm_late(&a);
-  if (late > SPARE) fail_msg("ended %.1f s late", late);
-  assert_int_equal(DYD_CANCELLED, st);
+  polynomial p;
+  polynomial_init(&p, DEGREE);
+  mpq_set_si(p.coeff[0], -2, 1);
+  mpq_set_si(p.coeff[1], 4, 1);
+  mpq_mul_2exp(p.coeff[1], p.coeff[1], POWER);
+  mpq_set_si(p.coeff[2], -2, 1);
+  mpq_mul_2exp(p.coeff[2], p.coeff[2], 2 * POWER);
+  mpq_set_si(p.coeff[DEGREE], 1, 1);
+  mpq_set_ui(p.hi, 1, 1);
+  mpq_div_2exp(p.hi, p.hi, POWER);
+  dyd_real *x = polynomial_root(&p);
+  is_stopped(x, BITS, 0.2);
   narrowed(x, 100, 4096);
   dyd_real_free(x);
-  for (int k = 0; k <= DEGREE; k++) mpq_clear(coeff[k]);
-  mpq_clears(lo, hi, NULL);
 }
 
 int main(void) {
