@@ -142,6 +142,10 @@ dyd_status dyd_engine_append_rect(dyd_engine *e, const dyd_rect *r, dyd_error *e
   return appended(e, add_rect(e, true, r), err);
 }
 
+dyd_status dyd_engine_reserve(dyd_engine *e, size_t n) {
+  return dyd_sites_reserve(e->sites, n);
+}
+
 dyd_status dyd_engine_append_words(dyd_engine *e, size_t n, const dyd_words *xy, dyd_error *err) {
   size_t before = dyd_sites_count(e->sites);
   dyd_status st = dyd_engine_may_add(e, true);

@@ -5,6 +5,7 @@
  * double nearest to d is <= x, so the direction survives reading the decimal back. */
 #include "io/decimal.h"
 #include "base/alloc.h"
+#include "io/fives.h"
 #include "io/read/plain.h"
 #include <inttypes.h>
 #include <math.h>
@@ -38,35 +39,7 @@ static size_t decimal_layout(char *out, bool negative, const char *digits, int c
   return (size_t)(p - out);
 }
 
-static const uint64_t power_of_five[] = {1,
-                                         5,
-                                         25,
-                                         125,
-                                         625,
-                                         3125,
-                                         15625,
-                                         78125,
-                                         390625,
-                                         1953125,
-                                         9765625,
-                                         48828125,
-                                         244140625,
-                                         1220703125,
-                                         6103515625,
-                                         30517578125,
-                                         152587890625,
-                                         762939453125,
-                                         3814697265625,
-                                         19073486328125,
-                                         95367431640625,
-                                         476837158203125,
-                                         2384185791015625,
-                                         11920928955078125,
-                                         59604644775390625,
-                                         298023223876953125,
-                                         1490116119384765625,
-                                         7450580596923828125};
-enum { MOST_TENS = sizeof power_of_five / sizeof *power_of_five - 1, MOST_DIGITS = 17 };
+enum { MOST_DIGITS = 17 };
 
 /* |x| 10^tens = whole + rest 2^-shift, 0 <= rest 2^-shift < 1, and whole has `digits` digits. */
 typedef struct decimal_cut {
@@ -76,7 +49,7 @@ typedef struct decimal_cut {
 } decimal_cut;
 
 static void cut_at(decimal_cut *c, int exponent, int tens) {
-  wide product = (wide)c->man * power_of_five[tens]; /* 53 and 63 bits */
+  wide product = (wide)c->man * dyd_power_of_five[tens]; /* 53 and 63 bits */
   int shift = -exponent - tens;
   if (shift < 0) product <<= -shift, shift = 0; /* |x| 10^tens < 10^19 */
   c->tens = tens;
@@ -92,7 +65,7 @@ static bool decimal_cut_off(decimal_cut *c, double x, int digits) {
   uint64_t bits, least = 1;
   memcpy(&bits, &x, sizeof bits);
   int exponent = (int)(bits >> 52 & 0x7ff) - 1075, tens = digits - 1 - (int)floor((exponent + 52) * 0.30103);
-  if (tens < 2 || tens >= MOST_TENS || digits > MOST_DIGITS) return false;
+  if (tens < 2 || tens >= DYD_MOST_FIVES || digits > MOST_DIGITS) return false;
   *c = (decimal_cut){.man = (bits & ((UINT64_C(1) << 52) - 1)) | UINT64_C(1) << 52, .digits = digits};
   for (int k = 1; k < digits; k++) least *= 10;
   cut_at(c, exponent, tens);
@@ -150,9 +123,9 @@ static bool decimal_near(near_decimal *out, char text[DYD_DECIMAL_SIZE], double 
   wide one = (wide)1 << c.shift, twice = 2 * c.rest;
   bool up = twice > one || (twice == one && (c.whole & 1));
   wide away = up ? one - c.rest : c.rest;
-  bool narrow = !up && c.man == UINT64_C(1) << 52, same = (narrow ? 4 : 2) * away < power_of_five[c.tens];
+  bool narrow = !up && c.man == UINT64_C(1) << 52, same = (narrow ? 4 : 2) * away < dyd_power_of_five[c.tens];
   if (!same && others && (c.whole >= UINT64_C(1) << 53 || c.tens > 22)) return false;
-  double other = others ? (double)(c.whole + up) / ((double)power_of_five[c.tens] * (double)(1 << c.tens)) : NAN;
+  double other = others ? (double)(c.whole + up) / ((double)dyd_power_of_five[c.tens] * (double)(1 << c.tens)) : NAN;
   *out = (near_decimal){same ? x : copysign(other, x), same, !away, cut_layout(text, &c, x < 0, up)};
   return true;
 }

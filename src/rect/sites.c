@@ -21,6 +21,8 @@ void dyd_sites_free(dyd_sites *s) {
   if (s->exact)
     for (size_t i = 0; i < s->count; i++) free(s->exact[i]);
   free(s->exact);
+  free(s->word);
+  free(s->point);
   free(s->joined);
   for (int a = 0; a < 2; a++) {
     free(s->lower[a]);
@@ -31,39 +33,6 @@ void dyd_sites_free(dyd_sites *s) {
 
 size_t dyd_sites_count(const dyd_sites *s) {
   return s->count;
-}
-
-static bool resize_array(void *array, size_t cap, size_t size) {
-  void *p = dyd_alloc_in_large_pages(realloc(*(void **)array, cap * size), cap * size);
-  if (p) *(void **)array = p;
-  return p != NULL;
-}
-
-/* Room for `more` further sites in every array there is. */
-static dyd_status sites_make_room(dyd_sites *s, size_t more) {
-  if (more > DYD_MAX_SITES - s->count) return DYD_E_RANGE;
-  if (s->count + more <= s->cap) return DYD_OK;
-  size_t cap = s->cap + s->cap / 2;
-  if (cap < s->count + more) cap = s->count + more;
-  for (int a = 0; a < 2; a++) {
-    if (!resize_array(&s->lower[a], cap, sizeof(double))) return DYD_E_NOMEM;
-    if (s->upper[a] && !resize_array(&s->upper[a], cap, sizeof(double))) return DYD_E_NOMEM;
-  }
-  if (s->exact && !resize_array(&s->exact, cap, sizeof *s->exact)) return DYD_E_NOMEM;
-  s->cap = cap;
-  return DYD_OK;
-}
-
-/* Gives upper ends arrays of their own. */
-static dyd_status sites_split_ends(dyd_sites *s) {
-  for (int a = 0; a < 2; a++) {
-    if (s->upper[a]) continue;
-    double *p = dyd_alloc(s->cap ? s->cap : 1, sizeof *p);
-    if (!p) return DYD_E_NOMEM;
-    if (s->count) memcpy(p, s->lower[a], s->count * sizeof *p);
-    s->upper[a] = p;
-  }
-  return DYD_OK;
 }
 
 static dyd_status sites_make_exact(dyd_sites *s) {
@@ -78,6 +47,13 @@ static bool ends_are_good(size_t n, const double *lo, const double *hi) {
   return true;
 }
 
+/* Says of n sites behind the last one that doubles hold them. */
+static void sites_append_held(dyd_sites *s, size_t n) {
+  if (s->exact) memset(s->exact + s->count, 0, n * sizeof *s->exact);
+  if (s->word) memset(s->word + s->count, 0, n * sizeof *s->word);
+  s->count += n;
+}
+
 /* Adding +0.0 turns -0.0 into +0.0, so that equal numbers are equal bits. */
 static void sites_copy_ends(double *to, const double *from, size_t n) {
   for (size_t i = 0; i < n; i++) to[i] = from[i] + 0.0;
@@ -87,15 +63,14 @@ static dyd_status sites_add_doubles(dyd_sites *s, size_t n, const double *const 
   bool points = lo[0] == hi[0] && lo[1] == hi[1];
   for (int a = 0; a < 2; a++)
     if (!ends_are_good(n, lo[a], hi[a])) return DYD_E_ARG;
-  dyd_status st = sites_make_room(s, n);
-  if (st == DYD_OK && !points) st = sites_split_ends(s);
+  dyd_status st = dyd_sites_reserve(s, n);
+  if (st == DYD_OK && !points) st = dyd_sites_split_ends(s);
   if (st != DYD_OK) return st;
   for (int a = 0; a < 2; a++) {
     sites_copy_ends(s->lower[a] + s->count, lo[a], n);
     if (s->upper[a]) sites_copy_ends(s->upper[a] + s->count, hi[a], n);
   }
-  if (s->exact) memset(s->exact + s->count, 0, n * sizeof *s->exact);
-  s->count += n;
+  sites_append_held(s, n);
   return DYD_OK;
 }
 
@@ -123,21 +98,20 @@ static bool put_columns(double *lower, double *upper, size_t n, const dyd_column
 }
 
 dyd_status dyd_sites_add_columns(dyd_sites *s, size_t n, const dyd_column xy[2], const dyd_column *radius) {
-  dyd_status st = sites_make_room(s, n);
-  if (st == DYD_OK && radius) st = sites_split_ends(s);
+  dyd_status st = dyd_sites_reserve(s, n);
+  if (st == DYD_OK && radius) st = dyd_sites_split_ends(s);
   for (int a = 0; st == DYD_OK && a < 2; a++) {
     double *upper = s->upper[a] ? s->upper[a] + s->count : NULL;
     if (!put_columns(s->lower[a] + s->count, upper, n, &xy[a], radius ? &radius[a] : NULL)) st = DYD_E_ARG;
   }
   if (st != DYD_OK) return st;
-  if (s->exact) memset(s->exact + s->count, 0, n * sizeof *s->exact);
-  s->count += n;
+  sites_append_held(s, n);
   return DYD_OK;
 }
 
 dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n) {
-  dyd_status st = sites_make_room(s, n);
-  if (st == DYD_OK) st = sites_split_ends(s);
+  dyd_status st = dyd_sites_reserve(s, n);
+  if (st == DYD_OK) st = dyd_sites_split_ends(s);
   if (st != DYD_OK) return st;
   for (size_t i = s->count; i < s->count + n; i++) {
     for (int a = 0; a < 2; a++) {
@@ -145,8 +119,7 @@ dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n) {
       s->upper[a][i] = INFINITY;
     }
   }
-  if (s->exact) memset(s->exact + s->count, 0, n * sizeof *s->exact);
-  s->count += n;
+  sites_append_held(s, n);
   return DYD_OK;
 }
 
@@ -243,6 +216,7 @@ dyd_status dyd_sites_get(dyd_rect *out, const dyd_sites *s, size_t i) {
   if (dyd_sites_in_doubles(s, i))
     return dyd_rect_set_d(out, dyd_sites_lo(s, 0, i), dyd_sites_hi(s, 0, i), dyd_sites_lo(s, 1, i),
                           dyd_sites_hi(s, 1, i));
+  if (dyd_sites_in_words(s, i)) return dyd_sites_get_point(out, s, i);
   const dyd_packed *p = s->exact[i];
   const mp_limb_t *from = unpack_interval(&out->x, p->limb, p->size, p->exp);
   unpack_interval(&out->y, from, p->size + 3, p->exp + 2);
@@ -265,6 +239,7 @@ dyd_status dyd_sites_copy_d(double *out, const dyd_sites *s, size_t first, size_
 bool dyd_sites_is_point(const dyd_sites *s, size_t i) {
   if (dyd_sites_in_doubles(s, i))
     return dyd_sites_lo(s, 0, i) == dyd_sites_hi(s, 0, i) && dyd_sites_lo(s, 1, i) == dyd_sites_hi(s, 1, i);
+  if (dyd_sites_in_words(s, i)) return true;
   return s->exact[i]->size[1] == DYD_SAME_AS_LOWER && s->exact[i]->size[4] == DYD_SAME_AS_LOWER;
 }
 
@@ -280,7 +255,7 @@ static dyd_status sites_put(dyd_sites *s, size_t i, const dyd_rect *r, dyd_packe
     doubles = false;
   }
   if (!doubles || lo[0] != hi[0] || lo[1] != hi[1]) {
-    dyd_status st = sites_split_ends(s);
+    dyd_status st = dyd_sites_split_ends(s);
     if (st == DYD_OK && !doubles) st = sites_make_exact(s);
     if (st != DYD_OK) return st;
   }
@@ -296,102 +271,15 @@ static dyd_status sites_put(dyd_sites *s, size_t i, const dyd_rect *r, dyd_packe
   free(old);
   if (p) s->packed_bytes += packed_size(p);
   if (s->exact) s->exact[i] = p;
+  if (s->word) s->word[i] = 0;
   return DYD_OK;
 }
 
 dyd_status dyd_sites_add_rect(dyd_sites *s, const dyd_rect *r) {
-  dyd_status st = sites_make_room(s, 1);
+  dyd_status st = dyd_sites_reserve(s, 1);
   if (st != DYD_OK) return st;
   st = sites_put(s, s->count, r, NULL);
   if (st == DYD_OK) s->count++;
-  return st;
-}
-
-/* ---- points of single words ---- */
-
-__extension__ typedef unsigned __int128 u128;
-_Static_assert(GMP_NUMB_BITS >= 64, "a word is one limb");
-
-static uint64_t size_of_word(int64_t man) {
-  return man < 0 ? 0 - (uint64_t)man : (uint64_t)man;
-}
-
-static bool words_in_doubles(const dyd_words *w) {
-  return w->den == 1 && size_of_word(w->man) < (uint64_t)1 << 53;
-}
-
-static int bits_of_word(uint64_t z) {
-  return 64 - __builtin_clzll(z);
-}
-
-/* The doubles next to w. q, of 63 or 64 bits, is the integer part of |w| * 2^(k - exp); its first 53 bits are a double,
- * far from the ends of the range, and w is above it unless nothing was cut off. */
-static void words_get_d(double *lo, double *hi, const dyd_words *w) {
-  *lo = *hi = 0;
-  if (!w->man) return;
-  uint64_t m = size_of_word(w->man);
-  int k = 63 - bits_of_word(m) + bits_of_word(w->den);
-  u128 n = (u128)m << k;
-  uint64_t q = (uint64_t)(n / w->den);
-  int cut = bits_of_word(q) - 53;
-  bool exact = (u128)q * w->den == n && (q >> cut) << cut == q;
-  double below = ldexp((double)(q >> cut), cut + w->exp - k);
-  double above = exact ? below : ldexp((double)((q >> cut) + 1), cut + w->exp - k);
-  *lo = w->man < 0 ? -above : below;
-  *hi = w->man < 0 ? -below : above;
-}
-
-static dyd_packed *pack_words(const dyd_words xy[2]) {
-  dyd_packed head;
-  for (int a = 0; a < 2; a++) {
-    head.exp[2 * a] = head.exp[2 * a + 1] = xy[a].exp;
-    head.size[3 * a] = (xy[a].man > 0) - (xy[a].man < 0);
-    head.size[3 * a + 1] = DYD_SAME_AS_LOWER;
-    head.size[3 * a + 2] = xy[a].den != 1;
-  }
-  dyd_packed *p = malloc(packed_size(&head));
-  if (!p) return NULL;
-  memcpy(p, &head, sizeof head);
-  mp_limb_t *to = p->limb;
-  for (int a = 0; a < 2; a++) {
-    if (xy[a].man) *to++ = (mp_limb_t)size_of_word(xy[a].man);
-    if (xy[a].den != 1) *to++ = (mp_limb_t)xy[a].den;
-  }
-  return p;
-}
-
-/* Writes a point behind the last site, where there is room in every array it needs. */
-static dyd_status put_words(dyd_sites *s, const dyd_words xy[2]) {
-  dyd_packed *p = NULL;
-  size_t i = s->count;
-  if (!words_in_doubles(&xy[0]) || !words_in_doubles(&xy[1])) {
-    p = pack_words(xy);
-    if (!p) return DYD_E_NOMEM;
-    s->packed_bytes += packed_size(p);
-  }
-  for (int a = 0; a < 2; a++) {
-    double lo, hi;
-    words_get_d(&lo, &hi, &xy[a]);
-    s->lower[a][i] = lo;
-    s->upper[a][i] = hi;
-  }
-  s->exact[i] = p;
-  s->count++;
-  return DYD_OK;
-}
-
-dyd_status dyd_sites_add_words(dyd_sites *s, size_t n, const dyd_words *xy) {
-  size_t before = s->count;
-  if (n == 0) return DYD_OK;
-  dyd_status st = sites_make_room(s, n);
-  if (st == DYD_OK) st = sites_split_ends(s);
-  if (st == DYD_OK) st = sites_make_exact(s);
-  for (size_t k = 0; k < n && st == DYD_OK; k++) st = put_words(s, xy + 2 * k);
-  while (st != DYD_OK && s->count > before) {
-    dyd_packed *last = s->exact[--s->count];
-    if (last) s->packed_bytes -= packed_size(last);
-    free(last);
-  }
   return st;
 }
 
@@ -401,7 +289,7 @@ dyd_status dyd_sites_narrow(dyd_sites *s, size_t i, const dyd_rect *r) {
   dyd_rect_init(&now);
   dyd_status st = dyd_sites_get(&now, s, i);
   if (st == DYD_OK && !dyd_rect_contains(&now, r)) st = DYD_E_NESTING;
-  if (st == DYD_OK) st = sites_put(s, i, r, s->exact ? s->exact[i] : NULL);
+  if (st == DYD_OK && !dyd_sites_in_words(s, i)) st = sites_put(s, i, r, s->exact ? s->exact[i] : NULL);
   dyd_rect_clear(&now);
   return st;
 }
@@ -430,5 +318,6 @@ dyd_status dyd_sites_narrow_d(dyd_sites *s, size_t i, const double box[4]) {
 
 size_t dyd_sites_memory(const dyd_sites *s) {
   size_t arrays = 2 + (s->upper[0] != NULL) + (s->upper[1] != NULL) + (s->exact != NULL);
-  return sizeof *s + s->cap * arrays * sizeof(double) + s->packed_bytes + s->joined_count * sizeof *s->joined;
+  size_t words = (s->word ? s->cap * sizeof *s->word : 0) + s->point_cap * sizeof *s->point;
+  return sizeof *s + s->cap * arrays * sizeof(double) + s->packed_bytes + words + s->joined_count * sizeof *s->joined;
 }

@@ -16,20 +16,6 @@ typedef struct dyd_packed {
   mp_limb_t limb[];
 } dyd_packed;
 
-/* Invariant: upper[a] = NULL means that every site is an exact double point (lower and upper ends are the same array);
- * exact = NULL means that every rectangle is held by its doubles; exact[i] = NULL the same for site i alone. Infinite
- * doubles stand for the whole plane, of a site of which nothing is known yet: the square whose ends are the largest
- * dyadics of 64 bits. */
-struct dyd_sites {
-  size_t count, cap;
-  double *lower[2]; /* x, y; rounded down */
-  double *upper[2]; /* rounded up */
-  dyd_packed **exact;
-  size_t packed_bytes;
-  uint32_t *joined; /* of sites below joined_count: the lowest site known to be the same place; NULL: none are joined */
-  size_t joined_count, joins; /* joins made */
-};
-
 /* The rational man * 2^exp / den. Invariant: man is odd, or 0 with exp = 0 and den = 1; den is odd and has no factor in
  * common with man; |exp| <= DYD_WORDS_MOST_EXP. */
 enum { DYD_WORDS_MOST_EXP = 200 };
@@ -39,10 +25,40 @@ typedef struct dyd_words {
   int exp;
 } dyd_words;
 
+/* A point of them, x and y, in fewer bytes. */
+typedef struct dyd_word_point {
+  int64_t man[2];
+  uint64_t den[2];
+  int16_t exp[2];
+} dyd_word_point;
+
+/* Invariant: upper[a] = NULL means that every site is an exact double point (lower and upper ends are the same array);
+ * exact[i] or word[i] that are not 0 (where the arrays are not NULL, and never both) mean that its doubles do not hold
+ * the rectangle of site i: it is *exact[i], or the point point[word[i] - 1], for ever. Infinite doubles stand for the
+ * whole plane, of a site of which nothing is known yet: the square whose ends are the largest dyadics of 64 bits. */
+struct dyd_sites {
+  size_t count, cap;
+  double *lower[2]; /* x, y; rounded down */
+  double *upper[2]; /* rounded up */
+  dyd_packed **exact;
+  size_t packed_bytes;
+  uint32_t *word;
+  dyd_word_point *point;
+  size_t points, point_cap;
+  uint32_t *joined; /* of sites below joined_count: the lowest site known to be the same place; NULL: none are joined */
+  size_t joined_count, joins; /* joins made */
+};
+
+/* Room for `more` further sites in every array there is. */
+dyd_status dyd_sites_reserve(dyd_sites *s, size_t more);
+/* Gives upper ends arrays of their own. */
+dyd_status dyd_sites_split_ends(dyd_sites *s);
 /* Appends n exact points, number k being (xy[2 k], xy[2 k + 1]); none on failure. */
 dyd_status dyd_sites_add_words(dyd_sites *s, size_t n, const dyd_words *xy);
 /* The ends x lower, x upper, y lower, y upper of site i; false where one of them is not of single words. */
 bool dyd_sites_get_words(dyd_words end[4], const dyd_sites *s, size_t i);
+/* The point of a site that is held in words. */
+dyd_status dyd_sites_get_point(dyd_rect *out, const dyd_sites *s, size_t i);
 /* Appends n sites that hold the whole plane; none on failure. */
 dyd_status dyd_sites_add_planes(dyd_sites *s, size_t n);
 /* As dyd_sites_narrow, for the rectangle [box[0],box[1]] x [box[2],box[3]] of finite doubles, without -0. */
@@ -57,6 +73,7 @@ static inline double dyd_sites_hi(const dyd_sites *s, int axis, size_t i) {
 /* Asks memory for where the exact rectangle of site i is, for loops that visit the sites in another order. */
 static inline void dyd_sites_fetch_entry(const dyd_sites *s, size_t i) {
   if (s->exact) dyd_prefetch(&s->exact[i]);
+  if (s->word) dyd_prefetch(&s->word[i]);
 }
 /* For that and its doubles. */
 static inline void dyd_sites_fetch(const dyd_sites *s, size_t i) {
@@ -74,9 +91,17 @@ static inline void dyd_sites_fetch_exact(const dyd_sites *s, size_t i) {
 static inline bool dyd_sites_are_double_points(const dyd_sites *s) {
   return !s->exact && !s->upper[0] && !s->upper[1];
 }
+/* Is site i a point in single words? */
+static inline bool dyd_sites_in_words(const dyd_sites *s, size_t i) {
+  return s->word && s->word[i];
+}
 /* Do the doubles hold the rectangle of site i exactly? */
 static inline bool dyd_sites_in_doubles(const dyd_sites *s, size_t i) {
-  return !s->exact || !s->exact[i];
+  return (!s->exact || !s->exact[i]) && !dyd_sites_in_words(s, i);
+}
+/* Those of every site, without a look at each? */
+static inline bool dyd_sites_all_in_doubles(const dyd_sites *s) {
+  return !s->exact && !s->word;
 }
 
 #endif

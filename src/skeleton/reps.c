@@ -186,7 +186,7 @@ static void choose_part_of_reps(void *context, size_t number) {
   dyd_reps part = *c->r; /* the same arrays */
   if (dyd_sites_are_double_points(part.sites))
     choose_points(&part, begin, end);
-  else if (c->box && !part.sites->exact)
+  else if (c->box && dyd_sites_all_in_doubles(part.sites))
     choose_middles(part.xy, c->box, begin, end);
   else
     c->status[number] = choose_any(&part, c->box, begin, end);
@@ -204,7 +204,7 @@ static void drop_codes(dyd_reps *r) {
 static dyd_status choose_reps(dyd_reps *r, const dyd_bbox *box, unsigned threads) {
   choice c = {.r = r, .box = box};
   dyd_status st = DYD_OK;
-  if (r->sites->exact && !(r->code = calloc((size_t)r->n + 1, sizeof *r->code))) return DYD_E_NOMEM;
+  if (!dyd_sites_all_in_doubles(r->sites) && !(r->code = calloc((size_t)r->n + 1, sizeof *r->code))) return DYD_E_NOMEM;
   dyd_parallel(threads, dyd_ranges(r->n), choose_part_of_reps, &c);
   for (size_t k = 0; k < dyd_ranges(r->n); k++) {
     r->delta = fmax(r->delta, c.delta[k]);

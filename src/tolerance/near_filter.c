@@ -25,7 +25,7 @@ static double low_part(dyd_interval *side, double high, mpq_ptr q, mpq_ptr d) {
 static dyd_status find_low_parts(dyd_tolerance *t) {
   const dyd_skeleton *sk = t->sk;
   double most = 0;
-  if (!sk->reps.sites->exact) return DYD_OK;
+  if (dyd_sites_all_in_doubles(sk->reps.sites)) return DYD_OK;
   t->low = dyd_alloc(sk->n + 1, sizeof *t->low);
   if (!t->low) return DYD_E_NOMEM;
   dyd_rect r;

@@ -167,16 +167,34 @@ static void random_words(dyd_words *w, dyd_interval *want, test_random *r) {
   mpq_clear(q);
 }
 
+static void expect_words(const dyd_sites *s, size_t i, const dyd_words xy[2]) {
+  dyd_words end[4];
+  assert_true(dyd_sites_get_words(end, s, i));
+  for (int k = 0; k < 4; k++) {
+    const dyd_words *w = &xy[k / 2];
+    assert_true(end[k].man == w->man && end[k].den == w->den && end[k].exp == w->exp);
+  }
+}
+
+/* It may be narrowed to itself, and to nothing else. */
+static void expect_point_stays(dyd_sites *s, size_t i, dyd_rect *want) {
+  dyd_rect other;
+  dyd_rect_init(&other);
+  assert_int_equal(dyd_rect_set_d(&other, 0.75, 0.75, 1, 1), DYD_OK);
+  assert_int_equal(dyd_sites_narrow(s, i, want), DYD_OK);
+  assert_int_equal(dyd_sites_narrow(s, i, &other), dyd_rect_equal(want, &other) ? DYD_OK : DYD_E_NESTING);
+  dyd_rect_clear(&other);
+}
+
 static void test_words(void **state) {
   (void)state;
   test_random r = test_random_start("words");
   for (size_t k = test_cases(1000); k; k--) {
-    pairing p, whole;
+    pairing p;
     dyd_words xy[2 * MOST];
     start(&p);
-    start(&whole);
     while (p.n < MOST) {
-      size_t n = (size_t)test_below(&r, MOST - p.n) + 1;
+      size_t n = (size_t)test_below(&r, MOST - p.n) + 1, first = p.n;
       if (test_chance(&r, 4)) add_one(&p, &r), n = 0;
       for (size_t i = 0; i < n; i++) {
         random_words(&xy[2 * i], &p.want[p.n + i].x, &r);
@@ -184,14 +202,10 @@ static void test_words(void **state) {
       }
       assert_int_equal(dyd_sites_add_words(p.s, n, xy), DYD_OK);
       p.n += n;
+      for (size_t i = 0; i < n; i++) expect_words(p.s, first + i, xy + 2 * i);
+      if (n) expect_point_stays(p.s, first, &p.want[first]);
     }
     agree(&p);
-    for (; whole.n < MOST; whole.n++) {
-      dyd_rect_set(&whole.want[whole.n], &p.want[whole.n]);
-      assert_int_equal(dyd_sites_add_rect(whole.s, &whole.want[whole.n]), DYD_OK);
-    }
-    assert_int_equal(p.s->packed_bytes, whole.s->packed_bytes);
-    finish(&whole);
     finish(&p);
   }
 }

@@ -5,6 +5,7 @@
  * For |man| < 2^53 and k <= 22, man and 10^k are doubles, so man / 10^k and man * 10^k are rounded once, to nearest;
  * fma gives the sign of the rounding error, and one step towards the wanted side makes the rounding directed. */
 #include "io/read/plain.h"
+#include "io/fives.h"
 #include "stream/number.h"
 #include <math.h>
 
@@ -97,19 +98,18 @@ bool dyd_plain_get_rounded(double *out, dyd_plain p, dyd_round dir) {
 }
 
 bool dyd_plain_get_words(dyd_words *out, dyd_plain p) {
-  int five = p.man ? -p.exp : 0;
-  dyd_words w = {p.man, 1, p.man ? p.exp : 0};
-  for (; five > 0 && w.man % 5 == 0; five--) w.man /= 5;
-  for (; five > 0; five--) {
-    if (w.den > UINT64_MAX / 5) return false;
-    w.den *= 5;
-  }
-  for (; five < 0; five++) {
-    if (w.man > INT64_MAX / 5 || w.man < -(INT64_MAX / 5)) return false;
-    w.man *= 5;
-  }
-  for (; w.man && w.man % 2 == 0; w.exp++) w.man /= 2;
-  *out = w;
+  *out = (dyd_words){0, 1, 0};
+  if (!p.man) return true;
+  int five = -p.exp;
+  for (; five > 0 && p.man % 5 == 0; five--) p.man /= 5;
+  if (five > DYD_MOST_FIVES || five < -DYD_MOST_FIVES) return false;
+  if (five >= 0)
+    out->den = dyd_power_of_five[five];
+  else if (__builtin_mul_overflow(p.man, (int64_t)dyd_power_of_five[-five], &p.man))
+    return false;
+  int twos = __builtin_ctzll((uint64_t)p.man);
+  out->man = p.man / (INT64_C(1) << twos);
+  out->exp = p.exp + twos;
   return true;
 }
 

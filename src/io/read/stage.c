@@ -7,8 +7,8 @@
 
 /* A point takes the most special kind of its coordinates; doubles fit all kinds. */
 struct dyd_staged {
-  dyd_coordinate_kind kind;
-  int exp[2]; /* PLAIN */
+  int16_t kind;   /* a dyd_coordinate_kind */
+  int16_t exp[2]; /* PLAIN */
   union {
     double box[4]; /* DOUBLE: x, y. BOX: x0, x1, y0, y1 */
     int64_t man[2];
@@ -27,10 +27,35 @@ static void staged_drop(dyd_staged *p) {
   p->kind = DYD_COORDINATE_DOUBLE;
 }
 
+/* Points in a piece: one of full length is in large pages, and none is copied. In the armed build few points need
+ * several. */
+#ifdef DYD_ARMED
+#define PIECE ((size_t)16)
+#else
+#define PIECE ((size_t)1 << 17)
+#endif
+
+static dyd_staged *staged_at(const dyd_stage *s, size_t k) {
+  return &s->piece[k / PIECE][k % PIECE];
+}
+
 void dyd_stage_clear(dyd_stage *s) {
-  for (size_t k = 0; k < s->count; k++) staged_drop(&s->item[k]);
-  free(s->item);
+  for (size_t k = 0; k < s->count; k++) staged_drop(staged_at(s, k));
+  for (size_t k = 0; k < s->pieces; k++) free(s->piece[k]);
+  free(s->piece);
   dyd_stage_init(s);
+}
+
+/* Room for one more point: the first piece grows, so that few points take little. */
+static bool stage_make_room(dyd_stage *s) {
+  size_t k = s->count / PIECE;
+  if (k == s->pieces) {
+    if (!dyd_reserve((void **)&s->piece, &s->piece_cap, k + 1, sizeof *s->piece)) return false;
+    s->piece[k] = k ? dyd_alloc(PIECE, sizeof **s->piece) : NULL;
+    if (k && !s->piece[k]) return false;
+    s->pieces++;
+  }
+  return k || dyd_reserve((void **)&s->piece[0], &s->first_cap, s->count + 1, sizeof **s->piece);
 }
 
 /* DOUBLE stands for BINARY, too, but beside a PLAIN coordinate. */
@@ -44,7 +69,7 @@ static dyd_coordinate_kind staged_kind(dyd_coordinate_kind a, dyd_coordinate_kin
 }
 
 static void staged_join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coordinate *x, const dyd_coordinate *y) {
-  *out = (dyd_staged){.kind = kind};
+  *out = (dyd_staged){.kind = (int16_t)kind};
   switch (kind) {
   case DYD_COORDINATE_DOUBLE:
   case DYD_COORDINATE_BINARY:
@@ -55,7 +80,7 @@ static void staged_join(dyd_staged *out, dyd_coordinate_kind kind, const dyd_coo
     break;
   case DYD_COORDINATE_PLAIN:
     out->u.man[0] = x->plain.man, out->u.man[1] = y->plain.man;
-    out->exp[0] = x->plain.exp, out->exp[1] = y->plain.exp;
+    out->exp[0] = (int16_t)x->plain.exp, out->exp[1] = (int16_t)y->plain.exp; /* at most 60 */
     break;
   case DYD_COORDINATE_REAL:
     out->u.real[0] = x->real, out->u.real[1] = y->real;
@@ -80,12 +105,12 @@ static dyd_status staged_put(dyd_staged *out, dyd_coordinate *x, dyd_coordinate 
 }
 
 dyd_status dyd_stage_add(dyd_stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd_error *err) {
-  if (!dyd_reserve((void **)&s->item, &s->cap, s->count + 1, sizeof *s->item)) {
+  if (!stage_make_room(s)) {
     dyd_coordinate_clear(x);
     dyd_coordinate_clear(y);
     return dyd_fail_nomem(err);
   }
-  dyd_status st = staged_put(&s->item[s->count], x, y, err);
+  dyd_status st = staged_put(staged_at(s, s->count), x, y, err);
   s->count += st == DYD_OK;
   return st;
 }
@@ -94,7 +119,7 @@ dyd_status dyd_stage_add(dyd_stage *s, dyd_coordinate *x, dyd_coordinate *y, dyd
 static void staged_split(dyd_coordinate *x, dyd_coordinate *y, dyd_staged *p) {
   dyd_coordinate *c[2] = {x, y};
   for (int a = 0; a < 2; a++) {
-    *c[a] = (dyd_coordinate){.kind = p->kind};
+    *c[a] = (dyd_coordinate){.kind = (dyd_coordinate_kind)p->kind};
     if (p->kind == DYD_COORDINATE_BOX)
       c[a]->lo = p->u.box[2 * a], c[a]->hi = p->u.box[2 * a + 1];
     else if (p->kind == DYD_COORDINATE_PLAIN)
@@ -116,33 +141,41 @@ static void swap_coordinates(dyd_coordinate *a, dyd_coordinate *b) {
 dyd_status dyd_stage_replace(dyd_stage *s, size_t k, dyd_coordinate *x, dyd_coordinate *y, const bool take[2],
                              dyd_error *err) {
   dyd_coordinate old[2];
-  staged_split(&old[0], &old[1], &s->item[k]);
+  staged_split(&old[0], &old[1], staged_at(s, k));
   if (take[0]) swap_coordinates(&old[0], x);
   if (take[1]) swap_coordinates(&old[1], y);
   dyd_coordinate_clear(x);
   dyd_coordinate_clear(y);
-  return staged_put(&s->item[k], &old[0], &old[1], err);
+  return staged_put(staged_at(s, k), &old[0], &old[1], err);
 }
 
 #define BULK 1024
 
+/* Point k, if it is there and of that kind. */
+static const dyd_staged *staged_if(const dyd_stage *s, size_t k, dyd_coordinate_kind kind) {
+  const dyd_staged *p = k < s->count ? staged_at(s, k) : NULL;
+  return p && p->kind == (int16_t)kind ? p : NULL;
+}
+
 /* The points from `first` on that are of the given kind, at most BULK; *count tells how many were added. */
 static dyd_status commit_points(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
+  const dyd_staged *p;
   double x[BULK], y[BULK];
   size_t n = 0;
-  for (; n < BULK && first + n < s->count && s->item[first + n].kind == DYD_COORDINATE_DOUBLE; n++) {
-    x[n] = s->item[first + n].u.box[0];
-    y[n] = s->item[first + n].u.box[1];
+  for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_DOUBLE)); n++) {
+    x[n] = p->u.box[0];
+    y[n] = p->u.box[1];
   }
   *count = n;
   return dyd_engine_append_points(e, n, x, y, err);
 }
 
 static dyd_status commit_boxes(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
+  const dyd_staged *p;
   double end[4][BULK];
   size_t n = 0;
-  for (; n < BULK && first + n < s->count && s->item[first + n].kind == DYD_COORDINATE_BOX; n++)
-    for (int k = 0; k < 4; k++) end[k][n] = s->item[first + n].u.box[k];
+  for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_BOX)); n++)
+    for (int k = 0; k < 4; k++) end[k][n] = p->u.box[k];
   *count = n;
   return dyd_engine_append_boxes(e, n, end[0], end[1], end[2], end[3], err);
 }
@@ -168,12 +201,11 @@ static dyd_status commit_wide(dyd_engine *e, const dyd_staged *p, dyd_error *err
 
 /* The decimals from `first` on that fit single words, at most BULK. */
 static dyd_status commit_words(size_t *count, dyd_engine *e, const dyd_stage *s, size_t first, dyd_error *err) {
+  const dyd_staged *p;
   dyd_words xy[2 * BULK];
   size_t n = 0;
-  for (; n < BULK && first + n < s->count && s->item[first + n].kind == DYD_COORDINATE_PLAIN; n++) {
-    const dyd_staged *p = &s->item[first + n];
+  for (; n < BULK && (p = staged_if(s, first + n, DYD_COORDINATE_PLAIN)); n++)
     if (!dyd_plain_get_words(&xy[2 * n], plain_of(p, 0)) || !dyd_plain_get_words(&xy[2 * n + 1], plain_of(p, 1))) break;
-  }
   *count = n;
   return dyd_engine_append_words(e, n, xy, err);
 }
@@ -182,7 +214,7 @@ static dyd_status commit_plain(size_t *count, dyd_engine *e, const dyd_stage *s,
   dyd_status st = commit_words(count, e, s, first, err);
   if (st != DYD_OK || *count) return st;
   *count = 1;
-  return commit_wide(e, &s->item[first], err);
+  return commit_wide(e, staged_at(s, first), err);
 }
 
 static dyd_status commit_fixed(dyd_engine *e, const dyd_staged *p, dyd_error *err) {
@@ -207,26 +239,26 @@ static dyd_status commit_reals(dyd_engine *e, dyd_staged *p, dyd_error *err) {
   return st != DYD_OK ? st : dyd_engine_append_stream(e, stream, err);
 }
 
-dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err) {
-  dyd_status st = DYD_OK;
-  for (size_t k = 0, count = 1; k < s->count && st == DYD_OK; k += count) {
-    count = 1;
-    switch (s->item[k].kind) {
-    case DYD_COORDINATE_DOUBLE:
-    case DYD_COORDINATE_BINARY:
-      st = commit_points(&count, e, s, k, err);
-      break;
-    case DYD_COORDINATE_BOX:
-      st = commit_boxes(&count, e, s, k, err);
-      break;
-    case DYD_COORDINATE_PLAIN:
-      st = commit_plain(&count, e, s, k, err);
-      break;
-    case DYD_COORDINATE_REAL:
-      st = commit_reals(e, &s->item[k], err);
-      break;
-    }
+static dyd_status stage_commit_from(size_t *count, dyd_engine *e, dyd_stage *s, size_t first, dyd_error *err) {
+  dyd_staged *p = staged_at(s, first);
+  *count = 1;
+  switch ((dyd_coordinate_kind)p->kind) {
+  case DYD_COORDINATE_DOUBLE:
+  case DYD_COORDINATE_BINARY:
+    return commit_points(count, e, s, first, err);
+  case DYD_COORDINATE_BOX:
+    return commit_boxes(count, e, s, first, err);
+  case DYD_COORDINATE_PLAIN:
+    return commit_plain(count, e, s, first, err);
+  case DYD_COORDINATE_REAL:
+    break;
   }
+  return commit_reals(e, p, err);
+}
+
+dyd_status dyd_stage_commit(dyd_engine *e, dyd_stage *s, dyd_error *err) {
+  dyd_status st = dyd_engine_reserve(e, s->count);
+  for (size_t k = 0, count = 1; k < s->count && st == DYD_OK; k += count) st = stage_commit_from(&count, e, s, k, err);
   dyd_stage_clear(s);
   return st != DYD_OK && !err->message[0] ? dyd_fail(err, st, "%s", dyd_status_text(st)) : st;
 }

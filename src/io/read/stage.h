@@ -8,10 +8,11 @@
 
 typedef struct dyd_staged dyd_staged;
 
-/* Invariant: count <= cap. 48 bytes per point, and what reals hold. */
+/* 40 bytes per point, and what reals hold. */
 typedef struct dyd_stage {
-  size_t count, cap;
-  dyd_staged *item;
+  size_t count;
+  dyd_staged **piece; /* the points, in pieces of one length; of the first one, first_cap has been allocated */
+  size_t pieces, piece_cap, first_cap;
 } dyd_stage;
 
 void dyd_stage_init(dyd_stage *s);
