@@ -180,8 +180,7 @@ Qed.
 (* [WIT-NEAR] src/legal/near_filter.c: .reach = reach > {} ? reach *)
 (* [WIT-NEAR] src/legal/near_filter.c: ? reach : {}}; *)
 Definition c_near_floor : const := (1, -300)%Z.
-(* Any positive value will do for the distance that is tried first: *)
-(* any src/legal/near_filter.c: return {} * sqrt((hi[0] - lo[0]) *)
+(* Any positive value will do for the distance that is tried first, dyd_short_edge. *)
 Definition near_reach (reach : double) : double := if gt reach (lit c_near_floor) then reach else lit c_near_floor.
 
 Lemma near_reach_correct reach : is_nan 53 1024 reach = false -> finite (near_reach reach) ->

@@ -7,7 +7,7 @@
 #include <unistd.h>
 #endif
 
-enum { LARGE = 1 << 22 };
+enum { LARGE = 1 << 20 };
 
 void *dyd_alloc_in_large_pages(void *p, size_t bytes) {
 #if defined(MADV_HUGEPAGE)

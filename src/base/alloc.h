@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* A hint: what is large (4 MiB) and belongs to p is asked of the system in large pages. Triangulations jump through
+/* A hint: what is large (1 MiB) and belongs to p is asked of the system in large pages. Triangulations jump through
  * memory, and small pages cost them a tenth of their time. Without such pages, nothing happens. Returns p. */
 void *dyd_alloc_in_large_pages(void *p, size_t bytes);
 

@@ -24,17 +24,19 @@ typedef struct near_pass {
   double shortest2[DYD_RANGES_MOST]; /* in each range */
 } near_pass;
 
-/* About a tenth of the mean distance; any positive value is right. */
-static double tenth_of_spacing(const dyd_mesh *m) {
-  double lo[2] = {DBL_MAX, DBL_MAX}, hi[2] = {-DBL_MAX, -DBL_MAX};
-  for (uint32_t v = 0; v < m->n; v++) {
-    double c[2] = {m->xy[v].x, m->xy[v].y};
-    for (int a = 0; a < 2; a++) {
-      if (c[a] < lo[a]) lo[a] = c[a];
-      if (c[a] > hi[a]) hi[a] = c[a];
-    }
+double dyd_short_edge(const dyd_mesh *m) {
+  enum { SAMPLE = 4096, SHARE = 200 };
+  double shortest2[SAMPLE / SHARE + 1]; /* ascending */
+  uint32_t sample = m->count < SAMPLE ? m->count : SAMPLE, rank = sample / SHARE, found = 0;
+  for (uint32_t s = 0; s < sample; s++) {
+    const uint32_t *v = m->tri[(uint64_t)s * m->count / sample].v;
+    double d = dyd_square_distance(m->xy[v[s % 3]], m->xy[v[dyd_next(s % 3)]]);
+    if (!(d < DBL_MAX) || (found > rank && d >= shortest2[rank])) continue; /* a ghost edge, or a longer one */
+    uint32_t at = found <= rank ? found++ : rank;
+    for (; at && shortest2[at - 1] > d; at--) shortest2[at] = shortest2[at - 1];
+    shortest2[at] = d;
   }
-  return 0.1 * sqrt((hi[0] - lo[0]) * (hi[1] - lo[1]) / m->n);
+  return found ? sqrt(shortest2[found - 1]) : 0;
 }
 
 /* Several tasks may say the same of one vertex at once. */
@@ -117,7 +119,7 @@ dyd_status dyd_certify_near(dyd_skeleton *sk, dyd_work *w, double reach, const u
   near_pass p = {.sk = sk, .w = w, .met = met, .reach = reach > 0x1p-300 ? reach : 0x1p-300};
   p.close = calloc((size_t)sk->mesh.n + 1, 1);
   if (!p.close) return DYD_E_NOMEM;
-  p.most = tenth_of_spacing(&sk->mesh);
+  p.most = dyd_short_edge(&sk->mesh);
   dyd_status st = dyd_mark_tasks_init(&p.tasks, sk, w);
   if (st == DYD_OK) {
     measure_edges(&p);

@@ -55,6 +55,9 @@ static inline bool dyd_filter_hull_edge_near(dyd_xy i, dyd_xy j, dyd_xy u, doubl
   return 48.6 * reach * sqrt(lu * lw) < m * a1;
 }
 
+/* The length below which a two-hundredth of the edges are, by a sample: clusters count by their vertices, not by their
+ * width. A guess, for limits that may be any; 0 where there are no edges. */
+double dyd_short_edge(const dyd_mesh *m);
 /* The first quick pass, for representatives that are doubles and sites within `reach` of them: marks the edges that the
  * two triangles beside them prove legal. met (NULL: no site is farther): of dyd_fat_meet for those that are. */
 dyd_status dyd_certify_near(dyd_skeleton *sk, dyd_work *w, double reach, const uint32_t *met);

@@ -22,7 +22,7 @@
 
 #include <math.h>
 
-enum { MAX_DEGREE = 62 };
+enum { MAX_DEGREE = 62, LONG = 256 };
 
 typedef struct pass {
   dyd_skeleton *sk;
@@ -42,13 +42,14 @@ static double star_radius(const dyd_skeleton *sk, uint32_t v) {
   return sqrt(dyd_dl2_upper(&c, &sk->rects.box[v])) * DYD_UP_FACTOR + DYD_TINY;
 }
 
-/* Four times the median radius of a sample: whoever is larger counts as fat. */
+/* Four times the median radius of a sample, or more while nearly all edges are long beside it: whoever is larger counts
+ * as fat. */
 static double ordinary_radius(const dyd_skeleton *sk) {
   double sample[256];
   size_t count = 0, step = sk->n / 256 + 1;
   for (size_t v = 0; v < sk->n && count < 256; v += step) sample[count++] = star_radius(sk, (uint32_t)v);
   qsort(sample, count, sizeof *sample, dyd_compare_double);
-  return 4 * sample[count / 2];
+  return fmax(4 * sample[count / 2], dyd_short_edge(&sk->mesh) / LONG);
 }
 
 static dyd_status gather_fat(pass *p) {

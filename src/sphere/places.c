@@ -127,10 +127,36 @@ static dyd_status places_round(rounded_place *out, size_t *count, const dyd_sphe
   return st;
 }
 
+/* Which of `buckets`, a power of two. */
+static size_t bucket_of(const rounded_place *p, size_t buckets) {
+  uint64_t bits[2];
+  memcpy(bits, p->at, sizeof bits);
+  uint64_t mixed = (bits[0] ^ (bits[1] << 32 | bits[1] >> 32)) * UINT64_C(0x9E3779B97F4A7C15);
+  return (size_t)((mixed ^ mixed >> 32) & (buckets - 1));
+}
+
+/* Keeps those that share a bucket with another one, which are few: others need not be sorted. */
+static dyd_status places_thin(rounded_place *place, size_t *count) {
+  size_t buckets = 1, kept = 0;
+  while (buckets / 8 < *count) buckets *= 2;
+  uint8_t *held = calloc(buckets, sizeof *held); /* 0, 1, or 2 for more */
+  if (!held) return DYD_E_NOMEM;
+  for (size_t k = 0; k < *count; k++) {
+    uint8_t *h = &held[bucket_of(&place[k], buckets)];
+    if (*h < 2) ++*h;
+  }
+  for (size_t k = 0; k < *count; k++)
+    if (held[bucket_of(&place[k], buckets)] > 1) place[kept++] = place[k];
+  *count = kept;
+  free(held);
+  return DYD_OK;
+}
+
 dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err) {
   rounded_place *place = dyd_alloc(s->count, sizeof *place);
   size_t count = 0;
   dyd_status st = place ? places_round(place, &count, s, err) : dyd_fail_nomem(err);
+  if (st == DYD_OK && places_thin(place, &count) != DYD_OK) st = dyd_fail_nomem(err);
   if (st == DYD_OK) qsort(place, count, sizeof *place, compare_rounded);
   for (size_t k = 0, end; k < count && st == DYD_OK; k = end) {
     for (end = k + 1; end < count && !memcmp(place[end].at, place[k].at, sizeof place->at);) end++;

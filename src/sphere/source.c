@@ -131,8 +131,9 @@ dyd_status dyd_sphere_narrow_recalled(dyd_sphere *s, int64_t max_bits, dyd_error
   dyd_status st = DYD_OK;
   image m;
   for (uint32_t k = 0; k < s->with_image && st == DYD_OK; k++) {
+    if (dyd_sphere_is_fixed(s, s->of[k])) continue;
     const dyd_refinable *p = dyd_engine_find(s->images, k);
-    if (!p || !p->measured || dyd_sphere_is_fixed(s, s->of[k])) continue;
+    if (!p || !p->measured) continue;
     image_init(&m, s, s->of[k]);
     st = image_find(&m, p->bits, max_bits, err);
     if (st != DYD_OK && err) err->point = k;
