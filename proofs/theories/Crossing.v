@@ -37,34 +37,37 @@ Lemma value_power_affine g o r t a b :
   (1 - t) * (ca g * power o r a - value g a) + t * (ca g * power o r b - value g b).
 Proof. unfold power, value, dist2, dot, mix. simpl. ring. Qed.
 
-(* If the segments of a strictly Delaunay pair ij and of a Delaunay pair ab meet (no common sites), then ab is supported
-   by a half-plane only, and the place where they meet is on its boundary line. *)
+(* Where the segment ab of a supported pair meets a chord ij of a circle, a and b not inside of it, one of them outside:
+   then ab is supported by a half-plane only, and the place where they meet is on its boundary line. *)
+Lemma meeting_chord N p i j a b s t o r : (i < N)%nat -> (j < N)%nat -> dist o (p i) = r -> dist o (p j) = r ->
+  0 < (1 - t) * power o r (p a) + t * power o r (p b) -> 0 <= s <= 1 -> mix s (p i) (p j) = mix t (p a) (p b) ->
+  forall g, supports N p a b g -> ca g = 0 /\ (1 - s) * value g (p i) + s * value g (p j) = 0.
+Proof.
+  intros I J Ei Ej Pos S Z g [G0 [G1 [Va [Vb Vk]]]]. apply power_zero in Ei, Ej.
+  pose proof (Vk i I) as Vi. pose proof (Vk j J) as Vj.
+  pose proof (value_power_affine g o r s (p i) (p j)) as E.
+  pose proof (value_power_affine g o r t (p a) (p b)) as E'. rewrite <- Z in E'.
+  rewrite Ei, Ej in E. rewrite Va, Vb in E'.
+  assert (0 <= (1 - s) * value g (p i)) by (apply Rmult_le_pos; lra).
+  assert (0 <= s * value g (p j)) by (apply Rmult_le_pos; lra).
+  assert (C0 : ca g = 0).
+  { destruct (Req_dec (ca g) 0) as [Z0 | Z0]; [exact Z0 | exfalso].
+    assert (0 < ca g * ((1 - t) * power o r (p a) + t * power o r (p b))) by (apply Rmult_lt_0_compat; lra). lra. }
+  split; [exact C0 |]. rewrite C0 in *. lra.
+Qed.
+
+(* If the segments of a strictly Delaunay pair ij and of a Delaunay pair ab meet (no common sites), it is so. *)
 Lemma meeting_edges N p i j a b s t :
   (i < N)%nat -> (j < N)%nat -> (a < N)%nat -> (b < N)%nat -> a <> i -> a <> j -> b <> i -> b <> j ->
   strict_edge N p i j -> 0 <= s <= 1 -> 0 <= t <= 1 -> mix s (p i) (p j) = mix t (p a) (p b) ->
   forall g, supports N p a b g -> ca g = 0 /\ (1 - s) * value g (p i) + s * value g (p j) = 0.
 Proof.
-  intros I J A B Dai Daj Dbi Dbj [o [Eq Out]] S T Z g [G0 [G1 [Va [Vb Vk]]]].
-  set (r := dist o (p i)).
-  assert (Hi : power o r (p i) = 0) by (apply power_zero; reflexivity).
-  assert (Hj : power o r (p j) = 0) by (apply power_zero; unfold r; now symmetry).
-  assert (Ha : 0 < power o r (p a)) by (apply power_gt; [apply dist_nonneg | now apply Out]).
-  assert (Hb : 0 < power o r (p b)) by (apply power_gt; [apply dist_nonneg | now apply Out]).
-  pose proof (Vk i I) as Vi. pose proof (Vk j J) as Vj.
-  pose proof (value_power_affine g o r s (p i) (p j)) as E.
-  pose proof (value_power_affine g o r t (p a) (p b)) as E'. rewrite <- Z in E'.
-  rewrite Hi, Hj in E. rewrite Va, Vb in E'.
-  assert (0 <= (1 - s) * value g (p i)) by (apply Rmult_le_pos; lra).
-  assert (0 <= s * value g (p j)) by (apply Rmult_le_pos; lra).
-  assert (C0 : ca g = 0).
-  { destruct (Req_dec (ca g) 0) as [Z0 | Z0]; [exact Z0 | exfalso].
-    assert (0 < ca g) by lra.
-    assert (0 < ca g * power o r (p a)) by (now apply Rmult_lt_0_compat).
-    assert (0 < ca g * power o r (p b)) by (now apply Rmult_lt_0_compat).
-    destruct (Req_dec t 0) as [T0 | T0]; [rewrite T0 in E'; lra |].
-    assert (0 < t * (ca g * power o r (p b))) by (apply Rmult_lt_0_compat; lra).
-    assert (0 <= (1 - t) * (ca g * power o r (p a))) by (apply Rmult_le_pos; lra). lra. }
-  split; [exact C0 |]. rewrite C0 in *. lra.
+  intros I J A B Dai Daj Dbi Dbj [o [Eq Out]] S T Z. apply (meeting_chord N p i j a b s t o (dist o (p i)) I J); auto.
+  assert (Ha : 0 < power o (dist o (p i)) (p a)) by (apply power_gt; [apply dist_nonneg | now apply Out]).
+  assert (Hb : 0 < power o (dist o (p i)) (p b)) by (apply power_gt; [apply dist_nonneg | now apply Out]).
+  set (u := power o (dist o (p i)) (p a)) in *. set (v := power o (dist o (p i)) (p b)) in *.
+  destruct (Req_dec t 0) as [-> | T0]; [lra |]. assert (0 < t * v) by (apply Rmult_lt_0_compat; lra).
+  assert (0 <= (1 - t) * u) by (apply Rmult_le_pos; lra). lra.
 Qed.
 
 Definition disc_edge (N : nat) (p : nat -> point) (i j : nat) : Prop :=

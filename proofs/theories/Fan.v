@@ -332,36 +332,51 @@ Proof.
   - unfold dot. simpl. lra.
 Qed.
 
-Lemma leaving_refutes q i j : choice N B q -> all_left q -> In (i, j) faces -> leaves q a b i j -> ~ weak_edge N q a b.
+(* For one choice: what leaves through ij is no edge where the next face begins on each side, or b is not on its line. *)
+Lemma leaving_is_no_edge q i j : all_left q -> (forall k l, In (k, l) faces -> (k < N)%nat /\ (l < N)%nat) ->
+  In (i, j) faces -> leaves q a b i j -> orient (q i) (q j) (q b) < 0 ->
+  (forall s t, 0 <= s <= 1 -> 0 <= t <= 1 -> mix s (q i) (q j) = mix t (q a) (q b) ->
+    forall g, supports N q a b g -> ca g = 0 /\ (1 - s) * value g (q i) + s * value g (q j) = 0) ->
+  ((exists l, In (l, i) faces) \/ orient (q a) (q i) (q b) <> 0) ->
+  ((exists l, In (j, l) faces) \/ orient (q a) (q b) (q j) <> 0) -> ~ weak_edge N q a b.
 Proof.
-  intros Q L F H W. pose proof (strictly_beyond q i j Q L F H) as O. pose proof (L i j F) as D.
-  destruct (edges i j F) as [I [J [Da [Ja [Dij [Dba [Dbi [Dbj [La [Lj Lij]]]]]]]]]].
+  intros L Sites F H O Meet Before After W. pose proof (L i j F) as D. destruct (Sites i j F) as [I J].
   destruct (meets_side q i j L F H O) as [s [t [S [T [Z [Z0 Z1]]]]]].
   destruct (weak_edge_supported N q a b Ha Hb W) as [g G].
-  destruct (meeting_edges N q i j a b s t I J Ha Hb (not_eq_sym Da) (not_eq_sym Ja) Dbi Dbj
-    (legal_sound N B i j q I J Lij Q) S T Z g G) as [C0 E].
+  destruct (Meet s t S T Z g G) as [C0 E].
   destruct G as [_ [G1 [Va [Vb Vk]]]]. pose proof (Vk i I) as Vi. pose proof (Vk j J) as Vj.
   destruct (Req_dec s 0) as [S0 | S0]; [| destruct (Req_dec s 1) as [S1 | S1]].
   - subst s. assert (Ei : value g (q i) = 0) by lra. specialize (Z0 eq_refl).
-    destruct (closed i j F) as [[K | [l K]] _].
-    + apply (sure_hull_not_between N B q i a b); auto. now apply (ray_between_left q i j).
-    + destruct (edges l i K) as [Hl _]. pose proof (Vk l Hl) as Vl. pose proof (L l i K) as D'.
-      pose proof (affine_beside g (q a) (q i) (q j) (q l) C0 Va Ei) as M.
-      rewrite (orient_swap (q a) (q l) (q i)) in M.
-      assert (value g (q j) <> 0).
-      { intros Ej. pose proof (half_plane_flat g _ _ _ C0 G1 Va Ei Ej). lra. }
-      nra.
+    destruct Before as [[l K] | K]; [| contradiction].
+    destruct (Sites l i K) as [Hl _]. pose proof (Vk l Hl) as Vl. pose proof (L l i K) as D'.
+    pose proof (affine_beside g (q a) (q i) (q j) (q l) C0 Va Ei) as M.
+    rewrite (orient_swap (q a) (q l) (q i)) in M.
+    assert (value g (q j) <> 0).
+    { intros Ej. pose proof (half_plane_flat g _ _ _ C0 G1 Va Ei Ej). lra. }
+    nra.
   - subst s. assert (Ej : value g (q j) = 0) by lra. specialize (Z1 eq_refl).
-    destruct (closed i j F) as [_ [K | [l K]]].
-    + apply (sure_hull_not_between N B q j a b); auto. now apply (ray_between_right q i j).
-    + destruct (edges j l K) as [_ [Hl _]]. pose proof (Vk l Hl) as Vl. pose proof (L j l K) as D'.
-      pose proof (affine_beside g (q a) (q j) (q i) (q l) C0 Va Ej) as M.
-      rewrite (orient_swap (q a) (q i) (q j)) in M.
-      assert (value g (q i) <> 0).
-      { intros Ei. pose proof (half_plane_flat g _ _ _ C0 G1 Va Ei Ej). lra. }
-      nra.
+    destruct After as [[l K] | K]; [| contradiction].
+    destruct (Sites j l K) as [_ Hl]. pose proof (Vk l Hl) as Vl. pose proof (L j l K) as D'.
+    pose proof (affine_beside g (q a) (q j) (q i) (q l) C0 Va Ej) as M.
+    rewrite (orient_swap (q a) (q i) (q j)) in M.
+    assert (value g (q i) <> 0).
+    { intros Ei. pose proof (half_plane_flat g _ _ _ C0 G1 Va Ei Ej). lra. }
+    nra.
   - assert (Ei : value g (q i) = 0) by nra. assert (Ej : value g (q j) = 0) by nra.
     pose proof (half_plane_flat g _ _ _ C0 G1 Va Ei Ej). lra.
+Qed.
+
+Lemma leaving_refutes q i j : choice N B q -> all_left q -> In (i, j) faces -> leaves q a b i j -> ~ weak_edge N q a b.
+Proof.
+  intros Q L F H. destruct (edges i j F) as [I [J [Da [Ja [Dij [Dba [Dbi [Dbj [La [Lj Lij]]]]]]]]]].
+  apply (leaving_is_no_edge q i j L); try assumption.
+  - intros k l K. destruct (edges k l K) as [Hk [Hl _]]. now split.
+  - now apply strictly_beyond.
+  - intros s t S T Z. apply (meeting_edges N q i j a b s t); auto. now apply (legal_sound N B i j q).
+  - destruct (closed i j F) as [[K | K] _]; [right | now left]. intros Z.
+    apply (sure_hull_not_between N B q i a b); auto. now apply (ray_between_left q i j).
+  - destruct (closed i j F) as [_ [K | K]]; [right | now left]. intros Z.
+    apply (sure_hull_not_between N B q j a b); auto. now apply (ray_between_right q i j).
 Qed.
 
 (* The theorem: the faces round a are triangles with legal edges, without a gap; for one choice (the skeleton) they are

@@ -38,6 +38,19 @@ Proof.
   apply (Rmult_le_compat_l (t * (1 - t))) in W; [lra | nra].
 Qed.
 
+(* Where x is nearer than y by v >= 0, at least, is convex. *)
+Lemma nearer_by_convex v t a b x y : 0 <= v -> 0 <= t <= 1 -> dist a x + v <= dist a y -> dist b x + v <= dist b y ->
+  dist (mix t a b) x + v <= dist (mix t a b) y.
+Proof.
+  intros V T X Y. pose proof (dist_nonneg a x). pose proof (dist_nonneg b x). pose proof (dist_convex t a b x T) as D.
+  pose proof (nearer_affine t a b x y) as E. rewrite <- !dist_sq in E.
+  assert (A1 : 2 * v * dist a x + v * v <= dist a y * dist a y - dist a x * dist a x) by nra.
+  assert (B1 : 2 * v * dist b x + v * v <= dist b y * dist b y - dist b x * dist b x) by nra.
+  apply (Rmult_le_compat_l (1 - t)) in A1; [| lra]. apply (Rmult_le_compat_l t) in B1; [| lra].
+  apply (Rmult_le_compat_l (2 * v)) in D; [| lra].
+  apply le_of_squares; [apply dist_nonneg | lra].
+Qed.
+
 (* A minimum of finitely many continuous functions and a number. *)
 Lemma continuity_min f g : continuity f -> continuity g -> continuity (fun s => Rmin (f s) (g s)).
 Proof.
@@ -111,16 +124,7 @@ Qed.
 (* Where f is at least v >= 0 is convex: f has one way up [TOL-2]. *)
 Theorem room_convex S v a b t : 0 <= v -> 0 <= t <= 1 -> room S v a -> room S v b -> room S v (mix t a b).
 Proof.
-  intros V T A B. assert (C : forall x y, dist a x + v <= dist a y -> dist b x + v <= dist b y ->
-    dist (mix t a b) x + v <= dist (mix t a b) y).
-  { intros x y X Y. pose proof (dist_nonneg a x). pose proof (dist_nonneg b x). pose proof (dist_convex t a b x T) as D.
-    pose proof (nearer_affine t a b x y) as E. rewrite <- !dist_sq in E.
-    assert (A1 : 2 * v * dist a x + v * v <= dist a y * dist a y - dist a x * dist a x) by nra.
-    assert (B1 : 2 * v * dist b x + v * v <= dist b y * dist b y - dist b x * dist b x) by nra.
-    apply (Rmult_le_compat_l (1 - t)) in A1; [| lra]. apply (Rmult_le_compat_l t) in B1; [| lra].
-    apply (Rmult_le_compat_l (2 * v)) in D; [| lra].
-    apply le_of_squares; [apply dist_nonneg | lra]. }
-  intros k K Sk Di Dj. destruct (A k K Sk Di Dj). destruct (B k K Sk Di Dj). split; now apply C.
+  intros V T A B k K Sk Di Dj. destruct (A k K Sk Di Dj). destruct (B k K Sk Di Dj). split; now apply nearer_by_convex.
 Qed.
 
 (* Moving the centre straight to the farther of p i and p j does not lower f: the bisector suffices. *)

@@ -1,7 +1,7 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (* Only Delaunay neighbours of i or j bind the death of an edge ij [TOL-4]. *)
 From Coq Require Import Reals Lra Lia Psatz Classical List.
-From Dyadel Require Import Plane Finite Cells Legal Disc TiedFace Path Tolerance.
+From Dyadel Require Import Plane Finite Cells Legal Orientation Disc TiedFace Path Tolerance.
 Open Scope R_scope.
 
 (* What holds near t for each of finitely many sites holds for all. *)
@@ -17,53 +17,68 @@ Section Sites.
 Variables (N : nat) (p : nat -> point).
 Variable different : forall k l, (k < N)%nat -> (l < N)%nat -> k <> l -> p k <> p l.
 
-(* A circle through three sites with all others strictly outside: it turns about two of them off the third. *)
+(* The line through two places of a circle has no third one on it. *)
+Lemma chord_ends o x y z : orient x y z = 0 -> x <> y -> dist2 o y = dist2 o x -> dist2 o z = dist2 o x -> z = x \/ z = y.
+Proof.
+  intros Z D Ey Ez. set (u := (snd y - snd x, - (fst y - fst x))).
+  assert (U : u <> (0, 0)).
+  { intros E. apply D. pose proof (f_equal fst E) as E1. pose proof (f_equal snd E) as E2. unfold u in E1, E2. simpl in E1, E2.
+    rewrite (surjective_pairing x), (surjective_pairing y). f_equal; lra. }
+  assert (Uy : dot u x = dot u y) by (unfold dot, u; simpl; ring).
+  assert (Uz : dot u x = dot u z) by (unfold orient in Z; unfold dot, u; simpl; lra).
+  destruct (across u x y U Uy) as [b Hb]. destruct (across u x z U Uz) as [a Ha].
+  now apply (circle_meets_line o x (- snd u, fst u) a b y z (across_nonzero u U)).
+Qed.
+
+Lemma strict_edge_sym a b : strict_edge N p a b -> strict_edge N p b a.
+Proof. intros [o [E H]]. exists o. split; [now symmetry |]. intros k K Db Da. rewrite <- E. now apply H. Qed.
+
+(* A side of the polygon of the sites on an empty circle. *)
+Lemma side_is_strict i j o r : (i < N)%nat -> (j < N)%nat -> i <> j -> dist o (p i) = r -> dist o (p j) = r ->
+  (forall k, (k < N)%nat -> r <= dist o (p k)) ->
+  (forall k, (k < N)%nat -> dist o (p k) = r -> 0 <= orient (p i) (p j) (p k)) -> strict_edge N p i j.
+Proof.
+  intros I J Dij Ei Ej Out Left. set (X k := orient (p i) (p j) (p k)).
+  set (w d := (fst o + d * (snd (p j) - snd (p i)), snd o - d * (fst (p j) - fst (p i)))).
+  assert (F : forall d k, dist2 (w d) (p k) - dist2 (w d) (p i) = dist2 o (p k) - dist2 o (p i) + 2 * d * X k)
+    by (intros d k; unfold dist2, w, X, orient; simpl; ring).
+  assert (Xj : X j = 0) by (unfold X, orient; ring).
+  assert (Sq : forall k, dist o (p k) = r -> dist2 o (p k) = dist2 o (p i)) by (intros k E; rewrite <- !dist_sq, E, Ei; ring).
+  destruct (small_finite (fun k d => k <> i -> k <> j -> 0 < dist2 o (p k) - dist2 o (p i) + 2 * d * X k) N) as [e [E L]].
+  { intros k K. destruct (classic (k <> i /\ k <> j)) as [[Di Dj] | D];
+      [| exists 1; split; [lra |]; intros d _ Di Dj; now elim D].
+    destruct (Req_dec (dist o (p k)) r) as [On | Off].
+    - exists 1. split; [lra |]. intros d D _ _. rewrite (Sq k On). assert (0 < X k); [| nra].
+      destruct (Left k K On) as [G | Z]; [exact G | exfalso].
+      destruct (chord_ends o (p i) (p j) (p k)) as [Y | Y]; auto; revert Y; now apply different.
+    - set (z := dist2 o (p k) - dist2 o (p i)).
+      assert (Z0 : dist2 o (p i) < dist2 o (p k)) by (apply dist_lt; pose proof (Out k K); lra). assert (0 < z) by (unfold z; lra).
+      pose proof (Rabs_pos (X k)) as P. exists (z / (2 * Rabs (X k) + 1) / 2). split.
+      { apply Rmult_lt_0_compat; [| lra]. apply Rdiv_lt_0_compat; lra. }
+      intros d [D0 D1] _ _. assert (Y : z / (2 * Rabs (X k) + 1) * (2 * Rabs (X k) + 1) = z) by (field; lra).
+      assert (0 < z / (2 * Rabs (X k) + 1)) by (apply Rdiv_lt_0_compat; lra).
+      pose proof (Rle_abs (- X k)) as A. rewrite Rabs_Ropp in A. nra. }
+  specialize (L e (conj E (Rle_refl e))). exists (w e). split.
+  - apply dist_eq. pose proof (F e j) as Y. rewrite Xj, (Sq j Ej) in Y. lra.
+  - intros k K Di Dj. apply dist_lt. pose proof (F e k). pose proof (L k K Di Dj). lra.
+Qed.
+
+(* A circle through three sites with all others strictly outside. *)
 Lemma turns_off a b k o : (a < N)%nat -> (b < N)%nat -> (k < N)%nat -> a <> b -> a <> k -> b <> k ->
   dist2 o (p k) = dist2 o (p a) -> dist2 o (p b) = dist2 o (p a) ->
   (forall l, (l < N)%nat -> l <> a -> l <> b -> l <> k -> dist2 o (p a) < dist2 o (p l)) -> strict_edge N p a k.
 Proof.
-  intros A B K Dab Dak Dbk Ek Eb H.
-  set (u := (- (snd (p k) - snd (p a)), fst (p k) - fst (p a))).
-  set (X l := dot u (p l) - dot u (p a)).
-  set (w d := (fst o + d * fst u, snd o + d * snd u)).
-  assert (F : forall d l, dist2 (w d) (p l) - dist2 (w d) (p a) = dist2 o (p l) - dist2 o (p a) - 2 * d * X l)
-    by (intros d l; unfold dist2, w, X, dot; simpl; ring).
-  assert (Xk : X k = 0) by (unfold X, u, dot; simpl; ring).
-  assert (U : u <> (0, 0)).
-  { intros E. apply (different a k A K Dak). pose proof (f_equal fst E) as E1. pose proof (f_equal snd E) as E2.
-    unfold u in E1, E2. simpl in E1, E2. rewrite (surjective_pairing (p a)), (surjective_pairing (p k)). f_equal; lra. }
-  assert (Xb : X b <> 0).
-  { intros Z. destruct (circles_meet_twice o (w 1) (p a) (p k) (p b)) as [E | E].
-    - intros E. assert (E1 : fst o = fst o + 1 * fst u) by exact (f_equal fst E).
-      assert (E2 : snd o = snd o + 1 * snd u) by exact (f_equal snd E). apply U.
-      rewrite (surjective_pairing u). f_equal; lra.
-    - now apply different.
-    - exact Ek.
-    - pose proof (F 1 k). rewrite Xk in *. lra.
-    - exact Eb.
-    - pose proof (F 1 b). rewrite Z in *. lra.
-    - exact (different b a B A (not_eq_sym Dab) E).
-    - exact (different b k B K Dbk E). }
-  destruct (small_finite (fun l d => l <> a -> l <> b -> l <> k -> 2 * d * Rabs (X l) < dist2 o (p l) - dist2 o (p a)) N)
-    as [e [E L]].
-  { intros l Hl. destruct (classic (l <> a /\ l <> b /\ l <> k)) as [[Da [Db Dk]] | D].
-    - pose proof (H l Hl Da Db Dk) as G. pose proof (Rabs_pos (X l)) as P.
-      exists ((dist2 o (p l) - dist2 o (p a)) / (2 * Rabs (X l) + 1) / 2). split.
-      { apply Rmult_lt_0_compat; [| lra]. apply Rdiv_lt_0_compat; lra. }
-      intros d [D0 D1] _ _ _. set (z := dist2 o (p l) - dist2 o (p a)) in *.
-      assert (Y : z / (2 * Rabs (X l) + 1) * (2 * Rabs (X l) + 1) = z) by (field; lra).
-      assert (0 < z / (2 * Rabs (X l) + 1)) by (apply Rdiv_lt_0_compat; unfold z; lra).
-      assert (0 < z) by (unfold z; lra). nra.
-    - exists 1. split; [lra |]. intros d _ Da Db Dk. now elim D. }
-  specialize (L e (conj E (Rle_refl e))).
-  assert (S : exists d, Rabs d = e /\ d * X b < 0).
-  { destruct (Rlt_dec 0 (X b)) as [Y | Y].
-    - exists (- e). split; [rewrite Rabs_Ropp; apply Rabs_pos_eq; lra |]. nra.
-    - exists e. split; [apply Rabs_pos_eq; lra |]. nra. }
-  destruct S as [d [Ad Sd]]. exists (w d). split.
-  - apply dist_eq. pose proof (F d k) as Y. rewrite Xk in Y. lra.
-  - intros l Hl Da Dk. apply dist_lt. pose proof (F d l) as Y. destruct (Nat.eq_dec l b) as [-> | Db]; [nra |].
-    pose proof (L l Hl Da Db Dk) as Z. pose proof (Rle_abs (d * X l)) as W. rewrite Rabs_mult, Ad in W. nra.
+  intros A B K Dab Dak Dbk Ek Eb H. apply dist_eq in Ek, Eb. set (r := dist o (p a)) in *.
+  assert (Who : forall l, (l < N)%nat -> l = a \/ l = b \/ l = k \/ r < dist o (p l)).
+  { intros l L. destruct (Nat.eq_dec l a); [tauto |]. destruct (Nat.eq_dec l b); [tauto |].
+    destruct (Nat.eq_dec l k); [tauto |]. right. right. right. now apply dist_lt, H. }
+  assert (Out : forall l, (l < N)%nat -> r <= dist o (p l))
+    by (intros l L; destruct (Who l L) as [-> | [-> | [-> | Y]]]; [unfold r | | |]; lra).
+  destruct (Rle_dec 0 (orient (p a) (p k) (p b))) as [Y | Y].
+  - apply (side_is_strict a k o r); auto. intros l L E.
+    destruct (Who l L) as [-> | [-> | [-> | G]]]; [unfold orient | | unfold orient | exfalso]; lra.
+  - apply strict_edge_sym, (side_is_strict k a o r); auto. intros l L E.
+    destruct (Who l L) as [-> | [-> | [-> | G]]]; [unfold orient | unfold orient in * | unfold orient | exfalso]; lra.
 Qed.
 
 (* The open disc about c with p k on its circle holds p a and p b alone. It shrinks towards p k; p a is the last to leave. *)

@@ -1,8 +1,8 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* How far all points may move before a triangulation changes [TOL-5], and how far each [TOL-6]. *)
+(* How far all points may move before a triangulation changes [TOL-5], and how far each [TOL-6]: with ties, too. *)
 From Coq Require Import Reals Lra Lia Psatz Classical List.
-From Dyadel Require Import Plane Finite Distance Cells Legal Nerve Orientation TiedFace Fan Triangulation Tolerance
-  ToleranceStays.
+From Dyadel Require Import Plane Finite Distance Cells Legal Nerve Orientation Path TiedFace Fan Triangulation Tolerance
+  ToleranceStays ToleranceTies.
 Open Scope R_scope.
 
 (* The height of z over the line from u to w, times its length. *)
@@ -44,24 +44,87 @@ Proof. intros T. unfold path. rewrite dist_mix_left by lra. pose proof (dist_non
 Section Moves.
 Variables (N : nat) (p q : nat -> point) (faces : nat -> list (nat * nat)) (rim edge : nat -> nat -> Prop).
 Variable sk : skeleton N p faces rim edge.
-Variable edge_sites : forall i j, edge i j -> (i < N)%nat /\ (j < N)%nat.
+Variable different : forall k l, (k < N)%nat -> (l < N)%nat -> k <> l -> p k <> p l.
 
-(* Three consecutive corners u, v, w of the hull for which uw is no edge: each point moves by less than half the distance
-   of v to the line uw, which is orient u v w / |uw|. *)
-Definition hull_corners_keep : Prop := forall u v w, rim u v -> rim v w -> edge u w \/
+(* An edge of the triangulation is strictly Delaunay, or one of those that are drawn in an undecided face: nobody is inside
+   of a circle through its ends and a third site, and whoever is on it stays at its place. *)
+Definition edges_drawn : Prop := forall i j, edge i j -> (i < N)%nat /\ (j < N)%nat /\ i <> j /\
+  (strict_edge N p i j \/ exists o r, staying_circle N p q o r /\ dist o (p i) = r /\ dist o (p j) = r).
+
+(* Three consecutive corners u, v, w of the hull: they are on one line, an undecided face, and stay at their places; or uw
+   is an edge; or each moves by less than half the distance of v to the line uw, which is orient u v w / |uw|. *)
+Definition hull_corners_keep : Prop := forall u v w, rim u v -> rim v w ->
+  flat p q u v w \/ edge u w \/
   forall k, k = u \/ k = v \/ k = w -> 2 * (dist (p u) (p w) * dist (p k) (q k)) < orient (p u) (p v) (p w).
 
-Lemma corners_keep : hull_corners_keep -> (forall t i j, 0 <= t <= 1 -> edge i j -> strict_edge N (path p q t) i j) ->
-  forall t u v w, 0 <= t <= 1 -> rim u v -> rim v w -> ~ between (path p q t v) (path p q t u) (path p q t w).
+Definition edges_stay (q : nat -> point) : Prop := forall i j, (i < N)%nat -> (j < N)%nat -> i <> j ->
+  strict_edge N p i j -> forall t, 0 <= t <= 1 -> strict_edge N (path p q t) i j.
+
+Lemma corners_keep : edges_drawn -> edges_stay q -> hull_corners_keep -> forall u v w, rim u v -> rim v w ->
+  flat p q u v w \/ forall t, 0 <= t <= 1 -> ~ between (path p q t v) (path p q t u) (path p q t w).
 Proof.
-  intros H E t u v w T Ruv Rvw. destruct (rim_sites _ _ _ _ _ sk u v Ruv) as [U [V [Duv _]]].
+  intros D E H u v w Ruv Rvw. destruct (rim_sites _ _ _ _ _ sk u v Ruv) as [U [V [Duv _]]].
   destruct (rim_sites _ _ _ _ _ sk v w Rvw) as [_ [W [Dvw _]]].
-  destruct (H u v w Ruv Rvw) as [Ed | M].
-  - apply edge_is_free with N; auto.
+  destruct (H u v w Ruv Rvw) as [Fl | [Ed | M]]; [now left | right | right]; intros t T.
+  - apply (edges_are_free N p q edge different E (staying_circle N p q) (fun _ _ X => X) D); auto.
   - assert (X : forall k, k = u \/ k = v \/ k = w ->
       2 * (dist (p u) (p w) * dist (p k) (path p q t k)) < orient (p u) (p v) (p w)).
     { intros k K. pose proof (M k K). pose proof (path_moves p q t k T). pose proof (dist_nonneg (p u) (p w)). nra. }
     apply (corner_stays (p u) (p v) (p w)); apply X; auto.
+Qed.
+
+(* The same for no motion at all. *)
+Lemma no_motion t k : path p p t k = p k.
+Proof. now apply stays_at. Qed.
+
+Lemma strict_edge_same z z' i j : (forall k, z k = z' k) -> strict_edge N z i j -> strict_edge N z' i j.
+Proof. intros E [o [A H]]. exists o. rewrite <- !E. split; [exact A |]. intros k. rewrite <- E. apply H. Qed.
+
+Lemma circle_still o r : staying_circle N p q o r -> staying_circle N p p o r.
+Proof. intros [Out [_ C]]. split; [exact Out |]. split; [now intros | exact C]. Qed.
+
+Lemma still_stay : edges_stay p.
+Proof. intros i j I J D E t T. apply (strict_edge_same p); [intros k; symmetry; apply no_motion | exact E]. Qed.
+
+Lemma corners_still : edges_drawn -> edges_stay q -> hull_corners_keep -> forall u v w, rim u v -> rim v w ->
+  flat p p u v w \/ forall t, 0 <= t <= 1 -> ~ between (path p p t v) (path p p t u) (path p p t w).
+Proof.
+  intros D E H u v w R R'. destruct (corners_keep D E H u v w R R') as [[Z _] | F]; [left; now repeat split | right].
+  intros t T. rewrite !no_motion. pose proof (F 0 ltac:(lra)) as X. now rewrite !path_0 in X.
+Qed.
+
+(* While no strictly Delaunay edge is lost, every pair keeps its status. *)
+Theorem statuses_stay : edges_drawn -> edges_stay q -> hull_corners_keep ->
+  forall a b, (a < N)%nat -> (b < N)%nat -> a <> b -> same_status N p q a b.
+Proof.
+  intros D E H a b A B Dab. pose proof (corners_keep D E H) as C.
+  set (tied := staying_circle N p q). assert (Tq : forall o r, tied o r -> staying_circle N p q o r) by (intros o r X; exact X).
+  destruct (classic (strict_edge N p a b)) as [Sp | Np].
+  - assert (Sq : strict_edge N q a b).
+    { apply (strict_edge_same (path p q 1)); [intros k; apply mix_1 |]. apply E; auto. lra. }
+    pose proof (strict_is_weak N p a b A B Sp). pose proof (strict_is_weak N q a b A B Sq). split; split; intros; assumption.
+  - destruct (classic (exists o r, staying_circle N p q o r /\ dist o (p a) = r /\ dist o (p b) = r))
+      as [[o [r [Cr [Oa Ob]]]] | Nc].
+    { now apply (circle_pair N p q different E o r). }
+    destruct (classic (exists u v, rim u v /\ on_side_line p q u v a /\ on_side_line p q u v b))
+      as [[u [v [R [La Lb]]]] | Nl].
+    { now apply (line_pair N p q faces rim edge sk different E tied Tq D C u v). }
+    assert (Nt : forall o r, tied o r -> ~ (dist o (p a) = r /\ dist o (p b) = r))
+      by (intros o r Cr [Oa Ob]; apply Nc; now exists o, r).
+    assert (Wq : ~ weak_edge N q a b).
+    { apply (other_pair N p q faces rim edge sk different E tied Tq D C a b A B Dab Np Nt).
+      intros u v R [La Lb]. apply Nl. now exists u, v. }
+    assert (Wp : ~ weak_edge N p a b).
+    { apply (other_pair N p p faces rim edge sk different still_stay tied (fun o r X => circle_still o r X) D
+        (corners_still D E H) a b A B Dab Np Nt).
+      assert (Line : forall u v k, rim u v -> (k < N)%nat -> on_side_line p p u v k -> on_side_line p q u v k).
+      { intros u v k R K L. destruct (Nat.eq_dec k u) as [-> | Du]; [now left |].
+        destruct (Nat.eq_dec k v) as [-> | Dv]; [right; now left |]. destruct L as [L | [L | [Z _]]]; try contradiction.
+        destruct (rim_at_first N p q faces rim edge sk (edges_are_free N p q edge different E tied Tq D) C u v k R K Du Dv)
+          as [P | Fl]; [rewrite !path_0 in P; lra | right; now right]. }
+      intros u v R [La Lb]. apply Nl. exists u, v. split; [exact R |]. split; now apply Line. }
+    split; split; intros X; try contradiction.
+    exfalso. apply Wq. now apply strict_is_weak.
 Qed.
 
 (* A circle, or a line, with both ends of the edge on its inner side and all others outside, which nobody reaches. *)
@@ -105,41 +168,34 @@ Proof.
   - eexists. apply (F (t0 + 1)). lra.
 Qed.
 
-(* All statuses are as they were. *)
-Definition unchanged : Prop := (forall i j, edge i j -> strict_edge N q i j) /\
-  forall a b, (a < N)%nat -> (b < N)%nat -> a <> b -> (forall i j, In (i, j) (faces a) -> b <> i /\ b <> j) ->
-    ~ weak_edge N q a b.
-
-(* [TOL-5] The whole: t is at most every death, and half the distance of every such corner. *)
-Theorem whole_unchanged t : (forall i j, edge i j -> forall s, s < t -> exists c, disc_witness N p i j s c) ->
+(* [TOL-5] The whole: t is at most every death, and half the distance of every such corner; there are no ties. *)
+Theorem whole_unchanged t : (forall i j, edge i j -> (i < N)%nat /\ (j < N)%nat /\ i <> j /\ strict_edge N p i j) ->
+  (forall i j, (i < N)%nat -> (j < N)%nat -> i <> j -> strict_edge N p i j ->
+    forall s, s < t -> exists c, disc_witness N p i j s c) ->
   (forall u v w, rim u v -> rim v w -> edge u w \/ 2 * (dist (p u) (p w) * t) <= orient (p u) (p v) (p w)) ->
-  (forall k, (k < N)%nat -> dist (p k) (q k) < t) -> unchanged.
+  (forall k, (k < N)%nat -> dist (p k) (q k) < t) ->
+  forall a b, (a < N)%nat -> (b < N)%nat -> a <> b -> same_status N p q a b.
 Proof.
-  intros D C M.
-  assert (E : forall s i j, 0 <= s <= 1 -> edge i j -> strict_edge N (path p q s) i j).
-  { intros s i j S Ed. destruct (edge_sites i j Ed) as [I J].
+  intros Strict D C M. apply statuses_stay.
+  - intros i j E. destruct (Strict i j E) as [I [J [Dij St]]]. repeat split; auto.
+  - intros i j I J Dij St s S.
     destruct (finite_max (fun _ => True) (fun k => dist (p k) (q k)) N) as [m [Hm [_ L]]]; [now exists i |].
-    destruct (D i j Ed (dist (p m) (q m)) (M m Hm)) as [c W].
+    destruct (D i j I J Dij St (dist (p m) (q m)) (M m Hm)) as [c W].
     apply (disc_witness_sound N p i j (dist (p m) (q m)) c); [exact I | exact J | exact W |].
-    intros k K. apply Rle_trans with (1 := path_moves p q s k S). now apply L. }
-  apply (nothing_changes N p q faces rim edge sk E). apply corners_keep; [| exact E].
-  intros u v w Ruv Rvw. destruct (C u v w Ruv Rvw) as [Ed | H]; [now left | right].
-  destruct (rim_sites _ _ _ _ _ sk u v Ruv) as [U [V [Duv _]]]. destruct (rim_sites _ _ _ _ _ sk v w Rvw) as [_ [W [Dvw _]]].
-  assert (P : 0 < dist (p u) (p w)).
-  { apply dist_pos. intros Z. destruct (E 0 u v ltac:(lra) ltac:(now apply (rim_sites _ _ _ _ _ sk))) as [o [_ F]].
-    unfold path in F. pose proof (F w W (not_eq_sym (rim_turns _ _ _ _ _ sk u v w Ruv Rvw)) (not_eq_sym Dvw)) as L.
-    rewrite !mix_0, Z in L. lra. }
-  intros k K. assert (B : (k < N)%nat) by (destruct K as [-> | [-> | ->]]; assumption). pose proof (M k B). nra.
+    intros k K. apply Rle_trans with (1 := path_moves p q s k S). now apply L.
+  - intros u v w Ruv Rvw. right. destruct (C u v w Ruv Rvw) as [Ed | H]; [now left | right].
+    destruct (rim_sites _ _ _ _ _ sk u v Ruv) as [U [V _]]. destruct (rim_sites _ _ _ _ _ sk v w Rvw) as [_ [W _]].
+    pose proof (dist_pos _ _ (different u w U W (rim_turns _ _ _ _ _ sk u v w Ruv Rvw))).
+    intros k K. assert (B : (k < N)%nat) by (destruct K as [-> | [-> | ->]]; assumption). pose proof (M k B). nra.
 Qed.
 
-(* [TOL-6] Each point: a circle or line of its own for every edge, which nobody reaches. *)
-Theorem points_unchanged : (forall i j, edge i j -> (exists c m, ring_keeps i j c m) \/ (exists u m, line_keeps i j u m)) ->
-  hull_corners_keep -> unchanged.
+(* [TOL-6] Each point: a circle or line of its own for every strictly Delaunay edge, which nobody reaches. *)
+Theorem points_unchanged : edges_drawn ->
+  (forall i j, (i < N)%nat -> (j < N)%nat -> i <> j -> strict_edge N p i j ->
+    (exists c m, ring_keeps i j c m) \/ (exists u m, line_keeps i j u m)) -> hull_corners_keep ->
+  forall a b, (a < N)%nat -> (b < N)%nat -> a <> b -> same_status N p q a b.
 Proof.
-  intros R C.
-  assert (E : forall s i j, 0 <= s <= 1 -> edge i j -> strict_edge N (path p q s) i j).
-  { intros s i j S Ed. destruct (edge_sites i j Ed) as [I J].
-    destruct (R i j Ed) as [[c [m K]] | [u [m K]]]; [now apply ring_edge with c m | now apply line_edge with u m]. }
-  apply (nothing_changes N p q faces rim edge sk E). now apply corners_keep.
+  intros D R. apply statuses_stay; [exact D |]. intros i j I J Dij St s S.
+  destruct (R i j I J Dij St) as [[c [m K]] | [u [m K]]]; [now apply ring_edge with c m | now apply line_edge with u m].
 Qed.
 End Moves.

@@ -20,12 +20,25 @@ Definition complete_fan (N : nat) (B : sites) (p : nat -> point) (a : nat) (face
     ((exists l, In (j, l) faces) \/
      (sure_hull N B j /\ forall m, (m < N)%nat -> 0 <= orient (p a) (p m) (p j))).
 
+(* What of it is about places alone. *)
+Definition fan_round (N : nat) (p : nat -> point) (a : nat) (faces : list (nat * nat)) : Prop :=
+  faces <> nil /\ forall i j, In (i, j) faces ->
+    ((i < N)%nat /\ (j < N)%nat) /\ 0 < orient (p a) (p i) (p j) /\
+    ((exists l, In (l, i) faces) \/ forall m, (m < N)%nat -> 0 <= orient (p a) (p i) (p m)) /\
+    ((exists l, In (j, l) faces) \/ forall m, (m < N)%nat -> 0 <= orient (p a) (p m) (p j)).
+
+Lemma complete_fan_round N B p a faces : complete_fan N B p a faces -> fan_round N p a faces.
+Proof.
+  intros [Ne H]. split; [exact Ne |]. intros i j F. destruct (H i j F) as [[I [J _]] [_ [D [_ [X Y]]]]].
+  split; [now split |]. split; [exact D |]. split; [destruct X as [X | [_ X]] | destruct Y as [Y | [_ Y]]]; auto.
+Qed.
+
 (* Directions from a: the cone of the face a, i, j. *)
 Definition in_cone (x y z w : point) : Prop := 0 <= orient x y w /\ 0 <= orient x w z.
 
 Section Cones.
-Variables (N : nat) (B : sites) (p : nat -> point) (a : nat) (faces : list (nat * nat)).
-Variable fan : complete_fan N B p a faces.
+Variables (N : nat) (p : nat -> point) (a : nat) (faces : list (nat * nat)).
+Variable fan : fan_round N p a faces.
 
 Definition covered (x : point) : Prop := exists i j, In (i, j) faces /\ in_cone (p a) (p i) (p j) x.
 
@@ -48,7 +61,7 @@ Proof. unfold x, orient, mix. simpl. reg. Qed.
 Lemma not_both_zero t i j : 0 <= t <= 1 -> In (i, j) faces ->
   orient (p a) (p i) (x t) = 0 -> orient (p a) (x t) (p j) = 0 -> False.
 Proof.
-  intros T F O1 O2. destruct fan as [_ H]. destruct (H i j F) as [_ [_ [D _]]].
+  intros T F O1 O2. destruct fan as [_ H]. destruct (H i j F) as [_ [D _]].
   apply (avoids t T). fold (x t). set (w := x t) in *.
   pose proof (bary_sum (p a) (p i) (p j) w) as S. pose proof (bary_x (p a) (p i) (p j) w) as X.
   pose proof (bary_y (p a) (p i) (p j) w) as Y. rewrite O1, O2 in *.
@@ -61,7 +74,7 @@ Lemma cone_left_near t i j : 0 <= t <= 1 -> In (i, j) faces -> in_cone (p a) (p 
 Proof.
   intros T F [O1 O2]. destruct (Req_dec (orient (p a) (p i) (x t)) 0) as [Z | Z].
   - destruct (inner_left i j F) as [[l G] | [Hy Hz]].
-    + destruct fan as [_ H]. destruct (H i j F) as [_ [_ [D _]]]. destruct (H l i G) as [_ [_ [D' _]]].
+    + destruct fan as [_ H]. destruct (H i j F) as [_ [D _]]. destruct (H l i G) as [_ [D' _]].
       assert (P2 : 0 < orient (p a) (x t) (p j)).
       { destruct (Req_dec (orient (p a) (x t) (p j)) 0) as [Z' | Z']; [exfalso; now apply (not_both_zero t i j) | lra]. }
       assert (E : orient (p a) (p i) (p j) * orient (p a) (p l) (x t) =
@@ -87,7 +100,7 @@ Lemma cone_right_near t i j : 0 <= t <= 1 -> In (i, j) faces -> in_cone (p a) (p
 Proof.
   intros T F [O1 O2]. destruct (Req_dec (orient (p a) (x t) (p j)) 0) as [Z | Z].
   - destruct (inner_right i j F) as [[l G] | [Hy Hz]].
-    + destruct fan as [_ H]. destruct (H i j F) as [_ [_ [D _]]]. destruct (H j l G) as [_ [_ [D' _]]].
+    + destruct fan as [_ H]. destruct (H i j F) as [_ [D _]]. destruct (H j l G) as [_ [D' _]].
       assert (P1 : 0 < orient (p a) (p i) (x t)).
       { destruct (Req_dec (orient (p a) (p i) (x t)) 0) as [Z' | Z']; [exfalso; now apply (not_both_zero t i j) | lra]. }
       assert (E : orient (p a) (p i) (p j) * orient (p a) (x t) (p l) =
@@ -136,11 +149,11 @@ Lemma sites_covered b : (a < N)%nat -> (b < N)%nat -> p b <> p a -> covered (p b
 Proof.
   intros Ha Hb Nb. destruct fan as [Ne H]. destruct faces as [| [i j] rest] eqn:Ef; [now elim Ne |].
   assert (F : In (i, j) faces) by (rewrite Ef; now left). rewrite <- Ef in *.
-  destruct (H i j F) as [[I [J [Dia [Dja Dij]]]] [_ [D _]]].
+  destruct (H i j F) as [[I J] [D _]].
   assert (Start : forall m, (m < N)%nat -> covered (p m) -> (forall t, 0 <= t <= 1 -> mix t (p m) (p b) <> p a) -> covered (p b)).
   { intros m M Cm Av. apply covered_along with (p m); [| | exact Av | exact Cm].
-    - intros k l K. destruct (H k l K) as [_ [_ [_ [_ [[X | [_ X]] _]]]]]; [now left | right; split; now apply X].
-    - intros k l K. destruct (H k l K) as [_ [_ [_ [_ [_ [X | [_ X]]]]]]]; [now left | right; split; now apply X]. }
+    - intros k l K. destruct (H k l K) as [_ [_ [[X | X] _]]]; [now left | right; split; now apply X].
+    - intros k l K. destruct (H k l K) as [_ [_ [_ [X | X]]]]; [now left | right; split; now apply X]. }
   assert (Ci : covered (p i)).
   { exists i, j. split; [exact F |]. split; [unfold orient; lra | lra]. }
   assert (Cj : covered (p j)).
@@ -178,7 +191,7 @@ Proof.
     destruct (H i j (or_introl eq_refl)) as [[I _] [[La _] _]]. destruct (Nb i j (or_introl eq_refl)).
     destruct (legal_sound N B a i p Ha I La P) as [o [_ Out]]. intros E.
     pose proof (Out b Hb (not_eq_sym Dab) H0) as X. rewrite E in X. lra. }
-  destruct (sites_covered N B p a faces Fan b Ha Hb Npq) as [i [j [F [O1 O2]]]].
+  destruct (sites_covered N p a faces (complete_fan_round _ _ _ _ _ Fan) b Ha Hb Npq) as [i [j [F [O1 O2]]]].
   apply (rest_is_illegal N B a b faces Ha Hb Edges Gap p P Left). exists i, j. split; [exact F |].
   split; [exact O1 |]. split; [exact O2 |]. destruct (Nb i j F) as [Di Dj].
   destruct (H i j F) as [_ [_ [_ [Empty _]]]].

@@ -81,12 +81,11 @@ Proof.
   generalize (near_positive (fun s => v s - u s) t (continuity_minus v u V U) P). apply near_weaken. intros s S. lra.
 Qed.
 
+Definition moves (v : R -> point) : Prop := continuity (fun s => fst (v s)) /\ continuity (fun s => snd (v s)).
+
 Section Side.
-Variables (a b z : R -> point) (t : R).
-Variable move_a : continuity (fun s => fst (a s)) /\ continuity (fun s => snd (a s)).
-Variable move_b : continuity (fun s => fst (b s)) /\ continuity (fun s => snd (b s)).
-Variable move_z : continuity (fun s => fst (z s)) /\ continuity (fun s => snd (z s)).
-Variable off : ~ between (z t) (a t) (b t).
+Variables (z : R -> point) (t : R).
+Variable move_z : moves z.
 
 (* 1 for what is straight above z at the time t and to its right at s. *)
 Definition above (v : R -> point) (s : R) : Z :=
@@ -104,9 +103,9 @@ Proof.
     destruct (Rle_dec (fst (z t)) (fst (v t))); [reflexivity | lra].
 Qed.
 
-Lemma turn_continuous : continuity (fun s => orient (a s) (b s) (z s)).
+Lemma turn_continuous a b : moves a -> moves b -> continuity (fun s => orient (a s) (b s) (z s)).
 Proof.
-  unfold orient. destruct move_a, move_b, move_z.
+  intros [] []. unfold orient. destruct move_z.
   apply (continuity_minus (fun s => (fst (b s) - fst (a s)) * (snd (z s) - snd (a s)))
     (fun s => (snd (b s) - snd (a s)) * (fst (z s) - fst (a s))));
   [apply (continuity_mult (fun s => fst (b s) - fst (a s)) (fun s => snd (z s) - snd (a s))) |
@@ -115,11 +114,46 @@ Proof.
     assumption.
 Qed.
 
-(* What the side counts changes only by what its ends do straight above z. *)
-Lemma side_steady : near t (fun s => (passes (z s) (a s) (b s) - (above b s - above a s) =
+(* What the side counts changes only by what its ends do straight above z: where one end is straight above or below it. *)
+Definition steady (a b : R -> point) : Prop := near t (fun s => (passes (z s) (a s) (b s) - (above b s - above a s) =
   passes (z t) (a t) (b t) - (above b t - above a t))%Z).
+
+Lemma end_steady a b : moves a -> moves b -> ~ between (z t) (a t) (b t) -> fst (a t) = fst (z t) ->
+  fst (b t) <> fst (z t) -> steady a b.
 Proof.
-  destruct move_a as [Ax Ay], move_b as [Bx By], move_z as [Zx Zy].
+  intros Ma Mb off Ea Eb. pose proof (turn_continuous a b Ma Mb) as Turn. destruct Mb as [Bx _], move_z as [Zx _].
+  pose proof (near_right b Bx Eb) as Kb.
+  assert (NotA : snd (a t) <> snd (z t)).
+  { intros F. apply off. exists 0. split; [lra |]. rewrite mix_0. symmetry.
+    rewrite (surjective_pairing (a t)), (surjective_pairing (z t)). now f_equal. }
+  unfold steady, above. destruct (Req_EM_T (fst (a t)) (fst (z t))) as [_ | N]; [| now elim N].
+  destruct (Req_EM_T (fst (b t)) (fst (z t))) as [N | _]; [now elim Eb |].
+  assert (O : orient (a t) (b t) (z t) = (fst (b t) - fst (z t)) * (snd (z t) - snd (a t)))
+    by (rewrite orient_heights, Ea; ring).
+  destruct (Rlt_dec (fst (z t)) (fst (b t))) as [Rb | Rb];
+    destruct (Rlt_dec (snd (z t)) (snd (a t))) as [Ua | Ua].
+  + assert (Q : orient (a t) (b t) (z t) < 0) by (rewrite O; nra).
+    generalize (near_and _ _ _ Kb (near_and _ _ _ (near_negative _ t Turn Q)
+      (near_less _ _ t Zx Bx ltac:(lra)))). apply near_weaken. intros s [K [C D]].
+    rewrite (passes_above (z s)), (passes_above (z t)); try (intros [X Y]; lra). rewrite K. lia.
+  + assert (Q : 0 < orient (a t) (b t) (z t)) by (rewrite O; apply Rmult_lt_0_compat; lra).
+    generalize (near_and _ _ _ (near_positive _ t Turn Q)
+      (near_less _ _ t Zx Bx ltac:(lra))). apply near_weaken. intros s [C D].
+    rewrite (passes_below (z s)), (passes_below (z t)); try (intros [X Y]; lra). lia.
+  + assert (Q : 0 < orient (a t) (b t) (z t)) by (rewrite O; nra).
+    generalize (near_and _ _ _ Kb (near_and _ _ _ (near_positive _ t Turn Q)
+      (near_less _ _ t Bx Zx ltac:(lra)))). apply near_weaken. intros s [K [C D]].
+    rewrite (passes_above (z s)), (passes_above (z t)); try (intros [X Y]; lra). rewrite K. lia.
+  + assert (Q : orient (a t) (b t) (z t) < 0) by (rewrite O; nra).
+    generalize (near_and _ _ _ (near_negative _ t Turn Q)
+      (near_less _ _ t Bx Zx ltac:(lra))). apply near_weaken. intros s [C D].
+    rewrite (passes_below (z s)), (passes_below (z t)); try (intros [X Y]; lra). lia.
+Qed.
+(* The same wherever they are. *)
+Lemma side_steady a b : moves a -> moves b -> ~ between (z t) (a t) (b t) -> steady a b.
+Proof.
+  intros Ma Mb off. pose proof (turn_continuous a b Ma Mb) as Turn. pose proof Ma as [Ax Ay]. pose proof Mb as [Bx By].
+  destruct move_z as [Zx Zy].
   assert (Up : forall v : R -> point, continuity (fun s => snd (v s)) -> snd (z t) < snd (v t) ->
     near t (fun s => snd (z s) < snd (v s)))
     by (intros v V L; exact (near_less _ _ t Zy V L)).
@@ -132,96 +166,47 @@ Proof.
   assert (NotB : fst (b t) = fst (z t) -> snd (b t) <> snd (z t)).
   { intros E F. apply off. exists 1. split; [lra |]. rewrite mix_1. symmetry.
     rewrite (surjective_pairing (b t)), (surjective_pairing (z t)). now f_equal. }
-  unfold above.
   destruct (Req_EM_T (fst (a t)) (fst (z t))) as [Ea | Ea]; destruct (Req_EM_T (fst (b t)) (fst (z t))) as [Eb | Eb].
-  - specialize (NotA Ea). specialize (NotB Eb).
-    destruct (Rlt_dec (snd (z t)) (snd (a t))) as [Ua | Ua]; destruct (Rlt_dec (snd (z t)) (snd (b t))) as [Ub | Ub].
+  - specialize (NotA Ea). specialize (NotB Eb). unfold steady, above.
+    destruct (Req_EM_T (fst (a t)) (fst (z t))) as [_ | N]; [| now elim N].
+    destruct (Req_EM_T (fst (b t)) (fst (z t))) as [_ | N]; [| now elim N].
+    destruct (Rlt_dec (snd (z t)) (snd (a t))) as [Ua | Ua]; destruct (Rlt_dec (snd (z t)) (snd (b t))) as [Ub | Ub];
+      [| exfalso; apply off .. |]; try (set (r := (snd (a t) - snd (z t)) / (snd (a t) - snd (b t)));
+        assert (R1 : r * (snd (a t) - snd (b t)) = snd (a t) - snd (z t)) by (unfold r; field; lra);
+        exists r; split; [split; nra |]; rewrite (surjective_pairing (z t)); unfold mix; rewrite Ea, Eb; f_equal; lra).
     + generalize (near_and _ _ _ (Up a Ay Ua) (Up b By Ub)). apply near_weaken. intros s [A C].
       rewrite (ends_above _ _ _ A C), (ends_above _ _ _ Ua Ub). lia.
-    + exfalso. apply off. set (r := (snd (a t) - snd (z t)) / (snd (a t) - snd (b t))).
-      assert (R1 : r * (snd (a t) - snd (b t)) = snd (a t) - snd (z t)) by (unfold r; field; lra).
-      exists r. split; [split; apply (Rmult_le_reg_r (snd (a t) - snd (b t))); lra |].
-      rewrite (surjective_pairing (z t)). unfold mix. rewrite Ea, Eb. f_equal; lra.
-    + exfalso. apply off. set (r := (snd (a t) - snd (z t)) / (snd (a t) - snd (b t))).
-      assert (R1 : r * (snd (a t) - snd (b t)) = snd (a t) - snd (z t)) by (unfold r; field; lra).
-      assert (R2 : r * (snd (b t) - snd (a t)) = snd (z t) - snd (a t)) by lra.
-      exists r. split; [split; apply (Rmult_le_reg_r (snd (b t) - snd (a t))); lra |].
-      rewrite (surjective_pairing (z t)). unfold mix. rewrite Ea, Eb. f_equal; lra.
     + generalize (near_and _ _ _ (Down a Ay ltac:(lra)) (Down b By ltac:(lra))). apply near_weaken. intros s [A C].
       rewrite (ends_below _ _ _ A C), (ends_below (z t) (a t) (b t)) by lra. lia.
-  - specialize (NotA Ea). pose proof (near_right b Bx Eb) as Kb.
-    assert (O : orient (a t) (b t) (z t) = (fst (b t) - fst (z t)) * (snd (z t) - snd (a t)))
-      by (rewrite orient_heights, Ea; ring).
-    destruct (Rlt_dec (fst (z t)) (fst (b t))) as [Rb | Rb];
-      destruct (Rlt_dec (snd (z t)) (snd (a t))) as [Ua | Ua].
-    + assert (Q : orient (a t) (b t) (z t) < 0) by (rewrite O; nra).
-      generalize (near_and _ _ _ Kb (near_and _ _ _ (near_negative _ t turn_continuous Q)
-        (near_less _ _ t Zx Bx ltac:(lra)))). apply near_weaken. intros s [K [C D]].
-      rewrite (passes_above (z s)), (passes_above (z t)); try (intros [X Y]; lra). rewrite K. lia.
-    + assert (Q : 0 < orient (a t) (b t) (z t)) by (rewrite O; apply Rmult_lt_0_compat; lra).
-      generalize (near_and _ _ _ (near_positive _ t turn_continuous Q)
-        (near_less _ _ t Zx Bx ltac:(lra))). apply near_weaken. intros s [C D].
-      rewrite (passes_below (z s)), (passes_below (z t)); try (intros [X Y]; lra). lia.
-    + assert (Q : 0 < orient (a t) (b t) (z t)) by (rewrite O; nra).
-      generalize (near_and _ _ _ Kb (near_and _ _ _ (near_positive _ t turn_continuous Q)
-        (near_less _ _ t Bx Zx ltac:(lra)))). apply near_weaken. intros s [K [C D]].
-      rewrite (passes_above (z s)), (passes_above (z t)); try (intros [X Y]; lra). rewrite K. lia.
-    + assert (Q : orient (a t) (b t) (z t) < 0) by (rewrite O; nra).
-      generalize (near_and _ _ _ (near_negative _ t turn_continuous Q)
-        (near_less _ _ t Bx Zx ltac:(lra))). apply near_weaken. intros s [C D].
-      rewrite (passes_below (z s)), (passes_below (z t)); try (intros [X Y]; lra). lia.
-  - specialize (NotB Eb). pose proof (near_right a Ax Ea) as Ka.
-    assert (O : orient (a t) (b t) (z t) = (fst (z t) - fst (a t)) * (snd (z t) - snd (b t)))
-      by (rewrite orient_heights, Eb; ring).
-    destruct (Rlt_dec (fst (z t)) (fst (a t))) as [Rb | Rb];
-      destruct (Rlt_dec (snd (z t)) (snd (b t))) as [Ua | Ua].
-    + assert (Q : 0 < orient (a t) (b t) (z t)) by (rewrite O; nra).
-      generalize (near_and _ _ _ Ka (near_and _ _ _ (near_positive _ t turn_continuous Q)
-        (near_less _ _ t Zx Ax ltac:(lra)))). apply near_weaken. intros s [K [C D]].
-      rewrite (passes_above (z s)), (passes_above (z t)); try (intros [X Y]; lra). rewrite K. lia.
-    + assert (Q : orient (a t) (b t) (z t) < 0) by (rewrite O; nra).
-      generalize (near_and _ _ _ (near_negative _ t turn_continuous Q)
-        (near_less _ _ t Zx Ax ltac:(lra))). apply near_weaken. intros s [C D].
-      rewrite (passes_below (z s)), (passes_below (z t)); try (intros [X Y]; lra). lia.
-    + assert (Q : orient (a t) (b t) (z t) < 0) by (rewrite O; nra).
-      generalize (near_and _ _ _ Ka (near_and _ _ _ (near_negative _ t turn_continuous Q)
-        (near_less _ _ t Ax Zx ltac:(lra)))). apply near_weaken. intros s [K [C D]].
-      rewrite (passes_above (z s)), (passes_above (z t)); try (intros [X Y]; lra). rewrite K. lia.
-    + assert (Q : 0 < orient (a t) (b t) (z t)) by (rewrite O; nra).
-      generalize (near_and _ _ _ (near_positive _ t turn_continuous Q)
-        (near_less _ _ t Ax Zx ltac:(lra))). apply near_weaken. intros s [C D].
-      rewrite (passes_below (z s)), (passes_below (z t)); try (intros [X Y]; lra). lia.
-  - pose proof (near_right a Ax Ea) as Ka. pose proof (near_right b Bx Eb) as Kb.
+  - now apply end_steady.
+  - assert (Back : ~ between (z t) (b t) (a t)).
+    { intros [u [U E]]. apply off. exists (1 - u). split; [lra |]. rewrite E. apply mix_swap. }
+    generalize (end_steady b a Mb Ma Back Eb Ea). apply near_weaken. intros s K.
+    rewrite !(passes_back _ (a _) (b _)) in K. lia.
+  - pose proof (near_right a Ax Ea) as Ka. pose proof (near_right b Bx Eb) as Kb. unfold steady, above.
+    destruct (Req_EM_T (fst (a t)) (fst (z t))) as [N | _]; [now elim Ea |].
+    destruct (Req_EM_T (fst (b t)) (fst (z t))) as [N | _]; [now elim Eb |].
     assert (Same : right (z t) (a t) = right (z t) (b t) \/ orient (a t) (b t) (z t) <> 0).
     { destruct (right_cases (z t) (a t)) as [[-> A] | [-> A]]; destruct (right_cases (z t) (b t)) as [[-> C] | [-> C]];
         try (now left); right; intros O; apply off;
         set (r := (fst (z t) - fst (a t)) / (fst (b t) - fst (a t)));
         assert (R1 : r * (fst (b t) - fst (a t)) = fst (z t) - fst (a t)) by (unfold r; field; lra);
-        (exists r; split; [split |]).
-      - apply (Rmult_le_reg_r (fst (a t) - fst (b t))); lra.
-      - apply (Rmult_le_reg_r (fst (a t) - fst (b t))); lra.
-      - rewrite (surjective_pairing (z t)). unfold mix. f_equal; [lra |].
-        apply (Rmult_eq_reg_r (fst (b t) - fst (a t))); [| lra]. unfold orient in O.
+        (exists r; split; [split; nra |]); rewrite (surjective_pairing (z t)); unfold mix; (f_equal; [lra |]);
+        apply (Rmult_eq_reg_r (fst (b t) - fst (a t))); try lra; unfold orient in O;
         transitivity (snd (a t) * (fst (b t) - fst (a t)) + (snd (b t) - snd (a t)) * (r * (fst (b t) - fst (a t))));
-          [rewrite R1; lra | ring].
-      - apply (Rmult_le_reg_r (fst (b t) - fst (a t))); lra.
-      - apply (Rmult_le_reg_r (fst (b t) - fst (a t))); lra.
-      - rewrite (surjective_pairing (z t)). unfold mix. f_equal; [lra |].
-        apply (Rmult_eq_reg_r (fst (b t) - fst (a t))); [| lra]. unfold orient in O.
-        transitivity (snd (a t) * (fst (b t) - fst (a t)) + (snd (b t) - snd (a t)) * (r * (fst (b t) - fst (a t))));
-          [rewrite R1; lra | ring]. }
+        (rewrite R1; lra) || ring. }
     destruct Same as [Same | O].
     + generalize (near_and _ _ _ Ka Kb). apply near_weaken. intros s [A C]. unfold passes. rewrite A, C, Same.
       destruct (right_cases (z t) (b t)) as [[-> _] | [-> _]]; reflexivity.
     + destruct (Rlt_dec (orient (a t) (b t) (z t)) 0) as [N | P].
-      * generalize (near_and _ _ _ (near_negative _ t turn_continuous N) (near_and _ _ _ Ka Kb)). apply near_weaken.
+      * generalize (near_and _ _ _ (near_negative _ t Turn N) (near_and _ _ _ Ka Kb)). apply near_weaken.
         intros s [Q [A C]]. unfold passes. rewrite A, C.
         destruct (Rlt_dec (orient (a s) (b s) (z s)) 0); [| lra]. destruct (Rlt_dec (orient (a t) (b t) (z t)) 0);
           [| lra].
         destruct (Rlt_dec 0 (orient (a s) (b s) (z s))); [lra |]. destruct (Rlt_dec 0 (orient (a t) (b t) (z t)));
           [lra |].
         reflexivity.
-      * generalize (near_and _ _ _ (near_positive _ t turn_continuous ltac:(lra)) (near_and _ _ _ Ka Kb)).
+      * generalize (near_and _ _ _ (near_positive _ t Turn ltac:(lra)) (near_and _ _ _ Ka Kb)).
         apply near_weaken. intros s [Q [A C]]. unfold passes. rewrite A, C.
         destruct (Rlt_dec (orient (a s) (b s) (z s)) 0); [lra |]. destruct (Rlt_dec (orient (a t) (b t) (z t)) 0);
           [lra |].
@@ -265,7 +250,7 @@ Proof.
     assert (K : near t (fun s => forall e, In e E ->
       (passes (z s) (p (fst e) s) (p (snd e) s) - (above z t (p (snd e)) s - above z t (p (fst e)) s) =
        passes (z t) (p (fst e) t) (p (snd e) t) - (above z t (p (snd e)) t - above z t (p (fst e)) t))%Z)).
-    { apply near_list. intros [a b] F. simpl. apply side_steady; auto. }
+    { apply near_list. intros [a b] F. simpl. exact (side_steady z t Mz (p a) (p b) (Mp a) (Mp b) (Off t a b T F)). }
     revert K. apply near_weaken. intros s K.
     assert (Sum : forall r, (W r = total (fun a b => passes (z r) (p a r) (p b r) - (above z t (p b) r - above z t (p
       a) r)) E)%Z).
