@@ -11,6 +11,7 @@ rejected as it has to be. The time grows little faster than the number of sites.
 import os
 import pathlib
 import random
+import re
 import resource
 import subprocess
 import sys
@@ -168,15 +169,41 @@ TOUCHED = ('dyadel certificate 1\noutcome fixpoint\ngoal decided\ncapped no\nsit
            '0 3 1*2^-1 1*2^-1\nplaces 0\nbridges 0\ncorners 0\npairs\ntriangles 0\nunproved 5\narea none\nhausdorff none\nend\n')
 
 
+def without_line(text, kind, number):
+    """The text without one of the lines on pairs of a kind."""
+    lines = text.split('\n')
+    places = [k for k, line in enumerate(lines) if line.startswith(f'{kind} ')]
+    del lines[places[number]]
+    return '\n'.join(lines)
+
+
+def halved(text, name):
+    """The text with half of the bound, which is m*2^e, e no 1."""
+    return re.sub(rf'\n{name} (\d+)\*2\^(-?\d+)\n', lambda m: f'\n{name} {m[1]}*2^{int(m[2]) - 1}\n', text)
+
+
 def try_cases(both, root):
     """Certificates whose verdict is known."""
     table = (root / 'tests/data/airports.csv').read_text()
     columns = ('--columns', 'longitude,latitude')
+    crowd = both.certificate(table, *columns, '--radius', '0.05')
+    grid = both.certificate(''.join(f'{x} {y}\n' for x in range(5) for y in range(5)))
     triangle, square = '0 0\n5 0\n0 4\n', '0 0\n5 0\n0 4\n6 [5,6]\n'
     for status, said, text in [
             (ALL, '10112 legal pairs', both.certificate(table, *columns)),
             (NOT_ALL, '10109 legal pairs', both.certificate(table, *columns, '--measured')),
-            (NOT_ALL, 'not proved: that pairs among', both.certificate(table, *columns, '--radius', '0.05')),
+            (NOT_ALL, 'open: 13100 ', crowd),
+            (NOT_ALL, 'checked: all pairs that are not listed are illegal', crowd),
+            (NOT_ALL, 'checked: the bounds of area', crowd),
+            (NOT_ALL, 'not proved: that pairs among', without_line(crowd, 'o', 5000)),
+            (NOT_ALL, 'not proved: that pairs among', without_line(crowd, 'o', 9000)),
+            (REJECTED, '', crowd.replace('\narea ', '\narea -')),
+            (REJECTED, '', halved(crowd, 'area')),
+            (REJECTED, '', halved(crowd, 'hausdorff')),
+            (ALL, 'checked: all pairs that are not listed are illegal', grid),
+            (NOT_ALL, 'not proved: that pairs among', without_line(grid, 't', 7)),
+            (NOT_ALL, 'places, bridges', grid.replace('\ntriangles 0\n', '\ntriangles 1\n')),
+            (REJECTED, '', halved(grid, 'hausdorff')),
             (NOT_ALL, 'the section on the Voronoi diagram', both.certificate(square, command='voronoi')),
             (ALL, 'bounds of area', both.certificate(square)),
             (ALL, 'the outcome certified', both.certificate('sqrt(2) 0\n1 [5,6]\n-4 pi\n7 -2\n', '--until', 'hausdorff:-4')),
