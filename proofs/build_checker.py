@@ -11,7 +11,7 @@ import shutil
 import subprocess
 import sys
 
-THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerExtract')
+THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerExtract')
 READERS = ('reader', 'hints', 'cuts', 'proved')
 
 

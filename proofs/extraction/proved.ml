@@ -21,6 +21,15 @@ let line_at_fault c d e =
     let rec first k = function [] -> c.first_edge - 1 | edge :: rest -> if good edge then first (k + 1) rest else k in
     first c.first_edge c.edges
 
+let check_chains c d e =
+  let broken = Checker.broken_chains d e c.sites (List.map snd c.pairs.chains) in
+  let refuse (line, (chain : Checker.chain)) =
+    let name = Z.to_string in
+    if List.memq chain broken then
+      raise (Bad (line, Printf.sprintf "the chain does not prove that %s %s is illegal" (name chain.one) (name chain.other)))
+  in
+  if broken <> [] then List.iter refuse (List.rev c.pairs.chains)
+
 (* What of the pairs is proved. *)
 type proof = {
   decided : bool;  (* all possible pairs are legal ones that are listed *)
@@ -46,7 +55,14 @@ let proof_of c d e =
   let are_sure () = List.length (Checker.sure_triangles d e c.sites c.edges triangles) = c.pairs.faces in
   let are_corners () = List.length (Checker.sure_corners d e c.sites c.corners) = List.length c.corners in
   let p = c.pairs in
-  let counted = decided || (c.hints + p.chains + p.boxes + p.unproved = 0 && complete && are_sure () && are_corners ()) in
+  let around = Hashtbl.create 1000 in
+  List.iter (fun (f : Checker.fan) -> Hashtbl.replace around f.centre ()) found;
+  let is_open i j = not (Hashtbl.mem around i || Hashtbl.mem around j) in
+  let are_open =
+    List.for_all (fun (e : Checker.edge) -> is_open e.from e.to0) p.listed
+    && List.for_all (fun (_, (chain : Checker.chain)) -> is_open chain.one chain.other) p.chains
+  in
+  let counted = decided || (c.hints + p.boxes + p.unproved = 0 && are_open && complete && are_sure () && are_corners ()) in
   { decided; complete; surrounded = List.length found; faces = List.length triangles; counted }
 
 (* Does the bound that the goal is about reach it? *)
@@ -73,7 +89,7 @@ let outcome_is_proved c p =
 
 (* What a certificate says that cannot be. *)
 let contradiction c d e p =
-  let opened = c.pairs.ties + c.pairs.opened > 0 || c.capped in
+  let opened = c.pairs.listed <> [] || c.capped in
   if c.outcome = "decided" && opened then Some "the outcome is not decided: pairs are open"
   else if c.outcome = "certified" && List.hd c.goal <> "voronoi" && not (is_reached c) then
     Some "the outcome is not certified: no bound reaches the goal"
@@ -87,13 +103,15 @@ let has_bounds c = c.area <> None || c.hausdorff <> None
 
 let gaps c p =
   let left = List.length c.sites - p.surrounded in
+  let unwitnessed = c.pairs.unwitnessed in
   List.filter_map
     (fun (there, text) -> if there then Some ("not proved: " ^ text) else None)
     [ (not (p.complete || c.capped), Printf.sprintf "that pairs among %d sites which are not listed are illegal" left);
+      (unwitnessed > 0, Printf.sprintf "that %d pairs without a witness are legal" unwitnessed);
       (c.pairs.ties > 0 && not c.exact, Printf.sprintf "that no refinement decides %d ties" c.pairs.ties);
       (c.loose > 0, Printf.sprintf "that %d aliases of points that are not exact are the same points" c.loose);
       (has_bounds c && not p.complete, "the bounds of area and Hausdorff distance, as more pairs may be possible");
-      (p.complete && not p.counted, "places, bridges, corners, chains and numbers of faces, which the proof does not need");
+      (p.complete && not p.counted, "places, bridges, corners and the numbers of triangles and pairs, which the proof does not need");
       (c.blocks, "what points are described to be, which this checker does not know");
       (c.diagram, "the section on the Voronoi diagram, which this checker does not know");
       (not (outcome_is_proved c p), "the outcome " ^ c.outcome) ]
@@ -107,6 +125,8 @@ let report c p gaps =
   Printf.printf "checked: %d sites have no possible pairs but the legal ones\n" surrounded;
   if p.complete && not p.decided then
     Printf.printf "checked: pairs of the other %d sites, by triangles that cover the plane\n" (List.length c.sites - surrounded);
+  if c.pairs.chains <> [] then
+    Printf.printf "checked: no centre on %d chains is possibly nearest to their sites\n" (List.length c.pairs.chains);
   if p.complete then print_endline "checked: all pairs that are not listed are illegal";
   if p.complete && has_bounds c then print_endline "checked: the bounds of area and Hausdorff distance";
   if outcome_is_proved c p then Printf.printf "checked: the outcome %s\n" c.outcome;
@@ -117,9 +137,10 @@ let report c p gaps =
 (* The exit status. *)
 let verdict name =
   let c = certificate (whole_file name) in
-  let d, e = Hints.unit_of c.sites c.edges in
+  let d, e = Hints.unit_of c.sites c.edges (List.map snd c.pairs.chains) in
   if not (Checker.check d e c.sites c.edges) then
     raise (Bad (line_at_fault c d e, "a point is no witness of its pair, or sites are not rectangles"));
+  check_chains c d e;
   let p = proof_of c d e in
   Option.iter (fun wrong -> raise (Bad (2, wrong))) (contradiction c d e p);
   let found = gaps c p in

@@ -10,8 +10,9 @@ exception Bad of int * string
 type pairs = {
   mutable listed : Checker.edge list;  (* lines o, t and l; the points mean nothing *)
   mutable ties : int;
-  mutable opened : int;  (* lines o and l *)
-  mutable chains : int;
+  mutable opened : int;  (* lines o *)
+  mutable unwitnessed : int;  (* lines l *)
+  mutable chains : (int * Checker.chain) list;  (* with their lines *)
   mutable boxes : int;  (* pairs that boxes are said to prove *)
   mutable faces : int;  (* sure triangles *)
   mutable unproved : int;
@@ -196,16 +197,20 @@ let direction (vertex, (x : Checker.number), (y : Checker.number)) =
   let e = Z.min x.expo y.expo in
   { Checker.vertex; ux = whole x e; uy = whole y e }
 
-(* Direction, then blocker and point by turns, a blocker, a direction. *)
-let rec read_chain s known least = function
-  | k :: x :: y :: rest ->
-    ignore (site s known k, number s x, number s y);
-    read_chain s known (least - 1) rest
-  | [] when least <= 0 -> ()
-  | _ -> bad s "the chain is too short"
+(* After a direction: blocker and point by turns, a blocker, a direction. *)
+let read_chain s known (one, other) first_way rest =
+  let rec read links = function
+    | [ k; x; y ] when links <> [] ->
+      let last_blocker = Z.of_int (site s known k) and last_way = (number s x, number s y) in
+      { Checker.one; other; first_way; links = List.rev links; last_blocker; last_way }
+    | k :: x :: y :: rest -> read ((Z.of_int (site s known k), (number s x, number s y)) :: links) rest
+    | _ -> bad s "the chain is too short"
+  in
+  read [] rest
 
+(* Lines on pairs, and the counts that follow. *)
 let read_pairs s known legal =
-  let p = { listed = []; ties = 0; opened = 0; chains = 0; boxes = 0; faces = 0; unproved = 0 } and last = ref (-1, -1) in
+  let p = { listed = []; ties = 0; opened = 0; unwitnessed = 0; chains = []; boxes = 0; faces = 0; unproved = 0 } and last = ref (-1, -1) in
   let not_legal i j =
     let i, j = pair s known last i j in
     if Hashtbl.mem legal (i, j) then bad s "the pair is legal already";
@@ -220,12 +225,14 @@ let read_pairs s known legal =
     | [ (("o" | "t" | "l") as kind); i; j ] ->
       let from, to0 = not_legal i j in
       p.listed <- { Checker.from; to0; at_x = zero; at_y = zero } :: p.listed;
-      if kind = "t" then p.ties <- p.ties + 1 else p.opened <- p.opened + 1;
+      (match kind with
+      | "t" -> p.ties <- p.ties + 1
+      | "o" -> p.opened <- p.opened + 1
+      | _ -> p.unwitnessed <- p.unwitnessed + 1);
       lines ()
     | "n" :: i :: j :: x :: y :: chain ->
-      ignore (not_legal i j, number s x, number s y);
-      read_chain s known 2 chain;
-      p.chains <- p.chains + 1;
+      let ends = not_legal i j in
+      p.chains <- (s.line, read_chain s known ends (number s x, number s y) chain) :: p.chains;
       lines ()
     | line -> counts line
   in
