@@ -8,7 +8,7 @@ module Z = Integers
 (* The whole plane is seen from o; s is the size of what the sites take up. *)
 type view = { o : spot; s : float }
 
-let digits = 30
+let digits = 60
 
 (* The box around all, and by how many bits numbers may be shortened. *)
 let extent boxes =
