@@ -11,8 +11,8 @@ import shutil
 import subprocess
 import sys
 
-THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerExtract')
-READERS = ('reader', 'hints', 'proved')
+THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerExtract')
+READERS = ('reader', 'hints', 'cuts', 'proved')
 
 
 def build(proofs, folder, output):

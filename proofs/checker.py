@@ -4,13 +4,14 @@
 
 Usage: checker.py ROOT DYADEL_PROVED DYADEL [COUNT]
 
-On certificates of the airports and of COUNT random inputs (default 100), on mutants of these, on forgeries and on texts in
-another spelling: what verify accepts is accepted, and of what is all proved verify says so too; what is accepted and
-rejected as it has to be. The time grows little faster than the number of sites.
+On certificates of the airports and of COUNT random inputs (default 100), on mutants of these, on forgeries, chains among
+them, and on texts in another spelling: what verify accepts is accepted, and of what is all proved verify says so too; what
+is accepted and rejected as it has to be. The time grows little faster than the number of sites.
 """
 import os
 import pathlib
 import random
+import re
 import resource
 import subprocess
 import sys
@@ -153,14 +154,49 @@ def try_random(both, count):
         yield 'hardly anything is rejected, or hardly anything proved'
 
 
-def try_forgeries(both, path):
+def forgeries(path):
+    """The texts of the file, and what is said of each."""
     text = []
     for line in path.read_text().splitlines(keepends=True):
         if line.startswith('---- '):
-            yield from both.faults(''.join(text), f'forgery before {line.strip()}')
+            yield ''.join(text), line.strip()
             text = []
         else:
             text.append(line)
+
+
+def forged_chains(text, sites):
+    """The text with one chain changed: a blocker lost or replaced, a ray lost or turned."""
+    lines = text.split('\n')
+    for at, line in enumerate(lines):
+        words = line.split(' ')
+        if words[0] != 'n':
+            continue
+        blockers = range(5, len(words), 3)
+        turned = [word[1:] if word[0] == '-' else f'-{word}' if word != '0' else word for word in words]
+        changed = [words[:k] + words[k + 3:] for k in blockers] + [words[:3] + words[6:]]
+        changed += [words[:-2] + turned[-2:], words[:3] + turned[3:5] + words[5:], words[:8] + words[5:6] + words[9:]]
+        changed.append(words[:8] + words[5:6] + words[3:5])  # there and back: blocked, but it separates nothing
+        changed += [words[:k] + [str(other)] + words[k + 1:] for k in blockers for other in range(sites)]
+        yield from ('\n'.join(lines[:at] + [' '.join(some)] + lines[at + 1:]) for some in changed)
+
+
+def try_chains(both, path):
+    """Both refuse the same chains."""
+    tried = refused = 0
+    for text, said in forgeries(path):
+        yield from both.faults(text, f'forgery before {said}')
+        if not said.startswith('---- accepted') or '\nn ' not in text:
+            continue
+        first, last = section(text.split('\n'), 'sites')
+        for forged in [text, *forged_chains(text, last - first)]:
+            here, there = both.ask(both.proved, text=forged), both.ask(both.dyadel, 'verify', text=forged)
+            tried, refused = tried + 1, refused + (there.returncode == REJECTED)
+            if (here.returncode == REJECTED) != (there.returncode == REJECTED):
+                yield f'a chain: {here.returncode} {here.stderr}, verify {there.returncode} {there.stderr}:\n{forged}'
+    print(f'{tried} certificates with chains, of which {refused} are refused')
+    if tried < 50 or refused * 2 < tried:
+        yield 'hardly any chain was tried, or refused'
 
 
 # A witness of 0 3 whose circle also goes through 1 and 2.
@@ -168,15 +204,41 @@ TOUCHED = ('dyadel certificate 1\noutcome fixpoint\ngoal decided\ncapped no\nsit
            '0 3 1*2^-1 1*2^-1\nplaces 0\nbridges 0\ncorners 0\npairs\ntriangles 0\nunproved 5\narea none\nhausdorff none\nend\n')
 
 
+def without_line(text, kind, number):
+    """The text without one of the lines on pairs of a kind."""
+    lines = text.split('\n')
+    places = [k for k, line in enumerate(lines) if line.startswith(f'{kind} ')]
+    del lines[places[number]]
+    return '\n'.join(lines)
+
+
+def halved(text, name):
+    """The text with half of the bound, which is m*2^e, e no 1."""
+    return re.sub(rf'\n{name} (\d+)\*2\^(-?\d+)\n', lambda m: f'\n{name} {m[1]}*2^{int(m[2]) - 1}\n', text)
+
+
 def try_cases(both, root):
     """Certificates whose verdict is known."""
     table = (root / 'tests/data/airports.csv').read_text()
     columns = ('--columns', 'longitude,latitude')
+    crowd = both.certificate(table, *columns, '--radius', '0.05')
+    grid = both.certificate(''.join(f'{x} {y}\n' for x in range(5) for y in range(5)))
     triangle, square = '0 0\n5 0\n0 4\n', '0 0\n5 0\n0 4\n6 [5,6]\n'
     for status, said, text in [
             (ALL, '10112 legal pairs', both.certificate(table, *columns)),
             (NOT_ALL, '10109 legal pairs', both.certificate(table, *columns, '--measured')),
-            (NOT_ALL, 'not proved: that pairs among', both.certificate(table, *columns, '--radius', '0.05')),
+            (NOT_ALL, 'open: 13100 ', crowd),
+            (NOT_ALL, 'checked: all pairs that are not listed are illegal', crowd),
+            (NOT_ALL, 'checked: the bounds of area', crowd),
+            (NOT_ALL, 'not proved: that pairs among', without_line(crowd, 'o', 5000)),
+            (NOT_ALL, 'not proved: that pairs among', without_line(crowd, 'o', 9000)),
+            (REJECTED, '', crowd.replace('\narea ', '\narea -')),
+            (REJECTED, '', halved(crowd, 'area')),
+            (REJECTED, '', halved(crowd, 'hausdorff')),
+            (ALL, 'checked: all pairs that are not listed are illegal', grid),
+            (NOT_ALL, 'not proved: that pairs among', without_line(grid, 't', 7)),
+            (NOT_ALL, 'the numbers of triangles', grid.replace('\ntriangles 0\n', '\ntriangles 1\n')),
+            (REJECTED, '', halved(grid, 'hausdorff')),
             (NOT_ALL, 'the section on the Voronoi diagram', both.certificate(square, command='voronoi')),
             (ALL, 'bounds of area', both.certificate(square)),
             (ALL, 'the outcome certified', both.certificate('sqrt(2) 0\n1 [5,6]\n-4 pi\n7 -2\n', '--until', 'hausdorff:-4')),
@@ -234,7 +296,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         both = Checkers(proved, dyadel, pathlib.Path(folder))
         found = list(try_random(both, int(sys.argv[4]) if len(sys.argv) > 4 else 100))
-        found += try_forgeries(both, root / 'tests/checker/forgeries.txt')
+        found += try_chains(both, root / 'tests/checker/forgeries.txt')
         found += try_cases(both, root)
         found += try_command(both)
         found += try_growth(both)

@@ -6,11 +6,13 @@ open Checker
 module Z = Integers
 
 (* The least common denominator of all numbers, and the greatest negative exponent. *)
-let unit_of sites edges =
+let unit_of sites edges chains =
   let add (d, e) n = ((if Z.equal n.den Z.one then d else Z.lcm d n.den), Z.max e (Z.neg n.expo)) in
   let of_site u s = add (add (add (add u s.left) s.right) s.low) s.high in
   let of_edge u e = add (add u e.at_x) e.at_y in
-  List.fold_left of_edge (List.fold_left of_site (Z.one, Z.zero) sites) edges
+  let of_point u (x, y) = add (add u x) y in
+  let of_chain u c = List.fold_left (fun u (_, p) -> of_point u p) (of_point (of_point u c.first_way) c.last_way) c.links in
+  List.fold_left of_chain (List.fold_left of_edge (List.fold_left of_site (Z.one, Z.zero) sites) edges) chains
 
 (* The neighbours of every site, counterclockwise around its lower left corner. *)
 let rotation boxes edges =

@@ -21,13 +21,49 @@ let line_at_fault c d e =
     let rec first k = function [] -> c.first_edge - 1 | edge :: rest -> if good edge then first (k + 1) rest else k in
     first c.first_edge c.edges
 
-(* How many sites are not surrounded, 0 when no pair is left over; how many triangles there are to surround them. *)
-let left_over c d e =
+let check_chains c d e =
+  let broken = Checker.broken_chains d e c.sites (List.map snd c.pairs.chains) in
+  let refuse (line, (chain : Checker.chain)) =
+    let name = Z.to_string in
+    if List.memq chain broken then
+      raise (Bad (line, Printf.sprintf "the chain does not prove that %s %s is illegal" (name chain.one) (name chain.other)))
+  in
+  if broken <> [] then List.iter refuse (List.rev c.pairs.chains)
+
+(* What of the pairs is proved. *)
+type proof = {
+  decided : bool;  (* all possible pairs are legal ones that are listed *)
+  complete : bool;  (* all possible pairs are listed *)
+  surrounded : int;  (* sites *)
+  faces : int;  (* sure triangles to surround them *)
+  counted : bool;  (* are the other numbers of the section right? They say nothing of pairs. *)
+}
+
+let listed c = List.rev_append c.pairs.listed c.edges
+
+let is_covered c d e boxes found =
+  let whole, k = Cuts.extent boxes in
+  let v = Cuts.view_of whole k in
+  Checker.all_covered (Cuts.cut v) (Z.of_int k) (Cuts.effort boxes) v.o d e c.sites (listed c) found
+
+let proof_of c d e =
   let boxes = Option.get (Checker.scaled_sites d e c.sites) in
   let triangles, fans = Hints.triangles_and_fans boxes c.edges in
   let found = Checker.surrounded d e c.sites c.edges triangles c.corners fans in
-  let left = if Checker.all_surrounded c.sites c.edges found then 0 else List.length c.sites - List.length found in
-  (left, List.length triangles)
+  let decided = Checker.all_surrounded c.sites c.edges found in
+  let complete = decided || ((not c.capped) && is_covered c d e boxes found) in
+  let are_sure () = List.length (Checker.sure_triangles d e c.sites c.edges triangles) = c.pairs.faces in
+  let are_corners () = List.length (Checker.sure_corners d e c.sites c.corners) = List.length c.corners in
+  let p = c.pairs in
+  let around = Hashtbl.create 1000 in
+  List.iter (fun (f : Checker.fan) -> Hashtbl.replace around f.centre ()) found;
+  let is_open i j = not (Hashtbl.mem around i || Hashtbl.mem around j) in
+  let are_open =
+    List.for_all (fun (e : Checker.edge) -> is_open e.from e.to0) p.listed
+    && List.for_all (fun (_, (chain : Checker.chain)) -> is_open chain.one chain.other) p.chains
+  in
+  let counted = decided || (c.hints + p.boxes + p.unproved = 0 && are_open && complete && are_sure () && are_corners ()) in
+  { decided; complete; surrounded = List.length found; faces = List.length triangles; counted }
 
 (* Does the bound that the goal is about reach it? *)
 let is_reached c =
@@ -41,63 +77,74 @@ let is_reached c =
   match c.goal with [ "area"; m ] -> reaches m c.area | [ "hausdorff"; m ] -> reaches m c.hausdorff | _ -> false
 
 let bounds_hold c d e =
-  Option.fold ~none:true ~some:(Checker.area_holds d e c.sites c.edges) c.area
-  && Option.fold ~none:true ~some:(Checker.hausdorff_holds d e c.sites c.edges) c.hausdorff
+  Option.fold ~none:true ~some:(Checker.area_holds d e c.sites (listed c)) c.area
+  && Option.fold ~none:true ~some:(Checker.hausdorff_holds d e c.sites c.edges c.pairs.listed) c.hausdorff
 
-let outcome_is_proved c left =
+let outcome_is_proved c p =
   match c.outcome with
-  | "decided" -> left = 0
-  | "certified" -> left = 0 && is_reached c
+  | "decided" -> p.decided
+  | "certified" -> p.complete && is_reached c
   | "fixpoint" -> c.exact
   | _ -> false
 
 (* What a certificate says that cannot be. *)
-let contradiction c d e left faces =
-  let opened = c.ties + c.opened > 0 || c.capped in
+let contradiction c d e p =
+  let opened = c.pairs.listed <> [] || c.capped in
   if c.outcome = "decided" && opened then Some "the outcome is not decided: pairs are open"
   else if c.outcome = "certified" && List.hd c.goal <> "voronoi" && not (is_reached c) then
     Some "the outcome is not certified: no bound reaches the goal"
-  else if left = 0 && opened then Some "pairs are listed as open that are illegal"
-  else if left = 0 && (c.faces <> faces || c.unproved > 0) then Some (Printf.sprintf "there are %d sure triangles" faces)
-  else if left = 0 && not (bounds_hold c d e) then Some "a bound is too small"
+  else if p.decided && opened then Some "pairs are listed as open that are illegal"
+  else if p.decided && (c.pairs.faces <> p.faces || c.pairs.unproved > 0) then
+    Some (Printf.sprintf "there are %d sure triangles" p.faces)
+  else if p.complete && not (bounds_hold c d e) then Some "a bound is too small"
   else None
 
 let has_bounds c = c.area <> None || c.hausdorff <> None
 
-let gaps c left =
+let gaps c p =
+  let left = List.length c.sites - p.surrounded in
+  let unwitnessed = c.pairs.unwitnessed in
   List.filter_map
     (fun (there, text) -> if there then Some ("not proved: " ^ text) else None)
-    [ (left > 0 && not c.capped, Printf.sprintf "that pairs among %d sites which are not listed are illegal" left);
-      (c.ties > 0 && not c.exact, Printf.sprintf "that no refinement decides %d ties" c.ties);
+    [ (not (p.complete || c.capped), Printf.sprintf "that pairs among %d sites which are not listed are illegal" left);
+      (unwitnessed > 0, Printf.sprintf "that %d pairs without a witness are legal" unwitnessed);
+      (c.pairs.ties > 0 && not c.exact, Printf.sprintf "that no refinement decides %d ties" c.pairs.ties);
       (c.loose > 0, Printf.sprintf "that %d aliases of points that are not exact are the same points" c.loose);
-      (has_bounds c && left > 0, "the bounds of area and Hausdorff distance, as more pairs may be possible");
+      (has_bounds c && not p.complete, "the bounds of area and Hausdorff distance, as more pairs may be possible");
+      (p.complete && not p.counted, "places, bridges, corners and the numbers of triangles and pairs, which the proof does not need");
       (c.blocks, "what points are described to be, which this checker does not know");
       (c.diagram, "the section on the Voronoi diagram, which this checker does not know");
-      (not (outcome_is_proved c left), "the outcome " ^ c.outcome) ]
+      (not (outcome_is_proved c p), "the outcome " ^ c.outcome) ]
 
-let report c left gaps =
+let report c p gaps =
   print_endline (if gaps = [] then "accepted, all of it proved" else "accepted, not all of it proved: see what is not proved below");
   Printf.printf "states: outcome %s, goal %s%s\n" c.outcome (String.concat " " c.goal) (if c.capped then ", capped" else "");
   Printf.printf "sites: %d, of which %d aliases\n" (List.length c.sites + c.aliases) c.aliases;
   Printf.printf "checked: %d legal pairs, each by its witness against all sites\n" (List.length c.edges);
-  Printf.printf "checked: %d sites have no possible pairs but the legal ones\n" (List.length c.sites - left);
-  if left = 0 then print_endline "checked: all pairs that are not listed are illegal";
-  if left = 0 && has_bounds c then print_endline "checked: the bounds of area and Hausdorff distance";
-  if outcome_is_proved c left then Printf.printf "checked: the outcome %s\n" c.outcome;
-  if c.opened > 0 then Printf.printf "open: %d indeterminate pairs, of which nothing is stated\n" c.opened;
+  let surrounded = if p.decided then List.length c.sites else p.surrounded in
+  Printf.printf "checked: %d sites have no possible pairs but the legal ones\n" surrounded;
+  if p.complete && not p.decided then
+    Printf.printf "checked: pairs of the other %d sites, by triangles that cover the plane\n" (List.length c.sites - surrounded);
+  if c.pairs.chains <> [] then
+    Printf.printf "checked: no centre on %d chains is possibly nearest to their sites\n" (List.length c.pairs.chains);
+  if p.complete then print_endline "checked: all pairs that are not listed are illegal";
+  if p.complete && has_bounds c then print_endline "checked: the bounds of area and Hausdorff distance";
+  if outcome_is_proved c p then Printf.printf "checked: the outcome %s\n" c.outcome;
+  if c.pairs.opened > 0 then Printf.printf "open: %d indeterminate pairs, of which nothing is stated\n" c.pairs.opened;
   if c.capped then print_endline "open: the cap was met, of other pairs nothing is stated";
   List.iter print_endline gaps
 
 (* The exit status. *)
 let verdict name =
   let c = certificate (whole_file name) in
-  let d, e = Hints.unit_of c.sites c.edges in
+  let d, e = Hints.unit_of c.sites c.edges (List.map snd c.pairs.chains) in
   if not (Checker.check d e c.sites c.edges) then
     raise (Bad (line_at_fault c d e, "a point is no witness of its pair, or sites are not rectangles"));
-  let left, faces = left_over c d e in
-  Option.iter (fun wrong -> raise (Bad (2, wrong))) (contradiction c d e left faces);
-  let found = gaps c left in
-  report c left found;
+  check_chains c d e;
+  let p = proof_of c d e in
+  Option.iter (fun wrong -> raise (Bad (2, wrong))) (contradiction c d e p);
+  let found = gaps c p in
+  report c p found;
   if found = [] then 0 else 3
 
 let () =

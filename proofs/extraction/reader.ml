@@ -6,6 +6,18 @@
 (* Number of the line, and what is wrong. *)
 exception Bad of int * string
 
+(* The section of pairs that are not known to be legal. *)
+type pairs = {
+  mutable listed : Checker.edge list;  (* lines o, t and l; the points mean nothing *)
+  mutable ties : int;
+  mutable opened : int;  (* lines o *)
+  mutable unwitnessed : int;  (* lines l *)
+  mutable chains : (int * Checker.chain) list;  (* with their lines *)
+  mutable boxes : int;  (* pairs that boxes are said to prove *)
+  mutable faces : int;  (* sure triangles *)
+  mutable unproved : int;
+}
+
 type certificate = {
   outcome : string;
   goal : string list;  (* its words *)
@@ -17,10 +29,8 @@ type certificate = {
   edges : Checker.edge list;
   first_edge : int;  (* its line *)
   corners : Checker.corner list;
-  ties : int;
-  opened : int;  (* lines o and l *)
-  faces : int;  (* sure triangles *)
-  unproved : int;
+  hints : int;  (* places and bridges *)
+  pairs : pairs;
   area : Checker.number option;
   hausdorff : Checker.number option;
   blocks : bool;
@@ -65,6 +75,7 @@ let count s text =
   if n < 0 then bad s "%s is no count" text else n
 
 let limit = 1 lsl 20
+let zero : Checker.number = { man = Z.zero; expo = Z.zero; den = Z.one }
 
 (* m or m*2^e *)
 let number s text : Checker.number =
@@ -186,39 +197,49 @@ let direction (vertex, (x : Checker.number), (y : Checker.number)) =
   let e = Z.min x.expo y.expo in
   { Checker.vertex; ux = whole x e; uy = whole y e }
 
-(* Direction, then blocker and point by turns, a blocker, a direction. *)
-let rec read_chain s known least = function
-  | k :: x :: y :: rest ->
-    ignore (site s known k, number s x, number s y);
-    read_chain s known (least - 1) rest
-  | [] when least <= 0 -> ()
-  | _ -> bad s "the chain is too short"
+(* After a direction: blocker and point by turns, a blocker, a direction. *)
+let read_chain s known (one, other) first_way rest =
+  let rec read links = function
+    | [ k; x; y ] when links <> [] ->
+      let last_blocker = Z.of_int (site s known k) and last_way = (number s x, number s y) in
+      { Checker.one; other; first_way; links = List.rev links; last_blocker; last_way }
+    | k :: x :: y :: rest -> read ((Z.of_int (site s known k), (number s x, number s y)) :: links) rest
+    | _ -> bad s "the chain is too short"
+  in
+  read [] rest
 
-(* How many are ties, how many are open in other ways, and the counts that follow. *)
+(* Lines on pairs, and the counts that follow. *)
 let read_pairs s known legal =
-  let last = ref (-1, -1) and ties = ref 0 and opened = ref 0 in
-  let listed i j = if Hashtbl.mem legal (pair s known last i j) then bad s "the pair is legal already" in
+  let p = { listed = []; ties = 0; opened = 0; unwitnessed = 0; chains = []; boxes = 0; faces = 0; unproved = 0 } and last = ref (-1, -1) in
+  let not_legal i j =
+    let i, j = pair s known last i j in
+    if Hashtbl.mem legal (i, j) then bad s "the pair is legal already";
+    (Z.of_int i, Z.of_int j)
+  in
   let rec counts = function
-    | [ "boxes"; p ] -> ignore (count s p); counts (words s)
-    | [ "triangles"; t ] -> count s t
+    | [ "boxes"; n ] -> p.boxes <- count s n; counts (words s)
+    | [ "triangles"; t ] -> p.faces <- count s t
     | _ -> bad s "\"triangles\" is missing"
   and lines () =
     match words s with
     | [ (("o" | "t" | "l") as kind); i; j ] ->
-      listed i j;
-      incr (if kind = "t" then ties else opened);
+      let from, to0 = not_legal i j in
+      p.listed <- { Checker.from; to0; at_x = zero; at_y = zero } :: p.listed;
+      (match kind with
+      | "t" -> p.ties <- p.ties + 1
+      | "o" -> p.opened <- p.opened + 1
+      | _ -> p.unwitnessed <- p.unwitnessed + 1);
       lines ()
     | "n" :: i :: j :: x :: y :: chain ->
-      listed i j;
-      ignore (number s x, number s y);
-      read_chain s known 2 chain;
+      let ends = not_legal i j in
+      p.chains <- (s.line, read_chain s known ends (number s x, number s y) chain) :: p.chains;
       lines ()
     | line -> counts line
   in
   if next s <> "pairs" then bad s "\"pairs\" is missing";
-  let faces = lines () in
+  lines ();
   match words s with
-  | [ "unproved"; u ] -> (!ties, !opened, faces, count s u)
+  | [ "unproved"; u ] -> p.unproved <- count s u; p
   | _ -> bad s "\"unproved\" is missing"
 
 let read_bound s name =
@@ -248,14 +269,15 @@ let certificate text =
   let first_edge = s.line + 2 in
   let edges = read_edges s known "legal" in
   List.iter (fun (e : Checker.edge) -> Hashtbl.replace legal (Z.to_int e.from, Z.to_int e.to0) ()) edges;
-  ignore (read_points s known "places");
-  ignore (read_edges s known "bridges");
+  let places = read_points s known "places" in
+  let bridges = read_edges s known "bridges" in
   let corners = List.map direction (read_points s known "corners") in
-  let ties, opened, faces, unproved = read_pairs s known legal in
+  let pairs = read_pairs s known legal in
   let area = read_bound s "area" in
   let hausdorff = read_bound s "hausdorff" in
   let blocks, diagram = read_rest s in
   let exact = Hashtbl.fold (fun _ point all -> point && all) known true in
   let loose = List.length (List.filter not aliases) in
-  { outcome; goal; capped; sites; exact; aliases = List.length aliases; loose; edges; first_edge; corners; ties; opened;
-    faces; unproved; area; hausdorff; blocks; diagram }
+  let hints = List.length places + List.length bridges in
+  { outcome; goal; capped; sites; exact; aliases = List.length aliases; loose; edges; first_edge; corners; hints; pairs; area;
+    hausdorff; blocks; diagram }

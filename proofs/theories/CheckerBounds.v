@@ -1,6 +1,6 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (* The third part of the checker of certificates: the bounds of area and Hausdorff distance where the pairs listed are all
-   possible ones, and legal. CheckerBoundsSound.v says what they mean. *)
+   possible ones, legal or open. CheckerBoundsSound.v says what they mean. *)
 From Coq Require Import ZArith List Bool.
 From Dyadel Require Import Checker.
 Import ListNotations.
@@ -43,12 +43,31 @@ Definition diameter2 (b : box) : Z := let u := x1 b - x0 b in let v := y1 b - y0
 Definition is_within (D E : Z) (m : Map.t box) (bound2 : number) (i : Z) : bool :=
   match Map.find i m with Some b => at_most D E (diameter2 b) bound2 | None => false end.
 
-Definition hausdorff_holds (D E : Z) (sites : list site) (edges : list edge) (bound : number) : bool :=
+(* The square of the greatest distance of two points in the boxes. *)
+Definition length2 (a b : box) : Z :=
+  let u := Z.max (x1 a - x0 b) (x1 b - x0 a) in let v := Z.max (y1 a - y0 b) (y1 b - y0 a) in u * u + v * v.
+
+(* Is sqrt l / 2 + sqrt d at most p / q? *)
+Definition roots_fit (l d p q : Z) : bool :=
+  let t := 4 * (p * p) - q * q * (l + 4 * d) in (0 <=? t) && (16 * (q * q * (q * q)) * (l * d) <=? t * t).
+
+(* Half the length of a pair that is open, and the greater diameter of its sites. *)
+Definition is_near (D E : Z) (m : Map.t box) (bound : number) (e : edge) : bool :=
+  match Map.find (from e) m, Map.find (to e) m with
+  | Some a, Some b =>
+    let k := expo bound + E in
+    let p := Z.shiftl (man bound * D) (Z.max 0 k) in let q := Z.shiftl (den bound) (Z.max 0 (- k)) in
+    roots_fit (length2 a b) (Z.max (diameter2 a) (diameter2 b)) p q
+  | _, _ => false
+  end.
+
+Definition hausdorff_holds (D E : Z) (sites : list site) (edges opened : list edge) (bound : number) : bool :=
   match scaled_sites D E sites with
   | Some boxes =>
     let m := index box_name boxes in
     let bound2 := Number (man bound * man bound) (2 * expo bound) (den bound * den bound) in
     (0 <=? man bound) && (0 <? den bound) &&
-    forallb (fun e => is_within D E m bound2 (from e) && is_within D E m bound2 (to e)) edges
+    forallb (fun e => is_within D E m bound2 (from e) && is_within D E m bound2 (to e)) edges &&
+    forallb (is_near D E m bound) opened
   | None => false
   end.

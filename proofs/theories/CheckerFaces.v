@@ -119,6 +119,19 @@ Definition check_fan (m : Map.t box) (t : tree) (triangles : Map.t triangle) (co
   | _ => false
   end.
 
+(* The triangles and the corners that hold; meaningful when `check` accepts. *)
+Definition sure_triangles (D E : Z) (sites : list site) (edges : list edge) (l : list triangle) : list triangle :=
+  match scaled_sites D E sites with
+  | Some boxes => kept (check_triangle (index box_name boxes) (build deepest boxes) (map_edges edges)) l
+  | None => []
+  end.
+
+Definition sure_corners (D E : Z) (sites : list site) (l : list corner) : list corner :=
+  match scaled_sites D E sites with
+  | Some boxes => kept (check_corner (index box_name boxes) (build deepest boxes)) l
+  | None => []
+  end.
+
 (* The fans that hold; meaningful when `check` accepts. *)
 Definition surrounded (D E : Z) (sites : list site) (edges : list edge) (triangles : list triangle)
     (corners : list corner) (fans : list fan) : list fan :=
