@@ -6,7 +6,8 @@
  * chain for wider boxes is one for the true ones. Knots of the chain are whatever doubles come out of the construction,
  * which proves nothing; what is claimed of them is checked (spoke_is_nearer, spoke_is_beyond, knots_turn) with margins
  * above the errors: a sum of products of sums of two is wrong by less than 2^-50 of the same sum of absolute values,
- * and by 2^-1070 where products underflow. Comparisons are such that NaN and infinities fail them. */
+ * and by 2^-1070 where products underflow. Comparisons are such that NaN and infinities fail them: nothing is above an
+ * infinite bound. */
 #include "reach.h"
 
 #include <float.h>
@@ -63,7 +64,7 @@ static bool spoke_is_nearer(const tiles_spoke *s, const tiles_box *own, double x
   double gain = 0, size = 0;
   add_gain(&gain, &size, x, s->box.x0, s->box.x1, own->x0, own->x1);
   add_gain(&gain, &size, y, s->box.y0, s->box.y1, own->y0, own->y1);
-  return size > TINY && gain > MARGIN * size && size < INFINITY;
+  return size > TINY && gain > MARGIN * size;
 }
 
 static double least_in(const tiles_box *b, double ux, double uy) {
@@ -78,7 +79,7 @@ static double size_in(const tiles_box *b, double ux, double uy) {
 static bool spoke_is_beyond(const tiles_spoke *s, const tiles_box *own, double ux, double uy) {
   double gain = least_in(&s->box, ux, uy) + least_in(own, -ux, -uy);
   double size = size_in(&s->box, ux, uy) + size_in(own, ux, uy);
-  return size > TINY && gain > MARGIN * size && size < INFINITY;
+  return size > TINY && gain > MARGIN * size;
 }
 
 /* Seen from the middle of the site. */
@@ -86,7 +87,7 @@ static bool knots_turn(const reach_work *w, const tiles_knot *a, const tiles_kno
   double ax = a->far ? a->x : a->x - w->cx, ay = a->far ? a->y : a->y - w->cy;
   double bx = b->far ? b->x : b->x - w->cx, by = b->far ? b->y : b->y - w->cy;
   double p = ax * by, q = ay * bx, size = fabs(p) + fabs(q);
-  return size > TINY && p - q > MARGIN * size && size < INFINITY;
+  return size > TINY && p - q > MARGIN * size;
 }
 
 /* ---- the construction ---- */
@@ -294,45 +295,32 @@ static double farthest2(double x, double y, const tiles_box *b) {
   return dx * dx + dy * dy;
 }
 
-/* Room for errors of 2^-50 of all that went into it, its place included. */
+/* Room for errors of 2^-50 of all that went into it, its place included; squares below 2^-1022 have no digits. */
 static tiles_disc disc_rounded(double x, double y, double r2) {
-  double r = sqrt(r2);
+  double r = sqrt(r2) + 0x1p-500;
   return (tiles_disc){x, y, r + (fabs(x) + fabs(y) + r) * 0x1p-48, 0};
 }
 
-/* The least of all rectangles in direction u, rounded down. */
-static double edge_of(const tiles_view *v, uint32_t i, const tiles_partners *p, bool wide, double ux, double uy) {
-  tiles_box own = tiles_view_box(v, i);
-  double least = least_in(&own, ux, uy), size = size_in(&own, ux, uy);
-  for (size_t k = 0; wide && k < p->count; k++) {
-    tiles_box b = tiles_view_box(v, TILES_SITE(p->item[k]));
-    if (TILES_STATUS(p->item[k]) == DYD_LEGAL) least = fmin(least, least_in(&b, ux, uy));
-    size = fmax(size, size_in(&b, ux, uy));
-  }
-  return least - size * MARGIN;
-}
-
 /* The knot seen from everywhere; relative places are wrong by what reach_box takes for widths. */
-static tiles_disc knot_disc(const tiles_knot *e, const tiles_view *v, uint32_t i, const tiles_partners *p, bool wide) {
-  if (e->far) return (tiles_disc){e->x, e->y, edge_of(v, i, p, wide, e->x, e->y), 1};
-  tiles_box own = tiles_view_box(v, i);
-  double x = own.x0 + e->x, y = own.y0 + e->y, r2 = farthest2(x, y, &own);
-  for (size_t k = 0; wide && k < p->count; k++) {
-    tiles_box b = tiles_view_box(v, TILES_SITE(p->item[k]));
-    if (TILES_STATUS(p->item[k]) == DYD_LEGAL) r2 = fmax(r2, farthest2(x, y, &b));
+static tiles_disc knot_disc(const tiles_knot *e, const tiles_box *own) {
+  if (e->far) {
+    double least = least_in(own, e->x, e->y) - size_in(own, e->x, e->y) * MARGIN;
+    return (tiles_disc){e->x, e->y, least, 1};
   }
-  return disc_rounded(x, y, r2);
+  double x = own->x0 + e->x, y = own->y0 + e->y;
+  return disc_rounded(x, y, farthest2(x, y, own));
 }
 
-bool tiles_reach_find(tiles_reach *out, const tiles_view *v, uint32_t i, const tiles_partners *p, bool wide) {
+bool tiles_reach_find(tiles_reach *out, const tiles_view *v, uint32_t i, const tiles_partners *p) {
   reach_work w = {.out = out};
   bool fits;
   if (!reach_spokes(&w, v, i, p) || !reach_chain(&fits, &w) ||
       !tiles_reserve((void **)&out->item, &out->room, w.knots + 1, sizeof *out->item))
     return false;
+  const tiles_box own = tiles_view_box(v, i);
   out->count = 0;
-  if (!fits) out->item[out->count++] = (tiles_disc){tiles_view_box(v, i).x0, tiles_view_box(v, i).y0, INFINITY, 0};
-  for (size_t k = 0; fits && k < w.knots; k++) out->item[out->count++] = knot_disc(&out->knot[k], v, i, p, wide);
+  if (!fits) out->item[out->count++] = (tiles_disc){own.x0, own.y0, INFINITY, 0};
+  for (size_t k = 0; fits && k < w.knots; k++) out->item[out->count++] = knot_disc(&out->knot[k], &own);
   return true;
 }
 
@@ -356,7 +344,7 @@ static double outside(double c, double lo, double hi) {
 double tiles_disc_score(const tiles_disc *d, const tiles_box *b) {
   if (d->far) {
     double top = -least_in(b, -d->x, -d->y);
-    return top + size_in(b, d->x, d->y) * MARGIN < d->r ? INFINITY : fmin(-top, DBL_MAX);
+    return top + size_in(b, d->x, d->y) * MARGIN + TINY < d->r ? INFINITY : fmin(-top, DBL_MAX);
   }
   double dx = outside(d->x, b->x0, b->x1), dy = outside(d->y, b->y0, b->y1), d2 = dx * dx + dy * dy;
   return d2 * (1 - MARGIN) > d->r * d->r && d2 > TINY && d2 < INFINITY ? INFINITY : fmin(d2, DBL_MAX);
