@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Chains around the possible cell of a site, in doubles [REACH-1].
  *
- * Coordinates are relative to the lower left corner o of the site's box. A difference of two doubles has a relative
- * error of 2^-53, also below the least normal number, so boxes widened by 2^-52 of their ends hold the true ones; a
- * chain for wider boxes is one for the true ones. Knots of the chain are whatever doubles come out of the construction,
- * which proves nothing; what is claimed of them is checked (spoke_is_nearer, spoke_is_beyond, knots_turn) with margins
- * above the errors: a sum of products of sums of two is wrong by less than 2^-50 of the same sum of absolute values,
- * and by 2^-1070 where products underflow. Comparisons are such that NaN and infinities fail them: nothing is above an
- * infinite bound. */
+ * Coordinates are relative to the lower left corner o of the site's box: differences of two doubles, each wrong by
+ * 2^-53 of itself at most, also below the least normal number. Knots of the chain are whatever doubles come out of the
+ * construction, which proves nothing; what is claimed of them is checked (spoke_is_nearer, spoke_is_beyond, knots_turn)
+ * with margins above the errors: a sum of products of such differences and of sums of two is wrong by less than 2^-49
+ * of the same sum of absolute values, and by 2^-1070 where products underflow. Comparisons are such that NaN and
+ * infinities fail them: nothing is above an infinite bound. */
 #include "reach.h"
 
 #include <float.h>
@@ -45,10 +44,7 @@ typedef struct reach_work {
 /* ---- what is checked ---- */
 
 static tiles_box reach_box(const tiles_box *b, double ox, double oy) {
-  const double wide = 0x1p-52;
-  tiles_box d = {b->x0 - ox, b->x1 - ox, b->y0 - oy, b->y1 - oy};
-  return (tiles_box){d.x0 - fabs(d.x0) * wide, d.x1 + fabs(d.x1) * wide, d.y0 - fabs(d.y0) * wide,
-                     d.y1 + fabs(d.y1) * wide};
+  return (tiles_box){b->x0 - ox, b->x1 - ox, b->y0 - oy, b->y1 - oy};
 }
 
 /* Adds the least 2 c (y - x) - y^2 + x^2 over y in [k0, k1], x in [i0, i1], and the sizes of its terms. */
@@ -301,7 +297,7 @@ static tiles_disc disc_rounded(double x, double y, double r2) {
   return (tiles_disc){x, y, r + (fabs(x) + fabs(y) + r) * 0x1p-48, 0};
 }
 
-/* The knot seen from everywhere; relative places are wrong by what reach_box takes for widths. */
+/* The knot seen from everywhere. */
 static tiles_disc knot_disc(const tiles_knot *e, const tiles_box *own) {
   if (e->far) {
     double least = least_in(own, e->x, e->y) - size_in(own, e->x, e->y) * MARGIN;
@@ -354,9 +350,9 @@ bool tiles_disc_may_meet(const tiles_disc *d, const tiles_box *box) {
   return tiles_disc_score(d, box) != INFINITY;
 }
 
+/* A rounded difference is above a double only where the exact one is. */
 bool tiles_disc_is_inside(const tiles_disc *d, const tiles_box *b) {
-  double r = d->r + (fabs(d->x) + fabs(d->y) + d->r) * MARGIN;
-  return !d->far && d->x - r > b->x0 && d->x + r < b->x1 && d->y - r > b->y0 && d->y + r < b->y1;
+  return !d->far && d->x - d->r > b->x0 && d->x + d->r < b->x1 && d->y - d->r > b->y0 && d->y + d->r < b->y1;
 }
 
 bool tiles_box_is_point(const tiles_box *b) {

@@ -72,7 +72,8 @@ static double near_to(double x, test_random *r) {
 }
 
 static double number_draw(test_random *r, int bits) {
-  double x = ldexp(2 * test_unit(r) - 1, bits + (int)test_between(r, -60, 60));
+  const int spread = test_chance(r, 4) ? 60 : 1;
+  double x = ldexp(2 * test_unit(r) - 1, bits + (int)test_between(r, -spread, spread));
   return test_chance(r, 6) || !isfinite(x) ? 0 : x;
 }
 
@@ -220,6 +221,42 @@ static void test_beyond(void **state) {
   check_against("beyond", says_beyond, is_beyond);
 }
 
+/* As if it were a point in the middle: lines of rectangles that are wrong, so that all depends on the checks. */
+static void spoke_of_middle(tiles_spoke *s, const reach_work *w) {
+  s->nx = s->mx = (s->box.x0 + s->box.x1) / 2 - w->cx;
+  s->ny = s->my = (s->box.y0 + s->box.y1) / 2 - w->cy;
+  s->far = (s->nx * s->nx + s->ny * s->ny) / 2;
+}
+
+/* Where two lines meet, and the ends of one: knots that are given are in the regions of their spokes. */
+static void test_knots(void **state) {
+  (void)state;
+  test_random r = test_random_start("knots");
+  size_t met = 0, far = 0, ends = 0, all = test_cases(20000);
+  for (size_t k = 0; k < all; k++) {
+    check_case c[2];
+    tiles_knot knot;
+    for (int m = 0; m < 2; m++) check_draw(&c[m], &r);
+    c[1].own = c[0].own;
+    c[1].spoke.box = reach_box(&c[1].other, c[1].own.x0, c[1].own.y0);
+    reach_work w = {.own = c[0].from, .cx = c[0].from.x1 / 2, .cy = c[0].from.y1 / 2};
+    for (int m = 0; m < 2; m++) spoke_of_middle(&c[m].spoke, &w);
+    if (spokes_meet(&knot, &w, &c[0].spoke, &c[1].spoke)) {
+      const double at[2] = {knot.x, knot.y};
+      for (int m = 0; m < 2; m++) assert_true(knot.far ? is_beyond(&c[m], at) : is_nearer(&c[m], at));
+      *(knot.far ? &far : &met) += 1;
+    }
+    for (int side = -1; side <= 1; side += 2) {
+      double u[2];
+      if (!spoke_end(u, &w, &c[0].spoke, side)) continue;
+      assert_true(is_beyond(&c[0], u));
+      ends++;
+    }
+  }
+  fprintf(stderr, "# of %zu pairs, %zu places, %zu directions; %zu ends\n", all, met, far, ends);
+  assert_true(100 * met > all && far > 0 && 4 * ends > all);
+}
+
 static void test_turns(void **state) {
   (void)state;
   test_random r = test_random_start("turns");
@@ -277,7 +314,7 @@ static void test_discs(void **state) {
   size_t out = 0, in = 0, tried = test_cases(100000);
   const double large = nextafter(0x1p512, 0);
   for (size_t k = 0; k < tried; k++) {
-    const int bits = (int)(test_chance(&r, 2) ? test_between(&r, -1074, 1023) : test_between(&r, -600, -400));
+    const int bits = bits_draw(&r);
     tiles_disc d = {number_draw(&r, bits), number_draw(&r, bits), number_draw(&r, bits), test_chance(&r, 3)};
     if (d.far && test_chance(&r, 2)) d.r = near_to(d.r * (d.x + d.y), &r);
     if (!d.far) d.r = fabs(d.r);
@@ -354,9 +391,31 @@ static void test_witness_discs(void **state) {
   }
 }
 
+/* The half-plane of a direction holds the whole site. */
+static void test_half_planes(void **state) {
+  (void)state;
+  test_random r = test_random_start("half-planes");
+  for (size_t k = 0; k < test_cases(30000); k++) {
+    const int bits = test_chance(&r, 3) ? bits_draw(&r) : 0;
+    const tiles_knot u = {number_draw(&r, bits), number_draw(&r, bits), true};
+    const tiles_box box = box_beside(&(tiles_disc){number_draw(&r, 0), number_draw(&r, 0), 1, 0}, &r, 0);
+    const tiles_disc d = knot_disc(&u, &box);
+    mpq_t least, bound, few;
+    if (!isfinite(d.r)) continue;
+    mpq_inits(least, bound, few, NULL);
+    extreme_along(least, &box, &(tiles_box){0, 0, 0, 0}, (double[2]){u.x, u.y}, false);
+    mpq_set_d(bound, d.r);
+    mpq_set_d(few, TINY); /* tiles_disc_score allows for that */
+    mpq_add(least, least, few);
+    assert_true(mpq_cmp(bound, least) <= 0);
+    mpq_clears(least, bound, few, NULL);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_nearer), cmocka_unit_test(test_beyond),
-                                     cmocka_unit_test(test_turns), cmocka_unit_test(test_discs),
-                                     cmocka_unit_test(test_witness_discs)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_nearer),     cmocka_unit_test(test_beyond),
+                                     cmocka_unit_test(test_knots),      cmocka_unit_test(test_turns),
+                                     cmocka_unit_test(test_discs),      cmocka_unit_test(test_witness_discs),
+                                     cmocka_unit_test(test_half_planes)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -80,10 +80,17 @@ static void hidden_with_others(sets_case *s, test_random *r) {
   }
 }
 
-static void test_union(void **state) {
-  (void)state;
+static void job_draw(tiles_job *job, test_random *r) {
   static const double halo[] = {0, 0, 0.1, 0.5, 3};
   static const unsigned corners[] = {0, 1, 4, 16};
+  job->ranks = 2 + (size_t)test_below(r, MOST_RANKS - 1);
+  job->halo = halo[test_below(r, 5)];
+  job->corners = corners[test_below(r, 4)];
+  job->nearest = 1 + (size_t)test_below(r, 3);
+}
+
+static void test_union(void **state) {
+  (void)state;
   test_random r = test_random_start("union");
   char folder[] = "dyadel-union-XXXXXX", input[64];
   uint64_t rounds = 0, ghosts = 0, own = 0;
@@ -99,10 +106,7 @@ static void test_union(void **state) {
       sets_make(&s, &r, 0, test_chance(&r, 8) ? SETS_MOST : 36);
     write_input(input, &s);
     tiles_job job = {.input = input, .folder = folder, .boxes = s.dim == 4, .size = s.n * s.dim * sizeof(double)};
-    job.ranks = 2 + (size_t)test_below(&r, MOST_RANKS - 1);
-    job.halo = halo[test_below(&r, 5)];
-    job.corners = corners[test_below(&r, 4)];
-    job.nearest = 1 + (size_t)test_below(&r, 3);
+    job_draw(&job, &r);
     char *one = text_of_one(&s);
     if (!one) continue;
     char *parts = text_of_parts(&job, &total);
