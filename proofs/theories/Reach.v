@@ -398,19 +398,66 @@ Proof.
   - pose proof (H k L Di Dj). split; lra.
   - pose proof (unseen_far z k P ltac:(lia)) as U. rewrite (proj1 (Li z)) in U. split; lra.
 Qed.
-
-(* A witness c among the sites seen, at which R_j goes as far as R_i: nobody whom the reach of i by j does not meet is in
-   its way. *)
-Theorem wide_reach_legal j c : witness M B i j c -> dl c (B i) <= dl c (B j) ->
-  (forall k x, (M <= k < N)%nat -> inside x (B k) -> ~ in_reach j x) -> witness N B i j c.
-Proof.
-  intros W L Wide k K Di Dj. destruct (Nat.lt_ge_cases k M) as [S | S]; [now apply W |].
-  assert (P : pos M B i c).
-  { intros l Hl. pose proof (ds_le_dl c (B i)). pose proof (ds_le_dl c (B l)).
-    destruct (Nat.eq_dec l i) as [-> | Li]; [lra |]. destruct (Nat.eq_dec l j) as [-> | Lj]; [lra |].
-    pose proof (W l Hl Li Lj). lra. }
-  assert (D : dl c (B j) < ds c (B k)); [| split; lra].
-  apply Rnot_le_lt. intros Q. apply (Wide k (nearest c (B k))); [lia | apply nearest_inside |].
-  now apply (reach_holds j c).
-Qed.
 End Chain.
+
+(* ---- legal pairs of any rectangles ---- *)
+
+Lemma lipschitz_dl a b X : lipschitz (dist a b) (fun t => dl (mix t a b) X).
+Proof. intros s t. pose proof (dl_move (mix s a b) (mix t a b) X) as H. rewrite dist_mix_mix in H. lra. Qed.
+
+Lemma lipschitz_min K f g : lipschitz K f -> lipschitz K g -> lipschitz K (fun t => Rmin (f t) (g t)).
+Proof.
+  intros F G s t. pose proof (F s t). pose proof (G s t). pose proof (Rmin_l (f s) (g s)). pose proof (Rmin_r (f s) (g s)).
+  unfold Rmin at 2. destruct (Rle_dec (f t) (g t)); lra.
+Qed.
+
+(* What holds of i when no unseen site meets its reach (unseen_far). *)
+Definition beyond (M N : nat) (B : sites) (i : nat) : Prop :=
+  forall c k, pos M B i c -> (M <= k < N)%nat -> dl c (B i) < ds c (B k).
+
+(* About a witness c, x in the disc: there is a disc within that has x, both ends reach its rim, and no other site seen
+   meets it. *)
+Lemma nearer_centre M B i j c x r : witness M B i j c -> r = Rmax (dl c (B i)) (dl c (B j)) -> dist c x <= r ->
+  exists z, dist z x <= Rmin (dl z (B i)) (dl z (B j)) /\
+    forall l, (l < M)%nat -> l <> i -> l <> j -> Rmin (dl z (B i)) (dl z (B j)) < ds z (B l).
+Proof.
+  intros W Er X. set (m z := Rmin (dl z (B i)) (dl z (B j))).
+  assert (Far : forall l, (l < M)%nat -> l <> i -> l <> j -> r < ds c (B l)).
+  { intros l L Li Lj. destruct (W l L Li Lj). subst r. now apply Rmax_lub_lt. }
+  destruct (Rle_dec (dist c x) (m c)) as [D | D].
+  - exists c. split; [exact D |]. intros l L Li Lj. pose proof (Far l L Li Lj).
+    pose proof (Rmin_l (dl c (B i)) (dl c (B j))). pose proof (Rmax_l (dl c (B i)) (dl c (B j))). lra.
+  - set (f t := m (mix t c x) - (1 - t) * dist c x). destruct (intermediate f) as [t [T E]].
+    + apply (lipschitz_continuous (dist c x + dist c x)). apply lipschitz_minus.
+      * apply lipschitz_min; apply lipschitz_dl.
+      * apply lipschitz_scale, dist_nonneg.
+    + unfold f. rewrite mix_0. lra.
+    + unfold f, m. pose proof (dl_nonneg (mix 1 c x) (B i)). pose proof (dl_nonneg (mix 1 c x) (B j)).
+      pose proof (Rmin_glb _ _ 0 H H0). lra.
+    + exists (mix t c x). unfold f in E. fold (m (mix t c x)). split; [rewrite dist_mix_right; lra |].
+      intros l L Li Lj. pose proof (Far l L Li Lj). pose proof (ds_move c (mix t c x) (B l)) as Q.
+      rewrite dist_mix_left in Q by lra. fold (m (mix t c x)). lra.
+Qed.
+
+(* A witness among the sites seen is one among all when no unseen site meets the reaches of both ends. *)
+Theorem both_reach_legal M N B i j c : beyond M N B i -> beyond M N B j -> witness M B i j c -> witness N B i j c.
+Proof.
+  intros Bi Bj W k K Ki Kj. destruct (Nat.lt_ge_cases k M) as [S | S]; [now apply W |].
+  set (r := Rmax (dl c (B i)) (dl c (B j))).
+  assert (D : r < ds c (B k)); [| pose proof (Rmax_l (dl c (B i)) (dl c (B j)));
+    pose proof (Rmax_r (dl c (B i)) (dl c (B j))); unfold r in D; split; lra].
+  apply Rnot_le_lt. intros Q.
+  destruct (nearer_centre M B i j c (nearest c (B k)) r W eq_refl Q) as [z [X F]].
+  pose proof (ds_le z (B k) _ (nearest_inside c (B k))) as Y.
+  pose proof (ds_le_dl z (B i)). pose proof (ds_le_dl z (B j)).
+  pose proof (Rmin_l (dl z (B i)) (dl z (B j))). pose proof (Rmin_r (dl z (B i)) (dl z (B j))).
+  destruct (Rle_dec (dl z (B i)) (dl z (B j))) as [L | L].
+  - rewrite Rmin_left in * by lra. pose proof (Bi z k) as U.
+    assert (P : pos M B i z); [| specialize (U P ltac:(lia)); lra].
+    intros l Hl. pose proof (ds_le_dl z (B l)). destruct (Nat.eq_dec l i) as [-> | Li]; [lra |].
+    destruct (Nat.eq_dec l j) as [-> | Lj]; [lra |]. pose proof (F l Hl Li Lj). lra.
+  - rewrite Rmin_right in * by lra. pose proof (Bj z k) as U.
+    assert (P : pos M B j z); [| specialize (U P ltac:(lia)); lra].
+    intros l Hl. pose proof (ds_le_dl z (B l)). destruct (Nat.eq_dec l j) as [-> | Lj]; [lra |].
+    destruct (Nat.eq_dec l i) as [-> | Li]; [lra |]. pose proof (F l Hl Li Lj). lra.
+Qed.

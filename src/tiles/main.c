@@ -250,7 +250,7 @@ static int run_words(main_options *o) {
 }
 
 int main(int count, char **arg) {
-  main_options o = {0};
+  main_options o = {.job = {.halo = 3, .corners = 16, .nearest = 8}};
 #ifdef M_MMAP_THRESHOLD
   mallopt(M_MMAP_THRESHOLD, 1 << 18); /* what is freed is gone, whatever else has been freed before */
 #endif

@@ -30,10 +30,10 @@ typedef struct tiles_partners {
 #define TILES_STATUS(partner) ((dyd_pair_status)((partner) >> 30))
 
 /* Fills *out: while no rectangle outside of the view meets an item, the possible pairs of site i in the view are all
- * that it has, and those of exact points have their status [REACH-1]. wide: the discs are so large that the same holds
- * for legal pairs of rectangles whose ends both have wide discs that are not met [TILE-1]. Where rectangles crowd, it
- * is the whole plane. Takes any partners, best all possible ones. false: memory is exhausted. O(n log n). */
-bool tiles_reach_find(tiles_reach *out, const tiles_view *v, uint32_t i, const tiles_partners *p, bool wide);
+ * that it has, and those of exact points have their status [REACH-1]; so have legal pairs of rectangles of both of
+ * whose ends this holds [TILE-1]. Where rectangles crowd, it is the whole plane. Takes any partners, best all possible
+ * ones. false: memory is exhausted. O(n log n). */
+bool tiles_reach_find(tiles_reach *out, const tiles_view *v, uint32_t i, const tiles_partners *p);
 /* The disc about a witness of a legal pair of the two boxes, of which `centre` is a double next to it. */
 tiles_disc tiles_witness_disc(const double centre[2], const tiles_box *a, const tiles_box *b);
 

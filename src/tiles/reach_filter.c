@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Chains around the possible cell of a site, in doubles [REACH-1].
  *
- * Coordinates are relative to the lower left corner o of the site's box. A difference of two doubles has a relative
- * error of 2^-53, also below the least normal number, so boxes widened by 2^-52 of their ends hold the true ones; a
- * chain for wider boxes is one for the true ones. Knots of the chain are whatever doubles come out of the construction,
- * which proves nothing; what is claimed of them is checked (spoke_is_nearer, spoke_is_beyond, knots_turn) with margins
- * above the errors: a sum of products of sums of two is wrong by less than 2^-50 of the same sum of absolute values,
- * and by 2^-1070 where products underflow. Comparisons are such that NaN and infinities fail them. */
+ * Coordinates are relative to the lower left corner o of the site's box: differences of two doubles, each wrong by
+ * 2^-53 of itself at most, also below the least normal number. Knots of the chain are whatever doubles come out of the
+ * construction, which proves nothing; what is claimed of them is checked (spoke_is_nearer, spoke_is_beyond, knots_turn)
+ * with margins above the errors: a sum of products of such differences and of sums of two is wrong by less than 2^-49
+ * of the same sum of absolute values, and by 2^-1070 where products underflow. Comparisons are such that NaN and
+ * infinities fail them: nothing is above an infinite bound. */
 #include "reach.h"
 
 #include <float.h>
@@ -44,10 +44,7 @@ typedef struct reach_work {
 /* ---- what is checked ---- */
 
 static tiles_box reach_box(const tiles_box *b, double ox, double oy) {
-  const double wide = 0x1p-52;
-  tiles_box d = {b->x0 - ox, b->x1 - ox, b->y0 - oy, b->y1 - oy};
-  return (tiles_box){d.x0 - fabs(d.x0) * wide, d.x1 + fabs(d.x1) * wide, d.y0 - fabs(d.y0) * wide,
-                     d.y1 + fabs(d.y1) * wide};
+  return (tiles_box){b->x0 - ox, b->x1 - ox, b->y0 - oy, b->y1 - oy};
 }
 
 /* Adds the least 2 c (y - x) - y^2 + x^2 over y in [k0, k1], x in [i0, i1], and the sizes of its terms. */
@@ -63,7 +60,7 @@ static bool spoke_is_nearer(const tiles_spoke *s, const tiles_box *own, double x
   double gain = 0, size = 0;
   add_gain(&gain, &size, x, s->box.x0, s->box.x1, own->x0, own->x1);
   add_gain(&gain, &size, y, s->box.y0, s->box.y1, own->y0, own->y1);
-  return size > TINY && gain > MARGIN * size && size < INFINITY;
+  return size > TINY && gain > MARGIN * size;
 }
 
 static double least_in(const tiles_box *b, double ux, double uy) {
@@ -78,7 +75,7 @@ static double size_in(const tiles_box *b, double ux, double uy) {
 static bool spoke_is_beyond(const tiles_spoke *s, const tiles_box *own, double ux, double uy) {
   double gain = least_in(&s->box, ux, uy) + least_in(own, -ux, -uy);
   double size = size_in(&s->box, ux, uy) + size_in(own, ux, uy);
-  return size > TINY && gain > MARGIN * size && size < INFINITY;
+  return size > TINY && gain > MARGIN * size;
 }
 
 /* Seen from the middle of the site. */
@@ -86,7 +83,7 @@ static bool knots_turn(const reach_work *w, const tiles_knot *a, const tiles_kno
   double ax = a->far ? a->x : a->x - w->cx, ay = a->far ? a->y : a->y - w->cy;
   double bx = b->far ? b->x : b->x - w->cx, by = b->far ? b->y : b->y - w->cy;
   double p = ax * by, q = ay * bx, size = fabs(p) + fabs(q);
-  return size > TINY && p - q > MARGIN * size && size < INFINITY;
+  return size > TINY && p - q > MARGIN * size;
 }
 
 /* ---- the construction ---- */
@@ -294,45 +291,32 @@ static double farthest2(double x, double y, const tiles_box *b) {
   return dx * dx + dy * dy;
 }
 
-/* Room for errors of 2^-50 of all that went into it, its place included. */
+/* Room for errors of 2^-50 of all that went into it, its place included; squares below 2^-1022 have no digits. */
 static tiles_disc disc_rounded(double x, double y, double r2) {
-  double r = sqrt(r2);
+  double r = sqrt(r2) + 0x1p-500;
   return (tiles_disc){x, y, r + (fabs(x) + fabs(y) + r) * 0x1p-48, 0};
 }
 
-/* The least of all rectangles in direction u, rounded down. */
-static double edge_of(const tiles_view *v, uint32_t i, const tiles_partners *p, bool wide, double ux, double uy) {
-  tiles_box own = tiles_view_box(v, i);
-  double least = least_in(&own, ux, uy), size = size_in(&own, ux, uy);
-  for (size_t k = 0; wide && k < p->count; k++) {
-    tiles_box b = tiles_view_box(v, TILES_SITE(p->item[k]));
-    if (TILES_STATUS(p->item[k]) == DYD_LEGAL) least = fmin(least, least_in(&b, ux, uy));
-    size = fmax(size, size_in(&b, ux, uy));
+/* The knot seen from everywhere. */
+static tiles_disc knot_disc(const tiles_knot *e, const tiles_box *own) {
+  if (e->far) {
+    double least = least_in(own, e->x, e->y) - size_in(own, e->x, e->y) * MARGIN;
+    return (tiles_disc){e->x, e->y, least, 1};
   }
-  return least - size * MARGIN;
+  double x = own->x0 + e->x, y = own->y0 + e->y;
+  return disc_rounded(x, y, farthest2(x, y, own));
 }
 
-/* The knot seen from everywhere; relative places are wrong by what reach_box takes for widths. */
-static tiles_disc knot_disc(const tiles_knot *e, const tiles_view *v, uint32_t i, const tiles_partners *p, bool wide) {
-  if (e->far) return (tiles_disc){e->x, e->y, edge_of(v, i, p, wide, e->x, e->y), 1};
-  tiles_box own = tiles_view_box(v, i);
-  double x = own.x0 + e->x, y = own.y0 + e->y, r2 = farthest2(x, y, &own);
-  for (size_t k = 0; wide && k < p->count; k++) {
-    tiles_box b = tiles_view_box(v, TILES_SITE(p->item[k]));
-    if (TILES_STATUS(p->item[k]) == DYD_LEGAL) r2 = fmax(r2, farthest2(x, y, &b));
-  }
-  return disc_rounded(x, y, r2);
-}
-
-bool tiles_reach_find(tiles_reach *out, const tiles_view *v, uint32_t i, const tiles_partners *p, bool wide) {
+bool tiles_reach_find(tiles_reach *out, const tiles_view *v, uint32_t i, const tiles_partners *p) {
   reach_work w = {.out = out};
   bool fits;
   if (!reach_spokes(&w, v, i, p) || !reach_chain(&fits, &w) ||
       !tiles_reserve((void **)&out->item, &out->room, w.knots + 1, sizeof *out->item))
     return false;
+  const tiles_box own = tiles_view_box(v, i);
   out->count = 0;
-  if (!fits) out->item[out->count++] = (tiles_disc){tiles_view_box(v, i).x0, tiles_view_box(v, i).y0, INFINITY, 0};
-  for (size_t k = 0; fits && k < w.knots; k++) out->item[out->count++] = knot_disc(&out->knot[k], v, i, p, wide);
+  if (!fits) out->item[out->count++] = (tiles_disc){own.x0, own.y0, INFINITY, 0};
+  for (size_t k = 0; fits && k < w.knots; k++) out->item[out->count++] = knot_disc(&out->knot[k], &own);
   return true;
 }
 
@@ -356,7 +340,7 @@ static double outside(double c, double lo, double hi) {
 double tiles_disc_score(const tiles_disc *d, const tiles_box *b) {
   if (d->far) {
     double top = -least_in(b, -d->x, -d->y);
-    return top + size_in(b, d->x, d->y) * MARGIN < d->r ? INFINITY : fmin(-top, DBL_MAX);
+    return top + size_in(b, d->x, d->y) * MARGIN + TINY < d->r ? INFINITY : fmin(-top, DBL_MAX);
   }
   double dx = outside(d->x, b->x0, b->x1), dy = outside(d->y, b->y0, b->y1), d2 = dx * dx + dy * dy;
   return d2 * (1 - MARGIN) > d->r * d->r && d2 > TINY && d2 < INFINITY ? INFINITY : fmin(d2, DBL_MAX);
@@ -366,9 +350,9 @@ bool tiles_disc_may_meet(const tiles_disc *d, const tiles_box *box) {
   return tiles_disc_score(d, box) != INFINITY;
 }
 
+/* A rounded difference is above a double only where the exact one is. */
 bool tiles_disc_is_inside(const tiles_disc *d, const tiles_box *b) {
-  double r = d->r + (fabs(d->x) + fabs(d->y) + d->r) * MARGIN;
-  return !d->far && d->x - r > b->x0 && d->x + r < b->x1 && d->y - r > b->y0 && d->y + r < b->y1;
+  return !d->far && d->x - d->r > b->x0 && d->x + d->r < b->x1 && d->y - d->r > b->y0 && d->y + d->r < b->y1;
 }
 
 bool tiles_box_is_point(const tiles_box *b) {

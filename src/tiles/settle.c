@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of a site: its wide discs are not met; its pairs are not settled. */
-enum { WIDE = 1, LATE = 2 };
+/* Of a site: somebody unseen may meet what it depends on; its pairs are not settled. */
+enum { MET = 1, LATE = 2 };
 
 /* ---- discs ---- */
 
@@ -32,8 +32,8 @@ static dyd_status disc_is_unmet(bool *clear, tile *t, const tiles_disc *d, bool 
 
 /* Is it so of every disc that the pairs of site i of the view depend on? */
 static dyd_status reach_is_unmet(bool *clear, tile *t, const tiles_view *v, uint32_t i, const tiles_partners *p,
-                                 bool wide, dyd_error *err) {
-  if (!tiles_reach_find(&t->reach, v, i, p, wide)) return tiles_no_memory(err);
+                                 dyd_error *err) {
+  if (!tiles_reach_find(&t->reach, v, i, p)) return tiles_no_memory(err);
   dyd_status st = DYD_OK;
   *clear = true;
   for (size_t k = 0; *clear && st == DYD_OK && k < t->reach.count; k++)
@@ -64,17 +64,16 @@ static dyd_status first_aliases(tile *t, const tiles_view *v, dyd_error *err) {
   return st;
 }
 
-static dyd_status mark_site(tile *t, const tiles_view *v, uint32_t i, bool wide, dyd_error *err) {
-  bool closed = true, far = false;
+static dyd_status mark_site(tile *t, const tiles_view *v, uint32_t i, dyd_error *err) {
+  bool closed = true;
   tiles_partners p;
   dyd_status st = tile_partners(&p, t, i, err);
-  if (st == DYD_OK && !t->alias[i]) st = reach_is_unmet(&closed, t, v, i, &p, false, err);
-  if (st == DYD_OK && wide && closed) st = reach_is_unmet(&far, t, v, i, &p, true, err);
-  t->mark[i] = (unsigned char)((closed ? 0 : LATE) | (far ? WIDE : 0));
+  if (st == DYD_OK && !t->alias[i]) st = reach_is_unmet(&closed, t, v, i, &p, err);
+  t->mark[i] = closed ? 0 : MET | LATE;
   return st;
 }
 
-/* A legal pair with a rectangle stays one when both ends have wide discs that are not met. */
+/* A legal pair with a rectangle stays one when nobody meets what its ends depend on. */
 static dyd_status legal_marks(tile *t, const tiles_view *v, dyd_error *err) {
   dyd_status st = DYD_OK;
   for (uint32_t i = 0; st == DYD_OK && i < t->own.count; i++) {
@@ -85,7 +84,7 @@ static dyd_status legal_marks(tile *t, const tiles_view *v, dyd_error *err) {
       tiles_box a = tiles_view_box(v, i), b = tiles_view_box(v, j);
       if (TILES_STATUS(p.item[k]) != DYD_LEGAL || tiles_view_number(v, j) < t->own.number[i]) continue;
       if (tiles_box_is_point(&a) && tiles_box_is_point(&b)) continue;
-      if (!(t->mark[i] & t->mark[j] & WIDE)) t->mark[i] |= LATE;
+      if (t->mark[j] & MET) t->mark[i] |= LATE;
     }
   }
   return st;
@@ -94,7 +93,7 @@ static dyd_status legal_marks(tile *t, const tiles_view *v, dyd_error *err) {
 /* Where there are rectangles, own sites and ghosts: both may be ends of legal pairs. */
 static dyd_status wide_marks(tile *t, const tiles_view *v, dyd_error *err) {
   dyd_status st = DYD_OK;
-  for (uint32_t i = 0; st == DYD_OK && i < tiles_view_count(v); i++) st = mark_site(t, v, i, true, err);
+  for (uint32_t i = 0; st == DYD_OK && i < tiles_view_count(v); i++) st = mark_site(t, v, i, err);
   return st == DYD_OK ? legal_marks(t, v, err) : st;
 }
 
@@ -107,7 +106,7 @@ static dyd_status first_rows(tile *t, const tiles_view *v, dyd_error *err) {
   if (!t->mark) return tiles_no_memory(err);
   if (wide) st = wide_marks(t, v, err);
   for (uint32_t i = 0; st == DYD_OK && i < t->own.count; i++) {
-    if (!wide) st = mark_site(t, v, i, false, err);
+    if (!wide) st = mark_site(t, v, i, err);
     if (t->mark[i] & LATE)
       t->late_count++;
     else if (st == DYD_OK)
@@ -191,7 +190,7 @@ static dyd_status fringe_ask(tile *t, const tiles_disc *d, dyd_error *err) {
 static dyd_status fringe_discs(tile *t, const tiles_view *v, uint32_t i, dyd_error *err) {
   tiles_partners p;
   dyd_status st = tile_partners(&p, t, i, err);
-  if (st == DYD_OK && !tiles_reach_find(&t->reach, v, i, &p, false)) st = tiles_no_memory(err);
+  if (st == DYD_OK && !tiles_reach_find(&t->reach, v, i, &p)) st = tiles_no_memory(err);
   for (size_t k = 0; st == DYD_OK && k < t->reach.count; k++) st = fringe_ask(t, &t->reach.item[k], err);
   return st;
 }
@@ -258,13 +257,12 @@ dyd_status tile_fringe(tile *t, dyd_error *err) {
 
 static dyd_status answer_disc(tile *t, size_t r, const tiles_disc *d, dyd_error *err) {
   tiles_search *q = &t->search;
-  /* Eight; more when that has not been enough for long. */
-  enum { NEAREST = 8, PATIENCE = 4, MOST_DOUBLINGS = 20 };
+  enum { PATIENCE = 4, MOST_DOUBLINGS = 20 };
   uint64_t doublings = t->counters.rounds / PATIENCE;
   q->disc = d;
   q->skip = &t->sent[r];
   q->alias = t->alias;
-  q->most = (size_t)NEAREST << (doublings < MOST_DOUBLINGS ? doublings : MOST_DOUBLINGS);
+  q->most = t->job->nearest << (doublings < MOST_DOUBLINGS ? doublings : MOST_DOUBLINGS);
   bool fits = tiles_tree_search(q, &t->tree, &t->own);
   for (size_t k = 0; fits && k < q->count; k++)
     fits = tiles_set_add(&t->sent[r], q->site[k]) && tiles_sites_put(&t->out[r], &t->own, q->site[k]);

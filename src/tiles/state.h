@@ -15,6 +15,10 @@ typedef struct tiles_job {
   size_t ranks;
   size_t max_pairs;
   bool restart; /* parts that are there already stay */
+  /* What is sent before anybody asks, and how much at once: no result depends on it. */
+  double halo;      /* in mean distances: wide enough for most discs of evenly spread points */
+  unsigned corners; /* of each hull, told to everybody: discs at the rim of all points end there */
+  size_t nearest;   /* sites that answer a disc; more when that has not been enough for long */
 } tiles_job;
 
 /* Lines of a slice: how many points; most digits left and right of a decimal point. */

@@ -7,9 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SAMPLES = 1 << 16, DIRECTIONS = 16 };
-/* Wide enough for most discs of evenly spread points. */
-static const double HALO = 3;
+enum { SAMPLES = 1 << 16 };
 
 dyd_status tile_new(tile *t, const tiles_job *job, size_t rank, dyd_error *err) {
   const unsigned dim = job->boxes ? 4 : 2;
@@ -206,19 +204,17 @@ static void describe_own(tile *t) {
     own->wide += !tiles_box_is_point(&b);
   }
   own->digest = tile_digest(t);
-  own->seen = tiles_box_wider(&own->box, t->own.count, HALO);
+  own->seen = tiles_box_wider(&own->box, t->own.count, t->job->halo);
 }
 
-/* Those that go farthest are told to everybody: discs at the rim of all points end there. */
+/* Those that go farthest are told to everybody. */
 static bool tell_corners(tile *t) {
   bool fits = true;
-  size_t last = SIZE_MAX;
-  for (unsigned k = 0; fits && t->own.count && k < DIRECTIONS; k++) {
-    size_t corner = tiles_farthest(&t->own, k, DIRECTIONS);
-    if (corner == last || tiles_set_has(&t->sent[t->rank], (uint32_t)corner)) continue;
+  for (unsigned k = 0; fits && t->own.count && k < t->job->corners; k++) {
+    size_t corner = tiles_farthest(&t->own, k, t->job->corners);
+    if (tiles_set_has(&t->sent[t->rank], (uint32_t)corner)) continue;
     for (size_t r = 0; fits && r < t->job->ranks; r++)
       fits = tiles_set_add(&t->sent[r], (uint32_t)corner) && tiles_sites_put(&t->out[r], &t->own, corner);
-    last = corner;
   }
   return fits;
 }

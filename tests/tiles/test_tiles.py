@@ -123,6 +123,7 @@ class Union(unittest.TestCase):
             without, both = (cases.expected(DYADEL, some)[0].splitlines() for some in (others, rows))
             self.assertTrue(b'0,1,legal' in without and b'0,1,indeterminate' in both)
             self.compare(rows, (2,))
+            self.compare([rows[1], rows[0], *rows[2:]], (2,))
 
     def test_mixed(self):
         """Ties of exact points, of faces that may reach over a border and touch a rectangle."""
