@@ -128,14 +128,18 @@ static void aliases_are_points(const cloud *c, const dyd_delaunay *pd) {
   }
 }
 
-static void narrow(cloud *c, test_random *g, dyd_sites *s, size_t i) {
+static void narrow_to(dyd_sites *s, size_t i, double x0, double x1, double y0, double y1) {
   dyd_rect r;
-  narrow_side(c, g, &c->x0[i], &c->x1[i]);
-  narrow_side(c, g, &c->y0[i], &c->y1[i]);
   dyd_rect_init(&r);
-  assert_int_equal(dyd_rect_set_d(&r, c->x0[i], c->x1[i], c->y0[i], c->y1[i]), DYD_OK);
+  assert_int_equal(dyd_rect_set_d(&r, x0, x1, y0, y1), DYD_OK);
   assert_int_equal(dyd_sites_narrow(s, i, &r), DYD_OK);
   dyd_rect_clear(&r);
+}
+
+static void narrow(cloud *c, test_random *g, dyd_sites *s, size_t i) {
+  narrow_side(c, g, &c->x0[i], &c->x1[i]);
+  narrow_side(c, g, &c->y0[i], &c->y1[i]);
+  narrow_to(s, i, c->x0[i], c->x1[i], c->y0[i], c->y1[i]);
 }
 
 /* Sometimes memory fails first, once, at every allocation in turn: what was is kept, and the update can be repeated. */
@@ -271,6 +275,37 @@ static void test_crowd(void **state) {
   free(c);
 }
 
+/* Twelve sites on a circle; the last box becomes a point, and what was open becomes a tie. */
+static void test_last_point(void **state) {
+  static const double x[12] = {5, 4, 3, 0, -3, -4, -5, -4, -3, 0, 3, 4}, y[12] = {0, 3, 4, 5, 4, 3, 0, -3, -4, -5, -4, -3};
+  cloud *c = malloc(sizeof *c);
+  test_random g = test_random_start("last point");
+  size_t count[4];
+  (void)state;
+  assert_non_null(c);
+  for (uint32_t last = 0; last < 12; last++) {
+    dyd_sites *s = NULL;
+    dyd_delaunay *pd = NULL;
+    for (uint32_t i = 0; i < 12; i++) {
+      double h = i == last ? 0.25 : 0;
+      c->x0[i] = x[i] - h, c->x1[i] = x[i] + h, c->y0[i] = y[i] - h, c->y1[i] = y[i] + h;
+    }
+    assert_int_equal(dyd_sites_new(&s), DYD_OK);
+    assert_int_equal(dyd_sites_add_boxes(s, 12, c->x0, c->x1, c->y0, c->y1), DYD_OK);
+    assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
+    dyd_delaunay_count(count, pd);
+    assert_true(count[DYD_INDETERMINATE] > 40);
+    narrow_to(s, last, x[last], x[last], y[last], y[last]);
+    update(pd, &g, &last, 1, 100);
+    dyd_delaunay_count(count, pd);
+    assert_int_equal(count[DYD_TIE], 54);
+    same_as_fresh(s, pd);
+    dyd_delaunay_free(pd);
+    dyd_sites_free(s);
+  }
+  free(c);
+}
+
 /* ---- not all pairs are stored ---- */
 
 /* Nothing false is stated; returns how many pairs are open that would be impossible without the cap. */
@@ -389,7 +424,7 @@ static void test_local_witness(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_aliases), cmocka_unit_test(test_fresh),
-                                     cmocka_unit_test(test_crowd), cmocka_unit_test(test_capped),
-                                     cmocka_unit_test(test_local_witness)};
+                                     cmocka_unit_test(test_crowd), cmocka_unit_test(test_last_point),
+                                     cmocka_unit_test(test_capped), cmocka_unit_test(test_local_witness)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
