@@ -144,8 +144,8 @@ static void narrow(cloud *c, test_random *g, dyd_sites *s, size_t i) {
 
 /* Sometimes memory fails first, once, at every allocation in turn: what was is kept, and the update can be repeated. */
 static void update(dyd_delaunay *pd, test_random *g, const uint32_t *changed, size_t count, unsigned unfiltered) {
-  dyd_delaunay_options o = {
-      DYD_SIZED(dyd_delaunay_options), .no_filter = test_chance(g, unfiltered), .max_pairs = pd->options.max_pairs};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .no_filter = test_chance(g, unfiltered),
+                            .max_pairs = pd->options.max_pairs};
   dyd_status status = DYD_E_NOMEM;
   for (size_t k = test_chance(g, 12); status == DYD_E_NOMEM; k++) {
     countdown = k;
@@ -277,7 +277,8 @@ static void test_crowd(void **state) {
 
 /* Twelve sites on a circle; the last box becomes a point, and what was open becomes a tie. */
 static void test_last_point(void **state) {
-  static const double x[12] = {5, 4, 3, 0, -3, -4, -5, -4, -3, 0, 3, 4}, y[12] = {0, 3, 4, 5, 4, 3, 0, -3, -4, -5, -4, -3};
+  static const double x[12] = {5, 4, 3, 0, -3, -4, -5, -4, -3, 0, 3, 4},
+                      y[12] = {0, 3, 4, 5, 4, 3, 0, -3, -4, -5, -4, -3};
   cloud *c = malloc(sizeof *c);
   test_random g = test_random_start("last point");
   size_t count[4];
@@ -424,7 +425,7 @@ static void test_local_witness(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_aliases), cmocka_unit_test(test_fresh),
-                                     cmocka_unit_test(test_crowd), cmocka_unit_test(test_last_point),
-                                     cmocka_unit_test(test_capped), cmocka_unit_test(test_local_witness)};
+                                     cmocka_unit_test(test_crowd),   cmocka_unit_test(test_last_point),
+                                     cmocka_unit_test(test_capped),  cmocka_unit_test(test_local_witness)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
