@@ -22,6 +22,8 @@ FILES = {  # folder, functions left out, or all that are looked at
     'convert': ('dyadic', ['dyd_dyadic_round_q'], []), 'exact': ('checker', [], []),
     'tree': ('checker', [], ['spread_bits', 'key_of_box', 'enclose_child', 'dyd_cert_square', 'dyd_cert_far_upper',
                              'near_lower']),
+    'read': ('checker', [], ['scan_decimal']),
+    'measure': ('checker', [], ['absolute_value', 'grid_place', 'turn_on_grid']),
 }
 LOOPS = {  # what holds in a loop: put before it
     'tree': [
@@ -29,6 +31,10 @@ LOOPS = {  # what holds in a loop: put before it
             loop assigns k, out->e[0 .. 3]; loop variant 4 - k; */ """),
         ('for (int a = 0; a < 4; a += 2) {', """/*@ loop invariant a == 0 || a == 2 || a == 4;
             loop assigns a, sum; loop variant 4 - a; */ """),
+    ],
+    'read': [
+        ("while (*p >= '0'", """/*@ loop invariant digit <= p && \\subset(p, text + (0 .. strlen(text)));
+            loop assigns p; loop variant strlen(text) - (p - text); */ """),
     ],
 }
 FAULTS = [  # file, function, what is there, what takes its place
@@ -40,6 +46,8 @@ FAULTS = [  # file, function, what is there, what takes its place
     ('exact', 'exact_divide', 'if (den) up', 'up'),
     ('exact', 'dyd_exact_top', 'mpz_sgn(x->man) ? x->exp', 'true ? x->exp'),
     ('tree', 'near_lower', 'int64_t left = b->e[a] - c->e[a + 1]', 'int64_t left = b->e[a] - c->e[a + 2]'),
+    ('read', 'scan_decimal', "*p >= '0' && *p <= '9'", "*p != ' '"),
+    ('measure', 'turn_on_grid', 'int64_t det = x * t - y * z,', 'int64_t det = 4 * x * t - y * z,'),
     ('tree', 'dyd_cert_far_upper', 'dyd_cert_square(left > right ? left : right)', 'dyd_cert_square(4 * left)'),
 ]
 OPTIONS = ['-wp', '-wp-rte', '-warn-special-float', 'none',  # doubles are another matter
