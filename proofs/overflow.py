@@ -33,7 +33,7 @@ LOOPS = {  # what holds in a loop: put before it
             loop assigns a, sum; loop variant 4 - a; */ """),
     ],
     'read': [
-        ("while (*p >= '0'", """/*@ loop invariant digit <= p && \\subset(p, text + (0 .. strlen(text)));
+        ("while (*p", """/*@ loop invariant digit <= p && \\subset(p, text + (0 .. strlen(text)));
             loop assigns p; loop variant strlen(text) - (p - text); */ """),
     ],
 }
