@@ -28,7 +28,7 @@ int64_t dyd_exact_top(const dyd_exact *x) {
 static void exact_combine(dyd_exact *out, const dyd_exact *x, const dyd_exact *y, int sign) {
   int64_t exp = x->exp;
   if (x->exp == y->exp) {
-    (sign > 0 ? mpz_add : mpz_sub)(out->man, x->man, y->man);
+    sign > 0 ? mpz_add(out->man, x->man, y->man) : mpz_sub(out->man, x->man, y->man);
   } else {
     const dyd_exact *high = x->exp > y->exp ? x : y, *low = high == x ? y : x;
     mpz_t t;
@@ -93,22 +93,21 @@ int dyd_exact_cmp(const dyd_exact *x, const dyd_exact *y) {
   return sign;
 }
 
-typedef void divide_fn(mpz_ptr q, mpz_srcptr n, mpz_srcptr d);
-typedef void shift_fn(mpz_ptr q, mpz_srcptr n, mp_bitcnt_t bits);
-
 /* Rounding twice to the same side is rounding once. */
-static void exact_divide(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp, divide_fn *by, shift_fn *down) {
+static void exact_divide(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp, bool up) {
   if (x->exp >= exp)
     mpz_mul_2exp(out, x->man, mpz_sgn(x->man) ? (mp_bitcnt_t)(x->exp - exp) : 0);
+  else if (up)
+    mpz_cdiv_q_2exp(out, x->man, (mp_bitcnt_t)(exp - x->exp));
   else
-    down(out, x->man, (mp_bitcnt_t)(exp - x->exp));
-  if (den) by(out, out, den);
+    mpz_fdiv_q_2exp(out, x->man, (mp_bitcnt_t)(exp - x->exp));
+  if (den) up ? mpz_cdiv_q(out, out, den) : mpz_fdiv_q(out, out, den);
 }
 
 void dyd_exact_floor(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp) {
-  exact_divide(out, x, den, exp, mpz_fdiv_q, mpz_fdiv_q_2exp);
+  exact_divide(out, x, den, exp, false);
 }
 
 void dyd_exact_ceil(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp) {
-  exact_divide(out, x, den, exp, mpz_cdiv_q, mpz_cdiv_q_2exp);
+  exact_divide(out, x, den, exp, true);
 }

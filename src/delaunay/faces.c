@@ -153,55 +153,79 @@ static dyd_status find_and_close(dyd_delaunay *pd, dyd_work *w, const uint32_t *
   for (size_t g = before.count; g < pd->open.count && st == DYD_OK; g++) st = dyd_prove_face(pd, w, g);
   if (st == DYD_CANCELLED && w->keep_cut) st = DYD_OK;
   if (st == DYD_OK) st = narrowed ? close_parts(pd, w, before.count, narrowed) : close_faces(pd, w, before.count);
-  if (st != DYD_OK) {
-    dyd_table_roll_back(pd, &before);
-    return st;
-  }
-  for (size_t g = before.count; g < pd->open.count; g++) dyd_table_share_out(pd, (uint32_t)g);
-  return DYD_OK;
+  if (st != DYD_OK) dyd_table_roll_back(pd, &before);
+  return st;
+}
+
+static void share_out_from(dyd_delaunay *pd, size_t first) {
+  for (size_t g = first; g < pd->open.count; g++) dyd_table_share_out(pd, (uint32_t)g);
 }
 
 dyd_status dyd_faces_find(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count) {
-  return find_and_close(pd, w, tri, count, NULL);
+  size_t first = pd->open.count;
+  dyd_status st = find_and_close(pd, w, tri, count, NULL);
+  if (st == DYD_OK) share_out_from(pd, first);
+  return st;
 }
 
 /* ---- replacing one face ---- */
 
-/* A pair of the face replaced that a face before `fresh` lists, but none of the new ones, may have become legal or
- * impossible by what changed here. */
-static dyd_status recheck_shared(dyd_delaunay *pd, dyd_work *w, const dyd_face *old, size_t fresh) {
+/* Pairs of the face replaced, which is not in the table, that a face before `fresh` lists, but none of the new ones: by
+ * what changed here they may have become legal or impossible. Those that have are put into *ended. */
+static dyd_status find_ended(dyd_vertex_pair **ended, size_t *count, dyd_delaunay *pd, dyd_work *w, const dyd_face *old,
+                             size_t fresh) {
   static const uint32_t no_hint[2] = {DYD_NONE, DYD_NONE};
-  dyd_undecided *f = &pd->open;
+  const dyd_undecided *f = &pd->open;
+  size_t cap = 0;
   dyd_status st = DYD_OK;
   if (f->count == 0 || (old->polygon && f->others == 0)) return st;
   dyd_table_star star = {.from = 0, .to = fresh, .self = DYD_NONE, .v = DYD_NONE};
   for (uint32_t q = 0; q < old->pairs && st == DYD_OK; q++) {
-    dyd_vertex_pair p = f->pair[old->first_pair + q], *at;
+    dyd_vertex_pair p = f->pair[old->first_pair + q];
     dyd_face *owner = NULL;
-    bool possible = true;
+    bool possible = false;
     if (!dyd_table_may_list(&star, pd, p.i)) continue;
     if (!dyd_table_listed(&owner, pd, p, 0, fresh) || dyd_table_listed(&owner, pd, p, fresh, f->count)) continue;
-    bool legal = dyd_is_legal(&pd->sk, p.i, p.j);
-    if (!legal) st = dyd_cover_possible(&possible, w, &pd->sk, p.i, p.j, no_hint);
-    while ((legal || !possible) && (at = dyd_table_listed(&owner, pd, p, 0, fresh))) dyd_table_delete(f, owner, at);
+    if (!dyd_is_legal(&pd->sk, p.i, p.j)) st = dyd_cover_possible(&possible, w, &pd->sk, p.i, p.j, no_hint);
+    if (st != DYD_OK || possible) continue;
+    if (!dyd_reserve((void **)ended, &cap, *count + 1, sizeof **ended)) return DYD_E_NOMEM;
+    (*ended)[(*count)++] = p;
   }
   return st;
 }
 
+/* Takes pairs out of the faces before `fresh`. */
+static void delete_ended(dyd_delaunay *pd, const dyd_vertex_pair *ended, size_t count, size_t fresh) {
+  for (size_t q = 0; q < count; q++) {
+    dyd_face *owner = NULL;
+    dyd_vertex_pair *at;
+    while ((at = dyd_table_listed(&owner, pd, ended[q], 0, fresh))) dyd_table_delete(&pd->open, owner, at);
+  }
+}
+
+/* All that can fail comes before the first change that cannot be taken back. */
 dyd_status dyd_faces_replace(bool *replaced, dyd_delaunay *pd, dyd_work *w, const uint32_t *tri, size_t count,
                              const dyd_narrowed *narrowed) {
   dyd_undecided *f = &pd->open;
   uint32_t g = f->of[tri[0]];
   dyd_face old = f->face[g];
   dyd_table_take_out(pd, g);
-  size_t fresh = f->count;
+  dyd_undecided before = *f;
+  dyd_vertex_pair *ended = NULL;
+  size_t ended_count = 0;
   dyd_status st = find_and_close(pd, w, tri, count, narrowed);
-  *replaced = st == DYD_OK;
-  if (!*replaced) {
-    dyd_table_put_back(pd, &old);
-    return st;
+  if (st == DYD_OK) {
+    st = find_ended(&ended, &ended_count, pd, w, &old, before.count);
+    if (st != DYD_OK) dyd_table_roll_back(pd, &before);
   }
-  st = recheck_shared(pd, w, &old, fresh);
-  dyd_table_compact(f);
+  *replaced = st == DYD_OK;
+  if (*replaced) {
+    share_out_from(pd, before.count);
+    delete_ended(pd, ended, ended_count, before.count);
+    dyd_table_compact(f);
+  } else {
+    dyd_table_put_back(pd, &old);
+  }
+  free(ended);
   return st;
 }

@@ -7,8 +7,6 @@
 #include "skeleton/mesh_start.h"
 #include "skeleton/predicates.h"
 
-#include <string.h>
-
 /* An edge around what is spliced, seen from inside, from a to b with the inside on its left: a certain edge, or one of
  * a triangle that stays. Vertices of the whole mesh. */
 typedef struct rim {
@@ -122,9 +120,10 @@ static dyd_status part_triangulate(part *p) {
   p->place = dyd_alloc(p->mesh.count, sizeof *p->place);
   p->queue = dyd_alloc(p->tris, sizeof *p->queue);
   if (!p->leaving || !p->place || !p->queue) return DYD_E_NOMEM;
-  if (p->mesh.count) memset(p->place, 0xff, p->mesh.count * sizeof *p->place);
-  for (uint32_t t = 0; t < p->mesh.count; t++)
+  for (uint32_t t = 0; t < p->mesh.count; t++) {
+    p->place[t] = DYD_NONE;
     for (dyd_half_edge h = dyd_edge_of(t, 0); h < dyd_edge_end(t); h++) p->leaving[dyd_edge_origin(&p->mesh, h)] = h;
+  }
   return DYD_OK;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Every query of a partial triangulation against the oracle, or against the statuses it should agree with. */
 #include "delaunay/harness.h"
+#include "delaunay/table.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -246,8 +247,8 @@ static bool hull_right(char *message, const orc_case *c, const dyd_delaunay *pd)
 }
 
 bool queries_agree(char *message, const orc_case *c, const dyd_delaunay *pd) {
-  return pairs_agree(message, c, pd) && all_neighbours_agree(message, c, pd) && faces_agree(message, c, pd) &&
-         hull_right(message, c, pd);
+  return table_is_right(message, pd) && pairs_agree(message, c, pd) && all_neighbours_agree(message, c, pd) &&
+         faces_agree(message, c, pd) && hull_right(message, c, pd);
 }
 
 /* Three disjoint legal neighbours of one another turn the same way for every choice, and nobody can enter or leave

@@ -350,21 +350,21 @@ static dyd_status prove_all(bool *proved, void *user, dyd_relation relation, con
   return DYD_OK;
 }
 
-/* A hexagon of small boxes about `inside` large ones. */
-static asked ask_hexagon(size_t ties[4], size_t inside) {
+/* A hexagon of small boxes about `inside` large ones. most: pairs, 0: as many as there are. */
+static asked ask_hexagon(size_t ties[4], size_t inside, size_t most) {
   static const double cx[6] = {100, 50, -50, -100, -50, 50}, cy[6] = {0, 87, 87, 0, -87, -87};
   double x0[9], x1[9], y0[9], y1[9];
   asked a = {0, 0};
   dyd_sites *s = NULL;
   dyd_delaunay *pd = NULL;
-  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .prove = prove_all, .prove_user = &a};
+  dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .prove = prove_all, .prove_user = &a, .max_pairs = most};
   for (size_t q = 0; q < 6 + inside; q++) {
     double half = q < 6 ? 1 : 40, x = q < 6 ? cx[q] : (double)q, y = q < 6 ? cy[q] : -(double)q;
     x0[q] = x - half, x1[q] = x + half, y0[q] = y - half, y1[q] = y + half;
   }
   assert_int_equal(dyd_sites_new(&s), DYD_OK);
   assert_int_equal(dyd_sites_add_boxes(s, 6 + inside, x0, x1, y0, y1), DYD_OK);
-  assert_int_equal(dyd_delaunay_new(&pd, s, &o, NULL), DYD_OK);
+  assert_int_equal(dyd_delaunay_new(&pd, s, &o, NULL), most ? DYD_CAPPED : DYD_OK);
   dyd_delaunay_count(ties, pd);
   dyd_delaunay_free(pd);
   dyd_sites_free(s);
@@ -375,15 +375,19 @@ static asked ask_hexagon(size_t ties[4], size_t inside) {
 static void test_prover(void **state) {
   size_t count[4];
   (void)state;
-  asked a = ask_hexagon(count, 0);
+  asked a = ask_hexagon(count, 0, 0);
   assert_int_equal(a.times, 1);
   assert_int_equal(a.most, 6);
   assert_int_equal(count[DYD_TIE], 9);
   assert_int_equal(count[DYD_INDETERMINATE], 0);
-  a = ask_hexagon(count, 3);
+  a = ask_hexagon(count, 3, 0);
   assert_int_equal(a.times, 0);
   assert_int_equal(count[DYD_TIE], 0);
   assert_true(count[DYD_INDETERMINATE] > 18);
+  a = ask_hexagon(count, 0, 5); /* its pairs would not be stored: nobody is asked */
+  assert_int_equal(a.times, 0);
+  assert_int_equal(count[DYD_TIE], 0);
+  assert_int_equal(count[DYD_INDETERMINATE], 3);
 }
 
 int main(void) {

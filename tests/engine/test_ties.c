@@ -139,6 +139,21 @@ static void test_bits_that_show(void **state) {
   }
 }
 
+/* Points of a vertical line, with nothing beside it: three of them; and two that are so near that it is known to be a
+ * line long before they are apart. Neighbours are no ties. */
+static void test_lines(void **state) {
+  static const char *const y[4][4] = {{"sqrt(5)", "sqrt(3)", "sqrt(2)"},
+                                      {"sqrt(3)", "sqrt(2)", "sqrt(2)+2^-900"},
+                                      {"sqrt(3)", "sqrt(2)", "sqrt(3)-2^-900"},
+                                      {"sqrt(5)", "sqrt(3)", "sqrt(2)", "sqrt(2)+2^-900"}};
+  (void)state;
+  for (size_t k = 0; k < 4; k++) {
+    dyd_engine *e = engine_new();
+    for (size_t i = 0; i < 4 && y[k][i]; i++) engine_add_text(e, "1", y[k][i]);
+    expect_counts(e, NULL, DYD_OUTCOME_FIXPOINT, k < 3 ? 2 : 3, 0, k < 3 ? 1 : 3);
+  }
+}
+
 static void test_chains(void **state) {
   static const char *const line[] = {"sqrt(2)", "sqrt(3)", "2", "sqrt(5)", "sqrt(6)", "pi", "e+1"};
   enum { N = sizeof line / sizeof *line };
@@ -379,11 +394,22 @@ static void test_bits(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_polygons),       cmocka_unit_test(test_moved),     cmocka_unit_test(test_nearly_collinear),
-      cmocka_unit_test(test_bits_that_show), cmocka_unit_test(test_chains),    cmocka_unit_test(test_level_line),
-      cmocka_unit_test(test_undescribed),    cmocka_unit_test(test_callbacks), cmocka_unit_test(test_centres),
-      cmocka_unit_test(test_aliases),        cmocka_unit_test(test_doubles),   cmocka_unit_test(test_goes_on),
-      cmocka_unit_test(test_later),          cmocka_unit_test(test_harness),   cmocka_unit_test(test_bits),
+      cmocka_unit_test(test_polygons),
+      cmocka_unit_test(test_moved),
+      cmocka_unit_test(test_nearly_collinear),
+      cmocka_unit_test(test_bits_that_show),
+      cmocka_unit_test(test_lines),
+      cmocka_unit_test(test_chains),
+      cmocka_unit_test(test_level_line),
+      cmocka_unit_test(test_undescribed),
+      cmocka_unit_test(test_callbacks),
+      cmocka_unit_test(test_centres),
+      cmocka_unit_test(test_aliases),
+      cmocka_unit_test(test_doubles),
+      cmocka_unit_test(test_goes_on),
+      cmocka_unit_test(test_later),
+      cmocka_unit_test(test_harness),
+      cmocka_unit_test(test_bits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

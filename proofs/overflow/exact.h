@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* What is said of the numbers of src/checker, and contracts of src/checker/exact.c. */
+#ifndef DYD_PROOFS_EXACT_H
+#define DYD_PROOFS_EXACT_H
+
+#include "checker/exact.h"
+
+typedef const dyd_exact *exact_number;
+
+/*@ predicate exact(exact_number x) = \valid_read(x) && whole(&x->man[0]) && -274877906944 <= x->exp <= 274877906944;
+    predicate beside(exact_number x, exact_number y) = x == y || \separated(x, y);
+    predicate between(integer e, integer a, integer b) = \min(a, b) <= e <= \max(a, b); */
+
+/*@ requires \valid(x); assigns *x; exits \false; ensures exact(x) && x->exp == 0 && x->man[0].sign == 0; */
+void dyd_exact_init(dyd_exact *x);
+/*@ requires \valid(x) && exact(x); assigns *x; exits \false; */
+void dyd_exact_clear(dyd_exact *x);
+/*@ requires \valid(out) && exact(x) && beside(out, x); assigns *out; exits \false;
+    ensures whole(&out->man[0]) && out->exp == \old(x->exp) && out->man[0].sign == \old(x->man[0].sign); */
+void dyd_exact_set(dyd_exact *out, const dyd_exact *x);
+/*@ requires exact(x); assigns \nothing; exits \false; ensures \result == x->man[0].sign; */
+int dyd_exact_sgn(const dyd_exact *x);
+/*@ requires exact(x); assigns \nothing; exits \false;
+    ensures x->man[0].sign != 0 ==> \result == x->exp + x->man[0].length;
+    ensures x->man[0].sign == 0 ==> \result == INT64_MIN; */
+int64_t dyd_exact_top(const dyd_exact *x);
+/*@ requires \valid(out) && exact(x) && exact(y) && beside(out, x) && beside(out, y); assigns *out; exits \false;
+    ensures whole(&out->man[0]) && between(out->exp, \old(x->exp), \old(y->exp)); */
+void dyd_exact_add(dyd_exact *out, const dyd_exact *x, const dyd_exact *y);
+/*@ requires \valid(out) && exact(x) && exact(y) && beside(out, x) && beside(out, y); assigns *out; exits \false;
+    ensures whole(&out->man[0]) && between(out->exp, \old(x->exp), \old(y->exp)); */
+void dyd_exact_sub(dyd_exact *out, const dyd_exact *x, const dyd_exact *y);
+/*@ requires \valid(out) && exact(x) && exact(y) && beside(out, x) && beside(out, y); assigns *out; exits \false;
+    ensures whole(&out->man[0]) && out->exp == \old(x->exp) + \old(y->exp); */
+void dyd_exact_mul(dyd_exact *out, const dyd_exact *x, const dyd_exact *y);
+/*@ requires \valid(out) && exact(x) && whole(z) && beside(out, x) && \separated(out, z); assigns *out; exits \false;
+    ensures whole(&out->man[0]) && out->exp == \old(x->exp); */
+void dyd_exact_mul_z(dyd_exact *out, const dyd_exact *x, mpz_srcptr z);
+/*@ requires exact(x) && exact(y); assigns \nothing; exits \false; */
+int dyd_exact_cmp(const dyd_exact *x, const dyd_exact *y);
+/*@ requires \valid(out) && exact(x) && (den == \null || whole(den) && den->sign == 1 && \separated(out, den));
+    requires -274877906944 <= exp <= 274877906944 && (\separated(out, x) || out == &x->man[0]);
+    assigns *out; exits \false; ensures whole(out); */
+void dyd_exact_floor(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp);
+/*@ requires \valid(out) && exact(x) && (den == \null || whole(den) && den->sign == 1 && \separated(out, den));
+    requires -274877906944 <= exp <= 274877906944 && (\separated(out, x) || out == &x->man[0]);
+    assigns *out; exits \false; ensures whole(out); */
+void dyd_exact_ceil(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp);
+
+#endif
