@@ -99,22 +99,22 @@ void dyd_spot_widen(dyd_spot *s, mpq_srcptr angle) {
   arb_init(a);
   arb_init(f);
   mpq_inits(lo, hi, more, NULL);
-  dyd_ball_set_q(a, angle, 64);
-  degrees_above(more, a);
   mpq_sub(lo, s->mid[1], s->half[1]);
   mpq_add(hi, s->mid[1], s->half[1]);
-  mpq_sub(lo, lo, more);
-  mpq_add(hi, hi, more);
-  dyd_ball_set_q(a, angle, 64);
-  arb_sin(a, a, 64);
   mpq_neg(more, lo);
-  dyd_ball_set_q(f, mpq_cmp(more, hi) > 0 ? more : hi, 64); /* the widest is at the highest latitude */
+  dyd_ball_set_q(f, mpq_cmp(more, hi) > 0 ? more : hi, 64); /* the widest is about the highest latitude */
   arb_div_ui(f, f, 180, 64);
   arb_cos_pi(f, f, 64);
+  dyd_ball_set_q(a, angle, 64);
+  arb_sin(a, a, 64);
   arb_div(a, a, f, 64);
   arb_asin(a, a, 64);
   degrees_above(more, a);
   mpq_add(s->half[0], s->half[0], more);
+  dyd_ball_set_q(a, angle, 64);
+  degrees_above(more, a);
+  mpq_sub(lo, lo, more);
+  mpq_add(hi, hi, more);
   spot_cut_poles(s, lo, hi);
   mpq_clears(lo, hi, more, NULL);
   arb_clear(f);

@@ -9,11 +9,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* SMALL: rows times sites up to which every row is tried on all. Where no accuracy is given, these shares of each
- * half-width are tried until one decides; and rounds of the work on faces, of which more than one is needed where what
- * a face needs shows only beside the others. */
+/* Where no accuracy is given, these shares of each half-width are tried until one decides; and rounds of the work on
+ * faces, of which more than one is needed where what a face needs shows only beside the others. */
 static const int finer[] = {10, 20, 40};
-enum { FINER = sizeof finer / sizeof *finer, ROUNDS = 8, STEPS = 4, SMALL = 1 << 17 };
+enum { FINER = sizeof finer / sizeof *finer, ROUNDS = 8, STEPS = 4 };
+
+/* Rows times sites up to which every row is tried on all. */
+#ifdef DYD_ARMED
+enum { SMALL = 81 };
+#else
+enum { SMALL = 1 << 17 };
+#endif
 
 /* ---- targets ---- */
 
@@ -87,20 +93,6 @@ static dyd_status choose_rounds(dyd_survey *s, const dyd_delaunay *pd) {
   return st;
 }
 
-/* What one face needed another one may have made needless. */
-static dyd_status unchoose_needless(dyd_survey *s, const dyd_index_list *face, size_t faces) {
-  dyd_status st = DYD_OK;
-  for (size_t f = 0; f < s->faces; f++)
-    for (size_t k = 0; k < s->face[f].count && st == DYD_OK; k++) {
-      uint32_t site = s->face[f].row[k].site;
-      bool needs = false;
-      for (size_t g = 0; g < faces && !needs && st == DYD_OK; g++)
-        st = dyd_survey_face_needs(&needs, s, &face[g], site);
-      if (st == DYD_OK && !needs) s->site[site].chosen = false;
-    }
-  return st;
-}
-
 /* Takes rows out whose sites are not chosen, or takes all sites back that have rows. */
 static void settle_rows(dyd_survey *s, bool out) {
   for (size_t f = 0; f < s->faces; f++) {
@@ -112,6 +104,25 @@ static void settle_rows(dyd_survey *s, bool out) {
     }
     r->count = kept;
   }
+}
+
+/* What one face needed another one may have made needless: faces tell. A pair that is decided within its face may be
+ * open beside the others, where a disc about both ends has room; then all sites are taken back. */
+static dyd_status unchoose_by_faces(dyd_survey *s, const dyd_index_list *face, size_t faces) {
+  size_t before = s->left;
+  dyd_status st = DYD_OK;
+  for (size_t f = 0; f < s->faces; f++)
+    for (size_t k = 0; k < s->face[f].count && st == DYD_OK; k++) {
+      uint32_t site = s->face[f].row[k].site;
+      bool needs = false;
+      for (size_t g = 0; g < faces && !needs && st == DYD_OK; g++)
+        st = dyd_survey_face_needs(&needs, s, &face[g], site);
+      if (st == DYD_OK && !needs) s->site[site].chosen = false;
+    }
+  if (st == DYD_OK) st = recount_left(s);
+  settle_rows(s, s->left <= before);
+  s->left = before;
+  return st;
 }
 
 /* What a face cannot see: one triangulation of all for each row. */
@@ -138,13 +149,7 @@ static size_t count_rows(const dyd_survey *s) {
 
 /* Leaves out what is not needed; `face` has the sites of all open faces. */
 static dyd_status prune(dyd_survey *s, const dyd_index_list *face, size_t faces) {
-  size_t before = s->left;
-  dyd_status st = unchoose_needless(s, face, faces);
-  if (st == DYD_OK) st = recount_left(s);
-  if (st == DYD_OK) settle_rows(s, s->left <= before);
-  if (st == DYD_OK && s->left > before) s->left = before;
-  if (st == DYD_OK && count_rows(s) * s->sites <= SMALL) st = unchoose_by_all(s);
-  return st;
+  return count_rows(s) * s->sites <= SMALL ? unchoose_by_all(s) : unchoose_by_faces(s, face, faces);
 }
 
 static dyd_status choose_finely_enough(dyd_survey *s, const dyd_delaunay *pd) {
@@ -244,25 +249,9 @@ static dyd_status loosen_each(dyd_survey *s, const dyd_index_list *face, size_t 
 
 /* ---- the plan ---- */
 
-/* The plan made small, and its accuracies coarse. */
-static dyd_status simplify(dyd_survey *s, const dyd_delaunay *pd) {
-  size_t faces = dyd_delaunay_undecided_faces(pd);
-  dyd_index_list *face = calloc(faces + 1, sizeof *face);
-  dyd_status st = face ? DYD_OK : DYD_E_NOMEM;
-  bool outer;
-  for (size_t f = 0; f < faces && st == DYD_OK; f++) st = dyd_delaunay_face(&face[f], &outer, pd, f);
-  if (st == DYD_OK) st = prune(s, face, faces);
-  if (st == DYD_OK) st = loosen(s);
-  if (st == DYD_OK) st = loosen_each(s, face, faces);
-  for (size_t f = 0; face && f < faces; f++) dyd_index_list_clear(&face[f]);
-  free(face);
-  return st;
-}
-
 /* The rows of all faces, the most telling of those that come next first; each face keeps its own order. */
 static dyd_status merge_rows(dyd_survey *s) {
-  size_t total = 0, left = s->target.count;
-  for (size_t f = 0; f < s->faces; f++) total += s->face[f].count;
+  size_t total = count_rows(s);
   s->row = dyd_alloc(total, sizeof *s->row);
   if (!s->row) return DYD_E_NOMEM;
   while (s->rows < total) {
@@ -274,11 +263,26 @@ static dyd_status merge_rows(dyd_survey *s) {
     dyd_survey_row row = best->row[best->next++];
     row.now = dyd_survey_now(s, row.site);
     row.needed = dyd_survey_needed(s, row.site);
-    left -= row.decided < left ? row.decided : left;
-    row.left = s->rows + 1 == total ? s->left : left > s->left ? left : s->left;
     s->row[s->rows++] = row;
   }
   return DYD_OK;
+}
+
+/* The plan made small, and its accuracies coarse; then its rows. */
+static dyd_status simplify(dyd_survey *s, const dyd_delaunay *pd) {
+  size_t faces = dyd_delaunay_undecided_faces(pd);
+  dyd_index_list *face = calloc(faces + 1, sizeof *face);
+  dyd_status st = face ? DYD_OK : DYD_E_NOMEM;
+  bool outer;
+  for (size_t f = 0; f < faces && st == DYD_OK; f++) st = dyd_delaunay_face(&face[f], &outer, pd, f);
+  if (st == DYD_OK) st = prune(s, face, faces);
+  if (st == DYD_OK) st = loosen(s);
+  if (st == DYD_OK) st = loosen_each(s, face, faces);
+  if (st == DYD_OK) st = merge_rows(s);
+  if (st == DYD_OK) st = dyd_survey_count_left(s, face, faces);
+  for (size_t f = 0; face && f < faces; f++) dyd_index_list_clear(&face[f]);
+  free(face);
+  return st;
 }
 
 static dyd_status survey_check(const dyd_survey *s, const dyd_delaunay *pd, dyd_error *err) {
@@ -310,7 +314,6 @@ dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_su
   if (st == DYD_OK) st = find_targets(s, pd);
   if (st == DYD_OK) st = choose_finely_enough(s, pd);
   if (st == DYD_OK) st = simplify(s, pd);
-  if (st == DYD_OK) st = merge_rows(s);
   s->err = NULL;
   if (st == DYD_OK) {
     *out = s;

@@ -43,18 +43,24 @@ dyd_status dyd_survey_load(dyd_survey *s, const dyd_sites *sites);
 dyd_status dyd_survey_rect(dyd_rect *out, const dyd_survey *s, uint32_t i, bool measured);
 /* A new triangulation of all sites, the chosen ones measured; of the centres of all. */
 dyd_status dyd_survey_triangulate(dyd_delaunay **pd, dyd_sites **sites, const dyd_survey *s, bool centres);
+bool dyd_survey_is_open(const dyd_delaunay *pd, const dyd_pair *p);
 /* How many of the targets are open in it. */
 size_t dyd_survey_open(const dyd_survey *s, const dyd_delaunay *pd);
 /* The accuracy of site i, rounded down. */
 double dyd_survey_needed(const dyd_survey *s, uint32_t i);
 double dyd_survey_now(const dyd_survey *s, uint32_t i);
 
-/* survey_face.c: chooses among the sites of face f of pd so that its targets are decided; appends to s->face. */
+/* survey_face.c: the number of a site among these, ascending, or DYD_NONE. */
+uint32_t dyd_survey_number_in(const dyd_index_list *sites, uint32_t site);
+/* Chooses among the sites of face f of pd so that its targets are decided; appends to s->face. */
 dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t f);
 /* How many targets of the face with these sites (ascending) are open as things stand; 0 where `site` is not among them.
  */
 dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_index_list *sites, uint32_t site);
 /* Would more targets of the face with these sites (ascending) be open, were this one not measured? */
 dyd_status dyd_survey_face_needs(bool *needs, dyd_survey *s, const dyd_index_list *sites, uint32_t site);
+
+/* survey_left.c: what each row decides after those before it; `face` has the sites of all open faces. */
+dyd_status dyd_survey_count_left(dyd_survey *s, const dyd_index_list *face, size_t faces);
 
 #endif

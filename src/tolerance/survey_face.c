@@ -21,9 +21,9 @@ typedef struct face_try {
   size_t chosen;
 } face_try;
 
-static uint32_t number_in(const face_try *f, uint32_t site) {
-  const uint32_t *at = bsearch(&site, f->sites.item, f->sites.count, sizeof site, dyd_compare_index);
-  return at ? (uint32_t)(at - f->sites.item) : DYD_NONE;
+uint32_t dyd_survey_number_in(const dyd_index_list *sites, uint32_t site) {
+  const uint32_t *at = bsearch(&site, sites->item, sites->count, sizeof site, dyd_compare_index);
+  return at ? (uint32_t)(at - sites->item) : DYD_NONE;
 }
 
 /* How many targets are open; open[k] (may be NULL): of how many it is an end. */
@@ -44,8 +44,7 @@ static dyd_status try_face(size_t *open_pairs, size_t *open, const face_try *f) 
   *open_pairs = 0;
   if (open) memset(open, 0, f->sites.count * sizeof *open);
   for (size_t k = 0; k < f->targets && st == DYD_OK; k++) {
-    dyd_pair_status status = dyd_delaunay_status(pd, f->target[k].i, f->target[k].j);
-    if (status != DYD_INDETERMINATE && status != DYD_TIE) continue;
+    if (!dyd_survey_is_open(pd, &f->target[k])) continue;
     ++*open_pairs;
     if (open) open[f->target[k].i]++, open[f->target[k].j]++;
   }
@@ -124,7 +123,7 @@ static dyd_status drop_sites(face_try *f) {
   return st;
 }
 
-/* The rows, in the order chosen, with what each decides. */
+/* The rows, in the order chosen, with what each decides in the face. */
 static dyd_status write_rows(face_try *f) {
   dyd_survey *s = f->s;
   if (!f->chosen) return DYD_OK;
@@ -148,7 +147,7 @@ static dyd_status write_rows(face_try *f) {
 static void take_targets(face_try *f) {
   for (size_t k = 0; k < f->s->target.count; k++) {
     const dyd_pair *p = &f->s->target.item[k];
-    uint32_t i = number_in(f, p->i), j = number_in(f, p->j);
+    uint32_t i = dyd_survey_number_in(&f->sites, p->i), j = dyd_survey_number_in(&f->sites, p->j);
     if (i != DYD_NONE && j != DYD_NONE) f->target[f->targets++] = (dyd_pair){i, j, p->status};
   }
 }
@@ -190,7 +189,7 @@ dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t face) {
 dyd_status dyd_survey_face_needs(bool *needs, dyd_survey *s, const dyd_index_list *sites, uint32_t site) {
   face_try f = {.s = s, .sites = *sites};
   size_t *open = NULL, with, without;
-  uint32_t k = number_in(&f, site);
+  uint32_t k = dyd_survey_number_in(sites, site);
   *needs = false;
   if (k == DYD_NONE) return DYD_OK;
   dyd_status st = face_begin(&f, &open);
@@ -208,7 +207,7 @@ dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_ind
   face_try f = {.s = s, .sites = *sites};
   size_t *open = NULL;
   *open_pairs = 0;
-  if (number_in(&f, site) == DYD_NONE) return DYD_OK;
+  if (dyd_survey_number_in(sites, site) == DYD_NONE) return DYD_OK;
   dyd_status st = face_begin(&f, &open);
   if (st == DYD_OK && f.targets) st = try_face(open_pairs, NULL, &f);
   face_end(&f, open);

@@ -101,14 +101,14 @@ dyd_status dyd_survey_triangulate(dyd_delaunay **pd, dyd_sites **sites, const dy
   return st == DYD_CAPPED ? DYD_OK : st;
 }
 
-static bool is_open_status(dyd_pair_status status) {
+bool dyd_survey_is_open(const dyd_delaunay *pd, const dyd_pair *p) {
+  dyd_pair_status status = dyd_delaunay_status(pd, p->i, p->j);
   return status == DYD_INDETERMINATE || status == DYD_TIE;
 }
 
 size_t dyd_survey_open(const dyd_survey *s, const dyd_delaunay *pd) {
   size_t open = 0;
-  for (size_t k = 0; k < s->target.count; k++)
-    open += is_open_status(dyd_delaunay_status(pd, s->target.item[k].i, s->target.item[k].j));
+  for (size_t k = 0; k < s->target.count; k++) open += dyd_survey_is_open(pd, &s->target.item[k]);
   return open;
 }
 

@@ -12,7 +12,7 @@ import pathlib
 import re
 import tempfile
 
-from harness import DATA, expect, main, run
+from harness import DATA, count, expect, main, run
 
 POINTS = '0 0\n10 0\n5+-0.5 3\n5 -6+-4\n'
 AIRPORTS = os.path.join(DATA, 'airports.csv')
@@ -105,6 +105,7 @@ def test_proved_again():
     assert plan[-1]['pairs_left'] == '0' and [int(r['rank']) for r in plan] == list(range(1, len(plan) + 1))
     left = [int(r['pairs_left']) for r in plan]
     assert left == sorted(left, reverse=True)
+    assert all(a - b == int(r['pairs_decided']) for a, b, r in zip([count(before.out)['indeterminate'], *left], left, plan))
     with tempfile.TemporaryDirectory() as folder:
         expect(run('delaunay', '--certificate', 'proof', '-', stdin=measured(text, plan), cwd=folder), 0)
         expect(run('verify', 'proof', cwd=folder), 0)

@@ -49,10 +49,11 @@ def introspect(build, what):
 
 
 def tests_of(build, names):
-    """Each with the files that have to be built for it."""
+    """Each with the files that have to be built for it; they start in the build folder, as meson does it."""
     made = {t['id']: t['filename'][0] for t in introspect(build, '--targets')}
     found = {t['name']: t for t in introspect(build, '--tests')}
-    return [{**found[name], 'needs': [os.path.relpath(made[t], build) for t in found[name]['depends']]} for name in names]
+    return [{**found[name], 'workdir': found[name]['workdir'] or build,
+             'needs': [os.path.relpath(made[t], build) for t in found[name]['depends']]} for name in names]
 
 
 def fails(test, limit):

@@ -9,19 +9,20 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST = 9 };
+/* FEW: so many that all sets of them can be tried. */
+enum { FEW = 9, MOST = 40 };
 
 typedef struct box_case {
   size_t n;
   double x[MOST], y[MOST], h[MOST];
 } box_case;
 
-static void make_boxes_case(box_case *c, test_random *r) {
-  c->n = 4 + test_below(r, MOST - 3);
+static void make_boxes_case(box_case *c, test_random *r, size_t n, unsigned side) {
+  c->n = n;
   double size = test_unit(r) * 2;
   for (size_t k = 0; k < c->n; k++) {
-    c->x[k] = (double)test_below(r, 16) + (double)test_below(r, 64) / 64;
-    c->y[k] = (double)test_below(r, 16) + (double)test_below(r, 64) / 64;
+    c->x[k] = (double)test_below(r, side) + (double)test_below(r, 64) / 64;
+    c->y[k] = (double)test_below(r, side) + (double)test_below(r, 64) / 64;
     c->h[k] = test_chance(r, 4) ? 0 : nearbyint(size * test_unit(r) * 32) / 32;
   }
 }
@@ -79,21 +80,28 @@ static size_t least_plan(const box_case *c) {
   return least;
 }
 
+/* Each row tells what it decides after those before. Sets half[] as measured; returns what is left. */
+static size_t follow_rows(double *half, const box_case *c, const dyd_survey *s, size_t open) {
+  const dyd_survey_row *row;
+  size_t rows = dyd_survey_rows(&row, s), left = open;
+  memcpy(half, c->h, MOST * sizeof *half);
+  for (size_t k = 0; k < rows; k++) {
+    assert_true(row[k].site < c->n && row[k].now == c->h[row[k].site] && half[row[k].site] == row[k].now);
+    assert_true(row[k].needed > 0 && row[k].needed < row[k].now);
+    half[row[k].site] = row[k].needed;
+    assert_int_equal(row[k].left, count_open(c, half));
+    assert_int_equal(row[k].decided, left - row[k].left);
+    left = row[k].left;
+  }
+  return left;
+}
+
 /* *idle: rows that could be left out. */
 static void check_rows(size_t *idle, const box_case *c, const dyd_survey *s, size_t open) {
   const dyd_survey_row *row;
-  size_t rows = dyd_survey_rows(&row, s), left_before = open;
+  size_t rows = dyd_survey_rows(&row, s);
   double half[MOST];
-  memcpy(half, c->h, sizeof half);
-  for (size_t k = 0; k < rows; k++) {
-    assert_true(row[k].site < c->n && row[k].now == c->h[row[k].site]);
-    assert_true(row[k].needed > 0 && row[k].needed < row[k].now && half[row[k].site] == row[k].now);
-    assert_true(row[k].left <= left_before);
-    left_before = row[k].left;
-    half[row[k].site] = row[k].needed;
-  }
-  assert_int_equal(left_before, 0);
-  assert_int_equal(count_open(c, half), 0);
+  assert_int_equal(follow_rows(half, c, s, open), 0);
   for (size_t k = 0; k < rows; k++) {
     half[row[k].site] = c->h[row[k].site];
     *idle += count_open(c, half) == 0;
@@ -112,7 +120,7 @@ static void test_against_brute_force(void **state) {
     dyd_error err;
     const dyd_survey_row *row;
     size_t open, ties, left;
-    make_boxes_case(&c, &r);
+    make_boxes_case(&c, &r, 4 + test_below(&r, FEW - 3), 16);
     dyd_delaunay *pd = boxes(&sites, &c, c.h);
     assert_int_equal(dyd_survey_new(&s, pd, NULL, &err), DYD_OK);
     dyd_survey_count(&open, &ties, &left, s);
@@ -187,7 +195,7 @@ static void test_one_by_one(void **state) {
   size_t cases = 0, asked = 0, least = 0;
   for (size_t k = 0; k < test_cases(100); k++) {
     box_case c, truth;
-    make_boxes_case(&c, &r);
+    make_boxes_case(&c, &r, 4 + test_below(&r, FEW - 3), 16);
     truth = c;
     for (size_t i = 0; i < c.n; i++) {
       truth.x[i] += c.h[i] * (ldexp((double)test_below(&r, 1 << 20), -19) - 1);
@@ -201,6 +209,156 @@ static void test_one_by_one(void **state) {
   }
   print_message("%zu cases, %zu questions, %zu in hindsight\n", cases, asked, least);
   assert_true(cases > 15 && asked >= least && 4 * asked <= 5 * least);
+}
+
+/* ---- more points than all rows are tried with ---- */
+
+/* How many pairs of one face, by itself, are open that are among the targets. */
+static size_t count_open_in(const box_case *c, const double *half, const dyd_index_list *face,
+                            const dyd_pair_list *target) {
+  box_case part = {face->count, {0}, {0}, {0}};
+  uint32_t number[MOST];
+  dyd_sites *sites;
+  size_t open = 0;
+  memset(number, 0xff, sizeof number);
+  for (size_t k = 0; k < face->count; k++) {
+    uint32_t i = face->item[k];
+    number[i] = (uint32_t)k;
+    part.x[k] = c->x[i], part.y[k] = c->y[i], part.h[k] = half[i];
+  }
+  dyd_delaunay *pd = boxes(&sites, &part, part.h);
+  for (size_t k = 0; k < target->count; k++) {
+    uint32_t i = number[target->item[k].i], j = number[target->item[k].j];
+    if (i < face->count && j < face->count) open += is_open(dyd_delaunay_status(pd, i, j));
+  }
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  return open;
+}
+
+/* Of all faces with this site, each by itself. */
+static size_t count_open_about(const box_case *c, const double *half, const dyd_delaunay *pd,
+                               const dyd_pair_list *target, uint32_t site) {
+  size_t open = 0;
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd); f++) {
+    dyd_index_list face = {0};
+    bool outer, has = false;
+    assert_int_equal(dyd_delaunay_face(&face, &outer, pd, f), DYD_OK);
+    for (size_t k = 0; k < face.count; k++) has = has || face.item[k] == site;
+    if (has) open += count_open_in(c, half, &face, target);
+    dyd_index_list_clear(&face);
+  }
+  return open;
+}
+
+/* The open pairs, but for those that tie where the boxes have their middles. */
+static void find_targets(dyd_pair_list *out, const dyd_delaunay *pd, const box_case *c) {
+  static const double none[MOST];
+  dyd_sites *points;
+  dyd_delaunay *nominal = boxes(&points, c, none);
+  size_t n = 0;
+  assert_int_equal(dyd_delaunay_pairs(out, pd), DYD_OK);
+  for (size_t k = 0; k < out->count; k++) {
+    const dyd_pair p = out->item[k];
+    if (is_open(p.status) && dyd_delaunay_status(nominal, p.i, p.j) != DYD_TIE) out->item[n++] = p;
+  }
+  out->count = n;
+  dyd_delaunay_free(nominal);
+  dyd_sites_free(points);
+}
+
+/* Where all is decided: rows that no face needs, or needs so exactly, could not be without all at once. `times`: how
+ * much coarser they are tried; 0: as they are without the plan. Returns how many there are. */
+static size_t check_faces(const box_case *c, const double *half, const dyd_delaunay *pd, const dyd_survey *s,
+                          double times) {
+  const dyd_survey_row *row;
+  dyd_pair_list target = {0};
+  size_t rows = dyd_survey_rows(&row, s), idle = 0;
+  double all[MOST], one[MOST];
+  memcpy(all, half, sizeof all);
+  memcpy(one, half, sizeof one);
+  find_targets(&target, pd, c);
+  for (size_t k = 0; k < rows; k++) {
+    uint32_t i = row[k].site;
+    if (times * times * half[i] > c->h[i]) continue;
+    one[i] = times > 0 ? times * half[i] : c->h[i];
+    size_t about = times > 0 ? count_open_about(c, half, pd, &target, i) : 0;
+    if (count_open_about(c, one, pd, &target, i) <= about) all[i] = one[i], idle++;
+    one[i] = half[i];
+  }
+  assert_true(!idle || count_open(c, all) > 0);
+  dyd_pair_list_clear(&target);
+  return idle;
+}
+
+/* An eighth coarser, or as without the plan, all rows leave more open: the common factor is as large as can be. */
+static void check_factor(const box_case *c, const double *half, const dyd_survey *s, bool given, size_t left) {
+  const dyd_survey_row *row;
+  size_t rows = dyd_survey_rows(&row, s);
+  double coarse[MOST];
+  memcpy(coarse, half, sizeof coarse);
+  for (size_t k = 0; k < rows; k++) {
+    coarse[row[k].site] = fmin(1.125 * row[k].needed, row[k].now);
+    if (!given && coarse[row[k].site] == row[k].now) return;
+  }
+  assert_true(!rows || count_open(c, coarse) > left);
+}
+
+/* Plans of the boxes: what is left open is told; where nothing is, faces need every row. Returns how many rows. */
+static size_t check_large(size_t *idle, const box_case *c, const dyd_survey_options *o) {
+  dyd_sites *sites;
+  dyd_survey *s;
+  const dyd_survey_row *row;
+  size_t open, ties, left;
+  double half[MOST];
+  dyd_delaunay *pd = boxes(&sites, c, c->h);
+  assert_int_equal(dyd_survey_new(&s, pd, o, NULL), DYD_OK);
+  dyd_survey_count(&open, &ties, &left, s);
+  assert_int_equal(open, count_open(c, c->h));
+  assert_int_equal(left, follow_rows(half, c, s, open));
+  check_factor(c, half, s, o->accuracy, left);
+  if (!left) *idle += check_faces(c, half, pd, s, 0) + check_faces(c, half, pd, s, 2);
+  size_t rows = dyd_survey_rows(&row, s);
+  dyd_survey_free(s);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(sites);
+  return rows;
+}
+
+static void test_large(void **state) {
+  (void)state;
+  test_random r = test_random_start("plans of more points");
+  mpq_t accuracy;
+  size_t rows = 0, idle = 0;
+  mpq_init(accuracy);
+  for (size_t k = 0; k < test_cases_all(60); k++) {
+    box_case c;
+    make_boxes_case(&c, &r, 16 + test_below(&r, MOST - 15), 30);
+    mpq_set_d(accuracy, (1 + (double)test_below(&r, 64)) / 64);
+    const dyd_survey_options o = {DYD_SIZED(dyd_survey_options), .accuracy = k % 3 ? NULL : accuracy};
+    rows += check_large(&idle, &c, &o);
+  }
+  print_message("%zu rows, %zu idle\n", rows, idle);
+  assert_true(rows > 300);
+  mpq_clear(accuracy);
+}
+
+/* Four times, in a row: within its face a pair is decided without a site, beside the others it is not; so that what was
+ * left out as faces told is taken back. */
+static void test_taken_back(void **state) {
+  (void)state;
+  static const double x[] = {1.25, 4, 2.5, 4, 0.75, 0.875, 6, 2.5}, y[] = {10.625, 20, 10.5, 17.5, 4, 7.5, 15, 3},
+                      h[] = {0.5, 0, 0, 0, 0, 0.25, 0, 0}, up[] = {0, 5, -9, 3};
+  box_case c = {32, {0}, {0}, {0}};
+  for (size_t k = 0; k < c.n; k++)
+    c.x[k] = x[k % 8] + 64 * (double)(k / 8), c.y[k] = y[k % 8] + up[k / 8], c.h[k] = h[k % 8];
+  size_t idle = 0;
+  mpq_t accuracy;
+  mpq_init(accuracy);
+  mpq_set_ui(accuracy, 1, 32);
+  const dyd_survey_options o = {DYD_SIZED(dyd_survey_options), .accuracy = accuracy};
+  assert_true(check_large(&idle, &c, &o) > 0);
+  mpq_clear(accuracy);
 }
 
 /* ---- what is asked for ---- */
@@ -266,6 +424,7 @@ static void test_parts(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_brute_force), cmocka_unit_test(test_one_by_one),
+                                     cmocka_unit_test(test_large), cmocka_unit_test(test_taken_back),
                                      cmocka_unit_test(test_parts)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
