@@ -53,7 +53,7 @@ static dyd_status find_targets(dyd_survey *s, const dyd_delaunay *pd) {
   dyd_delaunay_free(nominal);
   dyd_sites_free(centres);
   dyd_pair_list_clear(&all);
-  return st;
+  return st == DYD_OK ? dyd_survey_index_targets(s) : st;
 }
 
 /* ---- choosing ---- */
@@ -108,15 +108,15 @@ static void settle_rows(dyd_survey *s, bool out) {
 
 /* What one face needed another one may have made needless: faces tell. A pair that is decided within its face may be
  * open beside the others, where a disc about both ends has room; then all sites are taken back. */
-static dyd_status unchoose_by_faces(dyd_survey *s, const dyd_index_list *face, size_t faces) {
+static dyd_status unchoose_by_faces(dyd_survey *s) {
   size_t before = s->left;
   dyd_status st = DYD_OK;
   for (size_t f = 0; f < s->faces; f++)
     for (size_t k = 0; k < s->face[f].count && st == DYD_OK; k++) {
       uint32_t site = s->face[f].row[k].site;
       bool needs = false;
-      for (size_t g = 0; g < faces && !needs && st == DYD_OK; g++)
-        st = dyd_survey_face_needs(&needs, s, &face[g], site);
+      for (size_t q = s->open.start[site]; q < s->open.start[site + 1] && !needs && st == DYD_OK; q++)
+        st = dyd_survey_face_needs(&needs, s, &s->open.face[s->open.of[q]], site);
       if (st == DYD_OK && !needs) s->site[site].chosen = false;
     }
   if (st == DYD_OK) st = recount_left(s);
@@ -147,9 +147,9 @@ static size_t count_rows(const dyd_survey *s) {
   return rows;
 }
 
-/* Leaves out what is not needed; `face` has the sites of all open faces. */
-static dyd_status prune(dyd_survey *s, const dyd_index_list *face, size_t faces) {
-  return count_rows(s) * s->sites <= SMALL ? unchoose_by_all(s) : unchoose_by_faces(s, face, faces);
+/* Leaves out what is not needed. */
+static dyd_status prune(dyd_survey *s) {
+  return count_rows(s) * s->sites <= SMALL ? unchoose_by_all(s) : unchoose_by_faces(s);
 }
 
 static dyd_status choose_finely_enough(dyd_survey *s, const dyd_delaunay *pd) {
@@ -208,25 +208,25 @@ static dyd_status loosen(dyd_survey *s) {
 
 /* ---- each site by itself ---- */
 
-static dyd_status open_around(size_t *open, dyd_survey *s, const dyd_index_list *face, size_t faces, uint32_t site) {
+static dyd_status open_around(size_t *open, dyd_survey *s, uint32_t site) {
   dyd_status st = DYD_OK;
   *open = 0;
-  for (size_t f = 0; f < faces && st == DYD_OK; f++) {
+  for (size_t q = s->open.start[site]; q < s->open.start[site + 1] && st == DYD_OK; q++) {
     size_t now;
-    st = dyd_survey_face_open(&now, s, &face[f], site);
+    st = dyd_survey_face_open(&now, s, &s->open.face[s->open.of[q]]);
     *open += now;
   }
   return st;
 }
 
 /* Twice as coarse, as long as its faces stay as they are, and it has to be measured at all. */
-static dyd_status loosen_site(dyd_survey *s, const dyd_index_list *face, size_t faces, uint32_t site) {
+static dyd_status loosen_site(dyd_survey *s, uint32_t site) {
   size_t before, now;
-  dyd_status st = open_around(&before, s, face, faces, site);
+  dyd_status st = open_around(&before, s, site);
   while (st == DYD_OK) {
     s->site[site].coarser++;
     bool less = dyd_survey_needed(s, site) * 2 <= dyd_survey_now(s, site);
-    if (less) st = open_around(&now, s, face, faces, site);
+    if (less) st = open_around(&now, s, site);
     if (st == DYD_OK && less && now <= before) continue;
     s->site[site].coarser--;
     return st;
@@ -235,12 +235,11 @@ static dyd_status loosen_site(dyd_survey *s, const dyd_index_list *face, size_t 
 }
 
 /* Faces tell; all together are looked at in the end, and if they should not hold, the common factor alone counts. */
-static dyd_status loosen_each(dyd_survey *s, const dyd_index_list *face, size_t faces) {
+static dyd_status loosen_each(dyd_survey *s) {
   size_t before = s->left;
   dyd_status st = DYD_OK;
   for (size_t f = 0; f < s->faces; f++)
-    for (size_t k = 0; k < s->face[f].count && st == DYD_OK; k++)
-      st = loosen_site(s, face, faces, s->face[f].row[k].site);
+    for (size_t k = 0; k < s->face[f].count && st == DYD_OK; k++) st = loosen_site(s, s->face[f].row[k].site);
   if (st == DYD_OK) st = recount_left(s);
   for (size_t i = 0; i < s->sites && s->left > before; i++) s->site[i].coarser = 0;
   if (s->left > before) s->left = before;
@@ -249,40 +248,50 @@ static dyd_status loosen_each(dyd_survey *s, const dyd_index_list *face, size_t 
 
 /* ---- the plan ---- */
 
-/* The rows of all faces, the most telling of those that come next first; each face keeps its own order. */
+/* A row and the least that it or one before it in its face decides. */
+typedef struct row_rank {
+  size_t least, face, k;
+} row_rank;
+
+static int compare_ranks(const void *a, const void *b) {
+  const row_rank *x = a, *y = b;
+  if (x->least != y->least) return x->least > y->least ? -1 : 1;
+  if (x->face != y->face) return x->face < y->face ? -1 : 1;
+  return (x->k > y->k) - (x->k < y->k);
+}
+
+/* The rows of all faces, always the most telling of those that come next; each face keeps its own order. A row that
+ * tells more than one before it comes right after that one: so they are sorted by the least so far. */
 static dyd_status merge_rows(dyd_survey *s) {
   size_t total = count_rows(s);
+  row_rank *rank = dyd_alloc(total, sizeof *rank);
   s->row = dyd_alloc(total, sizeof *s->row);
-  if (!s->row) return DYD_E_NOMEM;
-  while (s->rows < total) {
-    dyd_face_rows *best = NULL;
-    for (size_t f = 0; f < s->faces; f++) {
-      dyd_face_rows *r = &s->face[f];
-      if (r->next < r->count && (!best || r->row[r->next].decided > best->row[best->next].decided)) best = r;
+  dyd_status st = rank && s->row ? DYD_OK : DYD_E_NOMEM;
+  size_t n = 0;
+  for (size_t f = 0; f < s->faces && st == DYD_OK; f++)
+    for (size_t k = 0, least = SIZE_MAX; k < s->face[f].count; k++) {
+      if (s->face[f].row[k].decided < least) least = s->face[f].row[k].decided;
+      rank[n++] = (row_rank){least, f, k};
     }
-    dyd_survey_row row = best->row[best->next++];
+  if (n) qsort(rank, n, sizeof *rank, compare_ranks);
+  for (; s->rows < n; s->rows++) {
+    dyd_survey_row row = s->face[rank[s->rows].face].row[rank[s->rows].k];
     row.now = dyd_survey_now(s, row.site);
     row.needed = dyd_survey_needed(s, row.site);
-    s->row[s->rows++] = row;
+    s->row[s->rows] = row;
   }
-  return DYD_OK;
+  free(rank);
+  return st;
 }
 
 /* The plan made small, and its accuracies coarse; then its rows. */
 static dyd_status simplify(dyd_survey *s, const dyd_delaunay *pd) {
-  size_t faces = dyd_delaunay_undecided_faces(pd);
-  dyd_index_list *face = calloc(faces + 1, sizeof *face);
-  dyd_status st = face ? DYD_OK : DYD_E_NOMEM;
-  bool outer;
-  for (size_t f = 0; f < faces && st == DYD_OK; f++) st = dyd_delaunay_face(&face[f], &outer, pd, f);
-  if (st == DYD_OK) st = prune(s, face, faces);
+  dyd_status st = dyd_survey_index_faces(s, pd);
+  if (st == DYD_OK) st = prune(s);
   if (st == DYD_OK) st = loosen(s);
-  if (st == DYD_OK) st = loosen_each(s, face, faces);
+  if (st == DYD_OK) st = loosen_each(s);
   if (st == DYD_OK) st = merge_rows(s);
-  if (st == DYD_OK) st = dyd_survey_count_left(s, face, faces);
-  for (size_t f = 0; face && f < faces; f++) dyd_index_list_clear(&face[f]);
-  free(face);
-  return st;
+  return st == DYD_OK ? dyd_survey_count_left(s) : st;
 }
 
 static dyd_status survey_check(const dyd_survey *s, const dyd_delaunay *pd, dyd_error *err) {
@@ -331,6 +340,7 @@ void dyd_survey_free(dyd_survey *s) {
     dyd_rect_clear(&s->site[i].rect);
     mpq_clears(s->site[i].x, s->site[i].y, s->site[i].half, NULL);
   }
+  dyd_survey_index_clear(s);
   free(s->site);
   free(s->face);
   free(s->row);

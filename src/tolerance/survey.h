@@ -17,8 +17,17 @@ typedef struct dyd_survey_site {
 
 typedef struct dyd_face_rows {
   dyd_survey_row *row;
-  size_t count, cap, next;
+  size_t count;
 } dyd_face_rows;
+
+/* The undecided faces of the triangulation, the sites of each ascending; those of site i are
+ * of[start[i]] to of[start[i + 1] - 1]. */
+typedef struct dyd_survey_faces {
+  dyd_index_list *face;
+  size_t count;
+  size_t *start;
+  uint32_t *of;
+} dyd_survey_faces;
 
 /* Accuracies are min(scale * 2^coarser * unit, half): unit is the accuracy that was given, or each site's own half
  * (unit NULL). */
@@ -28,7 +37,9 @@ struct dyd_survey {
   dyd_error *err; /* of the call that makes it; borrowed, may be NULL */
   size_t sites;
   dyd_survey_site *site;
-  dyd_pair_list target; /* asked for, open, and no tie */
+  dyd_pair_list target; /* asked for, open, and no tie; sorted */
+  size_t *first;        /* those with the lower end i: target.item[first[i]] to target.item[first[i + 1] - 1] */
+  dyd_survey_faces open;
   size_t ties, left;
   mpq_t scale;
   dyd_face_rows *face; /* of every face worked on, in the order to measure */
@@ -50,17 +61,21 @@ size_t dyd_survey_open(const dyd_survey *s, const dyd_delaunay *pd);
 double dyd_survey_needed(const dyd_survey *s, uint32_t i);
 double dyd_survey_now(const dyd_survey *s, uint32_t i);
 
+/* survey_index.c: sorts the targets and finds s->first; fills in s->open; releases both. */
+dyd_status dyd_survey_index_targets(dyd_survey *s);
+dyd_status dyd_survey_index_faces(dyd_survey *s, const dyd_delaunay *pd);
+void dyd_survey_index_clear(dyd_survey *s);
+
 /* survey_face.c: the number of a site among these, ascending, or DYD_NONE. */
 uint32_t dyd_survey_number_in(const dyd_index_list *sites, uint32_t site);
 /* Chooses among the sites of face f of pd so that its targets are decided; appends to s->face. */
 dyd_status dyd_survey_face(dyd_survey *s, const dyd_delaunay *pd, size_t f);
-/* How many targets of the face with these sites (ascending) are open as things stand; 0 where `site` is not among them.
- */
-dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_index_list *sites, uint32_t site);
-/* Would more targets of the face with these sites (ascending) be open, were this one not measured? */
+/* How many targets of the face with these sites (ascending) are open as things stand. */
+dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_index_list *sites);
+/* Would more targets of the face with these sites (ascending) be open, were this one of them not measured? */
 dyd_status dyd_survey_face_needs(bool *needs, dyd_survey *s, const dyd_index_list *sites, uint32_t site);
 
-/* survey_left.c: what each row decides after those before it; `face` has the sites of all open faces. */
-dyd_status dyd_survey_count_left(dyd_survey *s, const dyd_index_list *face, size_t faces);
+/* survey_left.c: what each row decides after those before it. */
+dyd_status dyd_survey_count_left(dyd_survey *s);
 
 #endif

@@ -144,22 +144,31 @@ static dyd_status write_rows(face_try *f) {
   return st;
 }
 
+/* Room for as many as have their lower end here. */
+static bool make_targets(face_try *f) {
+  size_t most = 0;
+  for (size_t a = 0; a < f->sites.count; a++) most += f->s->first[f->sites.item[a] + 1] - f->s->first[f->sites.item[a]];
+  f->target = dyd_alloc(most, sizeof *f->target);
+  return f->target;
+}
+
 static void take_targets(face_try *f) {
-  for (size_t k = 0; k < f->s->target.count; k++) {
-    const dyd_pair *p = &f->s->target.item[k];
-    uint32_t i = dyd_survey_number_in(&f->sites, p->i), j = dyd_survey_number_in(&f->sites, p->j);
-    if (i != DYD_NONE && j != DYD_NONE) f->target[f->targets++] = (dyd_pair){i, j, p->status};
-  }
+  const dyd_survey *s = f->s;
+  for (size_t a = 0; a < f->sites.count; a++)
+    for (size_t k = s->first[f->sites.item[a]]; k < s->first[f->sites.item[a] + 1]; k++) {
+      const dyd_pair *p = &s->target.item[k];
+      uint32_t j = dyd_survey_number_in(&f->sites, p->j);
+      if (j != DYD_NONE) f->target[f->targets++] = (dyd_pair){(uint32_t)a, j, p->status};
+    }
 }
 
 /* Room for n sites; measured as they are chosen now. *open gets room for n numbers. */
 static dyd_status face_begin(face_try *f, size_t **open) {
   size_t n = f->sites.count;
   *open = calloc(n + 1, sizeof **open);
-  f->target = dyd_alloc(f->s->target.count, sizeof *f->target);
   f->measured = dyd_alloc(n, sizeof *f->measured);
   f->order = dyd_alloc(n, sizeof *f->order);
-  if (!*open || !f->target || !f->measured || !f->order) return DYD_E_NOMEM;
+  if (!*open || !make_targets(f) || !f->measured || !f->order) return DYD_E_NOMEM;
   for (size_t k = 0; k < n; k++) f->measured[k] = f->s->site[f->sites.item[k]].chosen;
   take_targets(f);
   return DYD_OK;
@@ -191,7 +200,6 @@ dyd_status dyd_survey_face_needs(bool *needs, dyd_survey *s, const dyd_index_lis
   size_t *open = NULL, with, without;
   uint32_t k = dyd_survey_number_in(sites, site);
   *needs = false;
-  if (k == DYD_NONE) return DYD_OK;
   dyd_status st = face_begin(&f, &open);
   if (st == DYD_OK) st = try_face(&with, NULL, &f);
   if (st == DYD_OK) {
@@ -203,11 +211,10 @@ dyd_status dyd_survey_face_needs(bool *needs, dyd_survey *s, const dyd_index_lis
   return st;
 }
 
-dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_index_list *sites, uint32_t site) {
+dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_index_list *sites) {
   face_try f = {.s = s, .sites = *sites};
   size_t *open = NULL;
   *open_pairs = 0;
-  if (dyd_survey_number_in(sites, site) == DYD_NONE) return DYD_OK;
   dyd_status st = face_begin(&f, &open);
   if (st == DYD_OK && f.targets) st = try_face(open_pairs, NULL, &f);
   face_end(&f, open);

@@ -36,14 +36,14 @@ static void measuring_end(measuring *m) {
 }
 
 static void look_at_face(measuring *m, const dyd_index_list *face) {
-  const dyd_pair_list *target = &m->s->target;
-  for (size_t k = 0; k < target->count; k++) {
-    const dyd_pair *p = &target->item[k];
-    if (!m->open[k] || dyd_survey_number_in(face, p->i) == DYD_NONE || dyd_survey_number_in(face, p->j) == DYD_NONE)
-      continue;
-    m->open[k] = dyd_survey_is_open(m->now, p);
-    m->left -= !m->open[k];
-  }
+  const dyd_survey *s = m->s;
+  for (size_t a = 0; a < face->count; a++)
+    for (size_t k = s->first[face->item[a]]; k < s->first[face->item[a] + 1]; k++) {
+      const dyd_pair *p = &s->target.item[k];
+      if (!m->open[k] || dyd_survey_number_in(face, p->j) == DYD_NONE) continue;
+      m->open[k] = dyd_survey_is_open(m->now, p);
+      m->left -= !m->open[k];
+    }
 }
 
 static dyd_status measure_site(measuring *m, uint32_t i) {
@@ -57,7 +57,7 @@ static dyd_status measure_site(measuring *m, uint32_t i) {
   return st == DYD_CAPPED ? DYD_OK : st;
 }
 
-dyd_status dyd_survey_count_left(dyd_survey *s, const dyd_index_list *face, size_t faces) {
+dyd_status dyd_survey_count_left(dyd_survey *s) {
   measuring m = {.s = s};
   if (!s->rows) return DYD_OK;
   dyd_status st = measuring_begin(&m);
@@ -65,8 +65,8 @@ dyd_status dyd_survey_count_left(dyd_survey *s, const dyd_index_list *face, size
     dyd_survey_row *row = &s->row[k];
     size_t before = m.left;
     st = measure_site(&m, row->site);
-    for (size_t f = 0; f < faces && st == DYD_OK; f++)
-      if (dyd_survey_number_in(&face[f], row->site) != DYD_NONE) look_at_face(&m, &face[f]);
+    for (size_t q = s->open.start[row->site]; q < s->open.start[row->site + 1] && st == DYD_OK; q++)
+      look_at_face(&m, &s->open.face[s->open.of[q]]);
     row->decided = before - m.left;
     row->left = m.left;
   }
