@@ -13,6 +13,7 @@
 
 #include <dyadel/dyadel.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -221,6 +222,9 @@ void cli_signals_remove(const char *temporary);
 void cli_signals_keep(const char *temporary);
 /* Removes these files; async-signal-safe. */
 void cli_signals_unlink(void);
+/* Holds all signals back, until they are released with what *before says. */
+void cli_signals_hold(sigset_t *before);
+void cli_signals_release(const sigset_t *before);
 /* Starts a thread that takes no signals: those that the main thread holds back stay held back. */
 bool cli_signals_spare(pthread_t *out, void *(*work)(void *), void *user);
 /* Raises the flag below; async-signal-safe, from any thread. */

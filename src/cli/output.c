@@ -155,12 +155,11 @@ static bool output_place(cli_output *out, int fd) {
 /* The same with signals held back, so that none comes while the file has a name that nobody knows of; then the folder
  * goes to the disk as well, where it can. */
 static bool output_appear(cli_output *out, int fd) {
-  sigset_t all, before;
-  sigfillset(&all);
-  sigprocmask(SIG_SETMASK, &all, &before);
+  sigset_t before;
+  cli_signals_hold(&before);
   bool done = output_place(out, fd);
   int reason = errno;
-  sigprocmask(SIG_SETMASK, &before, NULL);
+  cli_signals_release(&before);
   int folder = done ? open_folder(out->target, O_RDONLY) : -1;
   if (folder >= 0) {
     fsync(folder);
@@ -172,19 +171,21 @@ static bool output_appear(cli_output *out, int fd) {
 
 /* ---- opening and ending ---- */
 
-/* A file with a name of its own, which signals remove. */
+/* A file with a name of its own, which signals remove. None comes while nobody knows of the file. */
 static int open_named(cli_output *out) {
+  sigset_t before;
   size_t size = strlen(out->target) + sizeof ".XXXXXX";
   out->temporary = malloc(size);
   if (!out->temporary) return -1;
   snprintf(out->temporary, size, "%s.XXXXXX", out->target);
-  int fd = mkstemp(out->temporary);
-  if (fd >= 0) {
-    cli_signals_remove(out->temporary);
-    return fd;
-  }
+  cli_signals_hold(&before);
+  int fd = mkstemp(out->temporary), reason = errno;
+  if (fd >= 0) cli_signals_remove(out->temporary);
+  cli_signals_release(&before);
+  if (fd >= 0) return fd;
   free(out->temporary);
   out->temporary = NULL;
+  errno = reason;
   return -1;
 }
 

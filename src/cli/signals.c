@@ -82,11 +82,20 @@ void cli_signals_keep(const char *temporary) {
   signals_exchange(temporary, NULL);
 }
 
-bool cli_signals_spare(pthread_t *out, void *(*work)(void *), void *user) {
-  sigset_t all, before;
+void cli_signals_hold(sigset_t *before) {
+  sigset_t all;
   sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
+  pthread_sigmask(SIG_SETMASK, &all, before);
+}
+
+void cli_signals_release(const sigset_t *before) {
+  pthread_sigmask(SIG_SETMASK, before, NULL);
+}
+
+bool cli_signals_spare(pthread_t *out, void *(*work)(void *), void *user) {
+  sigset_t before;
+  cli_signals_hold(&before);
   bool done = pthread_create(out, NULL, work, user) == 0;
-  pthread_sigmask(SIG_SETMASK, &before, NULL);
+  cli_signals_release(&before);
   return done;
 }

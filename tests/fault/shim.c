@@ -6,6 +6,7 @@
  *   FAULT_AT     n, counted from 1; 0: none fails
  *   FAULT_ON     with any value: so do all that follow
  *   FAULT_ERRNO  what errno says of it (EIO)
+ *   FAULT_SIGNAL a signal that the process gets as soon as mkstemp has made a file
  *   FAULT_LOCALE with any value: the locale is that of the environment, as in programs that call setlocale
  *   FAULT_COUNT  a file that is given the number of calls when the process ends in the usual way */
 #include <dlfcn.h>
@@ -14,6 +15,7 @@
 #include <link.h>
 #include <locale.h>
 #include <pthread.h>
+#include <signal.h>
 #include <spawn.h>
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -130,7 +132,11 @@ FILE *fdopen(int fd, const char *mode) {
   return fails("fdopen") ? NULL : NEXT(fdopen)(fd, mode);
 }
 int mkstemp(char *path) {
-  return fails("mkstemp") ? -1 : NEXT(mkstemp)(path);
+  long number = 0;
+  int fd = fails("mkstemp") ? -1 : NEXT(mkstemp)(path);
+  read_number("FAULT_SIGNAL", &number);
+  if (fd >= 0 && number) kill(getpid(), (int)number);
+  return fd;
 }
 int fchmod(int fd, mode_t mode) {
   return fails("fchmod") ? -1 : NEXT(fchmod)(fd, mode);

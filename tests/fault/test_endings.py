@@ -35,7 +35,7 @@ def get(path):
         return f.read()
 
 
-def start(folder, *args, way, prepare=None, **who):
+def start(folder, *args, way, prepare=None, fault_signal=0, **who):
     """With signals as they are by default, whether or not the tests run under nohup or in the background of a script."""
     def prepare_all():
         for number in (signal.SIGHUP, signal.SIGINT, signal.SIGQUIT):
@@ -43,7 +43,8 @@ def start(folder, *args, way, prepare=None, **who):
         if prepare:
             prepare()
     return subprocess.Popen([COMMAND, *args], cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE, env=dict(os.environ, **WAYS[way]), preexec_fn=prepare_all, **who)
+                            stderr=subprocess.PIPE,
+                            env=dict(os.environ, FAULT_SIGNAL=str(int(fault_signal)), **WAYS[way]), preexec_fn=prepare_all, **who)
 
 
 def endless(folder, way, **options):
@@ -105,6 +106,16 @@ def test_signals_that_end():
                 process.communicate(timeout=60)
                 assert process.returncode == -number, (way, number, process.returncode)
                 assert sorted(os.listdir(folder)) == ['o', 'p'] and get(os.path.join(folder, 'o')) == OLD, (way, number)
+
+
+def test_signal_as_soon_as_there_is_a_file():
+    with tempfile.TemporaryDirectory() as folder:
+        put(os.path.join(folder, 'p'), SQUARE)
+        put(os.path.join(folder, 'o'), OLD)
+        process = start(folder, 'delaunay', 'p', '-o', 'o', way='with a name', prepare=no_core, fault_signal=signal.SIGQUIT)
+        process.communicate(timeout=60)
+        assert process.returncode == -signal.SIGQUIT, process.returncode
+        assert sorted(os.listdir(folder)) == ['o', 'p'] and get(os.path.join(folder, 'o')) == OLD, os.listdir(folder)
 
 
 def test_signals_that_cancel():
