@@ -82,8 +82,8 @@ DYD_API dyd_metric dyd_tolerance_metric(const dyd_tolerance *t);
  * infinite for fewer than three points [TOL-5]. */
 DYD_API void dyd_tolerance_whole(double *lo, double *hi, const dyd_tolerance *t);
 /* For each site a radius, rounded down: if every point is within its radius of its place, legal edges are edges, and
- * others are none, as at the nominal places [TOL-6]. An alias is one point with
- * the site it stands for: it has its radius, and moves with it. Borrowed; NULL unless options.points was set. */
+ * others are none, as at the nominal places [TOL-6]. An alias is one point with the site it stands for: it has its
+ * radius, and moves with it. Borrowed; NULL unless options.points was set. */
 DYD_API const double *dyd_tolerance_points(const dyd_tolerance *t);
 /* For each row a lower bound of the probability that the pair is an edge, when every coordinate of every point has a
  * normal error of standard deviation options.sigma, or sigmas, all independent [TOL-7]. 0 for births and ties.

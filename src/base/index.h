@@ -15,6 +15,13 @@ static inline int dyd_compare_index(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
+/* The same for items that begin with two numbers, such as pairs of sites: by the first, then by the second. */
+static inline int dyd_compare_two(const void *a, const void *b) {
+  const uint32_t *x = a, *y = b;
+  if (x[0] != y[0]) return x[0] < y[0] ? -1 : 1;
+  return (x[1] > y[1]) - (x[1] < y[1]);
+}
+
 /* The place of *index in an array that is sorted by the number each item begins with; NULL: there is none. */
 static inline void *dyd_find_index(const uint32_t *index, const void *item, size_t count, size_t size) {
   return count ? bsearch(index, item, count, size, dyd_compare_index) : NULL;

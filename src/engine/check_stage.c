@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/index.h"
 #include "rect/interval.h"
 #include "stream/stream.h"
 #include "voronoi/exact_cell.h"
@@ -75,11 +76,6 @@ dyd_status dyd_check_narrow(dyd_check_state *s, uint32_t point, int64_t bits) {
 
 /* ---- statuses ---- */
 
-static int pair_compare(const dyd_pair *a, const dyd_pair *b) {
-  if (a->i != b->i) return a->i < b->i ? -1 : 1;
-  return (a->j > b->j) - (a->j < b->j);
-}
-
 static bool is_alias(const dyd_delaunay *pd, uint32_t i) {
   return dyd_delaunay_alias(pd, i) != i;
 }
@@ -97,7 +93,7 @@ static void pairs_compare_lists(dyd_check_state *s, const dyd_pair_list *before,
                                 pair_visit visit) {
   size_t a = 0, b = 0;
   while ((a < before->count || b < now->count) && !fault_found(s)) {
-    int c = a == before->count ? 1 : b == now->count ? -1 : pair_compare(&before->item[a], &now->item[b]);
+    int c = a == before->count ? 1 : b == now->count ? -1 : dyd_compare_two(&before->item[a], &now->item[b]);
     const dyd_pair *pair = c <= 0 ? &before->item[a] : &now->item[b];
     visit(s, pair, c <= 0 ? before->item[a].status : DYD_ILLEGAL, c >= 0 ? now->item[b].status : DYD_ILLEGAL);
     a += c <= 0;

@@ -4,6 +4,7 @@
 #include "delaunay/memory.h"
 
 #include "base/alloc.h"
+#include "base/index.h"
 #include <string.h>
 
 dyd_status dyd_history_new(dyd_history **out) {
@@ -26,11 +27,6 @@ void dyd_history_free(dyd_history *h) {
 
 /* ---- pairs ---- */
 
-static int compare_ends(const dyd_pair *a, const dyd_pair *b) {
-  if (a->i != b->i) return a->i < b->i ? -1 : 1;
-  return (a->j > b->j) - (a->j < b->j);
-}
-
 static bool history_add_change(dyd_history *h, const dyd_pair *p, dyd_pair_status status) {
   if (!dyd_reserve((void **)&h->change, &h->change_cap, h->changes + 1, sizeof *h->change)) return false;
   h->change[h->changes++] = (dyd_pair){p->i, p->j, status};
@@ -42,7 +38,7 @@ static bool history_add_changes(dyd_history *h, const dyd_pair_list *now) {
   const dyd_pair_list *last = &h->last;
   bool good = true;
   for (size_t a = 0, b = 0; good && (a < last->count || b < now->count);) {
-    int order = a == last->count ? 1 : b == now->count ? -1 : compare_ends(&last->item[a], &now->item[b]);
+    int order = a == last->count ? 1 : b == now->count ? -1 : dyd_compare_two(&last->item[a], &now->item[b]);
     if (order < 0)
       good = history_add_change(h, &last->item[a], DYD_ILLEGAL);
     else if (order > 0 || last->item[a].status != now->item[b].status)

@@ -29,15 +29,9 @@ void dyd_settled_clear(dyd_settled *s) {
 
 /* ---- what is known ---- */
 
-static int settled_compare(const void *a, const void *b) {
-  const dyd_settled_pair *p = a, *q = b;
-  if (p->i != q->i) return p->i < q->i ? -1 : 1;
-  return (p->j > q->j) - (p->j < q->j);
-}
-
 static const dyd_settled_pair *settled_find(const dyd_settled *s, uint32_t i, uint32_t j) {
   const dyd_settled_pair key = {.i = i, .j = j};
-  return s->count ? bsearch(&key, s->item, s->count, sizeof key, settled_compare) : NULL;
+  return s->count ? bsearch(&key, s->item, s->count, sizeof key, dyd_compare_two) : NULL;
 }
 
 bool dyd_is_settled(const dyd_settled *s, const dyd_pair *pair) {
@@ -48,10 +42,10 @@ bool dyd_is_settled(const dyd_settled *s, const dyd_pair *pair) {
 /* Pairs from `sorted` on have come: what is known of each, in one place. */
 static void settled_sort(dyd_settled *s) {
   size_t kept = 0;
-  if (s->count) qsort(s->item, s->count, sizeof *s->item, settled_compare);
+  if (s->count) qsort(s->item, s->count, sizeof *s->item, dyd_compare_two);
   for (size_t k = 0; k < s->count; k++) {
     dyd_settled_pair *last = kept ? &s->item[kept - 1] : NULL;
-    if (last && settled_compare(last, &s->item[k]) == 0) {
+    if (last && dyd_compare_two(last, &s->item[k]) == 0) {
       last->possible = last->possible || s->item[k].possible;
       last->unsure = last->unsure || s->item[k].unsure;
     } else {

@@ -3,6 +3,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/index.h"
 #include "delaunay/memory.h"
 #include "format/table.h"
 #include "io/diagram.h"
@@ -54,12 +55,6 @@ static const struct {
                     {DYD_CONTENT_GRAPH_MST, DYD_GRAPH_MST, "minimum spanning tree"}};
 enum { GRAPH_LAYERS = sizeof graph_layers / sizeof *graph_layers };
 
-static int compare_graph_edges(const void *a, const void *b) {
-  const dyd_graph_edge *x = a, *y = b;
-  if (x->i != y->i) return x->i < y->i ? -1 : 1;
-  return (x->j > y->j) - (x->j < y->j);
-}
-
 /* The edges as pairs, for pictures: each once, legal where it is sure, from one end at least. */
 static dyd_status pairs_of_graph(dyd_result *r) {
   dyd_pair *item = dyd_alloc(r->graph.count, sizeof *item);
@@ -67,7 +62,7 @@ static dyd_status pairs_of_graph(dyd_result *r) {
   r->pairs = (dyd_pair_list){0, item};
   for (size_t k = 0; k < r->graph.count; k++) {
     const dyd_graph_edge *e = &r->graph.item[k], back = {e->j, e->i, false};
-    const dyd_graph_edge *same = bsearch(&back, r->graph.item, r->graph.count, sizeof back, compare_graph_edges);
+    const dyd_graph_edge *same = bsearch(&back, r->graph.item, r->graph.count, sizeof back, dyd_compare_two);
     if (same && e->i > e->j) continue;
     bool sure = e->sure || (same && same->sure);
     item[r->pairs.count++] =

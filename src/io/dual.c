@@ -10,19 +10,14 @@
 #include "io/dual.h"
 
 #include "base/alloc.h"
+#include "base/index.h"
 #include "delaunay/memory.h"
 #include "delaunay/undecided.h"
 #include <math.h>
 
-static int dual_compare(const void *a, const void *b) {
-  const dyd_dual_edge *x = a, *y = b;
-  if (x->i != y->i) return x->i < y->i ? -1 : 1;
-  return (x->j > y->j) - (x->j < y->j);
-}
-
 static dyd_dual_edge *dual_find(dyd_dual_edge *edge, size_t count, uint32_t i, uint32_t j) {
   const dyd_dual_edge key = {.i = i, .j = j};
-  return bsearch(&key, edge, count, sizeof key, dual_compare);
+  return bsearch(&key, edge, count, sizeof key, dyd_compare_two);
 }
 
 static void dual_join_triangles(dyd_dual_edge *edge, size_t count, const dyd_triangle_list *triangles) {

@@ -4,6 +4,7 @@
  * Blockers are looked for first among those of the pairs just before with the same site i, as a few sites round i block
  * most others; then among the sites of the set and the neighbours of the two; then among all. */
 #include "base/alloc.h"
+#include "base/index.h"
 #include "checker/checker.h"
 #include "prove/proof.h"
 #include <inttypes.h>
@@ -29,12 +30,6 @@ static dyd_status add_line(lines *l, uint32_t i, uint32_t j, char kind) {
   if (!dyd_reserve((void **)&l->item, &l->cap, l->count + 1, sizeof *l->item)) return DYD_E_NOMEM;
   l->item[l->count++] = (line){i, j, kind};
   return DYD_OK;
-}
-
-static int compare_line(const void *a, const void *b) {
-  const line *x = a, *y = b;
-  if (x->i != y->i) return x->i < y->i ? -1 : 1;
-  return (x->j > y->j) - (x->j < y->j);
 }
 
 static dyd_status open_lines(lines *l, dyd_proof *p) {
@@ -184,7 +179,7 @@ static dyd_status pair_put_lines(FILE *out, dyd_proof *p, const lines *l) {
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < l->count && st == DYD_OK; k++) {
     const line *at = &l->item[k];
-    if (k && compare_line(at, at - 1) == 0) continue; /* a pair of two sets */
+    if (k && dyd_compare_two(at, at - 1) == 0) continue; /* a pair of two sets */
     if (at->kind == 'n')
       st = pair_put_chain(out, &chain, &near, p, at);
     else
@@ -212,7 +207,7 @@ dyd_status dyd_proof_put_pairs(FILE *out, dyd_proof *p) {
   dyd_status st = open_lines(&l, p);
   for (size_t k = 0; k < l.count; k++) dyd_cert_faces_cover(&p->faces, l.item[k].i, l.item[k].j);
   if (st == DYD_OK && dyd_cert_faces_left(&p->faces) && !dyd_delaunay_is_capped(p->pd)) st = illegal_lines(&l, p);
-  if (st == DYD_OK && l.count) qsort(l.item, l.count, sizeof *l.item, compare_line);
+  if (st == DYD_OK && l.count) qsort(l.item, l.count, sizeof *l.item, dyd_compare_two);
   if (st == DYD_OK) st = pair_put_lines(out, p, &l);
   if (st == DYD_OK) st = pair_put_boxes(out, p);
   free(l.item);

@@ -43,11 +43,6 @@ static dyd_status mark_open(bool *open, const dyd_delaunay *pd) {
   return st;
 }
 
-static int compare_places(const void *a, const void *b) {
-  const uint32_t *x = a, *y = b;
-  return (*x > *y) - (*x < *y);
-}
-
 size_t dyd_sphere_faces(const dyd_sphere *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
   return pd ? dyd_delaunay_undecided_faces(pd) + s->free : 0;
@@ -75,7 +70,7 @@ dyd_status dyd_sphere_face(dyd_index_list *out, bool *tie, const dyd_sphere *s, 
     for (size_t k = 0; k < face.count; k++) item[k] = s->of[face.item[k]];
     item[face.count] = s->centre;
     size_t n = face.count + (outer && !s->free);
-    qsort(item, n, sizeof *item, compare_places);
+    qsort(item, n, sizeof *item, dyd_compare_index);
     dyd_index_list_clear(out);
     *out = (dyd_index_list){n, item};
   }
@@ -99,19 +94,13 @@ static dyd_status centre_statuses(dyd_pair_status *status, const dyd_sphere *s, 
   return st;
 }
 
-static int compare_pairs(const void *a, const void *b) {
-  const dyd_pair *x = a, *y = b;
-  if (x->i != y->i) return x->i < y->i ? -1 : 1;
-  return (x->j > y->j) - (x->j < y->j);
-}
-
 static dyd_pair pair_of(uint32_t i, uint32_t j, dyd_pair_status status) {
   return i < j ? (dyd_pair){i, j, status} : (dyd_pair){j, i, status};
 }
 
 static const dyd_pair *pair_find(const dyd_pair_list *l, uint32_t i, uint32_t j) {
   const dyd_pair key = pair_of(i, j, DYD_LEGAL);
-  return l->count ? bsearch(&key, l->item, l->count, sizeof key, compare_pairs) : NULL;
+  return l->count ? bsearch(&key, l->item, l->count, sizeof key, dyd_compare_two) : NULL;
 }
 
 /* The pairs of the centre; about one that is no place, pairs of its neighbours that are not among the others. */
@@ -134,7 +123,7 @@ static dyd_status pairs_merge(dyd_pair *item, size_t first, size_t n) {
   if (!late) return DYD_E_NOMEM;
   for (size_t k = first; k < n; k++) late[k - first] = item[k];
   for (size_t at = n, left = n - first; left;) {
-    bool early = first && compare_pairs(&item[first - 1], &late[left - 1]) > 0;
+    bool early = first && dyd_compare_two(&item[first - 1], &late[left - 1]) > 0;
     item[--at] = early ? item[--first] : late[--left];
   }
   free(late);
@@ -152,7 +141,7 @@ static dyd_status pairs_join(dyd_pair_list *out, const dyd_sphere *s, const dyd_
   for (; n < images->count; n++)
     item[n] = pair_of(s->of[images->item[n].i], s->of[images->item[n].j], images->item[n].status);
   n += pairs_about_centre(item + n, s, images, status);
-  qsort(item + images->count, n - images->count, sizeof *item, compare_pairs);
+  qsort(item + images->count, n - images->count, sizeof *item, dyd_compare_two);
   dyd_status st = pairs_merge(item, images->count, n);
   if (st != DYD_OK) {
     free(item);

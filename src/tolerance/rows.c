@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Rows: one for each pair, sorted in the end by i, then j. */
 #include "base/alloc.h"
+#include "base/index.h"
 #include "tolerance/roots.h"
 #include "tolerance/state.h"
 
@@ -37,12 +38,6 @@ dyd_status dyd_row_add(dyd_tolerance *t, dyd_tolerance_row row) {
   return DYD_OK;
 }
 
-static int compare_rows(const void *a, const void *b) {
-  const dyd_tolerance_row *x = a, *y = b;
-  if (x->i != y->i) return x->i < y->i ? -1 : 1;
-  return (x->j > y->j) - (x->j < y->j);
-}
-
 /* A short run, such as nearly all sites have. */
 static void sort_few_rows(dyd_tolerance_row *row, size_t count) {
   for (size_t q = 1; q < count; q++) {
@@ -55,7 +50,7 @@ static void sort_few_rows(dyd_tolerance_row *row, size_t count) {
 
 void dyd_rows_sort_site(dyd_tolerance_row *row, size_t count) {
   if (count > 32)
-    qsort(row, count, sizeof *row, compare_rows);
+    qsort(row, count, sizeof *row, dyd_compare_two);
   else
     sort_few_rows(row, count);
 }
@@ -66,7 +61,7 @@ size_t dyd_row_find(const dyd_tolerance *t, uint32_t v, uint32_t w) {
   size_t lo = 0, hi = t->rows;
   while (lo < hi) {
     size_t mid = lo + (hi - lo) / 2;
-    if (compare_rows(&t->row[mid], &pair) < 0)
+    if (dyd_compare_two(&t->row[mid], &pair) < 0)
       lo = mid + 1;
     else
       hi = mid;

@@ -1,15 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* In which faces and targets a site is, so that nobody looks through all of them. */
 #include "base/alloc.h"
+#include "base/index.h"
 #include "tolerance/survey.h"
 
 #include <stdlib.h>
-
-static int compare_targets(const void *a, const void *b) {
-  const dyd_pair *p = a, *q = b;
-  if (p->i != q->i) return p->i < q->i ? -1 : 1;
-  return (p->j > q->j) - (p->j < q->j);
-}
 
 dyd_status dyd_survey_index_targets(dyd_survey *s) {
   dyd_pair_list *t = &s->target;
@@ -19,7 +14,7 @@ dyd_status dyd_survey_index_targets(dyd_survey *s) {
     dyd_pair p = t->item[k];
     if (p.i > p.j) t->item[k] = (dyd_pair){p.j, p.i, p.status};
   }
-  if (t->count) qsort(t->item, t->count, sizeof *t->item, compare_targets);
+  if (t->count) qsort(t->item, t->count, sizeof *t->item, dyd_compare_two);
   for (size_t k = 0; k < t->count; k++) s->first[t->item[k].i + 1]++;
   for (size_t i = 0; i < s->sites; i++) s->first[i + 1] += s->first[i];
   return DYD_OK;
