@@ -115,11 +115,10 @@ static void near_of_range(void *context, size_t number) {
   }
 }
 
-dyd_status dyd_certify_near(dyd_skeleton *sk, dyd_work *w, double reach, const uint32_t *met) {
-  near_pass p = {.sk = sk, .w = w, .met = met, .reach = reach > 0x1p-300 ? reach : 0x1p-300};
+dyd_status dyd_certify_near(dyd_skeleton *sk, dyd_work *w, double reach, const uint32_t *met, double most) {
+  near_pass p = {.sk = sk, .w = w, .met = met, .most = most, .reach = reach > 0x1p-300 ? reach : 0x1p-300};
   p.close = calloc((size_t)sk->mesh.n + 1, 1);
   if (!p.close) return DYD_E_NOMEM;
-  p.most = dyd_short_edge(&sk->mesh);
   dyd_status st = dyd_mark_tasks_init(&p.tasks, sk, w);
   if (st == DYD_OK) {
     measure_edges(&p);

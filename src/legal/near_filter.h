@@ -59,7 +59,8 @@ static inline bool dyd_filter_hull_edge_near(dyd_xy i, dyd_xy j, dyd_xy u, doubl
  * width. A guess, for limits that may be any; 0 where there are no edges. */
 double dyd_short_edge(const dyd_mesh *m);
 /* The first quick pass, for representatives that are doubles and sites within `reach` of them: marks the edges that the
- * two triangles beside them prove legal. met (NULL: no site is farther): of dyd_fat_meet for those that are. */
-dyd_status dyd_certify_near(dyd_skeleton *sk, dyd_work *w, double reach, const uint32_t *met);
+ * two triangles beside them prove legal. met (NULL: no site is farther): of dyd_fat_meet for those that are. most: the
+ * distance tried first, any, best dyd_short_edge. */
+dyd_status dyd_certify_near(dyd_skeleton *sk, dyd_work *w, double reach, const uint32_t *met, double most);
 
 #endif

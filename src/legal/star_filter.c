@@ -29,6 +29,7 @@ typedef struct pass {
   dyd_work *w;
   uint8_t *open; /* of each vertex: it has an edge, real or ghost, that is not certain yet */
   dyd_mark_tasks tasks;
+  double edge;  /* nearly all edges are longer */
   double limit; /* radius above which a rectangle is fat */
   double reach; /* 2 E */
   dyd_tree fat;
@@ -44,12 +45,13 @@ static double star_radius(const dyd_skeleton *sk, uint32_t v) {
 
 /* Four times the median radius of a sample, or more while nearly all edges are long beside it: whoever is larger counts
  * as fat. */
-static double ordinary_radius(const dyd_skeleton *sk) {
+static double ordinary_radius(const pass *p) {
+  const dyd_skeleton *sk = p->sk;
   double sample[256];
   size_t count = 0, step = sk->n / 256 + 1;
   for (size_t v = 0; v < sk->n && count < 256; v += step) sample[count++] = star_radius(sk, (uint32_t)v);
   qsort(sample, count, sizeof *sample, dyd_compare_double);
-  return fmax(4 * sample[count / 2], dyd_short_edge(&sk->mesh) / LONG);
+  return fmax(4 * sample[count / 2], p->edge / LONG);
 }
 
 static dyd_status gather_fat(pass *p) {
@@ -57,7 +59,7 @@ static dyd_status gather_fat(pass *p) {
   double largest = 0;
   uint32_t *fat = NULL;
   size_t count = 0, cap = 0;
-  p->limit = ordinary_radius(sk);
+  p->limit = ordinary_radius(p);
   for (uint32_t v = 0; v < sk->n; v++) {
     double r = star_radius(sk, v);
     if (r <= p->limit)
@@ -233,13 +235,13 @@ static dyd_status certify_thin(const pass *p) {
   uint32_t *met = NULL;
   if (p->sk->reps.code) return DYD_OK;
   dyd_status st = dyd_fat_meet(&met, p->sk, p->fat.item, p->fat.count, p->reach / 2);
-  if (st == DYD_OK && (met || p->fat.count == 0)) st = dyd_certify_near(p->sk, p->w, p->reach / 2, met);
+  if (st == DYD_OK && (met || p->fat.count == 0)) st = dyd_certify_near(p->sk, p->w, p->reach / 2, met, p->edge);
   free(met);
   return st;
 }
 
 dyd_status dyd_certify_stars(dyd_skeleton *sk, dyd_work *w) {
-  pass p = {.sk = sk, .w = w};
+  pass p = {.sk = sk, .w = w, .edge = dyd_short_edge(&sk->mesh)};
   dyd_status st = gather_fat(&p);
   if (st == DYD_OK) st = certify_thin(&p);
   if (st == DYD_OK) {
