@@ -68,24 +68,27 @@ static dyd_status death_by_integers(dyd_tolerance_row *row, dyd_ring_d *ring, dy
 
 /* ---- in doubles ---- */
 
-static bool add_ring_d(dyd_lines_d *l, const dyd_tolerance *t, uint32_t v) {
-  return dyd_filter_add(l, &t->points, t->near + t->start[v], dyd_degree(t, v), t->sk->mesh.n);
+/* Of v's neighbours all but w, or those that are no apexes of the edge either. */
+static bool add_ring_d(dyd_lines_d *l, const dyd_tolerance *t, uint32_t v, uint32_t w, bool apexes) {
+  const uint32_t *near = t->near + t->start[v];
+  uint32_t size = dyd_degree(t, v), at = 0;
+  for (uint32_t k = 1; k < size; k++) at = near[k] == w ? k : at;
+  return apexes ? dyd_filter_add(l, &t->points, near, size, at + 1, size - 1)
+                : dyd_filter_add(l, &t->points, near, size, at + 2, size - 3);
 }
 
-/* Who may bind: the neighbours of both ends; with a hub, those of an end that is none, and the apexes. false: doubles
- * cannot hold the pair well. */
+/* Who may bind, each once but for corners of three edges that are no triangle: the neighbours of both ends; with a hub,
+ * those of an end that is none, or the apexes alone. false: doubles cannot hold the pair well. */
 static bool load_edge(dyd_lines_d *l, const dyd_tolerance *t, const death_edge *e) {
-  uint32_t ghost = t->sk->mesh.n, few = dyd_degree(t, e->v) <= DYD_HUB ? e->v : e->w;
+  uint32_t ghost = t->sk->mesh.n, few = dyd_degree(t, e->v) <= DYD_HUB ? e->v : e->w, many = e->v + e->w - few;
   int first = e->apex[0] == ghost;
   if (!dyd_filter_pair(l, &t->points, e->v, e->w)) return false;
   l->apex[0] = e->apex[first];
   l->apex[1] = e->apex[!first] == ghost ? DYD_NONE : e->apex[!first];
-  bool hub = has_hub(t, e->v, e->w), ring = !hub || dyd_degree(t, few) <= DYD_HUB;
-  l->apex_times = ring ? 2 : 1;
-  l->ends = !hub ? 2 : ring ? 1 : 0;
-  if (!hub) return add_ring_d(l, t, e->v) && add_ring_d(l, t, e->w);
-  if (l->apex[1] == DYD_NONE || !dyd_filter_add(l, &t->points, l->apex, 2, ghost)) return false;
-  return !ring || add_ring_d(l, t, few);
+  if (!has_hub(t, e->v, e->w)) return add_ring_d(l, t, few, many, true) && add_ring_d(l, t, many, few, false);
+  if (l->apex[1] == DYD_NONE) return false;
+  return dyd_degree(t, few) <= DYD_HUB ? add_ring_d(l, t, few, many, true)
+                                       : dyd_filter_add(l, &t->points, l->apex, 2, 0, 2);
 }
 
 /* For the tree: is there anybody whom the lines do not know? */

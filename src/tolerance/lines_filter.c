@@ -18,7 +18,7 @@
  * than 7.2 u sqrt(M), as |J| / 2 and |s J| are at most |c|, and by 5 slack / |J| sqrt(M); its computed square by less
  * than 4 R M. With es |J| <= K |c|, K < 2^-12, the line at the true place is off from that at s by 2 |n| es <= 4 K M.
  * So with M of one that binds (the others being farther from c than i), whoever has a computed square above (1 + 12 K +
- * 12 R) times its own is higher at the true place; and i and j never do. */
+ * 12 R) times its own is higher at the true place. */
 #include "tolerance/lines_filter.h"
 #include "tolerance/crossing_filter.h"
 
@@ -66,19 +66,24 @@ bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t
   return p->usable && l->jj > 0x1p-400 && l->jj < 0x1p400 && l->ejj < 0x1p-40 * l->jj;
 }
 
-bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *at, const uint32_t *k, uint32_t count, uint32_t nobody) {
+bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *at, const uint32_t *ring, uint32_t size, uint32_t first,
+                    uint32_t count) {
   const dyd_points_d here = *at;
-  const uint32_t i = l->i, padded = (count + DYD_LINES_BLOCK - 1) / DYD_LINES_BLOCK * DYD_LINES_BLOCK;
+  const uint32_t i = l->i;
   double *px = l->px + l->count, *py = l->py + l->count;
   uint32_t *vertex = l->vertex + l->count;
-  if (padded > DYD_LINES_D - l->count) return false;
-  for (uint32_t q = 0; q < padded; q++) vertex[q] = q < count ? k[q] : nobody;
-  for (uint32_t q = 0; q < padded; q++) {
+  if (count > DYD_LINES_D - l->count) return false;
+  for (uint32_t q = 0, r = first; q < count; q++, r++) {
+    r = r >= size ? r - size : r;
+    vertex[q] = ring[r];
+  }
+  for (uint32_t q = 0; q < count; q++) {
     dyd_xy p = lines_point_difference(&here, vertex[q], i);
     px[q] = p.x;
     py[q] = p.y;
   }
-  l->count += padded;
+  for (uint32_t q = count; q < count + DYD_LINES_BLOCK; q++) px[q] = py[q] = NAN;
+  l->count += count;
   return true;
 }
 
@@ -240,50 +245,43 @@ static void measure_d(near_d *o, const climb_d *c) {
   }
 }
 
-/* How often i, j and those that bind are among the lines, at least. */
-static uint32_t known_d(const climb_d *c) {
-  const dyd_lines_d *l = c->l;
-  uint32_t count = l->ends;
-  for (int k = 0; k < (c->known[0] == c->known[1] ? 1 : 2); k++)
-    count += c->known[k] == l->apex[0] || c->known[k] == l->apex[1] ? l->apex_times : 1;
-  return count;
-}
-
-/* Is nobody as near as those that bind, for sure? i, j and these are. */
-static bool bind_alone(near_d *near, climb_d *c) {
-  const dyd_line_d *a = c->kind == SUMMIT ? c->one : c->rising, *b = c->kind == SUMMIT ? c->one : c->falling;
-  bool binds = !c->at.end && (c->kind == CROSSING || c->kind == SUMMIT);
-  c->known[0] = binds ? a->vertex : DYD_NONE;
-  c->known[1] = binds ? b->vertex : DYD_NONE;
-  near->top = HUGE_VAL;
-  if (binds) near->top = dyd_max(from_centre(a, &c->at), c->at.cc) * (1 + (12 * c->at.near + 12 * c->l->rjj));
-  measure_d(near, c);
-  return binds && near->count == known_d(c) && from_centre(b, &c->at) <= near->top;
-}
-
-/* Who of the others has the lowest line there. DYD_NONE: nobody. */
+/* Who of the others, but those that bind, has the lowest line there. DYD_NONE: nobody. */
 static uint32_t lowest_d(double *distance, const climb_d *c, const near_d *near) {
   uint32_t best = DYD_NONE;
   *distance = HUGE_VAL;
   for (uint32_t k = 0; k < near->count; k++) {
     uint32_t vertex = c->l->vertex[near->number[k]];
     double e = near->e[near->number[k]];
-    if (!(e < *distance) || vertex == c->l->i || vertex == c->l->j || vertex == c->known[0] || vertex == c->known[1])
-      continue;
+    if (!(e < *distance) || vertex == c->known[0] || vertex == c->known[1]) continue;
     best = vertex;
     *distance = e;
   }
   return best;
 }
 
+/* The lowest of those who may be as near as what binds. *alone: there is none, for sure. */
+static uint32_t beside_binding(bool *alone, double *distance, climb_d *c) {
+  const dyd_line_d *a = c->kind == SUMMIT ? c->one : c->rising, *b = c->kind == SUMMIT ? c->one : c->falling;
+  bool binds = !c->at.end && (c->kind == CROSSING || c->kind == SUMMIT);
+  near_d near;
+  c->known[0] = binds ? a->vertex : DYD_NONE;
+  c->known[1] = binds ? b->vertex : DYD_NONE;
+  near.top = HUGE_VAL;
+  if (binds) near.top = dyd_max(from_centre(a, &c->at), c->at.cc) * (1 + (12 * c->at.near + 12 * c->l->rjj));
+  measure_d(&near, c);
+  uint32_t lowest = lowest_d(distance, c, &near);
+  *alone = binds && lowest == DYD_NONE && from_centre(b, &c->at) <= near.top;
+  return lowest;
+}
+
 /* To where no line lies below what binds. false: not sure. */
 static bool climb_up(climb_d *c) {
   begin_d(c);
   for (int k = 0; k < CLIMBS; k++) {
-    near_d near;
     double distance;
-    if (bind_alone(&near, c)) return true;
-    uint32_t vertex = lowest_d(&distance, c, &near);
+    bool alone;
+    uint32_t vertex = beside_binding(&alone, &distance, c);
+    if (alone) return true;
     if (vertex == DYD_NONE) return false;
     const dyd_line_d *low = climb_line(c, vertex);
     bool high = c->at.end ? -c->at.end * low->n > 0 : distance > c->at.cc;
@@ -356,7 +354,7 @@ static bool end_death(dyd_death_d *out, double *radius2, const climb_d *c) {
   if (!(n2 - jm > doubt * GENEROUS && w > 0)) return false;
   for (uint32_t k = 0; k < l->count; k++) {
     dyd_line_d q;
-    if (l->vertex[k] == o->vertex || l->vertex[k] == l->i || l->vertex[k] == l->j || isnan(l->px[k])) continue;
+    if (l->vertex[k] == o->vertex || isnan(l->px[k])) continue;
     line_of_vertex(&q, l, c->points, l->vertex[k]);
     if (!(-c->at.end * q.n - w > (q.en + o->en) * GENEROUS + 2 * U * w)) return false;
   }

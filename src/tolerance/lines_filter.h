@@ -14,15 +14,14 @@ typedef struct dyd_points_d {
 } dyd_points_d;
 
 /* Loops over lines run to a multiple of a block, since few branches depend on that. */
-enum { DYD_LINES_BLOCK = 8, DYD_LINES_D = 56 };
-/* Of one pair: J, and P = p_k - p_i of the vertices added: i and j may be among them, others more than once, and
- * nobody, whose coordinates are NaN. apex: next to the pair, one on each side, or DYD_NONE the second; each is among
- * them apex_times, at least, and i and j together `ends`. */
+enum { DYD_LINES_BLOCK = 4, DYD_LINES_D = 48 };
+/* Of one pair: J, and P = p_k - p_i of the vertices added, none of which is i or j; up to the next multiple of a block
+ * follows nobody: NaN. apex: next to the pair, one on each side, or DYD_NONE the second; both are among them. */
 typedef struct dyd_lines_d {
   double jx, jy, jj, ejj, rjj; /* rjj: ejj / jj */
-  uint32_t i, j, count, apex[2], apex_times, ends;
-  double px[DYD_LINES_D], py[DYD_LINES_D];
-  uint32_t vertex[DYD_LINES_D];
+  uint32_t i, j, count, apex[2];
+  double px[DYD_LINES_D + DYD_LINES_BLOCK], py[DYD_LINES_D + DYD_LINES_BLOCK];
+  uint32_t vertex[DYD_LINES_D + DYD_LINES_BLOCK];
 } dyd_lines_d;
 
 /* One of them, with Q = p_k - p_j: em, en, ea bound the errors of m, n and along = P.J. */
@@ -41,8 +40,10 @@ typedef struct dyd_death_d {
 
 /* Begins with no vertex. false: doubles cannot hold the pair well. */
 bool dyd_filter_pair(dyd_lines_d *l, const dyd_points_d *p, uint32_t i, uint32_t j);
-/* Adds vertices; false: there is no room. nobody: a vertex whose coordinates are NaN. */
-bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *p, const uint32_t *k, uint32_t count, uint32_t nobody);
+/* Adds `count` vertices of a cyclic list of `size`, from number `first` on, which is below 2 size; false: there is no
+ * room. Those whose coordinates are NaN are nobody. */
+bool dyd_filter_add(dyd_lines_d *l, const dyd_points_d *p, const uint32_t *ring, uint32_t size, uint32_t first,
+                    uint32_t count);
 void dyd_filter_line(dyd_line_d *o, const dyd_lines_d *l, const dyd_points_d *p, uint32_t vertex);
 /* The death of a strictly Delaunay pair with these others; false: not sure. `box` (may be NULL) gets a box around the
  * centre, *radius2 an upper bound of its squared distance to the sites that bind; infinite for a half-plane. */
