@@ -11,8 +11,9 @@ import shutil
 import subprocess
 import sys
 
-THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerExtract')
-READERS = ('reader', 'hints', 'cuts', 'proved')
+THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerTies',
+            'CheckerExtract')
+READERS = ('reader', 'hints', 'cuts', 'circles', 'proved')
 
 
 def build(proofs, folder, output):

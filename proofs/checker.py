@@ -6,7 +6,8 @@ Usage: checker.py ROOT DYADEL_PROVED DYADEL [COUNT]
 
 On certificates of the airports and of COUNT random inputs (default 100), on mutants of these, on forgeries, chains among
 them, and on texts in another spelling: what verify accepts is accepted, and of what is all proved verify says so too; what
-is accepted and rejected as it has to be. The time grows little faster than the number of sites.
+is accepted and rejected as it has to be; of ties at least as much as verify proves. The time grows little faster than the
+number of sites, so do the triangles that cover the plane.
 """
 import os
 import pathlib
@@ -19,6 +20,13 @@ import tempfile
 
 SEED = 1
 ALL, NOT_ALL, REJECTED = 0, 3, 1
+COVER_GROWTH = 1.3
+
+
+def gaps(answer):
+    """What is said not to be proved, but for ties: of them verify proves fewer."""
+    rows = answer.stdout.splitlines()
+    return [row for row in rows if row.startswith('not proved: ') and 'no refinement decides' not in row]
 
 
 class Checkers:
@@ -48,7 +56,7 @@ class Checkers:
         self.rejected += here.returncode == REJECTED
         if here.returncode not in (ALL, NOT_ALL, REJECTED):
             yield f'{name}: exit status {here.returncode}: {here.stderr}'
-        elif here.returncode == ALL and there.returncode != ALL:
+        elif here.returncode == ALL and (there.returncode == REJECTED or gaps(there)):
             yield f'{name}: all proved, but verify says: {there.stdout.splitlines()[:1]}{there.stderr}\n{text}'
         elif here.returncode == REJECTED and there.returncode != REJECTED:
             yield f'{name}: {here.stderr}but verify accepts:\n{text}'
@@ -199,6 +207,75 @@ def try_chains(both, path):
         yield 'hardly any chain was tried, or refused'
 
 
+def mixed(rng):
+    """Points of a lattice, and boxes among them."""
+    size = rng.randrange(2, 6)
+    lattice = [(x, y) for x in range(size) for y in range(size) if rng.randrange(8)]
+    boxes = [(rng.randrange(-8, 8 * size + 8) / 8 + 1 / 16, rng.randrange(-8, 8 * size + 8) / 8 + 1 / 16, rng.choice((1, 8, 64)))
+             for _ in range(rng.randrange(1, 4))]
+    return ''.join(f'{x} {y}\n' for x, y in lattice) + ''.join(f'[{x},{x + 1 / w}] [{y},{y + 1 / w}]\n' for x, y, w in boxes)
+
+
+def left_ties(answer):
+    """How many ties are said not to be proved."""
+    return int((re.search(r'not proved: .*no refinement decides (\d+) ties', answer.stdout) or (0, 0))[1])
+
+
+def as_tie(text, line):
+    """The text with one line on a pair that says it is a tie."""
+    return text.replace(f'\n{line}\n', f'\nt {line[2:]}\n')
+
+
+def try_ties(both, count):
+    """Ties beside boxes: those are proved that verify proves, and more; the outcome, too; of a pair that is none it is not said."""
+    rng = random.Random(SEED)
+    ties = forged = still = 0
+    for number in range(count):
+        text = both.certificate(mixed(rng))
+        here, there = both.ask(both.proved, text=text), both.ask(both.dyadel, 'verify', text=text)
+        lines = text[text.index('\npairs\n'):].split('\n')
+        ties += sum(line.startswith('t ') for line in lines)
+        still += 'checked: the outcome fixpoint' in here.stdout
+        if left_ties(here) > left_ties(there):
+            yield f'ties of input {number}: {left_ties(here)} left, by verify {left_ties(there)}:\n{text}'
+        if 'checked: the outcome' in there.stdout and 'checked: the outcome' not in here.stdout:
+            yield f'the outcome of input {number} is not proved, but verify says it is:\n{text}'
+        if any(line.startswith('o ') for line in lines) and 'checked: the outcome fixpoint' in here.stdout:
+            yield f'the outcome of input {number} is proved with open pairs:\n{text}'
+        for line in lines:
+            if line.startswith('o '):
+                forged += 1
+                if left_ties(both.ask(both.proved, text=as_tie(text, line))) != left_ties(here) + 1:
+                    yield f'a tie that is none is proved, {line}:\n{text}'
+    print(f'seed {SEED}: {count} mixed inputs, {ties} ties, {forged} forged ones, {still} times the outcome fixpoint')
+    if ties < 5 * count or forged < count or still * 8 < count:
+        yield 'hardly any ties were tried, or forged, or hardly any outcome was a fixpoint'
+
+
+def try_forged_ties(both):
+    """A tie that is stated of a legal pair, of an illegal one, of one with a box: refused, or not proved."""
+    unit = '0 0\n1 0\n0 1\n1 1\n'
+    text = re.sub(r'\n(area|hausdorff) \S+', r'\n\1 none', both.certificate(unit + '9 [1,2]\n'))
+    for line, status in (('0 1', REJECTED), ('0 4', NOT_ALL), ('1 4', REJECTED)):
+        pairs = [row for row in text.split('\n') if row.startswith('t ')] + [f't {line}']
+        pairs.sort(key=lambda row: [int(word) for word in row[2:].split(' ')])
+        head, tail = text.split('\npairs\n')
+        tail = '\n'.join(row for row in tail.split('\n') if not row.startswith('t '))
+        answer = both.ask(both.proved, text='\n'.join([head, 'pairs', *pairs, tail]))
+        if answer.returncode != status or (status == NOT_ALL and left_ties(answer) != 1):
+            yield f'tie {line}: {answer}'
+
+
+def try_fixpoint(both):
+    """Ties and a box: a fixpoint, but for a goal on a bound, or when a tie is not listed."""
+    text = both.certificate('0 0\n1 0\n0 1\n1 1\n5 [0.5,0.53125]\n')
+    for forged, proved in ((text, True), (text.replace('\ngoal decided\n', '\ngoal area 90\n'), False),
+                           (without_line(text, 't', 0), False)):
+        answer = both.ask(both.proved, text=forged)
+        if answer.returncode == REJECTED or ('checked: the outcome fixpoint' in answer.stdout) != proved:
+            yield f'fixpoint: {answer}'
+
+
 # A witness of 0 3 whose circle also goes through 1 and 2.
 TOUCHED = ('dyadel certificate 1\noutcome fixpoint\ngoal decided\ncapped no\nsites 4\n0 0\n1 0\n0 1\n1 1\nlegal 1\n'
            '0 3 1*2^-1 1*2^-1\nplaces 0\nbridges 0\ncorners 0\npairs\ntriangles 0\nunproved 5\narea none\nhausdorff none\nend\n')
@@ -291,15 +368,33 @@ def try_growth(both):
         yield 'the time grows with the square of the number of sites'
 
 
+def covering(both, size):
+    """How many triangles cover the plane, a site, for a square lattice."""
+    text = both.certificate(''.join(f'{x} {y}\n' for x in range(size) for y in range(size)))
+    said = both.ask(both.proved, text=text).stdout
+    return int(re.search(r'by (\d+) triangles that cover the plane', said)[1]) / size ** 2
+
+
+def try_cover(both):
+    few, many = covering(both, 16), covering(both, 48)
+    print(f'triangles that cover the plane, a site: {few:.2f}, {many:.2f} for 9 times as many')
+    if many > COVER_GROWTH * few:
+        yield 'the number of triangles grows faster than that of sites'
+
+
 def main():
     root, proved, dyadel = (pathlib.Path(arg).resolve() for arg in sys.argv[1:4])
     with tempfile.TemporaryDirectory() as folder:
         both = Checkers(proved, dyadel, pathlib.Path(folder))
         found = list(try_random(both, int(sys.argv[4]) if len(sys.argv) > 4 else 100))
         found += try_chains(both, root / 'tests/checker/forgeries.txt')
+        found += try_ties(both, 60)
+        found += try_forged_ties(both)
+        found += try_fixpoint(both)
         found += try_cases(both, root)
         found += try_command(both)
         found += try_growth(both)
+        found += try_cover(both)
     print('\n'.join(found) or 'no fault')
     return 1 if found else 0
 

@@ -9,7 +9,7 @@ exception Bad of int * string
 (* The section of pairs that are not known to be legal. *)
 type pairs = {
   mutable listed : Checker.edge list;  (* lines o, t and l; the points mean nothing *)
-  mutable ties : int;
+  mutable ties : Checker.edge list;  (* lines t *)
   mutable opened : int;  (* lines o *)
   mutable unwitnessed : int;  (* lines l *)
   mutable chains : (int * Checker.chain) list;  (* with their lines *)
@@ -23,7 +23,6 @@ type certificate = {
   goal : string list;  (* its words *)
   capped : bool;
   sites : Checker.site list;
-  exact : bool;  (* is every site a point? *)
   aliases : int;
   loose : int;  (* aliases of sites that are not exact *)
   edges : Checker.edge list;
@@ -210,7 +209,7 @@ let read_chain s known (one, other) first_way rest =
 
 (* Lines on pairs, and the counts that follow. *)
 let read_pairs s known legal =
-  let p = { listed = []; ties = 0; opened = 0; unwitnessed = 0; chains = []; boxes = 0; faces = 0; unproved = 0 } and last = ref (-1, -1) in
+  let p = { listed = []; ties = []; opened = 0; unwitnessed = 0; chains = []; boxes = 0; faces = 0; unproved = 0 } and last = ref (-1, -1) in
   let not_legal i j =
     let i, j = pair s known last i j in
     if Hashtbl.mem legal (i, j) then bad s "the pair is legal already";
@@ -224,9 +223,10 @@ let read_pairs s known legal =
     match words s with
     | [ (("o" | "t" | "l") as kind); i; j ] ->
       let from, to0 = not_legal i j in
-      p.listed <- { Checker.from; to0; at_x = zero; at_y = zero } :: p.listed;
+      let pair = { Checker.from; to0; at_x = zero; at_y = zero } in
+      p.listed <- pair :: p.listed;
       (match kind with
-      | "t" -> p.ties <- p.ties + 1
+      | "t" -> p.ties <- pair :: p.ties
       | "o" -> p.opened <- p.opened + 1
       | _ -> p.unwitnessed <- p.unwitnessed + 1);
       lines ()
@@ -276,8 +276,7 @@ let certificate text =
   let area = read_bound s "area" in
   let hausdorff = read_bound s "hausdorff" in
   let blocks, diagram = read_rest s in
-  let exact = Hashtbl.fold (fun _ point all -> point && all) known true in
   let loose = List.length (List.filter not aliases) in
   let hints = List.length places + List.length bridges in
-  { outcome; goal; capped; sites; exact; aliases = List.length aliases; loose; edges; first_edge; corners; hints; pairs; area;
+  { outcome; goal; capped; sites; aliases = List.length aliases; loose; edges; first_edge; corners; hints; pairs; area;
     hausdorff; blocks; diagram }
