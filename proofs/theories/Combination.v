@@ -1,7 +1,7 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (* Combinations of points known to rectangles: image, ends, width [CMB-1]. One coordinate; both are the same. *)
 From Coq Require Import Reals Lra Lia Psatz List ZArith.
-From Flocq Require Import Core.Raux.
+From Flocq Require Import Core.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -84,20 +84,21 @@ Qed.
 
 (* So with parts as narrow as asked for, 2^-(bits + 1 + g) where 2^g is at least the sum of |weights|, the result is
    narrower than 2^-bits; it holds the value of every choice. *)
-Theorem combination_narrow l s bits g : Forall (fun t => hi t - lo t <= / 2 ^ (bits + 1 + g)) l ->
-  total (fun t => Rabs (weight t)) l <= 2 ^ g -> let u := / 2 ^ (bits + 2) in
-  up u (total high l + s) - down u (total low l + s) < / 2 ^ bits /\
+Theorem combination_narrow l s bits g : Forall (fun t => hi t - lo t <= bpow radix2 (- (bits + 1 + g))) l ->
+  total (fun t => Rabs (weight t)) l <= bpow radix2 g -> let u := bpow radix2 (- bits - 2) in
+  up u (total high l + s) - down u (total low l + s) < bpow radix2 (- bits) /\
   forall v, chosen l v -> down u (total low l + s) <= combine l v + s <= up u (total high l + s).
 Proof.
-  intros F W u. assert (P : forall n, 0 < 2 ^ n) by (intros; apply pow_lt; lra).
-  assert (U : 0 < u) by (apply Rinv_0_lt_compat, P).
+  intros F W u. assert (U : 0 < u) by apply bpow_gt_0.
   pose proof (down_spec u (total low l + s) U). pose proof (up_spec u (total high l + s) U). split.
-  - pose proof (width_small l _ F) as Q. set (b := / 2 ^ bits).
-    assert (Eu : u = b / 4) by (unfold u, b; rewrite pow_add; simpl; field; apply Rgt_not_eq, P).
-    assert (Ed : / 2 ^ (bits + 1 + g) = b / 2 * / 2 ^ g)
-      by (unfold b; rewrite !pow_add; simpl; field; split; apply Rgt_not_eq, P).
-    assert (total (fun t => Rabs (weight t)) l * / 2 ^ (bits + 1 + g) <= 2 ^ g * / 2 ^ (bits + 1 + g)).
-    { apply Rmult_le_compat_r; [left; apply Rinv_0_lt_compat, P | exact W]. }
-    replace (2 ^ g * / 2 ^ (bits + 1 + g)) with (b / 2) in * by (rewrite Ed; field; apply Rgt_not_eq, P). lra.
+  - pose proof (width_small l _ F) as Q. set (b := bpow radix2 (- bits)).
+    assert (Eu : u = b / 4).
+    { unfold u, b. replace (- bits - 2)%Z with (- bits + -2)%Z by ring. rewrite bpow_plus. change (bpow radix2 (-2)) with (/ 4). field. }
+    assert (Ed : bpow radix2 g * bpow radix2 (- (bits + 1 + g)) = b / 2).
+    { rewrite <- bpow_plus. replace (g + - (bits + 1 + g))%Z with (- bits + -1)%Z by ring. rewrite bpow_plus.
+      unfold b. change (bpow radix2 (-1)) with (/ 2). field. }
+    assert (total (fun t => Rabs (weight t)) l * bpow radix2 (- (bits + 1 + g)) <= b / 2).
+    { rewrite <- Ed. apply Rmult_le_compat_r; [apply bpow_ge_0 | exact W]. }
+    lra.
   - intros v C. pose proof (combination_encloses l v s C). lra.
 Qed.
