@@ -11,7 +11,8 @@ import shutil
 import subprocess
 import sys
 
-THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerExtract')
+THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerDiagram',
+            'CheckerExtract')
 READERS = ('reader', 'hints', 'cuts', 'proved')
 
 
