@@ -4,10 +4,10 @@
 
 Usage: checker.py ROOT DYADEL_PROVED DYADEL [COUNT]
 
-On certificates of the airports and of COUNT random inputs (default 100), on mutants of these, on forgeries, chains among
-them, and on texts in another spelling: what verify accepts is accepted, and of what is all proved verify says so too; what
-is accepted and rejected as it has to be; of ties at least as much as verify proves. The time grows little faster than the
-number of sites, so do the triangles that cover the plane.
+On certificates of the airports and of COUNT random inputs (default 100), on mutants of these, on forgeries, chains and
+diagrams among them, and on texts in another spelling: what verify accepts is accepted, and of what is all proved verify
+says so too; what is accepted and rejected as it has to be; of ties at least as much as verify proves. The time grows little
+faster than the number of sites, so do the triangles that cover the plane.
 """
 import os
 import pathlib
@@ -17,6 +17,7 @@ import resource
 import subprocess
 import sys
 import tempfile
+from fractions import Fraction
 
 SEED = 1
 ALL, NOT_ALL, REJECTED = 0, 3, 1
@@ -316,7 +317,12 @@ def try_cases(both, root):
             (NOT_ALL, 'not proved: that pairs among', without_line(grid, 't', 7)),
             (NOT_ALL, 'the numbers of triangles', grid.replace('\ntriangles 0\n', '\ntriangles 1\n')),
             (REJECTED, '', halved(grid, 'hausdorff')),
-            (NOT_ALL, 'the section on the Voronoi diagram', both.certificate(square, command='voronoi')),
+            (NOT_ALL, 'not proved: the distance of undetermined', both.certificate(square, command='voronoi')),
+            (NOT_ALL, 'the undetermined area of the Voronoi diagram, by 4 polygons', both.certificate(square, command='voronoi')),
+            (NOT_ALL, 'checked: the outcome certified', both.certificate(square, '--until', 'area:-6', command='voronoi')),
+            (NOT_ALL, 'not proved: the outcome certified', both.certificate(square, '--until', 'hausdorff:-4', command='voronoi')),
+            (REJECTED, '', both.certificate(square, '--until', 'area:-6', command='voronoi').replace('area -6', 'area 40')),
+            (REJECTED, '', both.certificate(square, '--until', 'hausdorff:-4', command='voronoi').replace('ff -4', 'ff 400')),
             (ALL, 'bounds of area', both.certificate(square)),
             (ALL, 'the outcome certified', both.certificate('sqrt(2) 0\n1 [5,6]\n-4 pi\n7 -2\n', '--until', 'hausdorff:-4')),
             (ALL, 'the outcome decided', both.certificate(triangle)),
@@ -334,6 +340,89 @@ def try_cases(both, root):
         yield from both.faults(text, 'a spelling')
         if both.ask(both.proved, text=text).returncode != REJECTED:
             yield f'accepted:\n{text}'
+
+
+def dyadic(text):
+    """The value of a number of a certificate."""
+    man, _, exponent = text.partition('*2^')
+    return int(man) * Fraction(2) ** int(exponent or 0)
+
+
+def spelled(value):
+    """A number whose denominator is a power of two as certificates have it."""
+    man, exponent = value.numerator, 1 - value.denominator.bit_length()
+    while man and man % 2 == 0:
+        man, exponent = man // 2, exponent + 1
+    return f'{man}*2^{exponent}' if man and exponent else f'{man}'
+
+
+def reshaped(at):
+    """Polygons of the vertices `at` that are wrong: not strictly convex, or not where the polygon was."""
+    n = len(at)
+    middle = [sum(p[a] for p in at[:2]) / 2 for a in (0, 1)]
+    yield at[:1] + [middle] + at[1:]  # a straight angle
+    yield at[:2]
+    yield at[::-1]
+    yield at + at
+    yield at[:1] * 2 + at[1:]
+    for k in range(n):
+        here, before, after = at[k], at[k - 1], at[(k + 1) % n]
+        chord = [(before[a] + after[a]) / 2 for a in (0, 1)]
+        for part in (Fraction(9, 8), Fraction(17, 16), Fraction(-2), Fraction(-2**40)):  # dents, spikes
+            yield at[:k] + [[here[a] + part * (chord[a] - here[a]) for a in (0, 1)]] + at[k + 1:]
+    if n > 4:
+        yield [at[2 * k % n] for k in range(n)] if n % 2 else at[::2] + at[1::2]
+
+
+def forged_diagrams(rng, text):
+    """The text with its section on the diagram changed for the worse; nothing on the distance."""
+    lines = text.split('\n')
+    window, first = next(k for k, line in enumerate(lines) if line.startswith('window ')), lines.index('polygons') + 1
+    last = next(k for k, line in enumerate(lines) if line.startswith('undetermined '))
+    changed = lambda k, *new: '\n'.join(lines[:k] + list(new) + lines[k + 1:])  # noqa: E731
+    ends = [dyadic(word) for word in lines[window].split(' ')[1:]]
+    for k, way in enumerate((1, -1, 1, -1)):
+        for part in (Fraction(1, 8), Fraction(-1, 8), Fraction(2)):  # narrower, wider, inside out
+            moved = ends[:k] + [ends[k] + way * part * (ends[k | 1] - ends[k & 2])] + ends[k + 1:]
+            yield changed(window, ' '.join(['window', *map(spelled, moved)]))
+    bound = dyadic(lines[last].split(' ')[1])
+    for less in (bound / 2, bound * (1 - Fraction(1, 2**12)), Fraction(0), -bound - 1):
+        yield changed(last, f'undetermined {spelled(less)}')
+    for k in rng.sample(range(first, last), min(3, last - first)):
+        words = lines[k].split(' ')
+        at = [[dyadic(x), dyadic(y)] for x, y in zip(words[1::2], words[2::2])]
+        yield changed(k)
+        yield changed(k, lines[k], lines[k])
+        yield changed(k, ' '.join(words[:-1]))
+        yield changed(k, words[0])
+        yield from (changed(k, ' '.join([other.split(' ')[0]] + words[1:])) for other in lines[first:last] if other != lines[k])
+        if k > first:
+            yield '\n'.join(lines[:k - 1] + [lines[k], lines[k - 1]] + lines[k + 1:])
+        for shape in reshaped(at):
+            yield changed(k, ' '.join([words[0], *(spelled(z) for p in shape for z in p)]))
+    for ends in ('0 0 0 1', '0 1 0 0', '0 -1 0 1', '0 1 0 -1', '0 -1 0 -1', '0 1 0', '0 1 0 x'):  # no area, or no window
+        yield '\n'.join(lines[:window] + [f'window {ends}', 'polygons', 'undetermined 2', 'distance none', 'end', ''])
+
+
+def try_diagrams(both, count):
+    """Both say the same of the section on the Voronoi diagram, its distance apart."""
+    rng = random.Random(SEED)
+    tried = refused = 0
+    for number in range(count):
+        exact = ''.join(f'{rng.randrange(-9, 10)} {rng.randrange(-9, 10)}\n' for _ in range(rng.randrange(2, 12)))
+        text = both.certificate(exact if number % 4 == 0 else points(rng), '--max-bits', '200', command='voronoi')
+        if '\nwindow ' not in text:
+            continue
+        for forged in [text, *forged_diagrams(rng, text)]:
+            here, there = both.ask(both.proved, text=forged), both.ask(both.dyadel, 'verify', text=forged)
+            tried, refused = tried + 1, refused + (here.returncode == REJECTED)
+            same = here.returncode == REJECTED or 'checked: the undetermined area' in here.stdout
+            apart = 'boxes do not prove the bound of the distance' in there.stderr and here.returncode == NOT_ALL
+            if (here.returncode == REJECTED) != (there.returncode == REJECTED) and not apart or not same:
+                yield f'a diagram: {here.returncode} {here.stderr}, verify {there.returncode} {there.stderr}:\n{forged}'
+    print(f'{tried} certificates of diagrams, of which {refused} are refused')
+    if tried < 10 * count or refused * 2 < tried:
+        yield 'hardly any diagram was tried, or refused'
 
 
 def try_command(both):
@@ -391,6 +480,7 @@ def main():
         found += try_ties(both, 60)
         found += try_forged_ties(both)
         found += try_fixpoint(both)
+        found += try_diagrams(both, 24)
         found += try_cases(both, root)
         found += try_command(both)
         found += try_growth(both)

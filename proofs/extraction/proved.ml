@@ -30,6 +30,16 @@ let check_chains c d e =
   in
   if broken <> [] then List.iter refuse (List.rev c.pairs.chains)
 
+(* Its own unit: vertices have more digits than all else. *)
+let check_diagram c (g : Reader.diagram) =
+  let vertex (p : Checker.polygon) (at_x, at_y) = { Checker.from = p.owner; to0 = p.owner; at_x; at_y } in
+  let vertices = List.concat_map (fun (p : Checker.polygon) -> List.rev_map (vertex p) p.vertices) g.polygons in
+  let d, e = Hints.unit_of (g.window :: c.sites) vertices [] in
+  if not (Checker.undetermined_holds d e c.sites g.window g.polygons g.undetermined) then
+    raise (Bad (g.first_polygon,
+      if Checker.polygons_hold d e c.sites g.window g.polygons then "the polygons leave a greater area"
+      else "polygons are not in order, strictly convex, within a window that has an area, and surely nearest to their sites"))
+
 (* What of the pairs is proved. *)
 type proof = {
   decided : bool;  (* all possible pairs are legal ones that are listed *)
@@ -76,22 +86,32 @@ let proof_of c d e =
   let fixed = Checker.is_fixpoint d e c.sites (complete && c.goal = [ "decided" ]) circle p.listed in
   { decided; complete; covering; fixed; loose; surrounded = List.length found; faces = List.length triangles; counted }
 
+let of_diagram c what = Option.bind c.diagram what
+
 (* Does the bound that the goal is about reach it? *)
 let is_reached c =
   let reaches m = function
     | Some n -> Checker.bound_reaches (Z.of_string m) n
     | None -> false
   in
-  match c.goal with [ "area"; m ] -> reaches m c.area | [ "hausdorff"; m ] -> reaches m c.hausdorff | _ -> false
+  match c.goal with
+  | [ "area"; m ] -> reaches m c.area
+  | [ "hausdorff"; m ] -> reaches m c.hausdorff
+  | [ "voronoi"; "area"; m ] -> reaches m (of_diagram c (fun g -> Some g.undetermined))
+  | [ "voronoi"; "hausdorff"; m ] -> reaches m (of_diagram c (fun g -> g.distance))
+  | _ -> false
 
 let bounds_hold c d e =
   Option.fold ~none:true ~some:(Checker.area_holds d e c.sites (listed c)) c.area
   && Option.fold ~none:true ~some:(Checker.hausdorff_holds d e c.sites c.edges c.pairs.listed) c.hausdorff
 
+(* Is the goal about the one bound that is not proved? *)
+let is_of_distance c = match c.goal with [ "voronoi"; "hausdorff"; _ ] -> true | _ -> false
+
 let outcome_is_proved c p =
   match c.outcome with
   | "decided" -> p.decided || (p.complete && c.pairs.listed = [])
-  | "certified" -> p.complete && is_reached c
+  | "certified" -> is_reached c && (p.complete || List.hd c.goal = "voronoi") && not (is_of_distance c)
   | "fixpoint" -> p.fixed
   | _ -> false
 
@@ -99,7 +119,7 @@ let outcome_is_proved c p =
 let contradiction c d e p =
   let opened = c.pairs.listed <> [] || c.capped in
   if c.outcome = "decided" && opened then Some "the outcome is not decided: pairs are open"
-  else if c.outcome = "certified" && List.hd c.goal <> "voronoi" && not (is_reached c) then
+  else if c.outcome = "certified" && not (is_reached c) then
     Some "the outcome is not certified: no bound reaches the goal"
   else if p.decided && opened then Some "pairs are listed as open that are illegal"
   else if p.decided && (c.pairs.faces <> p.faces || c.pairs.unproved > 0) then
@@ -121,7 +141,7 @@ let gaps c p =
       (has_bounds c && not p.complete, "the bounds of area and Hausdorff distance, as more pairs may be possible");
       (p.complete && not p.counted, "places, bridges, corners and the numbers of triangles and pairs, which the proof does not need");
       (c.blocks, "what points are described to be, which this checker does not know");
-      (c.diagram, "the section on the Voronoi diagram, which this checker does not know");
+      (of_diagram c (fun g -> g.distance) <> None, "the distance of undetermined points to the Voronoi diagram");
       (not (outcome_is_proved c p), "the outcome " ^ c.outcome) ]
 
 let report c p gaps =
@@ -140,6 +160,10 @@ let report c p gaps =
   let tied = List.length c.pairs.ties - p.loose in
   if tied > 0 then Printf.printf "checked: %d ties, weakly Delaunay for every choice and strictly for none\n" tied;
   if p.complete && has_bounds c then print_endline "checked: the bounds of area and Hausdorff distance";
+  let report_diagram (g : Reader.diagram) =
+    Printf.printf "checked: the undetermined area of the Voronoi diagram, by %d polygons\n" (List.length g.polygons)
+  in
+  Option.iter report_diagram c.diagram;
   if outcome_is_proved c p then Printf.printf "checked: the outcome %s\n" c.outcome;
   if c.pairs.opened > 0 then Printf.printf "open: %d indeterminate pairs, of which nothing is stated\n" c.pairs.opened;
   if c.capped then print_endline "open: the cap was met, of other pairs nothing is stated";
@@ -152,6 +176,7 @@ let verdict name =
   if not (Checker.check d e c.sites c.edges) then
     raise (Bad (line_at_fault c d e, "a point is no witness of its pair, or sites are not rectangles"));
   check_chains c d e;
+  Option.iter (check_diagram c) c.diagram;
   let p = proof_of c d e in
   Option.iter (fun wrong -> raise (Bad (2, wrong))) (contradiction c d e p);
   let found = gaps c p in

@@ -18,6 +18,15 @@ type pairs = {
   mutable unproved : int;
 }
 
+(* What is said of the Voronoi diagram. *)
+type diagram = {
+  window : Checker.site;
+  polygons : Checker.polygon list;
+  first_polygon : int;  (* its line *)
+  undetermined : Checker.number;
+  distance : Checker.number option;
+}
+
 type certificate = {
   outcome : string;
   goal : string list;  (* its words *)
@@ -33,7 +42,7 @@ type certificate = {
   area : Checker.number option;
   hausdorff : Checker.number option;
   blocks : bool;
-  diagram : bool;
+  diagram : diagram option;
 }
 
 type source = { text : string; mutable at : int; mutable line : int }
@@ -248,19 +257,52 @@ let read_bound s name =
   | [ word; bound ] when word = name -> Some (number s bound)
   | _ -> bad s "%S is missing" name
 
-(* Which sections follow that are not read: what points are, the diagram. *)
-let read_rest s =
-  let blocks = ref false and diagram = ref false in
-  let rec lines () =
-    let line = next s in
-    if String.starts_with ~prefix:"algebra " line then blocks := true;
-    if String.starts_with ~prefix:"window " line then diagram := true;
-    if line <> "end" then lines ()
+(* The rest of a line: coordinates of the vertices. *)
+let rec read_vertices s found = function
+  | [] when found <> [] -> List.rev found
+  | x :: y :: rest -> read_vertices s ((number s x, number s y) :: found) rest
+  | _ -> bad s "a vertex is missing"
+
+let read_distance s =
+  match words s with
+  | [ "distance"; "none" ] -> None
+  | [ "distance"; bound ] | [ "distance"; bound; "unproved" ] -> Some (number s bound)
+  | _ -> bad s "\"distance\" is missing"
+
+(* After the line "window". *)
+let read_diagram s known corners =
+  let window =
+    match List.map (number s) corners with
+    | [ left; right; low; high ] -> { Checker.name = Z.zero; left; right; low; high }
+    | _ -> bad s "a window has four ends"
   in
-  lines ();
+  if next s <> "polygons" then bad s "\"polygons\" is missing";
+  let first_polygon = s.line + 1 in
+  let rec polygons found =
+    match words s with
+    | [ "undetermined"; bound ] -> (List.rev found, number s bound)
+    | i :: vertices ->
+      polygons ({ Checker.owner = Z.of_int (site s known i); vertices = read_vertices s [] vertices } :: found)
+    | [] -> bad s "\"undetermined\" is missing"
+  in
+  let polygons, undetermined = polygons [] in
+  { window; polygons; first_polygon; undetermined; distance = read_distance s }
+
+(* What follows the bounds: are there blocks on what points are, which are not read; the diagram. *)
+let read_rest s known =
+  let rec blocks found =
+    match next s with
+    | "end" -> (found, None)
+    | line when String.starts_with ~prefix:"window " line ->
+      let diagram = read_diagram s known (List.tl (String.split_on_char ' ' line)) in
+      if next s <> "end" then bad s "\"end\" is missing";
+      (found, Some diagram)
+    | line -> blocks (found || String.starts_with ~prefix:"algebra " line)
+  in
+  let found = blocks false in
   s.line <- s.line + 1;
   if s.at < String.length s.text then bad s "something follows the line \"end\"";
-  (!blocks, !diagram)
+  found
 
 let certificate text =
   let s = { text; at = 0; line = 0 } and known = Hashtbl.create 1000 and legal = Hashtbl.create 1000 in
@@ -275,7 +317,7 @@ let certificate text =
   let pairs = read_pairs s known legal in
   let area = read_bound s "area" in
   let hausdorff = read_bound s "hausdorff" in
-  let blocks, diagram = read_rest s in
+  let blocks, diagram = read_rest s known in
   let loose = List.length (List.filter not aliases) in
   let hints = List.length places + List.length bridges in
   { outcome; goal; capped; sites; aliases = List.length aliases; loose; edges; first_edge; corners; hints; pairs; area;
