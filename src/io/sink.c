@@ -32,3 +32,12 @@ char *dyd_put_digits(char *to, uint64_t n) {
     *to = (char)('0' + n);
   return end;
 }
+
+void dyd_sink_line(dyd_sink *s, const char *word, const uint32_t *n, size_t count, uint32_t more) {
+  dyd_sink_text(s, word);
+  for (size_t k = 0; k < count; k++) {
+    dyd_sink_put(s, " ", 1);
+    dyd_sink_index(s, (uint64_t)n[k] + more);
+  }
+  dyd_sink_put(s, "\n", 1);
+}

@@ -48,5 +48,7 @@ char *dyd_put_digits(char *to, uint64_t n);
 static inline void dyd_sink_index(dyd_sink *s, uint64_t n) {
   s->end = dyd_put_digits(dyd_sink_room(s, DYD_INDEX_SIZE), n);
 }
+/* A line of numbers, each more by `more`, behind a word. */
+void dyd_sink_line(dyd_sink *s, const char *word, const uint32_t *n, size_t count, uint32_t more);
 
 #endif

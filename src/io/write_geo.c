@@ -3,19 +3,21 @@
  * format says how far at most the rectangle reaches from it. */
 #include "io/label_text.h"
 #include "io/result.h"
+#include "io/sink.h"
 #include <stdlib.h>
 
 static void obj_elements(const dyd_result *r, const dyd_triangle_list *triangles) {
-  fputs("g legal_edges\n", r->out);
+  dyd_sink s;
+  dyd_sink_begin(&s, r->out);
+  dyd_sink_text(&s, "g legal_edges\n");
   for (size_t k = 0; k < r->pairs.count; k++) {
     const dyd_pair *p = &r->pairs.item[k];
-    if (p->status == DYD_LEGAL) fprintf(r->out, "l %u %u\n", (unsigned)p->i + 1, (unsigned)p->j + 1);
+    const uint32_t ends[2] = {p->i, p->j};
+    if (p->status == DYD_LEGAL) dyd_sink_line(&s, "l", ends, 2, 1);
   }
-  fputs("g sure_triangles\n", r->out);
-  for (size_t k = 0; k < triangles->count; k++) {
-    const uint32_t *v = triangles->item[k].v;
-    fprintf(r->out, "f %u %u %u\n", (unsigned)v[0] + 1, (unsigned)v[1] + 1, (unsigned)v[2] + 1);
-  }
+  dyd_sink_text(&s, "g sure_triangles\n");
+  for (size_t k = 0; k < triangles->count; k++) dyd_sink_line(&s, "f", triangles->item[k].v, 3, 1);
+  dyd_sink_flush(&s);
 }
 
 /* What the next vertex is called, where its place in the file does not tell. */

@@ -2,33 +2,46 @@
 /* The vtk format of the triangulation: legacy polygon data, edges with their status, sure triangles, points with
  * their partners. */
 #include "io/result.h"
+#include "io/sink.h"
 #include <stdlib.h>
 
+static void vtk_number(dyd_sink *s, size_t n) {
+  dyd_sink_index(s, n);
+  dyd_sink_put(s, "\n", 1);
+}
+
 static void vtk_elements(const dyd_result *r, const dyd_triangle_list *triangles) {
-  FILE *out = r->out;
-  fprintf(out, "LINES %zu %zu\n", r->pairs.count, 3 * r->pairs.count);
-  for (size_t k = 0; k < r->pairs.count; k++)
-    fprintf(out, "2 %u %u\n", (unsigned)r->pairs.item[k].i, (unsigned)r->pairs.item[k].j);
-  fprintf(out, "POLYGONS %zu %zu\n", triangles->count, 4 * triangles->count);
-  for (size_t k = 0; k < triangles->count; k++) {
-    const uint32_t *v = triangles->item[k].v;
-    fprintf(out, "3 %u %u %u\n", (unsigned)v[0], (unsigned)v[1], (unsigned)v[2]);
+  const size_t pairs = r->pairs.count, all = pairs + triangles->count;
+  dyd_sink s;
+  fprintf(r->out, "LINES %zu %zu\n", pairs, 3 * pairs);
+  dyd_sink_begin(&s, r->out);
+  for (size_t k = 0; k < pairs; k++) {
+    const uint32_t ends[2] = {r->pairs.item[k].i, r->pairs.item[k].j};
+    dyd_sink_line(&s, "2", ends, 2, 0);
   }
-  fprintf(out, "CELL_DATA %zu\nSCALARS status int 1\nLOOKUP_TABLE default\n", r->pairs.count + triangles->count);
-  for (size_t k = 0; k < r->pairs.count; k++) fprintf(out, "%d\n", (int)r->pairs.item[k].status);
-  for (size_t k = 0; k < triangles->count; k++) fprintf(out, "%d\n", (int)DYD_LEGAL);
+  dyd_sink_flush(&s);
+  fprintf(r->out, "POLYGONS %zu %zu\n", triangles->count, 4 * triangles->count);
+  for (size_t k = 0; k < triangles->count; k++) dyd_sink_line(&s, "3", triangles->item[k].v, 3, 0);
+  dyd_sink_flush(&s);
+  fprintf(r->out, "CELL_DATA %zu\nSCALARS status int 1\nLOOKUP_TABLE default\n", all);
+  for (size_t k = 0; k < all; k++) vtk_number(&s, k < pairs ? r->pairs.item[k].status : DYD_LEGAL);
+  dyd_sink_flush(&s);
 }
 
 /* Of each point: how many partners by status, and the hull. */
 static void vtk_points(const dyd_result *r, const dyd_site_row *rows) {
   static const dyd_pair_status statuses[] = {DYD_LEGAL, DYD_INDETERMINATE, DYD_TIE};
+  dyd_sink to;
   fprintf(r->out, "POINT_DATA %zu\n", r->count);
+  dyd_sink_begin(&to, r->out);
   for (int s = 0; s < 3; s++) {
     fprintf(r->out, "SCALARS %s int 1\nLOOKUP_TABLE default\n", dyd_pair_status_text(statuses[s]));
-    for (size_t i = 0; i < r->count; i++) fprintf(r->out, "%zu\n", rows[i].partners[statuses[s]]);
+    for (size_t i = 0; i < r->count; i++) vtk_number(&to, rows[i].partners[statuses[s]]);
+    dyd_sink_flush(&to);
   }
-  fputs("SCALARS hull int 1\nLOOKUP_TABLE default\n", r->out);
-  for (size_t i = 0; i < r->count; i++) fprintf(r->out, "%d\n", *rows[i].hull == 's' ? 2 : *rows[i].hull == 'p');
+  dyd_sink_text(&to, "SCALARS hull int 1\nLOOKUP_TABLE default\n");
+  for (size_t i = 0; i < r->count; i++) vtk_number(&to, *rows[i].hull == 's' ? 2 : *rows[i].hull == 'p');
+  dyd_sink_flush(&to);
 }
 
 /* vtk decodes %HH in texts, which end with the line. */
