@@ -5,6 +5,7 @@
 #include "base/alloc.h"
 #include "base/parallel.h"
 #include "skeleton/insert.h"
+#include "skeleton/mesh_exact.h"
 #include "skeleton/mesh_fixed.h"
 #include "skeleton/mesh_start.h"
 #include "skeleton/predicates.h"
@@ -18,16 +19,12 @@ static dyd_half_edge hull_towards(dyd_mesh *m, uint32_t v) {
   return dyd_hull_edge(m, dyd_mesh_locate(m, v));
 }
 
-static bool is_right_of(const dyd_mesh *m, uint32_t v, uint32_t w) {
-  dyd_xy a = m->xy[v], b = m->xy[w];
-  return a.x > b.x || (a.x == b.x && a.y > b.y);
-}
-
 /* The hull edge that begins at the last (right) or first vertex in the order of x, then y; that order rises and falls
  * once around the hull. */
 static dyd_half_edge seam_extreme(const dyd_mesh *m, dyd_half_edge h, bool right) {
-  while (is_right_of(m, dyd_hull_target(m, h), dyd_hull_origin(m, h)) == right) h = dyd_hull_following(m, h);
-  while (is_right_of(m, dyd_hull_origin(m, dyd_hull_preceding(m, h)), dyd_hull_origin(m, h)) == right)
+  int way = right ? 1 : -1;
+  while (way * dyd_mesh_compare(m, dyd_hull_target(m, h), dyd_hull_origin(m, h)) > 0) h = dyd_hull_following(m, h);
+  while (way * dyd_mesh_compare(m, dyd_hull_origin(m, dyd_hull_preceding(m, h)), dyd_hull_origin(m, h)) > 0)
     h = dyd_hull_preceding(m, h);
   return h;
 }
@@ -173,7 +170,7 @@ static void join_pair(void *context, size_t k) {
 
 bool dyd_strips_are_apart(const dyd_reps *reps, const dyd_strips *strips) {
   double last = -INFINITY;
-  if (strips->count < 2 || reps->code) return false;
+  if (strips->count < 2) return false;
   for (unsigned s = 0; s < strips->count; s++) {
     double lo = INFINITY, hi = -INFINITY;
     for (uint32_t v = strips->begin[s]; v < strips->begin[s + 1]; v++) {
@@ -181,7 +178,7 @@ bool dyd_strips_are_apart(const dyd_reps *reps, const dyd_strips *strips) {
       if (x < lo) lo = x;
       if (x > hi) hi = x;
     }
-    if (!(lo > last)) return false; /* an empty strip: lo is infinite */
+    if (!(lo - last > 4 * reps->delta)) return false; /* an empty strip: lo is infinite */
     last = hi > last ? hi : last;
   }
   return true;

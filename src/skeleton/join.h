@@ -13,7 +13,7 @@
 
 #include "skeleton/mesh.h"
 
-/* Do vertical lines divide the strips, all representatives being doubles? */
+/* Do vertical lines divide the strips of representatives? */
 bool dyd_strips_are_apart(const dyd_reps *reps, const dyd_strips *strips);
 /* Triangulates m, which has its coordinates and no triangles. *joined = false: some part was stuck, m is as it was. */
 dyd_status dyd_mesh_join_strips(bool *joined, dyd_mesh *m, const dyd_strips *strips, const volatile int *cancel,

@@ -5,6 +5,8 @@
 #include "rect/irect.h"
 #include "skeleton/half_edge.h"
 
+#include <math.h>
+
 typedef struct scaled_points {
   dyd_irect p[4];
   size_t count;
@@ -76,6 +78,17 @@ int dyd_mesh_incircle_exact(const dyd_mesh *m, uint32_t a, uint32_t b, uint32_t 
   points_unload(&s);
   mpz_clears(d, l, x, t, NULL);
   return sign;
+}
+
+int dyd_mesh_compare(const dyd_mesh *m, uint32_t a, uint32_t b) {
+  double x = m->xy[a].x - m->xy[b].x, y = m->xy[a].y - m->xy[b].y;
+  if (!m->reps->code || fabs(x) > 4 * m->reps->delta) return x != 0 ? (x > 0) - (x < 0) : (y > 0) - (y < 0);
+  scaled_points s;
+  points_load(&s, m, (const uint32_t[]){a, b}, 2);
+  int sign = mpz_cmp(s.p[0].x0, s.p[1].x0);
+  if (!sign) sign = mpz_cmp(s.p[0].y0, s.p[1].y0);
+  points_unload(&s);
+  return (sign > 0) - (sign < 0);
 }
 
 static bool is_strictly_between(double a, double b, double p) {

@@ -13,11 +13,13 @@
 __extension__ typedef __int128 i128;
 __extension__ typedef unsigned __int128 u128;
 
-/* Invariant: z != NULL: z[v] are the scaled coordinates of v; else they are xy[v] * 2^-unit, exactly, and below 2^(high
- * - unit). */
+/* Invariant: z != NULL: z[v - first] are the coordinates of v times den 2^-low; else they are xy[v] * 2^-unit, exactly,
+ * and below 2^(high - unit). */
 struct dyd_fixed {
   int unit, high;
-  int64_t (*z)[2];
+  uint32_t first;
+  unsigned long den;
+  int64_t low, (*z)[2];
 };
 
 enum { COORDINATE_BITS = 60 };
@@ -72,7 +74,7 @@ static bool prepare_doubles(dyd_fixed *f, const dyd_mesh *m) {
 static bool common_scale(mpz_t lcm, int64_t *low, dyd_rect *q, const dyd_mesh *m) {
   mpz_set_ui(lcm, 1);
   *low = INT64_MAX;
-  for (uint32_t v = 0; v < m->n; v++) {
+  for (uint32_t v = m->begin; v < m->end; v++) {
     if (dyd_reps_get(q, m->reps, dyd_mesh_rep(m, v)) != DYD_OK) return false;
     const dyd_interval *side[2] = {&q->x, &q->y};
     for (int a = 0; a < 2; a++) {
@@ -98,16 +100,19 @@ static bool scaled(int64_t *out, mpz_t t, const dyd_interval *a, const mpz_t lcm
 static bool prepare_rationals(dyd_fixed *f, const dyd_mesh *m) {
   mpz_t lcm, t;
   dyd_rect q;
-  int64_t low;
   mpz_init(lcm);
   mpz_init(t);
   dyd_rect_init(&q);
-  bool good = common_scale(lcm, &low, &q, m);
-  if (good) f->z = dyd_alloc(m->n, sizeof *f->z);
+  bool good = common_scale(lcm, &f->low, &q, m);
+  if (good) f->z = dyd_alloc(m->end - m->begin, sizeof *f->z);
   good = good && f->z;
-  for (uint32_t v = 0; v < m->n && good; v++)
-    good = dyd_reps_get(&q, m->reps, dyd_mesh_rep(m, v)) == DYD_OK && scaled(&f->z[v][0], t, &q.x, lcm, low) &&
-           scaled(&f->z[v][1], t, &q.y, lcm, low);
+  f->first = m->begin;
+  f->den = mpz_get_ui(lcm);
+  for (uint32_t v = m->begin; v < m->end && good; v++) {
+    int64_t *z = f->z[v - f->first];
+    good = dyd_reps_get(&q, m->reps, dyd_mesh_rep(m, v)) == DYD_OK && scaled(&z[0], t, &q.x, lcm, f->low) &&
+           scaled(&z[1], t, &q.y, lcm, f->low);
+  }
   dyd_rect_clear(&q);
   mpz_clear(t);
   mpz_clear(lcm);
@@ -130,25 +135,39 @@ void dyd_fixed_prepare(dyd_mesh *m) {
   install(m, f);
 }
 
+/* f, of m, gets the coordinates of its right neighbour. */
+static bool append_rationals(dyd_fixed *f, const dyd_fixed *g, const dyd_mesh *m, const dyd_mesh *right) {
+  size_t left = m->end - m->begin, more = right->end - right->begin;
+  if (f->den != g->den || f->low != g->low) return false;
+  int64_t(*z)[2] = realloc(f->z, (left + more) * sizeof *z);
+  if (!z) return false;
+  memcpy(z + left, g->z, more * sizeof *z);
+  f->z = z;
+  return true;
+}
+
+static bool join_ranges(dyd_fixed *f, const dyd_fixed *g) {
+  return set_range(f, f->unit < g->unit ? f->unit : g->unit, f->high > g->high ? f->high : g->high);
+}
+
+/* Fractions that both do not know cost too much for the few questions of a seam. */
 void dyd_fixed_join(dyd_mesh *m, const dyd_mesh *right) {
   dyd_fixed *f = m->fixed;
   const dyd_fixed *g = right->fixed;
-  bool known = f && g;
-  if (known && !set_range(f, f->unit < g->unit ? f->unit : g->unit, f->high > g->high ? f->high : g->high))
-    known = false;
-  if (known) {
+  bool fractions = m->reps->code;
+  if (f && g && (fractions ? append_rationals(f, g, m, right) : join_ranges(f, g))) {
     install(m, f);
     return;
   }
   dyd_fixed_free(f);
   m->fixed = NULL;
-  m->no_fixed = m->no_fixed || right->no_fixed || (f && g);
+  m->no_fixed = m->no_fixed || right->no_fixed || (f && g) || fractions;
   m->exact_s = m->no_fixed ? -1 : 0;
 }
 
 void dyd_fixed_take(dyd_mesh *m, dyd_mesh *whole) {
   m->fixed = whole->fixed;
-  m->no_fixed = whole->no_fixed;
+  m->no_fixed = whole->no_fixed && (whole->fixed || !m->reps->code); /* of all fractions it was not tried */
   m->exact_s = whole->exact_s;
   whole->fixed = NULL;
 }
@@ -156,8 +175,8 @@ void dyd_fixed_take(dyd_mesh *m, dyd_mesh *whole) {
 static void coordinates(int64_t z[2], const dyd_mesh *m, uint32_t v) {
   const dyd_fixed *f = m->fixed;
   if (f->z) {
-    z[0] = f->z[v][0];
-    z[1] = f->z[v][1];
+    z[0] = f->z[v - f->first][0];
+    z[1] = f->z[v - f->first][1];
   } else {
     z[0] = (int64_t)ldexp(m->xy[v].x, -f->unit);
     z[1] = (int64_t)ldexp(m->xy[v].y, -f->unit);

@@ -31,18 +31,58 @@ static void bed_close(bed *b) {
   dyd_sites_free(b->sites);
 }
 
-/* strips = NULL: at once. */
-static void bed_make(bed *b, const double *x, const double *y, size_t n, const dyd_strips *strips, unsigned threads,
-                     bool no_filter) {
+/* Fractions that no double holds: all coordinates by den; where shifted, a seventh is added to y
+ * in odd strips, and x is more by less than a double tells. */
+static unsigned long den = 1;
+static bool shifted;
+
+/* x is more by k 2^-80 of itself. */
+static void add_little(mpq_t x, unsigned long k) {
+  mpq_t little;
+  mpq_init(little);
+  mpq_set_ui(little, k, 1);
+  mpq_div_2exp(little, little, 80);
+  mpq_mul(little, little, x);
+  mpq_add(x, x, little);
+  mpq_clear(little);
+}
+
+static void add_fractions(dyd_sites *sites, const double *x, const double *y, size_t n, const dyd_strips *strips) {
+  mpq_t at[2], by, more;
+  dyd_rect r;
+  mpq_inits(at[0], at[1], by, more, NULL);
+  dyd_rect_init(&r);
+  mpq_set_ui(by, 1, den);
+  mpq_set_ui(more, 1, 7);
+  for (size_t v = 0, s = 0; v < n; v++) {
+    while (v >= strips->begin[s + 1]) s++;
+    mpq_set_d(at[0], x[v]);
+    mpq_set_d(at[1], y[v]);
+    for (int a = 0; a < 2; a++) mpq_mul(at[a], at[a], by);
+    if (shifted && s % 2) mpq_add(at[1], at[1], more);
+    if (shifted) add_little(at[0], v * 7 % 3);
+    assert_int_equal(dyd_rect_set_q(&r, at[0], at[1]), DYD_OK);
+    assert_int_equal(dyd_sites_add_rect(sites, &r), DYD_OK);
+  }
+  dyd_rect_clear(&r);
+  mpq_clears(at[0], at[1], by, more, NULL);
+}
+
+/* apart: by strips, else at once. */
+static void bed_make(bed *b, const double *x, const double *y, size_t n, const dyd_strips *strips, bool apart,
+                     unsigned threads, bool no_filter) {
   uint32_t *site = malloc(n * sizeof *site);
   memset(b, 0, sizeof *b);
   assert_non_null(site);
   assert_int_equal(dyd_sites_new(&b->sites), DYD_OK);
-  assert_int_equal(dyd_sites_add_points(b->sites, n, x, y), DYD_OK);
+  if (den == 1 && !shifted)
+    assert_int_equal(dyd_sites_add_points(b->sites, n, x, y), DYD_OK);
+  else
+    add_fractions(b->sites, x, y, n, strips);
   for (uint32_t v = 0; v < n; v++) site[v] = v;
   assert_int_equal(dyd_reps_init(&b->reps, b->sites, site, NULL, (uint32_t)n, 1), DYD_OK);
   dyd_strips one = {1, {0, (uint32_t)n}};
-  assert_int_equal(dyd_mesh_build_strips(&b->m, &b->reps, strips ? strips : &one, no_filter, NULL, threads), DYD_OK);
+  assert_int_equal(dyd_mesh_build_strips(&b->m, &b->reps, apart ? strips : &one, no_filter, NULL, threads), DYD_OK);
 }
 
 static uint32_t alive(const dyd_mesh *m) {
@@ -102,8 +142,8 @@ static void compare(bed *joined, bed *whole) {
 static void check(const double *x, const double *y, size_t n, const dyd_strips *strips) {
   bed joined, whole;
   bool no_filter = test_below(&shared, 8) == 0;
-  bed_make(&joined, x, y, n, strips, 1 + (unsigned)test_below(&shared, 3), no_filter);
-  bed_make(&whole, x, y, n, NULL, 1, no_filter);
+  bed_make(&joined, x, y, n, strips, true, 1 + (unsigned)test_below(&shared, 3), no_filter);
+  bed_make(&whole, x, y, n, strips, false, 1, no_filter);
   bool apart = dyd_strips_are_apart(&joined.reps, strips);
   bool made = joined.m.strips.count > 1;
   assert_true(apart || !made);
@@ -194,6 +234,8 @@ static void run(place *where, size_t cases) {
     static const double scales[] = {1, 0x1p-900, 0x1p600, 0x1p-30, 3};
     scale = scales[test_below(&shared, 5)];
     span = 2 + (double)test_below(&shared, 12);
+    den = test_chance(&shared, 2) ? 1 : test_chance(&shared, 2) ? 3 : 1000000007;
+    shifted = test_chance(&shared, 6);
     one_case(where, 3 + test_below(&shared, q % 16 == 0 ? MOST - 3 : 60));
   }
   print_message("# joined %zu, stuck %zu, tied %zu, aliases %zu\n", joined_meshes, stuck_meshes, tied_meshes,
@@ -232,6 +274,8 @@ static void test_threads(void **state) {
   (void)state;
   enum { N = 4000 };
   static double x[N], y[N];
+  den = 1;
+  shifted = false;
   dyd_strips strips = {DYD_STRIPS, {0}};
   for (unsigned s = 0; s < DYD_STRIPS; s++)
     for (uint32_t v = strips.begin[s] = s * N / DYD_STRIPS; v < (s + 1) * N / DYD_STRIPS; v++) {
@@ -240,9 +284,9 @@ static void test_threads(void **state) {
     }
   strips.begin[DYD_STRIPS] = N;
   bed one, many;
-  bed_make(&one, x, y, N, &strips, 1, false);
+  bed_make(&one, x, y, N, &strips, true, 1, false);
   for (unsigned threads = 2; threads < 9; threads += 3) {
-    bed_make(&many, x, y, N, &strips, threads, false);
+    bed_make(&many, x, y, N, &strips, true, threads, false);
     assert_int_equal(one.m.count, many.m.count);
     assert_memory_equal(one.m.tri, many.m.tri, one.m.count * sizeof *one.m.tri);
     assert_memory_equal(one.m.alias, many.m.alias, N * sizeof *one.m.alias);
