@@ -3,8 +3,9 @@
  *
  * For the list, pairs are met in the skeleton's order. They are dealt into blocks of consecutive sites i, few enough to
  * be written side by side; a block is small enough for the nearer caches, and is sorted there: dealt to its sites, and
- * each site's pairs by j. */
+ * each site's pairs by j. Blocks are sorted side by side. */
 #include "base/alloc.h"
+#include "base/parallel.h"
 #include "delaunay/memory.h"
 #include "delaunay/undecided.h"
 
@@ -28,12 +29,21 @@ void dyd_delaunay_each_pair(const dyd_delaunay *pd, dyd_pair_fn visit, void *use
   dyd_each_pair(pd, visit_sites, &s);
 }
 
-/* At most MOST_BLOCKS blocks; up to SHORT_RUN pairs are sorted by insertion. In the armed build few sites need all. */
+/* At most MOST_BLOCKS blocks; up to SHORT_RUN pairs are sorted by insertion, FEW by one thread. In the armed build few
+ * sites need all. */
 #ifdef DYD_ARMED
-enum { MOST_BLOCKS = 4, SHORT_RUN = 4 };
+enum { MOST_BLOCKS = 4, SHORT_RUN = 4, PARTS = 2, FEW = 16 };
 #else
-enum { MOST_BLOCKS = 512, SHORT_RUN = 48 };
+enum { MOST_BLOCKS = 512, SHORT_RUN = 48, PARTS = 16, FEW = 1 << 16 };
 #endif
+
+/* Who sorts MOST_BLOCKS / PARTS blocks. */
+typedef struct sort_part {
+  dyd_pair *spare[2];
+  size_t cap[2];
+  size_t *start; /* of the sites of one block */
+  dyd_status status;
+} sort_part;
 
 /* Invariant: end[b] is the place of the next pair of block b, sites b << shift and on. */
 typedef struct pair_sort {
@@ -42,9 +52,7 @@ typedef struct pair_sort {
   unsigned shift;
   size_t end[MOST_BLOCKS + 1];
   dyd_pair *to;
-  dyd_pair *spare[2];
-  size_t cap[2];
-  size_t *start; /* of the sites of one block */
+  sort_part part[PARTS];
 } pair_sort;
 
 static void count_pair(void *context, uint32_t v, uint32_t w, dyd_pair_status status) {
@@ -95,42 +103,50 @@ static void sort_long_run(dyd_pair *run, dyd_pair *spare, size_t count, uint32_t
   if (from != run) memcpy(run, from, count * sizeof *run);
 }
 
-static dyd_status sort_run(pair_sort *s, dyd_pair *run, size_t count) {
+static dyd_status sort_run(sort_part *p, dyd_pair *run, size_t count, uint32_t n) {
   if (count <= SHORT_RUN) {
     sort_short_run(run, count);
     return DYD_OK;
   }
-  if (!dyd_reserve((void **)&s->spare[1], &s->cap[1], count, sizeof *s->spare[1])) return DYD_E_NOMEM;
-  sort_long_run(run, s->spare[1], count, s->n);
+  if (!dyd_reserve((void **)&p->spare[1], &p->cap[1], count, sizeof *p->spare[1])) return DYD_E_NOMEM;
+  sort_long_run(run, p->spare[1], count, n);
   return DYD_OK;
 }
 
-/* The pairs of `width` sites from `low` on. */
-static dyd_status sort_block(pair_sort *s, dyd_pair *block, size_t count, uint32_t low, size_t width) {
+/* The pairs of block b. */
+static dyd_status sort_block(sort_part *p, const pair_sort *s, dyd_pair *block, size_t count, size_t b) {
+  size_t width = (size_t)1 << s->shift, low = b << s->shift;
   dyd_status st = DYD_OK;
-  if (width == 1) return sort_run(s, block, count);
-  if (!dyd_reserve((void **)&s->spare[0], &s->cap[0], count, sizeof *s->spare[0])) return DYD_E_NOMEM;
-  memcpy(s->spare[0], block, count * sizeof *block);
-  memset(s->start, 0, width * sizeof *s->start);
-  for (size_t q = 0; q < count; q++) s->start[s->spare[0][q].i - low]++;
-  starts_from_counts(s->start, width);
-  for (size_t q = 0; q < count; q++) block[s->start[s->spare[0][q].i - low]++] = s->spare[0][q];
-  for (size_t i = 0, first = 0; i < width && st == DYD_OK; first = s->start[i++])
-    st = sort_run(s, block + first, s->start[i] - first);
+  if (width == 1) return sort_run(p, block, count, s->n);
+  if (!dyd_reserve((void **)&p->spare[0], &p->cap[0], count, sizeof *p->spare[0])) return DYD_E_NOMEM;
+  memcpy(p->spare[0], block, count * sizeof *block);
+  memset(p->start, 0, width * sizeof *p->start);
+  for (size_t q = 0; q < count; q++) p->start[p->spare[0][q].i - low]++;
+  starts_from_counts(p->start, width);
+  for (size_t q = 0; q < count; q++) block[p->start[p->spare[0][q].i - low]++] = p->spare[0][q];
+  for (size_t i = 0, first = 0; i < width && st == DYD_OK; first = p->start[i++])
+    st = sort_run(p, block + first, p->start[i] - first, s->n);
   return st;
 }
 
-/* Each end has moved on to the end of its block. */
-static dyd_status sort_blocks(pair_sort *s) {
-  size_t first = 0, width = (size_t)1 << s->shift;
+/* Each end has moved on to the end of its block, where the next one begins. */
+static void sort_part_of_blocks(void *context, size_t number) {
+  pair_sort *s = context;
+  sort_part *p = &s->part[number];
+  size_t b = number * (MOST_BLOCKS / PARTS), first = b ? s->end[b - 1] : 0;
+  p->start = dyd_alloc((size_t)1 << s->shift, sizeof *p->start);
+  if (!p->start) p->status = DYD_E_NOMEM;
+  for (; b < (number + 1) * (MOST_BLOCKS / PARTS) && p->status == DYD_OK; first = s->end[b++])
+    if (s->end[b] > first) p->status = sort_block(p, s, s->to + first, s->end[b] - first, b);
+  free(p->start);
+  free(p->spare[0]);
+  free(p->spare[1]);
+}
+
+static dyd_status sort_blocks(pair_sort *s, unsigned threads) {
   dyd_status st = DYD_OK;
-  s->start = dyd_alloc(width, sizeof *s->start);
-  if (!s->start) return DYD_E_NOMEM;
-  for (size_t b = 0; b < MOST_BLOCKS && st == DYD_OK; first = s->end[b++])
-    if (s->end[b] > first) st = sort_block(s, s->to + first, s->end[b] - first, (uint32_t)(b << s->shift), width);
-  free(s->start);
-  free(s->spare[0]);
-  free(s->spare[1]);
+  dyd_parallel(threads, PARTS, sort_part_of_blocks, s);
+  for (size_t k = 0; k < PARTS && st == DYD_OK; k++) st = s->part[k].status;
   return st;
 }
 
@@ -142,7 +158,7 @@ dyd_status dyd_pairs_list(dyd_pair_list *out, const dyd_delaunay *pd) {
   s.to = dyd_alloc(total, sizeof *s.to);
   if (!s.to) return DYD_E_NOMEM;
   dyd_each_pair(pd, place_pair, &s);
-  dyd_status st = sort_blocks(&s);
+  dyd_status st = sort_blocks(&s, total < FEW ? 1 : pd->options.threads);
   if (st != DYD_OK) {
     free(s.to);
     return st;
