@@ -3,7 +3,7 @@
    every choice. *)
 From Coq Require Import Reals Lra Lia Psatz ZArith List Bool Classical.
 From Dyadel Require Import Plane Finite Distance Cells Legal VoronoiBounds Bounds.
-From Dyadel Require Import Checker CheckerSound CheckerBounds CheckerBoundsSound CheckerCover CheckerCoverSound CheckerDistance.
+From Dyadel Require Import Checker CheckerSound CheckerComplete CheckerBounds CheckerBoundsSound CheckerCover CheckerCoverSound CheckerDistance.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -319,3 +319,106 @@ Proof.
     (apply in_kept; [now apply seen_in |]); simpl; apply orb_true_iff; left; now apply Z.leb_le.
 Qed.
 End Covered.
+
+(* ---- the certificate ---- *)
+
+Lemma far_sites_in root k l : forall before s, far_sites root k l before = Some s ->
+  (forall c, In c s -> In c before \/ exists b r, In b l /\ c = FarSite (coarse k b) b r /\ (0 <= r)%Z /\
+    (Z.shiftl (diameter2 b) 128 <= r * r)%Z) /\
+  (forall c, In c before -> In c s) /\ (forall b, In b l -> exists r, In (FarSite (coarse k b) b r) s).
+Proof.
+  induction l as [| b l IH]; intros before s H; cbn [far_sites] in H.
+  - injection H as <-. split; [tauto |]. split; [easy |]. now intros b [].
+  - unfold root_above in H. cbv zeta in H. set (r := root (Z.shiftl (diameter2 b) 128)) in *.
+    destruct ((0 <=? r)%Z && (Z.shiftl (diameter2 b) 128 <=? r * r)%Z) eqn:G; [| discriminate].
+    apply andb_true_iff in G. rewrite !Z.leb_le in G. destruct G as [G0 G].
+    destruct (IH _ _ H) as (A & C & F). split; [| split].
+    + intros c I. destruct (A c I) as [[<- | I'] | (b' & r' & I' & Q)].
+      * right. exists b, r. repeat split; try assumption. now left.
+      * now left.
+      * right. exists b', r'. split; [now right | exact Q].
+    + intros c I. apply C. now right.
+    + intros b' [<- | I]; [exists r; apply C; now left | now apply F].
+Qed.
+
+Lemma width_diameter U b A r : 0 < U -> is_box U b A -> (0 <= r)%Z -> (Z.shiftl (diameter2 b) 128 <= r * r)%Z ->
+  diameter_le A (IZR r / (U * 2 ^ 64)).
+Proof.
+  intros P I R0 H. apply IZR_le in R0, H. rewrite Z.shiftl_mul_pow2, !mult_IZR in H by lia.
+  assert (T : IZR (2 ^ 128) = 2 ^ 64 * 2 ^ 64) by (rewrite <- pow_add; apply eq_sym, (pow_IZR 2 128)).
+  rewrite T in H. assert (V : 0 < 2 ^ 64) by (apply pow_lt; lra). set (v := 2 ^ 64) in *.
+  assert (UV : 0 < U * v) by now apply Rmult_lt_0_compat.
+  apply (diameter_value U b A _ P I); [now apply Rle_mult_inv_pos |].
+  assert (V2 : 0 < v * v) by now apply Rmult_lt_0_compat.
+  apply (Rmult_le_reg_r (v * v)); [exact V2 |].
+  replace (U * U * (IZR r / (U * v) * (IZR r / (U * v))) * (v * v)) with (IZR r * IZR r) by (field; lra). exact H.
+Qed.
+
+(* The bound in units of 2^k / unit. *)
+Lemma bound_fraction D E k n : (0 <= k)%Z -> (0 < den n)%Z ->
+  let j := (expo n + E - k)%Z in
+  value n * (unit D E / IZR (2 ^ k)) * IZR (Z.shiftl (den n) (Z.max 0 (- j))) = IZR (Z.shiftl (man n * D) (Z.max 0 j)).
+Proof.
+  intros K Q j. rewrite !shift_value by lia. rewrite mult_IZR. unfold value, unit. apply IZR_lt in Q.
+  assert (T : IZR (2 ^ k) = powerRZ 2 k).
+  { pose proof (shift_value 1 k K) as T. rewrite Z.shiftl_mul_pow2, Z.mul_1_l, Rmult_1_l in T by exact K. exact T. }
+  rewrite T. assert (N : 2 <> 0) by lra. pose proof (powerRZ_lt 2 k ltac:(lra)) as Pk.
+  assert (X : powerRZ 2 (expo n) * powerRZ 2 E * powerRZ 2 (Z.max 0 (- j)) = powerRZ 2 (Z.max 0 j) * powerRZ 2 k).
+  { rewrite <- !powerRZ_add by exact N. f_equal. unfold j. lia. }
+  apply (Rmult_eq_reg_r (powerRZ 2 k)); [| lra].
+  replace (IZR (man n) * powerRZ 2 (expo n) / IZR (den n) * (IZR D * powerRZ 2 E / powerRZ 2 k) *
+      (IZR (den n) * powerRZ 2 (Z.max 0 (- j))) * powerRZ 2 k)
+    with (IZR (man n) * IZR D * (powerRZ 2 (expo n) * powerRZ 2 E * powerRZ 2 (Z.max 0 (- j)))) by (field; lra).
+  rewrite X. ring.
+Qed.
+
+Lemma box_holds_some root p q most2 depth effort before b l left :
+  box_holds root p q most2 depth effort before b l = Some left -> exists c, In c l.
+Proof.
+  intros H. destruct l as [| c l]; [| exists c; apply in_eq]. destruct depth; discriminate H.
+Qed.
+
+(* Every point of the window that is nearest to no site for every choice is within the bound of the diagram of each. *)
+Theorem accepted_distance D E l (w : site) B W root k effort bound p z : describes l B -> describes [w] (fun _ => W) ->
+  distance_holds root k effort D E l w bound = true -> choice (length l) B p -> inside z W ->
+  undetermined (length l) B z -> exists x, diagram (length l) p x /\ dist z x <= value bound.
+Proof.
+  intros F Fw H P Z0 Un. unfold distance_holds in H. destruct (scaled_sites D E l) as [bs |] eqn:Sc; [| discriminate].
+  destruct (scaled_site D E w) as [b |] eqn:Sw; [| discriminate]. cbv zeta in H.
+  set (j := (expo bound + E - k)%Z) in *. set (u := Z.shiftl (man bound * D) (Z.max 0 j)) in *.
+  set (v := Z.shiftl (den bound) (Z.max 0 (- j))) in *.
+  destruct (check D E l []) eqn:C; [| discriminate]. cbn [andb] in H. rewrite !andb_true_iff, !Z.leb_le, Z.ltb_lt in H.
+  destruct H as [[[M Q] K] H]. destruct (far_sites root k bs []) as [far |] eqn:Fs; [| discriminate].
+  destruct (box_holds _ _ _ _ _ _ _ _ _) as [left |] eqn:X; [| discriminate].
+  destruct (accepted_parts D E l [] C) as (bs' & Sc' & P0 & R0 & _). assert (bs' = bs) by congruence. subst bs'. clear Sc'.
+  pose proof (unit_pos D E P0) as U. assert (K0 : 0 < IZR (2 ^ k)) by (apply IZR_lt, Z.pow_pos_nonneg; lia).
+  set (S := unit D E / IZR (2 ^ k)). assert (S0 : 0 < S) by now apply Rdiv_lt_0_compat.
+  destruct (Fw 0%nat w eq_refl) as (X0 & X1 & Y0 & Y1). destruct (scaled_site_box D E w b W P0 Sw X0 X1 Y0 Y1) as [Ib _].
+  destruct (far_sites_in root k bs [] far Fs) as (A & _ & G).
+  assert (St : forall c r, In c bs -> (0 <= r)%Z -> (Z.shiftl (diameter2 c) 128 <= r * r)%Z ->
+    stands (length l) B S (unit D E) (position bs) (FarSite (coarse k c) c r) (position bs (box_name c))).
+  { intros c r I R1 R2. apply In_nth_error in I. destruct I as [n I].
+    pose proof (find_box_nth (-1) bs n _ c R0 I eq_refl) as Fc. destruct (found_named D E l [] B C F bs Sc _ _ Fc) as [_ Kc].
+    destruct (found_box D E l [] B C F bs Sc _ _ Fc) as [Bc _]. unfold stands. cbn [rough exact width].
+    split; [exact Kc |]. split; [| split; [| split; [| reflexivity]]].
+    - exact (coarse_bounds (unit D E) k c _ K U Bc).
+    - destruct Bc as (V0 & V1 & V2 & V3). intros x [Ix Iy]. unfold in_box. rewrite V0, V1, V2, V3. split; split; nra.
+    - now apply width_diameter with (b := c). }
+  assert (Here : forall c, In c far -> exists n, stands (length l) B S (unit D E) (position bs) c n).
+  { intros c I. destruct (A c I) as [[] | (c' & r & I' & -> & R1 & R2)]. eexists. now apply St. }
+  destruct (box_holds_some _ _ _ _ _ _ _ _ _ _ X) as [c0 I0]. destruct (Here c0 I0) as [n0 [N0 _]].
+  assert (V : (0 < v)%Z) by (unfold v; rewrite Z.shiftl_mul_pow2 by lia; apply Z.mul_pos_pos; [exact Q | apply Z.pow_pos_nonneg; lia]).
+  refine (box_sound (length l) B S (unit D E) (position bs) S0 U root u v (u * u / (v * v)) (value bound) _ V _ _ p P _ z
+    deepest Un effort _ _ far left X _ Here _).
+  - apply bound_fraction; assumption.
+  - unfold value. apply IZR_le in M. apply IZR_lt in Q. apply Rle_mult_inv_pos; [| exact Q].
+    apply Rmult_le_pos; [exact M | left; apply powerRZ_lt; lra].
+  - rewrite Z.mul_comm. apply Z.mul_div_le. now apply Z.mul_pos_pos.
+  - lia.
+  - exact (coarse_bounds (unit D E) k b W K U Ib z Z0).
+  - intros n L _. destruct (box_of D E l B F n L bs Sc P0) as (s & c & _ & T & _ & _).
+    destruct (G c (nth_error_In _ _ T)) as [r I]. exists (FarSite (coarse k c) c r). split; [exact I |].
+    destruct (A _ I) as [[] | (c' & r' & I' & Q' & R1 & R2)]. pose proof (f_equal exact Q') as Qc. pose proof (f_equal width Q') as Qr.
+    cbn [exact width] in Qc, Qr. subst c' r'.
+    rewrite <- (position_named D E l [] C bs Sc n c T). now apply St.
+Qed.
