@@ -437,6 +437,19 @@ def forged_distances(text):
                                           f'undetermined {spelled((x1 - x0) * (y1 - y0))}', f'distance {spelled(bound)}'] + tail)
 
 
+def try_reach(both):
+    """A distance that reaches just across the window, to the one site that is apart from others, in more digits than boxes
+    have."""
+    long = 2**60 + 1
+    text = both.certificate(f'[0,1] [0,1]\n[0,1] [0,1]\n{3 * long}/{2**60} {4 * long}/{2**60}\n', command='voronoi')
+    head = text[:text.index('\nwindow ')]
+    for man, status in ((5 * long, 0), (5 * long - 1, REJECTED)):
+        forged = f'{head}\nwindow 0 1 0 1\npolygons\nundetermined 1\ndistance {man}*2^-60\nend\n'
+        for answer in (both.ask(both.proved, text=forged), both.ask(both.dyadel, 'verify', text=forged)):
+            if (answer.returncode == REJECTED) != (status == REJECTED):
+                yield f'a distance across the window: {answer}'
+
+
 def try_diagrams(both, count):
     """Both say the same of the section on the Voronoi diagram."""
     rng = random.Random(SEED)
@@ -516,6 +529,7 @@ def main():
         found += try_forged_ties(both)
         found += try_fixpoint(both)
         found += try_certified(both)
+        found += try_reach(both)
         found += try_diagrams(both, 24)
         found += try_cases(both, root)
         found += try_command(both)
