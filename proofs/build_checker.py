@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerTies',
-            'CheckerDiagram', 'CheckerExtract')
+            'CheckerDiagram', 'CheckerDistance', 'CheckerExtract')
 READERS = ('reader', 'hints', 'cuts', 'circles', 'proved')
 
 

@@ -277,6 +277,22 @@ def try_fixpoint(both):
             yield f'fixpoint: {answer}'
 
 
+def try_certified(both):
+    """While pairs are not proved: bounds of the diagram are, and with them the outcome; not those of the triangulation. A
+    distance that is said to be unproved proves nothing."""
+    ties = '0 0\n1 0\n0 1\n1 1\n5 [0.5,0.53125]\n'
+    for command, goal, loose, proved in (('voronoi', 'area:-6', False, True), ('voronoi', 'hausdorff:-4', False, True),
+                                         ('voronoi', 'area:-6', True, True), ('voronoi', 'hausdorff:-4', True, False),
+                                         ('delaunay', 'area:-6', False, False), ('delaunay', 'hausdorff:-4', False, False)):
+        text = without_line(both.certificate(ties, '--until', goal, command=command), 't', 0)
+        text = re.sub(r'\n(distance .*)\n', r'\n\1 unproved\n', text) if loose else text
+        answer = both.ask(both.proved, text=text)
+        said = ['not proved: that pairs among' in answer.stdout, 'checked: the outcome certified' in answer.stdout,
+                'not proved: the outcome certified' in answer.stdout, 'not proved: the distance of' in answer.stdout]
+        if answer.returncode != NOT_ALL or said != [True, proved, not proved, loose]:
+            yield f'certified, {command} {goal}: {answer}'
+
+
 # A witness of 0 3 whose circle also goes through 1 and 2.
 TOUCHED = ('dyadel certificate 1\noutcome fixpoint\ngoal decided\ncapped no\nsites 4\n0 0\n1 0\n0 1\n1 1\nlegal 1\n'
            '0 3 1*2^-1 1*2^-1\nplaces 0\nbridges 0\ncorners 0\npairs\ntriangles 0\nunproved 5\narea none\nhausdorff none\nend\n')
@@ -317,10 +333,10 @@ def try_cases(both, root):
             (NOT_ALL, 'not proved: that pairs among', without_line(grid, 't', 7)),
             (NOT_ALL, 'the numbers of triangles', grid.replace('\ntriangles 0\n', '\ntriangles 1\n')),
             (REJECTED, '', halved(grid, 'hausdorff')),
-            (NOT_ALL, 'not proved: the distance of undetermined', both.certificate(square, command='voronoi')),
-            (NOT_ALL, 'the undetermined area of the Voronoi diagram, by 4 polygons', both.certificate(square, command='voronoi')),
-            (NOT_ALL, 'checked: the outcome certified', both.certificate(square, '--until', 'area:-6', command='voronoi')),
-            (NOT_ALL, 'not proved: the outcome certified', both.certificate(square, '--until', 'hausdorff:-4', command='voronoi')),
+            (ALL, 'checked: the distance of undetermined', both.certificate(square, command='voronoi')),
+            (ALL, 'the undetermined area of the Voronoi diagram, by 4 polygons', both.certificate(square, command='voronoi')),
+            (ALL, 'checked: the outcome certified', both.certificate(square, '--until', 'area:-6', command='voronoi')),
+            (ALL, 'checked: the outcome certified', both.certificate(square, '--until', 'hausdorff:-4', command='voronoi')),
             (REJECTED, '', both.certificate(square, '--until', 'area:-6', command='voronoi').replace('area -6', 'area 40')),
             (REJECTED, '', both.certificate(square, '--until', 'hausdorff:-4', command='voronoi').replace('ff -4', 'ff 400')),
             (ALL, 'bounds of area', both.certificate(square)),
@@ -375,7 +391,7 @@ def reshaped(at):
 
 
 def forged_diagrams(rng, text):
-    """The text with its section on the diagram changed for the worse; nothing on the distance."""
+    """The text with its section on the diagram changed for the worse, but for the distance."""
     lines = text.split('\n')
     window, first = next(k for k, line in enumerate(lines) if line.startswith('window ')), lines.index('polygons') + 1
     last = next(k for k, line in enumerate(lines) if line.startswith('undetermined '))
@@ -404,24 +420,56 @@ def forged_diagrams(rng, text):
         yield '\n'.join(lines[:window] + [f'window {ends}', 'polygons', 'undetermined 2', 'distance none', 'end', ''])
 
 
+def forged_distances(text):
+    """The text with another distance, or window: lower, below zero, said to be unproved, far from the diagram."""
+    lines = text.split('\n')
+    window, last = (next(k for k, line in enumerate(lines) if line.startswith(f'{word} ')) for word in ('window', 'distance'))
+    if lines[last] == 'distance none':
+        return
+    bound, tail = dyadic(lines[last].split(' ')[1]), lines[last + 1:]
+    for part in (Fraction(3, 4), Fraction(1, 2), Fraction(1, 4), Fraction(1, 2**20), Fraction(0), Fraction(-1), Fraction(2**20)):
+        yield '\n'.join(lines[:last] + [f'distance {spelled(part * bound)}'] + tail)
+    yield '\n'.join(lines[:last] + [f'distance {spelled(bound / 4)} unproved'] + tail)
+    x0, x1, y0, y1 = (dyadic(word) for word in lines[window].split(' ')[1:])
+    for move, bound in ((8, bound), (8, 16 * (x1 - x0 + y1 - y0)), (0, bound), (0, bound / 4)):
+        ends = [x0 + move * (x1 - x0), x1 + move * (x1 - x0), y0, y1]
+        yield '\n'.join(lines[:window] + [' '.join(['window', *map(spelled, ends)]), 'polygons',
+                                          f'undetermined {spelled((x1 - x0) * (y1 - y0))}', f'distance {spelled(bound)}'] + tail)
+
+
+def try_reach(both):
+    """A distance that reaches just across the window, to the one site that is apart from others, in more digits than boxes
+    have."""
+    long = 2**60 + 1
+    text = both.certificate(f'[0,1] [0,1]\n[0,1] [0,1]\n{3 * long}/{2**60} {4 * long}/{2**60}\n', command='voronoi')
+    head = text[:text.index('\nwindow ')]
+    for man, status in ((5 * long, 0), (5 * long - 1, REJECTED)):
+        forged = f'{head}\nwindow 0 1 0 1\npolygons\nundetermined 1\ndistance {man}*2^-60\nend\n'
+        for answer in (both.ask(both.proved, text=forged), both.ask(both.dyadel, 'verify', text=forged)):
+            if (answer.returncode == REJECTED) != (status == REJECTED):
+                yield f'a distance across the window: {answer}'
+
+
 def try_diagrams(both, count):
-    """Both say the same of the section on the Voronoi diagram, its distance apart."""
+    """Both say the same of the section on the Voronoi diagram."""
     rng = random.Random(SEED)
-    tried = refused = 0
+    tried = refused = far = 0
     for number in range(count):
         exact = ''.join(f'{rng.randrange(-9, 10)} {rng.randrange(-9, 10)}\n' for _ in range(rng.randrange(2, 12)))
         text = both.certificate(exact if number % 4 == 0 else points(rng), '--max-bits', '200', command='voronoi')
         if '\nwindow ' not in text:
             continue
-        for forged in [text, *forged_diagrams(rng, text)]:
+        for forged in [text, *forged_distances(text), *forged_diagrams(rng, text)]:
             here, there = both.ask(both.proved, text=forged), both.ask(both.dyadel, 'verify', text=forged)
             tried, refused = tried + 1, refused + (here.returncode == REJECTED)
+            far += 'boxes do not prove the bound of the distance' in here.stderr
             same = here.returncode == REJECTED or 'checked: the undetermined area' in here.stdout
-            apart = 'boxes do not prove the bound of the distance' in there.stderr and here.returncode == NOT_ALL
-            if (here.returncode == REJECTED) != (there.returncode == REJECTED) and not apart or not same:
+            proved = ['distance of undetermined points' in row for row in here.stdout.split('\n') if row.startswith('checked: ')]
+            same &= here.returncode == REJECTED or any(proved) == bool(re.search(r'\ndistance [-0-9*^]+\n', forged))
+            if (here.returncode == REJECTED) != (there.returncode == REJECTED) or not same:
                 yield f'a diagram: {here.returncode} {here.stderr}, verify {there.returncode} {there.stderr}:\n{forged}'
-    print(f'{tried} certificates of diagrams, of which {refused} are refused')
-    if tried < 10 * count or refused * 2 < tried:
+    print(f'{tried} certificates of diagrams, of which {refused} are refused, {far} as the distance does not hold')
+    if tried < 10 * count or refused * 2 < tried or far < 3 * count:
         yield 'hardly any diagram was tried, or refused'
 
 
@@ -480,6 +528,8 @@ def main():
         found += try_ties(both, 60)
         found += try_forged_ties(both)
         found += try_fixpoint(both)
+        found += try_certified(both)
+        found += try_reach(both)
         found += try_diagrams(both, 24)
         found += try_cases(both, root)
         found += try_command(both)

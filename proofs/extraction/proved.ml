@@ -40,6 +40,26 @@ let check_diagram c (g : Reader.diagram) =
       if Checker.polygons_hold d e c.sites g.window g.polygons then "the polygons leave a greater area"
       else "polygons are not in order, strictly convex, within a window that has an area, and surely nearest to their sites"))
 
+(* The least number whose square is at least z. *)
+let root_above z = if Z.sign z <= 0 then Z.zero else Z.succ (Z.sqrt (Z.pred z))
+
+let window_bits = 40
+let effort_bits = 18
+
+(* Do boxes prove the distance? Its own unit: the window is about 2^40 of it, in rough numbers. First with all digits and
+   without a cut, where the bound reaches across all. *)
+let check_distance c (g : Reader.diagram) bound =
+  let d, e = Hints.unit_of (g.window :: c.sites) [] [] in
+  let bits = match Checker.scaled_sites d e [ g.window ] with
+    | Some [ w ] -> Z.numbits (Z.max (Z.sub w.x1 w.x0) (Z.sub w.y1 w.y0))
+    | _ -> window_bits
+  in
+  let e = Z.add e (Z.of_int (max 0 (window_bits - bits))) in
+  let holds k effort = Checker.distance_holds root_above k effort d e c.sites g.window bound in
+  let effort = Z.shift_left (Z.of_int (List.length c.sites + 64)) effort_bits in
+  if not (holds Z.zero Z.zero || holds (Z.of_int (max 0 (bits - window_bits))) effort) then
+    raise (Bad (g.distance_line, "boxes do not prove the bound of the distance"))
+
 (* What of the pairs is proved. *)
 type proof = {
   decided : bool;  (* all possible pairs are legal ones that are listed *)
@@ -105,13 +125,19 @@ let bounds_hold c d e =
   Option.fold ~none:true ~some:(Checker.area_holds d e c.sites (listed c)) c.area
   && Option.fold ~none:true ~some:(Checker.hausdorff_holds d e c.sites c.edges c.pairs.listed) c.hausdorff
 
-(* Is the goal about the one bound that is not proved? *)
-let is_of_distance c = match c.goal with [ "voronoi"; "hausdorff"; _ ] -> true | _ -> false
+let has_unproved_distance c = Option.fold ~none:false ~some:(fun g -> g.distance_unproved) c.diagram
+
+(* Is the goal about a bound that holds? *)
+let goal_holds c p =
+  match c.goal with
+  | [ "voronoi"; "area"; _ ] -> true
+  | [ "voronoi"; "hausdorff"; _ ] -> not (has_unproved_distance c)
+  | _ -> p.complete
 
 let outcome_is_proved c p =
   match c.outcome with
   | "decided" -> p.decided || (p.complete && c.pairs.listed = [])
-  | "certified" -> is_reached c && (p.complete || List.hd c.goal = "voronoi") && not (is_of_distance c)
+  | "certified" -> is_reached c && goal_holds c p
   | "fixpoint" -> p.fixed
   | _ -> false
 
@@ -141,7 +167,7 @@ let gaps c p =
       (has_bounds c && not p.complete, "the bounds of area and Hausdorff distance, as more pairs may be possible");
       (p.complete && not p.counted, "places, bridges, corners and the numbers of triangles and pairs, which the proof does not need");
       (c.blocks, "what points are described to be, which this checker does not know");
-      (of_diagram c (fun g -> g.distance) <> None, "the distance of undetermined points to the Voronoi diagram");
+      (has_unproved_distance c, "the distance of undetermined points to the Voronoi diagram");
       (not (outcome_is_proved c p), "the outcome " ^ c.outcome) ]
 
 let report c p gaps =
@@ -161,7 +187,9 @@ let report c p gaps =
   if tied > 0 then Printf.printf "checked: %d ties, weakly Delaunay for every choice and strictly for none\n" tied;
   if p.complete && has_bounds c then print_endline "checked: the bounds of area and Hausdorff distance";
   let report_diagram (g : Reader.diagram) =
-    Printf.printf "checked: the undetermined area of the Voronoi diagram, by %d polygons\n" (List.length g.polygons)
+    Printf.printf "checked: the undetermined area of the Voronoi diagram, by %d polygons\n" (List.length g.polygons);
+    if g.distance <> None && not g.distance_unproved then
+      print_endline "checked: the distance of undetermined points to the Voronoi diagram, by boxes"
   in
   Option.iter report_diagram c.diagram;
   if outcome_is_proved c p then Printf.printf "checked: the outcome %s\n" c.outcome;
@@ -177,6 +205,7 @@ let verdict name =
     raise (Bad (line_at_fault c d e, "a point is no witness of its pair, or sites are not rectangles"));
   check_chains c d e;
   Option.iter (check_diagram c) c.diagram;
+  Option.iter (fun g -> if not g.distance_unproved then Option.iter (check_distance c g) g.distance) c.diagram;
   let p = proof_of c d e in
   Option.iter (fun wrong -> raise (Bad (2, wrong))) (contradiction c d e p);
   let found = gaps c p in

@@ -25,6 +25,8 @@ type diagram = {
   first_polygon : int;  (* its line *)
   undetermined : Checker.number;
   distance : Checker.number option;
+  distance_line : int;
+  distance_unproved : bool;  (* it is said that boxes do not prove it *)
 }
 
 type certificate = {
@@ -265,8 +267,9 @@ let rec read_vertices s found = function
 
 let read_distance s =
   match words s with
-  | [ "distance"; "none" ] -> None
-  | [ "distance"; bound ] | [ "distance"; bound; "unproved" ] -> Some (number s bound)
+  | [ "distance"; "none" ] -> (None, false)
+  | [ "distance"; bound ] -> (Some (number s bound), false)
+  | [ "distance"; bound; "unproved" ] -> (Some (number s bound), true)
   | _ -> bad s "\"distance\" is missing"
 
 (* After the line "window". *)
@@ -286,7 +289,8 @@ let read_diagram s known corners =
     | [] -> bad s "\"undetermined\" is missing"
   in
   let polygons, undetermined = polygons [] in
-  { window; polygons; first_polygon; undetermined; distance = read_distance s }
+  let distance, distance_unproved = read_distance s in
+  { window; polygons; first_polygon; undetermined; distance; distance_line = s.line; distance_unproved }
 
 (* What follows the bounds: are there blocks on what points are, which are not read; the diagram. *)
 let read_rest s known =
