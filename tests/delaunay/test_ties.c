@@ -11,6 +11,7 @@
 #include "support/random.h"
 #include <cmocka.h>
 #include <dyadel/delaunay.h>
+#include <math.h>
 #include <string.h>
 
 enum { MOST = 120 };
@@ -350,25 +351,30 @@ static dyd_status prove_all(bool *proved, void *user, dyd_relation relation, con
   return DYD_OK;
 }
 
-/* A hexagon of small boxes about `inside` large ones. most: pairs, 0: as many as there are. */
-static asked ask_hexagon(size_t ties[4], size_t inside, size_t most) {
-  static const double cx[6] = {100, 50, -50, -100, -50, 50}, cy[6] = {0, 87, 87, 0, -87, -87};
-  double x0[9], x1[9], y0[9], y1[9];
+/* x0, x1, y0, y1 of n boxes: asked is who proves everything. */
+static asked ask_boxes(size_t count[4], size_t n, double *const end[4], size_t most) {
   asked a = {0, 0};
   dyd_sites *s = NULL;
   dyd_delaunay *pd = NULL;
   dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .prove = prove_all, .prove_user = &a, .max_pairs = most};
+  assert_int_equal(dyd_sites_new(&s), DYD_OK);
+  assert_int_equal(dyd_sites_add_boxes(s, n, end[0], end[1], end[2], end[3]), DYD_OK);
+  assert_int_equal(dyd_delaunay_new(&pd, s, &o, NULL), most ? DYD_CAPPED : DYD_OK);
+  dyd_delaunay_count(count, pd);
+  dyd_delaunay_free(pd);
+  dyd_sites_free(s);
+  return a;
+}
+
+/* A hexagon of small boxes about `inside` large ones. most: pairs, 0: as many as there are. */
+static asked ask_hexagon(size_t ties[4], size_t inside, size_t most) {
+  static const double cx[6] = {100, 50, -50, -100, -50, 50}, cy[6] = {0, 87, 87, 0, -87, -87};
+  double x0[9], x1[9], y0[9], y1[9];
   for (size_t q = 0; q < 6 + inside; q++) {
     double half = q < 6 ? 1 : 40, x = q < 6 ? cx[q] : (double)q, y = q < 6 ? cy[q] : -(double)q;
     x0[q] = x - half, x1[q] = x + half, y0[q] = y - half, y1[q] = y + half;
   }
-  assert_int_equal(dyd_sites_new(&s), DYD_OK);
-  assert_int_equal(dyd_sites_add_boxes(s, 6 + inside, x0, x1, y0, y1), DYD_OK);
-  assert_int_equal(dyd_delaunay_new(&pd, s, &o, NULL), most ? DYD_CAPPED : DYD_OK);
-  dyd_delaunay_count(ties, pd);
-  dyd_delaunay_free(pd);
-  dyd_sites_free(s);
-  return a;
+  return ask_boxes(ties, 6 + inside, (double *const[]){x0, x1, y0, y1}, most);
 }
 
 /* A face is asked about where its rim passes through all of its vertices, and is closed where some are inside. */
@@ -390,8 +396,48 @@ static void test_prover(void **state) {
   assert_int_equal(count[DYD_INDETERMINATE], 3);
 }
 
+/* Points of the circle x^2 + y^2 = 65^2, one of which is a small box, and points far from it: the face is asked about,
+ * whatever vertex its rim begins with. */
+static void test_prover_of_one_box(void **state) {
+  (void)state;
+  test_random r = test_random_start("one box");
+  for (size_t k = test_cases_all(800); k; k--) {
+    double end[4][46];
+    size_t n = 0, count[4];
+    for (int x = -65; x <= 65; x++)
+      for (int y = -65; y <= 65; y++) {
+        if (x * x + y * y != 65 * 65 || (n > 3 && !test_chance(&r, 4))) continue;
+        end[0][n] = end[1][n] = x;
+        end[2][n] = end[3][n] = y;
+        n++;
+      }
+    end[1][test_below(&r, n)] += 0x1p-20;
+    size_t rim = n;
+    for (size_t far = test_below(&r, 10); far; far--, n++) {
+      double turn = 6.28 * test_unit(&r), away = 300 + 100 * test_unit(&r);
+      end[0][n] = end[1][n] = away * cos(turn);
+      end[2][n] = end[3][n] = away * sin(turn);
+    }
+    asked a = ask_boxes(count, n, (double *const[]){end[0], end[1], end[2], end[3]}, 0);
+    assert_int_equal(a.times, 1);
+    assert_int_equal(count[DYD_TIE], rim * (rim - 3) / 2);
+  }
+}
+
+/* About a rim that passes twice through its least vertex, which is no polygon, nobody is asked (see prove_all), but
+ * about the other face. */
+static void test_pinched_rim(void **state) {
+  double x0[] = {12, 0, 4, 0, 8, 0, 4, 8}, x1[] = {12, 3, 4, 3, 8, 0, 4, 11}, y0[] = {0, 4, 8, 8, 8, 12, 0, 12},
+         y1[] = {0, 4, 12, 11, 8, 13, 0, 13};
+  size_t count[4];
+  (void)state;
+  asked a = ask_boxes(count, 8, (double *const[]){x0, x1, y0, y1}, 0);
+  assert_int_equal(a.times, 1);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_definition), cmocka_unit_test(test_large_grid),
-                                     cmocka_unit_test(test_prover)};
+                                     cmocka_unit_test(test_prover), cmocka_unit_test(test_prover_of_one_box),
+                                     cmocka_unit_test(test_pinched_rim)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

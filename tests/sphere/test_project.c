@@ -145,7 +145,7 @@ static void test_widths(void **state) {
 
 /* ---- in doubles ---- */
 
-/* Anywhere, at whole quarters of a turn, next to a pole; `at`: next to that. */
+/* Anywhere, at whole quarters of a turn, next to a pole; `at`: next to that, at times after many turns. */
 static void make_place(double p[4], test_random *r, const double *at) {
   static const double quarter[] = {-180, -135, -90, -45, 0, 45, 90, 135, 180};
   double near = ldexp(test_unit(r) - 0.5, -(int)test_below(r, 50));
@@ -153,6 +153,7 @@ static void make_place(double p[4], test_random *r, const double *at) {
   p[2] = test_chance(r, 3) ? quarter[2 + test_below(r, 5)] : 180 * test_unit(r) - 90;
   if (at && test_chance(r, 2)) p[0] = at[0] + near, p[2] = at[2] - near;
   if (test_chance(r, 2)) p[0] += near, p[2] -= near;
+  if (at && test_chance(r, 5)) p[0] += ldexp(test_chance(r, 2) ? 360 : -360, (int)test_below(r, 50));
   p[2] = fmin(fmax(p[2], -90), 90);
   p[1] = test_chance(r, 2) ? p[0] : nextafter(p[0], HUGE_VAL);
   p[3] = test_chance(r, 2) ? p[2] : fmin(nextafter(p[2], HUGE_VAL), 90);

@@ -21,16 +21,17 @@ void dyd_fraction_set_leaf(dyd_fraction *x, slong k, const fmpz_t den, const dyd
 }
 
 void dyd_fraction_lowest(dyd_fraction *x, const dyd_ring *r) {
+  fmpz_mpoly_struct *num = x->num, *den = x->den;
   fmpz_t g, h;
   fmpz_init(g);
   fmpz_init(h);
-  _fmpz_vec_content(g, x->num->coeffs, x->num->length);
-  _fmpz_vec_content(h, x->den->coeffs, x->den->length);
+  _fmpz_vec_content(g, num->coeffs, num->length);
+  _fmpz_vec_content(h, den->coeffs, den->length);
   fmpz_gcd(g, g, h);
-  if (x->den->length && fmpz_sgn(x->den->coeffs) < 0) fmpz_neg(g, g);
+  if (den->length && fmpz_sgn(den->coeffs) < 0) fmpz_neg(g, g);
   if (!fmpz_is_one(g) && !fmpz_is_zero(g)) {
-    fmpz_mpoly_scalar_divexact_fmpz(x->num, x->num, g, r->ctx);
-    fmpz_mpoly_scalar_divexact_fmpz(x->den, x->den, g, r->ctx);
+    fmpz_mpoly_scalar_divexact_fmpz(num, num, g, r->ctx);
+    fmpz_mpoly_scalar_divexact_fmpz(den, den, g, r->ctx);
   }
   fmpz_clear(h);
   fmpz_clear(g);
