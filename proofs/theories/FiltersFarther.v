@@ -43,9 +43,11 @@ Definition is_farther (c s k : bbox) : bool :=
 (** ** Ends, and their doubles *)
 
 Lemma lower_below f x : lower_end f x -> below f x.
-Proof. intros [->|[F H]]; (split; [|intros G; try discriminate G]); [discriminate|intros E; rewrite E in F; discriminate|exact H]. Qed.
+Proof. intros [->|[F H]]; (split; [|intros G; try discriminate G]); [discriminate|intros E; rewrite E in F;
+  discriminate|exact H]. Qed.
 Lemma upper_above f x : upper_end f x -> above f x.
-Proof. intros [->|[F H]]; (split; [|intros G; try discriminate G]); [discriminate|intros E; rewrite E in F; discriminate|exact H]. Qed.
+Proof. intros [->|[F H]]; (split; [|intros G; try discriminate G]); [discriminate|intros E; rewrite E in F;
+  discriminate|exact H]. Qed.
 
 (** The larger of two that are below x is; the smaller is when one is, and the other a number. *)
 Lemma below_max f g x : below f x -> below g x -> below (fmax f g) x.
@@ -97,7 +99,8 @@ Proof.
     + exists t. split; [|apply nearer_square; lra]. split.
       * apply below_max; [now apply lower_below|now apply below_min with q].
       * apply above_min; [now apply upper_above|now apply above_max with q].
-    + exists (val k1). destruct K1 as [E|[_ K1]]; [rewrite E in F1; discriminate|]. split; [|apply nearer_square; lra]. split.
+    + exists (val k1). destruct K1 as [E|[_ K1]]; [rewrite E in F1; discriminate|]. split; [|apply nearer_square; lra].
+      split.
       * apply below_max; [apply lower_below; destruct K0 as [K0|[F K0]]; [now left|right; split; [exact F|lra]]|].
         destruct (cases (fmin (lo c) k1)) as [F|[F|[F|F]]].
         -- split; [intros E; rewrite E in F; discriminate|]. intros _. revert F. unfold fmin.
@@ -108,7 +111,8 @@ Proof.
         -- rewrite F. split; discriminate.
       * apply above_min; [split; [intros E; rewrite E in F1; discriminate|intros _; lra]|].
         apply above_max with q; [|exact K0]. destruct C1 as [C1|[F C1]]; [now left|right; split; [exact F|lra]].
-  - exists (val k0). destruct K0 as [E|[_ K0]]; [rewrite E in F0; discriminate|]. split; [|apply nearer_square; lra]. split.
+  - exists (val k0). destruct K0 as [E|[_ K0]]; [rewrite E in F0; discriminate|]. split; [|apply nearer_square; lra].
+    split.
     + apply below_max; [split; [intros E; rewrite E in F0; discriminate|intros _; lra]|].
       apply below_min with q; [|exact K1]. destruct C0 as [C0|[F C0]]; [now left|right; split; [exact F|lra]].
     + apply above_min; [apply upper_above; destruct K1 as [K1|[F K1]]; [now left|right; split; [exact F|lra]]|].
@@ -146,17 +150,20 @@ Lemma far_low_below c q z s t : contains q z -> finite s -> lower_end (lo c) t -
   below (far_low q (far_twice c) s) ((z - t) * (z - t) - (val s - t) * (val s - t)).
 Proof.
   intros Q F C0 C1. assert (P : contains (iv_point s) (val s)).
-  { split; (split; [intros E; cbn [iv_point lo hi] in E; rewrite E in F; discriminate|intros _; cbn [iv_point lo hi]; lra]). }
+  { split; (split; [intros E; cbn [iv_point lo hi] in E; rewrite E in F; discriminate|intros _; cbn [iv_point lo hi];
+    lra]). }
   pose proof (iv_mul_contains _ _ _ _ (iv_sub_contains _ _ _ _ Q P)
     (less_twice_contains _ c _ t (iv_add_contains _ _ _ _ Q P) C0 C1)) as [H _].
-  unfold far_low. replace ((z - t) * (z - t) - (val s - t) * (val s - t)) with ((z - val s) * (z + val s - 2 * t)) by ring.
+  unfold far_low. replace ((z - t) * (z - t) - (val s - t) * (val s - t)) with ((z - val s) * (z + val s - 2 * t)) by
+    ring.
   exact H.
 Qed.
 
 Lemma span4_low p q r s : lo (span4 p q r s) <> inf /\ (finite (lo (span4 p q r s)) -> finite p).
 Proof.
   unfold span4. destruct (is_finite 53 1024 (p + q + r + s)%D) eqn:F; cbn [negb lo].
-  - split; [apply down_not_inf|]. intros _. destruct (fadd_inv _ _ F) as (F1 & _). destruct (fadd_inv _ _ F1) as (F2 & _).
+  - split; [apply down_not_inf|]. intros _. destruct (fadd_inv _ _ F) as (F1 & _). destruct (fadd_inv _ _ F1) as (F2 &
+    _).
     now destruct (fadd_inv _ _ F2) as (Fp & _).
   - split; [|]; discriminate.
 Qed.
@@ -177,13 +184,16 @@ Proof.
   intros C0 C1 S0 S1 K0 K1. destruct (far_q_contains c k0 k1 t q C0 C1 K0 K1) as [z [Q Z]].
   unfold farther_along. cbv zeta. set (l0 := far_low (far_q c k0 k1) (far_twice c) s0).
   set (l1 := far_low (far_q c k0 k1) (far_twice c) s1).
-  pose proof (far_low_not_inf (far_q c k0 k1) (far_twice c) s0) as N0. pose proof (far_low_not_inf (far_q c k0 k1) (far_twice c) s1) as N1.
+  pose proof (far_low_not_inf (far_q c k0 k1) (far_twice c) s0) as N0. pose proof (far_low_not_inf (far_q c k0 k1)
+    (far_twice c) s1) as N1.
   fold l0 in N0. fold l1 in N1.
-  assert (Both : finite l0 -> finite l1 -> forall v, v <= val l0 -> v <= val l1 -> v <= (q - t) * (q - t) - (p - t) * (p - t)).
+  assert (Both : finite l0 -> finite l1 -> forall v, v <= val l0 -> v <= val l1 -> v <= (q - t) * (q - t) - (p - t) *
+    (p - t)).
   { intros F0 F1 v V0 V1. pose proof (far_low_finite _ _ _ F0) as G0. pose proof (far_low_finite _ _ _ F1) as G1.
     destruct (far_low_below c _ z s0 t Q G0 C0 C1) as [_ B0]. destruct (far_low_below c _ z s1 t Q G1 C0 C1) as [_ B1].
     specialize (B0 F0). specialize (B1 F1). fold l0 in B0. fold l1 in B1.
-    destruct S0 as [E|[_ S0]]; [rewrite E in G0; discriminate|]. destruct S1 as [E|[_ S1]]; [rewrite E in G1; discriminate|].
+    destruct S0 as [E|[_ S0]]; [rewrite E in G0; discriminate|]. destruct S1 as [E|[_ S1]]; [rewrite E in G1;
+      discriminate|].
     destruct (Rle_or_lt t p); [assert ((p - t) * (p - t) <= (val s1 - t) * (val s1 - t)) by nra; lra|].
     assert ((p - t) * (p - t) <= (val s0 - t) * (val s0 - t)) by (apply nearer_square; lra). lra. }
   clearbody l0 l1. destruct (lt l0 l1) eqn:E.
@@ -214,7 +224,8 @@ Proof.
     destruct (fadd_inv _ _ (down_finite _ F)) as (Fx & Fy & E).
     pose proof (farther_along_correct {| lo := e0 c; hi := e1 c |} _ _ _ _ tx px qx C0 C1 S0 S1 K0 K1 Fx) as X.
     pose proof (farther_along_correct {| lo := e2 c; hi := e3 c |} _ _ _ _ ty py qy C2 C3 S2 S3 K2 K3 Fy) as Y.
-    fold x in X. fold y in Y. assert (D : val (down (x + y)%D) <= val x + val y) by (apply down_below; [exact F|rewrite E; lra]).
+    fold x in X. fold y in Y. assert (D : val (down (x + y)%D) <= val x + val y) by (apply down_below; [exact F|rewrite
+      E; lra]).
     lra.
   - destruct (down (x + y)%D); destruct (lit c_zero); discriminate.
   - now apply down_not_inf in F.
