@@ -16,6 +16,12 @@ THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerC
 READERS = ('reader', 'hints', 'cuts', 'circles', 'proved')
 
 
+def link(work, output, sources):
+    """A program of what was extracted in `work`, with Zarith, and checks of all bounds."""
+    subprocess.run(['ocamlfind', 'ocamlopt', '-package', 'zarith', '-linkpkg', '-w', '-a', '-inline', '100', '-o',
+                    output, *sources], cwd=work, check=True)
+
+
 def build(proofs, folder, output):
     """Raises CalledProcessError when a step fails."""
     work = folder / 'extracted'
@@ -27,8 +33,7 @@ def build(proofs, folder, output):
     for name in READERS:
         shutil.copy(proofs / f'extraction/{name}.ml', work)
     sources = ['checker.mli', 'checker.ml'] + [f'{name}.ml' for name in READERS]
-    subprocess.run(['ocamlfind', 'ocamlopt', '-package', 'zarith', '-linkpkg', '-w', '-a', '-inline', '100', '-o',
-                    output, *sources], cwd=work, check=True)
+    link(work, output, sources)
 
 
 def main():

@@ -13,6 +13,7 @@ import subprocess
 import sys
 
 sys.dont_write_bytecode = True
+import build_checker  # noqa: E402
 import compile as theories  # noqa: E402
 
 
@@ -24,8 +25,7 @@ def build(root, folder):
     for name in ('DefinitionsExtract.v', 'definitions.ml'):
         shutil.copy(root / 'proofs/definitions' / name, work)
     subprocess.run(['coqc', '-q', '-R', compiled, 'Dyadel', 'DefinitionsExtract.v'], cwd=work, check=True)
-    subprocess.run(['ocamlfind', 'ocamlopt', '-package', 'zarith', '-linkpkg', '-w', '-a', '-inline', '100', '-o',
-                    'definitions', 'filters.mli', 'filters.ml', 'definitions.ml'], cwd=work, check=True)
+    build_checker.link(work, 'definitions', ['filters.mli', 'filters.ml', 'definitions.ml'])
     return work / 'definitions'
 
 

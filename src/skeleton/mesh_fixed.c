@@ -167,7 +167,7 @@ void dyd_fixed_join(dyd_mesh *m, const dyd_mesh *right) {
 
 void dyd_fixed_take(dyd_mesh *m, dyd_mesh *whole) {
   m->fixed = whole->fixed;
-  m->no_fixed = whole->no_fixed && (whole->fixed || !m->reps->code); /* of all fractions it was not tried */
+  m->no_fixed = whole->no_fixed && !m->reps->code; /* of all fractions it was not tried */
   m->exact_s = whole->exact_s;
   whole->fixed = NULL;
 }
