@@ -128,6 +128,23 @@ static void aliases_are_points(const cloud *c, const dyd_delaunay *pd) {
   }
 }
 
+/* The sites of the cloud, and what is known of them; not all of it with a cap on pairs. */
+static dyd_delaunay *triangulate(dyd_sites **s, const cloud *c, const dyd_delaunay_options *o) {
+  dyd_delaunay *pd = NULL;
+  *s = NULL;
+  assert_int_equal(dyd_sites_new(s), DYD_OK);
+  assert_int_equal(dyd_sites_add_boxes(*s, c->n, c->x0, c->x1, c->y0, c->y1), DYD_OK);
+  dyd_status status = dyd_delaunay_new(&pd, *s, o, NULL);
+  assert_int_equal(status, dyd_delaunay_is_capped(pd) ? DYD_CAPPED : DYD_OK);
+  assert_true(o || status == DYD_OK);
+  return pd;
+}
+
+static void finish(dyd_sites *s, dyd_delaunay *pd) {
+  dyd_delaunay_free(pd);
+  dyd_sites_free(s);
+}
+
 static void narrow_to(dyd_sites *s, size_t i, double x0, double x1, double y0, double y1) {
   dyd_rect r;
   dyd_rect_init(&r);
@@ -177,17 +194,13 @@ static void test_aliases(void **state) {
   cloud *c = malloc(sizeof *c);
   assert_non_null(c);
   for (size_t q = 0; q < test_cases_all(300); q++) {
-    dyd_sites *s = NULL;
-    dyd_delaunay *pd = NULL;
+    dyd_sites *s;
     do {
       make(c, &g);
     } while (c->n % 2 == 0 || c->unit < 0x1p-8);
-    assert_int_equal(dyd_sites_new(&s), DYD_OK);
-    assert_int_equal(dyd_sites_add_boxes(s, c->n, c->x0, c->x1, c->y0, c->y1), DYD_OK);
-    assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
+    dyd_delaunay *pd = triangulate(&s, c, NULL);
     aliases_are_points(c, pd);
-    dyd_delaunay_free(pd);
-    dyd_sites_free(s);
+    finish(s, pd);
   }
   fprintf(stderr, "# aliases %zu\n", aliases);
   assert_true(aliases > 0);
@@ -201,18 +214,14 @@ static void test_fresh(void **state) {
   size_t carried = 0;
   assert_non_null(c);
   for (size_t q = 0; q < test_cases_all(12); q++) {
-    dyd_sites *s = NULL;
-    dyd_delaunay *pd = NULL;
+    dyd_sites *s;
     make(c, &g);
-    assert_int_equal(dyd_sites_new(&s), DYD_OK);
-    assert_int_equal(dyd_sites_add_boxes(s, c->n, c->x0, c->x1, c->y0, c->y1), DYD_OK);
-    assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
+    dyd_delaunay *pd = triangulate(&s, c, NULL);
     for (int k = 0; k < 4; k++) {
       step(c, &g, s, pd);
       carried += same_as_fresh(s, pd);
     }
-    dyd_delaunay_free(pd);
-    dyd_sites_free(s);
+    finish(s, pd);
   }
   fprintf(stderr, "# carried over: %zu; pairs hidden: %zu; failures: %zu\n", carried, hidden, failures);
   assert_true(hidden > 0 && failures > 0);
@@ -257,18 +266,14 @@ static void test_crowd(void **state) {
   size_t carried = 0, before = hidden;
   assert_non_null(c);
   for (size_t q = 0; q < test_cases_all(25); q++) {
-    dyd_sites *s = NULL;
-    dyd_delaunay *pd = NULL;
+    dyd_sites *s;
     make_crowd(c, &g);
-    assert_int_equal(dyd_sites_new(&s), DYD_OK);
-    assert_int_equal(dyd_sites_add_boxes(s, c->n, c->x0, c->x1, c->y0, c->y1), DYD_OK);
-    assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
+    dyd_delaunay *pd = triangulate(&s, c, NULL);
     for (int k = 0; k < 15; k++) {
       step_few(c, &g, s, pd);
       carried += same_as_fresh(s, pd);
     }
-    dyd_delaunay_free(pd);
-    dyd_sites_free(s);
+    finish(s, pd);
   }
   fprintf(stderr, "# carried over: %zu; pairs hidden: %zu; failures: %zu\n", carried, hidden - before, failures);
   assert_true(hidden > before);
@@ -284,16 +289,14 @@ static void test_last_point(void **state) {
   size_t count[4];
   (void)state;
   assert_non_null(c);
+  c->n = 12;
   for (uint32_t last = 0; last < 12; last++) {
-    dyd_sites *s = NULL;
-    dyd_delaunay *pd = NULL;
+    dyd_sites *s;
     for (uint32_t i = 0; i < 12; i++) {
       double h = i == last ? 0.25 : 0;
       c->x0[i] = x[i] - h, c->x1[i] = x[i] + h, c->y0[i] = y[i] - h, c->y1[i] = y[i] + h;
     }
-    assert_int_equal(dyd_sites_new(&s), DYD_OK);
-    assert_int_equal(dyd_sites_add_boxes(s, 12, c->x0, c->x1, c->y0, c->y1), DYD_OK);
-    assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
+    dyd_delaunay *pd = triangulate(&s, c, NULL);
     dyd_delaunay_count(count, pd);
     assert_true(count[DYD_INDETERMINATE] > 40);
     narrow_to(s, last, x[last], x[last], y[last], y[last]);
@@ -301,8 +304,7 @@ static void test_last_point(void **state) {
     dyd_delaunay_count(count, pd);
     assert_int_equal(count[DYD_TIE], 54);
     same_as_fresh(s, pd);
-    dyd_delaunay_free(pd);
-    dyd_sites_free(s);
+    finish(s, pd);
   }
   free(c);
 }
@@ -332,21 +334,16 @@ static void test_capped(void **state) {
   size_t open = 0;
   assert_non_null(c);
   for (size_t q = 0; q < test_cases_all(12); q++) {
-    dyd_sites *s = NULL;
-    dyd_delaunay *pd = NULL;
+    dyd_sites *s;
     make_crowd(c, &g);
     dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = 1 + (size_t)test_below(&g, 4 * c->n)};
-    assert_int_equal(dyd_sites_new(&s), DYD_OK);
-    assert_int_equal(dyd_sites_add_boxes(s, c->n, c->x0, c->x1, c->y0, c->y1), DYD_OK);
-    dyd_status status = dyd_delaunay_new(&pd, s, &o, NULL);
-    assert_true(status == DYD_OK || status == DYD_CAPPED);
+    dyd_delaunay *pd = triangulate(&s, c, &o);
     for (int k = 0; k < 8; k++) {
       step_few(c, &g, s, pd);
       table_holds(pd);
       open += is_sound(s, pd, c->n);
     }
-    dyd_delaunay_free(pd);
-    dyd_sites_free(s);
+    finish(s, pd);
   }
   fprintf(stderr, "# open by the cap: %zu\n", open);
   assert_true(open > 0);
@@ -408,15 +405,11 @@ static void test_local_witness(void **state) {
   size_t witnesses = 0;
   assert_non_null(c);
   for (size_t q = 0; q < test_cases_all(40); q++) {
-    dyd_sites *s = NULL;
-    dyd_delaunay *pd = NULL;
+    dyd_sites *s;
     make(c, &g);
-    assert_int_equal(dyd_sites_new(&s), DYD_OK);
-    assert_int_equal(dyd_sites_add_boxes(s, c->n, c->x0, c->x1, c->y0, c->y1), DYD_OK);
-    assert_int_equal(dyd_delaunay_new(&pd, s, NULL, NULL), DYD_OK);
+    dyd_delaunay *pd = triangulate(&s, c, NULL);
     if (pd->sk.rects.box) witnesses += try_edges(pd, &g);
-    dyd_delaunay_free(pd);
-    dyd_sites_free(s);
+    finish(s, pd);
   }
   fprintf(stderr, "# witnesses %zu\n", witnesses);
   assert_true(witnesses > 300);
