@@ -9,6 +9,7 @@ typedef struct tolerance_run {
   mpq_t up_to, sigma;
   double *weight, *sigmas;
   dyd_metric metric;
+  bool points; /* are radii of points written? They take longer than all edges */
   dyd_rect window;
 } tolerance_run;
 
@@ -40,7 +41,7 @@ static dyd_status tolerance_find(dyd_engine *e, const dyd_engine_options *option
   tolerance_run *r = user;
   dyd_outcome outcome;
   dyd_engine_options once = *options;
-  dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .points = true, .max_pairs = options->max_pairs,
+  dyd_tolerance_options o = {DYD_SIZED(dyd_tolerance_options), .points = r->points, .max_pairs = options->max_pairs,
                              .cancel = cli_signals_flag(), .metric = r->metric};
   once.max_stages = 1;
   dyd_status st = dyd_engine_run(&outcome, e, &once, err);
@@ -79,7 +80,7 @@ static int tolerance_contradictions(const cli_options *o) {
 }
 
 int cli_tolerance(const cli_options *o) {
-  tolerance_run r = {.metric = o->metric};
+  tolerance_run r = {.metric = o->metric, .points = o->content == DYD_CONTENT_RADII || o->format == DYD_FORMAT_JSON};
   cli_options own = *o;
   cli_session s;
   own.read.keep_radii = true;

@@ -15,6 +15,8 @@
  * + sqrt(2 m^2 - (a - b)^2)); from outside, where a - b >= m, by a side: h = a - m. That is at least distance /
  * sqrt(2), and a - m is never more than h. a, b, m are off by less than 2^-48 of a + m. */
 #include "base/alloc.h"
+#include "base/invariant.h"
+#include "base/parallel.h"
 #include "tolerance/state.h"
 
 #include <float.h>
@@ -22,13 +24,31 @@
 
 #define U 0x1p-53
 
+/* Of each range a copy, which has the circle at hand; radii belong to all. */
 typedef struct radius_pass {
   dyd_tolerance *t;
   double *radius; /* by vertex */
-  double *most;   /* by node of the tree: the largest radius in it when the tree was made */
+  double
+      *most; /* by node of the tree: the largest radius in it when the tree was made; NULL: only ends are looked at */
+  dyd_lines_d lines;
   const dyd_ring_d *ring;
   double c[2], middle, doubt; /* centre, radius of the circle, bound of their errors; at an end: direction, offset */
 } radius_pass;
+
+/* ---- radii ---- */
+
+static double radius_now(double *radius) {
+  double now;
+  __atomic_load(radius, &now, __ATOMIC_RELAXED);
+  return now;
+}
+
+/* The least of all circles, which does not depend on their order. */
+static void keep_least(double *radius, double r) {
+  double now = radius_now(radius), least = r > 0 ? r * (1 - 4 * U) : 0;
+  while (least < now && !__atomic_compare_exchange(radius, &now, &least, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
+  }
+}
 
 /* ---- one point, one circle ---- */
 
@@ -51,7 +71,7 @@ static double gap_of(const dyd_lines_d *l, const dyd_line_d *o, const dyd_ring_d
 
 /* Of the point at (x, y) from p_i, which is `gap` away from the circle, or more: how far in the max norm. */
 static double square_gap(const radius_pass *p, double x, double y, double gap, bool inside) {
-  const dyd_lines_d *l = &p->t->small;
+  const dyd_lines_d *l = &p->lines;
   double s = p->ring->s, size = sqrt(l->jj) * (1 - 0x1p-40);
   if (p->ring->end) return gap * (size / (fabs(l->jx) + fabs(l->jy)));
   double c = fabs(l->jx / 2 - s * l->jy - x), d = fabs(l->jy / 2 + s * l->jx - y), a = fmax(c, d), b = fmin(c, d);
@@ -60,28 +80,24 @@ static double square_gap(const radius_pass *p, double x, double y, double gap, b
   return D / (a + b + sqrt(2 * m * m - (a - b) * (a - b))) * (1 - 0x1p-40);
 }
 
-static void keep_least(double *radius, double r) {
-  r = r > 0 ? r * (1 - 4 * U) : 0;
-  if (r < *radius) *radius = r;
+/* What the circle allows k, who is none of its ends. */
+static double radius_beside(const radius_pass *p, uint32_t k) {
+  dyd_line_d line;
+  dyd_filter_line(&line, &p->lines, &p->t->points, k);
+  double gap = gap_of(&p->lines, &line, p->ring) - p->ring->half;
+  return gap > 0 && p->t->options.metric == DYD_METRIC_BOX ? square_gap(p, line.px, line.py, gap, false) : gap;
 }
 
 static void look_at(radius_pass *p, uint32_t k) {
-  const dyd_lines_d *l = &p->t->small;
-  if (k == l->i || k == l->j) return;
-  dyd_line_d line;
-  dyd_filter_line(&line, l, &p->t->points, k);
-  double gap = gap_of(l, &line, p->ring) - p->ring->half;
-  if (gap > 0 && p->t->options.metric == DYD_METRIC_BOX) gap = square_gap(p, line.px, line.py, gap, false);
-  keep_least(&p->radius[k], gap);
+  if (k != p->lines.i && k != p->lines.j) keep_least(&p->radius[k], radius_beside(p, k));
 }
 
 /* ---- all points of one circle ---- */
 
 /* The circle in plain coordinates; for branches only, so that a generous doubt will do. */
 static void place_ring(radius_pass *p) {
-  const dyd_tolerance *t = p->t;
-  const dyd_lines_d *l = &t->small;
-  dyd_xy i = t->points.xy[l->i];
+  const dyd_lines_d *l = &p->lines;
+  dyd_xy i = p->t->points.xy[l->i];
   double size = sqrt(l->jj), s = p->ring->s;
   if (p->ring->end) {
     p->c[0] = p->ring->end * l->jy / size; /* towards the others: against end J' */
@@ -96,32 +112,40 @@ static void place_ring(radius_pass *p) {
   p->doubt = 0x1p-40 * (fabs(i.x) + fabs(i.y) + p->middle);
 }
 
-static double branch_gap(const radius_pass *p, const dyd_bbox *b) {
-  const double *e = b->e;
-  double x, y, d, far = fmax(fmax(fabs(e[0]), fabs(e[1])), fmax(fabs(e[2]), fabs(e[3])));
-  if (p->ring->end) {
-    x = p->c[0] * e[p->c[0] > 0 ? 0 : 1];
-    y = p->c[1] * e[p->c[1] > 0 ? 2 : 3];
-    d = x + y;
-  } else {
-    x = fmax(fmax(e[0] - p->c[0], p->c[0] - e[1]), 0);
-    y = fmax(fmax(e[2] - p->c[1], p->c[1] - e[3]), 0);
-    d = sqrt(x * x + y * y);
-  }
-  d -= p->middle + p->doubt + 0x1p-40 * far;
-  return d > 0 && p->t->options.metric == DYD_METRIC_BOX ? d * 0.7071 : d;
+/* Is whatever lies in the box farther from the circle than `radius`, beyond all errors? In the max norm that is so of
+ * what is farther than sqrt(2) times it. */
+static bool is_clear(const radius_pass *p, const dyd_bbox *b, double radius) {
+  const double *e = b->e, wide = p->t->options.metric == DYD_METRIC_BOX ? 0x1.6a1p0 : 1;
+  double far = dyd_max(dyd_max(fabs(e[0]), fabs(e[1])), dyd_max(fabs(e[2]), fabs(e[3])));
+  double reach = radius * wide + p->middle + p->doubt + 0x1p-40 * far;
+  if (p->ring->end) return p->c[0] * e[p->c[0] > 0 ? 0 : 1] + p->c[1] * e[p->c[1] > 0 ? 2 : 3] > reach;
+  double x = dyd_max(dyd_max(e[0] - p->c[0], p->c[0] - e[1]), 0);
+  double y = dyd_max(dyd_max(e[2] - p->c[1], p->c[1] - e[3]), 0);
+  return x * x + y * y > reach * reach;
 }
 
 static void visit_branch(radius_pass *p, int level, size_t node) {
   const dyd_tree *t = &p->t->tree;
   size_t at = t->level[level] + node;
-  if (branch_gap(p, &t->node[at]) > p->most[at]) return;
+  if (is_clear(p, &t->node[at], p->most[at])) return;
   size_t below = level ? t->level[level] - t->level[level - 1] : t->count, first = node * DYD_TREE_FANOUT;
   for (size_t q = first; q < first + DYD_TREE_FANOUT && q < below; q++)
     if (level)
       visit_branch(p, level - 1, q);
-    else if (!(branch_gap(p, &t->box[t->item[q]]) > p->radius[t->item[q]]))
+    else if (!is_clear(p, &t->box[t->item[q]], radius_now(&p->radius[t->item[q]])))
       look_at(p, t->item[q]);
+}
+
+/* Whom the tree left out is not concerned. */
+static void check_others(const radius_pass *p) {
+#ifdef DYD_ARMED
+  enum { FEW = 2000 };
+  for (uint32_t k = 0; k < p->t->sk->n && p->t->sk->n <= FEW; k++)
+    if (k != p->lines.i && k != p->lines.j && dyd_mesh_alias(&p->t->sk->mesh, k) == DYD_NONE)
+      DYD_INVARIANT(!(radius_beside(p, k) < radius_now(&p->radius[k])));
+#else
+  (void)p;
+#endif
 }
 
 /* ---- all circles ---- */
@@ -135,28 +159,41 @@ static bool make_most(radius_pass *p) {
       size_t below = k ? t->level[k] - t->level[k - 1] : t->count, first = q * DYD_TREE_FANOUT;
       double most = 0;
       for (size_t e = first; e < first + DYD_TREE_FANOUT && e < below; e++)
-        most = fmax(most, k ? p->most[t->level[k - 1] + e] : p->radius[t->item[e]]);
+        most = dyd_max(most, k ? p->most[t->level[k - 1] + e] : p->radius[t->item[e]]);
       p->most[t->level[k] + q] = most;
     }
   return true;
 }
 
 /* Its ends, or, later, everybody else. Where doubles cannot hold the pair, nothing is known of anybody. */
-static void pass_ring(radius_pass *p, const dyd_ring_d *ring, bool others) {
-  dyd_tolerance *t = p->t;
-  bool good = dyd_filter_pair(&t->small, &t->points, ring->i, ring->j) && ring->half > 0 && ring->half <= DBL_MAX;
+static void pass_ring(radius_pass *p, const dyd_ring_d *ring) {
+  const dyd_tolerance *t = p->t;
+  dyd_lines_d *l = &p->lines;
+  bool good = dyd_filter_pair(l, &t->points, ring->i, ring->j) && ring->half > 0 && ring->half <= DBL_MAX;
   p->ring = ring;
   if (!good) {
-    for (uint32_t v = 0; v < t->sk->n; v++) p->radius[v] = 0;
-  } else if (!others) {
-    const dyd_lines_d *l = &t->small;
+    for (uint32_t v = 0; v < t->sk->n; v++) keep_least(&p->radius[v], 0);
+  } else if (!p->most) {
     bool box = t->options.metric == DYD_METRIC_BOX;
     keep_least(&p->radius[ring->i], box ? square_gap(p, 0, 0, ring->half, true) : ring->half);
     keep_least(&p->radius[ring->j], box ? square_gap(p, l->jx, l->jy, ring->half, true) : ring->half);
   } else {
     place_ring(p);
     visit_branch(p, t->tree.levels - 1, 0);
+    check_others(p);
   }
+}
+
+static void pass_range(void *context, size_t number) {
+  const radius_pass *all = context;
+  radius_pass p = {.t = all->t, .radius = all->radius, .most = all->most};
+  size_t end = dyd_range_begin(p.t->rings, number + 1);
+  for (size_t k = dyd_range_begin(p.t->rings, number); k < end && !dyd_flag_is_set(p.t->options.cancel); k++)
+    pass_ring(&p, &p.t->ring[k]);
+}
+
+static void pass_rings(radius_pass *p) {
+  dyd_parallel(p->t->pd->options.threads, dyd_ranges(p->t->rings), pass_range, p);
 }
 
 /* What is tied may be decided by the least motion of whoever is in the face. */
@@ -193,13 +230,13 @@ static dyd_status pass_hull(radius_pass *p) {
 static dyd_status pass_all(radius_pass *p) {
   dyd_tolerance *t = p->t;
   for (uint32_t v = 0; v < t->sk->n; v++) p->radius[v] = HUGE_VAL;
-  for (size_t k = 0; k < t->rings; k++) pass_ring(p, &t->ring[k], false);
+  pass_rings(p);
   dyd_status st = clear_tied(p);
   if (st == DYD_OK && !dyd_is_line(t->pd)) st = pass_hull(p);
   if (st == DYD_OK) st = dyd_near_index(t);
   if (st != DYD_OK || t->tree.count == 0) return st;
   if (!make_most(p)) return DYD_E_NOMEM;
-  for (size_t k = 0; k < t->rings && !dyd_flag_is_set(t->options.cancel); k++) pass_ring(p, &t->ring[k], true);
+  pass_rings(p);
   return dyd_flag_is_set(t->options.cancel) ? DYD_CANCELLED : DYD_OK;
 }
 

@@ -158,6 +158,16 @@ static void test_points_and_whole(void **state) {
   assert_true(moved > 1000);
 }
 
+/* A place whose edges doubles cannot hold: it is not free to go anywhere. */
+static void test_point_far_away(void **state) {
+  brute_points p = {.n = 3, .x = {0, 1, 0x1p250}, .y = {0, 0, 0x1p250}};
+  cases_answer a;
+  (void)state;
+  cases_ask(&a, &p, &(dyd_tolerance_options){DYD_SIZED(dyd_tolerance_options), .points = true});
+  for (size_t i = 0; i < p.n; i++) assert_true(dyd_tolerance_points(a.t)[i] <= 1);
+  cases_forget(&a);
+}
+
 /* ---- large cases: the rungs agree; a hub ---- */
 
 enum { BY_DOUBLES, BY_INTEGERS, BY_THREADS, WAYS };
@@ -264,8 +274,8 @@ static void test_edges_of_use(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_all_annuli), cmocka_unit_test(test_attacks),      cmocka_unit_test(test_points_and_whole),
-      cmocka_unit_test(test_rungs),      cmocka_unit_test(test_edges_of_use),
+      cmocka_unit_test(test_all_annuli),     cmocka_unit_test(test_attacks), cmocka_unit_test(test_points_and_whole),
+      cmocka_unit_test(test_point_far_away), cmocka_unit_test(test_rungs),   cmocka_unit_test(test_edges_of_use),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
