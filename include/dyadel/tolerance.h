@@ -69,8 +69,8 @@ typedef struct dyd_tolerance dyd_tolerance;
  * With weights [TOL-8] hi - lo may be more where doubles do not place a circle: where one disc grows to be all but in
  * another one; and each pair costs some hundred decisions about discs.
  * Cost: O(N log N) for deaths [TOL-4]; births take the partial triangulation of squares of half-width up_to, and a few
- * searches for each of its pairs; points a search for each edge, which takes several times as long as the deaths. Both are
- * shared among as many threads as the options of pd name; results do not depend on it. */
+ * searches for each of its pairs; points a search for each edge, which takes several times as long as the deaths. Both
+ * are shared among as many threads as the options of pd name; results do not depend on it. */
 DYD_API dyd_status dyd_tolerance_new(dyd_tolerance **out, const dyd_delaunay *pd, const dyd_tolerance_options *options,
                                      dyd_error *err);
 DYD_API void dyd_tolerance_free(dyd_tolerance *t);

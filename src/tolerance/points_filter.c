@@ -9,6 +9,8 @@
  * D has an error e_D (height_bound); g grows with D at most by 1 / (sqrt(r^2 + D) + r); the rest of the formula has a
  * relative error below 8 u. Everybody is looked for whom the circle may concern more than what is known of them: a
  * branch of the tree is left out when it is farther from the circle, less errors, than the largest radius in it.
+ * Circles within a window concern nobody who is farther from the window than his radius, so the tree is asked for each
+ * window.
  *
  * In the max norm, with (a, b) the sizes of the coordinates of c - p, a >= b, and m the radius of the circle, the
  * square of half-width h about p comes to it by a corner, (a -+ h)^2 + (b -+ h)^2 = m^2: h = |a^2 + b^2 - m^2| / (a + b
@@ -24,15 +26,26 @@
 
 #define U 0x1p-53
 
+enum { NEAR_MOST = 128 };
+/* Half the width of a window, in radii of the circle in its middle. In the armed build it is as narrow as can be. */
+#ifdef DYD_ARMED
+#define WINDOW 1
+#else
+#define WINDOW 4
+#endif
+
 /* Of each range a copy, which has the circle at hand; radii belong to all. */
 typedef struct radius_pass {
   dyd_tolerance *t;
   double *radius; /* by vertex */
-  double
-      *most; /* by node of the tree: the largest radius in it when the tree was made; NULL: only ends are looked at */
+  double *most;   /* by node of the tree: the largest radius in it; NULL: only ends are looked at */
   dyd_lines_d lines;
   const dyd_ring_d *ring;
   double c[2], middle, doubt; /* centre, radius of the circle, bound of their errors; at an end: direction, offset */
+  /* A window, and whom circles within it may concern: circles that follow each other are near each other. */
+  dyd_bbox window;
+  uint32_t near[NEAR_MOST], count;
+  bool open;
 } radius_pass;
 
 /* ---- radii ---- */
@@ -88,8 +101,9 @@ static double radius_beside(const radius_pass *p, uint32_t k) {
   return gap > 0 && p->t->options.metric == DYD_METRIC_BOX ? square_gap(p, line.px, line.py, gap, false) : gap;
 }
 
-static void look_at(radius_pass *p, uint32_t k) {
+static bool look_at(radius_pass *p, uint32_t k) {
   if (k != p->lines.i && k != p->lines.j) keep_least(&p->radius[k], radius_beside(p, k));
+  return true;
 }
 
 /* ---- all points of one circle ---- */
@@ -112,28 +126,73 @@ static void place_ring(radius_pass *p) {
   p->doubt = 0x1p-40 * (fabs(i.x) + fabs(i.y) + p->middle);
 }
 
-/* Is whatever lies in the box farther from the circle than `radius`, beyond all errors? In the max norm that is so of
- * what is farther than sqrt(2) times it. */
-static bool is_clear(const radius_pass *p, const dyd_bbox *b, double radius) {
+/* What distances are compared with: in the max norm, whatever is farther than sqrt(2) times the radius is clear. */
+static double clear_reach(const radius_pass *p, const dyd_bbox *b, double radius) {
   const double *e = b->e, wide = p->t->options.metric == DYD_METRIC_BOX ? 0x1.6a1p0 : 1;
   double far = dyd_max(dyd_max(fabs(e[0]), fabs(e[1])), dyd_max(fabs(e[2]), fabs(e[3])));
-  double reach = radius * wide + p->middle + p->doubt + 0x1p-40 * far;
+  return radius * wide + p->doubt + 0x1p-40 * far;
+}
+
+/* Is whatever lies in the box farther from the circle than `radius`, beyond all errors? */
+static bool is_clear_of_circle(const radius_pass *p, const dyd_bbox *b, double radius) {
+  const double *e = b->e, reach = clear_reach(p, b, radius) + p->middle;
   if (p->ring->end) return p->c[0] * e[p->c[0] > 0 ? 0 : 1] + p->c[1] * e[p->c[1] > 0 ? 2 : 3] > reach;
   double x = dyd_max(dyd_max(e[0] - p->c[0], p->c[0] - e[1]), 0);
   double y = dyd_max(dyd_max(e[2] - p->c[1], p->c[1] - e[3]), 0);
   return x * x + y * y > reach * reach;
 }
 
-static void visit_branch(radius_pass *p, int level, size_t node) {
+/* The same of the window. */
+static bool is_clear_of_window(const radius_pass *p, const dyd_bbox *b, double radius) {
+  const double *e = b->e, *w = p->window.e, reach = clear_reach(p, b, radius);
+  return e[0] - w[1] > reach || w[0] - e[1] > reach || e[2] - w[3] > reach || w[2] - e[3] > reach;
+}
+
+typedef bool clear_test(const radius_pass *p, const dyd_bbox *b, double radius);
+
+/* Everybody who is not clear; false: there is no room for all. */
+static bool visit_branch(radius_pass *p, clear_test *clear, bool (*visit)(radius_pass *p, uint32_t k), int level,
+                         size_t node) {
   const dyd_tree *t = &p->t->tree;
   size_t at = t->level[level] + node;
-  if (is_clear(p, &t->node[at], p->most[at])) return;
+  if (clear(p, &t->node[at], p->most[at])) return true;
   size_t below = level ? t->level[level] - t->level[level - 1] : t->count, first = node * DYD_TREE_FANOUT;
-  for (size_t q = first; q < first + DYD_TREE_FANOUT && q < below; q++)
-    if (level)
-      visit_branch(p, level - 1, q);
-    else if (!is_clear(p, &t->box[t->item[q]], radius_now(&p->radius[t->item[q]])))
-      look_at(p, t->item[q]);
+  for (size_t q = first; q < first + DYD_TREE_FANOUT && q < below; q++) {
+    uint32_t k = level ? 0 : t->item[q];
+    if (level ? !visit_branch(p, clear, visit, level - 1, q)
+              : !clear(p, &t->box[k], radius_now(&p->radius[k])) && !visit(p, k))
+      return false;
+  }
+  return true;
+}
+
+static bool visit_all(radius_pass *p, clear_test *clear, bool (*visit)(radius_pass *p, uint32_t k)) {
+  return visit_branch(p, clear, visit, p->t->tree.levels - 1, 0);
+}
+
+static bool keep_near(radius_pass *p, uint32_t k) {
+  if (p->count < NEAR_MOST) p->near[p->count++] = k;
+  return p->count < NEAR_MOST;
+}
+
+static bool is_in_window(const radius_pass *p) {
+  const double *w = p->window.e, r = p->middle + p->doubt;
+  return p->c[0] - r >= w[0] && p->c[0] + r <= w[1] && p->c[1] - r >= w[2] && p->c[1] + r <= w[3];
+}
+
+/* A new window, unless too many are in it. */
+static void open_window(radius_pass *p) {
+  double r = WINDOW * (p->middle + p->doubt);
+  p->window = (dyd_bbox){{p->c[0] - r, p->c[0] + r, p->c[1] - r, p->c[1] + r}};
+  p->count = 0;
+  p->open = !p->ring->end && visit_all(p, is_clear_of_window, keep_near);
+}
+
+static void visit_others(radius_pass *p) {
+  if (p->ring->end || !p->open || !is_in_window(p)) open_window(p);
+  if (!p->open) visit_all(p, is_clear_of_circle, look_at);
+  for (uint32_t q = 0; p->open && q < p->count; q++)
+    if (!is_clear_of_circle(p, &p->t->box[p->near[q]], radius_now(&p->radius[p->near[q]]))) look_at(p, p->near[q]);
 }
 
 /* Whom the tree left out is not concerned. */
@@ -179,7 +238,7 @@ static void pass_ring(radius_pass *p, const dyd_ring_d *ring) {
     keep_least(&p->radius[ring->j], box ? square_gap(p, l->jx, l->jy, ring->half, true) : ring->half);
   } else {
     place_ring(p);
-    visit_branch(p, t->tree.levels - 1, 0);
+    visit_others(p);
     check_others(p);
   }
 }
