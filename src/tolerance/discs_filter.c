@@ -2,11 +2,13 @@
 /* Statuses of discs [DISC-1]: what squares leave indeterminate is decided for the discs in them.
  *
  * Who has to be looked at for a pair is found by searching the squares about one circle after another. Illegal is
- * proved by caps of finitely many sites, exactly. Legal is proved by a witness: a centre of doubles, checked against
+ * proved by caps of finitely many sites, exactly; of those in a circle's way the one is taken whose cap reaches highest
+ * in its direction, so that few are needed. Legal is proved by a witness: a centre of doubles, checked against
  * everybody whose square comes as near as the farther of both discs. |c - p| and the sums with radii are within ROOM =
  * 2^-48 of all sizes met (a few roundings each); what is closer than that counts as not proved. */
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/invariant.h"
 #include "delaunay/undecided.h"
 #include "tolerance/discs.h"
 #include <dyadel/tolerance.h>
@@ -14,7 +16,7 @@
 #include <math.h>
 
 #define ROOM 0x1p-48
-enum { FIRST_SEEN = 10, MOST_NEW = 4, MOST_ROUNDS = 400 };
+enum { FIRST_SEEN = 10, MOST_ROUNDS = 400 };
 
 /* ---- discs ---- */
 
@@ -65,10 +67,14 @@ static dyd_status make_discs(dyd_disc_work *w, dyd_error *err) {
 
 /* ---- who is looked at ---- */
 
+static bool is_seen(const dyd_disc_work *w, uint32_t v) {
+  size_t k = 0;
+  while (k < w->count && w->seen[k] != v) k++;
+  return k < w->count || v == w->i || v == w->j;
+}
+
 bool dyd_discs_see(dyd_disc_work *w, uint32_t v) {
-  if (v == w->i || v == w->j) return false;
-  for (size_t k = 0; k < w->count; k++)
-    if (w->seen[k] == v) return false;
+  if (is_seen(w, v)) return false;
   if (!dyd_reserve((void **)&w->seen, &w->cap, w->count + 1, sizeof *w->seen)) w->failed = true;
   if (!w->failed) w->seen[w->count++] = v;
   return !w->failed;
@@ -80,12 +86,14 @@ static void see_neighbour(void *context, uint32_t v, uint32_t w, dyd_pair_status
   if (d->count < FIRST_SEEN) dyd_discs_see(d, w);
 }
 
-/* A circle, about; reach: the squares that come so near are looked at. */
+/* The circle of direction u, about; reach: the squares that come so near are looked at. worst: of those in the way that
+ * are not seen yet, the highest found so far (height_d), or DYD_NONE. */
 typedef struct circle_d {
   dyd_disc_work *w;
-  double x, y, radius, reach;
+  dyd_direction u;
+  double x, y, radius, reach, highest;
   bool legal, good;
-  size_t added;
+  uint32_t worst;
 } circle_d;
 
 static double size_d(const dyd_disc_work *w, uint32_t v) {
@@ -102,15 +110,31 @@ static double room_d(const circle_d *c, uint32_t v) {
   return ROOM * (fabs(c->x) + fabs(c->y) + c->radius + size_d(c->w, v));
 }
 
+/* h of the circle of direction u that v just keeps from: caps.h. A disc that meets i rules all circles out, or none. */
+static double height_d(const circle_d *c, uint32_t v) {
+  const dyd_disc *i = &c->w->disc[c->w->i], *k = &c->w->disc[v];
+  double x = mpq_get_d(k->x) - mpq_get_d(i->x), y = mpq_get_d(k->y) - mpq_get_d(i->y);
+  double r = mpq_get_d(k->r) + mpq_get_d(i->r), n = x * x + y * y - r * r, along = c->u.x * x + c->u.y * y;
+  if (!(n > 0)) return c->legal ? HUGE_VAL : -HUGE_VAL;
+  return (c->legal ? along + r : along - r) / n;
+}
+
+/* The visitor of trees: goes on unless v is higher than the circle, and than the worst so far. */
+static bool keep_worst(circle_d *c, uint32_t v) {
+  double height = is_seen(c->w, v) ? -HUGE_VAL : height_d(c, v);
+  if (!(height > c->highest)) return true;
+  c->worst = v;
+  c->highest = height;
+  return false;
+}
+
 /* legal: v must be outside for sure; possible: v blocks when its disc is inside, about. */
 static bool meet_square(void *context, uint32_t v) {
   circle_d *c = context;
-  double r = mpq_get_d(c->w->disc[v].r), d = distance_d(c, v), room = room_d(c, v);
-  if (v == c->w->i || v == c->w->j) return true;
-  if (c->legal ? d - r > c->radius + room : d + r > c->radius + room) return true;
+  double r = mpq_get_d(c->w->disc[v].r), d = distance_d(c, v);
+  if (v == c->w->i || v == c->w->j || (c->legal ? d - r : d + r) > c->radius + room_d(c, v)) return true;
   c->good = false;
-  c->added += dyd_discs_see(c->w, v);
-  return c->added < MOST_NEW && !c->w->failed;
+  return keep_worst(c, v);
 }
 
 /* The circle of direction u: legal, the discs i and j just inside; possible, just meeting it. */
@@ -120,6 +144,9 @@ static bool place_circle_of(circle_d *c, dyd_disc_work *w, dyd_direction u, bool
   double delta = mpq_get_d(j->r) - mpq_get_d(i->r), n = jx * jx + jy * jy - delta * delta;
   double h = (u.x * jx + u.y * jy + (legal ? -delta : delta)) / n;
   *c = (circle_d){.w = w, .x = mpq_get_d(i->x) + u.x / (2 * h), .y = mpq_get_d(i->y) + u.y / (2 * h), .legal = legal};
+  c->u = u;
+  c->worst = DYD_NONE;
+  c->highest = h > 0 ? h * (1 - ROOM) : 0;
   double a = distance_d(c, w->i), ri = mpq_get_d(i->r), b = distance_d(c, w->j), rj = mpq_get_d(j->r);
   c->radius = legal ? fmax(a + ri, b + rj) : fmax(a - ri, b - rj);
   double room = room_d(c, w->i) + room_d(c, w->j);
@@ -129,23 +156,36 @@ static bool place_circle_of(circle_d *c, dyd_disc_work *w, dyd_direction u, bool
   return c->good;
 }
 
-static void look_around_circle(circle_d *c) {
+static void visit_circle(circle_d *c) {
   const dyd_bbox at = {{c->x, c->x, c->y, c->y}};
   double radius2 = c->reach * c->reach * (1 + ROOM);
   if (c->reach > 0) dyd_tree_near(&c->w->pd->sk.rects.tree, &at, &radius2, meet_square, c);
 }
 
-/* Far circles: everybody beyond the tangent of i, about. */
-static bool meet_beyond(void *context, uint32_t v) {
-  circle_d *c = context;
-  c->added += dyd_discs_see(c->w, v);
-  return c->added < MOST_NEW && !c->w->failed;
+/* Whoever is higher still is in the smaller circle that the worst allows. */
+static bool see_worst(circle_d *c) {
+  const dyd_disc *i = &c->w->disc[c->w->i];
+  uint32_t last = DYD_NONE;
+  while (c->worst != last && c->highest > 0 && isfinite(c->highest)) {
+    double distance = 1 / (2 * c->highest), r = mpq_get_d(i->r);
+    last = c->worst;
+    c->x = mpq_get_d(i->x) + c->u.x * distance;
+    c->y = mpq_get_d(i->y) + c->u.y * distance;
+    c->radius = c->reach = distance + (c->legal ? r : -r);
+    visit_circle(c);
+  }
+  return c->worst != DYD_NONE && dyd_discs_see(c->w, c->worst);
 }
 
-static void look_beyond(circle_d *c, dyd_direction u) {
+static bool meet_beyond(void *context, uint32_t v) {
+  return keep_worst(context, v);
+}
+
+/* Far circles: everybody beyond the tangent of i, about. */
+static void look_beyond(circle_d *c) {
   const dyd_disc *i = &c->w->disc[c->w->i];
-  double height = u.x * mpq_get_d(i->x) + u.y * mpq_get_d(i->y);
-  dyd_tree_beyond(&c->w->pd->sk.rects.tree, u.x, u.y, &height, meet_beyond, c);
+  double height = c->u.x * mpq_get_d(i->x) + c->u.y * mpq_get_d(i->y);
+  dyd_tree_beyond(&c->w->pd->sk.rects.tree, c->u.x, c->u.y, &height, meet_beyond, c);
 }
 
 /* ---- one pair ---- */
@@ -166,11 +206,12 @@ static bool discs_are_legal(dyd_disc_work *w) {
   for (int round = 0; round < MOST_ROUNDS; round++) {
     circle_d c;
     dyd_direction u;
+    DYD_INVARIANT(2 * round < MOST_ROUNDS); /* the worst first: a few are enough */
     if (!dyd_discs_load(w, true) || !dyd_caps_common(&u, &w->caps)) return false;
     if (!place_circle_of(&c, w, u, true)) return false;
-    look_around_circle(&c);
+    visit_circle(&c);
     if (c.good) return true;
-    if (!c.added) return false;
+    if (!see_worst(&c)) return false;
   }
   return false;
 }
@@ -182,7 +223,8 @@ static bool large_is_legal(dyd_disc_work *w) {
       .w = w, .x = mpq_get_d(j->x), .y = mpq_get_d(j->y), .radius = mpq_get_d(j->r), .legal = true, .good = true};
   c.radius += 2 * room_d(&c, w->j);
   c.reach = c.radius * (1 + ROOM);
-  look_around_circle(&c);
+  c.highest = HUGE_VAL; /* one in the way is enough */
+  visit_circle(&c);
   return c.good;
 }
 
@@ -190,13 +232,14 @@ static bool discs_are_possible(dyd_disc_work *w) {
   for (int round = 0; round < MOST_ROUNDS; round++) {
     circle_d c;
     dyd_direction u;
+    DYD_INVARIANT(2 * round < MOST_ROUNDS); /* the worst first: a few are enough */
     if (!dyd_discs_load(w, false)) return true;
     if (!dyd_caps_uncovered(&u, &w->caps)) return false;
     if (place_circle_of(&c, w, u, false))
-      look_around_circle(&c);
+      visit_circle(&c);
     else
-      look_beyond(&c, u);
-    if (!c.added) return true;
+      look_beyond(&c);
+    if (!see_worst(&c)) return true;
   }
   return true;
 }

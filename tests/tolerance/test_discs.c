@@ -176,8 +176,42 @@ static void test_refused(void **state) {
   dyd_sites_free(sites);
 }
 
+/* Small discs, hundreds of them: beside the hull circles are as large as half-planes, and few others are in their way.
+ * The armed build counts how many are looked at. */
+static void test_many(void **state) {
+  enum { MANY = 700 };
+  static double x0[MANY], x1[MANY], y0[MANY], y1[MANY];
+  (void)state;
+  test_random r = test_random_start("many discs");
+  size_t open = 0, decided = 0;
+  for (size_t c = 0; c < test_cases(3); c++) {
+    dyd_sites *sites;
+    dyd_delaunay *pd;
+    dyd_pair_list l = {0};
+    for (size_t k = 0; k < MANY; k++) {
+      double x = (double)test_below(&r, 1 << 16), y = (double)test_below(&r, 1 << 16),
+             h = (double)(8 << test_below(&r, 3));
+      x0[k] = x - h, x1[k] = x + h, y0[k] = y - h, y1[k] = y + h;
+    }
+    assert_int_equal(dyd_sites_new(&sites), DYD_OK);
+    assert_int_equal(dyd_sites_add_boxes(sites, MANY, x0, x1, y0, y1), DYD_OK);
+    assert_int_equal(dyd_delaunay_new(&pd, sites, NULL, NULL), DYD_OK);
+    assert_int_equal(dyd_disc_pairs(&l, pd, NULL), DYD_OK);
+    for (size_t k = 0; k < l.count; k++) {
+      dyd_pair_status square = dyd_delaunay_status(pd, l.item[k].i, l.item[k].j);
+      assert_true(square == l.item[k].status || square == DYD_INDETERMINATE);
+      open += l.item[k].status == DYD_INDETERMINATE;
+      decided += square != l.item[k].status;
+    }
+    dyd_pair_list_clear(&l);
+    dyd_delaunay_free(pd);
+    dyd_sites_free(sites);
+  }
+  assert_true(open > 0 && decided > 0);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_equal_discs), cmocka_unit_test(test_choices),
-                                     cmocka_unit_test(test_refused)};
+                                     cmocka_unit_test(test_refused), cmocka_unit_test(test_many)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
