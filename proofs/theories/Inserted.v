@@ -248,6 +248,94 @@ Proof.
 Qed.
 End Insertion.
 
+(* ---- what a mesh without ties says ---- *)
+
+Section Certain.
+Variables (N : nat) (p : nat -> point) (T : mesh) (B : sites).
+Variable distinct : forall a b, (a < N)%nat -> (b < N)%nat -> a <> b -> p a <> p b.
+Variable all : delaunay N p (fun z => (z < N)%nat) T.
+Variable tight : untied N p T.
+Variable points : forall k, (k < N)%nat -> exact (B k) (p k).
+
+Lemma mesh_site a b c : T a b c -> (a < N)%nat \/ a = N.
+Proof. intros F. destruct all as [R _]. now destruct (R _ _ _ F) as [_ [_ [A _]]]. Qed.
+
+Lemma mesh_circle i j k : T i j k -> (i < N)%nat -> (j < N)%nat -> (k < N)%nat -> p i <> p j /\
+  0 < orient (p i) (p j) (p k) /\ exists o, dist o (p j) = dist o (p i) /\ dist o (p k) = dist o (p i) /\
+    outside N B i j (p i) (p j) o (dist o (p i)) /\
+    forall z, test N p i j k z = - orient (p i) (p j) (p k) * about o (p i) (p z).
+Proof.
+  intros F I J K. destruct all as [R _]. destruct (R _ _ _ F) as [_ [D [_ [O W]]]].
+  specialize (O I J K). split; [now apply distinct |]. split; [exact O |].
+  destruct (centre_of _ _ _ O) as [o [X [Y Z]]]. exists o.
+  assert (Z' : forall z, test N p i j k z = - orient (p i) (p j) (p k) * about o (p i) (p z)).
+  { intros z. unfold test. destruct (Nat.eqb_spec i N); [lia |]. destruct (Nat.eqb_spec j N); [lia |].
+    destruct (Nat.eqb_spec k N); [lia |]. apply Z. }
+  split; [apply dist_eq; unfold about in X; lra |]. split; [apply dist_eq; unfold about in Y; lra |]. split; [| exact Z'].
+  intros m M Di Dj z In. rewrite (proj2 (points m M) z In). split; [| split; now apply distinct].
+  apply dist_le. specialize (W m M). rewrite Z' in W. unfold about in W. nra.
+Qed.
+
+Lemma hull_side a b : T a b N -> forall z, (z < N)%nat -> orient (p a) (p b) (p z) <= 0.
+Proof.
+  intros F z Z. destruct all as [R _]. destruct (R _ _ _ F) as [G [D [A [_ W]]]].
+  destruct (R _ _ _ G) as [G' [E _]]. destruct (R _ _ _ G') as [_ [E' _]].
+  specialize (W z Z). unfold test in W. destruct (Nat.eqb_spec a N); [congruence |].
+  destruct (Nat.eqb_spec b N); [congruence |]. now rewrite Nat.eqb_refl in W.
+Qed.
+
+(* Every edge of the skeleton. *)
+Theorem untied_legal a b c : T a b c -> (a < N)%nat -> (b < N)%nat -> legal N B a b.
+Proof.
+  intros F A C. destruct all as [R [_ [Tw [[x [y [z [Q [X [Y Z]]]]]] _]]]].
+  assert (Main : forall i j k l, T i j k -> T j i l -> (i < N)%nat -> (j < N)%nat -> (k < N)%nat -> legal N B i j).
+  { intros i j k l G H I J K. destruct (mesh_circle i j k G I J K) as [D [O [o [Oj [Ok [Out Te]]]]]].
+    destruct (R _ _ _ H) as [H1 _]. destruct (R _ _ _ H1) as [H2 _]. destruct (mesh_site _ _ _ H2) as [L | ->].
+    - destruct (mesh_circle j i l H J I L) as [_ [_ [w [Wi [Wl [OutW _]]]]]].
+      apply (tied_face_legal N B i j (p i) (p j) (p l) o (dist o (p i)) w (dist w (p j)));
+        auto; try (now symmetry); try (now rewrite Wi).
+      + apply dist_lt. assert (U : test N p i j k l < 0) by (apply (tight i j k l); auto; lia).
+        rewrite Te in U. unfold about in U. nra.
+      + intros m M Di Dj q In. destruct (OutW m M Dj Di q In). tauto.
+    - apply (tied_face_hull_edge N B i j (p i) (p j) o (dist o (p i))); auto. intros m M _ _ q In.
+      rewrite (proj2 (points m M) q In). pose proof (hull_side j i H m M). rewrite orient_cycle, orient_swap. lra. }
+  destruct (Tw _ _ _ F) as [d G]. destruct (R _ _ _ F) as [F1 [Dab _]]. destruct (R _ _ _ F1) as [F2 _].
+  destruct (R _ _ _ G) as [G1 _]. destruct (R _ _ _ G1) as [G2 _].
+  destruct (mesh_site _ _ _ F2) as [K | ->]; [now apply (Main a b c d) |].
+  destruct (mesh_site _ _ _ G2) as [K | ->].
+  - destruct (Main b a d N G F C A K) as [o W]. exists o. now apply witness_sym.
+  - exfalso. destruct (R _ _ _ Q) as [_ [_ [_ [O _]]]]. specialize (O X Y Z).
+    assert (Flat : forall m, (m < N)%nat -> orient (p a) (p b) (p m) = 0).
+    { intros m M. pose proof (hull_side a b F m M). pose proof (hull_side b a G m M). unfold orient in *. lra. }
+    pose proof (Flat x X) as Fx. pose proof (Flat y Y) as Fy. pose proof (Flat z Z) as Fz.
+    assert (S : 0 < dist2 (p a) (p b)).
+    { pose proof (dist_pos _ _ (distinct a b A C Dab)). rewrite <- dist_sq. nra. }
+    set (k u := (fst u - fst (p a)) * (fst (p b) - fst (p a)) + (snd u - snd (p a)) * (snd (p b) - snd (p a))).
+    assert (E : dist2 (p a) (p b) * orient (p x) (p y) (p z) =
+      orient (p a) (p b) (p x) * (k (p z) - k (p y)) + orient (p a) (p b) (p y) * (k (p x) - k (p z)) +
+      orient (p a) (p b) (p z) * (k (p y) - k (p x))) by (unfold k, dist2, orient; ring).
+    rewrite Fx, Fy, Fz in E. nra.
+Qed.
+
+(* Every vertex of the hull, between c and d. *)
+Theorem untied_corner v c d : T v N c -> T N v d -> sure_hull N B v /\ orient (p c) (p v) (p d) <> 0.
+Proof.
+  intros F G. destruct all as [R _].
+  destruct (R _ _ _ F) as [F1 [Dv [V _]]]. destruct V as [V | V]; [| contradiction].
+  destruct (R _ _ _ F1) as [F2 [Dc _]]. destruct (R _ _ _ F2) as [_ [Dcv _]].
+  destruct (R _ _ _ G) as [G1 _]. destruct (R _ _ _ G1) as [G2 [_ _]]. destruct (R _ _ _ G2) as [_ [Dd _]].
+  assert (U : test N p v N c d < 0) by (apply (tight v N c d); auto).
+  assert (O : orient (p c) (p v) (p d) < 0).
+  { unfold test in U. destruct (Nat.eqb_spec v N); [contradiction |]. now rewrite Nat.eqb_refl in U. }
+  split; [| lra]. destruct (tied_face_corner N B v (p d) (p v) (p c)) as [u H].
+  - unfold orient in *. lra.
+  - intros m M Dm z In. rewrite (proj2 (points m M) z In).
+    pose proof (hull_side c v F2 m M) as X. pose proof (hull_side v d G1 m M) as Y.
+    split; [unfold orient in *; lra |]. split; [unfold orient in *; lra |]. now apply distinct.
+  - exists u. intros k x y K Dk Ix Iy. rewrite (proj2 (points v V) x Ix). now apply (H k K Dk).
+Qed.
+End Certain.
+
 (* ---- all insertions ---- *)
 
 (* The first triangle, its ghosts round it; then insertions. Each mesh is a Delaunay triangulation of what is in it. *)
@@ -295,87 +383,15 @@ Proof.
     now intros ->.
 Qed.
 
-Section Certain.
+Section All.
 Variables (T : mesh) (B : sites).
 Variable all : built N p (fun z => (z < N)%nat) T.
 Variable points : forall k, (k < N)%nat -> exact (B k) (p k).
 
-Lemma mesh_site a b c : T a b c -> (a < N)%nat \/ a = N.
-Proof. intros F. destruct (built_delaunay _ _ _ _ all) as [R _]. now destruct (R _ _ _ F) as [_ [_ [A _]]]. Qed.
-
-Lemma mesh_circle i j k : T i j k -> (i < N)%nat -> (j < N)%nat -> (k < N)%nat -> p i <> p j /\
-  0 < orient (p i) (p j) (p k) /\ exists o, dist o (p j) = dist o (p i) /\ dist o (p k) = dist o (p i) /\
-    outside N B i j (p i) (p j) o (dist o (p i)) /\
-    forall z, test N p i j k z = - orient (p i) (p j) (p k) * about o (p i) (p z).
-Proof.
-  intros F I J K. destruct (built_delaunay _ _ _ _ all) as [R _]. destruct (R _ _ _ F) as [_ [D [_ [O W]]]].
-  specialize (O I J K). split; [now apply distinct |]. split; [exact O |].
-  destruct (centre_of _ _ _ O) as [o [X [Y Z]]]. exists o.
-  assert (Z' : forall z, test N p i j k z = - orient (p i) (p j) (p k) * about o (p i) (p z)).
-  { intros z. unfold test. destruct (Nat.eqb_spec i N); [lia |]. destruct (Nat.eqb_spec j N); [lia |].
-    destruct (Nat.eqb_spec k N); [lia |]. apply Z. }
-  split; [apply dist_eq; unfold about in X; lra |]. split; [apply dist_eq; unfold about in Y; lra |]. split; [| exact Z'].
-  intros m M Di Dj z In. rewrite (proj2 (points m M) z In). split; [| split; now apply distinct].
-  apply dist_le. specialize (W m M). rewrite Z' in W. unfold about in W. nra.
-Qed.
-
-Lemma hull_side a b : T a b N -> forall z, (z < N)%nat -> orient (p a) (p b) (p z) <= 0.
-Proof.
-  intros F z Z. destruct (built_delaunay _ _ _ _ all) as [R _]. destruct (R _ _ _ F) as [G [D [A [_ W]]]].
-  destruct (R _ _ _ G) as [G' [E _]]. destruct (R _ _ _ G') as [_ [E' _]].
-  specialize (W z Z). unfold test in W. destruct (Nat.eqb_spec a N); [congruence |].
-  destruct (Nat.eqb_spec b N); [congruence |]. now rewrite Nat.eqb_refl in W.
-Qed.
-
-(* Every edge of the skeleton. *)
 Theorem no_zero_legal a b c : T a b c -> (a < N)%nat -> (b < N)%nat -> legal N B a b.
-Proof.
-  intros F A C. destruct (built_delaunay _ _ _ _ all) as [R [_ [Tw [[x [y [z [Q [X [Y Z]]]]]] _]]]].
-  assert (Main : forall i j k l, T i j k -> T j i l -> (i < N)%nat -> (j < N)%nat -> (k < N)%nat -> legal N B i j).
-  { intros i j k l G H I J K. destruct (mesh_circle i j k G I J K) as [D [O [o [Oj [Ok [Out Te]]]]]].
-    destruct (R _ _ _ H) as [H1 _]. destruct (R _ _ _ H1) as [H2 _]. destruct (mesh_site _ _ _ H2) as [L | ->].
-    - destruct (mesh_circle j i l H J I L) as [_ [_ [w [Wi [Wl [OutW _]]]]]].
-      apply (tied_face_legal N B i j (p i) (p j) (p l) o (dist o (p i)) w (dist w (p j)));
-        auto; try (now symmetry); try (now rewrite Wi).
-      + apply dist_lt. assert (U : test N p i j k l < 0) by (apply (no_zero_untied _ _ all i j k l); auto; lia).
-        rewrite Te in U. unfold about in U. nra.
-      + intros m M Di Dj q In. destruct (OutW m M Dj Di q In). tauto.
-    - apply (tied_face_hull_edge N B i j (p i) (p j) o (dist o (p i))); auto. intros m M _ _ q In.
-      rewrite (proj2 (points m M) q In). pose proof (hull_side j i H m M). rewrite orient_cycle, orient_swap. lra. }
-  destruct (Tw _ _ _ F) as [d G]. destruct (R _ _ _ F) as [F1 [Dab _]]. destruct (R _ _ _ F1) as [F2 _].
-  destruct (R _ _ _ G) as [G1 _]. destruct (R _ _ _ G1) as [G2 _].
-  destruct (mesh_site _ _ _ F2) as [K | ->]; [now apply (Main a b c d) |].
-  destruct (mesh_site _ _ _ G2) as [K | ->].
-  - destruct (Main b a d N G F C A K) as [o W]. exists o. now apply witness_sym.
-  - exfalso. destruct (R _ _ _ Q) as [_ [_ [_ [O _]]]]. specialize (O X Y Z).
-    assert (Flat : forall m, (m < N)%nat -> orient (p a) (p b) (p m) = 0).
-    { intros m M. pose proof (hull_side a b F m M). pose proof (hull_side b a G m M). unfold orient in *. lra. }
-    pose proof (Flat x X) as Fx. pose proof (Flat y Y) as Fy. pose proof (Flat z Z) as Fz.
-    assert (S : 0 < dist2 (p a) (p b)).
-    { pose proof (dist_pos _ _ (distinct a b A C Dab)). rewrite <- dist_sq. nra. }
-    set (k u := (fst u - fst (p a)) * (fst (p b) - fst (p a)) + (snd u - snd (p a)) * (snd (p b) - snd (p a))).
-    assert (E : dist2 (p a) (p b) * orient (p x) (p y) (p z) =
-      orient (p a) (p b) (p x) * (k (p z) - k (p y)) + orient (p a) (p b) (p y) * (k (p x) - k (p z)) +
-      orient (p a) (p b) (p z) * (k (p y) - k (p x))) by (unfold k, dist2, orient; ring).
-    rewrite Fx, Fy, Fz in E. nra.
-Qed.
+Proof. apply (untied_legal N p T B distinct (built_delaunay _ _ _ _ all) (no_zero_untied _ _ all) points). Qed.
 
-(* Every vertex of the hull, between c and d. *)
 Theorem no_zero_corner v c d : T v N c -> T N v d -> sure_hull N B v /\ orient (p c) (p v) (p d) <> 0.
-Proof.
-  intros F G. destruct (built_delaunay _ _ _ _ all) as [R _].
-  destruct (R _ _ _ F) as [F1 [Dv [V _]]]. destruct V as [V | V]; [| contradiction].
-  destruct (R _ _ _ F1) as [F2 [Dc _]]. destruct (R _ _ _ F2) as [_ [Dcv _]].
-  destruct (R _ _ _ G) as [G1 _]. destruct (R _ _ _ G1) as [G2 [_ _]]. destruct (R _ _ _ G2) as [_ [Dd _]].
-  assert (U : test N p v N c d < 0) by (apply (no_zero_untied _ _ all v N c d); auto).
-  assert (O : orient (p c) (p v) (p d) < 0).
-  { unfold test in U. destruct (Nat.eqb_spec v N); [contradiction |]. now rewrite Nat.eqb_refl in U. }
-  split; [| lra]. destruct (tied_face_corner N B v (p d) (p v) (p c)) as [u H].
-  - unfold orient in *. lra.
-  - intros m M Dm z In. rewrite (proj2 (points m M) z In).
-    pose proof (hull_side c v F2 m M) as X. pose proof (hull_side v d G1 m M) as Y.
-    split; [unfold orient in *; lra |]. split; [unfold orient in *; lra |]. now apply distinct.
-  - exists u. intros k x y K Dk Ix Iy. rewrite (proj2 (points v V) x Ix). now apply (H k K Dk).
-Qed.
-End Certain.
+Proof. apply (untied_corner N p T B distinct (built_delaunay _ _ _ _ all) (no_zero_untied _ _ all) points). Qed.
+End All.
 End Built.

@@ -158,102 +158,36 @@ Qed.
 (* A triangle from one of its corners, counterclockwise, with the centre of its circle. *)
 Record triangle : Type := Tri { ta : nat; tb : nat; tc : nat; centre : point }.
 
-Definition face_vertex (T : list triangle) (H : list (nat * nat)) (v : nat) : Prop :=
-  (exists t, In t T /\ ta t = v) \/ exists b, In (v, b) H \/ In (b, v) H.
+(* ---- the way to a point in the disc of a triangle ---- *)
 
-(* A face of the skeleton of the representatives p. T: its triangles, each from all three corners; H: the hull edges of
-   its ghost triangles, all sites on their left. Every side is legal, or the face goes on beyond it, through the ghost
-   too: there the sure vertices of the hull end it. *)
-Definition rimmed (N : nat) (B : sites) (p : nat -> point) (T : list triangle) (H : list (nat * nat)) : Prop :=
-  (forall a b c o, In (Tri a b c o) T ->
-    In (Tri b c a o) T /\ ((a < N)%nat /\ (b < N)%nat /\ (c < N)%nat) /\
-    (about o (p a) (p b) = 0 /\ about o (p a) (p c) = 0 /\ 0 < orient (p a) (p b) (p c)) /\
-    (forall m, (m < N)%nat -> 0 <= about o (p a) (p m)) /\
-    (legal N B a b \/ (exists l w, In (Tri b a l w) T) \/ In (a, b) H)) /\
-  (forall a b, In (a, b) H ->
-    ((a < N)%nat /\ (b < N)%nat /\ a <> b) /\
-    (forall m, (m < N)%nat -> 0 <= orient (p a) (p b) (p m)) /\
-    (exists m, (m < N)%nat /\ 0 < orient (p a) (p b) (p m)) /\
-    (legal N B a b \/ exists k o, In (Tri a b k o) T) /\
-    (sure_hull N B a \/ exists l, In (l, a) H) /\ (sure_hull N B b \/ exists l, In (b, l) H)).
+Section Walk.
+Variables (p : nat -> point) (T : list triangle) (z : point) (Out : nat -> nat -> Prop).
+Variable turned : forall a b c o, In (Tri a b c o) T -> In (Tri b c a o) T /\
+  about o (p a) (p b) = 0 /\ about o (p a) (p c) = 0 /\ 0 < orient (p a) (p b) (p c).
+(* Beyond a side there is a triangle whose corner is not in this one's disc, or it is a way out. *)
+Variable next : forall a b c o, In (Tri a b c o) T -> about o (p a) z < 0 -> orient (p a) (p b) z < 0 ->
+  (exists l w, In (Tri b a l w) T /\ 0 <= about o (p a) (p l)) \/ Out a b.
 
-Section Rim.
-Variables (N : nat) (B : sites) (p : nat -> point) (T : list triangle) (H : list (nat * nat)).
-Variable drawn : choice N B p.
-Variable rim : rimmed N B p T H.
-Variable distinct : forall v w, (v < N)%nat -> (w < N)%nat -> v <> w -> p v <> p w.
-
-(* Nobody of the choice is in the open disc of a triangle or beyond a hull edge of the face. *)
-Definition good (z : point) : Prop :=
-  (forall t, In t T -> 0 <= about (centre t) (p (ta t)) z) /\
-  forall e, In e H -> 0 <= orient (p (fst e)) (p (snd e)) z.
-
-Definition within (t : triangle) (z : point) : Prop :=
+Definition within (t : triangle) : Prop :=
   0 <= orient (p (ta t)) (p (tb t)) z /\ 0 <= orient (p (tb t)) (p (tc t)) z /\ 0 <= orient (p (tc t)) (p (ta t)) z.
 
-Lemma corner_of a b c o : In (Tri a b c o) T ->
-  face_vertex T H a /\ face_vertex T H b /\ face_vertex T H c /\ In (Tri c a b o) T.
-Proof.
-  intros F. destruct rim as [R _]. destruct (R _ _ _ _ F) as [G _]. destruct (R _ _ _ _ G) as [K _].
-  repeat split; [left; now exists (Tri a b c o) | left; now exists (Tri b c a o) | left;
-    now exists (Tri c a b o) | exact K].
-Qed.
-
-Section Other.
-(* A site that is no vertex of the face, somewhere in its rectangle. *)
-Variables (m : nat) (z : point).
-Variable below : (m < N)%nat.
-Variable foreign : ~ face_vertex T H m.
-Variable place : inside z (B m).
-
-(* A legal edge of the face: a circle through its ends has z outside, and the other vertices. *)
-Lemma legal_disc a b : face_vertex T H a -> face_vertex T H b -> (a < N)%nat -> (b < N)%nat -> legal N B a b ->
-  exists w, about w (p a) (p b) = 0 /\ 0 < about w (p a) z /\
-    forall c, (c < N)%nat -> c <> a -> c <> b -> c <> m -> 0 < about w (p a) (p c).
-Proof.
-  intros Va Vb La Lb E.
-  assert (Da : a <> m) by (intros ->; contradiction). assert (Db : b <> m) by (intros ->; contradiction).
-  destruct (legal_sound N B a b (set_point p m z) La Lb E (set_choice N B p m z drawn place)) as [w [Eq Out]].
-  rewrite !set_other in Eq by assumption. exists w. unfold about. split; [apply dist_eq in Eq; lra |]. split.
-  - pose proof (Out m below (not_eq_sym Da) (not_eq_sym Db)) as X. rewrite set_same, set_other in X by assumption.
-    apply dist_lt in X. lra.
-  - intros c Lc Ca Cb Cm. pose proof (Out c Lc Ca Cb) as X. rewrite !set_other in X by assumption. apply dist_lt in X.
-      lra.
-Qed.
-
-(* The point is at no vertex, either. *)
-Variable away : forall v, face_vertex T H v -> z <> p v.
-
-(* In a disc of the face: in one of its triangles, or beyond its hull. *)
-Lemma walk_in M : M < 0 -> (forall t, In t T -> M <= about (centre t) (p (ta t)) z) ->
+Lemma walk_from M : M < 0 -> (forall t, In t T -> M <= about (centre t) (p (ta t)) z) ->
   forall n a b c o, In (Tri a b c o) T -> about o (p a) z = M -> orient (p a) (p b) z < 0 ->
   (length (filter (fun x => if Rlt_dec (orient (p a) (p b) (p x)) 0 then
     if Rle_dec (about o (p a) (p x)) 0 then true else false else false) (map ta T)) < n)%nat ->
-  (exists t, In t T /\ within t z) \/ exists e, In e H /\ orient (p (fst e)) (p (snd e)) z < 0.
+  (exists t, In t T /\ about (centre t) (p (ta t)) z = M /\ within t) \/ exists a b, Out a b.
 Proof.
   intros M0 Least. induction n as [| n IH]; intros a b c o F E Z Few; [lia |].
-  destruct (corner_of a b c o F) as [Va [Vb [Vc _]]].
-  destruct (proj1 rim _ _ _ _ F) as [_ [[La [Lb Lc]] [[Eb [Ec D]] [Empty Side]]]].
+  destruct (turned _ _ _ _ F) as [_ [Eb [Ec D]]].
   assert (Dab : p a <> p b) by (intros X; unfold orient in D; rewrite X in D; lra).
-  destruct Side as [S | [[l [w G]] | S]].
-  - exfalso. destruct (legal_disc a b Va Vb La Lb S) as [w [Wb [Wz Wo]]].
-    destruct (pencil o w (p a) (p b) Dab Eb Wb) as [k K].
-    assert (Cc : 0 < about w (p a) (p c)).
-    { apply Wo; [exact Lc | | | intros ->; contradiction]; intros ->; unfold orient in D; lra. }
-    rewrite K, Ec in Cc. rewrite K, E in Wz.
-    assert (0 < k) by (apply (Rmult_lt_reg_r (orient (p a) (p b) (p c))); lra).
-    assert (k * orient (p a) (p b) z < 0).
-    { replace 0 with (k * 0) by ring. now apply Rmult_lt_compat_l. }
-    lra.
-  - destruct (proj1 rim _ _ _ _ G) as [G1 [[_ [_ Ll]] [[Wa [Wl D']] _]]].
-    destruct (proj1 rim _ _ _ _ G1) as [G2 _].
-    destruct (corner_of b a l w G) as [_ [_ [Vl _]]].
+  destruct (next _ _ _ _ F) as [[l [w [G Empty]]] | S]; [now rewrite E | exact Z | |].
+  - destruct (turned _ _ _ _ G) as [G1 [Wa [Wl D']]]. destruct (turned _ _ _ _ G1) as [G2 _].
     assert (Wb : about w (p a) (p b) = 0) by (unfold about in *; lra).
     assert (Wl' : about w (p a) (p l) = 0) by (unfold about in *; lra).
     destruct (pencil o w (p a) (p b) Dab Eb Wb) as [k K].
     assert (Dl : orient (p a) (p b) (p l) < 0) by (unfold orient in *; lra).
     assert (K0 : 0 <= k).
-    { pose proof (K (p l)) as X. rewrite Wl' in X. pose proof (Empty l Ll) as Y.
+    { pose proof (K (p l)) as X. rewrite Wl' in X. pose proof Empty as Y.
       apply Rnot_lt_le. intros C. assert (0 < k * orient (p a) (p b) (p l)) by nra. lra. }
     assert (Kz : k = 0).
     { pose proof (K z) as X. pose proof (Least _ G) as Y. simpl in Y.
@@ -296,26 +230,120 @@ Proof.
       * unfold orient. ring.
       * exact Same_l.
     + left. exists (Tri b a l w). split; [exact G |]. unfold within. simpl.
+      split; [rewrite <- E, <- Same; unfold about in *; lra |].
       repeat split; [unfold orient in *; lra | lra | lra].
-  - right. exists (a, b). now split.
+  - right. now exists a, b.
 Qed.
 
-Lemma in_disc : ~ good z -> (exists t, In t T /\ within t z) \/ exists e,
+(* In the disc of a triangle: in a triangle, and inside of its disc, too, or past a way out. *)
+Lemma walk : (exists t, In t T /\ about (centre t) (p (ta t)) z < 0) ->
+  (exists t, In t T /\ about (centre t) (p (ta t)) z < 0 /\ within t) \/ exists a b, Out a b.
+Proof.
+  intros [t [F L]].
+  destruct (least (fun t => about (centre t) (p (ta t)) z) (fun _ => True) T) as [[a b c o] [G [_ M']]];
+    [now exists t |].
+  assert (M : forall f, In f T -> about o (p a) z <= about (centre f) (p (ta f)) z) by (intros f K; now apply M').
+  assert (M0 : about o (p a) z < 0) by (specialize (M t F); lra).
+  assert (Found : (exists t, In t T /\ about (centre t) (p (ta t)) z = about o (p a) z /\ within t) \/
+    exists a b, Out a b).
+  { destruct (turned _ _ _ _ G) as [G1 [Eb [Ec D]]]. destruct (turned _ _ _ _ G1) as [G2 _].
+    destruct (Rlt_dec (orient (p a) (p b) z) 0) as [X | X]; [| destruct (Rlt_dec (orient (p b) (p c) z) 0) as [Y | Y];
+      [| destruct (Rlt_dec (orient (p c) (p a) z) 0) as [W | W]]].
+    + now apply (walk_from _ M0 M _ a b c o G eq_refl X (Nat.lt_succ_diag_r _)).
+    + refine (walk_from _ M0 M _ b c a o G1 _ Y (Nat.lt_succ_diag_r _)). unfold about in *. lra.
+    + refine (walk_from _ M0 M _ c a b o G2 _ W (Nat.lt_succ_diag_r _)). unfold about in *. lra.
+    + left. exists (Tri a b c o). split; [exact G |]. split; [reflexivity |]. unfold within. simpl. repeat split; lra. }
+  destruct Found as [[f [K [Q I]]] | Q]; [left | now right]. exists f. split; [exact K |]. split; [lra | exact I].
+Qed.
+End Walk.
+
+Definition face_vertex (T : list triangle) (H : list (nat * nat)) (v : nat) : Prop :=
+  (exists t, In t T /\ ta t = v) \/ exists b, In (v, b) H \/ In (b, v) H.
+
+(* A face of the skeleton of the representatives p. T: its triangles, each from all three corners; H: the hull edges of
+   its ghost triangles, all sites on their left. Every side is legal, or the face goes on beyond it, through the ghost
+   too: there the sure vertices of the hull end it. *)
+Definition rimmed (N : nat) (B : sites) (p : nat -> point) (T : list triangle) (H : list (nat * nat)) : Prop :=
+  (forall a b c o, In (Tri a b c o) T ->
+    In (Tri b c a o) T /\ ((a < N)%nat /\ (b < N)%nat /\ (c < N)%nat) /\
+    (about o (p a) (p b) = 0 /\ about o (p a) (p c) = 0 /\ 0 < orient (p a) (p b) (p c)) /\
+    (forall m, (m < N)%nat -> 0 <= about o (p a) (p m)) /\
+    (legal N B a b \/ (exists l w, In (Tri b a l w) T) \/ In (a, b) H)) /\
+  (forall a b, In (a, b) H ->
+    ((a < N)%nat /\ (b < N)%nat /\ a <> b) /\
+    (forall m, (m < N)%nat -> 0 <= orient (p a) (p b) (p m)) /\
+    (exists m, (m < N)%nat /\ 0 < orient (p a) (p b) (p m)) /\
+    (legal N B a b \/ exists k o, In (Tri a b k o) T) /\
+    (sure_hull N B a \/ exists l, In (l, a) H) /\ (sure_hull N B b \/ exists l, In (b, l) H)).
+
+Section Rim.
+Variables (N : nat) (B : sites) (p : nat -> point) (T : list triangle) (H : list (nat * nat)).
+Variable drawn : choice N B p.
+Variable rim : rimmed N B p T H.
+Variable distinct : forall v w, (v < N)%nat -> (w < N)%nat -> v <> w -> p v <> p w.
+
+(* Nobody of the choice is in the open disc of a triangle or beyond a hull edge of the face. *)
+Definition good (z : point) : Prop :=
+  (forall t, In t T -> 0 <= about (centre t) (p (ta t)) z) /\
+  forall e, In e H -> 0 <= orient (p (fst e)) (p (snd e)) z.
+
+Lemma corner_of a b c o : In (Tri a b c o) T ->
+  face_vertex T H a /\ face_vertex T H b /\ face_vertex T H c /\ In (Tri c a b o) T.
+Proof.
+  intros F. destruct rim as [R _]. destruct (R _ _ _ _ F) as [G _]. destruct (R _ _ _ _ G) as [K _].
+  repeat split; [left; now exists (Tri a b c o) | left; now exists (Tri b c a o) | left;
+    now exists (Tri c a b o) | exact K].
+Qed.
+
+Section Other.
+(* A site that is no vertex of the face, somewhere in its rectangle. *)
+Variables (m : nat) (z : point).
+Variable below : (m < N)%nat.
+Variable foreign : ~ face_vertex T H m.
+Variable place : inside z (B m).
+
+(* A legal edge of the face: a circle through its ends has z outside, and the other vertices. *)
+Lemma legal_disc a b : face_vertex T H a -> face_vertex T H b -> (a < N)%nat -> (b < N)%nat -> legal N B a b ->
+  exists w, about w (p a) (p b) = 0 /\ 0 < about w (p a) z /\
+    forall c, (c < N)%nat -> c <> a -> c <> b -> c <> m -> 0 < about w (p a) (p c).
+Proof.
+  intros Va Vb La Lb E.
+  assert (Da : a <> m) by (intros ->; contradiction). assert (Db : b <> m) by (intros ->; contradiction).
+  destruct (legal_sound N B a b (set_point p m z) La Lb E (set_choice N B p m z drawn place)) as [w [Eq Out]].
+  rewrite !set_other in Eq by assumption. exists w. unfold about. split; [apply dist_eq in Eq; lra |]. split.
+  - pose proof (Out m below (not_eq_sym Da) (not_eq_sym Db)) as X. rewrite set_same, set_other in X by assumption.
+    apply dist_lt in X. lra.
+  - intros c Lc Ca Cb Cm. pose proof (Out c Lc Ca Cb) as X. rewrite !set_other in X by assumption. apply dist_lt in X.
+      lra.
+Qed.
+
+(* The point is at no vertex, either. *)
+Variable away : forall v, face_vertex T H v -> z <> p v.
+
+(* In a disc of the face: in one of its triangles, or beyond its hull. *)
+Lemma in_disc : ~ good z -> (exists t, In t T /\ within p z t) \/ exists e,
   In e H /\ orient (p (fst e)) (p (snd e)) z < 0.
 Proof.
   intros Bad. destruct (classic (exists e, In e H /\ orient (p (fst e)) (p (snd e)) z < 0)) as [Q | Q]; [now right |].
-  destruct (classic (exists t, In t T /\ about (centre t) (p (ta t)) z < 0)) as [[t [F L]] | C].
-  - destruct (least (fun t => about (centre t) (p (ta t)) z) (fun _ => True) T) as [[a b c o] [G [_ M']]].
-    { now exists t. }
-    assert (M : forall f, In f T -> about o (p a) z <= about (centre f) (p (ta f)) z) by (intros f K; now apply M').
-    assert (M0 : about o (p a) z < 0) by (specialize (M t F); lra).
-    destruct (corner_of a b c o G) as [_ [_ [_ G2]]]. destruct (proj1 rim _ _ _ _ G) as [G1 [_ [[Eb [Ec D]] _]]].
-    destruct (Rlt_dec (orient (p a) (p b) z) 0) as [X | X]; [| destruct (Rlt_dec (orient (p b) (p c) z) 0) as [Y | Y];
-      [| destruct (Rlt_dec (orient (p c) (p a) z) 0) as [W | W]]].
-    + now apply (walk_in _ M0 M _ a b c o G eq_refl X (Nat.lt_succ_diag_r _)).
-    + refine (walk_in _ M0 M _ b c a o G1 _ Y (Nat.lt_succ_diag_r _)). unfold about in *. lra.
-    + refine (walk_in _ M0 M _ c a b o G2 _ W (Nat.lt_succ_diag_r _)). unfold about in *. lra.
-    + left. exists (Tri a b c o). split; [exact G |]. unfold within. simpl. repeat split; lra.
+  destruct (classic (exists t, In t T /\ about (centre t) (p (ta t)) z < 0)) as [L | C].
+  - destruct (walk p T z (fun a b => In (a, b) H /\ orient (p a) (p b) z < 0)) as [[t [F [_ I]]] | [a [b [F I]]]];
+      [| | exact L | left; now exists t | right; now exists (a, b)].
+    + intros a b c o F. destruct (proj1 rim _ _ _ _ F) as [G [_ [K _]]]. tauto.
+    + intros a b c o F E Z. destruct (corner_of a b c o F) as [Va [Vb [Vc _]]].
+      destruct (proj1 rim _ _ _ _ F) as [_ [[La [Lb Lc]] [[Eb [Ec D]] [Empty Side]]]].
+      assert (Dab : p a <> p b) by (intros X; unfold orient in D; rewrite X in D; lra).
+      destruct Side as [S | [[l [w G]] | S]].
+      * exfalso. destruct (legal_disc a b Va Vb La Lb S) as [w [Wb [Wz Wo]]].
+        destruct (pencil o w (p a) (p b) Dab Eb Wb) as [k K].
+        assert (Cc : 0 < about w (p a) (p c)).
+        { apply Wo; [exact Lc | | | intros ->; contradiction]; intros ->; unfold orient in D; lra. }
+        rewrite K, Ec in Cc. rewrite K in Wz.
+        assert (0 < k) by (apply (Rmult_lt_reg_r (orient (p a) (p b) (p c))); lra).
+        assert (k * orient (p a) (p b) z < 0).
+        { replace 0 with (k * 0) by ring. now apply Rmult_lt_compat_l. }
+        lra.
+      * left. exists l, w. split; [exact G |]. apply Empty. now destruct (proj1 rim _ _ _ _ G) as [_ [[_ [_ Ll]] _]].
+      * right. now split.
   - exfalso. apply Bad. split.
     + intros t F. apply Rnot_lt_le. intros L. apply C. now exists t.
     + intros e F. apply Rnot_lt_le. intros L. apply Q. now exists e.
@@ -467,7 +495,7 @@ Proof.
 Qed.
 End Other.
 
-Lemma not_within z t : (forall v, face_vertex T H v -> z <> p v) -> good z -> In t T -> ~ within t z.
+Lemma not_within z t : (forall v, face_vertex T H v -> z <> p v) -> good z -> In t T -> ~ within p z t.
 Proof.
   intros Aw G F [A [C D]]. destruct t as [a b c o]. simpl in *.
   destruct (corner_of a b c o F) as [Va [Vb [Vc _]]]. destruct (proj1 rim _ _ _ _ F) as [_ [_ [[Eb [Ec O]] _]]].
@@ -645,7 +673,7 @@ Qed.
 Lemma stays_sound t : 0 <= t <= 1 -> sound t -> near t (fun s => 0 <= s <= 1 -> sound s).
 Proof.
   intros S [G A].
-  assert (K1 : near t (fun s => forall f, In f T -> ~ within f (x s))).
+  assert (K1 : near t (fun s => forall f, In f T -> ~ within p (x s) f)).
   { apply near_list. intros f F. pose proof (not_within _ f A G F) as W. unfold within in *.
     destruct (Rlt_dec (orient (p (ta f)) (p (tb f)) (x t)) 0) as [X | X];
       [| destruct (Rlt_dec (orient (p (tb f)) (p (tc f)) (x t)) 0) as [Y | Y]].
