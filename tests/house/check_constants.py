@@ -67,7 +67,7 @@ def pattern(place):
 
 def function_body(code, name):
     """Text between the braces of the definition of name; None when there is not exactly one."""
-    found = list(re.finditer(r'\b' + name + r'\([^;{}]*\)\s*\{', code))
+    found = list(re.finditer(r'\b' + name + r'\((?:[^;{}()]|\([^;{}()]*\))*\)\s*\{', code))
     if len(found) != 1:
         return None
     depth, start = 1, found[0].end()
