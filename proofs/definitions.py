@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""Runs the filters of the theories against those in C, bit for bit.
+"""Runs what the theories define of the code in C against that code, bit for bit.
 
 Usage: definitions.py ROOT FOLDER VECTORS [CASES]   (compiles in FOLDER as compile.py does; VECTORS: the program of
-                                                     definitions/vectors.c; CASES: default 1500, some 15 vectors each)
+                                                     definitions/*.c; CASES: default 10000, some 140 vectors each)
 
-The definitions that the theorems are about compute with Flocq's doubles; extracted they are a program in OCaml.
+The definitions that the theorems are about compute with Flocq's doubles, or with integers; extracted they are a program in
+OCaml. Each function in C that a theory quotes has to be among them, with vectors enough.
 """
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -16,26 +18,49 @@ sys.dont_write_bytecode = True
 import build_checker  # noqa: E402
 import compile as theories  # noqa: E402
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / 'tests/house'))
+import check_constants  # noqa: E402
 
-def build(root, folder):
-    """The program that knows the definitions. Raises CalledProcessError when a step fails."""
-    compiled, work = theories.compile_theories(root, folder), folder / 'definitions'
+SOURCES = ('quick.ml', 'harness.ml', 'doubles.ml', 'intervals.ml', 'wholes.ml')
+LEAST = 1000
+
+
+def build(root, folder, name):
+    """The program that knows the definitions, in FOLDER/name. Raises CalledProcessError when a step fails."""
+    compiled, work = theories.compile_theories(root, folder), folder / name
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir()
-    for name in ('DefinitionsExtract.v', 'definitions.ml'):
-        shutil.copy(root / 'proofs/definitions' / name, work)
+    for source in ('DefinitionsExtract.v',) + SOURCES:
+        shutil.copy(root / 'proofs/definitions' / source, work)
     subprocess.run(['coqc', '-q', '-R', compiled, 'Dyadel', 'DefinitionsExtract.v'], cwd=work, check=True)
-    build_checker.link(work, 'definitions', ['filters.mli', 'filters.ml', 'definitions.ml'])
+    build_checker.link(work, 'definitions', [SOURCES[0], 'filters.mli', 'filters.ml', *SOURCES[1:]])
     return work / 'definitions'
+
+
+def compare(program, vectors):
+    """(exit status, what the definitions say) of what the command `vectors` writes."""
+    with subprocess.Popen(vectors, stdout=subprocess.PIPE) as said:
+        run = subprocess.run([program], stdin=said.stdout, stdout=subprocess.PIPE, text=True, check=False)
+        said.stdout.close()
+    return run.returncode or said.returncode, run.stdout
+
+
+def few(root, text):
+    """Functions that are quoted, but hardly run."""
+    counted = {name: int(count) for name, count in re.findall(r'^(\w+): (\d+) vectors$', text, re.M)}
+    for path, name in check_constants.run_functions(root):
+        if counted.get(name, 0) < LEAST:
+            yield f'{name} of {path} is quoted in a theory, and run on {counted.get(name, 0)} vectors only'
 
 
 def main():
     root, folder, vectors = (pathlib.Path(arg).resolve() for arg in sys.argv[1:4])
-    program = build(root, folder)
-    cases = sys.argv[4] if len(sys.argv) > 4 else '1500'
-    with subprocess.Popen([vectors, cases], stdout=subprocess.PIPE) as said:
-        status = subprocess.run([program], stdin=said.stdout, check=False).returncode
-    return status or said.returncode
+    program = build(root, folder, 'definitions')
+    cases = sys.argv[4] if len(sys.argv) > 4 else '10000'
+    status, text = compare(program, [vectors, cases])
+    found = list(few(root, text)) if status == 0 else []
+    print(text + '\n'.join(found))
+    return 1 if status or found else 0
 
 
 if __name__ == '__main__':

@@ -41,11 +41,13 @@ Definition dd_add (x y : dd) : dd :=
 Definition dd_mul (x y : dd) : dd :=
   let p := (fst x * fst y)%D in let e := ffma (fst x) (fst y) (- p)%D in
   fast_two_sum p (e + (fst x * snd y + snd x * fst y))%D.
+(* [AREA-T] src/metric/measure_filter.c: out[1] = x.l + x.h * {}; *)
+Definition c_inflate : const := (1, -87)%Z.
 (* C src/metric/measure_filter.c dd_inflate
   out[0] = x.h;
   out[1] = x.l + x.h * 0x1p-87;
 *)
-Definition inflate (x : dd) : dd := (fst x, (snd x + fst x * lit (1, -87)%Z)%D).
+Definition inflate (x : dd) : dd := (fst x, (snd x + fst x * lit c_inflate)%D).
 
 (** ** No overflow *)
 

@@ -9,12 +9,16 @@ Open Scope R_scope.
 
 (** ** The C code *)
 
+(* [AREA-T] src/metric/measure_filter.c: return x.h == 0 || (x.h >= {} && *)
+Definition c_lead_least : const := (1, -400)%Z.
+(* [AREA-T] src/metric/measure_filter.c: && x.h <= {}); *)
+Definition c_lead_most : const := (1, 400)%Z.
 (* C src/metric/measure_filter.c dd_lead_in_range
   return x.h == 0 || (x.h >= 0x1p-400 && x.h <= 0x1p400);
 *)
 Definition equal (x y : double) : bool := match b64_compare x y with Some Eq => true | _ => false end.
 Definition lead_in_range (x : dd) : bool :=
-  equal (fst x) (lit (0, 0)%Z) || (le (lit (1, -400)%Z) (fst x) && le (fst x) (lit (1, 400)%Z)).
+  equal (fst x) (lit c_zero) || (le (lit c_lead_least) (fst x) && le (fst x) (lit c_lead_most)).
 
 (* C src/metric/measure_filter.c area2_axis_set
   out->b_low = b[0] < a[0];
@@ -97,11 +101,11 @@ Fixpoint filter_hull_area2 (calls : nat) (a b : bbox) : option dd :=
 
 Definition good (k : R) (e : Z) (m : Z) (x : dd) (v : R) : Prop := near k x v /\ ranged m e v.
 
-Lemma equal_zero x : equal x (lit (0, 0)%Z) = true -> finite x -> val x = 0.
+Lemma equal_zero x : equal x (lit c_zero) = true -> finite x -> val x = 0.
 Proof.
-  intros H F. destruct (lit_correct (0, 0)%Z eq_refl) as [F0 V0]. unfold equal, b64_compare in H.
+  intros H F. destruct (lit_correct c_zero eq_refl) as [F0 V0]. unfold equal, b64_compare in H.
   rewrite Bcompare_correct in H by assumption. revert H. case Rcompare_spec; try discriminate. intros E _.
-  rewrite E, V0. unfold cval. simpl. ring.
+  rewrite E, V0. unfold cval, c_zero. simpl. ring.
 Qed.
 
 Lemma lead_range x v : lead_in_range x = true -> near 0 x v -> good 4 402 (-401) x v.
@@ -112,26 +116,26 @@ Proof.
   destruct H as [H|H].
   - left. apply equal_zero in H; [|exact F]. rewrite H in *. unfold u in *. lra.
   - right. apply andb_prop in H. destruct H as [H1 H2].
-    destruct (lit_correct (1, -400)%Z eq_refl) as [F1 V1]. destruct (lit_correct (1, 400)%Z eq_refl) as [F2 V2].
+    destruct (lit_correct c_lead_least eq_refl) as [F1 V1]. destruct (lit_correct c_lead_most eq_refl) as [F2 V2].
     apply (le_finite _ _ F1 F) in H1. apply (le_finite _ _ F F2) in H2. rewrite V1 in H1. rewrite V2 in H2.
-    unfold cval, fst, snd in H1, H2. rewrite Rmult_1_l in H1, H2. change (-400)%Z with (1 + -401)%Z in H1.
+    unfold cval, c_lead_least, c_lead_most, fst, snd in H1, H2. rewrite Rmult_1_l in H1, H2. change (-400)%Z with (1 + -401)%Z in H1.
     change 402%Z with (2 + 400)%Z. rewrite bpow_plus in *. change (bpow radix2 1) with 2 in *.
     change (bpow radix2 2) with 4. destruct x as [h l]. cbn [fst snd] in *. unfold u in *. lra.
 Qed.
 
 Lemma lead_values x : lead_in_range x = true -> finite (fst x) /\ Rabs (val (fst x)) <= bpow radix2 401.
 Proof.
-  intros H. destruct (lit_correct (0, 0)%Z eq_refl) as [F0 _].
-  destruct (lit_correct (1, -400)%Z eq_refl) as [F1 V1]. destruct (lit_correct (1, 400)%Z eq_refl) as [F2 V2].
+  intros H. destruct (lit_correct c_zero eq_refl) as [F0 _].
+  destruct (lit_correct c_lead_least eq_refl) as [F1 V1]. destruct (lit_correct c_lead_most eq_refl) as [F2 V2].
   assert (F : finite (fst x)).
   { destruct x as [[s|[|]|s p Hp|s m e Hm] l]; try reflexivity; exfalso; revert H; unfold lead_in_range; cbn [fst]; clear - F0 F1 F2;
-      destruct (lit (0, 0)%Z); try discriminate F0; destruct (lit (1, -400)%Z); try discriminate F1;
-      destruct (lit (1, 400)%Z); try discriminate F2; discriminate. }
+      destruct (lit c_zero); try discriminate F0; destruct (lit c_lead_least); try discriminate F1;
+      destruct (lit c_lead_most); try discriminate F2; discriminate. }
   split; [exact F|]. unfold lead_in_range in H. apply orb_prop in H. destruct H as [H|H].
   - apply equal_zero in H; [|exact F]. rewrite H, Rabs_R0. apply bpow_ge_0.
   - apply andb_prop in H. destruct H as [H1 H2].
     apply (le_finite _ _ F1 F) in H1. apply (le_finite _ _ F F2) in H2. rewrite V1 in H1. rewrite V2 in H2.
-    destruct x as [h l]. unfold cval in H1, H2. cbn [fst snd] in *. rewrite Rmult_1_l in H1, H2. pose proof (bpow_ge_0 radix2 (-400)).
+    destruct x as [h l]. unfold cval, c_lead_least, c_lead_most in H1, H2. cbn [fst snd] in *. rewrite Rmult_1_l in H1, H2. pose proof (bpow_ge_0 radix2 (-400)).
     rewrite Rabs_pos_eq by lra. apply Rle_trans with (1 := H2). apply bpow_le. lia.
 Qed.
 

@@ -181,13 +181,13 @@ Theorem inflate_above k x v : near k x v -> k <= 1000 -> ranged (-810) 900 v ->
 Proof.
   intros X K Rv. destruct (near_small k x v 900 X K (ranged_top _ _ _ Rv)) as [H L].
   destruct (near_bounds k x v X K) as [B B']. change (900 + 1)%Z with 901%Z in *. unfold inflate. cbn [fst snd].
-  destruct (lit_correct (1, -87)%Z eq_refl) as [Fc Vc]. assert (C : cval (1, -87)%Z = 524288 * (u * u)) by (unfold u; numerals; lra).
-  assert (Sc : small 0 (lit (1, -87)%Z)).
+  destruct (lit_correct c_inflate eq_refl) as [Fc Vc]. assert (C : cval c_inflate = 524288 * (u * u)) by (unfold u, c_inflate; numerals; lra).
+  assert (Sc : small 0 (lit c_inflate)).
   { split; [exact Fc|]. rewrite Vc, C, Rabs_pos_eq by (unfold u; lra). change (bpow radix2 0) with 1. unfold u; lra. }
   destruct (small_mul 901 0 901 _ _ H Sc) as [Z Vz]; try lia. destruct (small_add 901 901 902 _ _ L Z) as [O Vo]; try lia.
   split; [apply H|]. split; [apply O|].
   assert (C86 : bpow radix2 (-86) = 1048576 * (u * u)) by (unfold u; numerals; lra). rewrite C86, Vo. rewrite Vc, C in Vz.
-  set (z := val (fst x * lit (1, -87)%Z)%D) in *. set (h := val (fst x)) in *.
+  set (z := val (fst x * lit c_inflate)%D) in *. set (h := val (fst x)) in *.
   destruct Rv as [Zv | [Rv _]].
   { subst v. destruct (near_zero k x X) as [A A']. fold h in A. rewrite A in Vz. rewrite Rmult_0_l in Vz.
     rewrite (round_0 radix2 fexp ZnearestE) in Vz. rewrite Vz, A, A', !Rplus_0_l, (round_0 radix2 fexp ZnearestE). lra. }

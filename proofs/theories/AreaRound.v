@@ -14,17 +14,21 @@ Definition dpoint : Type := (double * double)%type.
 Definition real (a : dpoint) : point := (val (fst a), val (snd a)).
 Definition dfinite (a : dpoint) : Prop := finite (fst a) /\ finite (snd a).
 
+(* [AREA-V] src/voronoi/shape_filter.c: *error = {} * (fabs(p) *)
+Definition c_turn : const := (1, -50)%Z.
 (* C src/voronoi/shape_filter.c double_turn
   double ax = a.x - o.x, ay = a.y - o.y, bx = b.x - o.x, by = b.y - o.y, p = ax * by, q = ay * bx;
-  *error = 8 * U * (fabs(p) + fabs(q)) + DYD_TINY;
+  *error = 8 * 0x1p-53 * (fabs(p) + fabs(q)) + DYD_TINY;
   return p - q;
 *)
 Definition turn_p (o a b : dpoint) : double := ((fst a - fst o) * (snd b - snd o))%D.
 Definition turn_q (o a b : dpoint) : double := ((snd a - snd o) * (fst b - fst o))%D.
 Definition turn_error (o a b : dpoint) : double :=
-  (lit (1, -50)%Z * (fabs (turn_p o a b) + fabs (turn_q o a b)) + lit c_tiny)%D.
+  (lit c_turn * (fabs (turn_p o a b) + fabs (turn_q o a b)) + lit c_tiny)%D.
 Definition turn (o a b : dpoint) : double := (turn_p o a b - turn_q o a b)%D.
 
+(* [AREA-V] src/voronoi/shape_filter.c: *error += e + {} * *area; *)
+Definition c_turn_sum : const := (1, -51)%Z.
 (* C src/voronoi/shape_filter.c shape_star
   int crossings = 0;
   *area = *error = 0;
@@ -34,7 +38,7 @@ Definition turn (o a b : dpoint) : double := (turn_p o a b - turn_q o a b)%D.
     if (!(d > e)) return false;
     crossings += a.y < o.y && b.y >= o.y;
     *area += d;
-    *error += e + 4 * U * *area;
+    *error += e + 4 * 0x1p-53 * *area;
   }
   return crossings == 1;
 *)
@@ -46,7 +50,7 @@ Fixpoint star_from (o : dpoint) (area error : double) (c : list dpoint) : option
     let d := turn o a b in
     let e := turn_error o a b in
     let area' := (area + d)%D in
-    let error' := (error + (e + lit (1, -51)%Z * area'))%D in
+    let error' := (error + (e + lit c_turn_sum * area'))%D in
     if gt d e then
       match star_from o area' error' r with Some (x, y, n) => Some (x, y, (rise o a b + n)%nat) | None => None end
     else None
@@ -55,8 +59,14 @@ Fixpoint star_from (o : dpoint) (area error : double) (c : list dpoint) : option
 Definition star (o z : dpoint) (l : list dpoint) : option (double * double * nat) :=
   star_from o (lit c_zero) (lit c_zero) (z :: l ++ [z]).
 
-(* s->area[0] = dyd_max(dyd_lower((area - error) / 2), 0), as dyd_filter_shape has it. *)
-Definition counted_area (area error : double) : double := fmax (lower ((area - error) / lit (2, 0)%Z)) (lit c_zero).
+(* As dyd_filter_shape has it: *)
+(* [AREA-V] src/voronoi/shape_filter.c: s->area[0] = dyd_max(dyd_lower((area - error) / {}), 0); *)
+Definition c_shape_two : const := (2, 0)%Z.
+(* Where the vertices are, and which are left out, does not matter: *)
+(* any src/voronoi/shape_filter.c: #define U {} *)
+(* any src/voronoi/shape_filter.c: if (!(share < {})) return *)
+(* any src/voronoi/shape_filter.c: for (double times = {}; *)
+Definition counted_area (area error : double) : double := fmax (lower ((area - error) / lit c_shape_two)) (lit c_zero).
 
 (* ---- one turn ---- *)
 
@@ -109,13 +119,13 @@ Proof.
     - apply rnd_add_lower; [rewrite <- fabs_val; apply val_format | rewrite <- fabs_val; apply val_format | lra]. }
   rewrite <- V2 in S2. set (s := val (fabs (turn_p o a b) + fabs (turn_q o a b))%D) in *.
   assert (Ps : 0 <= s) by (rewrite V2; apply rnd_pos; lra).
-  assert (C8 : cval (1, -50)%Z = 8 * u) by (unfold u; numerals; lra).
-  rewrite (proj2 (lit_correct (1, -50)%Z eq_refl)), C8 in V1.
+  assert (C8 : cval c_turn = 8 * u) by (unfold u, c_turn; numerals; lra).
+  rewrite (proj2 (lit_correct c_turn eq_refl)), C8 in V1.
   assert (S1 : 8 * u * s * (1 - u) - eta <= rnd (8 * u * s)) by (apply rnd_lower; unfold u; lra).
   rewrite <- V1 in S1.
-  assert (P1 : 0 <= val (lit (1, -50)%Z * (fabs (turn_p o a b) + fabs (turn_q o a b)))%D).
+  assert (P1 : 0 <= val (lit c_turn * (fabs (turn_p o a b) + fabs (turn_q o a b)))%D).
   { rewrite V1. apply rnd_pos. unfold u; lra. }
-  set (w := val (lit (1, -50)%Z * (fabs (turn_p o a b) + fabs (turn_q o a b)))%D) in *.
+  set (w := val (lit c_turn * (fabs (turn_p o a b) + fabs (turn_q o a b)))%D) in *.
   destruct (lit_correct c_tiny eq_refl) as [Ft Vt]. rewrite Vt in V.
   pose proof tiny_eta as T.
   assert (S0 : (w + cval c_tiny) * (1 - u) <= rnd (w + cval c_tiny)).
@@ -182,7 +192,7 @@ Proof.
   destruct c as [| b c]; [intros [= -> -> _]; tauto |].
   change (star_from o area error (a :: b :: c)) with
     (let area' := (area + turn o a b)%D in
-     let error' := (error + (turn_error o a b + lit (1, -51)%Z * area'))%D in
+     let error' := (error + (turn_error o a b + lit c_turn_sum * area'))%D in
      if gt (turn o a b) (turn_error o a b) then
        match star_from o area' error' (b :: c) with Some (x, y, n) => Some (x, y, (rise o a b + n)%nat) | None => None end
      else None). cbv zeta.
@@ -200,7 +210,7 @@ Proof.
   destruct c as [| b c]; [intros [= -> -> _]; simpl; intros; now rewrite Rplus_0_r |].
   change (star_from o area error (a :: b :: c)) with
     (let area' := (area + turn o a b)%D in
-     let error' := (error + (turn_error o a b + lit (1, -51)%Z * area'))%D in
+     let error' := (error + (turn_error o a b + lit c_turn_sum * area'))%D in
      if gt (turn o a b) (turn_error o a b) then
        match star_from o area' error' (b :: c) with Some (x, y, n) => Some (x, y, (rise o a b + n)%nat) | None => None end
      else None). cbv zeta.
@@ -212,8 +222,8 @@ Proof.
   destruct (fadd_inv _ _ Fs) as (Ft & Fm & Vs). destruct (fmul_inv _ _ Fm) as (_ & _ & Vm).
   destruct (turn_correct o a b G) as [_ [T1 T2]]. unfold turn in Fd. destruct (fsub_inv _ _ Fd) as (_ & _ & Vd).
   fold (turn o a b) in Vd, Fd. fold (rounded_turn o a b) in Vd. rewrite <- Vd in T1, T2.
-  assert (C4 : cval (1, -51)%Z = 4 * u) by (unfold u; numerals; lra).
-  rewrite (proj2 (lit_correct (1, -51)%Z eq_refl)), C4 in Vm.
+  assert (C4 : cval c_turn_sum = 4 * u) by (unfold u, c_turn_sum; numerals; lra).
+  rewrite (proj2 (lit_correct c_turn_sum eq_refl)), C4 in Vm.
   assert (Kc : k <= 2). { assert (0 <= INR (length (a :: b :: c))) by apply pos_INR. pose proof u_pos. nra. }
   destruct (step_correct k s (val area) (val error) (val (turn o a b)) (val (turn_error o a b))
     (orient (real o) (real a) (real b)) (val_format _) (val_format _) (val_format _) (val_format _) (conj K1 Kc) A1 A2 S T1 T2)
@@ -244,7 +254,7 @@ Proof.
   destruct c as [| b c]; [intros [= _ _ <-]; now split |].
   change (star_from o area error (a :: b :: c)) with
     (let area' := (area + turn o a b)%D in
-     let error' := (error + (turn_error o a b + lit (1, -51)%Z * area'))%D in
+     let error' := (error + (turn_error o a b + lit c_turn_sum * area'))%D in
      if gt (turn o a b) (turn_error o a b) then
        match star_from o area' error' (b :: c) with Some (x, y, n) => Some (x, y, (rise o a b + n)%nat) | None => None end
      else None). cbv zeta.
@@ -273,13 +283,13 @@ Qed.
 
 (* ---- the area counted ---- *)
 
-Lemma half x : is_finite 53 1024 (x / lit (2, 0)%Z)%D = is_finite 53 1024 x /\
-  val (x / lit (2, 0)%Z)%D = rnd (val x / 2).
+Lemma half x : is_finite 53 1024 (x / lit c_shape_two)%D = is_finite 53 1024 x /\
+  val (x / lit c_shape_two)%D = rnd (val x / 2).
 Proof.
-  destruct (lit_correct (2, 0)%Z eq_refl) as [_ V]. assert (C : cval (2, 0)%Z = 2) by (numerals; ring). rewrite C in V.
-  generalize (Bdiv_correct 53 1024 (eq_refl : (0 < 53)%Z) (eq_refl : (53 < 1024)%Z) binop_nan_pl64 mode_NE x (lit (2, 0)%Z)).
+  destruct (lit_correct c_shape_two eq_refl) as [_ V]. assert (C : cval c_shape_two = 2) by (unfold c_shape_two; numerals; ring). rewrite C in V.
+  generalize (Bdiv_correct 53 1024 (eq_refl : (0 < 53)%Z) (eq_refl : (53 < 1024)%Z) binop_nan_pl64 mode_NE x (lit c_shape_two)).
   change (SpecFloat.fexp 53 1024) with fexp; change (round_mode mode_NE) with ZnearestE.
-  fold (b64_div mode_NE x (lit (2, 0)%Z)). change (b64_div mode_NE x (lit (2, 0)%Z)) with (x / lit (2, 0)%Z)%D.
+  fold (b64_div mode_NE x (lit c_shape_two)). change (b64_div mode_NE x (lit c_shape_two)) with (x / lit c_shape_two)%D.
   rewrite V. rewrite Rlt_bool_true.
   - intros H. destruct H as (A & B & _); [lra | now split].
   - rewrite <- rnd_abs. apply Rle_lt_trans with (Rabs (val x)); [| apply val_lt_max].
@@ -294,7 +304,7 @@ Proof.
   revert a b. induction c as [| d c IH]; intros a b area error x y n Ne Na.
   - change (star_from o area error [a; b]) with
       (let area' := (area + turn o a b)%D in
-       let error' := (error + (turn_error o a b + lit (1, -51)%Z * area'))%D in
+       let error' := (error + (turn_error o a b + lit c_turn_sum * area'))%D in
        if gt (turn o a b) (turn_error o a b) then Some (area', error', (rise o a b + 0)%nat) else None). cbv zeta.
     destruct (gt (turn o a b) (turn_error o a b)) eqn:G; [| discriminate]. intros [= <- <- _].
     pose proof (positive_turn o a b G) as Nd. assert (N : nneg (area + turn o a b)%D) by (now apply nneg_add).
@@ -304,7 +314,7 @@ Proof.
       destruct (fmul_inv _ _ F2) as (_ & F3 & _). split; [exact F3 | now apply nneg_val].
   - change (star_from o area error (a :: b :: d :: c)) with
       (let area' := (area + turn o a b)%D in
-       let error' := (error + (turn_error o a b + lit (1, -51)%Z * area'))%D in
+       let error' := (error + (turn_error o a b + lit c_turn_sum * area'))%D in
        if gt (turn o a b) (turn_error o a b) then
          match star_from o area' error' (b :: d :: c) with Some (x, y, n) => Some (x, y, (rise o a b + n)%nat) | None => None end
        else None). cbv zeta.
@@ -357,11 +367,11 @@ Proof.
 Qed.
 
 (* An error that is not finite leaves nothing to count. *)
-Lemma nothing_of_infinity x y : nneg y -> is_finite 53 1024 y = false -> ((x - y) / lit (2, 0)%Z)%D <> inf.
+Lemma nothing_of_infinity x y : nneg y -> is_finite 53 1024 y = false -> ((x - y) / lit c_shape_two)%D <> inf.
 Proof.
-  intros N F. destruct (lit_correct (2, 0)%Z eq_refl) as [F2 V2]. assert (C : cval (2, 0)%Z = 2) by (numerals; ring).
-  assert (S2 : exists m e H, lit (2, 0)%Z = B754_finite 53 1024 false m e H).
-  { destruct (lit (2, 0)%Z) as [s | s | s p H | [|] m e H]; try discriminate F2; try (simpl in V2; lra).
+  intros N F. destruct (lit_correct c_shape_two eq_refl) as [F2 V2]. assert (C : cval c_shape_two = 2) by (unfold c_shape_two; numerals; ring).
+  assert (S2 : exists m e H, lit c_shape_two = B754_finite 53 1024 false m e H).
+  { destruct (lit c_shape_two) as [s | s | s p H | [|] m e H]; try discriminate F2; try (simpl in V2; lra).
     - exfalso. assert (F2R (Float radix2 (Zneg m) e) < 0) by (apply F2R_lt_0; simpl; lia). simpl in V2. lra.
     - now exists m, e, H. }
   destruct S2 as [m [e [H ->]]]. clear - N F.
@@ -379,7 +389,7 @@ Qed.
 Lemma counted_correct x y s : nneg y -> (finite y -> finite x /\ 0 <= val x) -> 0 <= s ->
   (finite x -> finite y -> Rabs (s - val x) <= val y) -> counted_area x y <> inf /\ val (counted_area x y) <= s / 2.
 Proof.
-  intros Ny Nx P0 Sum. unfold counted_area, fmax. set (h := ((x - y) / lit (2, 0)%Z)%D).
+  intros Ny Nx P0 Sum. unfold counted_area, fmax. set (h := ((x - y) / lit c_shape_two)%D).
   destruct zero_lit as [Fz Vz]. destruct (gt (lower h) (lit c_zero)) eqn:G.
   2: { split; [intros X; rewrite X in Fz; discriminate | rewrite Vz; lra]. }
   destruct (is_finite 53 1024 y) eqn:Fy.

@@ -1,10 +1,11 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (** [CRIT-1] Throwing out cells in interval arithmetic: what src/predicate/pane_filter.c encloses are the roots, in each
     of its four cases. *)
-From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
+From Coq Require Import Bool ZArith Reals Lia Lra Psatz List.
 From Flocq Require Import Core Binary.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersDistance FiltersInterval FiltersIntervalSign
   FiltersIntervalCircle FiltersIntervalRoot.
+Import ListNotations.
 Open Scope R_scope.
 
 (* [CRIT-1] src/predicate/pane_filter.c: dyd_iv_scale(dyd_iv_add(f->at[k], g->at[k]), {}) *)
@@ -41,6 +42,11 @@ Qed.
 (** Circles through the origin with centre (u,v): through (a,b), or touching the line u = l. *)
 Definition through (a b u v : R) : Prop := (u - a) * (u - a) + (v - b) * (v - b) = u * u + v * v.
 Definition touches (l u v : R) : Prop := (u - l) * (u - l) = u * u + v * v.
+
+(** What the functions below return: nothing is known, or the centres relative to p are in these boxes. *)
+Definition roots : Type := option (list (iv * iv)).
+Definition holds_root (found : roots) (u v : R) : Prop :=
+  match found with None => True | Some l => exists c, In c l /\ contains (fst c) u /\ contains (snd c) v end.
 
 (* C src/predicate/pane_filter.c iv_two_points
   dyd_iv s = dyd_iv_add(dyd_iv_sqr(f->at[0]), dyd_iv_sqr(f->at[1]));
@@ -130,6 +136,17 @@ Proof.
   apply iv_sub_contains; [exact S|]. apply iv_mul_contains; [now apply twice_contains|exact V].
 Qed.
 
+(** Both roots, the coordinate across the line first. *)
+Definition point_and_line (a b l : iv) : roots :=
+  if lt (hi (point_line_c a b l)) (lit c_zero) then Some [] else Some [cell_point_line a b l false; cell_point_line a b l true].
+Theorem point_and_line_holds ia ib il a b l u v : contains ia a -> contains ib b -> contains il l ->
+  through a b u v -> touches l u v -> holds_root (point_and_line ia ib il) u v.
+Proof.
+  intros A B L P Q. destruct (cell_point_line_encloses _ _ _ _ _ _ _ _ A B L P Q) as (C & second & U & V).
+  unfold point_and_line. rewrite C. exists (cell_point_line ia ib il second). split; [|now split].
+  destruct second; [right; left|left]; reflexivity.
+Qed.
+
 (* C src/predicate/pane_filter.c iv_parallel_lines
   dyd_iv c = dyd_iv_neg(dyd_iv_mul(f->at[k], g->at[k]));
   if (c.hi < 0) return no_roots;
@@ -162,6 +179,18 @@ Proof.
     change (v * v) with (Rsqr v) in R. rewrite sqrt_Rsqr_abs in R. destruct (Rle_or_lt 0 v) as [H|H].
     + left. now rewrite Rabs_pos_eq in R.
     + right. rewrite Rabs_left in R by exact H. rewrite <- (Ropp_involutive v). now apply iv_neg_contains.
+Qed.
+
+(** The coordinate across the lines first. *)
+Definition parallel_lines (l m : iv) : roots :=
+  if lt (hi (parallel_c l m)) (lit c_zero) then Some []
+  else
+    let u := iv_scale (iv_add l m) (lit c_cell_half) in let v := iv_sqrt (parallel_c l m) in Some [(u, v); (u, iv_neg v)].
+Theorem parallel_lines_hold il im l m u v : contains il l -> contains im m -> l <> m -> touches l u v -> touches m u v ->
+  holds_root (parallel_lines il im) u v.
+Proof.
+  intros L M D P Q. destruct (cell_parallel_encloses _ _ _ _ _ _ L M D P Q) as (C & U & [V|V]); unfold parallel_lines;
+    rewrite C; eexists; [split; [left; reflexivity|]|split; [right; left; reflexivity|]]; now split.
 Qed.
 
 (* C src/predicate/pane_filter.c iv_crossing_lines
@@ -220,6 +249,16 @@ Proof.
     + replace v with (r - - l) by lra. now apply iv_sub_contains, iv_neg_contains.
 Qed.
 
+Definition crossing_lines (l m : iv) : roots :=
+  if (iv_sign (iv_mul l m) =? 0)%Z then None else Some [cell_crossing l m false; cell_crossing l m true].
+Theorem crossing_lines_hold il im l m u v : contains il l -> contains im m -> touches l u v -> touches m v u ->
+  holds_root (crossing_lines il im) u v.
+Proof.
+  intros L M P Q. unfold crossing_lines. destruct (_ =? _)%Z eqn:S; [exact I|]. apply Z.eqb_neq in S.
+  destruct (cell_crossing_encloses _ _ _ _ _ _ L M P Q S) as (second & U & V). exists (cell_crossing il im second).
+  split; [|now split]. destruct second; [right; left|left]; reflexivity.
+Qed.
+
 (* C src/predicate/pane_filter.c outside_slab
   dyd_iv at = dyd_iv_add(t, p);
   return (s->lo2 && at.hi < s->lo.lo) || (s->hi2 && at.lo > s->hi.hi);
@@ -244,4 +283,15 @@ Proof.
       * apply gt_finite in G; [|assumption..]. specialize (A2 F). specialize (H K). lra.
       * rewrite K in G. destruct a; discriminate.
     + rewrite F in G. destruct (hi upper) as [|[|]| |]; discriminate.
+Qed.
+
+(** Bounds that there are. *)
+Definition outside_slab (t p lower upper : iv) (has_lower has_upper : bool) : bool :=
+  let place := iv_add t p in (has_lower && lt (hi place) (lo lower)) || (has_upper && gt (lo place) (hi upper)).
+Theorem outside_slab_correct t p lower upper x o low high has_lower has_upper : contains t x -> contains p o ->
+  contains lower low -> contains upper high -> outside_slab t p lower upper has_lower has_upper = true ->
+  (has_lower = true /\ x + o < low) \/ (has_upper = true /\ high < x + o).
+Proof.
+  intros T P L H S. destruct (outside_correct _ _ _ _ _ _ _ _ T P L H) as [B A]. unfold outside_slab in S.
+  apply orb_prop in S. destruct S as [S|S]; apply andb_prop in S; destruct S as [S0 S1]; [left|right]; now auto.
 Qed.

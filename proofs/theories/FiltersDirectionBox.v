@@ -97,6 +97,60 @@ Qed.
   long top = u[0] == 0 ? e[1] : u[1] == 0 || e[0] > e[1] ? e[0] : e[1];
   for (int a = 0; a < 2; a++) u[a] = e[a] - top < -900 ? 0 : ldexp(u[a], (int)(e[a] - top));
 *)
+(** As a program: the first 53 of its bits, and how many are left out. *)
+Definition first_bits (W : Z) : Z * Z :=
+  let more := (Zdigits2 W - 53)%Z in if (more <=? 0)%Z then (W, 0%Z) else (Z.quot W (2 ^ more), more).
+Definition component (W top : Z) : double :=
+  if (Zdigits2 W - top <? -900)%Z then lit c_zero else lit (fst (first_bits W), (snd (first_bits W) - top)%Z).
+Definition direction_d (x y : Z) : double * double :=
+  let top := if (x =? 0)%Z then Zdigits2 y else if (y =? 0)%Z || (Zdigits2 y <? Zdigits2 x)%Z then Zdigits2 x else
+    Zdigits2 y in
+  (component x top, component y top).
+
+Lemma digits_mag W : W <> 0%Z -> mag radix2 (IZR W) = Zdigits2 W :> Z.
+Proof. intros N. rewrite Zdigits2_Zdigits. symmetry. now apply Zdigits_mag. Qed.
+
+Lemma first_bits_round W : W <> 0%Z ->
+  round radix2 (FLX_exp 53) Ztrunc (IZR W) = IZR (fst (first_bits W)) * bpow radix2 (snd (first_bits W)) /\
+  (Z.abs (fst (first_bits W)) < 2 ^ 53)%Z /\ snd (first_bits W) = Z.max 0 (Zdigits2 W - 53).
+Proof.
+  intros N. pose proof (digits_mag W N) as M. pose proof (Zdigits_correct radix2 W) as [_ D].
+  rewrite <- Zdigits2_Zdigits in D. change (radix_val radix2) with 2%Z in D. unfold first_bits. cbv zeta.
+  destruct (Z.leb_spec (Zdigits2 W - 53) 0) as [L|L]; cbn [fst snd].
+  - assert (B : (Z.abs W < 2 ^ 53)%Z).
+    { apply Z.lt_le_trans with (1 := D). apply Z.pow_le_mono_r; lia. }
+    split; [|split; [exact B|lia]]. cbn [bpow]. rewrite Rmult_1_r. apply round_generic; [typeclasses eauto|].
+    apply generic_format_FLX. exists (Float radix2 W 0); [unfold F2R; cbn [Fnum Fexp bpow]; ring|exact B].
+  - set (k := (Zdigits2 W - 53)%Z) in *. assert (P : (0 < 2 ^ k)%Z) by (apply Z.pow_pos_nonneg; lia).
+    split; [|split; [|lia]].
+    + unfold round, scaled_mantissa, cexp, F2R. cbn [Fnum Fexp]. rewrite M. unfold FLX_exp. fold k. f_equal. f_equal.
+      rewrite bpow_opp. rewrite <- (IZR_Zpower radix2) by lia. change (radix_val radix2) with 2%Z. apply Ztrunc_div. lia.
+    + rewrite <- Z.quot_abs by lia. rewrite (Z.abs_eq (2 ^ k)) by lia. rewrite Z.quot_div_nonneg by lia.
+      apply Z.div_lt_upper_bound; [exact P|]. rewrite <- Z.pow_add_r by lia. replace (k + 53)%Z with (Zdigits2 W) by lia.
+      exact D.
+Qed.
+
+Section Zero.
+Local Transparent lit.
+Lemma zero_component e : val (lit (0%Z, e)) = 0.
+Proof. reflexivity. Qed.
+End Zero.
+
+(** What is run is what the theorem is about. *)
+Theorem component_cut W top : W = 0%Z \/ (Zdigits2 W <= top)%Z -> val (component W top) = cut_component W top.
+Proof.
+  intros T. unfold component, cut_component. destruct (Z.eq_dec W 0) as [->|N].
+  { assert (Z0 : val (lit c_zero) = 0) by apply zero_lit. rewrite round_0, Rmult_0_l by typeclasses eauto.
+    destruct (_ <? -900)%Z; destruct (_ <? -900)%Z; cbn [first_bits fst snd]; try exact Z0; apply zero_component. }
+  destruct T as [T|T]; [contradiction|]. rewrite (digits_mag W N). destruct (Z.ltb_spec (Zdigits2 W - top) (-900)) as [L|L].
+  { apply zero_lit. }
+  destruct (first_bits_round W N) as (R & B & P).
+  assert (D : is_double (fst (first_bits W), (snd (first_bits W) - top)%Z) = true).
+  { unfold is_double. cbn [fst snd]. rewrite !andb_true_iff, Z.ltb_lt, !Z.leb_le.
+    pose proof (Zdigits_gt_0 radix2 W N) as G. rewrite <- Zdigits2_Zdigits in G. lia. }
+  destruct (lit_correct _ D) as [_ V]. rewrite V, R. unfold cval. cbn [fst snd]. unfold Z.sub. rewrite bpow_plus. ring.
+Qed.
+
 Theorem direction_near w W top : W = 0%Z \/ (mag radix2 (IZR W) <= top)%Z -> val w = cut_component W top ->
   near_direction w (IZR W * bpow radix2 (- top)) /\ Rabs (val w) <= 1.
 Proof.

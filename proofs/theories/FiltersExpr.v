@@ -75,9 +75,20 @@ Qed.
 
 (** ** Corners *)
 
-(** fmin and fmax of C for numbers (either zero may be the smaller one: the doubles next to it are the same). *)
-Definition cmin (a b : double) : double := if lt a b then a else b.
-Definition cmax (a b : double) : double := if gt a b then a else b.
+(** fmin and fmax of C: of a number and NaN the number. Either zero may be the smaller one: the doubles next to it are the
+    same. *)
+Definition cmin (a b : double) : double := if lt a b || is_nan 53 1024 b then a else b.
+Definition cmax (a b : double) : double := if gt a b || is_nan 53 1024 b then a else b.
+Lemma cmin_number a b : is_nan 53 1024 b = false -> cmin a b = if lt a b then a else b.
+Proof. unfold cmin. intros ->. now rewrite orb_false_r. Qed.
+Lemma cmax_number a b : is_nan 53 1024 b = false -> cmax a b = if gt a b then a else b.
+Proof. unfold cmax. intros ->. now rewrite orb_false_r. Qed.
+Lemma finite_number x : finite x -> is_nan 53 1024 x = false.
+Proof. now destruct x. Qed.
+Lemma cmin_least a b : finite a -> finite b -> finite (cmin a b) /\ val (cmin a b) <= val a /\ val (cmin a b) <= val b.
+Proof. intros A B. rewrite cmin_number by now apply finite_number. now apply lt_min. Qed.
+Lemma cmax_most a b : finite a -> finite b -> finite (cmax a b) /\ val a <= val (cmax a b) /\ val b <= val (cmax a b).
+Proof. intros A B. rewrite cmax_number by now apply finite_number. now apply gt_max. Qed.
 (* C src/stream/expr_filter.c glance_corners
   if (isnan(p + q + r + s)) return (dyd_double_span){NAN, NAN};
   return (dyd_double_span){next_below(fmin(fmin(p, q), fmin(r, s))), next_above(fmax(fmax(p, q), fmax(r, s)))};
@@ -98,7 +109,7 @@ End Numbers.
 Lemma cmin_above a b : is_nan 53 1024 a = false -> is_nan 53 1024 b = false -> cmin a b <> ninf ->
   a <> ninf /\ b <> ninf /\ is_nan 53 1024 (cmin a b) = false.
 Proof.
-  intros Na Nb H. unfold cmin in *. destruct (cases a) as [A|[A|[A|A]]]; [|congruence| |]; destruct (cases b) as [B|[B|[B|B]]];
+  intros Na Nb H. rewrite (cmin_number a b Nb) in *. destruct (cases a) as [A|[A|[A|A]]]; [|congruence| |]; destruct (cases b) as [B|[B|[B|B]]];
     try congruence.
   - split; [intros ->; discriminate|]. split; [intros ->; discriminate|]. now destruct (lt a b).
   - rewrite B. split; [intros ->; discriminate|]. split; [discriminate|]. now destruct (lt a inf).
@@ -113,7 +124,7 @@ Qed.
 Lemma cmax_below a b : is_nan 53 1024 a = false -> is_nan 53 1024 b = false -> cmax a b <> inf ->
   a <> inf /\ b <> inf /\ is_nan 53 1024 (cmax a b) = false.
 Proof.
-  intros Na Nb H. unfold cmax in *. destruct (cases a) as [A|[A|[A|A]]]; [|congruence| |]; destruct (cases b) as [B|[B|[B|B]]];
+  intros Na Nb H. rewrite (cmax_number a b Nb) in *. destruct (cases a) as [A|[A|[A|A]]]; [|congruence| |]; destruct (cases b) as [B|[B|[B|B]]];
     try congruence.
   - split; [intros ->; discriminate|]. split; [intros ->; discriminate|]. now destruct (gt a b).
   - exfalso. apply H. rewrite B. replace (gt a inf) with false by (destruct a; try discriminate; reflexivity). reflexivity.
@@ -141,9 +152,9 @@ Proof.
   assert (Mm : m <> ninf) by (intros E; rewrite E in F; discriminate).
   assert (MM : M <> inf) by (intros E; rewrite E in G; discriminate).
   assert (nan_min : forall a b, is_nan 53 1024 a = false -> is_nan 53 1024 b = false -> is_nan 53 1024 (cmin a b) = false).
-  { intros a b A B. unfold cmin. now destruct (lt a b). }
+  { intros a b A B. rewrite (cmin_number a b B). now destruct (lt a b). }
   assert (nan_max : forall a b, is_nan 53 1024 a = false -> is_nan 53 1024 b = false -> is_nan 53 1024 (cmax a b) = false).
-  { intros a b A B. unfold cmax. now destruct (gt a b). }
+  { intros a b A B. rewrite (cmax_number a b B). now destruct (gt a b). }
   destruct (cmin_above _ _ (nan_min _ _ Np Nq) (nan_min _ _ Nr Ns) Mm) as (M1 & M2 & _).
   destruct (cmin_above _ _ Np Nq M1) as (P1 & Q1 & _). destruct (cmin_above _ _ Nr Ns M2) as (R1 & S1 & _).
   destruct (cmax_below _ _ (nan_max _ _ Np Nq) (nan_max _ _ Nr Ns) MM) as (M3 & M4 & _).
@@ -166,9 +177,9 @@ Proof.
   cbn [lo hi] in *.
   destruct (H Fp Fq Fr Fs) as [L U].
   assert (least : forall a b, finite a -> finite b -> finite (cmin a b) /\ val (cmin a b) <= val a /\ val (cmin a b) <= val b)
-    by exact lt_min.
+    by exact cmin_least.
   assert (most : forall a b, finite a -> finite b -> finite (cmax a b) /\ val a <= val (cmax a b) /\ val b <= val (cmax a b))
-    by exact gt_max.
+    by exact cmax_most.
   destruct (least p q Fp Fq) as (G1 & A1 & A2). destruct (least r s Fr Fs) as (G2 & A3 & A4).
   destruct (most p q Fp Fq) as (G3 & B1 & B2). destruct (most r s Fr Fs) as (G4 & B3 & B4).
   destruct (least _ _ G1 G2) as (G5 & A5 & A6). destruct (most _ _ G3 G4) as (G6 & B5 & B6).
@@ -281,21 +292,21 @@ Proof.
   { apply le_finite in D; [|assumption..]. rewrite Rabs_left1 by lra. now apply span_neg_holds. }
   assert (An : finite (- lo a)%D) by now rewrite fopp_finite.
   assert (M : finite (cmax (- lo a) (hi a)) /\ val (- lo a)%D <= val (cmax (- lo a) (hi a)) /\
-    val (hi a) <= val (cmax (- lo a) (hi a))) by exact (gt_max _ _ An A1).
+    val (hi a) <= val (cmax (- lo a) (hi a))) by exact (cmax_most _ _ An A1).
   destruct M as (F & M1 & M2). rewrite fopp_val in M1.
   split; [exact Fz|]. split; [exact F|]. cbn [lo hi]. split; [rewrite Vz; apply Rabs_pos|]. apply Rabs_le. lra.
 Qed.
 
 Lemma cmin_value a b : finite a -> finite b -> finite (cmin a b) /\ val (cmin a b) = Rmin (val a) (val b).
 Proof.
-  intros Fa Fb. unfold cmin. generalize (lt_finite a b Fa Fb). destruct (lt a b); intros [I J].
+  intros Fa Fb. rewrite cmin_number by now apply finite_number. generalize (lt_finite a b Fa Fb). destruct (lt a b); intros [I J].
   - specialize (I eq_refl). split; [exact Fa|]. rewrite Rmin_left; lra.
   - split; [exact Fb|]. rewrite Rmin_right; [reflexivity|].
     destruct (Rle_or_lt (val b) (val a)) as [L|L]; [exact L|discriminate (J L)].
 Qed.
 Lemma cmax_value a b : finite a -> finite b -> finite (cmax a b) /\ val (cmax a b) = Rmax (val a) (val b).
 Proof.
-  intros Fa Fb. unfold cmax. generalize (gt_finite a b Fa Fb). destruct (gt a b); intros [I J].
+  intros Fa Fb. rewrite cmax_number by now apply finite_number. generalize (gt_finite a b Fa Fb). destruct (gt a b); intros [I J].
   - specialize (I eq_refl). split; [exact Fa|]. rewrite Rmax_left; lra.
   - split; [exact Fb|]. rewrite Rmax_right; [reflexivity|].
     destruct (Rle_or_lt (val a) (val b)) as [L|L]; [exact L|discriminate (J L)].

@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(** [FLT-EXPR] Powers by squaring, for exponents that are not negative. *)
+(** [FLT-EXPR] Powers by squaring. *)
 From Coq Require Import Bool ZArith NArith Nnat Reals Lia Lra Psatz.
 From Flocq Require Import Core BinarySingleNaN Binary Bits.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersDistance FiltersInterval FiltersIntervalSign
@@ -13,7 +13,10 @@ Proof. unfold is_good, good. rewrite andb_true_iff. reflexivity. Qed.
 (* C src/stream/expr_filter.c glance_power
   dyd_double_span result = {1, 1};
   const dyd_double_span nothing = {NAN, NAN};
-  if (n < 0) return glance_divide(result, glance_power(a, -n));
+  if (n < 0) {
+    a = glance_power(a, -n);
+    return glance_is_good(a) ? glance_divide(result, a) : nothing;
+  }
   if (n % 2 == 0) a = glance_absolute(a);
   for (; n; n /= 2) {
     if (n % 2) result = glance_multiply(result, a);
@@ -35,6 +38,11 @@ Definition span_power (a : iv) (n : N) : iv :=
   | N0 => span_one
   | Npos p => power_loop p span_one (if N.even n then span_abs a else a)
   end.
+(** With exponents of either sign. *)
+Definition span_power_signed (a : iv) (n : Z) : iv :=
+  if (n <? 0)%Z then
+    let b := span_power a (Z.to_N (- n)) in if is_good b then span_div span_one b else unknown
+  else span_power a (Z.to_N n).
 
 Lemma unknown_not_good : ~ good unknown.
 Proof. intros [F _]. cbn [lo unknown] in F. pose proof nan_is_nan. destruct nan; discriminate. Qed.
@@ -123,11 +131,15 @@ Proof.
   rewrite !pow_mult. f_equal. cbn [pow]. rewrite !Rmult_1_r, <- Rabs_mult. apply Rabs_pos_eq, Rle_0_sqr.
 Qed.
 
+Lemma span_one_holds : holds span_one 1.
+Proof.
+  destruct (lit_correct c_one eq_refl) as [F V]. split; [exact F|]. split; [exact F|]. cbn [lo hi span_one]. rewrite V.
+  unfold c_one, cval; cbn [fst snd bpow]. lra.
+Qed.
+
 Theorem span_power_holds a x n : holds a x -> good (span_power a n) -> holds (span_power a n) (x ^ N.to_nat n).
 Proof.
-  intros A. assert (One : holds span_one 1).
-  { destruct (lit_correct c_one eq_refl) as [F V]. split; [exact F|]. split; [exact F|]. cbn [lo hi span_one]. rewrite V.
-    unfold c_one, cval; cbn [fst snd bpow]. lra. }
+  intros A. pose proof span_one_holds as One.
   destruct n as [|p]; [intros _; exact One|]. cbn [span_power]. intros G.
   assert (S : sane span_one).
   { destruct One as (F & _). split; cbn [lo hi span_one] in *; intros E; rewrite E in F; discriminate. }
@@ -136,4 +148,16 @@ Proof.
     apply power_loop_holds; [exact S|now intros _|now apply span_abs_holds|exact G].
   - change (N.to_nat (Npos p)) with (Pos.to_nat p). rewrite <- (Rmult_1_l (_ ^ _)).
     now apply power_loop_holds.
+Qed.
+
+(** Defined, and between the ends. *)
+Theorem span_power_signed_holds a x n : holds a x -> good (span_power_signed a n) ->
+  if (n <? 0)%Z then x ^ Z.to_nat (- n) <> 0 /\ holds (span_power_signed a n) (/ x ^ Z.to_nat (- n))
+  else holds (span_power_signed a n) (x ^ Z.to_nat n).
+Proof.
+  intros A. unfold span_power_signed. cbv zeta. destruct (n <? 0)%Z; rewrite <- Z_N_nat.
+  - destruct (is_good _) eqn:K; [|intros G; exfalso; now apply unknown_not_good]. apply is_good_good in K. intros G.
+    destruct (span_div_holds _ _ _ _ span_one_holds (span_power_holds a x _ A K) G) as [N H]. split; [exact N|].
+    unfold Rdiv in H. now rewrite Rmult_1_l in H.
+  - intros G. now apply span_power_holds.
 Qed.

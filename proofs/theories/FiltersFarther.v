@@ -3,17 +3,18 @@
 From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
 From Flocq Require Import Core Binary Mult_error.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersDistance FiltersDirectionBox FiltersInterval
-  FiltersIntervalSign.
+  FiltersIntervalSign FiltersIntervalRoot.
 Open Scope R_scope.
 
-(* The text of these functions is that of src/legal/witness_filter.c; no script compares it. *)
-Definition far_two : double := lit (1, 1)%Z.
-
-(* C src/predicate/interval_filter.h dyd_iv_point
-  return (dyd_iv){x, x};
-*)
-Definition iv_point (x : double) : iv := {| lo := x; hi := x |}.
-(* farther_along:
+(* [FLT-FAR] src/legal/witness_filter.c: twice = {{} * c.lo, *)
+(* [FLT-FAR] src/legal/witness_filter.c: twice = {2 * c.lo, {} * c.hi}; *)
+Definition c_far_two : const := (1, 1)%Z.
+(* The rest of that file guesses, and is believed for "none" only: *)
+(* any src/legal/witness_filter.c: #define COARSE {} *)
+(* any src/legal/witness_filter.c: noise = q->size * {}; *)
+(* any src/legal/witness_filter.c: bound <= {}; bound *)
+(* any src/legal/witness_filter.c: r.z < {} * r.active *)
+(* C src/legal/witness_filter.c farther_along
   dyd_iv q = {dyd_max(k0, dyd_min(c.lo, k1)), dyd_min(k1, dyd_max(c.hi, k0))}, twice = {2 * c.lo, 2 * c.hi};
   double low[2];
   for (int end = 0; end < 2; end++) {
@@ -23,13 +24,13 @@ Definition iv_point (x : double) : iv := {| lo := x; hi := x |}.
   return low[0] < low[1] ? low[0] : low[1] <= low[0] ? low[1] : NAN;
 *)
 Definition far_q (c : iv) (k0 k1 : double) : iv := {| lo := fmax k0 (fmin (lo c) k1); hi := fmin k1 (fmax (hi c) k0) |}.
-Definition far_twice (c : iv) : iv := {| lo := (far_two * lo c)%D; hi := (far_two * hi c)%D |}.
+Definition far_twice (c : iv) : iv := {| lo := (lit c_far_two * lo c)%D; hi := (lit c_far_two * hi c)%D |}.
 Definition far_low (q twice : iv) (s : double) : double :=
   lo (iv_mul (iv_sub q (iv_point s)) (iv_sub (iv_add q (iv_point s)) twice)).
 Definition farther_along (c : iv) (s0 s1 k0 k1 : double) : double :=
   let low0 := far_low (far_q c k0 k1) (far_twice c) s0 in let low1 := far_low (far_q c k0 k1) (far_twice c) s1 in
   if lt low0 low1 then low0 else if le low1 low0 then low1 else nan.
-(* dyd_filter_is_farther:
+(* C src/legal/witness_filter.c dyd_filter_is_farther
   const double *a = c->e, *p = s->e, *q = k->e;
   double x = farther_along((dyd_iv){a[0], a[1]}, p[0], p[1], q[0], q[1]);
   double y = farther_along((dyd_iv){a[2], a[3]}, p[2], p[3], q[2], q[3]);
@@ -126,10 +127,10 @@ Proof.
 Qed.
 
 (** Twice a double is exact or infinite; an infinite end makes the difference unknown. *)
-Lemma twice_val f : finite (far_two * f)%D -> finite f /\ val (far_two * f)%D = 2 * val f.
+Lemma twice_val f : finite (lit c_far_two * f)%D -> finite f /\ val (lit c_far_two * f)%D = 2 * val f.
 Proof.
-  unfold far_two. intros F. destruct (fmul_inv _ _ F) as (_ & Ff & E). split; [exact Ff|]. rewrite E.
-  rewrite (proj2 (lit_correct (1, 1)%Z eq_refl)). replace (cval (1, 1)%Z * val f) with (val f * bpow radix2 1)
+  intros F. destruct (fmul_inv _ _ F) as (_ & Ff & E). split; [exact Ff|]. rewrite E.
+  rewrite (proj2 (lit_correct c_far_two eq_refl)). replace (cval c_far_two * val f) with (val f * bpow radix2 1)
     by (unfold cval, fst, snd; rewrite Rmult_1_l; apply Rmult_comm).
   rewrite rnd_id; [change (bpow radix2 1) with 2; ring|]. apply mult_bpow_pos_exact_FLT; [apply val_format|lia].
 Qed.

@@ -1,7 +1,7 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (** [FLT-STAR] The distances that star_filter.c compares, in doubles: radii, the disc of an edge, who is outside of it;
     overflow, underflow and NaN included. *)
-From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
+From Coq Require Import Bool ZArith Reals Lia Lra Psatz List.
 From Flocq Require Import Core BinarySingleNaN Binary Bits.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient FiltersIncircle FiltersIncircleAt
   FiltersDistance FiltersMeaning FiltersInterval FiltersIntervalSign FiltersNearRound FiltersDirectionBox.
@@ -168,9 +168,10 @@ Qed.
 
 (** ** The disc of an edge *)
 
-(* Where the centre comes from does not matter: *)
-(* any src/legal/star_filter.c: dyd_xy c = {(a.x + b.x) * {}, (a.y *)
-(* any src/legal/star_filter.c: dyd_xy c = {(a.x + b.x) * 0.5, (a.y + b.y) * {}} *)
+(* Where the centre comes from does not matter; what is run needs it. *)
+(* [FLT-STAR] src/legal/star_filter.c: dyd_xy c = {(a.x + b.x) * {}, (a.y *)
+(* [FLT-STAR] src/legal/star_filter.c: dyd_xy c = {(a.x + b.x) * 0.5, (a.y + b.y) * {}} *)
+Definition c_star_half : const := (1, -1)%Z.
 
 (* C src/legal/star_filter.c certify_edges
   dyd_xy v = p->sk->reps.xy[s->v];
@@ -202,6 +203,55 @@ Definition star_limit (wide : double) : double := upper (wide * wide).
   return near == self + (s->ghost >= 0);
 *)
 Definition surely_farther (kx ky cx cy limit : double) : bool := gt (lower (lift (kx - cx) (ky - cy))) limit.
+Definition counts_as_near (c : double * double) (limit : double) (k : double * double) : nat :=
+  Nat.b2n (negb (surely_farther (fst k) (snd k) (fst c) (snd c) limit)).
+Definition nowhere : double * double := (nan, nan).
+Definition others_farther (star : list (double * double)) (q : nat) (c : double * double) (limit : double) (ghost : bool) :
+  bool := (list_sum (map (counts_as_near c limit) star) =? counts_as_near c limit (nth q star nowhere) + Nat.b2n ghost)%nat.
+(** What certify_edges says of its edge q, where no rectangle is fat. *)
+Definition star_edge (v a b : double * double) (star : list (double * double)) (q : nat) (ghost : bool) (reach : double) :
+  bool :=
+  let c := (((fst a + fst b) * lit c_star_half)%D, ((snd a + snd b) * lit c_star_half)%D) in
+  let j := nth q star nowhere in
+  others_farther star q c (star_limit (star_wide (fst v) (snd v) (fst j) (snd j) (fst c) (snd c) reach)) ghost.
+
+Lemma sum_of_one (f : double * double -> nat) d l : forall q, (q < length l)%nat -> (f (nth q l d) <= list_sum (map f l))%nat.
+Proof. induction l as [|x l IH]; intros [|q]; simpl; try lia. intros H. specialize (IH q ltac:(lia)). lia. Qed.
+Lemma sum_of_pair (f : double * double -> nat) d l : forall q k, q <> k -> (q < length l)%nat -> (k < length l)%nat ->
+  (f (nth q l d) + f (nth k l d) <= list_sum (map f l))%nat.
+Proof.
+  induction l as [|x l IH]; intros [|q] [|k]; simpl; try lia; intros N H K.
+  - pose proof (sum_of_one f d l k ltac:(lia)). lia.
+  - pose proof (sum_of_one f d l q ltac:(lia)). lia.
+  - pose proof (IH q k ltac:(lia) ltac:(lia) ltac:(lia)). lia.
+Qed.
+Lemma sum_of_two (f : double * double -> nat) d l : forall q g, q <> g -> (q < length l)%nat -> (g < length l)%nat ->
+  list_sum (map f l) = (f (nth q l d) + f (nth g l d))%nat ->
+  forall k, (k < length l)%nat -> k <> q -> k <> g -> f (nth k l d) = 0%nat.
+Proof.
+  induction l as [|x l IH]; intros [|q] [|g] N Q G S [|k] K Kq Kg; simpl in *; try lia.
+  - destruct (Nat.eq_dec k g) as [E|E]; [lia|]. pose proof (sum_of_pair f d l k g E ltac:(lia) ltac:(lia)). lia.
+  - destruct (Nat.eq_dec k q) as [E|E]; [lia|]. pose proof (sum_of_pair f d l k q E ltac:(lia) ltac:(lia)). lia.
+  - pose proof (sum_of_pair f d l q g ltac:(lia) ltac:(lia) ltac:(lia)). lia.
+  - pose proof (sum_of_pair f d l q g ltac:(lia) ltac:(lia) ltac:(lia)). apply (IH q g); lia.
+Qed.
+
+(** Counting finds that all but q and the ghost are farther, as the ghost is not: it is NaN. *)
+Definition farther_in (star : list (double * double)) (c : double * double) (limit : double) (k : nat) : bool :=
+  surely_farther (fst (nth k star nowhere)) (snd (nth k star nowhere)) (fst c) (snd c) limit.
+Theorem others_farther_all star q c limit ghost : (q < length star)%nat ->
+  match ghost with Some g => (g < length star)%nat /\ g <> q /\ farther_in star c limit g = false | None => True end ->
+  others_farther star q c limit (if ghost then true else false) = true ->
+  forall k, (k < length star)%nat -> k <> q -> ghost <> Some k -> farther_in star c limit k = true.
+Proof.
+  intros Q G O k K Kq Kg. apply Nat.eqb_eq in O.
+  assert (Z0 : counts_as_near c limit (nth k star nowhere) = 0%nat).
+  { destruct ghost as [g|]; cbn [Nat.b2n] in O.
+    - destruct G as (Gl & Gq & Gf). apply (sum_of_two (counts_as_near c limit) nowhere star q g); try assumption; try congruence.
+      rewrite O. f_equal. unfold counts_as_near. unfold farther_in in Gf. now rewrite Gf.
+    - rewrite Nat.add_0_r in O. pose proof (sum_of_pair (counts_as_near c limit) nowhere star q k ltac:(congruence) Q K). lia. }
+  unfold counts_as_near in Z0. unfold farther_in. destruct (surely_farther _ _ _ _ _); [reflexivity|discriminate Z0].
+Qed.
 
 Lemma upper_nneg x : nneg x -> nneg (upper x).
 Proof. intros N. unfold upper. apply nneg_add; [apply nneg_mul; [exact N|]|]; (apply nneg_lit; [reflexivity|simpl; lia]). Qed.

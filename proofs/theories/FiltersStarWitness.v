@@ -1,7 +1,7 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (** [FLT-STAR] What star_filter.c concludes: an edge has its centre as witness, a hull vertex is surely farthest; for
     representatives that are off their doubles by delta. *)
-From Coq Require Import Bool ZArith Reals Lia Lra Psatz.
+From Coq Require Import Bool ZArith Reals Lia Lra Psatz List.
 From Flocq Require Import Core Binary.
 From Dyadel Require Import FiltersBase FiltersError FiltersConst FiltersOrient FiltersIncircle FiltersIncircleAt
   FiltersDistance FiltersInterval FiltersNearRound FiltersNearPlane FiltersDirection FiltersDirectionBox FiltersStar.
@@ -29,6 +29,13 @@ Definition surely_lower (ux uy vx vy kx ky reach : double) : bool :=
   let need := (reach * fsqrt (upper (lift ux uy)) * lit c_up_factor)%D in
   let a := (ux * (vx - kx))%D in let b := (uy * (vy - ky))%D in
   gt (a + b) (need + lit c_star_hull * (fabs a + fabs b) + lit c_tiny).
+(** What certify_hull says where no rectangle is fat: is v so much farther than all others but the ghost? *)
+Definition star_hull (v : double * double) (star : list (double * double)) (ghost : nat) (reach : double) : bool :=
+  let next := nth ((ghost + 1) mod length star) star nowhere in
+  let before := nth ((ghost + length star - 1) mod length star) star nowhere in
+  let ux := (snd next - snd before)%D in let uy := (fst before - fst next)%D in
+  forallb (fun k => Nat.eqb k ghost ||
+    surely_lower ux uy (fst v) (snd v) (fst (nth k star nowhere)) (snd (nth k star nowhere)) reach) (seq 0 (length star)).
 
 (** ** The rounding *)
 

@@ -77,7 +77,10 @@ static dyd_double_span glance_absolute(dyd_double_span a) {
 static dyd_double_span glance_power(dyd_double_span a, int32_t n) {
   dyd_double_span result = {1, 1};
   const dyd_double_span nothing = {NAN, NAN};
-  if (n < 0) return glance_divide(result, glance_power(a, -n));
+  if (n < 0) {
+    a = glance_power(a, -n);
+    return glance_is_good(a) ? glance_divide(result, a) : nothing;
+  }
   if (n % 2 == 0) a = glance_absolute(a);
   for (; n; n /= 2) {
     if (n % 2) result = glance_multiply(result, a);

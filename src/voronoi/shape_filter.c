@@ -21,7 +21,7 @@
  * and their difference (1+u)^4 in all, 4.01 u (|ax by| + |ay bx|) < 8 u of the same; plus underflow. */
 static double double_turn(double *error, dyd_xy o, dyd_xy a, dyd_xy b) {
   double ax = a.x - o.x, ay = a.y - o.y, bx = b.x - o.x, by = b.y - o.y, p = ax * by, q = ay * bx;
-  *error = 8 * U * (fabs(p) + fabs(q)) + DYD_TINY;
+  *error = 8 * 0x1p-53 * (fabs(p) + fabs(q)) + DYD_TINY;
   return p - q;
 }
 
@@ -117,7 +117,7 @@ static bool shape_star(double *area, double *error, dyd_xy o, const dyd_xy *z, u
     if (!(d > e)) return false;
     crossings += a.y < o.y && b.y >= o.y;
     *area += d;
-    *error += e + 4 * U * *area;
+    *error += e + 4 * 0x1p-53 * *area;
   }
   return crossings == 1;
 }

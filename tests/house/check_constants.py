@@ -14,7 +14,8 @@ m * 2^e (or n). Constant expressions are evaluated in doubles, as the compiler d
 says that this is the whole body of that function, comments and white space aside; so the order of the operations is
 compared as well. In a C file that has such constants, every floating-point literal must be one of them, or
     (* any path: text with {} for the constant *)
-says that the theorems hold whatever its value.
+says that the theorems hold whatever its value. No double is written in a theory in another way. The definition beside a
+body that is quoted is run against the function by proofs/definitions.py, or SOUNDNESS.md says why not.
 """
 import ast
 import fractions
@@ -31,6 +32,7 @@ DEFINED = re.compile(r'^(?:Definition (c_\w+) : const|Notation (z_\w+) :=)', re.
 BODY = re.compile(r'\(\* C ([\w/.]+) (\w+)\n(.*?)\n\*\)', re.S)
 LITERAL = re.compile(r'(?<![\w.])(?:0[xX][0-9a-fA-F]+(?:\.[0-9a-fA-F]*)?[pP][-+]?\d+|\d+\.\d*(?:[eE][-+]?\d+)?|\d+[eE][-+]?\d+)')
 VALUE = r'((?:[-+*/ ().\da-fA-FxXpP]|DBL_MAX)+?)'
+INLINE = re.compile(r'\blit\s*\(\s*\(?\s*-?\d+\)?(?:%Z)?\s*,\s*\(?-?\d|B754_finite\s+(?:\w+\s+){3}\(?-?\d|\bb64_of_bits\s+\(?\d|#\[.*float')
 OPERATORS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv}
 
 
@@ -67,7 +69,7 @@ def pattern(place):
 
 def function_body(code, name):
     """Text between the braces of the definition of name; None when there is not exactly one."""
-    found = list(re.finditer(r'\b' + name + r'\([^;{}]*\)\s*\{', code))
+    found = list(re.finditer(r'\b' + name + r'\((?:[^;{}()]|\([^;{}()]*\))*\)\s*\{', code))
     if len(found) != 1:
         return None
     depth, start = 1, found[0].end()
@@ -155,10 +157,53 @@ def check_use(texts):
                 yield f'{name}: {constant} is not used'
 
 
+def check_inline(name, text):
+    """A double that is written in a theory is tied to nothing."""
+    code = re.sub(r'\(\*.*?\*\)', lambda m: '\n' * m[0].count('\n'), text, flags=re.S)
+    for found in INLINE.finditer(code):
+        yield f'{name}:{code.count(chr(10), 0, found.start()) + 1}: "{found[0]}" is a double of its own, without a place in the C source'
+
+
+def all_theories(root):
+    return {p.name: p.read_text(encoding='utf-8') for p in sorted((root / 'proofs/theories').glob('*.v'))}
+
+
+def sections(root, title):
+    """The part of SOUNDNESS.md under a heading of the third level."""
+    text = (root / 'proofs/SOUNDNESS.md').read_text(encoding='utf-8')
+    return re.split(r'\n##', text.split(f'### {title}\n')[-1])[0]
+
+
+def not_run(root):
+    """Functions that SOUNDNESS.md lists as quoted, but not run."""
+    return set(re.findall(r'^\* `(\w+)`: .', sections(root, 'Definitions, run'), re.M))
+
+
+def run_functions(root):
+    """(path, function) of all that are quoted and not listed."""
+    listed = not_run(root)
+    return sorted({(path, name) for text in all_theories(root).values() for path, name, _ in BODY.findall(text)
+                   if name not in listed})
+
+
+def check_run(root, texts):
+    """What is quoted has vectors, and a definition that takes them; proofs/definitions.py counts them."""
+    quoted = {name for text in texts.values() for _, name, _ in BODY.findall(text)}
+    folder = root / 'proofs/definitions'
+    asked = {name for p in folder.glob('*.c') for name in re.findall(r'^ .*?\{"(\w+)", ', p.read_text(encoding='utf-8'), re.M)}
+    asked |= {name for p in folder.glob('*.c') for name in re.findall(r'= \{\{?"(\w+)", ', p.read_text(encoding='utf-8'))}
+    for name in sorted(quoted - asked - not_run(root)):
+        yield f'{name}: quoted in a theory, but neither run by proofs/definitions nor listed in SOUNDNESS.md as not run'
+    for name in sorted(not_run(root) & asked):
+        yield f'{name}: run by proofs/definitions, and listed in SOUNDNESS.md as not run'
+    for name in sorted((asked | not_run(root)) - quoted):
+        yield f'{name}: run by proofs/definitions or listed in SOUNDNESS.md, but no theory quotes it'
+
+
 def check_filters(root, texts):
     """Each filter is tied to a theory, or SOUNDNESS.md lists it as one that is not."""
     tied = {path.removesuffix(path[-2:]) for text in texts.values() for path in re.findall(r'\(\* (?:C|any|\[[\w-]+\]) (src/[\w/]+\.[ch])', text)}
-    section = (root / 'proofs/SOUNDNESS.md').read_text(encoding='utf-8').split('### Filters, by file')[-1].split('\n## ')[0]
+    section = sections(root, 'Filters, by file')
     listed = set(re.findall(r'`([\w/]+)`', ''.join(re.findall(r'^\* .*', section, re.M))))
     for path in sorted({p.with_suffix('').relative_to(root).as_posix() for p in root.glob('src/**/*_filter.[ch]')}):
         if (path in tied) == (path.removeprefix('src/') in listed):
@@ -166,15 +211,17 @@ def check_filters(root, texts):
 
 
 def breaches(root):
-    texts = {p.name: p.read_text(encoding='utf-8') for p in sorted((root / 'proofs/theories').glob('*.v'))}
+    texts = all_theories(root)
     sources, count = Sources(root), 0
     for name, text in texts.items():
         yield from check_constants(sources, name, text)
         yield from check_bodies(sources, name, text)
+        yield from check_inline(name, text)
         count += len(CONSTANT.findall(text)) + len(BODY.findall(text))
     yield from check_literals(sources)
     yield from check_use(texts)
     yield from check_filters(root, texts)
+    yield from check_run(root, texts)
     if not count:
         yield 'proofs/theories: no constant and no function is tied to the C source'
 

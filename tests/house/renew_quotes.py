@@ -141,12 +141,25 @@ def renew_places(root, sources, texts, renamed):
                 yield False, f'{name}: "{home[1]}" of {home[0]}: the place of a constant; nothing to prove'
 
 
+def renew_vectors(root, changed):
+    """Functions that are run against their definitions follow their names: {name: new name}."""
+    for path in sorted((root / 'proofs/definitions').glob('*')):
+        text = path.read_text(encoding='utf-8')
+        for old, new in changed.items():
+            text = re.sub(rf'"{old}"|^{old}(?= \|)' + (rf'|\b{old}(?=\()' if path.suffix == '.c' else ''),
+                          lambda m, old=old, new=new: m[0].replace(old, new), text, flags=re.M)
+        if text != path.read_text(encoding='utf-8'):
+            path.write_text(text, encoding='utf-8')
+
+
 def renew(root):
-    """Rewrites the theories; [(is a failure, what to say)]."""
+    """Rewrites the theories and what is run; [(is a failure, what to say)]."""
     theories = sorted((root / 'proofs/theories').glob('*.v'))
     before = {p.name: p.read_text(encoding='utf-8') for p in theories}
     sources, texts, renamed = Sources(root), dict(before), {}
     said = list(renew_bodies(root, sources, texts, renamed)) + list(renew_places(root, sources, texts, renamed))
+    quoted = {function for text in before.values() for _, function, _ in BODY.findall(text)}
+    renew_vectors(root, {a: b for names in renamed.values() for a, b in names.items() if a in quoted and a != b})
     for path in theories:
         if texts[path.name] != before[path.name]:
             path.write_text(texts[path.name], encoding='utf-8')
