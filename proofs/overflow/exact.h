@@ -13,12 +13,13 @@ typedef const dyd_exact *exact_number;
 
 /*@ requires \valid(x); assigns *x; exits \false; ensures exact(x) && x->exp == 0 && x->man[0].sign == 0; */
 void dyd_exact_init(dyd_exact *x);
-/*@ requires \valid(x) && exact(x); assigns *x; exits \false; */
+/*@ requires \valid(x) && whole(&x->man[0]); assigns *x; exits \false; */
 void dyd_exact_clear(dyd_exact *x);
 /*@ requires \valid(out) && exact(x) && beside(out, x); assigns *out; exits \false;
     ensures whole(&out->man[0]) && out->exp == \old(x->exp) && out->man[0].sign == \old(x->man[0].sign); */
 void dyd_exact_set(dyd_exact *out, const dyd_exact *x);
-/*@ requires exact(x); assigns \nothing; exits \false; ensures \result == x->man[0].sign; */
+/*@ requires \valid_read(x) && whole(&x->man[0]); assigns \nothing; exits \false;
+    ensures \result == x->man[0].sign; */
 int dyd_exact_sgn(const dyd_exact *x);
 /*@ requires exact(x); assigns \nothing; exits \false;
     ensures x->man[0].sign != 0 ==> \result == x->exp + x->man[0].length;

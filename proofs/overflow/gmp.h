@@ -8,6 +8,7 @@
 #define DYD_PROOFS_GMP_H
 
 #include <stddef.h>
+#include <string.h>
 
 typedef struct {
   long long length;
@@ -27,7 +28,9 @@ typedef unsigned long mp_bitcnt_t;
 /*@ predicate whole(mpz_srcptr z) = \valid_read(z) && -1 <= z->sign <= 1 && 0 <= z->length <= 137438953472 &&
       (z->sign == 0 <==> z->length == 0) && 0 <= z->zeros && (z->sign != 0 ==> z->zeros < z->length);
     predicate same{K, L}(mpz_srcptr z, mpz_srcptr x) = \at(z->sign, L) == \at(x->sign, K) &&
-      \at(z->length, L) == \at(x->length, K) && \at(z->zeros, L) == \at(x->zeros, K); */
+      \at(z->length, L) == \at(x->length, K) && \at(z->zeros, L) == \at(x->zeros, K);
+    axiomatic Decimals { logic integer decimals(integer length);
+      axiom decimals_few: \forall integer n; 0 <= n ==> 1 <= decimals(n) <= n + 1; } */
 
 /*@ requires \valid(z); assigns z->sign, z->length, z->zeros; exits \false; ensures whole(z) && z->sign == 0; */
 void mpz_init(mpz_ptr z);
@@ -45,6 +48,8 @@ void mpz_clear(mpz_ptr z);
 /*@ requires \valid(z) && whole(x);
     assigns z->sign, z->length, z->zeros; exits \false; ensures whole(z) && same{Pre, Post}(z, x); */
 void mpz_set(mpz_ptr z, mpz_srcptr x);
+/*@ requires \valid(z) && whole(z); assigns *z; exits \false; ensures whole(z) && z->length <= 64; */
+void mpz_set_ui(mpz_ptr z, unsigned long x);
 /*@ requires \valid(z) && \valid(x) && whole(z) && whole(x);
     assigns z->sign, z->length, z->zeros, x->sign, x->length, x->zeros; exits \false;
     ensures same{Pre, Post}(z, x) && same{Pre, Post}(x, z); */
@@ -56,9 +61,17 @@ void mpz_neg(mpz_ptr z, mpz_srcptr x);
 int mpz_sgn(mpz_srcptr x);
 /*@ requires whole(x); assigns \nothing; exits \false; ensures \result != 0 <==> x->sign != 0 && x->zeros == 0; */
 int mpz_odd_p(mpz_srcptr x);
-/*@ requires whole(x) && base == 2;
-    assigns \nothing; exits \false; ensures \result == (x->sign == 0 ? 1 : x->length); */
+/*@ requires whole(x) && (base == 2 || base == 10);
+    assigns \nothing; exits \false; ensures base == 2 ==> \result == (x->sign == 0 ? 1 : x->length);
+    ensures base == 10 ==> \result == decimals(x->length); */
 size_t mpz_sizeinbase(mpz_srcptr x, int base);
+/*@ requires whole(x) && base == 10 && \valid(out + (0 .. decimals(x->length) + 1));
+    assigns out[0 .. decimals(x->length) + 1]; exits \false;
+    ensures \exists integer n; 0 <= n <= decimals(x->length) + 1 && ends(out, n); */
+char *mpz_get_str(char *out, int base, mpz_srcptr x);
+/*@ requires \valid(z) && whole(z) && string(text) && (base == 10 || base == 16); assigns *z; exits \false;
+    ensures whole(z); */
+int mpz_set_str(mpz_ptr z, const char *text, int base);
 /*@ requires whole(x) && x->sign != 0 && from == 0; assigns \nothing; exits \false; ensures \result == x->zeros; */
 mp_bitcnt_t mpz_scan1(mpz_srcptr x, mp_bitcnt_t from);
 /*@ requires whole(x) && whole(y); assigns \nothing; exits \false; ensures -2147483647 <= \result;
@@ -104,8 +117,22 @@ void mpz_fdiv_q(mpz_ptr z, mpz_srcptr x, mpz_srcptr y);
 /*@ requires \valid(z) && whole(x) && whole(y) && y->sign != 0; assigns z->sign, z->length, z->zeros; exits \false;
     ensures whole(z) && z->length <= \old(x->length) + 1; */
 void mpz_cdiv_q(mpz_ptr z, mpz_srcptr x, mpz_srcptr y);
+/*@ requires \valid(z) && whole(z) && 0 < base; assigns *z; exits \false; ensures whole(z) && z->sign == 1; */
+void mpz_ui_pow_ui(mpz_ptr z, unsigned long base, unsigned long exp);
+/*@ requires whole(x) && whole(y); assigns \nothing; exits \false; */
+int mpz_divisible_p(mpz_srcptr x, mpz_srcptr y);
+/*@ requires \valid(z) && whole(x) && whole(y) && y->sign != 0; assigns *z; exits \false; ensures whole(z); */
+void mpz_divexact(mpz_ptr z, mpz_srcptr x, mpz_srcptr y);
 /*@ requires whole(x); assigns \nothing; exits \false; */
 double mpz_get_d(mpz_srcptr x);
+
+/*@ requires \valid(z) && whole(z) && whole(x) && whole(y); assigns *z; exits \false;
+    ensures whole(z) && 0 <= z->sign; */
+void mpz_gcd(mpz_ptr z, mpz_srcptr x, mpz_srcptr y);
+
+/* Those of any number of arguments, up to NULL: of two here. */
+#define mpz_inits(a, b, end) (mpz_init(a), mpz_init(b))
+#define mpz_clears(a, b, end) (mpz_clear(a), mpz_clear(b))
 
 #define mpq_numref(q) (&(q)->num)
 #define mpq_denref(q) (&(q)->den)

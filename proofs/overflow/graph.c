@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Contracts for src/checker/graph.c: sorting stays in the list, the list of pairs grows, walks stay in the graph. */
+#include "graph.h"
+
+#include "base/alloc.h"
+
+#define ITEM dyd_cert_edge
+#define RESERVE dyd_reserve
+#define ALLOC alloc_edges
+#include "lists.h"
+#define ITEM uint32_t
+#define RESERVE reserve_indices
+#define ALLOC alloc_indices
+#include "lists.h"
+#define ITEM size_t
+#define RESERVE reserve_sizes
+#define ALLOC alloc_sizes
+#include "lists.h"
+
+/*@ requires a < BOUND && b < BOUND; assigns \nothing; exits \false; */
+int compare_any(const void *with, uint32_t a, uint32_t b);
+#define compare(with, a, b) compare_any(with, a, b)
+
+/*@ requires \valid(a + (0 .. count - 1)) && 0 < count < 1152921504606846976 && root < count &&
+      below(a, count, BOUND);
+    assigns a[0 .. count - 1]; exits \false; ensures below(a, count, BOUND); */
+static void sift_down(uint32_t *a, size_t root, size_t count, dyd_cert_compare *compare, const void *with);
+/*@ requires \valid_read(s) && a < s->count && b < s->count; assigns \nothing; exits \false;
+    ensures 0 <= \result <= 1; */
+static int half_of_directions(const dyd_cert_sites *s, uint32_t a, uint32_t b);
+/*@ requires joined((const dyd_cert_graph *)graph) && h < 2 * ((const dyd_cert_graph *)graph)->count &&
+      k < 2 * ((const dyd_cert_graph *)graph)->count;
+    assigns \nothing; exits \false; */
+static int compare_angle(const void *graph, uint32_t h, uint32_t k);
+/*@ requires joined(g); assigns \nothing; exits \false; */
+static bool have_directions(const dyd_cert_graph *g);
+/*@ requires \valid(g) && joined(g) && (0 < SITES ==> \valid_read(g->sites->site + (0 .. SITES - 1))) &&
+      \separated(g, g->sites, g->legal, g->bridges, g->sites->site + (0 .. SITES - 1)) &&
+      \separated(g, g->legal->item + (0 .. g->legal->count - 1), g->bridges->item + (0 .. g->bridges->count - 1));
+    exits \false; ensures \result == DYD_OK || \result == DYD_E_NOMEM; ensures joined(g);
+    ensures g->start == \old(g->start) && g->around == \old(g->around) && g->position == \old(g->position); */
+static dyd_status find_connected(dyd_cert_graph *g);
+/*@ requires \valid(g); exits \false; */
+static void gather_around(dyd_cert_graph *g);
+/*@ requires \valid(g); exits \false; */
+void dyd_cert_graph_clear(dyd_cert_graph *g);
+
+#include "checker/graph.c"

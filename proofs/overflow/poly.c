@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Contracts for src/checker/poly.c: polynomials are read where they are, exponents stay in their type, terms in
+ * their lists. */
+#include "exact.h"
+
+#include "base/alloc.h"
+#include <string.h>
+
+#include "checker/poly.h"
+
+#include "base/invariant.h"
+
+#define ITEM dyd_cert_term
+#define RESERVE reserve_terms
+#define ALLOC alloc_terms
+#include "lists.h"
+#define ITEM char
+#define RESERVE reserve_chars
+#define ALLOC alloc_chars
+#include "lists.h"
+
+
+/*@ requires \valid_read(a + (0 .. 63)) && \valid_read(b + (0 .. 63)); assigns \nothing; exits \false;
+    ensures -1 <= \result <= 1; */
+static int terms_compare(const uint16_t *a, const uint16_t *b);
+/*@ requires \valid(out) && \valid_read(t) && whole(&t->c[0]) && whole(c) && \separated(out, t, c) &&
+      (\forall integer k; 0 <= k < 64 ==> t->e[k] <= 16384);
+    requires m == \null || \valid_read(m + (0 .. 63)) && \separated(out, m + (0 .. 63)) &&
+      (\forall integer k; 0 <= k < 64 ==> m[k] <= 16384);
+    assigns *out; exits \false; ensures whole(&out->c[0]);
+    ensures \result ==> \forall integer k; 0 <= k < 64 ==> out->e[k] <= 8192; */
+static bool term_scale(dyd_cert_term *out, const dyd_cert_term *t, mpz_srcptr c, const uint16_t *m);
+/*@ requires \valid(text) && string(*text) && most <= 400000000;
+    assigns *text; exits \false;
+    ensures \result <= most && string(*text) && within(*text, \old(*text)) &&
+      *text - \old(*text) <= stop(\old(*text)); */
+static unsigned scan_unsigned(const char **text, unsigned most);
+/*@ requires \valid(t) && \valid(text) && string(*text) && \valid_read(r) && r->count <= 64 && \separated(text, t, r);
+    assigns *text, t->e[0 .. 63]; exits \false; ensures \result ==> string(*text); */
+static bool scan_power(dyd_cert_term *t, const char **text, const dyd_cert_relations *r);
+/*@ requires \valid(r); assigns r->nomem; exits \false;
+    ensures \result != \null && 0 < count ==> \valid(\result + (0 .. count - 1)); */
+static dyd_cert_term *terms_alloc(size_t count, dyd_cert_relations *r);
+/*@ requires \valid(c) && whole(c) && \valid(text) && string(*text) && \valid(r) && \separated(c, text, r);
+    exits \false; ensures whole(c) && (\result ==> string(*text)); */
+static bool scan_coefficient(mpz_ptr c, const char **text, dyd_cert_relations *r);
+/*@ requires string(text) && stop(text) < 1152921504606846976; assigns \nothing; exits \false;
+    ensures 1 <= \result <= stop(text) + 1; */
+static size_t count_terms(const char *text);
+
+#include "checker/poly.c"
