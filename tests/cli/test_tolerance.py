@@ -169,6 +169,8 @@ def test_sigma():
     assert rows(run('tolerance', '--sigma', '1', '-', stdin='0 0\n1 1\n').out)[0]['probability'] == '1'
     less = [[float(r['probability']) for r in rows(run('tolerance', '--sigma', s, *AIRPORTS).out)] for s in ('0.01', '0.001')]
     assert all(a <= b + 1e-5 for a, b in zip(*less)) and sum(less[0]) < 0.99 * sum(less[1])
+    for layer in ('points', 'barcode'):  # they have no place for it
+        expect(run('tolerance', '--sigma', '1', '--layer', layer, '-', stdin=SQUARE), 2, r'\A\Z', 'probabilities are those of pairs; leave')
     for wrong in ('0', '-1', 'x', 'nan', '1e-400'):
         expect(run('tolerance', '--sigma', wrong, '-', stdin=SQUARE), 2, r'\A\Z', '--sigma ".*" is not understood; give')
 
