@@ -15,7 +15,9 @@ static dyd_status rect_collapse(dyd_rect *r, const bool fixed[2], bool which) {
   return st;
 }
 
-/* Is a side of a point that x gives one that never changes again? Its first answers may be wider than x. */
+/* Is a side of a point that x gives one that never changes again? Another user of x may have narrowed it for good
+ * since. A side that was measured again, or is joined with another one, is narrower than x, and only x is asked for
+ * more. */
 static bool side_is_final(const dyd_real *x, const dyd_interval *side) {
   return dyd_real_is_final(x) && dyd_interval_contains(dyd_real_interval(x), side);
 }
@@ -24,7 +26,7 @@ void dyd_site_fixed_sides(bool fixed[2], const dyd_engine *e, uint32_t site, con
   const dyd_refinable *p = dyd_engine_find(e, site);
   const void *pair;
   fixed[0] = fixed[1] = !p || p->final;
-  if (fixed[0] || p->measured || !p->stream || dyd_stream_object(&pair, p->stream) != DYD_STREAM_PAIR) return;
+  if (fixed[0] || !p->stream || dyd_stream_object(&pair, p->stream) != DYD_STREAM_PAIR) return;
   fixed[0] = side_is_final(((const dyd_stream_pair *)pair)->x, &r->x);
   fixed[1] = side_is_final(((const dyd_stream_pair *)pair)->y, &r->y);
 }

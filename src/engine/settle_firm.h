@@ -9,8 +9,8 @@
  * can be narrowed. */
 dyd_status dyd_firm_eps(dyd_dyadic *eps, const dyd_engine *e);
 bool dyd_site_is_fixed(const dyd_engine *e, uint32_t site);
-/* Which sides of the site, x and y, can never be narrowed? r: its rectangle. A side that is measured beside one that is
- * computed is; nothing is known of points that more than their own stream has narrowed. */
+/* Which sides of the site, x and y, can its point never narrow? r: its rectangle. A side that is measured beside one
+ * that is computed is one. */
 void dyd_site_fixed_sides(bool fixed[2], const dyd_engine *e, uint32_t site, const dyd_rect *r);
 /* *out, unless it is NULL, becomes r, smaller by eps on each side, if r is wide enough: *can. out = r is allowed. */
 dyd_status dyd_firm_shrink(dyd_rect *out, bool *can, const dyd_rect *r, const dyd_dyadic *eps);

@@ -360,9 +360,68 @@ static void test_text(void **state) {
   }
 }
 
+/* Known as asked below 10 bits, then to 10 bits for good. */
+static dyd_status tiring_narrow(dyd_interval *out, void *user, const dyd_request *q, dyd_error *err) {
+  (void)user, (void)err;
+  double w = ldexp(1, -(int)(q->bits < 10 ? q->bits : 10));
+  if (dyd_interval_set_d(out, 2, 2 + w) != DYD_OK) return DYD_E_STREAM;
+  return q->bits < 10 ? DYD_OK : DYD_FIXED;
+}
+
+/* Another user of a coordinate brings it to its end: the side here is as wide as before, and is narrowed when asked. */
+static void test_shared(void **state) {
+  (void)state;
+  dyd_engine *e = engine_new();
+  dyd_engine_options o;
+  dyd_outcome outcome;
+  dyd_real *x, *y;
+  dyd_stream *s;
+  dyd_rect r;
+  bool fixed[2];
+  assert_int_equal(DYD_OK, dyd_real_new(&x, tiring_narrow, NULL, NULL));
+  assert_int_equal(DYD_OK, dyd_real_parse(&y, "sqrt(3)", 7, NULL));
+  assert_int_equal(DYD_OK, dyd_stream_from_reals(&s, dyd_real_ref(x), y));
+  assert_int_equal(DYD_OK, dyd_engine_add_stream(e, s));
+  engine_add_text(e, "0", "0");
+  dyd_rect_init(&r);
+  dyd_engine_options_init(&o);
+  o.start_bits = o.max_bits = 4;
+  assert_int_equal(DYD_OK, dyd_engine_run(&outcome, e, &o, NULL));
+  assert_int_equal(DYD_FIXED, dyd_real_narrow(x, 20, 20, NULL));
+  assert_int_equal(DYD_OK, dyd_sites_get(&r, dyd_engine_sites(e), 0));
+  dyd_site_fixed_sides(fixed, e, 0, &r);
+  assert_true(!fixed[0] && !fixed[1]);
+  dyd_interval_set(&r.x, dyd_real_interval(x));
+  dyd_site_fixed_sides(fixed, e, 0, &r);
+  assert_true(fixed[0] && !fixed[1]);
+  dyd_rect_clear(&r);
+  dyd_real_free(x);
+  dyd_engine_free(e);
+}
+
+/* What was measured again is fixed all the same. */
+static void test_measured(void **state) {
+  (void)state;
+  dyd_engine *e = engine_new();
+  dyd_rect r;
+  dyd_rect_init(&r);
+  engine_add_text(e, "0", "0");
+  engine_add_text(e, "10", "0");
+  engine_add_text(e, "sqrt(26)", "[3,9]");
+  engine_add_text(e, "5", "-6");
+  assert_int_equal(DYD_OK, dyd_interval_set_d(&r.x, 5, 5.5));
+  assert_int_equal(DYD_OK, dyd_interval_set_d(&r.y, 3.25, 8));
+  assert_int_equal(DYD_OK, dyd_engine_remeasure(e, 2, &r, NULL));
+  engine_run(e, NULL, DYD_OUTCOME_FIXPOINT);
+  assert_true(engine_counters(e).bits_most <= 1024);
+  dyd_rect_clear(&r);
+  dyd_engine_free(e);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_few),   cmocka_unit_test(test_faces),          cmocka_unit_test(test_runs),
-      cmocka_unit_test(test_sides), cmocka_unit_test(test_fixed_for_good), cmocka_unit_test(test_text)};
+      cmocka_unit_test(test_few),    cmocka_unit_test(test_faces),          cmocka_unit_test(test_runs),
+      cmocka_unit_test(test_sides),  cmocka_unit_test(test_fixed_for_good), cmocka_unit_test(test_text),
+      cmocka_unit_test(test_shared), cmocka_unit_test(test_measured)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
