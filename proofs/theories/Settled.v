@@ -1,71 +1,147 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Pairs that no refinement decides [SET-1]: legal for no narrowing, possible for every one. *)
+(* Pairs that no refinement decides [SET-1] [SET-2]: legal for no narrowing, possible for every one. *)
 From Coq Require Import Reals Lra Lia Psatz Classical.
 From Dyadel Require Import Plane Finite Distance Cells Legal Nerve Orientation Disc TiedFace.
 Open Scope R_scope.
 
-(* The rectangles of F stay, the others are made smaller. *)
-Definition narrowing (N : nat) (F : nat -> Prop) (B B' : sites) : Prop :=
-  refined N B' B /\ forall k, (k < N)%nat -> F k -> refines (B k) (B' k).
+(* Rectangles are made smaller, but not along x those of FX, nor along y those of FY. *)
+Definition narrowing (N : nat) (FX FY : nat -> Prop) (B B' : sites) : Prop :=
+  refined N B' B /\ (forall k, (k < N)%nat -> FX k -> xlo (B' k) = xlo (B k) /\ xhi (B' k) = xhi (B k)) /\
+  forall k, (k < N)%nat -> FY k -> ylo (B' k) = ylo (B k) /\ yhi (B' k) = yhi (B k).
 
-(* g chooses points for the sites of F; a part of the sites is numbered anew, m is the site e m. *)
-Theorem part_refutes_legal N M F B B' C (g : nat -> point) (e : nat -> nat) a b :
-  narrowing N F B B' -> (forall k, (k < N)%nat -> F k -> inside (g k) (B k)) ->
-  (forall m, (m < M)%nat -> (e m < N)%nat /\ (F (e m) -> exact (C m) (g (e m))) /\ (~ F (e m) -> C m = B (e m))) ->
+(* Along sides that stay any place is there afterwards as before. *)
+Lemma narrowing_point N FX FY B B' k g : (k < N)%nat -> narrowing N FX FY B B' -> inside g (B k) ->
+  exists z, inside z (B' k) /\ (FX k -> fst z = fst g) /\ (FY k -> snd z = snd g).
+Proof.
+  intros K [_ [X Y]] [Gx Gy]. destruct (nearest_inside (0, 0) (B' k)) as [Nx Ny].
+  assert (Sx : exists x, xlo (B' k) <= x <= xhi (B' k) /\ (FX k -> x = fst g)).
+  { destruct (classic (FX k)) as [H | H]; [exists (fst g); rewrite (proj1 (X k K H)), (proj2 (X k K H)) |
+      exists (fst (nearest (0, 0) (B' k)))]; tauto. }
+  assert (Sy : exists y, ylo (B' k) <= y <= yhi (B' k) /\ (FY k -> y = snd g)).
+  { destruct (classic (FY k)) as [H | H]; [exists (snd g); rewrite (proj1 (Y k K H)), (proj2 (Y k K H)) |
+      exists (snd (nearest (0, 0) (B' k)))]; tauto. }
+  destruct Sx as [x [Ix Ex]]. destruct Sy as [y [Iy Ey]]. now exists (x, y).
+Qed.
+
+Lemma narrowing_fixed N FX FY B B' k : (k < N)%nat -> narrowing N FX FY B B' -> FX k -> FY k -> refines (B k) (B' k).
+Proof.
+  intros K [_ [X Y]] Hx Hy z [Zx Zy]. unfold inside.
+  rewrite (proj1 (X k K Hx)), (proj2 (X k K Hx)), (proj1 (Y k K Hy)), (proj2 (Y k K Hy)). tauto.
+Qed.
+
+(* g chooses points along the sides that stay; a part of the sites is numbered anew, m is the site e m, and stands for
+   all of its rectangle with this choice. *)
+Theorem part_refutes_legal N M FX FY B B' C (g : nat -> point) (e : nat -> nat) a b :
+  narrowing N FX FY B B' -> (forall k, (k < N)%nat -> inside (g k) (B k)) ->
+  (forall m, (m < M)%nat -> (e m < N)%nat /\ forall x, inside x (B (e m)) -> (FX (e m) -> fst x = fst (g (e m))) ->
+    (FY (e m) -> snd x = snd (g (e m))) -> inside x (C m)) ->
   (a < M)%nat -> (b < M)%nat -> ~ possible M C a b -> ~ legal N B' (e a) (e b).
 Proof.
-  intros [Re Fix] G E A D Np L. apply Np. clear Np.
-  destruct (finite_choice (0, 0) (fun k z => inside z (B' k) /\ (F k -> z = g k)) N) as [p P].
-  { intros k K. destruct (classic (F k)) as [H | H].
-    - exists (g k). split; [now apply (Fix k K H), G | now intros].
-    - exists (nearest (0, 0) (B' k)). split; [apply nearest_inside | tauto]. }
+  intros W G E A D Np L. apply Np. clear Np. pose proof (proj1 W) as Re.
+  destruct (finite_choice (0, 0) (fun k z => inside z (B' k) /\ (FX k -> fst z = fst (g k)) /\
+    (FY k -> snd z = snd (g k))) N) as [p P].
+  { intros k K. apply (narrowing_point N FX FY B B' k (g k) K W), G, K. }
   destruct (E a A) as [Ea _]. destruct (E b D) as [Eb _].
   destruct (legal_sound N B' (e a) (e b) p Ea Eb L) as [c [Eq Out]]; [intros k K; now apply P |].
   left. apply (pair_possible M C a b A D). exists c.
   apply (disc_shows_possible M C (pair a b) (fun m => p (e m)) c (dist c (p (e a)))).
-  - intros m H. destruct (E m H) as [K [X Y]]. destruct (P (e m) K) as [I Z].
-    destruct (classic (F (e m))) as [T | T]; [rewrite (Z T); apply X, T | rewrite (Y T); now apply (Re (e m) K)].
+  - intros m H. destruct (E m H) as [K X]. destruct (P (e m) K) as [I [Zx Zy]].
+    apply X; [now apply (Re (e m) K) | |]; assumption.
   - split; [now intros i _ [-> | ->] |]. intros m H. destruct (E m H) as [K _].
     destruct (Nat.eq_dec (e m) (e a)) as [-> | Da]; [lra |].
     destruct (Nat.eq_dec (e m) (e b)) as [-> | Db]; [lra |]. left. now apply Out.
 Qed.
 
-Theorem disc_stays_possible N F B B' i j c r : (i < N)%nat -> (j < N)%nat -> narrowing N F B B' ->
-  (forall k, k = i \/ k = j -> (F k -> ds c (B k) <= r) /\ (~ F k -> dl c (B k) <= r)) ->
-  (forall k, (k < N)%nat -> k <> i -> k <> j -> (F k -> r <= dl c (B k)) /\ (~ F k -> r < ds c (B k))) ->
+(* v is the place of [lo,hi] nearest to t, or farthest from it. *)
+Definition along (near : Prop) (lo hi t v : R) : Prop :=
+  (near -> v = clamp lo hi t) /\ (~ near -> v = far_end lo hi t).
+
+(* d is the distance from c to the point of X that is nearest, or farthest, along x (nx) and y (ny). *)
+Definition reach (nx ny : Prop) (c : point) (X : rect) (d : R) : Prop :=
+  exists z, along nx (xlo X) (xhi X) (fst c) (fst z) /\ along ny (ylo X) (yhi X) (snd c) (snd z) /\ d = dist c z.
+
+Lemma along_exists near lo hi t : exists v, along near lo hi t v.
+Proof.
+  destruct (classic near) as [H | H]; [exists (clamp lo hi t) | exists (far_end lo hi t)]; split; tauto.
+Qed.
+
+Lemma reach_exists nx ny c X : exists d, reach nx ny c X d.
+Proof.
+  destruct (along_exists nx (xlo X) (xhi X) (fst c)) as [x Hx].
+  destruct (along_exists ny (ylo X) (yhi X) (snd c)) as [y Hy]. exists (dist c (x, y)), (x, y). now split.
+Qed.
+
+(* Where the fixed side is met at its nearest place, any place of another is no farther than its farthest one. *)
+Lemma along_end (F : Prop) lo hi t v w : lo <= hi -> along F lo hi t v -> lo <= w <= hi -> (F -> w = clamp lo hi t) ->
+  (t - w) * (t - w) <= (t - v) * (t - v).
+Proof.
+  intros O [N A] W H. destruct (classic F) as [Y | Y]; [rewrite (N Y), (H Y); lra | rewrite (A Y)].
+  now apply far_end_spec.
+Qed.
+
+Lemma along_other (F : Prop) lo hi t v w : lo <= hi -> along (~ F) lo hi t v -> lo <= w <= hi ->
+  (F -> w = far_end lo hi t) -> (t - v) * (t - v) <= (t - w) * (t - w).
+Proof.
+  intros O [N A] W H. destruct (classic F) as [Y | Y]; [rewrite A, (H Y) by tauto; lra | rewrite (N Y)].
+  now apply clamp_spec.
+Qed.
+
+(* How far a narrowed end is, at most, and another site reaches, at least. *)
+Lemma end_within N FX FY B B' k c d : (k < N)%nat -> narrowing N FX FY B B' -> reach (FX k) (FY k) c (B k) d ->
+  ds c (B' k) <= d.
+Proof.
+  intros K W [v [X [Y ->]]].
+  destruct (narrowing_point N FX FY B B' k (nearest c (B k)) K W (nearest_inside c (B k))) as [z [I [Zx Zy]]].
+  apply Rle_trans with (dist c z); [now apply ds_le |]. apply dist_le. unfold dist2.
+  destruct (proj1 W k K z I) as [Ix Iy].
+  pose proof (along_end _ _ _ _ _ _ (x_ordered (B k)) X Ix Zx).
+  pose proof (along_end _ _ _ _ _ _ (y_ordered (B k)) Y Iy Zy). lra.
+Qed.
+
+Lemma other_reaches N FX FY B B' k c d : (k < N)%nat -> narrowing N FX FY B B' ->
+  reach (~ FX k) (~ FY k) c (B k) d -> d <= dl c (B' k).
+Proof.
+  intros K W [v [X [Y ->]]].
+  destruct (narrowing_point N FX FY B B' k (farthest c (B k)) K W (farthest_inside c (B k))) as [z [I [Zx Zy]]].
+  apply Rle_trans with (dist c z); [| now apply le_dl]. apply dist_le. unfold dist2.
+  destruct (proj1 W k K z I) as [Ix Iy].
+  pose proof (along_other _ _ _ _ _ _ (x_ordered (B k)) X Ix Zx).
+  pose proof (along_other _ _ _ _ _ _ (y_ordered (B k)) Y Iy Zy). lra.
+Qed.
+
+Theorem disc_stays_possible N FX FY B B' i j c r : (i < N)%nat -> (j < N)%nat -> narrowing N FX FY B B' ->
+  (forall k d, k = i \/ k = j -> reach (FX k) (FY k) c (B k) d -> d <= r) ->
+  (forall k d, (k < N)%nat -> k <> i -> k <> j -> reach (~ FX k) (~ FY k) c (B k) d -> r <= d) ->
   possible N B' i j.
 Proof.
-  intros I J [Re Fix] Ends Others.
+  intros I J W Ends Others.
   assert (End : forall k, (k < N)%nat -> k = i \/ k = j -> ds c (B' k) <= r).
-  { intros k K S. destruct (Ends k S) as [X Y]. destruct (classic (F k)) as [H | H].
-    - pose proof (ds_monotone c _ _ (Fix k K H)). specialize (X H). lra.
-    - pose proof (dl_monotone c _ _ (Re k K)). pose proof (ds_le_dl c (B' k)). specialize (Y H). lra. }
-  assert (Other : forall k, (k < N)%nat -> k <> i -> k <> j -> r <= dl c (B' k)).
-  { intros k K Di Dj. destruct (Others k K Di Dj) as [X Y]. destruct (classic (F k)) as [H | H].
-    - pose proof (dl_monotone c _ _ (Fix k K H)). specialize (X H). lra.
-    - pose proof (ds_monotone c _ _ (Re k K)). pose proof (ds_le_dl c (B' k)). specialize (Y H). lra. }
-  left. exists c. intros k K Di Dj. pose proof (Other k K Di Dj).
+  { intros k K S. destruct (reach_exists (FX k) (FY k) c (B k)) as [d D]. pose proof (Ends k d S D).
+    pose proof (end_within N FX FY B B' k c d K W D). lra. }
+  left. exists c. intros k K Di Dj. destruct (reach_exists (~ FX k) (~ FY k) c (B k)) as [d D].
+  pose proof (Others k d K Di Dj D). pose proof (other_reaches N FX FY B B' k c d K W D).
   pose proof (End i I (or_introl eq_refl)). pose proof (End j J (or_intror eq_refl)). split; lra.
 Qed.
 
-(* What stands for the site k: a point of its rectangle if k is in F, else all of it. *)
-Definition stands_for (F : nat -> Prop) (B : sites) (k : nat) (Q : point -> Prop) : Prop :=
-  (F k /\ exists q, inside q (B k) /\ forall x, Q x <-> x = q) \/ (~ F k /\ forall x, Q x <-> inside x (B k)).
+(* What stands for the site k: all of its rectangle, at a chosen place along the sides that stay. *)
+Definition stands_for (FX FY : nat -> Prop) (B : sites) (k : nat) (Q : point -> Prop) : Prop :=
+  exists q, inside q (B k) /\
+    forall x, inside x (B k) -> (FX k -> fst x = fst q) -> (FY k -> snd x = snd q) -> Q x.
 
-Lemma stands_in_narrowing N F B B' k Q : (k < N)%nat -> narrowing N F B B' -> stands_for F B k Q ->
+Lemma stands_in_narrowing N FX FY B B' k Q : (k < N)%nat -> narrowing N FX FY B B' -> stands_for FX FY B k Q ->
   exists x, Q x /\ inside x (B' k).
 Proof.
-  intros K [Re Fix] [[H [q [I E]]] | [H E]].
-  - exists q. split; [now apply E | now apply (Fix k K H)].
-  - exists (nearest (0, 0) (B' k)). split; [| apply nearest_inside]. apply E, (Re k K), nearest_inside.
+  intros K W [q [I H]]. destruct (narrowing_point N FX FY B B' k q K W I) as [z [Iz [Zx Zy]]].
+  exists z. split; [| exact Iz]. apply H; [now apply (proj1 W k K) | |]; assumption.
 Qed.
 
 Section Four.
-Variables (N : nat) (F : nat -> Prop) (B B' : sites) (i j s0 s1 s2 s3 : nat) (Q0 Q1 Q2 Q3 : point -> Prop).
+Variables (N : nat) (FX FY : nat -> Prop) (B B' : sites) (i j s0 s1 s2 s3 : nat) (Q0 Q1 Q2 Q3 : point -> Prop).
 Variables (I : (i < N)%nat) (J : (j < N)%nat) (K2 : (s2 < N)%nat) (K3 : (s3 < N)%nat).
-Variable narrow : narrowing N F B B'.
+Variable narrow : narrowing N FX FY B B'.
 Variables (E0 : s0 = i \/ s0 = j) (E1 : s1 = i \/ s1 = j) (D3 : s3 <> i /\ s3 <> j).
-Variables (S0 : stands_for F B s0 Q0) (S1 : stands_for F B s1 Q1) (S2 : stands_for F B s2 Q2) (S3 : stands_for F B s3 Q3).
+Variables (S0 : stands_for FX FY B s0 Q0) (S1 : stands_for FX FY B s1 Q1).
+Variables (S2 : stands_for FX FY B s2 Q2) (S3 : stands_for FX FY B s3 Q3).
 
 Lemma end_below s : s = i \/ s = j -> (s < N)%nat.
 Proof. now intros [-> | ->]. Qed.
@@ -86,10 +162,10 @@ Theorem crossing_refutes_legal : s2 <> i /\ s2 <> j ->
     exists o r, circle o r x y z /\ dist o w < r) -> ~ legal N B' i j.
 Proof.
   intros D2 H [c W]. destruct (witness_disc c W) as [In Out]. set (R := Rmax (dl c (B' i)) (dl c (B' j))) in *.
-  destruct (stands_in_narrowing N F B B' s0 Q0 (end_below _ E0) narrow S0) as [x [X Ix]].
-  destruct (stands_in_narrowing N F B B' s1 Q1 (end_below _ E1) narrow S1) as [y [Y Iy]].
-  destruct (stands_in_narrowing N F B B' s2 Q2 K2 narrow S2) as [z [Z Iz]].
-  destruct (stands_in_narrowing N F B B' s3 Q3 K3 narrow S3) as [w [Vw Iw]].
+  destruct (stands_in_narrowing N FX FY B B' s0 Q0 (end_below _ E0) narrow S0) as [x [X Ix]].
+  destruct (stands_in_narrowing N FX FY B B' s1 Q1 (end_below _ E1) narrow S1) as [y [Y Iy]].
+  destruct (stands_in_narrowing N FX FY B B' s2 Q2 K2 narrow S2) as [z [Z Iz]].
+  destruct (stands_in_narrowing N FX FY B B' s3 Q3 K3 narrow S3) as [w [Vw Iw]].
   destruct (H x y z w X Y Z Vw) as [[m [[s [Ts Es]] [t [Tt Et]]]] [o [r [[Ox [Oy Oz]] Ow]]]].
   assert (R0 : 0 <= R) by (apply Rle_trans with (dist c x); [apply dist_nonneg | now apply (In s0)]).
   pose proof (power_le c R x (In s0 x E0 Ix)) as Px. pose proof (power_le c R y (In s1 y E1 Iy)) as Py.
@@ -113,10 +189,10 @@ Theorem triangle_refutes_legal : s2 = i \/ s2 = j ->
   (forall x y z w, Q0 x -> Q1 y -> Q2 z -> Q3 w -> exists m, between m x y /\ between w m z) -> ~ legal N B' i j.
 Proof.
   intros E2 H [c W]. destruct (witness_disc c W) as [In Out].
-  destruct (stands_in_narrowing N F B B' s0 Q0 (end_below _ E0) narrow S0) as [x [X Ix]].
-  destruct (stands_in_narrowing N F B B' s1 Q1 (end_below _ E1) narrow S1) as [y [Y Iy]].
-  destruct (stands_in_narrowing N F B B' s2 Q2 K2 narrow S2) as [z [Z Iz]].
-  destruct (stands_in_narrowing N F B B' s3 Q3 K3 narrow S3) as [w [Vw Iw]].
+  destruct (stands_in_narrowing N FX FY B B' s0 Q0 (end_below _ E0) narrow S0) as [x [X Ix]].
+  destruct (stands_in_narrowing N FX FY B B' s1 Q1 (end_below _ E1) narrow S1) as [y [Y Iy]].
+  destruct (stands_in_narrowing N FX FY B B' s2 Q2 K2 narrow S2) as [z [Z Iz]].
+  destruct (stands_in_narrowing N FX FY B B' s3 Q3 K3 narrow S3) as [w [Vw Iw]].
   destruct (H x y z w X Y Z Vw) as [m [[s [Ts Es]] [t [Tt Et]]]].
   pose proof (Out s3 w K3 (proj1 D3) (proj2 D3) Iw) as O. apply Rlt_not_le in O. apply O. rewrite Et.
   apply disc_convex; [exact Tt | rewrite Es; apply disc_convex; [exact Ts | now apply (In s0) | now apply (In s1)] |
@@ -204,58 +280,61 @@ Proof.
   replace (t * (norm u * norm u)) with (norm u * e) in Hi by (unfold t; field; lra). exact Hi.
 Qed.
 
+(* Two points of the site k that are at one place along the sides that stay. *)
+Definition differ_narrowed (FX FY : nat -> Prop) (k : nat) (x y : point) : Prop :=
+  (FX k -> fst x = fst y) /\ (FY k -> snd x = snd y).
+
 Section Firm.
-Variables (N : nat) (F firm : nat -> Prop) (B B' C : sites) (q : nat -> point) (e : R) (i j : nat).
+Variables (N : nat) (FX FY firm : nat -> Prop) (B B' C : sites) (q : nat -> point) (e : R) (i j : nat).
 Variables (I : (i < N)%nat) (J : (j < N)%nat) (Pe : 0 < e).
-Variable narrow : narrowing N F B B'.
-Variable small_ones : forall k x y, (k < N)%nat -> ~ F k -> inside x (B k) -> inside y (B k) -> dist x y <= e.
-Variable firm_fixed : forall k, (k < N)%nat -> firm k -> F k /\ less_on_each_side e (C k) (B k).
-Variable others_fixed : forall k, (k < N)%nat -> F k -> ~ firm k -> C k = B k.
-Variable points : forall k, (k < N)%nat -> ~ F k -> inside (q k) (B k) /\ exact (C k) (q k).
+Variable narrow : narrowing N FX FY B B'.
+Variable small_ones : forall k x y, (k < N)%nat -> inside x (B k) -> inside y (B k) -> differ_narrowed FX FY k x y ->
+  dist x y <= e.
+Variable firm_fixed : forall k, (k < N)%nat -> firm k -> FX k /\ FY k /\ less_on_each_side e (C k) (B k).
+(* The others: at a place q along the sides that can be narrowed. *)
+Variable others : forall k x, (k < N)%nat -> ~ firm k -> inside x (C k) ->
+  inside x (B k) /\ (~ FX k -> fst x = fst (q k)) /\ (~ FY k -> snd x = snd (q k)).
 Variables (Fi : firm i) (Fj : firm j).
 
-Lemma shrunk_inside k : (k < N)%nat -> F k -> refines (C k) (B k).
+(* A point of what stands for a site is near one of the narrowed rectangle. *)
+Lemma near_narrowed k x : (k < N)%nat -> inside x (C k) -> exists z, inside z (B' k) /\ dist x z <= e.
 Proof.
   intros K H. destruct (classic (firm k)) as [T | T].
-  - intros z Z. apply (around_inside e (C k) (B k) z z); [now apply firm_fixed | exact Z | rewrite dist_self; lra].
-  - rewrite (others_fixed k K H T). now intros z.
+  - destruct (firm_fixed k K T) as [Fx [Fy L]]. exists x. rewrite dist_self. split; [| lra].
+    apply (narrowing_fixed N FX FY B B' k K narrow Fx Fy), (around_inside e (C k) (B k) x x L H). rewrite dist_self. lra.
+  - destruct (others k x K T H) as [Hb _].
+    destruct (narrowing_point N FX FY B B' k x K narrow Hb) as [z [Iz [Zx Zy]]]. exists z. split; [exact Iz |].
+    apply (small_ones k x z K Hb); [now apply (proj1 narrow k K) |]. split; intros Y; symmetry; auto.
 Qed.
 
 Lemma end_shrinks k c : (k < N)%nat -> firm k -> dl c (C k) <= dl c (B' k) - e.
 Proof.
-  intros K H. destruct (firm_fixed k K H) as [Fk L]. pose proof (dl_less e _ _ c (Rlt_le _ _ Pe) L).
-  pose proof (dl_monotone c _ _ (proj2 narrow k K Fk)). lra.
+  intros K H. destruct (firm_fixed k K H) as [Fx [Fy L]]. pose proof (dl_less e _ _ c (Rlt_le _ _ Pe) L).
+  pose proof (dl_monotone c _ _ (narrowing_fixed N FX FY B B' k K narrow Fx Fy)). lra.
 Qed.
 
 Theorem firm_refutes_legal : ~ legal N C i j -> ~ legal N B' i j.
 Proof.
   intros H [c W]. apply H. exists c. intros k K Di Dj. destruct (W k K Di Dj) as [Wi Wj].
   pose proof (end_shrinks i c I Fi). pose proof (end_shrinks j c J Fj).
-  assert (ds c (B' k) - e <= ds c (C k)); [| lra]. destruct (classic (F k)) as [T | T].
-  - pose proof (ds_monotone c _ _ (shrunk_inside k K T)). pose proof (ds_monotone c _ _ (proj1 narrow k K)).
-    pose proof (ds_monotone c _ _ (proj2 narrow k K T)). lra.
-  - destruct (points k K T) as [Iq Ex]. rewrite (exact_ds c _ _ Ex).
-    set (x := nearest c (B' k)). assert (Ix : inside x (B' k)) by apply nearest_inside.
-    pose proof (small_ones k (q k) x K T Iq (proj1 narrow k K x Ix)). pose proof (dist_triangle c (q k) x).
-    change (ds c (B' k)) with (dist c x). lra.
+  destruct (near_narrowed k (nearest c (C k)) K (nearest_inside c (C k))) as [z [Iz D]].
+  pose proof (ds_le c _ _ Iz). pose proof (dist_triangle c (nearest c (C k)) z).
+  assert (ds c (B' k) - e <= ds c (C k)) by (change (ds c (C k)) with (dist c (nearest c (C k))); lra). lra.
 Qed.
 
 Theorem firm_stays_possible : possible N C i j -> possible N B' i j.
 Proof.
-  assert (Same : forall k c, (k < N)%nat -> F k -> ds c (B' k) = ds c (B k) /\ dl c (B' k) = dl c (B k)).
-  { intros k c K T. pose proof (ds_monotone c _ _ (proj1 narrow k K)). pose proof (ds_monotone c _ _ (proj2 narrow k K T)).
-    pose proof (dl_monotone c _ _ (proj1 narrow k K)). pose proof (dl_monotone c _ _ (proj2 narrow k K T)). lra. }
-  destruct (firm_fixed i I Fi) as [Ti Li]. destruct (firm_fixed j J Fj) as [Tj Lj].
+  assert (Same : forall k c, (k < N)%nat -> firm k -> ds c (B' k) = ds c (B k)).
+  { intros k c K T. destruct (firm_fixed k K T) as [Fx [Fy _]].
+    pose proof (ds_monotone c _ _ (proj1 narrow k K)).
+    pose proof (ds_monotone c _ _ (narrowing_fixed N FX FY B B' k K narrow Fx Fy)). lra. }
+  destruct (firm_fixed i I Fi) as [_ [_ Li]]. destruct (firm_fixed j J Fj) as [_ [_ Lj]].
   assert (E : 0 <= e) by lra. intros [[c H] | [u [U H]]].
   - left. exists c. intros k K Di Dj. destruct (H k K Di Dj) as [Hi Hj].
-    destruct (Same i c I Ti) as [Si _]. destruct (Same j c J Tj) as [Sj _]. rewrite Si, Sj.
-    assert (Dl : dl c (C k) - e <= dl c (B' k) /\ (F k -> dl c (C k) <= dl c (B' k))).
-    { destruct (classic (F k)) as [T | T].
-      - destruct (Same k c K T) as [_ ->]. pose proof (dl_monotone c _ _ (shrunk_inside k K T)). split; [lra | now intros].
-      - split; [| now intros]. destruct (points k K T) as [Iq Ex]. rewrite (exact_dl c _ _ Ex).
-        set (x := nearest c (B' k)). assert (Ix : inside x (B' k)) by apply nearest_inside.
-        pose proof (small_ones k x (q k) K T (proj1 narrow k K x Ix) Iq). pose proof (dist_triangle c x (q k)).
-        pose proof (le_dl c _ _ Ix). lra. }
+    pose proof (Same i c I Fi) as Si. pose proof (Same j c J Fj) as Sj. rewrite Si, Sj.
+    destruct (near_narrowed k (farthest c (C k)) K (farthest_inside c (C k))) as [z [Iz D]].
+    pose proof (le_dl c _ _ Iz). pose proof (dist_triangle c z (farthest c (C k))). rewrite (dist_sym z) in *.
+    assert (Dl : dl c (C k) - e <= dl c (B' k)) by (change (dl c (C k)) with (dist c (farthest c (C k))); lra).
     assert (Zero : forall X, inside c X -> ds c X <= 0) by (intros X X0; pose proof (ds_le c X c X0); rewrite dist_self in *; lra).
     pose proof (dl_nonneg c (B' k)). pose proof (ds_nonneg c (B i)). pose proof (ds_nonneg c (B j)).
     destruct (classic (inside c (B i))) as [Ci | Ci]; destruct (classic (inside c (B j))) as [Cj | Cj].
@@ -264,19 +343,13 @@ Proof.
     + pose proof (Zero _ Cj). pose proof (ds_more e _ _ c E Li Ci). lra.
     + pose proof (ds_more e _ _ c E Lj Cj). pose proof (ds_more e _ _ c E Li Ci). lra.
   - right. exists u. split; [exact U |]. intros s k Ls Ss K. pose proof (H s k Ls Ss K) as G.
-    assert (Ts : F s /\ less_on_each_side e (C s) (B s)) by (destruct Ss as [-> | ->]; now split).
-    destruct Ts as [Ts L]. pose proof (highest_more e _ _ u E U L) as Hi.
+    assert (Ts : firm s) by (destruct Ss as [-> | ->]; assumption).
+    destruct (firm_fixed s Ls Ts) as [Fx [Fy L]]. pose proof (highest_more e _ _ u E U L) as Hi.
     assert (dot u (highest u (B s)) <= dot u (highest u (B' s))).
-    { apply highest_spec. apply (proj2 narrow s Ls Ts). apply highest_spec. }
-    assert (0 <= norm u) by apply dist_nonneg.
-    assert (dot u (lowest u (B' k)) <= dot u (lowest u (C k)) + norm u * e); [| lra].
-    destruct (classic (F k)) as [T | T].
-    + assert (dot u (lowest u (B' k)) <= dot u (lowest u (C k))).
-      { apply lowest_spec. apply (proj2 narrow k K T). apply (shrunk_inside k K T). apply lowest_spec. }
-      assert (0 <= norm u * e) by now apply Rmult_le_pos. lra.
-    + destruct (points k K T) as [Iq [_ Ex]]. rewrite (Ex _ (proj1 (lowest_spec u (C k)))).
-      set (x := lowest u (B' k)). assert (Ix : inside x (B' k)) by apply lowest_spec.
-      pose proof (small_ones k x (q k) K T (proj1 narrow k K x Ix) Iq).
-      pose proof (dot_near u x (q k)). assert (norm u * dist x (q k) <= norm u * e) by (apply Rmult_le_compat_l; lra). lra.
+    { apply highest_spec, (narrowing_fixed N FX FY B B' s Ls narrow Fx Fy), highest_spec. }
+    destruct (near_narrowed k (lowest u (C k)) K (proj1 (lowest_spec u (C k)))) as [z [Iz D]].
+    assert (0 <= norm u) by apply dist_nonneg. pose proof (proj2 (lowest_spec u (B' k)) z Iz).
+    pose proof (dot_near u z (lowest u (C k))). rewrite dist_sym in D.
+    assert (norm u * dist z (lowest u (C k)) <= norm u * e) by (apply Rmult_le_compat_l; lra). lra.
 Qed.
 End Firm.

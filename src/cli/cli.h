@@ -260,6 +260,6 @@ void cli_progress_stage(void *user, const dyd_progress *stage);
 void cli_progress_stop(cli_progress *p);
 
 /* stats.c: what --stats prints. `seconds` since the command began. */
-void cli_stats(FILE *out, const dyd_engine *e, double seconds);
+void cli_stats(FILE *out, const dyd_engine *e, const dyd_sphere *sphere, double seconds);
 
 #endif

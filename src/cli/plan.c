@@ -10,39 +10,44 @@ typedef struct plan_run {
   mpq_t accuracy;
   dyd_rect window;
   dyd_pair_list pairs;
+  size_t *line; /* of each pair in its file */
   uint32_t site;
   double *cost;
 } plan_run;
 
 /* ---- what is asked ---- */
 
-static bool plan_add_pair(dyd_pair_list *l, uint32_t i, uint32_t j) {
+static bool plan_add_pair(plan_run *r, uint32_t i, uint32_t j, size_t line) {
+  dyd_pair_list *l = &r->pairs;
   if (l->count % 1024 == 0) {
     dyd_pair *more = realloc(l->item, (l->count + 1024) * sizeof *more);
-    if (!more) return false;
-    l->item = more;
+    if (more) l->item = more;
+    size_t *lines = realloc(r->line, (l->count + 1024) * sizeof *lines);
+    if (lines) r->line = lines;
+    if (!more || !lines) return false;
   }
+  r->line[l->count] = line;
   l->item[l->count++] = (dyd_pair){i < j ? i : j, i < j ? j : i, DYD_INDETERMINATE};
   return true;
 }
 
 /* A line: two numbers and whatever follows. Comments, the header and empty lines are passed over. */
-static int pairs_line(dyd_pair_list *l, const char *file, const char *text, size_t line) {
+static int pairs_line(plan_run *r, const char *file, const char *text, size_t line) {
   unsigned long i, j;
   if (*text == '#' || *text == 'i' || *text == '\n' || *text == '\r' || !*text) return 0;
   if (sscanf(text, "%lu%*1[, \t]%lu", &i, &j) != 2 || i > UINT32_MAX || j > UINT32_MAX || i == j) {
     cli_complain("%s:%zu: this is no pair of different points; lines begin with i,j, their numbers", file, line);
     return CLI_FAILED;
   }
-  return plan_add_pair(l, (uint32_t)i, (uint32_t)j) ? 0 : cli_complain_memory();
+  return plan_add_pair(r, (uint32_t)i, (uint32_t)j, line) ? 0 : cli_complain_memory();
 }
 
-static int pairs_read(dyd_pair_list *l, const char *file) {
+static int pairs_read(plan_run *r, const char *file) {
   char text[4096];
   FILE *in = cli_input_open(file, "check the name of the file of pairs");
   if (!in) return CLI_FAILED;
   int status = 0;
-  for (size_t line = 1; !status && fgets(text, sizeof text, in); line++) status = pairs_line(l, file, text, line);
+  for (size_t line = 1; !status && fgets(text, sizeof text, in); line++) status = pairs_line(r, file, text, line);
   cli_input_close(in);
   return status;
 }
@@ -55,7 +60,7 @@ static int plan_options(plan_run *r, const cli_options *o) {
     status = CLI_USAGE;
   }
   if (!status && o->window) status = cli_window_read(&r->window, o->window);
-  if (!status && o->pairs) status = pairs_read(&r->pairs, o->pairs);
+  if (!status && o->pairs) status = pairs_read(r, o->pairs);
   r->site = o->site;
   r->options = (dyd_survey_options){DYD_SIZED(dyd_survey_options),
                                     .pairs = o->pairs ? &r->pairs : NULL,
@@ -87,6 +92,25 @@ static uint32_t point_of_row(const dyd_engine *e, uint32_t row) {
   return lo < dyd_engine_count(e) && dyd_engine_row(e, lo) == row ? (uint32_t)lo : UINT32_MAX;
 }
 
+/* Pairs and site: from rows to points. */
+static int plan_find_points(plan_run *r, const dyd_engine *e, const cli_options *o) {
+  if (o->site_set && (r->site = point_of_row(e, r->site)) == UINT32_MAX) {
+    cli_complain("there is no point %lu; give --site the number of one, from 0", (unsigned long)o->site);
+    return CLI_FAILED;
+  }
+  for (size_t k = 0; k < r->pairs.count; k++) {
+    uint32_t *end[2] = {&r->pairs.item[k].i, &r->pairs.item[k].j};
+    for (int x = 0; x < 2; x++) {
+      unsigned long row = *end[x];
+      if ((*end[x] = point_of_row(e, *end[x])) != UINT32_MAX) continue;
+      cli_complain("%s:%zu: there is no point %lu; give pairs of points that are there, numbered from 0", o->pairs,
+                   r->line[k], row);
+      return CLI_FAILED;
+    }
+  }
+  return 0;
+}
+
 /* Of every point, where a column of costs was read. */
 static dyd_status plan_costs(plan_run *r, const dyd_engine *e) {
   size_t n = dyd_engine_count(e);
@@ -102,11 +126,6 @@ static dyd_status plan_find(dyd_engine *e, const dyd_engine_options *options, vo
   dyd_outcome outcome;
   dyd_status st = dyd_engine_run(&outcome, e, options, err);
   if (st != DYD_OK || !cli_run_was_whole(e)) return st;
-  r->site = point_of_row(e, r->site);
-  for (size_t k = 0; k < r->pairs.count; k++) {
-    r->pairs.item[k].i = point_of_row(e, r->pairs.item[k].i);
-    r->pairs.item[k].j = point_of_row(e, r->pairs.item[k].j);
-  }
   st = plan_costs(r, e);
   if (st == DYD_OK) st = dyd_survey_new(&r->survey, dyd_engine_delaunay(e), &r->options, err);
   return st == DYD_CANCELLED ? DYD_OK : st;
@@ -115,7 +134,8 @@ static dyd_status plan_find(dyd_engine *e, const dyd_engine_options *options, vo
 static int plan_session(cli_session *s, plan_run *r, const cli_options *o) {
   size_t open, ties, left;
   r->engine = s->engine;
-  int status = cli_session_run_by(s, &o->engine, plan_find, r);
+  int status = plan_find_points(r, s->engine, o);
+  if (!status) status = cli_session_run_by(s, &o->engine, plan_find, r);
   cli_session_settle(s);
   if (status) return status;
   if (!r->survey) return cli_session_stopped(s, "the plan was");
@@ -141,6 +161,7 @@ int cli_plan(const cli_options *o) {
     cli_session_close(&s, status ? status : CLI_USAGE);
   }
   free(r.cost);
+  free(r.line);
   dyd_pair_list_clear(&r.pairs);
   dyd_rect_clear(&r.window);
   mpq_clear(r.accuracy);

@@ -233,7 +233,7 @@ int cli_session_close(cli_session *s, int status) {
     if (status == 0) status = traced ? traced : cli_exit_status(outcome);
     if (!o->quiet && status != CLI_OK && status != CLI_USAGE) session_note_outcome(s);
     if (status != CLI_OK && status != CLI_USAGE) cli_note_spacing(dyd_engine_delaunay(s->engine), o);
-    if (o->stats && outcome != DYD_OUTCOME_NONE) cli_stats(stderr, s->engine, cli_clock() - s->begun);
+    if (o->stats && outcome != DYD_OUTCOME_NONE) cli_stats(stderr, s->engine, NULL, cli_clock() - s->begun);
   }
   cli_deadline_written(status);
   dyd_engine_free(s->engine);

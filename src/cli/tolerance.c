@@ -74,9 +74,12 @@ static int sigma_read(mpq_ptr out, const char *text) {
 /* What may not be given together. */
 static int tolerance_contradictions(const cli_options *o) {
   bool sigmas = o->sigma && o->read.sigma_column, weights = o->metric == DYD_METRIC_BOX && o->read.radius_columns;
+  bool chances =
+      (o->sigma || o->read.sigma_column) && (o->content == DYD_CONTENT_RADII || o->content == DYD_CONTENT_BARCODE);
   if (sigmas) cli_complain("--sigma and --sigma-column contradict each other; leave one of them away");
+  if (chances) cli_complain("probabilities are those of pairs; leave the standard deviation or --layer away");
   if (weights) cli_complain("--metric box is about points that move equally far; leave it, or --radius-column, away");
-  return sigmas || weights ? CLI_USAGE : 0;
+  return sigmas || chances || weights ? CLI_USAGE : 0;
 }
 
 int cli_tolerance(const cli_options *o) {

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Pairs that stay indeterminate whatever is refined [SET-1] [SET-2].
  *
- * Let no point that can be narrowed be known worse than to a diameter of eps. A rectangle is firm if it is fixed and
- * wider than 2 eps both ways. Pairs of firm rectangles: all sites are triangulated once with firm rectangles smaller by
- * eps on each side and any point for each that can be narrowed. A pair that is open there, neither legal nor illegal,
- * is so wherever these points are. Other pairs: settle_face.c. */
+ * Sides of rectangles are fixed, or can be narrowed: both, or one, or none of a point. Let no two points of a rectangle
+ * that differ along sides which can be narrowed be farther apart than eps. A rectangle is firm if it is fixed and wider
+ * than 2 eps both ways. Pairs of firm rectangles: all sites are triangulated once with firm rectangles smaller by eps
+ * on each side and any place along each side that can be narrowed. A pair that is open there, neither legal nor
+ * illegal, is so wherever these points are. Other pairs: settle_face.c. */
 #include "engine/settle.h"
 
 #include "base/alloc.h"

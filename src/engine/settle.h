@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Pairs that no refinement decides, since that hangs on where the points of fixed rectangles are [SET-1] [SET-2]. */
+/* Pairs that no refinement decides, since that hangs on where points are along fixed sides [SET-1] [SET-2]. */
 #ifndef DYD_ENGINE_SETTLE_H
 #define DYD_ENGINE_SETTLE_H
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Pairs of one face: what stays open wherever the points are that can be narrowed [SET-1].
  *
- * A disc to which both ends may reach, while fixed rectangles need not and the others do not meet it, makes a pair
- * possible for good. Points of both ends that four points show to be in no disc of their own, make it never legal.
- * First a few choices of points of the fixed rectangles are triangulated, everybody else keeping the present rectangle:
- * a witness there is such a disc for some of them, and what is illegal there is never legal. */
+ * Each side of a rectangle is fixed, or can be narrowed to any point of it. A disc to which both ends may reach along
+ * their fixed sides, wherever they are along the others, while nobody else has to meet it, makes a pair possible for
+ * good. Points of both ends that four points show to be in no disc of their own, make it never legal. First a few
+ * choices of points on fixed sides are triangulated, all others being as they are: a witness there is such a disc for
+ * some of them, and what is illegal there is never legal. */
 #include "engine/settle_face.h"
 
 #include <dyadel/predicate.h>
@@ -32,7 +33,7 @@ typedef struct settling {
   dyd_settled_pair *pair;
   size_t pairs, left;
   size_t *work;
-  bool mixed; /* some rectangle is fixed */
+  bool mixed; /* some side is fixed, and no point */
 } settling;
 
 static void settling_drop_rects(settling *s) {
@@ -73,11 +74,12 @@ static dyd_status settling_take_rects(settling *s) {
   for (size_t k = 0; s->rect && k < s->site.count; k++) dyd_rect_init(&s->rect[k]);
   if (!s->rect || !s->guess) return DYD_E_NOMEM;
   for (size_t k = 0; st == DYD_OK && k < s->site.count; k++) {
-    const dyd_refinable *p = dyd_engine_find(s->e, s->site.item[k]);
+    bool *fixed = s->guess[k].fixed;
     st = dyd_sites_get(&s->rect[k], s->e->sites, s->site.item[k]);
     dyd_rect_get_d(s->guess[k].box, &s->rect[k]);
-    s->guess[k].fixed = !p || p->final;
-    s->mixed = s->mixed || (s->guess[k].fixed && !dyd_rect_is_point(&s->rect[k]));
+    dyd_site_fixed_sides(fixed, s->e, s->site.item[k], &s->rect[k]);
+    s->mixed = s->mixed || (fixed[0] && !dyd_interval_is_point(&s->rect[k].x)) ||
+               (fixed[1] && !dyd_interval_is_point(&s->rect[k].y));
   }
   return st;
 }
@@ -88,16 +90,45 @@ static void settling_spend(settling *s) {
   *s->work -= *s->work < s->site.count ? *s->work : s->site.count;
 }
 
-/* Does the disc (c, r) leave room for a point of site k outside it, or has k no point inside? */
+/* a becomes its end that is farther from v. */
+static dyd_status side_set_far(dyd_interval *a, const dyd_dyadic *v) {
+  dyd_dyadic below, above;
+  if (dyd_interval_is_point(a)) return DYD_OK;
+  dyd_dyadic_init(&below);
+  dyd_dyadic_init(&above);
+  dyd_status st = dyd_dyadic_sub(&below, v, &a->lo);
+  if (st == DYD_OK) st = dyd_dyadic_sub(&above, &a->hi, v);
+  const dyd_dyadic *end = dyd_dyadic_cmp(&below, &above) > 0 ? &a->lo : &a->hi;
+  if (st == DYD_OK) st = dyd_interval_set_ends(a, end, end);
+  dyd_dyadic_clear(&above);
+  dyd_dyadic_clear(&below);
+  return st;
+}
+
+/* The square of the distance from c to the point of r that is nearest to c along x (near[0]) and y (near[1]), or else
+ * farthest. */
+static dyd_status rect_reach2(mpq_t out, const dyd_point *c, const dyd_rect *r, const bool near[2]) {
+  dyd_rect s;
+  dyd_rect_init(&s);
+  dyd_rect_set(&s, r);
+  dyd_status st = near[0] ? DYD_OK : side_set_far(&s.x, &c->x);
+  if (st == DYD_OK && !near[1]) st = side_set_far(&s.y, &c->y);
+  dyd_rect_ds2(out, c, &s);
+  dyd_rect_clear(&s);
+  return st;
+}
+
+/* Is there a point of site k outside the disc (c, r), wherever it is along sides that can be narrowed? */
 static dyd_status disc_spares(bool *out, const dyd_engine *e, const dyd_point *c, const mpq_t radius2, uint32_t k) {
   mpq_t far2;
   dyd_rect r;
-  *out = dyd_site_is_fixed(e, k);
-  if (!*out) return DYD_OK;
+  bool fixed[2];
   mpq_init(far2);
   dyd_rect_init(&r);
   dyd_status st = dyd_sites_get(&r, e->sites, k);
-  dyd_rect_dl2(far2, c, &r);
+  dyd_site_fixed_sides(fixed, e, k, &r);
+  const bool near[2] = {!fixed[0], !fixed[1]};
+  if (st == DYD_OK) st = rect_reach2(far2, c, &r, near);
   *out = st == DYD_OK && mpq_cmp(far2, radius2) >= 0;
   dyd_rect_clear(&r);
   mpq_clear(far2);
@@ -110,12 +141,13 @@ static dyd_status disc_joins(bool *out, dyd_index_list *met, const settling *s, 
                              const dyd_settled_pair *p) {
   const size_t end[2] = {settling_place(s, p->i), settling_place(s, p->j)};
   mpq_t radius2, other;
+  dyd_status st = DYD_OK;
   mpq_inits(radius2, other, (mpq_ptr)0);
-  for (int k = 0; k < 2; k++) {
-    (s->guess[end[k]].fixed ? dyd_rect_ds2 : dyd_rect_dl2)(other, c, &s->rect[end[k]]);
+  for (int k = 0; st == DYD_OK && k < 2; k++) {
+    st = rect_reach2(other, c, &s->rect[end[k]], s->guess[end[k]].fixed);
     if (mpq_cmp(other, radius2) > 0) mpq_swap(other, radius2);
   }
-  dyd_status st = dyd_delaunay_meet_disc(met, s->e->pd, c, radius2);
+  if (st == DYD_OK) st = dyd_delaunay_meet_disc(met, s->e->pd, c, radius2);
   *out = st == DYD_OK;
   for (size_t k = 0; st == DYD_OK && *out && k < met->count; k++)
     if (met->item[k] != p->i && met->item[k] != p->j) st = disc_spares(out, s->e, c, radius2, met->item[k]);
@@ -167,12 +199,12 @@ static void choose_on_side(dyd_interval *out, const dyd_interval *a, double at) 
   dyd_interval_set_ends(out, end, end);
 }
 
-/* Site number k of the face: its point nearest to `at` where that can be chosen. */
+/* Site number k of the face: its point nearest to `at` along the sides where that can be chosen. */
 static void settling_choose(dyd_rect *out, const settling *s, size_t k, const double at[2]) {
   dyd_rect_set(out, &s->rect[k]);
-  if (!s->guess[k].fixed) return;
-  if (!dyd_interval_is_point(&out->x)) choose_on_side(&out->x, &s->rect[k].x, at[0]);
-  if (!dyd_interval_is_point(&out->y)) choose_on_side(&out->y, &s->rect[k].y, at[1]);
+  const bool *fixed = s->guess[k].fixed;
+  if (fixed[0] && !dyd_interval_is_point(&out->x)) choose_on_side(&out->x, &s->rect[k].x, at[0]);
+  if (fixed[1] && !dyd_interval_is_point(&out->y)) choose_on_side(&out->y, &s->rect[k].y, at[1]);
 }
 
 /* Is r[3] surely among the three others? */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Centres of discs for some choice of the points of fixed rectangles, by a few of them and a descent in doubles.
+/* Centres of discs for some choice of places along fixed sides, by a few of them and a descent in doubles.
  *
  * For a centre c the choice that joins i and j best is clear: theirs nearest to c, all others farthest. There is room
  * when the farther of i and j is then nearer to c than all others, wherever those are that cannot be chosen. */
@@ -31,12 +31,12 @@ static double square(double x) {
   return x * x;
 }
 
-static double site_near2(const dyd_settle_site *s, const double c[2]) {
-  return square(c[0] - clamped(c[0], s->box[0], s->box[1])) + square(c[1] - clamped(c[1], s->box[2], s->box[3]));
+static double side_near2(const double side[2], double v) {
+  return square(v - clamped(v, side[0], side[1]));
 }
 
-static double site_far2(const dyd_settle_site *s, const double c[2]) {
-  return square(fmax(c[0] - s->box[0], s->box[1] - c[0])) + square(fmax(c[1] - s->box[2], s->box[3] - c[1]));
+static double side_far2(const double side[2], double v) {
+  return square(fmax(v - side[0], side[1] - v));
 }
 
 static double site_middle(const dyd_settle_site *s, int axis) {
@@ -45,8 +45,12 @@ static double site_middle(const dyd_settle_site *s, int axis) {
 
 /* How far site k can be from c when that is wanted (an end: how near). */
 static double joining_reach2(const joining *q, size_t k, const double c[2]) {
+  const dyd_settle_site *s = &q->site[k];
   bool end = k == q->i || k == q->j;
-  return q->site[k].fixed == end ? site_near2(&q->site[k], c) : site_far2(&q->site[k], c);
+  double sum = 0;
+  for (int a = 0; a < 2; a++)
+    sum += s->fixed[a] == end ? side_near2(&s->box[2 * a], c[a]) : side_far2(&s->box[2 * a], c[a]);
+  return sum;
 }
 
 /* The room at c; at most `most` where it is no more than that. */
@@ -115,14 +119,16 @@ static void centre_list_start(centre_list *l, joining *q) {
   }
 }
 
-/* Is its box wider than a point? */
+/* Is there more than one choice? */
 static bool site_is_wide(const dyd_settle_site *s) {
-  return s->fixed && (s->box[0] < s->box[1] || s->box[2] < s->box[3]);
+  return (s->fixed[0] && s->box[0] < s->box[1]) || (s->fixed[1] && s->box[2] < s->box[3]);
 }
 
 /* Number n of a row of points around the box; false: there is none. */
 static bool site_spot(double out[2], const dyd_settle_site *s, int n) {
-  const double *b = s->box, t = (double)(n % ALONG) / ALONG, w = b[1] - b[0], h = b[3] - b[2];
+  double b[4];
+  for (int k = 0; k < 4; k++) b[k] = s->fixed[k / 2] ? s->box[k] : site_middle(s, k / 2);
+  const double t = (double)(n % ALONG) / ALONG, w = b[1] - b[0], h = b[3] - b[2];
   switch (n / ALONG) {
   case 0:
     out[0] = b[0] + t * w, out[1] = b[2];

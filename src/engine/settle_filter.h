@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Where to put the points of fixed rectangles, so that a pair becomes an edge, or cannot be legal. Guesses: nothing
+/* Where to put points along fixed sides, so that a pair becomes an edge, or cannot be legal. Guesses: nothing
  * that is stated depends on them. */
 #ifndef DYD_ENGINE_SETTLE_FILTER_H
 #define DYD_ENGINE_SETTLE_FILTER_H
@@ -8,10 +8,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A site: its outward box (x lower, x upper, y lower, y upper), whether its point may be chosen, and the choice. */
+/* A site: its outward box (x lower, x upper, y lower, y upper), along which sides its point may be chosen, and the
+ * choice. */
 typedef struct dyd_settle_site {
   double box[4];
-  bool fixed;
+  bool fixed[2];
   double at[2];
 } dyd_settle_site;
 
@@ -19,14 +20,14 @@ typedef struct dyd_settle_site {
 void dyd_filter_choose_middles(dyd_settle_site *site, size_t count);
 /* Anywhere. */
 void dyd_filter_choose_any(dyd_settle_site *site, size_t count, uint64_t *random);
-/* The centre of a disc that holds a choice of points of sites i and j, of the others that are not fixed no point, of
- * the others that are fixed not all; of such centres one with much room. false: none with any room was found.
+/* The centre of a disc that holds points of sites i and j, and of each other site not all, by choices along fixed
+ * sides, wherever points are along the others; of such centres one with much room. false: none with any room was found.
  * thorough: looks about ten times as long. */
 bool dyd_filter_find_centre(double c[2], const dyd_settle_site *site, size_t count, size_t i, size_t j, bool thorough);
 
 /* Four points at[k] of site[k]. inside: number 3 is among the three others, all of them of the two ends; else 0 and 1
  * are of ends, and 2 and 3 of others: the segments 01 and 23 cross, and the circle through 0, 1, 2 goes around 3. Sites
- * that are not fixed have their middles there. */
+ * have their middles there along sides that are not fixed. */
 typedef struct dyd_settle_cut {
   size_t site[4];
   double at[4][2];

@@ -1,13 +1,34 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Firm rectangles: fixed, and wider both ways than twice what is not known of points that can be narrowed [SET-2]. */
+/* Firm rectangles: fixed, and wider both ways than twice what is not known of sides that can be narrowed [SET-2]. */
 #include "engine/settle_firm.h"
 
 #include "engine/points.h"
+#include "stream/stream.h"
 
-/* *r becomes its lower left corner. */
-static dyd_status rect_set_corner(dyd_rect *r) {
-  dyd_status st = dyd_interval_is_point(&r->x) ? DYD_OK : dyd_interval_set_ends(&r->x, &r->x.lo, &r->x.lo);
-  return st != DYD_OK || dyd_interval_is_point(&r->y) ? st : dyd_interval_set_ends(&r->y, &r->y.lo, &r->y.lo);
+/* Sides of r that are fixed, or those that are not, become their lower ends. */
+static dyd_status rect_collapse(dyd_rect *r, const bool fixed[2], bool which) {
+  dyd_interval *side[2] = {&r->x, &r->y};
+  dyd_status st = DYD_OK;
+  for (int a = 0; st == DYD_OK && a < 2; a++)
+    if (fixed[a] == which && !dyd_interval_is_point(side[a]))
+      st = dyd_interval_set_ends(side[a], &side[a]->lo, &side[a]->lo);
+  return st;
+}
+
+/* Is a side of a point that x gives one that never changes again? Another user of x may have narrowed it for good
+ * since. A side that was measured again, or is joined with another one, is narrower than x, and only x is asked for
+ * more. */
+static bool side_is_final(const dyd_real *x, const dyd_interval *side) {
+  return dyd_real_is_final(x) && dyd_interval_contains(dyd_real_interval(x), side);
+}
+
+void dyd_site_fixed_sides(bool fixed[2], const dyd_engine *e, uint32_t site, const dyd_rect *r) {
+  const dyd_refinable *p = dyd_engine_find(e, site);
+  const void *pair;
+  fixed[0] = fixed[1] = !p || p->final;
+  if (fixed[0] || !p->stream || dyd_stream_object(&pair, p->stream) != DYD_STREAM_PAIR) return;
+  fixed[0] = side_is_final(((const dyd_stream_pair *)pair)->x, &r->x);
+  fixed[1] = side_is_final(((const dyd_stream_pair *)pair)->y, &r->y);
 }
 
 dyd_status dyd_firm_eps(dyd_dyadic *eps, const dyd_engine *e) {
@@ -16,8 +37,11 @@ dyd_status dyd_firm_eps(dyd_dyadic *eps, const dyd_engine *e) {
   dyd_rect r;
   dyd_rect_init(&r);
   for (size_t k = 0; st == DYD_OK && k < e->points; k++) {
+    bool fixed[2];
     if (e->point[k].final) continue;
     st = dyd_sites_get(&r, e->sites, e->point[k].site);
+    dyd_site_fixed_sides(fixed, e, e->point[k].site, &r);
+    if (st == DYD_OK) st = rect_collapse(&r, fixed, true);
     int64_t bits = dyd_rect_bits(&r);
     if (bits < least) least = bits;
   }
@@ -75,10 +99,13 @@ dyd_status dyd_firm_add(dyd_sites *sites, const dyd_engine *e, const dyd_dyadic 
   bool firm = false;
   dyd_rect_init(&r);
   dyd_status st = dyd_sites_get(&r, e->sites, k);
-  if (st == DYD_OK && dyd_site_is_fixed(e, k))
+  if (st == DYD_OK && dyd_site_is_fixed(e, k)) {
     st = dyd_firm_shrink(&r, &firm, &r, eps);
-  else if (st == DYD_OK)
-    st = rect_set_corner(&r);
+  } else if (st == DYD_OK) {
+    bool fixed[2];
+    dyd_site_fixed_sides(fixed, e, k, &r);
+    st = rect_collapse(&r, fixed, false);
+  }
   if (st == DYD_OK) st = dyd_sites_add_rect(sites, &r);
   dyd_rect_clear(&r);
   return st;

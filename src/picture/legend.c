@@ -36,11 +36,15 @@ void dyd_legend_begin(dyd_legend *l, dyd_canvas *c, const dyd_view *v) {
   legend_bar(l);
 }
 
+/* Where the row at hand ends: the first two leave room for the bar and its length. */
+static double legend_right(const dyd_legend *l) {
+  bool beside = l->y < DYD_VIEW_EDGE + l->view->height + AXIS + 1.5 * ROW;
+  return beside ? l->bar - 20 : DYD_VIEW_LEFT + l->view->width;
+}
+
 /* Room for an entry as wide as that. */
 static void legend_room(dyd_legend *l, double wide) {
-  double right =
-      l->y < DYD_VIEW_EDGE + l->view->height + AXIS + 1.5 * ROW ? l->bar - 20 : DYD_VIEW_LEFT + l->view->width;
-  if (l->x == DYD_VIEW_LEFT || l->x + wide <= right) return;
+  if (l->x == DYD_VIEW_LEFT || l->x + wide <= legend_right(l)) return;
   l->x = DYD_VIEW_LEFT;
   l->y += ROW;
 }
@@ -80,7 +84,8 @@ static size_t legend_fit(dyd_legend *l, char *line, size_t size, const char *tex
   size_t fits = 0;
   for (size_t at = 0; at + 1 < size; at++) {
     line[at] = 0;
-    if ((text[at] == ' ' || !text[at]) && (!fits || dyd_canvas_width(l->canvas, SIZE, line) <= l->view->width))
+    if ((text[at] == ' ' || !text[at]) &&
+        (!fits || dyd_canvas_width(l->canvas, SIZE, line) <= legend_right(l) - DYD_VIEW_LEFT))
       fits = at;
     if (!text[at]) break;
     line[at] = text[at];

@@ -6,6 +6,7 @@
 #include "picture/picture.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Of all edges, the quarter that dies first, and so on; told apart by all kinds of sight, and in grey. Then ties. */
 enum { CLASSES = 4 };
@@ -34,6 +35,14 @@ static const char *rounded(char out[DYD_DECIMAL_SIZE], double x, int digits, dyd
   return out;
 }
 
+/* The least double that is not below x cut to two digits: a double is below it iff it is below these digits. */
+static double two_digits(double x) {
+  char cut[DYD_DECIMAL_SIZE], again[DYD_DECIMAL_SIZE];
+  if (!(x > 0 && isfinite(x))) return x;
+  double at = strtod(rounded(cut, x, 2, DYD_DOWN), NULL);
+  return strcmp(rounded(again, at, 2, DYD_DOWN), cut) == 0 ? at : nextafter(at, HUGE_VAL);
+}
+
 static dyd_status find_classes(tolerance_drawing *g) {
   double *death = malloc((g->rows + 1) * sizeof *death);
   size_t count = 0;
@@ -41,7 +50,7 @@ static dyd_status find_classes(tolerance_drawing *g) {
   for (size_t k = 0; k < g->rows; k++)
     if (g->row[k].event == DYD_EVENT_DEATH) death[count++] = g->row[k].lo;
   qsort(death, count, sizeof *death, dyd_compare_double);
-  for (int c = 0; c < CLASSES - 1; c++) g->bound[c] = count ? death[count * (size_t)(c + 1) / CLASSES] : 0;
+  for (int c = 0; c < CLASSES - 1; c++) g->bound[c] = count ? two_digits(death[count * (size_t)(c + 1) / CLASSES]) : 0;
   free(death);
   return DYD_OK;
 }
@@ -90,11 +99,11 @@ static void tolerance_inside(dyd_canvas *c, void *context) {
   dyd_site_marks_draw(&g->marks, c, &g->view);
 }
 
-/* Rounded to where it stays true. */
+/* Bounds are those of their two digits. */
 static void class_text(char *out, size_t size, const tolerance_drawing *g, int class) {
   char number[DYD_DECIMAL_SIZE];
   if (class < CLASSES - 1 && isfinite(g->bound[class]))
-    snprintf(out, size, "less than %s", rounded(number, g->bound[class], 2, DYD_UP));
+    snprintf(out, size, "less than %s", rounded(number, g->bound[class], 2, DYD_DOWN));
   else if (class && isfinite(g->bound[class - 1]))
     snprintf(out, size, "%s or more", rounded(number, g->bound[class - 1], 2, DYD_DOWN));
   else

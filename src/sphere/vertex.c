@@ -3,7 +3,10 @@
  *
  * [SPH-4] The circle through the corners of a sure triangle, counter-clockwise from outside, has no point on the side
  * away from the others, which is where (b - a) x (c - a) points to: its direction is the vertex. In balls, the corners
- * anywhere in their boxes; longitudes are measured from a place near, so that none is cut at 180 degrees. */
+ * anywhere in their boxes, from axes near the vertex: east, north and up. There corners are about equally high, and
+ * heights hardly change with where they are in their boxes, so that the box of the vertex is about as wide as theirs.
+ * With the axes of the globe it would be wider by as much as the globe is larger than the triangle. Longitudes are
+ * measured from a place near, so that none is cut at 180 degrees. */
 #include "base/error.h"
 #include "sphere/state.h"
 #include "stream/ball.h"
@@ -111,13 +114,109 @@ static void box_of_direction(double box[4], arb_ptr n) {
   arb_clear(lon);
 }
 
-static dyd_status corner_set(arb_ptr v, const dyd_sphere *s, uint32_t i, dyd_error *err) {
-  dyd_spot spot;
-  dyd_spot_init(&spot);
-  dyd_status st = dyd_sphere_wide_spot(&spot, s, i, err);
-  if (st == DYD_OK) spot_vector(v, &spot);
-  dyd_spot_clear(&spot);
-  return st;
+/* Axes at a place: where it is, in degrees, and cosine and sine of its longitude and of its latitude. */
+typedef struct axes {
+  mpq_t at[2];
+  arb_struct turn[4];
+} axes;
+
+static void axes_init(axes *f) {
+  mpq_inits(f->at[0], f->at[1], NULL);
+  for (int k = 0; k < 4; k++) arb_init(&f->turn[k]);
+}
+
+static void axes_clear(axes *f) {
+  for (int k = 0; k < 4; k++) arb_clear(&f->turn[k]);
+  mpq_clears(f->at[0], f->at[1], NULL);
+}
+
+/* About where n points to, to 7 mm on the earth, so that whatever is wrong with axes shows. */
+static void axes_set(axes *f, arb_srcptr n) {
+  arb_t angle;
+  double d[3];
+  arb_init(angle);
+  for (int a = 0; a < 3; a++) d[a] = arf_get_d(arb_midref(n + a), ARF_RND_NEAR);
+  const double at[2] = {atan2(d[1], d[0]), atan2(d[2], hypot(d[0], d[1]))};
+  for (int a = 0; a < 2; a++) {
+    mpq_set_d(f->at[a], isfinite(at[a]) ? nearbyint(at[a] * 57.29577951308232 * 0x1p24) * 0x1p-24 : 0);
+    dyd_ball_set_q(angle, f->at[a], PREC);
+    arb_div_ui(angle, angle, 180, PREC);
+    arb_sin_cos_pi(&f->turn[2 * a + 1], &f->turn[2 * a], angle, PREC);
+  }
+  arb_clear(angle);
+}
+
+/* x = degrees, half: off by so many, and shifted by those of `from` (NULL: none), in units of pi. */
+static void half_turns(arb_ptr x, mpq_srcptr degrees, mpq_srcptr half, mpq_srcptr from) {
+  mpq_t shifted;
+  mag_t error;
+  mpq_init(shifted);
+  mag_init(error);
+  dyd_ball_set_q(x, half, PREC);
+  arb_get_mag(error, x);
+  mpq_set(shifted, degrees);
+  if (from) mpq_sub(shifted, shifted, from);
+  dyd_ball_set_q(x, shifted, PREC);
+  arb_add_error_mag(x, error);
+  arb_div_ui(x, x, 180, PREC);
+  mag_clear(error);
+  mpq_clear(shifted);
+}
+
+/* v = how far east, north and above the place of the axes all places of the spot are: with d of longitude, f and f0 of
+ * latitude and h = 2 cos f sin^2(d/2), these are cos f sin d, sin(f - f0) + h sin f0, -2 sin^2((f - f0)/2) - h cos f0.
+ */
+static void axes_see(arb_ptr v, const axes *f, const dyd_spot *spot) {
+  arb_t d, u, across, cos;
+  arb_init(d);
+  arb_init(u);
+  arb_init(across);
+  arb_init(cos);
+  half_turns(d, spot->mid[0], spot->half[0], f->at[0]);
+  half_turns(u, spot->mid[1], spot->half[1], NULL);
+  arb_cos_pi(cos, u, PREC);
+  half_turns(u, spot->mid[1], spot->half[1], f->at[1]);
+  arb_sin_pi(v, d, PREC);
+  arb_mul(v, v, cos, PREC);
+  arb_mul_2exp_si(d, d, -1);
+  arb_sin_pi(across, d, PREC);
+  arb_sqr(across, across, PREC);
+  arb_mul(across, across, cos, PREC);
+  arb_mul_2exp_si(across, across, 1);
+  arb_sin_pi(v + 1, u, PREC);
+  arb_addmul(v + 1, across, &f->turn[3], PREC);
+  arb_mul_2exp_si(u, u, -1);
+  arb_sin_pi(v + 2, u, PREC);
+  arb_sqr(v + 2, v + 2, PREC);
+  arb_mul_2exp_si(v + 2, v + 2, 1);
+  arb_addmul(v + 2, across, &f->turn[2], PREC);
+  arb_neg(v + 2, v + 2);
+  arb_clear(cos);
+  arb_clear(across);
+  arb_clear(u);
+  arb_clear(d);
+}
+
+/* n, from these axes, becomes a direction from those of the globe. Of length about 1 where that goes: else
+ * how long it may be would tell on where it points to. */
+static void axes_leave(arb_ptr n, const axes *f) {
+  arb_srcptr cl = &f->turn[0], sl = &f->turn[1], cf = &f->turn[2], sf = &f->turn[3];
+  arb_ptr w = _arb_vec_init(2);
+  if (arb_is_positive(n + 2)) {
+    arb_div(n, n, n + 2, PREC);
+    arb_div(n + 1, n + 1, n + 2, PREC);
+    arb_one(n + 2);
+  }
+  arb_mul(w, n + 2, cf, PREC); /* away from the axis of the globe */
+  arb_submul(w, n + 1, sf, PREC);
+  arb_mul(n + 2, n + 2, sf, PREC);
+  arb_addmul(n + 2, n + 1, cf, PREC);
+  arb_set(w + 1, n); /* east */
+  arb_mul(n, w, cl, PREC);
+  arb_submul(n, w + 1, sl, PREC);
+  arb_mul(n + 1, w, sl, PREC);
+  arb_addmul(n + 1, w + 1, cl, PREC);
+  _arb_vec_clear(w, 2);
 }
 
 /* Who is within an angle of a place is within it of its vector. */
@@ -160,16 +259,32 @@ dyd_status dyd_sphere_vector(double box[6], const dyd_sphere *s, uint32_t i, dyd
   return st;
 }
 
-dyd_status dyd_sphere_vertex(double box[4], const dyd_sphere *s, const dyd_triangle *t, dyd_error *err) {
-  arb_ptr v = _arb_vec_init(9), n = _arb_vec_init(3);
+static dyd_status triangle_spots(dyd_spot spot[3], const dyd_sphere *s, const dyd_triangle *t, dyd_error *err) {
   dyd_status st = DYD_OK;
   for (int k = 0; k < 3 && st == DYD_OK; k++)
-    st = t->v[k] < s->count ? corner_set(v + 3 * k, s, t->v[k], err)
+    st = t->v[k] < s->count ? dyd_sphere_wide_spot(&spot[k], s, t->v[k], err)
                             : dyd_fail(err, DYD_E_ARG, "there is no point %lu", (unsigned long)t->v[k]);
+  return st;
+}
+
+dyd_status dyd_sphere_vertex(double box[4], const dyd_sphere *s, const dyd_triangle *t, dyd_error *err) {
+  arb_ptr v = _arb_vec_init(9), n = _arb_vec_init(3);
+  dyd_spot spot[3];
+  axes f;
+  axes_init(&f);
+  for (int k = 0; k < 3; k++) dyd_spot_init(&spot[k]);
+  dyd_status st = triangle_spots(spot, s, t, err);
   if (st == DYD_OK) {
+    for (int k = 0; k < 3; k++) spot_vector(v + 3 * k, &spot[k]);
     normal_set(n, v);
+    axes_set(&f, n);
+    for (int k = 0; k < 3; k++) axes_see(v + 3 * k, &f, &spot[k]);
+    normal_set(n, v);
+    axes_leave(n, &f);
     box_of_direction(box, n);
   }
+  for (int k = 0; k < 3; k++) dyd_spot_clear(&spot[k]);
+  axes_clear(&f);
   _arb_vec_clear(n, 3);
   _arb_vec_clear(v, 9);
   return st;

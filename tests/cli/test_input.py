@@ -128,6 +128,22 @@ REFUSED = [
 ]
 
 
+def test_comments_before_the_header():
+    """Lines of # are passed over, as in what dyadel writes; one with the columns is the header, also where one is mistyped."""
+    own = run('delaunay', '--layer', 'points', '-', stdin='0 0\n0 0\n10 0\n0 10\n').out
+    assert own.startswith('# alias 1 0\n# rounding: ')
+    want = run('delaunay', '-', stdin='0 0\n0 0\n10 0\n0 10\n').out
+    expect(run('delaunay', '--columns', 'xlo,ylo', '-', stdin=own), 0, re.escape(want))
+    mark = '\ufeff# of today; in metres, east and north\r\n\r\n'
+    for columns in ('e,n', '2,3'):
+        for begin in ('', mark, mark + '# x\n'):
+            expect(run('delaunay', '--columns', columns, '-', stdin=begin + '#id,e,n\n7,0,0\n8,1,0\n9,0,1\n'), 0, r'\A(.*\n){4}\Z')
+    expect(run('delaunay', '--columns', 'e,nn', '-', stdin='# x\n#id,e,n\n7,0,0\n'), 1, r'\A\Z', r'-:2:1: no column is called "nn"; the header\'s names are: #id, e, n')
+    expect(run('delaunay', '--columns', 'e,nn', '-', stdin='# x\nid,e,n\n7,0,0\n'), 1, r'\A\Z', r'-:2:1: no column is called "nn"; the header\'s names are: id, e, n')
+    expect(run('delaunay', '--columns', 'e,n', '-', stdin='# x\n# y\n'), 1, r'\A\Z', '-:1:1: the file has no header')
+    expect(run('delaunay', '--columns', 'e,n', '-', stdin='e,n\n0,0\n#1,2\n'), 1, r'\A\Z', '-:3:1: ')
+
+
 def test_refusals():
     for options, text, code, message in REFUSED:
         try:

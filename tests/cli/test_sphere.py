@@ -192,6 +192,8 @@ def test_airports():
     result = run('delaunay', '--sphere', *AIRPORTS)
     expect(result, 0, r'\Ai,j,status\n', r'\A\Z')
     assert count(result.out) == {'legal': 10122}
+    told = run('delaunay', '--sphere', '--stats', *AIRPORTS).err  # of the places, not of their images
+    assert re.search(r'^points +3376$', told, re.M) and re.search(r'^pairs legal +10122$', told, re.M), told
     with open(os.path.join(DATA, 'airports.csv'), encoding='utf-8') as file:
         at = [APART.vector(globe.canonical((r['longitude'], r['latitude']))) for r in csv.DictReader(file)]
     rows = run('delaunay', '--sphere', '--layer', 'triangles', *AIRPORTS).out.splitlines()[1:]
@@ -539,6 +541,14 @@ def test_voronoi_radius():
     assert checked > 15 * cases(20)
 
 
+def test_voronoi_of_a_town():
+    """Fixes some hundred metres apart, each within ten: vertices within a few times that, their sides in the picture."""
+    town = '13.4050 52.5200\n13.4060 52.5210\n13.4080 52.5190\n13.4030 52.5230\n13.4100 52.5220\n13.4070 52.5175\n'
+    whole = diagram(town, '--radius', '3m')
+    near = [v for v in whole['vertices'] if v['y'][1] - v['y'][0] < 0.003 and v['x'][1] - v['x'][0] < 0.005]
+    assert len(near) >= 3 and all(52.51 < v['y'][0] < 52.53 and 13.39 < v['x'][0] < 13.42 for v in near), whole['vertices']
+
+
 def test_voronoi_layers():
     expect(run('voronoi', '--sphere', '-', stdin=OCTAHEDRON), 0, r'\Ai,complete,vertices\n0,yes,0 2 1 3\n1,yes,3 5 4 0\n')
     expect(run('voronoi', '--sphere', '--layer', 'vertices', '-', stdin=OCTAHEDRON), 0, r'^i,j,k,xlo,xhi,ylo,yhi\n0,1,4,4[45]\.\d+,45[.\d]*,35\.26')
@@ -579,6 +589,10 @@ def test_window():
         assert f'{len(inside)} of 7 points (and the lines counted) in this window' in drawn, window
         edges = sum(i in inside or j in inside for i, j, _ in pairs)
         assert re.findall('>legal: ([0-9]+)<', drawn) == [str(edges)] * (edges > 0), (window, edges)
+    tall = run('delaunay', '--sphere', '--format', 'svg', '--window=178,180,-21,-15', '-', stdin=text).out  # beside the bar
+    end, bar = re.search('<text x="([0-9.]+)"[^>]*>([^<]* degrees?)<', tall).groups()
+    row = re.search('>([^<]* in this window[^<]*)<', tall)[1]
+    assert 'carr' in tall and 90 + 7 * len(row) < float(end) - 7 * len(bar), (row, end, bar)
     near = run('delaunay', '--sphere', '--format', 'svg', '-', stdin=text[:-12]).out  # seen around the date line by itself
     assert '>182<' in near and '>178<' in near and 'id="pair-1-3"' in near, re.findall('>[0-9]+<', near)
     crowd = run('delaunay', '--sphere', '--radius', '2km', '-q', '--format', 'svg', *AIRPORTS).out

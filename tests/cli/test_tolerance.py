@@ -47,6 +47,8 @@ def test_refusals():
     expect(run('tolerance', '-', stdin='0 0\n1 0\n[1,2] 1\n'), 1, r'\A\Z', r'-: point 2: .*plain numbers')
     for wrong in ('-1', 'x', '1+-0.5', 'sqrt(2)'):
         expect(run('tolerance', '--up-to', wrong, '-', stdin=SQUARE), 2, r'\A\Z', '--up-to ".*" is not understood; give')
+    for widened in ('--radius=1', '--measured'):  # tolerances are those of exact points: no such option
+        expect(run('tolerance', widened, '-', stdin=SQUARE), 2, r'\A\Z', f'tolerance does not take {widened[:8]}')
     expect(run('tolerance', '--layer', 'cells', '-', stdin=SQUARE), 2, r'\A\Z', 'give pairs, points, barcode')
     expect(run('tolerance', '--format', 'obj', '-', stdin=SQUARE), 2, r'\A\Z', 'does not write obj')
     expect(run('tolerance', '--format', 'wkt', '--layer', 'barcode', '-', stdin=SQUARE), 2, r'\A\Z', 'barcode')
@@ -167,6 +169,8 @@ def test_sigma():
     assert rows(run('tolerance', '--sigma', '1', '-', stdin='0 0\n1 1\n').out)[0]['probability'] == '1'
     less = [[float(r['probability']) for r in rows(run('tolerance', '--sigma', s, *AIRPORTS).out)] for s in ('0.01', '0.001')]
     assert all(a <= b + 1e-5 for a, b in zip(*less)) and sum(less[0]) < 0.99 * sum(less[1])
+    for layer in ('points', 'barcode'):  # they have no place for it
+        expect(run('tolerance', '--sigma', '1', '--layer', layer, '-', stdin=SQUARE), 2, r'\A\Z', 'probabilities are those of pairs; leave')
     for wrong in ('0', '-1', 'x', 'nan', '1e-400'):
         expect(run('tolerance', '--sigma', wrong, '-', stdin=SQUARE), 2, r'\A\Z', '--sigma ".*" is not understood; give')
 
@@ -245,6 +249,9 @@ def test_picture():
     assert '>tie<' not in plain and '>point<' in plain
     marks = [float(x) for x in re.findall('id="point-[0-9]+" d="M([0-9.]+)', plain)]
     assert marks and min(marks) > 100, marks  # none of them at the rim
+    bounds = re.findall('>(?:less than ([0-9.e-]+)|([0-9.e-]+) or more)<', run('tolerance', '--format', 'svg', *AIRPORTS).out)
+    (a, _), (b, _), (c, _), (_, d) = bounds
+    assert float(a) < float(b) < float(c) and c == d, bounds  # no gap, no overlap
     strokes = set(re.findall(r'stroke="(#\w+)"', with_births.out))
     assert len(strokes) >= 4, strokes
 

@@ -332,8 +332,96 @@ static void test_sources(void **state) {
   }
 }
 
+/* Three places about (lon, lat), `size` degrees away from it, each in a box of degrees, and one on the other side. */
+static void set_triangle(globe *g, double lon, double lat, double size, double half, test_random *r) {
+  double turn = 360 * test_unit(r), cos_lat = cos(lat * (double)degree);
+  *g = (globe){.n = 4};
+  for (int k = 0; k < 3; k++) {
+    double way = (turn + 120 * k + 40 * test_unit(r)) * (double)degree;
+    g->lat[k] = lat + size * sin(way);
+    g->lon[k] = lon + size * cos(way) / cos_lat;
+    g->half[k] = half;
+  }
+  g->lon[3] = lon - 180;
+  g->lat[3] = -lat;
+}
+
+/* The boxes of vertices of triangles of all sizes hold those of choices, and are about as wide as those of corners. */
+static void test_vertex_width(void **state) {
+  (void)state;
+  test_random r = test_random_start("widths of vertices");
+  for (size_t k = 0; k < test_cases_all(200); k++) {
+    double size = ldexp(5, -(int)test_below(&r, 16)), half = size / 64, lat = 140 * test_unit(&r) - 70, box[4];
+    globe g, c;
+    answer a;
+    size_t seen = 0;
+    set_triangle(&g, 400 * test_unit(&r) - 200, lat, size, half, &r);
+    ask_from(&a, &g, NULL, 3);
+    for (size_t t = 0; t < a.triangles.count; t++) {
+      const uint32_t *v = a.triangles.item[t].v;
+      if (v[0] == 3 || v[1] == 3 || v[2] == 3) continue;
+      seen++;
+      assert_int_equal(dyd_sphere_vertex(box, a.s, &a.triangles.item[t], NULL), DYD_OK);
+      assert_true(box[3] - box[2] >= 2 * half && box[3] - box[2] <= 16 * half);
+      assert_true(box[1] - box[0] >= 2 * half && (box[1] - box[0]) * cos(lat * (double)degree) <= 20 * half);
+    }
+    assert_int_equal(seen, 1);
+    for (int l = 0; l < 4; l++) {
+      c = g;
+      for (int i = 0; i < 3; i++) {
+        c.lon[i] += half * (double)test_between(&r, -1, 1);
+        c.lat[i] += half * (double)test_between(&r, -1, 1);
+        c.half[i] = 0;
+      }
+      check_choice(&a, &c);
+    }
+    forget(&a);
+  }
+}
+
+/* Boxes that are wider one way than the other hold the vertices of their corners; exact places give the vertex to many
+ * digits: as far from all three. */
+static void test_vertex_corners(void **state) {
+  (void)state;
+  test_random r = test_random_start("vertices of corners");
+  for (size_t k = 0; k < test_cases_all(200); k++) {
+    double size = ldexp(5, -(int)test_below(&r, 10)), lat = 140 * test_unit(&r) - 70, box[4], one[4];
+    double half[2] = {k % 2 ? 0 : size / 8 / cos(lat * (double)degree), k % 2 ? size / 8 : 0};
+    const dyd_triangle corner = {{0, 1, 2}};
+    globe g;
+    set_triangle(&g, 400 * test_unit(&r) - 200, lat, size, 0, &r);
+    for (int l = 0; l < 9; l++) { /* all, then each of their corners */
+      double x0[4], x1[4], y0[4], y1[4];
+      dyd_engine *e;
+      dyd_sphere *s;
+      for (int i = 0; i < 4; i++) {
+        double end = i == 3 ? 0 : (l - 1) >> i & 1 ? 1 : -1, dx = end * half[0], dy = end * half[1];
+        x0[i] = g.lon[i] - (l ? -dx : fabs(dx)), x1[i] = l ? x0[i] : g.lon[i] + fabs(dx);
+        y0[i] = g.lat[i] - (l ? -dy : fabs(dy)), y1[i] = l ? y0[i] : g.lat[i] + fabs(dy);
+      }
+      assert_int_equal(dyd_engine_new(&e), DYD_OK);
+      assert_int_equal(dyd_engine_add_boxes(e, 4, x0, x1, y0, y1), DYD_OK);
+      assert_int_equal(dyd_sphere_new(&s, e, NULL, NULL), DYD_OK);
+      assert_int_equal(dyd_sphere_vertex(l ? one : box, s, &corner, NULL), DYD_OK);
+      dyd_sphere_free(s);
+      dyd_engine_free(e);
+      if (!l) continue;
+      long double n[3], v[3], d[3] = {0};
+      assert_true(one[1] - one[0] < 1e-12 && one[3] - one[2] < 1e-12);
+      vector_of(n, one[0] / 2 + one[1] / 2, one[2] / 2 + one[3] / 2);
+      for (int i = 0; i < 3; i++) {
+        vector_of(v, x0[i], y0[i]);
+        for (int a = 0; a < 3; a++) d[i] += (n[a] - v[a]) * (n[a] - v[a]);
+      }
+      for (int i = 1; i < 3; i++) assert_true(fabsl(sqrtl(d[i]) - sqrtl(d[0])) < 1e-13L);
+      assert_true(box[2] <= one[2] && one[3] <= box[3] && turn_within(one[0] + 2e-9, one[1] - 2e-9, box));
+    }
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(test_circles), cmocka_unit_test(test_choices),
-                                     cmocka_unit_test(test_sources)};
+                                     cmocka_unit_test(test_sources), cmocka_unit_test(test_vertex_width),
+                                     cmocka_unit_test(test_vertex_corners)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

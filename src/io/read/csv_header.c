@@ -211,22 +211,41 @@ static bool begins_like(const dyd_csv *csv, dyd_csv_role role, const char *word)
   return !word[k];
 }
 
+/* Takes the line for the header. delimiter 0: it tells. */
+static dyd_status header_take(dyd_csv *csv, const dyd_line *line, char delimiter, dyd_error *err) {
+  dyd_status st = delimiter ? DYD_OK : find_delimiter(&delimiter, csv, line, err);
+  if (st == DYD_OK) st = header_split(csv, line, delimiter, err);
+  if (st == DYD_OK) st = find_columns(csv, err);
+  return st == DYD_OK ? refuse_numbers(csv, err) : st;
+}
+
+/* Lines before the header that begin with # and have not got the columns are comments, as what is written here has. One
+ * that has as many fields as the line behind it, in which columns are missing as well, was the header. */
+static dyd_status header_read(dyd_csv *csv, char delimiter, dyd_error *err) {
+  dyd_error before;
+  for (size_t fields = 0;; fields = csv->fields) {
+    dyd_line line;
+    dyd_status st = dyd_csv_record(&line, csv, err);
+    if (st != DYD_OK) return st;
+    if (!line.text) break;
+    st = header_take(csv, &line, delimiter, err);
+    if (st != DYD_E_PARSE) return st;
+    if (line.text[0] != '#') {
+      if (err && fields == csv->fields) *err = before;
+      return st;
+    }
+    if (err) before = *err;
+  }
+  if (err) err->line = err->column = 1;
+  return dyd_fail(err, DYD_E_PARSE, "the file has no header; its first line must name the columns");
+}
+
 dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const dyd_read_options *o, dyd_error *err) {
   *csv = (dyd_csv){.text = text};
-  dyd_line line;
   char delimiter;
   dyd_status st = read_wanted(csv, o, err);
   if (st == DYD_OK) st = read_delimiter(&delimiter, o->delimiter, err);
-  if (st == DYD_OK) st = dyd_csv_record(&line, csv, err);
-  if (st != DYD_OK) return st;
-  if (!line.text) {
-    if (err) err->line = err->column = 1;
-    return dyd_fail(err, DYD_E_PARSE, "the file has no header; its first line must name the columns");
-  }
-  if (!delimiter) st = find_delimiter(&delimiter, csv, &line, err);
-  if (st == DYD_OK) st = header_split(csv, &line, delimiter, err);
-  if (st == DYD_OK) st = find_columns(csv, err);
-  if (st == DYD_OK) st = refuse_numbers(csv, err);
+  if (st == DYD_OK) st = header_read(csv, delimiter, err);
   csv->columns = csv->fields;
   if (st == DYD_OK)
     csv->degrees = begins_like(csv, DYD_CSV_Y, "lat") &&

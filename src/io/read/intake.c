@@ -29,10 +29,10 @@ static void manner_set_radius(dyd_manner *m, const mpq_t radius) {
 }
 
 static dyd_status radius_fail(const dyd_intake *in, const dyd_span *span, dyd_error *err) {
-  return dyd_span_fail(err, span, 0,
-                       in->o->degrees
-                           ? "the radius is not an exact number >= 0 and a unit; give one such as 0.01deg, 30m or 2km"
-                           : "the radius is not an exact number >= 0; give one such as 0.01 or 1/64");
+  return dyd_span_fail(
+      err, span, 0,
+      in->o->degrees ? "the radius is not an exact number >= 0 and a unit; give one such as 0.01deg, 30m or 2km"
+                     : "the radius is not an exact number >= 0; give one such as 0.01 or 1/64 (units: with --sphere)");
 }
 
 /* Each row with columns of radii has its own: what they say is added to the radius of all points, or kept. */
@@ -65,8 +65,9 @@ static dyd_status intake_radius_of_all(dyd_intake *in, dyd_error *err) {
   dyd_status st = text ? dyd_real_parse_exact(in->radius, text, strlen(text)) : DYD_OK;
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (st != DYD_OK || mpq_sgn(in->radius) < 0)
-    return dyd_fail(err, DYD_E_ARG, "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64",
-                    text);
+    return dyd_fail(
+        err, DYD_E_ARG,
+        "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64 (units: with --sphere)", text);
   for (int a = 0; a < 2; a++) manner_set_radius(&in->manner[a], in->radius);
   return DYD_OK;
 }

@@ -46,7 +46,8 @@ typedef struct dyd_csv {
 } dyd_csv;
 
 /* Takes the names of the columns from the options (quoted as in RFC 4180 when they hold commas), then reads the header,
- * which tells the delimiter unless the options do. DYD_E_ARG when options are not of their form, or none names x and y;
+ * which tells the delimiter unless the options do; lines of # before it that have not got the columns are passed over.
+ * DYD_E_ARG when options are not of their form, or none names x and y;
  * DYD_E_PARSE when the header has not got each column once. */
 dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const dyd_read_options *o, dyd_error *err);
 void dyd_csv_clear(dyd_csv *csv);
