@@ -2,6 +2,7 @@
 (* dyadel-proved FILE: checks a certificate by the checker that is proved in Coq (theories/Checker.v, CheckerFaces.v), and
    says what of it is proved by it and what is not, as `dyadel verify` does. Exit status 0: everything that is stated is
    proved; 3: accepted, but something is not proved, and named; 1: rejected. "-" is standard input. *)
+open Source
 open Reader
 
 let whole_file name =
@@ -155,22 +156,24 @@ let contradiction c d e p =
 
 let has_bounds c = c.area <> None || c.hausdorff <> None
 
-let gaps c p =
+let gaps c p (b : Blocks.proof) =
   let left = List.length c.sites - p.surrounded in
-  let unwitnessed = c.pairs.unwitnessed in
+  let unwitnessed = c.pairs.unwitnessed and loose = Blocks.loose_aliases c b in
+  let unknown = match b.unknown with [] -> "" | (line, name) :: _ -> Printf.sprintf ", as this checker does not know \"%s\" (line %d)" name line in
   List.filter_map
     (fun (there, text) -> if there then Some ("not proved: " ^ text) else None)
     [ (not (p.complete || c.capped), Printf.sprintf "that pairs among %d sites which are not listed are illegal" left);
       (unwitnessed > 0, Printf.sprintf "that %d pairs without a witness are legal" unwitnessed);
       (p.loose > 0, Printf.sprintf "that no refinement decides %d ties" p.loose);
-      (c.loose > 0, Printf.sprintf "that %d aliases of points that are not exact are the same points" c.loose);
+      (loose > 0, Printf.sprintf "that %d aliases of points that are not exact are the same points" loose);
       (has_bounds c && not p.complete, "the bounds of area and Hausdorff distance, as more pairs may be possible");
       (p.complete && not p.counted, "places, bridges, corners and the numbers of triangles and pairs, which the proof does not need");
-      (c.blocks, "what points are described to be, which this checker does not know");
+      (b.unseen_points > 0, Printf.sprintf "that %d points lie where they are described to be%s" b.unseen_points unknown);
+      (b.unseen_facts > 0, Printf.sprintf "that %d facts on points hold%s" b.unseen_facts unknown);
       (has_unproved_distance c, "the distance of undetermined points to the Voronoi diagram");
       (not (outcome_is_proved c p), "the outcome " ^ c.outcome) ]
 
-let report c p gaps =
+let report c p (b : Blocks.proof) gaps =
   print_endline (if gaps = [] then "accepted, all of it proved" else "accepted, not all of it proved: see what is not proved below");
   Printf.printf "states: outcome %s, goal %s%s\n" c.outcome (String.concat " " c.goal) (if c.capped then ", capped" else "");
   Printf.printf "sites: %d, of which %d aliases\n" (List.length c.sites + c.aliases) c.aliases;
@@ -192,6 +195,8 @@ let report c p gaps =
       print_endline "checked: the distance of undetermined points to the Voronoi diagram, by boxes"
   in
   Option.iter report_diagram c.diagram;
+  if b.points + b.facts > 0 then
+    Printf.printf "checked: %d points lie where they are described to be, and %d facts on them hold\n" b.points b.facts;
   if outcome_is_proved c p then Printf.printf "checked: the outcome %s\n" c.outcome;
   if c.pairs.opened > 0 then Printf.printf "open: %d indeterminate pairs, of which nothing is stated\n" c.pairs.opened;
   if c.capped then print_endline "open: the cap was met, of other pairs nothing is stated";
@@ -208,8 +213,9 @@ let verdict name =
   Option.iter (fun g -> if not g.distance_unproved then Option.iter (check_distance c g) g.distance) c.diagram;
   let p = proof_of c d e in
   Option.iter (fun wrong -> raise (Bad (2, wrong))) (contradiction c d e p);
-  let found = gaps c p in
-  report c p found;
+  let b = Blocks.of_blocks c in
+  let found = gaps c p b in
+  report c p b found;
   if found = [] then 0 else 3
 
 let () =
