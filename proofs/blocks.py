@@ -34,6 +34,8 @@ KNOWN = [
     (ALIAS.format('1/(1+sqrt(2))', 'sqrt(2)-1'), 2, 1), (ALIAS.format('tanh(2)*cosh(2)', 'sinh(2)'), 2, 1),
     (ALIAS.format('min(exp(-3),pi)*exp(3)', '1+0*pi'), 2, 1), (ALIAS.format('(pi^-2)^-3', 'pi^6'), 2, 1),
     (ALIAS.format('root(2*x^3-3*x^2-6*x+1,0,1)+pi', 'pi+root(2*x^3-3*x^2-6*x+1,0,1)'), 2, 1)]
+# Their ties are proved, and with them the outcome.
+TIED = [KNOWN[k][0] for k in (0, 1, 3, 4, 5, 6)] + [SQUARE + '[9,9.001] [7,7.001]\n', SQUARE + 'pi 5\n-7 e\n6 -4\n']
 # What the proved checker does not know.
 UNKNOWN = [(ALIAS.format('2*sin(pi/6)', '1'), '"cycle"'),
            (ALIAS.format('root(x^4-10*x^2+1,3,4)', 'sqrt(2)+sqrt(3)'), 'facts on points hold')]
@@ -173,6 +175,43 @@ PLACES = [
     (['= 1', 'callback', '* 0 1', '= 0'], False), (['= 2', 'tan 0', 'abs 1', '- 0 2', '= 0'], False)]
 
 
+# A square of these points and a fifth site; ties that are stated; how many of them are not proved.
+ROOT = '3260954456333195553*2^-61+1*2^-61'  # sqrt 2
+MINUS = '-1630477228166597777*2^-60+1*2^-61'
+RINGS = [('9 9', ['0 2', '1 3'], 0), ('0 0', ['0 2', '1 3'], 2), ('1 0', ['0 2', '1 3'], 2), ('1 1', ['0 2', '1 3'], 2),
+         ('-1 -1', ['0 2', '1 3'], 2), ('1 -1', ['0 2', '1 3'], 2), ('1*2^-1 1*2^-1', ['0 2'], 1), ('1+8 0+1', ['0 2', '1 3'], 2),
+         ('-9+18 9+1', ['0 2', '1 3'], 0), ('-9+18 -9+18', ['0 2'], 1), ('3+9 3+9', ['1 3'], 0), ('9 9', ['0 1', '0 2'], 1),
+         ('9 9', ['0 1', '0 3', '1 2', '2 3'], 4), ('9 9', ['0 4'], 1), ('2 0', ['0 2'], 0), ('0 -2', ['1 3'], 0), ('-2 0', ['1 3'], 0),
+         ('0 2', ['0 2'], 0)]
+
+
+def ring(fifth, pairs, facts=('circle 0 1 2 3 identity',), numbers=('= 2', 'sqrt 0', 'neg 1', '= 0')):
+    lines = ['dyadel certificate 1', 'outcome budget', 'goal decided', 'capped no', 'sites 5', f'{ROOT} 0', f'0 {ROOT}',
+             f'{MINUS} 0', f'0 {MINUS}', fifth, 'legal 0', 'places 0', 'bridges 0', 'corners 0', 'pairs', *(f't {pair}' for pair in pairs),
+             'triangles 0', 'unproved 9', 'area none', 'hausdorff none', f'algebra {len(numbers)}', *numbers, 'points 4', '0 1 3',
+             '1 3 1', '2 2 3', '3 3 2', f'facts {len(facts)}', *facts, 'end', '']
+    return '\n'.join(lines)
+
+
+def try_rings(both):
+    """Ties by a circle that a block shows: only when nobody is inside, or on it besides, and the pair crosses another."""
+    for fifth, pairs, left in RINGS:
+        answer = both.ask(both.proved, text=ring(fifth, pairs))
+        loose = re.search(r'not proved: .*no refinement decides (\d+) ties', answer.stdout)
+        if answer.returncode != NOT_ALL or int((loose or (0, 0))[1]) != left:
+            yield f'a ring with {fifth}, {pairs}: {answer}'
+    for facts in ((), ('circle 0 1 2 3 bound',), ('same 0 2 identity',), ('line 0 2 1 identity',), ('circle 0 1 2 4 identity',)):
+        answer = both.ask(both.proved, text=ring('9 9', ['0 2', '1 3'], facts))
+        refused = facts and 'bound' not in facts[0]
+        proved = facts and 'bound' in facts[0]
+        if (answer.returncode == REJECTED) != bool(refused) or ('decides 2 ties' in answer.stdout) == bool(refused or proved):
+            yield f'a ring with {facts}: {answer}'
+    for points in TIED:
+        answer = both.ask(both.proved, text=both.certificate(points))
+        if 'checked: the outcome fixpoint' not in answer.stdout or 'no refinement decides' in answer.stdout:
+            yield f'ties of {points}: {answer}'
+
+
 def try_places(both):
     for numbers, inside in PLACES:
         text = block_of(numbers, [f'0 {len(numbers) - 2} {len(numbers) - 1}'])
@@ -220,7 +259,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         proved, dyadel = (pathlib.Path(arg).resolve() for arg in sys.argv[1:3])
         both = Checkers(proved, dyadel, pathlib.Path(folder))
-        found = list(try_places(both)) + list(try_known(both))
+        found = list(try_places(both)) + list(try_known(both)) + list(try_rings(both))
         found += try_forged(both, int(sys.argv[3]) if len(sys.argv) > 3 else 16)
     print('\n'.join(found) or 'no fault')
     return 1 if found else 0

@@ -45,6 +45,7 @@ type proof = {
   points : int;  (* that are in their rectangles *)
   facts : int;  (* that hold *)
   joined : (int * int) list;  (* sites that are the same *)
+  rings : (Z.t * Checker.state * Checker.tied_ring) list;  (* that are on a circle, with what is known of numbers *)
   unseen_points : int;
   unseen_facts : int;
   unknown : (int * string) list;  (* lines of numbers that the checker does not know *)
@@ -66,12 +67,22 @@ let at_precision (c : Reader.certificate) (b : Described.block) bits =
       Checker.fact_holds most u st f.says
     in
     let points = List.length (List.filter look b.points) in
-    Ok (points, List.filter holds b.facts)
+    Ok (points, List.filter holds b.facts, (u, st))
+
+(* Those of a circle, each with its place. *)
+let rings_of facts (u, st) =
+  let ring (f : Described.fact) =
+    match (f.says, List.map Z.of_int f.members) with
+    | OnCircle (a, b, c, l), i :: j :: k :: rest ->
+      Some (u, st, { Checker.first = (i, a); second = (j, b); third = (k, c); others = List.combine rest l })
+    | _ -> None
+  in
+  List.filter_map ring facts
 
 (* The most that is seen, at rising precision. *)
 let of_block c (b : Described.block) =
   let is_shown facts (f : Described.fact) = f.by_bound || List.memq f facts in
-  let seen (points, facts) = points = List.length b.points && List.for_all (is_shown facts) b.facts in
+  let seen (points, facts, _) = points = List.length b.points && List.for_all (is_shown facts) b.facts in
   let rec look last = function
     | [] -> last
     | bits :: more ->
@@ -83,19 +94,20 @@ let of_block c (b : Described.block) =
 
 let of_blocks (c : Reader.certificate) =
   let add p (b : Described.block) =
-    let points, facts =
+    let points, facts, rings =
       match of_block c b with
-      | Ok found -> found
-      | Error _ when b.unknown <> None -> (0, [])
+      | Ok (points, facts, known) -> (points, facts, rings_of facts known)
+      | Error _ when b.unknown <> None -> (0, [], [])
       | Error line -> raise (Bad (line, "the number is not seen to be defined, or to be what the line says"))
     in
     let same (f : Described.fact) = match (f.says, f.members) with Same _, [ i; j ] -> Some (i, j) | _ -> None in
     { points = p.points + points; facts = p.facts + List.length facts; joined = List.filter_map same facts @ p.joined;
+      rings = rings @ p.rings;
       unseen_points = p.unseen_points + List.length b.points - points;
       unseen_facts = p.unseen_facts + List.length b.facts - List.length facts;
       unknown = p.unknown @ Option.to_list b.unknown }
   in
-  List.fold_left add { points = 0; facts = 0; joined = []; unseen_points = 0; unseen_facts = 0; unknown = [] } c.blocks
+  List.fold_left add { points = 0; facts = 0; joined = []; rings = []; unseen_points = 0; unseen_facts = 0; unknown = [] } c.blocks
 
 (* How many aliases of sites that are not exact are not proved to be the same points. *)
 let loose_aliases (c : Reader.certificate) p =

@@ -84,7 +84,12 @@ let is_covered c d e boxes found =
   let covered = Checker.all_covered cut (Z.of_int k) (Cuts.effort boxes) v.o d e c.sites (listed c) found in
   (covered, !triangles)
 
-let proof_of c d e =
+(* The pairs that are shown to be ties neither by circles of exact points nor by what blocks say. *)
+let loose_pairs c d e circle (b : Blocks.proof) pairs =
+  let by_ring pairs (u, st, ring) = Checker.ring_loose Blocks.most u st c.sites ring pairs in
+  List.fold_left by_ring (Checker.loose_ties d e c.sites circle pairs) b.rings
+
+let proof_of c d e b =
   let boxes = Option.get (Checker.scaled_sites d e c.sites) in
   let triangles, fans = Hints.triangles_and_fans boxes c.edges in
   let found = Checker.surrounded d e c.sites c.edges triangles c.corners fans in
@@ -103,8 +108,9 @@ let proof_of c d e =
   in
   let counted = decided || (c.hints + p.boxes + p.unproved = 0 && are_open && complete && are_sure () && are_corners ()) in
   let circle = Circles.hint boxes c.edges in
-  let loose = List.length (Checker.loose_ties d e c.sites circle p.ties) in
-  let fixed = Checker.is_fixpoint d e c.sites (complete && c.goal = [ "decided" ]) circle p.listed in
+  let loose = List.length (loose_pairs c d e circle b p.ties) and is_goal = c.goal = [ "decided" ] in
+  let fixed = Checker.is_fixpoint d e c.sites (complete && is_goal) circle p.listed in
+  let fixed = fixed || (complete && is_goal && loose_pairs c d e circle b p.listed = []) in
   { decided; complete; covering; fixed; loose; surrounded = List.length found; faces = List.length triangles; counted }
 
 let of_diagram c what = Option.bind c.diagram what
@@ -211,9 +217,9 @@ let verdict name =
   check_chains c d e;
   Option.iter (check_diagram c) c.diagram;
   Option.iter (fun g -> if not g.distance_unproved then Option.iter (check_distance c g) g.distance) c.diagram;
-  let p = proof_of c d e in
-  Option.iter (fun wrong -> raise (Bad (2, wrong))) (contradiction c d e p);
   let b = Blocks.of_blocks c in
+  let p = proof_of c d e b in
+  Option.iter (fun wrong -> raise (Bad (2, wrong))) (contradiction c d e p);
   let found = gaps c p b in
   report c p b found;
   if found = [] then 0 else 3

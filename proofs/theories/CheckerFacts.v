@@ -59,7 +59,10 @@ Definition is_no_zero (x : known) : bool := negb (sign_of (within x) =? 0).
 Definition step_x (a b : place) : known := less (number_at (at_first b)) (number_at (at_first a)).
 Definition step_y (a b : place) : known := less (number_at (at_second b)) (number_at (at_second a)).
 Definition cross (ax ay bx by_ : known) : known := less (product_with ax by_) (product_with ay bx).
-Definition norm (x y : known) : known := sum_with (product_with x x) (product_with y y).
+(* A square is not negative. *)
+Definition square (x : known) : known :=
+  Known (mul most u (absolute (within x)) (absolute (within x))) (mul_q (is x) (is x)).
+Definition norm (x y : known) : known := sum_with (square x) (square y).
 
 (* Of a circle through a, with the steps v, w to b, c: what is 0 for the step d to a point on it is
    dx along_x + dy along_y + d^2 (v x w). *)

@@ -105,8 +105,13 @@ Proof. apply less_ok; apply number_at_ok. Qed.
 Lemma cross_ok ax ay bx by_ p q r s : ok ax p -> ok ay q -> ok bx r -> ok by_ s ->
   ok (cross most u st ax ay bx by_) (p * s - q * r).
 Proof. intros. unfold cross. apply less_ok; now apply product_with_ok. Qed.
+Lemma square_ok x r : ok x r -> ok (square most u st x) (r * r).
+Proof.
+  intros [X Q]. split; [| now apply q_mul_is]. cbn [square within]. fold (Rsqr r). rewrite Rsqr_abs. unfold Rsqr.
+  apply mul_holds; [exact U | |]; now apply absolute_holds.
+Qed.
 Lemma norm_ok x y r s : ok x r -> ok y s -> ok (norm most u st x y) (r * r + s * s).
-Proof. intros. unfold norm. apply sum_with_ok; now apply product_with_ok. Qed.
+Proof. intros. unfold norm. apply sum_with_ok; now apply square_ok. Qed.
 
 (* ---- what a fact says ---- *)
 
@@ -128,49 +133,72 @@ Proof.
     (((wx * wx + wy * wy) * vx - (vx * vx + vy * vy) * wx) / (2 * (vx * wy - vy * wx))). intros x y. field. exact D.
 Qed.
 
+(* 0 on the circle through a, b and c, for a place z. *)
+Definition off_at (a b c : place) (z : point) : R :=
+  let x := fst z - fst (point_of a) in let y := snd z - snd (point_of a) in
+  x * ((dx a c * dx a c + dy a c * dy a c) * dy a b - (dx a b * dx a b + dy a b * dy a b) * dy a c)
+  + y * ((dx a b * dx a b + dy a b * dy a b) * dx a c - (dx a c * dx a c + dy a c * dy a c) * dx a b)
+  + (x * x + y * y) * (dx a b * dy a c - dy a b * dx a c).
+
+Lemma off_ok a b c x y z : ok x (fst z - fst (point_of a)) -> ok y (snd z - snd (point_of a)) ->
+  let g := base_of most u st a b c in
+  ok (sum_with most st (sum_with most st (product_with most u st x (along_x g)) (product_with most u st y (along_y
+    g)))
+    (product_with most u st (norm most u st x y) (area g))) (off_at a b c z).
+Proof.
+  intros X Y. cbv zeta. unfold base_of. cbn [area along_x along_y].
+  pose proof (step_x_ok a b) as Vx. pose proof (step_y_ok a b) as Vy.
+  pose proof (step_x_ok a c) as Wx. pose proof (step_y_ok a c) as Wy.
+  unfold off_at. cbv zeta. apply sum_with_ok; [apply sum_with_ok; apply product_with_ok | apply product_with_ok];
+    trivial.
+  - apply less_ok; apply product_with_ok; trivial; now apply norm_ok.
+  - apply less_ok; apply product_with_ok; trivial; now apply norm_ok.
+  - now apply norm_ok.
+  - now apply cross_ok.
+Qed.
+
+Lemma circle_holds_ok a b c ps : fact_holds most u st (OnCircle a b c ps) = true ->
+  dx a b * dy a c - dy a b * dx a c <> 0 /\ exists o r, 0 < r /\
+    (forall z, off_at a b c z = (dx a b * dy a c - dy a b * dx a c) * (dist2 o z - r)) /\
+    forall d, d = a \/ d = b \/ d = c \/ In d ps -> dist2 o (point_of d) = r.
+Proof.
+  intros E. cbn [fact_holds] in E. cbv zeta in E. apply andb_prop in E as [N E].
+  assert (D : dx a b * dy a c - dy a b * dx a c <> 0).
+  { refine (no_zero_ok _ _ (cross_ok _ _ _ _ _ _ _ _ (step_x_ok a b) (step_y_ok a b) (step_x_ok a c) (step_y_ok a
+    c)) N). }
+  split; [exact D |]. destruct (circle_through _ _ _ _ D) as (cx & cy & G).
+  set (o := (fst (point_of a) + cx, snd (point_of a) + cy)).
+  assert (Off : forall z, off_at a b c z = (dx a b * dy a c - dy a b * dx a c) * (dist2 o z - (cx * cx + cy * cy))).
+  { intros z. unfold off_at. cbv zeta. rewrite G. unfold dist2, o. simpl. ring. }
+  exists o, (cx * cx + cy * cy). split; [| split; [exact Off |]].
+  - destruct (Req_dec cx 0) as [X | X]; [| nra]. destruct (Req_dec cy 0) as [Y | Y]; [| nra]. exfalso. subst cx cy.
+    assert (B : dx a b * dx a b + dy a b * dy a b = 0).
+    { pose proof (G (dx a b) (dy a b)) as H. apply Rmult_eq_reg_l with (dx a b * dy a c - dy a b * dx a c);
+      [| exact D]. lra. }
+    assert (dx a b = 0) by nra. assert (dy a b = 0) by nra. apply D. rewrite H, H0. ring.
+  - assert (On : forall d, off_at a b c (point_of d) = 0 -> dist2 o (point_of d) = cx * cx + cy * cy).
+    { intros d Z. rewrite Off in Z. apply Rmult_integral in Z as [Z | Z]; [contradiction | lra]. }
+    intros d [-> | [-> | [-> | I]]]; apply On.
+    + unfold off_at. cbv zeta. ring.
+    + unfold off_at. cbv zeta. fold (dx a b) (dy a b). ring.
+    + unfold off_at. cbv zeta. fold (dx a c) (dy a c). ring.
+    + rewrite forallb_forall in E. specialize (E d I).
+      exact (zero_ok _ _ (off_ok a b c _ _ (point_of d) (step_x_ok a d) (step_y_ok a d)) E).
+Qed.
+
 Theorem fact_holds_ok f : fact_holds most u st f = true -> fact_true f.
 Proof.
-  intros E. destruct f as [a b | a b ps | a b c ps]; cbn [fact_holds fact_true] in *.
-  - apply andb_prop in E as [X Y]. apply (zero_ok _ _ (step_x_ok a b)) in X. apply (zero_ok _ _ (step_y_ok a b)) in Y.
-    unfold dx, dy, point_of in *. simpl in X, Y. f_equal; lra.
-  - apply andb_prop in E as [N E]. split.
-    + intros Q. unfold dx, dy in *. apply orb_prop in N as [N | N].
+  intros E. destruct f as [a b | a b ps | a b c ps].
+  - cbn [fact_holds fact_true] in *. apply andb_prop in E as [X Y]. apply (zero_ok _ _ (step_x_ok a b)) in X.
+    apply (zero_ok _ _ (step_y_ok a b)) in Y. unfold dx, dy, point_of in *. simpl in X, Y. f_equal; lra.
+  - cbn [fact_holds fact_true] in *. apply andb_prop in E as [N E]. split.
+    + intros Q. apply orb_prop in N as [N | N].
       * apply (no_zero_ok _ _ (step_x_ok a b)) in N. apply N. unfold dx. rewrite Q. ring.
       * apply (no_zero_ok _ _ (step_y_ok a b)) in N. apply N. unfold dy. rewrite Q. ring.
     + intros d D. rewrite forallb_forall in E.
       apply (zero_ok _ _ (cross_ok _ _ _ _ _ _ _ _ (step_x_ok a b) (step_y_ok a b) (step_x_ok a d) (step_y_ok a d))
-      (E d D)).
-  - cbv zeta in E. apply andb_prop in E as [N E]. unfold base_of in *. cbn [area along_x along_y] in *.
-    pose proof (step_x_ok a b) as Vx. pose proof (step_y_ok a b) as Vy. pose proof (step_x_ok a c) as Wx.
-      pose proof (step_y_ok a c) as Wy.
-    apply (no_zero_ok _ _ (cross_ok _ _ _ _ _ _ _ _ Vx Vy Wx Wy)) in N. split; [exact N |].
-    destruct (circle_through _ _ _ _ N) as (cx & cy & G).
-    assert (On : forall d, dx a d * ((dx a c * dx a c + dy a c * dy a c) * dy a b - (dx a b * dx a b + dy a b * dy a
-      b) * dy a c)
-      + dy a d * ((dx a b * dx a b + dy a b * dy a b) * dx a c - (dx a c * dx a c + dy a c * dy a c) * dx a b)
-      + (dx a d * dx a d + dy a d * dy a d) * (dx a b * dy a c - dy a b * dx a c) = 0 ->
-      dist2 (fst (point_of a) + cx, snd (point_of a) + cy) (point_of d) = cx * cx + cy * cy).
-    { intros d Z. rewrite G in Z. apply Rmult_integral in Z as [Z | Z]; [contradiction |].
-      unfold dist2, dx, dy in *. simpl in *. lra. }
-    exists (fst (point_of a) + cx, snd (point_of a) + cy), (cx * cx + cy * cy). split.
-    + destruct (Req_dec cx 0) as [X | X]; [| nra]. destruct (Req_dec cy 0) as [Y | Y]; [| nra]. exfalso. subst cx cy.
-      (* then b is at a *)
-      assert (B : dx a b * dx a b + dy a b * dy a b = 0).
-      { pose proof (G (dx a b) (dy a b)) as H. apply Rmult_eq_reg_l with (dx a b * dy a c - dy a b * dx a c);
-        [| exact N]. lra. }
-      assert (dx a b = 0) by nra. assert (dy a b = 0) by nra. apply N. rewrite H, H0. ring.
-    + intros d [-> | [-> | [-> | D]]]; apply On.
-      * unfold dx, dy. ring.
-      * ring.
-      * ring.
-      * rewrite forallb_forall in E. specialize (E d D). unfold off_circle in E. cbn [area along_x along_y] in E.
-        apply (zero_ok _ _ (sum_with_ok _ _ _ _ (sum_with_ok _ _ _ _
-          (product_with_ok _ _ _ _ (step_x_ok a d) (less_ok _ _ _ _ (product_with_ok _ _ _ _ (norm_ok _ _ _ _ Wx Wy)
-            Vy) (product_with_ok _ _ _ _ (norm_ok _ _ _ _ Vx Vy) Wy)))
-          (product_with_ok _ _ _ _ (step_y_ok a d) (less_ok _ _ _ _ (product_with_ok _ _ _ _ (norm_ok _ _ _ _ Vx Vy)
-            Wx) (product_with_ok _ _ _ _ (norm_ok _ _ _ _ Wx Wy) Vx))))
-          (product_with_ok _ _ _ _ (norm_ok _ _ _ _ (step_x_ok a d) (step_y_ok a d)) (cross_ok _ _ _ _ _ _ _ _ Vx Vy
-            Wx Wy))) E).
+        (E d D)).
+  - destruct (circle_holds_ok a b c ps E) as [D (o & r & P & _ & M)]. split; [exact D |]. now exists o, r.
 Qed.
 
 End Sound.
