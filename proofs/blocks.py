@@ -35,7 +35,7 @@ KNOWN = [
     (ALIAS.format('min(exp(-3),pi)*exp(3)', '1+0*pi'), 2, 1), (ALIAS.format('(pi^-2)^-3', 'pi^6'), 2, 1),
     (ALIAS.format('root(2*x^3-3*x^2-6*x+1,0,1)+pi', 'pi+root(2*x^3-3*x^2-6*x+1,0,1)'), 2, 1)]
 # Their ties are proved, and with them the outcome.
-TIED = [KNOWN[k][0] for k in (0, 1, 3, 4, 5, 6)] + [SQUARE + '[9,9.001] [7,7.001]\n', SQUARE + 'pi 5\n-7 e\n6 -4\n']
+TIED = [KNOWN[k][0] for k in range(7)] + [SQUARE + '[9,9.001] [7,7.001]\n', SQUARE + 'pi 5\n-7 e\n6 -4\n']
 # What the proved checker does not know.
 UNKNOWN = [(ALIAS.format('2*sin(pi/6)', '1'), '"cycle"'),
            (ALIAS.format('root(x^4-10*x^2+1,3,4)', 'sqrt(2)+sqrt(3)'), 'facts on points hold')]
@@ -185,11 +185,20 @@ RINGS = [('9 9', ['0 2', '1 3'], 0), ('0 0', ['0 2', '1 3'], 2), ('1 0', ['0 2',
          ('0 2', ['0 2'], 0)]
 
 
-def ring(fifth, pairs, facts=('circle 0 1 2 3 identity',), numbers=('= 2', 'sqrt 0', 'neg 1', '= 0')):
-    lines = ['dyadel certificate 1', 'outcome budget', 'goal decided', 'capped no', 'sites 5', f'{ROOT} 0', f'0 {ROOT}',
-             f'{MINUS} 0', f'0 {MINUS}', fifth, 'legal 0', 'places 0', 'bridges 0', 'corners 0', 'pairs', *(f't {pair}' for pair in pairs),
-             'triangles 0', 'unproved 9', 'area none', 'hausdorff none', f'algebra {len(numbers)}', *numbers, 'points 4', '0 1 3',
-             '1 3 1', '2 2 3', '3 3 2', f'facts {len(facts)}', *facts, 'end', '']
+# Sites 0, 1, 2 are at (-sqrt 2, 0), (0, 0), (sqrt 2, 0), site 3 is above.
+ROW = ([f'{MINUS} 0', '0 0', f'{ROOT} 0', '0 8'], ['0 2 3', '1 3 3', '2 1 3'])
+ROWS = [('9 9', ['0 2'], 0), ('9 9', ['0 1', '1 2'], 2), ('9 9', ['0 1', '0 2'], 1), ('9 0', ['0 2'], 1), ('1 -1', ['0 2'], 1),
+        ('-9+18 1*2^-9+1', ['0 2'], 0), ('-9+18 -1*2^-9+1', ['0 2'], 1), ('9 9', ['0 3'], 1), ('9 9', ['2 4'], 1),
+        ('9 -9', ['0 2'], 1), ('1*2^-1 0', ['0 2'], 1)]
+SQUARE_SITES = ([f'{ROOT} 0', f'0 {ROOT}', f'{MINUS} 0', f'0 {MINUS}'], ['0 1 3', '1 3 1', '2 2 3', '3 3 2'])
+
+
+def ring(fifth, pairs, facts=('circle 0 1 2 3 identity',), numbers=('= 2', 'sqrt 0', 'neg 1', '= 0'), at=SQUARE_SITES):
+    sites, points = at
+    lines = ['dyadel certificate 1', 'outcome budget', 'goal decided', 'capped no', 'sites 5', *sites, fifth, 'legal 0', 'places 0',
+             'bridges 0', 'corners 0', 'pairs', *(f't {pair}' for pair in pairs), 'triangles 0', 'unproved 9', 'area none',
+             'hausdorff none', f'algebra {len(numbers)}', *numbers, f'points {len(points)}', *points, f'facts {len(facts)}',
+             *facts, 'end', '']
     return '\n'.join(lines)
 
 
@@ -200,6 +209,11 @@ def try_rings(both):
         loose = re.search(r'not proved: .*no refinement decides (\d+) ties', answer.stdout)
         if answer.returncode != NOT_ALL or int((loose or (0, 0))[1]) != left:
             yield f'a ring with {fifth}, {pairs}: {answer}'
+    for fifth, pairs, left in ROWS:
+        answer = both.ask(both.proved, text=ring(fifth, pairs, ['line 0 2 1 identity'], ('= 2', 'sqrt 0', 'neg 1', '= 0'), ROW))
+        loose = re.search(r'not proved: .*no refinement decides (\d+) ties', answer.stdout)
+        if answer.returncode != NOT_ALL or int((loose or (0, 0))[1]) != left:
+            yield f'a row with {fifth}, {pairs}: {answer}'
     for facts in ((), ('circle 0 1 2 3 bound',), ('same 0 2 identity',), ('line 0 2 1 identity',), ('circle 0 1 2 4 identity',)):
         answer = both.ask(both.proved, text=ring('9 9', ['0 2', '1 3'], facts))
         refused = facts and 'bound' not in facts[0]

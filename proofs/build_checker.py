@@ -13,7 +13,7 @@ import sys
 
 THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerTies',
             'CheckerDiagram', 'CheckerDistance', 'CheckerEnclosure', 'CheckerAlgebra', 'CheckerBlock', 'CheckerFacts',
-            'CheckerRing', 'CheckerExtract')
+            'CheckerRing', 'CheckerRow', 'CheckerExtract')
 READERS = ('source', 'described', 'reader', 'hints', 'cuts', 'circles', 'blocks', 'proved')
 
 
