@@ -171,7 +171,7 @@ PLACES = [
     (['= 8', 'cbrt 0 2', '= 1', '= 0'], True), (['= -1', 'sqrt 0', '= 1', '= 0'], False), (['= 0', '^ 0 -1', '= 1', '= 0'], False),
     (['= 1', '= 0', '/ 0 1', '= 1', '= 0'], False), (['root -3/2 2 0,-2,0,1', '= 0'], False), (['root 3 4 -2,0,1', '= 1', '= 0'], False),
     (['= 2', 'sqrt 0', 'root 1 2 -2,0,1 -x0', '= 1', '= 0'], False), (['= 2', 'sqrt 0', 'root 1 2 -2,0,1 2', '= 1', '= 0'], False),
-    (['= x0', '= 1', '= 0'], False), (['= 1', '= 1/x0', '= 1', '= 0'], False),
+    (['= 2', 'sqrt 0', '= x0+0', '= 0'], False), (['= x0', '= 1', '= 0'], False), (['= 1', '= 1/x0', '= 1', '= 0'], False),
     (['= 1', 'callback', '* 0 1', '= 0'], False), (['= 2', 'tan 0', 'abs 1', '- 0 2', '= 0'], False)]
 
 
@@ -191,6 +191,9 @@ ROWS = [('9 9', ['0 2'], 0), ('9 9', ['0 1', '1 2'], 2), ('9 9', ['0 1', '0 2'],
         ('-9+18 1*2^-9+1', ['0 2'], 0), ('-9+18 -1*2^-9+1', ['0 2'], 1), ('9 9', ['0 3'], 1), ('9 9', ['2 4'], 1),
         ('9 -9', ['0 2'], 1), ('1*2^-1 0', ['0 2'], 1)]
 SQUARE_SITES = ([f'{ROOT} 0', f'0 {ROOT}', f'{MINUS} 0', f'0 {MINUS}'], ['0 1 3', '1 3 1', '2 2 3', '3 3 2'])
+
+# Site 3 is somewhere; an alias of it is described to be elsewhere on the circle.
+ALIASED = ([f'{ROOT} 0', '9 9', f'{MINUS} 0', '-9+18 -9+18'], ['0 1 3', '2 2 3', '3 3 1', '4 3 2'])
 
 
 def ring(fifth, pairs, facts=('circle 0 1 2 3 identity',), numbers=('= 2', 'sqrt 0', 'neg 1', '= 0'), at=SQUARE_SITES):
@@ -220,6 +223,9 @@ def try_rings(both):
         proved = facts and 'bound' in facts[0]
         if (answer.returncode == REJECTED) != bool(refused) or ('decides 2 ties' in answer.stdout) == bool(refused or proved):
             yield f'a ring with {facts}: {answer}'
+    answer = both.ask(both.proved, text=ring('= 3', ['0 2'], ['circle 0 2 3 4 identity'], at=ALIASED))
+    if answer.returncode != NOT_ALL or 'decides 1 ties' not in answer.stdout:
+        yield f'a ring with an alias: {answer}'
     for points in TIED:
         answer = both.ask(both.proved, text=both.certificate(points))
         if 'checked: the outcome fixpoint' not in answer.stdout or 'no refinement decides' in answer.stdout:

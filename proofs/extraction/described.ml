@@ -73,7 +73,8 @@ let polynomial s text =
     | (_, a) :: ((_, b) :: _ as rest) -> Checker.compare_monomials a b = Checker.Gt && descends rest
     | _ -> true
   in
-  if spelled found <> text || not (descends found) then bad s "%.40S is no polynomial in leaves" text;
+  let is_null (c, _) = Z.equal c Z.zero in
+  if spelled found <> text || not (descends found) || List.exists is_null found then bad s "%.40S is no polynomial in leaves" text;
   found
 
 (* V: P or P/Q. *)
