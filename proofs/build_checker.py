@@ -12,8 +12,9 @@ import subprocess
 import sys
 
 THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerTies',
-            'CheckerDiagram', 'CheckerDistance', 'CheckerExtract')
-READERS = ('reader', 'hints', 'cuts', 'circles', 'proved')
+            'CheckerDiagram', 'CheckerDistance', 'CheckerEnclosure', 'CheckerAlgebra', 'CheckerBlock', 'CheckerFacts',
+            'CheckerRing', 'CheckerRow', 'CheckerExtract')
+READERS = ('source', 'described', 'reader', 'hints', 'cuts', 'circles', 'blocks', 'proved')
 
 
 def link(work, output, sources):

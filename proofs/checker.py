@@ -344,7 +344,7 @@ def try_cases(both, root):
             (ALL, 'the outcome decided', both.certificate(triangle)),
             (ALL, '0 legal pairs', both.certificate('1 1/3\n')),
             (ALL, '1 legal pairs', both.certificate('1 1/3\n[1,2] 2\n')),
-            (NOT_ALL, 'no refinement decides 2 ties', both.certificate('sqrt(2) 0\n0 sqrt(2)\n-sqrt(2) 0\n0 -sqrt(2)\n')),
+            (ALL, 'the outcome fixpoint', both.certificate('sqrt(2) 0\n0 sqrt(2)\n-sqrt(2) 0\n0 -sqrt(2)\n')),
             (REJECTED, '', both.certificate(square).replace('\narea ', '\narea -')),
             (REJECTED, '', TOUCHED)]:
         answer = both.ask(both.proved, text=text)

@@ -2,6 +2,7 @@
 (* dyadel-proved FILE: checks a certificate by the checker that is proved in Coq (theories/Checker.v, CheckerFaces.v), and
    says what of it is proved by it and what is not, as `dyadel verify` does. Exit status 0: everything that is stated is
    proved; 3: accepted, but something is not proved, and named; 1: rejected. "-" is standard input. *)
+open Source
 open Reader
 
 let whole_file name =
@@ -83,7 +84,14 @@ let is_covered c d e boxes found =
   let covered = Checker.all_covered cut (Z.of_int k) (Cuts.effort boxes) v.o d e c.sites (listed c) found in
   (covered, !triangles)
 
-let proof_of c d e =
+(* The pairs that are shown to be ties neither by circles of exact points nor by what blocks say. *)
+let loose_pairs c d e circle (b : Blocks.proof) pairs =
+  let by_ring pairs (u, st, ring) = Checker.ring_loose Blocks.most u st c.sites ring pairs in
+  let by_row pairs (u, st, row) = Checker.row_loose Blocks.most u st c.sites row pairs in
+  let left = List.fold_left by_ring (Checker.loose_ties d e c.sites circle pairs) b.rings in
+  List.fold_left by_row left b.tied_rows
+
+let proof_of c d e b =
   let boxes = Option.get (Checker.scaled_sites d e c.sites) in
   let triangles, fans = Hints.triangles_and_fans boxes c.edges in
   let found = Checker.surrounded d e c.sites c.edges triangles c.corners fans in
@@ -102,8 +110,9 @@ let proof_of c d e =
   in
   let counted = decided || (c.hints + p.boxes + p.unproved = 0 && are_open && complete && are_sure () && are_corners ()) in
   let circle = Circles.hint boxes c.edges in
-  let loose = List.length (Checker.loose_ties d e c.sites circle p.ties) in
-  let fixed = Checker.is_fixpoint d e c.sites (complete && c.goal = [ "decided" ]) circle p.listed in
+  let loose = List.length (loose_pairs c d e circle b p.ties) and is_goal = c.goal = [ "decided" ] in
+  let fixed = Checker.is_fixpoint d e c.sites (complete && is_goal) circle p.listed in
+  let fixed = fixed || (complete && is_goal && loose_pairs c d e circle b p.listed = []) in
   { decided; complete; covering; fixed; loose; surrounded = List.length found; faces = List.length triangles; counted }
 
 let of_diagram c what = Option.bind c.diagram what
@@ -155,22 +164,24 @@ let contradiction c d e p =
 
 let has_bounds c = c.area <> None || c.hausdorff <> None
 
-let gaps c p =
+let gaps c p (b : Blocks.proof) =
   let left = List.length c.sites - p.surrounded in
-  let unwitnessed = c.pairs.unwitnessed in
+  let unwitnessed = c.pairs.unwitnessed and loose = Blocks.loose_aliases c b in
+  let unknown = match b.unknown with [] -> "" | (line, name) :: _ -> Printf.sprintf ", as this checker does not know \"%s\" (line %d)" name line in
   List.filter_map
     (fun (there, text) -> if there then Some ("not proved: " ^ text) else None)
     [ (not (p.complete || c.capped), Printf.sprintf "that pairs among %d sites which are not listed are illegal" left);
       (unwitnessed > 0, Printf.sprintf "that %d pairs without a witness are legal" unwitnessed);
       (p.loose > 0, Printf.sprintf "that no refinement decides %d ties" p.loose);
-      (c.loose > 0, Printf.sprintf "that %d aliases of points that are not exact are the same points" c.loose);
+      (loose > 0, Printf.sprintf "that %d aliases of points that are not exact are the same points" loose);
       (has_bounds c && not p.complete, "the bounds of area and Hausdorff distance, as more pairs may be possible");
       (p.complete && not p.counted, "places, bridges, corners and the numbers of triangles and pairs, which the proof does not need");
-      (c.blocks, "what points are described to be, which this checker does not know");
+      (b.unseen_points > 0, Printf.sprintf "that %d points lie where they are described to be%s" b.unseen_points unknown);
+      (b.unseen_facts > 0, Printf.sprintf "that %d facts on points hold%s" b.unseen_facts unknown);
       (has_unproved_distance c, "the distance of undetermined points to the Voronoi diagram");
       (not (outcome_is_proved c p), "the outcome " ^ c.outcome) ]
 
-let report c p gaps =
+let report c p (b : Blocks.proof) gaps =
   print_endline (if gaps = [] then "accepted, all of it proved" else "accepted, not all of it proved: see what is not proved below");
   Printf.printf "states: outcome %s, goal %s%s\n" c.outcome (String.concat " " c.goal) (if c.capped then ", capped" else "");
   Printf.printf "sites: %d, of which %d aliases\n" (List.length c.sites + c.aliases) c.aliases;
@@ -192,6 +203,8 @@ let report c p gaps =
       print_endline "checked: the distance of undetermined points to the Voronoi diagram, by boxes"
   in
   Option.iter report_diagram c.diagram;
+  if b.points + b.facts > 0 then
+    Printf.printf "checked: %d points lie where they are described to be, and %d facts on them hold\n" b.points b.facts;
   if outcome_is_proved c p then Printf.printf "checked: the outcome %s\n" c.outcome;
   if c.pairs.opened > 0 then Printf.printf "open: %d indeterminate pairs, of which nothing is stated\n" c.pairs.opened;
   if c.capped then print_endline "open: the cap was met, of other pairs nothing is stated";
@@ -206,10 +219,11 @@ let verdict name =
   check_chains c d e;
   Option.iter (check_diagram c) c.diagram;
   Option.iter (fun g -> if not g.distance_unproved then Option.iter (check_distance c g) g.distance) c.diagram;
-  let p = proof_of c d e in
+  let b = Blocks.of_blocks c in
+  let p = proof_of c d e b in
   Option.iter (fun wrong -> raise (Bad (2, wrong))) (contradiction c d e p);
-  let found = gaps c p in
-  report c p found;
+  let found = gaps c p b in
+  report c p b found;
   if found = [] then 0 else 3
 
 let () =

@@ -2,9 +2,7 @@
 (* Reads a certificate (include/dyadel/certificate.h) into what the extracted checker is about. Nothing proves this file:
    it turns text into the numbers written there, each in its only spelling, and takes nothing else. Of sections that the
    checker does not know it says that they are there. *)
-
-(* Number of the line, and what is wrong. *)
-exception Bad of int * string
+open Source
 
 (* The section of pairs that are not known to be legal. *)
 type pairs = {
@@ -35,7 +33,6 @@ type certificate = {
   capped : bool;
   sites : Checker.site list;
   aliases : int;
-  loose : int;  (* aliases of sites that are not exact *)
   edges : Checker.edge list;
   first_edge : int;  (* its line *)
   corners : Checker.corner list;
@@ -43,46 +40,11 @@ type certificate = {
   pairs : pairs;
   area : Checker.number option;
   hausdorff : Checker.number option;
-  blocks : bool;
+  blocks : Described.block list;
+  rects : Checker.site array;  (* of all sites; of aliases, those of their sites *)
+  aliased : (int * int) list;  (* aliases of sites that are not exact, and these *)
   diagram : diagram option;
 }
-
-type source = { text : string; mutable at : int; mutable line : int }
-
-let bad s = Printf.ksprintf (fun message -> raise (Bad (s.line, message)))
-
-let next s =
-  s.line <- s.line + 1;
-  match String.index_from_opt s.text s.at '\n' with
-  | None when s.at < String.length s.text -> bad s "the line does not end"
-  | None -> bad s "the certificate ends before the line \"end\""
-  | Some k ->
-    let line = String.sub s.text s.at (k - s.at) in
-    s.at <- k + 1;
-    line
-
-let words s =
-  let found = String.split_on_char ' ' (next s) in
-  if List.mem "" found then bad s "two blanks, or a blank at the end or the beginning" else found
-
-(* ---- numbers ---- *)
-
-let after text k = String.sub text k (String.length text - k)
-
-let integer s text =
-  let digits = if String.starts_with ~prefix:"-" text then after text 1 else text in
-  let wrong c = c < '0' || c > '9' in
-  if digits = "" || (digits.[0] = '0' && text <> "0") || String.exists wrong digits then bad s "%S is no integer" text
-  else Z.of_string text
-
-(* An integer below 2^62 in absolute value. *)
-let small s text =
-  let n = integer s text in
-  if Z.fits_int n then Z.to_int n else bad s "%s is too large" text
-
-let count s text =
-  let n = small s text in
-  if n < 0 then bad s "%s is no count" text else n
 
 let limit = 1 lsl 20
 let zero : Checker.number = { man = Z.zero; expo = Z.zero; den = Z.one }
@@ -125,16 +87,6 @@ let side s text =
 
 (* ---- sections ---- *)
 
-(* The line "NAME count", and as many rows. *)
-let rows s name row =
-  match words s with
-  | [ word; number ] when word = name -> List.init (count s number) row
-  | _ -> bad s "%S is missing" name
-
-let in_order s last here =
-  if compare here !last <= 0 then bad s "lines are not in order";
-  last := here
-
 let read_head s =
   if next s <> "dyadel certificate 1" then bad s "this is no \"dyadel certificate 1\"";
   let outcome =
@@ -154,19 +106,28 @@ let read_head s =
   | [ "capped"; (("no" | "yes") as capped) ] -> (outcome, goal, capped = "yes")
   | _ -> bad s "\"capped\" is missing"
 
-(* The sites, and of each alias whether its site is exact. `known` gets the numbers of sites, and whether they are exact. *)
+(* The sites; of each alias its number, its site, and whether that is exact; the rectangles of all. `known` gets the numbers
+   of sites, and whether they are exact. *)
 let read_sites s known =
+  let rects = Hashtbl.create 1000 in
   let exact k = match Hashtbl.find_opt known k with Some e -> e | None -> bad s "%d is no site, or an alias" k in
   let row k =
     match words s with
-    | [ "="; other ] -> Either.Right (exact (small s other))
+    | [ "="; other ] ->
+      let other = small s other in
+      let is_exact = exact other in
+      Hashtbl.add rects k (Hashtbl.find rects other);
+      Either.Right (k, other, is_exact)
     | [ x; y ] ->
       let left, right = side s x and low, high = side s y in
+      let site = { Checker.name = Z.of_int k; left; right; low; high } in
       Hashtbl.add known k (left = right && low = high);
-      Either.Left { Checker.name = Z.of_int k; left; right; low; high }
+      Hashtbl.add rects k site;
+      Either.Left site
     | _ -> bad s "a site has two sides"
   in
-  List.partition_map Fun.id (rows s "sites" row)
+  let sites, aliases = List.partition_map Fun.id (rows s "sites" row) in
+  (sites, aliases, Array.init (Hashtbl.length rects) (Hashtbl.find rects))
 
 let site s known text =
   let k = small s text in
@@ -292,26 +253,29 @@ let read_diagram s known corners =
   let distance, distance_unproved = read_distance s in
   { window; polygons; first_polygon; undetermined; distance; distance_line = s.line; distance_unproved }
 
-(* What follows the bounds: are there blocks on what points are, which are not read; the diagram. *)
-let read_rest s known =
-  let rec blocks found =
-    match next s with
-    | "end" -> (found, None)
-    | line when String.starts_with ~prefix:"window " line ->
-      let diagram = read_diagram s known (List.tl (String.split_on_char ' ' line)) in
-      if next s <> "end" then bad s "\"end\" is missing";
-      (found, Some diagram)
-    | line -> blocks (found || String.starts_with ~prefix:"algebra " line)
+(* What follows the bounds: blocks on what points are; the diagram. *)
+let read_rest s known size =
+  let ends (blocks, diagram) =
+    s.line <- s.line + 1;
+    if s.at < String.length s.text then bad s "something follows the line \"end\"";
+    (List.rev blocks, diagram)
   in
-  let found = blocks false in
-  s.line <- s.line + 1;
-  if s.at < String.length s.text then bad s "something follows the line \"end\"";
-  found
+  let rec sections blocks =
+    match words s with
+    | [ "end" ] -> ends (blocks, None)
+    | "window" :: corners ->
+      let diagram = read_diagram s known corners in
+      if next s <> "end" then bad s "\"end\" is missing";
+      ends (blocks, Some diagram)
+    | [ "algebra"; k ] -> sections (Described.block s size k :: blocks)
+    | _ -> bad s "this is no section"
+  in
+  sections []
 
 let certificate text =
   let s = { text; at = 0; line = 0 } and known = Hashtbl.create 1000 and legal = Hashtbl.create 1000 in
   let outcome, goal, capped = read_head s in
-  let sites, aliases = read_sites s known in
+  let sites, aliases, rects = read_sites s known in
   let first_edge = s.line + 2 in
   let edges = read_edges s known "legal" in
   List.iter (fun (e : Checker.edge) -> Hashtbl.replace legal (Z.to_int e.from, Z.to_int e.to0) ()) edges;
@@ -321,8 +285,8 @@ let certificate text =
   let pairs = read_pairs s known legal in
   let area = read_bound s "area" in
   let hausdorff = read_bound s "hausdorff" in
-  let blocks, diagram = read_rest s known in
-  let loose = List.length (List.filter not aliases) in
+  let blocks, diagram = read_rest s known (Array.length rects) in
+  let aliased = List.filter_map (fun (k, other, exact) -> if exact then None else Some (k, other)) aliases in
   let hints = List.length places + List.length bridges in
-  { outcome; goal; capped; sites; aliases = List.length aliases; loose; edges; first_edge; corners; hints; pairs; area;
-    hausdorff; blocks; diagram }
+  { outcome; goal; capped; sites; aliases = List.length aliases; edges; first_edge; corners; hints; pairs; area;
+    hausdorff; blocks; rects; aliased; diagram }

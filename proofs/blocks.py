@@ -1,0 +1,290 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""Blocks of certificates, which say what points are: dyadel-proved against `dyadel verify` [CERT-10].
+
+Usage: blocks.py DYADEL_PROVED DYADEL [COUNT]
+
+Certificates of points that are told apart, or seen to be the same, by what they are, and of COUNT random expressions
+(default 16); each line of a block changed, and the rectangles. What verify accepts is proved, but for cycles and bounds; what
+it refuses is refused, or not proved.
+"""
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import tempfile
+
+SEED = 5
+ALL, NOT_ALL, REJECTED = 0, 3, 1
+ALIAS = '{} 0\n10 10\n{} 0\n-9 4\n'
+SQUARE = 'sqrt(2) 0\n0 sqrt(2)\n-sqrt(2) 0\n0 -sqrt(2)\n'
+# points; of which so many are described, with so many facts
+KNOWN = [
+    (SQUARE, 4, 1),
+    (''.join(f'cos({k}+1/3)*sqrt(8) sin({k}+1/3)*sqrt(8)\n' for k in range(6)), 6, 1),
+    (''.join(f'sqrt({k}) 2*sqrt({k})+1\n' for k in range(2, 12)), 10, 2),
+    ('sqrt((1+sqrt(2)/2)/2) sqrt((1-sqrt(2)/2)/2)\n0 1\n-1 0\n0 -1\n', 4, 1),
+    ('cosh(1) 0\n0 (exp(1)+exp(-1))/2\n-(e+1/e)/2 0\n0 -cosh(1)\n', 4, 1),
+    ('tan(1) 0\n0 sin(1)/cos(1)\nabs(-tan(1))*(-1) 0\n0 -max(tan(1),-3)\n', 4, 1),
+    ('root(x^5-x-1,1,2) 0\n0 root(x^5-x-1,1,2)\n-root(x^5-x-1,1,2) 0\n0 -root(x^5-x-1,0,2)\n', 4, 1),
+    (ALIAS.format('sqrt(8)', '2*sqrt(2)'), 2, 1), (ALIAS.format('pi+e', 'e+pi'), 2, 1),
+    (ALIAS.format('root(x^5-x-1,1,2)^5', '1+root(x^5-x-1,0,2)'), 2, 1),
+    (ALIAS.format('cbrt(-16)', '-2*cbrt(2)'), 2, 1), (ALIAS.format('sqrt(3/8)', 'sqrt(6)/4'), 2, 1),
+    (ALIAS.format('1/(1+sqrt(2))', 'sqrt(2)-1'), 2, 1), (ALIAS.format('tanh(2)*cosh(2)', 'sinh(2)'), 2, 1),
+    (ALIAS.format('min(exp(-3),pi)*exp(3)', '1+0*pi'), 2, 1), (ALIAS.format('(pi^-2)^-3', 'pi^6'), 2, 1),
+    (ALIAS.format('root(2*x^3-3*x^2-6*x+1,0,1)+pi', 'pi+root(2*x^3-3*x^2-6*x+1,0,1)'), 2, 1)]
+# Their ties are proved, and with them the outcome.
+TIED = [KNOWN[k][0] for k in range(7)] + [SQUARE + '[9,9.001] [7,7.001]\n', SQUARE + 'pi 5\n-7 e\n6 -4\n']
+# What the proved checker does not know.
+UNKNOWN = [(ALIAS.format('2*sin(pi/6)', '1'), '"cycle"'),
+           (ALIAS.format('root(x^4-10*x^2+1,3,4)', 'sqrt(2)+sqrt(3)'), 'facts on points hold')]
+OTHER = {'+': '-', '-': '+', '*': '/', '/': '*', 'min': 'max', 'max': 'min', 'neg': 'abs', 'abs': 'neg', 'sqrt': 'cbrt',
+         'cbrt': 'sqrt', 'cos': 'sin', 'sin': 'cos', 'tan': 'sin', 'exp': 'cosh', 'sinh': 'cosh', 'cosh': 'sinh',
+         'tanh': 'sinh', 'pi': 'e', 'e': 'pi', 'same': 'line', 'line': 'circle', 'circle': 'line'}
+
+
+class Checkers:
+    def __init__(self, proved, dyadel, folder):
+        self.proved, self.dyadel, self.folder = proved, dyadel, folder
+        self.tried = self.refused = self.proved_all = 0
+
+    def certificate(self, points):
+        source, target = self.folder / 'points.txt', self.folder / 'certified.txt'
+        source.write_text(points)
+        done = subprocess.run([self.dyadel, 'delaunay', '--quiet', '-o', '/dev/null', '--certificate', target, source],
+                              check=False)
+        assert done.returncode in (0, 3), (points, done)
+        return target.read_text()
+
+    def ask(self, *command, text):
+        file = self.folder / 'asked.txt'
+        file.write_text(text)
+        return subprocess.run([*command, file], check=False, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def faults(self, text, name):
+        """Where the two differ that must not."""
+        here, there = self.ask(self.proved, text=text), self.ask(self.dyadel, 'verify', text=text)
+        shown = here.returncode != REJECTED and not re.search('not proved: that .* (lie where|facts on points)', here.stdout)
+        self.tried += 1
+        self.refused += here.returncode == REJECTED
+        self.proved_all += shown
+        if here.returncode not in (ALL, NOT_ALL, REJECTED) or (here.returncode == REJECTED and ': rejected: ' not in here.stderr):
+            yield f'{name}: {here}'
+        elif shown and there.returncode == REJECTED:
+            yield f'{name}: proved, but verify says {there.stderr}\n{text}'
+        elif there.returncode != REJECTED and not shown:
+            yield f'{name}: verify accepts, but: {here.stdout}{here.stderr}\n{text}'
+
+
+def expression(rng, depth):
+    """A random expression that is defined, and no large number; no cosine is of a part of a turn."""
+    if depth == 0:
+        return rng.choice(['2', '3/7', '-5', 'pi', 'e', 'sqrt(2)', 'sqrt(3)', 'cbrt(5)', 'root(x^3-x-1,1,2)', '1/16'])
+    a, b = expression(rng, depth - 1), expression(rng, depth - 1)
+    return rng.choice([f'({a})+({b})', f'({a})-({b})', f'({a})*({b})', f'({a})/(20+({b})^2)', f'sqrt(1+({a})^2)',
+                       f'cbrt({a})', f'cos(1+({a})^2)', f'sin(({a})/3)+{b}', f'exp(cos({a}+1))', f'abs({a})', f'min({a},{b})',
+                       f'max({a},({b})/2)', f'({a})^{rng.randrange(-1, 4)}'.replace('^-1', '^2')])
+
+
+def changed_word(rng, word):
+    """Other words in its place."""
+    if word in OTHER:
+        yield OTHER[word]
+    if re.fullmatch(r'-?[0-9]+', word):
+        number = int(word)
+        yield from (str(z) for z in (number + 1, number - 1, -number, 0, 2 ** 70) if z != number)
+        yield from ('-4096', '4096', '4097', f'0{word}', f'+{word}', f'{word}/2')
+    elif re.search('[0-9]', word):  # a quotient of polynomials, a fraction, coefficients
+        places = [m for m in re.finditer('[0-9]+', word)]
+        for place in rng.sample(places, min(3, len(places))):
+            for digits in (str(int(place[0]) + 1), str(int(place[0]) + 2), '0', '4097'):
+                yield word[:place.start()] + digits + word[place.end():]
+        yield word[1:] if word.startswith('-') else f'-{word}'
+        yield from (f'{word}/2', f'{word}+1', f'{word}*x0', f'{word}/x0-x0')
+    elif word in ('identity', 'bound'):
+        yield 'faith'
+
+
+def forged_blocks(rng, text, most):
+    """The text with one line of the blocks changed: a word, its place, left out, said twice."""
+    lines = text.split('\n')
+    first, last = lines.index(next(row for row in lines if row.startswith('algebra '))), lines.index('end')
+    found = []
+    for k in range(first, last):
+        words = lines[k].split(' ')
+        for w, word in enumerate(words):
+            found += [lines[:k] + [' '.join(words[:w] + [other] + words[w + 1:])] + lines[k + 1:] for other in changed_word(rng, word)]
+        found += [lines[:k] + lines[k + 1:], lines[:k] + [lines[k]] + lines[k:], lines[:k] + [f'{lines[k]} 0'] + lines[k + 1:]]
+        if k > first:
+            found.append(lines[:k - 1] + [lines[k], lines[k - 1]] + lines[k + 1:])
+    yield from ('\n'.join(some) for some in rng.sample(found, min(most, len(found))))
+
+
+def moved_sides(text):
+    """The text with each side lo+w of a site in the place beside it, and narrowed by one unit of its width at either end."""
+    lines = text.split('\n')
+    first = next(k for k, line in enumerate(lines) if line.startswith('sites ')) + 1
+    value = lambda word: [int(z) for z in (word + '*2^0').split('*2^')[:2]]  # noqa: E731
+    for k in range(first, first + int(lines[first - 1].split(' ')[1])):
+        words = lines[k].split(' ')
+        for w, word in enumerate(words):
+            if '+' not in word:
+                continue
+            (lo, e), (size, f) = (value(part) for part in word.split('+'))
+            unit = min(e, f) - 8
+            lo, size = lo << (e - unit), size << (f - unit)
+            for at, width in ((lo + size, size), (lo - size, size), (lo - (size << 9), size)):
+                yield '\n'.join(lines[:k] + [' '.join(words[:w] + [f'{spelled(at, unit)}+{spelled(width, unit)}'] + words[w + 1:])] + lines[k + 1:])
+
+
+def spelled(man, exponent):
+    while man and man % 2 == 0:
+        man, exponent = man // 2, exponent + 1
+    return f'{man << exponent}' if exponent >= 0 and not exponent else f'{man}*2^{exponent}' if man else '0'
+
+
+def block_of(numbers, points, facts=()):
+    """A certificate of two sites with a block on the first, the rectangle of which is [1,2] by [0,1]."""
+    return '\n'.join(['dyadel certificate 1', 'outcome budget', 'goal decided', 'capped no', 'sites 2', '1+1 0+1', '9 9', 'legal 0',
+                      'places 0', 'bridges 0', 'corners 0', 'pairs', 'triangles 0', 'unproved 1', 'area none', 'hausdorff none',
+                      f'algebra {len(numbers)}', *numbers, f'points {len(points)}', *points, f'facts {len(facts)}', *facts, 'end', ''])
+
+
+# numbers, the last but one and the last being the point of site 0; is it in [1,2] by [0,1]?
+PLACES = [
+    (['= 1', '= 0'], True), (['= 2', '= 1'], True), (['= 3/2', '= 1/2'], True), (['= 2147483649/2147483648', '= 0'], True),
+    ([f'= {2**300 + 1}/{2**300}', f'= {2**300 - 1}/{2**300}'], True), ([f'= {2**300 - 1}/{2**300}', '= 0'], False),
+    ([f'= {2**301 + 1}/{2**300}', '= 0'], False), (['= 1', f'= -1/{2**300}'], False), (['= 1', f'= {2**300 + 1}/{2**300}'], False),
+    (['= 2147483647/2147483648', '= 0'], False), (['= 4294967297/2147483648', '= 0'], False), (['= 3/2', '= -1/2147483648'], False),
+    (['= 1', '= 0', '/ 0 1', '= 0'], False), (['= 1', '= 0', '^ 1 -1', '= 0'], False), (['= 0', '^ 0 0', '= 0'], True),
+    (['= -1', 'sqrt 0', '= 0'], False), (['= 2', 'sqrt 0', '= 1'], True), (['= 2', 'sqrt 0', '- 1 1', '/ 0 2', '= 0'], False),
+    (['= 2', 'sqrt 0', '- 1 1', 'sqrt 2', '+ 1 3', '= 1'], True), (['= 1', 'cos 0', 'sin 0'], False), (['= 1', 'sin 0', 'cos 0'], False),
+    (['= 1', 'exp 0', '= 2', '/ 1 2', '= 0'], True), (['pi', '= 2', '/ 0 1', '= 0'], True), (['pi', '= 1', '- 0 1', '= 0'], False),
+    (['root 1 2 -2,0,1', '= 0'], True), (['root -2 2 -2,0,1', '= 0'], False), (['root -2 -1 -2,0,1', '= 0'], False),
+    (['root 0 1 -2,0,1', '= 0'], False), (['root 2 1 -2,0,1', '= 0'], False), (['root 1 2 -2,0,1 x0', '= 0'], False),
+    (['root 1 2 0,-2,0,1', '= 0'], True), (['root -1 2 0,-2,0,1', '= 0'], False), (['= 2', 'sqrt 0', 'root 1 2 -2,0,1 x0', '= 0'], True),
+    (['= 2', 'sqrt 0', 'root 1 2 -2,0,1 -x0', '= 0'], False), (['= 2', '^ 0 4096', '^ 1 4096', '= 0'], False),
+    (['= 3/2', '^ 0 4096', '^ 1 -1', '+ 0 2', '= 0'], True), (['= 2', 'cbrt 0', '= 1'], True), (['= -2', 'cbrt 0', '= 1'], False),
+    (['= 4', 'sqrt 0 2', '= 0'], True), (['= 4', 'sqrt 0 -2', 'neg 1', '= 0'], False), (['= 4', 'sqrt 0 3', '= 0'], False),
+    (['= 4', 'sqrt 0 -2', '= 1', '= 0'], False), (['= 4', 'sqrt 0 3', '= 1', '= 0'], False), (['= 8', 'cbrt 0 3', '= 1', '= 0'], False),
+    (['= 8', 'cbrt 0 2', '= 1', '= 0'], True), (['= -1', 'sqrt 0', '= 1', '= 0'], False), (['= 0', '^ 0 -1', '= 1', '= 0'], False),
+    (['= 1', '= 0', '/ 0 1', '= 1', '= 0'], False), (['root -3/2 2 0,-2,0,1', '= 0'], False), (['root 3 4 -2,0,1', '= 1', '= 0'], False),
+    (['= 2', 'sqrt 0', 'root 1 2 -2,0,1 -x0', '= 1', '= 0'], False), (['= 2', 'sqrt 0', 'root 1 2 -2,0,1 2', '= 1', '= 0'], False),
+    (['root 1 2 -2,0,1 3/2', '= 1', '= 0'], False), (['= 2', 'sqrt 0', '= x0+0', '= 0'], False),
+    (['= x0', '= 1', '= 0'], False), (['= 1', '= 1/x0', '= 1', '= 0'], False),
+    (['= 1', 'callback', '* 0 1', '= 0'], False), (['= 2', 'tan 0', 'abs 1', '- 0 2', '= 0'], False)]
+
+
+# A square of these points and a fifth site; ties that are stated; how many of them are not proved.
+ROOT = '3260954456333195553*2^-61+1*2^-61'  # sqrt 2
+MINUS = '-1630477228166597777*2^-60+1*2^-61'
+RINGS = [('9 9', ['0 2', '1 3'], 0), ('0 0', ['0 2', '1 3'], 2), ('1 0', ['0 2', '1 3'], 2), ('1 1', ['0 2', '1 3'], 2),
+         ('-1 -1', ['0 2', '1 3'], 2), ('1 -1', ['0 2', '1 3'], 2), ('1*2^-1 1*2^-1', ['0 2'], 1), ('1+8 0+1', ['0 2', '1 3'], 2),
+         ('-9+18 9+1', ['0 2', '1 3'], 0), ('-9+18 -9+18', ['0 2'], 1), ('3+9 3+9', ['1 3'], 0), ('9 9', ['0 1', '0 2'], 1),
+         ('9 9', ['0 1', '0 3', '1 2', '2 3'], 4), ('9 9', ['0 4'], 1), ('2 0', ['0 2'], 0), ('0 -2', ['1 3'], 0), ('-2 0', ['1 3'], 0),
+         ('0 2', ['0 2'], 0)]
+
+
+# Sites 0, 1, 2 are at (-sqrt 2, 0), (0, 0), (sqrt 2, 0), site 3 is above.
+ROW = ([f'{MINUS} 0', '0 0', f'{ROOT} 0', '0 8'], ['0 2 3', '1 3 3', '2 1 3'])
+ROWS = [('9 9', ['0 2'], 0), ('9 9', ['0 1', '1 2'], 2), ('9 9', ['0 1', '0 2'], 1), ('9 0', ['0 2'], 1), ('1 -1', ['0 2'], 1),
+        ('-9+18 1*2^-9+1', ['0 2'], 0), ('-9+18 -1*2^-9+1', ['0 2'], 1), ('9 9', ['0 3'], 1), ('9 9', ['2 4'], 1),
+        ('9 -9', ['0 2'], 1), ('1*2^-1 0', ['0 2'], 1)]
+SQUARE_SITES = ([f'{ROOT} 0', f'0 {ROOT}', f'{MINUS} 0', f'0 {MINUS}'], ['0 1 3', '1 3 1', '2 2 3', '3 3 2'])
+
+# Site 3 is somewhere; an alias of it is described to be elsewhere on the circle.
+ALIASED = ([f'{ROOT} 0', '9 9', f'{MINUS} 0', '-9+18 -9+18'], ['0 1 3', '2 2 3', '3 3 1', '4 3 2'])
+
+
+def ring(fifth, pairs, facts=('circle 0 1 2 3 identity',), numbers=('= 2', 'sqrt 0', 'neg 1', '= 0'), at=SQUARE_SITES):
+    sites, points = at
+    lines = ['dyadel certificate 1', 'outcome budget', 'goal decided', 'capped no', 'sites 5', *sites, fifth, 'legal 0', 'places 0',
+             'bridges 0', 'corners 0', 'pairs', *(f't {pair}' for pair in pairs), 'triangles 0', 'unproved 9', 'area none',
+             'hausdorff none', f'algebra {len(numbers)}', *numbers, f'points {len(points)}', *points, f'facts {len(facts)}',
+             *facts, 'end', '']
+    return '\n'.join(lines)
+
+
+def try_rings(both):
+    """Ties by a circle that a block shows: only when nobody is inside, or on it besides, and the pair crosses another."""
+    for fifth, pairs, left in RINGS:
+        answer = both.ask(both.proved, text=ring(fifth, pairs))
+        loose = re.search(r'not proved: .*no refinement decides (\d+) ties', answer.stdout)
+        if answer.returncode != NOT_ALL or int((loose or (0, 0))[1]) != left:
+            yield f'a ring with {fifth}, {pairs}: {answer}'
+    for fifth, pairs, left in ROWS:
+        answer = both.ask(both.proved, text=ring(fifth, pairs, ['line 0 2 1 identity'], ('= 2', 'sqrt 0', 'neg 1', '= 0'), ROW))
+        loose = re.search(r'not proved: .*no refinement decides (\d+) ties', answer.stdout)
+        if answer.returncode != NOT_ALL or int((loose or (0, 0))[1]) != left:
+            yield f'a row with {fifth}, {pairs}: {answer}'
+    for facts in ((), ('circle 0 1 2 3 bound',), ('same 0 2 identity',), ('line 0 2 1 identity',), ('circle 0 1 2 4 identity',)):
+        answer = both.ask(both.proved, text=ring('9 9', ['0 2', '1 3'], facts))
+        refused = facts and 'bound' not in facts[0]
+        proved = facts and 'bound' in facts[0]
+        if (answer.returncode == REJECTED) != bool(refused) or ('decides 2 ties' in answer.stdout) == bool(refused or proved):
+            yield f'a ring with {facts}: {answer}'
+    answer = both.ask(both.proved, text=ring('= 3', ['0 2'], ['circle 0 2 3 4 identity'], at=ALIASED))
+    if answer.returncode != NOT_ALL or 'decides 1 ties' not in answer.stdout:
+        yield f'a ring with an alias: {answer}'
+    for points in TIED:
+        answer = both.ask(both.proved, text=both.certificate(points))
+        if 'checked: the outcome fixpoint' not in answer.stdout or 'no refinement decides' in answer.stdout:
+            yield f'ties of {points}: {answer}'
+
+
+def try_places(both):
+    for numbers, inside in PLACES:
+        text = block_of(numbers, [f'0 {len(numbers) - 2} {len(numbers) - 1}'])
+        answer = both.ask(both.proved, text=text)
+        if (answer.returncode != REJECTED and 'checked: 1 points lie where' in answer.stdout) != inside:
+            yield f'{numbers}: {answer.stdout}{answer.stderr}'
+        yield from both.faults(text, 'a place')
+
+
+def try_known(both):
+    for points, count, facts in KNOWN:
+        answer = both.ask(both.proved, text=both.certificate(points))
+        if f'checked: {count} points lie where they are described to be, and {facts} facts on them hold\n' not in answer.stdout:
+            yield f'{points}: {answer}'
+    for points, said in UNKNOWN:
+        answer = both.ask(both.proved, text=both.certificate(points))
+        if answer.returncode != NOT_ALL or not re.search(f'not proved: .*{said}', answer.stdout):
+            yield f'{points}: {answer}'
+
+
+def try_forged(both, count):
+    rng = random.Random(SEED)
+    sums = []
+    for _ in range(count):
+        a, b = expression(rng, rng.randrange(3)), expression(rng, rng.randrange(3))
+        sums.append(ALIAS.format(f'({a})+({b})', f'({b})+({a})'))
+    sides = 0
+    for points in [points for points, _, _ in KNOWN] + sums:
+        text = both.certificate(points)
+        if '\nalgebra ' not in text or '\ncycle ' in text or ' bound\n' in text:
+            continue
+        yield from both.faults(text, points)
+        for forged in forged_blocks(rng, text, 20):
+            yield from both.faults(forged, f'forged from {points}')
+        for moved in moved_sides(text):
+            sides += 1
+            yield from both.faults(moved, f'a side moved of {points}')
+    print(f'seed {SEED}: {both.tried} certificates with blocks, {sides} of moved sides: {both.refused} refused, '
+          f'{both.proved_all} proved')
+    if both.refused * 3 < both.tried or both.proved_all * 40 < both.tried or sides < 40:
+        yield 'hardly anything is refused, or proved, or hardly any side was moved'
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        proved, dyadel = (pathlib.Path(arg).resolve() for arg in sys.argv[1:3])
+        both = Checkers(proved, dyadel, pathlib.Path(folder))
+        found = list(try_places(both)) + list(try_known(both)) + list(try_rings(both))
+        found += try_forged(both, int(sys.argv[3]) if len(sys.argv) > 3 else 16)
+    print('\n'.join(found) or 'no fault')
+    return 1 if found else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

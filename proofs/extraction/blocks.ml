@@ -1,0 +1,135 @@
+(* SPDX-License-Identifier: LGPL-3.0-or-later *)
+(* What the checker proves of a block. The hints here, roots, pi, the precision, need no proof: of wrong ones it says no. *)
+open Source
+
+(* floor of the k-th root *)
+let root_hint k z =
+  let k = Z.to_int k in
+  if Z.sign z >= 0 then Z.root z k
+  else
+    let r = Z.root (Z.neg z) k in
+    Z.neg (if Z.equal (Z.pow r k) (Z.neg z) then r else Z.succ r)
+
+(* floor (pi u), by Machin's series *)
+let pi_hint u =
+  let u = Z.shift_left u 64 in
+  let arctan n =
+    let square = n * n in
+    let rec add sum power k =
+      if Z.equal power Z.zero then sum
+      else
+        let term = Z.div power (Z.of_int (2 * k + 1)) in
+        add (if k land 1 = 0 then Z.add sum term else Z.sub sum term) (Z.div power (Z.of_int square)) (k + 1)
+    in
+    add Z.zero (Z.div u (Z.of_int n)) 0
+  in
+  Z.shift_right (Z.sub (Z.mul (arctan 5) (Z.of_int 16)) (Z.mul (arctan 239) (Z.of_int 4))) 64
+
+(* floor (z u) for the zero z, by bisection. *)
+let zero_hint u (r : Checker.bracket) =
+  let left = Checker.sign_at r.coefficients r.lo_num r.lo_den in
+  let rec search lo hi =
+    if Z.leq (Z.sub hi lo) Z.one then lo
+    else
+      let middle = Z.shift_right (Z.add lo hi) 1 in
+      if Z.equal (Checker.sign_at r.coefficients middle u) left then search middle hi else search lo middle
+  in
+  if Z.sign r.lo_den <= 0 || Z.sign r.hi_den <= 0 then Z.zero
+  else search (Z.fdiv (Z.mul r.lo_num u) r.lo_den) (Z.cdiv (Z.mul r.hi_num u) r.hi_den)
+
+let most = Z.shift_left Z.one (1 lsl 18)
+let precisions = [ 128; 512; 2048 ]
+
+(* What is proved of blocks. *)
+type proof = {
+  points : int;  (* that are in their rectangles *)
+  facts : int;  (* that hold *)
+  joined : (int * int) list;  (* sites that are the same *)
+  rings : (Z.t * Checker.state * Checker.tied_ring) list;  (* on a circle, with what is known of numbers *)
+  tied_rows : (Z.t * Checker.state * Checker.tied_row) list;  (* on a line *)
+  unseen_points : int;
+  unseen_facts : int;
+  unknown : (int * string) list;  (* lines of numbers that the checker does not know *)
+}
+
+(* Of one block at one precision: the first line that is not taken, or which points and facts are. *)
+let at_precision (c : Reader.certificate) (b : Described.block) bits =
+  let u = Z.shift_left Z.one bits in
+  match Checker.run most root_hint zero_hint u (Checker.pi_at most pi_hint u) Checker.nothing Z.zero b.numbers with
+  | Inr k -> Error (b.first + 1 + Z.to_int k)
+  | Inl st ->
+    let look (line, i, p) =
+      if Checker.place_outside u st p c.rects.(i) then
+        raise (Bad (line, Printf.sprintf "the point described does not lie in the rectangle of site %d" i));
+      Checker.place_in most u st p c.rects.(i)
+    in
+    let holds (f : Described.fact) =
+      if Checker.fact_fails most u st f.says then raise (Bad (f.said_at, "the fact does not hold"));
+      Checker.fact_holds most u st f.says
+    in
+    let points = List.length (List.filter look b.points) in
+    Ok (points, List.filter holds b.facts, (u, st))
+
+(* The sites of a fact, each with its place. *)
+let placed (f : Described.fact) places = List.combine (List.map Z.of_int f.members) places
+
+let rings_of facts (u, st) =
+  let ring (f : Described.fact) =
+    match f.says with
+    | OnCircle (a, b, c, l) ->
+      (match placed f (a :: b :: c :: l) with
+      | first :: second :: third :: others -> Some (u, st, { Checker.first; second; third; others })
+      | _ -> None)
+    | _ -> None
+  in
+  List.filter_map ring facts
+
+let rows_of facts (u, st) =
+  let row (f : Described.fact) =
+    match f.says with
+    | OnLine (a, b, l) ->
+      (match placed f (a :: b :: l) with
+      | one_end :: other_end :: more -> Some (u, st, { Checker.one_end; other_end; more })
+      | _ -> None)
+    | _ -> None
+  in
+  List.filter_map row facts
+
+(* The most that is seen, at rising precision. *)
+let of_block c (b : Described.block) =
+  let is_shown facts (f : Described.fact) = f.by_bound || List.memq f facts in
+  let seen (points, facts, _) = points = List.length b.points && List.for_all (is_shown facts) b.facts in
+  let rec look last = function
+    | [] -> last
+    | bits :: more ->
+      (match at_precision c b bits with
+      | Ok found when seen found -> Ok found
+      | found -> look found more)
+  in
+  if b.unknown = None then look (Error b.first) precisions else Error b.first
+
+let of_blocks (c : Reader.certificate) =
+  let add p (b : Described.block) =
+    let points, facts, rings, rows =
+      match of_block c b with
+      | Ok (points, facts, known) -> (points, facts, rings_of facts known, rows_of facts known)
+      | Error _ when b.unknown <> None -> (0, [], [], [])
+      | Error line -> raise (Bad (line, "the number is not seen to be defined, or to be what the line says"))
+    in
+    let same (f : Described.fact) = match (f.says, f.members) with Same _, [ i; j ] -> Some (i, j) | _ -> None in
+    { points = p.points + points; facts = p.facts + List.length facts; joined = List.filter_map same facts @ p.joined;
+      rings = rings @ p.rings; tied_rows = rows @ p.tied_rows;
+      unseen_points = p.unseen_points + List.length b.points - points;
+      unseen_facts = p.unseen_facts + List.length b.facts - List.length facts;
+      unknown = p.unknown @ Option.to_list b.unknown }
+  in
+  List.fold_left add { points = 0; facts = 0; joined = []; rings = []; tied_rows = [];
+      unseen_points = 0; unseen_facts = 0; unknown = [] } c.blocks
+
+(* How many aliases of sites that are not exact are not proved to be the same points. *)
+let loose_aliases (c : Reader.certificate) p =
+  let parent = Hashtbl.create 100 in
+  let rec top k = match Hashtbl.find_opt parent k with Some j -> top j | None -> k in
+  let join (i, j) = if top i <> top j then Hashtbl.replace parent (top i) (top j) in
+  List.iter join p.joined;
+  List.length (List.filter (fun (k, other) -> top k <> top other) c.aliased)
