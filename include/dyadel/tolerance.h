@@ -67,7 +67,7 @@ typedef struct dyd_tolerance dyd_tolerance;
  * when there are too many pairs for births; DYD_CANCELLED; DYD_E_NOMEM: *out is NULL then.
  * In the max norm each pair takes some twenty triangulations of the sites around it, half a millisecond or more.
  * With weights [TOL-8] hi - lo may be more where doubles do not place a circle: where one disc grows to be all but in
- * another one; and each pair costs some hundred decisions about discs.
+ * another one; and each pair costs a few exact decisions about discs, a fifth of a millisecond or more.
  * Cost: O(N log N) for deaths [TOL-4]; births take the partial triangulation of squares of half-width up_to, and a few
  * searches for each of its pairs; points a search for each edge, which takes several times as long as the deaths. Both
  * are shared among as many threads as the options of pd name; results do not depend on it. */

@@ -23,4 +23,8 @@ bool dyd_discs_see(dyd_disc_work *w, uint32_t v);
  * blocks nothing. */
 bool dyd_discs_load(dyd_disc_work *w, bool legal);
 
+/* weights_guess_filter.c: about the t between lo and hi from which on the pair is no longer legal (or illegal) for the
+ * sites that are seen, the discs of all v having radius t weight[v]. */
+double dyd_filter_guess_weight(const dyd_disc_work *w, const double *weight, bool legal, double lo, double hi);
+
 #endif

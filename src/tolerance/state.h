@@ -7,7 +7,8 @@
  *   near_filter.c       which sites a pair needs; who else is near
  *   deaths.c, births.c  all pairs
  *   whole.c             the whole; points_filter.c: each point; chance_filter.c: probabilities
- *   weights_filter.c    the same where points have weights; squares.c: where they move in squares
+ *   weights_filter.c    the same where points have weights; weights_guess_filter.c: about where it changes
+ *   squares.c           the same where they move in squares
  *   rows.c, tolerance.c the sorted rows; the public calls */
 #ifndef DYD_TOLERANCE_STATE_H
 #define DYD_TOLERANCE_STATE_H

@@ -22,7 +22,8 @@
 #define TURN 0x1p-38 /* directions between two that are less than 2^-9 from opposite are not used */
 #define WIDTH (1 + 0x1p-41)
 #define SPARE 0x1p-51 /* weights may be the doubles next to what is meant */
-enum { MOST_NEW = 6, MOST_STEPS = 4000 };
+#define NEAR 0x1p-43  /* how far beside a guess is asked at first */
+enum { MOST_NEW = 6, MOST_STEPS = 4000, GUESSES = 12 };
 
 typedef struct weight_work {
   dyd_tolerance *t;
@@ -204,11 +205,24 @@ static dyd_truth is_illegal_at(weight_work *g, double t) {
 
 typedef dyd_truth weight_question(weight_work *g, double t);
 
+/* Where to ask next. First beside a guess, below and above in turn and farther off each time: mostly these are all. */
+static double next_try(const weight_work *g, double lo, double hi, bool legal, int guesses) {
+  double middle = 4 * lo >= hi ? lo + (hi - lo) / 2 : hi / 4, off = ldexp(NEAR, guesses / 2 * 4);
+  if (guesses >= GUESSES) return middle;
+  double at = dyd_filter_guess_weight(&g->discs, g->t->weight, legal, lo, hi) * (guesses % 2 ? 1 + off : 1 - off);
+  return at > lo && at < hi ? at : middle;
+}
+
 /* The question is true at *lo, or *lo is 0, and false at *hi. Until they are near to each other, or it is not known. */
 static void halve(double *lo, double *hi, weight_work *g, weight_question *is_below) {
+  int guesses = 0;
   for (int k = 0; k<MOST_STEPS && * hi> * lo * WIDTH; k++) {
-    double mid = 4 * *lo >= *hi ? *lo + (*hi - *lo) / 2 : *hi / 4;
+    double mid = next_try(g, *lo, *hi, is_below == is_legal_at, guesses++);
     dyd_truth below = mid > 0 ? is_below(g, mid) : DYD_UNKNOWN;
+    if (below == DYD_UNKNOWN && guesses <= GUESSES) {
+      guesses = GUESSES;
+      continue;
+    }
     if (below == DYD_UNKNOWN || mid <= *lo || mid >= *hi) return;
     *(below == DYD_TRUE ? lo : hi) = mid;
   }
