@@ -16,7 +16,7 @@ void dyd_disc_clear(dyd_disc *d) {
 
 void dyd_caps_init(dyd_caps *c) {
   memset(c, 0, sizeof *c);
-  mpq_inits(c->qx, c->qy, c->rho, c->a, c->b, c->s, c->t, NULL);
+  mpq_inits(c->qx, c->qy, c->rho, c->n, c->a, c->b, c->s, c->t, NULL);
 }
 
 void dyd_caps_clear(dyd_caps *c) {
@@ -25,7 +25,7 @@ void dyd_caps_clear(dyd_caps *c) {
     mpq_clears(p->wx, p->wy, p->tau, p->ww, p->c, NULL);
   }
   free(c->item);
-  mpq_clears(c->qx, c->qy, c->rho, c->a, c->b, c->s, c->t, NULL);
+  mpq_clears(c->qx, c->qy, c->rho, c->n, c->a, c->b, c->s, c->t, NULL);
 }
 
 /* ---- discs ---- */
@@ -60,16 +60,21 @@ bool dyd_disc_is_within(const dyd_disc *small, const dyd_disc *large) {
   return within;
 }
 
-/* (x, y, rho) = ((k - i), r) / (|k - i|^2 - r^2) */
-static void invert(mpq_ptr x, mpq_ptr y, mpq_ptr rho, dyd_caps *c, const dyd_disc *i, const dyd_disc *k, mpq_srcptr r) {
-  squared_distance(c->s, c->t, k, i);
+/* (x, y, r) / n, all positive multiples of k - i, r and |k - i|^2 - r^2 > 0: disc k inverted. n becomes about 1, so
+ * that numbers keep their sizes; nothing is divided but by powers of 2, which takes no common factors. */
+static void invert(mpq_ptr x, mpq_ptr y, mpq_ptr r, mpq_ptr n, dyd_caps *c, const dyd_disc *i, const dyd_disc *k) {
+  squared_distance(n, c->t, k, i);
   mpq_mul(c->t, r, r);
-  mpq_sub(c->s, c->s, c->t);
+  mpq_sub(n, n, c->t);
   mpq_sub(x, k->x, i->x);
-  mpq_div(x, x, c->s);
   mpq_sub(y, k->y, i->y);
-  mpq_div(y, y, c->s);
-  mpq_div(rho, r, c->s);
+  size_t over = mpz_sizeinbase(mpq_numref(n), 2), under = mpz_sizeinbase(mpq_denref(n), 2);
+  mpq_ptr all[4] = {x, y, r, n};
+  for (int v = 0; v < 4; v++)
+    if (over > under)
+      mpq_div_2exp(all[v], all[v], over - under);
+    else
+      mpq_mul_2exp(all[v], all[v], under - over);
 }
 
 /* ---- loading ---- */
@@ -101,8 +106,8 @@ bool dyd_caps_begin(dyd_caps *c, const dyd_disc *i, const dyd_disc *j, bool lega
   c->count = 0;
   dyd_cap *p = next_cap(c);
   if (!p) return false;
-  mpq_sub(c->a, j->r, i->r);
-  invert(c->qx, c->qy, c->rho, c, i, j, c->a);
+  mpq_sub(c->rho, j->r, i->r);
+  invert(c->qx, c->qy, c->rho, c->n, c, i, j);
   p->vertex = UINT32_MAX;
   mpq_set(p->wx, c->qx);
   mpq_set(p->wy, c->qy);
@@ -115,18 +120,26 @@ bool dyd_caps_begin(dyd_caps *c, const dyd_disc *i, const dyd_disc *j, bool lega
   return true;
 }
 
+/* out = out n_j + sign at_j n_k, n_j and n_k those of discs j and k. */
+static void against_j(mpq_ptr out, dyd_caps *c, mpq_srcptr at_j, mpq_srcptr n_k, int sign) {
+  mpq_mul(out, out, c->n);
+  mpq_mul(c->t, at_j, n_k);
+  (sign < 0 ? mpq_sub : mpq_add)(out, out, c->t);
+}
+
+/* u.(q_k - q_j) > rho_k + rho_j, times n_k n_j. */
 bool dyd_caps_add(dyd_caps *c, const dyd_disc *i, const dyd_disc *k, uint32_t vertex, bool legal) {
   dyd_cap *p = next_cap(c);
   if (!p) return false;
-  mpq_add(c->a, k->r, i->r);
-  invert(p->wx, p->wy, p->tau, c, i, k, c->a);
-  mpq_sub(p->wx, p->wx, c->qx);
-  mpq_sub(p->wy, p->wy, c->qy);
+  mpq_add(p->tau, k->r, i->r);
+  invert(p->wx, p->wy, p->tau, c->a, c, i, k);
+  against_j(p->wx, c, c->qx, c->a, -1);
+  against_j(p->wy, c, c->qy, c->a, -1);
+  against_j(p->tau, c, c->rho, c->a, 1);
   if (legal) {
     mpq_neg(p->wx, p->wx);
     mpq_neg(p->wy, p->wy);
   }
-  mpq_add(p->tau, p->tau, c->rho);
   p->vertex = vertex;
   finish_cap(c, p);
   return true;

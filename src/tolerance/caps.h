@@ -2,16 +2,14 @@
 /* Discs about two sites, inverted: circles become lines, and each other disc a cap of directions [DISC-1].
  *
  * Let R_i <= R_j. With p_i as the origin and x -> x / |x|^2, the circle through p_i about c is the line u.x = h, u = c
- * / |c|, h = 1 / (2 |c|), its inside u.x > h. A disc (P, r) that does not hold the origin becomes the disc of centre q
- * = P /
- * (|P|^2 - r^2) and radius rho = r / (|P|^2 - r^2). With delta = R_j - R_i about p_j and r_k = R_k + R_i about the
- * others:
+ * / |c|, h = 1 / (2 |c|), its inside u.x > h. A disc (P, r) that does not hold the origin becomes that of centre q =
+ * P/n and radius rho = r/n, n = |P|^2 - r^2. With delta = R_j - R_i about p_j and r_k = R_k + R_i about the others:
  *
  *   possible   for some u with u.q_j >= -rho_j, no k has u.(q_k - q_j) > rho_k + rho_j;
  *   legal      for some u with u.q_j > rho_j, every k has u.(q_j - q_k) > rho_j + rho_k.
  *
  * So each site is an open cap {u : u.w > tau} of the circle of directions, w and tau rational: an end of one is inside
- * another or not by the sign of a + b sqrt(c) [SQR-1]. */
+ * another or not by the sign of a + b sqrt(c) [SQR-1]. w and tau may both be multiplied by a number above 0. */
 #ifndef DYD_TOLERANCE_CAPS_H
 #define DYD_TOLERANCE_CAPS_H
 
@@ -43,9 +41,10 @@ typedef struct dyd_cap {
   double w[2], top;         /* w and tau, within 2^-51 of themselves */
 } dyd_cap;
 
-/* Invariant: item[0 .. made-1] are initialised, item[0 .. count-1] in use; (qx, qy), rho: what became of disc j. */
+/* Invariant: item[0 .. made-1] are initialised, item[0 .. count-1] in use; (qx, qy) / n, rho / n, n > 0: what became of
+ * disc j. */
 typedef struct dyd_caps {
-  mpq_t qx, qy, rho;
+  mpq_t qx, qy, rho, n;
   dyd_cap *item;
   size_t count, made, cap;
   size_t by[2]; /* whose ends the direction found is between, or at */
