@@ -51,16 +51,15 @@ static int proved_run(int out, const char *file) {
   return CLI_FAILED;
 }
 
-int cli_verify_proved(const cli_options *o) {
+int cli_verify_proved(const cli_options *o, const char *more) {
   cli_output out;
-  if (o->points) {
-    cli_complain(PROGRAM " does not know points: leave --points or --proved out");
-    return CLI_USAGE;
-  }
   cli_deadline_phase("checking the certificate");
   if (!cli_output_open(&out, o->output)) return CLI_FAILED;
   int status = proved_run(fileno(out.stream), o->file);
-  if (status == CLI_OK || status == CLI_FIXPOINT) return cli_output_finish(&out, o) ? status : CLI_FAILED;
+  if (status == CLI_OK || status == CLI_FIXPOINT) {
+    fputs(more, out.stream);
+    return cli_output_finish(&out, o) ? status : CLI_FAILED;
+  }
   cli_output_drop(&out);
   return status;
 }

@@ -92,7 +92,8 @@ const cli_option cli_option_table[] = {
     {"points", 0, "FILE", CLI_SOURCE, BIT(CLI_VERIFY), CLI_INPUT, "the certificate has to be about the points of FILE",
      AT(points)},
     {"proved", 0, NULL, CLI_FLAG, BIT(CLI_VERIFY), CLI_OTHER,
-     "check by dyadel-proved, extracted from what is proved in\nCoq; it knows less, and names what it does not check",
+     "check by dyadel-proved, extracted from what is proved in\nCoq; it knows less, and names what it does not "
+     "check;\npoints are compared by this program",
      AT(proved)},
     {"columns", 0, "NAME,NAME", CLI_TEXT, TEXT, CLI_INPUT,
      "FILE is CSV with a header; take these two columns as x,y:\nnames (capitals count only where names differ by "

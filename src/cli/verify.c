@@ -110,23 +110,50 @@ static int complain_rejected(const cli_options *o, const dyd_error *err) {
   return CLI_FAILED;
 }
 
-int cli_verify(const cli_options *o) {
-  if (o->proved) return cli_verify_proved(o);
-  if (o->points && strcmp(o->points, "-") == 0 && strcmp(o->file, "-") == 0) {
-    cli_complain("standard input cannot be both the certificate and the points; give a file for one of them");
-    return CLI_USAGE;
-  }
+/* Checks it here; what is wrong was told of, or the report is filled. */
+static int verify_here(dyd_certificate_report *report, const cli_options *o) {
   FILE *in = cli_input_open(o->file, "check the name of the certificate");
   if (!in) return CLI_FAILED;
   dyd_error err;
-  dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
   int status = 0;
   cli_deadline_phase("checking the certificate");
   dyd_error_clear(&err);
-  dyd_status st = o->points ? verify_points(&status, &report, in, o, &err) : dyd_verify_certificate(&report, in, &err);
+  dyd_status st = o->points ? verify_points(&status, report, in, o, &err) : dyd_verify_certificate(report, in, &err);
   cli_input_close(in);
   if (status) return status;
-  if (st != DYD_OK) return complain_rejected(o, &err);
-  status = cli_write_file(o->output, o, print_verified, &report);
+  return st == DYD_OK ? 0 : complain_rejected(o, &err);
+}
+
+/* The proved checker does not read points: it checks the certificate, this program that they are those of it. */
+static int verify_proved_of(const dyd_certificate_report *r, const cli_options *o) {
+  char more[200];
+  size_t others = r->undescribed + r->unlocated;
+  if (others)
+    snprintf(more, sizeof more, "not proved: that %zu of the points given are those of the certificate\n", others);
+  else
+    snprintf(more, sizeof more, "compared by dyadel itself: the points given lie in its rectangles\n");
+  int status = cli_verify_proved(o, more);
+  return status == CLI_OK && others ? CLI_FIXPOINT : status;
+}
+
+/* "-" can be read once. */
+static bool reads_twice(const cli_options *o) {
+  if (!o->points || strcmp(o->file, "-") != 0) return false;
+  if (strcmp(o->points, "-") == 0)
+    cli_complain("standard input cannot be both the certificate and the points; give a file for one of them");
+  else if (o->proved)
+    cli_complain("with --proved and --points the certificate is read twice; give a file in place of \"-\"");
+  else
+    return false;
+  return true;
+}
+
+int cli_verify(const cli_options *o) {
+  dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
+  if (reads_twice(o)) return CLI_USAGE;
+  if (o->proved && !o->points) return cli_verify_proved(o, "");
+  int status = verify_here(&report, o);
+  if (!status && o->proved) return verify_proved_of(&report, o);
+  if (!status) status = cli_write_file(o->output, o, print_verified, &report);
   return status || !report.gaps ? status : CLI_FIXPOINT;
 }

@@ -287,8 +287,19 @@ def check_proved(folder):
         answer.unlink(missing_ok=True)
         done = run('verify', '--proved', '-o', answer, certificate)
         assert done.returncode == status and answer.exists() == (status != 1) and not done.stdout, done
-    done = run('verify', '--proved', '--points', folder / 'points.txt', certificate)
-    assert done.returncode == 2 and 'leave --points or --proved out' in done.stderr, done
+    points, others = folder / 'points.txt', folder / 'others.txt'
+    points.write_text('0 0\n1 0\n0 1\n')
+    others.write_text('0 0\n1 0\n0 2\n')
+    program.write_text('#!/bin/sh\necho proved\n')
+    done = run('verify', '--proved', '--points', points, certificate)
+    assert done.returncode == 0 and done.stdout.startswith('proved\ncompared by dyadel itself: the points'), done
+    done = run('verify', '--proved', '--points', others, certificate)
+    assert done.returncode == 1 and not done.stdout and 'rejected' in done.stderr, done
+    done = run('verify', '--proved', '--points', points, '-')
+    assert done.returncode == 2 and 'is read twice' in done.stderr, done
+    program.write_text('#!/bin/sh\necho no >&2; exit 1\n')
+    done = run('verify', '--proved', '--points', points, certificate)
+    assert done.returncode == 1 and not done.stdout and done.stderr == 'no\n', done
     program.write_text('#!/bin/sh\nexec /bin/sleep 100\n')
     begun = time.monotonic()
     done = run('verify', '--proved', '--timeout', '0.5', certificate)
