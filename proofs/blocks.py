@@ -5,8 +5,9 @@
 Usage: blocks.py DYADEL_PROVED DYADEL [COUNT]
 
 Certificates of points that are told apart, or seen to be the same, by what they are, and of COUNT random expressions
-(default 16); each line of a block changed, and the rectangles. What verify accepts is proved, but for cycles and bounds; what
-it refuses is refused, or not proved.
+(default 16); each line of a block changed, and the rectangles. What verify accepts is proved, but for bounds; what it refuses
+is refused, or not proved. Regular polygons of 3 to 24 corners, all proved; each of them with its cycle, an index, a cosine, a
+sine, the sign of one changed, all refused.
 """
 import pathlib
 import random
@@ -33,11 +34,15 @@ KNOWN = [
     (ALIAS.format('cbrt(-16)', '-2*cbrt(2)'), 2, 1), (ALIAS.format('sqrt(3/8)', 'sqrt(6)/4'), 2, 1),
     (ALIAS.format('1/(1+sqrt(2))', 'sqrt(2)-1'), 2, 1), (ALIAS.format('tanh(2)*cosh(2)', 'sinh(2)'), 2, 1),
     (ALIAS.format('min(exp(-3),pi)*exp(3)', '1+0*pi'), 2, 1), (ALIAS.format('(pi^-2)^-3', 'pi^6'), 2, 1),
+    (ALIAS.format('2*sin(pi/6)', '1'), 2, 1), (ALIAS.format('sin(pi-pi)+sqrt(2)', 'sqrt(2)'), 2, 1),
+    (ALIAS.format('cos(2*pi/7)+cos(4*pi/7)+cos(6*pi/7)', '-1/2'), 2, 1), (ALIAS.format('tan(pi/7)*cos(pi/7)', 'sin(pi/7)'), 2, 1),
+    (ALIAS.format('cos(pi/17)*cos(-2*pi/17)', '(cos(pi/17)+cos(3*pi/17))/2'), 2, 1),
+    (ALIAS.format('cos(2*pi/1000)^2', '(1+cos(pi/250))/2'), 2, 1), (ALIAS.format('sin(19*pi/15)', '-sin(4*pi/15)'), 2, 1),
     (ALIAS.format('root(2*x^3-3*x^2-6*x+1,0,1)+pi', 'pi+root(2*x^3-3*x^2-6*x+1,0,1)'), 2, 1)]
 # Their ties are proved, and with them the outcome.
 TIED = [KNOWN[k][0] for k in range(7)] + [SQUARE + '[9,9.001] [7,7.001]\n', SQUARE + 'pi 5\n-7 e\n6 -4\n']
 # What the proved checker does not know.
-UNKNOWN = [(ALIAS.format('2*sin(pi/6)', '1'), '"cycle"'),
+UNKNOWN = [(ALIAS.format('cos(pi/5)', '(1+sqrt(5))/4'), 'facts on points hold'),
            (ALIAS.format('root(x^4-10*x^2+1,3,4)', 'sqrt(2)+sqrt(3)'), 'facts on points hold')]
 OTHER = {'+': '-', '-': '+', '*': '/', '/': '*', 'min': 'max', 'max': 'min', 'neg': 'abs', 'abs': 'neg', 'sqrt': 'cbrt',
          'cbrt': 'sqrt', 'cos': 'sin', 'sin': 'cos', 'tan': 'sin', 'exp': 'cosh', 'sinh': 'cosh', 'cosh': 'sinh',
@@ -78,9 +83,10 @@ class Checkers:
 
 
 def expression(rng, depth):
-    """A random expression that is defined, and no large number; no cosine is of a part of a turn."""
+    """A random expression that is defined, and no large number."""
     if depth == 0:
-        return rng.choice(['2', '3/7', '-5', 'pi', 'e', 'sqrt(2)', 'sqrt(3)', 'cbrt(5)', 'root(x^3-x-1,1,2)', '1/16'])
+        return rng.choice(['2', '3/7', '-5', 'pi', 'e', 'sqrt(2)', 'sqrt(3)', 'cbrt(5)', 'root(x^3-x-1,1,2)', '1/16', 'cos(2*pi/7)',
+                           'sin(pi/6)', 'cos(-3*pi/8)'])
     a, b = expression(rng, depth - 1), expression(rng, depth - 1)
     return rng.choice([f'({a})+({b})', f'({a})-({b})', f'({a})*({b})', f'({a})/(20+({b})^2)', f'sqrt(1+({a})^2)',
                        f'cbrt({a})', f'cos(1+({a})^2)', f'sin(({a})/3)+{b}', f'exp(cos({a}+1))', f'abs({a})', f'min({a},{b})',
@@ -173,7 +179,41 @@ PLACES = [
     (['= 2', 'sqrt 0', 'root 1 2 -2,0,1 -x0', '= 1', '= 0'], False), (['= 2', 'sqrt 0', 'root 1 2 -2,0,1 2', '= 1', '= 0'], False),
     (['root 1 2 -2,0,1 3/2', '= 1', '= 0'], False), (['= 2', 'sqrt 0', '= x0+0', '= 0'], False),
     (['= x0', '= 1', '= 0'], False), (['= 1', '= 1/x0', '= 1', '= 0'], False),
-    (['= 1', 'callback', '* 0 1', '= 0'], False), (['= 2', 'tan 0', 'abs 1', '- 0 2', '= 0'], False)]
+    (['= 1', 'callback', '* 0 1', '= 0'], False),
+    (['= 1', 'cosh 0', '= 1', '= 0'], False), (['= 1', 'exp 0', 'cosh 0', '= 1', '= 0'], True), (['= 1', 'tanh 0', '= 1', '= 0'], False),
+    (['= 1', 'sinh 0', '= 1', '= 0'], False),
+    (['cycle 5', 'root 0 1 -1,1,1 x0', '= 1', '= 0'], True), (['cycle 6', 'root 0 1 -1,1,1 x0', '= 1', '= 0'], False),
+    (['cycle 10', 'root 0 1 -1,1,1 x0', '= 1', '= 0'], False), (['cycle 5', 'root 0 1 -1,1,1 x0+1', '= 1', '= 0'], False),
+    (['cycle 8', '= 2', 'sqrt 1 x0', '= 1', '= 0'], True), (['cycle 8', '= 2', 'sqrt 1 -x0', '= 1', '= 0'], False),
+    (['cycle 7', '= 2', 'sqrt 1 x0', '= 1', '= 0'], False), (['cycle 9', '= 2', 'sqrt 1 x0', '= 1', '= 0'], False),
+    (['cycle 12', 'root 1 2 -3,0,1 x0', '= 1', '= 0'], True), (['cycle 1', '= 4', 'sqrt 1 x0', '= 1', '= 0'], True),
+    (['cycle 2', '= -8', 'cbrt 1 x0', '= 1', '= 0'], True), (['cycle 3', '= -1', 'cbrt 1 x0', '= 1', '= 0'], True),
+    (['cycle 4', '= 0', 'cbrt 1 x0', '= 1', '= 0'], True), (['cycle 6', '= 1', 'cbrt 1 x0', '= 1', '= 0'], True),
+    (['cycle 1', '= 2', '- 0 1', 'cos 2', 'sqrt 3 1', '= 1', '= 0'], True), (['cycle 3', '= 1', '+ 0 1', 'cos 2', 'sqrt 3 1', '= 1', '= 0'], True),
+    (['pi', 'cycle 12', '* 0 0', 'cos 2', 'cbrt 3 -1', '= 1', '= 0'], False),
+    (['e', 'pi', 'cycle 12', '* 0 1', 'cos 3', 'cbrt 4 -1', '= 1', '= 0'], False),
+    (['cycle 0', '= 1', '= 0'], False), (['cycle -5', '= 1', '= 0'], False), (['cycle 1024', '= 1', '= 0'], True),
+    (['cycle 1025', '= 1', '= 0'], False), (['cycle 5', 'cycle 5', '= 1', '= 0'], False), (['cycle 5', '= 0'], False),
+    (['cycle 8', '= 0'], True), (['cycle 1', '= 0'], True), (['cycle 2', 'neg 0', '= 0'], True), (['cycle 3', 'neg 0', '= 0'], False),
+    (['pi', '= 2', '* 0 1', '= 1', 'cos 2'], True), (['pi', 'cycle 4', '= 2', '/ 0 2', '= 1', 'sin 3'], True),
+    (['pi', 'cycle 12', '= 6', '/ 0 2', 'cos 3', '= 2', '* 4 5', 'cbrt 6 x1', '= 1', '= 0'], False),
+    (['pi', 'cycle 12', '= 6', '/ 0 2', 'cos 3', '* 4 4', 'sqrt 5 x1/2', '= 1', '= 0'], True),
+    (['pi', 'cycle 12', '= 3', '/ 0 2', 'cos 3', '* 4 4', 'sqrt 5 x1/2', '= 1', '= 0'], False),
+    (['pi', 'cycle 12', '= 3', '/ 0 2', 'sin 3', '* 4 4', 'sqrt 5 x1/2', '= 1', '= 0'], True),
+    (['pi', 'cycle 12', '= -6', '/ 0 2', 'sin 3', '= 8', '/ 4 5', 'cbrt 6 -1/2', '= 1', '= 0'], False),
+    (['pi', 'cycle 12', '= -6', '/ 0 2', 'sin 3', '= 4', '/ 4 5', 'cbrt 6 -1/2', '= 1', '= 0'], True),
+    (['pi', 'cycle 12', '= -6', '/ 0 2', 'sin 3', '= 4', '/ 4 5', 'cbrt 6 1/2', '= 1', '= 0'], False),
+    (['pi', 'cycle 12', '= 6', '/ 0 2', 'sin 3', '= 4', '/ 4 5', 'cbrt 6 1/2', '= 1', '= 0'], True),
+    (['pi', 'cycle 12', '= 6', '/ 0 2', 'sin 3', '= 4', '/ 4 5', 'cbrt 6 -1/2', '= 1', '= 0'], False),
+    (['pi', 'cycle 12', '= 7', '/ 0 2', 'cos 3', '= 1', '= 0'], False), (['pi', 'cycle 7', '= 7', '/ 0 2', 'sin 3', '= 1', '= 0'], False),
+    (['pi', 'cycle 14', '= 7', '/ 0 2', 'cos 3', '= 1', '= 0'], True), (['pi', 'cycle 14', '= 7', '/ 0 2', 'sin 3', '= 1', '= 0'], False),
+    (['pi', 'cycle 28', '= 7', '/ 0 2', 'tan 3', '= 1', '= 0'], True), (['pi', 'cycle 28', '= 2', '/ 0 2', 'tan 3', '= 1', '= 0'], False),
+    (['pi', 'cos 0', '= 1', '= 0'], False), (['pi', '= 2', '* 0 1', 'cos 2', '= 1', '= 0'], True),
+    (['pi', '= 2', '* 0 1', 'sin 2', '= 1', '= 0'], False), (['= 0', 'sin 0', '= 1', '= 0'], False),
+    (['= 0', 'cycle 4', 'sin 0', '= 1', '= 0'], True), (['= 0', 'cycle 6', 'sin 0', '= 1', '= 0'], False),
+    (['pi', 'cycle 12', '= 1', '+ 0 2', 'cos 3', '= 1', '= 0'], True), (['pi', 'cycle 12', '* 0 0', 'cos 2', '= 1', '= 0'], True),
+    (['pi', 'cycle 12', 'cos 1', '= 1', '= 0'], True), (['e', 'pi', 'cycle 5', '= 5', '/ 0 3', 'cos 4', '= 1', '= 0'], True),
+    (['= 2', 'tan 0', 'abs 1', '- 0 2', '= 0'], False)]
 
 
 # A square of these points and a fifth site; ties that are stated; how many of them are not proved.
@@ -242,6 +282,47 @@ def try_places(both):
         yield from both.faults(text, 'a place')
 
 
+def gon(n):
+    return ''.join(f'cos(2*pi*{k}/{n}) sin(2*pi*{k}/{n})\n' for k in range(n))
+
+
+def forged_gons(text):
+    """The block of a polygon with a false cycle, index, cosine, sine, sign, place."""
+    lines = text.split('\n')
+    first = next(k for k, line in enumerate(lines) if line.startswith('algebra ')) + 1
+    for k in range(first, lines.index('end')):
+        words = lines[k].split(' ')
+        order = int(words[-1]) if words[-1].isdigit() else 0
+        others = {'cycle': [f'cycle {z}' for z in (order - 1, order + 1, 0, -order)], 'sin': [f'cos {order}'],
+                  'cos': [f'sin {order}'], '*': [f'- {" ".join(words[1:])}']}.get(words[0], [])
+        if words[0] == '=' and k > first + 4 and order > 1:
+            others = [f'= {order + 1}', f'= {order - 1}', f'= -{order}']
+        if len(words) == 3 and words[0].isdigit():
+            others = [f'{words[0]} {words[2]} {words[1]}']
+        yield from ('\n'.join(lines[:k] + [other] + lines[k + 1:]) for other in others)
+
+
+def try_gons(both):
+    forged = alike = 0
+    for n in range(3, 25):
+        text = both.certificate(gon(n))
+        answer = both.ask(both.proved, text=text)
+        facts = 1 if n > 3 else 0
+        if '\ncycle ' in text and f'checked: {n} points lie where they are described to be, and {facts} facts on' not in answer.stdout:
+            yield f'{n} corners: {answer}'
+        if answer.returncode != ALL:
+            yield f'{n} corners: {answer}'
+        for false in forged_gons(text) if '\ncycle ' in text else ():
+            forged += 1
+            answers = [both.ask(both.proved, text=false), both.ask(both.dyadel, 'verify', text=false)]
+            alike += [answer.returncode for answer in answers] == [ALL, ALL]  # cos(pi/4) is sin(pi/4)
+            if answers[0].returncode != answers[1].returncode:
+                yield f'forged from {n} corners: {answers}\n{false}'
+    print(f'{forged} forged polygons, {alike} of them true')
+    if forged < 1500 or alike * 50 > forged:
+        yield 'few polygons were forged, or many of them are true'
+
+
 def try_known(both):
     for points, count, facts in KNOWN:
         answer = both.ask(both.proved, text=both.certificate(points))
@@ -262,7 +343,7 @@ def try_forged(both, count):
     sides = 0
     for points in [points for points, _, _ in KNOWN] + sums:
         text = both.certificate(points)
-        if '\nalgebra ' not in text or '\ncycle ' in text or ' bound\n' in text:
+        if '\nalgebra ' not in text or ' bound\n' in text:
             continue
         yield from both.faults(text, points)
         for forged in forged_blocks(rng, text, 20):
@@ -280,7 +361,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         proved, dyadel = (pathlib.Path(arg).resolve() for arg in sys.argv[1:3])
         both = Checkers(proved, dyadel, pathlib.Path(folder))
-        found = list(try_places(both)) + list(try_known(both)) + list(try_rings(both))
+        found = list(try_places(both)) + list(try_known(both)) + list(try_rings(both)) + list(try_gons(both))
         found += try_forged(both, int(sys.argv[3]) if len(sys.argv) > 3 else 16)
     print('\n'.join(found) or 'no fault')
     return 1 if found else 0

@@ -12,8 +12,8 @@ import subprocess
 import sys
 
 THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerTies',
-            'CheckerDiagram', 'CheckerDistance', 'CheckerEnclosure', 'CheckerAlgebra', 'CheckerBlock', 'CheckerFacts',
-            'CheckerRing', 'CheckerRow', 'CheckerExtract')
+            'CheckerDiagram', 'CheckerDistance', 'CheckerEnclosure', 'CheckerAlgebra', 'CheckerCycle', 'CheckerBlock',
+            'CheckerFacts', 'CheckerRing', 'CheckerRow', 'CheckerExtract')
 READERS = ('source', 'described', 'reader', 'hints', 'cuts', 'circles', 'blocks', 'proved')
 
 

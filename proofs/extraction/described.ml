@@ -138,7 +138,7 @@ let number s n =
   | "root" :: lo :: hi :: f :: v -> known (Root (bracket s lo hi f, stated v))
   | [ "callback" ] -> known Callback
   | [ (("log" | "asin" | "acos" | "atan") as name); a ] -> ignore (operand a); Error name
-  | [ "cycle"; n ] -> ignore (exponent n); Error "cycle"
+  | [ "cycle"; n ] -> known (Cycle (exponent n))
   | _ -> bad s "this is no number"
 
 (* ---- points, facts ---- *)

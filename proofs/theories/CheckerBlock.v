@@ -3,6 +3,7 @@
   Of each number
    there is an interval and a quotient in leaves; CheckerBlockSound.v says what follows. *)
 From Coq Require Import ZArith NArith List Bool.
+From Dyadel Require CheckerCycle.
 From Dyadel Require Import Checker CheckerEnclosure CheckerAlgebra.
 Import ListNotations.
 Open Scope Z_scope.
@@ -18,13 +19,17 @@ Inductive line : Type :=
 | SquareRoot (a : Z) (s : stated) | CubeRoot (a : Z) (s : stated)
 | Cosine (a : Z) | Sine (a : Z) | Tangent (a : Z)
 | Exponential (a : Z) | HyperbolicSine (a : Z) | HyperbolicCosine (a : Z) | HyperbolicTangent (a : Z)
-| Pi | Euler | Root (r : bracket) (s : stated) | Callback.
+| Pi | Euler | Cycle (n : Z) | Root (r : bracket) (s : stated) | Callback.
 
-(* What a leaf is: a multiple of a number, or made of the number a. *)
-Inductive kind : Type := Multiple (c a : Z) | CosineOf (a : Z) | SineOf (a : Z) | ExpOf (a : Z) | ExpOne | HalfTurn.
+(* What a leaf is: a multiple of a number, or made of the number a, or 2 cos (2 pi / n). *)
+Inductive kind : Type := Multiple (c a : Z) | CosineOf (a : Z) | SineOf (a : Z) | ExpOf (a : Z) | ExpOne | HalfTurn
+  | PartOfTurn (n : Z).
 Record leaf : Type := Leaf { leaf_kind : kind; leaf_at : interval; leaf_relation : option relation }.
 Record known : Type := Known { within : interval; is : quotient_of }.
 Record state : Type := State { numbers : Map.t known; leaves : list leaf }.
+
+(* Of 2 cos (2 pi / n). *)
+Definition most_order : Z := 1024.
 
 Section Block.
 
@@ -90,22 +95,100 @@ Definition new_angle (a : Z) (x : interval) : list leaf :=
    Leaf (SineOf a) (sine most u pi2 x)
      (Some (Relation 2 (plus (constant 1) (minus (times (variable fresh) (variable fresh))))))].
 
+(* ---- parts of the turn ---- *)
+
+Definition integer_of (p : poly) : option Z := match p with [(c, [])] => Some c | _ => None end.
+
+(* The leaf, when that is all. *)
+Fixpoint only_leaf (j : nat) (m : monomial) : option nat :=
+  match m with
+  | [] => None
+  | [e] => if (e =? 1)%N then Some j else None
+  | e :: m' => if (e =? 0)%N then only_leaf (S j) m' else None
+  end.
+
+Definition is_half_turn (f : leaf) : bool := match leaf_kind f with HalfTurn => true | _ => false end.
+Fixpoint find_half_turn (j : nat) (l : list leaf) : option nat :=
+  match l with [] => None | f :: l' => if is_half_turn f then Some j else find_half_turn (S j) l' end.
+
+(* n and d when x is 2 pi n / d. *)
+Definition part_of_turn (x : quotient_of) : option (Z * Z) :=
+  match x with
+  | Some ([], _) => Some (0, 1)
+  | Some ([(c, m)], q) =>
+    match integer_of q, only_leaf 0 m with
+    | Some d, Some j =>
+      match nth_error (leaves st) j with Some f => if is_half_turn f then Some (c, 2 * d) else None | None => None end
+    | _, _ => None
+    end
+  | _ => None
+  end.
+
+(* The leaf 2 cos (2 pi / n), and n. *)
+Fixpoint find_part (j : nat) (l : list leaf) : option (nat * Z) :=
+  match l with
+  | [] => None
+  | f :: l' => match leaf_kind f with PartOfTurn n => Some (j, n) | _ => find_part (S j) l' end
+  end.
+
+(* The value of f, lowest coefficient first, at leaf j. *)
+Fixpoint in_leaf (j : nat) (f : list Z) : poly :=
+  match f with [] => [] | c :: g => plus (constant c) (times (variable j) (in_leaf j g)) end.
+
+(* cos (2 pi n / d), where the leaf has it. *)
+Definition part_cosine (n d : Z) : quotient_of :=
+  let (order, at_) := match find_part 0 (leaves st) with Some (j, order) => (order, Some j) | None => (1, None) end in
+  if (0 <? order) && negb (d =? 0) && (order * n mod d =? 0) then
+    let k := order * n / d mod order in
+    let f := fst (CheckerCycle.chebyshev (Z.to_nat (Z.min k (order - k)))) in
+    match at_ with
+    | Some j => shortened most (reduced 0 relations (in_leaf j f)) (constant 2)
+    | None => q_integer 1
+    end
+  else None.
+
+(* The relation of 2 cos (2 pi / n), the leaf to be added. *)
+Definition part_relation (n : Z) : option relation :=
+  if (0 <? n) && (n <=? most_order) && CheckerCycle.cycle_is_psi (Z.to_nat n) then
+    match rev (CheckerCycle.psi (Z.to_nat n)) with
+    | 1 :: f => Some (Relation (N.of_nat (length f)) (minus (in_leaf fresh (rev f))))
+    | _ => None
+    end
+  else None.
+
+(* There is one at most. *)
+Definition new_part (n : Z) : option (known * list leaf) :=
+  match find_part 0 (leaves st), part_relation n with
+  | None, Some r =>
+    let c := cosine most u (over n (add turn turn)) in let x := add c c in
+    Some (Known x (Some (reduced_by reductions fresh r (variable fresh), constant 1)), [Leaf (PartOfTurn n) x (Some r)])
+  | _, _ => None
+  end.
+
 (* The cosine and the sine of number a. *)
 Definition angle (a : Z) (x : known) : option (quotient_of * quotient_of * list leaf) :=
   match is x with
   | None => None
   | Some _ =>
-    if is_null (is x) then Some (q_integer 1, q_integer 0, [])
-    else match find_leaf angle_key (is x) 0 (leaves st) with
-    | Some (j, same) =>
-      match nth_error (leaves st) j with
-      | Some (Leaf (CosineOf b) _ _) =>
-        if is_sine (S j) b then Some (leaf_q j, if same then leaf_q (S j) else q_neg (leaf_q (S j)), []) else None
-      | _ => None
+    match part_of_turn (is x) with
+    | Some (n, d) => Some (part_cosine n d, part_cosine (4 * n - d) (4 * d), [])
+    | None =>
+      match find_leaf angle_key (is x) 0 (leaves st) with
+      | Some (j, same) =>
+        match nth_error (leaves st) j with
+        | Some (Leaf (CosineOf b) _ _) =>
+          if is_sine (S j) b then Some (leaf_q j, if same then leaf_q (S j) else q_neg (leaf_q (S j)), []) else None
+        | _ => None
+        end
+      | None => Some (leaf_q fresh, leaf_q (S fresh), new_angle a (within x))
       end
-    | None => Some (leaf_q fresh, leaf_q (S fresh), new_angle a (within x))
     end
   end.
+
+(* What is no quotient in leaves is refused: a cosine that is none of the leaf's, a hyperbolic sine without its
+   exponential. *)
+Definition seen (x : known) (l : list leaf) : option (known * list leaf) :=
+  match is x with Some _ => Some (x, l) | None => None end.
 
 (* exp of what is x; f: the leaf that it makes when there is none. *)
 Definition exp_known (f : kind) (x : known) : option (quotient_of * list leaf) :=
@@ -144,8 +227,6 @@ Definition extreme_is (s : Z) (x y : known) : quotient_of :=
 Definition absolute_is (x : known) : quotient_of :=
   if is_null (is x) || (sign_of (within x) =? 1) then is x else if sign_of (within x) =? -1 then q_neg (is x) else
     None.
-
-Definition integer_of (p : poly) : option Z := match p with [(c, [])] => Some c | _ => None end.
 
 (* A leaf c x, whose power is rest, and x. *)
 Definition new_root (c : Z) (n : N) (r : poly) (x : interval) : known * list leaf :=
@@ -197,9 +278,6 @@ Definition cube_root_of (x : known) (s : stated) : option (known * list leaf) :=
     end
   end.
 
-(* The value of f, lowest coefficient first, at leaf j. *)
-Fixpoint in_leaf (j : nat) (f : list Z) : poly :=
-  match f with [] => [] | c :: g => plus (constant c) (times (variable j) (in_leaf j g)) end.
 (* f_0 a^(n-1), f_1 a^(n-2), ..., f_(n-1), and a^n, for f of n coefficients. *)
 Fixpoint monic_rest (a : Z) (f : list Z) : list Z * Z :=
   match f with
@@ -229,10 +307,6 @@ Definition polynomial_root (r : bracket) (s : stated) : option (known * list lea
     end
   end.
 
-Definition is_half_turn (f : leaf) : bool := match leaf_kind f with HalfTurn => true | _ => false end.
-Fixpoint find_half_turn (j : nat) (l : list leaf) : option nat :=
-  match l with [] => None | f :: l' => if is_half_turn f then Some j else find_half_turn (S j) l' end.
-
 Definition half : quotient_of := q_fraction most 1 2.
 
 (* (y - 1/y) / 2 and (y + 1/y) / 2 for y = exp x. No leaf is made: the kind means nothing. *)
@@ -259,15 +333,15 @@ Definition step (o : line) : option (known * list leaf) :=
   | Absolute a => unary a (fun x => plain (Some (Known (absolute (within x)) (absolute_is x))))
   | SquareRoot a s => unary a (fun x => square_root_of x s)
   | CubeRoot a s => unary a (fun x => cube_root_of x s)
-  | Cosine a => unary a (fun x => match angle a x with Some (c, _, l) => Some (Known (cosine most u (within x)) c,
-    l) | None => None end)
-  | Sine a => unary a (fun x => match angle a x with Some (_, s, l) => Some (Known (sine most u pi2 (within x)) s,
-    l) | None => None end)
+  | Cosine a => unary a (fun x => match angle a x with Some (c, _, l) => seen (Known (cosine most u (within x)) c) l
+    | None => None end)
+  | Sine a => unary a (fun x => match angle a x with Some (_, s, l) => seen (Known (sine most u pi2 (within x)) s) l
+    | None => None end)
   | Tangent a =>
     unary a (fun x => match angle a x with
       | Some (c, s, l) =>
         match ratio_of (Known (sine most u pi2 (within x)) s) (Known (cosine most u (within x)) c) with
-        | Some y => Some (y, l)
+        | Some y => seen y l
         | None => None
         end
       | None => None
@@ -275,9 +349,12 @@ Definition step (o : line) : option (known * list leaf) :=
   | Exponential a =>
     unary a (fun x => match exp_known (ExpOf a) x with Some (e, l) => Some (Known (exponential most u (within x)) e,
       l) | None => None end)
-  | HyperbolicSine a => unary a (fun x => plain (Some (fst (hyperbolic x))))
-  | HyperbolicCosine a => unary a (fun x => plain (Some (snd (hyperbolic x))))
-  | HyperbolicTangent a => unary a (fun x => plain (ratio_of (fst (hyperbolic x)) (snd (hyperbolic x))))
+  | HyperbolicSine a => unary a (fun x => seen (fst (hyperbolic x)) [])
+  | HyperbolicCosine a => unary a (fun x => seen (snd (hyperbolic x)) [])
+  | HyperbolicTangent a => unary a (fun x => match ratio_of (fst (hyperbolic x)) (snd (hyperbolic x)) with
+    | Some y => seen y []
+    | None => None
+    end)
   | Pi =>
     match find_half_turn 0 (leaves st) with
     | Some j => Some (Known turn (leaf_q j), [])
@@ -287,6 +364,7 @@ Definition step (o : line) : option (known * list leaf) :=
     let one := Known (whole u 1) (q_integer 1) in
     match exp_known ExpOne one with Some (e, l) => Some (Known (exponential most u (whole u 1)) e,
       l) | None => None end
+  | Cycle n => new_part n
   | Root r s => polynomial_root r s
   | Callback => Some (Known None (leaf_q fresh), [Leaf (Multiple 1 k) None None])
   end.

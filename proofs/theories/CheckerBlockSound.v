@@ -40,6 +40,7 @@ Definition described (k : Z) (o : line) : Prop :=
   | HyperbolicTangent a => v k = tanh (v a)
   | Pi => v k = PI
   | Euler => v k = exp 1
+  | Cycle n => v k = Leaves.turn (Z.to_nat n)
   | Root r _ => root_of r (v k)
   | Callback => True
   end.
@@ -56,6 +57,7 @@ Definition defined (k : Z) (o : line) : Prop :=
   | SquareRoot a s => 0 <= v a /\ is_stated s (v k)
   | CubeRoot _ s => is_stated s (v k)
   | Tangent a => cos (v a) <> 0
+  | Cycle n => (0 < n)%Z
   | Root r s => (forall x, root_of r x -> x = v k) /\ is_stated s (v k)
   | _ => True
   end.
@@ -68,6 +70,7 @@ Definition kind_value (f : kind) : R :=
   | ExpOf a => exp (v a)
   | ExpOne => exp 1
   | HalfTurn => PI
+  | PartOfTurn n => Leaves.turn (Z.to_nat n)
   end.
 
 (* The leaves are what the list says. *)
@@ -382,25 +385,152 @@ Qed.
 Lemma pi2_holds : holds u (pi2 turn) (PI / 2).
 Proof. unfold pi2. now apply (over_holds u 2). Qed.
 
+(* ---- parts of the turn ---- *)
+
+Lemma only_leaf_value m : forall i j, only_leaf i m = Some j -> of_monomial l i m = l j.
+Proof.
+  induction m as [| e m IH]; intros i j E; [discriminate |]. cbn [only_leaf of_monomial] in *. destruct m as [| f m].
+  - destruct (N.eqb_spec e 1) as [-> | N]; [| discriminate]. injection E as <-. simpl. ring.
+  - destruct (N.eqb_spec e 0) as [-> | N]; [| discriminate]. rewrite (IH _ _ E). simpl. ring.
+Qed.
+
+Lemma part_of_turn_ok x r n d : agrees (leaves st) -> is_quotient l x r -> part_of_turn st x = Some (n, d) ->
+  d <> 0%Z /\ r = 2 * PI * (IZR n / IZR d).
+Proof.
+  intros A Q E. unfold part_of_turn in E. destruct x as [[[| [c m] p] q] |]; [| | discriminate].
+  - injection E as <- <-. destruct Q as [_ Q]. rewrite Q. simpl. split; [lia |]. unfold Rdiv. ring.
+  - destruct p as [| t p]; [| discriminate]. destruct (integer_of q) as [z |] eqn:Z0; [| discriminate].
+    destruct (only_leaf 0 m) as [j |] eqn:O; [| discriminate].
+    destruct (nth_error (leaves st) j) as [f |] eqn:N; [| discriminate].
+    destruct (is_half_turn f) eqn:H; [| discriminate]. assert (n = c) by congruence. assert (d = 2 * z)%Z by congruence.
+    subst n d. destruct Q as [Nq Q].
+    apply integer_value in Z0. rewrite Z0 in Nq, Q. pose proof (A j f N) as L. unfold is_half_turn in H.
+    destruct (leaf_kind f); try discriminate. cbn [kind_value] in L.
+    assert (z <> 0%Z) by (intros ->; now apply Nq). split; [lia |].
+    rewrite Q, mult_IZR. cbn [value_of]. unfold of_term. cbn [fst snd].
+    rewrite (only_leaf_value _ _ _ O), L. field. exact Nq.
+Qed.
+
+Lemma find_part_found ls : forall j i n, find_part j ls = Some (i, n) ->
+  exists f, (j <= i)%nat /\ nth_error ls (i - j) = Some f /\ leaf_kind f = PartOfTurn n.
+Proof.
+  induction ls as [| f ls IH]; intros j i n E; [discriminate |]. cbn [find_part] in E.
+  assert (Later : find_part (S j) ls = Some (i, n) ->
+    exists g, (j <= i)%nat /\ nth_error (f :: ls) (i - j) = Some g /\ leaf_kind g = PartOfTurn n).
+  { intros F. destruct (IH _ _ _ F) as (g & L & N & K). exists g. replace (i - j)%nat with (S (i - S j)) by lia.
+    repeat split; trivial. lia. }
+  destruct (leaf_kind f) eqn:K; try now apply Later.
+  injection E as <- <-. exists f. rewrite Nat.sub_diag. now repeat split.
+Qed.
+
+Lemma cos_turns z x : cos (x + 2 * PI * IZR z) = cos x.
+Proof.
+  destruct (Z.le_ge_cases 0 z) as [P | P].
+  - rewrite <- (Z2Nat.id z P), <- INR_IZR_INZ. rewrite <- (cos_period x (Z.to_nat z)). f_equal. ring.
+  - rewrite <- (cos_period (x + 2 * PI * IZR z) (Z.to_nat (- z))). f_equal.
+    rewrite INR_IZR_INZ, Z2Nat.id, opp_IZR by lia. ring.
+Qed.
+
+(* Of all multiples only those up to half the turn are needed. *)
+Lemma cosine_folded z order : (0 < order)%Z ->
+  cos (2 * PI * (IZR z / IZR order)) =
+  cos (INR (Z.to_nat (Z.min (z mod order) (order - z mod order))) * (2 * PI / INR (Z.to_nat order))).
+Proof.
+  intros P. pose proof (Z.mod_pos_bound z order P) as B. pose proof (IZR_lt _ _ P) as P'.
+  rewrite !INR_IZR_INZ, !Z2Nat.id by lia.
+  assert (E : cos (2 * PI * (IZR z / IZR order)) = cos (2 * PI * (IZR (z mod order) / IZR order))).
+  { rewrite <- (cos_turns (z / order) (2 * PI * (IZR (z mod order) / IZR order))). f_equal.
+    rewrite (Z.div_mod z order) at 1 by lia. rewrite plus_IZR, mult_IZR. field. lra. }
+  rewrite E. destruct (Z.le_ge_cases (z mod order) (order - z mod order)) as [L | L].
+  - rewrite Z.min_l by exact L. f_equal. field. lra.
+  - rewrite Z.min_r by exact L. rewrite minus_IZR, <- cos_neg, <- (cos_turns 1). f_equal. field. lra.
+Qed.
+
+Lemma part_cosine_ok n d : agrees (leaves st) ->
+  is_quotient l (part_cosine most st n d) (cos (2 * PI * (IZR n / IZR d))).
+Proof.
+  intros A. unfold part_cosine. destruct (find_part 0 (leaves st)) as [[j order] |] eqn:F.
+  - destruct ((0 <? order)%Z && negb (d =? 0)%Z && (order * n mod d =? 0)%Z) eqn:B; [| exact I].
+    apply andb_prop in B as [B M]. apply andb_prop in B as [P D]. apply Z.ltb_lt in P. apply Z.eqb_eq in M.
+    apply negb_true_iff, Z.eqb_neq in D. destruct (find_part_found _ _ _ _ F) as (f & _ & N & K).
+    rewrite Nat.sub_0_r in N. pose proof (A j f N) as L. rewrite K in L. cbn [kind_value] in L.
+    cbv zeta. pose proof (Z.div_exact (order * n) d D) as [_ X]. specialize (X M).
+    set (z := (order * n / d)%Z) in *.
+    assert (E : IZR n / IZR d = IZR z / IZR order).
+    { apply (f_equal IZR) in X. rewrite !mult_IZR in X. apply not_0_IZR in D. pose proof (IZR_lt _ _ P).
+      apply Rmult_eq_reg_r with (IZR d * IZR order); [| now apply Rmult_integral_contrapositive; split; lra].
+      transitivity (IZR order * IZR n); [field; lra |]. rewrite X. field. lra. }
+    rewrite E, (cosine_folded z order P).
+    apply shortened_is; rewrite constant_value; [lra |]. rewrite reduced_value by exact R0.
+    rewrite in_leaf_value, L. unfold Leaves.turn. rewrite chebyshev_cosine. field.
+  - destruct ((0 <? 1)%Z && negb (d =? 0)%Z && (1 * n mod d =? 0)%Z) eqn:B; [| exact I].
+    apply andb_prop in B as [B M]. apply andb_prop in B as [_ D]. apply Z.eqb_eq in M.
+    apply negb_true_iff, Z.eqb_neq in D. pose proof (Z.div_exact (1 * n) d D) as [_ X]. specialize (X M).
+    rewrite Z.mul_1_l in X. set (z := (n / d)%Z) in *. apply (f_equal IZR) in X. rewrite mult_IZR in X.
+    apply not_0_IZR in D. replace (2 * PI * (IZR n / IZR d)) with (0 + 2 * PI * IZR z) by (rewrite X; field; exact D).
+    rewrite cos_turns, cos_0. apply (q_integer_is l 1).
+Qed.
+
+Lemma part_relation_ok n r : part_relation st n = Some r -> (0 < n)%Z /\
+  (l (fresh st) = Leaves.turn (Z.to_nat n) -> relation_holds l (fresh st) r).
+Proof.
+  unfold part_relation. intros E.
+  destruct ((0 <? n)%Z && (n <=? most_order)%Z && CheckerCycle.cycle_is_psi (Z.to_nat n)) eqn:B; [| discriminate].
+  apply andb_prop in B as [B C]. apply andb_prop in B as [P _]. apply Z.ltb_lt in P. split; [exact P |]. intros L.
+  apply cycle_zero in C. rewrite <- L in C.
+  destruct (rev (CheckerCycle.psi (Z.to_nat n))) as [| [| [] |] f] eqn:Rf; try discriminate. injection E as <-.
+  assert (F : CheckerCycle.psi (Z.to_nat n) = rev f ++ [1%Z])
+    by (rewrite <- (rev_involutive (CheckerCycle.psi _)), Rf; reflexivity).
+  unfold relation_holds. cbn [degree rest]. rewrite minus_value, in_leaf_value, Nat2N.id.
+  rewrite F, at_app, rev_length in C. simpl (Leaves.at_ [1%Z] _) in C. lra.
+Qed.
+
+Lemma some_pair {A B : Type} (a c : A) (b d : B) : Some (a, b) = Some (c, d) -> c = a /\ d = b.
+Proof. intros E. now injection E. Qed.
+
+Lemma new_part_ok n x more : new_part most u turn st n = Some (x, more) -> agrees (leaves st ++ more) ->
+  (0 < n)%Z /\ known_ok x (Leaves.turn (Z.to_nat n)) /\ leaves_ok (fresh st) more.
+Proof.
+  intros E A. unfold new_part in E. destruct (find_part 0 (leaves st)); [discriminate |].
+  destruct (part_relation st n) as [r |] eqn:F; [| discriminate]. apply some_pair in E as [-> ->].
+  destruct (part_relation_ok n r F) as [P H]. pose proof (leaf_of_new _ _ 0 A eq_refl) as L.
+  rewrite Nat.add_0_r in L. cbn [leaf_kind kind_value] in L. specialize (H L). split; [exact P |].
+  assert (C : holds u (add (cosine most u (over n (add turn turn))) (cosine most u (over n (add turn turn))))
+    (Leaves.turn (Z.to_nat n))).
+  { unfold Leaves.turn. rewrite INR_IZR_INZ, Z2Nat.id by lia.
+    replace (2 * cos (2 * PI / IZR n)) with (cos ((PI + PI) / IZR n) + cos ((PI + PI) / IZR n))
+      by (replace (PI + PI) with (2 * PI) by ring; ring).
+    apply add_holds; (apply cosine_holds; [exact U |]; apply over_holds; [exact P |]; now apply add_holds). }
+  split; [split; cbn [within is]; [exact C |] |].
+  - unfold is_quotient. rewrite reduced_by_value, variable_value, constant_value, L by exact H. split; [lra | field].
+  - intros [| [| j]] f N; try discriminate. injection N as <-. rewrite Nat.add_0_r.
+    split; cbn [leaf_at leaf_relation]; [now rewrite L | intros r' E; now injection E as <-].
+Qed.
+
+Lemma seen_is x g y more : seen x g = Some (y, more) -> y = x /\ more = g.
+Proof. unfold seen. destruct (is x); [| discriminate]. intros E. now injection E as <- <-. Qed.
+
 Lemma angle_ok a x c s more : known_ok x (v a) -> angle most u turn st a x = Some (c, s,
   more) -> agrees (leaves st ++ more) ->
   is_quotient l c (cos (v a)) /\ is_quotient l s (sin (v a)) /\ leaves_ok (fresh st) more.
 Proof.
   intros [X Q] E A. unfold angle in E. destruct (is x) as [[p q] |] eqn:Ex; [| discriminate]. rewrite <- Ex in *.
-  destruct (is_null (is x)) eqn:N.
-  - injection E as <- <- <-. rewrite (null_is_zero l _ _ Q N), cos_0, sin_0. split; [apply (q_integer_is l 1) |].
-    split; [apply (q_integer_is l 0) | apply none_new].
+  destruct (part_of_turn st (is x)) as [[n d] |] eqn:N.
+  - injection E as <- <- <-. apply agrees_before in A. destruct (part_of_turn_ok _ _ _ _ A Q N) as [D V].
+    split; [rewrite V; now apply part_cosine_ok |]. split; [| apply none_new].
+    replace (sin (v a)) with (cos (2 * PI * (IZR (4 * n - d) / IZR (4 * d)))); [now apply part_cosine_ok |].
+    rewrite <- (cos_shift (v a)), <- cos_neg. f_equal. rewrite V, minus_IZR, !mult_IZR. field. now apply not_0_IZR.
   - destruct (find_leaf most st (angle_key st) (is x) 0 (leaves st)) as [[j same] |] eqn:F.
     + destruct (find_leaf_found _ _ _ _ _ _ F) as (f & y & _ & Nj & K & B). rewrite Nat.sub_0_r in Nj.
       rewrite Nj in E.
       destruct f as [kf ef rf]. cbn [leaf_kind] in K. unfold angle_key in K.
-        destruct kf as [| b | | | |]; try discriminate.
+        destruct kf as [| b | | | | |]; try discriminate.
       destruct (is_sine st (S j) b) eqn:Sb; [| discriminate]. injection E as <- <- <-.
       pose proof (key_sign y (is x) (v a) (v b) same Q (quotient_at_is b y K) B) as Eb.
       apply agrees_before in A. pose proof (A j _ Nj) as Lc. cbn [leaf_kind kind_value] in Lc.
       unfold is_sine in Sb. destruct (nth_error (leaves st) (S j)) as [[ks es rs] |] eqn:Ns; [| discriminate].
         cbn [leaf_kind] in Sb.
-      destruct ks as [| | b' | | |]; try discriminate. apply Z.eqb_eq in Sb. subst b'.
+      destruct ks as [| | b' | | | |]; try discriminate. apply Z.eqb_eq in Sb. subst b'.
       pose proof (A (S j) _ Ns) as Ls. cbn [leaf_kind kind_value] in Ls.
       assert (Cb : cos (v a) = l j) by (rewrite Lc, Eb; destruct same; [reflexivity | symmetry; apply cos_neg]).
       split; [rewrite Cb; apply leaf_q_is |]. split; [| apply none_new]. destruct same.
@@ -437,7 +567,7 @@ Proof.
       apply agrees_before in A. pose proof (A j g Nj) as L. split; [| apply none_new].
       assert (G : exists s, l j = exp s /\ is_quotient l y s).
       { destruct g as [kg eg rg]. cbn [leaf_kind] in *. unfold exp_key in K.
-        destruct kg as [| | | b | |]; try discriminate.
+        destruct kg as [| | | b | | |]; try discriminate.
         - exists (v b). split; [exact L | now apply quotient_at_is].
         - exists 1. injection K as <-. split; [exact L | apply (q_integer_is l 1)]. }
       destruct G as (s & Ls & Qy). pose proof (key_sign y (is x) r s same Q Qy B) as Es. subst s. destruct same.
@@ -523,14 +653,14 @@ Proof.
     split; [apply absolute_holds; [exact U | apply F] | now apply absolute_ok].
   - destruct (square_root_ok y (v a) s x more F E V A) as (P & Q & R1 & S1). split; [now split | now split].
   - exact (cube_root_ok y (v a) s x more F E V A).
-  - destruct (angle most u turn st a y) as [[[c s] m] |] eqn:G; [| discriminate]. injection E as <- <-.
+  - destruct (angle most u turn st a y) as [[[c s] m] |] eqn:G; [| discriminate]. apply seen_is in E as [-> ->].
     destruct (angle_ok a y c s m F G A) as (C & S1 & L). rewrite V. split; [exact I | split; [| exact L]].
     split; [apply cosine_holds; [exact U | apply F] | exact C].
-  - destruct (angle most u turn st a y) as [[[c s] m] |] eqn:G; [| discriminate]. injection E as <- <-.
+  - destruct (angle most u turn st a y) as [[[c s] m] |] eqn:G; [| discriminate]. apply seen_is in E as [-> ->].
     destruct (angle_ok a y c s m F G A) as (C & S1 & L). rewrite V. split; [exact I | split; [| exact L]].
     split; [apply sine_holds; [exact U | apply pi2_holds | apply F] | exact S1].
   - destruct (angle most u turn st a y) as [[[c s] m] |] eqn:G; [| discriminate].
-    destruct (ratio_of most u st _ _) as [w |] eqn:W; [| discriminate]. injection E as <- <-.
+    destruct (ratio_of most u st _ _) as [w |] eqn:W; [| discriminate]. apply seen_is in E as [-> ->].
     destruct (angle_ok a y c s m F G A) as (C & S1 & L).
     destruct (ratio_ok (Known (sine most u (pi2 turn) (within y)) s) (Known (cosine most u (within y)) c) w (sin (v
       a)) (cos (v a))) as [N K]; trivial.
@@ -541,9 +671,9 @@ Proof.
     destruct (exp_known_ok (ExpOf a) y (v a) e m F (fun _ => eq_refl) G A) as [Q L]. rewrite V.
       split; [exact I | split; [| exact L]].
     split; [apply exponential_holds; [exact U | apply F] | exact Q].
-  - injection E as <- <-. rewrite V. split; [exact I | split; [now apply hyperbolic_ok | exact Z0]].
-  - injection E as <- <-. rewrite V. split; [exact I | split; [now apply hyperbolic_ok | exact Z0]].
-  - destruct (ratio_of most u st _ _) as [w |] eqn:W; [| discriminate]. injection E as <- <-.
+  - apply seen_is in E as [-> ->]. rewrite V. split; [exact I | split; [now apply hyperbolic_ok | exact Z0]].
+  - apply seen_is in E as [-> ->]. rewrite V. split; [exact I | split; [now apply hyperbolic_ok | exact Z0]].
+  - destruct (ratio_of most u st _ _) as [w |] eqn:W; [| discriminate]. apply seen_is in E as [-> ->].
     destruct (hyperbolic_ok y (v a) A0 F) as [H1 H2]. destruct (ratio_ok _ _ _ _ _ H1 H2 W) as [_ K].
     rewrite V. split; [exact I | split; [exact K | exact Z0]].
   - destruct (find_half_turn 0 (leaves st)) as [j |] eqn:G.
@@ -562,6 +692,7 @@ Proof.
     destruct (exp_known_ok ExpOne _ 1 e m K1 (fun _ => eq_refl) G A) as [Q L]. rewrite V.
       split; [exact I | split; [| exact L]].
     split; [apply exponential_holds; [exact U | apply K1] | exact Q].
+  - destruct (new_part_ok n x more E A) as (P & K & L). rewrite V. now split.
   - destruct (polynomial_root_ok r s x more E V A) as (P & Q & K & L). split; [now split | now split].
   - injection E as <- <-. pose proof (leaf_of_new _ _ 0 A eq_refl) as L. rewrite Nat.add_0_r in L.
     cbn [leaf_kind kind_value] in L.

@@ -134,10 +134,14 @@ Fixpoint doubled_cosine (u : Z) (h : nat) (c : interval) : interval :=
 Fixpoint two_to (h : nat) : Z := match h with O => 1 | S m => 2 * two_to m end.
 Definition extent (x : interval) : Z := match x with Some (a, b) => Z.max (Z.abs a) (Z.abs b) | None => 0 end.
 
+(* Of what is between -1 and 1. *)
+Definition within_one (u : Z) (x : interval) : interval :=
+  match x with Some (a, b) => Some (Z.max (- u) a, Z.min u b) | None => None end.
+
 Definition cosine (u : Z) (x : interval) : interval :=
   let h := halvings 40 (extent x) u in
   let m := two_to h * two_to h * more_bits in
-  over m (doubled_cosine (u * m) h (small_cosine (u * m) (over (two_to h) (finer m x)))).
+  within_one u (over m (doubled_cosine (u * m) h (small_cosine (u * m) (over (two_to h) (finer m x))))).
 
 Definition half_more : Z := 4294967296.
 

@@ -344,10 +344,17 @@ Qed.
 Lemma more_above h : (0 < two_to h * two_to h * more_bits)%Z.
 Proof. pose proof (two_to_above h). unfold more_bits. nia. Qed.
 
+Lemma within_one_holds u e x : (0 < u)%Z -> holds u e x -> -1 <= x <= 1 -> holds u (within_one u e) x.
+Proof.
+  intros U H B. destruct e as [[a b] |]; [| exact I]. pose proof (IZR_lt _ _ U). simpl in *.
+  rewrite max_IZR, min_IZR, opp_IZR. split; [apply Rmax_lub | apply Rmin_glb]; nra.
+Qed.
+
 Lemma cosine_holds u e x : (0 < u)%Z -> holds u e x -> holds u (cosine most u e) (cos x).
 Proof.
   intros U H. unfold cosine. set (h := halvings 40 (extent e) u). set (m := (two_to h * two_to h * more_bits)%Z).
-  assert (M : (0 < m)%Z) by apply more_above. assert (V : (0 < u * m)%Z) by nia. apply coarser_holds; trivial.
+  assert (M : (0 < m)%Z) by apply more_above. assert (V : (0 < u * m)%Z) by nia.
+  apply within_one_holds; [exact U | | pose proof (COS_bound x); lra]. apply coarser_holds; trivial.
   replace x with (2 ^ h * (x / IZR (two_to h))).
   - apply doubled_cosine_holds, small_cosine_holds, over_holds; trivial; [apply two_to_above | now apply finer_holds].
   - rewrite two_to_power. field. apply pow_nonzero. lra.
