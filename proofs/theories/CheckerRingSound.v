@@ -1,12 +1,11 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* A pair that the checker shows to be a tie by a ring is weakly Delaunay and not strictly,
-  wherever in their rectangles the
+(* A pair that the checker shows to be a tie by a ring is weakly Delaunay and not strictly, wherever in their rectangles the
    sites are that the block does not describe. *)
 From Coq Require Import Reals Lra Lia ZArith NArith List Bool.
 From Dyadel Require Import Plane Finite Distance Cells Legal Nerve CheckerTree Checker CheckerSound CheckerEnclosure.
 From Dyadel Require Import CheckerEnclosureSound CheckerAlgebra CheckerAlgebraSound CheckerBlock CheckerBlockSound
   CheckerFacts.
-From Dyadel Require Import CheckerFactsSound CheckerRing.
+From Dyadel Require Import CheckerFactsSound CheckerTiesSound CheckerRing.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -164,9 +163,8 @@ Qed.
 
 End Sound.
 
-(* However narrower the rectangles are, as long as they hold the points that the block describes: the pair is
-  possible, and
-   not legal. *)
+(* However narrower the rectangles are, as long as they hold the points that the block describes: the pair is possible,
+   and not legal. *)
 Theorem ring_tie_stays v l most u st sites B B' g pairs e a b p : (0 < u)%Z -> state_ok v l u st ->
   describes sites B ->
   refined (length sites) B' B -> choice (length sites) B' p ->
@@ -175,9 +173,6 @@ Theorem ring_tie_stays v l most u st sites B B' g pairs e a b p : (0 < u)%Z -> s
   possible (length sites) B' a b /\ ~ legal (length sites) B' a b.
 Proof.
   intros U St D Q P At I H Na Nb. pose proof (named_below sites a (from e) Na) as Ka.
-    pose proof (named_below sites b (to e) Nb) as Kb.
-  assert (P' : choice (length sites) B p) by (intros k K; apply (Q k K), P, K).
-  destruct (ring_tie_every_choice v l most u U st St sites B D g p P' At pairs e a b I H Na Nb) as [W N]. split.
-  - apply possible_exact; try assumption. now exists p.
-  - intros L. apply N. now apply (legal_sound _ B' a b p Ka Kb L).
+  pose proof (named_below sites b (to e) Nb) as Kb. apply (tied_by_choice _ B B' a b p Ka Kb Q P). intros P'.
+  exact (ring_tie_every_choice v l most u U st St sites B D g p P' At pairs e a b I H Na Nb).
 Qed.

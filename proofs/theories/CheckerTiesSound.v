@@ -178,6 +178,16 @@ Proof.
     + assert (0 <= V * V) by apply Rle_0_sqr. apply (Rmult_le_compat_r (V * V)) in Hq; [| assumption]. lra.
 Qed.
 
+(* What is an edge weakly, and not strictly, by one choice in narrower rectangles: the pair is possible there, and not
+   legal. *)
+Lemma tied_by_choice n B B' a b p : (a < n)%nat -> (b < n)%nat -> refined n B' B -> choice n B' p ->
+  (choice n B p -> weak_edge n p a b /\ ~ strict_edge n p a b) -> possible n B' a b /\ ~ legal n B' a b.
+Proof.
+  intros Ka Kb Q P H. assert (P' : choice n B p) by (intros k K; apply (Q k K), P, K). destruct (H P') as [W N]. split.
+  - apply possible_exact; try assumption. now exists p.
+  - intros L. apply N. now apply (legal_sound _ B' a b p Ka Kb L).
+Qed.
+
 (* However narrower the rectangles are, the pair is possible, and not legal. *)
 Theorem tie_stays D E l edges B B' hint ties e a b :
   check D E l edges = true -> describes l B -> In e ties -> ~ In e (loose_ties D E l hint ties) ->
@@ -187,9 +197,6 @@ Proof.
   intros C F I H A G Q.
   assert (Ka : (a < length l)%nat) by (destruct A as [s [A _]]; apply nth_error_Some; congruence).
   assert (Kb : (b < length l)%nat) by (destruct G as [s [G _]]; apply nth_error_Some; congruence).
-  set (p := fun k => nearest (0, 0) (B' k)). assert (P' : choice (length l) B' p) by apply choice_nearest.
-  assert (P : choice (length l) B p) by (intros k K; apply (Q k K), P', K).
-  destruct (tie_every_choice D E l edges B hint ties e a b p C F I H A G P) as [W N]. split.
-  - apply possible_exact; try assumption. now exists p.
-  - intros L. apply N. now apply (legal_sound _ B' a b p Ka Kb L).
+  set (p := fun k => nearest (0, 0) (B' k)). assert (P : choice (length l) B' p) by apply choice_nearest.
+  apply (tied_by_choice _ B B' a b p Ka Kb Q P). intros P'. now apply (tie_every_choice D E l edges B hint ties e).
 Qed.
