@@ -134,7 +134,7 @@ static bool meet_square(void *context, uint32_t v) {
   double r = mpq_get_d(c->w->disc[v].r), d = distance_d(c, v);
   if (v == c->w->i || v == c->w->j || (c->legal ? d - r : d + r) > c->radius + room_d(c, v)) return true;
   c->good = false;
-  return keep_worst(c, v);
+  return c->highest < HUGE_VAL && keep_worst(c, v);
 }
 
 /* The circle of direction u: legal, the discs i and j just inside; possible, just meeting it. */
