@@ -36,8 +36,9 @@ typedef struct dyd_sphere_options {
  * never run; borrowed until dyd_sphere_free, and not to be changed. options may be NULL. Streams are narrowed to 32
  * bits. Where each point may be the same as another one, none can be projected from; then a place between them is, if
  * there is one [SPH-5]. A point whose row has a radius in metres (dyd_engine_radius) lies within it, in addition to
- * options. DYD_E_ARG or DYD_E_DOMAIN with a message and the point: a latitude beyond 90 degrees; a radius that is not
- * understood; points that leave no place of the sphere free. O(N log N). */
+ * options. DYD_E_ARG: a radius in the options that is not understood, or larger than that of the earth. DYD_E_DOMAIN,
+ * with the point where it is one: a latitude beyond 90 degrees, points that leave no place of the sphere free.
+ * O(N log N). */
 DYD_API dyd_status dyd_sphere_new(dyd_sphere **out, dyd_engine *places, const dyd_sphere_options *options,
                                   dyd_error *err);
 DYD_API void dyd_sphere_free(dyd_sphere *s);

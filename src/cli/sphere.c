@@ -83,9 +83,10 @@ static int sphere_all(cli_session *s, const cli_options *o) {
   dyd_engine_options run = o->engine;
   dyd_sphere *sphere = NULL;
   dyd_error err;
-  if (dyd_sphere_new(&sphere, places, &how, &err) != DYD_OK) {
-    cli_complain_of(places, o->file, &err);
-    return CLI_FAILED;
+  dyd_status st = dyd_sphere_new(&sphere, places, &how, &err);
+  if (st != DYD_OK) {
+    cli_complain_of(places, st == DYD_E_ARG ? NULL : o->file, &err);
+    return st == DYD_E_ARG ? CLI_USAGE : CLI_FAILED;
   }
   if (!o->start_set) run.start_bits = 0;
   s->engine = dyd_sphere_engine(sphere);

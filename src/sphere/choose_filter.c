@@ -87,7 +87,7 @@ static bool gap_best(double at[2], const ball_guess *g, size_t n) {
 static dyd_status centre_in_gap(dyd_sphere *s, const ball_guess *g, size_t n, dyd_error *err) {
   double at[2];
   if (!gap_best(at, g, n))
-    return dyd_fail(err, DYD_E_ARG,
+    return dyd_fail(err, DYD_E_DOMAIN,
                     "points may be at the same place as others, and anywhere on the globe, so that nothing is known of "
                     "any; give a smaller radius, or --merge where such points are one");
   for (int a = 0; a < 2; a++) mpq_set_d(s->eye.spot.mid[a], at[a]);
