@@ -302,7 +302,7 @@ def test_radius():
         (x0, x1), (y0, y1) = site['x_decimal'], site['y_decimal']
         assert angle * 2 * wide <= x1 - x0 <= angle * 2 * wide * 1.001 and 2 * angle * 0.9999 <= y1 - y0 <= 2 * angle * 1.001, site
     for wrong in ('30 miles', 'm', '-1m', '30kmm', '7000km'):
-        expect(run('delaunay', '--sphere', '--radius', wrong, '-', stdin=square), 1, r'\A\Z', 'the radius .*; give')
+        expect(run('delaunay', '--sphere', '--radius', wrong, '-', stdin=square), 2, r'\A\Z', r'\Adyadel: the radius .*; give')
 
 
 def table(places, radii):
@@ -386,8 +386,6 @@ def test_crowds():
     assert decided > 10, decided
     around = '0 60\n90 60\n180 60.5\n-90 60.5\n0 -90\n0 0\n90 0\n180 0\n-90 0\n'
     expect(run('delaunay', '--sphere', '--radius', '6000km', '-', stdin=around), 1, r'\A\Z', 'anywhere on the globe.*; give a smaller radius')
-    for radius, fault in (('30ft', 'is not an exact number'), ('-5m', 'is not an exact number'), ('7000km', 'is larger than')):
-        expect(run('delaunay', '--sphere', f'--radius={radius}', '-', stdin=around), 2, r'\A\Z', f'dyadel: the radius "{radius}" {fault}')
     with tempfile.TemporaryDirectory() as folder:
         result = run('delaunay', '--sphere', '--radius', '500km', '--certificate', 'c', '-', stdin='0 0\n1 0\n0 1\n1 1\n', cwd=folder)
         expect(result, 3, '1,2,indeterminate', 'projected from a place between them: 4 rectangles')
