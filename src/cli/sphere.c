@@ -36,7 +36,7 @@ static int refuse_on_sphere(const cli_options *o) {
 static const char *sphere_advice(const dyd_sphere *sphere) {
   const dyd_engine *images = dyd_sphere_images(sphere);
   if (dyd_engine_outcome(images) != DYD_OUTCOME_DECIDED) return cli_outcome_advice(images);
-  return "no point is apart from all others; smaller radii decide more";
+  return "pairs around the gap that all is projected from stay open; smaller radii decide more";
 }
 
 /* A line about a result that leaves something open; the exit status. */
