@@ -13,8 +13,8 @@ import sys
 
 THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerTies',
             'CheckerDiagram', 'CheckerDistance', 'CheckerEnclosure', 'CheckerAlgebra', 'CheckerCycle', 'CheckerBlock',
-            'CheckerFacts', 'CheckerRing', 'CheckerRow', 'CheckerExtract')
-READERS = ('source', 'described', 'reader', 'hints', 'cuts', 'circles', 'blocks', 'proved')
+            'CheckerVanish', 'CheckerFacts', 'CheckerRing', 'CheckerRow', 'CheckerExtract')
+READERS = ('source', 'described', 'reader', 'hints', 'cuts', 'circles', 'vanishing', 'blocks', 'proved')
 
 
 def link(work, output, sources):

@@ -38,58 +38,67 @@ let zero_hint u (r : Checker.bracket) =
   else search (Z.fdiv (Z.mul r.lo_num u) r.lo_den) (Z.cdiv (Z.mul r.hi_num u) r.hi_den)
 
 let most = Z.shift_left Z.one (1 lsl 18)
-let precisions = [ 128; 512; 2048 ]
+(* As in `dyadel verify`: up to the last but one for signs, up to the last for places and what is 0. *)
+let precisions = [ 128; 512; 2048; 4096; 16384 ]
+let sign_precision = 4096
+
+(* The unit, numbers and leaves, hints of what is 0. *)
+type seen = Z.t * Checker.state * (Checker.poly -> Checker.cofactor)
 
 (* What is proved of blocks. *)
 type proof = {
   points : int;  (* that are in their rectangles *)
   facts : int;  (* that hold *)
   joined : (int * int) list;  (* sites that are the same *)
-  rings : (Z.t * Checker.state * Checker.tied_ring) list;  (* on a circle, with what is known of numbers *)
-  tied_rows : (Z.t * Checker.state * Checker.tied_row) list;  (* on a line *)
+  rings : (seen * Checker.tied_ring) list;  (* on a circle, with what is known of numbers *)
+  tied_rows : (seen * Checker.tied_row) list;  (* on a line *)
   unseen_points : int;
   unseen_facts : int;
   unknown : (int * string) list;  (* lines of numbers that the checker does not know *)
 }
 
+(* Facts by identity reduce to 0. *)
+let hint_for hint (f : Described.fact) = if f.by_bound then hint else Vanishing.no_hint
+
 (* Of one block at one precision: the first line that is not taken, or which points and facts are. *)
-let at_precision (c : Reader.certificate) (b : Described.block) bits =
+let at_precision (c : Reader.certificate) (b : Described.block) table bits =
   let u = Z.shift_left Z.one bits in
   match Checker.run most root_hint zero_hint u (Checker.pi_at most pi_hint u) Checker.nothing Z.zero b.numbers with
   | Inr k -> Error (b.first + 1 + Z.to_int k)
   | Inl st ->
+    let hint = Vanishing.hint table most bits st in
     let look (line, i, p) =
       if Checker.place_outside u st p c.rects.(i) then
         raise (Bad (line, Printf.sprintf "the point described does not lie in the rectangle of site %d" i));
-      Checker.place_in most u st p c.rects.(i)
+      Checker.place_in most u st hint p c.rects.(i)
     in
     let holds (f : Described.fact) =
-      if Checker.fact_fails most u st f.says then raise (Bad (f.said_at, "the fact does not hold"));
-      Checker.fact_holds most u st f.says
+      if Checker.fact_fails most u st Vanishing.no_hint f.says then raise (Bad (f.said_at, "the fact does not hold"));
+      Checker.fact_holds most u st (hint_for hint f) f.says
     in
     let points = List.length (List.filter look b.points) in
-    Ok (points, List.filter holds b.facts, (u, st))
+    Ok (points, List.filter holds b.facts, (u, st, hint))
 
 (* The sites of a fact, each with its place. *)
 let placed (f : Described.fact) places = List.combine (List.map Z.of_int f.members) places
 
-let rings_of facts (u, st) =
+let rings_of facts (u, st, hint) =
   let ring (f : Described.fact) =
     match f.says with
     | OnCircle (a, b, c, l) ->
       (match placed f (a :: b :: c :: l) with
-      | first :: second :: third :: others -> Some (u, st, { Checker.first; second; third; others })
+      | first :: second :: third :: others -> Some ((u, st, hint_for hint f), { Checker.first; second; third; others })
       | _ -> None)
     | _ -> None
   in
   List.filter_map ring facts
 
-let rows_of facts (u, st) =
+let rows_of facts (u, st, hint) =
   let row (f : Described.fact) =
     match f.says with
     | OnLine (a, b, l) ->
       (match placed f (a :: b :: l) with
-      | one_end :: other_end :: more -> Some (u, st, { Checker.one_end; other_end; more })
+      | one_end :: other_end :: more -> Some ((u, st, hint_for hint f), { Checker.one_end; other_end; more })
       | _ -> None)
     | _ -> None
   in
@@ -97,12 +106,17 @@ let rows_of facts (u, st) =
 
 (* The most that is seen, at rising precision. *)
 let of_block c (b : Described.block) =
-  let is_shown facts (f : Described.fact) = f.by_bound || List.memq f facts in
-  let seen (points, facts, _) = points = List.length b.points && List.for_all (is_shown facts) b.facts in
+  let table = Vanishing.table b.numbers in
+  let seen (points, facts, _) = points = List.length b.points && List.length facts = List.length b.facts in
+  let is_of_use bits = function
+    | Ok (points, _, _) -> bits <= sign_precision || points < List.length b.points || table.wanted > sign_precision
+    | Error _ -> bits <= sign_precision
+  in
   let rec look last = function
     | [] -> last
+    | bits :: _ when not (is_of_use bits last) -> last
     | bits :: more ->
-      (match at_precision c b bits with
+      (match at_precision c b table bits with
       | Ok found when seen found -> Ok found
       | found -> look found more)
   in

@@ -86,8 +86,8 @@ let is_covered c d e boxes found =
 
 (* The pairs that are shown to be ties neither by circles of exact points nor by what blocks say. *)
 let loose_pairs c d e circle (b : Blocks.proof) pairs =
-  let by_ring pairs (u, st, ring) = Checker.ring_loose Blocks.most u st c.sites ring pairs in
-  let by_row pairs (u, st, row) = Checker.row_loose Blocks.most u st c.sites row pairs in
+  let by_ring pairs ((u, st, hint), ring) = Checker.ring_loose Blocks.most u st hint c.sites ring pairs in
+  let by_row pairs ((u, st, hint), row) = Checker.row_loose Blocks.most u st hint c.sites row pairs in
   let left = List.fold_left by_ring (Checker.loose_ties d e c.sites circle pairs) b.rings in
   List.fold_left by_row left b.tied_rows
 

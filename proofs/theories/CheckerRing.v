@@ -3,7 +3,7 @@
   with nobody
    inside. CheckerRingSound.v says what follows. *)
 From Coq Require Import ZArith List Bool.
-From Dyadel Require Import Checker CheckerEnclosure CheckerAlgebra CheckerBlock CheckerFacts.
+From Dyadel Require Import Checker CheckerEnclosure CheckerAlgebra CheckerBlock CheckerVanish CheckerFacts.
 Import ListNotations.
 Open Scope Z_scope.
 
@@ -14,6 +14,7 @@ Section Ring.
 
 Variable most u : Z.
 Variable st : state.
+Variable cofactor_hint : poly -> cofactor.
 Variable sites : list site.
 
 Definition members (g : tied_ring) : list (Z * place) := first g :: second g :: third g :: others g.
@@ -35,7 +36,7 @@ Definition is_off (g : tied_ring) (base : circle_base) (s : site) : bool :=
   sign_of (within off) * sign_of (within (area base)) =? 1.
 
 Definition is_empty_ring (g : tied_ring) : bool :=
-  fact_holds most u st (ring_fact g) &&
+  fact_holds most u st cofactor_hint (ring_fact g) &&
   let base := base_of most u st (snd (first g)) (snd (second g)) (snd (third g)) in
   forallb (fun s => existsb (fun m => name s =? fst m) (members g) || is_off g base s) sites.
 

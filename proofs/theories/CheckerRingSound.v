@@ -4,7 +4,7 @@
 From Coq Require Import Reals Lra Lia ZArith NArith List Bool.
 From Dyadel Require Import Plane Finite Distance Cells Legal Nerve CheckerTree Checker CheckerSound CheckerEnclosure.
 From Dyadel Require Import CheckerEnclosureSound CheckerAlgebra CheckerAlgebraSound CheckerBlock CheckerBlockSound
-  CheckerFacts.
+  CheckerVanish CheckerFacts.
 From Dyadel Require Import CheckerFactsSound CheckerTiesSound CheckerRing.
 Import ListNotations.
 Open Scope R_scope.
@@ -41,6 +41,7 @@ Variable most u : Z.
 Variable U : (0 < u)%Z.
 Variable st : state.
 Variable St : state_ok v l u st.
+Variable hint : poly -> cofactor.
 Variable sites : list site.
 Variable B : nat -> rect.
 Variable D : describes sites B.
@@ -99,11 +100,11 @@ Proof. intros (s & K & _). apply nth_error_Some. congruence. Qed.
 Lemma named_apart k m i j : named sites k i -> named sites m j -> i <> j -> k <> m.
 Proof. intros (s & K & Ns) (t & M & Nt) N ->. congruence. Qed.
 
-Theorem ring_tie_every_choice pairs e a b : In e pairs -> ~ In e (ring_loose most u st sites g pairs) ->
+Theorem ring_tie_every_choice pairs e a b : In e pairs -> ~ In e (ring_loose most u st hint sites g pairs) ->
   named sites a (from e) -> named sites b (to e) ->
   weak_edge (length sites) p a b /\ ~ strict_edge (length sites) p a b.
 Proof.
-  intros I H Na Nb. unfold ring_loose in H. destruct (is_empty_ring most u st sites g) eqn:E; [| contradiction].
+  intros I H Na Nb. unfold ring_loose in H. destruct (is_empty_ring most u st hint sites g) eqn:E; [| contradiction].
   cbv zeta in H. match type of H with ~ In e (kept ?f pairs) => destruct (f e) eqn:K; [destruct H;
     now apply in_kept |] end.
   clear H. apply negb_false_iff in K. unfold ring_tie in K.
@@ -113,7 +114,7 @@ Proof.
   subst qa qb. rewrite <- Ea in Na. rewrite <- Eb in Nb.
   pose proof (At a ma Ma Na) as Pa. pose proof (At b mb Mb Nb) as Pb.
   apply andb_prop in E as [Fact E]. cbv zeta in E. rewrite forallb_forall in E.
-  destruct (circle_holds_ok v l most u U st St _ _ _ _ Fact) as [N0 (o & r & R0 & Off & On)].
+  destruct (circle_holds_ok v l most u U st St hint _ _ _ _ Fact) as [N0 (o & r & R0 & Off & On)].
   assert (OnRing : forall m, In m (members g) -> dist2 o (point_of v (snd m)) = r).
   { intros m [<- | [<- | [<- | M]]]; apply On; [now left | now right; left | now right; right; left |].
     right; right; right. now apply in_map. }
@@ -165,14 +166,14 @@ End Sound.
 
 (* However narrower the rectangles are, as long as they hold the points that the block describes: the pair is possible,
    and not legal. *)
-Theorem ring_tie_stays v l most u st sites B B' g pairs e a b p : (0 < u)%Z -> state_ok v l u st ->
+Theorem ring_tie_stays v l most u st hint sites B B' g pairs e a b p : (0 < u)%Z -> state_ok v l u st ->
   describes sites B ->
   refined (length sites) B' B -> choice (length sites) B' p ->
   (forall k m, In m (members g) -> named sites k (fst m) -> p k = point_of v (snd m)) ->
-  In e pairs -> ~ In e (ring_loose most u st sites g pairs) -> named sites a (from e) -> named sites b (to e) ->
+  In e pairs -> ~ In e (ring_loose most u st hint sites g pairs) -> named sites a (from e) -> named sites b (to e) ->
   possible (length sites) B' a b /\ ~ legal (length sites) B' a b.
 Proof.
   intros U St D Q P At I H Na Nb. pose proof (named_below sites a (from e) Na) as Ka.
   pose proof (named_below sites b (to e) Nb) as Kb. apply (tied_by_choice _ B B' a b p Ka Kb Q P). intros P'.
-  exact (ring_tie_every_choice v l most u U st St sites B D g p P' At pairs e a b I H Na Nb).
+  exact (ring_tie_every_choice v l most u U st St hint sites B D g p P' At pairs e a b I H Na Nb).
 Qed.

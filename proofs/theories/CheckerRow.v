@@ -2,7 +2,7 @@
 (* The fourteenth part of the checker of certificates: ties of points that a block shows to be on one line, with nobody beyond
    it. CheckerRowSound.v says what follows. *)
 From Coq Require Import ZArith List Bool.
-From Dyadel Require Import Checker CheckerEnclosure CheckerAlgebra CheckerBlock CheckerFacts CheckerRing.
+From Dyadel Require Import Checker CheckerEnclosure CheckerAlgebra CheckerBlock CheckerVanish CheckerFacts CheckerRing.
 Import ListNotations.
 Open Scope Z_scope.
 
@@ -13,6 +13,7 @@ Section Row.
 
 Variable most u : Z.
 Variable st : state.
+Variable cofactor_hint : poly -> cofactor.
 Variable sites : list site.
 
 Definition row_members (g : tied_row) : list (Z * place) := one_end g :: other_end g :: more g.
@@ -27,7 +28,7 @@ Definition side_of_row (g : tied_row) (s : site) : Z :=
 
 Definition all_beside (g : tied_row) (z : Z) : bool :=
   forallb (fun s => existsb (fun m => name s =? fst m) (row_members g) || (side_of_row g s =? z)) sites.
-Definition is_free_row (g : tied_row) : bool := fact_holds most u st (row_fact g) && (all_beside g 1 || all_beside g (-1)).
+Definition is_free_row (g : tied_row) : bool := fact_holds most u st cofactor_hint (row_fact g) && (all_beside g 1 || all_beside g (-1)).
 
 Definition row_there (g : tied_row) : list (Z * place) :=
   filter (fun m => existsb (fun s => name s =? fst m) sites) (row_members g).

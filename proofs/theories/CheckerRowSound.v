@@ -4,7 +4,7 @@
 From Coq Require Import Reals Lra Lia ZArith NArith List Bool.
 From Dyadel Require Import Plane Finite Distance Cells Legal Nerve CheckerTree Checker CheckerSound CheckerEnclosure.
 From Dyadel Require Import CheckerEnclosureSound CheckerAlgebra CheckerAlgebraSound CheckerBlock CheckerBlockSound
-  CheckerFacts.
+  CheckerVanish CheckerFacts.
 From Dyadel Require Import CheckerFactsSound CheckerTiesSound CheckerRing CheckerRingSound CheckerRow.
 Import ListNotations.
 Open Scope R_scope.
@@ -45,6 +45,7 @@ Variable most u : Z.
 Variable U : (0 < u)%Z.
 Variable st : state.
 Variable St : state_ok v l u st.
+Variable hint : poly -> cofactor.
 Variable sites : list site.
 Variable B : nat -> rect.
 Variable D : describes sites B.
@@ -66,17 +67,17 @@ Proof.
   apply find_some in F as [M N]. apply Z.eqb_eq in N. apply filter_In in M as [M _]. now exists m.
 Qed.
 
-Lemma row_on_line m : fact_holds most u st (row_fact g) = true -> In m (row_members g) ->
+Lemma row_on_line m : fact_holds most u st hint (row_fact g) = true -> In m (row_members g) ->
   ex * (snd (point_of v (snd m)) - snd (point_of v a)) - ey * (fst (point_of v (snd m)) - fst (point_of v a)) = 0.
 Proof.
-  intros F M. destruct (fact_holds_ok v l most u U st St _ F) as [_ On]. destruct M as [<- | [<- | M]].
+  intros F M. destruct (fact_holds_ok v l most u U st St hint _ F) as [_ On]. destruct M as [<- | [<- | M]].
   - fold a. ring.
   - fold b. unfold dx, dy. ring.
   - exact (On (snd m) (in_map snd _ _ M)).
 Qed.
 
 (* Nobody is beyond the line, s: on which side all are. *)
-Lemma row_weak s i j : (s = 1 \/ s = -1)%Z -> fact_holds most u st (row_fact g) = true ->
+Lemma row_weak s i j : (s = 1 \/ s = -1)%Z -> fact_holds most u st hint (row_fact g) = true ->
   all_beside most u st sites g s = true ->
   (exists m, In m (row_members g) /\ named sites i (fst m)) -> (exists m,
     In m (row_members g) /\ named sites j (fst m)) ->
@@ -106,11 +107,11 @@ Proof.
         unfold point_of; cbn [fst snd]; lra.
 Qed.
 
-Theorem row_tie_every_choice pairs e i j : In e pairs -> ~ In e (row_loose most u st sites g pairs) ->
+Theorem row_tie_every_choice pairs e i j : In e pairs -> ~ In e (row_loose most u st hint sites g pairs) ->
   named sites i (from e) -> named sites j (to e) ->
   weak_edge (length sites) p i j /\ ~ strict_edge (length sites) p i j.
 Proof.
-  intros I H Ni Nj. unfold row_loose in H. destruct (is_free_row most u st sites g) eqn:E; [| contradiction].
+  intros I H Ni Nj. unfold row_loose in H. destruct (is_free_row most u st hint sites g) eqn:E; [| contradiction].
   cbv zeta in H. match type of H with ~ In e (kept ?f pairs) => destruct (f e) eqn:K; [destruct H;
     now apply in_kept |] end.
   clear H. apply negb_false_iff in K. unfold row_tie in K.
@@ -153,14 +154,14 @@ End Sound.
 
 (* However narrower the rectangles are, as long as they hold the points that the block describes: the pair is possible,
    and not legal. *)
-Theorem row_tie_stays v l most u st sites B B' g pairs e a b p : (0 < u)%Z -> state_ok v l u st ->
+Theorem row_tie_stays v l most u st hint sites B B' g pairs e a b p : (0 < u)%Z -> state_ok v l u st ->
   describes sites B ->
   refined (length sites) B' B -> choice (length sites) B' p ->
   (forall k m, In m (row_members g) -> named sites k (fst m) -> p k = point_of v (snd m)) ->
-  In e pairs -> ~ In e (row_loose most u st sites g pairs) -> named sites a (from e) -> named sites b (to e) ->
+  In e pairs -> ~ In e (row_loose most u st hint sites g pairs) -> named sites a (from e) -> named sites b (to e) ->
   possible (length sites) B' a b /\ ~ legal (length sites) B' a b.
 Proof.
   intros U St D Q P At I H Na Nb. pose proof (named_below sites a (from e) Na) as Ka.
   pose proof (named_below sites b (to e) Nb) as Kb. apply (tied_by_choice _ B B' a b p Ka Kb Q P). intros P'.
-  exact (row_tie_every_choice v l most u U st St sites B D g p P' At pairs e a b I H Na Nb).
+  exact (row_tie_every_choice v l most u U st St hint sites B D g p P' At pairs e a b I H Na Nb).
 Qed.
