@@ -38,7 +38,7 @@ let zero_hint u (r : Checker.bracket) =
   else search (Z.fdiv (Z.mul r.lo_num u) r.lo_den) (Z.cdiv (Z.mul r.hi_num u) r.hi_den)
 
 let most = Z.shift_left Z.one (1 lsl 18)
-(* As in `dyadel verify`: up to the last but one for signs, up to the last for places and what is 0. *)
+(* As in `dyadel verify`: up to the last but one for signs, up to the last for places. *)
 let precisions = [ 128; 512; 2048; 4096; 16384 ]
 let sign_precision = 4096
 
@@ -109,7 +109,7 @@ let of_block c (b : Described.block) =
   let table = Vanishing.table b.numbers in
   let seen (points, facts, _) = points = List.length b.points && List.length facts = List.length b.facts in
   let is_of_use bits = function
-    | Ok (points, _, _) -> bits <= sign_precision || points < List.length b.points || table.wanted > sign_precision
+    | Ok (points, _, _) -> bits <= sign_precision || points < List.length b.points
     | Error _ -> bits <= sign_precision
   in
   let rec look last = function

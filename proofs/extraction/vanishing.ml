@@ -196,8 +196,8 @@ let lifted b y good =
   in
   add 0 Z.one
 
-(* Some vector that a takes to 0; salt: which one. *)
-let kernel_vector a salt =
+(* Some vector that a takes to 0: with many of them, one is hardly 0 at the true leaves by chance. *)
+let kernel_vector a =
   let n = Array.length a in
   let found = pivots (Array.map (Array.map small) a) n in
   let rows = Array.of_list (List.map fst found) and columns = Array.of_list (List.map snd found) in
@@ -205,7 +205,7 @@ let kernel_vector a salt =
   Array.iter (fun c -> is_pivot.(c) <- true) columns;
   if Array.length rows = n then None
   else
-    let chosen j = Z.of_int (1 + (Hashtbl.hash (salt, j) mod 16)) in
+    let chosen j = Z.of_int (1 + (Hashtbl.hash j mod 1048576)) in
     let free = Array.init n (fun j -> if is_pivot.(j) then Z.zero else chosen j) in
     let b = Array.map (fun i -> Array.map (fun j -> a.(i).(j)) columns) rows in
     let y = Array.map (fun i -> Z.neg (along a.(i) free)) rows in
@@ -221,31 +221,27 @@ let kernel_vector a salt =
 
 let rec power rs p m = if m = 1 then p else Checker.product_of rs p (power rs p (m - 1))
 
-(* m and w, which is one of many. *)
-let cofactor numbers st p (m, salt) =
+(* m and w. *)
+let cofactor numbers st p m =
   let rs = Checker.relations st in
   match leaves_of (Array.of_list rs) p with
-  | Some leaves when is_within_effort numbers st.leaves leaves p ->
-    (match kernel_vector (matrix_of rs leaves (power rs p m)) salt with
+  | Some leaves when m <= size_of leaves && is_within_effort numbers st.leaves leaves p ->
+    (match kernel_vector (matrix_of rs leaves (power rs p m)) with
     | Some w -> Some (Z.of_int m, poly_of leaves w)
     | None | (exception Not_found) -> None)
   | _ -> None
 
-(* By precision alone, w is seen not to be 0 where that goes so far beyond its digits. *)
+(* A precision that goes so far beyond the digits of w shows it, if it is not 0. *)
 let slack = 512
 let bits_needed (_, w) = slack + List.fold_left (fun n (c, _) -> max n (Z.numbits c)) 0 w
 
-(* Roots of what is 0 and is not seen to be are 0 only in a power. *)
-let choices = [ (1, 0); (1, 1); (3, 0); (9, 0) ]
+(* Cube roots of what is 0 and does not reduce to 0 do so only in a power. *)
+let choices = [ 1; 3; 9 ]
 
-(* Of one block: what was found for each polynomial, and the precision that could show more. *)
-type table = {
-  numbers : Checker.line array;
-  found : (Checker.poly, Checker.cofactor option Lazy.t list) Hashtbl.t;
-  mutable wanted : int;
-}
+(* Of one block: what was found for each polynomial. *)
+type table = { numbers : Checker.line array; found : (Checker.poly, Checker.cofactor option Lazy.t list) Hashtbl.t }
 
-let table numbers = { numbers = Array.of_list numbers; found = Hashtbl.create 100; wanted = 0 }
+let table numbers = { numbers = Array.of_list numbers; found = Hashtbl.create 100 }
 
 (* The hint of p at this precision. *)
 let hint t most bits st p =
@@ -254,7 +250,7 @@ let hint t most bits st p =
     match Hashtbl.find_opt t.found p with
     | Some known -> known
     | None ->
-      let known = List.map (fun choice -> lazy (cofactor t.numbers st p choice)) choices in
+      let known = List.map (fun m -> lazy (cofactor t.numbers st p m)) choices in
       Hashtbl.replace t.found p known; known
   in
   let is_seen w = not (Z.equal (Checker.sign_of (Checker.enclose_poly most u (Checker.held st) w)) Z.zero) in
@@ -263,8 +259,7 @@ let hint t most bits st p =
     | choice :: more ->
       (match Lazy.force choice with
       | None -> no_hint p
-      | Some found when is_seen (snd found) -> found
-      | Some found when bits < bits_needed found -> t.wanted <- max t.wanted (bits_needed found); found
+      | Some found when is_seen (snd found) || bits < bits_needed found -> found
       | Some _ -> best more)
   in
   best known
