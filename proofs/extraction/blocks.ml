@@ -25,17 +25,35 @@ let pi_hint u =
   in
   Z.shift_right (Z.sub (Z.mul (arctan 5) (Z.of_int 16)) (Z.mul (arctan 239) (Z.of_int 4))) 64
 
-(* floor (z u) for the zero z, by bisection. *)
-let zero_hint u (r : Checker.bracket) =
+(* One step of Newton's at x / u, in units of 1 / u. *)
+let newton (r : Checker.bracket) u x =
+  let add c (f, slope, below) = (Z.add (Z.mul c below) (Z.mul x f), Z.add (Z.mul u f) (Z.mul x slope), Z.mul below u) in
+  let f, slope, _ = List.fold_right add r.coefficients (Z.zero, Z.zero, Z.one) in
+  if Z.sign slope = 0 then x else Z.sub x (Z.div (Z.mul u f) slope)
+
+let few_bits = 200
+let spare_bits = 16
+
+(* floor (z u) for the zero z, by bisection: of few integers around what half of the digits lead to, if it is there. *)
+let rec zero_hint u (r : Checker.bracket) =
   let left = Checker.sign_at r.coefficients r.lo_num r.lo_den in
+  let is_left z = Z.equal (Checker.sign_at r.coefficients z u) left in
   let rec search lo hi =
     if Z.leq (Z.sub hi lo) Z.one then lo
     else
       let middle = Z.shift_right (Z.add lo hi) 1 in
-      if Z.equal (Checker.sign_at r.coefficients middle u) left then search middle hi else search lo middle
+      if is_left middle then search middle hi else search lo middle
   in
   if Z.sign r.lo_den <= 0 || Z.sign r.hi_den <= 0 then Z.zero
-  else search (Z.fdiv (Z.mul r.lo_num u) r.lo_den) (Z.cdiv (Z.mul r.hi_num u) r.hi_den)
+  else
+    let lo = Z.fdiv (Z.mul r.lo_num u) r.lo_den and hi = Z.cdiv (Z.mul r.hi_num u) r.hi_den in
+    let bits = Z.numbits u in
+    if bits < few_bits then search lo hi
+    else
+      let less = (bits / 2) - spare_bits in
+      let x = newton r u (Z.shift_left (zero_hint (Z.shift_right u less) r) less) in
+      let near = Z.max lo (Z.sub x (Z.of_int 2)) and beyond = Z.min hi (Z.add x (Z.of_int 2)) in
+      if Z.lt near beyond && is_left near && not (is_left beyond) then search near beyond else search lo hi
 
 let most = Z.shift_left Z.one (1 lsl 18)
 (* As in `dyadel verify`: up to the last but one for signs, up to the last for places. *)
