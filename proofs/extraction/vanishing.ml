@@ -5,7 +5,7 @@
 
 (* As far as is looked: degree of the leaves over the integers, bits of the separation bound [SEP-1] as in
    `dyadel verify`, and the work that a root takes there, digits of w. *)
-let most_degree = 512
+let most_degree = 1024
 let most_bits = 8192
 let most_work = Z.shift_left Z.one 46
 let most_digits = 1024
