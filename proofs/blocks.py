@@ -5,9 +5,10 @@
 Usage: blocks.py DYADEL_PROVED DYADEL [COUNT]
 
 Certificates of points that are told apart, or seen to be the same, by what they are, and of COUNT random expressions
-(default 16); each line of a block changed, and the rectangles. What verify accepts is proved; what it refuses is refused, or
-not proved. Facts by bound, and numbers that are nearly what they should be: proved by both or by none. Regular polygons of 3 to 24 corners, all proved; each of them with its cycle, an index, a cosine, a
-sine, the sign of one changed, all refused.
+(default 16); each line of a block changed, and the rectangles. What verify accepts is proved; what it refuses is
+refused, or not proved. Facts by bound, and numbers that are nearly what they should be: proved by both or by none.
+Regular polygons of 3 to 24 corners, all proved; each of them with its cycle, an index, a cosine, a sine, the sign of
+one changed, all refused.
 """
 import pathlib
 import random
@@ -43,16 +44,18 @@ KNOWN = [
 BOUND = [
     (ALIAS.format('cos(pi/5)', '(1+sqrt(5))/4'), 2, 1), (ALIAS.format('root(x^4-10*x^2+1,3,4)', 'sqrt(2)+sqrt(3)'), 2, 1),
     (ALIAS.format('sqrt(2)+sqrt(3)', 'sqrt(5+2*sqrt(6))'), 2, 1), (ALIAS.format('cbrt(2+sqrt(5))+cbrt(2-sqrt(5))', '1'), 2, 1),
-    (ALIAS.format('1/(sqrt(2)+sqrt(3))', '1/sqrt(5+2*sqrt(6))'), 2, 1), (ALIAS.format('root(x^6-x^2-1,1,2)^2', 'root(x^3-x-1,1,2)'), 2, 1),
+    (ALIAS.format('1/(sqrt(2)+sqrt(3))', '1/sqrt(5+2*sqrt(6))'), 2, 1),
+    (ALIAS.format('root(x^6-x^2-1,1,2)^2', 'root(x^3-x-1,1,2)'), 2, 1),
     (ALIAS.format('root(x^3-x-1,1,2)', 'cbrt(1/2+sqrt(23/108))+cbrt(1/2-sqrt(23/108))'), 2, 1),
     (ALIAS.format('sqrt(2)+sqrt(3)+sqrt(5)', 'root(x^8-40*x^6+352*x^4-960*x^2+576,5,6)'), 2, 1),
-    (ALIAS.format('cos(2*pi/17)', '(-1+sqrt(17)+sqrt(34-2*sqrt(17))+2*sqrt(17+3*sqrt(17)-sqrt(34-2*sqrt(17))-2*sqrt(34+2*sqrt(17))))/16'),
-     2, 1),
+    (ALIAS.format('cos(2*pi/17)', '(-1+sqrt(17)+sqrt(34-2*sqrt(17))'
+                  '+2*sqrt(17+3*sqrt(17)-sqrt(34-2*sqrt(17))-2*sqrt(34+2*sqrt(17))))/16'), 2, 1),
     ('sqrt(5+2*sqrt(6)) 0\n0 sqrt(2)+sqrt(3)\n-root(x^4-10*x^2+1,3,4) 0\n0 -sqrt(5+sqrt(24))\n', 4, 1),
     ('sqrt(2)+sqrt(3) cbrt(2)\ncbrt(2) sqrt(5+2*sqrt(6))\n-root(x^4-10*x^2+1,3,4) cbrt(2)\n-cbrt(2) -sqrt(5+sqrt(24))\n', 4, 1),
     ('0 0\nsqrt(2)+sqrt(3) sqrt(20+8*sqrt(6))\n-root(x^4-10*x^2+1,3,4) -sqrt(8)-sqrt(12)\n1 7\n', 3, 1)]
 # Their ties are proved, and with them the outcome.
-TIED = [KNOWN[k][0] for k in range(7)] + [BOUND[k][0] for k in (9, 10)] + [SQUARE + '[9,9.001] [7,7.001]\n', SQUARE + 'pi 5\n-7 e\n6 -4\n']
+TIED = [KNOWN[k][0] for k in range(7)] + [BOUND[k][0] for k in (9, 10)]
+TIED += [SQUARE + '[9,9.001] [7,7.001]\n', SQUARE + 'pi 5\n-7 e\n6 -4\n']
 OTHER = {'+': '-', '-': '+', '*': '/', '/': '*', 'min': 'max', 'max': 'min', 'neg': 'abs', 'abs': 'neg', 'sqrt': 'cbrt',
          'cbrt': 'sqrt', 'cos': 'sin', 'sin': 'cos', 'tan': 'sin', 'exp': 'cosh', 'sinh': 'cosh', 'cosh': 'sinh',
          'tanh': 'sinh', 'pi': 'e', 'e': 'pi', 'same': 'line', 'line': 'circle', 'circle': 'line'}
@@ -251,8 +254,8 @@ def squared(n):
 
 def large(n):
     """4 and 10 are the same sum of roots, of numbers of about n bits."""
-    return [f'= {2 << n}', 'sqrt 0', f'= {3 << n}', 'sqrt 2', '+ 1 3', f'= {24 << 2 * n}', 'sqrt 5', f'= {5 << n}', '+ 6 7', 'claim 8',
-            'sqrt 9', '= 0']
+    return [f'= {2 << n}', 'sqrt 0', f'= {3 << n}', 'sqrt 2', '+ 1 3', f'= {24 << 2 * n}', 'sqrt 5',
+            f'= {5 << n}', '+ 6 7', 'claim 8', 'sqrt 9', '= 0']
 
 
 # Of the sum of the roots of 2, 3, 5 and 7.
@@ -273,9 +276,10 @@ FACTS = [
     (squared(760), ('4 5', '2 5'), 'same 0 1 bound', AT_0, True), (squared(760), ('4 5', '6 5'), 'same 0 1 bound', AT_0, False),
     (squared(760), ('2 5', '6 5'), 'same 0 1 bound', AT_0, False),
     # what verify proves, and what it gives up on: coefficients, a root to many bits
-    (ROOT_2 + ['= 3', 'sqrt 2', '= 5', 'sqrt 4', '= 7', 'sqrt 6', '+ 1 3', '+ 8 5', '+ 9 7', f'root 2007/250 8029/1000 {DEGREE_16}', '= 0'],
-     ('10 12', '11 12'), 'same 0 1 bound', ('8+1 0', '7+2 0'), False),
-    (large(900), ('4 11', '10 11'), 'same 0 1 bound', LARGE, True), (large(1200), ('4 11', '10 11'), 'same 0 1 bound', LARGE, False)]
+    (ROOT_2 + ['= 3', 'sqrt 2', '= 5', 'sqrt 4', '= 7', 'sqrt 6', '+ 1 3', '+ 8 5', '+ 9 7',
+               f'root 2007/250 8029/1000 {DEGREE_16}', '= 0'], ('10 12', '11 12'), 'same 0 1 bound', ('8+1 0', '7+2 0'), False),
+    (large(900), ('4 11', '10 11'), 'same 0 1 bound', LARGE, True),
+    (large(1200), ('4 11', '10 11'), 'same 0 1 bound', LARGE, False)]
 # A point that is an exact site.
 FACTS += [(HIDDEN, ('7 6',), None, ('0 0', '9 9'), True), (HIDDEN + ['cbrt 7'], ('8 6',), None, ('0 0', '9 9'), True)]
 # Nearly the same, and nearly in place.
@@ -440,7 +444,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         proved, dyadel = (pathlib.Path(arg).resolve() for arg in sys.argv[1:3])
         both = Checkers(proved, dyadel, pathlib.Path(folder))
-        found = list(try_places(both)) + list(try_known(both)) + list(try_rings(both)) + list(try_facts(both)) + list(try_gons(both))
+        found = list(try_places(both)) + list(try_known(both)) + list(try_rings(both)) + list(try_facts(both))
+        found += try_gons(both)
         found += try_forged(both, int(sys.argv[3]) if len(sys.argv) > 3 else 16)
     print('\n'.join(found) or 'no fault')
     return 1 if found else 0
