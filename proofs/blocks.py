@@ -5,9 +5,10 @@
 Usage: blocks.py DYADEL_PROVED DYADEL [COUNT]
 
 Certificates of points that are told apart, or seen to be the same, by what they are, and of COUNT random expressions
-(default 16); each line of a block changed, and the rectangles. What verify accepts is proved, but for bounds; what it refuses
-is refused, or not proved. Regular polygons of 3 to 24 corners, all proved; each of them with its cycle, an index, a cosine, a
-sine, the sign of one changed, all refused.
+(default 16); each line of a block changed, and the rectangles. What verify accepts is proved; what it refuses is
+refused, or not proved. Facts by bound, and numbers that are nearly what they should be: proved by both or by none.
+Regular polygons of 3 to 24 corners, all proved; each of them with its cycle, an index, a cosine, a sine, the sign of
+one changed, all refused.
 """
 import pathlib
 import random
@@ -40,11 +41,22 @@ KNOWN = [
     (ALIAS.format('cos(pi/17)*cos(-2*pi/17)', '(cos(pi/17)+cos(3*pi/17))/2'), 2, 1),
     (ALIAS.format('cos(2*pi/1000)^2', '(1+cos(pi/250))/2'), 2, 1), (ALIAS.format('sin(19*pi/15)', '-sin(4*pi/15)'), 2, 1),
     (ALIAS.format('root(2*x^3-3*x^2-6*x+1,0,1)+pi', 'pi+root(2*x^3-3*x^2-6*x+1,0,1)'), 2, 1)]
+# Of which some facts are by bound.
+BOUND = [
+    (ALIAS.format('cos(pi/5)', '(1+sqrt(5))/4'), 2, 1), (ALIAS.format('root(x^4-10*x^2+1,3,4)', 'sqrt(2)+sqrt(3)'), 2, 1),
+    (ALIAS.format('sqrt(2)+sqrt(3)', 'sqrt(5+2*sqrt(6))'), 2, 1), (ALIAS.format('cbrt(2+sqrt(5))+cbrt(2-sqrt(5))', '1'), 2, 1),
+    (ALIAS.format('1/(sqrt(2)+sqrt(3))', '1/sqrt(5+2*sqrt(6))'), 2, 1),
+    (ALIAS.format('root(x^6-x^2-1,1,2)^2', 'root(x^3-x-1,1,2)'), 2, 1),
+    (ALIAS.format('root(x^3-x-1,1,2)', 'cbrt(1/2+sqrt(23/108))+cbrt(1/2-sqrt(23/108))'), 2, 1),
+    (ALIAS.format('sqrt(2)+sqrt(3)+sqrt(5)', 'root(x^8-40*x^6+352*x^4-960*x^2+576,5,6)'), 2, 1),
+    (ALIAS.format('cos(2*pi/17)', '(-1+sqrt(17)+sqrt(34-2*sqrt(17))'
+                  '+2*sqrt(17+3*sqrt(17)-sqrt(34-2*sqrt(17))-2*sqrt(34+2*sqrt(17))))/16'), 2, 1),
+    ('sqrt(5+2*sqrt(6)) 0\n0 sqrt(2)+sqrt(3)\n-root(x^4-10*x^2+1,3,4) 0\n0 -sqrt(5+sqrt(24))\n', 4, 1),
+    ('sqrt(2)+sqrt(3) cbrt(2)\ncbrt(2) sqrt(5+2*sqrt(6))\n-root(x^4-10*x^2+1,3,4) cbrt(2)\n-cbrt(2) -sqrt(5+sqrt(24))\n', 4, 1),
+    ('0 0\nsqrt(2)+sqrt(3) sqrt(20+8*sqrt(6))\n-root(x^4-10*x^2+1,3,4) -sqrt(8)-sqrt(12)\n1 7\n', 3, 1)]
 # Their ties are proved, and with them the outcome.
-TIED = [KNOWN[k][0] for k in range(7)] + [SQUARE + '[9,9.001] [7,7.001]\n', SQUARE + 'pi 5\n-7 e\n6 -4\n']
-# What the proved checker does not know.
-UNKNOWN = [(ALIAS.format('cos(pi/5)', '(1+sqrt(5))/4'), 'facts on points hold'),
-           (ALIAS.format('root(x^4-10*x^2+1,3,4)', 'sqrt(2)+sqrt(3)'), 'facts on points hold')]
+TIED = [KNOWN[k][0] for k in range(7)] + [BOUND[k][0] for k in (9, 10)]
+TIED += [SQUARE + '[9,9.001] [7,7.001]\n', SQUARE + 'pi 5\n-7 e\n6 -4\n']
 OTHER = {'+': '-', '-': '+', '*': '/', '/': '*', 'min': 'max', 'max': 'min', 'neg': 'abs', 'abs': 'neg', 'sqrt': 'cbrt',
          'cbrt': 'sqrt', 'cos': 'sin', 'sin': 'cos', 'tan': 'sin', 'exp': 'cosh', 'sinh': 'cosh', 'cosh': 'sinh',
          'tanh': 'sinh', 'pi': 'e', 'e': 'pi', 'same': 'line', 'line': 'circle', 'circle': 'line'}
@@ -151,11 +163,19 @@ def spelled(man, exponent):
     return f'{man << exponent}' if exponent >= 0 and not exponent else f'{man}*2^{exponent}' if man else '0'
 
 
-def block_of(numbers, points, facts=()):
+def block_of(numbers, points, facts=(), sites=('1+1 0+1', '9 9')):
     """A certificate of two sites with a block on the first, the rectangle of which is [1,2] by [0,1]."""
-    return '\n'.join(['dyadel certificate 1', 'outcome budget', 'goal decided', 'capped no', 'sites 2', '1+1 0+1', '9 9', 'legal 0',
+    return '\n'.join(['dyadel certificate 1', 'outcome budget', 'goal decided', 'capped no', 'sites 2', *sites, 'legal 0',
                       'places 0', 'bridges 0', 'corners 0', 'pairs', 'triangles 0', 'unproved 1', 'area none', 'hausdorff none',
                       f'algebra {len(numbers)}', *numbers, f'points {len(points)}', *points, f'facts {len(facts)}', *facts, 'end', ''])
+
+
+def tiny(n):
+    """(sqrt(2)-1)^n, n even, about 2^(-1.27 n), in a leaf that is the root of 2; to be followed by a sign."""
+    a, b = 1, 0
+    for _ in range(n):
+        a, b = a + 2 * b, a + b
+    return f'-{b}*x0+{a}'
 
 
 # numbers, the last but one and the last being the point of site 0; is it in [1,2] by [0,1]?
@@ -215,6 +235,58 @@ PLACES = [
     (['pi', 'cycle 12', '= 1', '+ 0 2', 'cos 3', '= 1', '= 0'], True), (['pi', 'cycle 12', '* 0 0', 'cos 2', '= 1', '= 0'], True),
     (['pi', 'cycle 12', 'cos 1', '= 1', '= 0'], True), (['e', 'pi', 'cycle 5', '= 5', '/ 0 3', 'cos 4', '= 1', '= 0'], True),
     (['= 2', 'tan 0', 'abs 1', '- 0 2', '= 0'], False)]
+ROOT_2 = ['= 2', 'sqrt 0']
+# What 2048 bits do not show, nor 4096.
+PLACES += [(ROOT_2 + [f'= {tiny(1180)}', '/ 2 2', '= 1/2', '+ 3 4', '= 0'], True),
+           (ROOT_2 + [f'= {tiny(3200)}', '/ 2 2', '= 1/2', '+ 3 4', '= 0'], False),
+           (ROOT_2 + [f'= {tiny(4000)}', '- 0 2', '= 0'], True), (ROOT_2 + [f'= {tiny(4000)}', '+ 0 2', '= 0'], False)]
+
+# 3 is the sum of the roots of 2 and 3, 4 the same as a root of a polynomial of degree 4, 5 is 0.
+SUM = ROOT_2 + ['= 3', 'sqrt 2', '+ 1 3', 'root 3 4 1,0,-10,0,1', '= 0']
+HIDDEN = SUM + ['- 4 5']
+NEAR = ('3+1 0', '2+2 0')
+AT_0 = ('-1+2 0', '-1+3 0')
+
+
+def squared(n):
+    """4 is the root of the square of 2, which is tiny(n), 6 is the opposite of that."""
+    return ROOT_2 + [f'= {tiny(n)}', '* 2 2', 'sqrt 3', '= 0', 'neg 2']
+
+
+def large(n):
+    """4 and 10 are the same sum of roots, of numbers of about n bits."""
+    return [f'= {2 << n}', 'sqrt 0', f'= {3 << n}', 'sqrt 2', '+ 1 3', f'= {24 << 2 * n}', 'sqrt 5',
+            f'= {5 << n}', '+ 6 7', 'claim 8', 'sqrt 9', '= 0']
+
+
+# Of the sum of the roots of 2, 3, 5 and 7.
+DEGREE_16 = '46225,0,-5596840,0,13950764,0,-7453176,0,1513334,0,-141912,0,6476,0,-136,0,1'
+LARGE = ('0+1*2^700 0', '0+1*2^701 0')
+
+# numbers, the points of sites 0 and 1, a fact, sites; is it proved?
+FACTS = [
+    (SUM, ('4 6', '5 6'), 'same 0 1 bound', NEAR, True), (SUM, ('4 6', '5 6'), 'same 0 1 identity', NEAR, False),
+    (SUM[:5] + ['root 0 1 1,0,-10,0,1', '= 0'], ('4 6', '5 6'), 'same 0 1 bound', ('3+1 0', '0+4 0'), False),
+    (SUM[:5] + ['root 3 4 1,0,-10,0,1 x1+x0', '= 0'], ('4 6', '5 6'), 'same 0 1 identity', NEAR, True),
+    (HIDDEN + ['cbrt 7'], ('8 6', '6 6'), 'same 0 1 bound', AT_0, True),
+    (HIDDEN + ['cbrt 7', 'cbrt 8'], ('9 6', '6 6'), 'same 0 1 bound', AT_0, True),
+    (HIDDEN + ['cbrt 7', 'neg 8'], ('8 6', '9 6'), 'same 0 1 bound', AT_0, True),
+    (HIDDEN + ['cbrt 7', '= 1', '+ 8 9'], ('8 6', '10 6'), 'same 0 1 bound', ('-1+2 0', '-1+3 0'), False),
+    (HIDDEN + ['pi', '* 7 8'], ('9 6', '6 6'), 'same 0 1 bound', AT_0, False),
+    (squared(160), ('4 5', '2 5'), 'same 0 1 bound', AT_0, True), (squared(160), ('4 5', '6 5'), 'same 0 1 bound', AT_0, False),
+    (squared(760), ('4 5', '2 5'), 'same 0 1 bound', AT_0, True), (squared(760), ('4 5', '6 5'), 'same 0 1 bound', AT_0, False),
+    (squared(760), ('2 5', '6 5'), 'same 0 1 bound', AT_0, False),
+    # what verify proves, and what it gives up on: coefficients, a root to many bits
+    (ROOT_2 + ['= 3', 'sqrt 2', '= 5', 'sqrt 4', '= 7', 'sqrt 6', '+ 1 3', '+ 8 5', '+ 9 7',
+               f'root 2007/250 8029/1000 {DEGREE_16}', '= 0'], ('10 12', '11 12'), 'same 0 1 bound', ('8+1 0', '7+2 0'), False),
+    (large(900), ('4 11', '10 11'), 'same 0 1 bound', LARGE, True),
+    (large(1200), ('4 11', '10 11'), 'same 0 1 bound', LARGE, False)]
+# A point that is an exact site.
+FACTS += [(HIDDEN, ('7 6',), None, ('0 0', '9 9'), True), (HIDDEN + ['cbrt 7'], ('8 6',), None, ('0 0', '9 9'), True)]
+# Nearly the same, and nearly in place.
+for bits in (10, 100, 200, 600, 1500, 3000, 6000):
+    near = HIDDEN + [f'= 1/{1 << bits}', '+ 5 8', '+ 7 8']
+    FACTS += [(near, ('4 6', '9 6'), 'same 0 1 bound', NEAR, False), (near, ('10 6',), None, ('0 0', '9 9'), False)]
 
 
 # A square of these points and a fifth site; ties that are stated; how many of them are not proved.
@@ -281,6 +353,17 @@ def try_places(both):
         if (answer.returncode != REJECTED and 'checked: 1 points lie where' in answer.stdout) != inside:
             yield f'{numbers}: {answer.stdout}{answer.stderr}'
         yield from both.faults(text, 'a place')
+
+
+def try_facts(both):
+    """Facts by bound, by both or by none."""
+    for numbers, points, fact, sites, holds in FACTS:
+        facts = [fact] if fact else []
+        text = block_of(numbers, [f'{k} {point}' for k, point in enumerate(points)], facts, sites)
+        answer, other = both.ask(both.proved, text=text), both.ask(both.dyadel, 'verify', text=text)
+        said = f'checked: {len(points)} points lie where they are described to be, and {len(facts)} facts on them hold\n'
+        if (answer.returncode != REJECTED and said in answer.stdout) != holds or (other.returncode != REJECTED) != holds:
+            yield f'{numbers}, {points}, {fact}: {answer} {other}'
 
 
 def gon(n):
@@ -350,14 +433,14 @@ def try_growth(both):
 
 
 def try_known(both):
-    for points, count, facts in KNOWN:
-        answer = both.ask(both.proved, text=both.certificate(points))
+    for points, count, facts in KNOWN + BOUND:
+        text = both.certificate(points)
+        answer = both.ask(both.proved, text=text)
         if f'checked: {count} points lie where they are described to be, and {facts} facts on them hold\n' not in answer.stdout:
             yield f'{points}: {answer}'
-    for points, said in UNKNOWN:
-        answer = both.ask(both.proved, text=both.certificate(points))
-        if answer.returncode != NOT_ALL or not re.search(f'not proved: .*{said}', answer.stdout):
-            yield f'{points}: {answer}'
+        if (' bound\n' in text) != ((points, count, facts) in BOUND):
+            yield f'{points}: {answer}\n{text}'
+        yield from both.faults(text, points)
 
 
 def try_forged(both, count):
@@ -367,9 +450,9 @@ def try_forged(both, count):
         a, b = expression(rng, rng.randrange(3)), expression(rng, rng.randrange(3))
         sums.append(ALIAS.format(f'({a})+({b})', f'({b})+({a})'))
     sides = 0
-    for points in [points for points, _, _ in KNOWN] + sums:
+    for points in [points for points, _, _ in KNOWN + BOUND] + sums:
         text = both.certificate(points)
-        if '\nalgebra ' not in text or ' bound\n' in text:
+        if '\nalgebra ' not in text:
             continue
         yield from both.faults(text, points)
         for forged in forged_blocks(rng, text, 20):
@@ -387,8 +470,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         proved, dyadel = (pathlib.Path(arg).resolve() for arg in sys.argv[1:3])
         both = Checkers(proved, dyadel, pathlib.Path(folder))
-        found = list(try_places(both)) + list(try_known(both)) + list(try_rings(both)) + list(try_gons(both))
-        found += try_growth(both)
+        found = list(try_places(both)) + list(try_known(both)) + list(try_rings(both)) + list(try_facts(both))
+        found += list(try_gons(both)) + list(try_growth(both))
         found += try_forged(both, int(sys.argv[3]) if len(sys.argv) > 3 else 16)
     print('\n'.join(found) or 'no fault')
     return 1 if found else 0

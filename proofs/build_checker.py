@@ -13,8 +13,8 @@ import sys
 
 THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerTies',
             'CheckerDiagram', 'CheckerDistance', 'CheckerEnclosure', 'CheckerAlgebra', 'CheckerCycle', 'CheckerBlock',
-            'CheckerFacts', 'CheckerTied', 'CheckerExtract')
-READERS = ('source', 'described', 'reader', 'hints', 'cuts', 'circles', 'crossings', 'blocks', 'proved')
+            'CheckerVanish', 'CheckerFacts', 'CheckerTied', 'CheckerExtract')
+READERS = ('source', 'described', 'reader', 'hints', 'cuts', 'circles', 'crossings', 'vanishing', 'blocks', 'proved')
 
 
 def link(work, output, sources):

@@ -25,20 +25,40 @@ let pi_hint u =
   in
   Z.shift_right (Z.sub (Z.mul (arctan 5) (Z.of_int 16)) (Z.mul (arctan 239) (Z.of_int 4))) 64
 
-(* floor (z u) for the zero z, by bisection. *)
-let zero_hint u (r : Checker.bracket) =
+(* One step of Newton's at x / u, in units of 1 / u. *)
+let newton (r : Checker.bracket) u x =
+  let add c (f, slope, below) = (Z.add (Z.mul c below) (Z.mul x f), Z.add (Z.mul u f) (Z.mul x slope), Z.mul below u) in
+  let f, slope, _ = List.fold_right add r.coefficients (Z.zero, Z.zero, Z.one) in
+  if Z.sign slope = 0 then x else Z.sub x (Z.div (Z.mul u f) slope)
+
+let few_bits = 200
+let spare_bits = 16
+
+(* floor (z u) for the zero z, by bisection: of few integers around what half of the digits lead to, if it is there. *)
+let rec zero_hint u (r : Checker.bracket) =
   let left = Checker.sign_at r.coefficients r.lo_num r.lo_den in
+  let is_left z = Z.equal (Checker.sign_at r.coefficients z u) left in
   let rec search lo hi =
     if Z.leq (Z.sub hi lo) Z.one then lo
     else
       let middle = Z.shift_right (Z.add lo hi) 1 in
-      if Z.equal (Checker.sign_at r.coefficients middle u) left then search middle hi else search lo middle
+      if is_left middle then search middle hi else search lo middle
   in
   if Z.sign r.lo_den <= 0 || Z.sign r.hi_den <= 0 then Z.zero
-  else search (Z.fdiv (Z.mul r.lo_num u) r.lo_den) (Z.cdiv (Z.mul r.hi_num u) r.hi_den)
+  else
+    let lo = Z.fdiv (Z.mul r.lo_num u) r.lo_den and hi = Z.cdiv (Z.mul r.hi_num u) r.hi_den in
+    let bits = Z.numbits u in
+    if bits < few_bits then search lo hi
+    else
+      let less = (bits / 2) - spare_bits in
+      let x = newton r u (Z.shift_left (zero_hint (Z.shift_right u less) r) less) in
+      let near = Z.max lo (Z.sub x (Z.of_int 2)) and beyond = Z.min hi (Z.add x (Z.of_int 2)) in
+      if Z.lt near beyond && is_left near && not (is_left beyond) then search near beyond else search lo hi
 
 let most = Z.shift_left Z.one (1 lsl 18)
-let precisions = [ 128; 512; 2048 ]
+(* As in `dyadel verify`: up to the last but one for signs, up to the last for places. *)
+let precisions = [ 128; 512; 2048; 4096; 16384 ]
+let sign_precision = 4096
 
 (* What is proved of blocks. *)
 type proof = {
@@ -51,40 +71,50 @@ type proof = {
   unknown : (int * string) list;  (* lines of numbers that the checker does not know *)
 }
 
+(* Facts by identity reduce to 0. *)
+let hint_for hint (f : Described.fact) = if f.by_bound then hint else Vanishing.no_hint
+
 (* Of one block at one precision: the first line that is not taken, or which points and facts are. *)
-let at_precision (c : Reader.certificate) (b : Described.block) bits =
+let at_precision (c : Reader.certificate) (b : Described.block) table bits =
   let u = Z.shift_left Z.one bits in
   match Checker.run most root_hint zero_hint u (Checker.pi_at most pi_hint u) Checker.nothing Z.zero b.numbers with
   | Inr k -> Error (b.first + 1 + Z.to_int k)
   | Inl st ->
+    let hint = Vanishing.hint table most bits st in
     let look (line, i, p) =
       if Checker.place_outside u st p c.rects.(i) then
         raise (Bad (line, Printf.sprintf "the point described does not lie in the rectangle of site %d" i));
-      Checker.place_in most u st p c.rects.(i)
+      Checker.place_in most u st hint p c.rects.(i)
     in
     let holds (f : Described.fact) =
-      if Checker.fact_fails most u st f.says then raise (Bad (f.said_at, "the fact does not hold"));
-      Checker.fact_holds most u st f.says
+      if Checker.fact_fails most u st Vanishing.no_hint f.says then raise (Bad (f.said_at, "the fact does not hold"));
+      Checker.fact_holds most u st (hint_for hint f) f.says
     in
     let points = List.length (List.filter look b.points) in
-    Ok (points, List.filter holds b.facts, (u, st))
+    Ok (points, List.filter holds b.facts, (u, st, hint))
 
-let sets_of facts (units, block) =
+let sets_of facts (units, block, hint) =
   let set (f : Described.fact) =
     match f.says with
-    | OnCircle _ | OnLine _ -> Some { Checker.units; block; says = f.says; site_names = List.map Z.of_int f.members }
+    | OnCircle _ | OnLine _ ->
+      Some { Checker.units; block; null_hint = hint_for hint f; says = f.says; site_names = List.map Z.of_int f.members }
     | Same _ -> None
   in
   List.filter_map set facts
 
 (* The most that is seen, at rising precision. *)
 let of_block c (b : Described.block) =
-  let is_shown facts (f : Described.fact) = f.by_bound || List.memq f facts in
-  let seen (points, facts, _) = points = List.length b.points && List.for_all (is_shown facts) b.facts in
+  let table = Vanishing.table b.numbers in
+  let seen (points, facts, _) = points = List.length b.points && List.length facts = List.length b.facts in
+  let is_of_use bits = function
+    | Ok (points, _, _) -> bits <= sign_precision || points < List.length b.points
+    | Error _ -> bits <= sign_precision
+  in
   let rec look last = function
     | [] -> last
+    | bits :: _ when not (is_of_use bits last) -> last
     | bits :: more ->
-      (match at_precision c b bits with
+      (match at_precision c b table bits with
       | Ok found when seen found -> Ok found
       | found -> look found more)
   in

@@ -3,7 +3,7 @@
   and that some are the same, on
    one line, on one circle. CheckerFactsSound.v says what follows. *)
 From Coq Require Import ZArith List Bool.
-From Dyadel Require Import Checker CheckerEnclosure CheckerAlgebra CheckerBlock.
+From Dyadel Require Import Checker CheckerEnclosure CheckerAlgebra CheckerBlock CheckerVanish.
 Import ListNotations.
 Open Scope Z_scope.
 
@@ -20,10 +20,15 @@ Section Facts.
 
 Variable most u : Z.
 Variable st : state.
+(* Hints, of any origin: what shows that a polynomial is 0. *)
+Variable cofactor_hint : poly -> cofactor.
 
 Let add_q := q_add most (relations st).
 Let sub_q := q_sub most (relations st).
 Let mul_q := q_mul most (relations st).
+
+Definition is_null_there (x : quotient_of) : bool :=
+  is_null x || match x with Some (p, _) => vanishes most u (relations st) (held st) p (cofactor_hint p) | None => false end.
 
 (* ---- a number and a side of a rectangle ---- *)
 
@@ -31,7 +36,7 @@ Definition is_in (x : known) (lo hi : number) : bool :=
   let (a, b) := fraction_of lo in let (c, d) := fraction_of hi in
   (0 <? den lo) && (0 <? den hi) &&
   (match within x with Some (p, q) => (a * u <=? p * b) && (q * d <=? c * u) | None => false end ||
-   ((a * d =? c * b) && are_equal most (relations st) (is x) (q_fraction most a b))).
+   ((a * d =? c * b) && is_null_there (sub_q (is x) (q_fraction most a b)))).
 Definition is_seen_outside (x : known) (lo hi : number) : bool :=
   let (a, b) := fraction_of lo in let (c, d) := fraction_of hi in
   (0 <? den lo) && (0 <? den hi) &&
@@ -52,7 +57,7 @@ Definition number_at (a : Z) : known := match Map.find a (numbers st) with Some 
 Definition less (x y : known) : known := Known (sub (within x) (within y)) (sub_q (is x) (is y)).
 Definition product_with (x y : known) : known := Known (mul most u (within x) (within y)) (mul_q (is x) (is y)).
 Definition sum_with (x y : known) : known := Known (add (within x) (within y)) (add_q (is x) (is y)).
-Definition is_zero (x : known) : bool := is_null (is x).
+Definition is_zero (x : known) : bool := is_null_there (is x).
 Definition is_no_zero (x : known) : bool := negb (sign_of (within x) =? 0).
 
 (* b - a *)

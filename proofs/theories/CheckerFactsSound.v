@@ -4,7 +4,7 @@
 From Coq Require Import Reals Lra Lia ZArith NArith List Bool.
 From Dyadel Require Import Plane Checker CheckerSound CheckerEnclosure CheckerEnclosureSound CheckerAlgebra
   CheckerAlgebraSound.
-From Dyadel Require Import CheckerBlock CheckerBlockSound CheckerFacts.
+From Dyadel Require Import CheckerBlock CheckerBlockSound CheckerVanish CheckerVanishSound CheckerFacts.
 Import ListNotations.
 Open Scope R_scope.
 Local Opaque mul add sub q_add q_sub q_mul.
@@ -35,11 +35,19 @@ Variable most u : Z.
 Variable U : (0 < u)%Z.
 Variable st : state.
 Variable St : state_ok v l u st.
+Variable hint : poly -> cofactor.
 
 Let R0 := relations_there v l u st St.
 Notation ok := (known_ok l u).
 
-Lemma is_in_ok x r lo hi : ok x r -> is_in most u st x lo hi = true -> value lo <= r <= value hi.
+Lemma null_there_ok q r : is_quotient l q r -> is_null_there most u st hint q = true -> r = 0.
+Proof.
+  intros Q E. unfold is_null_there in E. apply orb_prop in E as [E | E]; [exact (null_is_zero l _ _ Q E) |].
+  destruct q as [[p d] |]; [| discriminate].
+  exact (vanishing_quotient l most u U _ R0 _ (leaves_there v l u st St) p d r (hint p) Q E).
+Qed.
+
+Lemma is_in_ok x r lo hi : ok x r -> is_in most u st hint x lo hi = true -> value lo <= r <= value hi.
 Proof.
   intros [X Q] E. unfold is_in in E. destruct (fraction_of lo) as [a b] eqn:Fa.
     destruct (fraction_of hi) as [c d] eqn:Fc.
@@ -55,7 +63,8 @@ Proof.
     + apply Rmult_le_reg_r with (IZR b * IZR u); [now apply Rmult_lt_0_compat |]. nra.
     + apply Rmult_le_reg_r with (IZR d * IZR u); [now apply Rmult_lt_0_compat |]. nra.
   - apply andb_prop in C as [G C]. apply Z.eqb_eq in G. apply (f_equal IZR) in G. rewrite !mult_IZR in G.
-    pose proof (equal_are l most _ R0 _ _ _ _ Q (q_fraction_is l most a b) C) as W. subst r.
+    pose proof (null_there_ok _ _ (q_sub_is l most _ R0 _ _ _ _ Q (q_fraction_is l most a b)) C) as W.
+    assert (r = IZR a / IZR b) by lra. subst r. clear W.
     assert (IZR a / IZR b = IZR c / IZR d); [| lra]. apply Rmult_eq_reg_r with (IZR b * IZR d); [| nra].
     transitivity (IZR a * IZR d); [field; lra |]. rewrite G. field. lra.
 Qed.
@@ -70,7 +79,7 @@ Qed.
 (* The point. *)
 Definition point_of (p : place) : point := (v (at_first p), v (at_second p)).
 
-Theorem place_in_ok p s : place_in most u st p s = true ->
+Theorem place_in_ok p s : place_in most u st hint p s = true ->
   value (left s) <= fst (point_of p) <= value (right s) /\ value (low s) <= snd (point_of p) <= value (high s).
 Proof.
   intros E. apply andb_prop in E as [X Y]. apply with_number_ok in X as (x & Kx & X).
@@ -89,8 +98,8 @@ Proof. intros [] []. split; [now apply mul_holds | now apply q_mul_is]. Qed.
 Lemma sum_with_ok x y r s : ok x r -> ok y s -> ok (sum_with most st x y) (r + s).
 Proof. intros [] []. split; [now apply add_holds | now apply q_add_is]. Qed.
 
-Lemma zero_ok x r : ok x r -> is_zero x = true -> r = 0.
-Proof. intros [_ Q]. exact (null_is_zero l _ _ Q). Qed.
+Lemma zero_ok x r : ok x r -> is_zero most u st hint x = true -> r = 0.
+Proof. intros [_ Q]. exact (null_there_ok _ _ Q). Qed.
 Lemma no_zero_ok x r : ok x r -> is_no_zero x = true -> r <> 0.
 Proof. intros [H _] E. apply negb_true_iff, Z.eqb_neq in E. exact (sign_not_zero u U _ _ H E). Qed.
 
@@ -157,7 +166,7 @@ Proof.
   - now apply cross_ok.
 Qed.
 
-Lemma circle_holds_ok a b c ps : fact_holds most u st (OnCircle a b c ps) = true ->
+Lemma circle_holds_ok a b c ps : fact_holds most u st hint (OnCircle a b c ps) = true ->
   dx a b * dy a c - dy a b * dx a c <> 0 /\ exists o r, 0 < r /\
     (forall z, off_at a b c z = (dx a b * dy a c - dy a b * dx a c) * (dist2 o z - r)) /\
     forall d, d = a \/ d = b \/ d = c \/ In d ps -> dist2 o (point_of d) = r.
@@ -186,7 +195,7 @@ Proof.
       exact (zero_ok _ _ (off_ok a b c _ _ (point_of d) (step_x_ok a d) (step_y_ok a d)) E).
 Qed.
 
-Theorem fact_holds_ok f : fact_holds most u st f = true -> fact_true f.
+Theorem fact_holds_ok f : fact_holds most u st hint f = true -> fact_true f.
 Proof.
   intros E. destruct f as [a b | a b ps | a b c ps].
   - cbn [fact_holds fact_true] in *. apply andb_prop in E as [X Y]. apply (zero_ok _ _ (step_x_ok a b)) in X.
@@ -211,16 +220,16 @@ Proof. split; [intros a x F; destruct (Map.empty_1 (Map.find_2 F)) | intros [| j
 (* Whatever numbers v are described by the lines (and leaves l are what the checker says they are): each is defined;
   points
    that are taken lie in the rectangles, and facts that are taken hold. *)
-Theorem accepted_block most root_hint zero_hint pi_hint u ls st v l : (0 < u)%Z ->
+Theorem accepted_block most root_hint zero_hint pi_hint cofactor_hint u ls st v l : (0 < u)%Z ->
   run most root_hint zero_hint u (pi_at most pi_hint u) nothing 0 ls = inl st -> agrees v l (leaves st) ->
   (forall j o, line_at 0 ls j o -> described v l j o) ->
   (forall j o, line_at 0 ls j o -> defined v l j o) /\
-  (forall p s, place_in most u st p s = true ->
+  (forall p s, place_in most u st cofactor_hint p s = true ->
     value (left s) <= v (at_first p) <= value (right s) /\ value (low s) <= v (at_second p) <= value (high s)) /\
-  (forall f, fact_holds most u st f = true -> fact_true v f).
+  (forall f, fact_holds most u st cofactor_hint f = true -> fact_true v f).
 Proof.
   intros U E A D. destruct (run_ok v l most root_hint zero_hint u U _ (pi_holds most pi_hint u U) ls nothing 0 st E
     (nothing_ok v l u) A D) as [S F].
-  split; [exact F |]. split; [intros p s; exact (place_in_ok v l most u U st S p s) | intros f;
-    exact (fact_holds_ok v l most u U st S f)].
+  split; [exact F |]. split; [intros p s; exact (place_in_ok v l most u U st S cofactor_hint p s) | intros f;
+    exact (fact_holds_ok v l most u U st S cofactor_hint f)].
 Qed.

@@ -3,12 +3,13 @@
    inside, or on one line with nobody beyond. CheckerTiedSound.v says what follows. Which set shows a pair to be a tie, and
    which of its sites do so, are hints of any origin. *)
 From Coq Require Import ZArith List Bool.
-From Dyadel Require Import Checker CheckerTies CheckerEnclosure CheckerAlgebra CheckerBlock CheckerFacts.
+From Dyadel Require Import Checker CheckerTies CheckerEnclosure CheckerAlgebra CheckerBlock CheckerVanish CheckerFacts.
 Import ListNotations.
 Open Scope Z_scope.
 
-(* A fact, and the sites that it is about; what is known of the numbers of its block, units of them in 1. *)
-Record tied_set : Type := TiedSet { units : Z; block : state; says : fact; site_names : list Z }.
+(* A fact, and the sites that it is about; what is known of the numbers of its block, units of them in 1, and hints of
+   what is 0. *)
+Record tied_set : Type := TiedSet { units : Z; block : state; null_hint : poly -> cofactor; says : fact; site_names : list Z }.
 
 Definition places_of (f : fact) : list place :=
   match f with Same a b => [] | OnLine a b l => a :: b :: l | OnCircle a b c l => a :: b :: c :: l end.
@@ -61,7 +62,7 @@ Definition all_are (t : tree) (z : Z) : bool :=
   all_in (fun h => there h =? z) (fun b => Map.mem (box_name b) own || (there b =? z)) t.
 
 Definition is_free (t : tree) : bool :=
-  fact_holds most u st (says g) &&
+  fact_holds most u st (null_hint g) (says g) &&
   match says g with Same _ _ => false | OnLine _ _ _ => all_are t 1 || all_are t (-1) | OnCircle _ _ _ _ => all_are t 1 end.
 
 (* On which side of the line of a and b is m? *)

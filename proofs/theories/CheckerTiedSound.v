@@ -4,7 +4,7 @@
 From Coq Require Import Reals Lra Lia ZArith NArith List Bool.
 From Dyadel Require Import Plane Finite Distance Cells Legal Nerve Checker CheckerSound CheckerComplete CheckerCoverSound.
 From Dyadel Require Import CheckerChainSound CheckerEnclosure CheckerEnclosureSound CheckerAlgebra CheckerAlgebraSound.
-From Dyadel Require Import CheckerBlock CheckerBlockSound CheckerFacts CheckerFactsSound CheckerTies CheckerTiesSound CheckerTied.
+From Dyadel Require Import CheckerBlock CheckerBlockSound CheckerVanish CheckerFacts CheckerFactsSound CheckerTies CheckerTiesSound CheckerTied.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -208,7 +208,7 @@ Proof.
   pose proof (At i mi Mi Ni) as Pi. pose proof (At j mj Mj Nj) as Pj.
   pose proof (member_place mi Mi) as Qi. pose proof (member_place mj Mj) as Qj.
   destruct (says g) as [a b | a b f | a b c f] eqn:Sg; [discriminate | |].
-  - right. destruct (fact_holds_ok v l most _ U _ St _ Fact) as [Df On].
+  - right. destruct (fact_holds_ok v l most _ U _ St _ _ Fact) as [Df On].
     assert (OnIt : forall q, In q (places_of (OnLine a b f)) -> off_left a b (point_of v q) = 0).
     { cbv beta. intros q [<- | [<- | I]]; [ring | unfold dx, dy; ring | exact (On q I)]. }
     assert (S : exists s : R, s * s = 1 /\ forall k, (k < length sites)%nat -> 0 <= s * off_left a b (p k)).
@@ -226,7 +226,7 @@ Proof.
       { destruct T as [-> | ->]; [rewrite Pi | rewrite Pj]; now apply OnIt. }
       unfold dot. cbn [fst snd]. assert (s * off_left a b (p k) = 0) by (rewrite Z; ring). cbv beta in *. lra.
     + intros k K. pose proof (S k K). unfold dot. cbn [fst snd]. cbv beta in *. lra.
-  - left. destruct (circle_holds_ok v l most _ U _ St _ _ _ _ Fact) as [N0 (o & r & R0 & Off & On)].
+  - left. destruct (circle_holds_ok v l most _ U _ St _ _ _ _ _ Fact) as [N0 (o & r & R0 & Off & On)].
     assert (OnIt : forall q, In q (places_of (OnCircle a b c f)) -> dist2 o (point_of v q) = r).
     { intros q [<- | [<- | [<- | I]]]; apply On; tauto. }
     exists o, (dist o (p i)). 
@@ -257,7 +257,7 @@ Proof.
   pose proof (member_place _ Mi) as Qi. pose proof (member_place _ Mj) as Qj. pose proof (member_place _ Mk) as Qk.
   pose proof (member_place _ Mn) as Qn.
   destruct (says g) as [a b | a b f | a b d f]; [discriminate | |].
-  - destruct (fact_holds_ok v l most _ U _ St _ Fact) as [Df On]. apply between_ok in Cr.
+  - destruct (fact_holds_ok v l most _ U _ St _ _ Fact) as [Df On]. apply between_ok in Cr.
     assert (OnIt : forall q, In q (places_of (OnLine a b f)) -> off_left a b (point_of v q) = 0).
     { cbv beta. intros q [<- | [<- | I]]; [ring | unfold dx, dy; ring | exact (On q I)]. }
     apply OnIt in Qi, Qj, Qk. cbv beta in Qi, Qj, Qk.
@@ -265,7 +265,7 @@ Proof.
       (snd c - snd (point_of v (snd mk))) _ _ _ Cr _ _); unfold dist2 in *; try (unfold dx, dy in *; lra).
     destruct (Req_dec (dx v a b) 0) as [X | X]; [| now left]. right. intros Y. apply Df. unfold dx, dy in *.
     destruct (point_of v a), (point_of v b). simpl in *. f_equal; lra.
-  - destruct (circle_holds_ok v l most _ U _ St _ _ _ _ Fact) as [_ (o & r & _ & _ & On)].
+  - destruct (circle_holds_ok v l most _ U _ St _ _ _ _ _ Fact) as [_ (o & r & _ & _ & On)].
     assert (OnIt : forall q, In q (places_of (OnCircle a b d f)) -> dist2 o (point_of v q) = r).
     { intros q [<- | [<- | [<- | I]]]; apply On; tauto. }
     apply OnIt in Qi, Qj, Qk, Qn. apply andb_prop in Cr as [Sk Sn]. apply Z.eqb_eq in Sk, Sn.
