@@ -1,5 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* dyadel-proved [--still LIST] FILE: checks a certificate by the checker that is proved in Coq (theories/Checker.v,
+(* dyadel-proved FILE [--still LIST]: checks a certificate by the checker that is proved in Coq (theories/Checker.v,
    CheckerFaces.v), and says what of it is proved by it and what is not, as `dyadel verify` does. LIST: sites, a line each,
    that the caller says stay where they are: nothing narrows them; else points do. Exit status 0: everything that is stated
    is proved; 3: accepted, but something is not proved, and named; 1: rejected. "-" is standard input. *)
@@ -260,7 +260,7 @@ let check name list =
 let () =
   match Sys.argv with
   | [| _; name |] -> check name None
-  | [| _; "--still"; list; name |] when list <> "-" || name <> "-" -> check name (Some list)
+  | [| _; name; "--still"; list |] when list <> "-" || name <> "-" -> check name (Some list)
   | _ ->
-    prerr_endline "usage: dyadel-proved [--still LIST] FILE";
+    prerr_endline "usage: dyadel-proved FILE [--still LIST]";
     exit 2
