@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""The outcome fixpoint with boxes: dyadel-proved --still, and `dyadel verify --points` with and without --proved.
+"""The outcome fixpoint with boxes [CERT-8]: dyadel-proved --still, and `dyadel verify --points` with and without --proved.
 
 Usage: still.py ROOT DYADEL_PROVED DYADEL [COUNT]
 
@@ -169,6 +169,8 @@ def try_cases(both, root):
     table = (root / 'tests/data/airports.csv').read_text()
     columns = ('--plane', '--columns', 'longitude,latitude', '--radius')
     beyond = ''.join(f'{row}\n' for row in BEYOND)
+    kite = '-3 0\n3 0\n0 1\n[0,0.1] [-9.5,-8.5]\nsqrt(0.02) 12\n'
+    tangle = '[0,4] [0,4]\nsqrt(4.5) 2\n20 0\n-9 -12\n-10 14\n'
     boxes = '[-2,-1] [0,1]\n[-1.5,-0.5] [0.5,1.5]\n'
     boxes += ''.join(f'{x} {y}\n' for x, y in ((5, 0), (3, 4), (-2, 5), (-5, 2), (-4, -4), (1, -5), (10, 2), (7, 8), (-1, 10),
                                                (-8, 7), (-10, -2), (-6, -8), (3, -9), (8, -6)))
@@ -180,6 +182,8 @@ def try_cases(both, root):
             ('boxes, hausdorff', boxes, (), (), 'hausdorff 60', ALL),
             ('boxes, voronoi area', boxes, (), (), 'voronoi area 60', ALL),
             ('a computed point in an open face', boxes + 'sqrt(0.3) 0.2\n', (), (), 'decided', NOT_ALL),
+            ('a computed point in pairs with both', kite, (), (), 'decided', NOT_ALL),
+            ('a computed point in open pairs only', tangle, (), (), 'decided', NOT_ALL),
             ('a computed point far away', boxes + 'sqrt(300) 1\n-sqrt(500) 9\n', (), (), 'decided', ALL),
             ('a computed point far away, area', boxes + 'sqrt(300) 1\n-sqrt(500) 9\n', (), (), 'area 60', NOT_ALL),
             ('a computed point, voronoi area', boxes + 'sqrt(300) 1\n-sqrt(500) 9\n', (), (), 'voronoi area 60', NOT_ALL),
@@ -221,13 +225,14 @@ def try_handed(both):
     script.write_text('#!/bin/sh\necho "$2 $3"\ncat\n')
     script.chmod(0o755)
     path, os.environ['PATH'] = os.environ['PATH'], f'{folder}:{os.environ["PATH"]}'
-    rows = ['0 0', '[1,2] 5', 'sqrt(2) 0', '1/3 7', 'pi [3,4]', 'sqrt(4) 1', '0 sqrt(3)+9']
-    text = both.certificate(''.join(f'{row}\n' for row in rows))
-    stay = [0, 1, 3, 5]
-    answer = both.verify(text, ''.join(f'{row}\n' for row in rows))[1]
-    if answer.stdout.split('\n')[:len(stay) + 1] != ['--still -', *map(str, stay)] or 'compared' not in answer.stdout:
-        yield f'handed over: {answer}'
-    if both.verify(text, ''.join(f'{row}\n' for row in rows[:-1]))[1].returncode != 1:
+    rows = ['0 0', '[1,2] 5', 'sqrt(2) 0', '1/3 7', 'pi [3,4]', 'sqrt(4) 1', '0 sqrt(3)+9', '2 3']
+    exact = rows[:-1] + ['min(2,sqrt(5)) 3']
+    for made, read, stay in ((rows, rows, [0, 1, 3, 5, 7]), (rows, exact, [0, 1, 3, 5, 7]),
+                             (rows[:-1] + ['[2,2.0000000001] 3'], exact, [0, 1, 3, 5])):  # exact in a wider rectangle
+        answer = both.verify(both.certificate('\n'.join(made)), '\n'.join(read))[1]
+        if answer.stdout.split('\n')[:len(stay) + 1] != ['--still -', *map(str, stay)] or 'compared' not in answer.stdout:
+            yield f'handed over, not {stay}: {answer}'
+    if both.verify(both.certificate('\n'.join(rows)), '\n'.join(rows[:-1]))[1].returncode != 1:
         yield 'fewer points than sites are accepted'
     os.environ['PATH'] = path
 

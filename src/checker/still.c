@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Can nothing that is narrowed change what a pair is [CERT-8]?
  *
- * Of an open pair both sites have to stay, and nobody who may be narrowed may be in a possible pair with both. Where one
- * of the two is no point that is not enough: an edge of every choice need not have a witness, and may get one when a
- * neighbour of one site is narrowed. Then nobody may be in a possible pair with either. */
+ * Of an open pair both sites have to stay, and nobody who may be narrowed may be in a possible pair with both. Where
+ * one of the two is no point that is not enough: an edge of every choice need not have a witness, and may get one when
+ * a neighbour of one site is narrowed. Then nobody may be in a possible pair with either; so neither of the two may be
+ * narrowed, who are in a pair with each other. (A point may be: it stays.) */
 #include "base/alloc.h"
 #include "checker/checker.h"
 
@@ -60,20 +61,19 @@ static size_t movers_of(const uint32_t **of, const movers *m, uint32_t i) {
   return m->start[i + 1] - m->start[i];
 }
 
-static bool is_listed(const dyd_checker *c, uint32_t i, uint32_t j) {
+static bool is_in_a_pair(const dyd_checker *c, uint32_t i, uint32_t j) {
   uint32_t a = i < j ? i : j, b = i < j ? j : i;
   return dyd_cert_edges_have(&c->legal, a, b) || dyd_cert_edges_have(&c->open, a, b);
 }
 
 static bool open_pair_stays(const dyd_checker *c, const movers *m, uint32_t i, uint32_t j) {
   const uint32_t *of, *other;
-  if (m->movable[i] || m->movable[j]) return false;
   size_t count = movers_of(&of, m, i), others = movers_of(&other, m, j);
   if (!count && !others) return true;
   if (!dyd_cert_is_point(&c->sites.site[i]) || !dyd_cert_is_point(&c->sites.site[j])) return false;
   if (others < count) return open_pair_stays(c, m, j, i);
   for (size_t k = 0; k < count; k++)
-    if (is_listed(c, of[k], j)) return false;
+    if (is_in_a_pair(c, of[k], j)) return false;
   return true;
 }
 

@@ -119,8 +119,8 @@ static int verify_here(dyd_certificate_report *report, FILE *still, const cli_op
   int status = 0;
   cli_deadline_phase("checking the certificate");
   dyd_error_clear(&err);
-  dyd_status st = o->points ? verify_points(&status, report, still, in, o, &err)
-                            : dyd_verify_certificate(report, in, &err);
+  dyd_status st =
+      o->points ? verify_points(&status, report, still, in, o, &err) : dyd_verify_certificate(report, in, &err);
   cli_input_close(in);
   if (status) return status;
   return st == DYD_OK ? 0 : complain_rejected(o, &err);
