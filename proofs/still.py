@@ -175,6 +175,7 @@ def try_cases(both, root):
     columns = ('--plane', '--columns', 'longitude,latitude', '--radius')
     beyond = ''.join(f'{row}\n' for row in BEYOND)
     kite = '-3 0\n3 0\n0 1\n[0,0.1] [-9.5,-8.5]\nsqrt(0.02) 12\n0.2 3\n'
+    turned = ''.join(reversed(kite.splitlines(keepends=True)))
     tangle = '[0,4] [0,4]\n[1,5] [1,5]\nsqrt(4.5) 2\n20 0\n-9 -12\n-10 14\n'
     for name, points, making, reading, goal, status in [
             ('radius 0.05', table, columns + ('0.05',), columns + ('0.05',), 'decided', ALL),
@@ -185,6 +186,7 @@ def try_cases(both, root):
             ('boxes, voronoi area', FAR, (), (), 'voronoi area 60', ALL),
             ('a computed point in an open face', FAR + 'sqrt(0.3) 0.2\n', (), (), 'decided', NOT_ALL),
             ('a computed point in pairs with both', kite, (), (), 'decided', NOT_ALL),
+            ('the same, and the first', turned, (), (), 'decided', NOT_ALL),
             ('a computed point in pairs with both ends of a tie', kite.replace('[0,0.1] [-9.5,-8.5]', '0 -9'), (), (), 'decided', ALL),
             ('a computed point in open pairs only', tangle, (), (), 'decided', NOT_ALL),
             ('a computed point far away', FAR + 'sqrt(300) 1\n-sqrt(500) 9\n', (), (), 'decided', ALL),
