@@ -222,6 +222,12 @@ struct dyd_engine_options;
  * those of dyd_engine_ask; DYD_CANCELLED. */
 DYD_API dyd_status dyd_verify_certificate_of(dyd_certificate_report *out, FILE *in, struct dyd_engine *e,
                                              const struct dyd_engine_options *options, dyd_error *err);
+/* The same; of an accepted certificate, the sites that stay where they are go to `still` (or NULL), a line each, in
+ * order: point k is fixed or final, and its rectangle is that of site k. `dyadel-proved --still` reads it. DYD_E_IO,
+ * too, when it cannot be written. */
+DYD_API dyd_status dyd_verify_certificate_still(dyd_certificate_report *out, FILE *still, FILE *in,
+                                                struct dyd_engine *e, const struct dyd_engine_options *options,
+                                                dyd_error *err);
 
 #ifdef __cplusplus
 }

@@ -1,7 +1,8 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* dyadel-proved FILE: checks a certificate by the checker that is proved in Coq (theories/Checker.v, CheckerFaces.v), and
-   says what of it is proved by it and what is not, as `dyadel verify` does. Exit status 0: everything that is stated is
-   proved; 3: accepted, but something is not proved, and named; 1: rejected. "-" is standard input. *)
+(* dyadel-proved FILE [--still LIST]: checks a certificate by the checker that is proved in Coq (theories/Checker.v,
+   CheckerFaces.v), and says what of it is proved by it and what is not, as `dyadel verify` does. LIST: sites, a line each,
+   that the caller says stay where they are: nothing narrows them; else points do. Exit status 0: everything that is stated
+   is proved; 3: accepted, but something is not proved, and named; 1: rejected. "-" is standard input. *)
 open Source
 open Reader
 
@@ -70,7 +71,7 @@ type proof = {
   covering : int;  (* triangles that cover the plane *)
   fixed : bool;  (* nothing that is narrowed changes what a pair is *)
   loose : int;  (* ties that are not shown to be ties *)
-  counted : bool;  (* are the other numbers of the section right? They say nothing of pairs. *)
+  counted : bool;  (* are corners and the other numbers of the section right? They say nothing of pairs. *)
 }
 
 let listed c = List.rev_append c.pairs.listed c.edges
@@ -90,7 +91,7 @@ let loose_pairs c d e boxes (b : Blocks.proof) pairs =
   Checker.loose_of_sets Blocks.most d e c.sites sets (Crossings.hint boxes sets)
     (Checker.loose_ties d e c.sites (Circles.hint boxes c.edges) pairs)
 
-let proof_of c d e b =
+let proof_of c d e b still =
   let boxes = Option.get (Checker.scaled_sites d e c.sites) in
   let triangles, fans = Hints.triangles_and_fans boxes c.edges in
   let found = Checker.surrounded d e c.sites c.edges triangles c.corners fans in
@@ -107,11 +108,10 @@ let proof_of c d e b =
     List.for_all (fun (e : Checker.edge) -> is_open e.from e.to0) p.listed
     && List.for_all (fun (_, (chain : Checker.chain)) -> is_open chain.one chain.other) p.chains
   in
-  let counted = decided || (c.hints + p.boxes + p.unproved = 0 && are_open && complete && are_sure () && are_corners ()) in
-  let circle = Circles.hint boxes c.edges in
-  let loose = List.length (loose_pairs c d e boxes b p.ties) and is_goal = c.goal = [ "decided" ] in
-  let fixed = Checker.is_fixpoint d e c.sites (complete && is_goal) circle p.listed in
-  let fixed = fixed || (complete && is_goal && loose_pairs c d e boxes b p.listed = []) in
+  let counted = are_corners () && (decided || (p.unproved = 0 && are_open && complete && are_sure ())) in
+  let loose = List.length (loose_pairs c d e boxes b p.ties) and of_pairs = complete && c.goal = [ "decided" ] in
+  let may_change = if of_pairs then loose_pairs c d e boxes b p.listed else [] in
+  let fixed = Checker.is_fixpoint d e c.sites still of_pairs c.edges p.listed may_change in
   { decided; complete; covering; fixed; loose; surrounded = List.length found; faces = List.length triangles; counted }
 
 let of_diagram c what = Option.bind c.diagram what
@@ -174,13 +174,13 @@ let gaps c p (b : Blocks.proof) =
       (p.loose > 0, Printf.sprintf "that no refinement decides %d ties" p.loose);
       (loose > 0, Printf.sprintf "that %d aliases of points that are not exact are the same points" loose);
       (has_bounds c && not p.complete, "the bounds of area and Hausdorff distance, as more pairs may be possible");
-      (p.complete && not p.counted, "places, bridges, corners and the numbers of triangles and pairs, which the proof does not need");
+      (p.complete && not p.counted, "corners and the numbers of triangles and pairs, which the proof does not need");
       (b.unseen_points > 0, Printf.sprintf "that %d points lie where they are described to be%s" b.unseen_points unknown);
       (b.unseen_facts > 0, Printf.sprintf "that %d facts on points hold%s" b.unseen_facts unknown);
       (has_unproved_distance c, "the distance of undetermined points to the Voronoi diagram");
       (not (outcome_is_proved c p), "the outcome " ^ c.outcome) ]
 
-let report c p (b : Blocks.proof) gaps =
+let report c p (b : Blocks.proof) given gaps =
   print_endline (if gaps = [] then "accepted, all of it proved" else "accepted, not all of it proved: see what is not proved below");
   Printf.printf "states: outcome %s, goal %s%s\n" c.outcome (String.concat " " c.goal) (if c.capped then ", capped" else "");
   Printf.printf "sites: %d, of which %d aliases\n" (List.length c.sites + c.aliases) c.aliases;
@@ -205,13 +205,31 @@ let report c p (b : Blocks.proof) gaps =
   if b.points + b.facts > 0 then
     Printf.printf "checked: %d points lie where they are described to be, and %d facts on them hold\n" b.points b.facts;
   if outcome_is_proved c p then Printf.printf "checked: the outcome %s\n" c.outcome;
+  Option.iter (fun still -> Printf.printf "given: %d sites stay where they are\n" (List.length still)) given;
   if c.pairs.opened > 0 then Printf.printf "open: %d indeterminate pairs, of which nothing is stated\n" c.pairs.opened;
   if c.capped then print_endline "open: the cap was met, of other pairs nothing is stated";
+  if c.hints + c.pairs.boxes > 0 then
+    print_endline "not used: places, bridges and the number of pairs that boxes prove, from which nothing follows here";
   List.iter print_endline gaps
 
+exception Bad_list of int * string
+
+(* Of the sites that are said to stay, those whose aliases are, too. *)
+let staying c listed =
+  let known = Hashtbl.create 1000 and moved = Hashtbl.create 1000 in
+  List.iter (fun k -> Hashtbl.replace known k ()) listed;
+  List.iter (fun (alias, site) -> if not (Hashtbl.mem known alias) then Hashtbl.replace moved site ()) c.aliased;
+  List.map Z.of_int (List.filter (fun k -> not (Hashtbl.mem moved k)) listed)
+
+let read_still c name =
+  match still_sites c (whole_file name) with
+  | listed -> listed
+  | exception Bad (line, message) -> raise (Bad_list (line, message))
+
 (* The exit status. *)
-let verdict name =
+let verdict name list =
   let c = certificate (whole_file name) in
+  let given = Option.map (read_still c) list in
   let d, e = Hints.unit_of c.sites c.edges (List.map snd c.pairs.chains) in
   if not (Checker.check d e c.sites c.edges) then
     raise (Bad (line_at_fault c d e, "a point is no witness of its pair, or sites are not rectangles"));
@@ -219,22 +237,28 @@ let verdict name =
   Option.iter (check_diagram c) c.diagram;
   Option.iter (fun g -> if not g.distance_unproved then Option.iter (check_distance c g) g.distance) c.diagram;
   let b = Blocks.of_blocks c in
-  let p = proof_of c d e b in
+  let p = proof_of c d e b (staying c (Option.value ~default:[] given)) in
   Option.iter (fun wrong -> raise (Bad (2, wrong))) (contradiction c d e p);
   let found = gaps c p b in
-  report c p b found;
+  report c p b given found;
   if found = [] then 0 else 3
+
+let check name list =
+  match verdict name list with
+  | status -> exit status
+  | exception Bad (line, message) -> Printf.eprintf "dyadel-proved: %s:%d: rejected: %s\n" name line message; exit 1
+  | exception Bad_list (line, message) ->
+    Printf.eprintf "dyadel-proved: %s:%d: no list of sites: %s\n" (Option.get list) line message;
+    exit 2
+  | exception Sys_error message -> Printf.eprintf "dyadel-proved: %s\n" message; exit 1
+  | exception (Stack_overflow | Out_of_memory) ->
+    Printf.eprintf "dyadel-proved: %s: not known, as memory is exhausted\n" name;
+    exit 1
 
 let () =
   match Sys.argv with
-  | [| _; name |] -> (
-    match verdict name with
-    | status -> exit status
-    | exception Bad (line, message) -> Printf.eprintf "dyadel-proved: %s:%d: rejected: %s\n" name line message; exit 1
-    | exception Sys_error message -> Printf.eprintf "dyadel-proved: %s\n" message; exit 1
-    | exception (Stack_overflow | Out_of_memory) ->
-      Printf.eprintf "dyadel-proved: %s: not known, as memory is exhausted\n" name;
-      exit 1)
+  | [| _; name |] -> check name None
+  | [| _; name; "--still"; list |] when list <> "-" || name <> "-" -> check name (Some list)
   | _ ->
-    prerr_endline "usage: dyadel-proved FILE";
+    prerr_endline "usage: dyadel-proved FILE [--still LIST]";
     exit 2

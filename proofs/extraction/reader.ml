@@ -272,6 +272,19 @@ let read_rest s known size =
   in
   sections []
 
+(* Sites that stay where they are, a line each: rising numbers, aliases among them. *)
+let still_sites c text =
+  let s = { text; at = 0; line = 0 } and last = ref (-1) in
+  let rec read found =
+    if s.at = String.length text then List.rev found
+    else
+      let k = match words s with [ k ] -> small s k | _ -> bad s "a line has one site" in
+      if k < 0 || k >= Array.length c.rects then bad s "there is no site %d" k;
+      in_order s last k;
+      read (k :: found)
+  in
+  read []
+
 let certificate text =
   let s = { text; at = 0; line = 0 } and known = Hashtbl.create 1000 and legal = Hashtbl.create 1000 in
   let outcome, goal, capped = read_head s in

@@ -1,10 +1,9 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* What an outcome says, where the checker proves it: "decided", "certified" for a bound of area or Hausdorff distance,
-   "fixpoint". *)
+(* What an outcome says, where the checker proves it: "decided", "certified" for a bound of area or Hausdorff distance.
+   For "fixpoint" see CheckerStillSound.v. *)
 From Coq Require Import Reals Lra Lia Psatz ZArith List Bool.
 From Dyadel Require Import Plane Finite Distance Cells Legal Nerve Bounds Measure Checker CheckerSound CheckerFaces.
-From Dyadel Require Import CheckerComplete CheckerBounds CheckerBoundsSound CheckerCover CheckerCoverSound CheckerTies
-  CheckerTiesSound.
+From Dyadel Require Import CheckerComplete CheckerBounds CheckerBoundsSound CheckerTies.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -80,57 +79,4 @@ Theorem outcome_hausdorff D E l edges opened B bound m p z :
 Proof.
   intros C F G H R0 P Z0. destruct (accepted_hausdorff D E l edges opened B bound p C F G H P) as [_ T].
   destruct (T z Z0) as [w [W L]]. exists w. split; [exact W |]. pose proof (reaches_value m bound R0). lra.
-Qed.
-
-(* ---- fixpoint: narrower rectangles change nothing ---- *)
-
-Lemma same_rect (A A' : rect) : xlo A = xhi A -> ylo A = yhi A -> refines A' A -> refines A A'.
-Proof.
-  intros X Y Q z [Zx Zy]. destruct (Q (nearest z A') (nearest_inside z A')) as [Nx Ny].
-  replace z with (nearest z A'); [apply nearest_inside |].
-  destruct z as [u v]. destruct (nearest (u, v) A') as [u' v']. simpl in *. f_equal; lra.
-Qed.
-
-(* Of points there is nothing narrower, so that no bound changes either. *)
-Theorem points_stay D E l edges B B' : check D E l edges = true -> describes l B -> all_points D E l = true ->
-  refined (length l) B' B -> refined (length l) B B'.
-Proof.
-  intros C F H Q k K. destruct (accepted_parts D E l edges C) as (bs & Sc & P0 & _ & _). pose proof (unit_pos D E P0) as U.
-  unfold all_points in H. rewrite Sc, forallb_forall in H.
-  destruct (box_of D E l B F k K bs Sc P0) as (s & b & _ & T & _ & (X0 & X1 & Y0 & Y1) & _).
-  specialize (H b (nth_error_In _ _ T)). unfold is_point in H. rewrite andb_true_iff, !Z.eqb_eq in H. destruct H as [Hx Hy].
-  rewrite <- Hx in X1. rewrite <- Hy in Y1. apply same_rect; [| | exact (Q k K)]; apply (Rmult_eq_reg_r (unit D E)); lra.
-Qed.
-
-Theorem outcome_fixpoint D E l edges opened B B' complete hint a b i j :
-  check D E l edges = true -> describes l B -> (complete = true -> lists_all l B (rev_append opened edges)) ->
-  is_fixpoint D E l complete hint opened = true -> refined (length l) B' B ->
-  named l a i -> named l b j -> a <> b ->
-  (possible (length l) B' a b <-> possible (length l) B a b) /\ (legal (length l) B' a b <-> legal (length l) B a b).
-Proof.
-  intros C F All H Q A G M. pose proof (named_below _ _ _ A) as Ka. pose proof (named_below _ _ _ G) as Kb.
-  assert (Down : possible (length l) B' a b -> possible (length l) B a b) by now apply possible_monotone.
-  assert (Up : legal (length l) B a b -> legal (length l) B' a b).
-  { intros [c W]. exists c. now apply (witness_monotone _ B' B). }
-  unfold is_fixpoint in H. apply orb_true_iff in H. destruct H as [H | H].
-  - pose proof (points_stay D E l edges B B' C F H Q) as R0. split; (split; [assumption || idtac | assumption || idtac]).
-    + now apply possible_monotone.
-    + intros [c W]. exists c. now apply (witness_monotone _ B B').
-  - apply andb_true_iff in H. destruct H as [Cp T]. specialize (All Cp).
-    assert (Tied : forall e, In e opened -> ~ In e (loose_ties D E l hint opened)).
-    { intros e I. destruct (loose_ties D E l hint opened); [intros [] | discriminate]. }
-    assert (Cases : possible (length l) B a b -> legal (length l) B a b \/
-      (possible (length l) B' a b /\ forall B0, refined (length l) B0 B -> ~ legal (length l) B0 a b)).
-    { intros P. destruct (All a b i j A G M P) as (e & I & N). rewrite rev_append_rev in I. apply in_app_iff in I.
-      destruct I as [I | I].
-      - apply in_rev in I. right. destruct N as [[<- <-] | [<- <-]].
-        + split; [exact (proj1 (tie_stays D E l edges B B' hint opened e a b C F I (Tied e I) A G Q)) |].
-          intros B0 Q0. exact (proj2 (tie_stays D E l edges B B0 hint opened e a b C F I (Tied e I) A G Q0)).
-        + split; [apply possible_sym; exact (proj1 (tie_stays D E l edges B B' hint opened e b a C F I (Tied e I) G A Q)) |].
-          intros B0 Q0 L. apply legal_sym in L.
-          exact (proj2 (tie_stays D E l edges B B0 hint opened e b a C F I (Tied e I) G A Q0) L).
-      - left. apply (listed_legal D E l edges B e a b C F I). destruct N as [[<- <-] | [<- <-]]; tauto. }
-    split; (split; [try exact Down | try exact Up]).
-    + intros P. destruct (Cases P) as [L | [P' _]]; [apply legal_possible; auto | exact P'].
-    + intros L. destruct (Cases (Down (legal_possible _ _ _ _ Ka Kb L))) as [L' | [_ N]]; [exact L' | destruct (N B' Q L)].
 Qed.

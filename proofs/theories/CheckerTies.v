@@ -60,11 +60,3 @@ Definition enough : Z := 4294967296.
 Definition bound_reaches (m : Z) (n : number) : bool :=
   let k := - (expo n + m) in
   (den n =? 1) && ((man n <=? 0) || ((0 <=? k) && (Z.shiftr (man n - 1) (Z.min k enough) =? 0))).
-
-Definition all_points (D E : Z) (sites : list site) : bool :=
-  match scaled_sites D E sites with Some boxes => forallb is_point boxes | None => false end.
-
-(* Can nothing that is narrowed change what a pair is? `complete`: all possible pairs are listed, legal or open. *)
-Definition is_fixpoint (D E : Z) (sites : list site) (complete : bool) (hint : edge -> list tie) (opened : list edge) : bool :=
-  all_points D E sites ||
-  (complete && match loose_ties D E sites hint opened with [] => true | _ :: _ => false end).

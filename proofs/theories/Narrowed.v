@@ -162,6 +162,70 @@ Proof.
       rewrite Oa in S. fold w in S. lra.
 Qed.
 
+(* A disc with all of two sites inside holds a smaller one with a point of each on its circle. *)
+Lemma shrunken_witness i j c p q : (i < N)%nat -> (j < N)%nat -> ~ C i -> ~ C j -> witness N B' i j c ->
+  inside p (B i) -> inside q (B j) -> exists o s, dist o p = s /\ dist o q = s /\
+  forall m z, (m < N)%nat -> m <> i -> m <> j -> inside z (B' m) -> s < dist o z.
+Proof.
+  intros I J Ci Cj W P Q.
+  assert (Far : forall m z, (m < N)%nat -> m <> i -> m <> j -> inside z (B' m) -> dist c p < dist c z /\ dist c q < dist c z).
+  { intros m z M Mi Mj Z. destruct (W m M Mi Mj) as [X Y]. rewrite (same i I Ci) in X. rewrite (same j J Cj) in Y.
+    pose proof (le_dl c _ _ P). pose proof (le_dl c _ _ Q). pose proof (ds_le c _ _ Z). lra. }
+  destruct (Rle_dec (dist c q) (dist c p)) as [L | L].
+  - destruct (shrink c p q L) as [t [T [E F]]]. exists (mix t c p), ((1 - t) * dist c p).
+    split; [exact F |]. split; [now rewrite <- E |]. intros m z M Mi Mj Z.
+    apply shrunken_misses with (r := dist c p); [exact T | lra | now apply (Far m z M Mi Mj Z)].
+  - destruct (shrink c q p) as [t [T [E F]]]; [lra |]. exists (mix t c q), ((1 - t) * dist c q).
+    split; [now rewrite <- E |]. split; [exact F |]. intros m z M Mi Mj Z.
+    apply shrunken_misses with (r := dist c q); [exact T | lra | now apply (Far m z M Mi Mj Z)].
+Qed.
+
+(* Who came into it before was on that circle for some choice, with both. *)
+Lemma reached_possible i j k o s p q : (i < N)%nat -> (j < N)%nat -> (k < N)%nat -> k <> i -> k <> j ->
+  inside p (B i) -> inside q (B j) -> dist o p = s -> dist o q = s ->
+  (forall m z, (m < N)%nat -> m <> i -> m <> j -> inside z (B' m) -> s < dist o z) -> ds o (B k) <= s ->
+  C k /\ possible N B i k /\ possible N B j k.
+Proof.
+  intros I J K Ki Kj P Q Ep Eq Far L. split.
+  - apply NNPP. intros Ck. pose proof (Far k (nearest o (B' k)) K Ki Kj (nearest_inside _ _)) as X.
+    rewrite (same k K Ck) in X. unfold ds in L. lra.
+  - assert (Low : forall m, (m < N)%nat -> s <= dl o (B m)).
+    { intros m M. destruct (Nat.eq_dec m i) as [-> | Mi]; [rewrite <- Ep; now apply le_dl |].
+      destruct (Nat.eq_dec m j) as [-> | Mj]; [rewrite <- Eq; now apply le_dl |].
+      pose proof (Far m _ M Mi Mj (nearest_inside o (B' m))).
+      pose proof (le_dl o _ _ (fewer m M _ (nearest_inside o (B' m)))). lra. }
+    apply (three_possible N B i j k I J K). left. exists o.
+    pose proof (ds_le o _ _ P). pose proof (ds_le o _ _ Q).
+    intros v V [-> | [-> | ->]] m M; pose proof (Low m M); lra.
+Qed.
+
+(* When nobody narrowed is possibly an edge with both: a pair of points that is legal now was legal before, *)
+Theorem points_were_legal i j p q : (i < N)%nat -> (j < N)%nat -> ~ C i -> ~ C j ->
+  (forall z, inside z (B i) -> z = p) -> (forall z, inside z (B j) -> z = q) ->
+  (forall k, (k < N)%nat -> C k -> possible N B i k -> ~ possible N B j k) -> legal N B' i j -> legal N B i j.
+Proof.
+  intros I J Ci Cj Pi Pj None [c W].
+  assert (Ip : inside p (B i)) by (rewrite <- (Pi _ (nearest_inside c (B i))); apply nearest_inside).
+  assert (Iq : inside q (B j)) by (rewrite <- (Pj _ (nearest_inside c (B j))); apply nearest_inside).
+  destruct (shrunken_witness i j c p q I J Ci Cj W Ip Iq) as (o & s & Ep & Eq & Far).
+  exists o. intros k K Ki Kj. assert (L : s < ds o (B k)).
+  { apply Rnot_le_lt. intros L.
+    destruct (reached_possible i j k o s p q I J K Ki Kj Ip Iq Ep Eq Far L) as (Ck & P & Q). exact (None k K Ck P Q). }
+  unfold dl. rewrite (Pi _ (farthest_inside o (B i))), (Pj _ (farthest_inside o (B j))). lra.
+Qed.
+
+(* and a pair of rectangles was an edge of every choice, with whatever witnesses. *)
+Theorem edge_was_sure i j p : (i < N)%nat -> (j < N)%nat -> ~ C i -> ~ C j -> choice N B p ->
+  (forall k, (k < N)%nat -> C k -> possible N B i k -> ~ possible N B j k) -> legal N B' i j -> strict_edge N p i j.
+Proof.
+  intros I J Ci Cj P None [c W].
+  destruct (shrunken_witness i j c (p i) (p j) I J Ci Cj W (P i I) (P j J)) as (o & s & Ei & Ej & Far).
+  exists o. split; [lra |]. intros k K Ki Kj. rewrite Ei. apply Rnot_le_lt. intros L.
+  pose proof (ds_le o _ _ (P k K)).
+  destruct (reached_possible i j k o s (p i) (p j) I J K Ki Kj (P i I) (P j J) Ei Ej Far ltac:(lra)) as (Ck & Q & R).
+  exact (None k K Ck Q R).
+Qed.
+
 (* and a site that is a sure vertex of the hull now. *)
 Theorem sure_begins v : (v < N)%nat -> ~ C v -> ~ sure_hull N B v -> sure_hull N B' v ->
   exists k, (k < N)%nat /\ C k /\ possible N B k v.

@@ -76,35 +76,20 @@ static dyd_status checker_end(dyd_checker *c) {
 
 /* ---- what is stated and not proved [CERT-8] ---- */
 
-static bool is_still(const dyd_checker *c, const bool *still, size_t i) {
-  return still ? still[i] : dyd_cert_is_point(&c->sites.site[i]);
-}
-
-/* Can nothing that is narrowed decide more? Of the triangulation: nobody in an open set that is not tied is narrowed;
- * of a bound: nobody at all. */
-static bool is_fixpoint(const dyd_checker *c, const bool *still) {
-  if (strcmp(c->report.goal, "decided") == 0) {
-    for (size_t f = 0; f < c->faces.sets; f++)
-      for (size_t q = c->faces.start[f]; q < c->faces.start[f + 1] && !c->faces.tied[f]; q++)
-        if (!is_still(c, still, c->faces.member[q])) return false;
-  } else {
-    for (size_t i = 0; i < c->sites.count; i++)
-      if (!is_still(c, still, i)) return false;
-  }
-  return true;
-}
-
-static bool outcome_is_proved(const dyd_checker *c, const bool *still) {
+static bool outcome_is_proved(const dyd_checker *c, bool stays) {
   const dyd_certificate_report *r = &c->report;
   bool complete = !r->unproved && !r->capped, of_diagram = strncmp(r->goal, "voronoi", 7) == 0;
   if (strcmp(r->outcome, "decided") == 0) return complete;
   if (strcmp(r->outcome, "certified") == 0)
     return strcmp(r->goal, "voronoi hausdorff") == 0 ? r->distance_proved : of_diagram || complete;
-  return strcmp(r->outcome, "fixpoint") == 0 && is_fixpoint(c, still);
+  return strcmp(r->outcome, "fixpoint") == 0 && stays;
 }
 
-void dyd_checker_settle(dyd_checker *c, const bool *still) {
+dyd_status dyd_checker_settle(dyd_checker *c, const bool *still) {
   dyd_certificate_report *r = &c->report;
+  bool stays;
+  dyd_status st = dyd_checker_stays(&stays, c, still);
+  if (st != DYD_OK) return dyd_fail_nomem(c->in.err);
   if (r->legal_unproved) r->gaps |= DYD_GAP_LEGAL;
   if (r->unproved && !r->capped) r->gaps |= DYD_GAP_ILLEGAL;
   if (r->claims) r->gaps |= DYD_GAP_CLAIMS;
@@ -112,7 +97,8 @@ void dyd_checker_settle(dyd_checker *c, const bool *still) {
   if (r->aliases_unproved) r->gaps |= DYD_GAP_ALIASES;
   if (r->unproved && (r->area || r->hausdorff)) r->gaps |= DYD_GAP_BOUNDS;
   if (r->distance && !r->distance_proved) r->gaps |= DYD_GAP_DISTANCE;
-  if (!outcome_is_proved(c, still)) r->gaps |= DYD_GAP_OUTCOME;
+  if (!outcome_is_proved(c, stays)) r->gaps |= DYD_GAP_OUTCOME;
+  return DYD_OK;
 }
 
 dyd_status dyd_checker_run(dyd_checker *c) {
@@ -132,7 +118,7 @@ dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_err
   if (dyd_abi_check(out, 0, "dyd_certificate_report", err) != DYD_OK) return DYD_E_ARG;
   dyd_checker_init(&c, in, err);
   dyd_status st = dyd_checker_run(&c);
-  if (st == DYD_OK) dyd_checker_settle(&c, NULL);
+  if (st == DYD_OK) st = dyd_checker_settle(&c, NULL);
   if (st == DYD_OK) dyd_abi_give(out, &c.report, sizeof c.report);
   dyd_checker_clear(&c);
   return st;

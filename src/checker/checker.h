@@ -42,7 +42,10 @@ void dyd_checker_clear(dyd_checker *c);
 dyd_status dyd_checker_run(dyd_checker *c);
 /* Fills in report.gaps. still[i]: site i is known never to be narrowed; NULL: the exact points. The gap of points is
  * the caller's, and stays. */
-void dyd_checker_settle(dyd_checker *c, const bool *still);
+dyd_status dyd_checker_settle(dyd_checker *c, const bool *still);
+/* still.c, with `still` as above: can nothing that is narrowed change what the goal is about? Of the triangulation,
+ * what a pair is; of a bound, anything. DYD_E_NOMEM. */
+dyd_status dyd_checker_stays(bool *out, const dyd_checker *c, const bool *still);
 
 /* The parts of a certificate, in order; each rejects what does not hold. */
 dyd_status dyd_checker_head(dyd_checker *c);

@@ -106,8 +106,8 @@ int cli_nearest(const cli_options *o);
 int cli_tolerance(const cli_options *o);
 int cli_plan(const cli_options *o);
 int cli_verify(const cli_options *o);
-/* proved.c: verify with --proved; `more` goes behind what is reported. */
-int cli_verify_proved(const cli_options *o, const char *more);
+/* proved.c: verify with --proved; `still`, the sites that stay, or NULL; `more` goes behind what is reported. */
+int cli_verify_proved(const cli_options *o, FILE *still, const char *more);
 int cli_disc(const cli_options *o);
 int cli_bisector(const cli_options *o);
 

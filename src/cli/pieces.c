@@ -91,7 +91,7 @@ static int pieces_open(cli_pieces *p, const cli_options *o, size_t least, size_t
 static void pieces_note(const cli_pieces *p) {
   if (p->outcome == DYD_OUTCOME_CANCELLED) cli_complain("cancelled: stopped on request; this much was known before");
   if (p->outcome == DYD_OUTCOME_FIXPOINT)
-    cli_complain("fixpoint: no refinement can decide the rest: exact ties or fixed rectangles");
+    cli_complain("fixpoint: nothing that is open can be refined: exact ties or fixed rectangles");
   if (p->outcome == DYD_OUTCOME_BUDGET)
     cli_complain("budget: the precision or the time is used up; raise --max-bits or --timeout, unless the points are "
                  "tied");

@@ -131,7 +131,7 @@ const char *cli_outcome_advice(const dyd_engine *e) {
   dyd_engine_counters c = {DYD_SIZED(dyd_engine_counters)};
   switch (dyd_engine_outcome(e)) {
   case DYD_OUTCOME_FIXPOINT:
-    return "no refinement can decide the rest: ties or fixed rectangles";
+    return "nothing that is open can be refined: ties or fixed rectangles";
   case DYD_OUTCOME_BUDGET:
     dyd_engine_get_counters(&c, e, NULL);
     return budget_advice(c.spent);

@@ -93,7 +93,7 @@ const cli_option cli_option_table[] = {
      AT(points)},
     {"proved", 0, NULL, CLI_FLAG, BIT(CLI_VERIFY), CLI_OTHER,
      "check by dyadel-proved, extracted from what is proved in\nCoq; it knows less, and names what it does not "
-     "check;\npoints are compared by this program",
+     "check;\npoints are compared by this program, which tells it\nwhat cannot be narrowed",
      AT(proved)},
     {"columns", 0, "NAME,NAME", CLI_TEXT, TEXT, CLI_INPUT,
      "FILE is CSV with a header; take these two columns as x,y:\nnames (capitals count only where names differ by "

@@ -23,7 +23,7 @@ const cli_term cli_exit_statuses[] = {
     {"0", "decided (no pair is open), or certified (the bound asked for holds)"},
     {"1", "bad input, a failed point, or a failure to read or write; what was known before a point failed is written"},
     {"2", "bad usage"},
-    {"3", "fixpoint: what is open cannot be decided by refinement (ties, fixed rectangles)"},
+    {"3", "fixpoint: nothing that is open can be refined (ties, fixed rectangles)"},
     {"4", "budget: bits, pairs or time are used up"},
     {"5", "cancelled (Ctrl-C: the first one stops the work and writes what is known)"},
     {NULL, NULL}};

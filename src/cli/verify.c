@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* dyadel verify CERT: checks a certificate and says what of it is proved and what is not. */
 #include "cli.h"
+#include <errno.h>
 #include <string.h>
 
 static void print_proved(FILE *out, const dyd_certificate_report *r) {
@@ -38,7 +39,7 @@ static void print_open(FILE *out, const dyd_certificate_report *r) {
 /* Why an outcome is no more than a word. */
 static const char *outcome_reason(const dyd_certificate_report *r) {
   if (strcmp(r->outcome, "fixpoint") == 0)
-    return r->bound ? "some of what is open can be narrowed" : "--points may show who cannot be narrowed";
+    return r->bound ? "what is narrowed may decide some of what is open" : "--points may show who cannot be narrowed";
   if (strcmp(r->outcome, "decided") == 0 || strcmp(r->outcome, "certified") == 0)
     return "what it rests on is not proved";
   return "why the run ended leaves no proof";
@@ -87,16 +88,16 @@ static dyd_status print_verified(FILE *out, const void *what, const cli_options 
   return DYD_OK;
 }
 
-/* Reads the points of --points into a new engine and checks against them. */
-static dyd_status verify_points(int *status, dyd_certificate_report *report, FILE *in, const cli_options *o,
-                                dyd_error *err) {
+/* Reads the points of --points into a new engine and checks against them; what stays goes to `still` (or NULL). */
+static dyd_status verify_points(int *status, dyd_certificate_report *report, FILE *still, FILE *in,
+                                const cli_options *o, dyd_error *err) {
   dyd_engine *e = NULL;
   cli_options reading = *o;
   reading.file = o->points;
   dyd_status st = dyd_engine_new(&e);
   if (st != DYD_OK) return dyd_error_set(err, st, dyd_status_text(st));
   *status = cli_points_read(e, &reading);
-  if (*status == 0) st = dyd_verify_certificate_of(report, in, e, &o->engine, err);
+  if (*status == 0) st = dyd_verify_certificate_still(report, still, in, e, &o->engine, err);
   dyd_engine_free(e);
   return st;
 }
@@ -111,28 +112,39 @@ static int complain_rejected(const cli_options *o, const dyd_error *err) {
 }
 
 /* Checks it here; what is wrong was told of, or the report is filled. */
-static int verify_here(dyd_certificate_report *report, const cli_options *o) {
+static int verify_here(dyd_certificate_report *report, FILE *still, const cli_options *o) {
   FILE *in = cli_input_open(o->file, "check the name of the certificate");
   if (!in) return CLI_FAILED;
   dyd_error err;
   int status = 0;
   cli_deadline_phase("checking the certificate");
   dyd_error_clear(&err);
-  dyd_status st = o->points ? verify_points(&status, report, in, o, &err) : dyd_verify_certificate(report, in, &err);
+  dyd_status st =
+      o->points ? verify_points(&status, report, still, in, o, &err) : dyd_verify_certificate(report, in, &err);
   cli_input_close(in);
   if (status) return status;
   return st == DYD_OK ? 0 : complain_rejected(o, &err);
 }
 
-/* The proved checker does not read points: it checks the certificate, this program that they are those of it. */
-static int verify_proved_of(const dyd_certificate_report *r, const cli_options *o) {
+/* The proved checker does not read points: it checks the certificate, this program that they are those of it, and which
+ * of them stay. */
+static int verify_proved_of(const cli_options *o) {
+  dyd_certificate_report r = {DYD_SIZED(dyd_certificate_report)};
   char more[200];
-  size_t others = r->undescribed + r->unlocated;
+  FILE *still = tmpfile();
+  if (!still) {
+    cli_complain("cannot make a temporary file: %s", strerror(errno));
+    return CLI_FAILED;
+  }
+  int status = verify_here(&r, still, o);
+  size_t others = r.undescribed + r.unlocated;
   if (others)
     snprintf(more, sizeof more, "not proved: that %zu of the points given are those of the certificate\n", others);
   else
-    snprintf(more, sizeof more, "compared by dyadel itself: the points given lie in its rectangles\n");
-  int status = cli_verify_proved(o, more);
+    snprintf(more, sizeof more,
+             "compared by dyadel itself: the points given lie in its rectangles, and which of them stay there\n");
+  if (!status) status = cli_verify_proved(o, still, more);
+  fclose(still);
   return status == CLI_OK && others ? CLI_FIXPOINT : status;
 }
 
@@ -151,9 +163,8 @@ static bool reads_twice(const cli_options *o) {
 int cli_verify(const cli_options *o) {
   dyd_certificate_report report = {DYD_SIZED(dyd_certificate_report)};
   if (reads_twice(o)) return CLI_USAGE;
-  if (o->proved && !o->points) return cli_verify_proved(o, "");
-  int status = verify_here(&report, o);
-  if (!status && o->proved) return verify_proved_of(&report, o);
+  if (o->proved) return o->points ? verify_proved_of(o) : cli_verify_proved(o, NULL, "");
+  int status = verify_here(&report, NULL, o);
   if (!status) status = cli_write_file(o->output, o, print_verified, &report);
   return status || !report.gaps ? status : CLI_FIXPOINT;
 }

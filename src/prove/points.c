@@ -117,7 +117,13 @@ static dyd_status list_still(bool *still, const location *l, const dyd_engine *e
   return st;
 }
 
-static dyd_status location_settle(dyd_checker *c, const location *l, const dyd_engine *e) {
+static dyd_status write_still(FILE *out, const bool *still, size_t count, dyd_error *err) {
+  for (size_t i = 0; i < count; i++)
+    if (still[i]) fprintf(out, "%zu\n", i);
+  return fflush(out) || ferror(out) ? dyd_fail(err, DYD_E_IO, "the sites that stay cannot be written") : DYD_OK;
+}
+
+static dyd_status location_settle(dyd_checker *c, FILE *out, const location *l, const dyd_engine *e) {
   if (l->why) return dyd_fail(c->in.err, DYD_E_PARSE, "the rectangle of site %u %s", (unsigned)l->wrong, l->why);
   bool *still = dyd_alloc(l->count, sizeof *still);
   if (!still) return DYD_E_NOMEM;
@@ -125,12 +131,13 @@ static dyd_status location_settle(dyd_checker *c, const location *l, const dyd_e
   c->report.bound = true;
   c->report.unlocated = l->open;
   if (l->open || c->report.undescribed) c->report.gaps |= DYD_GAP_POINTS;
-  if (st == DYD_OK) dyd_checker_settle(c, still);
+  if (st == DYD_OK) st = dyd_checker_settle(c, still);
+  if (st == DYD_OK && out) st = write_still(out, still, l->count, c->in.err);
   free(still);
   return st;
 }
 
-static dyd_status checker_locate(dyd_checker *c, dyd_engine *e, const dyd_engine_options *options) {
+static dyd_status checker_locate(dyd_checker *c, FILE *still, dyd_engine *e, const dyd_engine_options *options) {
   location l;
   dyd_outcome outcome;
   const dyd_question question = {DYD_SIZED(dyd_question), .ask = location_ask, .user = &l};
@@ -143,13 +150,13 @@ static dyd_status checker_locate(dyd_checker *c, dyd_engine *e, const dyd_engine
   if (st == DYD_OK && outcome == DYD_OUTCOME_CANCELLED) st = DYD_CANCELLED;
   /* once more: some are known to be exact only now */
   if (st == DYD_OK) st = dyd_proof_compare_points(l.found, &c->report.undescribed, &c->ties, e);
-  if (st == DYD_OK) st = location_settle(c, &l, e);
+  if (st == DYD_OK) st = location_settle(c, still, &l, e);
   location_clear(&l);
   return st == DYD_E_NOMEM ? dyd_fail_nomem(c->in.err) : st;
 }
 
-dyd_status dyd_verify_certificate_of(dyd_certificate_report *out, FILE *in, struct dyd_engine *e,
-                                     const struct dyd_engine_options *options, dyd_error *err) {
+dyd_status dyd_verify_certificate_still(dyd_certificate_report *out, FILE *still, FILE *in, struct dyd_engine *e,
+                                        const struct dyd_engine_options *options, dyd_error *err) {
   dyd_checker c;
   dyd_error unused;
   if (!err) err = &unused;
@@ -157,8 +164,13 @@ dyd_status dyd_verify_certificate_of(dyd_certificate_report *out, FILE *in, stru
   if (dyd_abi_check(out, 0, "dyd_certificate_report", err) != DYD_OK) return DYD_E_ARG;
   dyd_checker_init(&c, in, err);
   dyd_status st = dyd_checker_run(&c);
-  if (st == DYD_OK) st = checker_locate(&c, e, options);
+  if (st == DYD_OK) st = checker_locate(&c, still, e, options);
   if (st == DYD_OK) dyd_abi_give(out, &c.report, sizeof c.report);
   dyd_checker_clear(&c);
   return st;
+}
+
+dyd_status dyd_verify_certificate_of(dyd_certificate_report *out, FILE *in, struct dyd_engine *e,
+                                     const struct dyd_engine_options *options, dyd_error *err) {
+  return dyd_verify_certificate_still(out, NULL, in, e, options, err);
 }

@@ -67,6 +67,37 @@ def check_outcomes(folder):
     accepted(certify(folder, '1/3 1/7\n1/3 1/7\n2 5\n'), 'of which 1 aliases', '1 legal pairs')
 
 
+# Whatever the points are 0 1 is an edge, but while site 5 is known to 1 bit no disc about both boxes is off it: there is
+# one once it is narrowed, which is in no open face.
+BEYOND = """[-2.930872,82.930872] 0
+40 -18.615568
+40 41.083296
+4.06152 -28.67108
+75.93848 -28.67108
+sqrt(1600.8001) -sqrt(2013.006097621)
+-11.404368 5.585752
+97.61944 -0.96452
+40 -62.773048
+"""
+
+
+def check_fixpoint(folder):
+    """It is proved when nobody who can be narrowed may decide an open pair."""
+    points = ('--points', folder / 'points.txt')
+    for bits, status in ((1, 'indeterminate'), (64, 'legal')):
+        certificate = certify(folder, BEYOND, '--start-bits', bits, status=3)
+        assert f'\n0,1,{status}\n' in (folder / 'out.csv').read_text(), bits
+        accepted(certificate, 'not proved: the outcome fixpoint (what is narrowed may', status=3, options=points)
+    boxes = '[-2,-1] [0,1]\n[-1.5,-0.5] [0.5,1.5]\n'
+    ring = ''.join(f'{x} {y}\n' for x, y in ((5, 0), (3, 4), (-2, 5), (-5, 2), (-4, -4), (1, -5)))
+    around = ''.join(f'{x} {y}\n' for x, y in ((10, 2), (7, 8), (-1, 10), (-8, 7), (-10, -2), (-6, -8), (3, -9), (8, -6)))
+    for far, goal, status in (('', 'decided', 0), ('sqrt(300) 1\n-sqrt(500) 9\n', 'decided', 0), ('sqrt(300) 1\n', 'area 60', 3),
+                              ('', 'area 60', 0)):
+        certificate = certify(folder, boxes + ring + around + far, status=3)
+        certificate.write_text(certificate.read_text().replace('\ngoal decided\n', f'\ngoal {goal}\n'))
+        accepted(certificate, f'{"not proved" if status else "checked"}: the outcome fixpoint', status=status, options=points)
+
+
 def check_airports(folder):
     certificate = folder / 'airports.txt'
     for options, status, texts in [
@@ -330,7 +361,7 @@ def check_size(folder):
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        for check in (check_outcomes, check_airports, check_crowds, check_diagrams, check_claims, check_points,
+        for check in (check_outcomes, check_fixpoint, check_airports, check_crowds, check_diagrams, check_claims, check_points,
                       check_altered_points, check_files, check_proved, check_size):
             check(folder)
     return 0

@@ -53,13 +53,13 @@ def test_fixed_rectangles_among_computable_points():
     # Which diagonal it is hangs on the corner that is fixed: no bit of the others tells.
     square = '0 0\nsqrt(16.5) 0\n[3.9,4.2] [3.9,4.2]\n0 sqrt(17)\n'
     result = run('delaunay', '-', '--stats', stdin=square)
-    expect(result, 3, err='fixpoint: 4 legal, 2 indeterminate, 0 tie; no refinement can decide the rest')
+    expect(result, 3, err='fixpoint: 4 legal, 2 indeterminate, 0 tie; nothing that is open can be refined')
     assert most_bits(result) <= 256
     expect(run('delaunay', '-', '--schedule', 'uniform', '--step-bits', '16', stdin=square), 3, err='fixpoint')
     # One coordinate computed, the other measured.
     for half in ('0 0\n10 0\nsqrt(26) 6+-3\n5 -6\n', '0 0\n0 10\n[3.1,9.1] root(x^5-x-4000,4,6)\n-6 5\n'):
         result = run('delaunay', '-', '--stats', stdin=half)
-        expect(result, 3, err='fixpoint: 4 legal, 2 indeterminate, 0 tie; no refinement can decide the rest')
+        expect(result, 3, err='fixpoint: 4 legal, 2 indeterminate, 0 tie; nothing that is open can be refined')
         assert most_bits(result) <= 256
     # A crowd of boxes with computable points among them.
     rng = random.Random(5)
