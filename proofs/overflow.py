@@ -137,8 +137,9 @@ static region square_region(int64_t x, int64_t y, int64_t side);
         # a new line changes the reader only
         ('if (st == DYD_OK) st = dyd_cert_read_index(&d->site', '''/*@ admit reads(in) && \\valid(b) &&
             0 < s->count <= 4294967295 && 0 < b->algebra.count <= 4194304 && b->points < 4294967295 &&
-            \\valid(b->point + (0 .. b->points)) && d == b->point + b->points && \\separated(b->point + (0 .. b->points), b, in, in->err, s,
-            in->line + (0 .. in->cap - 1)) && \\separated(b, in, in->err, s, in->line + (0 .. in->cap - 1)); */ '''),
+            \\valid(b->point + (0 .. b->points)) && d == b->point + b->points &&
+            \\separated(b->point + (0 .. b->points), b, in, in->err, s, in->line + (0 .. in->cap - 1)) &&
+            \\separated(b, in, in->err, s, in->line + (0 .. in->cap - 1)); */ '''),
         ('if (st == DYD_OK && strcmp(word, name) != 0) st', '/*@ admit string(name); */ '),  # as in checker.c
         ('for (int axis = 0; axis < 2 && st == DYD_OK; axis++)\n    st = dyd_cert_read_index', '''/*@ loop invariant
             0 <= axis <= 2 && reads(in);
