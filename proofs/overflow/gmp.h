@@ -130,6 +130,50 @@ double mpz_get_d(mpz_srcptr x);
     ensures whole(z) && 0 <= z->sign; */
 void mpz_gcd(mpz_ptr z, mpz_srcptr x, mpz_srcptr y);
 
+/*@ requires \valid(z); assigns *z; exits \false;
+    ensures whole(z) && z->length <= 64 && (z->sign == 0 <==> x == 0) && 0 <= z->sign; */
+void mpz_init_set_ui(mpz_ptr z, unsigned long x);
+/*@ requires \valid(z) && whole(z); assigns *z; exits \false; ensures whole(z) && z->length <= 64; */
+void mpz_set_si(mpz_ptr z, long x);
+/*@ requires \valid(z) && whole(x); assigns *z; exits \false;
+    ensures whole(z) && z->sign == \abs(\old(x->sign)) && z->length == \old(x->length) &&
+      z->zeros == \old(x->zeros); */
+void mpz_abs(mpz_ptr z, mpz_srcptr x);
+/*@ requires \valid(z) && whole(x); assigns *z; exits \false;
+    ensures whole(z) && z->length <= \old(x->length) * e + 1; */
+void mpz_pow_ui(mpz_ptr z, mpz_srcptr x, unsigned long e);
+/*@ requires \valid(z) && whole(x) && 0 < k && (k % 2 == 0 ==> 0 <= x->sign); assigns *z; exits \false;
+    ensures whole(z) && z->sign == \old(x->sign) && z->length <= \old(x->length); */
+int mpz_root(mpz_ptr z, mpz_srcptr x, unsigned long k);
+/*@ requires \valid(z) && whole(x); assigns *z; exits \false; ensures whole(z) && z->length <= \old(x->length) + 64; */
+void mpz_mul_ui(mpz_ptr z, mpz_srcptr x, unsigned long y);
+/*@ requires \valid(z) && whole(x); assigns *z; exits \false; ensures whole(z) && z->length <= \old(x->length) + 64; */
+void mpz_mul_si(mpz_ptr z, mpz_srcptr x, long y);
+/*@ requires \valid(z) && whole(x); assigns *z; exits \false;
+    ensures whole(z) && z->length <= \max(\old(x->length), 64) + 1; */
+void mpz_add_ui(mpz_ptr z, mpz_srcptr x, unsigned long y);
+/*@ requires \valid(z) && whole(x); assigns *z; exits \false;
+    ensures whole(z) && z->length <= \max(\old(x->length), 64) + 1; */
+void mpz_sub_ui(mpz_ptr z, mpz_srcptr x, unsigned long y);
+/*@ requires \valid(z) && whole(z) && whole(x); assigns *z; exits \false; ensures whole(z); */
+void mpz_submul_ui(mpz_ptr z, mpz_srcptr x, unsigned long y);
+/*@ requires whole(x) && y != 0; assigns \nothing; exits \false; ensures \result < y; */
+unsigned long mpz_fdiv_ui(mpz_srcptr x, unsigned long y);
+/*@ requires \valid(z) && whole(x) && y != 0; assigns *z; exits \false;
+    ensures whole(z) && z->length <= \old(x->length) + 1; */
+unsigned long mpz_fdiv_q_ui(mpz_ptr z, mpz_srcptr x, unsigned long y);
+/*@ requires \valid(z) && whole(x) && y != 0; assigns *z; exits \false;
+    ensures whole(z) && z->length <= \old(x->length) + 1; */
+unsigned long mpz_cdiv_q_ui(mpz_ptr z, mpz_srcptr x, unsigned long y);
+/*@ requires whole(x) && whole(y); assigns \nothing; exits \false; ensures -2147483647 <= \result; */
+int mpz_cmpabs(mpz_srcptr x, mpz_srcptr y);
+/*@ requires whole(x); assigns \nothing; exits \false; ensures -2147483647 <= \result; */
+int mpz_cmpabs_ui(mpz_srcptr x, unsigned long y);
+/*@ requires whole(x); assigns \nothing; exits \false; ensures -2147483647 <= \result; */
+int mpz_cmp_si(mpz_srcptr x, long y);
+/*@ requires whole(x); assigns \nothing; exits \false; */
+long mpz_get_si(mpz_srcptr x);
+
 /* Those of any number of arguments, up to NULL: of two here. */
 #define mpz_inits(a, b, end) (mpz_init(a), mpz_init(b))
 #define mpz_clears(a, b, end) (mpz_clear(a), mpz_clear(b))

@@ -104,7 +104,7 @@ void dyd_cert_poly_enclose(dyd_cert_enclosure *out, dyd_cert_algebra *a, const d
 /* The sign of a number, of a polynomial at the true leaves; 0: it is 0, or not known. */
 int dyd_cert_algebra_sign(dyd_cert_algebra *a, uint32_t k);
 int dyd_cert_poly_sign(dyd_cert_algebra *a, const dyd_cert_poly *q);
-/* out >= |q| for all conjugates of its leaves; false: not all of them are whole. */
+/* out >= |q| for all conjugates of its leaves; false: not all of them are whole, or it is too long to be of use. */
 bool dyd_cert_poly_bound(mpz_ptr out, const dyd_cert_algebra *a, const dyd_cert_poly *q);
 /* Is q 0 at the true leaves? By a bound of its conjugates [SEP-1]. */
 bool dyd_cert_poly_is_null(dyd_cert_algebra *a, const dyd_cert_poly *q);

@@ -2,6 +2,10 @@
 /* Values that are 0 because they are smaller than any that is not [SEP-1]. */
 #include "checker/algebra.h"
 
+/* Bits of a bound, at most. One that is longer is of no use: what depends on a root has a degree of 2 or more, and of a
+ * radicand that is longer the root is still too long for dyd_cert_poly_is_null. */
+#define MOST_BOUND (2 * (size_t)DYD_CERT_PRECISION)
+
 bool dyd_cert_poly_bound(mpz_ptr out, const dyd_cert_algebra *a, const dyd_cert_poly *q) {
   mpz_t term, power;
   bool whole = true;
@@ -9,11 +13,15 @@ bool dyd_cert_poly_bound(mpz_ptr out, const dyd_cert_algebra *a, const dyd_cert_
   mpz_set_ui(out, 0);
   for (size_t t = 0; t < q->count && whole; t++) {
     mpz_abs(term, q->term[t].c);
+    whole = mpz_sizeinbase(term, 2) <= MOST_BOUND;
     for (size_t k = 0; k < a->relations.count && whole; k++) {
-      if (!q->term[t].e[k]) continue;
-      whole = a->leaf[k].whole;
-      mpz_pow_ui(power, a->leaf[k].bound, q->term[t].e[k]);
+      unsigned long e = q->term[t].e[k];
+      if (!e) continue;
+      whole = a->leaf[k].whole && mpz_sizeinbase(a->leaf[k].bound, 2) <= MOST_BOUND / e;
+      if (!whole) break;
+      mpz_pow_ui(power, a->leaf[k].bound, e);
       mpz_mul(term, term, power);
+      whole = mpz_sizeinbase(term, 2) <= MOST_BOUND;
     }
     mpz_add(out, out, term);
   }

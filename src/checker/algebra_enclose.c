@@ -151,10 +151,12 @@ const dyd_cert_enclosure *dyd_cert_algebra_enclose(dyd_cert_algebra *a, uint32_t
     }
     dyd_cert_enclosure_set(&n->now, &a->number[n->a].now);
     if (!n->now.known) continue;
-    if (dyd_cert_op_operands(n->op) == 2)
+    if (dyd_cert_op_operands(n->op) == 1)
+      enclose_function(&n->now, n, p);
+    else if (a->number[n->b].now.known)
       enclose_operation(&n->now, n->op, &a->number[n->b].now, p);
     else
-      enclose_function(&n->now, n, p);
+      n->now.known = false; /* what is not known may be long, and would grow from line to line */
   }
   return &a->number[k].now;
 }

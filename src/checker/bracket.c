@@ -2,6 +2,23 @@
 /* Roots of polynomials, each in a bracket. */
 #include "checker/algebra.h"
 
+/* Coefficients times the bits of the longest number: twice what the engine takes, a second or two. */
+#define ROOT_BITS ((size_t)1 << 23)
+
+/* The bits of the longest of the ends and, for `all`, of the coefficients. */
+static size_t longest_of(const dyd_cert_bracket *r, bool all) {
+  size_t most = 0;
+  for (size_t k = 0; k < (all ? r->count : 0); k++) {
+    size_t bits = mpz_sizeinbase(r->coeff[k], 2);
+    if (bits > most) most = bits;
+  }
+  for (int k = 0; k < 4; k++) {
+    size_t bits = mpz_sizeinbase(r->end[k], 2);
+    if (bits > most) most = bits;
+  }
+  return most;
+}
+
 /* The sign of f at num / den, den > 0. */
 static int sign_at_fraction(const dyd_cert_bracket *f, mpz_srcptr num, mpz_srcptr den) {
   mpz_t sum, power;
@@ -46,6 +63,8 @@ static int sign_of_derivative(const dyd_cert_bracket *f, long p) {
 /* Signs differ at the ends, and f is monotonic between them. */
 bool dyd_cert_root_is_single(const dyd_cert_bracket *r) {
   mpz_t left, right;
+  size_t longest = longest_of(r, true);
+  if (longest > DYD_CERT_BITS || longest > ROOT_BITS / r->count) return false;
   mpz_inits(left, right, NULL);
   mpz_mul(left, r->end[0], r->end[3]);
   mpz_mul(right, r->end[2], r->end[1]);
@@ -56,14 +75,15 @@ bool dyd_cert_root_is_single(const dyd_cert_bracket *r) {
   return p <= DYD_CERT_PRECISION && sign_of_derivative(r, p);
 }
 
-/* Words multiplied are about a 2^13th of n^2 p^3: a second or two. */
+/* Words multiplied are about a 2^13th of n^2 m^3 for numbers of m bits: a second or two. */
 #define ROOT_WORK ((uint64_t)1 << 46)
 
 /* Bisection on multiples of 2^-p within the bracket; signs are exact. */
 void dyd_cert_root_enclose(dyd_cert_enclosure *out, const dyd_cert_bracket *r, long p) {
   dyd_cert_enclosure end;
   mpz_t middle, den;
-  out->known = (uint64_t)r->count * r->count * (uint64_t)p * (uint64_t)p * (uint64_t)p <= ROOT_WORK;
+  uint64_t count = r->count, bits = (uint64_t)p + longest_of(r, false);
+  out->known = count * count * bits <= ROOT_WORK / (bits * bits);
   if (!out->known) return;
   dyd_cert_enclosure_init(&end);
   mpz_init(middle);

@@ -394,6 +394,71 @@ static void too_much_work(void **state) {
   mpz_clear(root);
 }
 
+/* ---- memory ---- */
+
+static size_t bytes_now, bytes_most;
+
+static void *counted_malloc(size_t size) {
+  bytes_now += size;
+  if (bytes_now > bytes_most) bytes_most = bytes_now;
+  void *p = malloc(size);
+  assert_non_null(p);
+  return p;
+}
+
+static void *counted_realloc(void *p, size_t from, size_t to) {
+  bytes_now += to - from;
+  if (bytes_now > bytes_most) bytes_most = bytes_now;
+  p = realloc(p, to);
+  assert_non_null(p);
+  return p;
+}
+
+static void counted_free(void *p, size_t size) {
+  bytes_now -= size;
+  free(p);
+}
+
+/* Cube roots, each of the square of all before times the 998th power of a root: bounds of conjugates grow by 5/3. */
+static void say_towers(char *lines, int levels) {
+  *lines = 0;
+  say(lines, "root 200 300 -1");
+  for (int k = 0; k < 2400; k++) say(lines, "0");
+  for (int k = 1; k < 999; k++) say(lines, ",0");
+  say(lines, ",1");
+  for (int k = 0; k < levels; k++) {
+    say(lines, "\n= x0^998");
+    for (int j = 1; j <= k; j++) say(lines, "*x%d^2", j);
+    say(lines, "\ncbrt %d", 2 * k + 2);
+  }
+}
+
+/* What forged lines make long is given up, before it fills the memory. */
+static void no_long_numbers(void **state) {
+  (void)state;
+  static char text[SIZE], lines[SIZE];
+  mp_set_memory_functions(counted_malloc, counted_realloc, counted_free);
+  say_towers(lines, 6);
+  check(text, lines, "0", "0", 0, NOT_THERE);
+  assert_in_range(bytes_most, 0, (size_t)4 << 20);
+  *lines = 0; /* x - x for an x too large for an enclosure; long products of that */
+  say(lines, "= 200\nexp 1\n^ 2 120\n- 3 3\n= 1");
+  for (int k = 0; k < 9000; k++) say(lines, "0");
+  for (int k = 4; k < 400; k++) say(lines, "\n* 5 %d", k == 4 ? 4 : k + 1);
+  bytes_most = 0;
+  check(text, lines, "0+1", "0", 0, NOT_THERE);
+  assert_in_range(bytes_most, 0, (size_t)32 << 20);
+  *lines = 0; /* an end of which powers would be made */
+  say(lines, " 2 -1");
+  for (int k = 1; k < 400; k++) say(lines, ",0");
+  say(lines, ",1");
+  bytes_most = 0;
+  check(text, repeated("root -1", "0", 20000, lines), "0", "0", 0,
+        "the bracket is not seen to hold one root of the polynomial");
+  assert_in_range(bytes_most, 0, (size_t)1 << 20);
+  mp_set_memory_functions(NULL, NULL, NULL);
+}
+
 /* Facts of each kind, by either method, of points around a square and on its diagonal, one of them twice. */
 static void facts(void **state) {
   (void)state;
@@ -425,8 +490,9 @@ static void facts(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(known_values), cmocka_unit_test(exact_values),
-                                     cmocka_unit_test(refusals),     cmocka_unit_test(limits),
-                                     cmocka_unit_test(facts),        cmocka_unit_test(too_much_work)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(known_values),   cmocka_unit_test(exact_values),
+                                     cmocka_unit_test(refusals),       cmocka_unit_test(limits),
+                                     cmocka_unit_test(facts),          cmocka_unit_test(too_much_work),
+                                     cmocka_unit_test(no_long_numbers)};
   return cmocka_run_group_tests_name("numbers of certificates", tests, NULL, NULL);
 }

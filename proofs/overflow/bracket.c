@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: LGPL-3.0-or-later */
+/* Contracts for src/checker/bracket.c: how long its longest number is. */
+#include "polys.h"
+
+typedef const dyd_cert_bracket *bracketed;
+
+/*@ predicate bracket(bracketed r) = \valid_read(r) && 2 <= r->count <= 1001 &&
+      \valid_read(r->coeff + (0 .. r->count - 1)) &&
+      (\forall integer k; 0 <= k < r->count ==> whole(&r->coeff[k][0])) &&
+      whole(&r->end[0][0]) && whole(&r->end[1][0]) && whole(&r->end[2][0]) && whole(&r->end[3][0]);
+    predicate within_bits(bracketed r, integer most) = r->end[0][0].length <= most && r->end[1][0].length <= most &&
+      r->end[2][0].length <= most && r->end[3][0].length <= most; */
+
+/*@ requires bracket(r); assigns \nothing; exits \false;
+    ensures 1 <= \result <= 137438953472 && within_bits(r, \result);
+    ensures all ==> \forall integer k; 0 <= k < r->count ==> r->coeff[k][0].length <= \result; */
+static size_t longest_of(const dyd_cert_bracket *r, bool all);
+
+#include "checker/bracket.c"
