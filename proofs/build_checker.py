@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerTies',
-            'CheckerDiagram', 'CheckerDistance', 'CheckerEnclosure', 'CheckerAlgebra', 'CheckerCycle', 'CheckerBlock',
+            'CheckerDiagram', 'CheckerDistance', 'CheckerEnclosure', 'CheckerInverse', 'CheckerAlgebra', 'CheckerCycle', 'CheckerBlock',
             'CheckerFacts', 'CheckerRing', 'CheckerRow', 'CheckerExtract')
 READERS = ('source', 'described', 'reader', 'hints', 'cuts', 'circles', 'blocks', 'proved')
 
