@@ -240,13 +240,17 @@ Definition new_root (c : Z) (n : N) (r : poly) (x : interval) : known * list lea
   (Known x (Some (variable fresh, constant c)),
     [Leaf (Multiple c k) (mul most u (whole u c) x) (Some (Relation n r))]).
 
-Definition square_root_of (x : known) (s : stated) : option (known * list leaf) :=
+(* The square root, or the cube root. *)
+Definition radical_of (cubic : bool) (x : known) (s : stated) : option (known * list leaf) :=
+  let y := if cubic then cube_root root_hint u (within x) else square_root root_hint u (within x) in
   match s with
   | Some (p, q) =>
     match value_known p q with
     | Some v =>
-      if are_equal most relations (mul_q (is v) (is v)) (is x) && (is_null (is v) || (sign_of (within v) =? 1))
-      then Some (Known (square_root root_hint u (within x)) (is v), []) else None
+      let w := mul_q (is v) (is v) in
+      if are_equal most relations (if cubic then mul_q (is v) w else w) (is x) &&
+         (cubic || is_null (is v) || (sign_of (within v) =? 1))
+      then Some (Known y (is v), []) else None
     | None => None
     end
   | None =>
@@ -255,30 +259,9 @@ Definition square_root_of (x : known) (s : stated) : option (known * list leaf) 
     | Some (p, q) =>
       match integer_of q with
       | Some c =>
-        if (sign_of (within x) =? 1) && negb (c =? 0)
-        then Some (new_root c 2 (times (constant c) p) (square_root root_hint u (within x))) else None
-      | None => None
-      end
-    | None => None
-    end
-  end.
-
-Definition cube_root_of (x : known) (s : stated) : option (known * list leaf) :=
-  match s with
-  | Some (p, q) =>
-    match value_known p q with
-    | Some v =>
-      if are_equal most relations (mul_q (is v) (mul_q (is v) (is v))) (is x)
-      then Some (Known (cube_root root_hint u (within x)) (is v), []) else None
-    | None => None
-    end
-  | None =>
-    if is_null (is x) then Some (x, [])
-    else match is x with
-    | Some (p, q) =>
-      match integer_of q with
-      | Some c => if negb (c =? 0) then Some (new_root c 3 (times (constant (c * c)) p) (cube_root root_hint u
-        (within x))) else None
+        if negb (c =? 0) && (cubic || (sign_of (within x) =? 1))
+        then Some (if cubic then new_root c 3 (times (constant (c * c)) p) y else new_root c 2 (times (constant c) p) y)
+        else None
       | None => None
       end
     | None => None
@@ -363,8 +346,8 @@ Definition step (o : line) : option (known * list leaf) :=
   | Opposite a => unary a (fun x => plain (Some (Known (neg (within x)) (q_neg (is x)))))
   | Claim a => unary a (fun x => plain (Some x))
   | Absolute a => unary a (fun x => plain (Some (Known (absolute (within x)) (absolute_is x))))
-  | SquareRoot a s => unary a (fun x => square_root_of x s)
-  | CubeRoot a s => unary a (fun x => cube_root_of x s)
+  | SquareRoot a s => unary a (fun x => radical_of false x s)
+  | CubeRoot a s => unary a (fun x => radical_of true x s)
   | Cosine a => unary a (fun x => match angle a x with Some (c, _, l) => seen (Known (cosine most u (within x)) c) l
     | None => None end)
   | Sine a => unary a (fun x => match angle a x with Some (_, s, l) => seen (Known (sine most u pi2 (within x)) s) l

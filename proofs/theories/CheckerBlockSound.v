@@ -230,71 +230,55 @@ Proof.
     + intros r' E'. injection E' as <-. unfold relation_holds. cbn [degree rest]. now rewrite L.
 Qed.
 
-Lemma square_root_ok x r s y more : known_ok x r -> square_root_of most root_hint u st k x s = Some (y,
-  more) -> v k = sqrt r ->
-  agrees (leaves st ++ more) -> 0 <= r /\ is_stated s (v k) /\ known_ok y (v k) /\ leaves_ok (fresh st) more.
-Proof.
-  intros [X Q] E V A. unfold square_root_of in E. destruct s as [[p q] |].
-  - destruct (value_known most u st p q) as [w |] eqn:W; [| discriminate]. apply value_known_ok in W as [N [W P]].
-    set (z := value_of l p / value_of l q) in *.
-    destruct (are_equal most (relations st) (mul_q most st (is w) (is w)) (is x) && (is_null (is w) || (sign_of
-      (within w) =? 1)%Z)) eqn:B; [| discriminate].
-    injection E as <- <-. apply andb_prop in B as [B S].
-    apply (equal_are l most _ R0 _ _ (z * z) r) in B; trivial; [| now apply q_mul_is].
-    assert (Z0 : 0 <= z).
-    { apply orb_prop in S as [S | S]; [rewrite (null_is_zero l _ _ P S); lra |]. apply Z.eqb_eq in S.
-      pose proof (sign_positive u U _ _ W S). lra. }
-    assert (Rz : 0 <= r) by (rewrite <- B; nra). assert (Vz : v k = z) by (rewrite V, <- B; now apply sqrt_square).
-    split; [exact Rz |]. split; [now split; [| rewrite Vz] |]. split; [| apply none_new].
-      split; cbn [within is]; [| now rewrite Vz].
-    rewrite V. now apply square_root_holds.
-  - destruct (is_null (is x)) eqn:N.
-    + injection E as <- <-. apply (null_is_zero l _ _ Q) in N. subst r. rewrite sqrt_0 in V. rewrite V.
-      split; [lra |]. split; [exact I |]. split; [now split | apply none_new].
-    + destruct (is x) as [[p q] |] eqn:X0; [| discriminate]. destruct (integer_of q) as [c |] eqn:C; [| discriminate].
-      destruct ((sign_of (within x) =? 1)%Z && negb (c =? 0)%Z) eqn:B; [| discriminate].
-        apply andb_prop in B as [S B].
-      apply Z.eqb_eq in S. apply negb_true_iff, Z.eqb_neq in B. apply (sign_positive u U _ _ X) in S.
-      apply integer_value in C. destruct Q as [Nq Eq]. rewrite C in Eq, Nq. injection E as E.
-      split; [lra |]. split; [exact I |].
-      apply (new_root_ok c 2 (times (constant c) p) (square_root root_hint u (within x))); trivial.
-      * rewrite V. apply square_root_holds; trivial; lra.
-      * unfold new_root. congruence.
-      * rewrite times_value, constant_value. replace (value_of l p) with (r * IZR c) by (rewrite Eq; field; exact Nq).
-        change (N.to_nat 2) with 2%nat. rewrite V. simpl.
-        transitivity (IZR c * IZR c * (sqrt r * sqrt r)); [ring |]. rewrite sqrt_sqrt by lra. ring.
-Qed.
+Lemma some_pair {A B : Type} (a c : A) (b d : B) : Some (a, b) = Some (c, d) -> c = a /\ d = b.
+Proof. intros E. now injection E. Qed.
 
 Lemma cubes_equal x y : x * x * x = y * y * y -> x = y.
 Proof. intros E. apply Rle_antisym; apply cube_monotone; lra. Qed.
 
-Lemma cube_root_ok x r s y more : known_ok x r -> cube_root_of most root_hint u st k x s = Some (y,
-  more) -> v k * v k * v k = r ->
-  agrees (leaves st ++ more) -> is_stated s (v k) /\ known_ok y (v k) /\ leaves_ok (fresh st) more.
+Lemma radical_ok (cubic : bool) x r s y more : known_ok x r ->
+  radical_of most root_hint u st k cubic x s = Some (y, more) ->
+  (if cubic then v k * v k * v k = r else v k = sqrt r) -> agrees (leaves st ++ more) ->
+  (cubic = false -> 0 <= r) /\ is_stated s (v k) /\ known_ok y (v k) /\ leaves_ok (fresh st) more.
 Proof.
-  intros [X Q] E V A. unfold cube_root_of in E. destruct s as [[p q] |].
+  intros [X Q] E V A. unfold radical_of in E. cbv zeta in E.
+  set (e := if cubic then cube_root root_hint u (within x) else square_root root_hint u (within x)) in *.
+  assert (H : (cubic = false -> 0 <= r) -> holds u e (v k)).
+  { intros P. unfold e. destruct cubic; [now apply (cube_root_holds root_hint u U _ r) |].
+    rewrite V. apply square_root_holds; auto. }
+  destruct s as [[p q] |].
   - destruct (value_known most u st p q) as [w |] eqn:W; [| discriminate]. apply value_known_ok in W as [N [W P]].
     set (z := value_of l p / value_of l q) in *.
-    destruct (are_equal most (relations st) (mul_q most st (is w) (mul_q most st (is w) (is w))) (is x)) eqn:B;
-      [| discriminate].
-    injection E as <- <-. apply (equal_are l most _ R0 _ _ (z * (z * z)) r) in B; trivial; [| now apply q_mul_is;
-      trivial; apply q_mul_is].
-    assert (Vz : v k = z) by (apply cubes_equal; rewrite V, <- B; ring).
-    split; [now split; [| rewrite Vz] |]. split; [| apply none_new]. split; cbn [within is]; [| now rewrite Vz].
-    now apply (cube_root_holds root_hint u U _ r).
+    match type of E with (if ?b then _ else _) = _ => destruct b eqn:B; [| discriminate] end.
+    apply some_pair in E as [-> ->]. apply andb_prop in B as [B S].
+    assert (Z : (cubic = false -> 0 <= r) /\ v k = z).
+    { pose proof (q_mul_is l most _ R0 _ _ z z P P) as P2. destruct cubic.
+      - apply (equal_are l most _ R0 _ _ (z * (z * z)) r) in B; trivial; [| now apply q_mul_is].
+        split; [discriminate |]. apply cubes_equal. rewrite V, <- B. ring.
+      - apply (equal_are l most _ R0 _ _ (z * z) r) in B; trivial. cbn [orb] in S.
+        assert (Z0 : 0 <= z).
+        { apply orb_prop in S as [S | S]; [rewrite (null_is_zero l _ _ P S); lra |]. apply Z.eqb_eq in S.
+          pose proof (sign_positive u U _ _ W S). lra. }
+        split; [intros _; rewrite <- B; nra |]. rewrite V, <- B. now apply sqrt_square. }
+    destruct Z as [Zr Zv]. split; [exact Zr |]. split; [now split |]. split; [| apply none_new].
+    split; cbn [within is]; [now apply H | now rewrite Zv].
   - destruct (is_null (is x)) eqn:N.
-    + injection E as <- <-. apply (null_is_zero l _ _ Q) in N as Z. rewrite Z in V.
-      assert (V0 : v k = 0) by (apply cubes_equal; rewrite V; ring). rewrite V0, Z in *. split; [exact I |].
-        split; [now split | apply none_new].
+    + apply some_pair in E as [-> ->]. apply (null_is_zero l _ _ Q) in N. subst r.
+      assert (V0 : v k = 0) by (destruct cubic; [apply cubes_equal; rewrite V; ring | rewrite V; apply sqrt_0]).
+      rewrite V0. split; [intros _; lra |]. split; [exact I |]. split; [now split | apply none_new].
     + destruct (is x) as [[p q] |] eqn:X0; [| discriminate]. destruct (integer_of q) as [c |] eqn:C; [| discriminate].
-      destruct (negb (c =? 0)%Z) eqn:B; [| discriminate]. apply negb_true_iff, Z.eqb_neq in B.
-      apply integer_value in C. destruct Q as [Nq Eq]. rewrite C in Eq, Nq. injection E as E. split; [exact I |].
-      apply (new_root_ok c 3 (times (constant (c * c)) p) (cube_root root_hint u (within x))); trivial.
-      * now apply (cube_root_holds root_hint u U _ r).
-      * unfold new_root. congruence.
-      * rewrite times_value, constant_value, mult_IZR.
-        replace (value_of l p) with (r * IZR c) by (rewrite Eq; field; exact Nq).
-        change (N.to_nat 3) with 3%nat. simpl. rewrite <- V. ring.
+      destruct (negb (c =? 0)%Z && (cubic || (sign_of (within x) =? 1)%Z)) eqn:B; [| discriminate].
+      apply andb_prop in B as [B S]. apply negb_true_iff, Z.eqb_neq in B. apply integer_value in C.
+      destruct Q as [Nq Eq]. rewrite C in Eq, Nq.
+      assert (P : cubic = false -> 0 <= r).
+      { intros ->. cbn [orb] in S. apply Z.eqb_eq in S. pose proof (sign_positive u U _ _ X S). lra. }
+      assert (Lp : value_of l p = r * IZR c) by (rewrite Eq; field; exact Nq). injection E as E.
+      split; [exact P |]. split; [exact I |].
+      destruct cubic; (eapply new_root_ok; [exact B | reflexivity | now apply H | exact E | exact A |]);
+        rewrite times_value, constant_value, Lp.
+      * rewrite mult_IZR, <- V. change (N.to_nat 3) with 3%nat. simpl. ring.
+      * change (N.to_nat 2) with 2%nat. rewrite V. simpl. transitivity (IZR c * IZR c * (sqrt r * sqrt r)); [ring |].
+        rewrite sqrt_sqrt by auto. ring.
 Qed.
 
 Lemma in_leaf_value j f : value_of l (in_leaf j f) = Leaves.at_ f (l j).
@@ -368,7 +352,8 @@ Proof.
   destruct (are_equal most (relations st) y x) eqn:Q; [injection E as <- <-; exists f, y; rewrite Nat.sub_diag;
     repeat split; trivial; now left |].
   destruct (helps && are_equal most (relations st) y (q_neg x)) eqn:P; [| now apply Later].
-  apply andb_prop in P as [H P]. injection E as <- <-. exists f, y. rewrite Nat.sub_diag. repeat split; trivial. now right.
+  apply andb_prop in P as [H P]. injection E as <- <-. exists f, y. rewrite Nat.sub_diag.
+  repeat split; trivial. now right.
 Qed.
 
 Lemma key_sign y x r s (same : bool) : is_quotient l x r -> is_quotient l y s ->
@@ -488,9 +473,6 @@ Proof.
   unfold relation_holds. cbn [degree rest]. rewrite minus_value, in_leaf_value, Nat2N.id.
   rewrite F, at_app, rev_length in C. simpl (Leaves.at_ [1%Z] _) in C. lra.
 Qed.
-
-Lemma some_pair {A B : Type} (a c : A) (b d : B) : Some (a, b) = Some (c, d) -> c = a /\ d = b.
-Proof. intros E. now injection E. Qed.
 
 Lemma new_part_ok n x more : new_part most u turn st n = Some (x, more) -> agrees (leaves st ++ more) ->
   (0 < n)%Z /\ known_ok x (Leaves.turn (Z.to_nat n)) /\ leaves_ok (fresh st) more.
@@ -639,17 +621,21 @@ Proof.
     -1 <= r <= 1).
   { intros D. apply andb_prop in D as [D1 D2]. apply (up_to_one_ok x r K) in D1.
     apply (up_to_one_ok _ (- r)) in D2; [lra |]. split; [apply neg_holds, K | apply q_neg_is, K]. }
-  destruct f; cbn [is_in_domain inverse_defined] in *; auto. apply Z.eqb_eq in E. exact (sign_positive u U _ _ (proj1 K) E).
+  destruct f; cbn [is_in_domain inverse_defined] in *; auto. apply Z.eqb_eq in E.
+  exact (sign_positive u U _ _ (proj1 K) E).
 Qed.
 
 Lemma inverse_key_is f g y : inverse_key st f g = Some y -> exists b, g = InverseOf f b /\ quotient_at st b = Some y.
-Proof. destruct f, g as [| | | | | | | h b]; try discriminate; destruct h; try discriminate; intros E; now exists b. Qed.
+Proof.
+  destruct f, g as [| | | | | | | h b]; try discriminate; destruct h; try discriminate; intros E; now exists b.
+Qed.
 
 Lemma inverse_known_ok f a x y more : known_ok x (v a) ->
   inverse_known most root_hint u turn st f a x = Some (y, more) -> agrees (leaves st ++ more) ->
   inverse_defined f (v a) /\ known_ok y (inverse_at f (v a)) /\ leaves_ok (fresh st) more.
 Proof.
-  intros K E A. unfold inverse_known in E. cbv zeta in E. destruct (is x) as [q |] eqn:Ex; [| discriminate]. rewrite <- Ex in E.
+  intros K E A. unfold inverse_known in E. cbv zeta in E. destruct (is x) as [q |] eqn:Ex; [| discriminate].
+  rewrite <- Ex in E.
   destruct (is_in_domain most u st f x) eqn:D; [| discriminate]. cbn [negb] in E. apply (in_domain_ok f x _ K) in D.
   pose proof (inverse_value_holds most root_hint u _ f _ _ U pi2_holds D (proj1 K)) as H.
   set (e := inverse_value most root_hint u (pi2 turn) f (within x)) in *. split; [exact D |].
@@ -698,8 +684,8 @@ Proof.
   - injection E as <- <-. rewrite V. split; [exact I | split; [exact F | exact Z0]].
   - injection E as <- <-. rewrite V. split; [exact I | split; [| exact Z0]].
     split; [apply absolute_holds; [exact U | apply F] | now apply absolute_ok].
-  - destruct (square_root_ok y (v a) s x more F E V A) as (P & Q & R1 & S1). split; [now split | now split].
-  - exact (cube_root_ok y (v a) s x more F E V A).
+  - destruct (radical_ok false y (v a) s x more F E V A) as (P & Q & R1 & S1). split; [split; auto | now split].
+  - destruct (radical_ok true y (v a) s x more F E V A) as (_ & Q & R1 & S1). now split.
   - destruct (angle most u turn st a y) as [[[c s] m] |] eqn:G; [| discriminate]. apply seen_is in E as [-> ->].
     destruct (angle_ok a y c s m F G A) as (C & S1 & L). rewrite V. split; [exact I | split; [| exact L]].
     split; [apply cosine_holds; [exact U | apply F] | exact C].

@@ -71,7 +71,9 @@ Variable most : Z.
 Variable root_hint : Z -> Z -> Z.
 
 Lemma point_holds u y : (0 < u)%Z -> holds u (point y) (IZR y / IZR u).
-Proof. intros U. apply IZR_lt in U. unfold holds, point. replace (IZR y / IZR u * IZR u) with (IZR y) by (field; lra). lra. Qed.
+Proof.
+  intros U. apply IZR_lt in U. unfold holds, point. replace (IZR y / IZR u * IZR u) with (IZR y) by (field; lra). lra.
+Qed.
 
 Lemma settled_holds u f r n : (forall y, holds u (f y) r) -> forall y x, holds u x r -> holds u (settled n f y x) r.
 Proof.
@@ -89,7 +91,8 @@ Proof.
   assert (E : holds u e (r * exp (- IZR y / IZR u))) by (now apply mul_holds; trivial; apply exponential_holds).
   destruct (Z.eqb_spec (sign_of e) 1) as [S | S]; [| destruct (point y) as [[] |]; exact I].
   apply (sign_positive u U _ _ E) in S.
-  rewrite (logarithm_step r (IZR y / IZR u) P). replace (- (IZR y / IZR u)) with (- IZR y / IZR u) by (unfold Rdiv; ring).
+  rewrite (logarithm_step r (IZR y / IZR u) P).
+  replace (- (IZR y / IZR u)) with (- IZR y / IZR u) by (unfold Rdiv; ring).
   set (z := r * exp (- IZR y / IZR u)) in *. apply add_holds; [now apply point_holds |].
   apply join_holds with (x := IZR 1 - / z) (y := z - IZR 1); trivial.
   - apply sub_holds; [now apply whole_holds | now apply inverse_holds].
@@ -107,7 +110,8 @@ Qed.
 Lemma around_holds u x r z : holds u x (r * r) -> Rabs (z - r) <= r * r -> (0 < u)%Z -> holds u (around x) (z - r).
 Proof.
   destruct x as [[a b] |]; [| intros; exact I]. simpl. intros [_ B] Z U. apply IZR_lt in U.
-  rewrite opp_IZR. pose proof (Rle_abs (z - r)). pose proof (Rle_abs (- (z - r))) as N. rewrite Rabs_Ropp in N. split; nra.
+  rewrite opp_IZR. pose proof (Rle_abs (z - r)). pose proof (Rle_abs (- (z - r))) as N. rewrite Rabs_Ropp in N.
+  split; nra.
 Qed.
 
 Lemma arctangent_from_holds u pi2 x r y : (0 < u)%Z -> holds u pi2 (PI / 2) -> holds u x r ->
@@ -117,7 +121,8 @@ Proof.
   pose proof (point_holds u y U) as Y. fold z in Y.
   pose proof (cosine_holds most u _ _ U Y) as C. pose proof (sine_holds most u _ _ _ U P Y) as S.
   set (c := cosine most u (point y)) in *. set (s := sine most u pi2 (point y)) in *.
-  set (d := add c (mul most u x s)). assert (D : holds u d (cos z + r * sin z)) by (apply add_holds; trivial; now apply mul_holds).
+  set (d := add c (mul most u x s)).
+  assert (D : holds u d (cos z + r * sin z)) by (apply add_holds; trivial; now apply mul_holds).
   destruct ((Z.abs y <=? 2 * u) && (sign_of d =? 1))%Z eqn:E; [| exact I]. apply andb_prop in E as [A B].
   apply Z.leb_le in A. apply Z.eqb_eq in B. apply (sign_positive u U _ _ D) in B.
   assert (A' : -2 <= z <= 2).
