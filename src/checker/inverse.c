@@ -3,8 +3,8 @@
  * well by functions that are known [CERT-10]. */
 #include "checker/enclosure.h"
 
-/* Bits beyond the precision asked for; steps at most, each of which trebles the digits. */
-enum { MORE_BITS = 64, MOST_STEPS = 16 };
+/* Bits beyond the precision asked for; steps at most, each of which trebles the digits; bits at which they begin. */
+enum { MORE_BITS = 64, MOST_STEPS = 16, FEW_BITS = 256 };
 
 /* What is known of f(x) from y, in units of 2^-p as all else. */
 typedef void nearer(dyd_cert_enclosure *out, const dyd_cert_enclosure *x, mpz_srcptr y, long p);
@@ -25,12 +25,32 @@ static bool is_narrower(const dyd_cert_enclosure *x, const dyd_cert_enclosure *y
   return narrower;
 }
 
+static void settle_from(dyd_cert_enclosure *x, nearer *f, mpz_ptr y, long p);
+
+/* y becomes what half of the digits give, if that is known to 1/2: a step on all of them costs most. */
+static void begin_near(mpz_ptr y, const dyd_cert_enclosure *x, nearer *f, long p) {
+  long by = p / 2;
+  dyd_cert_enclosure few;
+  mpz_t near;
+  mpz_init(near);
+  dyd_cert_enclosure_init(&few);
+  dyd_cert_enclosure_set(&few, x);
+  dyd_cert_enclosure_rescale(&few, -by);
+  mpz_fdiv_q_2exp(near, y, (mp_bitcnt_t)by);
+  settle_from(&few, f, near, p - by);
+  mpz_sub(few.hi, few.hi, few.lo);
+  if (few.known && (long)mpz_sizeinbase(few.hi, 2) < p - by) mpz_mul_2exp(y, near, (mp_bitcnt_t)by);
+  dyd_cert_enclosure_clear(&few);
+  mpz_clear(near);
+}
+
 /* x = f(x), from the middle of what is known to the next one while that gives more. */
 static void settle_from(dyd_cert_enclosure *x, nearer *f, mpz_ptr y, long p) {
   dyd_cert_enclosure now, best;
   dyd_cert_enclosure_init(&now);
   dyd_cert_enclosure_init(&best);
   best.known = false;
+  if (p > FEW_BITS) begin_near(y, x, f, p);
   f(&now, x, y, p);
   for (int k = 0; k < MOST_STEPS && is_narrower(&now, &best); k++) {
     dyd_cert_enclosure_set(&best, &now);
