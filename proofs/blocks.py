@@ -12,6 +12,7 @@ sine, the sign of one changed, all refused.
 import pathlib
 import random
 import re
+import resource
 import subprocess
 import sys
 import tempfile
@@ -354,6 +355,31 @@ def try_gons(both):
         yield 'few polygons were forged, or many of them are true'
 
 
+def lattice(n):
+    return ''.join(f'{x}*sqrt(2) {y}*sqrt(2)\n' for x in range(n) for y in range(n))
+
+
+def row(n):
+    return ''.join(f'{k}*sqrt(2) {k}*sqrt(3)\n' for k in range(n))
+
+
+def seconds(both, points):
+    """What the checker takes for a certificate of points whose pairs are all decided or ties."""
+    text = both.certificate(points)
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    assert both.ask(both.proved, text=text).returncode == ALL
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+
+def try_growth(both):
+    """Circles, each with its sites, in many sites; pairs on one line, and on one circle, whose number is what grows."""
+    for name, make, few, many, size in (('lattice', lattice, 12, 36, 9), ('row', row, 60, 240, 16), ('polygon', gon, 40, 120, 9)):
+        ratio = seconds(both, make(many)) / seconds(both, make(few))
+        print(f'{name}: {size} times as much, {ratio:.1f} times as long')
+        if ratio > 3 * size:
+            yield f'the time of a {name} grows with a higher power'
+
+
 def try_known(both):
     for points, count, facts in KNOWN:
         answer = both.ask(both.proved, text=both.certificate(points))
@@ -393,6 +419,7 @@ def main():
         proved, dyadel = (pathlib.Path(arg).resolve() for arg in sys.argv[1:3])
         both = Checkers(proved, dyadel, pathlib.Path(folder))
         found = list(try_places(both)) + list(try_known(both)) + list(try_rings(both)) + list(try_gons(both))
+        found += try_growth(both)
         found += try_forged(both, int(sys.argv[3]) if len(sys.argv) > 3 else 16)
     print('\n'.join(found) or 'no fault')
     return 1 if found else 0

@@ -12,9 +12,9 @@ import subprocess
 import sys
 
 THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerTies',
-            'CheckerDiagram', 'CheckerDistance', 'CheckerEnclosure', 'CheckerInverse', 'CheckerAlgebra', 'CheckerCycle', 'CheckerBlock',
-            'CheckerFacts', 'CheckerRing', 'CheckerRow', 'CheckerExtract')
-READERS = ('source', 'described', 'reader', 'hints', 'cuts', 'circles', 'blocks', 'proved')
+            'CheckerDiagram', 'CheckerDistance', 'CheckerEnclosure', 'CheckerInverse', 'CheckerAlgebra', 'CheckerCycle',
+            'CheckerBlock', 'CheckerFacts', 'CheckerTied', 'CheckerExtract')
+READERS = ('source', 'described', 'reader', 'hints', 'cuts', 'circles', 'crossings', 'blocks', 'proved')
 
 
 def link(work, output, sources):

@@ -28,16 +28,17 @@ typedef struct dyd_sphere_options {
    * longitude and latitude may each be off by so many degrees. "30m", "2km": points lie within this distance on the
    * ground (DYD_EARTH_RADIUS). NULL: none. Borrowed for the call. */
   const char *radius;
-  bool centre_set; /* project from point `centre`; else one is chosen: exact, or narrow for its neighbourhood */
+  bool centre_set; /* project from point `centre`; else one is chosen, or a place between points */
   uint32_t centre;
 } dyd_sphere_options;
 
 /* The sphere with the points of `places`, an engine to which longitudes (x) and latitudes (y) were added, and which is
  * never run; borrowed until dyd_sphere_free, and not to be changed. options may be NULL. Streams are narrowed to 32
- * bits. Where each point may be the same as another one, none can be projected from; then a place between them is, if
- * there is one [SPH-5]. A point whose row has a radius in metres (dyd_engine_radius) lies within it, in addition to
- * options. DYD_E_ARG or DYD_E_DOMAIN with a message and the point: a latitude beyond 90 degrees; a radius that is not
- * understood; points that leave no place of the sphere free. O(N log N). */
+ * bits. Where each point may be the same as another one, or radii are wide, so that a point would widen all images,
+ * a place between points is projected from, if there is one: then pairs around that may stay open [SPH-5]. A point
+ * whose row has a radius in metres (dyd_engine_radius) lies within it, in addition to options. DYD_E_ARG: a radius
+ * in the options that is not understood, or larger than that of the earth. DYD_E_DOMAIN, with the point where it is
+ * one: a latitude beyond 90 degrees, points that leave no place of the sphere free. O(N log N). */
 DYD_API dyd_status dyd_sphere_new(dyd_sphere **out, dyd_engine *places, const dyd_sphere_options *options,
                                   dyd_error *err);
 DYD_API void dyd_sphere_free(dyd_sphere *s);

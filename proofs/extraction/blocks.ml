@@ -45,8 +45,7 @@ type proof = {
   points : int;  (* that are in their rectangles *)
   facts : int;  (* that hold *)
   joined : (int * int) list;  (* sites that are the same *)
-  rings : (Z.t * Checker.state * Checker.tied_ring) list;  (* on a circle, with what is known of numbers *)
-  tied_rows : (Z.t * Checker.state * Checker.tied_row) list;  (* on a line *)
+  sets : Checker.tied_set list;  (* on a circle or a line *)
   unseen_points : int;
   unseen_facts : int;
 }
@@ -69,30 +68,13 @@ let at_precision (c : Reader.certificate) (b : Described.block) bits =
     let points = List.length (List.filter look b.points) in
     Ok (points, List.filter holds b.facts, (u, st))
 
-(* The sites of a fact, each with its place. *)
-let placed (f : Described.fact) places = List.combine (List.map Z.of_int f.members) places
-
-let rings_of facts (u, st) =
-  let ring (f : Described.fact) =
+let sets_of facts (units, block) =
+  let set (f : Described.fact) =
     match f.says with
-    | OnCircle (a, b, c, l) ->
-      (match placed f (a :: b :: c :: l) with
-      | first :: second :: third :: others -> Some (u, st, { Checker.first; second; third; others })
-      | _ -> None)
-    | _ -> None
+    | OnCircle _ | OnLine _ -> Some { Checker.units; block; says = f.says; site_names = List.map Z.of_int f.members }
+    | Same _ -> None
   in
-  List.filter_map ring facts
-
-let rows_of facts (u, st) =
-  let row (f : Described.fact) =
-    match f.says with
-    | OnLine (a, b, l) ->
-      (match placed f (a :: b :: l) with
-      | one_end :: other_end :: more -> Some (u, st, { Checker.one_end; other_end; more })
-      | _ -> None)
-    | _ -> None
-  in
-  List.filter_map row facts
+  List.filter_map set facts
 
 (* The most that is seen, at rising precision. *)
 let of_block c (b : Described.block) =
@@ -109,19 +91,18 @@ let of_block c (b : Described.block) =
 
 let of_blocks (c : Reader.certificate) =
   let add p (b : Described.block) =
-    let points, facts, rings, rows =
+    let points, facts, sets =
       match of_block c b with
-      | Ok (points, facts, known) -> (points, facts, rings_of facts known, rows_of facts known)
+      | Ok (points, facts, known) -> (points, facts, sets_of facts known)
       | Error line -> raise (Bad (line, "the number is not seen to be defined, or to be what the line says"))
     in
     let same (f : Described.fact) = match (f.says, f.members) with Same _, [ i; j ] -> Some (i, j) | _ -> None in
     { points = p.points + points; facts = p.facts + List.length facts; joined = List.filter_map same facts @ p.joined;
-      rings = rings @ p.rings; tied_rows = rows @ p.tied_rows;
+      sets = sets @ p.sets;
       unseen_points = p.unseen_points + List.length b.points - points;
       unseen_facts = p.unseen_facts + List.length b.facts - List.length facts }
   in
-  List.fold_left add { points = 0; facts = 0; joined = []; rings = []; tied_rows = [];
-      unseen_points = 0; unseen_facts = 0 } c.blocks
+  List.fold_left add { points = 0; facts = 0; joined = []; sets = []; unseen_points = 0; unseen_facts = 0 } c.blocks
 
 (* How many aliases of sites that are not exact are not proved to be the same points. *)
 let loose_aliases (c : Reader.certificate) p =

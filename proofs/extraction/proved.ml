@@ -85,11 +85,10 @@ let is_covered c d e boxes found =
   (covered, !triangles)
 
 (* The pairs that are shown to be ties neither by circles of exact points nor by what blocks say. *)
-let loose_pairs c d e circle (b : Blocks.proof) pairs =
-  let by_ring pairs (u, st, ring) = Checker.ring_loose Blocks.most u st c.sites ring pairs in
-  let by_row pairs (u, st, row) = Checker.row_loose Blocks.most u st c.sites row pairs in
-  let left = List.fold_left by_ring (Checker.loose_ties d e c.sites circle pairs) b.rings in
-  List.fold_left by_row left b.tied_rows
+let loose_pairs c d e boxes (b : Blocks.proof) pairs =
+  let sets = List.mapi (fun k g -> (Z.of_int k, g)) b.sets in
+  Checker.loose_of_sets Blocks.most d e c.sites sets (Crossings.hint boxes sets)
+    (Checker.loose_ties d e c.sites (Circles.hint boxes c.edges) pairs)
 
 let proof_of c d e b =
   let boxes = Option.get (Checker.scaled_sites d e c.sites) in
@@ -110,9 +109,9 @@ let proof_of c d e b =
   in
   let counted = decided || (c.hints + p.boxes + p.unproved = 0 && are_open && complete && are_sure () && are_corners ()) in
   let circle = Circles.hint boxes c.edges in
-  let loose = List.length (loose_pairs c d e circle b p.ties) and is_goal = c.goal = [ "decided" ] in
+  let loose = List.length (loose_pairs c d e boxes b p.ties) and is_goal = c.goal = [ "decided" ] in
   let fixed = Checker.is_fixpoint d e c.sites (complete && is_goal) circle p.listed in
-  let fixed = fixed || (complete && is_goal && loose_pairs c d e circle b p.listed = []) in
+  let fixed = fixed || (complete && is_goal && loose_pairs c d e boxes b p.listed = []) in
   { decided; complete; covering; fixed; loose; surrounded = List.length found; faces = List.length triangles; counted }
 
 let of_diagram c what = Option.bind c.diagram what

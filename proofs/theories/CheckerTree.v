@@ -144,14 +144,21 @@ Fixpoint all_in (passes test : box -> bool) (t : tree) : bool :=
   | Node h s t => passes h || (all_in passes test s && all_in passes test t)
   end.
 
+(* Of each box: it has been looked at, or one that covers it. *)
+Lemma all_in_or passes test b : forall depth l, all_in passes test (build depth l) = true -> In b l ->
+  test b = true \/ exists h, covers h b /\ passes h = true.
+Proof.
+  induction depth as [| d IH]; intros l H I; cbn [build] in H.
+  - left. cbn [all_in] in H. rewrite forallb_forall in H. now apply H.
+  - destruct (halves l) as [s t] eqn:Q. destruct t as [| c t]; cbn [all_in] in H.
+    + left. rewrite forallb_forall in H. now apply H.
+    + apply orb_true_iff in H. destruct H as [H | H]; [right; exists (hull l); split; [now apply hull_covers | exact H] |].
+      apply andb_true_iff in H. destruct H as [Hs Ht]. pose proof (halves_in l b I) as G. rewrite Q in G.
+      destruct G as [G | G]; [exact (IH s Hs G) | exact (IH (c :: t) Ht G)].
+Qed.
+
 Theorem all_in_each passes test b : (forall h b, covers h b -> ordered b -> passes h = true -> test b = true) ->
   ordered b -> forall depth l, all_in passes test (build depth l) = true -> In b l -> test b = true.
 Proof.
-  intros M O. induction depth as [| d IH]; intros l H I; cbn [build] in H.
-  - cbn [all_in] in H. rewrite forallb_forall in H. now apply H.
-  - destruct (halves l) as [s t] eqn:Q. destruct t as [| c t]; cbn [all_in] in H.
-    + rewrite forallb_forall in H. now apply H.
-    + apply orb_true_iff in H. destruct H as [H | H]; [apply (M (hull l)); [now apply hull_covers | exact O | exact H] |].
-      apply andb_true_iff in H. destruct H as [Hs Ht]. pose proof (halves_in l b I) as G. rewrite Q in G.
-      destruct G as [G | G]; [exact (IH s Hs G) | exact (IH (c :: t) Ht G)].
+  intros M O depth l H I. destruct (all_in_or passes test b depth l H I) as [T | (h & C & T)]; [exact T | exact (M h b C O T)].
 Qed.

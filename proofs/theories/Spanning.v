@@ -16,6 +16,10 @@ Proof. intros H J. induction J as [a | a b c A B P _ IH]; [constructor |]. apply
 Lemma joined_trans N E a b c : joined N E a b -> joined N E b c -> joined N E a c.
 Proof. intros J K. induction J as [a | a x y A X P _ IH]; [exact K |]. apply joined_by with x; auto. Qed.
 
+Lemma joined_by_paths N (E F : nat -> nat -> Prop) a b :
+  (forall x y, (x < N)%nat -> (y < N)%nat -> E x y -> joined N F x y) -> joined N E a b -> joined N F a b.
+Proof. intros H J. induction J as [a | a x y A X P _ IH]; [constructor | apply joined_trans with x; [now apply H | exact IH]]. Qed.
+
 Lemma joined_sym N (E : nat -> nat -> Prop) a b : (forall x y, E x y -> E y x) -> joined N E a b -> joined N E b a.
 Proof.
   intros S J. induction J as [a | a b c A C P _ IH]; [constructor |]. apply joined_trans with (1 := IH).
@@ -93,22 +97,20 @@ Proof.
 Qed.
 
 Lemma possible_path N B p l : choice N B p -> forall a b, (a < N)%nat -> (b < N)%nat -> dist (p a) (p b) <= l ->
-  joined N (fun x y => possible N B x y /\ (x = a /\ y = b \/ dist (p x) (p y) < dist (p a) (p b))) a b.
+  joined N (fun x y => (possible N B x y /\ in_tree N p x y) /\ (x = a /\ y = b \/ dist (p x) (p y) < dist (p a) (p b))) a b.
 Proof.
   intros P a b. remember (count (shorter N p (dist (p a) (p b))) (N * N)) as n eqn:En. revert a b En.
   induction n as [n IH] using lt_wf_ind. intros a b En A C L.
-  destruct (classic (exists k, (k < N)%nat /\
-    (fst (p k) - fst (p a)) * (fst (p k) - fst (p b)) + (snd (p k) - snd (p a)) * (snd (p k) - snd (p b)) < 0)) as [[k [K H]] | H].
-  - destruct (inside_disc_shorter _ _ _ H) as [Ha Hb].
-    assert (W : forall x y, (x < N)%nat -> (y < N)%nat -> dist (p x) (p y) < dist (p a) (p b) ->
-      joined N (fun x y => possible N B x y /\ (x = a /\ y = b \/ dist (p x) (p y) < dist (p a) (p b))) x y).
+  destruct (classic (joined N (fun x y => dist (p x) (p y) < dist (p a) (p b)) a b)) as [J | T].
+  - assert (W : forall x y, (x < N)%nat -> (y < N)%nat -> dist (p x) (p y) < dist (p a) (p b) ->
+      joined N (fun x y => (possible N B x y /\ in_tree N p x y) /\ (x = a /\ y = b \/ dist (p x) (p y) < dist (p a) (p b))) x y).
     { intros x y X Y Q.
       assert (Le : (count (shorter N p (dist (p x) (p y))) (N * N) < n)%nat) by (rewrite En; now apply shorter_less).
       assert (Lq : dist (p x) (p y) <= l) by lra.
       apply joined_weaken with (2 := IH _ Le x y eq_refl X Y Lq).
       intros u v _ _ [Po [[-> ->] | S]]; split; try exact Po; right; lra. }
-    apply joined_trans with k; apply W; assumption.
-  - apply joined_by with b; try assumption; [| constructor]. split; [| left; now split].
+    revert J. now apply joined_by_paths.
+  - apply joined_by with b; try assumption; [| constructor]. split; [| left; now split]. split; [| exact T].
     apply (disc_possible N B p a b (mix (/ 2) (p a) (p b)) (dist (p a) (p b) / 2) A C P). split.
     + intros k _ [-> | ->].
       * rewrite (dist_sym (mix _ _ _)), dist_mix_left by lra. lra.
@@ -116,25 +118,28 @@ Proof.
     + intros k K. pose proof (dist_nonneg (p a) (p b)). apply le_of_squares; [apply dist_nonneg |].
       rewrite dist_sq. replace (dist (p a) (p b) / 2 * (dist (p a) (p b) / 2)) with (dist2 (p a) (p b) / 4)
         by (rewrite <- dist_sq; field).
-      apply Rnot_lt_le. intros Q. apply H. exists k. split; [exact K |].
+      apply Rnot_lt_le. intros Q. apply (never_inside N p a b k A C K); [| exact T].
       assert (E : dist2 (mix (/ 2) (p a) (p b)) (p k) = dist2 (p a) (p b) / 4 +
         ((fst (p k) - fst (p a)) * (fst (p k) - fst (p b)) + (snd (p k) - snd (p a)) * (snd (p k) - snd (p b))))
         by (unfold dist2, mix; simpl; field). lra.
 Qed.
 
-(* Surely: possible pairs other than ij that may be as short do not join i and j; *)
-Theorem surely_by_cut N B lo hi i j : lengths N B lo hi -> (i < N)%nat -> (j < N)%nat ->
-  ~ joined N (fun a b => other i j a b /\ possible N B a b /\ lo a b <= hi i j) i j ->
+(* M: the pairs that are not known to be in no tree. *)
+Definition may_be_in (N : nat) (B : sites) (M : nat -> nat -> Prop) : Prop := forall p a b, choice N B p ->
+  (a < N)%nat -> (b < N)%nat -> possible N B a b -> in_tree N p a b -> M a b.
+
+(* Surely: those other than ij that may be as short do not join i and j; *)
+Theorem surely_by_cut N B M lo hi i j : lengths N B lo hi -> may_be_in N B M -> (i < N)%nat -> (j < N)%nat ->
+  ~ joined N (fun a b => other i j a b /\ M a b /\ lo a b <= hi i j) i j ->
   forall p, choice N B p -> in_all_trees N p i j.
 Proof.
-  intros L I J H p P T. apply H.
+  intros L May I J H p P T. apply H.
   assert (G : forall a b, joined N (fun a b => other i j a b /\ dist (p a) (p b) <= dist (p i) (p j)) a b ->
-    joined N (fun a b => other i j a b /\ possible N B a b /\ lo a b <= hi i j) a b); [| now apply G].
-  intros a b Q. induction Q as [a | a b c A C [O S] _ IH]; [constructor |].
-  apply joined_trans with b; [| exact IH].
+    joined N (fun a b => other i j a b /\ M a b /\ lo a b <= hi i j) a b); [| now apply G].
+  intros a b. apply joined_by_paths. clear a b. intros a b A C [O S].
   apply joined_weaken with (2 := possible_path N B p _ P a b A C (Rle_refl _)).
-  intros x y X Y [Po D]. pose proof (L x y _ _ X Y (P x X) (P y Y)). pose proof (L i j _ _ I J (P i I) (P j J)).
-  destruct D as [[-> ->] | D]; (split; [| split; [exact Po | lra]]); [exact O |].
+  intros x y X Y [[Po Tr] D]. pose proof (May p x y P X Y Po Tr) as Mxy. pose proof (L x y _ _ X Y (P x X) (P y Y)). pose proof (L i j _ _ I J (P i I) (P j J)).
+  destruct D as [[-> ->] | D]; (split; [| split; [exact Mxy | lra]]); [exact O |].
   intros [[-> ->] | [-> ->]]; [lra |]. rewrite (dist_sym (p j) (p i)) in D. lra.
 Qed.
 
@@ -167,13 +172,14 @@ Proof.
   intros [[-> ->] | [-> ->]]; [lra |]. rewrite (dist_sym (p j) (p i)) in S. lra.
 Qed.
 
-Theorem cut_monotone N B' B lo hi lo' hi' i j : (i < N)%nat -> (j < N)%nat -> refined N B' B ->
+Theorem cut_monotone N (M M' : nat -> nat -> Prop) lo hi lo' hi' i j : (i < N)%nat -> (j < N)%nat ->
+  (forall a b, (a < N)%nat -> (b < N)%nat -> M' a b -> M a b) ->
   (forall a b, (a < N)%nat -> (b < N)%nat -> lo a b <= lo' a b /\ hi' a b <= hi a b) ->
-  ~ joined N (fun a b => other i j a b /\ possible N B a b /\ lo a b <= hi i j) i j ->
-  ~ joined N (fun a b => other i j a b /\ possible N B' a b /\ lo' a b <= hi' i j) i j.
+  ~ joined N (fun a b => other i j a b /\ M a b /\ lo a b <= hi i j) i j ->
+  ~ joined N (fun a b => other i j a b /\ M' a b /\ lo' a b <= hi' i j) i j.
 Proof.
-  intros I J F M H T. apply H. revert T. apply joined_weaken. intros a b A C [O [P L]]. split; [exact O |].
-  split; [now apply (possible_monotone N B' B) |]. destruct (M a b A C). destruct (M i j I J). lra.
+  intros I J F Le H T. apply H. revert T. apply joined_weaken. intros a b A C [O [P L]]. split; [exact O |].
+  split; [now apply F |]. destruct (Le a b A C). destruct (Le i j I J). lra.
 Qed.
 
 Theorem path_monotone N (S S' : nat -> nat -> Prop) lo hi lo' hi' i j : (i < N)%nat -> (j < N)%nat ->

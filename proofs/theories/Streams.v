@@ -1,6 +1,7 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Streams of enclosures: intersections [NEST-2], affine images [AFF-1], answers of programs [ORA-1], and the polynomial
-   that changes its sign where a given one does [ROOT-2]. *)
+(* Streams of enclosures: intersections [NEST-2], affine images [AFF-1], answers of programs [ORA-1], the polynomial
+  that
+   changes its sign where a given one does [ROOT-2], subsets alone being taken over [NEST-1], ends on a grid [ENC-2]. *)
 From Coq Require Import Reals Lra Lia Psatz List.
 Open Scope R_scope.
 
@@ -35,7 +36,8 @@ Theorem intersection_nested E n v : holds (so_far E (S n)) v -> holds (so_far E 
 Proof. rewrite !intersection_exact. intros H m M. apply H. lia. Qed.
 
 (* Empty, as its ends say, only where the enclosures are not of one value. *)
-Theorem intersection_empty E n : snd (so_far E n) < fst (so_far E n) -> ~ exists v, forall m, (m <= n)%nat -> holds (E m) v.
+Theorem intersection_empty E n : snd (so_far E n) < fst (so_far E n) -> ~ exists v, forall m, (m <= n)%nat -> holds (E
+  m) v.
 Proof. intros L [v H]. apply intersection_exact in H. unfold holds in H. lra. Qed.
 
 (* ---- affine images ---- *)
@@ -64,7 +66,8 @@ Proof.
     assert (Ends : low b y0 y1 <= high b y0 y1) by (unfold low, high; destruct (Rle_dec 0 b); nra).
     set (s := Rmax (low a x0 x1) (w - high b y0 y1)).
     assert (S1 : low a x0 x1 <= s <= high a x0 x1).
-    { unfold s. split; [apply Rmax_l | apply Rmax_lub; [unfold low, high; destruct (Rle_dec 0 a); nra | unfold w; lra]]. }
+    { unfold s. split; [apply Rmax_l | apply Rmax_lub; [unfold low, high; destruct (Rle_dec 0 a); nra | unfold w;
+      lra]]. }
     assert (S2 : low b y0 y1 <= w - s <= high b y0 y1).
     { pose proof (Rmax_r (low a x0 x1) (w - high b y0 y1)) as R2. fold s in R2. split; [| lra].
       assert (s <= w - low b y0 y1); [| lra]. apply Rmax_lub; [unfold w |]; lra. }
@@ -78,7 +81,8 @@ Qed.
 
 (* Rounded outward to multiples of 2^-(bits+2), each end moves by less than one of them. *)
 Theorem affine_width a b c x0 x1 y0 y1 lo hi (bits g : Z) : x0 <= x1 -> y0 <= y1 ->
-  Rabs a + Rabs b <= powerRZ 2 g -> x1 - x0 <= powerRZ 2 (- (bits + 1 + g)) -> y1 - y0 <= powerRZ 2 (- (bits + 1 + g)) ->
+  Rabs a + Rabs b <= powerRZ 2 g -> x1 - x0 <= powerRZ 2 (- (bits + 1 + g)) -> y1 - y0 <= powerRZ 2 (- (bits + 1 + g))
+    ->
   low a x0 x1 + low b y0 y1 + c - lo < powerRZ 2 (- (bits + 2)) ->
   hi - (high a x0 x1 + high b y0 y1 + c) < powerRZ 2 (- (bits + 2)) -> hi - lo < powerRZ 2 (- bits).
 Proof.
@@ -104,16 +108,19 @@ Theorem affine_size num den (n d : Z) : 0 <= num < powerRZ 2 n -> powerRZ 2 (d -
 Proof.
   intros [P Q] D. assert (E : powerRZ 2 (n - d + 1) * powerRZ 2 (d - 1) = powerRZ 2 n).
   { rewrite <- powerRZ_add by lra. f_equal. lia. }
-  assert (0 < powerRZ 2 (d - 1)) by (apply powerRZ_lt; lra). assert (0 < powerRZ 2 (n - d + 1)) by (apply powerRZ_lt; lra).
+  assert (0 < powerRZ 2 (d - 1)) by (apply powerRZ_lt; lra). assert (0 < powerRZ 2 (n - d + 1)) by (apply powerRZ_lt;
+    lra).
   apply (Rmult_lt_reg_r den); [lra |]. replace (num / den * den) with num by (field; lra).
-  assert (powerRZ 2 (n - d + 1) * powerRZ 2 (d - 1) <= powerRZ 2 (n - d + 1) * den) by (apply Rmult_le_compat_l; lra). lra.
+  assert (powerRZ 2 (n - d + 1) * powerRZ 2 (d - 1) <= powerRZ 2 (n - d + 1) * den) by (apply Rmult_le_compat_l;
+    lra). lra.
 Qed.
 
 (* ---- answers ---- *)
 
 (* A side [lo,hi] inside of that of K; J holds it, each end moved by less than 2^-64 of the length, or not at all. *)
 Theorem answer_side K J lo hi : lo <= hi -> fst K <= lo -> hi <= snd K ->
-  fst J <= lo -> hi <= snd J -> (lo - fst J < (hi - lo) / 2 ^ 64 \/ fst J = lo) -> (snd J - hi < (hi - lo) / 2 ^ 64 \/ snd J = hi) ->
+  fst J <= lo -> hi <= snd J -> (lo - fst J < (hi - lo) / 2 ^ 64 \/ fst J = lo) -> (snd J - hi < (hi - lo) / 2 ^ 64 \/
+    snd J = hi) ->
   (forall v, lo <= v <= hi -> holds (meet J K) v) /\ (forall v, holds (meet J K) v -> holds K v) /\
   (snd (meet J K) - fst (meet J K) = hi - lo \/ snd (meet J K) - fst (meet J K) - (hi - lo) < (hi - lo) / 2 ^ 63).
 Proof.
@@ -121,7 +128,8 @@ Proof.
   - intros v V. apply meet_exact. unfold holds. lra.
   - intros v V. now apply meet_exact in V.
   - unfold meet. simpl fst. simpl snd. pose proof (Rmax_l (fst J) (fst K)). pose proof (Rmin_l (snd J) (snd K)).
-    assert (Rmax (fst J) (fst K) <= lo) by (apply Rmax_lub; lra). assert (hi <= Rmin (snd J) (snd K)) by (apply Rmin_glb; lra).
+    assert (Rmax (fst J) (fst K) <= lo) by (apply Rmax_lub; lra). assert (hi <= Rmin (snd J) (snd K)) by (apply
+      Rmin_glb; lra).
     replace ((hi - lo) / 2 ^ 63) with ((hi - lo) / 2 ^ 64 + (hi - lo) / 2 ^ 64) by (simpl; field).
     assert (Q : 0 <= (hi - lo) / 2 ^ 64) by (apply Rmult_le_pos; [lra |]; left; apply Rinv_0_lt_compat, pow_lt; lra).
     destruct (Req_dec (Rmin (snd J) (snd K) - Rmax (fst J) (fst K)) (hi - lo)) as [E | E]; [now left | right].
@@ -153,9 +161,114 @@ Proof.
   intros P Q. set (K := c * c * ((halves 1 f * halves 1 l) * (halves 1 f * halves 1 l))).
   assert (E : c * powers 1 f * (c * powers 1 l) = K * (odd_part 1 f * odd_part 1 l)).
   { rewrite (odd_and_square 1 f), (odd_and_square 1 l). unfold K. ring. }
-  assert (N : K * (odd_part 1 f * odd_part 1 l) <> 0) by (rewrite <- E; now apply Rmult_integral_contrapositive_currified).
+  assert (N : K * (odd_part 1 f * odd_part 1 l) <> 0) by (rewrite <- E;
+    now apply Rmult_integral_contrapositive_currified).
   assert (K0 : 0 < K).
   { assert (0 <= K) by (apply Rmult_le_pos; apply Rle_0_sqr). destruct (Req_dec K 0) as [Z | Z]; [| lra].
     exfalso. apply N. rewrite Z. ring. }
   rewrite E. split; intros H; nra.
+Qed.
+
+(* ---- only subsets are taken over ---- *)
+
+(* A side: numerators of its ends over one denominator. The test compares cross products. *)
+Record side : Type := Side { lower : R; upper : R; denominator : R }.
+Definition of_side (a : side) : interval := (lower a / denominator a, upper a / denominator a).
+Definition proper (a : side) : Prop := 0 < denominator a /\ lower a <= upper a.
+Definition contains (a b : side) : Prop :=
+  lower a * denominator b <= lower b * denominator a /\ upper b * denominator a <= upper a * denominator b.
+
+Lemma quotient_le x y a b : 0 < a -> 0 < b -> (x / a <= y / b <-> x * b <= y * a).
+Proof.
+  intros A B. assert (E : x * b = x / a * (a * b)) by (field; lra). assert (F : y * a = y / b * (a * b)) by (field;
+    lra).
+  assert (P : 0 < a * b) by (apply Rmult_lt_0_compat; assumption). rewrite E, F. split; intros H.
+  - apply Rmult_le_compat_r; lra.
+  - now apply (Rmult_le_reg_r (a * b)).
+Qed.
+
+Theorem contains_exact a b : proper a -> proper b ->
+  (contains a b <-> forall v, holds (of_side b) v -> holds (of_side a) v).
+Proof.
+  intros [A _] [B O]. unfold contains, holds, of_side. simpl.
+  rewrite <- (quotient_le (lower a) (lower b)) by assumption. rewrite <- (quotient_le (upper b) (upper a)) by
+    assumption.
+  assert (Q : lower b / denominator b <= upper b / denominator b) by (apply quotient_le; try assumption;
+    apply Rmult_le_compat_r; lra).
+  split; [intros [H G] v V; lra |]. intros H.
+  destruct (H (lower b / denominator b)) as [X _]; [lra |]. destruct (H (upper b / denominator b)) as [_ Y]; [lra |].
+    now split.
+Qed.
+
+(* What is held after one offer, a rectangle of two sides: the offer, if both sides pass; else the call fails. *)
+Inductive offered (held : side * side) (offer : side * side) : side * side -> bool -> Prop :=
+| offer_taken : contains (fst held) (fst offer) -> contains (snd held) (snd offer) -> offered held offer offer true
+| offer_refused : ~ (contains (fst held) (fst offer) /\ contains (snd held) (snd offer)) -> offered held offer held
+  false.
+Inductive after (start : side * side) : list (side * side) -> side * side -> Prop :=
+| after_none : after start nil start
+| after_one l held offer next ok : after start l held -> offered held offer next ok -> after start (offer :: l) next.
+
+Definition proper_rectangle (r : side * side) : Prop := proper (fst r) /\ proper (snd r).
+Definition in_rectangle (r : side * side) (x y : R) : Prop := holds (of_side (fst r)) x /\ holds (of_side (snd r)) y.
+
+(* An offer is taken over iff it is a subset; else what was held stays. *)
+Theorem only_subsets held offer next ok : proper_rectangle held -> proper_rectangle offer -> offered held offer next
+  ok ->
+  (ok = true <-> forall x y, in_rectangle offer x y -> in_rectangle held x y) /\ next = (if ok then offer else held).
+Proof.
+  intros [Hx Hy] [Ox Oy] S.
+  assert (Sub : (forall x y, in_rectangle offer x y -> in_rectangle held x y) <->
+    contains (fst held) (fst offer) /\ contains (snd held) (snd offer)).
+  { rewrite (contains_exact _ _ Hx Ox), (contains_exact _ _ Hy Oy). unfold in_rectangle. split;
+    [| intros [F G] x y [X Y]; auto].
+    assert (End : forall a, proper a -> holds (of_side a) (fst (of_side a))).
+    { intros a [A O]. unfold holds, of_side. simpl. split; [lra |]. apply quotient_le; try assumption.
+      apply Rmult_le_compat_r; lra. }
+    intros F. split; intros v V; [apply (F v (fst (of_side (snd offer)))) | apply (F (fst (of_side (fst offer))) v)];
+      auto. }
+  rewrite Sub. destruct S; (split; [| reflexivity]); [tauto | split; [discriminate | contradiction]].
+Qed.
+
+(* So what is held lies in what was held before, whatever is offered. *)
+Theorem held_nested start l held : proper_rectangle start -> (forall o, In o l -> proper_rectangle o) -> after start l
+  held ->
+  proper_rectangle held /\ forall x y, in_rectangle held x y -> in_rectangle start x y.
+Proof.
+  intros P O S. induction S as [| l held offer next ok S IH Of]; [split; [exact P | auto] |].
+  destruct (IH (fun o I => O o (or_intror I))) as [Ph Nest]. pose proof (O offer (or_introl eq_refl)) as Po.
+  destruct (only_subsets held offer next ok Ph Po Of) as [Sub ->]. destruct ok; [| now split].
+  split; [exact Po |]. intros x y X. apply Nest. now apply (proj1 Sub eq_refl).
+Qed.
+
+(* ---- ends on a grid ---- *)
+
+(* Floor and ceiling on multiples of g hold what is between, and move each end by less than g. *)
+Definition grid_floor (g x : R) : R := IZR (Int_part (x / g)) * g.
+Definition grid_ceiling (g x : R) : R := - grid_floor g (- x).
+
+Lemma grid_floor_below g x : 0 < g -> grid_floor g x <= x < grid_floor g x + g.
+Proof.
+  intros G. unfold grid_floor. destruct (base_Int_part (x / g)) as [L H]. assert (E : x = x / g * g) by (field; lra).
+  set (n := IZR (Int_part (x / g))) in *. set (q := x / g) in *. split.
+  - rewrite E. apply Rmult_le_compat_r; lra.
+  - rewrite E at 1. assert (q * g < (n + 1) * g) by (apply Rmult_lt_compat_r; lra). lra.
+Qed.
+
+Theorem grid_holds g lo hi v : 0 < g -> lo <= v <= hi -> holds (grid_floor g lo, grid_ceiling g hi) v /\
+  lo - g < grid_floor g lo /\ grid_ceiling g hi < hi + g.
+Proof.
+  intros G V. unfold holds, grid_ceiling. simpl. pose proof (grid_floor_below g lo G).
+    pose proof (grid_floor_below g (- hi) G). lra.
+Qed.
+
+(* An end that is a multiple of g stays. *)
+Theorem grid_keeps g (n : Z) : 0 < g -> grid_floor g (IZR n * g) = IZR n * g /\ grid_ceiling g (IZR n * g) = IZR n * g.
+Proof.
+  intros G. assert (K : forall m : Z, grid_floor g (IZR m * g) = IZR m * g).
+  { intros m. unfold grid_floor. replace (IZR m * g / g) with (IZR m) by (field; lra).
+    destruct (base_Int_part (IZR m)) as [L H]. set (k := Int_part (IZR m)) in *. apply le_IZR in L.
+    assert (m - 1 < k)%Z by (apply lt_IZR; rewrite minus_IZR; lra). now replace k with m by lia. }
+  split; [apply K |]. unfold grid_ceiling. replace (- (IZR n * g)) with (IZR (- n) * g) by (rewrite opp_IZR; ring).
+  rewrite K, opp_IZR. ring.
 Qed.

@@ -53,6 +53,9 @@ Qed.
 Lemma nodup_right {A} (l m : list A) : NoDup (l ++ m) -> NoDup m.
 Proof. induction l as [| y l IH]; intros D; [exact D |]. simpl in D. inversion D; subst. now apply IH. Qed.
 
+Lemma nodup_left {A} (l m : list A) : NoDup (l ++ m) -> NoDup l.
+Proof. intros D. apply nodup_right with m, (Permutation_NoDup (Permutation_app_comm l m)), D. Qed.
+
 Lemma one_way_out (E : list (nat * nat)) x y z : NoDup (map fst E) -> In (x, y) E -> In (x, z) E -> y = z.
 Proof.
   induction E as [| [u v] E IH]; simpl; intros D F G; [destruct F |]. inversion D as [| ? ? N D']; subst.
@@ -89,7 +92,8 @@ Definition joined (T : list (nat * nat * nat)) (I : list (nat * nat)) : Prop := 
   exists a b, In (a, b) (flat_map both I) /\ In (a, b) (flat_map sides T1) /\ In (b, a) (flat_map sides T2).
 
 Section Tree.
-(* T: triangles, no half-edge of which is in two of them; E: their sides that nobody shares; I: those that are shared. *)
+(* T: triangles, no half-edge of which is in two of them; E: their sides that nobody shares;
+  I: those that are shared. *)
 Variables (T : list (nat * nat * nat)) (E I : list (nat * nat)).
 Variable once : NoDup (flat_map sides T).
 Variable rim : Permutation (flat_map sides T) (E ++ flat_map both I).
@@ -134,7 +138,8 @@ Proof.
     apply (IH (t :: T1) T3 C' J'); [lia | exact S' | discriminate | exact G'].
 Qed.
 
-Theorem tree_one_cycle : one_cycle E.
+(* The sides in an order in which they are a closed walk. *)
+Theorem tree_one_walk : exists o C, walk o C o /\ Permutation E C.
 Proof.
   assert (Some : exists t l, T = t :: l).
   { destruct T as [| t l] eqn:Et; [exfalso | now exists t, l]. apply Permutation_nil, app_eq_nil in rim as [-> _].
@@ -157,8 +162,16 @@ Proof.
         apply in_app_or in Y as [Y | Y]; [exact Y |]. exfalso. now apply (nodup_apart _ _ _ D X), Inc.
       - assert (Y : In e (E ++ flat_map both I)) by (apply (Permutation_in _ Q), in_or_app; now left).
         apply in_app_or in Y as [Y | Y]; [exact Y |]. exfalso. now apply (nodup_apart _ _ _ D' X), Inc'. }
-    intros K Step a b c d F G. apply (walk_one_cycle o C W); try now apply Same.
-    intros u v w U V. apply Step; now apply Same.
+    exists o, C. split; [exact W |]. apply NoDup_Permutation; [| | exact Same].
+    + apply nodup_left with (flat_map both I). exact D.
+    + apply nodup_left with (flat_map both J). exact D'.
+Qed.
+
+Theorem tree_one_cycle : one_cycle E.
+Proof.
+  destruct tree_one_walk as (o & C & W & P). intros K Step a b c d F G.
+  apply (walk_one_cycle o C W); try (now apply (Permutation_in _ P)).
+  intros u v w U V. apply Step; now apply (Permutation_in _ (Permutation_sym P)).
 Qed.
 End Tree.
 
@@ -174,10 +187,82 @@ Proof.
   pose proof (NoDup_incl_length (NoDup_map_inv fst E D) All) as K. simpl in K. lia.
 Qed.
 
+(* ---- ghost triangles ---- *)
+
+(* The link of a ghost triangle, written with the ghost last. *)
+Definition link_of (t : nat * nat * nat) : nat * nat := fst t.
+
+Lemma walk_starts f F l : walk f F l -> map fst F ++ l :: nil = f :: map snd F.
+Proof.
+  revert f. induction F as [| [x y] F IH]; intros f W; simpl in *; [now subst |]. destruct W as [-> W].
+  now rewrite (IH y W).
+Qed.
+
+Lemma walk_never f F l g e : walk f F l -> l <> g -> (forall b, ~ In (g, b) F) -> In e F -> snd e <> g.
+Proof.
+  revert f. induction F as [| [x y] F IH]; intros f W L N G; [destruct G |]. destruct W as [-> W].
+  destruct G as [<- | G]; [| apply (IH y W L); [intros b K; apply (N b); now right | exact G]].
+  simpl. intros ->. destruct F as [| [u v] F]; [now apply L |]. destruct W as [-> _]. apply (N v). right. now left.
+Qed.
+
+(* Ghost triangles joined like a tree, with t + 2 sides out of different vertices: their links are one way, whose ends
+   are the two vertices joined with the ghost by sides that nobody shares, and all its vertices are different. *)
+Theorem ghosts_one_way T E I g : NoDup (flat_map sides T) -> Permutation (flat_map sides T) (E ++ flat_map both I) ->
+  joined T I -> length E = (length T + 2)%nat -> NoDup (map fst E) ->
+  (forall a b c, In (a, b, c) T -> c = g /\ a <> g /\ b <> g) ->
+  exists f l F, walk f F l /\ Permutation E ((g, f) :: (l, g) :: F) /\ Permutation F (map link_of T) /\
+    NoDup (f :: map snd F).
+Proof.
+  intros Once Rim Con Len Out Ghost. destruct (tree_one_walk T E I Once Rim Con Len) as (o & C & W & P).
+  assert (DE : NoDup E) by (apply nodup_left with (flat_map both I), (Permutation_NoDup Rim Once)).
+  assert (Link : forall e, In e E -> fst e <> g -> snd e <> g -> In e (map link_of T)).
+  { intros [x y] F X Y. assert (G : In (x, y) (flat_map sides T)) by (apply (Permutation_in _ (Permutation_sym Rim)),
+    in_or_app; now left).
+    apply in_flat_map in G as [[[a b] c] [G S]]. destruct (Ghost a b c G) as [-> [A D]].
+    simpl in S, X, Y. destruct S as [S | [S | [S | []]]]; injection S as <- <-; try contradiction.
+    apply in_map_iff. now exists (a, b, g). }
+  assert (Start : exists f, In (g, f) C).
+  { apply NNPP. intros N. assert (N' : forall b, ~ In (g, b) C) by (intros b K; apply N; now exists b).
+    assert (Og : o <> g).
+    { intros ->. destruct C as [| [x y] C']; [apply Permutation_length in P; simpl in P; lia |]. destruct W as [-> _].
+      apply (N' y). now left. }
+    assert (Inc : incl E (map link_of T)).
+    { intros e F. pose proof (Permutation_in _ P F) as K. apply Link; [exact F | |].
+      - destruct e as [x y]. simpl. intros ->. now apply (N' y).
+      - now apply (walk_never o C o g e W Og N'). }
+    pose proof (NoDup_incl_length DE Inc) as L. rewrite map_length in L. lia. }
+  destruct Start as [f G]. apply in_split in G as [C1 [C2 HC]]. rewrite HC in W.
+  apply walk_app in W as [m [W1 [<- W2]]].
+  assert (Round : walk f (C2 ++ C1) g) by (apply walk_app; now exists o).
+  assert (PE : Permutation E ((g, f) :: C2 ++ C1)).
+  { apply (Permutation_trans P). rewrite HC. apply (Permutation_trans (Permutation_app_comm _ _)).
+    apply Permutation_refl. }
+  assert (Df : NoDup (map fst ((g, f) :: C2 ++ C1))) by (apply (Permutation_NoDup (Permutation_map fst PE)), Out).
+  assert (Long : C2 ++ C1 <> nil).
+  { intros Z. rewrite Z in PE. apply Permutation_length in PE. simpl in PE. lia. }
+  destruct (exists_last Long) as [F [[l g'] HF]]. rewrite HF in Round, PE, Df. clear HF Long.
+  apply walk_app in Round as [l' [WF [-> ->]]]. exists f, l', F.
+  assert (PE' : Permutation E ((g, f) :: (l', g) :: F)).
+  { apply (Permutation_trans PE). apply perm_skip. apply Permutation_sym, Permutation_cons_append. }
+  simpl in Df. inversion Df as [| ? ? Ng Dl]; subst. rewrite map_app in Ng, Dl. simpl in Ng, Dl.
+  assert (Lg : l' <> g) by (intros ->; apply Ng, in_or_app; right; now left).
+  assert (NF : forall b, ~ In (g, b) F).
+  { intros b K. apply Ng, in_or_app. left. change g with (fst (g, b)). now apply in_map. }
+  split; [exact WF |]. split; [exact PE' |]. split; [| now rewrite <- (walk_starts f F l' WF)].
+  apply NoDup_Permutation_bis.
+  - apply (NoDup_map_inv fst). now apply nodup_left with (l' :: nil).
+  - apply Permutation_length in PE'. simpl in PE'. rewrite map_length. lia.
+  - intros e K. apply Link.
+    + apply (Permutation_in _ (Permutation_sym PE')). right. now right.
+    + destruct e as [x y]. simpl. intros ->. now apply (NF y).
+    + now apply (walk_never f F l' g e WF Lg NF).
+Qed.
+
 (* ---- tied faces ---- *)
 
 (* A face of at least two triangles, whose sides are legal and out of different vertices, whose true points are on one
-   circle: nobody else is in the disc or on the circle, all pairs of its vertices are weakly Delaunay, and those that are
+   circle: nobody else is in the disc or on the circle, all pairs of its vertices are weakly Delaunay, and those that
+     are
    no sides never strictly. *)
 Theorem tied_polygon N B p q T E I o r : choice N B p -> choice N B q ->
   NoDup (flat_map sides T) -> Permutation (flat_map sides T) (E ++ flat_map both I) -> joined T I ->

@@ -36,7 +36,7 @@ static int refuse_on_sphere(const cli_options *o) {
 static const char *sphere_advice(const dyd_sphere *sphere) {
   const dyd_engine *images = dyd_sphere_images(sphere);
   if (dyd_engine_outcome(images) != DYD_OUTCOME_DECIDED) return cli_outcome_advice(images);
-  return "no point is apart from all others; smaller radii decide more";
+  return "pairs around the gap that all is projected from stay open; smaller radii decide more";
 }
 
 /* A line about a result that leaves something open; the exit status. */
@@ -83,9 +83,10 @@ static int sphere_all(cli_session *s, const cli_options *o) {
   dyd_engine_options run = o->engine;
   dyd_sphere *sphere = NULL;
   dyd_error err;
-  if (dyd_sphere_new(&sphere, places, &how, &err) != DYD_OK) {
-    cli_complain_of(places, o->file, &err);
-    return CLI_FAILED;
+  dyd_status st = dyd_sphere_new(&sphere, places, &how, &err);
+  if (st != DYD_OK) {
+    cli_complain_of(places, st == DYD_E_ARG ? NULL : o->file, &err);
+    return st == DYD_E_ARG ? CLI_USAGE : CLI_FAILED;
   }
   if (!o->start_set) run.start_bits = 0;
   s->engine = dyd_sphere_engine(sphere);

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The minimum spanning tree, by the least and the largest length of each pair [MST-1].
  *
- * never   legal pairs that are surely shorter join i and j
- * sure    possible pairs, other than ij, that may be as short do not join i and j: the bottleneck between i and j by
+ * never   legal pairs that are surely shorter join i and j, or ij is never an edge of the Gabriel graph
+ * sure    other pairs, not among those, that may be as short do not join i and j: the bottleneck between i and j by
  *         least lengths is in the spanning tree by least lengths, or, where ij is in that itself, the first pair that
- *         closes a circle with it; or j is surely the nearest one to i, or i to j
- * Its edges are edges of the Gabriel graph: what is never one of these is none here. */
+ *         closes a circle with it; or j is surely the nearest one to i, or i to j */
 #include "base/alloc.h"
 #include "base/flag.h"
 #include "graph/lengths.h"
@@ -31,7 +30,7 @@ enum { SPAN_NONE = UINT32_MAX };
 
 /* least, largest: of all pairs, sorted. nearest: who is surely that to each site; SPAN_NONE: nobody. replaced: by pair,
  * the number in least[] of the first pair that closes a circle with it, where it is in the tree; SPAN_NONE: none. tree:
- * is it? */
+ * is it? Neither counts pairs that are in no minimum spanning tree. */
 typedef struct span_work {
   dyd_graph_work *w;
   dyd_length *least, *largest;
@@ -110,10 +109,23 @@ static void find_never(span_work *s) {
   }
 }
 
+static dyd_status find_never_gabriel(span_work *s) {
+  const dyd_pair *pair = s->w->pairs.item;
+  dyd_status st = DYD_OK;
+  for (size_t p = 0; p < s->w->pairs.count && st == DYD_OK; p++) {
+    dyd_graph_status status;
+    if (s->never[p]) continue;
+    st = dyd_flag_is_set(s->w->cancel) ? DYD_CANCELLED : dyd_gabriel_status(&status, s->w, pair[p].i, pair[p].j);
+    s->never[p] = st == DYD_OK && status == DYD_GRAPH_NEVER;
+  }
+  return st;
+}
+
 static void find_tree(span_work *s) {
   sets_begin(&s->sets, s->w->n);
   for (size_t q = 0; q < s->w->pairs.count; q++) {
     const dyd_pair *p = &s->w->pairs.item[s->least[q].pair];
+    if (s->never[s->least[q].pair]) continue;
     uint32_t a = set_of(&s->sets, p->i), b = set_of(&s->sets, p->j);
     s->tree[s->least[q].pair] = a != b;
     s->sets.up[a] = b;
@@ -163,7 +175,7 @@ static void find_replacements(span_work *s) {
   sets_begin(&s->sets, s->w->n);
   for (size_t q = 0; q < s->w->pairs.count; q++) {
     const dyd_pair *p = &s->w->pairs.item[s->least[q].pair];
-    if (s->tree[s->least[q].pair]) continue;
+    if (s->tree[s->least[q].pair] || s->never[s->least[q].pair]) continue;
     uint32_t a = set_of(&s->sets, p->i), b = set_of(&s->sets, p->j);
     while (a != b) {
       uint32_t *lower = s->depth[a] >= s->depth[b] ? &a : &b;
@@ -192,12 +204,9 @@ static dyd_status find_sure_nearest(span_work *s) {
 }
 
 static dyd_status span_pair(const span_work *s, uint32_t number) {
-  dyd_graph_status status;
   uint32_t i = s->w->pairs.item[number].i, j = s->w->pairs.item[number].j;
   if (s->never[number]) return DYD_OK;
-  if (s->nearest[i] == j || s->nearest[j] == i || is_surely_shortest(s, number)) return dyd_graph_add(s->w, i, j, true);
-  dyd_status st = dyd_gabriel_status(&status, s->w, i, j);
-  return st == DYD_OK && status != DYD_GRAPH_NEVER ? dyd_graph_add(s->w, i, j, false) : st;
+  return dyd_graph_add(s->w, i, j, s->nearest[i] == j || s->nearest[j] == i || is_surely_shortest(s, number));
 }
 
 dyd_status dyd_spanning_graph(dyd_graph_work *w) {
@@ -206,14 +215,16 @@ dyd_status dyd_spanning_graph(dyd_graph_work *w) {
   if (st == DYD_OK) {
     sort_lengths(&s);
     find_never(&s);
+    st = find_never_gabriel(&s);
+  }
+  if (st == DYD_OK) {
     find_tree(&s);
     deal_tree(&s);
     root_trees(&s, s.sets.up);
     find_replacements(&s);
     st = find_sure_nearest(&s);
   }
-  for (uint32_t p = 0; p < w->pairs.count && st == DYD_OK; p++)
-    st = dyd_flag_is_set(w->cancel) ? DYD_CANCELLED : span_pair(&s, p);
+  for (uint32_t p = 0; p < w->pairs.count && st == DYD_OK; p++) st = span_pair(&s, p);
   spanning_work_clear(&s);
   return st;
 }

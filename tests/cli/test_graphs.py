@@ -83,6 +83,31 @@ def of_points(p):
     return weak, strict
 
 
+def is_bridge(graph, edge):
+    """Do no other edges join its ends?"""
+    seen, stack = {edge[0]}, [edge[0]]
+    while stack:
+        a = stack.pop()
+        for e in graph:
+            for b in set(e) - seen if a in e and e != edge else ():
+                seen.add(b)
+                stack.append(b)
+    return edge[1] not in seen
+
+
+def test_bridges_are_sure():
+    """What alone joins two parts of all that may be in the tree is in it."""
+    rng = random.Random(SEED)
+    bridges = 0
+    for _ in range(10 * SCALE):
+        points = [(F(rng.randint(0, 400)), F(rng.randint(0, 400)), rng.randint(0, 5)) for _ in range(60)]
+        found = edges('mst', [(x - r, x + r, y - r, y + r) for x, y, r in points]) or {}
+        joining = {e for e in found if is_bridge(found, e)}
+        assert all(found[e] == 'sure' for e in joining), (joining, points)
+        bridges += len(joining)
+    assert bridges > 50, bridges
+
+
 def test_choices_never_refute():
     rng = random.Random(SEED)
     print('seed', SEED)
