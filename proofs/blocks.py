@@ -31,8 +31,18 @@ KNOWN = [
     ('cosh(1) 0\n0 (exp(1)+exp(-1))/2\n-(e+1/e)/2 0\n0 -cosh(1)\n', 4, 1),
     ('tan(1) 0\n0 sin(1)/cos(1)\nabs(-tan(1))*(-1) 0\n0 -max(tan(1),-3)\n', 4, 1),
     ('root(x^5-x-1,1,2) 0\n0 root(x^5-x-1,1,2)\n-root(x^5-x-1,1,2) 0\n0 -root(x^5-x-1,0,2)\n', 4, 1),
+    ('log(2) 0\n0 log(2)\n-log(2) 0\n0 -log(2)\n', 4, 1),
+    ('asin(1/3)+acos(1/3) 0\n0 acos(1/3)+asin(1/3)\n-acos(1/3)-asin(1/3) 0\n0 -asin(1/3)-acos(1/3)\n', 4, 1),
+    (''.join(f'atan({k}) 2*atan({k})+log(3)\n' for k in range(-5, 5)), 10, 2),
+    (''.join(f'acos(-2/5)*log(1/7)*cos({k}) acos(-2/5)*log(1/7)*sin({k})\n' for k in range(1, 6)), 5, 1),
     (ALIAS.format('sqrt(8)', '2*sqrt(2)'), 2, 1), (ALIAS.format('pi+e', 'e+pi'), 2, 1),
     (ALIAS.format('root(x^5-x-1,1,2)^5', '1+root(x^5-x-1,0,2)'), 2, 1),
+    (ALIAS.format('log(2)', 'log(2)'), 2, 1), (ALIAS.format('atan(-1/3)+atan(1/3)+pi', 'pi+atan(1/3)+atan(-1/3)'), 2, 1),
+    (ALIAS.format('asin(1)*2', '2*asin(1)'), 2, 1), (ALIAS.format('acos(-1)', 'acos(-1)'), 2, 1),
+    (ALIAS.format('log(2)', 'log(sqrt(2)^2)'), 2, 1), (ALIAS.format('atan(sqrt(8))', 'atan(2*sqrt(2))'), 2, 1),
+    (ALIAS.format('asin(sqrt(3/8))', 'asin(sqrt(6)/4)'), 2, 1), (ALIAS.format('acos(sqrt(3/8))', 'acos(sqrt(6)/4)'), 2, 1),
+    (ALIAS.format('log(2)/log(1024)', 'log(2)/log(1024)'), 2, 1), (ALIAS.format('atan(e^9)-1', 'atan(e^9)-1'), 2, 1),
+    (ALIAS.format('log(log(3))*asin(2/3)', 'asin(2/3)*log(log(3))'), 2, 1), (ALIAS.format('log(2)-log(2)+e', 'e'), 2, 1),
     (ALIAS.format('cbrt(-16)', '-2*cbrt(2)'), 2, 1), (ALIAS.format('sqrt(3/8)', 'sqrt(6)/4'), 2, 1),
     (ALIAS.format('1/(1+sqrt(2))', 'sqrt(2)-1'), 2, 1), (ALIAS.format('tanh(2)*cosh(2)', 'sinh(2)'), 2, 1),
     (ALIAS.format('min(exp(-3),pi)*exp(3)', '1+0*pi'), 2, 1), (ALIAS.format('(pi^-2)^-3', 'pi^6'), 2, 1),
@@ -55,10 +65,10 @@ BOUND = [
     ('sqrt(2)+sqrt(3) cbrt(2)\ncbrt(2) sqrt(5+2*sqrt(6))\n-root(x^4-10*x^2+1,3,4) cbrt(2)\n-cbrt(2) -sqrt(5+sqrt(24))\n', 4, 1),
     ('0 0\nsqrt(2)+sqrt(3) sqrt(20+8*sqrt(6))\n-root(x^4-10*x^2+1,3,4) -sqrt(8)-sqrt(12)\n1 7\n', 3, 1)]
 # Their ties are proved, and with them the outcome.
-TIED = [KNOWN[k][0] for k in range(7)] + [BOUND[k][0] for k in (9, 10)]
+TIED = [KNOWN[k][0] for k in range(11)] + [BOUND[k][0] for k in (9, 10)]
 TIED += [SQUARE + '[9,9.001] [7,7.001]\n', SQUARE + 'pi 5\n-7 e\n6 -4\n']
 OTHER = {'+': '-', '-': '+', '*': '/', '/': '*', 'min': 'max', 'max': 'min', 'neg': 'abs', 'abs': 'neg', 'sqrt': 'cbrt',
-         'cbrt': 'sqrt', 'cos': 'sin', 'sin': 'cos', 'tan': 'sin', 'exp': 'cosh', 'sinh': 'cosh', 'cosh': 'sinh',
+         'cbrt': 'sqrt', 'cos': 'sin', 'sin': 'cos', 'tan': 'sin', 'log': 'atan', 'atan': 'tan', 'asin': 'acos', 'acos': 'asin', 'exp': 'cosh', 'sinh': 'cosh', 'cosh': 'sinh',
          'tanh': 'sinh', 'pi': 'e', 'e': 'pi', 'same': 'line', 'line': 'circle', 'circle': 'line'}
 
 
@@ -103,7 +113,8 @@ def expression(rng, depth):
     a, b = expression(rng, depth - 1), expression(rng, depth - 1)
     return rng.choice([f'({a})+({b})', f'({a})-({b})', f'({a})*({b})', f'({a})/(20+({b})^2)', f'sqrt(1+({a})^2)',
                        f'cbrt({a})', f'cos(1+({a})^2)', f'sin(({a})/3)+{b}', f'exp(cos({a}+1))', f'abs({a})', f'min({a},{b})',
-                       f'max({a},({b})/2)', f'({a})^{rng.randrange(-1, 4)}'.replace('^-1', '^2')])
+                       f'max({a},({b})/2)', f'log(1+({a})^2)',
+                       f'atan({a})', f'asin(cos({a})/2)', f'acos(sin({a})/3)+({b})', f'({a})^{rng.randrange(-1, 4)}'.replace('^-1', '^2')])
 
 
 def changed_word(rng, word):
@@ -234,7 +245,27 @@ PLACES = [
     (['= 0', 'cycle 4', 'sin 0', '= 1', '= 0'], True), (['= 0', 'cycle 6', 'sin 0', '= 1', '= 0'], False),
     (['pi', 'cycle 12', '= 1', '+ 0 2', 'cos 3', '= 1', '= 0'], True), (['pi', 'cycle 12', '* 0 0', 'cos 2', '= 1', '= 0'], True),
     (['pi', 'cycle 12', 'cos 1', '= 1', '= 0'], True), (['e', 'pi', 'cycle 5', '= 5', '/ 0 3', 'cos 4', '= 1', '= 0'], True),
-    (['= 2', 'tan 0', 'abs 1', '- 0 2', '= 0'], False)]
+    (['= 2', 'tan 0', 'abs 1', '- 0 2', '= 0'], False),
+    (['= 3', 'log 0', '= 0'], True), (['= 2', 'log 0', '= 0'], False), (['= 8', 'log 0', '= 0'], False),
+    (['= 2', 'atan 0', '= 0'], True), (['= 1', 'atan 0', '= 0'], False), (['= -2', 'atan 0', '= 0'], False),
+    (['= 9/10', 'asin 0', '= 0'], True), (['= 1/4', 'asin 0', '= 0'], False), (['= 1/4', 'acos 0', '= 0'], True),
+    (['= 9/10', 'acos 0', '= 0'], False), (['= -1/2', 'acos 0', '= 0'], False), (['= 1', 'asin 0', '= 0'], True),
+    (['= -1', 'acos 0', '= 2', '/ 1 2', '= 0'], True), (['= 1', 'acos 0', '= 1', '+ 1 2', 'exp 3', '- 4 2', '= 0'], True),
+    (['= -1', 'asin 0', 'abs 1', '= 0'], True), (['= 2', 'sqrt 0', '* 1 1', '/ 2 0', 'asin 3', '= 0'], True),
+    (['= 2', 'sqrt 0', '* 1 1', '/ 2 0', 'neg 3', 'acos 4', '/ 5 0', '= 0'], True),
+    ([f'= {2**300 - 1}/{2**300}', 'asin 0', '= 0'], True), ([f'= {2**300 + 1}/{2**300}', 'asin 0', '= 1', '= 0'], False),
+    ([f'= {1 - 2**300}/{2**300}', 'acos 0', '= 2', '/ 1 2', '= 0'], True), ([f'= -{2**300 + 1}/{2**300}', 'acos 0', '= 1', '= 0'], False),
+    (['= 2', 'asin 0', '= 1', '= 0'], False), (['= -2', 'acos 0', '= 1', '= 0'], False), (['= 0', 'log 0', '= 1', '= 0'], False),
+    (['= -1', 'log 0', '= 1', '= 0'], False), (['callback', 'log 0', '= 1', '= 0'], False), (['callback', 'asin 0', '= 1', '= 0'], False),
+    (['callback', 'atan 0', '= 1', '= 0'], True), ([f'= {2**3000}', 'log 0', '= 2000', '/ 1 2', '= 0'], True),
+    ([f'= 1/{2**1500}', 'log 0', '= -1000', '/ 1 2', '= 0'], True), ([f'= {2**3000}', 'atan 0', '= 0'], True),
+    ([f'= -1/{2**1500}', 'atan 0', '= 1', '- 2 1', '= 0'], True), ([f'= 1/{2**1500}', 'atan 0', '= 1', '- 2 1', '= 0'], False),
+    ([f'= 1/{2**300}', '= 3', '+ 0 1', 'log 2', 'log 1', '- 3 4', f'= {2**303}', '* 5 6', '= 0'], False),
+    ([f'= 1/{2**300}', '= 3', '+ 0 1', 'log 2', 'log 1', '- 3 4', f'= {2**302}', '* 5 6', '= 0'], True),
+    (['= 1', 'atan 0', 'neg 0', 'atan 2', '- 1 3', '= 0'], True), (['= 1', 'atan 0', 'neg 0', 'atan 2', '+ 1 3', 'cosh 4', '= 0'], False),
+    (['= 3', 'atan 0', 'log 0', '- 1 2', '= 1', '+ 3 4', '= 0'], True), (['= 1/3', 'asin 0', 'acos 0', '+ 1 2', '= 0'], True),
+    (['= 1/3', 'acos 0', 'neg 0', 'acos 2', '- 3 1', '= 1', '+ 4 5', '= 0'], True),
+    (['= 3', 'log 0', 'atan 0', 'asin 0', '= 1', '= 0'], False)]
 ROOT_2 = ['= 2', 'sqrt 0']
 # What 2048 bits do not show, nor 4096.
 PLACES += [(ROOT_2 + [f'= {tiny(1180)}', '/ 2 2', '= 1/2', '+ 3 4', '= 0'], True),

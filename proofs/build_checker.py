@@ -12,8 +12,8 @@ import subprocess
 import sys
 
 THEORIES = ('CheckerTree', 'Checker', 'CheckerFaces', 'CheckerBounds', 'CheckerCover', 'CheckerChain', 'CheckerTies',
-            'CheckerStill', 'CheckerDiagram', 'CheckerDistance', 'CheckerEnclosure', 'CheckerAlgebra', 'CheckerCycle',
-            'CheckerBlock', 'CheckerVanish', 'CheckerFacts', 'CheckerTied', 'CheckerExtract')
+            'CheckerStill', 'CheckerDiagram', 'CheckerDistance', 'CheckerEnclosure', 'CheckerInverse', 'CheckerAlgebra',
+            'CheckerCycle', 'CheckerBlock', 'CheckerVanish', 'CheckerFacts', 'CheckerTied', 'CheckerExtract')
 READERS = ('source', 'described', 'reader', 'hints', 'cuts', 'circles', 'crossings', 'vanishing', 'blocks', 'proved')
 
 

@@ -68,7 +68,6 @@ type proof = {
   sets : Checker.tied_set list;  (* on a circle or a line *)
   unseen_points : int;
   unseen_facts : int;
-  unknown : (int * string) list;  (* lines of numbers that the checker does not know *)
 }
 
 (* Facts by identity reduce to 0. *)
@@ -118,25 +117,22 @@ let of_block c (b : Described.block) =
       | Ok found when seen found -> Ok found
       | found -> look found more)
   in
-  if b.unknown = None then look (Error b.first) precisions else Error b.first
+  look (Error b.first) precisions
 
 let of_blocks (c : Reader.certificate) =
   let add p (b : Described.block) =
     let points, facts, sets =
       match of_block c b with
       | Ok (points, facts, known) -> (points, facts, sets_of facts known)
-      | Error _ when b.unknown <> None -> (0, [], [])
       | Error line -> raise (Bad (line, "the number is not seen to be defined, or to be what the line says"))
     in
     let same (f : Described.fact) = match (f.says, f.members) with Same _, [ i; j ] -> Some (i, j) | _ -> None in
     { points = p.points + points; facts = p.facts + List.length facts; joined = List.filter_map same facts @ p.joined;
       sets = sets @ p.sets;
       unseen_points = p.unseen_points + List.length b.points - points;
-      unseen_facts = p.unseen_facts + List.length b.facts - List.length facts;
-      unknown = p.unknown @ Option.to_list b.unknown }
+      unseen_facts = p.unseen_facts + List.length b.facts - List.length facts }
   in
-  List.fold_left add { points = 0; facts = 0; joined = []; sets = [];
-      unseen_points = 0; unseen_facts = 0; unknown = [] } c.blocks
+  List.fold_left add { points = 0; facts = 0; joined = []; sets = []; unseen_points = 0; unseen_facts = 0 } c.blocks
 
 (* How many aliases of sites that are not exact are not proved to be the same points. *)
 let loose_aliases (c : Reader.certificate) p =

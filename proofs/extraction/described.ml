@@ -1,6 +1,5 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* Reads a block, which says what points are. Nothing proves this file: it takes each line in its only spelling. Of
-   numbers that the checker does not know it says which they are. *)
+(* Reads a block, which says what points are. Nothing proves this file: it takes each line in its only spelling. *)
 open Source
 
 type fact = {
@@ -12,8 +11,7 @@ type fact = {
 
 type block = {
   first : int;  (* its line *)
-  numbers : Checker.line list;  (* up to the first that is not known *)
-  unknown : (int * string) option;  (* that one: its line and its name *)
+  numbers : Checker.line list;
   points : (int * int * Checker.place) list;  (* line, site, place *)
   facts : fact list;
 }
@@ -103,42 +101,44 @@ let bracket s lo hi f =
   if n < 2 || n > most_coefficients || Z.sign (List.nth coefficients (n - 1)) <= 0 then bad s "%.40S is no polynomial" f;
   { Checker.coefficients; lo_num; lo_den; hi_num; hi_den }
 
-(* Line n of the block: a number, or the name of one that the checker does not know. *)
-let number s n =
+(* Line n of the block. *)
+let number s n : Checker.line =
   let operand text = let k = count s text in if k < n then Z.of_int k else bad s "%s is no number before" text in
   let stated = function [] -> None | [ v ] -> Some (quotient s v) | _ -> bad s "something follows what is stated" in
   let exponent text =
     let e = small s text in
     if abs e > most_exponent then bad s "%s is too large" text else Z.of_int e
   in
-  let known (line : Checker.line) = Ok line in
   match words s with
-  | [ "="; v ] -> let p, q = quotient s v in known (Value (p, q))
-  | [ "+"; a; b ] -> known (Plus (operand a, operand b))
-  | [ "-"; a; b ] -> known (Minus (operand a, operand b))
-  | [ "*"; a; b ] -> known (Times (operand a, operand b))
-  | [ "/"; a; b ] -> known (Divided (operand a, operand b))
-  | [ "min"; a; b ] -> known (Least (operand a, operand b))
-  | [ "max"; a; b ] -> known (Greatest (operand a, operand b))
-  | [ "^"; a; e ] -> known (Power (operand a, exponent e))
-  | [ "neg"; a ] -> known (Opposite (operand a))
-  | [ "claim"; a ] -> known (Claim (operand a))
-  | [ "abs"; a ] -> known (Absolute (operand a))
-  | "sqrt" :: a :: v -> known (SquareRoot (operand a, stated v))
-  | "cbrt" :: a :: v -> known (CubeRoot (operand a, stated v))
-  | [ "cos"; a ] -> known (Cosine (operand a))
-  | [ "sin"; a ] -> known (Sine (operand a))
-  | [ "tan"; a ] -> known (Tangent (operand a))
-  | [ "exp"; a ] -> known (Exponential (operand a))
-  | [ "sinh"; a ] -> known (HyperbolicSine (operand a))
-  | [ "cosh"; a ] -> known (HyperbolicCosine (operand a))
-  | [ "tanh"; a ] -> known (HyperbolicTangent (operand a))
-  | [ "pi" ] -> known Pi
-  | [ "e" ] -> known Euler
-  | "root" :: lo :: hi :: f :: v -> known (Root (bracket s lo hi f, stated v))
-  | [ "callback" ] -> known Callback
-  | [ (("log" | "asin" | "acos" | "atan") as name); a ] -> ignore (operand a); Error name
-  | [ "cycle"; n ] -> known (Cycle (exponent n))
+  | [ "="; v ] -> let p, q = quotient s v in Value (p, q)
+  | [ "+"; a; b ] -> Plus (operand a, operand b)
+  | [ "-"; a; b ] -> Minus (operand a, operand b)
+  | [ "*"; a; b ] -> Times (operand a, operand b)
+  | [ "/"; a; b ] -> Divided (operand a, operand b)
+  | [ "min"; a; b ] -> Least (operand a, operand b)
+  | [ "max"; a; b ] -> Greatest (operand a, operand b)
+  | [ "^"; a; e ] -> Power (operand a, exponent e)
+  | [ "neg"; a ] -> Opposite (operand a)
+  | [ "claim"; a ] -> Claim (operand a)
+  | [ "abs"; a ] -> Absolute (operand a)
+  | "sqrt" :: a :: v -> SquareRoot (operand a, stated v)
+  | "cbrt" :: a :: v -> CubeRoot (operand a, stated v)
+  | [ "cos"; a ] -> Cosine (operand a)
+  | [ "sin"; a ] -> Sine (operand a)
+  | [ "tan"; a ] -> Tangent (operand a)
+  | [ "exp"; a ] -> Exponential (operand a)
+  | [ "sinh"; a ] -> HyperbolicSine (operand a)
+  | [ "cosh"; a ] -> HyperbolicCosine (operand a)
+  | [ "tanh"; a ] -> HyperbolicTangent (operand a)
+  | [ "pi" ] -> Pi
+  | [ "e" ] -> Euler
+  | "root" :: lo :: hi :: f :: v -> Root (bracket s lo hi f, stated v)
+  | [ "callback" ] -> Callback
+  | [ "log"; a ] -> Inverse (Logarithm, operand a)
+  | [ "asin"; a ] -> Inverse (Arcsine, operand a)
+  | [ "acos"; a ] -> Inverse (Arccosine, operand a)
+  | [ "atan"; a ] -> Inverse (Arctangent, operand a)
+  | [ "cycle"; n ] -> Cycle (exponent n)
   | _ -> bad s "this is no number"
 
 (* ---- points, facts ---- *)
@@ -174,16 +174,9 @@ let fact s place _ =
 (* After the words "algebra K". *)
 let block s size k =
   let first = s.line and k = count s k in
-  let rec read n found unknown =
-    if n = k then (List.rev found, unknown)
-    else
-      match (number s n, unknown) with
-      | Ok line, None -> read (n + 1) (line :: found) None
-      | Error name, None -> read (n + 1) found (Some (s.line, name))
-      | _, Some _ -> read (n + 1) found unknown
-  in
-  let numbers, unknown = read 0 [] None in
+  let rec read n found = if n = k then List.rev found else let line = number s n in read (n + 1) (line :: found) in
+  let numbers = read 0 [] in
   let points = rows s "points" (point s size k (ref (-1))) in
   let place = Hashtbl.create 100 in
   List.iter (fun (_, i, p) -> Hashtbl.replace place i p) points;
-  { first; numbers; unknown; points; facts = rows s "facts" (fact s place) }
+  { first; numbers; points; facts = rows s "facts" (fact s place) }

@@ -166,7 +166,6 @@ let has_bounds c = c.area <> None || c.hausdorff <> None
 let gaps c p (b : Blocks.proof) =
   let left = List.length c.sites - p.surrounded in
   let unwitnessed = c.pairs.unwitnessed and loose = Blocks.loose_aliases c b in
-  let unknown = match b.unknown with [] -> "" | (line, name) :: _ -> Printf.sprintf ", as this checker does not know \"%s\" (line %d)" name line in
   List.filter_map
     (fun (there, text) -> if there then Some ("not proved: " ^ text) else None)
     [ (not (p.complete || c.capped), Printf.sprintf "that pairs among %d sites which are not listed are illegal" left);
@@ -175,8 +174,8 @@ let gaps c p (b : Blocks.proof) =
       (loose > 0, Printf.sprintf "that %d aliases of points that are not exact are the same points" loose);
       (has_bounds c && not p.complete, "the bounds of area and Hausdorff distance, as more pairs may be possible");
       (p.complete && not p.counted, "corners and the numbers of triangles and pairs, which the proof does not need");
-      (b.unseen_points > 0, Printf.sprintf "that %d points lie where they are described to be%s" b.unseen_points unknown);
-      (b.unseen_facts > 0, Printf.sprintf "that %d facts on points hold%s" b.unseen_facts unknown);
+      (b.unseen_points > 0, Printf.sprintf "that %d points lie where they are described to be" b.unseen_points);
+      (b.unseen_facts > 0, Printf.sprintf "that %d facts on points hold" b.unseen_facts);
       (has_unproved_distance c, "the distance of undetermined points to the Voronoi diagram");
       (not (outcome_is_proved c p), "the outcome " ^ c.outcome) ]
 

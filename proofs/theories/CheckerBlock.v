@@ -4,7 +4,7 @@
    there is an interval and a quotient in leaves; CheckerBlockSound.v says what follows. *)
 From Coq Require Import ZArith NArith List Bool.
 From Dyadel Require CheckerCycle.
-From Dyadel Require Import Checker CheckerEnclosure CheckerAlgebra.
+From Dyadel Require Import Checker CheckerEnclosure CheckerInverse CheckerAlgebra.
 Import ListNotations.
 Open Scope Z_scope.
 
@@ -19,11 +19,12 @@ Inductive line : Type :=
 | SquareRoot (a : Z) (s : stated) | CubeRoot (a : Z) (s : stated)
 | Cosine (a : Z) | Sine (a : Z) | Tangent (a : Z)
 | Exponential (a : Z) | HyperbolicSine (a : Z) | HyperbolicCosine (a : Z) | HyperbolicTangent (a : Z)
+| Inverse (f : inverse_function) (a : Z)
 | Pi | Euler | Cycle (n : Z) | Root (r : bracket) (s : stated) | Callback.
 
 (* What a leaf is: a multiple of a number, or made of the number a, or 2 cos (2 pi / n). *)
 Inductive kind : Type := Multiple (c a : Z) | CosineOf (a : Z) | SineOf (a : Z) | ExpOf (a : Z) | ExpOne | HalfTurn
-  | PartOfTurn (n : Z).
+  | PartOfTurn (n : Z) | InverseOf (f : inverse_function) (a : Z).
 Record leaf : Type := Leaf { leaf_kind : kind; leaf_at : interval; leaf_relation : option relation }.
 Record known : Type := Known { within : interval; is : quotient_of }.
 Record state : Type := State { numbers : Map.t known; leaves : list leaf }.
@@ -66,17 +67,17 @@ Definition value_known (p q : poly) : option known :=
   if is_before p && is_before q && negb (sign_of (enclose_poly most u held q) =? 0)
   then Some (Known (enclose p q) (shortened most (reduced 0 relations p) (reduced 0 relations q))) else None.
 
-(* The first leaf whose key, or that with the opposite sign, is x: its place, and is the sign the same? *)
-Fixpoint find_leaf (key : kind -> option quotient_of) (x : quotient_of) (j : nat) (l : list leaf) : option (nat *
-  bool) :=
+(* The first leaf whose key, or (where that helps) its opposite, is x: its place, and is it the key? *)
+Fixpoint find_leaf (helps : bool) (key : kind -> option quotient_of) (x : quotient_of) (j : nat) (l : list leaf) :
+  option (nat * bool) :=
   match l with
   | [] => None
   | f :: l' =>
     match key (leaf_kind f) with
     | Some y =>
       if are_equal most relations y x then Some (j, true)
-      else if are_equal most relations y (q_neg x) then Some (j, false) else find_leaf key x (S j) l'
-    | None => find_leaf key x (S j) l'
+      else if helps && are_equal most relations y (q_neg x) then Some (j, false) else find_leaf helps key x (S j) l'
+    | None => find_leaf helps key x (S j) l'
     end
   end.
 
@@ -85,6 +86,12 @@ Definition quotient_at (a : Z) : option quotient_of :=
 Definition angle_key (f : kind) : option quotient_of := match f with CosineOf a => quotient_at a | _ => None end.
 Definition exp_key (f : kind) : option quotient_of :=
   match f with ExpOf a => quotient_at a | ExpOne => Some (q_integer 1) | _ => None end.
+Definition inverse_key (f : inverse_function) (g : kind) : option quotient_of :=
+  match f, g with
+  | Logarithm, InverseOf Logarithm a | Arcsine, InverseOf Arcsine a
+  | Arccosine, InverseOf Arccosine a | Arctangent, InverseOf Arctangent a => quotient_at a
+  | _, _ => None
+  end.
 
 Definition is_sine (j : nat) (a : Z) : bool :=
   match nth_error (leaves st) j with Some f => match leaf_kind f with SineOf b => b =? a | _ => false end | None =>
@@ -173,7 +180,7 @@ Definition angle (a : Z) (x : known) : option (quotient_of * quotient_of * list 
     match part_of_turn (is x) with
     | Some (n, d) => Some (part_cosine n d, part_cosine (4 * n - d) (4 * d), [])
     | None =>
-      match find_leaf angle_key (is x) 0 (leaves st) with
+      match find_leaf true angle_key (is x) 0 (leaves st) with
       | Some (j, same) =>
         match nth_error (leaves st) j with
         | Some (Leaf (CosineOf b) _ _) =>
@@ -196,7 +203,7 @@ Definition exp_known (f : kind) (x : known) : option (quotient_of * list leaf) :
   | None => None
   | Some _ =>
     if is_null (is x) then Some (q_integer 1, [])
-    else match find_leaf exp_key (is x) 0 (leaves st) with
+    else match find_leaf true exp_key (is x) 0 (leaves st) with
     | Some (j, same) => Some (if same then leaf_q j else q_inverse (leaf_q j), [])
     | None => Some (leaf_q fresh, [Leaf f (exponential most u (within x)) None])
     end
@@ -233,13 +240,17 @@ Definition new_root (c : Z) (n : N) (r : poly) (x : interval) : known * list lea
   (Known x (Some (variable fresh, constant c)),
     [Leaf (Multiple c k) (mul most u (whole u c) x) (Some (Relation n r))]).
 
-Definition square_root_of (x : known) (s : stated) : option (known * list leaf) :=
+(* The square root, or the cube root. *)
+Definition radical_of (cubic : bool) (x : known) (s : stated) : option (known * list leaf) :=
+  let y := if cubic then cube_root root_hint u (within x) else square_root root_hint u (within x) in
   match s with
   | Some (p, q) =>
     match value_known p q with
     | Some v =>
-      if are_equal most relations (mul_q (is v) (is v)) (is x) && (is_null (is v) || (sign_of (within v) =? 1))
-      then Some (Known (square_root root_hint u (within x)) (is v), []) else None
+      let w := mul_q (is v) (is v) in
+      if are_equal most relations (if cubic then mul_q (is v) w else w) (is x) &&
+         (cubic || is_null (is v) || (sign_of (within v) =? 1))
+      then Some (Known y (is v), []) else None
     | None => None
     end
   | None =>
@@ -248,30 +259,9 @@ Definition square_root_of (x : known) (s : stated) : option (known * list leaf) 
     | Some (p, q) =>
       match integer_of q with
       | Some c =>
-        if (sign_of (within x) =? 1) && negb (c =? 0)
-        then Some (new_root c 2 (times (constant c) p) (square_root root_hint u (within x))) else None
-      | None => None
-      end
-    | None => None
-    end
-  end.
-
-Definition cube_root_of (x : known) (s : stated) : option (known * list leaf) :=
-  match s with
-  | Some (p, q) =>
-    match value_known p q with
-    | Some v =>
-      if are_equal most relations (mul_q (is v) (mul_q (is v) (is v))) (is x)
-      then Some (Known (cube_root root_hint u (within x)) (is v), []) else None
-    | None => None
-    end
-  | None =>
-    if is_null (is x) then Some (x, [])
-    else match is x with
-    | Some (p, q) =>
-      match integer_of q with
-      | Some c => if negb (c =? 0) then Some (new_root c 3 (times (constant (c * c)) p) (cube_root root_hint u
-        (within x))) else None
+        if negb (c =? 0) && (cubic || (sign_of (within x) =? 1))
+        then Some (if cubic then new_root c 3 (times (constant (c * c)) p) y else new_root c 2 (times (constant c) p) y)
+        else None
       | None => None
       end
     | None => None
@@ -316,6 +306,31 @@ Definition hyperbolic (x : known) : known * known :=
   let f := q_inverse e in
   (Known (over 2 (sub y z)) (mul_q half (sub_q e f)), Known (over 2 (add y z)) (mul_q half (add_q e f))).
 
+(* ---- inverse functions ---- *)
+
+(* Is it seen to be at most 1? *)
+Definition is_up_to_one (x : known) : bool :=
+  are_equal most relations (is x) (q_integer 1) || match within x with Some (_, b) => b <=? u | None => false end.
+Definition is_in_domain (f : inverse_function) (x : known) : bool :=
+  match f with
+  | Logarithm => sign_of (within x) =? 1
+  | Arcsine | Arccosine => is_up_to_one x && is_up_to_one (Known (neg (within x)) (q_neg (is x)))
+  | Arctangent => true
+  end.
+
+(* f of number a, which is x: nothing is known of it but its interval, and that it is f of equal numbers. *)
+Definition inverse_known (f : inverse_function) (a : Z) (x : known) : option (known * list leaf) :=
+  let y := inverse_value most root_hint u pi2 f (within x) in
+  match is x with
+  | Some _ =>
+    if negb (is_in_domain f x) then None
+    else match find_leaf false (inverse_key f) (is x) 0 (leaves st) with
+    | Some (j, _) => Some (Known y (leaf_q j), [])
+    | None => Some (Known y (leaf_q fresh), [Leaf (InverseOf f a) y None])
+    end
+  | None => None
+  end.
+
 Definition step (o : line) : option (known * list leaf) :=
   match o with
   | Value p q => plain (value_known p q)
@@ -331,8 +346,8 @@ Definition step (o : line) : option (known * list leaf) :=
   | Opposite a => unary a (fun x => plain (Some (Known (neg (within x)) (q_neg (is x)))))
   | Claim a => unary a (fun x => plain (Some x))
   | Absolute a => unary a (fun x => plain (Some (Known (absolute (within x)) (absolute_is x))))
-  | SquareRoot a s => unary a (fun x => square_root_of x s)
-  | CubeRoot a s => unary a (fun x => cube_root_of x s)
+  | SquareRoot a s => unary a (fun x => radical_of false x s)
+  | CubeRoot a s => unary a (fun x => radical_of true x s)
   | Cosine a => unary a (fun x => match angle a x with Some (c, _, l) => seen (Known (cosine most u (within x)) c) l
     | None => None end)
   | Sine a => unary a (fun x => match angle a x with Some (_, s, l) => seen (Known (sine most u pi2 (within x)) s) l
@@ -355,6 +370,7 @@ Definition step (o : line) : option (known * list leaf) :=
     | Some y => seen y []
     | None => None
     end)
+  | Inverse f a => unary a (inverse_known f a)
   | Pi =>
     match find_half_turn 0 (leaves st) with
     | Some j => Some (Known turn (leaf_q j), [])

@@ -3,11 +3,11 @@
   is in its interval,
    and is its quotient. *)
 From Coq Require Import Reals Lra Lia ZArith NArith List Bool.
-From Dyadel Require Import Leaves Checker CheckerEnclosure CheckerEnclosureSound CheckerAlgebra CheckerAlgebraSound
-  CheckerBlock.
+From Dyadel Require Import Leaves Checker CheckerEnclosure CheckerEnclosureSound CheckerInverse CheckerInverseSound
+  CheckerAlgebra CheckerAlgebraSound CheckerBlock.
 Import ListNotations.
 Open Scope R_scope.
-Local Opaque mul whole cosine sine exponential square_root cube_root.
+Local Opaque mul whole cosine sine exponential square_root cube_root inverse_value.
 
 Section Meaning.
 
@@ -38,6 +38,7 @@ Definition described (k : Z) (o : line) : Prop :=
   | HyperbolicSine a => v k = sinh (v a)
   | HyperbolicCosine a => v k = cosh (v a)
   | HyperbolicTangent a => v k = tanh (v a)
+  | Inverse f a => v k = inverse_at f (v a)
   | Pi => v k = PI
   | Euler => v k = exp 1
   | Cycle n => v k = Leaves.turn (Z.to_nat n)
@@ -57,6 +58,7 @@ Definition defined (k : Z) (o : line) : Prop :=
   | SquareRoot a s => 0 <= v a /\ is_stated s (v k)
   | CubeRoot _ s => is_stated s (v k)
   | Tangent a => cos (v a) <> 0
+  | Inverse f a => inverse_defined f (v a)
   | Cycle n => (0 < n)%Z
   | Root r s => (forall x, root_of r x -> x = v k) /\ is_stated s (v k)
   | _ => True
@@ -71,6 +73,7 @@ Definition kind_value (f : kind) : R :=
   | ExpOne => exp 1
   | HalfTurn => PI
   | PartOfTurn n => Leaves.turn (Z.to_nat n)
+  | InverseOf f a => inverse_at f (v a)
   end.
 
 (* The leaves are what the list says. *)
@@ -227,71 +230,55 @@ Proof.
     + intros r' E'. injection E' as <-. unfold relation_holds. cbn [degree rest]. now rewrite L.
 Qed.
 
-Lemma square_root_ok x r s y more : known_ok x r -> square_root_of most root_hint u st k x s = Some (y,
-  more) -> v k = sqrt r ->
-  agrees (leaves st ++ more) -> 0 <= r /\ is_stated s (v k) /\ known_ok y (v k) /\ leaves_ok (fresh st) more.
-Proof.
-  intros [X Q] E V A. unfold square_root_of in E. destruct s as [[p q] |].
-  - destruct (value_known most u st p q) as [w |] eqn:W; [| discriminate]. apply value_known_ok in W as [N [W P]].
-    set (z := value_of l p / value_of l q) in *.
-    destruct (are_equal most (relations st) (mul_q most st (is w) (is w)) (is x) && (is_null (is w) || (sign_of
-      (within w) =? 1)%Z)) eqn:B; [| discriminate].
-    injection E as <- <-. apply andb_prop in B as [B S].
-    apply (equal_are l most _ R0 _ _ (z * z) r) in B; trivial; [| now apply q_mul_is].
-    assert (Z0 : 0 <= z).
-    { apply orb_prop in S as [S | S]; [rewrite (null_is_zero l _ _ P S); lra |]. apply Z.eqb_eq in S.
-      pose proof (sign_positive u U _ _ W S). lra. }
-    assert (Rz : 0 <= r) by (rewrite <- B; nra). assert (Vz : v k = z) by (rewrite V, <- B; now apply sqrt_square).
-    split; [exact Rz |]. split; [now split; [| rewrite Vz] |]. split; [| apply none_new].
-      split; cbn [within is]; [| now rewrite Vz].
-    rewrite V. now apply square_root_holds.
-  - destruct (is_null (is x)) eqn:N.
-    + injection E as <- <-. apply (null_is_zero l _ _ Q) in N. subst r. rewrite sqrt_0 in V. rewrite V.
-      split; [lra |]. split; [exact I |]. split; [now split | apply none_new].
-    + destruct (is x) as [[p q] |] eqn:X0; [| discriminate]. destruct (integer_of q) as [c |] eqn:C; [| discriminate].
-      destruct ((sign_of (within x) =? 1)%Z && negb (c =? 0)%Z) eqn:B; [| discriminate].
-        apply andb_prop in B as [S B].
-      apply Z.eqb_eq in S. apply negb_true_iff, Z.eqb_neq in B. apply (sign_positive u U _ _ X) in S.
-      apply integer_value in C. destruct Q as [Nq Eq]. rewrite C in Eq, Nq. injection E as E.
-      split; [lra |]. split; [exact I |].
-      apply (new_root_ok c 2 (times (constant c) p) (square_root root_hint u (within x))); trivial.
-      * rewrite V. apply square_root_holds; trivial; lra.
-      * unfold new_root. congruence.
-      * rewrite times_value, constant_value. replace (value_of l p) with (r * IZR c) by (rewrite Eq; field; exact Nq).
-        change (N.to_nat 2) with 2%nat. rewrite V. simpl.
-        transitivity (IZR c * IZR c * (sqrt r * sqrt r)); [ring |]. rewrite sqrt_sqrt by lra. ring.
-Qed.
+Lemma some_pair {A B : Type} (a c : A) (b d : B) : Some (a, b) = Some (c, d) -> c = a /\ d = b.
+Proof. intros E. now injection E. Qed.
 
 Lemma cubes_equal x y : x * x * x = y * y * y -> x = y.
 Proof. intros E. apply Rle_antisym; apply cube_monotone; lra. Qed.
 
-Lemma cube_root_ok x r s y more : known_ok x r -> cube_root_of most root_hint u st k x s = Some (y,
-  more) -> v k * v k * v k = r ->
-  agrees (leaves st ++ more) -> is_stated s (v k) /\ known_ok y (v k) /\ leaves_ok (fresh st) more.
+Lemma radical_ok (cubic : bool) x r s y more : known_ok x r ->
+  radical_of most root_hint u st k cubic x s = Some (y, more) ->
+  (if cubic then v k * v k * v k = r else v k = sqrt r) -> agrees (leaves st ++ more) ->
+  (cubic = false -> 0 <= r) /\ is_stated s (v k) /\ known_ok y (v k) /\ leaves_ok (fresh st) more.
 Proof.
-  intros [X Q] E V A. unfold cube_root_of in E. destruct s as [[p q] |].
+  intros [X Q] E V A. unfold radical_of in E. cbv zeta in E.
+  set (e := if cubic then cube_root root_hint u (within x) else square_root root_hint u (within x)) in *.
+  assert (H : (cubic = false -> 0 <= r) -> holds u e (v k)).
+  { intros P. unfold e. destruct cubic; [now apply (cube_root_holds root_hint u U _ r) |].
+    rewrite V. apply square_root_holds; auto. }
+  destruct s as [[p q] |].
   - destruct (value_known most u st p q) as [w |] eqn:W; [| discriminate]. apply value_known_ok in W as [N [W P]].
     set (z := value_of l p / value_of l q) in *.
-    destruct (are_equal most (relations st) (mul_q most st (is w) (mul_q most st (is w) (is w))) (is x)) eqn:B;
-      [| discriminate].
-    injection E as <- <-. apply (equal_are l most _ R0 _ _ (z * (z * z)) r) in B; trivial; [| now apply q_mul_is;
-      trivial; apply q_mul_is].
-    assert (Vz : v k = z) by (apply cubes_equal; rewrite V, <- B; ring).
-    split; [now split; [| rewrite Vz] |]. split; [| apply none_new]. split; cbn [within is]; [| now rewrite Vz].
-    now apply (cube_root_holds root_hint u U _ r).
+    match type of E with (if ?b then _ else _) = _ => destruct b eqn:B; [| discriminate] end.
+    apply some_pair in E as [-> ->]. apply andb_prop in B as [B S].
+    assert (Z : (cubic = false -> 0 <= r) /\ v k = z).
+    { pose proof (q_mul_is l most _ R0 _ _ z z P P) as P2. destruct cubic.
+      - apply (equal_are l most _ R0 _ _ (z * (z * z)) r) in B; trivial; [| now apply q_mul_is].
+        split; [discriminate |]. apply cubes_equal. rewrite V, <- B. ring.
+      - apply (equal_are l most _ R0 _ _ (z * z) r) in B; trivial. cbn [orb] in S.
+        assert (Z0 : 0 <= z).
+        { apply orb_prop in S as [S | S]; [rewrite (null_is_zero l _ _ P S); lra |]. apply Z.eqb_eq in S.
+          pose proof (sign_positive u U _ _ W S). lra. }
+        split; [intros _; rewrite <- B; nra |]. rewrite V, <- B. now apply sqrt_square. }
+    destruct Z as [Zr Zv]. split; [exact Zr |]. split; [now split |]. split; [| apply none_new].
+    split; cbn [within is]; [now apply H | now rewrite Zv].
   - destruct (is_null (is x)) eqn:N.
-    + injection E as <- <-. apply (null_is_zero l _ _ Q) in N as Z. rewrite Z in V.
-      assert (V0 : v k = 0) by (apply cubes_equal; rewrite V; ring). rewrite V0, Z in *. split; [exact I |].
-        split; [now split | apply none_new].
+    + apply some_pair in E as [-> ->]. apply (null_is_zero l _ _ Q) in N. subst r.
+      assert (V0 : v k = 0) by (destruct cubic; [apply cubes_equal; rewrite V; ring | rewrite V; apply sqrt_0]).
+      rewrite V0. split; [intros _; lra |]. split; [exact I |]. split; [now split | apply none_new].
     + destruct (is x) as [[p q] |] eqn:X0; [| discriminate]. destruct (integer_of q) as [c |] eqn:C; [| discriminate].
-      destruct (negb (c =? 0)%Z) eqn:B; [| discriminate]. apply negb_true_iff, Z.eqb_neq in B.
-      apply integer_value in C. destruct Q as [Nq Eq]. rewrite C in Eq, Nq. injection E as E. split; [exact I |].
-      apply (new_root_ok c 3 (times (constant (c * c)) p) (cube_root root_hint u (within x))); trivial.
-      * now apply (cube_root_holds root_hint u U _ r).
-      * unfold new_root. congruence.
-      * rewrite times_value, constant_value, mult_IZR.
-        replace (value_of l p) with (r * IZR c) by (rewrite Eq; field; exact Nq).
-        change (N.to_nat 3) with 3%nat. simpl. rewrite <- V. ring.
+      destruct (negb (c =? 0)%Z && (cubic || (sign_of (within x) =? 1)%Z)) eqn:B; [| discriminate].
+      apply andb_prop in B as [B S]. apply negb_true_iff, Z.eqb_neq in B. apply integer_value in C.
+      destruct Q as [Nq Eq]. rewrite C in Eq, Nq.
+      assert (P : cubic = false -> 0 <= r).
+      { intros ->. cbn [orb] in S. apply Z.eqb_eq in S. pose proof (sign_positive u U _ _ X S). lra. }
+      assert (Lp : value_of l p = r * IZR c) by (rewrite Eq; field; exact Nq). injection E as E.
+      split; [exact P |]. split; [exact I |].
+      destruct cubic; (eapply new_root_ok; [exact B | reflexivity | now apply H | exact E | exact A |]);
+        rewrite times_value, constant_value, Lp.
+      * rewrite mult_IZR, <- V. change (N.to_nat 3) with 3%nat. simpl. ring.
+      * change (N.to_nat 2) with 2%nat. rewrite V. simpl. transitivity (IZR c * IZR c * (sqrt r * sqrt r)); [ring |].
+        rewrite sqrt_sqrt by auto. ring.
 Qed.
 
 Lemma in_leaf_value j f : value_of l (in_leaf j f) = Leaves.at_ f (l j).
@@ -350,21 +337,23 @@ Qed.
 
 (* ---- leaves that are found ---- *)
 
-Lemma find_leaf_found key x ls : forall j i same, find_leaf most st key x j ls = Some (i, same) ->
+Lemma find_leaf_found helps key x ls : forall j i same, find_leaf most st helps key x j ls = Some (i, same) ->
   exists f y, (j <= i)%nat /\ nth_error ls (i - j) = Some f /\ key (leaf_kind f) = Some y /\
-    are_equal most (relations st) y (if same then x else q_neg x) = true.
+    are_equal most (relations st) y (if same then x else q_neg x) = true /\ (same = true \/ helps = true).
 Proof.
   induction ls as [| f ls IH]; intros j i same E; [discriminate |]. cbn [find_leaf] in E.
-  assert (Later : find_leaf most st key x (S j) ls = Some (i, same) -> exists f0 y,
+  assert (Later : find_leaf most st helps key x (S j) ls = Some (i, same) -> exists f0 y,
     (j <= i)%nat /\ nth_error (f :: ls) (i - j) = Some f0 /\
-    key (leaf_kind f0) = Some y /\ are_equal most (relations st) y (if same then x else q_neg x) = true).
-  { intros F. destruct (IH _ _ _ F) as (g & y & L & N & K & Q). exists g, y.
+    key (leaf_kind f0) = Some y /\ are_equal most (relations st) y (if same then x else q_neg x) = true /\
+    (same = true \/ helps = true)).
+  { intros F. destruct (IH _ _ _ F) as (g & y & L & N & K & Q & B). exists g, y.
     replace (i - j)%nat with (S (i - S j)) by lia. repeat split; trivial. lia. }
   destruct (key (leaf_kind f)) as [y |] eqn:K; [| now apply Later].
   destruct (are_equal most (relations st) y x) eqn:Q; [injection E as <- <-; exists f, y; rewrite Nat.sub_diag;
-    repeat split; trivial |].
-  destruct (are_equal most (relations st) y (q_neg x)) eqn:P; [| now apply Later].
-  injection E as <- <-. exists f, y. rewrite Nat.sub_diag. repeat split; trivial.
+    repeat split; trivial; now left |].
+  destruct (helps && are_equal most (relations st) y (q_neg x)) eqn:P; [| now apply Later].
+  apply andb_prop in P as [H P]. injection E as <- <-. exists f, y. rewrite Nat.sub_diag.
+  repeat split; trivial. now right.
 Qed.
 
 Lemma key_sign y x r s (same : bool) : is_quotient l x r -> is_quotient l y s ->
@@ -485,9 +474,6 @@ Proof.
   rewrite F, at_app, rev_length in C. simpl (Leaves.at_ [1%Z] _) in C. lra.
 Qed.
 
-Lemma some_pair {A B : Type} (a c : A) (b d : B) : Some (a, b) = Some (c, d) -> c = a /\ d = b.
-Proof. intros E. now injection E. Qed.
-
 Lemma new_part_ok n x more : new_part most u turn st n = Some (x, more) -> agrees (leaves st ++ more) ->
   (0 < n)%Z /\ known_ok x (Leaves.turn (Z.to_nat n)) /\ leaves_ok (fresh st) more.
 Proof.
@@ -520,17 +506,17 @@ Proof.
     split; [rewrite V; now apply part_cosine_ok |]. split; [| apply none_new].
     replace (sin (v a)) with (cos (2 * PI * (IZR (4 * n - d) / IZR (4 * d)))); [now apply part_cosine_ok |].
     rewrite <- (cos_shift (v a)), <- cos_neg. f_equal. rewrite V, minus_IZR, !mult_IZR. field. now apply not_0_IZR.
-  - destruct (find_leaf most st (angle_key st) (is x) 0 (leaves st)) as [[j same] |] eqn:F.
-    + destruct (find_leaf_found _ _ _ _ _ _ F) as (f & y & _ & Nj & K & B). rewrite Nat.sub_0_r in Nj.
+  - destruct (find_leaf most st true (angle_key st) (is x) 0 (leaves st)) as [[j same] |] eqn:F.
+    + destruct (find_leaf_found _ _ _ _ _ _ _ F) as (f & y & _ & Nj & K & B & _). rewrite Nat.sub_0_r in Nj.
       rewrite Nj in E.
       destruct f as [kf ef rf]. cbn [leaf_kind] in K. unfold angle_key in K.
-        destruct kf as [| b | | | | |]; try discriminate.
+        destruct kf as [| b | | | | | |]; try discriminate.
       destruct (is_sine st (S j) b) eqn:Sb; [| discriminate]. injection E as <- <- <-.
       pose proof (key_sign y (is x) (v a) (v b) same Q (quotient_at_is b y K) B) as Eb.
       apply agrees_before in A. pose proof (A j _ Nj) as Lc. cbn [leaf_kind kind_value] in Lc.
       unfold is_sine in Sb. destruct (nth_error (leaves st) (S j)) as [[ks es rs] |] eqn:Ns; [| discriminate].
         cbn [leaf_kind] in Sb.
-      destruct ks as [| | b' | | | |]; try discriminate. apply Z.eqb_eq in Sb. subst b'.
+      destruct ks as [| | b' | | | | |]; try discriminate. apply Z.eqb_eq in Sb. subst b'.
       pose proof (A (S j) _ Ns) as Ls. cbn [leaf_kind kind_value] in Ls.
       assert (Cb : cos (v a) = l j) by (rewrite Lc, Eb; destruct same; [reflexivity | symmetry; apply cos_neg]).
       split; [rewrite Cb; apply leaf_q_is |]. split; [| apply none_new]. destruct same.
@@ -561,13 +547,13 @@ Proof.
     rewrite <- Ex in *.
   destruct (is_null (is x)) eqn:N.
   - injection E as <- <-. rewrite (null_is_zero l _ _ Q N), exp_0. split; [apply (q_integer_is l 1) | apply none_new].
-  - destruct (find_leaf most st (exp_key st) (is x) 0 (leaves st)) as [[j same] |] eqn:F.
-    + injection E as <- <-. destruct (find_leaf_found _ _ _ _ _ _ F) as (g & y & _ & Nj & K & B).
+  - destruct (find_leaf most st true (exp_key st) (is x) 0 (leaves st)) as [[j same] |] eqn:F.
+    + injection E as <- <-. destruct (find_leaf_found _ _ _ _ _ _ _ F) as (g & y & _ & Nj & K & B & _).
       rewrite Nat.sub_0_r in Nj.
       apply agrees_before in A. pose proof (A j g Nj) as L. split; [| apply none_new].
       assert (G : exists s, l j = exp s /\ is_quotient l y s).
       { destruct g as [kg eg rg]. cbn [leaf_kind] in *. unfold exp_key in K.
-        destruct kg as [| | | b | | |]; try discriminate.
+        destruct kg as [| | | b | | | |]; try discriminate.
         - exists (v b). split; [exact L | now apply quotient_at_is].
         - exists 1. injection K as <-. split; [exact L | apply (q_integer_is l 1)]. }
       destruct G as (s & Ls & Qy). pose proof (key_sign y (is x) r s same Q Qy B) as Es. subst s. destruct same.
@@ -618,6 +604,53 @@ Proof.
     repeat split; trivial. lia.
 Qed.
 
+(* ---- inverse functions ---- *)
+
+Lemma up_to_one_ok x r : known_ok x r -> is_up_to_one most u st x = true -> r <= 1.
+Proof.
+  intros [X Q] E. unfold is_up_to_one in E. apply orb_prop in E as [E | E].
+  - right. exact (equal_are l most _ R0 _ _ r 1 Q (q_integer_is l 1) E).
+  - destruct (within x) as [[a b] |]; [| discriminate]. apply Z.leb_le, IZR_le in E. pose proof (IZR_lt _ _ U).
+    destruct X as [_ X]. apply Rmult_le_reg_r with (IZR u); lra.
+Qed.
+
+Lemma in_domain_ok f x r : known_ok x r -> is_in_domain most u st f x = true -> inverse_defined f r.
+Proof.
+  intros K E.
+  assert (B : is_up_to_one most u st x && is_up_to_one most u st (Known (neg (within x)) (q_neg (is x))) = true ->
+    -1 <= r <= 1).
+  { intros D. apply andb_prop in D as [D1 D2]. apply (up_to_one_ok x r K) in D1.
+    apply (up_to_one_ok _ (- r)) in D2; [lra |]. split; [apply neg_holds, K | apply q_neg_is, K]. }
+  destruct f; cbn [is_in_domain inverse_defined] in *; auto. apply Z.eqb_eq in E.
+  exact (sign_positive u U _ _ (proj1 K) E).
+Qed.
+
+Lemma inverse_key_is f g y : inverse_key st f g = Some y -> exists b, g = InverseOf f b /\ quotient_at st b = Some y.
+Proof.
+  destruct f, g as [| | | | | | | h b]; try discriminate; destruct h; try discriminate; intros E; now exists b.
+Qed.
+
+Lemma inverse_known_ok f a x y more : known_ok x (v a) ->
+  inverse_known most root_hint u turn st f a x = Some (y, more) -> agrees (leaves st ++ more) ->
+  inverse_defined f (v a) /\ known_ok y (inverse_at f (v a)) /\ leaves_ok (fresh st) more.
+Proof.
+  intros K E A. unfold inverse_known in E. cbv zeta in E. destruct (is x) as [q |] eqn:Ex; [| discriminate].
+  rewrite <- Ex in E.
+  destruct (is_in_domain most u st f x) eqn:D; [| discriminate]. cbn [negb] in E. apply (in_domain_ok f x _ K) in D.
+  pose proof (inverse_value_holds most root_hint u _ f _ _ U pi2_holds D (proj1 K)) as H.
+  set (e := inverse_value most root_hint u (pi2 turn) f (within x)) in *. split; [exact D |].
+  destruct (find_leaf most st false (inverse_key st f) (is x) 0 (leaves st)) as [[j same] |] eqn:F.
+  - apply some_pair in E as [-> ->]. destruct (find_leaf_found _ _ _ _ _ _ _ F) as (g & z & _ & N & Kg & B & S).
+    destruct S as [-> | S]; [| discriminate]. rewrite Nat.sub_0_r in N. apply inverse_key_is in Kg as (b & G & Z).
+    apply agrees_before in A. pose proof (A j g N) as L. rewrite G in L. cbn [kind_value] in L.
+    pose proof (key_sign z (is x) (v a) (v b) true (proj2 K) (quotient_at_is b z Z) B) as V. cbn in V.
+    split; [split; cbn [within is]; [exact H | rewrite <- V, <- L; apply leaf_q_is] | apply none_new].
+  - apply some_pair in E as [-> ->]. pose proof (leaf_of_new _ _ 0 A eq_refl) as L. rewrite Nat.add_0_r in L.
+    cbn [leaf_kind kind_value] in L. split; [split; cbn [within is]; [exact H | rewrite <- L; apply leaf_q_is] |].
+    intros [| [| j]] g N; try discriminate. injection N as <-. rewrite Nat.add_0_r.
+    split; cbn [leaf_at leaf_relation]; [now rewrite L | discriminate].
+Qed.
+
 (* ---- lines ---- *)
 
 Theorem step_ok o x more : step most root_hint zero_hint u turn st k o = Some (x, more) -> described k o ->
@@ -651,8 +684,8 @@ Proof.
   - injection E as <- <-. rewrite V. split; [exact I | split; [exact F | exact Z0]].
   - injection E as <- <-. rewrite V. split; [exact I | split; [| exact Z0]].
     split; [apply absolute_holds; [exact U | apply F] | now apply absolute_ok].
-  - destruct (square_root_ok y (v a) s x more F E V A) as (P & Q & R1 & S1). split; [now split | now split].
-  - exact (cube_root_ok y (v a) s x more F E V A).
+  - destruct (radical_ok false y (v a) s x more F E V A) as (P & Q & R1 & S1). split; [split; auto | now split].
+  - destruct (radical_ok true y (v a) s x more F E V A) as (_ & Q & R1 & S1). now split.
   - destruct (angle most u turn st a y) as [[[c s] m] |] eqn:G; [| discriminate]. apply seen_is in E as [-> ->].
     destruct (angle_ok a y c s m F G A) as (C & S1 & L). rewrite V. split; [exact I | split; [| exact L]].
     split; [apply cosine_holds; [exact U | apply F] | exact C].
@@ -676,6 +709,7 @@ Proof.
   - destruct (ratio_of most u st _ _) as [w |] eqn:W; [| discriminate]. apply seen_is in E as [-> ->].
     destruct (hyperbolic_ok y (v a) A0 F) as [H1 H2]. destruct (ratio_ok _ _ _ _ _ H1 H2 W) as [_ K].
     rewrite V. split; [exact I | split; [exact K | exact Z0]].
+  - destruct (inverse_known_ok f a y x more F E A) as (D & K & L). rewrite V. now split.
   - destruct (find_half_turn 0 (leaves st)) as [j |] eqn:G.
     + injection E as <- <-. destruct (find_half_turn_found _ _ _ G) as (f & _ & N & K). rewrite Nat.sub_0_r in N.
       rewrite V. split; [exact I | split; [| exact Z0]]. split; [exact T |].

@@ -2,7 +2,8 @@
 (* The checker as a program. Integers are those of Zarith, which stands on GMP: that and the extraction are trusted. *)
 From Coq Require Import ZArith List Extraction ExtrOcamlBasic ExtrOcamlZBigInt.
 From Dyadel Require Import Checker CheckerFaces CheckerBounds CheckerCover CheckerChain CheckerTies CheckerDiagram CheckerDistance.
-From Dyadel Require Import CheckerStill CheckerEnclosure CheckerAlgebra CheckerBlock CheckerVanish CheckerFacts CheckerTied.
+From Dyadel Require Import CheckerStill CheckerEnclosure CheckerInverse CheckerAlgebra CheckerBlock CheckerVanish CheckerFacts.
+From Dyadel Require Import CheckerTied.
 Extract Constant Z.ltb => "Big_int_Z.lt_big_int".
 Extract Constant Z.leb => "Big_int_Z.le_big_int".
 Extraction "checker.ml" check check_edge surrounded all_surrounded sure_triangles sure_corners all_covered broken_chains

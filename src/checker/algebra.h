@@ -40,7 +40,7 @@ typedef enum dyd_cert_op {
   DYD_CERT_SINH,
   DYD_CERT_COSH,
   DYD_CERT_TANH,
-  DYD_CERT_LOG, /* of this and the next three nothing is known but that equal operands give equal values */
+  DYD_CERT_LOG, /* of this and the next three nothing is known but values, and that equal operands give equal ones */
   DYD_CERT_ASIN,
   DYD_CERT_ACOS,
   DYD_CERT_ATAN,

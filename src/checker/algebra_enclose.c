@@ -53,6 +53,25 @@ static void enclose_e(dyd_cert_enclosure *x, long p) {
   dyd_cert_enclosure_exp(x, p);
 }
 
+static void enclose_inverse(dyd_cert_enclosure *x, dyd_cert_op op, long p) {
+  switch (op) {
+  case DYD_CERT_LOG:
+    dyd_cert_enclosure_log(x, p);
+    return;
+  case DYD_CERT_ASIN:
+    dyd_cert_enclosure_asin(x, p);
+    return;
+  case DYD_CERT_ACOS:
+    dyd_cert_enclosure_acos(x, p);
+    return;
+  case DYD_CERT_ATAN:
+    dyd_cert_enclosure_atan(x, p);
+    return;
+  default:
+    x->known = false;
+  }
+}
+
 /* x = op x. */
 static void enclose_function(dyd_cert_enclosure *x, const dyd_cert_number *n, long p) {
   switch (n->op) {
@@ -85,7 +104,7 @@ static void enclose_function(dyd_cert_enclosure *x, const dyd_cert_number *n, lo
     enclose_hyperbolic(x, n->op, p);
     return;
   default:
-    x->known = false;
+    enclose_inverse(x, n->op, p);
   }
 }
 

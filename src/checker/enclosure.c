@@ -160,14 +160,14 @@ void dyd_cert_enclosure_extreme(dyd_cert_enclosure *x, int sign, const dyd_cert_
 
 /* ---- functions ---- */
 
-/* From precision p to p + more, or back, outward. */
-static void precision_raise(dyd_cert_enclosure *x, long more) {
-  mpz_mul_2exp(x->lo, x->lo, (mp_bitcnt_t)more);
-  mpz_mul_2exp(x->hi, x->hi, (mp_bitcnt_t)more);
-}
-static void enclosure_shrink(dyd_cert_enclosure *x, long by) {
-  mpz_fdiv_q_2exp(x->lo, x->lo, (mp_bitcnt_t)by);
-  mpz_cdiv_q_2exp(x->hi, x->hi, (mp_bitcnt_t)by);
+void dyd_cert_enclosure_rescale(dyd_cert_enclosure *x, long by) {
+  if (by >= 0) {
+    mpz_mul_2exp(x->lo, x->lo, (mp_bitcnt_t)by);
+    mpz_mul_2exp(x->hi, x->hi, (mp_bitcnt_t)by);
+  } else {
+    mpz_fdiv_q_2exp(x->lo, x->lo, (mp_bitcnt_t)-by);
+    mpz_cdiv_q_2exp(x->hi, x->hi, (mp_bitcnt_t)-by);
+  }
 }
 
 /* sum = floor terms of arctan(1/n) 2^p; each of *terms terms, and what follows them, is off by less than 1. */
@@ -199,7 +199,7 @@ void dyd_cert_enclosure_pi(dyd_cert_enclosure *x, long p) {
   mpz_add_ui(x->hi, x->lo, 20 * (terms + few + 2));
   mpz_sub_ui(x->lo, x->lo, 20 * (terms + few + 2));
   x->known = true;
-  enclosure_shrink(x, MORE);
+  dyd_cert_enclosure_rescale(x, -MORE);
   mpz_clear(part);
 }
 
@@ -232,15 +232,15 @@ void dyd_cert_enclosure_exp(dyd_cert_enclosure *x, long p) {
   if (!x->known) return;
   dyd_cert_enclosure_init(&sum);
   dyd_cert_enclosure_init(&term);
-  precision_raise(x, more);
-  enclosure_shrink(x, halved);
+  dyd_cert_enclosure_rescale(x, more);
+  dyd_cert_enclosure_rescale(x, -halved);
   set_integer(&sum, 1, q);
   set_integer(&term, 1, q);
   for (unsigned long n = 1; taylor_step(&term, x, n, q); n++) dyd_cert_enclosure_add(&sum, &term);
   add_remainder(&sum);
   for (long k = 0; k < halved; k++) dyd_cert_enclosure_mul(&sum, &sum, q);
   dyd_cert_enclosure_set(x, &sum);
-  enclosure_shrink(x, more);
+  dyd_cert_enclosure_rescale(x, -more);
   dyd_cert_enclosure_clear(&term);
   dyd_cert_enclosure_clear(&sum);
 }
@@ -287,11 +287,11 @@ void dyd_cert_enclosure_cos_sin(dyd_cert_enclosure *c, dyd_cert_enclosure *s, co
   if (!c->known) return;
   dyd_cert_enclosure_init(&r);
   dyd_cert_enclosure_set(&r, x);
-  precision_raise(&r, more);
-  enclosure_shrink(&r, halved);
+  dyd_cert_enclosure_rescale(&r, more);
+  dyd_cert_enclosure_rescale(&r, -halved);
   taylor_cos_sin(c, s, &r, p + more);
   for (long k = 0; k < halved; k++) double_angle(c, s, p + more);
-  enclosure_shrink(c, more);
-  enclosure_shrink(s, more);
+  dyd_cert_enclosure_rescale(c, -more);
+  dyd_cert_enclosure_rescale(s, -more);
   dyd_cert_enclosure_clear(&r);
 }

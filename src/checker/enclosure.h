@@ -35,8 +35,18 @@ void dyd_cert_enclosure_abs(dyd_cert_enclosure *x);
 /* The lesser (sign < 0) or the greater. */
 void dyd_cert_enclosure_extreme(dyd_cert_enclosure *x, int sign, const dyd_cert_enclosure *y);
 void dyd_cert_enclosure_pi(dyd_cert_enclosure *x, long p);
-/* Of what is known. */
+/* From precision p to p + by, outward. */
+void dyd_cert_enclosure_rescale(dyd_cert_enclosure *x, long by);
+/* Of what is known; the logarithm, where x is positive, the inverse sine and cosine, where x is at most 1 in absolute
+ * value. */
 void dyd_cert_enclosure_exp(dyd_cert_enclosure *x, long p);
+void dyd_cert_enclosure_log(dyd_cert_enclosure *x, long p);
+void dyd_cert_enclosure_atan(dyd_cert_enclosure *x, long p);
+void dyd_cert_enclosure_asin(dyd_cert_enclosure *x, long p);
+void dyd_cert_enclosure_acos(dyd_cert_enclosure *x, long p);
+/* out = what is known from y 2^-p, wherever that is, of log x for x > 0, of atan x. */
+void dyd_cert_enclosure_log_from(dyd_cert_enclosure *out, const dyd_cert_enclosure *x, mpz_srcptr y, long p);
+void dyd_cert_enclosure_atan_from(dyd_cert_enclosure *out, const dyd_cert_enclosure *x, mpz_srcptr y, long p);
 /* c = cos x, s = sin x. */
 void dyd_cert_enclosure_cos_sin(dyd_cert_enclosure *c, dyd_cert_enclosure *s, const dyd_cert_enclosure *x, long p);
 

@@ -42,14 +42,14 @@ static bool operand_compare(int *sign, dyd_cert_algebra *a, size_t k, const dyd_
   return fits;
 }
 
-/* *leaf: that of op of u, or of -u, *sign saying which; DYD_CERT_LEAVES: there is none. */
+/* *leaf: that of op of u, or of -u where that helps, *sign saying which; DYD_CERT_LEAVES: there is none. */
 static bool find_leaf(size_t *leaf, int *sign, dyd_cert_algebra *a, dyd_cert_op op, const dyd_cert_quotient *u) {
   bool fits = true;
   *sign = 0;
   for (*leaf = 0; *leaf < a->relations.count; ++*leaf) {
     if (!is_leaf_of(a, *leaf, op)) continue;
     fits = operand_compare(sign, a, *leaf, u);
-    if (!fits || *sign) return fits;
+    if (!fits || *sign > 0 || (*sign && (is_circular(op) || is_exponential(op)))) return fits;
   }
   *leaf = DYD_CERT_LEAVES;
   return true;
@@ -230,6 +230,29 @@ static bool value_root(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert
   return fits;
 }
 
+/* ---- inverse functions ---- */
+
+/* Is u, or -u, at most 1? */
+static bool is_up_to_one(dyd_cert_algebra *a, const dyd_cert_quotient *u, int sign) {
+  dyd_cert_quotient d = {{0}, {0}};
+  bool fits = value_set_si(&d, 1, a) && dyd_cert_quotient_add(&d, -sign, u, &a->relations);
+  fits = fits && (dyd_cert_poly_is_zero(&d.num) || dyd_cert_poly_sign(a, &d.num) * dyd_cert_poly_sign(a, &d.den) > 0);
+  dyd_cert_quotient_clear(&d);
+  return fits;
+}
+
+/* A leaf of which nothing is known but its enclosure, and that equal operands have the same. */
+static bool value_inverse(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert_number *n) {
+  const dyd_cert_quotient *u = &a->number[n->a].value;
+  size_t leaf;
+  int sign;
+  if (n->op == DYD_CERT_LOG && dyd_cert_algebra_sign(a, n->a) <= 0) return false;
+  if ((n->op == DYD_CERT_ASIN || n->op == DYD_CERT_ACOS) && !(is_up_to_one(a, u, 1) && is_up_to_one(a, u, -1)))
+    return false;
+  if (!find_leaf(&leaf, &sign, a, n->op, u)) return false;
+  return leaf == DYD_CERT_LEAVES ? value_makes_leaf(x, a) : value_is_leaf(x, a, leaf);
+}
+
 /* ---- all ---- */
 
 /* x, the value of u, becomes |x|. */
@@ -277,8 +300,6 @@ static bool value_power(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cer
 
 static bool value_function(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert_number *n) {
   const dyd_cert_quotient *u = &a->number[n->a].value;
-  size_t leaf;
-  int sign;
   switch (n->op) {
   case DYD_CERT_CLAIM:
     a->claims++;
@@ -303,10 +324,8 @@ static bool value_function(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_
   case DYD_CERT_COSH:
   case DYD_CERT_TANH:
     return value_hyperbolic(x, a, n->op, u);
-  default: /* of which nothing is known but the operand */
-    if (!find_leaf(&leaf, &sign, a, n->op, u)) return false;
-    if (leaf != DYD_CERT_LEAVES && sign < 0) return false;
-    return leaf == DYD_CERT_LEAVES ? value_makes_leaf(x, a) : value_is_leaf(x, a, leaf);
+  default:
+    return value_inverse(x, a, n);
   }
 }
 

@@ -43,10 +43,13 @@ PROVED = [
     (ALIAS.format('root(x^4-10*x^2+1,3,4)', 'sqrt(2)+sqrt(3)'), 0, 1),
     (ALIAS.format('root(x^5-x-1,1,2)^5', '1+root(x^5-x-1,0,2)'), 1, 0),
     (ALIAS.format('cbrt(-16)', '-2*cbrt(2)'), 1, 0), (ALIAS.format('sqrt(3/8)', 'sqrt(6)/4'), 1, 0),
-    (ALIAS.format('1/(1+sqrt(2))', 'sqrt(2)-1'), 1, 0)]
-# Nothing encloses logarithms and inverse functions in the checker: it says so.
-UNPROVED = [(ALIAS.format('log(3)+1', '1+log(3)'), 'aliases'),
-            ('atan(3) 0\n0 atan(3)\n-atan(3) 0\n0 -atan(3)\n', 'ties')]
+    (ALIAS.format('1/(1+sqrt(2))', 'sqrt(2)-1'), 1, 0), (ALIAS.format('log(3)+1', '1+log(3)'), 1, 0),
+    ('atan(3) 0\n0 atan(3)\n-atan(3) 0\n0 -atan(3)\n', 1, 0), (ALIAS.format('asin(1)*log(2)', 'log(2)*asin(1)'), 1, 0),
+    (ALIAS.format('atan(-1/3)+pi-atan(1/3)', 'pi-atan(1/3)+atan(-1/3)'), 1, 0),
+    (''.join(f'{r}*cos({k}) {r}*sin({k})\n' for r in ('(acos(-2/5)+log(1/7))',) for k in range(5)), 1, 0)]
+# Exponents beyond 2^8 are not enclosed by the checker: it says so.
+UNPROVED = [(ALIAS.format('exp(-300)+1', '1+exp(-300)'), 'aliases'),
+            ('2+exp(-300) 0\n0 2+exp(-300)\n-2-exp(-300) 0\n0 -2-exp(-300)\n', 'ties')]
 # points; what is replaced in the certificate; by what; why it is rejected
 FORGERIES = [
     (SQUARE, '\n= 2\nsqrt 0\n', '\n= 3\nsqrt 0\n', 'not seen to be what the line says'),  # another relation
@@ -69,6 +72,8 @@ FORGERIES = [
     (SQUARE, 'algebra 6', 'algebra 5', 'no operation|is missing'),
     (SQUARE, 'sqrt 2 x0', 'sqrt 7 x0', 'too large'),
     (SQUARE, 'sqrt 0', 'log 0', 'not seen to be what'),
+    (SQUARE.replace('sqrt', 'log'), 'log 2', 'atan 2', 'lie in the rectangle'),
+    (SQUARE.replace('sqrt', 'log'), '= 2\nlog 2', '= -2\nlog 2', 'not seen to be defined'),
     (SQUARE, 'sqrt 0', 'callback', 'not seen to be what'),
     (gon(12), 'cycle 12', 'cycle 8', 'not seen to be defined'),
     (gon(12), 'cycle 12', 'cycle 5000', 'too large'),
