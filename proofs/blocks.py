@@ -13,13 +13,12 @@ one changed, all refused.
 import pathlib
 import random
 import re
-import resource
-import subprocess
 import sys
 import tempfile
 
+from checker import ALL, NOT_ALL, REJECTED, Checkers
+
 SEED = 5
-ALL, NOT_ALL, REJECTED = 0, 3, 1
 ALIAS = '{} 0\n10 10\n{} 0\n-9 4\n'
 SQUARE = 'sqrt(2) 0\n0 sqrt(2)\n-sqrt(2) 0\n0 -sqrt(2)\n'
 # points; of which so many are described, with so many facts
@@ -72,31 +71,14 @@ OTHER = {'+': '-', '-': '+', '*': '/', '/': '*', 'min': 'max', 'max': 'min', 'ne
          'tanh': 'sinh', 'pi': 'e', 'e': 'pi', 'same': 'line', 'line': 'circle', 'circle': 'line'}
 
 
-class Checkers:
-    def __init__(self, proved, dyadel, folder):
-        self.proved, self.dyadel, self.folder = proved, dyadel, folder
-        self.tried = self.refused = self.proved_all = 0
-
-    def certificate(self, points):
-        source, target = self.folder / 'points.txt', self.folder / 'certified.txt'
-        source.write_text(points)
-        done = subprocess.run([self.dyadel, 'delaunay', '--quiet', '-o', '/dev/null', '--certificate', target, source],
-                              check=False)
-        assert done.returncode in (0, 3), (points, done)
-        return target.read_text()
-
-    def ask(self, *command, text):
-        file = self.folder / 'asked.txt'
-        file.write_text(text)
-        return subprocess.run([*command, file], check=False, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-
+class OfBlocks(Checkers):
     def faults(self, text, name):
         """Where the two differ that must not."""
         here, there = self.ask(self.proved, text=text), self.ask(self.dyadel, 'verify', text=text)
         shown = here.returncode != REJECTED and not re.search('not proved: that .* (lie where|facts on points)', here.stdout)
         self.tried += 1
-        self.refused += here.returncode == REJECTED
-        self.proved_all += shown
+        self.rejected += here.returncode == REJECTED
+        self.all += shown
         if here.returncode not in (ALL, NOT_ALL, REJECTED) or (here.returncode == REJECTED and ': rejected: ' not in here.stderr):
             yield f'{name}: {here}'
         elif shown and there.returncode == REJECTED:
@@ -446,18 +428,10 @@ def row(n):
     return ''.join(f'{k}*sqrt(2) {k}*sqrt(3)\n' for k in range(n))
 
 
-def seconds(both, points):
-    """What the checker takes for a certificate of points whose pairs are all decided or ties."""
-    text = both.certificate(points)
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    assert both.ask(both.proved, text=text).returncode == ALL
-    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
-
-
 def try_growth(both):
     """Circles, each with its sites, in many sites; pairs on one line, and on one circle, whose number is what grows."""
     for name, make, few, many, size in (('lattice', lattice, 12, 36, 9), ('row', row, 60, 240, 16), ('polygon', gon, 40, 120, 9)):
-        ratio = seconds(both, make(many)) / seconds(both, make(few))
+        ratio = both.seconds(make(many)) / both.seconds(make(few))
         print(f'{name}: {size} times as much, {ratio:.1f} times as long')
         if ratio > 3 * size:
             yield f'the time of a {name} grows with a higher power'
@@ -491,16 +465,16 @@ def try_forged(both, count):
         for moved in moved_sides(text):
             sides += 1
             yield from both.faults(moved, f'a side moved of {points}')
-    print(f'seed {SEED}: {both.tried} certificates with blocks, {sides} of moved sides: {both.refused} refused, '
-          f'{both.proved_all} proved')
-    if both.refused * 3 < both.tried or both.proved_all * 40 < both.tried or sides < 40:
+    print(f'seed {SEED}: {both.tried} certificates with blocks, {sides} of moved sides: {both.rejected} refused, '
+          f'{both.all} proved')
+    if both.rejected * 3 < both.tried or both.all * 40 < both.tried or sides < 40:
         yield 'hardly anything is refused, or proved, or hardly any side was moved'
 
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
         proved, dyadel = (pathlib.Path(arg).resolve() for arg in sys.argv[1:3])
-        both = Checkers(proved, dyadel, pathlib.Path(folder))
+        both = OfBlocks(proved, dyadel, pathlib.Path(folder))
         found = list(try_places(both)) + list(try_known(both)) + list(try_rings(both)) + list(try_facts(both))
         found += list(try_gons(both)) + list(try_growth(both))
         found += try_forged(both, int(sys.argv[3]) if len(sys.argv) > 3 else 16)

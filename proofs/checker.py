@@ -49,6 +49,13 @@ class Checkers:
         file.write_text(text)
         return subprocess.run([*command, file], check=False, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
+    def seconds(self, points):
+        """Of the processor, that the proved checker takes for a certificate of points that it proves all of."""
+        text = self.certificate(points)
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+        assert self.ask(self.proved, text=text).returncode == ALL
+        return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
     def faults(self, text, name):
         """Where the two differ that must not; counts."""
         here, there = self.ask(self.proved, text=text), self.ask(self.dyadel, 'verify', text=text)
@@ -489,17 +496,13 @@ def try_command(both):
             yield 'verify --proved -o writes something else'
 
 
-def seconds(both, count):
-    """Of the processor, for so many boxes."""
+def small_boxes(count):
     rng = random.Random(count)
-    text = both.certificate(''.join(f'{rng.random()}+-1e-9 {rng.random()}+-1e-9\n' for _ in range(count)))
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-    assert both.ask(both.proved, text=text).returncode == ALL
-    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    return ''.join(f'{rng.random()}+-1e-9 {rng.random()}+-1e-9\n' for _ in range(count))
 
 
 def try_growth(both):
-    few, many = seconds(both, 1500), seconds(both, 12000)
+    few, many = both.seconds(small_boxes(1500)), both.seconds(small_boxes(12000))
     print(f'8 times as many sites: {many / few:.1f} times as long')
     if many > 40 * few:  # 64 when quadratic; 8 to 18 on a busy machine
         yield 'the time grows with the square of the number of sites'
