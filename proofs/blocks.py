@@ -248,6 +248,11 @@ PLACES = [
     (['= 3', 'atan 0', 'log 0', '- 1 2', '= 1', '+ 3 4', '= 0'], True), (['= 1/3', 'asin 0', 'acos 0', '+ 1 2', '= 0'], True),
     (['= 1/3', 'acos 0', 'neg 0', 'acos 2', '- 3 1', '= 1', '+ 4 5', '= 0'], True),
     (['= 3', 'log 0', 'atan 0', 'asin 0', '= 1', '= 0'], False)]
+# As far as the C checker looks: powers of e up to 2^8, angles up to 2^24.
+for below, beyond, lines in (
+        (-255, -257, ['exp 0', '= 1', '+ 1 2']), (2**24 - 9, 2**24 + 9, ['cos 0', 'abs 1', '= 1', '+ 2 3']),
+        (9 - 2**24, -9 - 2**24, ['sin 0', 'abs 1', '= 1', '+ 2 3']), (255, 257, ['exp 0', 'tanh 0', 'abs 2', '= 1/2', '+ 3 4'])):
+    PLACES += [([f'= {below}', *lines, '= 0'], True), ([f'= {beyond}', *lines, '= 0'], False)]
 ROOT_2 = ['= 2', 'sqrt 0']
 # What 2048 bits do not show, nor 4096.
 PLACES += [(ROOT_2 + [f'= {tiny(1180)}', '/ 2 2', '= 1/2', '+ 3 4', '= 0'], True),

@@ -331,6 +331,14 @@ Definition inverse_known (f : inverse_function) (a : Z) (x : known) : option (kn
   | None => None
   end.
 
+(* Enclosures of functions are sought of numbers below 2^n, as by the C code. *)
+Definition up_to (n : Z) (x : known) : known :=
+  Known (if extent (within x) <? Z.shiftl u n then within x else None) (is x).
+Definition unary_up_to (n a : Z) (f : known -> option (known * list leaf)) : option (known * list leaf) :=
+  unary a (fun x => f (up_to n x)).
+Definition most_angle : Z := 24.
+Definition most_power : Z := 8.
+
 Definition step (o : line) : option (known * list leaf) :=
   match o with
   | Value p q => plain (value_known p q)
@@ -348,12 +356,18 @@ Definition step (o : line) : option (known * list leaf) :=
   | Absolute a => unary a (fun x => plain (Some (Known (absolute (within x)) (absolute_is x))))
   | SquareRoot a s => unary a (fun x => radical_of false x s)
   | CubeRoot a s => unary a (fun x => radical_of true x s)
-  | Cosine a => unary a (fun x => match angle a x with Some (c, _, l) => seen (Known (cosine most u (within x)) c) l
-    | None => None end)
-  | Sine a => unary a (fun x => match angle a x with Some (_, s, l) => seen (Known (sine most u pi2 (within x)) s) l
-    | None => None end)
+  | Cosine a =>
+    unary_up_to most_angle a (fun x => match angle a x with
+      | Some (c, _, l) => seen (Known (cosine most u (within x)) c) l
+      | None => None
+      end)
+  | Sine a =>
+    unary_up_to most_angle a (fun x => match angle a x with
+      | Some (_, s, l) => seen (Known (sine most u pi2 (within x)) s) l
+      | None => None
+      end)
   | Tangent a =>
-    unary a (fun x => match angle a x with
+    unary_up_to most_angle a (fun x => match angle a x with
       | Some (c, s, l) =>
         match ratio_of (Known (sine most u pi2 (within x)) s) (Known (cosine most u (within x)) c) with
         | Some y => seen y l
@@ -362,14 +376,17 @@ Definition step (o : line) : option (known * list leaf) :=
       | None => None
       end)
   | Exponential a =>
-    unary a (fun x => match exp_known (ExpOf a) x with Some (e, l) => Some (Known (exponential most u (within x)) e,
-      l) | None => None end)
-  | HyperbolicSine a => unary a (fun x => seen (fst (hyperbolic x)) [])
-  | HyperbolicCosine a => unary a (fun x => seen (snd (hyperbolic x)) [])
-  | HyperbolicTangent a => unary a (fun x => match ratio_of (fst (hyperbolic x)) (snd (hyperbolic x)) with
-    | Some y => seen y []
-    | None => None
-    end)
+    unary_up_to most_power a (fun x => match exp_known (ExpOf a) x with
+      | Some (e, l) => Some (Known (exponential most u (within x)) e, l)
+      | None => None
+      end)
+  | HyperbolicSine a => unary_up_to most_power a (fun x => seen (fst (hyperbolic x)) [])
+  | HyperbolicCosine a => unary_up_to most_power a (fun x => seen (snd (hyperbolic x)) [])
+  | HyperbolicTangent a =>
+    unary_up_to most_power a (fun x => match ratio_of (fst (hyperbolic x)) (snd (hyperbolic x)) with
+      | Some y => seen y []
+      | None => None
+      end)
   | Inverse f a => unary a (inverse_known f a)
   | Pi =>
     match find_half_turn 0 (leaves st) with

@@ -653,11 +653,14 @@ Qed.
 
 (* ---- lines ---- *)
 
+Lemma up_to_ok n x r : known_ok x r -> known_ok (up_to u n x) r.
+Proof. intros [X Q]. split; [| exact Q]. cbn [up_to within]. destruct (_ <? _)%Z; [exact X | exact I]. Qed.
+
 Theorem step_ok o x more : step most root_hint zero_hint u turn st k o = Some (x, more) -> described k o ->
   agrees (leaves st ++ more) -> defined k o /\ known_ok x (v k) /\ leaves_ok (fresh st) more.
 Proof.
   intros E V A. pose proof (agrees_before more A) as A0. pose proof none_new as Z0.
-  destruct o; cbn [step described defined] in *; unfold unary, binary, plain in E; cbv beta in E;
+  destruct o; cbn [step described defined] in *; unfold unary_up_to, unary, binary, plain in E; cbv beta in E;
     repeat match type of E with context [known_at st ?a] =>
       let y := fresh "y" in let F := fresh "F" in destruct (known_at st a) as [y |] eqn:F;
         [apply known_at_ok in F | discriminate E] end.
@@ -686,13 +689,16 @@ Proof.
     split; [apply absolute_holds; [exact U | apply F] | now apply absolute_ok].
   - destruct (radical_ok false y (v a) s x more F E V A) as (P & Q & R1 & S1). split; [split; auto | now split].
   - destruct (radical_ok true y (v a) s x more F E V A) as (_ & Q & R1 & S1). now split.
-  - destruct (angle most u turn st a y) as [[[c s] m] |] eqn:G; [| discriminate]. apply seen_is in E as [-> ->].
+  - apply (up_to_ok most_angle) in F; revert F E; generalize (up_to u most_angle y); clear y; intros y F E.
+    destruct (angle most u turn st a y) as [[[c s] m] |] eqn:G; [| discriminate]. apply seen_is in E as [-> ->].
     destruct (angle_ok a y c s m F G A) as (C & S1 & L). rewrite V. split; [exact I | split; [| exact L]].
     split; [apply cosine_holds; [exact U | apply F] | exact C].
-  - destruct (angle most u turn st a y) as [[[c s] m] |] eqn:G; [| discriminate]. apply seen_is in E as [-> ->].
+  - apply (up_to_ok most_angle) in F; revert F E; generalize (up_to u most_angle y); clear y; intros y F E.
+    destruct (angle most u turn st a y) as [[[c s] m] |] eqn:G; [| discriminate]. apply seen_is in E as [-> ->].
     destruct (angle_ok a y c s m F G A) as (C & S1 & L). rewrite V. split; [exact I | split; [| exact L]].
     split; [apply sine_holds; [exact U | apply pi2_holds | apply F] | exact S1].
-  - destruct (angle most u turn st a y) as [[[c s] m] |] eqn:G; [| discriminate].
+  - apply (up_to_ok most_angle) in F; revert F E; generalize (up_to u most_angle y); clear y; intros y F E.
+    destruct (angle most u turn st a y) as [[[c s] m] |] eqn:G; [| discriminate].
     destruct (ratio_of most u st _ _) as [w |] eqn:W; [| discriminate]. apply seen_is in E as [-> ->].
     destruct (angle_ok a y c s m F G A) as (C & S1 & L).
     destruct (ratio_ok (Known (sine most u (pi2 turn) (within y)) s) (Known (cosine most u (within y)) c) w (sin (v
@@ -700,13 +706,17 @@ Proof.
     + split; [apply sine_holds; [exact U | apply pi2_holds | apply F] | exact S1].
     + split; [apply cosine_holds; [exact U | apply F] | exact C].
     + split; [exact N |]. rewrite V. now split.
-  - destruct (exp_known most u st (ExpOf a) y) as [[e m] |] eqn:G; [| discriminate]. injection E as <- <-.
+  - apply (up_to_ok most_power) in F; revert F E; generalize (up_to u most_power y); clear y; intros y F E.
+    destruct (exp_known most u st (ExpOf a) y) as [[e m] |] eqn:G; [| discriminate]. injection E as <- <-.
     destruct (exp_known_ok (ExpOf a) y (v a) e m F (fun _ => eq_refl) G A) as [Q L]. rewrite V.
       split; [exact I | split; [| exact L]].
     split; [apply exponential_holds; [exact U | apply F] | exact Q].
-  - apply seen_is in E as [-> ->]. rewrite V. split; [exact I | split; [now apply hyperbolic_ok | exact Z0]].
-  - apply seen_is in E as [-> ->]. rewrite V. split; [exact I | split; [now apply hyperbolic_ok | exact Z0]].
-  - destruct (ratio_of most u st _ _) as [w |] eqn:W; [| discriminate]. apply seen_is in E as [-> ->].
+  - apply (up_to_ok most_power) in F; revert F E; generalize (up_to u most_power y); clear y; intros y F E.
+    apply seen_is in E as [-> ->]. rewrite V. split; [exact I | split; [now apply hyperbolic_ok | exact Z0]].
+  - apply (up_to_ok most_power) in F; revert F E; generalize (up_to u most_power y); clear y; intros y F E.
+    apply seen_is in E as [-> ->]. rewrite V. split; [exact I | split; [now apply hyperbolic_ok | exact Z0]].
+  - apply (up_to_ok most_power) in F; revert F E; generalize (up_to u most_power y); clear y; intros y F E.
+    destruct (ratio_of most u st _ _) as [w |] eqn:W; [| discriminate]. apply seen_is in E as [-> ->].
     destruct (hyperbolic_ok y (v a) A0 F) as [H1 H2]. destruct (ratio_ok _ _ _ _ _ H1 H2 W) as [_ K].
     rewrite V. split; [exact I | split; [exact K | exact Z0]].
   - destruct (inverse_known_ok f a y x more F E A) as (D & K & L). rewrite V. now split.
