@@ -754,3 +754,49 @@ Proof.
   intros (w & Kw & Dw). exists (E - dist u w). split; [lra |]. intros v V. exists w. split; [exact Kw |].
   pose proof (dist_triangle v u w). rewrite (dist_sym v u) in *. lra.
 Qed.
+
+(* Within E of the closed disc, or of the closed half-plane: met by what is nearer than a little more. *)
+Theorem met_by_distance K E F o r : 0 < r -> 0 <= E < F -> (exists w, K w /\ dist o w <= r + E) ->
+  exists y, close_to K F y /\ dist o y < r.
+Proof.
+  intros R0 EF (w & Kw & D). destruct (Rlt_dec (dist o w) r) as [L | L].
+  - exists w. split; [| exact L]. exists w. split; [exact Kw |]. rewrite dist_self. lra.
+  - set (d := dist o w) in *. set (t := (d - r + Rmin r ((F - E) / 2)) / d).
+    assert (M : 0 < Rmin r ((F - E) / 2)) by (apply Rmin_pos; lra).
+    pose proof (Rmin_l r ((F - E) / 2)). pose proof (Rmin_r r ((F - E) / 2)).
+    assert (Td : t * d = d - r + Rmin r ((F - E) / 2)) by (unfold t; field; lra).
+    assert (T0 : 0 <= t) by (apply (Rmult_le_reg_r d); lra).
+    assert (T1 : t <= 1) by (apply (Rmult_le_reg_r d); lra).
+    exists (mix t w o). split.
+    + exists w. split; [exact Kw |]. rewrite dist_sym, dist_mix_left, dist_sym by exact T0. fold d. lra.
+    + rewrite dist_sym, dist_mix_right, dist_sym by exact T1. fold d. lra.
+Qed.
+
+Theorem met_circle N p a b c y : a <> N -> b <> N -> c <> N -> 0 < orient (p a) (p b) (p c) ->
+  (forall o r, circle o r (p a) (p b) (p c) -> dist o y < r) -> 0 < test_at N p a b c y.
+Proof.
+  intros A B C O H. destruct (centre_of _ _ _ O) as (w & X & Y & E). unfold test_at.
+  destruct (Nat.eqb_spec a N); [congruence |]. destruct (Nat.eqb_spec b N); [congruence |].
+  destruct (Nat.eqb_spec c N); [congruence |]. rewrite E.
+  pose proof (H _ _ (about_circle _ _ _ _ X Y)) as L. apply dist_lt in L. unfold about.
+  assert (0 < orient (p a) (p b) (p c) * (dist2 w (p a) - dist2 w y)) by (apply Rmult_lt_0_compat; lra). lra.
+Qed.
+
+Theorem met_half_plane N p a b (K : point -> Prop) E F : a <> N -> b <> N -> p a <> p b -> 0 <= E < F ->
+  (exists w, K w /\ - (E * dist (p a) (p b)) <= orient (p a) (p b) w) ->
+  exists y, close_to K F y /\ 0 < test_at N p a b N y.
+Proof.
+  intros A B D EF (w & Kw & H). pose proof (dist_pos _ _ D) as L. set (d := dist (p a) (p b)) in *.
+  set (k := (E + F) / 2 / d). assert (Kd : k * d = (E + F) / 2) by (unfold k; field; lra).
+  assert (Sq : d * d = dist2 (p a) (p b)) by (unfold d; apply dist_sq).
+  set (y := ((fst w - k * (snd (p b) - snd (p a)), snd w + k * (fst (p b) - fst (p a))) : point)).
+  exists y. split.
+  - exists w. split; [exact Kw |]. apply Rle_lt_trans with (k * d); [| lra].
+    apply le_of_squares; [lra |]. rewrite dist_sq. replace (k * d * (k * d)) with (k * k * (d * d)) by ring.
+    rewrite Sq. right. unfold y, dist2. simpl. ring.
+  - unfold test_at. destruct (Nat.eqb_spec a N); [congruence |]. destruct (Nat.eqb_spec b N); [congruence |].
+    rewrite Nat.eqb_refl. replace (orient (p a) (p b) y) with (orient (p a) (p b) w + k * dist2 (p a) (p b))
+      by (unfold y, orient, dist2; simpl; ring).
+    rewrite <- Sq. replace (k * (d * d)) with (k * d * d) by ring. rewrite Kd.
+    assert (E * d < (E + F) / 2 * d) by (apply Rmult_lt_compat_r; lra). lra.
+Qed.
