@@ -325,3 +325,31 @@ Proof.
     - intros a k A S K. apply H; [exact A | unfold pair in *; tauto | exact K]. }
   split; apply H.
 Qed.
+
+(* A chain [COV-2]: the first blocks the one end, the last the other end, what each of them blocks is connected, and
+   each two neighbours block a common place. Then the pair is not possible. *)
+Theorem chain_refutes N B i j (g : R -> R) (k : nat -> nat) n : (i < N)%nat -> (j < N)%nat -> xhi (B i) < xlo (B j) ->
+  (forall x t, ds (x, t) (B i) = ds (x, t) (B j) <-> x = g t) -> (forall m, (m <= n)%nat -> (k m < N)%nat) ->
+  blocks_end (B i) (end_down (B i) (B j)) (B (k 0%nat)) -> blocks_end (B i) (end_up (B i) (B j)) (B (k n)) ->
+  (forall m, (m <= n)%nat -> interval (fun t => blocks (g t, t) (B i) (B (k m)))) ->
+  (forall m, (m < n)%nat -> exists t, blocks (g t, t) (B i) (B (k m)) /\ blocks (g t, t) (B i) (B (k (S m)))) ->
+  ~ possible N B i j.
+Proof.
+  intros I J Ap Curve Ks Low High Parts Meet P. apply (tangents_suffice N B i j I J) in P.
+  destruct P as [[c [E Free]] | P].
+  - destruct c as [x t]. apply Curve in E. subst x.
+    destruct (blocks_near_down (B i) (B j) Ap g Curve _ Low) as [a Ha].
+    destruct (blocks_near_up (B i) (B j) Ap g Curve _ High) as [b Hb].
+    destruct (chain_covers (fun m s => blocks (g s, s) (B i) (B (k m))) n Parts Meet (Rmin a t) (Rmax b t) t)
+      as (m & M & Bl).
+    + specialize (Ha (Rmin a t) (Rmin_l a t)). unfold blocks. lra.
+    + specialize (Hb (Rmax b t) (Rmax_l b t)). unfold blocks. lra.
+    + left. split; [apply Rmin_r | apply Rmax_r].
+    + assert (Et : ds (g t, t) (B i) = ds (g t, t) (B j)) by now apply Curve.
+      apply (Free (k m)); [now apply Ks | | | exact Bl]; intros X; rewrite X in Bl; unfold blocks in Bl.
+      * pose proof (ds_le_dl (g t, t) (B i)). lra.
+      * pose proof (ds_le_dl (g t, t) (B j)). lra.
+  - apply (ends_exact N B i j I J Ap) in P. destruct P as [P | P].
+    + apply (P (k 0%nat)); [apply Ks; lia | exact Low].
+    + apply (P (k n)); [now apply Ks | exact High].
+Qed.
