@@ -353,3 +353,22 @@ Proof.
     + apply (P (k 0%nat)); [apply Ks; lia | exact Low].
     + apply (P (k n)); [now apply Ks | exact High].
 Qed.
+
+(* Where a site stops to block is a critical circle [CRIT-1]: of positive radius, and of three disjoint rectangles. *)
+Theorem stop_is_circle Y Z K (g : R -> R) t : xhi Y < xlo Z -> (forall x t, ds (x, t) Y = ds (x, t) Z <-> x = g t) ->
+  stops (fun s => ds (g s, s) Y - dl (g s, s) K) t ->
+  0 < ds (g t, t) Y /\ ds (g t, t) Z = ds (g t, t) Y /\ dl (g t, t) K = ds (g t, t) Y /\
+  forall z, inside z K -> ~ inside z Y /\ ~ inside z Z.
+Proof.
+  intros Ap Curve [E (a & L & Bl)].
+  assert (Same : forall s, ds (g s, s) Y = ds (g s, s) Z) by (intros s; now apply Curve).
+  assert (Off : forall z, inside z K -> ~ inside z Y /\ ~ inside z Z).
+  { intros z Iz. specialize (Bl a ltac:(lra)). specialize (Same a). pose proof (le_dl (g a, a) K z Iz).
+    split; intros X; pose proof (ds_le (g a, a) _ z X); lra. }
+  split; [| split; [now symmetry | split; [lra | exact Off]]].
+  destruct (Rle_lt_or_eq_dec 0 _ (ds_nonneg (g t, t) Y)) as [P | P]; [exact P | exfalso].
+  assert (W : (g t, t) = nearest (g t, t) Y /\ (g t, t) = nearest (g t, t) Z).
+  { split; apply dist_zero; [change (ds (g t, t) Y = 0) | change (ds (g t, t) Z = 0)]; [lra | rewrite <- Same; lra]. }
+  destruct W as [Wy Wz]. pose proof (nearest_inside (g t, t) Y) as Iy. pose proof (nearest_inside (g t, t) Z) as Iz.
+  rewrite <- Wy in Iy. rewrite <- Wz in Iz. destruct Iy as [[_ A] _]. destruct Iz as [[B _] _]. simpl in *. lra.
+Qed.
