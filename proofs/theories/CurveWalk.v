@@ -1,16 +1,45 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
-(* The walk along the curve of centres [COV-1]: from the blocker of a place to its next circle, until nobody blocks,
-  or the
-   blocker has no circle beyond. *)
+(* The walk along the curve of centres [COV-1]: from the blocker of a place to its next circle, until nobody blocks, or
+   the blocker has no circle beyond. *)
 From Coq Require Import Reals Lra Lia Psatz List Classical Wellfounded.
-From Dyadel Require Import Plane Distance Cells Legal Nerve Facing.
+From Dyadel Require Import Plane Distance Cells Legal Nerve Path Facing.
 Open Scope R_scope.
 
+(* The place at which what is positive at a stops to be so. *)
+Lemma first_stop (h : R -> R) a t : continuity h -> 0 < h a -> h t <= 0 -> a < t ->
+  exists c, a < c <= t /\ h c = 0 /\ forall s, a <= s < c -> 0 < h s.
+Proof.
+  intros K A T L. set (E s := a <= s <= t /\ forall r, a <= r <= s -> 0 < h r).
+  destruct (completeness E) as [c [Ub Least]].
+  - exists t. now intros s [[_ S] _].
+  - exists a. split; [lra |]. intros r Rr. now replace r with a by lra.
+  - assert (Ac : a <= c).
+    { apply Ub. split; [lra |]. intros r Rr. now replace r with a by lra. }
+    assert (Ct : c <= t) by (apply Least; now intros s [[_ S] _]).
+    assert (Before : forall s, a <= s < c -> 0 < h s).
+    { intros s S. apply NNPP. intros N. apply (Rlt_not_le c s); [lra |]. apply Least. intros e [Ie He].
+      apply Rnot_lt_le. intros Se. apply N, He. lra. }
+    assert (Z : h c = 0).
+    { destruct (Rtotal_order (h c) 0) as [P | [P | P]]; [| exact P |].
+      - destruct (near_negative h c K P) as [e [E0 H]]. destruct (Req_dec a c) as [-> | D]; [lra |].
+        assert (X : exists s, a <= s < c /\ c - e <= s).
+        { exists (Rmax a (c - e)). unfold Rmax. destruct (Rle_dec _ _); lra. }
+        destruct X as (s & S & S'). pose proof (Before s S). specialize (H s). rewrite Rabs_left in H by lra.
+        specialize (H ltac:(lra)). lra.
+      - destruct (near_positive h c K P) as [e [E0 H]]. destruct (Req_dec c t) as [-> | D]; [lra |].
+        assert (X : exists s, c < s <= t /\ s <= c + e).
+        { exists (Rmin t (c + e)). unfold Rmin. destruct (Rle_dec _ _); lra. }
+        destruct X as (s & S & S'). exfalso. apply (Rlt_not_le s c); [lra |]. apply Ub. split; [lra |]. intros r Rr.
+        destruct (Rlt_dec r c) as [Rc | Rc]; [apply Before; lra |]. apply H. rewrite Rabs_pos_eq; lra. }
+    exists c. split; [| now split]. split; [| exact Ct]. destruct (Req_dec a c) as [-> | D]; lra.
+Qed.
+
 Section Walk.
-(* Sites below n; along the curve, f k is positive where k blocks; where it is 0 is a circle of k, listed. *)
+(* Sites below n; along the curve, f k is positive where k blocks; where it stops to be so is a circle of k, listed. *)
 Variables (n : nat) (f : nat -> R -> R) (circles : nat -> list R).
 Variable continuous : forall k, (k < n)%nat -> continuity (f k).
-Variable listed : forall k t, (k < n)%nat -> f k t = 0 -> In t (circles k).
+Definition stops (h : R -> R) (t : R) : Prop := h t = 0 /\ exists a, a < t /\ forall s, a <= s < t -> 0 < h s.
+Variable listed : forall k t, (k < n)%nat -> stops (f k) t -> In t (circles k).
 (* Who blocks the end of the curve blocks all near it. *)
 Variable blocks_start : nat -> Prop.
 Variable near_start : forall k, (k < n)%nat -> blocks_start k -> exists T, forall t, t <= T -> 0 < f k t.
@@ -36,8 +65,8 @@ Inductive walks : spot -> bool -> Prop :=
 Lemma stops_at_circle k a t : (k < n)%nat -> 0 < f k a -> f k t <= 0 -> a < t -> exists c, In c (circles k) /\ a < c
   <= t.
 Proof.
-  intros K A T L. destruct (IVT_cor (f k) a t (continuous k K)) as [c [C Z]]; [lra | nra |].
-  exists c. split; [now apply listed |]. split; [| lra]. destruct (Req_dec a c) as [-> | D]; lra.
+  intros K A T L. destruct (first_stop (f k) a t (continuous k K) A T L) as (c & C & Z & Bl).
+  exists c. split; [apply listed; [exact K |] | lra]. split; [exact Z |]. exists a. split; [lra | exact Bl].
 Qed.
 
 (* Up to the next circle, k blocks; without one, for ever. *)
@@ -132,7 +161,7 @@ Theorem walk_possible N B i j (beta : R -> point) (circles : nat -> list R) (blo
   (i < N)%nat -> (j < N)%nat ->
   continuity (fun t => fst (beta t)) -> continuity (fun t => snd (beta t)) ->
   (forall c, ds c (B i) = ds c (B j) <-> exists t, c = beta t) ->
-  (forall k t, (k < N)%nat -> ds (beta t) (B i) - dl (beta t) (B k) = 0 -> In t (circles k)) ->
+  (forall k t, (k < N)%nat -> stops (fun s => ds (beta s) (B i) - dl (beta s) (B k)) t -> In t (circles k)) ->
   (forall k, (k < N)%nat -> blocks_start k -> exists T, forall t, t <= T -> 0 < ds (beta t) (B i) - dl (beta t) (B k))
     ->
   ((exists u, possible_far N B (pair i j) u /\ dot u (highest u (B i)) = dot u (highest u (B j))) <->
