@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-3.0-or-later
-"""House rules on the source text: layers, licence lines, lengths of files and functions.
+"""House rules on the source text: the top level, layers, licence lines, lengths of files and functions.
 
 Usage: sources.py ROOT   (prints every breach; exit status 1 when there is one)
 """
 import pathlib
 import re
+import subprocess
 import sys
 
 # What a layer may include besides itself: everything below it. layers in one bracket are side by side.
@@ -20,6 +21,7 @@ PUBLIC = ['status', 'dyadic certificate', 'rect', 'stream sites', 'oracle', 'pre
 CHECKER_MAY = ['dyadel/status.h', 'dyadel/dyadic.h', 'dyadel/certificate.h']
 # Lines of a file and of a function: below src, elsewhere.
 SOURCE_LINES, OTHER_LINES = (450, 40), (500, 60)
+TOP = {'src', 'include', 'tests', 'proofs', 'bench', 'meson.build', 'meson_options.txt', 'README.md', 'LICENSE'}
 
 
 def level(layer):
@@ -87,6 +89,15 @@ def check_static_names(root):
                 yield f'{path}: the static function {name} has the name of one in {seen[name].relative_to(root)}'
 
 
+def check_top(root):
+    """What is beside the rooms was left behind; where there is no git, folders of builds are passed over."""
+    listed = subprocess.run(['git', '-C', root, 'ls-files', '-z'], check=False, capture_output=True, text=True).stdout
+    names = {name.split('/')[0] for name in listed.split('\0')} if (root / '.git').exists() else {path.name for path in root.iterdir()}
+    for name in sorted(names - TOP - {''}):
+        if not name.startswith(('.', 'build')):
+            yield f'{root / name}: only {", ".join(sorted(TOP))} and names with a dot are at the top'
+
+
 def files(root):
     for folder in ('src', 'include', 'tests', 'bench', 'proofs'):
         for path in sorted((root / folder).rglob('*')):
@@ -96,6 +107,7 @@ def files(root):
 
 
 def breaches(root):
+    yield from check_top(root)
     yield from check_static_names(root)
     for path in files(root):
         text = path.read_text(encoding='utf-8')
