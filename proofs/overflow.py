@@ -45,10 +45,29 @@ FILES = {  # folder, functions left out, or all that are looked at
                                 'dyd_cert_read_pair', 'corners_add']),
     'cycle': ('checker', [], ['moebius', 'totient', 'cyclotomic', 'extend_cosines', 'dyd_cert_cycle_cosine']),
     'measure': ('checker', [], ['absolute_value', 'grid_place', 'turn_on_grid']),
+    'parts': ('checker', [], ['site_on_walk', 'dyd_cert_distinct']),
+    'faces': ('checker', [], ['next_common_set', 'dyd_cert_faces_common', 'dyd_cert_faces_share',
+                              'dyd_cert_faces_still', 'dyd_cert_faces_cover', 'dyd_cert_faces_left', 'mark_hull_chain',
+                              'corner_is_beyond']),
+    'number': ('checker', [], ['is_circular', 'is_exponential', 'is_leaf_of', 'value_is_leaf', 'value_makes_leaf',
+                               'make_angle']),
+    'algebra_read': ('checker', [], ['read_operand', 'read_op', 'scan_fraction', 'has_value']),
+    'pairs': ('checker', [], ['add_all_pairs']),
+    'quotient': ('checker', [], ['dyd_cert_quotient_neg', 'dyd_cert_quotient_invert']),
+    'enclosure': ('checker', [], ['dyd_cert_enclosure_init', 'dyd_cert_enclosure_set', 'dyd_cert_enclosure_set_q',
+                                  'dyd_cert_enclosure_sign', 'set_integer', 'enclosure_limit',
+                                  'dyd_cert_enclosure_add', 'dyd_cert_enclosure_neg']),
+    'inverse': ('checker', [], ['enclosure_set_at', 'is_narrower']),
+    'distance': ('checker', [], ['far_on_grid', 'near_on_grid']),
+    'still': ('checker', [], ['movers_count', 'movers_of', 'is_in_a_pair']),
+    'diagram': ('checker', [], ['polygon_goes_on', 'polygon_spot', 'dyd_cert_window_has',
+                                'dyd_cert_polygon_is_convex']),
 }
 PARTS = {  # tests of about four minutes at most; those but the first are of what reads and keeps the bytes of others
     'numbers': ['dyadic', 'sqrt_sign', 'convert', 'exact', 'tree', 'measure'],
     'texts': ['alloc', 'text', 'poly'], 'lines': ['read', 'checker'], 'lists': ['graph', 'sites', 'chain'],
+    'sets': ['parts', 'faces', 'still', 'diagram', 'pairs', 'number', 'quotient', 'algebra_read',
+             'enclosure', 'inverse', 'distance'],
     'blocks': ['algebra', 'algebra_bound', 'bracket', 'cycle', 'ties', 'boxes'],
 }
 EACH_EDGE = '''for (size_t e = 0; e < g->count; e++) {
@@ -240,6 +259,97 @@ static region square_region(int64_t x, int64_t y, int64_t side);
             (low == DYD_CERT_NONE || low < g->sites->count && g->start[low] < g->start[low + 1]);
             loop assigns v, low; loop variant g->sites->count - v; */ '''),
     ],
+    'parts': [
+        ('static uint32_t site_on_walk', '''typedef const maker *making;
+/*@ requires \\valid_read(m) && joined(m->g) && 0 < m->count && \\valid_read(m->walk + (0 .. m->count - 1)) &&
+      (\\forall integer k; 0 <= k < m->count ==> m->walk[k] < 2 * m->g->count);
+    assigns \\nothing; exits \\false; ensures \\result < SITES; */
+'''),
+        ('for (size_t q = 0; q < count; q++)\n    if (kept', '''/*@ loop invariant kept <= q <= count &&
+            (0 < q ==> 0 < kept); loop assigns q, kept, item[0 .. count - 1]; loop variant count - q; */ '''),
+    ],
+    'faces': [
+        ('while (*a < f->first', '''/*@ loop assigns *a, *b; */ '''),
+        ('for (uint32_t k; (k = next_common_set(f, &a, &b, i, j)) != DYD_CERT_NONE;) f', '''/*@ loop invariant
+            indexed(f); loop assigns a, b, k, f->covered[0 .. f->sets - 1]; */ '''),
+        ('while (next_common', '/*@ loop assigns a, b, count; */ '),
+        ('for (uint32_t k; (k = next_common_set(f, &a, &b, i, j)) != DYD_CERT_NONE;)\n',
+         '/*@ loop assigns a, b, k; */ '),
+        ('for (size_t k = 0; k < f->sets; k++) {\n    uint64_t', '''/*@ loop invariant k <= f->sets;
+            loop assigns k, left; loop variant f->sets - k; */ '''),
+        ('for (size_t q = 0; q < count; q++) {\n    uint32_t v', '''/*@ loop invariant q <= count && top <= q &&
+            (\\forall integer k; 0 <= k < top ==> stack[k] < SITES); loop assigns q, top, stack[0 .. count - 1];
+            loop variant count - q; */ '''),
+        ('static bool corner_is_beyond', '''typedef const dyd_cert_parts *group_of;
+/*@ requires \\valid_read(s) && s->count == SITES && \\valid_read(corner) && corner->i < SITES && \\valid_read(p) &&
+      r < 4294967295 && \\valid_read(p->start + (0 .. r + 1)) && p->start[r + 1] <= 1152921504606846976;
+    requires 0 < p->start[r + 1] ==> \\valid_read(p->site + (0 .. p->start[r + 1] - 1));
+    requires \\forall integer k; 0 <= k < p->start[r + 1] ==> p->site[k] < SITES;
+    assigns \\nothing; exits \\false; */
+'''),
+        ('for (size_t q = p->start[r]; q', '''/*@ loop assigns q; */ '''),
+        ('while (top > 1', '''/*@ assert v < SITES; */ /*@ loop invariant top <= \\at(top, LoopEntry);
+            loop assigns top; loop variant top; */ '''),
+        ('for (size_t q = 0; q < top', '''/*@ loop invariant q <= top; loop assigns q, hull[0 .. SITES - 1];
+            loop variant top - q; */ '''),
+    ],
+    'algebra_read': [
+        ('if (slash) *slash++ = 0;', '/*@ ghost size_t all = length_of(text); */ '),
+        ('mpz_set_ui(den, 1);', '''/*@ assert slash != \\null ==> ends(text, slash - 1 - text) &&
+            ends(slash, all - (slash - text)); */ '''),
+        ('mpz_init(g);\n  mpz_gcd(g, num', '/*@ admit \\separated(&g[0], num, den); */ '),
+        ('while (k < DYD_CERT_OPS', '''/*@ loop invariant 0 <= k <= 29; loop assigns k; loop variant 29 - k; */ '''),
+    ],
+    'pairs': [
+        ('for (size_t e = 0; e < c->legal.count', '''/*@ loop invariant e <= c->legal.count; loop assigns e, *b;
+            loop variant c->legal.count - e; */ '''),
+        ('for (size_t e = 0; e < c->open.count', '''/*@ loop invariant e <= c->open.count; loop assigns e, *b;
+            loop variant c->open.count - e; */ '''),
+    ],
+    'quotient': [
+        ('for (size_t t = 0; t < x->num.count; t++) mpz_neg', '''/*@ loop invariant t <= x->num.count &&
+            (\\forall integer k; 0 <= k < x->num.count ==> whole(&x->num.term[k].c[0]));
+            loop assigns t, x->num.term[0 .. x->num.count - 1].c[0]; loop variant x->num.count - t; */ '''),
+    ],
+    'distance': [
+        ('static dyd_cert_area far_on_grid', '''typedef const grid_box *box_of;
+typedef const grid_site *site_of;
+/*@ predicate box(box_of b) = \\valid_read(b) && (\\forall integer k; 0 <= k < 4 ==>
+      -1152921504606846976 <= b->e[k] <= 1152921504606846976); */
+/*@ requires box(q) && \\valid_read(g) && box(&g->box); assigns \\nothing; exits \\false; */
+'''),
+        ('static dyd_cert_area near_on_grid', '''/*@ requires box(q) && box(b); assigns \\nothing; exits \\false; */
+'''),
+        ('for (int a = 0; a < 4; a += 2) {', '''/*@ loop invariant a == 0 || a == 2 || a == 4;
+            loop assigns a, sum; loop variant 4 - a; */ '''),
+    ],
+    'still': [
+        ('static void movers_clear', '''typedef const movers *moving;
+/*@ predicate moves(moving m) = \\valid_read(m) && (0 < SITES ==> \\valid_read(m->movable + (0 .. SITES - 1))) &&
+      \\valid(m->start + (0 .. SITES + 1)) && \\separated(m, m->start + (0 .. SITES + 1)); */
+'''),
+        ('static void movers_count', '''/*@ requires moves(m) && pairs(edges, SITES) &&
+      \\separated(m->start + (0 .. SITES + 1), m->movable + (0 .. SITES - 1), edges,
+      edges->item + (0 .. edges->count - 1)); assigns m->start[0 .. SITES + 1]; exits \\false; */
+'''),
+        ('static size_t movers_of', '''/*@ requires moves(m) && i < SITES && \\valid(of) &&
+      \\separated(of, m, m->start + (0 .. SITES + 1)) && m->start[i] <= 2147483648 &&
+      \\valid_read(m->of + (0 .. m->start[i])) && m->start[i] <= m->start[i + 1]; assigns *of; exits \\false; */
+'''),
+        ('static bool is_in_a_pair', '''/*@ requires \\valid_read(c) && pairs(&c->legal, SITES) &&
+      pairs(&c->open, SITES); assigns \\nothing; exits \\false; */
+'''),
+        ('for (size_t e = 0; e < edges->count; e++) {\n    const dyd_cert_edge *p = &edges->item[e];\n'
+         '    if (m->movable[p->j]) m->start',
+         '''/*@ loop invariant e <= edges->count; loop assigns e, m->start[0 .. SITES + 1];
+            loop variant edges->count - e; */ '''),
+    ],
+    'diagram': [
+        ('for (size_t k = 0; k < p->points; k++) {', '''/*@ loop invariant k <= p->points && begins <= k;
+            loop assigns k, begins; loop variant p->points - k; */ '''),
+        ('for (int a = 0; a < 2; a++)\n    if (dyd_exact_cmp', '''/*@ loop invariant 0 <= a <= 2; loop assigns a;
+            loop variant 2 - a; */ '''),
+    ],
     'read': [
         ('while (*p', '''/*@ loop invariant 0 <= p - text <= stop(text) && p == text + (p - text);
             loop assigns p; loop variant stop(text) - (p - text); */ '''),
@@ -325,6 +435,25 @@ FAULTS = [  # file, function, what is there, what takes its place
     ('boxes', 'region_part', 'out->corner[1 - k][a]', 'out->corner[4 - k][a]'),
     ('boxes', 'square_region', 'r.corner[c][1] = y', 'r.corner[c + 1][1] = y'),
     ('boxes', 'far_from_corner', 'b->e[2 * a + 1] - c[a]', 'b->e[2 * a + 3] - c[a]'),
+    ('parts', 'site_on_walk', 'm->walk[q % m->count]', 'm->walk[q]'),
+    ('parts', 'dyd_cert_distinct', 'item[kept - 1] != item[q]', 'item[kept - 2] != item[q]'),
+    ('faces', 'next_common_set', 'uint32_t x = f->of[*a]', 'uint32_t x = f->of[*a + 1]'),
+    ('faces', 'mark_hull_chain', 'stack[top - 2]', 'stack[top - 3]'),
+    ('faces', 'corner_is_beyond', 'q < p->start[r + 1]', 'q <= p->start[r + 1]'),
+    ('number', 'is_leaf_of', 'of = a->number[a->leaf[k].number]', 'of = a->number[a->leaf[k].number + 1]'),
+    ('number', 'value_makes_leaf', 'k == DYD_CERT_LEAVES || !value_is_leaf', '!value_is_leaf'),
+    ('number', 'make_angle', '  if (s == DYD_CERT_LEAVES) return DYD_CERT_LEAVES;\n', ''),
+    ('algebra_read', 'read_operand', '  if (!a->count) return dyd_cert_reject(in, "there is no number before");\n', ''),
+    ('algebra_read', 'read_op', 'dyd_cert_op_name((dyd_cert_op)k)',
+     'dyd_cert_op_name((dyd_cert_op)(k + 1))'),
+    ('pairs', 'add_all_pairs', 'c->open.item[e].i,', 'c->open.item[e + 1].i,'),
+    ('quotient', 'dyd_cert_quotient_neg', 'mpz_neg(x->num.term[t].c,', 'mpz_neg(x->num.term[t + 1].c,'),
+    ('enclosure', 'dyd_cert_enclosure_set_q', 'mpz_cdiv_q(x->hi, x->lo, den)', 'mpz_cdiv_q(x->hi, x->lo, x->hi)'),
+    ('inverse', 'is_narrower', 'mpz_sub(wide, x->hi, x->lo)', 'mpz_sub(wide, x->hi, x[1].lo)'),
+    ('distance', 'far_on_grid', 'right = g->box.e[a + 1]', 'right = g->box.e[a + 3]'),
+    ('distance', 'near_on_grid', 'q->e[a + 1], right', 'q->e[2 * a + 1], right'),
+    ('still', 'movers_count', 'm->start[p->i + 2]++', 'm->start[p->i + 3]++'),
+    ('diagram', 'polygon_goes_on', '(k + 1) % p->points', '(k + 1)'),
 ]
 ITEMS = {'start': 'sizes', 'term': 'terms', 'digits': 'chars', 'den': 'numbers', 'place': 'places'}  # of lists, by name
 EXTRA = {'alloc': ['-warn-unsigned-overflow'], 'text': ['-wp-literals'], 'poly': ['-wp-literals'],

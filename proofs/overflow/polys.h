@@ -19,16 +19,16 @@ typedef const dyd_cert_algebra *numbers;
       (0 < a->cycle ==> \valid(a->cosine + (0 .. a->cycle - 1)) && \min(2, a->cycle) <= a->cosines &&
         \separated(a->cosine + (0 .. a->cycle - 1), a)); */
 
-/*@ requires \valid(p) && \valid_read(q) && \valid(r) && p != q; assigns *p, r->nomem; exits \false; */
+/*@ requires \valid(p) && \valid_read(q) && \valid(r) && p != q; assigns *p, r->nomem, r->work; exits \false; */
 bool dyd_cert_poly_set(dyd_cert_poly *p, const dyd_cert_poly *q, dyd_cert_relations *r);
-/*@ requires \valid(p) && whole(z) && \valid(r); assigns *p, r->nomem; exits \false; */
+/*@ requires \valid(p) && whole(z) && \valid(r); assigns *p, r->nomem, r->work; exits \false; */
 bool dyd_cert_poly_set_z(dyd_cert_poly *p, mpz_srcptr z, dyd_cert_relations *r);
 /*@ requires \valid(p) && \valid_read(q) && \valid(r) && (sign == 1 || sign == -1) && p != q;
-    assigns *p, r->nomem; exits \false; */
+    assigns *p, r->nomem, r->work; exits \false; */
 bool dyd_cert_poly_add(dyd_cert_poly *p, const dyd_cert_poly *q, int sign, dyd_cert_relations *r);
-/*@ requires \valid(p) && \valid_read(q) && \valid(r); assigns *p, r->nomem; exits \false; */
+/*@ requires \valid(p) && \valid_read(q) && \valid(r); assigns *p, r->nomem, r->work; exits \false; */
 bool dyd_cert_poly_mul(dyd_cert_poly *p, const dyd_cert_poly *q, dyd_cert_relations *r);
-/*@ requires \valid(x) && whole(z) && \valid(r); assigns *x, r->nomem; exits \false; */
+/*@ requires \valid(x) && whole(z) && \valid(r); assigns *x, r->nomem, r->work; exits \false; */
 bool dyd_cert_quotient_mul_z(dyd_cert_quotient *x, mpz_srcptr z, dyd_cert_relations *r);
 
 #endif

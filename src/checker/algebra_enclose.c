@@ -199,7 +199,7 @@ void dyd_cert_poly_enclose(dyd_cert_enclosure *out, dyd_cert_algebra *a, const d
   dyd_cert_enclosure_init(&power);
   mpz_set_ui(out->lo, 0);
   mpz_set_ui(out->hi, 0);
-  out->known = true;
+  out->known = dyd_cert_count_work(&a->relations, q->count * (1 + (size_t)p / GMP_NUMB_BITS));
   for (size_t t = 0; t < q->count && out->known; t++) {
     mpz_mul_2exp(term.lo, q->term[t].c, (mp_bitcnt_t)p);
     mpz_set(term.hi, term.lo);

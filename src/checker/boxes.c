@@ -94,7 +94,7 @@ static void make_blocker(blocker *b, const search *s, const region *r, uint32_t 
 
 /* The nearest at each corner, and in a cone the farthest out. */
 static int choose_blockers(blocker *b, const search *s, const region *r, const uint32_t *site, size_t count) {
-  int kinds = r->corners + (r->cone ? 2 : 0);
+  int kinds = !count ? 0 : r->corners + (r->cone ? 2 : 0);
   for (int k = 0; k < kinds; k++) {
     const int64_t *corner = r->corner[k % r->corners];
     uint32_t best = site[0];

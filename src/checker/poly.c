@@ -27,8 +27,15 @@ static dyd_cert_term *terms_alloc(size_t count, dyd_cert_relations *r) {
   return term;
 }
 
+/* Counts the terms of q and their limbs, besides `more`; false: it is too much. */
+static bool count_terms_of(dyd_cert_relations *r, const dyd_cert_poly *q, size_t more) {
+  for (size_t t = 0; t < q->count; t++) more += 1 + mpz_size(q->term[t].c);
+  return dyd_cert_count_work(r, more);
+}
+
 bool dyd_cert_poly_set(dyd_cert_poly *p, const dyd_cert_poly *q, dyd_cert_relations *r) {
   DYD_INVARIANT(p != q);
+  if (!count_terms_of(r, q, 0)) return false;
   dyd_cert_term *term = terms_alloc(q->count, r);
   if (!term) return false;
   dyd_cert_poly_clear(p);
@@ -116,6 +123,7 @@ bool dyd_cert_poly_add_scaled(dyd_cert_poly *p, const dyd_cert_poly *q, mpz_srcp
   dyd_cert_poly sum = {0};
   DYD_INVARIANT(p != q);
   if (!mpz_sgn(c) || !q->count) return true;
+  if (!count_terms_of(r, q, p->count + q->count * mpz_size(c))) return false;
   sum.term = terms_alloc(p->count + q->count, r);
   bool fits = sum.term && terms_merge(&sum, p, q, c, m);
   if (sum.term) {

@@ -11,11 +11,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Leaves, terms of a polynomial, bits of a coefficient, exponents: at most. */
+/* Leaves, terms of a polynomial, bits of a coefficient, exponents, work: at most. */
 #define DYD_CERT_LEAVES 64
 #define DYD_CERT_TERMS ((size_t)1 << 14)
 #define DYD_CERT_BITS ((size_t)1 << 18)
 #define DYD_CERT_EXPONENT 4096
+#define DYD_CERT_WORK ((uint64_t)1 << 30)
 
 typedef struct dyd_cert_term {
   mpz_t c;
@@ -34,12 +35,20 @@ typedef struct dyd_cert_relation {
   dyd_cert_poly rest;
 } dyd_cert_relation;
 
-/* nomem: memory was exhausted, and what returned false for it says nothing. */
+/* nomem: memory was exhausted, and what returned false for it says nothing. work: terms that sums and products went
+ * through, and limbs of their numbers; those of a long product are as many as pairs of terms, and more. */
 typedef struct dyd_cert_relations {
   dyd_cert_relation leaf[DYD_CERT_LEAVES];
   size_t count;
+  uint64_t work;
   bool nomem;
 } dyd_cert_relations;
+
+/* false: it is too much in all, as for all that follows. */
+static inline bool dyd_cert_count_work(dyd_cert_relations *r, size_t work) {
+  r->work += work;
+  return r->work <= DYD_CERT_WORK;
+}
 
 /* Where something is beyond the limits, or memory is exhausted, these return false, and the polynomial that they were
  * to change is unspecified. p is not q, but for products. */

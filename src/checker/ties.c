@@ -314,9 +314,9 @@ static dyd_status read_fact(dyd_cert_ties *t, dyd_cert_reader *in, dyd_cert_bloc
   if (st == DYD_OK) st = read_members(t, in, b, &by_bound);
   if (st != DYD_OK) return st;
   f.count = t->members - f.first;
-  uint32_t *site = t->member + f.first;
   if (f.kind == DYD_CERT_SAME ? f.count != 2 : f.count < (f.kind == DYD_CERT_LINE ? 3U : 4U))
     return dyd_cert_reject(in, "the fact has a wrong number of points");
+  uint32_t *site = t->member + f.first;
   if (!dyd_cert_fact_holds(b, f.kind, site, f.count, by_bound))
     return b->algebra.relations.nomem ? dyd_fail_nomem(in->err) : dyd_cert_reject(in, "the fact is not seen to hold");
   if (dyd_cert_distinct(site, f.count) != f.count) return dyd_cert_reject(in, "a point occurs twice");
@@ -379,7 +379,10 @@ dyd_status dyd_cert_ties_read(dyd_cert_ties *t, dyd_cert_reader *in, const dyd_c
   dyd_cert_block *b = calloc(1, sizeof *b);
   if (!b) return dyd_fail_nomem(in->err);
   t->block[t->blocks++] = b;
-  return read_block(b, t, in, s);
+  b->algebra.relations.work = t->work;
+  dyd_status st = read_block(b, t, in, s);
+  t->work = b->algebra.relations.work;
+  return st;
 }
 
 /* ---- what follows ---- */

@@ -36,6 +36,7 @@ typedef struct dyd_cert_ties {
   uint32_t *member;
   size_t members, member_cap;
   size_t identities, bounds; /* facts by what proves them */
+  uint64_t work;             /* of all blocks */
 } dyd_cert_ties;
 
 void dyd_cert_ties_clear(dyd_cert_ties *t);

@@ -160,9 +160,10 @@ static dyd_status facts_text(char **text, size_t *taken, dyd_cert_ties *t, const
   return st;
 }
 
-/* Writes one block for these facts; *taken: how many of them it has. */
-static dyd_status put_block(FILE *out, size_t *taken, const dyd_proof *p, const fact *list, size_t count) {
-  dyd_cert_ties t = {0};
+/* Writes one block for these facts; *taken: how many of them it has. *work: that of the blocks written. */
+static dyd_status put_block(FILE *out, size_t *taken, uint64_t *work, const dyd_proof *p, const fact *list,
+                            size_t count) {
+  dyd_cert_ties t = {.work = *work};
   char *text = NULL, *facts = NULL;
   size_t size;
   uint32_t lines;
@@ -172,6 +173,7 @@ static dyd_status put_block(FILE *out, size_t *taken, const dyd_proof *p, const 
   if (st == DYD_OK && text) st = block_check(&good, &t, text, size, lines, p);
   if (st == DYD_OK && good) st = facts_text(&facts, taken, &t, list, count);
   if (st == DYD_OK && *taken) fprintf(out, "algebra %" PRIu32 "\n%sfacts %zu\n%s", lines, text, *taken, facts);
+  if (*taken) *work = t.block[0]->algebra.relations.work;
   free(facts);
   free(text);
   dyd_cert_ties_clear(&t);
@@ -199,20 +201,21 @@ static dyd_status facts_gather(fact **list, size_t *count, const dyd_proof *p, b
   return DYD_OK;
 }
 
-static dyd_status put_facts(FILE *out, const dyd_proof *p, bool same) {
+static dyd_status put_facts(FILE *out, uint64_t *work, const dyd_proof *p, bool same) {
   fact *list = NULL;
   size_t count = 0, taken = 0;
   dyd_status st = facts_gather(&list, &count, p, same);
-  if (st == DYD_OK && count) st = put_block(out, &taken, p, list, count);
+  if (st == DYD_OK && count) st = put_block(out, &taken, work, p, list, count);
   for (size_t q = 0; q < count && st == DYD_OK && !taken && count > 1; q++) {
     size_t one;
-    st = put_block(out, &one, p, &list[q], 1);
+    st = put_block(out, &one, work, p, &list[q], 1);
   }
   free(list);
   return st;
 }
 
 dyd_status dyd_proof_put_ties(FILE *out, const dyd_proof *p) {
-  dyd_status st = put_facts(out, p, true);
-  return st == DYD_OK ? put_facts(out, p, false) : st;
+  uint64_t work = 0;
+  dyd_status st = put_facts(out, &work, p, true);
+  return st == DYD_OK ? put_facts(out, &work, p, false) : st;
 }

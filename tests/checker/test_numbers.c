@@ -4,6 +4,7 @@
  * refused. All of them with every allocation failing once, too. */
 #include "checker/exhaust.h"
 #include "checker/number_cases.h"
+#include "checker/ties.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -166,6 +167,91 @@ static void too_much_work(void **state) {
   mpz_clear(root);
 }
 
+/* x + x^2 + ... in leaf x. */
+static void set_powers(dyd_cert_poly *p, size_t leaf, size_t terms, dyd_cert_relations *r) {
+  dyd_cert_poly power = {0};
+  for (size_t k = 1; k <= terms; k++) {
+    assert_true(dyd_cert_poly_set_leaf(&power, leaf, r));
+    power.term->e[leaf] = (uint16_t)k;
+    assert_true(dyd_cert_poly_add(p, &power, 1, r));
+  }
+  dyd_cert_poly_clear(&power);
+}
+
+/* Does the product of two sums of so many terms fit, where so much work is left? *work: what it took. */
+static bool product_fits(uint64_t *work, size_t terms, uint64_t left) {
+  static dyd_cert_relations r;
+  dyd_cert_poly p = {0}, q = {0};
+  r = (dyd_cert_relations){.count = 2};
+  set_powers(&p, 0, terms, &r);
+  set_powers(&q, 1, terms, &r);
+  r.work = DYD_CERT_WORK - left;
+  bool fits = dyd_cert_poly_mul(&p, &q, &r);
+  if (fits) assert_int_equal(p.count, terms * terms);
+  *work = r.work - (DYD_CERT_WORK - left);
+  dyd_cert_poly_clear(&p);
+  dyd_cert_poly_clear(&q);
+  return fits;
+}
+
+/* Every pair of terms is counted, every limb of enclosures, every copy; what is beyond the limit is not made. */
+static void work_is_counted(void **state) {
+  (void)state;
+  static dyd_cert_algebra a;
+  dyd_cert_enclosure x;
+  dyd_cert_poly five = {0}, copy = {0};
+  mpz_t z;
+  uint64_t work, rest;
+  for (size_t terms = 1; terms <= 64; terms *= 4) {
+    assert_true(product_fits(&work, terms, DYD_CERT_WORK));
+    assert_in_range(work, terms * terms, SIZE_MAX);
+    assert_true(product_fits(&rest, terms, work));
+    assert_false(product_fits(&rest, terms, work - 1));
+  }
+  mpz_init_set_ui(z, 5);
+  dyd_cert_enclosure_init(&x);
+  assert_true(dyd_cert_poly_set_z(&five, z, &a.relations));
+  for (int over = 0; over < 2; over++) {
+    a.relations.work = DYD_CERT_WORK - 65 + (uint64_t)over;
+    dyd_cert_poly_enclose(&x, &a, &five, 64 * GMP_NUMB_BITS);
+    assert_int_equal(x.known, !over);
+    a.relations.work = DYD_CERT_WORK - 2 + (uint64_t)over;
+    assert_int_equal(dyd_cert_poly_set(&copy, &five, &a.relations), !over);
+  }
+  dyd_cert_poly_clear(&copy);
+  dyd_cert_poly_clear(&five);
+  dyd_cert_enclosure_clear(&x);
+  mpz_clear(z);
+}
+
+/* What reading a block after so much work says. */
+static dyd_status read_after(uint64_t *work, char *text) {
+  dyd_error err;
+  dyd_cert_sites sites = {.count = 1};
+  dyd_cert_ties t = {.work = *work};
+  dyd_cert_reader in = {.in = fmemopen(text, strlen(text), "r"), .err = &err};
+  dyd_status st = dyd_cert_next_line(&in);
+  if (st == DYD_OK) st = dyd_cert_ties_read(&t, &in, &sites);
+  *work = t.work;
+  dyd_cert_reader_clear(&in);
+  fclose(in.in);
+  dyd_cert_ties_clear(&t);
+  return st;
+}
+
+/* Blocks share the work there may be: a small one is refused behind as much. */
+static void work_is_shared(void **state) {
+  (void)state;
+  char text[] = "algebra 3\ncallback\n+ 0 0\n* 1 1\npoints 0\nfacts 0\n";
+  uint64_t work = 0;
+  assert_int_equal(read_after(&work, text), DYD_OK);
+  assert_in_range(work, 3, 300);
+  for (uint64_t over = 0; over < 2; over++) {
+    uint64_t before = DYD_CERT_WORK - work + over;
+    assert_int_equal(read_after(&before, text), over ? DYD_E_PARSE : DYD_OK);
+  }
+}
+
 /* ---- memory ---- */
 
 static size_t bytes_now, bytes_most;
@@ -262,9 +348,9 @@ static void facts(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(known_values),   cmocka_unit_test(exact_values),
-                                     cmocka_unit_test(refusals),       cmocka_unit_test(limits),
-                                     cmocka_unit_test(facts),          cmocka_unit_test(too_much_work),
-                                     cmocka_unit_test(no_long_numbers)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(known_values),    cmocka_unit_test(exact_values),    cmocka_unit_test(refusals),
+      cmocka_unit_test(limits),          cmocka_unit_test(facts),           cmocka_unit_test(too_much_work),
+      cmocka_unit_test(no_long_numbers), cmocka_unit_test(work_is_counted), cmocka_unit_test(work_is_shared)};
   return cmocka_run_group_tests_name("numbers of certificates", tests, NULL, NULL);
 }
