@@ -55,7 +55,7 @@ FILES = {  # folder, functions left out, or all that are looked at
     'pairs': ('checker', [], ['add_all_pairs']),
     'quotient': ('checker', [], ['dyd_cert_quotient_neg', 'dyd_cert_quotient_invert']),
     'enclosure': ('checker', [], ['dyd_cert_enclosure_init', 'dyd_cert_enclosure_set', 'dyd_cert_enclosure_set_q',
-                                  'dyd_cert_enclosure_sign', 'set_integer', 'enclosure_limit',
+                                  'dyd_cert_enclosure_sign', 'dyd_cert_enclosure_set_si', 'enclosure_limit',
                                   'dyd_cert_enclosure_add', 'dyd_cert_enclosure_neg']),
     'inverse': ('checker', [], ['enclosure_set_at', 'is_narrower']),
     'distance': ('checker', [], ['far_on_grid', 'near_on_grid']),

@@ -12,7 +12,7 @@ void dyd_cert_enclosure_set_q(dyd_cert_enclosure *x, mpz_srcptr num, mpz_srcptr 
 /*@ requires interval(x); assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
 int dyd_cert_enclosure_sign(const dyd_cert_enclosure *x);
 /*@ requires \valid(x) && interval(x) && 0 <= p <= 1073741824; assigns *x; exits \false; ensures interval(x); */
-static void set_integer(dyd_cert_enclosure *x, long z, long p);
+void dyd_cert_enclosure_set_si(dyd_cert_enclosure *x, long z, long p);
 /*@ requires \valid(x) && interval(x) && 0 <= p <= 1073741824; assigns x->known; exits \false; */
 static void enclosure_limit(dyd_cert_enclosure *x, long p);
 /*@ requires \valid(x) && interval(x) && interval(y) && (x == y || \separated(x, y)); assigns *x; exits \false;

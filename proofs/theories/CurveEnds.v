@@ -98,28 +98,26 @@ Proof.
   rewrite E in F. lra.
 Qed.
 
+(* By corners, both of them highest in direction w; `first`: what makes them so. *)
+Ltac at_corners p q first :=
+  apply (ends_by_corners _ p q); unfold ends_at, dot, highest; simpl; first; repeat destruct (Rle_dec 0 _); try lra.
+
 Lemma up_is_end : is_end end_up.
 Proof.
   pose proof (x_ordered Y). pose proof (x_ordered Z). unfold end_up. destruct (Rlt_dec (yhi Z) (yhi Y)) as [L | L].
-  - apply (ends_by_corners _ (xhi Y, yhi Y) (xhi Z, yhi Z)); unfold ends_at, dot, highest; simpl;
-      repeat destruct (Rle_dec 0 _); try lra.
+  - at_corners (xhi Y, yhi Y) (xhi Z, yhi Z) idtac.
   - destruct (Req_dec (yhi Y) (yhi Z)) as [E | E].
-    + apply (ends_by_corners _ (xhi Y, yhi Y) (xlo Z, yhi Z)); unfold ends_at, dot, highest; simpl;
-        rewrite ?E; repeat destruct (Rle_dec 0 _); try lra.
-    + apply (ends_by_corners _ (xlo Y, yhi Y) (xlo Z, yhi Z)); unfold ends_at, dot, highest; simpl;
-        repeat destruct (Rle_dec 0 _); try lra.
+    + at_corners (xhi Y, yhi Y) (xlo Z, yhi Z) ltac:(rewrite ?E).
+    + at_corners (xlo Y, yhi Y) (xlo Z, yhi Z) idtac.
 Qed.
 
 Lemma down_is_end : is_end end_down.
 Proof.
   pose proof (x_ordered Y). pose proof (x_ordered Z). unfold end_down. destruct (Rlt_dec (ylo Y) (ylo Z)) as [L | L].
-  - apply (ends_by_corners _ (xhi Y, ylo Y) (xhi Z, ylo Z)); unfold ends_at, dot, highest; simpl;
-      repeat destruct (Rle_dec 0 _); try lra.
+  - at_corners (xhi Y, ylo Y) (xhi Z, ylo Z) idtac.
   - destruct (Req_dec (ylo Y) (ylo Z)) as [E | E].
-    + apply (ends_by_corners _ (xhi Y, ylo Y) (xlo Z, ylo Z)); unfold ends_at, dot, highest; simpl;
-        rewrite ?E; repeat destruct (Rle_dec 0 _); try lra.
-    + apply (ends_by_corners _ (xlo Y, ylo Y) (xlo Z, ylo Z)); unfold ends_at, dot, highest; simpl;
-        repeat destruct (Rle_dec 0 _); try lra.
+    + at_corners (xhi Y, ylo Y) (xlo Z, ylo Z) ltac:(rewrite ?E).
+    + at_corners (xlo Y, ylo Y) (xlo Z, ylo Z) idtac.
 Qed.
 
 (* Beyond the height of both in direction w. *)

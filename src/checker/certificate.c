@@ -76,20 +76,21 @@ static dyd_status checker_end(dyd_checker *c) {
 
 /* ---- what is stated and not proved [CERT-8] ---- */
 
+/* stays: it is a fixpoint, and one is proved. */
 static bool outcome_is_proved(const dyd_checker *c, bool stays) {
   const dyd_certificate_report *r = &c->report;
   bool complete = !r->unproved && !r->capped, of_diagram = strncmp(r->goal, "voronoi", 7) == 0;
   if (strcmp(r->outcome, "decided") == 0) return complete;
   if (strcmp(r->outcome, "certified") == 0)
     return strcmp(r->goal, "voronoi hausdorff") == 0 ? r->distance_proved : of_diagram || complete;
-  return strcmp(r->outcome, "fixpoint") == 0 && stays;
+  return stays;
 }
 
 dyd_status dyd_checker_settle(dyd_checker *c, const bool *still) {
   dyd_certificate_report *r = &c->report;
-  bool stays;
-  dyd_status st = dyd_checker_stays(&stays, c, still);
-  if (st != DYD_OK) return dyd_fail_nomem(c->in.err);
+  bool stays = false;
+  if (strcmp(r->outcome, "fixpoint") == 0 && dyd_checker_stays(&stays, c, still) != DYD_OK)
+    return dyd_fail_nomem(c->in.err);
   if (r->legal_unproved) r->gaps |= DYD_GAP_LEGAL;
   if (r->unproved && !r->capped) r->gaps |= DYD_GAP_ILLEGAL;
   if (r->claims) r->gaps |= DYD_GAP_CLAIMS;

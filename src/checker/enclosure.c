@@ -34,7 +34,7 @@ int dyd_cert_enclosure_sign(const dyd_cert_enclosure *x) {
   return mpz_sgn(x->lo) > 0 ? 1 : mpz_sgn(x->hi) < 0 ? -1 : 0;
 }
 
-static void set_integer(dyd_cert_enclosure *x, long z, long p) {
+void dyd_cert_enclosure_set_si(dyd_cert_enclosure *x, long z, long p) {
   mpz_set_si(x->lo, z);
   mpz_mul_2exp(x->lo, x->lo, (mp_bitcnt_t)p);
   mpz_set(x->hi, x->lo);
@@ -111,13 +111,13 @@ void dyd_cert_enclosure_div(dyd_cert_enclosure *x, const dyd_cert_enclosure *y, 
 void dyd_cert_enclosure_pow(dyd_cert_enclosure *x, long n, long p) {
   dyd_cert_enclosure power;
   dyd_cert_enclosure_init(&power);
-  set_integer(&power, 1, p);
+  dyd_cert_enclosure_set_si(&power, 1, p);
   for (unsigned long k = n < 0 ? 0 - (unsigned long)n : (unsigned long)n; k && x->known; k >>= 1) {
     if (k & 1) dyd_cert_enclosure_mul(&power, x, p);
     if (k > 1) dyd_cert_enclosure_mul(x, x, p);
   }
   power.known = power.known && x->known;
-  set_integer(x, 1, p);
+  dyd_cert_enclosure_set_si(x, 1, p);
   if (n < 0)
     dyd_cert_enclosure_div(x, &power, p);
   else
@@ -234,8 +234,8 @@ void dyd_cert_enclosure_exp(dyd_cert_enclosure *x, long p) {
   dyd_cert_enclosure_init(&term);
   dyd_cert_enclosure_rescale(x, more);
   dyd_cert_enclosure_rescale(x, -halved);
-  set_integer(&sum, 1, q);
-  set_integer(&term, 1, q);
+  dyd_cert_enclosure_set_si(&sum, 1, q);
+  dyd_cert_enclosure_set_si(&term, 1, q);
   for (unsigned long n = 1; taylor_step(&term, x, n, q); n++) dyd_cert_enclosure_add(&sum, &term);
   add_remainder(&sum);
   for (long k = 0; k < halved; k++) dyd_cert_enclosure_mul(&sum, &sum, q);
@@ -249,7 +249,7 @@ void dyd_cert_enclosure_exp(dyd_cert_enclosure *x, long p) {
 static void double_angle(dyd_cert_enclosure *c, dyd_cert_enclosure *s, long p) {
   dyd_cert_enclosure one;
   dyd_cert_enclosure_init(&one);
-  set_integer(&one, 1, p);
+  dyd_cert_enclosure_set_si(&one, 1, p);
   dyd_cert_enclosure_mul(s, c, p);
   dyd_cert_enclosure_add(s, s);
   dyd_cert_enclosure_mul(c, c, p);
@@ -267,9 +267,9 @@ static void double_angle(dyd_cert_enclosure *c, dyd_cert_enclosure *s, long p) {
 static void taylor_cos_sin(dyd_cert_enclosure *c, dyd_cert_enclosure *s, const dyd_cert_enclosure *r, long p) {
   dyd_cert_enclosure term;
   dyd_cert_enclosure_init(&term);
-  set_integer(c, 1, p);
-  set_integer(s, 0, p);
-  set_integer(&term, 1, p);
+  dyd_cert_enclosure_set_si(c, 1, p);
+  dyd_cert_enclosure_set_si(s, 0, p);
+  dyd_cert_enclosure_set_si(&term, 1, p);
   for (unsigned long n = 1; taylor_step(&term, r, n, p); n++) {
     dyd_cert_enclosure *sum = n & 1 ? s : c;
     (n & 2 ? dyd_cert_enclosure_sub : dyd_cert_enclosure_add)(sum, &term);

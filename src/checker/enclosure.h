@@ -17,6 +17,8 @@ typedef struct dyd_cert_enclosure {
 void dyd_cert_enclosure_init(dyd_cert_enclosure *x);
 void dyd_cert_enclosure_clear(dyd_cert_enclosure *x);
 void dyd_cert_enclosure_set(dyd_cert_enclosure *x, const dyd_cert_enclosure *y);
+/* x = z. */
+void dyd_cert_enclosure_set_si(dyd_cert_enclosure *x, long z, long p);
 /* x = num / den, den > 0. */
 void dyd_cert_enclosure_set_q(dyd_cert_enclosure *x, mpz_srcptr num, mpz_srcptr den, long p);
 /* The sign; 0: not known, or 0. */

@@ -68,8 +68,7 @@ void dyd_cert_enclosure_log_from(dyd_cert_enclosure *out, const dyd_cert_enclosu
   dyd_cert_enclosure e, one;
   dyd_cert_enclosure_init(&e);
   dyd_cert_enclosure_init(&one);
-  mpz_ui_pow_ui(one.lo, 2, (unsigned long)p);
-  mpz_set(one.hi, one.lo);
+  dyd_cert_enclosure_set_si(&one, 1, p);
   enclosure_set_at(&e, y);
   dyd_cert_enclosure_neg(&e);
   dyd_cert_enclosure_exp(&e, p);
@@ -97,12 +96,9 @@ void dyd_cert_enclosure_log(dyd_cert_enclosure *x, long p) {
   dyd_cert_enclosure_rescale(x, MORE_BITS - k);
   settle_from(x, dyd_cert_enclosure_log_from, y, q);
   mpz_set_ui(y, 0);
-  mpz_ui_pow_ui(two.lo, 2, (unsigned long)q - 1);
-  mpz_set(two.hi, two.lo);
+  dyd_cert_enclosure_set_si(&two, 1, q - 1);
   settle_from(&two, dyd_cert_enclosure_log_from, y, q);
-  mpz_set_si(y, -k);
-  mpz_mul_2exp(y, y, (mp_bitcnt_t)q);
-  enclosure_set_at(&times, y);
+  dyd_cert_enclosure_set_si(&times, -k, q);
   dyd_cert_enclosure_mul(&two, &times, q);
   dyd_cert_enclosure_add(x, &two);
   dyd_cert_enclosure_rescale(x, -MORE_BITS);
@@ -157,8 +153,7 @@ void dyd_cert_enclosure_asin(dyd_cert_enclosure *x, long p) {
   dyd_cert_enclosure c, one;
   dyd_cert_enclosure_init(&c);
   dyd_cert_enclosure_init(&one);
-  mpz_ui_pow_ui(one.lo, 2, (unsigned long)p);
-  mpz_set(one.hi, one.lo);
+  dyd_cert_enclosure_set_si(&one, 1, p);
   dyd_cert_enclosure_set(&c, x);
   dyd_cert_enclosure_mul(&c, &c, p);
   dyd_cert_enclosure_neg(&c);
