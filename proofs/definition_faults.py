@@ -5,44 +5,21 @@
 Usage: definition_faults.py ROOT FOLDER CC LIBRARY [CASES]   (FOLDER as of definitions.py; CC: the compiler with its
                                                               arguments; LIBRARY: libdyadel_armed.a; CASES: default 12000)
 
-A line of definitions/faults.txt is a fault: FUNCTION | file | text | its replacement | reason, for those that are not seen;
-the text occurs once in the function, or else in the file, where \\n stands for the end of a line.
+The faults are in definitions/faults.txt, in the format of faults.py.
 The vectors of that function are written by a program with the fault, and given to the definitions. Each function that is
 run must have a fault. A fault that is not seen, or is in spite of its reason, is a failure.
 """
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
 
 sys.dont_write_bytecode = True
 import definitions  # noqa: E402
+from faults import faults, with_fault  # noqa: E402
 
 UNITS = ('areas', 'boxes', 'circles', 'expressions', 'fixed', 'intervals', 'near', 'panes', 'plane', 'stars', 'vectors')
 FLAGS = ['-std=c11', '-O1', '-w', '-ffp-contract=off', '-D_POSIX_C_SOURCE=200809L', '-DDYD_VERSION="0"']
-
-
-def faults(root):
-    """(function, file, text, replacement, reason or None) of each line."""
-    for line in (root / 'proofs/definitions/faults.txt').read_text(encoding='utf-8').split('\n'):
-        if line and not line.startswith('#'):
-            parts = [part.strip() for part in line.split(' | ')]
-            yield *parts[:4], parts[4] if len(parts) > 4 else None
-
-
-def with_fault(code, function, text, replacement):
-    """The file with the fault, in the body of the function if the text is there. Raises ValueError when it is not there
-    once."""
-    found = list(re.finditer(r'\b' + function + r'\((?:[^;{}()]|\([^;{}()]*\))*\)\s*\{', code))
-    if found:
-        start = found[0].end()
-        end = code.index('\n}', start)
-        if code.count(text, start, end) == 1:
-            return code[:start] + code[start:end].replace(text, replacement) + code[end:]
-    if code.count(text) != 1:
-        raise ValueError(f'{function}: "{text}" is found {code.count(text)} times')
-    return code.replace(text, replacement)
 
 
 class Programs:
@@ -82,9 +59,9 @@ class Programs:
 def tried(root, programs, definition, cases):
     """What is wrong; prints each fault."""
     of = set()
-    for function, path, text, replacement, reason in faults(root):
+    for function, path, text, replacement, reason in faults(root / 'proofs/definitions/faults.txt'):
         of.add(function)
-        program = programs.program(function, path, text.replace('\\n', '\n'), replacement.replace('\\n', '\n'))
+        program = programs.program(function, path, text, replacement)
         status, said = definitions.compare(definition, [program, cases, function])
         seen = status == 1 and not said.endswith('\n0 differ\n')
         print(f'{function}: "{text}" -> "{replacement}": {"seen" if seen else "not seen"}', flush=True)

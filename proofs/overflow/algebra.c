@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra.c: names of operations, leaves are in their lists. */
+/* Without root_free, dyd_cert_number_clear, dyd_cert_algebra_clear: not tried. */
 #include "polys.h"
 
 /*@ requires 0 <= op < 29; assigns \nothing; exits \false; ensures 0 <= \result <= 2; */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra_bound.c: degrees; leaves that are not whole may have none. */
+/* Without dyd_cert_poly_bound, dyd_cert_poly_is_null: not tried. */
 #include "polys.h"
 
 /*@ predicate leaves(numbers a) = \valid_read(a) && a->relations.count <= 64 &&

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra_read.c: operands are numbers before, operations have names. */
+/* Without read_value, scan_coefficients, read_bracket, read_operation, read_number, dyd_cert_algebra_read: not tried.
+   */
 #include "polys.h"
 
 #include "base/alloc.h"

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/boxes.c: regions, and distances from their corners. Areas are numbers of 64 bits here:
  * their values are no part of the proof. */
+/* Without box_height, make_blocker, choose_blockers, is_region_blocked, keep_region_sites, list_region_pairs,
+   keep_region_pairs, add_left, look_at_region, cone_region, mark_outer_sites, keep_outer_sites, look_around,
+   look_everywhere, compare_partner, index_known, sort_left, dyd_cert_boxes_left: not tried. */
 #define __int128 long long
 #include "exact.h"
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/bracket.c: how long its longest number is. */
+/* Without sign_at_fraction, sign_of_derivative, dyd_cert_root_is_single, dyd_cert_root_enclose: not tried. */
 #include "polys.h"
 
 typedef const dyd_cert_bracket *bracketed;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/chain.c: both lists of a chain grow together. */
+/* Without dyd_cert_chain_init, dyd_cert_chain_clear, blocker_is_nearer, blocker_is_farther_out, chain_is_blocked,
+   chain_side, segment_is_met, ray_crosses, segment_crosses, chain_separates, dyd_cert_chain_holds: not tried. */
 #include "sites.h"
 
 #include "base/alloc.h"

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/checker.c: what is read of sites and pairs is in their lists, in order. */
+/* Without dyd_cert_expect_line, read_heading, read_site_and_point, dyd_cert_note_bound, check_goal, dyd_checker_head,
+   read_alias, read_rectangle, dyd_checker_sites, read_witnessed, read_edges, dyd_checker_legal, side_holds_value,
+   dyd_checker_places, dyd_checker_bridges, dyd_cert_corners_clear, checker_find_faces, dyd_checker_corners: not
+   tried. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "read.h"
 

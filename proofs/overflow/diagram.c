@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/diagram.c: corners of a polygon are in its list, ends of the window in theirs. */
+/* Without dyd_cert_polygon_area2, read_vertices, check_polygon, check_polygons, dyd_cert_window_area, check_area,
+   check_bound, check_distance, read_window, dyd_checker_diagram: not tried. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "read.h"
 

@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/enclosure.c: sums, quotients and limits of intervals. */
+/* Without dyd_cert_enclosure_clear, dyd_cert_enclosure_sub, multiply_ends, dyd_cert_enclosure_mul,
+   dyd_cert_enclosure_div, dyd_cert_enclosure_pow, root_of_end, dyd_cert_enclosure_root, dyd_cert_enclosure_abs,
+   dyd_cert_enclosure_extreme, dyd_cert_enclosure_rescale, inverse_tangent, dyd_cert_enclosure_pi, halvings,
+   taylor_step, add_remainder, dyd_cert_enclosure_exp, double_angle, taylor_cos_sin, dyd_cert_enclosure_cos_sin: not
+   tried. */
 #include "enclosures.h"
 
 /*@ requires \valid(x); assigns *x; exits \false; ensures interval(x); */

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/faces.c: open sets grow in their lists, and are found by sites that are there. */
+/* Without dyd_cert_walk, faces_add_set, add_bounded_face, compare_place_of, dyd_cert_hull, check_places,
+   compare_with_corner, check_corners, add_groups, split_rim, faces_add_outer, faces_add_all_sites, faces_find_sets,
+   faces_index_sites, dyd_cert_faces_init, dyd_cert_faces_clear: not tried. */
 #include "faces.h"
 
 #include "base/alloc.h"

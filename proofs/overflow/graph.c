@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/graph.c: sorting stays in the list, the list of pairs grows, walks stay in the graph. */
+/* Without dyd_cert_compare_edges, dyd_cert_edges_have, compare_angle, gather_around, dyd_cert_graph_clear,
+   dyd_cert_follow: not tried. */
 #include "graph.h"
 
 #include "base/alloc.h"

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/inverse.c: intervals at a place, and which is narrower. */
+/* Without begin_near, settle_from, dyd_cert_enclosure_log_from, dyd_cert_enclosure_log, dyd_cert_enclosure_atan_from,
+   dyd_cert_enclosure_atan, dyd_cert_enclosure_asin, dyd_cert_enclosure_acos: not tried. */
 #include "enclosures.h"
 
 /*@ requires \valid(x) && interval(x) && whole(y) && \separated(x, y); assigns *x; exits \false; ensures interval(x); */

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/measure.c: turns reckoned on the grid. */
+/* Without dyd_cert_fraction_init, dyd_cert_fraction_clear, dyd_cert_fraction_swap, init_over_common, multiply_dens,
+   dyd_cert_fraction_cmp, dyd_cert_fraction_sub, dyd_cert_fraction_mul, dyd_cert_fraction_add, axis_distance,
+   dyd_cert_distance2, dyd_cert_place_of, dyd_cert_spot_at, spot_difference, dyd_cert_cross, dyd_cert_turn,
+   dyd_cert_compare_places, site_height, dyd_cert_compare_heights: not tried. */
 #include "exact.h"
 
 #include "checker/sites.h"

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/number.c: leaves are of numbers that are there, and made where there is room. */
+/* Without operand_compare, find_leaf, value_set_si, is_part_of_turn, value_circular, value_tangent,
+   value_exponential, value_hyperbolic, value_radical, value_root, is_up_to_one, value_inverse, value_absolute,
+   value_extreme, value_operation, value_power, value_function, value_e, value_pi, dyd_cert_number_value, is_radical,
+   root_vanishes, side_of_end, dyd_cert_number_check: not tried. */
 #include "polys.h"
 
 /* The number to be added is in its place behind those before. */

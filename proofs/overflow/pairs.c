@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/pairs.c: pairs of the lists are of sites that are there. */
+/* Without read_chain, check_chain, check_open, read_pair_line, read_pairs, dyd_cert_boxes_unproved, check_boxes,
+   check_counts, read_bound, check_bounds, dyd_checker_pairs: not tried. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "graph.h"
 

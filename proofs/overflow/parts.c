@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/parts.c: positions of the walk are in it; distinct items stay in their list. */
+/* Without compare_index, number_groups, gather_group_sites, dyd_cert_parts_init, dyd_cert_parts_clear: not tried. */
 #include "graph.h"
 
 #include "base/alloc.h"

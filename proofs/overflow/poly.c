@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/poly.c: polynomials are read where they are, exponents stay in their type, terms in
  * their lists. */
+/* Without dyd_cert_poly_clear, count_terms_of, dyd_cert_poly_set, poly_set_term, dyd_cert_poly_set_z,
+   dyd_cert_poly_set_leaf, terms_merge, dyd_cert_poly_add_scaled, dyd_cert_poly_add, terms_take_power, reduce_leaf,
+   dyd_cert_poly_reduce, dyd_cert_poly_mul, dyd_cert_poly_equal, dyd_cert_poly_integer, dyd_cert_poly_content,
+   dyd_cert_poly_divide, scan_term, dyd_cert_poly_scan, dyd_cert_count_work, dyd_cert_poly_is_zero: not tried. */
 #include "exact.h"
 
 #include "base/alloc.h"

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/quotient.c: terms stay in their lists. */
+/* Without dyd_cert_quotient_clear, dyd_cert_quotient_set, quotient_shorten, dyd_cert_quotient_set_q,
+   dyd_cert_quotient_set_leaf, dyd_cert_quotient_add, dyd_cert_quotient_mul, dyd_cert_quotient_mul_z,
+   dyd_cert_quotient_div, dyd_cert_quotient_power, dyd_cert_quotient_equal: not tried. */
 #include "polys.h"
 
 /*@ requires \valid(x) && x->num.count <= 16384 && (0 < x->num.count ==> \valid(x->num.term +

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/read.c: whatever bytes come, they are read where they are, and numbers stay in range. */
+/* Without dyd_cert_reader_clear: not tried. */
 #include "read.h"
 
 #include "base/alloc.h"

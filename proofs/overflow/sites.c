@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/sites.c: the list of sites grows, and numbers are on the grid. */
+/* Without dyd_cert_sites_init, clear_side, clear_place, dyd_cert_sites_clear, end_outward, axis_extent,
+   place_on_grid, dyd_cert_sites_finish, dyd_cert_is_point, dyd_cert_high, dyd_cert_den, dyd_cert_place: not tried. */
+/* Unproved dyd_cert_side_set_den_assigns_exit_part3: WP does not know that new memory is new. */
+/* Unproved dyd_cert_side_set_den_assigns_normal_part4: WP does not know that new memory is new. */
+/* Unproved dyd_cert_side_set_den_assigns_normal_part5: WP does not know that new memory is new. */
 #include "sites.h"
 
 #include "base/alloc.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/still.c: pairs are of sites that are there. */
+/* Without movers_clear, movers_fill, movers_list, open_pair_stays, open_pairs_stay, dyd_checker_stays: not tried. */
 #include "faces.h"
 
 #include "base/alloc.h"

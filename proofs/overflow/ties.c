@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/ties.c: points of a block are in their list, and of numbers and sites that are there. */
+/* Without dyd_cert_ties_clear, side_holds_enclosure, side_is_number, side_lacks_number, side_holds_number,
+   check_rectangles, enclose_difference, are_different, are_a_triangle, vector_clear, product_difference, vector_set,
+   base_clear, base_set_line, base_set_circle, number_is_null, base_has, are_same, dyd_cert_fact_holds, read_members,
+   read_kind, read_fact, read_points, read_block, dyd_cert_ties_read, fact_has_set, dyd_cert_ties_mark,
+   dyd_cert_ties_aliases: not tried. */
 #include "polys.h"
 
 #include "base/alloc.h"

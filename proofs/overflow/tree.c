@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/tree.c: what is reckoned on the grid. Areas are numbers of 64 bits here, since Frama-C has
  * none of 128; they are unsigned, and their values are no part of the proof. */
+/* Without compare_keyed, sort_tree_items, dyd_cert_tree_init, dyd_cert_tree_clear, dyd_cert_centre_set, visit_node,
+   dyd_cert_tree_visit: not tried. */
 #define __int128 long long
 #include "exact.h"
 
