@@ -288,7 +288,6 @@ Proof.
 Qed.
 
 (* ... and neither their order nor that of the axes matters. *)
-Definition flip (B : rect) : rect := Rect (ylo B) (yhi B) (xlo B) (xhi B) (y_ordered B) (x_ordered B).
 Definition turned (z : point) : point := (snd z, fst z).
 
 Lemma flipped_distances c B : ds (turned c) (flip B) = ds c B /\ dl (turned c) (flip B) = dl c B.

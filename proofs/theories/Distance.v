@@ -161,3 +161,6 @@ Proof.
   - destruct (Rle_dec 0 (fst u)); destruct (Rle_dec 0 (snd u)); lra.
   - intros z [X Y]. destruct (Rle_dec 0 (fst u)); destruct (Rle_dec 0 (snd u)); nra.
 Qed.
+
+(* The axes exchanged. *)
+Definition flip (B : rect) : rect := Rect (ylo B) (yhi B) (xlo B) (xhi B) (y_ordered B) (x_ordered B).
