@@ -1,12 +1,9 @@
 (* SPDX-License-Identifier: LGPL-3.0-or-later *)
 (* The search for Voronoi vertices by bisection of boxes of centres loses none of a listed triangle [REGION-1]. *)
 From Coq Require Import Reals Lra Lia List.
-From Dyadel Require Import Plane Distance Cells Legal.
+From Dyadel Require Import Plane Distance Cells Legal Orientation.
 Import ListNotations.
 Open Scope R_scope.
-
-Definition corner (Q : rect) (z : point) : Prop :=
-  (fst z = xlo Q \/ fst z = xhi Q) /\ (snd z = ylo Q \/ snd z = yhi Q).
 
 Lemma ratio lo hi x : lo <= x <= hi -> exists t, 0 <= t <= 1 /\ x = (1 - t) * lo + t * hi.
 Proof.
@@ -18,7 +15,7 @@ Proof.
 Qed.
 
 (* Who is always nearer at the four corners is in all of the box. *)
-Theorem corners_block X Y Q : (forall z, corner Q z -> dl z X < ds z Y) -> forall z, inside z Q -> dl z X < ds z Y.
+Theorem corners_block X Y Q : (forall z, corner z Q -> dl z X < ds z Y) -> forall z, inside z Q -> dl z X < ds z Y.
 Proof.
   intros H [x y] [Hx Hy]. cbn [fst snd] in *. destruct (ratio _ _ _ Hx) as (t & T & Ex). destruct (ratio _ _ _ Hy) as (s & S
     & Ey).
@@ -35,7 +32,7 @@ Variable B : sites.
 
 (* Somebody is nearer than i in all of the box, as ranges of distances say, or those at its corners. *)
 Definition kept_out (Q : rect) (i : nat) : Prop := exists k, (k < N)%nat /\
-  ((forall z, inside z Q -> dl z (B k) < ds z (B i)) \/ forall z, corner Q z -> dl z (B k) < ds z (B i)).
+  ((forall z, inside z Q -> dl z (B k) < ds z (B i)) \/ forall z, corner z Q -> dl z (B k) < ds z (B i)).
 
 (* Lists of sites and of pairs, and what is left of them in a box. *)
 Definition lists : Type := (list nat * list (nat * nat))%type.

@@ -60,17 +60,28 @@ Definition hull_corners_keep : Prop := forall u v w, rim u v -> rim v w ->
 Definition edges_stay (q : nat -> point) : Prop := forall i j, (i < N)%nat -> (j < N)%nat -> i <> j ->
   strict_edge N p i j -> forall t, 0 <= t <= 1 -> strict_edge N (path p q t) i j.
 
-Lemma corners_keep : edges_drawn -> edges_stay q -> hull_corners_keep -> forall u v w, rim u v -> rim v w ->
+(* Or else the middle one never comes between the others. *)
+Definition hull_corners_free : Prop := forall u v w, rim u v -> rim v w ->
+  flat p q u v w \/ edge u w \/
+  forall t, 0 <= t <= 1 -> ~ between (path p q t v) (path p q t u) (path p q t w).
+
+Lemma corners_free : edges_drawn -> edges_stay q -> hull_corners_free -> forall u v w, rim u v -> rim v w ->
   flat p q u v w \/ forall t, 0 <= t <= 1 -> ~ between (path p q t v) (path p q t u) (path p q t w).
 Proof.
   intros D E H u v w Ruv Rvw. destruct (rim_sites _ _ _ _ _ sk u v Ruv) as [U [V [Duv _]]].
   destruct (rim_sites _ _ _ _ _ sk v w Rvw) as [_ [W [Dvw _]]].
-  destruct (H u v w Ruv Rvw) as [Fl | [Ed | M]]; [now left | right | right]; intros t T.
-  - apply (edges_are_free N p q edge different E (staying_circle N p q) (fun _ _ X => X) D); auto.
-  - assert (X : forall k, k = u \/ k = v \/ k = w ->
-      2 * (dist (p u) (p w) * dist (p k) (path p q t k)) < orient (p u) (p v) (p w)).
-    { intros k K. pose proof (M k K). pose proof (path_moves p q t k T). pose proof (dist_nonneg (p u) (p w)). nra. }
-    apply (corner_stays (p u) (p v) (p w)); apply X; auto.
+  destruct (H u v w Ruv Rvw) as [Fl | [Ed | M]]; [now left | right | now right]. intros t T.
+  apply (edges_are_free N p q edge different E (staying_circle N p q) (fun _ _ X => X) D); auto.
+Qed.
+
+Lemma keep_free : hull_corners_keep -> hull_corners_free.
+Proof.
+  intros H u v w Ruv Rvw. destruct (H u v w Ruv Rvw) as [Fl | [Ed | M]]; [now left | right; now left |]. do 2 right.
+  intros t T.
+  assert (X : forall k, k = u \/ k = v \/ k = w ->
+    2 * (dist (p u) (p w) * dist (p k) (path p q t k)) < orient (p u) (p v) (p w)).
+  { intros k K. pose proof (M k K). pose proof (path_moves p q t k T). pose proof (dist_nonneg (p u) (p w)). nra. }
+  apply (corner_stays (p u) (p v) (p w)); apply X; auto.
 Qed.
 
 (* The same for no motion at all. *)
@@ -86,18 +97,18 @@ Proof. intros [Out [_ C]]. split; [exact Out |]. split; [now intros | exact C]. 
 Lemma still_stay : edges_stay p.
 Proof. intros i j I J D E t T. apply (strict_edge_same p); [intros k; symmetry; apply no_motion | exact E]. Qed.
 
-Lemma corners_still : edges_drawn -> edges_stay q -> hull_corners_keep -> forall u v w, rim u v -> rim v w ->
+Lemma corners_still : edges_drawn -> edges_stay q -> hull_corners_free -> forall u v w, rim u v -> rim v w ->
   flat p p u v w \/ forall t, 0 <= t <= 1 -> ~ between (path p p t v) (path p p t u) (path p p t w).
 Proof.
-  intros D E H u v w R R'. destruct (corners_keep D E H u v w R R') as [[Z _] | F]; [left; now repeat split | right].
+  intros D E H u v w R R'. destruct (corners_free D E H u v w R R') as [[Z _] | F]; [left; now repeat split | right].
   intros t T. rewrite !no_motion. pose proof (F 0 ltac:(lra)) as X. now rewrite !path_0 in X.
 Qed.
 
 (* While no strictly Delaunay edge is lost, every pair keeps its status. *)
-Theorem statuses_stay : edges_drawn -> edges_stay q -> hull_corners_keep ->
+Theorem statuses_stay : edges_drawn -> edges_stay q -> hull_corners_free ->
   forall a b, (a < N)%nat -> (b < N)%nat -> a <> b -> same_status N p q a b.
 Proof.
-  intros D E H a b A B Dab. pose proof (corners_keep D E H) as C.
+  intros D E H a b A B Dab. pose proof (corners_free D E H) as C.
   set (tied := staying_circle N p q). assert (Tq : forall o r, tied o r -> staying_circle N p q o r) by (intros o r X; exact X).
   destruct (classic (strict_edge N p a b)) as [Sp | Np].
   - assert (Sq : strict_edge N q a b).
@@ -176,7 +187,7 @@ Theorem whole_unchanged t : (forall i j, edge i j -> (i < N)%nat /\ (j < N)%nat 
   (forall k, (k < N)%nat -> dist (p k) (q k) < t) ->
   forall a b, (a < N)%nat -> (b < N)%nat -> a <> b -> same_status N p q a b.
 Proof.
-  intros Strict D C M. apply statuses_stay.
+  intros Strict D C M. apply statuses_stay; [| | apply keep_free].
   - intros i j E. destruct (Strict i j E) as [I [J [Dij St]]]. repeat split; auto.
   - intros i j I J Dij St s S.
     destruct (finite_max (fun _ => True) (fun k => dist (p k) (q k)) N) as [m [Hm [_ L]]]; [now exists i |].
@@ -195,7 +206,7 @@ Theorem points_unchanged : edges_drawn ->
     (exists c m, ring_keeps i j c m) \/ (exists u m, line_keeps i j u m)) -> hull_corners_keep ->
   forall a b, (a < N)%nat -> (b < N)%nat -> a <> b -> same_status N p q a b.
 Proof.
-  intros D R. apply statuses_stay; [exact D |]. intros i j I J Dij St s S.
+  intros D R H. apply statuses_stay; [exact D | | now apply keep_free]. intros i j I J Dij St s S.
   destruct (R i j I J Dij St) as [[c [m K]] | [u [m K]]]; [now apply ring_edge with c m | now apply line_edge with u m].
 Qed.
 End Moves.
