@@ -34,12 +34,14 @@ from faults import faults, with_fault  # noqa: E402
 PARTS = {  # tests of about four minutes at most; those but the first are of what reads and keeps the bytes of others
     'numbers': ['dyadic', 'sqrt_sign', 'convert', 'exact', 'tree', 'measure'],
     'texts': ['alloc', 'text', 'poly'], 'lines': ['read', 'checker'], 'lists': ['graph', 'sites', 'chain'],
+    'outcome': ['certificate'],
     'sets': ['parts', 'faces', 'still', 'diagram', 'pairs', 'number', 'quotient', 'algebra_read',
              'enclosure', 'inverse', 'distance'],
     'blocks': ['algebra', 'algebra_bound', 'bracket', 'cycle', 'ties', 'boxes'],
 }
 ITEMS = {'start': 'sizes', 'term': 'terms', 'digits': 'chars', 'den': 'numbers', 'place': 'places'}  # of lists, by name
 EXTRA = {'alloc': ['-warn-unsigned-overflow'], 'text': ['-wp-literals'], 'poly': ['-wp-literals'],
+         **{name: ['-wp-literals'] for name in ('checker', 'pairs', 'diagram', 'certificate')},
          'read': ['-wp-literals', '-no-warn-signed-downcast']}  # a byte becomes a char
 OPTIONS = ['-wp', '-wp-rte', '-warn-special-float', 'none',  # doubles are another matter
            '-warn-signed-downcast', '-warn-unsigned-downcast', '-wp-prover', 'cvc4', '-wp-par', '1', '-wp-status-all']

@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/diagram.c: corners of a polygon are in its list, ends of the window in theirs. */
-/* Without dyd_cert_polygon_area2, read_vertices, check_polygon, check_polygons, dyd_cert_window_area, check_area,
+/* Without dyd_cert_polygon_area2, read_vertices, check_polygon, check_polygons, check_area,
    check_bound, check_distance, read_window, dyd_checker_diagram: not tried. */
 #define __int128 long long /* of areas nothing is proved here */
-#include "read.h"
+#include "checks.h"
 
 #include "base/error.h"
-
-#include "checker/checker.h"
 
 typedef const dyd_cert_chain *polygon_of;
 typedef const dyd_cert_window *window_of;
@@ -29,5 +27,9 @@ int dyd_cert_cross(dyd_cert_spot a, dyd_cert_spot b, dyd_cert_spot c, dyd_cert_s
 static dyd_cert_spot polygon_spot(const dyd_cert_chain *p, size_t k);
 /*@ requires \valid_read(p) && (0 < p->points ==> polygon(p)); assigns \nothing; exits \false; */
 bool dyd_cert_polygon_is_convex(const dyd_cert_chain *p);
+/*@ requires \valid(out) && window(w) && (\forall integer k; 0 <= k < 4 ==> certified(&w->e[k])) &&
+      \separated(out, w);
+    assigns *out; exits \false; */
+void dyd_cert_window_area(dyd_exact *out, const dyd_cert_window *w);
 
 #include "checker/diagram.c"

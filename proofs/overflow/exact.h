@@ -21,7 +21,8 @@ void dyd_exact_set(dyd_exact *out, const dyd_exact *x);
 /*@ requires \valid_read(x) && whole(&x->man[0]); assigns \nothing; exits \false;
     ensures \result == x->man[0].sign; */
 int dyd_exact_sgn(const dyd_exact *x);
-/*@ requires exact(x); assigns \nothing; exits \false;
+/*@ requires \valid_read(x) && whole(&x->man[0]) && -1000000000000000000 <= x->exp <= 1000000000000000000;
+    assigns \nothing; exits \false;
     ensures x->man[0].sign != 0 ==> \result == x->exp + x->man[0].length;
     ensures x->man[0].sign == 0 ==> \result == INT64_MIN; */
 int64_t dyd_exact_top(const dyd_exact *x);
@@ -37,7 +38,9 @@ void dyd_exact_mul(dyd_exact *out, const dyd_exact *x, const dyd_exact *y);
 /*@ requires \valid(out) && exact(x) && whole(z) && beside(out, x) && \separated(out, z); assigns *out; exits \false;
     ensures whole(&out->man[0]) && out->exp == \old(x->exp); */
 void dyd_exact_mul_z(dyd_exact *out, const dyd_exact *x, mpz_srcptr z);
-/*@ requires exact(x) && exact(y); assigns \nothing; exits \false; */
+/*@ requires exact(x) && (exact(y) || \valid_read(y) && whole(&y->man[0]) && -1048576 <= x->exp <= 1048576 &&
+      x->man[0].length <= 2097152 && -1000000000000000000 <= y->exp <= 1000000000000000000);
+    assigns \nothing; exits \false; */
 int dyd_exact_cmp(const dyd_exact *x, const dyd_exact *y);
 /*@ requires \valid(out) && exact(x) && (den == \null || whole(den) && den->sign == 1 && \separated(out, den));
     requires -274877906944 <= exp <= 274877906944 && (\separated(out, x) || out == &x->man[0]);
