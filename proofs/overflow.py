@@ -113,6 +113,7 @@ def with_loops(root, name, text):
         text = text.replace(what, by + what)
     text = re.sub(r'dyd_reserve\(\(void \*\*\)&c->(blocker|point),', r'reserve_\1s(&c->\1,', text)
     text = text.replace('(void **)', '')
+    text = re.sub(r'\bmem(cpy|set)\((?=[^,]*\be,)', r'mem\1_exponents(', text)
     text = re.sub(r'(\w+) = dyd_alloc\(', lambda m: f'{m[1]} = alloc_{ITEMS.get(m[1], "indices")}(', text)
     text = re.sub(r'(\w+) = malloc\((?:(\d+) \* )?(sizeof [^()]*)\)',
                   lambda m: f'{m[1]} = alloc_{ITEMS[m[1]]}({m[2] or 1}, {m[3]})', text)
