@@ -148,7 +148,8 @@ void mpz_pow_ui(mpz_ptr z, mpz_srcptr x, unsigned long e);
 /*@ requires \valid(z) && whole(x) && 0 < k && (k % 2 == 0 ==> 0 <= x->sign); assigns *z; exits \false;
     ensures whole(z) && z->sign == \old(x->sign) && z->length <= \old(x->length); */
 int mpz_root(mpz_ptr z, mpz_srcptr x, unsigned long k);
-/*@ requires \valid(z) && whole(x); assigns *z; exits \false; ensures whole(z) && z->length <= \old(x->length) + 64; */
+/*@ requires \valid(z) && whole(x); assigns *z; exits \false; ensures whole(z) && z->length <= \old(x->length) + 64;
+    ensures y != 0 ==> z->sign == \old(x->sign); */
 void mpz_mul_ui(mpz_ptr z, mpz_srcptr x, unsigned long y);
 /*@ requires \valid(z) && whole(x); assigns *z; exits \false; ensures whole(z) && z->length <= \old(x->length) + 64; */
 void mpz_mul_si(mpz_ptr z, mpz_srcptr x, long y);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/poly.c: polynomials are read where they are, exponents stay in their type, terms in
  * their lists. */
-/* Without dyd_cert_poly_add_scaled, dyd_cert_poly_add, terms_merge, terms_take_power, reduce_leaf, dyd_cert_poly_reduce,
-   dyd_cert_poly_mul, scan_term, dyd_cert_poly_scan: not tried. */
+/* Without dyd_cert_poly_add_scaled, terms_take_power: tried without a contract of terms_merge, and without what holds
+   in its loops; their reads stay unknown. */
+/* Without terms_merge, reduce_leaf, dyd_cert_poly_mul, scan_term, dyd_cert_poly_scan: not tried. */
 #include "terms.h"
 
 #include "base/alloc.h"
@@ -60,5 +61,15 @@ static bool scan_coefficient(mpz_ptr c, const char **text, dyd_cert_relations *r
 /*@ requires string(text) && stop(text) < 1152921504606846976; assigns \nothing; exits \false;
     ensures 1 <= \result <= stop(text) + 1; */
 static size_t count_terms(const char *text);
+
+/*@ requires related(r) && k < r->count && \valid(p) && limited(p) && apart(p, r); assigns owned: *p, r->nomem, r->work;
+    exits \false; ensures held(p); ensures \result ==> limited(p) && apart(p, r) && related(r); */
+static bool reduce_leaf(dyd_cert_poly *p, size_t k, dyd_cert_relations *r);
+/*@ requires related(r) && \valid(p) && limited(p) && apart(p, r); assigns owned: *p, r->nomem, r->work;
+    exits \false; */
+bool dyd_cert_poly_reduce(dyd_cert_poly *p, dyd_cert_relations *r);
+/*@ requires \valid(t) && whole(&t->c[0]) && \valid(text) && string(*text) && \valid(r) && r->count <= 64 &&
+      \separated(t, text, r); exits \false; ensures \result ==> string(*text); */
+static bool scan_term(dyd_cert_term *t, const char **text, dyd_cert_relations *r);
 
 #include "checker/poly.c"

@@ -43,7 +43,9 @@ bool dyd_cert_poly_mul(dyd_cert_poly *p, const dyd_cert_poly *q, dyd_cert_relati
 bool dyd_cert_poly_reduce(dyd_cert_poly *p, dyd_cert_relations *r);
 /*@ requires \valid_read(p); assigns \nothing; exits \false; ensures \result != 0 <==> p->count == 0; */
 static inline bool dyd_cert_poly_is_zero(const dyd_cert_poly *p);
-/*@ requires \valid_read(p); assigns \nothing; exits \false; ensures \result != \null ==> whole(\result); */
+/*@ requires \valid_read(p); assigns \nothing; exits \false;
+    ensures \result != \null ==> p->count == 1 && \result == &p->term[0].c[0] && whole(\result) &&
+      \result->sign != 0; */
 mpz_srcptr dyd_cert_poly_integer(const dyd_cert_poly *p);
 /*@ requires \valid(p) && \valid(end) && string(text) && \valid(r) && \separated(p, end, r);
     assigns *p, *end, r->nomem; exits \false;
@@ -74,7 +76,7 @@ bool dyd_cert_quotient_power(dyd_cert_quotient *x, unsigned long n, dyd_cert_rel
     assigns *equal, r->nomem, r->work; exits \false; */
 bool dyd_cert_quotient_equal(bool *equal, const dyd_cert_quotient *x, const dyd_cert_quotient *y,
                              dyd_cert_relations *r);
-/*@ requires \valid(x); assigns x->num.term[0 .. x->num.count - 1].c[0]; exits \false; */
+/*@ requires \valid(x); assigns *x; exits \false; */
 void dyd_cert_quotient_neg(dyd_cert_quotient *x);
 /*@ requires \valid(x); assigns *x; exits \false; ensures x->num == \old(x->den) && x->den == \old(x->num); */
 void dyd_cert_quotient_invert(dyd_cert_quotient *x);
