@@ -16,7 +16,8 @@ static void enclosure_limit(dyd_cert_enclosure *x, long p);
     assigns PARTS_OF((*lo)), PARTS_OF((*hi)); exits \false;
     ensures whole(lo) && whole(hi); */
 static void multiply_ends(mpz_ptr lo, mpz_ptr hi, const dyd_cert_enclosure *x, const dyd_cert_enclosure *y);
-/*@ requires \valid(out) && whole(out) && whole(x) && 2 <= k <= 3 && digits(p) && (x == out || \separated(x, out));
+/*@ requires \valid(out) && whole(out) && whole(x) && (k == 2 || k == 3) && digits(p) &&
+      (x == out || \separated(x, out));
     assigns PARTS_OF((*out)); exits \false; ensures whole(out); */
 static void root_of_end(mpz_ptr out, mpz_srcptr x, unsigned long k, bool up, long p);
 /*@ requires \valid(sum) && whole(sum) && \valid(terms) && \separated(sum, terms) && 2 <= n <= 1000 && digits(p);

@@ -54,7 +54,7 @@ void dyd_cert_enclosure_mul(dyd_cert_enclosure *x, const dyd_cert_enclosure *y, 
 void dyd_cert_enclosure_div(dyd_cert_enclosure *x, const dyd_cert_enclosure *y, long p);
 /*@ requires \valid(x) && interval(x) && digits(p); assigns ALL_OF(x); exits \false; ensures interval(x); */
 void dyd_cert_enclosure_pow(dyd_cert_enclosure *x, long n, long p);
-/*@ requires \valid(x) && interval(x) && digits(p) && 2 <= k <= 3; assigns ENDS_OF(x); exits \false;
+/*@ requires \valid(x) && interval(x) && digits(p) && (k == 2 || k == 3); assigns ENDS_OF(x); exits \false;
     ensures interval(x); */
 void dyd_cert_enclosure_root(dyd_cert_enclosure *x, unsigned long k, long p);
 /*@ requires \valid(x) && interval(x); assigns ALL_OF(x); exits \false; ensures interval(x); */
