@@ -10,6 +10,8 @@
 
 /*@ requires \valid(x) && interval(x) && few(p); assigns *x; exits \false; ensures interval(x); */
 static void enclose_cosine(dyd_cert_enclosure *x, dyd_cert_op op, long p);
+/*@ requires \valid(x) && interval(x) && few(p); assigns *x; exits \false; ensures interval(x); */
+static void enclose_hyperbolic(dyd_cert_enclosure *x, dyd_cert_op op, long p);
 /*@ requires \valid(x) && interval(x) && few(p) && 1 <= n <= 1024; assigns *x; exits \false;
     ensures interval(x); */
 static void enclose_cycle(dyd_cert_enclosure *x, long n, long p);
