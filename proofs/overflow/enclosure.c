@@ -3,10 +3,11 @@
 /* Without multiply_ends, dyd_cert_enclosure_pow, double_angle, dyd_cert_enclosure_pi, dyd_cert_enclosure_exp,
    dyd_cert_enclosure_cos_sin: tried, with what holds before each step asserted or admitted; that an interval behind a
    pointer stays one while numbers in local variables change, through a loop or three calls and more, CVC4 does not
-   prove in 4 s (of multiply_ends, 3 of 47 goals; pi, its postcondition; the others, 4 to 12). */
+   prove in 3 or 4 s (of multiply_ends, 3 goals; pi, its postcondition; the others, 3 to 12, not all run to the end). */
 /* Without dyd_cert_enclosure_div: likewise; and that neither end of a divisor is 0 rests on their order, the model has
    signs and lengths of numbers only. */
-/* Without inverse_tangent, taylor_cos_sin: they call through pointers to functions: WP does not know valid_function. */
+/* Without inverse_tangent: it calls through a pointer to a function, and WP does not know valid_function. */
+/* Without taylor_cos_sin: not run; it calls as inverse_tangent does. */
 #include "enclosures.h"
 
 /*@ requires \valid(x) && interval(x) && digits(p); assigns x->known; exits \false; */

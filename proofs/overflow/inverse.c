@@ -3,7 +3,7 @@
 /* Without begin_near, dyd_cert_enclosure_log_from, dyd_cert_enclosure_log, dyd_cert_enclosure_atan,
    dyd_cert_enclosure_asin, dyd_cert_enclosure_acos: tried, with intervals admitted to stay intervals up to four times;
    that they still do one or two calls later CVC4 does not prove (of begin_near, 3 of 48 goals in 3 s). */
-/* Without settle_from: it calls through a pointer to a function, and WP does not know valid_function. */
+/* Without settle_from: not run; it calls through a pointer to a function, and WP does not know valid_function. */
 /* Without dyd_cert_enclosure_atan_from: not tried; it has one number more than dyd_cert_enclosure_log_from. */
 #include "enclosures.h"
 
