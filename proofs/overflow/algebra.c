@@ -1,7 +1,24 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra.c: names of operations, leaves are in their lists. */
-/* Without root_free, dyd_cert_number_clear, dyd_cert_algebra_clear: not tried. */
+/* Without dyd_cert_algebra_clear: not tried; that its counts stay while numbers are freed would have to be admitted. */
+#include "enclosures.h"
 #include "polys.h"
+
+typedef const dyd_cert_bracket *bracketed;
+
+/*@ predicate bracket(bracketed r) = \valid(r) && r->count <= 1152921504606846976 &&
+      (0 < r->count ==> \valid(r->coeff + (0 .. r->count - 1))) &&
+      (\forall integer k; 0 <= k < r->count ==> whole(&r->coeff[k][0])) &&
+      (\forall integer k; 0 <= k < 4 ==> whole(&r->end[k][0])) &&
+      \separated(r, r->coeff + (0 .. r->count - 1)); */
+
+/*@ requires r == \null || bracket(r);
+    assigns r->coeff[0 .. r->count - 1][0], r->end[0 .. 3][0]; exits \false; */
+static void root_free(dyd_cert_bracket *r);
+/*@ requires \valid(x); assigns *x; exits \false; */
+void dyd_cert_quotient_clear(dyd_cert_quotient *x);
+/*@ requires \valid(n) && (n->root == \null || bracket(n->root)); exits \false; */
+void dyd_cert_number_clear(dyd_cert_number *n);
 
 /*@ requires 0 <= op < 29; assigns \nothing; exits \false; ensures 0 <= \result <= 2; */
 int dyd_cert_op_operands(dyd_cert_op op);

@@ -10,6 +10,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#define GMP_NUMB_BITS 64
+
 typedef struct {
   long long length;
   int sign, zeros; /* zeros: bits 0 at the end */
@@ -48,7 +50,8 @@ void mpz_clear(mpz_ptr z);
 /*@ requires \valid(z) && whole(x);
     assigns z->sign, z->length, z->zeros; exits \false; ensures whole(z) && same{Pre, Post}(z, x); */
 void mpz_set(mpz_ptr z, mpz_srcptr x);
-/*@ requires \valid(z) && whole(z); assigns *z; exits \false; ensures whole(z) && z->length <= 64; */
+/*@ requires \valid(z) && whole(z); assigns z->sign, z->length, z->zeros; exits \false;
+    ensures whole(z) && z->length <= 64 && (z->sign == 0 <==> x == 0) && 0 <= z->sign; */
 void mpz_set_ui(mpz_ptr z, unsigned long x);
 /*@ requires \valid(z) && \valid(x) && whole(z) && whole(x);
     assigns z->sign, z->length, z->zeros, x->sign, x->length, x->zeros; exits \false;
@@ -71,7 +74,8 @@ size_t mpz_size(mpz_srcptr x);
     assigns out[0 .. decimals(x->length) + 1]; exits \false;
     ensures \exists integer n; 0 <= n <= decimals(x->length) + 1 && ends(out, n); */
 char *mpz_get_str(char *out, int base, mpz_srcptr x);
-/*@ requires \valid(z) && whole(z) && string(text) && (base == 10 || base == 16); assigns *z; exits \false;
+/*@ requires \valid(z) && whole(z) && string(text) && (base == 10 || base == 16);
+    assigns z->sign, z->length, z->zeros; exits \false;
     ensures whole(z); */
 int mpz_set_str(mpz_ptr z, const char *text, int base);
 /*@ requires whole(x) && x->sign != 0 && from == 0; assigns \nothing; exits \false; ensures \result == x->zeros; */
@@ -120,58 +124,66 @@ void mpz_fdiv_q(mpz_ptr z, mpz_srcptr x, mpz_srcptr y);
 /*@ requires \valid(z) && whole(x) && whole(y) && y->sign != 0; assigns z->sign, z->length, z->zeros; exits \false;
     ensures whole(z) && z->length <= \old(x->length) + 1; */
 void mpz_cdiv_q(mpz_ptr z, mpz_srcptr x, mpz_srcptr y);
-/*@ requires \valid(z) && whole(z) && 0 < base; assigns *z; exits \false; ensures whole(z) && z->sign == 1; */
+/*@ requires \valid(z) && whole(z) && 0 < base;
+    assigns z->sign, z->length, z->zeros; exits \false; ensures whole(z) && z->sign == 1; */
 void mpz_ui_pow_ui(mpz_ptr z, unsigned long base, unsigned long exp);
 /*@ requires whole(x) && whole(y); assigns \nothing; exits \false; */
 int mpz_divisible_p(mpz_srcptr x, mpz_srcptr y);
-/*@ requires \valid(z) && whole(x) && whole(y) && y->sign != 0; assigns *z; exits \false; ensures whole(z); */
+/*@ requires \valid(z) && whole(x) && whole(y) && y->sign != 0;
+    assigns z->sign, z->length, z->zeros; exits \false; ensures whole(z); */
 void mpz_divexact(mpz_ptr z, mpz_srcptr x, mpz_srcptr y);
 /*@ requires whole(x); assigns \nothing; exits \false; */
 double mpz_get_d(mpz_srcptr x);
 
-/*@ requires \valid(z) && whole(z) && whole(x) && whole(y); assigns *z; exits \false;
+/*@ requires \valid(z) && whole(z) && whole(x) && whole(y); assigns z->sign, z->length, z->zeros; exits \false;
     ensures whole(z) && 0 <= z->sign; */
 void mpz_gcd(mpz_ptr z, mpz_srcptr x, mpz_srcptr y);
 
-/*@ requires \valid(z); assigns *z; exits \false;
+/*@ requires \valid(z); assigns z->sign, z->length, z->zeros; exits \false;
     ensures whole(z) && z->length <= 64 && (z->sign == 0 <==> x == 0) && 0 <= z->sign; */
 void mpz_init_set_ui(mpz_ptr z, unsigned long x);
-/*@ requires \valid(z) && whole(z); assigns *z; exits \false; ensures whole(z) && z->length <= 64; */
+/*@ requires \valid(z) && whole(z);
+    assigns z->sign, z->length, z->zeros; exits \false; ensures whole(z) && z->length <= 64; */
 void mpz_set_si(mpz_ptr z, long x);
-/*@ requires \valid(z) && whole(x); assigns *z; exits \false;
+/*@ requires \valid(z) && whole(x); assigns z->sign, z->length, z->zeros; exits \false;
     ensures whole(z) && z->sign == \abs(\old(x->sign)) && z->length == \old(x->length) &&
       z->zeros == \old(x->zeros); */
 void mpz_abs(mpz_ptr z, mpz_srcptr x);
-/*@ requires \valid(z) && whole(x); assigns *z; exits \false;
+/*@ requires \valid(z) && whole(x); assigns z->sign, z->length, z->zeros; exits \false;
     ensures whole(z) && z->length <= \old(x->length) * e + 1; */
 void mpz_pow_ui(mpz_ptr z, mpz_srcptr x, unsigned long e);
-/*@ requires \valid(z) && whole(x) && 0 < k && (k % 2 == 0 ==> 0 <= x->sign); assigns *z; exits \false;
+/*@ requires \valid(z) && whole(x) && 0 < k && (k % 2 == 0 ==> 0 <= x->sign);
+    assigns z->sign, z->length, z->zeros; exits \false;
     ensures whole(z) && z->sign == \old(x->sign) && z->length <= \old(x->length); */
 int mpz_root(mpz_ptr z, mpz_srcptr x, unsigned long k);
-/*@ requires \valid(z) && whole(x); assigns *z; exits \false; ensures whole(z) && z->length <= \old(x->length) + 64;
+/*@ requires \valid(z) && whole(x);
+    assigns z->sign, z->length, z->zeros; exits \false; ensures whole(z) && z->length <= \old(x->length) + 64;
     ensures y != 0 ==> z->sign == \old(x->sign); */
 void mpz_mul_ui(mpz_ptr z, mpz_srcptr x, unsigned long y);
-/*@ requires \valid(z) && whole(x); assigns *z; exits \false; ensures whole(z) && z->length <= \old(x->length) + 64; */
+/*@ requires \valid(z) && whole(x);
+    assigns z->sign, z->length, z->zeros; exits \false; ensures whole(z) && z->length <= \old(x->length) + 64; */
 void mpz_mul_si(mpz_ptr z, mpz_srcptr x, long y);
-/*@ requires \valid(z) && whole(x); assigns *z; exits \false;
+/*@ requires \valid(z) && whole(x); assigns z->sign, z->length, z->zeros; exits \false;
     ensures whole(z) && z->length <= \max(\old(x->length), 64) + 1; */
 void mpz_add_ui(mpz_ptr z, mpz_srcptr x, unsigned long y);
-/*@ requires \valid(z) && whole(x); assigns *z; exits \false;
+/*@ requires \valid(z) && whole(x); assigns z->sign, z->length, z->zeros; exits \false;
     ensures whole(z) && z->length <= \max(\old(x->length), 64) + 1; */
 void mpz_sub_ui(mpz_ptr z, mpz_srcptr x, unsigned long y);
-/*@ requires \valid(z) && whole(z) && whole(x); assigns *z; exits \false; ensures whole(z); */
+/*@ requires \valid(z) && whole(z) && whole(x); assigns z->sign, z->length, z->zeros; exits \false; ensures whole(z); */
 void mpz_submul_ui(mpz_ptr z, mpz_srcptr x, unsigned long y);
 /*@ requires whole(x) && y != 0; assigns \nothing; exits \false; ensures \result < y; */
 unsigned long mpz_fdiv_ui(mpz_srcptr x, unsigned long y);
-/*@ requires \valid(z) && whole(x) && y != 0; assigns *z; exits \false;
-    ensures whole(z) && z->length <= \old(x->length) + 1; */
+/*@ requires \valid(z) && whole(x) && y != 0; assigns z->sign, z->length, z->zeros; exits \false;
+    ensures whole(z) && z->length <= \old(x->length);
+    ensures 2 <= y && 0 <= \old(x->sign) ==> 0 <= z->sign && z->length <= \max(0, \old(x->length) - 1); */
 unsigned long mpz_fdiv_q_ui(mpz_ptr z, mpz_srcptr x, unsigned long y);
-/*@ requires \valid(z) && whole(x) && y != 0; assigns *z; exits \false;
-    ensures whole(z) && z->length <= \old(x->length) + 1; */
+/*@ requires \valid(z) && whole(x) && y != 0; assigns z->sign, z->length, z->zeros; exits \false;
+    ensures whole(z) && z->length <= \old(x->length); */
 unsigned long mpz_cdiv_q_ui(mpz_ptr z, mpz_srcptr x, unsigned long y);
 /*@ requires whole(x) && whole(y); assigns \nothing; exits \false; ensures -2147483647 <= \result; */
 int mpz_cmpabs(mpz_srcptr x, mpz_srcptr y);
-/*@ requires whole(x); assigns \nothing; exits \false; ensures -2147483647 <= \result; */
+/*@ requires whole(x); assigns \nothing; exits \false; ensures -2147483647 <= \result;
+    ensures y == 1 && 0 < \result ==> 2 <= x->length; */
 int mpz_cmpabs_ui(mpz_srcptr x, unsigned long y);
 /*@ requires whole(x); assigns \nothing; exits \false; ensures -2147483647 <= \result; */
 int mpz_cmp_si(mpz_srcptr x, long y);
