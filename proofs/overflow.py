@@ -37,6 +37,7 @@ PARTS = {  # tests of about four minutes at most; those but the first are of wha
     'outcome': ['certificate'],
     'sets': ['parts', 'faces', 'still', 'diagram', 'pairs', 'number', 'quotient', 'algebra_read',
              'enclosure', 'inverse', 'distance'],
+    'bounds': ['bounds'],
     'blocks': ['algebra', 'algebra_enclose', 'algebra_bound', 'bracket', 'cycle', 'ties', 'boxes'],
 }
 ITEMS = {'start': 'sizes', 'term': 'terms', 'digits': 'chars', 'den': 'numbers', 'place': 'places'}  # of lists, by name

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/dyadic/convert.c. */
-/* Without dyd_dyadic_round_q: not tried. */
+#define SPELL_OUT
 #include "contracts.h"
 
 #include <math.h>

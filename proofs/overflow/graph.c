@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/graph.c: sorting stays in the list, the list of pairs grows, walks stay in the graph. */
-/* Without dyd_cert_compare_edges, dyd_cert_edges_have, compare_angle, gather_around, dyd_cert_graph_clear,
-   dyd_cert_follow: not tried. */
+/* Without dyd_cert_compare_edges, dyd_cert_edges_have, compare_angle: operands are pointers to void, and WP's memory of
+   items does not follow what they are cast to: that the pairs can be read stays unknown. */
+/* Without gather_around: that half-edges are as many as counted around their origins rests on counting: with the sizes
+   of the lists and that nothing else changes, that --g->start[v] is a place in around[] stays unknown, and what comes
+   after. */
 #include "graph.h"
 
 #include "base/alloc.h"
@@ -18,6 +21,11 @@
 #define RESERVE reserve_sizes
 #define ALLOC alloc_sizes
 #include "lists.h"
+
+/*@ requires \valid_read((const dyd_cert_edge *)key) && size == sizeof(dyd_cert_edge) && 0 < count &&
+      \valid_read((const dyd_cert_edge *)base + (0 .. count - 1));
+    assigns \nothing; exits \false; */
+void *bsearch(const void *key, const void *base, size_t count, size_t size, int (*)(const void *, const void *));
 
 /*@ requires a < BOUND && b < BOUND; assigns \nothing; exits \false; */
 int compare_any(const void *with, uint32_t a, uint32_t b);
@@ -44,7 +52,5 @@ static bool have_directions(const dyd_cert_graph *g);
 static dyd_status find_connected(dyd_cert_graph *g);
 /*@ requires \valid(g); exits \false; */
 static void gather_around(dyd_cert_graph *g);
-/*@ requires \valid(g); exits \false; */
-void dyd_cert_graph_clear(dyd_cert_graph *g);
 
 #include "checker/graph.c"

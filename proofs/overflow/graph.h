@@ -20,23 +20,30 @@ typedef const dyd_cert_graph *graph;
 /*@ predicate pairs(edges e, integer sites) = \valid_read(e) && e->count <= 1073741823 &&
       (0 < e->count ==> \valid_read(e->item + (0 .. e->count - 1))) &&
       (\forall integer k; 0 <= k < e->count ==> e->item[k].i < sites && e->item[k].j < sites);
+    logic integer from(graph g, integer h) = h / 2 < g->legal->count ?
+      (h % 2 == 0 ? g->legal->item[h / 2].i : g->legal->item[h / 2].j) :
+      (h % 2 == 0 ? g->bridges->item[h / 2 - g->legal->count].i : g->bridges->item[h / 2 - g->legal->count].j);
     predicate joined(graph g) = \valid_read(g) && \valid_read(g->sites) && g->sites->count == SITES &&
       pairs(g->legal, g->sites->count) && pairs(g->bridges, g->sites->count) &&
       g->count == g->legal->count + g->bridges->count && g->count < 1073741823; */
 
 /*@ requires joined(g) && h < 2 * g->count; assigns \nothing; exits \false;
-    ensures \result.i < g->sites->count && \result.j < g->sites->count; */
+    ensures \result.i < g->sites->count && \result.j < g->sites->count;
+    ensures from(g, h) == (h % 2 == 0 ? \result.i : \result.j); */
 static inline dyd_cert_edge dyd_cert_edge_of(const dyd_cert_graph *g, uint32_t h);
 /*@ requires joined(g) && h < 2 * g->count; assigns \nothing; exits \false; */
 static inline bool dyd_cert_is_legal(const dyd_cert_graph *g, uint32_t h);
-/*@ requires joined(g) && h < 2 * g->count; assigns \nothing; exits \false; ensures \result < g->sites->count; */
+/*@ requires joined(g) && h < 2 * g->count; assigns \nothing; exits \false;
+    ensures \result < g->sites->count && \result == from(g, h); */
 static inline uint32_t dyd_cert_origin(const dyd_cert_graph *g, uint32_t h);
 
 /*@ predicate drawn(graph g) = joined(g) && \valid_read(g->start + (0 .. SITES)) &&
       (0 < g->count ==> \valid_read(g->around + (0 .. 2 * g->count - 1)) &&
         \valid_read(g->position + (0 .. 2 * g->count - 1))) &&
       below(g->around, 2 * g->count, 2 * g->count) && below(g->position, 2 * g->count, 2 * g->count) &&
-      (\forall integer v; 0 <= v <= SITES ==> g->start[v] <= 2 * g->count); */
+      (\forall integer v; 0 <= v <= SITES ==> g->start[v] <= 2 * g->count) &&
+      (\forall integer h; 0 <= h < 2 * g->count ==>
+        g->start[from(g, h)] <= g->position[h] < g->start[from(g, h) + 1]); */
 /*@ requires forest(parent) && v < SITES; assigns parent[0 .. SITES - 1]; exits \false;
     ensures forest(parent) && \result < SITES; */
 static inline uint32_t dyd_cert_root(uint32_t *parent, uint32_t v);
@@ -48,6 +55,8 @@ void dyd_cert_sort(uint32_t *item, size_t count, dyd_cert_compare *compare, cons
 /*@ requires \valid_read((const dyd_cert_edge *)a) && \valid_read((const dyd_cert_edge *)b);
     assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
 int dyd_cert_compare_edges(const void *a, const void *b);
+/*@ requires pairs(edges, 4294967295); assigns \nothing; exits \false; */
+bool dyd_cert_edges_have(const dyd_cert_edges *edges, uint32_t i, uint32_t j);
 /*@ requires \valid(edges) && edges->count <= edges->cap <= 1152921504606846976 &&
       (0 < edges->cap ==> \valid(edges->item + (0 .. edges->cap - 1)) &&
         \separated(edges->item + (0 .. edges->cap - 1), edges));
@@ -62,6 +71,8 @@ int dyd_cert_compare_places(const dyd_cert_sites *s, uint32_t a, uint32_t b);
 /*@ requires \valid_read(s) && a < s->count && b < s->count && c < s->count; assigns \nothing; exits \false;
     ensures -1 <= \result <= 1; */
 int dyd_cert_turn(const dyd_cert_sites *s, uint32_t a, uint32_t b, uint32_t c);
+/*@ requires \valid(g); assigns *g; exits \false; */
+void dyd_cert_graph_clear(dyd_cert_graph *g);
 /*@ requires drawn(g) && h < 2 * g->count; assigns \nothing; exits \false; ensures \result < 2 * g->count; */
 uint32_t dyd_cert_follow(const dyd_cert_graph *g, uint32_t h);
 /*@ requires drawn(g); assigns \nothing; exits \false;

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/sites.c: the list of sites grows, and numbers are on the grid. */
-/* Without dyd_cert_sites_init, clear_side, clear_place, dyd_cert_sites_clear, end_outward, axis_extent,
-   place_on_grid, dyd_cert_sites_finish, dyd_cert_is_point, dyd_cert_high, dyd_cert_den, dyd_cert_place: not tried. */
+/* Without place_on_grid: that coordinates are below 2^31 follows from how the unit was chosen, and GMP is seen here as
+   signs and lengths: four conversions to int32_t stay unknown, and conditions of calls. */
+/* Without dyd_cert_sites_clear, axis_extent, dyd_cert_sites_finish: not tried. */
+/* Unproved end_outward_assert_rte_function_pointer: CVC4 does not know that what is chosen of two functions is one. */
 /* Unproved dyd_cert_side_set_den_assigns_exit_part3: WP does not know that new memory is new. */
 /* Unproved dyd_cert_side_set_den_assigns_normal_part4: WP does not know that new memory is new. */
 /* Unproved dyd_cert_side_set_den_assigns_normal_part5: WP does not know that new memory is new. */
@@ -38,5 +40,20 @@ dyd_cert_site *dyd_cert_sites_add(dyd_cert_sites *s);
     ensures \result == DYD_OK ==> \valid(site->place + (0 .. 1)) && whole(&site->place[0].man[0]) &&
       whole(&site->place[1].man[0]); */
 dyd_status dyd_cert_site_set_place(dyd_cert_site *site, const dyd_exact at[2]);
+
+/*@ requires \valid(s); assigns *s; exits \false; */
+void dyd_cert_sites_init(dyd_cert_sites *s);
+/*@ requires \valid(s) && whole(&s->lo.man[0]) && whole(&s->hi.man[0]);
+    requires s->den == \null || \valid(s->den) && whole(&(*s->den)[0]) && \separated(&(*s->den)[0], s);
+    exits \false; */
+static void clear_side(dyd_cert_side *s);
+/*@ requires \valid(s);
+    requires s->place == \null || \valid(s->place + (0 .. 1)) && whole(&s->place[0].man[0]) &&
+      whole(&s->place[1].man[0]) && \separated(s->place + (0 .. 1), s);
+    exits \false; */
+static void clear_place(dyd_cert_site *s);
+/*@ requires \valid(out) && small_side(s) && apart_from_side(out, s) && exact(out);
+    assigns *out; exits \false; ensures exact(out); */
+static void end_outward(dyd_exact *out, const dyd_cert_side *s, bool upper);
 
 #include "checker/sites.c"

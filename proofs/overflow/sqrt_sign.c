@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/dyadic/sqrt_sign.c. */
-/* Without dyd_sqrt2_sign: not tried. */
+#define SPELL_OUT
 #include "contracts.h"
 
 /*@ requires whole(a) && whole(b) && whole(c); assigns \nothing; exits \false; ensures -1 <= \result <= 1; */

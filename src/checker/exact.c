@@ -82,7 +82,10 @@ int dyd_exact_cmp(const dyd_exact *x, const dyd_exact *y) {
   int sx = mpz_sgn(x->man), sy = mpz_sgn(y->man);
   if (sx != sy) return sx < sy ? -1 : 1;
   if (sx == 0) return 0;
-  if (x->exp == y->exp) return mpz_cmp(x->man, y->man);
+  if (x->exp == y->exp) {
+    int order = mpz_cmp(x->man, y->man); /* any number: callers compare and multiply signs */
+    return (order > 0) - (order < 0);
+  }
   int64_t tx = dyd_exact_top(x), ty = dyd_exact_top(y);
   if (tx != ty) return (tx < ty) == (sx > 0) ? -1 : 1;
   dyd_exact d;
