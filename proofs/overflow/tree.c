@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/tree.c: what is reckoned on the grid. Areas are numbers of 64 bits here, since Frama-C has
  * none of 128; they are unsigned, and their values are no part of the proof. */
-/* Without dyd_cert_centre_set: a call through a pointer to one of two functions. With a clause `calls` the conditions of
-   both were proved, not that a function is there (rte_function_pointer); and that the centre stays a number while
-   coordinates on the grid are set stayed unknown. */
+/* Without dyd_cert_centre_set: tried, with a clause `calls` for the call through a pointer to one of two functions. That
+   the centre and the origin stay numbers while coordinates on the grid are set stayed unknown. */
 #define __int128 long long
 #include "exact.h"
 
@@ -66,7 +65,6 @@ static const dyd_cert_box *tree_child(const dyd_cert_tree *t, int level, size_t 
     ensures filled_to(t, level); ensures filled(t, level + 1);
     ensures 8 * below(t, level + 1) <= below(t, level) + 7; */
 static void fill_level(dyd_cert_tree *t, int level);
-
 
 typedef const dyd_cert_sites *list_of_sites;
 
