@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/tree.c: what is reckoned on the grid. Areas are numbers of 64 bits here, since Frama-C has
  * none of 128; they are unsigned, and their values are no part of the proof. */
-/* Without dyd_cert_centre_set: tried, with a clause `calls` for the call through a pointer to one of two functions. That
+/* Without dyd_cert_centre_set: tried, with a clause `calls` where one of two functions is called through a pointer. That
    the centre and the origin stay numbers while coordinates on the grid are set stayed unknown. */
 #define __int128 long long
 #include "exact.h"
