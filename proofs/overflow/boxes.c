@@ -1,20 +1,65 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Contracts for src/checker/boxes.c: regions, and distances from their corners. Areas are numbers of 64 bits here:
- * their values are no part of the proof. */
-/* Without box_height, make_blocker, choose_blockers, is_region_blocked, keep_region_sites, list_region_pairs,
-   keep_region_pairs, add_left, look_at_region, cone_region, mark_outer_sites, keep_outer_sites, look_around,
-   look_everywhere, compare_partner, index_known, sort_left, dyd_cert_boxes_left: not tried. */
+/* Contracts for src/checker/boxes.c: regions, distances from their corners, who is kept in one. Areas are numbers
+ * of 64 bits here, heights too, and doubles in box_height: Frama-C has no numbers of 128 bits. Their values are no part
+ * of the proof, but that each of the two products in box_height is at most 2^92 is: no number of 128 bits overflows. */
+/* Without list_region_pairs: tried. That *pairs is at most a * count (a product that grows) and that lists stay what
+   they are while another is made longer stayed unknown: the invariants, the writes behind `at`, the conditions of
+   dyd_reserve and dyd_cert_faces_share. */
+/* Without add_left: tried. dyd_cert_edges_add, as graph.c proves it, says of a list that is longer only its last pair,
+   not what else it leaves as it is: that the search and its pairs are there after a round stayed unknown. */
+/* Without look_at_region, mark_outer_sites, keep_outer_sites, look_around, look_everywhere, index_known,
+   dyd_cert_boxes_left: not tried. */
 #define __int128 long long
-#include "exact.h"
+#include "faces.h"
 
 #include "base/alloc.h"
 #include "checker/tree.h"
 #include <string.h>
 
+#define ITEM uint32_t
+#define RESERVE reserve_indices
+#define ALLOC alloc_indices
+#include "lists.h"
+#define ITEM dyd_cert_edge
+#define RESERVE reserve_pairs
+#define ALLOC alloc_edges
+#include "lists.h"
+#define ITEM size_t
+#define RESERVE reserve_sizes
+#define ALLOC alloc_sizes
+#include "lists.h"
+#define ITEM bool
+#define RESERVE reserve_flags
+#define ALLOC alloc_flags
+#include "lists.h"
+
+/* dyd_reserve, as lists.h has it, and that what was in the list is still there. */
+/*@ requires \valid(array) && \valid(cap) && \separated(array, cap) && size == sizeof(uint32_t) &&
+      *cap <= 1152921504606846976;
+    requires 0 < *cap ==> \valid(*array + (0 .. *cap - 1));
+    assigns *array, *cap; exits \false;
+    ensures !\result ==> *array == \old(*array) && *cap == \old(*cap);
+    ensures \result ==> need <= *cap <= 1152921504606846976;
+    ensures \result && 0 < *cap ==> \valid(*array + (0 .. *cap - 1));
+    ensures \result ==> \forall integer q; 0 <= q < \old(*cap) ==> (*array)[q] == \old((*array)[q]); */
+bool dyd_reserve(uint32_t **array, size_t *cap, size_t need, size_t size);
+/*@ requires \valid(array) && \valid(cap) && \separated(array, cap) && size == sizeof(dyd_cert_edge) &&
+      *cap <= 1152921504606846976;
+    requires 0 < *cap ==> \valid(*array + (0 .. *cap - 1));
+    assigns *array, *cap; exits \false;
+    ensures !\result ==> *array == \old(*array) && *cap == \old(*cap);
+    ensures \result ==> need <= *cap <= 1152921504606846976;
+    ensures \result && 0 < *cap ==> \valid(*array + (0 .. *cap - 1));
+    ensures \result ==> \forall integer q; 0 <= q < \old(*cap) ==> (*array)[q].i == \old((*array)[q].i) &&
+      (*array)[q].j == \old((*array)[q].j); */
+bool reserve_edges(dyd_cert_edge **array, size_t *cap, size_t need, size_t size);
+/*@ requires \valid_read(a) && \valid_read(b); assigns \nothing; exits \false; */
+int compare_edges(const dyd_cert_edge *a, const dyd_cert_edge *b);
+
 typedef const dyd_cert_box *grid_box;
 typedef const int64_t *spot;
 
-/*@ predicate box(grid_box b) = \valid_read(b) && (\forall integer k; 0 <= k < 4 ==> 0 <= b->e[k] <= 4294967295);
+/*@ predicate box(grid_box b) = \valid_read(b);
     predicate near(spot c) = \valid_read(c + (0 .. 1)) &&
       (\forall integer k; 0 <= k < 2 ==> -1152921505143717888 <= c[k] <= 1152921505143717888); */
 
@@ -24,5 +69,18 @@ static inline dyd_cert_area dyd_cert_square(int64_t d);
 static dyd_cert_area far_from_corner(const int64_t c[2], const dyd_cert_box *b);
 /*@ requires near(&c[0]) && box(b); assigns \nothing; exits \false; */
 static dyd_cert_area near_from_corner(const int64_t c[2], const dyd_cert_box *b);
+
+/*@ requires near(&corner[0]) && box(b); assigns \nothing; exits \false; */
+static double box_height(const int64_t corner[2], const dyd_cert_box *b, bool upper);
+/* box_height, as a number, for those who compare heights: CVC4 fails on comparisons of doubles. */
+/*@ requires near(&corner[0]) && box(b); assigns \nothing; exits \false; */
+long long height_of(const int64_t corner[2], const dyd_cert_box *b, bool upper);
+/*@ requires 0 < count ==> \valid(item + (0 .. count - 1));
+    assigns item[0 .. count - 1]; exits \false; */
+void sort_edges(dyd_cert_edge *item, size_t count);
+/*@ requires \valid(left) && (0 < left->count ==> \valid(left->item + (0 .. left->count - 1)) &&
+      \separated(left, left->item + (0 .. left->count - 1)));
+    assigns left->count, left->item[0 .. left->count - 1]; exits \false; ensures left->count <= \old(left->count); */
+static void sort_left(dyd_cert_edges *left);
 
 #include "checker/boxes.c"

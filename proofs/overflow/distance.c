@@ -1,19 +1,30 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* Contracts for src/checker/distance.c: what is reckoned on the grid. Areas are numbers of 64 bits here: their values
- * are no part of the proof. */
-/* Without dyd_cert_window_init, dyd_cert_window_clear, place_end, root_above, find_diameter, place_site, make_grid,
-   mpz_set_area, find_site_gap, are_disjoint, site_gap_below, add_diameters, is_near_bisector, is_near_site, far_root,
-   has_two_near_sites, box_pairs_hold, box_keep, is_worth_a_look, box_is_covered, extent_widen, spans_all,
-   distance_search_init, distance_search_clear, dyd_cert_distance_holds: not tried. */
+/* Contracts for src/checker/distance.c: what is reckoned on the grid, roots, sites kept of nested boxes. Areas are
+ * numbers of 64 bits here: their values are no part of the proof. */
+/* Without mpz_set_area: v >> 64 is no shift of the 64 bits that stand for 128 here. */
+/* Without find_diameter: tried. That the sides stay numbers while s->gap and s->part are set, as dyd_cert_fraction_sub
+   demands, and the invariants of the two fractions stayed unknown. */
+/* Without add_diameters: tried, also with the two sums taken to be apart from all that is pointed to. That the sums of
+   dyd_exact_add are still numbers after their exponents were set stayed unknown. */
+/* Without is_near_site: tried. That coordinates of a stay in range while s->gap changes stayed unknown. */
+/* Without make_grid, place_site, find_site_gap, site_gap_below, is_near_bisector, box_pairs_hold, box_is_covered,
+   extent_widen, spans_all, distance_search_init, distance_search_clear, dyd_cert_distance_holds: not tried. */
+/* Unproved place_end_assert_rte_function_pointer: that there is a function where one of two is called. */
 #define __int128 long long
 #include "sites.h"
 
 #include "base/alloc.h"
 
-#define ITEM uint32_t
-#define RESERVE dyd_reserve
-#define ALLOC alloc_indices
-#include "lists.h"
+/* dyd_reserve, as lists.h has it, and that what was in the list is still there. */
+/*@ requires \valid(array) && \valid(cap) && \separated(array, cap) && size == sizeof(uint32_t) &&
+      *cap <= 1152921504606846976;
+    requires 0 < *cap ==> \valid(*array + (0 .. *cap - 1));
+    assigns *array, *cap; exits \false;
+    ensures !\result ==> *array == \old(*array) && *cap == \old(*cap);
+    ensures \result ==> need <= *cap <= 1152921504606846976;
+    ensures \result && 0 < *cap ==> \valid(*array + (0 .. *cap - 1));
+    ensures \result ==> \forall integer q; 0 <= q < \old(*cap) ==> (*array)[q] == \old((*array)[q]); */
+bool dyd_reserve(uint32_t **array, size_t *cap, size_t need, size_t size);
 
 #include "checker/distance.h"
 #include "checker/tree.h"
@@ -25,5 +36,47 @@
 
 /*@ requires -2305843009213693952 <= d <= 2305843009213693952; assigns \nothing; exits \false; */
 static inline dyd_cert_area dyd_cert_square(int64_t d);
+typedef const dyd_cert_window *window_of;
+
+typedef const dyd_cert_fraction *ratio_of;
+
+/*@ predicate ratio(ratio_of f) = \valid_read(f) && whole(&f->num.man[0]) && whole(&f->den[0]) &&
+      (!f->whole ==> f->den[0].sign == 1);
+    predicate ratio_within(ratio_of f, integer most) = ratio(f) && -most <= f->num.exp <= most; */
+/*@ requires \valid(f); assigns *f; exits \false; ensures ratio_within(f, 0) && f->whole; */
+void dyd_cert_fraction_init(dyd_cert_fraction *f);
+/*@ requires \valid(f) && ratio(f); assigns *f; exits \false; */
+void dyd_cert_fraction_clear(dyd_cert_fraction *f);
+/*@ requires ratio_within(a, 274877906944) && ratio_within(b, 274877906944); assigns \nothing; exits \false; */
+int dyd_cert_fraction_cmp(const dyd_cert_fraction *a, const dyd_cert_fraction *b);
+/*@ requires \valid(out) && ratio(out) && exact(a) && exact(b) && (da == \null || whole(da) && da->sign == 1) &&
+      (db == \null || whole(db) && db->sign == 1) && \separated(out, a) && \separated(out, b) &&
+      (da == \null || \separated(out, da)) && (db == \null || \separated(out, db));
+    assigns *out; exits \false; ensures ratio(out) && between(out->num.exp, \old(a->exp), \old(b->exp)); */
+void dyd_cert_fraction_sub(dyd_cert_fraction *out, const dyd_exact *a, mpz_srcptr da, const dyd_exact *b,
+                           mpz_srcptr db);
+/*@ requires \valid(out) && ratio(out) && ratio_within(a, 274877906944) && ratio_within(b, 274877906944) &&
+      (out == a || \separated(out, a)) && (out == b || \separated(out, b));
+    assigns *out; exits \false; ensures ratio(out) && out->num.exp == \old(a->num.exp) + \old(b->num.exp); */
+void dyd_cert_fraction_mul(dyd_cert_fraction *out, const dyd_cert_fraction *a, const dyd_cert_fraction *b);
+/*@ requires \valid(out) && ratio(out) && ratio_within(a, 274877906944) && ratio_within(b, 274877906944) &&
+      (out == a || \separated(out, a)) && (out == b || \separated(out, b));
+    assigns *out; exits \false;
+    ensures ratio(out) && between(out->num.exp, \old(a->num.exp), \old(b->num.exp)); */
+void dyd_cert_fraction_add(dyd_cert_fraction *out, const dyd_cert_fraction *a, const dyd_cert_fraction *b);
+
+/*@ requires \valid(w); assigns *w; exits \false;
+    ensures exact(&w->e[0]) && exact(&w->e[1]) && exact(&w->e[2]) && exact(&w->e[3]); */
+void dyd_cert_window_init(dyd_cert_window *w);
+/*@ requires \valid(w) && whole(&w->e[0].man[0]) && whole(&w->e[1].man[0]) && whole(&w->e[2].man[0]) &&
+      whole(&w->e[3].man[0]);
+    assigns *w; exits \false; */
+void dyd_cert_window_clear(dyd_cert_window *w);
+/*@ requires \valid(man) && \valid(exp) && ratio_within(f, 68719476736) && 0 <= f->num.man[0].sign &&
+      \separated(man, f) && \separated(exp, f) && \separated(man, exp);
+    assigns *man, *exp; exits \false; ensures -137438953472 <= *exp <= 137438953472; */
+static void root_above(uint64_t *man, int64_t *exp, const dyd_cert_fraction *f);
+/*@ assigns \nothing; exits \false; */
+static bool is_worth_a_look(size_t count, size_t before);
 
 #include "checker/distance.c"

@@ -195,8 +195,17 @@ int mpz_cmpabs(mpz_srcptr x, mpz_srcptr y);
 int mpz_cmpabs_ui(mpz_srcptr x, unsigned long y);
 /*@ requires whole(x); assigns \nothing; exits \false; ensures -2147483647 <= \result; */
 int mpz_cmp_si(mpz_srcptr x, long y);
-/*@ requires whole(x); assigns \nothing; exits \false; */
+/*@ requires whole(x); assigns \nothing; exits \false;
+    ensures x->length <= 60 ==> -1152921504606846975 <= \result <= 1152921504606846975; */
 long mpz_get_si(mpz_srcptr x);
+/*@ requires whole(x); assigns \nothing; exits \false; ensures x->length <= 60 ==> \result <= 1152921504606846975; */
+unsigned long mpz_get_ui(mpz_srcptr x);
+/*@ requires \valid(z) && whole(x) && 0 <= x->sign; assigns *z; exits \false;
+    ensures whole(z) && 0 <= z->sign && z->length <= (\old(x->length) + 1) / 2; */
+void mpz_sqrt(mpz_ptr z, mpz_srcptr x);
+/*@ requires \valid(z) && \valid(rest) && whole(z) && whole(rest) && whole(x) && 0 <= x->sign && \separated(z, rest);
+    assigns *z, *rest; exits \false; ensures whole(z) && whole(rest) && z->length <= (\old(x->length) + 1) / 2; */
+void mpz_sqrtrem(mpz_ptr z, mpz_ptr rest, mpz_srcptr x);
 
 /* Those of any number of arguments, up to NULL: of two here. */
 #define mpz_inits(a, b, end) (mpz_init(a), mpz_init(b))
