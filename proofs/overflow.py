@@ -39,6 +39,7 @@ PARTS = {  # tests of about four minutes at most; those but the first are of wha
     'blocks': ['algebra', 'algebra_bound', 'bracket', 'cycle', 'ties', 'boxes'],
 }
 ITEMS = {'start': 'sizes', 'term': 'terms', 'digits': 'chars', 'den': 'numbers', 'place': 'places'}  # of lists, by name
+ZEROED = {'start': 'sizes', 'first': 'sizes', 'spare': 'sizes', 'covered': 'pair_counts', 'times': 'indices'}  # else flags
 EXTRA = {'alloc': ['-warn-unsigned-overflow'], 'text': ['-wp-literals'], 'poly': ['-wp-literals'],
          'read': ['-wp-literals', '-no-warn-signed-downcast']}  # a byte becomes a char
 OPTIONS = ['-wp', '-wp-rte', '-warn-special-float', 'none',  # doubles are another matter
@@ -111,9 +112,10 @@ def with_loops(root, name, text):
         if what not in text:
             sys.exit(f'{path.name}: there is no {what!r}')
         text = text.replace(what, by + what)
-    text = re.sub(r'dyd_reserve\(\(void \*\*\)&c->(blocker|point),', r'reserve_\1s(&c->\1,', text)
+    text = re.sub(r'dyd_reserve\(\(void \*\*\)&([cf])->(blocker|point|member|start|shape),', r'reserve_\2s(&\1->\2,', text)
     text = text.replace('(void **)', '')
     text = re.sub(r'(\w+) = dyd_alloc\(', lambda m: f'{m[1]} = alloc_{ITEMS.get(m[1], "indices")}(', text)
+    text = re.sub(r'(\w+) = calloc\(', lambda m: f'{m[1]} = zeroed_{ZEROED.get(m[1], "flags")}(', text)
     text = re.sub(r'(\w+) = malloc\((?:(\d+) \* )?(sizeof [^()]*)\)',
                   lambda m: f'{m[1]} = alloc_{ITEMS[m[1]]}({m[2] or 1}, {m[3]})', text)
     return re.sub(r'\ndyd_status dyd_cert_reject\(.*?\n}\n', '\n', text, flags=re.S)  # of any number of arguments
