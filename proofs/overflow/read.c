@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/read.c: whatever bytes come, they are read where they are, and numbers stay in range. */
-/* Without dyd_cert_reader_clear: not tried. */
+/* Without dyd_cert_reject: it takes any number of arguments, which WP does not know; the text of its message is cut to
+   its size by vsnprintf. */
 #include "read.h"
 
 #include "base/alloc.h"
 #include "base/error.h"
 
-#define ITEM char
-#define RESERVE dyd_reserve
-#define ALLOC alloc_chars
-#include "lists.h"
-
-/*@ predicate reads_on(reading r, FILE *in, dyd_error *err) = \valid(r) && r->in == in && r->err == err &&
-      \valid(in) &&
-      (err == \null || \valid(err)) && \separated(r, err, in) && r->cap <= 1152921504606846976 &&
-      (0 < r->cap ==> \valid(r->line + (0 .. r->cap - 1))); */
+/* As in lists.h; what it gives is in LINES. */
+/*@ requires \valid(array) && \valid(cap) && \separated(array, cap) && size == 1 && *cap <= 1152921504606846976;
+    requires 0 < *cap ==> \valid(*array + (0 .. *cap - 1)) && \base_addr(*array) == \base_addr(LINES + 0);
+    assigns *array, *cap; exits \false;
+    ensures !\result ==> *array == \old(*array) && *cap == \old(*cap);
+    ensures \result ==> need <= *cap <= 1152921504606846976;
+    ensures \result && 0 < *cap ==> \valid(*array + (0 .. *cap - 1)) && \base_addr(*array) == \base_addr(LINES + 0); */
+bool dyd_reserve(char **array, size_t *cap, size_t need, size_t size);
 
 /*@ requires \valid_read(r) && (r->err == \null || \valid(r->err)); assigns *r->err; exits \false;
     ensures \result == DYD_E_IO; */
@@ -35,7 +35,7 @@ static bool scan_number(dyd_exact *out, char *text);
 /*@ requires \valid_read(r) && (r->err == \null || \valid(r->err)) && \separated(r->err, r) && string(text);
     requires \valid(out) && exact(&out->lo) && \separated(out, r, r->err);
     requires out->den == \null || \valid(out->den) && \separated(out->den, out, r, r->err);
-    exits \false; */
+    assigns out->den, (*out->den)[0], *r->err; exits \false; */
 static dyd_status read_den(dyd_cert_side *out, dyd_cert_reader *r, const char *text);
 
 #include "checker/read.c"

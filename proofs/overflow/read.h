@@ -11,23 +11,26 @@
 
 typedef const dyd_cert_reader *reading;
 
-/*@ predicate inside(reading r, chars s) = string(s) && within(s, r->line) && (s - r->line) + stop(s) < r->cap;
-    predicate reads(reading r) = \valid(r) && r->cap <= 1152921504606846976 &&
-      (r->err == \null || \valid(r->err) && \separated(r, r->err)) &&
-      (r->at != \null ==> \valid(r->line + (0 .. r->cap - 1)) && inside(r, r->at) &&
-        \separated(r->err, r->line + (0 .. r->cap - 1))); */
+/* The memory of the lines, which dyd_reserve gives: apart from all other. */
+extern char LINES[1152921504606846976];
+
+/*@ predicate kept(reading r) = \valid(r) && \valid(r->in) && r->cap <= 1152921504606846976 &&
+      (r->err == \null || \valid(r->err)) && \separated(r, r->err, r->in, LINES + (..)) &&
+      (0 < r->cap ==> \valid(r->line + (0 .. r->cap - 1)) && \base_addr(r->line) == \base_addr(LINES + 0));
+    predicate inside(reading r, chars s) = string(s) && within(s, r->line) && (s - r->line) + stop(s) < r->cap;
+    predicate reads(reading r) = kept(r) && (r->at != \null ==> 0 < r->cap && inside(r, r->at)); */
 
 /*@ requires \valid_read(r) && (r->err == \null || \valid(r->err)); assigns *r->err; exits \false;
     ensures \result == DYD_E_PARSE; */
 dyd_status reject(const dyd_cert_reader *r);
 #define dyd_cert_reject(r, ...) reject(r)
 
-/*@ requires reads(r) && \valid(r->in) && \separated(r, r->err, r->in) && r->cap <= 1152921504606846976 &&
-      (0 < r->cap ==> \valid(r->line + (0 .. r->cap - 1)));
-    exits \false; */
+/*@ requires \valid(r); assigns r->line; exits \false; */
+void dyd_cert_reader_clear(dyd_cert_reader *r);
+/*@ requires kept(r); assigns r->number, r->line, r->cap, r->at, LINES[..], *r->in, *r->err, errno; exits \false;
+    ensures kept(r); ensures \result == DYD_OK ==> r->at == r->line && reads(r) && 0 < r->cap; */
 dyd_status dyd_cert_next_line(dyd_cert_reader *r);
-/*@ requires reads(r) && \valid(r->in) && \separated(r, r->err, r->in); assigns r->number, *r->err, *r->in, errno;
-    exits \false; */
+/*@ requires kept(r); assigns r->number, *r->err, *r->in, errno; exits \false; */
 dyd_status dyd_cert_expect_end(dyd_cert_reader *r);
 /*@ requires \valid_read(r); assigns \nothing; exits \false; ensures \result <==> r->at != \null; */
 bool dyd_cert_line_has_more(const dyd_cert_reader *r);
@@ -64,7 +67,8 @@ dyd_status dyd_cert_read_number(dyd_exact *out, dyd_cert_reader *r);
 dyd_status dyd_cert_read_point(dyd_exact out[2], dyd_cert_reader *r);
 /*@ requires reads(r) && \valid(out) && exact(&out->lo) && exact(&out->hi) && \separated(out, r, r->err);
     requires out->den == \null || \valid(out->den) && \separated(out->den, out, r, r->err);
-    exits \false; */
+    assigns r->at, r->line[0 .. r->cap - 1], *out, (*out->den)[0], *r->err; exits \false;
+    ensures \result == DYD_OK ==> reads(r); */
 dyd_status dyd_cert_read_side(dyd_cert_side *out, dyd_cert_reader *r);
 
 #endif
