@@ -114,6 +114,7 @@ def with_loops(root, name, text):
         text = text.replace(what, by + what)
     text = re.sub(r'dyd_reserve\(\(void \*\*\)&([cf])->(blocker|point|member|start|shape),', r'reserve_\2s(&\1->\2,', text)
     text = text.replace('(void **)', '')
+    text = re.sub(r'\bmem(cpy|set)\((?=[^,]*\be,)', r'mem\1_exponents(', text)
     text = re.sub(r'(\w+) = dyd_alloc\(', lambda m: f'{m[1]} = alloc_{ITEMS.get(m[1], "indices")}(', text)
     text = re.sub(r'(\w+) = calloc\(', lambda m: f'{m[1]} = zeroed_{ZEROED.get(m[1], "flags")}(', text)
     text = re.sub(r'(\w+) = malloc\((?:(\d+) \* )?(sizeof [^()]*)\)',

@@ -65,6 +65,8 @@ int mpz_odd_p(mpz_srcptr x);
     assigns \nothing; exits \false; ensures base == 2 ==> \result == (x->sign == 0 ? 1 : x->length);
     ensures base == 10 ==> \result == decimals(x->length); */
 size_t mpz_sizeinbase(mpz_srcptr x, int base);
+/*@ requires whole(x); assigns \nothing; exits \false; ensures \result <= 2147483648; */
+size_t mpz_size(mpz_srcptr x);
 /*@ requires whole(x) && base == 10 && \valid(out + (0 .. decimals(x->length) + 1));
     assigns out[0 .. decimals(x->length) + 1]; exits \false;
     ensures \exists integer n; 0 <= n <= decimals(x->length) + 1 && ends(out, n); */
@@ -78,7 +80,8 @@ mp_bitcnt_t mpz_scan1(mpz_srcptr x, mp_bitcnt_t from);
     ensures \result == 0 ==> same{Here, Here}(x, y); */
 int mpz_cmp(mpz_srcptr x, mpz_srcptr y);
 /*@ requires whole(x); assigns \nothing; exits \false; ensures -2147483647 <= \result;
-    ensures y == 1 && \result == 0 ==> x->sign == 1 && x->length == 1; */
+    ensures y == 1 && \result == 0 ==> x->sign == 1 && x->length == 1;
+    ensures 0 < \result ==> x->sign == 1; */
 int mpz_cmp_ui(mpz_srcptr x, unsigned long y);
 
 /*@ requires \valid(z) && whole(x) && by <= 1099511627776; assigns z->sign, z->length, z->zeros; exits \false;

@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/poly.c: polynomials are read where they are, exponents stay in their type, terms in
  * their lists. */
-/* Without dyd_cert_poly_clear, count_terms_of, dyd_cert_poly_set, poly_set_term, dyd_cert_poly_set_z,
-   dyd_cert_poly_set_leaf, terms_merge, dyd_cert_poly_add_scaled, dyd_cert_poly_add, terms_take_power, reduce_leaf,
-   dyd_cert_poly_reduce, dyd_cert_poly_mul, dyd_cert_poly_equal, dyd_cert_poly_integer, dyd_cert_poly_content,
-   dyd_cert_poly_divide, scan_term, dyd_cert_poly_scan, dyd_cert_count_work, dyd_cert_poly_is_zero: not tried. */
-#include "exact.h"
+/* Without dyd_cert_poly_add_scaled, dyd_cert_poly_add, terms_merge, terms_take_power, reduce_leaf, dyd_cert_poly_reduce,
+   dyd_cert_poly_mul, scan_term, dyd_cert_poly_scan: not tried. */
+#include "terms.h"
 
 #include "base/alloc.h"
 #include <string.h>
 
-#include "checker/poly.h"
+/*@ requires \valid(to + (0 .. 63)) && byte == 0 && n == 128; assigns to[0 .. 63]; exits \false;
+    ensures \forall integer k; 0 <= k < 64 ==> to[k] == 0; */
+void memset_exponents(uint16_t *to, int byte, size_t n);
+/*@ requires \valid(to + (0 .. 63)) && \valid_read(from + (0 .. 63)) && n == 128; assigns to[0 .. 63]; exits \false;
+    ensures \forall integer k; 0 <= k < 64 ==> to[k] == \old(from[k]); */
+void memcpy_exponents(uint16_t *to, const uint16_t *from, size_t n);
 
 #include "base/invariant.h"
 
@@ -42,6 +45,12 @@ static unsigned scan_unsigned(const char **text, unsigned most);
 /*@ requires \valid(t) && \valid(text) && string(*text) && \valid_read(r) && r->count <= 64 && \separated(text, t, r);
     assigns *text, t->e[0 .. 63]; exits \false; ensures \result ==> string(*text); */
 static bool scan_power(dyd_cert_term *t, const char **text, const dyd_cert_relations *r);
+/*@ requires \valid(r) && \valid_read(q) && held(q) && \separated(r, q);
+    assigns r->work; exits \false; */
+static bool count_terms_of(dyd_cert_relations *r, const dyd_cert_poly *q, size_t more);
+/*@ requires \valid(p) && held(p) && whole(z) && \valid(r) && \separated(p, r, z) && leaf < 64 && e <= 8192;
+    assigns owned: *p, r->nomem; exits \false; ensures held(p); ensures \result ==> limited(p); */
+static bool poly_set_term(dyd_cert_poly *p, mpz_srcptr z, size_t leaf, uint16_t e, dyd_cert_relations *r);
 /*@ requires \valid(r); assigns r->nomem; exits \false;
     ensures \result != \null && 0 < count ==> \valid(\result + (0 .. count - 1)); */
 static dyd_cert_term *terms_alloc(size_t count, dyd_cert_relations *r);
