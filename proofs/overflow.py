@@ -38,7 +38,8 @@ PARTS = {  # tests of about four minutes at most; those but the first are of wha
              'enclosure', 'inverse', 'distance'],
     'blocks': ['algebra', 'algebra_bound', 'bracket', 'cycle', 'ties', 'boxes'],
 }
-ITEMS = {'start': 'sizes', 'term': 'terms', 'digits': 'chars', 'den': 'numbers', 'place': 'places'}  # of lists, by name
+ITEMS = {'start': 'sizes', 'term': 'terms', 'digits': 'chars', 'den': 'numbers', 'place': 'places',
+         'c': 'coefficients', 'cosine': 'cosines'}  # of lists, by name
 ZEROED = {'start': 'sizes', 'first': 'sizes', 'spare': 'sizes', 'covered': 'pair_counts', 'times': 'indices'}  # else flags
 EXTRA = {'alloc': ['-warn-unsigned-overflow'], 'text': ['-wp-literals'], 'poly': ['-wp-literals'],
          'read': ['-wp-literals', '-no-warn-signed-downcast']}  # a byte becomes a char

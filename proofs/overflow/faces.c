@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/faces.c: open sets grow in their lists, and are found by sites that are there. */
-/* Without faces_index_sites: not tried. */
+/* Without faces_add_set, add_bounded_face, faces_add_all_sites: tried with contracts by which the lists stay apart from
+   the graph; that memory written after dyd_reserve or dyd_alloc is new is not seen (goals on what is assigned), and that
+   all of a graph is kept (faces_add_set_ensures) was not decided in 4 s. */
+/* Without compare_place_of, compare_with_corner: operands are pointers to void, and WP's typed memory does not know
+   that what they were cast to is there (goals rte_mem_access and the precondition of dyd_cert_compare_places). */
+/* Without check_places, check_corners, add_groups, split_rim, faces_add_outer, faces_find_sets, faces_index_sites,
+   dyd_cert_faces_init: not tried. */
 #include "faces.h"
 
 #include "base/alloc.h"
@@ -9,14 +15,6 @@
 #define ITEM uint32_t
 #define RESERVE reserve_any
 #define ALLOC alloc_indices
-#include "lists.h"
-#define ITEM bool
-#define RESERVE reserve_flags
-#define ALLOC alloc_flags
-#include "lists.h"
-#define ITEM dyd_cert_shape
-#define RESERVE reserve_shapes
-#define ALLOC alloc_shapes
 #include "lists.h"
 #define ITEM size_t
 #define ALLOC zeroed_sizes
@@ -49,11 +47,6 @@ bool reserve_starts(size_t **array, size_t *cap, size_t need, size_t size);
 
 /*@ requires \valid_read(s) && a < s->count && b < s->count; assigns \nothing; exits \false; */
 int dyd_cert_compare_heights(const dyd_cert_sites *s, const dyd_exact u[2], uint32_t a, uint32_t b);
-/*@ requires n % 4 == 0 && (0 < n ==> \valid(to + (0 .. n / 4 - 1)) && \valid_read(from + (0 .. n / 4 - 1)));
-    requires \separated(to + (0 .. n / 4 - 1), from + (0 .. n / 4 - 1));
-    assigns to[0 .. n / 4 - 1]; exits \false; ensures \forall integer k; 0 <= k < n / 4 ==> to[k] == \old(from[k]); */
-void copy_indices(uint32_t *to, const uint32_t *from, size_t n);
-#define memcpy(to, from, n) copy_indices(to, from, n)
 /*@ requires 0 < n ==> \valid(to + (0 .. n - 1)); assigns to[0 .. n - 1]; exits \false; */
 void clear_flags(bool *to, size_t n);
 #define memset(to, c, n) clear_flags(to, n)
@@ -62,75 +55,25 @@ void clear_flags(bool *to, size_t n);
     assigns item[0 .. count - 1]; exits \false; ensures below(item, count, SITES); */
 void sort_sites(uint32_t *item, size_t count);
 #define dyd_cert_sort(item, count, compare, with) sort_sites(item, count)
-/*@ requires \valid_read(key) && (0 < count ==> \valid_read(corner + (0 .. count - 1))) &&
-      (\forall integer k, l; 0 <= k < l < count ==> corner[k].i < corner[l].i) &&
-      (\exists integer k; 0 <= k < count && corner[k].i == *key);
-    assigns \nothing; exits \false; ensures \subset(\result, corner + (0 .. count - 1)) && \result->i == *key; */
-const dyd_cert_corner *find_corner(const uint32_t *key, const dyd_cert_corner *corner, size_t count);
-#define bsearch(key, base, count, size, compare) find_corner(key, base, count)
-
-typedef dyd_cert_faces *growing_sets;
-typedef const dyd_cert_corner *corner_list;
-
-/* LISTS says what the open sets' lists are apart from: what a graph is in. */
-/*@ predicate apart(growing_sets f, graph g) =
-      \separated(f, g, g->sites, g->legal, g->bridges, g->start + (0 .. SITES), g->around + (0 .. 2 * g->count - 1),
-        g->position + (0 .. 2 * g->count - 1), g->legal->item + (0 .. g->legal->count - 1),
-        g->bridges->item + (0 .. g->bridges->count - 1));
-    predicate members_apart(growing_sets f, graph g) =
-      \separated(f->member + (0 .. f->member_cap - 1), f, g, g->sites, g->legal, g->bridges,
-        g->around + (0 .. 2 * g->count - 1), g->position + (0 .. 2 * g->count - 1), g->start + (0 .. SITES),
-        g->legal->item + (0 .. g->legal->count - 1), g->bridges->item + (0 .. g->bridges->count - 1));
-    predicate starts_apart(growing_sets f, graph g) =
-      \separated(f->start + (0 .. f->set_cap - 1), f, g, g->sites, g->legal, g->bridges, g->start + (0 .. SITES),
-        f->member + (0 .. f->member_cap - 1), f->shape + (0 .. f->shape_cap - 1));
-    predicate grows(growing_sets f, graph g) = \valid(f) && drawn(g) && apart(f, g) && members_apart(f, g) &&
-      starts_apart(f, g) &&
-      \separated(f->shape + (0 .. f->shape_cap - 1), f, g, g->sites, g->legal, g->bridges) &&
-      f->members <= f->member_cap <= 1152921504606846976 && f->set_cap <= 1152921504606846976 &&
-      f->sets <= f->shape_cap <= 1152921504606846976 && (0 < f->sets ==> f->sets < f->set_cap) &&
-      (0 < f->member_cap ==> \valid(f->member + (0 .. f->member_cap - 1))) &&
-      (0 < f->set_cap ==> \valid(f->start + (0 .. f->set_cap - 1))) &&
-      (0 < f->shape_cap ==> \valid(f->shape + (0 .. f->shape_cap - 1))) && below(f->member, f->members, SITES);
-    predicate corners_of(corner_list corner, integer corners) =
-      (0 < corners ==> \valid_read(corner + (0 .. corners - 1))) &&
-      (\forall integer k; 0 <= k < corners ==> corner[k].i < SITES) &&
-      (\forall integer k, l; 0 <= k < l < corners ==> corner[k].i < corner[l].i); */
-
 /*@ requires drawn(g) && h < 2 * g->count && \valid(out) && \valid(count) && \separated(out, count, g, g->sites,
       g->legal, g->bridges, g->start + (0 .. SITES), g->around + (0 .. 2 * g->count - 1),
       g->position + (0 .. 2 * g->count - 1), g->legal->item + (0 .. g->legal->count - 1),
       g->bridges->item + (0 .. g->bridges->count - 1));
-    assigns *out, *count; exits \false;
+    exits \false;
     ensures \result == DYD_OK ==> 0 < *count <= 2 * g->count && \valid(*out + (0 .. *count - 1)) &&
       below(*out, *count, 2 * g->count); */
 dyd_status dyd_cert_walk(uint32_t **out, size_t *count, const dyd_cert_graph *g, uint32_t h);
-/*@ requires grows(f, g) && (0 < count ==> \valid_read(site + (0 .. count - 1))) && count <= 1152921504606846976 &&
-      below((uint32_t *)site, count, SITES) && \separated(f, site + (0 .. count - 1));
-    assigns *f, f->member[0 .. f->member_cap - 1], f->start[0 .. f->set_cap - 1], f->shape[0 .. f->shape_cap - 1];
-    exits \false; ensures grows(f, g); */
-static dyd_status faces_add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint32_t *site, size_t count,
-                                dyd_cert_shape shape);
-/*@ requires grows(f, g) && h < 2 * g->count && \valid(seen + (0 .. 2 * g->count - 1)) &&
-      \separated(seen + (0 .. 2 * g->count - 1), f, g);
-    exits \false; ensures grows(f, g);
-    assigns *f, f->member[0 .. f->member_cap - 1], f->start[0 .. f->set_cap - 1], f->shape[0 .. f->shape_cap - 1],
-      seen[0 .. 2 * g->count - 1]; */
-static dyd_status add_bounded_face(dyd_cert_faces *f, bool *seen, const dyd_cert_graph *g, uint32_t h);
 /*@ requires \valid_read((const dyd_cert_sites *)sites) && a < ((const dyd_cert_sites *)sites)->count &&
       b < ((const dyd_cert_sites *)sites)->count; assigns \nothing; exits \false; */
 static int compare_place_of(const void *sites, uint32_t a, uint32_t b);
 /*@ requires \valid(hull + (0 .. SITES - 1)) && \valid_read(s) && s->count == SITES &&
-      \valid_read(s->site + (0 .. SITES - 1)) && 0 < count < 4294967295 && \valid(item + (0 .. count - 1)) &&
+      \valid_read(s->site + (0 .. SITES - 1)) && 0 < SITES && 0 < count < 4294967295 && \valid(item + (0 .. count - 1)) &&
       below(item, count, SITES) && \separated(hull + (0 .. SITES - 1), item + (0 .. count - 1), s);
-    assigns hull[0 .. SITES - 1], item[0 .. count - 1]; exits \false; */
+    exits \false; */
 dyd_status dyd_cert_hull(bool *hull, const dyd_cert_sites *s, uint32_t *item, size_t count);
 /*@ requires \valid_read((const uint32_t *)a) && \valid_read((const dyd_cert_corner *)b);
     assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
 static int compare_with_corner(const void *a, const void *b);
-/*@ requires grows(f, g); assigns *f, f->member[0 .. f->member_cap - 1], f->start[0 .. f->set_cap - 1],
-      f->shape[0 .. f->shape_cap - 1]; exits \false; ensures grows(f, g); */
-static dyd_status faces_add_all_sites(dyd_cert_faces *f, const dyd_cert_graph *g);
 /*@ requires \valid(f); assigns *f; exits \false; */
 void dyd_cert_faces_clear(dyd_cert_faces *f);
 /*@ requires indexed(f) && i < SITES && j < SITES && \valid(a) && \valid(b);

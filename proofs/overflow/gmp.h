@@ -106,7 +106,8 @@ void mpz_add(mpz_ptr z, mpz_srcptr x, mpz_srcptr y);
     ensures whole(z) && z->length <= \max(\old(x->length), \old(y->length)) + 1; */
 void mpz_sub(mpz_ptr z, mpz_srcptr x, mpz_srcptr y);
 /*@ requires \valid(z) && whole(x) && whole(y); assigns z->sign, z->length, z->zeros; exits \false;
-    ensures whole(z) && (\old(x->sign) == 0 ==> z->sign == 0) && z->length <= \old(x->length) + \old(y->length); */
+    ensures whole(z) && (\old(x->sign) == 0 ==> z->sign == 0) && z->length <= \old(x->length) + \old(y->length);
+    ensures \old(x->sign) == 1 && \old(y->sign) == 1 ==> z->sign == 1; */
 void mpz_mul(mpz_ptr z, mpz_srcptr x, mpz_srcptr y);
 /*@ requires \valid(z) && whole(z) && whole(x) && whole(y);
     assigns z->sign, z->length, z->zeros; exits \false; ensures whole(z); */

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/still.c: pairs are of sites that are there. */
-/* Without movers_fill, movers_list: not tried. */
+/* Without movers_fill: tried with how often a site is listed (movers_count proves the counts); that a place stays below
+   the end of its list (rte_mem_access_13, rte_mem_access_26) and that all before it is filled (loop invariants 3, 4) was
+   not decided in 5 s. */
+/* Without movers_list: not tried; what it promises is taken for granted by those after it. */
 #include "faces.h"
 
 #include "base/alloc.h"
