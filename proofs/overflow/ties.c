@@ -5,7 +5,7 @@
    dyd_cert_enclosure_sub, what is assigned) was not decided in 4 s. */
 /* Without side_is_number: tried with the numerator and the denominator apart from all else; that they are whole numbers
    after `shifted`, one of the two, was changed was not decided in 5 s. */
-/* Without base_has, dyd_cert_fact_holds: tried; that points, numbers and the pointers in local lists stay while quotients
+/* Without base_set_circle, base_has, dyd_cert_fact_holds: tried; that points, numbers and the pointers in local lists stay while quotients
    in local variables change as a whole was not decided in 4 s (index_bound, preconditions of base_has). */
 /* Without check_rectangles: WP and CVC4 did not end in 90 s. */
 /* Without are_a_triangle, read_members, read_fact, read_points, read_block, dyd_cert_ties_read: not
@@ -65,7 +65,6 @@ void negate(dyd_cert_quotient *x);
 void round_exact(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp);
 #define dyd_exact_ceil(out, x, den, exp) round_exact(out, x, den, exp)
 #define dyd_exact_floor(out, x, den, exp) round_exact(out, x, den, exp)
-#define QUOTIENT_OF(q) q.num.term, q.num.count, q.den.term, q.den.count
 /*@ requires 0 < n ==> \valid_read(a + (0 .. n / 4 - 1)) && \valid_read(b + (0 .. n / 4 - 1));
     assigns \nothing; exits \false; */
 int compare_indices(const uint32_t *a, const uint32_t *b, size_t n);
