@@ -40,7 +40,9 @@ PARTS = {  # tests of about four minutes at most; those but the first are of wha
     'bounds': ['bounds'],
     'blocks': ['algebra', 'algebra_enclose', 'algebra_bound', 'bracket', 'cycle', 'ties', 'boxes'],
 }
-ITEMS = {'start': 'sizes', 'term': 'terms', 'digits': 'chars', 'den': 'numbers', 'place': 'places'}  # of lists, by name
+ITEMS = {'start': 'sizes', 'term': 'terms', 'digits': 'chars', 'den': 'numbers', 'place': 'places',
+         'c': 'coefficients', 'cosine': 'cosines'}  # of lists, by name
+ZEROED = {'start': 'sizes', 'first': 'sizes', 'spare': 'sizes', 'covered': 'pair_counts', 'times': 'indices'}  # else flags
 EXTRA = {'alloc': ['-warn-unsigned-overflow'], 'text': ['-wp-literals'], 'poly': ['-wp-literals', '-wp-prop=-owned'],
          'quotient': ['-wp-prop=-owned'],  # what has this name in terms.h is not proved
          **{name: ['-wp-literals'] for name in ('checker', 'pairs', 'diagram', 'certificate')},
@@ -115,10 +117,11 @@ def with_loops(root, name, text):
         if what not in text:
             sys.exit(f'{path.name}: there is no {what!r}')
         text = text.replace(what, by + what)
-    text = re.sub(r'dyd_reserve\(\(void \*\*\)&c->(blocker|point),', r'reserve_\1s(&c->\1,', text)
+    text = re.sub(r'dyd_reserve\(\(void \*\*\)&([cf])->(blocker|point|member|start|shape),', r'reserve_\2s(&\1->\2,', text)
     text = text.replace('(void **)', '')
     text = re.sub(r'\bmem(cpy|set)\((?=[^,]*\be,)', r'mem\1_exponents(', text)
     text = re.sub(r'(\w+) = dyd_alloc\(', lambda m: f'{m[1]} = alloc_{ITEMS.get(m[1], "indices")}(', text)
+    text = re.sub(r'(\w+) = calloc\(', lambda m: f'{m[1]} = zeroed_{ZEROED.get(m[1], "flags")}(', text)
     text = re.sub(r'(\w+) = malloc\((?:(\d+) \* )?(sizeof [^()]*)\)',
                   lambda m: f'{m[1]} = alloc_{ITEMS[m[1]]}({m[2] or 1}, {m[3]})', text)
     return re.sub(r'\ndyd_status dyd_cert_reject\(.*?\n}\n', '\n', text, flags=re.S)  # of any number of arguments

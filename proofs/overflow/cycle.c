@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/cycle.c: orders up to DYD_CERT_ORDER; every cosine is in the list. */
-/* Without psi_rest, cycle_relation, dyd_cert_cycle_begin: not tried. */
+/* Without psi_rest: tried with invariants on the coefficients and the number that is set again and again; WP and CVC4
+   did not end in 150 s, as every call changes polynomials in local variables as a whole. */
 /* Unproved extend_cosines_assigns_exit_part1: CVC4 does not see that the relations are part of the block. */
 /* Unproved extend_cosines_assigns_normal: CVC4 does not see that the relations are part of the block. */
 #include "polys.h"
@@ -9,6 +10,33 @@
 #include "base/invariant.h"
 #include <string.h>
 
+#undef DYD_INVARIANT
+#define DYD_INVARIANT(holds) ((void)0)
+#define ITEM long
+#define RESERVE reserve_coefficients
+#define ALLOC alloc_coefficients
+#include "lists.h"
+#define ITEM dyd_cert_poly
+#define RESERVE reserve_cosines
+#define ALLOC alloc_cosines
+#include "lists.h"
+
+/*@ requires 0 < n ==> \valid(to) && \valid_read(from); exits \false; */
+void move_terms(dyd_cert_term *to, const dyd_cert_term *from, size_t n);
+#define memmove(to, from, n) move_terms(to, from, n)
+
+/*@ requires \valid(a) && a->relations.count <= 64; exits \false; ensures \result <= 64;
+    assigns a->relations.count, a->leaf[0 .. 63]; */
+size_t dyd_cert_algebra_leaf(dyd_cert_algebra *a);
+/*@ requires \valid(rest) && \valid(a) && leaf < 64 && 0 <= m <= 512 && \valid_read(c + (0 .. m)) &&
+      (\forall integer k; 0 <= k <= m ==> -1048576 <= c[k] <= 1048576) && \separated(c + (0 .. m), rest, a);
+    exits \false; */
+static bool psi_rest(dyd_cert_poly *rest, dyd_cert_algebra *a, size_t leaf, const long *c, long m);
+/*@ requires \valid(n) && \valid(a) && leaf < 64 && 1 <= n->exponent <= 1024 && a->relations.count <= 64 &&
+      \separated(n, a); exits \false; */
+static bool cycle_relation(dyd_cert_number *n, dyd_cert_algebra *a, size_t leaf);
+/*@ requires \valid(n) && \valid(a) && a->relations.count <= 64 && \separated(n, a); exits \false; */
+bool dyd_cert_cycle_begin(dyd_cert_number *n, dyd_cert_algebra *a);
 /*@ requires 1 <= n <= 1024; assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
 static int moebius(long n);
 /*@ requires 1 <= n <= 1024; assigns \nothing; exits \false; ensures 1 <= \result <= n; */

@@ -1,29 +1,81 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/faces.c: open sets grow in their lists, and are found by sites that are there. */
-/* Without dyd_cert_walk, faces_add_set, add_bounded_face, compare_place_of, dyd_cert_hull, check_places,
-   compare_with_corner, check_corners, add_groups, split_rim, faces_add_outer, faces_add_all_sites, faces_find_sets,
-   faces_index_sites, dyd_cert_faces_init, dyd_cert_faces_clear: not tried. */
+/* Without faces_add_set, add_bounded_face, faces_add_all_sites: tried with contracts by which the lists stay apart from
+   the graph; that memory written after dyd_reserve or dyd_alloc is new is not seen (goals on what is assigned), and that
+   all of a graph is kept (faces_add_set_ensures) was not decided in 4 s. */
+/* Without compare_place_of, compare_with_corner: operands are pointers to void, and WP's typed memory does not know
+   that what they were cast to is there (goals rte_mem_access and the precondition of dyd_cert_compare_places). */
+/* Without check_places, check_corners, add_groups, split_rim, faces_add_outer, faces_find_sets, faces_index_sites,
+   dyd_cert_faces_init: not tried. */
 #include "faces.h"
 
 #include "base/alloc.h"
-#include "checker/parts.h"
 #include <string.h>
 
 #define ITEM uint32_t
-#define RESERVE reserve_indices
+#define RESERVE reserve_any
 #define ALLOC alloc_indices
 #include "lists.h"
 #define ITEM size_t
-#define RESERVE reserve_starts
-#define ALLOC alloc_starts
-#include "lists.h"
-#define ITEM dyd_cert_shape
-#define RESERVE reserve_shapes
-#define ALLOC alloc_shapes
-#include "lists.h"
+#define ALLOC zeroed_sizes
+#include "zeroed.h"
+#define ITEM uint64_t
+#define ALLOC zeroed_pair_counts
+#include "zeroed.h"
+#define ITEM uint32_t
+#define ALLOC zeroed_indices
+#include "zeroed.h"
+#define ITEM bool
+#define ALLOC zeroed_flags
+#include "zeroed.h"
+
+/* Lists that grow, which keep their items. */
+/*@ requires \valid(array) && \valid(cap) && \separated(array, cap) && size == sizeof(uint32_t) &&
+      *cap <= 1152921504606846976 && (0 < *cap ==> \valid(*array + (0 .. *cap - 1)));
+    assigns *array, *cap; exits \false;
+    ensures !\result ==> *array == \old(*array) && *cap == \old(*cap);
+    ensures \result ==> need <= *cap <= 1152921504606846976 && (0 < *cap ==> \valid(*array + (0 .. *cap - 1))) &&
+      \forall integer k; 0 <= k < \old(*cap) ==> (*array)[k] == \old((*array)[k]); */
+bool reserve_members(uint32_t **array, size_t *cap, size_t need, size_t size);
+/*@ requires \valid(array) && \valid(cap) && \separated(array, cap) && size == sizeof(size_t) &&
+      *cap <= 1152921504606846976 && (0 < *cap ==> \valid(*array + (0 .. *cap - 1)));
+    assigns *array, *cap; exits \false;
+    ensures !\result ==> *array == \old(*array) && *cap == \old(*cap);
+    ensures \result ==> need <= *cap <= 1152921504606846976 && (0 < *cap ==> \valid(*array + (0 .. *cap - 1))) &&
+      \forall integer k; 0 <= k < \old(*cap) ==> (*array)[k] == \old((*array)[k]); */
+bool reserve_starts(size_t **array, size_t *cap, size_t need, size_t size);
 
 /*@ requires \valid_read(s) && a < s->count && b < s->count; assigns \nothing; exits \false; */
 int dyd_cert_compare_heights(const dyd_cert_sites *s, const dyd_exact u[2], uint32_t a, uint32_t b);
+/*@ requires 0 < n ==> \valid(to + (0 .. n - 1)); assigns to[0 .. n - 1]; exits \false; */
+void clear_flags(bool *to, size_t n);
+#define memset(to, c, n) clear_flags(to, n)
+/* What graph.h says of dyd_cert_sort, of sites. */
+/*@ requires 0 < count < 1152921504606846976 && \valid(item + (0 .. count - 1)) && below(item, count, SITES);
+    assigns item[0 .. count - 1]; exits \false; ensures below(item, count, SITES); */
+void sort_sites(uint32_t *item, size_t count);
+#define dyd_cert_sort(item, count, compare, with) sort_sites(item, count)
+/*@ requires drawn(g) && h < 2 * g->count && \valid(out) && \valid(count) && \separated(out, count, g, g->sites,
+      g->legal, g->bridges, g->start + (0 .. SITES), g->around + (0 .. 2 * g->count - 1),
+      g->position + (0 .. 2 * g->count - 1), g->legal->item + (0 .. g->legal->count - 1),
+      g->bridges->item + (0 .. g->bridges->count - 1));
+    exits \false;
+    ensures \result == DYD_OK ==> 0 < *count <= 2 * g->count && \valid(*out + (0 .. *count - 1)) &&
+      below(*out, *count, 2 * g->count); */
+dyd_status dyd_cert_walk(uint32_t **out, size_t *count, const dyd_cert_graph *g, uint32_t h);
+/*@ requires \valid_read((const dyd_cert_sites *)sites) && a < ((const dyd_cert_sites *)sites)->count &&
+      b < ((const dyd_cert_sites *)sites)->count; assigns \nothing; exits \false; */
+static int compare_place_of(const void *sites, uint32_t a, uint32_t b);
+/*@ requires \valid(hull + (0 .. SITES - 1)) && \valid_read(s) && s->count == SITES &&
+      \valid_read(s->site + (0 .. SITES - 1)) && 0 < SITES && 0 < count < 4294967295 && \valid(item + (0 .. count - 1)) &&
+      below(item, count, SITES) && \separated(hull + (0 .. SITES - 1), item + (0 .. count - 1), s);
+    exits \false; */
+dyd_status dyd_cert_hull(bool *hull, const dyd_cert_sites *s, uint32_t *item, size_t count);
+/*@ requires \valid_read((const uint32_t *)a) && \valid_read((const dyd_cert_corner *)b);
+    assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
+static int compare_with_corner(const void *a, const void *b);
+/*@ requires \valid(f); assigns *f; exits \false; */
+void dyd_cert_faces_clear(dyd_cert_faces *f);
 /*@ requires indexed(f) && i < SITES && j < SITES && \valid(a) && \valid(b);
     requires \separated(a, b, f, f->first + (0 .. SITES), f->of + (0 .. f->members - 1));
     assigns *a, *b; exits \false; ensures \result == DYD_CERT_NONE || \result < f->sets; */

@@ -6,6 +6,7 @@
 #include "graph.h"
 
 #include "checker/faces.h"
+#include "checker/parts.h"
 
 typedef const dyd_cert_faces *open_sets;
 
@@ -28,5 +29,26 @@ bool dyd_cert_faces_still(const dyd_cert_faces *f, uint32_t i, uint32_t j);
 void dyd_cert_faces_cover(dyd_cert_faces *f, uint32_t i, uint32_t j);
 /*@ requires indexed(f); assigns \nothing; exits \false; */
 uint64_t dyd_cert_faces_left(const dyd_cert_faces *f);
+
+typedef const dyd_cert_parts *parts_of;
+/*@ predicate grouped(parts_of p, integer count) = \valid_read(p) && 0 < p->groups <= count &&
+      \valid_read(p->group + (0 .. count - 1)) && (\forall integer q; 0 <= q < count ==> p->group[q] < p->groups) &&
+      \valid_read(p->start + (0 .. p->groups)) &&
+      (\forall integer r; 0 <= r <= p->groups ==> p->start[r] <= 2 * count) &&
+      \valid_read(p->site + (0 .. 2 * count - 1)) && below(p->site, 2 * count, SITES) &&
+      (\forall integer r; 0 <= r < p->groups ==> p->start[r] <= p->start[r + 1]); */
+
+/*@ requires count < 1152921504606846976 && (0 < count ==> \valid(item + (0 .. count - 1)));
+    assigns item[0 .. count - 1]; exits \false; ensures \result <= count && (0 < count ==> 0 < \result); */
+size_t dyd_cert_distinct(uint32_t *item, size_t count);
+/*@ requires \valid(p) && joined(g) && 0 < count <= 2 * g->count && \valid_read(walk + (0 .. count - 1)) &&
+      below((uint32_t *)walk, count, 2 * g->count) && \valid_read(corner + (0 .. SITES - 1)) &&
+      \separated(p, g, g->sites, g->legal, g->bridges, walk + (0 .. count - 1), corner + (0 .. SITES - 1),
+        g->legal->item + (0 .. g->legal->count - 1), g->bridges->item + (0 .. g->bridges->count - 1));
+    assigns *p; exits \false; ensures \result == DYD_OK ==> grouped(p, count); */
+dyd_status dyd_cert_parts_init(dyd_cert_parts *p, const dyd_cert_graph *g, const uint32_t *walk, size_t count,
+                               const bool *corner);
+/*@ requires \valid(p); assigns *p; exits \false; */
+void dyd_cert_parts_clear(dyd_cert_parts *p);
 
 #endif

@@ -1,25 +1,142 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/ties.c: points of a block are in their list, and of numbers and sites that are there. */
-/* Without dyd_cert_ties_clear, side_holds_enclosure, side_is_number, side_lacks_number, side_holds_number,
-   check_rectangles, enclose_difference, are_different, are_a_triangle, vector_clear, product_difference, vector_set,
-   base_clear, base_set_line, base_set_circle, number_is_null, base_has, are_same, dyd_cert_fact_holds, read_members,
-   read_kind, read_fact, read_points, read_block, dyd_cert_ties_read, fact_has_set, dyd_cert_ties_mark,
-   dyd_cert_ties_aliases: not tried. */
+/* Without enclose_difference, are_different: tried; enclosures are inside the numbers of a block, which an enclosure
+   changes: that the interval in a local variable is still one while the next number is enclosed (precondition of
+   dyd_cert_enclosure_sub, what is assigned) was not decided in 4 s. */
+/* Without side_is_number: tried with the numerator and the denominator apart from all else; that they are whole numbers
+   after `shifted`, one of the two, was changed was not decided in 5 s. */
+/* Without base_set_circle, base_has, dyd_cert_fact_holds: tried; that points, numbers and the pointers in local lists stay while quotients
+   in local variables change as a whole was not decided in 4 s (index_bound, preconditions of base_has). */
+/* Without check_rectangles: WP and CVC4 did not end in 90 s. */
+/* Without are_a_triangle, read_members, read_fact, read_points, read_block, dyd_cert_ties_read: not
+   tried. */
 #include "polys.h"
+#include "enclosures.h"
+#include "faces.h"
 
 #include "base/alloc.h"
 #include "base/error.h"
 
 #include "checker/ties.h"
 
+#define ITEM uint32_t
+#define RESERVE reserve_indices
+#define ALLOC alloc_indices
+#include "lists.h"
+
 typedef const dyd_cert_block *block_of;
+typedef const dyd_cert_described *described;
+typedef const dyd_cert_ties *facts_of;
+typedef const dyd_cert_sites *sites_of;
 
 /*@ predicate block(block_of b) = \valid_read(b) && b->points <= 4294967295 &&
-      (0 < b->points ==> \valid_read(b->point + (0 .. b->points - 1))); */
+      (0 < b->points ==> \valid_read(b->point + (0 .. b->points - 1))) &&
+      (\forall integer k, l; 0 <= k < l < b->points ==> b->point[k].site < b->point[l].site);
+    predicate numbered(numbers a) = \valid(a) && a->count <= 4194304 &&
+      (0 < a->count ==> \valid(a->number + (0 .. a->count - 1))) && \separated(a, a->number + (0 .. a->count - 1));
+    predicate point_of(described d, numbers a) = \valid_read(d) && d->number[0] < a->count && d->number[1] < a->count &&
+      \separated(d, a->number + (0 .. a->count - 1)) && \separated(d, a);
+    predicate is_described(block_of b, integer site) = \exists integer k; 0 <= k < b->points && b->point[k].site == site;
+    predicate stated(facts_of t, integer sites) = \valid_read(t) &&
+      (0 < t->facts ==> \valid_read(t->fact + (0 .. t->facts - 1))) &&
+      (0 < t->members ==> \valid_read(t->member + (0 .. t->members - 1))) && below(t->member, t->members, sites) &&
+      (\forall integer q; 0 <= q < t->facts ==> 2 <= t->fact[q].count && t->fact[q].first < t->members &&
+        t->fact[q].first + t->fact[q].count <= t->members <= 1152921504606846976); */
 
+/* Of algebra_enclose.c, algebra_bound.c and quotient.c: what is kept of a number is its enclosure; terms of a quotient
+ * are its own, and that they change is not seen from here. */
+/*@ requires numbered(a) && k < a->count && 0 < p <= 16384;
+    assigns a->number[0 .. a->count - 1]; exits \false;
+    ensures \result == &a->number[k].now && interval(\result); */
+const dyd_cert_enclosure *dyd_cert_algebra_enclose(dyd_cert_algebra *a, uint32_t k, long p);
+/*@ requires numbered(a) && \valid_read(q);
+    assigns a->number[0 .. a->count - 1], a->relations.nomem, a->relations.work;
+    exits \false; */
+bool dyd_cert_poly_is_null(dyd_cert_algebra *a, const dyd_cert_poly *q);
+/*@ requires \valid(a); assigns *a; exits \false; */
+void dyd_cert_algebra_clear(dyd_cert_algebra *a);
+/*@ requires \valid(x); assigns *x; exits \false; */
+void negate(dyd_cert_quotient *x);
+#define dyd_cert_quotient_neg(x) negate(x)
+/* What exact.h says of these two, with members by name: a number as a whole would be any memory after a call. */
+/*@ requires \valid(out) && exact(x) && (den == \null || whole(den) && den->sign == 1 && \separated(out, den));
+    requires -274877906944 <= exp <= 274877906944 && \separated(out, x);
+    assigns out->sign, out->length, out->zeros; exits \false; ensures whole(out); */
+void round_exact(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp);
+#define dyd_exact_ceil(out, x, den, exp) round_exact(out, x, den, exp)
+#define dyd_exact_floor(out, x, den, exp) round_exact(out, x, den, exp)
+/*@ requires 0 < n ==> \valid_read(a + (0 .. n / 4 - 1)) && \valid_read(b + (0 .. n / 4 - 1));
+    assigns \nothing; exits \false; */
+int compare_indices(const uint32_t *a, const uint32_t *b, size_t n);
+#define memcmp(a, b, n) compare_indices(a, b, n)
+
+/*@ requires \valid(t) && (0 < t->blocks ==> \valid(t->block + (0 .. t->blocks - 1))) &&
+      (\forall integer k; 0 <= k < t->blocks ==> \valid(t->block[k]) && \separated(t, t->block[k]) &&
+        \separated(t->block + (0 .. t->blocks - 1), t->block[k]));
+    exits \false; */
+void dyd_cert_ties_clear(dyd_cert_ties *t);
+/*@ requires side(s) && interval(x) && 0 < p <= 16384; assigns \nothing; exits \false; */
+static bool side_holds_enclosure(const dyd_cert_side *s, const dyd_cert_enclosure *x, long p);
+/*@ requires side(s) && numbered(a) && number < a->count;
+    assigns a->number[0 .. a->count - 1], a->relations.nomem, a->relations.work;
+    exits \false; */
+static bool side_is_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t number);
+/*@ requires side(s) && numbered(a) && number < a->count && 0 < p <= 16384 &&
+      \separated(s, s->den, a->number + (0 .. a->count - 1));
+    assigns a->number[0 .. a->count - 1]; exits \false; */
+static bool side_lacks_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t number, long p);
+/*@ requires side(s) && numbered(a) && number < a->count && 0 < p <= 16384 &&
+      \separated(s, s->den, a->number + (0 .. a->count - 1));
+    assigns a->number[0 .. a->count - 1], a->relations.nomem, a->relations.work;
+    exits \false; */
+static bool side_holds_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t number, long p);
+/*@ requires \valid(b); exits \false; */
+static dyd_status check_rectangles(dyd_cert_block *b, dyd_cert_reader *in, const dyd_cert_sites *s);
 /*@ requires block(b); assigns \nothing; exits \false;
-    ensures \result != \null ==> \subset(\result, b->point + (0 .. b->points - 1)) && \result->site == site; */
+    ensures \result != \null ==> \subset(\result, b->point + (0 .. b->points - 1)) && \result->site == site;
+    ensures is_described(b, site) ==> \result != \null; */
 static const dyd_cert_described *find_described(const dyd_cert_block *b, uint32_t site);
+/*@ requires \valid(out) && interval(out) && numbered(a) && point_of(p, a) && point_of(q, a) && 0 <= axis <= 1 &&
+      0 < prec <= 16384 && \separated(out, a, a->number + (0 .. a->count - 1), p, q);
+    assigns ALL_OF(out), a->number[0 .. a->count - 1]; exits \false;
+    ensures interval(out); */
+static void enclose_difference(dyd_cert_enclosure *out, dyd_cert_algebra *a, const dyd_cert_described *p,
+                               const dyd_cert_described *q, int axis, long prec);
+/*@ requires numbered(a) && point_of(p, a) && point_of(q, a);
+    assigns a->number[0 .. a->count - 1]; exits \false; */
+static bool are_different(dyd_cert_algebra *a, const dyd_cert_described *p, const dyd_cert_described *q);
+/*@ requires numbered(a) && \valid_read(p + (0 .. 2)) && point_of(p[0], a) && point_of(p[1], a) && point_of(p[2], a) &&
+      \separated(p + (0 .. 2), a, a->number + (0 .. a->count - 1));
+    assigns a->number[0 .. a->count - 1]; exits \false; */
+static bool are_a_triangle(dyd_cert_algebra *a, const dyd_cert_described *const p[3]);
+/*@ requires \valid(out) && \valid_read(x) && \valid_read(y) && \valid_read(z) && \valid_read(w) && \valid(r) && out != x;
+    assigns *out, r->nomem, r->work; exits \false; */
+static bool product_difference(dyd_cert_quotient *out, const dyd_cert_quotient *x, const dyd_cert_quotient *y,
+                               const dyd_cert_quotient *z, const dyd_cert_quotient *w, dyd_cert_relations *r);
+/*@ requires reads(in) && \valid(in) && \valid(kind); exits \false; */
+static dyd_status read_kind(dyd_cert_relation_kind *kind, dyd_cert_reader *in);
+/*@ requires numbered(a) && \valid_read(q);
+    assigns a->number[0 .. a->count - 1], a->relations.nomem, a->relations.work;
+    exits \false; */
+static bool number_is_null(dyd_cert_algebra *a, const dyd_cert_poly *q, bool by_bound);
+/*@ requires numbered(a) && point_of(p, a) && point_of(q, a);
+    assigns a->number[0 .. a->count - 1], a->relations.nomem, a->relations.work;
+    exits \false; */
+static bool are_same(dyd_cert_algebra *a, const dyd_cert_described *p, const dyd_cert_described *q, bool by_bound);
+/*@ requires block(b) && \valid(b) && numbered(&b->algebra) && \valid_read(site + (0 .. count - 1)) &&
+      (kind == DYD_CERT_CIRCLE ? 3 <= count : 2 <= count) && 0 <= kind <= 2 &&
+      (\forall integer k; 0 <= k < count ==> is_described(b, site[k])) &&
+      (\forall integer k; 0 <= k < b->points ==> point_of(b->point + k, &b->algebra));
+    exits \false; */
+bool dyd_cert_fact_holds(dyd_cert_block *b, dyd_cert_relation_kind kind, const uint32_t *site, size_t count,
+                         bool by_bound);
+/*@ requires stated(t, SITES) && \valid_read(s) && s->count == SITES && \valid(out) &&
+      \separated(out, t, s, t->fact + (0 .. t->facts - 1), s->site + (0 .. SITES - 1)) &&
+      (0 < SITES ==> \valid_read(s->site + (0 .. SITES - 1))) &&
+      (\forall integer i; 0 <= i < SITES ==> s->site[i].alias < SITES);
+    exits \false; */
+dyd_status dyd_cert_ties_aliases(size_t *out, const dyd_cert_ties *t, const dyd_cert_sites *s);
+
 /*@ requires reads(in) && string(name) && \valid(count) && most <= 4294967295 && \separated(count, in, in->err);
     exits \false; ensures \result == DYD_OK ==> *count <= most; */
 static dyd_status read_count(uint32_t *count, dyd_cert_reader *in, const char *name, uint64_t most);
