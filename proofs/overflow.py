@@ -7,10 +7,10 @@ CVC4 is absent). PART: one of PARTS; without it, all. FILE: only this one of the
 
 overflow/NAME.c has contracts for the functions of src/FOLDER/NAME.c and .h, and includes it; overflow/NAME.acsl says
 what holds in its loops: each paragraph, what is put before a text, where \\n stands for the end of a line.
-overflow/gmp.h says what is taken for granted of GMP, overflow/math.h of the functions on doubles, other headers there of
-the C library. Of each function WP proves what it promises, the conditions of all that it calls, and that no operation is
-undefined: signed overflow, memory that is not there, shifts, conversions of integers that lose something. What is put in
-as `admit` is assumed. Functions that are not proved are named in overflow/NAME.c, as well as goals that CVC4 does not
+overflow/gmp.h says what is taken for granted of GMP, overflow/math.h of the functions on doubles, other headers there
+of the C library. Of each function WP proves what it promises, the conditions of all that it calls, and that no operation
+is undefined: signed overflow, memory that is not there, shifts, conversions of integers that lose something. What is put
+in as `admit` is assumed. Functions that are not proved are named in overflow/NAME.c, as well as goals that CVC4 does not
 prove, with the reason:
 
     /* Without FUNCTION, FUNCTION: reason. */
@@ -31,18 +31,17 @@ import tempfile
 sys.dont_write_bytecode = True
 from faults import faults, with_fault  # noqa: E402
 
-PARTS = {  # tests of about four minutes at most; those but the first are of what reads and keeps the bytes of others
-    'numbers': ['dyadic', 'sqrt_sign', 'convert', 'exact', 'tree', 'measure'],
-    'texts': ['alloc', 'text', 'poly'], 'lines': ['read', 'checker'], 'lists': ['graph', 'sites', 'chain'],
-    'outcome': ['certificate'],
-    'sets': ['parts', 'faces', 'still', 'diagram', 'pairs', 'number', 'quotient', 'algebra_read',
-             'enclosure', 'inverse', 'distance'],
-    'bounds': ['bounds'],
-    'blocks': ['algebra', 'algebra_enclose', 'algebra_bound', 'bracket', 'cycle', 'ties', 'boxes'],
+PARTS = {  # tests of about four minutes; those but the first are of what reads and keeps the bytes of others
+    'numbers': ['dyadic', 'sqrt_sign', 'convert', 'exact', 'measure'],
+    'texts': ['alloc', 'text', 'poly'], 'lines': ['read', 'checker', 'bounds'], 'lists': ['graph', 'sites', 'chain'],
+    'sets': ['parts', 'faces', 'still', 'diagram', 'pairs', 'certificate'], 'trees': ['tree', 'boxes', 'distance'],
+    'values': ['number', 'quotient', 'algebra_read', 'enclosure', 'inverse'],
+    'blocks': ['algebra', 'algebra_enclose', 'algebra_bound', 'bracket', 'cycle', 'ties'],
 }
 ITEMS = {'start': 'sizes', 'term': 'terms', 'digits': 'chars', 'den': 'numbers', 'place': 'places',
          'c': 'coefficients', 'cosine': 'cosines'}  # of lists, by name
-ZEROED = {'start': 'sizes', 'first': 'sizes', 'spare': 'sizes', 'covered': 'pair_counts', 'times': 'indices'}  # else flags
+ZEROED = {'start': 'sizes', 'first': 'sizes', 'spare': 'sizes', 'covered': 'pair_counts',
+          'times': 'indices'}  # others: flags
 EXTRA = {'alloc': ['-warn-unsigned-overflow'], 'text': ['-wp-literals'], 'poly': ['-wp-literals', '-wp-prop=-owned'],
          'quotient': ['-wp-prop=-owned'],  # what has this name in terms.h is not proved
          **{name: ['-wp-literals'] for name in ('checker', 'pairs', 'diagram', 'certificate')},
@@ -117,7 +116,8 @@ def with_loops(root, name, text):
         if what not in text:
             sys.exit(f'{path.name}: there is no {what!r}')
         text = text.replace(what, by + what)
-    text = re.sub(r'dyd_reserve\(\(void \*\*\)&([cf])->(blocker|point|member|start|shape),', r'reserve_\2s(&\1->\2,', text)
+    text = re.sub(r'dyd_reserve\(\(void \*\*\)&([cf])->(blocker|point|member|start|shape),',
+                  r'reserve_\2s(&\1->\2,', text)
     text = text.replace('(void **)', '')
     text = re.sub(r'\bmem(cpy|set)\((?=[^,]*\be,)', r'mem\1_exponents(', text)
     text = re.sub(r'(\w+) = dyd_alloc\(', lambda m: f'{m[1]} = alloc_{ITEMS.get(m[1], "indices")}(', text)
@@ -133,8 +133,8 @@ def try_file(root, work, name):
     copy = source.copy(work)
     count, left, output = goals(root, name, [work], ['-wp-timeout', str(MOST), '-wp-fct', ','.join(source.proved)])
     shutil.rmtree(copy)
-    print(f'{name}: {count - len(left)} of {count} goals of {len(source.proved)} of {len(source.functions)} functions proved',
-          *left and ['but', *sorted(left)], flush=True)
+    print(f'{name}: {count - len(left)} of {count} goals proved,', len(source.proved), 'of', len(source.functions),
+          'functions', *left and ['but', *sorted(left)], flush=True)
     unproved = set(source.named('Unproved'))
     slow = {goal for goal, seconds in re.findall(r'Goal typed_(\w+) : Valid .*\(([0-9.]+)s\)', output)
             if float(seconds) > SLOW} | unproved
@@ -164,10 +164,9 @@ def main():
         os.environ['WHY3CONFIG'] = os.path.join(work, 'why3.conf')
         subprocess.run(['why3', 'config', 'detect'], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
         slow = {name: try_file(root, pathlib.Path(work), name) for name in names}
-        good = [try_fault(root, pathlib.Path(work), slow[pathlib.Path(path).stem] or set(), pathlib.Path(path).stem, *fault)
-                for *fault, path in ((f, old, new, path) for f, path, old, new, _ in
-                                     faults(root / 'proofs' / 'overflow' / 'faults.txt'))
-                if pathlib.Path(path).stem in names]
+        good = [try_fault(root, pathlib.Path(work), slow[name] or set(), name, function, old, new)
+                for function, path, old, new, _ in faults(root / 'proofs' / 'overflow' / 'faults.txt')
+                for name in [pathlib.Path(path).stem] if name in names]
     sys.exit(None in slow.values() or not all(good))
 
 

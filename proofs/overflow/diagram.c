@@ -12,18 +12,14 @@ typedef const dyd_cert_window *window_of;
 
 /*@ predicate polygon(polygon_of p) = \valid_read(p) && 0 < p->points <= 1152921504606846976 &&
       \valid_read(p->point + (0 .. p->points - 1)) &&
-      (\forall integer k; 0 <= k < p->points ==> exact(&p->point[k][0]) && exact(&p->point[k][1]));
+      (\forall integer k; 0 <= k < p->points ==> small(&p->point[k][0]) && small(&p->point[k][1]));
     predicate window(window_of w) = \valid_read(w) && (\forall integer k; 0 <= k < 4 ==> exact(&w->e[k])); */
 
 /*@ requires polygon(p) && k <= p->points; assigns \nothing; exits \false; */
 static bool polygon_goes_on(const dyd_cert_chain *p, size_t k);
 /*@ requires window(w) && exact(at) && exact(at + 1); assigns \nothing; exits \false; */
 bool dyd_cert_window_has(const dyd_cert_window *w, const dyd_exact at[2]);
-/*@ requires exact(&at[0]) && exact(&at[1]); assigns \nothing; exits \false; */
-dyd_cert_spot dyd_cert_spot_at(const dyd_exact at[2]);
-/*@ assigns \nothing; exits \false; */
-int dyd_cert_cross(dyd_cert_spot a, dyd_cert_spot b, dyd_cert_spot c, dyd_cert_spot d);
-/*@ requires polygon(p) && k <= p->points + 2; assigns \nothing; exits \false; */
+/*@ requires polygon(p) && k <= p->points + 2; assigns \nothing; exits \false; ensures spotted(\result); */
 static dyd_cert_spot polygon_spot(const dyd_cert_chain *p, size_t k);
 /*@ requires \valid_read(p) && (0 < p->points ==> polygon(p)); assigns \nothing; exits \false; */
 bool dyd_cert_polygon_is_convex(const dyd_cert_chain *p);

@@ -45,8 +45,6 @@ bool reserve_members(uint32_t **array, size_t *cap, size_t need, size_t size);
       \forall integer k; 0 <= k < \old(*cap) ==> (*array)[k] == \old((*array)[k]); */
 bool reserve_starts(size_t **array, size_t *cap, size_t need, size_t size);
 
-/*@ requires \valid_read(s) && a < s->count && b < s->count; assigns \nothing; exits \false; */
-int dyd_cert_compare_heights(const dyd_cert_sites *s, const dyd_exact u[2], uint32_t a, uint32_t b);
 /*@ requires 0 < n ==> \valid(to + (0 .. n - 1)); assigns to[0 .. n - 1]; exits \false; */
 void clear_flags(bool *to, size_t n);
 #define memset(to, c, n) clear_flags(to, n)
