@@ -159,7 +159,11 @@ def main():
         print('needs frama-c, why3 and cvc4 (packages frama-c-base, cvc4)')
         sys.exit(77)
     root = pathlib.Path(sys.argv[1]).resolve()
-    names = sys.argv[3:] or PARTS[sys.argv[2]] if len(sys.argv) > 2 else sum(PARTS.values(), [])
+    every = sum(PARTS.values(), [])
+    there = {path.stem for folder in ('checker', 'dyadic') for path in (root / 'src' / folder).glob('*.c')}
+    if there - set(every):
+        sys.exit(f'in no part: {sorted(there - set(every))}')
+    names = sys.argv[3:] or PARTS[sys.argv[2]] if len(sys.argv) > 2 else every
     with tempfile.TemporaryDirectory() as work:
         os.environ['WHY3CONFIG'] = os.path.join(work, 'why3.conf')
         subprocess.run(['why3', 'config', 'detect'], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
