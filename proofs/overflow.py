@@ -16,8 +16,8 @@ prove, with the reason:
     /* Without FUNCTION, FUNCTION: reason. */
     /* Unproved GOAL, GOAL: reason. */
 
-Then the faults of overflow/faults.txt are put in, one at a time (faults.py): another goal has to fail, and none that
-takes CVC4 long without the fault.
+Then the faults of overflow/faults.txt are put in, one at a time in a function (faults.py): another goal of it has to
+fail, and none that takes CVC4 long without the fault.
 """
 import os
 import pathlib
@@ -144,14 +144,37 @@ def try_file(root, work, name):
     return None
 
 
-def try_fault(root, work, slow, name, function, old, new):
-    copy = Source(root, name).copy(work, lambda text: with_fault(text, function, old, new))
-    count, left, output = goals(root, name, [work], ['-wp-timeout', str(FEW), '-wp-fct', function],
-                                lambda goal: goal not in slow)
+def rounds(root, name):
+    """The faults of a file, those of different functions together: each function is proved by itself."""
+    left = [(function, old, new) for function, path, old, new, _ in faults(root / 'proofs' / 'overflow' / 'faults.txt')
+            if pathlib.Path(path).stem == name]
+    while left:
+        first = {function: (function, old, new) for function, old, new in reversed(left)}
+        yield list(first.values())
+        left = [fault for fault in left if fault not in first.values()]
+
+
+def try_faults(root, work, slow, name, some):
+    """Puts the faults in; is each noticed?"""
+    noticed = {}
+
+    def change(text):
+        for fault in some:
+            text = with_fault(text, *fault)
+        return text
+
+    def all_noticed(goal):
+        of = max((fault[0] for fault in some if goal.startswith(fault[0] + '_')), key=len, default=None)
+        if of and goal not in slow:
+            noticed.setdefault(of, goal)
+        return len(noticed) == len(some)
+    copy = Source(root, name).copy(work, change)
+    _, _, output = goals(root, name, [work], ['-wp-timeout', str(FEW), '-wp-fct', ','.join(fault[0] for fault in some)],
+                         all_noticed)
     shutil.rmtree(copy)
-    noticed = count > 0 and bool(left - slow)
-    print(f'fault in {function}, {old!r}:', f'not proved {min(left - slow)}' if noticed else output, flush=True)
-    return noticed
+    for function, old, _ in some:
+        print(f'fault in {function}, {old!r}:', f'not proved {noticed[function]}' if function in noticed else output, flush=True)
+    return len(noticed) == len(some)
 
 
 def main():
@@ -168,9 +191,8 @@ def main():
         os.environ['WHY3CONFIG'] = os.path.join(work, 'why3.conf')
         subprocess.run(['why3', 'config', 'detect'], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
         slow = {name: try_file(root, pathlib.Path(work), name) for name in names}
-        good = [try_fault(root, pathlib.Path(work), slow[name] or set(), name, function, old, new)
-                for function, path, old, new, _ in faults(root / 'proofs' / 'overflow' / 'faults.txt')
-                for name in [pathlib.Path(path).stem] if name in names]
+        good = [try_faults(root, pathlib.Path(work), slow[name] or set(), name, some) for name in names
+                for some in rounds(root, name)]
     sys.exit(None in slow.values() or not all(good))
 
 

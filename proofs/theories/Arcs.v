@@ -108,14 +108,14 @@ Qed.
 
 Section Pane.
 Variables A B : rect.
-Hypothesis disjoint : forall z, inside z A -> ~ inside z B.
+Variable disjoint : forall z, inside z A -> ~ inside z B.
 
 Lemma lead_shares x y : lead A B x y = share (xlo A) (xhi A) (xlo B) (xhi B) x + share (ylo A) (yhi A) (ylo B) (yhi B) y.
 Proof. unfold lead, dl, ds. rewrite !dist_sq. unfold dist2, farthest, nearest, share. cbn [fst snd]. ring. Qed.
 
 Variables I J : R -> Prop.
-Hypothesis across : pane (xlo A) (xhi A) (xlo B) (xhi B) I.
-Hypothesis along : pane (ylo A) (yhi A) (ylo B) (yhi B) J.
+Variable across : pane (xlo A) (xhi A) (xlo B) (xhi B) I.
+Variable along : pane (ylo A) (yhi A) (ylo B) (yhi B) J.
 
 (* Some corner of A is in no side of B. *)
 Lemma ends_apart s t q r : s = xlo A \/ s = xhi A -> t = ylo A \/ t = yhi A -> xlo B <= q <= xhi B -> ylo B <= r <= yhi B ->
@@ -199,10 +199,10 @@ Qed.
 
 Section Arcs.
 Variables A B : rect.
-Hypothesis disjoint : forall z, inside z A -> ~ inside z B.
+Variable disjoint : forall z, inside z A -> ~ inside z B.
 Variables I J : R -> Prop.
-Hypothesis across : pane (xlo A) (xhi A) (xlo B) (xhi B) I.
-Hypothesis along : pane (ylo A) (yhi A) (ylo B) (yhi B) J.
+Variable across : pane (xlo A) (xhi A) (xlo B) (xhi B) I.
+Variable along : pane (ylo A) (yhi A) (ylo B) (yhi B) J.
 
 Let X_cases := pane_cases _ _ _ _ I (x_ordered A) (x_ordered B) across.
 Let Y_cases := pane_cases _ _ _ _ J (y_ordered A) (y_ordered B) along.

@@ -36,7 +36,7 @@ Qed.
 
 Section Norm.
 Variable nu : point -> R.
-Hypothesis Nu : norm nu.
+Variable Nu : norm nu.
 
 Lemma norm_back a b : nu (minus a b) = nu (minus b a).
 Proof.
