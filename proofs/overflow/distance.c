@@ -14,7 +14,8 @@
    place_site, the second one of site_gap_below, loop invariants on the ends of the extent and on the unit, and one sum
    in make_grid (rte_signed_overflow_6), where it is taken for granted that the window has a positive area. */
 /* Without is_near_bisector, box_pairs_hold, spans_all, dyd_cert_distance_holds, box_is_covered: tried. Runs were stopped
-   after 35 to 40 s on a busy machine, at 2 goals or before: of these the ensures of spans_all was not decided in 3 s. */
+   after 35 to 40 s on a busy machine, at 5 goals or before: of these the ensures of spans_all, and the first
+   loop invariant of dyd_cert_distance_holds, were not decided in 3 s. */
 /* Unproved place_end_assert_rte_function_pointer: that there is a function where one of two is called. */
 #define __int128 long long
 #include "sites.h"

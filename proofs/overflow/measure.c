@@ -8,7 +8,7 @@
    unknown, where dyd_cert_fraction_sub, mul and add are called. */
 /* Without site_height: tried. The ensures, the loop invariant and the conditions of calls in the loop (dyd_exact_mul,
    dyd_cert_fraction_sub, swap, add, ...) were not decided in 5 s. */
-/* Without dyd_cert_cross: tried alone. The run was stopped after 150 s without an end. */
+/* Without dyd_cert_cross: tried alone. The first loop invariant was not decided in 4 s; the run was stopped at 5 goals. */
 #define SPELL_OUT
 #include "sites.h"
 
