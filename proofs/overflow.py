@@ -33,15 +33,16 @@ from faults import faults, with_fault  # noqa: E402
 
 PARTS = {  # tests of about four minutes; those but the first are of what reads and keeps the bytes of others
     'numbers': ['dyadic', 'sqrt_sign', 'convert', 'exact', 'measure'],
-    'texts': ['alloc', 'text', 'poly'], 'lines': ['read', 'checker', 'bounds'], 'lists': ['graph', 'sites', 'chain'],
+    'texts': ['alloc', 'text', 'poly'], 'lines': ['read', 'checker', 'bounds', 'witness'],
+    'lists': ['graph', 'sites', 'chain'],
     'sets': ['parts', 'faces', 'still', 'diagram', 'pairs', 'certificate'], 'trees': ['tree', 'boxes', 'distance'],
     'values': ['number', 'quotient', 'algebra_read', 'enclosure', 'inverse'],
     'blocks': ['algebra', 'algebra_enclose', 'algebra_bound', 'bracket', 'cycle', 'ties'],
 }
 ITEMS = {'start': 'sizes', 'term': 'terms', 'digits': 'chars', 'den': 'numbers', 'place': 'places',
-         'c': 'coefficients', 'cosine': 'cosines'}  # of lists, by name
+         'c': 'coefficients', 'cosine': 'cosines', 'box': 'boxes'}  # of lists, by name
 ZEROED = {'start': 'sizes', 'first': 'sizes', 'spare': 'sizes', 'covered': 'pair_counts',
-          'times': 'indices'}  # others: flags
+          'times': 'indices', 'stamp': 'stamps'}  # others: flags
 EXTRA = {'alloc': ['-warn-unsigned-overflow'], 'text': ['-wp-literals'], 'poly': ['-wp-literals', '-wp-prop=-owned'],
          'quotient': ['-wp-prop=-owned'],  # what has this name in terms.h is not proved
          **{name: ['-wp-literals'] for name in ('checker', 'pairs', 'diagram', 'certificate')},

@@ -1,16 +1,31 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/bounds.c: gaps between sides, a sum of areas that stays a number. */
-/* Without side_reach, side_span, bounds_cut_corner, bounds_add_area, site_reach2, site_diameter2,
-   half_and_diameter_fit, hausdorff_fits, dyd_cert_bounds_add: not tried. */
+/* Without site_reach2: tried. That of ensures, and the conditions of side_reach (both), dyd_cert_fraction_add and clear
+   were not decided in 5 s. */
+/* Without site_diameter2: tried. Of 22 goals the condition of the second site_reach2 was not decided in 4 s. */
+/* Without hausdorff_fits: tried. Of 37 goals the conditions of site_diameter2 and site_reach2 were not decided in 4 s. */
+/* Without dyd_cert_bounds_add: tried. Of 22 goals the condition of hausdorff_fits was not decided in 4 s. */
+/* Without bounds_cut_corner, bounds_add_area, half_and_diameter_fit: tried. Runs were stopped after 50 to 60 s on a
+   busy machine, at 0 of 54, 0 of 42 and 2 of 149 goals: nothing is known of the others. */
 #define SPELL_OUT
 #include "sites.h"
 
 #undef mpz_inits
 #undef mpz_clears
-#define mpz_inits(...) ((void)0) /* of many numbers, in half_and_diameter_fit, which is not proved */
-#define mpz_clears(...) ((void)0)
+#define mpz_inits(a, b, c, end) (mpz_init(a), mpz_init(b), mpz_init(c))
+#define mpz_clears(a, b, c, d, e, end) (mpz_clear(a), mpz_clear(b), mpz_clear(c), mpz_clear(d), mpz_clear(e))
 
 #include "checker/bounds.h"
+#include <dyadel/dyadic.h>
+
+/*@ requires whole(a) && whole(b) && whole(c) && whole(d) && whole(e); assigns \nothing; exits \false;
+    ensures -1 <= \result <= 1; */
+int dyd_sqrt2_sign(const mpz_t a, const mpz_t b, const mpz_t c, const mpz_t d, const mpz_t e);
+
+/* Of sites their places are no part. */
+#define rectangle(s) (\valid_read(s) && small_side(&(s)->side[0]) && small_side(&(s)->side[1]))
+#define apart_from_rectangle(x, s) (\separated(x, s) && apart_from_side(x, &(s)->side[0]) && \
+    apart_from_side(x, &(s)->side[1]))
 
 /*@ requires \valid(b); assigns *b; exits \false; ensures fraction(&b->area2, 0); */
 void dyd_cert_bounds_init(dyd_cert_bounds *b);
@@ -38,5 +53,38 @@ static int64_t half_up(int64_t e);
 static int64_t larger_exponent(int64_t a, int64_t b);
 /*@ requires \valid_read(b) && exact(&b->area2.num) && small(area); assigns \nothing; exits \false; */
 bool dyd_cert_bounds_area_holds(const dyd_cert_bounds *b, const dyd_exact *area);
+/*@ requires \valid(out) && of_parts(out) && small_side(a) && small_side(b) && apart_from_side(out, a) &&
+      apart_from_side(out, b);
+    assigns FRACTION(out); exits \false; ensures fraction(out, 1048576); */
+static void side_reach(dyd_cert_fraction *out, const dyd_cert_side *a, const dyd_cert_side *b);
+/*@ requires \valid(out) && of_parts(out) && small_side(a) && small_side(b) && apart_from_side(out, a) &&
+      apart_from_side(out, b);
+    assigns FRACTION(out); exits \false; ensures fraction(out, 1048576); */
+static void side_span(dyd_cert_fraction *out, const dyd_cert_side *a, const dyd_cert_side *b);
+/*@ requires \valid(out) && of_parts(out) && rectangle(a) && rectangle(b) && apart_from_rectangle(out, a) &&
+      apart_from_rectangle(out, b);
+    assigns FRACTION(out); exits \false; ensures fraction(out, 2097152); */
+static void site_reach2(dyd_cert_fraction *out, const dyd_cert_site *a, const dyd_cert_site *b);
+/*@ requires \valid(out) && of_parts(out) && rectangle(a) && rectangle(b) && apart_from_rectangle(out, a) &&
+      apart_from_rectangle(out, b);
+    assigns FRACTION(out); exits \false; ensures fraction(out, 2097152); */
+static void site_diameter2(dyd_cert_fraction *out, const dyd_cert_site *a, const dyd_cert_site *b);
+/*@ requires \valid(out) && fraction(out, 2097153) && rectangle(a) && rectangle(b) && apart_from_rectangle(out, a) &&
+      apart_from_rectangle(out, b);
+    assigns FRACTION(out); exits \false; ensures fraction(out, 2097153); */
+static void bounds_cut_corner(dyd_cert_fraction *out, const dyd_cert_site *a, const dyd_cert_site *b, int ux, int uy);
+/*@ requires \valid(b) && fraction(&b->area2, 274877906944) && rectangle(i) && rectangle(j) && apart_from_rectangle(b, i) &&
+      apart_from_rectangle(b, j);
+    assigns FRACTION(&b->area2); exits \false; ensures fraction(&b->area2, 274877906944); */
+static void bounds_add_area(dyd_cert_bounds *b, const dyd_cert_site *i, const dyd_cert_site *j);
+/*@ requires fraction(l, 2097152) && fraction(d, 2097152) && small(h); assigns \nothing; exits \false; */
+static bool half_and_diameter_fit(const dyd_cert_fraction *l, const dyd_cert_fraction *d, const dyd_exact *h);
+/*@ requires \valid_read(b) && small(b->hausdorff) && rectangle(i) && rectangle(j); assigns \nothing; exits \false; */
+static bool hausdorff_fits(const dyd_cert_bounds *b, const dyd_cert_site *i, const dyd_cert_site *j, bool legal);
+/*@ requires \valid(b) && fraction(&b->area2, 274877906944) && (b->hausdorff == \null || small(b->hausdorff) &&
+      \separated(b, b->hausdorff)) && \valid_read(s) && \separated(b, s) && rectangle(s->site + i) &&
+      rectangle(s->site + j) && apart_from_rectangle(b, s->site + i) && apart_from_rectangle(b, s->site + j);
+    assigns FRACTION(&b->area2), b->exceeded; exits \false; ensures fraction(&b->area2, 274877906944); */
+void dyd_cert_bounds_add(dyd_cert_bounds *b, const dyd_cert_sites *s, uint32_t i, uint32_t j, bool legal);
 
 #include "checker/bounds.c"

@@ -4,11 +4,18 @@
 /* Without mpz_set_area: v >> 64 is no shift of the 64 bits that stand for 128 here. */
 /* Without find_diameter: tried. That the sides stay numbers while s->gap and s->part are set, as dyd_cert_fraction_sub
    demands, and the invariants of the two fractions stayed unknown. */
-/* Without add_diameters: tried, also with the two sums taken to be apart from all that is pointed to. That the sums of
-   dyd_exact_add are still numbers after their exponents were set stayed unknown. */
+/* Without add_diameters: tried, also with the two sums taken to be apart from all that is pointed to. exact(x) and
+   exact(y), which dyd_exact_add demands, stayed unknown. */
 /* Without is_near_site: tried. That coordinates of a stay in range while s->gap changes stayed unknown. */
-/* Without make_grid, place_site, find_site_gap, site_gap_below, is_near_bisector, box_pairs_hold, box_is_covered,
-   extent_widen, spans_all, distance_search_init, distance_search_clear, dyd_cert_distance_holds: not tried. */
+/* Without distance_search_init: tried. Its ensures, that all are numbers, was not decided in 4 s. */
+/* Without distance_search_clear: tried. The conditions of dyd_cert_fraction_clear were not decided in 4 s. */
+/* Without find_site_gap, extent_widen, make_grid, place_site, site_gap_below: tried; runs were stopped after 40 s, at 4, 7,
+   15, 7 and 2 of 77, 70, 87, 44 and 58 goals. Not decided in 2 s were the ensures of find_site_gap, make_grid and
+   place_site, the second one of site_gap_below, loop invariants on the ends of the extent and on the unit, and one sum
+   in make_grid (rte_signed_overflow_6), where it is taken for granted that the window has a positive area. */
+/* Without is_near_bisector, box_pairs_hold, spans_all, dyd_cert_distance_holds, box_is_covered: tried. Runs were stopped
+   after 35 to 40 s on a busy machine, at 5 goals or before: of these the ensures of spans_all, and the first
+   loop invariant of dyd_cert_distance_holds, were not decided in 3 s. */
 /* Unproved place_end_assert_rte_function_pointer: that there is a function where one of two is called. */
 #define __int128 long long
 #include "sites.h"
@@ -74,7 +81,7 @@ void dyd_cert_window_init(dyd_cert_window *w);
 void dyd_cert_window_clear(dyd_cert_window *w);
 /*@ requires \valid(man) && \valid(exp) && ratio_within(f, 68719476736) && 0 <= f->num.man[0].sign &&
       \separated(man, f) && \separated(exp, f) && \separated(man, exp);
-    assigns *man, *exp; exits \false; ensures -137438953472 <= *exp <= 137438953472; */
+    assigns *man, *exp; exits \false; ensures -103079215168 <= *exp <= 103079215168; */
 static void root_above(uint64_t *man, int64_t *exp, const dyd_cert_fraction *f);
 /*@ assigns \nothing; exits \false; */
 static bool is_worth_a_look(size_t count, size_t before);
