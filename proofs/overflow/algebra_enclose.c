@@ -24,11 +24,11 @@ static void enclose_inverse(dyd_cert_enclosure *x, dyd_cert_op op, long p);
 static void enclose_function(dyd_cert_enclosure *x, const dyd_cert_number *n, long p);
 /*@ requires \valid(x) && interval(x) && interval(y) && alone(x, y) && few(p); exits \false; ensures interval(x); */
 static void enclose_operation(dyd_cert_enclosure *x, dyd_cert_op op, const dyd_cert_enclosure *y, long p);
-/*@ requires \valid(a) && 64 <= p <= 16384;
+/*@ requires \valid(a) && k < a->count && 64 <= p <= 16384;
     assigns a->relations.work, a->number[0 .. a->count]; exits \false;
     ensures \result == &a->number[k].now && interval(\result); */
 const dyd_cert_enclosure *dyd_cert_algebra_enclose(dyd_cert_algebra *a, uint32_t k, long p);
-/*@ requires \valid(a) && \separated(a, a->number + (0 .. a->count)); exits \false;
+/*@ requires \valid(a) && k < a->count && \separated(a, a->number + (0 .. a->count)); exits \false;
     ensures -1 <= \result <= 1; */
 int dyd_cert_algebra_sign(dyd_cert_algebra *a, uint32_t k);
 
