@@ -7,8 +7,8 @@
    mpz_add (both) and dyd_cert_enclosure_clear (both) require. */
 /* Without dyd_cert_enclosure_atan_from: tried; Timeout in 4 s of ten goals: its postcondition, a mem_access, and what
    the second dyd_cert_enclosure_mul, mpz_sgn, mpz_sizeinbase, mpz_add and dyd_cert_enclosure_clear require. */
-/* Without dyd_cert_enclosure_log, dyd_cert_enclosure_atan, dyd_cert_enclosure_asin, dyd_cert_enclosure_acos: tried, with
-   intervals admitted to stay intervals up to four times; that they still do one or two calls later CVC4 does not
+/* Without dyd_cert_enclosure_log, dyd_cert_enclosure_atan, dyd_cert_enclosure_asin, dyd_cert_enclosure_acos: tried,
+   with intervals admitted to stay intervals up to four times; that they still do one or two calls later CVC4 does not
    prove in 3 s. */
 #define SPELL_OUT
 #include "enclosures.h"
