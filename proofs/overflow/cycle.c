@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/cycle.c: orders up to DYD_CERT_ORDER; every cosine is in the list. */
-/* Without psi_rest: tried with invariants on the coefficients and the number that is set again and again; WP and CVC4
-   did not end in 150 s, as every call changes polynomials in local variables as a whole. */
+/* Without psi_rest: tried with invariants on the coefficients and the number that is set again and again, then by
+   itself without them: WP and CVC4 did not end in 150 s, while other runs had the machine. */
 /* Unproved extend_cosines_assigns_exit_part1: CVC4 does not see that the relations are part of the block. */
 /* Unproved extend_cosines_assigns_normal: CVC4 does not see that the relations are part of the block. */
 #include "polys.h"

@@ -17,9 +17,15 @@ typedef const dyd_cert_enclosure *interval_of;
 #define ENDS_OF(x) PARTS_OF(x->lo[0]), PARTS_OF(x->hi[0])
 #define ALL_OF(x) ENDS_OF(x), x->known
 
+#ifdef SPELL_OUT
+#define interval(x) (\valid_read(x) && whole(&(x)->lo[0]) && whole(&(x)->hi[0]))
+#define alone(x, y) ((x) == (y) || \separated(x, y))
+#else
 /*@ predicate interval(interval_of x) = \valid_read(x) && whole(&x->lo[0]) && whole(&x->hi[0]);
-    predicate alone(interval_of x, interval_of y) = x == y || \separated(x, y);
-    predicate digits(integer p) = 0 <= p <= 549755813888;
+    predicate alone(interval_of x, interval_of y) = x == y || \separated(x, y); */
+#endif
+
+/*@ predicate digits(integer p) = 0 <= p <= 549755813888;
     predicate fewer(integer p) = 0 <= p <= 274877906944;
     predicate few(integer p) = 0 <= p <= 1073741824; */
 

@@ -5,8 +5,10 @@
    dyd_cert_enclosure_sub, what is assigned) was not decided in 4 s. */
 /* Without side_is_number: tried with the numerator and the denominator apart from all else; that they are whole numbers
    after `shifted`, one of the two, was changed was not decided in 5 s. */
-/* Without base_set_circle, base_has, dyd_cert_fact_holds: tried; that points, numbers and the pointers in local lists stay while quotients
-   in local variables change as a whole was not decided in 4 s (index_bound, preconditions of base_has). */
+/* Without base_set_circle: tried; not decided in 4 s. */
+/* Without base_has: tried; by itself, WP and CVC4 did not end in 150 s, while other runs had the machine. */
+/* Without dyd_cert_fact_holds: tried; open were index_bound and what base_has requires, not decided in 4 s; a run by
+   itself did not end in 120 s, while other runs had the machine. */
 /* Without check_rectangles: WP and CVC4 did not end in 90 s. */
 /* Without are_a_triangle, read_members, read_fact, read_points, read_block, dyd_cert_ties_read: not
    tried. */
