@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/poly.c: polynomials are read where they are, exponents stay in their type, terms in
  * their lists. */
-/* Without terms_merge: tried; after 200 s _loop_invariant_preserved, _loop_invariant_2_preserved, what is assigned and
-    a
-   read (_assert_rte_mem_access_14) were open: the terms of the sum and of p while terms are copied. */
+/* Without terms_merge: tried; after 200 s _loop_invariant_preserved, _loop_invariant_2_preserved, what is
+   assigned and a read (_assert_rte_mem_access_14) were open: the terms of the sum and of p while terms are copied. */
 /* Without dyd_cert_poly_add_scaled: tried with a contract of terms_merge; _call_count_terms_of_requires and
    _call_terms_merge_requires_3 stay open. */
 /* Without terms_take_power: not decided; tried with loop invariants, but the run (280 s) ended before its goals. */
