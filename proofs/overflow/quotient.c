@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/quotient.c: terms stay in their lists. */
-/* Without dyd_cert_quotient_set: tried; _ensures_2, that terms are within the limits, was decided in one run in 8 s, and
+/* Without dyd_cert_quotient_set: tried; _ensures_2, that terms are within the limits, was decided in one run in 8 s,
    in another not in 10 s. */
 /* Without quotient_shorten: tried with the divisor apart from all else; the conditions of dyd_cert_poly_divide and
    mpz_clear, _ensures were not decided in 8 s. */
