@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra.c: names of operations, leaves are in their lists. */
-/* Without dyd_cert_algebra_clear: not tried; that its counts stay while numbers are freed would have to be admitted. */
+/* Without dyd_cert_algebra_clear: tried; _loop_invariant_preserved and _loop_invariant_2_preserved stay open: the
+    contract
+   of dyd_cert_number_clear does not say what stays. */
 #include "enclosures.h"
 #include "polys.h"
 

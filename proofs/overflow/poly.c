@@ -1,9 +1,17 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/poly.c: polynomials are read where they are, exponents stay in their type, terms in
  * their lists. */
-/* Without dyd_cert_poly_add_scaled, terms_take_power: tried without a contract of terms_merge, and without what holds
-   in its loops; their reads stay unknown. */
-/* Without terms_merge, reduce_leaf, dyd_cert_poly_mul, scan_term, dyd_cert_poly_scan: not tried. */
+/* Without terms_merge: tried; after 200 s _loop_invariant_preserved, _loop_invariant_2_preserved, what is
+   assigned and a read (_assert_rte_mem_access_14) were open: the terms of the sum and of p while terms are copied. */
+/* Without dyd_cert_poly_add_scaled: tried with a contract of terms_merge; _call_count_terms_of_requires and
+   _call_terms_merge_requires_3 stay open. */
+/* Without terms_take_power: not decided; tried with loop invariants, but the run (280 s) ended before its goals. */
+/* Without reduce_leaf: tried; its loop invariants, _ensures and the conditions of terms_take_power and
+   dyd_cert_poly_add_scaled stay open in 4 s. */
+/* Without dyd_cert_poly_mul: tried; _ensures and the conditions of dyd_cert_poly_add_scaled, dyd_cert_poly_reduce and
+   dyd_cert_poly_clear stay open in 4 s. */
+/* Without dyd_cert_poly_scan: tried; that the terms read are no more than were counted rests on counting: reads of
+   p->term[p->count], conditions of mpz_init and scan_term stay open. */
 #include "terms.h"
 
 #include "base/alloc.h"
@@ -50,26 +58,30 @@ static bool scan_power(dyd_cert_term *t, const char **text, const dyd_cert_relat
     assigns r->work; exits \false; */
 static bool count_terms_of(dyd_cert_relations *r, const dyd_cert_poly *q, size_t more);
 /*@ requires \valid(p) && held(p) && whole(z) && \valid(r) && \separated(p, r, z) && leaf < 64 && e <= 8192;
-    assigns owned: *p, r->nomem; exits \false; ensures held(p); ensures \result ==> limited(p); */
+    assigns owned: p->term, p->count, r->nomem; exits \false; ensures held(p); ensures \result ==> limited(p); */
 static bool poly_set_term(dyd_cert_poly *p, mpz_srcptr z, size_t leaf, uint16_t e, dyd_cert_relations *r);
 /*@ requires \valid(r); assigns r->nomem; exits \false;
     ensures \result != \null && 0 < count ==> \valid(\result + (0 .. count - 1)); */
 static dyd_cert_term *terms_alloc(size_t count, dyd_cert_relations *r);
 /*@ requires \valid(c) && whole(c) && \valid(text) && string(*text) && \valid(r) && \separated(c, text, r);
+    assigns owned: c->sign, c->length, c->zeros, *text, r->nomem;
     exits \false; ensures whole(c) && (\result ==> string(*text)); */
 static bool scan_coefficient(mpz_ptr c, const char **text, dyd_cert_relations *r);
 /*@ requires string(text) && stop(text) < 1152921504606846976; assigns \nothing; exits \false;
     ensures 1 <= \result <= stop(text) + 1; */
 static size_t count_terms(const char *text);
 
-/*@ requires related(r) && k < r->count && \valid(p) && limited(p) && apart(p, r); assigns owned: *p, r->nomem, r->work;
+/*@ requires related(r) && k < r->count && \valid(p) && limited(p) && apart(p, r); assigns owned: p->term, p->count,
+    r->nomem, r->work;
     exits \false; ensures held(p); ensures \result ==> limited(p) && apart(p, r) && related(r); */
 static bool reduce_leaf(dyd_cert_poly *p, size_t k, dyd_cert_relations *r);
-/*@ requires related(r) && \valid(p) && limited(p) && apart(p, r); assigns owned: *p, r->nomem, r->work;
+/*@ requires related(r) && \valid(p) && limited(p) && apart(p, r); assigns owned: p->term, p->count, r->nomem, r->work;
     exits \false; */
 bool dyd_cert_poly_reduce(dyd_cert_poly *p, dyd_cert_relations *r);
 /*@ requires \valid(t) && whole(&t->c[0]) && \valid(text) && string(*text) && \valid(r) && r->count <= 64 &&
-      \separated(t, text, r); exits \false; ensures \result ==> string(*text); */
+      \separated(t, text, r);
+    assigns owned: t->e[0 .. 63], t->c[0].sign, t->c[0].length, t->c[0].zeros, *text, r->nomem;
+    exits \false; ensures whole(&t->c[0]); ensures \result ==> string(*text); */
 static bool scan_term(dyd_cert_term *t, const char **text, dyd_cert_relations *r);
 
 #include "checker/poly.c"

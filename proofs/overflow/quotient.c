@@ -1,28 +1,68 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/quotient.c: terms stay in their lists. */
-/* Without dyd_cert_quotient_set, dyd_cert_quotient_set_leaf, quotient_shorten: tried; that one polynomial of the
-   quotient is held while the other is set or divided stays unknown (their goals _ensures, _requires). */
-/* Without dyd_cert_quotient_set_q, dyd_cert_quotient_add, dyd_cert_quotient_mul, dyd_cert_quotient_mul_z,
-   dyd_cert_quotient_div, dyd_cert_quotient_power, dyd_cert_quotient_equal: not tried, they call those. */
+/* Without dyd_cert_quotient_set: tried; _ensures_2, that terms are within the limits, was decided in one run in 8 s,
+   in another not in 10 s. */
+/* Without quotient_shorten: tried with the divisor apart from all else; the conditions of dyd_cert_poly_divide and
+   mpz_clear, _ensures were not decided in 8 s. */
+/* Without dyd_cert_quotient_mul: tried; _call_dyd_cert_poly_mul_2_requires and _ensures were not decided in 8 s. */
+/* Without dyd_cert_quotient_add, dyd_cert_quotient_mul_z, dyd_cert_quotient_div, dyd_cert_quotient_power,
+   dyd_cert_quotient_equal: tried with local quotients apart from all else; the conditions of what they call, _ensures
+    of
+   all but the last, the loop invariant of dyd_cert_quotient_power were not decided in 3 s. */
 #include "terms.h"
 
-/*@ requires parts(x); assigns owned: *x; exits \false; ensures parts(x);
+#define CHANGES(x) x->num.term, x->num.count, x->den.term, x->den.count
+#define PARTS_OF(z) z.sign, z.length, z.zeros
+
+/*@ predicate both(quotient x) = \valid_read(x) && held(&x->num) && held(&x->den);
+    predicate both_limited(quotient x) = \valid_read(x) && limited(&x->num) && limited(&x->den);
+    predicate elsewhere(quotient x, quotient y) = \separated(x->num.term + (0 .. x->num.count - 1), y) &&
+      \separated(x->den.term + (0 .. x->den.count - 1), y);
+    predicate unrelated(quotient x, relations r) = \separated(x, r) &&
+      \separated(x->num.term + (0 .. x->num.count - 1), r) && \separated(x->den.term + (0 .. x->den.count - 1), r); */
+
+/*@ requires \valid(x) && both(x); assigns owned: CHANGES(x); exits \false; ensures both(x);
     ensures x->num.count == 0 && x->den.count == 0; */
 void dyd_cert_quotient_clear(dyd_cert_quotient *x);
-/*@ requires parts(x) && within_limits(y) && \valid(r) && \separated(x, y, r) &&
-      \separated(y->num.term + (0 .. y->num.count - 1), x, r) &&
-      \separated(y->den.term + (0 .. y->den.count - 1), x, r);
-    assigns owned: *x, r->nomem, r->work; exits \false; ensures held(&x->num) && held(&x->den);
-    ensures \result ==> limited(&x->num) && limited(&x->den); */
+/*@ requires \valid(x) && both(x) && both_limited(y) && \valid(r) && \separated(x, y, r) && elsewhere(y, x) &&
+      unrelated(y, r);
+    assigns owned: CHANGES(x), r->nomem, r->work; exits \false; ensures both(x); ensures \result ==> both_limited(x);
+    ensures owned: elsewhere(x, x) && elsewhere(x, y) && unrelated(x, r); */
 bool dyd_cert_quotient_set(dyd_cert_quotient *x, const dyd_cert_quotient *y, dyd_cert_relations *r);
-/*@ requires parts(x); assigns x->num.term[0 .. x->num.count - 1].c[0], x->den.term[0 .. x->den.count - 1].c[0];
-    exits \false; ensures parts(x); */
+/*@ requires parts(x); exits \false; ensures both(x); ensures both_limited{Pre}(x) ==> both_limited(x);
+    assigns PARTS_OF(x->num.term[0 .. x->num.count - 1].c[0]), PARTS_OF(x->den.term[0 .. x->den.count - 1].c[0]); */
 static void quotient_shorten(dyd_cert_quotient *x);
-/*@ requires parts(x) && leaf < 64 && limited(den) && \valid(r) && \separated(x, den, r) &&
+/*@ requires \valid(x) && both(x) && whole(num) && whole(den) && den->sign != 0 && \valid(r) && \separated(x, r, num) &&
+      \separated(x, r, den);
+    assigns owned: CHANGES(x), r->nomem; exits \false; ensures both(x); ensures \result ==> both_limited(x); */
+bool dyd_cert_quotient_set_q(dyd_cert_quotient *x, mpz_srcptr num, mpz_srcptr den, dyd_cert_relations *r);
+/*@ requires \valid(x) && both(x) && leaf < 64 && limited(den) && \valid(r) && \separated(x, den, r) &&
       \separated(den->term + (0 .. den->count - 1), x, r);
-    assigns owned: *x, r->nomem, r->work; exits \false; ensures held(&x->num) && held(&x->den);
-    ensures \result ==> limited(&x->num) && limited(&x->den); */
+    assigns owned: CHANGES(x), r->nomem, r->work; exits \false; ensures both(x); ensures \result ==> both_limited(x); */
 bool dyd_cert_quotient_set_leaf(dyd_cert_quotient *x, size_t leaf, const dyd_cert_poly *den, dyd_cert_relations *r);
+/*@ requires \valid(x) && both_limited(x) && both_limited(y) && related(r) && unrelated(x, r) && unrelated(y, r) &&
+      (sign == 1 || sign == -1) && \separated(x, y) && elsewhere(x, y) && elsewhere(y, x);
+    assigns owned: CHANGES(x), r->nomem, r->work; exits \false; ensures both(x); ensures \result ==> both_limited(x); */
+bool dyd_cert_quotient_add(dyd_cert_quotient *x, int sign, const dyd_cert_quotient *y, dyd_cert_relations *r);
+/*@ requires \valid(x) && both_limited(x) && both_limited(y) && related(r) && unrelated(x, r) && unrelated(y, r) &&
+      (x == y || \separated(x, y)) && elsewhere(x, y) && elsewhere(y, x);
+    assigns owned: CHANGES(x), r->nomem, r->work; exits \false; ensures both(x); ensures \result ==> both_limited(x); */
+bool dyd_cert_quotient_mul(dyd_cert_quotient *x, const dyd_cert_quotient *y, dyd_cert_relations *r);
+/*@ requires \valid(x) && both_limited(x) && whole(z) && related(r) && unrelated(x, r) && elsewhere(x, x);
+    assigns owned: CHANGES(x), r->nomem, r->work; exits \false; ensures both(x); ensures \result ==> both_limited(x); */
+bool dyd_cert_quotient_mul_z(dyd_cert_quotient *x, mpz_srcptr z, dyd_cert_relations *r);
+/*@ requires \valid(x) && both_limited(x) && both_limited(y) && related(r) && unrelated(x, r) && unrelated(y, r) &&
+      \separated(x, y) && elsewhere(x, y) && elsewhere(y, x);
+    assigns owned: CHANGES(x), r->nomem, r->work; exits \false; ensures both(x); */
+bool dyd_cert_quotient_div(dyd_cert_quotient *x, const dyd_cert_quotient *y, dyd_cert_relations *r);
+/*@ requires \valid(x) && both_limited(x) && related(r) && unrelated(x, r) && elsewhere(x, x);
+    assigns owned: CHANGES(x), r->nomem, r->work; exits \false; ensures both(x); ensures \result ==> both_limited(x); */
+bool dyd_cert_quotient_power(dyd_cert_quotient *x, unsigned long n, dyd_cert_relations *r);
+/*@ requires \valid(equal) && both_limited(x) && both_limited(y) && related(r) && unrelated(x, r) && unrelated(y, r) &&
+      \separated(equal, x, r) && \separated(equal, y);
+    assigns owned: *equal, r->nomem, r->work; exits \false; */
+bool dyd_cert_quotient_equal(bool *equal, const dyd_cert_quotient *x, const dyd_cert_quotient *y,
+                             dyd_cert_relations *r);
 /*@ requires \valid(x) && x->num.count <= 16384 && (0 < x->num.count ==> \valid(x->num.term +
       (0 .. x->num.count - 1))) && (\forall integer k; 0 <= k < x->num.count ==> whole(&x->num.term[k].c[0])) &&
       \separated(x, x->num.term + (0 .. x->num.count - 1));

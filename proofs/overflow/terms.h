@@ -30,17 +30,19 @@ typedef const uint16_t *exponents;
         \separated(x->num.term + (0 .. x->num.count - 1), x->den.term + (0 .. x->den.count - 1)));
     predicate within_limits(quotient x) = parts(x) && limited(&x->num) && limited(&x->den); */
 
-/*@ requires \valid(p) && held(p); assigns owned: *p; exits \false; ensures held(p); ensures p->count == 0; */
+/*@ requires \valid(p) && held(p); assigns owned: p->term, p->count;
+    exits \false; ensures held(p); ensures p->count == 0; */
 void dyd_cert_poly_clear(dyd_cert_poly *p);
 /*@ requires \valid(p) && held(p) && limited(q) && \valid(r) && \separated(p, q, r) &&
       \separated(q->term + (0 .. q->count - 1), p, r);
-    assigns owned: *p, r->nomem, r->work; exits \false; ensures held(p); ensures \result ==> limited(p); */
+    assigns owned: p->term, p->count, r->nomem, r->work;
+    exits \false; ensures held(p); ensures \result ==> limited(p); */
 bool dyd_cert_poly_set(dyd_cert_poly *p, const dyd_cert_poly *q, dyd_cert_relations *r);
 /*@ requires \valid(p) && held(p) && whole(z) && \valid(r) && \separated(p, r, z);
-    assigns owned: *p, r->nomem; exits \false; ensures held(p); ensures \result ==> limited(p); */
+    assigns owned: p->term, p->count, r->nomem; exits \false; ensures held(p); ensures \result ==> limited(p); */
 bool dyd_cert_poly_set_z(dyd_cert_poly *p, mpz_srcptr z, dyd_cert_relations *r);
 /*@ requires \valid(p) && held(p) && leaf < 64 && \valid(r) && \separated(p, r);
-    assigns owned: *p, r->nomem; exits \false; ensures held(p); ensures \result ==> limited(p); */
+    assigns owned: p->term, p->count, r->nomem; exits \false; ensures held(p); ensures \result ==> limited(p); */
 bool dyd_cert_poly_set_leaf(dyd_cert_poly *p, size_t leaf, dyd_cert_relations *r);
 /*@ requires held(p) && held(q); assigns \nothing; exits \false; */
 bool dyd_cert_poly_equal(const dyd_cert_poly *p, const dyd_cert_poly *q);
@@ -60,13 +62,14 @@ void dyd_cert_poly_divide(dyd_cert_poly *p, mpz_srcptr z);
 /*@ requires \valid(p) && held(p) && limited(q) && whole(c) && \valid(r) && \separated(p, q, r) &&
       \separated(q->term + (0 .. q->count - 1), p, r);
     requires p->count <= 16384 && (m == \null || \valid_read(m + (0 .. 63)) && few(m));
-    assigns owned: *p, r->nomem, r->work; exits \false; ensures held(p);
+    assigns owned: p->term, p->count, r->nomem, r->work; exits \false; ensures held(p);
     ensures \result && limited{Pre}(p) ==> limited(p); */
 bool dyd_cert_poly_add_scaled(dyd_cert_poly *p, const dyd_cert_poly *q, mpz_srcptr c, const uint16_t *m,
                               dyd_cert_relations *r);
 /*@ requires \valid(p) && limited(p) && limited(q) && \valid(r) && \separated(p, q, r) && (sign == 1 || sign == -1) &&
       \separated(q->term + (0 .. q->count - 1), p, r);
-    assigns owned: *p, r->nomem, r->work; exits \false; ensures held(p); ensures \result ==> limited(p); */
+    assigns owned: p->term, p->count, r->nomem, r->work;
+    exits \false; ensures held(p); ensures \result ==> limited(p); */
 bool dyd_cert_poly_add(dyd_cert_poly *p, const dyd_cert_poly *q, int sign, dyd_cert_relations *r);
 
 #endif

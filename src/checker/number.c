@@ -295,7 +295,7 @@ static bool value_power(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cer
   if (n->exponent >= 0) return dyd_cert_quotient_power(x, (unsigned long)n->exponent, &a->relations);
   if (!dyd_cert_algebra_sign(a, n->a)) return false;
   dyd_cert_quotient_invert(x);
-  return dyd_cert_quotient_power(x, 0 - (unsigned long)n->exponent, &a->relations);
+  return dyd_cert_quotient_power(x, (unsigned long)-n->exponent, &a->relations);
 }
 
 static bool value_function(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert_number *n) {
