@@ -1,13 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/pairs.c: pairs of the lists are of sites that are there. */
-/* Without check_counts: a negative count is made unsigned to be compared, which C defines and which is forbidden here;
-   all its other goals are proved. */
-/* Without read_chain, check_chain, check_open, read_pair_line, read_pairs, dyd_cert_boxes_unproved, check_boxes,
-   check_bounds, dyd_checker_pairs: not tried. */
 #define __int128 long long /* of areas nothing is proved here */
-#include "graph.h"
+#include "faces.h"
 
 #include "checks.h"
+#include "pairing.h"
 
 #include "base/error.h"
 
@@ -21,7 +18,56 @@ static void add_all_pairs(dyd_cert_bounds *b, const dyd_checker *c);
 /*@ requires checker(c) && \valid(present) && \valid(out) && exact(out) &&
       \separated(present, out, c, c->in.err, c->in.in, LINES + (..)) && \separated(out, &errno);
     assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno, *present, *out;
-    exits \false; ensures \result == DYD_OK && *present ==> certified(out); */
+    exits \false; ensures \result == DYD_OK ==> kept(&c->in);
+    ensures \result == DYD_OK && *present ==> certified(out); */
 static dyd_status read_bound(bool *present, dyd_exact *out, dyd_checker *c, const char *name);
+
+/* Of boxes.c, where it is not proved: what is left is of sites that are there. */
+/*@ requires \valid(left) && \valid(given_up) && \valid_read(s) && s->count == SITES && indexed(f) &&
+      \valid_read(known) && (\forall integer k; 0 <= k < 3 ==> pairs(known->list[k], SITES));
+    assigns *left, *given_up; exits \false; ensures \result == DYD_OK ==> pairs(left, SITES); */
+dyd_status dyd_cert_boxes_left(dyd_cert_edges *left, bool *given_up, const dyd_cert_sites *s, const dyd_cert_faces *f,
+                               const dyd_cert_known *known);
+/*@ requires \valid(out) && \valid_read(s) && s->count == SITES && indexed(f) && \valid_read(known) &&
+      (\forall integer k; 0 <= k < 3 ==> pairs(known->list[k], SITES)) &&
+      \separated(out, f, f->first + (0 .. SITES), f->of + (0 .. f->members - 1), f->start + (0 .. f->sets),
+        f->covered + (0 .. f->sets - 1));
+    assigns *out; exits \false; */
+dyd_status dyd_cert_boxes_unproved(uint64_t *out, const dyd_cert_sites *s, const dyd_cert_faces *f,
+                                   const dyd_cert_known *known);
+
+/*@ requires checks(c);
+    assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno,
+      c->report.triangles;
+    exits \false; ensures \result == DYD_OK ==> kept(&c->in); */
+static dyd_status check_counts(dyd_checker *c);
+/*@ requires begun(c) && open_pairs(c);
+    assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno,
+      c->report.unproved, c->report.illegal_boxes;
+    exits \false; ensures \result == DYD_OK ==> begun(c); */
+static dyd_status check_boxes(dyd_checker *c);
+/*@ requires checks(c) && open_pairs(c) && \valid_read(pair) && pair->i < SITES && pair->j < SITES &&
+      \separated(pair, c, c->in.err, LINES + (..));
+    exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c); */
+static dyd_status check_open(dyd_checker *c, const dyd_cert_edge *pair, char kind);
+/*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c); exits \false;
+    ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
+static dyd_status read_chain(dyd_checker *c);
+/*@ requires checks(c) && open_pairs(c) && blocked(c) && \valid_read(pair) && pair->i < SITES && pair->j < SITES &&
+      \separated(pair, c, c->in.err, LINES + (..));
+    exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
+static dyd_status check_chain(dyd_checker *c, const dyd_cert_edge *pair);
+/*@ requires checks(c) && open_pairs(c) && blocked(c) && \valid(pair) &&
+      \separated(pair, c, c->in.err, c->in.in, LINES + (..), c->sites.site + (0 .. c->sites.count - 1));
+    exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
+static dyd_status read_pair_line(dyd_checker *c, dyd_cert_edge *pair);
+/*@ requires checker(c) && open_pairs(c) && blocked(c); exits \false;
+    ensures \result == DYD_OK ==> begun(c) && open_pairs(c); */
+static dyd_status read_pairs(dyd_checker *c);
+/*@ requires checker(c) && open_pairs(c) && \valid(bound + (0 .. 1)) && exact(bound) && exact(bound + 1) &&
+      \separated(bound + (0 .. 1), c, c->in.err, c->in.in, LINES + (..)) && \separated(bound + (0 .. 1), &errno) &&
+      -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
+    exits \false; ensures \result == DYD_OK ==> whole(&bound[0].man[0]) && whole(&bound[1].man[0]); */
+static dyd_status check_bounds(dyd_checker *c, dyd_exact bound[2]);
 
 #include "checker/pairs.c"
