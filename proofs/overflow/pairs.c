@@ -8,12 +8,14 @@
 
 #include "base/error.h"
 
-/*@ requires \valid(b) && \valid_read(s) && i < s->count && j < s->count && \separated(b, s); assigns *b;
-    exits \false; */
+/*@ requires \valid(b) && \valid_read(s) && i < s->count && j < s->count && \separated(b, s) &&
+      fraction(&b->area2, 274877906944);
+    assigns *b; exits \false; ensures fraction(&b->area2, 274877906944); */
 void dyd_cert_bounds_add(dyd_cert_bounds *b, const dyd_cert_sites *s, uint32_t i, uint32_t j, bool legal);
 /*@ requires \valid(b) && \valid_read(c) && \separated(b, c, c->legal.item + (0 .. c->legal.count - 1),
       c->open.item + (0 .. c->open.count - 1)) && pairs(&c->legal, c->sites.count) && pairs(&c->open, c->sites.count);
-    assigns *b; exits \false; */
+    requires fraction(&b->area2, 274877906944);
+    assigns *b; exits \false; ensures fraction(&b->area2, 274877906944); */
 static void add_all_pairs(dyd_cert_bounds *b, const dyd_checker *c);
 /*@ requires checker(c) && \valid(present) && \valid(out) && exact(out) &&
       \separated(present, out, c, c->in.err, c->in.in, LINES + (..)) && \separated(out, &errno);
@@ -69,5 +71,35 @@ static dyd_status read_pairs(dyd_checker *c);
       -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
     exits \false; ensures \result == DYD_OK ==> whole(&bound[0].man[0]) && whole(&bound[1].man[0]); */
 static dyd_status check_bounds(dyd_checker *c, dyd_exact bound[2]);
+
+typedef const dyd_cert_chain *chain_of;
+typedef const dyd_cert_sites *sites_of;
+
+/*@ predicate certified_chain(chain_of c, sites_of s) = \valid_read(c) && 0 < c->points <= c->cap &&
+      \valid_read(c->blocker + (0 .. c->points)) && \valid_read(c->point + (0 .. c->points - 1)) &&
+      (\forall integer q; 0 <= q <= c->points ==> small_site(s->site + c->blocker[q])) &&
+      (\forall integer q; 0 <= q < c->points ==> small(&c->point[q][0]) && small(&c->point[q][1])) &&
+      small(&c->u[0][0]) && small(&c->u[0][1]) && small(&c->u[1][0]) && small(&c->u[1][1]); */
+/* Of chain.c: and that a chain is all that changes, which WP does not see. */
+/*@ requires \valid(c) && c->points <= c->cap <= 1152921504606846976 && points <= 1152921504606846976 &&
+      (0 < c->cap ==> \valid(c->point + (0 .. c->cap - 1)) && \valid(c->blocker + (0 .. c->cap)));
+    assigns c->points, c->cap, c->point, c->blocker; exits \false;
+    ensures \result == DYD_OK ==> c->points == points <= c->cap <= 1152921504606846976 && (0 < c->cap ==>
+      \valid(c->point + (0 .. c->cap - 1)) && \valid(c->blocker + (0 .. c->cap))); */
+dyd_status dyd_cert_chain_resize(dyd_cert_chain *c, size_t points);
+/*@ requires \valid_read(s) && \valid_read(c) && (0 < c->points ==> certified_chain(c, s)) &&
+      small_site(s->site + i) && small_site(s->site + j);
+    assigns \nothing; exits \false; */
+bool dyd_cert_chain_holds(const dyd_cert_chain *c, const dyd_cert_sites *s, uint32_t i, uint32_t j);
+/*@ requires \valid(b); assigns *b; exits \false; ensures fraction(&b->area2, 0); */
+void dyd_cert_bounds_init(dyd_cert_bounds *b);
+/*@ requires \valid(b) && of_parts(&b->area2); assigns b->area2; exits \false; */
+void dyd_cert_bounds_clear(dyd_cert_bounds *b);
+/*@ requires \valid_read(b) && exact(&b->area2.num) && small(area); assigns \nothing; exits \false; */
+bool dyd_cert_bounds_area_holds(const dyd_cert_bounds *b, const dyd_exact *area);
+/*@ requires checker(c) && open_pairs(c) && blocked(c) &&
+      -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
+    exits \false; */
+dyd_status dyd_checker_pairs(dyd_checker *c);
 
 #include "checker/pairs.c"
