@@ -2,6 +2,14 @@
 /* Contracts for src/checker/checker.c: what is read of sites and pairs is in their lists, in order. */
 /* Without dyd_checker_head: of four lines one after another, that the reader is still what it was at the calls of
    dyd_cert_expect_line, dyd_cert_read_choice and check_goal stays unknown (six goals, of 5 s each). */
+/* Without read_rectangle, read_alias, dyd_checker_sites: tried with dyd_cert_sites_add leaving the reader as it is; that
+   it does so (conditions of dyd_cert_read_side, ensures) and that numbers of sites stay (loop invariants of read_alias,
+   conditions of its dyd_exact_set) was not decided in 8 s. */
+/* Without read_witnessed, read_edges: 17 of 21 and 4 of 9 goals are proved; that the list of pairs stays while a line is
+   read (assert_3, the condition of add_pair, loop invariants) was not decided in 8 s. */
+/* Without dyd_checker_places, dyd_checker_corners, checker_find_faces: that the reader and the point are what they were
+   after a place was set or a corner added (loop invariants, conditions of side_holds_value, corners_add), and the
+   ensures of checker_find_faces, its other 16 goals being proved, were not decided in 8 s. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "checks.h"
 #include "pairing.h"

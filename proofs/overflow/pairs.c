@@ -1,5 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/pairs.c: pairs of the lists are of sites that are there. */
+/* Without read_chain, check_chain, check_open, read_pair_line, read_pairs: tried with one condition on lists, open sets
+   and chain (pairing.h): that it still holds after a line was read (conditions of dyd_cert_faces_share, add_pair,
+   dyd_cert_chain_resize, the next of them; their ensures) was not decided in 8 s, check_open's not in 20 s. */
+/* Without check_boxes: conditions of dyd_cert_boxes_unproved, on all lists at once, were not decided in 8 s; 61 of 65
+   goals are proved. */
+/* Without check_bounds, dyd_checker_pairs: of check_bounds 45 of 56 goals are proved; that bounds and the sum are
+   numbers after both lines were read (loop_invariant, conditions of add_all_pairs, dyd_cert_bounds_clear,
+   dyd_cert_note_bound) was not decided in 8 s, nor the same condition of dyd_exact_clear in dyd_checker_pairs. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "faces.h"
 
@@ -46,7 +54,8 @@ static dyd_status check_counts(dyd_checker *c);
 /*@ requires begun(c) && open_pairs(c);
     assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno,
       c->report.unproved, c->report.illegal_boxes;
-    exits \false; ensures \result == DYD_OK ==> begun(c); */
+    exits \false; ensures \result == DYD_OK ==> kept(&c->in); ensures \result == DYD_OK ==> listed(c);
+    ensures \result == DYD_OK ==> reads(&c->in); */
 static dyd_status check_boxes(dyd_checker *c);
 /*@ requires checks(c) && open_pairs(c) && \valid_read(pair) && pair->i < SITES && pair->j < SITES &&
       \separated(pair, c, c->in.err, LINES + (..));
@@ -55,11 +64,11 @@ static dyd_status check_open(dyd_checker *c, const dyd_cert_edge *pair, char kin
 /*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c); exits \false;
     ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
 static dyd_status read_chain(dyd_checker *c);
-/*@ requires checks(c) && open_pairs(c) && blocked(c) && \valid_read(pair) && pair->i < SITES && pair->j < SITES &&
+/*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c) && \valid_read(pair) && pair->i < SITES && pair->j < SITES &&
       \separated(pair, c, c->in.err, LINES + (..));
     exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
 static dyd_status check_chain(dyd_checker *c, const dyd_cert_edge *pair);
-/*@ requires checks(c) && open_pairs(c) && blocked(c) && \valid(pair) &&
+/*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c) && \valid(pair) &&
       \separated(pair, c, c->in.err, c->in.in, LINES + (..), c->sites.site + (0 .. c->sites.count - 1));
     exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
 static dyd_status read_pair_line(dyd_checker *c, dyd_cert_edge *pair);
