@@ -1,27 +1,114 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/pairs.c: pairs of the lists are of sites that are there. */
-/* Without check_counts: a negative count is made unsigned to be compared, which C defines and which is forbidden here;
-   all its other goals are proved. */
-/* Without read_chain, check_chain, check_open, read_pair_line, read_pairs, dyd_cert_boxes_unproved, check_boxes,
-   check_bounds, dyd_checker_pairs: not tried. */
+/* Without read_chain, check_chain, check_open, read_pair_line, read_pairs: tried with one condition on lists, open sets
+   and chain (pairing.h): that it still holds after a line was read (conditions of dyd_cert_faces_share, add_pair,
+   dyd_cert_chain_resize, the next of them; their ensures) was not decided in 8 s, check_open's not in 20 s. */
+/* Without check_boxes: conditions of dyd_cert_boxes_unproved, on all lists at once, were not decided in 8 s; 61 of 65
+   goals are proved. */
+/* Without check_bounds, dyd_checker_pairs: of check_bounds 45 of 56 goals are proved; that bounds and the sum are
+   numbers after both lines were read (loop_invariant, conditions of add_all_pairs, dyd_cert_bounds_clear,
+   dyd_cert_note_bound) was not decided in 8 s, nor the same condition of dyd_exact_clear in dyd_checker_pairs. */
 #define __int128 long long /* of areas nothing is proved here */
-#include "graph.h"
+#include "faces.h"
 
 #include "checks.h"
+#include "pairing.h"
 
 #include "base/error.h"
 
-/*@ requires \valid(b) && \valid_read(s) && i < s->count && j < s->count && \separated(b, s); assigns *b;
-    exits \false; */
+/*@ requires \valid(b) && \valid_read(s) && i < s->count && j < s->count && \separated(b, s) &&
+      fraction(&b->area2, 274877906944);
+    assigns *b; exits \false; ensures fraction(&b->area2, 274877906944); */
 void dyd_cert_bounds_add(dyd_cert_bounds *b, const dyd_cert_sites *s, uint32_t i, uint32_t j, bool legal);
 /*@ requires \valid(b) && \valid_read(c) && \separated(b, c, c->legal.item + (0 .. c->legal.count - 1),
       c->open.item + (0 .. c->open.count - 1)) && pairs(&c->legal, c->sites.count) && pairs(&c->open, c->sites.count);
-    assigns *b; exits \false; */
+    requires fraction(&b->area2, 274877906944);
+    assigns *b; exits \false; ensures fraction(&b->area2, 274877906944); */
 static void add_all_pairs(dyd_cert_bounds *b, const dyd_checker *c);
 /*@ requires checker(c) && \valid(present) && \valid(out) && exact(out) &&
       \separated(present, out, c, c->in.err, c->in.in, LINES + (..)) && \separated(out, &errno);
     assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno, *present, *out;
-    exits \false; ensures \result == DYD_OK && *present ==> certified(out); */
+    exits \false; ensures \result == DYD_OK ==> kept(&c->in);
+    ensures \result == DYD_OK && *present ==> certified(out); */
 static dyd_status read_bound(bool *present, dyd_exact *out, dyd_checker *c, const char *name);
+
+/* Of boxes.c, where it is not proved: what is left is of sites that are there. */
+/*@ requires \valid(left) && \valid(given_up) && \valid_read(s) && s->count == SITES && indexed(f) &&
+      \valid_read(known) && (\forall integer k; 0 <= k < 3 ==> pairs(known->list[k], SITES));
+    assigns *left, *given_up; exits \false; ensures \result == DYD_OK ==> pairs(left, SITES); */
+dyd_status dyd_cert_boxes_left(dyd_cert_edges *left, bool *given_up, const dyd_cert_sites *s, const dyd_cert_faces *f,
+                               const dyd_cert_known *known);
+/*@ requires \valid(out) && \valid_read(s) && s->count == SITES && indexed(f) && \valid_read(known) &&
+      (\forall integer k; 0 <= k < 3 ==> pairs(known->list[k], SITES)) &&
+      \separated(out, f, f->first + (0 .. SITES), f->of + (0 .. f->members - 1), f->start + (0 .. f->sets),
+        f->covered + (0 .. f->sets - 1));
+    assigns *out; exits \false; */
+dyd_status dyd_cert_boxes_unproved(uint64_t *out, const dyd_cert_sites *s, const dyd_cert_faces *f,
+                                   const dyd_cert_known *known);
+
+/*@ requires checks(c);
+    assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno,
+      c->report.triangles;
+    exits \false; ensures \result == DYD_OK ==> kept(&c->in); */
+static dyd_status check_counts(dyd_checker *c);
+/*@ requires begun(c) && open_pairs(c);
+    assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno,
+      c->report.unproved, c->report.illegal_boxes;
+    exits \false; ensures \result == DYD_OK ==> kept(&c->in); ensures \result == DYD_OK ==> listed(c);
+    ensures \result == DYD_OK ==> reads(&c->in); */
+static dyd_status check_boxes(dyd_checker *c);
+/*@ requires checks(c) && open_pairs(c) && \valid_read(pair) && pair->i < SITES && pair->j < SITES &&
+      \separated(pair, c, c->in.err, LINES + (..));
+    exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c); */
+static dyd_status check_open(dyd_checker *c, const dyd_cert_edge *pair, char kind);
+/*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c); exits \false;
+    ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
+static dyd_status read_chain(dyd_checker *c);
+/*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c) && \valid_read(pair) && pair->i < SITES && pair->j < SITES &&
+      \separated(pair, c, c->in.err, LINES + (..));
+    exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
+static dyd_status check_chain(dyd_checker *c, const dyd_cert_edge *pair);
+/*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c) && \valid(pair) &&
+      \separated(pair, c, c->in.err, c->in.in, LINES + (..), c->sites.site + (0 .. c->sites.count - 1));
+    exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
+static dyd_status read_pair_line(dyd_checker *c, dyd_cert_edge *pair);
+/*@ requires checker(c) && open_pairs(c) && blocked(c); exits \false;
+    ensures \result == DYD_OK ==> begun(c) && open_pairs(c); */
+static dyd_status read_pairs(dyd_checker *c);
+/*@ requires checker(c) && open_pairs(c) && \valid(bound + (0 .. 1)) && exact(bound) && exact(bound + 1) &&
+      \separated(bound + (0 .. 1), c, c->in.err, c->in.in, LINES + (..)) && \separated(bound + (0 .. 1), &errno) &&
+      -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
+    exits \false; ensures \result == DYD_OK ==> whole(&bound[0].man[0]) && whole(&bound[1].man[0]); */
+static dyd_status check_bounds(dyd_checker *c, dyd_exact bound[2]);
+
+typedef const dyd_cert_chain *chain_of;
+typedef const dyd_cert_sites *sites_of;
+
+/*@ predicate certified_chain(chain_of c, sites_of s) = \valid_read(c) && 0 < c->points <= c->cap &&
+      \valid_read(c->blocker + (0 .. c->points)) && \valid_read(c->point + (0 .. c->points - 1)) &&
+      (\forall integer q; 0 <= q <= c->points ==> small_site(s->site + c->blocker[q])) &&
+      (\forall integer q; 0 <= q < c->points ==> small(&c->point[q][0]) && small(&c->point[q][1])) &&
+      small(&c->u[0][0]) && small(&c->u[0][1]) && small(&c->u[1][0]) && small(&c->u[1][1]); */
+/* Of chain.c: and that a chain is all that changes, which WP does not see. */
+/*@ requires \valid(c) && c->points <= c->cap <= 1152921504606846976 && points <= 1152921504606846976 &&
+      (0 < c->cap ==> \valid(c->point + (0 .. c->cap - 1)) && \valid(c->blocker + (0 .. c->cap)));
+    assigns c->points, c->cap, c->point, c->blocker; exits \false;
+    ensures \result == DYD_OK ==> c->points == points <= c->cap <= 1152921504606846976 && (0 < c->cap ==>
+      \valid(c->point + (0 .. c->cap - 1)) && \valid(c->blocker + (0 .. c->cap))); */
+dyd_status dyd_cert_chain_resize(dyd_cert_chain *c, size_t points);
+/*@ requires \valid_read(s) && \valid_read(c) && (0 < c->points ==> certified_chain(c, s)) &&
+      small_site(s->site + i) && small_site(s->site + j);
+    assigns \nothing; exits \false; */
+bool dyd_cert_chain_holds(const dyd_cert_chain *c, const dyd_cert_sites *s, uint32_t i, uint32_t j);
+/*@ requires \valid(b); assigns *b; exits \false; ensures fraction(&b->area2, 0); */
+void dyd_cert_bounds_init(dyd_cert_bounds *b);
+/*@ requires \valid(b) && of_parts(&b->area2); assigns b->area2; exits \false; */
+void dyd_cert_bounds_clear(dyd_cert_bounds *b);
+/*@ requires \valid_read(b) && exact(&b->area2.num) && small(area); assigns \nothing; exits \false; */
+bool dyd_cert_bounds_area_holds(const dyd_cert_bounds *b, const dyd_exact *area);
+/*@ requires checker(c) && open_pairs(c) && blocked(c) &&
+      -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
+    exits \false; */
+dyd_status dyd_checker_pairs(dyd_checker *c);
 
 #include "checker/pairs.c"

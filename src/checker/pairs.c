@@ -104,7 +104,7 @@ static dyd_status check_boxes(dyd_checker *c) {
   if (dyd_cert_boxes_unproved(&c->report.unproved, &c->sites, &c->faces, &known) != DYD_OK)
     return dyd_fail_nomem(c->in.err);
   c->report.illegal_boxes = before - c->report.unproved;
-  if ((uint64_t)stated != c->report.illegal_boxes)
+  if (stated < 0 || (uint64_t)stated != c->report.illegal_boxes)
     return dyd_cert_reject(&c->in, "boxes prove %llu pairs", (unsigned long long)c->report.illegal_boxes);
   return dyd_cert_next_line(&c->in);
 }
@@ -117,14 +117,14 @@ static dyd_status check_counts(dyd_checker *c) {
   if (st == DYD_OK) st = dyd_cert_read_integer(&triangles, &c->in);
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
   if (st != DYD_OK) return st;
-  if ((uint64_t)triangles != c->faces.triangles)
+  if (triangles < 0 || (uint64_t)triangles != c->faces.triangles)
     return dyd_cert_reject(&c->in, "there are %zu sure triangles", c->faces.triangles);
   st = dyd_cert_expect_line(c, "unproved");
   if (st == DYD_OK) st = dyd_cert_read_integer(&unproved, &c->in);
   if (st == DYD_OK) st = dyd_cert_line_done(&c->in);
   if (st != DYD_OK) return st;
   c->report.triangles = c->faces.triangles;
-  if ((uint64_t)unproved != c->report.unproved)
+  if (unproved < 0 || (uint64_t)unproved != c->report.unproved)
     return dyd_cert_reject(&c->in, "of the pairs that are not listed, %llu are not proved to be illegal",
                            (unsigned long long)c->report.unproved);
   return DYD_OK;
