@@ -51,26 +51,13 @@
 #define ALLOC zeroed_stamps
 #include "zeroed.h"
 
-/* dyd_reserve, as lists.h has it, and that what was in the list is still there. */
-/*@ requires \valid(array) && \valid(cap) && \separated(array, cap) && size == sizeof(uint32_t) &&
-      *cap <= 1152921504606846976;
-    requires 0 < *cap ==> \valid(*array + (0 .. *cap - 1));
-    assigns *array, *cap; exits \false;
-    ensures !\result ==> *array == \old(*array) && *cap == \old(*cap);
-    ensures \result ==> need <= *cap <= 1152921504606846976;
-    ensures \result && 0 < *cap ==> \valid(*array + (0 .. *cap - 1));
-    ensures \result ==> \forall integer q; 0 <= q < \old(*cap) ==> (*array)[q] == \old((*array)[q]); */
-bool dyd_reserve(uint32_t **array, size_t *cap, size_t need, size_t size);
-/*@ requires \valid(array) && \valid(cap) && \separated(array, cap) && size == sizeof(dyd_cert_edge) &&
-      *cap <= 1152921504606846976;
-    requires 0 < *cap ==> \valid(*array + (0 .. *cap - 1));
-    assigns *array, *cap; exits \false;
-    ensures !\result ==> *array == \old(*array) && *cap == \old(*cap);
-    ensures \result ==> need <= *cap <= 1152921504606846976;
-    ensures \result && 0 < *cap ==> \valid(*array + (0 .. *cap - 1));
-    ensures \result ==> \forall integer q; 0 <= q < \old(*cap) ==> (*array)[q].i == \old((*array)[q].i) &&
-      (*array)[q].j == \old((*array)[q].j); */
-bool reserve_edges(dyd_cert_edge **array, size_t *cap, size_t need, size_t size);
+#define ITEM uint32_t
+#define RESERVE dyd_reserve
+#include "keeps.h"
+#define ITEM dyd_cert_edge
+#define RESERVE reserve_edges
+#define KEPT(a, b) ((a).i == (b).i && (a).j == (b).j)
+#include "keeps.h"
 /*@ requires \valid_read(a) && \valid_read(b); assigns \nothing; exits \false; */
 int compare_edges(const dyd_cert_edge *a, const dyd_cert_edge *b);
 

@@ -6,7 +6,7 @@
 #include "sites.h"
 
 #include "base/alloc.h"
-#include "checker/chain.h"
+#include "chains.h"
 
 typedef dyd_exact two_numbers[2];
 #define ITEM two_numbers
@@ -24,15 +24,6 @@ typedef dyd_exact two_numbers[2];
     ensures \result == DYD_OK ==> c->points == points <= c->cap && (0 < c->cap ==>
       \valid(c->point + (0 .. c->cap - 1)) && \valid(c->blocker + (0 .. c->cap))); */
 dyd_status dyd_cert_chain_resize(dyd_cert_chain *c, size_t points);
-
-typedef const dyd_cert_chain *chain_of;
-typedef const dyd_cert_sites *sites_of;
-
-/*@ predicate certified_chain(chain_of c, sites_of s) = \valid_read(c) && 0 < c->points <= c->cap &&
-      \valid_read(c->blocker + (0 .. c->points)) && \valid_read(c->point + (0 .. c->points - 1)) &&
-      (\forall integer q; 0 <= q <= c->points ==> small_site(s->site + c->blocker[q])) &&
-      (\forall integer q; 0 <= q < c->points ==> small(&c->point[q][0]) && small(&c->point[q][1])) &&
-      small(&c->u[0][0]) && small(&c->u[0][1]) && small(&c->u[1][0]) && small(&c->u[1][1]); */
 
 /*@ requires \valid(c); assigns *c; exits \false; */
 void dyd_cert_chain_init(dyd_cert_chain *c);

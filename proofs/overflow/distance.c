@@ -22,16 +22,9 @@
 
 #include "base/alloc.h"
 
-/* dyd_reserve, as lists.h has it, and that what was in the list is still there. */
-/*@ requires \valid(array) && \valid(cap) && \separated(array, cap) && size == sizeof(uint32_t) &&
-      *cap <= 1152921504606846976;
-    requires 0 < *cap ==> \valid(*array + (0 .. *cap - 1));
-    assigns *array, *cap; exits \false;
-    ensures !\result ==> *array == \old(*array) && *cap == \old(*cap);
-    ensures \result ==> need <= *cap <= 1152921504606846976;
-    ensures \result && 0 < *cap ==> \valid(*array + (0 .. *cap - 1));
-    ensures \result ==> \forall integer q; 0 <= q < \old(*cap) ==> (*array)[q] == \old((*array)[q]); */
-bool dyd_reserve(uint32_t **array, size_t *cap, size_t need, size_t size);
+#define ITEM uint32_t
+#define RESERVE dyd_reserve
+#include "keeps.h"
 
 #include "checker/distance.h"
 #include "checker/tree.h"

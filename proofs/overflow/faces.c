@@ -41,21 +41,12 @@
 #define ALLOC zeroed_flags
 #include "zeroed.h"
 
-/* Lists that grow, which keep their items. */
-/*@ requires \valid(array) && \valid(cap) && \separated(array, cap) && size == sizeof(uint32_t) &&
-      *cap <= 1152921504606846976 && (0 < *cap ==> \valid(*array + (0 .. *cap - 1)));
-    assigns *array, *cap; exits \false;
-    ensures !\result ==> *array == \old(*array) && *cap == \old(*cap);
-    ensures \result ==> need <= *cap <= 1152921504606846976 && (0 < *cap ==> \valid(*array + (0 .. *cap - 1))) &&
-      \forall integer k; 0 <= k < \old(*cap) ==> (*array)[k] == \old((*array)[k]); */
-bool reserve_members(uint32_t **array, size_t *cap, size_t need, size_t size);
-/*@ requires \valid(array) && \valid(cap) && \separated(array, cap) && size == sizeof(size_t) &&
-      *cap <= 1152921504606846976 && (0 < *cap ==> \valid(*array + (0 .. *cap - 1)));
-    assigns *array, *cap; exits \false;
-    ensures !\result ==> *array == \old(*array) && *cap == \old(*cap);
-    ensures \result ==> need <= *cap <= 1152921504606846976 && (0 < *cap ==> \valid(*array + (0 .. *cap - 1))) &&
-      \forall integer k; 0 <= k < \old(*cap) ==> (*array)[k] == \old((*array)[k]); */
-bool reserve_starts(size_t **array, size_t *cap, size_t need, size_t size);
+#define ITEM uint32_t
+#define RESERVE reserve_members
+#include "keeps.h"
+#define ITEM size_t
+#define RESERVE reserve_starts
+#include "keeps.h"
 
 /*@ requires 0 < n ==> \valid(to + (0 .. n - 1)); assigns to[0 .. n - 1]; exits \false; */
 void clear_flags(bool *to, size_t n);

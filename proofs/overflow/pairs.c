@@ -11,6 +11,7 @@
 #define __int128 long long /* of areas nothing is proved here */
 #include "faces.h"
 
+#include "chains.h"
 #include "checks.h"
 #include "pairing.h"
 
@@ -81,14 +82,6 @@ static dyd_status read_pairs(dyd_checker *c);
     exits \false; ensures \result == DYD_OK ==> whole(&bound[0].man[0]) && whole(&bound[1].man[0]); */
 static dyd_status check_bounds(dyd_checker *c, dyd_exact bound[2]);
 
-typedef const dyd_cert_chain *chain_of;
-typedef const dyd_cert_sites *sites_of;
-
-/*@ predicate certified_chain(chain_of c, sites_of s) = \valid_read(c) && 0 < c->points <= c->cap &&
-      \valid_read(c->blocker + (0 .. c->points)) && \valid_read(c->point + (0 .. c->points - 1)) &&
-      (\forall integer q; 0 <= q <= c->points ==> small_site(s->site + c->blocker[q])) &&
-      (\forall integer q; 0 <= q < c->points ==> small(&c->point[q][0]) && small(&c->point[q][1])) &&
-      small(&c->u[0][0]) && small(&c->u[0][1]) && small(&c->u[1][0]) && small(&c->u[1][1]); */
 /* Of chain.c: and that a chain is all that changes, which WP does not see. */
 /*@ requires \valid(c) && c->points <= c->cap <= 1152921504606846976 && points <= 1152921504606846976 &&
       (0 < c->cap ==> \valid(c->point + (0 .. c->cap - 1)) && \valid(c->blocker + (0 .. c->cap)));

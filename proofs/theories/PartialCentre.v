@@ -30,10 +30,7 @@ Proof.
 Qed.
 
 Lemma step_dist o d t : 0 <= t -> dist o (step o d t) = t * dist (0, 0) d.
-Proof.
-  intros T. transitivity (Rabs t * dist (0, 0) d); [| rewrite Rabs_right by lra; reflexivity].
-  unfold dist. rewrite <- sqrt_Rsqr_abs, <- sqrt_mult_alt by apply Rle_0_sqr. f_equal. unfold Rsqr, dist2, step. cbn. ring.
-Qed.
+Proof. apply dist_scaled. unfold dist2, step. cbn. ring. Qed.
 
 (* What is strict stays so near by. *)
 Lemma strict_stays o d a b : ds o (B a) < dl o (B b) -> small (fun t => ds (step o d t) (B a) <= dl (step o d t) (B b)).

@@ -104,7 +104,7 @@ Proof. destruct a, b. unfold mix. simpl. f_equal; ring. Qed.
 Lemma mix_swap t a b : mix t a b = mix (1 - t) b a.
 Proof. unfold mix. simpl. f_equal; ring. Qed.
 
-Lemma dist_scaled x y a b : dist2 x y = a * a * dist2 x b -> 0 <= a -> dist x y = a * dist x b.
+Lemma dist_scaled x y a z b : dist2 x y = a * a * dist2 z b -> 0 <= a -> dist x y = a * dist z b.
 Proof.
   intros E H. unfold dist. rewrite E, sqrt_mult; [| nra | apply dist2_nonneg].
   now rewrite sqrt_square.

@@ -10,13 +10,8 @@ Definition hull (C : point -> Prop) : point -> Prop := patch C (fun _ => False).
 Lemma mix_near t a b x y e : 0 <= t <= 1 -> dist a x <= e -> dist b y <= e -> dist (mix t a b) (mix t x y) <= e.
 Proof.
   intros T A B. pose proof (dist_triangle (mix t a b) (mix t x b) (mix t x y)) as H.
-  assert (Scaled : forall r u v u' v', 0 <= r -> fst u - fst v = r * (fst u' - fst v') -> snd u - snd v = r * (snd u' -
-    snd v') -> dist u v = r * dist u' v').
-  { intros r u v u' v' R X Y. transitivity (Rabs r * dist u' v'); [| rewrite Rabs_right by lra; reflexivity].
-    unfold dist. rewrite <- sqrt_Rsqr_abs, <- sqrt_mult_alt by apply Rle_0_sqr. f_equal. unfold Rsqr, dist2. rewrite X, Y.
-    ring. }
-  assert (P : dist (mix t a b) (mix t x b) = (1 - t) * dist a x) by (apply Scaled; [lra | |]; unfold mix; cbn; ring).
-  assert (Q : dist (mix t x b) (mix t x y) = t * dist b y) by (apply Scaled; [lra | |]; unfold mix; cbn; ring).
+  assert (P : dist (mix t a b) (mix t x b) = (1 - t) * dist a x) by (apply dist_scaled; [unfold dist2, mix; cbn; ring | lra]).
+  assert (Q : dist (mix t x b) (mix t x y) = t * dist b y) by (apply dist_scaled; [unfold dist2, mix; cbn; ring | lra]).
   rewrite P, Q in H. assert ((1 - t) * dist a x <= (1 - t) * e) by (apply Rmult_le_compat_l; lra).
   assert (t * dist b y <= t * e) by (apply Rmult_le_compat_l; lra). lra.
 Qed.

@@ -30,8 +30,8 @@ Proof.
   split.
   - intros a b. pose proof (dist_triangle (0, 0) a (sum a b)) as H. replace (dist a (sum a b)) with (dist (0, 0) b) in H;
       [exact H |]. unfold dist, dist2, sum. cbn. f_equal. ring.
-  - intros t a. unfold dist, dist2, times. cbn. rewrite <- sqrt_Rsqr_abs, <- sqrt_mult_alt by apply Rle_0_sqr. f_equal.
-    unfold Rsqr. ring.
+  - intros t a. apply dist_scaled; [| apply Rabs_pos]. pose proof (Rsqr_abs t) as E. unfold Rsqr in E. rewrite <- E.
+    unfold dist2, times. cbn. ring.
 Qed.
 
 Section Norm.
