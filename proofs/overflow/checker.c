@@ -2,10 +2,17 @@
 /* Contracts for src/checker/checker.c: what is read of sites and pairs is in their lists, in order. */
 /* Without dyd_checker_head: of four lines one after another, that the reader is still what it was at the calls of
    dyd_cert_expect_line, dyd_cert_read_choice and check_goal stays unknown (six goals, of 5 s each). */
-/* Without read_alias, read_rectangle, dyd_checker_sites, read_witnessed, read_edges, dyd_checker_legal,
-   dyd_checker_places, dyd_checker_bridges, checker_find_faces, dyd_checker_corners: not tried. */
+/* Without read_rectangle, read_alias, dyd_checker_sites: tried with dyd_cert_sites_add leaving the reader as it is; that
+   it does so (conditions of dyd_cert_read_side, ensures) and that numbers of sites stay (loop invariants of read_alias,
+   conditions of its dyd_exact_set) was not decided in 8 s. */
+/* Without read_witnessed, read_edges: 17 of 21 and 4 of 9 goals are proved; that the list of pairs stays while a line is
+   read (assert_3, the condition of add_pair, loop invariants) was not decided in 8 s. */
+/* Without dyd_checker_places, dyd_checker_corners, checker_find_faces: that the reader and the point are what they were
+   after a place was set or a corner added (loop invariants, conditions of side_holds_value, corners_add), and the
+   ensures of checker_find_faces, its other 16 goals being proved, were not decided in 8 s. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "checks.h"
+#include "pairing.h"
 
 #include "base/alloc.h"
 #include "base/error.h"
@@ -43,5 +50,96 @@ void dyd_cert_corners_clear(dyd_cert_corners *c);
       (0 < c->cap ==> \valid(c->item + (0 .. c->cap - 1))) && exact(u) && exact(u + 1);
     exits \false; ensures \result == DYD_OK ==> c->count == \old(c->count) + 1; */
 static dyd_status corners_add(dyd_cert_corners *c, uint32_t i, const dyd_exact u[2]);
+
+
+typedef dyd_cert_sites *list_of_sites;
+typedef dyd_cert_site *new_site;
+
+/*@ predicate room(list_of_sites s) = \valid(s) && s->count <= s->cap <= 1152921504606846976 &&
+      s->count <= 4294967295 &&
+      (0 < s->cap ==> \valid(s->site + (0 .. s->cap - 1)) && \separated(s->site + (0 .. s->cap - 1), s));
+    predicate blank(new_site s) = exact(&s->side[0].lo) && exact(&s->side[0].hi) && exact(&s->side[1].lo) &&
+      exact(&s->side[1].hi) && s->side[0].den == \null && s->side[1].den == \null && s->place == \null;
+    predicate located(checking c) = checker(c) && room(&c->sites) &&
+      \separated(c->sites.site + (0 .. c->sites.cap - 1), c, c->in.err, c->in.in, LINES + (..)); */
+
+/* Of sites.c and tree.c, and that all else stays, which WP does not see: new memory is new. */
+/*@ requires room(s);
+    assigns s->site, s->cap, s->count, s->site[0 .. s->cap - 1]; exits \false;
+    ensures room(s);
+    ensures \result == \null ==> s->count == \old(s->count) && s->site == \old(s->site) && s->cap == \old(s->cap);
+    ensures \result != \null ==> s->count == \old(s->count) + 1 && \result == s->site + \old(s->count) &&
+      blank(\result); */
+dyd_cert_site *dyd_cert_sites_add(dyd_cert_sites *s);
+/*@ requires room(s); assigns s->box, s->unit, s->origin[0 .. 1][0 .. 0]; exits \false; */
+dyd_status dyd_cert_sites_finish(dyd_cert_sites *s);
+/*@ requires \valid(t) && \valid_read(s); assigns *t; exits \false; */
+dyd_status dyd_cert_tree_init(dyd_cert_tree *t, const dyd_cert_sites *s);
+/*@ requires \valid(site) && exact(at) && exact(at + 1) && \separated(site, at + (0 .. 1));
+    requires site->place == \null || \valid(site->place + (0 .. 1)) && exact(site->place) && exact(site->place + 1) &&
+      \separated(site->place + (0 .. 1), site, at + (0 .. 1));
+    assigns site->place, site->place[0 .. 1]; exits \false; */
+dyd_status dyd_cert_site_set_place(dyd_cert_site *site, const dyd_exact at[2]);
+/*@ requires \valid_read(s) && \valid_read(t) && i < s->count && j < s->count && small(c) && small(c + 1) &&
+      (other == \null || \valid(other));
+    assigns *other; exits \false; */
+bool dyd_cert_is_witness(uint32_t *other, const dyd_cert_sites *s, const dyd_cert_tree *t, uint32_t i, uint32_t j,
+                         const dyd_exact c[2], bool places);
+/*@ requires \valid(f) && \valid(bad) && \valid_read(g) && corners <= 1152921504606846976 &&
+      (0 < corners ==> \valid_read(corner + (0 .. corners - 1)));
+    assigns *f, *bad; exits \false; ensures \result == DYD_OK && *bad == DYD_CERT_NONE ==> indexed(f); */
+dyd_status dyd_cert_faces_init(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const dyd_cert_corner *corner,
+                               size_t corners);
+
+/*@ requires located(c) && reads(&c->in); exits \false;
+    ensures \result == DYD_OK ==> located(c);
+    ensures \result == DYD_OK ==> reads(&c->in);
+    ensures \result == DYD_OK ==> c->sites.count == \old(c->sites.count) + 1; */
+static dyd_status read_rectangle(dyd_checker *c);
+/*@ requires located(c) && reads(&c->in); exits \false;
+    ensures \result == DYD_OK ==> located(c);
+    ensures \result == DYD_OK ==> reads(&c->in);
+    ensures \result == DYD_OK ==> c->sites.count == \old(c->sites.count) + 1; */
+static dyd_status read_alias(dyd_checker *c);
+/*@ requires located(c) && c->sites.count == 0; exits \false;
+    ensures \result == DYD_OK ==> located(c); */
+dyd_status dyd_checker_sites(dyd_checker *c);
+
+/*@ predicate ready(checking c) = checker(c) && point(c) && \separated(c, &errno) && c->sites.count == SITES; */
+/*@ requires ready(c) && (to == &c->legal || to == &c->bridges) && grows(to) && \valid(pair) &&
+      \separated(pair, c, c->in.err, c->in.in, LINES + (..), c->sites.site + (0 .. c->sites.count - 1)) &&
+      \separated(to->item + (0 .. to->cap - 1), c, c->in.err, pair);
+    exits \false;
+    ensures \result == DYD_OK ==> ready(c);
+    ensures \result == DYD_OK ==> grows(to);
+    ensures \result == DYD_OK ==> \separated(to->item + (0 .. to->cap - 1), c, c->in.err, pair); */
+static dyd_status read_witnessed(dyd_checker *c, dyd_cert_edges *to, dyd_cert_edge *pair, bool places);
+/*@ requires ready(c) && (to == &c->legal || to == &c->bridges) && grows(to) &&
+      \separated(to->item + (0 .. to->cap - 1), c, c->in.err);
+    exits \false; ensures \result == DYD_OK ==> ready(c) && grows(to);
+    ensures \valid(c); */
+static dyd_status read_edges(dyd_checker *c, dyd_cert_edges *to, const char *name, bool places);
+/*@ requires ready(c) && grows(&c->legal) && \separated(c->legal.item + (0 .. c->legal.cap - 1), c, c->in.err);
+    exits \false; ensures \result == DYD_OK ==> ready(c) && grows(&c->legal); */
+dyd_status dyd_checker_legal(dyd_checker *c);
+/*@ requires ready(c) && grows(&c->bridges) && \separated(c->bridges.item + (0 .. c->bridges.cap - 1), c, c->in.err);
+    exits \false; ensures \result == DYD_OK ==> ready(c) && grows(&c->bridges); */
+dyd_status dyd_checker_bridges(dyd_checker *c);
+/*@ requires ready(c); exits \false; ensures \result == DYD_OK ==> ready(c); */
+dyd_status dyd_checker_places(dyd_checker *c);
+
+/*@ requires ready(c) && pairs(&c->legal, SITES) && pairs(&c->bridges, SITES) && c->corners.count <= c->corners.cap &&
+      c->corners.cap <= 1152921504606846976 &&
+      (0 < c->corners.cap ==> \valid(c->corners.item + (0 .. c->corners.cap - 1))) &&
+      \separated(&c->graph, &c->sites, &c->legal, &c->bridges, c->sites.site + (0 .. SITES - 1),
+        c->legal.item + (0 .. c->legal.count - 1), c->bridges.item + (0 .. c->bridges.count - 1));
+    exits \false; ensures \result == DYD_OK ==> indexed(&c->faces); */
+static dyd_status checker_find_faces(dyd_checker *c);
+/*@ requires ready(c) && pairs(&c->legal, SITES) && pairs(&c->bridges, SITES) && c->corners.count == 0 &&
+      c->corners.cap == 0 &&
+      \separated(&c->graph, &c->sites, &c->legal, &c->bridges, c->sites.site + (0 .. SITES - 1),
+        c->legal.item + (0 .. c->legal.count - 1), c->bridges.item + (0 .. c->bridges.count - 1));
+    exits \false; ensures \result == DYD_OK ==> indexed(&c->faces); */
+dyd_status dyd_checker_corners(dyd_checker *c);
 
 #include "checker/checker.c"

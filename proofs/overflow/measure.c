@@ -6,9 +6,9 @@
    stays unknown, with the numbers between admitted as well. */
 /* Without axis_distance, dyd_cert_distance2: that the numbers of the site stay whole while the distance changes stays
    unknown, where dyd_cert_fraction_sub, mul and add are called. */
-/* Without dyd_cert_turn: not tried with its conditions. */
-/* Without dyd_cert_cross, dyd_cert_compare_places, site_height, dyd_cert_compare_heights: CVC4 did not finish: numbers
-   in lists and in local variables change by turns. */
+/* Without site_height: tried. The ensures, the loop invariant and the conditions of calls in the loop (dyd_exact_mul,
+   dyd_cert_fraction_sub, swap, add, ...) were not decided in 5 s. */
+/* Without dyd_cert_cross: tried alone. The first loop invariant was not decided in 4 s; the run was stopped at 5 goals. */
 #define SPELL_OUT
 #include "sites.h"
 
@@ -46,5 +46,13 @@ int dyd_cert_turn(const dyd_cert_sites *s, uint32_t a, uint32_t b, uint32_t c);
       \separated(out, b) && apart_from_spot(out, a) && apart_from_spot(out, b);
     assigns FRACTION(out); exits \false; ensures fraction(out, 1048576); */
 static void spot_difference(dyd_cert_fraction *out, const dyd_cert_spot *a, const dyd_cert_spot *b, int axis);
+/*@ requires on_grid(s, a) && on_grid(s, b) && small_site(s->site + a) && small_site(s->site + b);
+    assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
+int dyd_cert_compare_places(const dyd_cert_sites *s, uint32_t a, uint32_t b);
+/*@ requires \valid(out) && fraction(out, 2097152) && small(u) && small(u + 1) && \valid_read(s) &&
+      small_side(&s->side[0]) && small_side(&s->side[1]) && \separated(out, u + (0 .. 1)) && \separated(out, s) &&
+      apart_from_side(out, &s->side[0]) && apart_from_side(out, &s->side[1]);
+    assigns FRACTION(out); exits \false; ensures fraction(out, 2097152); */
+static void site_height(dyd_cert_fraction *out, const dyd_exact u[2], const dyd_cert_site *s, bool upper);
 
 #include "checker/measure.c"

@@ -1,16 +1,22 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/number.c: leaves are of numbers that are there, and made where there is room. */
-/* Without is_part_of_turn, value_circular: tried; that local numbers stay whole until they are cleared, or integers
-   that polynomials are, stays unknown (is_part_of_turn_ensures, value_circular_call_mpz_clear_requires). */
-/* Without value_tangent, value_hyperbolic, value_inverse: tried; that the block is still known afterwards stays
-   unknown (their goals _ensures). */
-/* Without value_extreme, value_operation, side_of_end: tried; CVC4 does not see that the relations are part of what
-   changes (their goals _assigns). */
-/* Without root_vanishes: tried; that coefficients stay whole in the loop stays unknown. */
-/* Without value_power: takes a negative exponent modulo 2^64 where it negates it, on purpose, which is a conversion
-   that loses something. */
-/* Without value_radical, value_root, value_function, dyd_cert_number_value, is_radical, dyd_cert_number_check: not
-   tried. */
+/* Without value_circular: tried; _call_value_is_leaf_requires and that local numbers are whole when they are cleared
+   (_call_mpz_clear_requires, _call_mpz_clear_2_requires) stay open in 4 s. */
+/* Without value_tangent: tried; conditions of value_circular, dyd_cert_poly_sign and dyd_cert_quotient_div stay open:
+    the
+   contract of value_circular does not say what stays. */
+/* Without value_radical: tried; _call_dyd_cert_poly_set_requires, _call_dyd_cert_poly_set_2_requires, that an operand
+   is there when a leaf was made, stay open in 4 s. */
+/* Without value_root: tried; its loop invariant (established, preserved), _assert_rte_mem_access_5, conditions of
+   mpz_mul and mpz_cmpabs stay open in 4 s. */
+/* Without root_vanishes: tried; _loop_invariant_preserved and _call_dyd_cert_quotient_set_q_requires, that
+   coefficients are whole in the loop, stay open in 4 s. */
+/* Without dyd_cert_number_check: tried; _call_side_of_end_2_requires stays open in 4 s. */
+/* Without side_of_end: tried with the local quotient apart from the block; _assigns_exit_part08 was not decided in 4
+    s. */
+/* Without is_part_of_turn, value_function, dyd_cert_number_value: given contracts, but the run (90 s) ended before
+    their
+   goals. */
 #include "polys.h"
 
 /* The number to be added is in its place behind those before. */
@@ -81,5 +87,81 @@ static bool value_e(dyd_cert_quotient *x, dyd_cert_algebra *a);
 /*@ requires \valid(x) && known(a) && \separated(x, a);
     assigns *x, *a; exits \false; ensures stays{Pre, Post}(a); */
 static bool value_pi(dyd_cert_quotient *x, dyd_cert_algebra *a);
+
+/* Of those below, where the block is no list of them: bounds of leaves, the cycle. */
+/*@ requires \valid(out) && whole(out) && \valid_read(a) && \valid_read(q);
+    assigns out->sign, out->length, out->zeros; exits \false; ensures whole(out) && 0 <= out->sign; */
+bool dyd_cert_poly_bound(mpz_ptr out, const dyd_cert_algebra *a, const dyd_cert_poly *q);
+/*@ requires known(a) && \valid(value) && whole(num) && whole(den) && den->sign != 0; exits \false;
+    assigns *value, a->relations.nomem, a->relations.work, a->cosines; */
+bool dyd_cert_cycle_cosine(dyd_cert_quotient *value, dyd_cert_algebra *a, mpz_srcptr num, mpz_srcptr den);
+/*@ requires known(a) && n == a->number + a->count; exits \false; */
+bool dyd_cert_cycle_begin(dyd_cert_number *n, dyd_cert_algebra *a);
+
+typedef const dyd_cert_number *of_block;
+/*@ predicate bracketed(of_block n) = \valid_read(n->root) && 2 <= n->root->count <= 1001 &&
+      \valid_read(n->root->coeff + (0 .. n->root->count - 1)) &&
+      (\forall integer k; 0 <= k < n->root->count ==> whole(&n->root->coeff[k][0])) &&
+      (\forall integer k; 0 <= k < 4 ==> whole(&n->root->end[k][0])) &&
+      n->root->end[1][0].sign != 0 && n->root->end[3][0].sign != 0; */
+
+/*@ requires \valid(x) && known(a) && \valid_read(u) && \separated(x, a);
+    exits \false; */
+static bool value_circular(dyd_cert_quotient *x, dyd_cert_algebra *a, dyd_cert_op op, const dyd_cert_quotient *u);
+/*@ requires \valid(x) && known(a) && \valid_read(u) && \separated(x, a); exits \false; */
+static bool value_tangent(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert_quotient *u);
+/*@ requires \valid(x) && known(a) && \valid_read(u) && \separated(x, a); exits \false; */
+static bool value_hyperbolic(dyd_cert_quotient *x, dyd_cert_algebra *a, dyd_cert_op op, const dyd_cert_quotient *u);
+/*@ requires \valid(x) && known(a) && \valid_read(u) && x != u && \separated(x, a) && 2 <= k <= 3; exits \false; */
+static bool value_radical(dyd_cert_quotient *x, dyd_cert_algebra *a, unsigned k, const dyd_cert_quotient *u);
+/*@ requires \valid(x) && known(a) && n == a->number + a->count && n->a < a->count && \separated(x, a); exits \false; */
+static bool value_inverse(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert_number *n);
+/*@ requires \valid(x) && known(a) && \valid_read(y) && \separated(x, a) && x != y; exits \false; */
+static bool value_extreme(dyd_cert_quotient *x, dyd_cert_algebra *a, dyd_cert_op op, const dyd_cert_quotient *y);
+/*@ requires known(a) && n == a->number + a->count && x == &n->value && n->a < a->count && n->b < a->count;
+    exits \false; */
+static bool value_operation(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert_number *n);
+/*@ requires known(a) && n == a->number + a->count && x == &n->value && n->a < a->count &&
+      -4096 <= n->exponent <= 4096; exits \false; */
+static bool value_power(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert_number *n);
+/*@ requires known(a) && n == a->number + a->count && x == &n->value && n->a < a->count; exits \false; */
+static bool value_function(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert_number *n);
+/*@ requires \valid(x) && known(a) && \separated(x, a) && \valid_read(f) && 2 <= f->count <= 1001 &&
+      \valid_read(f->coeff + (0 .. f->count - 1)) &&
+      (\forall integer k; 0 <= k < f->count ==> whole(&f->coeff[k][0])) && f->coeff[f->count - 1][0].sign == 1 &&
+      \separated(a, f, f->coeff + (0 .. f->count - 1)) && \separated(x, f, f->coeff + (0 .. f->count - 1));
+    exits \false; */
+static bool value_root(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert_bracket *f);
+/*@ requires known(a) && n == a->number + a->count && 1 <= n->op <= 28;
+    requires 1 <= n->op <= 23 ==> n->a < a->count;
+    requires 1 <= n->op <= 6 ==> n->b < a->count;
+    requires n->op == DYD_CERT_POW ==> -4096 <= n->exponent <= 4096;
+    requires n->op == DYD_CERT_ROOT ==> bracketed(n) && n->root->coeff[n->root->count - 1][0].sign == 1 &&
+      \separated(a, n->root, n->root->coeff + (0 .. n->root->count - 1)) &&
+      \separated(&n->value, n->root, n->root->coeff + (0 .. n->root->count - 1)); exits \false; */
+bool dyd_cert_number_value(dyd_cert_number *n, dyd_cert_algebra *a);
+/*@ requires \valid_read(v) && known(a) && \valid_read(u) && \separated(a, u, v); exits \false; */
+static bool is_radical(const dyd_cert_quotient *v, dyd_cert_algebra *a, unsigned k, const dyd_cert_quotient *u);
+/*@ requires \valid(zero) && \valid_read(f) && f->count <= 1001 && known(a) && \valid_read(v) &&
+      (0 < f->count ==> \valid_read(f->coeff + (0 .. f->count - 1))) &&
+      (\forall integer k; 0 <= k < f->count ==> whole(&f->coeff[k][0])) &&
+      \separated(a, f) && \separated(zero, a, f);
+    assigns *zero, a->relations.nomem, a->relations.work; exits \false; */
+static bool root_vanishes(bool *zero, const dyd_cert_bracket *f, dyd_cert_algebra *a, const dyd_cert_quotient *v);
+/*@ requires \valid_read(v) && known(a) && whole(num) && whole(den) && den->sign != 0;
+    assigns a->relations.nomem, a->relations.work, a->number[0 .. a->count].now, a->number[0 .. a->count].p;
+    exits \false; */
+static int side_of_end(const dyd_cert_quotient *v, dyd_cert_algebra *a, mpz_srcptr num, mpz_srcptr den);
+/*@ requires known(a) && n == a->number + a->count && (n->op == DYD_CERT_ROOT ==> bracketed(n) &&
+      \separated(a, n->root) && \separated(a->number + (0 .. a->count), n->root)) &&
+      (n->op != DYD_CERT_ROOT ==> n->a < a->count); exits \false; */
+bool dyd_cert_number_check(dyd_cert_number *n, dyd_cert_algebra *a);
+/*@ requires \valid(num) && \valid(den) && whole(num) && whole(den) && known(a) && \valid_read(u) && poly(&u->num) &&
+      poly(&u->den) && \separated(num, den, u) && \separated(num, u->num.term, u->den.term) &&
+      \separated(den, u->num.term, u->den.term) && \separated(num, a, a->number + (0 .. a->count)) &&
+      \separated(den, a, a->number + (0 .. a->count));
+    assigns num->sign, num->length, num->zeros, den->sign, den->length, den->zeros; exits \false;
+    ensures whole(num) && whole(den); ensures \result ==> den->sign != 0; */
+static bool is_part_of_turn(mpz_ptr num, mpz_ptr den, const dyd_cert_algebra *a, const dyd_cert_quotient *u);
 
 #include "checker/number.c"

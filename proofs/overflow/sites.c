@@ -2,7 +2,13 @@
 /* Contracts for src/checker/sites.c: the list of sites grows, and numbers are on the grid. */
 /* Without place_on_grid: that coordinates are below 2^31 follows from how the unit was chosen, and GMP is seen here as
    signs and lengths: four conversions to int32_t stay unknown, and conditions of calls. */
-/* Without dyd_cert_sites_clear, axis_extent, dyd_cert_sites_finish: not tried. */
+/* Without dyd_cert_sites_clear: tried, with clear_side and clear_place saying what they change. That the list is apart
+   from s, and sites to come are numbers, after a round (loop invariants 3 to 5), and the conditions of the second
+   clear_side were not decided in 3 s; nor was that of mpz_clear in clear_side when it says so. */
+/* Without axis_extent: tried. The loop invariant on the range, and the conditions of end_outward and dyd_exact_cmp were not
+   decided in 4 s. */
+/* Without dyd_cert_sites_finish: tried with place_on_grid taken for granted. Loop invariants 1 to 3 were not
+   decided in 4 s; the run was stopped at 13 of 59 goals. */
 /* Unproved end_outward_assert_rte_function_pointer: CVC4 does not know that what is chosen of two functions is one. */
 /* Unproved dyd_cert_side_set_den_assigns_exit_part3: WP does not know that new memory is new. */
 /* Unproved dyd_cert_side_set_den_assigns_normal_part4: WP does not know that new memory is new. */
@@ -14,6 +20,10 @@
 #define ITEM dyd_cert_site
 #define RESERVE dyd_reserve
 #define ALLOC alloc_sites
+#include "lists.h"
+#define ITEM dyd_cert_box
+#define RESERVE reserve_boxes
+#define ALLOC alloc_boxes
 #include "lists.h"
 #define ITEM mpz_t
 #define RESERVE reserve_numbers
@@ -53,7 +63,37 @@ static void clear_side(dyd_cert_side *s);
     exits \false; */
 static void clear_place(dyd_cert_site *s);
 /*@ requires \valid(out) && small_side(s) && apart_from_side(out, s) && exact(out);
-    assigns *out; exits \false; ensures exact(out); */
+    assigns *out; exits \false; ensures exact(out) && -137440002112 <= out->exp <= 1048576; */
 static void end_outward(dyd_exact *out, const dyd_cert_side *s, bool upper);
+/*@ predicate sides(list_of_sites s, integer axis) = \forall integer k; 0 <= k < s->count ==>
+      small_side(&s->site[k].side[axis]);
+    predicate end(exact_number x) = exact(x) && -137440002112 <= x->exp <= 1048576;
+    predicate apart_from_sides(exact_number x, list_of_sites s, integer axis) = \forall integer k; 0 <= k < s->count ==>
+      apart_from_side(x, &s->site[k].side[axis]);
+    predicate clearable(side_of s) = \valid(s) && whole(&s->lo.man[0]) && whole(&s->hi.man[0]) &&
+      (s->den == \null || \valid(s->den) && whole(&(*s->den)[0]) && \separated(&(*s->den)[0], s)); */
+/*@ requires \valid(s) && whole(&s->origin[0][0]) && whole(&s->origin[1][0]) && s->count <= 4294967295 &&
+      (0 < s->count ==> \valid(s->site + (0 .. s->count - 1)) && \separated(s, s->site + (0 .. s->count - 1))) &&
+      (\forall integer k; 0 <= k < s->count ==> clearable(&s->site[k].side[0]) && clearable(&s->site[k].side[1]) &&
+        (s->site[k].place == \null || \valid(s->site[k].place + (0 .. 1)) && whole(&s->site[k].place[0].man[0]) &&
+          whole(&s->site[k].place[1].man[0]) && \separated(s->site[k].place + (0 .. 1), s->site + k)));
+    exits \false; */
+void dyd_cert_sites_clear(dyd_cert_sites *s);
+/*@ requires \valid(range + (0 .. 1)) && end(range) && end(range + 1) && \valid_read(s) && 0 <= axis <= 1 &&
+      sides(s, axis) && \separated(range + (0 .. 1), s) && apart_from_sides(range, s, axis) &&
+      apart_from_sides(range + 1, s, axis);
+    assigns range[0 .. 1]; exits \false; ensures end(range) && end(range + 1); */
+static void axis_extent(dyd_exact range[2], const dyd_cert_sites *s, int axis);
+/*@ requires \valid(box) && \valid_read(s) && i < s->count && -274877906944 <= s->unit <= 274877906944 &&
+      whole(&s->origin[0][0]) && whole(&s->origin[1][0]) && small_side(&s->site[i].side[0]) &&
+      small_side(&s->site[i].side[1]);
+    assigns *box; exits \false; */
+static void place_on_grid(dyd_cert_box *box, const dyd_cert_sites *s, size_t i);
+/*@ requires \valid(s) && sides(s, 0) && sides(s, 1) && s->count <= 4294967295 && whole(&s->origin[0][0]) &&
+      whole(&s->origin[1][0]) && \separated(s, s->site + (0 .. s->count - 1)) &&
+      (\forall integer k; 0 <= k < s->count ==> apart_from_side(s, &s->site[k].side[0]) &&
+        apart_from_side(s, &s->site[k].side[1]));
+    exits \false; */
+dyd_status dyd_cert_sites_finish(dyd_cert_sites *s);
 
 #include "checker/sites.c"
