@@ -42,9 +42,9 @@ static void side_gap(dyd_cert_fraction *out, const dyd_cert_side *a, int ua, con
     ensures fraction(f, 274877906944); */
 static void fraction_make_whole(dyd_cert_fraction *f);
 /*@ requires \valid(man) && exact(x) && \separated(man, x);
-    requires x->man[0].sign != 0 ==> 0 <= x->exp + s <= 1099511627776;
+    requires sign(&x->man[0]) != 0 ==> 0 <= x->exp + s <= 1099511627776;
     requires -1099511627776 <= s <= 1099511627776;
-    assigns man->sign, man->length, man->zeros; exits \false; ensures whole(man); */
+    assigns man->value; exits \false; ensures whole(man); */
 static void set_scaled(mpz_ptr man, const dyd_exact *x, int64_t s);
 /*@ requires -4611686018427387904 <= e <= 4611686018427387904; assigns \nothing; exits \false;
     ensures e <= 2 * \result <= e + 1; */

@@ -17,12 +17,12 @@ typedef const dyd_cert_bracket *bracketed;
       \valid_read(r->coeff + (0 .. r->count - 1)) &&
       (\forall integer k; 0 <= k < r->count ==> whole(&r->coeff[k][0])) &&
       whole(&r->end[0][0]) && whole(&r->end[1][0]) && whole(&r->end[2][0]) && whole(&r->end[3][0]);
-    predicate within_bits(bracketed r, integer most) = r->end[0][0].length <= most && r->end[1][0].length <= most &&
-      r->end[2][0].length <= most && r->end[3][0].length <= most; */
+    predicate within_bits(bracketed r, integer most) = bits(&r->end[0][0]) <= most && bits(&r->end[1][0]) <= most &&
+      bits(&r->end[2][0]) <= most && bits(&r->end[3][0]) <= most; */
 
 /*@ requires bracket(r); assigns \nothing; exits \false;
     ensures 1 <= \result <= 137438953472 && within_bits(r, \result);
-    ensures all ==> \forall integer k; 0 <= k < r->count ==> r->coeff[k][0].length <= \result; */
+    ensures all ==> \forall integer k; 0 <= k < r->count ==> bits(&r->coeff[k][0]) <= \result; */
 static size_t longest_of(const dyd_cert_bracket *r, bool all);
 /*@ requires bracket(f) && whole(num) && whole(den); assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
 static int sign_at_fraction(const dyd_cert_bracket *f, mpz_srcptr num, mpz_srcptr den);

@@ -8,11 +8,11 @@
 typedef const dyd_dyadic *number;
 
 /*@ predicate dyadic(number x) = \valid_read(x) && whole(&x->man[0]) && -1048576 <= x->exp <= 1048576 &&
-      (x->man[0].sign == 0 ==> x->exp == 0) &&
-      (x->man[0].sign != 0 ==> x->man[0].zeros == 0 && x->exp + x->man[0].length <= 1048576);
+      (sign(&x->man[0]) == 0 ==> x->exp == 0) &&
+      (sign(&x->man[0]) != 0 ==> zeros(&x->man[0]) == 0 && x->exp + bits(&x->man[0]) <= 1048576);
     predicate apart(number x, number y) = x == y || \separated(x, y); */
 
-/*@ requires whole(man); assigns \nothing; exits \false; ensures \result == man->length; */
+/*@ requires whole(man); assigns \nothing; exits \false; ensures \result == bits(man); */
 int64_t dyd_bits(mpz_srcptr man);
 /*@ requires \valid(out) && dyadic(x) && apart(out, x); assigns *out; exits \false; ensures dyadic(out); */
 void dyd_dyadic_set(dyd_dyadic *out, const dyd_dyadic *x);
@@ -23,6 +23,6 @@ dyd_status dyd_dyadic_take(dyd_dyadic *out, mpz_ptr man, int64_t exp);
 /*@ requires \valid(out) && dyadic(out) && whole(man); assigns *out; exits \false; ensures dyadic(out); */
 dyd_status dyd_dyadic_set_z_2exp(dyd_dyadic *out, const mpz_t man, int64_t exp);
 
-/*@ predicate rational(mpq_srcptr q) = \valid_read(q) && whole(&q->num) && whole(&q->den) && q->den.sign == 1; */
+/*@ predicate rational(mpq_srcptr q) = \valid_read(q) && whole(&q->num) && whole(&q->den) && sign(&q->den) == 1; */
 
 #endif

@@ -48,7 +48,7 @@ static void cyclotomic(long *c, long m, long n);
     ensures cosines(a) && a->cycle == \old(a->cycle) && a->cosine == \old(a->cosine);
     ensures \result ==> k < a->cosines; */
 static bool extend_cosines(dyd_cert_algebra *a, size_t k);
-/*@ requires \valid(a) && \valid(value) && cosines(a) && whole(num) && whole(den) && den->sign != 0 &&
+/*@ requires \valid(a) && \valid(value) && cosines(a) && whole(num) && whole(den) && sign(den) != 0 &&
       \separated(a, value, a->cosine + (0 .. a->cycle - 1), num, den); exits \false; */
 bool dyd_cert_cycle_cosine(dyd_cert_quotient *value, dyd_cert_algebra *a, mpz_srcptr num, mpz_srcptr den);
 

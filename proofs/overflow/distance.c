@@ -41,7 +41,7 @@ typedef const dyd_cert_window *window_of;
 typedef const dyd_cert_fraction *ratio_of;
 
 /*@ predicate ratio(ratio_of f) = \valid_read(f) && whole(&f->num.man[0]) && whole(&f->den[0]) &&
-      (!f->whole ==> f->den[0].sign == 1);
+      (!f->whole ==> sign(&f->den[0]) == 1);
     predicate ratio_within(ratio_of f, integer most) = ratio(f) && -most <= f->num.exp <= most; */
 /*@ requires \valid(f); assigns *f; exits \false; ensures ratio_within(f, 0) && f->whole; */
 void dyd_cert_fraction_init(dyd_cert_fraction *f);
@@ -49,8 +49,8 @@ void dyd_cert_fraction_init(dyd_cert_fraction *f);
 void dyd_cert_fraction_clear(dyd_cert_fraction *f);
 /*@ requires ratio_within(a, 274877906944) && ratio_within(b, 274877906944); assigns \nothing; exits \false; */
 int dyd_cert_fraction_cmp(const dyd_cert_fraction *a, const dyd_cert_fraction *b);
-/*@ requires \valid(out) && ratio(out) && exact(a) && exact(b) && (da == \null || whole(da) && da->sign == 1) &&
-      (db == \null || whole(db) && db->sign == 1) && \separated(out, a) && \separated(out, b) &&
+/*@ requires \valid(out) && ratio(out) && exact(a) && exact(b) && (da == \null || whole(da) && sign(da) == 1) &&
+      (db == \null || whole(db) && sign(db) == 1) && \separated(out, a) && \separated(out, b) &&
       (da == \null || \separated(out, da)) && (db == \null || \separated(out, db));
     assigns *out; exits \false; ensures ratio(out) && between(out->num.exp, \old(a->exp), \old(b->exp)); */
 void dyd_cert_fraction_sub(dyd_cert_fraction *out, const dyd_exact *a, mpz_srcptr da, const dyd_exact *b,
@@ -72,7 +72,7 @@ void dyd_cert_window_init(dyd_cert_window *w);
       whole(&w->e[3].man[0]);
     assigns *w; exits \false; */
 void dyd_cert_window_clear(dyd_cert_window *w);
-/*@ requires \valid(man) && \valid(exp) && ratio_within(f, 68719476736) && 0 <= f->num.man[0].sign &&
+/*@ requires \valid(man) && \valid(exp) && ratio_within(f, 68719476736) && 0 <= sign(&f->num.man[0]) &&
       \separated(man, f) && \separated(exp, f) && \separated(man, exp);
     assigns *man, *exp; exits \false; ensures -103079215168 <= *exp <= 103079215168; */
 static void root_above(uint64_t *man, int64_t *exp, const dyd_cert_fraction *f);

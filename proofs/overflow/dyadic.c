@@ -36,7 +36,7 @@ dyd_status dyd_dyadic_mul(dyd_dyadic *out, const dyd_dyadic *x, const dyd_dyadic
 dyd_status dyd_dyadic_mul_2exp(dyd_dyadic *out, const dyd_dyadic *x, int64_t e);
 /*@ requires \valid(out) && dyadic(x) && apart(out, x); assigns *out; exits \false; ensures dyadic(out); */
 void dyd_dyadic_neg(dyd_dyadic *out, const dyd_dyadic *x);
-/*@ requires dyadic(x); assigns \nothing; exits \false; ensures \result == x->man[0].sign; */
+/*@ requires dyadic(x); assigns \nothing; exits \false; ensures \result == sign(&x->man[0]); */
 int dyd_dyadic_sgn(const dyd_dyadic *x);
 /*@ requires dyadic(x) && dyadic(y); assigns \nothing; exits \false; */
 static int cmp_aligned(const dyd_dyadic *x, const dyd_dyadic *y);

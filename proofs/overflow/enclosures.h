@@ -13,7 +13,7 @@
 typedef const dyd_cert_enclosure *interval_of;
 
 /* Members by name: as a whole they would be any memory after a call, which costs CVC4 much. */
-#define PARTS_OF(z) z.sign, z.length, z.zeros
+#define PARTS_OF(z) z.value
 #define ENDS_OF(x) PARTS_OF(x->lo[0]), PARTS_OF(x->hi[0])
 #define ALL_OF(x) ENDS_OF(x), x->known
 
@@ -35,11 +35,11 @@ void dyd_cert_enclosure_init(dyd_cert_enclosure *x);
 void dyd_cert_enclosure_clear(dyd_cert_enclosure *x);
 /*@ requires \valid(x) && interval(y) && alone(x, y); assigns ALL_OF(x); exits \false; ensures interval(x); */
 void dyd_cert_enclosure_set(dyd_cert_enclosure *x, const dyd_cert_enclosure *y);
-/*@ requires \valid(x) && whole(num) && whole(den) && den->sign != 0 && digits(p) && \separated(x, num, den);
+/*@ requires \valid(x) && whole(num) && whole(den) && sign(den) != 0 && digits(p) && \separated(x, num, den);
     assigns ALL_OF(x); exits \false; ensures interval(x); */
 void dyd_cert_enclosure_set_q(dyd_cert_enclosure *x, mpz_srcptr num, mpz_srcptr den, long p);
 /*@ requires interval(x); assigns \nothing; exits \false; ensures -1 <= \result <= 1;
-    ensures \result == 1 ==> 0 < x->lo[0].sign; ensures \result == -1 ==> x->hi[0].sign < 0; */
+    ensures \result == 1 ==> 0 < sign(&x->lo[0]); ensures \result == -1 ==> sign(&x->hi[0]) < 0; */
 int dyd_cert_enclosure_sign(const dyd_cert_enclosure *x);
 /*@ requires \valid(x) && interval(x) && digits(p); assigns ALL_OF(x); exits \false; ensures interval(x); */
 void dyd_cert_enclosure_set_si(dyd_cert_enclosure *x, long z, long p);

@@ -6,9 +6,9 @@
 /*@ requires \valid(out) && exact(x) && exact(y) && beside(out, x) && beside(out, y); assigns PARTS(out); exits \false;
     ensures whole(&out->man[0]) && between(out->exp, \old(x->exp), \old(y->exp)); */
 static void exact_combine(dyd_exact *out, const dyd_exact *x, const dyd_exact *y, int sign);
-/*@ requires \valid(out) && exact(x) && (den == \null || whole(den) && den->sign == 1 && \separated(out, den));
+/*@ requires \valid(out) && exact(x) && (den == \null || whole(den) && sign(den) == 1 && \separated(out, den));
     requires -274877906944 <= exp <= 274877906944 && (\separated(out, x) || out == &x->man[0]);
-    assigns out->sign, out->length, out->zeros; exits \false; ensures whole(out); */
+    assigns out->value; exits \false; ensures whole(out); */
 static void exact_divide(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp, bool up);
 
 #include "checker/exact.c"

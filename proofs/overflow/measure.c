@@ -34,8 +34,8 @@ static int turn_on_grid(const dyd_cert_sites *s, uint32_t a, uint32_t b, uint32_
 static void init_over_common(dyd_exact *x, dyd_exact *y, const dyd_cert_fraction *a, const dyd_cert_fraction *b);
 /*@ requires \valid(out) && of_parts(a) && of_parts(b) && !(a->whole && b->whole) && same_or_apart(out, a) &&
       same_or_apart(out, b);
-    assigns out->den[0].sign, out->den[0].length, out->den[0].zeros;
-    exits \false; ensures whole(&out->den[0]) && out->den[0].sign == 1; */
+    assigns out->den[0].value;
+    exits \false; ensures whole(&out->den[0]) && sign(&out->den[0]) == 1; */
 static void multiply_dens(dyd_cert_fraction *out, const dyd_cert_fraction *a, const dyd_cert_fraction *b);
 
 /*@ requires on_grid(s, a) && on_grid(s, b) && on_grid(s, c) && small_site(s->site + a) && small_site(s->site + b) &&

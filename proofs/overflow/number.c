@@ -90,9 +90,9 @@ static bool value_pi(dyd_cert_quotient *x, dyd_cert_algebra *a);
 
 /* Of those below, where the block is no list of them: bounds of leaves, the cycle. */
 /*@ requires \valid(out) && whole(out) && \valid_read(a) && \valid_read(q);
-    assigns out->sign, out->length, out->zeros; exits \false; ensures whole(out) && 0 <= out->sign; */
+    assigns out->value; exits \false; ensures whole(out) && 0 <= sign(out); */
 bool dyd_cert_poly_bound(mpz_ptr out, const dyd_cert_algebra *a, const dyd_cert_poly *q);
-/*@ requires known(a) && \valid(value) && whole(num) && whole(den) && den->sign != 0; exits \false;
+/*@ requires known(a) && \valid(value) && whole(num) && whole(den) && sign(den) != 0; exits \false;
     assigns *value, a->relations.nomem, a->relations.work, a->cosines; */
 bool dyd_cert_cycle_cosine(dyd_cert_quotient *value, dyd_cert_algebra *a, mpz_srcptr num, mpz_srcptr den);
 /*@ requires known(a) && n == a->number + a->count; exits \false; */
@@ -103,7 +103,7 @@ typedef const dyd_cert_number *of_block;
       \valid_read(n->root->coeff + (0 .. n->root->count - 1)) &&
       (\forall integer k; 0 <= k < n->root->count ==> whole(&n->root->coeff[k][0])) &&
       (\forall integer k; 0 <= k < 4 ==> whole(&n->root->end[k][0])) &&
-      n->root->end[1][0].sign != 0 && n->root->end[3][0].sign != 0; */
+      sign(&n->root->end[1][0]) != 0 && sign(&n->root->end[3][0]) != 0; */
 
 /*@ requires \valid(x) && known(a) && \valid_read(u) && \separated(x, a);
     exits \false; */
@@ -128,7 +128,7 @@ static bool value_power(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cer
 static bool value_function(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert_number *n);
 /*@ requires \valid(x) && known(a) && \separated(x, a) && \valid_read(f) && 2 <= f->count <= 1001 &&
       \valid_read(f->coeff + (0 .. f->count - 1)) &&
-      (\forall integer k; 0 <= k < f->count ==> whole(&f->coeff[k][0])) && f->coeff[f->count - 1][0].sign == 1 &&
+      (\forall integer k; 0 <= k < f->count ==> whole(&f->coeff[k][0])) && sign(&f->coeff[f->count - 1][0]) == 1 &&
       \separated(a, f, f->coeff + (0 .. f->count - 1)) && \separated(x, f, f->coeff + (0 .. f->count - 1));
     exits \false; */
 static bool value_root(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert_bracket *f);
@@ -136,7 +136,7 @@ static bool value_root(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert
     requires 1 <= n->op <= 23 ==> n->a < a->count;
     requires 1 <= n->op <= 6 ==> n->b < a->count;
     requires n->op == DYD_CERT_POW ==> -4096 <= n->exponent <= 4096;
-    requires n->op == DYD_CERT_ROOT ==> bracketed(n) && n->root->coeff[n->root->count - 1][0].sign == 1 &&
+    requires n->op == DYD_CERT_ROOT ==> bracketed(n) && sign(&n->root->coeff[n->root->count - 1][0]) == 1 &&
       \separated(a, n->root, n->root->coeff + (0 .. n->root->count - 1)) &&
       \separated(&n->value, n->root, n->root->coeff + (0 .. n->root->count - 1)); exits \false; */
 bool dyd_cert_number_value(dyd_cert_number *n, dyd_cert_algebra *a);
@@ -148,7 +148,7 @@ static bool is_radical(const dyd_cert_quotient *v, dyd_cert_algebra *a, unsigned
       \separated(a, f) && \separated(zero, a, f);
     assigns *zero, a->relations.nomem, a->relations.work; exits \false; */
 static bool root_vanishes(bool *zero, const dyd_cert_bracket *f, dyd_cert_algebra *a, const dyd_cert_quotient *v);
-/*@ requires \valid_read(v) && known(a) && whole(num) && whole(den) && den->sign != 0;
+/*@ requires \valid_read(v) && known(a) && whole(num) && whole(den) && sign(den) != 0;
     assigns a->relations.nomem, a->relations.work, a->number[0 .. a->count].now, a->number[0 .. a->count].p;
     exits \false; */
 static int side_of_end(const dyd_cert_quotient *v, dyd_cert_algebra *a, mpz_srcptr num, mpz_srcptr den);
@@ -160,8 +160,8 @@ bool dyd_cert_number_check(dyd_cert_number *n, dyd_cert_algebra *a);
       poly(&u->den) && \separated(num, den, u) && \separated(num, u->num.term, u->den.term) &&
       \separated(den, u->num.term, u->den.term) && \separated(num, a, a->number + (0 .. a->count)) &&
       \separated(den, a, a->number + (0 .. a->count));
-    assigns num->sign, num->length, num->zeros, den->sign, den->length, den->zeros; exits \false;
-    ensures whole(num) && whole(den); ensures \result ==> den->sign != 0; */
+    assigns num->value, den->value; exits \false;
+    ensures whole(num) && whole(den); ensures \result ==> sign(den) != 0; */
 static bool is_part_of_turn(mpz_ptr num, mpz_ptr den, const dyd_cert_algebra *a, const dyd_cert_quotient *u);
 
 #include "checker/number.c"

@@ -64,7 +64,7 @@ static bool poly_set_term(dyd_cert_poly *p, mpz_srcptr z, size_t leaf, uint16_t 
     ensures \result != \null && 0 < count ==> \valid(\result + (0 .. count - 1)); */
 static dyd_cert_term *terms_alloc(size_t count, dyd_cert_relations *r);
 /*@ requires \valid(c) && whole(c) && \valid(text) && string(*text) && \valid(r) && \separated(c, text, r);
-    assigns owned: c->sign, c->length, c->zeros, *text, r->nomem;
+    assigns owned: c->value, *text, r->nomem;
     exits \false; ensures whole(c) && (\result ==> string(*text)); */
 static bool scan_coefficient(mpz_ptr c, const char **text, dyd_cert_relations *r);
 /*@ requires string(text) && stop(text) < 1152921504606846976; assigns \nothing; exits \false;
@@ -80,7 +80,7 @@ static bool reduce_leaf(dyd_cert_poly *p, size_t k, dyd_cert_relations *r);
 bool dyd_cert_poly_reduce(dyd_cert_poly *p, dyd_cert_relations *r);
 /*@ requires \valid(t) && whole(&t->c[0]) && \valid(text) && string(*text) && \valid(r) && r->count <= 64 &&
       \separated(t, text, r);
-    assigns owned: t->e[0 .. 63], t->c[0].sign, t->c[0].length, t->c[0].zeros, *text, r->nomem;
+    assigns owned: t->e[0 .. 63], t->c[0].value, *text, r->nomem;
     exits \false; ensures whole(&t->c[0]); ensures \result ==> string(*text); */
 static bool scan_term(dyd_cert_term *t, const char **text, dyd_cert_relations *r);
 

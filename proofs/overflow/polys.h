@@ -45,7 +45,7 @@ bool dyd_cert_poly_reduce(dyd_cert_poly *p, dyd_cert_relations *r);
 static inline bool dyd_cert_poly_is_zero(const dyd_cert_poly *p);
 /*@ requires \valid_read(p); assigns \nothing; exits \false;
     ensures \result != \null ==> p->count == 1 && \result == &p->term[0].c[0] && whole(\result) &&
-      \result->sign != 0; */
+      sign(\result) != 0; */
 mpz_srcptr dyd_cert_poly_integer(const dyd_cert_poly *p);
 /*@ requires \valid(p) && \valid(end) && string(text) && \valid(r) && \separated(p, end, r);
     assigns *p, *end, r->nomem; exits \false;
@@ -56,7 +56,7 @@ bool dyd_cert_poly_scan(dyd_cert_poly *p, const char **end, const char *text, dy
 void dyd_cert_quotient_clear(dyd_cert_quotient *x);
 /*@ requires \valid(x) && \valid_read(y) && \valid(r) && x != y; assigns *x, r->nomem, r->work; exits \false; */
 bool dyd_cert_quotient_set(dyd_cert_quotient *x, const dyd_cert_quotient *y, dyd_cert_relations *r);
-/*@ requires \valid(x) && whole(num) && whole(den) && den->sign != 0 && \valid(r);
+/*@ requires \valid(x) && whole(num) && whole(den) && sign(den) != 0 && \valid(r);
     assigns *x, r->nomem, r->work; exits \false; */
 bool dyd_cert_quotient_set_q(dyd_cert_quotient *x, mpz_srcptr num, mpz_srcptr den, dyd_cert_relations *r);
 /*@ requires \valid(x) && leaf < 64 && \valid_read(den) && \valid(r); assigns *x, r->nomem, r->work; exits \false; */

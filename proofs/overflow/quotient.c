@@ -12,7 +12,7 @@
 #include "terms.h"
 
 #define CHANGES(x) x->num.term, x->num.count, x->den.term, x->den.count
-#define PARTS_OF(z) z.sign, z.length, z.zeros
+#define PARTS_OF(z) z.value
 
 /*@ predicate both(quotient x) = \valid_read(x) && held(&x->num) && held(&x->den);
     predicate both_limited(quotient x) = \valid_read(x) && limited(&x->num) && limited(&x->den);
@@ -32,7 +32,7 @@ bool dyd_cert_quotient_set(dyd_cert_quotient *x, const dyd_cert_quotient *y, dyd
 /*@ requires parts(x); exits \false; ensures both(x); ensures both_limited{Pre}(x) ==> both_limited(x);
     assigns PARTS_OF(x->num.term[0 .. x->num.count - 1].c[0]), PARTS_OF(x->den.term[0 .. x->den.count - 1].c[0]); */
 static void quotient_shorten(dyd_cert_quotient *x);
-/*@ requires \valid(x) && both(x) && whole(num) && whole(den) && den->sign != 0 && \valid(r) && \separated(x, r, num) &&
+/*@ requires \valid(x) && both(x) && whole(num) && whole(den) && sign(den) != 0 && \valid(r) && \separated(x, r, num) &&
       \separated(x, r, den);
     assigns owned: CHANGES(x), r->nomem; exits \false; ensures both(x); ensures \result ==> both_limited(x); */
 bool dyd_cert_quotient_set_q(dyd_cert_quotient *x, mpz_srcptr num, mpz_srcptr den, dyd_cert_relations *r);

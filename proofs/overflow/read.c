@@ -26,7 +26,7 @@ static const char *scan_decimal(const char *text);
     ensures \result ==> -999999999999999999 <= *out <= 999999999999999999; */
 static bool scan_small(long long *out, const char *text);
 /*@ requires whole(&x->man[0]) && \valid_read(x) && -999999999999999999 <= x->exp <= 999999999999999999;
-    assigns \nothing; exits \false; ensures \result && x->man[0].sign != 0 ==> certified(x); */
+    assigns \nothing; exits \false; ensures \result && sign(&x->man[0]) != 0 ==> certified(x); */
 static bool exact_in_range(const dyd_exact *x);
 /*@ requires \valid(out) && exact(out) && line(text); assigns *out, text[0 .. stop(text)]; exits \false;
     ensures whole(&out->man[0]);

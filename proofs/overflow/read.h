@@ -55,7 +55,7 @@ dyd_status dyd_cert_read_integer(long long *out, dyd_cert_reader *r);
     ensures \result == DYD_OK ==> *out <= most; */
 dyd_status dyd_cert_read_index(uint32_t *out, dyd_cert_reader *r, uint64_t most);
 
-/*@ predicate certified(exact_number x) = exact(x) && -1048576 <= x->exp <= 1048576 && x->man[0].length <= 2097152; */
+/*@ predicate certified(exact_number x) = exact(x) && -1048576 <= x->exp <= 1048576 && bits(&x->man[0]) <= 2097152; */
 /*@ requires reads(r) && \valid(out) && exact(out) && \separated(out, r, r->err);
     assigns r->at, r->line[0 .. r->cap - 1], *out, *r->err; exits \false; ensures reads(r) && whole(&out->man[0]);
     ensures \result == DYD_OK ==> certified(out); */

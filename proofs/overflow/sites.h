@@ -10,7 +10,7 @@
 typedef const dyd_cert_side *side_of;
 
 /*@ predicate side(side_of s) = \valid_read(s) && exact(&s->lo) && exact(&s->hi) &&
-      (s->den == \null || whole(&(*s->den)[0]) && (*s->den)[0].sign == 1); */
+      (s->den == \null || whole(&(*s->den)[0]) && sign(&(*s->den)[0]) == 1); */
 
 /*@ requires \valid_read(s); assigns \nothing; exits \false; */
 static inline bool dyd_cert_is_point(const dyd_cert_site *s);
@@ -32,16 +32,16 @@ dyd_status dyd_cert_side_set_den(dyd_cert_side *side, mpz_srcptr den);
 
 /* Fractions: of_parts, of any exponents; fraction, where they are no farther than `most` from 0. */
 #define of_parts(f) (\valid_read(f) && whole(&(f)->num.man[0]) && whole(&(f)->den[0]) && \
-    (!(f)->whole ==> (f)->den[0].sign == 1))
+    (!(f)->whole ==> sign(&(f)->den[0]) == 1))
 #define fraction(f, most) (of_parts(f) && -(most) <= (f)->num.exp <= (most))
 #define same_or_apart(f, g) ((f) == (g) || \separated(f, g))
-#define FRACTION(f) PARTS(&(f)->num), (f)->den[0].sign, (f)->den[0].length, (f)->den[0].zeros, (f)->whole
+#define FRACTION(f) PARTS(&(f)->num), (f)->den[0].value, (f)->whole
 
 /* Numbers of certificates, and what is made of them: sides, sites, spots. */
 #define small(x) (\valid_read(x) && whole(&(x)->man[0]) && -1048576 <= (x)->exp <= 1048576)
-#define denominator(z) ((z) == \null || whole(z) && (z)->sign == 1)
+#define denominator(z) ((z) == \null || whole(z) && sign(z) == 1)
 #define small_side(s) (\valid_read(s) && small(&(s)->lo) && small(&(s)->hi) && ((s)->den == \null || \
-    whole(&(*(s)->den)[0]) && (*(s)->den)[0].sign == 1))
+    whole(&(*(s)->den)[0]) && sign(&(*(s)->den)[0]) == 1))
 #define apart_from_side(x, s) (\separated(x, s) && ((s)->den == \null || \separated(x, &(*(s)->den)[0])))
 #define placed(s) ((s)->place == \null || small((s)->place) && small((s)->place + 1))
 #define small_site(s) (\valid_read(s) && small_side(&(s)->side[0]) && small_side(&(s)->side[1]) && placed(s))
@@ -50,7 +50,7 @@ dyd_status dyd_cert_side_set_den(dyd_cert_side *side, mpz_srcptr den);
 
 
 /*@ requires \valid(f); assigns FRACTION(f);
-    exits \false; ensures fraction(f, 0) && f->whole && f->num.man[0].sign == 0; */
+    exits \false; ensures fraction(f, 0) && f->whole && sign(&f->num.man[0]) == 0; */
 void dyd_cert_fraction_init(dyd_cert_fraction *f);
 /*@ requires \valid(f) && of_parts(f); assigns FRACTION(f); exits \false; */
 void dyd_cert_fraction_clear(dyd_cert_fraction *f);

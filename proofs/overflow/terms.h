@@ -56,7 +56,7 @@ mpz_srcptr dyd_cert_poly_integer(const dyd_cert_poly *p);
 /*@ requires \valid(g) && whole(g) && held(p) && \separated(g, p, p->term + (0 .. p->count - 1));
     assigns *g; exits \false; ensures whole(g); */
 void dyd_cert_poly_content(mpz_ptr g, const dyd_cert_poly *p);
-/*@ requires \valid(p) && held(p) && whole(z) && z->sign != 0 && \separated(z, p, p->term + (0 .. p->count - 1));
+/*@ requires \valid(p) && held(p) && whole(z) && sign(z) != 0 && \separated(z, p, p->term + (0 .. p->count - 1));
     assigns p->term[0 .. p->count - 1].c[0]; exits \false; ensures held(p); */
 void dyd_cert_poly_divide(dyd_cert_poly *p, mpz_srcptr z);
 /*@ requires \valid(p) && held(p) && limited(q) && whole(c) && \valid(r) && \separated(p, q, r) &&

@@ -64,9 +64,9 @@ void dyd_cert_algebra_clear(dyd_cert_algebra *a);
 void negate(dyd_cert_quotient *x);
 #define dyd_cert_quotient_neg(x) negate(x)
 /* What exact.h says of these two, with members by name: a number as a whole would be any memory after a call. */
-/*@ requires \valid(out) && exact(x) && (den == \null || whole(den) && den->sign == 1 && \separated(out, den));
+/*@ requires \valid(out) && exact(x) && (den == \null || whole(den) && sign(den) == 1 && \separated(out, den));
     requires -274877906944 <= exp <= 274877906944 && \separated(out, x);
-    assigns out->sign, out->length, out->zeros; exits \false; ensures whole(out); */
+    assigns out->value; exits \false; ensures whole(out); */
 void round_exact(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp);
 #define dyd_exact_ceil(out, x, den, exp) round_exact(out, x, den, exp)
 #define dyd_exact_floor(out, x, den, exp) round_exact(out, x, den, exp)
