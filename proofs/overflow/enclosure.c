@@ -1,15 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/enclosure.c: arithmetic, roots and series of intervals. */
-/* Without multiply_ends, dyd_cert_enclosure_pow, double_angle, dyd_cert_enclosure_pi, dyd_cert_enclosure_exp,
-   dyd_cert_enclosure_cos_sin: tried, with what holds before each step asserted or admitted; that an interval behind a
-   pointer stays one while numbers in local variables change, through a loop or three calls and more, CVC4 does not
-   prove in 3 or 4 s (of multiply_ends, 3 goals; pi, its postcondition; the others, 3 to 12, not all run to the end). */
-/* Without dyd_cert_enclosure_div: likewise; and that neither end of a divisor is 0 rests on their order, the model has
-   signs and lengths of numbers only. */
-/* Without inverse_tangent: it calls through a pointer to a function, and WP does not know valid_function. */
-/* Without taylor_cos_sin: tried, the function that is called one of two; 52 of 60 goals are proved. Open are
-   function_pointer, as of inverse_tangent, and, Timeout in 4 s while other runs had the machine, the postcondition, the
-   loop invariant, and what is required by both of the two, add_remainder and dyd_cert_enclosure_clear. */
+/* Unproved dyd_cert_enclosure_div_call_mpz_cdiv_q_requires, dyd_cert_enclosure_div_call_mpz_fdiv_q_requires: that no end
+   is 0 where the sign is known rests on their order; of integers signs and lengths are seen here. */
+/* Unproved dyd_cert_enclosure_pow_assert_rte_unsigned_downcast_2: -n modulo 2^64 is meant. */
+/* Unproved inverse_tangent_assert_rte_function_pointer, taylor_cos_sin_assert_rte_function_pointer: that there is a
+   function where one of two is called: WP does not know valid_function. */
+#define SPELL_OUT
 #include "enclosures.h"
 
 /*@ requires \valid(x) && interval(x) && digits(p); assigns x->known; exits \false; */

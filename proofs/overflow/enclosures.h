@@ -66,7 +66,7 @@ void dyd_cert_enclosure_root(dyd_cert_enclosure *x, unsigned long k, long p);
 /*@ requires \valid(x) && interval(x); assigns ALL_OF(x); exits \false; ensures interval(x); */
 void dyd_cert_enclosure_abs(dyd_cert_enclosure *x);
 /*@ requires \valid(x) && interval(x) && interval(y) && alone(x, y) && (sign == 1 || sign == -1);
-    assigns *x; exits \false; ensures interval(x); */
+    assigns ALL_OF(x); exits \false; ensures interval(x); */
 void dyd_cert_enclosure_extreme(dyd_cert_enclosure *x, int sign, const dyd_cert_enclosure *y);
 /*@ requires \valid(x) && interval(x) && fewer(p); assigns ALL_OF(x); exits \false; ensures interval(x); */
 void dyd_cert_enclosure_pi(dyd_cert_enclosure *x, long p);
