@@ -1,12 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/bounds.c: gaps between sides, a sum of areas that stays a number. */
-/* Without site_reach2: tried. That of ensures, and the conditions of side_reach (both), dyd_cert_fraction_add and clear
-   were not decided in 5 s. */
-/* Without site_diameter2: tried. Of 22 goals the condition of the second site_reach2 was not decided in 4 s. */
-/* Without hausdorff_fits: tried. Of 37 goals the conditions of site_diameter2 and site_reach2 were not decided in 4 s. */
-/* Without dyd_cert_bounds_add: tried. Of 22 goals the condition of hausdorff_fits was not decided in 4 s. */
-/* Without bounds_cut_corner, bounds_add_area, half_and_diameter_fit: tried. Runs were stopped after 50 to 60 s on a
-   busy machine, at 0 of 54, 0 of 42 and 2 of 149 goals: nothing is known of the others. */
+/* Unproved bounds_cut_corner_assert_rte_signed_overflow_5, bounds_cut_corner_assert_rte_signed_overflow_6: that a product
+   of four numbers, each -1, 0 or 1, is an int. */
 #define SPELL_OUT
 #include "sites.h"
 

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/chain.c: both lists of a chain grow together. */
-/* Without dyd_cert_chain_clear: that clearing the numbers of one point changes those of the list only stays unknown, of
-   both goals on what the loop changes. */
 #define SPELL_OUT
 #include "sites.h"
 
@@ -63,5 +61,12 @@ static bool chain_separates(const dyd_cert_chain *c, const dyd_cert_sites *s, ui
       small_site(s->site + i) && small_site(s->site + j);
     assigns \nothing; exits \false; */
 bool dyd_cert_chain_holds(const dyd_cert_chain *c, const dyd_cert_sites *s, uint32_t i, uint32_t j);
+
+/*@ requires \valid(c) && c->cap <= 1152921504606846976 && (0 < c->cap ==> \valid(c->point + (0 .. c->cap - 1)) &&
+      \separated(c, c->point + (0 .. c->cap - 1)));
+    requires \forall integer j; 0 <= j < c->cap ==> whole(&c->point[j][0].man[0]) && whole(&c->point[j][1].man[0]);
+    requires \forall integer a, k; 0 <= a < 2 && 0 <= k < 2 ==> whole(&c->u[a][k].man[0]);
+    exits \false; */
+void dyd_cert_chain_clear(dyd_cert_chain *c);
 
 #include "checker/chain.c"

@@ -1,14 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/measure.c: turns reckoned on the grid. */
 /* Without dyd_cert_fraction_swap: structures with arrays in them are copied as one; what comes of their parts stays
-   unknown. */
-/* Without dyd_cert_fraction_sub: of two denominators each may be absent; that numbers stay whole while others change
-   stays unknown, with the numbers between admitted as well. */
-/* Without axis_distance, dyd_cert_distance2: that the numbers of the site stay whole while the distance changes stays
-   unknown, where dyd_cert_fraction_sub, mul and add are called. */
-/* Without site_height: tried. The ensures, the loop invariant and the conditions of calls in the loop (dyd_exact_mul,
-   dyd_cert_fraction_sub, swap, add, ...) were not decided in 5 s. */
-/* Without dyd_cert_cross: tried alone. The first loop invariant was not decided in 4 s; the run was stopped at 5 goals. */
+   unknown (its ensures, and what is assigned). */
+/* Unproved dyd_cert_cross_loop_invariant_3_preserved: that denominators stay while one before them in the same list is
+   cleared was not decided in 15 s; that numerators do, is. */
 #define SPELL_OUT
 #include "sites.h"
 
@@ -49,6 +44,11 @@ static void spot_difference(dyd_cert_fraction *out, const dyd_cert_spot *a, cons
 /*@ requires on_grid(s, a) && on_grid(s, b) && small_site(s->site + a) && small_site(s->site + b);
     assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
 int dyd_cert_compare_places(const dyd_cert_sites *s, uint32_t a, uint32_t b);
+/*@ requires \valid(d) && of_parts(d) && small(c) && small_site(s) && 0 <= axis <= 1 && \separated(d, c) &&
+      apart_from_site(d, s);
+    assigns FRACTION(d); exits \false; ensures fraction(d, 1048576); */
+static void axis_distance(dyd_cert_fraction *d, const dyd_exact *c, const dyd_cert_site *s, int axis,
+                          dyd_cert_measure measure);
 /*@ requires \valid(out) && fraction(out, 2097152) && small(u) && small(u + 1) && \valid_read(s) &&
       small_side(&s->side[0]) && small_side(&s->side[1]) && \separated(out, u + (0 .. 1)) && \separated(out, s) &&
       apart_from_side(out, &s->side[0]) && apart_from_side(out, &s->side[1]);

@@ -5,8 +5,6 @@
 /* Without dyd_cert_sites_clear: tried, with clear_side and clear_place saying what they change. That the list is apart
    from s, and sites to come are numbers, after a round (loop invariants 3 to 5), and the conditions of the second
    clear_side were not decided in 3 s; nor was that of mpz_clear in clear_side when it says so. */
-/* Without axis_extent: tried. The loop invariant on the range, and the conditions of end_outward and dyd_exact_cmp were not
-   decided in 4 s. */
 /* Without dyd_cert_sites_finish: tried with place_on_grid taken for granted. Loop invariants 1 to 3 were not
    decided in 4 s; the run was stopped at 13 of 59 goals. */
 /* Unproved end_outward_assert_rte_function_pointer: CVC4 does not know that what is chosen of two functions is one. */

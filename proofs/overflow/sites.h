@@ -52,7 +52,7 @@ dyd_status dyd_cert_side_set_den(dyd_cert_side *side, mpz_srcptr den);
 /*@ requires \valid(f); assigns FRACTION(f);
     exits \false; ensures fraction(f, 0) && f->whole && sign(&f->num.man[0]) == 0; */
 void dyd_cert_fraction_init(dyd_cert_fraction *f);
-/*@ requires \valid(f) && of_parts(f); assigns FRACTION(f); exits \false; */
+/*@ requires \valid(f) && whole(&f->num.man[0]) && whole(&f->den[0]); assigns FRACTION(f); exits \false; */
 void dyd_cert_fraction_clear(dyd_cert_fraction *f);
 /*@ requires fraction(a, 274877906944) && fraction(b, 274877906944); assigns \nothing; exits \false;
     ensures -1 <= \result <= 1; */
