@@ -18,6 +18,7 @@
    loop invariant of dyd_cert_distance_holds, were not decided in 3 s. */
 /* Unproved place_end_assert_rte_function_pointer: that there is a function where one of two is called. */
 #define __int128 long long
+#define SPELL_OUT
 #include "sites.h"
 
 #include "base/alloc.h"
@@ -31,39 +32,14 @@
 
 #undef mpz_inits
 #undef mpz_clears
-#define mpz_inits(a, b, c, d, end) (mpz_init(a), mpz_init(b), mpz_init(c), mpz_init(d))
-#define mpz_clears(a, b, c, d, end) (mpz_clear(a), mpz_clear(b), mpz_clear(c), mpz_clear(d))
+#define mpz_inits(a, b, c, d, end) mpz_init(a), mpz_init(b), mpz_init(c), mpz_init(d)
+#define mpz_clears(a, b, c, d, end) mpz_clear(a), mpz_clear(b), mpz_clear(c), mpz_clear(d)
 
 /*@ requires -2305843009213693952 <= d <= 2305843009213693952; assigns \nothing; exits \false; */
 static inline dyd_cert_area dyd_cert_square(int64_t d);
 typedef const dyd_cert_window *window_of;
-
-typedef const dyd_cert_fraction *ratio_of;
-
-/*@ predicate ratio(ratio_of f) = \valid_read(f) && whole(&f->num.man[0]) && whole(&f->den[0]) &&
-      (!f->whole ==> sign(&f->den[0]) == 1);
-    predicate ratio_within(ratio_of f, integer most) = ratio(f) && -most <= f->num.exp <= most; */
-/*@ requires \valid(f); assigns *f; exits \false; ensures ratio_within(f, 0) && f->whole; */
-void dyd_cert_fraction_init(dyd_cert_fraction *f);
-/*@ requires \valid(f) && ratio(f); assigns *f; exits \false; */
-void dyd_cert_fraction_clear(dyd_cert_fraction *f);
-/*@ requires ratio_within(a, 274877906944) && ratio_within(b, 274877906944); assigns \nothing; exits \false; */
-int dyd_cert_fraction_cmp(const dyd_cert_fraction *a, const dyd_cert_fraction *b);
-/*@ requires \valid(out) && ratio(out) && exact(a) && exact(b) && (da == \null || whole(da) && sign(da) == 1) &&
-      (db == \null || whole(db) && sign(db) == 1) && \separated(out, a) && \separated(out, b) &&
-      (da == \null || \separated(out, da)) && (db == \null || \separated(out, db));
-    assigns *out; exits \false; ensures ratio(out) && between(out->num.exp, \old(a->exp), \old(b->exp)); */
-void dyd_cert_fraction_sub(dyd_cert_fraction *out, const dyd_exact *a, mpz_srcptr da, const dyd_exact *b,
-                           mpz_srcptr db);
-/*@ requires \valid(out) && ratio(out) && ratio_within(a, 274877906944) && ratio_within(b, 274877906944) &&
-      (out == a || \separated(out, a)) && (out == b || \separated(out, b));
-    assigns *out; exits \false; ensures ratio(out) && out->num.exp == \old(a->num.exp) + \old(b->num.exp); */
-void dyd_cert_fraction_mul(dyd_cert_fraction *out, const dyd_cert_fraction *a, const dyd_cert_fraction *b);
-/*@ requires \valid(out) && ratio(out) && ratio_within(a, 274877906944) && ratio_within(b, 274877906944) &&
-      (out == a || \separated(out, a)) && (out == b || \separated(out, b));
-    assigns *out; exits \false;
-    ensures ratio(out) && between(out->num.exp, \old(a->num.exp), \old(b->num.exp)); */
-void dyd_cert_fraction_add(dyd_cert_fraction *out, const dyd_cert_fraction *a, const dyd_cert_fraction *b);
+#define ratio(f) of_parts(f)
+#define ratio_within(f, most) fraction(f, most)
 
 /*@ requires \valid(w); assigns *w; exits \false;
     ensures exact(&w->e[0]) && exact(&w->e[1]) && exact(&w->e[2]) && exact(&w->e[3]); */
