@@ -2,20 +2,10 @@
 /* Contracts for src/checker/distance.c: what is reckoned on the grid, roots, sites kept of nested boxes. Areas are
  * numbers of 64 bits here: their values are no part of the proof. */
 /* Without mpz_set_area: v >> 64 is no shift of the 64 bits that stand for 128 here. */
-/* Without find_diameter: tried. That the sides stay numbers while s->gap and s->part are set, as dyd_cert_fraction_sub
-   demands, and the invariants of the two fractions stayed unknown. */
-/* Without add_diameters: tried, also with the two sums taken to be apart from all that is pointed to. exact(x) and
-   exact(y), which dyd_exact_add demands, stayed unknown. */
-/* Without is_near_site: tried. That coordinates of a stay in range while s->gap changes stayed unknown. */
-/* Without distance_search_init: tried. Its ensures, that all are numbers, was not decided in 4 s. */
-/* Without distance_search_clear: tried. The conditions of dyd_cert_fraction_clear were not decided in 4 s. */
-/* Without find_site_gap, extent_widen, make_grid, place_site, site_gap_below: tried; runs were stopped after 40 s, at 4, 7,
-   15, 7 and 2 of 77, 70, 87, 44 and 58 goals. Not decided in 2 s were the ensures of find_site_gap, make_grid and
-   place_site, the second one of site_gap_below, loop invariants on the ends of the extent and on the unit, and one sum
-   in make_grid (rte_signed_overflow_6), where it is taken for granted that the window has a positive area. */
-/* Without is_near_bisector, box_pairs_hold, spans_all, dyd_cert_distance_holds, box_is_covered: tried. Runs were stopped
-   after 35 to 40 s on a busy machine, at 5 goals or before: of these the ensures of spans_all, and the first
-   loop invariant of dyd_cert_distance_holds, were not decided in 3 s. */
+/* Without is_near_site, find_site_gap, extent_widen, make_grid, place_site, site_gap_below, is_near_bisector,
+   box_pairs_hold, spans_all, dyd_cert_distance_holds, box_is_covered: with what changes of a fraction spelled out, run all
+   together: WP and CVC4 did not come to an end in 190 s. Seen open before: that sides stay numbers while s->gap and
+   s->part are set, which is said of all sites at once here. */
 /* Unproved place_end_assert_rte_function_pointer: that there is a function where one of two is called. */
 #define __int128 long long
 #define SPELL_OUT
