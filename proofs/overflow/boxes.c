@@ -5,11 +5,11 @@
 /* These were run again, 2 s a goal, while others had the machine. */
 /* Without list_region_pairs, add_left: without contracts 14 of 25 and 1 of 6 goals are proved. Open: accesses behind s,
    and what dyd_reserve and dyd_cert_edges_add ask; the latter says of a list only what its last pair is. */
-/* Without index_known, look_everywhere: WP had come to no goal of them after 100 s of the run of all these. Open before:
+/* Without index_known, look_everywhere: WP had come to no goal of them after 100 s of a run of all these. Before:
    places in the list of partners, which rest on counting, and that the search works on after a region. */
 /* Without mark_outer_sites, keep_outer_sites: 14 of 27 and 26 of 33 goals are proved. Open: what they promise, and the
    invariants that the search works on. */
-/* Without look_around: 10 of 19 goals are proved. Open: what h is for its bits, sums of it, that the search works on. */
+/* Without look_around: 10 of 19 goals are proved. Open: h for its bits, sums of it, that the search works on. */
 /* Without look_at_region: WP had not come to the first of 36 goals after 45 s. */
 /* Without dyd_cert_boxes_left: 27 of 32 goals are proved. Open: mem_access_10 and 11, and what index_known,
    look_everywhere and sort_left ask. */

@@ -5,7 +5,7 @@
    and that all of a graph is kept (faces_add_set_ensures) was not decided in 4 s. */
 /* The next ones were run without contracts, 5 s a goal. Open in all are accesses behind pointers that a contract has to
    say are there. */
-/* Without check_corners: 9 of 26 goals are proved; with a contract once 39 of 41, but not that corners stay in order. */
+/* Without check_corners: 9 of 26 goals are proved; with a contract once 39 of 41, not that corners stay in order. */
 /* Without add_groups, faces_find_sets, dyd_cert_faces_init: 6 of 20, 4 of 11, 3 of 13 goals are proved. */
 /* Without check_places: 24 of 27 goals are proved. Open: rte_mem_access, rte_mem_access_2, what alloc_indices asks. */
 /* Without faces_add_outer, faces_index_sites, split_rim: 3 of 12, 36 of 62, 2 of 10 goals are proved. */

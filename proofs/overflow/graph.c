@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/graph.c: sorting stays in the list, the list of pairs grows, walks stay in the graph. */
 /* Without gather_around: tried with a count of half-edges that begin below a site, as invariants of all six loops:
-   119 of 136 goals were proved in 5 s. Open: that the two loops that fill and sort around[] keep their invariants (13 to
-   16, 20 to 22) and, after them, that --g->start[v] is a place in around[] and what is assigned. */
+   119 of 136 goals were proved in 5 s. Open: that the two loops that fill and sort around[] keep their invariants
+   (13 to 16, 20 to 22) and, after them, that --g->start[v] is a place in around[] and what is assigned. */
 /* Operands of comparisons are pointers to what is there: WP's memory does not follow casts from pointers to void. */
 #define dyd_cert_compare_edges(x, y) dyd_cert_compare_edges(const dyd_cert_edge *a, const dyd_cert_edge *b)
 #define compare_angle(x, y, z) compare_angle(const dyd_cert_graph *graph, uint32_t h, uint32_t k)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/still.c: pairs are of sites that are there. */
-/* Without movers_fill: without a contract 12 of 30 goals are proved in 5 s; that a place stays below the end of its list
+/* Without movers_fill: without a contract 12 of 30 goals are proved in 5 s; that a place stays below its list's end
    (rte_mem_access_13) rests on counting, which was not written out for the filling. */
 /* Without movers_list: 17 of 39 goals are proved in 5 s. Open: what it promises, which rests on movers_fill, that
    start[] is there after calls that say nothing of what they leave, and what is assigned. It is taken for granted by
