@@ -3,22 +3,12 @@
 /* Without faces_add_set, add_bounded_face, faces_add_all_sites: tried with contracts by which the lists stay apart
    from the graph; that memory written after dyd_reserve or dyd_alloc is new is not seen (goals on what is assigned),
    and that all of a graph is kept (faces_add_set_ensures) was not decided in 4 s. */
-/* Without compare_place_of, compare_with_corner: operands are pointers to void, and WP's typed memory does not know
-   that what they were cast to is there (goals rte_mem_access and the precondition of dyd_cert_compare_places). */
-/* Of the next ones each was tried once, while other runs had the machine: goals that are open ended by Timeout. */
-/* Without check_corners: corners in order, those on the rim among them; 39 of 41 goals are proved in 4 s. Open: that
-   the loop keeps this, and what corner_is_beyond requires of its group. */
-/* Without add_groups: 45 of 55 goals are proved in 2 s, new memory admitted to be apart. Open: both loop invariants and
-   variants, mem_access_6, mem_access_15, some of what is assigned, and what faces_add_set requires. */
-/* Without faces_find_sets: 35 of 46 goals are proved in 1 s. Open: the loop invariant, mem_access_7, what is assigned,
-   and what faces_add_all_sites, faces_add_outer and add_bounded_face require. */
-/* Without dyd_cert_faces_init: 17 of 24 goals are proved in 1 s. Open: the loop invariant and variant, mem_access_8 and
-   mem_access_11, and what faces_find_sets and faces_index_sites require. */
-/* Without check_places, faces_add_outer: with copies and flags admitted to be apart, WP and CVC4 did not end in 150
-   s. */
-/* Without faces_index_sites: with invariants on the lists only, WP and CVC4 did not end in 150 s. */
-/* Without split_rim: 34 of 40 goals are proved in 2 s. Open: its postcondition, and what faces_add_set, check_places,
-   dyd_cert_parts_init, check_corners and add_groups require. */
+/* The next ones were run without contracts, 5 s a goal. Open in all are accesses behind pointers that a contract has to
+   say are there. */
+/* Without check_corners: 9 of 26 goals are proved; with a contract once 39 of 41, not that corners stay in order. */
+/* Without add_groups, faces_find_sets, dyd_cert_faces_init: 6 of 20, 4 of 11, 3 of 13 goals are proved. */
+/* Without check_places: 24 of 27 goals are proved. Open: rte_mem_access, rte_mem_access_2, what alloc_indices asks. */
+/* Without faces_add_outer, faces_index_sites, split_rim: 3 of 12, 36 of 62, 2 of 10 goals are proved. */
 #include "faces.h"
 
 #include "base/alloc.h"
@@ -64,17 +54,19 @@ void sort_sites(uint32_t *item, size_t count);
     ensures \result == DYD_OK ==> 0 < *count <= 2 * g->count && \valid(*out + (0 .. *count - 1)) &&
       below(*out, *count, 2 * g->count); */
 dyd_status dyd_cert_walk(uint32_t **out, size_t *count, const dyd_cert_graph *g, uint32_t h);
-/*@ requires \valid_read((const dyd_cert_sites *)sites) && a < ((const dyd_cert_sites *)sites)->count &&
-      b < ((const dyd_cert_sites *)sites)->count; assigns \nothing; exits \false; */
-static int compare_place_of(const void *sites, uint32_t a, uint32_t b);
+/* Operands of comparisons are pointers to what is there: WP's memory does not follow casts from pointers to void. */
+#define compare_place_of(x, y, z) compare_place_of(const dyd_cert_sites *sites, uint32_t a, uint32_t b)
+/*@ requires \valid_read(sites) && a < sites->count && b < sites->count; assigns \nothing; exits \false;
+    ensures -1 <= \result <= 1; */
+static int compare_place_of(x, y, z);
 /*@ requires \valid(hull + (0 .. SITES - 1)) && \valid_read(s) && s->count == SITES &&
       \valid_read(s->site + (0 .. SITES - 1)) && 0 < SITES && 0 < count < 4294967295 && \valid(item + (0 .. count - 1)) &&
       below(item, count, SITES) && \separated(hull + (0 .. SITES - 1), item + (0 .. count - 1), s);
     exits \false; */
 dyd_status dyd_cert_hull(bool *hull, const dyd_cert_sites *s, uint32_t *item, size_t count);
-/*@ requires \valid_read((const uint32_t *)a) && \valid_read((const dyd_cert_corner *)b);
-    assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
-static int compare_with_corner(const void *a, const void *b);
+#define compare_with_corner(x, y) compare_with_corner(const uint32_t *a, const dyd_cert_corner *b)
+/*@ requires \valid_read(a) && \valid_read(b); assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
+static int compare_with_corner(x, y);
 /*@ requires \valid(f); assigns *f; exits \false; */
 void dyd_cert_faces_clear(dyd_cert_faces *f);
 /*@ requires indexed(f) && i < SITES && j < SITES && \valid(a) && \valid(b);

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/graph.c: sorting stays in the list, the list of pairs grows, walks stay in the graph. */
-/* Without dyd_cert_compare_edges, dyd_cert_edges_have, compare_angle: operands are pointers to void, and WP's memory of
-   items does not follow what they are cast to: that the pairs can be read stays unknown. */
-/* Without gather_around: that half-edges are as many as counted around their origins rests on counting: with the sizes
-   of the lists and that nothing else changes, that --g->start[v] is a place in around[] stays unknown, and what comes
-   after. */
+/* Without gather_around: tried with a count of half-edges that begin below a site, as invariants of all six loops:
+   119 of 136 goals were proved in 5 s. Open: that the two loops that fill and sort around[] keep their invariants
+   (13 to 16, 20 to 22) and, after them, that --g->start[v] is a place in around[] and what is assigned. */
+/* Operands of comparisons are pointers to what is there: WP's memory does not follow casts from pointers to void. */
+#define dyd_cert_compare_edges(x, y) dyd_cert_compare_edges(const dyd_cert_edge *a, const dyd_cert_edge *b)
+#define compare_angle(x, y, z) compare_angle(const dyd_cert_graph *graph, uint32_t h, uint32_t k)
 #include "graph.h"
 
 #include "base/alloc.h"
@@ -22,10 +23,9 @@
 #define ALLOC alloc_sizes
 #include "lists.h"
 
-/*@ requires \valid_read((const dyd_cert_edge *)key) && size == sizeof(dyd_cert_edge) && 0 < count &&
-      \valid_read((const dyd_cert_edge *)base + (0 .. count - 1));
-    assigns \nothing; exits \false; */
-void *bsearch(const void *key, const void *base, size_t count, size_t size, int (*)(const void *, const void *));
+/*@ requires \valid_read(key) && 0 < count && \valid_read(item + (0 .. count - 1)); assigns \nothing; exits \false; */
+const dyd_cert_edge *find_edge(const dyd_cert_edge *key, const dyd_cert_edge *item, size_t count);
+#define bsearch(key, item, count, size, compare) find_edge(key, item, count)
 
 /*@ requires a < BOUND && b < BOUND; assigns \nothing; exits \false; */
 int compare_any(const void *with, uint32_t a, uint32_t b);

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/still.c: pairs are of sites that are there. */
-/* Without movers_fill: tried with how often a site is listed (movers_count proves the counts); that a place stays
-   below the end of its list (rte_mem_access_13, rte_mem_access_26) and that all before it is filled (loop invariants
-   3, 4) was not decided in 5 s. */
-/* Without movers_list: tried, with how large sums are, new memory admitted to be apart. Timeout in 5 s, while other
-   runs had the machine: that the loop keeps its invariant, the postcondition, and what movers_fill requires. What it
-   promises is taken for granted by those after it. */
+/* Without movers_fill: without a contract 12 of 30 goals are proved in 5 s; that a place stays below its list's end
+   (rte_mem_access_13) rests on counting, which was not written out for the filling. */
+/* Without movers_list: 17 of 39 goals are proved in 5 s. Open: what it promises, which rests on movers_fill, that
+   start[] is there after calls that say nothing of what they leave, and what is assigned. It is taken for granted by
+   those after it. */
 #include "faces.h"
 
 #include "base/alloc.h"

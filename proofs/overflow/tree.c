@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/tree.c: what is reckoned on the grid. Areas are numbers of 64 bits here, since Frama-C has
  * none of 128; they are unsigned, and their values are no part of the proof. */
-/* Without dyd_cert_centre_set: tried, with a clause `calls` where one of two functions is called through a pointer. That
-   the centre and the origin stay numbers while coordinates on the grid are set stayed unknown. */
+/* Unproved dyd_cert_centre_set_assert_rte_function_pointer: that there is a function where one of two is called. */
 #define __int128 long long
+#define SPELL_OUT
 #include "exact.h"
 
 #include "base/alloc.h"
@@ -95,7 +95,7 @@ void dyd_cert_tree_clear(dyd_cert_tree *t);
 dyd_status dyd_cert_tree_init(dyd_cert_tree *t, const dyd_cert_sites *s);
 /*@ requires \valid(out) && \valid_read(s) && exact(c) && exact(c + 1) && whole(&s->origin[0][0]) &&
       whole(&s->origin[1][0]) && -274877906944 <= s->unit <= 274877906944 && \separated(out, s, c + (0 .. 1));
-    assigns *out; exits \false; ensures centre(out); */
+    assigns out->far, out->e[0 .. 3]; exits \false; ensures centre(out); */
 void dyd_cert_centre_set(dyd_cert_centre *out, const dyd_cert_sites *s, const dyd_exact c[2]);
 
 /* Who visits changes what belongs to the context, of which the tree is no part. */

@@ -2,8 +2,6 @@
 /* Contracts for src/checker/witness.c: distances from a centre are numbers. Areas are numbers of 64 bits here: their
  * values are no part of the proof. That the tree visits sites of the list, with the context given, is taken for
  * granted: visit_sites stands for dyd_cert_tree_visit with is_outside_disc. */
-/* Unproved is_outside_disc_ensures: that the distance is still a number when what is compared comes back was not decided
-   in 8 s; the condition of dyd_cert_fraction_cmp, that it is one, is proved. */
 #define __int128 long long
 #define SPELL_OUT
 #include "sites.h"
