@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/certificate.c: the words that are compared are there. */
-/* Without dyd_checker_settle: 72 of 73 goals are proved; the condition of dyd_checker_stays was not decided in 10 s. */
-/* Without dyd_checker_clear: 35 of 38 goals are proved; that ties and points are as before when lists before them are
-   released (conditions of dyd_cert_ties_clear and both dyd_exact_clear) was not decided in 6 s. */
 /* Without dyd_verify_certificate: 5 of 8 goals are proved; conditions of dyd_checker_run, dyd_checker_settle and
    dyd_abi_give were not decided in 6 s. */
 /* Without dyd_checker_run: 8 of 10 goals are proved with what each part leaves to the next; the ensures and the condition
@@ -26,9 +23,9 @@ static bool outcome_is_proved(const dyd_checker *c, bool stays);
 
 /* Of the other files, without what they say of sites, trees and numbers; and that what is cleared is all that changes:
  * of memory that is freed nothing is said. */
-/*@ requires \valid(s); assigns *s; exits \false; */
+/*@ requires \valid(s); assigns *s; exits \false; ensures s->count == 0; */
 void dyd_cert_sites_init(dyd_cert_sites *s);
-/*@ requires \valid(c); assigns *c; exits \false; */
+/*@ requires \valid(c); assigns *c; exits \false; ensures c->cap == 0 && c->points == 0; */
 void dyd_cert_chain_init(dyd_cert_chain *c);
 /*@ requires \valid(s); assigns *s; exits \false; */
 void dyd_cert_sites_clear(dyd_cert_sites *s);
@@ -50,10 +47,15 @@ void dyd_cert_faces_clear(dyd_cert_faces *f);
     assigns *c; exits \false; */
 void dyd_cert_chain_clear(dyd_cert_chain *c);
 
-/*@ requires \valid(c); assigns *c; exits \false; */
+/*@ requires \valid(c); assigns *c; exits \false;
+    ensures c->in.in == in && c->in.err == err;
+    ensures c->in.cap == 0 && c->sites.count == 0;
+    ensures c->report.goal_bits == 0;
+    ensures point(c); */
 void dyd_checker_init(dyd_checker *c, FILE *in, dyd_error *err);
 /*@ requires \valid(c) && cleared_ties(&c->ties) && cleared_corners(&c->corners) && point(c) &&
       c->chain.cap <= 1152921504606846976 && (0 < c->chain.cap ==> \valid(c->chain.point + (0 .. c->chain.cap - 1)));
+    requires \separated(c, c->ties.block + (0 .. c->ties.blocks - 1));
     assigns *c; exits \false; */
 void dyd_checker_clear(dyd_checker *c);
 
@@ -76,13 +78,15 @@ dyd_status dyd_cert_ties_aliases(size_t *out, const dyd_cert_ties *t, const dyd_
 static dyd_status checker_ties(dyd_checker *c);
 /*@ requires checks(c) && \valid(&c->report); exits \false; */
 dyd_status dyd_checker_diagram(dyd_checker *c);
-/*@ requires tied(c) && reported(c); exits \false; */
-static dyd_status checker_end(dyd_checker *c);
-/* Of still.c, and that only *out changes. */
 /*@ predicate standing(checking c) = \valid_read(c) && c->sites.count == SITES && pairs(&c->legal, SITES) &&
       pairs(&c->open, SITES) && indexed(&c->faces) &&
       (0 < SITES ==> \valid_read(c->sites.site + (0 .. SITES - 1))) &&
       (\forall integer i; 0 <= i < SITES ==> c->sites.site[i].alias < SITES) && string(c->report.goal); */
+/*@ requires tied(c) && reported(c); exits \false;
+    ensures \result == DYD_OK ==> checker(c);
+    ensures \result == DYD_OK ==> reported(c) && standing(c); */
+static dyd_status checker_end(dyd_checker *c);
+/* Of still.c, and that only *out changes. */
 /*@ requires \valid(out) && standing(c) && (still == \null || \valid_read(still + (0 .. SITES - 1))) &&
       \separated(out, c, still + (0 .. SITES - 1), c->sites.site + (0 .. SITES - 1));
     assigns *out; exits \false; */
@@ -113,12 +117,14 @@ dyd_status dyd_checker_bridges(dyd_checker *c);
 /*@ requires graphed(c); exits \false;
     ensures \result == DYD_OK ==> graphed(c) && open_pairs(c) && blocked(c); */
 dyd_status dyd_checker_corners(dyd_checker *c);
-/*@ requires checker(c) && open_pairs(c) && blocked(c) &&
-      -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
+/*@ requires checker(c);
+    requires open_pairs(c);
+    requires blocked(c) && -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
     exits \false; ensures \result == DYD_OK ==> tied(c) && reported(c); */
 dyd_status dyd_checker_pairs(dyd_checker *c);
 /*@ requires prepared(c) && c->sites.count == 0; exits \false;
-    ensures \result == DYD_OK ==> \valid(c) && reported(c) && standing(c); */
+    ensures \result == DYD_OK ==> checker(c);
+    ensures \result == DYD_OK ==> reported(c) && standing(c); */
 dyd_status dyd_checker_run(dyd_checker *c);
 
 /*@ requires err == \null || \valid(err); assigns *err; exits \false; */

@@ -25,7 +25,7 @@
 /*@ requires checker(c) && \valid(count) && most <= 4294967295 &&
       \separated(count, c, c->in.err, c->in.in, LINES + (..));
     assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno, *count; exits \false;
-    ensures \result == DYD_OK ==> reads(&c->in) && *count <= most; */
+    ensures \result == DYD_OK ==> checks(c) && *count <= most; */
 static dyd_status read_heading(uint32_t *count, dyd_checker *c, const char *name, uint64_t most);
 /*@ requires checker(c) && point(c) && \separated(c, &errno) && \valid(i) && \separated(i, c, c->in.err, c->in.in, LINES + (..)) &&
       \separated(i, c->sites.site + (0 .. c->sites.count - 1));
@@ -40,8 +40,16 @@ static bool side_holds_value(const dyd_cert_side *s, const dyd_exact *v);
     assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno,
       c->report.goal_bits, c->report.goal; exits \false;
     ensures \result == DYD_OK ==> \old(-999999999999999999 <= c->report.goal_bits <= 999999999999999999) ==>
-      -999999999999999999 <= c->report.goal_bits <= 999999999999999999; */
+      -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
+    ensures \result == DYD_OK ==> checker(c); */
 static dyd_status check_goal(dyd_checker *c);
+/*@ requires checker(c);
+    assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno, c->report.outcome,
+      c->report.goal_bits, c->report.goal, c->report.capped;
+    exits \false; ensures \result == DYD_OK ==> checker(c);
+    ensures \result == DYD_OK ==> \old(-999999999999999999 <= c->report.goal_bits <= 999999999999999999) ==>
+      -999999999999999999 <= c->report.goal_bits <= 999999999999999999; */
+dyd_status dyd_checker_head(dyd_checker *c);
 /*@ requires \valid(c) && c->count <= 1152921504606846976 &&
       (0 < c->count ==> \valid(c->item + (0 .. c->count - 1)) && \separated(c, c->item + (0 .. c->count - 1)));
     exits \false; */

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/diagram.c: corners of a polygon are in its list, ends of the window in theirs. */
-/* Without read_window, dyd_cert_polygon_area2, check_area: tried with invariants on each number and what is local apart
+/* Without dyd_cert_polygon_area2, check_area: tried with invariants on each number and what is local apart
    from the rest; WP and CVC4 did not end in 60 s. */
 /* Without dyd_checker_diagram: 3 of 10 goals are proved; conditions of read_window, check_polygons, check_area and
    check_distance, on numbers in local variables, were not decided in 8 s. */
-/* Without check_distance: 31 of 32 goals are proved; the condition of check_bound, that the reader, the window and the
-   number read are what they were, was not decided in 8 s. */
 /* Without read_vertices, check_polygon, check_polygons: 9 of 16, 18 of 22 and 7 of 13 goals are proved; that points read
    stay while the next is read (loop invariants), and what of the chain, the window and the area holds after it
    (conditions of check_polygon, dyd_cert_window_has, dyd_cert_is_witness, dyd_cert_polygon_area2), was not decided in

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/ties.c: points of a block are in their list, and of numbers and sites that are there. */
-/* Without enclose_difference, are_different: tried; enclosures are inside the numbers of a block, which an enclosure
+/* Without are_different: tried; enclosures are inside the numbers of a block, which an enclosure
    changes: that the interval in a local variable is still one while the next number is enclosed (precondition of
    dyd_cert_enclosure_sub, what is assigned) was not decided in 4 s. */
-/* Without side_is_number: tried with the numerator and the denominator apart from all else; that they are whole numbers
-   after `shifted`, one of the two, was changed was not decided in 5 s. */
 /* Without base_set_circle: tried; not decided in 4 s. */
 /* Without base_has: tried; by itself, WP and CVC4 did not end in 150 s, while other runs had the machine. */
 /* Without dyd_cert_fact_holds: tried; open were index_bound and what base_has requires, not decided in 4 s; a run by
