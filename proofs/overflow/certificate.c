@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/certificate.c: the words that are compared are there. */
-/* Without checker_ties, checker_end: 43 of 49 and 7 of 12 goals are proved; that what was read before stays while a block
-   or the diagram is read (loop invariants, conditions of strncmp, dyd_cert_faces_still, dyd_cert_next_line,
+/* Without checker_ties, checker_end: 43 of 49 and 7 of 12 goals are proved; that what was read before stays while a
+   block or the diagram is read (loop invariants, conditions of strncmp, dyd_cert_faces_still, dyd_cert_next_line,
    dyd_cert_expect_word, the ensures) was not decided in 5 s: these callees do not say what else stays. */
 /* Unproved dyd_verify_certificate_call_dyd_abi_give_requires: its operands are void pointers, and WP does not see that
    one that is cast there and back is that of the report. */

@@ -3,14 +3,14 @@
 /* Without dyd_checker_head: 68 of 73 goals are proved, all conditions of its callees among them; that the reader is the
    same after the outcome and the goal were noted (assert_3, assert_4, ensures, what is assigned) was not decided in
    8 s. */
-/* Without read_rectangle, read_alias, dyd_checker_sites: 4 of 9, 9 of 12 and 10 of 16 goals are proved; that the reader
-   is the same after a site was added (conditions of dyd_cert_read_side and read_alias, ensures, loop invariants) was not
-   decided in 5 s. */
+/* Without read_rectangle, read_alias, dyd_checker_sites: 4 of 9, 9 of 12 and 10 of 16 goals are proved; that the
+   reader is the same after a site was added (conditions of dyd_cert_read_side and read_alias, ensures, loop invariants)
+   was not decided in 5 s. */
 /* Without read_witnessed, read_edges: 7 of 11 and 5 of 9 goals are proved; that the list of pairs stays while a line is
    read (assert_3, ensures, loop_invariant_2, the condition of read_witnessed) was not decided in 5 s. */
-/* Without dyd_checker_places, dyd_checker_corners: 12 of 17 and 5 of 8 goals are proved; that the checker is what it was
-   after a place was set or a corner added (loop invariants, ensures, condition of side_holds_value), and that it is there
-   at all after a callee that may change any memory (assert_rte_mem_access_2, _3), was not decided in 5 s. */
+/* Without dyd_checker_places, dyd_checker_corners: 12 of 17 and 5 of 8 goals are proved; that the checker is what it
+   was after a place was set or a corner added (loop invariants, ensures, condition of side_holds_value), and that it is
+   there at all after a callee that may change any memory (assert_rte_mem_access_2, _3), was not decided in 5 s. */
 /* Without checker_find_faces: its ensures, that sets are indexed after all else was noted, was not decided in 8 s, its
    other goals being proved. */
 #define __int128 long long /* of areas nothing is proved here */
