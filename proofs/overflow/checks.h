@@ -18,30 +18,30 @@ typedef const dyd_checker *checking;
     predicate point(checking c) = exact(&c->point[0]) && exact(&c->point[1]); */
 
 /*@ requires checks(c);
-    assigns c->in.at, c->in.line[0 .. c->in.cap - 1], *c->in.err; exits \false; ensures \result == DYD_OK ==> reads(&c->in); */
+    assigns c->in.at, c->in.line[0 .. c->in.cap - 1], *c->in.err; exits \false; ensures \result == DYD_OK ==> checks(c); */
 dyd_status dyd_cert_expect_word(dyd_checker *c, const char *name);
 /*@ requires checker(c);
     assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno; exits \false;
-    ensures \result == DYD_OK ==> reads(&c->in); */
+    ensures \result == DYD_OK ==> checks(c); */
 dyd_status dyd_cert_expect_line(dyd_checker *c, const char *name);
 /*@ requires checks(c) && count <= 64 && \valid(out) && \separated(out, c, c->in.err, text + (0 .. count - 1));
     requires \separated(out, c->in.in, LINES + (..));
     requires \valid_read(text + (0 .. count - 1)) && \separated(c->in.err, c, text + (0 .. count - 1));
     assigns c->in.at, c->in.line[0 .. c->in.cap - 1], *out, *c->in.err;
     exits \false;
-    ensures \result == DYD_OK ==> reads(&c->in);
+    ensures \result == DYD_OK ==> checks(c);
     ensures \result == DYD_OK ==> *out < count; */
 dyd_status dyd_cert_read_choice(size_t *out, dyd_checker *c, const char *const *text, size_t count);
 /*@ requires checks(c) && \valid(out) && \separated(out, c, c->in.err, c->sites.site + (0 .. c->sites.count - 1));
     requires \separated(out, c->in.in, LINES + (..));
     assigns c->in.at, c->in.line[0 .. c->in.cap - 1], *out, *c->in.err; exits \false;
-    ensures \result == DYD_OK ==> reads(&c->in);
+    ensures \result == DYD_OK ==> checks(c);
     ensures \result == DYD_OK ==> *out < c->sites.count; */
 dyd_status dyd_cert_read_site(uint32_t *out, dyd_checker *c);
 /*@ requires checks(c) && \valid(pair) && \separated(pair, c, c->in.err, c->sites.site + (0 .. c->sites.count - 1));
     requires \separated(pair, c->in.in, LINES + (..));
     assigns c->in.at, c->in.line[0 .. c->in.cap - 1], *pair, *c->in.err; exits \false;
-    ensures \result == DYD_OK ==> reads(&c->in);
+    ensures \result == DYD_OK ==> checks(c);
     ensures \result == DYD_OK ==> pair->i < pair->j < c->sites.count; */
 dyd_status dyd_cert_read_pair(dyd_cert_edge *pair, dyd_checker *c);
 /*@ requires \valid(c) && string(c->report.goal) && certified(bound) &&

@@ -37,7 +37,8 @@ size_t strspn(const char *s, const char *all);
 /*@ requires \valid((char *)to + (0 .. n - 1)) && \valid_read((const char *)from + (0 .. n - 1));
     assigns ((char *)to)[0 .. n - 1]; exits \false; */
 void *memcpy(void *to, const void *from, size_t n);
-/*@ requires string(s) && (string(t) || ends(t, 4) || ends(t, 7) || ends(t, 8) || ends(t, 9) || ends(t, 17));
+/*@ requires string(s) && (string(t) || ends(t, 4) || ends(t, 7) || ends(t, 8) || ends(t, 9) || ends(t, 17) ||
+      ends(t, 20));
     assigns \nothing; exits \false; */
 int strcmp(const char *s, const char *t);
 /*@ requires string(s) && 3 <= n <= 12 && \valid_read(t + (0 .. n - 1)); assigns \nothing; exits \false;
