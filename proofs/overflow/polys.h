@@ -43,7 +43,9 @@ bool dyd_cert_poly_mul(dyd_cert_poly *p, const dyd_cert_poly *q, dyd_cert_relati
 bool dyd_cert_poly_reduce(dyd_cert_poly *p, dyd_cert_relations *r);
 /*@ requires \valid_read(p); assigns \nothing; exits \false; ensures \result != 0 <==> p->count == 0; */
 static inline bool dyd_cert_poly_is_zero(const dyd_cert_poly *p);
+/*@ predicate constant(polynomial p) = p->count == 1 && \forall integer k; 0 <= k < 64 ==> p->term[0].e[k] == 0; */
 /*@ requires \valid_read(p); assigns \nothing; exits \false;
+    ensures \result != \null <==> constant(p);
     ensures \result != \null ==> p->count == 1 && \result == &p->term[0].c[0] && whole(\result) &&
       sign(\result) != 0; */
 mpz_srcptr dyd_cert_poly_integer(const dyd_cert_poly *p);
