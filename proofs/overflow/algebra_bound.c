@@ -6,7 +6,7 @@
 /*@ predicate leaves(numbers a) = \valid_read(a) && a->relations.count <= 64 &&
       (\forall integer k; 0 <= k < a->relations.count ==>
         (a->leaf[k].whole ==> 1 <= a->relations.leaf[k].degree <= 1024) && poly(&a->relations.leaf[k].rest));
-    predicate bounded(numbers a) = leaves(a) &&
+    predicate bounded(numbers a) = \valid_read(a) && a->relations.count <= 64 &&
       (\forall integer k; 0 <= k < a->relations.count ==> whole(&a->leaf[k].bound[0])); */
 
 /*@ requires leaves(a) && poly(q); assigns \nothing; exits \false; ensures \result <= 16384; */
@@ -24,7 +24,7 @@ static inline bool dyd_cert_poly_is_zero(const dyd_cert_poly *p);
 /*@ requires \valid(a) && \valid(out) && interval(out) && \valid_read(q) && 64 <= p <= 16384 && \separated(out, a, q);
     assigns *out, a->relations.work, a->number[0 .. a->count]; exits \false; ensures interval(out); */
 void dyd_cert_poly_enclose(dyd_cert_enclosure *out, dyd_cert_algebra *a, const dyd_cert_poly *q, long p);
-/*@ requires \valid(a) && bounded(a) && poly(q) && \separated(a, q, a->number + (0 .. a->count)); exits \false; */
+/*@ requires \valid(a) && leaves(a) && bounded(a) && poly(q) && \separated(a, q, a->number + (0 .. a->count)); exits \false; */
 bool dyd_cert_poly_is_null(dyd_cert_algebra *a, const dyd_cert_poly *q);
 
 #include "checker/algebra_bound.c"

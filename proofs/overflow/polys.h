@@ -13,8 +13,8 @@ typedef const dyd_cert_algebra *numbers;
 
 /*@ predicate poly(polynomial p) = \valid_read(p) && p->count <= 16384 &&
       (0 < p->count ==> \valid_read(p->term + (0 .. p->count - 1))) &&
-      (\forall integer t; 0 <= t < p->count ==> whole(&p->term[t].c[0]) &&
-        \forall integer k; 0 <= k < 64 ==> p->term[t].e[k] <= 4096);
+      (\forall integer t; 0 <= t < p->count ==> whole(&p->term[t].c[0])) &&
+      (\forall integer t, k; 0 <= t < p->count && 0 <= k < 64 ==> p->term[t].e[k] <= 4096);
     predicate cosines(numbers a) = \valid_read(a) && 0 <= a->cycle <= 1024 && a->cosines <= a->cycle &&
       (0 < a->cycle ==> \valid(a->cosine + (0 .. a->cycle - 1)) && \min(2, a->cycle) <= a->cosines &&
         \separated(a->cosine + (0 .. a->cycle - 1), a)); */
