@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/bracket.c: how long its longest number is. */
+/* Unproved dyd_cert_root_enclose_assert_2: a product of two numbers of at most 19 bits; CVC4 decides it in some runs. */
 #define SPELL_OUT
 #include "enclosures.h"
 #include "polys.h"

@@ -7,6 +7,8 @@
    contract of value_circular does not say what stays. */
 /* Without value_radical: tried; _call_dyd_cert_poly_set_requires, _call_dyd_cert_poly_set_2_requires, that an operand
    is there when a leaf was made, stay open in 4 s. */
+/* Without value_root: 36 of 38 goals are proved; Timeout in 8 s on a busy machine: _call_mpz_mul_2_requires and
+   _call_dyd_cert_poly_set_z_2_requires, that the last coefficient stays whole. */
 /* Without root_vanishes, side_of_end, is_part_of_turn: WP made no goals of one of them in 60 s, so the run ended
    without a result. */
 /* Without dyd_cert_number_check: 18 of 19 goals are proved; Timeout in 8 s: _call_side_of_end_2_requires, that the ends
