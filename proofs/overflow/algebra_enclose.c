@@ -1,17 +1,13 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra_enclose.c: operations on intervals, precisions up to 2^30. */
-/* Of those here each was tried once, with numbers made of those before, while other runs had the machine: goals that
-   are open ended by Timeout. */
-/* Without enclose_hyperbolic: what is called one of two; open in 4 s: function_pointer (WP does not know
-   valid_function), that x is an interval after its ends are halved, and what one dyd_cert_enclosure_clear requires. */
-/* Without enclose_cosine: open in 4 s: what dyd_cert_enclosure_set and one dyd_cert_enclosure_clear require. */
-/* Without enclose_value: open in 4 s: its postcondition, and what dyd_cert_poly_enclose, dyd_cert_enclosure_div and
-   dyd_cert_enclosure_clear require. */
-/* Without enclose_leaf: open in 4 s: parts of its postcondition, and what enclose_value requires. */
-/* Without enclose_variable: 17 of 24 goals are proved in 1 s; the others ended by Timeout. */
-/* Without dyd_cert_algebra_enclose: with the block kept by its loop, WP and CVC4 did not end in 150 s. */
-/* Without dyd_cert_poly_enclose: with the block kept by its loops, WP and CVC4 did not end in 80 s. */
-/* Without dyd_cert_poly_sign: tried; that dyd_cert_poly_integer gives the same twice is not in its contract. */
+/* Unproved enclose_hyperbolic_assert_rte_function_pointer: WP does not know valid_function; that it is one of two is
+   proved. */
+/* Without enclose_value: 16 of 18 goals are proved; Timeout in 6 s: that the block stays, and what the second
+   dyd_cert_poly_enclose requires: x is of one of the numbers that change. */
+/* Without enclose_variable: 40 of 42 goals are proved; Timeout in 6 s: that the block stays, and what
+   dyd_cert_enclosure_mul requires. */
+/* Without dyd_cert_algebra_enclose, dyd_cert_poly_enclose: run without invariants of their loops 18 of 34 and 7 of 28
+   goals are proved: that the block stays while numbers of it change has to be said there, as of enclose_value. */
 #include "enclosures.h"
 #include "polys.h"
 
@@ -31,12 +27,55 @@ static void enclose_inverse(dyd_cert_enclosure *x, dyd_cert_op op, long p);
 static void enclose_function(dyd_cert_enclosure *x, const dyd_cert_number *n, long p);
 /*@ requires \valid(x) && interval(x) && interval(y) && alone(x, y) && few(p); exits \false; ensures interval(x); */
 static void enclose_operation(dyd_cert_enclosure *x, dyd_cert_op op, const dyd_cert_enclosure *y, long p);
-/*@ requires \valid(a) && k < a->count && 64 <= p <= 16384;
-    assigns a->relations.work, a->number[0 .. a->count]; exits \false;
-    ensures \result == &a->number[k].now && interval(\result); */
+/* The block: numbers are made of those before, leaves are of numbers, roots are in brackets. The number to be added is
+ * in its place behind those before. */
+/*@ predicate block(numbers a) = \valid(a) && a->relations.count <= 64 && a->count < 4294967295 &&
+      \valid(a->number + (0 .. a->count)) && \separated(a, a->number + (0 .. a->count)) &&
+      (\forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number <= a->count) &&
+      (\forall integer k; 0 <= k <= a->count ==> a->number[k].a <= a->count && interval(&a->number[k].now));
+    predicate stays{K, L}(numbers a) = block{L}(a) && \at(a->number, L) == \at(a->number, K) &&
+      \at(a->count, L) == \at(a->count, K) && \at(a->relations.count, L) == \at(a->relations.count, K);
+    predicate elsewhere(interval_of x, numbers a) = \separated(x, a, a->number + (0 .. a->count)); */
+#define NUMBERS_OF(a) a->relations.work, a->number[0 .. a->count].p, PARTS_OF(a->number[0 .. a->count].now.lo[0]), \
+  PARTS_OF(a->number[0 .. a->count].now.hi[0]), a->number[0 .. a->count].now.known
+
+/*@ requires block(a) && k <= a->count && 64 <= p <= 16384; assigns NUMBERS_OF(a); exits \false;
+    ensures stays{Pre, Post}(a); ensures \result == &a->number[k].now && interval(\result); */
 const dyd_cert_enclosure *dyd_cert_algebra_enclose(dyd_cert_algebra *a, uint32_t k, long p);
-/*@ requires \valid(a) && k < a->count && \separated(a, a->number + (0 .. a->count)); exits \false;
+/*@ requires \valid(out) && interval(out) && block(a) && \valid_read(q) && 64 <= p <= 16384;
+    assigns ALL_OF(out), NUMBERS_OF(a); exits \false; ensures interval(out); ensures stays{Pre, Post}(a); */
+void dyd_cert_poly_enclose(dyd_cert_enclosure *out, dyd_cert_algebra *a, const dyd_cert_poly *q, long p);
+/*@ requires \valid(x) && interval(x) && block(a) && \valid_read(v) &&
+      (\exists integer k; 0 <= k <= a->count && x == &a->number[k].now) && 64 <= p <= 16384;
+    assigns ALL_OF(x), NUMBERS_OF(a); exits \false; ensures interval(x); ensures stays{Pre, Post}(a); */
+static void enclose_value(dyd_cert_enclosure *x, dyd_cert_algebra *a, const dyd_cert_quotient *v, long p);
+/*@ requires \valid(out) && interval(out) && elsewhere(out, a) && block(a) && k < a->relations.count &&
+      64 <= p <= 16384;
+    assigns *out, NUMBERS_OF(a); exits \false; ensures interval(out); ensures stays{Pre, Post}(a); */
+static void enclose_variable(dyd_cert_enclosure *out, dyd_cert_algebra *a, size_t k, long p);
+typedef const dyd_cert_bracket *bracketed;
+/*@ predicate bracket(bracketed r) = \valid_read(r) && 2 <= r->count <= 1001 &&
+      \valid_read(r->coeff + (0 .. r->count - 1)) &&
+      (\forall integer k; 0 <= k < r->count ==> whole(&r->coeff[k][0])) &&
+      (\forall integer k; 0 <= k < 4 ==> whole(&r->end[k][0]) && bits(&r->end[k][0]) <= 262144) &&
+      sign(&r->end[1][0]) != 0 && sign(&r->end[3][0]) != 0; */
+/*@ requires \valid(out) && interval(out) && bracket(r) && 0 <= p <= 16384 &&
+      \separated(out, r, r->coeff + (0 .. r->count - 1));
+    assigns ALL_OF(out); exits \false; ensures interval(out); */
+void dyd_cert_root_enclose(dyd_cert_enclosure *out, const dyd_cert_bracket *r, long p);
+/*@ requires \valid(x) && interval(x) && block(a) && \valid_read(n) && 64 <= p <= 16384;
+    requires n->op == DYD_CERT_CYCLE ==> 1 <= n->exponent <= 1024;
+    requires n->op == DYD_CERT_ROOT ==> bracket(n->root) &&
+      \separated(x, n->root, n->root->coeff + (0 .. n->root->count - 1));
+    requires \exists integer k; 0 <= k <= a->count && x == &a->number[k].now;
+    assigns *x, NUMBERS_OF(a); exits \false; ensures interval(x); ensures stays{Pre, Post}(a); */
+static void enclose_leaf(dyd_cert_enclosure *x, dyd_cert_algebra *a, const dyd_cert_number *n, long p);
+
+/*@ requires block(a) && k < a->count; assigns NUMBERS_OF(a); exits \false;
     ensures -1 <= \result <= 1; */
 int dyd_cert_algebra_sign(dyd_cert_algebra *a, uint32_t k);
+/*@ requires block(a) && \valid_read(q) && (q->count == 1 ==> \valid_read(q->term)); assigns NUMBERS_OF(a);
+    exits \false; ensures -1 <= \result <= 1; */
+int dyd_cert_poly_sign(dyd_cert_algebra *a, const dyd_cert_poly *q);
 
 #include "checker/algebra_enclose.c"

@@ -37,7 +37,8 @@ void memcpy_exponents(uint16_t *to, const uint16_t *from, size_t n);
 
 
 /*@ requires \valid_read(a + (0 .. 63)) && \valid_read(b + (0 .. 63)); assigns \nothing; exits \false;
-    ensures -1 <= \result <= 1; */
+    ensures -1 <= \result <= 1;
+    ensures \result == 0 <==> \forall integer k; 0 <= k < 64 ==> a[k] == b[k]; */
 static int terms_compare(const uint16_t *a, const uint16_t *b);
 /*@ requires \valid(out) && \valid_read(t) && whole(&t->c[0]) && whole(c) && \separated(out, t, c) &&
       (\forall integer k; 0 <= k < 64 ==> t->e[k] <= 16384);

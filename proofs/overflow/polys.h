@@ -13,8 +13,8 @@ typedef const dyd_cert_algebra *numbers;
 
 /*@ predicate poly(polynomial p) = \valid_read(p) && p->count <= 16384 &&
       (0 < p->count ==> \valid_read(p->term + (0 .. p->count - 1))) &&
-      (\forall integer t; 0 <= t < p->count ==> whole(&p->term[t].c[0]) &&
-        \forall integer k; 0 <= k < 64 ==> p->term[t].e[k] <= 4096);
+      (\forall integer t; 0 <= t < p->count ==> whole(&p->term[t].c[0])) &&
+      (\forall integer t, k; 0 <= t < p->count && 0 <= k < 64 ==> p->term[t].e[k] <= 4096);
     predicate cosines(numbers a) = \valid_read(a) && 0 <= a->cycle <= 1024 && a->cosines <= a->cycle &&
       (0 < a->cycle ==> \valid(a->cosine + (0 .. a->cycle - 1)) && \min(2, a->cycle) <= a->cosines &&
         \separated(a->cosine + (0 .. a->cycle - 1), a)); */
@@ -43,7 +43,9 @@ bool dyd_cert_poly_mul(dyd_cert_poly *p, const dyd_cert_poly *q, dyd_cert_relati
 bool dyd_cert_poly_reduce(dyd_cert_poly *p, dyd_cert_relations *r);
 /*@ requires \valid_read(p); assigns \nothing; exits \false; ensures \result != 0 <==> p->count == 0; */
 static inline bool dyd_cert_poly_is_zero(const dyd_cert_poly *p);
+/*@ predicate constant(polynomial p) = p->count == 1 && \forall integer k; 0 <= k < 64 ==> p->term[0].e[k] == 0; */
 /*@ requires \valid_read(p); assigns \nothing; exits \false;
+    ensures \result != \null <==> constant(p);
     ensures \result != \null ==> p->count == 1 && \result == &p->term[0].c[0] && whole(\result) &&
       sign(\result) != 0; */
 mpz_srcptr dyd_cert_poly_integer(const dyd_cert_poly *p);

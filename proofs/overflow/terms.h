@@ -51,7 +51,8 @@ static inline bool dyd_cert_poly_is_zero(const dyd_cert_poly *p);
 /*@ requires \valid(r); assigns r->work; exits \false; */
 static inline bool dyd_cert_count_work(dyd_cert_relations *r, size_t work);
 /*@ requires held(p); assigns \nothing; exits \false;
-    ensures \result != \null ==> p->count == 1 && \result == &p->term[0].c[0]; */
+    ensures \result != \null ==> p->count == 1 && \result == &p->term[0].c[0];
+    ensures p->count == 1 ==> (\result != \null <==> \forall integer k; 0 <= k < 64 ==> p->term[0].e[k] == 0); */
 mpz_srcptr dyd_cert_poly_integer(const dyd_cert_poly *p);
 /*@ requires \valid(g) && whole(g) && held(p) && \separated(g, p, p->term + (0 .. p->count - 1));
     assigns *g; exits \false; ensures whole(g); */
