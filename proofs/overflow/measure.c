@@ -2,8 +2,9 @@
 /* Contracts for src/checker/measure.c: turns reckoned on the grid. */
 /* Without dyd_cert_fraction_swap: structures with arrays in them are copied as one; what comes of their parts stays
    unknown (its ensures, and what is assigned). */
-/* Unproved dyd_cert_cross_loop_invariant_3_preserved: that denominators stay while one before them in the same list is
-   cleared was not decided in 15 s; that numerators do, is. */
+/* Unproved site_height_loop_invariant_preserved, dyd_cert_cross_loop_invariant_3_preserved,
+   dyd_cert_cross_loop_invariant_4_preserved: that numbers stay while another one is set or cleared takes 8 to 12 s of a
+   quiet machine. */
 #define SPELL_OUT
 #include "sites.h"
 
