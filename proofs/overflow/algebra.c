@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra.c: names of operations, leaves are in their lists. */
-/* Without dyd_cert_algebra_clear: it has no contract; without one all of 13 goals stay open. That what one number has is
-   apart from what others have would have to be said of all pairs. */
+/* Without dyd_cert_algebra_clear: it has no contract; without one all of 13 goals stay open. That what one number has
+   is apart from what others have would have to be said of all pairs. */
 #include "enclosures.h"
 #include "polys.h"
 

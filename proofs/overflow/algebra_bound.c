@@ -24,7 +24,8 @@ static inline bool dyd_cert_poly_is_zero(const dyd_cert_poly *p);
 /*@ requires \valid(a) && \valid(out) && interval(out) && \valid_read(q) && 64 <= p <= 16384 && \separated(out, a, q);
     assigns *out, a->relations.work, a->number[0 .. a->count]; exits \false; ensures interval(out); */
 void dyd_cert_poly_enclose(dyd_cert_enclosure *out, dyd_cert_algebra *a, const dyd_cert_poly *q, long p);
-/*@ requires \valid(a) && leaves(a) && bounded(a) && poly(q) && \separated(a, q, a->number + (0 .. a->count)); exits \false; */
+/*@ requires \valid(a) && leaves(a) && bounded(a) && poly(q) &&
+      \separated(a, q, a->number + (0 .. a->count)); exits \false; */
 bool dyd_cert_poly_is_null(dyd_cert_algebra *a, const dyd_cert_poly *q);
 
 #include "checker/algebra_bound.c"

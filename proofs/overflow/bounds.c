@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/bounds.c: gaps between sides, a sum of areas that stays a number. */
-/* Unproved bounds_cut_corner_assert_rte_signed_overflow_5, bounds_cut_corner_assert_rte_signed_overflow_6: that a product
-   of four numbers, each -1, 0 or 1, is an int takes 11 s of a quiet machine. */
+/* Unproved bounds_cut_corner_assert_rte_signed_overflow_5, bounds_cut_corner_assert_rte_signed_overflow_6: that a
+   product of four numbers, each -1, 0 or 1, is an int takes 11 s of a quiet machine. */
 #define SPELL_OUT
 #include "sites.h"
 
@@ -68,7 +68,8 @@ static void site_diameter2(dyd_cert_fraction *out, const dyd_cert_site *a, const
       apart_from_rectangle(out, b);
     assigns FRACTION(out); exits \false; ensures fraction(out, 2097153); */
 static void bounds_cut_corner(dyd_cert_fraction *out, const dyd_cert_site *a, const dyd_cert_site *b, int ux, int uy);
-/*@ requires \valid(b) && fraction(&b->area2, 274877906944) && rectangle(i) && rectangle(j) && apart_from_rectangle(b, i) &&
+/*@ requires \valid(b) && fraction(&b->area2, 274877906944) && rectangle(i) && rectangle(j) &&
+      apart_from_rectangle(b, i) &&
       apart_from_rectangle(b, j);
     assigns FRACTION(&b->area2); exits \false; ensures fraction(&b->area2, 274877906944); */
 static void bounds_add_area(dyd_cert_bounds *b, const dyd_cert_site *i, const dyd_cert_site *j);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/bracket.c: how long its longest number is. */
-/* Unproved dyd_cert_root_enclose_assert_2: a product of two numbers of at most 19 bits; CVC4 decides it in some runs. */
+/* Unproved dyd_cert_root_enclose_assert_2: a product of two numbers of at most 19 bits; CVC4 decides it in some runs.
+   */
 #define SPELL_OUT
 #include "enclosures.h"
 #include "polys.h"
@@ -29,7 +30,8 @@ static int sign_of_derivative(const dyd_cert_bracket *f, long p);
 /*@ requires bracket(r) && ends_divide(r); assigns \nothing; exits \false;
     ensures \result ==> within_bits(r, 262144); */
 bool dyd_cert_root_is_single(const dyd_cert_bracket *r);
-/*@ requires \valid(out) && interval(out) && bracket(r) && ends_divide(r) && within_bits(r, 262144) && 0 <= p <= 16384 &&
+/*@ requires \valid(out) && interval(out) && bracket(r) && ends_divide(r) && within_bits(r, 262144) &&
+      0 <= p <= 16384 &&
       \separated(out, r, r->coeff + (0 .. r->count - 1));
     assigns ALL_OF(out); exits \false; ensures interval(out); */
 void dyd_cert_root_enclose(dyd_cert_enclosure *out, const dyd_cert_bracket *r, long p);

@@ -27,12 +27,15 @@
 
 /*@ requires checker(c) && \valid(count) && most <= 4294967295 &&
       \separated(count, c, c->in.err, c->in.in, LINES + (..));
-    assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno, *count; exits \false;
+    assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno, *count;
+      exits \false;
     ensures \result == DYD_OK ==> checks(c) && *count <= most; */
 static dyd_status read_heading(uint32_t *count, dyd_checker *c, const char *name, uint64_t most);
-/*@ requires checker(c) && point(c) && \separated(c, &errno) && \valid(i) && \separated(i, c, c->in.err, c->in.in, LINES + (..)) &&
+/*@ requires checker(c) && point(c) && \separated(c, &errno) && \valid(i) &&
+      \separated(i, c, c->in.err, c->in.in, LINES + (..)) &&
       \separated(i, c->sites.site + (0 .. c->sites.count - 1));
-    assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno, *i, c->point[0 .. 1];
+    assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno, *i,
+      c->point[0 .. 1];
     exits \false;
     ensures \result == DYD_OK ==> kept(&c->in);
     ensures \result == DYD_OK ==> *i < c->sites.count && certified(&c->point[0]) && certified(&c->point[1]); */

@@ -18,7 +18,8 @@ typedef const dyd_checker *checking;
     predicate point(checking c) = exact(&c->point[0]) && exact(&c->point[1]); */
 
 /*@ requires checks(c);
-    assigns c->in.at, c->in.line[0 .. c->in.cap - 1], *c->in.err; exits \false; ensures \result == DYD_OK ==> checks(c); */
+    assigns c->in.at, c->in.line[0 .. c->in.cap - 1], *c->in.err; exits \false; ensures \result == DYD_OK ==>
+      checks(c); */
 dyd_status dyd_cert_expect_word(dyd_checker *c, const char *name);
 /*@ requires checker(c);
     assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno; exits \false;

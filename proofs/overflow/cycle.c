@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/cycle.c: orders up to DYD_CERT_ORDER; every cosine is in the list. */
-/* Without psi_rest: without an invariant of its loop; Timeout in 5 s: reads of c, sums in the indices and the conditions
-   of mpz_set_si and dyd_cert_poly_add_scaled there; the run of 90 s ended before all goals were tried. */
+/* Without psi_rest: without an invariant of its loop; Timeout in 5 s: reads of c, sums in the indices and the
+   conditions of mpz_set_si and dyd_cert_poly_add_scaled there; the run of 90 s ended before all goals were tried. */
 /* Unproved extend_cosines_assigns_exit_part1: CVC4 does not see that the relations are part of the block. */
 /* Unproved extend_cosines_assigns_normal: CVC4 does not see that the relations are part of the block. */
 #include "polys.h"

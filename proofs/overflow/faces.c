@@ -60,7 +60,8 @@ dyd_status dyd_cert_walk(uint32_t **out, size_t *count, const dyd_cert_graph *g,
     ensures -1 <= \result <= 1; */
 static int compare_place_of(x, y, z);
 /*@ requires \valid(hull + (0 .. SITES - 1)) && \valid_read(s) && s->count == SITES &&
-      \valid_read(s->site + (0 .. SITES - 1)) && 0 < SITES && 0 < count < 4294967295 && \valid(item + (0 .. count - 1)) &&
+      \valid_read(s->site + (0 .. SITES - 1)) && 0 < SITES && 0 < count < 4294967295 &&
+      \valid(item + (0 .. count - 1)) &&
       below(item, count, SITES) && \separated(hull + (0 .. SITES - 1), item + (0 .. count - 1), s);
     exits \false; */
 dyd_status dyd_cert_hull(bool *hull, const dyd_cert_sites *s, uint32_t *item, size_t count);

@@ -67,7 +67,8 @@ static dyd_status check_open(dyd_checker *c, const dyd_cert_edge *pair, char kin
 /*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c); exits \false;
     ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
 static dyd_status read_chain(dyd_checker *c);
-/*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c) && \valid_read(pair) && pair->i < SITES && pair->j < SITES &&
+/*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c) && \valid_read(pair) && pair->i < SITES &&
+      pair->j < SITES &&
       \separated(pair, c, c->in.err, LINES + (..));
     exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
 static dyd_status check_chain(dyd_checker *c, const dyd_cert_edge *pair);

@@ -1,15 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/poly.c: polynomials are read where they are, exponents stay in their type, terms in
  * their lists. */
-/* Without terms_merge: tried; after 200 s _loop_invariant_preserved, _loop_invariant_2_preserved, what is
-   assigned and a read (_assert_rte_mem_access_14) were open: the terms of the sum and of p while terms are copied. */
-/* Without dyd_cert_poly_add_scaled: tried with a contract of terms_merge; _call_count_terms_of_requires and
-   _call_terms_merge_requires_3 stay open. */
-/* Without terms_take_power: not decided; tried with loop invariants, but the run (280 s) ended before its goals. */
-/* Without reduce_leaf: tried; its loop invariants, _ensures and the conditions of terms_take_power and
-   dyd_cert_poly_add_scaled stay open in 4 s. */
-/* Without dyd_cert_poly_mul: tried; _ensures and the conditions of dyd_cert_poly_add_scaled, dyd_cert_poly_reduce and
-   dyd_cert_poly_clear stay open in 4 s. */
+/* Without terms_merge: 49 of 54 goals are proved with a contract and invariants, in 15 s; terms are copied as whole
+   structures with arrays in them, and of their parts nothing is known afterwards (the invariants on lists of terms). */
+/* Without dyd_cert_poly_add_scaled: 18 of 21 goals are proved from that; open are conditions of terms_merge. */
+/* Without terms_take_power: without invariants 13 of 32 goals are proved; it copies terms as terms_merge does. */
+/* Without reduce_leaf, dyd_cert_poly_mul: 5 of 12 and 5 of 17 goals are proved: they rest on the two before. */
 /* Without dyd_cert_poly_scan: tried; that the terms read are no more than were counted rests on counting: reads of
    p->term[p->count], conditions of mpz_init and scan_term stay open. */
 #include "terms.h"

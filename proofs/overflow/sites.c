@@ -2,8 +2,8 @@
 /* Contracts for src/checker/sites.c: the list of sites grows, and numbers are on the grid. */
 /* Without place_on_grid: that coordinates are below 2^31 follows from how the unit was chosen, and GMP is seen here as
    signs and lengths: four conversions to int32_t stay unknown, and conditions of calls. */
-/* Without dyd_cert_sites_clear: 16 of 28 goals are proved; that the sites to come are numbers when one is cleared rests on
-   denominators of different sites being in different places, of which nothing is said. */
+/* Without dyd_cert_sites_clear: 16 of 28 goals are proved; that the sites to come are numbers when one is cleared rests
+   on denominators of different sites being in different places, of which nothing is said. */
 /* Without dyd_cert_sites_finish: 50 of 59 goals are proved; the first loop, which sets four numbers in a list of lists
    (its invariant, what it assigns), the condition of axis_extent, and that of place_on_grid are not decided in 6 s. */
 /* Unproved end_outward_assert_rte_function_pointer: CVC4 does not know that what is chosen of two functions is one. */

@@ -43,7 +43,8 @@ typedef const dyd_cert_sites *sites_of;
       (0 < a->count ==> \valid(a->number + (0 .. a->count - 1))) && \separated(a, a->number + (0 .. a->count - 1));
     predicate point_of(described d, numbers a) = \valid_read(d) && d->number[0] < a->count && d->number[1] < a->count &&
       \separated(d, a->number + (0 .. a->count - 1)) && \separated(d, a);
-    predicate is_described(block_of b, integer site) = \exists integer k; 0 <= k < b->points && b->point[k].site == site;
+    predicate is_described(block_of b, integer site) = \exists integer k; 0 <= k < b->points &&
+      b->point[k].site == site;
     predicate stated(facts_of t, integer sites) = \valid_read(t) &&
       (0 < t->facts ==> \valid_read(t->fact + (0 .. t->facts - 1))) &&
       (0 < t->members ==> \valid_read(t->member + (0 .. t->members - 1))) && below(t->member, t->members, sites) &&
@@ -116,7 +117,8 @@ static bool are_different(dyd_cert_algebra *a, const dyd_cert_described *p, cons
       \separated(p + (0 .. 2), a, a->number + (0 .. a->count - 1));
     assigns a->number[0 .. a->count - 1]; exits \false; */
 static bool are_a_triangle(dyd_cert_algebra *a, const dyd_cert_described *const p[3]);
-/*@ requires \valid(out) && \valid_read(x) && \valid_read(y) && \valid_read(z) && \valid_read(w) && \valid(r) && out != x;
+/*@ requires \valid(out) && \valid_read(x) && \valid_read(y) && \valid_read(z) && \valid_read(w) && \valid(r) &&
+      out != x;
     assigns *out, r->nomem, r->work; exits \false; */
 static bool product_difference(dyd_cert_quotient *out, const dyd_cert_quotient *x, const dyd_cert_quotient *y,
                                const dyd_cert_quotient *z, const dyd_cert_quotient *w, dyd_cert_relations *r);
