@@ -51,8 +51,8 @@ EXTRA = {'alloc': ['-warn-unsigned-overflow'], 'text': ['-wp-literals'], 'poly':
          'read': ['-wp-literals', '-no-warn-signed-downcast']}  # a byte becomes a char
 OPTIONS = ['-wp', '-wp-rte', '-warn-special-float', 'none',  # doubles are another matter
            '-warn-signed-downcast', '-warn-unsigned-downcast', '-wp-prover', 'cvc4', '-wp-status-all',
-           '-wp-par', '4']  # one after another, half of the time is waited
-MOST, FEW, SLOW = 20, 4, 2  # seconds for a goal, for one with a fault; of one that is slow
+           '-wp-par', '2']  # one after another, half of the time is waited
+MOST, FEW, SLOW = 60, 4, 2  # seconds for a goal, for one with a fault; of one that is slow
 FUNCTION = re.compile(r'^(?!typedef|struct|[#/\s])[\w *]*?\b(\w+)\((?:[^;{}()]|\([^()]*\))*\)\s*\{', re.M)
 
 

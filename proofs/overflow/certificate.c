@@ -3,15 +3,13 @@
 /* Without checker_ties, checker_end: 43 of 49 and 7 of 12 goals are proved; that what was read before stays while a
    block or the diagram is read (loop invariants, conditions of strncmp, dyd_cert_faces_still, dyd_cert_next_line,
    dyd_cert_expect_word, the ensures) was not decided in 5 s: these callees do not say what else stays. */
-/* Unproved dyd_verify_certificate_call_dyd_abi_give_requires: its operands are void pointers, and WP does not see that
-   one that is cast there and back is that of the report. */
+/* Without dyd_verify_certificate: 8 of 9 goals are proved, where it is admitted that a checker that was begun is empty
+   and can be cleared after any outcome; open is the condition of dyd_abi_give, of void pointers cast there and back. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "checks.h"
 #include "pairing.h"
 
 #include "base/error.h"
-
-#include "base/abi.h"
 
 /*@ predicate reported(checking c) = \valid_read(c) && string(c->report.outcome) && string(c->report.goal); */
 
@@ -122,18 +120,5 @@ dyd_status dyd_checker_pairs(dyd_checker *c);
     ensures \result == DYD_OK ==> checker(c);
     ensures \result == DYD_OK ==> reported(c) && standing(c); */
 dyd_status dyd_checker_run(dyd_checker *c);
-
-/*@ requires err == \null || \valid(err); assigns *err; exits \false; */
-void dyd_error_clear(dyd_error *err);
-/*@ requires err == \null || \valid(err); assigns *err; exits \false;
-    ensures \result == DYD_OK ==> \valid((dyd_certificate_report *)theirs); */
-dyd_status dyd_abi_check(const void *theirs, size_t least, const char *type, dyd_error *err);
-/*@ requires \valid((dyd_certificate_report *)theirs) && \valid_read((const dyd_certificate_report *)own) &&
-      size == sizeof(dyd_certificate_report);
-    assigns *(dyd_certificate_report *)theirs; exits \false; */
-void dyd_abi_give(void *theirs, const void *own, size_t size);
-/*@ requires \valid(in) && (err == \null || \valid(err)) && \separated(in, err, out, LINES + (..));
-    exits \false; */
-dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_error *err);
 
 #include "checker/certificate.c"
