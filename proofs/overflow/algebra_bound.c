@@ -16,7 +16,7 @@ static unsigned long tower_degree(const dyd_cert_algebra *a, const dyd_cert_poly
 static bool enclosure_is_below(const dyd_cert_enclosure *x, long bits, long p);
 /*@ requires \valid(out) && whole(out) && bounded(a) && poly(q) && \separated(out, a) &&
       \separated(out, q, q->term + (0 .. q->count - 1));
-    assigns PARTS_OF((*out));
+    assigns out->value;
     exits \false; ensures whole(out); */
 bool dyd_cert_poly_bound(mpz_ptr out, const dyd_cert_algebra *a, const dyd_cert_poly *q);
 /*@ requires \valid_read(p); assigns \nothing; exits \false; */

@@ -36,8 +36,8 @@ static void enclose_operation(dyd_cert_enclosure *x, dyd_cert_op op, const dyd_c
     predicate stays{K, L}(numbers a) = block{L}(a) && \at(a->number, L) == \at(a->number, K) &&
       \at(a->count, L) == \at(a->count, K) && \at(a->relations.count, L) == \at(a->relations.count, K);
     predicate elsewhere(interval_of x, numbers a) = \separated(x, a, a->number + (0 .. a->count)); */
-#define NUMBERS_OF(a) a->relations.work, a->number[0 .. a->count].p, PARTS_OF(a->number[0 .. a->count].now.lo[0]), \
-  PARTS_OF(a->number[0 .. a->count].now.hi[0]), a->number[0 .. a->count].now.known
+#define NUMBERS_OF(a) a->relations.work, a->number[0 .. a->count].p, a->number[0 .. a->count].now.lo[0].value, \
+  a->number[0 .. a->count].now.hi[0].value, a->number[0 .. a->count].now.known
 
 /*@ requires block(a) && k <= a->count && 64 <= p <= 16384; assigns NUMBERS_OF(a); exits \false;
     ensures stays{Pre, Post}(a); ensures \result == &a->number[k].now && interval(\result); */

@@ -69,8 +69,7 @@ static void site_diameter2(dyd_cert_fraction *out, const dyd_cert_site *a, const
     assigns FRACTION(out); exits \false; ensures fraction(out, 2097153); */
 static void bounds_cut_corner(dyd_cert_fraction *out, const dyd_cert_site *a, const dyd_cert_site *b, int ux, int uy);
 /*@ requires \valid(b) && fraction(&b->area2, 274877906944) && rectangle(i) && rectangle(j) &&
-      apart_from_rectangle(b, i) &&
-      apart_from_rectangle(b, j);
+      apart_from_rectangle(b, i) && apart_from_rectangle(b, j);
     assigns FRACTION(&b->area2); exits \false; ensures fraction(&b->area2, 274877906944); */
 static void bounds_add_area(dyd_cert_bounds *b, const dyd_cert_site *i, const dyd_cert_site *j);
 /*@ requires fraction(l, 2097152) && fraction(d, 2097152) && small(h); assigns \nothing; exits \false; */

@@ -93,11 +93,6 @@ dyd_status dyd_cert_tree_init(dyd_cert_tree *t, const dyd_cert_sites *s);
       \separated(site->place + (0 .. 1), site, at + (0 .. 1));
     assigns site->place, site->place[0 .. 1]; exits \false; */
 dyd_status dyd_cert_site_set_place(dyd_cert_site *site, const dyd_exact at[2]);
-/*@ requires \valid_read(s) && \valid_read(t) && i < s->count && j < s->count && small(c) && small(c + 1) &&
-      (other == \null || \valid(other));
-    assigns *other; exits \false; */
-bool dyd_cert_is_witness(uint32_t *other, const dyd_cert_sites *s, const dyd_cert_tree *t, uint32_t i, uint32_t j,
-                         const dyd_exact c[2], bool places);
 /*@ requires \valid(f) && \valid(bad) && \valid_read(g) && corners <= 1152921504606846976 &&
       (0 < corners ==> \valid_read(corner + (0 .. corners - 1)));
     assigns *f, *bad; exits \false; ensures \result == DYD_OK && *bad == DYD_CERT_NONE ==> indexed(f); */

@@ -49,5 +49,10 @@ dyd_status dyd_cert_read_pair(dyd_cert_edge *pair, dyd_checker *c);
       -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
     assigns c->reached; exits \false; */
 void dyd_cert_note_bound(dyd_checker *c, const char *goal, const dyd_exact *bound);
+/*@ requires \valid_read(s) && \valid_read(t) && i < s->count && j < s->count && small(c) && small(c + 1) &&
+      (other == \null || \valid(other));
+    assigns *other; exits \false; */
+bool dyd_cert_is_witness(uint32_t *other, const dyd_cert_sites *s, const dyd_cert_tree *t, uint32_t i, uint32_t j,
+                         const dyd_exact c[2], bool places);
 
 #endif

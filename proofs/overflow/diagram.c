@@ -57,11 +57,6 @@ void dyd_cert_polygon_area2(dyd_exact *out, const dyd_cert_chain *p);
     ensures \result == DYD_OK ==> \forall integer k; 0 <= k < points ==> exact(&c->point[k][0]) &&
       exact(&c->point[k][1]); */
 dyd_status dyd_cert_chain_resize(dyd_cert_chain *c, size_t points);
-/*@ requires \valid_read(s) && \valid_read(t) && i < s->count && j < s->count && small(c) && small(c + 1) &&
-      (other == \null || \valid(other));
-    assigns *other; exits \false; */
-bool dyd_cert_is_witness(uint32_t *other, const dyd_cert_sites *s, const dyd_cert_tree *t, uint32_t i, uint32_t j,
-                         const dyd_exact c[2], bool places);
 /*@ requires \valid(holds) && \valid_read(s) && window(w) && exact(bound); assigns *holds; exits \false; */
 dyd_status dyd_cert_distance_holds(bool *holds, const dyd_cert_sites *s, const dyd_cert_window *w,
                                    const dyd_exact *bound);

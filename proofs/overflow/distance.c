@@ -31,8 +31,6 @@
 /*@ requires -2305843009213693952 <= d <= 2305843009213693952; assigns \nothing; exits \false; */
 static inline dyd_cert_area dyd_cert_square(int64_t d);
 typedef const dyd_cert_window *window_of;
-#define ratio(f) of_parts(f)
-#define ratio_within(f, most) fraction(f, most)
 
 /*@ requires \valid(w); assigns *w; exits \false;
     ensures exact(&w->e[0]) && exact(&w->e[1]) && exact(&w->e[2]) && exact(&w->e[3]); */
@@ -41,7 +39,7 @@ void dyd_cert_window_init(dyd_cert_window *w);
       whole(&w->e[3].man[0]);
     assigns *w; exits \false; */
 void dyd_cert_window_clear(dyd_cert_window *w);
-/*@ requires \valid(man) && \valid(exp) && ratio_within(f, 68719476736) && 0 <= sign(&f->num.man[0]) &&
+/*@ requires \valid(man) && \valid(exp) && fraction(f, 68719476736) && 0 <= sign(&f->num.man[0]) &&
       \separated(man, f) && \separated(exp, f) && \separated(man, exp);
     assigns *man, *exp; exits \false; ensures -103079215168 <= *exp <= 103079215168; */
 static void root_above(uint64_t *man, int64_t *exp, const dyd_cert_fraction *f);

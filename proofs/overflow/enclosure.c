@@ -12,15 +12,15 @@
 static void enclosure_limit(dyd_cert_enclosure *x, long p);
 /*@ requires \valid(lo) && \valid(hi) && whole(lo) && whole(hi) && interval(x) && interval(y) &&
       \separated(lo, hi, x) && \separated(lo, hi, y);
-    assigns PARTS_OF((*lo)), PARTS_OF((*hi)); exits \false;
+    assigns lo->value, hi->value; exits \false;
     ensures whole(lo) && whole(hi); */
 static void multiply_ends(mpz_ptr lo, mpz_ptr hi, const dyd_cert_enclosure *x, const dyd_cert_enclosure *y);
 /*@ requires \valid(out) && whole(out) && whole(x) && (k == 2 || k == 3) && digits(p) &&
       (x == out || \separated(x, out));
-    assigns PARTS_OF((*out)); exits \false; ensures whole(out); */
+    assigns out->value; exits \false; ensures whole(out); */
 static void root_of_end(mpz_ptr out, mpz_srcptr x, unsigned long k, bool up, long p);
 /*@ requires \valid(sum) && whole(sum) && \valid(terms) && \separated(sum, terms) && 2 <= n <= 1000 && digits(p);
-    assigns PARTS_OF((*sum)), *terms; exits \false; ensures whole(sum); */
+    assigns sum->value, *terms; exits \false; ensures whole(sum); */
 static void inverse_tangent(mpz_ptr sum, unsigned long *terms, unsigned long n, long p);
 /*@ requires interval(x) && digits(p); assigns \nothing; exits \false;
     ensures 0 <= \result <= 137438953480; */

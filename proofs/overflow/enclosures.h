@@ -13,8 +13,7 @@
 typedef const dyd_cert_enclosure *interval_of;
 
 /* Members by name: as a whole they would be any memory after a call, which costs CVC4 much. */
-#define PARTS_OF(z) z.value
-#define ENDS_OF(x) PARTS_OF(x->lo[0]), PARTS_OF(x->hi[0])
+#define ENDS_OF(x) x->lo[0].value, x->hi[0].value
 #define ALL_OF(x) ENDS_OF(x), x->known
 
 #ifdef SPELL_OUT

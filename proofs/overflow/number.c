@@ -28,10 +28,12 @@
     ensures \result == 64 ==> a->relations.count == 64;
     ensures known{Pre}(a) ==> stays{Pre, Post}(a); */
 size_t dyd_cert_algebra_leaf(dyd_cert_algebra *a);
-/*@ requires known(a) && \valid_read(q); assigns a->number[0 .. a->count].now, a->number[0 .. a->count].p; exits \false;
+/*@ requires known(a) && \valid_read(q);
+    assigns a->relations.work, a->number[0 .. a->count].now, a->number[0 .. a->count].p; exits \false;
     ensures \result == -1 || \result == 0 || \result == 1; */
 int dyd_cert_poly_sign(dyd_cert_algebra *a, const dyd_cert_poly *q);
-/*@ requires known(a) && k < a->count; assigns a->number[0 .. a->count].now, a->number[0 .. a->count].p; exits \false;
+/*@ requires known(a) && k < a->count;
+    assigns a->relations.work, a->number[0 .. a->count].now, a->number[0 .. a->count].p; exits \false;
     ensures \result == -1 || \result == 0 || \result == 1; */
 int dyd_cert_algebra_sign(dyd_cert_algebra *a, uint32_t k);
 
@@ -71,7 +73,7 @@ static bool value_exponential(dyd_cert_quotient *x, dyd_cert_algebra *a, bool ma
     exits \false; */
 static bool is_up_to_one(dyd_cert_algebra *a, const dyd_cert_quotient *u, int sign);
 /*@ requires \valid(x) && known(a) && u < a->count && \separated(x, a);
-    assigns *x, a->number[0 .. a->count].now, a->number[0 .. a->count].p; exits \false; */
+    assigns *x, a->relations.work, a->number[0 .. a->count].now, a->number[0 .. a->count].p; exits \false; */
 static bool value_absolute(dyd_cert_quotient *x, dyd_cert_algebra *a, uint32_t u);
 /*@ requires \valid(x) && known(a) && \separated(x, a);
     assigns *x, *a; exits \false; ensures stays{Pre, Post}(a); */

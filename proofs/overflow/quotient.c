@@ -12,7 +12,6 @@
 #include "terms.h"
 
 #define CHANGES(x) x->num.term, x->num.count, x->den.term, x->den.count
-#define PARTS_OF(z) z.value
 
 /*@ predicate both(quotient x) = \valid_read(x) && held(&x->num) && held(&x->den);
     predicate both_limited(quotient x) = \valid_read(x) && limited(&x->num) && limited(&x->den);
@@ -30,7 +29,7 @@ void dyd_cert_quotient_clear(dyd_cert_quotient *x);
     ensures owned: elsewhere(x, x) && elsewhere(x, y) && unrelated(x, r); */
 bool dyd_cert_quotient_set(dyd_cert_quotient *x, const dyd_cert_quotient *y, dyd_cert_relations *r);
 /*@ requires parts(x); exits \false; ensures both(x); ensures both_limited{Pre}(x) ==> both_limited(x);
-    assigns PARTS_OF(x->num.term[0 .. x->num.count - 1].c[0]), PARTS_OF(x->den.term[0 .. x->den.count - 1].c[0]); */
+    assigns x->num.term[0 .. x->num.count - 1].c[0].value, x->den.term[0 .. x->den.count - 1].c[0].value; */
 static void quotient_shorten(dyd_cert_quotient *x);
 /*@ requires \valid(x) && both(x) && whole(num) && whole(den) && sign(den) != 0 && \valid(r) && \separated(x, r, num) &&
       \separated(x, r, den);

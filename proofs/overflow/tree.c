@@ -4,10 +4,9 @@
 /* Unproved dyd_cert_centre_set_assert_rte_function_pointer: that there is a function where one of two is called. */
 #define __int128 long long
 #define SPELL_OUT
-#include "exact.h"
+#include "centres.h"
 
 #include "base/alloc.h"
-#include "checker/tree.h"
 
 #define ITEM uint32_t
 #define RESERVE reserve_indices
@@ -19,11 +18,8 @@
 #include "lists.h"
 
 typedef const dyd_cert_box *grid_box;
-typedef const dyd_cert_centre *grid_centre;
 
-/*@ predicate box(grid_box b) = \valid_read(b) && (\forall integer k; 0 <= k < 4 ==> 0 <= b->e[k]);
-    predicate centre(grid_centre c) = \valid_read(c) &&
-      (\forall integer k; 0 <= k < 4 ==> -1152921504606846976 <= c->e[k] <= 1152921504606846976); */
+/*@ predicate box(grid_box b) = \valid_read(b) && (\forall integer k; 0 <= k < 4 ==> 0 <= b->e[k]); */
 
 /*@ assigns \nothing; exits \false; */
 static uint64_t spread_bits(uint64_t v);
@@ -33,8 +29,6 @@ static uint64_t key_of_box(const dyd_cert_box *b);
 static void enclose_child(dyd_cert_box *out, const dyd_cert_box *b, bool first);
 /*@ requires -2305843009213693952 <= d <= 2305843009213693952; assigns \nothing; exits \false; */
 static inline dyd_cert_area dyd_cert_square(int64_t d);
-/*@ requires centre(c) && \valid_read(b); assigns \nothing; exits \false; */
-dyd_cert_area dyd_cert_far_upper(const dyd_cert_centre *c, const dyd_cert_box *b);
 /*@ requires centre(c) && \valid_read(b); assigns \nothing; exits \false; */
 static dyd_cert_area near_lower(const dyd_cert_centre *c, const dyd_cert_box *b);
 
@@ -93,10 +87,6 @@ void dyd_cert_tree_clear(dyd_cert_tree *t);
       \separated(t, s->box + (0 .. s->count - 1));
     exits \false; ensures \result == DYD_OK ==> grown(t); */
 dyd_status dyd_cert_tree_init(dyd_cert_tree *t, const dyd_cert_sites *s);
-/*@ requires \valid(out) && \valid_read(s) && exact(c) && exact(c + 1) && whole(&s->origin[0][0]) &&
-      whole(&s->origin[1][0]) && -274877906944 <= s->unit <= 274877906944 && \separated(out, s, c + (0 .. 1));
-    assigns out->far, out->e[0 .. 3]; exits \false; ensures centre(out); */
-void dyd_cert_centre_set(dyd_cert_centre *out, const dyd_cert_sites *s, const dyd_exact c[2]);
 
 /* Who visits changes what belongs to the context, of which the tree is no part. */
 extern int visited;

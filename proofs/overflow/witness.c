@@ -4,21 +4,11 @@
  * granted: visit_sites stands for dyd_cert_tree_visit with is_outside_disc. */
 #define __int128 long long
 #define SPELL_OUT
+#include "centres.h"
 #include "sites.h"
 
 #include "checker/witness.h"
 
-#define centre(c) (\valid_read(c) && -1152921504606846976 <= (c)->e[0] <= 1152921504606846976 && \
-    -1152921504606846976 <= (c)->e[1] <= 1152921504606846976 && \
-    -1152921504606846976 <= (c)->e[2] <= 1152921504606846976 && \
-    -1152921504606846976 <= (c)->e[3] <= 1152921504606846976)
-
-/*@ requires \valid(out) && \valid_read(s) && exact(c) && exact(c + 1) && whole(&s->origin[0][0]) &&
-      whole(&s->origin[1][0]) && -274877906944 <= s->unit <= 274877906944 && \separated(out, s, c + (0 .. 1));
-    assigns *out; exits \false; ensures centre(out); */
-void dyd_cert_centre_set(dyd_cert_centre *out, const dyd_cert_sites *s, const dyd_exact c[2]);
-/*@ requires centre(c) && \valid_read(b); assigns \nothing; exits \false; */
-dyd_cert_area dyd_cert_far_upper(const dyd_cert_centre *c, const dyd_cert_box *b);
 /*@ requires \valid_read(s) && \valid_read(t) && small(c) && small(c + 1) && small_site(s->site + i) &&
       small_site(s->site + j) && \valid_read(s->box + i) && \valid_read(s->box + j) && whole(&s->origin[0][0]) &&
       whole(&s->origin[1][0]) && -274877906944 <= s->unit <= 274877906944 && (other == \null || \valid(other)) &&
