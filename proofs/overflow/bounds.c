@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/bounds.c: gaps between sides, a sum of areas that stays a number. */
-/* Unproved bounds_cut_corner_assert_rte_signed_overflow_5, bounds_cut_corner_assert_rte_signed_overflow_6: that a
-   product of four numbers, each -1, 0 or 1, is an int takes 11 s of a quiet machine. */
 #define SPELL_OUT
 #include "sites.h"
 

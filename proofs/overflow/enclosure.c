@@ -2,9 +2,6 @@
 /* Contracts for src/checker/enclosure.c: arithmetic, roots and series of intervals. */
 /* Unproved dyd_cert_enclosure_div_call_mpz_cdiv_q_requires, dyd_cert_enclosure_div_call_mpz_fdiv_q_requires: that no
    end is 0 where the sign is known rests on their order; of integers signs and lengths are seen here. */
-/* Unproved dyd_cert_enclosure_pow_assert_rte_unsigned_downcast_2: -n modulo 2^64 is meant. */
-/* Unproved inverse_tangent_assert_rte_function_pointer, taylor_cos_sin_assert_rte_function_pointer: that there is a
-   function where one of two is called: WP does not know valid_function. */
 #define SPELL_OUT
 #include "enclosures.h"
 

@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/inverse.c: intervals at a place, and which is narrower. */
-/* Unproved settle_from_assert_rte_function_pointer, settle_from_assert_rte_function_pointer_2_part1,
-   settle_from_assert_rte_function_pointer_2_part2: that there is a function where one of two is called: WP does not
-   know valid_function. */
 #define SPELL_OUT
 #include "enclosures.h"
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/tree.c: what is reckoned on the grid. Areas are numbers of 64 bits here, since Frama-C has
  * none of 128; they are unsigned, and their values are no part of the proof. */
-/* Unproved dyd_cert_centre_set_assert_rte_function_pointer: that there is a function where one of two is called. */
 #define __int128 long long
 #define SPELL_OUT
 #include "centres.h"

@@ -57,7 +57,7 @@ static void bounds_cut_corner(dyd_cert_fraction *out, const dyd_cert_site *a, co
   side_gap(&x, &a->side[0], ux, &b->side[0], ux);
   side_gap(&y, &a->side[1], uy, &b->side[1], uy);
   int sx = dyd_exact_sgn(&x.num) * (ux ? 1 : -1), sy = dyd_exact_sgn(&y.num) * (uy ? 1 : -1);
-  if (sx * sy < 0) {
+  if (sx && sx == -sy) {
     dyd_cert_fraction_mul(&x, &x, &y);
     if (dyd_exact_sgn(&x.num) > 0) mpz_neg(x.num.man, x.num.man);
     dyd_cert_fraction_add(out, out, &x);

@@ -112,7 +112,7 @@ void dyd_cert_enclosure_pow(dyd_cert_enclosure *x, long n, long p) {
   dyd_cert_enclosure power;
   dyd_cert_enclosure_init(&power);
   dyd_cert_enclosure_set_si(&power, 1, p);
-  for (unsigned long k = n < 0 ? 0 - (unsigned long)n : (unsigned long)n; k && x->known; k >>= 1) {
+  for (unsigned long k = n < 0 ? (unsigned long)-(n + 1) + 1 : (unsigned long)n; k && x->known; k >>= 1) {
     if (k & 1) dyd_cert_enclosure_mul(&power, x, p);
     if (k > 1) dyd_cert_enclosure_mul(x, x, p);
   }

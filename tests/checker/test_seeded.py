@@ -110,7 +110,7 @@ FAULTS = [
      'dyd_cert_bounds_add(b, &c->sites, c->open.item[e].i, c->open.item[e].j, true);'),
     ('bounds.c', 'if (dyd_cert_fraction_cmp(&t, out) > 0) dyd_cert_fraction_swap(&t, out);\n  dyd_cert_fraction_clear(&t);\n}\n\n/* man',
      'dyd_cert_fraction_clear(&t);\n}\n\n/* man'),
-    ('bounds.c', 'if (sx * sy < 0) {', 'if (sx * sy != 0) {'),
+    ('bounds.c', 'if (sx && sx == -sy) {', 'if (sx && sy) {'),
     ('bounds.c', 'area.num.exp++;', ''),
     ('bounds.c', 'fits = dyd_cert_fraction_cmp(&d, &l) <= 0;', 'fits = dyd_cert_fraction_cmp(&d, &l) < 0;'),
     ('bounds.c', 'dyd_sqrt2_sign(one[0], minus, one[1], twice, one[2]) >= 0;',
