@@ -6,7 +6,8 @@ Usage: overflow.py ROOT [PART [FILE]]   (exit status 1: a goal is not proved, or
 CVC4 is absent). PART: one of PARTS; without it, all. FILE: only this one of the part.
 
 overflow/NAME.c has contracts for the functions of src/FOLDER/NAME.c and .h, and includes it; overflow/NAME.acsl says
-what holds in its loops: each paragraph, what is put before a text, where \\n stands for the end of a line.
+what holds in its loops: each paragraph, what is put before a text, where \\n stands for the end of a line; a line `copy
+ITEM TO = FROM;`, that this assignment of a structure is copy_ITEM, of whose parts WP knows what they are.
 overflow/gmp.h says what is taken for granted of GMP, overflow/math.h of the functions on doubles, other headers there
 of the C library. Of each function WP proves what it promises, the conditions of all that it calls, and that no operation
 is undefined: signed overflow, memory that is not there, shifts, conversions of integers that lose something. What is put
@@ -55,7 +56,7 @@ OPTIONS = ['-wp', '-wp-rte', '-warn-special-float', 'none',  # doubles are anoth
            '-rte-no-pointer-call',  # that one of the functions after `calls` is called is proved; without it, other goals fail
            '-wp-no-pruning', '-wp-no-ground',  # a sixth of the time, and nothing more proved
            '-wp-par', '2']  # one after another, half of the time is waited
-MOST, FEW, SLOW = 60, 4, 2  # seconds for a goal, for one with a fault; of one that is slow
+SOON, MOST, FEW, SLOW = 6, 60, 4, 2  # seconds for a goal, when it needs more, for one with a fault; of one that is slow
 FUNCTION = re.compile(r'^(?!typedef|struct|[#/\s])[\w *]*?\b(\w+)\((?:[^;{}()]|\([^()]*\))*\)\s*\{', re.M)
 
 
@@ -122,13 +123,13 @@ def with_loops(root, name, text):
     said = path.read_text(encoding='utf-8') if path.exists() else ''
     for what, by in re.findall(r'^before (.*)\n((?:.+\n)+)', said, re.M):
         what = what.replace('\\n', '\n')
-        if what not in text:
-            sys.exit(f'{path.name}: there is no {what!r}')
-        text = text.replace(what, by + what)
+        text = replace(path, text, what, by + what)
     text = re.sub(r'dyd_reserve\(\(void \*\*\)&([cf])->(blocker|point|member|start|shape),',
                   r'reserve_\2s(&\1->\2,', text)
     text = text.replace('(void **)', '')
     text = re.sub(r'\bmem(cpy|set)\((?=[^,]*\be,)', r'mem\1_exponents(', text)
+    for what, to, of in re.findall(r'^copy (\w+) (.*) = (.*);$', said, re.M):
+        text = replace(path, text, f' {to} = {of};', f' copy_{what}(&{to}, &{of});')
     text = re.sub(r'(\w+) = dyd_alloc\(', lambda m: f'{m[1]} = alloc_{ITEMS.get(m[1], "indices")}(', text)
     text = re.sub(r'(\w+) = calloc\(', lambda m: f'{m[1]} = zeroed_{ZEROED.get(m[1], "flags")}(', text)
     text = re.sub(r'(\w+) = malloc\((?:(\d+) \* )?(sizeof [^()]*)\)',
@@ -136,19 +137,31 @@ def with_loops(root, name, text):
     return re.sub(r'\ndyd_status dyd_cert_reject\(.*?\n}\n', '\n', text, flags=re.S)  # of any number of arguments
 
 
+def replace(path, text, what, by):
+    """The text with `by` in place of `what`, which is there."""
+    if what not in text:
+        sys.exit(f'{path.name}: there is no {what!r}')
+    return text.replace(what, by)
+
+
 def try_file(root, work, name):
     """The names of goals that are slow or unproved for a reason; None when another is not proved."""
     source = Source(root, name)
     copy = source.copy(work)
-    count, left, output = goals(root, name, work, ['-wp-timeout', str(MOST), '-wp-fct', ','.join(source.proved)])
+    unproved, slow = set(source.named('Unproved')), set()
+    for limit in SOON, MOST:  # the second time, what was not proved is tried again, and what it stands with is known
+        count, left, output = goals(root, name, work, ['-wp-timeout', str(limit), '-wp-fct', ','.join(source.proved)])
+        slow |= {goal for goal, seconds in re.findall(r'Goal typed_(\w+) : Valid .*\(([0-9.]+)s\)', output)
+                 if float(seconds) > SLOW}
+        if left <= unproved:
+            break
     shutil.rmtree(copy)
+    if os.environ.get('GOALS'):
+        (pathlib.Path(os.environ['GOALS']) / name).write_text(output)
     print(f'{name}: {count - len(left)} of {count} goals proved,', len(source.proved), 'of', len(source.functions),
           'functions', *left and ['but', *sorted(left)], flush=True)
-    unproved = set(source.named('Unproved'))
-    slow = {goal for goal, seconds in re.findall(r'Goal typed_(\w+) : Valid .*\(([0-9.]+)s\)', output)
-            if float(seconds) > SLOW} | unproved
     if count and left <= unproved:
-        return slow
+        return slow | unproved
     print(output)
     return None
 

@@ -1,13 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/poly.c: polynomials are read where they are, exponents stay in their type, terms in
  * their lists. */
-/* Without terms_merge: 49 of 54 goals are proved with a contract and invariants, in 15 s; terms are copied as whole
-   structures with arrays in them, and of their parts nothing is known afterwards (the invariants on lists of terms). */
-/* Without dyd_cert_poly_add_scaled: 18 of 21 goals are proved from that; open are conditions of terms_merge. */
-/* Without terms_take_power: without invariants 13 of 32 goals are proved; it copies terms as terms_merge does. */
-/* Without reduce_leaf, dyd_cert_poly_mul: 5 of 12 and 5 of 17 goals are proved: they rest on the two before. */
-/* Without dyd_cert_poly_scan: tried; that the terms read are no more than were counted rests on counting: reads of
-   p->term[p->count], conditions of mpz_init and scan_term stay open. */
 #include "terms.h"
 
 #include "base/alloc.h"
@@ -80,5 +73,26 @@ bool dyd_cert_poly_reduce(dyd_cert_poly *p, dyd_cert_relations *r);
     assigns owned: t->e[0 .. 63], t->c[0].value, *text, r->nomem;
     exits \false; ensures whole(&t->c[0]); ensures \result ==> string(*text); */
 static bool scan_term(dyd_cert_term *t, const char **text, dyd_cert_relations *r);
+/*@ requires \valid(to) && \valid_read(from); assigns *to; exits \false;
+    ensures to->c[0].value == \old(from->c[0].value);
+    ensures \forall integer k; 0 <= k < 64 ==> to->e[k] == \old(from->e[k]); */
+void copy_term(dyd_cert_term *to, const dyd_cert_term *from);
+/*@ requires \valid(sum) && held(p) && \valid(p) && limited(q) && whole(c) && p->count <= 16384 &&
+      \valid(sum->term + (0 .. p->count + q->count - 1)) && (m == \null || \valid_read(m + (0 .. 63)) && few(m)) &&
+      \separated(sum, p, q, c) && \separated(sum->term + (0 .. p->count + q->count - 1), sum, p, q) &&
+      \separated(sum->term + (0 .. p->count + q->count - 1), p->term + (0 .. p->count - 1)) &&
+      \separated(sum->term + (0 .. p->count + q->count - 1), q->term + (0 .. q->count - 1)) &&
+      \separated(p->term + (0 .. p->count - 1), q->term + (0 .. q->count - 1)) &&
+      \separated(p->term + (0 .. p->count - 1), sum, p, q) && \separated(q->term + (0 .. q->count - 1), sum, p, q);
+    requires \separated(c, sum->term + (0 .. p->count + q->count - 1)) && \separated(c, p->term + (0 .. p->count - 1));
+    requires m != \null ==> \separated(m + (0 .. 63), sum->term + (0 .. p->count + q->count - 1), sum) &&
+      \separated(m + (0 .. 63), p->term + (0 .. p->count - 1));
+    assigns sum->count, sum->term[0 .. p->count + q->count - 1], p->term[0 .. p->count - 1].c[0].value; exits \false;
+    ensures sum->count <= p->count + q->count;
+    ensures \forall integer t; 0 <= t < sum->count ==> whole(&sum->term[t].c[0]);
+    ensures \result && limited{Pre}(p) ==> \forall integer t, k; 0 <= t < sum->count && 0 <= k < 64 ==>
+      sum->term[t].e[k] <= 8192;
+    ensures \result ==> sum->count <= 16384; */
+static bool terms_merge(dyd_cert_poly *sum, dyd_cert_poly *p, const dyd_cert_poly *q, mpz_srcptr c, const uint16_t *m);
 
 #include "checker/poly.c"

@@ -60,8 +60,10 @@ void dyd_cert_poly_content(mpz_ptr g, const dyd_cert_poly *p);
 /*@ requires \valid(p) && held(p) && whole(z) && sign(z) != 0 && \separated(z, p, p->term + (0 .. p->count - 1));
     assigns p->term[0 .. p->count - 1].c[0]; exits \false; ensures held(p); */
 void dyd_cert_poly_divide(dyd_cert_poly *p, mpz_srcptr z);
-/*@ requires \valid(p) && held(p) && limited(q) && whole(c) && \valid(r) && \separated(p, q, r) &&
-      \separated(q->term + (0 .. q->count - 1), p, r);
+/*@ requires \valid(p) && held(p) && limited(q) && whole(c) && \valid(r) && \separated(p, q) && \separated(p, r) &&
+      \separated(q, &r->work) && \separated(q, &r->nomem) && \separated(q->term + (0 .. q->count - 1), p, &r->work) &&
+      \separated(q->term + (0 .. q->count - 1), &r->nomem) && \separated(p->term + (0 .. p->count - 1), q) &&
+      (0 < p->count && 0 < q->count ==> \separated(p->term + (0 .. p->count - 1), q->term + (0 .. q->count - 1)));
     requires p->count <= 16384 && (m == \null || \valid_read(m + (0 .. 63)) && few(m));
     assigns owned: p->term, p->count, r->nomem, r->work; exits \false; ensures held(p);
     ensures \result && limited{Pre}(p) ==> limited(p); */
