@@ -20,8 +20,8 @@ prove, or only where it has the machine for itself, with the reason:
 What NAME.acsl says of a function that is left out is what was tried.
 
 Then faults of overflow/faults.txt are put in, one at a time in a function (faults.py): another goal of it has to fail,
-and none that takes CVC4 long without the fault. All of them take as long as the proofs: only the first of each file is
-put in, but all of a FILE that is named.
+and none that takes CVC4 long without the fault. All of them take as long as the proofs: of a part, only the first ones
+of its first file are put in; of a FILE that is named, all.
 """
 import os
 import pathlib
@@ -156,8 +156,6 @@ def try_file(root, work, name):
         if left <= unproved:
             break
     shutil.rmtree(copy)
-    if os.environ.get('GOALS'):
-        (pathlib.Path(os.environ['GOALS']) / name).write_text(output)
     print(f'{name}: {count - len(left)} of {count} goals proved,', len(source.proved), 'of', len(source.functions),
           'functions', *left and ['but', *sorted(left)], flush=True)
     if count and left <= unproved:
@@ -170,11 +168,6 @@ def faults_of(root, name):
     """[(function, text, its replacement)] of a file."""
     return [(function, old, new) for function, path, old, new, _ in faults(root / 'proofs' / 'overflow' / 'faults.txt')
             if pathlib.Path(path).stem == name]
-
-
-def first_fault(root, name):
-    """The first one alone."""
-    return [[fault] for fault in faults_of(root, name)[:1]]
 
 
 def rounds(root, name):
@@ -225,8 +218,9 @@ def main():
         os.mkdir(os.path.join(work, 'proved'))
         subprocess.run(['why3', 'config', 'detect'], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
         slow = {name: try_file(root, pathlib.Path(work), name) for name in names}
-        good = [try_faults(root, pathlib.Path(work), slow[name] or set(), name, some) for name in names
-                for some in (rounds(root, name) if sys.argv[3:] else first_fault(root, name))]
+        some = [(name, together) for name in names for together in rounds(root, name)]
+        good = [try_faults(root, pathlib.Path(work), slow[name] or set(), name, together)
+                for name, together in (some if sys.argv[3:] else some[:1])]
     sys.exit(None in slow.values() or not all(good))
 
 
