@@ -1,16 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/diagram.c: corners of a polygon are in its list, ends of the window in theirs. */
-/* Without dyd_cert_polygon_area2: 55 of 56 goals are proved; that the polygon stays while four local numbers change
-   (loop_invariant_4) was not decided in 12 s. */
-/* Without check_area: 51 of 54 goals are proved; that the window stays while two local numbers are set and read
-   (conditions of dyd_cert_window_area, dyd_exact_cmp; ensures) was not decided in 12 s. */
-/* Without read_vertices, check_polygon, check_polygons: 9 of 16, 18 of 22 and 9 of 13 goals are proved; that points
-   read stay while the next is read (loop invariants), and what of the chain, the window and the area holds after it
-   (conditions of check_polygon, dyd_cert_window_has, dyd_cert_is_witness, dyd_cert_polygon_area2), was not decided in 5
-   s. */
-/* Without dyd_checker_diagram: 5 of 10 goals are proved; check_polygons does not say that other memory stays, so the
-   checker, the window and the area are not known after it (assert_rte_mem_access, conditions of check_area,
-   check_distance, dyd_exact_clear, dyd_cert_window_clear). */
+/* Without read_vertices, check_polygon, check_polygons: 17 of 20, 23 of 24 and 18 of 25 goals are proved; that the
+   points read so far are a polygon (loop_invariant_5, ensures), that the checker stays when polygons are counted
+   (ensures_2 of check_polygon), and conditions of strncmp and check_polygon and the ensures of check_polygons were not
+   decided in 6 s. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "checks.h"
 
@@ -24,6 +17,7 @@ typedef const dyd_cert_window *window_of;
       (\forall integer k; 0 <= k < p->points ==> small(&p->point[k][0]) && small(&p->point[k][1]));
     predicate window(window_of w) = \valid_read(w) && (\forall integer k; 0 <= k < 4 ==> exact(&w->e[k])); */
 
+/*@ predicate sized(exact_number x) = exact(x) && -3145728 <= x->exp <= 3145728; */
 /*@ requires polygon(p) && k <= p->points; assigns \nothing; exits \false; */
 static bool polygon_goes_on(const dyd_cert_chain *p, size_t k);
 /*@ requires window(w) && exact(at) && exact(at + 1); assigns \nothing; exits \false; */
@@ -34,17 +28,17 @@ static dyd_cert_spot polygon_spot(const dyd_cert_chain *p, size_t k);
 bool dyd_cert_polygon_is_convex(const dyd_cert_chain *p);
 /*@ requires \valid(out) && window(w) && (\forall integer k; 0 <= k < 4 ==> certified(&w->e[k])) &&
       \separated(out, w);
-    assigns *out; exits \false; */
+    assigns *out; exits \false; ensures sized(out); */
 void dyd_cert_window_area(dyd_exact *out, const dyd_cert_window *w);
 
-/*@ predicate sized(exact_number x) = exact(x) && -3145728 <= x->exp <= 3145728; */
 /*@ requires \valid(out) && sized(out) && polygon(p) && \separated(out, p, p->point + (0 .. p->points - 1));
     assigns *out; exits \false; ensures sized(out); */
 void dyd_cert_polygon_area2(dyd_exact *out, const dyd_cert_chain *p);
 
-/*@ predicate drawing(checking c) = checker(c) && c->chain.points <= c->chain.cap <= 1152921504606846976 &&
+/*@ predicate drawn_polygon(checking c) = c->chain.points <= c->chain.cap <= 1152921504606846976 &&
       (0 < c->chain.cap ==> \valid(c->chain.point + (0 .. c->chain.cap - 1)) &&
         \valid(c->chain.blocker + (0 .. c->chain.cap)));
+    predicate drawing(checking c) = checker(c) && drawn_polygon(c);
     predicate frame(window_of w) = \valid(w) && certified(&w->e[0]) && certified(&w->e[1]) && certified(&w->e[2]) &&
       certified(&w->e[3]); */
 /* Of chain.c: and that a chain is all that changes, that points before stay, and new ones are numbers, which WP does
@@ -69,23 +63,25 @@ void dyd_cert_window_init(dyd_cert_window *w);
 void dyd_cert_window_clear(dyd_cert_window *w);
 
 /*@ requires drawing(c) && reads(&c->in); exits \false;
-    ensures \result == DYD_OK ==> drawing(c) && polygon(&c->chain); */
+    ensures \result == DYD_OK ==> drawing(c); ensures \result == DYD_OK ==> polygon(&c->chain); */
 static dyd_status read_vertices(dyd_checker *c);
 /*@ requires drawing(c) && reads(&c->in) && \valid(area2) && sized(area2) && frame(w) && i < c->sites.count &&
       \separated(area2, w, c, c->in.err, c->in.in, LINES + (..));
-    exits \false; ensures \result == DYD_OK ==> drawing(c) && sized(area2) && frame(w); */
+    exits \false; ensures sized(area2); ensures \result == DYD_OK ==> drawing(c); */
 static dyd_status check_polygon(dyd_checker *c, dyd_exact *area2, const dyd_cert_window *w, uint32_t i);
 /*@ requires drawing(c) && \valid(area2) && sized(area2) && frame(w) &&
       \separated(area2, w, c, c->in.err, c->in.in, LINES + (..));
-    exits \false;
-    ensures \result == DYD_OK ==> drawing(c) && sized(area2) && frame(w) && reads(&c->in) &&
-      \separated(area2, w, c, c->in.err, c->in.in, LINES + (..)); */
+    exits \false; ensures sized(area2);
+    ensures \result == DYD_OK ==> drawing(c);
+    ensures \result == DYD_OK ==> reads(&c->in);
+    ensures \result == DYD_OK ==> frame(w);
+    ensures \result == DYD_OK ==> \separated(area2, w, c, c->in.err, c->in.in, LINES + (..)); */
 static dyd_status check_polygons(dyd_checker *c, dyd_exact *area2, const dyd_cert_window *w);
 /*@ requires checks(c) && \valid(area2) && sized(area2) && frame(w) &&
       -999999999999999999 <= c->report.goal_bits <= 999999999999999999 &&
       \separated(area2, w, c, c->in.err, c->in.in, LINES + (..));
     assigns c->in.at, c->in.line[0 .. c->in.cap - 1], *c->in.err, *area2, c->reached; exits \false;
-    ensures \result == DYD_OK ==> checker(c) && whole(&area2->man[0]); */
+    ensures whole(&area2->man[0]); ensures \result == DYD_OK ==> checker(c); */
 static dyd_status check_area(dyd_checker *c, dyd_exact *area2, const dyd_cert_window *w);
 /*@ requires checks(c) && certified(bound) && window(w) && \separated(bound, c, c->in.err) &&
       \separated(w, c, c->in.err) &&
