@@ -9,7 +9,6 @@
    of these run together were stopped after 190 s. Seen open before: that sides stay numbers while s->gap and s->part
    are set, which is said of all sites at once here. */
 /* Unproved has_two_near_sites_assert: that all stays when s->effort grows, decided in 10 s when all is quiet. */
-/* Unproved place_end_assert_rte_function_pointer: that there is a function where one of two is called. */
 #define __int128 long long
 #define SPELL_OUT
 #include "sites.h"

@@ -2,11 +2,8 @@
 /* Contracts for src/checker/sites.c: the list of sites grows, and numbers are on the grid. */
 /* Without place_on_grid: that coordinates are below 2^31 follows from how the unit was chosen, and GMP is seen here as
    signs and lengths: four conversions to int32_t stay unknown, and conditions of calls. */
-/* Without dyd_cert_sites_clear: 16 of 28 goals are proved; that the sites to come are numbers when one is cleared rests
-   on denominators of different sites being in different places, of which nothing is said. */
-/* Without dyd_cert_sites_finish: 50 of 59 goals are proved; the first loop, which sets four numbers in a list of lists
-   (its invariant, what it assigns), the condition of axis_extent, and that of place_on_grid are not decided in 6 s. */
-/* Unproved end_outward_assert_rte_function_pointer: CVC4 does not know that what is chosen of two functions is one. */
+/* Without dyd_cert_sites_finish: 65 of 73 goals are proved in 5 s; the first loop, which sets four numbers in a list of
+   lists, is open: what it and the last loop assign, and that the two numbers set before stay as they are. */
 /* Unproved dyd_cert_side_set_den_assigns_exit_part3: WP does not know that new memory is new. */
 /* Unproved dyd_cert_side_set_den_assigns_normal_part4: WP does not know that new memory is new. */
 /* Unproved dyd_cert_side_set_den_assigns_normal_part5: WP does not know that new memory is new. */
@@ -32,6 +29,7 @@
 #include "lists.h"
 
 typedef const dyd_cert_sites *list_of_sites;
+typedef const dyd_cert_site *site_of;
 
 /*@ predicate room(list_of_sites s) = \valid(s) && s->count <= s->cap <= 1152921504606846976 &&
       (0 < s->cap ==> \valid(s->site + (0 .. s->cap - 1)) && \separated(s->site + (0 .. s->cap - 1), s)); */
@@ -68,12 +66,13 @@ static void end_outward(dyd_exact *out, const dyd_cert_side *s, bool upper);
     predicate apart_from_sides(exact_number x, list_of_sites s, integer axis) = \forall integer k; 0 <= k < s->count ==>
       apart_from_side(x, &s->site[k].side[axis]);
     predicate clearable(side_of s) = \valid(s) && whole(&s->lo.man[0]) && whole(&s->hi.man[0]) &&
-      (s->den == \null || \valid(s->den) && whole(&(*s->den)[0]) && \separated(&(*s->den)[0], s)); */
+      (s->den == \null || \valid(s->den) && whole(&(*s->den)[0]) && \separated(&(*s->den)[0], s));
+    predicate place_clearable(site_of s) = \valid(s) && (s->place == \null || \valid(s->place + (0 .. 1)) &&
+      whole(&s->place[0].man[0]) && whole(&s->place[1].man[0]) && \separated(s->place + (0 .. 1), s)); */
 /*@ requires \valid(s) && whole(&s->origin[0][0]) && whole(&s->origin[1][0]) && s->count <= 4294967295 &&
       (0 < s->count ==> \valid(s->site + (0 .. s->count - 1)) && \separated(s, s->site + (0 .. s->count - 1))) &&
       (\forall integer k; 0 <= k < s->count ==> clearable(&s->site[k].side[0]) && clearable(&s->site[k].side[1]) &&
-        (s->site[k].place == \null || \valid(s->site[k].place + (0 .. 1)) && whole(&s->site[k].place[0].man[0]) &&
-          whole(&s->site[k].place[1].man[0]) && \separated(s->site[k].place + (0 .. 1), s->site + k)));
+        place_clearable(&s->site[k]));
     exits \false; */
 void dyd_cert_sites_clear(dyd_cert_sites *s);
 /*@ requires \valid(range + (0 .. 1)) && end(range) && end(range + 1) && \valid_read(s) && 0 <= axis <= 1 &&
