@@ -1,14 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/number.c: leaves are of numbers that are there, and made where there is room. */
-/* Without value_circular: 12 of 16 goals are proved in 10 s; that the block is known after the cycle was begun
-   (conditions of is_part_of_turn, value_is_leaf, mpz_clear) is not said by dyd_cert_cycle_cosine. */
-/* Without value_tangent: 5 of 8 goals are proved: value_circular does not say what stays. */
-/* Without value_radical: 24 of 26 goals are proved in 10 s: that an operand is there when a leaf was made
-   (conditions of dyd_cert_poly_set). */
-/* Without value_root: 36 of 38 goals are proved; Timeout in 8 s on a busy machine: _call_mpz_mul_2_requires and
-   _call_dyd_cert_poly_set_z_2_requires, that the last coefficient stays whole. */
-/* Without dyd_cert_number_check: 18 of 19 goals are proved; Timeout in 8 s: _call_side_of_end_2_requires, that the
-   ends of the bracket are whole after the first call, which changes numbers of the block. */
 #include "polys.h"
 
 /* The number to be added is in its place behind those before. */
@@ -106,7 +97,8 @@ static bool value_circular(dyd_cert_quotient *x, dyd_cert_algebra *a, dyd_cert_o
 static bool value_tangent(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert_quotient *u);
 /*@ requires \valid(x) && known(a) && \valid_read(u) && \separated(x, a); exits \false; */
 static bool value_hyperbolic(dyd_cert_quotient *x, dyd_cert_algebra *a, dyd_cert_op op, const dyd_cert_quotient *u);
-/*@ requires \valid(x) && known(a) && \valid_read(u) && x != u && \separated(x, a) && 2 <= k <= 3; exits \false; */
+/*@ requires \valid(x) && known(a) && \valid_read(u) && x != u && \separated(x, a) && \separated(u, a) && 2 <= k <= 3;
+    exits \false; */
 static bool value_radical(dyd_cert_quotient *x, dyd_cert_algebra *a, unsigned k, const dyd_cert_quotient *u);
 /*@ requires \valid(x) && known(a) && n == a->number + a->count && n->a < a->count && \separated(x, a); exits \false; */
 static bool value_inverse(dyd_cert_quotient *x, dyd_cert_algebra *a, const dyd_cert_number *n);
@@ -140,11 +132,11 @@ static bool is_radical(const dyd_cert_quotient *v, dyd_cert_algebra *a, unsigned
       (0 < f->count ==> \valid_read(f->coeff + (0 .. f->count - 1))) &&
       (\forall integer k; 0 <= k < f->count ==> whole(&f->coeff[k][0])) &&
       \separated(a, f) && \separated(zero, a, f);
-    assigns *zero, a->relations.nomem, a->relations.work; exits \false; */
+    assigns *zero, a->relations.nomem, a->relations.work; exits \false; ensures stays{Pre, Post}(a); */
 static bool root_vanishes(bool *zero, const dyd_cert_bracket *f, dyd_cert_algebra *a, const dyd_cert_quotient *v);
-/*@ requires \valid_read(v) && known(a) && whole(num) && whole(den) && sign(den) != 0;
+/*@ requires known(a); requires \valid_read(v); requires whole(num); requires whole(den); requires sign(den) != 0;
     assigns a->relations.nomem, a->relations.work, a->number[0 .. a->count].now, a->number[0 .. a->count].p;
-    exits \false; */
+    exits \false; ensures stays{Pre, Post}(a); */
 static int side_of_end(const dyd_cert_quotient *v, dyd_cert_algebra *a, mpz_srcptr num, mpz_srcptr den);
 /*@ requires known(a) && n == a->number + a->count && (n->op == DYD_CERT_ROOT ==> bracketed(n) &&
       \separated(a, n->root) && \separated(a->number + (0 .. a->count), n->root)) &&
