@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra_enclose.c: operations on intervals, precisions up to 2^30. */
-/* Unproved enclose_hyperbolic_assert_rte_function_pointer: WP does not know valid_function; that it is one of two is
-   proved. */
 /* Without enclose_value: 16 of 18 goals are proved; Timeout in 6 s: that the block stays, and what the second
    dyd_cert_poly_enclose requires: x is of one of the numbers that change. */
 /* Without enclose_variable: 40 of 42 goals are proved; Timeout in 6 s: that the block stays, and what

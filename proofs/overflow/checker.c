@@ -99,10 +99,7 @@ dyd_status dyd_cert_site_set_place(dyd_cert_site *site, const dyd_exact at[2]);
 dyd_status dyd_cert_faces_init(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const dyd_cert_corner *corner,
                                size_t corners);
 
-/*@ requires located(c) && reads(&c->in); exits \false;
-    ensures \result == DYD_OK ==> located(c);
-    ensures \result == DYD_OK ==> reads(&c->in);
-    ensures \result == DYD_OK ==> c->sites.count == \old(c->sites.count) + 1; */
+/*@ requires located(c) && reads(&c->in); exits \false; */
 static dyd_status read_rectangle(dyd_checker *c);
 /*@ requires located(c) && reads(&c->in); exits \false;
     ensures \result == DYD_OK ==> located(c);

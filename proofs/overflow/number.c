@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/number.c: leaves are of numbers that are there, and made where there is room. */
+/* Without value_circular: 12 of 16 goals are proved in 10 s; that the block is known after the cycle was begun
+   (conditions of is_part_of_turn, value_is_leaf, mpz_clear) is not said by dyd_cert_cycle_cosine. */
+/* Without value_tangent: 5 of 8 goals are proved: value_circular does not say what stays. */
 #include "polys.h"
 
 /* The number to be added is in its place behind those before. */
