@@ -70,7 +70,8 @@ void dyd_cert_poly_divide(dyd_cert_poly *p, mpz_srcptr z);
 bool dyd_cert_poly_add_scaled(dyd_cert_poly *p, const dyd_cert_poly *q, mpz_srcptr c, const uint16_t *m,
                               dyd_cert_relations *r);
 /*@ requires \valid(p) && limited(p) && limited(q) && \valid(r) && \separated(p, q, r) && (sign == 1 || sign == -1) &&
-      \separated(q->term + (0 .. q->count - 1), p, r);
+      \separated(q->term + (0 .. q->count - 1), p, r) && \separated(p->term + (0 .. p->count - 1), q) &&
+      (0 < p->count && 0 < q->count ==> \separated(p->term + (0 .. p->count - 1), q->term + (0 .. q->count - 1)));
     assigns owned: p->term, p->count, r->nomem, r->work;
     exits \false; ensures held(p); ensures \result ==> limited(p); */
 bool dyd_cert_poly_add(dyd_cert_poly *p, const dyd_cert_poly *q, int sign, dyd_cert_relations *r);
