@@ -2,7 +2,7 @@
 /* Deterministic random numbers for tests: the seed and the scale come from the environment and are printed.
  *
  * DYADEL_TEST_SEED (default 1) chooses the cases, DYADEL_TEST_SCALE (default 1) multiplies their number; with
- * sanitizers, which make each many times as slow, DYADEL_TEST_SANITIZED asks for a sixth. */
+ * sanitizers, which make each many times as slow, DYADEL_TEST_SANITIZED asks for a third. */
 #ifndef DYD_TESTS_RANDOM_H
 #define DYD_TESTS_RANDOM_H
 
@@ -29,7 +29,7 @@ static inline size_t test_cases_all(size_t base) {
 /* The same, with sanitizers fewer. */
 static inline size_t test_cases(size_t base) {
   size_t cases = test_cases_all(base);
-  return test_environment("DYADEL_TEST_SANITIZED", 0) ? (cases + 5) / 6 : cases;
+  return test_environment("DYADEL_TEST_SANITIZED", 0) ? (cases + 2) / 3 : cases;
 }
 
 /* Of what is tried place by place: every one, with sanitizers every fifth. */
