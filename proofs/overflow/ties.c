@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/ties.c: points of a block are in their list, and of numbers and sites that are there. */
-/* Without are_a_triangle: without loop invariants, which were not decided, 18 of 26 goals are proved; that the
-   points are there in the loop, and what is assigned, are open. */
 /* Without dyd_cert_fact_holds: 4 of 15 goals are proved; that points found are of the block's numbers (conditions of
    are_same, are_different, base_set_line, base_has) is not seen after callees that change these numbers. */
 /* Without check_rectangles: 9 of 25 goals are proved; it has no contract on points and sites, whose alternative is an
@@ -35,6 +33,9 @@ typedef const dyd_cert_sites *sites_of;
       (0 < a->count ==> \valid(a->number + (0 .. a->count - 1))) && \separated(a, a->number + (0 .. a->count - 1));
     predicate point_of(described d, numbers a) = \valid_read(d) && d->number[0] < a->count && d->number[1] < a->count &&
       \separated(d, a->number + (0 .. a->count - 1)) && \separated(d, a);
+    predicate whole_block(block_of b) = block(b) && \valid(b) && numbered(&b->algebra) &&
+      (\forall integer k; 0 <= k < b->points ==> point_of(b->point + k, &b->algebra)) &&
+      \separated(b, b->point + (0 .. b->points - 1), b->algebra.number + (0 .. b->algebra.count - 1));
     predicate is_described(block_of b, integer site) = \exists integer k; 0 <= k < b->points &&
       b->point[k].site == site;
     predicate stated(facts_of t, integer sites) = \valid_read(t) &&
@@ -106,7 +107,9 @@ static const dyd_cert_described *find_described(const dyd_cert_block *b, uint32_
 /*@ requires \valid(out) && interval(out) && numbered(a) && point_of(p, a) && point_of(q, a) && 0 <= axis <= 1 &&
       0 < prec <= 16384 && \separated(out, a, a->number + (0 .. a->count - 1), p, q);
     assigns ALL_OF(out), ENCLOSURES_OF(a); exits \false;
-    ensures interval(out); */
+    ensures interval(out);
+    ensures \forall interval_of x; interval{Pre}(x) && \separated(x, out, a->number + (0 .. a->count - 1)) ==>
+      interval(x); */
 static void enclose_difference(dyd_cert_enclosure *out, dyd_cert_algebra *a, const dyd_cert_described *p,
                                const dyd_cert_described *q, int axis, long prec);
 /*@ requires numbered(a) && point_of(p, a) && point_of(q, a);
@@ -131,11 +134,11 @@ static bool number_is_null(dyd_cert_algebra *a, const dyd_cert_poly *q, bool by_
     assigns ANY_OF(a);
     exits \false; */
 static bool are_same(dyd_cert_algebra *a, const dyd_cert_described *p, const dyd_cert_described *q, bool by_bound);
-/*@ requires block(b) && \valid(b) && numbered(&b->algebra) && \valid_read(site + (0 .. count - 1)) &&
+/*@ requires \valid_read(site + (0 .. count - 1)) &&
       (kind == DYD_CERT_CIRCLE ? 3 <= count : 2 <= count) && 0 <= kind <= 2 &&
       (\forall integer k; 0 <= k < count ==> is_described(b, site[k])) &&
-      (\forall integer k; 0 <= k < b->points ==> point_of(b->point + k, &b->algebra));
-    exits \false; */
+      whole_block(b) && \separated(site + (0 .. count - 1), b, b->algebra.number + (0 .. b->algebra.count - 1));
+    assigns ANY_OF((&b->algebra)), ENCLOSURES_OF((&b->algebra)); exits \false; */
 bool dyd_cert_fact_holds(dyd_cert_block *b, dyd_cert_relation_kind kind, const uint32_t *site, size_t count,
                          bool by_bound);
 /*@ requires stated(t, SITES) && \valid_read(s) && s->count == SITES && \valid(out) &&
