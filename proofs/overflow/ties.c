@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/ties.c: points of a block are in their list, and of numbers and sites that are there. */
-/* Without dyd_cert_fact_holds: 4 of 15 goals are proved; that points found are of the block's numbers (conditions of
-   are_same, are_different, base_set_line, base_has) is not seen after callees that change these numbers. */
 /* Without check_rectangles: 9 of 25 goals are proved; it has no contract on points and sites, whose alternative is an
    invariant on all numbers of a block, which each enclosure changes. */
 /* Without dyd_cert_ties_read, read_members, read_fact, read_points, read_block: they have no contract: 2 of 14, 10
@@ -98,14 +96,23 @@ static bool side_lacks_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint3
     assigns ANY_OF(a), ENCLOSURES_OF(a);
     exits \false; */
 static bool side_holds_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t number, long p);
-/*@ requires \valid(b); exits \false; */
+dyd_cert_block *b, dyd_cert_reader *in, const dyd_cert_sites *s);
+/*@ predicate rectangles(sites_of s) = \valid_read(s) && (0 < s->count ==> \valid_read(s->site + (0 .. s->count - 1))) &&
+      (\forall integer k; 0 <= k < s->count ==> side(&s->site[k].side[0]) && side(&s->site[k].side[1]));
+    predicate located(block_of b, sites_of s) = whole_block(b) && rectangles(s) &&
+      (\forall integer k; 0 <= k < b->points ==> b->point[k].site < s->count) &&
+      (\forall integer k, axis; 0 <= k < s->count && 0 <= axis <= 1 ==> \separated(&s->site[k].side[axis],
+        s->site[k].side[axis].den, &b->algebra, b->algebra.number + (0 .. b->algebra.count - 1))); */
+/*@ requires located(b, s) && \valid_read(in) && (in->err == \null || \valid(in->err)); exits \false; */
 static dyd_status check_rectangles(dyd_cert_block *b, dyd_cert_reader *in, const dyd_cert_sites *s);
 /*@ requires block(b); assigns \nothing; exits \false;
-    ensures \result != \null ==> \subset(\result, b->point + (0 .. b->points - 1)) && \result->site == site;
+    ensures \result != \null ==> \exists integer k; 0 <= k < b->points && \result == b->point + k;
+    ensures \result != \null ==> \result->site == site;
     ensures is_described(b, site) ==> \result != \null; */
 static const dyd_cert_described *find_described(const dyd_cert_block *b, uint32_t site);
 /*@ requires \valid(out) && interval(out) && numbered(a) && point_of(p, a) && point_of(q, a) && 0 <= axis <= 1 &&
-      0 < prec <= 16384 && \separated(out, a, a->number + (0 .. a->count - 1), p, q);
+      0 < prec <= 16384 && \separated(out, a, a->number + (0 .. a->count - 1)) &&
+      \separated(out, p) && \separated(out, q);
     assigns ALL_OF(out), ENCLOSURES_OF(a); exits \false;
     ensures interval(out);
     ensures \forall interval_of x; interval{Pre}(x) && \separated(x, out, a->number + (0 .. a->count - 1)) ==>
@@ -138,7 +145,7 @@ static bool are_same(dyd_cert_algebra *a, const dyd_cert_described *p, const dyd
       (kind == DYD_CERT_CIRCLE ? 3 <= count : 2 <= count) && 0 <= kind <= 2 &&
       (\forall integer k; 0 <= k < count ==> is_described(b, site[k])) &&
       whole_block(b) && \separated(site + (0 .. count - 1), b, b->algebra.number + (0 .. b->algebra.count - 1));
-    assigns ANY_OF((&b->algebra)), ENCLOSURES_OF((&b->algebra)); exits \false; */
+    exits \false; */
 bool dyd_cert_fact_holds(dyd_cert_block *b, dyd_cert_relation_kind kind, const uint32_t *site, size_t count,
                          bool by_bound);
 /*@ requires stated(t, SITES) && \valid_read(s) && s->count == SITES && \valid(out) &&
