@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/ties.c: points of a block are in their list, and of numbers and sites that are there. */
-/* Without check_rectangles: 9 of 25 goals are proved; it has no contract on points and sites, whose alternative is an
-   invariant on all numbers of a block, which each enclosure changes. */
 /* Without dyd_cert_ties_read, read_members, read_fact, read_points, read_block: they have no contract: 2 of 14, 10
    of 19, 5 of 14, 8 of 15 and 0 of 4 goals are proved without one; a block being read would have to be kept by all that
    checker_ties is left out for (certificate.c). */
@@ -96,8 +94,8 @@ static bool side_lacks_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint3
     assigns ANY_OF(a), ENCLOSURES_OF(a);
     exits \false; */
 static bool side_holds_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t number, long p);
-dyd_cert_block *b, dyd_cert_reader *in, const dyd_cert_sites *s);
-/*@ predicate rectangles(sites_of s) = \valid_read(s) && (0 < s->count ==> \valid_read(s->site + (0 .. s->count - 1))) &&
+/*@ predicate rectangles(sites_of s) = \valid_read(s) &&
+      (0 < s->count ==> \valid_read(s->site + (0 .. s->count - 1))) &&
       (\forall integer k; 0 <= k < s->count ==> side(&s->site[k].side[0]) && side(&s->site[k].side[1]));
     predicate located(block_of b, sites_of s) = whole_block(b) && rectangles(s) &&
       (\forall integer k; 0 <= k < b->points ==> b->point[k].site < s->count) &&
