@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/faces.c: open sets grow in their lists, and are found by sites that are there. */
-/* Without faces_add_set, add_bounded_face, faces_add_all_sites: tried with contracts by which the lists stay apart
-   from the graph; that memory written after dyd_reserve or dyd_alloc is new is not seen (goals on what is assigned),
-   and that all of a graph is kept (faces_add_set_ensures) was not decided in 4 s. */
+/* Without add_bounded_face, faces_add_all_sites: tried with contracts by which the lists stay apart from the graph; that
+   memory written after dyd_alloc is new is not seen (goals on what is assigned). */
 /* The next ones were run without contracts, 5 s a goal. Open in all are accesses behind pointers that a contract has to
    say are there. */
 /* Without check_corners: 9 of 26 goals are proved; with a contract once 39 of 41, not that corners stay in order. */
@@ -37,11 +36,30 @@
 #define ITEM size_t
 #define RESERVE reserve_starts
 #include "keeps.h"
+#define ITEM dyd_cert_shape
+#define RESERVE reserve_shapes
+#include "keeps.h"
 
 /*@ requires 0 < n ==> \valid(to + (0 .. n - 1)); assigns to[0 .. n - 1]; exits \false; */
 void clear_flags(bool *to, size_t n);
 #define memset(to, c, n) clear_flags(to, n)
-/* What graph.h says of dyd_cert_sort, of sites. */
+/*@ requires 0 < n ==> \valid(to + (0 .. n / 4 - 1)) && \valid_read(from + (0 .. n / 4 - 1)) &&
+      \separated(to + (0 .. n / 4 - 1), from + (0 .. n / 4 - 1));
+    assigns to[0 .. n / 4 - 1]; exits \false;
+    ensures \forall integer count, most; 4 * count == n && below{Pre}((uint32_t *)from, count, most) ==>
+      below(to, count, most); */
+void copy_sites(uint32_t *to, const uint32_t *from, size_t n);
+#define memcpy(to, from, n) copy_sites(to, from, n)
+/* What faces.h says of dyd_cert_distinct, graph.h of dyd_cert_sort, of sites; of those at the end of a list, that it
+ * goes on. */
+/*@ requires count < 1152921504606846976 && (0 < count ==> \valid(item + (0 .. count - 1))) &&
+      below(item, count, SITES);
+    assigns item[0 .. count - 1]; exits \false;
+    ensures \result <= count && (0 < count ==> 0 < \result) && below(item, \result, SITES);
+    ensures \forall uint32_t *list, integer n; 0 <= n && item == list + n && below{Pre}(list, n, SITES) ==>
+      below(list, n + \result, SITES); */
+size_t distinct_sites(uint32_t *item, size_t count);
+#define dyd_cert_distinct(item, count) distinct_sites(item, count)
 /*@ requires 0 < count < 1152921504606846976 && \valid(item + (0 .. count - 1)) && below(item, count, SITES);
     assigns item[0 .. count - 1]; exits \false; ensures below(item, count, SITES); */
 void sort_sites(uint32_t *item, size_t count);
@@ -81,5 +99,25 @@ static uint32_t next_common_set(const dyd_cert_faces *f, size_t *a, size_t *b, u
     assigns hull[0 .. SITES - 1], stack[0 .. count - 1]; exits \false; */
 static void mark_hull_chain(bool *hull, uint32_t *stack, const dyd_cert_sites *s, const uint32_t *item, size_t count,
                             bool back);
+
+/* Open sets that are added, in their lists; of the two, outside: no list of f is one of the other's. */
+/*@ predicate filling(open_sets f) = \valid(f) && f->members <= f->member_cap <= 1152921504606846976 &&
+      f->set_cap <= 1152921504606846976 && f->sets <= f->shape_cap <= 1152921504606846976 &&
+      (0 < f->sets ==> f->sets < f->set_cap) && f->sets <= 4294967290 &&
+      (0 < f->member_cap ==> \valid(f->member + (0 .. f->member_cap - 1))) &&
+      (0 < f->set_cap ==> \valid(f->start + (0 .. f->set_cap - 1))) &&
+      (0 < f->shape_cap ==> \valid(f->shape + (0 .. f->shape_cap - 1))) &&
+      \separated(f, f->member + (0 .. f->member_cap - 1), f->start + (0 .. f->set_cap - 1),
+        f->shape + (0 .. f->shape_cap - 1)) &&
+      below(f->member, f->members, SITES); */
+/*@ requires filling(f) && joined(g) && f->sets < 4294967290 && count <= 8589934592 &&
+      (0 < count ==> \valid_read(site + (0 .. count - 1))) && below((uint32_t *)site, count, SITES);
+    requires \separated(f, site + (0 .. count - 1), g, g->legal, g->bridges, g->sites) &&
+      \separated(f, g->legal->item + (0 .. g->legal->count - 1), g->bridges->item + (0 .. g->bridges->count - 1));
+    exits \false;
+    ensures \result == DYD_OK ==> filling(f);
+    ensures \result == DYD_OK ==> \old(f->sets) <= f->sets <= \old(f->sets) + 1; */
+static dyd_status faces_add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint32_t *site, size_t count,
+                                dyd_cert_shape shape);
 
 #include "checker/faces.c"
