@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/faces.c: open sets grow in their lists, and are found by sites that are there. */
-/* Without add_bounded_face, faces_add_all_sites: tried with contracts by which the lists stay apart from the graph; that
-   memory written after dyd_alloc is new is not seen (goals on what is assigned). */
 /* The next ones were run without contracts, 5 s a goal. Open in all are accesses behind pointers that a contract has to
    say are there. */
 /* Without check_corners: 9 of 26 goals are proved; with a contract once 39 of 41, not that corners stay in order. */
@@ -16,6 +14,10 @@
 #define ITEM uint32_t
 #define RESERVE reserve_any
 #define ALLOC alloc_indices
+#include "lists.h"
+#define ITEM bool
+#define RESERVE reserve_flags
+#define ALLOC alloc_flags
 #include "lists.h"
 #define ITEM size_t
 #define ALLOC zeroed_sizes
@@ -119,5 +121,25 @@ static void mark_hull_chain(bool *hull, uint32_t *stack, const dyd_cert_sites *s
     ensures \result == DYD_OK ==> \old(f->sets) <= f->sets <= \old(f->sets) + 1; */
 static dyd_status faces_add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint32_t *site, size_t count,
                                 dyd_cert_shape shape);
+
+/*@ requires filling(f) && joined(g) && f->sets < 4294967290 &&
+      (0 < SITES ==> \valid_read(g->sites->site + (0 .. SITES - 1)));
+    requires \separated(f, g, g->legal, g->bridges, g->sites) && \separated(f, g->sites->site + (0 .. SITES - 1)) &&
+      \separated(f, g->legal->item + (0 .. g->legal->count - 1), g->bridges->item + (0 .. g->bridges->count - 1));
+    exits \false;
+    ensures \result == DYD_OK ==> filling(f);
+    ensures \result == DYD_OK ==> \old(f->sets) <= f->sets <= \old(f->sets) + 1; */
+static dyd_status faces_add_all_sites(dyd_cert_faces *f, const dyd_cert_graph *g);
+/*@ requires filling(f) && drawn(g) && f->sets < 4294967290 && h < 2 * g->count &&
+      \valid(seen + (0 .. 2 * g->count - 1));
+    requires \separated(f, seen + (0 .. 2 * g->count - 1), g, g->legal, g->bridges, g->sites) &&
+      \separated(f, g->legal->item + (0 .. g->legal->count - 1), g->bridges->item + (0 .. g->bridges->count - 1)) &&
+      \separated(g, g->sites, g->legal, g->bridges, g->start + (0 .. SITES), g->around + (0 .. 2 * g->count - 1),
+        g->position + (0 .. 2 * g->count - 1), g->legal->item + (0 .. g->legal->count - 1),
+        g->bridges->item + (0 .. g->bridges->count - 1));
+    exits \false;
+    ensures \result == DYD_OK ==> filling(f);
+    ensures \result == DYD_OK ==> \old(f->sets) <= f->sets <= \old(f->sets) + 1; */
+static dyd_status add_bounded_face(dyd_cert_faces *f, bool *seen, const dyd_cert_graph *g, uint32_t h);
 
 #include "checker/faces.c"
