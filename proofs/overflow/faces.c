@@ -4,7 +4,6 @@
    say are there. */
 /* Without check_corners: 9 of 26 goals are proved; with a contract once 39 of 41, not that corners stay in order. */
 /* Without add_groups, faces_find_sets, dyd_cert_faces_init: 6 of 20, 4 of 11, 3 of 13 goals are proved. */
-/* Without check_places: 24 of 27 goals are proved. Open: rte_mem_access, rte_mem_access_2, what alloc_indices asks. */
 /* Without faces_add_outer, faces_index_sites, split_rim: 3 of 12, 36 of 62, 2 of 10 goals are proved. */
 #include "faces.h"
 
@@ -15,6 +14,8 @@
 #define RESERVE reserve_any
 #define ALLOC alloc_indices
 #include "lists.h"
+typedef const dyd_cert_corner *corner_of;
+
 #define ITEM bool
 #define RESERVE reserve_flags
 #define ALLOC alloc_flags
@@ -85,6 +86,13 @@ static int compare_place_of(x, y, z);
       below(item, count, SITES) && \separated(hull + (0 .. SITES - 1), item + (0 .. count - 1), s);
     exits \false; */
 dyd_status dyd_cert_hull(bool *hull, const dyd_cert_sites *s, uint32_t *item, size_t count);
+/*@ predicate corner_list(corner_of c, integer count) = count <= 1152921504606846976 &&
+      (0 < count ==> \valid_read(c + (0 .. count - 1))) && (\forall integer k; 0 <= k < count ==> c[k].i < SITES); */
+/*@ requires \valid_read(key) && corner_list(item, count); assigns \nothing; exits \false;
+    ensures (\exists integer k; 0 <= k < count && item[k].i == *key) ==>
+      \exists integer k; 0 <= k < count && \result == item + k; */
+const dyd_cert_corner *find_corner(const uint32_t *key, const dyd_cert_corner *item, size_t count);
+#define bsearch(key, item, count, size, compare) find_corner(key, item, count)
 #define compare_with_corner(x, y) compare_with_corner(const uint32_t *a, const dyd_cert_corner *b)
 /*@ requires \valid_read(a) && \valid_read(b); assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
 static int compare_with_corner(x, y);
