@@ -2,7 +2,6 @@
 /* Contracts for src/checker/faces.c: open sets grow in their lists, and are found by sites that are there. */
 /* The next ones were run without contracts, 5 s a goal. Open in all are accesses behind pointers that a contract has to
    say are there. */
-/* Without check_corners: 9 of 26 goals are proved; with a contract once 39 of 41, not that corners stay in order. */
 /* Without add_groups, faces_find_sets, dyd_cert_faces_init: 6 of 20, 4 of 11, 3 of 13 goals are proved. */
 /* Without faces_add_outer, faces_index_sites, split_rim: 3 of 12, 36 of 62, 2 of 10 goals are proved. */
 #include "faces.h"
