@@ -91,7 +91,8 @@ static int compare_place_of(x, y, z);
     exits \false; */
 dyd_status dyd_cert_hull(bool *hull, const dyd_cert_sites *s, uint32_t *item, size_t count);
 /*@ predicate corner_list(corner_of c, integer count) = count <= 1152921504606846976 &&
-      (0 < count ==> \valid_read(c + (0 .. count - 1))) && (\forall integer k; 0 <= k < count ==> c[k].i < SITES); */
+      (0 < count ==> \valid_read(c + (0 .. count - 1))) && (\forall integer k; 0 <= k < count ==> c[k].i < SITES) &&
+      (\forall integer k, l; 0 <= k < l < count ==> c[k].i < c[l].i); */
 /*@ requires \valid_read(key) && corner_list(item, count); assigns \nothing; exits \false;
     ensures (\exists integer k; 0 <= k < count && item[k].i == *key) ==>
       \exists integer k; 0 <= k < count && \result == item + k; */
