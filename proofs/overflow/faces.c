@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/faces.c: open sets grow in their lists, and are found by sites that are there. */
-/* Without faces_add_set, add_bounded_face, faces_add_all_sites: tried with contracts by which the lists stay apart
-   from the graph; that memory written after dyd_reserve or dyd_alloc is new is not seen (goals on what is assigned),
-   and that all of a graph is kept (faces_add_set_ensures) was not decided in 4 s. */
+/* Without add_groups: with a contract and invariants 39 of 47 goals are proved in 6 s. Open: that sites from the
+   beginning of a group on are sites (call_faces_add_set_requires), that the group's list of spare edges is there
+   (rte_mem_access_10), and what it ensures, which rests on these. */
 /* The next ones were run without contracts, 5 s a goal. Open in all are accesses behind pointers that a contract has to
    say are there. */
-/* Without check_corners: 9 of 26 goals are proved; with a contract once 39 of 41, not that corners stay in order. */
-/* Without add_groups, faces_find_sets, dyd_cert_faces_init: 6 of 20, 4 of 11, 3 of 13 goals are proved. */
-/* Without check_places: 24 of 27 goals are proved. Open: rte_mem_access, rte_mem_access_2, what alloc_indices asks. */
-/* Without faces_add_outer, faces_index_sites, split_rim: 3 of 12, 36 of 62, 2 of 10 goals are proved. */
+/* Without faces_find_sets, dyd_cert_faces_init: 4 of 11, 3 of 13 goals are proved. */
+/* Without faces_add_outer, split_rim: 3 of 12, 2 of 10 goals are proved. */
+/* Without faces_index_sites: 36 of 62 goals are proved; that places in of[] are below its end rests on sums of counts,
+   which were not written out. */
 #include "faces.h"
 
 #include "base/alloc.h"
@@ -17,6 +17,12 @@
 #define ITEM uint32_t
 #define RESERVE reserve_any
 #define ALLOC alloc_indices
+#include "lists.h"
+typedef const dyd_cert_corner *corner_of;
+
+#define ITEM bool
+#define RESERVE reserve_flags
+#define ALLOC alloc_flags
 #include "lists.h"
 #define ITEM size_t
 #define ALLOC zeroed_sizes
@@ -37,11 +43,30 @@
 #define ITEM size_t
 #define RESERVE reserve_starts
 #include "keeps.h"
+#define ITEM dyd_cert_shape
+#define RESERVE reserve_shapes
+#include "keeps.h"
 
 /*@ requires 0 < n ==> \valid(to + (0 .. n - 1)); assigns to[0 .. n - 1]; exits \false; */
 void clear_flags(bool *to, size_t n);
 #define memset(to, c, n) clear_flags(to, n)
-/* What graph.h says of dyd_cert_sort, of sites. */
+/*@ requires 0 < n ==> \valid(to + (0 .. n / 4 - 1)) && \valid_read(from + (0 .. n / 4 - 1)) &&
+      \separated(to + (0 .. n / 4 - 1), from + (0 .. n / 4 - 1));
+    assigns to[0 .. n / 4 - 1]; exits \false;
+    ensures \forall integer count, most; 4 * count == n && below{Pre}((uint32_t *)from, count, most) ==>
+      below(to, count, most); */
+void copy_sites(uint32_t *to, const uint32_t *from, size_t n);
+#define memcpy(to, from, n) copy_sites(to, from, n)
+/* What faces.h says of dyd_cert_distinct, graph.h of dyd_cert_sort, of sites; of those at the end of a list, that it
+ * goes on. */
+/*@ requires count < 1152921504606846976 && (0 < count ==> \valid(item + (0 .. count - 1))) &&
+      below(item, count, SITES);
+    assigns item[0 .. count - 1]; exits \false;
+    ensures \result <= count && (0 < count ==> 0 < \result) && below(item, \result, SITES);
+    ensures \forall uint32_t *list, integer n; 0 <= n && item == list + n && below{Pre}(list, n, SITES) ==>
+      below(list, n + \result, SITES); */
+size_t distinct_sites(uint32_t *item, size_t count);
+#define dyd_cert_distinct(item, count) distinct_sites(item, count)
 /*@ requires 0 < count < 1152921504606846976 && \valid(item + (0 .. count - 1)) && below(item, count, SITES);
     assigns item[0 .. count - 1]; exits \false; ensures below(item, count, SITES); */
 void sort_sites(uint32_t *item, size_t count);
@@ -65,6 +90,14 @@ static int compare_place_of(x, y, z);
       below(item, count, SITES) && \separated(hull + (0 .. SITES - 1), item + (0 .. count - 1), s);
     exits \false; */
 dyd_status dyd_cert_hull(bool *hull, const dyd_cert_sites *s, uint32_t *item, size_t count);
+/*@ predicate corner_list(corner_of c, integer count) = count <= 1152921504606846976 &&
+      (0 < count ==> \valid_read(c + (0 .. count - 1))) && (\forall integer k; 0 <= k < count ==> c[k].i < SITES) &&
+      (\forall integer k, l; 0 <= k < l < count ==> c[k].i < c[l].i); */
+/*@ requires \valid_read(key) && corner_list(item, count); assigns \nothing; exits \false;
+    ensures (\exists integer k; 0 <= k < count && item[k].i == *key) ==>
+      \exists integer k; 0 <= k < count && \result == item + k; */
+const dyd_cert_corner *find_corner(const uint32_t *key, const dyd_cert_corner *item, size_t count);
+#define bsearch(key, item, count, size, compare) find_corner(key, item, count)
 #define compare_with_corner(x, y) compare_with_corner(const uint32_t *a, const dyd_cert_corner *b)
 /*@ requires \valid_read(a) && \valid_read(b); assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
 static int compare_with_corner(x, y);
@@ -81,5 +114,45 @@ static uint32_t next_common_set(const dyd_cert_faces *f, size_t *a, size_t *b, u
     assigns hull[0 .. SITES - 1], stack[0 .. count - 1]; exits \false; */
 static void mark_hull_chain(bool *hull, uint32_t *stack, const dyd_cert_sites *s, const uint32_t *item, size_t count,
                             bool back);
+
+/* Open sets that are added, in their lists; of the two, outside: no list of f is one of the other's. */
+/*@ predicate filling(open_sets f) = \valid(f) && f->members <= f->member_cap <= 1152921504606846976 &&
+      f->set_cap <= 1152921504606846976 && f->sets <= f->shape_cap <= 1152921504606846976 &&
+      (0 < f->sets ==> f->sets < f->set_cap) && f->sets <= 4294967290 &&
+      (0 < f->member_cap ==> \valid(f->member + (0 .. f->member_cap - 1))) &&
+      (0 < f->set_cap ==> \valid(f->start + (0 .. f->set_cap - 1))) &&
+      (0 < f->shape_cap ==> \valid(f->shape + (0 .. f->shape_cap - 1))) &&
+      \separated(f, f->member + (0 .. f->member_cap - 1), f->start + (0 .. f->set_cap - 1),
+        f->shape + (0 .. f->shape_cap - 1)) &&
+      below(f->member, f->members, SITES); */
+/*@ requires filling(f) && joined(g) && f->sets < 4294967290 && count <= 8589934592 &&
+      (0 < count ==> \valid_read(site + (0 .. count - 1))) && below((uint32_t *)site, count, SITES);
+    requires \separated(f, site + (0 .. count - 1), g, g->legal, g->bridges, g->sites) &&
+      \separated(f, g->legal->item + (0 .. g->legal->count - 1), g->bridges->item + (0 .. g->bridges->count - 1));
+    exits \false;
+    ensures \result == DYD_OK ==> filling(f);
+    ensures \result == DYD_OK ==> \old(f->sets) <= f->sets <= \old(f->sets) + 1; */
+static dyd_status faces_add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint32_t *site, size_t count,
+                                dyd_cert_shape shape);
+
+/*@ requires filling(f) && joined(g) && f->sets < 4294967290 &&
+      (0 < SITES ==> \valid_read(g->sites->site + (0 .. SITES - 1)));
+    requires \separated(f, g, g->legal, g->bridges, g->sites) && \separated(f, g->sites->site + (0 .. SITES - 1)) &&
+      \separated(f, g->legal->item + (0 .. g->legal->count - 1), g->bridges->item + (0 .. g->bridges->count - 1));
+    exits \false;
+    ensures \result == DYD_OK ==> filling(f);
+    ensures \result == DYD_OK ==> \old(f->sets) <= f->sets <= \old(f->sets) + 1; */
+static dyd_status faces_add_all_sites(dyd_cert_faces *f, const dyd_cert_graph *g);
+/*@ requires filling(f) && drawn(g) && f->sets < 4294967290 && h < 2 * g->count &&
+      \valid(seen + (0 .. 2 * g->count - 1));
+    requires \separated(f, seen + (0 .. 2 * g->count - 1), g, g->legal, g->bridges, g->sites) &&
+      \separated(f, g->legal->item + (0 .. g->legal->count - 1), g->bridges->item + (0 .. g->bridges->count - 1)) &&
+      \separated(g, g->sites, g->legal, g->bridges, g->start + (0 .. SITES), g->around + (0 .. 2 * g->count - 1),
+        g->position + (0 .. 2 * g->count - 1), g->legal->item + (0 .. g->legal->count - 1),
+        g->bridges->item + (0 .. g->bridges->count - 1));
+    exits \false;
+    ensures \result == DYD_OK ==> filling(f);
+    ensures \result == DYD_OK ==> \old(f->sets) <= f->sets <= \old(f->sets) + 1; */
+static dyd_status add_bounded_face(dyd_cert_faces *f, bool *seen, const dyd_cert_graph *g, uint32_t h);
 
 #include "checker/faces.c"

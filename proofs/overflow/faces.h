@@ -39,7 +39,8 @@ typedef const dyd_cert_parts *parts_of;
       (\forall integer r; 0 <= r < p->groups ==> p->start[r] <= p->start[r + 1]); */
 
 /*@ requires count < 1152921504606846976 && (0 < count ==> \valid(item + (0 .. count - 1)));
-    assigns item[0 .. count - 1]; exits \false; ensures \result <= count && (0 < count ==> 0 < \result); */
+    assigns item[0 .. count - 1]; exits \false; ensures \result <= count && (0 < count ==> 0 < \result);
+    ensures below{Pre}(item, count, BOUND) ==> below(item, \result, BOUND); */
 size_t dyd_cert_distinct(uint32_t *item, size_t count);
 /*@ requires \valid(p) && joined(g) && 0 < count <= 2 * g->count && \valid_read(walk + (0 .. count - 1)) &&
       below((uint32_t *)walk, count, 2 * g->count) && \valid_read(corner + (0 .. SITES - 1)) &&

@@ -19,7 +19,8 @@
 #include "zeroed.h"
 
 /*@ requires 0 < count ==> \valid(item + (0 .. count - 1)); assigns item[0 .. count - 1]; exits \false;
-    ensures \forall integer k; 0 <= k < count ==> \exists integer l; 0 <= l < count && item[k] == \old(item[l]); */
+    ensures \forall integer k; 0 <= k < count ==> \exists integer l; 0 <= l < count && item[k] == \old(item[l]);
+    ensures below{Pre}(item, count, BOUND) ==> below(item, count, BOUND); */
 void sort_indices(uint32_t *item, size_t count);
 #define qsort(item, count, size, compare) sort_indices(item, count)
 

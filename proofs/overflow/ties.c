@@ -1,22 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/ties.c: points of a block are in their list, and of numbers and sites that are there. */
-/* Without enclose_difference, are_different: all but one of 25 and 31 of 34 goals are proved; that an interval stays
-   while the next number is enclosed (condition of dyd_cert_enclosure_sub: decided in 5 s once, then not in 8 s), and
-   that nothing but numbers and the local interval changes (assigns_exit_part3, _4, assigns_normal_part2), stay open. */
-/* Without base_set_circle: 31 of 32 goals are proved; that the base keeps its first point when two local vectors are
-   released (ensures) was not decided in 10 s. */
-/* Without base_has: tried with two local quotients and a vector apart from all else; that a local list of three
-   pointers is read within its bounds (assert_rte_index_bound, assert_rte_mem_access_2), which rests on b->terms after
-   callees, was not decided in 2 s. */
-/* Without are_a_triangle: without loop invariants, which were not decided, 18 of 26 goals are proved; that the
-   points are there in the loop, and what is assigned, are open. */
-/* Without dyd_cert_fact_holds: 4 of 15 goals are proved; that points found are of the block's numbers (conditions of
-   are_same, are_different, base_set_line, base_has) is not seen after callees that change these numbers. */
-/* Without check_rectangles: 9 of 25 goals are proved; it has no contract on points and sites, whose alternative is an
-   invariant on all numbers of a block, which each enclosure changes. */
-/* Without dyd_cert_ties_read, read_members, read_fact, read_points, read_block: they have no contract: 2 of 14, 10
-   of 19, 5 of 14, 8 of 15 and 0 of 4 goals are proved without one; a block being read would have to be kept by all that
-   checker_ties is left out for (certificate.c). */
+/* Without read_points: with a contract by which read_point says of a point that it is one, and the list stays apart from
+   reader, sites and numbers, 15 of 24 goals were proved in 10 s. Open: that this holds first and is kept from point to
+   point (four goals of loop invariants), what read_count, read_point and check_rectangles require, what it ensures. */
+/* Without dyd_cert_ties_read, read_members, read_fact, read_block: they have no contract: 2 of 14, 10 of 19, 5 of 14 and
+   0 of 4 goals are proved without one; a block being read would have to be kept by all that checker_ties is left out for
+   (certificate.c). */
 #include "polys.h"
 #include "enclosures.h"
 #include "faces.h"
@@ -43,6 +32,9 @@ typedef const dyd_cert_sites *sites_of;
       (0 < a->count ==> \valid(a->number + (0 .. a->count - 1))) && \separated(a, a->number + (0 .. a->count - 1));
     predicate point_of(described d, numbers a) = \valid_read(d) && d->number[0] < a->count && d->number[1] < a->count &&
       \separated(d, a->number + (0 .. a->count - 1)) && \separated(d, a);
+    predicate whole_block(block_of b) = block(b) && \valid(b) && numbered(&b->algebra) &&
+      (\forall integer k; 0 <= k < b->points ==> point_of(b->point + k, &b->algebra)) &&
+      \separated(b, b->point + (0 .. b->points - 1), b->algebra.number + (0 .. b->algebra.count - 1));
     predicate is_described(block_of b, integer site) = \exists integer k; 0 <= k < b->points &&
       b->point[k].site == site;
     predicate stated(facts_of t, integer sites) = \valid_read(t) &&
@@ -51,15 +43,22 @@ typedef const dyd_cert_sites *sites_of;
       (\forall integer q; 0 <= q < t->facts ==> 2 <= t->fact[q].count && t->fact[q].first < t->members &&
         t->fact[q].first + t->fact[q].count <= t->members <= 1152921504606846976); */
 
+/* What enclosing changes: nothing else here has the types of these, so that all else is seen to stay. ANY_OF: what a
+ * check of 0 changes, as one list of numbers, which CVC4 finds again where more was assigned before. */
+#define ENCLOSURES_OF(a) a->relations.work, a->number[0 .. a->count - 1].p, a->number[0 .. a->count - 1].now
+#define ANY_OF(a) a->relations.work, a->relations.nomem, a->number[0 .. a->count - 1]
+
 /* Of algebra_enclose.c, algebra_bound.c and quotient.c: what is kept of a number is its enclosure; terms of a quotient
  * are its own, and that they change is not seen from here. */
 /*@ requires numbered(a) && k < a->count && 0 < p <= 16384;
-    assigns a->number[0 .. a->count - 1]; exits \false;
-    ensures \result == &a->number[k].now && interval(\result); */
+    assigns ENCLOSURES_OF(a); exits \false;
+    ensures \result == &a->number[k].now && interval(\result);
+    ensures \forall interval_of x; interval{Pre}(x) && \separated(x, a->number + (0 .. a->count - 1)) ==> interval(x); */
 const dyd_cert_enclosure *dyd_cert_algebra_enclose(dyd_cert_algebra *a, uint32_t k, long p);
 /*@ requires numbered(a) && \valid_read(q);
-    assigns a->number[0 .. a->count - 1], a->relations.nomem, a->relations.work;
-    exits \false; */
+    assigns ANY_OF(a); exits \false;
+    ensures \forall mpz_srcptr z; \at(whole(z), Pre) && \separated(z, a, a->number + (0 .. a->count - 1)) ==>
+      whole(z); */
 bool dyd_cert_poly_is_null(dyd_cert_algebra *a, const dyd_cert_poly *q);
 /*@ requires \valid(a); assigns *a; exits \false; */
 void dyd_cert_algebra_clear(dyd_cert_algebra *a);
@@ -86,36 +85,47 @@ void dyd_cert_ties_clear(dyd_cert_ties *t);
 /*@ requires side(s) && interval(x) && 0 < p <= 16384; assigns \nothing; exits \false; */
 static bool side_holds_enclosure(const dyd_cert_side *s, const dyd_cert_enclosure *x, long p);
 /*@ requires side(s) && numbered(a) && number < a->count;
-    assigns a->number[0 .. a->count - 1], a->relations.nomem, a->relations.work;
+    assigns ANY_OF(a);
     exits \false; */
 static bool side_is_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t number);
 /*@ requires side(s) && numbered(a) && number < a->count && 0 < p <= 16384 &&
-      \separated(s, s->den, a->number + (0 .. a->count - 1));
-    assigns a->number[0 .. a->count - 1]; exits \false; */
+      \separated(s, s->den, a, a->number + (0 .. a->count - 1));
+    assigns ENCLOSURES_OF(a); exits \false; */
 static bool side_lacks_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t number, long p);
 /*@ requires side(s) && numbered(a) && number < a->count && 0 < p <= 16384 &&
-      \separated(s, s->den, a->number + (0 .. a->count - 1));
-    assigns a->number[0 .. a->count - 1], a->relations.nomem, a->relations.work;
+      \separated(s, s->den, a, a->number + (0 .. a->count - 1));
+    assigns ANY_OF(a), ENCLOSURES_OF(a);
     exits \false; */
 static bool side_holds_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t number, long p);
-/*@ requires \valid(b); exits \false; */
+/*@ predicate rectangles(sites_of s) = \valid_read(s) &&
+      (0 < s->count ==> \valid_read(s->site + (0 .. s->count - 1))) &&
+      (\forall integer k; 0 <= k < s->count ==> side(&s->site[k].side[0]) && side(&s->site[k].side[1]));
+    predicate located(block_of b, sites_of s) = whole_block(b) && rectangles(s) &&
+      (\forall integer k; 0 <= k < b->points ==> b->point[k].site < s->count) &&
+      (\forall integer k, axis; 0 <= k < s->count && 0 <= axis <= 1 ==> \separated(&s->site[k].side[axis],
+        s->site[k].side[axis].den, &b->algebra, b->algebra.number + (0 .. b->algebra.count - 1))); */
+/*@ requires located(b, s) && \valid_read(in) && (in->err == \null || \valid(in->err)); exits \false; */
 static dyd_status check_rectangles(dyd_cert_block *b, dyd_cert_reader *in, const dyd_cert_sites *s);
 /*@ requires block(b); assigns \nothing; exits \false;
-    ensures \result != \null ==> \subset(\result, b->point + (0 .. b->points - 1)) && \result->site == site;
+    ensures \result != \null ==> \exists integer k; 0 <= k < b->points && \result == b->point + k;
+    ensures \result != \null ==> \result->site == site;
     ensures is_described(b, site) ==> \result != \null; */
 static const dyd_cert_described *find_described(const dyd_cert_block *b, uint32_t site);
 /*@ requires \valid(out) && interval(out) && numbered(a) && point_of(p, a) && point_of(q, a) && 0 <= axis <= 1 &&
-      0 < prec <= 16384 && \separated(out, a, a->number + (0 .. a->count - 1), p, q);
-    assigns ALL_OF(out), a->number[0 .. a->count - 1]; exits \false;
-    ensures interval(out); */
+      0 < prec <= 16384 && \separated(out, a, a->number + (0 .. a->count - 1)) &&
+      \separated(out, p) && \separated(out, q);
+    assigns ALL_OF(out), ENCLOSURES_OF(a); exits \false;
+    ensures interval(out);
+    ensures \forall interval_of x; interval{Pre}(x) && \separated(x, out, a->number + (0 .. a->count - 1)) ==>
+      interval(x); */
 static void enclose_difference(dyd_cert_enclosure *out, dyd_cert_algebra *a, const dyd_cert_described *p,
                                const dyd_cert_described *q, int axis, long prec);
 /*@ requires numbered(a) && point_of(p, a) && point_of(q, a);
-    assigns a->number[0 .. a->count - 1]; exits \false; */
+    assigns ENCLOSURES_OF(a); exits \false; */
 static bool are_different(dyd_cert_algebra *a, const dyd_cert_described *p, const dyd_cert_described *q);
 /*@ requires numbered(a) && \valid_read(p + (0 .. 2)) && point_of(p[0], a) && point_of(p[1], a) && point_of(p[2], a) &&
       \separated(p + (0 .. 2), a, a->number + (0 .. a->count - 1));
-    assigns a->number[0 .. a->count - 1]; exits \false; */
+    assigns ENCLOSURES_OF(a); exits \false; */
 static bool are_a_triangle(dyd_cert_algebra *a, const dyd_cert_described *const p[3]);
 /*@ requires \valid(out) && \valid_read(x) && \valid_read(y) && \valid_read(z) && \valid_read(w) && \valid(r) &&
       out != x;
@@ -125,17 +135,17 @@ static bool product_difference(dyd_cert_quotient *out, const dyd_cert_quotient *
 /*@ requires reads(in) && \valid(in) && \valid(kind); exits \false; */
 static dyd_status read_kind(dyd_cert_relation_kind *kind, dyd_cert_reader *in);
 /*@ requires numbered(a) && \valid_read(q);
-    assigns a->number[0 .. a->count - 1], a->relations.nomem, a->relations.work;
+    assigns ANY_OF(a);
     exits \false; */
 static bool number_is_null(dyd_cert_algebra *a, const dyd_cert_poly *q, bool by_bound);
 /*@ requires numbered(a) && point_of(p, a) && point_of(q, a);
-    assigns a->number[0 .. a->count - 1], a->relations.nomem, a->relations.work;
+    assigns ANY_OF(a);
     exits \false; */
 static bool are_same(dyd_cert_algebra *a, const dyd_cert_described *p, const dyd_cert_described *q, bool by_bound);
-/*@ requires block(b) && \valid(b) && numbered(&b->algebra) && \valid_read(site + (0 .. count - 1)) &&
+/*@ requires \valid_read(site + (0 .. count - 1)) &&
       (kind == DYD_CERT_CIRCLE ? 3 <= count : 2 <= count) && 0 <= kind <= 2 &&
       (\forall integer k; 0 <= k < count ==> is_described(b, site[k])) &&
-      (\forall integer k; 0 <= k < b->points ==> point_of(b->point + k, &b->algebra));
+      whole_block(b) && \separated(site + (0 .. count - 1), b, b->algebra.number + (0 .. b->algebra.count - 1));
     exits \false; */
 bool dyd_cert_fact_holds(dyd_cert_block *b, dyd_cert_relation_kind kind, const uint32_t *site, size_t count,
                          bool by_bound);
