@@ -150,16 +150,26 @@ def replace(path, text, what, by):
     return text.replace(what, by)
 
 
+def read_by(root, name):
+    """{path: text} of what Frama-C reads of a file: its contracts and all that they include but the system's headers."""
+    folders = [root / 'proofs' / 'overflow', root / 'src', root / 'include']
+    said, left = {}, [folders[0] / f'{name}.c']
+    while left:
+        path = left.pop()
+        if path in said:
+            continue
+        text = path.read_text(encoding='utf-8')
+        said[path] = with_loops(root, path.name if path.suffix == '.h' else name, text) if folders[0] != path.parent else text
+        for include in re.findall(r'^\s*#\s*include [<"]([^>"]+)[>"]', text, re.M):
+            left += [folder / include for folder in folders if (folder / include).exists()][:1]
+    return said
+
+
 def digest(root, name):
-    """Of all texts that the proof of a file rests on: its own, and all headers."""
-    source, here = Source(root, name), root / 'proofs' / 'overflow'
-    texts = {root / 'proofs' / 'overflow.py', source.path, *here.glob(f'{name}.*'), *here.rglob('*.h'),
-             *here.glob('*.h.acsl'), *(root / 'include').rglob('*.h'),
-             *(path for folder in ('base', 'dyadic', 'checker') for path in (root / 'src' / folder).glob('*.h'))}
-    whole = hashlib.sha256()
-    for path in sorted(texts):
-        text = path.read_bytes()
-        whole.update(f'{path.relative_to(root)} {len(text)}\n'.encode() + text)
+    """Of all that the proof of a file rests on."""
+    whole = hashlib.sha256(repr((OPTIONS, EXTRA.get(name))).encode())
+    for path, text in sorted(read_by(root, name).items()):
+        whole.update(f'\n{path.relative_to(root)} {len(text)}\n{text}'.encode())
     return whole.hexdigest()
 
 
