@@ -33,7 +33,8 @@ static void enclose_operation(dyd_cert_enclosure *x, dyd_cert_op op, const dyd_c
       (\forall integer k; 0 <= k <= a->count ==> a->number[k].a <= a->count && interval(&a->number[k].now));
     predicate stays{K, L}(numbers a) = block{L}(a) && \at(a->number, L) == \at(a->number, K) &&
       \at(a->count, L) == \at(a->count, K) && \at(a->relations.count, L) == \at(a->relations.count, K);
-    predicate elsewhere(interval_of x, numbers a) = \separated(x, a, a->number + (0 .. a->count)); */
+    predicate elsewhere(interval_of x, numbers a) = \base_addr(x) != \base_addr(a) &&
+      \base_addr(x) != \base_addr(a->number); */
 #define NUMBERS_OF(a) a->relations.work, a->number[0 .. a->count].p, a->number[0 .. a->count].now.lo[0].value, \
   a->number[0 .. a->count].now.hi[0].value, a->number[0 .. a->count].now.known
 

@@ -51,7 +51,7 @@ void dyd_cert_enclosure_add(dyd_cert_enclosure *x, const dyd_cert_enclosure *y);
 void dyd_cert_enclosure_sub(dyd_cert_enclosure *x, const dyd_cert_enclosure *y);
 /*@ requires \valid(x) && interval(x); assigns ALL_OF(x); exits \false; ensures interval(x); */
 void dyd_cert_enclosure_neg(dyd_cert_enclosure *x);
-/*@ requires \valid(x) && interval(x) && interval(y) && alone(x, y) && digits(p);
+/*@ requires \valid(x) && interval(x); requires interval(y); requires alone(x, y); requires digits(p);
     assigns ALL_OF(x); exits \false; ensures interval(x); */
 void dyd_cert_enclosure_mul(dyd_cert_enclosure *x, const dyd_cert_enclosure *y, long p);
 /*@ requires \valid(x) && interval(x) && interval(y) && alone(x, y) && digits(p); assigns ALL_OF(x); exits \false;
