@@ -1,27 +1,23 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra_enclose.c: operations on intervals, precisions up to 2^30. */
-/* Without enclose_value: 16 of 18 goals are proved; Timeout in 6 s: that the block stays, and what the second
-   dyd_cert_poly_enclose requires: x is of one of the numbers that change. */
-/* Without enclose_variable: 40 of 42 goals are proved; Timeout in 6 s: that the block stays, and what
-   dyd_cert_enclosure_mul requires. */
-/* Without dyd_cert_algebra_enclose, dyd_cert_poly_enclose: run without invariants of their loops 18 of 34 and 7 of 28
-   goals are proved: that the block stays while numbers of it change has to be said there, as of enclose_value. */
+/* Without dyd_cert_algebra_enclose: run without invariants of its loop 18 of 34 goals are proved: that the block stays
+   while numbers of it change has to be said there, as of enclose_value. */
 #include "enclosures.h"
 #include "polys.h"
 
-/*@ requires \valid(x) && interval(x) && few(p); assigns *x; exits \false; ensures interval(x); */
+/*@ requires \valid(x) && interval(x) && few(p); assigns ALL_OF(x); exits \false; ensures interval(x); */
 static void enclose_cosine(dyd_cert_enclosure *x, dyd_cert_op op, long p);
-/*@ requires \valid(x) && interval(x) && few(p); assigns *x; exits \false; ensures interval(x); */
+/*@ requires \valid(x) && interval(x) && few(p); assigns ALL_OF(x); exits \false; ensures interval(x); */
 static void enclose_hyperbolic(dyd_cert_enclosure *x, dyd_cert_op op, long p);
-/*@ requires \valid(x) && interval(x) && few(p) && 1 <= n <= 1024; assigns *x; exits \false;
+/*@ requires \valid(x) && interval(x) && few(p) && 1 <= n <= 1024; assigns ALL_OF(x); exits \false;
     ensures interval(x); */
 static void enclose_cycle(dyd_cert_enclosure *x, long n, long p);
-/*@ requires \valid(x) && interval(x) && few(p); assigns *x; exits \false; ensures interval(x); */
+/*@ requires \valid(x) && interval(x) && few(p); assigns ALL_OF(x); exits \false; ensures interval(x); */
 static void enclose_e(dyd_cert_enclosure *x, long p);
-/*@ requires \valid(x) && interval(x) && few(p); assigns *x; exits \false; ensures interval(x); */
+/*@ requires \valid(x) && interval(x) && few(p); assigns ALL_OF(x); exits \false; ensures interval(x); */
 static void enclose_inverse(dyd_cert_enclosure *x, dyd_cert_op op, long p);
 /*@ requires \valid(x) && interval(x) && \valid_read(n) && few(p) && (x == &n->now || \separated(n, x));
-    assigns *x; exits \false; ensures interval(x); */
+    assigns ALL_OF(x); exits \false; ensures interval(x); */
 static void enclose_function(dyd_cert_enclosure *x, const dyd_cert_number *n, long p);
 /*@ requires \valid(x) && interval(x) && interval(y) && alone(x, y) && few(p); exits \false; ensures interval(x); */
 static void enclose_operation(dyd_cert_enclosure *x, dyd_cert_op op, const dyd_cert_enclosure *y, long p);
@@ -41,7 +37,11 @@ static void enclose_operation(dyd_cert_enclosure *x, dyd_cert_op op, const dyd_c
 /*@ requires block(a) && k <= a->count && 64 <= p <= 16384; assigns NUMBERS_OF(a); exits \false;
     ensures stays{Pre, Post}(a); ensures \result == &a->number[k].now && interval(\result); */
 const dyd_cert_enclosure *dyd_cert_algebra_enclose(dyd_cert_algebra *a, uint32_t k, long p);
-/*@ requires \valid(out) && interval(out) && block(a) && \valid_read(q) && 64 <= p <= 16384;
+#define SAME_LISTS(a) (a->number == \at(a->number, Pre) && a->count == \at(a->count, Pre) && \
+  a->relations.count == \at(a->relations.count, Pre))
+/* What is made may be one of the block's numbers, or is apart from it. */
+#define OF_BLOCK(x, a) (elsewhere(x, a) || \exists integer k; 0 <= k <= a->count && x == &a->number[k].now)
+/*@ requires \valid(out) && interval(out) && block(a) && OF_BLOCK(out, a) && \valid_read(q) && 64 <= p <= 16384;
     assigns ALL_OF(out), NUMBERS_OF(a); exits \false; ensures interval(out); ensures stays{Pre, Post}(a); */
 void dyd_cert_poly_enclose(dyd_cert_enclosure *out, dyd_cert_algebra *a, const dyd_cert_poly *q, long p);
 /*@ requires \valid(x) && interval(x) && block(a) && \valid_read(v) &&
@@ -50,7 +50,7 @@ void dyd_cert_poly_enclose(dyd_cert_enclosure *out, dyd_cert_algebra *a, const d
 static void enclose_value(dyd_cert_enclosure *x, dyd_cert_algebra *a, const dyd_cert_quotient *v, long p);
 /*@ requires \valid(out) && interval(out) && elsewhere(out, a) && block(a) && k < a->relations.count &&
       64 <= p <= 16384;
-    assigns *out, NUMBERS_OF(a); exits \false; ensures interval(out); ensures stays{Pre, Post}(a); */
+    assigns ALL_OF(out), NUMBERS_OF(a); exits \false; ensures interval(out); ensures stays{Pre, Post}(a); */
 static void enclose_variable(dyd_cert_enclosure *out, dyd_cert_algebra *a, size_t k, long p);
 typedef const dyd_cert_bracket *bracketed;
 /*@ predicate bracket(bracketed r) = \valid_read(r) && 2 <= r->count <= 1001 &&
@@ -67,7 +67,7 @@ void dyd_cert_root_enclose(dyd_cert_enclosure *out, const dyd_cert_bracket *r, l
     requires n->op == DYD_CERT_ROOT ==> bracket(n->root) &&
       \separated(x, n->root, n->root->coeff + (0 .. n->root->count - 1));
     requires \exists integer k; 0 <= k <= a->count && x == &a->number[k].now;
-    assigns *x, NUMBERS_OF(a); exits \false; ensures interval(x); ensures stays{Pre, Post}(a); */
+    assigns ALL_OF(x), NUMBERS_OF(a); exits \false; ensures interval(x); ensures stays{Pre, Post}(a); */
 static void enclose_leaf(dyd_cert_enclosure *x, dyd_cert_algebra *a, const dyd_cert_number *n, long p);
 
 /*@ requires block(a) && k < a->count; assigns NUMBERS_OF(a); exits \false;

@@ -21,6 +21,8 @@ typedef const dyd_cert_algebra *numbers;
 
 /* Of poly.c and quotient.c, as others call them: that polynomials are what these two files keep (terms.h) is no
  * condition here, nor that terms are there; what they change is. */
+/*@ requires \valid(r); assigns r->work; exits \false; */
+static inline bool dyd_cert_count_work(dyd_cert_relations *r, size_t work);
 /*@ requires \valid(p); assigns *p; exits \false; ensures p->count == 0; */
 void dyd_cert_poly_clear(dyd_cert_poly *p);
 /*@ requires \valid(p) && \valid_read(q) && \valid(r) && p != q; assigns *p, r->nomem, r->work; exits \false; */
