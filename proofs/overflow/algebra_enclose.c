@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra_enclose.c: operations on intervals, precisions up to 2^30. */
-/* Without dyd_cert_algebra_enclose: run without invariants of its loop 18 of 34 goals are proved: that the block stays
-   while numbers of it change has to be said there, as of enclose_value. */
+/* Unproved enclose_operation_assigns_exit_part5, enclose_operation_assigns_exit_part6,
+   enclose_operation_assigns_normal_part5, enclose_operation_assigns_normal_part6: WP counts what `?:` gives, the sign
+   handed to dyd_cert_enclosure_extreme, as memory that is assigned. */
 #include "enclosures.h"
 #include "polys.h"
 
@@ -19,14 +20,16 @@ static void enclose_inverse(dyd_cert_enclosure *x, dyd_cert_op op, long p);
 /*@ requires \valid(x) && interval(x) && \valid_read(n) && few(p) && (x == &n->now || \separated(n, x));
     assigns ALL_OF(x); exits \false; ensures interval(x); */
 static void enclose_function(dyd_cert_enclosure *x, const dyd_cert_number *n, long p);
-/*@ requires \valid(x) && interval(x) && interval(y) && alone(x, y) && few(p); exits \false; ensures interval(x); */
+/*@ requires \valid(x) && interval(x) && interval(y) && alone(x, y) && few(p); assigns ALL_OF(x); exits \false;
+    ensures interval(x); */
 static void enclose_operation(dyd_cert_enclosure *x, dyd_cert_op op, const dyd_cert_enclosure *y, long p);
 /* The block: numbers are made of those before, leaves are of numbers, roots are in brackets. The number to be added is
  * in its place behind those before. */
 /*@ predicate block(numbers a) = \valid(a) && a->relations.count <= 64 && a->count < 4294967295 &&
       \valid(a->number + (0 .. a->count)) && \separated(a, a->number + (0 .. a->count)) &&
       (\forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number <= a->count) &&
-      (\forall integer k; 0 <= k <= a->count ==> a->number[k].a <= a->count && interval(&a->number[k].now));
+      (\forall integer k; 0 <= k <= a->count ==> a->number[k].a <= a->count && a->number[k].b <= a->count &&
+        interval(&a->number[k].now));
     predicate stays{K, L}(numbers a) = block{L}(a) && \at(a->number, L) == \at(a->number, K) &&
       \at(a->count, L) == \at(a->count, K) && \at(a->relations.count, L) == \at(a->relations.count, K);
     predicate elsewhere(interval_of x, numbers a) = \base_addr(x) != \base_addr(a) &&
@@ -34,6 +37,8 @@ static void enclose_operation(dyd_cert_enclosure *x, dyd_cert_op op, const dyd_c
 #define NUMBERS_OF(a) a->relations.work, a->number[0 .. a->count].p, a->number[0 .. a->count].now.lo[0].value, \
   a->number[0 .. a->count].now.hi[0].value, a->number[0 .. a->count].now.known
 
+/*@ requires 0 <= op < 29; assigns \nothing; exits \false; ensures 0 <= \result <= 2; */
+int dyd_cert_op_operands(dyd_cert_op op);
 /*@ requires block(a) && k <= a->count && 64 <= p <= 16384; assigns NUMBERS_OF(a); exits \false;
     ensures stays{Pre, Post}(a); ensures \result == &a->number[k].now && interval(\result); */
 const dyd_cert_enclosure *dyd_cert_algebra_enclose(dyd_cert_algebra *a, uint32_t k, long p);
