@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra.c: names of operations, leaves are in their lists. */
-/* Without dyd_cert_algebra_clear: it has no contract; without one all of 13 goals stay open. That what one number has
-   is apart from what others have would have to be said of all pairs. */
 #include "enclosures.h"
 #include "polys.h"
 
@@ -18,8 +16,20 @@ typedef const dyd_cert_bracket *bracketed;
 static void root_free(dyd_cert_bracket *r);
 /*@ requires \valid(x); assigns *x; exits \false; */
 void dyd_cert_quotient_clear(dyd_cert_quotient *x);
-/*@ requires \valid(n) && (n->root == \null || bracket(n->root)); exits \false; */
+/* What has to be there when numbers from k on are cleared. */
+/*@ predicate clearable(numbers a, integer k) = \valid(a) && 0 <= k <= a->count <= 4294967295 &&
+      (k < a->count ==> \valid(a->number + (k .. a->count - 1))) &&
+      (\forall integer j; k <= j < a->count ==> a->number[j].root == \null || bracket(a->number[j].root)) &&
+      a->relations.count <= 64 &&
+      (\forall integer j; 0 <= j < a->relations.count ==> whole(&a->leaf[j].bound[0])) &&
+      (0 < a->cosines ==> \valid(a->cosine + (0 .. a->cosines - 1)) && \separated(a, a->cosine + (0 .. a->cosines - 1))); */
+/*@ requires \valid(n) && (n->root == \null || bracket(n->root)); exits \false;
+    ensures \forall numbers a, integer k; \old(clearable(a, k) && n == a->number + k && k < a->count) ==>
+      clearable(a, k + 1) && a->count == \old(a->count); */
 void dyd_cert_number_clear(dyd_cert_number *n);
+
+/*@ requires clearable(a, 0); exits \false; */
+void dyd_cert_algebra_clear(dyd_cert_algebra *a);
 
 /*@ requires 0 <= op < 29; assigns \nothing; exits \false; ensures 0 <= \result <= 2; */
 int dyd_cert_op_operands(dyd_cert_op op);
