@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/cycle.c: orders up to DYD_CERT_ORDER; every cosine is in the list. */
-/* Without psi_rest: without an invariant of its loop; Timeout in 5 s: reads of c, sums in the indices and the
-   conditions of mpz_set_si and dyd_cert_poly_add_scaled there; the run of 90 s ended before all goals were tried. */
 /* Unproved extend_cosines_assigns_exit_part1: CVC4 does not see that the relations are part of the block. */
 /* Unproved extend_cosines_assigns_normal: CVC4 does not see that the relations are part of the block. */
 #include "polys.h"
@@ -21,9 +19,10 @@
 #define ALLOC alloc_cosines
 #include "lists.h"
 
-/*@ requires 0 < n ==> \valid(to) && \valid_read(from); exits \false; */
+/*@ requires 0 < n ==> \valid(to + (0 .. n - 1)) && \valid_read(from + (0 .. n - 1));
+    assigns to[0 .. n - 1]; exits \false; */
 void move_terms(dyd_cert_term *to, const dyd_cert_term *from, size_t n);
-#define memmove(to, from, n) move_terms(to, from, n)
+#define memmove(to, from, n) move_terms(to, from, (n) / sizeof *(to))
 
 /*@ requires \valid(a) && a->relations.count <= 64; exits \false; ensures \result <= 64;
     assigns a->relations.count, a->leaf[0 .. 63]; */
