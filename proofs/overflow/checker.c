@@ -10,21 +10,6 @@
 #include "base/alloc.h"
 #include "base/error.h"
 
-/* That checker(c) holds in the end, part by part, which CVC4 does not prove as one. */
-#define CHECKER_LEFT \
-  ensures \result == DYD_OK ==> \valid(c); \
-  ensures \result == DYD_OK ==> \valid(c->in.in); \
-  ensures \result == DYD_OK ==> c->in.err == \null || \valid(c->in.err); \
-  ensures \result == DYD_OK ==> c->in.cap <= 1152921504606846976; \
-  ensures \result == DYD_OK && 0 < c->in.cap ==> \valid(c->in.line + (0 .. c->in.cap - 1)); \
-  ensures \result == DYD_OK && 0 < c->in.cap ==> \base_addr(c->in.line) == \base_addr(LINES + 0); \
-  ensures \result == DYD_OK ==> \separated(c, c->in.err, c->in.in, LINES + (..)); \
-  ensures \result == DYD_OK ==> \separated(&c->in, c->in.err, c->in.in, LINES + (..)); \
-  ensures \result == DYD_OK ==> c->sites.count <= 4294967295; \
-  ensures \result == DYD_OK && 0 < c->sites.count ==> \valid(c->sites.site + (0 .. c->sites.count - 1)); \
-  ensures \result == DYD_OK && 0 < c->sites.count ==> \separated(c->sites.site + (0 .. c->sites.count - 1), c, \
-    c->in.err, c->in.in, LINES + (..));
-
 #define ITEM dyd_cert_corner
 #define RESERVE dyd_reserve
 #define ALLOC alloc_corners
@@ -69,11 +54,6 @@ void dyd_cert_corners_clear(dyd_cert_corners *c);
     exits \false; ensures \result == DYD_OK ==> c->count == \old(c->count) + 1; */
 static dyd_status corners_add(dyd_cert_corners *c, uint32_t i, const dyd_exact u[2]);
 
-
-/* Of a local object: it is none of those that pointers of c lead to, which then are there when it is not. */
-#define OUTSIDE(x) (\base_addr(x) != \base_addr(c) && \base_addr(x) != \base_addr(c->in.err) && \
-    \base_addr(x) != \base_addr(c->in.in) && \base_addr(x) != \base_addr(LINES + 0) && \
-    \base_addr(x) != \base_addr(c->sites.site))
 
 typedef dyd_cert_sites *list_of_sites;
 typedef dyd_cert_site *new_site;
