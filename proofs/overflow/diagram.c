@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/diagram.c: corners of a polygon are in its list, ends of the window in theirs. */
-/* Without check_polygon, check_polygons: 17 of 20, 23 of 24 and 18 of 25 goals are proved; that the
+/* Without check_polygons: 17 of 20, 23 of 24 and 18 of 25 goals are proved; that the
    points read so far are a polygon (loop_invariant_5, ensures), that the checker stays when polygons are counted
    (ensures_2 of check_polygon), and conditions of strncmp and check_polygon and the ensures of check_polygons were not
    decided in 6 s. */
