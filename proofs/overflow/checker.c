@@ -1,10 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/checker.c: what is read of sites and pairs is in their lists, in order. */
-/* Without dyd_checker_head: its goals but one are proved when it is admitted that the checker stays while a goal is
-   read; its ensures, that the checker is kept, was not decided in 8 s. */
-/* Without read_alias, dyd_checker_sites, dyd_checker_places, read_edges: all goals but ensures (three, one, one and
-   two) are proved; open is that what pointers of the checker lead to is there when local objects are not any more,
-   after callees that may change any memory: not decided in 5 s with OUTSIDE of these objects admitted. */
 /* Without dyd_checker_corners: 5 of 8 goals are proved; that the checker is what it was after a corner was added (loop
    invariants), and that it is there at all after a callee that may change any memory (assert_rte_mem_access_2), was not
    decided in 5 s. */
@@ -46,7 +41,7 @@ static dyd_status check_goal(dyd_checker *c);
 /*@ requires checker(c);
     assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno, c->report.outcome,
       c->report.goal_bits, c->report.goal, c->report.capped;
-    exits \false; ensures \result == DYD_OK ==> checker(c);
+    exits \false; CHECKER_LEFT
     ensures \result == DYD_OK ==> \old(-999999999999999999 <= c->report.goal_bits <= 999999999999999999) ==>
       -999999999999999999 <= c->report.goal_bits <= 999999999999999999; */
 dyd_status dyd_checker_head(dyd_checker *c);
@@ -59,11 +54,6 @@ void dyd_cert_corners_clear(dyd_cert_corners *c);
     exits \false; ensures \result == DYD_OK ==> c->count == \old(c->count) + 1; */
 static dyd_status corners_add(dyd_cert_corners *c, uint32_t i, const dyd_exact u[2]);
 
-
-/* Of a local object: it is none of those that pointers of c lead to, which then are there when it is not. */
-#define OUTSIDE(x) (\base_addr(x) != \base_addr(c) && \base_addr(x) != \base_addr(c->in.err) && \
-    \base_addr(x) != \base_addr(c->in.in) && \base_addr(x) != \base_addr(LINES + 0) && \
-    \base_addr(x) != \base_addr(c->sites.site))
 
 typedef dyd_cert_sites *list_of_sites;
 typedef dyd_cert_site *new_site;
@@ -99,11 +89,14 @@ dyd_status dyd_cert_site_set_place(dyd_cert_site *site, const dyd_exact at[2]);
 dyd_status dyd_cert_faces_init(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const dyd_cert_corner *corner,
                                size_t corners);
 
-/*@ requires located(c) && reads(&c->in); exits \false; */
+#define LINE_LEFT \
+  ensures \result == DYD_OK && c->in.at != \null ==> 0 < c->in.cap && inside(&c->in, c->in.at);
+/*@ requires located(c) && reads(&c->in); exits \false; ensures \result == DYD_OK ==> reads(&c->in); */
 static dyd_status read_rectangle(dyd_checker *c);
 /*@ requires located(c) && reads(&c->in); exits \false;
-    ensures \result == DYD_OK ==> located(c);
-    ensures \result == DYD_OK ==> reads(&c->in);
+    CHECKER_LEFT LINE_LEFT
+    ensures \result == DYD_OK ==> room(&c->sites);
+    ensures \result == DYD_OK ==> \separated(c->sites.site + (0 .. c->sites.cap - 1), c, c->in.err, c->in.in, LINES + (..));
     ensures \result == DYD_OK ==> c->sites.count == \old(c->sites.count) + 1; */
 static dyd_status read_alias(dyd_checker *c);
 /*@ requires located(c) && c->sites.count == 0; exits \false;

@@ -17,6 +17,26 @@ typedef const dyd_checker *checking;
     predicate checks(checking c) = checker(c) && reads(&c->in);
     predicate point(checking c) = exact(&c->point[0]) && exact(&c->point[1]); */
 
+/* That checker(c) holds in the end, part by part, which CVC4 does not prove as one. */
+#define CHECKER_LEFT \
+  ensures \result == DYD_OK ==> \valid(c); \
+  ensures \result == DYD_OK ==> \valid(c->in.in); \
+  ensures \result == DYD_OK ==> c->in.err == \null || \valid(c->in.err); \
+  ensures \result == DYD_OK ==> c->in.cap <= 1152921504606846976; \
+  ensures \result == DYD_OK && 0 < c->in.cap ==> \valid(c->in.line + (0 .. c->in.cap - 1)); \
+  ensures \result == DYD_OK && 0 < c->in.cap ==> \base_addr(c->in.line) == \base_addr(LINES + 0); \
+  ensures \result == DYD_OK ==> \separated(c, c->in.err, c->in.in, LINES + (..)); \
+  ensures \result == DYD_OK ==> \separated(&c->in, c->in.err, c->in.in, LINES + (..)); \
+  ensures \result == DYD_OK ==> c->sites.count <= 4294967295; \
+  ensures \result == DYD_OK && 0 < c->sites.count ==> \valid(c->sites.site + (0 .. c->sites.count - 1)); \
+  ensures \result == DYD_OK && 0 < c->sites.count ==> \separated(c->sites.site + (0 .. c->sites.count - 1), c, \
+    c->in.err, c->in.in, LINES + (..));
+
+/* Of a local object: it is none of those that pointers of c lead to, which then are there when it is not. */
+#define OUTSIDE(x) (\base_addr(x) != \base_addr(c) && \base_addr(x) != \base_addr(c->in.err) && \
+    \base_addr(x) != \base_addr(c->in.in) && \base_addr(x) != \base_addr(LINES + 0) && \
+    \base_addr(x) != \base_addr(c->sites.site))
+
 /*@ requires checks(c);
     assigns c->in.at, c->in.line[0 .. c->in.cap - 1], *c->in.err; exits \false; ensures \result == DYD_OK ==>
       checks(c); */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/diagram.c: corners of a polygon are in its list, ends of the window in theirs. */
-/* Without read_vertices, check_polygon, check_polygons: 17 of 20, 23 of 24 and 18 of 25 goals are proved; that the
+/* Without check_polygons: 17 of 20, 23 of 24 and 18 of 25 goals are proved; that the
    points read so far are a polygon (loop_invariant_5, ensures), that the checker stays when polygons are counted
    (ensures_2 of check_polygon), and conditions of strncmp and check_polygon and the ensures of check_polygons were not
    decided in 6 s. */
@@ -67,7 +67,8 @@ void dyd_cert_window_clear(dyd_cert_window *w);
 static dyd_status read_vertices(dyd_checker *c);
 /*@ requires drawing(c) && reads(&c->in) && \valid(area2) && sized(area2) && frame(w) && i < c->sites.count &&
       \separated(area2, w, c, c->in.err, c->in.in, LINES + (..));
-    exits \false; ensures sized(area2); ensures \result == DYD_OK ==> drawing(c); */
+    exits \false; ensures sized(area2); CHECKER_LEFT
+    ensures \result == DYD_OK ==> drawn_polygon(c); */
 static dyd_status check_polygon(dyd_checker *c, dyd_exact *area2, const dyd_cert_window *w, uint32_t i);
 /*@ requires drawing(c) && \valid(area2) && sized(area2) && frame(w) &&
       \separated(area2, w, c, c->in.err, c->in.in, LINES + (..));

@@ -66,8 +66,16 @@ dyd_status dyd_cert_read_number(dyd_exact *out, dyd_cert_reader *r);
     ensures \result == DYD_OK ==> certified(out) && certified(out + 1); */
 dyd_status dyd_cert_read_point(dyd_exact out[2], dyd_cert_reader *r);
 /*@ requires reads(r) && \valid(out) && exact(&out->lo) && exact(&out->hi) && \separated(out, r, r->err);
+    requires \separated(out, r->in, LINES + (..)) && (out->den == \null || \separated(out->den, r->in, LINES + (..)));
     requires out->den == \null || \valid(out->den) && \separated(out->den, out, r, r->err);
-    assigns r->at, r->line[0 .. r->cap - 1], *out, (*out->den)[0], *r->err; exits \false; */
+    assigns r->at, r->line[0 .. r->cap - 1], *out, (*out->den)[0], *r->err; exits \false;
+    ensures \result == DYD_OK ==> \valid(r) && \valid(r->in);
+    ensures \result == DYD_OK ==> r->err == \null || \valid(r->err);
+    ensures \result == DYD_OK ==> r->cap <= 1152921504606846976;
+    ensures \result == DYD_OK ==> \separated(r, r->err, r->in, LINES + (..));
+    ensures \result == DYD_OK && 0 < r->cap ==> \valid(r->line + (0 .. r->cap - 1)) &&
+      \base_addr(r->line) == \base_addr(LINES + 0);
+    ensures \result == DYD_OK && r->at != \null ==> 0 < r->cap && inside(r, r->at); */
 dyd_status dyd_cert_read_side(dyd_cert_side *out, dyd_cert_reader *r);
 
 #endif
