@@ -159,7 +159,8 @@ def read_by(root, name):
         if path in said:
             continue
         text = path.read_text(encoding='utf-8')
-        said[path] = with_loops(root, path.name if path.suffix == '.h' else name, text) if folders[0] != path.parent else text
+        ours = path.is_relative_to(folders[0])
+        said[path] = text if ours else with_loops(root, name if path.suffix == '.c' else path.name, text)
         for include in re.findall(r'^\s*#\s*include [<"]([^>"]+)[>"]', text, re.M):
             left += [folder / include for folder in folders if (folder / include).exists()][:1]
     return said

@@ -89,14 +89,14 @@ dyd_status dyd_cert_site_set_place(dyd_cert_site *site, const dyd_exact at[2]);
 dyd_status dyd_cert_faces_init(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const dyd_cert_corner *corner,
                                size_t corners);
 
-#define LINE_LEFT \
-  ensures \result == DYD_OK && c->in.at != \null ==> 0 < c->in.cap && inside(&c->in, c->in.at);
 /*@ requires located(c) && reads(&c->in); exits \false; ensures \result == DYD_OK ==> reads(&c->in); */
 static dyd_status read_rectangle(dyd_checker *c);
 /*@ requires located(c) && reads(&c->in); exits \false;
-    CHECKER_LEFT LINE_LEFT
+    CHECKER_LEFT
+    ensures \result == DYD_OK && c->in.at != \null ==> 0 < c->in.cap && inside(&c->in, c->in.at);
     ensures \result == DYD_OK ==> room(&c->sites);
-    ensures \result == DYD_OK ==> \separated(c->sites.site + (0 .. c->sites.cap - 1), c, c->in.err, c->in.in, LINES + (..));
+    ensures \result == DYD_OK ==>
+      \separated(c->sites.site + (0 .. c->sites.cap - 1), c, c->in.err, c->in.in, LINES + (..));
     ensures \result == DYD_OK ==> c->sites.count == \old(c->sites.count) + 1; */
 static dyd_status read_alias(dyd_checker *c);
 /*@ requires located(c) && c->sites.count == 0; exits \false;

@@ -4,8 +4,8 @@
 /* Without mpz_set_area: v >> 64 is no shift of the 64 bits that stand for 128 here. */
 /* Without spans_all: 96 of 111 goals are proved in 10 s. Open: that an extent that was just begun is one, which rests on
    the ends of the window by its axis, and that all stays when it ends. */
-/* Without dyd_cert_distance_holds, box_is_covered: contracts are written; run with others they were stopped after
-   190 s, by themselves they were not. */
+/* Without dyd_cert_distance_holds, box_is_covered: contracts are written; run together with others they
+   were stopped after 190 s; neither was run by itself. */
 /* Unproved has_two_near_sites_assert: that all stays when s->effort grows, decided in 10 s when all is quiet. */
 #define __int128 long long
 #define SPELL_OUT
