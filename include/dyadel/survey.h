@@ -33,12 +33,12 @@ typedef struct dyd_survey dyd_survey;
 
 /* A plan: if the points of the rows turn out where they say, no pair asked for is indeterminate, but for those that tie
  * at the nominal places: proved by one triangulation of these rectangles. No row can be left out, as far as its
- * own faces tell (in small plans: at all), and all accuracies are as coarse as one common
- * factor makes them, then each by itself in powers of 2 [SUR-1].
- * dyd_survey_left: how many pairs stay open even so (the accuracy is not enough, or rectangles are fixed by their
- * centres). pd is borrowed for the call; options may be NULL. Returns DYD_OK; DYD_E_ARG; DYD_CAPPED when pd is;
- * DYD_CANCELLED; DYD_E_NOMEM: *out is NULL then. Cost: for a face of m sites at most m^2 triangulations of m sites,
- * usually few; some triangulations of all. */
+ * own faces tell (in small plans: at all; in large faces: the sites near it), and all accuracies are as coarse as one
+ * common factor makes them, then each by itself in powers of 2 [SUR-1]. dyd_survey_left: how many pairs stay open even
+ * so (the accuracy is not enough, or rectangles are fixed by their centres). pd is borrowed for the call; options may
+ * be NULL. Returns DYD_OK; DYD_E_ARG; DYD_CAPPED when pd is; DYD_CANCELLED; DYD_E_NOMEM: *out is NULL then. Cost: for a
+ * face of m sites at most m^2 triangulations of m sites, m <= 16; in larger ones an update for each row, and some
+ * triangulations of the sites near it; some of all. */
 DYD_API dyd_status dyd_survey_new(dyd_survey **out, const dyd_delaunay *pd, const dyd_survey_options *options,
                                   dyd_error *err);
 DYD_API void dyd_survey_free(dyd_survey *s);

@@ -58,56 +58,105 @@ static dyd_status find_targets(dyd_survey *s, const dyd_delaunay *pd) {
 
 /* ---- choosing ---- */
 
+static bool has_large_face(const dyd_delaunay *pd) {
+  dyd_index_list face = {0};
+  bool outer, large = false;
+  for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd) && !large; f++)
+    large = dyd_delaunay_face(&face, &outer, pd, f) == DYD_OK && face.count > DYD_SURVEY_LARGE;
+  dyd_index_list_clear(&face);
+  return large;
+}
+
+static dyd_status mark_near(bool *near, const dyd_delaunay *pd, uint32_t i) {
+  dyd_index_list l = {0};
+  dyd_status st = dyd_delaunay_neighbours(&l, pd, i, DYD_TIE);
+  near[i] = true;
+  for (size_t k = 0; k < l.count && st == DYD_OK; k++) near[l.item[k]] = true;
+  dyd_index_list_clear(&l);
+  return st;
+}
+
 static void forget_rows(dyd_survey *s) {
   for (size_t f = 0; f < s->faces; f++) free(s->face[f].row);
   s->faces = 0;
   for (size_t i = 0; i < s->sites; i++) s->site[i].chosen = false;
 }
 
-static dyd_status recount_left(dyd_survey *s) {
+/* near[i] (may be NULL) is set where an open target, or a possible neighbour of one of its ends, is. */
+static dyd_status recount_left(dyd_survey *s, bool *near) {
   dyd_delaunay *now = NULL;
   dyd_sites *sites = NULL;
   dyd_status st = dyd_survey_triangulate(&now, &sites, s, false);
   if (st == DYD_OK) s->left = dyd_survey_open(s, now);
+  for (size_t k = 0; k < s->target.count && st == DYD_OK && near; k++) {
+    const dyd_pair *p = &s->target.item[k];
+    if (!dyd_survey_is_open(now, p)) continue;
+    st = mark_near(near, now, p->i);
+    if (st == DYD_OK) st = mark_near(near, now, p->j);
+  }
   dyd_delaunay_free(now);
   dyd_sites_free(sites);
   return st;
 }
 
-/* All faces of pd; then of the triangulation with what was chosen, as long as that helps. */
+/* In large faces; then in all faces of the triangulation with what was chosen, as long as that helps. */
 static dyd_status choose_rounds(dyd_survey *s, const dyd_delaunay *pd) {
-  dyd_status st = DYD_OK;
+  dyd_status st = has_large_face(pd) ? dyd_survey_crowds(s) : DYD_OK;
   s->left = s->target.count;
+  if (s->faces && st == DYD_OK) st = recount_left(s, NULL);
   for (int round = 0; round < ROUNDS && s->left && st == DYD_OK; round++) {
     dyd_delaunay *now = NULL;
     dyd_sites *sites = NULL;
     size_t faces = s->faces;
-    if (round) st = dyd_survey_triangulate(&now, &sites, s, false);
-    const dyd_delaunay *at = round ? now : pd;
+    if (faces) st = dyd_survey_triangulate(&now, &sites, s, false);
+    const dyd_delaunay *at = faces ? now : pd;
     for (size_t f = 0; st == DYD_OK && f < dyd_delaunay_undecided_faces(at); f++) st = dyd_survey_face(s, at, f);
     dyd_delaunay_free(now);
     dyd_sites_free(sites);
-    if (st == DYD_OK) st = recount_left(s);
+    if (st == DYD_OK) st = recount_left(s, NULL);
     if (s->faces == faces) return st;
   }
   return st;
 }
 
-/* Takes rows out whose sites are not chosen, or takes all sites back that have rows. */
-static void settle_rows(dyd_survey *s, bool out) {
+/* Takes rows out whose sites are not chosen. */
+static void settle_rows(dyd_survey *s) {
   for (size_t f = 0; f < s->faces; f++) {
     dyd_face_rows *r = &s->face[f];
     size_t kept = 0;
-    for (size_t k = 0; k < r->count; k++) {
-      if (!out) s->site[r->row[k].site].chosen = true;
+    for (size_t k = 0; k < r->count; k++)
       if (s->site[r->row[k].site].chosen) r->row[kept++] = r->row[k];
-    }
     r->count = kept;
   }
 }
 
+/* Those who are near (NULL: all) and have a row are measured, and no coarser than the common factor says. */
+static void restore_rows(dyd_survey *s, const bool *near) {
+  for (size_t f = 0; f < s->faces; f++)
+    for (size_t k = 0; k < s->face[f].count; k++) {
+      dyd_survey_site *p = &s->site[s->face[f].row[k].site];
+      if (near && !near[s->face[f].row[k].site]) continue;
+      p->chosen = true;
+      p->coarser = 0;
+    }
+}
+
+/* Where more is open than the `before` that were, those near are taken back, as often as that may help; then all. */
+static dyd_status restore_open(dyd_survey *s, size_t before) {
+  bool *near = calloc(s->sites + 1, sizeof *near);
+  dyd_status st = near ? recount_left(s, near) : DYD_E_NOMEM;
+  for (int round = 0; round < ROUNDS && st == DYD_OK && s->left > before; round++) {
+    restore_rows(s, near);
+    st = recount_left(s, near);
+  }
+  if (s->left > before) restore_rows(s, NULL);
+  s->left = before;
+  free(near);
+  return st;
+}
+
 /* What one face needed another one may have made needless: faces tell. A pair that is decided within its face may be
- * open beside the others, where a disc about both ends has room; then all sites are taken back. */
+ * open beside the others, where a disc about both ends has room; then sites are taken back. */
 static dyd_status unchoose_by_faces(dyd_survey *s) {
   size_t before = s->left;
   dyd_status st = DYD_OK;
@@ -119,9 +168,8 @@ static dyd_status unchoose_by_faces(dyd_survey *s) {
         st = dyd_survey_face_needs(&needs, s, &s->open.face[s->open.of[q]], site);
       if (st == DYD_OK && !needs) s->site[site].chosen = false;
     }
-  if (st == DYD_OK) st = recount_left(s);
-  settle_rows(s, s->left <= before);
-  s->left = before;
+  if (st == DYD_OK) st = restore_open(s, before);
+  settle_rows(s);
   return st;
 }
 
@@ -133,11 +181,11 @@ static dyd_status unchoose_by_all(dyd_survey *s) {
     for (size_t k = 0; k < s->face[f].count && st == DYD_OK; k++) {
       bool *chosen = &s->site[s->face[f].row[k].site].chosen;
       *chosen = false;
-      st = recount_left(s);
+      st = recount_left(s, NULL);
       *chosen = s->left > before;
     }
   s->left = before;
-  settle_rows(s, true);
+  settle_rows(s);
   return st;
 }
 
@@ -234,16 +282,13 @@ static dyd_status loosen_site(dyd_survey *s, uint32_t site) {
   return st;
 }
 
-/* Faces tell; all together are looked at in the end, and if they should not hold, the common factor alone counts. */
+/* Faces tell; all together are looked at in the end, and where they should not hold, the common factor alone counts. */
 static dyd_status loosen_each(dyd_survey *s) {
   size_t before = s->left;
   dyd_status st = DYD_OK;
   for (size_t f = 0; f < s->faces; f++)
     for (size_t k = 0; k < s->face[f].count && st == DYD_OK; k++) st = loosen_site(s, s->face[f].row[k].site);
-  if (st == DYD_OK) st = recount_left(s);
-  for (size_t i = 0; i < s->sites && s->left > before; i++) s->site[i].coarser = 0;
-  if (s->left > before) s->left = before;
-  return st;
+  return st == DYD_OK ? restore_open(s, before) : st;
 }
 
 /* ---- the plan ---- */

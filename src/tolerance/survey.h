@@ -20,10 +20,12 @@ typedef struct dyd_face_rows {
   size_t count;
 } dyd_face_rows;
 
-/* The undecided faces of the triangulation, the sites of each ascending; those of site i are
- * of[start[i]] to of[start[i + 1] - 1]. */
+/* Where it is looked what a site does: the undecided faces of the triangulation, and for each site in the plan that is
+ * in a large one, whoever is near it (owner: this site; else DYD_NONE). The sites of each are ascending; those of site
+ * i are of[start[i]] to of[start[i + 1] - 1]. */
 typedef struct dyd_survey_faces {
   dyd_index_list *face;
+  uint32_t *owner;
   size_t count;
   size_t *start;
   uint32_t *of;
@@ -38,7 +40,7 @@ struct dyd_survey {
   size_t sites;
   dyd_survey_site *site;
   dyd_pair_list target; /* asked for, open, and no tie; sorted */
-  size_t *first;        /* those with the lower end i: target.item[first[i]] to target.item[first[i + 1] - 1] */
+  size_t *first, *at;   /* those with an end i: target.item[at[first[i]]] to target.item[at[first[i + 1] - 1]] */
   dyd_survey_faces open;
   size_t ties, left;
   mpq_t scale;
@@ -61,10 +63,37 @@ size_t dyd_survey_open(const dyd_survey *s, const dyd_delaunay *pd);
 double dyd_survey_needed(const dyd_survey *s, uint32_t i);
 double dyd_survey_now(const dyd_survey *s, uint32_t i);
 
-/* survey_index.c: sorts the targets and finds s->first; fills in s->open; releases both. */
+/* survey_index.c: sorts the targets, finds s->first and s->at; fills in s->open; releases them. */
 dyd_status dyd_survey_index_targets(dyd_survey *s);
 dyd_status dyd_survey_index_faces(dyd_survey *s, const dyd_delaunay *pd);
 void dyd_survey_index_clear(dyd_survey *s);
+
+/* A face of more sites than these is large. */
+#ifdef DYD_ARMED
+enum { DYD_SURVEY_LARGE = 8 };
+#else
+enum { DYD_SURVEY_LARGE = 16 };
+#endif
+
+/* survey_measure.c: sites are measured one by one in a triangulation of all. open[k]: is target k; degree[i]: how many
+ * open ones end at site i. */
+typedef struct dyd_measuring {
+  dyd_survey *s;
+  dyd_sites *sites;
+  dyd_delaunay *now;
+  bool *open;
+  size_t *degree, left;
+} dyd_measuring;
+
+/* Sites as they are chosen now. To be ended, whatever it returns. */
+dyd_status dyd_measuring_begin(dyd_measuring *m, dyd_survey *s);
+void dyd_measuring_end(dyd_measuring *m);
+/* *decided: so many targets that were open are not, with this site measured. */
+dyd_status dyd_measuring_site(size_t *decided, dyd_measuring *m, uint32_t i);
+
+/* survey_crowd.c: chooses in large faces of the triangulation, as sites are chosen now, until they are small or nothing
+ * in them is open or can be measured; appends to s->face. */
+dyd_status dyd_survey_crowds(dyd_survey *s);
 
 /* survey_face.c: the number of a site among these, ascending, or DYD_NONE. */
 uint32_t dyd_survey_number_in(const dyd_index_list *sites, uint32_t site);
@@ -75,7 +104,7 @@ dyd_status dyd_survey_face_open(size_t *open_pairs, dyd_survey *s, const dyd_ind
 /* Would more targets of the face with these sites (ascending) be open, were this one of them not measured? */
 dyd_status dyd_survey_face_needs(bool *needs, dyd_survey *s, const dyd_index_list *sites, uint32_t site);
 
-/* survey_left.c: what each row decides after those before it. */
+/* survey_measure.c: what each row decides after those before it. */
 dyd_status dyd_survey_count_left(dyd_survey *s);
 
 #endif

@@ -144,7 +144,7 @@ static dyd_status write_rows(face_try *f) {
   return st;
 }
 
-/* Room for as many as have their lower end here. */
+/* Room for as many as have an end here. */
 static bool make_targets(face_try *f) {
   size_t most = 0;
   for (size_t a = 0; a < f->sites.count; a++) most += f->s->first[f->sites.item[a] + 1] - f->s->first[f->sites.item[a]];
@@ -156,8 +156,8 @@ static void take_targets(face_try *f) {
   const dyd_survey *s = f->s;
   for (size_t a = 0; a < f->sites.count; a++)
     for (size_t k = s->first[f->sites.item[a]]; k < s->first[f->sites.item[a] + 1]; k++) {
-      const dyd_pair *p = &s->target.item[k];
-      uint32_t j = dyd_survey_number_in(&f->sites, p->j);
+      const dyd_pair *p = &s->target.item[s->at[k]];
+      uint32_t j = p->i == f->sites.item[a] ? dyd_survey_number_in(&f->sites, p->j) : DYD_NONE;
       if (j != DYD_NONE) f->target[f->targets++] = (dyd_pair){(uint32_t)a, j, p->status};
     }
 }
