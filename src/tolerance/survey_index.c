@@ -108,7 +108,7 @@ static dyd_status add_faces(bool *large, bool *is_in_large, dyd_survey_faces *op
   return st;
 }
 
-static dyd_status add_sites(dyd_survey *s, const bool *is_in_large, const dyd_delaunay *pd) {
+static dyd_status add_those_in_large(dyd_survey *s, const bool *is_in_large, const dyd_delaunay *pd) {
   dyd_delaunay *planned = NULL;
   dyd_sites *sites = NULL;
   dyd_status st = dyd_survey_triangulate(&planned, &sites, s, false);
@@ -130,7 +130,7 @@ dyd_status dyd_survey_index_faces(dyd_survey *s, const dyd_delaunay *pd) {
   open->owner = dyd_alloc(most, sizeof *open->owner);
   dyd_status st = is_in_large && open->face && open->owner ? DYD_OK : DYD_E_NOMEM;
   if (st == DYD_OK) st = add_faces(&large, is_in_large, open, pd);
-  if (st == DYD_OK && large) st = add_sites(s, is_in_large, pd);
+  if (st == DYD_OK && large) st = add_those_in_large(s, is_in_large, pd);
   if (st == DYD_OK) st = index_sites(open, s->sites);
   free(is_in_large);
   return st;

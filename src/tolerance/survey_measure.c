@@ -29,7 +29,7 @@ void dyd_measuring_end(dyd_measuring *m) {
   free(m->degree);
 }
 
-static void look_at(dyd_measuring *m, uint32_t i) {
+static void note_decided(dyd_measuring *m, uint32_t i) {
   const dyd_survey *s = m->s;
   for (size_t q = s->first[i]; q < s->first[i + 1] && m->degree[i]; q++) {
     const dyd_pair *p = &s->target.item[s->at[q]];
@@ -40,10 +40,10 @@ static void look_at(dyd_measuring *m, uint32_t i) {
 }
 
 /* Where there are more open pairs than can be stored, neighbours are not all listed. */
-static void look_around(dyd_measuring *m, uint32_t i, const dyd_index_list *near) {
-  look_at(m, i);
-  for (size_t k = 0; k < near->count; k++) look_at(m, near->item[k]);
-  for (uint32_t k = 0; k < m->s->sites && dyd_delaunay_is_capped(m->now); k++) look_at(m, k);
+static void note_decided_near(dyd_measuring *m, uint32_t i, const dyd_index_list *near) {
+  note_decided(m, i);
+  for (size_t k = 0; k < near->count; k++) note_decided(m, near->item[k]);
+  for (uint32_t k = 0; k < m->s->sites && dyd_delaunay_is_capped(m->now); k++) note_decided(m, k);
 }
 
 dyd_status dyd_measuring_site(size_t *decided, dyd_measuring *m, uint32_t i) {
@@ -57,7 +57,7 @@ dyd_status dyd_measuring_site(size_t *decided, dyd_measuring *m, uint32_t i) {
   if (st == DYD_OK) st = dyd_sites_narrow(m->sites, i, &r);
   if (st == DYD_OK) st = dyd_delaunay_update(m->now, &i, 1, &o, m->s->err);
   if (st == DYD_CAPPED) st = DYD_OK;
-  if (st == DYD_OK) look_around(m, i, &near);
+  if (st == DYD_OK) note_decided_near(m, i, &near);
   *decided = before - m->left;
   dyd_index_list_clear(&near);
   dyd_rect_clear(&r);
