@@ -74,8 +74,8 @@ static void sort_once(dyd_index_list *l) {
 
 /* A site, its possible neighbours without the plan, and the possible neighbours of all these with it: what the site can
  * change has an end among the former [LOC-4], and who can be in the way of that is mostly among the latter. */
-static dyd_status find_surroundings(dyd_index_list *out, const dyd_delaunay *pd, const dyd_delaunay *planned,
-                                    uint32_t site) {
+static dyd_status find_those_near(dyd_index_list *out, const dyd_delaunay *pd, const dyd_delaunay *planned,
+                                  uint32_t site) {
   dyd_index_list near = {0}, self = {.count = 1, .item = &site};
   size_t cap = 0;
   dyd_status st = dyd_delaunay_neighbours(&near, pd, site, DYD_TIE);
@@ -116,7 +116,7 @@ static dyd_status add_those_in_large(dyd_survey *s, const bool *is_in_large, con
   for (uint32_t i = 0; i < s->sites && st == DYD_OK; i++) {
     if (!is_in_large[i] || !s->site[i].chosen) continue;
     s->open.owner[s->open.count] = i;
-    st = find_surroundings(&s->open.face[s->open.count++], pd, planned, i);
+    st = find_those_near(&s->open.face[s->open.count++], pd, planned, i);
   }
   dyd_delaunay_free(planned);
   dyd_sites_free(sites);
