@@ -32,9 +32,6 @@ typedef const dyd_cert_quotient *operand;
     ensures \result <= 64 && a->relations.count <= 64;
     ensures a->number == \old(a->number) && a->count == \old(a->count);
     ensures \result == 64 ==> a->relations.count == 64;
-    ensures \forall integer k; 0 <= k < \old(a->relations.count) ==> a->leaf[k].number == \old(a->leaf[k].number) &&
-      a->leaf[k].sine == \old(a->leaf[k].sine);
-    ensures a->cosine == \old(a->cosine) && a->cycle == \old(a->cycle) && a->cosines == \old(a->cosines);
     ensures known{Pre}(a) ==> stays{Pre, Post}(a); */
 size_t dyd_cert_algebra_leaf(dyd_cert_algebra *a);
 /*@ requires known(a) && \valid_read(q);
