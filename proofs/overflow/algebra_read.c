@@ -6,7 +6,8 @@
 /* Without read_value, read_number, dyd_cert_algebra_read: with the contracts below, which were not tried to the end:
    all is taken from what read_operation, dyd_cert_number_value and dyd_cert_number_check leave of block and reader. */
 /* Without read_bracket, scan_coefficients: a contract for the first is below, what holds in its loop is not said; the
-   second has none. Without either 18 of 19 and 15 of 26 goals are proved; open are reads of the text and of the list. */
+   second has none. Without either 18 of 19 and 15 of 26 goals are proved; open are reads of the text
+   and of the list. */
 #include "polys.h"
 
 #include "base/alloc.h"
