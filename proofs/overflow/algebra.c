@@ -31,14 +31,17 @@ void dyd_cert_number_clear(dyd_cert_number *n);
 /*@ requires clearable(a, 0); exits \false; */
 void dyd_cert_algebra_clear(dyd_cert_algebra *a);
 
-/*@ requires 0 <= op < 29; assigns \nothing; exits \false; ensures 0 <= \result <= 2; */
+/*@ requires 0 <= op < 29; assigns \nothing; exits \false; ensures 0 <= \result <= 2;
+    ensures \result == (op == DYD_CERT_VALUE || DYD_CERT_PI <= op ? 0 : op <= DYD_CERT_MAX ? 2 : 1); */
 int dyd_cert_op_operands(dyd_cert_op op);
 /*@ requires 0 <= op < 29; assigns \nothing; exits \false; */
 const char *dyd_cert_op_name(dyd_cert_op op);
-/*@ requires \valid(a) && a->relations.count <= 64 && a->count <= 4294967295; assigns *a; exits \false;
+/*@ requires \valid(a) && a->relations.count <= 64 && a->count < 4294967295; assigns *a; exits \false;
     ensures \result < 64 ==> \result == \old(a->relations.count) && a->relations.count == \result + 1;
     ensures \result <= 64 && a->relations.count <= 64 && a->count == \old(a->count);
-    ensures \result == 64 ==> a->relations.count == 64; */
+    ensures \result == 64 ==> a->relations.count == 64;
+    ensures \result < 64 ==> a->leaf[\result].number == a->count && whole(&a->leaf[\result].bound[0]);
+    ensures a->number == \old(a->number); */
 size_t dyd_cert_algebra_leaf(dyd_cert_algebra *a);
 
 #include "checker/algebra.c"
