@@ -54,44 +54,63 @@ dyd_status dyd_cert_boxes_unproved(uint64_t *out, const dyd_cert_sites *s, const
       c->report.triangles;
     exits \false; ensures \result == DYD_OK ==> kept(&c->in); */
 static dyd_status check_counts(dyd_checker *c);
-/*@ requires begun(c) && open_pairs(c);
-    assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno,
-      c->report.unproved, c->report.illegal_boxes;
-    exits \false; ensures \result == DYD_OK ==> kept(&c->in); ensures \result == DYD_OK ==> listed(c);
+/*@ requires begun(c) && pairing(c); exits \false;
+    ensures \result == DYD_OK ==> pairing(c);
     ensures \result == DYD_OK ==> reads(&c->in); */
 static dyd_status check_boxes(dyd_checker *c);
-/*@ requires checks(c) && open_pairs(c) && \valid_read(pair) && pair->i < SITES && pair->j < SITES &&
-      \separated(pair, c, c->in.err, LINES + (..));
-    exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c); */
+/*@ requires pairing(c) && reads(&c->in) && \valid_read(pair) && pair->i < SITES && pair->j < SITES; exits \false;
+    ensures \result == DYD_OK ==> pairing(c); */
 static dyd_status check_open(dyd_checker *c, const dyd_cert_edge *pair, char kind);
-/*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c); exits \false;
-    ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
+/* So many points were read, and as many blockers. */
+/*@ predicate chaining(checking c, integer q) = pairing(c) && q <= c->chain.points &&
+      (\forall integer k; 0 <= k < q ==> c->chain.blocker[k] < SITES) &&
+      (\forall integer k; 0 <= k < q ==> small(&c->chain.point[k][0]) && small(&c->chain.point[k][1])) &&
+      small(&c->chain.u[0][0]) && small(&c->chain.u[0][1]); */
+/*@ requires pairing(c) && reads(&c->in); exits \false;
+    ensures \result == DYD_OK ==> pairing(c);
+    ensures \result == DYD_OK ==> 0 < c->chain.points ==> certified_chain(&c->chain, &c->sites); */
 static dyd_status read_chain(dyd_checker *c);
-/*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c) && \valid_read(pair) && pair->i < SITES &&
-      pair->j < SITES &&
-      \separated(pair, c, c->in.err, LINES + (..));
-    exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
+/*@ requires pairing(c) && reads(&c->in) && \valid_read(pair) && pair->i < SITES && pair->j < SITES; exits \false;
+    ensures \result == DYD_OK ==> pairing(c); */
 static dyd_status check_chain(dyd_checker *c, const dyd_cert_edge *pair);
-/*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c) && \valid(pair) &&
+/*@ requires pairing(c) && reads(&c->in) && \valid(pair) &&
       \separated(pair, c, c->in.err, c->in.in, LINES + (..), c->sites.site + (0 .. c->sites.count - 1));
-    exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
+    exits \false; ensures \result == DYD_OK ==> pairing(c); */
 static dyd_status read_pair_line(dyd_checker *c, dyd_cert_edge *pair);
-/*@ requires checker(c) && open_pairs(c) && blocked(c); exits \false;
-    ensures \result == DYD_OK ==> begun(c) && open_pairs(c); */
+/*@ requires pairing(c); exits \false;
+    ensures \result == DYD_OK ==> pairing(c);
+    ensures \result == DYD_OK ==> begun(c); */
 static dyd_status read_pairs(dyd_checker *c);
-/*@ requires checker(c) && open_pairs(c) && \valid(bound + (0 .. 1)) && exact(bound) && exact(bound + 1) &&
-      \separated(bound + (0 .. 1), c, c->in.err, c->in.in, LINES + (..)) && \separated(bound + (0 .. 1), &errno) &&
-      -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
-    exits \false; ensures \result == DYD_OK ==> whole(&bound[0].man[0]) && whole(&bound[1].man[0]); */
+/*@ requires pairing(c) && \valid(bound + (0 .. 1)) && exact(bound) && exact(bound + 1) &&
+      \separated(bound + (0 .. 1), c, c->in.err, c->in.in, LINES + (..)) && \separated(bound + (0 .. 1), &errno);
+    exits \false; ensures whole(&bound[0].man[0]) && whole(&bound[1].man[0]);
+    ensures \result == DYD_OK ==> pairing(c); */
 static dyd_status check_bounds(dyd_checker *c, dyd_exact bound[2]);
 
-/* Of chain.c: and that a chain is all that changes, which WP does not see. */
-/*@ requires \valid(c) && c->points <= c->cap <= 1152921504606846976 && points <= 1152921504606846976 &&
-      (0 < c->cap ==> \valid(c->point + (0 .. c->cap - 1)) && \valid(c->blocker + (0 .. c->cap)));
-    assigns c->points, c->cap, c->point, c->blocker; exits \false;
-    ensures \result == DYD_OK ==> c->points == points <= c->cap <= 1152921504606846976 && (0 < c->cap ==>
-      \valid(c->point + (0 .. c->cap - 1)) && \valid(c->blocker + (0 .. c->cap))); */
-dyd_status dyd_cert_chain_resize(dyd_cert_chain *c, size_t points);
+/* What chain.c proves of dyd_cert_chain_resize, said of the checker that has the chain, of graph.c and pairing.h of
+ * dyd_cert_edges_add likewise: and that all else stays, which WP does not see: new memory is new. Of a chain, points and
+ * blockers before stay, and new points are numbers. */
+/*@ requires pairing(c) && points <= 1152921504606846976;
+    assigns c->chain.points, c->chain.cap, c->chain.point, c->chain.blocker; exits \false;
+    ensures \result == DYD_OK ==> pairing(c) && c->chain.points == points <= c->chain.cap;
+    ensures \result == DYD_OK && \old(reads(&c->in)) ==> reads(&c->in);
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < \old(c->chain.points) ==>
+      c->chain.blocker[k] == \old(c->chain.blocker[k]);
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < points ==> exact(&c->chain.point[k][0]) &&
+      exact(&c->chain.point[k][1]);
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < \old(c->chain.points) &&
+      \old(small(&c->chain.point[k][0]) && small(&c->chain.point[k][1])) ==> small(&c->chain.point[k][0]) &&
+      small(&c->chain.point[k][1]);
+    ensures c->in.err == \null || \valid(c->in.err); */
+dyd_status resize_chain(dyd_checker *c, size_t points);
+#define dyd_cert_chain_resize(chain, points) resize_chain(c, points)
+/*@ requires pairing(c) && (edges == &c->open || edges == &c->tie || edges == &c->chained) && i < SITES && j < SITES;
+    assigns *edges, edges->item[0 .. edges->cap - 1]; exits \false; ensures \result == DYD_OK ==> pairing(c);
+    ensures c->in.err == \null || \valid(c->in.err); */
+dyd_status add_open_pair(dyd_checker *c, dyd_cert_edges *edges, uint32_t i, uint32_t j);
+#undef dyd_cert_edges_add
+#define dyd_cert_edges_add(edges, i, j) add_open_pair(c, edges, i, j)
+
 /*@ requires \valid_read(s) && \valid_read(c) && (0 < c->points ==> certified_chain(c, s)) &&
       small_site(s->site + i) && small_site(s->site + j);
     assigns \nothing; exits \false; */
@@ -102,9 +121,7 @@ void dyd_cert_bounds_init(dyd_cert_bounds *b);
 void dyd_cert_bounds_clear(dyd_cert_bounds *b);
 /*@ requires \valid_read(b) && exact(&b->area2.num) && small(area); assigns \nothing; exits \false; */
 bool dyd_cert_bounds_area_holds(const dyd_cert_bounds *b, const dyd_exact *area);
-/*@ requires checker(c) && open_pairs(c) && blocked(c) &&
-      -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
-    exits \false; */
+/*@ requires pairing(c) && \separated(c, &errno); exits \false; ensures \result == DYD_OK ==> pairing(c); */
 dyd_status dyd_checker_pairs(dyd_checker *c);
 
 #include "checker/pairs.c"
