@@ -19,6 +19,11 @@
 
 #include "base/error.h"
 
+/* Of a literal its length is what has to be known: what WP knows of it is lost in loops. */
+/*@ requires string(s) && 3 <= n < size; assigns \nothing; exits \false; */
+int compare_with_literal(const char *s, size_t size, size_t n);
+#define strncmp(s, literal, n) compare_with_literal(s, sizeof literal, n)
+
 /*@ requires \valid(b) && \valid_read(s) && i < s->count && j < s->count && \separated(b, s) &&
       fraction(&b->area2, 274877906944);
     assigns *b; exits \false; ensures fraction(&b->area2, 274877906944); */
@@ -62,13 +67,17 @@ static dyd_status check_boxes(dyd_checker *c);
     ensures \result == DYD_OK ==> pairing(c); */
 static dyd_status check_open(dyd_checker *c, const dyd_cert_edge *pair, char kind);
 /* So many points were read, and as many blockers. */
-/*@ predicate chaining(checking c, integer q) = pairing(c) && q <= c->chain.points &&
+/*@ predicate point_read(chain_of c, integer k) = small(&c->point[k][0]) && small(&c->point[k][1]);
+    predicate chaining(checking c, integer q) = pairing(c) && q <= c->chain.points &&
       (\forall integer k; 0 <= k < q ==> c->chain.blocker[k] < SITES) &&
-      (\forall integer k; 0 <= k < q ==> small(&c->chain.point[k][0]) && small(&c->chain.point[k][1])) &&
+      (\forall integer k; 0 <= k < q ==> point_read(&c->chain, k)) &&
       small(&c->chain.u[0][0]) && small(&c->chain.u[0][1]); */
 /*@ requires pairing(c) && reads(&c->in); exits \false;
     ensures \result == DYD_OK ==> pairing(c);
-    ensures \result == DYD_OK ==> 0 < c->chain.points ==> certified_chain(&c->chain, &c->sites); */
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k <= c->chain.points ==> c->chain.blocker[k] < SITES;
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < c->chain.points ==> point_read(&c->chain, k);
+    ensures \result == DYD_OK ==> small(&c->chain.u[0][0]) && small(&c->chain.u[0][1]);
+    ensures \result == DYD_OK ==> small(&c->chain.u[1][0]) && small(&c->chain.u[1][1]); */
 static dyd_status read_chain(dyd_checker *c);
 /*@ requires pairing(c) && reads(&c->in) && \valid_read(pair) && pair->i < SITES && pair->j < SITES; exits \false;
     ensures \result == DYD_OK ==> pairing(c); */
@@ -99,8 +108,7 @@ static dyd_status check_bounds(dyd_checker *c, dyd_exact bound[2]);
     ensures \result == DYD_OK ==> \forall integer k; 0 <= k < points ==> exact(&c->chain.point[k][0]) &&
       exact(&c->chain.point[k][1]);
     ensures \result == DYD_OK ==> \forall integer k; 0 <= k < \old(c->chain.points) &&
-      \old(small(&c->chain.point[k][0]) && small(&c->chain.point[k][1])) ==> small(&c->chain.point[k][0]) &&
-      small(&c->chain.point[k][1]);
+      \old(point_read(&c->chain, k)) ==> point_read(&c->chain, k);
     ensures c->in.err == \null || \valid(c->in.err); */
 dyd_status resize_chain(dyd_checker *c, size_t points);
 #define dyd_cert_chain_resize(chain, points) resize_chain(c, points)
