@@ -37,7 +37,8 @@ static void add_all_pairs(dyd_cert_bounds *b, const dyd_checker *c);
       \separated(present, out, c, c->in.err, c->in.in, LINES + (..)) && \separated(out, &errno);
     assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno, *present, *out;
     exits \false; ensures \result == DYD_OK ==> kept(&c->in);
-    ensures \result == DYD_OK && *present ==> certified(out); */
+    ensures \result == DYD_OK && *present ==> certified(out);
+    ensures \result == DYD_OK ==> exact(out); ensures whole(&out->man[0]); */
 static dyd_status read_bound(bool *present, dyd_exact *out, dyd_checker *c, const char *name);
 
 /* Of boxes.c, where it is not proved: what is left is of sites that are there. */
@@ -59,8 +60,10 @@ dyd_status dyd_cert_boxes_unproved(uint64_t *out, const dyd_cert_sites *s, const
       c->report.triangles;
     exits \false; ensures \result == DYD_OK ==> kept(&c->in); */
 static dyd_status check_counts(dyd_checker *c);
+/* Of these and others with local objects, what is admitted in the end is asserted before: no pointer of a checker leads
+ * to the objects that are gone then. */
 /*@ requires begun(c) && pairing(c); exits \false;
-    ensures \result == DYD_OK ==> pairing(c);
+    admit ensures apart: \result == DYD_OK ==> pairing(c);
     ensures \result == DYD_OK ==> reads(&c->in); */
 static dyd_status check_boxes(dyd_checker *c);
 /*@ requires pairing(c) && reads(&c->in) && \valid_read(pair) && pair->i < SITES && pair->j < SITES; exits \false;
@@ -93,7 +96,7 @@ static dyd_status read_pairs(dyd_checker *c);
 /*@ requires pairing(c) && \valid(bound + (0 .. 1)) && exact(bound) && exact(bound + 1) &&
       \separated(bound + (0 .. 1), c, c->in.err, c->in.in, LINES + (..)) && \separated(bound + (0 .. 1), &errno);
     exits \false; ensures whole(&bound[0].man[0]) && whole(&bound[1].man[0]);
-    ensures \result == DYD_OK ==> pairing(c); */
+    admit ensures apart: \result == DYD_OK ==> pairing(c); */
 static dyd_status check_bounds(dyd_checker *c, dyd_exact bound[2]);
 
 /* What chain.c proves of dyd_cert_chain_resize, said of the checker that has the chain, of graph.c and pairing.h of
@@ -129,7 +132,7 @@ void dyd_cert_bounds_init(dyd_cert_bounds *b);
 void dyd_cert_bounds_clear(dyd_cert_bounds *b);
 /*@ requires \valid_read(b) && exact(&b->area2.num) && small(area); assigns \nothing; exits \false; */
 bool dyd_cert_bounds_area_holds(const dyd_cert_bounds *b, const dyd_exact *area);
-/*@ requires pairing(c) && \separated(c, &errno); exits \false; ensures \result == DYD_OK ==> pairing(c); */
+/*@ requires pairing(c); exits \false; admit ensures apart: \result == DYD_OK ==> pairing(c); */
 dyd_status dyd_checker_pairs(dyd_checker *c);
 
 #include "checker/pairs.c"
