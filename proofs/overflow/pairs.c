@@ -24,14 +24,16 @@
 int compare_with_literal(const char *s, size_t size, size_t n);
 #define strncmp(s, literal, n) compare_with_literal(s, sizeof literal, n)
 
+typedef const dyd_cert_bounds *sum_of;
+/*@ predicate sum(sum_of b) = fraction(&b->area2, 274877906944); */
 /*@ requires \valid(b) && \valid_read(s) && i < s->count && j < s->count && \separated(b, s) &&
-      fraction(&b->area2, 274877906944);
-    assigns *b; exits \false; ensures fraction(&b->area2, 274877906944); */
+      sum(b);
+    assigns *b; exits \false; ensures sum(b); */
 void dyd_cert_bounds_add(dyd_cert_bounds *b, const dyd_cert_sites *s, uint32_t i, uint32_t j, bool legal);
 /*@ requires \valid(b) && \valid_read(c) && \separated(b, c, c->legal.item + (0 .. c->legal.count - 1),
       c->open.item + (0 .. c->open.count - 1)) && pairs(&c->legal, c->sites.count) && pairs(&c->open, c->sites.count);
-    requires fraction(&b->area2, 274877906944);
-    assigns *b; exits \false; ensures fraction(&b->area2, 274877906944); */
+    requires sum(b);
+    assigns *b; exits \false; ensures sum(b); */
 static void add_all_pairs(dyd_cert_bounds *b, const dyd_checker *c);
 /*@ requires checker(c) && \valid(present) && \valid(out) && exact(out) &&
       \separated(present, out, c, c->in.err, c->in.in, LINES + (..)) && \separated(out, &errno);
@@ -41,14 +43,17 @@ static void add_all_pairs(dyd_cert_bounds *b, const dyd_checker *c);
     ensures \result == DYD_OK ==> exact(out); ensures whole(&out->man[0]); */
 static dyd_status read_bound(bool *present, dyd_exact *out, dyd_checker *c, const char *name);
 
+typedef const dyd_cert_known *known_of;
+/*@ predicate known_pairs(known_of k) = pairs(k->list[0], SITES) && pairs(k->list[1], SITES) &&
+      pairs(k->list[2], SITES); */
 /* Of boxes.c, where it is not proved: what is left is of sites that are there. */
 /*@ requires \valid(left) && \valid(given_up) && \valid_read(s) && s->count == SITES && indexed(f) &&
-      \valid_read(known) && (\forall integer k; 0 <= k < 3 ==> pairs(known->list[k], SITES));
+      \valid_read(known) && known_pairs(known);
     assigns *left, *given_up; exits \false; ensures \result == DYD_OK ==> pairs(left, SITES); */
 dyd_status dyd_cert_boxes_left(dyd_cert_edges *left, bool *given_up, const dyd_cert_sites *s, const dyd_cert_faces *f,
                                const dyd_cert_known *known);
 /*@ requires \valid(out) && \valid_read(s) && s->count == SITES && indexed(f) && \valid_read(known) &&
-      (\forall integer k; 0 <= k < 3 ==> pairs(known->list[k], SITES)) &&
+      known_pairs(known) &&
       \separated(out, f, f->first + (0 .. SITES), f->of + (0 .. f->members - 1), f->start + (0 .. f->sets),
         f->covered + (0 .. f->sets - 1));
     assigns *out; exits \false; */
@@ -95,7 +100,8 @@ static dyd_status read_pair_line(dyd_checker *c, dyd_cert_edge *pair);
 static dyd_status read_pairs(dyd_checker *c);
 /*@ requires pairing(c) && \valid(bound + (0 .. 1)) && exact(bound) && exact(bound + 1) &&
       \separated(bound + (0 .. 1), c, c->in.err, c->in.in, LINES + (..)) && \separated(bound + (0 .. 1), &errno);
-    exits \false; ensures whole(&bound[0].man[0]) && whole(&bound[1].man[0]);
+    exits \false;
+    ensures integer_of(bound[0].man[0].value) && integer_of(bound[1].man[0].value);
     admit ensures apart: \result == DYD_OK ==> pairing(c); */
 static dyd_status check_bounds(dyd_checker *c, dyd_exact bound[2]);
 
