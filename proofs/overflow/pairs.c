@@ -101,7 +101,8 @@ static dyd_status read_pairs(dyd_checker *c);
 /*@ requires pairing(c) && \valid(bound + (0 .. 1)) && exact(bound) && exact(bound + 1) &&
       \separated(bound + (0 .. 1), c, c->in.err, c->in.in, LINES + (..)) && \separated(bound + (0 .. 1), &errno);
     exits \false;
-    ensures integer_of(bound[0].man[0].value) && integer_of(bound[1].man[0].value);
+    ensures integer_of(bound[0].man[0].value);
+    ensures integer_of(bound[1].man[0].value);
     admit ensures apart: \result == DYD_OK ==> pairing(c); */
 static dyd_status check_bounds(dyd_checker *c, dyd_exact bound[2]);
 
