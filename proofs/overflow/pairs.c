@@ -43,9 +43,8 @@ static void add_all_pairs(dyd_cert_bounds *b, const dyd_checker *c);
     ensures \result == DYD_OK ==> exact(out); ensures whole(&out->man[0]); */
 static dyd_status read_bound(bool *present, dyd_exact *out, dyd_checker *c, const char *name);
 
-typedef const dyd_cert_known *known_of;
-/*@ predicate known_pairs(known_of k) = pairs(k->list[0], SITES) && pairs(k->list[1], SITES) &&
-      pairs(k->list[2], SITES); */
+#define known_pairs(k) (pairs((k)->list[0], SITES) && pairs((k)->list[1], SITES) && pairs((k)->list[2], SITES))
+
 /* Of boxes.c, where it is not proved: what is left is of sites that are there. */
 /*@ requires \valid(left) && \valid(given_up) && \valid_read(s) && s->count == SITES && indexed(f) &&
       \valid_read(known) && known_pairs(known);
@@ -75,7 +74,8 @@ static dyd_status check_boxes(dyd_checker *c);
     ensures \result == DYD_OK ==> pairing(c); */
 static dyd_status check_open(dyd_checker *c, const dyd_cert_edge *pair, char kind);
 /* So many points were read, and as many blockers. */
-/*@ predicate point_read(chain_of c, integer k) = small(&c->point[k][0]) && small(&c->point[k][1]);
+/*@ predicate small_number(exact_number x) = small(x);
+    predicate point_read(chain_of c, integer k) = small_number(&c->point[k][0]) && small_number(&c->point[k][1]);
     predicate chaining(checking c, integer q) = pairing(c) && q <= c->chain.points &&
       (\forall integer k; 0 <= k < q ==> c->chain.blocker[k] < SITES) &&
       (\forall integer k; 0 <= k < q ==> point_read(&c->chain, k)) &&
@@ -85,7 +85,7 @@ static dyd_status check_open(dyd_checker *c, const dyd_cert_edge *pair, char kin
     ensures \result == DYD_OK ==> \forall integer k; 0 <= k <= c->chain.points ==> c->chain.blocker[k] < SITES;
     ensures \result == DYD_OK ==> \forall integer k; 0 <= k < c->chain.points ==> point_read(&c->chain, k);
     ensures \result == DYD_OK ==> small(&c->chain.u[0][0]) && small(&c->chain.u[0][1]);
-    ensures \result == DYD_OK ==> small(&c->chain.u[1][0]) && small(&c->chain.u[1][1]); */
+    ensures \result == DYD_OK ==> small_number(&c->chain.u[1][0]) && small_number(&c->chain.u[1][1]); */
 static dyd_status read_chain(dyd_checker *c);
 /*@ requires pairing(c) && reads(&c->in) && \valid_read(pair) && pair->i < SITES && pair->j < SITES; exits \false;
     ensures \result == DYD_OK ==> pairing(c); */
@@ -106,6 +106,11 @@ static dyd_status read_pairs(dyd_checker *c);
     admit ensures apart: \result == DYD_OK ==> pairing(c); */
 static dyd_status check_bounds(dyd_checker *c, dyd_exact bound[2]);
 
+/* What exact.h says of dyd_exact_set, for numbers of certificates. */
+/*@ requires \valid(out) && small_number(x) && \separated(out, x); assigns *out; exits \false;
+    ensures small_number(out); */
+void copy_number(dyd_exact *out, const dyd_exact *x);
+#define dyd_exact_set(out, x) copy_number(out, x)
 /* What chain.c proves of dyd_cert_chain_resize, said of the checker that has the chain, of graph.c and pairing.h of
  * dyd_cert_edges_add likewise: and that all else stays, which WP does not see: new memory is new. Of a chain, points and
  * blockers before stay, and new points are numbers. */
@@ -133,7 +138,7 @@ dyd_status add_open_pair(dyd_checker *c, dyd_cert_edges *edges, uint32_t i, uint
       small_site(s->site + i) && small_site(s->site + j);
     assigns \nothing; exits \false; */
 bool dyd_cert_chain_holds(const dyd_cert_chain *c, const dyd_cert_sites *s, uint32_t i, uint32_t j);
-/*@ requires \valid(b); assigns *b; exits \false; ensures fraction(&b->area2, 0); */
+/*@ requires \valid(b); assigns *b; exits \false; ensures sum(b); */
 void dyd_cert_bounds_init(dyd_cert_bounds *b);
 /*@ requires \valid(b) && of_parts(&b->area2); assigns b->area2; exits \false; */
 void dyd_cert_bounds_clear(dyd_cert_bounds *b);
