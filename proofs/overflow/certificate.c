@@ -92,7 +92,8 @@ dyd_status dyd_checker_stays(bool *out, const dyd_checker *c, const bool *still)
 dyd_status dyd_checker_settle(dyd_checker *c, const bool *still);
 
 /* What each part leaves to the next; what checker.c does not prove of them is that the rest stays, that sites which
- * were read are of numbers that certificates have, of dyd_checker_head that texts are there, and dyd_checker_corners. */
+ * were read are of numbers that certificates have, that texts are there after dyd_checker_head, and
+ * dyd_checker_corners. */
 /*@ predicate unpaired(checking c) = blocked(c) && grows(&c->open) && grows(&c->tie) && grows(&c->chained) &&
       stated(&c->ties) && blocks(&c->ties) && c->corners.count == 0 && c->corners.cap == 0;
     predicate prepared(checking c) = checker(c) && point(c) && \separated(c, &errno) && unpaired(c) &&

@@ -1,15 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/pairs.c: pairs of the lists are of sites that are there. */
-/* Without read_chain, read_pair_line, check_chain, read_pairs: 2 of 6, 9 of 12, 8 of 11 and 6 of 11 goals are
-   proved; that lists, open sets and chain are what they were after a line was read or a callee failed (ensures, loop
-   invariants, that the chain and the pair are there after read_chain, conditions of strncmp) was not decided in 5 s. */
-/* Without check_open: 23 of 26 goals are proved; that a second list still grows after a pair was added to the first
-   (assert_5, the condition of add_pair, ensures) was not decided in 5 s. */
-/* Without check_boxes: 66 of 72 goals are proved; that each of the lists stays while a line is read (assert_2 to _5,
-   the condition of dyd_cert_boxes_unproved, ensures_2) was not decided in 5 s. */
-/* Without check_bounds, dyd_checker_pairs: 45 of 56 and 5 of 9 goals are proved; that bounds and the sum are numbers
-   after both lines were read (loop_invariant, conditions of add_all_pairs, dyd_cert_bounds_clear, dyd_cert_note_bound,
-   of check_bounds, read_pairs and dyd_exact_clear) was not decided in 5 s. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "faces.h"
 
@@ -26,6 +16,8 @@ int compare_with_literal(const char *s, size_t size, size_t n);
 
 typedef const dyd_cert_bounds *sum_of;
 /*@ predicate sum(sum_of b) = fraction(&b->area2, 274877906944); */
+/* Of bounds.c, which asks more: that the two sites are of numbers that certificates have, which pairing(c) says, that
+ * the bound is such a number, which check_bounds asserts, and that the sum is apart from them: it is a local object. */
 /*@ requires \valid(b) && \valid_read(s) && i < s->count && j < s->count && \separated(b, s) &&
       sum(b);
     assigns *b; exits \false; ensures sum(b); */
@@ -112,8 +104,8 @@ static dyd_status check_bounds(dyd_checker *c, dyd_exact bound[2]);
 void copy_number(dyd_exact *out, const dyd_exact *x);
 #define dyd_exact_set(out, x) copy_number(out, x)
 /* What chain.c proves of dyd_cert_chain_resize, said of the checker that has the chain, of graph.c and pairing.h of
- * dyd_cert_edges_add likewise: and that all else stays, which WP does not see: new memory is new. Of a chain, points and
- * blockers before stay, and new points are numbers. */
+ * dyd_cert_edges_add likewise: and that all else stays, which WP does not see: new memory is new. Of a chain, points
+ * and blockers before stay, and new points are numbers. */
 /*@ requires pairing(c) && points <= 1152921504606846976;
     assigns c->chain.points, c->chain.cap, c->chain.point, c->chain.blocker; exits \false;
     ensures \result == DYD_OK ==> pairing(c) && c->chain.points == points <= c->chain.cap;
