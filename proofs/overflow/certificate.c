@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/certificate.c: the words that are compared are there. */
-/* Without checker_ties, checker_end: 43 of 49 and 7 of 12 goals are proved; that what was read before stays while a
-   block or the diagram is read (loop invariants, conditions of strncmp, dyd_cert_faces_still, dyd_cert_next_line,
-   dyd_cert_expect_word, the ensures) was not decided in 5 s: these callees do not say what else stays. */
-/* Without dyd_verify_certificate: 8 of 9 goals are proved, where it is admitted that a checker that was begun is empty
-   and can be cleared after any outcome; open is the condition of dyd_abi_give, of void pointers cast there and back. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "checks.h"
 #include "pairing.h"
 
+#include "base/abi.h"
 #include "base/error.h"
 
-/*@ predicate reported(checking c) = \valid_read(c) && string(c->report.outcome) && string(c->report.goal); */
+/* Of a literal its length is what has to be known: what WP knows of it is lost in loops. */
+/*@ requires string(s) && 3 <= n < size; assigns \nothing; exits \false; */
+int compare_with_literal(const char *s, size_t size, size_t n);
+#define strncmp(s, literal, n) compare_with_literal(s, sizeof literal, n)
 
 /*@ requires reported(c) && (c->in.err == \null || \valid(c->in.err)); assigns *c->in.err; exits \false; */
 static dyd_status checker_outcome(const dyd_checker *c);
@@ -52,54 +51,60 @@ void dyd_checker_init(dyd_checker *c, FILE *in, dyd_error *err);
     assigns *c; exits \false; */
 void dyd_checker_clear(dyd_checker *c);
 
-/* Of ties.c. */
-typedef const dyd_cert_ties *facts_of;
-/*@ predicate blocks(facts_of t) = \valid_read(t) && t->blocks <= 1152921504606846976 &&
-      (0 < t->blocks ==> \valid_read(t->block + (0 .. t->blocks - 1))) &&
-      (\forall integer k; 0 <= k < t->blocks ==> \valid_read(t->block[k])); */
-/*@ requires \valid(t) && blocks(t) && reads(in) && \valid_read(s); exits \false;
-    ensures \result == DYD_OK ==> blocks(t); ensures \result == DYD_OK ==> kept(in); */
-dyd_status dyd_cert_ties_read(dyd_cert_ties *t, dyd_cert_reader *in, const dyd_cert_sites *s);
-/*@ requires \valid(f) && indexed(f) && \valid_read(t); assigns f->tied[0 .. f->sets - 1]; exits \false; */
+/* Of ties.c: of a block that is read, asked is all that is known of the checker, and what is promised is that this
+ * stays, which is not proved there. */
+/*@ requires pairing(c) && begun(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
+dyd_status read_ties(dyd_checker *c);
+#define dyd_cert_ties_read(t, in, s) read_ties(c)
+/*@ requires \valid(f) && indexed(f) && stated(t); assigns f->tied[0 .. f->sets - 1]; exits \false; */
 void dyd_cert_ties_mark(dyd_cert_faces *f, const dyd_cert_ties *t);
-/*@ requires \valid_read(t) && \valid_read(s) && \valid(out); assigns *out; exits \false; */
+/*@ requires stated(t) && \valid_read(s) && s->count == SITES && \valid(out) &&
+      \separated(out, t, s, t->fact + (0 .. t->facts - 1), s->site + (0 .. SITES - 1)) &&
+      (0 < SITES ==> \valid_read(s->site + (0 .. SITES - 1))) &&
+      (\forall integer i; 0 <= i < SITES ==> s->site[i].alias < SITES);
+    assigns *out; exits \false; */
 dyd_status dyd_cert_ties_aliases(size_t *out, const dyd_cert_ties *t, const dyd_cert_sites *s);
 
-/*@ predicate tied(checking c) = checker(c) && c->sites.count == SITES && indexed(&c->faces) && pairs(&c->tie, SITES) &&
-      blocks(&c->ties); */
-/*@ requires tied(c); exits \false; ensures \result == DYD_OK ==> begun(c); */
+/*@ requires pairing(c); exits \false;
+    ensures \result == DYD_OK ==> pairing(c); ensures \result == DYD_OK ==> begun(c); */
 static dyd_status checker_ties(dyd_checker *c);
-/*@ requires checks(c) && \valid(&c->report); exits \false; */
+/* Of diagram.c, which asks less; and that what is known stays, which is not proved there: of the checker, the reader,
+ * the chain's points, the report and whether the goal was reached change. */
+/*@ requires pairing(c) && begun(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
 dyd_status dyd_checker_diagram(dyd_checker *c);
+/* Of read.h, and that what is known stays. */
+/*@ requires pairing(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
+dyd_status expect_end(dyd_checker *c);
+#define dyd_cert_expect_end(r) expect_end(c)
 /*@ predicate standing(checking c) = \valid_read(c) && c->sites.count == SITES && pairs(&c->legal, SITES) &&
       pairs(&c->open, SITES) && indexed(&c->faces) &&
       (0 < SITES ==> \valid_read(c->sites.site + (0 .. SITES - 1))) &&
       (\forall integer i; 0 <= i < SITES ==> c->sites.site[i].alias < SITES) && string(c->report.goal); */
-/*@ requires tied(c) && reported(c); exits \false;
-    ensures \result == DYD_OK ==> checker(c);
-    ensures \result == DYD_OK ==> reported(c) && standing(c); */
+/*@ requires pairing(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
 static dyd_status checker_end(dyd_checker *c);
 /* Of still.c, and that only *out changes. */
 /*@ requires \valid(out) && standing(c) && (still == \null || \valid_read(still + (0 .. SITES - 1))) &&
       \separated(out, c, still + (0 .. SITES - 1), c->sites.site + (0 .. SITES - 1));
     assigns *out; exits \false; */
 dyd_status dyd_checker_stays(bool *out, const dyd_checker *c, const bool *still);
-/*@ requires \valid(c) && reported(c) && (c->in.err == \null || \valid(c->in.err)) && \separated(c, c->in.err) &&
-      standing(c) && (still == \null || \valid_read(still + (0 .. SITES - 1)));
+/*@ requires pairing(c) && (still == \null || \valid_read(still + (0 .. SITES - 1)));
     assigns c->report.gaps, *c->in.err; exits \false; */
 dyd_status dyd_checker_settle(dyd_checker *c, const bool *still);
 
-/* What each part leaves to the next. */
-/*@ predicate prepared(checking c) = checker(c) && point(c) && \separated(c, &errno) &&
-      -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
-    predicate graphed(checking c) = prepared(c) && c->sites.count == SITES && grows(&c->legal) && grows(&c->bridges) &&
-      \separated(c->legal.item + (0 .. c->legal.cap - 1), c, c->in.err) &&
-      \separated(c->bridges.item + (0 .. c->bridges.cap - 1), c, c->in.err); */
-/*@ requires prepared(c) && c->sites.count == 0; exits \false;
-    ensures \result == DYD_OK ==> prepared(c) && c->sites.count == 0; */
+/* What each part leaves to the next; what checker.c does not prove of them is that the rest stays, that sites which
+ * were read are of numbers that certificates have, that texts are there after dyd_checker_head, and
+ * dyd_checker_corners. */
+/*@ predicate unpaired(checking c) = blocked(c) && grows(&c->open) && grows(&c->tie) && grows(&c->chained) &&
+      stated(&c->ties) && blocks(&c->ties) && c->corners.count == 0 && c->corners.cap == 0;
+    predicate prepared(checking c) = checker(c) && point(c) && \separated(c, &errno) && unpaired(c) &&
+      grows(&c->legal) && grows(&c->bridges) && -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
+    predicate empty(checking c) = prepared(c) && c->sites.count == 0 && c->sites.cap == 0;
+    predicate graphed(checking c) = prepared(c) && reported(c) && c->sites.count == SITES && certified_sites(c) &&
+      \separated(c->sites.site + (0 .. SITES - 1), c->legal.item + (0 .. c->legal.cap - 1),
+        c->bridges.item + (0 .. c->bridges.cap - 1), c, c->in.err); */
+/*@ requires empty(c); exits \false; ensures \result == DYD_OK ==> empty(c) && reported(c); */
 dyd_status dyd_checker_head(dyd_checker *c);
-/*@ requires prepared(c) && c->sites.count == 0; exits \false;
-    ensures \result == DYD_OK ==> graphed(c); */
+/*@ requires empty(c) && reported(c); exits \false; ensures \result == DYD_OK ==> graphed(c); */
 dyd_status dyd_checker_sites(dyd_checker *c);
 /*@ requires graphed(c); exits \false; ensures \result == DYD_OK ==> graphed(c); */
 dyd_status dyd_checker_legal(dyd_checker *c);
@@ -107,18 +112,28 @@ dyd_status dyd_checker_legal(dyd_checker *c);
 dyd_status dyd_checker_places(dyd_checker *c);
 /*@ requires graphed(c); exits \false; ensures \result == DYD_OK ==> graphed(c); */
 dyd_status dyd_checker_bridges(dyd_checker *c);
-/*@ requires graphed(c); exits \false;
-    ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c);
-    ensures \result == DYD_OK ==> -999999999999999999 <= c->report.goal_bits <= 999999999999999999; */
+/*@ requires graphed(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
 dyd_status dyd_checker_corners(dyd_checker *c);
-/*@ requires checker(c);
-    requires open_pairs(c);
-    requires blocked(c) && -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
-    exits \false; ensures \result == DYD_OK ==> tied(c) && reported(c); */
+/*@ requires pairing(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
 dyd_status dyd_checker_pairs(dyd_checker *c);
-/*@ requires prepared(c) && c->sites.count == 0; exits \false;
-    ensures \result == DYD_OK ==> checker(c);
-    ensures \result == DYD_OK ==> reported(c) && standing(c); */
+/*@ requires empty(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
 dyd_status dyd_checker_run(dyd_checker *c);
+
+/* Structs that begin with their size, of which base/abi.c touches no byte beyond it: WP's memory does not follow casts
+ * from pointers to void. */
+typedef dyd_certificate_report *report_of;
+/*@ requires \valid_read(&theirs->struct_size) && (err == \null || \valid(err)); assigns *err; exits \false; */
+dyd_status check_report(const dyd_certificate_report *theirs, dyd_error *err);
+#define dyd_abi_check(theirs, least, type, err) check_report(theirs, err)
+/*@ requires \valid_read(&theirs->struct_size) && \valid_read(own) && \separated(theirs, own) &&
+      size == sizeof(dyd_certificate_report);
+    assigns *theirs; exits \false; */
+void give_report(dyd_certificate_report *theirs, const dyd_certificate_report *own, size_t size);
+#define dyd_abi_give(theirs, own, size) give_report(theirs, own, size)
+/*@ requires \valid(err); assigns *err; exits \false; */
+void dyd_error_clear(dyd_error *err);
+/*@ requires \valid(out) && \valid(in) && (err == \null || \valid(err)) && \separated(out, in, err, LINES + (..));
+    exits \false; */
+dyd_status dyd_verify_certificate(dyd_certificate_report *out, FILE *in, dyd_error *err);
 
 #include "checker/certificate.c"

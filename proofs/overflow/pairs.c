@@ -1,15 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/pairs.c: pairs of the lists are of sites that are there. */
-/* Without read_chain, read_pair_line, check_chain, read_pairs: 2 of 6, 9 of 12, 8 of 11 and 6 of 11 goals are
-   proved; that lists, open sets and chain are what they were after a line was read or a callee failed (ensures, loop
-   invariants, that the chain and the pair are there after read_chain, conditions of strncmp) was not decided in 5 s. */
-/* Without check_open: 23 of 26 goals are proved; that a second list still grows after a pair was added to the first
-   (assert_5, the condition of add_pair, ensures) was not decided in 5 s. */
-/* Without check_boxes: 66 of 72 goals are proved; that each of the lists stays while a line is read (assert_2 to _5,
-   the condition of dyd_cert_boxes_unproved, ensures_2) was not decided in 5 s. */
-/* Without check_bounds, dyd_checker_pairs: 45 of 56 and 5 of 9 goals are proved; that bounds and the sum are numbers
-   after both lines were read (loop_invariant, conditions of add_all_pairs, dyd_cert_bounds_clear, dyd_cert_note_bound,
-   of check_bounds, read_pairs and dyd_exact_clear) was not decided in 5 s. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "faces.h"
 
@@ -19,30 +9,42 @@
 
 #include "base/error.h"
 
+/* Of a literal its length is what has to be known: what WP knows of it is lost in loops. */
+/*@ requires string(s) && 3 <= n < size; assigns \nothing; exits \false; */
+int compare_with_literal(const char *s, size_t size, size_t n);
+#define strncmp(s, literal, n) compare_with_literal(s, sizeof literal, n)
+
+typedef const dyd_cert_bounds *sum_of;
+/*@ predicate sum(sum_of b) = fraction(&b->area2, 274877906944); */
+/* Of bounds.c, which asks more: that the two sites are of numbers that certificates have, which pairing(c) says, that
+ * the bound is such a number, which check_bounds asserts, and that the sum is apart from them: it is a local object. */
 /*@ requires \valid(b) && \valid_read(s) && i < s->count && j < s->count && \separated(b, s) &&
-      fraction(&b->area2, 274877906944);
-    assigns *b; exits \false; ensures fraction(&b->area2, 274877906944); */
+      sum(b);
+    assigns *b; exits \false; ensures sum(b); */
 void dyd_cert_bounds_add(dyd_cert_bounds *b, const dyd_cert_sites *s, uint32_t i, uint32_t j, bool legal);
 /*@ requires \valid(b) && \valid_read(c) && \separated(b, c, c->legal.item + (0 .. c->legal.count - 1),
       c->open.item + (0 .. c->open.count - 1)) && pairs(&c->legal, c->sites.count) && pairs(&c->open, c->sites.count);
-    requires fraction(&b->area2, 274877906944);
-    assigns *b; exits \false; ensures fraction(&b->area2, 274877906944); */
+    requires sum(b);
+    assigns *b; exits \false; ensures sum(b); */
 static void add_all_pairs(dyd_cert_bounds *b, const dyd_checker *c);
 /*@ requires checker(c) && \valid(present) && \valid(out) && exact(out) &&
       \separated(present, out, c, c->in.err, c->in.in, LINES + (..)) && \separated(out, &errno);
     assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno, *present, *out;
     exits \false; ensures \result == DYD_OK ==> kept(&c->in);
-    ensures \result == DYD_OK && *present ==> certified(out); */
+    ensures \result == DYD_OK && *present ==> certified(out);
+    ensures \result == DYD_OK ==> exact(out); ensures whole(&out->man[0]); */
 static dyd_status read_bound(bool *present, dyd_exact *out, dyd_checker *c, const char *name);
+
+#define known_pairs(k) (pairs((k)->list[0], SITES) && pairs((k)->list[1], SITES) && pairs((k)->list[2], SITES))
 
 /* Of boxes.c, where it is not proved: what is left is of sites that are there. */
 /*@ requires \valid(left) && \valid(given_up) && \valid_read(s) && s->count == SITES && indexed(f) &&
-      \valid_read(known) && (\forall integer k; 0 <= k < 3 ==> pairs(known->list[k], SITES));
+      \valid_read(known) && known_pairs(known);
     assigns *left, *given_up; exits \false; ensures \result == DYD_OK ==> pairs(left, SITES); */
 dyd_status dyd_cert_boxes_left(dyd_cert_edges *left, bool *given_up, const dyd_cert_sites *s, const dyd_cert_faces *f,
                                const dyd_cert_known *known);
 /*@ requires \valid(out) && \valid_read(s) && s->count == SITES && indexed(f) && \valid_read(known) &&
-      (\forall integer k; 0 <= k < 3 ==> pairs(known->list[k], SITES)) &&
+      known_pairs(known) &&
       \separated(out, f, f->first + (0 .. SITES), f->of + (0 .. f->members - 1), f->start + (0 .. f->sets),
         f->covered + (0 .. f->sets - 1));
     assigns *out; exits \false; */
@@ -54,57 +56,87 @@ dyd_status dyd_cert_boxes_unproved(uint64_t *out, const dyd_cert_sites *s, const
       c->report.triangles;
     exits \false; ensures \result == DYD_OK ==> kept(&c->in); */
 static dyd_status check_counts(dyd_checker *c);
-/*@ requires begun(c) && open_pairs(c);
-    assigns c->in.number, c->in.line, c->in.cap, c->in.at, LINES[..], *c->in.in, *c->in.err, errno,
-      c->report.unproved, c->report.illegal_boxes;
-    exits \false; ensures \result == DYD_OK ==> kept(&c->in); ensures \result == DYD_OK ==> listed(c);
+/* Of these and others with local objects, what is admitted in the end is asserted before: no pointer of a checker leads
+ * to the objects that are gone then. */
+/*@ requires begun(c) && pairing(c); exits \false;
+    admit ensures apart: \result == DYD_OK ==> pairing(c);
     ensures \result == DYD_OK ==> reads(&c->in); */
 static dyd_status check_boxes(dyd_checker *c);
-/*@ requires checks(c) && open_pairs(c) && \valid_read(pair) && pair->i < SITES && pair->j < SITES &&
-      \separated(pair, c, c->in.err, LINES + (..));
-    exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c); */
+/*@ requires pairing(c) && reads(&c->in) && \valid_read(pair) && pair->i < SITES && pair->j < SITES; exits \false;
+    ensures \result == DYD_OK ==> pairing(c); */
 static dyd_status check_open(dyd_checker *c, const dyd_cert_edge *pair, char kind);
-/*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c); exits \false;
-    ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
+/* So many points were read, and as many blockers. */
+/*@ predicate small_number(exact_number x) = small(x);
+    predicate point_read(chain_of c, integer k) = small_number(&c->point[k][0]) && small_number(&c->point[k][1]);
+    predicate chaining(checking c, integer q) = pairing(c) && q <= c->chain.points &&
+      (\forall integer k; 0 <= k < q ==> c->chain.blocker[k] < SITES) &&
+      (\forall integer k; 0 <= k < q ==> point_read(&c->chain, k)) &&
+      small(&c->chain.u[0][0]) && small(&c->chain.u[0][1]); */
+/*@ requires pairing(c) && reads(&c->in); exits \false;
+    ensures \result == DYD_OK ==> pairing(c);
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k <= c->chain.points ==> c->chain.blocker[k] < SITES;
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < c->chain.points ==> point_read(&c->chain, k);
+    ensures \result == DYD_OK ==> small(&c->chain.u[0][0]) && small(&c->chain.u[0][1]);
+    ensures \result == DYD_OK ==> small_number(&c->chain.u[1][0]) && small_number(&c->chain.u[1][1]); */
 static dyd_status read_chain(dyd_checker *c);
-/*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c) && \valid_read(pair) && pair->i < SITES &&
-      pair->j < SITES &&
-      \separated(pair, c, c->in.err, LINES + (..));
-    exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
+/*@ requires pairing(c) && reads(&c->in) && \valid_read(pair) && pair->i < SITES && pair->j < SITES; exits \false;
+    ensures \result == DYD_OK ==> pairing(c); */
 static dyd_status check_chain(dyd_checker *c, const dyd_cert_edge *pair);
-/*@ requires checks(c) && open_pairs(c) && blocked(c) && point(c) && \valid(pair) &&
+/*@ requires pairing(c) && reads(&c->in) && \valid(pair) &&
       \separated(pair, c, c->in.err, c->in.in, LINES + (..), c->sites.site + (0 .. c->sites.count - 1));
-    exits \false; ensures \result == DYD_OK ==> checker(c) && open_pairs(c) && blocked(c); */
+    exits \false; ensures \result == DYD_OK ==> pairing(c); */
 static dyd_status read_pair_line(dyd_checker *c, dyd_cert_edge *pair);
-/*@ requires checker(c) && open_pairs(c) && blocked(c); exits \false;
-    ensures \result == DYD_OK ==> begun(c) && open_pairs(c); */
+/*@ requires pairing(c); exits \false;
+    ensures \result == DYD_OK ==> pairing(c);
+    ensures \result == DYD_OK ==> begun(c); */
 static dyd_status read_pairs(dyd_checker *c);
-/*@ requires checker(c) && open_pairs(c) && \valid(bound + (0 .. 1)) && exact(bound) && exact(bound + 1) &&
-      \separated(bound + (0 .. 1), c, c->in.err, c->in.in, LINES + (..)) && \separated(bound + (0 .. 1), &errno) &&
-      -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
-    exits \false; ensures \result == DYD_OK ==> whole(&bound[0].man[0]) && whole(&bound[1].man[0]); */
+/*@ requires pairing(c) && \valid(bound + (0 .. 1)) && exact(bound) && exact(bound + 1) &&
+      \separated(bound + (0 .. 1), c, c->in.err, c->in.in, LINES + (..)) && \separated(bound + (0 .. 1), &errno);
+    exits \false;
+    ensures integer_of(bound[0].man[0].value);
+    ensures integer_of(bound[1].man[0].value);
+    admit ensures apart: \result == DYD_OK ==> pairing(c); */
 static dyd_status check_bounds(dyd_checker *c, dyd_exact bound[2]);
 
-/* Of chain.c: and that a chain is all that changes, which WP does not see. */
-/*@ requires \valid(c) && c->points <= c->cap <= 1152921504606846976 && points <= 1152921504606846976 &&
-      (0 < c->cap ==> \valid(c->point + (0 .. c->cap - 1)) && \valid(c->blocker + (0 .. c->cap)));
-    assigns c->points, c->cap, c->point, c->blocker; exits \false;
-    ensures \result == DYD_OK ==> c->points == points <= c->cap <= 1152921504606846976 && (0 < c->cap ==>
-      \valid(c->point + (0 .. c->cap - 1)) && \valid(c->blocker + (0 .. c->cap))); */
-dyd_status dyd_cert_chain_resize(dyd_cert_chain *c, size_t points);
+/* What exact.h says of dyd_exact_set, for numbers of certificates. */
+/*@ requires \valid(out) && small_number(x) && \separated(out, x); assigns *out; exits \false;
+    ensures small_number(out); */
+void copy_number(dyd_exact *out, const dyd_exact *x);
+#define dyd_exact_set(out, x) copy_number(out, x)
+/* What chain.c proves of dyd_cert_chain_resize, said of the checker that has the chain, of graph.c and pairing.h of
+ * dyd_cert_edges_add likewise: and that all else stays, which WP does not see: new memory is new. Of a chain, points
+ * and blockers before stay, and new points are numbers. */
+/*@ requires pairing(c) && points <= 1152921504606846976;
+    assigns c->chain.points, c->chain.cap, c->chain.point, c->chain.blocker; exits \false;
+    ensures \result == DYD_OK ==> pairing(c) && c->chain.points == points <= c->chain.cap;
+    ensures \result == DYD_OK && \old(reads(&c->in)) ==> reads(&c->in);
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < \old(c->chain.points) ==>
+      c->chain.blocker[k] == \old(c->chain.blocker[k]);
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < points ==> exact(&c->chain.point[k][0]) &&
+      exact(&c->chain.point[k][1]);
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < \old(c->chain.points) &&
+      \old(point_read(&c->chain, k)) ==> point_read(&c->chain, k);
+    ensures c->in.err == \null || \valid(c->in.err); */
+dyd_status resize_chain(dyd_checker *c, size_t points);
+#define dyd_cert_chain_resize(chain, points) resize_chain(c, points)
+/*@ requires pairing(c) && (edges == &c->open || edges == &c->tie || edges == &c->chained) && i < SITES && j < SITES;
+    assigns *edges, edges->item[0 .. edges->cap - 1]; exits \false; ensures \result == DYD_OK ==> pairing(c);
+    ensures c->in.err == \null || \valid(c->in.err); */
+dyd_status add_open_pair(dyd_checker *c, dyd_cert_edges *edges, uint32_t i, uint32_t j);
+#undef dyd_cert_edges_add
+#define dyd_cert_edges_add(edges, i, j) add_open_pair(c, edges, i, j)
+
 /*@ requires \valid_read(s) && \valid_read(c) && (0 < c->points ==> certified_chain(c, s)) &&
       small_site(s->site + i) && small_site(s->site + j);
     assigns \nothing; exits \false; */
 bool dyd_cert_chain_holds(const dyd_cert_chain *c, const dyd_cert_sites *s, uint32_t i, uint32_t j);
-/*@ requires \valid(b); assigns *b; exits \false; ensures fraction(&b->area2, 0); */
+/*@ requires \valid(b); assigns *b; exits \false; ensures sum(b); */
 void dyd_cert_bounds_init(dyd_cert_bounds *b);
 /*@ requires \valid(b) && of_parts(&b->area2); assigns b->area2; exits \false; */
 void dyd_cert_bounds_clear(dyd_cert_bounds *b);
 /*@ requires \valid_read(b) && exact(&b->area2.num) && small(area); assigns \nothing; exits \false; */
 bool dyd_cert_bounds_area_holds(const dyd_cert_bounds *b, const dyd_exact *area);
-/*@ requires checker(c) && open_pairs(c) && blocked(c) &&
-      -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
-    exits \false; */
+/*@ requires pairing(c); exits \false; admit ensures apart: \result == DYD_OK ==> pairing(c); */
 dyd_status dyd_checker_pairs(dyd_checker *c);
 
 #include "checker/pairs.c"
