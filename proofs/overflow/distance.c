@@ -40,7 +40,7 @@ void dyd_cert_window_clear(dyd_cert_window *w);
       \separated(man, f) && \separated(exp, f) && \separated(man, exp);
     assigns *man, *exp; exits \false; ensures -103079215168 <= *exp <= 103079215168; */
 static void root_above(uint64_t *man, int64_t *exp, const dyd_cert_fraction *f);
-/*@ assigns \nothing; exits \false; */
+/*@ assigns \nothing; exits \false; ensures \result ==> count <= 1024; */
 static bool is_worth_a_look(size_t count, size_t before);
 
 #include "checker/distance.c"
