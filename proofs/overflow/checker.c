@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/checker.c: what is read of sites and pairs is in their lists, in order. */
-/* Without dyd_checker_corners: 5 of 8 goals are proved; that the checker is what it was after a corner was added (loop
-   invariants), and that it is there at all after a callee that may change any memory (assert_rte_mem_access_2), was not
-   decided in 5 s. */
 #define __int128 long long /* of areas nothing is proved here */
 #include "checks.h"
 #include "pairing.h"
@@ -11,9 +8,9 @@
 #include "base/error.h"
 
 #define ITEM dyd_cert_corner
+#define KEPT(a, b) ((a).i == (b).i)
 #define RESERVE dyd_reserve
-#define ALLOC alloc_corners
-#include "lists.h"
+#include "keeps.h"
 
 /*@ requires checker(c) && \valid(count) && most <= 4294967295 &&
       \separated(count, c, c->in.err, c->in.in, LINES + (..));
@@ -28,6 +25,7 @@ static dyd_status read_heading(uint32_t *count, dyd_checker *c, const char *name
       c->point[0 .. 1];
     exits \false;
     ensures \result == DYD_OK ==> kept(&c->in);
+    ensures \result == DYD_OK && !first ==> \old(*i) < *i;
     ensures \result == DYD_OK ==> *i < c->sites.count && certified(&c->point[0]) && certified(&c->point[1]); */
 static dyd_status read_site_and_point(uint32_t *i, dyd_checker *c, bool first, const char *list);
 /*@ requires \valid_read(s) && exact(&s->lo) && exact(&s->hi) && exact(v); assigns \nothing; exits \false; */
@@ -49,9 +47,19 @@ dyd_status dyd_checker_head(dyd_checker *c);
       (0 < c->count ==> \valid(c->item + (0 .. c->count - 1)) && \separated(c, c->item + (0 .. c->count - 1)));
     exits \false; */
 void dyd_cert_corners_clear(dyd_cert_corners *c);
-/*@ requires \valid(c) && c->count <= c->cap <= 1152921504606846976 && c->count < 4294967295 &&
-      (0 < c->cap ==> \valid(c->item + (0 .. c->cap - 1))) && exact(u) && exact(u + 1);
-    exits \false; ensures \result == DYD_OK ==> c->count == \old(c->count) + 1; */
+/* Corners are in order; corner_list is what faces.c asks of them. */
+typedef const dyd_cert_corner *corner_of;
+typedef const dyd_cert_corners *corners;
+/*@ predicate corner_list(corner_of c, integer count) = count <= 1152921504606846976 &&
+      (0 < count ==> \valid_read(c + (0 .. count - 1))) && (\forall integer k; 0 <= k < count ==> c[k].i < SITES) &&
+      (\forall integer k, l; 0 <= k < l < count ==> c[k].i < c[l].i);
+    predicate extends(corners c) = \valid(c) && c->count <= c->cap <= 1152921504606846976 &&
+      (0 < c->cap ==> \valid(c->item + (0 .. c->cap - 1))) && corner_list(c->item, c->count); */
+/*@ requires extends(c) && c->count < 4294967295 && exact(u) && exact(u + 1) && i < SITES &&
+      (0 < c->count ==> c->item[c->count - 1].i < i);
+    exits \false;
+    ensures \result == DYD_OK ==> c->count == \old(c->count) + 1 && c->item[c->count - 1].i == i;
+    ensures \result == DYD_OK ==> extends(c); */
 static dyd_status corners_add(dyd_cert_corners *c, uint32_t i, const dyd_exact u[2]);
 
 
@@ -83,8 +91,7 @@ dyd_status dyd_cert_tree_init(dyd_cert_tree *t, const dyd_cert_sites *s);
       \separated(site->place + (0 .. 1), site, at + (0 .. 1));
     assigns site->place, site->place[0 .. 1]; exits \false; */
 dyd_status dyd_cert_site_set_place(dyd_cert_site *site, const dyd_exact at[2]);
-/*@ requires \valid(f) && \valid(bad) && \valid_read(g) && corners <= 1152921504606846976 &&
-      (0 < corners ==> \valid_read(corner + (0 .. corners - 1)));
+/*@ requires \valid(f) && \valid(bad) && \valid_read(g) && corner_list(corner, corners);
     assigns *f, *bad; exits \false; ensures \result == DYD_OK && *bad == DYD_CERT_NONE ==> indexed(f); */
 dyd_status dyd_cert_faces_init(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const dyd_cert_corner *corner,
                                size_t corners);
@@ -125,17 +132,13 @@ dyd_status dyd_checker_bridges(dyd_checker *c);
 /*@ requires ready(c); exits \false; ensures \result == DYD_OK ==> ready(c); */
 dyd_status dyd_checker_places(dyd_checker *c);
 
-/*@ requires ready(c) && pairs(&c->legal, SITES) && pairs(&c->bridges, SITES) && c->corners.count <= c->corners.cap &&
-      c->corners.cap <= 1152921504606846976 &&
-      (0 < c->corners.cap ==> \valid(c->corners.item + (0 .. c->corners.cap - 1))) &&
+/*@ predicate linked(checking c) = pairs(&c->legal, SITES) && pairs(&c->bridges, SITES) &&
       \separated(&c->graph, &c->sites, &c->legal, &c->bridges, c->sites.site + (0 .. SITES - 1),
-        c->legal.item + (0 .. c->legal.count - 1), c->bridges.item + (0 .. c->bridges.count - 1));
+        c->legal.item + (0 .. c->legal.count - 1), c->bridges.item + (0 .. c->bridges.count - 1)); */
+/*@ requires ready(c) && linked(c) && extends(&c->corners);
     exits \false; ensures \result == DYD_OK ==> indexed(&c->faces); */
 static dyd_status checker_find_faces(dyd_checker *c);
-/*@ requires ready(c) && pairs(&c->legal, SITES) && pairs(&c->bridges, SITES) && c->corners.count == 0 &&
-      c->corners.cap == 0 &&
-      \separated(&c->graph, &c->sites, &c->legal, &c->bridges, c->sites.site + (0 .. SITES - 1),
-        c->legal.item + (0 .. c->legal.count - 1), c->bridges.item + (0 .. c->bridges.count - 1));
+/*@ requires ready(c) && linked(c) && c->corners.count == 0 && c->corners.cap == 0;
     exits \false; ensures \result == DYD_OK ==> indexed(&c->faces); */
 dyd_status dyd_checker_corners(dyd_checker *c);
 
