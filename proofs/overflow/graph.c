@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/graph.c: sorting stays in the list, the list of pairs grows, walks stay in the graph. */
-/* Without gather_around: tried with a count of half-edges that begin below a site, as invariants of all six loops:
-   119 of 136 goals were proved in 5 s. Open: that the two loops that fill and sort around[] keep their invariants
-   (13 to 16, 20 to 22) and, after them, that --g->start[v] is a place in around[] and what is assigned. */
 /* Operands of comparisons are pointers to what is there: WP's memory does not follow casts from pointers to void. */
 #define dyd_cert_compare_edges(x, y) dyd_cert_compare_edges(const dyd_cert_edge *a, const dyd_cert_edge *b)
 #define compare_angle(x, y, z) compare_angle(const dyd_cert_graph *graph, uint32_t h, uint32_t k)
+#include "counting.h"
 #include "graph.h"
 
 #include "base/alloc.h"
@@ -50,7 +48,29 @@ static bool have_directions(const dyd_cert_graph *g);
     exits \false; ensures \result == DYD_OK || \result == DYD_E_NOMEM; ensures joined(g);
     ensures g->start == \old(g->start) && g->around == \old(g->around) && g->position == \old(g->position); */
 static dyd_status find_connected(dyd_cert_graph *g);
-/*@ requires \valid(g); exits \false; */
+/*@ predicate laid(graph g) = \valid(g) && \valid(g->start + (0 .. SITES)) &&
+      (0 < g->count ==> \valid(g->around + (0 .. 2 * g->count - 1)) &&
+        \valid(g->position + (0 .. 2 * g->count - 1))) &&
+      \separated(g, g->sites, g->legal, g->bridges, g->start + (0 .. SITES), g->around + (0 .. 2 * g->count - 1),
+        g->position + (0 .. 2 * g->count - 1), g->legal->item + (0 .. g->legal->count - 1),
+        g->bridges->item + (0 .. g->bridges->count - 1)); */
+/*@ requires size == 8 * (SITES + 1) && \valid(to + (0 .. SITES)); assigns to[0 .. SITES]; exits \false;
+    ensures \forall integer k; 0 <= k <= SITES ==> to[k] == 0; */
+void clear_starts(size_t *to, size_t size);
+#define memset(to, c, size) clear_starts(to, size)
+/* What graph.h says of dyd_cert_sort where BOUND is twice the count, of a part of g->around: the rest of it stays.
+ * compare_angle is called for half-edges below that. */
+/*@ requires joined(g) && 0 <= item - g->around && item == g->around + (item - g->around) &&
+      item - g->around + count <= 2 * g->count && count < 1152921504606846976;
+    requires 0 < g->count ==> \valid(g->around + (0 .. 2 * g->count - 1));
+    requires below(g->around, 2 * g->count, 2 * g->count);
+    assigns g->around[0 .. 2 * g->count - 1]; exits \false; ensures below(g->around, 2 * g->count, 2 * g->count); */
+void sort_half_edges(uint32_t *item, size_t count, const dyd_cert_graph *g);
+/*@ requires joined(g) && laid(g);
+    assigns g->start[0 .. SITES], g->around[0 .. 2 * g->count - 1], g->position[0 .. 2 * g->count - 1]; exits \false;
+    ensures below(g->around, 2 * g->count, 2 * g->count);
+    ensures \forall integer v; 0 <= v <= SITES ==> g->start[v] <= 2 * g->count;
+    ensures \forall integer v; 0 <= v < SITES ==> g->start[v] <= g->start[v + 1]; */
 static void gather_around(dyd_cert_graph *g);
 
 #include "checker/graph.c"
