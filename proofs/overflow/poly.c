@@ -52,11 +52,13 @@ static unsigned scan_unsigned(const char **text, unsigned most);
 /*@ requires \valid(t) && \valid(text) && string(*text) && \valid_read(r) && r->count <= 64 && \separated(text, t, r);
     assigns *text, t->e[0 .. 63]; exits \false; ensures \result ==> string(*text); */
 static bool scan_power(dyd_cert_term *t, const char **text, const dyd_cert_relations *r);
-/*@ requires \valid(r) && \valid_read(q) && held(q) && \separated(r, q);
+/*@ requires \valid(r) && \valid_read(q) && held(q) && beside(q, r);
     assigns r->work; exits \false; */
 static bool count_terms_of(dyd_cert_relations *r, const dyd_cert_poly *q, size_t more);
-/*@ requires \valid(p) && held(p) && whole(z) && \valid(r) && \separated(p, r, z) && leaf < 64 && e <= 8192;
-    assigns owned: p->term, p->count, r->nomem; exits \false; ensures held(p); ensures \result ==> limited(p); */
+/*@ requires \valid(p) && listed(p) && numbers_in(p) && whole(z) && \valid(r) && beside(p, r) && \separated(p, z);
+    requires \separated(r, z) && leaf < 64 && e <= 8192;
+    assigns owned: p->term, p->count, r->nomem; exits \false; ensures listed(p); ensures numbers_in(p);
+    ensures \result ==> low(p); ensures NEW(p, r); */
 static bool poly_set_term(dyd_cert_poly *p, mpz_srcptr z, size_t leaf, uint16_t e, dyd_cert_relations *r);
 /*@ requires \valid(r); assigns r->nomem; exits \false;
     ensures \result != \null && 0 < count ==> \valid(\result + (0 .. count - 1)); */
@@ -69,6 +71,7 @@ static bool scan_coefficient(mpz_ptr c, const char **text, dyd_cert_relations *r
     ensures 1 <= \result <= stop(text) + 1; */
 static size_t count_terms(const char *text);
 
+/*@ predicate apart(polynomial p, relations r) = \separated(p, r) && not_in(p, \base_addr(r)) && unlike_rests(p, r); */
 /*@ requires related(r) && k < r->count && \valid(p) && limited(p) && apart(p, r); assigns owned: p->term, p->count,
     r->nomem, r->work;
     exits \false; ensures held(p); ensures \result ==> limited(p) && apart(p, r) && related(r); */
@@ -98,7 +101,7 @@ void copy_term(dyd_cert_term *to, const dyd_cert_term *from);
     assigns sum->count, sum->term[0 .. p->count + q->count - 1], p->term[0 .. p->count - 1].c[0].value; exits \false;
     ensures sum->count <= p->count + q->count;
     ensures \forall integer t; 0 <= t < sum->count ==> whole(&sum->term[t].c[0]);
-    ensures \result && limited{Pre}(p) ==> \forall integer t, k; 0 <= t < sum->count && 0 <= k < 64 ==>
+    ensures \result && low{Pre}(p) ==> \forall integer t, k; 0 <= t < sum->count && 0 <= k < 64 ==>
       sum->term[t].e[k] <= 8192;
     ensures \result ==> sum->count <= 16384; */
 static bool terms_merge(dyd_cert_poly *sum, dyd_cert_poly *p, const dyd_cert_poly *q, mpz_srcptr c, const uint16_t *m);

@@ -11,6 +11,7 @@
   ensures owned: \forall polynomial s; \old(listed(s)) && \separated(s, x) && beside(s, r) ==> listed(s); \
   ensures owned: \forall polynomial s; \old(numbers_in(s)) && \separated(s, x) && beside(s, r) ==> numbers_in(s); \
   ensures owned: \forall polynomial s; \old(low(s)) && \separated(s, x) && beside(s, r) ==> low(s); \
+  ensures owned: \forall polynomial s, char *b; \old(not_in(s, b)) && \separated(s, x) && beside(s, r) ==> not_in(s, b); \
   ensures owned: \old(related(r)) && \separated(x, r) ==> related(r)
 #define LOW(x) listed(&x->num); requires listed(&x->den); requires numbers_in(&x->num); \
   requires numbers_in(&x->den); requires low(&x->num); requires low(&x->den)
@@ -21,6 +22,7 @@
 /*@ requires \valid(x) && both(x); assigns owned: CHANGES(x); exits \false; ensures HELD(x);
     ensures x->num.count == 0 && x->den.count == 0;
     ensures owned: \forall polynomial s; \old(listed(s)) && \separated(s, x) ==> listed(s);
+    ensures owned: \forall polynomial s, char *b; \old(not_in(s, b)) && \separated(s, x) ==> not_in(s, b);
     ensures owned: \forall polynomial s; \old(numbers_in(s)) && \separated(s, x) ==> numbers_in(s);
     ensures owned: \forall polynomial s; \old(low(s)) && \separated(s, x) ==> low(s); */
 void dyd_cert_quotient_clear(dyd_cert_quotient *x);
@@ -83,8 +85,10 @@ void dyd_cert_quotient_neg(dyd_cert_quotient *x);
     ensures \old(low(&x->den)) ==> low(&x->num); ensures \old(low(&x->num)) ==> low(&x->den);
     ensures \forall polynomial s; \old(listed(s)) && \separated(s, x) ==> listed(s);
     ensures \forall polynomial s; \old(numbers_in(s)) && \separated(s, x) ==> numbers_in(s);
+    ensures \forall polynomial s, char *b; \old(not_in(s, b)) && \separated(s, x) ==> not_in(s, b);
     ensures \forall polynomial s; \old(low(s)) && \separated(s, x) ==> low(s);
-    ensures \forall char *base; \old(both_not_in(x, base)) ==> both_not_in(x, base); */
+    ensures \forall char *base; \old(both_not_in(x, base)) ==> both_not_in(x, base);
+    ensures \forall relations r; \old(related(r)) && \separated(x, r) ==> related(r); */
 void dyd_cert_quotient_invert(dyd_cert_quotient *x);
 /*@ requires \valid(to) && \valid_read(from) && \separated(to, from); assigns to->term, to->count; exits \false;
     ensures to->term == from->term && to->count == from->count;

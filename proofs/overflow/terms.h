@@ -23,6 +23,7 @@ typedef const uint16_t *exponents;
   ensures owned: \forall polynomial s; \old(listed(s)) && \separated(s, p) && beside(s, r) ==> listed(s); \
   ensures owned: \forall polynomial s; \old(numbers_in(s)) && \separated(s, p) && beside(s, r) ==> numbers_in(s); \
   ensures owned: \forall polynomial s; \old(low(s)) && \separated(s, p) && beside(s, r) ==> low(s); \
+  ensures owned: \forall polynomial s, char *b; \old(not_in(s, b)) && \separated(s, p) && beside(s, r) ==> not_in(s, b); \
   ensures owned: \old(related(r)) && \separated(p, r) ==> related(r)
 /*@ predicate few(exponents e) = \forall integer k; 0 <= k < 64 ==> e[k] <= 8192;
     predicate listed(polynomial p) = \valid_read(p) && p->count <= 32768 &&
@@ -44,6 +45,7 @@ typedef const uint16_t *exponents;
 /*@ requires \valid(p); requires listed(p); requires numbers_in(p); assigns owned: p->term, p->count;
     exits \false; ensures listed(p); ensures numbers_in(p); ensures p->count == 0;
     ensures owned: \forall polynomial s; \old(listed(s)) && \separated(s, p) ==> listed(s);
+    ensures owned: \forall polynomial s, char *b; \old(not_in(s, b)) && \separated(s, p) ==> not_in(s, b);
     ensures owned: \forall polynomial s; \old(numbers_in(s)) && \separated(s, p) ==> numbers_in(s);
     ensures owned: \forall polynomial s; \old(low(s)) && \separated(s, p) ==> low(s); */
 void dyd_cert_poly_clear(dyd_cert_poly *p);
