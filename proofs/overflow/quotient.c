@@ -90,11 +90,19 @@ void dyd_cert_quotient_neg(dyd_cert_quotient *x);
     ensures \forall char *base; \old(both_not_in(x, base)) ==> both_not_in(x, base);
     ensures \forall relations r; \old(related(r)) && \separated(x, r) ==> related(r); */
 void dyd_cert_quotient_invert(dyd_cert_quotient *x);
-/*@ requires \valid(to) && \valid_read(from) && \separated(to, from); assigns to->term, to->count; exits \false;
-    ensures to->term == from->term && to->count == from->count;
-    ensures listed(from) && not_in(from, \base_addr(to)) ==> listed(to); ensures numbers_in(from) ==> numbers_in(to);
-    ensures low(from) ==> low(to); ensures \forall char *base; not_in(from, base) ==> not_in(to, base);
-    ensures \forall polynomial s; \old(numbers_in(s)) && \separated(s, to) ==> numbers_in(s); */
-void copy_poly(dyd_cert_poly *to, const dyd_cert_poly *from);
+/*@ requires \valid(to) && \valid_read(from) && \separated(to, from); assigns CHANGES(to); exits \false;
+    ensures to->num.term == from->num.term && to->num.count == from->num.count;
+    ensures to->den.term == from->den.term && to->den.count == from->den.count;
+    ensures listed(&from->num) && not_in(&from->num, \base_addr(to)) ==> listed(&to->num);
+    ensures numbers_in(&from->num) ==> numbers_in(&to->num); ensures low(&from->num) ==> low(&to->num);
+    ensures listed(&from->den) && not_in(&from->den, \base_addr(to)) ==> listed(&to->den);
+    ensures numbers_in(&from->den) ==> numbers_in(&to->den); ensures low(&from->den) ==> low(&to->den);
+    ensures \forall char *b; both_not_in(from, b) ==> both_not_in(to, b);
+    ensures \forall polynomial s; \old(listed(s)) && \separated(s, to) ==> listed(s);
+    ensures \forall polynomial s; \old(numbers_in(s)) && \separated(s, to) ==> numbers_in(s);
+    ensures \forall polynomial s; \old(low(s)) && \separated(s, to) ==> low(s);
+    ensures \forall polynomial s, char *b; \old(not_in(s, b)) && \separated(s, to) ==> not_in(s, b);
+    ensures \forall relations r; \old(related(r)) && \separated(to, r) ==> related(r); */
+void copy_quotient(dyd_cert_quotient *to, const dyd_cert_quotient *from);
 
 #include "checker/quotient.c"

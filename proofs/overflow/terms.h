@@ -83,8 +83,9 @@ void dyd_cert_poly_divide(dyd_cert_poly *p, mpz_srcptr z);
     requires \separated(p, q); requires beside(p, r); requires beside(q, r);
     requires distinct(p, q); requires not_in(p, \base_addr(q)); requires not_in(q, \base_addr(p));
     requires not_in(q, \base_addr(r)); requires not_in(p, \base_addr(r));
-    requires whole(c) && \separated(p, c) && not_in(p, \base_addr(c));
-    requires m == \null || \valid_read(m + (0 .. 63)) && few(m) && not_in(p, \base_addr(m));
+    requires whole(c); requires \separated(p, c); requires not_in(p, \base_addr(c));
+    requires m != \null ==> \valid_read(m + (0 .. 63)); requires m != \null ==> few(m);
+    requires m != \null ==> not_in(p, \base_addr(m));
     assigns owned: p->term, p->count, r->nomem, r->work; exits \false; ensures listed(p); ensures numbers_in(p);
     ensures \result && low{Pre}(p) ==> low(p); ensures NEW(p, r); */
 bool dyd_cert_poly_add_scaled(dyd_cert_poly *p, const dyd_cert_poly *q, mpz_srcptr c, const uint16_t *m,
@@ -101,5 +102,13 @@ bool dyd_cert_poly_add(dyd_cert_poly *p, const dyd_cert_poly *q, int sign, dyd_c
     assigns owned: p->term, p->count, r->nomem, r->work;
     exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p); ensures NEW(p, r); */
 bool dyd_cert_poly_mul(dyd_cert_poly *p, const dyd_cert_poly *q, dyd_cert_relations *r);
+/*@ requires \valid(to) && \valid_read(from) && \separated(to, from); assigns to->term, to->count; exits \false;
+    ensures to->term == from->term && to->count == from->count;
+    ensures \old(listed(from)) && \old(not_in(from, \base_addr(to))) ==> listed(to);
+    ensures \old(numbers_in(from)) ==> numbers_in(to); ensures \old(low(from)) ==> low(to);
+    ensures \forall char *b; \old(not_in(from, b)) ==> not_in(to, b);
+    ensures \forall polynomial s; \old(listed(s)) && \separated(s, to) ==> listed(s);
+    ensures \forall polynomial s; \old(numbers_in(s)) && \separated(s, to) ==> numbers_in(s); */
+void copy_poly(dyd_cert_poly *to, const dyd_cert_poly *from);
 
 #endif
