@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/poly.c: polynomials are read where they are, exponents stay in their type, terms in
  * their lists. */
-/* Without terms_merge: 99 of 103 goals are proved; that the terms merged so far, and those to come, are whole and of
-   small exponents while one is copied (loop invariants 4 to 6), and that q's term is whole before term_scale, was not
-   decided in 10 s. */
-/* Without dyd_cert_poly_add_scaled: 18 of 21 goals are proved; open are conditions of terms_merge. */
-/* Without terms_take_power: without invariants 13 of 32 goals are proved; it copies terms as terms_merge does. */
-/* Without reduce_leaf, dyd_cert_poly_mul: 5 of 12 and 5 of 17 goals are proved: they rest on the two before. */
+/* Without terms_merge: open are conditions of its loop, that terms are whole numbers of small exponents while one is
+   copied. */
+/* Without terms_take_power: it copies terms as terms_merge does; its contract was not tried, nor are there invariants. */
+/* Without reduce_leaf: open are, in 8 s, the condition that terms_take_power has of p, that the rest of a leaf, and the
+   terms taken, are as add_scaled needs them, and the invariants that rest on this. */
 /* Without dyd_cert_poly_scan: tried; that the terms read are no more than were counted rests on counting: reads of
    p->term[p->count], conditions of mpz_init and scan_term stay open. */
 #include "terms.h"
