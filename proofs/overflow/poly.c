@@ -3,7 +3,8 @@
  * their lists. */
 /* Without terms_merge: open are conditions of its loop, that terms are whole numbers of small exponents while one is
    copied. */
-/* Without terms_take_power: it copies terms as terms_merge does; its contract was not tried, nor are there invariants. */
+/* Without terms_take_power: it copies terms as terms_merge does; its contract was not tried, nor are there
+   invariants. */
 /* Without reduce_leaf: open are, in 8 s, the condition that terms_take_power has of p, that the rest of a leaf, and the
    terms taken, are as add_scaled needs them, and the invariants that rest on this. */
 /* Without dyd_cert_poly_scan: tried; that the terms read are no more than were counted rests on counting: reads of
@@ -32,7 +33,6 @@ void memcpy_exponents(uint16_t *to, const uint16_t *from, size_t n);
 #define RESERVE reserve_chars
 #define ALLOC alloc_chars
 #include "lists.h"
-
 
 /*@ requires \valid_read(a + (0 .. 63)) && \valid_read(b + (0 .. 63)); assigns \nothing; exits \false;
     ensures -1 <= \result <= 1;
@@ -78,7 +78,8 @@ static size_t count_terms(const char *text);
     assigns owned: out->term, out->count, p->count, r->nomem; exits \false;
     ensures listed(p); ensures numbers_in(p); ensures low(p);
     ensures listed(out); ensures numbers_in(out); ensures low(out);
-    ensures owned: not_in(out, \base_addr(r)) && not_in(out, \base_addr(p)) && not_in(p, \base_addr(out)) && distinct(p, out);
+    ensures owned: not_in(out, \base_addr(r)) && not_in(out, \base_addr(p)) && not_in(p, \base_addr(out)) &&
+      distinct(p, out);
     ensures owned: \forall polynomial s, char *b; \old(not_in(s, b)) && \separated(s, p) && \separated(s, out) ==>
       not_in(s, b);
     ensures owned: \forall char *b; \old(not_in(p, b)) ==> not_in(p, b);
@@ -114,7 +115,8 @@ void copy_term(dyd_cert_term *to, const dyd_cert_term *from);
     requires m != \null ==> \separated(sum, m + (0 .. 63));
     requires \base_addr(sum->term) != \base_addr(sum) && \base_addr(sum->term) != \base_addr(p) &&
       \base_addr(sum->term) != \base_addr(q) && \base_addr(sum->term) != \base_addr(c) &&
-      (m != \null ==> \base_addr(sum->term) != \base_addr(m)) && not_in(p, \base_addr(sum->term)) && not_in(q, \base_addr(sum->term));
+      (m != \null ==> \base_addr(sum->term) != \base_addr(m)) && not_in(p, \base_addr(sum->term)) && not_in(q,
+      \base_addr(sum->term));
     requires distinct(p, q); requires not_in(p, \base_addr(sum)); requires not_in(p, \base_addr(q));
     requires not_in(p, \base_addr(c)); requires m != \null ==> not_in(p, \base_addr(m));
     requires not_in(q, \base_addr(sum)); requires not_in(q, \base_addr(p));

@@ -11,13 +11,13 @@
   ensures owned: \forall polynomial s; \old(listed(s)) && \separated(s, x) && beside(s, r) ==> listed(s); \
   ensures owned: \forall polynomial s; \old(numbers_in(s)) && \separated(s, x) && beside(s, r) ==> numbers_in(s); \
   ensures owned: \forall polynomial s; \old(low(s)) && \separated(s, x) && beside(s, r) ==> low(s); \
-  ensures owned: \forall polynomial s, char *b; \old(not_in(s, b)) && \separated(s, x) && beside(s, r) ==> not_in(s, b); \
+  ensures owned: \forall polynomial s, char *b; \old(not_in(s, b)) && \separated(s, x) && beside(s, r) ==> not_in(s, \
+      b); \
   ensures owned: \old(related(r)) && \separated(x, r) ==> related(r)
 #define LOW(x) listed(&x->num); requires listed(&x->den); requires numbers_in(&x->num); \
   requires numbers_in(&x->den); requires low(&x->num); requires low(&x->den)
 #define unlike(x, r) (\base_addr(x) != \base_addr(r))
 #define CHANGES(x) (x)->num.term, (x)->num.count, (x)->den.term, (x)->den.count
-
 
 /*@ requires \valid(x) && both(x); assigns owned: CHANGES(x); exits \false; ensures HELD(x);
     ensures x->num.count == 0 && x->den.count == 0;
@@ -26,7 +26,8 @@
     ensures owned: \forall polynomial s; \old(numbers_in(s)) && \separated(s, x) ==> numbers_in(s);
     ensures owned: \forall polynomial s; \old(low(s)) && \separated(s, x) ==> low(s); */
 void dyd_cert_quotient_clear(dyd_cert_quotient *x);
-/*@ requires \valid(x) && both(x); requires both_limited(y); requires \valid(r) && \separated(x, y) && unlike(x, r) && unlike(y, r);
+/*@ requires \valid(x) && both(x); requires both_limited(y); requires \valid(r) && \separated(x, y) && unlike(x, r)
+      && unlike(y, r);
     requires both_not_in(y, \base_addr(x)); requires both_not_in(y, \base_addr(r));
     assigns owned: CHANGES(x), r->nomem, r->work; exits \false; ensures HELD(x); ensures LIMITED(x);
     ensures NEW_BOTH(x, r); */
@@ -34,17 +35,21 @@ bool dyd_cert_quotient_set(dyd_cert_quotient *x, const dyd_cert_quotient *y, dyd
 /*@ requires parts(x); exits \false; ensures HELD(x);
     assigns x->num.term[0 .. x->num.count - 1].c[0].value, x->den.term[0 .. x->den.count - 1].c[0].value; */
 static void quotient_shorten(dyd_cert_quotient *x);
-/*@ requires \valid(x) && both(x) && whole(num) && whole(den) && sign(den) != 0 && \valid(r) && \separated(x, num) && \separated(r, num) && unlike(x, r) &&
+/*@ requires \valid(x) && both(x) && whole(num) && whole(den) && sign(den) != 0 && \valid(r) && \separated(x, num)
+      && \separated(r, num) && unlike(x, r) &&
       \separated(x, den) && \separated(r, den);
     assigns owned: CHANGES(x), r->nomem; exits \false; ensures HELD(x); ensures LIMITED(x);
     ensures NEW_BOTH(x, r); */
 bool dyd_cert_quotient_set_q(dyd_cert_quotient *x, mpz_srcptr num, mpz_srcptr den, dyd_cert_relations *r);
-/*@ requires \valid(x) && both(x) && leaf < 64 && limited(den) && \valid(r) && \separated(x, den) && unlike(x, r) && beside(den, r) &&
+/*@ requires \valid(x) && both(x) && leaf < 64 && limited(den) && \valid(r) && \separated(x, den) && unlike(x, r) &&
+      beside(den, r) &&
       not_in(den, \base_addr(x)) && not_in(den, \base_addr(r));
     assigns owned: CHANGES(x), r->nomem, r->work; exits \false; ensures HELD(x); ensures LIMITED(x); */
 bool dyd_cert_quotient_set_leaf(dyd_cert_quotient *x, size_t leaf, const dyd_cert_poly *den, dyd_cert_relations *r);
-/*@ requires \valid(x) && \valid_read(y); requires LOW(x); requires LOW(y); requires related(r) && (sign == 1 || sign == -1);
-    requires \separated(x, y) && unlike(x, r) && unlike(y, r); requires both_not_in(x, \base_addr(r)); requires both_not_in(y, \base_addr(r));
+/*@ requires \valid(x) && \valid_read(y); requires LOW(x); requires LOW(y); requires related(r) && (sign == 1 ||
+      sign == -1);
+    requires \separated(x, y) && unlike(x, r) && unlike(y, r); requires both_not_in(x, \base_addr(r)); requires
+      both_not_in(y, \base_addr(r));
     assigns owned: CHANGES(x), r->nomem, r->work; exits \false; ensures HELD(x); ensures LIMITED(x);
     ensures NEW_BOTH(x, r); */
 bool dyd_cert_quotient_add(dyd_cert_quotient *x, int sign, const dyd_cert_quotient *y, dyd_cert_relations *r);
@@ -54,12 +59,14 @@ bool dyd_cert_quotient_add(dyd_cert_quotient *x, int sign, const dyd_cert_quotie
     assigns owned: CHANGES(x), r->nomem, r->work; exits \false; ensures HELD(x); ensures LIMITED(x);
     ensures NEW_BOTH(x, r); */
 bool dyd_cert_quotient_mul(dyd_cert_quotient *x, const dyd_cert_quotient *y, dyd_cert_relations *r);
-/*@ requires \valid(x); requires LOW(x); requires \valid(r) && whole(z) && \separated(x, z) && \separated(r, z) && unlike(x, r);
+/*@ requires \valid(x); requires LOW(x); requires \valid(r) && whole(z) && \separated(x, z) && \separated(r, z) &&
+      unlike(x, r);
     requires both_not_in(x, \base_addr(r));
     assigns owned: CHANGES(x), r->nomem, r->work; exits \false; ensures HELD(x); ensures LIMITED(x); */
 bool dyd_cert_quotient_mul_z(dyd_cert_quotient *x, mpz_srcptr z, dyd_cert_relations *r);
 /*@ requires \valid(x) && \valid_read(y); requires LOW(x); requires LOW(y); requires related(r);
-    requires \separated(x, y) && unlike(x, r) && unlike(y, r); requires both_not_in(x, \base_addr(r)); requires both_not_in(y, \base_addr(r));
+    requires \separated(x, y) && unlike(x, r) && unlike(y, r); requires both_not_in(x, \base_addr(r)); requires
+      both_not_in(y, \base_addr(r));
     assigns owned: CHANGES(x), r->nomem, r->work; exits \false; ensures HELD(x); ensures LIMITED(x); */
 bool dyd_cert_quotient_div(dyd_cert_quotient *x, const dyd_cert_quotient *y, dyd_cert_relations *r);
 /*@ requires \valid(x); requires LOW(x); requires related(r); requires unlike(x, r);

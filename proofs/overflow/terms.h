@@ -14,16 +14,18 @@ typedef const dyd_cert_quotient *quotient;
 typedef const dyd_cert_relations *relations;
 typedef const uint16_t *exponents;
 
-/* held: the terms are there, in memory of their own; limited: and no more of them, nor greater exponents, than sums and
- * products take. beside: what counts the work is no part of p, which may be a rest in r. not_in: what is at a base is
- * not among the terms; distinct: two lists of terms are two. */
+/* held: the terms are there, in memory of their own (listed), and are numbers; limited: and no more of them, nor greater
+ * exponents, than sums and products take (low). beside: what counts the work is no part of p, which may be a rest in r.
+ * not_in: what is at a base is not among the terms; distinct: two lists of terms are two. NEW: what p has got is not in
+ * r, and what else is held stays, as said by `assigns`, in the words that callers need: its parts are named `owned`. */
 #define held(p) (listed(p) && numbers_in(p))
 #define limited(p) (held(p) && low(p))
 #define NEW(p, r) owned: not_in(p, \base_addr(r)); \
   ensures owned: \forall polynomial s; \old(listed(s)) && \separated(s, p) && beside(s, r) ==> listed(s); \
   ensures owned: \forall polynomial s; \old(numbers_in(s)) && \separated(s, p) && beside(s, r) ==> numbers_in(s); \
   ensures owned: \forall polynomial s; \old(low(s)) && \separated(s, p) && beside(s, r) ==> low(s); \
-  ensures owned: \forall polynomial s, char *b; \old(not_in(s, b)) && \separated(s, p) && beside(s, r) ==> not_in(s, b); \
+  ensures owned: \forall polynomial s, char *b; \old(not_in(s, b)) && \separated(s, p) && beside(s, r) ==> not_in(s, \
+      b); \
   ensures owned: \old(related(r)) && \separated(p, r) ==> related(r)
 /*@ predicate few(exponents e) = \forall integer k; 0 <= k < 64 ==> e[k] <= 8192;
     predicate listed(polynomial p) = \valid_read(p) && p->count <= 32768 &&
@@ -49,17 +51,21 @@ typedef const uint16_t *exponents;
     ensures owned: \forall polynomial s; \old(numbers_in(s)) && \separated(s, p) ==> numbers_in(s);
     ensures owned: \forall polynomial s; \old(low(s)) && \separated(s, p) ==> low(s); */
 void dyd_cert_poly_clear(dyd_cert_poly *p);
-/*@ requires \valid(p); requires listed(p); requires numbers_in(p); requires listed(q); requires numbers_in(q); requires low(q); requires \valid(r) && \separated(p, q);
+/*@ requires \valid(p); requires listed(p); requires numbers_in(p); requires listed(q); requires numbers_in(q);
+      requires low(q); requires \valid(r) && \separated(p, q);
     requires beside(p, r); requires beside(q, r); requires not_in(q, \base_addr(p)); requires not_in(q, \base_addr(r));
     assigns owned: p->term, p->count, r->nomem, r->work;
     exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p); ensures NEW(p, r); */
 bool dyd_cert_poly_set(dyd_cert_poly *p, const dyd_cert_poly *q, dyd_cert_relations *r);
-/*@ requires \valid(p); requires listed(p); requires numbers_in(p); requires whole(z) && \valid(r) && beside(p, r) && \separated(p, z) && \separated(r, z);
-    assigns owned: p->term, p->count, r->nomem; exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p);
+/*@ requires \valid(p); requires listed(p); requires numbers_in(p); requires whole(z) && \valid(r) && beside(p, r)
+      && \separated(p, z) && \separated(r, z);
+    assigns owned: p->term, p->count, r->nomem; exits \false; ensures listed(p); ensures numbers_in(p); ensures
+      \result ==> low(p);
     ensures NEW(p, r); */
 bool dyd_cert_poly_set_z(dyd_cert_poly *p, mpz_srcptr z, dyd_cert_relations *r);
 /*@ requires \valid(p); requires listed(p); requires numbers_in(p); requires leaf < 64 && \valid(r) && beside(p, r);
-    assigns owned: p->term, p->count, r->nomem; exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p);
+    assigns owned: p->term, p->count, r->nomem; exits \false; ensures listed(p); ensures numbers_in(p); ensures
+      \result ==> low(p);
     ensures NEW(p, r); */
 bool dyd_cert_poly_set_leaf(dyd_cert_poly *p, size_t leaf, dyd_cert_relations *r);
 /*@ requires held(p) && held(q); assigns \nothing; exits \false; */
@@ -75,11 +81,13 @@ mpz_srcptr dyd_cert_poly_integer(const dyd_cert_poly *p);
 /*@ requires \valid(g) && whole(g) && held(p) && \separated(g, p) && not_in(p, \base_addr(g));
     assigns *g; exits \false; ensures whole(g); */
 void dyd_cert_poly_content(mpz_ptr g, const dyd_cert_poly *p);
-/*@ requires \valid(p); requires listed(p); requires numbers_in(p); requires whole(z) && sign(z) != 0 && \separated(z, p) && not_in(p, \base_addr(z));
+/*@ requires \valid(p); requires listed(p); requires numbers_in(p); requires whole(z) && sign(z) != 0 &&
+      \separated(z, p) && not_in(p, \base_addr(z));
     assigns p->term[0 .. p->count - 1].c[0]; exits \false; ensures listed(p); ensures numbers_in(p); */
 void dyd_cert_poly_divide(dyd_cert_poly *p, mpz_srcptr z);
 /* c and m may be of a third polynomial. */
-/*@ requires \valid(p); requires listed(p); requires numbers_in(p); requires p->count <= 16384; requires listed(q); requires numbers_in(q); requires low(q); requires \valid(r);
+/*@ requires \valid(p); requires listed(p); requires numbers_in(p); requires p->count <= 16384; requires listed(q);
+      requires numbers_in(q); requires low(q); requires \valid(r);
     requires \separated(p, q); requires beside(p, r); requires beside(q, r);
     requires distinct(p, q); requires not_in(p, \base_addr(q)); requires not_in(q, \base_addr(p));
     requires not_in(q, \base_addr(r)); requires not_in(p, \base_addr(r));
@@ -90,18 +98,22 @@ void dyd_cert_poly_divide(dyd_cert_poly *p, mpz_srcptr z);
     ensures \result && low{Pre}(p) ==> low(p); ensures NEW(p, r); */
 bool dyd_cert_poly_add_scaled(dyd_cert_poly *p, const dyd_cert_poly *q, mpz_srcptr c, const uint16_t *m,
                               dyd_cert_relations *r);
-/*@ requires \valid(p); requires listed(p); requires numbers_in(p); requires low(p); requires listed(q); requires numbers_in(q); requires low(q); requires \valid(r) && (sign == 1 || sign == -1);
+/*@ requires \valid(p); requires listed(p); requires numbers_in(p); requires low(p); requires listed(q); requires
+      numbers_in(q); requires low(q); requires \valid(r) && (sign == 1 || sign == -1);
     requires \separated(p, q); requires beside(p, r); requires beside(q, r);
     requires distinct(p, q); requires not_in(p, \base_addr(q)); requires not_in(q, \base_addr(p));
     requires not_in(q, \base_addr(r)); requires not_in(p, \base_addr(r));
     assigns owned: p->term, p->count, r->nomem, r->work;
     exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p); ensures NEW(p, r); */
 bool dyd_cert_poly_add(dyd_cert_poly *p, const dyd_cert_poly *q, int sign, dyd_cert_relations *r);
-/*@ requires \valid(p); requires listed(p); requires numbers_in(p); requires low(p); requires listed(q); requires numbers_in(q); requires low(q); requires related(r); requires p == q || \separated(p, q);
+/*@ requires \valid(p); requires listed(p); requires numbers_in(p); requires low(p); requires listed(q); requires
+      numbers_in(q); requires low(q); requires related(r); requires p == q || \separated(p, q);
     requires beside(p, r); requires beside(q, r); requires not_in(p, \base_addr(r)); requires not_in(q, \base_addr(r));
     assigns owned: p->term, p->count, r->nomem, r->work;
     exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p); ensures NEW(p, r); */
 bool dyd_cert_poly_mul(dyd_cert_poly *p, const dyd_cert_poly *q, dyd_cert_relations *r);
+
+/* An assignment: see `copy` in overflow.py. */
 /*@ requires \valid(to) && \valid_read(from) && \separated(to, from); assigns to->term, to->count; exits \false;
     ensures to->term == from->term && to->count == from->count;
     ensures \old(listed(from)) && \old(not_in(from, \base_addr(to))) ==> listed(to);
