@@ -14,7 +14,7 @@ typedef const dyd_cert_quotient *quotient;
 typedef const dyd_cert_relations *relations;
 typedef const uint16_t *exponents;
 
-/* held: the terms are there, in memory of their own (listed), and are numbers; limited: and no more of them, nor greater
+/* held: the terms are there, in memory of their own (listed), and are numbers; limited: and no more, nor greater
  * exponents, than sums and products take (low). beside: what counts the work is no part of p, which may be a rest in r.
  * not_in: what is at a base is not among the terms; distinct: two lists of terms are two. NEW: what p has got is not in
  * r, and what else is held stays, as said by `assigns`, in the words that callers need: its parts are named `owned`. */
