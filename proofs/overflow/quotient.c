@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/quotient.c: terms stay in their lists. */
-/* Without dyd_cert_quotient_add: 130 of 132 goals are proved in 30 s; open are that part's terms are numbers after x was
-   shortened, and that x's denominators are listed at the end. */
+/* Without dyd_cert_quotient_add: 130 of 132 goals are proved in 30 s; open is that x's terms are still listed where the
+   local part goes out of scope (_ensures, _ensures_2). */
 /* Without dyd_cert_quotient_power: 134 of 137 goals are proved in 20 s; open is that x's terms are listed, and numbers,
    after one was cleared. */
 #include "terms.h"
