@@ -135,7 +135,8 @@ def with_loops(root, name, text):
     text = text.replace('(void **)', '')
     text = re.sub(r'\bmem(cpy|set)\((?=[^,]*\be,)', r'mem\1_exponents(', text)
     for what, to, of in re.findall(r'^copy (\w+) (.*) = (.*);$', said, re.M):
-        text = replace(path, text, f' {to} = {of};', f' copy_{what}(&{to}, &{of});')
+        name = to.split()[-1]  # of `TYPE NAME`, which is declared before
+        text = replace(path, text, f' {to} = {of};', f' {to};' * (to != name) + f' copy_{what}(&{name}, &{of});')
     text = re.sub(r'(\w+) = dyd_alloc\(', lambda m: f'{m[1]} = alloc_{ITEMS.get(m[1], "indices")}(', text)
     text = re.sub(r'(\w+) = calloc\(', lambda m: f'{m[1]} = zeroed_{ZEROED.get(m[1], "flags")}(', text)
     text = re.sub(r'(\w+) = malloc\((?:(\d+) \* )?(sizeof [^()]*)\)',

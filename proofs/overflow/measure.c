@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/measure.c: turns reckoned on the grid. */
-/* Without dyd_cert_fraction_swap: structures with arrays in them are copied as one; what comes of their parts stays
-   unknown (its ensures, and what is assigned). */
 /* Unproved site_height_loop_invariant_preserved, dyd_cert_cross_loop_invariant_3_preserved,
    dyd_cert_cross_loop_invariant_4_preserved: that numbers stay while another one is set or cleared takes 8 to 12 s of a
    quiet machine. */
@@ -55,5 +53,9 @@ static void axis_distance(dyd_cert_fraction *d, const dyd_exact *c, const dyd_ce
       apart_from_side(out, &s->side[0]) && apart_from_side(out, &s->side[1]);
     assigns FRACTION(out); exits \false; ensures fraction(out, 2097152); */
 static void site_height(dyd_cert_fraction *out, const dyd_exact u[2], const dyd_cert_site *s, bool upper);
+/*@ requires \valid(to) && \valid_read(from) && \separated(to, from); assigns FRACTION(to); exits \false;
+    ensures to->num.man[0].value == from->num.man[0].value && to->num.exp == from->num.exp;
+    ensures to->den[0].value == from->den[0].value && to->whole == from->whole; */
+void copy_fraction(dyd_cert_fraction *to, const dyd_cert_fraction *from);
 
 #include "checker/measure.c"

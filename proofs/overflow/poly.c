@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/poly.c: polynomials are read where they are, exponents stay in their type, terms in
  * their lists. */
-/* Without terms_merge: 99 of 103 goals are proved; that the terms merged so far, and those to come, are whole and of
-   small exponents while one is copied (loop invariants 4 to 6), and that q's term is whole before term_scale, was not
-   decided in 10 s. */
-/* Without dyd_cert_poly_add_scaled: 18 of 21 goals are proved; open are conditions of terms_merge. */
-/* Without terms_take_power: without invariants 13 of 32 goals are proved; it copies terms as terms_merge does. */
-/* Without reduce_leaf, dyd_cert_poly_mul: 5 of 12 and 5 of 17 goals are proved: they rest on the two before. */
+/* Without terms_merge: open are conditions of its loop, that terms are whole numbers of small exponents while one is
+   copied. */
+/* Without terms_take_power: it copies terms as terms_merge does; its contract was not tried, nor are there
+   invariants. */
+/* Without reduce_leaf: open are, in 8 s, the condition that terms_take_power has of p, that the rest of a leaf, and the
+   terms taken, are as add_scaled needs them, and the invariants that rest on this. */
 /* Without dyd_cert_poly_scan: tried; that the terms read are no more than were counted rests on counting: reads of
    p->term[p->count], conditions of mpz_init and scan_term stay open. */
 #include "terms.h"
+
+typedef const dyd_cert_term *one_term;
 
 #include "base/alloc.h"
 #include <string.h>
@@ -32,7 +34,6 @@ void memcpy_exponents(uint16_t *to, const uint16_t *from, size_t n);
 #define ALLOC alloc_chars
 #include "lists.h"
 
-
 /*@ requires \valid_read(a + (0 .. 63)) && \valid_read(b + (0 .. 63)); assigns \nothing; exits \false;
     ensures -1 <= \result <= 1;
     ensures \result == 0 <==> \forall integer k; 0 <= k < 64 ==> a[k] == b[k]; */
@@ -41,8 +42,8 @@ static int terms_compare(const uint16_t *a, const uint16_t *b);
       (\forall integer k; 0 <= k < 64 ==> t->e[k] <= 16384);
     requires m == \null || \valid_read(m + (0 .. 63)) && \separated(out, m + (0 .. 63)) &&
       (\forall integer k; 0 <= k < 64 ==> m[k] <= 16384);
-    assigns *out; exits \false; ensures whole(&out->c[0]);
-    ensures \result ==> \forall integer k; 0 <= k < 64 ==> out->e[k] <= 8192; */
+    assigns out->c[0].value, out->e[0 .. 63]; exits \false; ensures whole(&out->c[0]);
+    ensures \result ==> few(&out->e[0]); */
 static bool term_scale(dyd_cert_term *out, const dyd_cert_term *t, mpz_srcptr c, const uint16_t *m);
 /*@ requires \valid(text) && string(*text) && most <= 400000000;
     assigns *text; exits \false;
@@ -52,11 +53,13 @@ static unsigned scan_unsigned(const char **text, unsigned most);
 /*@ requires \valid(t) && \valid(text) && string(*text) && \valid_read(r) && r->count <= 64 && \separated(text, t, r);
     assigns *text, t->e[0 .. 63]; exits \false; ensures \result ==> string(*text); */
 static bool scan_power(dyd_cert_term *t, const char **text, const dyd_cert_relations *r);
-/*@ requires \valid(r) && \valid_read(q) && held(q) && \separated(r, q);
+/*@ requires \valid(r) && \valid_read(q) && held(q) && beside(q, r);
     assigns r->work; exits \false; */
 static bool count_terms_of(dyd_cert_relations *r, const dyd_cert_poly *q, size_t more);
-/*@ requires \valid(p) && held(p) && whole(z) && \valid(r) && \separated(p, r, z) && leaf < 64 && e <= 8192;
-    assigns owned: p->term, p->count, r->nomem; exits \false; ensures held(p); ensures \result ==> limited(p); */
+/*@ requires \valid(p) && listed(p) && numbers_in(p) && whole(z) && \valid(r) && beside(p, r) && \separated(p, z);
+    requires \separated(r, z) && leaf < 64 && e <= 8192;
+    assigns owned: p->term, p->count, r->nomem; exits \false; ensures listed(p); ensures numbers_in(p);
+    ensures \result ==> low(p); ensures NEW(p, r); */
 static bool poly_set_term(dyd_cert_poly *p, mpz_srcptr z, size_t leaf, uint16_t e, dyd_cert_relations *r);
 /*@ requires \valid(r); assigns r->nomem; exits \false;
     ensures \result != \null && 0 < count ==> \valid(\result + (0 .. count - 1)); */
@@ -69,38 +72,57 @@ static bool scan_coefficient(mpz_ptr c, const char **text, dyd_cert_relations *r
     ensures 1 <= \result <= stop(text) + 1; */
 static size_t count_terms(const char *text);
 
-/*@ requires related(r) && k < r->count && \valid(p) && limited(p) && apart(p, r); assigns owned: p->term, p->count,
-    r->nomem, r->work;
-    exits \false; ensures held(p); ensures \result ==> limited(p) && apart(p, r) && related(r); */
+/*@ predicate apart(polynomial p, relations r) = \separated(p, r) && not_in(p, \base_addr(r)) && unlike_rests(p, r); */
+/*@ requires \valid(out) && out->count == 0 && \valid(p); requires listed(p); requires numbers_in(p); requires low(p);
+    requires \valid(r) && k < 64 && 0 < degree && \separated(p, out); requires beside(p, r) && beside(out, r);
+    assigns owned: out->term, out->count, p->count, r->nomem; exits \false;
+    ensures listed(p); ensures numbers_in(p); ensures low(p);
+    ensures listed(out); ensures numbers_in(out); ensures low(out);
+    ensures owned: not_in(out, \base_addr(r)) && not_in(out, \base_addr(p)) && not_in(p, \base_addr(out)) &&
+      distinct(p, out);
+    ensures owned: \forall polynomial s, char *b; \old(not_in(s, b)) && \separated(s, p) && \separated(s, out) ==>
+      not_in(s, b);
+    ensures owned: \forall char *b; \old(not_in(p, b)) ==> not_in(p, b);
+    ensures owned: \old(related(r)) && \separated(p, r) && \separated(out, r) ==> related(r);
+    ensures owned: \old(unlike_rests(p, r)) && \separated(p, r) ==> unlike_rests(p, r); */
+static bool terms_take_power(dyd_cert_poly *out, dyd_cert_poly *p, size_t k, unsigned degree, dyd_cert_relations *r);
+/*@ requires related(r) && k < r->count; requires \valid(p); requires listed(p); requires numbers_in(p);
+    requires low(p); requires apart(p, r); assigns owned: p->term, p->count, r->nomem, r->work;
+    exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p); ensures related(r);
+    ensures \result ==> apart(p, r); ensures NEW(p, r); */
 static bool reduce_leaf(dyd_cert_poly *p, size_t k, dyd_cert_relations *r);
-/*@ requires related(r) && \valid(p) && limited(p) && apart(p, r); assigns owned: p->term, p->count, r->nomem, r->work;
-    exits \false; */
+/*@ requires related(r); requires \valid(p); requires listed(p); requires numbers_in(p); requires low(p);
+    requires apart(p, r); assigns owned: p->term, p->count, r->nomem, r->work;
+    exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p); ensures related(r);
+    ensures NEW(p, r); */
 bool dyd_cert_poly_reduce(dyd_cert_poly *p, dyd_cert_relations *r);
 /*@ requires \valid(t) && whole(&t->c[0]) && \valid(text) && string(*text) && \valid(r) && r->count <= 64 &&
       \separated(t, text, r);
     assigns owned: t->e[0 .. 63], t->c[0].value, *text, r->nomem;
     exits \false; ensures whole(&t->c[0]); ensures \result ==> string(*text); */
 static bool scan_term(dyd_cert_term *t, const char **text, dyd_cert_relations *r);
-/*@ requires \valid(to) && \valid_read(from); assigns *to; exits \false;
+/*@ requires \valid(to) && \valid_read(from); assigns to->c[0].value, to->e[0 .. 63]; exits \false;
     ensures to->c[0].value == \old(from->c[0].value);
+    ensures \old(few(&from->e[0])) ==> few(&to->e[0]);
+    ensures \forall one_term s; \old(few(&s->e[0])) && \separated(s, to) ==> few(&s->e[0]);
     ensures \forall integer k; 0 <= k < 64 ==> to->e[k] == \old(from->e[k]); */
 void copy_term(dyd_cert_term *to, const dyd_cert_term *from);
-/*@ requires \valid(sum) && held(p) && \valid(p) && limited(q) && whole(c) && p->count <= 16384 &&
-      \valid(sum->term + (0 .. p->count + q->count - 1)) && (m == \null || \valid_read(m + (0 .. 63)) && few(m)) &&
-      \separated(sum, p, q, c) && \separated(sum->term + (0 .. p->count + q->count - 1), sum, p, q) &&
-      \separated(sum->term + (0 .. p->count + q->count - 1), p->term + (0 .. p->count - 1)) &&
-      \separated(sum->term + (0 .. p->count + q->count - 1), q->term + (0 .. q->count - 1)) &&
-      \separated(p->term + (0 .. p->count - 1), q->term + (0 .. q->count - 1)) &&
-      \separated(p->term + (0 .. p->count - 1), sum, p, q) && \separated(q->term + (0 .. q->count - 1), sum, p, q);
-    requires \separated(c, sum->term + (0 .. p->count + q->count - 1)) && \separated(c, p->term + (0 .. p->count - 1));
-    requires m != \null ==> \separated(m + (0 .. 63), sum->term + (0 .. p->count + q->count - 1), sum) &&
-      \separated(m + (0 .. 63), p->term + (0 .. p->count - 1));
+/*@ requires \valid(sum) && \valid(p) && p->count <= 16384; requires listed(p); requires numbers_in(p);
+    requires listed(q); requires numbers_in(q); requires low(q); requires whole(c);
+    requires m == \null || \valid_read(m + (0 .. 63)) && few(m);
+    requires \valid(sum->term + (0 .. p->count + q->count - 1));
+    requires \separated(sum, p) && \separated(sum, q) && \separated(p, q) && \separated(sum, c) && \separated(p, c);
+    requires m != \null ==> \separated(sum, m + (0 .. 63));
+    requires \base_addr(sum->term) != \base_addr(sum) && \base_addr(sum->term) != \base_addr(p) &&
+      \base_addr(sum->term) != \base_addr(q) && \base_addr(sum->term) != \base_addr(c) &&
+      (m != \null ==> \base_addr(sum->term) != \base_addr(m)) && not_in(p, \base_addr(sum->term)) && not_in(q,
+      \base_addr(sum->term));
+    requires distinct(p, q); requires not_in(p, \base_addr(sum)); requires not_in(p, \base_addr(q));
+    requires not_in(p, \base_addr(c)); requires m != \null ==> not_in(p, \base_addr(m));
+    requires not_in(q, \base_addr(sum)); requires not_in(q, \base_addr(p));
     assigns sum->count, sum->term[0 .. p->count + q->count - 1], p->term[0 .. p->count - 1].c[0].value; exits \false;
-    ensures sum->count <= p->count + q->count;
-    ensures \forall integer t; 0 <= t < sum->count ==> whole(&sum->term[t].c[0]);
-    ensures \result && limited{Pre}(p) ==> \forall integer t, k; 0 <= t < sum->count && 0 <= k < 64 ==>
-      sum->term[t].e[k] <= 8192;
-    ensures \result ==> sum->count <= 16384; */
+    ensures sum->count <= p->count + q->count; ensures numbers_in(sum);
+    ensures \result ==> sum->count <= 16384; ensures \result && low{Pre}(p) ==> low(sum); */
 static bool terms_merge(dyd_cert_poly *sum, dyd_cert_poly *p, const dyd_cert_poly *q, mpz_srcptr c, const uint16_t *m);
 
 #include "checker/poly.c"
