@@ -7,10 +7,7 @@
 #include "base/abi.h"
 #include "base/error.h"
 
-/* Of a literal its length is what has to be known: what WP knows of it is lost in loops. */
-/*@ requires string(s) && 3 <= n < size; assigns \nothing; exits \false; */
-int compare_with_literal(const char *s, size_t size, size_t n);
-#define strncmp(s, literal, n) compare_with_literal(s, sizeof literal, n)
+#include "literals.h"
 
 /*@ requires reported(c) && (c->in.err == \null || \valid(c->in.err)); assigns *c->in.err; exits \false; */
 static dyd_status checker_outcome(const dyd_checker *c);

@@ -13,11 +13,7 @@ typedef const dyd_cert_window *window_of;
       (\forall integer k; 0 <= k < p->points ==> small(&p->point[k][0]) && small(&p->point[k][1]));
     predicate window(window_of w) = \valid_read(w) && (\forall integer k; 0 <= k < 4 ==> exact(&w->e[k])); */
 
-/* What string.h says of strncmp with a literal, whose bytes its size counts: WP forgets that literals are there where
- * a callee may change any memory. */
-/*@ requires string(s) && 3 <= n <= 12 && n < size; assigns \nothing; exits \false; */
-int compare_start(const char *s, size_t size, size_t n);
-#define strncmp(s, literal, n) compare_start(s, sizeof(literal), n)
+#include "literals.h"
 
 /*@ predicate sized(exact_number x) = exact(x) && -3145728 <= x->exp <= 3145728; */
 /*@ requires polygon(p) && k <= p->points; assigns \nothing; exits \false; */

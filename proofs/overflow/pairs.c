@@ -9,10 +9,7 @@
 
 #include "base/error.h"
 
-/* Of a literal its length is what has to be known: what WP knows of it is lost in loops. */
-/*@ requires string(s) && 3 <= n < size; assigns \nothing; exits \false; */
-int compare_with_literal(const char *s, size_t size, size_t n);
-#define strncmp(s, literal, n) compare_with_literal(s, sizeof literal, n)
+#include "literals.h"
 
 typedef const dyd_cert_bounds *sum_of;
 /*@ predicate sum(sum_of b) = fraction(&b->area2, 274877906944); */
