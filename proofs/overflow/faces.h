@@ -34,8 +34,9 @@ typedef const dyd_cert_parts *parts_of;
 /*@ predicate grouped(parts_of p, integer count) = \valid_read(p) && 0 < p->groups <= count &&
       \valid_read(p->group + (0 .. count - 1)) && (\forall integer q; 0 <= q < count ==> p->group[q] < p->groups) &&
       \valid_read(p->start + (0 .. p->groups)) &&
-      (\forall integer r; 0 <= r <= p->groups ==> p->start[r] <= 2 * count) &&
-      \valid_read(p->site + (0 .. 2 * count - 1)) && below(p->site, 2 * count, SITES) &&
+      (\forall integer r; 0 <= r <= p->groups ==> p->start[r] <= p->start[p->groups]) &&
+      p->start[p->groups] <= 2 * count && \valid_read(p->site + (0 .. 2 * count - 1)) &&
+      below(p->site, p->start[p->groups], SITES) &&
       (\forall integer r; 0 <= r < p->groups ==> p->start[r] <= p->start[r + 1]); */
 
 /*@ requires count < 1152921504606846976 && (0 < count ==> \valid(item + (0 .. count - 1)));
