@@ -7,7 +7,8 @@ CVC4 is absent). PART: one of PARTS; without it, all. FILE: only this one of the
 
 overflow/NAME.c has contracts for the functions of src/FOLDER/NAME.c and .h, and includes it; overflow/NAME.acsl says
 what holds in its loops: each paragraph, what is put before a text, where \\n stands for the end of a line; a line `copy
-ITEM TO = FROM;`, that this assignment of a structure is copy_ITEM, of whose parts WP knows what they are.
+ITEM TO = FROM;`, that this assignment of a structure (TO: a type and a name, where it is declared there) is copy_ITEM, of
+whose parts WP knows what they are.
 overflow/gmp.h says what is taken for granted of GMP, overflow/math.h of the functions on doubles, other headers there
 of the C library. Of each function WP proves what it promises, the conditions of all that it calls, and that no operation
 is undefined: signed overflow, memory that is not there, shifts, conversions of integers that lose something. What is put
