@@ -24,7 +24,7 @@ FORMATS = {'delaunay': ('json', 'wkt', 'geojson', 'obj', 'vtk', 'svg'), 'voronoi
 def run(args, text, **env):
     done = subprocess.run([COMMAND, *args], input=text, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False,
                           env=dict(os.environ, **env), timeout=100)
-    seconds = rb'(?<=,)\d+\.\d{3}(?=\n)|(?<="seconds": )\d+\.\d{3}|(?<="milliseconds_rounded": )\d+'
+    seconds = rb'(?<=,)\d+\.\d{3}(?=\n)|(?<="seconds": )\d+\.\d{3}|(?<=milliseconds_rounded_up": )\d+'
     return done.returncode, re.sub(seconds, b'T', done.stdout), done.stderr
 
 
