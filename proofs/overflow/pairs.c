@@ -13,16 +13,21 @@
 
 typedef const dyd_cert_bounds *sum_of;
 /*@ predicate sum(sum_of b) = fraction(&b->area2, 274877906944); */
-/* Of bounds.c, which asks more: that the two sites are of numbers that certificates have, which pairing(c) says, that
- * the bound is such a number, which check_bounds asserts, and that the sum is apart from them: it is a local object. */
-/*@ requires \valid(b) && \valid_read(s) && i < s->count && j < s->count && \separated(b, s) &&
-      sum(b);
-    assigns *b; exits \false; ensures sum(b); */
+/* Sites are of numbers that certificates have, and a sum, which is a local object, is apart from them. */
+/*@ predicate rectangle(site_to_read t) = \valid_read(t) && small_side(&t->side[0]) && small_side(&t->side[1]);
+    predicate beside(sum_of b, site_to_read t) = \separated(b, t) && apart_from_side(b, &t->side[0]) &&
+      apart_from_side(b, &t->side[1]);
+    predicate bounding(sum_of b, sites_of s) =
+      \forall integer i; 0 <= i < s->count ==> rectangle(s->site + i) && beside(b, s->site + i);
+    predicate limited(sum_of b) = b->hausdorff == \null || small(b->hausdorff) && \separated(b, b->hausdorff); */
+/*@ requires \valid(b) && sum(b) && limited(b) && \valid_read(s) && \separated(b, s) && rectangle(s->site + i) &&
+      rectangle(s->site + j) && beside(b, s->site + i) && beside(b, s->site + j);
+    assigns FRACTION(&b->area2), b->exceeded; exits \false; ensures sum(b); */
 void dyd_cert_bounds_add(dyd_cert_bounds *b, const dyd_cert_sites *s, uint32_t i, uint32_t j, bool legal);
 /*@ requires \valid(b) && \valid_read(c) && \separated(b, c, c->legal.item + (0 .. c->legal.count - 1),
       c->open.item + (0 .. c->open.count - 1)) && pairs(&c->legal, c->sites.count) && pairs(&c->open, c->sites.count);
-    requires sum(b);
-    assigns *b; exits \false; ensures sum(b); */
+    requires sum(b); requires limited(b); requires bounding(b, &c->sites);
+    assigns FRACTION(&b->area2), b->exceeded; exits \false; ensures sum(b); */
 static void add_all_pairs(dyd_cert_bounds *b, const dyd_checker *c);
 /*@ requires checker(c) && \valid(present) && \valid(out) && exact(out) &&
       \separated(present, out, c, c->in.err, c->in.in, LINES + (..)) && \separated(out, &errno);
