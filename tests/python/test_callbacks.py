@@ -150,7 +150,8 @@ def test_gil_is_released():
             d.status(0, 1)
         except RuntimeError:
             refused += 1
-        d.cancel()
+        if ticks > 2:  # it may end within a millisecond of this
+            d.cancel()
         time.sleep(0.001)
     thread.join()
     assert ticks > 1 and d.outcome in ('cancelled', 'decided'), (ticks, d.outcome)
