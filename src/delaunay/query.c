@@ -2,6 +2,7 @@
 /* Reading the statuses: pairs, neighbours, triangles, faces, hull. */
 #include "base/abi.h"
 #include "base/alloc.h"
+#include "delaunay/index_list.h"
 #include "delaunay/undecided.h"
 
 #include <string.h>
@@ -82,12 +83,9 @@ static dyd_status deliver(dyd_index_list *out, collector *c) {
     free(c->item);
     return c->status;
   }
-  size_t kept = 0;
-  if (c->count) qsort(c->item, c->count, sizeof *c->item, dyd_compare_index);
-  for (size_t q = 0; q < c->count; q++)
-    if (kept == 0 || c->item[kept - 1] != c->item[q]) c->item[kept++] = c->item[q];
   dyd_index_list_clear(out);
-  *out = (dyd_index_list){kept, c->item};
+  *out = (dyd_index_list){c->count, c->item};
+  dyd_index_list_sort(out);
   return DYD_OK;
 }
 

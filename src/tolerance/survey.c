@@ -101,9 +101,8 @@ static dyd_status recount_left(dyd_survey *s, bool *near) {
 
 /* In large faces; then in all faces of the triangulation with what was chosen, as long as that helps. */
 static dyd_status choose_rounds(dyd_survey *s, const dyd_delaunay *pd) {
-  dyd_status st = has_large_face(pd) ? dyd_survey_crowds(s) : DYD_OK;
   s->left = s->target.count;
-  if (s->faces && st == DYD_OK) st = recount_left(s, NULL);
+  dyd_status st = has_large_face(pd) ? dyd_survey_crowds(s) : DYD_OK;
   for (int round = 0; round < ROUNDS && s->left && st == DYD_OK; round++) {
     dyd_delaunay *now = NULL;
     dyd_sites *sites = NULL;

@@ -92,7 +92,7 @@ void dyd_measuring_end(dyd_measuring *m);
 dyd_status dyd_measuring_site(size_t *decided, dyd_measuring *m, uint32_t i);
 
 /* survey_crowd.c: chooses in large faces of the triangulation, as sites are chosen now, until they are small or nothing
- * in them is open or can be measured; appends to s->face. */
+ * in them is open or can be measured; appends to s->face, and sets s->left. */
 dyd_status dyd_survey_crowds(dyd_survey *s);
 
 /* survey_face.c: the number of a site among these, ascending, or DYD_NONE. */

@@ -90,6 +90,7 @@ dyd_status dyd_survey_crowds(dyd_survey *s) {
   dyd_face_rows rows = {0};
   dyd_status st = dyd_measuring_begin(&m, s);
   if (st == DYD_OK) st = measure_crowds(&rows, &m);
+  s->left = m.left;
   dyd_measuring_end(&m);
   if (rows.count)
     s->face[s->faces++] = rows;

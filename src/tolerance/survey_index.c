@@ -2,6 +2,7 @@
 /* In which faces and targets a site is, so that nobody looks through all of them. */
 #include "base/alloc.h"
 #include "base/index.h"
+#include "delaunay/index_list.h"
 #include "tolerance/survey.h"
 
 #include <stdlib.h>
@@ -58,34 +59,20 @@ static dyd_status index_sites(dyd_survey_faces *open, size_t sites) {
   return DYD_OK;
 }
 
-static dyd_status add_indices(dyd_index_list *out, size_t *cap, const dyd_index_list *more) {
-  if (!dyd_reserve((void **)&out->item, cap, out->count + more->count, sizeof *out->item)) return DYD_E_NOMEM;
-  for (size_t k = 0; k < more->count; k++) out->item[out->count++] = more->item[k];
-  return DYD_OK;
-}
-
-static void sort_once(dyd_index_list *l) {
-  size_t kept = 0;
-  if (l->count) qsort(l->item, l->count, sizeof *l->item, dyd_compare_index);
-  for (size_t k = 0; k < l->count; k++)
-    if (!kept || l->item[kept - 1] != l->item[k]) l->item[kept++] = l->item[k];
-  l->count = kept;
-}
-
 /* A site, its possible neighbours without the plan, and the possible neighbours of all these with it: what the site can
  * change has an end among the former [LOC-4], and who can be in the way of that is mostly among the latter. */
 static dyd_status find_those_near(dyd_index_list *out, const dyd_delaunay *pd, const dyd_delaunay *planned,
                                   uint32_t site) {
-  dyd_index_list near = {0}, self = {.count = 1, .item = &site};
+  dyd_index_list near = {0};
   size_t cap = 0;
   dyd_status st = dyd_delaunay_neighbours(&near, pd, site, DYD_TIE);
-  if (st == DYD_OK) st = add_indices(out, &cap, &near);
-  if (st == DYD_OK) st = add_indices(out, &cap, &self);
+  if (st == DYD_OK) st = dyd_index_list_add(out, &cap, near.item, near.count);
+  if (st == DYD_OK) st = dyd_index_list_add(out, &cap, &site, 1);
   for (size_t k = 0, first = out->count; k < first && st == DYD_OK; k++) {
     st = dyd_delaunay_neighbours(&near, planned, out->item[k], DYD_TIE);
-    if (st == DYD_OK) st = add_indices(out, &cap, &near);
+    if (st == DYD_OK) st = dyd_index_list_add(out, &cap, near.item, near.count);
   }
-  sort_once(out);
+  dyd_index_list_sort(out);
   dyd_index_list_clear(&near);
   return st;
 }

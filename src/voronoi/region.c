@@ -3,22 +3,8 @@
 #include "voronoi/region.h"
 
 #include "base/alloc.h"
+#include "delaunay/index_list.h"
 #include <dyadel/voronoi.h>
-
-/* Ascending, each once. */
-static void sort_sites(dyd_index_list *l) {
-  size_t kept = 0;
-  if (l->count) qsort(l->item, l->count, sizeof *l->item, dyd_compare_index);
-  for (size_t k = 0; k < l->count; k++)
-    if (!kept || l->item[kept - 1] != l->item[k]) l->item[kept++] = l->item[k];
-  l->count = kept;
-}
-
-static dyd_status add_sites(dyd_index_list *l, size_t *cap, const uint32_t *item, size_t count) {
-  if (!dyd_reserve((void **)&l->item, cap, l->count + count, sizeof *l->item)) return DYD_E_NOMEM;
-  for (size_t k = 0; k < count; k++) l->item[l->count++] = item[k];
-  return DYD_OK;
-}
 
 /* The ends of the pairs and all their possible neighbours: nobody else bounds their cells [CELL-2]. */
 static dyd_status region_sites(dyd_index_list *out, const dyd_delaunay *pd, const dyd_pair_list *pairs) {
@@ -27,14 +13,14 @@ static dyd_status region_sites(dyd_index_list *out, const dyd_delaunay *pd, cons
   dyd_status st = DYD_OK;
   for (size_t k = 0; k < pairs->count && st == DYD_OK; k++) {
     const uint32_t end[2] = {pairs->item[k].i, pairs->item[k].j};
-    st = add_sites(out, &cap, end, 2);
+    st = dyd_index_list_add(out, &cap, end, 2);
   }
-  sort_sites(out);
+  dyd_index_list_sort(out);
   for (size_t k = 0, ends = out->count; k < ends && st == DYD_OK; k++) {
     st = dyd_delaunay_neighbours(&near, pd, out->item[k], DYD_TIE);
-    if (st == DYD_OK) st = add_sites(out, &cap, near.item, near.count);
+    if (st == DYD_OK) st = dyd_index_list_add(out, &cap, near.item, near.count);
   }
-  sort_sites(out);
+  dyd_index_list_sort(out);
   dyd_index_list_clear(&near);
   return st;
 }
