@@ -44,7 +44,7 @@ from faults import faults, with_fault  # noqa: E402
 PARTS = {  # tests of some minutes; those but the first are of what reads and keeps the bytes of others
     'numbers': ['dyadic', 'sqrt_sign', 'convert', 'exact'],
     'texts': ['alloc', 'text', 'poly', 'measure'], 'lines': ['read', 'checker', 'bounds', 'witness'],
-    'lists': ['graph', 'sites', 'chain'],
+    'lists': ['by_key', 'graph', 'sites', 'chain'],
     'sets': ['parts', 'faces', 'still', 'diagram', 'pairs', 'certificate'], 'trees': ['tree', 'boxes', 'distance'],
     'values': ['number', 'quotient', 'algebra_read', 'enclosure', 'inverse'],
     'blocks': ['algebra', 'algebra_enclose', 'algebra_bound', 'bracket', 'cycle', 'ties'],

@@ -9,9 +9,9 @@
  * directions of both. All in integers, on the grid of the sites, where rectangles are rounded outward. */
 #include "checker/boxes.h"
 #include "base/alloc.h"
+#include "base/index.h"
+#include "checker/by_key.h"
 #include "checker/tree.h"
-
-#include <string.h>
 
 #define MIDDLE (INT64_C(1) << 29) /* of the grid: o */
 #define HALF_BITS 30              /* h of the first square, and of the last */
@@ -314,27 +314,22 @@ static dyd_status look_everywhere(search *s, size_t count) {
 
 /* ---- all ---- */
 
-static int compare_partner(const void *a, const void *b) {
-  uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-  return (x > y) - (x < y);
-}
-
 static dyd_status index_known(search *s, const dyd_cert_known *known) {
-  size_t n = s->sites->count, all = 0;
+  size_t n = s->sites->count, all = 0, count = 0;
   for (int k = 0; k < 3; k++) all += known->list[k]->count;
-  s->first = calloc(n + 2, sizeof *s->first);
+  dyd_cert_entry *entry = dyd_alloc(all, sizeof *entry);
+  s->first = dyd_alloc(n + 1, sizeof *s->first);
   s->partner = dyd_alloc(all, sizeof *s->partner);
-  if (!s->first || !s->partner) return DYD_E_NOMEM;
-  for (int k = 0; k < 3; k++)
-    for (size_t e = 0; e < known->list[k]->count; e++) s->first[known->list[k]->item[e].i + 2]++;
-  for (size_t v = 0; v < n; v++) s->first[v + 2] += s->first[v + 1];
-  for (int k = 0; k < 3; k++)
+  bool good = entry && s->first && s->partner;
+  for (int k = 0; k < 3 && good; k++)
     for (size_t e = 0; e < known->list[k]->count; e++)
-      s->partner[s->first[known->list[k]->item[e].i + 1]++] = known->list[k]->item[e].j;
-  for (size_t v = 0; v < n; v++)
+      entry[count++] = (dyd_cert_entry){known->list[k]->item[e].i, known->list[k]->item[e].j};
+  if (good) dyd_cert_by_key(s->first, s->partner, n, entry, all);
+  free(entry);
+  for (size_t v = 0; v < n && good; v++)
     if (s->first[v + 1] > s->first[v] + 1)
-      qsort(s->partner + s->first[v], s->first[v + 1] - s->first[v], sizeof *s->partner, compare_partner);
-  return DYD_OK;
+      qsort(s->partner + s->first[v], s->first[v + 1] - s->first[v], sizeof *s->partner, dyd_compare_index);
+  return good ? DYD_OK : DYD_E_NOMEM;
 }
 
 static void sort_left(dyd_cert_edges *left) {

@@ -2,6 +2,7 @@
 /* The faces of the legal graph, and the sets of sites within which a pair can be possible. */
 #include "checker/faces.h"
 #include "base/alloc.h"
+#include "checker/by_key.h"
 #include "checker/parts.h"
 
 #include <string.h>
@@ -224,21 +225,21 @@ static dyd_status faces_find_sets(dyd_cert_faces *f, uint32_t *bad, const dyd_ce
 }
 
 static dyd_status faces_index_sites(dyd_cert_faces *f, const dyd_cert_sites *s) {
-  size_t n = s->count;
-  f->first = calloc(n + 1, sizeof *f->first);
+  dyd_cert_entry *entry = dyd_alloc(f->members, sizeof *entry);
+  f->first = dyd_alloc(s->count + 1, sizeof *f->first);
   f->of = dyd_alloc(f->members, sizeof *f->of);
   f->covered = calloc(f->sets ? f->sets : 1, sizeof *f->covered);
   f->inexact = calloc(f->sets ? f->sets : 1, sizeof *f->inexact);
   f->tied = calloc(f->sets ? f->sets : 1, sizeof *f->tied);
-  if (!f->first || !f->of || !f->covered || !f->inexact || !f->tied) return DYD_E_NOMEM;
-  for (size_t q = 0; q < f->members; q++) f->first[f->member[q]]++;
-  for (size_t v = 0; v < n; v++) f->first[v + 1] += f->first[v]; /* ends, which filling makes beginnings */
-  for (size_t k = f->sets; k-- > 0;)
+  bool good = entry && f->first && f->of && f->covered && f->inexact && f->tied;
+  for (uint32_t k = 0; k < f->sets && good; k++)
     for (size_t q = f->start[k]; q < f->start[k + 1]; q++) {
-      f->of[--f->first[f->member[q]]] = (uint32_t)k;
+      entry[q] = (dyd_cert_entry){f->member[q], k};
       f->inexact[k] |= !dyd_cert_is_point(&s->site[f->member[q]]);
     }
-  return DYD_OK;
+  if (good) dyd_cert_by_key(f->first, f->of, s->count, entry, f->members);
+  free(entry);
+  return good ? DYD_OK : DYD_E_NOMEM;
 }
 
 dyd_status dyd_cert_faces_init(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const dyd_cert_corner *corner,

@@ -2,8 +2,7 @@
 /* The plane graph of the legal edges: half-edges in angular order around the places of the sites. */
 #include "checker/graph.h"
 #include "base/alloc.h"
-
-#include <string.h>
+#include "checker/by_key.h"
 
 /* ---- lists ---- */
 
@@ -64,15 +63,17 @@ static int compare_angle(const void *graph, uint32_t h, uint32_t k) {
   return -dyd_cert_turn(g->sites, v, a, b);
 }
 
-static void gather_around(dyd_cert_graph *g) {
+static dyd_status gather_around(dyd_cert_graph *g) {
   size_t n = g->sites->count;
-  memset(g->start, 0, (n + 1) * sizeof *g->start);
-  for (size_t h = 0; h < 2 * g->count; h++) g->start[dyd_cert_origin(g, (uint32_t)h)]++;
-  for (size_t v = 0; v < n; v++) g->start[v + 1] += g->start[v]; /* ends, which filling makes beginnings */
-  for (size_t h = 2 * g->count; h-- > 0;) g->around[--g->start[dyd_cert_origin(g, (uint32_t)h)]] = (uint32_t)h;
+  dyd_cert_entry *end = dyd_alloc(2 * g->count, sizeof *end);
+  if (!end) return DYD_E_NOMEM;
+  for (uint32_t h = 0; h < 2 * g->count; h++) end[h] = (dyd_cert_entry){dyd_cert_origin(g, h), h};
+  dyd_cert_by_key(g->start, g->around, n, end, 2 * g->count);
+  free(end);
   for (size_t v = 0; v < n; v++)
     dyd_cert_sort(g->around + g->start[v], g->start[v + 1] - g->start[v], compare_angle, g);
   for (size_t q = 0; q < 2 * g->count; q++) g->position[g->around[q]] = (uint32_t)q;
+  return DYD_OK;
 }
 
 /* ---- connection ---- */
@@ -114,10 +115,8 @@ dyd_status dyd_cert_graph_init(dyd_cert_graph *g, const dyd_cert_sites *s, const
   g->around = dyd_alloc(2 * g->count, sizeof *g->around);
   g->position = dyd_alloc(2 * g->count, sizeof *g->position);
   dyd_status st = g->start && g->around && g->position ? find_connected(g) : DYD_E_NOMEM;
-  if (st == DYD_OK)
-    gather_around(g);
-  else
-    dyd_cert_graph_clear(g);
+  if (st == DYD_OK) st = gather_around(g);
+  if (st != DYD_OK) dyd_cert_graph_clear(g);
   return st;
 }
 

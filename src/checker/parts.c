@@ -2,17 +2,14 @@
 /* The unbounded face cut into parts at sure corners of the hull. */
 #include "checker/parts.h"
 #include "base/alloc.h"
+#include "base/index.h"
+#include "checker/by_key.h"
 
 #include <string.h>
 
-static int compare_index(const void *a, const void *b) {
-  uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-  return (x > y) - (x < y);
-}
-
 size_t dyd_cert_distinct(uint32_t *item, size_t count) {
   size_t kept = 0;
-  if (count) qsort(item, count, sizeof *item, compare_index);
+  if (count) qsort(item, count, sizeof *item, dyd_compare_index);
   for (size_t q = 0; q < count; q++)
     if (kept == 0 || item[kept - 1] != item[q]) item[kept++] = item[q];
   return kept;
@@ -25,6 +22,7 @@ typedef struct maker {
   size_t count, first;
   const bool *corner;
   uint32_t *parent, *at, *number;
+  dyd_cert_entry *entry;
 } maker;
 
 static uint32_t site_on_walk(const maker *m, size_t q) {
@@ -55,19 +53,16 @@ static void number_groups(dyd_cert_parts *p, maker *m) {
 
 /* A position's site is a site of its group; a corner also of the group before. */
 static void gather_group_sites(dyd_cert_parts *p, const maker *m) {
-  for (size_t q = 0; q < m->count; q++)
-    for (int end = 0; end < 2; end++)
-      if (!end || m->corner[site_on_walk(m, q + 1)]) p->start[p->group[q] + 1]++;
-  for (size_t r = 0; r < p->groups; r++) p->start[r + 1] += p->start[r];
-  for (size_t q = 0; q < m->count; q++)
-    for (int end = 0; end < 2; end++)
-      if (!end || m->corner[site_on_walk(m, q + 1)])
-        p->site[p->start[p->group[q]]++] = site_on_walk(m, q + (size_t)end);
-  size_t from = 0, kept = 0;
+  size_t entries = 0, kept = 0;
+  for (size_t q = 0; q < m->count; q++) {
+    uint32_t next = site_on_walk(m, q + 1);
+    m->entry[entries++] = (dyd_cert_entry){p->group[q], site_on_walk(m, q)};
+    if (m->corner[next]) m->entry[entries++] = (dyd_cert_entry){p->group[q], next};
+  }
+  dyd_cert_by_key(p->start, p->site, p->groups, m->entry, entries);
   for (size_t r = 0; r < p->groups; r++) {
-    size_t count = p->start[r] - from;
+    size_t from = p->start[r], count = p->start[r + 1] - from;
     memmove(p->site + kept, p->site + from, count * sizeof *p->site);
-    from = p->start[r];
     p->start[r] = kept;
     kept += dyd_cert_distinct(p->site + kept, count);
   }
@@ -80,11 +75,12 @@ dyd_status dyd_cert_parts_init(dyd_cert_parts *p, const dyd_cert_graph *g, const
   *p = (dyd_cert_parts){0};
   p->group = dyd_alloc(count, sizeof *p->group);
   p->site = dyd_alloc(2 * count, sizeof *p->site);
-  p->start = calloc(count + 1, sizeof *p->start);
+  p->start = dyd_alloc(count + 1, sizeof *p->start);
   m.parent = dyd_alloc(count, sizeof *m.parent);
   m.number = dyd_alloc(count, sizeof *m.number);
   m.at = dyd_alloc(2 * g->count, sizeof *m.at);
-  bool good = p->group && p->site && p->start && m.parent && m.number && m.at;
+  m.entry = dyd_alloc(2 * count, sizeof *m.entry);
+  bool good = p->group && p->site && p->start && m.parent && m.number && m.at && m.entry;
   if (good) {
     for (size_t h = 0; h < 2 * g->count; h++) m.at[h] = DYD_CERT_NONE;
     number_groups(p, &m);
@@ -95,6 +91,7 @@ dyd_status dyd_cert_parts_init(dyd_cert_parts *p, const dyd_cert_graph *g, const
   free(m.parent);
   free(m.number);
   free(m.at);
+  free(m.entry);
   return good ? DYD_OK : DYD_E_NOMEM;
 }
 

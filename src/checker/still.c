@@ -6,6 +6,7 @@
  * a neighbour of one site is narrowed. Then nobody may be in a possible pair with either; so neither of the two may be
  * narrowed, who are in a pair with each other. (A point may be: it stays.) */
 #include "base/alloc.h"
+#include "checker/by_key.h"
 #include "checker/checker.h"
 
 #include <stdlib.h>
@@ -25,35 +26,30 @@ static void movers_clear(movers *m) {
   free(m->of);
 }
 
-/* Counts in start[i + 2], so that filling leaves start[i] where the list of i begins. */
-static void movers_count(movers *m, const dyd_cert_edges *edges) {
+/* Puts at entry[count ..], for both ends of each pair, who is at the other one and may be narrowed; returns how many
+ * there are then. */
+static size_t movers_add(dyd_cert_entry *entry, size_t count, const movers *m, const dyd_cert_edges *edges) {
   for (size_t e = 0; e < edges->count; e++) {
     const dyd_cert_edge *p = &edges->item[e];
-    if (m->movable[p->j]) m->start[p->i + 2]++;
-    if (m->movable[p->i]) m->start[p->j + 2]++;
+    if (m->movable[p->j]) entry[count++] = (dyd_cert_entry){p->i, p->j};
+    if (m->movable[p->i]) entry[count++] = (dyd_cert_entry){p->j, p->i};
   }
-}
-
-static void movers_fill(movers *m, const dyd_cert_edges *edges) {
-  for (size_t e = 0; e < edges->count; e++) {
-    const dyd_cert_edge *p = &edges->item[e];
-    if (m->movable[p->j]) m->of[m->start[p->i + 1]++] = p->j;
-    if (m->movable[p->i]) m->of[m->start[p->j + 1]++] = p->i;
-  }
+  return count;
 }
 
 static dyd_status movers_list(movers *m, const dyd_checker *c) {
-  size_t n = c->sites.count;
-  m->start = calloc(n + 2, sizeof *m->start);
-  if (!m->start) return DYD_E_NOMEM;
-  movers_count(m, &c->legal);
-  movers_count(m, &c->open);
-  for (size_t i = 1; i < n + 2; i++) m->start[i] += m->start[i - 1];
-  m->of = dyd_alloc(m->start[n + 1], sizeof *m->of);
-  if (!m->of) return DYD_E_NOMEM;
-  movers_fill(m, &c->legal);
-  movers_fill(m, &c->open);
-  return DYD_OK;
+  size_t ends = 2 * (c->legal.count + c->open.count);
+  dyd_cert_entry *entry = dyd_alloc(ends, sizeof *entry);
+  m->start = dyd_alloc(c->sites.count + 1, sizeof *m->start);
+  m->of = dyd_alloc(ends, sizeof *m->of);
+  bool good = entry && m->start && m->of;
+  if (good) {
+    size_t count = movers_add(entry, 0, m, &c->legal);
+    count = movers_add(entry, count, m, &c->open);
+    dyd_cert_by_key(m->start, m->of, c->sites.count, entry, count);
+  }
+  free(entry);
+  return good ? DYD_OK : DYD_E_NOMEM;
 }
 
 static size_t movers_of(const uint32_t **of, const movers *m, uint32_t i) {
