@@ -49,7 +49,7 @@ PARTS = {  # tests of some minutes; those but the first are of what reads and ke
     'values': ['number', 'quotient', 'algebra_read', 'enclosure', 'inverse'],
     'blocks': ['algebra', 'algebra_enclose', 'algebra_bound', 'bracket', 'cycle', 'ties'],
 }
-ITEMS = {'start': 'sizes', 'term': 'terms', 'digits': 'chars', 'den': 'numbers', 'place': 'places',
+ITEMS = {'start': 'sizes', 'first': 'sizes', 'entry': 'entries', 'term': 'terms', 'digits': 'chars', 'den': 'numbers', 'place': 'places',
          'c': 'coefficients', 'cosine': 'cosines', 'box': 'boxes'}  # of lists, by name
 ZEROED = {'start': 'sizes', 'first': 'sizes', 'spare': 'sizes', 'covered': 'pair_counts',
           'times': 'indices', 'stamp': 'stamps'}  # others: flags

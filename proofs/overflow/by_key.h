@@ -22,4 +22,14 @@ typedef const dyd_cert_entry *entries;
       (\forall integer v; 0 <= v <= keys ==> start[v] <= count) &&
       (\forall integer v; 0 <= v < keys ==> start[v] <= start[v + 1]); */
 
+/* What by_key.c proves, where items are below `most`. */
+/*@ requires keys <= 4294967295 && count <= 1152921504606846976 && most <= 4294967295 && \valid(start + (0 .. keys)) &&
+      (0 < count ==> \valid(item + (0 .. count - 1)) && \valid_read(entry + (0 .. count - 1))) &&
+      \separated(start + (0 .. keys), item + (0 .. count - 1), entry + (0 .. count - 1)) &&
+      entered(entry, count, keys, most);
+    assigns start[0 .. keys], item[0 .. count - 1]; exits \false;
+    ensures starts(start, keys, count);
+    ensures below(item, count, most); */
+void by_key_below(size_t *start, uint32_t *item, size_t keys, const dyd_cert_entry *entry, size_t count, size_t most);
+
 #endif

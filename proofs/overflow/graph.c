@@ -3,8 +3,8 @@
 /* Operands of comparisons are pointers to what is there: WP's memory does not follow casts from pointers to void. */
 #define dyd_cert_compare_edges(x, y) dyd_cert_compare_edges(const dyd_cert_edge *a, const dyd_cert_edge *b)
 #define compare_angle(x, y, z) compare_angle(const dyd_cert_graph *graph, uint32_t h, uint32_t k)
-#include "counting.h"
 #include "graph.h"
+#include "by_key.h"
 
 #include "base/alloc.h"
 
@@ -20,6 +20,11 @@
 #define RESERVE reserve_sizes
 #define ALLOC alloc_sizes
 #include "lists.h"
+#define ITEM dyd_cert_entry
+#define RESERVE reserve_entries
+#define ALLOC alloc_entries
+#include "lists.h"
+#define dyd_cert_by_key(start, item, keys, entry, count) by_key_below(start, item, keys, entry, count, count)
 
 /*@ requires \valid_read(key) && 0 < count && \valid_read(item + (0 .. count - 1)); assigns \nothing; exits \false; */
 const dyd_cert_edge *find_edge(const dyd_cert_edge *key, const dyd_cert_edge *item, size_t count);
@@ -54,10 +59,6 @@ static dyd_status find_connected(dyd_cert_graph *g);
       \separated(g, g->sites, g->legal, g->bridges, g->start + (0 .. SITES), g->around + (0 .. 2 * g->count - 1),
         g->position + (0 .. 2 * g->count - 1), g->legal->item + (0 .. g->legal->count - 1),
         g->bridges->item + (0 .. g->bridges->count - 1)); */
-/*@ requires size == 8 * (SITES + 1) && \valid(to + (0 .. SITES)); assigns to[0 .. SITES]; exits \false;
-    ensures \forall integer k; 0 <= k <= SITES ==> to[k] == 0; */
-void clear_starts(size_t *to, size_t size);
-#define memset(to, c, size) clear_starts(to, size)
 /* What graph.h says of dyd_cert_sort where BOUND is twice the count, of a part of g->around: the rest of it stays.
  * compare_angle is called for half-edges below that. */
 /*@ requires joined(g) && 0 <= item - g->around && item == g->around + (item - g->around) &&
@@ -67,10 +68,10 @@ void clear_starts(size_t *to, size_t size);
     assigns g->around[0 .. 2 * g->count - 1]; exits \false; ensures below(g->around, 2 * g->count, 2 * g->count); */
 void sort_half_edges(uint32_t *item, size_t count, const dyd_cert_graph *g);
 /*@ requires joined(g) && laid(g);
-    assigns g->start[0 .. SITES], g->around[0 .. 2 * g->count - 1], g->position[0 .. 2 * g->count - 1]; exits \false;
-    ensures below(g->around, 2 * g->count, 2 * g->count);
-    ensures \forall integer v; 0 <= v <= SITES ==> g->start[v] <= 2 * g->count;
-    ensures \forall integer v; 0 <= v < SITES ==> g->start[v] <= g->start[v + 1]; */
-static void gather_around(dyd_cert_graph *g);
+    exits \false;
+    ensures \valid(g);
+    ensures \result == DYD_OK ==> below(g->around, 2 * g->count, 2 * g->count);
+    ensures \result == DYD_OK ==> starts(g->start, SITES, 2 * g->count); */
+static dyd_status gather_around(dyd_cert_graph *g);
 
 #include "checker/graph.c"

@@ -65,11 +65,11 @@ static int compare_angle(const void *graph, uint32_t h, uint32_t k) {
 
 static dyd_status gather_around(dyd_cert_graph *g) {
   size_t n = g->sites->count;
-  dyd_cert_entry *end = dyd_alloc(2 * g->count, sizeof *end);
-  if (!end) return DYD_E_NOMEM;
-  for (uint32_t h = 0; h < 2 * g->count; h++) end[h] = (dyd_cert_entry){dyd_cert_origin(g, h), h};
-  dyd_cert_by_key(g->start, g->around, n, end, 2 * g->count);
-  free(end);
+  dyd_cert_entry *entry = dyd_alloc(2 * g->count, sizeof *entry);
+  if (!entry) return DYD_E_NOMEM;
+  for (uint32_t h = 0; h < 2 * g->count; h++) entry[h] = (dyd_cert_entry){dyd_cert_origin(g, h), h};
+  dyd_cert_by_key(g->start, g->around, n, entry, 2 * g->count);
+  free(entry);
   for (size_t v = 0; v < n; v++)
     dyd_cert_sort(g->around + g->start[v], g->start[v + 1] - g->start[v], compare_angle, g);
   for (size_t q = 0; q < 2 * g->count; q++) g->position[g->around[q]] = (uint32_t)q;
