@@ -57,16 +57,8 @@ void clear_flags(bool *to, size_t n);
       below(to, count, most); */
 void copy_sites(uint32_t *to, const uint32_t *from, size_t n);
 #define memcpy(to, from, n) copy_sites(to, from, n)
-/* What faces.h says of dyd_cert_distinct, graph.h of dyd_cert_sort, of sites; of those at the end of a list, that it
- * goes on. */
-/*@ requires count < 1152921504606846976 && (0 < count ==> \valid(item + (0 .. count - 1))) &&
-      below(item, count, SITES);
-    assigns item[0 .. count - 1]; exits \false;
-    ensures \result <= count && (0 < count ==> 0 < \result) && below(item, \result, SITES);
-    ensures \forall uint32_t *list, integer n; 0 <= n && item == list + n && below{Pre}(list, n, SITES) ==>
-      below(list, n + \result, SITES); */
-size_t distinct_sites(uint32_t *item, size_t count);
 #define dyd_cert_distinct(item, count) distinct_sites(item, count)
+/* What graph.h says of dyd_cert_sort, of sites. */
 /*@ requires 0 < count < 1152921504606846976 && \valid(item + (0 .. count - 1)) && below(item, count, SITES);
     assigns item[0 .. count - 1]; exits \false; ensures below(item, count, SITES); */
 void sort_sites(uint32_t *item, size_t count);

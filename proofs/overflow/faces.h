@@ -43,11 +43,19 @@ typedef const dyd_cert_parts *parts_of;
     assigns item[0 .. count - 1]; exits \false; ensures \result <= count && (0 < count ==> 0 < \result);
     ensures below{Pre}(item, count, BOUND) ==> below(item, \result, BOUND); */
 size_t dyd_cert_distinct(uint32_t *item, size_t count);
+/* The same of sites; of those at the end of a list, that it goes on. */
+/*@ requires count < 1152921504606846976 && (0 < count ==> \valid(item + (0 .. count - 1))) &&
+      below(item, count, SITES);
+    assigns item[0 .. count - 1]; exits \false;
+    ensures \result <= count && (0 < count ==> 0 < \result) && below(item, \result, SITES);
+    ensures \forall uint32_t *list, integer n; 0 <= n && item == list + n && below{Pre}(list, n, SITES) ==>
+      below(list, n + \result, SITES); */
+size_t distinct_sites(uint32_t *item, size_t count);
 /*@ requires \valid(p) && joined(g) && 0 < count <= 2 * g->count && \valid_read(walk + (0 .. count - 1)) &&
       below((uint32_t *)walk, count, 2 * g->count) && \valid_read(corner + (0 .. SITES - 1)) &&
       \separated(p, g, g->sites, g->legal, g->bridges, walk + (0 .. count - 1), corner + (0 .. SITES - 1),
         g->legal->item + (0 .. g->legal->count - 1), g->bridges->item + (0 .. g->bridges->count - 1));
-    assigns *p; exits \false; ensures \result == DYD_OK ==> grouped(p, count); */
+    exits \false; ensures joined(g); ensures \result == DYD_OK ==> grouped(p, count); */
 dyd_status dyd_cert_parts_init(dyd_cert_parts *p, const dyd_cert_graph *g, const uint32_t *walk, size_t count,
                                const bool *corner);
 /*@ requires \valid(p); assigns *p; exits \false; */

@@ -10,6 +10,7 @@
       logic integer BOUND; axiom bound: 0 <= BOUND <= 4294967295; }
     predicate below(uint32_t *item, integer count, integer most) =
       \forall integer k; 0 <= k < count ==> item[k] < most;
+    predicate rising(uint32_t *parent, integer n) = \forall integer k; 0 <= k < n ==> parent[k] <= k;
     predicate forest(uint32_t *parent) = \valid(parent + (0 .. SITES - 1)) && below(parent, SITES, SITES); */
 
 #include "checker/graph.h"
@@ -45,7 +46,8 @@ static inline uint32_t dyd_cert_origin(const dyd_cert_graph *g, uint32_t h);
       (\forall integer h; 0 <= h < 2 * g->count ==>
         g->start[from(g, h)] <= g->position[h] < g->start[from(g, h) + 1]); */
 /*@ requires forest(parent) && v < SITES; assigns parent[0 .. SITES - 1]; exits \false;
-    ensures forest(parent) && \result < SITES; */
+    ensures forest(parent) && \result < SITES;
+    ensures \old(rising(parent, SITES)) ==> rising(parent, SITES) && \result <= v; */
 static inline uint32_t dyd_cert_root(uint32_t *parent, uint32_t v);
 
 /*@ requires (0 < count ==> \valid(item + (0 .. count - 1))) && count < 1152921504606846976 &&

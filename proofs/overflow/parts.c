@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/parts.c: positions of the walk are in it; distinct items stay in their list. */
-/* Without number_groups, gather_group_sites: without contracts 15 of 62 and 20 of 54 goals are proved in 5 s. Open are
-   the accesses to lists; with invariants, that positions are in the walk after a list beside them was written. */
-/* Without dyd_cert_parts_init: 51 of 61 goals are proved in 5 s. Open: exits, ensures and what is assigned, which
-   rest on the two functions before it, and mem_access_9 and 10 in the loop. */
 #include "faces.h"
+#include "by_key.h"
 
 #include "base/alloc.h"
 #include <string.h>
@@ -15,8 +12,14 @@
 #include "lists.h"
 
 #define ITEM size_t
-#define ALLOC zeroed_sizes
-#include "zeroed.h"
+#define RESERVE reserve_sizes
+#define ALLOC alloc_sizes
+#include "lists.h"
+#define ITEM dyd_cert_entry
+#define RESERVE reserve_entries
+#define ALLOC alloc_entries
+#include "lists.h"
+#define dyd_cert_by_key(s, i, keys, e, all) by_key_below(s, i, keys, e, all, m->g->sites->count)
 
 /*@ requires 0 < count ==> \valid(item + (0 .. count - 1)); assigns item[0 .. count - 1]; exits \false;
     ensures \forall integer k; 0 <= k < count ==> \exists integer l; 0 <= l < count && item[k] == \old(item[l]);
@@ -26,9 +29,15 @@ void sort_indices(uint32_t *item, size_t count);
 
 #include "checker/parts.h"
 
-/* Operands are pointers to what is there: WP's memory does not follow casts from pointers to void. */
-#define compare_index(x, y) compare_index(const uint32_t *a, const uint32_t *b)
-/*@ requires \valid_read(a) && \valid_read(b); assigns \nothing; exits \false; ensures -1 <= \result <= 1; */
-static int compare_index(x, y);
+/*@ requires n == 4 * (n / 4) && (0 < n ==> \valid(to + (0 .. n / 4 - 1)) && \valid_read(from + (0 .. n / 4 - 1)));
+    assigns to[0 .. n / 4 - 1]; exits \false;
+    ensures \forall integer k; 0 <= k < n / 4 ==> to[k] == \old(from[k]); */
+void move_sites(uint32_t *to, const uint32_t *from, size_t n);
+#define memmove(to, from, n) move_sites(to, from, n)
+/* What graph.h says of dyd_cert_root, of n numbers. */
+/*@ requires \valid(parent + (0 .. n - 1)) && rising(parent, n) && v < n; assigns parent[0 .. n - 1]; exits \false;
+    ensures rising(parent, n) && \result <= v; */
+uint32_t root_among(uint32_t *parent, uint32_t v, uint32_t n);
+#define dyd_cert_root(parent, v) root_among(parent, v, part + 1)
 
 #include "checker/parts.c"

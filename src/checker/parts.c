@@ -43,12 +43,16 @@ static void number_groups(dyd_cert_parts *p, maker *m) {
   }
   for (size_t q = 0; q < m->count; q++) {
     uint32_t h = m->walk[q], twin = m->at[h ^ 1];
-    if (h / 2 >= m->g->legal->count && twin != DYD_CERT_NONE)
-      m->parent[dyd_cert_root(m->parent, p->group[q])] = dyd_cert_root(m->parent, p->group[twin]);
+    if (h / 2 >= m->g->legal->count && twin != DYD_CERT_NONE) {
+      uint32_t a = dyd_cert_root(m->parent, p->group[q]), b = dyd_cert_root(m->parent, p->group[twin]);
+      m->parent[a < b ? b : a] = a < b ? a : b;
+    }
   }
-  for (uint32_t k = 0; k <= part; k++)
-    if (dyd_cert_root(m->parent, k) == k) m->number[k] = (uint32_t)p->groups++;
-  for (size_t q = 0; q < m->count; q++) p->group[q] = m->number[dyd_cert_root(m->parent, p->group[q])];
+  for (uint32_t k = 0; k <= part; k++) {
+    uint32_t root = dyd_cert_root(m->parent, k); /* the least of its group, numbered before */
+    m->number[k] = root == k ? (uint32_t)p->groups++ : m->number[root];
+  }
+  for (size_t q = 0; q < m->count; q++) p->group[q] = m->number[p->group[q]];
 }
 
 /* A position's site is a site of its group; a corner also of the group before. */
