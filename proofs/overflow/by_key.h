@@ -15,8 +15,8 @@
 
 #include "checker/by_key.h"
 
-typedef const dyd_cert_entry *entries;
-/*@ predicate entered(entries e, integer count, integer keys, integer most) =
+typedef const dyd_cert_entry *entry_list;
+/*@ predicate entered(entry_list e, integer count, integer keys, integer most) =
       \forall integer k; 0 <= k < count ==> e[k].key < keys && e[k].item < most;
     predicate starts(size_t *start, integer keys, integer count) = start[0] == 0 && start[keys] == count &&
       (\forall integer v; 0 <= v <= keys ==> start[v] <= count) &&

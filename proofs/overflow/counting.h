@@ -43,8 +43,8 @@
       axiom place: \forall row s, integer n, v, q; 0 <= n && 0 <= v && 0 <= q < before(s, n, v) ==>
         0 <= list_at(s, n, q) < v &&
         before(s, n, list_at(s, n, q)) <= q < before(s, n, list_at(s, n, q) + 1);
-      logic row keyed{L}(entries e) reads e[..];
-      axiom entry{L}: \forall entries e, integer k; key(keyed(e), k) == e[k].key; }
+      logic row keyed{L}(entry_list e) reads e[..];
+      axiom entry{L}: \forall entry_list e, integer k; key(keyed(e), k) == e[k].key; }
     predicate counted(row s, integer n, integer most) = \forall integer k; 0 <= k < n ==> 0 <= key(s, k) < most; */
 
 #endif

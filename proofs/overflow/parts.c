@@ -29,11 +29,11 @@ void sort_indices(uint32_t *item, size_t count);
 
 #include "checker/parts.h"
 
-/*@ requires n == 4 * (n / 4) && (0 < n ==> \valid(to + (0 .. n / 4 - 1)) && \valid_read(from + (0 .. n / 4 - 1)));
-    assigns to[0 .. n / 4 - 1]; exits \false;
-    ensures \forall integer k; 0 <= k < n / 4 ==> to[k] == \old(from[k]); */
-void move_sites(uint32_t *to, const uint32_t *from, size_t n);
-#define memmove(to, from, n) move_sites(to, from, n)
+/*@ requires size == 4 * n && (0 < n ==> \valid(to + (0 .. n - 1)) && \valid_read(from + (0 .. n - 1)));
+    assigns to[0 .. n - 1]; exits \false;
+    ensures \forall integer most; below{Pre}((uint32_t *)from, n, most) ==> below(to, n, most); */
+void move_sites(uint32_t *to, const uint32_t *from, size_t n, size_t size);
+#define memmove(to, from, size) move_sites(to, from, count, size)
 /* What graph.h says of dyd_cert_root, of n numbers. */
 /*@ requires \valid(parent + (0 .. n - 1)) && rising(parent, n) && v < n; assigns parent[0 .. n - 1]; exits \false;
     ensures rising(parent, n) && \result <= v; */

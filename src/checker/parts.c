@@ -55,15 +55,9 @@ static void number_groups(dyd_cert_parts *p, maker *m) {
   for (size_t q = 0; q < m->count; q++) p->group[q] = m->number[p->group[q]];
 }
 
-/* A position's site is a site of its group; a corner also of the group before. */
-static void gather_group_sites(dyd_cert_parts *p, const maker *m) {
-  size_t entries = 0, kept = 0;
-  for (size_t q = 0; q < m->count; q++) {
-    uint32_t next = site_on_walk(m, q + 1);
-    m->entry[entries++] = (dyd_cert_entry){p->group[q], site_on_walk(m, q)};
-    if (m->corner[next]) m->entry[entries++] = (dyd_cert_entry){p->group[q], next};
-  }
-  dyd_cert_by_key(p->start, p->site, p->groups, m->entry, entries);
+/* Sorts each group's sites, and drops repeats. */
+static void keep_distinct(dyd_cert_parts *p) {
+  size_t kept = 0;
   for (size_t r = 0; r < p->groups; r++) {
     size_t from = p->start[r], count = p->start[r + 1] - from;
     memmove(p->site + kept, p->site + from, count * sizeof *p->site);
@@ -71,6 +65,18 @@ static void gather_group_sites(dyd_cert_parts *p, const maker *m) {
     kept += dyd_cert_distinct(p->site + kept, count);
   }
   p->start[p->groups] = kept;
+}
+
+/* A position's site is a site of its group; a corner also of the group before. */
+static void gather_group_sites(dyd_cert_parts *p, const maker *m) {
+  size_t entries = 0;
+  for (size_t q = 0; q < m->count; q++) {
+    uint32_t next = site_on_walk(m, q + 1);
+    m->entry[entries++] = (dyd_cert_entry){p->group[q], site_on_walk(m, q)};
+    if (m->corner[next]) m->entry[entries++] = (dyd_cert_entry){p->group[q], next};
+  }
+  dyd_cert_by_key(p->start, p->site, p->groups, m->entry, entries);
+  keep_distinct(p);
 }
 
 dyd_status dyd_cert_parts_init(dyd_cert_parts *p, const dyd_cert_graph *g, const uint32_t *walk, size_t count,
