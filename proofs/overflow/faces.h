@@ -55,7 +55,7 @@ size_t distinct_sites(uint32_t *item, size_t count);
       below((uint32_t *)walk, count, 2 * g->count) && \valid_read(corner + (0 .. SITES - 1)) &&
       \separated(p, g, g->sites, g->legal, g->bridges, walk + (0 .. count - 1), corner + (0 .. SITES - 1),
         g->legal->item + (0 .. g->legal->count - 1), g->bridges->item + (0 .. g->bridges->count - 1));
-    exits \false; ensures joined(g); ensures \result == DYD_OK ==> grouped(p, count); */
+    exits \false; ensures \result == DYD_OK ==> grouped(p, count); */
 dyd_status dyd_cert_parts_init(dyd_cert_parts *p, const dyd_cert_graph *g, const uint32_t *walk, size_t count,
                                const bool *corner);
 /*@ requires \valid(p); assigns *p; exits \false; */
