@@ -53,11 +53,33 @@
 #define RESERVE reserve_edges
 #define KEPT(a, b) ((a).i == (b).i && (a).j == (b).j)
 #include "keeps.h"
+/*@ predicate grown(edges e) = \valid(e) && e->count <= e->cap <= 1152921504606846976 && pairs(e, SITES) &&
+      (0 < e->cap ==> \valid(e->item + (0 .. e->cap - 1)) && \separated(e->item + (0 .. e->cap - 1), e)); */
+/* What graph.c proves of dyd_cert_edges_add; and that what was in the list stays, as in pairing.h. */
+/*@ requires grown(edges) && i < SITES && j < SITES; assigns *edges, edges->item[0 .. edges->cap - 1]; exits \false;
+    ensures grown(edges); */
+dyd_status add_pair(dyd_cert_edges *edges, uint32_t i, uint32_t j);
+#define dyd_cert_edges_add(edges, i, j) add_pair(edges, i, j)
 /*@ requires \valid_read(a) && \valid_read(b); assigns \nothing; exits \false; */
 int compare_edges(const dyd_cert_edge *a, const dyd_cert_edge *b);
 
 typedef const dyd_cert_box *grid_box;
 typedef const int64_t *spot;
+/* What loops change nothing of. */
+#define SAME_LIST (s == \at(s, Pre) && at == \at(at, Pre) && from == \at(from, Pre) && count == \at(count, Pre) && \
+    pairs == \at(pairs, Pre) && \valid(pairs) && \separated(pairs, s))
+#define SAME_REGION (s == \at(s, Pre) && r == \at(r, Pre) && count == \at(count, Pre) && pairs == \at(pairs, Pre) && \
+    from == \at(from, Pre) + count && at == \at(at, Pre) + pairs && r->corners == \at(r->corners, Pre) && \
+    r->depth == \at(r->depth, Pre))
+#define OUTER (\valid(is_outer + (0 .. SITES - 1)) && square_or_cone(r) && r->cone && r->depth <= 5 && \
+    beside(s, r) && \separated(is_outer + (0 .. SITES - 1), r))
+/* Of regions: corners near the grid; copies. */
+#define NEAR(x) (-1152921505143717888 <= (x) <= 1152921505143717888)
+#define TWO(c, k) (NEAR(c[k][0]) && NEAR(c[k][1]))
+#define FOUR(r) (TWO((r)->corner, 0) && TWO((r)->corner, 1) && TWO((r)->corner, 2) && TWO((r)->corner, 3))
+#define SAME(k) (to->corner[k][0] == of->corner[k][0] && to->corner[k][1] == of->corner[k][1])
+#define SHAPED(a, b) ((a)->depth == (b)->depth + 1 && (a)->corners == (b)->corners && (a)->cone == (b)->cone && \
+    (a)->stuck == (b)->stuck)
 
 /*@ predicate box(grid_box b) = \valid_read(b);
     predicate near(spot c) = \valid_read(c + (0 .. 1)) &&
