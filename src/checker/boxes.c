@@ -195,7 +195,8 @@ static bool region_part(region *out, const region *r, int k) {
     for (int c = 0; c < 4; c++)
       for (int a = 0; a < 2; a++) {
         bool high = k >> a & 1, upper = c >> a & 1;
-        out->corner[c][a] = high == upper ? (high ? hi[a] : lo[a]) : middle[a];
+        int64_t x = high != upper ? middle[a] : high ? hi[a] : lo[a];
+        out->corner[c][a] = x;
       }
   }
   return r->cone ? r->depth < MOST_CONE_CUTS : r->depth < MOST_CUTS && r->corner[3][0] - r->corner[0][0] > 1;
