@@ -71,6 +71,8 @@ typedef const int64_t *spot;
 #define SAME_REGION (s == \at(s, Pre) && r == \at(r, Pre) && count == \at(count, Pre) && pairs == \at(pairs, Pre) && \
     from == \at(from, Pre) + count && at == \at(at, Pre) + pairs && r->corners == \at(r->corners, Pre) && \
     r->depth == \at(r->depth, Pre))
+#define SEARCHED (searching(s) && (st == DYD_OK ==> working(s) && sited(s, \at(from, Pre) + \at(count, Pre)) && \
+    paired(s, \at(at, Pre) + \at(pairs, Pre))))
 #define OUTER (\valid(is_outer + (0 .. SITES - 1)) && square_or_cone(r) && r->cone && r->depth <= 5 && \
     beside(s, r) && \separated(is_outer + (0 .. SITES - 1), r))
 /* Of regions: corners near the grid; copies. */

@@ -228,12 +228,14 @@ static dyd_status look_at_region(search *s, const region *r, size_t from, size_t
   if (st != DYD_OK || (listed && kept == 0)) return st;
   bool cut = region_part(&part, r, 0) && s->effort <= s->effort_most;
   s->given_up = (!cut && !listed) || s->left->count > MOST_LEFT;
-  if (!cut || s->given_up) return add_left(s, at, kept);
-  for (int k = 0; k < r->corners && st == DYD_OK; k++) {
-    region_part(&part, r, k);
-    part.stuck = stuck;
-    st = look_at_region(s, &part, from, sites, at, kept, listed);
-  }
+  if (!cut || s->given_up)
+    st = add_left(s, at, kept);
+  else
+    for (int k = 0; k < r->corners && st == DYD_OK; k++) {
+      region_part(&part, r, k);
+      part.stuck = stuck;
+      st = look_at_region(s, &part, from, sites, at, kept, listed);
+    }
   return st;
 }
 
@@ -276,10 +278,10 @@ static dyd_status mark_outer_sites(bool *is_outer, search *s, const region *r, s
 /* Keeps of site[0 .. *count) those that are possible outside of the first square. */
 static dyd_status keep_outer_sites(search *s, size_t *count) {
   size_t outer = 0;
+  region r;
   bool *is_outer = calloc(s->sites->count, sizeof *is_outer);
   dyd_status st = is_outer ? DYD_OK : DYD_E_NOMEM;
   for (int side = 0; side < 4 && st == DYD_OK; side++) {
-    region r;
     cone_region(&r, side, HALF);
     st = mark_outer_sites(is_outer, s, &r, 0, *count);
   }
@@ -292,11 +294,11 @@ static dyd_status keep_outer_sites(search *s, size_t *count) {
 
 /* The twelve squares around the one of half side h. */
 static dyd_status look_around(search *s, size_t count, int64_t h) {
+  region r;
   dyd_status st = DYD_OK;
   for (int k = 0; k < 16 && st == DYD_OK; k++) {
     int x = k % 4, y = k / 4;
     if (x % 3 && y % 3) continue;
-    region r;
     square_region(&r, MIDDLE + (x - 2) * h, MIDDLE + (y - 2) * h, h);
     st = look_at_region(s, &r, 0, count, 0, 0, false);
   }

@@ -142,7 +142,7 @@ FAULTS = [
     ('boxes.c', 'for (int k = 0; k < r->corners && st == DYD_OK; k++) {', 'for (int k = 1; k < r->corners && st == DYD_OK; k++) {'),
     ('boxes.c', 'for (int k = 0; k < r->corners && st == DYD_OK; k++) {',
      'for (int k = 0; k + 1 < r->corners && st == DYD_OK; k++) {'),
-    ('boxes.c', 'if (!cut || s->given_up) return add_left(s, at, kept);', 'if (!cut || s->given_up) return DYD_OK;'),
+    ('boxes.c', 'if (!cut || s->given_up)\n    st = add_left(s, at, kept);', 'if (!cut || s->given_up)\n    st = DYD_OK;'),
     ('boxes.c', 'if (s->stamp[s->pair[q].i] == s->now && s->stamp[s->pair[q].j] == s->now)', 'if (false)'),
     ('boxes.c', 's->first[known->list[k]->item[e].i + 2]++;', ';'),
     ('boxes.c', 'if (x % 3 && y % 3) continue;', 'if (x % 3 || y % 3) continue;'),
