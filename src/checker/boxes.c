@@ -294,12 +294,13 @@ static dyd_status keep_outer_sites(search *s, size_t *count) {
 
 /* The twelve squares around the one of half side h. */
 static dyd_status look_around(search *s, size_t count, int64_t h) {
+  const int64_t low = MIDDLE - 2 * h;
   region r;
   dyd_status st = DYD_OK;
   for (int k = 0; k < 16 && st == DYD_OK; k++) {
     int x = k % 4, y = k / 4;
     if (x % 3 && y % 3) continue;
-    square_region(&r, MIDDLE + (x - 2) * h, MIDDLE + (y - 2) * h, h);
+    square_region(&r, low + x * h, low + y * h, h);
     st = look_at_region(s, &r, 0, count, 0, 0, false);
   }
   return st;
