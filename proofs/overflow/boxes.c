@@ -55,6 +55,9 @@
 #include "keeps.h"
 /*@ predicate grown(edges e) = \valid(e) && e->count <= e->cap <= 1152921504606846976 && pairs(e, SITES) &&
       (0 < e->cap ==> \valid(e->item + (0 .. e->cap - 1)) && \separated(e->item + (0 .. e->cap - 1), e)); */
+/*@ requires \valid(to) && \valid_read(of); assigns *to; exits \false;
+    ensures to->item == \old(of->item) && to->count == \old(of->count) && to->cap == \old(of->cap); */
+void copy_edges(dyd_cert_edges *to, const dyd_cert_edges *of);
 /* What graph.c proves of dyd_cert_edges_add; and that what was in the list stays, as in pairing.h. */
 /*@ requires grown(edges) && i < SITES && j < SITES; assigns *edges, edges->item[0 .. edges->cap - 1]; exits \false;
     ensures grown(edges); */
@@ -100,11 +103,15 @@ static double box_height(const int64_t corner[2], const dyd_cert_box *b, bool up
 /*@ requires near(&corner[0]) && box(b); assigns \nothing; exits \false; */
 long long height_of(const int64_t corner[2], const dyd_cert_box *b, bool upper);
 /*@ requires 0 < count ==> \valid(item + (0 .. count - 1));
-    assigns item[0 .. count - 1]; exits \false; */
+    assigns item[0 .. count - 1]; exits \false;
+    ensures \old(\forall integer k; 0 <= k < count ==> item[k].i < SITES && item[k].j < SITES) ==>
+      \forall integer k; 0 <= k < count ==> item[k].i < SITES && item[k].j < SITES; */
 void sort_edges(dyd_cert_edge *item, size_t count);
 /*@ requires \valid(left) && (0 < left->count ==> \valid(left->item + (0 .. left->count - 1)) &&
       \separated(left, left->item + (0 .. left->count - 1)));
-    assigns left->count, left->item[0 .. left->count - 1]; exits \false; ensures left->count <= \old(left->count); */
+    requires pairs(left, SITES);
+    assigns left->count, left->item[0 .. left->count - 1]; exits \false; ensures left->count <= \old(left->count);
+    ensures pairs(left, SITES); */
 static void sort_left(dyd_cert_edges *left);
 
 #include "checker/boxes.c"

@@ -353,18 +353,24 @@ static void sort_left(dyd_cert_edges *left) {
   left->count = kept;
 }
 
+/* All but aliases; returns how many. */
+static size_t list_sites(uint32_t *site, const dyd_cert_sites *sites) {
+  size_t count = 0;
+  for (uint32_t v = 0; v < sites->count; v++)
+    if (sites->site[v].alias == v) site[count++] = v;
+  return count;
+}
+
 dyd_status dyd_cert_boxes_left(dyd_cert_edges *left, bool *given_up, const dyd_cert_sites *sites,
                                const dyd_cert_faces *f, const dyd_cert_known *known) {
   search s = {.sites = sites, .faces = f, .left = left};
-  size_t count = 0;
   *left = (dyd_cert_edges){0};
   dyd_status st = index_known(&s, known);
   s.stamp = calloc(sites->count ? sites->count : 1, sizeof *s.stamp);
   s.effort_most = ((uint64_t)sites->count + 64) << EFFORT_BITS;
   if (!s.stamp || !dyd_reserve((void **)&s.site, &s.site_cap, sites->count, sizeof *s.site)) st = DYD_E_NOMEM;
-  for (uint32_t v = 0; v < sites->count && st == DYD_OK; v++)
-    if (sites->site[v].alias == v) s.site[count++] = v;
-  if (st == DYD_OK && count > 1) st = look_everywhere(&s, count);
+  size_t count = st == DYD_OK ? list_sites(s.site, sites) : 0;
+  if (count > 1) st = look_everywhere(&s, count);
   *given_up = s.given_up;
   if (s.given_up) left->count = 0;
   sort_left(left);
