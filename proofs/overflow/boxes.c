@@ -2,17 +2,12 @@
 /* Contracts for src/checker/boxes.c: regions, distances from their corners, who is kept in one. Areas are numbers
  * of 64 bits here, heights too, and doubles in box_height: Frama-C has no numbers of 128 bits. Their values are no part
  * of the proof, but that each of the two products in box_height is at most 2^92 is: no number of 128 bits overflows. */
-/* These were run again, 2 s a goal, while others had the machine. */
-/* Without list_region_pairs, add_left: without contracts 14 of 25 and 1 of 6 goals are proved. Open: accesses behind s,
-   and what dyd_reserve and dyd_cert_edges_add ask; the latter says of a list only what its last pair is. */
-/* Without index_known, look_everywhere: WP had come to no goal of them after 100 s of a run of all these. Before:
-   places in the list of partners, which rest on counting, and that the search works on after a region. */
-/* Without mark_outer_sites, keep_outer_sites: 14 of 27 and 26 of 33 goals are proved. Open: what they promise, and the
-   invariants that the search works on. */
-/* Without look_around: 10 of 19 goals are proved. Open: h for its bits, sums of it, that the search works on. */
-/* Without look_at_region: WP had not come to the first of 36 goals after 45 s. */
-/* Without dyd_cert_boxes_left: 27 of 32 goals are proved. Open: mem_access_10 and 11, and what index_known,
-   look_everywhere and sort_left ask. */
+/* A search has lists of sites and of pairs in memory of their own, what does not change (sites, sets, known partners),
+ * and the list of what is left. What a function does to one of them leaves the others: WP is told so after each change,
+ * since it does not know of memory that is reserved where it is. Locals that are regions end before WP looks at what is
+ * promised; that it holds is proved just before (`admit ensures apart`). */
+/* Without index_known: WP had come to no goal of it after 100 s of a run of all these. Before: places in the list of
+   partners, which rest on counting. */
 #define __int128 long long
 #include "faces.h"
 
