@@ -219,8 +219,8 @@ CONES = 'what a cone holds, squares before it hold as well, and leave unless cut
 SURVIVORS = [
     ('boxes.c', 'blocked = blocked && top[k] < b[q].bottom[k];', ';', CONES),
     ('boxes.c', 'b->e[2 * a + ((u > 0) == upper)];', 'b->e[2 * a + (u > 0)];', CONES),
-    ('boxes.c', 'for (int side = 0; side < 4 && st == DYD_OK; side++) {\n    cone',
-     'for (int side = 0; side < 3 && st == DYD_OK; side++) {\n    cone', CONES),
+    ('boxes.c', 'for (int side = 0; side < 4 && st == DYD_OK; side++) {\n    cone_region(&r, side, LAST)',
+     'for (int side = 0; side < 3 && st == DYD_OK; side++) {\n    cone_region(&r, side, LAST)', CONES),
     ('boxes.c', 'bool blocked = b[q].site != v;', 'bool blocked = true;',
      'the far end of a rectangle is not nearer than its near one'),
     ('chain.c', 'return dyd_cert_cross(p, q, p, at) >= 0 ? 1 : -1;',
