@@ -4,8 +4,8 @@
  * of the proof, but that each of the two products in box_height is at most 2^92 is: no number of 128 bits overflows. */
 /* A search has lists of sites and of pairs in memory of their own, what does not change (sites, sets, known partners),
  * and the list of what is left. What a function does to one of them leaves the others: WP is told so after each change,
- * since it does not know of memory that is reserved where it is. Locals that are regions end before WP looks at what is
- * promised; that it holds is proved just before (`admit ensures apart`). */
+ * since it does not know of memory that is reserved where it is. Locals in memory (regions, the search) end before WP
+ * looks at what is promised: `admit ensures apart` is of what was proved just before they end. */
 /* Without index_known: WP had come to no goal of it after 100 s of a run of all these. Before: places in the list of
    partners, which rest on counting. */
 #define __int128 long long
@@ -50,10 +50,12 @@
 #include "keeps.h"
 /*@ predicate grown(edges e) = \valid(e) && e->count <= e->cap <= 1152921504606846976 && pairs(e, SITES) &&
       (0 < e->cap ==> \valid(e->item + (0 .. e->cap - 1)) && \separated(e->item + (0 .. e->cap - 1), e)); */
+/* The assignment of the empty list. */
 /*@ requires \valid(to) && \valid_read(of); assigns *to; exits \false;
     ensures to->item == \old(of->item) && to->count == \old(of->count) && to->cap == \old(of->cap); */
 void copy_edges(dyd_cert_edges *to, const dyd_cert_edges *of);
-/* What graph.c proves of dyd_cert_edges_add; and that what was in the list stays, as in pairing.h. */
+/* What graph.c proves of dyd_cert_edges_add; and that what was in the list stays, as in pairing.h: all of it where
+ * memory fails. */
 /*@ requires grown(edges) && i < SITES && j < SITES; assigns *edges, edges->item[0 .. edges->cap - 1]; exits \false;
     ensures grown(edges); */
 dyd_status add_pair(dyd_cert_edges *edges, uint32_t i, uint32_t j);
@@ -97,6 +99,7 @@ static double box_height(const int64_t corner[2], const dyd_cert_box *b, bool up
 /* box_height, as a number, for those who compare heights: CVC4 fails on comparisons of doubles. */
 /*@ requires near(&corner[0]) && box(b); assigns \nothing; exits \false; */
 long long height_of(const int64_t corner[2], const dyd_cert_box *b, bool upper);
+/* qsort, of pairs: it only moves them. */
 /*@ requires 0 < count ==> \valid(item + (0 .. count - 1));
     assigns item[0 .. count - 1]; exits \false;
     ensures \old(\forall integer k; 0 <= k < count ==> item[k].i < SITES && item[k].j < SITES) ==>
