@@ -2,17 +2,12 @@
 /* Contracts for src/checker/boxes.c: regions, distances from their corners, who is kept in one. Areas are numbers
  * of 64 bits here, heights too, and doubles in box_height: Frama-C has no numbers of 128 bits. Their values are no part
  * of the proof, but that each of the two products in box_height is at most 2^92 is: no number of 128 bits overflows. */
-/* These were run again, 2 s a goal, while others had the machine. */
-/* Without list_region_pairs, add_left: without contracts 14 of 25 and 1 of 6 goals are proved. Open: accesses behind s,
-   and what dyd_reserve and dyd_cert_edges_add ask; the latter says of a list only what its last pair is. */
-/* Without index_known, look_everywhere: WP had come to no goal of them after 100 s of a run of all these. Before:
-   places in the list of partners, which rest on counting, and that the search works on after a region. */
-/* Without mark_outer_sites, keep_outer_sites: 14 of 27 and 26 of 33 goals are proved. Open: what they promise, and the
-   invariants that the search works on. */
-/* Without look_around: 10 of 19 goals are proved. Open: h for its bits, sums of it, that the search works on. */
-/* Without look_at_region: WP had not come to the first of 36 goals after 45 s. */
-/* Without dyd_cert_boxes_left: 27 of 32 goals are proved. Open: mem_access_10 and 11, and what index_known,
-   look_everywhere and sort_left ask. */
+/* A search has lists of sites and of pairs in memory of their own, what does not change (sites, sets, known partners),
+ * and the list of what is left. What a function does to one of them leaves the others: WP is told so after each change,
+ * since it does not know of memory that is reserved where it is. Locals in memory (regions, the search) end before WP
+ * looks at what is promised: `admit ensures apart` is of what was proved just before they end. */
+/* Without index_known: WP had come to no goal of it after 100 s of a run of all these. Before: places in the list of
+   partners, which rest on counting. */
 #define __int128 long long
 #include "faces.h"
 
@@ -53,11 +48,40 @@
 #define RESERVE reserve_edges
 #define KEPT(a, b) ((a).i == (b).i && (a).j == (b).j)
 #include "keeps.h"
+/*@ predicate grown(edges e) = \valid(e) && e->count <= e->cap <= 1152921504606846976 && pairs(e, SITES) &&
+      (0 < e->cap ==> \valid(e->item + (0 .. e->cap - 1)) && \separated(e->item + (0 .. e->cap - 1), e)); */
+/* The assignment of the empty list. */
+/*@ requires \valid(to) && \valid_read(of); assigns *to; exits \false;
+    ensures to->item == \old(of->item) && to->count == \old(of->count) && to->cap == \old(of->cap); */
+void copy_edges(dyd_cert_edges *to, const dyd_cert_edges *of);
+/* What graph.c proves of dyd_cert_edges_add; and that what was in the list stays, as in pairing.h: all of it where
+ * memory fails. */
+/*@ requires grown(edges) && i < SITES && j < SITES; assigns *edges, edges->item[0 .. edges->cap - 1]; exits \false;
+    ensures grown(edges); */
+dyd_status add_pair(dyd_cert_edges *edges, uint32_t i, uint32_t j);
+#define dyd_cert_edges_add(edges, i, j) add_pair(edges, i, j)
 /*@ requires \valid_read(a) && \valid_read(b); assigns \nothing; exits \false; */
 int compare_edges(const dyd_cert_edge *a, const dyd_cert_edge *b);
 
 typedef const dyd_cert_box *grid_box;
 typedef const int64_t *spot;
+/* What loops change nothing of. */
+#define SAME_LIST (s == \at(s, Pre) && at == \at(at, Pre) && from == \at(from, Pre) && count == \at(count, Pre) && \
+    pairs == \at(pairs, Pre) && \valid(pairs) && \separated(pairs, s))
+#define SAME_REGION (s == \at(s, Pre) && r == \at(r, Pre) && count == \at(count, Pre) && pairs == \at(pairs, Pre) && \
+    from == \at(from, Pre) + count && at == \at(at, Pre) + pairs && r->corners == \at(r->corners, Pre) && \
+    r->depth == \at(r->depth, Pre))
+#define SEARCHED (searching(s) && (st == DYD_OK ==> working(s) && sited(s, \at(from, Pre) + \at(count, Pre)) && \
+    paired(s, \at(at, Pre) + \at(pairs, Pre))))
+#define OUTER (\valid(is_outer + (0 .. SITES - 1)) && square_or_cone(r) && r->cone && r->depth <= 5 && \
+    beside(s, r) && \separated(is_outer + (0 .. SITES - 1), r))
+/* Of regions: corners near the grid; copies. */
+#define NEAR(x) (-1152921505143717888 <= (x) <= 1152921505143717888)
+#define TWO(c, k) (NEAR(c[k][0]) && NEAR(c[k][1]))
+#define FOUR(r) (TWO((r)->corner, 0) && TWO((r)->corner, 1) && TWO((r)->corner, 2) && TWO((r)->corner, 3))
+#define SAME(k) (to->corner[k][0] == of->corner[k][0] && to->corner[k][1] == of->corner[k][1])
+#define SHAPED(a, b) ((a)->depth == (b)->depth + 1 && (a)->corners == (b)->corners && (a)->cone == (b)->cone && \
+    (a)->stuck == (b)->stuck)
 
 /*@ predicate box(grid_box b) = \valid_read(b);
     predicate near(spot c) = \valid_read(c + (0 .. 1)) &&
@@ -75,12 +99,17 @@ static double box_height(const int64_t corner[2], const dyd_cert_box *b, bool up
 /* box_height, as a number, for those who compare heights: CVC4 fails on comparisons of doubles. */
 /*@ requires near(&corner[0]) && box(b); assigns \nothing; exits \false; */
 long long height_of(const int64_t corner[2], const dyd_cert_box *b, bool upper);
+/* qsort, of pairs: it only moves them. */
 /*@ requires 0 < count ==> \valid(item + (0 .. count - 1));
-    assigns item[0 .. count - 1]; exits \false; */
+    assigns item[0 .. count - 1]; exits \false;
+    ensures \old(\forall integer k; 0 <= k < count ==> item[k].i < SITES && item[k].j < SITES) ==>
+      \forall integer k; 0 <= k < count ==> item[k].i < SITES && item[k].j < SITES; */
 void sort_edges(dyd_cert_edge *item, size_t count);
 /*@ requires \valid(left) && (0 < left->count ==> \valid(left->item + (0 .. left->count - 1)) &&
       \separated(left, left->item + (0 .. left->count - 1)));
-    assigns left->count, left->item[0 .. left->count - 1]; exits \false; ensures left->count <= \old(left->count); */
+    requires pairs(left, SITES);
+    assigns left->count, left->item[0 .. left->count - 1]; exits \false; ensures left->count <= \old(left->count);
+    ensures pairs(left, SITES); */
 static void sort_left(dyd_cert_edges *left);
 
 #include "checker/boxes.c"

@@ -14,8 +14,8 @@
 #include "checker/tree.h"
 
 #define MIDDLE (INT64_C(1) << 29) /* of the grid: o */
-#define HALF_BITS 30              /* h of the first square, and of the last */
-#define LAST_BITS 58
+#define HALF (INT64_C(1) << 30)   /* h of the first square, and of the last */
+#define LAST (INT64_C(1) << 58)
 #define MOST_CUTS 40      /* of a box */
 #define MOST_CONE_CUTS 12 /* of a cone */
 #define FEW 64            /* sites of a box whose pairs are listed: at once; when a cut does not help much */
@@ -156,12 +156,12 @@ static dyd_status list_region_pairs(size_t *pairs, search *s, size_t at, size_t 
   *pairs = 0;
   for (size_t a = 0; a < count; a++) {
     uint32_t i = s->site[from + a];
-    const uint32_t *known = s->partner + s->first[i], *end = s->partner + s->first[i + 1];
+    size_t known = s->first[i], end = s->first[i + 1];
     if (!dyd_reserve((void **)&s->pair, &s->pair_cap, at + *pairs + count, sizeof *s->pair)) return DYD_E_NOMEM;
     for (size_t b = a + 1; b < count; b++) {
       uint32_t j = s->site[from + b];
-      while (known < end && *known < j) known++;
-      if ((known == end || *known != j) && dyd_cert_faces_share(s->faces, i, j))
+      while (known < end && s->partner[known] < j) known++;
+      if ((known == end || s->partner[known] != j) && dyd_cert_faces_share(s->faces, i, j))
         s->pair[at + (*pairs)++] = (dyd_cert_edge){i, j};
     }
   }
@@ -195,7 +195,8 @@ static bool region_part(region *out, const region *r, int k) {
     for (int c = 0; c < 4; c++)
       for (int a = 0; a < 2; a++) {
         bool high = k >> a & 1, upper = c >> a & 1;
-        out->corner[c][a] = high == upper ? (high ? hi[a] : lo[a]) : middle[a];
+        int64_t x = high != upper ? middle[a] : high ? hi[a] : lo[a];
+        out->corner[c][a] = x;
       }
   }
   return r->cone ? r->depth < MOST_CONE_CUTS : r->depth < MOST_CUTS && r->corner[3][0] - r->corner[0][0] > 1;
@@ -210,50 +211,54 @@ static dyd_status add_left(search *s, size_t at, size_t count) {
 /* site[from .. from+count): the sites of the region around r; pair[at .. at+pairs) its pairs, when `listed`. */
 static dyd_status look_at_region(search *s, const region *r, size_t from, size_t count, size_t at, size_t pairs,
                                  bool listed) {
-  region part, here = *r;
+  region part;
   size_t sites = 0, kept = 0;
   if (s->given_up) return DYD_OK;
   dyd_status st = keep_region_sites(&sites, s, r, from, count);
   if (st != DYD_OK || sites < 2) return st;
-  here.stuck = 8 * sites > 7 * count ? r->stuck + 1 : 0;
+  int stuck = 8 * sites > 7 * count ? r->stuck + 1 : 0;
   from += count;
   if (listed) {
     st = keep_region_pairs(&kept, s, at, pairs);
     at += pairs;
-  } else if (sites <= FEW || (sites <= MANY && here.stuck >= STUCK)) {
+  } else if (sites <= FEW || (sites <= MANY && stuck >= STUCK)) {
     st = list_region_pairs(&kept, s, at, from, sites);
     listed = true;
   }
   if (st != DYD_OK || (listed && kept == 0)) return st;
-  bool cut = region_part(&part, &here, 0) && s->effort <= s->effort_most;
+  bool cut = region_part(&part, r, 0) && s->effort <= s->effort_most;
   s->given_up = (!cut && !listed) || s->left->count > MOST_LEFT;
-  if (!cut || s->given_up) return add_left(s, at, kept);
-  for (int k = 0; k < r->corners && st == DYD_OK; k++) {
-    region_part(&part, &here, k);
-    st = look_at_region(s, &part, from, sites, at, kept, listed);
-  }
+  if (!cut || s->given_up)
+    st = add_left(s, at, kept);
+  else
+    for (int k = 0; k < r->corners && st == DYD_OK; k++) {
+      region_part(&part, r, k);
+      part.stuck = stuck;
+      st = look_at_region(s, &part, from, sites, at, kept, listed);
+    }
   return st;
 }
 
 /* The square of this side with the lower left corner x, y. */
-static region square_region(int64_t x, int64_t y, int64_t side) {
-  region r = {.corners = 4};
+static void square_region(region *out, int64_t x, int64_t y, int64_t side) {
+  *out = (region){0};
+  out->corners = 4;
   for (int c = 0; c < 4; c++) {
-    r.corner[c][0] = x + (c & 1 ? side : 0);
-    r.corner[c][1] = y + (c & 2 ? side : 0);
+    out->corner[c][0] = x + (c & 1 ? side : 0);
+    out->corner[c][1] = y + (c & 2 ? side : 0);
   }
-  return r;
 }
 
-/* The cone behind a side of the square of half side 2^bits. */
-static region cone_region(int side, int bits) {
-  const int64_t h = INT64_C(1) << bits, end[2] = {MIDDLE - h, MIDDLE + h};
-  region r = {.corners = 2, .cone = true};
+/* The cone behind a side of the square of half side h. */
+static void cone_region(region *out, int side, int64_t h) {
+  const int64_t end[2] = {MIDDLE - h, MIDDLE + h};
+  *out = (region){0};
+  out->corners = 2;
+  out->cone = true;
   for (int c = 0; c < 2; c++) {
-    r.corner[c][side & 1] = end[side >> 1];
-    r.corner[c][1 - (side & 1)] = end[c];
+    out->corner[c][side & 1] = end[side >> 1];
+    out->corner[c][1 - (side & 1)] = end[c];
   }
-  return r;
 }
 
 /* Marks those of site[from .. from+count) that are possible in the cone r, cut a few times. */
@@ -273,10 +278,11 @@ static dyd_status mark_outer_sites(bool *is_outer, search *s, const region *r, s
 /* Keeps of site[0 .. *count) those that are possible outside of the first square. */
 static dyd_status keep_outer_sites(search *s, size_t *count) {
   size_t outer = 0;
+  region r;
   bool *is_outer = calloc(s->sites->count, sizeof *is_outer);
   dyd_status st = is_outer ? DYD_OK : DYD_E_NOMEM;
   for (int side = 0; side < 4 && st == DYD_OK; side++) {
-    region r = cone_region(side, HALF_BITS);
+    cone_region(&r, side, HALF);
     st = mark_outer_sites(is_outer, s, &r, 0, *count);
   }
   for (size_t q = 0; q < *count && st == DYD_OK; q++)
@@ -286,27 +292,28 @@ static dyd_status keep_outer_sites(search *s, size_t *count) {
   return st;
 }
 
-/* The twelve squares around the one of half side 2^bits. */
-static dyd_status look_around(search *s, size_t count, int bits) {
+/* The twelve squares around the one of half side h. */
+static dyd_status look_around(search *s, size_t count, int64_t h) {
+  const int64_t low = MIDDLE - 2 * h;
+  region r;
   dyd_status st = DYD_OK;
-  const int64_t h = INT64_C(1) << bits;
   for (int k = 0; k < 16 && st == DYD_OK; k++) {
     int x = k % 4, y = k / 4;
     if (x % 3 && y % 3) continue;
-    region r = square_region(MIDDLE + (x - 2) * h, MIDDLE + (y - 2) * h, h);
+    square_region(&r, low + x * h, low + y * h, h);
     st = look_at_region(s, &r, 0, count, 0, 0, false);
   }
   return st;
 }
 
 static dyd_status look_everywhere(search *s, size_t count) {
-  const int64_t h = INT64_C(1) << HALF_BITS;
-  region r = square_region(MIDDLE - h, MIDDLE - h, 2 * h);
+  region r;
+  square_region(&r, MIDDLE - HALF, MIDDLE - HALF, 2 * HALF);
   dyd_status st = look_at_region(s, &r, 0, count, 0, 0, false);
   if (st == DYD_OK) st = keep_outer_sites(s, &count);
-  for (int bits = HALF_BITS; bits < LAST_BITS && st == DYD_OK; bits++) st = look_around(s, count, bits);
+  for (int64_t h = HALF; h < LAST && st == DYD_OK; h *= 2) st = look_around(s, count, h);
   for (int side = 0; side < 4 && st == DYD_OK; side++) {
-    r = cone_region(side, LAST_BITS);
+    cone_region(&r, side, LAST);
     st = look_at_region(s, &r, 0, count, 0, 0, false);
   }
   return st;
@@ -341,18 +348,24 @@ static void sort_left(dyd_cert_edges *left) {
   left->count = kept;
 }
 
+/* All but aliases; returns how many. */
+static size_t list_sites(uint32_t *site, const dyd_cert_sites *sites) {
+  size_t count = 0;
+  for (uint32_t v = 0; v < sites->count; v++)
+    if (sites->site[v].alias == v) site[count++] = v;
+  return count;
+}
+
 dyd_status dyd_cert_boxes_left(dyd_cert_edges *left, bool *given_up, const dyd_cert_sites *sites,
                                const dyd_cert_faces *f, const dyd_cert_known *known) {
   search s = {.sites = sites, .faces = f, .left = left};
-  size_t count = 0;
   *left = (dyd_cert_edges){0};
   dyd_status st = index_known(&s, known);
   s.stamp = calloc(sites->count ? sites->count : 1, sizeof *s.stamp);
   s.effort_most = ((uint64_t)sites->count + 64) << EFFORT_BITS;
   if (!s.stamp || !dyd_reserve((void **)&s.site, &s.site_cap, sites->count, sizeof *s.site)) st = DYD_E_NOMEM;
-  for (uint32_t v = 0; v < sites->count && st == DYD_OK; v++)
-    if (sites->site[v].alias == v) s.site[count++] = v;
-  if (st == DYD_OK && count > 1) st = look_everywhere(&s, count);
+  size_t count = st == DYD_OK ? list_sites(s.site, sites) : 0;
+  if (count > 1) st = look_everywhere(&s, count);
   *given_up = s.given_up;
   if (s.given_up) left->count = 0;
   sort_left(left);
