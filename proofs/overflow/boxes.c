@@ -6,10 +6,9 @@
  * and the list of what is left. What a function does to one of them leaves the others: WP is told so after each change,
  * since it does not know of memory that is reserved where it is. Locals in memory (regions, the search) end before WP
  * looks at what is promised: `admit ensures apart` is of what was proved just before they end. */
-/* Without index_known: WP had come to no goal of it after 100 s of a run of all these. Before: places in the list of
-   partners, which rest on counting. */
 #define __int128 long long
 #include "faces.h"
+#include "by_key.h"
 
 #include "base/alloc.h"
 #include "checker/tree.h"
@@ -27,15 +26,17 @@
 #define RESERVE reserve_sizes
 #define ALLOC alloc_sizes
 #include "lists.h"
+#define ITEM dyd_cert_entry
+#define RESERVE reserve_entries
+#define ALLOC alloc_entries
+#include "lists.h"
+#define dyd_cert_by_key(start, item, keys, entry, count) by_key_below(start, item, keys, entry, count, keys)
 #define ITEM bool
 #define RESERVE reserve_flags
 #define ALLOC alloc_flags
 #include "lists.h"
 #define ITEM bool
 #define ALLOC zeroed_flags
-#include "zeroed.h"
-#define ITEM size_t
-#define ALLOC zeroed_sizes
 #include "zeroed.h"
 #define ITEM uint64_t
 #define ALLOC zeroed_stamps

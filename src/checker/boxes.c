@@ -329,9 +329,12 @@ static dyd_status index_known(search *s, const dyd_cert_known *known) {
   s->partner = dyd_alloc(all, sizeof *s->partner);
   bool good = entry && s->first && s->partner;
   for (int k = 0; k < 3 && good; k++)
-    for (size_t e = 0; e < known->list[k]->count; e++)
-      entry[count++] = (dyd_cert_entry){known->list[k]->item[e].i, known->list[k]->item[e].j};
-  if (good) dyd_cert_by_key(s->first, s->partner, n, entry, all);
+    for (size_t e = 0; e < known->list[k]->count; e++, count++) {
+      const dyd_cert_edge *p = &known->list[k]->item[e];
+      entry[count].key = p->i;
+      entry[count].item = p->j;
+    }
+  if (good) dyd_cert_by_key(s->first, s->partner, n, entry, count);
   free(entry);
   for (size_t v = 0; v < n && good; v++)
     if (s->first[v + 1] > s->first[v] + 1)
