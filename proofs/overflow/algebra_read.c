@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra_read.c: operands are numbers before, operations have names. */
-/* Without read_value, read_number, dyd_cert_algebra_read: with the contracts below, which were not tried to the end:
-   all is taken from what read_operation, dyd_cert_number_value and dyd_cert_number_check leave of block and reader. */
 #include "polys.h"
 
 #include "base/alloc.h"
@@ -47,16 +45,6 @@ const char *dyd_cert_op_name(dyd_cert_op op);
     ensures \result == (op == DYD_CERT_VALUE || DYD_CERT_PI <= op ? 0 : op <= DYD_CERT_MAX ? 2 : 1); */
 int dyd_cert_op_operands(dyd_cert_op op);
 
-/* As read.h says of dyd_cert_reject, and base/error.c of dyd_fail_nomem: the error is filled in. It is no part of the
- * reader, nor of the line. */
-/*@ requires reads(r); assigns *r->err; exits \false; ensures \result == DYD_E_PARSE; ensures reads(r); */
-dyd_status reject_line(const dyd_cert_reader *r);
-#undef dyd_cert_reject
-#define dyd_cert_reject(r, ...) reject_line(r)
-/*@ requires reads(r); assigns *r->err; exits \false; ensures \result == DYD_E_NOMEM; ensures reads(r); */
-dyd_status no_memory(const dyd_cert_reader *r);
-#define dyd_fail_nomem(err) no_memory(in)
-
 typedef const dyd_cert_bracket *bracket_of;
 typedef const dyd_cert_number *number_of;
 typedef dyd_cert_quotient *value_of;
@@ -79,12 +67,37 @@ typedef dyd_cert_quotient *value_of;
     predicate rooted(bracket_of r) = bracket(r) && sign(&r->coeff[r->count - 1][0]) == 1;
     predicate four(bracket_of r) = whole(&r->end[0][0]) && whole(&r->end[1][0]) && whole(&r->end[2][0]) &&
       whole(&r->end[3][0]);
+    predicate freed(bracket_of r) = \valid(r) && r->count <= 1001 &&
+      (0 < r->count ==> \valid(r->coeff + (0 .. r->count - 1))) &&
+      (\forall integer k; 0 <= k < r->count ==> whole(&r->coeff[k][0])) && four(r) &&
+      \separated(r, r->coeff + (0 .. r->count - 1));
+    predicate own_root(number_of n, numbers a) = \base_addr(n->root) != \base_addr(a) &&
+      \base_addr(n->root) != \base_addr(a->number) && \base_addr(n->root->coeff) != \base_addr(a) &&
+      \base_addr(n->root->coeff) != \base_addr(a->number) &&
+      \separated(n->root, n->root->coeff + (0 .. n->root->count - 1));
     predicate described(number_of n, integer count) = 0 <= n->op < 29 &&
       (1 <= n->op <= 23 ==> n->a < count) && (1 <= n->op <= 6 ==> n->b < count) &&
       -4096 <= n->exponent <= 4096;
     predicate place(numbers a, reading r) = known(a) && angled(a) && cycled(a) && a->count <= 4194304 &&
       \separated(a, r, r->err, r->in, LINES + (..)) &&
       \separated(a->number + (0 .. a->count), r, r->err, r->in, LINES + (..)); */
+
+/* As read.h says of dyd_cert_reject and dyd_cert_line_done, and base/error.c of dyd_fail_nomem: the error is filled in. It
+ * is no part of the reader, the line, the block or a bracket. */
+/*@ requires reads(r); assigns *r->err; exits \false; ensures \result == DYD_E_PARSE; ensures reads(r); */
+dyd_status reject_line(const dyd_cert_reader *r);
+#undef dyd_cert_reject
+#define dyd_cert_reject(r, ...) reject_line(r)
+/*@ requires reads(r); assigns *r->err; exits \false; ensures \result == DYD_E_NOMEM; ensures reads(r);
+    ensures \forall bracket_of b; \old(freed(b)) ==> freed(b); */
+dyd_status no_memory(const dyd_cert_reader *r);
+#define dyd_fail_nomem(err) no_memory(in)
+/*@ requires reads(r); assigns *r->err; exits \false; ensures reads(r);
+    ensures \old(place(a, r)) ==> place(a, r);
+    ensures n->root == \old(n->root) && a->count == \old(a->count);
+    ensures \old(n->root == \null || freed(n->root)) ==> n->root == \null || freed(n->root); */
+dyd_status number_done(const dyd_cert_number *n, const dyd_cert_algebra *a, dyd_cert_reader *r);
+#define dyd_cert_line_done(r) number_done(n, a, r)
 
 /*@ requires known(a) && \valid_read(q);
     assigns a->relations.work, a->number[0 .. a->count].now, a->number[0 .. a->count].p; exits \false;
@@ -94,14 +107,20 @@ int dyd_cert_poly_sign(dyd_cert_algebra *a, const dyd_cert_poly *q);
 bool dyd_cert_root_is_single(const dyd_cert_bracket *r);
 /*@ requires known(a) && angled(a) && cycled(a) && n == a->number + a->count && 1 <= n->op <= 28;
     requires described(n, a->count);
-    requires n->op == DYD_CERT_ROOT ==> rooted(n->root); exits \false; */
+    requires n->op == DYD_CERT_ROOT ==> rooted(n->root);
+    requires n->op == DYD_CERT_ROOT ==> \separated(a, n->root, n->root->coeff + (0 .. n->root->count - 1)) &&
+      \separated(&n->value, n->root, n->root->coeff + (0 .. n->root->count - 1)); exits \false; */
 bool dyd_cert_number_value(dyd_cert_number *n, dyd_cert_algebra *a);
 /*@ requires known(a) && n == a->number + a->count && described(n, a->count);
     requires n->op == DYD_CERT_SQRT || n->op == DYD_CERT_CBRT || n->op == DYD_CERT_ROOT;
-    requires n->op == DYD_CERT_ROOT ==> rooted(n->root); exits \false; */
+    requires n->op == DYD_CERT_ROOT ==> rooted(n->root);
+    requires n->op == DYD_CERT_ROOT ==> \separated(a, n->root) && \separated(a->number + (0 .. a->count), n->root);
+    exits \false; */
 bool dyd_cert_number_check(dyd_cert_number *n, dyd_cert_algebra *a);
-/*@ requires \valid(n); exits \false; */
-void dyd_cert_number_clear(dyd_cert_number *n);
+/* What algebra.c asks of dyd_cert_number_clear; and that a reader is no part of a number. */
+/*@ requires \valid(n) && (n->root == \null || freed(n->root)); requires reads(r); exits \false; ensures reads(r); */
+void clear_number(dyd_cert_number *n, const dyd_cert_reader *r);
+#define dyd_cert_number_clear(n) clear_number(n, in)
 /*@ requires \valid(x); assigns *x; exits \false; */
 void dyd_cert_enclosure_init(dyd_cert_enclosure *x);
 
@@ -122,10 +141,10 @@ static bool scan_fraction(mpz_ptr num, mpz_ptr den, char *text);
     exits \false;
     ensures r->end[0][0].value == \old(r->end[0][0].value) && r->end[1][0].value == \old(r->end[1][0].value) &&
       r->end[2][0].value == \old(r->end[2][0].value) && r->end[3][0].value == \old(r->end[3][0].value);
-    ensures \valid(r);
-    ensures \result ==> 2 <= r->count <= 1001;
-    ensures \result ==> \valid_read(r->coeff + (0 .. r->count - 1));
-    ensures \result ==> \forall integer k; 0 <= k < r->count ==> whole(&r->coeff[k][0]);
+    ensures \valid(r); ensures r->count <= 1001; ensures \result ==> 2 <= r->count;
+    ensures 0 < r->count ==> \valid(r->coeff + (0 .. r->count - 1));
+    ensures \separated(r, r->coeff + (0 .. r->count - 1));
+    ensures \forall integer k; 0 <= k < r->count ==> whole(&r->coeff[k][0]);
     ensures \result ==> sign(&r->coeff[r->count - 1][0]) == 1; */
 static bool scan_coefficients(dyd_cert_bracket *r, char *text, dyd_cert_relations *relations);
 /*@ requires \valid_read(n) && \valid_read(in); assigns \nothing; exits \false;
@@ -156,14 +175,23 @@ static dyd_status read_value(dyd_cert_quotient *out, dyd_cert_algebra *a, dyd_ce
     ensures \result == DYD_OK ==> \forall integer k; 0 <= k < (*out)->count ==> whole(&(*out)->coeff[k][0]);
     ensures \result == DYD_OK ==> four(*out);
     ensures \result == DYD_OK ==> sign(&(*out)->end[1][0]) == 1 && sign(&(*out)->end[3][0]) == 1;
-    ensures \result == DYD_OK ==> sign(&(*out)->coeff[(*out)->count - 1][0]) == 1; */
+    ensures \result == DYD_OK ==> sign(&(*out)->coeff[(*out)->count - 1][0]) == 1;
+    ensures *out == \old(*out) || \valid(*out) && (*out)->count <= 1001 && four(*out);
+    ensures *out == \old(*out) || (0 < (*out)->count ==> \valid((*out)->coeff + (0 .. (*out)->count - 1)));
+    ensures *out == \old(*out) || \separated(*out, (*out)->coeff + (0 .. (*out)->count - 1));
+    ensures *out == \old(*out) || \forall integer k; 0 <= k < (*out)->count ==> whole(&(*out)->coeff[k][0]);
+    ensures \result == DYD_OK ==> \base_addr(*out) != \base_addr(out) && \base_addr(*out) != \base_addr(relations);
+    ensures \result == DYD_OK ==> \base_addr((*out)->coeff) != \base_addr(out) &&
+      \base_addr((*out)->coeff) != \base_addr(relations);
+    ensures \result == DYD_OK ==> \separated(*out, (*out)->coeff + (0 .. (*out)->count - 1)); */
 static dyd_status read_bracket(dyd_cert_bracket **out, dyd_cert_relations *relations, dyd_cert_reader *in);
 /*@ requires reads(in) && \valid(out) && \separated(out, in, in->err, in->in, LINES + (..));
     assigns in->at, in->line[0 .. in->cap - 1], *out, *in->err; exits \false; READS_LEFT
     ensures \result == DYD_OK ==> -4096 <= *out <= 4096; */
 static dyd_status read_exponent(long *out, dyd_cert_reader *in);
-/*@ requires place(a, in) && reads(in) && n == a->number + a->count && -4096 <= n->exponent <= 4096; exits \false;
-    READS_LEFT
+/*@ requires place(a, in) && reads(in) && n == a->number + a->count && n->exponent == 0 && n->root == \null;
+    exits \false; READS_LEFT ensures n->root == \null || freed(n->root);
+    ensures \result == DYD_OK && n->op == DYD_CERT_ROOT ==> own_root(n, a);
     ensures \result == DYD_OK ==> described(n, \old(a->count));
     ensures \result == DYD_OK && n->op == DYD_CERT_ROOT ==> \valid_read(n->root) && 2 <= n->root->count <= 1001;
     ensures \result == DYD_OK && n->op == DYD_CERT_ROOT ==>
@@ -175,15 +203,34 @@ static dyd_status read_exponent(long *out, dyd_cert_reader *in);
       sign(&n->root->end[1][0]) != 0 && sign(&n->root->end[3][0]) != 0;
     ensures \result == DYD_OK && n->op == DYD_CERT_ROOT ==> sign(&n->root->coeff[n->root->count - 1][0]) == 1; */
 static dyd_status read_operation(dyd_cert_number *n, dyd_cert_algebra *a, dyd_cert_reader *in);
-/*@ requires place(a, in) && reads(in) && n == a->number + a->count; exits \false; */
+/*@ requires place(a, in) && reads(in) && n == a->number + a->count && n->exponent == 0 && n->root == \null;
+    exits \false; ensures reads(in); ensures n->root == \null || freed(n->root);
+    ensures \result == DYD_OK ==> place(a, in) && a->count == \old(a->count); */
 static dyd_status read_number(dyd_cert_number *n, dyd_cert_algebra *a, dyd_cert_reader *in);
 
 /* The list before the place for one more is asked for. */
-/*@ predicate listed(numbers a) = \valid(a) && a->relations.count <= 64 && a->count < 4194304 &&
+/*@ predicate listed(numbers a) = \valid(a) && a->relations.count <= 64 && a->count <= 4194304 &&
       a->count <= a->cap <= 1152921504606846976 && (0 < a->cap ==> \valid(a->number + (0 .. a->cap - 1))) &&
       (\forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number < a->count) &&
       (\forall integer k; 0 <= k < a->count ==> a->number[k].a <= a->count) && angled(a) && cosines(a); */
-/*@ requires listed(a) && reads(in) && \separated(a, in, in->err, in->in, LINES + (..)); exits \false; */
+/*@ predicate room_in(numbers a) = \valid(a) && a->relations.count <= 64 && a->count < 4194304 &&
+      a->count < a->cap <= 1152921504606846976 && \valid(a->number + (0 .. a->cap - 1)) &&
+      (\forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number <= a->count) &&
+      (\forall integer k; 0 <= k < a->count ==> a->number[k].a <= a->count); */
+/*@ requires listed(a) && a->count < 4194304 && reads(in) && \separated(a, in, in->err, in->in, LINES + (..));
+    exits \false; ensures \result == DYD_OK ==> \valid(in) && \valid(in->in);
+    ensures \result == DYD_OK ==> in->err == \null || \valid(in->err);
+    ensures \result == DYD_OK ==> in->cap <= 1152921504606846976;
+    ensures \result == DYD_OK ==> \separated(in, in->err, in->in, LINES + (..));
+    ensures \result == DYD_OK && 0 < in->cap ==> \valid(in->line + (0 .. in->cap - 1)) &&
+      \base_addr(in->line) == \base_addr(LINES + 0);
+    ensures \result == DYD_OK && in->at != \null ==> 0 < in->cap && inside(in, in->at);
+    ensures \result == DYD_OK ==> \valid(a) && a->relations.count <= 64 && a->count == \old(a->count) + 1;
+    ensures \result == DYD_OK ==> a->count <= a->cap <= 1152921504606846976 && \valid(a->number + (0 .. a->cap - 1));
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number < a->count;
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < a->count ==> a->number[k].a <= a->count;
+    ensures \result == DYD_OK ==> angled(a); ensures \result == DYD_OK ==> cosines(a);
+    ensures \result == DYD_OK ==> \separated(a, in, in->err, in->in, LINES + (..)); */
 dyd_status dyd_cert_algebra_read(dyd_cert_algebra *a, dyd_cert_reader *in);
 
 #include "checker/algebra_read.c"
