@@ -82,8 +82,8 @@ typedef dyd_cert_quotient *value_of;
       \separated(a, r, r->err, r->in, LINES + (..)) &&
       \separated(a->number + (0 .. a->count), r, r->err, r->in, LINES + (..)); */
 
-/* As read.h says of dyd_cert_reject and dyd_cert_line_done, and base/error.c of dyd_fail_nomem: the error is filled in. It
- * is no part of the reader, the line, the block or a bracket. */
+/* As read.h says of dyd_cert_reject and dyd_cert_line_done, and base/error.c of dyd_fail_nomem: the error is filled
+ * in. It is no part of the reader, the line, the block or a bracket. */
 /*@ requires reads(r); assigns *r->err; exits \false; ensures \result == DYD_E_PARSE; ensures reads(r); */
 dyd_status reject_line(const dyd_cert_reader *r);
 #undef dyd_cert_reject

@@ -3,9 +3,9 @@
 /* Without read_points: with a contract by which read_point says of a point that it is one, and the list stays apart from
    reader, sites and numbers, 15 of 24 goals were proved in 10 s. Open: that this holds first and is kept from point to
    point (four goals of loop invariants), what read_count, read_point and check_rectangles require, what it ensures. */
-/* Without dyd_cert_ties_read, read_block: they have no contract: 2 of 14 and 0 of 4 goals are proved without one. Needed
-   is what read_fact leaves, which is proved of the list of facts before its last statement, part by part, but not that it
-   holds (stating) in the end, where the local fact is gone: in 8 s CVC4 proves 3 of 10 parts. */
+/* Without dyd_cert_ties_read, read_block: they have no contract: 2 of 14 and 0 of 4 goals are proved without one.
+   Needed is what read_points and read_fact leave. The latter is proved of the list of facts before its last statement,
+   but not that all of it (stating) holds in the end, where the local fact is gone: in 8 s CVC4 proves 3 of 10 parts. */
 #include "polys.h"
 #include "enclosures.h"
 #include "faces.h"
@@ -181,7 +181,8 @@ static dyd_status read_count(uint32_t *count, dyd_cert_reader *in, const char *n
     exits \false; */
 static dyd_status read_point(dyd_cert_block *b, dyd_cert_reader *in, const dyd_cert_sites *s);
 
-/* Facts are about sites that are described. listing: the lists of facts and of their sites, and how long they may get. */
+/* Facts are about sites that are described. listing: the lists of facts and of their sites, and how long they may
+ * get. */
 /*@ predicate listing(facts_of t) = \valid(t) && t->members <= t->member_cap <= 1152921504606846976 &&
       t->facts <= t->fact_cap <= 1152921504606846976 &&
       (0 < t->member_cap ==> \valid(t->member + (0 .. t->member_cap - 1))) &&
@@ -189,8 +190,8 @@ static dyd_status read_point(dyd_cert_block *b, dyd_cert_reader *in, const dyd_c
     predicate of_sites(block_of b) = block(b) && \forall integer k; 0 <= k < b->points ==> b->point[k].site < SITES;
     predicate described_from(facts_of t, block_of b, integer first) =
       \forall integer k; first <= k < t->members ==> is_described(b, t->member[k]); */
-/* As read.h says of dyd_cert_reject, and base/error.c of dyd_fail_nomem: the error is filled in, which is no part of the
- * reader. */
+/* As read.h says of dyd_cert_reject, and base/error.c of dyd_fail_nomem: the error is filled in, which is no part of
+ * the reader. */
 /*@ requires reads(r); assigns *r->err; exits \false; ensures \result == DYD_E_PARSE; ensures reads(r); */
 dyd_status reject_line(const dyd_cert_reader *r);
 /*@ requires reads(r); assigns *r->err; exits \false; ensures \result == DYD_E_NOMEM; ensures reads(r); */
