@@ -1,17 +1,26 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra_read.c: operands are numbers before, operations have names. */
-/* Without read_operation: 37 of 43 goals were proved in 10 s on a busy machine; open are what it promises of the reader
-   (_ensures, 3, 5 and 6) and of a root (_ensures_8), which were not decided though they are admitted before the return,
-   and that the relations are apart from the reader (_assert_16). */
-/* Without read_value, read_number, dyd_cert_algebra_read: with the contracts below, which were not tried to the end:
-   all is taken from what read_operation, dyd_cert_number_value and dyd_cert_number_check leave of block and reader. */
-/* Without read_bracket, scan_coefficients: a contract for the first is below, what holds in its loop is not said; the
-   second has none. Without either 18 of 19 and 15 of 26 goals are proved; open are reads of the text
-   and of the list. */
 #include "polys.h"
 
 #include "base/alloc.h"
 #include "base/error.h"
+
+/* commas(s): how many there are in a text. Each axiom is true of any bytes: an empty text has none; the first byte is
+ * one, or is not, and the rest is a text; of the same bytes it is the same. */
+/*@ axiomatic Commas {
+      logic integer commas{L}(chars s) reads s[0 ..];
+      axiom commas_none{L}: \forall chars s; string(s) && s[0] == 0 ==> commas(s) == 0;
+      axiom commas_next{L}: \forall chars s; string(s) && s[0] != 0 ==>
+        commas(s) == commas(s + 1) + (s[0] == ',' ? 1 : 0);
+      axiom commas_kept{K, L}: \forall chars s; string{K}(s) &&
+        (\forall integer k; 0 <= k <= stop{K}(s) ==> \at(s[k], K) == \at(s[k], L)) ==>
+        commas{L}(s) == commas{K}(s); } */
+/* strchr (string.h) with a comma: that it is the first one. */
+/*@ requires string(s); assigns \nothing; exits \false;
+    ensures \result == \null ==> commas(s) == 0;
+    ensures \result != \null ==> *\result == ',' && within(\result, s) && \result - s < stop(s);
+    ensures \result != \null ==> commas(s) == 1 + commas(\result + 1); */
+char *first_comma(char *s);
 
 #define ITEM mpz_t
 #define RESERVE reserve_coefficients
@@ -56,12 +65,39 @@ typedef dyd_cert_quotient *value_of;
       whole(&r->end[0][0]) && whole(&r->end[1][0]) && whole(&r->end[2][0]) && whole(&r->end[3][0]) &&
       sign(&r->end[1][0]) != 0 && sign(&r->end[3][0]) != 0;
     predicate rooted(bracket_of r) = bracket(r) && sign(&r->coeff[r->count - 1][0]) == 1;
+    predicate four(bracket_of r) = whole(&r->end[0][0]) && whole(&r->end[1][0]) && whole(&r->end[2][0]) &&
+      whole(&r->end[3][0]);
+    predicate freed(bracket_of r) = \valid(r) && r->count <= 1001 &&
+      (0 < r->count ==> \valid(r->coeff + (0 .. r->count - 1))) &&
+      (\forall integer k; 0 <= k < r->count ==> whole(&r->coeff[k][0])) && four(r) &&
+      \separated(r, r->coeff + (0 .. r->count - 1));
+    predicate own_root(number_of n, numbers a) = \base_addr(n->root) != \base_addr(a) &&
+      \base_addr(n->root) != \base_addr(a->number) && \base_addr(n->root->coeff) != \base_addr(a) &&
+      \base_addr(n->root->coeff) != \base_addr(a->number) &&
+      \separated(n->root, n->root->coeff + (0 .. n->root->count - 1));
     predicate described(number_of n, integer count) = 0 <= n->op < 29 &&
       (1 <= n->op <= 23 ==> n->a < count) && (1 <= n->op <= 6 ==> n->b < count) &&
       -4096 <= n->exponent <= 4096;
     predicate place(numbers a, reading r) = known(a) && angled(a) && cycled(a) && a->count <= 4194304 &&
       \separated(a, r, r->err, r->in, LINES + (..)) &&
       \separated(a->number + (0 .. a->count), r, r->err, r->in, LINES + (..)); */
+
+/* As read.h says of dyd_cert_reject and dyd_cert_line_done, and base/error.c of dyd_fail_nomem: the error is filled
+ * in. It is no part of the reader, the line, the block or a bracket. */
+/*@ requires reads(r); assigns *r->err; exits \false; ensures \result == DYD_E_PARSE; ensures reads(r); */
+dyd_status reject_line(const dyd_cert_reader *r);
+#undef dyd_cert_reject
+#define dyd_cert_reject(r, ...) reject_line(r)
+/*@ requires reads(r); assigns *r->err; exits \false; ensures \result == DYD_E_NOMEM; ensures reads(r);
+    ensures \forall bracket_of b; \old(freed(b)) ==> freed(b); */
+dyd_status no_memory(const dyd_cert_reader *r);
+#define dyd_fail_nomem(err) no_memory(in)
+/*@ requires reads(r); assigns *r->err; exits \false; ensures reads(r);
+    ensures \old(place(a, r)) ==> place(a, r);
+    ensures n->root == \old(n->root) && a->count == \old(a->count);
+    ensures \old(n->root == \null || freed(n->root)) ==> n->root == \null || freed(n->root); */
+dyd_status number_done(const dyd_cert_number *n, const dyd_cert_algebra *a, dyd_cert_reader *r);
+#define dyd_cert_line_done(r) number_done(n, a, r)
 
 /*@ requires known(a) && \valid_read(q);
     assigns a->relations.work, a->number[0 .. a->count].now, a->number[0 .. a->count].p; exits \false;
@@ -71,14 +107,20 @@ int dyd_cert_poly_sign(dyd_cert_algebra *a, const dyd_cert_poly *q);
 bool dyd_cert_root_is_single(const dyd_cert_bracket *r);
 /*@ requires known(a) && angled(a) && cycled(a) && n == a->number + a->count && 1 <= n->op <= 28;
     requires described(n, a->count);
-    requires n->op == DYD_CERT_ROOT ==> rooted(n->root); exits \false; */
+    requires n->op == DYD_CERT_ROOT ==> rooted(n->root);
+    requires n->op == DYD_CERT_ROOT ==> \separated(a, n->root, n->root->coeff + (0 .. n->root->count - 1)) &&
+      \separated(&n->value, n->root, n->root->coeff + (0 .. n->root->count - 1)); exits \false; */
 bool dyd_cert_number_value(dyd_cert_number *n, dyd_cert_algebra *a);
 /*@ requires known(a) && n == a->number + a->count && described(n, a->count);
     requires n->op == DYD_CERT_SQRT || n->op == DYD_CERT_CBRT || n->op == DYD_CERT_ROOT;
-    requires n->op == DYD_CERT_ROOT ==> rooted(n->root); exits \false; */
+    requires n->op == DYD_CERT_ROOT ==> rooted(n->root);
+    requires n->op == DYD_CERT_ROOT ==> \separated(a, n->root) && \separated(a->number + (0 .. a->count), n->root);
+    exits \false; */
 bool dyd_cert_number_check(dyd_cert_number *n, dyd_cert_algebra *a);
-/*@ requires \valid(n); exits \false; */
-void dyd_cert_number_clear(dyd_cert_number *n);
+/* What algebra.c asks of dyd_cert_number_clear; and that a reader is no part of a number. */
+/*@ requires \valid(n) && (n->root == \null || freed(n->root)); requires reads(r); exits \false; ensures reads(r); */
+void clear_number(dyd_cert_number *n, const dyd_cert_reader *r);
+#define dyd_cert_number_clear(n) clear_number(n, in)
 /*@ requires \valid(x); assigns *x; exits \false; */
 void dyd_cert_enclosure_init(dyd_cert_enclosure *x);
 
@@ -91,8 +133,20 @@ static dyd_status read_operand(uint32_t *out, const dyd_cert_algebra *a, dyd_cer
     ensures \result == DYD_OK ==> 0 <= *op < 29; */
 static dyd_status read_op(dyd_cert_op *op, dyd_cert_reader *in);
 /*@ requires \valid(num) && \valid(den) && whole(num) && whole(den) && line(text) &&
-      \separated(num, den, text + (0 .. stop(text))); exits \false; */
+      \separated(num, den, text + (0 .. stop(text)));
+    assigns num->value, den->value, text[0 .. stop(text)]; exits \false;
+    ensures whole(num) && whole(den); ensures \result ==> sign(den) == 1; */
 static bool scan_fraction(mpz_ptr num, mpz_ptr den, char *text);
+/*@ requires \valid(r) && r->count == 0 && \valid(relations) && line(text) && \separated(r, relations);
+    exits \false;
+    ensures r->end[0][0].value == \old(r->end[0][0].value) && r->end[1][0].value == \old(r->end[1][0].value) &&
+      r->end[2][0].value == \old(r->end[2][0].value) && r->end[3][0].value == \old(r->end[3][0].value);
+    ensures \valid(r); ensures r->count <= 1001; ensures \result ==> 2 <= r->count;
+    ensures 0 < r->count ==> \valid(r->coeff + (0 .. r->count - 1));
+    ensures \separated(r, r->coeff + (0 .. r->count - 1));
+    ensures \forall integer k; 0 <= k < r->count ==> whole(&r->coeff[k][0]);
+    ensures \result ==> sign(&r->coeff[r->count - 1][0]) == 1; */
+static bool scan_coefficients(dyd_cert_bracket *r, char *text, dyd_cert_relations *relations);
 /*@ requires \valid_read(n) && \valid_read(in); assigns \nothing; exits \false;
     ensures \result ==> n->op == DYD_CERT_VALUE || n->op == DYD_CERT_SQRT || n->op == DYD_CERT_CBRT ||
       n->op == DYD_CERT_ROOT;
@@ -102,29 +156,81 @@ static bool has_value(const dyd_cert_number *n, const dyd_cert_reader *in);
       \separated(a, in, in->err, in->in, LINES + (..)) && \separated(out, a, in, in->err, in->in, LINES + (..));
     exits \false; ensures reads(in); */
 static dyd_status read_value(dyd_cert_quotient *out, dyd_cert_algebra *a, dyd_cert_reader *in);
+/* That reads(in) holds in the end, part by part, which CVC4 does not prove as one. */
+#define READS_LEFT \
+  ensures \valid(in) && \valid(in->in); \
+  ensures in->err == \null || \valid(in->err); \
+  ensures in->cap <= 1152921504606846976; \
+  ensures \separated(in, in->err, in->in, LINES + (..)); \
+  ensures 0 < in->cap ==> \valid(in->line + (0 .. in->cap - 1)) && \base_addr(in->line) == \base_addr(LINES + 0); \
+  ensures in->at != \null ==> 0 < in->cap && inside(in, in->at);
+/* Of what is new, or local: it is in no memory that is handed over. */
+#define ELSEWHERE(x, out) (\base_addr(x) != \base_addr(out) && \base_addr(x) != \base_addr(relations) && \
+  \base_addr(x) != \base_addr(in) && \base_addr(x) != \base_addr(in->err) && \
+  \base_addr(x) != \base_addr(in->in) && \base_addr(x) != \base_addr(LINES + 0))
 /*@ requires \valid(out) && \valid(relations) && reads(in) &&
       \separated(out, relations, in, in->err, in->in, LINES + (..));
-    exits \false; ensures reads(in); ensures \result == DYD_OK ==> rooted(*out); */
+    exits \false; READS_LEFT ensures \result == DYD_OK ==> \valid_read(*out) && 2 <= (*out)->count <= 1001;
+    ensures \result == DYD_OK ==> \valid_read((*out)->coeff + (0 .. (*out)->count - 1));
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < (*out)->count ==> whole(&(*out)->coeff[k][0]);
+    ensures \result == DYD_OK ==> four(*out);
+    ensures \result == DYD_OK ==> sign(&(*out)->end[1][0]) == 1 && sign(&(*out)->end[3][0]) == 1;
+    ensures \result == DYD_OK ==> sign(&(*out)->coeff[(*out)->count - 1][0]) == 1;
+    ensures *out == \old(*out) || \valid(*out) && (*out)->count <= 1001 && four(*out);
+    ensures *out == \old(*out) || (0 < (*out)->count ==> \valid((*out)->coeff + (0 .. (*out)->count - 1)));
+    ensures *out == \old(*out) || \separated(*out, (*out)->coeff + (0 .. (*out)->count - 1));
+    ensures *out == \old(*out) || \forall integer k; 0 <= k < (*out)->count ==> whole(&(*out)->coeff[k][0]);
+    ensures \result == DYD_OK ==> \base_addr(*out) != \base_addr(out) && \base_addr(*out) != \base_addr(relations);
+    ensures \result == DYD_OK ==> \base_addr((*out)->coeff) != \base_addr(out) &&
+      \base_addr((*out)->coeff) != \base_addr(relations);
+    ensures \result == DYD_OK ==> \separated(*out, (*out)->coeff + (0 .. (*out)->count - 1)); */
 static dyd_status read_bracket(dyd_cert_bracket **out, dyd_cert_relations *relations, dyd_cert_reader *in);
-/*@ requires place(a, in) && reads(in) && n == a->number + a->count; exits \false;
-    ensures \valid(in) && \valid(in->in);
-    ensures in->err == \null || \valid(in->err);
-    ensures in->cap <= 1152921504606846976;
-    ensures \separated(in, in->err, in->in, LINES + (..));
-    ensures 0 < in->cap ==> \valid(in->line + (0 .. in->cap - 1)) && \base_addr(in->line) == \base_addr(LINES + 0);
-    ensures in->at != \null ==> 0 < in->cap && inside(in, in->at);
+/*@ requires reads(in) && \valid(out) && \separated(out, in, in->err, in->in, LINES + (..));
+    assigns in->at, in->line[0 .. in->cap - 1], *out, *in->err; exits \false; READS_LEFT
+    ensures \result == DYD_OK ==> -4096 <= *out <= 4096; */
+static dyd_status read_exponent(long *out, dyd_cert_reader *in);
+/*@ requires place(a, in) && reads(in) && n == a->number + a->count && n->exponent == 0 && n->root == \null;
+    exits \false; READS_LEFT ensures n->root == \null || freed(n->root);
+    ensures \result == DYD_OK && n->op == DYD_CERT_ROOT ==> own_root(n, a);
     ensures \result == DYD_OK ==> described(n, \old(a->count));
-    ensures \result == DYD_OK && n->op == DYD_CERT_ROOT ==> rooted(n->root); */
+    ensures \result == DYD_OK && n->op == DYD_CERT_ROOT ==> \valid_read(n->root) && 2 <= n->root->count <= 1001;
+    ensures \result == DYD_OK && n->op == DYD_CERT_ROOT ==>
+      \valid_read(n->root->coeff + (0 .. n->root->count - 1));
+    ensures \result == DYD_OK && n->op == DYD_CERT_ROOT ==>
+      \forall integer k; 0 <= k < n->root->count ==> whole(&n->root->coeff[k][0]);
+    ensures \result == DYD_OK && n->op == DYD_CERT_ROOT ==> four(n->root);
+    ensures \result == DYD_OK && n->op == DYD_CERT_ROOT ==>
+      sign(&n->root->end[1][0]) != 0 && sign(&n->root->end[3][0]) != 0;
+    ensures \result == DYD_OK && n->op == DYD_CERT_ROOT ==> sign(&n->root->coeff[n->root->count - 1][0]) == 1; */
 static dyd_status read_operation(dyd_cert_number *n, dyd_cert_algebra *a, dyd_cert_reader *in);
-/*@ requires place(a, in) && reads(in) && n == a->number + a->count; exits \false; */
+/*@ requires place(a, in) && reads(in) && n == a->number + a->count && n->exponent == 0 && n->root == \null;
+    exits \false; ensures reads(in); ensures n->root == \null || freed(n->root);
+    ensures \result == DYD_OK ==> place(a, in) && a->count == \old(a->count); */
 static dyd_status read_number(dyd_cert_number *n, dyd_cert_algebra *a, dyd_cert_reader *in);
 
 /* The list before the place for one more is asked for. */
-/*@ predicate listed(numbers a) = \valid(a) && a->relations.count <= 64 && a->count < 4194304 &&
+/*@ predicate listed(numbers a) = \valid(a) && a->relations.count <= 64 && a->count <= 4194304 &&
       a->count <= a->cap <= 1152921504606846976 && (0 < a->cap ==> \valid(a->number + (0 .. a->cap - 1))) &&
       (\forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number < a->count) &&
       (\forall integer k; 0 <= k < a->count ==> a->number[k].a <= a->count) && angled(a) && cosines(a); */
-/*@ requires listed(a) && reads(in) && \separated(a, in, in->err, in->in, LINES + (..)); exits \false; */
+/*@ predicate room_in(numbers a) = \valid(a) && a->relations.count <= 64 && a->count < 4194304 &&
+      a->count < a->cap <= 1152921504606846976 && \valid(a->number + (0 .. a->cap - 1)) &&
+      (\forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number <= a->count) &&
+      (\forall integer k; 0 <= k < a->count ==> a->number[k].a <= a->count); */
+/*@ requires listed(a) && a->count < 4194304 && reads(in) && \separated(a, in, in->err, in->in, LINES + (..));
+    exits \false; ensures \result == DYD_OK ==> \valid(in) && \valid(in->in);
+    ensures \result == DYD_OK ==> in->err == \null || \valid(in->err);
+    ensures \result == DYD_OK ==> in->cap <= 1152921504606846976;
+    ensures \result == DYD_OK ==> \separated(in, in->err, in->in, LINES + (..));
+    ensures \result == DYD_OK && 0 < in->cap ==> \valid(in->line + (0 .. in->cap - 1)) &&
+      \base_addr(in->line) == \base_addr(LINES + 0);
+    ensures \result == DYD_OK && in->at != \null ==> 0 < in->cap && inside(in, in->at);
+    ensures \result == DYD_OK ==> \valid(a) && a->relations.count <= 64 && a->count == \old(a->count) + 1;
+    ensures \result == DYD_OK ==> a->count <= a->cap <= 1152921504606846976 && \valid(a->number + (0 .. a->cap - 1));
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number < a->count;
+    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < a->count ==> a->number[k].a <= a->count;
+    ensures \result == DYD_OK ==> angled(a); ensures \result == DYD_OK ==> cosines(a);
+    ensures \result == DYD_OK ==> \separated(a, in, in->err, in->in, LINES + (..)); */
 dyd_status dyd_cert_algebra_read(dyd_cert_algebra *a, dyd_cert_reader *in);
 
 #include "checker/algebra_read.c"

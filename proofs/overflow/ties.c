@@ -3,9 +3,9 @@
 /* Without read_points: with a contract by which read_point says of a point that it is one, and the list stays apart from
    reader, sites and numbers, 15 of 24 goals were proved in 10 s. Open: that this holds first and is kept from point to
    point (four goals of loop invariants), what read_count, read_point and check_rectangles require, what it ensures. */
-/* Without dyd_cert_ties_read, read_members, read_fact, read_block: they have no contract: 2 of 14, 10 of 19, 5 of 14 and
-   0 of 4 goals are proved without one; a block being read would have to be kept by all that checker_ties is left out for
-   (certificate.c). */
+/* Without dyd_cert_ties_read, read_block: they have no contract: 2 of 14 and 0 of 4 goals are proved without one.
+   Needed is what read_points and read_fact leave. The latter is proved of the list of facts before its last statement,
+   but not that all of it (stating) holds in the end, where the local fact is gone: in 8 s CVC4 proves 3 of 10 parts. */
 #include "polys.h"
 #include "enclosures.h"
 #include "faces.h"
@@ -19,6 +19,18 @@
 #define RESERVE reserve_indices
 #define ALLOC alloc_indices
 #include "lists.h"
+
+#define ITEM uint32_t
+#define RESERVE reserve_members
+#include "keeps.h"
+#define ITEM dyd_cert_fact
+#define RESERVE reserve_facts
+#define KEPT(a, b) ((a).first == (b).first && (a).count == (b).count)
+#include "keeps.h"
+typedef dyd_cert_block *block_pointer;
+#define ITEM block_pointer
+#define RESERVE reserve_blocks
+#include "keeps.h"
 
 typedef const dyd_cert_block *block_of;
 typedef const dyd_cert_described *described;
@@ -132,7 +144,7 @@ static bool are_a_triangle(dyd_cert_algebra *a, const dyd_cert_described *const 
     assigns *out, r->nomem, r->work; exits \false; */
 static bool product_difference(dyd_cert_quotient *out, const dyd_cert_quotient *x, const dyd_cert_quotient *y,
                                const dyd_cert_quotient *z, const dyd_cert_quotient *w, dyd_cert_relations *r);
-/*@ requires reads(in) && \valid(in) && \valid(kind); exits \false; */
+/*@ requires reads(in) && \valid(in) && \valid(kind); exits \false; ensures \result == DYD_OK ==> 0 <= *kind <= 2; */
 static dyd_status read_kind(dyd_cert_relation_kind *kind, dyd_cert_reader *in);
 /*@ requires numbered(a) && \valid_read(q);
     assigns ANY_OF(a);
@@ -168,5 +180,58 @@ static dyd_status read_count(uint32_t *count, dyd_cert_reader *in, const char *n
       \separated(in->in, in->line + (0 .. in->cap - 1));
     exits \false; */
 static dyd_status read_point(dyd_cert_block *b, dyd_cert_reader *in, const dyd_cert_sites *s);
+
+/* Facts are about sites that are described. listing: the lists of facts and of their sites, and how long they may
+ * get. */
+/*@ predicate listing(facts_of t) = \valid(t) && t->members <= t->member_cap <= 1152921504606846976 &&
+      t->facts <= t->fact_cap <= 1152921504606846976 &&
+      (0 < t->member_cap ==> \valid(t->member + (0 .. t->member_cap - 1))) &&
+      (0 < t->fact_cap ==> \valid(t->fact + (0 .. t->fact_cap - 1))) && stated(t, SITES);
+    predicate of_sites(block_of b) = block(b) && \forall integer k; 0 <= k < b->points ==> b->point[k].site < SITES;
+    predicate described_from(facts_of t, block_of b, integer first) =
+      \forall integer k; first <= k < t->members ==> is_described(b, t->member[k]); */
+/* As read.h says of dyd_cert_reject, and base/error.c of dyd_fail_nomem: the error is filled in, which is no part of
+ * the reader. */
+/*@ requires reads(r); assigns *r->err; exits \false; ensures \result == DYD_E_PARSE; ensures reads(r); */
+dyd_status reject_line(const dyd_cert_reader *r);
+/*@ requires reads(r); assigns *r->err; exits \false; ensures \result == DYD_E_NOMEM; ensures reads(r); */
+dyd_status no_memory(const dyd_cert_reader *r);
+/* strchr and strcmp with literals (literals.h). */
+/*@ requires at == \null || string(at); assigns \nothing; exits \false; ensures \result != \null ==> at != \null; */
+const char *blank_in(const char *at);
+/*@ requires string(s); assigns \nothing; exits \false; */
+int compare_word(const char *s);
+/* Of a local object: it is none that pointers lead to. */
+#define LOCAL(x) (\base_addr(&x) != \base_addr(t) && \base_addr(&x) != \base_addr(b) && \
+  \base_addr(&x) != \base_addr(by_bound) && \base_addr(&x) != \base_addr(in) && \
+  \base_addr(&x) != \base_addr(in->err) && \base_addr(&x) != \base_addr(in->in) && \
+  \base_addr(&x) != \base_addr(LINES + 0) && \base_addr(&x) != \base_addr(b->point) && \
+  \base_addr(&x) != \base_addr(t->member) && \base_addr(&x) != \base_addr(t->fact))
+/*@ requires reads(in) && listing(t) && of_sites(b) && \valid(by_bound);
+    requires \separated(t, b, by_bound, in, in->err, in->in, LINES + (..));
+    requires \base_addr(b->point) != \base_addr(t) && \base_addr(b->point) != \base_addr(in) &&
+      \base_addr(b->point) != \base_addr(in->err);
+    exits \false; ensures \result == DYD_OK ==> reads(in); ensures \result == DYD_OK ==> listing(t);
+    ensures \result == DYD_OK ==> \old(t->members) <= t->members && described_from(t, b, \old(t->members)); */
+static dyd_status read_members(dyd_cert_ties *t, dyd_cert_reader *in, const dyd_cert_block *b, bool *by_bound);
+
+/* All that is known while facts are read: of the reader between lines, the lists, the block. */
+/*@ predicate stating(facts_of t, block_of b, reading r) = kept(r) && listing(t) && whole_block(b) && of_sites(b) &&
+      \separated(t, b, r, r->err, r->in, LINES + (..)) &&
+      \base_addr(b->point) != \base_addr(t) && \base_addr(b->point) != \base_addr(r) &&
+      \base_addr(b->point) != \base_addr(r->err) &&
+      (0 < t->member_cap ==> \base_addr(t->member) != \base_addr(b) && \base_addr(t->member) != \base_addr(t) &&
+        \base_addr(t->member) != \base_addr(b->point) && \base_addr(t->member) != \base_addr(b->algebra.number)); */
+/* What faces.h says of dyd_cert_distinct, whose BOUND is any number, of a part of the list of members. */
+/*@ requires listing(t) && first + count <= t->members && \valid(t->member + first + (0 .. count - 1));
+    assigns t->member[first .. first + count - 1]; exits \false; ensures \result == count ==> listing(t); */
+size_t distinct_members(dyd_cert_ties *t, size_t first, size_t count);
+/* An assignment: see `copy` in overflow.py. */
+/*@ requires \valid(to) && \valid_read(from) && \separated(to, from); assigns to->kind, to->first, to->count;
+    exits \false; ensures to->kind == \old(from->kind); ensures to->first == \old(from->first);
+    ensures to->count == \old(from->count); */
+void copy_fact(dyd_cert_fact *to, const dyd_cert_fact *from);
+/*@ requires stating(t, b, in); exits \false; */
+static dyd_status read_fact(dyd_cert_ties *t, dyd_cert_reader *in, dyd_cert_block *b);
 
 #include "checker/ties.c"

@@ -95,17 +95,22 @@ static dyd_status read_op(dyd_cert_op *op, dyd_cert_reader *in) {
   return k < DYD_CERT_OPS ? DYD_OK : dyd_cert_reject(in, "\"%.40s\" is no operation", word);
 }
 
+static dyd_status read_exponent(long *out, dyd_cert_reader *in) {
+  long long value = 0;
+  dyd_status st = dyd_cert_read_integer(&value, in);
+  if (st != DYD_OK) return st;
+  if (value > DYD_CERT_EXPONENT || value < -DYD_CERT_EXPONENT) return dyd_cert_reject(in, "%lld is too large", value);
+  *out = (long)value;
+  return DYD_OK;
+}
+
 /* Everything of the line but V. */
 static dyd_status read_operation(dyd_cert_number *n, dyd_cert_algebra *a, dyd_cert_reader *in) {
-  long long exponent = 0;
   dyd_status st = read_op(&n->op, in);
   if (st == DYD_OK && dyd_cert_op_operands(n->op) > 0) st = read_operand(&n->a, a, in);
   if (st == DYD_OK && dyd_cert_op_operands(n->op) > 1) st = read_operand(&n->b, a, in);
-  if (st == DYD_OK && (n->op == DYD_CERT_POW || n->op == DYD_CERT_CYCLE)) st = dyd_cert_read_integer(&exponent, in);
+  if (st == DYD_OK && (n->op == DYD_CERT_POW || n->op == DYD_CERT_CYCLE)) st = read_exponent(&n->exponent, in);
   if (st == DYD_OK && n->op == DYD_CERT_ROOT) st = read_bracket(&n->root, &a->relations, in);
-  if (exponent > DYD_CERT_EXPONENT || exponent < -DYD_CERT_EXPONENT)
-    st = dyd_cert_reject(in, "%lld is too large", exponent);
-  n->exponent = (long)exponent;
   return st;
 }
 
