@@ -36,8 +36,8 @@ void memcpy_exponents(uint16_t *to, const uint16_t *from, size_t n);
     ensures -1 <= \result <= 1;
     ensures \result == 0 <==> \forall integer k; 0 <= k < 64 ==> a[k] == b[k]; */
 static int terms_compare(const uint16_t *a, const uint16_t *b);
-/*@ requires \valid(out) && \valid_read(t) && whole(&t->c[0]) && whole(c) && \separated(out, t) &&
-      \separated(out, c) && (\forall integer k; 0 <= k < 64 ==> t->e[k] <= 16384);
+/*@ requires \valid(out); requires \valid_read(t) && whole(&t->c[0]); requires whole(c);
+    requires \separated(out, t); requires \separated(out, c); requires \forall integer k; 0 <= k < 64 ==> t->e[k] <= 16384;
     requires m == \null || \valid_read(m + (0 .. 63)) && \separated(out, m + (0 .. 63)) &&
       (\forall integer k; 0 <= k < 64 ==> m[k] <= 16384);
     assigns out->c[0].value, out->e[0 .. 63]; exits \false; ensures whole(&out->c[0]);
@@ -112,15 +112,21 @@ bool dyd_cert_poly_reduce(dyd_cert_poly *p, dyd_cert_relations *r);
     ensures within(*text, \old(*text)) && *text - \old(*text) <= \old(stop(*text)) + 1;
     ensures \result ==> 1 <= *text - \old(*text) <= \old(stop(*text)); */
 static bool scan_term(dyd_cert_term *t, const char **text, dyd_cert_relations *r);
+/*@ predicate numbers_from(one_term s, integer k, integer n) = \forall integer t; k <= t < n ==>
+      integer_of(s[t].c[0].value);
+    predicate few_from(one_term s, integer k, integer n) = \forall integer t; k <= t < n ==> few(&s[t].e[0]); */
 /*@ requires \valid(to) && \valid_read(from); assigns to->c[0].value, to->e[0 .. 63]; exits \false;
     ensures to->c[0].value == \old(from->c[0].value);
     ensures \old(few(&from->e[0])) ==> few(&to->e[0]);
     ensures \forall one_term s; \old(few(&s->e[0])) && \separated(s, to) ==> few(&s->e[0]);
+    ensures \forall one_term s, integer k, n; \old(few_from(s, k, n)) && \separated(s + (k .. n - 1), to) ==>
+      few_from(s, k, n);
+    ensures \forall one_term s, integer k, n; \old(numbers_from(s, k, n)) && \separated(s + (k .. n - 1), to) ==>
+      numbers_from(s, k, n);
+    ensures \forall polynomial s; \old(numbers_in(s)) && not_in(s, \base_addr(to)) ==> numbers_in(s);
+    ensures \forall polynomial s; \old(low(s)) && not_in(s, \base_addr(to)) ==> low(s);
     ensures \forall integer k; 0 <= k < 64 ==> to->e[k] == \old(from->e[k]); */
 void copy_term(dyd_cert_term *to, const dyd_cert_term *from);
-/*@ predicate numbers_from(one_term s, integer k, integer n) = \forall integer t; k <= t < n ==>
-      integer_of(s[t].c[0].value);
-    predicate few_from(one_term s, integer k, integer n) = \forall integer t; k <= t < n ==> few(&s[t].e[0]); */
 /*@ requires \valid(sum) && \valid(p) && p->count <= 16384; requires listed(p); requires numbers_in(p);
     requires listed(q); requires numbers_in(q); requires low(q); requires whole(c);
     requires m == \null || \valid_read(m + (0 .. 63)) && few(m);
