@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/poly.c: polynomials are read where they are, exponents stay in their type, terms in
  * their lists. */
-/* Without terms_take_power: it copies terms as terms_merge does; its contract was not tried, nor are there
-   invariants. */
 /* Without reduce_leaf: open are, in 8 s, the condition that terms_take_power has of p, that the rest of a leaf, and the
    terms taken, are as add_scaled needs them, and the invariants that rest on this. */
 #include "terms.h"
