@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/poly.c: polynomials are read where they are, exponents stay in their type, terms in
  * their lists. */
-/* Without reduce_leaf: open are, in 8 s, the condition that terms_take_power has of p, that the rest of a leaf, and the
-   terms taken, are as add_scaled needs them, and the invariants that rest on this. */
 #include "terms.h"
 
 typedef const dyd_cert_term *one_term;
@@ -77,7 +75,9 @@ static bool scan_coefficient(mpz_ptr c, const char **text, dyd_cert_relations *r
     ensures 1 <= \result <= stop(text) + 1; ensures \result == 1 + signs(text, stop(text)); */
 static size_t count_terms(const char *text);
 
-/*@ predicate apart(polynomial p, relations r) = \separated(p, r) && not_in(p, \base_addr(r)) && unlike_rests(p, r); */
+/*@ predicate rests_not_in(relations r, char *b) =
+      \forall integer k; 0 <= k < r->count ==> not_in(&r->leaf[k].rest, b);
+    predicate apart(polynomial p, relations r) = \separated(p, r) && not_in(p, \base_addr(r)) && unlike_rests(p, r); */
 /*@ requires \valid(out) && out->count == 0 && \valid(p); requires listed(p); requires numbers_in(p); requires low(p);
     requires \valid(r) && k < 64 && 0 < degree && \separated(p, out); requires beside(p, r) && beside(out, r);
     assigns owned: out->term, out->count, p->count, r->nomem; exits \false;
@@ -92,12 +92,13 @@ static size_t count_terms(const char *text);
     ensures owned: \old(unlike_rests(p, r)) && \separated(p, r) ==> unlike_rests(p, r); */
 static bool terms_take_power(dyd_cert_poly *out, dyd_cert_poly *p, size_t k, unsigned degree, dyd_cert_relations *r);
 /*@ requires related(r) && k < r->count; requires \valid(p); requires listed(p); requires numbers_in(p);
-    requires low(p); requires apart(p, r); assigns owned: p->term, p->count, r->nomem, r->work;
+    requires low(p); requires apart(p, r); requires rests_not_in(r, \base_addr(p)); assigns owned: p->term, p->count, r->nomem, r->work;
     exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p); ensures related(r);
-    ensures \result ==> apart(p, r); ensures NEW(p, r); */
+    ensures \result ==> apart(p, r); ensures rests_not_in(r, \base_addr(p)); ensures NEW(p, r); */
 static bool reduce_leaf(dyd_cert_poly *p, size_t k, dyd_cert_relations *r);
 /*@ requires related(r); requires \valid(p); requires listed(p); requires numbers_in(p); requires low(p);
-    requires apart(p, r); assigns owned: p->term, p->count, r->nomem, r->work;
+    requires apart(p, r); requires rests_not_in(r, \base_addr(p));
+    assigns owned: p->term, p->count, r->nomem, r->work;
     exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p); ensures related(r);
     ensures NEW(p, r); */
 bool dyd_cert_poly_reduce(dyd_cert_poly *p, dyd_cert_relations *r);
