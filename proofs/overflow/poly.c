@@ -120,6 +120,10 @@ static bool scan_term(dyd_cert_term *t, const char **text, dyd_cert_relations *r
       few_from(s, k, n);
     ensures \forall one_term s, integer k, n; \old(numbers_from(s, k, n)) && \separated(s + (k .. n - 1), to) ==>
       numbers_from(s, k, n);
+    ensures \forall one_term s, integer k, n, m; \old(few_from(s, k, n)) && \old(few(&from->e[0])) && to == s + n &&
+      m == n + 1 ==> few_from(s, k, m);
+    ensures \forall one_term s, integer k, n, m; \old(numbers_from(s, k, n)) && integer_of(\old(from->c[0].value)) &&
+      to == s + n && m == n + 1 ==> numbers_from(s, k, m);
     ensures \forall polynomial s; \old(numbers_in(s)) && not_in(s, \base_addr(to)) ==> numbers_in(s);
     ensures \forall polynomial s; \old(low(s)) && not_in(s, \base_addr(to)) ==> low(s);
     ensures \forall integer k; 0 <= k < 64 ==> to->e[k] == \old(from->e[k]); */
