@@ -31,7 +31,8 @@ void memcpy_exponents(uint16_t *to, const uint16_t *from, size_t n);
     ensures \result == 0 <==> \forall integer k; 0 <= k < 64 ==> a[k] == b[k]; */
 static int terms_compare(const uint16_t *a, const uint16_t *b);
 /*@ requires \valid(out); requires \valid_read(t) && whole(&t->c[0]); requires whole(c);
-    requires \separated(out, t); requires \separated(out, c); requires \forall integer k; 0 <= k < 64 ==> t->e[k] <= 16384;
+    requires \separated(out, t); requires \separated(out, c);
+    requires \forall integer k; 0 <= k < 64 ==> t->e[k] <= 16384;
     requires m == \null || \valid_read(m + (0 .. 63)) && \separated(out, m + (0 .. 63)) &&
       (\forall integer k; 0 <= k < 64 ==> m[k] <= 16384);
     assigns out->c[0].value, out->e[0 .. 63]; exits \false; ensures whole(&out->c[0]);
@@ -92,8 +93,8 @@ static size_t count_terms(const char *text);
     ensures owned: \old(unlike_rests(p, r)) && \separated(p, r) ==> unlike_rests(p, r); */
 static bool terms_take_power(dyd_cert_poly *out, dyd_cert_poly *p, size_t k, unsigned degree, dyd_cert_relations *r);
 /*@ requires related(r) && k < r->count; requires \valid(p); requires listed(p); requires numbers_in(p);
-    requires low(p); requires apart(p, r); requires rests_not_in(r, \base_addr(p)); assigns owned: p->term, p->count, r->nomem, r->work;
-    exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p); ensures related(r);
+    requires low(p); requires apart(p, r); requires rests_not_in(r, \base_addr(p));
+    assigns owned: p->term, p->count, r->nomem, r->work; exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p); ensures related(r);
     ensures \result ==> apart(p, r); ensures rests_not_in(r, \base_addr(p)); ensures NEW(p, r); */
 static bool reduce_leaf(dyd_cert_poly *p, size_t k, dyd_cert_relations *r);
 /*@ requires related(r); requires \valid(p); requires listed(p); requires numbers_in(p); requires low(p);
