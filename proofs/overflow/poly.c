@@ -94,7 +94,8 @@ static size_t count_terms(const char *text);
 static bool terms_take_power(dyd_cert_poly *out, dyd_cert_poly *p, size_t k, unsigned degree, dyd_cert_relations *r);
 /*@ requires related(r) && k < r->count; requires \valid(p); requires listed(p); requires numbers_in(p);
     requires low(p); requires apart(p, r); requires rests_not_in(r, \base_addr(p));
-    assigns owned: p->term, p->count, r->nomem, r->work; exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p); ensures related(r);
+    assigns owned: p->term, p->count, r->nomem, r->work; exits \false; ensures listed(p); ensures numbers_in(p);
+    ensures \result ==> low(p); ensures related(r);
     ensures \result ==> apart(p, r); ensures rests_not_in(r, \base_addr(p)); ensures NEW(p, r); */
 static bool reduce_leaf(dyd_cert_poly *p, size_t k, dyd_cert_relations *r);
 /*@ requires related(r); requires \valid(p); requires listed(p); requires numbers_in(p); requires low(p);
