@@ -2,8 +2,6 @@
 /* Contracts for src/checker/distance.c: what is reckoned on the grid, roots, sites kept of nested boxes. Areas are
  * numbers of 64 bits here: their values are no part of the proof. */
 /* Without mpz_set_area: v >> 64 is no shift of the 64 bits that stand for 128 here. */
-/* Without dyd_cert_distance_holds: 32 of 49 goals are proved in 10 s. The list of sites would have to be said to be new
-   (alloc_placed), and what place_site is told of each site to be apart from it. */
 /* Unproved has_two_near_sites_assert: that all stays when s->effort grows, decided in 10 s when all is quiet. */
 #define __int128 long long
 #define SPELL_OUT

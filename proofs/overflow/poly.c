@@ -1,14 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/poly.c: polynomials are read where they are, exponents stay in their type, terms in
  * their lists. */
-/* Without terms_merge: open are conditions of its loop, that terms are whole numbers of small exponents while one is
-   copied. */
-/* Without terms_take_power: it copies terms as terms_merge does; its contract was not tried, nor are there
-   invariants. */
-/* Without reduce_leaf: open are, in 8 s, the condition that terms_take_power has of p, that the rest of a leaf, and the
-   terms taken, are as add_scaled needs them, and the invariants that rest on this. */
-/* Without dyd_cert_poly_scan: tried; that the terms read are no more than were counted rests on counting: reads of
-   p->term[p->count], conditions of mpz_init and scan_term stay open. */
 #include "terms.h"
 
 typedef const dyd_cert_term *one_term;
@@ -38,8 +30,9 @@ void memcpy_exponents(uint16_t *to, const uint16_t *from, size_t n);
     ensures -1 <= \result <= 1;
     ensures \result == 0 <==> \forall integer k; 0 <= k < 64 ==> a[k] == b[k]; */
 static int terms_compare(const uint16_t *a, const uint16_t *b);
-/*@ requires \valid(out) && \valid_read(t) && whole(&t->c[0]) && whole(c) && \separated(out, t, c) &&
-      (\forall integer k; 0 <= k < 64 ==> t->e[k] <= 16384);
+/*@ requires \valid(out); requires \valid_read(t) && whole(&t->c[0]); requires whole(c);
+    requires \separated(out, t); requires \separated(out, c);
+    requires \forall integer k; 0 <= k < 64 ==> t->e[k] <= 16384;
     requires m == \null || \valid_read(m + (0 .. 63)) && \separated(out, m + (0 .. 63)) &&
       (\forall integer k; 0 <= k < 64 ==> m[k] <= 16384);
     assigns out->c[0].value, out->e[0 .. 63]; exits \false; ensures whole(&out->c[0]);
@@ -51,7 +44,9 @@ static bool term_scale(dyd_cert_term *out, const dyd_cert_term *t, mpz_srcptr c,
       *text - \old(*text) <= stop(\old(*text)); */
 static unsigned scan_unsigned(const char **text, unsigned most);
 /*@ requires \valid(t) && \valid(text) && string(*text) && \valid_read(r) && r->count <= 64 && \separated(text, t, r);
-    assigns *text, t->e[0 .. 63]; exits \false; ensures \result ==> string(*text); */
+    assigns *text, t->e[0 .. 63]; exits \false; ensures \result ==> string(*text);
+    ensures within(*text, \old(*text)) && 1 <= *text - \old(*text) <= \old(stop(*text)) + 1;
+    ensures \result ==> *text - \old(*text) <= \old(stop(*text)); */
 static bool scan_power(dyd_cert_term *t, const char **text, const dyd_cert_relations *r);
 /*@ requires \valid(r) && \valid_read(q) && held(q) && beside(q, r);
     assigns r->work; exits \false; */
@@ -66,13 +61,24 @@ static bool poly_set_term(dyd_cert_poly *p, mpz_srcptr z, size_t leaf, uint16_t 
 static dyd_cert_term *terms_alloc(size_t count, dyd_cert_relations *r);
 /*@ requires \valid(c) && whole(c) && \valid(text) && string(*text) && \valid(r) && \separated(c, text, r);
     assigns owned: c->value, *text, r->nomem;
-    exits \false; ensures whole(c) && (\result ==> string(*text)); */
+    exits \false; ensures whole(c) && (\result ==> string(*text));
+    ensures within(*text, \old(*text)) && *text - \old(*text) <= \old(stop(*text));
+    ensures \result && *text == \old(*text) ==> **text == 'x'; */
 static bool scan_coefficient(mpz_ptr c, const char **text, dyd_cert_relations *r);
+/* signs(s, n): how many of s[1], .. s[n - 1] are signs, each of which begins a term.
+ * signs_none: none of none; signs_next: s[k] is one or none; signs_rise: what is among fewer is among more. */
+/*@ axiomatic Signs { logic integer signs{L}(chars s, integer n) reads s[1 ..];
+      axiom signs_none{L}: \forall chars s, integer n; n <= 1 ==> signs(s, n) == 0;
+      axiom signs_next{L}: \forall chars s, integer k, n; 1 <= k && n == k + 1 ==>
+        signs(s, n) == signs(s, k) + (s[k] == '+' || s[k] == '-' ? 1 : 0);
+      axiom signs_rise{L}: \forall chars s, integer m, n; m <= n ==> 0 <= signs(s, m) <= signs(s, n); } */
 /*@ requires string(text) && stop(text) < 1152921504606846976; assigns \nothing; exits \false;
-    ensures 1 <= \result <= stop(text) + 1; */
+    ensures 1 <= \result <= stop(text) + 1; ensures \result == 1 + signs(text, stop(text)); */
 static size_t count_terms(const char *text);
 
-/*@ predicate apart(polynomial p, relations r) = \separated(p, r) && not_in(p, \base_addr(r)) && unlike_rests(p, r); */
+/*@ predicate rests_not_in(relations r, char *b) =
+      \forall integer k; 0 <= k < r->count ==> not_in(&r->leaf[k].rest, b);
+    predicate apart(polynomial p, relations r) = \separated(p, r) && not_in(p, \base_addr(r)) && unlike_rests(p, r); */
 /*@ requires \valid(out) && out->count == 0 && \valid(p); requires listed(p); requires numbers_in(p); requires low(p);
     requires \valid(r) && k < 64 && 0 < degree && \separated(p, out); requires beside(p, r) && beside(out, r);
     assigns owned: out->term, out->count, p->count, r->nomem; exits \false;
@@ -87,24 +93,41 @@ static size_t count_terms(const char *text);
     ensures owned: \old(unlike_rests(p, r)) && \separated(p, r) ==> unlike_rests(p, r); */
 static bool terms_take_power(dyd_cert_poly *out, dyd_cert_poly *p, size_t k, unsigned degree, dyd_cert_relations *r);
 /*@ requires related(r) && k < r->count; requires \valid(p); requires listed(p); requires numbers_in(p);
-    requires low(p); requires apart(p, r); assigns owned: p->term, p->count, r->nomem, r->work;
-    exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p); ensures related(r);
-    ensures \result ==> apart(p, r); ensures NEW(p, r); */
+    requires low(p); requires apart(p, r); requires rests_not_in(r, \base_addr(p));
+    assigns owned: p->term, p->count, r->nomem, r->work; exits \false; ensures listed(p); ensures numbers_in(p);
+    ensures \result ==> low(p); ensures related(r);
+    ensures \result ==> apart(p, r); ensures rests_not_in(r, \base_addr(p)); ensures NEW(p, r); */
 static bool reduce_leaf(dyd_cert_poly *p, size_t k, dyd_cert_relations *r);
 /*@ requires related(r); requires \valid(p); requires listed(p); requires numbers_in(p); requires low(p);
-    requires apart(p, r); assigns owned: p->term, p->count, r->nomem, r->work;
+    requires apart(p, r); requires rests_not_in(r, \base_addr(p));
+    assigns owned: p->term, p->count, r->nomem, r->work;
     exits \false; ensures listed(p); ensures numbers_in(p); ensures \result ==> low(p); ensures related(r);
     ensures NEW(p, r); */
 bool dyd_cert_poly_reduce(dyd_cert_poly *p, dyd_cert_relations *r);
 /*@ requires \valid(t) && whole(&t->c[0]) && \valid(text) && string(*text) && \valid(r) && r->count <= 64 &&
       \separated(t, text, r);
     assigns owned: t->e[0 .. 63], t->c[0].value, *text, r->nomem;
-    exits \false; ensures whole(&t->c[0]); ensures \result ==> string(*text); */
+    exits \false; ensures whole(&t->c[0]); ensures \result ==> string(*text);
+    ensures within(*text, \old(*text)) && *text - \old(*text) <= \old(stop(*text)) + 1;
+    ensures \result ==> 1 <= *text - \old(*text) <= \old(stop(*text)); */
 static bool scan_term(dyd_cert_term *t, const char **text, dyd_cert_relations *r);
+/*@ predicate numbers_from(one_term s, integer k, integer n) = \forall integer t; k <= t < n ==>
+      integer_of(s[t].c[0].value);
+    predicate few_from(one_term s, integer k, integer n) = \forall integer t; k <= t < n ==> few(&s[t].e[0]); */
 /*@ requires \valid(to) && \valid_read(from); assigns to->c[0].value, to->e[0 .. 63]; exits \false;
     ensures to->c[0].value == \old(from->c[0].value);
     ensures \old(few(&from->e[0])) ==> few(&to->e[0]);
     ensures \forall one_term s; \old(few(&s->e[0])) && \separated(s, to) ==> few(&s->e[0]);
+    ensures \forall one_term s, integer k, n; \old(few_from(s, k, n)) && \separated(s + (k .. n - 1), to) ==>
+      few_from(s, k, n);
+    ensures \forall one_term s, integer k, n; \old(numbers_from(s, k, n)) && \separated(s + (k .. n - 1), to) ==>
+      numbers_from(s, k, n);
+    ensures \forall one_term s, integer k, n, m; \old(few_from(s, k, n)) && \old(few(&from->e[0])) && to == s + n &&
+      m == n + 1 ==> few_from(s, k, m);
+    ensures \forall one_term s, integer k, n, m; \old(numbers_from(s, k, n)) && integer_of(\old(from->c[0].value)) &&
+      to == s + n && m == n + 1 ==> numbers_from(s, k, m);
+    ensures \forall polynomial s; \old(numbers_in(s)) && not_in(s, \base_addr(to)) ==> numbers_in(s);
+    ensures \forall polynomial s; \old(low(s)) && not_in(s, \base_addr(to)) ==> low(s);
     ensures \forall integer k; 0 <= k < 64 ==> to->e[k] == \old(from->e[k]); */
 void copy_term(dyd_cert_term *to, const dyd_cert_term *from);
 /*@ requires \valid(sum) && \valid(p) && p->count <= 16384; requires listed(p); requires numbers_in(p);
@@ -124,5 +147,11 @@ void copy_term(dyd_cert_term *to, const dyd_cert_term *from);
     ensures sum->count <= p->count + q->count; ensures numbers_in(sum);
     ensures \result ==> sum->count <= 16384; ensures \result && low{Pre}(p) ==> low(sum); */
 static bool terms_merge(dyd_cert_poly *sum, dyd_cert_poly *p, const dyd_cert_poly *q, mpz_srcptr c, const uint16_t *m);
+/*@ requires \valid(p); requires listed(p); requires numbers_in(p); requires \valid(end) && string(text);
+    requires stop(text) < 1152921504606846976; requires \valid(r) && r->count <= 64 && \separated(p, end, r);
+    assigns owned: p->term, p->count, *end, r->nomem; exits \false; ensures listed(p); ensures numbers_in(p);
+    ensures p->count <= 16384; ensures within(*end, text) && *end - text <= stop(text) + 1;
+    ensures \result ==> string(*end); */
+bool dyd_cert_poly_scan(dyd_cert_poly *p, const char **end, const char *text, dyd_cert_relations *r);
 
 #include "checker/poly.c"

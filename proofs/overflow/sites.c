@@ -2,8 +2,6 @@
 /* Contracts for src/checker/sites.c: the list of sites grows, and numbers are on the grid. */
 /* Without place_on_grid: that coordinates are below 2^31 follows from how the unit was chosen, and GMP is seen here as
    signs and lengths: four conversions to int32_t stay unknown, and conditions of calls. */
-/* Without dyd_cert_sites_finish: 65 of 73 goals are proved in 5 s; the first loop, which sets four numbers in a list of
-   lists, is open: what it and the last loop assign, and that the two numbers set before stay as they are. */
 /* Unproved dyd_cert_side_set_den_assigns_exit_part3: WP does not know that new memory is new. */
 /* Unproved dyd_cert_side_set_den_assigns_normal_part4: WP does not know that new memory is new. */
 /* Unproved dyd_cert_side_set_den_assigns_normal_part5: WP does not know that new memory is new. */
@@ -85,10 +83,16 @@ static void axis_extent(dyd_exact range[2], const dyd_cert_sites *s, int axis);
       small_side(&s->site[i].side[1]);
     assigns *box; exits \false; */
 static void place_on_grid(dyd_cert_box *box, const dyd_cert_sites *s, size_t i);
-/*@ requires \valid(s) && sides(s, 0) && sides(s, 1) && s->count <= 4294967295 && whole(&s->origin[0][0]) &&
-      whole(&s->origin[1][0]) && \separated(s, s->site + (0 .. s->count - 1)) &&
+/*@ predicate beside_sides(list_of_sites s) = \separated(s, s->site + (0 .. s->count - 1)) &&
       (\forall integer k; 0 <= k < s->count ==> apart_from_side(s, &s->site[k].side[0]) &&
         apart_from_side(s, &s->site[k].side[1]));
+    predicate boxes_apart(list_of_sites s) =
+      \separated(s->box + (0 .. s->count - 1), s, s->site + (0 .. s->count - 1)) &&
+      (\forall integer k; 0 <= k < s->count ==>
+        apart_from_side(s->box + (0 .. s->count - 1), &s->site[k].side[0]) &&
+        apart_from_side(s->box + (0 .. s->count - 1), &s->site[k].side[1])); */
+/*@ requires \valid(s) && sides(s, 0) && sides(s, 1) && s->count <= 4294967295 && whole(&s->origin[0][0]) &&
+      whole(&s->origin[1][0]) && beside_sides(s);
     exits \false; */
 dyd_status dyd_cert_sites_finish(dyd_cert_sites *s);
 
