@@ -10,6 +10,7 @@
 /* Without faces_index_sites: 36 of 62 goals are proved; that places in of[] are below its end rests on sums of counts,
    which were not written out. */
 #include "faces.h"
+#include "by_key.h"
 
 #include "base/alloc.h"
 #include <string.h>
@@ -23,6 +24,14 @@ typedef const dyd_cert_corner *corner_of;
 #define ITEM bool
 #define RESERVE reserve_flags
 #define ALLOC alloc_flags
+#include "lists.h"
+#define ITEM size_t
+#define RESERVE reserve_any_size
+#define ALLOC alloc_sizes
+#include "lists.h"
+#define ITEM dyd_cert_entry
+#define RESERVE reserve_entries
+#define ALLOC alloc_entries
 #include "lists.h"
 #define ITEM size_t
 #define ALLOC zeroed_sizes
@@ -116,26 +125,32 @@ static void mark_hull_chain(bool *hull, uint32_t *stack, const dyd_cert_sites *s
       (0 < f->shape_cap ==> \valid(f->shape + (0 .. f->shape_cap - 1))) &&
       \separated(f, f->member + (0 .. f->member_cap - 1), f->start + (0 .. f->set_cap - 1),
         f->shape + (0 .. f->shape_cap - 1)) &&
-      below(f->member, f->members, SITES); */
-/*@ requires filling(f) && joined(g) && f->sets < 4294967290 && count <= 8589934592 &&
+      below(f->member, f->members, SITES);
+    // Each set begins where the one before ends.
+    predicate listed(open_sets f) = (f->sets == 0 ==> f->members == 0) && (0 < f->sets ==> f->start[0] == 0 &&
+      f->start[f->sets] == f->members &&
+      (\forall integer k; 0 <= k <= f->sets ==> f->start[k] <= f->members)); */
+/*@ requires filling(f) && listed(f) && joined(g) && f->sets < 4294967290 && count <= 8589934592 &&
       (0 < count ==> \valid_read(site + (0 .. count - 1))) && below((uint32_t *)site, count, SITES);
     requires \separated(f, site + (0 .. count - 1), g, g->legal, g->bridges, g->sites) &&
       \separated(f, g->legal->item + (0 .. g->legal->count - 1), g->bridges->item + (0 .. g->bridges->count - 1));
     exits \false;
     ensures \result == DYD_OK ==> filling(f);
+    ensures \result == DYD_OK ==> listed(f);
     ensures \result == DYD_OK ==> \old(f->sets) <= f->sets <= \old(f->sets) + 1; */
 static dyd_status faces_add_set(dyd_cert_faces *f, const dyd_cert_graph *g, const uint32_t *site, size_t count,
                                 dyd_cert_shape shape);
 
-/*@ requires filling(f) && joined(g) && f->sets < 4294967290 &&
+/*@ requires filling(f) && listed(f) && joined(g) && f->sets < 4294967290 &&
       (0 < SITES ==> \valid_read(g->sites->site + (0 .. SITES - 1)));
     requires \separated(f, g, g->legal, g->bridges, g->sites) && \separated(f, g->sites->site + (0 .. SITES - 1)) &&
       \separated(f, g->legal->item + (0 .. g->legal->count - 1), g->bridges->item + (0 .. g->bridges->count - 1));
     exits \false;
     ensures \result == DYD_OK ==> filling(f);
+    ensures \result == DYD_OK ==> listed(f);
     ensures \result == DYD_OK ==> \old(f->sets) <= f->sets <= \old(f->sets) + 1; */
 static dyd_status faces_add_all_sites(dyd_cert_faces *f, const dyd_cert_graph *g);
-/*@ requires filling(f) && drawn(g) && f->sets < 4294967290 && h < 2 * g->count &&
+/*@ requires filling(f) && listed(f) && drawn(g) && f->sets < 4294967290 && h < 2 * g->count &&
       \valid(seen + (0 .. 2 * g->count - 1));
     requires \separated(f, seen + (0 .. 2 * g->count - 1), g, g->legal, g->bridges, g->sites) &&
       \separated(f, g->legal->item + (0 .. g->legal->count - 1), g->bridges->item + (0 .. g->bridges->count - 1)) &&
@@ -144,7 +159,14 @@ static dyd_status faces_add_all_sites(dyd_cert_faces *f, const dyd_cert_graph *g
         g->bridges->item + (0 .. g->bridges->count - 1));
     exits \false;
     ensures \result == DYD_OK ==> filling(f);
+    ensures \result == DYD_OK ==> listed(f);
     ensures \result == DYD_OK ==> \old(f->sets) <= f->sets <= \old(f->sets) + 1; */
 static dyd_status add_bounded_face(dyd_cert_faces *f, bool *seen, const dyd_cert_graph *g, uint32_t h);
+#define dyd_cert_by_key(start, item, keys, entry, count) by_key_below(start, item, keys, entry, count, f->sets)
+/*@ requires filling(f) && listed(f) && \valid_read(s) && s->count == SITES &&
+      (0 < SITES ==> \valid_read(s->site + (0 .. SITES - 1)));
+    requires \separated(f, s);
+    exits \false; ensures \result == DYD_OK ==> indexed(f); */
+static dyd_status faces_index_sites(dyd_cert_faces *f, const dyd_cert_sites *s);
 
 #include "checker/faces.c"
