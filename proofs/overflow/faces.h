@@ -30,6 +30,11 @@ void dyd_cert_faces_cover(dyd_cert_faces *f, uint32_t i, uint32_t j);
 /*@ requires indexed(f); assigns \nothing; exits \false; */
 uint64_t dyd_cert_faces_left(const dyd_cert_faces *f);
 
+/*@ predicate sites_from(uint32_t *list, integer a, integer b) = \forall integer q; a <= q < b ==> list[q] < SITES;
+    axiomatic Part { // a part of a list is a list: CVC4 does not see that (list + a)[k] is list[a + k]
+      axiom part{L}: \forall uint32_t *list, integer a, b, n; 0 <= a && a + n <= b && sites_from{L}(list, a, b) ==>
+        below{L}(list + a, n, SITES); } */
+
 typedef const dyd_cert_parts *parts_of;
 /*@ predicate grouped(parts_of p, integer count) = \valid_read(p) && 0 < p->groups <= count &&
       \valid_read(p->group + (0 .. count - 1)) && (\forall integer q; 0 <= q < count ==> p->group[q] < p->groups) &&
