@@ -1,14 +1,5 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/faces.c: open sets grow in their lists, and are found by sites that are there. */
-/* Without add_groups: with a contract and invariants 39 of 47 goals are proved in 6 s. Open: that sites from the
-   beginning of a group on are sites (call_faces_add_set_requires), that the group's list of spare edges is there
-   (rte_mem_access_10), and what it ensures, which rests on these. */
-/* The next ones were run without contracts, 5 s a goal. Open in all are accesses behind pointers that a contract has to
-   say are there. */
-/* Without faces_find_sets, dyd_cert_faces_init: 4 of 11, 3 of 13 goals are proved. */
-/* Without faces_add_outer, split_rim: 3 of 12, 2 of 10 goals are proved. */
-/* Without faces_index_sites: 36 of 62 goals are proved; that places in of[] are below its end rests on sums of counts,
-   which were not written out. */
 #include "faces.h"
 #include "by_key.h"
 
