@@ -65,7 +65,8 @@ typedef const dyd_cert_sites *sites_of;
 /*@ requires numbered(a) && k < a->count && 0 < p <= 16384;
     assigns ENCLOSURES_OF(a); exits \false;
     ensures \result == &a->number[k].now && interval(\result);
-    ensures \forall interval_of x; interval{Pre}(x) && \separated(x, a->number + (0 .. a->count - 1)) ==> interval(x); */
+    ensures \forall interval_of x; interval{Pre}(x) && \separated(x, a->number + (0 .. a->count - 1)) ==>
+        interval(x); */
 const dyd_cert_enclosure *dyd_cert_algebra_enclose(dyd_cert_algebra *a, uint32_t k, long p);
 /*@ requires numbered(a) && \valid_read(q);
     assigns ANY_OF(a); exits \false;
