@@ -22,14 +22,6 @@
 #define RESERVE reserve_pairs
 #define ALLOC alloc_edges
 #include "lists.h"
-#define ITEM size_t
-#define RESERVE reserve_sizes
-#define ALLOC alloc_sizes
-#include "lists.h"
-#define ITEM dyd_cert_entry
-#define RESERVE reserve_entries
-#define ALLOC alloc_entries
-#include "lists.h"
 #define dyd_cert_by_key(start, item, keys, entry, count) by_key_below(start, item, keys, entry, count, keys)
 #define ITEM bool
 #define RESERVE reserve_flags

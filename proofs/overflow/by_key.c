@@ -8,13 +8,7 @@
 void clear_sizes(size_t *to, size_t count, size_t size);
 #define memset(to, c, size) clear_sizes(to, keys + 1, size)
 
-/*@ requires keys <= 4294967295 && count <= 1152921504606846976 && \valid(start + (0 .. keys)) &&
-      (0 < count ==> \valid(item + (0 .. count - 1)) && \valid_read(entry + (0 .. count - 1))) &&
-      \separated(start + (0 .. keys), item + (0 .. count - 1), entry + (0 .. count - 1)) &&
-      entered(entry, count, keys, BOUND);
-    assigns start[0 .. keys], item[0 .. count - 1]; exits \false;
-    ensures starts(start, keys, count);
-    ensures below(item, count, BOUND); */
+/*@ SORTS(BOUND) exits \false; */
 void dyd_cert_by_key(size_t *start, uint32_t *item, size_t keys, const dyd_cert_entry *entry, size_t count);
 
 #include "checker/by_key.c"

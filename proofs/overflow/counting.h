@@ -10,7 +10,6 @@
  * before_next: a number below v + 1 is below v, or v.
  * before_rises: what is below u is below v; no more than n are.
  * before_all: every number counts.
- * having_alike: counts of the first n depend on these alone.
  * place: of a place q in the lists below v, list_at(s, n, q) is the one that it is in: there is one, since those from
  * before(s, n, 0), which is 0, to before(s, n, v) follow one another; which, does not depend on v.
  * entry: keyed(e) are the keys in a list of entries. */
@@ -38,8 +37,6 @@
         0 <= before(s, n, u) <= before(s, n, v) <= n;
       axiom before_all: \forall row s, integer n, v; 0 <= n &&
         (\forall integer k; 0 <= k < n ==> 0 <= key(s, k) < v) ==> before(s, n, v) == n;
-      predicate alike(row s, row t, integer n) = \forall integer k; 0 <= k < n ==> key(s, k) == key(t, k);
-      axiom having_alike: \forall row s, t, integer n, v; alike(s, t, n) ==> having(s, n, v) == having(t, n, v);
       axiom place: \forall row s, integer n, v, q; 0 <= n && 0 <= v && 0 <= q < before(s, n, v) ==>
         0 <= list_at(s, n, q) < v &&
         before(s, n, list_at(s, n, q)) <= q < before(s, n, list_at(s, n, q) + 1);

@@ -17,14 +17,6 @@ typedef const dyd_cert_corner *corner_of;
 #define ALLOC alloc_flags
 #include "lists.h"
 #define ITEM size_t
-#define RESERVE reserve_any_size
-#define ALLOC alloc_sizes
-#include "lists.h"
-#define ITEM dyd_cert_entry
-#define RESERVE reserve_entries
-#define ALLOC alloc_entries
-#include "lists.h"
-#define ITEM size_t
 #define ALLOC zeroed_sizes
 #include "zeroed.h"
 #define ITEM uint64_t

@@ -3,7 +3,6 @@
 /* Operands of comparisons are pointers to what is there: WP's memory does not follow casts from pointers to void. */
 #define dyd_cert_compare_edges(x, y) dyd_cert_compare_edges(const dyd_cert_edge *a, const dyd_cert_edge *b)
 #define compare_angle(x, y, z) compare_angle(const dyd_cert_graph *graph, uint32_t h, uint32_t k)
-#include "graph.h"
 #include "by_key.h"
 
 #include "base/alloc.h"
@@ -15,14 +14,6 @@
 #define ITEM uint32_t
 #define RESERVE reserve_indices
 #define ALLOC alloc_indices
-#include "lists.h"
-#define ITEM size_t
-#define RESERVE reserve_sizes
-#define ALLOC alloc_sizes
-#include "lists.h"
-#define ITEM dyd_cert_entry
-#define RESERVE reserve_entries
-#define ALLOC alloc_entries
 #include "lists.h"
 #define dyd_cert_by_key(start, item, keys, entry, count) by_key_below(start, item, keys, entry, count, count)
 

@@ -11,14 +11,6 @@
 #define ALLOC alloc_indices
 #include "lists.h"
 
-#define ITEM size_t
-#define RESERVE reserve_sizes
-#define ALLOC alloc_sizes
-#include "lists.h"
-#define ITEM dyd_cert_entry
-#define RESERVE reserve_entries
-#define ALLOC alloc_entries
-#include "lists.h"
 #define dyd_cert_by_key(s, i, keys, e, all) by_key_below(s, i, keys, e, all, m->g->sites->count)
 
 /*@ requires 0 < count ==> \valid(item + (0 .. count - 1)); assigns item[0 .. count - 1]; exits \false;

@@ -11,14 +11,6 @@
 #define RESERVE reserve_indices
 #define ALLOC alloc_indices
 #include "lists.h"
-#define ITEM size_t
-#define RESERVE reserve_sizes
-#define ALLOC alloc_sizes
-#include "lists.h"
-#define ITEM dyd_cert_entry
-#define RESERVE reserve_entries
-#define ALLOC alloc_entries
-#include "lists.h"
 #define ITEM bool
 #define ALLOC zeroed_flags
 #include "zeroed.h"
