@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/algebra_read.c: operands are numbers before, operations have names. */
-#include "polys.h"
+#include "numbers.h"
 
 #include "base/alloc.h"
 #include "base/error.h"
@@ -54,9 +54,6 @@ typedef dyd_cert_quotient *value_of;
       \valid(a->number + (0 .. a->count)) && \separated(a, a->number + (0 .. a->count)) &&
       (\forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number <= a->count) &&
       (\forall integer k; 0 <= k <= a->count ==> a->number[k].a <= a->count);
-    predicate circular(integer op) = DYD_CERT_COS <= op <= DYD_CERT_TAN;
-    predicate angled(numbers a) = \forall integer k; 0 <= k < a->relations.count && !a->leaf[k].sine &&
-      circular(a->number[a->leaf[k].number].op) ==> k + 1 < a->relations.count;
     predicate cycled(numbers a) = cosines(a) &&
       \separated(a->cosine + (0 .. a->cycle - 1), a, a->number + (0 .. a->count));
     predicate bracket(bracket_of r) = \valid_read(r) && 2 <= r->count <= 1001 &&
@@ -208,29 +205,10 @@ static dyd_status read_operation(dyd_cert_number *n, dyd_cert_algebra *a, dyd_ce
     ensures \result == DYD_OK ==> place(a, in) && a->count == \old(a->count); */
 static dyd_status read_number(dyd_cert_number *n, dyd_cert_algebra *a, dyd_cert_reader *in);
 
-/* The list before the place for one more is asked for. */
-/*@ predicate listed(numbers a) = \valid(a) && a->relations.count <= 64 && a->count <= 4194304 &&
-      a->count <= a->cap <= 1152921504606846976 && (0 < a->cap ==> \valid(a->number + (0 .. a->cap - 1))) &&
-      (\forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number < a->count) &&
-      (\forall integer k; 0 <= k < a->count ==> a->number[k].a <= a->count) && angled(a) && cosines(a); */
+/* listed, and the place for one more was asked for. */
 /*@ predicate room_in(numbers a) = \valid(a) && a->relations.count <= 64 && a->count < 4194304 &&
       a->count < a->cap <= 1152921504606846976 && \valid(a->number + (0 .. a->cap - 1)) &&
       (\forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number <= a->count) &&
       (\forall integer k; 0 <= k < a->count ==> a->number[k].a <= a->count); */
-/*@ requires listed(a) && a->count < 4194304 && reads(in) && \separated(a, in, in->err, in->in, LINES + (..));
-    exits \false; ensures \result == DYD_OK ==> \valid(in) && \valid(in->in);
-    ensures \result == DYD_OK ==> in->err == \null || \valid(in->err);
-    ensures \result == DYD_OK ==> in->cap <= 1152921504606846976;
-    ensures \result == DYD_OK ==> \separated(in, in->err, in->in, LINES + (..));
-    ensures \result == DYD_OK && 0 < in->cap ==> \valid(in->line + (0 .. in->cap - 1)) &&
-      \base_addr(in->line) == \base_addr(LINES + 0);
-    ensures \result == DYD_OK && in->at != \null ==> 0 < in->cap && inside(in, in->at);
-    ensures \result == DYD_OK ==> \valid(a) && a->relations.count <= 64 && a->count == \old(a->count) + 1;
-    ensures \result == DYD_OK ==> a->count <= a->cap <= 1152921504606846976 && \valid(a->number + (0 .. a->cap - 1));
-    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number < a->count;
-    ensures \result == DYD_OK ==> \forall integer k; 0 <= k < a->count ==> a->number[k].a <= a->count;
-    ensures \result == DYD_OK ==> angled(a); ensures \result == DYD_OK ==> cosines(a);
-    ensures \result == DYD_OK ==> \separated(a, in, in->err, in->in, LINES + (..)); */
-dyd_status dyd_cert_algebra_read(dyd_cert_algebra *a, dyd_cert_reader *in);
 
 #include "checker/algebra_read.c"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/number.c: leaves are of numbers that are there, and made where there is room. */
-#include "polys.h"
+#include "numbers.h"
 
 /* The number to be added is in its place behind those before. */
 /*@ predicate known(numbers a) = \valid(a) && a->relations.count <= 64 && a->count < 4294967295 &&
@@ -12,13 +12,7 @@
 
 typedef const dyd_cert_quotient *operand;
 
-/* Leaves of angles are in pairs, the cosine before its sine. This does not hold any more where there was room for the
- * cosine alone; the line is refused then. A block whose lines were all accepted has it. */
-/*@ predicate circular(integer op) = DYD_CERT_COS <= op <= DYD_CERT_TAN;
-    predicate angle(numbers a, integer k) = !a->leaf[k].sine && circular(a->number[a->leaf[k].number].op);
-    predicate angled(numbers a) = \forall integer k; 0 <= k < a->relations.count && angle(a, k) ==>
-      k + 1 < a->relations.count;
-    predicate cycled(numbers a) = cosines(a) &&
+/*@ predicate cycled(numbers a) = cosines(a) &&
       \separated(a->cosine + (0 .. a->cycle - 1), a, a->number + (0 .. a->count));
     predicate elsewhere(polynomial p, operand x, numbers a) =
       \separated(p->term + (0 .. p->count - 1), x, a, a->cosine + (0 .. a->cycle - 1));

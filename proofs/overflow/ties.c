@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/ties.c: points of a block are in their list, and of numbers and sites that are there. */
-/* Without dyd_cert_ties_read, read_block: to be done. */
-#include "polys.h"
+#include "numbers.h"
 #include "enclosures.h"
 #include "faces.h"
 
@@ -251,5 +250,33 @@ void copy_fact(dyd_cert_fact *to, const dyd_cert_fact *from);
 /*@ requires stating(t, b, in); exits \false;
     admit ensures apart: \result == DYD_OK ==> stating(t, b, in); // asserted before it returns */
 static dyd_status read_fact(dyd_cert_ties *t, dyd_cert_reader *in, dyd_cert_block *b);
+
+/* What is known while a block is read, of which there are no points yet. */
+/*@ predicate blocking(block_of b, facts_of t, reading r, sites_of s) = \valid(b) && b->points == 0 && listing(t) &&
+      \valid_read(s) && s->count == SITES && SITES <= 4294967295 && rectangles(s) && \separated(b, t) &&
+      \separated(b, r, r->err, r->in, s, LINES + (..)) && \separated(t, r, r->err, r->in, LINES + (..)) &&
+      (0 < t->member_cap ==> \base_addr(t->member) != \base_addr(b) && \base_addr(t->member) != \base_addr(t)); */
+/*@ requires reads(in); requires blocking(b, t, in, s);
+    requires listed(&b->algebra) && b->algebra.count == 0; exits \false;
+    admit ensures apart: \result == DYD_OK ==> kept(in) && listing(t); // asserted before it returns */
+static dyd_status read_block(dyd_cert_block *b, dyd_cert_ties *t, dyd_cert_reader *in, const dyd_cert_sites *s);
+
+/* Blocks of their own, with room in their list for more. */
+/*@ predicate own_blocks(facts_of t) = \forall integer k; 0 <= k < t->blocks ==> \valid(t->block[k]) &&
+      \separated(t, t->block[k]) && \separated(t->block + (0 .. t->block_cap - 1), t->block[k]);
+    predicate blocks(facts_of t) = \valid(t) && t->blocks <= t->block_cap <= 1152921504606846976 &&
+      (0 < t->block_cap ==> \valid(t->block + (0 .. t->block_cap - 1))) && own_blocks(t); */
+/* calloc of a block: no numbers, no points. */
+/*@ assigns \nothing; exits \false; ensures \result != \null ==> \valid(\result) && \result->points == 0 &&
+      \result->algebra.count == 0 && \result->algebra.cap == 0 && \result->algebra.relations.count == 0 &&
+      \result->algebra.cycle == 0 && \result->algebra.cosines == 0; */
+dyd_cert_block *zeroed_block(size_t count, size_t size);
+/*@ requires reads(in); requires listing(t); requires blocks(t);
+    requires \valid_read(s) && s->count == SITES && SITES <= 4294967295 && rectangles(s);
+    requires \separated(t, in, in->err, in->in, LINES + (..));
+    exits \false; ensures \result == DYD_OK ==> kept(in); ensures \result == DYD_OK ==> listing(t);
+    ensures \valid(t) && t->blocks <= t->block_cap <= 1152921504606846976;
+    ensures 0 < t->block_cap ==> \valid(t->block + (0 .. t->block_cap - 1)); ensures own_blocks(t); */
+dyd_status dyd_cert_ties_read(dyd_cert_ties *t, dyd_cert_reader *in, const dyd_cert_sites *s);
 
 #include "checker/ties.c"

@@ -365,7 +365,7 @@ static dyd_status read_points(dyd_cert_block *b, dyd_cert_reader *in, const dyd_
 static dyd_status read_block(dyd_cert_block *b, dyd_cert_ties *t, dyd_cert_reader *in, const dyd_cert_sites *s) {
   uint32_t count = 0;
   dyd_status st = read_count(&count, in, "algebra", MOST_NUMBERS);
-  while (count-- > 0 && st == DYD_OK) {
+  while (st == DYD_OK && count-- > 0) {
     st = dyd_cert_next_line(in);
     if (st == DYD_OK) st = dyd_cert_algebra_read(&b->algebra, in);
   }
