@@ -23,34 +23,35 @@ static void enclose_function(dyd_cert_enclosure *x, const dyd_cert_number *n, lo
 /*@ requires \valid(x) && interval(x) && interval(y) && alone(x, y) && few(p); assigns ALL_OF(x); exits \false;
     ensures interval(x); */
 static void enclose_operation(dyd_cert_enclosure *x, dyd_cert_op op, const dyd_cert_enclosure *y, long p);
-/* The block: numbers are made of those before, leaves are of numbers, roots are in brackets. The number to be added is
- * in its place behind those before. */
-/*@ predicate block(numbers a) = \valid(a) && a->relations.count <= 64 && a->count < 4294967295 &&
-      \valid(a->number + (0 .. a->count)) && \separated(a, a->number + (0 .. a->count)) &&
-      (\forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number <= a->count) &&
-      (\forall integer k; 0 <= k <= a->count ==> a->number[k].a <= a->count && a->number[k].b <= a->count &&
+/* The block: numbers are made of those before, leaves are of numbers, roots are in brackets. LAST: the last number; while
+ * a number is read, this is the one to be added, in its place behind those before. */
+/*@ axiomatic Last { logic integer LAST; axiom last: -1 <= LAST <= 4194304; }
+    predicate block(numbers a) = \valid(a) && a->relations.count <= 64 && a->count - 1 <= LAST <= a->count &&
+      \valid(a->number + (0 .. LAST)) && \separated(a, a->number + (0 .. LAST)) &&
+      (\forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number <= LAST) &&
+      (\forall integer k; 0 <= k <= LAST ==> a->number[k].a <= LAST && a->number[k].b <= LAST &&
         interval(&a->number[k].now));
     predicate stays{K, L}(numbers a) = block{L}(a) && \at(a->number, L) == \at(a->number, K) &&
       \at(a->count, L) == \at(a->count, K) && \at(a->relations.count, L) == \at(a->relations.count, K);
     predicate elsewhere(interval_of x, numbers a) = \base_addr(x) != \base_addr(a) &&
       \base_addr(x) != \base_addr(a->number); */
-#define NUMBERS_OF(a) a->relations.work, a->number[0 .. a->count].p, a->number[0 .. a->count].now.lo[0].value, \
-  a->number[0 .. a->count].now.hi[0].value, a->number[0 .. a->count].now.known
+#define NUMBERS_OF(a) a->relations.work, a->number[0 .. LAST].p, a->number[0 .. LAST].now.lo[0].value, \
+  a->number[0 .. LAST].now.hi[0].value, a->number[0 .. LAST].now.known
 
 /*@ requires 0 <= op < 29; assigns \nothing; exits \false; ensures 0 <= \result <= 2; */
 int dyd_cert_op_operands(dyd_cert_op op);
-/*@ requires block(a) && k <= a->count && 64 <= p <= 16384; assigns NUMBERS_OF(a); exits \false;
+/*@ requires block(a) && k <= LAST && 64 <= p <= 16384; assigns NUMBERS_OF(a); exits \false;
     ensures stays{Pre, Post}(a); ensures \result == &a->number[k].now && interval(\result); */
 const dyd_cert_enclosure *dyd_cert_algebra_enclose(dyd_cert_algebra *a, uint32_t k, long p);
 #define SAME_LISTS(a) (a->number == \at(a->number, Pre) && a->count == \at(a->count, Pre) && \
   a->relations.count == \at(a->relations.count, Pre))
 /* What is made may be one of the block's numbers, or is apart from it. */
-#define OF_BLOCK(x, a) (elsewhere(x, a) || \exists integer k; 0 <= k <= a->count && x == &a->number[k].now)
+#define OF_BLOCK(x, a) (elsewhere(x, a) || \exists integer k; 0 <= k <= LAST && x == &a->number[k].now)
 /*@ requires \valid(out) && interval(out) && block(a) && OF_BLOCK(out, a) && \valid_read(q) && 64 <= p <= 16384;
     assigns ALL_OF(out), NUMBERS_OF(a); exits \false; ensures interval(out); ensures stays{Pre, Post}(a); */
 void dyd_cert_poly_enclose(dyd_cert_enclosure *out, dyd_cert_algebra *a, const dyd_cert_poly *q, long p);
 /*@ requires \valid(x) && interval(x) && block(a) && \valid_read(v) &&
-      (\exists integer k; 0 <= k <= a->count && x == &a->number[k].now) && 64 <= p <= 16384;
+      (\exists integer k; 0 <= k <= LAST && x == &a->number[k].now) && 64 <= p <= 16384;
     assigns ALL_OF(x), NUMBERS_OF(a); exits \false; ensures interval(x); ensures stays{Pre, Post}(a); */
 static void enclose_value(dyd_cert_enclosure *x, dyd_cert_algebra *a, const dyd_cert_quotient *v, long p);
 /*@ requires \valid(out) && interval(out) && elsewhere(out, a) && block(a) && k < a->relations.count &&
@@ -71,7 +72,7 @@ void dyd_cert_root_enclose(dyd_cert_enclosure *out, const dyd_cert_bracket *r, l
     requires n->op == DYD_CERT_CYCLE ==> 1 <= n->exponent <= 1024;
     requires n->op == DYD_CERT_ROOT ==> bracket(n->root) &&
       \separated(x, n->root, n->root->coeff + (0 .. n->root->count - 1));
-    requires \exists integer k; 0 <= k <= a->count && x == &a->number[k].now;
+    requires \exists integer k; 0 <= k <= LAST && x == &a->number[k].now;
     assigns ALL_OF(x), NUMBERS_OF(a); exits \false; ensures interval(x); ensures stays{Pre, Post}(a); */
 static void enclose_leaf(dyd_cert_enclosure *x, dyd_cert_algebra *a, const dyd_cert_number *n, long p);
 

@@ -62,7 +62,7 @@ typedef const dyd_cert_sites *sites_of;
 
 /* Of algebra_enclose.c, algebra_bound.c and quotient.c: what is kept of a number is its enclosure; terms of a quotient
  * are its own, and that they change is not seen from here. */
-/*@ requires numbered(a) && k < a->count && 0 < p <= 16384;
+/*@ requires numbered(a) && k < a->count && 64 <= p <= 16384;
     assigns ENCLOSURES_OF(a); exits \false;
     ensures \result == &a->number[k].now && interval(\result);
     ensures \forall interval_of x; interval{Pre}(x) && \separated(x, a->number + (0 .. a->count - 1)) ==>
@@ -95,17 +95,17 @@ int compare_indices(const uint32_t *a, const uint32_t *b, size_t n);
         \separated(t->block + (0 .. t->blocks - 1), t->block[k]));
     exits \false; */
 void dyd_cert_ties_clear(dyd_cert_ties *t);
-/*@ requires side(s) && interval(x) && 0 < p <= 16384; assigns \nothing; exits \false; */
+/*@ requires side(s) && interval(x) && 64 <= p <= 16384; assigns \nothing; exits \false; */
 static bool side_holds_enclosure(const dyd_cert_side *s, const dyd_cert_enclosure *x, long p);
 /*@ requires side(s) && numbered(a) && number < a->count;
     assigns ANY_OF(a);
     exits \false; */
 static bool side_is_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t number);
-/*@ requires side(s) && numbered(a) && number < a->count && 0 < p <= 16384 &&
+/*@ requires side(s) && numbered(a) && number < a->count && 64 <= p <= 16384 &&
       \separated(s, s->den, a, a->number + (0 .. a->count - 1));
     assigns ENCLOSURES_OF(a); exits \false; */
 static bool side_lacks_number(const dyd_cert_side *s, dyd_cert_algebra *a, uint32_t number, long p);
-/*@ requires side(s) && numbered(a) && number < a->count && 0 < p <= 16384 &&
+/*@ requires side(s) && numbered(a) && number < a->count && 64 <= p <= 16384 &&
       \separated(s, s->den, a, a->number + (0 .. a->count - 1));
     assigns ANY_OF(a), ENCLOSURES_OF(a);
     exits \false; */
@@ -126,7 +126,7 @@ static dyd_status check_rectangles(dyd_cert_block *b, dyd_cert_reader *in, const
     ensures is_described(b, site) ==> \result != \null; */
 static const dyd_cert_described *find_described(const dyd_cert_block *b, uint32_t site);
 /*@ requires \valid(out) && interval(out) && numbered(a) && point_of(p, a) && point_of(q, a) && 0 <= axis <= 1 &&
-      0 < prec <= 16384 && \separated(out, a, a->number + (0 .. a->count - 1)) &&
+      64 <= prec <= 16384 && \separated(out, a, a->number + (0 .. a->count - 1)) &&
       \separated(out, p) && \separated(out, q);
     assigns ALL_OF(out), ENCLOSURES_OF(a); exits \false;
     ensures interval(out);
