@@ -24,13 +24,9 @@ void dyd_cert_chain_init(dyd_cert_chain *c);
 void dyd_cert_sites_clear(dyd_cert_sites *s);
 /*@ requires \valid(t); assigns *t; exits \false; */
 void dyd_cert_tree_clear(dyd_cert_tree *t);
-/*@ predicate cleared_ties(dyd_cert_ties *t) = \valid(t) && t->blocks <= 1152921504606846976 &&
-      (0 < t->blocks ==> \valid(t->block + (0 .. t->blocks - 1))) &&
-      (\forall integer k; 0 <= k < t->blocks ==> \valid(t->block[k]) && \separated(t, t->block[k]) &&
-        \separated(t->block + (0 .. t->blocks - 1), t->block[k]));
-    predicate cleared_corners(dyd_cert_corners *c) = \valid(c) && c->count <= 1152921504606846976 &&
+/*@ predicate cleared_corners(dyd_cert_corners *c) = \valid(c) && c->count <= 1152921504606846976 &&
       (0 < c->count ==> \valid(c->item + (0 .. c->count - 1)) && \separated(c, c->item + (0 .. c->count - 1))); */
-/*@ requires cleared_ties(t); assigns *t; exits \false; */
+/*@ requires blocks(t); assigns *t; exits \false; */
 void dyd_cert_ties_clear(dyd_cert_ties *t);
 /*@ requires cleared_corners(c); assigns *c; exits \false; */
 void dyd_cert_corners_clear(dyd_cert_corners *c);
@@ -42,14 +38,13 @@ void dyd_cert_chain_clear(dyd_cert_chain *c);
 
 /*@ requires \valid(c); assigns *c; exits \false; */
 void dyd_checker_init(dyd_checker *c, FILE *in, dyd_error *err);
-/*@ requires \valid(c) && cleared_ties(&c->ties) && cleared_corners(&c->corners) && point(c) &&
+/*@ requires \valid(c) && blocks(&c->ties) && cleared_corners(&c->corners) && point(c) &&
       c->chain.cap <= 1152921504606846976 && (0 < c->chain.cap ==> \valid(c->chain.point + (0 .. c->chain.cap - 1)));
     requires \separated(c, c->ties.block + (0 .. c->ties.blocks - 1));
     assigns *c; exits \false; */
 void dyd_checker_clear(dyd_checker *c);
 
-/* Of ties.c: of a block that is read, asked is all that is known of the checker, and what is promised is that this
- * stays, which is not proved there. */
+/* Of ties.c, which asks less, and proves that its lists stay; that all else which is known stays is not proved there. */
 /*@ requires pairing(c) && begun(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
 dyd_status read_ties(dyd_checker *c);
 #define dyd_cert_ties_read(t, in, s) read_ties(c)
@@ -92,7 +87,7 @@ dyd_status dyd_checker_settle(dyd_checker *c, const bool *still);
  * were read are of numbers that certificates have, that texts are there after dyd_checker_head, and
  * dyd_checker_corners. */
 /*@ predicate unpaired(checking c) = blocked(c) && grows(&c->open) && grows(&c->tie) && grows(&c->chained) &&
-      stated(&c->ties) && blocks(&c->ties) && c->corners.count == 0 && c->corners.cap == 0;
+      listing(&c->ties) && blocks(&c->ties) && c->corners.count == 0 && c->corners.cap == 0;
     predicate prepared(checking c) = checker(c) && point(c) && \separated(c, &errno) && unpaired(c) &&
       grows(&c->legal) && grows(&c->bridges) && -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
     predicate empty(checking c) = prepared(c) && c->sites.count == 0 && c->sites.cap == 0;

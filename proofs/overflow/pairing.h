@@ -3,12 +3,11 @@
 #ifndef DYD_PROOFS_PAIRING_H
 #define DYD_PROOFS_PAIRING_H
 
-#include "faces.h"
+#include "facts.h"
 
 #include "checks.h"
 
 typedef const dyd_cert_site *site_to_read;
-typedef const dyd_cert_ties *facts_of;
 
 /* begun: a line was read, and nothing of it yet. */
 /*@ predicate begun(checking c) = checks(c) && 0 < c->in.cap && inside(&c->in, c->in.line);
@@ -27,18 +26,10 @@ typedef const dyd_cert_ties *facts_of;
         \valid(c->chain.blocker + (0 .. c->chain.cap))) &&
       exact(&c->chain.u[0][0]) && exact(&c->chain.u[0][1]) && exact(&c->chain.u[1][0]) && exact(&c->chain.u[1][1]);
     predicate reported(checking c) = \valid_read(c) && string(c->report.outcome) && string(c->report.goal) &&
-      -999999999999999999 <= c->report.goal_bits <= 999999999999999999;
-    predicate stated(facts_of t) = \valid_read(t) &&
-      (0 < t->facts ==> \valid_read(t->fact + (0 .. t->facts - 1))) &&
-      (0 < t->members ==> \valid_read(t->member + (0 .. t->members - 1))) && below(t->member, t->members, SITES) &&
-      (\forall integer q; 0 <= q < t->facts ==> 2 <= t->fact[q].count && t->fact[q].first < t->members &&
-        t->fact[q].first + t->fact[q].count <= t->members <= 1152921504606846976);
-    predicate blocks(facts_of t) = \valid_read(t) && t->blocks <= 1152921504606846976 &&
-      (0 < t->blocks ==> \valid_read(t->block + (0 .. t->blocks - 1))) &&
-      (\forall integer k; 0 <= k < t->blocks ==> \valid_read(t->block[k])); */
+      -999999999999999999 <= c->report.goal_bits <= 999999999999999999; */
 
 /* All that is known of a certificate while its pairs are read, and after it. */
-/*@ predicate pairing(checking c) = checker(c) && open_pairs(c) && blocked(c) && reported(c) && stated(&c->ties) &&
+/*@ predicate pairing(checking c) = checker(c) && open_pairs(c) && blocked(c) && reported(c) && listing(&c->ties) &&
       blocks(&c->ties); */
 
 /* What graph.c proves of dyd_cert_edges_add; and that what was in the list stays, as well as all else, which WP does

@@ -2,7 +2,7 @@
 /* Contracts for src/checker/ties.c: points of a block are in their list, and of numbers and sites that are there. */
 #include "numbers.h"
 #include "enclosures.h"
-#include "faces.h"
+#include "facts.h"
 
 #include "base/alloc.h"
 #include "base/error.h"
@@ -33,7 +33,6 @@ typedef dyd_cert_block *block_pointer;
 
 typedef const dyd_cert_block *block_of;
 typedef const dyd_cert_described *described;
-typedef const dyd_cert_ties *facts_of;
 typedef const dyd_cert_sites *sites_of;
 
 /*@ predicate ascending(described d, integer count) = \forall integer k, l; 0 <= k < l < count ==> d[k].site < d[l].site;
@@ -47,13 +46,7 @@ typedef const dyd_cert_sites *sites_of;
       (\forall integer k; 0 <= k < b->points ==> point_of(b->point + k, &b->algebra)) &&
       \separated(b, b->point + (0 .. b->points - 1), b->algebra.number + (0 .. b->algebra.count - 1));
     predicate is_described(block_of b, integer site) = \exists integer k; 0 <= k < b->points &&
-      b->point[k].site == site;
-    predicate within_members(facts_of t) = \forall integer q; 0 <= q < t->facts ==> 2 <= t->fact[q].count &&
-      t->fact[q].first < t->members && t->fact[q].first + t->fact[q].count <= t->members <= 1152921504606846976;
-    predicate stated(facts_of t, integer sites) = \valid_read(t) &&
-      (0 < t->facts ==> \valid_read(t->fact + (0 .. t->facts - 1))) &&
-      (0 < t->members ==> \valid_read(t->member + (0 .. t->members - 1))) && below(t->member, t->members, sites) &&
-      within_members(t); */
+      b->point[k].site == site; */
 
 /* What enclosing changes: nothing else here has the types of these, so that all else is seen to stay. ANY_OF: what a
  * check of 0 changes, as one list of numbers, which CVC4 finds again where more was assigned before. */
@@ -90,10 +83,7 @@ void round_exact(mpz_ptr out, const dyd_exact *x, mpz_srcptr den, int64_t exp);
 int compare_indices(const uint32_t *a, const uint32_t *b, size_t n);
 #define memcmp(a, b, n) compare_indices(a, b, n)
 
-/*@ requires \valid(t) && (0 < t->blocks ==> \valid(t->block + (0 .. t->blocks - 1))) &&
-      (\forall integer k; 0 <= k < t->blocks ==> \valid(t->block[k]) && \separated(t, t->block[k]) &&
-        \separated(t->block + (0 .. t->blocks - 1), t->block[k]));
-    exits \false; */
+/*@ requires blocks(t); exits \false; */
 void dyd_cert_ties_clear(dyd_cert_ties *t);
 /*@ requires side(s) && interval(x) && 64 <= p <= 16384; assigns \nothing; exits \false; */
 static bool side_holds_enclosure(const dyd_cert_side *s, const dyd_cert_enclosure *x, long p);
@@ -163,7 +153,7 @@ static bool are_same(dyd_cert_algebra *a, const dyd_cert_described *p, const dyd
     exits \false; */
 bool dyd_cert_fact_holds(dyd_cert_block *b, dyd_cert_relation_kind kind, const uint32_t *site, size_t count,
                          bool by_bound);
-/*@ requires stated(t, SITES) && \valid_read(s) && s->count == SITES && \valid(out) &&
+/*@ requires stated(t) && \valid_read(s) && s->count == SITES && \valid(out) &&
       \separated(out, t, s, t->fact + (0 .. t->facts - 1), s->site + (0 .. SITES - 1)) &&
       (0 < SITES ==> \valid_read(s->site + (0 .. SITES - 1))) &&
       (\forall integer i; 0 <= i < SITES ==> s->site[i].alias < SITES);
@@ -180,7 +170,7 @@ static dyd_status read_count(uint32_t *count, dyd_cert_reader *in, const char *n
     predicate block_apart(block_of b, reading r, sites_of s) = \separated(b, r, r->err, r->in, s, LINES + (..)); */
 /* The block has its points so far; their list, room for `count`. */
 /*@ requires kept(in); requires whole_block(b); requires of_sites(b);
-    requires \valid_read(s) && s->count == SITES && 0 < SITES <= 4294967295;
+    requires \valid_read(s) && s->count == SITES && 0 < SITES;
     requires 0 < b->algebra.count && b->points < 4294967295;
     requires room(b, in, s, b->points + 1); requires block_apart(b, in, s);
     assigns b->points, b->point[b->points].site, b->point[b->points].number[0 .. 1], in->number, in->line, in->cap,
@@ -191,20 +181,14 @@ static dyd_status read_point(dyd_cert_block *b, dyd_cert_reader *in, const dyd_c
 
 /* What is there while points are read: numbers, sites, a list of its own. */
 /*@ predicate based(block_of b, reading r, sites_of s) = \valid(b) && numbered(&b->algebra) && block_apart(b, r, s) &&
-      \separated(b, b->algebra.number + (0 .. b->algebra.count - 1)) && \valid_read(s) && s->count == SITES &&
-      SITES <= 4294967295 && rectangles(s) && sides_apart(b, s); */
+      \separated(b, b->algebra.number + (0 .. b->algebra.count - 1)) && \valid_read(s) && s->count == SITES && rectangles(s) && sides_apart(b, s); */
 /*@ requires kept(in) && based(b, in, s) && b->points == 0; exits \false;
     admit ensures apart: \result == DYD_OK ==> kept(in) && based(b, in, s) && whole_block(b) &&
       of_sites(b); // asserted before it returns */
 static dyd_status read_points(dyd_cert_block *b, dyd_cert_reader *in, const dyd_cert_sites *s);
 
-/* Facts are about sites that are described. listing: the lists of facts and of their sites, and how long they may
- * get. */
-/*@ predicate listing(facts_of t) = \valid(t) && t->members <= t->member_cap <= 1152921504606846976 &&
-      t->facts <= t->fact_cap <= 1152921504606846976 &&
-      (0 < t->member_cap ==> \valid(t->member + (0 .. t->member_cap - 1))) &&
-      (0 < t->fact_cap ==> \valid(t->fact + (0 .. t->fact_cap - 1))) && stated(t, SITES);
-    predicate described_from(facts_of t, block_of b, integer first) =
+/* Facts are about sites that are described. */
+/*@ predicate described_from(facts_of t, block_of b, integer first) =
       \forall integer k; first <= k < t->members ==> is_described(b, t->member[k]); */
 /* As read.h says of dyd_cert_reject, and base/error.c of dyd_fail_nomem: the error is filled in, which is no part of
  * the reader. */
@@ -253,7 +237,7 @@ static dyd_status read_fact(dyd_cert_ties *t, dyd_cert_reader *in, dyd_cert_bloc
 
 /* What is known while a block is read, of which there are no points yet. */
 /*@ predicate blocking(block_of b, facts_of t, reading r, sites_of s) = \valid(b) && b->points == 0 && listing(t) &&
-      \valid_read(s) && s->count == SITES && SITES <= 4294967295 && rectangles(s) && \separated(b, t) &&
+      \valid_read(s) && s->count == SITES && rectangles(s) && \separated(b, t) &&
       \separated(b, r, r->err, r->in, s, LINES + (..)) && \separated(t, r, r->err, r->in, LINES + (..)) &&
       (0 < t->member_cap ==> \base_addr(t->member) != \base_addr(b) && \base_addr(t->member) != \base_addr(t)); */
 /*@ requires reads(in); requires blocking(b, t, in, s);
@@ -261,18 +245,13 @@ static dyd_status read_fact(dyd_cert_ties *t, dyd_cert_reader *in, dyd_cert_bloc
     admit ensures apart: \result == DYD_OK ==> kept(in) && listing(t); // asserted before it returns */
 static dyd_status read_block(dyd_cert_block *b, dyd_cert_ties *t, dyd_cert_reader *in, const dyd_cert_sites *s);
 
-/* Blocks of their own, with room in their list for more. */
-/*@ predicate own_blocks(facts_of t) = \forall integer k; 0 <= k < t->blocks ==> \valid(t->block[k]) &&
-      \separated(t, t->block[k]) && \separated(t->block + (0 .. t->block_cap - 1), t->block[k]);
-    predicate blocks(facts_of t) = \valid(t) && t->blocks <= t->block_cap <= 1152921504606846976 &&
-      (0 < t->block_cap ==> \valid(t->block + (0 .. t->block_cap - 1))) && own_blocks(t); */
 /* calloc of a block: no numbers, no points. */
 /*@ assigns \nothing; exits \false; ensures \result != \null ==> \valid(\result) && \result->points == 0 &&
       \result->algebra.count == 0 && \result->algebra.cap == 0 && \result->algebra.relations.count == 0 &&
       \result->algebra.cycle == 0 && \result->algebra.cosines == 0; */
 dyd_cert_block *zeroed_block(size_t count, size_t size);
 /*@ requires reads(in); requires listing(t); requires blocks(t);
-    requires \valid_read(s) && s->count == SITES && SITES <= 4294967295 && rectangles(s);
+    requires \valid_read(s) && s->count == SITES && rectangles(s);
     requires \separated(t, in, in->err, in->in, LINES + (..));
     exits \false; ensures \result == DYD_OK ==> kept(in); ensures \result == DYD_OK ==> listing(t);
     ensures \valid(t) && t->blocks <= t->block_cap <= 1152921504606846976;
