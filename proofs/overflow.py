@@ -61,7 +61,7 @@ OPTIONS = ['-wp', '-wp-rte', '-warn-special-float', 'none',  # doubles are anoth
            '-rte-no-pointer-call',  # that one of the functions after `calls` is called is proved; without it, other goals fail
            '-wp-no-pruning', '-wp-no-ground',  # a sixth of the time, and nothing more proved
            '-wp-par', '2']  # one after another, half of the time is waited
-AGAIN = 12  # of so many files whose proofs are known, one is proved again
+AGAIN = 16  # of so many files whose proofs are known, one is proved again
 SOON, MOST, FEW, SLOW = 20, 150, 4, 2  # seconds for a goal, for one left over, for one with a fault; of one that is slow
 FUNCTION = re.compile(r'^(?!typedef|struct|[#/\s])[\w *]*?\b(\w+)\((?:[^;{}()]|\([^()]*\))*\)\s*\{', re.M)
 
