@@ -139,9 +139,8 @@ def with_loops(root, name, text):
         text = replace(path, text, f' {to} = {of};', f' {to};' * (to != name) + f' copy_{what}(&{name}, &{of});')
     text = re.sub(r'(\w+) = dyd_alloc\(', lambda m: f'{m[1]} = alloc_{ITEMS.get(m[1], "indices")}(', text)
     text = re.sub(r'(\w+) = calloc\(', lambda m: f'{m[1]} = zeroed_{ZEROED.get(m[1], "flags")}(', text)
-    text = re.sub(r'(\w+) = malloc\((?:(\d+) \* )?(sizeof [^()]*)\)',
+    return re.sub(r'(\w+) = malloc\((?:(\d+) \* )?(sizeof [^()]*)\)',
                   lambda m: f'{m[1]} = alloc_{ITEMS[m[1]]}({m[2] or 1}, {m[3]})', text)
-    return re.sub(r'\ndyd_status dyd_cert_reject\(.*?\n}\n', '\n', text, flags=re.S)  # of any number of arguments
 
 
 def replace(path, text, what, by):

@@ -23,8 +23,8 @@ static void enclose_function(dyd_cert_enclosure *x, const dyd_cert_number *n, lo
 /*@ requires \valid(x) && interval(x) && interval(y) && alone(x, y) && few(p); assigns ALL_OF(x); exits \false;
     ensures interval(x); */
 static void enclose_operation(dyd_cert_enclosure *x, dyd_cert_op op, const dyd_cert_enclosure *y, long p);
-/* The block: numbers are made of those before, leaves are of numbers, roots are in brackets. LAST: the last number; while
- * a number is read, this is the one to be added, in its place behind those before. */
+/* The block: numbers are made of those before, leaves are of numbers, roots are in brackets. LAST: the last number;
+ * while a number is read, this is the one to be added, in its place behind those before. */
 /*@ axiomatic Last { logic integer LAST; axiom last: -1 <= LAST <= 4194304; }
     predicate block(numbers a) = \valid(a) && a->relations.count <= 64 && a->count - 1 <= LAST <= a->count &&
       \valid(a->number + (0 .. LAST)) && \separated(a, a->number + (0 .. LAST)) &&

@@ -44,7 +44,8 @@ void dyd_checker_init(dyd_checker *c, FILE *in, dyd_error *err);
     assigns *c; exits \false; */
 void dyd_checker_clear(dyd_checker *c);
 
-/* Of ties.c, which asks less, and proves that its lists stay; that all else which is known stays is not proved there. */
+/* Of ties.c, which asks less, and proves that its lists stay; that all else which is known stays is not proved
+ * there. */
 /*@ requires pairing(c) && begun(c); exits \false; ensures \result == DYD_OK ==> pairing(c); */
 dyd_status read_ties(dyd_checker *c);
 #define dyd_cert_ties_read(t, in, s) read_ties(c)

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/distance.c: what is reckoned on the grid, roots, sites kept of nested boxes. Areas are
  * numbers of 64 bits here: their values are no part of the proof. */
-/* Without mpz_set_area: v >> 64 is no shift of the 64 bits that stand for 128 here. */
 /* Unproved has_two_near_sites_assert: that all stays when s->effort grows, decided in 10 s when all is quiet. */
 #define __int128 long long
 #define SPELL_OUT
@@ -20,6 +19,12 @@
 #undef mpz_clears
 #define mpz_inits(a, b, c, d, end) mpz_init(a), mpz_init(b), mpz_init(c), mpz_init(d)
 #define mpz_clears(a, b, c, d, end) mpz_clear(a), mpz_clear(b), mpz_clear(c), mpz_clear(d)
+
+/* GMP's mpz_import of an area. */
+/*@ requires \valid(z) && whole(z) && count * size == sizeof(dyd_cert_area) && \valid_read(area); assigns z->value;
+    exits \false; ensures whole(z) && 0 <= sign(z); */
+void import_area(mpz_ptr z, size_t count, size_t size, const dyd_cert_area *area);
+#define mpz_import(z, count, order, size, endian, nails, area) import_area(z, count, size, area)
 
 /*@ requires -2305843009213693952 <= d <= 2305843009213693952; assigns \nothing; exits \false; */
 static inline dyd_cert_area dyd_cert_square(int64_t d);

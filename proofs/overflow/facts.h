@@ -9,8 +9,8 @@
 
 typedef const dyd_cert_ties *facts_of;
 
-/* stated: facts are about sites of the list of members; listing: that the lists may get longer; blocks are of their own,
- * with room in their list for more. */
+/* stated: facts are about sites of the list of members; listing: that the lists may get longer; blocks are of their
+ * own, with room in their list for more. */
 /*@ predicate within_members(facts_of t) = \forall integer q; 0 <= q < t->facts ==> 2 <= t->fact[q].count &&
       t->fact[q].first < t->members && t->fact[q].first + t->fact[q].count <= t->members <= 1152921504606846976;
     predicate stated(facts_of t) = \valid_read(t) &&

@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Contracts for src/checker/read.c: whatever bytes come, they are read where they are, and numbers stay in range. */
-/* Without dyd_cert_reject: it takes any number of arguments, which WP does not know; the text of its message is cut to
-   its size by vsnprintf. */
 #include "read.h"
 
 #include "base/alloc.h"
 #include "base/error.h"
+
+#include <stdarg.h>
+
+/* That arguments are of the types that the format names, the compiler looks at. */
+/*@ requires 0 < size && \valid(s + (0 .. size - 1)); assigns s[0 .. size - 1]; exits \false; */
+int vsnprintf(char *s, size_t size, const char *format, va_list args);
 
 /* As in lists.h; what it gives is in LINES. */
 /*@ requires \valid(array) && \valid(cap) && \separated(array, cap) && size == 1 && *cap <= 1152921504606846976;

@@ -35,7 +35,8 @@ typedef const dyd_cert_block *block_of;
 typedef const dyd_cert_described *described;
 typedef const dyd_cert_sites *sites_of;
 
-/*@ predicate ascending(described d, integer count) = \forall integer k, l; 0 <= k < l < count ==> d[k].site < d[l].site;
+/*@ predicate ascending(described d, integer count) =
+      \forall integer k, l; 0 <= k < l < count ==> d[k].site < d[l].site;
     predicate block(block_of b) = \valid_read(b) && b->points <= 4294967295 &&
       (0 < b->points ==> \valid_read(b->point + (0 .. b->points - 1))) && ascending(b->point, b->points);
     predicate numbered(numbers a) = \valid(a) && a->count <= 4194304 &&
@@ -181,7 +182,8 @@ static dyd_status read_point(dyd_cert_block *b, dyd_cert_reader *in, const dyd_c
 
 /* What is there while points are read: numbers, sites, a list of its own. */
 /*@ predicate based(block_of b, reading r, sites_of s) = \valid(b) && numbered(&b->algebra) && block_apart(b, r, s) &&
-      \separated(b, b->algebra.number + (0 .. b->algebra.count - 1)) && \valid_read(s) && s->count == SITES && rectangles(s) && sides_apart(b, s); */
+      \separated(b, b->algebra.number + (0 .. b->algebra.count - 1)) && \valid_read(s) && s->count == SITES &&
+      rectangles(s) && sides_apart(b, s); */
 /*@ requires kept(in) && based(b, in, s) && b->points == 0; exits \false;
     admit ensures apart: \result == DYD_OK ==> kept(in) && based(b, in, s) && whole_block(b) &&
       of_sites(b); // asserted before it returns */

@@ -149,9 +149,7 @@ static dyd_cert_area near_on_grid(const grid_box *q, const grid_box *b) {
 }
 
 static void mpz_set_area(mpz_ptr out, dyd_cert_area v) {
-  mpz_set_ui(out, (unsigned long)(v >> 64));
-  mpz_mul_2exp(out, out, 64);
-  mpz_add_ui(out, out, (unsigned long)v);
+  mpz_import(out, 1, 1, sizeof v, 0, 0, &v); /* one word, as it is in memory */
 }
 
 /* ---- pairs ---- */
