@@ -50,8 +50,10 @@ PARTS = {  # tests of some minutes; those but the first are of what reads and ke
     'blocks': ['algebra', 'algebra_enclose', 'algebra_bound', 'bracket', 'cycle', 'ties'],
 }
 ITEMS = {'start': 'sizes', 'first': 'sizes', 'entry': 'entries', 'term': 'terms', 'digits': 'chars', 'den': 'numbers',
-         'place': 'places', 'point': 'described', 'c': 'coefficients', 'cosine': 'cosines', 'box': 'boxes'}  # of lists, by name
-ZEROED = {'spare': 'sizes', 'covered': 'pair_counts', 'times': 'indices', 'stamp': 'stamps', 'b': 'block'}  # others: flags
+         'place': 'places', 'point': 'described', 'c': 'coefficients', 'cosine': 'cosines',
+         'box': 'boxes'}  # of lists, by name
+ZEROED = {'spare': 'sizes', 'covered': 'pair_counts', 'times': 'indices', 'stamp': 'stamps',
+          'b': 'block'}  # others: flags
 EXTRA = {'alloc': ['-warn-unsigned-overflow'], 'text': ['-wp-literals'], 'poly': ['-wp-literals', '-wp-prop=-owned'],
          'quotient': ['-wp-prop=-owned'],  # what has this name in terms.h is not proved
          **{name: ['-wp-literals'] for name in ('checker', 'pairs', 'diagram', 'certificate')},

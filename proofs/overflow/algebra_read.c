@@ -49,14 +49,8 @@ typedef const dyd_cert_bracket *bracket_of;
 typedef const dyd_cert_number *number_of;
 typedef dyd_cert_quotient *value_of;
 
-/* As in number.c and bracket.c; `read`: all but the value of number n of a block. */
-/*@ predicate known(numbers a) = \valid(a) && a->relations.count <= 64 && a->count < 4294967295 &&
-      \valid(a->number + (0 .. a->count)) && \separated(a, a->number + (0 .. a->count)) &&
-      (\forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number <= a->count) &&
-      (\forall integer k; 0 <= k <= a->count ==> a->number[k].a <= a->count);
-    predicate cycled(numbers a) = cosines(a) &&
-      \separated(a->cosine + (0 .. a->cycle - 1), a, a->number + (0 .. a->count));
-    predicate bracket(bracket_of r) = \valid_read(r) && 2 <= r->count <= 1001 &&
+/* Brackets, as in bracket.c; described: all but the value of number n of a block. */
+/*@ predicate bracket(bracket_of r) = \valid_read(r) && 2 <= r->count <= 1001 &&
       \valid_read(r->coeff + (0 .. r->count - 1)) &&
       (\forall integer k; 0 <= k < r->count ==> whole(&r->coeff[k][0])) &&
       whole(&r->end[0][0]) && whole(&r->end[1][0]) && whole(&r->end[2][0]) && whole(&r->end[3][0]) &&

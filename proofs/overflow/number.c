@@ -2,19 +2,12 @@
 /* Contracts for src/checker/number.c: leaves are of numbers that are there, and made where there is room. */
 #include "numbers.h"
 
-/* The number to be added is in its place behind those before. */
-/*@ predicate known(numbers a) = \valid(a) && a->relations.count <= 64 && a->count < 4294967295 &&
-      \valid(a->number + (0 .. a->count)) && \separated(a, a->number + (0 .. a->count)) &&
-      (\forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number <= a->count) &&
-      (\forall integer k; 0 <= k <= a->count ==> a->number[k].a <= a->count);
-    predicate stays{K, L}(numbers a) = known{L}(a) && \at(a->number, L) == \at(a->number, K) &&
+/*@ predicate stays{K, L}(numbers a) = known{L}(a) && \at(a->number, L) == \at(a->number, K) &&
       \at(a->count, L) == \at(a->count, K); */
 
 typedef const dyd_cert_quotient *operand;
 
-/*@ predicate cycled(numbers a) = cosines(a) &&
-      \separated(a->cosine + (0 .. a->cycle - 1), a, a->number + (0 .. a->count));
-    predicate elsewhere(polynomial p, operand x, numbers a) =
+/*@ predicate elsewhere(polynomial p, operand x, numbers a) =
       \separated(p->term + (0 .. p->count - 1), x, a, a->cosine + (0 .. a->cycle - 1));
     predicate given(operand u, operand x, numbers a) = \valid_read(u) && poly(&u->num) && poly(&u->den) &&
       \separated(u, x, a, a->cosine + (0 .. a->cycle - 1)) && elsewhere(&u->num, x, a) && elsewhere(&u->den, x, a); */

@@ -5,9 +5,17 @@
 
 #include "polys.h"
 
-/* Leaves of angles are in pairs, the cosine before its sine. This does not hold any more where there was room for the
- * cosine alone; the line is refused then. A block whose lines were all accepted has it. */
-/*@ predicate circular(integer op) = DYD_CERT_COS <= op <= DYD_CERT_TAN;
+/* known: the number to be added is in its place behind those before; listed: there is none to be added; cycled: the
+ * list of cosines is apart.
+ * angled: leaves of angles are in pairs, the cosine before its sine. This does not hold any more where there was room
+ * for the cosine alone; the line is refused then. A block whose lines were all accepted has it. */
+/*@ predicate known(numbers a) = \valid(a) && a->relations.count <= 64 && a->count < 4294967295 &&
+      \valid(a->number + (0 .. a->count)) && \separated(a, a->number + (0 .. a->count)) &&
+      (\forall integer k; 0 <= k < a->relations.count ==> a->leaf[k].number <= a->count) &&
+      (\forall integer k; 0 <= k <= a->count ==> a->number[k].a <= a->count);
+    predicate cycled(numbers a) = cosines(a) &&
+      \separated(a->cosine + (0 .. a->cycle - 1), a, a->number + (0 .. a->count));
+    predicate circular(integer op) = DYD_CERT_COS <= op <= DYD_CERT_TAN;
     predicate angle(numbers a, integer k) = !a->leaf[k].sine && circular(a->number[a->leaf[k].number].op);
     predicate angled(numbers a) = \forall integer k; 0 <= k < a->relations.count && angle(a, k) ==>
       k + 1 < a->relations.count;
