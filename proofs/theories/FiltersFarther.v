@@ -9,11 +9,9 @@ Open Scope R_scope.
 (* [FLT-FAR] src/legal/witness_filter.c: twice = {{} * c.lo, *)
 (* [FLT-FAR] src/legal/witness_filter.c: twice = {2 * c.lo, {} * c.hi}; *)
 Definition c_far_two : const := (1, 1)%Z.
-(* The rest of that file guesses, and is believed for "none" only: *)
-(* any src/legal/witness_filter.c: #define COARSE {} *)
+(* The rest of that file guesses; what it returns is proved [LEG-1] [WIT-FLT]: *)
 (* any src/legal/witness_filter.c: noise = q->size * {}; *)
 (* any src/legal/witness_filter.c: bound <= {}; bound *)
-(* any src/legal/witness_filter.c: r.z < {} * r.active *)
 (* C src/legal/witness_filter.c farther_along
   dyd_iv q = {dyd_max(k0, dyd_min(c.lo, k1)), dyd_min(k1, dyd_max(c.hi, k0))}, twice = {2 * c.lo, 2 * c.hi};
   double low[2];

@@ -71,12 +71,11 @@ dyd_lp_result dyd_lp_centre(const dyd_cut *cut, size_t count, double bound) {
     basis[leaves] = k;
   }
   best.bounded = true;
-  best.active = 0;
   for (int q = 0; q < 3; q++) {
     if (basis[q] >= frame && basis[q] < frame + 3)
       best.bounded = false;
     else
-      best.active = fmax(best.active, fabs(basis[q]->d));
+      best.basis[q] = (int)(basis[q] - cut);
   }
   return best;
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
-/* A small linear programme in doubles: the centre of the largest disc inside a few half-planes.
+/* A small linear program in doubles: the centre of the largest disc inside a few half-planes.
  *
- * It only proposes: its user proves that the centre is a witness, so no error bound is needed here. */
+ * It only proposes: its user proves that the centre is a witness, or that three half-planes have no common point, so no
+ * error bound is needed here. */
 #ifndef DYD_LEGAL_LP_FILTER_H
 #define DYD_LEGAL_LP_FILTER_H
 
@@ -18,8 +19,8 @@ typedef struct dyd_cut {
 /* The centre x maximises z = min over the cuts of n.x + d, within about `bound` of the origin. */
 typedef struct dyd_lp_result {
   double x, y, z;
-  double active; /* largest |d| among the three cuts that hold z */
-  bool bounded;  /* none of the three is the artificial bound */
+  int basis[3]; /* the three cuts that bound z */
+  bool bounded; /* none of the three is the artificial bound; else basis is unset */
 } dyd_lp_result;
 
 dyd_lp_result dyd_lp_centre(const dyd_cut *cut, size_t count, double bound);

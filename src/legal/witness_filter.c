@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Cutting planes in doubles, as in witness.c, with distances bounded as in skeleton/distance_filter.h.
  *
- * A witness is stated only when ds_k^2 from below exceeds dl_i^2, dl_j^2 from above for everybody the tree names.
- * "None" is no statement about points (the pair just stays undecided), so the half-planes need no proved bound; still
- * they are trusted only when their common disc is empty by far more than their rounding errors. */
+ * A witness is reported only if ds_k^2 from below exceeds dl_i^2 and dl_j^2 from above for every k that the tree names.
+ *
+ * "None" is reported only if three of the half-planes have no common point, in intervals [WIT-FLT]: the linear program
+ * proposes three, and their points are enclosed anew. With a_k = p_k - q_k, p_k in R_i or R_j and q_k in another
+ * rectangle, a witness x has a_k.(2 x - p_k - q_k) > 0 [WIT-1]. If l_k > 0 and sum l_k a_k = 0, then a witness implies
+ * sum l_k a_k.(p_k + q_k) < 0. The l_k are the cross products of the other two a_k. */
 #include "legal/witness_filter.h"
 
 #include "legal/lp_filter.h"
@@ -13,9 +16,13 @@
 #include <math.h>
 
 enum { STEPS = 24, MAX_RIVALS = 12, MAX_NEIGHBOURS = 48 };
-/* Half-planes known up to this part of the distances are good enough for an "empty" by 1e-9 of them. */
-#define COARSE 0x1p-36
 
+/* The two points of a half-plane, enclosed: p of R_i or R_j, q of the other rectangle. */
+typedef struct cut_points {
+  dyd_iv p[2], q[2];
+} cut_points;
+
+/* Invariant: from[k] has the points of cut[k], for k < cuts. */
 typedef struct quick {
   const dyd_rects *rects;
   uint32_t i, j;
@@ -27,10 +34,9 @@ typedef struct quick {
   uint32_t neighbour[MAX_NEIGHBOURS]; /* of i and j in the skeleton: asked before all others */
   int neighbours;
   dyd_cut cut[DYD_LP_CUTS];
+  cut_points *from;
   size_t cuts;
-  double size;  /* of the coordinates met */
-  double slack; /* by how much boxes of the pair are wider than their rectangles */
-  bool coarse;  /* some half-plane depends on that */
+  double size; /* of the coordinates met */
 } quick;
 
 /* Keeps the nearest ones; who is farther than all of them is not asked any more. */
@@ -70,35 +76,80 @@ static double witness_nearest_d(double c, double lo, double hi) {
   return c < lo ? lo : c > hi ? hi : c;
 }
 
-/* The half-plane nearer to the far corner of `own` than to the nearest point of `other`, relative to c; false: they
- * touch. */
-static bool witness_add_cut(quick *q, dyd_xy c, const dyd_bbox *own, const dyd_bbox *other, double slack) {
-  double sx = witness_farther_end(c.x, own->e[0], own->e[1]), sy = witness_farther_end(c.y, own->e[2], own->e[3]);
-  double qx = witness_nearest_d(c.x, other->e[0], other->e[1]), qy = witness_nearest_d(c.y, other->e[2], other->e[3]);
-  double ax = sx - qx, ay = sy - qy, length = hypot(ax, ay);
-  if (!(length > 0)) return false;
-  if (slack > length * COARSE) q->coarse = true;
+/* The lower or upper end of a rectangle on one axis, at most `slack` inside of its box. */
+static dyd_iv witness_end(double lo, double hi, bool upper, double slack) {
+  if (slack == 0) return dyd_iv_point(upper ? hi : lo);
+  return upper ? (dyd_iv){dyd_max(lo, dyd_down(hi - slack)), hi} : (dyd_iv){lo, dyd_min(hi, dyd_up(lo + slack))};
+}
+
+/* The point of a rectangle that is nearest to c, on one axis: between the ends it is c. */
+static dyd_iv witness_nearest_point(double c, double lo, double hi, double slack) {
+  dyd_iv low = witness_end(lo, hi, false, slack), high = witness_end(lo, hi, true, slack);
+  return (dyd_iv){dyd_min(dyd_max(c, low.lo), high.lo), dyd_max(dyd_min(c, high.hi), low.hi)};
+}
+
+/* The half-plane nearer to the far corner of rectangle `own` than to the nearest point of `other`, relative to c;
+ * false: they touch. */
+static bool witness_add_cut(quick *q, dyd_xy c, uint32_t own, uint32_t other) {
+  const double *a = q->rects->box[own].e, *b = q->rects->box[other].e, at[2] = {c.x, c.y};
+  double n[2], middle[2], slack[2] = {dyd_box_slack(q->rects, own), dyd_box_slack(q->rects, other)};
   if (q->cuts == DYD_LP_CUTS) return true;
-  dyd_cut *k = &q->cut[q->cuts++];
-  k->nx = ax / length;
-  k->ny = ay / length;
-  k->d = k->nx * (c.x - (sx + qx) / 2) + k->ny * (c.y - (sy + qy) / 2);
-  q->size = dyd_max(q->size, dyd_max(dyd_max(fabs(sx), fabs(sy)), dyd_max(fabs(c.x), fabs(c.y))));
+  cut_points *from = &q->from[q->cuts];
+  for (int k = 0; k < 2; k++) {
+    double lo = a[2 * k], hi = a[2 * k + 1];
+    double s = witness_farther_end(at[k], lo, hi), t = witness_nearest_d(at[k], b[2 * k], b[2 * k + 1]);
+    from->p[k] = witness_end(lo, hi, s == hi, slack[0]);
+    from->q[k] = witness_nearest_point(at[k], b[2 * k], b[2 * k + 1], slack[1]);
+    n[k] = s - t;
+    middle[k] = (s + t) / 2;
+    q->size = dyd_max(q->size, dyd_max(fabs(s), fabs(at[k])));
+  }
+  double length = hypot(n[0], n[1]);
+  if (!(length > 0)) return false;
+  dyd_cut *cut = &q->cut[q->cuts++];
+  *cut = (dyd_cut){n[0] / length, n[1] / length, 0};
+  cut->d = cut->nx * (c.x - middle[0]) + cut->ny * (c.y - middle[1]);
   return true;
 }
 
 static bool witness_add_cuts(quick *q, dyd_xy c) {
-  for (int k = 0; k < q->rivals; k++) {
-    const dyd_bbox *other = &q->rects->box[q->rival[k]];
-    double slack = dyd_max(q->slack, dyd_box_slack(q->rects, q->rival[k]));
-    if (!witness_add_cut(q, c, &q->rects->box[q->i], other, slack) ||
-        !witness_add_cut(q, c, &q->rects->box[q->j], other, slack))
-      return false;
-  }
+  for (int k = 0; k < q->rivals; k++)
+    if (!witness_add_cut(q, c, q->i, q->rival[k]) || !witness_add_cut(q, c, q->j, q->rival[k])) return false;
   return true;
 }
 
-/* The next centre: TRUE; FALSE: no room; UNKNOWN: too close to tell in doubles. */
+static dyd_iv witness_cross(const dyd_iv u[2], const dyd_iv v[2]) {
+  return dyd_iv_sub(dyd_iv_mul(u[0], v[1]), dyd_iv_mul(u[1], v[0]));
+}
+
+/* a = p - q, and a.(p + q - 2 c). */
+static dyd_iv witness_offset(dyd_iv a[2], const cut_points *f, const double c[2]) {
+  dyd_iv along[2];
+  for (int k = 0; k < 2; k++) {
+    dyd_iv at = dyd_iv_point(c[k]);
+    a[k] = dyd_iv_sub(f->p[k], f->q[k]);
+    along[k] = dyd_iv_mul(a[k], dyd_iv_add(dyd_iv_sub(f->p[k], at), dyd_iv_sub(f->q[k], at)));
+  }
+  return dyd_iv_add(along[0], along[1]);
+}
+
+/* Returns true if the three half-planes certainly have no common point [WIT-FLT]. */
+static bool witness_is_excluded_d(const quick *q, dyd_xy c, const int three[3]) {
+  const double at[2] = {c.x, c.y};
+  dyd_iv a[3][2], offset[3], sum = dyd_iv_point(0);
+  for (int k = 0; k < 3; k++) offset[k] = witness_offset(a[k], &q->from[three[k]], at);
+  int sign = 0;
+  for (int k = 0; k < 3; k++) {
+    dyd_iv l = witness_cross(a[(k + 1) % 3], a[(k + 2) % 3]);
+    int s = dyd_iv_sign(l);
+    if (s == 0 || (sign != 0 && s != sign)) return false;
+    sign = s;
+    sum = dyd_iv_add(sum, dyd_iv_mul(l, offset[k]));
+  }
+  return dyd_iv_sign(sum) == sign;
+}
+
+/* Sets the next centre and returns TRUE; FALSE if there certainly is no witness; UNKNOWN if doubles are too coarse. */
 static dyd_truth witness_move(quick *q, dyd_xy *c) {
   double scale = 0, noise = q->size * 0x1p-46;
   for (size_t k = 0; k < q->cuts; k++) scale = dyd_max(scale, fabs(q->cut[k].d));
@@ -107,7 +158,7 @@ static dyd_truth witness_move(quick *q, dyd_xy *c) {
     r = dyd_lp_centre(q->cut, q->cuts, bound * scale);
     if (r.z > 0 || r.bounded) break;
   }
-  if (r.bounded && r.z < -1e-9 * r.active - noise) return q->coarse ? DYD_UNKNOWN : DYD_FALSE;
+  if (r.bounded && r.z < 0 && witness_is_excluded_d(q, *c, r.basis)) return DYD_FALSE;
   if (!(r.z > noise) || !isfinite(r.x) || !isfinite(r.y)) return DYD_UNKNOWN;
   dyd_xy next = {c->x + r.x, c->y + r.y};
   double dx = next.x - c->x, dy = next.y - c->y;
@@ -117,9 +168,9 @@ static dyd_truth witness_move(quick *q, dyd_xy *c) {
 }
 
 dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j) {
-  quick q = {.rects = w->rects, .i = i, .j = j};
+  cut_points from[DYD_LP_CUTS];
+  quick q = {.rects = w->rects, .i = i, .j = j, .from = from};
   if (!isfinite(c->x) || !isfinite(c->y)) return DYD_UNKNOWN;
-  q.slack = dyd_max(dyd_box_slack(q.rects, i), dyd_box_slack(q.rects, j));
   q.neighbours = dyd_neighbours(q.neighbour, MAX_NEIGHBOURS, sk, i, j);
   for (int step = 0; step < STEPS; step++) {
     witness_evaluate_d(&q, *c);

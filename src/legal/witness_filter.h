@@ -5,9 +5,9 @@
 
 #include "skeleton/work.h"
 
-/* TRUE: *c is a witness of i, j, proved by distance bounds; FALSE: there is none, or the largest disc of witnesses has
- * a radius below 1e-9 of the distances that bound it; UNKNOWN: doubles are too coarse, *c is the last centre tried. *c
- * is the first guess before. */
+/* Returns TRUE if *c is a witness of i, j, proved by distance bounds; FALSE if there is none, proved by three
+ * half-planes [WIT-FLT]; UNKNOWN if doubles are too coarse: *c is the last centre tried then. *c is the first guess
+ * before. */
 dyd_truth dyd_filter_witness(dyd_xy *c, const dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j);
 
 /* Is everything in the box k surely farther from all of the box c than everything in the box s? Also where c is far

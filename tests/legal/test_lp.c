@@ -58,7 +58,9 @@ static void test_lp(void **state) {
                           : value > r.z - 1e-5 && r.z > framed - 1e-5 && r.z < own + 1e-5;
     bounded += r.bounded;
     if (!r.bounded && hypot(r.x, r.y) > 10 * bound) continue; /* an open end: any centre far out will do */
-    if (good && (!r.bounded || r.active <= 2)) continue;
+    if (good && r.bounded)
+      good = triple(&value, &cut[r.basis[0]], &cut[r.basis[1]], &cut[r.basis[2]]) && fabs(value - own) < 1e-5;
+    if (good) continue;
     for (size_t q = 0; q < count; q++) fprintf(stderr, "%a %a %a\n", cut[q].nx, cut[q].ny, cut[q].d);
     fail_msg("%zu cuts: %g, at the point %g; best %g, in the frame %g", count, r.z, value, own, framed);
   }

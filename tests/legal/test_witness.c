@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* The verdicts of the search for witnesses, in doubles and in integers, for all pairs of small sets of boxes: "none" in
- * doubles is "none" in integers, nearly all that have none are told so in doubles, and who meets an end excludes all.
- */
+ * doubles is "none" in integers [WIT-FLT], doubles find nearly all pairs without a witness, and a rectangle that meets
+ * an end excludes all witnesses. */
 #include <setjmp.h>
 #include <stdarg.h>
 
@@ -14,11 +14,10 @@
 
 enum { MOST = 9 };
 
-/* Pairs: with a witness, and of these missed, "none" in doubles; of those that have none, whose ends are met, or, if
- * they are apart, that are told so in doubles or not. */
+/* Pairs with a witness; of those without one, pairs whose ends are met, and pairs apart for which doubles say so or
+ * not. */
 typedef struct verdicts {
-  size_t some, met, told, untold, missed;
-  bool fine; /* ends are off by so little that room for witnesses may be less than doubles are asked to see */
+  size_t some, met, told, untold;
 } verdicts;
 
 /* x += k 2^e */
@@ -38,12 +37,11 @@ static void set_end(dyd_dyadic *out, int64_t x, int64_t k, int e) {
 
 /* Whole numbers up to 16 and sides up to 4: many touch, are on one circle, or leave next to no room. In some sets some
  * ends are off by a few 2^e, which doubles may not hold. */
-static dyd_sites *make_boxes(bool *fine, test_random *r, size_t n) {
+static dyd_sites *make_boxes(test_random *r, size_t n) {
   dyd_sites *s = NULL;
   dyd_rect box;
   int most = (int)test_between(r, 3, 16), e = -(int)test_between(r, 4, 80);
   bool off = test_chance(r, 2);
-  *fine = off && e < -24;
   assert_int_equal(dyd_sites_new(&s), DYD_OK);
   dyd_rect_init(&box);
   for (size_t k = 0; k < n; k++) {
@@ -84,22 +82,6 @@ static dyd_xy make_guess(test_random *r, const dyd_bbox *a, const dyd_bbox *b) {
                   (a->e[2] + b->e[3]) / 2 + spread * (test_unit(r) - 0.5)};
 }
 
-/* Is a square about c, if that is not far away, all witnesses, which are a convex set? Its sides are more than 1e-9 of
- * the distances of c. */
-static bool has_room(dyd_work *w, const dyd_skeleton *sk, uint32_t i, uint32_t j, const dyd_point *c) {
-  bool room = fabs(dyd_dyadic_get_d(&c->x, DYD_UP)) < 0x1p12 && fabs(dyd_dyadic_get_d(&c->y, DYD_UP)) < 0x1p12;
-  dyd_point at;
-  dyd_point_init(&at);
-  for (int k = 0; k < 4 && room; k++) {
-    dyd_point_set(&at, c);
-    add_bits(&at.x, k & 1 ? 1 : -1, -16);
-    add_bits(&at.y, k & 2 ? 1 : -1, -16);
-    room = dyd_witness_check(w, sk, i, j, &at);
-  }
-  dyd_point_clear(&at);
-  return room;
-}
-
 static void look_at_pair(verdicts *v, dyd_work *w, dyd_skeleton *sk, test_random *r, uint32_t i, uint32_t j) {
   dyd_xy guess = make_guess(r, &sk->rects.box[i], &sk->rects.box[j]), at = guess;
   dyd_truth exact = DYD_UNKNOWN, quick = dyd_filter_witness(&at, w, sk, i, j);
@@ -110,13 +92,10 @@ static void look_at_pair(verdicts *v, dyd_work *w, dyd_skeleton *sk, test_random
   assert_int_equal(dyd_witness_decide(&exact, &c, w, sk, i, j, guess, NULL), DYD_OK);
   if (exact == DYD_TRUE) assert_true(dyd_witness_check(w, sk, i, j, &c));
   sk->mesh.no_filter = false;
-  bool missed = v->fine && quick == DYD_FALSE && exact == DYD_TRUE;
-  if (missed) assert_false(has_room(w, sk, i, j, &c));
-  if (quick != DYD_UNKNOWN && !missed) assert_int_equal(quick, exact);
+  if (quick != DYD_UNKNOWN) assert_int_equal(quick, exact); /* [WIT-FLT] */
   if (met) assert_int_equal(exact, DYD_FALSE);
   assert_int_equal(dyd_witness_search(&found, NULL, w, sk, i, j, guess, NULL), DYD_OK);
-  assert_int_equal(found, exact == DYD_TRUE && !missed);
-  v->missed += missed;
+  assert_int_equal(found, exact == DYD_TRUE);
   *(exact == DYD_TRUE ? &v->some : met ? &v->met : quick == DYD_FALSE ? &v->told : &v->untold) += 1;
   dyd_point_clear(&c);
 }
@@ -126,7 +105,7 @@ static void test_verdicts(void **state) {
   (void)state;
   test_random r = test_random_start("verdicts on witnesses");
   for (size_t k = test_cases(3000); k; k--) {
-    dyd_sites *s = make_boxes(&v.fine, &r, (size_t)test_between(&r, 4, MOST));
+    dyd_sites *s = make_boxes(&r, (size_t)test_between(&r, 4, MOST));
     const dyd_skeleton_options o = {.threads = 1};
     dyd_skeleton sk;
     dyd_work w;
@@ -140,9 +119,9 @@ static void test_verdicts(void **state) {
     dyd_skeleton_clear(&sk);
     dyd_sites_free(s);
   }
-  print_message("%zu with a witness, %zu of these missed, %zu met, %zu none in doubles, %zu not\n", v.some, v.missed,
-                v.met, v.told, v.untold);
-  assert_true(v.some > 1000 && v.met > 1000 && v.told > 1000 && v.untold < v.told / 8 && v.missed < v.some / 100);
+  print_message("%zu with a witness, %zu met, %zu none in doubles, %zu not\n", v.some, v.met, v.told, v.untold);
+  assert_true(v.some > 1000 && v.met > 1000 && v.told > 1000 &&
+              v.untold < v.told / 6); /* antiparallel half-planes are left to integers */
 }
 
 int main(void) {
