@@ -103,6 +103,11 @@ typedef struct dyd_delaunay_options {
   uint64_t max_bytes; /* memory for it, without the sites, by its own estimate: DYD_E_NOMEM before more is asked for,
                          with what took too much in *err; 0: no bound. Calls that make more of it later (lists of
                          pairs and triangles, voronoi.h, metric.h, graph.h, tolerance.h, survey.h) have what is left */
+  /* NULL, or returns true if the rectangle of the site can still shrink as far as wanted. A face of many triangles
+   * whose corners all can, or are points, is postponed: it is not closed but counts as met by the cap, since its many
+   * pairs would be found for wide rectangles only. Called from all threads. */
+  bool (*narrows)(void *user, uint32_t site);
+  void *narrows_user;
 } dyd_delaunay_options;
 
 typedef struct dyd_delaunay dyd_delaunay;

@@ -409,19 +409,20 @@ static dyd_status skeleton_pairs(closing *c) {
 }
 
 dyd_status dyd_closure_run(dyd_closure *out, dyd_work *w, const dyd_skeleton *sk, const uint32_t *tri, uint32_t tris,
-                           size_t room) {
+                           size_t room, bool postponed) {
   closing c = {.sk = sk, .w = w, .out = out, .tri = tri, .tris = tris, .room = room, .patience = PATIENCE};
   *out = (dyd_closure){0};
   dyd_status st = closing_gather(&c);
   if (st == DYD_OK) st = dyd_pair_map_init(&c.map, out->vertices + 1);
-  out->polygon = st == DYD_OK && is_polygon(&c);
+  out->polygon = st == DYD_OK && !postponed && is_polygon(&c);
+  out->postponed = c.full = postponed;
   if (out->polygon) {
     uint64_t m = out->vertices;
     if (m * (m - 1) / 2 > room + 3 * (uint64_t)tris)
       c.full = true;
     else
       st = all_pairs(&c);
-  } else if (st == DYD_OK) {
+  } else if (st == DYD_OK && !postponed) {
     st = w->keep_cut && dyd_work_cancelled(w) ? DYD_CANCELLED : closing_run(&c);
     if (st == DYD_OK) st = closing_collect(&c, c.map.links);
   }

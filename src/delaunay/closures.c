@@ -16,6 +16,35 @@ typedef struct batch {
   dyd_work *work;
 } batch;
 
+/* Least number of triangles of a face that can be postponed; in the armed build small faces are, too. */
+#ifdef DYD_ARMED
+enum { MANY = 16 };
+#else
+enum { MANY = 64 };
+#endif
+
+/* Returns true if all corners of many triangles are points or can be narrowed. Not all are points: no cover walk is
+ * needed for those. */
+static bool face_is_postponed(const dyd_delaunay *pd, const dyd_face *face) {
+  const dyd_delaunay_options *o = &pd->options;
+  bool any = false;
+  if (!o->narrows || face->tris < MANY) return false;
+  for (uint32_t q = 0; q < face->tris; q++)
+    for (int k = 0; k < 3; k++) {
+      uint32_t v = pd->sk.mesh.tri[pd->open.tri[face->first_tri + q]].v[k];
+      if (v == pd->sk.mesh.n || dyd_vertex_is_point(&pd->sk, v)) continue;
+      if (!o->narrows(o->narrows_user, pd->sk.reps.site[v])) return false;
+      any = true;
+    }
+  return any;
+}
+
+dyd_status dyd_closures_run_one(dyd_closure *out, const dyd_delaunay *pd, dyd_work *w, const dyd_face *face,
+                                size_t room) {
+  return dyd_closure_run(out, w, &pd->sk, pd->open.tri + face->first_tri, face->tris, room,
+                         face_is_postponed(pd, face));
+}
+
 /* Closures of one range; those after a failure stay empty. */
 static void close_range(void *context, size_t number) {
   batch *b = context;
@@ -26,8 +55,7 @@ static void close_range(void *context, size_t number) {
     const dyd_face *f = &b->pd->open.face[b->first + k];
     if (f->proved) continue;
     st = DYD_CANCELLED;
-    if (w->keep_cut || !dyd_work_cancelled(w))
-      st = dyd_closure_run(&b->out[k], w, &b->pd->sk, b->pd->open.tri + f->first_tri, f->tris, b->room);
+    if (w->keep_cut || !dyd_work_cancelled(w)) st = dyd_closures_run_one(&b->out[k], b->pd, w, f, b->room);
     w->counters.faces++;
   }
   b->status[number] = st;

@@ -5,6 +5,9 @@
 
 #include "delaunay/closure.h"
 
+/* The closure of one face of the table. */
+dyd_status dyd_closures_run_one(dyd_closure *out, const dyd_delaunay *pd, dyd_work *w, const dyd_face *face,
+                                size_t room);
 /* out[k] becomes the closure of face first + k of the table (nothing, where that is proved), in w->threads threads;
  * each may keep `room` pairs. The same for every number of threads. On failure nothing is left to clear; the failure is
  * that of the first face that has one, DYD_CANCELLED when the work was stopped. */

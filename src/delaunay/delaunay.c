@@ -24,6 +24,7 @@ static void set_options(dyd_delaunay *pd, const dyd_delaunay_options *options, s
 static dyd_status finish(dyd_delaunay *pd, dyd_status st, dyd_error *err) {
   pd->options.cancel = NULL;
   pd->options.prove = NULL;
+  pd->options.narrows = NULL;
   if (pd->room.peak > pd->counters.bytes_most) pd->counters.bytes_most = pd->room.peak;
   if (st == DYD_E_NOMEM && pd->room.refused) return dyd_fail_room(err, &pd->room);
   if (st == DYD_OK) return dyd_delaunay_is_capped(pd) ? DYD_CAPPED : DYD_OK;

@@ -88,8 +88,12 @@ static dyd_status find_faces(dyd_delaunay *pd, dyd_work *w, const uint32_t *tri,
 /* ---- closing ---- */
 
 static dyd_status store(dyd_delaunay *pd, dyd_work *w, const dyd_closure *c, size_t g) {
-  dyd_face as = {
-      .pairs = (uint32_t)c->pairs, .outer = c->outer, .tie = c->all_points, .capped = c->capped, .polygon = c->polygon};
+  dyd_face as = {.pairs = (uint32_t)c->pairs,
+                 .outer = c->outer,
+                 .tie = c->all_points,
+                 .capped = c->capped,
+                 .postponed = c->postponed,
+                 .polygon = c->polygon};
   uint64_t pairs = dyd_bytes_times(pd->open.pair_count + as.pairs, sizeof *c->pair);
   if (!dyd_room_has(&w->room, pairs / 2 * 3, "the possible pairs")) return DYD_E_NOMEM;
   dyd_status st = dyd_table_store(pd, g, as, c->pair);
@@ -113,7 +117,7 @@ static dyd_status close_batch(dyd_closure *c, dyd_delaunay *pd, dyd_work *w, siz
     dyd_face *face = &pd->open.face[g + k];
     if (st == DYD_OK && !face->proved && (c[k].capped || c[k].pairs > room_left(pd)) && room_left(pd) < room) {
       dyd_closure_clear(&c[k]);
-      st = dyd_closure_run(&c[k], w, &pd->sk, pd->open.tri + face->first_tri, face->tris, room_left(pd));
+      st = dyd_closures_run_one(&c[k], pd, w, face, room_left(pd));
     }
     if (st == DYD_OK && !face->proved) st = store(pd, w, &c[k], g + k);
     dyd_closure_clear(&c[k]);

@@ -29,12 +29,13 @@ static inline int dyd_compare_pair(const void *a, const void *b) {
 
 /* Invariant: tri[first_tri .. first_tri + tris) and pair[first_pair .. + pairs) of the table, pairs sorted;
  * polygon: a cocircular polygon or collinear chain, which shares its pairs with no other polygon; tie: all vertices are
- * exact points, or it is proved; capped: pairs beyond the skeleton are missing. */
+ * exact points, or it is proved; capped: pairs beyond the skeleton are missing;
+ * postponed: capped, since its sites can be narrowed. */
 typedef struct dyd_face {
   size_t first_tri, first_pair;
   uint32_t tris;
   uint32_t pairs, hidden; /* how many, and how many of them are hidden */
-  bool outer, tie, capped, polygon;
+  bool outer, tie, capped, postponed, polygon;
   bool proved; /* a tie of points that are not all exact: proved.h */
 } dyd_face;
 

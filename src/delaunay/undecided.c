@@ -74,6 +74,15 @@ bool dyd_open_is_outer(const dyd_delaunay *pd, size_t f) {
   }
 }
 
+bool dyd_open_is_capped(const dyd_delaunay *pd, size_t f) {
+  if (pd->open.kind == DYD_LINE) return pd->open.capped;
+  return pd->open.kind == DYD_LISTED ? pd->open.face[f].capped : dyd_tie_is_capped(pd, f);
+}
+
+bool dyd_open_is_postponed(const dyd_delaunay *pd, size_t f) {
+  return pd->open.kind == DYD_LISTED && pd->open.face[f].postponed;
+}
+
 /* ---- one pair ---- */
 
 static bool is_in_face(const dyd_delaunay *pd, uint32_t v, uint32_t face) {

@@ -16,6 +16,9 @@ dyd_pair_status dyd_open_status_of(const dyd_delaunay *pd, size_t f);
 dyd_status dyd_open_vertices(uint32_t **vertex, size_t *count, const dyd_delaunay *pd, size_t f);
 /* Does it have triangles at the ghost? */
 bool dyd_open_is_outer(const dyd_delaunay *pd, size_t f);
+/* Returns true if pairs of face f beyond the skeleton are missing, and if that is so since the face was postponed. */
+bool dyd_open_is_capped(const dyd_delaunay *pd, size_t f);
+bool dyd_open_is_postponed(const dyd_delaunay *pd, size_t f);
 /* The status of a pair that is not legal: not yet decided, or illegal. */
 dyd_pair_status dyd_open_status(const dyd_delaunay *pd, uint32_t v, uint32_t w);
 /* How many pairs of each status, that are not legal, are added to count[]. */

@@ -23,6 +23,7 @@
 #include "engine/aliases.h"
 #include "engine/bytes.h"
 #include "engine/points.h"
+#include "engine/settle_firm.h"
 #include "engine/ties.h"
 #include "engine/watch.h"
 
@@ -240,8 +241,22 @@ static dyd_status ask_settle(dyd_engine *e, const dyd_delaunay_options *o, dyd_e
   return st;
 }
 
-/* Makes the result, or brings it up to date, and reports. */
-static dyd_status ask_triangulate(ask *a, dyd_error *err) {
+/* Returns true if a plan may ask for more of both sides of the site. */
+static bool ask_narrows(void *user, uint32_t site) {
+  const ask *a = user;
+  const dyd_refinable *p = dyd_engine_find(a->e, site);
+  if (!p || p->final || p->bits >= a->o.max_bits) return false;
+  dyd_rect r;
+  dyd_rect_init(&r);
+  bool fixed[2] = {true, true};
+  if (dyd_sites_get(&r, a->e->sites, site) == DYD_OK) dyd_site_fixed_sides(fixed, a->e, site, &r);
+  bool narrows = (!fixed[0] || dyd_interval_is_point(&r.x)) && (!fixed[1] || dyd_interval_is_point(&r.y));
+  dyd_rect_clear(&r);
+  return narrows;
+}
+
+/* Makes the result, or brings it up to date, and reports. failed: no stage follows. */
+static dyd_status ask_triangulate(ask *a, bool failed, dyd_error *err) {
   dyd_engine *e = a->e;
   uint64_t max_bytes;
   dyd_status st = ask_room_to_triangulate(&max_bytes, a);
@@ -256,12 +271,14 @@ static dyd_status ask_triangulate(ask *a, dyd_error *err) {
                                                         : dyd_ties_prove,
                                   .prove_user = e->prover ? e->prover_user : e,
                                   .keep_cut = !e->pd,
+                                  .narrows = e->postpones && !failed ? ask_narrows : NULL,
+                                  .narrows_user = a,
                                   .max_bytes = max_bytes};
   st = ask_settle(e, &o, err);
   if (st == DYD_CANCELLED) return ask_end_interrupted(a);
   if (st != DYD_OK) return st;
   e->max_pairs = a->o.max_pairs;
-  e->cut = ask_was_cut(e, &o);
+  e->cut = ask_was_cut(e, &o) || (o.narrows && dyd_delaunay_is_capped(e->pd));
   e->proof_bits = o.prove ? a->o.tie_bits : 0;
   e->changes = 0;
   e->stages++;
@@ -336,7 +353,7 @@ static dyd_status ask_stage(ask *a) {
   if (!a->q->triangulate || a->again) return failed;
   if (cut && !e->pd) ask_end_budget(a, DYD_BUDGET_CALLS);
   if ((cut || failed != DYD_OK) && (!e->pd || e->changes == 0)) return failed;
-  dyd_status st = ask_triangulate(a, failed != DYD_OK ? &ignored : &a->err);
+  dyd_status st = ask_triangulate(a, failed != DYD_OK, failed != DYD_OK ? &ignored : &a->err);
   return failed != DYD_OK ? failed : st;
 }
 

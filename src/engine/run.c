@@ -54,9 +54,13 @@ static dyd_status goal_run(dyd_outcome *outcome, dyd_engine *e, const dyd_engine
   const dyd_question question = {DYD_SIZED(dyd_question), .ask = goal_ask, .user = &g, .triangulate = true};
   e->goal = o->goal;
   e->goal_bits = o->goal_bits;
+  /* Where a stage may be the last one, or bounds are asked for, all pairs are needed at once. */
+  e->postpones = o->goal == DYD_GOAL_DECIDED && o->schedule == DYD_SCHEDULE_ADAPTIVE && !o->step_bits &&
+                 !o->max_stages && !o->max_calls;
   dyd_plan_init(&g.held, e, o, NULL, 0);
   dyd_status st = dyd_thrift_init(&g.thrift, e, o);
   st = st == DYD_OK ? dyd_ask(outcome, &e->spent, e, &question, o, err) : dyd_fail_nomem(err);
+  e->postpones = false;
   dyd_thrift_clear(&g.thrift);
   dyd_plan_clear(&g.held);
   dyd_scouts_clear(&g.scouts);

@@ -4,8 +4,8 @@
  * Towards "decided": in each undecided face, those ends of indeterminate pairs that are coarsest for their surroundings
  * (coarse.c); where no end can be narrowed further, the coarsest sites of the face, since a blocker may be what keeps a
  * pair open. Sites of the face that are no ends follow one step behind, so that a wide blocker is not left alone while
- * the ends are refined for nothing. In a result that met its cap pairs are missing: all sites of the undecided faces
- * are refined.
+ * the ends are refined for nothing. Where pairs of a face are missing, since it met the cap or was postponed, all its
+ * sites are refined.
  *
  * Pairs of which it is known that no refinement decides them (settle.c) count for nothing here.
  *
@@ -27,7 +27,9 @@
  * (plan.c): the loop ends. */
 #include "engine/schedule.h"
 #include "delaunay/memory.h"
+#include "delaunay/undecided.h"
 
+#include "base/alloc.h"
 #include "engine/coarse.h"
 #include "engine/goal_voronoi.h"
 #include "engine/points.h"
@@ -148,23 +150,32 @@ static void mark_blockers(dyd_plan *plan, const dyd_coarse *c, bool ends, int64_
   }
 }
 
-/* Marks all sites of a face whose pairs are not all known. */
-static dyd_status plan_capped(dyd_plan *plan, size_t f) {
+/* Marks all sites of a face whose pairs are not all known: to twice their bits, or to where a tie was seen to be none.
+ * Nothing tells yet which of them are enough. Scouts need pairs that cross: each site with one half of the face on. */
+static dyd_status plan_capped(dyd_plan *plan, dyd_helpers *h, size_t f) {
   dyd_index_list sites = {0};
-  bool outer;
+  bool outer, lacks = false;
   dyd_status st = dyd_delaunay_face(&sites, &outer, plan->e->pd, f);
+  dyd_pair_list across = {st == DYD_OK ? sites.count : 0, dyd_alloc(sites.count, sizeof *across.item)};
+  if (!across.item) st = DYD_E_NOMEM;
   for (size_t k = 0; st == DYD_OK && k < sites.count; k++) {
     const dyd_refinable *p = dyd_engine_find(plan->e, sites.item[k]);
-    if (dyd_plan_can_narrow(plan, p))
-      dyd_plan_mark_alone(plan, p, dyd_bits_grown(p->bits, plan->o), DYD_REASON_BLOCKER);
+    across.item[k] = (dyd_pair){sites.item[k], sites.item[(k + sites.count / 2) % sites.count], DYD_INDETERMINATE};
+    if (!dyd_plan_can_narrow(plan, p)) continue;
+    int64_t bits = dyd_bits_grown(p->bits, plan->o);
+    lacks = lacks || lacks_needed(p, plan->o);
+    dyd_plan_mark_alone(plan, p, lacks_needed(p, plan->o) && p->needed > bits ? p->needed : bits, DYD_REASON_BLOCKER);
   }
+  bool scouts = h->scouts && !lacks && dyd_open_is_postponed(plan->e->pd, f);
+  if (st == DYD_OK && scouts) st = dyd_scouts_add(h->scouts, plan, &across);
+  dyd_pair_list_clear(&across);
   dyd_index_list_clear(&sites);
   return st;
 }
 
 static dyd_status plan_face(dyd_plan *plan, dyd_helpers *h, size_t f, dyd_measure *m, const dyd_settled *settled) {
   const dyd_delaunay *pd = plan->e->pd;
-  if (dyd_delaunay_is_capped(pd)) return plan_capped(plan, f);
+  if (dyd_open_is_capped(pd, f)) return plan_capped(plan, h, f);
   dyd_coarse c = {0};
   dyd_pair_list pairs = {0};
   dyd_status st = dyd_delaunay_face_pairs(&pairs, pd, f);

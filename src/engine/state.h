@@ -84,7 +84,8 @@ struct dyd_engine {
   uint32_t *changed;
   size_t changes, change_cap;
   size_t max_pairs;           /* the cap pd was last worked on with */
-  bool cut;                   /* pd is capped since it was stopped */
+  bool cut;                   /* pd is capped since it was stopped, or since faces were postponed */
+  bool postpones;             /* the question at work needs no pairs of faces whose sites can be narrowed */
   dyd_error cap_error;        /* what it said when the cap was met */
   dyd_error refused;          /* why points were not added */
   dyd_delaunay_counters past; /* of results that points added later have ended */

@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-3.0-or-later
+"""dyadel delaunay decides every set of computable points in general position, however near it is to a circle, a line or a
+lattice [WIT-FLT], with about the bits by which it differs from that. Statuses are compared with brute force in integers.
+
+Usage: test_decided.py COMMAND DATA
+"""
+import os
+import random
+import re
+from itertools import combinations
+
+from mpmath import mp, mpf
+
+from harness import main, run
+
+BITS = 1200
+SEED = int(os.environ.get('DYADEL_TEST_SEED', '1'))
+SCALE = int(os.environ.get('DYADEL_TEST_SCALE', '1'))
+
+# Five points of a short arc whose radii differ by multiples of 2^-100: 2,4 is an edge.
+ARC = [(81, 31), (32, 40), (25, 15), (46, 39), (9, 67)]
+
+
+def integers(points):
+    """The points as integers in units of 2^-BITS, from texts that mpmath reads as the command does."""
+    mp.prec = BITS + 64
+    names = {f: getattr(mp, f) for f in ('cos', 'sin', 'sqrt', 'exp')}
+    value = lambda t: int(mp.floor(eval(t.replace('^', '**').replace('2**-', 'mpf(2)**-'), {'mpf': mpf, **names}) * mpf(2) ** BITS))
+    return [(value(x), value(y)) for x, y in points]
+
+
+def turn(a, b, c):
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def incircle(a, b, c, d):
+    rows = [(p[0] - d[0], p[1] - d[1]) for p in (a, b, c)]
+    (ax, ay), (bx, by), (cx, cy) = rows
+    sa, sb, sc = (x * x + y * y for x, y in rows)
+    return sa * (bx * cy - by * cx) - sb * (ax * cy - ay * cx) + sc * (ax * by - ay * bx)
+
+
+def edges(points):
+    """Edges of the Delaunay triangulation, from all triangles with an empty circle. No test may be near 0."""
+    found, margin = set(), 1 << BITS // 4
+    for t in combinations(range(len(points)), 3):
+        a, b, c = (points[k] for k in t)
+        side = turn(a, b, c)
+        assert abs(side) > margin
+        signs = [incircle(a, b, c, points[k]) * (1 if side > 0 else -1) for k in range(len(points)) if k not in t]
+        assert all(abs(s) > margin for s in signs)
+        if all(s < 0 for s in signs):
+            found.update(combinations(t, 2))
+    return found
+
+
+def decided(points, most_bits):
+    result = run('delaunay', '-', '--stats', stdin=''.join(f'{x} {y}\n' for x, y in points))
+    assert result.code == 0, result.err
+    rows = {tuple(map(int, r.split(',')[:2])): r.split(',')[2] for r in result.out.split()[1:]}
+    want = edges(integers(points))
+    assert rows == {e: 'legal' for e in want}, (points, sorted(want), rows)
+    bits = int(re.search(r'bits asked, most +(\d+)', result.err).group(1))
+    assert bits <= most_bits, (points, bits, most_bits)
+
+
+def arc(weights, step, bits):
+    return [(f'cos({k}/{step})*(1+{a}*2^-{bits})', f'sin({k}/{step})*(1+{b}*2^-{bits})') for k, (a, b) in enumerate(weights)]
+
+
+def test_five_points_of_an_arc():
+    points = arc(ARC, 100, 100)
+    assert (2, 4) in edges(integers(points))
+    decided(points, 256)
+
+
+def test_boxes_of_the_arc():
+    """The boxes alone are enough: width 2^-152."""
+    boxes = [[f'[{v >> BITS - 152}*2^-152,{(v >> BITS - 152) + 1}*2^-152]' for v in p] for p in integers(arc(ARC, 100, 100))]
+    result = run('delaunay', '-', stdin=''.join(' '.join(b) + '\n' for b in boxes))
+    assert result.code == 0 and '2,4,legal' in result.out.split(), result.err
+
+
+def weights(r, n):
+    return [(r.randint(1, 99), r.randint(1, 99)) for _ in range(n)]
+
+
+def near_circle(r, bits):
+    n = r.randint(5, 9)
+    return arc(weights(r, n), r.choice([1, 7, 100, 1000]), bits)
+
+
+def near_line(r, bits):
+    n = r.randint(4, 8)
+    slope = r.choice(['sqrt(2)', 'exp(1)', '1'])
+    return [(f'{k}*sqrt(3)+{a}*2^-{bits}', f'{k}*sqrt(3)*{slope}+{b}*2^-{bits}') for k, (a, b) in enumerate(weights(r, n))]
+
+
+def near_lattice(r, bits):
+    places = r.sample([(x, y) for x in range(3) for y in range(3)], r.randint(5, 9))
+    return [(f'{x}*sqrt(2)+{a}*2^-{bits}', f'{y}*sqrt(2)+{b}*2^-{bits}') for (x, y), (a, b) in zip(places, weights(r, 9))]
+
+
+def test_near_circles_lines_and_lattices():
+    """Bits asked: what doubling from 64 may take beyond twice the bits by which the points differ."""
+    print(f'# near degenerate sets: DYADEL_TEST_SEED={SEED}')
+    r = random.Random(SEED)
+    for k in range(90 * SCALE):
+        bits = r.choice([30, 55, 70, 90, 130])
+        decided((near_circle, near_line, near_lattice)[k % 3](r, bits), 4 * bits + 192)
+
+
+def test_many_points_near_a_circle():
+    """A face of hundreds of points is refined before its pairs are closed: it has a quarter of a million of them."""
+    r = random.Random(SEED)
+    n = 500
+    points = arc(weights(r, n), 20 * n, 100)
+    result = run('delaunay', '-', '--stats', '-o', os.devnull, stdin=''.join(f'{x} {y}\n' for x, y in points))
+    assert result.code == 0, result.err
+    walks = int(re.search(r'cover walks +(\d+)', result.err).group(1))
+    assert walks < 20 * n, walks
+
+
+if __name__ == '__main__':
+    main(globals())
