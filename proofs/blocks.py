@@ -341,26 +341,26 @@ def try_rings(both):
     """Ties by a circle that a block shows: only when nobody is inside, or on it besides, and the pair crosses another."""
     for fifth, pairs, left in RINGS:
         answer = both.ask(both.proved, text=ring(fifth, pairs))
-        loose = re.search(r'not proved: .*no refinement decides (\d+) ties', answer.stdout)
+        loose = re.search(r'not proved: that (\d+) pairs are ties', answer.stdout)
         if answer.returncode != NOT_ALL or int((loose or (0, 0))[1]) != left:
             yield f'a ring with {fifth}, {pairs}: {answer}'
     for fifth, pairs, left in ROWS:
         answer = both.ask(both.proved, text=ring(fifth, pairs, ['line 0 2 1 identity'], ('= 2', 'sqrt 0', 'neg 1', '= 0'), ROW))
-        loose = re.search(r'not proved: .*no refinement decides (\d+) ties', answer.stdout)
+        loose = re.search(r'not proved: that (\d+) pairs are ties', answer.stdout)
         if answer.returncode != NOT_ALL or int((loose or (0, 0))[1]) != left:
             yield f'a row with {fifth}, {pairs}: {answer}'
     for facts in ((), ('circle 0 1 2 3 bound',), ('same 0 2 identity',), ('line 0 2 1 identity',), ('circle 0 1 2 4 identity',)):
         answer = both.ask(both.proved, text=ring('9 9', ['0 2', '1 3'], facts))
         refused = facts and 'bound' not in facts[0]
         proved = facts and 'bound' in facts[0]
-        if (answer.returncode == REJECTED) != bool(refused) or ('decides 2 ties' in answer.stdout) == bool(refused or proved):
+        if (answer.returncode == REJECTED) != bool(refused) or ('that 2 pairs are ties' in answer.stdout) == bool(refused or proved):
             yield f'a ring with {facts}: {answer}'
     answer = both.ask(both.proved, text=ring('= 3', ['0 2'], ['circle 0 2 3 4 identity'], at=ALIASED))
-    if answer.returncode != NOT_ALL or 'decides 1 ties' not in answer.stdout:
+    if answer.returncode != NOT_ALL or 'that 1 pairs are ties' not in answer.stdout:
         yield f'a ring with an alias: {answer}'
     for points in TIED:
         answer = both.ask(both.proved, text=both.certificate(points))
-        if 'checked: the outcome fixpoint' not in answer.stdout or 'no refinement decides' in answer.stdout:
+        if 'checked: the outcome fixpoint' not in answer.stdout or 'pairs are ties' in answer.stdout:
             yield f'ties of {points}: {answer}'
 
 

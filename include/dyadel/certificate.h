@@ -124,17 +124,18 @@
  * [CERT-10] Blocks: each point lies in the rectangle of its site; the determinants that a fact is about reduce to 0
  * modulo the relations of the leaves (identity), or are smaller than any that is not 0 (bound). A circle through all
  * sites of a bounded face of legal edges, or a line through all sites of a part of the unbounded face, makes its
- * pairs ties.
+ * pairs ties; of exact points, which no block describes, the checker finds it.
  *
  * U counts, over the open sets, the pairs within the set that have no line and are none of the P: nothing proves that
  * they are illegal (0: the certificate proves its list of pairs complete). decided needs no o, t and l line and capped
  * no; certified needs the goal's bound.
  *
  * [CERT-8] What is stated need not be proved; the report says what is not (dyd_certificate_gap). A line o states
- * nothing of its pair, a line t that no refinement changes what it is, which is proved where all sites of its open
- * sets are exact points, or a fact is about them; so is fixpoint where nobody can be narrowed who matters. That an
- * alias of a site that is not exact is the same point is proved by facts. decided and bounds are proved when U = 0.
- * Nothing proves budget, cancelled and error, and lines l. */
+ * nothing of its pair, a line t that it is a tie: an edge of some Delaunay triangulation and of some not, whatever is
+ * narrowed. That is proved where all sites of a bounded face of legal edges are on one circle, or all sites of a part
+ * of the unbounded face on one line: as exact points, or as a fact says. fixpoint is proved where no site that matters
+ * can be narrowed. That an alias of a site that is not exact is the same point is proved by facts. decided and bounds
+ * are proved when U = 0. Nothing proves budget, cancelled and error, and lines l. */
 #ifndef DYADEL_CERTIFICATE_H
 #define DYADEL_CERTIFICATE_H
 
@@ -167,8 +168,7 @@ DYD_API dyd_status dyd_write_voronoi_certificate(FILE *out, const struct dyd_eng
 typedef enum dyd_certificate_gap {
   DYD_GAP_LEGAL = 1,     /* that pairs without a witness are legal */
   DYD_GAP_ILLEGAL = 2,   /* that pairs which are not listed are illegal */
-  DYD_GAP_TIES = 4,      /* that no refinement decides a tie: a site of its open set is no exact point, and no fact
-                          * is about the set */
+  DYD_GAP_TIES = 4,      /* that a pair is a tie: no face with both its sites is seen to be on one circle or line */
   DYD_GAP_BOUNDS = 8,    /* area, hausdorff: pairs that are not listed may be possible */
   DYD_GAP_DISTANCE = 16, /* the distance in the diagram */
   DYD_GAP_OUTCOME = 32,  /* the outcome */
@@ -197,15 +197,15 @@ typedef struct dyd_certificate_report {
   bool diagram;          /* is there a section on the Voronoi diagram? Then its area was checked */
   size_t polygons;
   bool distance, distance_proved; /* is its other bound stated; was it checked? */
-  size_t ties_unproved;
-  uint64_t illegal_boxes;        /* pairs within undecided faces that boxes prove illegal */
-  unsigned gaps;                 /* of dyd_certificate_gap; 0: everything that is stated is proved */
-  bool bound;                    /* were the points given, and is it about them? */
-  size_t unlocated;              /* of them, those not known to lie in their rectangles */
-  size_t aliases_unproved;       /* of aliases, those of sites that are not exact, and are not proved to be the same */
-  size_t undescribed;            /* of the points given, those not known to be what the certificate describes */
-  size_t claims;                 /* that callbacks are the roots that their authors say */
-  size_t identities, tie_bounds; /* facts about what points are: proved by an identity, by a bound [CERT-10] */
+  size_t ties_unproved;           /* of the ties, those not proved to be ties */
+  uint64_t illegal_boxes;         /* pairs within undecided faces that boxes prove illegal */
+  unsigned gaps;                  /* of dyd_certificate_gap; 0: everything that is stated is proved */
+  bool bound;                     /* were the points given, and is it about them? */
+  size_t unlocated;               /* of them, those not known to lie in their rectangles */
+  size_t aliases_unproved;        /* of aliases, those of sites that are not exact, and are not proved to be the same */
+  size_t undescribed;             /* of the points given, those not known to be what the certificate describes */
+  size_t claims;                  /* that callbacks are the roots that their authors say */
+  size_t identities, tie_bounds;  /* facts about what points are: proved by an identity, by a bound [CERT-10] */
 } dyd_certificate_report;
 
 /* Checks the certificate in `in` up to its end, in integers. DYD_OK: accepted, *out is what it states. DYD_E_PARSE:

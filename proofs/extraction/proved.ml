@@ -170,7 +170,7 @@ let gaps c p (b : Blocks.proof) =
     (fun (there, text) -> if there then Some ("not proved: " ^ text) else None)
     [ (not (p.complete || c.capped), Printf.sprintf "that pairs among %d sites which are not listed are illegal" left);
       (unwitnessed > 0, Printf.sprintf "that %d pairs without a witness are legal" unwitnessed);
-      (p.loose > 0, Printf.sprintf "that no refinement decides %d ties" p.loose);
+      (p.loose > 0, Printf.sprintf "that %d pairs are ties" p.loose);
       (loose > 0, Printf.sprintf "that %d aliases of points that are not exact are the same points" loose);
       (has_bounds c && not p.complete, "the bounds of area and Hausdorff distance, as more pairs may be possible");
       (p.complete && not p.counted, "corners and the numbers of triangles and pairs, which the proof does not need");

@@ -53,7 +53,7 @@ static dyd_status checker_ties(dyd_checker *c) {
   if (st != DYD_OK) return st;
   dyd_cert_ties_mark(&c->faces, &c->ties);
   for (size_t q = 0; q < c->tie.count; q++)
-    c->report.ties_unproved += !dyd_cert_faces_still(&c->faces, c->tie.item[q].i, c->tie.item[q].j);
+    c->report.ties_unproved += !dyd_cert_faces_tied(&c->faces, c->tie.item[q].i, c->tie.item[q].j);
   c->report.identities = c->ties.identities;
   c->report.tie_bounds = c->ties.bounds;
   for (size_t k = 0; k < c->ties.blocks; k++) c->report.claims += c->ties.block[k]->algebra.claims;

@@ -242,12 +242,21 @@ static dyd_status faces_index_sites(dyd_cert_faces *f, const dyd_cert_sites *s) 
   return good ? DYD_OK : DYD_E_NOMEM;
 }
 
+/* Returns true if set k is a polygon of exact points on one circle, or a chain of such points on one line. */
+static bool exact_set_is_tied(const dyd_cert_faces *f, const dyd_cert_sites *s, size_t k) {
+  const uint32_t *site = f->member + f->start[k];
+  size_t count = f->start[k + 1] - f->start[k];
+  if (f->inexact[k] || f->shape[k] == DYD_CERT_ANY) return false;
+  return f->shape[k] == DYD_CERT_POLYGON ? dyd_cert_on_circle(s, site, count) : dyd_cert_on_line(s, site, count);
+}
+
 dyd_status dyd_cert_faces_init(dyd_cert_faces *f, uint32_t *bad, const dyd_cert_graph *g, const dyd_cert_corner *corner,
                                size_t corners) {
   *f = (dyd_cert_faces){0};
   *bad = DYD_CERT_NONE;
   dyd_status st = faces_find_sets(f, bad, g, corner, corners);
   if (st == DYD_OK) st = faces_index_sites(f, g->sites);
+  for (size_t k = 0; k < f->sets && st == DYD_OK; k++) f->tied[k] = exact_set_is_tied(f, g->sites, k);
   if (st == DYD_OK)
     for (size_t e = 0; e < g->legal->count; e++) dyd_cert_faces_cover(f, g->legal->item[e].i, g->legal->item[e].j);
   if (st != DYD_OK) dyd_cert_faces_clear(f);
@@ -293,10 +302,17 @@ bool dyd_cert_faces_share(const dyd_cert_faces *f, uint32_t i, uint32_t j) {
   return next_common_set(f, &a, &b, i, j) != DYD_CERT_NONE;
 }
 
+bool dyd_cert_faces_tied(const dyd_cert_faces *f, uint32_t i, uint32_t j) {
+  size_t a = f->first[i], b = f->first[j];
+  for (uint32_t k; (k = next_common_set(f, &a, &b, i, j)) != DYD_CERT_NONE;)
+    if (f->tied[k]) return true;
+  return false;
+}
+
 bool dyd_cert_faces_still(const dyd_cert_faces *f, uint32_t i, uint32_t j) {
   size_t a = f->first[i], b = f->first[j];
   for (uint32_t k; (k = next_common_set(f, &a, &b, i, j)) != DYD_CERT_NONE;)
-    if (f->inexact[k] && !f->tied[k]) return false;
+    if (f->inexact[k]) return false;
   return true;
 }
 

@@ -29,7 +29,7 @@ typedef struct dyd_cert_faces {
   uint32_t *member;
   uint64_t *covered; /* pairs of set f that something is known about */
   bool *inexact;     /* does set f have a site that is no exact point? */
-  bool *tied;        /* is set f a polygon or chain whose points are on one circle or line [CERT-10]? Not, at first */
+  bool *tied;        /* set f is a polygon or chain whose points are on one circle or line: exact points, at first */
   dyd_cert_shape *shape;
   size_t shape_cap;
   /* Site i is in the sets of[first[i] .. first[i+1]), ascending. */
@@ -48,8 +48,10 @@ void dyd_cert_faces_cover(dyd_cert_faces *f, uint32_t i, uint32_t j);
 size_t dyd_cert_faces_common(const dyd_cert_faces *f, uint32_t i, uint32_t j);
 /* Are both in one open set? */
 bool dyd_cert_faces_share(const dyd_cert_faces *f, uint32_t i, uint32_t j);
-/* Are the open sets that hold both tied, or are all their sites exact points? Then nothing that is narrowed changes
- * what the pair is [CERT-8]. */
+/* Returns true if an open set that holds both is tied: a pair that is not legal is a tie then [CERT-10]. */
+bool dyd_cert_faces_tied(const dyd_cert_faces *f, uint32_t i, uint32_t j);
+/* Returns true if all sites of the open sets that hold both are exact points: nothing that is narrowed changes what the
+ * pair is [CERT-8]. */
 bool dyd_cert_faces_still(const dyd_cert_faces *f, uint32_t i, uint32_t j);
 /* Pairs within open sets about which nothing is known (a pair of two sets counts twice). */
 uint64_t dyd_cert_faces_left(const dyd_cert_faces *f);

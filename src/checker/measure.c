@@ -211,6 +211,100 @@ int dyd_cert_compare_places(const dyd_cert_sites *s, uint32_t a, uint32_t b) {
   return sign;
 }
 
+/* ---- lines and circles ---- */
+
+bool dyd_cert_on_line(const dyd_cert_sites *s, const uint32_t *site, size_t count) {
+  for (size_t q = 2; q < count; q++)
+    if (dyd_cert_turn(s, site[0], site[1], site[q])) return false;
+  return true;
+}
+
+/* The vector from one point to another, and the square of its length. */
+typedef struct lifted {
+  dyd_cert_fraction x, y, square;
+} lifted;
+
+static void lifted_init(lifted *v) {
+  dyd_cert_fraction_init(&v->x);
+  dyd_cert_fraction_init(&v->y);
+  dyd_cert_fraction_init(&v->square);
+}
+
+static void lifted_clear(lifted *v) {
+  dyd_cert_fraction_clear(&v->x);
+  dyd_cert_fraction_clear(&v->y);
+  dyd_cert_fraction_clear(&v->square);
+}
+
+static void lifted_set(lifted *v, const dyd_cert_spot *from, const dyd_cert_spot *to) {
+  dyd_cert_fraction t;
+  dyd_cert_fraction_init(&t);
+  spot_difference(&v->x, from, to, 0);
+  spot_difference(&v->y, from, to, 1);
+  dyd_cert_fraction_mul(&v->square, &v->x, &v->x);
+  dyd_cert_fraction_mul(&t, &v->y, &v->y);
+  dyd_cert_fraction_add(&v->square, &v->square, &t);
+  dyd_cert_fraction_clear(&t);
+}
+
+/* out = a d - b c. */
+static void fraction_cross(dyd_cert_fraction *out, const dyd_cert_fraction *a, const dyd_cert_fraction *b,
+                           const dyd_cert_fraction *c, const dyd_cert_fraction *d) {
+  dyd_cert_fraction t;
+  dyd_cert_fraction_init(&t);
+  dyd_cert_fraction_mul(out, a, d);
+  dyd_cert_fraction_mul(&t, b, c);
+  mpz_neg(t.num.man, t.num.man);
+  dyd_cert_fraction_add(out, out, &t);
+  dyd_cert_fraction_clear(&t);
+}
+
+/* The normal of the plane of 0, v and w. */
+static void lifted_normal(lifted *out, const lifted *v, const lifted *w) {
+  fraction_cross(&out->x, &v->y, &v->square, &w->y, &w->square);
+  fraction_cross(&out->y, &v->square, &v->x, &w->square, &w->x);
+  fraction_cross(&out->square, &v->x, &v->y, &w->x, &w->y);
+}
+
+static bool lifted_is_orthogonal(const lifted *v, const lifted *w) {
+  dyd_cert_fraction sum, t;
+  dyd_cert_fraction_init(&sum);
+  dyd_cert_fraction_init(&t);
+  dyd_cert_fraction_mul(&sum, &v->x, &w->x);
+  dyd_cert_fraction_mul(&t, &v->y, &w->y);
+  dyd_cert_fraction_add(&sum, &sum, &t);
+  dyd_cert_fraction_mul(&t, &v->square, &w->square);
+  dyd_cert_fraction_add(&sum, &sum, &t);
+  bool orthogonal = dyd_exact_sgn(&sum.num) == 0;
+  dyd_cert_fraction_clear(&sum);
+  dyd_cert_fraction_clear(&t);
+  return orthogonal;
+}
+
+bool dyd_cert_on_circle(const dyd_cert_sites *s, const uint32_t *site, size_t count) {
+  if (count < 3) return false;
+  dyd_cert_spot first = dyd_cert_place_of(s, site[0]), at;
+  lifted v, w, normal;
+  lifted_init(&v);
+  lifted_init(&w);
+  lifted_init(&normal);
+  at = dyd_cert_place_of(s, site[1]);
+  lifted_set(&v, &first, &at);
+  at = dyd_cert_place_of(s, site[2]);
+  lifted_set(&w, &first, &at);
+  lifted_normal(&normal, &v, &w);
+  bool all = dyd_exact_sgn(&normal.square.num) != 0;
+  for (size_t q = 3; q < count && all; q++) {
+    at = dyd_cert_place_of(s, site[q]);
+    lifted_set(&v, &first, &at);
+    all = lifted_is_orthogonal(&normal, &v);
+  }
+  lifted_clear(&normal);
+  lifted_clear(&w);
+  lifted_clear(&v);
+  return all;
+}
+
 /* ---- heights ---- */
 
 /* out = max (upper) or min of u.x over the rectangle. */

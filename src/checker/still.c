@@ -77,7 +77,9 @@ static bool open_pair_stays(const dyd_checker *c, const movers *m, uint32_t i, u
 static bool open_pairs_stay(const dyd_checker *c, const movers *m) {
   for (size_t e = 0; e < c->open.count; e++) {
     const dyd_cert_edge *p = &c->open.item[e];
-    if (!dyd_cert_faces_still(&c->faces, p->i, p->j) && !open_pair_stays(c, m, p->i, p->j)) return false;
+    if (!dyd_cert_faces_tied(&c->faces, p->i, p->j) && !dyd_cert_faces_still(&c->faces, p->i, p->j) &&
+        !open_pair_stays(c, m, p->i, p->j))
+      return false;
   }
   return true;
 }

@@ -5,10 +5,12 @@ not proved is named [CERT-8].
 
 Usage: test_command.py DYADEL DATA   (DYADEL_TEST_SCALE=10 measures the size at 10^5 sites instead of 10^4)
 """
+import functools
 import gzip
 import os
 import pathlib
 import random
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -19,8 +21,8 @@ DYADEL, DATA = sys.argv[1], pathlib.Path(sys.argv[2])
 SCALE = int(os.environ.get('DYADEL_TEST_SCALE', '1'))
 
 
-def run(*args, stdin=None):
-    return subprocess.run([DYADEL, *map(str, args)], input=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+def run(*args, stdin=None, by=DYADEL):
+    return subprocess.run([by, *map(str, args)], input=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                           text=True, check=False)
 
 
@@ -54,11 +56,11 @@ def rejected(certificate, line):
 
 def check_outcomes(folder):
     accepted(certify(folder, '0 0\n1 0\n0 1\n'), 'outcome decided', '3 legal pairs', 'not listed are illegal')
-    accepted(certify(folder, '0 0\n1 0\n0 1\n1 1\n', status=3), 'outcome fixpoint', 'decides 2 ties',
+    accepted(certify(folder, '0 0\n1 0\n0 1\n1 1\n', status=3), 'outcome fixpoint', 'checked: 2 ties, on empty circles',
              'checked: the outcome fixpoint')
     accepted(certify(folder, '0 0\n1 0\n0 1\n[1,1.1] 1\n', status=3), 'not proved: the outcome fixpoint', status=3)
     square = 'sqrt(2) 0\n0 sqrt(2)\n-sqrt(2) 0\n0 -sqrt(2)\n'
-    accepted(certify(folder, square, status=3), 'decides 2 ties', 'checked: the outcome fixpoint')
+    accepted(certify(folder, square, status=3), 'checked: 2 ties, on empty circles', 'checked: the outcome fixpoint')
     accepted(certify(folder, square, '--ties', 'off', '--max-bits', '100', status=4), 'not proved: the outcome budget',
              status=3)
     accepted(certify(folder, square, '--ties', 'off', '--until', 'area:30'),
@@ -301,39 +303,68 @@ def check_files(folder):
     assert done.returncode == 0 and 'accepted' in (folder / 'report.txt').read_text()
 
 
+def copied(folder):
+    """The command in another folder, where it finds its library."""
+    folder.mkdir(parents=True)
+    os.environ['LD_LIBRARY_PATH'] = str(pathlib.Path(DYADEL).resolve().parents[2])
+    return shutil.copy(DYADEL, folder / 'dyadel')
+
+
+def check_found(folder):
+    """dyadel-proved is found beside the command, in libexec, in a build, and at last in PATH; where it is not, the message
+    says where it was looked for, and what brings it."""
+    certificate, path = certify(folder, '0 0\n1 0\n0 1\n'), os.environ['PATH']
+    os.environ['PATH'] = str(folder / 'elsewhere')
+    for own, places, remedy in (('usr/bin', ('usr/bin', 'usr/libexec'), 'leave out --proved, or install dyadel-proved'),
+                                ('build/src/cli', ('build/src/cli', 'build/proofs'), f'ninja -C {folder}/build)')):
+        command = copied(folder / own)
+        done = run('verify', '--proved', certificate, by=command)
+        assert done.returncode == 1 and f'there is no dyadel-proved in {folder / places[own[0] == "b"]}/' in done.stderr, done
+        assert remedy in done.stderr, done
+        for place in ('elsewhere', *reversed(places)):  # each before those that were tried
+            (folder / place).mkdir(parents=True, exist_ok=True)
+            (folder / place / 'dyadel-proved').write_text(f'#!/bin/sh\necho in {place}\nexit 3\n')
+            (folder / place / 'dyadel-proved').chmod(0o755)
+            done = run('verify', '--proved', certificate, by=command)
+            assert (done.returncode, done.stdout, done.stderr) == (3, f'in {place}\n', ''), done
+        (folder / places[0] / 'dyadel-proved').chmod(0o644)  # no program
+        assert run('verify', '--proved', certificate, by=command).stdout == f'in {places[1]}\n'
+        (folder / 'elsewhere' / 'dyadel-proved').unlink()
+    os.environ['PATH'] = path
+
+
 def check_proved(folder):
     """--proved is what dyadel-proved says: here scripts of that name in PATH (proofs/checker.py has the real one)."""
     certificate, tools, path = certify(folder, '0 0\n1 0\n0 1\n'), folder / 'tools', os.environ['PATH']
     tools.mkdir()
     program, answer = tools / 'dyadel-proved', folder / 'answer.txt'
+    own = functools.partial(run, by=copied(folder / 'bin'))
     os.environ['PATH'] = str(tools)
-    done = run('verify', '--proved', certificate)
-    assert done.returncode == 1 and 'there is no dyadel-proved' in done.stderr and not done.stdout, done
     program.touch(0o755)
     for script, status, error in (('exit 0', 0, ''), ('exit 3', 3, ''), ('echo no >&2; exit 1', 1, 'no\n'),
                                   ('kill -9 $$', 1, f'dyadel: {certificate}: not judged: dyadel-proved was ended by signal 9\n')):
         program.write_text(f'#!/bin/sh\necho of "$@"\n{script}\n')
-        done = run('verify', '--proved', certificate)
+        done = own('verify', '--proved', certificate)
         assert (done.returncode, done.stdout, done.stderr) == (status, f'of {certificate}\n', error), done
         answer.unlink(missing_ok=True)
-        done = run('verify', '--proved', '-o', answer, certificate)
+        done = own('verify', '--proved', '-o', answer, certificate)
         assert done.returncode == status and answer.exists() == (status != 1) and not done.stdout, done
     points, others = folder / 'points.txt', folder / 'others.txt'
     points.write_text('0 0\n1 0\n0 1\n')
     others.write_text('0 0\n1 0\n0 2\n')
     program.write_text('#!/bin/sh\necho proved\n')
-    done = run('verify', '--proved', '--points', points, certificate)
+    done = own('verify', '--proved', '--points', points, certificate)
     assert done.returncode == 0 and done.stdout.startswith('proved\ncompared by dyadel itself: the points'), done
-    done = run('verify', '--proved', '--points', others, certificate)
+    done = own('verify', '--proved', '--points', others, certificate)
     assert done.returncode == 1 and not done.stdout and 'rejected' in done.stderr, done
-    done = run('verify', '--proved', '--points', points, '-')
+    done = own('verify', '--proved', '--points', points, '-')
     assert done.returncode == 2 and 'is read twice' in done.stderr, done
     program.write_text('#!/bin/sh\necho no >&2; exit 1\n')
-    done = run('verify', '--proved', '--points', points, certificate)
+    done = own('verify', '--proved', '--points', points, certificate)
     assert done.returncode == 1 and not done.stdout and done.stderr == 'no\n', done
     program.write_text('#!/bin/sh\nexec /bin/sleep 100\n')
     begun = time.monotonic()
-    done = run('verify', '--proved', '--timeout', '0.5', certificate)
+    done = own('verify', '--proved', '--timeout', '0.5', certificate)
     assert done.returncode == 4 and 'the time is used up' in done.stderr, done
     assert sys.platform != 'linux' or time.monotonic() - begun < 50, 'the program goes on after its command'
     os.environ['PATH'] = path
@@ -362,7 +393,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for check in (check_outcomes, check_fixpoint, check_airports, check_crowds, check_diagrams, check_claims, check_points,
-                      check_altered_points, check_files, check_proved, check_size):
+                      check_altered_points, check_files, check_found, check_proved, check_size):
             check(folder)
     return 0
 
