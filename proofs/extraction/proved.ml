@@ -129,6 +129,8 @@ let is_reached c =
   | [ "voronoi"; "hausdorff"; m ] -> reaches m (of_diagram c (fun g -> g.distance))
   | _ -> false
 
+let has_bounds c = c.area <> None || c.hausdorff <> None
+
 let bounds_hold c d e =
   Option.fold ~none:true ~some:(Checker.area_holds d e c.sites (listed c)) c.area
   && Option.fold ~none:true ~some:(Checker.hausdorff_holds d e c.sites c.edges c.pairs.listed) c.hausdorff
@@ -158,10 +160,9 @@ let contradiction c d e p =
   else if p.decided && opened then Some "pairs are listed as open that are illegal"
   else if p.decided && (c.pairs.faces <> p.faces || c.pairs.unproved > 0) then
     Some (Printf.sprintf "there are %d sure triangles" p.faces)
-  else if p.complete && not (bounds_hold c d e) then Some "a bound is too small"
+  else if c.capped && has_bounds c then Some "a capped result has no bounds"
+  else if not (bounds_hold c d e) then Some "a bound is too small"
   else None
-
-let has_bounds c = c.area <> None || c.hausdorff <> None
 
 let gaps c p (b : Blocks.proof) =
   let left = List.length c.sites - p.surrounded in
@@ -173,7 +174,7 @@ let gaps c p (b : Blocks.proof) =
       (p.loose > 0, Printf.sprintf "that %d pairs are ties" p.loose);
       (loose > 0, Printf.sprintf "that %d aliases of points that are not exact are the same points" loose);
       (has_bounds c && not p.complete, "the bounds of area and Hausdorff distance, as more pairs may be possible");
-      (p.complete && not p.counted, "corners and the numbers of triangles and pairs, which the proof does not need");
+      (not p.counted, "corners and the numbers of triangles and pairs, which the proof does not need");
       (b.unseen_points > 0, Printf.sprintf "that %d points lie where they are described to be" b.unseen_points);
       (b.unseen_facts > 0, Printf.sprintf "that %d facts on points hold" b.unseen_facts);
       (has_unproved_distance c, "the distance of undetermined points to the Voronoi diagram");

@@ -219,7 +219,8 @@ bool dyd_cert_on_line(const dyd_cert_sites *s, const uint32_t *site, size_t coun
   return true;
 }
 
-/* The vector from one point to another, and the square of its length. */
+/* The vector from one point to another, and the square of its length: on a circle through the former, or a line, such
+ * triples are on a plane through 0, and nowhere else. */
 typedef struct lifted {
   dyd_cert_fraction x, y, square;
 } lifted;
@@ -282,7 +283,7 @@ static bool lifted_is_orthogonal(const lifted *v, const lifted *w) {
 }
 
 bool dyd_cert_on_circle(const dyd_cert_sites *s, const uint32_t *site, size_t count) {
-  if (count < 3) return false;
+  bool all = true;
   dyd_cert_spot first = dyd_cert_place_of(s, site[0]), at;
   lifted v, w, normal;
   lifted_init(&v);
@@ -293,7 +294,6 @@ bool dyd_cert_on_circle(const dyd_cert_sites *s, const uint32_t *site, size_t co
   at = dyd_cert_place_of(s, site[2]);
   lifted_set(&w, &first, &at);
   lifted_normal(&normal, &v, &w);
-  bool all = dyd_exact_sgn(&normal.square.num) != 0;
   for (size_t q = 3; q < count && all; q++) {
     at = dyd_cert_place_of(s, site[q]);
     lifted_set(&v, &first, &at);
