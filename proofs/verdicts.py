@@ -5,7 +5,7 @@
 
 Usage: verdicts.py ROOT DYADEL_PROVED DYADEL [CASES]   (DYADEL_PROVED "-": without it; DYADEL_TEST_SCALE multiplies CASES)
 
-CASES true certificates (default 100) of up to nine points: exact ones, ties on circles and lines, boxes, crowds, points
+CASES true certificates (default 60) of up to nine points: exact ones, ties on circles and lines, boxes, crowds, points
 among boxes, roots and their ties, aliases, bounds and diagrams; and ten changes of each: lines, statuses, pairs, numbers,
 outcomes, counts, bounds and blocks, the counts put right afterwards. What is accepted is judged by exact arithmetic
 (oracle below) for many choices of the points. Verdicts are the exit statuses; where they differ, DIFFERENCES has the
@@ -818,7 +818,7 @@ def try_case(both, number):
 
 def main():
     root, proved, dyadel = pathlib.Path(sys.argv[1]), *sys.argv[2:4]
-    cases = int(sys.argv[4]) if len(sys.argv) > 4 else 100 * int(os.environ.get('DYADEL_TEST_SCALE', '1'))
+    cases = int(sys.argv[4]) if len(sys.argv) > 4 else 60 * int(os.environ.get('DYADEL_TEST_SCALE', '1'))
     total = Count()
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         both = Checkers(None if proved == '-' else proved, dyadel, folder)

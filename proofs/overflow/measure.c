@@ -58,4 +58,22 @@ static void site_height(dyd_cert_fraction *out, const dyd_exact u[2], const dyd_
     ensures to->den[0].value == from->den[0].value && to->whole == from->whole; */
 void copy_fraction(dyd_cert_fraction *to, const dyd_cert_fraction *from);
 
+/* Triples of fractions of their own; of the sites of a list, each is there, and small. */
+typedef const uint32_t *site_list;
+/*@ predicate listed_places(grid s, site_list site, integer count) = \valid_read(site + (0 .. count - 1)) &&
+      (\forall integer q; 0 <= q < count ==> on_grid(s, site[q]) && small_site(s->site + site[q])); */
+#define LIFTED(v) FRACTION(&(v)->x), FRACTION(&(v)->y), FRACTION(&(v)->square)
+#define lifted_parts(v) (\valid_read(v) && of_parts(&(v)->x) && of_parts(&(v)->y) && of_parts(&(v)->square))
+#define lifted_within(v, most) (\valid_read(v) && fraction(&(v)->x, most) && fraction(&(v)->y, most) && \
+    fraction(&(v)->square, 2 * (most)))
+/*@ requires 2 <= count && listed_places(s, site, count); assigns \nothing; exits \false; */
+bool dyd_cert_on_line(const dyd_cert_sites *s, const uint32_t *site, size_t count);
+/*@ requires \valid(out) && of_parts(out) && fraction(a, 2097152) && fraction(b, 2097152) && fraction(c, 2097152) &&
+      fraction(d, 2097152) && \separated(out, a) && \separated(out, b) && \separated(out, c) && \separated(out, d);
+    assigns FRACTION(out); exits \false; ensures fraction(out, 4194304); */
+static void fraction_cross(dyd_cert_fraction *out, const dyd_cert_fraction *a, const dyd_cert_fraction *b,
+                           const dyd_cert_fraction *c, const dyd_cert_fraction *d);
+/*@ requires 3 <= count && listed_places(s, site, count); assigns \nothing; exits \false; */
+bool dyd_cert_on_circle(const dyd_cert_sites *s, const uint32_t *site, size_t count);
+
 #include "checker/measure.c"

@@ -17,6 +17,14 @@ command=$(find "$work/moved" -name dyadel -type f -perm -u+x)
 printed=$(env -u LD_LIBRARY_PATH "$command" --version) || fail "the installed command does not run"
 case $printed in "dyadel "[0-9]*) ;; *) fail "the installed command prints: $printed" ;; esac
 
+# dyadel-proved, where it is installed, is found without PATH.
+if find "$work/moved" -name dyadel-proved | grep -q .; then
+  printf '0 0\n1 0\n0 1\n1 1\n' >"$work/points.txt"
+  env -u LD_LIBRARY_PATH "$command" delaunay --quiet -o "$work/pairs.csv" --certificate "$work/certificate.txt" "$work/points.txt"
+  env -u LD_LIBRARY_PATH PATH=/nowhere "$command" verify --proved "$work/certificate.txt" | grep -q 'checked: 2 ties' ||
+    fail "the installed command does not find dyadel-proved"
+fi
+
 PKG_CONFIG_PATH=$(dirname "$(find "$work/moved" -name dyadel.pc)")
 export PKG_CONFIG_PATH
 pkg-config --cflags dyadel | grep -Eq 'cairo|glib|freetype|jansson' && fail "--cflags: $(pkg-config --cflags dyadel)"
