@@ -20,12 +20,15 @@ enum { WORK = 1 << 20, CANDIDATES = 16, GAPS = 4096 };
 
 static const double degree = 0.017453292519943295;
 
-static void guess_set(ball_guess *out, const dyd_sphere *s, uint32_t i) {
-  const dyd_rough_place *r = &s->rough[i];
-  double lon = degree * r->at[0], lat = degree * r->at[1], dx = degree * r->half[0], dy = degree * r->half[1];
+static dyd_status guess_set(ball_guess *out, const dyd_sphere *s, uint32_t i, dyd_error *err) {
+  dyd_spot_d r;
+  dyd_status st = dyd_sphere_spot_d(&r, s, i, err);
+  if (st != DYD_OK) return st;
+  double lon = degree * (r.box[0] + r.box[1]) / 2, lat = degree * (r.box[2] + r.box[3]) / 2;
+  double dx = degree * (r.box[1] - r.box[0]) / 2, dy = degree * (r.box[3] - r.box[2]) / 2;
   *out = (ball_guess){{cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat)}, .place = i};
-  out->reach = dy + fmin(dx * cos(fmax(0, fabs(lat) - dy)), 4) + mpq_get_d(s->angle);
-  out->reach += dyd_engine_radius(s->places, i) * mpq_get_d(s->metre);
+  out->reach = dyd_spot_d_is_tight(&r) ? 0 : dy + fmin(dx * cos(fmax(0, fabs(lat) - dy)), 4) + r.angle;
+  return DYD_OK;
 }
 
 static int compare_guesses(const void *a, const void *b) {
@@ -112,8 +115,13 @@ dyd_status dyd_sphere_choose(dyd_sphere *s, dyd_error *err) {
   ball_guess *g = dyd_alloc(s->count, sizeof *g);
   size_t n = 0;
   if (!g) return dyd_fail_nomem(err);
-  for (uint32_t i = 0; i < s->count; i++)
-    if (s->alias[i] == i) guess_set(&g[n++], s, i);
+  dyd_status st = DYD_OK;
+  for (uint32_t i = 0; i < s->count && st == DYD_OK; i++)
+    if (s->alias[i] == i) st = guess_set(&g[n++], s, i, err);
+  if (st != DYD_OK) {
+    free(g);
+    return st;
+  }
   guesses_sort(g, n);
   bool found = guess_best(&s->centre, g, n) > 0 || n < 2;
   if (n >= 2 && (!found || eye_is_wide(g, n, s))) found = centre_in_gap(s, g, n) || found;

@@ -48,11 +48,12 @@ static bool turn_set(dyd_iv *s, dyd_iv *c, dyd_iv x) {
 static bool span_give(double out[2], dyd_iv x, double most) {
   out[0] = x.lo - LEAST;
   out[1] = x.hi + LEAST;
-  return out[0] < out[1] && out[1] - out[0] <= most;
+  return out[0] < out[1] && out[1] - out[0] <= most && most < HUGE_VAL;
 }
 
-bool dyd_filter_image(double box[4], const double place[4], const dyd_eye_d *eye, int64_t bits) {
-  dyd_iv lon = {place[0], place[1]}, lat = {place[2], place[3]}, sw, cw, su, cu, sf, cf;
+bool dyd_filter_image(double box[4], const dyd_spot_d *place, const dyd_eye_d *eye, int64_t bits) {
+  dyd_iv lon = {place->box[0], place->box[1]}, lat = {place->box[2], place->box[3]}, sw, cw, su, cu, sf, cf;
+  if (place->angle > 0) return false;
   if (!turn_set(&sw, &cw, dyd_iv_scale(dyd_iv_sub(lon, eye->lon), 0.5)) ||
       !turn_set(&su, &cu, dyd_iv_scale(dyd_iv_sub(lat, eye->lat), 0.5)) || !turn_set(&sf, &cf, lat))
     return false;

@@ -5,60 +5,65 @@
 #include "sphere/state.h"
 #include <string.h>
 
-dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err) {
-  dyd_rect r;
-  dyd_status st = DYD_OK;
-  dyd_rect_init(&r);
-  if (dyd_sphere_is_fixed(s, i))
-    st = dyd_sites_get(&r, dyd_engine_sites(s->places), i);
-  else
-    dyd_rect_set(&r, dyd_stream_rect(s->stream[i]));
-  if (st != DYD_OK) {
-    dyd_fail(err, st, "%s", dyd_status_text(st));
-  } else if (!dyd_spot_set(out, &r, s->degrees)) {
-    if (err) err->point = i;
-    st = dyd_fail(err, DYD_E_DOMAIN,
-                  "the latitude is beyond 90 degrees; points are longitude and latitude, in this order");
-  }
-  dyd_rect_clear(&r);
-  return st;
+/* The rectangle that is known of place i. */
+static dyd_status place_rect(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
+  if (dyd_sphere_is_fixed(s, i)) return dyd_sites_get(out, dyd_engine_sites(s->places), i);
+  dyd_rect_set(out, dyd_stream_rect(s->stream[i]));
+  return DYD_OK;
 }
 
-void dyd_sphere_angle(mpq_ptr out, const dyd_sphere *s, uint32_t i) {
+/* All within this angle, in radians, of a place of the rectangle are meant. */
+static void place_angle(mpq_ptr out, const dyd_sphere *s, uint32_t i) {
   double metres = dyd_engine_radius(s->places, i);
-  mpq_set(out, s->angle);
-  if (!(metres > 0)) return;
-  mpq_set_d(out, metres);
+  mpq_set_d(out, metres > 0 ? metres : 0);
   mpq_mul(out, out, s->metre);
   mpq_add(out, out, s->angle);
 }
 
-dyd_status dyd_sphere_wide_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err) {
-  mpq_t angle;
-  dyd_status st = dyd_sphere_spot(out, s, i, err);
-  if (st != DYD_OK || !dyd_sphere_is_round(s, i)) return st;
-  mpq_init(angle);
-  dyd_sphere_angle(angle, s, i);
-  dyd_spot_widen(out, angle);
-  mpq_clear(angle);
-  return DYD_OK;
+static dyd_status place_fail(uint32_t i, const char *what, dyd_error *err) {
+  if (err) err->point = i;
+  return dyd_fail(err, DYD_E_DOMAIN, "%s", what);
 }
 
-static dyd_status check_angle(const dyd_sphere *s, uint32_t i, dyd_error *err) {
-  mpq_t angle;
-  if (!dyd_sphere_is_round(s, i)) return DYD_OK;
-  mpq_init(angle);
-  dyd_sphere_angle(angle, s, i);
-  bool small = mpq_cmp_si(angle, 1, 1) <= 0;
-  mpq_clear(angle);
-  if (!small && err) err->point = i;
-  return small ? DYD_OK
-               : dyd_fail(err, DYD_E_DOMAIN, "the radius is larger than that of the earth; give a smaller one");
+dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err) {
+  dyd_rect r;
+  dyd_rect_init(&r);
+  dyd_status st = place_rect(&r, s, i);
+  bool good = st == DYD_OK && dyd_spot_set(out, &r, s->degrees);
+  dyd_rect_clear(&r);
+  if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
+  if (!good)
+    return place_fail(i, "the latitude is beyond 90 degrees; points are longitude and latitude, in this order", err);
+  place_angle(out->angle, s, i);
+  out->stays = mpq_sgn(out->angle) || mpq_sgn(s->degrees) || (dyd_sphere_is_fixed(s, i) && !dyd_spot_is_exact(out));
+  if (mpq_cmp_si(out->angle, 1, 1) <= 0) return DYD_OK;
+  return place_fail(i, "the radius is larger than that of the earth; give a smaller one", err);
+}
+
+/* Is place i exact, and within the common range of degrees? Then its site in doubles encloses its region. */
+static bool place_is_plain(double box[4], const dyd_sphere *s, uint32_t i) {
+  const dyd_sites *sites = dyd_engine_sites(s->places);
+  if (!dyd_sphere_is_fixed(s, i) || !dyd_sites_is_point(sites, i) || mpq_sgn(s->degrees) || mpq_sgn(s->angle) ||
+      dyd_engine_radius(s->places, i) > 0)
+    return false;
+  dyd_sites_get_d(box, sites, i);
+  return box[0] > -180 && box[1] < 180 && box[2] > -90 && box[3] < 90;
+}
+
+dyd_status dyd_sphere_spot_d(dyd_spot_d *out, const dyd_sphere *s, uint32_t i, dyd_error *err) {
+  dyd_spot spot;
+  out->angle = 0;
+  if (place_is_plain(out->box, s, i)) return DYD_OK;
+  dyd_spot_init(&spot);
+  dyd_status st = dyd_sphere_spot(&spot, s, i, err);
+  if (st == DYD_OK) dyd_spot_get_d(out, &spot);
+  dyd_spot_clear(&spot);
+  return st;
 }
 
 /* ---- aliases ---- */
 
-/* An exact place, by its degrees rounded: equal places have equal ones. */
+/* A place that may be exact, by its degrees rounded down: equal places have equal ones. */
 typedef struct rounded_place {
   double at[2];
   uint32_t place;
@@ -80,10 +85,12 @@ static dyd_status aliases_in_run(dyd_sphere *s, const rounded_place *run, size_t
   for (size_t k = 1; k < count && st == DYD_OK; k++) {
     uint32_t i = run[k].place;
     st = dyd_sphere_spot(&a, s, i, err);
+    if (st != DYD_OK || !dyd_spot_is_exact(&a)) continue;
     for (size_t l = 0; l < k && s->alias[i] == i && st == DYD_OK; l++) {
       uint32_t j = run[l].place;
       if (s->alias[j] != j) continue;
       st = dyd_sphere_spot(&b, s, j, err);
+      if (!dyd_spot_is_exact(&b)) continue;
       if (mpq_equal(a.mid[0], b.mid[0]) && mpq_equal(a.mid[1], b.mid[1])) s->alias[i] = j;
     }
   }
@@ -92,39 +99,17 @@ static dyd_status aliases_in_run(dyd_sphere *s, const rounded_place *run, size_t
   return st;
 }
 
-/* An exact place within the common range of degrees, in doubles rounded towards 0, as mpq_get_d rounds. */
-static bool place_is_plain(double at[2], const dyd_sphere *s, uint32_t i) {
-  const dyd_sites *sites = dyd_engine_sites(s->places);
-  double box[4];
-  if (!dyd_sphere_is_fixed(s, i) || !dyd_sites_is_point(sites, i) || mpq_sgn(s->degrees) || dyd_sphere_is_round(s, i))
-    return false;
-  dyd_sites_get_d(box, sites, i);
-  for (int a = 0; a < 2; a++) at[a] = box[2 * a] >= 0 ? box[2 * a] : box[2 * a + 1];
-  return box[0] > -180 && box[1] < 180 && box[2] > -90 && box[3] < 90;
-}
-
-/* Looks at all places, which finds latitudes that are none; lists those that are exact. */
-static dyd_status places_round(rounded_place *out, size_t *count, const dyd_sphere *s, dyd_error *err) {
-  dyd_spot spot;
-  dyd_status st = DYD_OK;
-  dyd_spot_init(&spot);
-  for (uint32_t i = 0; i < s->count && st == DYD_OK; i++) {
-    dyd_rough_place *r = &s->rough[i];
+/* Looks at all places, which finds latitudes that are none; lists those that may be exact. */
+static dyd_status places_round(rounded_place *out, size_t *count, dyd_sphere *s, dyd_error *err) {
+  for (uint32_t i = 0; i < s->count; i++) {
+    dyd_spot_d p;
+    dyd_status st = dyd_sphere_spot_d(&p, s, i, err);
     s->alias[i] = i;
-    *r = (dyd_rough_place){{0, 0}, {0, 0}};
-    if (place_is_plain(r->at, s, i)) {
-      out[(*count)++] = (rounded_place){{r->at[0], r->at[1]}, i};
-      continue;
-    }
-    st = dyd_sphere_spot(&spot, s, i, err);
-    if (st == DYD_OK) st = check_angle(s, i, err);
-    if (st != DYD_OK) break;
-    for (int a = 0; a < 2; a++) r->at[a] = mpq_get_d(spot.mid[a]), r->half[a] = mpq_get_d(spot.half[a]);
-    if (!dyd_sphere_is_fixed(s, i) || !dyd_spot_is_exact(&spot) || dyd_sphere_is_round(s, i)) continue;
-    out[(*count)++] = (rounded_place){{r->at[0], r->at[1]}, i};
+    if (st != DYD_OK) return st;
+    if (!dyd_sphere_is_fixed(s, i) || !dyd_spot_d_is_tight(&p)) continue;
+    out[(*count)++] = (rounded_place){{p.box[0] + 0., p.box[2] + 0.}, i}; /* no -0 */
   }
-  dyd_spot_clear(&spot);
-  return st;
+  return DYD_OK;
 }
 
 /* Which of `buckets`, a power of two. */

@@ -392,16 +392,16 @@ static bool project_exact(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, s
   return good;
 }
 
-bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, mpq_srcptr angle, dyd_eye *e, slong prec) {
+bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec) {
   const dyd_spot *q = &e->spot;
   sight g;
   piece p;
-  bool exact = dyd_spot_is_exact(s) && dyd_spot_is_exact(q);
-  if (exact && mpq_sgn(angle) == 0) return project_exact(x, y, s, e, prec);
-  sight_init(&g, angle, prec);
+  if (dyd_spot_is_exact(s) && dyd_spot_is_exact(q)) return project_exact(x, y, s, e, prec);
+  sight_init(&g, s->angle, prec);
   piece_init(&p);
   piece_set(&p, s, q, prec);
-  g.wide = !exact;
+  g.wide = false;
+  for (int k = 0; k < VARIABLES; k++) g.wide = g.wide || !mag_is_zero(&p.half[k]);
   bool good = sight_cover(&g, &p, 0);
   if (good) {
     arb_set_interval_arf(x, &g.end[0], &g.end[1], prec);

@@ -252,7 +252,8 @@ dyd_status dyd_sphere_rect(dyd_rect *out, const dyd_sphere *s, uint32_t i) {
   if (i >= s->count) return DYD_E_ARG;
   dyd_spot_init(&spot);
   dyd_rect_init(&r);
-  dyd_status st = dyd_sphere_wide_spot(&spot, s, i, NULL);
+  dyd_status st = dyd_sphere_spot(&spot, s, i, NULL);
+  if (st == DYD_OK) dyd_spot_box(&spot);
   if (st == DYD_OK) st = spot_side(&r.x, &spot, 0);
   if (st == DYD_OK) st = spot_side(&r.y, &spot, 1);
   if (st == DYD_OK) dyd_rect_swap(out, &r);

@@ -19,12 +19,13 @@ static dyd_status place_narrow(const dyd_sphere *s, uint32_t i, int64_t bits, in
   return dyd_failed(st) ? st : DYD_OK;
 }
 
-/* The centre, at least so narrow; it holds all that is within the angle of it. */
+/* The centre, at least so narrow; a box. */
 static dyd_status centre_narrow(dyd_sphere *s, int64_t bits, int64_t max_bits, dyd_error *err) {
   if (s->eye_bits >= bits) return DYD_OK;
   dyd_status st = place_narrow(s, s->centre, bits, max_bits, err);
-  if (st == DYD_OK) st = dyd_sphere_wide_spot(&s->eye.spot, s, s->centre, err);
+  if (st == DYD_OK) st = dyd_sphere_spot(&s->eye.spot, s, s->centre, err);
   if (st != DYD_OK) return st;
+  dyd_spot_box(&s->eye.spot);
   s->eye.prec = 0;
   s->eye_bits = dyd_sphere_is_fixed(s, s->centre) ? INT64_MAX : bits;
   return DYD_OK;
@@ -35,7 +36,6 @@ typedef struct image {
   dyd_sphere *s;
   uint32_t i;
   dyd_spot spot;
-  mpq_t angle;
   arb_t x, y;
   bool moving, wide; /* a stream is concerned; something stays wide whatever is asked */
 } image;
@@ -52,14 +52,10 @@ static dyd_status image_try(bool *seen, image *m, int64_t bits, int64_t max_bits
   if (st == DYD_OK) st = centre_narrow(s, bits, max_bits, err);
   if (st == DYD_OK) st = dyd_sphere_spot(&m->spot, s, m->i, err);
   if (st != DYD_OK) return st;
-  bool centre_fixed = s->eye_bits == INT64_MAX, place_fixed = dyd_sphere_is_fixed(s, m->i);
-  bool centre_wide = !s->free && dyd_sphere_is_round(s, s->centre);
-  m->wide = mpq_sgn(m->angle) || mpq_sgn(s->degrees) || centre_wide;
-  m->wide = m->wide || (centre_fixed && !dyd_spot_is_exact(&s->eye.spot));
-  m->wide = m->wide || (place_fixed && !dyd_spot_is_exact(&m->spot));
-  m->moving = !place_fixed || !centre_fixed;
+  m->wide = m->spot.stays || s->eye.spot.stays;
+  m->moving = !dyd_sphere_is_fixed(s, m->i) || s->eye_bits != INT64_MAX;
   slong prec = (slong)(bits < WIDE_BITS && m->wide ? WIDE_BITS : bits) + SPARE;
-  *seen = dyd_project(m->x, m->y, &m->spot, m->angle, &s->eye, prec < GUARD ? GUARD : prec);
+  *seen = dyd_project(m->x, m->y, &m->spot, &s->eye, prec < GUARD ? GUARD : prec);
   return DYD_OK;
 }
 
@@ -102,8 +98,6 @@ static dyd_status image_give(dyd_rect *out, const image *m, bool known, int64_t 
 static void image_init(image *m, dyd_sphere *s, uint32_t i) {
   *m = (image){.s = s, .i = i};
   dyd_spot_init(&m->spot);
-  mpq_init(m->angle);
-  dyd_sphere_angle(m->angle, s, i);
   arb_init(m->x);
   arb_init(m->y);
 }
@@ -111,7 +105,6 @@ static void image_init(image *m, dyd_sphere *s, uint32_t i) {
 static void image_clear(image *m) {
   arb_clear(m->y);
   arb_clear(m->x);
-  mpq_clear(m->angle);
   dyd_spot_clear(&m->spot);
 }
 
@@ -152,16 +145,14 @@ static bool eye_glance(dyd_eye_d *out, dyd_sphere *s) {
   return true;
 }
 
-/* The doubles about an exact place tell its image to some 45 bits: do they to so many as are asked for? */
+/* Doubles tell the image of an exact place to some 45 bits, that of a wide one to fewer: returns false where they do
+ * not tell it to as many as are asked for. */
 static bool image_glance(double box[4], void *user, size_t point, int64_t bits) {
   dyd_sphere *s = user;
-  const dyd_sites *sites = dyd_engine_sites(s->places);
-  uint32_t i = s->of[point];
-  double place[4];
-  if (dyd_sphere_is_round(s, i) || !dyd_sphere_is_fixed(s, i)) return false;
-  if (!dyd_sites_is_point(sites, i)) return false;
-  dyd_sites_get_d(place, sites, i);
-  return dyd_filter_image(box, place, &s->eye_d, bits);
+  dyd_spot_d place;
+  if (!dyd_sphere_is_fixed(s, s->of[point])) return false;
+  if (dyd_sphere_spot_d(&place, s, s->of[point], NULL) != DYD_OK) return false;
+  return dyd_filter_image(box, &place, &s->eye_d, bits);
 }
 
 dyd_status dyd_sphere_add_images(dyd_sphere *s, dyd_error *err) {

@@ -97,15 +97,12 @@ static dyd_status centre_take(dyd_sphere *s, const dyd_sphere_options *o, dyd_er
 
 static dyd_status sphere_make(dyd_sphere *s, dyd_engine *places, const dyd_sphere_options *o, dyd_error *err) {
   s->alias = dyd_alloc(s->count, sizeof *s->alias);
-  s->rough = dyd_alloc(s->count, sizeof *s->rough);
-  dyd_status st = s->alias && s->rough ? dyd_engine_new(&s->images) : DYD_E_NOMEM;
+  dyd_status st = s->alias ? dyd_engine_new(&s->images) : DYD_E_NOMEM;
   if (st != DYD_OK) return dyd_fail_nomem(err);
   if (o->radius) st = radius_read(s, o->radius, err);
   if (st == DYD_OK) st = streams_take(s, places, err);
   if (st == DYD_OK) st = dyd_sphere_find_aliases(s, err);
   if (st == DYD_OK) st = centre_take(s, o, err);
-  free(s->rough);
-  s->rough = NULL;
   return st == DYD_OK ? images_make(s, err) : st;
 }
 
@@ -136,7 +133,6 @@ void dyd_sphere_free(dyd_sphere *s) {
   free(s->stream);
   free(s->of);
   free(s->alias);
-  free(s->rough);
   dyd_eye_clear(&s->eye);
   mpq_clears(s->angle, s->degrees, s->metre, NULL);
   free(s);

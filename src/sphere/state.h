@@ -18,11 +18,6 @@
 #include "sphere/project.h"
 #include <dyadel/sphere.h>
 
-/* A place in doubles, rounded: degrees, and by how much they may be off. */
-typedef struct dyd_rough_place {
-  double at[2], half[2];
-} dyd_rough_place;
-
 /* Invariant: of[] ascends: the places that have an image, which are all but the centre and aliases. alias[i] <= i is
  * the lowest place at the same point as i. stream is NULL, or has an entry for each place, NULL where it is fixed. */
 struct dyd_sphere {
@@ -33,31 +28,25 @@ struct dyd_sphere {
   size_t count;    /* of places */
   uint32_t *of, *alias;
   size_t with_image;
-  dyd_rough_place *rough; /* of each place; NULL but while the sphere is made */
   dyd_stream **stream;
   mpq_t metre;   /* radians to a metre */
-  mpq_t angle;   /* radians: the places within this angle of each are meant; 0: the place; and see dyd_sphere_angle */
-  mpq_t degrees; /* longitude and latitude may be off by so much */
+  mpq_t angle, degrees; /* the radius in the options: radians, or degrees of longitude and latitude */
   dyd_eye eye;   /* the centre, as it was asked last */
   int64_t eye_bits;
   dyd_eye_d eye_d; /* the same in doubles, where first looks are in doubles */
 };
 
-/* places.c: the place i, as it is known now. DYD_E_DOMAIN where its latitude is beyond a pole. */
+/* places.c: the region of place i, as it is known now, with all that widens it: rectangle, stream, the radius of its row
+ * and those in the options. Nothing else reads these. DYD_E_DOMAIN where its latitude is beyond a pole, or its angle
+ * above 1; DYD_E_NOMEM. */
 dyd_status dyd_sphere_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
-/* The same with all that is within its angle, see below. */
-dyd_status dyd_sphere_wide_spot(dyd_spot *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
+/* Encloses the same in doubles; quick for exact places. */
+dyd_status dyd_sphere_spot_d(dyd_spot_d *out, const dyd_sphere *s, uint32_t i, dyd_error *err);
 static inline bool dyd_sphere_is_fixed(const dyd_sphere *s, uint32_t i) {
   return !s->stream || !s->stream[i];
 }
 
-/* All within this angle, in radians, of place i are meant; out is initialised. */
-void dyd_sphere_angle(mpq_ptr out, const dyd_sphere *s, uint32_t i);
-static inline bool dyd_sphere_is_round(const dyd_sphere *s, uint32_t i) {
-  return mpq_sgn(s->angle) || dyd_engine_radius(s->places, i) > 0;
-}
-
-/* Fills in alias and rough; looks at all places, DYD_E_DOMAIN as above. */
+/* Fills in alias; looks at all places, DYD_E_DOMAIN as above. */
 dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err);
 
 /* choose_filter.c: the place to project from, among those that are no aliases; where each may be the same as another

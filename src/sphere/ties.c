@@ -67,7 +67,7 @@ static dyd_status circle_read(bool *exact, circle_question *q, dyd_error *err) {
     uint32_t i = k < q->count ? q->s->of[q->site[k]] : q->s->centre;
     dyd_status st = dyd_sphere_spot(&q->spot[k], q->s, i, err);
     if (st != DYD_OK) return st;
-    *exact = dyd_spot_is_exact(&q->spot[k]) && !dyd_sphere_is_round(q->s, i);
+    *exact = dyd_spot_is_exact(&q->spot[k]);
     for (int a = 0; a < 2; a++) mpz_lcm(q->n, q->n, mpq_denref(q->spot[k].mid[a]));
   }
   mpz_mul_ui(q->n, q->n, 360);

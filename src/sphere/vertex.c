@@ -219,25 +219,21 @@ static void axes_leave(arb_ptr n, const axes *f) {
   _arb_vec_clear(w, 2);
 }
 
-/* Who is within an angle of a place is within it of its vector. */
+/* A point within an angle of a place is within it of its vector. */
 static dyd_status place_vector(arb_ptr v, const dyd_sphere *s, uint32_t i, dyd_error *err) {
   dyd_spot spot;
-  mpq_t angle;
   arb_t reach;
   mag_t error;
   dyd_spot_init(&spot);
-  mpq_init(angle);
   arb_init(reach);
   mag_init(error);
   dyd_status st = dyd_sphere_spot(&spot, s, i, err);
-  dyd_sphere_angle(angle, s, i);
-  dyd_ball_set_q(reach, angle, PREC);
+  dyd_ball_set_q(reach, spot.angle, PREC);
   arb_get_mag(error, reach);
   if (st == DYD_OK) spot_vector(v, &spot);
   for (int a = 0; a < 3; a++) arb_add_error_mag(v + a, error);
   mag_clear(error);
   arb_clear(reach);
-  mpq_clear(angle);
   dyd_spot_clear(&spot);
   return st;
 }
@@ -261,9 +257,11 @@ dyd_status dyd_sphere_vector(double box[6], const dyd_sphere *s, uint32_t i, dyd
 
 static dyd_status triangle_spots(dyd_spot spot[3], const dyd_sphere *s, const dyd_triangle *t, dyd_error *err) {
   dyd_status st = DYD_OK;
-  for (int k = 0; k < 3 && st == DYD_OK; k++)
-    st = t->v[k] < s->count ? dyd_sphere_wide_spot(&spot[k], s, t->v[k], err)
+  for (int k = 0; k < 3 && st == DYD_OK; k++) {
+    st = t->v[k] < s->count ? dyd_sphere_spot(&spot[k], s, t->v[k], err)
                             : dyd_fail(err, DYD_E_ARG, "there is no point %lu", (unsigned long)t->v[k]);
+    if (st == DYD_OK) dyd_spot_box(&spot[k]);
+  }
   return st;
 }
 

@@ -74,7 +74,6 @@ static void test_images(void **state) {
   dyd_spot spot;
   dyd_eye eye;
   arb_t x, y;
-  mpq_t angle;
   size_t seen = 0, tight = 0;
   (void)state;
   r = test_random_start("images of places");
@@ -82,30 +81,28 @@ static void test_images(void **state) {
   dyd_eye_init(&eye);
   arb_init(x);
   arb_init(y);
-  mpq_init(angle);
   for (int k = 0; k < 3000; k++) {
     spot_case s, q;
     long double want[2];
     make_spot(&s, &r, test_chance(&r, 2));
     make_spot(&q, &r, test_chance(&r, 3));
-    mpq_set_d(angle, test_chance(&r, 3) ? ldexp(test_unit(&r), -3) : 0);
     set_spot(&spot, &s);
+    mpq_set_d(spot.angle, test_chance(&r, 3) ? ldexp(test_unit(&r), -3) : 0);
     set_spot(&eye.spot, &q);
     eye.prec = 0;
-    if (!dyd_project(x, y, &spot, angle, &eye, 128)) continue;
+    if (!dyd_project(x, y, &spot, &eye, 128)) continue;
     seen++;
-    if (dyd_spot_is_exact(&spot) && dyd_spot_is_exact(&eye.spot) && !mpq_sgn(angle))
+    if (dyd_spot_is_exact(&spot) && dyd_spot_is_exact(&eye.spot))
       assert_true(arb_rel_accuracy_bits(x) > 60 || arb_rel_accuracy_bits(y) > 60);
     for (int l = 0; l < 8; l++) {
       spot_case from = choose_in(&q, &r), at = choose_in(&s, &r);
-      if (mpq_sgn(angle)) at = move_by(&at, mpq_get_d(angle), &r);
+      if (mpq_sgn(spot.angle)) at = move_by(&at, mpq_get_d(spot.angle), &r);
       if (image_of(want, &at, &from) < 1e-4L) continue;
       assert_true(ball_holds(x, want[0]) && ball_holds(y, want[1]));
       tight++;
     }
   }
   assert_true(seen > 1500 && tight > 10000);
-  mpq_clear(angle);
   arb_clear(y);
   arb_clear(x);
   dyd_eye_clear(&eye);
@@ -117,26 +114,22 @@ static void test_widths(void **state) {
   dyd_spot spot;
   dyd_eye eye;
   arb_t x, y;
-  mpq_t angle;
   (void)state;
   dyd_spot_init(&spot);
   dyd_eye_init(&eye);
   arb_init(x);
   arb_init(y);
-  mpq_init(angle);
   set_spot(&eye.spot, &(spot_case){10, 0, {0, 0}});
-  mpq_set_ui(angle, 1, 1024);
   set_spot(&spot, &(spot_case){100, 0, {0, 0}}); /* 90 degrees away: the slope is 1 */
-  assert_true(dyd_project(x, y, &spot, angle, &eye, 128));
+  mpq_set_ui(spot.angle, 1, 1024);
+  assert_true(dyd_project(x, y, &spot, &eye, 128));
   assert_true(fabs(mag_get_d(arb_radref(x)) - 0x1p-10) < 1e-8 && fabs(mag_get_d(arb_radref(y)) - 0x1p-10) < 1e-8);
-  mpq_set_ui(angle, 0, 1);
   set_spot(&spot, &(spot_case){100, 0, {0x1p-10, 0x1p-12}});
-  assert_true(dyd_project(x, y, &spot, angle, &eye, 128));
+  assert_true(dyd_project(x, y, &spot, &eye, 128));
   assert_true(fabs(mag_get_d(arb_radref(x)) / (0x1p-10 * (double)degree) - 1) < 1e-4);
   assert_true(fabs(mag_get_d(arb_radref(y)) / (0x1p-12 * (double)degree) - 1) < 1e-4);
   set_spot(&spot, &(spot_case){11, 0, {1, 0}}); /* the centre is at its end */
-  assert_false(dyd_project(x, y, &spot, angle, &eye, 128));
-  mpq_clear(angle);
+  assert_false(dyd_project(x, y, &spot, &eye, 128));
   arb_clear(y);
   arb_clear(x);
   dyd_eye_clear(&eye);
@@ -180,37 +173,42 @@ static void test_doubles(void **state) {
   dyd_spot spot;
   dyd_eye eye;
   arb_t x, y;
-  mpq_t none;
   size_t seen = 0, fine = 0;
   (void)state;
   r = test_random_start("images in doubles");
   dyd_spot_init(&spot);
   dyd_eye_init(&eye);
   arb_init(x), arb_init(y);
-  mpq_init(none);
   for (int k = 0; k < 20000; k++) {
-    double q[4], p[4], got[4];
+    double q[4], got[4];
+    dyd_spot_d region = {.angle = 0};
+    double *p = region.box;
     dyd_eye_d in_doubles;
     make_place(q, &r, NULL);
     make_place(p, &r, q);
+    bool wide = test_chance(&r, 5);
+    if (wide) p[1] += ldexp(test_unit(&r), -(int)test_below(&r, 40)), p[3] = fmin(90, p[3] + p[1] - p[0]);
     set_corner(&eye.spot, q, 0);
     eye.prec = 0;
     dyd_eye_enclose(&in_doubles, &eye);
-    bool known = dyd_filter_image(got, p, &in_doubles, 0);
+    bool known = dyd_filter_image(got, &region, &in_doubles, 0);
     for (int corner = 0; corner < 4 && known; corner++) {
       set_corner(&spot, p, corner);
-      assert_true(dyd_project(x, y, &spot, none, &eye, 200));
+      assert_true(dyd_project(x, y, &spot, &eye, 200));
       assert_true(is_between(x, got) && is_between(y, got + 2));
     }
+    for (int a = 0; a < 4 && known; a++) assert_true(isfinite(got[a]));
+    region.angle = 0x1p-60;
+    assert_false(dyd_filter_image(got, &region, &in_doubles, 0)); /* the box alone is not the region */
+    region.angle = 0;
     seen += known;
     double far = known ? hypot(got[0], got[2]) : HUGE_VAL;
-    if (far > 200) continue;
+    if (far > 200 || wide) continue;
     fine++;
-    assert_true(dyd_filter_image(got, p, &in_doubles, 40));
+    assert_true(dyd_filter_image(got, &region, &in_doubles, 40));
     assert_true(fmax(got[1] - got[0], got[3] - got[2]) <= 0x1p-41 * (1 + 1e-3) * (1 + far * far));
   }
   assert_true(seen > 10000 && fine > 5000);
-  mpq_clear(none);
   arb_clear(y), arb_clear(x);
   dyd_eye_clear(&eye);
   dyd_spot_clear(&spot);
