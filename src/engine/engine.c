@@ -53,10 +53,22 @@ size_t dyd_engine_count(const dyd_engine *e) {
   return dyd_sites_count(e->sites);
 }
 
-/* Two stores and nothing else: safe in a signal handler. */
-void dyd_engine_cancel(dyd_engine *e) {
+static void engine_stop(dyd_engine *e) {
   dyd_flag_set(&e->cancelled, 1);
   dyd_flag_set(&e->stop, 1);
+}
+
+/* Loads and stores of flags and nothing else: safe in a signal handler. */
+void dyd_engine_cancel(dyd_engine *e) {
+  engine_stop(e);
+  dyd_engine *follower = __atomic_load_n(&e->follower, __ATOMIC_SEQ_CST);
+  if (follower) engine_stop(follower);
+}
+
+void dyd_engine_follow(dyd_engine *e, dyd_engine *follower) {
+  __atomic_store_n(&e->follower, follower, __ATOMIC_SEQ_CST);
+  if (follower && dyd_flag_get(&e->cancelled)) engine_stop(follower);
+  if (!follower) dyd_flag_set(&e->cancelled, 0); /* heard */
 }
 
 dyd_outcome dyd_engine_outcome(const dyd_engine *e) {

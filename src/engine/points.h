@@ -7,6 +7,8 @@
 
 /* The refinable point of a site, NULL when the site is fixed. O(log points). */
 const dyd_refinable *dyd_engine_find(const dyd_engine *e, uint32_t site);
+/* From now on a cancel of e cancels `follower`, too, also one that came before; NULL ends that. */
+void dyd_engine_follow(dyd_engine *e, dyd_engine *follower);
 /* Brings one point, or a guest, to precision bits (2^-bits) and its site in the table with it; *calls counts calls made
  * (0 when the point was that narrow before). On failure the site and p->bits are as before, and err names site and
  * stage; so they are for DYD_CANCELLED, which a source returns when it saw e->stop raised. */

@@ -109,6 +109,7 @@ struct dyd_engine {
   uint64_t bytes_most;    /* what rooms have seen */
   volatile int cancelled; /* set by dyd_engine_cancel; atomic access only, as for stop */
   volatile int stop;      /* set together with cancelled, and at a deadline; read by the triangulation */
+  dyd_engine *follower;   /* cancelled together with this one; atomic access only; NULL: none */
 };
 
 static inline int dyd_flag_get(const volatile int *flag) {

@@ -3,22 +3,27 @@
  * width, which widens all images, would leave more open than the pairs around a gap, from no place, but from the middle
  * of a gap between them [SPH-5]; also where each may be the same as another one.
  *
- * A guess in doubles: on it depends how wide images are, not whether they are right. */
+ * A guess in doubles: on it depends how wide images are, not whether they are right. Places are compared by distances
+ * between the middles of regions, so that wider radii do not change which place, or which gap, is best; a gap is taken
+ * from some width on, and where a place is projected from and leaves pairs open, the gap is looked from, too (sphere.c):
+ * so wider radii decide no more. */
 #include "base/alloc.h"
 #include "base/error.h"
 #include "sphere/state.h"
 #include <math.h>
 
-/* Where a place is about: a vector of length 1, and how far from it the place may be. */
+/* Where a place is about: a vector of length 1; how far from it the place may be; the same of the box about it, as an
+ * eye, whose axes turn with its longitude. */
 typedef struct ball_guess {
-  double at[3], reach;
+  double at[3], reach, eye;
   uint32_t place;
 } ball_guess;
 
-/* How many pairs are looked at, about, and candidates at most; places tried for a gap. */
-enum { WORK = 1 << 20, CANDIDATES = 16, GAPS = 4096 };
+/* How many pairs are looked at, about, and candidates at most; places tried for a gap; an eye that is a region is at
+ * least so many times as far from others as it is wide. */
+enum { WORK = 1 << 20, CANDIDATES = 16, GAPS = 4096, APART = 4 };
 
-static const double degree = 0.017453292519943295;
+static const double degree = 0.017453292519943295, quarter = 1.5707963267948966;
 
 static dyd_status guess_set(ball_guess *out, const dyd_sphere *s, uint32_t i, dyd_error *err) {
   dyd_spot_d r;
@@ -27,7 +32,10 @@ static dyd_status guess_set(ball_guess *out, const dyd_sphere *s, uint32_t i, dy
   double lon = degree * (r.box[0] + r.box[1]) / 2, lat = degree * (r.box[2] + r.box[3]) / 2;
   double dx = degree * (r.box[1] - r.box[0]) / 2, dy = degree * (r.box[3] - r.box[2]) / 2;
   *out = (ball_guess){{cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat)}, .place = i};
-  out->reach = dyd_spot_d_is_tight(&r) ? 0 : dy + fmin(dx * cos(fmax(0, fabs(lat) - dy)), 4) + r.angle;
+  if (dyd_spot_d_is_tight(&r)) return DYD_OK;
+  double high = fabs(lat) + dy, across = high * 1.0000001 < quarter - r.angle ? asin(sin(r.angle) / cos(high)) : 4;
+  out->reach = dy + fmin(dx * cos(fmax(0, fabs(lat) - dy)), 4) + r.angle;
+  out->eye = dy + r.angle + dx + across;
   return DYD_OK;
 }
 
@@ -44,27 +52,42 @@ static void guesses_sort(ball_guess *g, size_t n) {
   if (k < n) qsort(g, n, sizeof *g, compare_guesses);
 }
 
-/* The distance that is left between the ball and the others; what is not above `enough` may be any such number. */
-static double guess_gap(const ball_guess *g, size_t n, const ball_guess *from, double enough) {
-  double least = 4;
-  for (size_t j = 0; j < n && least - from->reach > enough; j++) {
+/* From a place to the others: the least distance, and what is left of it between the regions. */
+typedef struct room_guess {
+  double distance, left;
+} room_guess;
+
+/* What is left counts from the edge of the eye's box. Where the distance is not above `enough`, or nothing is left, both
+ * may be any such numbers. */
+static room_guess guess_room(const ball_guess *g, size_t n, const ball_guess *from, double enough) {
+  room_guess r = {4, 4 - from->eye};
+  for (size_t j = 0; j < n && r.distance > enough && r.left > 0; j++) {
     if (g[j].place == from->place) continue;
     double x = g[j].at[0] - from->at[0], y = g[j].at[1] - from->at[1], z = g[j].at[2] - from->at[2];
-    least = fmin(least, sqrt(x * x + y * y + z * z) - g[j].reach);
+    double d = sqrt(x * x + y * y + z * z);
+    r.distance = fmin(r.distance, d);
+    r.left = fmin(r.left, d - g[j].reach - from->eye);
   }
-  return least - from->reach;
+  return r;
+}
+
+/* Better ones are greater; 0 where it is not apart from all. */
+static double guess_score(const ball_guess *g, size_t n, const ball_guess *from) {
+  const room_guess r = guess_room(g, n, from, 0);
+  if (r.left <= 0) return 0;
+  return from->eye == 0 ? 1e9 + r.distance : r.distance / from->eye;
 }
 
 /* Those that are narrowest are looked at, spread among all that are exact; more only while none is apart. */
 static double guess_best(uint32_t *out, const ball_guess *g, size_t n) {
-  size_t exact = 0, tried = 0, most = 1 + WORK / (n + 1);
-  double best = -1;
+  size_t exact = 0, tried = 0, most = 1 + WORK / (n + 1), all = 64 * most;
+  double best = 0;
   while (exact < n && g[exact].reach == 0) exact++;
   if (most > CANDIDATES) most = CANDIDATES;
   size_t step = exact > most ? exact / most : 1;
-  for (size_t k = 0; k < n && (tried < most || best <= 0); k += k < exact ? step : 1, tried++) {
-    double gap = guess_gap(g, n, &g[k], 0), score = gap <= 0 ? gap : g[k].reach == 0 ? 1e9 + gap : gap / g[k].reach;
+  for (size_t k = 0; k < n && tried < all && (tried < most || best <= 0); k += k < exact ? step : 1, tried++) {
     if (best > 1e9 && g[k].reach > 0) break;
+    double score = guess_score(g, n, &g[k]);
     if (tried && score <= best) continue;
     best = score;
     *out = g[k].place;
@@ -72,16 +95,17 @@ static double guess_best(uint32_t *out, const ball_guess *g, size_t n) {
   return best;
 }
 
-/* The place of many, spread evenly over the sphere (a Fibonacci lattice), that has the widest gap about it. */
+/* The place of many, spread evenly over the sphere (a Fibonacci lattice), that is farthest from the middles of all
+ * regions, and in none. */
 static bool gap_best(double at[2], const ball_guess *g, size_t n) {
   double best = 0;
   for (size_t k = 0; k < GAPS && (best <= 0 || k * n < 16 * (size_t)WORK); k++) {
     double z = 1 - (double)(2 * (k * 1597 % GAPS) + 1) / GAPS, lon = fmod((double)k * 222.49223594996215, 360) - 180;
     double r = sqrt(1 - z * z);
-    const ball_guess here = {{r * cos(degree * lon), r * sin(degree * lon), z}, 0, DYD_NO_PLACE};
-    double gap = guess_gap(g, n, &here, best);
-    if (gap <= best) continue;
-    best = gap;
+    const ball_guess here = {.at = {r * cos(degree * lon), r * sin(degree * lon), z}, .place = DYD_NO_PLACE};
+    room_guess room = guess_room(g, n, &here, best);
+    if (room.left <= 0 || room.distance <= best) continue;
+    best = room.distance;
     at[0] = ldexp(nearbyint(ldexp(lon, 10)), -10);
     at[1] = ldexp(nearbyint(ldexp(asin(z) / degree, 10)), -10);
   }
@@ -94,10 +118,14 @@ static bool gap_best(double at[2], const ball_guess *g, size_t n) {
 static bool eye_is_wide(const ball_guess *g, size_t n, const dyd_sphere *s) {
   const ball_guess *eye = g;
   while (eye->place != s->centre) eye++;
-  if (eye->reach == 0 || !dyd_sphere_is_fixed(s, s->centre)) return false;
+  if (eye->eye == 0 || !dyd_sphere_is_fixed(s, s->centre)) return false;
+  if (guess_room(g, n, eye, 0).left < APART * eye->eye) return true;
   size_t step = 1 + n / (1 + WORK / n);
   double sum = 0;
-  for (size_t k = 0; k < n; k += step) sum += (double)step * fmin(1, eye->reach / fmax(0, guess_gap(g, n, &g[k], 0)));
+  for (size_t k = 0; k < n; k += step) {
+    const room_guess r = guess_room(g, n, &g[k], 0);
+    sum += (double)step * (r.left > eye->eye ? eye->eye / r.left : 1);
+  }
   return sum > 2.5;
 }
 
@@ -111,23 +139,40 @@ static bool centre_in_gap(dyd_sphere *s, const ball_guess *g, size_t n) {
   return true;
 }
 
-dyd_status dyd_sphere_choose(dyd_sphere *s, dyd_error *err) {
-  ball_guess *g = dyd_alloc(s->count, sizeof *g);
-  size_t n = 0;
-  if (!g) return dyd_fail_nomem(err);
+/* Guesses about all places that are no aliases. */
+static dyd_status guesses_make(ball_guess **out, size_t *n, const dyd_sphere *s, dyd_error *err) {
   dyd_status st = DYD_OK;
+  ball_guess *g = dyd_alloc(s->count, sizeof *g);
+  *n = 0;
+  *out = g;
+  if (!g) return dyd_fail_nomem(err);
   for (uint32_t i = 0; i < s->count && st == DYD_OK; i++)
-    if (s->alias[i] == i) st = guess_set(&g[n++], s, i, err);
-  if (st != DYD_OK) {
-    free(g);
-    return st;
+    if (s->alias[i] == i) st = guess_set(&g[(*n)++], s, i, err);
+  return st;
+}
+
+dyd_status dyd_sphere_choose(dyd_sphere *s, dyd_error *err) {
+  ball_guess *g;
+  size_t n;
+  dyd_status st = guesses_make(&g, &n, s, err);
+  bool found = true;
+  if (st == DYD_OK) {
+    guesses_sort(g, n);
+    found = guess_best(&s->centre, g, n) > 0 || n < 2;
+    if (n >= 2 && (!found || eye_is_wide(g, n, s))) found = centre_in_gap(s, g, n) || found;
   }
-  guesses_sort(g, n);
-  bool found = guess_best(&s->centre, g, n) > 0 || n < 2;
-  if (n >= 2 && (!found || eye_is_wide(g, n, s))) found = centre_in_gap(s, g, n) || found;
   free(g);
-  return found ? DYD_OK
-               : dyd_fail(err, DYD_E_DOMAIN,
-                          "points may be at the same place as others, and anywhere on the globe, so that nothing is "
-                          "known of any; give a smaller radius, or --merge where such points are one");
+  if (st != DYD_OK || found) return st;
+  return dyd_fail(err, DYD_E_DOMAIN,
+                  "points may be at the same place as others, and anywhere on the globe, so that nothing is "
+                  "known of any; give a smaller radius, or --merge where such points are one");
+}
+
+dyd_status dyd_sphere_choose_gap(dyd_sphere *s, dyd_error *err) {
+  ball_guess *g;
+  size_t n;
+  dyd_status st = guesses_make(&g, &n, s, err);
+  if (st == DYD_OK) centre_in_gap(s, g, n);
+  free(g);
+  return st;
 }

@@ -10,6 +10,7 @@
  * are wide, measured by their distance from q, are cut; where pieces are too many, they reach q. */
 #include "sphere/project.h"
 
+#include "base/flag.h"
 #include "stream/ball.h"
 
 enum { EYE_BITS = 64, VARIABLES = 3, MOST_PIECES = 1 << 13, MOST_DEPTH = VARIABLES * 64 };
@@ -40,6 +41,7 @@ typedef struct sight {
   bool wide, any;
   slong prec;
   unsigned pieces;
+  const volatile int *stop;
 } sight;
 
 static void view_init(view *v) {
@@ -231,7 +233,7 @@ static bool sight_cover(sight *g, const piece *all, int depth) {
     piece_add(g, all);
     return true;
   }
-  if (++g->pieces > MOST_PIECES || depth == MOST_DEPTH) return false;
+  if (++g->pieces > MOST_PIECES || depth == MOST_DEPTH || dyd_flag_is_set(g->stop)) return false;
   piece_init(&p);
   piece_cut(&p, all, widest, -1, g->prec);
   bool good = sight_cover(g, &p, depth + 1);
@@ -313,6 +315,7 @@ void dyd_eye_init(dyd_eye *e) {
   dyd_spot_init(&e->spot);
   for (arb_ptr b = &e->unit; b < &e->unit + DYD_EYE_BALLS; b++) arb_init(b);
   e->prec = 0;
+  e->stop = NULL;
 }
 
 void dyd_eye_clear(dyd_eye *e) {
@@ -400,6 +403,7 @@ bool dyd_project(arb_ptr x, arb_ptr y, const dyd_spot *s, dyd_eye *e, slong prec
   sight_init(&g, s->angle, prec);
   piece_init(&p);
   piece_set(&p, s, q, prec);
+  g.stop = e->stop;
   g.wide = false;
   for (int k = 0; k < VARIABLES; k++) g.wide = g.wide || !mag_is_zero(&p.half[k]);
   bool good = sight_cover(&g, &p, 0);

@@ -13,6 +13,7 @@ typedef struct dyd_eye {
   dyd_spot spot;                       /* a box: its angle is 0 */
   slong prec;                          /* of what follows, 0: not known */
   arb_struct unit, lon, lat, sin, cos; /* pi / 360; degrees; of the latitude */
+  const volatile int *stop;            /* NULL, or a flag that ends dyd_project early, with false */
 } dyd_eye;
 enum { DYD_EYE_BALLS = 5 };
 

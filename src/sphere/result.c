@@ -152,7 +152,7 @@ static dyd_status pairs_join(dyd_pair_list *out, const dyd_sphere *s, const dyd_
   return DYD_OK;
 }
 
-dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s) {
+static dyd_status pairs_seen(dyd_pair_list *out, const dyd_sphere *s) {
   const dyd_delaunay *pd = dyd_engine_delaunay(s->images);
   if (!pd) return DYD_E_ARG;
   dyd_pair_list images = {0};
@@ -165,14 +165,42 @@ dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s) {
   return st;
 }
 
+/* What is indeterminate becomes what it is from another eye. */
+static void pairs_improve(dyd_pair_list *l, const dyd_pair_list *other) {
+  size_t n = 0;
+  for (size_t k = 0; k < l->count; k++) {
+    const dyd_pair *p = &l->item[k], *q = p;
+    if (p->status == DYD_INDETERMINATE) q = pair_find(other, p->i, p->j);
+    if (q) l->item[n++] = *q;
+  }
+  l->count = n;
+}
+
+dyd_status dyd_sphere_pairs(dyd_pair_list *out, const dyd_sphere *s) {
+  dyd_pair_list other = {0};
+  dyd_status st = pairs_seen(out, s);
+  if (st != DYD_OK || !s->second || !dyd_engine_delaunay(s->second->images)) return st;
+  st = pairs_seen(&other, s->second);
+  if (st == DYD_OK) pairs_improve(out, &other);
+  dyd_pair_list_clear(&other);
+  return st == DYD_E_NOMEM ? st : DYD_OK;
+}
+
+static bool pairs_are_legal(const dyd_sphere *s) {
+  dyd_pair_list pairs = {0};
+  bool legal = dyd_sphere_pairs(&pairs, s) == DYD_OK;
+  for (size_t k = 0; k < pairs.count; k++) legal = legal && pairs.item[k].status == DYD_LEGAL;
+  dyd_pair_list_clear(&pairs);
+  return legal;
+}
+
 dyd_outcome dyd_sphere_outcome(const dyd_sphere *s) {
   dyd_outcome outcome = dyd_engine_outcome(s->images);
-  dyd_pair_list pairs = {0};
-  if (!s->free || outcome != DYD_OUTCOME_DECIDED) return outcome;
-  bool open = dyd_sphere_pairs(&pairs, s) != DYD_OK;
-  for (size_t k = 0; k < pairs.count; k++) open = open || pairs.item[k].status != DYD_LEGAL;
-  dyd_pair_list_clear(&pairs);
-  return open ? DYD_OUTCOME_FIXPOINT : outcome;
+  if (s->free && outcome == DYD_OUTCOME_DECIDED) return pairs_are_legal(s) ? outcome : DYD_OUTCOME_FIXPOINT;
+  if (!s->second || outcome != DYD_OUTCOME_FIXPOINT) return outcome;
+  if (pairs_are_legal(s)) return DYD_OUTCOME_DECIDED;
+  dyd_outcome other = dyd_engine_outcome(s->second->images);
+  return other == DYD_OUTCOME_CANCELLED || other == DYD_OUTCOME_BUDGET ? other : outcome;
 }
 
 /* ---- triangles ---- */

@@ -5,29 +5,36 @@
  * computation, are found by trying: what is missing is added. Images of wide places, or seen from a wide centre, or of
  * circles, stay wide; they are final once their place and centre are, or are narrow beside what is wide. */
 #include "base/error.h"
+#include "base/flag.h"
 #include "engine/points.h"
 #include "rect/interval.h"
 #include "sphere/state.h"
 #include "stream/ball.h"
+#include "stream/stream.h"
 
 enum { GUARD = 64, SPARE = 8, TRIES = 12, WIDE_BITS = 128 };
 
-static dyd_status place_narrow(const dyd_sphere *s, uint32_t i, int64_t bits, int64_t max_bits, dyd_error *err) {
+/* What is asked of an image. */
+typedef struct image_wish {
+  int64_t bits, max_bits;
+  const volatile int *stop; /* as in dyd_request */
+} image_wish;
+
+static dyd_status place_narrow(const dyd_sphere *s, uint32_t i, const image_wish *w, dyd_error *err) {
   if (dyd_sphere_is_fixed(s, i)) return DYD_OK;
-  if (max_bits < bits) max_bits = bits;
-  dyd_status st = dyd_stream_narrow(s->stream[i], bits, max_bits, err);
-  return dyd_failed(st) ? st : DYD_OK;
+  dyd_status st = dyd_stream_narrow_until(s->stream[i], w->bits, w->max_bits, w->stop, err);
+  return st == DYD_CANCELLED || dyd_failed(st) ? st : DYD_OK;
 }
 
 /* The centre, at least so narrow; a box. */
-static dyd_status centre_narrow(dyd_sphere *s, int64_t bits, int64_t max_bits, dyd_error *err) {
-  if (s->eye_bits >= bits) return DYD_OK;
-  dyd_status st = place_narrow(s, s->centre, bits, max_bits, err);
+static dyd_status centre_narrow(dyd_sphere *s, const image_wish *w, dyd_error *err) {
+  if (s->eye_bits >= w->bits) return DYD_OK;
+  dyd_status st = place_narrow(s, s->centre, w, err);
   if (st == DYD_OK) st = dyd_sphere_spot(&s->eye.spot, s, s->centre, err);
   if (st != DYD_OK) return st;
   dyd_spot_box(&s->eye.spot);
   s->eye.prec = 0;
-  s->eye_bits = dyd_sphere_is_fixed(s, s->centre) ? INT64_MAX : bits;
+  s->eye_bits = dyd_sphere_is_fixed(s, s->centre) ? INT64_MAX : w->bits;
   return DYD_OK;
 }
 
@@ -46,30 +53,21 @@ static slong image_width(const image *m) {
 }
 
 /* One try; *seen: place and centre are apart. */
-static dyd_status image_try(bool *seen, image *m, int64_t bits, int64_t max_bits, dyd_error *err) {
+static dyd_status image_try(bool *seen, image *m, const image_wish *w, dyd_error *err) {
   dyd_sphere *s = m->s;
-  dyd_status st = place_narrow(s, m->i, bits, max_bits, err);
-  if (st == DYD_OK) st = centre_narrow(s, bits, max_bits, err);
+  dyd_status st = place_narrow(s, m->i, w, err);
+  if (st == DYD_OK) st = centre_narrow(s, w, err);
   if (st == DYD_OK) st = dyd_sphere_spot(&m->spot, s, m->i, err);
   if (st != DYD_OK) return st;
   m->wide = m->spot.stays || s->eye.spot.stays;
   m->moving = !dyd_sphere_is_fixed(s, m->i) || s->eye_bits != INT64_MAX;
-  slong prec = (slong)(bits < WIDE_BITS && m->wide ? WIDE_BITS : bits) + SPARE;
+  slong prec = (slong)(w->bits < WIDE_BITS && m->wide ? WIDE_BITS : w->bits) + SPARE;
+  s->eye.stop = w->stop;
   *seen = dyd_project(m->x, m->y, &m->spot, &s->eye, prec < GUARD ? GUARD : prec);
-  return DYD_OK;
+  return dyd_flag_is_set(w->stop) ? DYD_CANCELLED : DYD_OK;
 }
 
-/* Tries until the image is as narrow as asked for, or will not be. */
-static dyd_status image_find(image *m, int64_t bits, int64_t max_bits, dyd_error *err) {
-  int64_t more = SPARE;
-  bool seen = false;
-  for (int k = 0; k < TRIES; k++) {
-    dyd_status st = image_try(&seen, m, bits + more, max_bits + more + GUARD, err);
-    if (st != DYD_OK) return st;
-    if (seen && (image_width(m) <= -bits - 2 || (m->wide && (!m->moving || k > 1)))) return DYD_OK;
-    more += seen ? image_width(m) + bits + SPARE : GUARD << k;
-  }
-  if (seen) return DYD_OK;
+static dyd_status image_fail(const image *m, dyd_error *err) {
   if (m->s->free)
     return dyd_fail(err, DYD_E_DOMAIN,
                     "it may be nearly anywhere, and no place of the sphere is apart from all points; give a smaller "
@@ -78,6 +76,22 @@ static dyd_status image_find(image *m, int64_t bits, int64_t max_bits, dyd_error
                   "it cannot be told from point %zu, from which the sphere is projected; narrow one of them, or give "
                   "--merge where both are one place",
                   dyd_engine_row(m->s->places, m->s->centre));
+}
+
+/* Tries until the image is as narrow as asked for; or will not be, as what stays wide is wide beside what moves; or
+ * max_bits are reached. */
+static dyd_status image_find(image *m, const image_wish *w, dyd_error *err) {
+  int64_t more = SPARE, most = (w->max_bits > w->bits ? w->max_bits : w->bits) + GUARD;
+  bool seen = false;
+  for (int k = 0; k < TRIES; k++) {
+    image_wish now = {w->bits + more < most ? w->bits + more : most, most, w->stop};
+    dyd_status st = image_try(&seen, m, &now, err);
+    if (st != DYD_OK) return st;
+    if (seen && image_width(m) <= -w->bits - 2) return DYD_OK;
+    if (now.bits == most || (m->wide && (!m->moving || k > 1))) break;
+    more += seen ? image_width(m) + w->bits + SPARE : GUARD << k;
+  }
+  return seen ? DYD_OK : image_fail(m, err);
 }
 
 /* Rounds outward, keeps to what was known before. */
@@ -112,7 +126,7 @@ static dyd_status image_request(dyd_rect *out, void *user, const dyd_request *re
   dyd_sphere *s = user;
   image m;
   image_init(&m, s, s->of[request->point]);
-  dyd_status st = image_find(&m, request->bits, request->max_bits, err);
+  dyd_status st = image_find(&m, &(image_wish){request->bits, request->max_bits, request->stop}, err);
   if (st == DYD_OK) st = image_give(out, &m, dyd_engine_knows(s->images, (uint32_t)request->point), request->bits);
   if (st == DYD_OK && m.wide && (!m.moving || request->bits >= WIDE_BITS)) st = DYD_FIXED;
   image_clear(&m);
@@ -128,7 +142,7 @@ dyd_status dyd_sphere_narrow_recalled(dyd_sphere *s, int64_t max_bits, dyd_error
     const dyd_refinable *p = dyd_engine_find(s->images, k);
     if (!p || !p->measured) continue;
     image_init(&m, s, s->of[k]);
-    st = image_find(&m, p->bits, max_bits, err);
+    st = image_find(&m, &(image_wish){p->bits, max_bits, NULL}, err);
     if (st != DYD_OK && err) err->point = k;
     image_clear(&m);
   }
@@ -140,7 +154,7 @@ dyd_status dyd_sphere_narrow_recalled(dyd_sphere *s, int64_t max_bits, dyd_error
 /* The centre in doubles, where it is an exact place. */
 static bool eye_glance(dyd_eye_d *out, dyd_sphere *s) {
   if (!s->free && !dyd_sphere_is_fixed(s, s->centre)) return false;
-  if (centre_narrow(s, 0, 0, NULL) != DYD_OK || !dyd_spot_is_exact(&s->eye.spot)) return false;
+  if (centre_narrow(s, &(image_wish){0, 0, NULL}, NULL) != DYD_OK || !dyd_spot_is_exact(&s->eye.spot)) return false;
   dyd_eye_enclose(out, &s->eye);
   return true;
 }

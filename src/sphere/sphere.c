@@ -2,6 +2,7 @@
 /* Life of a sphere: places and streams of an engine, the engine of images. */
 #include "base/abi.h"
 #include "base/alloc.h"
+#include "base/clock.h"
 #include "base/error.h"
 #include "engine/points.h"
 #include "engine/ties.h"
@@ -13,12 +14,12 @@ enum { FIRST_BITS = 32, START_BITS = 40 };
 
 /* ---- places ---- */
 
-static dyd_status streams_take(dyd_sphere *s, dyd_engine *places, dyd_error *err) {
+static dyd_status streams_take(dyd_sphere *s, dyd_error *err) {
   dyd_status st = DYD_OK;
   for (uint32_t i = 0; i < s->count && st == DYD_OK; i++) {
-    if (!dyd_engine_find(places, i)) continue;
+    if (!dyd_engine_find(s->places, i)) continue;
     if (!s->stream) s->stream = calloc(s->count, sizeof(dyd_stream *));
-    st = s->stream ? dyd_engine_stream(&s->stream[i], places, i) : DYD_E_NOMEM;
+    st = s->stream ? dyd_engine_stream(&s->stream[i], s->places, i) : DYD_E_NOMEM;
     if (st != DYD_OK) return dyd_fail(err, st, "%s", dyd_status_text(st));
     st = dyd_stream_narrow(s->stream[i], FIRST_BITS, FIRST_BITS, err);
     if (dyd_failed(st) && err) err->point = i;
@@ -95,12 +96,24 @@ static dyd_status centre_take(dyd_sphere *s, const dyd_sphere_options *o, dyd_er
   return DYD_OK;
 }
 
-static dyd_status sphere_make(dyd_sphere *s, dyd_engine *places, const dyd_sphere_options *o, dyd_error *err) {
+static dyd_sphere *sphere_begin(dyd_engine *places) {
+  dyd_sphere *s = calloc(1, sizeof *s);
+  if (!s) return NULL;
+  s->places = places;
+  s->count = dyd_engine_count(places);
+  s->eye_bits = INT64_MIN;
+  mpq_inits(s->angle, s->degrees, s->metre, NULL);
+  metre_set(s->metre);
+  dyd_eye_init(&s->eye);
   s->alias = dyd_alloc(s->count, sizeof *s->alias);
-  dyd_status st = s->alias ? dyd_engine_new(&s->images) : DYD_E_NOMEM;
-  if (st != DYD_OK) return dyd_fail_nomem(err);
-  if (o->radius) st = radius_read(s, o->radius, err);
-  if (st == DYD_OK) st = streams_take(s, places, err);
+  if (s->alias && dyd_engine_new(&s->images) == DYD_OK) return s;
+  dyd_sphere_free(s);
+  return NULL;
+}
+
+static dyd_status sphere_make(dyd_sphere *s, const dyd_sphere_options *o, dyd_error *err) {
+  dyd_status st = o->radius ? radius_read(s, o->radius, err) : DYD_OK;
+  if (st == DYD_OK) st = streams_take(s, err);
   if (st == DYD_OK) st = dyd_sphere_find_aliases(s, err);
   if (st == DYD_OK) st = centre_take(s, o, err);
   return st == DYD_OK ? images_make(s, err) : st;
@@ -110,15 +123,9 @@ dyd_status dyd_sphere_new(dyd_sphere **out, dyd_engine *places, const dyd_sphere
   dyd_sphere_options o;
   if (err) dyd_error_clear(err);
   if (dyd_abi_take(&o, sizeof o, options, "dyd_sphere_options", err) != DYD_OK) return DYD_E_ARG;
-  dyd_sphere *s = calloc(1, sizeof *s);
+  dyd_sphere *s = sphere_begin(places);
   if (!s) return dyd_fail_nomem(err);
-  s->places = places;
-  s->count = dyd_engine_count(places);
-  s->eye_bits = INT64_MIN;
-  mpq_inits(s->angle, s->degrees, s->metre, NULL);
-  metre_set(s->metre);
-  dyd_eye_init(&s->eye);
-  dyd_status st = sphere_make(s, places, &o, err);
+  dyd_status st = sphere_make(s, &o, err);
   if (st == DYD_OK)
     *out = s;
   else
@@ -128,6 +135,7 @@ dyd_status dyd_sphere_new(dyd_sphere **out, dyd_engine *places, const dyd_sphere
 
 void dyd_sphere_free(dyd_sphere *s) {
   if (!s) return;
+  dyd_sphere_free(s->second);
   dyd_engine_free(s->images);
   for (size_t i = 0; s->stream && i < s->count; i++) dyd_stream_free(s->stream[i]);
   free(s->stream);
@@ -173,9 +181,48 @@ static double *costs_of_images(const dyd_sphere *s, const double *cost) {
   return out;
 }
 
+/* [SPH-5] What is stated from one eye holds whatever is not known from another. A wide centre widens all images; from a
+ * gap only the pairs about it are lost. So pairs that are indeterminate from the first are looked at from the second. */
+static dyd_status second_make(dyd_sphere *s, dyd_error *err) {
+  dyd_sphere *t = sphere_begin(s->places);
+  if (!t) return dyd_fail_nomem(err);
+  mpq_set(t->angle, s->angle);
+  mpq_set(t->degrees, s->degrees);
+  memcpy(t->alias, s->alias, s->count * sizeof *s->alias);
+  dyd_status st = streams_take(t, err);
+  if (st == DYD_OK) st = dyd_sphere_choose_gap(t, err);
+  if (st == DYD_OK && t->free) st = images_make(t, err);
+  if (st == DYD_OK && t->free)
+    s->second = t;
+  else
+    dyd_sphere_free(t);
+  return st;
+}
+
+/* With the time that is left. Where no image can be had from the gap, there is no second. */
+static dyd_status second_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_options *options, double seconds,
+                             dyd_error *err) {
+  dyd_engine_options o = *options;
+  dyd_status st = s->second ? DYD_OK : second_make(s, err);
+  if (st != DYD_OK || !s->second) return st;
+  if (o.seconds > 0) o.seconds = o.seconds > seconds ? o.seconds - seconds : 0x1p-20;
+  o.cost = NULL;
+  o.progress = NULL;
+  o.trace = NULL;
+  dyd_engine_follow(s->images, s->second->images);
+  st = dyd_engine_run(outcome, s->second->images, &o, err);
+  dyd_engine_follow(s->images, NULL);
+  if (st == DYD_E_DOMAIN) {
+    dyd_sphere_free(s->second);
+    s->second = NULL;
+    st = DYD_OK;
+  }
+  return st;
+}
+
 dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_options *options, dyd_error *err) {
   dyd_engine_options o;
-  double *cost = NULL;
+  double *cost = NULL, begun = dyd_seconds();
   *outcome = DYD_OUTCOME_ERROR;
   if (dyd_abi_take(&o, sizeof o, options, "dyd_engine_options", err) != DYD_OK) return DYD_E_ARG;
   if (o.cost && !(o.cost = cost = costs_of_images(s, o.cost))) return dyd_fail_nomem(err);
@@ -183,6 +230,8 @@ dyd_status dyd_sphere_run(dyd_outcome *outcome, dyd_sphere *s, const dyd_engine_
   dyd_status st = dyd_engine_run(outcome, s->images, &o, err);
   free(cost);
   if (st == DYD_OK) st = dyd_sphere_narrow_recalled(s, o.max_bits, err);
-  if (*outcome == DYD_OUTCOME_DECIDED) *outcome = dyd_sphere_outcome(s);
+  if (st == DYD_OK && *outcome == DYD_OUTCOME_FIXPOINT && s->eye.spot.stays)
+    st = second_run(outcome, s, &o, dyd_seconds() - begun, err);
+  if (st == DYD_OK) *outcome = dyd_sphere_outcome(s);
   return st;
 }

@@ -21,7 +21,7 @@
 /* Invariant: of[] ascends: the places that have an image, which are all but the centre and aliases. alias[i] <= i is
  * the lowest place at the same point as i. stream is NULL, or has an entry for each place, NULL where it is fixed. */
 struct dyd_sphere {
-  const dyd_engine *places;
+  dyd_engine *places;
   dyd_engine *images;
   uint32_t centre; /* the place projected from; meaningless when there are no places */
   bool free;       /* no place is, but eye.spot, an exact one: all places have images; centre is DYD_NO_PLACE */
@@ -34,6 +34,8 @@ struct dyd_sphere {
   dyd_eye eye;   /* the centre, as it was asked last */
   int64_t eye_bits;
   dyd_eye_d eye_d; /* the same in doubles, where first looks are in doubles */
+  /* The same places, projected from a gap; made where a wide centre leaves pairs indeterminate. NULL: none. */
+  dyd_sphere *second;
 };
 
 /* places.c: the region of place i, as it is known now, with all that widens it: rectangle, stream, the radius of its row
@@ -52,6 +54,8 @@ dyd_status dyd_sphere_find_aliases(dyd_sphere *s, dyd_error *err);
 /* choose_filter.c: the place to project from, among those that are no aliases; where each may be the same as another
  * one, a place that none of them reaches. DYD_E_ARG with a message where there is none. */
 dyd_status dyd_sphere_choose(dyd_sphere *s, dyd_error *err);
+/* Sets the centre to a place in a gap, `free`; leaves s as it is if there is none. */
+dyd_status dyd_sphere_choose_gap(dyd_sphere *s, dyd_error *err);
 /* source.c: adds the images to s->images. */
 dyd_status dyd_sphere_add_images(dyd_sphere *s, dyd_error *err);
 /* source.c: narrows places and centre as if images that a trace gave had been asked for, so that what is said of images
