@@ -19,25 +19,28 @@ enum { MOST_ABOUT = 4096 };
 
 /* ---- pairs ---- */
 
-/* The images in face f; *tie: nothing in it is indeterminate. */
+/* The images in face f; *tie: its pairs are ties. A face without open pairs is none: only the hull is open there. */
 static dyd_status face_look(dyd_index_list *face, bool *outer, bool *tie, const dyd_delaunay *pd, size_t f) {
   dyd_pair_list pairs = {0};
   dyd_status st = dyd_delaunay_face(face, outer, pd, f);
   if (st == DYD_OK) st = dyd_delaunay_face_pairs(&pairs, pd, f);
-  *tie = !dyd_delaunay_is_capped(pd);
+  *tie = pairs.count && !dyd_delaunay_is_capped(pd);
   for (size_t k = 0; k < pairs.count; k++) *tie = *tie && pairs.item[k].status == DYD_TIE;
   dyd_pair_list_clear(&pairs);
   return st;
 }
 
-/* Marks the images that are in an outer face with a pair that is indeterminate. */
-static dyd_status mark_open(bool *open, const dyd_delaunay *pd) {
+/* Of images in outer faces: whose pairs are all ties, or not. */
+enum { IN_NONE, IN_TIE, IN_OPEN };
+
+static dyd_status mark_outer(uint8_t *in, const dyd_delaunay *pd) {
   dyd_status st = DYD_OK;
   for (size_t f = 0; f < dyd_delaunay_undecided_faces(pd) && st == DYD_OK; f++) {
     dyd_index_list face = {0};
     bool outer, tie;
     st = face_look(&face, &outer, &tie, pd, f);
-    for (size_t k = 0; k < face.count && outer && !tie; k++) open[face.item[k]] = true;
+    for (size_t k = 0; k < face.count && outer; k++)
+      if (in[face.item[k]] != IN_OPEN) in[face.item[k]] = tie ? IN_TIE : IN_OPEN;
     dyd_index_list_clear(&face);
   }
   return st;
@@ -78,19 +81,25 @@ dyd_status dyd_sphere_face(dyd_index_list *out, bool *tie, const dyd_sphere *s, 
   return st;
 }
 
+/* Of an image that may be no corner of the hull. One of two is a corner, or the same place as the other. */
+static dyd_pair_status status_on_hull(const dyd_sphere *s, uint8_t in) {
+  if (s->with_image <= 2) return DYD_LEGAL;
+  return in == IN_TIE ? DYD_TIE : DYD_INDETERMINATE;
+}
+
 /* What each image is to the centre. */
 static dyd_status centre_statuses(dyd_pair_status *status, const dyd_sphere *s, const dyd_delaunay *pd) {
   dyd_index_list sure = {0}, possible = {0};
-  bool *open = calloc(s->with_image + 1, sizeof *open);
-  dyd_status st = open ? mark_open(open, pd) : DYD_E_NOMEM;
+  uint8_t *in = calloc(s->with_image + 1, sizeof *in);
+  dyd_status st = in ? mark_outer(in, pd) : DYD_E_NOMEM;
   if (st == DYD_OK) st = dyd_delaunay_hull_vertices(&sure, &possible, pd);
   for (size_t k = 0; k < s->with_image; k++) status[k] = DYD_ILLEGAL;
   for (size_t k = 0; k < possible.count; k++)
-    status[possible.item[k]] = open && open[possible.item[k]] ? DYD_INDETERMINATE : DYD_TIE;
+    status[possible.item[k]] = status_on_hull(s, in ? in[possible.item[k]] : IN_OPEN);
   for (size_t k = 0; k < sure.count; k++) status[sure.item[k]] = DYD_LEGAL;
   dyd_index_list_clear(&possible);
   dyd_index_list_clear(&sure);
-  free(open);
+  free(in);
   return st;
 }
 
