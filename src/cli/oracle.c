@@ -19,6 +19,8 @@ int cli_oracle_read(dyd_engine *e, const cli_options *o) {
                    : r->measured       ? "--measured"
                    : r->radius         ? "--radius"
                    : r->radius_columns ? "--radius-column"
+                   : r->radius_unit    ? "--radius-unit"
+                   : r->radius_scale   ? "--radius-scale"
                    : r->id             ? "--id"
                    : r->delimiter      ? "--delimiter"
                    : r->decimal_comma  ? "--decimal-comma"

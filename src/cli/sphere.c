@@ -78,7 +78,8 @@ static int sphere_result(cli_session *s, const dyd_sphere *sphere, const cli_opt
 
 /* s->engine holds the places; while images are run it is theirs. */
 static int sphere_all(cli_session *s, const cli_options *o) {
-  const dyd_sphere_options how = {DYD_SIZED(dyd_sphere_options), .radius = o->read.radius};
+  const dyd_sphere_options how = {DYD_SIZED(dyd_sphere_options), .radius = o->read.radius,
+                                  .radius_unit = o->read.radius_unit, .radius_scale = o->read.radius_scale};
   dyd_engine *places = s->engine;
   dyd_engine_options run = o->engine;
   dyd_sphere *sphere = NULL;

@@ -105,10 +105,15 @@ const cli_option cli_option_table[] = {
      AT(read.delimiter)},
     {"decimal-comma", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT, "47,61 is 47.61", AT(read.decimal_comma)},
     {"radius-column", 0, "NAME", CLI_TEXT, TEXT, CLI_INPUT,
-     "widen each point by what stands in this column;\nNAME,NAME for x and y apart; with --sphere values may\nhave a "
-     "unit, "
-     "as --radius; tolerance: each point moves in\nproportion to it, 0: not at all",
+     "widen each point by the value in this column; NAME,NAME\nfor x and y apart; with --sphere each value, the column's\n"
+     "name (\"sde(m)\", \"s [mm]\") or --radius-unit states a unit;\ntolerance: each point moves in proportion to it, 0: "
+     "not at\nall",
      AT(read.radius_columns)},
+    {"radius-unit", 0, "U", CLI_TEXT, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_INPUT,
+     "with --sphere: the unit of radii without one: m, mm, cm, km,\nft, in, deg, arcmin or arcsec", AT(read.radius_unit)},
+    {"radius-scale", 0, "K", CLI_TEXT, TEXT, CLI_INPUT,
+     "multiply all radii by K: 0.001 for millimetres beside\ncoordinates in metres, 3 for a bound of 3 sigma",
+     AT(read.radius_scale)},
     {"cost-column", 0, "NAME", CLI_TEXT, (RUN & ~BIT(CLI_CHECK)) | BIT(CLI_PLAN), CLI_INPUT,
      "what asking a point once more costs stands in this column:\ncheap ones are asked before dear ones; plan: plans "
      "are made\ncheap, not short",
@@ -126,7 +131,7 @@ const cli_option cli_option_table[] = {
     {"discs", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY), CLI_INPUT,
      "radii are those of discs, not of squares around them:\nfewer pairs stay indeterminate", AT(discs)},
     {"sphere", 0, NULL, CLI_FLAG, BIT(CLI_DELAUNAY) | BIT(CLI_VORONOI), CLI_INPUT,
-     "points are longitude and latitude in degrees, on a sphere;\nradii may have a unit: 30m, 2km, 0.01deg",
+     "points are longitude and latitude in degrees, on a sphere;\nradii have a unit: 30m, 2km, 5ft, 0.01deg, 3arcsec",
      AT(sphere)},
     {"plane", 0, NULL, CLI_FLAG, TEXT, CLI_INPUT,
      "columns called longitude and latitude are meant to be\ncoordinates in a plane: no note about it", AT(plane)},

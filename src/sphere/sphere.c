@@ -61,24 +61,36 @@ static dyd_status images_make(dyd_sphere *s, dyd_error *err) {
 
 /* ---- life ---- */
 
+static dyd_status radius_refuse(const char *text, const char *what, dyd_error *err) {
+  return dyd_fail(err, DYD_E_ARG, "the radius \"%.60s\" %s", text, what);
+}
+
 /* A number and its unit: metres are an angle, degrees stay degrees. */
-static dyd_status radius_read(dyd_sphere *s, const char *text, dyd_error *err) {
-  mpq_t radius;
+static dyd_status radius_take(dyd_sphere *s, const dyd_sphere_options *o, mpq_t radius, mpq_t scale, dyd_error *err) {
+  const dyd_unit *unit = NULL;
   bool ground = false;
-  mpq_init(radius);
-  dyd_status st = dyd_radius_parse(radius, &ground, text, strlen(text));
-  if (st == DYD_OK && ground)
-    mpq_mul(s->angle, radius, s->metre);
-  else if (st == DYD_OK)
-    mpq_swap(s->degrees, radius);
-  mpq_clear(radius);
+  mpq_set_ui(scale, 1, 1);
+  dyd_status st = dyd_unit_take(&unit, scale, o->radius_unit, o->radius_scale, err);
+  if (st != DYD_OK || !o->radius) return st;
+  st = dyd_radius_parse(radius, &ground, o->radius, strlen(o->radius), unit);
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (st == DYD_E_DOMAIN)
+    return radius_refuse(o->radius, "has no unit; state a unit: --radius-unit m (" DYD_UNIT_NAMES ")", err);
   if (st != DYD_OK)
-    return dyd_fail(err, DYD_E_ARG,
-                    "the radius \"%.60s\" is not an exact number >= 0 and a unit; give one such as 30m, 2km or 0.01deg",
-                    text);
+    return radius_refuse(o->radius, "is not an exact number >= 0 and a unit; give one such as 30m, 2km or 0.01deg", err);
+  mpq_mul(radius, radius, scale);
+  if (!ground) return mpq_swap(s->degrees, radius), DYD_OK;
+  mpq_mul(s->angle, radius, s->metre);
   if (mpq_cmp_si(s->angle, 1, 1) <= 0) return DYD_OK;
-  return dyd_fail(err, DYD_E_ARG, "the radius \"%.60s\" is larger than that of the earth; give a smaller one", text);
+  return radius_refuse(o->radius, "is larger than that of the earth; give a smaller one", err);
+}
+
+static dyd_status radius_read(dyd_sphere *s, const dyd_sphere_options *o, dyd_error *err) {
+  mpq_t radius, scale;
+  mpq_inits(radius, scale, NULL);
+  dyd_status st = radius_take(s, o, radius, scale, err);
+  mpq_clears(radius, scale, NULL);
+  return st;
 }
 
 /* Radians to a metre on the ground. */
@@ -112,7 +124,7 @@ static dyd_sphere *sphere_begin(dyd_engine *places) {
 }
 
 static dyd_status sphere_make(dyd_sphere *s, const dyd_sphere_options *o, dyd_error *err) {
-  dyd_status st = o->radius ? radius_read(s, o->radius, err) : DYD_OK;
+  dyd_status st = radius_read(s, o, err);
   if (st == DYD_OK) st = streams_take(s, err);
   if (st == DYD_OK) st = dyd_sphere_find_aliases(s, err);
   if (st == DYD_OK) st = centre_take(s, o, err);

@@ -203,12 +203,51 @@ static dyd_status refuse_numbers(const dyd_csv *csv, dyd_error *err) {
                      "the first line must name the columns, but here it holds numbers; put a line of names before it");
 }
 
-/* Does the name of column k of the header begin like this, in any case? */
-static bool begins_like(const dyd_csv *csv, dyd_csv_role role, const char *word) {
+/* Words that the names of coordinates hold: anywhere in a name, at its begin, or as its last part (stop_lat, gpsLon). */
+typedef struct axis_words {
+  const char *any, *begin[2], *last[3];
+} axis_words;
+static const axis_words latitude = {"latitude", {"lat", "lat"}, {"lat", "lat", "lat"}},
+                        longitude = {"longitude", {"lon", "lng"}, {"lon", "lng", "long"}},
+                        northing = {"northing", {"northing", "northing"}, {"north", "north", "north"}},
+                        easting = {"easting", {"easting", "easting"}, {"east", "east", "east"}};
+
+/* The word is at place k of the field, in any case. */
+static bool has_word(const dyd_span *f, size_t k, const char *word) {
+  for (; *word && k < f->length && lower_letter(f->text[k]) == *word; k++) word++;
+  return !*word;
+}
+
+/* A part of a name begins where a capital follows a small letter, or behind what is no letter. */
+static bool ends_with_part(const dyd_span *f, const char *word) {
+  size_t n = strlen(word);
+  if (n > f->length || !has_word(f, f->length - n, word)) return false;
+  if (n == f->length) return true;
+  char before = f->text[f->length - n - 1], first = f->text[f->length - n];
+  bool letter = lower_letter(before) >= 'a' && lower_letter(before) <= 'z';
+  return !letter || (lower_letter(before) == before && lower_letter(first) != first);
+}
+
+static bool is_called(const dyd_csv *csv, dyd_csv_role role, const axis_words *w) {
   const dyd_span *f = &csv->field[csv->column[role]];
-  size_t k = 0;
-  while (word[k] && k < f->length && lower_letter(f->text[k]) == word[k]) k++;
-  return !word[k];
+  for (size_t k = 0; k < f->length; k++)
+    if (has_word(f, k, w->any)) return true;
+  return has_word(f, 0, w->begin[0]) || has_word(f, 0, w->begin[1]) || ends_with_part(f, w->last[0]) ||
+         ends_with_part(f, w->last[1]) || ends_with_part(f, w->last[2]);
+}
+
+/* What the names of the columns say of them. On the sphere, columns in the other order are refused. */
+static dyd_status read_meanings(dyd_csv *csv, const dyd_read_options *o, dyd_error *err) {
+  const dyd_span *x = &csv->field[csv->column[DYD_CSV_X]], *y = &csv->field[csv->column[DYD_CSV_Y]];
+  const dyd_span *radius = csv->want[DYD_CSV_RADIUS_X].name ? &csv->field[csv->column[DYD_CSV_RADIUS_X]] : NULL;
+  bool x_lat = is_called(csv, DYD_CSV_X, &latitude), y_lon = is_called(csv, DYD_CSV_Y, &longitude);
+  csv->degrees = is_called(csv, DYD_CSV_X, &longitude) && is_called(csv, DYD_CSV_Y, &latitude);
+  csv->swapped = (x_lat || is_called(csv, DYD_CSV_X, &northing)) && (y_lon || is_called(csv, DYD_CSV_Y, &easting));
+  csv->unit = radius ? dyd_unit_of_column(radius->text, radius->length) : NULL;
+  if (!csv->swapped || !o->degrees) return DYD_OK;
+  return dyd_fail(err, DYD_E_ARG,
+                  "by their names the columns are latitude and longitude; longitude comes first: --columns %.*s,%.*s",
+                  (int)(y->length < 60 ? y->length : 60), y->text, (int)(x->length < 60 ? x->length : 60), x->text);
 }
 
 /* Takes the line for the header. delimiter 0: it tells. */
@@ -247,10 +286,7 @@ dyd_status dyd_csv_open(dyd_csv *csv, dyd_text *text, const dyd_read_options *o,
   if (st == DYD_OK) st = read_delimiter(&delimiter, o->delimiter, err);
   if (st == DYD_OK) st = header_read(csv, delimiter, err);
   csv->columns = csv->fields;
-  if (st == DYD_OK)
-    csv->degrees = begins_like(csv, DYD_CSV_Y, "lat") &&
-                   (begins_like(csv, DYD_CSV_X, "lon") || begins_like(csv, DYD_CSV_X, "lng"));
-  return st;
+  return st == DYD_OK ? read_meanings(csv, o, err) : st;
 }
 
 /* ---- a file that is taken for a points file ---- */

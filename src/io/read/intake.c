@@ -4,7 +4,6 @@
 
 #include "base/alloc.h"
 #include "base/error.h"
-#include "sphere/units.h"
 #include <math.h>
 #include <string.h>
 
@@ -35,17 +34,32 @@ static dyd_status radius_fail(const dyd_intake *in, const dyd_span *span, dyd_er
                      : "the radius is not an exact number >= 0; give one such as 0.01 or 1/64 (units: with --sphere)");
 }
 
+static dyd_status radius_fail_unit(const dyd_span *span, dyd_error *err) {
+  char message[160];
+  snprintf(message, sizeof message, "the radius %.*s has no unit; state a unit: --radius-unit m (" DYD_UNIT_NAMES ")",
+           (int)(span->length < 20 ? span->length : 20), span->text);
+  dyd_span_fail(err, span, 0, message);
+  return DYD_E_ARG;
+}
+
+/* Of a field: out, scaled; *ground: in metres. */
+static dyd_status radius_read(mpq_t out, bool *ground, const dyd_intake *in, const dyd_span *span, dyd_error *err) {
+  *ground = false;
+  dyd_status st = in->o->degrees ? dyd_radius_parse(out, ground, span->text, span->length, in->unit)
+                                 : dyd_real_parse_exact(out, span->text, span->length);
+  if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
+  if (st == DYD_E_DOMAIN) return radius_fail_unit(span, err);
+  if (st == DYD_OK) mpq_mul(out, out, in->scale);
+  if (st != DYD_OK || mpq_sgn(out) < 0 || !isfinite(radius_above(out))) return radius_fail(in, span, err);
+  return DYD_OK;
+}
+
 /* Each row with columns of radii has its own: what they say is added to the radius of all points, or kept. */
 static dyd_status intake_radius(dyd_intake *in, int axis, const dyd_span *span, dyd_error *err) {
   mpq_t own;
-  bool ground = false;
+  bool ground;
   mpq_init(own);
-  dyd_status st = in->o->degrees ? dyd_radius_parse(own, &ground, span->text, span->length)
-                                 : dyd_real_parse_exact(own, span->text, span->length);
-  if (st == DYD_E_NOMEM)
-    st = dyd_fail_nomem(err);
-  else if (st != DYD_OK || mpq_sgn(own) < 0 || !isfinite(radius_above(own)))
-    st = radius_fail(in, span, err);
+  dyd_status st = radius_read(own, &ground, in, span, err);
   if (st == DYD_OK) {
     bool keep = ground || in->o->keep_radii;
     in->kept[axis] = keep ? radius_above(own) : 0;
@@ -60,14 +74,23 @@ static dyd_status intake_radius(dyd_intake *in, int axis, const dyd_span *span, 
   return st;
 }
 
+/* The radius of all points, the unit and the scale. */
 static dyd_status intake_radius_of_all(dyd_intake *in, dyd_error *err) {
-  const char *text = in->o->radius;
-  dyd_status st = text ? dyd_real_parse_exact(in->radius, text, strlen(text)) : DYD_OK;
+  const char *text = in->o->radius, *unit = in->o->radius_unit, *scale = in->o->radius_scale;
+  mpq_set_ui(in->scale, 1, 1);
+  dyd_status st = dyd_unit_take(&in->unit, in->scale, unit, scale, err);
+  if (st != DYD_OK) return st;
+  if (unit && !in->o->degrees)
+    return dyd_fail(err, DYD_E_ARG,
+                    "in the plane radii are in the unit of the coordinates; for others scale them, such as millimetres "
+                    "where coordinates are metres: --radius-scale 0.001");
+  st = text ? dyd_real_parse_exact(in->radius, text, strlen(text)) : DYD_OK;
   if (st == DYD_E_NOMEM) return dyd_fail_nomem(err);
   if (st != DYD_OK || mpq_sgn(in->radius) < 0)
     return dyd_fail(
         err, DYD_E_ARG,
         "the radius \"%.60s\" is not an exact number >= 0; give one such as 0.01 or 1/64 (units: with --sphere)", text);
+  mpq_mul(in->radius, in->radius, in->scale);
   for (int a = 0; a < 2; a++) manner_set_radius(&in->manner[a], in->radius);
   return DYD_OK;
 }
@@ -101,7 +124,7 @@ static dyd_status intake_check(const dyd_read_options *o, dyd_error *err) {
 
 dyd_status dyd_intake_init(dyd_intake *in, const dyd_read_options *o, dyd_error *err) {
   *in = (dyd_intake){.o = o, .report = {DYD_SIZED(dyd_read_report)}};
-  mpq_init(in->radius);
+  mpq_inits(in->radius, in->scale, NULL);
   for (int a = 0; a < 2; a++) {
     in->manner[a].measured = o->measured;
     mpq_init(in->manner[a].radius);
@@ -117,7 +140,7 @@ void dyd_intake_clear(dyd_intake *in) {
   dyd_labels_clear(&in->labels);
   dyd_stage_clear(&in->stage);
   for (int a = 0; a < 2; a++) mpq_clear(in->manner[a].radius);
-  mpq_clear(in->radius);
+  mpq_clears(in->radius, in->scale, NULL);
 }
 
 /* Do points have what stands beside their rectangles? */

@@ -11,7 +11,8 @@
 /* Invariant: every row so far is in report.rows, and, where labels are kept, in labels. */
 typedef struct dyd_intake {
   const dyd_read_options *o; /* borrowed */
-  mpq_t radius;              /* of all points */
+  mpq_t radius, scale;       /* of all points; of what columns hold */
+  const dyd_unit *unit;      /* of radii that state none, on the sphere; NULL: there is none */
   dyd_manner manner[2];      /* of x and y in the present row */
   double kept[2];            /* radii of this row that do not widen it, rounded up */
   dyd_stage stage;

@@ -33,6 +33,8 @@ static dyd_status read_csv_file(dyd_intake *in, dyd_text *text, dyd_error *err) 
   size_t count = 1;
   dyd_status st = dyd_csv_open(&csv, text, in->o, err);
   in->report.degrees = csv.degrees;
+  in->report.swapped = csv.swapped;
+  if (!in->unit) in->unit = csv.unit;
   while (st == DYD_OK && count) {
     dyd_span span[DYD_CSV_ROLES] = {{0}};
     st = dyd_csv_next(span, &count, &csv, err);

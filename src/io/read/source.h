@@ -4,6 +4,7 @@
 #define DYD_IO_READ_SOURCE_H
 
 #include "io/read/text.h"
+#include "sphere/units.h"
 #include <dyadel/io.h>
 
 /* Splits one line of a points file. *count is 2, or 0 for a line without a point. comma separates besides blanks; a
@@ -36,7 +37,8 @@ typedef struct dyd_csv {
   dyd_csv_want want[DYD_CSV_ROLES];
   size_t column[DYD_CSV_ROLES]; /* where they are, from 0 */
   size_t columns;               /* how many the header has */
-  bool degrees;                 /* x and y are called longitude and latitude */
+  bool degrees, swapped;        /* x and y are called longitude and latitude; latitude and longitude */
+  const dyd_unit *unit;         /* that the name of the column of radii states; NULL: none */
   char *record;                 /* the current record, when it spans lines */
   size_t record_cap;            /* */
   char *plain;                  /* unquoted fields of the current record */
