@@ -6,8 +6,9 @@
  * D is a sum of squares, so that nothing is lost near q. The places within an angle a of (l, f) go to the disc with
  * centre (X, Y) / E and radius sin a / E, E = D - 2 sin^2(a/2), as long as E > 0 [SPH-2].
  *
- * Mean value form: F(v) is in F(m) + sum of F_k(box) (v_k - m_k) for v = (d, f, f0) in a box with middle m. Boxes that
- * are wide, measured by their distance from q, are cut; where pieces are too many, they reach q. */
+ * Over a box of v = (d, f, f0) with middle m, F(v) is extreme at an end of v_k where F_k(box), which holds its slope, has
+ * one sign; by other variables it is off by F_k(box) (v_k - m_k). Boxes that are wide, measured by their distance from
+ * q, are cut; where pieces are too many, they reach q. */
 #include "sphere/project.h"
 
 #include "base/flag.h"
@@ -34,10 +35,10 @@ enum { VIEW_BALLS = sizeof(view) / sizeof(arb_struct) };
 typedef struct sight {
   arb_t size, lost; /* sin a, 2 sin^2(a/2) */
   view at, over;
-  arb_t x[2], y[2]; /* (X - sin a) / E, (X + sin a) / E; y likewise */
   arb_t slope, number;
+  arb_struct by[3];  /* derivatives of D, X and Y */
   arf_struct end[4]; /* what is found of x and y: lower and upper ends */
-  arf_t lo, hi;
+  arf_t limit;
   bool wide, any;
   slong prec;
   unsigned pieces;
@@ -76,20 +77,6 @@ static void view_set(view *v, arb_srcptr d, arb_srcptr f, arb_srcptr f0, const s
   arb_sub(&v->E, &v->D, g->lost, prec);
 }
 
-/* out = (N_k E - (N + side sin a) D_k) / E^2: the slope of one image coordinate. */
-static void view_slope(arb_t out, const view *v, arb_srcptr N, arb_srcptr N_k, arb_srcptr D_k, int side, sight *g) {
-  slong prec = g->prec;
-  if (side > 0)
-    arb_add(out, N, g->size, prec);
-  else
-    arb_sub(out, N, g->size, prec);
-  arb_mul(out, out, D_k, prec);
-  arb_neg(out, out);
-  arb_addmul(out, N_k, &v->E, prec);
-  arb_div(out, out, &v->E, prec);
-  arb_div(out, out, &v->E, prec);
-}
-
 /* The derivatives of D, X and Y by variable k. */
 static void view_derive(arb_t D_k, arb_t X_k, arb_t Y_k, const view *v, int k, slong prec) {
   if (k == 0) {
@@ -112,57 +99,59 @@ static void view_derive(arb_t D_k, arb_t X_k, arb_t Y_k, const view *v, int k, s
   }
 }
 
-static void arb_widen_by(arb_t x, arb_srcptr slope, const mag_t half) {
-  mag_t m;
-  mag_init(m);
-  arb_get_mag(m, slope);
-  mag_mul(m, m, half);
-  mag_add(arb_radref(x), arb_radref(x), m);
-  mag_clear(m);
+/* out = (N + side sin a) / E. */
+static void view_value(arb_t out, const view *v, int axis, int side, sight *g) {
+  arb_mul_si(g->number, g->size, side, g->prec);
+  arb_add(out, axis ? &v->Y : &v->X, g->number, g->prec);
+  arb_div(out, out, &v->E, g->prec);
 }
 
-/* Adds the slopes over the box times its half-widths. */
-static void piece_widen(sight *g, const piece *p) {
-  arb_t D_k, X_k, Y_k;
-  arb_init(D_k);
-  arb_init(X_k);
-  arb_init(Y_k);
+/* g->slope = (N_k E - (N + side sin a) D_k) / E^2 over the box. */
+static void slope_set(sight *g, int k, int axis, int side) {
+  const view *v = &g->over;
+  view_derive(&g->by[0], &g->by[1], &g->by[2], v, k, g->prec);
+  view_value(g->slope, v, axis, side, g);
+  arb_mul(g->slope, g->slope, &g->by[0], g->prec);
+  arb_sub(g->slope, &g->by[1 + axis], g->slope, g->prec);
+  arb_div(g->slope, g->slope, &v->E, g->prec);
+}
+
+/* Grows the end by the least (side < 0) or greatest value of one image coordinate over the piece [SPH-2]: at an end of
+ * each variable where the slope by it has one sign, else at its middle, and the slope times its half-width off. */
+static void piece_bound(sight *g, const piece *p, int axis, int side) {
+  arb_struct at[VARIABLES];
+  mag_t off, more;
+  arf_struct *end = &g->end[2 * axis + (side > 0)];
+  mag_init(off);
+  mag_init(more);
   for (int k = 0; k < VARIABLES; k++) {
+    arb_init(&at[k]);
+    arb_set(&at[k], &p->mid[k]);
     if (mag_is_zero(&p->half[k])) continue;
-    view_derive(D_k, X_k, Y_k, &g->over, k, g->prec);
-    for (int side = 0; side < 2; side++) {
-      view_slope(g->slope, &g->over, &g->over.X, X_k, D_k, 2 * side - 1, g);
-      arb_widen_by(g->x[side], g->slope, &p->half[k]);
-      view_slope(g->slope, &g->over, &g->over.Y, Y_k, D_k, 2 * side - 1, g);
-      arb_widen_by(g->y[side], g->slope, &p->half[k]);
-    }
+    slope_set(g, k, axis, side);
+    int way = arb_is_positive(g->slope) - arb_is_negative(g->slope);
+    arb_get_mag(more, g->slope);
+    if (!way) mag_addmul(off, more, &p->half[k]);
+    arf_set_mag(arb_midref(g->slope), &p->half[k]);
+    mag_zero(arb_radref(g->slope));
+    arb_addmul_si(&at[k], g->slope, way * side, g->prec);
   }
-  arb_clear(Y_k);
-  arb_clear(X_k);
-  arb_clear(D_k);
-}
-
-/* What is found of a coordinate grows by [least of a, greatest of b]. */
-static void ends_grow(arf_struct *end, sight *g, arb_srcptr a, arb_srcptr b) {
-  arb_get_lbound_arf(g->lo, a, g->prec);
-  arb_get_ubound_arf(g->hi, b, g->prec);
-  if (!g->any || arf_cmp(g->lo, &end[0]) < 0) arf_set(&end[0], g->lo);
-  if (!g->any || arf_cmp(g->hi, &end[1]) > 0) arf_set(&end[1], g->hi);
+  view_set(&g->at, &at[0], &at[1], &at[2], g);
+  view_value(g->number, &g->at, axis, side, g);
+  mag_add(arb_radref(g->number), arb_radref(g->number), off);
+  if (side < 0)
+    arb_get_lbound_arf(g->limit, g->number, g->prec);
+  else
+    arb_get_ubound_arf(g->limit, g->number, g->prec);
+  if (!g->any || arf_cmp(g->limit, end) * side > 0 || arf_is_nan(g->limit)) arf_set(end, g->limit);
+  for (int k = 0; k < VARIABLES; k++) arb_clear(&at[k]);
+  mag_clear(more);
+  mag_clear(off);
 }
 
 static void piece_add(sight *g, const piece *p) {
-  const view *v = &g->at;
-  view_set(&g->at, &p->mid[0], &p->mid[1], &p->mid[2], g);
-  for (int side = 0; side < 2; side++) {
-    arb_mul_si(g->number, g->size, 2 * side - 1, g->prec);
-    arb_add(g->x[side], &v->X, g->number, g->prec);
-    arb_add(g->y[side], &v->Y, g->number, g->prec);
-    arb_div(g->x[side], g->x[side], &v->E, g->prec);
-    arb_div(g->y[side], g->y[side], &v->E, g->prec);
-  }
-  if (g->wide) piece_widen(g, p);
-  ends_grow(&g->end[0], g, g->x[0], g->x[1]);
-  ends_grow(&g->end[2], g, g->y[0], g->y[1]);
+  for (int axis = 0; axis < 2; axis++)
+    for (int side = -1; side <= 1; side += 2) piece_bound(g, p, axis, side);
   g->any = true;
 }
 
@@ -266,11 +255,10 @@ static void sight_init(sight *g, mpq_srcptr angle, slong prec) {
   arb_init(g->lost);
   arb_init(g->slope);
   arb_init(g->number);
-  arf_init(g->lo);
-  arf_init(g->hi);
+  arf_init(g->limit);
   view_init(&g->at);
   view_init(&g->over);
-  for (int k = 0; k < 2; k++) arb_init(g->x[k]), arb_init(g->y[k]);
+  for (int k = 0; k < 3; k++) arb_init(&g->by[k]);
   for (int k = 0; k < 4; k++) arf_init(&g->end[k]);
   g->prec = prec;
   g->pieces = 0;
@@ -286,11 +274,10 @@ static void sight_init(sight *g, mpq_srcptr angle, slong prec) {
 
 static void sight_clear(sight *g) {
   for (int k = 0; k < 4; k++) arf_clear(&g->end[k]);
-  for (int k = 0; k < 2; k++) arb_clear(g->x[k]), arb_clear(g->y[k]);
+  for (int k = 0; k < 3; k++) arb_clear(&g->by[k]);
   view_clear(&g->over);
   view_clear(&g->at);
-  arf_clear(g->hi);
-  arf_clear(g->lo);
+  arf_clear(g->limit);
   arb_clear(g->number);
   arb_clear(g->slope);
   arb_clear(g->lost);
