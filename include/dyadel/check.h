@@ -74,11 +74,13 @@ typedef struct dyd_check_report {
 } dyd_check_report;
 DYD_API void dyd_check_report_clear(dyd_check_report *r);
 
-/* Runs the schedules. DYD_OK also when a fault was found: the report tells; DYD_CANCELLED, also when the time is over,
+/* Runs the schedules: the first one brings each point from base_bits to max_bits in small steps, the others are random.
+ * DYD_OK also when a fault was found: the report tells; DYD_CANCELLED, also when the time is over,
  * with what was done until then, the shortest schedule found so far among it; errors of `open` and DYD_E_NOMEM. */
 DYD_API dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *user, const dyd_check_options *o,
                                  dyd_error *err);
-/* Runs one schedule, such as a report holds. */
+/* Runs one schedule, such as a report holds. DYD_E_ARG, with err->line the number of the move from 1, where one names a
+ * point that does not exist or a stage before the last one; stages begin with 1. */
 DYD_API dyd_status dyd_check_replay(dyd_check_report *out, dyd_check_open_fn open, void *user,
                                     const dyd_check_move *move, size_t moves, const dyd_check_options *o,
                                     dyd_error *err);

@@ -42,7 +42,8 @@ const cli_command cli_commands[CLI_COMMANDS] = {
                    "Runs random refinement schedules over the points and checks, after each stage, that\n"
                    "rectangles are nested and shrink as asked, that no status is retracted, that cells only\n"
                    "grow, that the way to the rectangles does not matter, and that random choices of points\n"
-                   "agree. A fault is shown by the shortest schedule found, which --trace writes and --replay\n"
+                   "agree. The first schedule narrows each point step by step up to --max-bits.\n"
+                   "A fault is shown by the shortest schedule found, which --trace writes and --replay\n"
                    "repeats. Exit status 0: no fault; 1: a fault.",
                    DYD_CONTENT_CHECK, cli_check},
     [CLI_VERIFY] = {"verify", "CERT", "check a certificate, in integers, without the engine",

@@ -46,9 +46,26 @@ typedef struct moves {
 
 /* ---- one schedule ---- */
 
-/* Opens the points, starts the clock and asks everybody for base_bits. */
-static dyd_status schedule_start(dyd_check_state *s, dyd_check_open_fn open, void *user, dyd_error *err) {
+/* DYD_E_ARG with the number of the first move that cannot be made. */
+static dyd_status schedule_fits(const moves *m, const dyd_engine *e, dyd_error *err) {
+  const size_t points = dyd_sites_count(e->sites);
+  for (size_t k = 0; k < m->count; k++) {
+    const dyd_check_move *move = &m->item[k];
+    const bool early = move->stage < (k ? move[-1].stage : 1);
+    if (!early && move->point < points) continue;
+    if (err) err->line = k + 1;
+    if (early) return dyd_fail(err, DYD_E_ARG, "stage %u is out of order; give stages from 1, ascending", move->stage);
+    return dyd_fail(err, DYD_E_ARG, "there is no point %u among these %zu points; give points from 0 on", move->point,
+                    points);
+  }
+  return DYD_OK;
+}
+
+/* Opens the points, starts the clock and asks all points for base_bits. */
+static dyd_status schedule_start(dyd_check_state *s, dyd_check_open_fn open, void *user, const moves *m,
+                                 dyd_error *err) {
   dyd_status st = open(&s->e, user, err);
+  if (st == DYD_OK) st = schedule_fits(m, s->e, err);
   if (st == DYD_OK) s->e->tie_bits = s->o->tie_bits;
   double left = s->o->seconds > 0 ? s->o->seconds - dyd_seconds() : 0;
   if (st == DYD_OK && left < 0) return DYD_CANCELLED;
@@ -63,7 +80,7 @@ static dyd_status schedule_play(dyd_check_report *report, dyd_check_open_fn open
                                 uint64_t seed, const dyd_check_options *o, dyd_error *err) {
   dyd_check_state s = {.o = o, .report = report, .random = seed};
   dyd_rect_init(&s.window);
-  dyd_status st = schedule_start(&s, open, user, err);
+  dyd_status st = schedule_start(&s, open, user, m, err);
   size_t k = 0;
   if (st == DYD_OK && report->fault == DYD_CHECK_FINE) st = dyd_check_stage(&s, m->count == 0);
   while (st == DYD_OK && report->fault == DYD_CHECK_FINE && k < m->count) {
@@ -111,6 +128,21 @@ static dyd_status schedule_add_small_steps(moves *m, uint32_t stage, uint64_t *r
   return st;
 }
 
+/* Each point from what it was asked for to `top`: a source that fails at one precision is found. At the default
+ * precision steps are of one bit or two; where there are more than MOST_STEPS of them, wider. */
+static dyd_status schedule_add_walk(moves *m, uint32_t stage, uint64_t *random, const askable *p, int64_t top,
+                                    int64_t span) {
+  enum { MOST_STEPS = 256 };
+  const uint64_t step = 2 * (uint64_t)((span + MOST_STEPS - 1) / MOST_STEPS);
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; k < p->count; k++)
+    while (st == DYD_OK && p->asked[k] < top) {
+      const int64_t next = p->asked[k] + 1 + (int64_t)dyd_check_below(random, step);
+      st = add_step(m, stage, p, k, next < top ? next : top);
+    }
+  return st;
+}
+
 /* One stage: one point; a few; about a tenth; all at one precision; all unevenly; small steps. Repeats happen. */
 static dyd_status schedule_add_stage(moves *m, uint32_t stage, uint64_t *random, const askable *p,
                                      const dyd_check_options *o) {
@@ -143,13 +175,16 @@ static dyd_status schedule_list_points(askable *out, dyd_check_open_fn open, voi
   return st;
 }
 
-static dyd_status schedule_make(moves *m, uint64_t seed, const askable *p, const dyd_check_options *o) {
+/* The first one walks all points up to the cap. */
+static dyd_status schedule_make(moves *m, uint64_t seed, const askable *p, bool first, const dyd_check_options *o) {
+  const int64_t span = o->max_bits - o->base_bits;
   uint64_t random = seed;
   dyd_status st = DYD_OK;
   m->count = 0;
   for (size_t k = 0; k < p->count; k++) p->asked[k] = o->base_bits;
   for (uint32_t stage = 1; p->count && stage <= o->stages && st == DYD_OK; stage++)
-    st = schedule_add_stage(m, stage, &random, p, o);
+    st = first ? schedule_add_walk(m, stage, &random, p, o->base_bits + span * stage / o->stages, span)
+               : schedule_add_stage(m, stage, &random, p, o);
   return st;
 }
 
@@ -228,7 +263,7 @@ dyd_status dyd_check_run(dyd_check_report *out, dyd_check_open_fn open, void *us
   for (unsigned k = 0; k < o.schedules && st == DYD_OK && out->fault == DYD_CHECK_FINE; k++) {
     uint64_t seed = o.seed + k;
     if (o.progress) o.progress(o.progress_user, k, o.schedules);
-    st = schedule_make(&m, seed, &points, &o);
+    st = schedule_make(&m, seed, &points, k == 0, &o);
     if (st == DYD_OK) st = schedule_play(out, open, user, &m, seed, &o, err);
     if (st == DYD_OK) out->schedules++;
     if (st == DYD_OK && out->fault != DYD_CHECK_FINE) st = report_keep_fault(out, &m, seed, open, user, &o);

@@ -3,6 +3,7 @@
 """Points served by functions: that lie, raise, are interrupted, call back; threads; the harness on them."""
 import gc
 import pickle
+import re
 import threading
 import time
 import weakref
@@ -169,6 +170,27 @@ def test_functions_are_freed():
     del instrument
     gc.collect()
     assert seen() is None
+
+
+def test_check_to_the_cap():
+    """A source that leaves its box beyond 170 bits only is found by default; a move names a point that is there."""
+    asked = [0, 0, 0]
+
+    def drifts(i, bits):
+        bits = asked[i] = max(bits, asked[i])
+        low = 26 + Fraction((2**bits) // 3, 2**bits) + (Fraction(1, 2**169) if i == 1 and bits > 170 else 0)
+        return low, low + Fraction(1, 2**bits), i, i
+
+    def make(i, bits):
+        if bits <= 8:
+            asked[i] = 0  # each schedule makes new points
+        return drifts(i, bits)
+
+    broken = harness.raised(dyadel.BrokenPromise, dyadel.check, dyadel.Source(3, make), schedules=1)
+    new, old = re.findall(r'(?:from|up to) ([-0-9.]+)', str(broken))
+    assert 'point 1, asked for' in str(broken) and new != old, broken
+    wrong = harness.raised(dyadel.Error, dyadel.check, dyadel.Source(3, make), moves=[(1, 0, 20), (2, 99, 20)])
+    assert wrong.code == 'argument' and 'there is no point 99 among these 3 points' in str(wrong), wrong
 
 
 def test_check():
