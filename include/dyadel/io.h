@@ -72,6 +72,33 @@ DYD_API dyd_status dyd_engine_append_text(dyd_engine *e, const char *text, size_
  * it. On DYD_E_PARSE err has line, column and a message with the remedy. */
 DYD_API dyd_status dyd_rect_set_text(dyd_rect *out, const char *text, size_t length, dyd_error *err);
 
+/* ---- tables beside the points ---- */
+
+/* A record of a table, borrowed for the call. */
+typedef struct dyd_record {
+  size_t struct_size; /* set by the library */
+  size_t fields;      /* above 0 */
+  const void *field;  /* for the functions below */
+} dyd_record;
+/* Takes a record. What it returns other than DYD_OK, with *err filled, ends the reading. */
+typedef dyd_status (*dyd_record_fn)(void *user, const dyd_record *record, dyd_error *err);
+/* Reads the records of a text up to its end, packed (gzip, zstd) or not; lines are at most 1048576 bytes long.
+ *
+ * delimiter  ' ': fields are separated by any number of blanks, tabs, commas and semicolons, and # begins a comment;
+ *            another character: separated text (RFC 4180), in which lines that begin with # are comments;
+ *            0: of , ; tab and | the first that the first record holds, else ' '
+ *
+ * Empty lines are no records, and blanks around fields are removed. Returns what record returned; DYD_E_PARSE with line
+ * and column for NUL bytes, longer lines, and quotes that do not pair up; DYD_E_IO; DYD_E_NOMEM. err may be NULL. */
+DYD_API dyd_status dyd_read_records(FILE *in, char delimiter, dyd_record_fn record, void *user, dyd_error *err);
+/* Returns field k, from 0, which is not terminated; NULL, with *length = 0, where the record ends before. */
+DYD_API const char *dyd_record_field(size_t *length, const dyd_record *record, size_t k);
+/* Sets *out to the decimal integer that is all of field k; false, with *out undefined, if it is none from least to
+ * most. */
+DYD_API bool dyd_record_integer(int64_t *out, const dyd_record *record, size_t k, int64_t least, int64_t most);
+/* Sets err->line and err->column to the begin of field k, or to the end of the record where it ends before. */
+DYD_API void dyd_record_place(dyd_error *err, const dyd_record *record, size_t k);
+
 typedef enum dyd_format {
   DYD_FORMAT_CSV = 0,
   DYD_FORMAT_JSON,

@@ -31,25 +31,55 @@ static bool plan_add_pair(plan_run *r, uint32_t i, uint32_t j, size_t line) {
   return true;
 }
 
-/* A line: two numbers and whatever follows. Comments, the header and empty lines are passed over. */
-static int pairs_line(plan_run *r, const char *file, const char *text, size_t line) {
-  unsigned long i, j;
-  if (*text == '#' || *text == 'i' || *text == '\n' || *text == '\r' || !*text) return 0;
-  if (sscanf(text, "%lu%*1[, \t]%lu", &i, &j) != 2 || i > UINT32_MAX || j > UINT32_MAX || i == j) {
-    cli_complain("%s:%zu: this is no pair of different points; lines begin with i,j, their numbers", file, line);
-    return CLI_FAILED;
+/* Where the ends of a pair are in a row; set by a header. */
+typedef struct pairs_columns {
+  plan_run *run;
+  bool begun;
+  size_t column[2];
+} pairs_columns;
+
+/* A header names the columns i and j; other columns may stand anywhere. */
+static bool pairs_header(pairs_columns *p, const dyd_record *row) {
+  bool found[2] = {false, false};
+  for (size_t k = 0; k < row->fields; k++) {
+    size_t length;
+    const char *name = dyd_record_field(&length, row, k);
+    for (size_t end = 0; end < 2; end++)
+      if (length == 1 && *name == "ij"[end]) found[end] = true, p->column[end] = k;
   }
-  return plan_add_pair(r, (uint32_t)i, (uint32_t)j, line) ? 0 : cli_complain_memory();
+  return found[0] && found[1];
+}
+
+static dyd_status pairs_refuse(const dyd_record *row, size_t field, dyd_error *err) {
+  dyd_record_place(err, row, field);
+  return dyd_error_set(err, DYD_E_PARSE,
+                       "this is no pair of different points; give their numbers i,j first, or name the columns i and j "
+                       "in a header");
+}
+
+static dyd_status pairs_row(void *user, const dyd_record *row, dyd_error *err) {
+  pairs_columns *p = user;
+  int64_t end[2];
+  const bool header = !p->begun && pairs_header(p, row);
+  p->begun = true;
+  if (header) return DYD_OK;
+  for (size_t k = 0; k < 2; k++)
+    if (!dyd_record_integer(&end[k], row, p->column[k], 0, UINT32_MAX)) return pairs_refuse(row, p->column[k], err);
+  if (end[0] == end[1]) return pairs_refuse(row, p->column[1], err);
+  dyd_record_place(err, row, p->column[0]);
+  if (plan_add_pair(p->run, (uint32_t)end[0], (uint32_t)end[1], err->line)) return DYD_OK;
+  return dyd_error_set(err, DYD_E_NOMEM, dyd_status_text(DYD_E_NOMEM));
 }
 
 static int pairs_read(plan_run *r, const char *file) {
-  char text[4096];
+  pairs_columns columns = {.run = r, .column = {0, 1}};
+  dyd_error err;
   FILE *in = cli_input_open(file, "check the name of the file of pairs");
   if (!in) return CLI_FAILED;
-  int status = 0;
-  for (size_t line = 1; !status && fgets(text, sizeof text, in); line++) status = pairs_line(r, file, text, line);
+  dyd_status st = dyd_read_records(in, 0, pairs_row, &columns, &err);
   cli_input_close(in);
-  return status;
+  if (st != DYD_OK) cli_complain_at(file, &err);
+  return st == DYD_OK ? 0 : CLI_FAILED;
 }
 
 static int plan_options(plan_run *r, const cli_options *o) {

@@ -215,7 +215,57 @@ def test_check_replays():
         expect(run('check', '--replay', 'schedule', cwd=folder), 2, err='the points file is missing')
         expect(run('check', 'points', '--replay', 'none', cwd=folder), 1, err='none: cannot open')
         (path / 'schedule').write_text('2 0 16\n1 0 16\n')
-        expect(run('check', 'points', '--replay', 'schedule', cwd=folder), 1, err='schedule:2:1: .*STAGE POINT BITS')
+        for text, where in ((b'2 0 16\n1 0 16\n', '2:1: this stage comes after a later one; sort'),
+                            (b'base 8\n1 0 16\n 2 99 20\n', '3:4: there is no point 99 among these 3 points; give'),
+                            (b'1 0 16\n\0\xff\n', '2:1: a NUL byte; give'),
+                            (b'1 0 16\n\xff\n', '2:1: this is not a move; give STAGE POINT BITS'),
+                            (b'1 0 16 7\n', '1:8: this is not a move'), (b'1 0\n', '1:4: this is not a move'),
+                            (b'0 0 16\n', '1:1: this is not a move'), (b'1 0 9999999999999999999\n', '1:5: this is not'),
+                            (b'base 0\n', '1:1: this is not a move'), (b'1 0 16' + b' ' * (1 << 20), '1:1: this line is longer')):
+            (path / 'schedule').write_bytes(text)
+            expect(run('check', 'points', '--replay', 'schedule', cwd=folder), 1, r'\A\Z', f'\\Adyadel: schedule:{where}')
+
+
+# Point 1 of three leaves its box by 2^-169 at each request of more than 170 bits; its error message is long.
+DRIFTS = """import sys
+print('points', 3, flush=True)
+last = [0, 0, 0]
+for line in sys.stdin:
+    word = line.split()
+    i, bits = int(word[1]), int(word[2])
+    bits = last[i] = max(bits, last[i])
+    n = (26 << bits) + (1 << bits) // 3 + (i << bits)
+    if i == 1 and bits > 170:
+        n += 1 << bits - 169
+    print(f'{i} {n}*2^-{bits} {n + 1}*2^-{bits} {n * i}*2^-{bits} {n * i + 1 + i}*2^-{bits}', flush=True)
+"""
+
+
+def test_check_walks_to_the_cap():
+    """A source that leaves its box late is found by default; the message tells the ends apart, and what --trace wrote
+    shows it again, however long the message is."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder)
+        (path / 'drifts.py').write_text(DRIFTS)
+        oracle = ('--oracle', f'{sys.executable} drifts.py')
+        found = run('check', *oracle, '--trace', 'schedule', cwd=folder)
+        expect(found, 1, r'^stream,1,', r'point 1, asked for 1\d\d bits: .*is not inside the old one')
+        ends = 'the new . side (?:from|up to) (\\S+) is not inside the old one (?:from|up to) (\\S+):'
+        new, old = re.search(ends, found.err).groups()
+        assert new != old, found.err
+        text = (path / 'schedule').read_text()
+        assert max(map(len, text.splitlines())) > 256, text
+        again = run('check', *oracle, '--replay', 'schedule', cwd=folder)
+        expect(again, 1, r'^stream,1,', re.escape(found.err.splitlines()[0].split(': ', 3)[-1]))
+
+
+def test_check_replays_long_messages():
+    """A comment of any length up to that of a line is passed over."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder)
+        (path / 'points').write_text('sqrt(2) 0\n1 pi\n0 0\n')
+        (path / 'schedule').write_text('# dyadel check schedule: ' + 'x' * 5000 + '\nbase 8\nseed 5\n1 0 16\n')
+        expect(run('check', 'points', '--replay', 'schedule', cwd=folder), 0, r'^fine,1,2,')
 
 
 def test_check_limits():

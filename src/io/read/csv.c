@@ -59,7 +59,7 @@ static dyd_status record_join_lines(dyd_line *out, dyd_csv *csv, dyd_error *err)
 dyd_status dyd_csv_record(dyd_line *out, dyd_csv *csv, dyd_error *err) {
   dyd_status st;
   do st = dyd_text_next(out, csv->text, err);
-  while (st == DYD_OK && out->text && out->length == 0);
+  while (st == DYD_OK && out->text && (out->length == 0 || (csv->comments && out->text[0] == '#')));
   if (st != DYD_OK || !out->text || !odd_quotes(out->text, out->length)) return st;
   return record_join_lines(out, csv, err);
 }

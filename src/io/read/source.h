@@ -39,6 +39,7 @@ typedef struct dyd_csv {
   size_t columns;               /* how many the header has */
   bool degrees, swapped;        /* x and y are called longitude and latitude; latitude and longitude */
   const dyd_unit *unit;         /* that the name of the column of radii states; NULL: none */
+  bool comments;                /* records that begin with # are passed over */
   char *record;                 /* the current record, when it spans lines */
   size_t record_cap;            /* */
   char *plain;                  /* unquoted fields of the current record */
