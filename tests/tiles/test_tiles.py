@@ -166,6 +166,18 @@ class Union(unittest.TestCase):
                     self.assertTrue(joined.stdout == want, f'{name} of {len(rows)}: {count} ranks differ')
                     self.check_parts(out, count, len(rows))
 
+    def test_text_with_a_mark(self):
+        """A byte order mark is no part of the first point; names may follow it."""
+        rows = '0 0\n3 1\n1 4\n2 2\n'
+        (self.at / 'in.txt').write_text(rows)
+        for k, text in enumerate(('\ufeff' + rows, '\ufeff"lon";"lat"\n' + rows, rows.replace('\n', '\r\n'), rows[:-1])):
+            (self.at / 'marked.txt').write_bytes(text.encode())
+            for count in RANKS:
+                out = self.at / f'out{k}of{count}'
+                self.run_tiles(count, str(self.at / 'marked.txt'), '-o', str(out))
+                joined = subprocess.run([TILES, 'to-csv', str(out)], capture_output=True)
+                self.assertEqual(joined.stdout, self.one_process('in.txt'))
+
     def test_text_of_boxes(self):
         ends = [(x := self.random.randrange(1000), x + self.random.randrange(3), y := self.random.randrange(1000),
                  y + self.random.randrange(3)) for _ in range(500)]
@@ -178,15 +190,22 @@ class Union(unittest.TestCase):
     def test_wrong_text(self):
         """File, line and column are named, whichever rank finds it."""
         fine = '0.5 1\n' * 300
-        for line, column, words in (('1 2 3', 5, 'as a point has'), ('1', 1, 'as a point has'), ('1 sqrt(2)', 3, 'decimal'),
+        for line, column, words in (('1 2 3', 5, 'as a point has'), ('1', 2, 'as a point has'), ('1 sqrt(2)', 3, 'decimal'),
                                     ('1 0x1p3', 3, 'decimal'), ('. 1', 1, 'decimal'), ('1 2e', 3, 'decimal'),
-                                    ('1e400 2', 1, 'beyond doubles')):
+                                    ('1e400 2', 1, 'beyond doubles'), ('1 2\0', 4, 'NUL byte'), ('x y', 1, 'decimal'),
+                                    ('1 ' + '2' * (1 << 20), 1, 'longer than 1048576 bytes')):
             (self.at / 'in.txt').write_text(f'{fine}{line}\n{fine}')
             done = self.run_tiles(4, str(self.at / 'in.txt'), '-o', str(self.at / 'out'))
             self.assertEqual(done.returncode, 1, line)
             self.assertIn(f'in.txt:301:{column}: ', done.stderr)
             self.assertIn(words, done.stderr)
             self.assertFalse((self.at / 'out/manifest.json').exists())
+        # What is no name of a column is not passed over in the first line either.
+        for line, column in (('nan 0', 1), ('[0,1] 0', 7), ('0 nan', 3), ('x 0', 1), ('NaN NA', 1), ('pi e', 1), ('sqrt(2) 1', 1)):
+            (self.at / 'in.csv').write_text(f'# points\n{line}\n{fine}')
+            done = self.run_tiles(2, str(self.at / 'in.csv'), '-o', str(self.at / 'out'))
+            self.assertEqual(done.returncode, 1, line)
+            self.assertRegex(done.stderr, f'in.csv:2:{column}: (not a decimal number|not as many)')
         (self.at / 'in.txt').write_text('0 1 1 2\n3 2 1 1\n')
         done = self.run_tiles(1, str(self.at / 'in.txt'), '-o', str(self.at / 'out'), '--boxes')
         self.assertIn('in.txt:2:1: the lower end is above the upper one', done.stderr)

@@ -7,15 +7,15 @@
 
 /* Fields between runs of blanks, commas and semicolons, up to a comment; quotes mean nothing. */
 static dyd_status rows_split_runs(dyd_csv *csv, const dyd_line *line, dyd_error *err) {
-  static const char between[] = " \t,;\r";
+  static const bool between[256] = {[' '] = true, ['\t'] = true, [','] = true, [';'] = true, ['\r'] = true};
   const char *at = line->text, *end = at + line->length;
   for (csv->fields = 0;; csv->fields++) {
-    while (at < end && memchr(between, *at, sizeof between - 1)) at++;
+    while (at < end && between[(unsigned char)*at]) at++;
     if (at == end || *at == '#') return DYD_OK;
     if (!dyd_reserve((void **)&csv->field, &csv->field_cap, csv->fields + 1, sizeof *csv->field))
       return dyd_fail_nomem(err);
     const char *from = at;
-    while (at < end && *at != '#' && !memchr(between, *at, sizeof between - 1)) at++;
+    while (at < end && *at != '#' && !between[(unsigned char)*at]) at++;
     csv->field[csv->fields] = (dyd_span){from, (size_t)(at - from), from, line->text, line->number};
   }
 }
