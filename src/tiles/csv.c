@@ -35,30 +35,43 @@ static dyd_status reader_fail(const part_readers *all, const char *name, const c
                     all->folder, name, what);
 }
 
-static json_t *reader_header(part_reader *p, const char *folder, const char *name) {
-  char *path = tiles_path(folder, name);
+/* Opens the part, whose bytes have the sum that the manifest tells. */
+static dyd_status reader_open(part_reader *p, const part_readers *all, const char *name, const char *told,
+                              dyd_error *err) {
+  char sum[20] = "";
+  uint64_t found;
+  char *path = tiles_path(all->folder, name);
   p->in = path ? fopen(path, "rb") : NULL;
   free(path);
-  json_t *j = p->in ? json_loadf(p->in, JSON_DISABLE_EOF_CHECK, NULL) : NULL;
-  if (!j) return NULL;
-  rewind(p->in);
-  for (int c = 0; c != '\n' && c != EOF;) c = fgetc(p->in);
-  return j;
+  if (!p->in) return reader_fail(all, name, strerror(errno), err);
+  const bool whole = tiles_part_sum(&found, p->in);
+  snprintf(sum, sizeof sum, "%016" PRIx64, found);
+  if (!whole || strcmp(sum, told) != 0)
+    return reader_fail(all, name, "it was changed since it was written: its digest is another", err);
+  json_t *j = tiles_part_header(p->in);
+  if (!j) return reader_fail(all, name, "is no part", err);
+  p->pairs = (uint64_t)json_integer_value(json_object_get(j, "pairs"));
+  p->aliases = (uint64_t)json_integer_value(json_object_get(j, "aliases"));
+  json_decref(j);
+  return DYD_OK;
 }
 
-static dyd_status readers_open(part_readers *all, const json_t *parts, dyd_error *err) {
-  all->item = calloc(json_array_size(parts) + 1, sizeof *all->item);
+static dyd_status readers_open(part_readers *all, const json_t *manifest, dyd_error *err) {
+  const json_t *parts = json_object_get(manifest, "parts"), *sums = json_object_get(manifest, "sums");
+  const char *format = json_string_value(json_object_get(manifest, "format"));
+  const size_t count = json_array_size(parts);
+  dyd_status st = DYD_OK;
+  if (!format || strcmp(format, "dyadel tiles 2") != 0 || !count || json_array_size(sums) != count ||
+      json_integer_value(json_object_get(manifest, "ranks")) != (json_int_t)count)
+    return reader_fail(all, "manifest.json", "this is no manifest of the format \"dyadel tiles 2\"", err);
+  all->item = calloc(count, sizeof *all->item);
   if (!all->item) return tiles_no_memory(err);
-  for (size_t k = 0; k < json_array_size(parts); k++) {
-    const char *name = json_string_value(json_array_get(parts, k));
-    part_reader *p = &all->item[all->count++];
-    json_t *j = name ? reader_header(p, all->folder, name) : NULL;
-    if (!j) return reader_fail(all, name ? name : "manifest.json", p->in ? "is no part" : strerror(errno), err);
-    p->pairs = (uint64_t)json_integer_value(json_object_get(j, "pairs"));
-    p->aliases = (uint64_t)json_integer_value(json_object_get(j, "aliases"));
-    json_decref(j);
+  for (size_t k = 0; st == DYD_OK && k < count; k++) {
+    const char *name = json_string_value(json_array_get(parts, k)), *sum = json_string_value(json_array_get(sums, k));
+    st = name && sum ? reader_open(&all->item[all->count++], all, name, sum, err)
+                     : reader_fail(all, "manifest.json", "a part has no name or no digest", err);
   }
-  return DYD_OK;
+  return st;
 }
 
 /* ---- aliases ---- */
@@ -152,7 +165,7 @@ dyd_status tiles_write_csv(FILE *out, const char *folder, dyd_error *err) {
   json_t *j = json_load_file(path, 0, NULL);
   free(path);
   if (!j) return reader_fail(&all, "manifest.json", "is not there, or none", err);
-  dyd_status st = readers_open(&all, json_object_get(j, "parts"), err);
+  dyd_status st = readers_open(&all, j, err);
   if (st == DYD_OK) st = write_aliases(out, &all, err);
   if (st == DYD_OK && fputs("i,j,status\n", out) == EOF) st = DYD_E_IO;
   if (st == DYD_OK) st = write_part_pairs(out, &all, err);

@@ -29,10 +29,42 @@ tiles_row tiles_row_decode(const unsigned char in[TILES_RECORD]) {
   return r;
 }
 
-static bool put_row(FILE *out, const tiles_row *r) {
+/* Fowler, Noll, Vo: one byte changed changes the sum. */
+static const uint64_t sum_begin = 14695981039346656037u;
+static uint64_t sum_bytes(uint64_t sum, const void *bytes, size_t count) {
+  for (const unsigned char *byte = bytes; count-- > 0; byte++) sum = (sum ^ *byte) * 1099511628211u;
+  return sum;
+}
+
+static bool put_row(FILE *out, uint64_t *sum, const tiles_row *r) {
   unsigned char bytes[TILES_RECORD];
   record_encode(bytes, r);
+  *sum = sum_bytes(*sum, bytes, sizeof bytes);
   return fwrite(bytes, sizeof bytes, 1, out) == 1;
+}
+
+/* The sum stands behind the rest, the lowest byte first. */
+static bool put_sum(FILE *out, uint64_t sum) {
+  unsigned char bytes[TILES_SUM];
+  for (unsigned k = 0; k < sizeof bytes; k++) bytes[k] = (unsigned char)(sum >> 8 * k);
+  return fwrite(bytes, sizeof bytes, 1, out) == 1;
+}
+
+bool tiles_part_sum(uint64_t *out, FILE *in) {
+  unsigned char bytes[1 << 16];
+  uint64_t sum = sum_begin, told = 0;
+  rewind(in);
+  /* The last eight bytes of what has been read are kept back. */
+  size_t kept = 0;
+  for (size_t got; (got = fread(bytes + kept, 1, sizeof bytes - kept, in)) > 0;) {
+    const size_t have = kept + got, done = have > TILES_SUM ? have - TILES_SUM : 0;
+    sum = sum_bytes(sum, bytes, done);
+    memmove(bytes, bytes + done, kept = have - done);
+  }
+  for (size_t k = kept; k-- > 0;) told = told << 8 | bytes[k];
+  *out = sum;
+  rewind(in);
+  return kept == TILES_SUM && told == sum && !ferror(in);
 }
 
 static bool get_row(tiles_row *r, FILE *in) {
@@ -88,7 +120,7 @@ dyd_status tile_spool(tile *t, const tiles_rows *rows, dyd_error *err) {
   dyd_status st = t->spool ? DYD_OK : open_working_file(&t->spool, t, err);
   for (size_t k = 0; st == DYD_OK && k < rows->count; k++) {
     t->counters.count[rows->item[k].status]++;
-    if (!put_row(t->spool, &rows->item[k])) st = spool_fail(t, err);
+    if (!put_row(t->spool, &(uint64_t){0}, &rows->item[k])) st = spool_fail(t, err);
   }
   return st;
 }
@@ -113,7 +145,7 @@ static json_t *header_of(const tile *t) {
   uint64_t all = 0; /* a part depends on the points of others, too */
   for (size_t r = 0; r < t->job->ranks; r++) all += t->info[r].digest;
   snprintf(digest, sizeof digest, "%016" PRIx64, all);
-  return json_pack("{sssIsIsIsIsIsIsIsIsIsIsIsbsbsIss}", "format", "dyadel part 1", "rank", (json_int_t)t->rank, "own",
+  return json_pack("{sssIsIsIsIsIsIsIsIsIsIsIsbsbsIss}", "format", "dyadel part 2", "rank", (json_int_t)t->rank, "own",
                    (json_int_t)c->own, "ghosts", (json_int_t)c->ghosts, "rounds", (json_int_t)c->rounds, "pairs",
                    (json_int_t)(c->count[1] + c->count[2] + c->count[3]), "legal", (json_int_t)c->count[DYD_LEGAL],
                    "indeterminate", (json_int_t)c->count[DYD_INDETERMINATE], "tie", (json_int_t)c->count[DYD_TIE],
@@ -122,8 +154,11 @@ static json_t *header_of(const tile *t) {
                    (json_int_t)t->job->max_pairs, "digest", digest);
 }
 
-static bool put_json_line(FILE *out, json_t *j) {
-  bool fits = j && json_dumpf(j, out, JSON_COMPACT) == 0 && fputc('\n', out) != EOF;
+static bool put_json_line(FILE *out, uint64_t *sum, json_t *j) {
+  char *text = j ? json_dumps(j, JSON_COMPACT) : NULL;
+  bool fits = text && fprintf(out, "%s\n", text) > 0;
+  if (text) *sum = sum_bytes(sum_bytes(*sum, text, strlen(text)), "\n", 1);
+  free(text);
   json_decref(j);
   return fits;
 }
@@ -131,16 +166,16 @@ static bool put_json_line(FILE *out, json_t *j) {
 /* ---- writing ---- */
 
 /* Both ascending by i, which they have none of in common. */
-static bool join_rows(FILE *out, FILE *spool, const tiles_rows *late) {
+static bool join_rows(FILE *out, uint64_t *sum, FILE *spool, const tiles_rows *late) {
   tiles_row r;
   size_t k = 0;
   bool fits = true;
   if (spool) rewind(spool);
   while (fits && spool && get_row(&r, spool)) {
-    for (; fits && k < late->count && late->item[k].i < r.i; k++) fits = put_row(out, &late->item[k]);
-    if (fits) fits = put_row(out, &r);
+    for (; fits && k < late->count && late->item[k].i < r.i; k++) fits = put_row(out, sum, &late->item[k]);
+    if (fits) fits = put_row(out, sum, &r);
   }
-  for (; fits && k < late->count; k++) fits = put_row(out, &late->item[k]);
+  for (; fits && k < late->count; k++) fits = put_row(out, sum, &late->item[k]);
   return fits && !(spool && ferror(spool));
 }
 
@@ -153,8 +188,11 @@ dyd_status tile_write_part(tile *t, dyd_error *err) {
   if (t->spool && fflush(t->spool) != 0) return spool_fail(t, err);
   dyd_status st = tiles_file_open(&f, t->job->folder, name, err);
   if (st != DYD_OK) return st;
-  bool fits = put_json_line(f.stream, header_of(t)) && join_rows(f.stream, t->spool, &t->rows);
-  for (size_t k = 0; fits && k < t->aliases.count; k++) fits = put_row(f.stream, &t->aliases.item[k]);
+  uint64_t *sum = &t->counters.sum;
+  *sum = sum_begin;
+  bool fits = put_json_line(f.stream, sum, header_of(t)) && join_rows(f.stream, sum, t->spool, &t->rows);
+  for (size_t k = 0; fits && k < t->aliases.count; k++) fits = put_row(f.stream, sum, &t->aliases.item[k]);
+  fits = fits && put_sum(f.stream, *sum);
   st = tiles_file_close(&f, DYD_OK, err);
   if (st == DYD_OK && !fits) st = spool_fail(t, err);
   if (t->spool) fclose(t->spool);
@@ -163,6 +201,14 @@ dyd_status tile_write_part(tile *t, dyd_error *err) {
 }
 
 /* ---- finding one that is there ---- */
+
+json_t *tiles_part_header(FILE *in) {
+  json_t *j = json_loadf(in, JSON_DISABLE_EOF_CHECK, NULL);
+  if (!j) return NULL;
+  rewind(in);
+  for (int c = 0; c != '\n' && c != EOF;) c = fgetc(in);
+  return j;
+}
 
 static uint64_t header_number(const json_t *j, const char *key) {
   return (uint64_t)json_integer_value(json_object_get(j, key));
@@ -183,12 +229,13 @@ static bool take_part(tile *t, FILE *in, const json_t *j) {
   tiles_counters *c = &t->counters;
   const off_t body = ftello(in);
   const uint64_t pairs = header_number(j, "pairs"), aliases = header_number(j, "aliases");
-  if (fseeko(in, 0, SEEK_END) != 0 || (uint64_t)(ftello(in) - body) != (pairs + aliases) * TILES_RECORD) return false;
+  if (fseeko(in, 0, SEEK_END) != 0 || (uint64_t)(ftello(in) - body) != (pairs + aliases) * TILES_RECORD + TILES_SUM)
+    return false;
   t->alias = calloc(t->own.count + 1, sizeof *t->alias);
   if (!t->alias || fseeko(in, body + (off_t)(pairs * TILES_RECORD), SEEK_SET) != 0) return false;
   tiles_row r;
   size_t at = 0;
-  while (get_row(&r, in)) {
+  for (uint64_t k = 0; k < aliases && get_row(&r, in); k++) {
     while (at < t->own.count && t->own.number[at] < r.i) at++;
     if (at < t->own.count && t->own.number[at] == r.i) t->alias[at] = true;
   }
@@ -208,10 +255,8 @@ dyd_status tile_find_part(tile *t, dyd_error *err) {
   char *path = tiles_path(t->job->folder, name);
   if (!path) return tiles_no_memory(err);
   FILE *in = fopen(path, "rb");
-  json_t *j = in ? json_loadf(in, JSON_DISABLE_EOF_CHECK, NULL) : NULL;
-  if (in && j) {
-    rewind(in);
-    for (int c = 0; c != '\n' && c != EOF;) c = fgetc(in);
+  json_t *j = in && tiles_part_sum(&t->counters.sum, in) ? tiles_part_header(in) : NULL;
+  if (j) {
     t->done = suits(j, header_of(t)) && take_part(t, in, j);
   }
   json_decref(j);
@@ -221,6 +266,12 @@ dyd_status tile_find_part(tile *t, dyd_error *err) {
 }
 
 /* ---- the manifest ---- */
+
+static json_t *part_sum(const tiles_counters *c) {
+  char sum[20];
+  snprintf(sum, sizeof sum, "%016" PRIx64, c->sum);
+  return json_string(sum);
+}
 
 static json_t *part_names(const tile *t) {
   json_t *parts = json_array();
@@ -254,21 +305,27 @@ static void sum_counters(tiles_counters *all, const tiles_counters *c) {
 
 dyd_status tile_write_manifest(tile *t, dyd_error *err) {
   tiles_counters all = {0}, one;
+  json_t *sums = json_array();
   for (size_t r = 0; r < t->job->ranks; r++) {
     size_t read = 0;
-    if (tiles_mail_take(&one, sizeof one, &t->in[r], &read)) sum_counters(&all, &one);
+    if (!tiles_mail_take(&one, sizeof one, &t->in[r], &read)) continue;
+    sum_counters(&all, &one);
+    json_array_append_new(sums, part_sum(&one));
   }
   t->counters = all;
   tiles_file f;
   dyd_status st = tiles_file_open(&f, t->job->folder, "manifest.json", err);
-  if (st != DYD_OK) return st;
-  json_t *j =
-      json_pack("{sssssIsIsosss{sbsI}sIsIsIsI}", "format", "dyadel tiles 1", "input", t->job->input, "points",
-                (json_int_t)t->points, "ranks", (json_int_t)t->job->ranks, "parts", part_names(t), "outcome",
-                outcome_of(&all), "options", "boxes", t->job->boxes, "max_pairs", (json_int_t)t->job->max_pairs,
-                "legal", (json_int_t)all.count[DYD_LEGAL], "indeterminate", (json_int_t)all.count[DYD_INDETERMINATE],
-                "tie", (json_int_t)all.count[DYD_TIE], "aliases", (json_int_t)all.aliases);
-  bool fits = put_json_line(f.stream, j);
+  if (st != DYD_OK) {
+    json_decref(sums);
+    return st;
+  }
+  json_t *j = json_pack("{sssssIsIsososss{sbsI}sIsIsIsI}", "format", "dyadel tiles 2", "input", t->job->input, "points",
+                        (json_int_t)t->points, "ranks", (json_int_t)t->job->ranks, "parts", part_names(t), "sums", sums,
+                        "outcome", outcome_of(&all), "options", "boxes", t->job->boxes, "max_pairs",
+                        (json_int_t)t->job->max_pairs, "legal", (json_int_t)all.count[DYD_LEGAL], "indeterminate",
+                        (json_int_t)all.count[DYD_INDETERMINATE], "tie", (json_int_t)all.count[DYD_TIE], "aliases",
+                        (json_int_t)all.aliases);
+  bool fits = put_json_line(f.stream, &(uint64_t){0}, j);
   if (!fits)
     st = tiles_fail(err, DYD_E_IO, "%s/manifest.json: cannot write; is the name of the input UTF-8?", t->job->folder);
   return tiles_file_close(&f, st, err);

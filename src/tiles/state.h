@@ -4,6 +4,7 @@
 #define TILES_STATE_H
 
 #include "tree.h"
+#include <jansson.h>
 #include <stdio.h>
 
 /* What is to be done: the same for all ranks. */
@@ -42,6 +43,7 @@ typedef struct tiles_counters {
   uint64_t fringe;   /* sites of the last small triangulation */
   uint64_t late;     /* own sites that were not settled by the first one */
   uint64_t count[4]; /* pairs written, by status */
+  uint64_t sum;      /* over the bytes of the part */
   double seconds;    /* in the library, of the processor */
   bool capped;
 } tiles_counters;
@@ -120,15 +122,20 @@ bool tile_has_wide(const tile *t);
 /* ---- parts ---- */
 
 /* Bytes of a record: i and j of 8, status of 4, little-endian. */
-enum { TILES_RECORD = 20 };
+enum { TILES_RECORD = 20, TILES_SUM = 8 };
 tiles_row tiles_row_decode(const unsigned char bytes[TILES_RECORD]);
 /* Puts the places of own sites on the disk, and gets them back. */
 dyd_status tile_park(tile *t, dyd_error *err);
 dyd_status tile_unpark(tile *t, dyd_error *err);
 /* Writes the rows to the spool. */
 dyd_status tile_spool(tile *t, const tiles_rows *rows, dyd_error *err);
-/* The part, whole or not at all: spool and rows, then aliases. */
+/* The part, whole or not at all: header, spool and rows, aliases, then the sum over all of that. */
 dyd_status tile_write_part(tile *t, dyd_error *err);
+/* Sets *out to the sum over a part; false where the one written behind it is another. Then and there `in` is at its
+ * begin. */
+bool tiles_part_sum(uint64_t *out, FILE *in);
+/* The header of a part; `in` is behind it then. NULL: there is none. */
+json_t *tiles_part_header(FILE *in);
 /* Tells own points apart. */
 uint64_t tile_digest(const tile *t);
 /* t->done: there is a part of just this rank, these points, these options; its aliases and counters are taken. */

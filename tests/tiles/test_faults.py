@@ -72,6 +72,27 @@ class Faults(unittest.TestCase):
         self.complete(4)
         self.complete(3)
 
+    def test_flipped_bits(self):
+        """One bit of a part or of the manifest is another one: to-csv says so, or the csv is the same; --restart mends it."""
+        cases.write(self.at / 'in.bin', cases.repeated(300, random.Random(cases.SEED)))
+        self.assertEqual(tiles(3, 'delaunay', self.file, '-o', self.out).returncode, 0)
+        want = subprocess.run([TILES, 'to-csv', self.out], capture_output=True).stdout
+        r = random.Random(cases.SEED)
+        for path in (*cases.parts_of(self.out), self.at / 'out' / 'manifest.json'):
+            whole = path.read_bytes()
+            for _ in range(40):
+                bit = r.randrange(8 * len(whole))
+                flipped = bytearray(whole)
+                flipped[bit // 8] ^= 1 << bit % 8
+                path.write_bytes(flipped)
+                joined = subprocess.run([TILES, 'to-csv', self.out], capture_output=True)
+                if path.name.startswith('part') or joined.returncode or joined.stdout != want:
+                    self.assertEqual((joined.returncode, joined.stdout), (1, b''), f'{path.name} bit {bit}')
+                    self.assertIn(b'--restart', joined.stderr)
+            self.assertIn(tiles(3, 'delaunay', self.file, '-o', self.out, '--restart').returncode, (0, 3))
+            self.assertEqual(path.read_bytes(), whole)
+            self.assertEqual(subprocess.run([TILES, 'to-csv', self.out], capture_output=True).stdout, want)
+
     def test_changed_input(self):
         """Two points of one rank change places: parts of its neighbours name them, and are not of the same job any more."""
         self.assertEqual(tiles(4, 'delaunay', self.file, '-o', self.out).returncode, 0)

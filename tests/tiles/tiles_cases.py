@@ -144,8 +144,8 @@ def header_of(part):
 def records_of(part):
     line, body = part.read_bytes().split(b'\n', 1)
     header = json.loads(line)
-    assert len(body) == 20 * (header['pairs'] + header['aliases'])
-    records = list(struct.iter_unpack('<QQI', body))
+    assert len(body) == 20 * (header['pairs'] + header['aliases']) + 8
+    records = list(struct.iter_unpack('<QQI', body[:-8]))
     return records[:header['pairs']], records[header['pairs']:]
 
 
