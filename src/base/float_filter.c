@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Tried by sums and products whose results are known; volatile, so that they are done when the program runs. */
+#define _GNU_SOURCE /* fegetexcept */
 #include "base/float_filter.h"
 
 #include "base/error.h"
 
+#include <fenv.h>
 #include <float.h>
 
 /* 1, as on s390x, widens floats only. */
@@ -16,6 +18,16 @@
 #ifndef __SIZEOF_INT128__
 #error "products of 64-bit numbers need 128-bit integers, which compilers have on 64-bit machines"
 #endif
+
+/* Filters overflow, underflow and divide by zero where nothing is decided by it. Other C libraries than glibc cannot
+ * unmask traps. */
+static bool float_traps(void) {
+#ifdef __GLIBC__
+  return fegetexcept() != 0;
+#else
+  return false;
+#endif
+}
 
 static bool float_flushes(void) {
   volatile double least = DBL_MIN, half = 0.5, tiny = 0x1p-1074, one = 1;
@@ -38,6 +50,10 @@ static bool float_contracts(void) {
 }
 
 dyd_status dyd_float_check(dyd_error *err) {
+  if (float_traps())
+    return dyd_fail(err, DYD_E_ARG,
+                    "this thread has unmasked traps of floating point, by which the process would end; call "
+                    "fedisableexcept(FE_ALL_EXCEPT) before, and feenableexcept behind");
   if (float_flushes())
     return dyd_fail(err, DYD_E_ARG,
                     "this thread flushes subnormal numbers to zero, so that different points would be taken for one; "

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* Floating point that the filters were not proved for is refused before anything is stated. */
+#define _GNU_SOURCE /* feenableexcept */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -93,6 +94,21 @@ static void test_rounding(void **state) {
   expect_refusal("round to nearest", set_to_zero);
 }
 
+#if defined(__GLIBC__)
+static void set_some_traps(int on) {
+  (on ? feenableexcept : fedisableexcept)(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+}
+static void set_all_traps(int on) {
+  (on ? feenableexcept : fedisableexcept)(FE_ALL_EXCEPT);
+}
+/* The process would end by SIGFPE in what the filters compute. */
+static void test_traps(void **state) {
+  (void)state;
+  expect_refusal("unmasked traps", set_some_traps);
+  expect_refusal("unmasked traps", set_all_traps);
+}
+#endif
+
 static void test_default(void **state) {
   (void)state;
   assert_int_equal(DYD_OK, dyd_float_check(NULL));
@@ -102,6 +118,9 @@ int main(void) {
   const struct CMUnitTest tests[] = {
 #if defined(__SSE2__)
     cmocka_unit_test(test_flushing),
+#endif
+#if defined(__GLIBC__)
+    cmocka_unit_test(test_traps),
 #endif
     cmocka_unit_test(test_rounding),
     cmocka_unit_test(test_default),
