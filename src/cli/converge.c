@@ -121,12 +121,17 @@ static int converge_replay(const cli_options *o) {
   FILE *in = cli_input_open(o->replay, "check the name of the trace");
   if (!in) return CLI_FAILED;
   dyd_convergence table = {DYD_SIZED(dyd_convergence)};
+  const dyd_converge_options how = {DYD_SIZED(dyd_converge_options), .cancel = cli_deadline_flag()};
   dyd_error err;
-  dyd_status st = dyd_trace_replay(&table, in, NULL, &err);
+  dyd_status st = dyd_trace_replay(&table, in, &how, &err);
+  const bool late = st == DYD_CANCELLED;
   cli_input_close(in);
-  if (st != DYD_OK) cli_complain_at(o->replay, &err);
+  if (late)
+    cli_complain("the time is used up after %zu stages of the trace; raise --timeout", table.count);
+  else if (st != DYD_OK)
+    cli_complain_at(o->replay, &err);
   int status = st == DYD_E_NOMEM ? CLI_FAILED : write_results(&table, NULL, o);
-  status = st != DYD_OK || status ? CLI_FAILED : cli_exit_status(table.outcome);
+  if (!status) status = late ? CLI_BUDGET : st != DYD_OK ? CLI_FAILED : cli_exit_status(table.outcome);
   dyd_convergence_clear(&table);
   return status;
 }
@@ -138,7 +143,8 @@ int cli_converge(const cli_options *o) {
     return CLI_USAGE;
   }
   if (o->label && !dyd_label_fits(o->label)) {
-    cli_complain("--label \"%s\" is not understood; give NAME=VALUE,NAME=VALUE without quotes and backslashes",
+    cli_complain("--label \"%s\" is not understood; give NAME=VALUE,NAME=VALUE without quotes and "
+                 "backslashes, names that differ, and none that is a column of the table",
                  o->label);
     return CLI_USAGE;
   }

@@ -7,13 +7,13 @@
 #include <getopt.h>
 #include <string.h>
 
-enum { MOST_OPTIONS = 64, MOST_OPERANDS = 5, FIRST_VALUE = 256 };
+enum { MOST_OPTIONS = 96, MOST_OPERANDS = 5, FIRST_VALUE = 256 };
 
-/* What was found before the command is known. Invariant: bit k of seen is set when option k was given. */
+/* What was found before the command is known. Invariant: seen[k] when option k was given. */
 typedef struct scan {
   struct option known[MOST_OPTIONS + 1];
   char letters[2 * MOST_OPTIONS + 3];
-  uint64_t seen;
+  bool seen[MOST_OPTIONS];
   const char *operand[MOST_OPERANDS];
   size_t operands;
 } scan;
@@ -98,7 +98,7 @@ static int scan_all(scan *s, cli_options *o, int argc, char **argv) {
       int value = getopt_long(argc, argv, s->letters, s->known, NULL);
       if (value == '?' || value == ':') return complain_option(value, a);
       size_t k = option_number(value);
-      s->seen |= (uint64_t)1 << k;
+      s->seen[k] = true;
       status = cli_value_read(o, &cli_option_table[k], optarg);
     }
     if (status) return status;
@@ -135,20 +135,21 @@ static int sphere_fits(const cli_options *o) {
   return CLI_USAGE;
 }
 
-static int options_fit(const cli_options *o, uint64_t seen, const cli_command *c) {
+static int options_fit(const cli_options *o, const bool *seen, const cli_command *c) {
   for (size_t k = 0; k < cli_option_count; k++) {
-    if (!(seen >> k & 1) || cli_option_exists(&cli_option_table[k], cli_command_bit(c))) continue;
+    if (!seen[k] || cli_option_exists(&cli_option_table[k], cli_command_bit(c))) continue;
     cli_complain("%s does not take --%s; see dyadel %s --help", c->name, cli_option_table[k].name, c->name);
     return CLI_USAGE;
   }
   for (size_t k = 0; trace_has_points(o, c) && k < cli_option_count; k++) {
     cli_group group = cli_option_table[k].group;
-    if (!(seen >> k & 1) || (group != CLI_INPUT && group != CLI_REFINEMENT)) continue;
+    const bool timeout = cli_option_table[k].offset == offsetof(cli_options, engine.seconds);
+    if (!seen[k] || timeout || (group != CLI_INPUT && group != CLI_REFINEMENT)) continue;
     cli_complain("--replay takes points and options from the trace; leave --%s away", cli_option_table[k].name);
     return CLI_USAGE;
   }
   for (size_t k = 0; c == &cli_commands[CLI_VERIFY] && !o->points && k < cli_option_count; k++) {
-    if (!(seen >> k & 1) || cli_option_table[k].group != CLI_INPUT) continue;
+    if (!seen[k] || cli_option_table[k].group != CLI_INPUT) continue;
     cli_complain("--%s says how points are read; give their file with --points", cli_option_table[k].name);
     return CLI_USAGE;
   }

@@ -192,15 +192,25 @@ dyd_status dyd_write_convergence(FILE *out, const dyd_convergence *c, dyd_format
   return dyd_write_convergence_as(out, c, &o, format, err);
 }
 
-/* Items with a name and one "=" each, and nothing that csv or json would have to escape. */
+/* Does the name begin one of the items in list, each up to a comma? */
+static bool item_is_listed(const char *list, const char *name, size_t length) {
+  for (const char *at = list; at; at = strchr(at, ','), at = at ? at + 1 : NULL)
+    if (strcspn(at, "=,") == length && memcmp(at, name, length) == 0) return true;
+  return false;
+}
+
+/* Items with a name and one "=" each, and nothing that csv or json would have to escape; no two columns have one
+ * name. */
 bool dyd_label_fits(const char *label) {
   for (const char *at = label; *at; at++)
     if ((unsigned char)*at < ' ' || *at == '"' || *at == '\\' || *at == 127) return false;
   for (const char *item = label;; item++) {
     size_t name = strcspn(item, "=,"), length = strcspn(item, ",");
     if (name == 0 || name == length || memchr(item + name + 1, '=', length - name - 1)) return false;
+    if (item_is_listed(dyd_stage_columns, item, name)) return false;
     item += length;
     if (!*item) return true;
+    if (item_is_listed(item + 1, item - length, name)) return false;
   }
 }
 

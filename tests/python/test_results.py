@@ -77,6 +77,10 @@ def test_budgets_and_goals():
     for until in ('', 'decided:3', 'area', 'near:5', 'area:x'):
         harness.raised(ValueError, dyadel.delaunay, SQUARE, until=until)
     harness.raised(ValueError, dyadel.delaunay, SQUARE, schedule='no')
+    for bits in (-1, 0):
+        harness.raised(ValueError, dyadel.delaunay, SQUARE, max_bits=bits)
+        harness.raised(ValueError, dyadel.check, SQUARE, max_bits=bits)
+        harness.raised(ValueError, dyadel.check, SQUARE, schedules=bits)
     harness.raised(TypeError, dyadel.delaunay, SQUARE, wrong=1)
 
 

@@ -27,6 +27,11 @@ def check(points: Any, radius: Any = None, *, moves: Sequence[Move] | None = Non
     Raises BrokenPromise (an AssertionError) with the shortest schedule found; returns what was tried. moves: this one
     schedule [(stage, point, bits), ...] in place of random ones.
     """
+    for name, value in (('schedules', schedules), ('stages', stages), ('base_bits', base_bits), ('max_bits', max_bits),
+                        ('slack_bits', slack_bits)):
+        if value < 1:
+            raise ValueError(f'{name}={value}; give a number from 1 on')
+
     def make() -> _dyadel.Engine:
         engine = _dyadel.Engine()
         append_points(engine, points, radius)

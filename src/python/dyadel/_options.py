@@ -45,6 +45,8 @@ def engine_options(*, until: str = 'decided', timeout: float | None = None, max_
                          f'{", ".join(GOALS[1:])}')
     if schedule not in SCHEDULES:
         raise ValueError(f'schedule={schedule!r}; give "adaptive" or "uniform"')
+    if max_bits < 1:
+        raise ValueError(f'max_bits={max_bits}; give the finest precision, at least 1')
     given = {'goal': GOALS.index(goal), 'goal_bits': int(bits or 0), 'schedule': SCHEDULES.index(schedule),
              'seconds': None if timeout is None else max(float(timeout), 1e-9), 'max_bits': max_bits,
              'max_pairs': max_pairs, 'threads': threads, 'start_bits': start_bits, 'step_bits': step_bits,
