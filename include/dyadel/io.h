@@ -297,7 +297,7 @@ typedef struct dyd_convergence_output {
   const char *label;
   bool no_header;
 } dyd_convergence_output;
-/* Is this such a label? */
+/* Is this such a label, whose names differ? */
 DYD_API bool dyd_label_fits(const char *label);
 /* The same as o says, also in html: the result with a slider over the rows. DYD_E_ARG for html without what it needs,
  * where stages and rows are not as many, and for a label of another form. */
@@ -330,7 +330,7 @@ DYD_API dyd_status dyd_file_from_callback(FILE **out, dyd_get_fn get, void *user
 
 /* A trace tells which point was narrowed to what, and why; replaying it gives the same statuses without asking a point.
  * It is one JSON object per line, exact numbers are texts "m*2^e" or "p/q":
- *   {"format":"dyadel trace 1","points":N,"input":..,"schedule":...}         first line: what was asked for, of what
+ *   {"format":"dyadel trace 2","points":N,"input":..,"schedule":...}         first line: what was asked for, of what
  *   {"stage":S,"point":I,"bits":B,"called":C,"final":F,"why":W,"pair":[I,J],"x":[LO,HI],"y":[LO,HI]}
  *                                      point I has been narrowed for stage S; W is a dyd_reason, "pair" is there when
  *                                      it names one; C = false: it was narrow enough before; "final", there when it is
@@ -339,15 +339,26 @@ DYD_API dyd_status dyd_file_from_callback(FILE **out, dyd_get_fn get, void *user
  *   {"proved":R,"points":[I,J,...]}    these points are proved to be "coincident" (two), "collinear" or "cocircular"
  *   {"stage":S,"done":true,"legal":..,"indeterminate":..,"tie":..,"statuses":DIGEST}
  *                                      stage S is complete; DIGEST as in dyd_stage_row, in hexadecimal
- *   {"outcome":O}                                                            last line */
+ *   {"kept":true,"point":I,"bits":B,"final":F,"x":[LO,HI],"y":[LO,HI]}
+ *                                      behind the first line: an answer of an earlier trace, which this run was given
+ *                                      and may take again; a replay passes it over
+ *   {"outcome":O}                                                            last line
+ * The last member of each line, "sum", is a digest in hexadecimal (FNV-1a, 64 bits) of the lines so far, each up to
+ * that member and without its end: a line that was changed, moved or left out is noticed. It keeps no secret: who
+ * writes a trace can write its digests. */
 typedef struct dyd_trace dyd_trace;
 
 /* Begins a trace of a run of e (not run before) with these options. `input`, a text of letters, digits and blanks, or
- * NULL, tells inputs apart (a digest). `out` is borrowed until dyd_trace_end; when it is line-buffered, each answer is
+ * NULL, tells inputs apart (a digest). Answers that e was given by dyd_trace_recall come first, so that this
+ * trace alone is enough to go on from. `out` is borrowed until dyd_trace_end; when it is line-buffered, each answer is
  * in the file before the next is asked for. */
 DYD_API dyd_status dyd_trace_new(dyd_trace **trace, FILE *out, const dyd_engine *e, const char *input,
                                  const dyd_engine_options *options, const dyd_converge_options *converge,
                                  dyd_error *err);
+/* Brings what is written to the disk (fdatasync), now and, from now on, with the first line that is written `seconds`
+ * or more after the last time, and at the end: when the machine fails, the answers of at most so many seconds of the
+ * run are lost. Where this is not called, the system decides. DYD_E_ARG for a negative number; DYD_E_IO. */
+DYD_API dyd_status dyd_trace_sync(dyd_trace *trace, double seconds, dyd_error *err);
 /* For dyd_engine_options.trace and dyd_engine_options.progress; user is the dyd_trace. */
 DYD_API void dyd_trace_step(void *trace, const dyd_step *step);
 DYD_API void dyd_trace_stage(void *trace, const dyd_progress *p);
@@ -358,7 +369,7 @@ DYD_API dyd_status dyd_trace_end(dyd_trace *trace, dyd_outcome outcome, dyd_erro
  * cleared, receives a row per stage as dyd_converge_run makes it (seconds 0), and keeps those made before a failure.
  * DYD_E_PARSE with line and message when the trace is not of its form, ends early, names a rectangle that is not inside
  * the one before, or tells of other statuses than the replay finds. Window and no_voronoi come from the trace; the
- * callback of converge is called. converge and err may be NULL. */
+ * callback of converge is called; DYD_CANCELLED soon after its flag is set. converge and err may be NULL. */
 DYD_API dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_options *converge,
                                     dyd_error *err);
 

@@ -56,6 +56,7 @@ typedef struct cli_options {
   int64_t flatten_bits;
   bool flatten_set;
   const char *certificate, *trace, *replay, *resume, *plot;
+  double trace_sync; /* seconds; 0: default */
   uint64_t seed;
   bool seed_set;
   unsigned schedules; /* 0: default */
@@ -121,6 +122,13 @@ int cli_files_check(const cli_options *o);
 FILE *cli_input_open(const char *name, const char *advice);
 void cli_input_close(FILE *in);
 
+/* output.c: a result file that appears whole or not at all. */
+typedef struct cli_output {
+  FILE *stream;
+  const char *name;         /* as given, borrowed; NULL: standard output */
+  char *target, *temporary; /* where it is to appear, NULL when written in place; its name till then, NULL: none */
+} cli_output;
+
 /* session.c: an engine with the points of the file (or oracle), and what goes on around it. */
 typedef struct cli_progress cli_progress;
 typedef struct cli_session {
@@ -132,7 +140,7 @@ typedef struct cli_session {
   const dyd_voronoi_bounds *bounds;     /* of the diagram written, borrowed; NULL: of none */
   const dyd_converge_options *converge; /* what a trace tells of them, borrowed; NULL: of none */
   dyd_trace *trace;                     /* NULL: none is written, or it has not begun */
-  FILE *trace_file;
+  cli_output trace_file;
 } cli_session;
 
 /* trace.c. Gives the engine, not run yet, the answers of --resume. 0, or an exit status after a message. */
@@ -191,15 +199,11 @@ dyd_goal cli_voronoi_goal(dyd_goal goal);
 /* notes.c: a line when radii were given and most of the rectangles meet another one. pd may be NULL. */
 void cli_note_spacing(const dyd_delaunay *pd, const cli_options *o);
 
-/* output.c: a result file that appears whole or not at all. */
-typedef struct cli_output {
-  FILE *stream;
-  const char *name;         /* as given, borrowed; NULL: standard output */
-  char *target, *temporary; /* where it is to appear, NULL when written in place; its name till then, NULL: none */
-} cli_output;
-/* name NULL: standard output. false after a message. */
+/* output.c. name NULL: standard output. false after a message. */
 bool cli_output_open(cli_output *out, const char *name);
-/* Makes the file appear under its name; false after a message. */
+/* Makes the file appear under its name as far as it is written, and leaves it open; false after a message. */
+bool cli_output_appear(cli_output *out);
+/* Makes the file appear under its name, and closes it; false after a message. */
 bool cli_output_finish(cli_output *out, const cli_options *o);
 /* Removes what was written so far; nothing to do after cli_output_finish. */
 void cli_output_drop(cli_output *out);

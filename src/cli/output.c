@@ -224,6 +224,10 @@ static bool output_complete(cli_output *out) {
   return fsync(fileno(out->stream)) == 0 && output_appear(out, fileno(out->stream));
 }
 
+bool cli_output_appear(cli_output *out) {
+  return output_complete(out) || output_fail(out->name);
+}
+
 bool cli_output_finish(cli_output *out, const cli_options *o) {
   bool done = output_complete(out);
   int reason = errno;

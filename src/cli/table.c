@@ -236,6 +236,10 @@ const cli_option cli_option_table[] = {
     {"trace", 0, "FILE", CLI_FILE, REFINE, CLI_EXPERIMENTS,
      "write which point was narrowed to what, and why, as it\nhappens; check: the schedule that shows a fault",
      AT(trace)},
+    {"trace-sync", 0, "SECONDS", CLI_SECONDS, REFINE & ~BIT(CLI_CHECK), CLI_EXPERIMENTS,
+     "sync the trace with the disk after so much asking (default 5):\nwhen the machine fails, only later answers are "
+     "lost",
+     AT(trace_sync)},
     {"resume", 0, "FILE", CLI_SOURCE, REFINE & ~BIT(CLI_CHECK), CLI_INPUT,
      "go on from this trace, which may have been cut short: its\nanswers are not asked for again", AT(resume)},
     {"replay", 0, "FILE", CLI_SOURCE, BIT(CLI_CONVERGE) | BIT(CLI_CHECK), CLI_EXPERIMENTS,

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 /* --trace and --resume of the commands that refine.
  *
- * A trace is written in its place, a line for each answer as it comes, so that it is there when the run is killed. */
+ * A trace appears when it has begun: with the answers of --resume, if there are any. From then on it gets a line for
+ * each answer as it comes, so that it is there when the run is killed, and goes to the disk in short intervals. */
 #include "cli.h"
 #include <errno.h>
 #include <string.h>
@@ -53,21 +54,20 @@ int cli_trace_resume(const cli_session *s) {
 
 /* ---- writing ---- */
 
+enum { SYNC_SECONDS = 5 };
+
 /* Begins the trace with the first run. */
 static int trace_begin(cli_session *s, const dyd_engine_options *options) {
   const cli_options *o = s->options;
   char input[17];
   dyd_error err;
-  s->trace_file = fopen(o->trace, "w");
-  if (!s->trace_file) {
-    cli_complain("%s: cannot write: %s; choose another place with --trace", o->trace, strerror(errno));
-    return CLI_FAILED;
-  }
-  setvbuf(s->trace_file, NULL, _IOLBF, BUFSIZ);
+  if (!cli_output_open(&s->trace_file, o->trace)) return CLI_FAILED;
+  setvbuf(s->trace_file.stream, NULL, _IOLBF, BUFSIZ);
   const char *name = digest_input(input, o) ? input : NULL;
-  if (dyd_trace_new(&s->trace, s->trace_file, s->engine, name, options, s->converge, &err) == DYD_OK) return 0;
-  cli_complain("%s", err.message);
-  return CLI_FAILED;
+  dyd_status st = dyd_trace_new(&s->trace, s->trace_file.stream, s->engine, name, options, s->converge, &err);
+  if (st == DYD_OK) st = dyd_trace_sync(s->trace, o->trace_sync > 0 ? o->trace_sync : SYNC_SECONDS, &err);
+  if (st != DYD_OK) cli_complain("%s: %s; choose another place with --trace", o->trace, err.message);
+  return st == DYD_OK && cli_output_appear(&s->trace_file) ? 0 : CLI_FAILED;
 }
 
 static void trace_stage(void *user, const dyd_progress *p) {
@@ -88,12 +88,13 @@ int cli_trace_attach(dyd_engine_options *options, cli_session *s) {
 
 int cli_trace_end(cli_session *s, dyd_outcome outcome) {
   dyd_error err;
-  if (!s->trace_file) return 0;
+  if (!s->trace_file.stream) return 0;
   dyd_error_clear(&err);
   dyd_status st = s->trace ? dyd_trace_end(s->trace, outcome, &err) : DYD_OK;
-  bool good = fclose(s->trace_file) == 0;
+  bool good = fclose(s->trace_file.stream) == 0;
   s->trace = NULL;
-  s->trace_file = NULL;
+  s->trace_file.stream = NULL;
+  cli_output_drop(&s->trace_file);
   if (st == DYD_OK && good) return 0;
   cli_complain("%s: %s; choose another place with --trace", s->options->trace,
                st == DYD_OK ? strerror(errno) : err.message);

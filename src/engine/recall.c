@@ -51,6 +51,15 @@ void dyd_recall_use(dyd_recall *m, const dyd_recalled *a) {
   for (dyd_recalled *to = m->item + (a - m->item); to >= m->item && to->site == a->site; to--) to->used = true;
 }
 
+dyd_status dyd_recall_each(const dyd_recall *m, dyd_recalled_fn fn, void *user) {
+  dyd_status st = DYD_OK;
+  for (size_t k = 0; m && k < m->count && st == DYD_OK; k++) {
+    const dyd_recalled *a = &m->item[k];
+    st = fn(user, a->site, a->bits, &a->rect, a->final);
+  }
+  return st;
+}
+
 void dyd_recalled_get(dyd_rect *r, bool *final, const dyd_recalled *a) {
   dyd_rect_set(r, &a->rect);
   *final = a->final;

@@ -5,7 +5,7 @@
 
 #include <dyadel/engine.h>
 
-#define DYD_TRACE_FORMAT "dyadel trace 1"
+#define DYD_TRACE_FORMAT "dyadel trace 2"
 
 /* The last goal and schedule of a trace; their words are dyd_goal_text and dyd_schedule_text. */
 enum { DYD_TRACE_GOAL = DYD_GOAL_VORONOI_HAUSDORFF, DYD_TRACE_SCHEDULE = DYD_SCHEDULE_UNIFORM };

@@ -15,8 +15,10 @@ typedef struct recall {
   const char *input; /* may be NULL */
   dyd_recall_report report;
   dyd_error *err;
+  uint64_t sum;
   dyd_rect *last; /* the last answer of each point, the whole plane before that */
   bool *had;
+  int64_t *kept; /* bits of the last answer kept of an earlier trace, INT64_MIN before that */
   size_t points;
   bool ended;
 } recall;
@@ -41,8 +43,12 @@ static dyd_status recall_head(recall *r, const json_t *line) {
     return recall_fail(r, "this is the trace of another input, or of one that was changed since");
   r->last = dyd_alloc(count + 1, sizeof *r->last);
   r->had = calloc(count + 1, sizeof *r->had);
-  if (!r->last || !r->had) return dyd_fail_nomem(r->err);
-  for (; r->points < count; r->points++) dyd_rect_init(&r->last[r->points]);
+  r->kept = dyd_alloc(count + 1, sizeof *r->kept);
+  if (!r->last || !r->had || !r->kept) return dyd_fail_nomem(r->err);
+  for (; r->points < count; r->points++) {
+    dyd_rect_init(&r->last[r->points]);
+    r->kept[r->points] = INT64_MIN;
+  }
   return DYD_OK;
 }
 
@@ -64,9 +70,12 @@ static dyd_status recall_step(recall *r, const json_t *line) {
   int64_t point, bits;
   if (!dyd_trace_integer(&point, line, "point", 0, (int64_t)r->points - 1))
     return recall_fail(r, "there is no such point");
-  if (!json_is_true(json_object_get(line, "called"))) return DYD_OK;
+  const bool kept = json_is_true(json_object_get(line, "kept"));
+  if (!kept && !json_is_true(json_object_get(line, "called"))) return DYD_OK;
   if (!dyd_trace_integer(&bits, line, "bits", INT64_MIN, INT64_MAX))
     return recall_fail(r, "the bits asked are missing");
+  if (!kept && bits <= r->kept[point]) return DYD_OK; /* this answer was one of those kept */
+  if (kept) r->kept[point] = bits;
   dyd_rect rect;
   dyd_rect_init(&rect);
   dyd_status st = dyd_trace_side(&rect.x, line, "x") && dyd_trace_side(&rect.y, line, "y")
@@ -93,6 +102,8 @@ static dyd_status recall_lines(recall *r, dyd_text *text) {
     json_t *value = json_loadb(line.text, line.length, JSON_REJECT_DUPLICATES, NULL);
     bool cut = !value && text->ended && text->start == text->end && r->had;
     st = cut ? DYD_OK : recall_line(r, value);
+    if (st == DYD_OK && !cut && !dyd_trace_is_sealed(&r->sum, line.text, line.length))
+      st = recall_fail(r, "this line, or the order of lines, was changed: its digest is another");
     r->report.cut = cut;
     json_decref(value);
     if (st == DYD_OK) st = dyd_text_next(&line, text, r->err);
@@ -102,7 +113,11 @@ static dyd_status recall_lines(recall *r, dyd_text *text) {
 
 dyd_status dyd_trace_recall(dyd_recall_report *out, dyd_engine *e, FILE *in, const char *input, dyd_error *err) {
   dyd_error local;
-  recall r = {.e = e, .input = input, .report = {DYD_SIZED(dyd_recall_report)}, .err = err ? err : &local};
+  recall r = {.e = e,
+              .input = input,
+              .sum = DYD_TRACE_SUM_BEGIN,
+              .report = {DYD_SIZED(dyd_recall_report)},
+              .err = err ? err : &local};
   dyd_text text;
   dyd_error_clear(r.err);
   if (out) {
@@ -118,5 +133,6 @@ dyd_status dyd_trace_recall(dyd_recall_report *out, dyd_engine *e, FILE *in, con
   for (size_t i = 0; i < r.points; i++) dyd_rect_clear(&r.last[i]);
   free(r.last);
   free(r.had);
+  free(r.kept);
   return st;
 }

@@ -4,6 +4,7 @@
 #include "base/abi.h"
 #include "base/alloc.h"
 #include "base/error.h"
+#include "base/flag.h"
 #include "io/parts.h"
 #include "io/read/text.h"
 #include "io/result.h"
@@ -33,7 +34,7 @@ typedef struct replay {
   dyd_delaunay *pd;
   uint32_t *changed;
   size_t changes, change_cap;
-  uint64_t calls;
+  uint64_t calls, sum;
   dyd_trace_proofs proofs;
   bool ended;
 } replay;
@@ -192,7 +193,7 @@ static dyd_status replay_proof(replay *r, const json_t *line) {
 
 static dyd_status replay_stage(replay *r, const json_t *line) {
   const dyd_delaunay_options o = {DYD_SIZED(dyd_delaunay_options), .max_pairs = r->out->options->max_pairs,
-                                  .prove = dyd_trace_prove, .prove_user = &r->proofs};
+                                  .cancel = r->converge.cancel, .prove = dyd_trace_prove, .prove_user = &r->proofs};
   dyd_stage_row *row;
   dyd_status st = replay_triangulate(r, &o);
   if (st != DYD_OK) return st;
@@ -229,6 +230,8 @@ static dyd_status replay_line(replay *r, const dyd_line *text) {
     st = replay_fail(r, "the trace goes on behind its outcome");
   else if (json_object_get(line, "outcome"))
     st = replay_outcome(r, line);
+  else if (json_object_get(line, "kept"))
+    st = DYD_OK; /* an answer for runs to come */
   else if (json_object_get(line, "proved"))
     st = replay_proof(r, line);
   else if (json_object_get(line, "done"))
@@ -236,6 +239,8 @@ static dyd_status replay_line(replay *r, const dyd_line *text) {
   else
     st = replay_step(r, line);
   json_decref(line);
+  if (st == DYD_OK && !dyd_trace_is_sealed(&r->sum, text->text, text->length))
+    st = replay_fail(r, "this line, or the order of lines, was changed: its digest is another");
   return st;
 }
 
@@ -251,7 +256,7 @@ static void replay_clear(replay *r) {
 
 dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_options *converge, dyd_error *err) {
   dyd_error local;
-  replay r = {.out = out, .err = err ? err : &local};
+  replay r = {.out = out, .sum = DYD_TRACE_SUM_BEGIN, .err = err ? err : &local};
   dyd_status st = dyd_abi_check(out, sizeof *out, "dyd_convergence", err);
   if (st == DYD_OK) st = dyd_abi_take(&r.converge, sizeof r.converge, converge, "dyd_converge_options", err);
   if (st != DYD_OK) return st;
@@ -263,6 +268,7 @@ dyd_status dyd_trace_replay(dyd_convergence *out, FILE *in, const dyd_converge_o
   dyd_text_init(&text, in);
   do {
     st = dyd_text_next(&line, &text, r.err);
+    if (st == DYD_OK && dyd_flag_is_set(r.converge.cancel)) st = DYD_CANCELLED;
     if (st == DYD_OK && line.text) st = replay_line(&r, &line);
   } while (st == DYD_OK && line.text);
   if (st == DYD_OK && !r.ended) st = replay_fail(&r, "the trace ends before its outcome");

@@ -1,7 +1,23 @@
 /* SPDX-License-Identifier: LGPL-3.0-or-later */
 #include "io/trace_values.h"
 
+#include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
+
+uint64_t dyd_trace_sum(uint64_t sum, const char *text, size_t length) {
+  for (size_t k = 0; k < length; k++) sum = (sum ^ (unsigned char)text[k]) * 1099511628211u;
+  return sum;
+}
+
+bool dyd_trace_is_sealed(uint64_t *sum, const char *text, size_t length) {
+  enum { SEAL = sizeof ",\"sum\":\"0123456789abcdef\"}" - 1 };
+  char seal[SEAL + 1];
+  if (length < SEAL) return false;
+  *sum = dyd_trace_sum(*sum, text, length - SEAL);
+  snprintf(seal, sizeof seal, ",\"sum\":\"%016" PRIx64 "\"}", *sum);
+  return memcmp(text + length - SEAL, seal, SEAL) == 0;
+}
 
 bool dyd_trace_integer(int64_t *out, const json_t *line, const char *name, int64_t least, int64_t most) {
   const json_t *value = json_object_get(line, name);

@@ -6,6 +6,11 @@
 #include <dyadel/stream.h>
 #include <jansson.h>
 
+/* FNV-1a, where it has come to before, of more bytes. */
+#define DYD_TRACE_SUM_BEGIN UINT64_C(14695981039346656037)
+uint64_t dyd_trace_sum(uint64_t sum, const char *text, size_t length);
+/* Takes the sum over the line, of which it is not part, into *sum: is it the one that the line ends with? */
+bool dyd_trace_is_sealed(uint64_t *sum, const char *text, size_t length);
 bool dyd_trace_integer(int64_t *out, const json_t *line, const char *name, int64_t least, int64_t most);
 bool dyd_trace_has_text(const json_t *line, const char *name, const char *wanted);
 /* Dyadic texts at `from` and behind it. */

@@ -3,26 +3,50 @@
 #include "module.h"
 
 #include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-/* Raises OSError with the name. */
-static FILE *file_open(const char *path, const char *mode) {
+/* Raises OSError with the name as the user gave it. */
+static FILE *file_open(const char *path, const char *mode, const char *given) {
   FILE *file = fopen(path, mode);
-  PyObject *name = file ? NULL : PyUnicode_DecodeFSDefault(path);
+  PyObject *name = file ? NULL : PyUnicode_DecodeFSDefault(given);
   if (name) PyErr_SetFromErrnoWithFilenameObject(PyExc_OSError, name);
   Py_XDECREF(name);
   return file;
 }
 
-/* With the engine entered. converge: None, or a window and whether bounds of the diagram are left out. */
-static dyd_status trace_open(dydpy_engine *self, const char *path, const dyd_engine_options *o,
-                             const dyd_converge_options *converge, dyd_error *err) {
-  self->trace_file = file_open(path, "w");
+enum { SYNC_SECONDS = 5 };
+
+/* Begins the trace in a file beside its place, with the answers of an earlier one, and puts it there. What is there and
+ * no regular file is written as it is. */
+static dyd_status trace_place(dydpy_engine *self, const char *path, const char *beside, const dyd_engine_options *o,
+                              const dyd_converge_options *converge, dyd_error *err) {
+  struct stat info;
+  const bool direct = stat(path, &info) == 0 && !S_ISREG(info.st_mode);
+  self->trace_file = file_open(direct ? path : beside, "w", path);
   if (!self->trace_file) return DYD_E_IO;
   setvbuf(self->trace_file, NULL, _IOLBF, BUFSIZ);
   dyd_status st = dyd_trace_new(&self->trace, self->trace_file, self->engine, NULL, o, converge, err);
+  if (st == DYD_OK) st = dyd_trace_sync(self->trace, SYNC_SECONDS, err);
+  if (st == DYD_OK && !direct && rename(beside, path) != 0) st = dyd_error_set(err, DYD_E_IO, strerror(errno));
   if (st == DYD_OK) return st;
-  fclose(self->trace_file);
-  self->trace_file = NULL;
+  dyd_error unused;
+  dydpy_trace_close(self, &unused);
+  if (!direct) unlink(beside);
+  return st;
+}
+
+/* With the engine entered. converge: None, or a window and whether bounds of the diagram are left out. */
+static dyd_status trace_open(dydpy_engine *self, const char *path, const dyd_engine_options *o,
+                             const dyd_converge_options *converge, dyd_error *err) {
+  const size_t size = strlen(path) + sizeof ".new";
+  char *beside = malloc(size);
+  if (!beside) return dyd_error_set(err, DYD_E_NOMEM, dyd_status_text(DYD_E_NOMEM));
+  snprintf(beside, size, "%s.new", path);
+  dyd_status st = trace_place(self, path, beside, o, converge, err);
+  free(beside);
   return st;
 }
 
@@ -75,7 +99,7 @@ PyObject *dydpy_recall(PyObject *object, PyObject *args) {
   const char *path;
   dyd_error err;
   if (!PyArg_ParseTuple(args, "y", &path)) return NULL;
-  FILE *in = file_open(path, "r");
+  FILE *in = file_open(path, "r", path);
   if (!in) return NULL;
   dyd_status st = DYD_E_ARG;
   bool entered = dydpy_enter(self);
@@ -93,7 +117,7 @@ PyObject *dydpy_replay(PyObject *module, PyObject *args) {
   dyd_error err;
   (void)module;
   if (!PyArg_ParseTuple(args, "y", &path)) return NULL;
-  FILE *in = file_open(path, "r");
+  FILE *in = file_open(path, "r", path);
   if (!in) return NULL;
   PyThreadState *thread = PyEval_SaveThread();
   dyd_status st = dyd_trace_replay(&table, in, NULL, &err);

@@ -25,6 +25,17 @@ def run(*args, stdin=b'', binary=False, **options):
     return Run(done.returncode, done.stdout.decode('latin-1' if binary else 'utf-8'), done.stderr.decode())
 
 
+def sealed(trace):
+    """The trace with the digests of its lines as they are now; lines that have none stay as they are."""
+    total, lines = 14695981039346656037, []
+    for line in trace.splitlines(keepends=True):
+        found = re.fullmatch(r'(.*)(, ?"sum": ?"[0-9a-f]{16}"\})(\n?)', line)
+        for byte in (found[1] if found else '').encode():
+            total = (total ^ byte) * 1099511628211 % 2**64
+        lines.append(f'{found[1]},"sum":"{total:016x}"}}{found[3]}' if found else line)
+    return ''.join(lines)
+
+
 def cases(count):
     """How many random cases are run: so many, and a share of them with sanitizers, which make each many times as slow."""
     return count // 8 if os.environ.get('DYADEL_TEST_SANITIZED') else count

@@ -13,7 +13,7 @@ import sys
 import tempfile
 from fractions import Fraction
 
-from harness import COMMAND, expect, main, run
+from harness import COMMAND, expect, main, run, sealed
 
 # Twelve points; the last two are 2^-200 apart.
 FAR = [(13, 7), (91, 12), (55, 98), (8, 77), (73, 61), (34, 42), (60, 25), (20, 95), (97, 84), (45, 70)]
@@ -185,7 +185,7 @@ def test_trace_and_replay():
         for text, how in cases:
             result, trace = trace_of(folder, text, '--max-bits', '300', *how)
             steps = [json.loads(line) for line in trace.splitlines()]
-            assert steps[0]['format'] == 'dyadel trace 1' and 'outcome' in steps[-1]
+            assert steps[0]['format'] == 'dyadel trace 2' and 'outcome' in steps[-1]
             assert {s['why'] for s in steps if 'why' in s} <= {'first', 'end', 'blocker', 'bound', 'uniform', 'fixed'}
             again = run('converge', '--no-times', '--replay', '-', *(how if how[0] == '--format' else ()), stdin=trace)
             assert (again.code, again.out) == (result.code, result.out), (text, how, again.err)
@@ -208,12 +208,12 @@ def test_bad_traces():
     lines = trace.splitlines(keepends=True)
 
     def replay(text, code, message):
-        expect(run('converge', '--replay', '-', '-o', '/dev/null', stdin=text), code, r'\A\Z', message)
+        expect(run('converge', '--replay', '-', '-o', '/dev/null', stdin=sealed(text)), code, r'\A\Z', message)
 
     replay(trace, 0, r'\A\Z')
     replay('', 1, 'the trace ends before its outcome')
     replay('0 0\n', 1, r'\Adyadel: -:1:1: this line is no JSON object; give a trace as dyadel wrote it')
-    replay('{}\n', 1, '-:1:1: this is no trace of the format "dyadel trace 1"')
+    replay('{}\n', 1, '-:1:1: this is no trace of the format "dyadel trace 2"')
     for k in range(1, len(lines)):
         replay(''.join(lines[:k]), 1, 'the trace ends before its outcome')
     replay(trace + lines[1], 1, 'goes on behind its outcome')
@@ -230,6 +230,8 @@ def test_bad_traces():
     replay(''.join(line for k, line in enumerate(lines) if k not in last), 1, 'not those that the trace tells of')
     expect(run('converge', '--replay', 'nowhere'), 1, r'\A\Z', 'nowhere: cannot open')
     expect(run('converge', '--replay', '-', '-', stdin=trace), 2, r'\A\Z', 'one argument too many')
+    expect(run('converge', '--replay', '-', '--timeout', '60', '-o', '/dev/null', stdin=trace), 0, r'\A\Z', r'\A\Z')
+    expect(run('converge', '--replay', '-', '--timeout', '1e-9', stdin=trace), 4, '', 'the time is used up after [0-9]+ stages')
     for option in ('--measured', '--max-bits=5', '--schedule=uniform'):
         expect(run('converge', '--replay', '-', option, stdin=trace), 2, r'\A\Z', 'from the trace; leave --')
 
@@ -306,7 +308,7 @@ def test_sweep():
         (str(n), seed) for n in range(3, 6) for seed in 'ab']
     assert [(label['n'], label['name of the seed']) for label in json_labels] == [(str(n), s) for n in range(3, 6) for s in 'ab']
     assert all(len(row) == len(rows[0]) and None not in row and None not in row.values() for row in rows)
-    for wrong in ('n', 'n=1,', '=3', 'a"=3', 'a=1=2', 'a=\\', ',', 'a=1,,b=2'):
+    for wrong in ('n', 'n=1,', '=3', 'a"=3', 'a=1=2', 'a=\\', ',', 'a=1,,b=2', 'a=b,a=b', 'a=1,b=2,a=3', 'stage=1', 'b=2,seconds=4'):
         expect(run('converge', '--label', wrong, 'none'), 2, err='--label .*NAME=VALUE,NAME=VALUE')
 
 

@@ -8,6 +8,7 @@
  *   FAULT_ERRNO  what errno says of it (EIO)
  *   FAULT_SIGNAL a signal that the process gets as soon as mkstemp has made a file
  *   FAULT_LOCALE with any value: the locale is that of the environment, as in programs that call setlocale
+ *   FAULT_SYNCED a file that gets a line "INODE SIZE" for each file that is brought to the disk
  *   FAULT_COUNT  a file that is given the number of calls when the process ends in the usual way */
 #include <dlfcn.h>
 #include <errno.h>
@@ -141,8 +142,22 @@ int mkstemp(char *path) {
 int fchmod(int fd, mode_t mode) {
   return fails("fchmod") ? -1 : NEXT(fchmod)(fd, mode);
 }
+static int note_synced(int fd, int done) {
+  const char *name = getenv("FAULT_SYNCED");
+  struct stat info;
+  int log = done == 0 && name && fstat(fd, &info) == 0
+                ? (int)syscall(SYS_openat, AT_FDCWD, name, O_WRONLY | O_CREAT | O_APPEND, 0666)
+                : -1;
+  if (log < 0) return done;
+  dprintf(log, "%lu %lld\n", (unsigned long)info.st_ino, (long long)info.st_size);
+  close(log);
+  return done;
+}
 int fsync(int fd) {
-  return fails("fsync") ? -1 : NEXT(fsync)(fd);
+  return fails("fsync") ? -1 : note_synced(fd, NEXT(fsync)(fd));
+}
+int fdatasync(int fd) {
+  return fails("fdatasync") ? -1 : note_synced(fd, NEXT(fdatasync)(fd));
 }
 int linkat(int from, const char *old, int to, const char *name, int flags) {
   return fails("linkat") ? -1 : NEXT(linkat)(from, old, to, name, flags);

@@ -86,6 +86,64 @@ def no_core():
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
+# Twelve points, and a note of each answer that was given; it stops answering after so many.
+ORACLE = """import math, sys, time
+print('points 12', flush=True)
+for count, line in enumerate(sys.stdin):
+    _, i, bits = line.split()
+    i, scale = int(i), max(int(bits), 0) + 2
+    if count == int(sys.argv[1]):
+        open('stopped', 'w')
+        time.sleep(1000)
+    x, y = (math.isqrt(n << 2 * scale) for n in (i + 2, 25 - i))
+    print(i, f'{x}*2^{-scale} {x + 1}*2^{-scale} {y}*2^{-scale} {y + 1}*2^{-scale}', flush=True)
+"""
+
+
+def synced(path, folder):
+    """How much of the file is on the disk by what the shim saw; None: nothing, or the folder was never synced."""
+    lines = [tuple(map(int, line.split())) for line in get(os.path.join(folder, 'synced')).splitlines()]
+    if os.stat(folder).st_ino not in (inode for inode, _ in lines):
+        return None
+    return next((size for inode, size in reversed(lines) if inode == os.stat(path).st_ino), None)
+
+
+def test_power_loss():
+    """What a trace has on the disk when the machine fails is enough to go on from: with --trace-sync next to 0 all
+    answers, by default at least the begin; after a run that ends, all of it."""
+    for sync, answers in ((('--trace-sync', '1e-9'), 20), ((), 0), (('--trace-sync', '1e-9', '--resume', 'old'), 30)):
+        with tempfile.TemporaryDirectory() as folder:
+            trace = os.path.join(folder, 't')
+            put(os.path.join(folder, 'oracle.py'), ORACLE.encode())
+            way = dict(os.environ, LD_PRELOAD=SHIM, FAULT_SYNCED=os.path.join(folder, 'synced'))
+
+            def command(stop, *options):
+                oracle = f'exec env -u LD_PRELOAD {sys.executable} oracle.py {stop}'
+                return [COMMAND, 'delaunay', '-q', '--oracle', oracle, '--max-bits', '300', *options]
+            if '--resume' in sync:
+                whole = subprocess.run(command(10 ** 9, '--trace', 'old'), cwd=folder, env=way, capture_output=True)
+                assert synced(os.path.join(folder, 'old'), folder) == os.stat(os.path.join(folder, 'old')).st_size
+                lines = get(os.path.join(folder, 'old')).splitlines(keepends=True)
+                put(os.path.join(folder, 'old'), b''.join(lines[:11]))
+                os.remove(os.path.join(folder, 'synced'))
+            with subprocess.Popen(command(20, '--trace', 't', *sync), cwd=folder, env=way, stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.PIPE) as process:
+                until = time.monotonic() + 60
+                while not os.path.exists(os.path.join(folder, 'stopped')) and time.monotonic() < until:
+                    time.sleep(0.01)
+                process.kill()
+                process.stderr.close()
+            size = synced(trace, folder)
+            assert size, f'{sync}: nothing of the trace is on the disk'
+            os.truncate(trace, size)
+            known = len([line for line in get(trace).splitlines() if b'"called":true' in line])
+            known = max(known, get(trace).count(b'"kept":true') + 20 * ('--resume' in sync))
+            assert known >= answers, (sync, known)
+            again = subprocess.run(command(10 ** 9, '--resume', 't'), cwd=folder, capture_output=True)
+            whole = subprocess.run(command(10 ** 9), cwd=folder, capture_output=True)
+            assert (again.returncode, again.stdout) == (whole.returncode, whole.stdout), again.stderr
+
+
 def test_signals_that_end():
     """What was begun is gone, the old output is there; a trace stays as far as it came."""
     for way in WAYS:
@@ -96,7 +154,7 @@ def test_signals_that_end():
                 process.communicate(timeout=60)
                 assert process.returncode == -number, (way, number, process.returncode)
                 left = {name: get(os.path.join(folder, name)) for name in os.listdir(folder)}
-                assert left.pop('t').startswith(b'{"format":"dyadel trace 1"'), (way, number)
+                assert left.pop('t').startswith(b'{"format":"dyadel trace 2"'), (way, number)
                 assert left == {'p': ENDLESS, 'o': OLD}, (way, number, sorted(left))
             with tempfile.TemporaryDirectory() as folder:
                 put(os.path.join(folder, 'o'), OLD)
